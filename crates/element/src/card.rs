@@ -1,0 +1,198 @@
+//! Cards: what a kind of element is called, which parameters it takes, and where its law comes from.
+
+use crate::{Dimension, ParameterError};
+use serde::de::DeserializeOwned;
+
+/// The description of one kind. The model reader checks a file against it and the catalogue prints it.
+#[derive(Clone, Copy, Debug)]
+pub struct Card {
+    /// Name in model files, such as `NLink`.
+    pub kind: &'static str,
+    /// Which contract it fulfils.
+    pub category: Category,
+    /// One sentence: what it is.
+    pub summary: &'static str,
+    /// How many nodes it takes.
+    pub nodes: NodeCount,
+    /// The parameters, in the order in which they should be shown.
+    pub parameters: &'static [Parameter],
+    /// The law in Unicode, several lines.
+    pub law: &'static str,
+    /// Where the law comes from.
+    pub source: &'static str,
+    /// One line of a model file that uses it.
+    pub example: &'static str,
+}
+
+impl Card {
+    /// The parameter of that name.
+    #[must_use]
+    pub fn parameter(&self, name: &str) -> Option<&'static Parameter> {
+        self.parameters.iter().find(|p| p.name == name)
+    }
+}
+
+/// Which contract a kind fulfils.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Category {
+    /// Adds to M, C, K once.
+    Linear,
+    /// Equations between DOFs.
+    Constraint,
+    /// A nonlinear law.
+    Link,
+}
+
+/// How many nodes a kind takes.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct NodeCount {
+    /// At least.
+    pub min: usize,
+    /// At most.
+    pub max: usize,
+}
+
+impl NodeCount {
+    /// One node and the ground, or two nodes.
+    pub const GROUND_OR_TWO: Self = Self { min: 1, max: 2 };
+    /// Exactly `n`.
+    #[must_use]
+    pub const fn exactly(n: usize) -> Self {
+        Self { min: n, max: n }
+    }
+    /// `n` or more.
+    #[must_use]
+    pub const fn at_least(n: usize) -> Self {
+        Self { min: n, max: usize::MAX }
+    }
+}
+
+/// One parameter of a kind.
+#[derive(Clone, Copy, Debug)]
+pub struct Parameter {
+    /// Name in model files.
+    pub name: &'static str,
+    /// Symbol in the law.
+    pub symbol: &'static str,
+    /// Number with a dimension, choice, flag …
+    pub form: Form,
+    /// Admissible values of a number.
+    pub range: Range,
+    /// What holds where the file says nothing.
+    pub default: Default,
+    /// One sentence of meaning.
+    pub meaning: &'static str,
+}
+
+/// The form of a parameter.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Form {
+    /// A number of this dimension.
+    Number(Dimension),
+    /// A number of dimension `base / over^exponent`, the exponent being another parameter.
+    Power {
+        /// Numerator.
+        base: Dimension,
+        /// Dimension that is raised to the power.
+        over: Dimension,
+        /// Name of the parameter that holds the exponent.
+        exponent: &'static str,
+    },
+    /// One of these names.
+    Choice(&'static [&'static str]),
+    /// Several different names out of these, in a list.
+    Choices(&'static [&'static str]),
+    /// `true` or `false`.
+    Flag,
+    /// A list of `count` numbers of one dimension (any count where `None`).
+    Numbers {
+        /// Dimension of each.
+        dimension: Dimension,
+        /// How many.
+        count: Option<usize>,
+    },
+    /// A symmetric matrix of `size` × `size` numbers, as a list of rows; translations first, then
+    /// rotations, of this category of stiffness or damping.
+    Matrix {
+        /// Rows and columns.
+        size: usize,
+        /// Dimension of the translational block; each rotational row or column adds a length.
+        dimension: Dimension,
+    },
+    /// The name of a node of the model.
+    Node,
+}
+
+/// Admissible numbers.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Range {
+    /// Any finite number.
+    Any,
+    /// `> 0`.
+    Positive,
+    /// `≥ 0`.
+    NonNegative,
+    /// Between two bounds, both included.
+    Within(f64, f64),
+    /// Above the first, up to and including the second.
+    Above(f64, f64),
+}
+
+impl Range {
+    /// True where the number is admissible.
+    #[must_use]
+    pub fn contains(self, x: f64) -> bool {
+        x.is_finite()
+            && match self {
+                Self::Any => true,
+                Self::Positive => x > 0.0,
+                Self::NonNegative => x >= 0.0,
+                Self::Within(a, b) => (a..=b).contains(&x),
+                Self::Above(a, b) => x > a && x <= b,
+            }
+    }
+
+    /// In words, such as `> 0`.
+    #[must_use]
+    pub fn text(self) -> String {
+        match self {
+            Self::Any => "any finite number".into(),
+            Self::Positive => "> 0".into(),
+            Self::NonNegative => "≥ 0".into(),
+            Self::Within(a, b) => format!("between {a} and {b}"),
+            Self::Above(a, b) => format!("> {a} and ≤ {b}"),
+        }
+    }
+}
+
+/// What holds where a file gives no value.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Default {
+    /// The file must give it.
+    Required,
+    /// It stays absent (an `Option` in the law).
+    Absent,
+    /// This number, in SI.
+    Number(f64),
+    /// This choice.
+    Choice(&'static str),
+    /// This flag.
+    Flag(bool),
+}
+
+/// A kind that has a card and can be read from a model file.
+///
+/// The struct is the parameters: its fields have the names of the card, numbers arrive in SI and
+/// within their ranges. Use `#[serde(deny_unknown_fields)]`.
+pub trait Described: DeserializeOwned {
+    /// The card.
+    const CARD: Card;
+
+    /// Checks what the card cannot say: parameters that depend on each other.
+    ///
+    /// # Errors
+    /// What is wrong and what would be right.
+    fn check(&self) -> Result<(), ParameterError> {
+        Ok(())
+    }
+}

@@ -1,0 +1,22 @@
+//! Constraints: linear equations between DOFs, eliminated and never penalised.
+
+use crate::{Dof, ParameterError, Vector3};
+use std::fmt::Debug;
+
+/// `u[dependent] = Σ coefficient · u[retained]`.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Equation {
+    /// The DOF that goes: index into the constraint's nodes, and direction.
+    pub dependent: (usize, Dof),
+    /// The DOFs that stay, with their coefficients.
+    pub terms: Vec<((usize, Dof), f64)>,
+}
+
+/// Removes DOFs: rigid links, rigid bodies, diaphragms, equal DOFs.
+pub trait Constraint: Send + Sync + Debug {
+    /// The equations for nodes at these positions (m), in the order of the model file.
+    ///
+    /// # Errors
+    /// [`ParameterError::Geometry`] where the nodes do not suit.
+    fn equations(&self, nodes: &[Vector3]) -> Result<Vec<Equation>, ParameterError>;
+}

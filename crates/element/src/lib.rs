@@ -1,0 +1,37 @@
+//! The contract of Trilith: everything that the author of an element, a constraint or a link needs.
+//!
+//! | a member of the structure | implements | answers |
+//! |---|---|---|
+//! | beam, truss, spring, mass | [`LinearElement`] | its K, M and C, once |
+//! | rigid body, diaphragm | [`Constraint`] | linear equations between DOFs, which are eliminated |
+//! | gap, friction contact, dashpot | [`Link`] | force and tangents for a deformation, again and again |
+//!
+//! Nothing implements two of them. Every kind describes its parameters in a [`Card`], from which the
+//! model reader takes names, units, ranges and defaults, and the catalogue its pages. A kind is offered
+//! to an application with one line: `registry.link::<MyLink>()` (see [`Register`]).
+//!
+//! SI units throughout: m, kg, s, N, rad.
+
+mod card;
+mod constraint;
+mod error;
+mod frame;
+mod history;
+mod linear;
+mod link;
+mod register;
+mod values;
+
+pub mod conformance;
+pub mod dimension;
+
+pub use card::{Card, Category, Default, Described, Form, NodeCount, Parameter, Range};
+pub use constraint::{Constraint, Equation};
+pub use dimension::Dimension;
+pub use error::ParameterError;
+pub use frame::{Axis, Dof, Frame, Geometry, Vector3};
+pub use history::{Field, History};
+pub use linear::{ElementMatrices, LinearElement, SquareMatrix};
+pub use link::{Contact, Coordinates, Energy, Kinematics, Link, Response};
+pub use register::Register;
+pub use values::{Value, Values};

@@ -1,0 +1,127 @@
+//! Links: local nonlinear laws.
+
+use crate::{Axis, Field};
+use std::fmt::Debug;
+
+/// Which coordinates a law works on; their order is the order of every array it sees.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Coordinates {
+    /// Deformations along these local axes: node j minus node i, or the node minus the ground.
+    Local(Vec<Axis>),
+    /// The six global displacements of each of its nodes, one node after the other. The law does its
+    /// own kinematics.
+    Nodal {
+        /// Number of nodes.
+        nodes: usize,
+    },
+}
+
+impl Coordinates {
+    /// Number of coordinates `n`.
+    #[must_use]
+    pub fn len(&self) -> usize {
+        match self {
+            Self::Local(axes) => axes.len(),
+            Self::Nodal { nodes } => 6 * nodes,
+        }
+    }
+
+    /// True for a law without coordinates, which the system refuses.
+    #[must_use]
+    pub fn is_empty(&self) -> bool {
+        self.len() == 0
+    }
+}
+
+/// The deformation that a law is asked about. All slices have `n` entries.
+#[derive(Clone, Copy, Debug)]
+pub struct Kinematics<'a> {
+    /// Deformation d at the end of the step, in m or rad.
+    pub d: &'a [f64],
+    /// Rate ḋ at the end of the step.
+    pub v: &'a [f64],
+    /// Deformation at the start of the step (where the history was committed).
+    pub d0: &'a [f64],
+    /// Rate at the start of the step.
+    pub v0: &'a [f64],
+    /// Step in s; 0 in a static analysis and where the law is only looked at.
+    pub dt: f64,
+}
+
+/// Energy of a link, in J.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Energy {
+    /// Recoverable energy at the end of the step (a total).
+    pub stored: f64,
+    /// Energy turned into heat by friction or yielding during the step (an increment).
+    pub hysteretic: f64,
+    /// Energy turned into heat by rate-dependent forces during the step (an increment).
+    pub viscous: f64,
+}
+
+/// What a law answers. The caller owns the slices and zeroes them before the call.
+#[derive(Debug)]
+pub struct Response<'a> {
+    /// Force f conjugate to d, in N or N·m; `n` entries. Positive where it resists positive d.
+    pub f: &'a mut [f64],
+    /// Tangent ∂f/∂d, row by row, `n²` entries. Unsymmetric where the physics is.
+    pub k: &'a mut [f64],
+    /// Tangent ∂f/∂ḋ, row by row, `n²` entries.
+    pub c: &'a mut [f64],
+    /// Energies.
+    pub energy: &'a mut Energy,
+}
+
+/// What a contact does at this moment; for the response mode and for reports.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Contact {
+    /// Distance between the surfaces in m; negative while pressed together.
+    pub gap: f64,
+    /// Normal force in N, ≥ 0.
+    pub normal: f64,
+    /// Tangential position of the contact in m, along U2 and U3.
+    pub position: [f64; 2],
+    /// True while the friction force is at its limit and slipping goes on.
+    pub slipping: bool,
+}
+
+/// A local nonlinear law.
+///
+/// # Contract
+/// - [`respond`](Self::respond) is pure: equal inputs give equal outputs, bit for bit.
+/// - Memory is in the history and nowhere else; the core owns it, commits it and reverts it.
+/// - `k` and `c` of the response are the derivatives of `f` for fixed `d0`, `v0`, `dt` and history.
+/// - `respond` writes every history variable of the trial.
+/// - With `d = d0`, `v = v0`, `dt = 0` it gives the force that acts right after the start of the step.
+/// - Over a step, work = change of `stored` + `hysteretic` + `viscous`, up to the error of the step.
+pub trait Link: Send + Sync + Debug {
+    /// The coordinates it works on; constant.
+    fn coordinates(&self) -> Coordinates;
+
+    /// The history variables; constant. Length `h` of the history slices.
+    fn history(&self) -> &'static [Field] {
+        &[]
+    }
+
+    /// History before anything has happened; `at` holds `h` zeros on entry.
+    fn at_rest(&self, _at: &mut [f64]) {}
+
+    /// The stiffness of the law where it is engaged (closed, sticking, elastic), as a positive
+    /// semi-definite matrix, row by row, `n²` entries, zero on entry. The core makes its small
+    /// linear dummies from it; it never enters a force.
+    fn engaged_stiffness(&self, k: &mut [f64]);
+
+    /// Force, tangents, trial history and energies for a deformation.
+    fn respond(
+        &self,
+        at: &Kinematics<'_>,
+        committed: &[f64],
+        trial: &mut [f64],
+        out: &mut Response<'_>,
+    );
+
+    /// What the contact does, for laws that are contacts. `history` is the trial of `respond`.
+    fn contact(&self, _at: &Kinematics<'_>, _history: &[f64], _f: &[f64]) -> Option<Contact> {
+        None
+    }
+}
