@@ -84,6 +84,84 @@ pub struct Parameter {
     pub meaning: &'static str,
 }
 
+impl Parameter {
+    /// A parameter that has any form.
+    #[must_use]
+    pub const fn new(
+        name: &'static str,
+        symbol: &'static str,
+        form: Form,
+        default: Default,
+        meaning: &'static str,
+    ) -> Self {
+        Self { name, symbol, form, range: Range::Any, default, meaning }
+    }
+
+    /// A number that the file must give.
+    #[must_use]
+    pub const fn required(
+        name: &'static str,
+        symbol: &'static str,
+        dimension: Dimension,
+        range: Range,
+        meaning: &'static str,
+    ) -> Self {
+        let form = Form::Number(dimension);
+        Self { name, symbol, form, range, default: Default::Required, meaning }
+    }
+
+    /// A number with a default in SI.
+    #[must_use]
+    pub const fn number(
+        name: &'static str,
+        symbol: &'static str,
+        dimension: Dimension,
+        range: Range,
+        default: f64,
+        meaning: &'static str,
+    ) -> Self {
+        let form = Form::Number(dimension);
+        Self { name, symbol, form, range, default: Default::Number(default), meaning }
+    }
+
+    /// A number that may stay absent.
+    #[must_use]
+    pub const fn optional(
+        name: &'static str,
+        symbol: &'static str,
+        dimension: Dimension,
+        range: Range,
+        meaning: &'static str,
+    ) -> Self {
+        let form = Form::Number(dimension);
+        Self { name, symbol, form, range, default: Default::Absent, meaning }
+    }
+
+    /// Yes or no.
+    #[must_use]
+    pub const fn flag(name: &'static str, default: bool, meaning: &'static str) -> Self {
+        Self::new(name, "", Form::Flag, Default::Flag(default), meaning)
+    }
+
+    /// One of several names.
+    #[must_use]
+    pub const fn choice(
+        name: &'static str,
+        choices: &'static [&'static str],
+        default: &'static str,
+        meaning: &'static str,
+    ) -> Self {
+        Self::new(name, "", Form::Choice(choices), Default::Choice(default), meaning)
+    }
+
+    /// The same with another range.
+    #[must_use]
+    pub const fn within(mut self, range: Range) -> Self {
+        self.range = range;
+        self
+    }
+}
+
 /// The form of a parameter.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Form {

@@ -1,0 +1,210 @@
+//! Dashpot: a force that grows with a power of the rate, always or in contact only.
+//!
+//! ```text
+//!   F(v) = c sgn(v) |v|^α                       |v| ≥ v₀ or α ≥ 1
+//!   F(v) = c v₀^(α−1) v                         |v| < v₀ and α < 1   (the tangent at rest is finite)
+//!   Always:     f = F(ḋ)
+//!   InContact:  f = F(ḋ) + k (d + g)            where d < −g; else 0; without `pull` at most 0
+//! ```
+//!
+//! | parameter      | symbol | unit            | range     | default | meaning                                |
+//! |----------------|--------|-----------------|-----------|---------|----------------------------------------|
+//! | `c`            | c      | N/(m/s)^α       | > 0       | –       | coefficient along U1, U2 or U3         |
+//! | `cr`           | c      | N·m/(rad/s)^α   | > 0       | –       | instead of `c`: about R1, R2 or R3     |
+//! | `exponent`     | α      | 1               | 0 < α ≤ 2 | 1       | exponent of the rate                   |
+//! | `axis`         |        |                 |           | U1      | local axis                             |
+//! | `when`         |        |                 |           | Always  | `Always` or `InContact`                |
+//! | `opening`      | g      | m               | any       | 0       | clearance of the contact               |
+//! | `stiffness`    | k      | N/m             | ≥ 0       | 0       | spring of the contact                  |
+//! | `pull`         |        |                 |           | false   | the total force may pull while closed  |
+//! | `linear_below` | v₀     | m/s             | > 0       | 1e-6    | rate below which α < 1 is linear (for `cr`: rad/s) |
+//!
+//! The last four but `linear_below` matter with `InContact` only. At v₀ the force is continuous; c v₀^α
+//! is the force that the linear range spans, which should be small against the forces of interest.
+//!
+//! Reference: \[Soong & Dargush 1997, ch. 6\]; contact variant \[Wilson 2002, ch. 21\].
+
+use serde::Deserialize;
+use trilith_element::dimension::{FORCE, FREQUENCY, LENGTH, MOMENT, NONE, STIFFNESS, VELOCITY};
+use trilith_element::{
+    Axis, Card, Category, Contact, Coordinates, Default, Described, Form, Kinematics, Link,
+    NodeCount, Parameter, ParameterError, Range, Response,
+};
+
+/// When a [`Dashpot`] acts.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
+pub enum When {
+    /// At all times.
+    Always,
+    /// While the link is shorter than its clearance allows.
+    InContact,
+}
+
+/// Power-law dashpot, always or in contact only.
+#[derive(Clone, Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Dashpot {
+    /// Coefficient along a translational axis, N/(m/s)^α.
+    pub c: Option<f64>,
+    /// Coefficient about a rotational axis, N·m/(rad/s)^α.
+    pub cr: Option<f64>,
+    /// Exponent α.
+    pub exponent: f64,
+    /// Local axis.
+    pub axis: Axis,
+    /// When it acts.
+    pub when: When,
+    /// Clearance of the contact g, m.
+    pub opening: f64,
+    /// Spring of the contact k, N/m.
+    pub stiffness: f64,
+    /// The total force may pull while closed.
+    pub pull: bool,
+    /// Rate v₀ below which the law of α < 1 is linear, m/s or rad/s.
+    pub linear_below: f64,
+}
+
+impl Described for Dashpot {
+    const CARD: Card = Card {
+        kind: "Dashpot",
+        category: Category::Link,
+        summary: "Dashpot with a power of the rate, acting always or in contact only.",
+        nodes: NodeCount::GROUND_OR_TWO,
+        parameters: &[
+            Parameter::new(
+                "c",
+                "c",
+                Form::Power { base: FORCE, over: VELOCITY, exponent: "exponent" },
+                Default::Absent,
+                "coefficient along U1, U2 or U3",
+            )
+            .within(Range::Positive),
+            Parameter::new(
+                "cr",
+                "c",
+                Form::Power { base: MOMENT, over: FREQUENCY, exponent: "exponent" },
+                Default::Absent,
+                "instead of `c`: coefficient about R1, R2 or R3",
+            )
+            .within(Range::Positive),
+            Parameter::number(
+                "exponent",
+                "α",
+                NONE,
+                Range::Above(0.0, 2.0),
+                1.0,
+                "exponent of the rate",
+            ),
+            Parameter::choice("axis", Axis::NAMES, "U1", "local axis"),
+            Parameter::choice("when", &["Always", "InContact"], "Always", "when it acts"),
+            Parameter::number("opening", "g", LENGTH, Range::Any, 0.0, "clearance of the contact"),
+            Parameter::number(
+                "stiffness",
+                "k",
+                STIFFNESS,
+                Range::NonNegative,
+                0.0,
+                "spring of the contact",
+            ),
+            Parameter::flag("pull", false, "the total force may pull while closed"),
+            Parameter::number(
+                "linear_below",
+                "v₀",
+                VELOCITY,
+                Range::Positive,
+                1e-6,
+                "rate below which α < 1 is linear (rad/s with `cr`)",
+            ),
+        ],
+        law: "F(v) = c sgn(v) |v|^α; for α < 1 and |v| < v₀: c v₀^(α−1) v\n\
+              Always:    f = F(ḋ)\n\
+              InContact: f = F(ḋ) + k (d + g) where d < −g, else 0; without `pull` at most 0",
+        source: "Soong & Dargush, Passive Energy Dissipation Systems, 1997, ch. 6; Wilson 2002, ch. 21",
+        example: r#""damper": Dashpot(nodes: ["a", "b"], c: "20 kN*s/m")"#,
+    };
+
+    fn check(&self) -> Result<(), ParameterError> {
+        let rotational = self.axis.index() > 2;
+        let (wanted, other) = if rotational { ("cr", self.c) } else { ("c", self.cr) };
+        if other.is_some() || self.coefficient().is_none() {
+            let message =
+                format!("a dashpot along {} takes `{wanted}` and nothing else", self.axis.name());
+            return Err(ParameterError::inconsistent(wanted, message));
+        }
+        if self.when == When::InContact && rotational {
+            let message = "a dashpot in contact needs a translational axis: U1, U2 or U3";
+            return Err(ParameterError::inconsistent("axis", message));
+        }
+        if self.when == When::Always && (self.stiffness != 0.0 || self.opening != 0.0 || self.pull)
+        {
+            let message =
+                "`stiffness`, `opening` and `pull` belong to a contact: add `when: InContact`";
+            return Err(ParameterError::inconsistent("when", message));
+        }
+        Ok(())
+    }
+}
+
+impl Dashpot {
+    fn coefficient(&self) -> Option<f64> {
+        if self.axis.index() > 2 { self.cr } else { self.c }
+    }
+
+    /// Force F(v) and its derivative.
+    fn force(&self, v: f64) -> (f64, f64) {
+        let (c, alpha, size) = (self.coefficient().unwrap_or(0.0), self.exponent, v.abs());
+        if alpha == 1.0 {
+            return (c * v, c);
+        }
+        if alpha < 1.0 && size < self.linear_below {
+            let slope = c * self.linear_below.powf(alpha - 1.0);
+            return (slope * v, slope);
+        }
+        let power = c * size.powf(alpha);
+        (power.copysign(v), if size > 0.0 { alpha * power / size } else { 0.0 })
+    }
+
+    /// Total force, its derivatives by d and ḋ, and the force of the spring in it.
+    fn total(&self, d: f64, v: f64) -> [f64; 4] {
+        let (force, slope) = self.force(v);
+        if self.when == When::Always {
+            return [force, 0.0, slope, 0.0];
+        }
+        let gap = d + self.opening;
+        if gap >= 0.0 {
+            return [0.0; 4];
+        }
+        let spring = self.stiffness * gap;
+        let f = force + spring;
+        if f > 0.0 && !self.pull {
+            return [0.0, 0.0, 0.0, spring];
+        }
+        [f, self.stiffness, slope, spring]
+    }
+}
+
+impl Link for Dashpot {
+    fn coordinates(&self) -> Coordinates {
+        Coordinates::Local(vec![self.axis])
+    }
+
+    fn engaged_stiffness(&self, k: &mut [f64]) {
+        k[0] = if self.when == When::InContact { self.stiffness } else { 0.0 };
+    }
+
+    fn respond(&self, at: &Kinematics<'_>, _: &[f64], _: &mut [f64], out: &mut Response<'_>) {
+        let [f0, _, _, spring0] = self.total(at.d0[0], at.v0[0]);
+        let [f, k, c, spring] = self.total(at.d[0], at.v[0]);
+        (out.f[0], out.k[0], out.c[0]) = (f, k, c);
+        if self.stiffness > 0.0 {
+            out.energy.stored = 0.5 * spring * spring / self.stiffness;
+        }
+        out.energy.viscous = 0.5 * ((f0 - spring0) * at.v0[0] + (f - spring) * at.v[0]) * at.dt;
+    }
+
+    fn contact(&self, at: &Kinematics<'_>, _: &[f64], f: &[f64]) -> Option<Contact> {
+        let gap = at.d[0] + self.opening;
+        let bears = self.when == When::InContact && self.stiffness > 0.0;
+        bears.then(|| Contact { gap, normal: (-f[0]).max(0.0), ..Contact::default() })
+    }
+}

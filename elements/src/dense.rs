@@ -1,0 +1,60 @@
+//! Small dense algebra between local stiffness and [`ElementMatrices`].
+
+use nalgebra::{DMatrix, Matrix3, Vector3 as V3};
+use trilith_element::{Dof, ElementMatrices, Frame, Vector3};
+
+/// Rows of the frame as a rotation matrix: local = R · global.
+pub(crate) fn rotation(frame: &Frame) -> Matrix3<f64> {
+    Matrix3::from_fn(|i, j| frame.0[i][j])
+}
+
+/// `b − a`.
+pub(crate) fn between(a: Vector3, b: Vector3) -> V3<f64> {
+    V3::from(b) - V3::from(a)
+}
+
+
+/// The frame repeated along the diagonal, `blocks` times.
+pub(crate) fn repeated(frame: &Frame, blocks: usize) -> DMatrix<f64> {
+    let r = rotation(frame);
+    let mut t = DMatrix::zeros(3 * blocks, 3 * blocks);
+    for b in 0..blocks {
+        t.view_mut((3 * b, 3 * b), (3, 3)).copy_from(&r);
+    }
+    t
+}
+
+/// Element matrices from matrices over all six DOFs of each node, without the DOFs that get nothing.
+///
+/// A row counts as nothing where its diagonal is rounding noise in all three matrices; these are
+/// positive semi-definite, so the rest of such a row is noise as well.
+pub(crate) fn used(k: &DMatrix<f64>, m: &DMatrix<f64>, c: &DMatrix<f64>) -> ElementMatrices {
+    let noise = |a: &DMatrix<f64>| 1e-24 * a.diagonal().amax();
+    let (nk, nm, nc) = (noise(k), noise(m), noise(c));
+    let rows: Vec<usize> =
+        (0..k.nrows()).filter(|&i| k[(i, i)] > nk || m[(i, i)] > nm || c[(i, i)] > nc).collect();
+    let dofs = rows.iter().map(|r| (r / 6, Dof::ALL[r % 6])).collect();
+    let mut out = ElementMatrices::zeros(dofs);
+    for (p, &i) in rows.iter().enumerate() {
+        for (q, &j) in rows.iter().enumerate() {
+            // The mean of both halves makes the result symmetric to the last bit.
+            out.stiffness[(p, q)] = 0.5 * (k[(i, j)] + k[(j, i)]);
+            out.mass[(p, q)] = 0.5 * (m[(i, j)] + m[(j, i)]);
+            out.damping[(p, q)] = 0.5 * (c[(i, j)] + c[(j, i)]);
+        }
+    }
+    out
+}
+
+/// True for a symmetric matrix without negative eigenvalues, up to rounding.
+pub(crate) fn is_semi_definite(a: &DMatrix<f64>) -> bool {
+    let size = a.amax();
+    if (a - a.transpose()).amax() > 1e-9 * size {
+        return false;
+    }
+    // Scaling by the diagonal takes units out of the comparison.
+    let s = a.diagonal().map(|x| if x > 0.0 { 1.0 / x.sqrt() } else { 0.0 });
+    let scaled = DMatrix::from_fn(a.nrows(), a.ncols(), |i, j| s[i] * a[(i, j)] * s[j]);
+    let bare = (0..a.nrows()).all(|i| a[(i, i)] > 0.0 || a.row(i).amax() == 0.0);
+    bare && scaled.symmetric_eigenvalues().iter().all(|x| *x >= -1e-9)
+}

@@ -1,0 +1,256 @@
+//! NLink: gap, friction and contact dashpot in one; the contact under a rigid block, a bearing, a foot.
+//!
+//! ```text
+//!   p = −(d₁ + g)                     penetration; closed where p ≥ 0 (touching is closed)
+//!   f₁ = −kₙ p + c ḋ₁                 closed, `pull`: the dashpot may hold the contact down
+//!   f₁ = min(0, −kₙ p + c ḋ₁)         closed, otherwise: never pulls
+//!   N  = kₙ p (`pull`),  −f₁ (otherwise)
+//!   μ  = μ_fast − (μ_fast − μ_slow) e^(−r v),   v = √(ḋ₂² + ḋ₃²)
+//!   τ  = k_e (dₜ − a), |τ| ≤ μ N      dₜ = (d₂, d₃);  k_e = kₛ − k_post;  a: anchor, slips at the limit
+//!   fₜ = τ + k_post dₜ + kₙ p dₜ / R
+//!   f  = 0                            open; the anchor goes with dₜ
+//!   m  = r θ                          rotations about 1, 2, 3, open or closed
+//! ```
+//!
+//! | parameter          | symbol         | unit    | range | default | meaning                                  |
+//! |--------------------|----------------|---------|-------|---------|------------------------------------------|
+//! | `kn`               | kₙ             | N/m     | > 0   | –       | contact stiffness                        |
+//! | `opening`          | g              | m       | any   | 0       | clearance at rest (negative: interference) |
+//! | `damping`          | c              | N·s/m   | ≥ 0   | 0       | contact dashpot, acts only while closed  |
+//! | `pull`             |                |         |       | false   | the dashpot may pull while closed        |
+//! | `mu`               | μ              | 1       | ≥ 0   | 0       | friction coefficient                     |
+//! | `mu_slow`, `mu_fast` | μ_slow, μ_fast | 1     | ≥ 0   | –       | instead of `mu`: at rest and at speed    |
+//! | `rate`             | r              | s/m     | ≥ 0   | –       | how fast μ goes from slow to fast        |
+//! | `ks`               | kₛ             | N/m     | > 0   | –       | pre-slip stiffness; required with friction |
+//! | `k_post`           | k_post         | N/m     | ≥ 0   | 0       | post-slip stiffness, < kₛ                |
+//! | `radius`           | R              | m       | ≥ 0   | 0       | radius of a pendulum surface; 0 is flat  |
+//! | `r1`, `r2`, `r3`   | r              | N·m/rad | ≥ 0   | 0       | rotational springs, always linear        |
+//!
+//! `d₁` is the extension of the link and `f₁` its tension: a closed contact has `f₁ ≤ 0` without `pull`.
+//! Friction is elastic–perfectly plastic with radial return, not of Wen's type: it sticks fully below
+//! the limit, and a separation wipes the anchor out. On closing, the anchor is the tangential position
+//! at the moment of contact, linear in the step.
+//!
+//! **Energy.** Stored: ½ kₙ p² + |τ|²/(2 k_e) + ½ r θ² + the work of the two restoring forces (k_post and
+//! pendulum) so far. That work is history: with N changing, or with a separation while displaced, the
+//! restoring forces of small displacements have no potential. Friction: ½ (τ₀ + τ₁)·Δa, which closes
+//! the balance of a trapezoidal step to the last digit in stick, slip and separation alike; a step in
+//! which slip reverses counts as zero at least. Dashpot: trapezoid of (f₁ + kₙ p) ḋ₁.
+//!
+//! Reference: \[Wilson 2002, ch. 18 and 21\]; velocity dependence \[Constantinou et al. 1990\].
+
+mod law;
+#[cfg(test)]
+mod tests;
+
+pub use law::NLinkHistory;
+
+use serde::Deserialize;
+use trilith_element::dimension::{
+    DAMPING, INVERSE_VELOCITY, LENGTH, NONE, ROTATIONAL_STIFFNESS, STIFFNESS,
+};
+use trilith_element::{
+    Axis, Card, Category, Described, NodeCount, Parameter, ParameterError, Range,
+};
+
+/// Gap, friction and contact dashpot in one; the law is in `law.rs` beside this file.
+#[derive(Clone, Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct NLink {
+    /// Contact stiffness kₙ, N/m.
+    pub kn: f64,
+    /// Clearance at rest g, m.
+    #[serde(default)]
+    pub opening: f64,
+    /// Contact dashpot c, N·s/m.
+    #[serde(default)]
+    pub damping: f64,
+    /// The dashpot may pull while the gap is closed.
+    #[serde(default)]
+    pub pull: bool,
+    /// Friction coefficient μ.
+    pub mu: Option<f64>,
+    /// Friction coefficient at rest.
+    pub mu_slow: Option<f64>,
+    /// Friction coefficient at high speed.
+    pub mu_fast: Option<f64>,
+    /// Rate constant r of the friction coefficient, s/m.
+    pub rate: Option<f64>,
+    /// Pre-slip stiffness kₛ, N/m.
+    pub ks: Option<f64>,
+    /// Post-slip stiffness, N/m.
+    #[serde(default)]
+    pub k_post: f64,
+    /// Radius R of the pendulum surface, m; 0 is flat.
+    #[serde(default)]
+    pub radius: f64,
+    /// Rotational spring about local 1, N·m/rad.
+    #[serde(default)]
+    pub r1: f64,
+    /// Rotational spring about local 2, N·m/rad.
+    #[serde(default)]
+    pub r2: f64,
+    /// Rotational spring about local 3, N·m/rad.
+    #[serde(default)]
+    pub r3: f64,
+}
+
+const fn rotational(name: &'static str, symbol: &'static str) -> Parameter {
+    let meaning = "linear rotational spring, open or closed";
+    Parameter::number(name, symbol, ROTATIONAL_STIFFNESS, Range::NonNegative, 0.0, meaning)
+}
+
+impl Described for NLink {
+    const CARD: Card = Card {
+        kind: "NLink",
+        category: Category::Link,
+        summary: "Contact: gap with dashpot along local 1, coupled friction along local 2 and 3.",
+        nodes: NodeCount::GROUND_OR_TWO,
+        parameters: &[
+            Parameter::required("kn", "kₙ", STIFFNESS, Range::Positive, "contact stiffness"),
+            Parameter::number(
+                "opening",
+                "g",
+                LENGTH,
+                Range::Any,
+                0.0,
+                "clearance at rest (negative: interference)",
+            ),
+            Parameter::number(
+                "damping",
+                "c",
+                DAMPING,
+                Range::NonNegative,
+                0.0,
+                "contact dashpot, acts only while closed",
+            ),
+            Parameter::flag("pull", false, "the dashpot may pull while the gap is closed"),
+            Parameter::optional(
+                "mu",
+                "μ",
+                NONE,
+                Range::NonNegative,
+                "friction coefficient; none: no friction",
+            ),
+            Parameter::optional(
+                "mu_slow",
+                "μ_slow",
+                NONE,
+                Range::NonNegative,
+                "instead of `mu`: friction coefficient at rest",
+            ),
+            Parameter::optional(
+                "mu_fast",
+                "μ_fast",
+                NONE,
+                Range::NonNegative,
+                "instead of `mu`: friction coefficient at speed",
+            ),
+            Parameter::optional(
+                "rate",
+                "r",
+                INVERSE_VELOCITY,
+                Range::NonNegative,
+                "rate at which μ goes from slow to fast",
+            ),
+            Parameter::optional(
+                "ks",
+                "kₛ",
+                STIFFNESS,
+                Range::Positive,
+                "pre-slip stiffness; required with friction",
+            ),
+            Parameter::number(
+                "k_post",
+                "k_post",
+                STIFFNESS,
+                Range::NonNegative,
+                0.0,
+                "post-slip stiffness, less than `ks`",
+            ),
+            Parameter::number(
+                "radius",
+                "R",
+                LENGTH,
+                Range::NonNegative,
+                0.0,
+                "radius of a pendulum surface; 0 is flat",
+            ),
+            rotational("r1", "r₁"),
+            rotational("r2", "r₂"),
+            rotational("r3", "r₃"),
+        ],
+        law: "p = −(d₁ + g), closed where p ≥ 0\n\
+              f₁ = −kₙ p + c ḋ₁, without `pull` at most 0\n\
+              N = kₙ p with `pull`, −f₁ without\n\
+              μ = μ_fast − (μ_fast − μ_slow) e^(−r |ḋₜ|)\n\
+              τ = (kₛ − k_post) (dₜ − a), |τ| ≤ μ N (radial return)\n\
+              fₜ = τ + k_post dₜ + kₙ p dₜ/R\n\
+              open: f = 0, no memory of the anchor a",
+        source: "Wilson, Static and Dynamic Analysis of Structures, 2002, ch. 18 and 21; \
+                 Constantinou, Mokha, Reinhorn 1990 for μ(v)",
+        example: r#""left": NLink(nodes: ["left"], kn: "5e8 N/m", ks: "5e8 N/m", mu: 0.4)"#,
+    };
+
+    fn check(&self) -> Result<(), ParameterError> {
+        let graded = [self.mu_slow, self.mu_fast, self.rate];
+        if graded.iter().any(Option::is_some) {
+            if self.mu.is_some() {
+                let message =
+                    "`mu` excludes `mu_slow`, `mu_fast` and `rate`: give one or the others";
+                return Err(ParameterError::inconsistent("mu", message));
+            }
+            if !graded.iter().all(Option::is_some) {
+                let message =
+                    "`mu_slow`, `mu_fast` and `rate` go together: give all three, or `mu`";
+                let name = if self.mu_slow.is_some() { "mu_slow" } else { "mu_fast" };
+                return Err(ParameterError::inconsistent(name, message));
+            }
+        }
+        match self.ks {
+            None if self.has_friction() => Err(ParameterError::inconsistent(
+                "ks",
+                "a link with friction needs the pre-slip stiffness `ks`, such as the value of `kn`",
+            )),
+            Some(ks) if self.k_post >= ks => Err(ParameterError::inconsistent(
+                "k_post",
+                format!("`k_post` = {} N/m must be less than `ks` = {ks} N/m", self.k_post),
+            )),
+            _ => Ok(()),
+        }
+    }
+}
+
+impl NLink {
+    /// A frictionless contact of stiffness `kn` (N/m); set the other fields as needed.
+    #[must_use]
+    pub fn new(kn: f64) -> Self {
+        Self {
+            kn,
+            opening: 0.0,
+            damping: 0.0,
+            pull: false,
+            mu: None,
+            mu_slow: None,
+            mu_fast: None,
+            rate: None,
+            ks: None,
+            k_post: 0.0,
+            radius: 0.0,
+            r1: 0.0,
+            r2: 0.0,
+            r3: 0.0,
+        }
+    }
+
+    fn has_friction(&self) -> bool {
+        [self.mu, self.mu_slow, self.mu_fast].iter().any(|m| m.is_some_and(|m| m > 0.0))
+    }
+
+    /// The rotational springs that exist.
+    fn rotational(&self) -> impl Iterator<Item = (Axis, f64)> {
+        [(Axis::R1, self.r1), (Axis::R2, self.r2), (Axis::R3, self.r3)]
+            .into_iter()
+            .filter(|(_, r)| *r > 0.0)
+    }
+}
