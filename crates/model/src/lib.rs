@@ -1,7 +1,26 @@
 //! RON model files: schema, quantities with units, parameters, diagnostics, registry, time functions.
+//!
+//! [`read`] turns a file into a [`Model`] in SI with every reference resolved to an index, or into
+//! all [`Diagnostic`]s of the file at once. [`resolved`] writes a model as a file in which every
+//! default is filled in and every expression evaluated.
 
+mod diagnostic;
+mod expression;
 mod model;
+mod parameters;
+mod read;
+mod registry;
+mod resolved;
+mod table;
 mod time_function;
+mod tree;
+mod units;
 
+pub use diagnostic::{Diagnostic, line_column};
 pub use model::*;
-pub use time_function::{Side, TimeFunction};
+pub use read::{read, read_text};
+pub use registry::Registry;
+pub use resolved::resolved;
+pub use table::{AfterEnd, Interpolation, Table, TableError};
+pub use time_function::{Harmonic, Side, TimeFunction};
+pub use units::STANDARD_GRAVITY;

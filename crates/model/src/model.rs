@@ -3,7 +3,9 @@
 use crate::TimeFunction;
 use std::ops::Range;
 use std::path::PathBuf;
-use trilith_element::{Axis, Constraint, Dimension, Dof, Frame, LinearElement, Link, Vector3};
+use trilith_element::{
+    Axis, Constraint, Dimension, Dof, Frame, LinearElement, Link, Values, Vector3,
+};
 
 /// A byte range of the model file.
 pub type Span = Range<usize>;
@@ -128,6 +130,10 @@ pub struct Element {
     pub body: Body,
     /// Where the file defines it.
     pub span: Span,
+    /// The parameters of its kind in SI, defaults filled in, in the order of the card.
+    pub values: Values,
+    /// Directions of local axes 1 and 2 as the file gives them.
+    pub axes: [Option<Vector3>; 2],
 }
 
 /// What a member is.
@@ -183,6 +189,9 @@ pub struct Function {
     pub name: String,
     /// The function.
     pub function: TimeFunction,
+    /// Dimension of its values; `None` for plain numbers without unit, which stand for the dimension
+    /// that is wanted where the function is used.
+    pub dimension: Option<Dimension>,
 }
 
 /// A named set of nodal forces.

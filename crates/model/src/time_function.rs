@@ -1,4 +1,10 @@
 //! Time functions: analytic pulses and tables.
+//!
+//! Times in s from the start of the case, frequencies in Hz, phases in rad.
+
+use crate::Table;
+use std::f64::consts::{PI, TAU};
+use std::sync::Arc;
 
 /// Which limit to take where a function jumps.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -9,34 +15,270 @@ pub enum Side {
     After,
 }
 
+impl Side {
+    /// True where `t`, seen from this side, lies behind `edge`.
+    #[must_use]
+    pub fn is_past(self, t: f64, edge: f64) -> bool {
+        t > edge || (t == edge && self == Self::After)
+    }
+}
+
 /// A function of time; zero before `start` and after its end. Frequencies in Hz.
 #[derive(Clone, Debug, PartialEq)]
 pub enum TimeFunction {
-    /// placeholder
+    /// The same value at all times.
     Constant(f64),
+    /// `amplitude` from `start` to `end`.
+    Step {
+        /// Value.
+        amplitude: f64,
+        /// s.
+        start: f64,
+        /// s; `None`: never.
+        end: Option<f64>,
+    },
+    /// Rises linearly from zero at `start` to `amplitude` within `rise`, then holds.
+    Ramp {
+        /// Final value.
+        amplitude: f64,
+        /// s.
+        start: f64,
+        /// s, positive.
+        rise: f64,
+    },
+    /// `amplitude · sin(2π·frequency·(t − start) + phase)`.
+    Sine(Harmonic),
+    /// `amplitude · cos(2π·frequency·(t − start) + phase)`.
+    Cosine(Harmonic),
+    /// `amplitude · sin(π·(t − start)/duration)`, one half wave.
+    HalfSine {
+        /// Peak value.
+        amplitude: f64,
+        /// s, positive.
+        duration: f64,
+        /// s.
+        start: f64,
+    },
+    /// `amplitude · (1 − 2a) · exp(−a)`, `a = (π·frequency·(t − center))²`.
+    Ricker {
+        /// Peak value, at the center.
+        amplitude: f64,
+        /// Frequency of the spectral peak, Hz.
+        frequency: f64,
+        /// s.
+        center: f64,
+    },
+    /// Values at given times.
+    Table(Arc<Table>),
+}
+
+/// A harmonic of a number of cycles.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Harmonic {
+    /// Amplitude.
+    pub amplitude: f64,
+    /// Hz, positive.
+    pub frequency: f64,
+    /// Full cycles, then zero; `None`: endless.
+    pub cycles: Option<f64>,
+    /// s.
+    pub start: f64,
+    /// Phase at the start, rad.
+    pub phase: f64,
+}
+
+impl Harmonic {
+    /// Time at which it ends, s; infinite where it is endless.
+    #[must_use]
+    pub fn end(&self) -> f64 {
+        self.cycles.map_or(f64::INFINITY, |n| self.start + n / self.frequency)
+    }
+
+    /// Value and first two derivatives, for a sine with this additional phase.
+    fn at(&self, t: f64, side: Side, phase: f64) -> [f64; 3] {
+        if !side.is_past(t, self.start) || side.is_past(t, self.end()) {
+            return [0.0; 3];
+        }
+        let w = TAU * self.frequency;
+        let (sin, cos) = (w * (t - self.start) + self.phase + phase).sin_cos();
+        [self.amplitude * sin, self.amplitude * w * cos, -self.amplitude * w * w * sin]
+    }
+
+    fn peak(&self, phase: f64) -> f64 {
+        let from = self.phase + phase;
+        let to = from + TAU * self.cycles.unwrap_or(1.0);
+        // Crests are at π/2 + kπ.
+        let crest = ((from / PI - 0.5).ceil() + 0.5) * PI;
+        let share = if crest <= to { 1.0 } else { from.sin().abs().max(to.sin().abs()) };
+        self.amplitude.abs() * share
+    }
 }
 
 impl TimeFunction {
-    /// Value at t.
+    /// Value at t (s), in SI.
     #[must_use]
-    pub fn value(&self, _t: f64, _side: Side) -> f64 {
-        let Self::Constant(c) = self;
-        *c
+    pub fn value(&self, t: f64, side: Side) -> f64 {
+        self.all(t, side)[0]
     }
-    /// First and second derivative.
+
+    /// First and second derivative at t (s), per s and per s².
+    ///
+    /// Exact; where a function jumps, the derivatives of the branch on that side. A linear table has
+    /// the slope of its segment and no second derivative.
     #[must_use]
-    pub fn derivatives(&self, _t: f64, _side: Side) -> (f64, f64) {
-        (0.0, 0.0)
+    pub fn derivatives(&self, t: f64, side: Side) -> (f64, f64) {
+        let [_, first, second] = self.all(t, side);
+        (first, second)
     }
-    /// Times at which a step must end.
+
+    /// Times (s, sorted) at which the value or the slope jumps; a step must end there. Samples of
+    /// tables are not among them, their start and end are.
     #[must_use]
     pub fn breaks(&self) -> Vec<f64> {
-        Vec::new()
+        let mut times = match self {
+            Self::Constant(_) | Self::Ricker { .. } => Vec::new(),
+            Self::Step { start, end, .. } => vec![*start, end.unwrap_or(*start)],
+            Self::Ramp { start, rise, .. } => vec![*start, start + rise],
+            Self::Sine(h) | Self::Cosine(h) => vec![h.start, h.end()],
+            Self::HalfSine { duration, start, .. } => vec![*start, start + duration],
+            Self::Table(table) => vec![table.start(), table.end()],
+        };
+        times.retain(|t| t.is_finite());
+        times.sort_by(f64::total_cmp);
+        times.dedup();
+        times
     }
-    /// Largest |value|.
+
+    /// Largest |value| over all times.
     #[must_use]
     pub fn peak(&self) -> f64 {
-        let Self::Constant(c) = self;
-        c.abs()
+        match self {
+            Self::Constant(amplitude)
+            | Self::Step { amplitude, .. }
+            | Self::Ramp { amplitude, .. }
+            | Self::HalfSine { amplitude, .. }
+            | Self::Ricker { amplitude, .. } => amplitude.abs(),
+            Self::Sine(h) => h.peak(0.0),
+            Self::Cosine(h) => h.peak(PI / 2.0),
+            Self::Table(table) => table.peak(),
+        }
+    }
+
+    /// The function times a factor.
+    #[must_use]
+    pub fn scaled(&self, factor: f64) -> Self {
+        let mut scaled = self.clone();
+        match &mut scaled {
+            Self::Constant(amplitude)
+            | Self::Step { amplitude, .. }
+            | Self::Ramp { amplitude, .. }
+            | Self::Sine(Harmonic { amplitude, .. })
+            | Self::Cosine(Harmonic { amplitude, .. })
+            | Self::HalfSine { amplitude, .. }
+            | Self::Ricker { amplitude, .. } => *amplitude *= factor,
+            Self::Table(table) => *table = Arc::new(table.scaled(factor)),
+        }
+        scaled
+    }
+
+    /// The table that this function reads, if it does.
+    #[must_use]
+    pub fn table(&self) -> Option<&Table> {
+        match self {
+            Self::Table(table) => Some(table),
+            _ => None,
+        }
+    }
+
+    /// Value and first two derivatives.
+    fn all(&self, t: f64, side: Side) -> [f64; 3] {
+        match *self {
+            Self::Constant(c) => [c, 0.0, 0.0],
+            Self::Step { amplitude, start, end } => {
+                let on = side.is_past(t, start) && !end.is_some_and(|e| side.is_past(t, e));
+                [if on { amplitude } else { 0.0 }, 0.0, 0.0]
+            }
+            Self::Ramp { amplitude, start, rise } => {
+                if !side.is_past(t, start) {
+                    [0.0; 3]
+                } else if side.is_past(t, start + rise) {
+                    [amplitude, 0.0, 0.0]
+                } else {
+                    [amplitude * (t - start) / rise, amplitude / rise, 0.0]
+                }
+            }
+            Self::Sine(h) => h.at(t, side, 0.0),
+            Self::Cosine(h) => h.at(t, side, PI / 2.0),
+            Self::HalfSine { amplitude, duration, start } => {
+                if !side.is_past(t, start) || side.is_past(t, start + duration) {
+                    return [0.0; 3];
+                }
+                let w = PI / duration;
+                let (sin, cos) = (w * (t - start)).sin_cos();
+                [amplitude * sin, amplitude * w * cos, -amplitude * w * w * sin]
+            }
+            Self::Ricker { amplitude, frequency, center } => {
+                // With x = π f (t − center): y = (1 − 2x²) e^(−x²).
+                let w = PI * frequency;
+                let x = w * (t - center);
+                let e = amplitude * (-x * x).exp();
+                let first = (4.0 * x * x - 6.0) * x;
+                let second = (-8.0 * x * x + 24.0) * x * x - 6.0;
+                [(1.0 - 2.0 * x * x) * e, w * first * e, w * w * second * e]
+            }
+            Self::Table(ref table) => table.at(t, side),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn pulse() -> Harmonic {
+        Harmonic { amplitude: 3.0, frequency: 2.0, cycles: Some(1.5), start: 0.25, phase: 0.3 }
+    }
+
+    fn analytic() -> Vec<TimeFunction> {
+        vec![
+            TimeFunction::Ramp { amplitude: 2.0, start: 0.1, rise: 0.7 },
+            TimeFunction::Sine(pulse()),
+            TimeFunction::Cosine(pulse()),
+            TimeFunction::HalfSine { amplitude: 2.0, duration: 0.8, start: 0.1 },
+            TimeFunction::Ricker { amplitude: 1.5, frequency: 1.2, center: 0.5 },
+            TimeFunction::Sine(pulse()).scaled(-2.0),
+        ]
+    }
+
+    #[test]
+    fn derivatives_agree_with_difference_quotients() {
+        let (t, h) = (0.4321, 1e-5);
+        for f in analytic() {
+            let y = |t| f.value(t, Side::Before);
+            let (first, second) = f.derivatives(t, Side::Before);
+            assert!((first - (y(t + h) - y(t - h)) / (2.0 * h)).abs() < 1e-5, "{f:?}");
+            let quotient = (y(t + h) - 2.0 * y(t) + y(t - h)) / (h * h);
+            assert!((second - quotient).abs() < 2e-2, "{f:?}: {second} {quotient}");
+        }
+    }
+
+    #[test]
+    fn a_pulse_jumps_between_its_sides_and_is_zero_outside() {
+        let f = TimeFunction::Cosine(Harmonic { phase: 0.0, ..pulse() });
+        assert_eq!(f.breaks(), [0.25, 1.0]);
+        assert_eq!(f.value(0.25, Side::Before), 0.0);
+        assert_eq!(f.value(0.25, Side::After), 3.0);
+        assert!((f.value(1.0, Side::Before) + 3.0).abs() < 1e-12);
+        assert_eq!(f.value(1.0, Side::After), 0.0);
+    }
+
+    #[test]
+    fn the_peak_is_the_largest_value_met() {
+        let short = Harmonic { cycles: Some(0.1), phase: 0.0, ..pulse() };
+        for f in analytic().into_iter().chain([TimeFunction::Sine(short)]) {
+            let met = (0..=20_000).map(|i| f.value(f64::from(i) * 1e-4, Side::Before).abs());
+            let met = met.fold(0.0, f64::max);
+            assert!((f.peak() - met).abs() < 1e-5 * met, "{f:?}: {} {met}", f.peak());
+        }
     }
 }

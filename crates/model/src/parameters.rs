@@ -1,0 +1,304 @@
+//! The named parameters of a model file and the `--set` arguments that change them.
+
+use crate::diagnostic::names_help;
+use crate::expression::{ExpressionError, Quantity, Scope, evaluate};
+use crate::tree::{Entry, Kind, Node};
+use crate::units::FileUnits;
+use crate::{Diagnostic, Parameter, ParameterValue, Source, Span};
+use std::collections::HashMap;
+use std::sync::Arc;
+
+/// Longest chain of parameters that depend on each other.
+const CHAIN: usize = 64;
+
+/// The parameters, all evaluated.
+#[derive(Debug)]
+pub(crate) struct Parameters {
+    slots: Vec<Slot>,
+    index: HashMap<String, usize>,
+    units: FileUnits,
+    source: Arc<Source>,
+    stack: Vec<usize>,
+    errors: Vec<Diagnostic>,
+}
+
+#[derive(Debug)]
+struct Slot {
+    name: String,
+    declared: Node,
+    set: Option<String>,
+    state: State,
+}
+
+#[derive(Clone, Debug)]
+enum State {
+    Open,
+    Busy,
+    Failed,
+    Number(Quantity),
+    Text(String),
+}
+
+/// Span of the text inside the quotes of a text node.
+pub(crate) fn inner_span(source: &str, node: &Node, text: &str) -> Span {
+    let whole = source.get(node.span.clone()).unwrap_or_default();
+    match whole.find(text) {
+        Some(at) if !text.is_empty() => node.span.start + at..node.span.start + at + text.len(),
+        _ => node.span.clone(),
+    }
+}
+
+/// An error of an expression in quotes as a diagnostic of the file.
+pub(crate) fn expression_diagnostic(
+    error: ExpressionError,
+    source: &Arc<Source>,
+    node: &Node,
+    text: &str,
+) -> Diagnostic {
+    let inner = inner_span(&source.text, node, text);
+    // Escapes shift the characters of a text; the error then stands at the whole text.
+    let span = if inner.len() == text.len() {
+        inner.start + error.span.start.min(text.len())..inner.start + error.span.end.min(text.len())
+    } else {
+        node.span.clone()
+    };
+    let mut d = Diagnostic::new(error.code, error.message, span, source);
+    d.help = error.help;
+    d
+}
+
+impl Parameters {
+    /// Evaluates the parameters of a file with the values of `--set` in place of the declared ones.
+    pub fn new(
+        entries: &[Entry],
+        overrides: &[(String, String)],
+        units: FileUnits,
+        source: &Arc<Source>,
+    ) -> (Self, Vec<Diagnostic>) {
+        let slots: Vec<Slot> = entries
+            .iter()
+            .map(|e| Slot {
+                name: e.key.clone(),
+                declared: e.value.clone(),
+                set: None,
+                state: State::Open,
+            })
+            .collect();
+        let index = slots.iter().enumerate().map(|(i, s)| (s.name.clone(), i)).collect();
+        let source = Arc::clone(source);
+        let mut all = Self { slots, index, units, source, stack: Vec::new(), errors: Vec::new() };
+        for entry in entries {
+            all.check_name(entry);
+        }
+        for (name, value) in overrides {
+            if let Some(&i) = all.index.get(name) {
+                all.slots[i].set = Some(value.clone());
+            } else {
+                let help = names_help(name, "parameters", all.names());
+                let d = Diagnostic::new(
+                    "E0119",
+                    format!("the model has no parameter `{name}`"),
+                    0..name.len(),
+                    &argument(name, value),
+                );
+                all.errors.push(d.help(help));
+            }
+        }
+        for i in 0..all.slots.len() {
+            all.resolve(i);
+        }
+        let errors = std::mem::take(&mut all.errors);
+        (all, errors)
+    }
+
+    /// The values in file order; nothing for those that failed.
+    pub fn values(&self) -> Vec<Parameter> {
+        self.slots
+            .iter()
+            .filter_map(|s| {
+                let value = match &s.state {
+                    State::Number(q) => ParameterValue::Number(q.value, q.dimension),
+                    State::Text(t) => ParameterValue::Text(t.clone()),
+                    _ => return None,
+                };
+                Some(Parameter { name: s.name.clone(), value })
+            })
+            .collect()
+    }
+
+    /// The text of a text parameter.
+    pub fn text(&self, name: &str) -> Option<&str> {
+        match &self.slots.get(*self.index.get(name)?)?.state {
+            State::Text(t) => Some(t),
+            _ => None,
+        }
+    }
+
+    /// Names of the text parameters.
+    pub fn text_names(&self) -> Vec<&str> {
+        let texts = self.slots.iter().filter(|s| matches!(s.state, State::Text(_)));
+        texts.map(|s| s.name.as_str()).collect()
+    }
+
+    fn check_name(&mut self, entry: &Entry) {
+        let mut chars = entry.key.chars();
+        let good = chars.next().is_some_and(|c| c.is_alphabetic() || c == '_')
+            && chars.all(|c| c.is_alphanumeric() || c == '_')
+            && entry.key != "pi";
+        if !good {
+            let message = format!("`{}` cannot name a parameter", entry.key);
+            let help = "letters, digits and `_`, beginning with a letter, and not `pi`";
+            let span = entry.key_span.clone();
+            self.errors.push(Diagnostic::new("E0105", message, span, &self.source).help(help));
+        }
+    }
+
+    fn resolve(&mut self, i: usize) {
+        if !matches!(self.slots[i].state, State::Open) {
+            return;
+        }
+        self.slots[i].state = State::Busy;
+        self.stack.push(i);
+        let declared = self.declared(i);
+        let state = match (declared, self.slots[i].set.clone()) {
+            (State::Text(_), Some(text)) => State::Text(text),
+            (State::Number(q), Some(text)) => self.overridden(i, q, &text),
+            (declared, _) => declared,
+        };
+        self.stack.pop();
+        self.slots[i].state = state;
+    }
+
+    fn declared(&mut self, i: usize) -> State {
+        let node = self.slots[i].declared.clone();
+        match &node.kind {
+            Kind::Number(x) if x.is_finite() => State::Number(Quantity::bare(*x)),
+            Kind::Text(text) => match evaluate(text, self) {
+                Ok(q) => State::Number(q),
+                Err(error) => {
+                    if let Some(e) = error {
+                        let d = expression_diagnostic(e, &self.source, &node, text);
+                        self.errors.push(d);
+                    }
+                    State::Failed
+                }
+            },
+            Kind::List(Some(name), items) if name == "Text" => match items.as_slice() {
+                [Node { kind: Kind::Text(text), .. }] => State::Text(text.clone()),
+                _ => self.no_value(i, &node),
+            },
+            _ => self.no_value(i, &node),
+        }
+    }
+
+    fn no_value(&mut self, i: usize, node: &Node) -> State {
+        let name = &self.slots[i].name;
+        let message = format!("parameter `{name}` is {}: must be a finite number", node.describe());
+        let help = "write a number, an expression in quotes, or `Text(\"…\")` for a file name";
+        let d = Diagnostic::new("E0105", message, node.span.clone(), &self.source).help(help);
+        self.errors.push(d);
+        State::Failed
+    }
+
+    fn overridden(&mut self, i: usize, declared: Quantity, text: &str) -> State {
+        let name = self.slots[i].name.clone();
+        let source = argument(&name, text);
+        let before = name.len() + 1;
+        match evaluate(text, self) {
+            Err(None) => State::Failed,
+            Err(Some(e)) => {
+                let span = before + e.span.start..before + e.span.end;
+                let mut d = Diagnostic::new(e.code, e.message, span, &source);
+                d.help = e.help;
+                self.errors.push(d);
+                State::Failed
+            }
+            Ok(q) if !q.measured => {
+                let value = q.value * self.units.scale(declared.dimension);
+                State::Number(Quantity { value, ..declared })
+            }
+            Ok(q) if q.dimension.matches(declared.dimension) => State::Number(q),
+            Ok(q) => {
+                let (found, wanted) = (q.dimension, declared.dimension);
+                let message = format!(
+                    "`{name}` is set to a value in {found}, the model declares it in {wanted}"
+                );
+                let help = if declared.measured {
+                    format!("give a value in {wanted}, or a bare number in the file's units")
+                } else {
+                    format!("the model declares `{name}` as a bare number: give a bare number")
+                };
+                let span = before..before + text.len();
+                let d = Diagnostic::new("E0111", message, span, &source);
+                self.errors.push(d.help(help));
+                State::Failed
+            }
+        }
+    }
+}
+
+fn argument(name: &str, value: &str) -> Arc<Source> {
+    Arc::new(Source {
+        path: format!("--set {name}={value}").into(),
+        text: format!("{name}={value}"),
+        sha256: String::new(),
+    })
+}
+
+impl Scope for Parameters {
+    fn names(&self) -> Vec<&str> {
+        self.slots.iter().map(|s| s.name.as_str()).collect()
+    }
+
+    fn has(&self, name: &str) -> bool {
+        self.index.contains_key(name)
+    }
+
+    fn value(&mut self, name: &str) -> Result<Quantity, Option<(&'static str, String)>> {
+        let Some(&i) = self.index.get(name) else { return Err(None) };
+        if self.stack.len() >= CHAIN && matches!(self.slots[i].state, State::Open) {
+            let message = format!("more than {CHAIN} parameters depend on each other in a chain");
+            return Err(Some(("E0113", message)));
+        }
+        self.resolve(i);
+        match &self.slots[i].state {
+            State::Number(q) => Ok(*q),
+            State::Text(_) => {
+                Err(Some(("E0111", format!("parameter `{name}` is a text, not a number"))))
+            }
+            State::Busy => {
+                let from = self.stack.iter().position(|&k| k == i).unwrap_or(0);
+                let mut chain: Vec<String> = self.stack[from..]
+                    .iter()
+                    .map(|&k| format!("`{}`", self.slots[k].name))
+                    .collect();
+                chain.push(format!("`{name}`"));
+                let chain = chain.join(" → ");
+                Err(Some(("E0113", format!("parameters depend on each other: {chain}"))))
+            }
+            State::Open | State::Failed => Err(None),
+        }
+    }
+}
+
+/// A scope over parameters that are all evaluated.
+pub(crate) struct Evaluated<'a>(pub &'a Parameters);
+
+impl Scope for Evaluated<'_> {
+    fn names(&self) -> Vec<&str> {
+        self.0.names()
+    }
+    fn has(&self, name: &str) -> bool {
+        self.0.has(name)
+    }
+    fn value(&mut self, name: &str) -> Result<Quantity, Option<(&'static str, String)>> {
+        let slot = self.0.index.get(name).and_then(|&i| self.0.slots.get(i));
+        match slot.map(|s| &s.state) {
+            Some(State::Number(q)) => Ok(*q),
+            Some(State::Text(_)) => {
+                Err(Some(("E0111", format!("parameter `{name}` is a text, not a number"))))
+            }
+            _ => Err(None),
+        }
+    }
+}

@@ -1,0 +1,276 @@
+//! What every part of the reader needs: parameters, units, and a place for errors.
+
+use crate::diagnostic::{closest, names_help};
+use crate::expression::{Quantity, evaluate};
+use crate::parameters::{Evaluated, Parameters, expression_diagnostic};
+use crate::tree::{Entry, Kind, Node};
+use crate::units::FileUnits;
+use crate::{Diagnostic, Registry, Source, Span};
+use std::cell::RefCell;
+use std::path::PathBuf;
+use std::sync::Arc;
+use trilith_element::{Dimension, Dof, Range};
+
+/// The reader's surroundings. A method that returns `None` has reported why.
+pub(crate) struct Context<'a> {
+    pub source: Arc<Source>,
+    pub folder: PathBuf,
+    pub registry: &'a Registry,
+    pub units: FileUnits,
+    parameters: Parameters,
+    errors: RefCell<Vec<Diagnostic>>,
+}
+
+/// Fields in parentheses whose names have been checked.
+pub(crate) struct Fields<'n> {
+    what: String,
+    span: Span,
+    entries: &'n [Entry],
+}
+
+impl<'n> Fields<'n> {
+    pub fn get(&self, key: &str) -> Option<&'n Node> {
+        self.entries.iter().find(|e| e.key == key).map(|e| &e.value)
+    }
+
+    pub fn required(&self, c: &Context<'_>, key: &str) -> Option<&'n Node> {
+        let found = self.get(key);
+        if found.is_none() {
+            let message = format!("{} has no `{key}`", self.what);
+            let d = c.diagnostic("E0104", message, self.span.clone());
+            c.report(d.label(format!("`{key}` is missing")).help(format!("add `{key}: …`")));
+        }
+        found
+    }
+
+    pub fn entries(&self) -> &'n [Entry] {
+        self.entries
+    }
+}
+
+impl<'a> Context<'a> {
+    pub fn new(source: Arc<Source>, folder: PathBuf, registry: &'a Registry) -> Self {
+        let units = FileUnits::default();
+        let (parameters, _) = Parameters::new(&[], &[], units, &source);
+        Self { source, folder, registry, units, parameters, errors: RefCell::default() }
+    }
+
+    pub fn set_parameters(&mut self, entries: &[Entry], overrides: &[(String, String)]) {
+        let (all, errors) = Parameters::new(entries, overrides, self.units, &self.source);
+        self.parameters = all;
+        self.errors.borrow_mut().extend(errors);
+    }
+
+    pub fn parameters(&self) -> &Parameters {
+        &self.parameters
+    }
+
+    /// The errors in the order of the file; what was found twice is told once.
+    pub fn into_errors(self) -> Vec<Diagnostic> {
+        let mut errors = self.errors.into_inner();
+        errors.sort_by_key(|d| (d.source.path != self.source.path, d.span.start));
+        errors.dedup_by(|a, b| a.span == b.span && a.code == b.code && a.message == b.message);
+        errors
+    }
+
+    pub fn report(&self, diagnostic: Diagnostic) {
+        self.errors.borrow_mut().push(diagnostic);
+    }
+
+    pub fn diagnostic(
+        &self,
+        code: &'static str,
+        message: impl Into<String>,
+        at: Span,
+    ) -> Diagnostic {
+        Diagnostic::new(code, message, at, &self.source)
+    }
+
+    /// Reports that a value has the wrong form.
+    pub fn wrong<T>(&self, node: &Node, wanted: &str) -> Option<T> {
+        let message = format!("{wanted} is wanted here, not {}", node.describe());
+        self.report(self.diagnostic("E0105", message, node.span.clone()));
+        None
+    }
+
+    /// Entries of a section of the model; empty where it is left out.
+    pub fn section<'n>(&self, top: &Fields<'n>, key: &str, needed: bool) -> &'n [Entry] {
+        let node = if needed { top.required(self, key) } else { top.get(key) };
+        let Some(node) = node else { return &[] };
+        let entries: &[Entry] = match &node.kind {
+            Kind::Map(entries) => entries,
+            _ => {
+                let message = format!("`{key}` must be a map, not {}", node.describe());
+                let help = format!("write `{key}: {{ \"name\": … }}`");
+                self.report(self.diagnostic("E0105", message, node.span.clone()).help(help));
+                return &[];
+            }
+        };
+        if needed && entries.is_empty() {
+            let d = self.diagnostic("E0104", format!("`{key}` is empty"), node.span.clone());
+            self.report(d.help("a model needs at least one node, one element and one case"));
+        }
+        entries
+    }
+
+    /// The fields of `(…)` or `Name(…)`; a bare name has none. Unknown ones are reported.
+    pub fn fields<'n>(&self, node: &'n Node, what: &str, allowed: &[&str]) -> Option<Fields<'n>> {
+        let entries: &[Entry] = match &node.kind {
+            Kind::Fields(_, entries) => entries,
+            Kind::Name(_) => &[],
+            _ => return self.wrong(node, &format!("{what} with fields `(name: value)`")),
+        };
+        for e in entries.iter().filter(|e| !allowed.contains(&e.key.as_str())) {
+            let message = format!("{what} has no field `{}`", e.key);
+            let help = names_help(&e.key, "fields", allowed.iter().copied());
+            let mut d = self.diagnostic("E0103", message, e.key_span.clone()).help(help);
+            if let Some(near) = closest(&e.key, allowed.iter().copied()) {
+                d = d.suggestion(e.key_span.clone(), near);
+            }
+            self.report(d);
+        }
+        Some(Fields { what: what.to_owned(), span: node.name_span(), entries })
+    }
+
+    /// Which of these names a value has, as `Name`, `Name(…)` or a text.
+    pub fn choice(&self, node: &Node, what: &str, names: &[&str]) -> Option<usize> {
+        let name = match (&node.kind, node.name()) {
+            (_, Some(name)) => name,
+            (Kind::Text(text), _) if names.contains(&text.as_str()) => text,
+            (Kind::Text(text), _) => self.parameters.text(text).unwrap_or(text),
+            _ => return self.wrong(node, &format!("a {what} ({})", names.join(", "))),
+        };
+        let found = names.iter().position(|n| *n == name);
+        if found.is_none() {
+            let at = node.name_span();
+            let help = names_help(name, "choices", names.iter().copied());
+            let message = format!("there is no {what} `{name}`");
+            let mut d = self.diagnostic("E0107", message, at.clone()).help(help);
+            if let Some(near) = closest(name, names.iter().copied()) {
+                let quoted = matches!(node.kind, Kind::Text(_));
+                d = d.suggestion(at, if quoted { format!("\"{near}\"") } else { near.into() });
+            }
+            self.report(d);
+        }
+        found
+    }
+
+    pub fn dof(&self, node: &Node) -> Option<Dof> {
+        self.choice(node, "direction", &Dof::ALL.map(Dof::name)).map(|i| Dof::ALL[i])
+    }
+
+    pub fn text(&self, node: &Node, what: &str) -> Option<String> {
+        match &node.kind {
+            Kind::Text(text) => Some(text.clone()),
+            _ => self.wrong(node, &format!("a text in quotes for `{what}`")),
+        }
+    }
+
+    /// A number with whatever dimension it has.
+    pub fn quantity(&self, node: &Node) -> Option<Quantity> {
+        match &node.kind {
+            Kind::Number(x) if x.is_finite() => Some(Quantity::bare(*x)),
+            Kind::Number(x) => {
+                let message = format!("{x} is no finite number");
+                self.report(self.diagnostic("E0112", message, node.span.clone()));
+                None
+            }
+            Kind::Text(text) => match evaluate(text, &mut Evaluated(&self.parameters)) {
+                Ok(q) => Some(q),
+                Err(error) => {
+                    if let Some(e) = error {
+                        self.report(expression_diagnostic(e, &self.source, node, text));
+                    }
+                    None
+                }
+            },
+            _ => self.wrong(node, "a number, or an expression in quotes,"),
+        }
+    }
+
+    /// A number of this dimension, in SI.
+    pub fn number(&self, node: &Node, dimension: Dimension) -> Option<f64> {
+        self.in_dimension(node, self.quantity(node)?, dimension)
+    }
+
+    /// A quantity as a number of this dimension, in SI.
+    pub fn in_dimension(&self, node: &Node, q: Quantity, dimension: Dimension) -> Option<f64> {
+        if !q.measured {
+            return Some(q.value * self.units.scale(dimension));
+        }
+        if q.dimension.matches(dimension) {
+            return Some(q.value);
+        }
+        let name = |d: Dimension| match d.unit().as_str() {
+            "1" => "a pure number".to_owned(),
+            unit => format!("a value in {unit}"),
+        };
+        let message = format!("this is {}: must be {}", name(q.dimension), name(dimension));
+        self.report(
+            self.diagnostic("E0111", message, node.span.clone())
+                .label(format!("in {}", q.dimension))
+                .help(format!("give {}, or a bare number in the file's units", name(dimension))),
+        );
+        None
+    }
+
+    /// A number of this dimension within a range, in SI.
+    pub fn ranged(
+        &self,
+        node: &Node,
+        name: &str,
+        dimension: Dimension,
+        range: Range,
+    ) -> Option<f64> {
+        let value = self.number(node, dimension)?;
+        if range.contains(value) {
+            return Some(value);
+        }
+        let unit = match dimension.unit().as_str() {
+            "1" => String::new(),
+            unit => format!(" {unit}"),
+        };
+        let message = format!("`{name}` = {value}{unit}: must be {}", range.text());
+        let d = self.diagnostic("E0112", message, node.span.clone());
+        self.report(d.label(format!("must be {}", range.text())));
+        None
+    }
+
+    /// A whole number of at least `least`.
+    pub fn count(&self, node: &Node, name: &str, least: usize) -> Option<usize> {
+        let value = self.number(node, trilith_element::dimension::NONE)?;
+        if value >= least as f64 && value <= 1e9 && value.fract() == 0.0 {
+            return Some(value as usize);
+        }
+        let message = format!("`{name}` = {value}: must be a whole number, {least} or more");
+        self.report(self.diagnostic("E0112", message, node.span.clone()));
+        None
+    }
+
+    pub fn flag(&self, node: &Node, name: &str) -> Option<bool> {
+        if let Kind::Flag(b) = node.kind {
+            return Some(b);
+        }
+        match self.number(node, trilith_element::dimension::NONE)? {
+            0.0 => Some(false),
+            1.0 => Some(true),
+            x => {
+                let message = format!("`{name}` = {x}: must be true or false (or 1 or 0)");
+                self.report(self.diagnostic("E0112", message, node.span.clone()));
+                None
+            }
+        }
+    }
+
+    /// Three numbers of one dimension.
+    pub fn vector(&self, node: &Node, name: &str, dimension: Dimension) -> Option<[f64; 3]> {
+        let items = node.items();
+        if !node.is_list() || items.len() != 3 {
+            let message = format!("`{name}` must be a list of three numbers `(x, y, z)`");
+            self.report(self.diagnostic("E0105", message, node.span.clone()));
+            return None;
+        }
+        let [x, y, z] = [0, 1, 2].map(|i| self.number(items[i], dimension));
+        Some([x?, y?, z?])
+    }
+}

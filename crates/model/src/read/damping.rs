@@ -1,0 +1,71 @@
+//! The damping statement.
+
+use super::context::Context;
+use crate::Damping;
+use crate::tree::Node;
+use std::f64::consts::TAU;
+use trilith_element::Range;
+use trilith_element::dimension::{FREQUENCY, NONE, TIME};
+
+const KINDS: [&str; 5] = ["None", "Modal", "ModalTable", "Rayleigh", "RayleighAt"];
+const RATIO: Range = Range::Within(0.0, 0.999);
+
+pub(super) fn damping(c: &Context<'_>, node: &Node) -> Option<Damping> {
+    let what = "`damping`";
+    match KINDS[c.choice(node, "damping", &KINDS)?] {
+        "None" => c.fields(node, what, &[]).map(|_| Damping::None),
+        "Modal" => {
+            let fields = c.fields(node, what, &["ratio"])?;
+            let ratio = c.ranged(fields.required(c, "ratio")?, "ratio", NONE, RATIO)?;
+            Some(Damping::Modal { ratio })
+        }
+        "ModalTable" => table(c, node),
+        "Rayleigh" => {
+            let fields = c.fields(node, what, &["mass", "stiffness"])?;
+            let one = |key, dimension| {
+                fields
+                    .get(key)
+                    .map_or(Some(0.0), |n| c.ranged(n, key, dimension, Range::NonNegative))
+            };
+            let (mass, stiffness) = (one("mass", FREQUENCY), one("stiffness", TIME));
+            Some(Damping::Rayleigh { mass: mass?, stiffness: stiffness? })
+        }
+        _ => {
+            let fields = c.fields(node, what, &["ratio", "f1", "f2"])?;
+            let ratio = fields.required(c, "ratio").and_then(|n| c.ranged(n, "ratio", NONE, RATIO));
+            let frequency = |key: &str| {
+                c.ranged(fields.required(c, key)?, key, FREQUENCY, Range::Positive).map(|f| TAU * f)
+            };
+            let (w1, w2) = (frequency("f1"), frequency("f2"));
+            let (ratio, w1, w2) = (ratio?, w1?, w2?);
+            // ζ = mass/(2ω) + stiffness·ω/2 at both frequencies.
+            let stiffness = 2.0 * ratio / (w1 + w2);
+            Some(Damping::Rayleigh { mass: stiffness * w1 * w2, stiffness })
+        }
+    }
+}
+
+fn table(c: &Context<'_>, node: &Node) -> Option<Damping> {
+    let fields = c.fields(node, "`damping`", &["points"])?;
+    let list = fields.required(c, "points")?;
+    let mut points: Vec<(f64, f64)> = Vec::new();
+    for item in list.items() {
+        let pair = item.items();
+        if !item.is_list() || pair.len() != 2 {
+            return c.wrong(item, "a pair `(frequency, ratio)`");
+        }
+        let f = c.ranged(pair[0], "frequency", FREQUENCY, Range::NonNegative);
+        let ratio = c.ranged(pair[1], "ratio", NONE, RATIO);
+        let (f, ratio) = (f?, ratio?);
+        if let Some((before, _)) = points.last().filter(|(before, _)| *before >= f) {
+            let message = format!("frequencies must rise: {f} Hz follows {before} Hz");
+            c.report(c.diagnostic("E0112", message, item.span.clone()));
+            return None;
+        }
+        points.push((f, ratio));
+    }
+    if points.is_empty() {
+        return c.wrong(list, "a list of `(frequency, ratio)`");
+    }
+    Some(Damping::ModalTable { points })
+}

@@ -1,0 +1,210 @@
+//! Dynamic cases.
+
+use super::cases::Surroundings;
+use super::context::{Context, Fields};
+use super::{loads, solution};
+use crate::tree::{Kind, Node};
+use crate::{
+    AfterEnd, BaseMotion, DynamicCase, ForceHistory, Initial, Interpolation, SupportMotion,
+};
+use trilith_element::dimension::{ACCELERATION, FREQUENCY, LENGTH, NONE, TIME, VELOCITY};
+use trilith_element::{Dimension, Dof, Range};
+
+pub(super) const FIELDS: &[&str] = &[
+    "after",
+    "duration",
+    "dt",
+    "constant",
+    "base",
+    "forces",
+    "supports",
+    "initial",
+    "solver",
+    "step",
+    "kernel",
+    "energy_limit",
+    "basis",
+    "alpha",
+];
+
+struct Reading<'c, 'n> {
+    c: &'c Context<'c>,
+    about: &'c Surroundings<'c, 'n>,
+    duration: Option<f64>,
+}
+
+pub(super) fn dynamic(
+    c: &Context<'_>,
+    fields: &Fields<'_>,
+    about: &Surroundings<'_, '_>,
+) -> Option<DynamicCase> {
+    let time = |key: &str| c.ranged(fields.required(c, key)?, key, TIME, Range::Positive);
+    let (duration, dt) = (time("duration"), time("dt"));
+    if let (Some(duration), Some(dt), Some(node)) = (duration, dt, fields.get("dt")) {
+        if dt > duration * (1.0 + 1e-9) {
+            let message = format!("`dt` = {dt} s is longer than the case: must be ≤ {duration} s");
+            c.report(c.diagnostic("E0112", message, node.span.clone()));
+        }
+    }
+    let r = Reading { c, about, duration };
+    let constant =
+        fields.get("constant").map_or(Some(Vec::new()), |n| loads::list(c, n, about.loads));
+    let base = r.list(fields, "base", Reading::base);
+    let forces = r.list(fields, "forces", Reading::force);
+    let supports = r.list(fields, "supports", Reading::support);
+    let initial = r.list(fields, "initial", Reading::initial);
+    let solution = solution::solution(c, fields);
+    Some(DynamicCase {
+        duration: duration?,
+        dt: dt?,
+        constant: constant?,
+        base: base?,
+        forces: forces?,
+        supports: supports?,
+        initial: initial?,
+        solution: solution?,
+    })
+}
+
+impl Reading<'_, '_> {
+    fn list<T>(
+        &self,
+        fields: &Fields<'_>,
+        key: &str,
+        one: fn(&Self, &Node) -> Option<T>,
+    ) -> Option<Vec<T>> {
+        let Some(node) = fields.get(key) else { return Some(Vec::new()) };
+        let all: Vec<_> = node.items().into_iter().map(|n| one(self, n)).collect();
+        all.into_iter().collect()
+    }
+
+    fn base(&self, node: &Node) -> Option<BaseMotion> {
+        let c = self.c;
+        let fields = c.fields(node, "a base motion", &["direction", "function", "factor"])?;
+        let names = ["X", "Y", "Z", "Ux", "Uy", "Uz"];
+        let direction =
+            fields.required(c, "direction").and_then(|n| c.choice(n, "direction", &names));
+        let (function, factor) = self.function(&fields, ACCELERATION)?;
+        Some(BaseMotion { direction: Dof::ALL[direction? % 3], function, factor })
+    }
+
+    fn force(&self, node: &Node) -> Option<ForceHistory> {
+        let c = self.c;
+        let fields = c.fields(node, "a force history", &["load", "function", "factor"])?;
+        let pattern = fields.required(c, "load").and_then(|n| self.about.loads.refer(c, n));
+        let (function, factor) = self.function(&fields, NONE)?;
+        Some(ForceHistory { pattern: pattern?, function, factor })
+    }
+
+    fn support(&self, item: &Node) -> Option<SupportMotion> {
+        let c = self.c;
+        let allowed = ["node", "dof", "displacement", "factor"];
+        let fields = c.fields(item, "a support motion", &allowed)?;
+        let (node, dof) = self.place(&fields);
+        let (node, dof) = (node?, dof?);
+        let wanted = if dof.is_rotation() { NONE } else { LENGTH };
+        let (function, factor) = self.history(&fields, "displacement", wanted)?;
+        let at = fields.get("displacement").map_or(item.span.clone(), |n| n.span.clone());
+        let read = self.about.functions_read[function].as_ref();
+        let linear = read.and_then(|f| f.function.table());
+        if linear.is_some_and(|t| t.interpolation() == Interpolation::Linear) {
+            let name = self.about.functions.name(function);
+            let message = format!(
+                "`{name}` is a linear table: as a displacement its acceleration is a row of spikes"
+            );
+            let d = c.diagnostic("E0118", message, at);
+            c.report(d.help(format!("write `interpolation: Cubic` in function `{name}`")));
+            return None;
+        }
+        let fixed = |s: &&crate::Support| s.node == node && s.fixed[dof.index()];
+        if !self.about.supports.iter().flatten().any(|s| fixed(&s)) {
+            let name = self.about.nodes.name(node);
+            let message = format!("{} of node `{name}` is not fixed by a support", dof.name());
+            let d = c.diagnostic("E0116", message, item.span.clone());
+            let help = format!("add {} to `\"{name}\"` in `supports`", dof.name());
+            c.report(d.help(help));
+            return None;
+        }
+        Some(SupportMotion { node, dof, function, factor })
+    }
+
+    fn initial(&self, item: &Node) -> Option<Initial> {
+        let c = self.c;
+        let allowed = ["node", "dof", "displacement", "velocity"];
+        let fields = c.fields(item, "an initial value", &allowed)?;
+        let (node, dof) = self.place(&fields);
+        let dof = dof?;
+        let (length, speed) =
+            if dof.is_rotation() { (NONE, FREQUENCY) } else { (LENGTH, VELOCITY) };
+        let one = |key, d| fields.get(key).map_or(Some(None), |n| c.number(n, d).map(Some));
+        let (displacement, velocity) = (one("displacement", length), one("velocity", speed));
+        let (displacement, velocity) = (displacement?, velocity?);
+        if displacement.is_none() && velocity.is_none() {
+            let d = c.diagnostic("E0104", "this initial value sets nothing", item.span.clone());
+            c.report(d.help("give `displacement`, `velocity` or both"));
+            return None;
+        }
+        Some(Initial { node: node?, dof, displacement, velocity })
+    }
+
+    fn place(&self, fields: &Fields<'_>) -> (Option<usize>, Option<Dof>) {
+        let c = self.c;
+        let node = fields.required(c, "node").and_then(|n| self.about.nodes.refer(c, n));
+        (node, fields.required(c, "dof").and_then(|n| c.dof(n)))
+    }
+
+    fn function(&self, fields: &Fields<'_>, wanted: Dimension) -> Option<(usize, f64)> {
+        self.history(fields, "function", wanted)
+    }
+
+    /// The function that a field names and its factor, together of the wanted dimension.
+    fn history(&self, fields: &Fields<'_>, key: &str, wanted: Dimension) -> Option<(usize, f64)> {
+        let c = self.c;
+        let node = fields.required(c, key)?;
+        let index = self.about.functions.refer(c, node);
+        let factor = fields
+            .get("factor")
+            .map_or(Some(crate::expression::Quantity::bare(1.0)), |n| c.quantity(n));
+        let (index, factor) = (index?, factor?);
+        let Some(function) = self.about.functions_read[index].as_ref() else {
+            return None;
+        };
+        self.check_length(node, &function.function, &function.name);
+        let (own, factor_dimension) = (function.dimension, factor.dimension);
+        let found = own.unwrap_or(NONE) * factor_dimension;
+        if own.is_none() && !factor.measured {
+            // Plain numbers are in the file's units of what is wanted.
+            return Some((index, factor.value * c.units.scale(wanted)));
+        }
+        if found.matches(wanted) {
+            return Some((index, factor.value));
+        }
+        let name = |d: Dimension| if d.is_none() { "a pure number".into() } else { d.unit() };
+        let message = format!(
+            "function `{}` with its factor gives {}: must give {}",
+            function.name,
+            name(found),
+            name(wanted)
+        );
+        let unit = if wanted.is_none() { "no unit".to_owned() } else { format!("`{wanted}`") };
+        let d = c.diagnostic("E0111", message, node.span.clone());
+        c.report(d.help(format!("its amplitude (or its table's `unit`) must be in {unit}")));
+        None
+    }
+
+    fn check_length(&self, node: &Node, function: &crate::TimeFunction, name: &str) {
+        let (Some(duration), Some(table)) = (self.duration, function.table()) else { return };
+        let end = table.end();
+        if table.after_end() != AfterEnd::Error || end >= duration * (1.0 - 1e-9) {
+            return;
+        }
+        let message = format!("function `{name}` ends at {end} s, the case at {duration} s");
+        let help = format!(
+            "shorten `duration` to {end} s, or write `after_end: Zero` or `after_end: Hold` in the table"
+        );
+        let quoted = matches!(node.kind, Kind::Text(_) | Kind::Name(_));
+        let label = if quoted { "too short" } else { "" };
+        let d = self.c.diagnostic("E0118", message, node.span.clone());
+        self.c.report(d.label(label).help(help));
+    }
+}

@@ -1,0 +1,273 @@
+//! Elements, constraints and links.
+
+use super::context::{Context, Fields};
+use super::names::Names;
+use super::values::{Given, values};
+use crate::diagnostic::names_help;
+use crate::registry::Reader;
+use crate::tree::{Entry, Node};
+use crate::{Body, Element, LinkOptions, Span};
+use trilith_element::dimension::{LENGTH, MOMENT, NONE, STIFFNESS};
+use trilith_element::{
+    Card, Category, Coordinates, Frame, Link, NodeCount, ParameterError, Range, Vector3,
+};
+
+const FRONT: &[&str] = &["axis1", "axis2"];
+const LINK_FRONT: &[&str] = &["effective_stiffness", "shear_at"];
+const PLACE: &[&str] = &["nodes", "node", "use"];
+
+struct Reading<'c, 'n> {
+    c: &'c Context<'c>,
+    sets: Names<'n>,
+    properties: &'n [Entry],
+    names: &'c Names<'n>,
+    nodes: &'c [Option<crate::Node>],
+}
+
+pub(super) fn elements<'n>(
+    c: &Context<'_>,
+    entries: &'n [Entry],
+    properties: &'n [Entry],
+    names: &Names<'n>,
+    nodes: &[Option<crate::Node>],
+) -> Vec<Option<Element>> {
+    let sets = Names::new("property set", "property sets", properties);
+    let reading = Reading { c, sets, properties, names, nodes };
+    for e in properties {
+        // Known kind and known fields; values are read where the set is used.
+        if let Some((card, _)) = kind(c, &e.value) {
+            let what = format!("property set `{}`", e.key);
+            let _ = c.fields(&e.value, &what, &allowed(card, &[]));
+        }
+    }
+    entries.iter().map(|e| reading.element(e)).collect()
+}
+
+/// The kind that a value names.
+fn kind(c: &Context<'_>, node: &Node) -> Option<(&'static Card, Reader)> {
+    let Some(name) = node.name() else {
+        return c.wrong(node, "a kind with its parameters, `Kind(…)`,");
+    };
+    let found = c.registry.find(name);
+    if found.is_none() {
+        let kinds: Vec<&str> = c.registry.cards().map(|card| card.kind).collect();
+        let span = node.name_span();
+        let mut d = c
+            .diagnostic("E0107", format!("there is no kind `{name}`"), span.clone())
+            .help(names_help(name, "kinds", kinds.iter().copied()));
+        if let Some(near) = crate::diagnostic::closest(name, kinds) {
+            d = d.suggestion(span, near);
+        }
+        c.report(d);
+    }
+    found
+}
+
+fn allowed(card: &Card, place: &[&'static str]) -> Vec<&'static str> {
+    let mut all: Vec<&str> = place.to_vec();
+    all.extend(card.parameters.iter().map(|p| p.name));
+    all.extend(FRONT);
+    if card.category == Category::Link {
+        all.extend(LINK_FRONT);
+    }
+    all
+}
+
+impl Reading<'_, '_> {
+    fn element(&self, e: &Entry) -> Option<Element> {
+        let c = self.c;
+        let (card, reader) = kind(c, &e.value)?;
+        let what = format!("element `{}`", e.key);
+        let fields = c.fields(&e.value, &what, &allowed(card, PLACE))?;
+        let at = e.value.name_span();
+        let shared = match fields.get("use") {
+            Some(node) => self.shared(node, card),
+            None => Some(&[][..]),
+        };
+        let nodes = self.members(&fields, card, &what, &at);
+        let given = Given { own: fields.entries(), shared: shared? };
+        let values = values(c, card, &given, &what, &at, self.names);
+        let axis = |key: &'static str| match given.get(key) {
+            None => Some(None),
+            Some(node) => c.vector(node, key, NONE).map(Some),
+        };
+        let (axis1, axis2) = (axis("axis1"), axis("axis2"));
+        let (nodes, values) = (nodes?, values?);
+        let positions: Option<Vec<Vector3>> =
+            nodes.iter().map(|&i| self.nodes[i].as_ref().map(|n| n.position)).collect();
+        let (axis1, axis2) = (axis1?, axis2?);
+        let frame = match Frame::of_nodes(&positions?, axis1, axis2) {
+            Ok(frame) => Some(frame),
+            Err(error) => {
+                let place = given.get("axis2").or(given.get("axis1"));
+                let span = place.map_or(at.clone(), |n| n.span.clone());
+                c.report(c.diagnostic("E0114", format!("{what}: {error}"), span));
+                None
+            }
+        };
+        let body = match reader {
+            Reader::Linear(read) => read(&values).map(Body::Linear),
+            Reader::Constraint(read) => read(&values).map(Body::Constraint),
+            Reader::Link(read) => read(&values).map(|l| Body::Link(l, LinkOptions::default())),
+        };
+        let body = match body {
+            Ok(Body::Link(law, _)) => {
+                let options = self.link_options(&given, law.as_ref(), &what, &at, nodes.len())?;
+                Body::Link(law, options)
+            }
+            Ok(body) => body,
+            Err(error) => return self.refuse(&error, &given, &what, &at),
+        };
+        Some(Element {
+            name: e.key.clone(),
+            kind: card.kind,
+            nodes,
+            frame: frame?,
+            body,
+            span: e.key_span.clone(),
+            values,
+            axes: [axis1, axis2],
+        })
+    }
+
+    fn refuse<T>(
+        &self,
+        error: &ParameterError,
+        given: &Given<'_>,
+        what: &str,
+        at: &Span,
+    ) -> Option<T> {
+        let place = error.parameter().and_then(|name| given.get(name));
+        let span = place.map_or(at.clone(), |n| n.span.clone());
+        self.c.report(self.c.diagnostic("E0114", format!("{what}: {error}"), span));
+        None
+    }
+
+    /// The fields of the set that an element uses.
+    fn shared(&self, node: &Node, card: &Card) -> Option<&[Entry]> {
+        let i = self.sets.refer(self.c, node)?;
+        let set = &self.properties[i];
+        let name = set.value.name()?;
+        if name != card.kind {
+            let message =
+                format!("property set `{}` is for {name}, this element is {}", set.key, card.kind);
+            let d = self.c.diagnostic("E0107", message, node.span.clone());
+            self.c.report(d.related(set.value.name_span(), "the kind of the set"));
+            return None;
+        }
+        match &set.value.kind {
+            crate::tree::Kind::Fields(_, entries) => Some(entries),
+            _ => Some(&[]),
+        }
+    }
+
+    /// Indices of the element's nodes.
+    fn members(
+        &self,
+        fields: &Fields<'_>,
+        card: &Card,
+        what: &str,
+        at: &Span,
+    ) -> Option<Vec<usize>> {
+        let c = self.c;
+        let items: Vec<&Node> = match (fields.get("nodes"), fields.get("node")) {
+            (Some(_), Some(one)) => {
+                let d = c.diagnostic(
+                    "E0102",
+                    format!("{what} has `nodes` and `node`"),
+                    one.span.clone(),
+                );
+                c.report(d.help("keep one of the two"));
+                return None;
+            }
+            (Some(list), None) => list.items(),
+            (None, Some(one)) => vec![one],
+            (None, None) => return fields.required(c, "nodes").and(None),
+        };
+        let NodeCount { min, max } = card.nodes;
+        if !(min..=max).contains(&items.len()) {
+            let wanted = match (min, max) {
+                (a, b) if a == b => format!("{a}"),
+                (a, usize::MAX) => format!("{a} or more"),
+                (a, b) => format!("{a} to {b}"),
+            };
+            let message = format!("{what} has {} nodes: {} takes {wanted}", items.len(), card.kind);
+            let place = fields.get("nodes").or(fields.get("node"));
+            let span = place.map_or(at.clone(), |n| n.span.clone());
+            c.report(c.diagnostic("E0115", message, span));
+            return None;
+        }
+        let found: Vec<_> = items.iter().map(|n| self.names.refer(c, n)).collect();
+        let found: Vec<usize> = found.into_iter().collect::<Option<_>>()?;
+        for (k, i) in found.iter().enumerate() {
+            if let Some(before) = found[..k].iter().position(|j| j == i) {
+                let message = format!("{what} has the node `{}` twice", self.names.name(*i));
+                let d = c.diagnostic("E0115", message, items[k].span.clone());
+                c.report(d.related(items[before].span.clone(), "first given here"));
+                return None;
+            }
+        }
+        Some(found)
+    }
+
+    fn link_options(
+        &self,
+        given: &Given<'_>,
+        law: &dyn Link,
+        what: &str,
+        at: &Span,
+        nodes: usize,
+    ) -> Option<LinkOptions> {
+        let c = self.c;
+        let coordinates = law.coordinates();
+        let misfit = match &coordinates {
+            Coordinates::Local(_) if nodes > 2 => {
+                Some(format!("{what} has {nodes} nodes: its law works between two"))
+            }
+            Coordinates::Nodal { nodes: wanted } if *wanted != nodes => {
+                Some(format!("{what} has {nodes} nodes: its law wants {wanted}"))
+            }
+            _ => None,
+        };
+        if let Some(message) = misfit {
+            c.report(c.diagnostic("E0115", message, at.clone()));
+            return None;
+        }
+        let shear_at = match given.get("shear_at") {
+            Some(node) => c.number(node, LENGTH),
+            None => Some(0.0),
+        };
+        let effective_stiffness = match given.get("effective_stiffness") {
+            Some(node) => self.effective_stiffness(node, &coordinates).map(Some),
+            None => Some(None),
+        };
+        Some(LinkOptions { effective_stiffness: effective_stiffness?, shear_at: shear_at? })
+    }
+
+    /// One number for all coordinates, or a list with one for each.
+    fn effective_stiffness(&self, node: &Node, coordinates: &Coordinates) -> Option<Vec<f64>> {
+        let n = coordinates.len();
+        let rotation = |i: usize| match coordinates {
+            Coordinates::Local(axes) => axes[i].index() > 2,
+            Coordinates::Nodal { .. } => i % 6 > 2,
+        };
+        let items = if node.is_list() { node.items() } else { vec![node; n] };
+        if items.len() != n {
+            let message = format!(
+                "`effective_stiffness` has {} numbers: the law has {n} coordinates",
+                items.len()
+            );
+            self.c.report(self.c.diagnostic("E0105", message, node.span.clone()));
+            return None;
+        }
+        let read: Vec<_> = items
+            .iter()
+            .enumerate()
+            .map(|(i, item)| {
+                let dimension = if rotation(i) { MOMENT } else { STIFFNESS };
+                self.c.ranged(item, "effective_stiffness", dimension, Range::NonNegative)
+            })
+            .collect();
+        read.into_iter().collect()
+    }
+}

@@ -1,0 +1,64 @@
+//! Load patterns and the lists of loads that cases apply.
+
+use super::context::Context;
+use super::names::Names;
+use crate::tree::{Entry, Kind, Node};
+use crate::{Load, NodalForce, Pattern};
+use trilith_element::dimension::{FORCE, MOMENT, NONE};
+
+pub(super) fn patterns(
+    c: &Context<'_>,
+    entries: &[Entry],
+    nodes: &Names<'_>,
+) -> Vec<Option<Pattern>> {
+    let one = |e: &Entry| {
+        let items = e.value.items();
+        let forces: Vec<_> = items.iter().map(|n| force(c, n, nodes, &e.key)).collect();
+        if forces.is_empty() {
+            let d =
+                c.diagnostic("E0104", format!("load `{}` is empty", e.key), e.value.span.clone());
+            c.report(d.help("write `[(node: \"…\", dof: Uz, force: …)]`"));
+        }
+        let forces = forces.into_iter().collect::<Option<Vec<_>>>()?;
+        Some(Pattern { name: e.key.clone(), forces })
+    };
+    entries.iter().map(one).collect()
+}
+
+fn force(c: &Context<'_>, item: &Node, nodes: &Names<'_>, load: &str) -> Option<NodalForce> {
+    let what = format!("load `{load}`");
+    let fields = c.fields(item, &what, &["node", "dof", "force", "moment"])?;
+    let node = fields.required(c, "node").and_then(|n| nodes.refer(c, n));
+    let dof = fields.required(c, "dof").and_then(|n| c.dof(n))?;
+    let (key, other, dimension) =
+        if dof.is_rotation() { ("moment", "force", MOMENT) } else { ("force", "moment", FORCE) };
+    if let Some(wrong) = fields.get(other) {
+        let message = format!("{what}: {} takes a `{key}`, not a `{other}`", dof.name());
+        c.report(c.diagnostic("E0105", message, wrong.span.clone()));
+        return None;
+    }
+    let value = c.number(fields.required(c, key)?, dimension)?;
+    Some(NodalForce { node: node?, dof, value })
+}
+
+/// `[Gravity, Gravity(factor: 1), (load: "name", factor: 1)]`.
+pub(super) fn list(c: &Context<'_>, node: &Node, loads: &Names<'_>) -> Option<Vec<Load>> {
+    let all: Vec<_> = node.items().into_iter().map(|n| load(c, n, loads)).collect();
+    all.into_iter().collect()
+}
+
+fn load(c: &Context<'_>, node: &Node, loads: &Names<'_>) -> Option<Load> {
+    if node.name().is_some() {
+        c.choice(node, "load", &["Gravity"])?;
+        let fields = c.fields(node, "`Gravity`", &["factor"])?;
+        let factor = fields.get("factor").map_or(Some(1.0), |n| c.number(n, NONE))?;
+        return Some(Load::Gravity { factor });
+    }
+    if let Kind::Text(_) = node.kind {
+        return Some(Load::Pattern { pattern: loads.refer(c, node)?, factor: 1.0 });
+    }
+    let fields = c.fields(node, "a load", &["load", "factor"])?;
+    let pattern = fields.required(c, "load").and_then(|n| loads.refer(c, n));
+    let factor = fields.get("factor").map_or(Some(1.0), |n| c.number(n, NONE));
+    Some(Load::Pattern { pattern: pattern?, factor: factor? })
+}

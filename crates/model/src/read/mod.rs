@@ -1,0 +1,218 @@
+//! Reading a model file: RON text in, checked [`Model`] in SI out.
+
+mod cases;
+mod context;
+mod damping;
+mod dynamic;
+mod elements;
+mod functions;
+mod loads;
+mod names;
+mod nodes;
+mod outputs;
+mod record;
+mod solution;
+mod values;
+
+#[cfg(test)]
+mod tests;
+
+use crate::tree::{self, Node};
+use crate::units::{FileUnits, STANDARD_GRAVITY};
+use crate::{Diagnostic, Model, Plane, Registry, Source};
+use context::Context;
+use names::Names;
+pub(crate) use outputs::nodal_dimension;
+use sha2::{Digest, Sha256};
+use std::path::Path;
+use std::sync::Arc;
+use trilith_element::dimension as d;
+
+const SECTIONS: &[&str] = &[
+    "title",
+    "units",
+    "plane",
+    "gravity",
+    "parameters",
+    "nodes",
+    "supports",
+    "properties",
+    "elements",
+    "damping",
+    "functions",
+    "loads",
+    "cases",
+    "outputs",
+];
+
+/// Reads a model file. `overrides` are names and values of parameters that replace those of the
+/// file; a value is an expression, or the text of a text parameter.
+///
+/// # Errors
+/// All errors of the file at once; of a file that is no RON, the first.
+pub fn read(
+    path: impl AsRef<Path>,
+    registry: &Registry,
+    overrides: &[(String, String)],
+) -> Result<Model, Vec<Diagnostic>> {
+    let path = path.as_ref();
+    match std::fs::read_to_string(path) {
+        Ok(text) => read_text(&text, path, registry, overrides),
+        Err(error) => {
+            let source = Arc::new(Source { path: path.to_owned(), ..Source::default() });
+            let message = format!("the model file cannot be read: {error}");
+            Err(vec![Diagnostic::new("E0100", message, 0..0, &source)])
+        }
+    }
+}
+
+/// Reads a model from a text. Files it names are looked for in the folder of `path`.
+///
+/// # Errors
+/// As [`read`].
+pub fn read_text(
+    text: &str,
+    path: impl AsRef<Path>,
+    registry: &Registry,
+    overrides: &[(String, String)],
+) -> Result<Model, Vec<Diagnostic>> {
+    let path = path.as_ref();
+    let digest = Sha256::digest(text.as_bytes());
+    let sha256 = digest.iter().map(|b| format!("{b:02x}")).collect();
+    let source = Arc::new(Source { path: path.to_owned(), text: text.to_owned(), sha256 });
+    if let Some(kind) = registry.duplicates().first() {
+        let message = format!("two kinds are registered under the name `{kind}`");
+        let help = "give one of them another name";
+        return Err(vec![Diagnostic::new("E0121", message, 0..0, &source).help(help)]);
+    }
+    let root = tree::parse(text).map_err(|e| {
+        let d = Diagnostic::new(e.code, e.message, e.span, &source);
+        vec![match e.related {
+            Some(first) => d.related(first, "first given here").help("keep one of the two"),
+            None => d,
+        }]
+    })?;
+    let folder = path.parent().unwrap_or(Path::new("")).to_owned();
+    let mut context = Context::new(Arc::clone(&source), folder, registry);
+    let model = sections(&mut context, &root, overrides);
+    let errors = context.into_errors();
+    match model {
+        Some(model) if errors.is_empty() => Ok(model),
+        _ if errors.is_empty() => {
+            Err(vec![Diagnostic::new("E0105", "this is no model", root.span, &source)])
+        }
+        _ => Err(errors),
+    }
+}
+
+fn sections(c: &mut Context<'_>, root: &Node, overrides: &[(String, String)]) -> Option<Model> {
+    let top = c.fields(root, "the model", SECTIONS)?;
+    if let Some(node) = top.get("units") {
+        c.units = file_units(c, node).unwrap_or_default();
+    }
+    let declared = c.section(&top, "parameters", false);
+    c.set_parameters(declared, overrides);
+    let c = &*c;
+
+    let plane = top.get("plane").and_then(|node| {
+        let all = [Plane::XZ, Plane::YZ, Plane::XY];
+        c.choice(node, "plane", &["XZ", "YZ", "XY"]).map(|i| all[i])
+    });
+    let gravity = match top.get("gravity") {
+        Some(node) => {
+            c.ranged(node, "gravity", d::ACCELERATION, trilith_element::Range::NonNegative)
+        }
+        None => Some(STANDARD_GRAVITY),
+    };
+    let title = top.get("title").map_or(Some(String::new()), |n| c.text(n, "title"));
+
+    let node_entries = c.section(&top, "nodes", true);
+    let element_entries = c.section(&top, "elements", true);
+    let function_entries = c.section(&top, "functions", false);
+    let load_entries = c.section(&top, "loads", false);
+    let case_entries = c.section(&top, "cases", true);
+    let node_names = Names::new("node", "nodes", node_entries);
+    let element_names = Names::new("element", "elements", element_entries);
+    let function_names = Names::new("function", "functions", function_entries);
+    let load_names = Names::new("load", "loads", load_entries);
+
+    let nodes = nodes::nodes(c, node_entries);
+    let supports = nodes::supports(c, c.section(&top, "supports", false), &node_names);
+    let properties = c.section(&top, "properties", false);
+    let elements = elements::elements(c, element_entries, properties, &node_names, &nodes);
+    let damping = top.get("damping").map_or(Some(crate::Damping::None), |n| damping::damping(c, n));
+    let functions = functions::functions(c, function_entries, &function_names);
+    let patterns = loads::patterns(c, load_entries, &node_names);
+    let about = cases::Surroundings {
+        nodes: &node_names,
+        supports: &supports,
+        functions: &function_names,
+        functions_read: &functions,
+        loads: &load_names,
+    };
+    let cases = cases::cases(c, case_entries, &about);
+    let outputs = outputs::outputs(
+        c,
+        c.section(&top, "outputs", false),
+        &node_names,
+        &element_names,
+        &elements,
+    );
+    Some(Model {
+        title: title?,
+        source: Source::clone(&c.source),
+        plane,
+        gravity: gravity?,
+        parameters: c.parameters().values(),
+        nodes: nodes.into_iter().flatten().collect(),
+        supports: supports.into_iter().flatten().collect(),
+        elements: elements.into_iter().flatten().collect(),
+        damping: damping?,
+        functions: functions.into_iter().flatten().collect(),
+        patterns: patterns.into_iter().flatten().collect(),
+        cases: cases.into_iter().flatten().collect(),
+        outputs: outputs.into_iter().flatten().collect(),
+    })
+}
+
+/// `units: (length: "in", force: "kip", time: "s")`; mass may stand in place of force.
+fn file_units(c: &Context<'_>, node: &Node) -> Option<FileUnits> {
+    let fields = c.fields(node, "`units`", &["length", "force", "mass", "time"])?;
+    let one = |key: &'static str, dimension| match fields.get(key) {
+        None => Some(1.0),
+        Some(node) => base_unit(c, node, key, dimension),
+    };
+    if let (Some(force), Some(mass)) = (fields.get("force"), fields.get("mass")) {
+        c.report(
+            c.diagnostic("E0105", "`units` names both a force and a mass", mass.span.clone())
+                .related(force.span.clone(), "the force")
+                .help("keep one of the two; the other follows from length and time"),
+        );
+        return None;
+    }
+    let (length, time) = (one("length", d::LENGTH)?, one("time", d::TIME)?);
+    let mass = match fields.get("force") {
+        Some(node) => base_unit(c, node, "force", d::FORCE)? * time * time / length,
+        None => one("mass", d::MASS)?,
+    };
+    Some(FileUnits { length, mass, time })
+}
+
+fn base_unit(
+    c: &Context<'_>,
+    node: &Node,
+    what: &str,
+    dimension: trilith_element::Dimension,
+) -> Option<f64> {
+    let name = c.text(node, what)?;
+    let fitting = || crate::units::UNITS.iter().filter(|u| u.dimension.matches(dimension));
+    if let Some(unit) = fitting().find(|u| u.name == name) {
+        return Some(unit.factor);
+    }
+    let all: Vec<&str> = fitting().map(|u| u.name).collect();
+    c.report(
+        c.diagnostic("E0109", format!("`{name}` is no unit of {what}"), node.span.clone())
+            .help(format!("one of {}", all.join(", "))),
+    );
+    None
+}

@@ -1,0 +1,302 @@
+//! What is recorded.
+
+use super::context::{Context, Fields};
+use super::names::Names;
+use crate::diagnostic::names_help;
+use crate::expression::Quantity as Number;
+use crate::tree::{Entry, Kind, Node};
+use crate::{Body, Element, NodalTerm, Output, Quantity};
+use trilith_element::dimension::{
+    ACCELERATION, FORCE, FREQUENCY, LENGTH, MOMENT, NONE, TIME, VELOCITY,
+};
+use trilith_element::{Axis, Coordinates, Dimension, Dof, Link};
+
+const KINDS: [&str; 7] = [
+    "Displacement",
+    "Velocity",
+    "Acceleration",
+    "LinkForce",
+    "LinkDeformation",
+    "LinkHistory",
+    "ElementForce",
+];
+const TERM: [&str; 3] = ["node", "dof", "factor"];
+
+struct Reading<'c, 'n> {
+    c: &'c Context<'c>,
+    nodes: &'c Names<'n>,
+    names: &'c Names<'n>,
+    elements: &'c [Option<Element>],
+}
+
+pub(super) fn outputs(
+    c: &Context<'_>,
+    entries: &[Entry],
+    nodes: &Names<'_>,
+    names: &Names<'_>,
+    elements: &[Option<Element>],
+) -> Vec<Option<Output>> {
+    let reading = Reading { c, nodes, names, elements };
+    let one = |e: &Entry| {
+        let (quantity, unit) = reading.output(e)?;
+        Some(Output { name: e.key.clone(), unit, quantity })
+    };
+    entries.iter().map(one).collect()
+}
+
+/// Dimensions of displacement, velocity and acceleration of a direction.
+pub(crate) fn nodal_dimension(order: usize, rotation: bool) -> Dimension {
+    match (order, rotation) {
+        (0, false) => LENGTH,
+        (1, false) => VELOCITY,
+        (_, false) => ACCELERATION,
+        (0, true) => NONE,
+        (1, true) => FREQUENCY,
+        (_, true) => FREQUENCY / TIME,
+    }
+}
+
+/// The unit of a recorded quantity; angles are told from pure numbers.
+fn unit(dimension: Dimension, angle: bool) -> String {
+    if !angle {
+        return dimension.unit();
+    }
+    match -dimension.time {
+        0.0 => "rad".into(),
+        1.0 => "rad/s".into(),
+        _ => "rad/s²".into(),
+    }
+}
+
+impl Reading<'_, '_> {
+    fn output(&self, e: &Entry) -> Option<(Quantity, String)> {
+        let kind = self.c.choice(&e.value, "output", &KINDS)?;
+        let what = format!("output `{}`", e.key);
+        match kind {
+            0..=2 => self.nodal(&e.value, &what, kind),
+            3 | 4 => self.link(&e.value, &what, kind == 3),
+            5 => self.history(&e.value, &what),
+            _ => self.element_force(&e.value, &what),
+        }
+    }
+
+    fn nodal(&self, node: &Node, what: &str, order: usize) -> Option<(Quantity, String)> {
+        let c = self.c;
+        let mut allowed = vec!["node", "dof", "factor", "terms"];
+        if order == 2 {
+            allowed.push("absolute");
+        }
+        let fields = c.fields(node, what, &allowed)?;
+        let absolute = fields.get("absolute").map_or(Some(false), |n| c.flag(n, "absolute"));
+        let mut terms: Vec<Option<(NodalTerm, Dimension)>> = Vec::new();
+        let mut target = None;
+        if let Some(list) = fields.get("terms") {
+            if let Some(extra) = TERM.iter().find_map(|k| fields.get(k)) {
+                let message = format!("{what} has `terms` and fields of a single term");
+                c.report(c.diagnostic("E0102", message, extra.span.clone()));
+            }
+            for item in list.items() {
+                let term = c
+                    .fields(item, &format!("a term of {what}"), &TERM)
+                    .and_then(|f| self.term(&f, order, target));
+                target = target.or(term.map(|(_, d)| d));
+                terms.push(term);
+            }
+            if terms.is_empty() {
+                let message = format!("{what} has no terms");
+                c.report(c.diagnostic("E0104", message, list.span.clone()));
+            }
+        } else {
+            terms.push(self.term(&fields, order, None));
+        }
+        let terms: Vec<(NodalTerm, Dimension)> = terms.into_iter().collect::<Option<_>>()?;
+        let (first, dimension) = *terms.first()?;
+        let angle = first.dof.is_rotation() && dimension.matches(nodal_dimension(order, true));
+        let terms = terms.into_iter().map(|(t, _)| t).collect();
+        let quantity = match order {
+            0 => Quantity::Displacement(terms),
+            1 => Quantity::Velocity(terms),
+            _ => Quantity::Acceleration { terms, absolute: absolute? },
+        };
+        Some((quantity, unit(dimension, angle)))
+    }
+
+    /// A term and the dimension of factor times motion; a plain factor takes the dimension that
+    /// brings the term to the target.
+    fn term(
+        &self,
+        fields: &Fields<'_>,
+        order: usize,
+        target: Option<Dimension>,
+    ) -> Option<(NodalTerm, Dimension)> {
+        let c = self.c;
+        let node = fields.required(c, "node").and_then(|n| self.nodes.refer(c, n));
+        let dof = fields.required(c, "dof").and_then(|n| c.dof(n))?;
+        let motion = nodal_dimension(order, dof.is_rotation());
+        let factor = match (fields.get("factor"), target) {
+            (None, None) => Number::bare(1.0),
+            (None, Some(target)) => {
+                if !target.matches(motion) {
+                    let message = format!(
+                        "terms in {target} and in {motion} cannot be added: this one needs a `factor` in {}",
+                        target / motion
+                    );
+                    let at = fields.get("dof").map_or(0..0, |n| n.span.clone());
+                    c.report(c.diagnostic("E0111", message, at));
+                    return None;
+                }
+                Number::bare(1.0)
+            }
+            (Some(n), None) => c.quantity(n)?,
+            (Some(n), Some(target)) => {
+                let dimension = target / motion;
+                Number { value: c.number(n, dimension)?, dimension, measured: true }
+            }
+        };
+        let term = NodalTerm { node: node?, dof, factor: factor.value };
+        Some((term, factor.dimension * motion))
+    }
+
+    fn factor(&self, fields: &Fields<'_>) -> Option<Number> {
+        fields.get("factor").map_or(Some(Number::bare(1.0)), |n| self.c.quantity(n))
+    }
+
+    /// The element that a field names, where it is a link.
+    fn law(&self, fields: &Fields<'_>) -> Option<(usize, &dyn Link)> {
+        let c = self.c;
+        let node = fields.required(c, "link")?;
+        let index = self.names.refer(c, node)?;
+        let element = self.elements[index].as_ref()?;
+        match &element.body {
+            Body::Link(law, _) => Some((index, law.as_ref())),
+            _ => {
+                let message = format!("`{}` ({}) is no link", element.name, element.kind);
+                let d = c.diagnostic("E0106", message, node.span.clone());
+                c.report(d.help("name a link, or record `ElementForce`"));
+                None
+            }
+        }
+    }
+
+    fn link(&self, node: &Node, what: &str, force: bool) -> Option<(Quantity, String)> {
+        let c = self.c;
+        let fields = c.fields(node, what, &["link", "axis", "coordinate", "factor"])?;
+        let (found, factor) = (self.law(&fields), self.factor(&fields));
+        let (element, law) = found?;
+        let coordinates = law.coordinates();
+        let (coordinate, rotation) = match (fields.get("axis"), fields.get("coordinate")) {
+            (None, Some(n)) => {
+                let k = c.count(n, "coordinate", 0)?;
+                if k >= coordinates.len() {
+                    let last = coordinates.len().saturating_sub(1);
+                    let message = format!("`coordinate` = {k}: must be between 0 and {last}");
+                    c.report(c.diagnostic("E0112", message, n.span.clone()));
+                    return None;
+                }
+                let rotation = match &coordinates {
+                    Coordinates::Local(axes) => axes[k].index() > 2,
+                    Coordinates::Nodal { .. } => k % 6 > 2,
+                };
+                (k, rotation)
+            }
+            (Some(_), Some(n)) => {
+                let message = format!("{what} has `axis` and `coordinate`");
+                c.report(
+                    c.diagnostic("E0102", message, n.span.clone()).help("keep one of the two"),
+                );
+                return None;
+            }
+            (axis, None) => {
+                self.axis(axis.or_else(|| fields.required(c, "axis"))?, &coordinates)?
+            }
+        };
+        let factor = factor?;
+        let own = match (force, rotation) {
+            (true, false) => FORCE,
+            (true, true) => MOMENT,
+            (false, false) => LENGTH,
+            (false, true) => NONE,
+        };
+        let unit = unit(own * factor.dimension, !force && rotation && factor.dimension.is_none());
+        let factor = factor.value;
+        let quantity = if force {
+            Quantity::LinkForce { element, coordinate, factor }
+        } else {
+            Quantity::LinkDeformation { element, coordinate, factor }
+        };
+        Some((quantity, unit))
+    }
+
+    /// Coordinate of a local axis, and whether it is a rotation.
+    fn axis(&self, node: &Node, coordinates: &Coordinates) -> Option<(usize, bool)> {
+        let c = self.c;
+        let axis = Axis::ALL[c.choice(node, "axis", Axis::NAMES)?];
+        let (message, help) = match coordinates {
+            Coordinates::Local(axes) => {
+                if let Some(k) = axes.iter().position(|a| *a == axis) {
+                    return Some((k, axis.index() > 2));
+                }
+                let names: Vec<&str> = axes.iter().map(|a| a.name()).collect();
+                (
+                    format!("the link has no axis {}", axis.name()),
+                    format!("it has {}", names.join(", ")),
+                )
+            }
+            Coordinates::Nodal { .. } => (
+                "the law of this link works on the displacements of its nodes, not on axes".into(),
+                format!("write `coordinate: 0` to `coordinate: {}`", coordinates.len() - 1),
+            ),
+        };
+        c.report(c.diagnostic("E0106", message, node.span.clone()).help(help));
+        None
+    }
+
+    fn history(&self, node: &Node, what: &str) -> Option<(Quantity, String)> {
+        let c = self.c;
+        let fields = c.fields(node, what, &["link", "variable"])?;
+        let variable = fields.required(c, "variable")?;
+        let (element, law) = self.law(&fields)?;
+        let (Kind::Text(name) | Kind::Name(name)) = &variable.kind else {
+            return c.wrong(variable, "the name of a history variable");
+        };
+        if let Some(field) = law.history().iter().position(|f| f.name == name) {
+            return Some((
+                Quantity::LinkHistory { element, field },
+                law.history()[field].unit.to_owned(),
+            ));
+        }
+        let names = law.history().iter().map(|f| f.name);
+        let message = format!("the link has no history variable `{name}`");
+        let help = names_help(name, "history variables", names);
+        c.report(c.diagnostic("E0106", message, variable.span.clone()).help(help));
+        None
+    }
+
+    fn element_force(&self, node: &Node, what: &str) -> Option<(Quantity, String)> {
+        let c = self.c;
+        let fields = c.fields(node, what, &["element", "end", "dof", "factor"])?;
+        let name = fields.required(c, "element");
+        let element = name.and_then(|n| self.names.refer(c, n));
+        let dof: Option<Dof> = fields.required(c, "dof").and_then(|n| c.dof(n));
+        let end = fields.required(c, "end").and_then(|n| Some((c.count(n, "end", 0)?, n)));
+        let factor = self.factor(&fields);
+        let (element, dof, factor) = (element?, dof?, factor?);
+        let (end, end_node) = end?;
+        let found = self.elements[element].as_ref()?;
+        if !matches!(found.body, Body::Linear(_)) {
+            let message = format!("`{}` ({}) is no linear element", found.name, found.kind);
+            let d = c.diagnostic("E0106", message, name?.span.clone());
+            c.report(d.help("record `LinkForce` of a link; constraints have no recorded force"));
+            return None;
+        }
+        if end >= found.nodes.len() {
+            let last = found.nodes.len() - 1;
+            let message = format!("`end` = {end}: must be between 0 and {last}");
+            c.report(c.diagnostic("E0112", message, end_node.span.clone()));
+            return None;
+        }
+        let own = if dof.is_rotation() { MOMENT } else { FORCE };
+        let unit = unit(own * factor.dimension, false);
+        Some((Quantity::ElementForce { element, end, dof, factor: factor.value }, unit))
+    }
+}

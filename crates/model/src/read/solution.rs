@@ -1,0 +1,83 @@
+//! How a dynamic case is solved.
+
+use super::context::{Context, Fields};
+use crate::tree::Node;
+use crate::{Basis, BasisKind, Kernel, Solution, SolverKind, StepControl};
+use trilith_element::Range;
+use trilith_element::dimension::NONE;
+
+/// A tolerance: above zero, below one.
+const TOLERANCE: Range = Range::Within(f64::MIN_POSITIVE, 1.0 - f64::EPSILON);
+
+pub(super) fn solution(c: &Context<'_>, fields: &Fields<'_>) -> Option<Solution> {
+    let plain = Solution::default();
+    let solver = fields.get("solver").map_or(Some(plain.solver), |n| {
+        let names = ["Fna", "Hht", "RitzHht", "FullNewton"];
+        c.choice(n, "solver", &names).map(|i| SolverKind::ALL[i])
+    });
+    let step = fields.get("step").map_or(Some(plain.step), |n| step(c, n));
+    let kernel = fields.get("kernel").map_or(Some(plain.kernel), |n| {
+        let all = [Kernel::Newton, Kernel::FixedPoint];
+        c.choice(n, "kernel", &["Newton", "FixedPoint"]).map(|i| all[i])
+    });
+    let energy_limit = fields
+        .get("energy_limit")
+        .map_or(Some(plain.energy_limit), |n| tolerance(c, n, "energy_limit"));
+    let basis = fields.get("basis").map_or(Some(plain.basis), |n| basis(c, n));
+    let alpha = fields.get("alpha").map_or(Some(plain.alpha), |n| alpha(c, n));
+    Some(Solution {
+        solver: solver?,
+        step: step?,
+        kernel: kernel?,
+        energy_limit: energy_limit?,
+        basis: basis?,
+        alpha: alpha?,
+    })
+}
+
+fn tolerance(c: &Context<'_>, node: &Node, name: &str) -> Option<f64> {
+    let value = c.number(node, NONE)?;
+    if TOLERANCE.contains(value) {
+        return Some(value);
+    }
+    let message = format!("`{name}` = {value}: must be > 0 and < 1");
+    c.report(c.diagnostic("E0112", message, node.span.clone()));
+    None
+}
+
+fn alpha(c: &Context<'_>, node: &Node) -> Option<f64> {
+    let value = c.number(node, NONE)?;
+    if (-1.0 / 3.0 - 1e-12..=0.0).contains(&value) {
+        return Some(value.max(-1.0 / 3.0));
+    }
+    let message = format!("`alpha` = {value}: must be between -1/3 and 0");
+    c.report(c.diagnostic("E0112", message, node.span.clone()));
+    None
+}
+
+fn step(c: &Context<'_>, node: &Node) -> Option<StepControl> {
+    if c.choice(node, "step control", &["Adaptive", "Fixed"])? == 0 {
+        let fields = c.fields(node, "`Adaptive`", &["tolerance"])?;
+        let plain = StepControl::default();
+        let Some(node) = fields.get("tolerance") else { return Some(plain) };
+        return tolerance(c, node, "tolerance")
+            .map(|tolerance| StepControl::Adaptive { tolerance });
+    }
+    let fields = c.fields(node, "`Fixed`", &["substeps"])?;
+    let substeps = fields.get("substeps").map_or(Some(1), |n| c.count(n, "substeps", 1))?;
+    Some(StepControl::Fixed { substeps })
+}
+
+fn basis(c: &Context<'_>, node: &Node) -> Option<Basis> {
+    let plain = Basis::default();
+    let names = ["Ritz", "Eigen", "Complete"];
+    let kind = c.choice(node, "basis", &names)?;
+    let allowed: &[&str] = if kind == 2 { &[] } else { &["vectors", "adequacy"] };
+    let fields = c.fields(node, &format!("`{}`", names[kind]), allowed)?;
+    let vectors = fields.get("vectors").map_or(Some(None), |n| c.count(n, "vectors", 1).map(Some));
+    let adequacy = fields
+        .get("adequacy")
+        .map_or(Some(plain.adequacy), |n| c.ranged(n, "adequacy", NONE, Range::Within(0.0, 1.0)));
+    let kind = [BasisKind::Ritz, BasisKind::Eigen, BasisKind::Complete][kind];
+    Some(Basis { kind, vectors: vectors?, adequacy: adequacy? })
+}

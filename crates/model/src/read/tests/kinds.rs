@@ -1,0 +1,113 @@
+//! A linear spring and a sliding link, only to be read.
+
+use crate::Registry;
+use trilith_element::dimension as d;
+use trilith_element::*;
+
+#[derive(Debug, serde::Deserialize)]
+#[serde(deny_unknown_fields)]
+#[allow(dead_code, reason = "only read")]
+struct Spring {
+    stiffness: f64,
+    #[serde(default)]
+    inertia: Option<[f64; 3]>,
+}
+
+const fn parameter(name: &'static str, form: Form, range: Range, default: Default) -> Parameter {
+    Parameter { name, symbol: "x", form, range, default, meaning: "a made-up number" }
+}
+
+impl Described for Spring {
+    const CARD: Card = Card {
+        kind: "Spring",
+        category: Category::Linear,
+        summary: "A spring.",
+        nodes: NodeCount { min: 1, max: 3 },
+        parameters: &[
+            parameter("stiffness", Form::Number(d::STIFFNESS), Range::Positive, Default::Required),
+            parameter(
+                "inertia",
+                Form::Numbers { dimension: d::INERTIA, count: Some(3) },
+                Range::NonNegative,
+                Default::Absent,
+            ),
+        ],
+        law: "f = k d",
+        source: "",
+        example: "",
+    };
+}
+
+impl LinearElement for Spring {
+    fn matrices(&self, _: &Geometry<'_>) -> Result<ElementMatrices, ParameterError> {
+        Ok(ElementMatrices::zeros(Vec::new()))
+    }
+}
+
+#[derive(Debug, serde::Deserialize)]
+#[serde(deny_unknown_fields)]
+#[allow(dead_code, reason = "only read")]
+struct Slider {
+    kn: f64,
+    mu: f64,
+    c: f64,
+    exponent: f64,
+    dash: String,
+    pull: bool,
+    axes: Vec<Axis>,
+}
+
+impl Described for Slider {
+    const CARD: Card = Card {
+        kind: "Slider",
+        category: Category::Link,
+        summary: "A sliding link.",
+        nodes: NodeCount::GROUND_OR_TWO,
+        parameters: &[
+            parameter("kn", Form::Number(d::STIFFNESS), Range::Positive, Default::Required),
+            parameter("mu", Form::Number(d::NONE), Range::Within(0.0, 2.0), Default::Number(0.5)),
+            parameter(
+                "c",
+                Form::Power { base: d::FORCE, over: d::VELOCITY, exponent: "exponent" },
+                Range::NonNegative,
+                Default::Number(0.0),
+            ),
+            parameter("exponent", Form::Number(d::NONE), Range::Positive, Default::Number(1.0)),
+            parameter(
+                "dash",
+                Form::Choice(&["contact", "always"]),
+                Range::Any,
+                Default::Choice("contact"),
+            ),
+            parameter("pull", Form::Flag, Range::Any, Default::Flag(true)),
+            parameter("axes", Form::Choices(Axis::NAMES), Range::Any, Default::Choice("U1")),
+        ],
+        law: "f = k d",
+        source: "",
+        example: "",
+    };
+    fn check(&self) -> Result<(), ParameterError> {
+        if self.mu == 0.0 && self.c > 0.0 {
+            return Err(ParameterError::inconsistent("c", "a dashpot needs friction here"));
+        }
+        Ok(())
+    }
+}
+
+impl Link for Slider {
+    fn coordinates(&self) -> Coordinates {
+        Coordinates::Local(self.axes.clone())
+    }
+    fn history(&self) -> &'static [Field] {
+        &[Field { name: "slip2", unit: "m" }]
+    }
+    fn engaged_stiffness(&self, _: &mut [f64]) {}
+    fn respond(&self, _: &Kinematics<'_>, _: &[f64], _: &mut [f64], _: &mut Response<'_>) {}
+}
+
+pub(super) fn registry() -> Registry {
+    let mut registry = Registry::new();
+    registry.linear::<Spring>();
+    registry.link::<Slider>();
+    registry
+}

@@ -1,0 +1,213 @@
+//! Parameters of one member, read as its card says.
+
+use super::context::Context;
+use super::names::Names;
+use crate::tree::{Entry, Node};
+use trilith_element::dimension::{LENGTH, NONE};
+use trilith_element::{Card, Default, Dimension, Form, Parameter, Range, Value, Values};
+
+/// The fields of a member: its own, then those of the set it uses.
+pub(super) struct Given<'n> {
+    pub own: &'n [Entry],
+    pub shared: &'n [Entry],
+}
+
+impl<'n> Given<'n> {
+    pub fn get(&self, key: &str) -> Option<&'n Node> {
+        self.own.iter().chain(self.shared).find(|e| e.key == key).map(|e| &e.value)
+    }
+}
+
+/// All parameters of the card with defaults filled in, in the order of the card.
+pub(super) fn values(
+    c: &Context<'_>,
+    card: &Card,
+    given: &Given<'_>,
+    what: &str,
+    at: &crate::Span,
+    nodes: &Names<'_>,
+) -> Option<Values> {
+    let mut read: Vec<Option<Value>> = vec![None; card.parameters.len()];
+    let mut good = true;
+    // The dimension of a power depends on another parameter: those come last.
+    let power = |p: &Parameter| matches!(p.form, Form::Power { .. });
+    for last in [false, true] {
+        for (i, p) in card.parameters.iter().enumerate().filter(|(_, p)| power(p) == last) {
+            match given.get(p.name) {
+                Some(node) => {
+                    let exponent = exponent(card, p, &read);
+                    read[i] = value(c, node, p, exponent, nodes);
+                    good &= read[i].is_some();
+                }
+                None => match default(p) {
+                    Ok(value) => read[i] = value,
+                    Err(()) => {
+                        report_missing(c, card, p, what, at);
+                        good = false;
+                    }
+                },
+            }
+        }
+    }
+    let pairs = card.parameters.iter().zip(read);
+    let pairs = pairs.filter_map(|(p, v)| v.map(|v| (p.name.to_owned(), v)));
+    good.then(|| Values(pairs.collect()))
+}
+
+fn report_missing(c: &Context<'_>, card: &Card, p: &Parameter, what: &str, at: &crate::Span) {
+    let unit = match dimension_of(p.form) {
+        Some(d) if !d.is_none() => format!(", in {d}"),
+        _ => String::new(),
+    };
+    let message = format!("{what} has no `{}`, which {} needs", p.name, card.kind);
+    let d = c.diagnostic("E0104", message, at.clone()).label(format!("`{}` is missing", p.name));
+    c.report(d.help(format!("add `{}: …`: {}{unit}", p.name, p.meaning)));
+}
+
+fn dimension_of(form: Form) -> Option<Dimension> {
+    match form {
+        Form::Number(d)
+        | Form::Numbers { dimension: d, .. }
+        | Form::Matrix { dimension: d, .. } => Some(d),
+        _ => None,
+    }
+}
+
+fn default(p: &Parameter) -> Result<Option<Value>, ()> {
+    Ok(match (p.default, p.form) {
+        (Default::Required, _) => return Err(()),
+        (Default::Absent, _) => None,
+        (Default::Number(x), Form::Numbers { count: Some(n), .. }) => {
+            Some(Value::List(vec![Value::Number(x); n]))
+        }
+        (Default::Number(x), _) => Some(Value::Number(x)),
+        (Default::Choice(name), Form::Choices(_)) => {
+            Some(Value::List(vec![Value::Text(name.to_owned())]))
+        }
+        (Default::Choice(name), _) => Some(Value::Text(name.to_owned())),
+        (Default::Flag(b), _) => Some(Value::Flag(b)),
+    })
+}
+
+/// The exponent of a parameter whose dimension is a power.
+fn exponent(card: &Card, p: &Parameter, read: &[Option<Value>]) -> f64 {
+    let Form::Power { exponent, .. } = p.form else { return 1.0 };
+    let at = card.parameters.iter().position(|q| q.name == exponent);
+    match at.and_then(|i| read[i].as_ref()) {
+        Some(Value::Number(x)) => *x,
+        _ => 1.0,
+    }
+}
+
+fn value(
+    c: &Context<'_>,
+    node: &Node,
+    p: &Parameter,
+    exponent: f64,
+    nodes: &Names<'_>,
+) -> Option<Value> {
+    match p.form {
+        Form::Number(dimension) => c.ranged(node, p.name, dimension, p.range).map(Value::Number),
+        Form::Power { base, over, .. } => {
+            c.ranged(node, p.name, base / over.powf(exponent), p.range).map(Value::Number)
+        }
+        Form::Choice(names) => {
+            c.choice(node, p.name, names).map(|i| Value::Text(names[i].to_owned()))
+        }
+        Form::Choices(names) => choices(c, node, p.name, names),
+        Form::Flag => c.flag(node, p.name).map(Value::Flag),
+        Form::Numbers { dimension, count } => numbers(c, node, p, dimension, count),
+        Form::Matrix { size, dimension } => matrix(c, node, p, size, dimension),
+        Form::Node => nodes.refer(c, node).map(|i| Value::Text(nodes.name(i).to_owned())),
+    }
+}
+
+fn choices(c: &Context<'_>, node: &Node, name: &str, names: &[&str]) -> Option<Value> {
+    let mut found: Vec<usize> = Vec::new();
+    let mut good = true;
+    for item in node.items() {
+        match c.choice(item, name, names) {
+            Some(i) if found.contains(&i) => {
+                let message = format!("`{}` is given twice in `{name}`", names[i]);
+                c.report(c.diagnostic("E0102", message, item.span.clone()));
+                good = false;
+            }
+            Some(i) => found.push(i),
+            None => good = false,
+        }
+    }
+    let texts = found.into_iter().map(|i| Value::Text(names[i].to_owned()));
+    good.then(|| Value::List(texts.collect()))
+}
+
+fn numbers(
+    c: &Context<'_>,
+    node: &Node,
+    p: &Parameter,
+    dimension: Dimension,
+    count: Option<usize>,
+) -> Option<Value> {
+    let items = node.items();
+    if !node.is_list() {
+        return c.wrong(node, &format!("a list of numbers for `{}`", p.name));
+    }
+    if let Some(n) = count.filter(|n| *n != items.len()) {
+        let message = format!("`{}` has {} numbers: must have {n}", p.name, items.len());
+        c.report(c.diagnostic("E0105", message, node.span.clone()));
+        return None;
+    }
+    let read: Vec<_> = items.iter().map(|n| c.ranged(n, p.name, dimension, p.range)).collect();
+    let read: Option<Vec<f64>> = read.into_iter().collect();
+    read.map(|all| Value::List(all.into_iter().map(Value::Number).collect()))
+}
+
+fn matrix(
+    c: &Context<'_>,
+    node: &Node,
+    p: &Parameter,
+    size: usize,
+    dimension: Dimension,
+) -> Option<Value> {
+    let rows = node.items();
+    let square = node.is_list()
+        && rows.len() == size
+        && rows.iter().all(|r| r.is_list() && r.items().len() == size);
+    if !square {
+        let message = format!("`{}` must be a list of {size} rows of {size} numbers", p.name);
+        c.report(c.diagnostic("E0105", message, node.span.clone()));
+        return None;
+    }
+    // Rotational rows and columns each add a length: N/m, N, N·m.
+    let length = |i: usize| if i % 6 >= 3 { LENGTH } else { NONE };
+    let mut all = vec![vec![0.0; size]; size];
+    let mut good = true;
+    for (i, row) in rows.iter().enumerate() {
+        for (j, item) in row.items().into_iter().enumerate() {
+            match c.ranged(item, p.name, dimension * length(i) * length(j), Range::Any) {
+                Some(x) => all[i][j] = x,
+                None => good = false,
+            }
+        }
+    }
+    let scale = all.iter().flatten().fold(0.0_f64, |a, x| a.max(x.abs()));
+    for i in 0..size {
+        for j in 0..i {
+            if good && (all[i][j] - all[j][i]).abs() > 1e-12 * scale {
+                let message = format!(
+                    "`{}` is not symmetric: row {} column {} is {}, row {} column {} is {}",
+                    p.name,
+                    i + 1,
+                    j + 1,
+                    all[i][j],
+                    j + 1,
+                    i + 1,
+                    all[j][i]
+                );
+                c.report(c.diagnostic("E0112", message, rows[i].items()[j].span.clone()));
+                return None;
+            }
+        }
+    }
+    let rows = all.into_iter().map(|r| Value::List(r.into_iter().map(Value::Number).collect()));
+    good.then(|| Value::List(rows.collect()))
+}

@@ -1,0 +1,100 @@
+//! Cases of a resolved model.
+
+use super::{factor, text};
+use crate::{
+    Analysis, BasisKind, DynamicCase, Kernel, Load, Model, Solution, SolverKind, StepControl,
+};
+use trilith_element::Dimension;
+use trilith_element::dimension::{ACCELERATION, LENGTH, NONE};
+
+pub(super) fn case(model: &Model, c: &crate::Case) -> String {
+    let after =
+        c.after.map_or(String::new(), |i| format!("after: {}, ", text(&model.cases[i].name)));
+    match &c.analysis {
+        Analysis::Static(s) => {
+            format!("Static({after}loads: {}, steps: {})", loads(model, &s.loads), s.steps)
+        }
+        Analysis::Dynamic(d) => format!("Dynamic({after}{})", dynamic(model, d)),
+    }
+}
+
+fn loads(model: &Model, all: &[Load]) -> String {
+    let one = |load: &Load| match load {
+        Load::Gravity { factor } => format!("Gravity(factor: {factor:?})"),
+        Load::Pattern { pattern, factor } => {
+            format!("(load: {}, factor: {factor:?})", text(&model.patterns[*pattern].name))
+        }
+    };
+    format!("[{}]", all.iter().map(one).collect::<Vec<_>>().join(", "))
+}
+
+fn list<T>(items: &[T], one: impl Fn(&T) -> String) -> String {
+    format!("[{}]", items.iter().map(one).collect::<Vec<_>>().join(", "))
+}
+
+fn dynamic(model: &Model, d: &DynamicCase) -> String {
+    // What function and factor must give together decides the unit of the factor.
+    let history = |key: &str, function: usize, by: f64, wanted: Dimension| {
+        let f = &model.functions[function];
+        let unit = f.dimension.map_or(NONE, |own| wanted / own);
+        format!("{key}: {}, factor: {}", text(&f.name), factor(by, unit))
+    };
+    let place = |node: usize, dof: trilith_element::Dof| {
+        format!("node: {}, dof: {}", text(&model.nodes[node].name), dof.name())
+    };
+    let base = list(&d.base, |b| {
+        let history = history("function", b.function, b.factor, ACCELERATION);
+        format!("(direction: {}, {history})", ["X", "Y", "Z"][b.direction.index() % 3])
+    });
+    let forces = list(&d.forces, |f| {
+        let history = history("function", f.function, f.factor, NONE);
+        format!("(load: {}, {history})", text(&model.patterns[f.pattern].name))
+    });
+    let supports = list(&d.supports, |s| {
+        let wanted = if s.dof.is_rotation() { NONE } else { LENGTH };
+        let history = history("displacement", s.function, s.factor, wanted);
+        format!("({}, {history})", place(s.node, s.dof))
+    });
+    let initial = list(&d.initial, |i| {
+        let u = i.displacement.map_or(String::new(), |x| format!(", displacement: {x:?}"));
+        let v = i.velocity.map_or(String::new(), |x| format!(", velocity: {x:?}"));
+        format!("({}{u}{v})", place(i.node, i.dof))
+    });
+    format!(
+        "duration: {:?}, dt: {:?}, constant: {}, base: {base}, forces: {forces}, \
+         supports: {supports}, initial: {initial}, {}",
+        d.duration,
+        d.dt,
+        loads(model, &d.constant),
+        solution(&d.solution)
+    )
+}
+
+fn solution(s: &Solution) -> String {
+    let solver = match s.solver {
+        SolverKind::Fna => "Fna",
+        SolverKind::Hht => "Hht",
+        SolverKind::RitzHht => "RitzHht",
+        SolverKind::FullNewton => "FullNewton",
+    };
+    let step = match s.step {
+        StepControl::Adaptive { tolerance } => format!("Adaptive(tolerance: {tolerance:?})"),
+        StepControl::Fixed { substeps } => format!("Fixed(substeps: {substeps})"),
+    };
+    let kernel = match s.kernel {
+        Kernel::Newton => "Newton",
+        Kernel::FixedPoint => "FixedPoint",
+    };
+    let vectors = s.basis.vectors.map_or(String::new(), |n| format!("vectors: {n}, "));
+    let adequacy = s.basis.adequacy;
+    let basis = match s.basis.kind {
+        BasisKind::Ritz => format!("Ritz({vectors}adequacy: {adequacy:?})"),
+        BasisKind::Eigen => format!("Eigen({vectors}adequacy: {adequacy:?})"),
+        BasisKind::Complete => "Complete".into(),
+    };
+    format!(
+        "solver: {solver}, step: {step}, kernel: {kernel}, energy_limit: {:?}, basis: {basis}, \
+         alpha: {:?}",
+        s.energy_limit, s.alpha
+    )
+}

@@ -1,0 +1,210 @@
+//! A model as a file with every default filled in and every expression evaluated.
+
+mod cases;
+mod outputs;
+
+use crate::{
+    AfterEnd, Body, Damping, Harmonic, Interpolation, Model, ParameterValue, Plane, TimeFunction,
+};
+use cases::case;
+use outputs::output;
+use std::fmt::Write;
+use trilith_element::{Dimension, Dof, Value};
+
+/// The model as a RON text in SI that reads back to the same model.
+///
+/// Parameters have gone into the numbers; they are listed in comments. Tables of files are written
+/// out, so the text stands for itself.
+#[must_use]
+pub fn resolved(model: &Model) -> String {
+    let mut w = Writer(String::new());
+    w.line(0, "// Resolved model: SI units, all defaults filled in.");
+    for p in &model.parameters {
+        let value = match &p.value {
+            ParameterValue::Number(x, d) => measured(*x, Some(*d).filter(|d| !d.is_none())),
+            ParameterValue::Text(t) => format!("{t:?}"),
+        };
+        w.line(0, &format!("// {} = {}", p.name, value.replace('"', "")));
+    }
+    w.line(0, "(");
+    w.line(1, &format!("title: {},", text(&model.title)));
+    if let Some(plane) = model.plane {
+        let name = match plane {
+            Plane::XZ => "XZ",
+            Plane::YZ => "YZ",
+            Plane::XY => "XY",
+        };
+        w.line(1, &format!("plane: {name},"));
+    }
+    w.line(1, &format!("gravity: {:?},", model.gravity));
+    w.map("nodes", &model.nodes, |n| (n.name.clone(), vector(n.position)));
+    w.map("supports", &model.supports, |s| {
+        let dofs = Dof::ALL.iter().filter(|d| s.fixed[d.index()]).map(|d| format!("{},", d.name()));
+        (model.nodes[s.node].name.clone(), format!("({})", dofs.collect::<Vec<_>>().join(" ")))
+    });
+    w.map("elements", &model.elements, |e| (e.name.clone(), element(model, e)));
+    w.line(1, &format!("damping: {},", damping(&model.damping)));
+    w.map("functions", &model.functions, |f| (f.name.clone(), function(&f.function, f.dimension)));
+    w.map("loads", &model.patterns, |p| {
+        let forces = p.forces.iter().map(|f| {
+            let key = if f.dof.is_rotation() { "moment" } else { "force" };
+            let node = text(&model.nodes[f.node].name);
+            format!("(node: {node}, dof: {}, {key}: {:?})", f.dof.name(), f.value)
+        });
+        (p.name.clone(), format!("[{}]", forces.collect::<Vec<_>>().join(", ")))
+    });
+    w.map("cases", &model.cases, |c| (c.name.clone(), case(model, c)));
+    w.map("outputs", &model.outputs, |o| (o.name.clone(), output(model, o)));
+    w.line(0, ")");
+    w.0
+}
+
+struct Writer(String);
+
+impl Writer {
+    fn line(&mut self, indent: usize, line: &str) {
+        // Writing to a String cannot fail.
+        let _ = writeln!(self.0, "{:1$}{line}", "", 4 * indent);
+    }
+
+    fn map<T>(&mut self, name: &str, items: &[T], one: impl Fn(&T) -> (String, String)) {
+        self.line(1, &format!("{name}: {{"));
+        for item in items {
+            let (key, value) = one(item);
+            self.line(2, &format!("{}: {value},", text(&key)));
+        }
+        self.line(1, "},");
+    }
+}
+
+/// A text in quotes, escaped as RON wants it.
+fn text(s: &str) -> String {
+    let mut out = String::from("\"");
+    for c in s.chars() {
+        match c {
+            '"' | '\\' => out.extend(['\\', c]),
+            '\n' => out.push_str("\\n"),
+            '\r' => out.push_str("\\r"),
+            '\t' => out.push_str("\\t"),
+            c if c.is_control() => {
+                let _ = write!(out, "\\u{{{:x}}}", c as u32);
+            }
+            c => out.push(c),
+        }
+    }
+    out.push('"');
+    out
+}
+
+fn vector(v: [f64; 3]) -> String {
+    format!("({:?}, {:?}, {:?})", v[0], v[1], v[2])
+}
+
+/// A number, with its unit where there is one.
+fn measured(x: f64, dimension: Option<Dimension>) -> String {
+    match dimension {
+        None => format!("{x:?}"),
+        Some(d) if d.is_none() => format!("\"{x:?} rad\""),
+        Some(d) => format!("\"{x:?} {}\"", d.unit()),
+    }
+}
+
+/// A factor with a unit where it has one.
+fn factor(x: f64, dimension: Dimension) -> String {
+    measured(x, Some(dimension).filter(|d| !d.is_none()))
+}
+
+fn value(v: &Value) -> String {
+    match v {
+        Value::Number(x) => format!("{x:?}"),
+        Value::Text(t) => text(t),
+        Value::Flag(b) => b.to_string(),
+        Value::List(items) => {
+            format!("[{}]", items.iter().map(value).collect::<Vec<_>>().join(", "))
+        }
+    }
+}
+
+fn element(model: &Model, e: &crate::Element) -> String {
+    let nodes: Vec<String> = e.nodes.iter().map(|&i| text(&model.nodes[i].name)).collect();
+    let mut fields = vec![format!("nodes: [{}]", nodes.join(", "))];
+    fields.extend(e.values.0.iter().map(|(name, v)| format!("{name}: {}", value(v))));
+    for (name, axis) in ["axis1", "axis2"].iter().zip(e.axes) {
+        fields.extend(axis.map(|a| format!("{name}: {}", vector(a))));
+    }
+    if let Body::Link(_, options) = &e.body {
+        fields.push(format!("shear_at: {:?}", options.shear_at));
+        if let Some(k) = &options.effective_stiffness {
+            let k: Vec<String> = k.iter().map(|x| format!("{x:?}")).collect();
+            fields.push(format!("effective_stiffness: [{}]", k.join(", ")));
+        }
+    }
+    format!("{}({})", e.kind, fields.join(", "))
+}
+
+fn damping(d: &Damping) -> String {
+    match d {
+        Damping::None => "None".into(),
+        Damping::Modal { ratio } => format!("Modal(ratio: {ratio:?})"),
+        Damping::ModalTable { points } => {
+            let points: Vec<String> =
+                points.iter().map(|(f, r)| format!("({f:?}, {r:?})")).collect();
+            format!("ModalTable(points: [{}])", points.join(", "))
+        }
+        Damping::Rayleigh { mass, stiffness } => {
+            format!("Rayleigh(mass: {mass:?}, stiffness: {stiffness:?})")
+        }
+    }
+}
+
+fn function(f: &TimeFunction, d: Option<Dimension>) -> String {
+    let amount = |x: f64| measured(x, d);
+    let harmonic = |name: &str, h: &Harmonic| {
+        let cycles = h.cycles.map_or(String::new(), |n| format!("cycles: {n:?}, "));
+        format!(
+            "{name}(amplitude: {}, frequency: {:?}, {cycles}start: {:?}, phase: {:?})",
+            amount(h.amplitude),
+            h.frequency,
+            h.start,
+            h.phase
+        )
+    };
+    match f {
+        TimeFunction::Constant(c) => format!("Constant(value: {})", amount(*c)),
+        TimeFunction::Step { amplitude, start, end } => {
+            let end = end.map_or(String::new(), |e| format!(", end: {e:?}"));
+            format!("Step(amplitude: {}, start: {start:?}{end})", amount(*amplitude))
+        }
+        TimeFunction::Ramp { amplitude, start, rise } => {
+            format!("Ramp(amplitude: {}, start: {start:?}, rise: {rise:?})", amount(*amplitude))
+        }
+        TimeFunction::Sine(h) => harmonic("Sine", h),
+        TimeFunction::Cosine(h) => harmonic("Cosine", h),
+        TimeFunction::HalfSine { amplitude, duration, start } => format!(
+            "HalfSine(amplitude: {}, duration: {duration:?}, start: {start:?})",
+            amount(*amplitude)
+        ),
+        TimeFunction::Ricker { amplitude, frequency, center } => format!(
+            "Ricker(amplitude: {}, frequency: {frequency:?}, center: {center:?})",
+            amount(*amplitude)
+        ),
+        TimeFunction::Table(table) => {
+            let pairs = table.times().iter().zip(table.values());
+            let points: Vec<String> =
+                pairs.map(|(t, y)| format!("({t:?}, {})", amount(*y))).collect();
+            let interpolation = match table.interpolation() {
+                Interpolation::Linear => "Linear",
+                Interpolation::Cubic => "Cubic",
+            };
+            let after = match table.after_end() {
+                AfterEnd::Error => "Error",
+                AfterEnd::Zero => "Zero",
+                AfterEnd::Hold => "Hold",
+            };
+            format!(
+                "Points(interpolation: {interpolation}, after_end: {after}, points: [{}])",
+                points.join(", ")
+            )
+        }
+    }
+}

@@ -1,0 +1,75 @@
+//! Outputs of a resolved model.
+
+use super::{factor, text};
+use crate::read::nodal_dimension;
+use crate::units;
+use crate::{Body, Model, NodalTerm, Output, Quantity};
+use trilith_element::dimension::{FORCE, LENGTH, MOMENT, NONE};
+use trilith_element::{Coordinates, Dimension};
+
+pub(super) fn output(model: &Model, o: &Output) -> String {
+    // The unit of an output is that of factor times quantity: it tells the unit of the factor.
+    let total = units::dimension(&o.unit).unwrap_or(NONE);
+    let terms = |terms: &[NodalTerm], order: usize| {
+        let one = |t: &NodalTerm| {
+            let own = nodal_dimension(order, t.dof.is_rotation());
+            let node = text(&model.nodes[t.node].name);
+            let by = factor(t.factor, total / own);
+            format!("(node: {node}, dof: {}, factor: {by})", t.dof.name())
+        };
+        format!("terms: [{}]", terms.iter().map(one).collect::<Vec<_>>().join(", "))
+    };
+    let link = |element: usize, coordinate: usize, by: f64, force: bool| {
+        let (place, rotation) = place(model, element, coordinate);
+        let own = own(force, rotation);
+        let name = text(&model.elements[element].name);
+        format!("link: {name}, {place}, factor: {}", factor(by, total / own))
+    };
+    match &o.quantity {
+        Quantity::Displacement(all) => format!("Displacement({})", terms(all, 0)),
+        Quantity::Velocity(all) => format!("Velocity({})", terms(all, 1)),
+        Quantity::Acceleration { terms: all, absolute } => {
+            format!("Acceleration({}, absolute: {absolute})", terms(all, 2))
+        }
+        Quantity::LinkDeformation { element, coordinate, factor } => {
+            format!("LinkDeformation({})", link(*element, *coordinate, *factor, false))
+        }
+        Quantity::LinkForce { element, coordinate, factor } => {
+            format!("LinkForce({})", link(*element, *coordinate, *factor, true))
+        }
+        Quantity::LinkHistory { element, field } => {
+            let e = &model.elements[*element];
+            let variable = match &e.body {
+                Body::Link(law, _) => law.history().get(*field).map_or("", |f| f.name),
+                _ => "",
+            };
+            format!("LinkHistory(link: {}, variable: {})", text(&e.name), text(variable))
+        }
+        Quantity::ElementForce { element, end, dof, factor: by } => {
+            let own = own(true, dof.is_rotation());
+            let name = text(&model.elements[*element].name);
+            let by = factor(*by, total / own);
+            format!("ElementForce(element: {name}, end: {end}, dof: {}, factor: {by})", dof.name())
+        }
+    }
+}
+
+fn own(force: bool, rotation: bool) -> Dimension {
+    match (force, rotation) {
+        (true, false) => FORCE,
+        (true, true) => MOMENT,
+        (false, false) => LENGTH,
+        (false, true) => NONE,
+    }
+}
+
+/// The coordinate of a link as the file names it, and whether it is a rotation.
+fn place(model: &Model, element: usize, coordinate: usize) -> (String, bool) {
+    if let Body::Link(law, _) = &model.elements[element].body {
+        if let Coordinates::Local(axes) = law.coordinates() {
+            let axis = axes[coordinate];
+            return (format!("axis: {}", axis.name()), axis.index() > 2);
+        }
+    }
+    (format!("coordinate: {coordinate}"), coordinate % 6 > 2)
+}

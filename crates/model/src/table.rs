@@ -1,0 +1,259 @@
+//! Tables of time and value, interpolated linearly or by a natural cubic spline.
+
+use crate::Side;
+
+/// Interpolation between the samples of a table.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Interpolation {
+    /// Straight lines; for accelerograms and forces.
+    #[default]
+    Linear,
+    /// Natural cubic spline, twice continuously differentiable; for displacement histories.
+    Cubic,
+}
+
+/// What holds after the last sample of a table.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum AfterEnd {
+    /// No case may last longer than the table.
+    #[default]
+    Error,
+    /// Zero.
+    Zero,
+    /// The last value.
+    Hold,
+}
+
+/// Why samples make no table.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum TableError {
+    /// Fewer than two samples.
+    #[error("a table needs at least two samples, this one has {0}")]
+    TooShort(usize),
+    /// Times and values differ in number.
+    #[error("{0} times and {1} values")]
+    Lengths(usize, usize),
+    /// Time does not increase.
+    #[error("time must increase: sample {index} at {time} s follows {before} s")]
+    Order {
+        /// Index of the sample, from 0.
+        index: usize,
+        /// Its time, s.
+        time: f64,
+        /// Time of the sample before, s.
+        before: f64,
+    },
+    /// A time or value is not finite.
+    #[error("sample {0} is not finite")]
+    NotFinite(usize),
+}
+
+/// Samples of a function of time; zero before the first one.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Table {
+    times: Vec<f64>,
+    values: Vec<f64>,
+    /// Second derivatives of the spline at the samples; empty for linear interpolation.
+    curvatures: Vec<f64>,
+    after_end: AfterEnd,
+}
+
+impl Table {
+    /// A table of times (s, increasing) and values (SI).
+    ///
+    /// # Errors
+    /// [`TableError`] for fewer than two samples, times that do not increase, and numbers that are
+    /// not finite.
+    pub fn new(
+        times: Vec<f64>,
+        values: Vec<f64>,
+        interpolation: Interpolation,
+        after_end: AfterEnd,
+    ) -> Result<Self, TableError> {
+        if times.len() != values.len() {
+            return Err(TableError::Lengths(times.len(), values.len()));
+        }
+        if times.len() < 2 {
+            return Err(TableError::TooShort(times.len()));
+        }
+        if let Some(i) =
+            (0..times.len()).find(|&i| !(times[i].is_finite() && values[i].is_finite()))
+        {
+            return Err(TableError::NotFinite(i));
+        }
+        if let Some(i) = (1..times.len()).find(|&i| times[i] <= times[i - 1]) {
+            return Err(TableError::Order { index: i, time: times[i], before: times[i - 1] });
+        }
+        let curvatures = match interpolation {
+            Interpolation::Linear => Vec::new(),
+            Interpolation::Cubic => natural_spline(&times, &values),
+        };
+        Ok(Self { times, values, curvatures, after_end })
+    }
+
+    /// Times of the samples, s.
+    #[must_use]
+    pub fn times(&self) -> &[f64] {
+        &self.times
+    }
+
+    /// Values of the samples, SI.
+    #[must_use]
+    pub fn values(&self) -> &[f64] {
+        &self.values
+    }
+
+    /// Time of the first sample, s.
+    #[must_use]
+    pub fn start(&self) -> f64 {
+        self.times[0]
+    }
+
+    /// Time of the last sample, s.
+    #[must_use]
+    pub fn end(&self) -> f64 {
+        self.times[self.times.len() - 1]
+    }
+
+    /// How it is interpolated.
+    #[must_use]
+    pub fn interpolation(&self) -> Interpolation {
+        if self.curvatures.is_empty() { Interpolation::Linear } else { Interpolation::Cubic }
+    }
+
+    /// What holds after the last sample.
+    #[must_use]
+    pub fn after_end(&self) -> AfterEnd {
+        self.after_end
+    }
+
+    /// The table with its values times a factor.
+    #[must_use]
+    pub fn scaled(&self, factor: f64) -> Self {
+        let by = |all: &[f64]| all.iter().map(|y| factor * y).collect();
+        Self { values: by(&self.values), curvatures: by(&self.curvatures), ..self.clone() }
+    }
+
+    /// Largest |value|, between the samples of a spline too.
+    #[must_use]
+    pub fn peak(&self) -> f64 {
+        let samples = self.values.iter().fold(0.0_f64, |a, y| a.max(y.abs()));
+        if self.curvatures.is_empty() {
+            return samples;
+        }
+        (0..self.times.len() - 1)
+            .flat_map(|i| self.turning_points(i))
+            .fold(samples, |a, t| a.max(self.at(t, Side::Before)[0].abs()))
+    }
+
+    /// Value and first two derivatives at t.
+    pub(crate) fn at(&self, t: f64, side: Side) -> [f64; 3] {
+        if !side.is_past(t, self.start()) {
+            return [0.0; 3];
+        }
+        let last = self.times.len() - 1;
+        if side.is_past(t, self.end()) {
+            // A case that lasts exactly as long as the table still meets its last value.
+            let held = if self.after_end == AfterEnd::Zero { 0.0 } else { self.values[last] };
+            return [held, 0.0, 0.0];
+        }
+        let i = self.times.partition_point(|&x| side.is_past(t, x)).clamp(1, last) - 1;
+        let (h, x) = (self.times[i + 1] - self.times[i], t - self.times[i]);
+        let (y0, y1) = (self.values[i], self.values[i + 1]);
+        let slope = (y1 - y0) / h;
+        if self.curvatures.is_empty() {
+            return [y0 + slope * x, slope, 0.0];
+        }
+        let [b, c, d] = self.coefficients(i);
+        [y0 + x * (b + x * (c + x * d)), b + x * (2.0 * c + 3.0 * x * d), 2.0 * c + 6.0 * x * d]
+    }
+
+    /// Coefficients of x, x², x³ in segment i of the spline.
+    fn coefficients(&self, i: usize) -> [f64; 3] {
+        let h = self.times[i + 1] - self.times[i];
+        let slope = (self.values[i + 1] - self.values[i]) / h;
+        let (m0, m1) = (self.curvatures[i], self.curvatures[i + 1]);
+        [slope - h * (2.0 * m0 + m1) / 6.0, m0 / 2.0, (m1 - m0) / (6.0 * h)]
+    }
+
+    /// Times within segment i at which the spline has slope zero.
+    fn turning_points(&self, i: usize) -> Vec<f64> {
+        let [b, c, d] = self.coefficients(i);
+        let h = self.times[i + 1] - self.times[i];
+        let root = c * c - 3.0 * b * d;
+        if root < 0.0 {
+            return Vec::new();
+        }
+        // 3d x² + 2c x + b = 0 without cancellation; a vanishing divisor gives no finite root.
+        let q = -(c + c.signum() * root.sqrt());
+        [q / (3.0 * d), b / q]
+            .into_iter()
+            .filter(|x| (0.0..=h).contains(x))
+            .map(|x| self.times[i] + x)
+            .collect()
+    }
+}
+
+/// Second derivatives at the samples of a natural cubic spline (Thomas algorithm).
+fn natural_spline(t: &[f64], y: &[f64]) -> Vec<f64> {
+    let n = t.len();
+    let mut m = vec![0.0; n];
+    let mut upper = vec![0.0; n];
+    for i in 1..n - 1 {
+        let (h0, h1) = (t[i] - t[i - 1], t[i + 1] - t[i]);
+        let right = 6.0 * ((y[i + 1] - y[i]) / h1 - (y[i] - y[i - 1]) / h0);
+        let pivot = 2.0 * (h0 + h1) - h0 * upper[i - 1];
+        upper[i] = h1 / pivot;
+        m[i] = (right - h0 * m[i - 1]) / pivot;
+    }
+    for i in (1..n - 1).rev() {
+        m[i] -= upper[i] * m[i + 1];
+    }
+    m
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn sine(n: usize) -> Table {
+        let times: Vec<f64> = (0..=n).map(|i| std::f64::consts::PI * i as f64 / n as f64).collect();
+        let values = times.iter().map(|t| t.sin()).collect();
+        Table::new(times, values, Interpolation::Cubic, AfterEnd::Zero).unwrap()
+    }
+
+    #[test]
+    fn a_spline_through_a_sine_has_its_derivatives() {
+        let [y, first, second] = sine(40).at(1.0, Side::Before);
+        assert!((y - 1.0_f64.sin()).abs() < 1e-6);
+        assert!((first - 1.0_f64.cos()).abs() < 1e-5);
+        assert!((second + 1.0_f64.sin()).abs() < 2e-3);
+    }
+
+    #[test]
+    fn the_peak_of_a_spline_lies_between_samples() {
+        let table = sine(5); // no sample at π/2
+        assert!((table.peak() - 1.0).abs() < 5e-3 && table.peak() > table.values()[2]);
+    }
+
+    #[test]
+    fn a_linear_table_meets_its_samples_from_both_sides() {
+        let table = Table::new(
+            vec![0.0, 1.0, 2.0],
+            vec![0.0, 2.0, 1.0],
+            Interpolation::Linear,
+            AfterEnd::Zero,
+        )
+        .unwrap();
+        assert_eq!(table.at(1.0, Side::Before), [2.0, 2.0, 0.0]);
+        assert_eq!(table.at(1.0, Side::After), [2.0, -1.0, 0.0]);
+        assert_eq!(table.at(2.0, Side::Before)[0], 1.0);
+        assert_eq!(table.at(2.0, Side::After)[0], 0.0);
+    }
+
+    #[test]
+    fn times_that_do_not_increase_are_refused() {
+        let order = Table::new(vec![0.0, 0.0], vec![1.0; 2], Interpolation::Linear, AfterEnd::Zero);
+        assert!(matches!(order, Err(TableError::Order { index: 1, .. })));
+    }
+}

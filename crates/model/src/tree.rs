@@ -1,0 +1,311 @@
+//! A RON text as a tree in which everything knows its byte span.
+//!
+//! The parsing is done by `ron` alone: a `&RawValue` borrows from the text that is read, so its
+//! address tells where it stands.
+
+use crate::Span;
+use ron::value::RawValue;
+use serde::Deserialize;
+use serde::de::{Deserializer, MapAccess, SeqAccess, Visitor};
+use std::fmt;
+
+/// A value of the file.
+#[derive(Clone, Debug)]
+pub(crate) struct Node {
+    /// Where it stands, comments and blanks around it left out.
+    pub span: Span,
+    /// What it is.
+    pub kind: Kind,
+}
+
+/// What a value is.
+#[derive(Clone, Debug)]
+pub(crate) enum Kind {
+    /// A number; not necessarily finite.
+    Number(f64),
+    /// `true` or `false`.
+    Flag(bool),
+    /// A text in quotes.
+    Text(String),
+    /// A bare name such as `Fixed`.
+    Name(String),
+    /// `[a, b]`, `(a, b)` or `Name(a, b)`.
+    List(Option<String>, Vec<Node>),
+    /// `(a: 1)` or `Name(a: 1)`; also `()` and `Name()`.
+    Fields(Option<String>, Vec<Entry>),
+    /// `{"a": 1}`.
+    Map(Vec<Entry>),
+}
+
+/// A key with its value.
+#[derive(Clone, Debug)]
+pub(crate) struct Entry {
+    pub key: String,
+    pub key_span: Span,
+    pub value: Node,
+}
+
+/// An error of the text itself.
+#[derive(Debug)]
+pub(crate) struct TreeError {
+    pub code: &'static str,
+    pub message: String,
+    pub span: Span,
+    pub related: Option<Span>,
+}
+
+impl Node {
+    /// In words, for messages.
+    pub fn describe(&self) -> String {
+        match &self.kind {
+            Kind::Number(x) => format!("the number {x}"),
+            Kind::Flag(b) => format!("`{b}`"),
+            Kind::Text(s) => format!("the text \"{s}\""),
+            Kind::Name(n) => format!("`{n}`"),
+            Kind::List(None, _) => "a list".into(),
+            Kind::Fields(None, _) => "fields in parentheses".into(),
+            Kind::List(Some(n), _) | Kind::Fields(Some(n), _) => format!("`{n}(…)`"),
+            Kind::Map(_) => "a map `{…}`".into(),
+        }
+    }
+
+    /// The name of `Name`, `Name(…)`.
+    pub fn name(&self) -> Option<&str> {
+        match &self.kind {
+            Kind::Name(n) => Some(n),
+            Kind::List(n, _) | Kind::Fields(n, _) => n.as_deref(),
+            _ => None,
+        }
+    }
+
+    /// The span of the name of `Name(…)`, or of the whole value.
+    pub fn name_span(&self) -> Span {
+        let start = self.span.start;
+        self.name().map_or(self.span.clone(), |n| start..(start + n.len()).min(self.span.end))
+    }
+
+    /// The items of a list without a name; one value that is no list counts as its only item.
+    pub fn items(&self) -> Vec<&Self> {
+        match &self.kind {
+            Kind::List(None, items) => items.iter().collect(),
+            Kind::Fields(None, entries) if entries.is_empty() => Vec::new(),
+            _ => vec![self],
+        }
+    }
+
+    /// True for a list without a name.
+    pub fn is_list(&self) -> bool {
+        match &self.kind {
+            Kind::List(None, _) => true,
+            Kind::Fields(None, entries) => entries.is_empty(),
+            _ => false,
+        }
+    }
+}
+
+/// Reads a whole text. A byte-order mark at the start is skipped.
+pub(crate) fn parse(text: &str) -> Result<Node, TreeError> {
+    let body = text.strip_prefix('\u{feff}').unwrap_or(text);
+    let lead = text.len() - body.len();
+    let shape = options().from_str::<Shape<'_>>(body).map_err(|e| {
+        let at = byte_of(body, e.span.start.line, e.span.start.col) + lead;
+        let end = (byte_of(body, e.span.end.line, e.span.end.col) + lead).max(at);
+        TreeError {
+            code: "E0101",
+            message: e.code.to_string(),
+            span: at..end.max(next_char(text, at)),
+            related: None,
+        }
+    })?;
+    let (start, end) = (lead, lead + body.trim_end().len());
+    build(text, shape, start..end, "")
+}
+
+fn options() -> ron::Options {
+    use ron::extensions::Extensions as E;
+    ron::Options::default().with_default_extension(E::IMPLICIT_SOME | E::UNWRAP_NEWTYPES)
+}
+
+fn next_char(text: &str, at: usize) -> usize {
+    at + text.get(at..).and_then(|rest| rest.chars().next()).map_or(0, char::len_utf8)
+}
+
+/// Byte of a line and column, both from 1, columns in characters.
+fn byte_of(text: &str, line: usize, column: usize) -> usize {
+    let start: usize =
+        text.split_inclusive('\n').take(line.saturating_sub(1)).map(str::len).sum::<usize>();
+    let rest = &text[start.min(text.len())..];
+    let within = rest.char_indices().nth(column.saturating_sub(1)).map_or(rest.len(), |(i, _)| i);
+    (start + within).min(text.len())
+}
+
+/// Byte offset of a slice of `text`.
+fn offset(text: &str, part: &str) -> Option<usize> {
+    let at = (part.as_ptr() as usize).wrapping_sub(text.as_ptr() as usize);
+    (at <= text.len() && at + part.len() <= text.len()).then_some(at)
+}
+
+fn child(text: &str, raw: &RawValue) -> Result<Node, TreeError> {
+    let part = raw.trim().get_ron();
+    let start = offset(text, part).unwrap_or(0);
+    let span = start..start + part.len();
+    let shape = options().from_str::<Shape<'_>>(part).map_err(|e| TreeError {
+        code: "E0101",
+        message: e.code.to_string(),
+        span: span.clone(),
+        related: None,
+    })?;
+    build(text, shape, span, part)
+}
+
+/// The identifier that a value starts with.
+fn leading_name(part: &str) -> Option<String> {
+    let part = part.strip_prefix("r#").unwrap_or(part);
+    let end = part.find(|c: char| !(c.is_alphanumeric() || c == '_')).unwrap_or(part.len());
+    let name = &part[..end];
+    name.starts_with(|c: char| c.is_alphabetic() || c == '_').then(|| name.to_owned())
+}
+
+fn build(text: &str, shape: Shape<'_>, span: Span, part: &str) -> Result<Node, TreeError> {
+    let name = leading_name(part);
+    let kind = match shape {
+        Shape::Number(x) => Kind::Number(x),
+        Shape::Flag(b) => Kind::Flag(b),
+        Shape::Text(s) => Kind::Text(s),
+        Shape::Unit => match name {
+            Some(n) if !part.contains('(') => Kind::Name(n),
+            name => Kind::Fields(name, Vec::new()),
+        },
+        Shape::Some(raw) => return child(text, raw),
+        Shape::List(items) => {
+            let items = items.into_iter().map(|r| child(text, r)).collect::<Result<Vec<_>, _>>()?;
+            let name = if part.starts_with('[') { None } else { name };
+            if items.is_empty() && !part.starts_with('[') {
+                Kind::Fields(name, Vec::new())
+            } else {
+                Kind::List(name, items)
+            }
+        }
+        Shape::Entries(entries) => {
+            let mut out: Vec<Entry> = Vec::with_capacity(entries.len());
+            for (key, raw) in entries {
+                let value = child(text, raw)?;
+                let key_span = match &key {
+                    Key::Borrowed(k) => {
+                        offset(text, k).map_or(value.span.clone(), |at| at..at + k.len())
+                    }
+                    Key::Owned(_) => value.span.clone(),
+                };
+                let key = key.into_string();
+                if let Some(first) = out.iter().find(|e| e.key == key) {
+                    return Err(TreeError {
+                        code: "E0102",
+                        message: format!("`{key}` is given twice"),
+                        span: key_span,
+                        related: Some(first.key_span.clone()),
+                    });
+                }
+                out.push(Entry { key, key_span, value });
+            }
+            if part.starts_with('{') { Kind::Map(out) } else { Kind::Fields(name, out) }
+        }
+    };
+    Ok(Node { span, kind })
+}
+
+/// One level of a value; what is inside stays raw.
+enum Shape<'a> {
+    Number(f64),
+    Flag(bool),
+    Text(String),
+    Unit,
+    Some(&'a RawValue),
+    List(Vec<&'a RawValue>),
+    Entries(Vec<(Key<'a>, &'a RawValue)>),
+}
+
+enum Key<'a> {
+    Borrowed(&'a str),
+    Owned(String),
+}
+
+impl Key<'_> {
+    fn into_string(self) -> String {
+        match self {
+            Self::Borrowed(k) => k.to_owned(),
+            Self::Owned(k) => k,
+        }
+    }
+}
+
+impl<'de: 'a, 'a> Deserialize<'de> for Key<'a> {
+    fn deserialize<D: Deserializer<'de>>(d: D) -> Result<Self, D::Error> {
+        struct Names;
+        impl<'de> Visitor<'de> for Names {
+            type Value = Key<'de>;
+            fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+                f.write_str("a name")
+            }
+            fn visit_borrowed_str<E>(self, s: &'de str) -> Result<Key<'de>, E> {
+                Ok(Key::Borrowed(s))
+            }
+            fn visit_str<E>(self, s: &str) -> Result<Key<'de>, E> {
+                Ok(Key::Owned(s.to_owned()))
+            }
+        }
+        d.deserialize_any(Names)
+    }
+}
+
+impl<'de: 'a, 'a> Deserialize<'de> for Shape<'a> {
+    fn deserialize<D: Deserializer<'de>>(d: D) -> Result<Self, D::Error> {
+        d.deserialize_any(Shapes)
+    }
+}
+
+struct Shapes;
+
+impl<'de> Visitor<'de> for Shapes {
+    type Value = Shape<'de>;
+    fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str("a value")
+    }
+    fn visit_bool<E>(self, b: bool) -> Result<Shape<'de>, E> {
+        Ok(Shape::Flag(b))
+    }
+    fn visit_f64<E>(self, x: f64) -> Result<Shape<'de>, E> {
+        Ok(Shape::Number(x))
+    }
+    fn visit_i64<E>(self, x: i64) -> Result<Shape<'de>, E> {
+        Ok(Shape::Number(x as f64))
+    }
+    fn visit_u64<E>(self, x: u64) -> Result<Shape<'de>, E> {
+        Ok(Shape::Number(x as f64))
+    }
+    fn visit_str<E>(self, s: &str) -> Result<Shape<'de>, E> {
+        Ok(Shape::Text(s.to_owned()))
+    }
+    fn visit_unit<E>(self) -> Result<Shape<'de>, E> {
+        Ok(Shape::Unit)
+    }
+    fn visit_none<E>(self) -> Result<Shape<'de>, E> {
+        Ok(Shape::Unit)
+    }
+    fn visit_some<D: Deserializer<'de>>(self, d: D) -> Result<Shape<'de>, D::Error> {
+        <&RawValue>::deserialize(d).map(Shape::Some)
+    }
+    fn visit_seq<A: SeqAccess<'de>>(self, mut seq: A) -> Result<Shape<'de>, A::Error> {
+        let mut items = Vec::new();
+        while let Some(item) = seq.next_element()? {
+            items.push(item);
+        }
+        Ok(Shape::List(items))
+    }
+    fn visit_map<A: MapAccess<'de>>(self, mut map: A) -> Result<Shape<'de>, A::Error> {
+        let mut entries = Vec::new();
+        while let Some(entry) = map.next_entry()? {
+            entries.push(entry);
+        }
+        Ok(Shape::Entries(entries))
+    }
+}
