@@ -208,3 +208,73 @@ impl Link for Dashpot {
         bears.then(|| Contact { gap, normal: (-f[0]).max(0.0), ..Contact::default() })
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::parameters::read;
+    use approx::assert_relative_eq;
+    use trilith_element::Value;
+    use trilith_element::conformance::assert_conforms;
+
+    fn dashpot(given: &[(&str, Value)]) -> Dashpot {
+        let mut all = vec![("c", Value::Number(2e4))];
+        all.extend(given.iter().cloned());
+        read(&all).unwrap()
+    }
+
+    fn contact(given: &[(&str, Value)]) -> Dashpot {
+        let mut all = vec![("when", Value::Text("InContact".into()))];
+        all.extend(given.iter().cloned());
+        dashpot(&all)
+    }
+
+    #[test]
+    fn conforms_for_every_exponent_and_in_contact() {
+        for exponent in [0.3, 0.5, 1.0, 1.7, 2.0] {
+            let exponent = ("exponent", Value::Number(exponent));
+            assert_conforms(&dashpot(std::slice::from_ref(&exponent)), &[0.05], 1.0);
+            let k = ("stiffness", Value::Number(1e6));
+            assert_conforms(&contact(&[exponent.clone(), k.clone()]), &[0.05], 1.0);
+            let pull = ("pull", Value::Flag(true));
+            assert_conforms(&contact(&[exponent.clone(), k, pull.clone()]), &[0.05], 1.0);
+            assert_conforms(&contact(&[exponent, pull]), &[0.05], 1.0);
+        }
+    }
+
+    #[test]
+    fn the_force_is_a_signed_power_and_continuous_at_the_linear_range() {
+        let law = dashpot(&[("exponent", Value::Number(0.5))]);
+        assert_relative_eq!(law.force(0.04).0, 2e4 * 0.2, max_relative = 1e-14);
+        assert_relative_eq!(law.force(-0.04).0, -2e4 * 0.2, max_relative = 1e-14);
+        let (inside, outside) = (law.force(1e-6 * (1.0 - 1e-12)), law.force(1e-6));
+        assert_relative_eq!(inside.0, outside.0, max_relative = 1e-10);
+        assert_eq!(law.force(0.0).0, 0.0);
+        assert!(law.force(0.0).1.is_finite());
+    }
+
+    #[test]
+    fn a_dashpot_in_contact_neither_acts_in_flight_nor_pulls() {
+        let law = contact(&[]);
+        assert_eq!(law.total(1e-6, -1.0)[0], 0.0);
+        assert_eq!(law.total(-1e-6, -1.0)[0], -2e4);
+        assert_eq!(law.total(-1e-6, 1.0)[0], 0.0);
+        let with_spring = contact(&[("stiffness", Value::Number(1e6))]);
+        assert_eq!(with_spring.total(-0.1, 1.0)[0], 2e4 - 1e5);
+        assert_eq!(with_spring.total(-0.01, 1.0)[0], 0.0);
+    }
+
+    #[test]
+    fn refuses_a_coefficient_of_the_wrong_kind_and_a_contact_about_an_axis() {
+        let r2 = ("axis", Value::Text("R2".into()));
+        let c = ("c", Value::Number(1.0));
+        let err = read::<Dashpot>(&[c.clone(), r2.clone()]).unwrap_err();
+        assert_eq!(err.parameter(), Some("cr"));
+        let cr = ("cr", Value::Number(1.0));
+        assert!(read::<Dashpot>(&[cr.clone(), r2.clone()]).is_ok());
+        let when = ("when", Value::Text("InContact".into()));
+        assert!(read::<Dashpot>(&[cr, r2, when]).is_err());
+        let stray = [c, ("stiffness", Value::Number(1.0))];
+        assert_eq!(read::<Dashpot>(&stray).unwrap_err().parameter(), Some("when"));
+    }
+}

@@ -13,7 +13,6 @@ pub(crate) fn between(a: Vector3, b: Vector3) -> V3<f64> {
     V3::from(b) - V3::from(a)
 }
 
-
 /// The frame repeated along the diagonal, `blocks` times.
 pub(crate) fn repeated(frame: &Frame, blocks: usize) -> DMatrix<f64> {
     let r = rotation(frame);

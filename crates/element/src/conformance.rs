@@ -1,1 +1,164 @@
-//! Conformance kit.
+//! Conformance kit: does a link keep the [contract](crate::Link)?
+//!
+//! The kit leads a law along random smooth paths of deformation (periodic, starting at rest) and checks
+//!
+//! | property | claim |
+//! |----------|-------|
+//! | shape    | coordinates, history and dummy fit together; the dummy is symmetric and positive semi-definite |
+//! | purity   | equal questions get equal answers, bit for bit, whatever was asked in between (so a step can be reverted) |
+//! | writing  | every history variable of the trial is written and everything is finite |
+//! | restart  | at the start of a step, with dt = 0, the force is that of the end of the last step, and nothing dissipates |
+//! | tangents | `k` and `c` are the central difference quotients of `f`, away from kinks |
+//! | energy   | work = Δ stored + hysteretic + viscous under refinement; the last two never fall |
+//! | passive  | nowhere on three cycles has more energy come out than went in (unless [`Kit::active`]) |
+//! | rates    | a law declared [`Kit::rate_independent`] does not see the speed, nor the step on a straight path |
+//!
+//! ```
+//! use trilith_element::conformance::Kit;
+//! # use trilith_element::*;
+//! # #[derive(Debug)] struct Spring;
+//! # impl Link for Spring {
+//! #     fn coordinates(&self) -> Coordinates { Coordinates::Local(vec![Axis::U1]) }
+//! #     fn engaged_stiffness(&self, k: &mut [f64]) { k[0] = 2.0 }
+//! #     fn respond(&self, at: &Kinematics<'_>, _: &[f64], _: &mut [f64], out: &mut Response<'_>) {
+//! #         out.f[0] = 2.0 * at.d[0];
+//! #         out.k[0] = 2.0;
+//! #         out.energy.stored = at.d[0] * at.d[0];
+//! #     }
+//! # }
+//! // Deformations of about 10 mm, run through twice in a second.
+//! let report = Kit::new(&[0.01], 2.0).rate_independent().check(&Spring)?;
+//! assert!(report.tangents > 100);
+//! # Ok::<(), trilith_element::conformance::ConformanceError>(())
+//! ```
+
+mod error;
+mod path;
+mod probe;
+mod properties;
+#[cfg(test)]
+mod tests;
+
+pub use error::ConformanceError;
+
+use crate::Link;
+use path::Path;
+
+/// How a link is examined; see the [module](self).
+#[derive(Clone, Debug)]
+pub struct Kit {
+    deformation: Vec<f64>,
+    frequency: f64,
+    seed: u64,
+    paths: usize,
+    passive: bool,
+    rate_independent: bool,
+    energy_tolerance: f64,
+}
+
+/// What was examined.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Report {
+    /// Tangent columns compared with difference quotients.
+    pub tangents: usize,
+    /// Tangent columns skipped at kinks.
+    pub skipped: usize,
+    /// Largest error of the energy balance over a path, relative to the work done and taken.
+    pub energy_error: f64,
+}
+
+impl Kit {
+    /// A kit that deforms by about `deformation` (m or rad, one for each coordinate), at `frequency`
+    /// cycles in a second.
+    #[must_use]
+    pub fn new(deformation: &[f64], frequency: f64) -> Self {
+        Self {
+            deformation: deformation.to_vec(),
+            frequency,
+            seed: 1,
+            paths: 8,
+            passive: true,
+            rate_independent: false,
+            energy_tolerance: 2e-3,
+        }
+    }
+
+    /// Another seed of the random paths.
+    #[must_use]
+    pub fn seed(mut self, seed: u64) -> Self {
+        self.seed = seed;
+        self
+    }
+
+    /// Another number of paths.
+    #[must_use]
+    pub fn paths(mut self, paths: usize) -> Self {
+        self.paths = paths;
+        self
+    }
+
+    /// The law may give energy in a closed cycle.
+    #[must_use]
+    pub fn active(mut self) -> Self {
+        self.passive = false;
+        self
+    }
+
+    /// The law must not depend on rates.
+    #[must_use]
+    pub fn rate_independent(mut self) -> Self {
+        self.rate_independent = true;
+        self
+    }
+
+    /// Admissible error of the energy balance with thousands of steps, relative to the work.
+    #[must_use]
+    pub fn energy_tolerance(mut self, relative: f64) -> Self {
+        self.energy_tolerance = relative;
+        self
+    }
+
+    /// Examines a link.
+    ///
+    /// # Errors
+    /// The first property that does not hold, with its numbers.
+    pub fn check(&self, link: &dyn Link) -> Result<Report, ConformanceError> {
+        properties::shape(self, link)?;
+        let mut report = Report::default();
+        for number in 0..self.paths {
+            let path = Path::random(&self.deformation, self.frequency, self.seed, number);
+            properties::answers(link, &path)?;
+            properties::tangents(link, &path, &mut report)?;
+            properties::energy(self, link, &path, &mut report)?;
+            if self.rate_independent {
+                properties::rates(link, &path)?;
+            }
+        }
+        // Kinks are rare on a random path; a law that is all kinks has not been examined.
+        let seen = report.tangents + report.skipped;
+        if 4 * report.skipped > seen {
+            return Err(ConformanceError::Kinks { skipped: report.skipped, of: seen });
+        }
+        Ok(report)
+    }
+
+    /// [`check`](Self::check) for tests.
+    ///
+    /// # Panics
+    /// Where the link does not conform, with what is wrong.
+    #[track_caller]
+    pub fn assert(&self, link: &dyn Link) {
+        if let Err(error) = self.check(link) {
+            panic!("{link:?} does not conform: {error}");
+        }
+    }
+}
+
+/// Examines a passive link that may depend on rates, for tests.
+///
+/// # Panics
+/// Where the link does not conform, with what is wrong.
+#[track_caller]
+pub fn assert_conforms(link: &dyn Link, deformation: &[f64], frequency: f64) {
+    Kit::new(deformation, frequency).assert(link);
+}

@@ -1,1 +1,258 @@
 use super::*;
+use crate::parameters::{numbers, read};
+use approx::assert_relative_eq;
+use trilith_element::conformance::Kit;
+use trilith_element::{Energy, History, Kinematics, Link, Response};
+
+const KN: f64 = 5e8;
+const MU: f64 = 0.4;
+
+fn friction() -> NLink {
+    NLink { mu: Some(MU), ks: Some(KN), ..NLink::new(KN) }
+}
+
+fn with_speed() -> NLink {
+    let (mu_slow, mu_fast, rate) = (Some(0.05), Some(0.4), Some(20.0));
+    NLink { mu_slow, mu_fast, rate, ks: Some(0.6 * KN), ..NLink::new(KN) }
+}
+
+/// One link on a path of its own.
+struct Ride<'a> {
+    link: &'a NLink,
+    d: Vec<f64>,
+    v: Vec<f64>,
+    history: Vec<f64>,
+    f: Vec<f64>,
+    work: f64,
+    dissipated: Energy,
+}
+
+impl<'a> Ride<'a> {
+    fn new(link: &'a NLink) -> Self {
+        let n = link.coordinates().len();
+        let mut history = vec![0.0; link.history().len()];
+        link.at_rest(&mut history);
+        let zeros = vec![0.0; n];
+        let (d, v, f) = (zeros.clone(), zeros.clone(), zeros);
+        Self { link, d, v, history, f, work: 0.0, dissipated: Energy::default() }
+    }
+
+    fn step(&mut self, d: &[f64], v: &[f64], dt: f64) {
+        let n = d.len();
+        let (mut f, mut k, mut c) = (vec![0.0; n], vec![0.0; n * n], vec![0.0; n * n]);
+        let (mut energy, mut trial) = (Energy::default(), self.history.clone());
+        let mut out = Response { f: &mut f, k: &mut k, c: &mut c, energy: &mut energy };
+        let at = Kinematics { d, v, d0: &self.d, v0: &self.v, dt };
+        self.link.respond(&at, &self.history, &mut trial, &mut out);
+        self.work += (0..n).map(|i| 0.5 * (f[i] + self.f[i]) * (d[i] - self.d[i])).sum::<f64>();
+        self.dissipated.stored = energy.stored;
+        self.dissipated.hysteretic += energy.hysteretic;
+        self.dissipated.viscous += energy.viscous;
+        (self.d, self.v, self.f, self.history) = (d.to_vec(), v.to_vec(), f, trial);
+    }
+
+    fn to(&mut self, d: [f64; 3]) {
+        self.step(&d, &[0.0; 3], 0.0);
+    }
+
+    fn history(&self) -> NLinkHistory {
+        NLinkHistory::load(&self.history)
+    }
+}
+
+#[test]
+fn conforms_with_and_without_friction_dashpot_and_pull() {
+    let scale = [1e-4, 2e-4, 1.5e-4];
+    Kit::new(&scale, 5.0).rate_independent().assert(&NLink::new(KN));
+    Kit::new(&scale, 5.0).rate_independent().assert(&friction());
+    Kit::new(&scale, 5.0).rate_independent().assert(&NLink { opening: 5e-5, ..friction() });
+    for pull in [false, true] {
+        Kit::new(&scale, 5.0).assert(&NLink { pull, damping: 1.3e6, ..friction() });
+        Kit::new(&scale, 5.0).assert(&NLink {
+            pull,
+            damping: 1.3e7,
+            opening: -3e-5,
+            ..with_speed()
+        });
+    }
+    let all = NLink { r1: 1e3, r3: 5e3, damping: 1e6, ..friction() };
+    Kit::new(&[1e-4, 1e-4, 1e-4, 1e-2, 1e-2], 5.0).assert(&all);
+}
+
+#[test]
+fn conforms_with_restoring_forces_which_have_no_potential() {
+    let scale = [1e-4, 2e-4, 1.5e-4];
+    let law = NLink { k_post: 0.1 * KN, ..friction() };
+    Kit::new(&scale, 5.0).active().rate_independent().assert(&law);
+    let law = NLink { radius: 1e-3, damping: 1.3e6, ..with_speed() };
+    Kit::new(&scale, 5.0).active().assert(&law);
+}
+
+#[test]
+fn touching_is_closed_and_the_opening_is_free() {
+    let link = NLink { opening: 1e-3, ..friction() };
+    let mut ride = Ride::new(&link);
+    ride.to([-0.9e-3, 0.0, 0.0]);
+    assert_eq!((ride.f.as_slice(), ride.history().closed), ([0.0; 3].as_slice(), 0.0));
+    ride.to([-1e-3, 0.0, 0.0]);
+    assert_eq!((ride.f[0], ride.history().closed), (0.0, 1.0));
+    ride.to([-1.2e-3, 0.0, 0.0]);
+    assert_relative_eq!(ride.f[0], -KN * 0.2e-3, max_relative = 1e-12);
+}
+
+#[test]
+fn slips_at_mu_n_in_the_direction_of_motion() {
+    let link = friction();
+    let mut ride = Ride::new(&link);
+    ride.to([-1e-4, 0.0, 0.0]);
+    ride.to([-1e-4, 0.3e-4, 0.0]);
+    assert_relative_eq!(ride.f[1], KN * 0.3e-4, max_relative = 1e-12);
+    assert_eq!(ride.history().slip, 0.0);
+    ride.to([-1e-4, 3e-3, 4e-3]);
+    assert_relative_eq!(ride.f[1].hypot(ride.f[2]), MU * KN * 1e-4, max_relative = 1e-12);
+    assert_relative_eq!(ride.f[1] / ride.f[2], 0.75, max_relative = 1e-12);
+    assert_relative_eq!(ride.history().slip, 5e-3 - MU * 1e-4, max_relative = 1e-3);
+}
+
+#[test]
+fn a_friction_loop_dissipates_four_mu_n_times_the_slip_amplitude() {
+    let link = friction();
+    let (n, amplitude) = (KN * 1e-4, 2e-3);
+    let mut ride = Ride::new(&link);
+    ride.to([-1e-4, 0.0, 0.0]);
+    let mut cycle = |from: f64| {
+        let before = ride.dissipated.hysteretic;
+        for i in 1..=4000 {
+            let t = from + std::f64::consts::TAU * f64::from(i) / 4000.0;
+            ride.to([-1e-4, amplitude * t.sin(), 0.0]);
+        }
+        ride.dissipated.hysteretic - before
+    };
+    cycle(0.0);
+    // The elastic part of a reversal, 2 μN/kₛ, does not slip.
+    let expected = 4.0 * MU * n * (amplitude - MU * n / KN);
+    assert_relative_eq!(cycle(0.0), expected, max_relative = 1e-4);
+}
+
+#[test]
+fn stick_slip_and_separation_balance_to_the_last_digit() {
+    let link = friction();
+    let mut ride = Ride::new(&link);
+    for d in [
+        [-1e-4, 0.0, 0.0],
+        [-1e-4, 0.2e-4, 0.1e-4],
+        [-1e-4, 0.6e-4, 0.1e-4],
+        [-1e-4, 2e-4, 1e-4],
+        [-1e-4, 1.9e-4, 1e-4],
+        [-1e-4, 1.9e-4, 3e-4],
+    ] {
+        ride.to(d);
+    }
+    let e = ride.dissipated;
+    assert_relative_eq!(ride.work, e.stored + e.hysteretic, max_relative = 1e-12);
+}
+
+#[test]
+fn the_anchor_does_not_survive_a_separation() {
+    let link = friction();
+    let mut ride = Ride::new(&link);
+    ride.to([-1e-4, 0.0, 0.0]);
+    ride.to([-1e-4, 0.3e-4, 0.0]);
+    let stuck = ride.dissipated.stored;
+    ride.to([1e-6, 0.3e-4, 0.0]);
+    assert_eq!(ride.dissipated.stored, 0.0);
+    // The elastic energy of the stuck contact turned into heat.
+    assert_relative_eq!(ride.dissipated.hysteretic, stuck - 0.5 * KN * 1e-8, max_relative = 1e-9);
+    ride.to([1e-6, 5e-4, 0.0]);
+    ride.to([-1e-4, 5e-4, 0.0]);
+    assert_eq!(ride.f[1], 0.0);
+}
+
+#[test]
+fn a_closing_contact_is_anchored_where_it_touched() {
+    let link = friction();
+    let mut ride = Ride::new(&link);
+    ride.to([3e-4, 0.0, 0.0]);
+    ride.to([-1e-4, 1e-4, 0.0]);
+    // Touched after three quarters of the step, at 0.75e-4.
+    assert_relative_eq!(ride.f[1], KN * 0.25e-4, max_relative = 1e-9);
+}
+
+#[test]
+fn the_dashpot_pulls_only_where_it_may_and_feeds_the_cone_only_where_it_may_not() {
+    let (c, v) = (1e6, 1.0);
+    let loose = NLink { damping: c, ..friction() };
+    let held = NLink { pull: true, ..loose.clone() };
+    let rising = |link: &NLink, d1, v1| {
+        let mut ride = Ride::new(link);
+        ride.to([-1e-4, 0.0, 0.0]);
+        ride.step(&[d1, 1e-2, 0.0], &[v1, 0.0, 0.0], 1e-3);
+        ride.f
+    };
+    let n = KN * 1e-4;
+    assert_eq!(rising(&loose, -1e-4, v), [0.0; 3]);
+    let f = rising(&held, -1e-4, v);
+    assert_relative_eq!(f[0], c * v - n, max_relative = 1e-9);
+    assert_relative_eq!(f[1], MU * n, max_relative = 1e-9);
+    let f = rising(&loose, -1e-4, -v);
+    assert_relative_eq!(f[0], -c * v - n, max_relative = 1e-9);
+    assert_relative_eq!(f[1], MU * (c * v + n), max_relative = 1e-9);
+    assert_eq!(rising(&held, 1e-9, v), [0.0; 3]);
+}
+
+#[test]
+fn friction_grows_from_slow_to_fast() {
+    let link = with_speed();
+    let at = |speed: f64| {
+        let mut ride = Ride::new(&link);
+        ride.to([-1e-4, 0.0, 0.0]);
+        ride.step(&[-1e-4, 1e-2, 0.0], &[0.0, speed, 0.0], 0.0);
+        ride.f[1] / (KN * 1e-4)
+    };
+    assert_relative_eq!(at(0.0), 0.05, max_relative = 1e-9);
+    assert_relative_eq!(at(0.1), 0.4 - 0.35 * (-2.0_f64).exp(), max_relative = 1e-9);
+    assert_relative_eq!(at(10.0), 0.4, max_relative = 1e-9);
+}
+
+#[test]
+fn a_pendulum_pulls_back_with_n_d_over_r() {
+    let link = NLink { radius: 2.0, ..NLink::new(KN) };
+    let mut ride = Ride::new(&link);
+    ride.to([-1e-4, 0.0, 0.0]);
+    ride.to([-1e-4, 0.1, -0.05]);
+    assert_relative_eq!(ride.f[1], KN * 1e-4 * 0.1 / 2.0, max_relative = 1e-9);
+    assert_relative_eq!(ride.f[2], -KN * 1e-4 * 0.05 / 2.0, max_relative = 1e-9);
+    let rise = KN * 1e-4 * (0.01 + 0.0025) / 4.0;
+    assert_relative_eq!(ride.dissipated.stored, rise + 0.5 * KN * 1e-8, max_relative = 1e-9);
+}
+
+#[test]
+fn the_contact_tells_stick_from_slip() {
+    let link = friction();
+    let mut ride = Ride::new(&link);
+    let mut tell = |d: [f64; 3]| {
+        ride.to(d);
+        let at = Kinematics { d: &d, v: &[0.0; 3], d0: &d, v0: &[0.0; 3], dt: 0.0 };
+        link.contact(&at, &ride.history, &ride.f).unwrap()
+    };
+    let still = tell([-1e-4, 0.3e-4, 0.0]);
+    assert!(!still.slipping);
+    assert_relative_eq!(still.normal, KN * 1e-4, max_relative = 1e-12);
+    assert!(tell([-1e-4, 5e-4, 1e-4]).slipping);
+    let open = tell([2e-4, 5e-4, 1e-4]);
+    assert_eq!((open.normal, open.gap, open.slipping), (0.0, 2e-4, false));
+}
+
+#[test]
+fn rejects_contradictions_by_name() {
+    let name = |given: &[(&str, f64)]| {
+        read::<NLink>(&numbers(given)).unwrap_err().parameter().map(str::to_owned)
+    };
+    assert_eq!(name(&[("kn", 1.0), ("mu", 0.3)]).as_deref(), Some("ks"));
+    assert_eq!(name(&[("kn", 1.0), ("mu_slow", 0.3)]).as_deref(), Some("mu_slow"));
+    let both = [("kn", 1.0), ("ks", 1.0), ("mu", 0.3), ("mu_slow", 0.3)];
+    assert_eq!(name(&both).as_deref(), Some("mu"));
+    assert_eq!(name(&[("kn", 1.0), ("ks", 1.0), ("k_post", 1.0)]).as_deref(), Some("k_post"));
+    assert!(read::<NLink>(&numbers(&[("kn", 1.0), ("k_n", 1.0)])).is_err());
+    assert!(read::<NLink>(&numbers(&[("kn", 1.0)])).is_ok());
+}

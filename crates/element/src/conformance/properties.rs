@@ -1,0 +1,309 @@
+//! The properties, one function each.
+
+use super::path::Path;
+use super::probe::{Answer, Step, ask, march, rest};
+use super::{ConformanceError as Broken, Kit, Report};
+use crate::{Kinematics, Link};
+
+/// Steps of a cycle where states are looked at one by one.
+const COARSE: usize = 48;
+/// Steps of a cycle where energies are added up.
+const FINE: usize = 2000;
+/// Step of a difference quotient, relative to the scale of the coordinate.
+const STEP: f64 = 1e-5;
+/// Admissible error of a tangent, relative to the force over the scale of the coordinate. Quotients
+/// from both sides that differ by more lie at a kink.
+const TANGENT: f64 = 1e-4;
+
+/// Lengths, names and the dummy.
+pub(super) fn shape(kit: &Kit, link: &dyn Link) -> Result<(), Broken> {
+    let n = link.coordinates().len();
+    if n != kit.deformation.len() || n == 0 {
+        return Err(Broken::Coordinates { link: n, kit: kit.deformation.len() });
+    }
+    let fields = link.history();
+    for (i, field) in fields.iter().enumerate() {
+        if field.name.is_empty() || fields[..i].iter().any(|f| f.name == field.name) {
+            return Err(Broken::FieldName { name: field.name.to_owned() });
+        }
+    }
+    let mut a = vec![0.0; n * n];
+    link.engaged_stiffness(&mut a);
+    semi_definite(&a, n).map_err(|(row, why)| Broken::EngagedStiffness { row, why })
+}
+
+/// Cholesky of the matrix scaled to a unit diagonal plus a little.
+fn semi_definite(a: &[f64], n: usize) -> Result<(), (usize, &'static str)> {
+    let mut l = vec![0.0; n * n];
+    for i in 0..n {
+        for j in 0..n {
+            let (x, y) = (a[i * n + j], a[j * n + i]);
+            if !x.is_finite() {
+                return Err((i, "a value is not finite"));
+            }
+            if (x - y).abs() > 1e-9 * (x.abs() + y.abs()) {
+                return Err((i, "it is not symmetric"));
+            }
+            if x != 0.0 && (a[i * n + i] <= 0.0 || a[j * n + j] <= 0.0) {
+                return Err((i, "a diagonal value is not positive"));
+            }
+            let size = (a[i * n + i] * a[j * n + j]).sqrt();
+            l[i * n + j] = if size > 0.0 { x / size } else { 0.0 };
+        }
+        l[i * n + i] += 1e-9;
+    }
+    for j in 0..n {
+        for i in j..n {
+            let sum: f64 = (0..j).map(|k| l[i * n + k] * l[j * n + k]).sum();
+            let rest = l[i * n + j] - sum;
+            if i == j && rest < 0.0 {
+                return Err((j, "a pivot is negative"));
+            }
+            l[i * n + j] = if i == j {
+                rest.sqrt()
+            } else if l[j * n + j] > 0.0 {
+                rest / l[j * n + j]
+            } else {
+                0.0
+            };
+        }
+    }
+    Ok(())
+}
+
+/// Largest absolute force along a path, by coordinate.
+fn peaks(link: &dyn Link, path: &Path) -> Result<Vec<f64>, Broken> {
+    let mut peak = vec![0.0_f64; path.scale.len()];
+    march(link, path, 2, COARSE, |s| {
+        peak.iter_mut().zip(&s.answer.f).for_each(|(p, f)| *p = p.max(f.abs()));
+        Ok(())
+    })?;
+    Ok(peak)
+}
+
+/// Finite, complete, pure, the same after a discarded trial, and the same at the start of the next step.
+pub(super) fn answers(link: &dyn Link, path: &Path) -> Result<(), Broken> {
+    let peak = peaks(link, path)?;
+    march(link, path, 2, COARSE, |s| {
+        finite(s, path)?;
+        // A discarded trial somewhere else must leave no trace.
+        let elsewhere: Vec<f64> =
+            s.at.d.iter().zip(&path.scale).map(|(d, x)| d - 1.7 * x).collect();
+        ask(link, &Kinematics { d: &elsewhere, ..s.at }, s.committed);
+        same(&ask(link, &s.at, s.committed), s, path)?;
+        restart(link, s, path, &peak)?;
+        contact(link, s, path)
+    })
+}
+
+fn finite(s: &Step<'_>, path: &Path) -> Result<(), Broken> {
+    for (what, values) in s.answer.parts() {
+        if let Some(index) = values.iter().position(|x| !x.is_finite()) {
+            return Err(Broken::NotFinite { what, index, path: path.number, time: s.time });
+        }
+    }
+    Ok(())
+}
+
+fn same(again: &Answer, s: &Step<'_>, path: &Path) -> Result<(), Broken> {
+    for ((what, one), (_, two)) in s.answer.parts().iter().zip(&again.parts()) {
+        for (index, (first, second)) in one.iter().zip(two).enumerate() {
+            if first.to_bits() != second.to_bits() {
+                let (first, second, path) = (*first, *second, path.number);
+                return Err(Broken::Impure { what, index, first, second, path, time: s.time });
+            }
+        }
+    }
+    Ok(())
+}
+
+fn restart(link: &dyn Link, s: &Step<'_>, path: &Path, peak: &[f64]) -> Result<(), Broken> {
+    let (d, v) = (s.at.d, s.at.v);
+    let next = ask(link, &Kinematics { d, v, d0: d, v0: v, dt: 0.0 }, &s.answer.trial);
+    for (index, (before, after)) in s.answer.f.iter().zip(&next.f).enumerate() {
+        let close = (before - after).abs() <= 1e-9 * peak[index];
+        if !close {
+            let (before, after, path) = (*before, *after, path.number);
+            return Err(Broken::Restart { index, before, after, path, time: s.time });
+        }
+    }
+    let size: f64 = peak.iter().zip(&path.scale).map(|(f, d)| f * d).sum();
+    for (which, value) in [("hysteretic", next.energy.hysteretic), ("viscous", next.energy.viscous)]
+    {
+        if value.abs() > 1e-9 * size {
+            return Err(Broken::NegativeDissipation {
+                which,
+                value,
+                path: path.number,
+                time: s.time,
+            });
+        }
+    }
+    Ok(())
+}
+
+fn contact(link: &dyn Link, s: &Step<'_>, path: &Path) -> Result<(), Broken> {
+    let Some(c) = link.contact(&s.at, &s.answer.trial, &s.answer.f) else { return Ok(()) };
+    let wrong = |what, value| Broken::Contact { what, value, path: path.number, time: s.time };
+    if !c.gap.is_finite() {
+        return Err(wrong("gap", c.gap));
+    }
+    if !(c.normal.is_finite() && c.normal >= 0.0) {
+        return Err(wrong("normal", c.normal));
+    }
+    Ok(())
+}
+
+/// `k` and `c` against central difference quotients.
+pub(super) fn tangents(link: &dyn Link, path: &Path, report: &mut Report) -> Result<(), Broken> {
+    let peak = peaks(link, path)?;
+    let n = path.scale.len();
+    march(link, path, 2, COARSE, |s| {
+        for column in 0..n {
+            for rate in [false, true] {
+                let scale = path.scale[column] * if rate { path.omega } else { 1.0 };
+                let moved = |h: f64| {
+                    let mut x = if rate { s.at.v.to_vec() } else { s.at.d.to_vec() };
+                    x[column] += h;
+                    let at = if rate {
+                        Kinematics { v: &x, ..s.at }
+                    } else {
+                        Kinematics { d: &x, ..s.at }
+                    };
+                    ask(link, &at, s.committed).f
+                };
+                let h = STEP * scale;
+                let (plus, minus) = (moved(h), moved(-h));
+                let matrix = if rate { &s.answer.c } else { &s.answer.k };
+                let tolerance =
+                    |row: usize| TANGENT * (peak[row] / scale + matrix[row * n + column].abs());
+                let kink = (0..n).any(|i| {
+                    let jump = (plus[i] - 2.0 * s.answer.f[i] + minus[i]) / h;
+                    jump.abs() > tolerance(i)
+                });
+                if kink {
+                    report.skipped += 1;
+                    continue;
+                }
+                report.tangents += 1;
+                for row in 0..n {
+                    let quotient = (plus[row] - minus[row]) / (2.0 * h);
+                    let given = matrix[row * n + column];
+                    if (given - quotient).abs() > tolerance(row) {
+                        let which = if rate { "c" } else { "k" };
+                        let (path, time) = (path.number, s.time);
+                        return Err(Broken::Tangent {
+                            which,
+                            row,
+                            column,
+                            given,
+                            quotient,
+                            path,
+                            time,
+                        });
+                    }
+                }
+            }
+        }
+        Ok(())
+    })
+}
+
+/// Energy of three cycles of a path.
+#[derive(Default)]
+struct Ledger {
+    work: f64,
+    accounted: f64,
+    turned_over: f64,
+    /// Most energy given so far beyond what was stored at the start.
+    gain: f64,
+}
+
+fn ledger(link: &dyn Link, path: &Path, steps: usize) -> Result<Ledger, Broken> {
+    let (mut sum, mut first, mut last) = (Ledger::default(), None, 0.0);
+    let mut dissipated = 0.0;
+    march(link, path, 3, steps, |s| {
+        let (f0, f1) = (&s.before.f, &s.answer.f);
+        let work: f64 =
+            (0..f0.len()).map(|i| 0.5 * (f0[i] + f1[i]) * (s.at.d[i] - s.at.d0[i])).sum();
+        sum.work += work;
+        sum.turned_over += work.abs();
+        let e = s.answer.energy;
+        for (which, value) in [("hysteretic", e.hysteretic), ("viscous", e.viscous)] {
+            if value < -1e-12 * (sum.turned_over + e.stored.abs()) {
+                return Err(Broken::NegativeDissipation {
+                    which,
+                    value,
+                    path: path.number,
+                    time: s.time,
+                });
+            }
+            dissipated += value;
+        }
+        let at_start = *first.get_or_insert(s.before.energy.stored);
+        sum.gain = sum.gain.max(-sum.work - at_start);
+        last = e.stored;
+        Ok(())
+    })?;
+    sum.accounted = last - first.unwrap_or(0.0) + dissipated;
+    Ok(sum)
+}
+
+/// Work against energies, and no more energy out than was in.
+pub(super) fn energy(
+    kit: &Kit,
+    link: &dyn Link,
+    path: &Path,
+    report: &mut Report,
+) -> Result<(), Broken> {
+    let error = |l: &Ledger| (l.work - l.accounted).abs() / l.turned_over.max(f64::MIN_POSITIVE);
+    let mut it = ledger(link, path, FINE)?;
+    let coarse = error(&it);
+    if coarse > kit.energy_tolerance {
+        // Second order makes it 16 times smaller; impacts and reversals may spoil some of it.
+        let steps = 4 * FINE;
+        it = ledger(link, path, steps)?;
+        if error(&it) > (coarse / 8.0).min(5.0 * kit.energy_tolerance) {
+            let (work, accounted) = (it.work, it.accounted);
+            return Err(Broken::Balance { path: path.number, work, accounted, steps });
+        }
+    }
+    report.energy_error = report.energy_error.max(error(&it));
+    if kit.passive && it.gain > kit.energy_tolerance * it.turned_over {
+        let (gain, turned_over) = (it.gain, it.turned_over);
+        return Err(Broken::GivesEnergy { path: path.number, gain, turned_over });
+    }
+    Ok(())
+}
+
+/// No dependence on speed, nor on the step along a straight path.
+pub(super) fn rates(link: &dyn Link, path: &Path) -> Result<(), Broken> {
+    let peak = peaks(link, path)?;
+    let different = |one: &[f64], two: &[f64], relative: f64, change| {
+        let index = (0..one.len()).find(|&i| (one[i] - two[i]).abs() > relative * peak[i]);
+        index.map_or(Ok(()), |index| {
+            let (first, second) = (one[index], two[index]);
+            Err(Broken::DependsOnRate { path: path.number, index, first, second, change })
+        })
+    };
+    march(link, path, 1, COARSE, |s| {
+        let v: Vec<f64> = s.at.v.iter().map(|x| 10.0 * x).collect();
+        let v0: Vec<f64> = s.at.v0.iter().map(|x| 10.0 * x).collect();
+        let fast = Kinematics { v: &v, v0: &v0, dt: 0.1 * s.at.dt, ..s.at };
+        different(&s.answer.f, &ask(link, &fast, s.committed).f, 1e-9, "at ten times the speed")
+    })?;
+    let end = path.at(0.37 * path.period()).0;
+    let straight = |steps: usize| {
+        let mut history = rest(link);
+        let mut d0 = vec![0.0; end.len()];
+        let mut f = Vec::new();
+        for i in 1..=steps {
+            let d: Vec<f64> = end.iter().map(|x| x * i as f64 / steps as f64).collect();
+            let answer =
+                ask(link, &Kinematics { d: &d, v: &end, d0: &d0, v0: &end, dt: 1.0 }, &history);
+            (history, d0, f) = (answer.trial, d, answer.f);
+        }
+        f
+    };
+    different(&straight(400), &straight(800), 1e-3, "with half the step on a straight path")
+}
