@@ -4,30 +4,51 @@
 //! |---|---|---|
 //! | [`Beam`], [`Truss`], [`Spring`], [`Mass`] | [`RigidBody`], [`RigidLink`], [`Diaphragm`], [`EqualDof`] | [`NLink`], [`Gap`], [`Hook`], [`Dashpot`] |
 //!
-//! To add one: write its file, then two lines here (`mod` with `pub use`, and registration).
+//! To add one: write its file, then its lines here (`mod`, `pub use`, and one of registration).
 
 mod dense;
 mod parameters;
 
 mod beam;
 mod dashpot;
+mod diaphragm;
+mod equal_dof;
+mod gap;
+mod hook;
 mod mass;
 mod nlink;
 mod rigid_body;
+mod rigid_link;
+mod spring;
+mod truss;
 
 pub use beam::{Beam, MassMatrix};
 pub use dashpot::{Dashpot, When};
+pub use diaphragm::{Diaphragm, Normal};
+pub use equal_dof::{DofName, EqualDof};
+pub use gap::Gap;
+pub use hook::Hook;
 pub use mass::Mass;
 pub use nlink::{NLink, NLinkHistory};
 pub use rigid_body::RigidBody;
+pub use rigid_link::RigidLink;
+pub use spring::Spring;
+pub use truss::Truss;
 
 use trilith_element::Register;
 
 /// Offers every built-in kind.
 pub fn register(to: &mut impl Register) {
     to.linear::<Beam>();
+    to.linear::<Truss>();
+    to.linear::<Spring>();
     to.linear::<Mass>();
     to.constraint::<RigidBody>();
+    to.constraint::<RigidLink>();
+    to.constraint::<Diaphragm>();
+    to.constraint::<EqualDof>();
     to.link::<NLink>();
+    to.link::<Gap>();
+    to.link::<Hook>();
     to.link::<Dashpot>();
 }

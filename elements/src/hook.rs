@@ -1,0 +1,116 @@
+//! Hook: a tension-only cable that engages after a slack.
+//!
+//! ```text
+//!   i ●──/\/\/──⊂ g ⊃──● j      f = k (d − g)   where d − g > 0   (engaged)
+//!          k                     f = 0           otherwise         (slack)
+//! ```
+//!
+//! | parameter | symbol | unit | range | default | meaning                                         |
+//! |-----------|--------|------|-------|---------|-------------------------------------------------|
+//! | `k`       | k      | N/m  | > 0   | –       | stiffness                                       |
+//! | `opening` | g      | m    | any   | 0       | clearance at rest (negative: prestressed by kg) |
+//! | `axis`    |        |      |       | U1      | local axis: U1, U2 or U3                        |
+//!
+//! `d` is the deformation along the axis (extension along U1). No energy is lost; for restitution use
+//! an `NLink` with `damping`, or a `Dashpot` in contact beside it.
+//!
+//! Reference: \[Wilson 2002, ch. 21\].
+
+use serde::Deserialize;
+use trilith_element::dimension::{LENGTH, STIFFNESS};
+use trilith_element::{
+    Axis, Card, Category, Coordinates, Described, Kinematics, Link, NodeCount, Parameter, Range,
+    Response,
+};
+
+/// Tension-only cable with a slack.
+#[derive(Clone, Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Hook {
+    /// Stiffness k, N/m.
+    pub k: f64,
+    /// Clearance at rest g, m.
+    pub opening: f64,
+    /// Local axis.
+    pub axis: Axis,
+}
+
+impl Described for Hook {
+    const CARD: Card = Card {
+        kind: "Hook",
+        category: Category::Link,
+        summary: "Tension-only cable with a slack.",
+        nodes: NodeCount::GROUND_OR_TWO,
+        parameters: &[
+            Parameter::required("k", "k", STIFFNESS, Range::Positive, "stiffness"),
+            Parameter::number("opening", "g", LENGTH, Range::Any, 0.0, "clearance at rest"),
+            Parameter::choice("axis", &["U1", "U2", "U3"], "U1", "local axis"),
+        ],
+        law: "f = k (d − g) where d − g > 0, else 0",
+        source: "Wilson, Static and Dynamic Analysis of Structures, 2002, ch. 21",
+        example: r#""cable": Hook(nodes: ["a", "b"], k: "20 MN/m", opening: "5 mm")"#,
+    };
+}
+
+impl Link for Hook {
+    fn coordinates(&self) -> Coordinates {
+        Coordinates::Local(vec![self.axis])
+    }
+
+    fn engaged_stiffness(&self, k: &mut [f64]) {
+        k[0] = self.k;
+    }
+
+    fn respond(&self, at: &Kinematics<'_>, _: &[f64], _: &mut [f64], out: &mut Response<'_>) {
+        let stretch = at.d[0] - self.opening;
+        if stretch <= 0.0 {
+            return;
+        }
+        out.f[0] = self.k * stretch;
+        out.k[0] = self.k;
+        out.energy.stored = 0.5 * self.k * stretch * stretch;
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::parameters::{numbers, read};
+    use approx::assert_relative_eq;
+    use trilith_element::conformance::Kit;
+    use trilith_element::{Energy, ParameterError};
+
+    fn law(opening: f64) -> Result<Hook, ParameterError> {
+        read(&numbers(&[("k", 2e8), ("opening", opening)]))
+    }
+
+    fn force(law: &Hook, d: f64) -> f64 {
+        let (mut f, mut k, mut c, mut energy) = ([0.0], [0.0], [0.0], Energy::default());
+        let mut out = Response { f: &mut f, k: &mut k, c: &mut c, energy: &mut energy };
+        let at = Kinematics { d: &[d], v: &[0.0], d0: &[0.0], v0: &[0.0], dt: 0.0 };
+        law.respond(&at, &[], &mut [], &mut out);
+        f[0]
+    }
+
+    #[test]
+    fn conforms_with_clearance_without_and_prestressed() {
+        for opening in [0.0, 0.02, -0.01] {
+            Kit::new(&[0.05], 1.0).rate_independent().assert(&law(opening).unwrap());
+        }
+    }
+
+    #[test]
+    fn is_open_up_to_the_clearance_and_linear_beyond() {
+        let law = law(0.05).unwrap();
+        for d in [-1.0, 0.0, 0.05] {
+            assert_eq!(force(&law, d), 0.0);
+        }
+        assert_relative_eq!(force(&law, 0.06), 2e6, max_relative = 1e-12);
+    }
+
+    #[test]
+    fn rejects_an_unknown_parameter() {
+        assert!(read::<Hook>(&numbers(&[("k", 1.0), ("gap", 1.0)])).is_err());
+        assert!(read::<Hook>(&numbers(&[("opening", 1.0)])).is_err());
+    }
+}

@@ -1,0 +1,229 @@
+//! Spring: linear spring and dashpot in six directions, between two nodes or a node and the ground.
+//!
+//! ```text
+//!   f = K δ + C δ̇
+//!   δ_t = R (u_j − u_i − θ_i × r),   δ_r = R (θ_j − θ_i)       r = x_j − x_i, R: local axes
+//!   one node: δ = R (u, θ)
+//! ```
+//!
+//! | parameter         | symbol      | unit      | range | default | meaning                                  |
+//! |-------------------|-------------|-----------|-------|---------|------------------------------------------|
+//! | `k1` … `k3`       | k₁ … k₃     | N/m       | ≥ 0   | 0       | stiffness along local 1, 2, 3            |
+//! | `r1` … `r3`       | r₁ … r₃     | N·m/rad   | ≥ 0   | 0       | stiffness about local 1, 2, 3            |
+//! | `c1` … `c3`       | c₁ … c₃     | N·s/m     | ≥ 0   | 0       | damping along local 1, 2, 3              |
+//! | `cr1` … `cr3`     | cr₁ … cr₃   | N·m·s/rad | ≥ 0   | 0       | damping about local 1, 2, 3              |
+//! | `stiffness`       | K           | N/m …     | PSD   | –       | full 6 × 6 matrix, adds to the diagonal  |
+//! | `damping`         | C           | N·s/m …   | PSD   | –       | full 6 × 6 matrix, adds to the diagonal  |
+//!
+//! Two nodes apart are joined by a rigid arm from i to j, and the spring sits at j: a rigid motion of
+//! both nodes costs nothing, and forces and moments are in equilibrium. Directions without stiffness
+//! and damping use no DOF.
+//!
+//! Reference: \[Wilson 2002, ch. 4\].
+
+use crate::dense::{between, is_semi_definite, repeated, rotation, used};
+use nalgebra::{DMatrix, Matrix3};
+use serde::Deserialize;
+use trilith_element::dimension::{DAMPING, ROTATIONAL_DAMPING, ROTATIONAL_STIFFNESS, STIFFNESS};
+use trilith_element::{
+    Card, Category, Default, Described, Dimension, ElementMatrices, Form, Geometry, LinearElement,
+    NodeCount, Parameter, ParameterError, Range,
+};
+
+/// A symmetric 6 × 6 matrix in local axes.
+type Matrix6 = [[f64; 6]; 6];
+
+/// Linear spring and dashpot.
+#[derive(Clone, Debug, std::default::Default, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub struct Spring {
+    /// Stiffness along local 1, N/m.
+    pub k1: f64,
+    /// Stiffness along local 2, N/m.
+    pub k2: f64,
+    /// Stiffness along local 3, N/m.
+    pub k3: f64,
+    /// Stiffness about local 1, N·m/rad.
+    pub r1: f64,
+    /// Stiffness about local 2, N·m/rad.
+    pub r2: f64,
+    /// Stiffness about local 3, N·m/rad.
+    pub r3: f64,
+    /// Damping along local 1, N·s/m.
+    pub c1: f64,
+    /// Damping along local 2, N·s/m.
+    pub c2: f64,
+    /// Damping along local 3, N·s/m.
+    pub c3: f64,
+    /// Damping about local 1, N·m·s/rad.
+    pub cr1: f64,
+    /// Damping about local 2, N·m·s/rad.
+    pub cr2: f64,
+    /// Damping about local 3, N·m·s/rad.
+    pub cr3: f64,
+    /// Coupled stiffness; N/m, N, N·m.
+    pub stiffness: Option<Matrix6>,
+    /// Coupled damping; N·s/m, N·s, N·m·s.
+    pub damping: Option<Matrix6>,
+}
+
+const fn entry(
+    name: &'static str,
+    symbol: &'static str,
+    dimension: Dimension,
+    meaning: &'static str,
+) -> Parameter {
+    Parameter::number(name, symbol, dimension, Range::NonNegative, 0.0, meaning)
+}
+
+const fn matrix(name: &'static str, symbol: &'static str, dimension: Dimension) -> Parameter {
+    let meaning = "full matrix in local axes, added to the diagonal entries";
+    Parameter::new(name, symbol, Form::Matrix { size: 6, dimension }, Default::Absent, meaning)
+}
+
+impl Described for Spring {
+    const CARD: Card = Card {
+        kind: "Spring",
+        category: Category::Linear,
+        summary: "Linear spring and dashpot in six directions, between two nodes or to the ground.",
+        nodes: NodeCount::GROUND_OR_TWO,
+        parameters: &[
+            entry("k1", "k₁", STIFFNESS, "stiffness along local 1"),
+            entry("k2", "k₂", STIFFNESS, "stiffness along local 2"),
+            entry("k3", "k₃", STIFFNESS, "stiffness along local 3"),
+            entry("r1", "r₁", ROTATIONAL_STIFFNESS, "stiffness about local 1"),
+            entry("r2", "r₂", ROTATIONAL_STIFFNESS, "stiffness about local 2"),
+            entry("r3", "r₃", ROTATIONAL_STIFFNESS, "stiffness about local 3"),
+            entry("c1", "c₁", DAMPING, "damping along local 1"),
+            entry("c2", "c₂", DAMPING, "damping along local 2"),
+            entry("c3", "c₃", DAMPING, "damping along local 3"),
+            entry("cr1", "cr₁", ROTATIONAL_DAMPING, "damping about local 1"),
+            entry("cr2", "cr₂", ROTATIONAL_DAMPING, "damping about local 2"),
+            entry("cr3", "cr₃", ROTATIONAL_DAMPING, "damping about local 3"),
+            matrix("stiffness", "K", STIFFNESS),
+            matrix("damping", "C", DAMPING),
+        ],
+        law: "f = K δ + C δ̇\n\
+              δ = R (u_j − u_i − θ_i × (x_j − x_i), θ_j − θ_i); one node: δ = R (u, θ)",
+        source: "Wilson, Static and Dynamic Analysis of Structures, 2002, ch. 4",
+        example: r#""soil": Spring(nodes: ["base"], k1: "80 MN/m", c1: "1 MN*s/m")"#,
+    };
+
+    fn check(&self) -> Result<(), ParameterError> {
+        for (name, full) in [("stiffness", &self.stiffness), ("damping", &self.damping)] {
+            if full.is_some_and(|a| !is_semi_definite(&DMatrix::from_fn(6, 6, |i, j| a[i][j]))) {
+                let message = format!("`{name}` must be symmetric and positive semi-definite");
+                return Err(ParameterError::inconsistent(name, message));
+            }
+        }
+        Ok(())
+    }
+}
+
+impl LinearElement for Spring {
+    fn matrices(&self, at: &Geometry<'_>) -> Result<ElementMatrices, ParameterError> {
+        let k = [self.k1, self.k2, self.k3, self.r1, self.r2, self.r3];
+        let c = [self.c1, self.c2, self.c3, self.cr1, self.cr2, self.cr3];
+        let b = deformations(at);
+        let assembled = |diagonal: [f64; 6], full: &Option<Matrix6>| {
+            let local = DMatrix::from_fn(6, 6, |i, j| {
+                full.map_or(0.0, |a| a[i][j]) + if i == j { diagonal[i] } else { 0.0 }
+            });
+            b.transpose() * local * &b
+        };
+        let none = DMatrix::zeros(b.ncols(), b.ncols());
+        Ok(used(&assembled(k, &self.stiffness), &none, &assembled(c, &self.damping)))
+    }
+}
+
+/// Local deformations from the global displacements of one or two nodes: `6 × 6` or `6 × 12`.
+fn deformations(at: &Geometry<'_>) -> DMatrix<f64> {
+    let turned = repeated(&at.frame, 2);
+    let [i, j] = at.nodes else { return turned };
+    let mut b = DMatrix::zeros(6, 12);
+    b.view_mut((0, 6), (6, 6)).copy_from(&turned);
+    b.view_mut((0, 0), (6, 6)).copy_from(&(-turned));
+    // −θ × r = r × θ
+    let r = between(*i, *j);
+    let arm = Matrix3::new(0.0, -r[2], r[1], r[2], 0.0, -r[0], -r[1], r[0], 0.0);
+    b.view_mut((0, 3), (3, 3)).copy_from(&(rotation(&at.frame) * arm));
+    b
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::parameters::{numbers, read};
+    use approx::assert_relative_eq;
+    use nalgebra::Vector3 as V3;
+    use trilith_element::{Dof, Frame, Value};
+
+    fn matrices(spring: &Spring, nodes: &[[f64; 3]]) -> ElementMatrices {
+        let frame = Frame::of_nodes(nodes, None, None).unwrap();
+        spring.matrices(&Geometry { nodes, frame }).unwrap()
+    }
+
+    #[test]
+    fn a_grounded_spring_stands_upright_and_uses_one_dof() {
+        let spring: Spring = read(&numbers(&[("k1", 3.0), ("c1", 2.0)])).unwrap();
+        let got = matrices(&spring, &[[1.0, 2.0, 3.0]]);
+        assert_eq!(got.dofs, [(0, Dof::Uz)]);
+        assert_eq!((got.stiffness[(0, 0)], got.damping[(0, 0)]), (3.0, 2.0));
+        let spring: Spring = read(&numbers(&[("cr2", 5.0)])).unwrap();
+        assert_eq!(matrices(&spring, &[[0.0; 3]]).dofs, [(0, Dof::Rx)]);
+    }
+
+    #[test]
+    fn coincident_nodes_get_the_difference() {
+        let spring = Spring { k2: 7.0, ..Spring::default() };
+        let got = matrices(&spring, &[[0.0; 3]; 2]);
+        assert_eq!(got.dofs, [(0, Dof::Ux), (1, Dof::Ux)]);
+        assert_eq!(got.stiffness.values(), [7.0, -7.0, -7.0, 7.0]);
+    }
+
+    #[test]
+    fn a_rigid_motion_of_nodes_apart_costs_nothing() {
+        let spring =
+            Spring { k1: 5.0, k2: 7.0, k3: 9.0, r1: 2.0, r2: 3.0, r3: 4.0, ..Spring::default() };
+        let nodes = [[1.0, 0.0, 2.0], [2.0, -1.0, 4.0]];
+        let got = matrices(&spring, &nodes);
+        assert_eq!(got.dofs.len(), 12);
+        let r = between(nodes[0], nodes[1]);
+        for i in 0..3 {
+            let mut theta = V3::zeros();
+            theta[i] = 1.0;
+            let moved = theta.cross(&r);
+            let u: Vec<f64> =
+                [V3::zeros(), theta, moved, theta].iter().flat_map(|v| v.iter().copied()).collect();
+            for row in 0..12 {
+                let force: f64 = (0..12).map(|q| got.stiffness[(row, q)] * u[q]).sum();
+                assert!(force.abs() < 1e-12);
+            }
+        }
+        // The spring sits at j: a shear there bends i by the whole arm and j not at all.
+        assert_relative_eq!(
+            got.stiffness[(9, 9)] + got.stiffness[(10, 10)] + got.stiffness[(11, 11)],
+            9.0,
+            max_relative = 1e-12
+        );
+    }
+
+    #[test]
+    fn a_coupled_matrix_arrives_and_an_indefinite_one_is_refused() {
+        let rows = |coupling: f64| {
+            let value = |i: usize, j: usize| match (i, j) {
+                (0, 0) | (1, 1) => 2.0,
+                (0, 1) | (1, 0) => coupling,
+                _ => 0.0,
+            };
+            let row = |i| Value::List((0..6).map(|j| Value::Number(value(i, j))).collect());
+            Value::List((0..6).map(row).collect())
+        };
+        let spring: Spring = read(&[("stiffness", rows(1.0))]).unwrap();
+        let got = matrices(&spring, &[[0.0; 3]]);
+        assert_eq!(got.dofs, [(0, Dof::Ux), (0, Dof::Uz)]);
+        assert_eq!(got.stiffness.values(), [2.0, 1.0, 1.0, 2.0]);
+        let err = read::<Spring>(&[("damping", rows(3.0))]).unwrap_err();
+        assert_eq!(err.parameter(), Some("damping"));
+    }
+}

@@ -1,0 +1,155 @@
+//! Truss: straight two-node bar that carries axial force only.
+//!
+//! ```text
+//!   i ●━━━━━━━━━━● j      k = E A / L along the bar
+//! ```
+//!
+//! | parameter          | symbol | unit  | range | default | meaning                    |
+//! |--------------------|--------|-------|-------|---------|----------------------------|
+//! | `young`            | E      | N/m²  | > 0   | –       | Young's modulus            |
+//! | `area`             | A      | m²    | > 0   | –       | area of the section        |
+//! | `density`          | ρ      | kg/m³ | ≥ 0   | 0       | mass ρ A per length        |
+//! | `distributed_mass` | m̄      | kg/m  | ≥ 0   | 0       | further mass per length    |
+//! | `mass_matrix`      |        |       |       | Lumped  | `Lumped` or `Consistent`   |
+//!
+//! Only translations are used. The mass acts in all three directions: half at each end, or consistent
+//! with linear displacements (1/3 and 1/6 of the mass).
+//!
+//! Reference: \[Przemieniecki 1968, §5.1 and §11.1\].
+
+use crate::beam::{MassMatrix, span_along_axis_1};
+use crate::dense::used;
+use nalgebra::DMatrix;
+use serde::Deserialize;
+use trilith_element::dimension::{AREA, DENSITY, MASS_PER_LENGTH, STRESS};
+use trilith_element::{
+    Card, Category, Described, ElementMatrices, Geometry, LinearElement, NodeCount, Parameter,
+    ParameterError, Range,
+};
+
+/// Bar with axial force only.
+#[derive(Clone, Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Truss {
+    /// Young's modulus E, N/m².
+    pub young: f64,
+    /// Area A, m².
+    pub area: f64,
+    /// Density ρ, kg/m³.
+    pub density: f64,
+    /// Further mass per length, kg/m.
+    pub distributed_mass: f64,
+    /// How the mass is spread.
+    pub mass_matrix: MassMatrix,
+}
+
+impl Described for Truss {
+    const CARD: Card = Card {
+        kind: "Truss",
+        category: Category::Linear,
+        summary: "Two-node bar that carries axial force only.",
+        nodes: NodeCount::exactly(2),
+        parameters: &[
+            Parameter::required("young", "E", STRESS, Range::Positive, "Young's modulus"),
+            Parameter::required("area", "A", AREA, Range::Positive, "area of the section"),
+            Parameter::number(
+                "density",
+                "ρ",
+                DENSITY,
+                Range::NonNegative,
+                0.0,
+                "density, for the mass",
+            ),
+            Parameter::number(
+                "distributed_mass",
+                "m̄",
+                MASS_PER_LENGTH,
+                Range::NonNegative,
+                0.0,
+                "further mass per length",
+            ),
+            Parameter::choice(
+                "mass_matrix",
+                &["Lumped", "Consistent"],
+                "Lumped",
+                "how the mass is spread",
+            ),
+        ],
+        law: "k = E A / L along the bar",
+        source: "Przemieniecki, Theory of Matrix Structural Analysis, 1968, §5.1 and §11.1",
+        example: r#""brace": Truss(nodes: ["a", "b"], young: "210 GPa", area: "12 cm^2")"#,
+    };
+}
+
+impl LinearElement for Truss {
+    fn matrices(&self, at: &Geometry<'_>) -> Result<ElementMatrices, ParameterError> {
+        let length = span_along_axis_1(at, "truss")?;
+        let along = at.frame.0[0];
+        let k = self.young * self.area / length;
+        let mass = (self.density * self.area + self.distributed_mass) * length;
+        let [same, other] = match self.mass_matrix {
+            MassMatrix::Lumped => [mass / 2.0, 0.0],
+            MassMatrix::Consistent => [mass / 3.0, mass / 6.0],
+        };
+        let (mut stiffness, mut inertia) = (DMatrix::zeros(12, 12), DMatrix::zeros(12, 12));
+        for (p, a) in [(0, -1.0), (6, 1.0)] {
+            for (q, b) in [(0, -1.0), (6, 1.0)] {
+                for i in 0..3 {
+                    inertia[(p + i, q + i)] = if p == q { same } else { other };
+                    for j in 0..3 {
+                        stiffness[(p + i, q + j)] = a * b * k * along[i] * along[j];
+                    }
+                }
+            }
+        }
+        Ok(used(&stiffness, &inertia, &DMatrix::zeros(12, 12)))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::parameters::read;
+    use approx::assert_relative_eq;
+    use trilith_element::{Dof, Frame, Value};
+
+    fn matrices(density: f64, mass: &str, j: [f64; 3]) -> ElementMatrices {
+        let n = Value::Number;
+        let given = [
+            ("young", n(2e11)),
+            ("area", n(1e-3)),
+            ("density", n(density)),
+            ("mass_matrix", Value::Text(mass.into())),
+        ];
+        let truss: Truss = read(&given).unwrap();
+        let nodes = [[0.0; 3], j];
+        let frame = Frame::of_nodes(&nodes, None, None).unwrap();
+        truss.matrices(&Geometry { nodes: &nodes, frame }).unwrap()
+    }
+
+    #[test]
+    fn a_massless_bar_along_x_uses_ux_only() {
+        let got = matrices(0.0, "Lumped", [4.0, 0.0, 0.0]);
+        assert_eq!(got.dofs, [(0, Dof::Ux), (1, Dof::Ux)]);
+        assert_eq!(got.stiffness.values(), [5e7, -5e7, -5e7, 5e7]);
+    }
+
+    #[test]
+    fn an_inclined_bar_resists_along_itself_with_ea_over_l() {
+        let got = matrices(0.0, "Lumped", [3.0, 0.0, 4.0]);
+        assert_eq!(got.dofs.len(), 4);
+        assert_relative_eq!(got.stiffness[(2, 2)], 4e7 * 0.36, max_relative = 1e-12);
+        assert_relative_eq!(got.stiffness[(2, 3)], 4e7 * 0.48, max_relative = 1e-12);
+        assert_relative_eq!(got.stiffness[(0, 3)], -4e7 * 0.48, max_relative = 1e-12);
+    }
+
+    #[test]
+    fn both_mass_matrices_weigh_the_same_in_every_direction() {
+        for kind in ["Lumped", "Consistent"] {
+            let got = matrices(8000.0, kind, [3.0, 0.0, 4.0]);
+            assert_eq!(got.dofs.len(), 6);
+            let total: f64 = got.mass.values().iter().sum();
+            assert_relative_eq!(total, 3.0 * 8000.0 * 1e-3 * 5.0, max_relative = 1e-12);
+        }
+    }
+}
