@@ -1,10 +1,10 @@
 //! The named parameters of a model file and the `--set` arguments that change them.
 
 use crate::diagnostic::names_help;
-use crate::expression::{ExpressionError, Quantity, Scope, evaluate};
+use crate::expression::{Quantity, Scope, evaluate, expression_diagnostic};
 use crate::tree::{Entry, Kind, Node};
 use crate::units::FileUnits;
-use crate::{Diagnostic, Parameter, ParameterValue, Source, Span};
+use crate::{Diagnostic, Parameter, ParameterValue, Source};
 use std::collections::HashMap;
 use std::sync::Arc;
 
@@ -37,34 +37,6 @@ enum State {
     Failed,
     Number(Quantity),
     Text(String),
-}
-
-/// Span of the text inside the quotes of a text node.
-pub(crate) fn inner_span(source: &str, node: &Node, text: &str) -> Span {
-    let whole = source.get(node.span.clone()).unwrap_or_default();
-    match whole.find(text) {
-        Some(at) if !text.is_empty() => node.span.start + at..node.span.start + at + text.len(),
-        _ => node.span.clone(),
-    }
-}
-
-/// An error of an expression in quotes as a diagnostic of the file.
-pub(crate) fn expression_diagnostic(
-    error: ExpressionError,
-    source: &Arc<Source>,
-    node: &Node,
-    text: &str,
-) -> Diagnostic {
-    let inner = inner_span(&source.text, node, text);
-    // Escapes shift the characters of a text; the error then stands at the whole text.
-    let span = if inner.len() == text.len() {
-        inner.start + error.span.start.min(text.len())..inner.start + error.span.end.min(text.len())
-    } else {
-        node.span.clone()
-    };
-    let mut d = Diagnostic::new(error.code, error.message, span, source);
-    d.help = error.help;
-    d
 }
 
 impl Parameters {

@@ -119,7 +119,7 @@ mod tests {
 
     #[test]
     fn inch_and_kip_files_have_consistent_masses() {
-        let kip = 4448.221_615_260_5;
+        let kip = 4_448.221_615_260_5;
         let mass = kip / INCH; // kip s²/in
         let units = FileUnits { length: INCH, mass, time: 1.0 };
         assert!((units.scale(d::FORCE) / kip - 1.0).abs() < 1e-14);

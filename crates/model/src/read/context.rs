@@ -1,8 +1,8 @@
 //! What every part of the reader needs: parameters, units, and a place for errors.
 
 use crate::diagnostic::{closest, names_help};
-use crate::expression::{Quantity, evaluate};
-use crate::parameters::{Evaluated, Parameters, expression_diagnostic};
+use crate::expression::{Quantity, evaluate, expression_diagnostic};
+use crate::parameters::{Evaluated, Parameters};
 use crate::tree::{Entry, Kind, Node};
 use crate::units::FileUnits;
 use crate::{Diagnostic, Registry, Source, Span};
@@ -69,7 +69,8 @@ impl<'a> Context<'a> {
     pub fn into_errors(self) -> Vec<Diagnostic> {
         let mut errors = self.errors.into_inner();
         errors.sort_by_key(|d| (d.source.path != self.source.path, d.span.start));
-        errors.dedup_by(|a, b| a.span == b.span && a.code == b.code && a.message == b.message);
+        let mut told = std::collections::HashSet::new();
+        errors.retain(|d| told.insert((d.source.path.clone(), d.span.clone(), d.message.clone())));
         errors
     }
 

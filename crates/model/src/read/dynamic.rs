@@ -40,11 +40,11 @@ pub(super) fn dynamic(
 ) -> Option<DynamicCase> {
     let time = |key: &str| c.ranged(fields.required(c, key)?, key, TIME, Range::Positive);
     let (duration, dt) = (time("duration"), time("dt"));
-    if let (Some(duration), Some(dt), Some(node)) = (duration, dt, fields.get("dt")) {
-        if dt > duration * (1.0 + 1e-9) {
-            let message = format!("`dt` = {dt} s is longer than the case: must be ≤ {duration} s");
-            c.report(c.diagnostic("E0112", message, node.span.clone()));
-        }
+    if let (Some(duration), Some(dt), Some(node)) = (duration, dt, fields.get("dt"))
+        && dt > duration * (1.0 + 1e-9)
+    {
+        let message = format!("`dt` = {dt} s is longer than the case: must be ≤ {duration} s");
+        c.report(c.diagnostic("E0112", message, node.span.clone()));
     }
     let r = Reading { c, about, duration };
     let constant =
@@ -166,9 +166,7 @@ impl Reading<'_, '_> {
             .get("factor")
             .map_or(Some(crate::expression::Quantity::bare(1.0)), |n| c.quantity(n));
         let (index, factor) = (index?, factor?);
-        let Some(function) = self.about.functions_read[index].as_ref() else {
-            return None;
-        };
+        let function = self.about.functions_read[index].as_ref()?;
         self.check_length(node, &function.function, &function.name);
         let (own, factor_dimension) = (function.dimension, factor.dimension);
         let found = own.unwrap_or(NONE) * factor_dimension;

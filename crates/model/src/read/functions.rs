@@ -2,10 +2,9 @@
 
 use super::context::{Context, Fields};
 use super::names::Names;
-use super::record::{Record, column};
-use crate::tree::{Entry, Kind, Node};
-use crate::{AfterEnd, Function, Harmonic, Interpolation, Span, Table, TableError, TimeFunction};
-use std::sync::Arc;
+use super::tables::{points, table};
+use crate::tree::{Entry, Kind};
+use crate::{Function, Harmonic, TimeFunction};
 use trilith_element::dimension::{FREQUENCY, NONE, TIME};
 use trilith_element::{Dimension, Range};
 
@@ -15,7 +14,7 @@ const KINDS: [&str; 10] = [
 const HARMONIC: &[&str] = &["amplitude", "frequency", "cycles", "start", "phase"];
 
 /// A function and the dimension of its values; no dimension for plain numbers.
-type Made = (TimeFunction, Option<Dimension>);
+pub(super) type Made = (TimeFunction, Option<Dimension>);
 
 pub(super) fn functions(
     c: &Context<'_>,
@@ -89,7 +88,7 @@ fn reference(
     Some((of?, factor.value, factor.measured.then_some(factor.dimension)))
 }
 
-fn what(e: &Entry) -> String {
+pub(super) fn what(e: &Entry) -> String {
     format!("function `{}`", e.key)
 }
 
@@ -183,123 +182,4 @@ fn harmonic(c: &Context<'_>, fields: &Fields<'_>) -> Option<(Harmonic, Option<Di
     let (amplitude, dimension) = a?;
     let (frequency, cycles, start, phase) = (frequency?, cycles?, start?, phase?);
     Some((Harmonic { amplitude, frequency, cycles, start, phase }, dimension))
-}
-
-fn style(c: &Context<'_>, fields: &Fields<'_>) -> Option<(Interpolation, AfterEnd)> {
-    let interpolation = fields
-        .get("interpolation")
-        .map_or(Some(0), |n| c.choice(n, "interpolation", &["Linear", "Cubic"]));
-    let after = fields
-        .get("after_end")
-        .map_or(Some(0), |n| c.choice(n, "end of a table", &["Error", "Zero", "Hold"]));
-    Some((
-        [Interpolation::Linear, Interpolation::Cubic][interpolation?],
-        [AfterEnd::Error, AfterEnd::Zero, AfterEnd::Hold][after?],
-    ))
-}
-
-fn table(c: &Context<'_>, e: &Entry) -> Option<Made> {
-    let allowed = ["file", "time", "value", "unit", "scale", "skip", "interpolation", "after_end"];
-    let fields = c.fields(&e.value, &what(e), &allowed)?;
-    let style = style(c, &fields);
-    let scale = fields.get("scale").map_or(Some(None), |n| c.quantity(n).map(Some));
-    let unit = fields.get("unit").map_or(Some(None), |n| unit(c, n).map(Some));
-    let skip = fields.get("skip").map_or(Some(0), |n| c.count(n, "skip", 0));
-    let (times, values) =
-        (column(c, fields.get("time"), "time", 0), column(c, fields.get("value"), "value", 1));
-    let file = fields.required(c, "file")?;
-    let path = file_name(c, file)?;
-    let at = &file.span;
-    let record = Record::read(c, &c.folder.join(path), skip?, at)?;
-    let times = record.numbers(c, &times?, &place(&fields, "time", at))?;
-    let mut values = record.numbers(c, &values?, &place(&fields, "value", at))?;
-    let mut dimension: Option<Dimension> = None;
-    for q in [unit?, scale?].into_iter().flatten() {
-        values.iter_mut().for_each(|v| *v *= q.value);
-        if q.measured {
-            dimension = Some(dimension.unwrap_or(NONE) * q.dimension);
-        }
-    }
-    let seconds = c.units.scale(TIME);
-    let times = times.into_iter().map(|t| t * seconds).collect();
-    let (interpolation, after_end) = style?;
-    match Table::new(times, values, interpolation, after_end) {
-        Ok(table) => Some((TimeFunction::Table(Arc::new(table)), dimension)),
-        Err(error) => {
-            let row = match error {
-                TableError::Order { index, .. } | TableError::NotFinite(index) => index,
-                _ => 0,
-            };
-            let message = format!("{}: {error}", record.place(row));
-            c.report(c.diagnostic("E0117", message, at.clone()));
-            None
-        }
-    }
-}
-
-fn place(fields: &Fields<'_>, key: &str, otherwise: &Span) -> Span {
-    fields.get(key).map_or(otherwise.clone(), |n| n.span.clone())
-}
-
-/// A unit such as `"g"` or `"cm/s^2"`.
-fn unit(c: &Context<'_>, node: &Node) -> Option<crate::expression::Quantity> {
-    let text = c.text(node, "unit")?;
-    // Behind a number a name is a unit, whatever parameters are called.
-    let one = Node { span: node.span.clone(), kind: Kind::Text(format!("1 {text}")) };
-    c.quantity(&one)
-}
-
-/// `"file.csv"`, or `Parameter("name")` of a text parameter.
-fn file_name(c: &Context<'_>, node: &Node) -> Option<String> {
-    match &node.kind {
-        Kind::Text(name) => Some(name.clone()),
-        Kind::List(Some(kind), items) if kind == "Parameter" && items.len() == 1 => {
-            let name = c.text(&items[0], "Parameter")?;
-            if let Some(text) = c.parameters().text(&name) {
-                return Some(text.to_owned());
-            }
-            let message = format!("there is no text parameter `{name}`");
-            let help = crate::diagnostic::names_help(
-                &name,
-                "text parameters",
-                c.parameters().text_names(),
-            );
-            c.report(c.diagnostic("E0110", message, items[0].span.clone()).help(help));
-            None
-        }
-        _ => c.wrong(node, "a file name in quotes or `Parameter(\"name\")`"),
-    }
-}
-
-fn points(c: &Context<'_>, e: &Entry) -> Option<Made> {
-    let fields = c.fields(&e.value, &what(e), &["points", "interpolation", "after_end"])?;
-    let style = style(c, &fields);
-    let list = fields.required(c, "points")?;
-    let mut times = Vec::new();
-    let mut read = Vec::new();
-    for item in list.items() {
-        let pair = item.items();
-        if !item.is_list() || pair.len() != 2 {
-            return c.wrong(item, "a pair `(time, value)`");
-        }
-        let (t, q) = (c.number(pair[0], TIME), c.quantity(pair[1]));
-        times.push(t);
-        read.push(q.map(|q| (pair[1], q)));
-    }
-    let times: Vec<f64> = times.into_iter().collect::<Option<_>>()?;
-    let read: Vec<_> = read.into_iter().collect::<Option<_>>()?;
-    let dimension = read.iter().find(|(_, q)| q.measured).map(|(_, q)| q.dimension);
-    let values: Vec<_> = read
-        .into_iter()
-        .map(|(n, q)| dimension.map_or(Some(q.value), |d| c.in_dimension(n, q, d)))
-        .collect();
-    let values: Vec<f64> = values.into_iter().collect::<Option<_>>()?;
-    let (interpolation, after_end) = style?;
-    match Table::new(times, values, interpolation, after_end) {
-        Ok(table) => Some((TimeFunction::Table(Arc::new(table)), dimension)),
-        Err(error) => {
-            c.report(c.diagnostic("E0117", error.to_string(), list.span.clone()));
-            None
-        }
-    }
 }

@@ -7,11 +7,13 @@ mod dynamic;
 mod elements;
 mod functions;
 mod loads;
+mod motion;
 mod names;
 mod nodes;
 mod outputs;
 mod record;
 mod solution;
+mod tables;
 mod values;
 
 #[cfg(test)]
@@ -21,8 +23,8 @@ use crate::tree::{self, Node};
 use crate::units::{FileUnits, STANDARD_GRAVITY};
 use crate::{Diagnostic, Model, Plane, Registry, Source};
 use context::Context;
+pub(crate) use motion::nodal_dimension;
 use names::Names;
-pub(crate) use outputs::nodal_dimension;
 use sha2::{Digest, Sha256};
 use std::path::Path;
 use std::sync::Arc;

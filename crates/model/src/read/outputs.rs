@@ -6,10 +6,10 @@ use crate::diagnostic::names_help;
 use crate::expression::Quantity as Number;
 use crate::tree::{Entry, Kind, Node};
 use crate::{Body, Element, NodalTerm, Output, Quantity};
-use trilith_element::dimension::{
-    ACCELERATION, FORCE, FREQUENCY, LENGTH, MOMENT, NONE, TIME, VELOCITY,
-};
+use trilith_element::dimension::{FORCE, LENGTH, MOMENT, NONE};
 use trilith_element::{Axis, Coordinates, Dimension, Dof, Link};
+
+use super::motion::{nodal_dimension, unit};
 
 const KINDS: [&str; 7] = [
     "Displacement",
@@ -42,30 +42,6 @@ pub(super) fn outputs(
         Some(Output { name: e.key.clone(), unit, quantity })
     };
     entries.iter().map(one).collect()
-}
-
-/// Dimensions of displacement, velocity and acceleration of a direction.
-pub(crate) fn nodal_dimension(order: usize, rotation: bool) -> Dimension {
-    match (order, rotation) {
-        (0, false) => LENGTH,
-        (1, false) => VELOCITY,
-        (_, false) => ACCELERATION,
-        (0, true) => NONE,
-        (1, true) => FREQUENCY,
-        (_, true) => FREQUENCY / TIME,
-    }
-}
-
-/// The unit of a recorded quantity; angles are told from pure numbers.
-fn unit(dimension: Dimension, angle: bool) -> String {
-    if !angle {
-        return dimension.unit();
-    }
-    match -dimension.time {
-        0.0 => "rad".into(),
-        1.0 => "rad/s".into(),
-        _ => "rad/s²".into(),
-    }
 }
 
 impl Reading<'_, '_> {

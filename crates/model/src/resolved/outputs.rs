@@ -65,11 +65,11 @@ fn own(force: bool, rotation: bool) -> Dimension {
 
 /// The coordinate of a link as the file names it, and whether it is a rotation.
 fn place(model: &Model, element: usize, coordinate: usize) -> (String, bool) {
-    if let Body::Link(law, _) = &model.elements[element].body {
-        if let Coordinates::Local(axes) = law.coordinates() {
-            let axis = axes[coordinate];
-            return (format!("axis: {}", axis.name()), axis.index() > 2);
-        }
+    if let Body::Link(law, _) = &model.elements[element].body
+        && let Coordinates::Local(axes) = law.coordinates()
+    {
+        let axis = axes[coordinate];
+        return (format!("axis: {}", axis.name()), axis.index() > 2);
     }
     (format!("coordinate: {coordinate}"), coordinate % 6 > 2)
 }

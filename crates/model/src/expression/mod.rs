@@ -12,11 +12,18 @@
 //! A unit stands only directly after a number; a name elsewhere is a parameter. A product of units
 //! goes on while the next name is a unit and no parameter.
 
+mod apply;
+mod place;
+mod unit_product;
+
 use crate::Span;
 use crate::diagnostic::names_help;
-use crate::units::{self, UNITS};
+use crate::units;
+use apply::{FUNCTIONS, apply, common};
+pub(crate) use place::expression_diagnostic;
 use trilith_element::Dimension;
 use trilith_element::dimension::NONE;
+use unit_product::unknown_unit;
 
 /// A value with its dimension.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -80,9 +87,6 @@ fn fail<T>(
     Err(Some(ExpressionError { code, message: message.into(), help, span }))
 }
 
-pub(crate) const FUNCTIONS: [&str; 13] = [
-    "sqrt", "abs", "min", "max", "sin", "cos", "tan", "asin", "acos", "atan", "atan2", "exp", "ln",
-];
 const DEPTH: usize = 64;
 
 struct Parser<'a> {
@@ -191,12 +195,17 @@ impl<'a> Parser<'a> {
         }
     }
 
-    fn sign(&mut self) -> Parsed<Quantity> {
+    fn deeper(&mut self) -> Parsed<()> {
         self.depth += 1;
         if self.depth > DEPTH {
             let message = format!("the expression is nested deeper than {DEPTH}");
             return fail("E0108", message, None, self.at..self.text.len());
         }
+        Ok(())
+    }
+
+    fn sign(&mut self) -> Parsed<Quantity> {
+        self.deeper()?;
         let value = if self.take('-') || self.take('−') {
             self.sign().map(|q| Quantity { value: -q.value, ..q })
         } else if self.take('+') {
@@ -265,144 +274,6 @@ impl<'a> Parser<'a> {
         fail("E0110", format!("there is no parameter `{name}`"), Some(help), span)
     }
 
-    /// A number without sign and unit.
-    fn number(&mut self) -> Parsed<Option<f64>> {
-        let bytes = self.rest().as_bytes();
-        let digits = |mut i: usize| {
-            while bytes.get(i).is_some_and(u8::is_ascii_digit) {
-                i += 1;
-            }
-            i
-        };
-        let mut end = digits(0);
-        let mut count = end;
-        if bytes.get(end) == Some(&b'.') {
-            let after = digits(end + 1);
-            count += after - end - 1;
-            end = after;
-        }
-        if count == 0 {
-            return Ok(None);
-        }
-        if matches!(bytes.get(end), Some(b'e' | b'E')) {
-            let sign = usize::from(matches!(bytes.get(end + 1), Some(b'+' | b'-')));
-            let after = digits(end + 1 + sign);
-            if after > end + 1 + sign {
-                end = after;
-            }
-        }
-        let word = &self.rest()[..end];
-        let span = self.at..self.at + end;
-        match word.parse::<f64>() {
-            Ok(x) if x.is_finite() => {
-                self.skip(end);
-                Ok(Some(x))
-            }
-            _ => fail("E0112", format!("`{word}` is no finite number"), None, span),
-        }
-    }
-
-    /// The units after a number, if any.
-    fn measure(&mut self, number: f64) -> Parsed<Quantity> {
-        let mut unit = Quantity::bare(1.0);
-        let before = self.at;
-        if let Some(name) = self.unit_name() {
-            let span = self.at..self.at + name.len();
-            match units::find(name) {
-                Some(_) => unit = self.unit_power()?,
-                None if self.scope.has(name) || name == "pi" => return self.leftover(),
-                None => return unknown_unit(name, span),
-            }
-        } else {
-            // `0.1 1/s` and `0.1/s`
-            let one = self.rest().starts_with("1/");
-            if one {
-                self.at += 1;
-            }
-            let slash = self.peek() == Some('/');
-            if slash {
-                self.take('/');
-            }
-            if !slash || !self.unit_follows() {
-                self.at = before;
-                return Ok(Quantity::bare(number));
-            }
-            let u = self.unit_power()?;
-            unit = divide(unit, u);
-        }
-        self.unit_product(&mut unit)?;
-        Ok(Quantity { value: number * unit.value, dimension: unit.dimension, measured: true })
-    }
-
-    fn unit_name(&self) -> Option<&'a str> {
-        if self.peek() == Some('%') { Some("%") } else { self.name() }
-    }
-
-    /// True where a unit follows that is no parameter.
-    fn unit_follows(&self) -> bool {
-        self.unit_name().is_some_and(|n| units::find(n).is_some() && !self.scope.has(n))
-    }
-
-    /// Goes on with `* unit`, `/ unit`, ` unit`, `/(units)` as far as they are units.
-    fn unit_product(&mut self, unit: &mut Quantity) -> Parsed<()> {
-        loop {
-            let before = self.at;
-            let over = self.take('/');
-            let times = !over && (self.take('*') || self.take('·'));
-            let factor = if self.unit_follows() {
-                self.unit_power()?
-            } else if let Some(group) = self.unit_group(over || times)? {
-                group
-            } else {
-                self.at = before;
-                return Ok(());
-            };
-            *unit = if over { divide(*unit, factor) } else { multiply(*unit, factor) };
-        }
-    }
-
-    /// `(units) [^ exponent]`, where that is what follows.
-    fn unit_group(&mut self, allowed: bool) -> Parsed<Option<Quantity>> {
-        if !allowed || !self.take('(') || !self.unit_follows() {
-            return Ok(None);
-        }
-        let mut unit = self.unit_power()?;
-        self.unit_product(&mut unit)?;
-        if !self.take(')') {
-            return Ok(None);
-        }
-        self.exponent(unit).map(Some)
-    }
-
-    fn unit_power(&mut self) -> Parsed<Quantity> {
-        let Some(name) = self.unit_name() else { return self.leftover() };
-        let span = self.at..self.at + name.len();
-        let Some(u) = units::find(name) else { return unknown_unit(name, span) };
-        self.skip(name.len());
-        self.exponent(Quantity { value: u.factor, dimension: u.dimension, measured: true })
-    }
-
-    fn exponent(&mut self, unit: Quantity) -> Parsed<Quantity> {
-        for (sign, power) in [('²', 2.0), ('³', 3.0), ('⁴', 4.0)] {
-            if self.take(sign) {
-                return Ok(raise(unit, power));
-            }
-        }
-        if !self.take('^') {
-            return Ok(unit);
-        }
-        let start = self.at;
-        let minus = self.take('-') || self.take('−');
-        let power = match self.number()? {
-            Some(x) => Quantity::bare(x),
-            None => self.atom()?,
-        };
-        if !power.dimension.is_none() {
-            return fail("E0111", "an exponent must be a pure number", None, start..self.at);
-        }
-        Ok(raise(unit, if minus { -power.value } else { power.value }))
-    }
-
     fn call(&mut self, name: &str, span: Span) -> Parsed<Quantity> {
         if !FUNCTIONS.contains(&name) {
             let help = names_help(name, "functions", FUNCTIONS);
@@ -413,103 +284,14 @@ impl<'a> Parser<'a> {
         while self.take(',') {
             arguments.push(self.sum()?);
         }
-        let whole = span.start..self.at;
+        let closing = self.at + 1;
         if !self.take(')') {
-            return fail("E0108", format!("`)` is missing after `{name}(`"), None, whole);
+            let message = format!("`)` is missing after `{name}(`");
+            return fail("E0108", message, None, span.start..self.at);
         }
-        apply(name, &arguments, whole)
+        apply(name, &arguments, span.start..closing)
     }
 }
 
-fn unknown_unit<T>(name: &str, span: Span) -> Parsed<T> {
-    let help = if name == "lb" {
-        "write `lbf` for the force or `lbm` for the mass".to_owned()
-    } else {
-        names_help(name, "units", UNITS.iter().map(|u| u.name))
-    };
-    fail("E0109", format!("there is no unit `{name}`"), Some(help), span)
-}
-
-fn multiply(a: Quantity, b: Quantity) -> Quantity {
-    Quantity { value: a.value * b.value, dimension: a.dimension * b.dimension, measured: true }
-}
-
-fn divide(a: Quantity, b: Quantity) -> Quantity {
-    Quantity { value: a.value / b.value, dimension: a.dimension / b.dimension, measured: true }
-}
-
-fn raise(a: Quantity, power: f64) -> Quantity {
-    Quantity { value: a.value.powf(power), dimension: a.dimension.powf(power), measured: true }
-}
-
-/// The dimension that all have; an exact bare zero has any.
-fn common(all: &[Quantity], span: Span, how: &str) -> Parsed<Dimension> {
-    let zero = |q: &Quantity| q.value == 0.0 && !q.measured;
-    let Some(first) = all.iter().find(|q| !zero(q)) else { return Ok(NONE) };
-    match all.iter().find(|q| !zero(q) && !q.dimension.matches(first.dimension)) {
-        None => Ok(first.dimension),
-        Some(other) => {
-            let (a, b) = (describe(*first), describe(*other));
-            let help = "give both the same dimension, for instance with a unit after the number";
-            fail("E0111", format!("{a} and {b} cannot be {how}"), Some(help.into()), span)
-        }
-    }
-}
-
-fn describe(q: Quantity) -> String {
-    if q.dimension.is_none() {
-        "a pure number".into()
-    } else {
-        format!("a value in {}", q.dimension)
-    }
-}
-
-fn apply(name: &str, arguments: &[Quantity], span: Span) -> Parsed<Quantity> {
-    let measured = arguments.iter().any(|q| q.measured);
-    let count = match name {
-        "min" | "max" => arguments.len().max(2),
-        "atan2" => 2,
-        _ => 1,
-    };
-    if arguments.len() != count {
-        let message = format!("`{name}` takes {count} arguments, not {}", arguments.len());
-        return fail("E0108", message, None, span);
-    }
-    let a = arguments[0];
-    let values = arguments.iter().map(|q| q.value);
-    let (value, dimension) = match name {
-        "abs" => (a.value.abs(), a.dimension),
-        "sqrt" => (a.value.sqrt(), a.dimension.powf(0.5)),
-        "min" => {
-            (values.fold(f64::INFINITY, f64::min), common(arguments, span.clone(), "compared")?)
-        }
-        "max" => {
-            (values.fold(f64::NEG_INFINITY, f64::max), common(arguments, span.clone(), "compared")?)
-        }
-        "atan2" => {
-            common(arguments, span.clone(), "compared")?;
-            (a.value.atan2(arguments[1].value), NONE)
-        }
-        _ => {
-            if !a.dimension.is_none() {
-                let message = format!("`{name}` wants a pure number, not {}", describe(a));
-                return fail("E0111", message, None, span);
-            }
-            let f: fn(f64) -> f64 = match name {
-                "sin" => f64::sin,
-                "cos" => f64::cos,
-                "tan" => f64::tan,
-                "asin" => f64::asin,
-                "acos" => f64::acos,
-                "atan" => f64::atan,
-                "exp" => f64::exp,
-                _ => f64::ln,
-            };
-            (f(a.value), NONE)
-        }
-    };
-    if !value.is_finite() {
-        return fail("E0112", format!("`{name}` is not defined at {}", a.value), None, span);
-    }
-    Ok(Quantity { value, dimension, measured })
-}
+#[cfg(test)]
+mod tests;
