@@ -183,7 +183,7 @@ impl Described for Beam {
               axial E A/L, torsion G J/L; Φ = 0 without shear areas\n\
               rectangle: I₂ = h b³/12, I₃ = b h³/12, J = a s³ (1/3 − 0.21 (s/a) (1 − s⁴/(12 a⁴)))",
         source: "Przemieniecki, Theory of Matrix Structural Analysis, 1968, §5.6 and §11.3",
-        example: r#""column": Beam(nodes: ["a", "b"], young: "210 GPa", area: "50 cm^2", i3: "2000 cm^4")"#,
+        example: r#""column": Beam(nodes: ("a", "b"), young: "210 GPa", area: "50 cm^2", i3: "2000 cm^4")"#,
     };
 
     fn check(&self) -> Result<(), ParameterError> {

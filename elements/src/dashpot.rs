@@ -120,7 +120,7 @@ impl Described for Dashpot {
               Always:    f = F(ḋ)\n\
               InContact: f = F(ḋ) + k (d + g) where d < −g, else 0; without `pull` at most 0",
         source: "Soong & Dargush, Passive Energy Dissipation Systems, 1997, ch. 6; Wilson 2002, ch. 21",
-        example: r#""damper": Dashpot(nodes: ["a", "b"], c: "20 kN*s/m")"#,
+        example: r#""damper": Dashpot(nodes: ("a", "b"), c: "20 kN*s/m")"#,
     };
 
     fn check(&self) -> Result<(), ParameterError> {

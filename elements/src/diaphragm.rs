@@ -52,7 +52,7 @@ impl Described for Diaphragm {
         )],
         law: "normal Z: ux_s = ux_m − θz_m (y_s − y_m), uy_s = uy_m + θz_m (x_s − x_m), θz_s = θz_m",
         source: "Wilson, Static and Dynamic Analysis of Structures, 2002, ch. 7",
-        example: r#""floor": Diaphragm(nodes: ["centre", "a", "b", "c", "d"])"#,
+        example: r#""floor": Diaphragm(nodes: ("centre", "a", "b", "c", "d"))"#,
     };
 }
 

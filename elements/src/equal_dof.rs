@@ -61,7 +61,7 @@ impl Described for EqualDof {
         )],
         law: "u_s[dof] = u_m[dof]",
         source: "Bathe, Finite Element Procedures, 1996, §4.2.2",
-        example: r#""hinge": EqualDof(nodes: ["a", "b"], dofs: (Ux, Uz))"#,
+        example: r#""hinge": EqualDof(nodes: ("a", "b"), dofs: (Ux, Uz))"#,
     };
 
     fn check(&self) -> Result<(), ParameterError> {

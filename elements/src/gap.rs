@@ -48,7 +48,7 @@ impl Described for Gap {
         ],
         law: "f = k (d + g) where d + g < 0, else 0",
         source: "Wilson, Static and Dynamic Analysis of Structures, 2002, ch. 21",
-        example: r#""stop": Gap(nodes: ["a", "b"], k: "200 MN/m", opening: "50 mm")"#,
+        example: r#""stop": Gap(nodes: ("a", "b"), k: "200 MN/m", opening: "50 mm")"#,
     };
 }
 

@@ -48,7 +48,7 @@ impl Described for Hook {
         ],
         law: "f = k (d − g) where d − g > 0, else 0",
         source: "Wilson, Static and Dynamic Analysis of Structures, 2002, ch. 21",
-        example: r#""cable": Hook(nodes: ["a", "b"], k: "20 MN/m", opening: "5 mm")"#,
+        example: r#""cable": Hook(nodes: ("a", "b"), k: "20 MN/m", opening: "5 mm")"#,
     };
 }
 

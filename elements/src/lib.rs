@@ -52,3 +52,6 @@ pub fn register(to: &mut impl Register) {
     to.link::<Hook>();
     to.link::<Dashpot>();
 }
+
+#[cfg(test)]
+mod tests;

@@ -97,7 +97,7 @@ impl Described for Mass {
         ],
         law: "M = diag(mx, my, mz)\nJ = [Ix Pxy Pxz; Pxy Iy Pyz; Pxz Pyz Iz]",
         source: "Newton–Euler equations at small rotations",
-        example: r#""body": Mass(nodes: ["cg"], mass: "10 t", inertia: (0, 16667, 0))"#,
+        example: r#""body": Mass(node: "cg", mass: "10 t", inertia: (0, 16667, 0))"#,
     };
 
     fn check(&self) -> Result<(), ParameterError> {

@@ -189,7 +189,7 @@ impl Described for NLink {
               open: f = 0, no memory of the anchor a",
         source: "Wilson, Static and Dynamic Analysis of Structures, 2002, ch. 18 and 21; \
                  Constantinou, Mokha, Reinhorn 1990 for μ(v)",
-        example: r#""left": NLink(nodes: ["left"], kn: "5e8 N/m", ks: "5e8 N/m", mu: 0.4)"#,
+        example: r#""left": NLink(node: "left", kn: "5e8 N/m", ks: "5e8 N/m", mu: 0.4)"#,
     };
 
     fn check(&self) -> Result<(), ParameterError> {

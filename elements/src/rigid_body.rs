@@ -29,7 +29,7 @@ impl Described for RigidBody {
         parameters: &[],
         law: "u_s = u_m + θ_m × r\nθ_s = θ_m\nr   = x_s − x_m",
         source: "Kinematics of a rigid body at small rotations; Bathe, Finite Element Procedures, 1996, §4.2.2",
-        example: r#""block": RigidBody(nodes: ["cg", "left", "right"])"#,
+        example: r#""block": RigidBody(nodes: ("cg", "left", "right"))"#,
     };
 }
 

@@ -38,7 +38,7 @@ impl Described for RigidLink {
         )],
         law: "u_j = u_i + θ_i × (x_j − x_i)\nθ_j = θ_i, unless `translations_only`",
         source: "Kinematics of a rigid body at small rotations; Bathe, Finite Element Procedures, 1996, §4.2.2",
-        example: r#""arm": RigidLink(nodes: ["column", "corner"])"#,
+        example: r#""arm": RigidLink(nodes: ("column", "corner"))"#,
     };
 }
 

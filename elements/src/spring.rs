@@ -106,7 +106,7 @@ impl Described for Spring {
         law: "f = K δ + C δ̇\n\
               δ = R (u_j − u_i − θ_i × (x_j − x_i), θ_j − θ_i); one node: δ = R (u, θ)",
         source: "Wilson, Static and Dynamic Analysis of Structures, 2002, ch. 4",
-        example: r#""soil": Spring(nodes: ["base"], k1: "80 MN/m", c1: "1 MN*s/m")"#,
+        example: r#""soil": Spring(node: "base", k1: "80 MN/m", c1: "1 MN*s/m")"#,
     };
 
     fn check(&self) -> Result<(), ParameterError> {

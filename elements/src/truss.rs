@@ -77,7 +77,7 @@ impl Described for Truss {
         ],
         law: "k = E A / L along the bar",
         source: "Przemieniecki, Theory of Matrix Structural Analysis, 1968, §5.1 and §11.1",
-        example: r#""brace": Truss(nodes: ["a", "b"], young: "210 GPa", area: "12 cm^2")"#,
+        example: r#""brace": Truss(nodes: ("a", "b"), young: "210 GPa", area: "12 cm^2")"#,
     };
 }
 

@@ -32,6 +32,7 @@
 //! # Ok::<(), trilith_element::conformance::ConformanceError>(())
 //! ```
 
+mod energy;
 mod error;
 mod path;
 mod probe;
@@ -125,13 +126,17 @@ impl Kit {
     pub fn check(&self, link: &dyn Link) -> Result<Report, ConformanceError> {
         properties::shape(self, link)?;
         let mut report = Report::default();
-        for number in 0..self.paths {
-            let path = Path::random(&self.deformation, self.frequency, self.seed, number);
-            properties::answers(link, &path)?;
-            properties::tangents(link, &path, &mut report)?;
-            properties::energy(self, link, &path, &mut report)?;
+        let path = |number| Path::random(&self.deformation, self.frequency, self.seed, number);
+        let paths: Vec<_> = (0..self.paths).map(path).collect();
+        for path in &paths {
+            properties::answers(link, path)?;
+            properties::tangents(link, path, &mut report)?;
+        }
+        let typical = energy::typical(link, &paths)?;
+        for path in &paths {
+            energy::balance(self, link, path, &mut report, typical)?;
             if self.rate_independent {
-                properties::rates(link, &path)?;
+                properties::rates(link, path)?;
             }
         }
         // Kinks are rare on a random path; a law that is all kinks has not been examined.

@@ -256,3 +256,14 @@ fn rejects_contradictions_by_name() {
     assert!(read::<NLink>(&numbers(&[("kn", 1.0), ("k_n", 1.0)])).is_err());
     assert!(read::<NLink>(&numbers(&[("kn", 1.0)])).is_ok());
 }
+
+#[test]
+fn the_dashpot_takes_the_trapezoid_of_its_force_times_the_rate() {
+    let link = NLink { damping: 1e4, ..NLink::new(KN) };
+    let mut ride = Ride::new(&link);
+    ride.step(&[-1e-4, 0.0, 0.0], &[-0.3, 0.0, 0.0], 1e-3);
+    let before = ride.dissipated.viscous;
+    ride.step(&[-3e-4, 0.0, 0.0], &[-0.1, 0.0, 0.0], 1e-3);
+    let expected = 0.5 * 1e4 * (0.09 + 0.01) * 1e-3;
+    assert_relative_eq!(ride.dissipated.viscous - before, expected, max_relative = 1e-9);
+}

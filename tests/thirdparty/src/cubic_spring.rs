@@ -63,7 +63,7 @@ impl Described for CubicSpring {
         ],
         law: "f = k₁ d + k₃ d³",
         source: "Duffing, Erzwungene Schwingungen bei veränderlicher Eigenfrequenz, 1918",
-        example: r#""mount": CubicSpring(nodes: ["a"], k1: "40 kN/m", k3: "5 MN/m^3")"#,
+        example: r#""mount": CubicSpring(node: "a", k1: "40 kN/m", k3: "5 MN/m^3")"#,
     };
 }
 

@@ -7,8 +7,6 @@ use crate::{Kinematics, Link};
 
 /// Steps of a cycle where states are looked at one by one.
 const COARSE: usize = 48;
-/// Steps of a cycle where energies are added up.
-const FINE: usize = 2000;
 /// Step of a difference quotient, relative to the scale of the coordinate.
 const STEP: f64 = 1e-5;
 /// Admissible error of a tangent, relative to the force over the scale of the coordinate. Quotients
@@ -207,73 +205,6 @@ pub(super) fn tangents(link: &dyn Link, path: &Path, report: &mut Report) -> Res
         }
         Ok(())
     })
-}
-
-/// Energy of three cycles of a path.
-#[derive(Default)]
-struct Ledger {
-    work: f64,
-    accounted: f64,
-    turned_over: f64,
-    /// Most energy given so far beyond what was stored at the start.
-    gain: f64,
-}
-
-fn ledger(link: &dyn Link, path: &Path, steps: usize) -> Result<Ledger, Broken> {
-    let (mut sum, mut first, mut last) = (Ledger::default(), None, 0.0);
-    let mut dissipated = 0.0;
-    march(link, path, 3, steps, |s| {
-        let (f0, f1) = (&s.before.f, &s.answer.f);
-        let work: f64 =
-            (0..f0.len()).map(|i| 0.5 * (f0[i] + f1[i]) * (s.at.d[i] - s.at.d0[i])).sum();
-        sum.work += work;
-        sum.turned_over += work.abs();
-        let e = s.answer.energy;
-        for (which, value) in [("hysteretic", e.hysteretic), ("viscous", e.viscous)] {
-            if value < -1e-12 * (sum.turned_over + e.stored.abs()) {
-                return Err(Broken::NegativeDissipation {
-                    which,
-                    value,
-                    path: path.number,
-                    time: s.time,
-                });
-            }
-            dissipated += value;
-        }
-        let at_start = *first.get_or_insert(s.before.energy.stored);
-        sum.gain = sum.gain.max(-sum.work - at_start);
-        last = e.stored;
-        Ok(())
-    })?;
-    sum.accounted = last - first.unwrap_or(0.0) + dissipated;
-    Ok(sum)
-}
-
-/// Work against energies, and no more energy out than was in.
-pub(super) fn energy(
-    kit: &Kit,
-    link: &dyn Link,
-    path: &Path,
-    report: &mut Report,
-) -> Result<(), Broken> {
-    let error = |l: &Ledger| (l.work - l.accounted).abs() / l.turned_over.max(f64::MIN_POSITIVE);
-    let mut it = ledger(link, path, FINE)?;
-    let coarse = error(&it);
-    if coarse > kit.energy_tolerance {
-        // Second order makes it 16 times smaller; impacts and reversals may spoil some of it.
-        let steps = 4 * FINE;
-        it = ledger(link, path, steps)?;
-        if error(&it) > (coarse / 8.0).min(5.0 * kit.energy_tolerance) {
-            let (work, accounted) = (it.work, it.accounted);
-            return Err(Broken::Balance { path: path.number, work, accounted, steps });
-        }
-    }
-    report.energy_error = report.energy_error.max(error(&it));
-    if kit.passive && it.gain > kit.energy_tolerance * it.turned_over {
-        let (gain, turned_over) = (it.gain, it.turned_over);
-        return Err(Broken::GivesEnergy { path: path.number, gain, turned_over });
-    }
-    Ok(())
 }
 
 /// No dependence on speed, nor on the step along a straight path.

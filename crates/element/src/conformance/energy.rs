@@ -1,0 +1,86 @@
+//! Energy: the balance of a law, and what comes out of it.
+
+use super::path::Path;
+use super::probe::march;
+use super::{ConformanceError as Broken, Kit, Report};
+use crate::Link;
+
+/// Steps of a cycle where energies are added up.
+const FINE: usize = 2000;
+
+/// Energy of three cycles of a path.
+#[derive(Default)]
+struct Ledger {
+    work: f64,
+    accounted: f64,
+    turned_over: f64,
+    /// Most energy given so far beyond what was stored at the start.
+    gain: f64,
+}
+
+fn ledger(link: &dyn Link, path: &Path, steps: usize) -> Result<Ledger, Broken> {
+    let (mut sum, mut first, mut last) = (Ledger::default(), None, 0.0);
+    let mut dissipated = 0.0;
+    march(link, path, 3, steps, |s| {
+        let (f0, f1) = (&s.before.f, &s.answer.f);
+        let work: f64 =
+            (0..f0.len()).map(|i| 0.5 * (f0[i] + f1[i]) * (s.at.d[i] - s.at.d0[i])).sum();
+        sum.work += work;
+        sum.turned_over += work.abs();
+        let e = s.answer.energy;
+        for (which, value) in [("hysteretic", e.hysteretic), ("viscous", e.viscous)] {
+            if value < -1e-12 * (sum.turned_over + e.stored.abs()) {
+                return Err(Broken::NegativeDissipation {
+                    which,
+                    value,
+                    path: path.number,
+                    time: s.time,
+                });
+            }
+            dissipated += value;
+        }
+        let at_start = *first.get_or_insert(s.before.energy.stored);
+        sum.gain = sum.gain.max(-sum.work - at_start);
+        last = e.stored;
+        Ok(())
+    })?;
+    sum.accounted = last - first.unwrap_or(0.0) + dissipated;
+    Ok(sum)
+}
+
+/// A thousandth of the largest turnover of all paths, J: a path that hardly touches is measured by it.
+pub(super) fn typical(link: &dyn Link, paths: &[Path]) -> Result<f64, Broken> {
+    let mut most = f64::MIN_POSITIVE;
+    for path in paths {
+        most = most.max(ledger(link, path, FINE / 10)?.turned_over);
+    }
+    Ok((1e-3 * most).max(f64::MIN_POSITIVE))
+}
+
+/// Work against energies, and no more energy out than was in.
+pub(super) fn balance(
+    kit: &Kit,
+    link: &dyn Link,
+    path: &Path,
+    report: &mut Report,
+    typical: f64,
+) -> Result<(), Broken> {
+    let error = |l: &Ledger| (l.work - l.accounted).abs() / l.turned_over.max(typical);
+    let mut it = ledger(link, path, FINE)?;
+    let coarse = error(&it);
+    if coarse > kit.energy_tolerance {
+        // Second order makes it 16 times smaller; impacts and reversals may spoil some of it.
+        let steps = 4 * FINE;
+        it = ledger(link, path, steps)?;
+        if error(&it) > (coarse / 8.0).min(5.0 * kit.energy_tolerance) {
+            let (work, accounted) = (it.work, it.accounted);
+            return Err(Broken::Balance { path: path.number, work, accounted, steps });
+        }
+    }
+    report.energy_error = report.energy_error.max(error(&it));
+    if kit.passive && it.gain > kit.energy_tolerance * it.turned_over.max(typical) {
+        let (gain, turned_over) = (it.gain, it.turned_over);
+        return Err(Broken::GivesEnergy { path: path.number, gain, turned_over });
+    }
+    Ok(())
+}
