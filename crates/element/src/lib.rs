@@ -29,7 +29,7 @@ pub use card::{Card, Category, Default, Described, Form, NodeCount, Parameter, R
 pub use constraint::{Constraint, Equation};
 pub use dimension::Dimension;
 pub use error::ParameterError;
-pub use frame::{Axis, Dof, Frame, Geometry, Vector3};
+pub use frame::{Axis, Dof, Frame, Geometry, Vector3, cross, dot, norm, sub};
 pub use history::{Field, History};
 pub use linear::{ElementMatrices, LinearElement, SquareMatrix};
 pub use link::{Contact, Coordinates, Energy, Kinematics, Link, Response};

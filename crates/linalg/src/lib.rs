@@ -1,1 +1,52 @@
-//! placeholder
+//! Matrices of Trilith: sparse assembly, products, factorisations, eigenproblems, small dense algebra.
+//! The only crate that names a matrix backend.
+//!
+//! | backend | does |
+//! |---|---|
+//! | nalgebra-sparse | storage and assembly of sparse matrices, products with vectors |
+//! | sprs | congruence products TᵀKT of constraint elimination, Matrix Market export |
+//! | faer | sparse LDLᵀ and LU, dense LU, symmetric eigenproblems, dense products |
+//!
+//! Everything runs on one thread, so that results repeat bit for bit.
+
+mod dense;
+mod eigen;
+mod expm;
+mod ldlt;
+mod lu;
+mod matrix_market;
+mod sparse;
+
+pub use dense::{Dense, DenseLu};
+pub use eigen::{all_modes, lowest_modes, symmetric_eigen};
+pub use expm::expm;
+pub use ldlt::{Ldlt, unsupported};
+pub use lu::SparseLu;
+pub use matrix_market::matrix_market;
+pub use sparse::{Sparse, Triplets};
+
+/// What can go wrong in a factorisation or an eigenproblem.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum LinalgError {
+    /// A pivot is zero: the matrix is singular.
+    #[error("the matrix is singular at equation {equation}")]
+    Singular {
+        /// Row of the zero pivot.
+        equation: usize,
+    },
+    /// The backend refused for another reason.
+    #[error("the factorisation failed: {reason}")]
+    Backend {
+        /// What the backend said.
+        reason: String,
+    },
+    /// An iteration did not converge.
+    #[error("{what} did not converge in {iterations} iterations")]
+    NotConverged {
+        /// What was sought.
+        what: &'static str,
+        /// Iterations made.
+        iterations: usize,
+    },
+}

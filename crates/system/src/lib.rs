@@ -1,1 +1,17 @@
-//! placeholder
+//! From a model to equations: M ü + C u̇ + K u + Bᵀ f(B u, B u̇) = p(t) on the free DOFs.
+//!
+//! [`System`] is passive data: matrices, link maps and names. It knows no solver.
+
+mod assemble;
+mod elastic;
+mod error;
+mod links;
+mod loads;
+mod reduction;
+
+pub use assemble::System;
+pub use elastic::EndForceRow;
+pub use error::SystemError;
+pub use links::{LinkInstance, LinkSet, Tangents};
+pub use loads::{Channel, LoadSet, StepLoads, Track};
+pub use reduction::Reduction;

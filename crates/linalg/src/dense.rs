@@ -1,0 +1,175 @@
+//! Dense matrices in column-major order, and dense LU.
+
+use faer::linalg::matmul::matmul;
+use faer::linalg::solvers::{PartialPivLu, Solve};
+use faer::{Accum, MatMut, MatRef, Par};
+
+/// A dense matrix, column by column.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Dense {
+    rows: usize,
+    columns: usize,
+    values: Vec<f64>,
+}
+
+impl Dense {
+    /// Zero matrix.
+    #[must_use]
+    pub fn zeros(rows: usize, columns: usize) -> Self {
+        Self { rows, columns, values: vec![0.0; rows * columns] }
+    }
+
+    /// A matrix from its columns, one after the other.
+    ///
+    /// # Panics
+    /// Where the length does not suit.
+    #[must_use]
+    pub fn from_columns(rows: usize, columns: usize, values: Vec<f64>) -> Self {
+        assert_eq!(values.len(), rows * columns, "values of a dense matrix");
+        Self { rows, columns, values }
+    }
+
+    /// Number of rows.
+    #[must_use]
+    pub fn rows(&self) -> usize {
+        self.rows
+    }
+
+    /// Number of columns.
+    #[must_use]
+    pub fn columns(&self) -> usize {
+        self.columns
+    }
+
+    /// All values, column by column.
+    #[must_use]
+    pub fn values(&self) -> &[f64] {
+        &self.values
+    }
+
+    /// All values, to be changed.
+    pub fn values_mut(&mut self) -> &mut [f64] {
+        &mut self.values
+    }
+
+    /// One column.
+    #[must_use]
+    pub fn column(&self, j: usize) -> &[f64] {
+        &self.values[j * self.rows..(j + 1) * self.rows]
+    }
+
+    /// One column, to be changed.
+    pub fn column_mut(&mut self, j: usize) -> &mut [f64] {
+        &mut self.values[j * self.rows..(j + 1) * self.rows]
+    }
+
+    /// `y += s · A x`.
+    pub fn mul_add(&self, s: f64, x: &[f64], y: &mut [f64]) {
+        for j in 0..self.columns {
+            let t = s * x[j];
+            if t != 0.0 {
+                for (a, b) in y.iter_mut().zip(self.column(j)) {
+                    *a += t * b;
+                }
+            }
+        }
+    }
+
+    /// `y += s · Aᵀ x`.
+    pub fn transpose_mul_add(&self, s: f64, x: &[f64], y: &mut [f64]) {
+        for j in 0..self.columns {
+            y[j] += s * dot(self.column(j), x);
+        }
+    }
+
+    /// The transpose.
+    #[must_use]
+    pub fn transpose(&self) -> Self {
+        let mut t = Self::zeros(self.columns, self.rows);
+        for j in 0..self.columns {
+            for i in 0..self.rows {
+                t[(j, i)] = self[(i, j)];
+            }
+        }
+        t
+    }
+
+    /// `A B`.
+    #[must_use]
+    pub fn times(&self, b: &Self) -> Self {
+        let mut c = Self::zeros(self.rows, b.columns);
+        matmul(c.as_mut(), Accum::Replace, self.as_ref(), b.as_ref(), 1.0, Par::Seq);
+        c
+    }
+
+    /// `Aᵀ B`.
+    #[must_use]
+    pub fn transpose_times(&self, b: &Self) -> Self {
+        let mut c = Self::zeros(self.columns, b.columns);
+        matmul(c.as_mut(), Accum::Replace, self.as_ref().transpose(), b.as_ref(), 1.0, Par::Seq);
+        c
+    }
+
+    pub(crate) fn as_ref(&self) -> MatRef<'_, f64> {
+        MatRef::from_column_major_slice(&self.values, self.rows, self.columns)
+    }
+
+    pub(crate) fn as_mut(&mut self) -> MatMut<'_, f64> {
+        MatMut::from_column_major_slice_mut(&mut self.values, self.rows, self.columns)
+    }
+}
+
+impl std::ops::Index<(usize, usize)> for Dense {
+    type Output = f64;
+    fn index(&self, (i, j): (usize, usize)) -> &f64 {
+        &self.values[j * self.rows + i]
+    }
+}
+
+impl std::ops::IndexMut<(usize, usize)> for Dense {
+    fn index_mut(&mut self, (i, j): (usize, usize)) -> &mut f64 {
+        &mut self.values[j * self.rows + i]
+    }
+}
+
+/// `a · b`.
+pub(crate) fn dot(a: &[f64], b: &[f64]) -> f64 {
+    a.iter().zip(b).map(|(x, y)| x * y).sum()
+}
+
+/// A factorised dense square matrix.
+#[derive(Clone, Debug)]
+pub struct DenseLu(PartialPivLu<f64>);
+
+impl DenseLu {
+    /// Factorises with partial pivoting. A singular matrix shows in values that are not finite after
+    /// [`solve`](Self::solve).
+    #[must_use]
+    pub fn new(a: &Dense) -> Self {
+        Self(PartialPivLu::new(a.as_ref()))
+    }
+
+    /// Solves in place.
+    pub fn solve(&self, x: &mut [f64]) {
+        let n = x.len();
+        self.0.solve_in_place(MatMut::from_column_major_slice_mut(x, n, 1));
+    }
+
+    /// Solves for all columns in place.
+    pub fn solve_columns(&self, b: &mut Dense) {
+        self.0.solve_in_place(b.as_mut());
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn an_unsymmetric_system_is_solved() {
+        let a = Dense::from_columns(2, 2, vec![0.0, 2.0, 1.0, 3.0]);
+        let mut x = vec![1.0, 8.0];
+        DenseLu::new(&a).solve(&mut x);
+        assert!((x[0] - 2.5).abs() < 1e-14 && (x[1] - 1.0).abs() < 1e-14);
+    }
+}

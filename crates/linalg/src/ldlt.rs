@@ -1,0 +1,175 @@
+//! Sparse LDLᵀ of a symmetric matrix, and the search for equations without stiffness.
+
+use crate::{LinalgError, Sparse, Triplets};
+use faer::dyn_stack::{MemBuffer, MemStack};
+use faer::linalg::cholesky::ldlt::factor::{LdltError, LdltRegularization};
+use faer::sparse::linalg::SupernodalThreshold;
+use faer::sparse::linalg::cholesky::{
+    CholeskySymbolicParams, LdltRef, SymbolicCholesky, SymbolicCholeskyRaw, SymmetricOrdering,
+    factorize_symbolic_cholesky, supernodal,
+};
+use faer::sparse::{SparseColMatRef, SymbolicSparseColMatRef};
+use faer::{Conj, MatMut, Par, Side};
+
+/// A factorised symmetric matrix.
+pub struct Ldlt {
+    symbolic: SymbolicCholesky<usize>,
+    values: Vec<f64>,
+    work: MemBuffer,
+}
+
+impl std::fmt::Debug for Ldlt {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        write!(f, "Ldlt({} values)", self.values.len())
+    }
+}
+
+/// Right-hand sides solved at once.
+const BLOCK: usize = 16;
+
+fn backend(e: impl std::fmt::Debug) -> LinalgError {
+    LinalgError::Backend { reason: format!("{e:?}") }
+}
+
+impl Ldlt {
+    /// Factorises `a` (symmetric; the lower triangle is read).
+    ///
+    /// # Errors
+    /// [`LinalgError::Singular`] at an exactly zero pivot.
+    pub fn new(a: &Sparse) -> Result<Self, LinalgError> {
+        Self::regularised(a, LdltRegularization::default())
+    }
+
+    fn regularised(
+        a: &Sparse,
+        regularization: LdltRegularization<'_, f64>,
+    ) -> Result<Self, LinalgError> {
+        let (offsets, rows, values) = a.0.csc_data();
+        let pattern =
+            SymbolicSparseColMatRef::new_checked(a.rows(), a.columns(), offsets, None, rows);
+        let params = CholeskySymbolicParams {
+            supernodal_flop_ratio_threshold: SupernodalThreshold::FORCE_SUPERNODAL,
+            ..Default::default()
+        };
+        let symbolic =
+            factorize_symbolic_cholesky(pattern, Side::Lower, SymmetricOrdering::Amd, params)
+                .map_err(backend)?;
+        let scratch = symbolic
+            .factorize_numeric_ldlt_scratch::<f64>(Par::Seq, Default::default())
+            .or(symbolic.solve_in_place_scratch::<f64>(BLOCK, Par::Seq));
+        let mut work = MemBuffer::try_new(scratch).map_err(backend)?;
+        let mut l = vec![0.0; symbolic.len_val()];
+        symbolic
+            .factorize_numeric_ldlt(
+                &mut l,
+                SparseColMatRef::new(pattern, values),
+                Side::Lower,
+                regularization,
+                Par::Seq,
+                MemStack::new(&mut work),
+                Default::default(),
+            )
+            .map_err(|LdltError::ZeroPivot { index }| LinalgError::Singular {
+                equation: symbolic.perm().map_or(index, |p| p.arrays().0[index]),
+            })?;
+        Ok(Self { symbolic, values: l, work })
+    }
+
+    /// Solves in place; `x` holds whole right-hand sides of `n` values, one after the other.
+    pub fn solve(&mut self, x: &mut [f64]) {
+        let n = self.symbolic.nrows();
+        if n == 0 {
+            return;
+        }
+        let factor = LdltRef::new(&self.symbolic, &self.values);
+        for block in x.chunks_mut(n * BLOCK) {
+            let columns = block.len() / n;
+            factor.solve_in_place_with_conj(
+                Conj::No,
+                MatMut::from_column_major_slice_mut(block, n, columns),
+                Par::Seq,
+                MemStack::new(&mut self.work),
+            );
+        }
+    }
+
+    fn pivots(&self, mut visit: impl FnMut(usize, f64)) {
+        let SymbolicCholeskyRaw::Supernodal(symbolic) = self.symbolic.raw() else { return };
+        let l = supernodal::SupernodalLdltRef::new(symbolic, &self.values);
+        let forward = self.symbolic.perm().map(|p| p.arrays().0);
+        for k in 0..symbolic.n_supernodes() {
+            let node = l.supernode(k);
+            for j in 0..node.val().ncols() {
+                let place = node.start() + j;
+                visit(forward.map_or(place, |f| f[place]), node.val()[(j, j)]);
+            }
+        }
+    }
+
+    /// Number of negative pivots: the number of eigenvalues below zero.
+    #[must_use]
+    pub fn negative_pivots(&self) -> usize {
+        let mut count = 0;
+        self.pivots(|_, d| count += usize::from(d < 0.0));
+        count
+    }
+}
+
+/// Equations of a symmetric positive semi-definite matrix that nothing holds: one for each
+/// independent mechanism. The matrix is scaled to unit diagonal first.
+///
+/// # Errors
+/// Where the factorisation fails altogether.
+pub fn unsupported(a: &Sparse) -> Result<Vec<usize>, LinalgError> {
+    const HUGE: f64 = 1e30;
+    let diagonal = a.diagonal();
+    let scale: Vec<f64> =
+        diagonal.iter().map(|d| if *d > 0.0 { 1.0 / d.sqrt() } else { 0.0 }).collect();
+    let mut found: Vec<usize> = (0..diagonal.len()).filter(|i| diagonal[*i] <= 0.0).collect();
+    let mut scaled = Triplets::new(a.rows(), a.columns());
+    for (i, j, v) in a.entries() {
+        scaled.add(i, j, v * scale[i] * scale[j]);
+    }
+    for i in &found {
+        scaled.add(*i, *i, 1.0);
+    }
+    let regularization = LdltRegularization {
+        dynamic_regularization_signs: None,
+        dynamic_regularization_epsilon: 1e-11,
+        dynamic_regularization_delta: HUGE,
+    };
+    Ldlt::regularised(&scaled.build(), regularization)?
+        .pivots(|equation, d| if d.abs() >= 0.5 * HUGE { found.push(equation) });
+    found.sort_unstable();
+    found.dedup();
+    Ok(found)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn chain(n: usize, anchored: bool) -> Sparse {
+        let mut k = Triplets::new(n, n);
+        for i in 0..n - 1 {
+            for (a, b, v) in [(i, i, 1.0), (i + 1, i + 1, 1.0), (i, i + 1, -1.0), (i + 1, i, -1.0)]
+            {
+                k.add(a, b, v * 1e7);
+            }
+        }
+        k.add(0, 0, if anchored { 1e7 } else { 0.0 });
+        k.build()
+    }
+
+    #[test]
+    fn an_anchored_chain_is_solved_and_a_free_one_is_reported() {
+        let k = chain(50, true);
+        let mut x = vec![0.0; 100];
+        x[49] = 1e7;
+        x[99] = 2e7;
+        Ldlt::new(&k).unwrap().solve(&mut x);
+        assert!((x[49] - 50.0).abs() < 1e-9 && (x[99] - 100.0).abs() < 1e-9);
+        assert!(unsupported(&k).unwrap().is_empty());
+        assert_eq!(unsupported(&chain(50, false)).unwrap().len(), 1);
+    }
+}

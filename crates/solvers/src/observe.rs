@@ -1,0 +1,196 @@
+//! What a run shows while it goes on, and what it leaves.
+
+use serde::Serialize;
+use trilith_element::Contact;
+
+/// A moment of a run, shown after every accepted substep.
+pub struct Sample<'a> {
+    /// Time, s.
+    pub t: f64,
+    /// Index of the output step where `t` is an output time (0 = start of the case).
+    pub output_step: Option<usize>,
+    /// Values of the model's outputs, in its order, SI.
+    pub values: &'a [f64],
+    /// Their time derivatives where they are known (displacements), NaN elsewhere.
+    pub rates: &'a [f64],
+    /// Energies so far.
+    pub energy: &'a EnergyTotals,
+    /// What every contact does: (index of the element in the model, contact).
+    pub contacts: &'a [(usize, Contact)],
+    /// Displacements of the structure on request.
+    pub shape: &'a dyn Shape,
+}
+
+/// Displacements of all nodes.
+pub trait Shape {
+    /// Six displacements of every node, node after node (m, rad); `u` has 6 · nodes values.
+    fn displacements(&self, u: &mut [f64]);
+}
+
+/// Watches a run.
+pub trait Observer {
+    /// Called at the start and after every accepted substep, in time order.
+    fn sample(&mut self, sample: &Sample<'_>);
+}
+
+/// Energies since the start of the case, J. Stored kinds are changes since the start, kinetic is absolute.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, serde::Deserialize)]
+pub struct EnergyTotals {
+    /// Work of base motion and varying forces, and kinetic energy at the start.
+    pub input: f64,
+    /// ½ u̇ᵀ M u̇ (relative velocities).
+    pub kinetic: f64,
+    /// Change of ½ uᵀ K u.
+    pub strain: f64,
+    /// Change of the potential of constant loads (gravity).
+    pub potential: f64,
+    /// Work of structural damping.
+    pub modal_damping: f64,
+    /// Change of the energy stored in links.
+    pub link_stored: f64,
+    /// Heat of friction and yielding in links.
+    pub link_hysteretic: f64,
+    /// Heat of rate-dependent link forces.
+    pub link_viscous: f64,
+    /// Energy removed by the time rule (HHT with α < 0).
+    pub algorithmic: f64,
+    /// What is not accounted for: input − everything else.
+    pub error: f64,
+    /// |error| over the largest energy so far.
+    pub error_relative: f64,
+}
+
+/// Energies of one link since the start of the case, J.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, serde::Deserialize)]
+pub struct LinkEnergy {
+    /// Stored now (absolute).
+    pub stored: f64,
+    /// Heat of friction and yielding.
+    pub hysteretic: f64,
+    /// Heat of rate-dependent forces.
+    pub viscous: f64,
+}
+
+/// How much work a run was.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
+pub struct Work {
+    /// Output steps.
+    pub steps: usize,
+    /// Accepted substeps.
+    pub substeps: usize,
+    /// Iterations of the link equations.
+    pub iterations: usize,
+    /// Steps thrown away: not converged or too inaccurate.
+    pub rejected: usize,
+    /// Factorisations of matrices of the structure.
+    pub factorizations: usize,
+    /// Substeps accepted at the smallest step although their error was above the tolerance.
+    pub forced: usize,
+    /// Wall-clock time, s.
+    pub wall_s: f64,
+    /// CPU time of assembly, basis and first factorisation, s.
+    pub setup_cpu_s: f64,
+    /// CPU time of the march, s.
+    pub march_cpu_s: f64,
+    /// Largest resident memory of the process, MB.
+    pub peak_rss_mb: f64,
+}
+
+/// How a run ended.
+#[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
+pub enum Status {
+    /// To the end, within the energy limit.
+    Converged,
+    /// To the end, but more energy than allowed is unaccounted for.
+    EnergyError {
+        /// Share of energy unaccounted for.
+        share: f64,
+        /// The limit.
+        limit: f64,
+    },
+    /// Stopped: no equilibrium at the smallest step.
+    NotConverged {
+        /// Time of the last accepted state, s.
+        t: f64,
+        /// The link coordinate that is farthest from equilibrium.
+        worst: String,
+        /// Its force residual, N or N·m.
+        residual: f64,
+    },
+}
+
+impl Status {
+    /// Word for `summary.json`.
+    #[must_use]
+    pub fn word(&self) -> &'static str {
+        match self {
+            Self::Converged => "converged",
+            Self::EnergyError { .. } => "energy error",
+            Self::NotConverged { .. } => "not converged",
+        }
+    }
+
+    /// A sentence for the user.
+    #[must_use]
+    pub fn text(&self) -> String {
+        match self {
+            Self::Converged => "converged".into(),
+            Self::EnergyError { share, limit } => format!(
+                "{:.3} % of the energy is unaccounted for (limit {:.3} %): lower `tolerance` or the step",
+                100.0 * share,
+                100.0 * limit
+            ),
+            Self::NotConverged { t, worst, residual } => format!(
+                "no equilibrium at t = {t:.6} s with the smallest step: {worst} is off by {residual:.3e}"
+            ),
+        }
+    }
+}
+
+/// How well a basis holds the flexibility of a link coordinate.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Adequacy {
+    /// Name, such as `"foot" U1`.
+    pub coordinate: String,
+    /// Share of the exact flexibility, 0 … 1.
+    pub share: f64,
+}
+
+/// The basis of a reduced solver.
+#[derive(Clone, Debug, Default, PartialEq, Serialize)]
+pub struct BasisReport {
+    /// Number of vectors.
+    pub vectors: usize,
+    /// Circular frequencies of the structure without links, rad/s, rising.
+    pub omega: Vec<f64>,
+    /// Share of the mass along X, Y, Z that each vector carries.
+    pub mass_participation: Vec<[f64; 3]>,
+    /// Static participation of each load direction, by name: share of the static response held.
+    pub static_participation: Vec<(String, f64)>,
+    /// Worst coordinates first.
+    pub adequacy: Vec<Adequacy>,
+}
+
+/// What a run leaves.
+#[derive(Clone, Debug)]
+pub struct CaseResult {
+    /// Name of the case.
+    pub case: String,
+    /// Name of the solver (`static` for a static case).
+    pub solver: &'static str,
+    /// How it ended.
+    pub status: Status,
+    /// Work.
+    pub work: Work,
+    /// Energies at the end.
+    pub energy: EnergyTotals,
+    /// Energies of each link at the end: (index of the element, energies).
+    pub link_energy: Vec<(usize, LinkEnergy)>,
+    /// The basis, for reduced solvers.
+    pub basis: Option<BasisReport>,
+    /// What the user should know.
+    pub warnings: Vec<String>,
+    /// The state at the end, to be continued or written as a checkpoint.
+    pub end: crate::EndState,
+}

@@ -1,0 +1,37 @@
+//! End forces of linear elements as rows over the reduced DOFs.
+
+use crate::Reduction;
+use trilith_element::{Dof, ElementMatrices};
+
+/// An end force as a linear combination: `Σ stiffness · u + Σ damping · u̇`, over free and prescribed DOFs.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct EndForceRow {
+    /// (reduced index, N/m …).
+    pub stiffness: Vec<(usize, f64)>,
+    /// (reduced index, N·s/m …).
+    pub damping: Vec<(usize, f64)>,
+}
+
+pub(crate) fn end_force_row(
+    matrices: &ElementMatrices,
+    nodes: &[usize],
+    end: usize,
+    dof: Dof,
+    reduction: &Reduction,
+) -> EndForceRow {
+    let mut row = EndForceRow::default();
+    let Some(i) = matrices.dofs.iter().position(|at| *at == (end, dof)) else { return row };
+    for (j, (node, d)) in matrices.dofs.iter().enumerate() {
+        for (reduced, t) in reduction.expand(6 * nodes[*node] + d.index()) {
+            for (list, a) in [
+                (&mut row.stiffness, &matrices.stiffness),
+                (&mut row.damping, &matrices.damping),
+            ] {
+                if a[(i, j)] != 0.0 {
+                    list.push((*reduced, a[(i, j)] * t));
+                }
+            }
+        }
+    }
+    row
+}

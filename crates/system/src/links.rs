@@ -1,0 +1,334 @@
+//! The links of a system: maps B, flat deformations and history, evaluation of all laws.
+//!
+//! Flat arrays hold the coordinates of link after link, `n` for each, also those that the reduced
+//! structure cannot deform (their row of B is empty). `active` lists the others; the link equations are
+//! solved on the active ones.
+
+use std::ops::Range;
+use trilith_element::{Coordinates, Dof, Energy, Kinematics, Link, Response, Vector3};
+use trilith_model::{Body, Model};
+
+use crate::{Reduction, SystemError};
+
+/// One link in the flat arrays.
+#[derive(Clone, Debug)]
+pub struct LinkInstance {
+    /// Index of the element in the model.
+    pub element: usize,
+    /// Its coordinates in the flat arrays.
+    pub range: Range<usize>,
+    /// Its blocks (n² values) in the flat tangents.
+    pub block: Range<usize>,
+    /// Its variables in the history arrays.
+    pub history: Range<usize>,
+}
+
+/// Tangents of all links: blocks of n² values, row by row.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Tangents {
+    /// ∂f/∂d.
+    pub k: Vec<f64>,
+    /// ∂f/∂ḋ.
+    pub c: Vec<f64>,
+}
+
+/// All links of a system.
+#[derive(Clone, Debug, Default)]
+pub struct LinkSet {
+    /// The links in model order.
+    pub links: Vec<LinkInstance>,
+    /// Flat indices of the coordinates that the structure can deform.
+    pub active: Vec<usize>,
+    /// Row of B for each flat coordinate, over the free DOFs.
+    pub rows: Vec<Vec<(usize, f64)>>,
+    /// Row of B for each flat coordinate, over the prescribed DOFs.
+    pub support_rows: Vec<Vec<(usize, f64)>>,
+    /// True for coordinates that are rotations.
+    pub rotational: Vec<bool>,
+    /// Effective stiffness of each flat coordinate set by the user (0 where not).
+    pub effective: Vec<f64>,
+    /// Length of the history arrays.
+    pub history_len: usize,
+    /// Length of the flat tangents.
+    pub block_len: usize,
+}
+
+/// DOFs that the links act on: translations always, rotations where a law deforms them.
+pub(crate) fn mark_used(model: &Model, used: &mut [bool]) {
+    for e in &model.elements {
+        let Body::Link(law, _) = &e.body else { continue };
+        match law.coordinates() {
+            Coordinates::Local(axes) => {
+                for axis in axes {
+                    let a = axis.index();
+                    for (k, x) in e.frame.0[a % 3].iter().enumerate() {
+                        if x.abs() > 1e-12 {
+                            for n in &e.nodes {
+                                used[6 * n + k + 3 * (a / 3)] = true;
+                            }
+                        }
+                    }
+                }
+            }
+            Coordinates::Nodal { .. } => {
+                for n in &e.nodes {
+                    used[6 * n..6 * n + 6].fill(true);
+                }
+            }
+        }
+    }
+}
+
+impl LinkSet {
+    pub(crate) fn new(
+        model: &Model,
+        reduction: &Reduction,
+        used: &[bool],
+    ) -> Result<Self, SystemError> {
+        let mut set = Self::default();
+        for (element, e) in model.elements.iter().enumerate() {
+            let Body::Link(law, options) = &e.body else { continue };
+            let coordinates = law.coordinates();
+            let n = coordinates.len();
+            if let Coordinates::Nodal { nodes } = coordinates
+                && nodes != e.nodes.len()
+            {
+                return Err(SystemError::Element {
+                    element: e.name.clone(),
+                    reason: format!("needs {nodes} nodes, has {}", e.nodes.len()),
+                    span: e.span.clone(),
+                });
+            }
+            let start = set.rows.len();
+            for terms in full_rows(model, element, &coordinates, options.shear_at, used) {
+                set.push_row(reduction, &terms);
+            }
+            match coordinates {
+                Coordinates::Local(axes) => {
+                    set.rotational.extend(axes.iter().map(|a| a.index() > 2));
+                }
+                Coordinates::Nodal { nodes } => {
+                    set.rotational.extend((0..6 * nodes).map(|i| i % 6 > 2));
+                }
+            }
+            match &options.effective_stiffness {
+                Some(values) => set.effective.extend(values),
+                None => set.effective.resize(start + n, 0.0),
+            }
+            let fields = law.history().len();
+            set.links.push(LinkInstance {
+                element,
+                range: start..start + n,
+                block: set.block_len..set.block_len + n * n,
+                history: set.history_len..set.history_len + fields,
+            });
+            set.block_len += n * n;
+            set.history_len += fields;
+        }
+        set.active = (0..set.rows.len()).filter(|i| !set.rows[*i].is_empty()).collect();
+        Ok(set)
+    }
+
+    fn push_row(&mut self, reduction: &Reduction, terms: &[(usize, f64)]) {
+        let order = reduction.order();
+        let mut sum = std::collections::BTreeMap::new();
+        for (full, c) in terms {
+            for (j, t) in reduction.expand(*full) {
+                *sum.entry(*j).or_insert(0.0) += c * t;
+            }
+        }
+        let scale = sum.values().fold(0.0f64, |a, x: &f64| a.max(x.abs()));
+        let kept = sum.into_iter().filter(|(_, c)| c.abs() > 1e-13 * scale);
+        let (free, support) = kept.partition::<Vec<_>, _>(|(j, _)| *j < order);
+        self.rows.push(free);
+        self.support_rows.push(support.into_iter().map(|(j, c)| (j - order, c)).collect());
+    }
+
+    /// Number of flat coordinates.
+    #[must_use]
+    pub fn len(&self) -> usize {
+        self.rows.len()
+    }
+
+    /// True for a linear model.
+    #[must_use]
+    pub fn is_empty(&self) -> bool {
+        self.links.is_empty()
+    }
+
+    /// The law of a link.
+    #[must_use]
+    pub fn law<'a>(&self, model: &'a Model, link: &LinkInstance) -> Option<&'a dyn Link> {
+        match &model.elements[link.element].body {
+            Body::Link(law, _) => Some(law.as_ref()),
+            _ => None,
+        }
+    }
+
+    /// `d = B u + B_s u_s`; `u` on the free, `us` on the prescribed DOFs.
+    pub fn deform(&self, u: &[f64], us: &[f64], d: &mut [f64]) {
+        for (i, x) in d.iter_mut().enumerate() {
+            *x = self.rows[i].iter().map(|(j, c)| c * u[*j]).sum::<f64>()
+                + self.support_rows[i].iter().map(|(j, c)| c * us[*j]).sum::<f64>();
+        }
+    }
+
+    /// `p += s · Bᵀ f`.
+    pub fn spread(&self, s: f64, f: &[f64], p: &mut [f64]) {
+        for (row, x) in self.rows.iter().zip(f).filter(|(_, x)| **x != 0.0) {
+            for (j, c) in row {
+                p[*j] += s * c * x;
+            }
+        }
+    }
+
+    /// Evaluates all laws at (d, v) from the committed history. Writes forces, tangents, trial history;
+    /// returns the energies of each link through `energy` (one entry a link).
+    pub fn respond(
+        &self,
+        model: &Model,
+        at: Kinematics<'_>,
+        committed: &[f64],
+        trial: &mut [f64],
+        f: &mut [f64],
+        tangents: &mut Tangents,
+        energy: &mut [Energy],
+    ) {
+        f.fill(0.0);
+        tangents.k.fill(0.0);
+        tangents.c.fill(0.0);
+        for (link, energy) in self.links.iter().zip(energy) {
+            let Some(law) = self.law(model, link) else { continue };
+            let r = link.range.clone();
+            *energy = Energy::default();
+            law.respond(
+                &Kinematics {
+                    d: &at.d[r.clone()],
+                    v: &at.v[r.clone()],
+                    d0: &at.d0[r.clone()],
+                    v0: &at.v0[r.clone()],
+                    dt: at.dt,
+                },
+                &committed[link.history.clone()],
+                &mut trial[link.history.clone()],
+                &mut Response {
+                    f: &mut f[r],
+                    k: &mut tangents.k[link.block.clone()],
+                    c: &mut tangents.c[link.block.clone()],
+                    energy,
+                },
+            );
+        }
+    }
+
+    /// History before anything has happened.
+    #[must_use]
+    pub fn at_rest(&self, model: &Model) -> Vec<f64> {
+        let mut history = vec![0.0; self.history_len];
+        for link in &self.links {
+            if let Some(law) = self.law(model, link) {
+                law.at_rest(&mut history[link.history.clone()]);
+            }
+        }
+        history
+    }
+
+    /// Diagonal of the engaged stiffness of every flat coordinate.
+    #[must_use]
+    pub fn engaged(&self, model: &Model) -> Vec<f64> {
+        let mut diagonal = vec![0.0; self.len()];
+        for link in &self.links {
+            let n = link.range.len();
+            let mut k = vec![0.0; n * n];
+            if let Some(law) = self.law(model, link) {
+                law.engaged_stiffness(&mut k);
+            }
+            for i in 0..n {
+                diagonal[link.range.start + i] = k[i * n + i];
+            }
+        }
+        diagonal
+    }
+
+    /// Empty tangents of the right length.
+    #[must_use]
+    pub fn tangents(&self) -> Tangents {
+        Tangents { k: vec![0.0; self.block_len], c: vec![0.0; self.block_len] }
+    }
+
+    /// Name of a flat coordinate, such as `"foot" U1`.
+    #[must_use]
+    pub fn name(&self, model: &Model, flat: usize) -> String {
+        let Some(link) = self.links.iter().find(|l| l.range.contains(&flat)) else {
+            return "?".into();
+        };
+        let local = flat - link.range.start;
+        let axis = match self.law(model, link).map(Link::coordinates) {
+            Some(Coordinates::Local(axes)) => axes[local].name().to_owned(),
+            _ => format!("node {} {}", local / 6 + 1, Dof::ALL[local % 6].name()),
+        };
+        format!("\"{}\" {axis}", model.elements[link.element].name)
+    }
+}
+
+/// Rows of B over full DOFs. Shear of a link with length includes the rotation of its ends about the
+/// shear location, where those rotations are DOFs that the structure uses.
+fn full_rows(
+    model: &Model,
+    element: usize,
+    coordinates: &Coordinates,
+    shear_at: f64,
+    used: &[bool],
+) -> Vec<Vec<(usize, f64)>> {
+    let e = &model.elements[element];
+    let axes = match coordinates {
+        Coordinates::Nodal { .. } => {
+            return e
+                .nodes
+                .iter()
+                .flat_map(|n| (0..6).map(move |k| vec![(6 * n + k, 1.0)]))
+                .collect();
+        }
+        Coordinates::Local(axes) => axes,
+    };
+    let frame = &e.frame.0;
+    let (j, i) = match e.nodes[..] {
+        [i, j] => (j, Some(i)),
+        _ => (e.nodes[0], None),
+    };
+    let length = i.map_or(0.0, |i| distance(model.nodes[i].position, model.nodes[j].position));
+    axes.iter()
+        .map(|axis| {
+            let a = axis.index();
+            let mut terms = Vec::new();
+            let mut add = |node: usize, axis: Vector3, offset: usize, c: f64| {
+                terms.extend(
+                    axis.iter()
+                        .enumerate()
+                        .filter(|(_, x)| x.abs() > 1e-12)
+                        .map(|(k, x)| (6 * node + offset + k, c * x)),
+                );
+            };
+            let offset = 3 * (a / 3);
+            add(j, frame[a % 3], offset, 1.0);
+            if let Some(i) = i {
+                add(i, frame[a % 3], offset, -1.0);
+                // U2 turns with R3, U3 against R2.
+                if let Some((about, sign)) = [None, Some((2, -1.0)), Some((1, 1.0))]
+                    .get(a)
+                    .copied()
+                    .flatten()
+                {
+                    add(j, frame[about], 3, sign * shear_at);
+                    add(i, frame[about], 3, sign * (length - shear_at));
+                }
+            }
+            terms.retain(|(full, c)| *c != 0.0 && (full % 6 < 3 || used[*full]));
+            terms
+        })
+        .collect()
+}
+
+fn distance(a: Vector3, b: Vector3) -> f64 {
+    trilith_element::norm(trilith_element::sub(b, a))
+}

@@ -1,0 +1,252 @@
+//! Elimination of supports and constraints: every DOF as a combination of free and prescribed ones.
+//!
+//! `u_full = T [u_free; u_prescribed]`, exactly. Equations are eliminated one after the other with
+//! substitution, so chains, shared nodes and redundant equations resolve; a constraint on a fixed DOF
+//! passes the support on to the DOFs it is tied to. No mass is lost, because M is reduced with the same T.
+
+use crate::SystemError;
+use std::collections::BTreeMap;
+use trilith_linalg::{Sparse, Triplets};
+use trilith_model::{Body, Model};
+
+/// The map from all DOFs (six a node, in node order) to free and prescribed ones.
+#[derive(Clone, Debug)]
+pub struct Reduction {
+    rows: Vec<Vec<(usize, f64)>>,
+    /// Full index (6·node + direction) of each free DOF.
+    pub free: Vec<usize>,
+    /// Full index of each prescribed DOF.
+    pub prescribed: Vec<usize>,
+}
+
+/// One constraint equation on full indices: Σ coefficient · u = 0.
+struct Row {
+    element: usize,
+    dependent: usize,
+    terms: Vec<(usize, f64)>,
+}
+
+impl Reduction {
+    /// Eliminates. `used[i]` tells which full DOFs elements or links act on; the DOFs that used ones
+    /// depend on are marked too.
+    pub(crate) fn new(model: &Model, used: &mut [bool]) -> Result<Self, SystemError> {
+        let rows = constraint_rows(model)?;
+        refuse_cycles(model, &rows)?;
+        spread_use(&rows, used);
+        let count = used.len();
+        let mut prescribed_at = vec![false; count];
+        for case in &model.cases {
+            if let trilith_model::Analysis::Dynamic(d) = &case.analysis {
+                for s in &d.supports {
+                    prescribed_at[6 * s.node + s.dof.index()] = true;
+                }
+            }
+        }
+        let fixed = fixed_dofs(model, count);
+        let mut dependent: BTreeMap<usize, Vec<(usize, f64)>> = BTreeMap::new();
+        for row in &rows {
+            let mut sum = BTreeMap::from([(row.dependent, 1.0)]);
+            for (i, c) in &row.terms {
+                *sum.entry(*i).or_insert(0.0) -= c;
+            }
+            let sum = substitute(&sum, &dependent);
+            let left: Vec<(usize, f64)> = sum
+                .into_iter()
+                .filter(|(i, c)| c.abs() > 1e-12 && (!fixed[*i] || prescribed_at[*i]))
+                .collect();
+            if left.is_empty() {
+                continue;
+            }
+            let candidates = || left.iter().filter(|(i, _)| !prescribed_at[*i]);
+            let pivot =
+                candidates().find(|(i, _)| *i == row.dependent).or_else(|| {
+                    candidates().max_by(|a, b| a.1.abs().total_cmp(&b.1.abs()))
+                });
+            let Some(&(p, c)) = pivot else {
+                let e = &model.elements[row.element];
+                return Err(SystemError::Overdetermined {
+                    element: e.name.clone(),
+                    span: e.span.clone(),
+                });
+            };
+            let rest =
+                left.iter().filter(|(i, _)| *i != p).map(|(i, x)| (*i, -x / c)).collect();
+            dependent.insert(p, rest);
+        }
+        Ok(Self::number(count, used, &fixed, &prescribed_at, &dependent))
+    }
+
+    fn number(
+        count: usize,
+        used: &[bool],
+        fixed: &[bool],
+        prescribed_at: &[bool],
+        dependent: &BTreeMap<usize, Vec<(usize, f64)>>,
+    ) -> Self {
+        let free: Vec<usize> = (0..count)
+            .filter(|i| used[*i] && !fixed[*i] && !dependent.contains_key(i))
+            .collect();
+        let prescribed: Vec<usize> = (0..count).filter(|i| prescribed_at[*i]).collect();
+        let mut place = vec![usize::MAX; count];
+        for (new, old) in free.iter().chain(&prescribed).enumerate() {
+            place[*old] = new;
+        }
+        let rows = (0..count)
+            .map(|i| {
+                substitute(&BTreeMap::from([(i, 1.0)]), dependent)
+                    .into_iter()
+                    .filter(|(j, c)| place[*j] != usize::MAX && *c != 0.0)
+                    .map(|(j, c)| (place[j], c))
+                    .collect()
+            })
+            .collect();
+        Self { rows, free, prescribed }
+    }
+
+    /// Number of free DOFs.
+    #[must_use]
+    pub fn order(&self) -> usize {
+        self.free.len()
+    }
+
+    /// A full DOF as (index, factor) of free DOFs and, from [`order`](Self::order) on, prescribed ones.
+    #[must_use]
+    pub fn expand(&self, full: usize) -> &[(usize, f64)] {
+        &self.rows[full]
+    }
+
+    /// T, full DOFs × (free + prescribed).
+    #[must_use]
+    pub fn matrix(&self) -> Sparse {
+        let mut t = Triplets::new(self.rows.len(), self.free.len() + self.prescribed.len());
+        for (i, row) in self.rows.iter().enumerate() {
+            for (j, c) in row {
+                t.add(i, *j, *c);
+            }
+        }
+        t.build()
+    }
+}
+
+fn constraint_rows(model: &Model) -> Result<Vec<Row>, SystemError> {
+    let mut rows = Vec::new();
+    for (element, e) in model.elements.iter().enumerate() {
+        let Body::Constraint(constraint) = &e.body else { continue };
+        let positions: Vec<_> = e.nodes.iter().map(|n| model.nodes[*n].position).collect();
+        let equations = constraint.equations(&positions).map_err(|x| SystemError::Element {
+            element: e.name.clone(),
+            reason: x.to_string(),
+            span: e.span.clone(),
+        })?;
+        let full = |(node, dof): (usize, trilith_element::Dof)| 6 * e.nodes[node] + dof.index();
+        rows.extend(equations.iter().map(|q| Row {
+            element,
+            dependent: full(q.dependent),
+            terms: q.terms.iter().map(|(at, c)| (full(*at), *c)).collect(),
+        }));
+    }
+    Ok(rows)
+}
+
+/// Declared dependencies must not run in a circle; the elimination could resolve one, but it never
+/// is what the author of the model meant.
+fn refuse_cycles(model: &Model, rows: &[Row]) -> Result<(), SystemError> {
+    let mut follows: BTreeMap<usize, Vec<&Row>> = BTreeMap::new();
+    for row in rows {
+        follows.entry(row.dependent).or_default().push(row);
+    }
+    let mut done: BTreeMap<usize, bool> = BTreeMap::new();
+    for start in follows.keys() {
+        let mut path: Vec<(usize, usize)> = Vec::new();
+        if let Some(elements) = circle(*start, &follows, &mut done, &mut path) {
+            let span = model.elements[elements[0]].span.clone();
+            let elements =
+                elements.iter().map(|e| format!("\"{}\"", model.elements[*e].name)).collect();
+            return Err(SystemError::Cycle { elements, span });
+        }
+    }
+    Ok(())
+}
+
+/// Depth-first search; returns the elements of a circle through `at`.
+fn circle(
+    at: usize,
+    follows: &BTreeMap<usize, Vec<&Row>>,
+    done: &mut BTreeMap<usize, bool>,
+    path: &mut Vec<(usize, usize)>,
+) -> Option<Vec<usize>> {
+    match done.get(&at) {
+        Some(true) => return None,
+        Some(false) => {
+            let from = path.iter().position(|(i, _)| *i == at).unwrap_or(0);
+            let mut elements: Vec<usize> = path[from..].iter().map(|(_, e)| *e).collect();
+            elements.sort_unstable();
+            elements.dedup();
+            return Some(elements);
+        }
+        None => {}
+    }
+    done.insert(at, false);
+    for row in follows.get(&at).into_iter().flatten() {
+        for (next, _) in row.terms.iter().filter(|(_, c)| *c != 0.0) {
+            path.push((at, row.element));
+            let found = circle(*next, follows, done, path);
+            path.pop();
+            if found.is_some() {
+                return found;
+            }
+        }
+    }
+    done.insert(at, true);
+    None
+}
+
+fn spread_use(rows: &[Row], used: &mut [bool]) {
+    loop {
+        let mut grown = false;
+        for row in rows.iter().filter(|r| used[r.dependent]).map(|r| &r.terms).collect::<Vec<_>>() {
+            for (i, c) in row {
+                if *c != 0.0 && !used[*i] {
+                    used[*i] = true;
+                    grown = true;
+                }
+            }
+        }
+        if !grown {
+            return;
+        }
+    }
+}
+
+fn fixed_dofs(model: &Model, count: usize) -> Vec<bool> {
+    let mut fixed = vec![false; count];
+    for support in &model.supports {
+        for (i, f) in support.fixed.iter().enumerate() {
+            fixed[6 * support.node + i] |= f;
+        }
+    }
+    if let Some(plane) = model.plane {
+        let stay = plane.dofs().map(|d| d.index());
+        for (i, f) in fixed.iter_mut().enumerate() {
+            *f |= !stay.contains(&(i % 6));
+        }
+    }
+    fixed
+}
+
+/// Replaces dependent DOFs until none is left. Stored expressions hold no DOF that was dependent when
+/// they were stored, so this ends.
+fn substitute(
+    sum: &BTreeMap<usize, f64>,
+    dependent: &BTreeMap<usize, Vec<(usize, f64)>>,
+) -> BTreeMap<usize, f64> {
+    let mut open: Vec<(usize, f64)> = sum.iter().map(|(i, c)| (*i, *c)).collect();
+    let mut result = BTreeMap::new();
+    while let Some((i, c)) = open.pop() {
+        match dependent.get(&i) {
+            Some(terms) => open.extend(terms.iter().map(|(j, x)| (*j, c * x))),
+            None => *result.entry(i).or_insert(0.0) += c,
+        }
+    }
+    result
+}
