@@ -1,0 +1,185 @@
+//! Which crate may depend on which, and which folders there are.
+
+use std::collections::BTreeMap;
+use std::path::{Path, PathBuf};
+
+/// Crates that may name a matrix library.
+const BACKENDS: [&str; 3] = ["faer", "nalgebra-sparse", "sprs"];
+
+fn root() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("..")
+}
+
+fn text(path: impl AsRef<Path>) -> String {
+    let path = root().join(path);
+    std::fs::read_to_string(&path).unwrap_or_else(|e| panic!("{}: {e}", path.display()))
+}
+
+/// Folders of the workspace members.
+fn members() -> Vec<String> {
+    let manifest = text("Cargo.toml");
+    let start = manifest.find("members = [").expect("a workspace has members");
+    let list = &manifest[start..start + manifest[start..].find(']').unwrap()];
+    list.split('"').skip(1).step_by(2).map(str::to_owned).collect()
+}
+
+/// The `name` of a package.
+fn name(manifest: &str) -> String {
+    let line = manifest.lines().find(|l| l.trim_start().starts_with("name")).unwrap();
+    line.split('"').nth(1).unwrap().to_owned()
+}
+
+/// What the sections whose header `of` accepts name.
+fn dependencies(manifest: &str, of: fn(&str) -> bool) -> Vec<String> {
+    let mut found = Vec::new();
+    let mut inside = false;
+    for line in manifest.lines().map(str::trim) {
+        if let Some(header) = line.strip_prefix('[') {
+            let header = header.trim_end_matches(']');
+            // `[dependencies.name]` and `[target.'cfg(…)'.dependencies]` count as well.
+            if let Some((section, name)) = header.rsplit_once('.')
+                && of(section)
+            {
+                found.push(name.to_owned());
+            }
+            inside = of(header);
+        } else if inside && let Some((key, _)) = line.split_once('=') {
+            let key = key.trim().split('.').next().unwrap_or_default();
+            if !key.starts_with('#') {
+                found.push(key.to_owned());
+            }
+        }
+    }
+    found
+}
+
+fn normal(header: &str) -> bool {
+    header.ends_with("dependencies")
+        && !header.ends_with("dev-dependencies")
+        && header != "workspace.dependencies"
+}
+
+fn any(header: &str) -> bool {
+    header.ends_with("dependencies") && header != "workspace.dependencies"
+}
+
+/// Package name and its manifest.
+fn manifests() -> BTreeMap<String, String> {
+    let all = members().into_iter().map(|m| text(Path::new(&m).join("Cargo.toml")));
+    all.map(|m| (name(&m), m)).collect()
+}
+
+fn own(dependencies: Vec<String>) -> Vec<String> {
+    dependencies.into_iter().filter(|d| d.starts_with("trilith")).collect()
+}
+
+#[test]
+fn dependencies_point_one_way() {
+    const LAYERS: [(&str, &[&str]); 9] = [
+        ("trilith-element", &[]),
+        ("trilith-linalg", &[]),
+        ("trilith-elements", &["trilith-element"]),
+        ("trilith-model", &["trilith-element"]),
+        ("trilith-system", &["trilith-element", "trilith-linalg", "trilith-model"]),
+        (
+            "trilith-solvers",
+            &["trilith-element", "trilith-linalg", "trilith-model", "trilith-system"],
+        ),
+        (
+            "trilith-results",
+            &["trilith-element", "trilith-model", "trilith-system", "trilith-solvers"],
+        ),
+        (
+            "trilith-report",
+            &["trilith-element", "trilith-model", "trilith-solvers", "trilith-results"],
+        ),
+        ("trilith-thirdparty-example", &["trilith-element"]),
+    ];
+    let all = manifests();
+    for (package, allowed) in LAYERS {
+        let Some(manifest) = all.get(package) else { continue };
+        for d in own(dependencies(manifest, normal)) {
+            assert!(allowed.contains(&d.as_str()), "{package} must not depend on {d}");
+        }
+    }
+}
+
+#[test]
+fn only_linalg_names_a_matrix_backend() {
+    for (package, manifest) in manifests() {
+        for d in dependencies(&manifest, any) {
+            let backend = BACKENDS.contains(&d.as_str());
+            assert!(!backend || package == "trilith-linalg", "{package} must not name {d}");
+        }
+    }
+}
+
+#[test]
+fn packages_are_named_after_their_folders() {
+    for member in members() {
+        let folder = member.rsplit('/').next().unwrap().to_owned();
+        let package = name(&text(Path::new(&member).join("Cargo.toml")));
+        let expected = match folder.as_str() {
+            "trilith" => folder,
+            "thirdparty" => "trilith-thirdparty-example".into(),
+            _ => format!("trilith-{folder}"),
+        };
+        assert_eq!(package, expected, "{member}");
+    }
+}
+
+#[test]
+fn every_crate_of_the_tree_is_a_member() {
+    let members = members();
+    for entry in std::fs::read_dir(root().join("crates")).unwrap() {
+        let path = entry.unwrap().path();
+        if path.join("Cargo.toml").is_file() {
+            let member = format!("crates/{}", path.file_name().unwrap().to_string_lossy());
+            assert!(members.contains(&member), "{member} is no member of the workspace");
+        }
+    }
+}
+
+/// Paths of a tree drawn by indentation or with `├──`, comments after two blanks.
+fn tree(lines: &[&str]) -> Vec<PathBuf> {
+    let mut stack: Vec<(usize, PathBuf)> = Vec::new();
+    let mut found = Vec::new();
+    for line in lines {
+        let drawn = |c: char| c.is_whitespace() || "│├└─".contains(c);
+        let Some(at) = line.chars().position(|c| !drawn(c)) else { continue };
+        let rest: String = line.chars().skip(at).collect();
+        let name = rest.split("  ").next().unwrap_or_default().trim();
+        if name.contains(' ') || name == "." {
+            continue;
+        }
+        stack.retain(|(depth, _)| *depth < at);
+        let path = stack.last().map_or(PathBuf::new(), |(_, p)| p.clone()).join(name);
+        if name.ends_with('/') {
+            stack.push((at, path.clone()));
+        }
+        found.push(path);
+    }
+    found
+}
+
+#[test]
+fn a_drawn_tree_is_understood() {
+    let drawn = ["crates/", "  element/   the contract", "models/  what runs", "├── x.toml  more"];
+    let expected = ["crates/", "crates/element/", "models/", "models/x.toml"];
+    let found = tree(&drawn[..3]);
+    assert_eq!(found, expected[..3].iter().map(PathBuf::from).collect::<Vec<_>>());
+    assert_eq!(tree(&drawn[3..]), [PathBuf::from("x.toml")]);
+}
+
+#[test]
+fn the_tree_of_the_readme_is_there() {
+    let Ok(readme) = std::fs::read_to_string(root().join("README.md")) else { return };
+    let mut blocks = readme.split("```").skip(1).step_by(2);
+    let Some(block) = blocks.find(|b| b.contains("crates/") && b.contains("elements/")) else {
+        panic!("README.md draws no tree of the folders");
+    };
+    let lines: Vec<&str> = block.lines().skip(1).collect();
+    for path in tree(&lines) {
+        assert!(root().join(&path).exists(), "README.md shows {}", path.display());
+    }
+}
