@@ -40,6 +40,30 @@ impl Ldlt {
         Self::regularised(a, LdltRegularization::default())
     }
 
+    /// Factorises a positive semi-definite `a`; equations with a zero pivot get zero solutions.
+    ///
+    /// # Errors
+    /// Where the backend refuses.
+    pub fn with_rigid_zeros(a: &Sparse) -> Result<Self, LinalgError> {
+        let largest = a.diagonal().into_iter().fold(0.0, f64::max);
+        let n = a.rows();
+        let mut padded = Triplets::new(n, n);
+        for (i, j, v) in a.entries() {
+            padded.add(i, j, v);
+        }
+        for i in 0..n {
+            padded.add(i, i, 0.0);
+        }
+        Self::regularised(
+            &padded.build(),
+            LdltRegularization {
+                dynamic_regularization_signs: None,
+                dynamic_regularization_epsilon: 1e-13 * largest,
+                dynamic_regularization_delta: 1e30 * largest.max(1.0),
+            },
+        )
+    }
+
     fn regularised(
         a: &Sparse,
         regularization: LdltRegularization<'_, f64>,

@@ -1,1 +1,36 @@
-//! placeholder
+//! Solvers of Trilith: one march over time, interchangeable propagators, one link kernel.
+//!
+//! | solver | space | rule for time |
+//! |---|---|---|
+//! | `fna` | Ritz vectors | exact for loads linear in the step |
+//! | `hht` | all DOFs | HHT-α, one factorisation a step size |
+//! | `ritz-hht` | Ritz vectors | HHT-α |
+//! | `full-newton` | all DOFs | HHT-α, tangent factorised in every iteration |
+
+mod basis;
+mod case;
+mod clock;
+mod contact_mode;
+mod dynamic;
+mod error;
+mod full_newton;
+mod hht;
+mod kernel;
+mod ledger;
+mod march;
+mod modal;
+mod observe;
+mod outputs;
+mod propagator;
+mod space;
+mod statics;
+mod stepper;
+
+pub use case::{EndState, RunOptions, modes, run};
+pub use contact_mode::{ContactMode, ContactSummary};
+pub use error::SolveError;
+pub use observe::{
+    Adequacy, BasisReport, CaseResult, EnergyTotals, LinkEnergy, Observer, Sample, Shape, Status,
+    Work,
+};
+pub use stepper::State;

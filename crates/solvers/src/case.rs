@@ -1,0 +1,241 @@
+//! Cases: static ones, dynamic ones, and chains of them.
+
+use crate::clock::{Clock, peak_rss_mb};
+use crate::dynamic::{self, Setup};
+use crate::error::SolveError;
+use crate::ledger::Ledger;
+use crate::march::Pace;
+use crate::observe::{BasisReport, CaseResult, EnergyTotals, LinkEnergy, Observer, Status, Work};
+use crate::statics::{self, Equilibrium};
+use crate::stepper::State;
+use serde::{Deserialize, Serialize};
+use trilith_element::{Energy, Kinematics};
+use trilith_model::{Analysis, Case, Load, Model, SolverKind, StaticCase};
+use trilith_system::System;
+
+/// What to run.
+#[derive(Default)]
+pub struct RunOptions<'a> {
+    /// Index of the case.
+    pub case: usize,
+    /// Solver; `None`: the case's own.
+    pub solver: Option<SolverKind>,
+    /// Output step in s; `None`: the case's own.
+    pub dt: Option<f64>,
+    /// Stop at the first output time not before this, s.
+    pub until: Option<f64>,
+    /// Continue the case from where an earlier run stopped.
+    pub from: Option<EndState>,
+    /// Told the finished share of the run, 0 … 1.
+    pub progress: Option<&'a mut dyn FnMut(f64)>,
+}
+
+/// The state at the end of a run: what the next case continues, or a checkpoint.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct EndState {
+    /// SHA-256 of the model text.
+    pub model: String,
+    /// Name of the case.
+    pub case: String,
+    /// Name of the solver.
+    pub solver: String,
+    /// Time in the case, s.
+    pub time: f64,
+    /// Output steps made.
+    pub step: usize,
+    /// Displacements of the free DOFs, m or rad.
+    pub displacement: Vec<f64>,
+    /// Their velocities.
+    pub velocity: Vec<f64>,
+    /// Constant loads on the free DOFs, N or N·m.
+    pub load: Vec<f64>,
+    /// The state of the solver.
+    pub state: State,
+    pub(crate) pace: Pace,
+    pub(crate) ledger: Ledger,
+}
+
+/// Runs a case and, before it, the cases that it continues.
+///
+/// # Errors
+/// [`SolveError`] where the run cannot be made. A run that stops on the way is no error: its
+/// [`Status`] says so and the observers keep what they saw.
+pub fn run(
+    model: &Model,
+    system: &System,
+    options: RunOptions<'_>,
+    observers: &mut [&mut dyn Observer],
+) -> Result<CaseResult, SolveError> {
+    let case = &model.cases[options.case];
+    let before = match case.after {
+        Some(earlier) if options.from.is_none() => {
+            let result = run(
+                model,
+                system,
+                RunOptions { case: earlier, solver: options.solver, ..RunOptions::default() },
+                &mut [],
+            )?;
+            if let Status::NotConverged { .. } = result.status {
+                return Err(SolveError::Predecessor {
+                    case: result.case,
+                    reason: result.status.text(),
+                });
+            }
+            Some(result.end)
+        }
+        _ => None,
+    };
+    match &case.analysis {
+        Analysis::Static(analysis) => run_static(model, system, case, analysis, before),
+        Analysis::Dynamic(analysis) => {
+            let setup = Setup { model, system, case, analysis, before };
+            dynamic::run(setup, options, observers)
+        }
+    }
+}
+
+/// Modes of the structure without links in the basis that a case would use, with participation and the
+/// flexibility that the basis holds of every link coordinate. Without a dynamic case, of the last one.
+///
+/// # Errors
+/// [`SolveError`] where the structure cannot be solved.
+pub fn modes(
+    model: &Model,
+    system: &System,
+    case: Option<usize>,
+) -> Result<BasisReport, SolveError> {
+    let dynamic = |c: &Case| match &c.analysis {
+        Analysis::Dynamic(d) => Some((**d).clone()),
+        Analysis::Static(_) => None,
+    };
+    let chosen = case
+        .and_then(|c| dynamic(&model.cases[c]))
+        .or_else(|| model.cases.iter().rev().find_map(dynamic));
+    let directions = || -> Vec<(String, Vec<f64>)> {
+        ["X", "Y", "Z"]
+            .iter()
+            .zip(&system.inertia)
+            .map(|(n, p)| (format!("acceleration {n}"), p.clone()))
+            .collect()
+    };
+    let (settings, loads) = match chosen {
+        Some(analysis) => {
+            let constant = constant_load(model, system, &analysis.constant);
+            let set = system.dynamic_loads(model, &analysis, constant);
+            (analysis.solution.basis.clone(), dynamic::basis_loads(model, &analysis, &set))
+        }
+        None => (trilith_model::Basis::default(), directions()),
+    };
+    let loads = if loads.is_empty() { directions() } else { loads };
+    Ok(crate::basis::build(model, system, &settings, &loads)?.report)
+}
+
+/// Sum of loads on the free DOFs.
+pub(crate) fn constant_load(model: &Model, system: &System, loads: &[Load]) -> Vec<f64> {
+    let mut p = vec![0.0; system.order()];
+    for load in loads {
+        for (x, y) in p.iter_mut().zip(system.load_vector(model, load)) {
+            *x += y;
+        }
+    }
+    p
+}
+
+/// A state without motion, as the laws are before anything has happened.
+fn untouched(model: &Model, system: &System) -> State {
+    let links = &system.links;
+    let zero = vec![0.0; links.len()];
+    let history = links.at_rest(model);
+    let mut state = State {
+        motion: Vec::new(),
+        d: zero.clone(),
+        v: zero.clone(),
+        f: zero.clone(),
+        history: history.clone(),
+        scale: [0.0; 2],
+        stored: vec![0.0; links.links.len()],
+    };
+    links.respond(
+        model,
+        Kinematics { d: &zero, v: &zero, d0: &zero, v0: &zero, dt: 0.0 },
+        &history,
+        &mut state.history,
+        &mut state.f,
+        &mut links.tangents(),
+        &mut vec![Energy::default(); links.links.len()],
+    );
+    state
+}
+
+fn run_static(
+    model: &Model,
+    system: &System,
+    case: &Case,
+    analysis: &StaticCase,
+    before: Option<EndState>,
+) -> Result<CaseResult, SolveError> {
+    let clock = Clock::start();
+    let added = constant_load(model, system, &analysis.loads);
+    let (start, carried) = match before {
+        Some(end) => (end.state, end.load),
+        None => (untouched(model, system), vec![0.0; system.order()]),
+    };
+    let found =
+        statics::equilibrium(model, system, start, &carried, &added, analysis.steps)?;
+    let Equilibrium { u, mut state, iterations, steps, rejected } =
+        found.map_err(|e| SolveError::StaticNotConverged {
+            case: case.name.clone(),
+            percent: 100.0 * e.reached,
+            worst: system.links.name(model, e.worst),
+            residual: e.residual,
+            span: case.span.clone(),
+        })?;
+    let load: Vec<f64> = carried.iter().zip(&added).map(|(a, b)| a + b).collect();
+    let zero = vec![0.0; u.len()];
+    state.motion = [&u[..], &zero, &zero].concat();
+    let stored: f64 = state.stored.iter().sum();
+    let potential: f64 = -load.iter().zip(&u).map(|(p, x)| p * x).sum::<f64>();
+    let energy = EnergyTotals {
+        strain: 0.5 * system.stiffness.bilinear(&u, &u),
+        link_stored: stored,
+        potential,
+        ..EnergyTotals::default()
+    };
+    let cpu = clock.cpu();
+    Ok(CaseResult {
+        case: case.name.clone(),
+        solver: "static",
+        status: Status::Converged,
+        work: Work {
+            steps,
+            substeps: steps,
+            iterations,
+            rejected,
+            factorizations: 1,
+            wall_s: clock.wall(),
+            march_cpu_s: cpu,
+            peak_rss_mb: peak_rss_mb(),
+            ..Work::default()
+        },
+        energy,
+        link_energy: system
+            .links
+            .links
+            .iter()
+            .zip(&state.stored)
+            .map(|(l, s)| (l.element, LinkEnergy { stored: *s, ..LinkEnergy::default() }))
+            .collect(),
+        basis: None,
+        warnings: Vec::new(),
+        end: EndState {
+            model: model.source.sha256.clone(),
+            case: case.name.clone(),
+            solver: "static".into(),
+            displacement: u,
+            velocity: zero,
+            load,
+            state,
+            ..EndState::default()
+        },
+    })
+}

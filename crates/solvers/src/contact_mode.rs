@@ -1,0 +1,161 @@
+//! The response mode of bodies that stand on contacts: rest, slide, rock, slide-rock, flight.
+//!
+//! A body *slides* while every contact that carries load slips: a corner that unloads slips a little as
+//! its normal force vanishes, and that is not sliding of the body. It *rocks* when some of its contacts
+//! are open while others are closed, and *flies* when all are open. The initial mode is what it does
+//! from rest to the first impact or slip reversal.
+
+use crate::observe::{Observer, Sample};
+use serde::Serialize;
+use trilith_element::Contact;
+
+/// Response mode and extremes of all contacts of a model.
+#[derive(Clone, Debug, Default, PartialEq, Serialize)]
+pub struct ContactSummary {
+    /// Mode in which the body leaves rest.
+    pub initial_mode: &'static str,
+    /// Mode over the whole run.
+    pub mode: &'static str,
+    /// Largest gap of any contact, m; 0 where none opened.
+    pub max_uplift: f64,
+    /// Largest tangential distance of any contact from where it started, m.
+    pub max_slip: f64,
+    /// Largest tangential distance at the end, m.
+    pub residual_slip: f64,
+}
+
+/// What has been seen.
+#[derive(Clone, Copy, Debug, Default)]
+struct Seen {
+    /// Path made while all loaded contacts slipped, and elastic tangential play for comparison, m.
+    slid: f64,
+    /// Largest gap while another contact was closed, m.
+    rocked: f64,
+    /// Largest of the smallest gaps, m: how high the whole body was.
+    flew: f64,
+}
+
+impl Seen {
+    fn mode(self, play: f64) -> &'static str {
+        let slides = self.slid > play;
+        // In flight the gaps of a body differ by rounding; it rocks where they differ visibly.
+        let rocks = self.rocked > 0.05 * self.flew && self.rocked > 0.0;
+        match (slides, rocks) {
+            (true, true) => "slide-rock",
+            (false, true) => "rock",
+            _ if self.flew > 0.0 => "flight",
+            (true, false) => "slide",
+            (false, false) => "rest",
+        }
+    }
+}
+
+/// Observer that classifies the response.
+#[derive(Debug, Default)]
+pub struct ContactMode {
+    start: Vec<[f64; 2]>,
+    before: Vec<Contact>,
+    direction: [f64; 2],
+    initial: Seen,
+    initial_over: bool,
+    whole: Seen,
+    play: f64,
+    summary: ContactSummary,
+}
+
+impl ContactMode {
+    /// Nothing seen yet.
+    #[must_use]
+    pub fn new() -> Self {
+        Self::default()
+    }
+
+    /// The summary; `None` for a model without contacts.
+    #[must_use]
+    pub fn summary(&self) -> Option<ContactSummary> {
+        (!self.start.is_empty()).then(|| ContactSummary {
+            initial_mode: self.initial.mode(self.play),
+            mode: self.whole.mode(self.play),
+            ..self.summary.clone()
+        })
+    }
+
+    /// Movement of the loaded contacts in this step, if all of them slip.
+    fn sliding(&self, now: &[Contact]) -> Option<[f64; 2]> {
+        let mut mean = [0.0; 2];
+        let mut count = 0.0;
+        for (c, b) in now.iter().zip(&self.before) {
+            if c.gap < 0.0 && c.normal > 0.0 {
+                if !c.slipping {
+                    return None;
+                }
+                for (m, (x, y)) in mean.iter_mut().zip(c.position.iter().zip(b.position)) {
+                    *m += x - y;
+                }
+                count += 1.0;
+            }
+        }
+        (count > 0.0).then(|| mean.map(|m| m / count))
+    }
+
+    fn enter(&mut self, now: &[Contact]) {
+        let open = |c: &Contact| c.gap > 0.0;
+        let impact = now.iter().zip(&self.before).any(|(c, b)| open(b) && !open(c));
+        let moved = self.sliding(now);
+        let reversal = moved.is_some_and(|m| {
+            m[0] * self.direction[0] + m[1] * self.direction[1] < 0.0
+        });
+        if impact || reversal {
+            self.initial_over = true;
+        }
+        let mut step = Seen::default();
+        if let Some(m) = moved {
+            step.slid = m[0].hypot(m[1]);
+            if step.slid > 0.0 {
+                self.direction = m;
+            }
+        }
+        let highest = now.iter().map(|c| c.gap).fold(f64::MIN, f64::max);
+        let lowest = now.iter().map(|c| c.gap).fold(f64::MAX, f64::min);
+        if highest > 0.0 && lowest <= 0.0 {
+            step.rocked = highest;
+        } else if lowest > 0.0 {
+            step.flew = lowest;
+            step.rocked = highest - lowest;
+        }
+        let targets: &mut [&mut Seen] = if self.initial_over {
+            &mut [&mut self.whole]
+        } else {
+            &mut [&mut self.whole, &mut self.initial]
+        };
+        for seen in targets {
+            seen.slid += step.slid;
+            seen.rocked = seen.rocked.max(step.rocked);
+            seen.flew = seen.flew.max(step.flew);
+        }
+    }
+}
+
+impl Observer for ContactMode {
+    fn sample(&mut self, sample: &Sample<'_>) {
+        let now: Vec<Contact> = sample.contacts.iter().map(|(_, c)| *c).collect();
+        if now.is_empty() {
+            return;
+        }
+        if self.before.is_empty() {
+            self.start = now.iter().map(|c| c.position).collect();
+            // Play: what the contacts give elastically, of the order of the static penetration.
+            self.play = now.iter().map(|c| (-c.gap).max(0.0)).fold(0.0, f64::max);
+        } else {
+            self.enter(&now);
+        }
+        let mut slip: f64 = 0.0;
+        for (c, s) in now.iter().zip(&self.start) {
+            slip = slip.max((c.position[0] - s[0]).hypot(c.position[1] - s[1]));
+            self.summary.max_uplift = self.summary.max_uplift.max(c.gap);
+        }
+        self.summary.max_slip = self.summary.max_slip.max(slip);
+        self.summary.residual_slip = slip;
+        self.before = now;
+    }
+}

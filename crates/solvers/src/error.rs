@@ -1,0 +1,80 @@
+//! What can stop a run before or while it goes on.
+
+use trilith_linalg::LinalgError;
+use trilith_model::Span;
+use trilith_system::SystemError;
+
+/// A run that cannot be made.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum SolveError {
+    /// The structure is not one.
+    #[error(transparent)]
+    System(#[from] SystemError),
+    /// A factorisation or an eigenproblem failed.
+    #[error(transparent)]
+    Linalg(#[from] LinalgError),
+    /// A complete basis was asked for a model that is too large for it.
+    #[error("a complete basis needs a dense eigenproblem of {order} equations (limit {limit}): use `basis: Ritz(vectors: …)`")]
+    BasisTooLarge {
+        /// Free DOFs.
+        order: usize,
+        /// Largest order.
+        limit: usize,
+    },
+    /// No vector of the basis carries mass.
+    #[error("no direction that a load or a link acts on carries mass: the model has no dynamics")]
+    NoMass,
+    /// A static case found no equilibrium.
+    #[error("static case \"{case}\": no equilibrium beyond {percent:.1} % of its loads: {worst} is off by {residual:.3e} N or N·m")]
+    StaticNotConverged {
+        /// Name of the case.
+        case: String,
+        /// Share of the loads that was reached.
+        percent: f64,
+        /// The link coordinate farthest from equilibrium.
+        worst: String,
+        /// Its residual.
+        residual: f64,
+        /// Where the file defines the case.
+        span: Span,
+    },
+    /// A case that another one continues did not get to its end.
+    #[error("case \"{case}\", which is continued, did not finish: {reason}")]
+    Predecessor {
+        /// Name of the case.
+        case: String,
+        /// Its status.
+        reason: String,
+    },
+    /// An initial value for a direction that is fixed or follows another node.
+    #[error("node \"{node}\" {direction} has no value of its own to start from: it is fixed or follows a constraint; give the initial value at the node that leads")]
+    InitialNotFree {
+        /// Name of the node.
+        node: String,
+        /// Direction.
+        direction: &'static str,
+        /// Where the file defines the node.
+        span: Span,
+    },
+    /// A state that belongs to another model, case or solver.
+    #[error("the checkpoint does not fit: {reason}")]
+    Checkpoint {
+        /// What differs.
+        reason: String,
+    },
+}
+
+impl SolveError {
+    /// The place in the model file, where there is one.
+    #[must_use]
+    pub fn span(&self) -> Option<Span> {
+        match self {
+            Self::System(e) => e.span(),
+            Self::StaticNotConverged { span, .. } | Self::InitialNotFree { span, .. } => {
+                Some(span.clone())
+            }
+            _ => None,
+        }
+    }
+}

@@ -1,0 +1,283 @@
+//! The textbook integrator: HHT-α with the tangent of structure and links assembled and factorised in
+//! every iteration. The honest baseline for "FNA against direct integration"; same equations as
+//! [`hht`](crate::hht), same energies, other way to the solution.
+
+use crate::error::SolveError;
+use crate::hht::{average_work, newmark};
+use crate::propagator::{Forces, kinetic_and_strain};
+use crate::space::Space;
+use crate::stepper::{State, StepEnergy, StepFailure, Stepper};
+use trilith_element::{Energy, Kinematics};
+use trilith_linalg::{Ldlt, SparseLu, Triplets};
+use trilith_model::Model;
+use trilith_system::{LoadSet, StepLoads, System, Tangents};
+
+const ITERATIONS: usize = 30;
+const TOLERANCE: f64 = 1e-9;
+
+/// Full Newton on all free DOFs.
+pub(crate) struct FullNewton<'a> {
+    pub model: &'a Model,
+    pub system: &'a System,
+    pub loads: &'a LoadSet,
+    pub space: Space,
+    pub alpha: f64,
+    pub iterations: usize,
+    pub factorizations: usize,
+}
+
+impl FullNewton<'_> {
+    /// p − C v − K u − Bᵀ f.
+    fn imbalance(&self, load: &[f64], u: &[f64], v: &[f64], f: &[f64]) -> Vec<f64> {
+        let mut s = load.to_vec();
+        self.space.damp(-1.0, v, &mut s);
+        self.space.stiffness.mul_add(-1.0, u, &mut s);
+        self.system.links.spread(-1.0, f, &mut s);
+        s
+    }
+
+    fn deform(&self, u: &[f64], v: &[f64], amplitudes: &[f64], state: &mut State) {
+        let none = vec![0.0; self.system.reduction.prescribed.len()];
+        self.system.links.deform(u, &none, &mut state.d);
+        self.system.links.deform(v, &none, &mut state.v);
+        self.loads.support_deformation(amplitudes, &mut state.d, &mut state.v);
+    }
+
+    /// M + (1+α)(γΔt C + βΔt² K + Bᵀ(βΔt² k + γΔt c)B); modal damping only in the residual.
+    fn tangent(&self, tangents: &Tangents, dt: f64) -> trilith_linalg::Sparse {
+        let (gamma, beta) = newmark(self.alpha);
+        let w = 1.0 + self.alpha;
+        let (wc, wk) = (w * gamma * dt, w * beta * dt * dt);
+        let n = self.space.order();
+        let mut j = Triplets::new(n, n);
+        for (factor, part) in
+            [(1.0, &self.space.mass), (wc, &self.space.damping), (wk, &self.space.stiffness)]
+        {
+            for (a, b, x) in part.entries() {
+                j.add(a, b, factor * x);
+            }
+        }
+        let links = &self.system.links;
+        for link in &links.links {
+            let size = link.range.len();
+            for i in 0..size {
+                for k in 0..size {
+                    let at = link.block.start + i * size + k;
+                    let x = wk * tangents.k[at] + wc * tangents.c[at];
+                    if x == 0.0 {
+                        continue;
+                    }
+                    for (row, a) in &links.rows[link.range.start + i] {
+                        for (column, b) in &links.rows[link.range.start + k] {
+                            j.add(*row, *column, a * x * b);
+                        }
+                    }
+                }
+            }
+        }
+        j.build()
+    }
+
+    fn worst(&self, residual: &[f64]) -> StepFailure {
+        // The residual lives on DOFs; the coordinate of a link that pushes there is named.
+        let at = (0..residual.len())
+            .max_by(|a, b| residual[*a].abs().total_cmp(&residual[*b].abs()))
+            .unwrap_or(0);
+        let worst = (0..self.system.links.len())
+            .find(|i| self.system.links.rows[*i].iter().any(|(j, _)| *j == at))
+            .unwrap_or(0);
+        StepFailure::NoEquilibrium {
+            worst,
+            residual: residual.get(at).map_or(f64::NAN, |r| r.abs()),
+        }
+    }
+}
+
+fn largest(x: &[f64]) -> f64 {
+    x.iter().fold(0.0, |a, b| a.max(b.abs()))
+}
+
+impl Stepper for FullNewton<'_> {
+    fn step(
+        &mut self,
+        from: &State,
+        to: &mut State,
+        loads: &StepLoads,
+        dt: f64,
+    ) -> Result<StepEnergy, StepFailure> {
+        let n = self.space.order();
+        let (gamma, beta) = newmark(self.alpha);
+        let w = 1.0 + self.alpha;
+        let (load0, load1) = (self.space.force(&loads.start), self.space.force(&loads.end));
+        let (u0, rest) = from.motion.split_at(n);
+        let (v0, a0) = rest.split_at(n);
+        let before = self.imbalance(&load0, u0, v0, &from.f);
+        to.clone_from(from);
+        let mut a = a0.to_vec();
+        let mut tangents = self.system.links.tangents();
+        let mut energy = vec![Energy::default(); self.system.links.links.len()];
+        let mut residual = vec![f64::NAN; n];
+        for _ in 0..ITERATIONS {
+            self.iterations += 1;
+            for i in 0..n {
+                to.motion[i] =
+                    u0[i] + dt * v0[i] + dt * dt * ((0.5 - beta) * a0[i] + beta * a[i]);
+                to.motion[n + i] = v0[i] + dt * ((1.0 - gamma) * a0[i] + gamma * a[i]);
+                to.motion[2 * n + i] = a[i];
+            }
+            let (u, v) = (to.motion[..n].to_vec(), to.motion[n..2 * n].to_vec());
+            self.deform(&u, &v, &loads.end, to);
+            self.system.links.respond(
+                self.model,
+                Kinematics { d: &to.d, v: &to.v, d0: &from.d, v0: &from.v, dt },
+                &from.history,
+                &mut to.history,
+                &mut to.f,
+                &mut tangents,
+                &mut energy,
+            );
+            let now = self.imbalance(&load1, &u, &v, &to.f);
+            let inertia = self.space.mass.mul(&a);
+            residual = (0..n).map(|i| w * now[i] - self.alpha * before[i] - inertia[i]).collect();
+            let force = largest(&to.f).max(from.scale[0]).max(from.scale[1]);
+            let size = largest(&inertia).max(largest(&load1)).max(force);
+            if largest(&residual) <= TOLERANCE * size {
+                for (i, f) in to.f.iter().enumerate() {
+                    let kind = usize::from(self.system.links.rotational[i]);
+                    to.scale[kind] = to.scale[kind].max(f.abs());
+                }
+                for (s, e) in to.stored.iter_mut().zip(&energy) {
+                    *s = e.stored;
+                }
+                return Ok(self.energy(from, to, loads, (&load0, &load1), energy, dt));
+            }
+            self.factorizations += 1;
+            let lu = SparseLu::new(&self.tangent(&tangents, dt)).map_err(SolveError::from)?;
+            let mut change = residual.clone();
+            lu.solve(&mut change);
+            if change.iter().any(|x| !x.is_finite()) {
+                break;
+            }
+            for (x, y) in a.iter_mut().zip(change) {
+                *x += y;
+            }
+        }
+        Err(self.worst(&residual))
+    }
+
+    fn start(
+        &mut self,
+        u: &[f64],
+        v: &[f64],
+        history: Vec<f64>,
+        amplitudes: &[f64],
+    ) -> Result<State, SolveError> {
+        let links = &self.system.links;
+        let mut state = State {
+            motion: Vec::new(),
+            d: vec![0.0; links.len()],
+            v: vec![0.0; links.len()],
+            f: vec![0.0; links.len()],
+            history: history.clone(),
+            scale: [0.0; 2],
+            stored: vec![0.0; links.links.len()],
+        };
+        self.deform(u, v, amplitudes, &mut state);
+        let mut energy = vec![Energy::default(); links.links.len()];
+        links.respond(
+            self.model,
+            Kinematics { d: &state.d, v: &state.v, d0: &state.d, v0: &state.v, dt: 0.0 },
+            &history,
+            &mut state.history,
+            &mut state.f,
+            &mut links.tangents(),
+            &mut energy,
+        );
+        for (s, e) in state.stored.iter_mut().zip(&energy) {
+            *s = e.stored;
+        }
+        for (i, f) in state.f.iter().enumerate() {
+            let kind = usize::from(links.rotational[i]);
+            state.scale[kind] = state.scale[kind].max(f.abs());
+        }
+        let load = self.space.force(amplitudes);
+        let force = self.imbalance(&load, u, v, &state.f);
+        let a = mass_acceleration(&self.space, force)?;
+        state.motion = [u, v, &a].concat();
+        Ok(state)
+    }
+
+    fn jump(&mut self, state: &mut State, change: &[f64]) -> Result<(), SolveError> {
+        let a = mass_acceleration(&self.space, self.space.force(change))?;
+        let n = a.len();
+        for (x, y) in state.motion[2 * n..].iter_mut().zip(a) {
+            *x += y;
+        }
+        Ok(())
+    }
+
+    fn distance(&self, a: &State, b: &State) -> f64 {
+        crate::stepper::energy_distance(&self.space, a, b)
+    }
+
+    fn space(&self) -> &Space {
+        &self.space
+    }
+
+    fn work(&self) -> (usize, usize) {
+        (self.iterations, self.factorizations)
+    }
+
+    fn forget(&mut self) {}
+
+    fn stiffness_ratio(&mut self, _dt: f64, _engaged: &[f64]) -> Result<f64, SolveError> {
+        Ok(0.0)
+    }
+}
+
+impl FullNewton<'_> {
+    fn energy(
+        &self,
+        from: &State,
+        to: &State,
+        loads: &StepLoads,
+        force: (&[f64], &[f64]),
+        links: Vec<Energy>,
+        dt: f64,
+    ) -> StepEnergy {
+        let active = &self.system.links.active;
+        let pick = |f: &[f64]| -> Vec<f64> { active.iter().map(|i| f[*i]).collect() };
+        let (pseudo0, pseudo1) = (pick(&from.f), pick(&to.f));
+        let forces =
+            Forces { load0: force.0, load1: force.1, pseudo0: &pseudo0, pseudo1: &pseudo1 };
+        let work = average_work(&self.space, dt, &from.motion, &to.motion, &forces);
+        let (kinetic, strain) = kinetic_and_strain(&self.space, &to.motion);
+        let n = self.system.links.len();
+        let mut moved = [vec![0.0; n], vec![0.0; n]];
+        for (d, amplitudes) in moved.iter_mut().zip([&loads.start, &loads.end]) {
+            self.loads.support_deformation(amplitudes, d, &mut vec![0.0; n]);
+        }
+        let support =
+            (0..n).map(|i| 0.5 * (from.f[i] + to.f[i]) * (moved[1][i] - moved[0][i])).sum();
+        StepEnergy {
+            link_work: work.links,
+            damping: work.damping,
+            work,
+            support,
+            kinetic,
+            strain,
+            links,
+        }
+    }
+}
+
+/// M⁻¹ p where there is mass, zero elsewhere.
+pub(crate) fn mass_acceleration(space: &Space, mut force: Vec<f64>) -> Result<Vec<f64>, SolveError> {
+    for (p, m) in force.iter_mut().zip(space.mass.diagonal()) {
+        if m <= 0.0 {
+            *p = 0.0;
+        }
+    }
+    Ldlt::with_rigid_zeros(&space.mass)?.solve(&mut force);
+    Ok(force)
+}

@@ -1,0 +1,309 @@
+//! The link kernel: forces of all links at the end of a step.
+//!
+//! Every linear step is affine in the pseudo-forces f̃ = f − k_e d − c_e ḋ at its end:
+//!
+//! ```text
+//! d = d* − G f̃        ḋ = v* − H f̃        f = law(d, ḋ)
+//! ```
+//!
+//! `Newton` solves `R(f̃) = law(d, ḋ) − k_e d − c_e ḋ − f̃ = 0` with the full tangents of the laws,
+//! `J = I + (k − k_e) G + (c − c_e) H`; coordinates whose row of tangents is zero need no equation.
+//! `FixedPoint` is Wilson's constant-stiffness iteration, f̃ ← law − k_e d − c_e ḋ; it converges only
+//! while |k − k_e| G < 1. Neither touches a matrix of the structure.
+
+use trilith_element::{Energy, Kinematics};
+use trilith_linalg::{Dense, DenseLu};
+use trilith_model::{Kernel, Model};
+use trilith_system::{LinkSet, Tangents};
+
+/// What the linear step gives the kernel.
+pub(crate) struct Affine<'a> {
+    /// d* and v* of the active coordinates.
+    pub d: &'a [f64],
+    pub v: &'a [f64],
+    /// Deformation and rate that moving supports add, flat.
+    pub support_d: &'a [f64],
+    pub support_v: &'a [f64],
+    /// Compliances, active × active, symmetric.
+    pub g: &'a Dense,
+    pub h: &'a Dense,
+    /// Identity of the compliances: a factor made with others is not used again.
+    pub key: u64,
+}
+
+/// The committed side of a step, flat.
+pub(crate) struct Committed<'a> {
+    pub d: &'a [f64],
+    pub v: &'a [f64],
+    pub history: &'a [f64],
+    pub dt: f64,
+}
+
+/// Where the converged values go, flat; `pseudo` is f̃ of the active coordinates.
+pub(crate) struct Converged<'a> {
+    pub d: &'a mut [f64],
+    pub v: &'a mut [f64],
+    pub f: &'a mut [f64],
+    pub history: &'a mut [f64],
+    pub energy: &'a mut [Energy],
+    pub pseudo: &'a mut [f64],
+}
+
+/// No equilibrium: the worst flat coordinate and its residual.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct NoEquilibrium {
+    pub worst: usize,
+    pub residual: f64,
+}
+
+/// Largest force seen so far: of translations and of rotations, N and N·m.
+pub(crate) type ForceScale = [f64; 2];
+
+const NEWTON_ITERATIONS: usize = 30;
+const FIXED_POINT_ITERATIONS: usize = 200;
+const TOLERANCE: f64 = 1e-9;
+/// From this many equations on, a factor is kept while it still contracts well.
+const CHORD_FROM: usize = 24;
+
+/// Workspace and settings of the link equations.
+pub(crate) struct LinkKernel {
+    kind: Kernel,
+    /// Dummy stiffness and damping of the active coordinates.
+    dummy_k: Vec<f64>,
+    dummy_c: Vec<f64>,
+    tangents: Tangents,
+    /// Active index of each flat coordinate.
+    place: Vec<usize>,
+    residual: Vec<f64>,
+    factor: Option<Factor>,
+    iterations: usize,
+}
+
+struct Factor {
+    key: u64,
+    tangents: Tangents,
+    equations: Vec<usize>,
+    /// J of the chosen equations against the others, column-wise.
+    coupling: Dense,
+    lu: DenseLu,
+}
+
+impl LinkKernel {
+    pub(crate) fn new(links: &LinkSet, kind: Kernel, dummy_k: Vec<f64>, dummy_c: Vec<f64>) -> Self {
+        let mut place = vec![usize::MAX; links.len()];
+        for (a, flat) in links.active.iter().enumerate() {
+            place[*flat] = a;
+        }
+        Self {
+            kind,
+            dummy_k,
+            dummy_c,
+            tangents: links.tangents(),
+            place,
+            residual: vec![0.0; links.active.len()],
+            factor: None,
+            iterations: 0,
+        }
+    }
+
+    /// Iterations made so far.
+    pub(crate) fn iterations(&self) -> usize {
+        self.iterations
+    }
+
+    /// Forgets kept factors, so that what follows does not depend on what was before.
+    pub(crate) fn forget(&mut self) {
+        self.factor = None;
+    }
+
+    /// Pseudo-force of forces that act at a deformation (flat arrays, moving supports taken off).
+    pub(crate) fn pseudo(&self, links: &LinkSet, f: &[f64], d: &[f64], v: &[f64], to: &mut [f64]) {
+        for (a, flat) in links.active.iter().enumerate() {
+            to[a] = f[*flat] - self.dummy_k[a] * d[*flat] - self.dummy_c[a] * v[*flat];
+        }
+    }
+
+    /// Solves the link equations; `out.pseudo` holds the start value on entry.
+    pub(crate) fn solve(
+        &mut self,
+        model: &Model,
+        links: &LinkSet,
+        affine: &Affine<'_>,
+        from: &Committed<'_>,
+        scale: &mut ForceScale,
+        out: &mut Converged<'_>,
+    ) -> Result<(), NoEquilibrium> {
+        let limit = match self.kind {
+            Kernel::Newton => NEWTON_ITERATIONS,
+            Kernel::FixedPoint => FIXED_POINT_ITERATIONS,
+        };
+        let mut size_before = f64::INFINITY;
+        let mut worst = NoEquilibrium { worst: 0, residual: f64::INFINITY };
+        for _ in 0..limit {
+            self.iterations += 1;
+            self.evaluate(model, links, affine, from, out);
+            let (size, at) = self.measure(links, out, scale);
+            worst = at;
+            if size <= 1.0 {
+                for (i, f) in out.f.iter().enumerate() {
+                    let kind = usize::from(links.rotational[i]);
+                    scale[kind] = scale[kind].max(f.abs());
+                }
+                return Ok(());
+            }
+            if !size.is_finite() {
+                break;
+            }
+            if self.kind == Kernel::Newton {
+                self.newton_correction(links, affine, size > 0.2 * size_before);
+            }
+            size_before = size;
+            for (x, r) in out.pseudo.iter_mut().zip(&self.residual) {
+                *x += r;
+            }
+        }
+        self.factor = None;
+        Err(worst)
+    }
+
+    /// Deformations from f̃, laws, residual.
+    fn evaluate(
+        &mut self,
+        model: &Model,
+        links: &LinkSet,
+        affine: &Affine<'_>,
+        from: &Committed<'_>,
+        out: &mut Converged<'_>,
+    ) {
+        let n = links.active.len();
+        let (mut d, mut v) = (affine.d.to_vec(), affine.v.to_vec());
+        affine.g.mul_add(-1.0, out.pseudo, &mut d);
+        affine.h.mul_add(-1.0, out.pseudo, &mut v);
+        out.d.copy_from_slice(affine.support_d);
+        out.v.copy_from_slice(affine.support_v);
+        for a in 0..n {
+            out.d[links.active[a]] += d[a];
+            out.v[links.active[a]] += v[a];
+        }
+        let at = Kinematics { d: out.d, v: out.v, d0: from.d, v0: from.v, dt: from.dt };
+        links.respond(
+            model,
+            at,
+            from.history,
+            out.history,
+            out.f,
+            &mut self.tangents,
+            out.energy,
+        );
+        for a in 0..n {
+            self.residual[a] = out.f[links.active[a]]
+                - self.dummy_k[a] * d[a]
+                - self.dummy_c[a] * v[a]
+                - out.pseudo[a];
+        }
+    }
+
+    /// Largest residual over its tolerance, and where.
+    fn measure(
+        &self,
+        links: &LinkSet,
+        out: &Converged<'_>,
+        scale: &ForceScale,
+    ) -> (f64, NoEquilibrium) {
+        let mut now = *scale;
+        for (a, flat) in links.active.iter().enumerate() {
+            let kind = usize::from(links.rotational[*flat]);
+            now[kind] = now[kind].max(out.f[*flat].abs()).max(out.pseudo[a].abs());
+        }
+        let mut size = 0.0;
+        let mut worst = NoEquilibrium { worst: 0, residual: 0.0 };
+        for (a, r) in self.residual.iter().enumerate() {
+            let flat = links.active[a];
+            let allowed = TOLERANCE * now[usize::from(links.rotational[flat])];
+            let share = if *r == 0.0 { 0.0 } else { r.abs() / allowed.max(f64::MIN_POSITIVE) };
+            if share > size || !share.is_finite() {
+                size = share;
+                worst = NoEquilibrium { worst: flat, residual: r.abs() };
+            }
+        }
+        (size, worst)
+    }
+
+    /// Replaces the residual by the Newton correction of f̃.
+    fn newton_correction(&mut self, links: &LinkSet, affine: &Affine<'_>, slow: bool) {
+        let usable = self.factor.as_ref().is_some_and(|f| {
+            f.key == affine.key
+                && (f.tangents == self.tangents || (f.equations.len() >= CHORD_FROM && !slow))
+        });
+        if !usable {
+            self.factor = Some(self.factorise(links, affine));
+        }
+        let Some(factor) = &self.factor else { return };
+        let mut x: Vec<f64> = factor.equations.iter().map(|a| self.residual[*a]).collect();
+        factor.coupling.mul_add(-1.0, &self.residual, &mut x);
+        factor.lu.solve(&mut x);
+        for (a, value) in factor.equations.iter().zip(x) {
+            self.residual[*a] = value;
+        }
+    }
+
+    fn factorise(&self, links: &LinkSet, affine: &Affine<'_>) -> Factor {
+        let n = links.active.len();
+        // Rows of (k − k_e) and (c − c_e) per active coordinate: (other active, stiffness, damping).
+        let mut rows: Vec<Vec<(usize, f64, f64)>> = vec![Vec::new(); n];
+        for link in &links.links {
+            let size = link.range.len();
+            for i in 0..size {
+                let a = self.place[link.range.start + i];
+                if a == usize::MAX {
+                    continue;
+                }
+                for j in 0..size {
+                    let b = self.place[link.range.start + j];
+                    if b == usize::MAX {
+                        continue;
+                    }
+                    let at = link.block.start + i * size + j;
+                    let own = f64::from(u8::from(i == j));
+                    let k = self.tangents.k[at] - own * self.dummy_k[a];
+                    let c = self.tangents.c[at] - own * self.dummy_c[a];
+                    if k != 0.0 || c != 0.0 {
+                        rows[a].push((b, k, c));
+                    }
+                }
+            }
+        }
+        let equations: Vec<usize> = (0..n).filter(|a| !rows[*a].is_empty()).collect();
+        let mut chosen = vec![usize::MAX; n];
+        for (e, a) in equations.iter().enumerate() {
+            chosen[*a] = e;
+        }
+        let mut j = Dense::zeros(equations.len(), equations.len());
+        let mut coupling = Dense::zeros(equations.len(), n);
+        let mut line = vec![0.0; n];
+        for (e, a) in equations.iter().enumerate() {
+            line.fill(0.0);
+            for (b, k, c) in &rows[*a] {
+                for (x, (g, h)) in
+                    line.iter_mut().zip(affine.g.column(*b).iter().zip(affine.h.column(*b)))
+                {
+                    *x += k * g + c * h;
+                }
+            }
+            line[*a] += 1.0;
+            for (b, x) in line.iter().enumerate() {
+                match chosen[b] {
+                    usize::MAX => coupling[(e, b)] = *x,
+                    column => j[(e, column)] = *x,
+                }
+            }
+        }
+        Factor {
+            key: affine.key,
+            tangents: self.tangents.clone(),
+            lu: DenseLu::new(&j),
+            equations,
+            coupling,
+        }
+    }
+}

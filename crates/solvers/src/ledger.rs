@@ -1,0 +1,83 @@
+//! The energy ledger: where the input goes.
+//!
+//! The linear structure balances to rounding in every step, because its work is taken by the rule that
+//! moved it. What can be wrong is the links: the work that the time rule hands them against what the
+//! laws say they stored and dissipated. That difference is the error of the ledger.
+
+use crate::observe::{EnergyTotals, LinkEnergy};
+use crate::stepper::{State, StepEnergy};
+use serde::{Deserialize, Serialize};
+
+/// Energies since the start of a case.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub(crate) struct Ledger {
+    pub totals: EnergyTotals,
+    pub links: Vec<LinkEnergy>,
+    kinetic0: f64,
+    strain0: f64,
+    stored0: f64,
+    potential0: f64,
+    external: f64,
+    support: f64,
+    largest: f64,
+}
+
+impl Ledger {
+    /// Opens the books at a state; `kinetic`, `strain`, `potential` of that state.
+    pub(crate) fn new(state: &State, kinetic: f64, strain: f64, potential: f64) -> Self {
+        let links = state
+            .stored
+            .iter()
+            .map(|s| LinkEnergy { stored: *s, ..LinkEnergy::default() })
+            .collect();
+        let mut ledger = Self {
+            links,
+            kinetic0: kinetic,
+            strain0: strain,
+            stored0: state.stored.iter().sum(),
+            potential0: potential,
+            ..Self::default()
+        };
+        ledger.totals.kinetic = kinetic;
+        ledger.totals.input = kinetic;
+        ledger.largest = kinetic;
+        ledger
+    }
+
+    /// Enters a step; `potential` of constant loads after it. Returns the energy in motion and springs.
+    pub(crate) fn enter(&mut self, step: &StepEnergy, potential: f64) -> f64 {
+        let t = &mut self.totals;
+        for (link, e) in self.links.iter_mut().zip(&step.links) {
+            link.stored = e.stored;
+            link.hysteretic += e.hysteretic;
+            link.viscous += e.viscous;
+            t.link_hysteretic += e.hysteretic;
+            t.link_viscous += e.viscous;
+        }
+        self.external += step.work.external;
+        self.support += step.support;
+        t.kinetic = step.kinetic;
+        t.strain = step.strain - self.strain0;
+        t.potential = potential - self.potential0;
+        t.modal_damping += step.damping;
+        t.algorithmic += step.work.algorithmic;
+        let stored: f64 = self.links.iter().map(|l| l.stored).sum();
+        t.link_stored = stored - self.stored0;
+        // The external work holds that of constant loads, which is minus the change of the potential.
+        t.input = self.kinetic0 + self.external + t.potential + self.support;
+        let out = t.kinetic
+            + t.strain
+            + t.potential
+            + t.modal_damping
+            + t.algorithmic
+            + t.link_stored
+            + t.link_hysteretic
+            + t.link_viscous;
+        t.error = t.input - out;
+        for size in [t.input, t.kinetic, t.potential, t.strain, t.link_stored] {
+            self.largest = self.largest.max(size.abs());
+        }
+        t.error_relative = if self.largest > 0.0 { t.error.abs() / self.largest } else { 0.0 };
+        step.kinetic + step.strain.abs() + stored.abs()
+    }
+}

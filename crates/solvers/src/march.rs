@@ -1,0 +1,207 @@
+//! The march: the only loop over time. It knows no solver.
+//!
+//! An output step is cut into substeps of `S/2ᵏ`. With adaptive control a substep is made once whole and
+//! once in two halves; the distance of both in the energy norm, relative to the largest energy so far,
+//! is its error. Too large, or no equilibrium: it is halved, the state being untouched. Small: the next
+//! one is doubled, where it stays on the grid of halvings. A gap that closes with a dashpot, or a load
+//! that jumps, is a force jump inside a step, so the error falls only in proportion to the step there:
+//! the same rule then brackets the event until its impulse error is below the tolerance, whatever the
+//! output step. Only powers of two occur, so that the matrices of a step size are made once.
+
+use crate::error::SolveError;
+use crate::stepper::{State, StepEnergy, StepFailure, Stepper};
+use serde::{Deserialize, Serialize};
+use trilith_model::StepControl;
+use trilith_system::LoadSet;
+
+/// Halvings of an output step at most.
+const DEPTH: u32 = 30;
+/// Halvings for the sake of accuracy at most; then the step is accepted and counted.
+const ACCURACY_DEPTH: u32 = 26;
+/// A step is doubled where its error is below this share of the tolerance.
+const GROW_BELOW: f64 = 0.08;
+
+/// What the march carries from step to step beside the state.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub(crate) struct Pace {
+    /// Current number of halvings.
+    pub level: u32,
+    /// Largest energy so far, J.
+    pub reference: f64,
+}
+
+/// Counts.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct Counts {
+    pub substeps: usize,
+    pub rejected: usize,
+    pub forced: usize,
+}
+
+/// Why a march stopped.
+#[derive(Clone, Debug)]
+pub(crate) enum Stop {
+    NoEquilibrium { t: f64, worst: usize, residual: f64 },
+    Fatal(SolveError),
+}
+
+/// A march over one segment of constant output step.
+pub(crate) struct March<'a> {
+    pub stepper: &'a mut dyn Stepper,
+    pub loads: &'a LoadSet,
+    pub control: StepControl,
+    pub counts: Counts,
+}
+
+/// What is told about every accepted substep: end time, state, energies.
+pub(crate) type Accepted<'a> = dyn FnMut(f64, &State, &StepEnergy) -> f64 + 'a;
+
+impl March<'_> {
+    /// From t0 over `length`; `accept` sees every substep and returns the energy it knows of.
+    pub(crate) fn segment(
+        &mut self,
+        state: &mut State,
+        pace: &mut Pace,
+        t0: f64,
+        length: f64,
+        accept: &mut Accepted<'_>,
+    ) -> Result<(), Stop> {
+        match self.control {
+            StepControl::Adaptive { tolerance } => {
+                self.adaptive(state, pace, t0, length, tolerance, accept)
+            }
+            StepControl::Fixed { substeps } => {
+                let part = length / substeps as f64;
+                for i in 0..substeps {
+                    self.fixed(state, t0 + part * i as f64, part, accept)?;
+                }
+                Ok(())
+            }
+        }
+    }
+
+    fn adaptive(
+        &mut self,
+        state: &mut State,
+        pace: &mut Pace,
+        t0: f64,
+        length: f64,
+        tolerance: f64,
+        accept: &mut Accepted<'_>,
+    ) -> Result<(), Stop> {
+        let full: u64 = 1 << DEPTH;
+        let mut at: u64 = 0;
+        let mut known: Option<(u32, State)> = None;
+        let time = |ticks: u64| t0 + length * (ticks as f64 / full as f64);
+        while at < full {
+            let mut level = pace.level;
+            while at % (full >> level) != 0 {
+                level += 1;
+            }
+            let ticks = full >> level;
+            let size = length / (1u64 << level) as f64;
+            let (start, middle, end) = (time(at), time(at + ticks / 2), time(at + ticks));
+            let whole = match known.take() {
+                Some((l, s)) if l == level => Ok(s),
+                _ => self.try_step(state, start, end, size).map(|(s, _)| s),
+            };
+            let attempt = whole.and_then(|whole| {
+                let (first, e1) = self.try_step(state, start, middle, 0.5 * size)?;
+                match self.try_step(&first, middle, end, 0.5 * size) {
+                    Ok((second, e2)) => Ok((whole, first, e1, second, e2)),
+                    Err(e) => {
+                        known = Some((level + 1, first));
+                        Err(e)
+                    }
+                }
+            });
+            match attempt {
+                Ok((whole, first, e1, second, e2)) => {
+                    let energy = pace.reference.max(e2.kinetic + e2.strain.abs());
+                    let error = (self.stepper.distance(&whole, &second) / energy).sqrt();
+                    if error > tolerance && level < ACCURACY_DEPTH {
+                        self.counts.rejected += 1;
+                        known = Some((level + 1, first));
+                        pace.level = level + 1;
+                        continue;
+                    }
+                    self.counts.forced += usize::from(error > tolerance);
+                    self.counts.substeps += 2;
+                    for (t, s, e) in [(middle, &first, &e1), (end, &second, &e2)] {
+                        let seen = accept(t, s, e);
+                        pace.reference = pace.reference.max(seen);
+                    }
+                    *state = second;
+                    at += ticks;
+                    pace.level = level;
+                    if error < GROW_BELOW * tolerance && level > 0 {
+                        pace.level = level - 1;
+                    }
+                }
+                Err(failure) => {
+                    self.counts.rejected += 1;
+                    self.give_up(failure, level, start)?;
+                    pace.level = level + 1;
+                }
+            }
+        }
+        Ok(())
+    }
+
+    fn fixed(
+        &mut self,
+        state: &mut State,
+        t0: f64,
+        length: f64,
+        accept: &mut Accepted<'_>,
+    ) -> Result<(), Stop> {
+        let full: u64 = 1 << DEPTH;
+        let (mut at, mut level) = (0u64, 0u32);
+        let time = |ticks: u64| t0 + length * (ticks as f64 / full as f64);
+        while at < full {
+            let ticks = full >> level;
+            let size = length / (1u64 << level) as f64;
+            match self.try_step(state, time(at), time(at + ticks), size) {
+                Ok((next, energy)) => {
+                    accept(time(at + ticks), &next, &energy);
+                    self.counts.substeps += 1;
+                    *state = next;
+                    at += ticks;
+                    while level > 0 && at % (full >> (level - 1)) == 0 {
+                        level -= 1;
+                    }
+                }
+                Err(failure) => {
+                    self.counts.rejected += 1;
+                    self.give_up(failure, level, time(at))?;
+                    level += 1;
+                }
+            }
+        }
+        Ok(())
+    }
+
+    /// Ends the run where halving does not help.
+    fn give_up(&self, failure: StepFailure, level: u32, t: f64) -> Result<(), Stop> {
+        match failure {
+            StepFailure::Fatal(e) => Err(Stop::Fatal(e)),
+            StepFailure::NoEquilibrium { worst, residual } if level + 2 >= DEPTH => {
+                Err(Stop::NoEquilibrium { t, worst, residual })
+            }
+            StepFailure::NoEquilibrium { .. } => Ok(()),
+        }
+    }
+
+    fn try_step(
+        &mut self,
+        from: &State,
+        t0: f64,
+        t1: f64,
+        dt: f64,
+    ) -> Result<(State, StepEnergy), StepFailure> {
+        let loads = self.loads.step(t0, t1);
+        let mut to = State::default();
+        let energy = self.stepper.step(from, &mut to, &loads, dt)?;
+        Ok((to, energy))
+    }
+}

@@ -1,0 +1,127 @@
+//! The recorded quantities of a model, as rows over the coordinates of a solver.
+
+use crate::space::Space;
+use crate::stepper::State;
+use trilith_model::{Model, NodalTerm, Quantity, Side};
+use trilith_system::{LoadSet, System};
+
+/// One output, ready to be evaluated.
+enum Row {
+    /// Σ on displacements (0), velocities (1) or accelerations (2).
+    Nodal { order: usize, own: Vec<(usize, f64)>, support: Vec<(usize, f64)>, base: [f64; 3] },
+    Deformation { flat: usize, factor: f64 },
+    Force { flat: usize, factor: f64 },
+    History { at: usize },
+    Element {
+        stiffness: (Vec<(usize, f64)>, Vec<(usize, f64)>),
+        damping: (Vec<(usize, f64)>, Vec<(usize, f64)>),
+    },
+}
+
+/// All outputs of a model.
+pub(crate) struct Outputs {
+    rows: Vec<Row>,
+    prescribed: usize,
+    order: usize,
+}
+
+fn sum(row: &[(usize, f64)], x: &[f64]) -> f64 {
+    row.iter().map(|(i, c)| c * x[*i]).sum()
+}
+
+impl Outputs {
+    pub(crate) fn new(model: &Model, system: &System, space: &Space) -> Self {
+        let split = |terms: &[(usize, f64)]| {
+            let n = system.order();
+            let free: Vec<_> = terms.iter().filter(|(i, _)| *i < n).copied().collect();
+            let support: Vec<_> =
+                terms.iter().filter(|(i, _)| *i >= n).map(|(i, c)| (i - n, *c)).collect();
+            (space.row(&free), support)
+        };
+        let nodal = |terms: &[NodalTerm], order: usize, absolute: bool| {
+            let mut full = Vec::new();
+            let mut base = [0.0; 3];
+            for t in terms {
+                let expanded = system.reduction.expand(6 * t.node + t.dof.index());
+                full.extend(expanded.iter().map(|(i, c)| (*i, t.factor * c)));
+                if absolute && !t.dof.is_rotation() {
+                    base[t.dof.index()] += t.factor;
+                }
+            }
+            let (own, support) = split(&full);
+            Row::Nodal { order, own, support, base }
+        };
+        let link = |element: usize| system.links.links.iter().find(|l| l.element == element);
+        let rows = model
+            .outputs
+            .iter()
+            .map(|output| match &output.quantity {
+                Quantity::Displacement(terms) => nodal(terms, 0, false),
+                Quantity::Velocity(terms) => nodal(terms, 1, false),
+                Quantity::Acceleration { terms, absolute } => nodal(terms, 2, *absolute),
+                Quantity::LinkDeformation { element, coordinate, factor } => Row::Deformation {
+                    flat: link(*element).map_or(0, |l| l.range.start + coordinate),
+                    factor: *factor,
+                },
+                Quantity::LinkForce { element, coordinate, factor } => Row::Force {
+                    flat: link(*element).map_or(0, |l| l.range.start + coordinate),
+                    factor: *factor,
+                },
+                Quantity::LinkHistory { element, field } => {
+                    Row::History { at: link(*element).map_or(0, |l| l.history.start + field) }
+                }
+                Quantity::ElementForce { element, end, dof, factor } => {
+                    let row = system.end_force(model, *element, *end, *dof);
+                    let scaled = |r: &[(usize, f64)]| -> Vec<(usize, f64)> {
+                        r.iter().map(|(i, c)| (*i, factor * c)).collect()
+                    };
+                    Row::Element {
+                        stiffness: split(&scaled(&row.stiffness)),
+                        damping: split(&scaled(&row.damping)),
+                    }
+                }
+            })
+            .collect();
+        Self { rows, prescribed: system.reduction.prescribed.len(), order: space.order() }
+    }
+
+    /// Values and, for displacements, rates.
+    pub(crate) fn evaluate(
+        &self,
+        t: f64,
+        state: &State,
+        loads: &LoadSet,
+        values: &mut [f64],
+        rates: &mut [f64],
+    ) {
+        let n = self.order;
+        let motion =
+            [&state.motion[..n], &state.motion[n..2 * n], &state.motion[2 * n..]];
+        let support = loads.prescribed(t, Side::Before, self.prescribed);
+        let base = loads.base_acceleration(t, Side::Before);
+        for (i, row) in self.rows.iter().enumerate() {
+            rates[i] = f64::NAN;
+            values[i] = match row {
+                Row::Nodal { order, own, support: tied, base: share } => {
+                    if *order < 2 {
+                        rates[i] = sum(own, motion[order + 1]) + sum(tied, &support[order + 1]);
+                    }
+                    let moving: f64 = share.iter().zip(base).map(|(a, b)| a * b).sum();
+                    sum(own, motion[*order]) + sum(tied, &support[*order]) + moving
+                }
+                Row::Deformation { flat, factor } => {
+                    rates[i] = factor * state.v[*flat];
+                    factor * state.d[*flat]
+                }
+                Row::Force { flat, factor } => factor * state.f[*flat],
+                Row::History { at } => state.history[*at],
+                Row::Element { stiffness, damping } => {
+                    sum(&stiffness.0, motion[0])
+                        + sum(&stiffness.1, &support[0])
+                        + sum(&damping.0, motion[1])
+                        + sum(&damping.1, &support[1])
+                }
+            };
+        }
+    }
+}

@@ -1,0 +1,76 @@
+//! Propagators: linear steps in closed form, affine in the link forces at their end.
+
+use crate::error::SolveError;
+use crate::space::Space;
+use trilith_linalg::Dense;
+
+/// Displacements, velocities and accelerations in the coordinates of a solver, one after the other.
+pub(crate) type Motion = Vec<f64>;
+
+/// Compliance of the links over a step: d = d* − G f̃, ḋ = v* − H f̃.
+pub(crate) struct Compliance {
+    pub g: Dense,
+    pub h: Dense,
+    /// Identity of the step size.
+    pub key: u64,
+}
+
+/// Work over one step, J.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct StepWork {
+    /// Of the loads.
+    pub external: f64,
+    /// Of the pseudo-forces of the links against the structure (taken from it).
+    pub links: f64,
+    /// Of the damping of the structure.
+    pub damping: f64,
+    /// Removed by the time rule.
+    pub algorithmic: f64,
+}
+
+/// Loads and pseudo-forces at both ends of a step.
+pub(crate) struct Forces<'a> {
+    pub load0: &'a [f64],
+    pub load1: &'a [f64],
+    pub pseudo0: &'a [f64],
+    pub pseudo1: &'a [f64],
+}
+
+/// One rule for time, on one space.
+pub(crate) trait Propagator {
+    /// The space it moves in.
+    fn space(&self) -> &Space;
+
+    /// Number of factorisations of structure matrices so far.
+    fn factorizations(&self) -> usize;
+
+    /// Prepares for steps of length `dt`; what is expensive is kept.
+    fn prepare(&mut self, dt: f64) -> Result<(), SolveError>;
+
+    /// Compliance of the step prepared last.
+    fn compliance(&self) -> &Compliance;
+
+    /// True for a rule that is stable only below a step that the links limit.
+    fn conditionally_stable(&self) -> bool {
+        false
+    }
+
+    /// Acceleration that a force on the structure at rest would cause; zero where there is no mass.
+    fn acceleration(&mut self, force: &[f64]) -> Result<Vec<f64>, SolveError>;
+
+    /// End of the step with zero pseudo-forces at its end, into `to`.
+    fn predict(&mut self, from: &Motion, forces: &Forces<'_>, to: &mut Motion);
+
+    /// Adds the effect of the pseudo-forces at the end of the step.
+    fn correct(&mut self, forces: &Forces<'_>, to: &mut Motion);
+
+    /// Work done over a step.
+    fn work(&self, from: &Motion, to: &Motion, forces: &Forces<'_>) -> StepWork;
+}
+
+/// ½ vᵀ M v and ½ uᵀ K u (with dummies).
+pub(crate) fn kinetic_and_strain(space: &Space, x: &Motion) -> (f64, f64) {
+    let n = space.order();
+    let (u, v) = (&x[..n], &x[n..2 * n]);
+    (0.5 * space.mass.bilinear(v, v), 0.5 * space.stiffness.bilinear(u, u))
+}

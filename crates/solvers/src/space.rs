@@ -1,0 +1,214 @@
+//! The linear structure in the coordinates of a solver: all free DOFs, or a basis of Ritz vectors.
+
+use crate::basis::RitzBasis;
+use trilith_linalg::{Dense, Sparse, Triplets};
+use trilith_system::{LoadSet, System};
+
+/// C += U diag(rate) Uᵀ: modal damping, M Φ diag(2 ζ ω) Φᵀ M.
+#[derive(Clone, Debug)]
+pub(crate) struct LowRank {
+    pub u: Dense,
+    pub rate: Vec<f64>,
+}
+
+/// Matrices, link maps and loads in the coordinates of a solver.
+#[derive(Debug)]
+pub(crate) struct Space {
+    pub mass: Sparse,
+    pub damping: Sparse,
+    /// Stiffness with the dummies.
+    pub stiffness: Sparse,
+    pub modal: Option<LowRank>,
+    /// B of the active coordinates, row by row.
+    pub rows: Vec<Vec<(usize, f64)>>,
+    /// Dummies of the active coordinates.
+    pub dummy_k: Vec<f64>,
+    pub dummy_c: Vec<f64>,
+    /// One force vector a load channel.
+    pub forces: Vec<Vec<f64>>,
+    /// Free DOFs = shape · coordinates; `None` where they are the coordinates.
+    pub shape: Option<Dense>,
+}
+
+impl Space {
+    /// All free DOFs; `effective` holds the dummies of the flat link coordinates. Damping acts on the
+    /// structure without dummies, so C needs no correction for them.
+    pub(crate) fn physical(
+        system: &System,
+        loads: &LoadSet,
+        effective: &[f64],
+        modal: Option<LowRank>,
+    ) -> Self {
+        let links = &system.links;
+        let dummy: Vec<f64> = links.active.iter().map(|i| effective[*i]).collect();
+        let stiffness = system.stiffness_with(effective);
+        Self {
+            mass: system.mass.clone(),
+            damping: system.damping.clone(),
+            stiffness,
+            modal,
+            rows: links.active.iter().map(|i| links.rows[*i].clone()).collect(),
+            dummy_c: vec![0.0; dummy.len()],
+            dummy_k: dummy,
+            forces: loads.channels.iter().map(|c| c.force.clone()).collect(),
+            shape: None,
+        }
+    }
+
+    /// The span of a basis, whose vectors are M-orthonormal modes of `K + dummies`.
+    pub(crate) fn reduced(physical: &Self, basis: &RitzBasis) -> Self {
+        let phi = &basis.vectors;
+        let m = phi.columns();
+        let project = |p: &Vec<f64>| {
+            let mut q = vec![0.0; m];
+            phi.transpose_mul_add(1.0, p, &mut q);
+            q
+        };
+        let rows = physical
+            .rows
+            .iter()
+            .map(|row| {
+                (0..m)
+                    .map(|j| {
+                        let column = phi.column(j);
+                        (j, row.iter().map(|(i, c)| c * column[*i]).sum::<f64>())
+                    })
+                    .collect()
+            })
+            .collect();
+        let mut damping = congruence(&physical.damping, phi);
+        if let Some(modal) = &physical.modal {
+            let u = phi.transpose_times(&modal.u);
+            for k in 0..modal.rate.len() {
+                for j in 0..m {
+                    let s = modal.rate[k] * u[(j, k)];
+                    for i in 0..m {
+                        damping[(i, j)] += s * u[(i, k)];
+                    }
+                }
+            }
+        }
+        Self {
+            mass: diagonal(&vec![1.0; m]),
+            damping: sparse(&damping),
+            stiffness: diagonal(&basis.omega2),
+            modal: None,
+            rows,
+            dummy_k: physical.dummy_k.clone(),
+            dummy_c: physical.dummy_c.clone(),
+            forces: physical.forces.iter().map(project).collect(),
+            shape: Some(phi.clone()),
+        }
+    }
+
+    pub(crate) fn order(&self) -> usize {
+        self.mass.rows()
+    }
+
+    /// Σ amplitude · force.
+    pub(crate) fn force(&self, amplitudes: &[f64]) -> Vec<f64> {
+        let mut p = vec![0.0; self.order()];
+        for (f, a) in self.forces.iter().zip(amplitudes).filter(|(_, a)| **a != 0.0) {
+            for (x, y) in p.iter_mut().zip(f) {
+                *x += a * y;
+            }
+        }
+        p
+    }
+
+    /// `p += s · Bᵀ f` of active coordinates.
+    pub(crate) fn spread(&self, s: f64, f: &[f64], p: &mut [f64]) {
+        for (row, x) in self.rows.iter().zip(f).filter(|(_, x)| **x != 0.0) {
+            for (j, c) in row {
+                p[*j] += s * c * x;
+            }
+        }
+    }
+
+    /// `B u` of active coordinates.
+    pub(crate) fn deform(&self, u: &[f64], d: &mut [f64]) {
+        for (x, row) in d.iter_mut().zip(&self.rows) {
+            *x = row.iter().map(|(j, c)| c * u[*j]).sum();
+        }
+    }
+
+    /// `p += s · C v`, modal damping included.
+    pub(crate) fn damp(&self, s: f64, v: &[f64], p: &mut [f64]) {
+        self.damping.mul_add(s, v, p);
+        if let Some(modal) = &self.modal {
+            let mut y = vec![0.0; modal.rate.len()];
+            modal.u.transpose_mul_add(1.0, v, &mut y);
+            for (a, r) in y.iter_mut().zip(&modal.rate) {
+                *a *= r;
+            }
+            modal.u.mul_add(s, &y, p);
+        }
+    }
+
+    /// Coordinates of a displacement (or velocity) of the free DOFs: q = Φᵀ M u.
+    pub(crate) fn coordinates(&self, system: &System, u: &[f64]) -> Vec<f64> {
+        match &self.shape {
+            None => u.to_vec(),
+            Some(phi) => {
+                let mut q = vec![0.0; phi.columns()];
+                phi.transpose_mul_add(1.0, &system.mass.mul(u), &mut q);
+                q
+            }
+        }
+    }
+
+    /// Displacements of the free DOFs.
+    pub(crate) fn expand(&self, q: &[f64]) -> Vec<f64> {
+        match &self.shape {
+            None => q.to_vec(),
+            Some(phi) => {
+                let mut u = vec![0.0; phi.rows()];
+                phi.mul_add(1.0, q, &mut u);
+                u
+            }
+        }
+    }
+
+    /// A row over the free DOFs as a row over the coordinates.
+    pub(crate) fn row(&self, free: &[(usize, f64)]) -> Vec<(usize, f64)> {
+        match &self.shape {
+            None => free.to_vec(),
+            Some(phi) => (0..phi.columns())
+                .map(|j| (j, free.iter().map(|(i, c)| c * phi.column(j)[*i]).sum()))
+                .collect(),
+        }
+    }
+}
+
+/// Φᵀ A Φ, dense.
+pub(crate) fn congruence(a: &Sparse, phi: &Dense) -> Dense {
+    let mut image = Dense::zeros(phi.rows(), phi.columns());
+    for j in 0..phi.columns() {
+        a.mul_add(1.0, phi.column(j), image.column_mut(j));
+    }
+    phi.transpose_times(&image)
+}
+
+fn diagonal(values: &[f64]) -> Sparse {
+    let mut t = Triplets::new(values.len(), values.len());
+    for (i, v) in values.iter().enumerate() {
+        t.add(i, i, *v);
+    }
+    t.build()
+}
+
+/// Entries that are rounding against their diagonal are dropped.
+fn sparse(a: &Dense) -> Sparse {
+    let n = a.rows();
+    let mut t = Triplets::new(n, n);
+    for j in 0..n {
+        for i in 0..n {
+            let x = a[(i, j)];
+            let size = (a[(i, i)].abs() * a[(j, j)].abs()).sqrt();
+            if i == j || x.abs() > 1e-11 * size {
+                t.add(i, j, x);
+            }
+        }
+    }
+    t.build()
+}

@@ -1,0 +1,135 @@
+//! Nonlinear static analysis by the link kernel.
+//!
+//! ```text
+//! K̂ = K + Bᵀ k_e B      d = B K̂⁻¹ p − G f̃,  G = B K̂⁻¹ Bᵀ      f̃ = f − k_e d
+//! ```
+//!
+//! with the stiffness of the engaged links as dummies, so that a structure that stands is a linear solve.
+//! The load grows in steps, halved where the links find no equilibrium; link history is carried on.
+
+use crate::error::SolveError;
+use crate::kernel::{Affine, Committed, Converged, LinkKernel, NoEquilibrium};
+use crate::stepper::State;
+use trilith_element::Energy;
+use trilith_linalg::{Dense, Ldlt};
+use trilith_model::{Kernel, Model};
+use trilith_system::System;
+
+const SMALLEST: f64 = 1e-4;
+
+/// What a static case leaves: displacements of the free DOFs and the link history.
+#[derive(Clone, Debug)]
+pub(crate) struct Equilibrium {
+    pub u: Vec<f64>,
+    pub state: State,
+    pub iterations: usize,
+    pub steps: usize,
+    pub rejected: usize,
+}
+
+/// Ends where no equilibrium is: share of the load reached, worst coordinate, residual.
+pub(crate) struct Unbalanced {
+    pub reached: f64,
+    pub worst: usize,
+    pub residual: f64,
+}
+
+/// From a history and constant loads `before` to `before + added`.
+pub(crate) fn equilibrium(
+    model: &Model,
+    system: &System,
+    start: State,
+    before: &[f64],
+    added: &[f64],
+    steps: usize,
+) -> Result<Result<Equilibrium, Unbalanced>, SolveError> {
+    system.check_supported(model, false)?;
+    let links = &system.links;
+    let engaged = links.engaged(model);
+    let mut factor = Ldlt::new(&system.stiffness_with(&engaged))?;
+    let order = system.order();
+    let mut image = Dense::zeros(order, links.active.len());
+    for (j, flat) in links.active.iter().enumerate() {
+        for (i, c) in &links.rows[*flat] {
+            image[(*i, j)] += c;
+        }
+    }
+    factor.solve(image.values_mut());
+    let deform = |u: &[f64]| -> Vec<f64> {
+        links.active.iter().map(|i| links.rows[*i].iter().map(|(j, c)| c * u[*j]).sum()).collect()
+    };
+    let mut g = Dense::zeros(links.active.len(), links.active.len());
+    for j in 0..links.active.len() {
+        let d = deform(image.column(j));
+        g.column_mut(j).copy_from_slice(&d);
+    }
+    let none = Dense::zeros(links.active.len(), links.active.len());
+    let solve = |p: &[f64], factor: &mut Ldlt| {
+        let mut u = p.to_vec();
+        factor.solve(&mut u);
+        u
+    };
+    let (u_before, u_added) = (solve(before, &mut factor), solve(added, &mut factor));
+    let (d_before, d_added) = (deform(&u_before), deform(&u_added));
+    let dummy: Vec<f64> = links.active.iter().map(|i| engaged[*i]).collect();
+    let zero = vec![0.0; links.len()];
+    let mut kernel =
+        LinkKernel::new(links, Kernel::Newton, dummy.clone(), vec![0.0; dummy.len()]);
+    let mut state = start;
+    let mut pseudo = vec![0.0; dummy.len()];
+    kernel.pseudo(links, &state.f, &state.d, &zero, &mut pseudo);
+    let (mut reached, mut step, mut made, mut rejected) = (0.0, 1.0 / steps.max(1) as f64, 0, 0);
+    while reached < 1.0 {
+        let next = if reached + 1.0001 * step >= 1.0 { 1.0 } else { reached + step };
+        let d: Vec<f64> = d_before.iter().zip(&d_added).map(|(a, b)| a + next * b).collect();
+        let v = vec![0.0; d.len()];
+        let mut trial = state.clone();
+        let mut attempt = pseudo.clone();
+        let mut energy = vec![Energy::default(); links.links.len()];
+        let outcome = kernel.solve(
+            model,
+            links,
+            &Affine {
+                d: &d,
+                v: &v,
+                support_d: &zero,
+                support_v: &zero,
+                g: &g,
+                h: &none,
+                key: 0,
+            },
+            &Committed { d: &state.d, v: &zero, history: &state.history, dt: 0.0 },
+            &mut trial.scale,
+            &mut Converged {
+                d: &mut trial.d,
+                v: &mut trial.v,
+                f: &mut trial.f,
+                history: &mut trial.history,
+                energy: &mut energy,
+                pseudo: &mut attempt,
+            },
+        );
+        match outcome {
+            Ok(()) => {
+                for (s, e) in trial.stored.iter_mut().zip(&energy) {
+                    *s = e.stored;
+                }
+                state = trial;
+                pseudo = attempt;
+                reached = next;
+                made += 1;
+                step = (2.0 * step).min(1.0 / steps.max(1) as f64);
+            }
+            Err(NoEquilibrium { worst, residual }) => {
+                rejected += 1;
+                step *= 0.5;
+                if step < SMALLEST {
+                    return Ok(Err(Unbalanced { reached, worst, residual }));
+                }
+            }
+        }
+    }
+    let mut u: Vec<f64> = u_before.iter().zip(&u_added).map(|(a, b)| a + b).collect();
+    image.mul_add(-1.0, &pseudo, &mut u);
+    Ok(Ok(Equilibrium { u, state, iterations: kernel.iterations(), steps: made, rejected }))
+}
