@@ -1,1 +1,27 @@
-//! placeholder
+//! What a run leaves behind: histories, peaks and files.
+//!
+//! [`Recorder`] watches a run. [`Summary`] is `summary.json`, [`Files`] writes it together with
+//! `histories.csv`, `histories.npz` and frames for ParaView.
+//!
+//! Peaks are those of all accepted substeps, not of the output times only, and where the time
+//! derivative of an output is known they are those of the cubic Hermite polynomial between substeps.
+
+mod csv;
+mod error;
+mod files;
+mod frames;
+mod npz;
+mod peak;
+mod recorder;
+mod summary;
+#[cfg(test)]
+mod tests;
+mod vtk;
+
+pub use error::FileError;
+pub use files::Files;
+pub use frames::{Frame, Frames};
+pub use npz::npy;
+pub use peak::Peak;
+pub use recorder::{ENERGIES, Recorder};
+pub use summary::{BasisSummary, ModelSummary, Named, OutputSummary, Summary};

@@ -1,0 +1,25 @@
+//! `histories.csv`: one line per output time.
+
+use crate::recorder::ENERGIES;
+use crate::{FileError, Recorder};
+use std::path::Path;
+use trilith_model::Model;
+
+/// Writes the histories with a header of names and units. Numbers read back to the same bits.
+pub(crate) fn write(path: &Path, model: &Model, record: &Recorder) -> Result<(), FileError> {
+    let fail = |e: csv::Error| FileError::at(path)(e);
+    let mut file = csv::Writer::from_path(path).map_err(fail)?;
+    let outputs = model.outputs.iter().map(|o| format!("{} [{}]", o.name, o.unit));
+    let energies = ENERGIES.iter().map(|e| format!("energy {} [J]", e.replace('_', " ")));
+    let header = std::iter::once("t [s]".to_owned()).chain(outputs).chain(energies);
+    file.write_record(header).map_err(fail)?;
+    let columns: Vec<&[f64]> = (0..model.outputs.len())
+        .filter_map(|i| record.history(i))
+        .chain(record.energy().iter().map(Vec::as_slice))
+        .collect();
+    for (i, t) in record.time().iter().enumerate() {
+        let numbers = std::iter::once(*t).chain(columns.iter().map(|c| c[i]));
+        file.write_record(numbers.map(|x| format!("{x:?}"))).map_err(fail)?;
+    }
+    file.flush().map_err(FileError::at(path))
+}

@@ -1,0 +1,135 @@
+//! Records what the model asks for.
+
+use crate::{Frames, Peak};
+use trilith_model::Model;
+use trilith_solvers::{EnergyTotals, Observer, Sample};
+
+/// Names of the recorded energies, in the order of [`Recorder::energy`].
+pub const ENERGIES: [&str; 10] = [
+    "input",
+    "kinetic",
+    "strain",
+    "potential",
+    "modal_damping",
+    "link_stored",
+    "link_hysteretic",
+    "link_viscous",
+    "algorithmic",
+    "error",
+];
+
+/// Watches a run: histories at the output times, peaks over all substeps, deformed shapes on request.
+///
+/// What was recorded stays whether or not the run comes to its end.
+#[derive(Clone, Debug)]
+pub struct Recorder {
+    time: Vec<f64>,
+    histories: Vec<Vec<f64>>,
+    energy: [Vec<f64>; ENERGIES.len()],
+    peaks: Vec<Peak>,
+    frames: Frames,
+    /// Time, values and rates of the sample before.
+    before: Option<(f64, Vec<f64>, Vec<f64>)>,
+}
+
+impl Recorder {
+    /// For the outputs of a model.
+    #[must_use]
+    pub fn new(model: &Model) -> Self {
+        Self {
+            time: Vec::new(),
+            histories: vec![Vec::new(); model.outputs.len()],
+            energy: Default::default(),
+            peaks: Vec::new(),
+            frames: Frames::new(model.nodes.len(), 0),
+            before: None,
+        }
+    }
+
+    /// Keeps up to `limit` deformed shapes as well, evenly spaced in time.
+    #[must_use]
+    pub fn with_frames(mut self, model: &Model, limit: usize) -> Self {
+        self.frames = Frames::new(model.nodes.len(), limit);
+        self
+    }
+
+    /// The output times, s.
+    #[must_use]
+    pub fn time(&self) -> &[f64] {
+        &self.time
+    }
+
+    /// Values of an output, by its index in the model, at the output times.
+    #[must_use]
+    pub fn history(&self, output: usize) -> Option<&[f64]> {
+        self.histories.get(output).map(Vec::as_slice)
+    }
+
+    /// Energies at the output times, J: one list for each of [`ENERGIES`].
+    #[must_use]
+    pub fn energy(&self) -> &[Vec<f64>; ENERGIES.len()] {
+        &self.energy
+    }
+
+    /// Extremes of the outputs in the model's order; empty where nothing was recorded.
+    #[must_use]
+    pub fn peaks(&self) -> &[Peak] {
+        &self.peaks
+    }
+
+    /// The deformed shapes.
+    #[must_use]
+    pub fn frames(&self) -> &Frames {
+        &self.frames
+    }
+
+    fn peak(&mut self, s: &Sample<'_>) {
+        match &mut self.before {
+            None => {
+                self.peaks = s.values.iter().map(|y| Peak::new(s.t, *y)).collect();
+                self.before = Some((s.t, s.values.to_vec(), s.rates.to_vec()));
+            }
+            Some((t, values, rates)) => {
+                let from = values.iter().zip(rates.iter());
+                let to = s.values.iter().zip(s.rates);
+                for (peak, ((y0, r0), (y1, r1))) in self.peaks.iter_mut().zip(from.zip(to)) {
+                    peak.advance((*t, *y0, *r0), (s.t, *y1, *r1));
+                }
+                *t = s.t;
+                values.copy_from_slice(s.values);
+                rates.copy_from_slice(s.rates);
+            }
+        }
+    }
+}
+
+impl Observer for Recorder {
+    fn sample(&mut self, s: &Sample<'_>) {
+        self.peak(s);
+        let Some(step) = s.output_step else { return };
+        self.time.push(s.t);
+        for (history, y) in self.histories.iter_mut().zip(s.values) {
+            history.push(*y);
+        }
+        for (history, e) in self.energy.iter_mut().zip(energies(s.energy)) {
+            history.push(e);
+        }
+        self.frames.take(step, s.t, s.shape);
+    }
+}
+
+/// In the order of [`ENERGIES`].
+fn energies(e: &EnergyTotals) -> [f64; ENERGIES.len()] {
+    [
+        e.input,
+        e.kinetic,
+        e.strain,
+        e.potential,
+        e.modal_damping,
+        e.link_stored,
+        e.link_hysteretic,
+        e.link_viscous,
+        e.algorithmic,
+        e.error,
+    ]
+}

@@ -1,0 +1,142 @@
+//! `summary.json`: the keys scripts rely on.
+
+use crate::{Peak, Recorder};
+use serde::{Serialize, Serializer};
+use trilith_model::Model;
+use trilith_solvers::{
+    Adequacy, BasisReport, CaseResult, ContactSummary, EnergyTotals, LinkEnergy, Work,
+};
+
+/// Results of one case, as `summary.json` has them. Numbers are in SI; one that is not finite is
+/// written as `null`.
+#[derive(Clone, Debug, Serialize)]
+pub struct Summary {
+    /// Version of the program.
+    pub version: &'static str,
+    /// The model.
+    pub model: ModelSummary,
+    /// Name of the case.
+    pub case: String,
+    /// Name of the solver.
+    pub solver: &'static str,
+    /// `converged`, or what failed.
+    pub status: &'static str,
+    /// The status in a sentence.
+    pub message: String,
+    /// Work.
+    pub work: Work,
+    /// Outputs by name.
+    pub outputs: Named<OutputSummary>,
+    /// Energies at the end, J.
+    pub energy: EnergyTotals,
+    /// Energies of every link at the end, by its name, J.
+    pub link_energy: Named<LinkEnergy>,
+    /// How the contacts behaved; `null` for a model without contacts.
+    pub contact: Option<ContactSummary>,
+    /// The basis; `null` for a solver on all DOFs.
+    pub basis: Option<BasisSummary>,
+    /// What the user should know.
+    pub warnings: Vec<String>,
+}
+
+/// Which model it was.
+#[derive(Clone, Debug, Serialize)]
+pub struct ModelSummary {
+    /// Title.
+    pub title: String,
+    /// SHA-256 of the model file, hexadecimal.
+    pub sha256: String,
+}
+
+/// One output.
+#[derive(Clone, Debug, Serialize)]
+pub struct OutputSummary {
+    /// SI unit.
+    pub unit: String,
+    /// Extremes; absent where nothing was recorded.
+    #[serde(flatten)]
+    pub peak: Option<Peak>,
+}
+
+/// The basis of a reduced solver in a few numbers.
+#[derive(Clone, Debug, Serialize)]
+pub struct BasisSummary {
+    /// Number of vectors.
+    pub vectors: usize,
+    /// Lowest and highest frequency, Hz.
+    pub frequency: [f64; 2],
+    /// Share of the mass along X, Y, Z that all vectors carry.
+    pub mass_participation: [f64; 3],
+    /// Share of the static response of each load direction that the basis holds.
+    pub static_participation: Named<f64>,
+    /// The link coordinate whose flexibility the basis holds worst.
+    pub worst: Option<Adequacy>,
+}
+
+/// Values with names, in their own order; a map in JSON.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Named<T>(pub Vec<(String, T)>);
+
+impl<T> Named<T> {
+    /// The value of that name.
+    #[must_use]
+    pub fn get(&self, name: &str) -> Option<&T> {
+        self.0.iter().find(|(n, _)| n == name).map(|(_, v)| v)
+    }
+}
+
+impl<T: Serialize> Serialize for Named<T> {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        serializer.collect_map(self.0.iter().map(|(name, value)| (name, value)))
+    }
+}
+
+impl Summary {
+    /// Puts together what a run left.
+    #[must_use]
+    pub fn new(
+        model: &Model,
+        result: &CaseResult,
+        record: &Recorder,
+        contact: Option<ContactSummary>,
+    ) -> Self {
+        let output = |(i, o): (usize, &trilith_model::Output)| {
+            let peak = record.peaks().get(i).copied();
+            (o.name.clone(), OutputSummary { unit: o.unit.clone(), peak })
+        };
+        let link = |(element, energy): &(usize, LinkEnergy)| {
+            model.elements.get(*element).map(|e| (e.name.clone(), *energy))
+        };
+        Self {
+            version: env!("CARGO_PKG_VERSION"),
+            model: ModelSummary { title: model.title.clone(), sha256: model.source.sha256.clone() },
+            case: result.case.clone(),
+            solver: result.solver,
+            status: result.status.word(),
+            message: result.status.text(),
+            work: result.work,
+            outputs: Named(model.outputs.iter().enumerate().map(output).collect()),
+            energy: result.energy,
+            link_energy: Named(result.link_energy.iter().filter_map(link).collect()),
+            contact,
+            basis: result.basis.as_ref().map(BasisSummary::new),
+            warnings: result.warnings.clone(),
+        }
+    }
+}
+
+impl BasisSummary {
+    /// The few numbers of a report.
+    #[must_use]
+    pub fn new(report: &BasisReport) -> Self {
+        let hertz = |omega: Option<&f64>| omega.map_or(f64::NAN, |w| w / std::f64::consts::TAU);
+        let mass = [0, 1, 2].map(|a| report.mass_participation.iter().map(|m| m[a]).sum());
+        Self {
+            vectors: report.vectors,
+            frequency: [hertz(report.omega.first()), hertz(report.omega.last())],
+            mass_participation: mass,
+            static_participation: Named(report.static_participation.clone()),
+            worst: report.adequacy.first().cloned(),
+        }
+    }
+}

@@ -1,0 +1,177 @@
+//! A made-up run, written and read back.
+
+use crate::{ENERGIES, Files, Recorder, Summary};
+use std::collections::BTreeSet;
+use std::io::Read;
+use trilith_model::{Model, Registry, read_text};
+use trilith_solvers::{EnergyTotals, Observer, Sample, Shape};
+
+const TEXT: &str = r#"(
+    title: "Mass on a spring",
+    plane: XZ,
+    nodes: { "top": (0, 0, 1), "ground": (0, 0, 0), "side": (1, 0, 1) },
+    supports: { "ground": Fixed },
+    elements: {
+        "mass": Mass(node: "top", mass: "1 kg"),
+        "spring": Spring(nodes: ("ground", "top"), k1: "1 kN/m", k2: "1 kN/m"),
+        "bar": RigidLink(nodes: ("top", "side")),
+    },
+    cases: { "shake": Dynamic(duration: 1, dt: 0.1) },
+    outputs: { "up": Displacement(node: "top", dof: Uz), "a, b": Velocity(node: "top", dof: Ux) },
+)"#;
+
+fn model() -> Model {
+    let mut registry = Registry::new();
+    trilith_elements::register(&mut registry);
+    read_text(TEXT, "spring.ron", &registry, &[]).unwrap_or_else(|e| panic!("{e:?}"))
+}
+
+struct Lifted(f64);
+
+impl Shape for Lifted {
+    fn displacements(&self, u: &mut [f64]) {
+        u.chunks_mut(6).for_each(|node| node[2] = self.0);
+    }
+}
+
+/// Two substeps per output step; the output jumps up between output times.
+fn record(model: &Model) -> Recorder {
+    let mut recorder = Recorder::new(model).with_frames(model, 5);
+    for i in 0..=20 {
+        let t = 0.05 * f64::from(i);
+        let energy = EnergyTotals { input: t, ..EnergyTotals::default() };
+        recorder.sample(&Sample {
+            t,
+            output_step: (i % 2 == 0).then_some(i as usize / 2),
+            values: &[if i == 7 { 9.0 } else { t / 3.0 }, 1e-300 * t],
+            rates: &[f64::NAN; 2],
+            energy: &energy,
+            contacts: &[],
+            shape: &Lifted(t),
+        });
+    }
+    recorder
+}
+
+fn summary(model: &Model, record: &Recorder) -> Summary {
+    // A result cannot be made up outside the solvers: its parts are.
+    Summary {
+        version: "0",
+        model: crate::ModelSummary { title: model.title.clone(), sha256: "00".into() },
+        case: "shake".into(),
+        solver: "fna",
+        status: "converged",
+        message: "converged".into(),
+        work: Default::default(),
+        outputs: crate::Named(
+            model
+                .outputs
+                .iter()
+                .zip(record.peaks())
+                .map(|(o, p)| {
+                    let output = crate::OutputSummary { unit: o.unit.clone(), peak: Some(*p) };
+                    (o.name.clone(), output)
+                })
+                .collect(),
+        ),
+        energy: EnergyTotals::default(),
+        link_energy: crate::Named(vec![("foot".into(), Default::default())]),
+        contact: None,
+        basis: None,
+        warnings: vec![],
+    }
+}
+
+#[test]
+fn peaks_are_those_of_all_substeps() {
+    let model = model();
+    let record = record(&model);
+    let peak = record.peaks()[0];
+    assert_eq!((peak.max, peak.min, peak.t_min), (9.0, 0.0, 0.0));
+    assert!((peak.t_max - 0.35).abs() < 1e-12);
+    assert_eq!((record.time().len(), record.history(0).unwrap().len()), (11, 11));
+    assert!(record.history(0).unwrap().iter().all(|y| *y < 1.0));
+}
+
+#[test]
+fn the_summary_has_the_documented_keys() {
+    let model = model();
+    let json = serde_json::to_value(summary(&model, &record(&model))).unwrap();
+    let keys = |v: &serde_json::Value| -> BTreeSet<String> {
+        v.as_object().unwrap().keys().cloned().collect()
+    };
+    let has = |v: &serde_json::Value, names: &[&str]| {
+        let keys = keys(v);
+        assert!(names.iter().all(|n| keys.contains(*n)), "{names:?} in {keys:?}");
+    };
+    has(&json, &["model", "case", "solver", "status", "work", "outputs", "energy", "contact"]);
+    has(&json, &["message", "warnings", "basis", "link_energy", "version"]);
+    has(&json["model"], &["title", "sha256"]);
+    has(&json["work"], &["steps", "substeps", "iterations", "rejected", "factorizations"]);
+    has(&json["work"], &["wall_s", "setup_cpu_s", "march_cpu_s", "peak_rss_mb"]);
+    has(&json["outputs"], &["up", "a, b"]);
+    has(&json["outputs"]["up"], &["unit", "max", "t_max", "min", "t_min", "final"]);
+    has(&json["energy"], &ENERGIES[..9]);
+    has(&json["energy"], &["error_relative"]);
+    has(&json["link_energy"]["foot"], &["stored", "hysteretic", "viscous"]);
+    assert!(json["contact"].is_null());
+}
+
+#[test]
+fn the_csv_reads_back_to_the_same_numbers() {
+    let (model, folder) = (model(), tempfile::tempdir().unwrap());
+    let record = record(&model);
+    Files { model: &model, record: &record, summary: &summary(&model, &record) }
+        .write(folder.path())
+        .unwrap();
+    let mut file = csv::Reader::from_path(folder.path().join("histories.csv")).unwrap();
+    let header: Vec<String> = file.headers().unwrap().iter().map(str::to_owned).collect();
+    assert_eq!(header[..4], ["t [s]", "up [m]", "a, b [m/s]", "energy input [J]"]);
+    let rows: Vec<Vec<f64>> =
+        file.records().map(|r| r.unwrap().iter().map(|x| x.parse().unwrap()).collect()).collect();
+    for (i, row) in rows.iter().enumerate() {
+        let column = |c: usize| record.history(c).unwrap()[i];
+        assert_eq!(row[..4], [record.time()[i], column(0), column(1), record.energy()[0][i]]);
+    }
+    assert_eq!(rows.len(), 11);
+}
+
+#[test]
+fn the_npz_holds_one_array_per_history() {
+    let (model, folder) = (model(), tempfile::tempdir().unwrap());
+    let record = record(&model);
+    let path = folder.path().join("h.npz");
+    crate::npz::write(&path, &model, &record).unwrap();
+    let mut zip = zip::ZipArchive::new(std::fs::File::open(path).unwrap()).unwrap();
+    assert_eq!(zip.len(), 1 + ENERGIES.len() + 2);
+    for (name, values) in [("t", record.time()), ("a__b", record.history(1).unwrap())] {
+        let mut bytes = Vec::new();
+        zip.by_name(&format!("{name}.npy")).unwrap().read_to_end(&mut bytes).unwrap();
+        assert_eq!(bytes, crate::npy(values));
+    }
+}
+
+#[test]
+fn frames_show_nodes_members_and_constraints() {
+    let (model, folder) = (model(), tempfile::tempdir().unwrap());
+    assert!(crate::vtk::write(folder.path(), &model, record(&model).frames()).unwrap());
+    let index = std::fs::read_to_string(folder.path().join("model.pvd")).unwrap();
+    let count = index.matches("<DataSet").count();
+    assert!((2..=5).contains(&count), "{index}");
+    let path = folder.path().join(format!("frames/{:04}.vtu", count - 1));
+    let frame = std::fs::read_to_string(path).unwrap();
+    assert!(frame.contains("NumberOfPoints=\"3\" NumberOfCells=\"5\""), "{frame}");
+    assert!(frame.contains("\n0 2\n") && frame.contains("\n1 0\n"), "{frame}");
+    assert!(frame.contains("0.0 0.0 1.0\n0.0 0.0 1.0\n0.0 0.0 1.0\n"), "{frame}");
+}
+
+#[test]
+fn an_error_of_writing_names_the_file() {
+    let (model, folder) = (model(), tempfile::tempdir().unwrap());
+    let record = record(&model);
+    std::fs::create_dir(folder.path().join("histories.csv")).unwrap();
+    let error = Files { model: &model, record: &record, summary: &summary(&model, &record) }
+        .write(folder.path())
+        .unwrap_err();
+    assert!(error.to_string().contains("histories.csv cannot be written"), "{error}");
+}
