@@ -199,7 +199,7 @@ impl Link for Dashpot {
         if self.stiffness > 0.0 {
             out.energy.stored = 0.5 * spring * spring / self.stiffness;
         }
-        out.energy.viscous = 0.5 * ((f0 - spring0) * at.v0[0] + (f - spring) * at.v[0]) * at.dt;
+        out.energy.viscous = at.viscous_work(0, f0 - spring0, f - spring);
     }
 
     fn contact(&self, at: &Kinematics<'_>, _: &[f64], f: &[f64]) -> Option<Contact> {

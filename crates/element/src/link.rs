@@ -48,6 +48,18 @@ pub struct Kinematics<'a> {
     pub dt: f64,
 }
 
+impl Kinematics<'_> {
+    /// Work over the step of a rate-dependent force on coordinate `i` that goes from `start` to `end`
+    /// (N), exact where force and rate are both linear in the step:
+    /// Δt (2 g₀v₀ + g₀v₁ + g₁v₀ + 2 g₁v₁)/6. Never negative.
+    #[must_use]
+    pub fn viscous_work(&self, i: usize, start: f64, end: f64) -> f64 {
+        let (v0, v1) = (self.v0[i], self.v[i]);
+        let sum = start * (2.0 * v0 + v1) + end * (v0 + 2.0 * v1);
+        (self.dt * sum / 6.0).max(0.0)
+    }
+}
+
 /// Energy of a link, in J.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Energy {

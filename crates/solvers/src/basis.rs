@@ -23,7 +23,7 @@ use trilith_system::System;
 /// Largest model for which a complete basis is made.
 const COMPLETE_LIMIT: usize = 1500;
 /// Up to this order the complete basis is the automatic choice.
-const COMPLETE_AUTOMATIC: usize = 60;
+const COMPLETE_AUTOMATIC: usize = 300;
 /// Share of its M-norm that a new vector must keep.
 const KEEP: f64 = 3e-4;
 /// Automatic dummies as a share of the engaged stiffness of a link.
@@ -124,7 +124,7 @@ fn enriched(
     hat: &mut Solvable,
 ) -> Result<Dense, SolveError> {
     let links = &system.links.active;
-    let automatic = 10 * loads.len().max(2);
+    let automatic = 20 * loads.len().max(2);
     let ground = match settings.vectors {
         None => automatic,
         Some(n) if n >= links.len() + 2 * loads.len().max(1) => n - links.len(),

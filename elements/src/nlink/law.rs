@@ -139,9 +139,7 @@ impl Link for NLink {
         out.k[0] = now.f_d;
         out.c[0] = now.f_v;
         out.energy.stored = 0.5 * now.spring * now.spring / self.kn;
-        let excess0 = (before.f + before.spring) * at.v0[0];
-        let excess1 = (now.f + now.spring) * at.v[0];
-        out.energy.viscous = 0.5 * (excess0 + excess1) * at.dt;
+        out.energy.viscous = at.viscous_work(0, before.f + before.spring, now.f + now.spring);
 
         // Friction: radial return of the elastic trial force onto the cone.
         let ke = self.elastic();

@@ -258,12 +258,12 @@ fn rejects_contradictions_by_name() {
 }
 
 #[test]
-fn the_dashpot_takes_the_trapezoid_of_its_force_times_the_rate() {
+fn the_dashpot_takes_the_work_of_a_rate_that_is_linear_in_the_step() {
     let link = NLink { damping: 1e4, ..NLink::new(KN) };
     let mut ride = Ride::new(&link);
     ride.step(&[-1e-4, 0.0, 0.0], &[-0.3, 0.0, 0.0], 1e-3);
     let before = ride.dissipated.viscous;
     ride.step(&[-3e-4, 0.0, 0.0], &[-0.1, 0.0, 0.0], 1e-3);
-    let expected = 0.5 * 1e4 * (0.09 + 0.01) * 1e-3;
+    let expected = 1e4 * (0.09 + 0.03 + 0.01) / 3.0 * 1e-3;
     assert_relative_eq!(ride.dissipated.viscous - before, expected, max_relative = 1e-9);
 }
