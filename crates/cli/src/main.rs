@@ -1,2 +1,5 @@
-//! placeholder
-fn main() {}
+//! The program `trilith` with the built-in elements and links.
+
+fn main() {
+    trilith_cli::main_with(trilith::registry())
+}

@@ -1,1 +1,85 @@
-//! placeholder
+//! Small finite-element models with nonlinear links, solved by fast nonlinear analysis or direct
+//! integration.
+//!
+//! ```
+//! let text = r#"(
+//!     plane: XZ,
+//!     nodes: { "top": (0, 0, 1), "base": (0, 0, 0) },
+//!     supports: { "base": Fixed },
+//!     elements: {
+//!         "mass": Mass(node: "top", mass: "1 kg"),
+//!         "spring": Spring(nodes: ("base", "top"), k1: "1 kN/m", k2: "39.4784 N/m", r2: 1, r3: 1),
+//!         "stop": Gap(nodes: ("base", "top"), k: "1 kN/m", opening: "1 cm"),
+//!     },
+//!     cases: {
+//!         "swing": Dynamic(
+//!             duration: "2 s", dt: "0.01 s",
+//!             initial: [(node: "top", dof: Ux, displacement: "2 cm")],
+//!         ),
+//!     },
+//!     outputs: { "sway": Displacement(node: "top", dof: Ux) },
+//! )"#;
+//! let model = trilith::read_text(text, "swing.ron", &trilith::registry(), &[]).expect("a model");
+//! let run = trilith::run(&model, "swing").expect("a run");
+//! let sway = run.peak("sway").expect("an output");
+//! assert!((sway.max - 0.02).abs() < 1e-4 && (sway.min + 0.02).abs() < 2e-4);
+//! assert_eq!(run.time().len(), run.history("sway").expect("an output").len());
+//! ```
+//!
+//! - [`read`] turns a model file into a [`Model`], or into all its errors at once.
+//! - [`run`] runs a case as the file says; [`Analysis`] runs several, with options.
+//! - A link of your own: implement [`element::Link`], offer it with `registry.link::<MyLink>()`.
+//!
+//! Everything beneath is in the modules [`element`], [`elements`], [`model`], [`system`],
+//! [`solvers`] and [`results`].
+
+mod analysis;
+mod error;
+
+/// The contract that elements, constraints and links fulfil.
+pub mod element {
+    pub use trilith_element::*;
+}
+/// The built-in elements, constraints and links.
+pub mod elements {
+    pub use trilith_elements::*;
+}
+/// Models and the files they are read from.
+pub mod model {
+    pub use trilith_model::*;
+}
+/// Models as equations.
+pub mod system {
+    pub use trilith_system::*;
+}
+/// Solvers and what observes them.
+pub mod solvers {
+    pub use trilith_solvers::*;
+}
+/// Recorders and files.
+pub mod results {
+    pub use trilith_results::*;
+}
+
+pub use analysis::{Analysis, Run};
+pub use element::Register;
+pub use error::Error;
+pub use model::{Diagnostic, Model, Registry, SolverKind, read, read_text};
+pub use solvers::RunOptions;
+
+/// A registry with every built-in kind.
+#[must_use]
+pub fn registry() -> Registry {
+    let mut registry = Registry::new();
+    trilith_elements::register(&mut registry);
+    registry
+}
+
+/// Runs a case of a model as its file says.
+///
+/// # Errors
+/// [`Error`] where the case does not exist, the structure is not one, or the run cannot be made.
+pub fn run(model: &Model, case: &str) -> Result<Run, Error> {
+    let case = model.case(case).ok_or_else(|| Error::unknown_case(model, case))?;
+    Analysis::new(model)?.run(RunOptions { case, ..RunOptions::default() })
+}

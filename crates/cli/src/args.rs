@@ -1,0 +1,140 @@
+//! Arguments of the program.
+
+use clap::{Args, Parser, Subcommand};
+use std::path::PathBuf;
+use trilith::SolverKind;
+
+/// Small finite-element models with nonlinear links: fast nonlinear analysis and direct integration.
+#[derive(Parser)]
+#[command(name = "trilith", version, max_term_width = 100, arg_required_else_help = true)]
+pub(crate) struct Arguments {
+    #[command(subcommand)]
+    pub command: Command,
+}
+
+#[derive(Subcommand)]
+pub(crate) enum Command {
+    /// Run a case of a model and write its results
+    Run(RunArguments),
+    /// Validate a model and print it with every default filled in
+    Check(ModelArguments),
+    /// Periods, participation and adequacy of the basis
+    Modes(ModesArguments),
+    /// The kinds of elements, constraints and links, or the card of one
+    Elements(ElementsArguments),
+    /// Run the same case under two or more solvers and show the differences
+    Compare(CompareArguments),
+}
+
+#[derive(Args)]
+pub(crate) struct ModelArguments {
+    /// Model file (RON)
+    pub model: PathBuf,
+    /// Give a parameter of the model another value, such as `mu=0.4` or `kn="2 MN/m"`
+    #[arg(long, value_name = "NAME=VALUE", value_parser = assignment)]
+    pub set: Vec<(String, String)>,
+}
+
+#[derive(Args)]
+pub(crate) struct RunArguments {
+    #[command(flatten)]
+    pub model: ModelArguments,
+    /// Case to run [default: the last of the file]
+    #[arg(long)]
+    pub case: Option<String>,
+    /// Solver: fna, hht, ritz-hht or full-newton [default: that of the case]
+    #[arg(long, value_parser = solver)]
+    pub solver: Option<SolverKind>,
+    /// Output step in seconds [default: that of the case]
+    #[arg(long, value_parser = positive)]
+    pub dt: Option<f64>,
+    /// Folder for the results [default: out/<name of the model file>]
+    #[arg(long, value_name = "DIR")]
+    pub out: Option<PathBuf>,
+    /// Write no files
+    #[arg(long, conflicts_with_all = ["out", "checkpoint_at"])]
+    pub no_files: bool,
+    /// Stop at this time (s) and write `checkpoint.json` into the folder
+    #[arg(long, value_name = "T", value_parser = positive)]
+    pub checkpoint_at: Option<f64>,
+    /// Continue from a checkpoint of the same model and case
+    #[arg(long, value_name = "FILE")]
+    pub restart: Option<PathBuf>,
+}
+
+#[derive(Args)]
+pub(crate) struct ModesArguments {
+    #[command(flatten)]
+    pub model: ModelArguments,
+    /// Case whose basis is shown [default: the last dynamic one]
+    #[arg(long)]
+    pub case: Option<String>,
+}
+
+#[derive(Args)]
+pub(crate) struct ElementsArguments {
+    /// Kind to be shown in full
+    pub name: Option<String>,
+}
+
+#[derive(Args)]
+pub(crate) struct CompareArguments {
+    #[command(flatten)]
+    pub model: ModelArguments,
+    /// Case to run [default: the last of the file]
+    #[arg(long)]
+    pub case: Option<String>,
+    /// Solvers; differences are relative to the first
+    #[arg(long, value_parser = solver, value_delimiter = ',', default_value = "hht,fna")]
+    pub solvers: Vec<SolverKind>,
+    /// Output step in seconds [default: that of the case]
+    #[arg(long, value_parser = positive)]
+    pub dt: Option<f64>,
+}
+
+fn assignment(text: &str) -> Result<(String, String), String> {
+    match text.split_once('=') {
+        Some((name, value)) if !name.trim().is_empty() && !value.trim().is_empty() => {
+            Ok((name.trim().to_owned(), value.trim().to_owned()))
+        }
+        _ => Err("NAME=VALUE is wanted, such as `mu=0.4`".into()),
+    }
+}
+
+fn solver(text: &str) -> Result<SolverKind, String> {
+    SolverKind::ALL.into_iter().find(|s| s.name() == text).ok_or_else(|| {
+        let names = SolverKind::ALL.iter().map(|s| s.name());
+        crate::text::names_help(text, "solvers", names)
+    })
+}
+
+fn positive(text: &str) -> Result<f64, String> {
+    match text.parse::<f64>() {
+        Ok(x) if x.is_finite() && x > 0.0 => Ok(x),
+        _ => Err("a number of seconds above 0 is wanted".into()),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_arguments_are_consistent() {
+        use clap::CommandFactory;
+        Arguments::command().debug_assert();
+    }
+
+    #[test]
+    fn an_assignment_splits_at_the_first_equals_sign() {
+        assert_eq!(assignment("mu = 0.4"), Ok(("mu".into(), "0.4".into())));
+        assert_eq!(assignment("a=b=c"), Ok(("a".into(), "b=c".into())));
+        assert!(assignment("mu").is_err() && assignment("=1").is_err());
+    }
+
+    #[test]
+    fn a_misspelt_solver_is_corrected() {
+        assert_eq!(solver("fna"), Ok(SolverKind::Fna));
+        assert_eq!(solver("fnaa"), Err("did you mean `fna`?".into()));
+    }
+}

@@ -1,0 +1,19 @@
+//! `trilith check`.
+
+use crate::args::ModelArguments;
+use crate::{Answer, Failure, read};
+use trilith::model::{Analysis as Kind, resolved};
+use trilith::{Analysis, Registry};
+
+pub(crate) fn check(registry: &Registry, args: &ModelArguments) -> Result<Answer, Failure> {
+    let model = read(registry, args)?;
+    let analysis = Analysis::new(&model).map_err(|e| Failure::of(&e, &model))?;
+    let is_static = |k: &Kind| matches!(k, Kind::Static(_));
+    for with_mass in [false, true] {
+        if model.cases.iter().any(|c| is_static(&c.analysis) != with_mass) {
+            let checked = analysis.system().check_supported(&model, with_mass);
+            checked.map_err(|e| Failure::of(&e.into(), &model))?;
+        }
+    }
+    Ok(resolved(&model).into())
+}

@@ -1,0 +1,38 @@
+//! What ends a command early.
+
+use crate::diagnostics;
+use trilith::solvers::SolveError;
+use trilith::{Diagnostic, Error, Model};
+
+/// A text for stderr and an exit status.
+pub(crate) struct Failure {
+    pub text: String,
+    pub status: i32,
+}
+
+impl Failure {
+    /// All errors of a model file.
+    pub fn diagnostics(all: &[Diagnostic]) -> Self {
+        Self { text: diagnostics::all(all), status: 2 }
+    }
+
+    /// Wrong input outside the model file.
+    pub fn input(message: &str, help: Option<&str>) -> Self {
+        Self { text: diagnostics::plain(message, help), status: 2 }
+    }
+
+    /// A structure or a run that cannot be made, shown in the model file where it has a place there.
+    pub fn of(error: &Error, model: &Model) -> Self {
+        let status = match error {
+            Error::Solve(
+                SolveError::StaticNotConverged { .. } | SolveError::Predecessor { .. },
+            ) => 1,
+            _ => 2,
+        };
+        let text = match error.span() {
+            Some(span) => diagnostics::at(&error.to_string(), span, &model.source),
+            None => diagnostics::plain(&error.to_string(), None),
+        };
+        Self { text, status }
+    }
+}

@@ -1,0 +1,81 @@
+//! The program `trilith` as a library, so that an application with links of its own is
+//!
+//! ```no_run
+//! # mod my_links { pub fn register(_: &mut impl trilith::Register) {} }
+//! let mut registry = trilith::registry();
+//! my_links::register(&mut registry);
+//! trilith_cli::main_with(registry)
+//! ```
+//!
+//! Results go to stdout, diagnostics and progress to stderr. Exit status: 0 done, 1 the run did not
+//! converge or lost energy, 2 the input is wrong.
+
+mod args;
+mod check;
+mod compare;
+mod diagnostics;
+mod elements;
+mod failure;
+mod modes;
+mod progress;
+mod report;
+mod run;
+mod text;
+
+use args::{Arguments, Command};
+use clap::Parser;
+use failure::Failure;
+use std::io::Write;
+use trilith::{Model, Registry};
+
+/// What a command prints, and the exit status.
+struct Answer {
+    text: String,
+    status: i32,
+}
+
+impl From<String> for Answer {
+    fn from(text: String) -> Self {
+        Self { text, status: 0 }
+    }
+}
+
+/// Runs the program with the arguments of the process and the kinds of a registry, and ends it.
+pub fn main_with(registry: Registry) -> ! {
+    let answer = match Arguments::parse().command {
+        Command::Run(a) => run::run(&registry, a),
+        Command::Check(a) => check::check(&registry, &a),
+        Command::Modes(a) => modes::modes(&registry, &a),
+        Command::Elements(a) => elements::elements(&registry, a.name.as_deref()),
+        Command::Compare(a) => compare::compare(&registry, &a),
+    };
+    let status = match answer {
+        Ok(Answer { text, status }) => {
+            // A reader that has gone away (`trilith … | head`) is no error.
+            let mut out = std::io::stdout().lock();
+            let _ = out.write_all(text.as_bytes()).and_then(|()| out.flush());
+            status
+        }
+        Err(failure) => {
+            let _ = std::io::stderr().lock().write_all(failure.text.as_bytes());
+            failure.status
+        }
+    };
+    std::process::exit(status)
+}
+
+fn read(registry: &Registry, args: &args::ModelArguments) -> Result<Model, Failure> {
+    trilith::read(&args.model, registry, &args.set).map_err(|e| Failure::diagnostics(&e))
+}
+
+/// The case of that name, or the last.
+fn case(model: &Model, name: Option<&str>) -> Result<usize, Failure> {
+    let Some(name) = name else {
+        let last = model.cases.len().checked_sub(1);
+        return last.ok_or_else(|| Failure::input("the model has no case", None));
+    };
+    model.case(name).ok_or_else(|| {
+        let help = text::names_help(name, "cases", model.cases.iter().map(|c| c.name.as_str()));
+        Failure::input(&format!("there is no case \"{name}\""), Some(&help))
+    })
+}

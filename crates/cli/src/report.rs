@@ -1,0 +1,86 @@
+//! A run as text.
+
+use crate::text::{number, percent, row, table};
+use trilith::Model;
+use trilith::results::Summary;
+use trilith::solvers::{EnergyTotals, Work};
+
+/// Kinds of energy with their names.
+pub(crate) fn energies(e: &EnergyTotals) -> [(&'static str, f64); 10] {
+    [
+        ("input", e.input),
+        ("kinetic", e.kinetic),
+        ("strain", e.strain),
+        ("potential", e.potential),
+        ("structural damping", e.modal_damping),
+        ("stored in links", e.link_stored),
+        ("friction and yielding", e.link_hysteretic),
+        ("viscous in links", e.link_viscous),
+        ("time rule", e.algorithmic),
+        ("unaccounted for", e.error),
+    ]
+}
+
+/// What `trilith run` prints.
+pub(crate) fn text(model: &Model, s: &Summary) -> String {
+    let mut out = String::new();
+    for (name, value) in [
+        ("model", s.model.title.as_str()),
+        ("case", &s.case),
+        ("solver", s.solver),
+        ("status", s.status),
+    ] {
+        out += &format!("{name:7} {value}\n");
+    }
+    let mut rows = vec![row(["output", "unit", "max", "at s", "min", "at s", "final"])];
+    for (name, o) in &s.outputs.0 {
+        if let Some(p) = &o.peak {
+            let [a, b, c, d, e] = [p.max, p.t_max, p.min, p.t_min, p.last].map(number);
+            rows.push(row([name, &o.unit, &a, &b, &c, &d, &e]));
+        }
+    }
+    if rows.len() > 1 {
+        out += &format!("\n{}", table(&rows, &[0, 1]));
+    } else if !model.outputs.is_empty() {
+        out += "\n  no outputs were recorded in this case\n";
+    }
+    if let Some(c) = &s.contact {
+        out += &format!(
+            "\ncontact: {} at first, {} in all; uplift ≤ {} m, slip ≤ {} m, {} m at the end\n",
+            c.initial_mode,
+            c.mode,
+            number(c.max_uplift),
+            number(c.max_slip),
+            number(c.residual_slip)
+        );
+    }
+    let share =
+        |e: f64| if s.energy.input > 0.0 { percent(e / s.energy.input) } else { "–".into() };
+    let mut rows = vec![row(["energy", "J", "of input"])];
+    for (name, e) in energies(&s.energy) {
+        if e != 0.0 || name == "input" {
+            rows.push(row([name, &number(e), &share(e)]));
+        }
+    }
+    out + &format!("\n{}\nwork: {}\n", table(&rows, &[0]), work(&s.work))
+}
+
+/// The work in one line.
+pub(crate) fn work(w: &Work) -> String {
+    let mut text = format!(
+        "{} steps, {} substeps, {} iterations, {} rejected, {} factorizations, {} s wall, {} s setup + {} s march CPU, {} MB",
+        w.steps,
+        w.substeps,
+        w.iterations,
+        w.rejected,
+        w.factorizations,
+        crate::text::significant(w.wall_s, 3),
+        crate::text::significant(w.setup_cpu_s, 3),
+        crate::text::significant(w.march_cpu_s, 3),
+        crate::text::significant(w.peak_rss_mb, 3),
+    );
+    if w.forced > 0 {
+        text += &format!("; {} substeps at the smallest step above the tolerance", w.forced);
+    }
+    text
+}

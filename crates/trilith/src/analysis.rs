@@ -1,0 +1,141 @@
+//! An assembled model and its runs.
+
+use crate::Error;
+use std::path::{Path, PathBuf};
+use trilith_model::Model;
+use trilith_results::{Files, Peak, Recorder, Summary};
+use trilith_solvers::{BasisReport, CaseResult, ContactMode, ContactSummary, Observer, RunOptions};
+use trilith_system::System;
+
+/// A model, assembled once, for any number of runs.
+#[derive(Debug)]
+pub struct Analysis<'m> {
+    model: &'m Model,
+    system: System,
+    frames: usize,
+}
+
+impl<'m> Analysis<'m> {
+    /// Assembles a model.
+    ///
+    /// # Errors
+    /// [`Error::System`] where its parts do not fit together.
+    pub fn new(model: &'m Model) -> Result<Self, Error> {
+        Ok(Self { model, system: System::new(model)?, frames: 0 })
+    }
+
+    /// Keeps up to so many deformed shapes of every run, evenly spaced in time.
+    #[must_use]
+    pub fn with_frames(mut self, limit: usize) -> Self {
+        self.frames = limit;
+        self
+    }
+
+    /// The equations.
+    #[must_use]
+    pub fn system(&self) -> &System {
+        &self.system
+    }
+
+    /// Runs a case and, before it, the cases that it continues.
+    ///
+    /// # Errors
+    /// [`Error::Solve`] where the run cannot be made. A run that stops on the way is no error: its
+    /// status says so.
+    pub fn run(&self, options: RunOptions<'_>) -> Result<Run, Error> {
+        self.observed(options, &mut [])
+    }
+
+    /// The same, shown to further observers.
+    ///
+    /// # Errors
+    /// As [`run`](Self::run).
+    pub fn observed(
+        &self,
+        options: RunOptions<'_>,
+        observers: &mut [&mut dyn Observer],
+    ) -> Result<Run, Error> {
+        if options.case >= self.model.cases.len() {
+            return Err(Error::unknown_case(self.model, &format!("#{}", options.case)));
+        }
+        let mut record = Recorder::new(self.model).with_frames(self.model, self.frames);
+        let mut contact = ContactMode::new();
+        let mut all: Vec<&mut dyn Observer> = vec![&mut record, &mut contact];
+        for observer in observers {
+            all.push(*observer);
+        }
+        let result = trilith_solvers::run(self.model, &self.system, options, &mut all)?;
+        let contact = contact.summary();
+        let names = self.model.outputs.iter().map(|o| o.name.clone()).collect();
+        Ok(Run { result, record, contact, names })
+    }
+
+    /// Modes and basis of a case (the last dynamic one where none is given).
+    ///
+    /// # Errors
+    /// [`Error::Solve`] where the structure has no modes.
+    pub fn modes(&self, case: Option<usize>) -> Result<BasisReport, Error> {
+        Ok(trilith_solvers::modes(self.model, &self.system, case)?)
+    }
+}
+
+/// What a run left.
+#[derive(Clone, Debug)]
+pub struct Run {
+    /// Status, work, energies, basis, warnings and the state at the end.
+    pub result: CaseResult,
+    /// Histories, peaks and deformed shapes.
+    pub record: Recorder,
+    /// How the contacts behaved, for models with contacts.
+    pub contact: Option<ContactSummary>,
+    names: Vec<String>,
+}
+
+impl Run {
+    /// The output times, s.
+    #[must_use]
+    pub fn time(&self) -> &[f64] {
+        self.record.time()
+    }
+
+    /// Values of an output at the output times, SI.
+    ///
+    /// # Errors
+    /// [`Error::UnknownOutput`].
+    pub fn history(&self, output: &str) -> Result<&[f64], Error> {
+        self.index(output).and_then(|i| self.record.history(i)).ok_or_else(|| unknown(output))
+    }
+
+    /// Extremes of an output over all substeps, SI.
+    ///
+    /// # Errors
+    /// [`Error::UnknownOutput`], also where nothing was recorded.
+    pub fn peak(&self, output: &str) -> Result<Peak, Error> {
+        let peak = self.index(output).and_then(|i| self.record.peaks().get(i));
+        peak.copied().ok_or_else(|| unknown(output))
+    }
+
+    /// `summary.json` as a value. `model` is the model that ran.
+    #[must_use]
+    pub fn summary(&self, model: &Model) -> Summary {
+        Summary::new(model, &self.result, &self.record, self.contact.clone())
+    }
+
+    /// Writes summary, histories, resolved model and deformed shapes into a folder and returns the
+    /// files written.
+    ///
+    /// # Errors
+    /// [`Error::File`] with the path.
+    pub fn write(&self, model: &Model, dir: impl AsRef<Path>) -> Result<Vec<PathBuf>, Error> {
+        let summary = self.summary(model);
+        Ok(Files { model, record: &self.record, summary: &summary }.write(dir)?)
+    }
+
+    fn index(&self, output: &str) -> Option<usize> {
+        self.names.iter().position(|n| n == output)
+    }
+}
+
+fn unknown(output: &str) -> Error {
+    Error::UnknownOutput(output.to_owned())
+}
