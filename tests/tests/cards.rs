@@ -34,7 +34,11 @@ fn around(card: &Card) -> String {
         nodes.iter().enumerate().map(|(i, n)| format!("\"{n}\": {}", place(i))).collect();
     let springs: Vec<_> = nodes
         .iter()
-        .map(|n| format!("\"ground {n}\": Spring(node: \"{n}\", k1: 1, k2: 1, k3: 1, r1: 1, r2: 1, r3: 1)"))
+        .map(|n| {
+            format!(
+                "\"ground {n}\": Spring(node: \"{n}\", k1: 1, k2: 1, k3: 1, r1: 1, r2: 1, r3: 1)"
+            )
+        })
         .collect();
     format!(
         "(nodes: {{ {} }}, elements: {{ {}, {} }}, cases: {{ \"rest\": Static(loads: [Gravity]) }})",

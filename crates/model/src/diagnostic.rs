@@ -125,7 +125,11 @@ pub(crate) fn closest<'a>(
     candidates
         .into_iter()
         .map(|c| (c, strsim::damerau_levenshtein(&lower, &c.to_lowercase())))
-        .filter(|(c, d)| *d <= (name.chars().count().max(c.chars().count()) / 3).max(1))
+        .filter(|(c, d)| {
+            let length = name.chars().count().max(c.chars().count());
+            // A single letter in place of another is no misspelling.
+            *d <= (length / 3).max(1) && *d < length
+        })
         .min_by_key(|(_, d)| *d)
         .map(|(c, _)| c)
 }
@@ -162,6 +166,7 @@ mod tests {
     fn a_near_name_is_offered_and_a_far_one_is_not() {
         assert_eq!(closest("stifness", ["stiffness", "opening"]), Some("stiffness"));
         assert_eq!(closest("zzz", ["stiffness", "opening"]), None);
+        assert_eq!(closest("R", ["X", "Y"]), None);
     }
 
     #[test]

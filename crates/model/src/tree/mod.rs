@@ -117,8 +117,35 @@ pub(crate) fn parse(text: &str) -> Result<Node, TreeError> {
             related: None,
         }
     })?;
-    let (start, end) = (lead, lead + body.trim_end().len());
+    let (start, end) = (lead + comments(body), lead + body.trim_end().len());
     build(text, shape, start..end, "")
+}
+
+/// Length of the blanks and comments that a text begins with.
+fn comments(text: &str) -> usize {
+    let mut rest = text.trim_start();
+    loop {
+        rest = if rest.starts_with("//") {
+            rest.find('\n').map_or("", |i| &rest[i..])
+        } else if rest.starts_with("/*") {
+            let mut depth = 0_usize;
+            let ends = rest.char_indices().filter_map(|(i, _)| {
+                let here = &rest[i..];
+                if here.starts_with("/*") {
+                    depth += 1;
+                } else if here.starts_with("*/") {
+                    depth = depth.saturating_sub(1);
+                    return (depth == 0).then_some(i + 2);
+                }
+                None
+            });
+            let end = { ends }.next();
+            end.map_or("", |i| &rest[i..])
+        } else {
+            return text.len() - rest.len();
+        }
+        .trim_start();
+    }
 }
 
 fn options() -> ron::Options {
