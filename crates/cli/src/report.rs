@@ -56,9 +56,11 @@ pub(crate) fn text(model: &Model, s: &Summary) -> String {
     }
     let share =
         |e: f64| if s.energy.input > 0.0 { percent(e / s.energy.input) } else { "–".into() };
+    let largest = energies(&s.energy).iter().fold(0.0, |a: f64, (_, e)| a.max(e.abs()));
     let mut rows = vec![row(["energy", "J", "of input"])];
     for (name, e) in energies(&s.energy) {
-        if e != 0.0 || name == "input" {
+        // Kinds that are nothing but rounding are left out.
+        if e.abs() > 1e-12 * largest || name == "input" {
             rows.push(row([name, &number(e), &share(e)]));
         }
     }

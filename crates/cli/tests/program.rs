@@ -1,0 +1,174 @@
+//! The program from outside.
+
+use assert_cmd::Command;
+use std::path::Path;
+
+const MODEL: &str = r#"(
+    title: "A swinging mass",
+    plane: XZ,
+    parameters: { "k": "39.4784 N/m" },
+    nodes: { "top": (0, 0, 1), "base": (0, 0, 0) },
+    supports: { "base": Fixed },
+    elements: {
+        "mass": Mass(node: "top", mass: "1 kg"),
+        "spring": Spring(nodes: ("base", "top"), k1: "1 kN/m", k2: "k", r2: 1, r3: 1),
+        "stop": Gap(nodes: ("base", "top"), k: "1 kN/m", opening: "1 cm"),
+    },
+    cases: {
+        "swing": Dynamic(
+            duration: "1 s", dt: "0.01 s",
+            initial: [(node: "top", dof: Ux, displacement: "2 cm")],
+        ),
+    },
+    outputs: { "sway": Displacement(node: "top", dof: Ux) },
+)"#;
+
+fn folder() -> tempfile::TempDir {
+    let folder = tempfile::tempdir().unwrap();
+    std::fs::write(folder.path().join("swing.ron"), MODEL).unwrap();
+    folder
+}
+
+/// Exit status, stdout, stderr.
+fn trilith(folder: &Path, args: &[&str]) -> (i32, String, String) {
+    let mut command = Command::new(env!("CARGO_BIN_EXE_trilith"));
+    let output = command.current_dir(folder).args(args).output().unwrap();
+    let text = |b: Vec<u8>| String::from_utf8(b).unwrap();
+    (output.status.code().unwrap(), text(output.stdout), text(output.stderr))
+}
+
+fn summary(folder: &Path) -> serde_json::Value {
+    serde_json::from_slice(&std::fs::read(folder.join("summary.json")).unwrap()).unwrap()
+}
+
+#[test]
+fn a_run_prints_its_peaks_and_writes_its_folder() {
+    let folder = folder();
+    let (status, out, err) = trilith(folder.path(), &["run", "swing.ron"]);
+    assert_eq!(status, 0, "{out}{err}");
+    for part in ["A swinging mass", "swing", "fna", "converged", "sway", "input", "work:"] {
+        assert!(out.contains(part), "{part} in\n{out}");
+    }
+    let out = folder.path().join("out/swing");
+    let json = summary(&out);
+    assert!((json["outputs"]["sway"]["max"].as_f64().unwrap() - 0.02).abs() < 1e-4, "{json}");
+    for file in ["histories.csv", "histories.npz", "model.resolved.ron", "model.pvd"] {
+        assert!(out.join(file).is_file(), "{file}");
+    }
+}
+
+#[test]
+fn a_set_parameter_changes_the_period() {
+    let folder = folder();
+    let args = ["run", "swing.ron", "--set", "k=9.8696 N/m", "--out", "slow"];
+    let (status, out, err) = trilith(folder.path(), &args);
+    assert_eq!(status, 0, "{out}{err}");
+    let end = &summary(&folder.path().join("slow"))["outputs"]["sway"]["final"];
+    assert!((end.as_f64().unwrap() + 0.02).abs() < 1e-3, "{end}");
+}
+
+#[test]
+fn a_restart_ends_as_the_run_in_one_piece() {
+    let folder = folder();
+    let run = |args: &[&str]| {
+        let (status, out, err) = trilith(folder.path(), &[&["run", "swing.ron"], args].concat());
+        assert_eq!(status, 0, "{out}{err}");
+    };
+    run(&["--out", "whole"]);
+    run(&["--out", "half", "--checkpoint-at", "0.5"]);
+    run(&["--out", "rest", "--restart", "half/checkpoint.json"]);
+    let end = |name: &str| summary(&folder.path().join(name))["outputs"]["sway"]["final"].clone();
+    let (whole, rest) = (end("whole").as_f64().unwrap(), end("rest").as_f64().unwrap());
+    assert!((whole - rest).abs() < 1e-12, "{whole} {rest}");
+}
+
+#[test]
+fn the_resolved_model_is_itself_a_model() {
+    let folder = folder();
+    let (status, first, err) = trilith(folder.path(), &["check", "swing.ron"]);
+    assert_eq!(status, 0, "{err}");
+    std::fs::write(folder.path().join("again.ron"), &first).unwrap();
+    let (status, second, err) = trilith(folder.path(), &["check", "again.ron"]);
+    assert_eq!(status, 0, "{err}");
+    let body = |t: &str| t.lines().filter(|l| !l.starts_with("//")).collect::<String>();
+    assert_eq!(body(&first), body(&second));
+}
+
+#[test]
+fn all_errors_of_a_file_are_shown_with_their_lines() {
+    let folder = folder();
+    let text = MODEL.replace("k: \"1 kN/m\"", "kk: \"1 kN\"").replace("dof: Ux)", "dof: Uxx)");
+    std::fs::write(folder.path().join("bad.ron"), text).unwrap();
+    let (status, out, err) = trilith(folder.path(), &["run", "bad.ron"]);
+    assert_eq!((status, out.as_str()), (2, ""));
+    assert!(err.contains("bad.ron:10:") && err.contains("bad.ron:18:"), "{err}");
+    assert!(err.contains("^") && !err.contains('\u{1b}'), "{err}");
+}
+
+#[test]
+fn a_structure_that_can_move_is_shown_at_its_node() {
+    let folder = folder();
+    let text = r#"(
+    plane: XZ,
+    nodes: { "cart": (0, 0, 0) },
+    supports: { "cart": (Uz, Ry) },
+    elements: { "mass": Mass(node: "cart", mass: "1 kg") },
+    cases: { "push": Static(loads: [Gravity]) },
+)"#;
+    std::fs::write(folder.path().join("loose.ron"), text).unwrap();
+    let (status, _, err) = trilith(folder.path(), &["check", "loose.ron"]);
+    assert_eq!(status, 2, "{err}");
+    assert!(err.contains("loose.ron:3:") && err.contains("\"cart\" Ux"), "{err}");
+}
+
+#[test]
+fn wrong_names_are_corrected() {
+    let folder = folder();
+    for (args, part) in [
+        (&["run", "swing.ron", "--case", "swnig"][..], "did you mean `swing`?"),
+        (&["run", "swing.ron", "--solver", "hhtt"], "did you mean `hht`?"),
+        (&["elements", "Nlink"], "did you mean `NLink`?"),
+        (&["run", "none.ron"], "cannot be read"),
+        (&["run", "swing.ron", "--set", "k"], "NAME=VALUE"),
+        (&["run", "swing.ron", "--restart", "swing.ron"], "checkpoint"),
+    ] {
+        let (status, out, err) = trilith(folder.path(), args);
+        assert_eq!((status, out.as_str()), (2, ""), "{args:?}");
+        assert!(err.contains(part), "{part} in\n{err}");
+    }
+}
+
+#[test]
+fn the_catalogue_lists_every_kind_and_shows_each_in_full() {
+    let folder = folder();
+    let (status, list, _) = trilith(folder.path(), &["elements"]);
+    assert_eq!(status, 0);
+    for card in trilith::registry().cards() {
+        assert!(list.contains(card.kind) && list.contains(card.summary), "{list}");
+    }
+    let (_, card, _) = trilith(folder.path(), &["elements", "NLink"]);
+    for part in ["parameters", "law", "source", "example", "required", "N/m"] {
+        assert!(card.contains(part), "{part} in\n{card}");
+    }
+}
+
+#[test]
+fn modes_show_the_period_of_the_spring() {
+    let folder = folder();
+    let (status, out, err) = trilith(folder.path(), &["modes", "swing.ron"]);
+    assert_eq!(status, 0, "{err}");
+    assert!(out.contains("1.0000"), "{out}");
+}
+
+#[test]
+fn two_solvers_agree_on_the_swing() {
+    let folder = folder();
+    let args = ["compare", "swing.ron", "--solvers", "fna,hht"];
+    let (status, out, err) = trilith(folder.path(), &args);
+    assert_eq!(status, 0, "{out}{err}");
+    for part in ["fna max", "hht max", "diff", "fna (converged)", "hht (converged)"] {
+        assert!(out.contains(part), "{part} in\n{out}");
+    }
+    let (status, _, err) = trilith(folder.path(), &["compare", "swing.ron", "--solvers", "fna"]);
+    assert!(status == 2 && err.contains("two solvers"), "{err}");
+}
