@@ -6,7 +6,7 @@
 //! one is doubled, where it stays on the grid of halvings. A gap that closes with a dashpot, or a load
 //! that jumps, is a force jump inside a step, so the error falls only in proportion to the step there:
 //! the same rule then brackets the event until its impulse error is below the tolerance, whatever the
-//! output step. Only powers of two occur, so that the matrices of a step size are made once.
+//! output step. The energies of the links must close in each step as well. Only powers of two occur, so that the matrices of a step size are made once.
 
 use crate::error::SolveError;
 use crate::stepper::{State, StepEnergy, StepFailure, Stepper};
@@ -18,6 +18,9 @@ use trilith_system::LoadSet;
 const DEPTH: u32 = 30;
 /// Halvings for the sake of accuracy at most; then the step is accepted and counted.
 const ACCURACY_DEPTH: u32 = 26;
+/// Share of the dissipation of a step that its energy balance may miss; a third of the usual limit of a
+/// whole run.
+const CLOSURE: f64 = 3e-4;
 /// A step is doubled where its error is below this share of the tolerance.
 const GROW_BELOW: f64 = 0.08;
 
@@ -51,6 +54,25 @@ pub(crate) struct March<'a> {
     pub loads: &'a LoadSet,
     pub control: StepControl,
     pub counts: Counts,
+}
+
+/// How far the energies of the links in a step are from closing, over what is allowed: a share of what
+/// they dissipate, or the square of the tolerance as a share of the energy in motion.
+fn closure(
+    from: &State,
+    to: &State,
+    halves: [&StepEnergy; 2],
+    tolerance: f64,
+    energy: f64,
+) -> f64 {
+    let mut missing: f64 = from.stored.iter().sum::<f64>() - to.stored.iter().sum::<f64>();
+    let mut dissipated = 0.0;
+    for half in halves {
+        missing += half.link_work + half.support;
+        dissipated += half.links.iter().map(|e| e.hysteretic + e.viscous).sum::<f64>();
+    }
+    let missing = missing - dissipated;
+    missing.abs() / (CLOSURE * dissipated.abs() + 10.0 * tolerance * tolerance * energy)
 }
 
 /// What is told about every accepted substep: end time, state, energies.
@@ -119,6 +141,8 @@ impl March<'_> {
                 Ok((whole, first, e1, second, e2)) => {
                     let energy = pace.reference.max(e2.kinetic + e2.strain.abs());
                     let error = (self.stepper.distance(&whole, &second) / energy).sqrt();
+                    let closure = closure(state, &second, [&e1, &e2], tolerance, energy);
+                    let error = error.max(tolerance * closure);
                     if error > tolerance && level < ACCURACY_DEPTH {
                         self.counts.rejected += 1;
                         known = Some((level + 1, first));

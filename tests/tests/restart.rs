@@ -1,0 +1,67 @@
+//! Repeatability: the same bits from a repetition, a checkpoint, and after a failed step.
+
+use trilith_model::SolverKind;
+use trilith_solvers::{EndState, RunOptions};
+use trilith_tests::{Trace, shipped, trace, trace_with};
+
+fn bits(history: &[Vec<f64>]) -> Vec<Vec<u64>> {
+    history.iter().map(|row| row.iter().map(|x| x.to_bits()).collect()).collect()
+}
+
+#[test]
+fn two_runs_give_the_same_bits() {
+    for file in ["rigid_block.ron", "pounding_frames.ron", "isolated_frame.ron"] {
+        for solver in [SolverKind::Fna, SolverKind::Hht] {
+            let once = || -> Trace {
+                let (model, system) = shipped(file, &[("duration", "2".into())]);
+                trace(&model, &system, solver).0
+            };
+            assert_eq!(bits(&once().history), bits(&once().history), "{file} {}", solver.name());
+        }
+    }
+}
+
+#[test]
+fn a_run_continued_from_a_written_checkpoint_gives_the_same_bits() {
+    for file in ["rigid_block.ron", "pounding_frames.ron", "isolated_frame.ron"] {
+        for solver in [SolverKind::Fna, SolverKind::Hht] {
+            let (model, system) = shipped(file, &[("duration", "2".into())]);
+            let (whole, end) = trace(&model, &system, solver);
+            let first = RunOptions {
+                solver: Some(solver),
+                until: Some(0.7),
+                ..RunOptions::default()
+            };
+            let (before, stopped) = trace_with(&model, &system, first);
+            let written = serde_json::to_string(&stopped.end).unwrap();
+            let read: EndState = serde_json::from_str(&written).unwrap();
+            assert_eq!(read, stopped.end, "{file}: the checkpoint survives the file");
+            let rest = RunOptions {
+                solver: Some(solver),
+                from: Some(read),
+                ..RunOptions::default()
+            };
+            let (after, finished) = trace_with(&model, &system, rest);
+            // The state at the checkpoint is shown by both parts.
+            let joined: Vec<_> =
+                before.history.iter().chain(&after.history[1..]).cloned().collect();
+            assert_eq!(bits(&joined), bits(&whole.history), "{file} {}", solver.name());
+            assert_eq!(finished.end.state, end.end.state, "{file} {}", solver.name());
+            assert_eq!(finished.energy, end.energy, "{file} {}", solver.name());
+        }
+    }
+}
+
+#[test]
+fn a_checkpoint_of_another_solver_is_refused() {
+    let (model, system) = shipped("rigid_block.ron", &[("duration", "0.1".into())]);
+    let (_, fna) = trace(&model, &system, SolverKind::Fna);
+    let options = RunOptions {
+        case: model.cases.len() - 1,
+        solver: Some(SolverKind::Hht),
+        from: Some(fna.end),
+        ..RunOptions::default()
+    };
+    let error = trilith_solvers::run(&model, &system, options, &mut []).unwrap_err();
+    assert!(error.to_string().contains("solver"), "{error}");
+}
