@@ -64,7 +64,11 @@ pub(crate) fn text(model: &Model, s: &Summary) -> String {
             rows.push(row([name, &number(e), &share(e)]));
         }
     }
-    out + &format!("\n{}\nwork: {}\n", table(&rows, &[0]), work(&s.work))
+    out += &format!("\n{}", table(&rows, &[0]));
+    // The limit of the model is on this share, not on that of the input at the end.
+    let share = percent(s.energy.error_relative);
+    out += &format!("  unaccounted for: {share} of the largest energy during the run\n");
+    out + &format!("\nwork: {}\n", work(&s.work))
 }
 
 /// The work in one line.
