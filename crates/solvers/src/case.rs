@@ -4,6 +4,7 @@ use crate::clock::{Clock, peak_rss_mb};
 use crate::dynamic::{self, Setup};
 use crate::error::SolveError;
 use crate::ledger::Ledger;
+use crate::kernel::Remembered;
 use crate::march::Pace;
 use crate::observe::{BasisReport, CaseResult, EnergyTotals, LinkEnergy, Observer, Status, Work};
 use crate::statics::{self, Equilibrium};
@@ -52,6 +53,7 @@ pub struct EndState {
     /// The state of the solver.
     pub state: State,
     pub(crate) pace: Pace,
+    pub(crate) memory: Vec<Remembered>,
     pub(crate) ledger: Ledger,
 }
 

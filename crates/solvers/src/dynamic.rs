@@ -288,7 +288,7 @@ pub(crate) fn run(
         }
     }
     let (mut state, mut pace, mut ledger, first) = match options.from {
-        Some(end) => resume(model, case, kind, end)?,
+        Some(end) => resume(model, case, kind, end, stepper.as_mut())?,
         None => start(model, system, analysis, before, &loads, stepper.as_mut(), dt)?,
     };
     let outputs = Outputs::new(model, system, stepper.space());
@@ -314,7 +314,6 @@ pub(crate) fn run(
     let mut stop = None;
     let mut made = first;
     for step in first..last {
-        stepper.forget();
         let outcome = output_step(
             &timeline,
             step,
@@ -366,6 +365,7 @@ pub(crate) fn run(
         velocity: stepper.space().expand(&state.motion[n..2 * n]),
         load: constant,
         pace,
+        memory: stepper.memory(),
         ledger: ledger.clone(),
         state,
     };
@@ -543,6 +543,7 @@ fn resume(
     case: &Case,
     kind: SolverKind,
     end: EndState,
+    stepper: &mut dyn Stepper,
 ) -> Result<Start, SolveError> {
     let wanted = [
         ("model", model.source.sha256.as_str(), end.model.as_str()),
@@ -556,5 +557,6 @@ fn resume(
             });
         }
     }
+    stepper.recall(end.memory)?;
     Ok((end.state, end.pace, end.ledger, end.step))
 }

@@ -4,6 +4,7 @@
 
 use crate::error::SolveError;
 use crate::hht::{average_work, newmark};
+use crate::kernel::Remembered;
 use crate::propagator::{Forces, kinetic_and_strain};
 use crate::space::Space;
 use crate::stepper::{State, StepEnergy, StepFailure, Stepper};
@@ -228,7 +229,13 @@ impl Stepper for FullNewton<'_> {
         (self.iterations, self.factorizations)
     }
 
-    fn forget(&mut self) {}
+    fn memory(&self) -> Vec<Remembered> {
+        Vec::new()
+    }
+
+    fn recall(&mut self, _memory: Vec<Remembered>) -> Result<(), SolveError> {
+        Ok(())
+    }
 
     fn stiffness_ratio(&mut self, _dt: f64, _engaged: &[f64]) -> Result<f64, SolveError> {
         Ok(0.0)

@@ -11,6 +11,7 @@
 //! `FixedPoint` is Wilson's constant-stiffness iteration, f̃ ← law − k_e d − c_e ḋ; it converges only
 //! while |k − k_e| G < 1. Neither touches a matrix of the structure.
 
+use serde::{Deserialize, Serialize};
 use trilith_element::{Energy, Kinematics};
 use trilith_linalg::{Dense, DenseLu};
 use trilith_model::{Kernel, Model};
@@ -62,6 +63,8 @@ pub(crate) type ForceScale = [f64; 2];
 const NEWTON_ITERATIONS: usize = 30;
 const FIXED_POINT_ITERATIONS: usize = 200;
 const TOLERANCE: f64 = 1e-9;
+/// Step sizes whose factors are kept.
+const KEPT: usize = 6;
 /// From this many equations on, a factor is kept while it still contracts well.
 const CHORD_FROM: usize = 24;
 
@@ -75,8 +78,17 @@ pub(crate) struct LinkKernel {
     /// Active index of each flat coordinate.
     place: Vec<usize>,
     residual: Vec<f64>,
-    factor: Option<Factor>,
+    /// Kept factors, one a step size, the one used last at the end.
+    factors: Vec<Factor>,
     iterations: usize,
+}
+
+/// A kept factor as a checkpoint holds it: the step size and the tangents it was made with.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub(crate) struct Remembered {
+    pub dt: f64,
+    pub k: Vec<f64>,
+    pub c: Vec<f64>,
 }
 
 struct Factor {
@@ -101,7 +113,7 @@ impl LinkKernel {
             tangents: links.tangents(),
             place,
             residual: vec![0.0; links.active.len()],
-            factor: None,
+            factors: Vec::new(),
             iterations: 0,
         }
     }
@@ -111,9 +123,24 @@ impl LinkKernel {
         self.iterations
     }
 
-    /// Forgets kept factors, so that what follows does not depend on what was before.
-    pub(crate) fn forget(&mut self) {
-        self.factor = None;
+    /// The kept factors, to be recalled after a restart: a kept factor decides the last bits of an
+    /// iteration.
+    pub(crate) fn memory(&self) -> Vec<Remembered> {
+        self.factors
+            .iter()
+            .map(|f| Remembered {
+                dt: f64::from_bits(f.key),
+                k: f.tangents.k.clone(),
+                c: f.tangents.c.clone(),
+            })
+            .collect()
+    }
+
+    /// Makes a factor again, with the compliances of its step size.
+    pub(crate) fn recall(&mut self, links: &LinkSet, memory: Remembered, g: &Dense, h: &Dense) {
+        let tangents = Tangents { k: memory.k, c: memory.c };
+        let factor = self.factorise(links, tangents, memory.dt.to_bits(), g, h);
+        self.factors.push(factor);
     }
 
     /// Pseudo-force of forces that act at a deformation (flat arrays, moving supports taken off).
@@ -162,7 +189,7 @@ impl LinkKernel {
                 *x += r;
             }
         }
-        self.factor = None;
+        self.factors.retain(|f| f.key != affine.key);
         Err(worst)
     }
 
@@ -231,23 +258,33 @@ impl LinkKernel {
 
     /// Replaces the residual by the Newton correction of f̃.
     fn newton_correction(&mut self, links: &LinkSet, affine: &Affine<'_>, slow: bool) {
-        let usable = self.factor.as_ref().is_some_and(|f| {
-            f.key == affine.key
-                && (f.tangents == self.tangents || (f.equations.len() >= CHORD_FROM && !slow))
+        let kept = self.factors.iter().position(|f| f.key == affine.key);
+        let factor = kept.map(|at| self.factors.remove(at)).filter(|f| {
+            f.tangents == self.tangents || (f.equations.len() >= CHORD_FROM && !slow)
         });
-        if !usable {
-            self.factor = Some(self.factorise(links, affine));
-        }
-        let Some(factor) = &self.factor else { return };
+        let factor = factor.unwrap_or_else(|| {
+            self.factorise(links, self.tangents.clone(), affine.key, affine.g, affine.h)
+        });
         let mut x: Vec<f64> = factor.equations.iter().map(|a| self.residual[*a]).collect();
         factor.coupling.mul_add(-1.0, &self.residual, &mut x);
         factor.lu.solve(&mut x);
         for (a, value) in factor.equations.iter().zip(x) {
             self.residual[*a] = value;
         }
+        if self.factors.len() >= KEPT {
+            self.factors.remove(0);
+        }
+        self.factors.push(factor);
     }
 
-    fn factorise(&self, links: &LinkSet, affine: &Affine<'_>) -> Factor {
+    fn factorise(
+        &self,
+        links: &LinkSet,
+        tangents: Tangents,
+        key: u64,
+        g: &Dense,
+        h: &Dense,
+    ) -> Factor {
         let n = links.active.len();
         // Rows of (k − k_e) and (c − c_e) per active coordinate: (other active, stiffness, damping).
         let mut rows: Vec<Vec<(usize, f64, f64)>> = vec![Vec::new(); n];
@@ -265,8 +302,8 @@ impl LinkKernel {
                     }
                     let at = link.block.start + i * size + j;
                     let own = f64::from(u8::from(i == j));
-                    let k = self.tangents.k[at] - own * self.dummy_k[a];
-                    let c = self.tangents.c[at] - own * self.dummy_c[a];
+                    let k = tangents.k[at] - own * self.dummy_k[a];
+                    let c = tangents.c[at] - own * self.dummy_c[a];
                     if k != 0.0 || c != 0.0 {
                         rows[a].push((b, k, c));
                     }
@@ -285,7 +322,7 @@ impl LinkKernel {
             line.fill(0.0);
             for (b, k, c) in &rows[*a] {
                 for (x, (g, h)) in
-                    line.iter_mut().zip(affine.g.column(*b).iter().zip(affine.h.column(*b)))
+                    line.iter_mut().zip(g.column(*b).iter().zip(h.column(*b)))
                 {
                     *x += k * g + c * h;
                 }
@@ -299,8 +336,8 @@ impl LinkKernel {
             }
         }
         Factor {
-            key: affine.key,
-            tangents: self.tangents.clone(),
+            key,
+            tangents,
             lu: DenseLu::new(&j),
             equations,
             coupling,

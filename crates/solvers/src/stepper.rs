@@ -1,7 +1,7 @@
 //! One step of a solver: linear propagator and link kernel together.
 
 use crate::error::SolveError;
-use crate::kernel::{Affine, Committed, Converged, ForceScale, LinkKernel};
+use crate::kernel::{Affine, Committed, Converged, ForceScale, LinkKernel, Remembered};
 use crate::propagator::{Forces, Motion, Propagator, StepWork, kinetic_and_strain};
 use crate::space::Space;
 use serde::{Deserialize, Serialize};
@@ -63,7 +63,7 @@ impl From<SolveError> for StepFailure {
 ///
 /// # Contract
 /// - `from` is never changed; on failure `to` holds rubbish and is thrown away.
-/// - All memory of the past is in the state.
+/// - All memory of the past is in the state and in [`memory`](Self::memory).
 pub(crate) trait Stepper {
     /// From `from` over `dt` with these loads into `to`.
     fn step(
@@ -95,8 +95,11 @@ pub(crate) trait Stepper {
     /// Iterations and factorisations so far.
     fn work(&self) -> (usize, usize);
 
-    /// Forgets everything that is not in the state.
-    fn forget(&mut self);
+    /// What is kept beside the state and decides the last bits of what follows.
+    fn memory(&self) -> Vec<Remembered>;
+
+    /// Takes up what an earlier run kept.
+    fn recall(&mut self, memory: Vec<Remembered>) -> Result<(), SolveError>;
 
     /// Spectral radius of G·k for a step and the engaged stiffness of the flat coordinates; 0 for rules
     /// that are stable whatever it is. The exact rule with link forces linear in the step is stable
@@ -278,8 +281,17 @@ impl<P: Propagator> Stepper for LinkStepper<'_, P> {
         (self.kernel.iterations(), self.propagator.factorizations())
     }
 
-    fn forget(&mut self) {
-        self.kernel.forget();
+    fn memory(&self) -> Vec<Remembered> {
+        self.kernel.memory()
+    }
+
+    fn recall(&mut self, memory: Vec<Remembered>) -> Result<(), SolveError> {
+        for one in memory {
+            self.propagator.prepare(one.dt)?;
+            let compliance = self.propagator.compliance();
+            self.kernel.recall(&self.system.links, one, &compliance.g, &compliance.h);
+        }
+        Ok(())
     }
 
     fn stiffness_ratio(&mut self, dt: f64, engaged: &[f64]) -> Result<f64, SolveError> {
