@@ -46,7 +46,10 @@ pub fn lowest_modes(
         let (values, vectors) = rayleigh_ritz(&shifted, m, &y)?;
         let kept = vectors.columns();
         if kept < count {
-            return Err(LinalgError::NotConverged { what: "the search for modes", iterations: kept });
+            return Err(LinalgError::NotConverged {
+                what: "the search for modes",
+                iterations: kept,
+            });
         }
         let settled = before.len() == values.len()
             && values[..count]

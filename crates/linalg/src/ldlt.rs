@@ -162,8 +162,11 @@ pub fn unsupported(a: &Sparse) -> Result<Vec<usize>, LinalgError> {
         dynamic_regularization_epsilon: 1e-11,
         dynamic_regularization_delta: HUGE,
     };
-    Ldlt::regularised(&scaled.build(), regularization)?
-        .pivots(|equation, d| if d.abs() >= 0.5 * HUGE { found.push(equation) });
+    Ldlt::regularised(&scaled.build(), regularization)?.pivots(|equation, d| {
+        if d.abs() >= 0.5 * HUGE {
+            found.push(equation)
+        }
+    });
     found.sort_unstable();
     found.dedup();
     Ok(found)

@@ -206,12 +206,7 @@ impl<'a> Span<'a> {
     }
 
     /// The load-dependent recursion until `count` vectors are there or nothing new comes.
-    fn recurse(
-        &mut self,
-        hat: &mut Solvable,
-        loads: &[(String, Vec<f64>)],
-        count: usize,
-    ) {
+    fn recurse(&mut self, hat: &mut Solvable, loads: &[(String, Vec<f64>)], count: usize) {
         let mut block: Vec<Vec<f64>> = loads.iter().map(|(_, p)| p.clone()).collect();
         while self.len() < count && !block.is_empty() {
             let mut next = Vec::new();

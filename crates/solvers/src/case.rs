@@ -3,12 +3,13 @@
 use crate::clock::{Clock, peak_rss_mb};
 use crate::dynamic::{self, Setup};
 use crate::error::SolveError;
-use crate::ledger::Ledger;
 use crate::kernel::Remembered;
+use crate::ledger::Ledger;
 use crate::march::Pace;
 use crate::observe::{BasisReport, CaseResult, EnergyTotals, LinkEnergy, Observer, Status, Work};
 use crate::statics::{self, Equilibrium};
 use crate::stepper::State;
+use crate::view::show_static;
 use serde::{Deserialize, Serialize};
 use trilith_element::{Energy, Kinematics};
 use trilith_model::{Analysis, Case, Load, Model, SolverKind, StaticCase};
@@ -88,7 +89,7 @@ pub fn run(
         _ => None,
     };
     match &case.analysis {
-        Analysis::Static(analysis) => run_static(model, system, case, analysis, before),
+        Analysis::Static(analysis) => run_static(model, system, case, analysis, before, observers),
         Analysis::Dynamic(analysis) => {
             let setup = Setup { model, system, case, analysis, before };
             dynamic::run(setup, options, observers)
@@ -175,6 +176,7 @@ fn run_static(
     case: &Case,
     analysis: &StaticCase,
     before: Option<EndState>,
+    observers: &mut [&mut dyn Observer],
 ) -> Result<CaseResult, SolveError> {
     let clock = Clock::start();
     let added = constant_load(model, system, &analysis.loads);
@@ -182,8 +184,7 @@ fn run_static(
         Some(end) => (end.state, end.load),
         None => (untouched(model, system), vec![0.0; system.order()]),
     };
-    let found =
-        statics::equilibrium(model, system, start, &carried, &added, analysis.steps)?;
+    let found = statics::equilibrium(model, system, start, &carried, &added, analysis.steps)?;
     let Equilibrium { u, mut state, iterations, steps, rejected } =
         found.map_err(|e| SolveError::StaticNotConverged {
             case: case.name.clone(),
@@ -203,6 +204,7 @@ fn run_static(
         potential,
         ..EnergyTotals::default()
     };
+    show_static(model, system, &state, energy, observers);
     let cpu = clock.cpu();
     Ok(CaseResult {
         case: case.name.clone(),

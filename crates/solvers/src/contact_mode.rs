@@ -102,9 +102,8 @@ impl ContactMode {
         let open = |c: &Contact| c.gap > 0.0;
         let impact = now.iter().zip(&self.before).any(|(c, b)| open(b) && !open(c));
         let moved = self.sliding(now);
-        let reversal = moved.is_some_and(|m| {
-            m[0] * self.direction[0] + m[1] * self.direction[1] < 0.0
-        });
+        let reversal =
+            moved.is_some_and(|m| m[0] * self.direction[0] + m[1] * self.direction[1] < 0.0);
         if impact || reversal {
             self.initial_over = true;
         }

@@ -3,6 +3,7 @@
 use crate::basis::{self, Bases};
 use crate::case::{EndState, RunOptions, constant_load};
 use crate::clock::{Clock, peak_rss_mb};
+use crate::damping::modal_damping;
 use crate::error::SolveError;
 use crate::full_newton::FullNewton;
 use crate::hht::Hht;
@@ -10,13 +11,12 @@ use crate::kernel::LinkKernel;
 use crate::ledger::Ledger;
 use crate::march::{Counts, March, Pace, Stop};
 use crate::modal::Modal;
-use crate::observe::{CaseResult, Observer, Sample, Shape, Status, Work};
-use crate::outputs::Outputs;
-use crate::propagator::kinetic_and_strain;
-use crate::space::{LowRank, Space};
+use crate::observe::{CaseResult, Observer, Status, Work};
+use crate::space::Space;
+use crate::start::{constant_force, potential, resume, start};
 use crate::stepper::{LinkStepper, State, StepEnergy, Stepper};
-use trilith_element::{Contact, Kinematics, Link};
-use trilith_linalg::Dense;
+use crate::timeline::Timeline;
+use crate::view::Viewer;
 use trilith_model::{Case, Damping, DynamicCase, Model, Side, SolverKind, StepControl};
 use trilith_system::{LoadSet, System, Track};
 
@@ -56,153 +56,6 @@ pub(crate) fn basis_loads(
         .filter(|(_, c)| c.force.iter().any(|x| *x != 0.0))
         .map(|(n, c)| (n, c.force.clone()))
         .collect()
-}
-
-/// Ratio of modal damping at a circular frequency.
-fn damping_ratio(damping: &Damping, omega: f64) -> f64 {
-    match damping {
-        Damping::Modal { ratio } => *ratio,
-        Damping::ModalTable { points } => {
-            let f = omega / std::f64::consts::TAU;
-            let after = points.iter().position(|(x, _)| *x >= f).unwrap_or(points.len());
-            match (after.checked_sub(1).map(|i| points[i]), points.get(after)) {
-                (Some((x0, y0)), Some((x1, y1))) => y0 + (y1 - y0) * (f - x0) / (x1 - x0),
-                (Some((_, y)), None) | (None, Some(&(_, y))) => y,
-                (None, None) => 0.0,
-            }
-        }
-        _ => 0.0,
-    }
-}
-
-fn modal_damping(model: &Model, system: &System, bases: &Bases) -> Option<LowRank> {
-    let modes = &bases.structural;
-    let rates: Vec<f64> = modes
-        .omega2
-        .iter()
-        .map(|w2| {
-            let omega = w2.max(0.0).sqrt();
-            2.0 * damping_ratio(&model.damping, omega) * omega
-        })
-        .collect();
-    let kept: Vec<usize> = (0..rates.len()).filter(|j| rates[*j] > 0.0).collect();
-    if kept.is_empty() {
-        return None;
-    }
-    let mut u = Dense::zeros(system.order(), kept.len());
-    for (new, old) in kept.iter().enumerate() {
-        system.mass.mul_add(1.0, modes.vectors.column(*old), u.column_mut(new));
-    }
-    Some(LowRank { u, rate: kept.iter().map(|j| rates[*j]).collect() })
-}
-
-/// Displacements of all nodes of one state.
-struct Figure<'a> {
-    system: &'a System,
-    space: &'a Space,
-    state: &'a State,
-    prescribed: Vec<f64>,
-}
-
-impl Shape for Figure<'_> {
-    fn displacements(&self, u: &mut [f64]) {
-        let free = self.space.expand(&self.state.motion[..self.space.order()]);
-        for (full, x) in u.iter_mut().enumerate() {
-            *x = self
-                .system
-                .reduction
-                .expand(full)
-                .iter()
-                .map(|(j, c)| c * free.get(*j).unwrap_or_else(|| &self.prescribed[j - free.len()]))
-                .sum();
-        }
-    }
-}
-
-/// Shows accepted substeps to the observers.
-struct Viewer<'a, 'b> {
-    model: &'a Model,
-    system: &'a System,
-    loads: &'a LoadSet,
-    outputs: Outputs,
-    values: Vec<f64>,
-    rates: Vec<f64>,
-    observers: &'a mut [&'b mut dyn Observer],
-}
-
-impl Viewer<'_, '_> {
-    fn show(&mut self, t: f64, step: Option<usize>, state: &State, space: &Space, ledger: &Ledger) {
-        if self.observers.is_empty() {
-            return;
-        }
-        self.outputs.evaluate(t, state, self.loads, &mut self.values, &mut self.rates);
-        let contacts = contacts(self.model, self.system, state);
-        let count = self.system.reduction.prescribed.len();
-        let [prescribed, _, _] = self.loads.prescribed(t, Side::Before, count);
-        let shape = Figure { system: self.system, space, state, prescribed };
-        for observer in self.observers.iter_mut() {
-            observer.sample(&Sample {
-                t,
-                output_step: step,
-                values: &self.values,
-                rates: &self.rates,
-                energy: &ledger.totals,
-                contacts: &contacts,
-                shape: &shape,
-            });
-        }
-    }
-}
-
-fn contacts(model: &Model, system: &System, state: &State) -> Vec<(usize, Contact)> {
-    let links = &system.links;
-    links
-        .links
-        .iter()
-        .filter_map(|link| {
-            let r = link.range.clone();
-            let (d, v) = (&state.d[r.clone()], &state.v[r.clone()]);
-            let at = Kinematics { d, v, d0: d, v0: v, dt: 0.0 };
-            let law: &dyn Link = links.law(model, link)?;
-            law.contact(&at, &state.history[link.history.clone()], &state.f[r])
-                .map(|c| (link.element, c))
-        })
-        .collect()
-}
-
-/// Output times and, between them, the pieces that end where a load jumps.
-struct Timeline {
-    dt: f64,
-    steps: usize,
-    duration: f64,
-    breaks: Vec<f64>,
-}
-
-impl Timeline {
-    fn time(&self, step: usize) -> f64 {
-        (step as f64 * self.dt).min(self.duration)
-    }
-
-    /// (start, length) of the pieces of an output step.
-    fn pieces(&self, step: usize) -> Vec<(f64, f64)> {
-        let (t0, t1) = (self.time(step), self.time(step + 1));
-        let near = 1e-9 * self.dt;
-        let inside: Vec<f64> =
-            self.breaks.iter().copied().filter(|t| *t > t0 + near && *t < t1 - near).collect();
-        if inside.is_empty() && step + 1 < self.steps {
-            return vec![(t0, self.dt)];
-        }
-        let mut ends = inside;
-        ends.push(t1);
-        let mut start = t0;
-        ends.into_iter()
-            .map(|end| {
-                let piece = (start, end - start);
-                start = end;
-                piece
-            })
-            .collect()
-    }
 }
 
 /// Runs the case.
@@ -291,17 +144,7 @@ pub(crate) fn run(
         Some(end) => resume(model, case, kind, end, stepper.as_mut())?,
         None => start(model, system, analysis, before, &loads, stepper.as_mut(), dt)?,
     };
-    let outputs = Outputs::new(model, system, stepper.space());
-    let count = model.outputs.len();
-    let mut viewer = Viewer {
-        model,
-        system,
-        loads: &loads,
-        outputs,
-        values: vec![0.0; count],
-        rates: vec![0.0; count],
-        observers,
-    };
+    let mut viewer = Viewer::new(model, system, &loads, stepper.space(), observers);
     viewer.show(timeline.time(first), Some(first), &state, stepper.space(), &ledger);
     let setup_cpu = clock.cpu();
     let last = match options.until {
@@ -439,7 +282,7 @@ fn output_step(
             }
         }
         let mut accepted: Vec<(f64, State, Ledger)> = Vec::new();
-        let keep = !viewer.observers.is_empty();
+        let keep = !viewer.is_idle();
         let constant = constant_force(stepper.space(), loads);
         let mut accept = |t: f64, s: &State, e: &StepEnergy| -> f64 {
             let energy = ledger.enter(e, potential(&constant, s));
@@ -457,106 +300,4 @@ fn output_step(
         outcome?;
     }
     Ok(())
-}
-
-/// Σ of constant loads in the coordinates of the solver.
-fn constant_force(space: &Space, loads: &LoadSet) -> Vec<f64> {
-    let amplitudes: Vec<f64> =
-        loads.channels.iter().map(|c| f64::from(u8::from(c.conservative))).collect();
-    space.force(&amplitudes)
-}
-
-fn potential(constant: &[f64], state: &State) -> f64 {
-    -constant.iter().zip(&state.motion).map(|(p, u)| p * u).sum::<f64>()
-}
-
-type Start = (State, Pace, Ledger, usize);
-
-fn start(
-    model: &Model,
-    system: &System,
-    analysis: &DynamicCase,
-    before: Option<EndState>,
-    loads: &LoadSet,
-    stepper: &mut dyn Stepper,
-    dt: f64,
-) -> Result<Start, SolveError> {
-    let order = system.order();
-    let (mut u, mut v, history) = match before {
-        Some(end) => (end.displacement, end.velocity, end.state.history),
-        None => (vec![0.0; order], vec![0.0; order], system.links.at_rest(model)),
-    };
-    for initial in &analysis.initial {
-        let full = 6 * initial.node + initial.dof.index();
-        match system.reduction.expand(full) {
-            [(j, c)] if *j < order && *c == 1.0 => {
-                u[*j] = initial.displacement.unwrap_or(u[*j]);
-                v[*j] = initial.velocity.unwrap_or(v[*j]);
-            }
-            _ => {
-                return Err(SolveError::InitialNotFree {
-                    node: model.nodes[initial.node].name.clone(),
-                    direction: initial.dof.name(),
-                    span: model.nodes[initial.node].span.clone(),
-                });
-            }
-        }
-    }
-    let amplitudes: Vec<f64> =
-        loads.channels.iter().map(|c| c.track.at(0.0, Side::After)).collect();
-    let state = stepper.start(&u, &v, history, &amplitudes)?;
-    let (kinetic, strain) = kinetic_and_strain(stepper.space(), &state.motion);
-    let own = strain - dummy_energy(system, stepper.space(), &state);
-    let level = potential(&constant_force(stepper.space(), loads), &state);
-    let ledger = Ledger::new(&state, kinetic, own, level);
-    let stored: f64 = state.stored.iter().sum();
-    // From rest there is no energy to compare with: a hundredth of the velocity that the loads could
-    // give the whole mass in one output step.
-    let push: f64 = loads
-        .channels
-        .iter()
-        .map(|c| peak(&c.track) * c.force.iter().map(|x| x * x).sum::<f64>().sqrt())
-        .sum();
-    let mass = if system.total_mass > 0.0 { system.total_mass } else { 1.0 };
-    let floor = 0.5e-4 * push * push * dt * dt / mass;
-    let reference = (kinetic + strain + stored).max(floor).max(f64::MIN_POSITIVE);
-    Ok((state, Pace { level: 0, reference }, ledger, 0))
-}
-
-fn peak(track: &Track) -> f64 {
-    match track {
-        Track::Constant => 1.0,
-        Track::Value { function, factor } => (factor * function.peak()).abs(),
-        Track::Rate { .. } | Track::Curvature { .. } => 0.0,
-    }
-}
-
-fn dummy_energy(system: &System, space: &Space, state: &State) -> f64 {
-    let n = space.order();
-    let mut d = vec![0.0; system.links.active.len()];
-    space.deform(&state.motion[..n], &mut d);
-    d.iter().zip(&space.dummy_k).map(|(d, k)| 0.5 * k * d * d).sum()
-}
-
-fn resume(
-    model: &Model,
-    case: &Case,
-    kind: SolverKind,
-    end: EndState,
-    stepper: &mut dyn Stepper,
-) -> Result<Start, SolveError> {
-    let wanted = [
-        ("model", model.source.sha256.as_str(), end.model.as_str()),
-        ("case", case.name.as_str(), end.case.as_str()),
-        ("solver", kind.name(), end.solver.as_str()),
-    ];
-    for (what, here, there) in wanted {
-        if here != there {
-            return Err(SolveError::Checkpoint {
-                reason: format!("its {what} is {there}, this run's is {here}"),
-            });
-        }
-    }
-    stepper.recall(end.memory)?;
-    Ok((end.state, end.pace, end.ledger, end.step))
 }

@@ -15,7 +15,9 @@ pub enum SolveError {
     #[error(transparent)]
     Linalg(#[from] LinalgError),
     /// A complete basis was asked for a model that is too large for it.
-    #[error("a complete basis needs a dense eigenproblem of {order} equations (limit {limit}): use `basis: Ritz(vectors: …)`")]
+    #[error(
+        "a complete basis needs a dense eigenproblem of {order} equations (limit {limit}): use `basis: Ritz(vectors: …)`"
+    )]
     BasisTooLarge {
         /// Free DOFs.
         order: usize,
@@ -26,7 +28,9 @@ pub enum SolveError {
     #[error("no direction that a load or a link acts on carries mass: the model has no dynamics")]
     NoMass,
     /// A static case found no equilibrium.
-    #[error("static case \"{case}\": no equilibrium beyond {percent:.1} % of its loads: {worst} is off by {residual:.3e} N or N·m")]
+    #[error(
+        "static case \"{case}\": no equilibrium beyond {percent:.1} % of its loads: {worst} is off by {residual:.3e} N or N·m"
+    )]
     StaticNotConverged {
         /// Name of the case.
         case: String,
@@ -48,7 +52,9 @@ pub enum SolveError {
         reason: String,
     },
     /// An initial value for a direction that is fixed or follows another node.
-    #[error("node \"{node}\" {direction} has no value of its own to start from: it is fixed or follows a constraint; give the initial value at the node that leads")]
+    #[error(
+        "node \"{node}\" {direction} has no value of its own to start from: it is fixed or follows a constraint; give the initial value at the node that leads"
+    )]
     InitialNotFree {
         /// Name of the node.
         node: String,

@@ -121,8 +121,7 @@ impl Stepper for FullNewton<'_> {
         for _ in 0..ITERATIONS {
             self.iterations += 1;
             for i in 0..n {
-                to.motion[i] =
-                    u0[i] + dt * v0[i] + dt * dt * ((0.5 - beta) * a0[i] + beta * a[i]);
+                to.motion[i] = u0[i] + dt * v0[i] + dt * dt * ((0.5 - beta) * a0[i] + beta * a[i]);
                 to.motion[n + i] = v0[i] + dt * ((1.0 - gamma) * a0[i] + gamma * a[i]);
                 to.motion[2 * n + i] = a[i];
             }
@@ -279,7 +278,10 @@ impl FullNewton<'_> {
 }
 
 /// M⁻¹ p where there is mass, zero elsewhere.
-pub(crate) fn mass_acceleration(space: &Space, mut force: Vec<f64>) -> Result<Vec<f64>, SolveError> {
+pub(crate) fn mass_acceleration(
+    space: &Space,
+    mut force: Vec<f64>,
+) -> Result<Vec<f64>, SolveError> {
     for (p, m) in force.iter_mut().zip(space.mass.diagonal()) {
         if m <= 0.0 {
             *p = 0.0;

@@ -53,14 +53,7 @@ pub(crate) struct Hht {
 
 impl Hht {
     pub(crate) fn new(space: Space, alpha: f64) -> Self {
-        Self {
-            space,
-            alpha,
-            steps: BTreeMap::new(),
-            now: 0,
-            clock: 0,
-            factorizations: 0,
-        }
+        Self { space, alpha, steps: BTreeMap::new(), now: 0, clock: 0, factorizations: 0 }
     }
 
     fn build(&mut self, dt: f64) -> Result<Step, SolveError> {
@@ -233,13 +226,11 @@ pub(crate) fn average_work(
 ) -> StepWork {
     let n = space.order();
     let moved: Vec<f64> = (0..n).map(|i| to[i] - from[i]).collect();
-    let external: f64 =
-        (0..n).map(|i| 0.5 * (forces.load0[i] + forces.load1[i]) * moved[i]).sum();
+    let external: f64 = (0..n).map(|i| 0.5 * (forces.load0[i] + forces.load1[i]) * moved[i]).sum();
     let mut d = vec![0.0; space.rows.len()];
     space.deform(&moved, &mut d);
-    let links: f64 = (0..d.len())
-        .map(|i| 0.5 * (forces.pseudo0[i] + forces.pseudo1[i]) * d[i])
-        .sum();
+    let links: f64 =
+        (0..d.len()).map(|i| 0.5 * (forces.pseudo0[i] + forces.pseudo1[i]) * d[i]).sum();
     let v: Vec<f64> = (n..2 * n).map(|i| 0.5 * (from[i] + to[i])).collect();
     let mut cv = vec![0.0; n];
     space.damp(dt, &v, &mut cv);

@@ -213,15 +213,7 @@ impl LinkKernel {
             out.v[links.active[a]] += v[a];
         }
         let at = Kinematics { d: out.d, v: out.v, d0: from.d, v0: from.v, dt: from.dt };
-        links.respond(
-            model,
-            at,
-            from.history,
-            out.history,
-            out.f,
-            &mut self.tangents,
-            out.energy,
-        );
+        links.respond(model, at, from.history, out.history, out.f, &mut self.tangents, out.energy);
         for a in 0..n {
             self.residual[a] = out.f[links.active[a]]
                 - self.dummy_k[a] * d[a]
@@ -259,9 +251,9 @@ impl LinkKernel {
     /// Replaces the residual by the Newton correction of f̃.
     fn newton_correction(&mut self, links: &LinkSet, affine: &Affine<'_>, slow: bool) {
         let kept = self.factors.iter().position(|f| f.key == affine.key);
-        let factor = kept.map(|at| self.factors.remove(at)).filter(|f| {
-            f.tangents == self.tangents || (f.equations.len() >= CHORD_FROM && !slow)
-        });
+        let factor = kept
+            .map(|at| self.factors.remove(at))
+            .filter(|f| f.tangents == self.tangents || (f.equations.len() >= CHORD_FROM && !slow));
         let factor = factor.unwrap_or_else(|| {
             self.factorise(links, self.tangents.clone(), affine.key, affine.g, affine.h)
         });
@@ -321,9 +313,7 @@ impl LinkKernel {
         for (e, a) in equations.iter().enumerate() {
             line.fill(0.0);
             for (b, k, c) in &rows[*a] {
-                for (x, (g, h)) in
-                    line.iter_mut().zip(g.column(*b).iter().zip(h.column(*b)))
-                {
+                for (x, (g, h)) in line.iter_mut().zip(g.column(*b).iter().zip(h.column(*b))) {
                     *x += k * g + c * h;
                 }
             }
@@ -335,12 +325,6 @@ impl LinkKernel {
                 }
             }
         }
-        Factor {
-            key,
-            tangents,
-            lu: DenseLu::new(&j),
-            equations,
-            coupling,
-        }
+        Factor { key, tangents, lu: DenseLu::new(&j), equations, coupling }
     }
 }

@@ -44,6 +44,11 @@ impl Ledger {
         ledger
     }
 
+    /// Books that hold only totals, of a state that nothing led to.
+    pub(crate) fn of(totals: EnergyTotals) -> Self {
+        Self { totals, ..Self::default() }
+    }
+
     /// Enters a step; `potential` of constant loads after it. Returns the energy in motion and springs.
     pub(crate) fn enter(&mut self, step: &StepEnergy, potential: f64) -> f64 {
         let t = &mut self.totals;

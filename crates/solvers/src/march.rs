@@ -58,13 +58,7 @@ pub(crate) struct March<'a> {
 
 /// How far the energies of the links in a step are from closing, over what is allowed: a share of what
 /// they dissipate, or the square of the tolerance as a share of the energy in motion.
-fn closure(
-    from: &State,
-    to: &State,
-    halves: [&StepEnergy; 2],
-    tolerance: f64,
-    energy: f64,
-) -> f64 {
+fn closure(from: &State, to: &State, halves: [&StepEnergy; 2], tolerance: f64, energy: f64) -> f64 {
     let mut missing: f64 = from.stored.iter().sum::<f64>() - to.stored.iter().sum::<f64>();
     let mut dissipated = 0.0;
     for half in halves {
@@ -117,7 +111,7 @@ impl March<'_> {
         let time = |ticks: u64| t0 + length * (ticks as f64 / full as f64);
         while at < full {
             let mut level = pace.level;
-            while at % (full >> level) != 0 {
+            while !at.is_multiple_of(full >> level) {
                 level += 1;
             }
             let ticks = full >> level;
@@ -191,7 +185,7 @@ impl March<'_> {
                     self.counts.substeps += 1;
                     *state = next;
                     at += ticks;
-                    while level > 0 && at % (full >> (level - 1)) == 0 {
+                    while level > 0 && at.is_multiple_of(full >> (level - 1)) {
                         level -= 1;
                     }
                 }

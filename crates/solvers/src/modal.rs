@@ -22,7 +22,7 @@ use trilith_linalg::{Dense, expm};
 /// Coefficients of one step size: rows ∫q, q, q̇; columns q₀, q̇₀, s₀, s₁.
 enum Rule {
     Diagonal(Vec<[[f64; 4]; 3]>),
-    Coupled([[Dense; 4]; 3]),
+    Coupled(Box<[[Dense; 4]; 3]>),
 }
 
 struct Step {
@@ -58,7 +58,7 @@ impl Modal {
 
     fn build(&self, dt: f64) -> Step {
         let rule = if self.coupled {
-            Rule::Coupled(coupled_rule(&self.omega2(), &self.damping, dt))
+            Rule::Coupled(Box::new(coupled_rule(&self.omega2(), &self.damping, dt)))
         } else {
             let omega2 = self.omega2();
             Rule::Diagonal(

@@ -8,15 +8,31 @@ use trilith_system::{LoadSet, System};
 /// One output, ready to be evaluated.
 enum Row {
     /// Σ on displacements (0), velocities (1) or accelerations (2).
-    Nodal { order: usize, own: Vec<(usize, f64)>, support: Vec<(usize, f64)>, base: [f64; 3] },
-    Deformation { flat: usize, factor: f64 },
-    Force { flat: usize, factor: f64 },
-    History { at: usize },
+    Nodal {
+        order: usize,
+        own: Vec<(usize, f64)>,
+        support: Vec<(usize, f64)>,
+        base: [f64; 3],
+    },
+    Deformation {
+        flat: usize,
+        factor: f64,
+    },
+    Force {
+        flat: usize,
+        factor: f64,
+    },
+    History {
+        at: usize,
+    },
     Element {
-        stiffness: (Vec<(usize, f64)>, Vec<(usize, f64)>),
-        damping: (Vec<(usize, f64)>, Vec<(usize, f64)>),
+        stiffness: Split,
+        damping: Split,
     },
 }
+
+/// Terms (index, factor) on the coordinates of the solver and on prescribed displacements.
+type Split = (Vec<(usize, f64)>, Vec<(usize, f64)>);
 
 /// All outputs of a model.
 pub(crate) struct Outputs {
@@ -31,7 +47,7 @@ fn sum(row: &[(usize, f64)], x: &[f64]) -> f64 {
 
 impl Outputs {
     pub(crate) fn new(model: &Model, system: &System, space: &Space) -> Self {
-        let split = |terms: &[(usize, f64)]| {
+        let split = |terms: &[(usize, f64)]| -> Split {
             let n = system.order();
             let free: Vec<_> = terms.iter().filter(|(i, _)| *i < n).copied().collect();
             let support: Vec<_> =
@@ -95,8 +111,7 @@ impl Outputs {
         rates: &mut [f64],
     ) {
         let n = self.order;
-        let motion =
-            [&state.motion[..n], &state.motion[n..2 * n], &state.motion[2 * n..]];
+        let motion = [&state.motion[..n], &state.motion[n..2 * n], &state.motion[2 * n..]];
         let support = loads.prescribed(t, Side::Before, self.prescribed);
         let base = loads.base_acceleration(t, Side::Before);
         for (i, row) in self.rows.iter().enumerate() {

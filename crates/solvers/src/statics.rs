@@ -73,8 +73,7 @@ pub(crate) fn equilibrium(
     let (d_before, d_added) = (deform(&u_before), deform(&u_added));
     let dummy: Vec<f64> = links.active.iter().map(|i| engaged[*i]).collect();
     let zero = vec![0.0; links.len()];
-    let mut kernel =
-        LinkKernel::new(links, Kernel::Newton, dummy.clone(), vec![0.0; dummy.len()]);
+    let mut kernel = LinkKernel::new(links, Kernel::Newton, dummy.clone(), vec![0.0; dummy.len()]);
     let mut state = start;
     let mut pseudo = vec![0.0; dummy.len()];
     kernel.pseudo(links, &state.f, &state.d, &zero, &mut pseudo);
@@ -89,15 +88,7 @@ pub(crate) fn equilibrium(
         let outcome = kernel.solve(
             model,
             links,
-            &Affine {
-                d: &d,
-                v: &v,
-                support_d: &zero,
-                support_v: &zero,
-                g: &g,
-                h: &none,
-                key: 0,
-            },
+            &Affine { d: &d, v: &v, support_d: &zero, support_v: &zero, g: &g, h: &none, key: 0 },
             &Committed { d: &state.d, v: &zero, history: &state.history, dt: 0.0 },
             &mut trial.scale,
             &mut Converged {

@@ -134,7 +134,8 @@ impl<P: Propagator> LinkStepper<'_, P> {
     }
 
     fn pseudo(&self, state: &State, support_d: &[f64], support_v: &[f64]) -> Vec<f64> {
-        let own = |a: &[f64], b: &[f64]| -> Vec<f64> { a.iter().zip(b).map(|(x, y)| x - y).collect() };
+        let own =
+            |a: &[f64], b: &[f64]| -> Vec<f64> { a.iter().zip(b).map(|(x, y)| x - y).collect() };
         let mut pseudo = vec![0.0; self.system.links.active.len()];
         let (d, v) = (own(&state.d, support_d), own(&state.v, support_v));
         self.kernel.pseudo(&self.system.links, &state.f, &d, &v, &mut pseudo);
@@ -159,8 +160,7 @@ impl<P: Propagator> Stepper for LinkStepper<'_, P> {
         let pseudo0 = self.pseudo(from, &support_d0, &support_v0);
         to.clone_from(from);
         let zero = vec![0.0; pseudo0.len()];
-        let before =
-            Forces { load0: &load0, load1: &load1, pseudo0: &pseudo0, pseudo1: &zero };
+        let before = Forces { load0: &load0, load1: &load1, pseudo0: &pseudo0, pseudo1: &zero };
         self.propagator.predict(&from.motion, &before, &mut to.motion);
         let (mut d, mut v) = (zero.clone(), zero.clone());
         let space = self.propagator.space();
@@ -194,8 +194,7 @@ impl<P: Propagator> Stepper for LinkStepper<'_, P> {
                 },
             )
             .map_err(|e| StepFailure::NoEquilibrium { worst: e.worst, residual: e.residual })?;
-        let forces =
-            Forces { load0: &load0, load1: &load1, pseudo0: &pseudo0, pseudo1: &pseudo };
+        let forces = Forces { load0: &load0, load1: &load1, pseudo0: &pseudo0, pseudo1: &pseudo };
         self.propagator.correct(&forces, &mut to.motion);
         for (stored, e) in to.stored.iter_mut().zip(&links) {
             *stored = e.stored;

@@ -145,9 +145,7 @@ impl System {
     #[must_use]
     pub fn end_force(&self, model: &Model, element: usize, end: usize, dof: Dof) -> EndForceRow {
         match &self.matrices[element] {
-            Some(m) => {
-                end_force_row(m, &model.elements[element].nodes, end, dof, &self.reduction)
-            }
+            Some(m) => end_force_row(m, &model.elements[element].nodes, end, dof, &self.reduction),
             None => EndForceRow::default(),
         }
     }
@@ -177,11 +175,7 @@ fn element_matrices(model: &Model) -> Result<Vec<Option<ElementMatrices>>, Syste
 }
 
 /// K, M, C over all DOFs.
-fn full_matrices(
-    model: &Model,
-    matrices: &[Option<ElementMatrices>],
-    count: usize,
-) -> [Sparse; 3] {
+fn full_matrices(model: &Model, matrices: &[Option<ElementMatrices>], count: usize) -> [Sparse; 3] {
     let mut sums = [(); 3].map(|()| Triplets::new(count, count));
     for (e, m) in model.elements.iter().zip(matrices) {
         let Some(m) = m else { continue };

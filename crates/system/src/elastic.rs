@@ -23,10 +23,9 @@ pub(crate) fn end_force_row(
     let Some(i) = matrices.dofs.iter().position(|at| *at == (end, dof)) else { return row };
     for (j, (node, d)) in matrices.dofs.iter().enumerate() {
         for (reduced, t) in reduction.expand(6 * nodes[*node] + d.index()) {
-            for (list, a) in [
-                (&mut row.stiffness, &matrices.stiffness),
-                (&mut row.damping, &matrices.damping),
-            ] {
+            for (list, a) in
+                [(&mut row.stiffness, &matrices.stiffness), (&mut row.damping, &matrices.damping)]
+            {
                 if a[(i, j)] != 0.0 {
                     list.push((*reduced, a[(i, j)] * t));
                 }

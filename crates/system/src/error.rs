@@ -26,7 +26,9 @@ pub enum SystemError {
         span: Span,
     },
     /// A constraint that ties DOFs whose motion is prescribed.
-    #[error("constraint \"{element}\" contradicts the prescribed motion of the supports it ties together")]
+    #[error(
+        "constraint \"{element}\" contradicts the prescribed motion of the supports it ties together"
+    )]
     Overdetermined {
         /// Name of the constraint.
         element: String,

@@ -314,10 +314,8 @@ fn full_rows(
             if let Some(i) = i {
                 add(i, frame[a % 3], offset, -1.0);
                 // U2 turns with R3, U3 against R2.
-                if let Some((about, sign)) = [None, Some((2, -1.0)), Some((1, 1.0))]
-                    .get(a)
-                    .copied()
-                    .flatten()
+                if let Some((about, sign)) =
+                    [None, Some((2, -1.0)), Some((1, 1.0))].get(a).copied().flatten()
                 {
                     add(j, frame[about], 3, sign * shear_at);
                     add(i, frame[about], 3, sign * (length - shear_at));

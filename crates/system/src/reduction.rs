@@ -58,10 +58,9 @@ impl Reduction {
                 continue;
             }
             let candidates = || left.iter().filter(|(i, _)| !prescribed_at[*i]);
-            let pivot =
-                candidates().find(|(i, _)| *i == row.dependent).or_else(|| {
-                    candidates().max_by(|a, b| a.1.abs().total_cmp(&b.1.abs()))
-                });
+            let pivot = candidates()
+                .find(|(i, _)| *i == row.dependent)
+                .or_else(|| candidates().max_by(|a, b| a.1.abs().total_cmp(&b.1.abs())));
             let Some(&(p, c)) = pivot else {
                 let e = &model.elements[row.element];
                 return Err(SystemError::Overdetermined {
@@ -69,8 +68,7 @@ impl Reduction {
                     span: e.span.clone(),
                 });
             };
-            let rest =
-                left.iter().filter(|(i, _)| *i != p).map(|(i, x)| (*i, -x / c)).collect();
+            let rest = left.iter().filter(|(i, _)| *i != p).map(|(i, x)| (*i, -x / c)).collect();
             dependent.insert(p, rest);
         }
         Ok(Self::number(count, used, &fixed, &prescribed_at, &dependent))
@@ -83,9 +81,8 @@ impl Reduction {
         prescribed_at: &[bool],
         dependent: &BTreeMap<usize, Vec<(usize, f64)>>,
     ) -> Self {
-        let free: Vec<usize> = (0..count)
-            .filter(|i| used[*i] && !fixed[*i] && !dependent.contains_key(i))
-            .collect();
+        let free: Vec<usize> =
+            (0..count).filter(|i| used[*i] && !fixed[*i] && !dependent.contains_key(i)).collect();
         let prescribed: Vec<usize> = (0..count).filter(|i| prescribed_at[*i]).collect();
         let mut place = vec![usize::MAX; count];
         for (new, old) in free.iter().chain(&prescribed).enumerate() {
