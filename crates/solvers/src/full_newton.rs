@@ -94,8 +94,9 @@ impl FullNewton<'_> {
     }
 }
 
+/// Largest absolute value; not a number where one of them is not, so that no comparison holds.
 fn largest(x: &[f64]) -> f64 {
-    x.iter().fold(0.0, |a, b| a.max(b.abs()))
+    x.iter().fold(0.0, |a, b| if b.is_nan() || b.abs() > a { b.abs() } else { a })
 }
 
 impl Stepper for FullNewton<'_> {

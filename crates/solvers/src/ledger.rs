@@ -8,6 +8,9 @@ use crate::observe::{EnergyTotals, LinkEnergy};
 use crate::stepper::{State, StepEnergy};
 use serde::{Deserialize, Serialize};
 
+/// Where all energy has left again, the error is measured against this share of the largest.
+const SHARE_OF_LARGEST: f64 = 0.01;
+
 /// Energies since the start of a case.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub(crate) struct Ledger {
@@ -82,7 +85,12 @@ impl Ledger {
         for size in [t.input, t.kinetic, t.potential, t.strain, t.link_stored] {
             self.largest = self.largest.max(size.abs());
         }
-        t.error_relative = if self.largest > 0.0 { t.error.abs() / self.largest } else { 0.0 };
+        // A pulse may put in far more than it leaves; what counts is what stayed, or was turned to heat.
+        let heat = t.modal_damping + t.algorithmic + t.link_hysteretic + t.link_viscous;
+        let size = [t.input, t.kinetic, t.potential, heat, SHARE_OF_LARGEST * self.largest]
+            .into_iter()
+            .fold(0.0, |a: f64, b| a.max(b.abs()));
+        t.error_relative = if size > 0.0 { t.error.abs() / size } else { 0.0 };
         step.kinetic + step.strain.abs() + stored.abs()
     }
 }

@@ -56,7 +56,8 @@ pub struct EnergyTotals {
     pub algorithmic: f64,
     /// What is not accounted for: input − everything else.
     pub error: f64,
-    /// |error| over the largest energy so far.
+    /// |error| over the largest of input, kinetic energy, potential and heat, and a hundredth of the
+    /// largest energy so far.
     pub error_relative: f64,
 }
 

@@ -1,0 +1,200 @@
+//! What a run does when it fails, when supports move, and with other settings of the link equations.
+
+use serde::Deserialize;
+use trilith_element::{
+    Axis, Card, Category, Coordinates, Described, Dimension, Form, Kinematics, Link, NodeCount,
+    Parameter, Range, Register, Response, dimension,
+};
+use trilith_model::{Analysis, Kernel, SolverKind, StepControl};
+use trilith_solvers::{RunOptions, Status, run};
+use trilith_system::System;
+use trilith_tests::{Trace, parse, registry, set_step, trace, trace_with};
+
+/// A spring that has no force beyond a limit: what a broken law of a third party may do.
+#[derive(Clone, Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Brittle {
+    k: f64,
+    limit: f64,
+}
+
+const fn number(name: &'static str, symbol: &'static str, unit: Dimension) -> Parameter {
+    Parameter {
+        name,
+        symbol,
+        form: Form::Number(unit),
+        range: Range::Positive,
+        default: trilith_element::Default::Required,
+        meaning: "see the law",
+    }
+}
+
+impl Described for Brittle {
+    const CARD: Card = Card {
+        kind: "Brittle",
+        category: Category::Link,
+        summary: "Spring without a force beyond a limit.",
+        nodes: NodeCount::exactly(1),
+        parameters: &[
+            number("k", "k", dimension::STIFFNESS),
+            number("limit", "l", dimension::LENGTH),
+        ],
+        law: "f = k d, not a number for |d| > l",
+        source: "made for a test",
+        example: "Brittle(node: \"a\", k: 1, limit: 1)",
+    };
+}
+
+impl Link for Brittle {
+    fn coordinates(&self) -> Coordinates {
+        Coordinates::Local(vec![Axis::U1])
+    }
+    fn engaged_stiffness(&self, k: &mut [f64]) {
+        k[0] = self.k;
+    }
+    fn respond(&self, at: &Kinematics<'_>, _: &[f64], _: &mut [f64], out: &mut Response<'_>) {
+        let broken = at.d[0].abs() > self.limit;
+        out.f[0] = if broken { f64::NAN } else { self.k * at.d[0] };
+        out.k[0] = self.k;
+        out.energy.stored = 0.5 * self.k * at.d[0] * at.d[0];
+    }
+}
+
+#[test]
+fn a_run_that_finds_no_equilibrium_says_where_and_keeps_the_last_good_state() {
+    let text = r#"(
+        nodes: { "a": (0, 0, 0) },
+        supports: { "a": (Ux, Uy, Rx, Ry, Rz) },
+        elements: {
+            "m": Mass(node: "a", mass: 1),
+            "thread": Brittle(node: "a", k: 100, limit: 0.5),
+        },
+        cases: { "pull": Dynamic(duration: 1, dt: 0.01,
+            initial: [(node: "a", dof: Uz, velocity: 10)]) },
+        outputs: { "u": Displacement(node: "a", dof: Uz) },
+    )"#;
+    let mut kinds = registry();
+    kinds.link::<Brittle>();
+    let model =
+        trilith_model::read_text(text, std::path::Path::new("brittle.ron"), &kinds, &[]).unwrap();
+    let system = System::new(&model).unwrap();
+    for solver in SolverKind::ALL {
+        let mut seen = Trace::default();
+        let options = RunOptions { solver: Some(solver), ..RunOptions::default() };
+        let result = run(&model, &system, options, &mut [&mut seen]).unwrap();
+        let Status::NotConverged { t, worst, .. } = &result.status else {
+            panic!("{}: {:?}", solver.name(), result.status)
+        };
+        // sin(10 t) reaches 0.5 at t = 0.05236.
+        assert!((t - 0.052_36).abs() < 1e-4, "{}: stopped at {t}", solver.name());
+        assert_eq!(worst, "\"thread\" U1");
+        assert!((result.end.displacement[0] - 0.5).abs() < 1e-4, "{:?}", result.end.displacement);
+        assert_eq!(result.end.displacement[0].to_bits(), seen.last[0].to_bits());
+        assert!(seen.history.len() >= 5, "the history up to the failure is kept");
+    }
+}
+
+/// A rigid column between a moving support and a mass: u relative to the ground equals the response to
+/// the same motion as uniform base acceleration.
+#[test]
+fn a_moving_support_gives_what_base_acceleration_gives() {
+    let text = |case: &str| {
+        format!(
+            r#"(
+            nodes: {{ "g": (0, 0, 0), "a": (0, 0, 1) }},
+            supports: {{ "g": Fixed, "a": (Uy, Uz, Rx, Ry, Rz) }},
+            elements: {{
+                "m": Mass(node: "a", mass: 2),
+                "s": Spring(nodes: ("g", "a"), k2: 300, c2: 2, axis2: (1, 0, 0)),
+                "stop": Gap(nodes: ("g", "a"), k: 5000, opening: 0.01, axis1: (1, 0, 0), axis2: (0, 0, 1)),
+            }},
+            functions: {{
+                "d": Sine(amplitude: "2 cm", frequency: 1.5),
+                "a": Sine(amplitude: "-1.7765287921960844 m/s^2", frequency: 1.5),
+            }},
+            cases: {{ {case} }},
+            outputs: {{ "stretch": LinkDeformation(link: "stop", axis: U1) }},
+        )"#
+        )
+    };
+    // The support starts with velocity 2 cm · 2π · 1.5 Hz; so does the mass in the relative frame.
+    let start = "0.1884955592153876";
+    let moved = text(&format!(
+        r#""m": Dynamic(duration: 3, dt: 0.005, step: Adaptive(tolerance: 1e-5),
+        initial: [(node: "a", dof: Ux, velocity: {start})],
+        supports: [(node: "g", dof: Ux, displacement: "d")])"#
+    ));
+    let base = text(
+        r#""b": Dynamic(duration: 3, dt: 0.005, step: Adaptive(tolerance: 1e-5),
+        base: [(direction: X, function: "a")])"#,
+    );
+    for solver in SolverKind::ALL {
+        let run = |text: &str| {
+            let (model, system) = parse(text, &[]);
+            let (t, r) = trace(&model, &system, solver);
+            assert_eq!(r.status, Status::Converged, "{}", solver.name());
+            t
+        };
+        let (a, b) = (run(&moved), run(&base));
+        assert!(b.peak(0) > 0.011, "the stop is hit: {}", b.peak(0));
+        assert!(a.difference(&b, 0) < 2e-3, "{}: {}", solver.name(), a.difference(&b, 0));
+    }
+}
+
+/// Wilson's constant-stiffness iteration finds the same forces as Newton, in more iterations.
+#[test]
+fn the_fixed_point_iteration_gives_what_newton_gives() {
+    let run = |kernel: Kernel| {
+        let (mut model, system) =
+            trilith_tests::shipped("rigid_block.ron", &[("duration", "0.6".into())]);
+        set_step(&mut model, StepControl::Fixed { substeps: 10 });
+        for case in &mut model.cases {
+            if let Analysis::Dynamic(d) = &mut case.analysis {
+                d.solution.kernel = kernel;
+            }
+        }
+        trace(&model, &system, SolverKind::Fna)
+    };
+    let ((a, ra), (b, rb)) = (run(Kernel::Newton), run(Kernel::FixedPoint));
+    assert!(rb.work.iterations > ra.work.iterations);
+    for i in 0..3 {
+        assert!(a.difference(&b, i) < 1e-4, "output {i}: {}", a.difference(&b, i));
+    }
+}
+
+/// Fixed steps beyond the stability limit of the exact rule are not taken in silence.
+#[test]
+fn a_fixed_step_beyond_the_stability_limit_is_told() {
+    let (mut model, system) =
+        trilith_tests::shipped("rigid_block.ron", &[("duration", "0.02".into())]);
+    set_step(&mut model, StepControl::Fixed { substeps: 1 });
+    let options =
+        || RunOptions { solver: Some(SolverKind::Fna), dt: Some(0.02), ..RunOptions::default() };
+    let (_, coarse) = trace_with(&model, &system, options());
+    assert!(coarse.warnings.iter().any(|w| w.contains("stability limit")), "{:?}", coarse.warnings);
+    let (_, fine) = trace_with(&model, &system, RunOptions { dt: Some(1e-3), ..options() });
+    assert!(fine.warnings.is_empty(), "{:?}", fine.warnings);
+}
+
+/// A beam on a one-sided stop: F = k (P L³/3EI − gap)/(1 + k L³/3EI) once closed.
+#[test]
+fn a_static_case_closes_a_gap_like_the_closed_form() {
+    let text = r#"(
+        nodes: { "root": (0, 0, 0), "tip": (2, 0, 0) },
+        supports: { "root": Fixed },
+        plane: XZ,
+        elements: {
+            "beam": Beam(nodes: ("root", "tip"), young: "200 GPa", poisson: 0.3, width: "5 cm", depth: "10 cm"),
+            "stop": Gap(node: "tip", k: "1 MN/m", opening: "5 mm"),
+        },
+        loads: { "push": [(node: "tip", dof: Uz, force: "-10 kN")] },
+        cases: { "press": Static(loads: [(load: "push")]) },
+        outputs: { "tip": Displacement(node: "tip", dof: Uz), "stop": LinkForce(link: "stop", axis: U1) },
+    )"#;
+    let (model, system) = parse(text, &[]);
+    let (t, _) = trace(&model, &system, SolverKind::Fna);
+    let flexibility = 8.0 / (3.0 * 200e9 * 0.05 * 0.1f64.powi(3) / 12.0);
+    let force = 1e6 * (1e4 * flexibility - 0.005) / (1.0 + 1e6 * flexibility);
+    assert!((t.last[1] + force).abs() < 1e-6 * force, "{} against {force}", -t.last[1]);
+    assert!((t.last[0] + (1e4 - force) * flexibility).abs() < 1e-9);
+}
