@@ -123,11 +123,7 @@ pub fn trace(model: &Model, system: &System, solver: SolverKind) -> (Trace, Case
 /// # Panics
 /// Where the run cannot be made.
 #[must_use]
-pub fn trace_with(
-    model: &Model,
-    system: &System,
-    options: RunOptions<'_>,
-) -> (Trace, CaseResult) {
+pub fn trace_with(model: &Model, system: &System, options: RunOptions<'_>) -> (Trace, CaseResult) {
     let mut trace = Trace::default();
     let options = RunOptions { case: model.cases.len() - 1, ..options };
     let result = run(model, system, options, &mut [&mut trace]).unwrap_or_else(|e| panic!("{e}"));

@@ -58,10 +58,7 @@ fn orders(model: &mut Model, system: &System, substeps: [usize; 3], name: &str) 
         a.difference(&b, i)
     });
     eprintln!("{name}: differences {difference:?}");
-    [
-        (difference[0] / difference[1]).log2(),
-        (difference[1] / difference[2]).log2(),
-    ]
+    [(difference[0] / difference[1]).log2(), (difference[1] / difference[2]).log2()]
 }
 
 #[test]
@@ -105,7 +102,8 @@ fn the_energy_of_every_shipped_model_closes_to_a_thousandth_under_both_solvers()
 fn fna_does_not_depend_on_the_dummy_stiffness() {
     let text = shipped_text("rigid_block.ron");
     let with = |dummy: f64| {
-        let text = text.replace("NLink(node:", &format!("NLink(effective_stiffness: {dummy:e}, node:"));
+        let text =
+            text.replace("NLink(node:", &format!("NLink(effective_stiffness: {dummy:e}, node:"));
         assert!(text.contains("effective_stiffness"));
         let set = [("mu", "0.6".to_owned()), ("ah", "1.5".into()), ("cycles", "0.5".into())];
         let (model, system) = parse(&text, &set);

@@ -94,7 +94,9 @@ fn misses(case: &Value, solver: SolverKind, dt: f64) -> Vec<String> {
         let (expected, allowed) =
             (number(&reference[key]), number(&tolerance[tol]) * number(&tolerance[scale]));
         if (value - expected).abs() > allowed {
-            found.push(format!("{label}: {what} {value:.6e}, reference {expected:.6e} ± {allowed:.1e}"));
+            found.push(format!(
+                "{label}: {what} {value:.6e}, reference {expected:.6e} ± {allowed:.1e}"
+            ));
         }
     };
     compare("largest slide", trace.max[0], "slide_max", "slide", "scale_slide");
@@ -182,7 +184,8 @@ fn vertical_pulses_lift_the_block_only_above_one_g() {
     for case in cases().iter().filter(|c| c["name"].as_str().unwrap().starts_with('v')) {
         let name = case["name"].as_str().unwrap();
         let (trace, _, contact) = run_case(case, SolverKind::Fna, 1e-3);
-        let (flies, mode) = if name.starts_with("v1.5") { (true, "flight") } else { (false, "rest") };
+        let (flies, mode) =
+            if name.starts_with("v1.5") { (true, "flight") } else { (false, "rest") };
         assert_eq!(contact.mode, mode, "{name}");
         assert_eq!(trace.max[1] > 0.0, flies, "{name}");
         assert!(trace.peak(0) < 1e-12, "{name} slides");

@@ -27,20 +27,14 @@ fn a_run_continued_from_a_written_checkpoint_gives_the_same_bits() {
         for solver in [SolverKind::Fna, SolverKind::Hht] {
             let (model, system) = shipped(file, &[("duration", "2".into())]);
             let (whole, end) = trace(&model, &system, solver);
-            let first = RunOptions {
-                solver: Some(solver),
-                until: Some(0.7),
-                ..RunOptions::default()
-            };
+            let first =
+                RunOptions { solver: Some(solver), until: Some(0.7), ..RunOptions::default() };
             let (before, stopped) = trace_with(&model, &system, first);
             let written = serde_json::to_string(&stopped.end).unwrap();
             let read: EndState = serde_json::from_str(&written).unwrap();
             assert_eq!(read, stopped.end, "{file}: the checkpoint survives the file");
-            let rest = RunOptions {
-                solver: Some(solver),
-                from: Some(read),
-                ..RunOptions::default()
-            };
+            let rest =
+                RunOptions { solver: Some(solver), from: Some(read), ..RunOptions::default() };
             let (after, finished) = trace_with(&model, &system, rest);
             // The state at the checkpoint is shown by both parts.
             let joined: Vec<_> =

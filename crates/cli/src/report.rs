@@ -67,7 +67,7 @@ pub(crate) fn text(model: &Model, s: &Summary) -> String {
     out += &format!("\n{}", table(&rows, &[0]));
     // The limit of the model is on this share, not on that of the input at the end.
     let share = percent(s.energy.error_relative);
-    out += &format!("  unaccounted for: {share} of the largest energy during the run\n");
+    out += &format!("  unaccounted for: {share} of what was put in, released or dissipated\n");
     out + &format!("\nwork: {}\n", work(&s.work))
 }
 

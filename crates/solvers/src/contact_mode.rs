@@ -60,6 +60,8 @@ pub struct ContactMode {
     initial_over: bool,
     whole: Seen,
     play: f64,
+    /// True for a model that stands on nothing at the start: stops between structures, for instance.
+    stands_on_nothing: bool,
     summary: ContactSummary,
 }
 
@@ -70,7 +72,7 @@ impl ContactMode {
         Self::default()
     }
 
-    /// The summary; `None` for a model without contacts.
+    /// The summary; `None` for a model that no contact carries at the start.
     #[must_use]
     pub fn summary(&self) -> Option<ContactSummary> {
         (!self.start.is_empty()).then(|| ContactSummary {
@@ -138,7 +140,10 @@ impl ContactMode {
 impl Observer for ContactMode {
     fn sample(&mut self, sample: &Sample<'_>) {
         let now: Vec<Contact> = sample.contacts.iter().map(|(_, c)| *c).collect();
-        if now.is_empty() {
+        if self.before.is_empty() {
+            self.stands_on_nothing = now.iter().all(|c| c.normal <= 0.0);
+        }
+        if self.stands_on_nothing {
             return;
         }
         if self.before.is_empty() {
