@@ -130,6 +130,12 @@ impl Ldlt {
         }
     }
 
+    /// Number of values in the factor.
+    #[must_use]
+    pub fn stored(&self) -> usize {
+        self.values.len()
+    }
+
     /// Number of negative pivots: the number of eigenvalues below zero.
     #[must_use]
     pub fn negative_pivots(&self) -> usize {

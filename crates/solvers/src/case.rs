@@ -11,7 +11,6 @@ use crate::statics::{self, Equilibrium};
 use crate::stepper::State;
 use crate::view::show_static;
 use serde::{Deserialize, Serialize};
-use trilith_element::{Energy, Kinematics};
 use trilith_model::{Analysis, Case, Load, Model, SolverKind, StaticCase};
 use trilith_system::System;
 
@@ -148,26 +147,7 @@ pub(crate) fn constant_load(model: &Model, system: &System, loads: &[Load]) -> V
 fn untouched(model: &Model, system: &System) -> State {
     let links = &system.links;
     let zero = vec![0.0; links.len()];
-    let history = links.at_rest(model);
-    let mut state = State {
-        motion: Vec::new(),
-        d: zero.clone(),
-        v: zero.clone(),
-        f: zero.clone(),
-        history: history.clone(),
-        scale: [0.0; 2],
-        stored: vec![0.0; links.links.len()],
-    };
-    links.respond(
-        model,
-        Kinematics { d: &zero, v: &zero, d0: &zero, v0: &zero, dt: 0.0 },
-        &history,
-        &mut state.history,
-        &mut state.f,
-        &mut links.tangents(),
-        &mut vec![Energy::default(); links.links.len()],
-    );
-    state
+    State::of_links(model, links, zero.clone(), zero, &links.at_rest(model))
 }
 
 fn run_static(

@@ -37,11 +37,12 @@ impl FullNewton<'_> {
         s
     }
 
-    fn deform(&self, u: &[f64], v: &[f64], amplitudes: &[f64], state: &mut State) {
+    /// Deformation and rate of all link coordinates.
+    fn deform(&self, u: &[f64], v: &[f64], amplitudes: &[f64], d: &mut [f64], rate: &mut [f64]) {
         let none = vec![0.0; self.system.reduction.prescribed.len()];
-        self.system.links.deform(u, &none, &mut state.d);
-        self.system.links.deform(v, &none, &mut state.v);
-        self.loads.support_deformation(amplitudes, &mut state.d, &mut state.v);
+        self.system.links.deform(u, &none, d);
+        self.system.links.deform(v, &none, rate);
+        self.loads.support_deformation(amplitudes, d, rate);
     }
 
     /// M + (1+α)(γΔt C + βΔt² K + Bᵀ(βΔt² k + γΔt c)B); modal damping only in the residual.
@@ -127,7 +128,7 @@ impl Stepper for FullNewton<'_> {
                 to.motion[2 * n + i] = a[i];
             }
             let (u, v) = (to.motion[..n].to_vec(), to.motion[n..2 * n].to_vec());
-            self.deform(&u, &v, &loads.end, to);
+            self.deform(&u, &v, &loads.end, &mut to.d, &mut to.v);
             self.system.links.respond(
                 self.model,
                 Kinematics { d: &to.d, v: &to.v, d0: &from.d, v0: &from.v, dt },
@@ -143,13 +144,7 @@ impl Stepper for FullNewton<'_> {
             let force = largest(&to.f).max(from.scale[0]).max(from.scale[1]);
             let size = largest(&inertia).max(largest(&load1)).max(force);
             if largest(&residual) <= TOLERANCE * size {
-                for (i, f) in to.f.iter().enumerate() {
-                    let kind = usize::from(self.system.links.rotational[i]);
-                    to.scale[kind] = to.scale[kind].max(f.abs());
-                }
-                for (s, e) in to.stored.iter_mut().zip(&energy) {
-                    *s = e.stored;
-                }
+                to.settle(&self.system.links, &energy);
                 return Ok(self.energy(from, to, loads, (&load0, &load1), energy, dt));
             }
             self.factorizations += 1;
@@ -174,33 +169,9 @@ impl Stepper for FullNewton<'_> {
         amplitudes: &[f64],
     ) -> Result<State, SolveError> {
         let links = &self.system.links;
-        let mut state = State {
-            motion: Vec::new(),
-            d: vec![0.0; links.len()],
-            v: vec![0.0; links.len()],
-            f: vec![0.0; links.len()],
-            history: history.clone(),
-            scale: [0.0; 2],
-            stored: vec![0.0; links.links.len()],
-        };
-        self.deform(u, v, amplitudes, &mut state);
-        let mut energy = vec![Energy::default(); links.links.len()];
-        links.respond(
-            self.model,
-            Kinematics { d: &state.d, v: &state.v, d0: &state.d, v0: &state.v, dt: 0.0 },
-            &history,
-            &mut state.history,
-            &mut state.f,
-            &mut links.tangents(),
-            &mut energy,
-        );
-        for (s, e) in state.stored.iter_mut().zip(&energy) {
-            *s = e.stored;
-        }
-        for (i, f) in state.f.iter().enumerate() {
-            let kind = usize::from(links.rotational[i]);
-            state.scale[kind] = state.scale[kind].max(f.abs());
-        }
+        let (mut d, mut rate) = (vec![0.0; links.len()], vec![0.0; links.len()]);
+        self.deform(u, v, amplitudes, &mut d, &mut rate);
+        let mut state = State::of_links(self.model, links, d, rate, &history);
         let load = self.space.force(amplitudes);
         let force = self.imbalance(&load, u, v, &state.f);
         let a = mass_acceleration(&self.space, force)?;

@@ -22,8 +22,8 @@ pub(crate) fn newmark(alpha: f64) -> (f64, f64) {
     (0.5 - alpha, 0.25 * (1.0 - alpha) * (1.0 - alpha))
 }
 
-/// Step sizes whose factors are kept.
-const KEPT: usize = 24;
+/// Values (8 bytes each) in the factors and images of step sizes that are kept.
+const KEPT_VALUES: usize = 1 << 26;
 
 struct Step {
     factor: Ldlt,
@@ -33,6 +33,12 @@ struct Step {
     compliance: Compliance,
     dt: f64,
     used: usize,
+}
+
+impl Step {
+    fn stored(&self) -> usize {
+        self.factor.stored() + self.image.values().len()
+    }
 }
 
 /// (A₀ + s U R Uᵀ)⁻¹ = A₀⁻¹ − X (R⁻¹/s + Uᵀ X)⁻¹ Xᵀ with X = A₀⁻¹ U.
@@ -102,6 +108,18 @@ impl Hht {
         Ok(Step { factor, woodbury, image, compliance, dt, used: 0 })
     }
 
+    /// Forgets the step sizes used longest ago until there is room for a new one.
+    fn make_room(&mut self, wanted: usize) {
+        let mut stored: usize = self.steps.values().map(Step::stored).sum();
+        while stored + wanted > KEPT_VALUES
+            && let Some((key, size)) =
+                self.steps.iter().min_by_key(|(_, s)| s.used).map(|(k, s)| (*k, s.stored()))
+        {
+            self.steps.remove(&key);
+            stored -= size;
+        }
+    }
+
     /// x ← A⁻¹ x with the step prepared last.
     fn solve(&mut self, x: &mut [f64]) {
         let Some(step) = self.steps.get_mut(&self.now) else { return };
@@ -147,13 +165,8 @@ impl Propagator for Hht {
         self.now = dt.to_bits();
         self.clock += 1;
         if !self.steps.contains_key(&self.now) {
-            if self.steps.len() >= KEPT
-                && let Some(oldest) =
-                    self.steps.iter().min_by_key(|(_, s)| s.used).map(|(key, _)| *key)
-            {
-                self.steps.remove(&oldest);
-            }
             let step = self.build(dt)?;
+            self.make_room(step.stored());
             self.steps.insert(self.now, step);
         }
         if let Some(step) = self.steps.get_mut(&self.now) {

@@ -157,7 +157,7 @@ impl LinkKernel {
         links: &LinkSet,
         affine: &Affine<'_>,
         from: &Committed<'_>,
-        scale: &mut ForceScale,
+        scale: &ForceScale,
         out: &mut Converged<'_>,
     ) -> Result<(), NoEquilibrium> {
         let limit = match self.kind {
@@ -172,10 +172,6 @@ impl LinkKernel {
             let (size, at) = self.measure(links, out, scale);
             worst = at;
             if size <= 1.0 {
-                for (i, f) in out.f.iter().enumerate() {
-                    let kind = usize::from(links.rotational[i]);
-                    scale[kind] = scale[kind].max(f.abs());
-                }
                 return Ok(());
             }
             if !size.is_finite() {

@@ -90,7 +90,7 @@ pub(crate) fn equilibrium(
             links,
             &Affine { d: &d, v: &v, support_d: &zero, support_v: &zero, g: &g, h: &none, key: 0 },
             &Committed { d: &state.d, v: &zero, history: &state.history, dt: 0.0 },
-            &mut trial.scale,
+            &state.scale,
             &mut Converged {
                 d: &mut trial.d,
                 v: &mut trial.v,
@@ -102,9 +102,7 @@ pub(crate) fn equilibrium(
         );
         match outcome {
             Ok(()) => {
-                for (s, e) in trial.stored.iter_mut().zip(&energy) {
-                    *s = e.stored;
-                }
+                trial.settle(links, &energy);
                 state = trial;
                 pseudo = attempt;
                 reached = next;

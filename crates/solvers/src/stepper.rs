@@ -7,7 +7,7 @@ use crate::space::Space;
 use serde::{Deserialize, Serialize};
 use trilith_element::{Energy, Kinematics};
 use trilith_model::Model;
-use trilith_system::{LoadSet, StepLoads, System};
+use trilith_system::{LinkSet, LoadSet, StepLoads, System};
 
 /// Everything that changes during a run: copying it is a checkpoint.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
@@ -26,6 +26,50 @@ pub struct State {
     pub(crate) scale: ForceScale,
     /// Energy stored in each link.
     pub(crate) stored: Vec<f64>,
+}
+
+impl State {
+    /// The links at a deformation, as the laws see it at the start of a step; no motion yet.
+    pub(crate) fn of_links(
+        model: &Model,
+        links: &LinkSet,
+        d: Vec<f64>,
+        v: Vec<f64>,
+        history: &[f64],
+    ) -> Self {
+        let mut state = Self {
+            motion: Vec::new(),
+            f: vec![0.0; links.len()],
+            history: history.to_vec(),
+            scale: [0.0; 2],
+            stored: vec![0.0; links.links.len()],
+            d,
+            v,
+        };
+        let mut energy = vec![Energy::default(); links.links.len()];
+        links.respond(
+            model,
+            Kinematics { d: &state.d, v: &state.v, d0: &state.d, v0: &state.v, dt: 0.0 },
+            history,
+            &mut state.history,
+            &mut state.f,
+            &mut links.tangents(),
+            &mut energy,
+        );
+        state.settle(links, &energy);
+        state
+    }
+
+    /// Takes note of the forces and stored energies of a converged step.
+    pub(crate) fn settle(&mut self, links: &LinkSet, energy: &[Energy]) {
+        for (stored, e) in self.stored.iter_mut().zip(energy) {
+            *stored = e.stored;
+        }
+        for (f, rotational) in self.f.iter().zip(&links.rotational) {
+            let kind = usize::from(*rotational);
+            self.scale[kind] = self.scale[kind].max(f.abs());
+        }
+    }
 }
 
 /// What one step did to the energies.
@@ -183,7 +227,7 @@ impl<P: Propagator> Stepper for LinkStepper<'_, P> {
                     key: compliance.key,
                 },
                 &Committed { d: &from.d, v: &from.v, history: &from.history, dt },
-                &mut to.scale,
+                &from.scale,
                 &mut Converged {
                     d: &mut to.d,
                     v: &mut to.v,
@@ -196,9 +240,7 @@ impl<P: Propagator> Stepper for LinkStepper<'_, P> {
             .map_err(|e| StepFailure::NoEquilibrium { worst: e.worst, residual: e.residual })?;
         let forces = Forces { load0: &load0, load1: &load1, pseudo0: &pseudo0, pseudo1: &pseudo };
         self.propagator.correct(&forces, &mut to.motion);
-        for (stored, e) in to.stored.iter_mut().zip(&links) {
-            *stored = e.stored;
-        }
+        to.settle(&self.system.links, &links);
         let work = self.propagator.work(&from.motion, &to.motion, &forces);
         Ok(self.energy(from, to, (&support_d0, &support_d), work, links, dt))
     }
@@ -221,32 +263,7 @@ impl<P: Propagator> Stepper for LinkStepper<'_, P> {
                 flat[*i] += own[a];
             }
         }
-        let mut state = State {
-            f: vec![0.0; links.len()],
-            history: history.clone(),
-            scale: [0.0; 2],
-            stored: vec![0.0; links.links.len()],
-            motion: Vec::new(),
-            d,
-            v: rate,
-        };
-        let mut energy = vec![Energy::default(); links.links.len()];
-        links.respond(
-            self.model,
-            Kinematics { d: &state.d, v: &state.v, d0: &state.d, v0: &state.v, dt: 0.0 },
-            &history,
-            &mut state.history,
-            &mut state.f,
-            &mut links.tangents(),
-            &mut energy,
-        );
-        for (s, e) in state.stored.iter_mut().zip(&energy) {
-            *s = e.stored;
-        }
-        for (i, f) in state.f.iter().enumerate() {
-            let kind = usize::from(links.rotational[i]);
-            state.scale[kind] = state.scale[kind].max(f.abs());
-        }
+        let mut state = State::of_links(self.model, links, d, rate, &history);
         let mut force = space.force(amplitudes);
         space.damp(-1.0, &p, &mut force);
         space.stiffness.mul_add(-1.0, &q, &mut force);
