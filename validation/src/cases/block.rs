@@ -10,7 +10,7 @@ const ONSET: &str = r#"(
     plane: XZ,
     parameters: {
         "width": "2 m", "height": "4 m", "mass": "10 t",
-        "mu": 0.6, "kn": "2e9 N/m", "cv": "2.5e6 N*s/m", "a": 1.5,
+        "mu": 0.6, "kn": "2e11 N/m", "cv": "2.5e7 N*s/m", "a": 1.5,
     },
     nodes: {
         "cg": (0, 0, "height/2"), "left": ("-width/2", 0, 0), "right": ("width/2", 0, 0),
@@ -38,15 +38,15 @@ const ROCKING: &str = r#"(
     title: "Block that rocks on two gaps",
     plane: XZ,
     parameters: {
-        "m": "1000 kg", "b": "0.5 m", "h": "1 m", "k": "1e10 N/m", "c": "5.8e6 N*s/m",
+        "mass": "1000 kg", "b": "0.5 m", "height": "1 m", "k": "1e10 N/m", "c": "5.8e6 N*s/m",
         "theta": 0.02,
     },
-    nodes: { "base": (0, 0, 0), "cg": (0, 0, "h"), "left": ("-b", 0, 0), "right": ("b", 0, 0) },
+    nodes: { "base": (0, 0, 0), "cg": (0, 0, "height"), "left": ("-b", 0, 0), "right": ("b", 0, 0) },
     supports: { "base": Ux },
     properties: { "foot": NLink(kn: "k", damping: "c") },
     elements: {
         "block": RigidBody(nodes: ("base", "cg", "left", "right")),
-        "inertia": Mass(node: "cg", mass: "m", inertia: (0, "m*(4*b^2 + 4*h^2)/12", 0)),
+        "inertia": Mass(node: "cg", mass: "mass", inertia: (0, "mass*(4*b^2 + 4*height^2)/12", 0)),
         "foot left": NLink(node: "left", use: "foot"),
         "foot right": NLink(node: "right", use: "foot"),
     },

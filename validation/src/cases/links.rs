@@ -125,7 +125,7 @@ const PENDULUM: &str = r#"(
             kn: "1e10 N/m", ks: "1e10 N/m", radius: "1.5 m",
             mu_slow: "mu_slow", mu_fast: "mu_fast", rate: "20 s/m",
         ),
-        "mass": Mass(mass: "1e6/9.80665 kg"),
+        "mass": Mass(mass: "1e6/9.80665"),
     },
     elements: {
         "free": NLink(node: "free", use: "pendulum"),

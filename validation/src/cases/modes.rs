@@ -197,7 +197,7 @@ fn lm4() -> Case {
     plane: XZ,
     properties: {
         "arm": Beam(
-            young: "200 GPa", area: 0.015625, i3: "0.125^4/12 m^4", density: "8000 kg/m^3",
+            young: "200 GPa", area: 0.015625, i3: "0.125^4/12", density: "8000 kg/m^3",
             mass_matrix: Consistent,
         ),
     },"#;
@@ -232,8 +232,8 @@ fn lm6() -> Case {
     let head = r#"    title: "Deep beam",
     properties: {
         "beam": Beam(
-            young: "200 GPa", poisson: 0.3, area: 4, i2: "16/12 m^4", i3: "16/12 m^4",
-            torsion: "0.1406*16 m^4", shear_coefficient: "5/6", density: "8000 kg/m^3",
+            young: "200 GPa", poisson: 0.3, area: 4, i2: "16/12", i3: "16/12",
+            torsion: "0.1406*16", shear_coefficient: "5/6", density: "8000 kg/m^3",
             mass_matrix: Consistent,
         ),
     },"#;
