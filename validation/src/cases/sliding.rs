@@ -128,7 +128,7 @@ fn sl1() -> Case {
     let turn = |n: u32| {
         let size = 8.5e-4 - 2.0 * f64::from(n) * 1e-4;
         let t = f64::from(n) * PI / 100.0;
-        let reference = if n % 2 == 0 { size } else { -size };
+        let reference = if n.is_multiple_of(2) { size } else { -size };
         let tolerance = if n == 4 { 1e-2 } else { 1e-3 };
         Check::new(format!("u at turning point {n}"), METRE, reference, tolerance, move |r| {
             r.at("u", t)
