@@ -139,3 +139,31 @@ fn dummies_do_not_damp_the_sliding_of_the_isolated_frame() {
     let i = output(&plain, "base_x");
     assert!(b.difference(&a, i) < 0.01, "difference {}", b.difference(&a, i));
 }
+
+/// Truncated bases come nearer to the complete one as they grow; isolator displacements come first.
+#[test]
+fn a_ritz_basis_converges_to_the_complete_one() {
+    let run = |vectors: usize| {
+        let (mut model, system) = shipped("isolated_frame.ron", &[("duration", "4".to_owned())]);
+        if let Some(Analysis::Dynamic(d)) = model.cases.last_mut().map(|c| &mut c.analysis) {
+            d.solution.basis.vectors = Some(vectors);
+        }
+        let (t, r) = trace(&model, &system, SolverKind::Fna);
+        let basis = r.basis.expect("a basis");
+        eprintln!("{vectors} vectors: {} kept, worst {:?}", basis.vectors, basis.adequacy.first());
+        (t, output(&model, "base_x"), output(&model, "drift1_x"), r.warnings)
+    };
+    let (whole, base, drift, _) = run(84);
+    let differences: Vec<[f64; 2]> = [12, 36, 60]
+        .iter()
+        .map(|n| {
+            let (t, ..) = run(*n);
+            [t.difference(&whole, base), t.difference(&whole, drift)]
+        })
+        .collect();
+    eprintln!("{differences:?}");
+    assert!(differences.windows(2).all(|w| w[1][0] < w[0][0]), "{differences:?}");
+    assert!(differences[1][0] < 0.01 && differences[2][1] < 0.05, "{differences:?}");
+    let (_, _, _, warnings) = run(12);
+    assert!(warnings.iter().any(|w| w.contains("flexibility")), "{warnings:?}");
+}

@@ -6,7 +6,7 @@
 //! ```
 //!
 //! The ground recursion carries the structure, one static vector for each link coordinate carries the
-//! local flexibility; a vector that keeps less than 3e-4 of its M-norm is dropped. K̂ holds small dummies
+//! local flexibility; a static vector that carries next to no mass of its own is dropped. K̂ holds small dummies
 //! of the links (and a mass shift where the structure can move freely), so that it is regular; the span
 //! is then turned into modes of the structure itself, without the automatic dummies, so these never
 //! enter the dynamics. ω = 0 is an ordinary mode.
@@ -24,8 +24,12 @@ use trilith_system::System;
 const COMPLETE_LIMIT: usize = 1500;
 /// Up to this order the complete basis is the automatic choice.
 const COMPLETE_AUTOMATIC: usize = 300;
-/// Share of its M-norm that a new vector must keep.
-const KEEP: f64 = 3e-4;
+/// Share of its M-norm that a new vector must keep to be more than rounding. It may be small: on soft
+/// dummies every static shape is mostly a rigid motion, which the vectors before it hold already.
+const KEEP: f64 = 1e-8;
+/// A static shape of a massless place is not a mode: faster than this (rad/s) it would only spoil the
+/// digits of the slow ones.
+const FASTEST: f64 = 1e6;
 /// Automatic dummies as a share of the engaged stiffness of a link.
 const DUMMY_SHARE: f64 = 1e-3;
 
@@ -138,7 +142,7 @@ fn enriched(
             let (_, vectors) =
                 lowest_modes(&hat.k, &system.mass, ground.min(system.order()), -shift)?;
             for j in 0..vectors.columns() {
-                span.take(vectors.column(j).to_vec());
+                span.take(vectors.column(j).to_vec(), None);
             }
         }
         _ => span.recurse(hat, loads, ground),
@@ -153,7 +157,7 @@ fn enriched(
     hat.factor.solve(statics.values_mut());
     for j in 0..links.len() {
         if span.len() < total {
-            span.take(statics.column(j).to_vec());
+            span.take(statics.column(j).to_vec(), Some(&hat.k));
         }
     }
     Ok(span.vectors)
@@ -175,8 +179,9 @@ impl<'a> Span<'a> {
         self.images.len()
     }
 
-    /// Orthonormalises and keeps a vector, unless too little of it is left.
-    fn take(&mut self, mut x: Vec<f64>) -> bool {
+    /// Orthonormalises and keeps a vector, unless nothing of it is left, or, where a stiffness is given,
+    /// what is left would be faster than any mode of interest.
+    fn take(&mut self, mut x: Vec<f64>, stiffness: Option<&Sparse>) -> bool {
         let largest = x.iter().fold(0.0f64, |a, b| a.max(b.abs()));
         if largest == 0.0 || !largest.is_finite() {
             return false;
@@ -198,6 +203,9 @@ impl<'a> Span<'a> {
             return false;
         }
         x.iter_mut().for_each(|v| *v /= after);
+        if stiffness.is_some_and(|k| k.bilinear(&x, &x) > FASTEST * FASTEST) {
+            return false;
+        }
         self.images.push(image.into_iter().map(|v| v / after).collect());
         let mut values = self.vectors.values().to_vec();
         values.extend(&x);
@@ -215,7 +223,7 @@ impl<'a> Span<'a> {
                     break;
                 }
                 hat.factor.solve(&mut x);
-                if self.take(x) {
+                if self.take(x, None) {
                     next.push(self.images[self.len() - 1].clone());
                 }
             }

@@ -228,7 +228,11 @@ impl LinkKernel {
         let mut now = *scale;
         for (a, flat) in links.active.iter().enumerate() {
             let kind = usize::from(links.rotational[*flat]);
-            now[kind] = now[kind].max(out.f[*flat].abs()).max(out.pseudo[a].abs());
+            // The residual counts as a force: before the first link is touched there is no other.
+            now[kind] = now[kind]
+                .max(out.f[*flat].abs())
+                .max(out.pseudo[a].abs())
+                .max(self.residual[a].abs());
         }
         let mut size = 0.0;
         let mut worst = NoEquilibrium { worst: 0, residual: 0.0 };

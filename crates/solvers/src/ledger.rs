@@ -11,6 +11,9 @@ use serde::{Deserialize, Serialize};
 /// Where all energy has left again, the error is measured against this share of the largest.
 const SHARE_OF_LARGEST: f64 = 0.01;
 
+/// Nor is it measured against less than this share of the energy that stands in springs and loads.
+const SHARE_OF_STANDING: f64 = 1e-6;
+
 /// Energies since the start of a case.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub(crate) struct Ledger {
@@ -87,8 +90,12 @@ impl Ledger {
         }
         // A pulse may put in far more than it leaves; what counts is what stayed, or was turned to heat.
         let heat = t.modal_damping + t.algorithmic + t.link_hysteretic + t.link_viscous;
-        let size = [t.input, t.kinetic, t.potential, heat, SHARE_OF_LARGEST * self.largest]
+        // At rest under load there is nothing but rounding, of the energy that stands in springs.
+        let standing = step.strain.abs() + stored.abs() + potential.abs();
+        let shares = [SHARE_OF_LARGEST * self.largest, SHARE_OF_STANDING * standing];
+        let size = [t.input, t.kinetic, t.potential, heat]
             .into_iter()
+            .chain(shares)
             .fold(0.0, |a: f64, b| a.max(b.abs()));
         t.error_relative = if size > 0.0 { t.error.abs() / size } else { 0.0 };
         step.kinetic + step.strain.abs() + stored.abs()

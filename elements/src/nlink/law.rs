@@ -112,7 +112,11 @@ impl Link for NLink {
 
     fn engaged_stiffness(&self, k: &mut [f64]) {
         let n = self.coordinates().len();
-        let shear = self.elastic() + self.k_post;
+        // A pendulum without friction is held by the weight on it, which is not known here.
+        let shear = match self.elastic() + self.k_post {
+            k if k == 0.0 && self.radius > 0.0 => 1e-3 * self.kn,
+            k => k,
+        };
         k[0] = self.kn;
         k[n + 1] = shear;
         k[2 * n + 2] = shear;
