@@ -4,9 +4,11 @@
 //! all [`Diagnostic`]s of the file at once. [`resolved`] writes a model as a file in which every
 //! default is filled in and every expression evaluated.
 
+mod analysis;
 mod diagnostic;
 mod expression;
 mod model;
+mod output;
 mod parameters;
 mod read;
 mod registry;
@@ -16,8 +18,10 @@ mod time_function;
 mod tree;
 mod units;
 
+pub use analysis::*;
 pub use diagnostic::{Diagnostic, line_column};
 pub use model::*;
+pub use output::*;
 pub use read::{read, read_text};
 pub use registry::Registry;
 pub use resolved::resolved;

@@ -90,12 +90,7 @@ pub(crate) fn run(
     let none = vec![0.0; system.links.len()];
     let effective = if kind == SolverKind::FullNewton { &none } else { &system.links.effective };
     let physical = Space::physical(system, &loads, effective, damping);
-    let kernel = LinkKernel::new(
-        &system.links,
-        solution.kernel,
-        physical.dummy_k.clone(),
-        physical.dummy_c.clone(),
-    );
+    let kernel = LinkKernel::new(&system.links, solution.kernel, physical.dummy_k.clone());
     let mut stepper: Box<dyn Stepper + '_> = match (kind, &bases) {
         (SolverKind::Fna, Some(b)) => {
             let propagator = Modal::new(Space::reduced(&physical, &b.stepping));

@@ -237,15 +237,7 @@ impl FullNewton<'_> {
         }
         let support =
             (0..n).map(|i| 0.5 * (from.f[i] + to.f[i]) * (moved[1][i] - moved[0][i])).sum();
-        StepEnergy {
-            link_work: work.links,
-            damping: work.damping,
-            work,
-            support,
-            kinetic,
-            strain,
-            links,
-        }
+        StepEnergy { link_work: work.links, work, support, kinetic, strain, links }
     }
 }
 

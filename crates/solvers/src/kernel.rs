@@ -1,14 +1,14 @@
 //! The link kernel: forces of all links at the end of a step.
 //!
-//! Every linear step is affine in the pseudo-forces f̃ = f − k_e d − c_e ḋ at its end:
+//! Every linear step is affine in the pseudo-forces f̃ = f − k_e d at its end:
 //!
 //! ```text
 //! d = d* − G f̃        ḋ = v* − H f̃        f = law(d, ḋ)
 //! ```
 //!
-//! `Newton` solves `R(f̃) = law(d, ḋ) − k_e d − c_e ḋ − f̃ = 0` with the full tangents of the laws,
-//! `J = I + (k − k_e) G + (c − c_e) H`; coordinates whose row of tangents is zero need no equation.
-//! `FixedPoint` is Wilson's constant-stiffness iteration, f̃ ← law − k_e d − c_e ḋ; it converges only
+//! `Newton` solves `R(f̃) = law(d, ḋ) − k_e d − f̃ = 0` with the full tangents of the laws,
+//! `J = I + (k − k_e) G + c H`; coordinates whose row of tangents is zero need no equation.
+//! `FixedPoint` is Wilson's constant-stiffness iteration, f̃ ← law − k_e d; it converges only
 //! while |k − k_e| G < 1. Neither touches a matrix of the structure.
 
 use serde::{Deserialize, Serialize};
@@ -71,9 +71,8 @@ const CHORD_FROM: usize = 24;
 /// Workspace and settings of the link equations.
 pub(crate) struct LinkKernel {
     kind: Kernel,
-    /// Dummy stiffness and damping of the active coordinates.
+    /// Dummy stiffness of the active coordinates.
     dummy_k: Vec<f64>,
-    dummy_c: Vec<f64>,
     tangents: Tangents,
     /// Active index of each flat coordinate.
     place: Vec<usize>,
@@ -101,7 +100,7 @@ struct Factor {
 }
 
 impl LinkKernel {
-    pub(crate) fn new(links: &LinkSet, kind: Kernel, dummy_k: Vec<f64>, dummy_c: Vec<f64>) -> Self {
+    pub(crate) fn new(links: &LinkSet, kind: Kernel, dummy_k: Vec<f64>) -> Self {
         let mut place = vec![usize::MAX; links.len()];
         for (a, flat) in links.active.iter().enumerate() {
             place[*flat] = a;
@@ -109,7 +108,6 @@ impl LinkKernel {
         Self {
             kind,
             dummy_k,
-            dummy_c,
             tangents: links.tangents(),
             place,
             residual: vec![0.0; links.active.len()],
@@ -143,10 +141,10 @@ impl LinkKernel {
         self.factors.push(factor);
     }
 
-    /// Pseudo-force of forces that act at a deformation (flat arrays, moving supports taken off).
-    pub(crate) fn pseudo(&self, links: &LinkSet, f: &[f64], d: &[f64], v: &[f64], to: &mut [f64]) {
+    /// Pseudo-force of forces that act at a deformation (flat arrays, moving supports taken off the deformation).
+    pub(crate) fn pseudo(&self, links: &LinkSet, f: &[f64], d: &[f64], to: &mut [f64]) {
         for (a, flat) in links.active.iter().enumerate() {
-            to[a] = f[*flat] - self.dummy_k[a] * d[*flat] - self.dummy_c[a] * v[*flat];
+            to[a] = f[*flat] - self.dummy_k[a] * d[*flat];
         }
     }
 
@@ -211,10 +209,7 @@ impl LinkKernel {
         let at = Kinematics { d: out.d, v: out.v, d0: from.d, v0: from.v, dt: from.dt };
         links.respond(model, at, from.history, out.history, out.f, &mut self.tangents, out.energy);
         for a in 0..n {
-            self.residual[a] = out.f[links.active[a]]
-                - self.dummy_k[a] * d[a]
-                - self.dummy_c[a] * v[a]
-                - out.pseudo[a];
+            self.residual[a] = out.f[links.active[a]] - self.dummy_k[a] * d[a] - out.pseudo[a];
         }
     }
 
@@ -278,7 +273,7 @@ impl LinkKernel {
         h: &Dense,
     ) -> Factor {
         let n = links.active.len();
-        // Rows of (k − k_e) and (c − c_e) per active coordinate: (other active, stiffness, damping).
+        // Rows of k − k_e and c per active coordinate: (other active, stiffness, damping).
         let mut rows: Vec<Vec<(usize, f64, f64)>> = vec![Vec::new(); n];
         for link in &links.links {
             let size = link.range.len();
@@ -295,7 +290,7 @@ impl LinkKernel {
                     let at = link.block.start + i * size + j;
                     let own = f64::from(u8::from(i == j));
                     let k = tangents.k[at] - own * self.dummy_k[a];
-                    let c = tangents.c[at] - own * self.dummy_c[a];
+                    let c = tangents.c[at];
                     if k != 0.0 || c != 0.0 {
                         rows[a].push((b, k, c));
                     }

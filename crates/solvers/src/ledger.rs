@@ -70,7 +70,7 @@ impl Ledger {
         t.kinetic = step.kinetic;
         t.strain = step.strain - self.strain0;
         t.potential = potential - self.potential0;
-        t.modal_damping += step.damping;
+        t.modal_damping += step.work.damping;
         t.algorithmic += step.work.algorithmic;
         let stored: f64 = self.links.iter().map(|l| l.stored).sum();
         t.link_stored = stored - self.stored0;

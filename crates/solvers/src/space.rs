@@ -23,7 +23,6 @@ pub(crate) struct Space {
     pub rows: Vec<Vec<(usize, f64)>>,
     /// Dummies of the active coordinates.
     pub dummy_k: Vec<f64>,
-    pub dummy_c: Vec<f64>,
     /// One force vector a load channel.
     pub forces: Vec<Vec<f64>>,
     /// Free DOFs = shape · coordinates; `None` where they are the coordinates.
@@ -48,7 +47,6 @@ impl Space {
             stiffness,
             modal,
             rows: links.active.iter().map(|i| links.rows[*i].clone()).collect(),
-            dummy_c: vec![0.0; dummy.len()],
             dummy_k: dummy,
             forces: loads.channels.iter().map(|c| c.force.clone()).collect(),
             shape: None,
@@ -95,7 +93,6 @@ impl Space {
             modal: None,
             rows,
             dummy_k: physical.dummy_k.clone(),
-            dummy_c: physical.dummy_c.clone(),
             forces: physical.forces.iter().map(project).collect(),
             shape: Some(phi.clone()),
         }

@@ -73,10 +73,10 @@ pub(crate) fn equilibrium(
     let (d_before, d_added) = (deform(&u_before), deform(&u_added));
     let dummy: Vec<f64> = links.active.iter().map(|i| engaged[*i]).collect();
     let zero = vec![0.0; links.len()];
-    let mut kernel = LinkKernel::new(links, Kernel::Newton, dummy.clone(), vec![0.0; dummy.len()]);
+    let mut kernel = LinkKernel::new(links, Kernel::Newton, dummy.clone());
     let mut state = start;
     let mut pseudo = vec![0.0; dummy.len()];
-    kernel.pseudo(links, &state.f, &state.d, &zero, &mut pseudo);
+    kernel.pseudo(links, &state.f, &state.d, &mut pseudo);
     let (mut reached, mut step, mut made, mut rejected) = (0.0, 1.0 / steps.max(1) as f64, 0, 0);
     while reached < 1.0 {
         let next = if reached + 1.0001 * step >= 1.0 { 1.0 } else { reached + step };

@@ -78,8 +78,6 @@ pub(crate) struct StepEnergy {
     pub work: StepWork,
     /// Work that the links took, dummies put right.
     pub link_work: f64,
-    /// Damping of the structure, dummies put right.
-    pub damping: f64,
     /// Work of moving supports on the links.
     pub support: f64,
     pub kinetic: f64,
@@ -177,12 +175,10 @@ impl<P: Propagator> LinkStepper<'_, P> {
         (d, v)
     }
 
-    fn pseudo(&self, state: &State, support_d: &[f64], support_v: &[f64]) -> Vec<f64> {
-        let own =
-            |a: &[f64], b: &[f64]| -> Vec<f64> { a.iter().zip(b).map(|(x, y)| x - y).collect() };
+    fn pseudo(&self, state: &State, support_d: &[f64]) -> Vec<f64> {
+        let own: Vec<f64> = state.d.iter().zip(support_d).map(|(x, y)| x - y).collect();
         let mut pseudo = vec![0.0; self.system.links.active.len()];
-        let (d, v) = (own(&state.d, support_d), own(&state.v, support_v));
-        self.kernel.pseudo(&self.system.links, &state.f, &d, &v, &mut pseudo);
+        self.kernel.pseudo(&self.system.links, &state.f, &own, &mut pseudo);
         pseudo
     }
 }
@@ -199,9 +195,9 @@ impl<P: Propagator> Stepper for LinkStepper<'_, P> {
         let space = self.propagator.space();
         let n = space.order();
         let (load0, load1) = (space.force(&loads.start), space.force(&loads.end));
-        let (support_d0, support_v0) = self.support(&loads.start);
+        let (support_d0, _) = self.support(&loads.start);
         let (support_d, support_v) = self.support(&loads.end);
-        let pseudo0 = self.pseudo(from, &support_d0, &support_v0);
+        let pseudo0 = self.pseudo(from, &support_d0);
         to.clone_from(from);
         let zero = vec![0.0; pseudo0.len()];
         let before = Forces { load0: &load0, load1: &load1, pseudo0: &pseudo0, pseudo1: &zero };
@@ -242,7 +238,7 @@ impl<P: Propagator> Stepper for LinkStepper<'_, P> {
         self.propagator.correct(&forces, &mut to.motion);
         to.settle(&self.system.links, &links);
         let work = self.propagator.work(&from.motion, &to.motion, &forces);
-        Ok(self.energy(from, to, (&support_d0, &support_d), work, links, dt))
+        Ok(self.energy(from, to, (&support_d0, &support_d), work, links))
     }
 
     fn start(
@@ -267,8 +263,8 @@ impl<P: Propagator> Stepper for LinkStepper<'_, P> {
         let mut force = space.force(amplitudes);
         space.damp(-1.0, &p, &mut force);
         space.stiffness.mul_add(-1.0, &q, &mut force);
-        let (support_d, support_v) = self.support(amplitudes);
-        let pseudo = self.pseudo(&state, &support_d, &support_v);
+        let (support_d, _) = self.support(amplitudes);
+        let pseudo = self.pseudo(&state, &support_d);
         space.spread(-1.0, &pseudo, &mut force);
         let a = self.propagator.acceleration(&force)?;
         state.motion = [q, p, a].concat();
@@ -343,25 +339,21 @@ impl<P: Propagator> LinkStepper<'_, P> {
         support: (&[f64], &[f64]),
         work: StepWork,
         links: Vec<Energy>,
-        dt: f64,
     ) -> StepEnergy {
         let space = self.propagator.space();
         let (kinetic, mut strain) = kinetic_and_strain(space, &to.motion);
-        let (mut link_work, mut damping, mut moved) = (work.links, work.damping, 0.0);
+        let (mut link_work, mut moved) = (work.links, 0.0);
         for (a, flat) in self.system.links.active.iter().enumerate() {
-            let (k, c) = (space.dummy_k[a], space.dummy_c[a]);
-            if k != 0.0 || c != 0.0 {
+            let k = space.dummy_k[a];
+            if k != 0.0 {
                 let (d0, d1) = (from.d[*flat] - support.0[*flat], to.d[*flat] - support.1[*flat]);
-                let (v0, v1) = (from.v[*flat], to.v[*flat]);
                 strain -= 0.5 * k * d1 * d1;
-                let lost = c * dt * (v0 * v0 + v0 * v1 + v1 * v1) / 3.0;
-                link_work += 0.5 * k * (d1 * d1 - d0 * d0) + lost;
-                damping -= lost;
+                link_work += 0.5 * k * (d1 * d1 - d0 * d0);
             }
         }
         for i in 0..from.d.len() {
             moved += 0.5 * (from.f[i] + to.f[i]) * (support.1[i] - support.0[i]);
         }
-        StepEnergy { work, link_work, damping, support: moved, kinetic, strain, links }
+        StepEnergy { work, link_work, support: moved, kinetic, strain, links }
     }
 }

@@ -1,0 +1,221 @@
+//! Analysis cases: what is loaded, how it moves, how it is solved.
+
+use crate::{Load, Span};
+use trilith_element::Dof;
+
+/// An analysis case.
+#[derive(Clone, Debug)]
+pub struct Case {
+    /// Name.
+    pub name: String,
+    /// The case whose end state it continues: displacements, link history and loads are carried on.
+    pub after: Option<usize>,
+    /// What is analysed.
+    pub analysis: Analysis,
+    /// Where the file defines it.
+    pub span: Span,
+}
+
+/// What a case does.
+#[derive(Clone, Debug)]
+pub enum Analysis {
+    /// Nonlinear static analysis.
+    Static(StaticCase),
+    /// Dynamic analysis.
+    Dynamic(Box<DynamicCase>),
+}
+
+/// Nonlinear static analysis: loads grow from zero (or from the case before) to their value.
+#[derive(Clone, Debug, PartialEq)]
+pub struct StaticCase {
+    /// Loads added in this case.
+    pub loads: Vec<Load>,
+    /// Load steps asked for; halved where they do not converge.
+    pub steps: usize,
+}
+
+/// Dynamic analysis in time.
+#[derive(Clone, Debug)]
+pub struct DynamicCase {
+    /// Length, s.
+    pub duration: f64,
+    /// Output step, s; the march substeps inside it by itself.
+    pub dt: f64,
+    /// Loads held constant from the start, beside those carried on from the case before.
+    pub constant: Vec<Load>,
+    /// Uniform base acceleration: displacements are then relative to the base.
+    pub base: Vec<BaseMotion>,
+    /// Patterns times functions.
+    pub forces: Vec<ForceHistory>,
+    /// Imposed displacements of supports.
+    pub supports: Vec<SupportMotion>,
+    /// Initial values at nodes, replacing those of the case before where given.
+    pub initial: Vec<Initial>,
+    /// How to solve it.
+    pub solution: Solution,
+}
+
+/// One component of the uniform base acceleration.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct BaseMotion {
+    /// Direction of positive acceleration: Ux, Uy or Uz.
+    pub direction: Dof,
+    /// Index of the function, m/s².
+    pub function: usize,
+    /// Factor.
+    pub factor: f64,
+}
+
+/// A pattern that varies in time.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ForceHistory {
+    /// Index of the pattern.
+    pub pattern: usize,
+    /// Index of the function, a pure number.
+    pub function: usize,
+    /// Factor.
+    pub factor: f64,
+}
+
+/// Imposed displacement of one supported DOF.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SupportMotion {
+    /// Index of the node.
+    pub node: usize,
+    /// Direction; must be fixed by a support.
+    pub dof: Dof,
+    /// Index of the function, m or rad.
+    pub function: usize,
+    /// Factor.
+    pub factor: f64,
+}
+
+/// Initial displacement and velocity of one DOF.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Initial {
+    /// Index of the node.
+    pub node: usize,
+    /// Direction.
+    pub dof: Dof,
+    /// m or rad.
+    pub displacement: Option<f64>,
+    /// m/s or rad/s.
+    pub velocity: Option<f64>,
+}
+
+/// How a dynamic case is solved.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Solution {
+    /// Solver that runs where the command line names none.
+    pub solver: SolverKind,
+    /// Step control.
+    pub step: StepControl,
+    /// Solution of the link equations.
+    pub kernel: Kernel,
+    /// Largest share of the energy that may be unaccounted for before the run says so.
+    pub energy_limit: f64,
+    /// Settings of FNA and of other solvers on a Ritz basis.
+    pub basis: Basis,
+    /// HHT parameter α ∈ [−1/3, 0].
+    pub alpha: f64,
+}
+
+impl Default for Solution {
+    fn default() -> Self {
+        Self {
+            solver: SolverKind::Fna,
+            step: StepControl::default(),
+            kernel: Kernel::Newton,
+            energy_limit: 1e-3,
+            basis: Basis::default(),
+            alpha: 0.0,
+        }
+    }
+}
+
+/// The solvers.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum SolverKind {
+    /// Ritz basis, modal recurrences exact for loads linear in the step.
+    Fna,
+    /// All DOFs, HHT-α.
+    Hht,
+    /// Ritz basis, HHT-α.
+    RitzHht,
+    /// All DOFs, HHT-α with the tangent assembled and factorised in every iteration.
+    FullNewton,
+}
+
+impl SolverKind {
+    /// All, in order.
+    pub const ALL: [Self; 4] = [Self::Fna, Self::Hht, Self::RitzHht, Self::FullNewton];
+
+    /// Name on the command line and in results.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Fna => "fna",
+            Self::Hht => "hht",
+            Self::RitzHht => "ritz-hht",
+            Self::FullNewton => "full-newton",
+        }
+    }
+}
+
+/// Step control.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum StepControl {
+    /// Substeps chosen so that the local error stays below the tolerance.
+    Adaptive {
+        /// Error of a step in the energy norm, relative to the largest energy so far (square root).
+        tolerance: f64,
+    },
+    /// The output step cut into this many equal substeps; halved only where a step does not converge.
+    Fixed {
+        /// Substeps per output step.
+        substeps: usize,
+    },
+}
+
+impl Default for StepControl {
+    fn default() -> Self {
+        Self::Adaptive { tolerance: 1e-4 }
+    }
+}
+
+/// Solution of the link equations in a step.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Kernel {
+    /// Newton with the full tangents of the laws.
+    Newton,
+    /// Wilson's constant-stiffness iteration.
+    FixedPoint,
+}
+
+/// Basis of FNA.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Basis {
+    /// Which vectors.
+    pub kind: BasisKind,
+    /// How many; `None`: chosen by the program.
+    pub vectors: Option<usize>,
+    /// Flexibility of every link coordinate that the basis must hold, as share of the exact one.
+    pub adequacy: f64,
+}
+
+impl Default for Basis {
+    fn default() -> Self {
+        Self { kind: BasisKind::Ritz, vectors: None, adequacy: 0.99 }
+    }
+}
+
+/// Kind of basis.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum BasisKind {
+    /// Load-dependent Ritz vectors and one static vector per link coordinate.
+    Ritz,
+    /// Exact eigenvectors and one static vector per link coordinate.
+    Eigen,
+    /// All eigenvectors: the complete basis.
+    Complete,
+}

@@ -1,0 +1,77 @@
+//! Recorded quantities.
+
+use trilith_element::Dof;
+
+/// A recorded quantity.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Output {
+    /// Name.
+    pub name: String,
+    /// SI unit.
+    pub unit: String,
+    /// What it is.
+    pub quantity: Quantity,
+}
+
+/// What is recorded.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Quantity {
+    /// Σ factor · displacement.
+    Displacement(Vec<NodalTerm>),
+    /// Σ factor · velocity.
+    Velocity(Vec<NodalTerm>),
+    /// Σ factor · acceleration; absolute: with the base acceleration added.
+    Acceleration {
+        /// Terms.
+        terms: Vec<NodalTerm>,
+        /// Add the base acceleration.
+        absolute: bool,
+    },
+    /// factor · deformation of a link.
+    LinkDeformation {
+        /// Index of the element.
+        element: usize,
+        /// Coordinate of the law (position in its coordinates).
+        coordinate: usize,
+        /// Factor.
+        factor: f64,
+    },
+    /// factor · force of a link.
+    LinkForce {
+        /// Index of the element.
+        element: usize,
+        /// Coordinate of the law.
+        coordinate: usize,
+        /// Factor.
+        factor: f64,
+    },
+    /// A history variable of a link.
+    LinkHistory {
+        /// Index of the element.
+        element: usize,
+        /// Index of the variable.
+        field: usize,
+    },
+    /// factor · global end force that a linear element exerts on one of its nodes' DOFs (K u + C u̇ of the element).
+    ElementForce {
+        /// Index of the element.
+        element: usize,
+        /// Index into its nodes.
+        end: usize,
+        /// Direction.
+        dof: Dof,
+        /// Factor.
+        factor: f64,
+    },
+}
+
+/// One term of a nodal output.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct NodalTerm {
+    /// Index of the node.
+    pub node: usize,
+    /// Direction.
+    pub dof: Dof,
+    /// Factor.
+    pub factor: f64,
+}
