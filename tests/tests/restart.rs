@@ -59,3 +59,30 @@ fn a_checkpoint_of_another_solver_is_refused() {
     let error = trilith_solvers::run(&model, &system, options, &mut []).unwrap_err();
     assert!(error.to_string().contains("solver"), "{error}");
 }
+
+#[test]
+fn a_checkpoint_of_other_parameters_another_step_or_with_damage_is_refused() {
+    let (model, system) = shipped("rigid_block.ron", &[("duration", "0.1".into())]);
+    let end = || trace(&model, &system, SolverKind::Fna).1.end;
+    let refusal = |parameter: (&str, &str), dt: Option<f64>, end: EndState| {
+        let set = [("duration", "0.1".to_owned()), (parameter.0, parameter.1.to_owned())];
+        let (model, system) = shipped("rigid_block.ron", &set);
+        let options = RunOptions {
+            case: model.cases.len() - 1,
+            solver: Some(SolverKind::Fna),
+            dt,
+            from: Some(end),
+            ..RunOptions::default()
+        };
+        trilith_solvers::run(&model, &system, options, &mut []).unwrap_err().to_string()
+    };
+    let same = ("mu", "0.6");
+    assert!(refusal(("mu", "0.5"), None, end()).contains("parameter `mu`"));
+    assert!(refusal(same, Some(0.002), end()).contains("output step"));
+    let mut short = end();
+    short.load.pop();
+    assert!(refusal(same, None, short).contains("sizes"));
+    let text =
+        serde_json::to_string(&end()).unwrap().replacen("\"motion\":[", "\"motion\":[0.0,", 1);
+    assert!(refusal(same, None, serde_json::from_str(&text).unwrap()).contains("coordinates"));
+}

@@ -53,8 +53,6 @@ pub(crate) struct Bases {
 struct Solvable {
     k: Sparse,
     factor: Ldlt,
-    /// Mass shift in K̂.
-    shift: f64,
 }
 
 fn solvable(model: &Model, system: &System) -> Result<Solvable, SolveError> {
@@ -66,15 +64,15 @@ fn solvable(model: &Model, system: &System) -> Result<Solvable, SolveError> {
         .map(|(e, user)| if *user > 0.0 { *user } else { DUMMY_SHARE * e })
         .collect();
     let mut k = system.stiffness_with(&dummies);
-    let mut shift = 0.0;
     if !unsupported(&k)?.is_empty() {
         let sum = |a: &Sparse| a.diagonal().iter().sum::<f64>();
         let (stiff, heavy) = (sum(&k), sum(&system.mass));
-        shift = if stiff > 0.0 && heavy > 0.0 { 1e-6 * stiff / heavy } else { 1.0 };
+        // A mass shift makes regular what can move freely.
+        let shift = if stiff > 0.0 && heavy > 0.0 { 1e-6 * stiff / heavy } else { 1.0 };
         k = Sparse::combine(&[(1.0, &k), (shift, &system.mass)]);
     }
     let factor = Ldlt::new(&k)?;
-    Ok(Solvable { k, factor, shift })
+    Ok(Solvable { k, factor })
 }
 
 /// Makes the basis for loads given as vectors on the free DOFs.
@@ -138,9 +136,8 @@ fn enriched(
     let mut span = Span::new(system);
     match settings.kind {
         BasisKind::Eigen => {
-            let shift = if hat.shift > 0.0 { 0.0 } else { hat.shift };
-            let (_, vectors) =
-                lowest_modes(&hat.k, &system.mass, ground.min(system.order()), -shift)?;
+            let count = ground.min(system.order());
+            let (_, vectors) = lowest_modes(&hat.k, &system.mass, count, 0.0)?;
             for j in 0..vectors.columns() {
                 span.take(vectors.column(j).to_vec(), None);
             }

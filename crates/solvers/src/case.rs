@@ -11,7 +11,7 @@ use crate::statics::{self, Equilibrium};
 use crate::stepper::State;
 use crate::view::show_static;
 use serde::{Deserialize, Serialize};
-use trilith_model::{Analysis, Case, Load, Model, SolverKind, StaticCase};
+use trilith_model::{Analysis, Case, Load, Model, ParameterValue, SolverKind, StaticCase};
 use trilith_system::System;
 
 /// What to run.
@@ -40,6 +40,10 @@ pub struct EndState {
     pub case: String,
     /// Name of the solver.
     pub solver: String,
+    /// Parameters of the model with their values.
+    pub parameters: Vec<(String, String)>,
+    /// Output step, s.
+    pub dt: f64,
     /// Time in the case, s.
     pub time: f64,
     /// Output steps made.
@@ -55,6 +59,15 @@ pub struct EndState {
     pub(crate) pace: Pace,
     pub(crate) memory: Vec<Remembered>,
     pub(crate) ledger: Ledger,
+}
+
+/// Parameters of a model as a checkpoint holds them; numbers read back to the bit.
+pub(crate) fn parameters(model: &Model) -> Vec<(String, String)> {
+    let text = |v: &ParameterValue| match v {
+        ParameterValue::Number(x, _) => format!("{x:e}"),
+        ParameterValue::Text(t) => t.clone(),
+    };
+    model.parameters.iter().map(|p| (p.name.clone(), text(&p.value))).collect()
 }
 
 /// Runs a case and, before it, the cases that it continues.
@@ -215,6 +228,7 @@ fn run_static(
             model: model.source.sha256.clone(),
             case: case.name.clone(),
             solver: "static".into(),
+            parameters: parameters(model),
             displacement: u,
             velocity: zero,
             load,

@@ -1,7 +1,7 @@
 //! A dynamic case: start state, basis, solver, output steps.
 
 use crate::basis::{self, Bases};
-use crate::case::{EndState, RunOptions, constant_load};
+use crate::case::{EndState, RunOptions, constant_load, parameters};
 use crate::clock::{Clock, peak_rss_mb};
 use crate::damping::modal_damping;
 use crate::error::SolveError;
@@ -13,7 +13,7 @@ use crate::march::{Counts, March, Pace, Stop};
 use crate::modal::Modal;
 use crate::observe::{CaseResult, Observer, Status, Work};
 use crate::space::Space;
-use crate::start::{constant_force, potential, resume, start};
+use crate::start::{check, constant_force, potential, resume, start};
 use crate::stepper::{LinkStepper, State, StepEnergy, Stepper};
 use crate::timeline::Timeline;
 use crate::view::Viewer;
@@ -69,6 +69,10 @@ pub(crate) fn run(
     system.check_supported(model, true)?;
     let solution = &analysis.solution;
     let kind = options.solver.unwrap_or(solution.solver);
+    let dt = options.dt.unwrap_or(analysis.dt);
+    if let Some(end) = &options.from {
+        check(model, system, case, kind, dt, end)?;
+    }
     let mut constant = constant_load(model, system, &analysis.constant);
     if let Some(end) = &before {
         for (x, y) in constant.iter_mut().zip(&end.load) {
@@ -114,7 +118,6 @@ pub(crate) fn run(
             Box::new(LinkStepper { model, system, loads: &loads, propagator, kernel })
         }
     };
-    let dt = options.dt.unwrap_or(analysis.dt);
     let timeline = Timeline {
         dt,
         steps: ((analysis.duration / dt) - 1e-9).ceil().max(1.0) as usize,
@@ -136,7 +139,7 @@ pub(crate) fn run(
         }
     }
     let (mut state, mut pace, mut ledger, first) = match options.from {
-        Some(end) => resume(model, case, kind, end, stepper.as_mut())?,
+        Some(end) => resume(end, stepper.as_mut())?,
         None => start(model, system, analysis, before, &loads, stepper.as_mut(), dt)?,
     };
     let mut viewer = Viewer::new(model, system, &loads, stepper.space(), observers);
@@ -179,11 +182,11 @@ pub(crate) fn run(
         Some(Stop::NoEquilibrium { t, worst, residual }) => {
             Status::NotConverged { t, worst: system.links.name(model, worst), residual }
         }
-        None if ledger.totals.error_relative > solution.energy_limit => Status::EnergyError {
+        None if ledger.totals.error_relative <= solution.energy_limit => Status::Converged,
+        None => Status::EnergyError {
             share: ledger.totals.error_relative,
             limit: solution.energy_limit,
         },
-        None => Status::Converged,
     };
     if counts.forced > 0 {
         warnings.push(format!(
@@ -197,6 +200,8 @@ pub(crate) fn run(
         model: model.source.sha256.clone(),
         case: case.name.clone(),
         solver: kind.name().into(),
+        parameters: parameters(model),
+        dt,
         time: timeline.time(made),
         step: made,
         displacement: stepper.space().expand(&state.motion[..n]),

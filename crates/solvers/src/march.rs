@@ -6,7 +6,8 @@
 //! one is doubled, where it stays on the grid of halvings. A gap that closes with a dashpot, or a load
 //! that jumps, is a force jump inside a step, so the error falls only in proportion to the step there:
 //! the same rule then brackets the event until its impulse error is below the tolerance, whatever the
-//! output step. The energies of the links must close in each step as well. Only powers of two occur, so that the matrices of a step size are made once.
+//! output step. The energies of the links must close in each step as well. Only powers of two occur, so
+//! that the matrices of a step size are made once.
 
 use crate::error::SolveError;
 use crate::stepper::{State, StepEnergy, StepFailure, Stepper};
@@ -135,6 +136,9 @@ impl March<'_> {
                 Ok((whole, first, e1, second, e2)) => {
                     let energy = pace.reference.max(e2.kinetic + e2.strain.abs());
                     let error = (self.stepper.distance(&whole, &second) / energy).sqrt();
+                    if !error.is_finite() {
+                        return Err(Stop::NoEquilibrium { t: start, worst: 0, residual: error });
+                    }
                     let closure = closure(state, &second, [&e1, &e2], tolerance, energy);
                     let error = error.max(tolerance * closure);
                     if error > tolerance && level < ACCURACY_DEPTH {

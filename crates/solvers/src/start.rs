@@ -1,6 +1,6 @@
 //! Where a dynamic case starts: from rest, from the case before, or from a checkpoint.
 
-use crate::case::EndState;
+use crate::case::{EndState, parameters};
 use crate::error::SolveError;
 use crate::ledger::Ledger;
 use crate::march::Pace;
@@ -80,25 +80,61 @@ fn dummy_energy(system: &System, space: &Space, state: &State) -> f64 {
     d.iter().zip(&space.dummy_k).map(|(d, k)| 0.5 * k * d * d).sum()
 }
 
-/// From a checkpoint of the same model, case and solver.
-pub(crate) fn resume(
+/// Refuses a checkpoint of another model, other parameters, another case, solver or output step, and one
+/// that was damaged.
+pub(crate) fn check(
     model: &Model,
+    system: &System,
     case: &Case,
     kind: SolverKind,
-    end: EndState,
-    stepper: &mut dyn Stepper,
-) -> Result<Start, SolveError> {
-    let wanted = [
-        ("model", model.source.sha256.as_str(), end.model.as_str()),
-        ("case", case.name.as_str(), end.case.as_str()),
-        ("solver", kind.name(), end.solver.as_str()),
-    ];
-    for (what, here, there) in wanted {
+    dt: f64,
+    end: &EndState,
+) -> Result<(), SolveError> {
+    let refuse = |reason: String| Err(SolveError::Checkpoint { reason });
+    let differs = |what: &str, there: &str, here: &str| {
+        refuse(format!("its {what} is {there}, this run's is {here}"))
+    };
+    for (what, here, there) in [
+        ("model", &model.source.sha256, &end.model),
+        ("case", &case.name, &end.case),
+        ("solver", &kind.name().to_owned(), &end.solver),
+    ] {
         if here != there {
-            return Err(SolveError::Checkpoint {
-                reason: format!("its {what} is {there}, this run's is {here}"),
-            });
+            return differs(what, there, here);
         }
+    }
+    let here = parameters(model);
+    for (a, b) in here.iter().zip(&end.parameters) {
+        if a != b {
+            return differs(&format!("parameter `{}`", b.0), &b.1, &a.1);
+        }
+    }
+    if dt != end.dt {
+        return differs("output step", &format!("{} s", end.dt), &format!("{dt} s"));
+    }
+    let (links, state) = (&system.links, &end.state);
+    let flat = [&state.d, &state.v, &state.f].iter().all(|x| x.len() == links.len());
+    let blocks = end.memory.iter().flat_map(|m| [&m.k, &m.c]);
+    let whole = here.len() == end.parameters.len()
+        && flat
+        && end.load.len() == system.order()
+        && state.history.len() == links.history_len
+        && state.stored.len() == links.links.len()
+        && end.ledger.links.len() == links.links.len()
+        && { blocks }.all(|x| x.len() == links.block_len);
+    if whole { Ok(()) } else { refuse("its arrays have not the sizes of this model".into()) }
+}
+
+/// Takes up a checkpoint that was checked.
+pub(crate) fn resume(end: EndState, stepper: &mut dyn Stepper) -> Result<Start, SolveError> {
+    if end.state.motion.len() != 3 * stepper.space().order() {
+        return Err(SolveError::Checkpoint {
+            reason: format!(
+                "it holds {} coordinates, the basis of this run has {}",
+                end.state.motion.len() / 3,
+                stepper.space().order()
+            ),
+        });
     }
     stepper.recall(end.memory)?;
     Ok((end.state, end.pace, end.ledger, end.step))
