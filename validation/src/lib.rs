@@ -1,40 +1,89 @@
-//! Validation of Trilith: closed-form and published cases that print their own verdict.
+//! Validation of Trilith: closed-form and published cases, and studies, that print their own verdict.
 //!
 //! Every case is a model as a user would write it, with reference values from a closed form or from a
-//! publication. [`cases::all`] lists them, [`run_all`] runs them under the solvers they name, and
-//! [`report`] writes the table, `report.json` and `REPORT.md`.
+//! publication; a study makes many runs behind one statement. [`all`] lists both, [`run_all`] runs
+//! them, and [`report`] writes the table, `report.json`, `REPORT.md` and the page with the figures.
 
 pub mod case;
 pub mod cases;
+mod figures;
+mod outcome;
+mod page;
 pub mod report;
+pub mod studies;
+pub mod study;
+mod trace;
+pub mod unit;
 
-pub use case::{Case, Check, Kind, Row, Solver, Tolerance, Trace, Unit};
+pub use case::{Case, Check, Claim, Curve, Kind, Solver, Tolerance, View};
+pub use outcome::{Outcome, Row};
+pub use study::{Findings, Study};
+pub use trace::Trace;
+pub use unit::Unit;
 
-/// Runs all cases, several at a time, and returns the rows in the order of the cases.
+/// A case or a study.
+pub enum Item {
+    /// One model against its references.
+    Case(Box<Case>),
+    /// Many runs behind one statement.
+    Study(Study),
+}
+
+impl Item {
+    /// Short name.
+    #[must_use]
+    pub fn id(&self) -> &'static str {
+        match self {
+            Self::Case(c) => c.id,
+            Self::Study(s) => s.id,
+        }
+    }
+
+    fn run(&self) -> Outcome {
+        match self {
+            Self::Case(c) => c.run(),
+            Self::Study(s) => s.run(),
+        }
+    }
+
+    fn failed(&self, reason: &str) -> Outcome {
+        match self {
+            Self::Case(c) => c.failed(reason),
+            Self::Study(s) => s.failed(reason),
+        }
+    }
+}
+
+/// Everything: studies first, as they take longest.
 #[must_use]
-pub fn run_all(cases: &[Case]) -> Vec<Row> {
+pub fn all() -> Vec<Item> {
+    let studies = studies::all().into_iter().map(Item::Study);
+    studies.chain(cases::all().into_iter().map(|c| Item::Case(Box::new(c)))).collect()
+}
+
+/// Runs several items at a time and returns what they found in the order of the items. `done` is
+/// called after each of them, from any thread, with its short name.
+#[must_use]
+pub fn run_all(items: &[Item], done: &(dyn Fn(&str) + Sync)) -> Vec<Outcome> {
     use std::sync::atomic::{AtomicUsize, Ordering};
     let next = AtomicUsize::new(0);
     let workers = std::thread::available_parallelism().map_or(1, |n| n.get().min(8));
     let work = || {
-        let mut done = Vec::new();
+        let mut found = Vec::new();
         loop {
             let i = next.fetch_add(1, Ordering::Relaxed);
-            let Some(case) = cases.get(i) else { break };
-            done.push((i, case.run()));
+            let Some(item) = items.get(i) else { break };
+            // A run that panics is a failing case, not the end of all others.
+            let outcome = std::panic::catch_unwind(std::panic::AssertUnwindSafe(|| item.run()));
+            found.push((i, outcome.unwrap_or_else(|_| item.failed("the run broke off"))));
+            done(item.id());
         }
-        done
+        found
     };
     let mut all = std::thread::scope(|scope| {
         let threads: Vec<_> = (0..workers).map(|_| scope.spawn(work)).collect();
         threads.into_iter().flat_map(|t| t.join().unwrap_or_default()).collect::<Vec<_>>()
     });
-    // A case lost with its thread still has to show up, as failing.
-    for (i, case) in cases.iter().enumerate() {
-        if !all.iter().any(|(j, _)| *j == i) {
-            all.push((i, case.failed("the run broke off")));
-        }
-    }
     all.sort_by_key(|(i, _)| *i);
-    all.into_iter().flat_map(|(_, rows)| rows).collect()
+    all.into_iter().map(|(_, outcome)| outcome).collect()
 }

@@ -1,11 +1,11 @@
-//! The verdict as a table, as `report.json` and as `REPORT.md`.
+//! The verdict as a table, as `report.json`, as `REPORT.md` and as `report.html`.
 
-use crate::{Case, Row};
+use crate::{Outcome, Row};
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 
 /// A line of the table: one quantity under all solvers of its case.
-struct Line<'a> {
+pub(crate) struct Line<'a> {
     rows: Vec<&'a Row>,
 }
 
@@ -32,20 +32,23 @@ impl Line<'_> {
         self.rows.iter().all(|r| r.pass)
     }
 
-    fn cells(&self) -> [String; 9] {
+    pub(crate) fn cells(&self) -> [String; 9] {
         let r = self.first();
         let quantity = if r.unit.is_empty() {
             r.quantity.clone()
         } else {
             format!("{} [{}]", r.quantity, r.unit)
         };
-        let fna = if r.solver == "modes" { self.value("modes") } else { self.value("fna") };
-        let share = |x: f64| {
-            if r.measure == "relative" {
-                format!("{:.2e} %", 100.0 * x)
-            } else {
-                format!("{x:.2e}")
-            }
+        // What is neither FNA nor HHT stands in the first of the two columns, with its name.
+        let fna = match r.solver.as_str() {
+            "fna" | "hht" => self.value("fna"),
+            "modes" => self.value("modes"),
+            other => format!("{} ({other})", self.value(other)),
+        };
+        let share = |x: f64| match r.measure.as_str() {
+            "relative" => format!("{:.2e} %", 100.0 * x),
+            "absolute" => format!("{x:.2e}"),
+            bound => bound.to_owned(),
         };
         [
             r.id.clone(),
@@ -54,14 +57,14 @@ impl Line<'_> {
             r.kind.clone(),
             fna,
             self.value("hht"),
-            self.worst().map_or("none".into(), share),
+            self.worst().map_or("none".into(), |e| if e == 0.0 { "0".into() } else { share(e) }),
             share(r.tolerance),
             if self.pass() { "pass" } else { "FAIL" }.into(),
         ]
     }
 }
 
-const HEADER: [&str; 9] =
+pub(crate) const HEADER: [&str; 9] =
     ["case", "quantity", "reference", "kind", "FNA", "HHT", "error", "tolerance", "verdict"];
 
 fn number(x: f64) -> String {
@@ -76,7 +79,7 @@ fn number(x: f64) -> String {
     }
 }
 
-fn lines(rows: &[Row]) -> Vec<Line<'_>> {
+pub(crate) fn lines(rows: &[Row]) -> Vec<Line<'_>> {
     let mut all: Vec<Line<'_>> = Vec::new();
     for row in rows {
         let same = |l: &&mut Line<'_>| l.first().id == row.id && l.first().quantity == row.quantity;
@@ -89,19 +92,16 @@ fn lines(rows: &[Row]) -> Vec<Line<'_>> {
 }
 
 /// How many cases and comparisons there are and how many of them fail.
-fn totals(cases: &[Case], rows: &[Row]) -> String {
-    let bad: Vec<&str> = cases
-        .iter()
-        .filter(|c| rows.iter().any(|r| r.id == c.id && !r.pass))
-        .map(|c| c.id)
-        .collect();
-    let failed = rows.iter().filter(|r| !r.pass).count();
+pub(crate) fn totals(outcomes: &[Outcome]) -> String {
+    let bad: Vec<&str> = outcomes.iter().filter(|o| !o.pass()).map(|o| o.id).collect();
+    let rows = || outcomes.iter().flat_map(|o| &o.rows);
     let mut out = format!(
-        "{} cases, {} comparisons: {} cases pass, {} fail ({failed} comparisons)",
-        cases.len(),
-        rows.len(),
-        cases.len() - bad.len(),
+        "{} cases and studies, {} comparisons: {} pass, {} fail ({} comparisons)",
+        outcomes.len(),
+        rows().count(),
+        outcomes.len() - bad.len(),
         bad.len(),
+        rows().filter(|r| !r.pass).count(),
     );
     if !bad.is_empty() {
         let _ = write!(out, ": {}", bad.join(", "));
@@ -109,7 +109,7 @@ fn totals(cases: &[Case], rows: &[Row]) -> String {
     out
 }
 
-fn notes(rows: &[Row]) -> Vec<String> {
+pub(crate) fn notes(rows: &[Row]) -> Vec<String> {
     let mut all: Vec<String> = Vec::new();
     for r in rows {
         if let Some(note) = &r.note {
@@ -124,9 +124,9 @@ fn notes(rows: &[Row]) -> Vec<String> {
 
 /// The table for the terminal, with a last line that sums up.
 #[must_use]
-pub fn text(cases: &[Case], rows: &[Row]) -> String {
+pub fn text(outcomes: &[Outcome]) -> String {
     let mut table: Vec<[String; 9]> = vec![HEADER.map(str::to_owned)];
-    table.extend(lines(rows).iter().map(Line::cells));
+    table.extend(outcomes.iter().flat_map(|o| lines(&o.rows)).map(|l| l.cells()));
     let width =
         |c: usize| table.iter().map(|r: &[String; 9]| r[c].chars().count()).max().unwrap_or(0);
     let widths: Vec<usize> = (0..9).map(width).collect();
@@ -139,34 +139,32 @@ pub fn text(cases: &[Case], rows: &[Row]) -> String {
         out.push('\n');
     }
     out.push('\n');
-    for note in notes(rows) {
+    for note in outcomes.iter().flat_map(|o| notes(&o.rows)) {
         let _ = writeln!(out, "note: {note}");
     }
-    out + &totals(cases, rows) + "\n"
+    out + &totals(outcomes) + "\n"
 }
 
 /// The report as Markdown.
 #[must_use]
-pub fn markdown(cases: &[Case], rows: &[Row]) -> String {
+pub fn markdown(outcomes: &[Outcome]) -> String {
     let mut out = format!(
         "# Validation of Trilith\n\n{}.\n\nThe error is the larger one of the solvers; `%`: of the \
          reference, otherwise in the unit of the quantity. Frequencies stand under FNA: they are those \
-         of its basis.\n",
-        totals(cases, rows)
+         of its basis. The figures are in `report.html`.\n",
+        totals(outcomes)
     );
-    let lines = lines(rows);
-    for case in cases {
-        let _ = write!(out, "\n## {} {}\n\nSource: {}\n\n", case.id, case.title, case.source);
+    for o in outcomes {
+        let _ = write!(out, "\n## {} {}\n\nSource: {}\n\n", o.id, o.title, o.source);
+        for text in &o.text {
+            let _ = write!(out, "{text}\n\n");
+        }
         let _ = writeln!(out, "| {} |\n|{}", HEADER[1..].join(" | "), "---|".repeat(8));
-        for line in lines.iter().filter(|l| l.first().id == case.id) {
+        for line in lines(&o.rows) {
             let _ = writeln!(out, "| {} |", line.cells()[1..].join(" | "));
         }
-    }
-    let notes = notes(rows);
-    if !notes.is_empty() {
-        let _ = write!(out, "\n## Notes\n\n");
-        for note in notes {
-            let _ = writeln!(out, "- {note}");
+        for note in notes(&o.rows) {
+            let _ = writeln!(out, "\nNote: {note}");
         }
     }
     out
@@ -179,13 +177,15 @@ pub fn folder() -> PathBuf {
     target.join("validation")
 }
 
-/// Writes `report.json` and `REPORT.md`.
+/// Writes `report.json`, `REPORT.md` and `report.html`.
 ///
 /// # Errors
 /// Where a file cannot be written.
-pub fn write(folder: &Path, cases: &[Case], rows: &[Row]) -> std::io::Result<()> {
+pub fn write(folder: &Path, outcomes: &[Outcome]) -> std::io::Result<()> {
     std::fs::create_dir_all(folder)?;
-    let json = serde_json::to_string_pretty(rows).map_err(std::io::Error::other)?;
+    let rows: Vec<&Row> = outcomes.iter().flat_map(|o| &o.rows).collect();
+    let json = serde_json::to_string_pretty(&rows).map_err(std::io::Error::other)?;
     std::fs::write(folder.join("report.json"), json)?;
-    std::fs::write(folder.join("REPORT.md"), markdown(cases, rows))
+    std::fs::write(folder.join("REPORT.md"), markdown(outcomes))?;
+    std::fs::write(folder.join("report.html"), crate::page::html(outcomes))
 }

@@ -1,12 +1,13 @@
-//! The verdict of all validation cases.
+//! The verdict of all validation cases and studies.
 
-use trilith_validation::{cases, run_all};
+use trilith_validation::{all, run_all};
 
 #[test]
-fn every_case_meets_its_reference() {
-    let all = cases::all();
-    let failed: Vec<String> = run_all(&all)
+fn every_case_and_study_meets_its_reference() {
+    let outcomes = run_all(&all(), &|_| {});
+    let failed: Vec<String> = outcomes
         .iter()
+        .flat_map(|o| &o.rows)
         .filter(|r| !r.pass)
         .map(|r| {
             format!(
@@ -23,11 +24,15 @@ fn every_case_meets_its_reference() {
         })
         .collect();
     assert!(failed.is_empty(), "{}", failed.join("\n"));
+    assert!(
+        outcomes.iter().all(|o| o.pass() && !o.figures.is_empty()),
+        "nothing compared or drawn"
+    );
 }
 
 #[test]
-fn every_case_has_a_name_of_its_own() {
-    let mut ids: Vec<&str> = cases::all().iter().map(|c| c.id).collect();
+fn every_case_and_study_has_a_name_of_its_own() {
+    let mut ids: Vec<&str> = all().iter().map(|c| c.id()).collect();
     ids.sort_unstable();
     let count = ids.len();
     ids.dedup();

@@ -1,7 +1,8 @@
 //! The rigid block: how it leaves rest, and how it rocks.
 
 use super::set;
-use crate::case::{BOTH, NUMBER, RADIAN, SECOND};
+use crate::case::BOTH;
+use crate::unit::{NUMBER, RADIAN, SECOND};
 use crate::{Case, Check};
 
 /// A block on two feet under one half sine.
@@ -118,6 +119,7 @@ fn rb1() -> Vec<Case> {
                 text: ONSET.into(),
                 set: vec![set("a", a), set("mu", mu)],
                 solvers: BOTH,
+                view: crate::View::default(),
                 checks: vec![Check::new(what, NUMBER, expected as f64, 0.0, measure).absolute()],
             }
         })
@@ -154,6 +156,7 @@ fn rb8() -> Case {
         text: ROCKING.into(),
         set: Vec::new(),
         solvers: BOTH,
+        view: crate::View::default(),
         checks,
     }
 }

@@ -1,7 +1,8 @@
 //! Dashpots.
 
 use super::set;
-use crate::case::{BOTH, INCH, JOULE, METRE, NUMBER, SECOND, SPEED};
+use crate::case::BOTH;
+use crate::unit::{INCH, JOULE, METRE, NUMBER, SECOND, SPEED};
 use crate::{Case, Check};
 use std::f64::consts::{PI, TAU};
 
@@ -148,6 +149,7 @@ fn dp3() -> Case {
         text: CYCLE.into(),
         set: Vec::new(),
         solvers: BOTH,
+        view: crate::View::default(),
         checks: checks.into(),
     }
 }
@@ -161,6 +163,7 @@ fn dp4() -> Case {
         text: STOP.into(),
         set: Vec::new(),
         solvers: BOTH,
+        view: crate::View::default(),
         checks: vec![
             Check::new("distance", METRE, 1.0 / 3.0, 1e-3, |r| r.last("u")),
             Check::new("v(0.5)", SPEED, 0.25, 1e-3, |r| r.at("v", 0.5)),
@@ -192,6 +195,7 @@ fn dp6() -> Case {
         text: RESONANCE.into(),
         set: Vec::new(),
         solvers: BOTH,
+        view: crate::View::default(),
         checks,
     }
 }
@@ -224,6 +228,7 @@ fn dp8() -> Vec<Case> {
         text: OSCILLATOR.into(),
         set,
         solvers: BOTH,
+        view: crate::View::default(),
         checks,
     };
     let (m, k): (f64, f64) = (10.0 / 386.0, 30.0);

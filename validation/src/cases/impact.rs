@@ -1,7 +1,8 @@
 //! Impact and gaps.
 
 use super::set;
-use crate::case::{BOTH, INCH, METRE, NEWTON, NUMBER, SECOND, SPEED};
+use crate::case::BOTH;
+use crate::unit::{INCH, METRE, NEWTON, NUMBER, SECOND, SPEED};
 use crate::{Case, Check};
 
 /// Unit masses that fly at 1 m/s against contacts of 10 kN/m, without gravity.
@@ -220,6 +221,7 @@ fn im1() -> Vec<Case> {
                 set("z3", z[2]),
             ],
             solvers: BOTH,
+            view: crate::View::default(),
             checks: vec![
                 check("a", "", z[0]),
                 check("b", "", z[1]),
@@ -262,6 +264,7 @@ fn im2() -> Vec<Case> {
                 text: DROP.into(),
                 set: vec![set("omega", w), set("duration", 1.2)],
                 solvers: BOTH,
+                view: crate::View::default(),
                 checks: vec![Check::new(
                     format!("rebound / height, ω = {w}"),
                     NUMBER,
@@ -283,6 +286,7 @@ fn im3() -> Case {
         text: STOP.into(),
         set: Vec::new(),
         solvers: BOTH,
+        view: crate::View::default(),
         checks: vec![
             Check::new("largest u", METRE, 9.95037e-3, p, |r| r.max("u", 0.0, 0.1)).published(),
             Check::new("largest stop force", NEWTON, 9950.37, p, |r| -r.min("stop", 0.0, 0.1))
@@ -307,6 +311,7 @@ fn im4() -> Case {
         text: BALL.into(),
         set: Vec::new(),
         solvers: BOTH,
+        view: crate::View::default(),
         checks: vec![
             Check::new("time of contact", SECOND, 0.071_981_6, p, |r| r.crossing("u", 0.0254, 0)),
             Check::new("largest travel", INCH, 1.550_665_5, p, |r| r.max("u", 0.0, 0.15)),
@@ -360,6 +365,7 @@ fn im7() -> Case {
         text: FORCED.into(),
         set: Vec::new(),
         solvers: BOTH,
+        view: crate::View::default(),
         checks: times.into_iter().enumerate().map(check).collect(),
     }
 }
@@ -377,6 +383,7 @@ fn im12() -> Vec<Case> {
         text: COLLISION.into(),
         set: vec![set("pull", pull)],
         solvers: BOTH,
+        view: crate::View::default(),
         // 0.1 % of the speed of approach, as for the restitution.
         checks: vec![
             Check::new("v₁ after", SPEED, (1.0 - 2.0 * e) / 3.0, 1e-3, |r| r.last("a")).absolute(),
@@ -398,6 +405,7 @@ fn im13() -> Vec<Case> {
             text: VERTICAL.into(),
             set: Vec::new(),
             solvers: BOTH,
+            view: crate::View::default(),
             checks: vec![
                 Check::new("lift-off", SECOND, 0.123_227_953, p, |r| r.crossing("z", 0.0, 0)),
                 Check::new("largest gap", METRE, 8.02306e-3, p, |r| r.max("z", 0.1, 0.25)),
@@ -417,6 +425,7 @@ fn im13() -> Vec<Case> {
             text: VERTICAL.into(),
             set: vec![set("a", "0.9 g")],
             solvers: BOTH,
+            view: crate::View::default(),
             checks: vec![
                 Check::new("largest contact force / weight", NUMBER, 1.9, p, move |r| {
                     r.max("n", 0.0, 0.2) / weight

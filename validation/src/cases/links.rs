@@ -2,7 +2,8 @@
 //! load that varies: it must stay where the static solution is, so both solvers confirm it.
 
 use super::set;
-use crate::case::{BOTH, INCH, JOULE, KIP, METRE, POUND_FORCE, SECOND};
+use crate::case::BOTH;
+use crate::unit::{INCH, JOULE, KIP, METRE, POUND_FORCE, SECOND};
 use crate::{Case, Check};
 use std::f64::consts::TAU;
 
@@ -185,6 +186,7 @@ fn lk2() -> Case {
         text: HOOK.into(),
         set: Vec::new(),
         solvers: BOTH,
+        view: crate::View::default(),
         checks: vec![
             Check::new("hook force", KIP, force, 1e-4, |r| r.at("hook", 0.0)),
             Check::new("hook force after 0.1 s", KIP, force, 1e-4, |r| r.last("hook")),
@@ -201,6 +203,7 @@ fn lk3() -> Case {
         text: GAP.into(),
         set: Vec::new(),
         solvers: BOTH,
+        view: crate::View::default(),
         checks: vec![
             Check::new("stop force", POUND_FORCE, -6125.0, 1e-3, |r| r.at("stop", 0.0)).published(),
             Check::new("stop force after 10 ms", POUND_FORCE, -6125.0, 1e-3, |r| r.last("stop"))
@@ -224,6 +227,7 @@ fn sl10() -> Case {
         text: CONTACT.into(),
         set: Vec::new(),
         solvers: BOTH,
+        view: crate::View::default(),
         checks: vec![
             at("t = 0.5", "ux", -0.5),
             at("t = 1", "ux", -0.75),
@@ -243,6 +247,7 @@ fn lk11() -> Vec<Case> {
         text: PENDULUM.into(),
         set,
         solvers: BOTH,
+        view: crate::View::default(),
         checks,
     };
     let p = 5e-3;
@@ -273,6 +278,7 @@ fn lk11() -> Vec<Case> {
             text: SMOOTH.into(),
             set: Vec::new(),
             solvers: BOTH,
+            view: crate::View::default(),
             checks: vec![Check::new("period", SECOND, TAU * (1.5_f64 / 9.80665).sqrt(), p, |r| {
                 2.0 * (r.crossing("u", 0.0, 1) - r.crossing("u", 0.0, 0))
             })],
@@ -296,6 +302,7 @@ fn lk12() -> Vec<Case> {
         text,
         set: Vec::new(),
         solvers: BOTH,
+        view: crate::View::default(),
         checks,
     };
     let more = r#""horizontal": ElementForce(element: "rising", end: 0, dof: Ux),

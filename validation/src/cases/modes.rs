@@ -1,6 +1,6 @@
 //! Frequencies of linear structures, in the complete basis of FNA.
 
-use crate::case::{HERTZ, NUMBER, SECOND, Unit};
+use crate::unit::{HERTZ, NUMBER, SECOND, Unit};
 use crate::{Case, Check, Solver};
 use std::f64::consts::{PI, TAU};
 use std::fmt::Write as _;
@@ -69,7 +69,16 @@ fn case(
     text: String,
     checks: Vec<Check>,
 ) -> Case {
-    Case { id, title, source, text, set: Vec::new(), solvers: MODES, checks }
+    Case {
+        id,
+        title,
+        source,
+        text,
+        set: Vec::new(),
+        solvers: MODES,
+        view: crate::View::default(),
+        checks,
+    }
 }
 
 fn lm1() -> Case {

@@ -1,7 +1,8 @@
 //! Friction.
 
 use super::set;
-use crate::case::{BOTH, INCH, METRE, NUMBER, SECOND, SPEED, Unit};
+use crate::case::BOTH;
+use crate::unit::{INCH, METRE, NUMBER, SECOND, SPEED, Unit};
 use crate::{Case, Check};
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
@@ -144,6 +145,7 @@ fn sl1() -> Case {
         text: FREE.into(),
         set: Vec::new(),
         solvers: BOTH,
+        view: crate::View::default(),
         checks,
     }
 }
@@ -166,6 +168,7 @@ fn sl2() -> Case {
             set("u0", "-1 in"),
         ],
         solvers: BOTH,
+        view: crate::View::default(),
         checks: vec![at(0.09, 0.87208), at(0.102, 0.83132), at(0.183, -0.74874)],
     }
 }
@@ -183,6 +186,7 @@ fn without_friction() -> Case {
             set("dt", TAU / 100.0 / 40.0),
         ],
         solvers: &[crate::Solver::Fna],
+        view: crate::View::default(),
         checks: vec![Check::new("u after 100 periods", METRE, 8.5e-4, 1e-10, |r| r.last("u"))],
     }
 }
@@ -198,6 +202,7 @@ fn sl4() -> Case {
         text: TABLE.into(),
         set: vec![set("a", "1.5 m/s^2")],
         solvers: BOTH,
+        view: crate::View::default(),
         checks: vec![
             Check::new("mean of N |v|", watt, 0.409062, 1e-3, |r| {
                 (r.friction_heat(12.0) - r.friction_heat(4.0)) / 8.0 / 0.1
@@ -223,6 +228,7 @@ fn sl5() -> Case {
         text: BLOCK.into(),
         set: vec![set("cycles", 60), set("duration", "12 s")],
         solvers: BOTH,
+        view: crate::View::default(),
         checks: vec![
             Check::new("slip range", METRE, range, tolerance, |r| {
                 r.max("u", 11.6, 11.8) - r.min("u", 11.6, 11.8)
@@ -247,6 +253,7 @@ fn sl6() -> Case {
         text: PULSE.into(),
         set: Vec::new(),
         solvers: BOTH,
+        view: crate::View::default(),
         checks: vec![
             Check::new("largest speed", SPEED, (a - mu) * G * tp, 1e-3, |r| r.peak("v", 0.0, 0.4)),
             Check::new("slip", METRE, G * tp * tp * (a - mu) * a / (2.0 * mu), 1e-3, |r| {
@@ -269,6 +276,7 @@ fn sl8() -> Case {
         text: DEN_HARTOG.into(),
         set: vec![set("ratio", r), set("friction", f)],
         solvers: BOTH,
+        view: crate::View::default(),
         checks: vec![Check::new("amplitude k/P", NUMBER, amplitude, 5e-3, move |t| {
             let end = 150.0 * TAU / (100.0 * r);
             t.peak("u", end * 0.98, end) * 1e4 / 100.0

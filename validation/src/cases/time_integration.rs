@@ -1,7 +1,8 @@
 //! Integration in time.
 
 use super::set;
-use crate::case::{BOTH, METRE, NUMBER};
+use crate::case::BOTH;
+use crate::unit::{METRE, NUMBER};
 use crate::{Case, Check, Solver, Trace};
 use std::f64::consts::{PI, TAU};
 
@@ -111,6 +112,7 @@ fn ti1_rule() -> Case {
         text: CHOPRA.into(),
         set: Vec::new(),
         solvers: &[Solver::Hht],
+        view: crate::View::default(),
         checks: checks.into_iter().map(Check::published).collect(),
     }
 }
@@ -125,6 +127,7 @@ fn ti1_exact() -> Case {
         text: CHOPRA.into(),
         set: vec![set("substeps", 100)],
         solvers: BOTH,
+        view: crate::View::default(),
         checks: steps("u", "u", u),
     }
 }
@@ -152,6 +155,7 @@ fn ti2() -> Vec<Case> {
             text: FREE.into(),
             set: vec![set("alpha", alpha), set("dt", dt)],
             solvers,
+            view: crate::View::default(),
             checks: vec![
                 Check::new("spectral radius", NUMBER, rho, p, move |r| roots(r, dt).0).absolute(),
                 Check::new("algorithmic damping", NUMBER, damping, p, move |r| {
@@ -204,6 +208,7 @@ fn ti3() -> Case {
         text: STIFF_SOFT.into(),
         set: Vec::new(),
         solvers: BOTH,
+        view: crate::View::default(),
         checks,
     }
 }
@@ -224,6 +229,7 @@ fn ti5() -> Vec<Case> {
             text: RAMP.into(),
             set: vec![set("rise", rise)],
             solvers: BOTH,
+            view: crate::View::default(),
             checks: times
                 .into_iter()
                 .map(|t| {

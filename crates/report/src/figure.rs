@@ -1,0 +1,197 @@
+//! What a figure shows.
+
+/// An axis.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Axis {
+    /// What it measures, with the unit in brackets.
+    pub label: String,
+    /// Logarithmic; values that are not positive are left out.
+    pub log: bool,
+    /// Ends; none: those of the data.
+    pub range: Option<(f64, f64)>,
+}
+
+/// How the points of a series are drawn.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Stroke {
+    /// Connected.
+    Line,
+    /// Connected by dashes.
+    Dashes,
+    /// A ring at each point.
+    Rings,
+    /// A cross at each point.
+    Crosses,
+    /// A small filled square at each point.
+    Squares,
+}
+
+/// Red, green, blue.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Color(pub u8, pub u8, pub u8);
+
+impl Color {
+    /// For references: what the rest is compared with.
+    pub const INK: Self = Self(30, 30, 30);
+    /// Distinct for readers with any colour vision (Okabe and Ito 2008), in order of use.
+    pub const PALETTE: [Self; 6] = [
+        Self(0, 114, 178),
+        Self(213, 94, 0),
+        Self(0, 158, 115),
+        Self(204, 121, 167),
+        Self(86, 180, 233),
+        Self(230, 159, 0),
+    ];
+}
+
+/// Points that belong together.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Series {
+    /// Name in the legend; empty: not in the legend.
+    pub name: String,
+    /// (x, y); a point that is not finite interrupts a line.
+    pub points: Vec<(f64, f64)>,
+    /// How they are drawn.
+    pub stroke: Stroke,
+    /// Their colour.
+    pub color: Color,
+}
+
+/// A diagram of y over x.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Figure {
+    /// Title.
+    pub title: String,
+    /// Horizontal axis.
+    pub x: Axis,
+    /// Vertical axis.
+    pub y: Axis,
+    /// What is drawn, the first at the bottom.
+    pub series: Vec<Series>,
+    /// A sentence beneath.
+    pub caption: String,
+    /// Width and height in pixels.
+    pub size: (u32, u32),
+}
+
+impl Figure {
+    /// An empty diagram with linear axes.
+    pub fn new(title: impl Into<String>, x: impl Into<String>, y: impl Into<String>) -> Self {
+        let axis = |label: String| Axis { label, log: false, range: None };
+        Self {
+            title: title.into(),
+            x: axis(x.into()),
+            y: axis(y.into()),
+            series: Vec::new(),
+            caption: String::new(),
+            size: (640, 360),
+        }
+    }
+
+    /// Adds a series in the next colour of the palette.
+    #[must_use]
+    pub fn series(
+        self,
+        name: impl Into<String>,
+        stroke: Stroke,
+        points: impl IntoIterator<Item = (f64, f64)>,
+    ) -> Self {
+        let used = self.series.iter().filter(|s| s.color != Color::INK).count();
+        let color = Color::PALETTE[used % Color::PALETTE.len()];
+        self.colored(name, stroke, color, points)
+    }
+
+    /// Adds a series in a colour of its own.
+    #[must_use]
+    pub fn colored(
+        mut self,
+        name: impl Into<String>,
+        stroke: Stroke,
+        color: Color,
+        points: impl IntoIterator<Item = (f64, f64)>,
+    ) -> Self {
+        let points = points.into_iter().collect();
+        self.series.push(Series { name: name.into(), points, stroke, color });
+        self
+    }
+
+    /// Adds a line in the next colour.
+    #[must_use]
+    pub fn line(
+        self,
+        name: impl Into<String>,
+        points: impl IntoIterator<Item = (f64, f64)>,
+    ) -> Self {
+        self.series(name, Stroke::Line, points)
+    }
+
+    /// Adds a curve that the rest is compared with: dark and dashed.
+    #[must_use]
+    pub fn reference(
+        self,
+        name: impl Into<String>,
+        points: impl IntoIterator<Item = (f64, f64)>,
+    ) -> Self {
+        self.colored(name, Stroke::Dashes, Color::INK, points)
+    }
+
+    /// Adds single values that the rest is compared with: dark rings.
+    #[must_use]
+    pub fn marks(
+        self,
+        name: impl Into<String>,
+        points: impl IntoIterator<Item = (f64, f64)>,
+    ) -> Self {
+        self.colored(name, Stroke::Rings, Color::INK, points)
+    }
+
+    /// Makes both axes logarithmic.
+    #[must_use]
+    pub fn log_log(mut self) -> Self {
+        self.x.log = true;
+        self.y.log = true;
+        self
+    }
+
+    /// Makes the horizontal axis logarithmic.
+    #[must_use]
+    pub fn log_x(mut self) -> Self {
+        self.x.log = true;
+        self
+    }
+
+    /// Makes the vertical axis logarithmic.
+    #[must_use]
+    pub fn log_y(mut self) -> Self {
+        self.y.log = true;
+        self
+    }
+
+    /// Sets the ends of the axes.
+    #[must_use]
+    pub fn ranges(mut self, x: (f64, f64), y: (f64, f64)) -> Self {
+        self.x.range = Some(x);
+        self.y.range = Some(y);
+        self
+    }
+
+    /// Sets width and height, px.
+    #[must_use]
+    pub fn sized(mut self, width: u32, height: u32) -> Self {
+        self.size = (width, height);
+        self
+    }
+
+    /// Adds a sentence beneath.
+    #[must_use]
+    pub fn caption(mut self, text: impl Into<String>) -> Self {
+        self.caption = text.into();
+        self
+    }
+
+    /// The figure as an SVG element.
+    #[must_use]
+    pub fn svg(&self) -> String {
+        crate::draw::svg(self)
+    }
+}

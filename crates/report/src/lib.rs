@@ -1,0 +1,19 @@
+//! Figures as SVG and pages as one self-contained HTML file, without scripts and without network.
+//!
+//! ```
+//! use trilith_report::{Block, Figure, Page, Section};
+//!
+//! let wave = (0..100).map(|i| (0.01 * i as f64, (0.1 * i as f64).sin()));
+//! let figure = Figure::new("A wave", "time [s]", "displacement [m]").line("computed", wave);
+//! let section = Section::new("wave", "Waves").block(Block::text("One wave.")).block(figure);
+//! let html = Page::new("Report").section(section).html();
+//! assert!(html.contains("<svg") && !html.contains("http://localhost"));
+//! ```
+
+mod draw;
+mod figure;
+mod page;
+mod thin;
+
+pub use figure::{Axis, Color, Figure, Series, Stroke};
+pub use page::{Block, Page, Section};
