@@ -16,18 +16,24 @@
 //! | `when`         |        |                 |           | Always  | `Always` or `InContact`                |
 //! | `opening`      | g      | m               | any       | 0       | clearance of the contact               |
 //! | `stiffness`    | k      | N/m             | ≥ 0       | 0       | spring of the contact                  |
+//! | `restitution`  | e      | 1               | 0 < e ≤ 1 | –       | instead of `c`: speed after over speed before an impact |
+//! | `impact_mass`  | m      | kg              | > 0       | –       | mass that strikes; none: worked out from the structure |
 //! | `pull`         |        |                 |           | false   | the total force may pull while closed  |
 //! | `linear_below` | v₀     | m/s             | > 0       | 1e-6    | rate below which α < 1 is linear (for `cr`: rad/s) |
 //!
-//! The last four but `linear_below` matter with `InContact` only. At v₀ the force is continuous; c v₀^α
+//! `opening` to `pull` matter with `InContact` only. With `restitution`, which needs the `stiffness` and
+//! α = 1, c = 2 ζ(e) √(k m): see [`NLink`](crate::NLink) for the mass. At v₀ the force is continuous; c v₀^α
 //! is the force that the linear range spans, which should be small against the forces of interest.
 //!
 //! Reference: \[Soong & Dargush 1997, ch. 6\]; contact variant \[Wilson 2002, ch. 21\].
 
+use crate::restitution::damping_ratio;
 use serde::Deserialize;
-use trilith_element::dimension::{FORCE, FREQUENCY, LENGTH, MOMENT, NONE, STIFFNESS, VELOCITY};
+use trilith_element::dimension::{
+    FORCE, FREQUENCY, LENGTH, MASS, MOMENT, NONE, STIFFNESS, VELOCITY,
+};
 use trilith_element::{
-    Axis, Card, Category, Contact, Coordinates, Default, Described, Form, Kinematics, Link,
+    Axis, Card, Category, Contact, Coordinates, Default, Described, Form, Impact, Kinematics, Link,
     NodeCount, Parameter, ParameterError, Range, Response,
 };
 
@@ -58,6 +64,10 @@ pub struct Dashpot {
     pub opening: f64,
     /// Spring of the contact k, N/m.
     pub stiffness: f64,
+    /// Coefficient of restitution e, instead of `c`.
+    pub restitution: Option<f64>,
+    /// Mass that strikes the contact, kg, for `restitution`.
+    pub impact_mass: Option<f64>,
     /// The total force may pull while closed.
     pub pull: bool,
     /// Rate v₀ below which the law of α < 1 is linear, m/s or rad/s.
@@ -106,6 +116,20 @@ impl Described for Dashpot {
                 0.0,
                 "spring of the contact",
             ),
+            Parameter::optional(
+                "restitution",
+                "e",
+                NONE,
+                Range::Above(0.0, 1.0),
+                "instead of `c`, in contact: speed after over speed before an impact",
+            ),
+            Parameter::optional(
+                "impact_mass",
+                "m",
+                MASS,
+                Range::Positive,
+                "mass that strikes, for `restitution`; none: worked out from the structure",
+            ),
             Parameter::flag("pull", false, "the total force may pull while closed"),
             Parameter::number(
                 "linear_below",
@@ -118,7 +142,8 @@ impl Described for Dashpot {
         ],
         law: "F(v) = c sgn(v) |v|^α; for α < 1 and |v| < v₀: c v₀^(α−1) v\n\
               Always:    f = F(ḋ)\n\
-              InContact: f = F(ḋ) + k (d + g) where d < −g, else 0; without `pull` at most 0",
+              InContact: f = F(ḋ) + k (d + g) where d < −g, else 0; without `pull` at most 0\n\
+              with `restitution`: c = 2 ζ(e) √(k m)",
         source: "Soong & Dargush, Passive Energy Dissipation Systems, 1997, ch. 6; Wilson 2002, ch. 21",
         example: r#""damper": Dashpot(nodes: ("a", "b"), c: "20 kN*s/m")"#,
     };
@@ -126,7 +151,12 @@ impl Described for Dashpot {
     fn check(&self) -> Result<(), ParameterError> {
         let rotational = self.axis.index() > 2;
         let (wanted, other) = if rotational { ("cr", self.c) } else { ("c", self.cr) };
-        if other.is_some() || self.coefficient().is_none() {
+        if self.restitution.is_some() {
+            self.check_restitution()?;
+        } else if self.impact_mass.is_some() {
+            let message = "`impact_mass` belongs to `restitution`: give both, or `c`";
+            return Err(ParameterError::inconsistent("impact_mass", message));
+        } else if other.is_some() || self.coefficient().is_none() {
             let message =
                 format!("a dashpot along {} takes `{wanted}` and nothing else", self.axis.name());
             return Err(ParameterError::inconsistent(wanted, message));
@@ -146,6 +176,19 @@ impl Described for Dashpot {
 }
 
 impl Dashpot {
+    fn check_restitution(&self) -> Result<(), ParameterError> {
+        let message = if self.c.is_some() || self.cr.is_some() {
+            "`restitution` sets the coefficient: leave `c` out, or `restitution`"
+        } else if self.when != When::InContact {
+            "`restitution` belongs to a contact: add `when: InContact`"
+        } else if self.stiffness == 0.0 || self.exponent != 1.0 {
+            "`restitution` needs the contact's `stiffness` in this dashpot, and exponent 1"
+        } else {
+            return Ok(());
+        };
+        Err(ParameterError::inconsistent("restitution", message))
+    }
+
     fn coefficient(&self) -> Option<f64> {
         if self.axis.index() > 2 { self.cr } else { self.c }
     }
@@ -200,6 +243,24 @@ impl Link for Dashpot {
             out.energy.stored = 0.5 * spring * spring / self.stiffness;
         }
         out.energy.viscous = at.viscous_work(0, f0 - spring0, f - spring);
+    }
+
+    fn impact(&self) -> Option<Impact> {
+        let bears = self.when == When::InContact && self.stiffness > 0.0 && self.exponent == 1.0;
+        bears.then(|| Impact {
+            coordinate: 0,
+            stiffness: self.stiffness,
+            damping: self.c.unwrap_or(0.0),
+            restitution: self.restitution,
+            mass: self.impact_mass,
+        })
+    }
+
+    fn restituting(&self, restitution: f64, mass: f64) -> Option<Box<dyn Link>> {
+        self.impact()?;
+        let ratio = damping_ratio(restitution, self.pull);
+        let c = Some(2.0 * ratio * (self.stiffness * mass).sqrt());
+        Some(Box::new(Self { c, restitution: None, impact_mass: None, ..self.clone() }))
     }
 
     fn contact(&self, at: &Kinematics<'_>, _: &[f64], f: &[f64]) -> Option<Contact> {
@@ -274,6 +335,18 @@ mod tests {
         assert!(read::<Dashpot>(&[cr.clone(), r2.clone()]).is_ok());
         let when = ("when", Value::Text("InContact".into()));
         assert!(read::<Dashpot>(&[cr, r2, when]).is_err());
+        let e = ("restitution", Value::Number(0.5));
+        let k = ("stiffness", Value::Number(1e6));
+        let in_contact = ("when", Value::Text("InContact".into()));
+        let whole = [e.clone(), k.clone(), in_contact.clone()];
+        assert!(read::<Dashpot>(&whole).is_ok());
+        for wrong in [
+            vec![e.clone(), k.clone(), in_contact.clone(), c.clone()],
+            vec![e.clone(), k.clone()],
+            vec![e.clone(), in_contact],
+        ] {
+            assert_eq!(read::<Dashpot>(&wrong).unwrap_err().parameter(), Some("restitution"));
+        }
         let stray = [c, ("stiffness", Value::Number(1.0))];
         assert_eq!(read::<Dashpot>(&stray).unwrap_err().parameter(), Some("when"));
     }

@@ -8,6 +8,7 @@
 
 mod dense;
 mod parameters;
+mod restitution;
 
 mod beam;
 mod dashpot;

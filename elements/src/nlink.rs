@@ -17,6 +17,8 @@
 //! | `kn`               | kₙ             | N/m     | > 0   | –       | contact stiffness                        |
 //! | `opening`          | g              | m       | any   | 0       | clearance at rest (negative: interference) |
 //! | `damping`          | c              | N·s/m   | ≥ 0   | 0       | contact dashpot, acts only while closed  |
+//! | `restitution`      | e              | 1       | 0 < e ≤ 1 | –     | instead of `damping`: speed after over speed before an impact |
+//! | `impact_mass`      | m              | kg      | > 0   | –       | mass that strikes; none: worked out from the structure |
 //! | `pull`             |                |         |       | false   | the dashpot may pull while closed        |
 //! | `mu`               | μ              | 1       | ≥ 0   | 0       | friction coefficient                     |
 //! | `mu_slow`, `mu_fast` | μ_slow, μ_fast | 1     | ≥ 0   | –       | instead of `mu`: at rest and at speed    |
@@ -30,6 +32,10 @@
 //! Friction is elastic–perfectly plastic with radial return, not of Wen's type: it sticks fully below
 //! the limit, and a separation wipes the anchor out. On closing, the anchor is the tangential position
 //! at the moment of contact, linear in the step.
+//!
+//! With `restitution` the dashpot is c = 2 ζ(e) √(kₙ m), ζ(e) in closed form without gravity. The mass m
+//! worked out is the share that this contact stops when all contacts of its body strike together (a flat
+//! drop), or, where they cannot (stops on both sides), when it strikes alone.
 //!
 //! **Energy.** Stored: ½ kₙ p² + |τ|²/(2 k_e) + ½ r θ² + the work of the two restoring forces (k_post and
 //! pendulum) so far. That work is history: with N changing, or with a separation while displaced, the
@@ -47,7 +53,7 @@ pub use law::NLinkHistory;
 
 use serde::Deserialize;
 use trilith_element::dimension::{
-    DAMPING, INVERSE_VELOCITY, LENGTH, NONE, ROTATIONAL_STIFFNESS, STIFFNESS,
+    DAMPING, INVERSE_VELOCITY, LENGTH, MASS, NONE, ROTATIONAL_STIFFNESS, STIFFNESS,
 };
 use trilith_element::{
     Axis, Card, Category, Described, NodeCount, Parameter, ParameterError, Range,
@@ -65,6 +71,10 @@ pub struct NLink {
     /// Contact dashpot c, N·s/m.
     #[serde(default)]
     pub damping: f64,
+    /// Coefficient of restitution e, instead of `damping`.
+    pub restitution: Option<f64>,
+    /// Mass that strikes the contact, kg, for `restitution`.
+    pub impact_mass: Option<f64>,
     /// The dashpot may pull while the gap is closed.
     #[serde(default)]
     pub pull: bool,
@@ -123,6 +133,20 @@ impl Described for NLink {
                 Range::NonNegative,
                 0.0,
                 "contact dashpot, acts only while closed",
+            ),
+            Parameter::optional(
+                "restitution",
+                "e",
+                NONE,
+                Range::Above(0.0, 1.0),
+                "instead of `damping`: speed after over speed before an impact",
+            ),
+            Parameter::optional(
+                "impact_mass",
+                "m",
+                MASS,
+                Range::Positive,
+                "mass that strikes, for `restitution`; none: worked out from the structure",
             ),
             Parameter::flag("pull", false, "the dashpot may pull while the gap is closed"),
             Parameter::optional(
@@ -183,6 +207,7 @@ impl Described for NLink {
         law: "p = −(d₁ + g), closed where p ≥ 0\n\
               f₁ = −kₙ p + c ḋ₁, without `pull` at most 0\n\
               N = kₙ p with `pull`, −f₁ without\n\
+              with `restitution`: c = 2 ζ(e) √(kₙ m)\n\
               μ = μ_fast − (μ_fast − μ_slow) e^(−r |ḋₜ|)\n\
               τ = (kₛ − k_post) (dₜ − a), |τ| ≤ μ N (radial return)\n\
               fₜ = τ + k_post dₜ + kₙ p dₜ/R\n\
@@ -193,6 +218,14 @@ impl Described for NLink {
     };
 
     fn check(&self) -> Result<(), ParameterError> {
+        if self.restitution.is_some() && self.damping != 0.0 {
+            let message = "`restitution` sets the dashpot: leave `damping` out, or `restitution`";
+            return Err(ParameterError::inconsistent("restitution", message));
+        }
+        if self.impact_mass.is_some() && self.restitution.is_none() {
+            let message = "`impact_mass` belongs to `restitution`: give both, or `damping`";
+            return Err(ParameterError::inconsistent("impact_mass", message));
+        }
         let graded = [self.mu_slow, self.mu_fast, self.rate];
         if graded.iter().any(Option::is_some) {
             if self.mu.is_some() {
@@ -229,6 +262,8 @@ impl NLink {
             kn,
             opening: 0.0,
             damping: 0.0,
+            restitution: None,
+            impact_mass: None,
             pull: false,
             mu: None,
             mu_slow: None,

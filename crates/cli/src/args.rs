@@ -24,6 +24,8 @@ pub(crate) enum Command {
     Elements(ElementsArguments),
     /// Run the same case under two or more solvers and show the differences
     Compare(CompareArguments),
+    /// Find contact and rotational dashpots from coefficients of restitution
+    Calibrate(CalibrateArguments),
 }
 
 #[derive(Args)]
@@ -90,6 +92,60 @@ pub(crate) struct CompareArguments {
     /// Output step in seconds [default: that of the case]
     #[arg(long, value_parser = positive)]
     pub dt: Option<f64>,
+}
+
+#[derive(Args)]
+pub(crate) struct CalibrateArguments {
+    #[command(flatten)]
+    pub model: ModelArguments,
+    /// Speed after over speed before a flat drop [default: the dashpots of the model]
+    #[arg(long, value_name = "E", value_parser = share)]
+    pub restitution: Option<f64>,
+    /// Height of the drop that checks it, such as `1 m` or `149.7 in`
+    #[arg(long, default_value = "1 m", value_parser = length)]
+    pub height: f64,
+    /// Uplift that a swing keeps: `housner` for rigid theory, or a number such as 0.57
+    #[arg(long, value_name = "RATIO", value_parser = rocking)]
+    pub rocking: Option<Kept>,
+    /// Uplift of a corner that rocking starts from [default: a tenth of that of balance]
+    #[arg(long, value_parser = length)]
+    pub uplift: Option<f64>,
+    /// Horizontal direction of the plane of motion: X or Y [default: that of a plane model, or X]
+    #[arg(long, value_parser = ["X", "Y"], ignore_case = true)]
+    pub along: Option<String>,
+}
+
+/// The uplift that a swing should keep.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) enum Kept {
+    /// What rigid theory says.
+    Housner,
+    /// A share.
+    Share(f64),
+}
+
+fn rocking(text: &str) -> Result<Kept, String> {
+    if text.eq_ignore_ascii_case("housner") {
+        return Ok(Kept::Housner);
+    }
+    match text.parse::<f64>() {
+        Ok(x) if x > 0.0 && x < 1.0 => Ok(Kept::Share(x)),
+        _ => Err("`housner` is wanted, or a number between 0 and 1".into()),
+    }
+}
+
+fn share(text: &str) -> Result<f64, String> {
+    match text.parse::<f64>() {
+        Ok(x) if x > 0.0 && x <= 1.0 => Ok(x),
+        _ => Err("a number above 0 and at most 1 is wanted".into()),
+    }
+}
+
+fn length(text: &str) -> Result<f64, String> {
+    match trilith::model::quantity(text, trilith::element::dimension::LENGTH)? {
+        x if x > 0.0 => Ok(x),
+        _ => Err("a length above 0 is wanted, such as `1 m`".into()),
+    }
 }
 
 fn assignment(text: &str) -> Result<(String, String), String> {

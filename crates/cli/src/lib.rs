@@ -11,6 +11,7 @@
 //! converge or lost energy, 2 the input is wrong.
 
 mod args;
+mod calibrate;
 mod check;
 mod compare;
 mod diagnostics;
@@ -48,6 +49,7 @@ pub fn main_with(registry: Registry) -> ! {
         Command::Modes(a) => modes::modes(&registry, &a),
         Command::Elements(a) => elements::elements(&registry, a.name.as_deref()),
         Command::Compare(a) => compare::compare(&registry, &a),
+        Command::Calibrate(a) => calibrate::calibrate(&registry, &a),
     };
     let status = match answer {
         Ok(Answer { text, status }) => {

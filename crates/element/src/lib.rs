@@ -32,6 +32,6 @@ pub use error::ParameterError;
 pub use frame::{Axis, Dof, Frame, Geometry, Vector3, cross, dot, norm, sub};
 pub use history::{Field, History};
 pub use linear::{ElementMatrices, LinearElement, SquareMatrix};
-pub use link::{Contact, Coordinates, Energy, Kinematics, Link, Response};
+pub use link::{Contact, Coordinates, Energy, Impact, Kinematics, Link, Response};
 pub use register::Register;
 pub use values::{Value, Values};

@@ -97,6 +97,22 @@ pub struct Contact {
     pub slipping: bool,
 }
 
+/// What a contact says about impacts on it, so that its dashpot can be set from a coefficient of
+/// restitution once the mass is known that it stops.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Impact {
+    /// The coordinate that closes, as index into those of the law.
+    pub coordinate: usize,
+    /// Contact stiffness, N/m.
+    pub stiffness: f64,
+    /// Contact dashpot, N·s/m; 0 while it waits for a mass.
+    pub damping: f64,
+    /// The coefficient of restitution that is wanted instead of a dashpot.
+    pub restitution: Option<f64>,
+    /// The mass given for it, kg; none: the core works it out.
+    pub mass: Option<f64>,
+}
+
 /// A local nonlinear law.
 ///
 /// # Contract
@@ -134,6 +150,18 @@ pub trait Link: Send + Sync + Debug {
 
     /// What the contact does, for laws that are contacts. `history` is the trial of `respond`.
     fn contact(&self, _at: &Kinematics<'_>, _history: &[f64], _f: &[f64]) -> Option<Contact> {
+        None
+    }
+
+    /// What it does in an impact, for contacts with a dashpot that a restitution can set.
+    fn impact(&self) -> Option<Impact> {
+        None
+    }
+
+    /// The same contact with the dashpot that gives a coefficient of restitution (0 < e ≤ 1) to a
+    /// mass (kg) that strikes it alone. The core runs this law where [`impact`](Self::impact) wants a
+    /// restitution.
+    fn restituting(&self, _restitution: f64, _mass: f64) -> Option<Box<dyn Link>> {
         None
     }
 }

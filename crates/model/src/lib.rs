@@ -20,6 +20,7 @@ mod units;
 
 pub use analysis::*;
 pub use diagnostic::{Diagnostic, line_column};
+pub use expression::quantity;
 pub use model::*;
 pub use output::*;
 pub use read::{read, read_text};

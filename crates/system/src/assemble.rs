@@ -2,7 +2,7 @@
 
 use crate::elastic::{EndForceRow, end_force_row};
 use crate::links::mark_used;
-use crate::{LinkSet, Reduction, SystemError};
+use crate::{ImpactMass, LinkSet, Reduction, SystemError};
 use trilith_element::{Dof, ElementMatrices, Geometry};
 use trilith_linalg::{Sparse, Triplets, unsupported};
 use trilith_model::{Body, Damping, Model};
@@ -71,9 +71,11 @@ impl System {
             p
         });
         let r: Vec<f64> = (0..count).map(|i| f64::from(u8::from(i % 6 == 2))).collect();
-        let links = LinkSet::new(model, &reduction, &used)?;
+        let mut links = LinkSet::new(model, &reduction, &used)?;
+        let mass = m_reduced.block(&free, &free);
+        crate::impact::settle(&mut links, model, &mass)?;
         Ok(Self {
-            mass: m_reduced.block(&free, &free),
+            mass,
             damping: c.block(&free, &free),
             stiffness: k.block(&free, &free),
             mass_support: m_reduced.block(&free, &support),
@@ -85,6 +87,14 @@ impl System {
             reduction,
             matrices,
         })
+    }
+
+    /// The contacts whose dashpot a restitution can set, and the masses that strike them.
+    ///
+    /// # Errors
+    /// [`SystemError::Linalg`] where the masses cannot be factorised.
+    pub fn impact_masses(&self, model: &Model) -> Result<Vec<ImpactMass>, SystemError> {
+        crate::impact::masses(&self.links, model, &self.mass)
     }
 
     /// Number of free DOFs.

@@ -5,6 +5,7 @@
 mod assemble;
 mod elastic;
 mod error;
+mod impact;
 mod links;
 mod loads;
 mod reduction;
@@ -12,6 +13,7 @@ mod reduction;
 pub use assemble::System;
 pub use elastic::EndForceRow;
 pub use error::SystemError;
+pub use impact::ImpactMass;
 pub use links::{LinkInstance, LinkSet, Tangents};
 pub use loads::{Channel, LoadSet, StepLoads, Track};
 pub use reduction::Reduction;

@@ -5,6 +5,7 @@
 //! solved on the active ones.
 
 use std::ops::Range;
+use std::sync::Arc;
 use trilith_element::{Coordinates, Dof, Energy, Kinematics, Link, Response, Vector3};
 use trilith_model::{Body, Model};
 
@@ -21,6 +22,8 @@ pub struct LinkInstance {
     pub block: Range<usize>,
     /// Its variables in the history arrays.
     pub history: Range<usize>,
+    /// The law that runs in place of the model's, where the assembly had to complete it.
+    pub settled: Option<Arc<dyn Link>>,
 }
 
 /// Tangents of all links: blocks of n² values, row by row.
@@ -121,6 +124,7 @@ impl LinkSet {
                 range: start..start + n,
                 block: set.block_len..set.block_len + n * n,
                 history: set.history_len..set.history_len + fields,
+                settled: None,
             });
             set.block_len += n * n;
             set.history_len += fields;
@@ -158,9 +162,10 @@ impl LinkSet {
 
     /// The law of a link.
     #[must_use]
-    pub fn law<'a>(&self, model: &'a Model, link: &LinkInstance) -> Option<&'a dyn Link> {
-        match &model.elements[link.element].body {
-            Body::Link(law, _) => Some(law.as_ref()),
+    pub fn law<'a>(&self, model: &'a Model, link: &'a LinkInstance) -> Option<&'a dyn Link> {
+        match (&link.settled, &model.elements[link.element].body) {
+            (Some(law), _) => Some(law.as_ref()),
+            (None, Body::Link(law, _)) => Some(law.as_ref()),
             _ => None,
         }
     }

@@ -26,6 +26,9 @@ pub enum Error {
     /// The run cannot be made.
     #[error(transparent)]
     Solve(#[from] SolveError),
+    /// The model cannot be calibrated.
+    #[error(transparent)]
+    Calibration(#[from] crate::calibrate::CalibrationError),
     /// A file cannot be written.
     #[error(transparent)]
     File(#[from] FileError),

@@ -28,12 +28,14 @@
 //!
 //! - [`read`] turns a model file into a [`Model`], or into all its errors at once.
 //! - [`run`] runs a case as the file says; [`Analysis`] runs several, with options.
+//! - [`calibrate`] finds dashpots from coefficients of restitution.
 //! - A link of your own: implement [`element::Link`], offer it with `registry.link::<MyLink>()`.
 //!
 //! Everything beneath is in the modules [`element`], [`elements`], [`model`], [`system`],
 //! [`solvers`] and [`results`].
 
 mod analysis;
+pub mod calibrate;
 mod error;
 
 /// The contract that elements, constraints and links fulfil.

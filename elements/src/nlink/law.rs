@@ -1,8 +1,9 @@
 //! The law of the [`NLink`].
 
 use super::NLink;
+use crate::restitution::damping_ratio;
 use trilith_element::{
-    Axis, Contact, Coordinates, Field, History, Kinematics, Link, Response, history,
+    Axis, Contact, Coordinates, Field, History, Impact, Kinematics, Link, Response, history,
 };
 
 history! {
@@ -213,6 +214,21 @@ impl Link for NLink {
             restoring,
         }
         .store(trial);
+    }
+
+    fn impact(&self) -> Option<Impact> {
+        Some(Impact {
+            coordinate: 0,
+            stiffness: self.kn,
+            damping: self.damping,
+            restitution: self.restitution,
+            mass: self.impact_mass,
+        })
+    }
+
+    fn restituting(&self, restitution: f64, mass: f64) -> Option<Box<dyn Link>> {
+        let damping = 2.0 * damping_ratio(restitution, self.pull) * (self.kn * mass).sqrt();
+        Some(Box::new(Self { damping, restitution: None, impact_mass: None, ..self.clone() }))
     }
 
     fn contact(&self, at: &Kinematics<'_>, _history: &[f64], f: &[f64]) -> Option<Contact> {

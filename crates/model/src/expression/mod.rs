@@ -78,6 +78,43 @@ pub(crate) fn evaluate(text: &str, scope: &mut dyn Scope) -> Parsed<Quantity> {
     Ok(value)
 }
 
+/// A quantity in SI from a text such as `5.1 in` or `2*0.3 m`; a bare number is SI. For arguments of
+/// programs.
+///
+/// # Errors
+/// A sentence that says what is wrong and what would be right.
+pub fn quantity(text: &str, dimension: Dimension) -> Result<f64, String> {
+    let q = match evaluate(text.trim(), &mut NoNames) {
+        Ok(q) => q,
+        Err(error) => {
+            let whole = |e: ExpressionError| match e.help {
+                Some(help) => format!("{}: {help}", e.message),
+                None => e.message,
+            };
+            return Err(error.map_or_else(|| "not a quantity".into(), whole));
+        }
+    };
+    if q.measured && !q.dimension.matches(dimension) {
+        return Err(format!("this is in {}: must be in {}", q.dimension, dimension));
+    }
+    Ok(q.value)
+}
+
+/// A scope without parameters.
+struct NoNames;
+
+impl Scope for NoNames {
+    fn names(&self) -> Vec<&str> {
+        Vec::new()
+    }
+    fn has(&self, _: &str) -> bool {
+        false
+    }
+    fn value(&mut self, _: &str) -> Result<Quantity, Option<(&'static str, String)>> {
+        Err(None)
+    }
+}
+
 fn fail<T>(
     code: &'static str,
     message: impl Into<String>,

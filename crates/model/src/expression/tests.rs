@@ -101,3 +101,13 @@ fn deep_nesting_is_an_error_and_no_crash() {
     assert!(evaluate(&"1 m^(".repeat(100_000), &mut Some3).is_err());
     assert!(evaluate(&format!("1 m{}", "/(m".repeat(100_000)), &mut Some3).is_err());
 }
+
+#[test]
+fn a_quantity_of_an_argument_has_a_dimension_or_is_si() {
+    use trilith_element::dimension::LENGTH;
+    assert_eq!(super::quantity("5.1 in", LENGTH), Ok(5.1 * 0.0254));
+    assert_eq!(super::quantity(" 0.3 ", LENGTH), Ok(0.3));
+    for wrong in ["5 s", "5 inn", "width", "", "1 m +", "1/0"] {
+        assert!(super::quantity(wrong, LENGTH).is_err(), "{wrong}");
+    }
+}
