@@ -172,3 +172,41 @@ fn two_solvers_agree_on_the_swing() {
     let (status, _, err) = trilith(folder.path(), &["compare", "swing.ron", "--solvers", "fna"]);
     assert!(status == 2 && err.contains("two solvers"), "{err}");
 }
+
+/// A block on two feet, as a file.
+const BLOCK: &str = r#"(
+    plane: XZ,
+    nodes: { "cg": (0, 0, 2), "left": (-1, 0, 0), "right": (1, 0, 0) },
+    elements: {
+        "block": RigidBody(nodes: ("cg", "left", "right")),
+        "mass": Mass(node: "cg", mass: "10 t", inertia: (0, "16666.7 kg*m^2", 0)),
+        "left": NLink(node: "left", kn: "5e8 N/m", ks: "5e8 N/m", mu: 5, restitution: 0.25, pull: true),
+        "right": NLink(node: "right", kn: "5e8 N/m", ks: "5e8 N/m", mu: 5, restitution: 0.25, pull: true),
+    },
+    cases: { "gravity": Static(loads: [Gravity]) },
+)"#;
+
+#[test]
+fn a_block_is_calibrated_for_a_drop_and_for_rocking() {
+    let folder = folder();
+    std::fs::write(folder.path().join("block.ron"), BLOCK).unwrap();
+    let args = ["calibrate", "block.ron", "--restitution", "0.25", "--rocking", "0.4"];
+    let (status, out, err) = trilith(folder.path(), &args);
+    assert_eq!(status, 0, "{out}{err}");
+    // ζ = 0.4037 against half the mass; Housner's 0.49; a dashpot to paste.
+    for part in ["1.27665e6 N·s/m at each foot", "0.4900", "Spring(node: \"cg\", cr3:", "5000.0"] {
+        assert!(out.contains(part), "{part} in\n{out}");
+    }
+    for (args, part) in [
+        (&["calibrate", "block.ron", "--rocking", "0.9"][..], "out of reach"),
+        (&["calibrate", "block.ron", "--rocking", "houzner"], "`housner` is wanted"),
+        (&["calibrate", "block.ron", "--restitution", "2"], "at most 1"),
+        (&["calibrate", "block.ron", "--height", "3 s"], "must be in m"),
+        (&["calibrate", "block.ron", "--along", "Y"], "leaves no motion along Y"),
+        (&["calibrate", "swing.ron"], "stand free"),
+    ] {
+        let (status, _, err) = trilith(folder.path(), args);
+        assert_eq!(status, 2, "{args:?}");
+        assert!(err.contains(part), "{part} in\n{err}");
+    }
+}
