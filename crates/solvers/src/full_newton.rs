@@ -192,6 +192,10 @@ impl Stepper for FullNewton<'_> {
         crate::stepper::energy_distance(&self.space, a, b)
     }
 
+    fn rounding(&self, state: &State) -> f64 {
+        crate::stepper::energy_rounding(&self.space, &self.system.links.active, state)
+    }
+
     fn space(&self) -> &Space {
         &self.space
     }

@@ -22,6 +22,8 @@ const ACCURACY_DEPTH: u32 = 26;
 /// Share of the dissipation of a step that its energy balance may miss; a third of the usual limit of a
 /// whole run.
 const CLOSURE: f64 = 3e-4;
+/// Operations whose rounding may add up in the link energies of a step.
+const ROUNDING: f64 = 16.0;
 /// A step is doubled where its error is below this share of the tolerance.
 const GROW_BELOW: f64 = 0.08;
 
@@ -57,9 +59,15 @@ pub(crate) struct March<'a> {
     pub counts: Counts,
 }
 
-/// How far the energies of the links in a step are from closing, over what is allowed: a share of what
-/// they dissipate, or the square of the tolerance as a share of the energy in motion.
-fn closure(from: &State, to: &State, halves: [&StepEnergy; 2], tolerance: f64, energy: f64) -> f64 {
+/// How far the energies of the links in a step are from closing, and what is allowed: a share of what
+/// they dissipate, and the square of the tolerance as a share of the energy in motion.
+fn closure(
+    from: &State,
+    to: &State,
+    halves: [&StepEnergy; 2],
+    tolerance: f64,
+    energy: f64,
+) -> (f64, f64) {
     let mut missing: f64 = from.stored.iter().sum::<f64>() - to.stored.iter().sum::<f64>();
     let mut dissipated = 0.0;
     for half in halves {
@@ -67,7 +75,7 @@ fn closure(from: &State, to: &State, halves: [&StepEnergy; 2], tolerance: f64, e
         dissipated += half.links.iter().map(|e| e.hysteretic + e.viscous).sum::<f64>();
     }
     let missing = missing - dissipated;
-    missing.abs() / (CLOSURE * dissipated.abs() + 10.0 * tolerance * tolerance * energy)
+    (missing.abs(), CLOSURE * dissipated.abs() + 10.0 * tolerance * tolerance * energy)
 }
 
 /// What is told about every accepted substep: end time, state, energies.
@@ -139,8 +147,13 @@ impl March<'_> {
                     if !error.is_finite() {
                         return Err(Stop::NoEquilibrium { t: start, worst: 0, residual: error });
                     }
-                    let closure = closure(state, &second, [&e1, &e2], tolerance, energy);
-                    let error = error.max(tolerance * closure);
+                    let halves = [&e1, &e2];
+                    let (missing, mut allowed) = closure(state, &second, halves, tolerance, energy);
+                    if missing > allowed {
+                        // No step is short enough to bring it below what rounding leaves.
+                        allowed += ROUNDING * self.stepper.rounding(&second);
+                    }
+                    let error = error.max(tolerance * missing / allowed);
                     if error > tolerance && level < ACCURACY_DEPTH {
                         self.counts.rejected += 1;
                         known = Some((level + 1, first));

@@ -131,6 +131,9 @@ pub(crate) trait Stepper {
     /// Squared energy norm of the difference of two states, J.
     fn distance(&self, a: &State, b: &State) -> f64;
 
+    /// What one rounding of the motion does to the energies of the links, J.
+    fn rounding(&self, state: &State) -> f64;
+
     /// The space of the motion.
     fn space(&self) -> &Space;
 
@@ -155,6 +158,16 @@ pub(crate) fn energy_distance(space: &Space, a: &State, b: &State) -> f64 {
     let (kinetic, strain) = kinetic_and_strain(space, &difference);
     let links: f64 = (0..a.d.len()).map(|i| ((a.d[i] - b.d[i]) * (a.f[i] - b.f[i])).abs()).sum();
     kinetic.abs() + strain.abs() + 0.5 * links
+}
+
+/// What one rounding of the motion does to the energies of the links, J: deformations are differences of
+/// displacements that may be far larger, and forces act through them.
+pub(crate) fn energy_rounding(space: &Space, active: &[usize], state: &State) -> f64 {
+    let parts = space.rows.iter().zip(active).map(|(row, flat)| {
+        let size: f64 = row.iter().map(|(j, c)| (c * state.motion[*j]).abs()).sum();
+        state.f[*flat].abs() * size
+    });
+    f64::EPSILON * parts.sum::<f64>()
 }
 
 /// Any propagator with the link kernel.
@@ -283,6 +296,10 @@ impl<P: Propagator> Stepper for LinkStepper<'_, P> {
 
     fn distance(&self, a: &State, b: &State) -> f64 {
         energy_distance(self.propagator.space(), a, b)
+    }
+
+    fn rounding(&self, state: &State) -> f64 {
+        energy_rounding(self.propagator.space(), &self.system.links.active, state)
     }
 
     fn space(&self) -> &Space {

@@ -30,6 +30,8 @@ use trilith_system::System;
 
 /// Output step as share of what an experiment lasts.
 const OUTPUT_SHARE: f64 = 1e-3;
+/// Tolerance of the steps: what is measured must not jump with the choice of steps.
+const TOLERANCE: f64 = 1e-6;
 
 /// Experiments on a model. Its own cases and outputs are not used and its loads do not act.
 #[derive(Debug)]
@@ -110,7 +112,10 @@ impl Calibrator {
             forces: Vec::new(),
             supports: Vec::new(),
             initial: initial.collect(),
-            solution: model::Solution::default(),
+            solution: model::Solution {
+                step: model::StepControl::Adaptive { tolerance: TOLERANCE },
+                ..model::Solution::default()
+            },
         };
         self.model.cases = vec![model::Case {
             name: "calibration".into(),

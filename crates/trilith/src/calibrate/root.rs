@@ -2,7 +2,7 @@
 
 /// Evaluations at most; each of them is a run.
 const LIMIT: usize = 40;
-/// The function is zero where it is below this share of its value at the start, or this value.
+/// The function counts as zero below this: restitutions are known no better from a run.
 const CLOSE: f64 = 1e-5;
 
 /// The root of a function that falls from f(low) ≥ 0, sought from `low` to `guess` and, where it is
@@ -16,7 +16,6 @@ pub(super) fn falling_root<E>(
     if fa <= CLOSE {
         return Ok(a);
     }
-    let enough = CLOSE * fa.min(1.0);
     let (mut b, mut fb) = (guess, f(guess)?);
     let mut made = 2;
     while fb > 0.0 && made < LIMIT {
@@ -26,7 +25,7 @@ pub(super) fn falling_root<E>(
         made += 1;
     }
     let mut last = 0;
-    while fa > enough && fb < -enough && made < LIMIT {
+    while fa > CLOSE && fb < -CLOSE && made < LIMIT {
         let c = (a * fb - b * fa) / (fb - fa);
         let fc = f(c)?;
         made += 1;
@@ -39,7 +38,7 @@ pub(super) fn falling_root<E>(
             fa *= if last == -1 { 0.5 } else { 1.0 };
             last = -1;
         }
-        if fc.abs() <= enough {
+        if fc.abs() <= CLOSE {
             return Ok(c);
         }
     }
