@@ -144,7 +144,7 @@ fn rocking(it: &mut Calibrator, args: &CalibrateArguments) -> Result<String, Err
             percent(off)
         );
     }
-    if tilt > 0.1 {
+    if tilt > 0.1 + 1e-9 {
         out +=
             "  beyond a tenth of balance small rotations leave out that the weight's arm shrinks\n";
     }

@@ -10,6 +10,20 @@
 //!   are stiff, nearly plastic and stiff in shear (kₛ ≈ 30 kₙ). [`rocking`](Calibrator::rocking) measures
 //!   the uplift after one swing over the uplift before, [`tune_rocking`](Calibrator::tune_rocking) finds
 //!   the rotational dashpot that lowers it to a wanted value. That dashpot is right at one amplitude only.
+//!
+//! ```
+//! use trilith::calibrate::{Calibrator, Horizontal};
+//!
+//! # fn main() -> Result<(), Box<dyn std::error::Error>> {
+//! # let file = concat!(env!("CARGO_MANIFEST_DIR"), "/../../models/rigid_block_rocking.ron");
+//! let model = trilith::read(file, &trilith::registry(), &[]).map_err(|e| e[0].to_string())?;
+//! let mut block = Calibrator::new(model, Horizontal::X)?;
+//! block.set_restitution(0.25)?;
+//! let (dashpot, swing) = block.tune_rocking(0.45, 0.13)?;
+//! assert!(dashpot > 0.0 && (swing.ratio() - 0.45).abs() < 1e-3);
+//! # Ok(())
+//! # }
+//! ```
 
 mod body;
 mod drop;
