@@ -199,7 +199,8 @@ pub struct Basis {
     pub kind: BasisKind,
     /// How many; `None`: chosen by the program.
     pub vectors: Option<usize>,
-    /// Flexibility of every link coordinate that the basis must hold, as share of the exact one.
+    /// Flexibility of every link coordinate that the basis must hold, as share of the exact one;
+    /// 0: none, so no vector is made for the links.
     pub adequacy: f64,
 }
 

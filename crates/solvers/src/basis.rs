@@ -125,7 +125,8 @@ fn enriched(
     loads: &[(String, Vec<f64>)],
     hat: &mut Solvable,
 ) -> Result<Dense, SolveError> {
-    let links = &system.links.active;
+    // Who asks for no flexibility of the links gets no vectors for them.
+    let links: &[usize] = if settings.adequacy > 0.0 { &system.links.active } else { &[] };
     let automatic = 20 * loads.len().max(2);
     let ground = match settings.vectors {
         None => automatic,
