@@ -160,6 +160,12 @@ impl Check {
         Self { kind: Kind::Published, ..self }
     }
 
+    /// The reference was computed by an independent program.
+    #[must_use]
+    pub fn other_code(self) -> Self {
+        Self { kind: Kind::OtherCode, ..self }
+    }
+
     /// The tolerance is in the unit of the quantity.
     #[must_use]
     pub fn absolute(self) -> Self {

@@ -1,6 +1,9 @@
 //! The cases, one file a group.
 
+mod beam_stop;
 mod block;
+mod block_rocking;
+mod block_start;
 mod dampers;
 mod impact;
 mod links;
@@ -18,7 +21,10 @@ pub fn all() -> Vec<Case> {
         dampers::cases(),
         links::cases(),
         impact::cases(),
+        beam_stop::cases(),
         block::cases(),
+        block_start::cases(),
+        block_rocking::cases(),
         modes::cases(),
         time_integration::cases(),
     ]
