@@ -80,7 +80,7 @@ pub(super) fn cases() -> Vec<Case> {
             Case {
                 id,
                 title: "How a block leaves rest",
-                source: "Shenton 1996, J. Eng. Mech. 122(7), height/width = 2",
+                source: "Shenton 1996, J. Eng. Mech. 122(7); height/width = 2",
                 text: ONSET.into(),
                 set: vec![set("a", a), set("mu", mu)],
                 solvers: BOTH,

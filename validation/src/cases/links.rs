@@ -223,7 +223,7 @@ fn sl10() -> Case {
     Case {
         id: "SL-10",
         title: "Static contact with friction, sticking and slip back",
-        source: "Code_Aster V6.03.116 (SSND116)",
+        source: "Code_Aster SSND116",
         text: CONTACT.into(),
         set: Vec::new(),
         solvers: BOTH,

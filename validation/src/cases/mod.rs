@@ -5,10 +5,15 @@ mod block;
 mod block_rocking;
 mod block_start;
 mod dampers;
+mod elastic;
 mod impact;
 mod links;
+mod maxwell;
 mod modes;
+mod restitution;
+mod ritz;
 mod sliding;
+mod sliding_driven;
 mod time_integration;
 
 use crate::Case;
@@ -18,14 +23,19 @@ use crate::Case;
 pub fn all() -> Vec<Case> {
     [
         sliding::cases(),
+        sliding_driven::cases(),
         dampers::cases(),
+        maxwell::cases(),
         links::cases(),
+        elastic::cases(),
+        restitution::cases(),
         impact::cases(),
         beam_stop::cases(),
         block::cases(),
         block_start::cases(),
         block_rocking::cases(),
         modes::cases(),
+        ritz::cases(),
         time_integration::cases(),
     ]
     .into_iter()

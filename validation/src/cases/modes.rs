@@ -107,7 +107,7 @@ fn lm1() -> Case {
     case(
         "LM-1",
         "Plane frame, ten bays and nine storeys",
-        "Bathe, Wilson 1972; CSI Software Verification 1-021",
+        "Bathe, Wilson; CSI Software Verification 1-021",
         parts.model(head),
         published
             .into_iter()
@@ -311,7 +311,7 @@ fn lm9() -> Vec<Case> {
         case(
             "LM-9a",
             "Eight masses between two walls",
-            "Code_Aster V2.01.002 (SDLD02): fⱼ = √(k/m)/π sin(jπ/18)",
+            "Code_Aster SDLD02: fⱼ = √(k/m)/π sin(jπ/18)",
             chain("", &masses, &[1e5; 9]),
             row.collect(),
         ),
@@ -329,14 +329,14 @@ fn lm9() -> Vec<Case> {
         case(
             "LM-9c",
             "Two masses between two walls",
-            "ANSYS VM89; Thomson, Vibration Theory, p. 163",
+            "ANSYS VM89",
             chain(us, &[None, Some(0.5), Some(1.0), None], &[200.0, 800.0, 200.0]),
             vec![frequency(0, 2.58139, 1e-5).published(), frequency(1, 8.32630, 1e-5).published()],
         ),
         case(
             "LM-9d",
             "Rigid bar on two springs",
-            "ANSYS VM52; Thomson, Vibration Theory, p. 181",
+            "ANSYS VM52",
             RIGID_BAR.into(),
             vec![
                 frequency(0, 1.098_078, 1e-5).published(),
@@ -384,14 +384,14 @@ fn lm10() -> Vec<Case> {
         case(
             "LM-10a",
             "Simply supported beam",
-            "ANSYS VM50; Thomson, Vibration Theory, p. 18",
+            "ANSYS VM50",
             beam.model(head),
             vec![frequency(0, 28.766, 1e-3).published()],
         ),
         case(
             "LM-10b",
             "Longitudinal vibration of a free rod",
-            "ANSYS VM61; Thomson, Vibration Theory, p. 269",
+            "ANSYS VM61",
             rod.model(rod_head),
             vec![
                 frequency(0, 0.0, 1e-4).absolute(),

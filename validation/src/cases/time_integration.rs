@@ -151,7 +151,7 @@ fn ti2() -> Vec<Case> {
         Case {
             id,
             title,
-            source: "Hilber, Hughes, Taylor 1977: roots of the amplification matrix",
+            source: "Hilber, Hughes, Taylor: roots of the amplification matrix",
             text: FREE.into(),
             set: vec![set("alpha", alpha), set("dt", dt)],
             solvers,
