@@ -341,6 +341,7 @@ impl Case {
             text: Vec::new(),
             rows,
             figures: Vec::new(),
+            unavailable: None,
         }
     }
 

@@ -27,6 +27,8 @@ pub enum Item {
     Case(Box<Case>),
     /// Many runs behind one statement.
     Study(Study),
+    /// What could not be made here, as [`Outcome::unavailable`] says.
+    Missing(Outcome),
 }
 
 impl Item {
@@ -36,6 +38,7 @@ impl Item {
         match self {
             Self::Case(c) => c.id,
             Self::Study(s) => s.id,
+            Self::Missing(o) => o.id,
         }
     }
 
@@ -43,6 +46,7 @@ impl Item {
         match self {
             Self::Case(c) => c.run(),
             Self::Study(s) => s.run(),
+            Self::Missing(o) => o.clone(),
         }
     }
 
@@ -50,6 +54,7 @@ impl Item {
         match self {
             Self::Case(c) => c.failed(reason),
             Self::Study(s) => s.failed(reason),
+            Self::Missing(o) => o.clone(),
         }
     }
 }
@@ -58,7 +63,8 @@ impl Item {
 #[must_use]
 pub fn all() -> Vec<Item> {
     let studies = studies::all().into_iter().map(Item::Study);
-    studies.chain(cases::all().into_iter().map(|c| Item::Case(Box::new(c)))).collect()
+    let cases = cases::all().into_iter().map(|c| Item::Case(Box::new(c)));
+    studies.chain(cases).chain(cases::with_record()).collect()
 }
 
 /// Runs several items at a time and returns what they found in the order of the items. `done` is

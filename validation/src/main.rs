@@ -30,5 +30,5 @@ fn main() -> ExitCode {
         return ExitCode::from(2);
     }
     println!("report: {}", folder.join("report.html").display());
-    if outcomes.iter().all(Outcome::pass) { ExitCode::SUCCESS } else { ExitCode::FAILURE }
+    if outcomes.iter().any(Outcome::fails) { ExitCode::FAILURE } else { ExitCode::SUCCESS }
 }

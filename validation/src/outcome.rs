@@ -19,13 +19,33 @@ pub struct Outcome {
     pub rows: Vec<Row>,
     /// Figures.
     pub figures: Vec<Figure>,
+    /// Why it could not be made here: what it needs is not part of the project and was not found.
+    pub unavailable: Option<String>,
 }
 
 impl Outcome {
+    /// Neither passed nor failed: what it needs is not there.
+    #[must_use]
+    pub fn unavailable(
+        id: &'static str,
+        title: &'static str,
+        source: &'static str,
+        reason: &str,
+    ) -> Self {
+        let (text, rows, figures) = (vec![format!("Not run: {reason}.")], Vec::new(), Vec::new());
+        Self { id, title, source, text, rows, figures, unavailable: Some(reason.to_owned()) }
+    }
+
     /// True where every comparison passes, and there is one.
     #[must_use]
     pub fn pass(&self) -> bool {
         !self.rows.is_empty() && self.rows.iter().all(|r| r.pass)
+    }
+
+    /// True where it was run and does not pass.
+    #[must_use]
+    pub fn fails(&self) -> bool {
+        self.unavailable.is_none() && !self.pass()
     }
 }
 

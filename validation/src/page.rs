@@ -13,7 +13,11 @@ pub(crate) fn html(outcomes: &[Outcome]) -> String {
              those of its basis.",
         ));
     for o in outcomes {
-        let verdict = if o.pass() { "" } else { " — FAILS" };
+        let verdict = match () {
+            () if o.pass() => "",
+            () if o.fails() => " — FAILS",
+            () => " — not run",
+        };
         let mut section = Section::new(o.id, format!("{} {}{verdict}", o.id, o.title))
             .block(Block::note(format!("Source: {}", o.source)));
         for text in &o.text {
@@ -21,6 +25,10 @@ pub(crate) fn html(outcomes: &[Outcome]) -> String {
         }
         if !o.figures.is_empty() {
             section = section.block(o.figures.clone());
+        }
+        if o.unavailable.is_some() {
+            page = page.section(section);
+            continue;
         }
         let lines = lines(&o.rows);
         let rows = lines.iter().enumerate().map(|(i, l)| {

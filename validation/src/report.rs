@@ -93,18 +93,23 @@ pub(crate) fn lines(rows: &[Row]) -> Vec<Line<'_>> {
 
 /// How many cases and comparisons there are and how many of them fail.
 pub(crate) fn totals(outcomes: &[Outcome]) -> String {
-    let bad: Vec<&str> = outcomes.iter().filter(|o| !o.pass()).map(|o| o.id).collect();
+    let bad: Vec<&str> = outcomes.iter().filter(|o| o.fails()).map(|o| o.id).collect();
     let rows = || outcomes.iter().flat_map(|o| &o.rows);
     let mut out = format!(
         "{} cases and studies, {} comparisons: {} pass, {} fail ({} comparisons)",
         outcomes.len(),
         rows().count(),
-        outcomes.len() - bad.len(),
+        outcomes.iter().filter(|o| o.pass()).count(),
         bad.len(),
         rows().filter(|r| !r.pass).count(),
     );
     if !bad.is_empty() {
         let _ = write!(out, ": {}", bad.join(", "));
+    }
+    let missing: Vec<&str> =
+        outcomes.iter().filter(|o| o.unavailable.is_some()).map(|o| o.id).collect();
+    if !missing.is_empty() {
+        let _ = write!(out, "; {} not run: {}", missing.len(), missing.join(", "));
     }
     out
 }
@@ -142,6 +147,11 @@ pub fn text(outcomes: &[Outcome]) -> String {
     for note in outcomes.iter().flat_map(|o| notes(&o.rows)) {
         let _ = writeln!(out, "note: {note}");
     }
+    for o in outcomes {
+        if let Some(reason) = &o.unavailable {
+            let _ = writeln!(out, "not run: {} ({}): {reason}", o.id, o.title);
+        }
+    }
     out + &totals(outcomes) + "\n"
 }
 
@@ -158,6 +168,9 @@ pub fn markdown(outcomes: &[Outcome]) -> String {
         let _ = write!(out, "\n## {} {}\n\nSource: {}\n\n", o.id, o.title, o.source);
         for text in &o.text {
             let _ = write!(out, "{text}\n\n");
+        }
+        if o.unavailable.is_some() {
+            continue;
         }
         let _ = writeln!(out, "| {} |\n|{}", HEADER[1..].join(" | "), "---|".repeat(8));
         for line in lines(&o.rows) {

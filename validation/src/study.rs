@@ -83,6 +83,14 @@ impl Study {
 
     fn outcome(&self, rows: Vec<Row>) -> Outcome {
         let Self { id, title, source, .. } = *self;
-        Outcome { id, title, source, text: Vec::new(), rows, figures: Vec::new() }
+        Outcome {
+            id,
+            title,
+            source,
+            text: Vec::new(),
+            rows,
+            figures: Vec::new(),
+            unavailable: None,
+        }
     }
 }

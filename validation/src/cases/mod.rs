@@ -10,13 +10,14 @@ mod impact;
 mod links;
 mod maxwell;
 mod modes;
+mod records;
 mod restitution;
 mod ritz;
 mod sliding;
 mod sliding_driven;
 mod time_integration;
 
-use crate::Case;
+use crate::{Case, Item};
 
 /// All cases.
 #[must_use]
@@ -41,6 +42,12 @@ pub fn all() -> Vec<Case> {
     .into_iter()
     .flatten()
     .collect()
+}
+
+/// The cases that need a ground motion record, or word of its absence.
+#[must_use]
+pub fn with_record() -> Vec<Item> {
+    records::items()
 }
 
 /// A parameter set over that of a text.
