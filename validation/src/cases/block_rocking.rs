@@ -181,6 +181,8 @@ fn rb8_rigid() -> Case {
     let quarter = |theta: f64| (2.0 * 4.0 / 3.0 * 1.25 * theta / (G * 0.5)).sqrt();
     let mut checks = Vec::new();
     let (mut t, mut theta, mut sign) = (0.0, 0.02, 1.0);
+    // Parabolas: time of the peak, peak, quarter period.
+    let mut arcs = vec![(0.0, theta, quarter(theta))];
     for n in 0..3 {
         t += quarter(theta);
         let (from, to) = (t, t + 2.0 * quarter(theta * 0.49));
@@ -197,6 +199,7 @@ fn rb8_rigid() -> Case {
             move |r| r.extreme("theta", sign, from, to).1,
         ));
         t += quarter(theta);
+        arcs.push((t, sign * theta, quarter(theta)));
     }
     Case {
         id: "RB-8",
@@ -205,12 +208,19 @@ fn rb8_rigid() -> Case {
         text: ROCKING.into(),
         set: vec![set("duration", "0.5 s")],
         solvers: BOTH,
-        view: View::histories([Curve::new("theta", RADIAN).in_analysis("free")]),
+        view: View::histories([Curve::new("theta", RADIAN).in_analysis("free").against(
+            move |t| {
+                let arc = arcs.iter().find(|(top, _, quarter)| t <= top + quarter);
+                arc.map_or(f64::NAN, |(top, peak, quarter)| {
+                    peak * (1.0 - ((t - top) / quarter).powi(2))
+                })
+            },
+        )]),
         checks: checks.into_iter().map(|c| c.in_analysis("free")).collect(),
     }
 }
 
-/// Stiffness, damping, pull and the (time of passage, peak that follows) of the two gaps.
+/// The same with contacts of finite stiffness, which may pull or not.
 fn rb8() -> Vec<Case> {
     let case = |id, title, k: f64, c: f64, pull: u8, rows: Vec<(f64, f64)>| {
         let mut checks = Vec::new();

@@ -238,7 +238,10 @@ fn im2() -> Vec<Case> {
                 ),
                 Check::new("speed after / before", NUMBER, e, 5e-3, restitution).other_code(),
             ],
-            view: View::histories([Curve::new("z", INCH)]),
+            view: View::histories([Curve::new("z", INCH).against(|t| {
+                let z = 149.7 - 0.5 * 386.4 * t * t;
+                if z > 0.0 { z } else { f64::NAN }
+            })]),
         }
     })
     .collect()

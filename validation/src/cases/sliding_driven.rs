@@ -295,7 +295,13 @@ fn sl6() -> Case {
         text: PULSE.into(),
         set: Vec::new(),
         solvers: BOTH,
-        view: crate::View::default(),
+        view: View::histories([
+            Curve::new("v", SPEED).against(move |t| {
+                let v = G * (t.min(tp) * a - t * mu);
+                -v.max(0.0)
+            }),
+            Curve::new("u", METRE),
+        ]),
         checks: vec![
             Check::new("largest speed", SPEED, (a - mu) * G * tp, 1e-3, |r| r.peak("v", 0.0, 0.4)),
             Check::new("slip", METRE, G * tp * tp * (a - mu) * a / (2.0 * mu), 1e-3, |r| {
