@@ -214,7 +214,7 @@ fn im6() -> Case {
                 r.max("pan", 0.0, 0.8)
             }),
         ],
-        view: View::histories([Curve::new("pan", INCH).over(0.55, 0.8).against(move |t| {
+        view: View::histories([Curve::new("pan", INCH).over(0.55, 0.72).against(move |t| {
             let (sin, cos) = (w * (t - fall)).sin_cos();
             if t < fall { 0.25 } else { 0.75 - 0.5 * cos + v / w * sin }
         })]),
