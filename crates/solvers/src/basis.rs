@@ -6,7 +6,8 @@
 //! ```
 //!
 //! The ground recursion carries the structure, one static vector for each link coordinate carries the
-//! local flexibility; a static vector that carries next to no mass of its own is dropped. K̂ holds small dummies
+//! local flexibility; what carries next to no mass of its own is no mode, but a static shape beside the
+//! modes (see `massless`). K̂ holds small dummies
 //! of the links (and a mass shift where the structure can move freely), so that it is regular; the span
 //! is then turned into modes of the structure itself, without the automatic dummies, so these never
 //! enter the dynamics. ω = 0 is an ordinary mode.
@@ -14,6 +15,7 @@
 //! Reference: \[Wilson 2002, ch. 14 and 18\].
 
 use crate::error::SolveError;
+use crate::massless::{self, FASTEST};
 use crate::observe::{Adequacy, BasisReport};
 use crate::space::congruence;
 use trilith_linalg::{Dense, Ldlt, Sparse, all_modes, lowest_modes, symmetric_eigen, unsupported};
@@ -27,9 +29,6 @@ const COMPLETE_AUTOMATIC: usize = 300;
 /// Share of its M-norm that a new vector must keep to be more than rounding. It may be small: on soft
 /// dummies every static shape is mostly a rigid motion, which the vectors before it hold already.
 const KEEP: f64 = 1e-8;
-/// A static shape of a massless place is not a mode: faster than this (rad/s) it would only spoil the
-/// digits of the slow ones.
-const FASTEST: f64 = 1e6;
 /// Automatic dummies as a share of the engaged stiffness of a link.
 const DUMMY_SHARE: f64 = 1e-3;
 
@@ -38,6 +37,9 @@ const DUMMY_SHARE: f64 = 1e-3;
 pub(crate) struct RitzBasis {
     pub vectors: Dense,
     pub omega2: Vec<f64>,
+    /// Static shapes of places without mass, and their images under the stiffness.
+    pub statics: Dense,
+    pub images: Dense,
 }
 
 /// A basis in two forms of one span.
@@ -97,18 +99,25 @@ pub(crate) fn build(
     if span.columns() == 0 {
         return Err(SolveError::NoMass);
     }
-    let structural = modes_in(span.clone(), &system.stiffness)?;
+    let structural = modes_in(system, span.clone(), &system.stiffness, loads)?;
     let stepping = if system.links.effective.iter().all(|k| *k == 0.0) {
         structural.clone()
     } else {
-        modes_in(span, &system.stiffness_with(&system.links.effective))?
+        modes_in(system, span, &system.stiffness_with(&system.links.effective), loads)?
     };
     let report = report(model, system, &structural, loads, &mut hat);
     Ok(Bases { stepping, structural, report })
 }
 
-/// Turns a span of M-orthonormal vectors into modes of `k`.
-fn modes_in(span: Dense, k: &Sparse) -> Result<RitzBasis, SolveError> {
+/// Turns a span of M-orthonormal vectors into modes of `k`, with the static shapes beside them.
+fn modes_in(
+    system: &System,
+    span: Dense,
+    k: &Sparse,
+    loads: &[(String, Vec<f64>)],
+) -> Result<RitzBasis, SolveError> {
+    let statics = massless::shapes(system, k, loads)?;
+    let span = massless::without(&statics, k, span);
     let (mut omega2, rotation) = symmetric_eigen(&congruence(k, &span))?;
     let rounding = 1e-14 * omega2.len() as f64 * omega2.last().copied().unwrap_or(0.0).abs();
     for w in &mut omega2 {
@@ -116,7 +125,13 @@ fn modes_in(span: Dense, k: &Sparse) -> Result<RitzBasis, SolveError> {
             *w = 0.0;
         }
     }
-    Ok(RitzBasis { vectors: span.times(&rotation), omega2 })
+    let vectors = span.times(&rotation);
+    let statics = massless::uncoupled(&statics, &system.damping, &vectors);
+    let mut images = statics.clone();
+    for j in 0..images.columns() {
+        images.column_mut(j).copy_from_slice(&k.mul(statics.column(j)));
+    }
+    Ok(RitzBasis { vectors, omega2, statics, images })
 }
 
 fn enriched(
@@ -242,13 +257,13 @@ fn report(
     loads: &[(String, Vec<f64>)],
     hat: &mut Solvable,
 ) -> BasisReport {
-    let phi = &basis.vectors;
-    let m = phi.columns();
+    let m = basis.vectors.columns();
+    let phi = &massless::beside(&basis.vectors, &basis.statics);
     let reduced = trilith_linalg::DenseLu::new(&congruence(&hat.k, phi));
     let mut share = |p: &[f64]| -> f64 {
         let mut exact = p.to_vec();
         hat.factor.solve(&mut exact);
-        let mut q = vec![0.0; m];
+        let mut q = vec![0.0; phi.columns()];
         phi.transpose_mul_add(1.0, p, &mut q);
         let mut y = q.clone();
         reduced.solve(&mut y);
@@ -287,6 +302,7 @@ fn report(
     let [x, y, z] = [mass(0), mass(1), mass(2)];
     BasisReport {
         vectors: m,
+        static_shapes: basis.statics.columns(),
         omega: basis.omega2.iter().map(|w| w.max(0.0).sqrt()).collect(),
         mass_participation: (0..m).map(|j| [x[j], y[j], z[j]]).collect(),
         static_participation,

@@ -58,6 +58,9 @@ pub(crate) fn basis_loads(
         .collect()
 }
 
+/// Share of the static response to a load that a basis must hold without a warning.
+const LOADS_HELD: f64 = 0.95;
+
 /// Runs the case.
 pub(crate) fn run(
     setup: Setup<'_>,
@@ -252,6 +255,15 @@ fn adequacy_warning(bases: &Bases, wanted: f64, warnings: &mut Vec<String>) {
             worst.coordinate,
             100.0 * wanted,
             poor.len()
+        ));
+    }
+    // Where no basis was asked for that holds the links, loads are the user's business as well.
+    let loads = bases.report.static_participation.iter().filter(|_| wanted > 0.0);
+    for (name, share) in loads.filter(|(_, share)| *share < LOADS_HELD) {
+        warnings.push(format!(
+            "the basis of {} vectors holds only {:.1} % of the static response to {name}: displacements near that load are too small",
+            bases.report.vectors,
+            100.0 * share
         ));
     }
 }

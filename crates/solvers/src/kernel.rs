@@ -60,7 +60,18 @@ pub(crate) struct NoEquilibrium {
 /// Largest force seen so far: of translations and of rotations, N and N·m.
 pub(crate) type ForceScale = [f64; 2];
 
-const NEWTON_ITERATIONS: usize = 30;
+/// A force that depends steeply on a rate which is a difference of larger ones is known no better than
+/// this many tolerances: there it counts as found once the correction is below
+const ROUNDING: f64 = 1e3;
+/// this share of the tolerance.
+const SETTLED: f64 = 1e-4;
+/// Plain Newton iterations before the first line search.
+const SEARCH_FROM: usize = 2;
+/// Halvings of a correction at most.
+const HALVINGS: usize = 6;
+/// A correction that leaves more than this share of the residual went too far.
+const ENOUGH: f64 = 0.9;
+const NEWTON_ITERATIONS: usize = 60;
 const FIXED_POINT_ITERATIONS: usize = 200;
 const TOLERANCE: f64 = 1e-9;
 /// Step sizes whose factors are kept.
@@ -97,6 +108,49 @@ struct Factor {
     /// J of the chosen equations against the others, column-wise.
     coupling: Dense,
     lu: DenseLu,
+}
+
+/// Line search of a Newton iteration that does not settle: a force like |v|^α with α < ½ throws Newton's
+/// method to the other side of zero, farther than it came from.
+#[derive(Default)]
+struct Search {
+    /// The last correction.
+    step: Vec<f64>,
+    /// Part of it that is taken back next.
+    share: f64,
+    /// Largest residual before the last correction.
+    before: f64,
+    /// Halvings of the last correction.
+    halvings: usize,
+}
+
+impl Search {
+    /// Takes back half of the last correction where the residual did not fall; true where it did so.
+    fn shortens(&mut self, iteration: usize, residual: &[f64], pseudo: &mut [f64]) -> bool {
+        let size = largest(residual);
+        let grew = iteration >= SEARCH_FROM && size > ENOUGH * self.before && self.halvings < HALVINGS;
+        if grew {
+            self.share *= 0.5;
+            self.halvings += 1;
+            for (x, r) in pseudo.iter_mut().zip(&self.step) {
+                *x -= self.share * r;
+            }
+        } else {
+            self.before = size;
+        }
+        grew
+    }
+
+    /// Takes note of a correction about to be made.
+    fn goes(&mut self, step: &[f64]) {
+        self.step.clear();
+        self.step.extend_from_slice(step);
+        (self.share, self.halvings) = (1.0, 0);
+    }
+}
+
+fn largest(x: &[f64]) -> f64 {
+    x.iter().fold(0.0, |a, b| a.max(b.abs()))
 }
 
 impl LinkKernel {
@@ -163,8 +217,9 @@ impl LinkKernel {
             Kernel::FixedPoint => FIXED_POINT_ITERATIONS,
         };
         let mut size_before = f64::INFINITY;
+        let mut search = Search::default();
         let mut worst = NoEquilibrium { worst: 0, residual: f64::INFINITY };
-        for _ in 0..limit {
+        for iteration in 0..limit {
             self.iterations += 1;
             self.evaluate(model, links, affine, from, out);
             let (size, at) = self.measure(links, out, scale);
@@ -176,9 +231,18 @@ impl LinkKernel {
                 break;
             }
             if self.kind == Kernel::Newton {
+                if search.shortens(iteration, &self.residual, out.pseudo) {
+                    continue;
+                }
+                let before = largest(&self.residual);
                 self.newton_correction(links, affine, size > 0.2 * size_before);
+                let moves = size * largest(&self.residual) / before;
+                if size <= ROUNDING && moves <= SETTLED {
+                    return Ok(());
+                }
             }
             size_before = size;
+            search.goes(&self.residual);
             for (x, r) in out.pseudo.iter_mut().zip(&self.residual) {
                 *x += r;
             }

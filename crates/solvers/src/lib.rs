@@ -19,6 +19,7 @@ mod hht;
 mod kernel;
 mod ledger;
 mod march;
+mod massless;
 mod modal;
 mod observe;
 mod outputs;

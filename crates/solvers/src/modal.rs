@@ -9,6 +9,9 @@
 //! structure, modal damping beside dummies) one exponential of the whole space is taken. Both are exact,
 //! also for ω = 0 and beyond critical damping.
 //!
+//! Static shapes (places without mass) follow the loads, c q̇ + q = s: exactly where the structure damps
+//! them, at the mean rate of the step where it does not.
+//!
 //! The work of a linear load is exact too: ∫ s q̇ dt = s₁q₁ − s₀q₀ − ṡ ∫q dt.
 //!
 //! Reference: \[Wilson 2002, ch. 18\].
@@ -27,13 +30,19 @@ enum Rule {
 
 struct Step {
     rule: Rule,
+    /// The static shapes; same rows and columns.
+    statics: Vec<[[f64; 4]; 3]>,
     compliance: Compliance,
+    /// G of the modes alone: what limits the step.
+    limited: Dense,
     dt: f64,
 }
 
 /// The exact propagator on a basis of modes.
 pub(crate) struct Modal {
     space: Space,
+    /// Number of modes; the static shapes come after them.
+    modes: usize,
     damping: Dense,
     coupled: bool,
     steps: BTreeMap<u64, Step>,
@@ -49,7 +58,8 @@ impl Modal {
             damping[(i, j)] += v;
             coupled |= i != j && v != 0.0;
         }
-        Self { space, damping, coupled, steps: BTreeMap::new(), now: 0 }
+        let modes = m - space.images.columns();
+        Self { space, modes, damping, coupled, steps: BTreeMap::new(), now: 0 }
     }
 
     fn omega2(&self) -> Vec<f64> {
@@ -57,12 +67,18 @@ impl Modal {
     }
 
     fn build(&self, dt: f64) -> Step {
+        let omega2 = &self.omega2()[..self.modes];
         let rule = if self.coupled {
-            Rule::Coupled(Box::new(coupled_rule(&self.omega2(), &self.damping, dt)))
+            let mut damping = Dense::zeros(self.modes, self.modes);
+            for i in 0..self.modes {
+                for j in 0..self.modes {
+                    damping[(i, j)] = self.damping[(i, j)];
+                }
+            }
+            Rule::Coupled(Box::new(coupled_rule(omega2, &damping, dt)))
         } else {
-            let omega2 = self.omega2();
             Rule::Diagonal(
-                (0..omega2.len())
+                (0..self.modes)
                     .map(|i| {
                         let one = Dense::from_columns(1, 1, vec![self.damping[(i, i)]]);
                         coupled_rule(&[omega2[i]], &one, dt)
@@ -71,17 +87,27 @@ impl Modal {
                     .collect(),
             )
         };
-        let (g, h) = (self.compliance_of(&rule, 1), self.compliance_of(&rule, 2));
-        Step { rule, compliance: Compliance { g, h, key: dt.to_bits() }, dt }
+        let statics: Vec<_> = (self.modes..self.space.order())
+            .map(|i| static_rule(self.damping[(i, i)], dt))
+            .collect();
+        let limited = self.compliance_of(&rule, &[], 1);
+        let (g, h) =
+            (self.compliance_of(&rule, &statics, 1), self.compliance_of(&rule, &statics, 2));
+        Step { rule, statics, compliance: Compliance { g, h, key: dt.to_bits() }, limited, dt }
     }
 
     /// B Φ (coefficient of s₁ in the given row) Φᵀ Bᵀ.
-    fn compliance_of(&self, rule: &Rule, row: usize) -> Dense {
-        let (l, m) = (self.space.rows.len(), self.space.order());
-        let mut b = Dense::zeros(m, l);
+    fn compliance_of(&self, rule: &Rule, statics: &[[[f64; 4]; 3]], row: usize) -> Dense {
+        let l = self.space.rows.len();
+        let mut b = Dense::zeros(self.modes, l);
+        let mut rest = Dense::zeros(statics.len(), l);
         for (a, terms) in self.space.rows.iter().enumerate() {
             for (j, c) in terms {
-                b[(*j, a)] = *c;
+                match j.checked_sub(self.modes) {
+                    None => b[(*j, a)] = *c,
+                    Some(r) if r < statics.len() => rest[(r, a)] = *c,
+                    Some(_) => {}
+                }
             }
         }
         let scaled = match rule {
@@ -96,7 +122,18 @@ impl Modal {
             }
             Rule::Coupled(c) => c[row][3].times(&b),
         };
-        b.transpose_times(&scaled)
+        let mut sum = b.transpose_times(&scaled);
+        if !statics.is_empty() {
+            let mut scaled = rest.clone();
+            for a in 0..l {
+                for (x, c) in scaled.column_mut(a).iter_mut().zip(statics) {
+                    *x *= c[row][3];
+                }
+            }
+            let more = rest.transpose_times(&scaled);
+            sum.values_mut().iter_mut().zip(more.values()).for_each(|(x, y)| *x += y);
+        }
+        sum
     }
 
     fn step(&self) -> &Step {
@@ -105,25 +142,23 @@ impl Modal {
 
     /// Σ over the four inputs of one row of coefficients.
     fn apply(&self, row: usize, inputs: [&[f64]; 4]) -> Vec<f64> {
-        let m = self.space.order();
-        match &self.step().rule {
-            Rule::Diagonal(c) => (0..m)
-                .map(|i| {
-                    let c = &c[i][row];
-                    c[0] * inputs[0][i]
-                        + c[1] * inputs[1][i]
-                        + c[2] * inputs[2][i]
-                        + c[3] * inputs[3][i]
-                })
-                .collect(),
+        let one = |c: &[[f64; 4]; 3], i: usize| {
+            let c = &c[row];
+            c[0] * inputs[0][i] + c[1] * inputs[1][i] + c[2] * inputs[2][i] + c[3] * inputs[3][i]
+        };
+        let step = self.step();
+        let mut y: Vec<f64> = match &step.rule {
+            Rule::Diagonal(c) => c.iter().enumerate().map(|(i, c)| one(c, i)).collect(),
             Rule::Coupled(c) => {
-                let mut y = vec![0.0; m];
+                let mut y = vec![0.0; self.modes];
                 for (block, x) in c[row].iter().zip(inputs) {
-                    block.mul_add(1.0, x, &mut y);
+                    block.mul_add(1.0, &x[..self.modes], &mut y);
                 }
                 y
             }
-        }
+        };
+        y.extend(step.statics.iter().enumerate().map(|(r, c)| one(c, self.modes + r)));
+        y
     }
 
     fn source(&self, load: &[f64], pseudo: &[f64]) -> Vec<f64> {
@@ -137,11 +172,32 @@ impl Modal {
         let omega2 = self.omega2();
         let mut a = source.to_vec();
         self.damping.mul_add(-1.0, &to[m..2 * m], &mut a);
-        for i in 0..m {
+        for i in 0..self.modes {
             a[i] -= omega2[i] * to[i];
         }
+        a[self.modes..].fill(0.0);
         to[2 * m..].copy_from_slice(&a);
     }
+}
+
+/// c q̇ + q = s with s linear in the step: rows ∫q, q, q̇; columns q₀, q̇₀, s₀, s₁. Without damping q = s,
+/// at the mean rate of the step, whatever q was before: a load may have jumped.
+fn static_rule(c: f64, dt: f64) -> [[f64; 4]; 3] {
+    let x = dt / c;
+    if !x.is_finite() || x > 1e9 {
+        return [
+            [0.5 * dt, 0.0, 0.0, 0.5 * dt],
+            [0.0, 0.0, 0.0, 1.0],
+            [-dt.recip(), 0.0, 0.0, dt.recip()],
+        ];
+    }
+    let decay = (-x).exp();
+    let mean = -(-x).exp_m1() / x;
+    let q = [decay, 0.0, mean - decay, 1.0 - mean];
+    let v = [-decay / c, 0.0, -(mean - decay) / c, mean / c];
+    // ∫q = ∫s − c (q₁ − q₀)
+    let integral = [c * (1.0 - decay), 0.0, 0.5 * dt - c * q[2], 0.5 * dt - c * q[3]];
+    [integral, q, v]
 }
 
 /// exp of the augmented system, as blocks: rows ∫q, q, q̇; columns q₀, q̇₀, s₀, s₁.
@@ -201,12 +257,14 @@ impl Propagator for Modal {
         &self.step().compliance
     }
 
-    fn conditionally_stable(&self) -> bool {
-        true
+    fn limited(&self) -> Option<&Dense> {
+        Some(&self.step().limited)
     }
 
     fn acceleration(&mut self, force: &[f64]) -> Result<Vec<f64>, SolveError> {
-        Ok(force.to_vec())
+        let mut a = force.to_vec();
+        a[self.modes..].fill(0.0);
+        Ok(a)
     }
 
     fn predict(&mut self, from: &Motion, forces: &Forces<'_>, to: &mut Motion) {
@@ -269,6 +327,26 @@ mod tests {
         assert!((both - (1.0 - x.cos()) / (w * w)).abs() < 1e-15);
         assert!((c[1][3][(0, 0)] - (1.0 - x.sin() / x) / (w * w)).abs() < 1e-15);
         assert!((c[1][0][(0, 0)] - x.cos()).abs() < 1e-14);
+    }
+
+    /// c q̇ + q = s: q = 1 − e^(−t/c) under a constant load, t − c (1 − e^(−t/c)) under a rising one.
+    #[test]
+    fn a_damped_static_shape_follows_constant_and_rising_loads() {
+        let (c, dt) = (0.3, 0.7);
+        let [integral, q, v] = static_rule(c, dt);
+        let decay = f64::exp(-dt / c);
+        assert!((q[2] + q[3] - (1.0 - decay)).abs() < 1e-15);
+        assert!((q[3] * dt - (dt - c * (1.0 - decay))).abs() < 1e-15);
+        assert!((v[2] + v[3] - decay / c).abs() < 1e-14);
+        assert!((integral[2] + integral[3] - (dt - c * (1.0 - decay))).abs() < 1e-15);
+        // Little damping and none are the same for a load that did not jump.
+        let (little, none) = (static_rule(1e-8 * dt, dt), static_rule(0.0, dt));
+        for (a, b) in little.iter().zip(&none) {
+            let at = |r: &[f64; 4]| [r[0] + r[2], r[3]];
+            for (x, y) in at(a).iter().zip(at(b)) {
+                assert!((x - y).abs() < 1e-6, "{little:?} {none:?}");
+            }
+        }
     }
 
     #[test]

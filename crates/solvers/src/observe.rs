@@ -161,8 +161,10 @@ pub struct Adequacy {
 /// The basis of a reduced solver.
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]
 pub struct BasisReport {
-    /// Number of vectors.
+    /// Number of vectors with mass: modes.
     pub vectors: usize,
+    /// Number of static shapes of places without mass, beside the modes.
+    pub static_shapes: usize,
     /// Circular frequencies of the structure without links, rad/s, rising.
     pub omega: Vec<f64>,
     /// Share of the mass along X, Y, Z that each vector carries.

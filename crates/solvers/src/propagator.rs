@@ -50,9 +50,9 @@ pub(crate) trait Propagator {
     /// Compliance of the step prepared last.
     fn compliance(&self) -> &Compliance;
 
-    /// True for a rule that is stable only below a step that the links limit.
-    fn conditionally_stable(&self) -> bool {
-        false
+    /// The part of G through which links limit the step, for rules that are stable only below one.
+    fn limited(&self) -> Option<&Dense> {
+        None
     }
 
     /// Acceleration that a force on the structure at rest would cause; zero where there is no mass.

@@ -1,6 +1,7 @@
 //! The linear structure in the coordinates of a solver: all free DOFs, or a basis of Ritz vectors.
 
 use crate::basis::RitzBasis;
+use crate::massless::beside;
 use trilith_linalg::{Dense, Sparse, Triplets};
 use trilith_system::{LoadSet, System};
 
@@ -27,6 +28,8 @@ pub(crate) struct Space {
     pub forces: Vec<Vec<f64>>,
     /// Free DOFs = shape · coordinates; `None` where they are the coordinates.
     pub shape: Option<Dense>,
+    /// K Ψ of the static shapes, which are the last columns of `shape` and have no mass.
+    pub images: Dense,
 }
 
 impl Space {
@@ -50,12 +53,15 @@ impl Space {
             dummy_k: dummy,
             forces: loads.channels.iter().map(|c| c.force.clone()).collect(),
             shape: None,
+            images: Dense::zeros(system.order(), 0),
         }
     }
 
-    /// The span of a basis, whose vectors are M-orthonormal modes of `K + dummies`.
+    /// The span of a basis, whose vectors are M-orthonormal modes of `K + dummies`, and of its static
+    /// shapes.
     pub(crate) fn reduced(physical: &Self, basis: &RitzBasis) -> Self {
-        let phi = &basis.vectors;
+        let (modes, statics) = (basis.vectors.columns(), basis.statics.columns());
+        let phi = &beside(&basis.vectors, &basis.statics);
         let m = phi.columns();
         let project = |p: &Vec<f64>| {
             let mut q = vec![0.0; m];
@@ -86,15 +92,22 @@ impl Space {
                 }
             }
         }
+        // What couples static shapes is rounding: the basis has no others.
+        for i in 0..m {
+            for j in (0..m).filter(|j| *j != i && i.max(*j) >= modes) {
+                damping[(i, j)] = 0.0;
+            }
+        }
         Self {
-            mass: diagonal(&vec![1.0; m]),
+            mass: diagonal(&[vec![1.0; modes], vec![0.0; statics]].concat()),
             damping: sparse(&damping),
-            stiffness: diagonal(&basis.omega2),
+            stiffness: diagonal(&[&basis.omega2[..], &vec![1.0; statics]].concat()),
             modal: None,
             rows,
             dummy_k: physical.dummy_k.clone(),
             forces: physical.forces.iter().map(project).collect(),
             shape: Some(phi.clone()),
+            images: basis.images.clone(),
         }
     }
 
@@ -142,13 +155,17 @@ impl Space {
         }
     }
 
-    /// Coordinates of a displacement (or velocity) of the free DOFs: q = Φᵀ M u.
+    /// Coordinates of a displacement (or velocity) of the free DOFs: Φᵀ M u, and Ψᵀ K u.
     pub(crate) fn coordinates(&self, system: &System, u: &[f64]) -> Vec<f64> {
         match &self.shape {
             None => u.to_vec(),
             Some(phi) => {
                 let mut q = vec![0.0; phi.columns()];
                 phi.transpose_mul_add(1.0, &system.mass.mul(u), &mut q);
+                let modes = q.len() - self.images.columns();
+                for (j, x) in q[modes..].iter_mut().enumerate() {
+                    *x = self.images.column(j).iter().zip(u).map(|(a, b)| a * b).sum();
+                }
                 q
             }
         }

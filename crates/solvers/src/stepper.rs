@@ -324,11 +324,8 @@ impl<P: Propagator> Stepper for LinkStepper<'_, P> {
     }
 
     fn stiffness_ratio(&mut self, dt: f64, engaged: &[f64]) -> Result<f64, SolveError> {
-        if !self.propagator.conditionally_stable() {
-            return Ok(0.0);
-        }
         self.propagator.prepare(dt)?;
-        let g = &self.propagator.compliance().g;
+        let Some(g) = self.propagator.limited() else { return Ok(0.0) };
         let k: Vec<f64> = self.system.links.active.iter().map(|i| engaged[*i]).collect();
         let mut x = vec![1.0; k.len()];
         let mut ratio = 0.0;

@@ -1,0 +1,137 @@
+//! Static shapes of places without mass, which no mode can hold.
+//!
+//! ```text
+//!   M = diag(M_aa, 0):   u_b = −K_bb⁻¹ K_ba u_a + K_bb⁻¹ (p_b − B_bᵀ f)
+//!   Ψ spans (0, K_bb⁻¹ p_b) of all loads and (0, K_bb⁻¹ B_bᵀ) of all link coordinates
+//!   M Ψ = 0,  Ψᵀ K Ψ = 1,  Ψᵀ K Φ = 0:   q̇ᵨ Ψᵀ C Ψ + qᵨ = Ψᵀ (p − Bᵀ f)
+//! ```
+//!
+//! Beside the modes they make the response exact at joints between springs and dampers, and under loads
+//! on nodes without mass. A linear dashpot that ties such a place to the modes would couple both; its
+//! shapes are left out, and the basis is reported as lacking that flexibility.
+
+use crate::error::SolveError;
+use trilith_linalg::{Dense, Ldlt, Sparse, symmetric_eigen};
+use trilith_system::System;
+
+/// A place whose own frequency lies beyond this (rad/s) counts as massless: its motion is static.
+pub(crate) const FASTEST: f64 = 1e6;
+/// Shapes that are combinations of others up to this share are left out.
+const INDEPENDENT: f64 = 1e-10;
+/// A shape must satisfy its equation this well; one that does not moves freely.
+const SOLVED: f64 = 1e-8;
+/// Damping between shape and modes, as share of their own, that counts as none.
+const UNCOUPLED: f64 = 1e-9;
+
+/// The shapes Ψ for a stiffness, order × number, mutually uncoupled by damping.
+pub(crate) fn shapes(
+    system: &System,
+    k: &Sparse,
+    loads: &[(String, Vec<f64>)],
+) -> Result<Dense, SolveError> {
+    let order = system.order();
+    let (stiff, heavy) = (k.diagonal(), system.mass.diagonal());
+    let places: Vec<usize> = (0..order)
+        .filter(|i| stiff[*i] > 0.0 && heavy[*i] * FASTEST * FASTEST < stiff[*i])
+        .collect();
+    let pushed = pushes(system, &places, loads);
+    if pushed.is_empty() {
+        return Ok(Dense::zeros(order, 0));
+    }
+    let local = k.block(&places, &places);
+    let mut factor = Ldlt::with_rigid_zeros(&local)?;
+    let mut found: Vec<(Vec<f64>, Vec<f64>)> = Vec::new();
+    for p in pushed {
+        let mut x = p.clone();
+        factor.solve(&mut x);
+        let left = local.mul(&x).iter().zip(&p).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
+        let work = dot(&p, &x);
+        if work > 0.0 && work.is_finite() && left <= SOLVED * largest(&p) {
+            let scale = work.sqrt().recip();
+            let scaled = |v: Vec<f64>| v.into_iter().map(|y| scale * y).collect();
+            found.push((scaled(p), scaled(x)));
+        }
+    }
+    let n = found.len();
+    let mut gram = Dense::zeros(n, n);
+    for i in 0..n {
+        for j in 0..n {
+            gram[(i, j)] = dot(&found[i].0, &found[j].1);
+        }
+    }
+    let (values, vectors) = symmetric_eigen(&gram)?;
+    let kept: Vec<usize> = (0..n).filter(|m| values[*m] > INDEPENDENT * n as f64).collect();
+    let mut psi = Dense::zeros(order, kept.len());
+    for (column, m) in kept.iter().enumerate() {
+        let scale = values[*m].sqrt().recip();
+        for (share, (_, x)) in vectors.column(*m).iter().zip(&found) {
+            for (place, y) in places.iter().zip(x) {
+                psi[(*place, column)] += scale * share * y;
+            }
+        }
+    }
+    if kept.is_empty() {
+        return Ok(psi);
+    }
+    // Turned so that damping does not couple them with each other.
+    let (_, rotation) = symmetric_eigen(&crate::space::congruence(&system.damping, &psi))?;
+    Ok(psi.times(&rotation))
+}
+
+/// Loads and link rows on these places, those that are not zero.
+fn pushes(system: &System, places: &[usize], loads: &[(String, Vec<f64>)]) -> Vec<Vec<f64>> {
+    let mut index = vec![usize::MAX; system.order()];
+    places.iter().enumerate().for_each(|(local, full)| index[*full] = local);
+    let of_loads = loads.iter().map(|(_, p)| places.iter().map(|i| p[*i]).collect());
+    let of_links = system.links.active.iter().map(|flat| {
+        let mut b = vec![0.0; places.len()];
+        for (i, c) in system.links.rows[*flat].iter().filter(|(i, _)| index[*i] != usize::MAX) {
+            b[index[*i]] += c;
+        }
+        b
+    });
+    of_loads.chain(of_links).filter(|p: &Vec<f64>| largest(p) > 0.0).collect()
+}
+
+/// Takes the static shapes out of vectors: V − Ψ Ψᵀ K V. Their masses stay as they are.
+pub(crate) fn without(psi: &Dense, k: &Sparse, mut vectors: Dense) -> Dense {
+    for j in 0..vectors.columns() {
+        let image = k.mul(vectors.column(j));
+        for r in 0..psi.columns() {
+            let share = dot(psi.column(r), &image);
+            let column = vectors.column_mut(j);
+            column.iter_mut().zip(psi.column(r)).for_each(|(v, x)| *v -= share * x);
+        }
+    }
+    vectors
+}
+
+/// The shapes that damping does not couple with the modes.
+pub(crate) fn uncoupled(psi: &Dense, damping: &Sparse, modes: &Dense) -> Dense {
+    let own: Vec<f64> = (0..modes.columns())
+        .map(|j| damping.bilinear(modes.column(j), modes.column(j)).max(0.0))
+        .collect();
+    let free = |r: &usize| {
+        let image = damping.mul(psi.column(*r));
+        let size = dot(psi.column(*r), &image).max(0.0);
+        (0..modes.columns())
+            .all(|j| dot(modes.column(j), &image).abs() <= UNCOUPLED * (size * own[j]).sqrt())
+    };
+    let kept: Vec<usize> = (0..psi.columns()).filter(free).collect();
+    let values = kept.iter().flat_map(|r| psi.column(*r).to_vec()).collect();
+    Dense::from_columns(psi.rows(), kept.len(), values)
+}
+
+/// Columns of both, one after the other.
+pub(crate) fn beside(a: &Dense, b: &Dense) -> Dense {
+    let values = [a.values(), b.values()].concat();
+    Dense::from_columns(a.rows(), a.columns() + b.columns(), values)
+}
+
+fn dot(a: &[f64], b: &[f64]) -> f64 {
+    a.iter().zip(b).map(|(x, y)| x * y).sum()
+}
+
+fn largest(p: &[f64]) -> f64 {
+    p.iter().fold(0.0, |a, x| a.max(x.abs()))
+}
