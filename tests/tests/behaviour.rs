@@ -212,3 +212,34 @@ fn a_very_stiff_contact_takes_a_tight_tolerance() {
         assert!(result.work.substeps < 100_000, "{} {:?}", solver.name(), result.work);
     }
 }
+
+/// A body on a slope, held by a spring far softer than the contact: the spring holds what friction does
+/// not, W (tan β − μ)/(1 + μ tan β) (holder and load along and against gravity's plane).
+#[test]
+fn a_static_case_balances_a_soft_spring_beside_a_stiff_contact() {
+    let text = r#"(
+        parameters: { "k": "1 N/m", "angle": "20*pi/180" },
+        nodes: { "n": (0, 0, 0) },
+        supports: { "n": (Uy, Rx, Ry, Rz) },
+        elements: {
+            "mass": Mass(node: "n", mass: 1),
+            "holder": Spring(node: "n", k2: "k"),
+            "slope": NLink(
+                node: "n", axis1: ("-sin(angle)", 0, "cos(angle)"),
+                axis2: ("cos(angle)", 0, "sin(angle)"), kn: 1e9, ks: 1e9, mu: 0.3,
+            ),
+        },
+        loads: { "press": [(node: "n", dof: Uz, force: -100)] },
+        cases: { "press": Static(loads: ["press"], steps: 10) },
+        outputs: { "holder": Displacement(node: "n", dof: Ux, factor: "-k") },
+    )"#;
+    let slope = 20f64.to_radians().tan();
+    let wanted = 100.0 * (slope - 0.3) / (1.0 + 0.3 * slope);
+    for k in ["1 N/m", "1e3 N/m", "1e6 N/m"] {
+        let (model, system) = parse(text, &[("k", k.into())]);
+        let (t, result) = trace(&model, &system, SolverKind::Fna);
+        assert_eq!(result.status, Status::Converged);
+        let off = t.last[0] / wanted - 1.0;
+        assert!(off.abs() < 1e-4, "{k}: {} instead of {wanted}", t.last[0]);
+    }
+}

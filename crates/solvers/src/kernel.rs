@@ -65,6 +65,9 @@ pub(crate) type ForceScale = [f64; 2];
 const ROUNDING: f64 = 1e3;
 /// this share of the tolerance.
 const SETTLED: f64 = 1e-4;
+/// A pseudo-force counts as a force only by its rounding: with stiff dummies on a sliding contact it may
+/// be millions of times any force there is.
+const PSEUDO_SHARE: f64 = 1e-5;
 /// Plain Newton iterations before the first line search.
 const SEARCH_FROM: usize = 2;
 /// Halvings of a correction at most.
@@ -128,7 +131,8 @@ impl Search {
     /// Takes back half of the last correction where the residual did not fall; true where it did so.
     fn shortens(&mut self, iteration: usize, residual: &[f64], pseudo: &mut [f64]) -> bool {
         let size = largest(residual);
-        let grew = iteration >= SEARCH_FROM && size > ENOUGH * self.before && self.halvings < HALVINGS;
+        let grew =
+            iteration >= SEARCH_FROM && size > ENOUGH * self.before && self.halvings < HALVINGS;
         if grew {
             self.share *= 0.5;
             self.halvings += 1;
@@ -290,7 +294,7 @@ impl LinkKernel {
             // The residual counts as a force: before the first link is touched there is no other.
             now[kind] = now[kind]
                 .max(out.f[*flat].abs())
-                .max(out.pseudo[a].abs())
+                .max(PSEUDO_SHARE * out.pseudo[a].abs())
                 .max(self.residual[a].abs());
         }
         let mut size = 0.0;

@@ -14,8 +14,6 @@ use crate::error::SolveError;
 use trilith_linalg::{Dense, Ldlt, Sparse, symmetric_eigen};
 use trilith_system::System;
 
-/// A place whose own frequency lies beyond this (rad/s) counts as massless: its motion is static.
-pub(crate) const FASTEST: f64 = 1e6;
 /// Shapes that are combinations of others up to this share are left out.
 const INDEPENDENT: f64 = 1e-10;
 /// A shape must satisfy its equation this well; one that does not moves freely.
@@ -30,10 +28,9 @@ pub(crate) fn shapes(
     loads: &[(String, Vec<f64>)],
 ) -> Result<Dense, SolveError> {
     let order = system.order();
+    // A zero on the diagonal of M, which is semi-definite, is a row of zeros.
     let (stiff, heavy) = (k.diagonal(), system.mass.diagonal());
-    let places: Vec<usize> = (0..order)
-        .filter(|i| stiff[*i] > 0.0 && heavy[*i] * FASTEST * FASTEST < stiff[*i])
-        .collect();
+    let places: Vec<usize> = (0..order).filter(|i| stiff[*i] > 0.0 && heavy[*i] == 0.0).collect();
     let pushed = pushes(system, &places, loads);
     if pushed.is_empty() {
         return Ok(Dense::zeros(order, 0));
