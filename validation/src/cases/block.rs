@@ -1,9 +1,11 @@
 //! The rigid block: how it leaves rest, and how it rocks.
 
 use super::set;
+use super::sliding::Slider;
 use crate::case::BOTH;
-use crate::unit::{NUMBER, RADIAN, SECOND};
-use crate::{Case, Check};
+use crate::unit::{METRE, NUMBER, RADIAN, SECOND};
+use crate::{Case, Check, Curve, View};
+use std::f64::consts::PI;
 
 /// A block on two feet under one half sine.
 const ONSET: &str = r#"(
@@ -31,7 +33,10 @@ const ONSET: &str = r#"(
             base: [(direction: X, function: "pulse")],
         ),
     },
-    outputs: { "slide": Displacement(node: "left", dof: Ux) },
+    outputs: {
+        "slide": Displacement(node: "left", dof: Ux),
+        "rotation": Displacement(node: "cg", dof: Ry),
+    },
 )"#;
 
 /// A block on two gaps, held horizontally at the middle of its base.
@@ -112,6 +117,15 @@ fn rb1() -> Vec<Case> {
                 let found = MODES.iter().position(|m| Some(*m) == mode);
                 found.map_or(f64::NAN, |i| i as f64)
             };
+            let slide = Curve::new("slide", METRE);
+            // A block that rests or only slides is a mass with friction.
+            let slide = if expected < 2 {
+                let g = 9.80665;
+                let slider = Slider::new(a * g, PI / 0.1, 0.1, mu * g, 0.3);
+                slide.against(move |t| slider.at(t))
+            } else {
+                slide
+            };
             Case {
                 id,
                 title: "How a block leaves rest",
@@ -119,7 +133,7 @@ fn rb1() -> Vec<Case> {
                 text: ONSET.into(),
                 set: vec![set("a", a), set("mu", mu)],
                 solvers: BOTH,
-                view: crate::View::default(),
+                view: View::histories([slide, Curve::new("rotation", RADIAN)]),
                 checks: vec![Check::new(what, NUMBER, expected as f64, 0.0, measure).absolute()],
             }
         })
@@ -130,6 +144,15 @@ fn rb8() -> Case {
     // Rigid limit of stiff contacts close to critical damping: amplitude × 0.49 an impact,
     // quarter periods √(2 I_A θ/(m g b)), I_A = 4/3 m R².
     let quarter = |theta: f64| (2.0 * 4.0 / 3.0 * 1.25 * theta / (9.80665 * 0.5)).sqrt();
+    // Parabolas from passage to passage.
+    let curve = move |t: f64| {
+        let (mut middle, mut size) = (0.0, 0.02_f64);
+        while t > middle + quarter(size.abs()) {
+            middle += quarter(size.abs()) + quarter(0.49 * size.abs());
+            size *= -0.49;
+        }
+        size * (1.0 - ((t - middle) / quarter(size.abs())).powi(2))
+    };
     let mut checks = Vec::new();
     let (mut t, mut theta, mut sign) = (0.0, 0.02, 1.0);
     for n in 0..3 {
@@ -137,17 +160,18 @@ fn rb8() -> Case {
         let (from, to) = (t, t + 2.0 * quarter(theta * 0.49));
         theta *= 0.49;
         sign = -sign;
-        checks.push(Check::new(format!("passage {}", n + 1), SECOND, t, 5e-3, move |r| {
-            r.crossing("theta", 0.0, n)
-        }));
-        checks.push(Check::new(
-            format!("peak after passage {}", n + 1),
-            RADIAN,
-            sign * theta,
-            5e-3,
-            move |r| r.extreme("theta", sign, from, to).1,
-        ));
+        checks.push(
+            Check::new(format!("passage {}", n + 1), SECOND, t, 5e-3, move |r| {
+                r.crossing("theta", 0.0, n)
+            })
+            .mark_time("theta", 0.0),
+        );
+        let peak =
+            Check::new(format!("peak after passage {}", n + 1), RADIAN, sign * theta, 5e-3, {
+                move |r| r.extreme("theta", sign, from, to).1
+            });
         t += quarter(theta);
+        checks.push(peak.mark("theta", t));
     }
     Case {
         id: "RB-8",
@@ -156,7 +180,7 @@ fn rb8() -> Case {
         text: ROCKING.into(),
         set: Vec::new(),
         solvers: BOTH,
-        view: crate::View::default(),
+        view: View::histories([Curve::new("theta", RADIAN).against(curve)]),
         checks,
     }
 }

@@ -2,8 +2,11 @@
 
 use super::set;
 use crate::case::BOTH;
-use crate::unit::{INCH, METRE, NEWTON, NUMBER, SECOND, SPEED};
-use crate::{Case, Check};
+use crate::unit::{INCH, METRE, NEWTON, NUMBER, SECOND, SPEED, Unit};
+use crate::{Case, Check, Curve, View};
+use std::f64::consts::PI;
+
+const G: f64 = 9.80665;
 
 /// Unit masses that fly at 1 m/s against contacts of 10 kN/m, without gravity.
 const RESTITUTION: &str = r#"(
@@ -174,9 +177,12 @@ const VERTICAL: &str = r#"(
     },
 )"#;
 
+/// Restitution as a function of the damping ratio.
+type Law = fn(f64) -> f64;
+
 /// Restitution of a spring and a dashpot that may pull.
 fn pulling(z: f64) -> f64 {
-    (-std::f64::consts::PI * z / (1.0 - z * z).sqrt()).exp()
+    (-PI * z / (1.0 - z * z).sqrt()).exp()
 }
 
 /// Restitution of a spring and a dashpot that never pull.
@@ -192,6 +198,27 @@ fn pushing(z: f64) -> f64 {
     (-(z / q) * ((z + q) / (z - q)).ln()).exp()
 }
 
+/// Speed over time of a unit impact of frequency `w` and damping `z` at time 0, 1 before.
+fn rebound(w: f64, z: f64, law: Law) -> impl Fn(f64) -> f64 + Copy {
+    // All restitutions are exp(−ζ ω t) at the end t of the contact.
+    let end = -law(z).ln() / (z * w);
+    let q = (z * z - 1.0).abs().sqrt();
+    move |t| {
+        if t <= 0.0 {
+            return 1.0;
+        }
+        if t > end {
+            return -law(z);
+        }
+        let (even, odd) = match q * w * t {
+            _ if q == 0.0 => (1.0, w * t),
+            x if z < 1.0 => (x.cos(), x.sin() / q),
+            x => (x.cosh(), x.sinh() / q),
+        };
+        (-z * w * t).exp() * (even - z * odd)
+    }
+}
+
 pub(super) fn cases() -> Vec<Case> {
     let mut all = im1();
     all.extend(im2());
@@ -203,11 +230,16 @@ pub(super) fn cases() -> Vec<Case> {
 
 fn im1() -> Vec<Case> {
     let case = |id, title, pull: bool, z: [f64; 3]| {
-        let law: fn(f64) -> f64 = if pull { pulling } else { pushing };
+        let law: Law = if pull { pulling } else { pushing };
         let check = |name: &'static str, what: &str, z: f64| {
             Check::new(format!("restitution, ζ = {z}{what}"), NUMBER, law(z), 1e-3, move |r| {
                 r.last(name)
             })
+            .mark(name, 0.1)
+        };
+        let shown = |name: &'static str, z: f64, start: f64| {
+            let v = rebound(100.0, z, law);
+            Curve::new(name, SPEED).against(move |t| -v(t - start)).over(0.0, 0.1)
         };
         Case {
             id,
@@ -221,7 +253,12 @@ fn im1() -> Vec<Case> {
                 set("z3", z[2]),
             ],
             solvers: BOTH,
-            view: crate::View::default(),
+            view: View::histories([
+                shown("a", z[0], 0.02),
+                shown("b", z[1], 0.03),
+                shown("c", z[2], 0.04),
+                shown("d", z[1], 0.03),
+            ]),
             checks: vec![
                 check("a", "", z[0]),
                 check("b", "", z[1]),
@@ -239,24 +276,47 @@ fn im1() -> Vec<Case> {
 
 fn im2() -> Vec<Case> {
     // Damped oscillation about the static deflection until the contact opens: a root, found by bisection.
-    let restitution = |w: f64| {
+    // The restitution, and height and speed until the next impact.
+    let drop = |w: f64| {
         let (z, g, h): (f64, f64, f64) = (0.403_712_8, 386.4, 149.7);
         let (v0, wd, xs) = ((2.0 * g * h).sqrt(), w * (1.0 - z * z).sqrt(), g / (w * w));
         let b = (v0 - z * w * xs) / wd;
-        let x = |t: f64| xs + (-z * w * t).exp() * (-xs * (wd * t).cos() + b * (wd * t).sin());
+        let x = move |t: f64| xs + (-z * w * t).exp() * (-xs * (wd * t).cos() + b * (wd * t).sin());
         let (mut low, mut high) = (1.0 / wd, 4.0 / wd);
         for _ in 0..80 {
             let middle = 0.5 * (low + high);
             if x(middle) > 0.0 { low = middle } else { high = middle }
         }
-        let (s, c) = (wd * low).sin_cos();
-        let rate = (z * w * xs + wd * b) * c + (wd * xs - z * w * b) * s;
-        -(-z * w * low).exp() * rate / v0
+        let rate = move |t: f64| {
+            let (s, c) = (wd * t).sin_cos();
+            (-z * w * t).exp() * ((z * w * xs + wd * b) * c + (wd * xs - z * w * b) * s)
+        };
+        let (start, end) = (v0 / g, v0 / g + low);
+        let e = -rate(low) / v0;
+        let height = move |t: f64| match t {
+            t if t < start => h - g * t * t / 2.0,
+            t if t < end => -x(t - start),
+            t if t < end + 2.0 * e * start => (t - end) * (e * v0 - g * (t - end) / 2.0),
+            _ => f64::NAN,
+        };
+        let speed = move |t: f64| match t {
+            t if t < start => -g * t,
+            t if t < end => -rate(t - start),
+            t if t < end + 2.0 * e * start => e * v0 - g * (t - end),
+            _ => f64::NAN,
+        };
+        let near = (start - 0.3 * low, end + 0.3 * low);
+        let curves = [
+            Curve::new("z", INCH).against(height),
+            Curve::new("z", INCH).against(height).over(near.0, near.1),
+            Curve::new("v", Unit { name: "in/s", ..INCH }).against(speed).over(near.0, near.1),
+        ];
+        (e, View::histories(curves))
     };
     [("IM-2a", 50.0), ("IM-2b", 200.0), ("IM-2c", 1000.0)]
         .into_iter()
         .map(|(id, w)| {
-            let e = restitution(w);
+            let (e, view) = drop(w);
             Case {
                 id,
                 title: "Drop from 149.7 in on a contact that may pull",
@@ -264,7 +324,7 @@ fn im2() -> Vec<Case> {
                 text: DROP.into(),
                 set: vec![set("omega", w), set("duration", 1.2)],
                 solvers: BOTH,
-                view: crate::View::default(),
+                view,
                 checks: vec![Check::new(
                     format!("rebound / height, ω = {w}"),
                     NUMBER,
@@ -279,6 +339,21 @@ fn im2() -> Vec<Case> {
 
 fn im3() -> Case {
     let p = 1e-3;
+    // Half a sine against the stop, half a sine on the spring alone.
+    let stiff = (1.01e6_f64 / 100.0).sqrt();
+    let phase = move |t: f64| {
+        let (contact, cycle) = (PI / stiff, PI / stiff + PI / 10.0);
+        let in_cycle = t - (t / cycle).floor() * cycle;
+        if in_cycle < contact { (1.0, stiff, in_cycle) } else { (-1.0, 10.0, in_cycle - contact) }
+    };
+    let u = move |t: f64| {
+        let (sign, w, t) = phase(t);
+        sign * (w * t).sin() / w
+    };
+    let v = move |t: f64| {
+        let (sign, w, t) = phase(t);
+        sign * (w * t).cos()
+    };
     Case {
         id: "IM-3",
         title: "Mass that leaves its rest position against a stop",
@@ -286,24 +361,42 @@ fn im3() -> Case {
         text: STOP.into(),
         set: Vec::new(),
         solvers: BOTH,
-        view: crate::View::default(),
+        view: View::histories([
+            Curve::new("u", METRE).against(u),
+            Curve::new("v", SPEED).against(v),
+            Curve::new("stop", NEWTON).against(move |t| -1e6 * u(t).max(0.0)).over(0.0, 0.05),
+        ]),
         checks: vec![
-            Check::new("largest u", METRE, 9.95037e-3, p, |r| r.max("u", 0.0, 0.1)).published(),
+            Check::new("largest u", METRE, 9.95037e-3, p, |r| r.max("u", 0.0, 0.1))
+                .published()
+                .mark("u", PI / stiff / 2.0),
             Check::new("largest stop force", NEWTON, 9950.37, p, |r| -r.min("stop", 0.0, 0.1))
                 .published(),
             Check::new("end of contact", SECOND, 0.031_260_0, p, |r| r.crossing("u", 0.0, 0))
-                .published(),
+                .published()
+                .mark_time("u", 0.0),
             Check::new("second impact", SECOND, 0.345_419_3, p, |r| r.crossing("u", 0.0, 1))
-                .published(),
+                .published()
+                .mark_time("u", 0.0),
             Check::new("speed at second impact", SPEED, 1.0, p, |r| {
                 r.at("v", r.crossing("u", 0.0, 1))
-            }),
+            })
+            .mark("v", 0.345_419_3),
         ],
     }
 }
 
 fn im4() -> Case {
     let p = 1e-3;
+    // Free fall, then a sine about the static deflection; symmetric about the largest travel.
+    let (g, w) = (386.0_f64, (1973.92_f64 / 0.5).sqrt());
+    let (touch, speed, rest) = ((2.0 / g).sqrt(), (2.0 * g).sqrt(), g / (w * w));
+    let bottom = touch + (PI - (speed / (w * rest)).atan()) / w;
+    let u = move |t: f64| {
+        let t = if t > bottom { 2.0 * bottom - t } else { t };
+        let (s, c) = (w * (t - touch)).sin_cos();
+        if t < touch { g * t * t / 2.0 } else { 1.0 + rest * (1.0 - c) + speed / w * s }
+    };
     Case {
         id: "IM-4",
         title: "Ball that falls on a spring",
@@ -311,10 +404,12 @@ fn im4() -> Case {
         text: BALL.into(),
         set: Vec::new(),
         solvers: BOTH,
-        view: crate::View::default(),
+        view: View::histories([Curve::new("u", INCH).against(u)]),
         checks: vec![
-            Check::new("time of contact", SECOND, 0.071_981_6, p, |r| r.crossing("u", 0.0254, 0)),
-            Check::new("largest travel", INCH, 1.550_665_5, p, |r| r.max("u", 0.0, 0.15)),
+            Check::new("time of contact", SECOND, 0.071_981_6, p, |r| r.crossing("u", 0.0254, 0))
+                .mark_time("u", 0.0254),
+            Check::new("largest travel", INCH, 1.550_665_5, p, |r| r.max("u", 0.0, 0.15))
+                .mark("u", 0.100_444_9),
             Check::new("time of largest travel", SECOND, 0.100_444_9, p, |r| {
                 r.extreme("u", 1.0, 0.0, 0.15).0
             }),
@@ -357,6 +452,7 @@ fn im7() -> Case {
         })
         .absolute()
         .published()
+        .mark_time("u", 1e-3)
     };
     Case {
         id: "IM-7",
@@ -365,38 +461,61 @@ fn im7() -> Case {
         text: FORCED.into(),
         set: Vec::new(),
         solvers: BOTH,
-        view: crate::View::default(),
+        view: View::histories([Curve::new("u", METRE), Curve::new("u", METRE).over(0.02, 0.07)]),
         checks: times.into_iter().enumerate().map(check).collect(),
     }
 }
 
 fn im12() -> Vec<Case> {
-    [
-        ("IM-12a", "Collision of two masses, contact may pull", 1_u8, pulling(0.2)),
-        ("IM-12b", "Collision of two masses, contact never pulls", 0, pushing(0.2)),
-    ]
-    .into_iter()
-    .map(|(id, title, pull, e)| Case {
-        id,
-        title,
-        source: "Conservation of momentum and restitution for the reduced mass",
-        text: COLLISION.into(),
-        set: vec![set("pull", pull)],
-        solvers: BOTH,
-        view: crate::View::default(),
-        // 0.1 % of the speed of approach, as for the restitution.
-        checks: vec![
-            Check::new("v₁ after", SPEED, (1.0 - 2.0 * e) / 3.0, 1e-3, |r| r.last("a")).absolute(),
-            Check::new("v₂ after", SPEED, (1.0 + e) / 3.0, 1e-3, |r| r.last("b")).absolute(),
-        ],
-    })
-    .collect()
+    let laws = [
+        ("IM-12a", "Collision of two masses, contact may pull", 1_u8, pulling as Law),
+        ("IM-12b", "Collision of two masses, contact never pulls", 0, pushing),
+    ];
+    // The difference of the speeds is that of one impact of the reduced mass.
+    let approach = |law| rebound((1e4_f64 * 3.0 / 2.0).sqrt(), 0.2, law);
+    laws.map(|(id, title, pull, law)| (id, title, pull, law(0.2), approach(law)))
+        .into_iter()
+        .map(|(id, title, pull, e, v)| Case {
+            id,
+            title,
+            source: "Conservation of momentum and restitution for the reduced mass",
+            text: COLLISION.into(),
+            set: vec![set("pull", pull)],
+            solvers: BOTH,
+            view: View::histories([
+                Curve::new("a", SPEED).against(move |t| (1.0 + 2.0 * v(t - 0.01)) / 3.0),
+                Curve::new("b", SPEED).against(move |t| (1.0 - v(t - 0.01)) / 3.0),
+            ]),
+            // 0.1 % of the speed of approach, as for the restitution.
+            checks: vec![
+                Check::new("v₁ after", SPEED, (1.0 - 2.0 * e) / 3.0, 1e-3, |r| r.last("a"))
+                    .absolute()
+                    .mark("a", 0.1),
+                Check::new("v₂ after", SPEED, (1.0 + e) / 3.0, 1e-3, |r| r.last("b"))
+                    .absolute()
+                    .mark("b", 0.1),
+            ],
+        })
+        .collect()
 }
 
 fn im13() -> Vec<Case> {
     let p = 5e-3;
     let source = "Free flight from where 1 + a sin ωt = 0";
-    let weight = 1000.0 * 9.80665;
+    let share = Unit { si: 1000.0 * G, ..NUMBER };
+    let (w, off) = (10.0 * PI, 0.123_227_953);
+    // Height of the flight, and its rate.
+    let z = move |t: f64| {
+        let tau = t - off;
+        let base = ((w * t).sin() - (w * off).sin()) / w - tau * (w * off).cos();
+        if tau < 0.0 { 0.0 } else { G * (1.5 * base / w - tau * tau / 2.0) }
+    };
+    let v = move |t: f64| {
+        let base = ((w * t).cos() - (w * off).cos()) / w;
+        if t < off { 0.0 } else { G * (1.5 * base - (t - off)) }
+    };
+    let impact = 0.236_744_157;
+    let flying = move |t: f64, x: f64| if t < impact { x } else { f64::NAN };
     vec![
         Case {
             id: "IM-13a",
@@ -405,17 +524,27 @@ fn im13() -> Vec<Case> {
             text: VERTICAL.into(),
             set: Vec::new(),
             solvers: BOTH,
-            view: crate::View::default(),
+            view: View::histories([
+                Curve::new("z", METRE).against(move |t| flying(t, z(t))),
+                Curve::new("v", SPEED).against(move |t| flying(t, v(t))),
+                Curve::new("n", share)
+                    .against(move |t| if t < off { 1.0 + 1.5 * (w * t).sin() } else { 0.0 })
+                    .over(0.0, 0.23),
+            ]),
             checks: vec![
-                Check::new("lift-off", SECOND, 0.123_227_953, p, |r| r.crossing("z", 0.0, 0)),
-                Check::new("largest gap", METRE, 8.02306e-3, p, |r| r.max("z", 0.1, 0.25)),
+                Check::new("lift-off", SECOND, off, p, |r| r.crossing("z", 0.0, 0))
+                    .mark_time("z", 0.0),
+                Check::new("largest gap", METRE, 8.02306e-3, p, |r| r.max("z", 0.1, 0.25))
+                    .mark("z", 0.205_778_077),
                 Check::new("time of largest gap", SECOND, 0.205_778_077, p, |r| {
                     r.extreme("z", 1.0, 0.1, 0.25).0
                 }),
-                Check::new("impact", SECOND, 0.236_744_157, p, |r| r.crossing("z", 0.0, 1)),
+                Check::new("impact", SECOND, impact, p, |r| r.crossing("z", 0.0, 1))
+                    .mark_time("z", 0.0),
                 Check::new("speed of impact", SPEED, -0.574_808, p, |r| {
                     r.at("v", r.crossing("z", 0.0, 1) - 1e-5)
-                }),
+                })
+                .mark("v", impact),
             ],
         },
         Case {
@@ -425,14 +554,18 @@ fn im13() -> Vec<Case> {
             text: VERTICAL.into(),
             set: vec![set("a", "0.9 g")],
             solvers: BOTH,
-            view: crate::View::default(),
+            view: View::histories([
+                Curve::new("n", share).against(move |t| 1.0 + 0.9 * (w * t).sin())
+            ]),
             checks: vec![
-                Check::new("largest contact force / weight", NUMBER, 1.9, p, move |r| {
-                    r.max("n", 0.0, 0.2) / weight
-                }),
-                Check::new("smallest contact force / weight", NUMBER, 0.1, p, move |r| {
-                    r.min("n", 0.0, 0.2) / weight
-                }),
+                Check::new("largest contact force / weight", share, 1.9, p, |r| {
+                    r.max("n", 0.0, 0.2)
+                })
+                .mark("n", 0.05),
+                Check::new("smallest contact force / weight", share, 0.1, p, |r| {
+                    r.min("n", 0.0, 0.2)
+                })
+                .mark("n", 0.15),
                 Check::new("largest gap", METRE, 0.0, 0.0, |r| r.max("z", 0.0, 0.26).max(0.0))
                     .absolute(),
             ],

@@ -3,7 +3,7 @@
 use super::set;
 use crate::case::BOTH;
 use crate::unit::{INCH, METRE, NUMBER, SECOND, SPEED, Unit};
-use crate::{Case, Check};
+use crate::{Case, Check, Curve, View};
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
 const G: f64 = 9.80665;
@@ -121,6 +121,96 @@ const DEN_HARTOG: &str = r#"(
     outputs: { "u": Displacement(node: "m", dof: Ux) },
 )"#;
 
+/// Free vibration with Coulomb friction: let go at `u0`, friction / stiffness `d`.
+pub(super) fn coulomb(u0: f64, d: f64, w: f64) -> impl Fn(f64) -> f64 + Copy {
+    move |t| {
+        // At rest at the first turning point from which the spring cannot pull it away.
+        let size = |n: f64| u0.abs() - 2.0 * n * d;
+        let last = ((u0.abs() / d - 1.0) / 2.0).ceil().max(0.0);
+        let n = (w * t / PI).floor();
+        let sign = |n: f64| if n % 2.0 == 0.0 { u0.signum() } else { -u0.signum() };
+        if n >= last {
+            return sign(last) * size(last);
+        }
+        sign(n) * (d + (size(n) - d) * (w * t - n * PI).cos())
+    }
+}
+
+/// A rigid block with friction on a base that moves with the acceleration a sin ωt up to `end`:
+/// displacement on the base, slip after slip.
+pub(super) struct Slider {
+    a: f64,
+    w: f64,
+    end: f64,
+    friction: f64,
+    /// (start, displacement there, direction; 0: sticks) of each phase.
+    phases: Vec<(f64, f64, f64)>,
+}
+
+impl Slider {
+    /// Friction is a deceleration.
+    pub(super) fn new(a: f64, w: f64, end: f64, friction: f64, duration: f64) -> Self {
+        let mut all = Self { a, w, end, friction, phases: vec![(0.0, 0.0, 0.0)] };
+        let step = TAU / w / 500.0;
+        while let Some(&(start, u, direction)) = all.phases.last() {
+            // Positive until the phase ends.
+            let left = |t: f64| match direction {
+                0.0 => friction - all.acceleration(t).abs(),
+                s => s * all.rate(start, s, t),
+            };
+            let mut low = start + 1e-3 * step;
+            while low < duration && left(low + step) > 0.0 {
+                low += step;
+            }
+            if low >= duration {
+                break;
+            }
+            let mut high = low + step;
+            for _ in 0..60 {
+                let middle = 0.5 * (low + high);
+                if left(middle) > 0.0 { low = middle } else { high = middle }
+            }
+            let push = all.acceleration(high);
+            let next = if push.abs() < friction { 0.0 } else { -push.signum() };
+            let at = u + all.slip(start, direction, high);
+            all.phases.push((high, at, next));
+        }
+        all
+    }
+
+    fn acceleration(&self, t: f64) -> f64 {
+        if t < self.end { self.a * (self.w * t).sin() } else { 0.0 }
+    }
+
+    /// Speed and displacement of the base.
+    fn base(&self, t: f64) -> (f64, f64) {
+        let (v, at) = (self.a / self.w, t.min(self.end));
+        let speed = v * (1.0 - (self.w * at).cos());
+        (speed, v * (at - (self.w * at).sin() / self.w) + speed * (t - at))
+    }
+
+    /// Speed at `t` of a slip that starts at `from`.
+    fn rate(&self, from: f64, direction: f64, t: f64) -> f64 {
+        self.base(from).0 - self.base(t).0 - direction * self.friction * (t - from)
+    }
+
+    /// Displacement since the start of the phase.
+    fn slip(&self, from: f64, direction: f64, t: f64) -> f64 {
+        if direction == 0.0 {
+            return 0.0;
+        }
+        let (start, now, tau) = (self.base(from), self.base(t), t - from);
+        start.1 + start.0 * tau - now.1 - direction * self.friction * tau * tau / 2.0
+    }
+
+    /// Displacement on the base.
+    pub(super) fn at(&self, t: f64) -> f64 {
+        let i = self.phases.partition_point(|p| p.0 <= t).saturating_sub(1);
+        let (start, u, direction) = self.phases[i];
+        u + self.slip(start, direction, t)
+    }
+}
+
 pub(super) fn cases() -> Vec<Case> {
     vec![sl1(), sl2(), without_friction(), sl4(), sl5(), sl6(), sl8()]
 }
@@ -135,9 +225,10 @@ fn sl1() -> Case {
             r.at("u", t)
         })
         .published()
+        .mark("u", t)
     };
     let mut checks: Vec<Check> = (1..=4).map(turn).collect();
-    checks.push(Check::new("u at rest", METRE, 5e-5, 1e-2, |r| r.last("u")));
+    checks.push(Check::new("u at rest", METRE, 5e-5, 1e-2, |r| r.last("u")).mark("u", 0.2));
     Case {
         id: "SL-1",
         title: "Free vibration with Coulomb friction",
@@ -145,15 +236,14 @@ fn sl1() -> Case {
         text: FREE.into(),
         set: Vec::new(),
         solvers: BOTH,
-        view: crate::View::default(),
+        view: View::histories([Curve::new("u", METRE).against(coulomb(8.5e-4, 1e-4, 100.0))]),
         checks,
     }
 }
 
 fn sl2() -> Case {
-    let at = |t: f64, reference: f64| {
-        Check::new(format!("u({t})"), INCH, reference, 2e-3, move |r| r.at("u", t)).published()
-    };
+    let at = |t: f64, reference: f64| Check::at("u", INCH, t, reference, 2e-3).published();
+    let u = coulomb(-1.0, 0.1875 * 10.0 / 30.0, (30.0 * 386.0 / 10.0_f64).sqrt());
     Case {
         id: "SL-2",
         title: "Free vibration with Coulomb friction, US units",
@@ -168,13 +258,17 @@ fn sl2() -> Case {
             set("u0", "-1 in"),
         ],
         solvers: BOTH,
-        view: crate::View::default(),
+        view: View::histories([Curve::new("u", INCH).against(u)]),
         checks: vec![at(0.09, 0.87208), at(0.102, 0.83132), at(0.183, -0.74874)],
     }
 }
 
 /// Property (e) of the FNA list: no damping is no damping.
 fn without_friction() -> Case {
+    let u = |t: f64| 8.5e-4 * (100.0 * t).cos();
+    let period = TAU / 100.0;
+    let shown =
+        |from: f64, to: f64| Curve::new("u", METRE).against(u).over(from * period, to * period);
     Case {
         id: "FN-2e",
         title: "Free vibration without friction keeps its amplitude",
@@ -186,8 +280,11 @@ fn without_friction() -> Case {
             set("dt", TAU / 100.0 / 40.0),
         ],
         solvers: &[crate::Solver::Fna],
-        view: crate::View::default(),
-        checks: vec![Check::new("u after 100 periods", METRE, 8.5e-4, 1e-10, |r| r.last("u"))],
+        view: View::histories([shown(0.0, 3.0), shown(97.0, 100.01)]),
+        checks: vec![
+            Check::new("u after 100 periods", METRE, 8.5e-4, 1e-10, |r| r.last("u"))
+                .mark("u", 100.0 * period),
+        ],
     }
 }
 
@@ -195,6 +292,10 @@ fn without_friction() -> Case {
 fn sl4() -> Case {
     // One amplitude a case would be four models; the slipping ones tell regimes apart.
     let watt = Unit::si("W");
+    let shown = |from: f64, to: f64| {
+        let slider = Slider::new(1.5, TAU, f64::INFINITY, 1.0, to);
+        Curve::new("u", METRE).against(move |t| slider.at(t)).over(from, to)
+    };
     Case {
         id: "SL-4",
         title: "Block on a vibrating table, stick-slip",
@@ -202,7 +303,7 @@ fn sl4() -> Case {
         text: TABLE.into(),
         set: vec![set("a", "1.5 m/s^2")],
         solvers: BOTH,
-        view: crate::View::default(),
+        view: View::histories([shown(0.0, 3.0), shown(10.0, 12.0)]),
         checks: vec![
             Check::new("mean of N |v|", watt, 0.409062, 1e-3, |r| {
                 (r.friction_heat(12.0) - r.friction_heat(4.0)) / 8.0 / 0.1
@@ -220,6 +321,10 @@ fn sl5() -> Case {
     let tolerance = 2e-3;
     let (mu, a, w) = (0.2 * G, 1.5 * G, 10.0 * PI);
     // Steady slip range 2 (A/ω²) √(1 − (π μ g/2A)²).
+    let shown = |from: f64, to: f64| {
+        let slider = Slider::new(a, w, f64::INFINITY, mu, to);
+        Curve::new("u", METRE).against(move |t| slider.at(t)).over(from, to)
+    };
     let range = 2.0 * a / (w * w) * (1.0 - (FRAC_PI_2 * mu / a).powi(2)).sqrt();
     Case {
         id: "SL-5",
@@ -228,7 +333,7 @@ fn sl5() -> Case {
         text: BLOCK.into(),
         set: vec![set("cycles", 60), set("duration", "12 s")],
         solvers: BOTH,
-        view: crate::View::default(),
+        view: View::histories([shown(0.0, 1.0), shown(11.0, 12.0)]),
         checks: vec![
             Check::new("slip range", METRE, range, tolerance, |r| {
                 r.max("u", 11.6, 11.8) - r.min("u", 11.6, 11.8)
@@ -239,13 +344,19 @@ fn sl5() -> Case {
             }),
             Check::new("u at first reversal", METRE, -0.064_654_2, tolerance, |r| {
                 r.min("u", 0.0, 0.25)
-            }),
+            })
+            .mark("u", 0.160_874_7),
         ],
     }
 }
 
 fn sl6() -> Case {
     let (a, mu, tp) = (0.5, 0.2, 0.1);
+    let v = move |t: f64| -G * (a * t.min(tp) - mu * t.min(tp * a / mu));
+    let u = move |t: f64| {
+        let (pulse, slip) = (t.min(tp), t.min(tp * a / mu));
+        -G * (a * pulse * (slip - pulse / 2.0) - mu * slip * slip / 2.0)
+    };
     Case {
         id: "SL-6",
         title: "Sliding block under a rectangular pulse",
@@ -253,13 +364,17 @@ fn sl6() -> Case {
         text: PULSE.into(),
         set: Vec::new(),
         solvers: BOTH,
-        view: crate::View::default(),
+        view: View::histories([
+            Curve::new("u", METRE).against(u),
+            Curve::new("v", SPEED).against(v),
+        ]),
         checks: vec![
             Check::new("largest speed", SPEED, (a - mu) * G * tp, 1e-3, |r| r.peak("v", 0.0, 0.4)),
             Check::new("slip", METRE, G * tp * tp * (a - mu) * a / (2.0 * mu), 1e-3, |r| {
                 r.last("u").abs()
             }),
-            Check::new("end of slip", SECOND, tp * a / mu, 1e-3, |r| r.crossing("v", 0.0, 0)),
+            Check::new("end of slip", SECOND, tp * a / mu, 1e-3, |r| r.crossing("v", 0.0, 0))
+                .mark_time("v", 0.0),
         ],
     }
 }
@@ -269,6 +384,15 @@ fn sl8() -> Case {
     let v = 1.0 / (1.0 - r * r);
     let u = (PI / r).sin() / (r * (1.0 + (PI / r).cos()));
     let amplitude = (v * v - f * f * u * u).sqrt();
+    // Half a cycle from a turning point on, in units of P/k and of 1/ω₀; the load leads by `lead`.
+    let lead = (-f * u / v).asin();
+    let half = move |t: f64| v * (r * t + lead).cos() + f * (1.0 - t.cos() - r * u * t.sin());
+    let steady = move |t: f64| {
+        let phase = (100.0 * r * t - lead).rem_euclid(TAU);
+        0.01 * if phase < PI { half(phase / r) } else { -half((phase - PI) / r) }
+    };
+    let last = 150.0 * TAU / (100.0 * r);
+    let shown = Curve::new("u", METRE).against(steady).over(0.98 * last, last);
     Case {
         id: "SL-8",
         title: "Steady vibration with Coulomb friction, motion without stops",
@@ -276,7 +400,7 @@ fn sl8() -> Case {
         text: DEN_HARTOG.into(),
         set: vec![set("ratio", r), set("friction", f)],
         solvers: BOTH,
-        view: crate::View::default(),
+        view: View::histories([shown]),
         checks: vec![Check::new("amplitude k/P", NUMBER, amplitude, 5e-3, move |t| {
             let end = 150.0 * TAU / (100.0 * r);
             t.peak("u", end * 0.98, end) * 1e4 / 100.0
