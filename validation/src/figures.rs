@@ -110,7 +110,7 @@ fn errors(id: &str, rows: &[Row]) -> Figure {
     );
     let count = quantities.len() as f64;
     let shown = 1.0_f64.max(rows.iter().map(share).filter(|s| s.is_finite()).fold(0.0, f64::max));
-    figure = figure.ranges((0.0, count + 1.0), (-1.1 * shown, 1.1 * shown));
+    figure = figure.whole_x().ranges((0.0, count + 1.0), (-1.1 * shown, 1.1 * shown));
     for (solver, stroke) in solvers.iter().zip([Stroke::Rings, Stroke::Crosses, Stroke::Squares]) {
         let points = rows.iter().filter(|r| r.solver == *solver).filter_map(|r| {
             let i = quantities.iter().position(|q| *q == r.quantity)?;

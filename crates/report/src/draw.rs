@@ -83,21 +83,27 @@ fn ends(axis: &Axis, values: impl Iterator<Item = f64>) -> (f64, f64) {
 
 /// A number on an axis, as short as the distance of the ticks allows.
 fn tick(axis: &Axis, at: f64, span: f64) -> String {
+    if axis.whole {
+        let whole = (at - at.round()).abs() < 1e-6;
+        return if whole { format!("{at:.0}") } else { String::new() };
+    }
     if axis.log {
         return match at.round() as i32 {
             n @ -2..=3 => format!("{}", 10f64.powi(n)),
             n => format!("1e{n}"),
         };
     }
-    let decade = (span / 10.0).abs().log10().floor() as i32;
     if at.abs() < 1e-9 * span {
-        "0".into()
-    } else if (-4..5).contains(&decade) {
-        format!("{at:.*}", (-decade).max(0) as usize)
-    } else {
-        let digits = (at.abs().log10().floor() as i32 - decade).max(0) as usize;
-        format!("{at:.digits$e}")
+        return "0".into();
     }
+    let decade = (span / 10.0).abs().log10().floor() as i32;
+    if (-5..5).contains(&decade) {
+        return format!("{at:.*}", (-decade).max(0) as usize);
+    }
+    // One power of a thousand for the whole axis, so that its numbers can be compared.
+    let power = 3 * (span.abs().log10() / 3.0).floor() as i32;
+    let digits = (power - decade).max(0) as usize;
+    format!("{:.digits$}e{power}", at / 10f64.powi(power))
 }
 
 fn color(c: Color) -> RGBColor {
@@ -121,8 +127,11 @@ fn draw(figure: &Figure, area: &Area<'_>) -> Result<(), String> {
         .y_label_area_size(66)
         .build_cartesian_2d(x0..x1, y0..y1)
         .map_err(fail)?;
-    let decades = |axis: &Axis, span: f64, other: usize| {
-        if axis.log { (span.round() as usize + 1).min(12) } else { other }
+    let decades = |axis: &Axis, span: f64, other: usize| match axis {
+        a if a.log => (span.round() as usize + 1).min(12),
+        // Plotters counts the ends.
+        a if a.whole => (span.floor() as usize + 1).clamp(2, other.max(2)),
+        _ => other,
     };
     chart
         .configure_mesh()
@@ -131,8 +140,8 @@ fn draw(figure: &Figure, area: &Area<'_>) -> Result<(), String> {
         .axis_style(TEXT)
         .x_desc(figure.x.label.as_str())
         .y_desc(figure.y.label.as_str())
-        .x_labels(decades(&figure.x, x1 - x0, 8))
-        .y_labels(decades(&figure.y, y1 - y0, 7))
+        .x_labels(decades(&figure.x, x1 - x0, 10))
+        .y_labels(decades(&figure.y, y1 - y0, 9))
         .x_label_formatter(&|v| tick(&figure.x, *v, x1 - x0))
         .y_label_formatter(&|v| tick(&figure.y, *v, y1 - y0))
         .axis_desc_style((FONT, 13).into_font().color(&TEXT))
