@@ -89,6 +89,15 @@ pub struct Claim {
     pub kind: Kind,
 }
 
+/// Where a figure shows the reference of a check.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Mark {
+    /// The reference is the value of this output at this time.
+    Value(&'static str, f64),
+    /// The reference is the time at which this output has this value, SI.
+    Time(&'static str, f64),
+}
+
 type Measure = Box<dyn Fn(&Trace) -> f64 + Send + Sync>;
 
 /// One measured quantity and its reference.
@@ -105,8 +114,8 @@ pub struct Check {
     pub kind: Kind,
     /// The analysis of the model it is measured in; none: the last.
     pub analysis: Option<&'static str>,
-    /// Output and time that the reference is the value of, for the figure.
-    pub mark: Option<(&'static str, f64)>,
+    /// Where the figure shows the reference.
+    pub mark: Option<Mark>,
     measure: Measure,
 }
 
@@ -141,7 +150,13 @@ impl Check {
     /// The reference is the value of this output at this time: the figure shows it there.
     #[must_use]
     pub fn mark(self, output: &'static str, t: f64) -> Self {
-        Self { mark: Some((output, t)), ..self }
+        Self { mark: Some(Mark::Value(output, t)), ..self }
+    }
+
+    /// The reference is the time at which this output has this value, SI: the figure shows it there.
+    #[must_use]
+    pub fn mark_time(self, output: &'static str, level: f64) -> Self {
+        Self { mark: Some(Mark::Time(output, level)), ..self }
     }
 
     fn claim(&self) -> Claim {
@@ -219,6 +234,8 @@ pub enum View {
         /// Reference, in these units.
         reference: Vec<(f64, f64)>,
     },
+    /// Several of these.
+    Several(Vec<View>),
 }
 
 /// An output over time.
@@ -273,6 +290,7 @@ impl View {
         match self {
             Self::Histories(curves) => curves.iter().map(|c| c.analysis).collect(),
             Self::Path { .. } => vec![None],
+            Self::Several(views) => views.iter().flat_map(Self::analyses).collect(),
             Self::Errors => Vec::new(),
         }
     }

@@ -1,7 +1,7 @@
 //! The figures of a case: its curves under every solver over the reference.
 
 use crate::case::{Curve, View};
-use crate::{Case, Row, Solver, Trace, Unit};
+use crate::{Case, Mark, Row, Solver, Trace, Unit};
 use trilith_report::{Figure, Stroke};
 
 /// A run of a case: solver, analysis, what it showed.
@@ -11,10 +11,15 @@ type Seen = (Solver, Option<&'static str>, Trace);
 const POINTS: usize = 600;
 
 pub(crate) fn of_case(case: &Case, rows: &[Row], seen: &[Seen]) -> Vec<Figure> {
-    match &case.view {
-        View::Errors => vec![errors(case.title, rows)],
+    of_view(case, &case.view, rows, seen)
+}
+
+fn of_view(case: &Case, view: &View, rows: &[Row], seen: &[Seen]) -> Vec<Figure> {
+    match view {
+        View::Errors => vec![errors(case.id, rows)],
         View::Histories(curves) => curves.iter().map(|c| history(case, c, seen)).collect(),
         View::Path { x, y, reference } => vec![path(case, *x, *y, reference, seen)],
+        View::Several(views) => views.iter().flat_map(|v| of_view(case, v, rows, seen)).collect(),
     }
 }
 
@@ -24,7 +29,11 @@ fn label(name: &str, unit: Unit) -> String {
 }
 
 fn history(case: &Case, curve: &Curve, seen: &[Seen]) -> Figure {
-    let mut figure = Figure::new(case.title, "time [s]", label(curve.output, curve.unit));
+    let mut figure = Figure::new(
+        format!("{}: {}", case.id, curve.output),
+        "time [s]",
+        label(curve.output, curve.unit),
+    );
     let within = |t: f64| curve.span.is_none_or(|(a, b)| t >= a && t <= b);
     let (mut first, mut last) = (f64::INFINITY, f64::NEG_INFINITY);
     for (solver, _, trace) in seen.iter().filter(|(_, name, _)| *name == curve.analysis) {
@@ -50,9 +59,13 @@ fn history(case: &Case, curve: &Curve, seen: &[Seen]) -> Figure {
         .iter()
         .filter(|c| c.analysis == curve.analysis)
         .filter_map(|c| {
-            let (output, t) = c.mark?;
+            let reference = c.reference * c.unit.si;
+            let (output, t, value) = match c.mark? {
+                Mark::Value(output, t) => (output, t, reference),
+                Mark::Time(output, level) => (output, reference, level),
+            };
             let here = output == curve.output && within(t);
-            here.then_some((t, c.reference * c.unit.si / curve.unit.si))
+            here.then_some((t, value / curve.unit.si))
         })
         .collect();
     if !marks.is_empty() {
@@ -68,7 +81,8 @@ fn path(
     reference: &[(f64, f64)],
     seen: &[Seen],
 ) -> Figure {
-    let mut figure = Figure::new(case.title, label(x.0, x.1), label(y.0, y.1));
+    let mut figure =
+        Figure::new(format!("{}: {} over {}", case.id, y.0, x.0), label(x.0, x.1), label(y.0, y.1));
     for (solver, _, trace) in seen.iter().filter(|(_, name, _)| name.is_none()) {
         let (xs, ys) = (trace.history(x.0), trace.history(y.0));
         let points = xs.iter().zip(&ys).map(|(a, b)| (a.1 / x.1.si, b.1 / y.1.si));
@@ -78,7 +92,7 @@ fn path(
 }
 
 /// Every quantity's error as share of its tolerance.
-fn errors(title: &str, rows: &[Row]) -> Figure {
+fn errors(id: &str, rows: &[Row]) -> Figure {
     let mut quantities: Vec<&str> = Vec::new();
     let mut solvers: Vec<&str> = Vec::new();
     for row in rows {
@@ -89,10 +103,14 @@ fn errors(title: &str, rows: &[Row]) -> Figure {
             solvers.push(&row.solver);
         }
     }
-    let mut figure = Figure::new(title, "quantity, as numbered in the table", "error / tolerance");
+    let mut figure = Figure::new(
+        format!("{id}: errors"),
+        "quantity, as numbered in the table",
+        "error / tolerance",
+    );
     let count = quantities.len() as f64;
     let shown = 1.0_f64.max(rows.iter().map(share).filter(|s| s.is_finite()).fold(0.0, f64::max));
-    figure = figure.ranges((0.0, count + 1.0), (-1.1 * shown, 1.1 * shown));
+    figure = figure.whole_x().ranges((0.0, count + 1.0), (-1.1 * shown, 1.1 * shown));
     for (solver, stroke) in solvers.iter().zip([Stroke::Rings, Stroke::Crosses, Stroke::Squares]) {
         let points = rows.iter().filter(|r| r.solver == *solver).filter_map(|r| {
             let i = quantities.iter().position(|q| *q == r.quantity)?;

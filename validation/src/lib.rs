@@ -15,7 +15,7 @@ pub mod study;
 mod trace;
 pub mod unit;
 
-pub use case::{Case, Check, Claim, Curve, Kind, Solver, Tolerance, View};
+pub use case::{Case, Check, Claim, Curve, Kind, Mark, Solver, Tolerance, View};
 pub use outcome::{Outcome, Row};
 pub use study::{Findings, Study};
 pub use trace::Trace;

@@ -46,8 +46,8 @@ impl Line<'_> {
             other => format!("{} ({other})", self.value(other)),
         };
         let share = |x: f64| match r.measure.as_str() {
-            "relative" => format!("{:.2e} %", 100.0 * x),
-            "absolute" => format!("{x:.2e}"),
+            "relative" => format!("{} %", short(100.0 * x)),
+            "absolute" => short(x),
             bound => bound.to_owned(),
         };
         [
@@ -66,6 +66,19 @@ impl Line<'_> {
 
 pub(crate) const HEADER: [&str; 9] =
     ["case", "quantity", "reference", "kind", "FNA", "HHT", "error", "tolerance", "verdict"];
+
+/// Three digits, without a power of ten where it reads well.
+fn short(x: f64) -> String {
+    if x == 0.0 {
+        return "0".into();
+    }
+    let digits = 2 - x.abs().log10().floor() as i32;
+    if !(0..=5).contains(&digits) {
+        return format!("{x:.2e}");
+    }
+    let text = format!("{x:.*}", digits as usize);
+    if text.contains('.') { text.trim_end_matches('0').trim_end_matches('.').into() } else { text }
+}
 
 fn number(x: f64) -> String {
     if x == 0.0 {

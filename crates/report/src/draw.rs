@@ -12,6 +12,8 @@ const GRID: RGBColor = RGBColor(225, 225, 225);
 const TEXT: RGBColor = RGBColor(60, 60, 60);
 /// A line may leave its points by so many pixels.
 const VISIBLE: f64 = 0.2;
+/// Values that differ by less than this share are drawn as a constant.
+const CONSTANT: f64 = 1e-3;
 /// Room for the legend, px a line.
 const LEGEND_LINE: i32 = 18;
 /// Pixels a character of the legend takes, about.
@@ -69,30 +71,39 @@ fn ends(axis: &Axis, values: impl Iterator<Item = f64>) -> (f64, f64) {
     if axis.log {
         return (low.floor(), high.ceil().max(low.floor() + 1.0));
     }
+    let size = low.abs().max(high.abs());
     let room = match high - low {
-        0.0 => low.abs().max(1.0) * 0.5,
-        span => 0.04 * span,
+        _ if size == 0.0 => 0.5,
+        // A constant: without digits that are only noise.
+        span if span < CONSTANT * size => 0.1 * size,
+        span => 0.05 * span,
     };
     (low - room, high + room)
 }
 
 /// A number on an axis, as short as the distance of the ticks allows.
 fn tick(axis: &Axis, at: f64, span: f64) -> String {
+    if axis.whole {
+        let whole = (at - at.round()).abs() < 1e-6;
+        return if whole { format!("{at:.0}") } else { String::new() };
+    }
     if axis.log {
         return match at.round() as i32 {
             n @ -2..=3 => format!("{}", 10f64.powi(n)),
             n => format!("1e{n}"),
         };
     }
-    let decade = (span / 10.0).abs().log10().floor() as i32;
     if at.abs() < 1e-9 * span {
-        "0".into()
-    } else if (-4..5).contains(&decade) {
-        format!("{at:.*}", (-decade).max(0) as usize)
-    } else {
-        let digits = (at.abs().log10().floor() as i32 - decade).max(0) as usize;
-        format!("{at:.digits$e}")
+        return "0".into();
     }
+    let decade = (span / 10.0).abs().log10().floor() as i32;
+    if (-5..5).contains(&decade) {
+        return format!("{at:.*}", (-decade).max(0) as usize);
+    }
+    // One power of a thousand for the whole axis, so that its numbers can be compared.
+    let power = 3 * (span.abs().log10() / 3.0).floor() as i32;
+    let digits = (power - decade).max(0) as usize;
+    format!("{:.digits$}e{power}", at / 10f64.powi(power))
 }
 
 fn color(c: Color) -> RGBColor {
@@ -116,8 +127,11 @@ fn draw(figure: &Figure, area: &Area<'_>) -> Result<(), String> {
         .y_label_area_size(66)
         .build_cartesian_2d(x0..x1, y0..y1)
         .map_err(fail)?;
-    let decades = |axis: &Axis, span: f64, other: usize| {
-        if axis.log { (span.round() as usize + 1).min(12) } else { other }
+    let decades = |axis: &Axis, span: f64, other: usize| match axis {
+        a if a.log => (span.round() as usize + 1).min(12),
+        // Plotters counts the ends.
+        a if a.whole => (span.floor() as usize + 1).clamp(2, other.max(2)),
+        _ => other,
     };
     chart
         .configure_mesh()
@@ -126,8 +140,8 @@ fn draw(figure: &Figure, area: &Area<'_>) -> Result<(), String> {
         .axis_style(TEXT)
         .x_desc(figure.x.label.as_str())
         .y_desc(figure.y.label.as_str())
-        .x_labels(decades(&figure.x, x1 - x0, 8))
-        .y_labels(decades(&figure.y, y1 - y0, 7))
+        .x_labels(decades(&figure.x, x1 - x0, 10))
+        .y_labels(decades(&figure.y, y1 - y0, 9))
         .x_label_formatter(&|v| tick(&figure.x, *v, x1 - x0))
         .y_label_formatter(&|v| tick(&figure.y, *v, y1 - y0))
         .axis_desc_style((FONT, 13).into_font().color(&TEXT))
@@ -137,8 +151,9 @@ fn draw(figure: &Figure, area: &Area<'_>) -> Result<(), String> {
     // Pixels a unit, so that lines are thinned as the eye sees them.
     let (w, h) = area.dim_in_pixel();
     let (px, py) = (f64::from(w) / (x1 - x0), f64::from(h) / (y1 - y0));
-    for series in &figure.series {
+    for (i, series) in figure.series.iter().enumerate() {
         let style = color(series.color);
+        let thick = thickness(figure, i);
         let inside = |p: &(f64, f64)| p.0 >= x0 && p.0 <= x1 && p.1 >= y0 && p.1 <= y1;
         let points = || series.points.iter().filter_map(|p| drawable(figure, *p)).filter(inside);
         match series.stroke {
@@ -147,7 +162,7 @@ fn draw(figure: &Figure, area: &Area<'_>) -> Result<(), String> {
                     let pixels: Vec<_> = part.iter().map(|p| (p.0 * px, p.1 * py)).collect();
                     let kept = thinned(&pixels, VISIBLE);
                     let line = kept.iter().map(|p| (p.0 / px, p.1 / py));
-                    let style = style.stroke_width(2);
+                    let style = style.stroke_width(thick);
                     if series.stroke == Stroke::Line {
                         chart.draw_series(LineSeries::new(line, style)).map_err(fail)?;
                     } else {
@@ -175,6 +190,14 @@ fn draw(figure: &Figure, area: &Area<'_>) -> Result<(), String> {
     draw_legend(&rows, &bottom).map_err(fail)
 }
 
+/// Width of a line, px. The lower of two lines is thicker, so that it shows beside an upper one that
+/// runs over it.
+fn thickness(figure: &Figure, at: usize) -> u32 {
+    let lines = || figure.series.iter().enumerate().filter(|(_, s)| s.stroke == Stroke::Line);
+    let lower = lines().next().is_some_and(|(i, _)| i == at) && lines().count() == 2;
+    if lower { 5 } else { 2 }
+}
+
 /// The pieces of a line between points that cannot be drawn or lie outside.
 fn parts(
     figure: &Figure,
@@ -193,18 +216,18 @@ fn parts(
 }
 
 /// The series with a name in rows that fit the width.
-fn legend_rows(figure: &Figure) -> Vec<Vec<&Series>> {
-    let mut rows: Vec<Vec<&Series>> = Vec::new();
+fn legend_rows(figure: &Figure) -> Vec<Vec<(&Series, u32)>> {
+    let mut rows: Vec<Vec<(&Series, u32)>> = Vec::new();
     let mut left = 0;
-    for series in figure.series.iter().filter(|s| !s.name.is_empty()) {
-        let width = width(series);
+    for (i, series) in figure.series.iter().enumerate().filter(|(_, s)| !s.name.is_empty()) {
+        let (width, thick) = (width(series), thickness(figure, i));
         match rows.last_mut() {
             Some(row) if width <= left => {
-                row.push(series);
+                row.push((series, thick));
                 left -= width;
             }
             _ => {
-                rows.push(vec![series]);
+                rows.push(vec![(series, thick)]);
                 left = figure.size.0 as i32 - LEFT - width;
             }
         }
@@ -217,16 +240,16 @@ fn width(series: &Series) -> i32 {
     LEGEND_SAMPLE + 20 + LEGEND_CHARACTER * series.name.chars().count() as i32
 }
 
-fn draw_legend(rows: &[Vec<&Series>], area: &Area<'_>) -> Result<(), Failure> {
+fn draw_legend(rows: &[Vec<(&Series, u32)>], area: &Area<'_>) -> Result<(), Failure> {
     let font = (FONT, 13).into_font().color(&TEXT).pos(Pos::new(HPos::Left, VPos::Center));
     for (i, row) in rows.iter().enumerate() {
         let (mut x, y) = (LEFT, LEGEND_LINE * i as i32 + LEGEND_LINE / 2 - 2);
-        for series in row {
+        for &(series, thick) in row {
             let style = color(series.color);
             let (end, middle) = (x + LEGEND_SAMPLE, (x + LEGEND_SAMPLE / 2, y));
             match series.stroke {
                 Stroke::Line => {
-                    area.draw(&PathElement::new([(x, y), (end, y)], style.stroke_width(2)))?;
+                    area.draw(&PathElement::new([(x, y), (end, y)], style.stroke_width(thick)))?;
                 }
                 Stroke::Dashes => {
                     for start in [x, x + LEGEND_SAMPLE - 10] {

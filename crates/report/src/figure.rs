@@ -9,6 +9,8 @@ pub struct Axis {
     pub log: bool,
     /// Ends; none: those of the data.
     pub range: Option<(f64, f64)>,
+    /// Counts something: ticks only at whole numbers.
+    pub whole: bool,
 }
 
 /// How the points of a series are drawn.
@@ -77,7 +79,7 @@ pub struct Figure {
 impl Figure {
     /// An empty diagram with linear axes.
     pub fn new(title: impl Into<String>, x: impl Into<String>, y: impl Into<String>) -> Self {
-        let axis = |label: String| Axis { label, log: false, range: None };
+        let axis = |label: String| Axis { label, log: false, range: None, whole: false };
         Self {
             title: title.into(),
             x: axis(x.into()),
@@ -164,6 +166,13 @@ impl Figure {
     #[must_use]
     pub fn log_y(mut self) -> Self {
         self.y.log = true;
+        self
+    }
+
+    /// Makes the horizontal axis count.
+    #[must_use]
+    pub fn whole_x(mut self) -> Self {
+        self.x.whole = true;
         self
     }
 

@@ -8,13 +8,15 @@ const STYLE: &str = "
 body { font: 15px/1.5 system-ui, sans-serif; color: #222; background: #fff; max-width: 1180px;
   margin: 0 auto; padding: 1.5rem; }
 h1 { font-size: 1.7rem; margin: 0 0 .5rem; } h2 { font-size: 1.2rem; margin: 2.2rem 0 .4rem; }
-nav ol { columns: 3 18rem; font-size: .85rem; padding-left: 1.2rem; }
+nav ol { columns: 3 18rem; column-gap: 1.5rem; font-size: .85rem; padding: 0; list-style: none; }
+nav li { break-inside: avoid; overflow-wrap: anywhere; padding-left: 1rem; text-indent: -1rem; }
+nav a { color: #24527a; text-decoration: none; } nav a:hover { text-decoration: underline; }
 .figures { display: flex; flex-wrap: wrap; gap: 1rem; }
 figure { margin: 0; flex: 1 1 460px; max-width: 640px; border: 1px solid #ddd; border-radius: 6px;
   padding: .4rem; }
 figure svg { width: 100%; height: auto; display: block; }
 figcaption { font-size: .85rem; color: #444; padding: .2rem .5rem; }
-table { border-collapse: collapse; font-size: .85rem; margin: .6rem 0; }
+table { border-collapse: collapse; font-size: .82rem; margin: .6rem 0; }
 td, th { padding: .2rem .6rem; border-bottom: 1px solid #e4e4e4; text-align: left;
   font-variant-numeric: tabular-nums; }
 th { background: #f4f4f4; } .wide { overflow-x: auto; }

@@ -1,9 +1,11 @@
 //! The rigid block: how it leaves rest.
 
 use super::set;
+use super::sliding::Slider;
 use crate::case::BOTH;
-use crate::unit::NUMBER;
-use crate::{Case, Check};
+use crate::unit::{METRE, NUMBER, RADIAN};
+use crate::{Case, Check, Curve, View};
+use std::f64::consts::PI;
 
 /// A block on two feet under one half sine.
 const ONSET: &str = r#"(
@@ -31,7 +33,10 @@ const ONSET: &str = r#"(
             base: [(direction: X, function: "pulse")],
         ),
     },
-    outputs: { "slide": Displacement(node: "left", dof: Ux) },
+    outputs: {
+        "slide": Displacement(node: "left", dof: Ux),
+        "rotation": Displacement(node: "cg", dof: Ry),
+    },
 )"#;
 
 const MODES: [&str; 4] = ["rest", "slide", "rock", "slide-rock"];
@@ -77,6 +82,15 @@ pub(super) fn cases() -> Vec<Case> {
                 let found = MODES.iter().position(|m| Some(*m) == mode);
                 found.map_or(f64::NAN, |i| i as f64)
             };
+            let slide = Curve::new("slide", METRE);
+            // A block that rests or only slides is a mass with friction.
+            let slide = if expected < 2 {
+                let g = 9.80665;
+                let slider = Slider::new(a * g, PI / 0.1, 0.1, mu * g, 0.3);
+                slide.against(move |t| slider.at(t))
+            } else {
+                slide
+            };
             Case {
                 id,
                 title: "How a block leaves rest",
@@ -84,7 +98,7 @@ pub(super) fn cases() -> Vec<Case> {
                 text: ONSET.into(),
                 set: vec![set("a", a), set("mu", mu)],
                 solvers: BOTH,
-                view: crate::View::default(),
+                view: View::histories([slide, Curve::new("rotation", RADIAN)]),
                 checks: vec![Check::new(what, NUMBER, expected as f64, 0.0, measure).absolute()],
             }
         })

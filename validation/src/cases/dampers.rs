@@ -2,8 +2,8 @@
 
 use super::set;
 use crate::case::BOTH;
-use crate::unit::{INCH, JOULE, METRE, NUMBER, SECOND, SPEED};
-use crate::{Case, Check};
+use crate::unit::{INCH, JOULE, METRE, NEWTON, NUMBER, SECOND, SPEED};
+use crate::{Case, Check, Curve, View};
 use std::f64::consts::{PI, TAU};
 
 /// Dashpots of all exponents between the ground and a node that is moved to and fro.
@@ -28,7 +28,15 @@ const CYCLE: &str = r#"(
             supports: [(node: "p", dof: Ux, displacement: "motion")],
         ),
     },
-    outputs: { "u": Displacement(node: "p", dof: Ux) },
+    outputs: {
+        "u": Displacement(node: "p", dof: Ux),
+        "F 0.1": LinkForce(link: "a 0.1", axis: U2),
+        "F 0.35": LinkForce(link: "a 0.35", axis: U2),
+        "F 0.5": LinkForce(link: "a 0.5", axis: U2),
+        "F 1": LinkForce(link: "a 1", axis: U2),
+        "F 1.5": LinkForce(link: "a 1.5", axis: U2),
+        "F 2": LinkForce(link: "a 2", axis: U2),
+    },
 )"#;
 
 const STOP: &str = r#"(
@@ -142,6 +150,16 @@ fn dp3() -> Case {
             r.heat(name)
         })
     });
+    let loops = [("F 0.1", 0.1), ("F 0.35", 0.35), ("F 0.5", 0.5), ("F 1", 1.0)];
+    let loops = loops.into_iter().chain([("F 1.5", 1.5), ("F 2", 2.0)]).map(|(output, a)| {
+        let point = |i: u32| {
+            let (s, c) = (TAU * f64::from(i) / 360.0).sin_cos();
+            let v = 0.1 * 2.0 * TAU * c;
+            (0.1 * s, 1000.0 * v.abs().powf(a) * v.signum())
+        };
+        let reference = (0..=360).map(point).collect();
+        View::Path { x: ("u", METRE), y: (output, NEWTON), reference }
+    });
     Case {
         id: "DP-3",
         title: "Energy of a cycle of power-law dashpots",
@@ -149,13 +167,15 @@ fn dp3() -> Case {
         text: CYCLE.into(),
         set: Vec::new(),
         solvers: BOTH,
-        view: crate::View::default(),
+        view: View::Several(loops.collect()),
         checks: checks.into(),
     }
 }
 
 fn dp4() -> Case {
     // v = (√v₀ − C t/2m)²
+    let v = |t: f64| (1.0 - t).max(0.0).powi(2);
+    let u = |t: f64| (1.0 - (1.0 - t).max(0.0).powi(3)) / 3.0;
     Case {
         id: "DP-4",
         title: "Mass stopped by a square-root dashpot",
@@ -163,27 +183,36 @@ fn dp4() -> Case {
         text: STOP.into(),
         set: Vec::new(),
         solvers: BOTH,
-        view: crate::View::default(),
+        view: View::histories([
+            Curve::new("u", METRE).against(u),
+            Curve::new("v", SPEED).against(v),
+        ]),
         checks: vec![
-            Check::new("distance", METRE, 1.0 / 3.0, 1e-3, |r| r.last("u")),
-            Check::new("v(0.5)", SPEED, 0.25, 1e-3, |r| r.at("v", 0.5)),
-            Check::new("time to v₀/10⁴", SECOND, 0.99, 1e-3, |r| r.crossing("v", 1e-4, 0)),
+            Check::new("distance", METRE, u(1.5), 1e-3, |r| r.last("u")).mark("u", 1.5),
+            Check::at("v", SPEED, 0.5, v(0.5), 1e-3),
+            Check::new("time to v₀/10⁴", SECOND, 0.99, 1e-3, |r| r.crossing("v", 1e-4, 0))
+                .mark_time("v", 1e-4),
         ],
+    }
+}
+
+/// An oscillator from rest under a sine at resonance.
+fn resonance(w: f64, z: f64, ust: f64) -> impl Fn(f64) -> f64 + Copy {
+    let s = (1.0 - z * z).sqrt();
+    move |t: f64| {
+        let wd = w * s;
+        let free = (-z * w * t).exp() * ((wd * t).cos() + z / s * (wd * t).sin());
+        ust / (2.0 * z) * (free - (w * t).cos())
     }
 }
 
 fn dp6() -> Case {
     // No series stiffness here, so 0.1 % instead of the 1 % that allows for it.
-    let (w, z, ust): (f64, f64, f64) = (10.0, 0.05, 0.1);
-    let s = (1.0 - z * z).sqrt();
-    let u = move |t: f64| {
-        let wd = w * s;
-        let free = (-z * w * t).exp() * ((wd * t).cos() + z / s * (wd * t).sin());
-        ust / (2.0 * z) * (free - (w * t).cos())
-    };
+    let u = resonance(10.0, 0.05, 0.1);
+    let shown = |from: f64, to: f64| Curve::new("u", INCH).against(u).over(from, to);
     let mut checks: Vec<Check> = [0.5, 1.0, 2.0, 5.0, 10.0]
         .into_iter()
-        .map(|t| Check::new(format!("u({t})"), INCH, u(t), 1e-3, move |r| r.at("u", t)))
+        .map(|t| Check::at("u", INCH, t, u(t), 1e-3))
         .collect();
     // The transient has decayed to e^(−7): 0.1 % of the amplitude.
     let peak = 1.0 - (-0.5_f64 * 14.9).exp();
@@ -195,7 +224,7 @@ fn dp6() -> Case {
         text: RESONANCE.into(),
         set: Vec::new(),
         solvers: BOTH,
-        view: crate::View::default(),
+        view: View::histories([shown(0.0, 5.0), shown(10.0, 15.0)]),
         checks,
     }
 }
@@ -218,17 +247,42 @@ fn twice(
     })
 }
 
+/// An oscillator let go, struck or pushed by a constant force.
+fn oscillator(m: f64, k: f64, c: f64, [u0, v0, push]: [f64; 3]) -> impl Fn(f64) -> f64 + Copy {
+    let (w, z, rest) = ((k / m).sqrt(), c / (2.0 * (k * m).sqrt()), push / k);
+    let q = (z * z - 1.0).abs().sqrt() * w;
+    let (a, b) = (u0 - rest, v0 + z * w * (u0 - rest));
+    move |t: f64| {
+        let (even, odd) = match q * t {
+            x if q < 1e-6 * w => (1.0, t * (1.0 - x * x / 6.0)),
+            x if z < 1.0 => (x.cos(), x.sin() / q),
+            x => (x.cosh(), x.sinh() / q),
+        };
+        rest + (-z * w * t).exp() * (a * even + b * odd)
+    }
+}
+
+/// Both oscillators against a curve.
+fn both(analysis: &'static str, u: impl Fn(f64) -> f64 + Copy + Send + Sync + 'static) -> View {
+    let shown = |name| Curve::new(name, INCH).against(u).in_analysis(analysis);
+    View::histories(["spring", "link"].map(shown))
+}
+
 fn dp8() -> Vec<Case> {
     // Printed numbers have four to five digits: 0.1 %.
     let p = 1e-3;
-    let case = |id, title, source, set, checks: Vec<Check>| Case {
+    let at = |check: [Check; 2], t: f64| -> Vec<Check> {
+        let [spring, link] = check;
+        vec![spring.mark("spring", t), link.mark("link", t)]
+    };
+    let case = |id, title, source, set, checks: Vec<Check>, view| Case {
         id,
         title,
         source,
         text: OSCILLATOR.into(),
         set,
         solvers: BOTH,
-        view: crate::View::default(),
+        view,
         checks,
     };
     let (m, k): (f64, f64) = (10.0 / 386.0, 30.0);
@@ -251,7 +305,8 @@ fn dp8() -> Vec<Case> {
                 set("u0", 1),
                 set("duration", 0.12),
             ],
-            twice("u(0.09)", INCH, u, p, |r, n| r.at(n, 0.09)).into(),
+            at(twice("u(0.09)", INCH, u, p, |r, n| r.at(n, 0.09)), 0.09),
+            both("step", oscillator(m, k, ratio * critical, [1.0, 0.0, 0.0])),
         ));
     }
     let mut checks: Vec<Check> =
@@ -266,6 +321,7 @@ fn dp8() -> Vec<Case> {
         "ANSYS VM72; Thomson",
         vec![set("m", m), set("k", k), set("c", 0.12), set("u0", 1), set("duration", 0.5)],
         checks,
+        both("step", oscillator(m, k, 0.12, [1.0, 0.0, 0.0])),
     ));
     let mut struck: Vec<Case> = Vec::new();
     for (id, title, c, u) in
@@ -276,7 +332,8 @@ fn dp8() -> Vec<Case> {
             title,
             "ANSYS VM74; Thomson",
             vec![set("m", 0.5), set("k", 200), set("c", c), set("v0", 20), set("duration", 0.12)],
-            twice("u(0.1)", INCH, u, p, |r, n| r.at(n, 0.1)).into(),
+            at(twice("u(0.1)", INCH, u, p, |r, n| r.at(n, 0.1)), 0.1),
+            both("step", oscillator(0.5, 200.0, c, [0.0, 20.0, 0.0])),
         ));
     }
     // The undamped one reaches its peak within a thousandth of u(0.08).
@@ -298,7 +355,8 @@ fn dp8() -> Vec<Case> {
                 set("push", 200),
                 set("duration", 0.25),
             ],
-            twice("u(0.2)", INCH, u, p, |r, n| r.at(n, 0.2)).into(),
+            at(twice("u(0.2)", INCH, u, p, |r, n| r.at(n, 0.2)), 0.2),
+            both("step", oscillator(0.5, 200.0, c, [0.0, 0.0, 200.0])),
         ));
     }
     all[first].checks.extend(twice("largest u", INCH, 2.0, p, |r, n| r.max(n, 0.0, 0.25)));
@@ -316,6 +374,7 @@ fn dp8() -> Vec<Case> {
             set("duration", 3),
         ],
         steady.into_iter().map(|c| c.in_analysis("sine")).collect(),
+        both("sine", resonance(20.0, 0.3, 0.05)),
     ));
     all
 }

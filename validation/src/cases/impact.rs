@@ -1,10 +1,13 @@
 //! Impact and gaps.
 
-use super::restitution::{pulling, pushing};
+use super::restitution::{Law, impact_speed, pulling, pushing};
 use super::set;
 use crate::case::BOTH;
-use crate::unit::{INCH, METRE, NEWTON, NUMBER, SECOND, SPEED};
+use crate::unit::{INCH, METRE, NEWTON, NUMBER, SECOND, SPEED, Unit};
 use crate::{Case, Check, Curve, View};
+use std::f64::consts::PI;
+
+const G: f64 = 9.80665;
 
 /// A mass on a spring beside a stop.
 const STOP: &str = r#"(
@@ -147,6 +150,21 @@ pub(super) fn cases() -> Vec<Case> {
 
 fn im3() -> Case {
     let p = 1e-3;
+    // Half a sine against the stop, half a sine on the spring alone.
+    let stiff = (1.01e6_f64 / 100.0).sqrt();
+    let phase = move |t: f64| {
+        let (contact, cycle) = (PI / stiff, PI / stiff + PI / 10.0);
+        let in_cycle = t - (t / cycle).floor() * cycle;
+        if in_cycle < contact { (1.0, stiff, in_cycle) } else { (-1.0, 10.0, in_cycle - contact) }
+    };
+    let u = move |t: f64| {
+        let (sign, w, t) = phase(t);
+        sign * (w * t).sin() / w
+    };
+    let v = move |t: f64| {
+        let (sign, w, t) = phase(t);
+        sign * (w * t).cos()
+    };
     Case {
         id: "IM-3",
         title: "Mass that leaves its rest position against a stop",
@@ -154,24 +172,42 @@ fn im3() -> Case {
         text: STOP.into(),
         set: Vec::new(),
         solvers: BOTH,
-        view: crate::View::default(),
+        view: View::histories([
+            Curve::new("u", METRE).against(u),
+            Curve::new("v", SPEED).against(v),
+            Curve::new("stop", NEWTON).against(move |t| -1e6 * u(t).max(0.0)).over(0.0, 0.05),
+        ]),
         checks: vec![
-            Check::new("largest u", METRE, 9.95037e-3, p, |r| r.max("u", 0.0, 0.1)).published(),
+            Check::new("largest u", METRE, 9.95037e-3, p, |r| r.max("u", 0.0, 0.1))
+                .published()
+                .mark("u", PI / stiff / 2.0),
             Check::new("largest stop force", NEWTON, 9950.37, p, |r| -r.min("stop", 0.0, 0.1))
                 .published(),
             Check::new("end of contact", SECOND, 0.031_260_0, p, |r| r.crossing("u", 0.0, 0))
-                .published(),
+                .published()
+                .mark_time("u", 0.0),
             Check::new("second impact", SECOND, 0.345_419_3, p, |r| r.crossing("u", 0.0, 1))
-                .published(),
+                .published()
+                .mark_time("u", 0.0),
             Check::new("speed at second impact", SPEED, 1.0, p, |r| {
                 r.at("v", r.crossing("u", 0.0, 1))
-            }),
+            })
+            .mark("v", 0.345_419_3),
         ],
     }
 }
 
 fn im4() -> Case {
     let p = 1e-3;
+    // Free fall, then a sine about the static deflection; symmetric about the largest travel.
+    let (g, w) = (386.0_f64, (1973.92_f64 / 0.5).sqrt());
+    let (touch, speed, rest) = ((2.0 / g).sqrt(), (2.0 * g).sqrt(), g / (w * w));
+    let bottom = touch + (PI - (speed / (w * rest)).atan()) / w;
+    let u = move |t: f64| {
+        let t = if t > bottom { 2.0 * bottom - t } else { t };
+        let (s, c) = (w * (t - touch)).sin_cos();
+        if t < touch { g * t * t / 2.0 } else { 1.0 + rest * (1.0 - c) + speed / w * s }
+    };
     Case {
         id: "IM-4",
         title: "Ball that falls on a spring",
@@ -179,10 +215,12 @@ fn im4() -> Case {
         text: BALL.into(),
         set: Vec::new(),
         solvers: BOTH,
-        view: crate::View::default(),
+        view: View::histories([Curve::new("u", INCH).against(u)]),
         checks: vec![
-            Check::new("time of contact", SECOND, 0.071_981_6, p, |r| r.crossing("u", 0.0254, 0)),
-            Check::new("largest travel", INCH, 1.550_665_5, p, |r| r.max("u", 0.0, 0.15)),
+            Check::new("time of contact", SECOND, 0.071_981_6, p, |r| r.crossing("u", 0.0254, 0))
+                .mark_time("u", 0.0254),
+            Check::new("largest travel", INCH, 1.550_665_5, p, |r| r.max("u", 0.0, 0.15))
+                .mark("u", 0.100_444_9),
             Check::new("time of largest travel", SECOND, 0.100_444_9, p, |r| {
                 r.extreme("u", 1.0, 0.0, 0.15).0
             }),
@@ -256,6 +294,7 @@ fn im7() -> Case {
         })
         .absolute()
         .published()
+        .mark_time("u", 1e-3)
     };
     Case {
         id: "IM-7",
@@ -264,38 +303,61 @@ fn im7() -> Case {
         text: FORCED.into(),
         set: Vec::new(),
         solvers: BOTH,
-        view: crate::View::default(),
+        view: View::histories([Curve::new("u", METRE), Curve::new("u", METRE).over(0.02, 0.07)]),
         checks: times.into_iter().enumerate().map(check).collect(),
     }
 }
 
 fn im12() -> Vec<Case> {
-    [
-        ("IM-12a", "Collision of two masses, contact may pull", 1_u8, pulling(0.2)),
-        ("IM-12b", "Collision of two masses, contact never pulls", 0, pushing(0.2)),
-    ]
-    .into_iter()
-    .map(|(id, title, pull, e)| Case {
-        id,
-        title,
-        source: "Conservation of momentum and restitution for the reduced mass",
-        text: COLLISION.into(),
-        set: vec![set("pull", pull)],
-        solvers: BOTH,
-        view: crate::View::default(),
-        // 0.1 % of the speed of approach, as for the restitution.
-        checks: vec![
-            Check::new("v₁ after", SPEED, (1.0 - 2.0 * e) / 3.0, 1e-3, |r| r.last("a")).absolute(),
-            Check::new("v₂ after", SPEED, (1.0 + e) / 3.0, 1e-3, |r| r.last("b")).absolute(),
-        ],
-    })
-    .collect()
+    let laws = [
+        ("IM-12a", "Collision of two masses, contact may pull", 1_u8, pulling as Law),
+        ("IM-12b", "Collision of two masses, contact never pulls", 0, pushing),
+    ];
+    // The difference of the speeds is that of one impact of the reduced mass.
+    let approach = |law| impact_speed((1e4_f64 * 3.0 / 2.0).sqrt(), 0.2, law);
+    laws.map(|(id, title, pull, law)| (id, title, pull, law(0.2), approach(law)))
+        .into_iter()
+        .map(|(id, title, pull, e, v)| Case {
+            id,
+            title,
+            source: "Conservation of momentum and restitution for the reduced mass",
+            text: COLLISION.into(),
+            set: vec![set("pull", pull)],
+            solvers: BOTH,
+            view: View::histories([
+                Curve::new("a", SPEED).against(move |t| (1.0 + 2.0 * v(t - 0.01)) / 3.0),
+                Curve::new("b", SPEED).against(move |t| (1.0 - v(t - 0.01)) / 3.0),
+            ]),
+            // 0.1 % of the speed of approach, as for the restitution.
+            checks: vec![
+                Check::new("v₁ after", SPEED, (1.0 - 2.0 * e) / 3.0, 1e-3, |r| r.last("a"))
+                    .absolute()
+                    .mark("a", 0.1),
+                Check::new("v₂ after", SPEED, (1.0 + e) / 3.0, 1e-3, |r| r.last("b"))
+                    .absolute()
+                    .mark("b", 0.1),
+            ],
+        })
+        .collect()
 }
 
 fn im13() -> Vec<Case> {
     let p = 5e-3;
     let source = "Free flight from where 1 + a sin ωt = 0";
-    let weight = 1000.0 * 9.80665;
+    let share = Unit { si: 1000.0 * G, ..NUMBER };
+    let (w, off) = (10.0 * PI, 0.123_227_953);
+    // Height of the flight, and its rate.
+    let z = move |t: f64| {
+        let tau = t - off;
+        let base = ((w * t).sin() - (w * off).sin()) / w - tau * (w * off).cos();
+        if tau < 0.0 { 0.0 } else { G * (1.5 * base / w - tau * tau / 2.0) }
+    };
+    let v = move |t: f64| {
+        let base = ((w * t).cos() - (w * off).cos()) / w;
+        if t < off { 0.0 } else { G * (1.5 * base - (t - off)) }
+    };
+    let impact = 0.236_744_157;
+    let flying = move |t: f64, x: f64| if t < impact { x } else { f64::NAN };
     vec![
         Case {
             id: "IM-13a",
@@ -304,17 +366,27 @@ fn im13() -> Vec<Case> {
             text: VERTICAL.into(),
             set: Vec::new(),
             solvers: BOTH,
-            view: crate::View::default(),
+            view: View::histories([
+                Curve::new("z", METRE).against(move |t| flying(t, z(t))),
+                Curve::new("v", SPEED).against(move |t| flying(t, v(t))),
+                Curve::new("n", share)
+                    .against(move |t| if t < off { 1.0 + 1.5 * (w * t).sin() } else { 0.0 })
+                    .over(0.0, 0.23),
+            ]),
             checks: vec![
-                Check::new("lift-off", SECOND, 0.123_227_953, p, |r| r.crossing("z", 0.0, 0)),
-                Check::new("largest gap", METRE, 8.02306e-3, p, |r| r.max("z", 0.1, 0.25)),
+                Check::new("lift-off", SECOND, off, p, |r| r.crossing("z", 0.0, 0))
+                    .mark_time("z", 0.0),
+                Check::new("largest gap", METRE, 8.02306e-3, p, |r| r.max("z", 0.1, 0.25))
+                    .mark("z", 0.205_778_077),
                 Check::new("time of largest gap", SECOND, 0.205_778_077, p, |r| {
                     r.extreme("z", 1.0, 0.1, 0.25).0
                 }),
-                Check::new("impact", SECOND, 0.236_744_157, p, |r| r.crossing("z", 0.0, 1)),
+                Check::new("impact", SECOND, impact, p, |r| r.crossing("z", 0.0, 1))
+                    .mark_time("z", 0.0),
                 Check::new("speed of impact", SPEED, -0.574_808, p, |r| {
                     r.at("v", r.crossing("z", 0.0, 1) - 1e-5)
-                }),
+                })
+                .mark("v", impact),
             ],
         },
         Case {
@@ -324,14 +396,18 @@ fn im13() -> Vec<Case> {
             text: VERTICAL.into(),
             set: vec![set("a", "0.9 g")],
             solvers: BOTH,
-            view: crate::View::default(),
+            view: View::histories([
+                Curve::new("n", share).against(move |t| 1.0 + 0.9 * (w * t).sin())
+            ]),
             checks: vec![
-                Check::new("largest contact force / weight", NUMBER, 1.9, p, move |r| {
-                    r.max("n", 0.0, 0.2) / weight
-                }),
-                Check::new("smallest contact force / weight", NUMBER, 0.1, p, move |r| {
-                    r.min("n", 0.0, 0.2) / weight
-                }),
+                Check::new("largest contact force / weight", share, 1.9, p, |r| {
+                    r.max("n", 0.0, 0.2)
+                })
+                .mark("n", 0.05),
+                Check::new("smallest contact force / weight", share, 0.1, p, |r| {
+                    r.min("n", 0.0, 0.2)
+                })
+                .mark("n", 0.15),
                 Check::new("largest gap", METRE, 0.0, 0.0, |r| r.max("z", 0.0, 0.26).max(0.0))
                     .absolute(),
             ],

@@ -2,9 +2,10 @@
 //! load that varies: it must stay where the static solution is, so both solvers confirm it.
 
 use super::set;
+use super::sliding::coulomb;
 use crate::case::BOTH;
-use crate::unit::{INCH, JOULE, KIP, METRE, POUND_FORCE, SECOND};
-use crate::{Case, Check};
+use crate::unit::{INCH, JOULE, KIP, METRE, NEWTON, POUND_FORCE, SECOND};
+use crate::{Case, Check, Curve, View};
 use std::f64::consts::TAU;
 
 /// A bar that shortens by cooling until a hook at its end holds it; the strain is a force.
@@ -146,7 +147,11 @@ const PENDULUM: &str = r#"(
             supports: [(node: "led", dof: Ux, displacement: "cycle")],
         ),
     },
-    outputs: { "u": Displacement(node: "free", dof: Ux) },
+    outputs: {
+        "u": Displacement(node: "free", dof: Ux),
+        "led": Displacement(node: "led", dof: Ux),
+        "force": LinkForce(link: "led", axis: U2),
+    },
 )"#;
 
 /// The pendulum without friction starts in its dynamic analysis: a static one has nothing to hold it.
@@ -186,7 +191,7 @@ fn lk2() -> Case {
         text: HOOK.into(),
         set: Vec::new(),
         solvers: BOTH,
-        view: crate::View::default(),
+        view: View::histories([Curve::new("hook", KIP).against(move |_| force)]),
         checks: vec![
             Check::new("hook force", KIP, force, 1e-4, |r| r.at("hook", 0.0)),
             Check::new("hook force after 0.1 s", KIP, force, 1e-4, |r| r.last("hook")),
@@ -203,7 +208,7 @@ fn lk3() -> Case {
         text: GAP.into(),
         set: Vec::new(),
         solvers: BOTH,
-        view: crate::View::default(),
+        view: View::histories([Curve::new("stop", POUND_FORCE).against(|_| -6125.0)]),
         checks: vec![
             Check::new("stop force", POUND_FORCE, -6125.0, 1e-3, |r| r.at("stop", 0.0)).published(),
             Check::new("stop force after 10 ms", POUND_FORCE, -6125.0, 1e-3, |r| r.last("stop"))
@@ -240,16 +245,28 @@ fn sl10() -> Case {
 }
 
 fn lk11() -> Vec<Case> {
-    let case = |id, title, set, checks| Case {
+    let case = |id, title, set, checks, view| Case {
         id,
         title,
         source: "Friction pendulum: F = (W/R) u + μ W sgn(v)",
         text: PENDULUM.into(),
         set,
         solvers: BOTH,
-        view: crate::View::default(),
+        view,
         checks,
     };
+    let cycle = |slow: f64| {
+        let point = |i: u32| {
+            let (s, c) = (TAU * f64::from(i) / 720.0).sin_cos();
+            let v = 0.1 * TAU * c;
+            let mu = 0.06 - (0.06 - slow) * (-20.0 * v.abs()).exp();
+            (0.1 * s, 1e6 * (0.1 * s / 1.5 + mu * v.signum()))
+        };
+        let reference = (0..=720).map(point).collect();
+        View::Path { x: ("led", METRE), y: ("force", NEWTON), reference }
+    };
+    let w = (9.80665_f64 / 1.5).sqrt();
+    let release = Curve::new("u", METRE).against(coulomb(0.25, 0.09, w)).in_analysis("release");
     let p = 5e-3;
     let loop_area = Check::new("energy of a cycle", JOULE, 24_000.0, p, |r| r.heat("led"));
     let graded = Check::new("energy of a cycle", JOULE, 23_922.377, p, |r| r.heat("led"));
@@ -260,16 +277,21 @@ fn lk11() -> Vec<Case> {
             Vec::new(),
             vec![
                 Check::new("turning point", METRE, -0.07, p, |r| r.min("u", 0.0, 5.0))
-                    .in_analysis("release"),
-                Check::new("u at rest", METRE, -0.07, p, |r| r.last("u")).in_analysis("release"),
+                    .in_analysis("release")
+                    .mark("u", 0.5 * TAU / w),
+                Check::new("u at rest", METRE, -0.07, p, |r| r.last("u"))
+                    .in_analysis("release")
+                    .mark("u", 5.0),
                 loop_area.in_analysis("cycle"),
             ],
+            View::Several(vec![View::histories([release]), cycle(0.06)]),
         ),
         case(
             "LK-11b",
             "Friction that depends on speed through a cycle",
             vec![set("mu_slow", 0.03)],
             vec![graded.in_analysis("cycle")],
+            cycle(0.03),
         ),
         Case {
             id: "LK-11c",
@@ -278,7 +300,7 @@ fn lk11() -> Vec<Case> {
             text: SMOOTH.into(),
             set: Vec::new(),
             solvers: BOTH,
-            view: crate::View::default(),
+            view: View::histories([Curve::new("u", METRE).against(move |t| 0.25 * (w * t).cos())]),
             checks: vec![Check::new("period", SECOND, TAU * (1.5_f64 / 9.80665).sqrt(), p, |r| {
                 2.0 * (r.crossing("u", 0.0, 1) - r.crossing("u", 0.0, 0))
             })],

@@ -90,6 +90,30 @@ pub(super) fn pushing(z: f64) -> f64 {
     (-(z / q) * ((z + q) / (z - q)).ln()).exp()
 }
 
+/// Restitution as a function of the damping ratio.
+pub(super) type Law = fn(f64) -> f64;
+
+/// Speed over time of a unit impact of frequency `w` and damping `z` at time 0, 1 before.
+pub(super) fn impact_speed(w: f64, z: f64, law: Law) -> impl Fn(f64) -> f64 + Copy {
+    // All restitutions are exp(−ζ ω t) at the end t of the contact.
+    let end = -law(z).ln() / (z * w);
+    let q = (z * z - 1.0).abs().sqrt();
+    move |t| {
+        if t <= 0.0 {
+            return 1.0;
+        }
+        if t > end {
+            return -law(z);
+        }
+        let (even, odd) = match q * w * t {
+            _ if q == 0.0 => (1.0, w * t),
+            x if z < 1.0 => (x.cos(), x.sin() / q),
+            x => (x.cosh(), x.sinh() / q),
+        };
+        (-z * w * t).exp() * (even - z * odd)
+    }
+}
+
 pub(super) fn cases() -> Vec<Case> {
     let mut all = im1();
     all.extend(im2());
@@ -103,6 +127,11 @@ fn im1() -> Vec<Case> {
             Check::new(format!("restitution, ζ = {z}{what}"), NUMBER, e, 1e-3, move |r| {
                 r.last(name)
             })
+            .mark(name, 0.1)
+        };
+        let shown = |name: &'static str, z: f64, start: f64| {
+            let v = impact_speed(100.0, z, if pull { pulling } else { pushing });
+            Curve::new(name, SPEED).against(move |t| -v(t - start)).over(0.0, 0.1)
         };
         Case {
             id,
@@ -116,7 +145,11 @@ fn im1() -> Vec<Case> {
                 set("z3", z[2].0),
             ],
             solvers: BOTH,
-            view: View::histories([Curve::new("a", SPEED), Curve::new("c", SPEED)]),
+            view: View::histories([
+                shown("a", z[0].0, 0.02),
+                shown("b", z[1].0, 0.03),
+                shown("c", z[2].0, 0.04),
+            ]),
             checks: vec![
                 check("a", "", z[0]),
                 check("b", "", z[1]),

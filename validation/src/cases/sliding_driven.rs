@@ -1,6 +1,7 @@
 //! Friction under steady shaking, pulses, and at the edge of slip.
 
 use super::set;
+use super::sliding::Slider;
 use crate::case::BOTH;
 use crate::unit::{METRE, NEWTON, NUMBER, SECOND, SPEED, Unit};
 use crate::{Case, Check, Curve, View};
@@ -152,7 +153,10 @@ fn sl4() -> Vec<Case> {
         set: vec![set("a", a), set("tolerance", tolerance)],
         solvers: BOTH,
         checks,
-        view: View::histories([Curve::new("u", METRE)]),
+        view: View::histories([{
+            let slider = Slider::new(a, TAU, f64::INFINITY, 1.0, 4.0);
+            Curve::new("u", METRE).against(move |t| slider.at(t)).over(0.0, 4.0)
+        }]),
     };
     let mean = |reference: f64, tolerance: f64| {
         Check::new("mean of N |v|", WATT, reference, tolerance, |r| power(r, 4.0, 12.0)).published()
@@ -208,14 +212,6 @@ fn stop(r: &crate::Trace) -> f64 {
 fn sl5() -> Vec<Case> {
     let p = 2e-3;
     let (mu, a, w) = (0.2 * G, 1.5 * G, 10.0 * PI);
-    let start = (mu / a).asin() / w;
-    // First slip: u̇ = −[A/ω (cos ωt₀ − cos ωt) − μg (t − t₀)].
-    let first = move |t: f64| {
-        let s = t - start;
-        let table =
-            a / (w * w) * ((w * start).sin() - (w * t).sin()) + a / w * s * (w * start).cos();
-        if s < 0.0 { 0.0 } else { 0.5 * mu * s * s - table }
-    };
     // Steady slip range 2 (A/ω²) √(1 − (π μ g/2A)²).
     let range = 2.0 * a / (w * w) * (1.0 - (FRAC_PI_2 * mu / a).powi(2)).sqrt();
     let case = |id, title, source, cycles: f64, duration: f64, end: f64, checks| Case {
@@ -226,9 +222,10 @@ fn sl5() -> Vec<Case> {
         set: vec![set("cycles", cycles), set("duration", duration)],
         solvers: BOTH,
         checks,
-        view: View::histories([Curve::new("u", METRE)
-            .over(0.0, end)
-            .against(move |t| if t < 0.1 { first(t) } else { f64::NAN })]),
+        view: View::histories([{
+            let slider = Slider::new(a, w, cycles * TAU / w, mu, end);
+            Curve::new("u", METRE).over(0.0, end).against(move |t| slider.at(t))
+        }]),
     };
     let integrated = "Slip under 1.5 g, 5 Hz with μ = 0.2, piece by piece";
     let mut continuing = vec![
@@ -318,6 +315,13 @@ fn sl8() -> Vec<Case> {
         let u = (PI / r).sin() / (r * (1.0 + (PI / r).cos()));
         let amplitude = (v * v - f * f * u * u).sqrt();
         let end = 120.0 * TAU / (100.0 * r);
+        // Half a cycle from a turning point on, in units of P/k and of 1/ω₀; the load leads by `lead`.
+        let lead = (-f * u / v).asin();
+        let half = move |t: f64| v * (r * t + lead).cos() + f * (1.0 - t.cos() - r * u * t.sin());
+        let steady = move |t: f64| {
+            let phase = (100.0 * r * t - lead).rem_euclid(TAU);
+            0.01 * if phase < PI { half(phase / r) } else { -half((phase - PI) / r) }
+        };
         Case {
             id,
             title: "Steady vibration with Coulomb friction, motion without stops",
@@ -332,7 +336,7 @@ fn sl8() -> Vec<Case> {
                 5e-3,
                 move |t| t.peak("u", end * 0.98, end) * 1e4 / 100.0,
             )],
-            view: View::histories([Curve::new("u", METRE).over(0.9 * end, end)]),
+            view: View::histories([Curve::new("u", METRE).against(steady).over(0.97 * end, end)]),
         }
     };
     vec![

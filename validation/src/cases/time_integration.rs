@@ -2,8 +2,8 @@
 
 use super::set;
 use crate::case::BOTH;
-use crate::unit::{METRE, NUMBER};
-use crate::{Case, Check, Solver, Trace};
+use crate::unit::{METRE, NUMBER, SPEED, Unit};
+use crate::{Case, Check, Curve, Solver, Trace, View};
 use std::f64::consts::{PI, TAU};
 
 const CHOPRA: &str = r#"(
@@ -95,7 +95,9 @@ pub(super) fn cases() -> Vec<Case> {
 fn steps(name: &'static str, what: &str, values: [f64; 10]) -> Vec<Check> {
     let one = |(i, x): (usize, f64)| {
         let t = 0.1 * (i + 1) as f64;
-        Check::new(format!("{what}({t:.1})"), METRE, x, 2e-4, move |r| r.at(name, t)).absolute()
+        Check::new(format!("{what}({t:.1})"), METRE, x, 2e-4, move |r| r.at(name, t))
+            .absolute()
+            .mark(name, t)
     };
     values.into_iter().enumerate().map(one).collect()
 }
@@ -112,12 +114,26 @@ fn ti1_rule() -> Case {
         text: CHOPRA.into(),
         set: Vec::new(),
         solvers: &[Solver::Hht],
-        view: crate::View::default(),
+        view: View::histories([Curve::new("u", METRE), Curve::new("v", SPEED)]),
         checks: checks.into_iter().map(Check::published).collect(),
     }
 }
 
 fn ti1_exact() -> Case {
+    // Two sines, the second from the end of the half sine on.
+    let (m, k, p, z): (f64, f64, f64, f64) = (0.2533, 10.0, PI / 0.6, 0.05);
+    let w = (k / m).sqrt();
+    let sine = move |t: f64| {
+        if t < 0.0 {
+            return 0.0;
+        }
+        let (r, wd) = (p / w, w * (1.0 - z * z).sqrt());
+        let d = (1.0 - r * r).powi(2) + (2.0 * z * r).powi(2);
+        let (s, c) = ((1.0 - r * r) / d, -2.0 * z * r / d);
+        let free = -c * (wd * t).cos() - (p * s + z * w * c) / wd * (wd * t).sin();
+        s * (p * t).sin() + c * (p * t).cos() + (-z * w * t).exp() * free
+    };
+    let exact = move |t: f64| sine(t) + sine(t - 0.6);
     let u =
         [0.0328, 0.23317, 0.64874, 1.16049, 1.52415, 1.48135, 0.92451, 0.05931, -0.77516, -1.27183];
     Case {
@@ -127,7 +143,7 @@ fn ti1_exact() -> Case {
         text: CHOPRA.into(),
         set: vec![set("substeps", 100)],
         solvers: BOTH,
-        view: crate::View::default(),
+        view: View::histories([Curve::new("u", METRE).against(exact)]),
         checks: steps("u", "u", u),
     }
 }
@@ -187,18 +203,22 @@ fn ti2() -> Vec<Case> {
 }
 
 fn ti3() -> Case {
+    let d = 1.0 - 1.44;
+    let u = move |t: f64| ((1.2 * t).sin() - 1.2 * t.sin()) / d;
+    let v = move |t: f64| (1.2 * (1.2 * t).cos() - 1.2 * t.cos()) / d;
     let mut checks = Vec::new();
     for t in [1.0_f64, 2.0, 5.0, 10.0] {
-        let d = 1.0 - 1.44;
-        let u = ((1.2 * t).sin() - 1.2 * t.sin()) / d;
-        let v = (1.2 * (1.2 * t).cos() - 1.2 * t.cos()) / d;
         // The stiff mode starts with 3.8e-4 m and leaves the soft mass alone to 1e-6; the step of
         // 0.01 s costs average acceleration 2e-4.
         checks.push(
-            Check::new(format!("u₃({t})"), METRE, u, 5e-4, move |r| r.at("u3", t)).absolute(),
+            Check::new(format!("u₃({t})"), METRE, u(t), 5e-4, move |r| r.at("u3", t))
+                .absolute()
+                .mark("u3", t),
         );
         checks.push(
-            Check::new(format!("v₃({t})"), METRE, v, 5e-4, move |r| r.at("v3", t)).absolute(),
+            Check::new(format!("v₃({t})"), METRE, v(t), 5e-4, move |r| r.at("v3", t))
+                .absolute()
+                .mark("v3", t),
         );
     }
     Case {
@@ -208,12 +228,17 @@ fn ti3() -> Case {
         text: STIFF_SOFT.into(),
         set: Vec::new(),
         solvers: BOTH,
-        view: crate::View::default(),
+        view: View::histories([
+            Curve::new("u3", METRE).against(u),
+            Curve::new("v3", SPEED).against(v),
+        ]),
         checks,
     }
 }
 
 fn ti5() -> Vec<Case> {
+    // Of the static displacement, 1 in.
+    let share = Unit { si: 0.0254, ..NUMBER };
     let case = |id, rise: f64, times: Vec<f64>| {
         let u = move |t: f64| {
             if t <= rise {
@@ -229,15 +254,16 @@ fn ti5() -> Vec<Case> {
             text: RAMP.into(),
             set: vec![set("rise", rise)],
             solvers: BOTH,
-            view: crate::View::default(),
+            view: View::histories([Curve::new("u", share).against(u)]),
             checks: times
                 .into_iter()
                 .map(|t| {
                     // 1e-4 of the static displacement.
-                    Check::new(format!("u({t:.4}) k/p₀"), NUMBER, u(t), 1e-4, move |r| {
-                        r.at("u", t) / 0.0254
+                    Check::new(format!("u({t:.4}) k/p₀"), share, u(t), 1e-4, move |r| {
+                        r.at("u", t)
                     })
                     .absolute()
+                    .mark("u", t)
                 })
                 .collect(),
         }
