@@ -1,7 +1,7 @@
 //! A case: a model text, what is measured in its run, and what the measurement must give.
 
 use crate::{Outcome, Row, Trace, Unit, figures};
-use trilith::{Analysis, SolverKind};
+use trilith::{Analysis, Registry, SolverKind};
 
 /// Where a reference value comes from.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -303,15 +303,21 @@ impl Case {
     /// Runs the case under each of its solvers.
     #[must_use]
     pub fn run(&self) -> Outcome {
-        match self.compute() {
+        self.run_with(&trilith::registry())
+    }
+
+    /// The same with other kinds of elements than the built-in ones.
+    #[must_use]
+    pub fn run_with(&self, kinds: &Registry) -> Outcome {
+        match self.compute(kinds) {
             Ok((rows, figures)) => Outcome { figures, ..self.outcome(rows) },
             Err(reason) => self.failed(&reason),
         }
     }
 
     /// Rows and figures of the runs.
-    fn compute(&self) -> Result<(Vec<Row>, Vec<trilith_report::Figure>), String> {
-        let model = crate::trace::read(&self.text, self.id, &self.set)?;
+    fn compute(&self, kinds: &Registry) -> Result<(Vec<Row>, Vec<trilith_report::Figure>), String> {
+        let model = crate::trace::read_with(kinds, &self.text, self.id, &self.set)?;
         let analysis = Analysis::new(&model).map_err(|e| e.to_string())?;
         let mut names: Vec<Option<&'static str>> = Vec::new();
         for name in self.checks.iter().map(|c| c.analysis).chain(self.view.analyses()) {
@@ -360,6 +366,7 @@ impl Case {
             rows,
             figures: Vec::new(),
             unavailable: None,
+            tables: Vec::new(),
         }
     }
 

@@ -16,7 +16,7 @@ mod trace;
 pub mod unit;
 
 pub use case::{Case, Check, Claim, Curve, Kind, Mark, Solver, Tolerance, View};
-pub use outcome::{Outcome, Row};
+pub use outcome::{Outcome, Row, Table};
 pub use study::{Findings, Study};
 pub use trace::Trace;
 pub use unit::Unit;

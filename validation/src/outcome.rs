@@ -21,6 +21,17 @@ pub struct Outcome {
     pub figures: Vec<Figure>,
     /// Why it could not be made here: what it needs is not part of the project and was not found.
     pub unavailable: Option<String>,
+    /// Tables of what was measured without a verdict.
+    pub tables: Vec<Table>,
+}
+
+/// A table with a row of heads.
+#[derive(Clone, Debug)]
+pub struct Table {
+    /// Heads of the columns.
+    pub head: Vec<String>,
+    /// Rows.
+    pub rows: Vec<Vec<String>>,
 }
 
 impl Outcome {
@@ -33,7 +44,8 @@ impl Outcome {
         reason: &str,
     ) -> Self {
         let (text, rows, figures) = (vec![format!("Not run: {reason}.")], Vec::new(), Vec::new());
-        Self { id, title, source, text, rows, figures, unavailable: Some(reason.to_owned()) }
+        let (tables, unavailable) = (Vec::new(), Some(reason.to_owned()));
+        Self { id, title, source, text, rows, figures, tables, unavailable }
     }
 
     /// True where every comparison passes, and there is one.

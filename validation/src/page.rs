@@ -30,6 +30,10 @@ pub(crate) fn html(outcomes: &[Outcome]) -> String {
             page = page.section(section);
             continue;
         }
+        for table in &o.tables {
+            let (head, rows) = (table.head.clone(), table.rows.clone());
+            section = section.block(Block::Table { head, rows });
+        }
         let lines = lines(&o.rows);
         let rows = lines.iter().enumerate().map(|(i, l)| {
             let number = std::iter::once((i + 1).to_string());

@@ -185,6 +185,14 @@ pub fn markdown(outcomes: &[Outcome]) -> String {
         if o.unavailable.is_some() {
             continue;
         }
+        for table in &o.tables {
+            let columns = table.head.len();
+            let _ = writeln!(out, "| {} |\n|{}", table.head.join(" | "), "---|".repeat(columns));
+            for row in &table.rows {
+                let _ = writeln!(out, "| {} |", row.join(" | "));
+            }
+            out.push('\n');
+        }
         let _ = writeln!(out, "| {} |\n|{}", HEADER[1..].join(" | "), "---|".repeat(8));
         for line in lines(&o.rows) {
             let _ = writeln!(out, "| {} |", line.cells()[1..].join(" | "));

@@ -1,7 +1,7 @@
 //! A study: many runs behind one statement.
 
 use crate::case::{Claim, Kind, Tolerance};
-use crate::{Outcome, Row};
+use crate::{Outcome, Row, Table};
 use trilith_report::Figure;
 
 /// A study.
@@ -22,6 +22,7 @@ pub struct Study {
 pub struct Findings {
     text: Vec<String>,
     figures: Vec<Figure>,
+    tables: Vec<Table>,
     claims: Vec<(Claim, String, f64)>,
 }
 
@@ -34,6 +35,12 @@ impl Findings {
     /// Adds a figure.
     pub fn figure(&mut self, figure: Figure) {
         self.figures.push(figure);
+    }
+
+    /// Adds a table of what was measured without a verdict, such as times.
+    pub fn table(&mut self, head: &[&str], rows: Vec<Vec<String>>) {
+        let head = head.iter().map(|h| (*h).to_owned()).collect();
+        self.tables.push(Table { head, rows });
     }
 
     /// Compares a value with a reference. `solver`: what gave the value.
@@ -64,7 +71,8 @@ impl Study {
         let rows = found.claims.into_iter().map(|(claim, solver, value)| {
             Row::new(self.id, self.source, claim, &solver, value, None)
         });
-        Outcome { text: found.text, figures: found.figures, ..self.outcome(rows.collect()) }
+        let rows = self.outcome(rows.collect());
+        Outcome { text: found.text, figures: found.figures, tables: found.tables, ..rows }
     }
 
     /// A study that could not be made.
@@ -91,6 +99,7 @@ impl Study {
             rows,
             figures: Vec::new(),
             unavailable: None,
+            tables: Vec::new(),
         }
     }
 }

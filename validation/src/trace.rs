@@ -4,7 +4,7 @@ use trilith::solvers::{
     BasisReport, ContactMode, ContactSummary, EnergyTotals, LinkEnergy, Observer, RunOptions,
     Sample, Status, Work,
 };
-use trilith::{Analysis, Model, SolverKind};
+use trilith::{Analysis, Model, Registry, SolverKind};
 
 /// What a run showed.
 #[derive(Clone, Debug, Default)]
@@ -15,6 +15,8 @@ pub struct Trace {
     rates: Vec<Vec<f64>>,
     energy: Vec<EnergyTotals>,
     links: Vec<(String, LinkEnergy)>,
+    /// Number of equations of the structure.
+    pub equations: usize,
     /// How the contacts behaved.
     pub contact: Option<ContactSummary>,
     /// The basis.
@@ -48,12 +50,25 @@ impl Observer for Trace {
     }
 }
 
-/// Reads the text of a model.
+/// Reads the text of a model of built-in kinds.
 ///
 /// # Errors
 /// All its diagnostics in one line.
 pub fn read(text: &str, id: &str, set: &[(String, String)]) -> Result<Model, String> {
-    trilith::read_text(text, format!("{id}.ron"), &trilith::registry(), set)
+    read_with(&trilith::registry(), text, id, set)
+}
+
+/// Reads the text of a model of these kinds.
+///
+/// # Errors
+/// All its diagnostics in one line.
+pub fn read_with(
+    kinds: &Registry,
+    text: &str,
+    id: &str,
+    set: &[(String, String)],
+) -> Result<Model, String> {
+    trilith::read_text(text, format!("{id}.ron"), kinds, set)
         .map_err(|errors| errors.iter().map(ToString::to_string).collect::<Vec<_>>().join("; "))
 }
 
@@ -96,6 +111,7 @@ impl Trace {
             names: model.outputs.iter().map(|o| o.name.clone()).collect(),
             ..Self::default()
         };
+        trace.equations = analysis.system().order();
         let mut contact = ContactMode::new();
         let options =
             RunOptions { case: index(model, name)?, solver: Some(solver), ..RunOptions::default() };
@@ -125,6 +141,12 @@ impl Trace {
     pub fn history(&self, name: &str) -> Vec<(f64, f64)> {
         let Some(c) = self.index(name) else { return Vec::new() };
         self.time.iter().zip(&self.values).map(|(t, v)| (*t, v[c])).collect()
+    }
+
+    /// Names of the outputs.
+    #[must_use]
+    pub fn outputs(&self) -> &[String] {
+        &self.names
     }
 
     /// (time, energies) at every substep.

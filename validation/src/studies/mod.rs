@@ -1,11 +1,26 @@
 //! The studies, one file a subject.
 
+mod agreement;
+mod basis;
 mod calibration;
+mod convergence;
+mod frames;
+mod numerical_damping;
+mod runs;
+mod sensitivity;
 
 use crate::Study;
 
 /// All studies.
 #[must_use]
 pub fn all() -> Vec<Study> {
-    [&calibration::STUDIES[..]].concat()
+    [
+        &agreement::STUDIES[..],
+        &basis::STUDIES,
+        &sensitivity::STUDIES,
+        &numerical_damping::STUDIES,
+        &convergence::STUDIES,
+        &calibration::STUDIES,
+    ]
+    .concat()
 }
