@@ -51,11 +51,13 @@ pub fn lowest_modes(
                 iterations: kept,
             });
         }
+        // The projected problem is solved no better than to the rounding of its largest value.
+        let largest = values.last().map_or(0.0, |v| v.abs());
         let settled = before.len() == values.len()
             && values[..count]
                 .iter()
                 .zip(&before)
-                .all(|(a, b)| (a - b).abs() <= 1e-13 * a.abs().max(values[count - 1].abs() * 1e-3));
+                .all(|(a, b)| (a - b).abs() <= 1e-12 * a.abs().max(1e-2 * largest));
         if settled {
             let found = Dense::from_columns(n, count, vectors.values()[..n * count].to_vec());
             return Ok((values[..count].iter().map(|v| v + sigma).collect(), found));

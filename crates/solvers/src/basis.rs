@@ -32,6 +32,8 @@ const KEEP: f64 = 1e-8;
 /// A static shape of a place with next to no mass is not a mode: faster than this (rad/s) it would only
 /// spoil the digits of the slow ones.
 const FASTEST: f64 = 1e6;
+/// A strain energy below this share of the sum of its terms is rounding: the motion is free.
+const ROUNDING: f64 = 1e-13;
 /// Automatic dummies as a share of the engaged stiffness of a link.
 const DUMMY_SHARE: f64 = 1e-3;
 
@@ -121,20 +123,44 @@ fn modes_in(
 ) -> Result<RitzBasis, SolveError> {
     let statics = massless::shapes(system, k, loads)?;
     let span = massless::without(&statics, k, span);
-    let (mut omega2, rotation) = symmetric_eigen(&congruence(k, &span))?;
-    let rounding = 1e-14 * omega2.len() as f64 * omega2.last().copied().unwrap_or(0.0).abs();
-    for w in &mut omega2 {
-        if w.abs() <= rounding {
+    let (mut omega2, vectors) = graded_modes(span, k)?;
+    for (j, w) in omega2.iter_mut().enumerate() {
+        let x = vectors.column(j);
+        let terms: f64 = k.entries().map(|(i, l, a)| (a * x[i] * x[l]).abs()).sum();
+        if w.abs() <= ROUNDING * terms {
             *w = 0.0;
         }
     }
-    let vectors = span.times(&rotation);
     let statics = massless::uncoupled(&statics, &system.damping, &vectors);
     let mut images = statics.clone();
     for j in 0..images.columns() {
         images.column_mut(j).copy_from_slice(&k.mul(statics.column(j)));
     }
     Ok(RitzBasis { vectors, omega2, statics, images })
+}
+
+/// Modes in a span of M-orthonormal vectors, rising. An eigenvalue is found no better than the rounding of
+/// the largest one, so the slow modes are found once more among themselves, until there is no such gap.
+fn graded_modes(span: Dense, k: &Sparse) -> Result<(Vec<f64>, Dense), SolveError> {
+    const GAP: f64 = 1e-5;
+    let (mut omega2, rotation) = symmetric_eigen(&congruence(k, &span))?;
+    let mut vectors = span.times(&rotation);
+    let mut count = omega2.len();
+    loop {
+        let largest = omega2[..count].last().copied().unwrap_or(0.0);
+        let slow = omega2[..count].iter().filter(|w| **w < GAP * largest).count();
+        if slow == 0 || slow == count {
+            return Ok((omega2, vectors));
+        }
+        count = slow;
+        let values = vectors.values()[..count * vectors.rows()].to_vec();
+        let part = Dense::from_columns(vectors.rows(), count, values);
+        let (again, rotation) = symmetric_eigen(&congruence(k, &part))?;
+        let part = part.times(&rotation);
+        let length = part.values().len();
+        vectors.values_mut()[..length].copy_from_slice(part.values());
+        omega2[..count].copy_from_slice(&again);
+    }
 }
 
 fn enriched(
@@ -239,7 +265,8 @@ impl<'a> Span<'a> {
                     break;
                 }
                 hat.factor.solve(&mut x);
-                if self.take(x, None) {
+                // Where the loads have shown all they can, what is left of a vector is rounding.
+                if self.take(x, Some(&hat.k)) {
                     next.push(self.images[self.len() - 1].clone());
                 }
             }
