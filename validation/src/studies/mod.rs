@@ -7,6 +7,7 @@ mod convergence;
 mod frames;
 mod numerical_damping;
 mod runs;
+mod seed;
 mod sensitivity;
 
 use crate::Study;
@@ -15,7 +16,8 @@ use crate::Study;
 #[must_use]
 pub fn all() -> Vec<Study> {
     [
-        &agreement::STUDIES[..],
+        &seed::studies()[..],
+        &agreement::STUDIES,
         &basis::STUDIES,
         &sensitivity::STUDIES,
         &numerical_damping::STUDIES,
