@@ -3,17 +3,20 @@
 use trilith::calibrate::{CalibrationError, Calibrator, Horizontal};
 use trilith_tests::{parse, registry, shipped, shipped_text};
 
-/// Masses worked out for the contacts of a model: (together, alone) each.
-fn masses(text: &str) -> Vec<(Option<f64>, f64)> {
+/// Masses that strike a contact: together with the others, alone.
+type Masses = (Option<f64>, f64);
+
+/// Masses worked out for the contacts of a model.
+fn masses(text: &str) -> Vec<Masses> {
     let (model, system) = parse(text, &[]);
     let all = system.impact_masses(&model).expect("masses");
     all.iter().map(|m| (m.together, m.alone)).collect()
 }
 
 #[track_caller]
-fn near(found: &[(Option<f64>, f64)], wanted: &[(Option<f64>, f64)]) {
+fn near(found: &[Masses], wanted: &[Masses]) {
     let close = |a: f64, b: f64| (a - b).abs() <= 1e-9 * b.abs();
-    let same = |(f, w): (&(Option<f64>, f64), &(Option<f64>, f64))| {
+    let same = |(f, w): (&Masses, &Masses)| {
         close(f.1, w.1)
             && match (f.0, w.0) {
                 (Some(a), Some(b)) => close(a, b),
