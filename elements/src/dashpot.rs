@@ -27,11 +27,9 @@
 //!
 //! Reference: \[Soong & Dargush 1997, ch. 6\]; contact variant \[Wilson 2002, ch. 21\].
 
-use crate::restitution::damping_ratio;
+use crate::restitution::{IMPACT_MASS, damping_ratio, restitution};
 use serde::Deserialize;
-use trilith_element::dimension::{
-    FORCE, FREQUENCY, LENGTH, MASS, MOMENT, NONE, STIFFNESS, VELOCITY,
-};
+use trilith_element::dimension::{FORCE, FREQUENCY, LENGTH, MOMENT, NONE, STIFFNESS, VELOCITY};
 use trilith_element::{
     Axis, Card, Category, Contact, Coordinates, Default, Described, Form, Impact, Kinematics, Link,
     NodeCount, Parameter, ParameterError, Range, Response,
@@ -116,20 +114,8 @@ impl Described for Dashpot {
                 0.0,
                 "spring of the contact",
             ),
-            Parameter::optional(
-                "restitution",
-                "e",
-                NONE,
-                Range::Above(0.0, 1.0),
-                "instead of `c`, in contact: speed after over speed before an impact",
-            ),
-            Parameter::optional(
-                "impact_mass",
-                "m",
-                MASS,
-                Range::Positive,
-                "mass that strikes, for `restitution`; none: worked out from the structure",
-            ),
+            restitution("instead of `c`, in contact: speed after over speed before an impact"),
+            IMPACT_MASS,
             Parameter::flag("pull", false, "the total force may pull while closed"),
             Parameter::number(
                 "linear_below",

@@ -51,9 +51,10 @@ mod tests;
 
 pub use law::NLinkHistory;
 
+use crate::restitution::{IMPACT_MASS, restitution};
 use serde::Deserialize;
 use trilith_element::dimension::{
-    DAMPING, INVERSE_VELOCITY, LENGTH, MASS, NONE, ROTATIONAL_STIFFNESS, STIFFNESS,
+    DAMPING, INVERSE_VELOCITY, LENGTH, NONE, ROTATIONAL_STIFFNESS, STIFFNESS,
 };
 use trilith_element::{
     Axis, Card, Category, Described, NodeCount, Parameter, ParameterError, Range,
@@ -134,20 +135,8 @@ impl Described for NLink {
                 0.0,
                 "contact dashpot, acts only while closed",
             ),
-            Parameter::optional(
-                "restitution",
-                "e",
-                NONE,
-                Range::Above(0.0, 1.0),
-                "instead of `damping`: speed after over speed before an impact",
-            ),
-            Parameter::optional(
-                "impact_mass",
-                "m",
-                MASS,
-                Range::Positive,
-                "mass that strikes, for `restitution`; none: worked out from the structure",
-            ),
+            restitution("instead of `damping`: speed after over speed before an impact"),
+            IMPACT_MASS,
             Parameter::flag("pull", false, "the dashpot may pull while the gap is closed"),
             Parameter::optional(
                 "mu",

@@ -1,6 +1,6 @@
 //! Units of measurement and what bare numbers of a file mean.
 
-use crate::expression::{Quantity, Scope, evaluate};
+use crate::expression::{NoNames, evaluate};
 use trilith_element::Dimension;
 use trilith_element::dimension as d;
 
@@ -71,22 +71,10 @@ pub(crate) fn find(name: &str) -> Option<&'static Unit> {
 
 /// The dimension of a unit as [`Dimension::unit`] writes it.
 pub(crate) fn dimension(text: &str) -> Option<Dimension> {
-    struct Nothing;
-    impl Scope for Nothing {
-        fn names(&self) -> Vec<&str> {
-            Vec::new()
-        }
-        fn has(&self, _: &str) -> bool {
-            false
-        }
-        fn value(&mut self, _: &str) -> Result<Quantity, Option<(&'static str, String)>> {
-            Err(None)
-        }
-    }
     if text == "1" {
         return Some(d::NONE);
     }
-    evaluate(&format!("1 {text}"), &mut Nothing).ok().map(|q| q.dimension)
+    evaluate(&format!("1 {text}"), &mut NoNames).ok().map(|q| q.dimension)
 }
 
 /// What bare numbers of a file are measured in, as SI factors.

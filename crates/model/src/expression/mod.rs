@@ -101,7 +101,7 @@ pub fn quantity(text: &str, dimension: Dimension) -> Result<f64, String> {
 }
 
 /// A scope without parameters.
-struct NoNames;
+pub(crate) struct NoNames;
 
 impl Scope for NoNames {
     fn names(&self) -> Vec<&str> {
