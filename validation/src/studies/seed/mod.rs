@@ -5,8 +5,11 @@
 //! event-driven program for the block of the shipped models.
 
 mod chart;
+mod compliant;
 mod drop;
 mod energy;
+mod modes;
+mod plots;
 mod pulse;
 mod reference;
 mod rocking;
@@ -14,8 +17,12 @@ mod statics;
 mod vertical;
 
 use crate::{Study, Trace};
+use trilith::model::{Analysis, TimeFunction};
 use trilith::{Model, SolverKind};
 
+/// Title of the paper.
+const PAPER: &str = "Methodology for Prediction of Sliding and Rocking of Rigid Bodies Using Fast \
+                     Non-Linear Analysis (FNA) Formulation";
 /// The shipped block under sine pulses.
 const BLOCK: &str = include_str!("../../../../models/rigid_block.ron");
 /// The shipped block that is lifted and dropped.
@@ -29,6 +36,8 @@ pub(super) fn studies() -> Vec<Study> {
     // The charts take longest.
     let parts = [
         chart::studies(),
+        compliant::studies(),
+        modes::studies(),
         pulse::studies(),
         vertical::studies(),
         drop::studies(),
@@ -55,7 +64,18 @@ fn run(
     }
 }
 
-/// Metres as millimetres.
-fn millimetres(points: Vec<(f64, f64)>) -> Vec<(f64, f64)> {
-    points.into_iter().map(|(t, z)| (t, 1e3 * z)).collect()
+/// Puts another function in the place of the one with this name.
+fn replace(model: &mut Model, name: &str, with: TimeFunction) {
+    for f in model.functions.iter_mut().filter(|f| f.name == name) {
+        f.function = with.clone();
+    }
+}
+
+/// Sets the output step of the dynamic case, s.
+fn step(model: &mut Model, dt: f64) {
+    for case in &mut model.cases {
+        if let Analysis::Dynamic(dynamic) = &mut case.analysis {
+            dynamic.dt = dt;
+        }
+    }
 }

@@ -25,6 +25,7 @@ pub(super) struct Case {
     #[serde(rename = "reference")]
     pub(super) peaks: Peaks,
     pub(super) energy: Energy,
+    pub(super) tolerance: Tolerances,
 }
 
 #[derive(Clone, Debug, Deserialize)]
@@ -59,6 +60,12 @@ pub(super) struct Energy {
     pub(super) dash_th: f64,
 }
 
+/// Three times the spread under changes of the parameters by 0.1 %, 2 % at least.
+#[derive(Clone, Debug, Deserialize)]
+pub(super) struct Tolerances {
+    pub(super) slide: f64,
+}
+
 /// Slide and corner heights (m) over time (s).
 #[derive(Clone, Debug, Deserialize)]
 pub(super) struct History {
@@ -79,14 +86,14 @@ pub(super) fn case(name: &str) -> Result<Case, String> {
     found.ok_or_else(|| format!("no reference `{name}`"))
 }
 
-/// The history of a case, where there is one.
-pub(super) fn history(name: &str) -> Result<Option<History>, String> {
+/// The history of a case.
+pub(super) fn history(name: &str) -> Result<History, String> {
     #[derive(Deserialize)]
     struct File {
         cases: BTreeMap<String, History>,
     }
     let mut file: File = serde_json::from_str(HISTORIES).map_err(|e| e.to_string())?;
-    Ok(file.cases.remove(name))
+    file.cases.remove(name).ok_or_else(|| format!("no history of `{name}`"))
 }
 
 impl Case {
