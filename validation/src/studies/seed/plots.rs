@@ -2,7 +2,7 @@
 
 use super::reference::History;
 use crate::{Trace, Unit};
-use trilith_report::Figure;
+use trilith_report::{Figure, Stroke};
 
 /// A millimetre.
 pub(super) const MILLIMETRE: Unit = Unit { name: "mm", si: 1e-3 };
@@ -31,7 +31,9 @@ impl Plot<'_> {
         for (output, name) in self.outputs {
             for (solver, trace) in seen {
                 let points = trace.history(output).into_iter().filter_map(shown);
-                figure = figure.line(format!("{name}{}", solver.to_uppercase()), points);
+                // Dashed, so that the first solver is seen beneath the second.
+                let stroke = if *solver == "fna" { Stroke::Line } else { Stroke::Dashes };
+                figure = figure.series(format!("{name}{}", solver.to_uppercase()), stroke, points);
             }
         }
         for (i, (output, _)) in self.outputs.iter().enumerate() {

@@ -55,8 +55,8 @@ fn work(f: &mut Findings) -> Result<(), String> {
          at the centre of gravity the ratio is the paper's.",
     );
     f.text(
-        "Small rotations: at this uplift, 0.15 of the rotation of overturning, the periods are 7 % \
-         shorter than with large rotations, whose rigid theory gives the ratio 0.570 by itself.",
+        "Small rotations: at this uplift, 0.16 of the rotation of overturning, the periods are about \
+         6 % shorter than with large rotations, whose rigid theory gives the ratio 0.570 by itself.",
     );
     for variant in VARIANTS {
         let (case, history) = (reference::case(variant.name)?, reference::history(variant.name)?);

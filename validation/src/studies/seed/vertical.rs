@@ -159,7 +159,7 @@ fn far_above(f: &mut Findings) -> Result<(), String> {
         "Free, the block begins to rock after a second or two although nothing pushes it sideways: of \
          a block on two corners the one that is lower by a hair strikes first and turns it further. At \
          2 g a rotation grows about 45-fold with every cycle, in an independent explicit integration \
-         of the same block too, so that a rounding error of 1e-16 is seen within 1.5 s, and what \
+         of the same block too, so that a rounding error of 1e-16 is seen within 2 s, and what \
          follows differs from solver to solver. At 1.5 g it grows about threefold: the 15 cycles of \
          FIG-8 stay without slide.",
     );
