@@ -217,6 +217,10 @@ fn draw(f: &mut Findings, chart: Chart) -> Result<(), String> {
              sine."
         }
     });
+    f.text(
+        "The contacts are stiff (0.25 µm static deflection) and damped so that they hardly ring: softer or \
+         less damped ones overshoot when the block begins to slide or rock, and move the borders (FIG-1f).",
+    );
     let all = POINTS * POINTS;
     f.text(format!(
         "{all} runs; {} points lie within {} % of a border and are not judged: {wrong_at_border} of \

@@ -21,6 +21,10 @@ enum Shown {
 pub(super) fn studies() -> Vec<Study> {
     let study = |id, title, work| Study { id, title, source: SOURCE, work };
     vec![
+        study("TAB-1a", "Case 1, 0.2 g, μ = 0.4: at rest", |f| {
+            f.text("What moves is the play of the contacts, hundredths of a millimetre.");
+            both_pulses(f, "h1", Shown::Slide)
+        }),
         study("FIG-3", "Sliding at the base, 1.5 g, μ = 0.2 (pure slide)", |f| {
             both_pulses(f, "h2", Shown::Slide)?;
             rigid_slide(f)

@@ -52,7 +52,7 @@ fn work(f: &mut Findings) -> Result<(), String> {
         "The paper expects an exit displacement ratio of 0.59 and reads 2.9/5.1 = 0.57. The former is \
          Housner's [1 − 3/2 sin²α]² for H/B = 2.34, which the shipped contacts give without any \
          rotational dashpot: about the struck corner its force has no moment. With one of 6815 N·m·s \
-         at the centre of gravity the ratio is the paper's.",
+         at the centre of gravity, fitted as in the paper by trial, the ratio is the paper's.",
     );
     f.text(
         "Small rotations: at this uplift, 0.16 of the rotation of overturning, the periods are about \

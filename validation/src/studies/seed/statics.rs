@@ -1,10 +1,11 @@
 //! Statics by FNA: "structures subject to static loads can also be solved by the FNA method".
 
 use super::plots::{MILLIMETRE, Plot, Seen};
-use super::{BOTH, PAPER, run};
+use super::{BLOCK, BOTH, PAPER, run};
 use crate::case::{Kind, Tolerance};
 use crate::{Findings, Study, Trace};
 use trilith::SolverKind;
+use trilith::model::{Analysis, Load};
 
 /// The shipped block, loaded slowly by its weight and then by a push, and damped. The push is close to
 /// tipping the block, so that the foot it unloads slips.
@@ -55,7 +56,7 @@ const SLOWLY: &str = r#"(
 
 pub(super) fn studies() -> Vec<Study> {
     let title = "Static loads by FNA: weight and push on a block with friction";
-    vec![Study { id: "STATIC", title, source: PAPER, work }]
+    vec![Study { id: "FIG-S", title, source: PAPER, work }]
 }
 
 /// Where a run ends against the closed form and the static analysis.
@@ -89,6 +90,11 @@ fn end(f: &mut Findings, solver: SolverKind, stopped: &Trace, trace: &Trace) {
 }
 
 fn work(f: &mut Findings) -> Result<(), String> {
+    slowly(f)?;
+    at_once(f)
+}
+
+fn slowly(f: &mut Findings) -> Result<(), String> {
     f.text(
         "The weight grows within the first second, a push of 0.45 times the weight at the centre of \
          gravity within the second. The static solution: the left foot keeps a twentieth of the weight \
@@ -113,5 +119,36 @@ fn work(f: &mut Findings) -> Result<(), String> {
     let plot = Plot { title, outputs, axis: "force", unit, end: 3.0 };
     let marks = ["t_left", "t_right"].map(|o| (3.0, stopped.last(o) / 1e3));
     f.figure(plot.draw(&seen, None).marks("static analysis", marks));
+    Ok(())
+}
+
+/// The shipped block without its static case: the weight acts from the first moment.
+fn at_once(f: &mut Findings) -> Result<(), String> {
+    f.text(
+        "The shipped block, its weight put on at once: the contact dashpots bring it to the static \
+         deflection W/2kₙ.",
+    );
+    let deflection = -1e4 * 9.81 / (2.0 * 5e8) * 1e3;
+    let set = [("ah", 0.0), ("av", 0.0), ("duration", 0.2)];
+    let mut seen: Vec<Seen> = Vec::new();
+    for solver in BOTH {
+        let trace = run(BLOCK, &set, solver, |model| {
+            for case in &mut model.cases {
+                if let Analysis::Dynamic(dynamic) = &mut case.analysis {
+                    case.after = None;
+                    dynamic.constant = vec![Load::Gravity { factor: 1.0 }];
+                }
+            }
+        })?;
+        let reference = (deflection, Kind::ClosedForm);
+        let value = trace.last("uplift_left") * 1e3;
+        let tolerance = Tolerance::Relative(1e-6);
+        f.check("weight at once: uz_left", "mm", reference, tolerance, solver.name(), value);
+        seen.push((solver.name(), trace));
+    }
+    let title = "Height of the left foot, weight put on at once".into();
+    let outputs = &[("uplift_left", "")];
+    let plot = Plot { title, outputs, axis: "height", unit: MILLIMETRE, end: 0.2 };
+    f.figure(plot.draw(&seen, None).reference("W/2kₙ", [(0.0, deflection), (0.2, deflection)]));
     Ok(())
 }
