@@ -124,6 +124,7 @@ fn agreement(found: &mut Findings) -> Result<(), String> {
         subjects.iter().enumerate().map(|(i, s)| format!("{} {}", i + 1, s.name)).collect();
     let mut figure = Figure::new("Cost of a run", "model", "setup and march, CPU [s]")
         .log_y()
+        .whole_x()
         .caption(format!("{}.", listed.join(", ")));
     let strokes = [Stroke::Rings, Stroke::Crosses, Stroke::Squares, Stroke::Rings];
     for ((method, stroke), points) in SOLVERS.iter().zip(strokes).zip(cost) {
