@@ -28,6 +28,9 @@ fn text(report: &BasisReport) -> String {
         rows.push(row([&(i + 1).to_string(), &period, &number(omega / TAU), &x, &y, &z]));
     }
     out += &table(&rows, &[]);
+    if report.static_shapes > 0 {
+        out += &format!("  static shapes of places without mass: {}\n", report.static_shapes);
+    }
     if !report.static_participation.is_empty() {
         let shares = report.static_participation.iter();
         let rows: Vec<_> = shares.map(|(name, s)| row([name, &percent(*s)])).collect();

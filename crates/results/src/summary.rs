@@ -63,6 +63,8 @@ pub struct OutputSummary {
 pub struct BasisSummary {
     /// Number of vectors.
     pub vectors: usize,
+    /// Static shapes of places without mass, beside them.
+    pub static_shapes: usize,
     /// Lowest and highest frequency, Hz.
     pub frequency: [f64; 2],
     /// Share of the mass along X, Y, Z that all vectors carry.
@@ -133,6 +135,7 @@ impl BasisSummary {
         let mass = [0, 1, 2].map(|a| report.mass_participation.iter().map(|m| m[a]).sum());
         Self {
             vectors: report.vectors,
+            static_shapes: report.static_shapes,
             frequency: [hertz(report.omega.first()), hertz(report.omega.last())],
             mass_participation: mass,
             static_participation: Named(report.static_participation.clone()),
