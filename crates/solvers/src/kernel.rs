@@ -61,9 +61,9 @@ pub(crate) struct NoEquilibrium {
 pub(crate) type ForceScale = [f64; 2];
 
 /// A force that depends steeply on a rate which is a difference of larger ones is known no better than
-/// this many tolerances: there it counts as found once the correction is below
+/// this many tolerances; up to there it counts as found once the correction has [`SETTLED`].
 const ROUNDING: f64 = 1e3;
-/// this share of the tolerance.
+/// A correction below this share of the tolerance changes nothing any more.
 const SETTLED: f64 = 1e-4;
 /// A pseudo-force counts as a force only by its rounding: with stiff dummies on a sliding contact it may
 /// be millions of times any force there is.
@@ -128,7 +128,7 @@ struct Search {
 }
 
 impl Search {
-    /// Takes back half of the last correction where the residual did not fall; true where it did so.
+    /// Takes back half of the last correction where the residual did not fall; true where it took back.
     fn shortens(&mut self, iteration: usize, residual: &[f64], pseudo: &mut [f64]) -> bool {
         let size = largest(residual);
         let grew =

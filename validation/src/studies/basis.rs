@@ -15,7 +15,9 @@ pub(super) const STUDIES: [Study; 1] = [Study {
 }];
 
 const FRAME: PlaneFrame = PlaneFrame { bays: 4, storeys: 8, parts: 2 };
-const VECTORS: [usize; 12] = [4, 8, 12, 15, 18, 22, 26, 32, 40, 60, 90, 120];
+const VECTORS: [usize; 13] = [4, 8, 12, 15, 18, 22, 26, 32, 40, 60, 90, 120, 150];
+/// More Ritz vectors than the loads can show: those that would be rounding must not come in.
+const TOO_MANY: usize = 150;
 
 fn frame(text: &str, method: Method, basis: Option<(BasisKind, usize)>) -> Result<Trace, String> {
     run(text, &[], method, |model| {
@@ -51,20 +53,12 @@ fn convergence(found: &mut Findings) -> Result<(), String> {
     let mut figure = Figure::new("Plane frame on isolators", "vectors", "difference of peaks")
         .log_log()
         .caption("Of all drifts, and of all link outputs, against direct integration on all DOFs.");
-    let (mut rows, mut missing) = (Vec::new(), Vec::new());
+    let mut rows = Vec::new();
     for (name, kind) in [("Ritz", BasisKind::Ritz), ("eigen", BasisKind::Eigen)] {
         let mut points = Vec::new();
-        for vectors in VECTORS {
+        for vectors in VECTORS.into_iter().filter(|n| kind == BasisKind::Ritz || *n < TOO_MANY) {
             let run = |method| frame(&text, method, Some((kind, vectors)));
-            let (reduced, fna) = match (run(RITZ_HHT), run(FNA)) {
-                (Ok(a), Ok(b)) => (a, b),
-                // The search for eigenvectors may end without them; Ritz vectors need no search.
-                (Err(_), _) | (_, Err(_)) if kind == BasisKind::Eigen => {
-                    missing.push(vectors.to_string());
-                    continue;
-                }
-                (Err(e), _) | (_, Err(e)) => return Err(e),
-            };
+            let (reduced, fna) = (run(RITZ_HHT)?, run(FNA)?);
             let basis = reduced.basis.as_ref().ok_or("a reduced run without basis")?;
             let (worst_link, worst) = difference(&whole, &reduced, &links);
             points.push(Point {
@@ -100,7 +94,7 @@ fn convergence(found: &mut Findings) -> Result<(), String> {
             claims(found, &points);
         }
     }
-    figure = figure.reference("1 %", [(4.0, 0.01), (120.0, 0.01)]);
+    figure = figure.reference("1 %", [(4.0, 0.01), (TOO_MANY as f64, 0.01)]);
     found.text(format!(
         "A frame of {} equations with twelve link coordinates, solved by HHT with fixed steps of 1.25 ms \
          on all DOFs and on bases of growing size, so that nothing but the basis differs; FNA on the same \
@@ -118,13 +112,6 @@ fn convergence(found: &mut Findings) -> Result<(), String> {
          An isolator that has lifted off lands on a contact of 1 GN/m: its force asks for the fast axial \
          modes of the columns and comes last.",
     );
-    if !missing.is_empty() {
-        found.text(format!(
-            "The search for eigenvectors did not converge where {} vectors were asked for: there is no \
-             point of them.",
-            missing.join(", ")
-        ));
-    }
     found.figure(figure);
     let head =
         ["basis", "asked for", "kept", "drifts [%]", "links [%]", "drifts of FNA [%]", "adequacy"];
@@ -147,4 +134,7 @@ fn claims(found: &mut Findings, points: &[Point]) {
     claim(60, FNA, "drifts", 0.5, |p| p.fna);
     claim(120, RITZ_HHT, "drifts", 0.05, |p| p.drifts);
     claim(120, RITZ_HHT, "links", 0.5, |p| p.links);
+    claim(TOO_MANY, RITZ_HHT, "drifts", 0.05, |p| p.drifts);
+    claim(TOO_MANY, RITZ_HHT, "links", 0.5, |p| p.links);
+    claim(TOO_MANY, FNA, "drifts", 0.5, |p| p.fna);
 }
