@@ -18,6 +18,7 @@ use crate::error::SolveError;
 use crate::massless;
 use crate::observe::{Adequacy, BasisReport};
 use crate::space::congruence;
+use crate::vector::dot;
 use trilith_linalg::{Dense, Ldlt, Sparse, all_modes, lowest_modes, symmetric_eigen, unsupported};
 use trilith_model::{Basis, BasisKind, Model};
 use trilith_system::System;
@@ -273,10 +274,6 @@ impl<'a> Span<'a> {
             block = next;
         }
     }
-}
-
-fn dot(a: &[f64], b: &[f64]) -> f64 {
-    a.iter().zip(b).map(|(x, y)| x * y).sum()
 }
 
 /// Participation of masses and loads, and the flexibility of every link coordinate that the basis holds.

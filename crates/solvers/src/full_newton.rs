@@ -8,6 +8,7 @@ use crate::kernel::Remembered;
 use crate::propagator::{Forces, kinetic_and_strain};
 use crate::space::Space;
 use crate::stepper::{State, StepEnergy, StepFailure, Stepper};
+use crate::vector::largest;
 use trilith_element::{Energy, Kinematics};
 use trilith_linalg::{Ldlt, SparseLu, Triplets};
 use trilith_model::Model;
@@ -93,11 +94,6 @@ impl FullNewton<'_> {
             residual: residual.get(at).map_or(f64::NAN, |r| r.abs()),
         }
     }
-}
-
-/// Largest absolute value; not a number where one of them is not, so that no comparison holds.
-fn largest(x: &[f64]) -> f64 {
-    x.iter().fold(0.0, |a, b| if b.is_nan() || b.abs() > a { b.abs() } else { a })
 }
 
 impl Stepper for FullNewton<'_> {

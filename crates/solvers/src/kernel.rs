@@ -11,6 +11,7 @@
 //! `FixedPoint` is Wilson's constant-stiffness iteration, f̃ ← law − k_e d; it converges only
 //! while |k − k_e| G < 1. Neither touches a matrix of the structure.
 
+use crate::vector::largest;
 use serde::{Deserialize, Serialize};
 use trilith_element::{Energy, Kinematics};
 use trilith_linalg::{Dense, DenseLu};
@@ -151,10 +152,6 @@ impl Search {
         self.step.extend_from_slice(step);
         (self.share, self.halvings) = (1.0, 0);
     }
-}
-
-fn largest(x: &[f64]) -> f64 {
-    x.iter().fold(0.0, |a, b| a.max(b.abs()))
 }
 
 impl LinkKernel {

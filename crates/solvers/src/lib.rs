@@ -29,6 +29,7 @@ mod start;
 mod statics;
 mod stepper;
 mod timeline;
+mod vector;
 mod view;
 
 pub use case::{EndState, RunOptions, modes, run};

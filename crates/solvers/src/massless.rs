@@ -11,6 +11,7 @@
 //! shapes are left out, and the basis is reported as lacking that flexibility.
 
 use crate::error::SolveError;
+use crate::vector::{dot, largest};
 use trilith_linalg::{Dense, Ldlt, Sparse, symmetric_eigen};
 use trilith_system::System;
 
@@ -123,12 +124,4 @@ pub(crate) fn uncoupled(psi: &Dense, damping: &Sparse, modes: &Dense) -> Dense {
 pub(crate) fn beside(a: &Dense, b: &Dense) -> Dense {
     let values = [a.values(), b.values()].concat();
     Dense::from_columns(a.rows(), a.columns() + b.columns(), values)
-}
-
-fn dot(a: &[f64], b: &[f64]) -> f64 {
-    a.iter().zip(b).map(|(x, y)| x * y).sum()
-}
-
-fn largest(p: &[f64]) -> f64 {
-    p.iter().fold(0.0, |a, x| a.max(x.abs()))
 }
