@@ -50,7 +50,7 @@ use trilith_element::dimension::{
     AREA, DENSITY, LENGTH, MASS_PER_LENGTH, NONE, SECOND_MOMENT, STRESS,
 };
 use trilith_element::{
-    Axis, Card, Category, Default, Described, Dimension, ElementMatrices, Form, Geometry,
+    Axis, Card, Category, Default, Described, Dimension, ElementMatrices, Exercise, Form, Geometry,
     LinearElement, NodeCount, Parameter, ParameterError, Range,
 };
 
@@ -184,6 +184,7 @@ impl Described for Beam {
               rectangle: I₂ = h b³/12, I₃ = b h³/12, J = a s³ (1/3 − 0.21 (s/a) (1 − s⁴/(12 a⁴)))",
         source: "Przemieniecki, Theory of Matrix Structural Analysis, 1968, §5.6 and §11.3",
         example: r#""column": Beam(nodes: ("a", "b"), young: "210 GPa", area: "50 cm^2", i3: "2000 cm^4")"#,
+        exercise: Exercise::NONE,
     };
 
     fn check(&self) -> Result<(), ParameterError> {

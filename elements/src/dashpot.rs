@@ -31,8 +31,8 @@ use crate::restitution::{IMPACT_MASS, damping_ratio, restitution};
 use serde::Deserialize;
 use trilith_element::dimension::{FORCE, FREQUENCY, LENGTH, MOMENT, NONE, STIFFNESS, VELOCITY};
 use trilith_element::{
-    Axis, Card, Category, Contact, Coordinates, Default, Described, Form, Impact, Kinematics, Link,
-    NodeCount, Parameter, ParameterError, Range, Response,
+    Axis, Card, Category, Contact, Coordinates, Default, Described, Exercise, Form, Impact,
+    Kinematics, Link, NodeCount, Parameter, ParameterError, Range, Response, Stroke,
 };
 
 /// When a [`Dashpot`] acts.
@@ -132,6 +132,7 @@ impl Described for Dashpot {
               with `restitution`: c = 2 ζ(e) √(k m)",
         source: "Soong & Dargush, Passive Energy Dissipation Systems, 1997, ch. 6; Wilson 2002, ch. 21",
         example: r#""damper": Dashpot(nodes: ("a", "b"), c: "20 kN*s/m")"#,
+        exercise: Exercise { frequency: 1.0, strokes: &[Stroke::about(0.0, 0.05)] },
     };
 
     fn check(&self) -> Result<(), ParameterError> {
@@ -249,10 +250,11 @@ impl Link for Dashpot {
         Some(Box::new(Self { c, restitution: None, impact_mass: None, ..self.clone() }))
     }
 
-    fn contact(&self, at: &Kinematics<'_>, _: &[f64], f: &[f64]) -> Option<Contact> {
+    fn contacts(&self, at: &Kinematics<'_>, _: &[f64], f: &[f64], out: &mut Vec<Contact>) {
         let gap = at.d[0] + self.opening;
-        let bears = self.when == When::InContact && self.stiffness > 0.0;
-        bears.then(|| Contact { gap, normal: (-f[0]).max(0.0), ..Contact::default() })
+        if self.when == When::InContact && self.stiffness > 0.0 {
+            out.push(Contact { gap, normal: (-f[0]).max(0.0), ..Contact::default() });
+        }
     }
 }
 

@@ -15,8 +15,8 @@
 use crate::dense::between;
 use serde::Deserialize;
 use trilith_element::{
-    Card, Category, Constraint, Described, Dof, Equation, NodeCount, Parameter, ParameterError,
-    Vector3,
+    Card, Category, Constraint, Described, Dof, Equation, Exercise, NodeCount, Parameter,
+    ParameterError, Vector3,
 };
 
 /// A global direction.
@@ -53,6 +53,7 @@ impl Described for Diaphragm {
         law: "normal Z: ux_s = ux_m − θz_m (y_s − y_m), uy_s = uy_m + θz_m (x_s − x_m), θz_s = θz_m",
         source: "Wilson, Static and Dynamic Analysis of Structures, 2002, ch. 7",
         example: r#""floor": Diaphragm(nodes: ("centre", "a", "b", "c", "d"))"#,
+        exercise: Exercise::NONE,
     };
 }
 

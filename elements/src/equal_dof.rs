@@ -14,8 +14,8 @@
 
 use serde::Deserialize;
 use trilith_element::{
-    Card, Category, Constraint, Default, Described, Dof, Equation, Form, NodeCount, Parameter,
-    ParameterError, Vector3,
+    Card, Category, Constraint, Default, Described, Dof, Equation, Exercise, Form, NodeCount,
+    Parameter, ParameterError, Vector3,
 };
 
 /// Names of the DOFs in model files.
@@ -62,6 +62,7 @@ impl Described for EqualDof {
         law: "u_s[dof] = u_m[dof]",
         source: "Bathe, Finite Element Procedures, 1996, §4.2.2",
         example: r#""hinge": EqualDof(nodes: ("a", "b"), dofs: (Ux, Uz))"#,
+        exercise: Exercise::NONE,
     };
 
     fn check(&self) -> Result<(), ParameterError> {

@@ -19,8 +19,8 @@
 use serde::Deserialize;
 use trilith_element::dimension::{LENGTH, STIFFNESS};
 use trilith_element::{
-    Axis, Card, Category, Contact, Coordinates, Described, Kinematics, Link, NodeCount, Parameter,
-    Range, Response,
+    Axis, Card, Category, Contact, Coordinates, Described, Exercise, Kinematics, Link, NodeCount,
+    Parameter, Range, Response, Stroke,
 };
 
 /// Compression-only stop with a clearance.
@@ -49,6 +49,7 @@ impl Described for Gap {
         law: "f = k (d + g) where d + g < 0, else 0",
         source: "Wilson, Static and Dynamic Analysis of Structures, 2002, ch. 21",
         example: r#""stop": Gap(nodes: ("a", "b"), k: "200 MN/m", opening: "50 mm")"#,
+        exercise: Exercise { frequency: 1.0, strokes: &[Stroke::about(0.0, 0.1)] },
     };
 }
 
@@ -71,9 +72,9 @@ impl Link for Gap {
         out.energy.stored = 0.5 * self.k * stretch * stretch;
     }
 
-    fn contact(&self, at: &Kinematics<'_>, _: &[f64], f: &[f64]) -> Option<Contact> {
+    fn contacts(&self, at: &Kinematics<'_>, _: &[f64], f: &[f64], out: &mut Vec<Contact>) {
         let gap = at.d[0] + self.opening;
-        Some(Contact { gap, normal: (-f[0]).max(0.0), ..Contact::default() })
+        out.push(Contact { gap, normal: (-f[0]).max(0.0), ..Contact::default() });
     }
 }
 

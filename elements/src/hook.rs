@@ -19,8 +19,8 @@
 use serde::Deserialize;
 use trilith_element::dimension::{LENGTH, STIFFNESS};
 use trilith_element::{
-    Axis, Card, Category, Coordinates, Described, Kinematics, Link, NodeCount, Parameter, Range,
-    Response,
+    Axis, Card, Category, Coordinates, Described, Exercise, Kinematics, Link, NodeCount, Parameter,
+    Range, Response, Stroke,
 };
 
 /// Tension-only cable with a slack.
@@ -49,6 +49,7 @@ impl Described for Hook {
         law: "f = k (d − g) where d − g > 0, else 0",
         source: "Wilson, Static and Dynamic Analysis of Structures, 2002, ch. 21",
         example: r#""cable": Hook(nodes: ("a", "b"), k: "20 MN/m", opening: "5 mm")"#,
+        exercise: Exercise { frequency: 1.0, strokes: &[Stroke::about(0.0, 0.01)] },
     };
 }
 

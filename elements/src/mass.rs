@@ -23,8 +23,8 @@ use nalgebra::{DMatrix, Matrix3};
 use serde::Deserialize;
 use trilith_element::dimension::{INERTIA, MASS};
 use trilith_element::{
-    Card, Category, Default, Described, ElementMatrices, Form, Geometry, LinearElement, NodeCount,
-    Parameter, ParameterError, Range,
+    Card, Category, Default, Described, ElementMatrices, Exercise, Form, Geometry, LinearElement,
+    NodeCount, Parameter, ParameterError, Range,
 };
 
 /// Point mass with rotary inertia.
@@ -98,6 +98,7 @@ impl Described for Mass {
         law: "M = diag(mx, my, mz)\nJ = [Ix Pxy Pxz; Pxy Iy Pyz; Pxz Pyz Iz]",
         source: "Newton–Euler equations at small rotations",
         example: r#""body": Mass(node: "cg", mass: "10 t", inertia: (0, 16667, 0))"#,
+        exercise: Exercise::NONE,
     };
 
     fn check(&self) -> Result<(), ParameterError> {

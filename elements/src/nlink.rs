@@ -57,7 +57,7 @@ use trilith_element::dimension::{
     DAMPING, INVERSE_VELOCITY, LENGTH, NONE, ROTATIONAL_STIFFNESS, STIFFNESS,
 };
 use trilith_element::{
-    Axis, Card, Category, Described, NodeCount, Parameter, ParameterError, Range,
+    Axis, Card, Category, Described, Exercise, NodeCount, Parameter, ParameterError, Range, Stroke,
 };
 
 /// Gap, friction and contact dashpot in one; the law is in `law.rs` beside this file.
@@ -204,6 +204,14 @@ impl Described for NLink {
         source: "Wilson, Static and Dynamic Analysis of Structures, 2002, ch. 18 and 21; \
                  Constantinou, Mokha, Reinhorn 1990 for μ(v)",
         example: r#""left": NLink(node: "left", kn: "5e8 N/m", ks: "5e8 N/m", mu: 0.4)"#,
+        exercise: Exercise {
+            frequency: 1.0,
+            strokes: &[
+                Stroke::about(-1e-3, 0.0),
+                Stroke::about(0.0, 2e-3),
+                Stroke::about(0.0, 0.0),
+            ],
+        },
     };
 
     fn check(&self) -> Result<(), ParameterError> {

@@ -12,7 +12,8 @@
 use crate::dense::between;
 use serde::Deserialize;
 use trilith_element::{
-    Card, Category, Constraint, Described, Dof, Equation, NodeCount, ParameterError, Vector3,
+    Card, Category, Constraint, Described, Dof, Equation, Exercise, NodeCount, ParameterError,
+    Vector3,
 };
 
 /// Several nodes that move as one rigid body; the law is on top of this page's source file.
@@ -30,6 +31,7 @@ impl Described for RigidBody {
         law: "u_s = u_m + θ_m × r\nθ_s = θ_m\nr   = x_s − x_m",
         source: "Kinematics of a rigid body at small rotations; Bathe, Finite Element Procedures, 1996, §4.2.2",
         example: r#""block": RigidBody(nodes: ("cg", "left", "right"))"#,
+        exercise: Exercise::NONE,
     };
 }
 

@@ -13,7 +13,8 @@
 use crate::rigid_body::rigid_equations;
 use serde::Deserialize;
 use trilith_element::{
-    Card, Category, Constraint, Described, Equation, NodeCount, Parameter, ParameterError, Vector3,
+    Card, Category, Constraint, Described, Equation, Exercise, NodeCount, Parameter,
+    ParameterError, Vector3,
 };
 
 /// Rigid link of two nodes.
@@ -39,6 +40,7 @@ impl Described for RigidLink {
         law: "u_j = u_i + θ_i × (x_j − x_i)\nθ_j = θ_i, unless `translations_only`",
         source: "Kinematics of a rigid body at small rotations; Bathe, Finite Element Procedures, 1996, §4.2.2",
         example: r#""arm": RigidLink(nodes: ("column", "corner"))"#,
+        exercise: Exercise::NONE,
     };
 }
 

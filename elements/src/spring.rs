@@ -26,8 +26,8 @@ use nalgebra::{DMatrix, Matrix3};
 use serde::Deserialize;
 use trilith_element::dimension::{DAMPING, ROTATIONAL_DAMPING, ROTATIONAL_STIFFNESS, STIFFNESS};
 use trilith_element::{
-    Card, Category, Default, Described, Dimension, ElementMatrices, Form, Geometry, LinearElement,
-    NodeCount, Parameter, ParameterError, Range,
+    Card, Category, Default, Described, Dimension, ElementMatrices, Exercise, Form, Geometry,
+    LinearElement, NodeCount, Parameter, ParameterError, Range,
 };
 
 /// A symmetric 6 × 6 matrix in local axes.
@@ -78,7 +78,13 @@ const fn entry(
 
 const fn matrix(name: &'static str, symbol: &'static str, dimension: Dimension) -> Parameter {
     let meaning = "full matrix in local axes, added to the diagonal entries";
-    Parameter::new(name, symbol, Form::Matrix { size: 6, dimension }, Default::Absent, meaning)
+    Parameter::new(
+        name,
+        symbol,
+        Form::Matrix { size: 6, dimension, symmetric: true },
+        Default::Absent,
+        meaning,
+    )
 }
 
 impl Described for Spring {
@@ -107,6 +113,7 @@ impl Described for Spring {
               δ = R (u_j − u_i − θ_i × (x_j − x_i), θ_j − θ_i); one node: δ = R (u, θ)",
         source: "Wilson, Static and Dynamic Analysis of Structures, 2002, ch. 4",
         example: r#""soil": Spring(node: "base", k1: "80 MN/m", c1: "1 MN*s/m")"#,
+        exercise: Exercise::NONE,
     };
 
     fn check(&self) -> Result<(), ParameterError> {

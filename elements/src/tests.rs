@@ -32,7 +32,10 @@ fn kinds() -> Kinds {
 /// A value of the right form for each parameter; choices take the `turn`-th of their names.
 fn every_parameter(card: &Card, turn: usize) -> Vec<(String, Value)> {
     let one = |form: Form| match form {
-        Form::Number(_) | Form::Power { .. } => Value::Number(0.5),
+        Form::Number(_) | Form::Power { .. } | Form::OfAxis { list: false, .. } => {
+            Value::Number(0.5)
+        }
+        Form::OfAxis { .. } => Value::List(vec![Value::Number(1.0); 2]),
         Form::Choice(names) => Value::Text(names[turn % names.len()].into()),
         Form::Choices(names) => {
             Value::List(names.iter().map(|n| Value::Text((*n).into())).collect())
@@ -42,6 +45,7 @@ fn every_parameter(card: &Card, turn: usize) -> Vec<(String, Value)> {
         Form::Matrix { size, .. } => {
             Value::List(vec![Value::List(vec![Value::Number(1.0); size]); size])
         }
+        Form::Points => Value::List(vec![Value::List(vec![Value::Number(1.0); 3]); 3]),
         Form::Node => Value::Text("a".into()),
     };
     card.parameters.iter().map(|p| (p.name.to_owned(), one(p.form))).collect()

@@ -23,8 +23,8 @@ use nalgebra::DMatrix;
 use serde::Deserialize;
 use trilith_element::dimension::{AREA, DENSITY, MASS_PER_LENGTH, STRESS};
 use trilith_element::{
-    Card, Category, Described, ElementMatrices, Geometry, LinearElement, NodeCount, Parameter,
-    ParameterError, Range,
+    Card, Category, Described, ElementMatrices, Exercise, Geometry, LinearElement, NodeCount,
+    Parameter, ParameterError, Range,
 };
 
 /// Bar with axial force only.
@@ -78,6 +78,7 @@ impl Described for Truss {
         law: "k = E A / L along the bar",
         source: "Przemieniecki, Theory of Matrix Structural Analysis, 1968, §5.1 and §11.1",
         example: r#""brace": Truss(nodes: ("a", "b"), young: "210 GPa", area: "12 cm^2")"#,
+        exercise: Exercise::NONE,
     };
 }
 

@@ -2,8 +2,8 @@
 
 use serde::Deserialize;
 use trilith_element::{
-    Axis, Card, Category, Coordinates, Described, Dimension, Form, Kinematics, Link, NodeCount,
-    Parameter, Range, Register, Response, dimension,
+    Axis, Card, Category, Coordinates, Described, Dimension, Exercise, Form, Kinematics, Link,
+    NodeCount, Parameter, Range, Register, Response, dimension,
 };
 use trilith_model::{Analysis, Kernel, SolverKind, StepControl};
 use trilith_solvers::{RunOptions, Status, run};
@@ -42,6 +42,7 @@ impl Described for Brittle {
         law: "f = k d, not a number for |d| > l",
         source: "made for a test",
         example: "Brittle(node: \"a\", k: 1, limit: 1)",
+        exercise: Exercise::NONE,
     };
 }
 

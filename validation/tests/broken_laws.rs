@@ -3,11 +3,12 @@
 //! a sound law of something else.
 
 use serde::Deserialize;
+use std::borrow::Cow;
 use trilith::element::conformance::{ConformanceError, Kit};
 use trilith::element::dimension::{FORCE, LENGTH, NONE, STIFFNESS};
 use trilith::element::{
-    Card, Category, Contact, Coordinates, Described, Energy, Field, Kinematics, Link, NodeCount,
-    Parameter, Range, Register, Response,
+    Card, Category, Contact, Coordinates, Described, Energy, Exercise, Field, Kinematics, Link,
+    NodeCount, Parameter, Range, Register, Response,
 };
 use trilith::elements::{Gap, NLink};
 use trilith_validation::case::BOTH;
@@ -79,6 +80,7 @@ impl Described for LateGap {
         law: "f = k (d + g + 1 mm) where that is below zero",
         source: "wrong on purpose",
         example: r#""stop": LateGap(node: "a", k: "1 MN/m")"#,
+        exercise: Exercise::NONE,
     };
 }
 
@@ -92,8 +94,8 @@ impl Link for LateGap {
     fn respond(&self, at: &Kinematics<'_>, a: &[f64], b: &mut [f64], out: &mut Response<'_>) {
         self.law().respond(at, a, b, out);
     }
-    fn contact(&self, at: &Kinematics<'_>, history: &[f64], f: &[f64]) -> Option<Contact> {
-        self.law().contact(at, history, f)
+    fn contacts(&self, at: &Kinematics<'_>, a: &[f64], f: &[f64], out: &mut Vec<Contact>) {
+        self.law().contacts(at, a, f, out);
     }
 }
 
@@ -128,6 +130,7 @@ impl Described for Uncoupled {
         law: "|τ| ≤ μ W",
         source: "wrong on purpose",
         example: r#""foot": UncoupledNLink(node: "a", kn: 1e6, ks: 1e6, mu: 0.1, weight: 10)"#,
+        exercise: Exercise::NONE,
     };
 }
 
@@ -135,7 +138,7 @@ impl Link for Uncoupled {
     fn coordinates(&self) -> Coordinates {
         self.law().coordinates()
     }
-    fn history(&self) -> &'static [Field] {
+    fn history(&self) -> Cow<'static, [Field]> {
         self.law().history()
     }
     fn at_rest(&self, at: &mut [f64]) {

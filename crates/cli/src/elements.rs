@@ -85,6 +85,10 @@ fn form(p: &Parameter) -> (String, String) {
         Form::Power { base, over, exponent } => {
             (format!("{}/({})^{exponent}", unit(base), unit(over)), range)
         }
+        Form::OfAxis { along, about, list } => {
+            let count = if list { "list, " } else { "" };
+            (format!("{} or {}", unit(along), unit(about)), format!("{count}{range}"))
+        }
         Form::Choice(all) => (String::new(), all.join(", ")),
         Form::Choices(all) => (String::new(), format!("some of {}", all.join(", "))),
         Form::Flag => (String::new(), "true, false".into()),
@@ -92,9 +96,11 @@ fn form(p: &Parameter) -> (String, String) {
             let count = count.map_or("list".to_owned(), |n| format!("{n} numbers"));
             (unit(dimension), format!("{count}, {range}"))
         }
-        Form::Matrix { size, dimension } => {
-            (unit(dimension), format!("{size} × {size}, symmetric"))
+        Form::Matrix { size, dimension, symmetric } => {
+            let symmetric = if symmetric { ", symmetric" } else { "" };
+            (unit(dimension), format!("{size} × {size}{symmetric}"))
         }
+        Form::Points => ("m".into(), "list of (x, y, z)".into()),
         Form::Node => (String::new(), "name of a node".into()),
     }
 }

@@ -1,5 +1,6 @@
 //! Cards: what a kind of element is called, which parameters it takes, and where its law comes from.
 
+use crate::dimension::{FORCE, LENGTH, MOMENT, NONE, ROTATIONAL_STIFFNESS, STIFFNESS};
 use crate::{Dimension, ParameterError};
 use serde::de::DeserializeOwned;
 
@@ -22,6 +23,41 @@ pub struct Card {
     pub source: &'static str,
     /// One line of a model file that uses it.
     pub example: &'static str,
+    /// For links: the deformation that shows the law with the parameters of the example.
+    pub exercise: Exercise,
+}
+
+/// An imposed cyclic deformation that shows what a link does; the catalogue draws it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Exercise {
+    /// Cycles in a second, Hz.
+    pub frequency: f64,
+    /// One for each coordinate of the law.
+    pub strokes: &'static [Stroke],
+}
+
+impl Exercise {
+    /// For linear elements and constraints.
+    pub const NONE: Self = Self { frequency: 1.0, strokes: &[] };
+}
+
+/// Motion of one coordinate: `mean + amplitude · sin 2π(f t + phase)`.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Stroke {
+    /// Constant part, m or rad, applied before the cycles.
+    pub mean: f64,
+    /// Amplitude of the largest cycle, m or rad.
+    pub amplitude: f64,
+    /// Phase in cycles: 0.25 for an orbit with a coordinate of phase 0.
+    pub phase: f64,
+}
+
+impl Stroke {
+    /// Cycles in phase about a mean.
+    #[must_use]
+    pub const fn about(mean: f64, amplitude: f64) -> Self {
+        Self { mean, amplitude, phase: 0.0 }
+    }
 }
 
 impl Card {
@@ -176,6 +212,16 @@ pub enum Form {
         /// Name of the parameter that holds the exponent.
         exponent: &'static str,
     },
+    /// A number, or a list of any length, whose dimension follows the local axis of the link: `along`
+    /// where the parameter `axis` names U1, U2 or U3, `about` where it names R1, R2 or R3.
+    OfAxis {
+        /// Dimension along an axis.
+        along: Dimension,
+        /// Dimension about an axis.
+        about: Dimension,
+        /// A list instead of one number.
+        list: bool,
+    },
     /// One of these names.
     Choice(&'static [&'static str]),
     /// Several different names out of these, in a list.
@@ -189,16 +235,43 @@ pub enum Form {
         /// How many.
         count: Option<usize>,
     },
-    /// A symmetric matrix of `size` × `size` numbers, as a list of rows; translations first, then
+    /// A matrix of `size` × `size` numbers, as a list of rows; translations first, then
     /// rotations, of this category of stiffness or damping.
     Matrix {
         /// Rows and columns.
         size: usize,
         /// Dimension of the translational block; each rotational row or column adds a length.
         dimension: Dimension,
+        /// It must be symmetric.
+        symmetric: bool,
     },
+    /// A list of positions, three lengths each.
+    Points,
     /// The name of a node of the model.
     Node,
+}
+
+impl Form {
+    /// A stiffness along or about the link's axis.
+    pub const STIFFNESS_OF_AXIS: Self = Self::of_axis(STIFFNESS, ROTATIONAL_STIFFNESS);
+    /// A force along or a moment about the link's axis.
+    pub const FORCE_OF_AXIS: Self = Self::of_axis(FORCE, MOMENT);
+    /// A displacement along or a rotation about the link's axis.
+    pub const DEFORMATION_OF_AXIS: Self = Self::of_axis(LENGTH, NONE);
+
+    const fn of_axis(along: Dimension, about: Dimension) -> Self {
+        Self::OfAxis { along, about, list: false }
+    }
+
+    /// A list of such numbers.
+    #[must_use]
+    pub const fn list(self) -> Self {
+        match self {
+            Self::OfAxis { along, about, .. } => Self::OfAxis { along, about, list: true },
+            Self::Number(dimension) => Self::Numbers { dimension, count: None },
+            other => other,
+        }
+    }
 }
 
 /// Admissible numbers.

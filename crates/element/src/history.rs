@@ -1,12 +1,22 @@
 //! Named history variables of a link law.
 
+use std::borrow::Cow;
+
 /// One history variable: name and unit, as they appear in checkpoints and records.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Field {
     /// Name, unique within the law.
-    pub name: &'static str,
+    pub name: Cow<'static, str>,
     /// SI unit, or `1`.
     pub unit: &'static str,
+}
+
+impl Field {
+    /// A variable with a fixed name.
+    #[must_use]
+    pub const fn new(name: &'static str, unit: &'static str) -> Self {
+        Self { name: Cow::Borrowed(name), unit }
+    }
 }
 
 /// A struct of history variables that lives in a flat slice; made by [`history!`](crate::history).
@@ -47,7 +57,7 @@ macro_rules! history {
 
         impl $crate::History for $name {
             const FIELDS: &'static [$crate::Field] =
-                &[$($crate::Field { name: stringify!($field), unit: $unit }),*];
+                &[$($crate::Field::new(stringify!($field), $unit)),*];
             fn load(from: &[f64]) -> Self {
                 let mut values = from.iter().copied();
                 Self { $($field: values.next().expect("history slice of FIELDS.len()")),* }

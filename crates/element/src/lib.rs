@@ -25,7 +25,9 @@ mod values;
 pub mod conformance;
 pub mod dimension;
 
-pub use card::{Card, Category, Default, Described, Form, NodeCount, Parameter, Range};
+pub use card::{
+    Card, Category, Default, Described, Exercise, Form, NodeCount, Parameter, Range, Stroke,
+};
 pub use constraint::{Constraint, Equation};
 pub use dimension::Dimension;
 pub use error::ParameterError;

@@ -1,6 +1,7 @@
 //! Links: local nonlinear laws.
 
 use crate::{Axis, Field};
+use std::borrow::Cow;
 use std::fmt::Debug;
 
 /// Which coordinates a law works on; their order is the order of every array it sees.
@@ -127,8 +128,8 @@ pub trait Link: Send + Sync + Debug {
     fn coordinates(&self) -> Coordinates;
 
     /// The history variables; constant. Length `h` of the history slices.
-    fn history(&self) -> &'static [Field] {
-        &[]
+    fn history(&self) -> Cow<'static, [Field]> {
+        Cow::Borrowed(&[])
     }
 
     /// History before anything has happened; `at` holds `h` zeros on entry.
@@ -148,9 +149,21 @@ pub trait Link: Send + Sync + Debug {
         out: &mut Response<'_>,
     );
 
-    /// What the contact does, for laws that are contacts. `history` is the trial of `respond`.
-    fn contact(&self, _at: &Kinematics<'_>, _history: &[f64], _f: &[f64]) -> Option<Contact> {
-        None
+    /// Adds what its contacts do, for laws that are contacts; always the same number, in the same order.
+    /// `history` is the trial of `respond`, `f` its force.
+    fn contacts(
+        &self,
+        _at: &Kinematics<'_>,
+        _history: &[f64],
+        _f: &[f64],
+        _out: &mut Vec<Contact>,
+    ) {
+    }
+
+    /// True once a body has fallen over for good; the run ends there. `history` as for
+    /// [`contacts`](Self::contacts).
+    fn overturned(&self, _at: &Kinematics<'_>, _history: &[f64]) -> bool {
+        false
     }
 
     /// What it does in an impact, for contacts with a dashpot that a restitution can set.

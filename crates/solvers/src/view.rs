@@ -5,7 +5,7 @@ use crate::observe::{EnergyTotals, Observer, Sample, Shape};
 use crate::outputs::Outputs;
 use crate::space::Space;
 use crate::stepper::State;
-use trilith_element::{Contact, Kinematics, Link};
+use trilith_element::{Contact, Kinematics};
 use trilith_model::{Model, Side};
 use trilith_system::{LoadSet, System};
 
@@ -101,18 +101,16 @@ impl<'a, 'b> Viewer<'a, 'b> {
 
 fn contacts(model: &Model, system: &System, state: &State) -> Vec<(usize, Contact)> {
     let links = &system.links;
-    links
-        .links
-        .iter()
-        .filter_map(|link| {
-            let r = link.range.clone();
-            let (d, v) = (&state.d[r.clone()], &state.v[r.clone()]);
-            let at = Kinematics { d, v, d0: d, v0: v, dt: 0.0 };
-            let law: &dyn Link = links.law(model, link)?;
-            law.contact(&at, &state.history[link.history.clone()], &state.f[r])
-                .map(|c| (link.element, c))
-        })
-        .collect()
+    let (mut all, mut own) = (Vec::new(), Vec::new());
+    for link in &links.links {
+        let Some(law) = links.law(model, link) else { continue };
+        let r = link.range.clone();
+        let (d, v) = (&state.d[r.clone()], &state.v[r.clone()]);
+        let at = Kinematics { d, v, d0: d, v0: v, dt: 0.0 };
+        law.contacts(&at, &state.history[link.history.clone()], &state.f[r], &mut own);
+        all.extend(own.drain(..).map(|c| (link.element, c)));
+    }
+    all
 }
 
 /// Shows the end of a static case: one sample at t = 0.

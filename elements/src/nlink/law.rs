@@ -2,6 +2,7 @@
 
 use super::NLink;
 use crate::restitution::damping_ratio;
+use std::borrow::Cow;
 use trilith_element::{
     Axis, Contact, Coordinates, Field, History, Impact, Kinematics, Link, Response, history,
 };
@@ -102,8 +103,8 @@ impl Link for NLink {
         Coordinates::Local(axes)
     }
 
-    fn history(&self) -> &'static [Field] {
-        NLinkHistory::FIELDS
+    fn history(&self) -> Cow<'static, [Field]> {
+        NLinkHistory::FIELDS.into()
     }
 
     fn at_rest(&self, at: &mut [f64]) {
@@ -231,18 +232,18 @@ impl Link for NLink {
         Some(Box::new(Self { damping, restitution: None, impact_mass: None, ..self.clone() }))
     }
 
-    fn contact(&self, at: &Kinematics<'_>, _history: &[f64], f: &[f64]) -> Option<Contact> {
+    fn contacts(&self, at: &Kinematics<'_>, _: &[f64], f: &[f64], out: &mut Vec<Contact>) {
         let now = self.normal(at.d[0], at.v[0]);
         let restoring = if now.closed { self.restoring(now.spring) } else { 0.0 };
         let tau = (f[1] - restoring * at.d[1]).hypot(f[2] - restoring * at.d[2]);
         let limit = self.coefficient(at.v[1].hypot(at.v[2])).0 * now.cone;
-        Some(Contact {
+        out.push(Contact {
             gap: at.d[0] + self.opening,
             normal: now.cone,
             position: [at.d[1], at.d[2]],
             // The force at the limit was scaled onto it: equal up to rounding.
             slipping: now.cone > 0.0 && self.elastic() > 0.0 && tau >= limit * (1.0 - 1e-9),
-        })
+        });
     }
 }
 

@@ -15,10 +15,11 @@
 //! Reference: \[Duffing 1918\].
 
 use serde::Deserialize;
+use std::borrow::Cow;
 use trilith_element::dimension::{AREA, STIFFNESS};
 use trilith_element::{
-    Axis, Card, Category, Coordinates, Described, Dimension, Field, History, Kinematics, Link,
-    NodeCount, Parameter, Range, Response, history,
+    Axis, Card, Category, Coordinates, Described, Dimension, Exercise, Field, History, Kinematics,
+    Link, NodeCount, Parameter, Range, Response, Stroke, history,
 };
 
 /// N/m³.
@@ -64,6 +65,7 @@ impl Described for CubicSpring {
         law: "f = k₁ d + k₃ d³",
         source: "Duffing, Erzwungene Schwingungen bei veränderlicher Eigenfrequenz, 1918",
         example: r#""mount": CubicSpring(node: "a", k1: "40 kN/m", k3: "5 MN/m^3")"#,
+        exercise: Exercise { frequency: 1.0, strokes: &[Stroke::about(0.0, 0.1)] },
     };
 }
 
@@ -72,8 +74,8 @@ impl Link for CubicSpring {
         Coordinates::Local(vec![self.axis])
     }
 
-    fn history(&self) -> &'static [Field] {
-        CubicSpringHistory::FIELDS
+    fn history(&self) -> Cow<'static, [Field]> {
+        CubicSpringHistory::FIELDS.into()
     }
 
     fn engaged_stiffness(&self, k: &mut [f64]) {

@@ -22,7 +22,7 @@ pub(super) fn shape(kit: &Kit, link: &dyn Link) -> Result<(), Broken> {
     let fields = link.history();
     for (i, field) in fields.iter().enumerate() {
         if field.name.is_empty() || fields[..i].iter().any(|f| f.name == field.name) {
-            return Err(Broken::FieldName { name: field.name.to_owned() });
+            return Err(Broken::FieldName { name: field.name.clone().into_owned() });
         }
     }
     let mut a = vec![0.0; n * n];
@@ -141,13 +141,16 @@ fn restart(link: &dyn Link, s: &Step<'_>, path: &Path, peak: &[f64]) -> Result<(
 }
 
 fn contact(link: &dyn Link, s: &Step<'_>, path: &Path) -> Result<(), Broken> {
-    let Some(c) = link.contact(&s.at, &s.answer.trial, &s.answer.f) else { return Ok(()) };
+    let mut contacts = Vec::new();
+    link.contacts(&s.at, &s.answer.trial, &s.answer.f, &mut contacts);
     let wrong = |what, value| Broken::Contact { what, value, path: path.number, time: s.time };
-    if !c.gap.is_finite() {
-        return Err(wrong("gap", c.gap));
-    }
-    if !(c.normal.is_finite() && c.normal >= 0.0) {
-        return Err(wrong("normal", c.normal));
+    for c in contacts {
+        if !c.gap.is_finite() {
+            return Err(wrong("gap", c.gap));
+        }
+        if !(c.normal.is_finite() && c.normal >= 0.0) {
+            return Err(wrong("normal", c.normal));
+        }
     }
     Ok(())
 }

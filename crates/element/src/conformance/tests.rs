@@ -2,6 +2,7 @@
 
 use super::*;
 use crate::{Axis, Coordinates, Energy, Field, Kinematics, Response};
+use std::borrow::Cow;
 use std::sync::atomic::{AtomicU64, Ordering::Relaxed};
 
 const K: f64 = 100.0;
@@ -41,8 +42,8 @@ impl Link for Law {
     fn coordinates(&self) -> Coordinates {
         Coordinates::Local(vec![Axis::U1, Axis::U2])
     }
-    fn history(&self) -> &'static [Field] {
-        &[Field { name: "plastic", unit: "m" }, Field { name: "taken", unit: "J" }]
+    fn history(&self) -> Cow<'static, [Field]> {
+        vec![Field::new("plastic", "m"), Field::new("taken", "J")].into()
     }
     fn engaged_stiffness(&self, k: &mut [f64]) {
         k[0] = K;

@@ -235,13 +235,12 @@ impl Reading<'_, '_> {
         let (Kind::Text(name) | Kind::Name(name)) = &variable.kind else {
             return c.wrong(variable, "the name of a history variable");
         };
-        if let Some(field) = law.history().iter().position(|f| f.name == name) {
-            return Some((
-                Quantity::LinkHistory { element, field },
-                law.history()[field].unit.to_owned(),
-            ));
+        let variables = law.history();
+        if let Some(field) = variables.iter().position(|f| f.name == *name) {
+            let unit = variables[field].unit.to_owned();
+            return Some((Quantity::LinkHistory { element, field }, unit));
         }
-        let names = law.history().iter().map(|f| f.name);
+        let names = variables.iter().map(|f| f.name.as_ref());
         let message = format!("the link has no history variable `{name}`");
         let help = names_help(name, "history variables", names);
         c.report(c.diagnostic("E0106", message, variable.span.clone()).help(help));

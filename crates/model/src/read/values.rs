@@ -29,14 +29,14 @@ pub(super) fn values(
 ) -> Option<Values> {
     let mut read: Vec<Option<Value>> = vec![None; card.parameters.len()];
     let mut good = true;
-    // The dimension of a power depends on another parameter: those come last.
-    let power = |p: &Parameter| matches!(p.form, Form::Power { .. });
+    // The dimension of some depends on another parameter: those come last.
+    let depends = |p: &Parameter| matches!(p.form, Form::Power { .. } | Form::OfAxis { .. });
     for last in [false, true] {
-        for (i, p) in card.parameters.iter().enumerate().filter(|(_, p)| power(p) == last) {
+        for (i, p) in card.parameters.iter().enumerate().filter(|(_, p)| depends(p) == last) {
             match given.get(p.name) {
                 Some(node) => {
-                    let exponent = exponent(card, p, &read);
-                    read[i] = value(c, node, p, exponent, nodes);
+                    let form = settled(card, p, &read);
+                    read[i] = value(c, node, &Parameter { form, ..*p }, nodes);
                     good &= read[i].is_some();
                 }
                 None => match default(p) {
@@ -68,7 +68,8 @@ fn dimension_of(form: Form) -> Option<Dimension> {
     match form {
         Form::Number(d)
         | Form::Numbers { dimension: d, .. }
-        | Form::Matrix { dimension: d, .. } => Some(d),
+        | Form::Matrix { dimension: d, .. }
+        | Form::OfAxis { along: d, .. } => Some(d),
         _ => None,
     }
 }
@@ -89,35 +90,40 @@ fn default(p: &Parameter) -> Result<Option<Value>, ()> {
     })
 }
 
-/// The exponent of a parameter whose dimension is a power.
-fn exponent(card: &Card, p: &Parameter, read: &[Option<Value>]) -> f64 {
-    let Form::Power { exponent, .. } = p.form else { return 1.0 };
-    let at = card.parameters.iter().position(|q| q.name == exponent);
-    match at.and_then(|i| read[i].as_ref()) {
-        Some(Value::Number(x)) => *x,
-        _ => 1.0,
+/// The form of a parameter once those are read that its dimension depends on.
+fn settled(card: &Card, p: &Parameter, read: &[Option<Value>]) -> Form {
+    let other = |name: &str| {
+        card.parameters.iter().position(|q| q.name == name).and_then(|i| read[i].as_ref())
+    };
+    match p.form {
+        Form::Power { base, over, exponent } => Form::Number(match other(exponent) {
+            Some(Value::Number(x)) => base / over.powf(*x),
+            _ => base / over,
+        }),
+        Form::OfAxis { along, about, list } => {
+            let turns = matches!(other("axis"), Some(Value::Text(axis)) if axis.starts_with('R'));
+            let form = Form::Number(if turns { about } else { along });
+            if list { form.list() } else { form }
+        }
+        form => form,
     }
 }
 
-fn value(
-    c: &Context<'_>,
-    node: &Node,
-    p: &Parameter,
-    exponent: f64,
-    nodes: &Names<'_>,
-) -> Option<Value> {
+fn value(c: &Context<'_>, node: &Node, p: &Parameter, nodes: &Names<'_>) -> Option<Value> {
     match p.form {
         Form::Number(dimension) => c.ranged(node, p.name, dimension, p.range).map(Value::Number),
-        Form::Power { base, over, .. } => {
-            c.ranged(node, p.name, base / over.powf(exponent), p.range).map(Value::Number)
-        }
+        // Settled before.
+        Form::Power { .. } | Form::OfAxis { .. } => None,
         Form::Choice(names) => {
             c.choice(node, p.name, names).map(|i| Value::Text(names[i].to_owned()))
         }
         Form::Choices(names) => choices(c, node, p.name, names),
         Form::Flag => c.flag(node, p.name).map(Value::Flag),
         Form::Numbers { dimension, count } => numbers(c, node, p, dimension, count),
-        Form::Matrix { size, dimension } => matrix(c, node, p, size, dimension),
+        Form::Matrix { size, dimension, symmetric } => {
+            matrix(c, node, p, size, dimension, symmetric)
+        }
+        Form::Points => points(c, node, p),
         Form::Node => nodes.refer(c, node).map(|i| Value::Text(nodes.name(i).to_owned())),
     }
 }
@@ -161,12 +167,23 @@ fn numbers(
     read.map(|all| Value::List(all.into_iter().map(Value::Number).collect()))
 }
 
+fn points(c: &Context<'_>, node: &Node, p: &Parameter) -> Option<Value> {
+    let items = node.items();
+    if !node.is_list() || items.iter().any(|n| !n.is_list()) {
+        return c
+            .wrong(node, &format!("a list of positions for `{}`, such as [(1, 0, 0)]", p.name));
+    }
+    let read: Vec<_> = items.iter().map(|n| numbers(c, n, p, LENGTH, Some(3))).collect();
+    read.into_iter().collect::<Option<Vec<_>>>().map(Value::List)
+}
+
 fn matrix(
     c: &Context<'_>,
     node: &Node,
     p: &Parameter,
     size: usize,
     dimension: Dimension,
+    symmetric: bool,
 ) -> Option<Value> {
     let rows = node.items();
     let square = node.is_list()
@@ -189,6 +206,9 @@ fn matrix(
             }
         }
     }
+    if !symmetric {
+        return good.then(|| rows_of(all));
+    }
     let scale = all.iter().flatten().fold(0.0_f64, |a, x| a.max(x.abs()));
     for i in 0..size {
         for j in 0..i {
@@ -208,6 +228,10 @@ fn matrix(
             }
         }
     }
-    let rows = all.into_iter().map(|r| Value::List(r.into_iter().map(Value::Number).collect()));
-    good.then(|| Value::List(rows.collect()))
+    good.then(|| rows_of(all))
+}
+
+fn rows_of(all: Vec<Vec<f64>>) -> Value {
+    let row = |r: Vec<f64>| Value::List(r.into_iter().map(Value::Number).collect());
+    Value::List(all.into_iter().map(row).collect())
 }

@@ -40,10 +40,11 @@ pub(super) fn output(model: &Model, o: &Output) -> String {
         Quantity::LinkHistory { element, field } => {
             let e = &model.elements[*element];
             let variable = match &e.body {
-                Body::Link(law, _) => law.history().get(*field).map_or("", |f| f.name),
-                _ => "",
-            };
-            format!("LinkHistory(link: {}, variable: {})", text(&e.name), text(variable))
+                Body::Link(law, _) => law.history().get(*field).map(|f| f.name.clone()),
+                _ => None,
+            }
+            .unwrap_or_default();
+            format!("LinkHistory(link: {}, variable: {})", text(&e.name), text(&variable))
         }
         Quantity::ElementForce { element, end, dof, factor: by } => {
             let own = own(true, dof.is_rotation());

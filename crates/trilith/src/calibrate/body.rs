@@ -197,7 +197,9 @@ fn opening(system: &System, model: &Model, contact: &ImpactMass) -> f64 {
     let law = system.links.law(model, link);
     law.and_then(|l| {
         l.at_rest(&mut history);
-        l.contact(&at, &history, &zeros)
+        let mut contacts = Vec::new();
+        l.contacts(&at, &history, &zeros, &mut contacts);
+        contacts.first().map(|c| c.gap)
     })
-    .map_or(0.0, |c| c.gap)
+    .unwrap_or(0.0)
 }

@@ -1,6 +1,7 @@
 //! A linear spring and a sliding link, only to be read.
 
 use crate::Registry;
+use std::borrow::Cow;
 use trilith_element::dimension as d;
 use trilith_element::*;
 
@@ -35,6 +36,7 @@ impl Described for Spring {
         law: "f = k d",
         source: "",
         example: "",
+        exercise: Exercise::NONE,
     };
 }
 
@@ -85,6 +87,7 @@ impl Described for Slider {
         law: "f = k d",
         source: "",
         example: "",
+        exercise: Exercise::NONE,
     };
     fn check(&self) -> Result<(), ParameterError> {
         if self.mu == 0.0 && self.c > 0.0 {
@@ -98,8 +101,8 @@ impl Link for Slider {
     fn coordinates(&self) -> Coordinates {
         Coordinates::Local(self.axes.clone())
     }
-    fn history(&self) -> &'static [Field] {
-        &[Field { name: "slip2", unit: "m" }]
+    fn history(&self) -> Cow<'static, [Field]> {
+        vec![Field::new("slip2", "m")].into()
     }
     fn engaged_stiffness(&self, _: &mut [f64]) {}
     fn respond(&self, _: &Kinematics<'_>, _: &[f64], _: &mut [f64], _: &mut Response<'_>) {}
