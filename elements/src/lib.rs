@@ -2,7 +2,7 @@
 //!
 //! | linear elements | constraints | links |
 //! |---|---|---|
-//! | [`Beam`], [`Truss`], [`Spring`], [`Mass`] | [`RigidBody`], [`RigidLink`], [`Diaphragm`], [`EqualDof`] | [`NLink`], [`Gap`], [`Hook`], [`Dashpot`] |
+//! | [`Beam`], [`Truss`], [`Spring`], [`Mass`] | [`RigidBody`], [`RigidLink`], [`Diaphragm`], [`EqualDof`] | [`NLink`], [`Gap`], [`Hook`], [`Dashpot`], [`RockingBody`] |
 //!
 //! To add one: write its file, then its lines here (`mod`, `pub use`, and one of registration).
 
@@ -20,6 +20,7 @@ mod mass;
 mod nlink;
 mod rigid_body;
 mod rigid_link;
+mod rocking_body;
 mod spring;
 mod truss;
 
@@ -33,6 +34,7 @@ pub use mass::Mass;
 pub use nlink::{NLink, NLinkHistory};
 pub use rigid_body::RigidBody;
 pub use rigid_link::RigidLink;
+pub use rocking_body::RockingBody;
 pub use spring::Spring;
 pub use truss::Truss;
 
@@ -52,6 +54,7 @@ pub fn register(to: &mut impl Register) {
     to.link::<Gap>();
     to.link::<Hook>();
     to.link::<Dashpot>();
+    to.link::<RockingBody>();
 }
 
 #[cfg(test)]

@@ -2,7 +2,7 @@
 
 use trilith::solvers::{
     BasisReport, ContactMode, ContactSummary, EnergyTotals, LinkEnergy, Observer, RunOptions,
-    Sample, Status, Work,
+    Sample, Work,
 };
 use trilith::{Analysis, Model, Registry, SolverKind};
 
@@ -130,7 +130,7 @@ impl Trace {
             .collect();
         trace.basis = result.basis;
         trace.work = result.work;
-        if result.status != Status::Converged {
+        if !result.status.is_good() {
             trace.complaint = Some(result.status.text());
         }
         Ok(trace)

@@ -6,7 +6,6 @@ use crate::report::{energies, work};
 use crate::text::{number, percent, row, table};
 use crate::{Answer, Failure, case, diagnostics, read};
 use trilith::results::{Peak, Summary};
-use trilith::solvers::Status;
 use trilith::{Analysis, Registry, RunOptions};
 
 pub(crate) fn compare(registry: &Registry, args: &CompareArguments) -> Result<Answer, Failure> {
@@ -35,7 +34,7 @@ pub(crate) fn compare(registry: &Registry, args: &CompareArguments) -> Result<An
         };
         let run = analysis.run(options).map_err(|e| Failure::of(&e, &model))?;
         drop(bar);
-        if run.result.status != Status::Converged {
+        if !run.result.status.is_good() {
             let message = format!("{}: {}", solver.name(), run.result.status.text());
             eprint!("{}", diagnostics::plain(&message, None));
             status = 1;

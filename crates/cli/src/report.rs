@@ -46,9 +46,10 @@ pub(crate) fn text(model: &Model, s: &Summary) -> String {
     }
     if let Some(c) = &s.contact {
         out += &format!(
-            "\ncontact: {} at first, {} in all; uplift ≤ {} m, slip ≤ {} m, {} m at the end\n",
+            "\ncontact: {} at first, {} in all{}; uplift ≤ {} m, slip ≤ {} m, {} m at the end\n",
             c.initial_mode,
             c.mode,
+            if c.overturned { ", overturned" } else { "" },
             number(c.max_uplift),
             number(c.max_slip),
             number(c.residual_slip)

@@ -4,7 +4,7 @@ use crate::args::RunArguments;
 use crate::progress::Progress;
 use crate::{Answer, Failure, case, diagnostics, read, report};
 use std::path::{Path, PathBuf};
-use trilith::solvers::{EndState, Status};
+use trilith::solvers::EndState;
 use trilith::{Analysis, Registry, Run, RunOptions};
 
 /// Deformed shapes kept for ParaView.
@@ -45,7 +45,7 @@ pub(crate) fn run(registry: &Registry, args: RunArguments) -> Result<Answer, Fai
             text += &format!("checkpoint: {}\n", path.display());
         }
     }
-    let status = if run.result.status == Status::Converged {
+    let status = if run.result.status.is_good() {
         0
     } else {
         eprint!("{}", diagnostics::plain(&run.result.status.text(), None));

@@ -47,6 +47,7 @@ fn record(model: &Model) -> Recorder {
             rates: &[f64::NAN; 2],
             energy: &energy,
             contacts: &[],
+            overturned: None,
             shape: &Lifted(t),
         });
     }

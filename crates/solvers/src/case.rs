@@ -90,7 +90,7 @@ pub fn run(
                 RunOptions { case: earlier, solver: options.solver, ..RunOptions::default() },
                 &mut [],
             )?;
-            if let Status::NotConverged { .. } = result.status {
+            if let Status::NotConverged { .. } | Status::Overturned { .. } = result.status {
                 return Err(SolveError::Predecessor {
                     case: result.case,
                     reason: result.status.text(),

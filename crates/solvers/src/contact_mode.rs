@@ -22,6 +22,8 @@ pub struct ContactSummary {
     pub max_slip: f64,
     /// Largest tangential distance at the end, m.
     pub residual_slip: f64,
+    /// True where a body has fallen over.
+    pub overturned: bool,
 }
 
 /// What has been seen.
@@ -54,6 +56,9 @@ impl Seen {
 #[derive(Debug, Default)]
 pub struct ContactMode {
     start: Vec<[f64; 2]>,
+    /// Distance from the start of every contact where it last carried load, m: a corner that a large
+    /// rotation lifts moves sideways without slipping.
+    slip: Vec<f64>,
     before: Vec<Contact>,
     direction: [f64; 2],
     initial: Seen,
@@ -148,18 +153,22 @@ impl Observer for ContactMode {
         }
         if self.before.is_empty() {
             self.start = now.iter().map(|c| c.position).collect();
+            self.slip = vec![0.0; now.len()];
             // Play: what the contacts give elastically, of the order of the static penetration.
             self.play = now.iter().map(|c| (-c.gap).max(0.0)).fold(0.0, f64::max);
         } else {
             self.enter(&now);
         }
-        let mut slip: f64 = 0.0;
-        for (c, s) in now.iter().zip(&self.start) {
-            slip = slip.max((c.position[0] - s[0]).hypot(c.position[1] - s[1]));
+        for ((c, s), slip) in now.iter().zip(&self.start).zip(&mut self.slip) {
+            if c.normal > 0.0 {
+                *slip = (c.position[0] - s[0]).hypot(c.position[1] - s[1]);
+            }
             self.summary.max_uplift = self.summary.max_uplift.max(c.gap);
         }
+        let slip = self.slip.iter().fold(0.0_f64, |a, s| a.max(*s));
         self.summary.max_slip = self.summary.max_slip.max(slip);
         self.summary.residual_slip = slip;
+        self.summary.overturned |= sample.overturned.is_some();
         self.before = now;
     }
 }

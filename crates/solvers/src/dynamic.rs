@@ -16,7 +16,7 @@ use crate::space::Space;
 use crate::start::{check, constant_force, potential, resume, start};
 use crate::stepper::{LinkStepper, State, StepEnergy, Stepper};
 use crate::timeline::Timeline;
-use crate::view::Viewer;
+use crate::view::{Viewer, overturned};
 use trilith_model::{Case, Damping, DynamicCase, Model, Side, SolverKind, StepControl};
 use trilith_system::{LoadSet, System, Track};
 
@@ -155,7 +155,7 @@ pub(crate) fn run(
     .min(timeline.steps);
     let mut progress = options.progress;
     let mut counts = Counts::default();
-    let mut stop = None;
+    let (mut stop, mut fallen) = (None, None);
     let mut made = first;
     for step in first..last {
         let outcome = output_step(
@@ -179,17 +179,24 @@ pub(crate) fn run(
         if let Some(tell) = progress.as_deref_mut() {
             tell((made - first) as f64 / (last - first) as f64);
         }
+        fallen = overturned(model, system, &state);
+        if fallen.is_some() {
+            break;
+        }
     }
     let status = match stop {
         Some(Stop::Fatal(e)) => return Err(e),
         Some(Stop::NoEquilibrium { t, worst, residual }) => {
             Status::NotConverged { t, worst: system.links.name(model, worst), residual }
         }
-        None if ledger.totals.error_relative <= solution.energy_limit => Status::Converged,
-        None => Status::EnergyError {
+        None if ledger.totals.error_relative > solution.energy_limit => Status::EnergyError {
             share: ledger.totals.error_relative,
             limit: solution.energy_limit,
         },
+        None => fallen.map_or(Status::Converged, |element| Status::Overturned {
+            t: timeline.time(made),
+            body: model.elements[element].name.clone(),
+        }),
     };
     if counts.forced > 0 {
         warnings.push(format!(

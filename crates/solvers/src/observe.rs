@@ -17,6 +17,8 @@ pub struct Sample<'a> {
     pub energy: &'a EnergyTotals,
     /// What every contact does: (index of the element in the model, contact).
     pub contacts: &'a [(usize, Contact)],
+    /// Index of the element of a body that has fallen over.
+    pub overturned: Option<usize>,
     /// Displacements of the structure on request.
     pub shape: &'a dyn Shape,
 }
@@ -119,9 +121,22 @@ pub enum Status {
         /// Its force residual, N or N·m.
         residual: f64,
     },
+    /// Stopped because a body has fallen over, within the energy limit.
+    Overturned {
+        /// Time of the last state, s.
+        t: f64,
+        /// Name of the link of the body.
+        body: String,
+    },
 }
 
 impl Status {
+    /// True for a result to be trusted: to the end, or to the end of a body that overturned.
+    #[must_use]
+    pub fn is_good(&self) -> bool {
+        matches!(self, Self::Converged | Self::Overturned { .. })
+    }
+
     /// Word for `summary.json`.
     #[must_use]
     pub fn word(&self) -> &'static str {
@@ -129,6 +144,7 @@ impl Status {
             Self::Converged => "converged",
             Self::EnergyError { .. } => "energy error",
             Self::NotConverged { .. } => "not converged",
+            Self::Overturned { .. } => "overturned",
         }
     }
 
@@ -145,6 +161,7 @@ impl Status {
             Self::NotConverged { t, worst, residual } => format!(
                 "no equilibrium at t = {t:.6} s with the smallest step: {worst} is off by {residual:.3e}"
             ),
+            Self::Overturned { t, body } => format!("\"{body}\" overturned at t = {t:.6} s"),
         }
     }
 }

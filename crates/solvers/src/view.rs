@@ -82,6 +82,7 @@ impl<'a, 'b> Viewer<'a, 'b> {
         }
         self.outputs.evaluate(t, state, self.loads, &mut self.values, &mut self.rates);
         let contacts = contacts(self.model, self.system, state);
+        let overturned = overturned(self.model, self.system, state);
         let count = self.system.reduction.prescribed.len();
         let [prescribed, _, _] = self.loads.prescribed(t, Side::Before, count);
         let shape = Figure { system: self.system, space, state, prescribed };
@@ -93,10 +94,25 @@ impl<'a, 'b> Viewer<'a, 'b> {
                 rates: &self.rates,
                 energy: &ledger.totals,
                 contacts: &contacts,
+                overturned,
                 shape: &shape,
             });
         }
     }
+}
+
+/// Index of the element of the first body that has fallen over.
+pub(crate) fn overturned(model: &Model, system: &System, state: &State) -> Option<usize> {
+    let links = &system.links;
+    let fallen = links.links.iter().find(|link| {
+        let r = link.range.clone();
+        let (d, v) = (&state.d[r.clone()], &state.v[r]);
+        let at = Kinematics { d, v, d0: d, v0: v, dt: 0.0 };
+        links
+            .law(model, link)
+            .is_some_and(|law| law.overturned(&at, &state.history[link.history.clone()]))
+    });
+    fallen.map(|link| link.element)
 }
 
 fn contacts(model: &Model, system: &System, state: &State) -> Vec<(usize, Contact)> {

@@ -1,0 +1,91 @@
+//! Finite rotations.
+
+use nalgebra::{Matrix3, Quaternion, UnitQuaternion, Vector3};
+
+/// A rotation that goes on from one that is known, R = R₀ exp(φ), and what small changes of φ do to it.
+pub(super) struct Turn {
+    /// R, from the axes of the body to global axes.
+    pub matrix: Matrix3<f64>,
+    /// The right Jacobian Jᵣ(φ): δR = R \[Jᵣ δφ\]×.
+    pub jacobian: Matrix3<f64>,
+    /// R as quaternion (w, x, y, z).
+    pub quaternion: [f64; 4],
+}
+
+impl Turn {
+    /// From the quaternion (w, x, y, z) of R₀ by the rotation vector φ in the axes of the body.
+    pub fn new(start: [f64; 4], by: Vector3<f64>) -> Self {
+        let [w, x, y, z] = start;
+        let start = UnitQuaternion::from_quaternion(Quaternion::new(w, x, y, z));
+        let all = start * UnitQuaternion::from_scaled_axis(by);
+        let q = all.quaternion();
+        Self {
+            matrix: all.to_rotation_matrix().into_inner(),
+            jacobian: right_jacobian(by),
+            quaternion: [q.w, q.i, q.j, q.k],
+        }
+    }
+
+    /// R r − r, from the quaternion: a stiff contact would see the rounding of the difference.
+    pub fn shift(&self, r: Vector3<f64>) -> Vector3<f64> {
+        let [w, x, y, z] = self.quaternion;
+        let axis = Vector3::new(x, y, z);
+        let across = axis.cross(&r);
+        2.0 * (w * across + axis.cross(&across))
+    }
+}
+
+/// I − (1 − cos φ)/φ² \[φ\]× + (φ − sin φ)/φ³ \[φ\]×².
+fn right_jacobian(by: Vector3<f64>) -> Matrix3<f64> {
+    let angle = by.norm();
+    // The series where the quotients lose their digits.
+    let (first, second) = if angle < 1e-2 {
+        let s = angle * angle;
+        (0.5 - s / 24.0 + s * s / 720.0, 1.0 / 6.0 - s / 120.0 + s * s / 5040.0)
+    } else {
+        ((1.0 - angle.cos()) / angle.powi(2), (angle - angle.sin()) / angle.powi(3))
+    };
+    let cross = by.cross_matrix();
+    Matrix3::identity() - cross * first + cross * cross * second
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use approx::assert_relative_eq;
+
+    #[test]
+    fn the_jacobian_is_the_derivative_of_the_rotation() {
+        for by in [[0.3, -0.8, 0.5], [1e-3, 2e-3, -1e-3], [0.0; 3], [0.0, 2.5, 0.0]] {
+            let by = Vector3::from(by);
+            let turn = |v| Turn::new([1.0, 0.0, 0.0, 0.0], v);
+            let here = turn(by);
+            for i in 0..3 {
+                let mut h = Vector3::zeros();
+                h[i] = 1e-6;
+                let quotient = (turn(by + h).matrix - turn(by - h).matrix) / 2e-6;
+                let column = here.jacobian.column(i).into_owned();
+                let given = here.matrix * column.cross_matrix();
+                assert_relative_eq!(quotient, given, epsilon = 1e-8);
+            }
+        }
+    }
+
+    #[test]
+    fn the_shift_of_a_point_has_all_its_digits() {
+        let r = Vector3::new(1.0, -2.0, 3.0);
+        let turn = |angle| Turn::new([1.0, 0.0, 0.0, 0.0], Vector3::new(0.0, angle, 0.0));
+        let large = turn(0.8);
+        assert_relative_eq!(large.shift(r), large.matrix * r - r, max_relative = 1e-14);
+        let tiny = turn(1e-13).shift(r);
+        assert_relative_eq!(tiny[0], 3e-13, max_relative = 1e-12);
+    }
+
+    #[test]
+    fn a_turn_in_a_plane_is_its_angle() {
+        let a = Turn::new([1.0, 0.0, 0.0, 0.0], Vector3::new(0.0, 0.7, 0.0));
+        let b = Turn::new(a.quaternion, Vector3::new(0.0, 0.5, 0.0));
+        assert_relative_eq!(b.matrix[(2, 2)], 1.2_f64.cos(), max_relative = 1e-14);
+        assert_relative_eq!(b.matrix[(0, 2)], 1.2_f64.sin(), max_relative = 1e-14);
+    }
+}

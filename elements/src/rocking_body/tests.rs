@@ -1,0 +1,119 @@
+use super::*;
+use crate::parameters::read;
+use approx::assert_relative_eq;
+use trilith_element::conformance::Kit;
+use trilith_element::{Energy, Kinematics, Link, Response, Value};
+
+const KN: f64 = 1e6;
+
+fn list(points: &[Vector3]) -> Value {
+    let one = |p: &Vector3| Value::List(p.iter().map(|x| Value::Number(*x)).collect());
+    Value::List(points.iter().map(one).collect())
+}
+
+fn body(base: &[Vector3], more: &[(&str, Value)]) -> Result<RockingBody, ParameterError> {
+    let mut all = vec![("base", list(base)), ("kn", Value::Number(KN))];
+    all.extend(more.iter().cloned());
+    read(&all)
+}
+
+const BLOCK: [Vector3; 2] = [[-0.5, 0.0, -1.0], [0.5, 0.0, -1.0]];
+const TABLE: [Vector3; 4] =
+    [[-0.5, -0.3, -1.0], [0.5, -0.3, -1.0], [0.5, 0.3, -1.0], [-0.5, 0.3, -1.0]];
+
+fn number(name: &'static str, x: f64) -> (&'static str, Value) {
+    (name, Value::Number(x))
+}
+
+fn inertia() -> (&'static str, Value) {
+    ("inertia", Value::List([300.0, 400.0, 150.0].map(Value::Number).to_vec()))
+}
+
+/// Force on the node at a deformation, from rest.
+fn force(law: &RockingBody, d: [f64; 6], v: [f64; 6]) -> ([f64; 6], Energy) {
+    let mut history = vec![0.0; law.history().len()];
+    law.at_rest(&mut history);
+    let (mut f, mut k, mut c, mut trial) = ([0.0; 6], [0.0; 36], [0.0; 36], history.clone());
+    let mut energy = Energy::default();
+    let mut out = Response { f: &mut f, k: &mut k, c: &mut c, energy: &mut energy };
+    let at = Kinematics { d: &d, v: &v, d0: &d, v0: &v, dt: 0.0 };
+    law.respond(&at, &history, &mut trial, &mut out);
+    (f, energy)
+}
+
+#[test]
+fn conforms_in_a_plane_and_in_space() {
+    let friction = [number("mu", 0.4), number("ks", 0.7 * KN), number("damping", 2e3)];
+    let plane = [0.05, 0.02, 0.05, 0.02, 0.3, 0.02];
+    Kit::new(&plane, 0.5).assert(&body(&BLOCK, &friction).unwrap());
+    Kit::new(&plane, 0.5).assert(&body(&BLOCK, &[]).unwrap());
+    let mut space = friction.to_vec();
+    space.push(inertia());
+    let all = [0.05, 0.05, 0.05, 0.3, 0.3, 0.3];
+    Kit::new(&all, 0.5).assert(&body(&TABLE, &space).unwrap());
+    space.push(("pull", Value::Flag(true)));
+    Kit::new(&all, 0.5).assert(&body(&TABLE, &space).unwrap());
+}
+
+/// Tilted about its right corner by θ, the block of half width b and half height h under its weight W is
+/// held by the moment W R sin(α − θ) about the corner.
+#[test]
+fn the_restoring_moment_falls_with_the_tilt() {
+    let law = body(&BLOCK, &[number("mu", 5.0), number("ks", KN)]).unwrap();
+    let (b, h) = (0.5_f64, 1.0_f64);
+    let (alpha, radius) = (b.atan2(h), b.hypot(h));
+    let weight: f64 = 1e3;
+    for theta in [0.01, 0.2, alpha, 1.0] {
+        // Positive about Y is over +X: the centre of gravity goes round the right corner.
+        let (x, z) = (b - radius * (alpha - theta).sin(), radius * (alpha - theta).cos() - h);
+        let (f, energy) = force(&law, [x, 0.0, z - weight / KN, 0.0, theta, 0.0], [0.0; 6]);
+        assert_relative_eq!(f[2], -weight, max_relative = 1e-9);
+        assert_relative_eq!(f[0], 0.0, epsilon = 1e-8 * weight);
+        let restoring = weight * radius * (alpha - theta).sin();
+        assert_relative_eq!(f[4], restoring, epsilon = 1e-9 * weight);
+        assert_relative_eq!(energy.stored, 0.5 * weight * weight / KN, max_relative = 1e-9);
+    }
+}
+
+#[test]
+fn small_rotations_are_those_of_plain_contacts() {
+    let more = [number("mu", 0.6), number("ks", 0.5 * KN)];
+    let law = body(&BLOCK, &more).unwrap();
+    let t = 1e-6;
+    let d = [2e-6, 0.0, -3e-6, 0.0, t, 0.0];
+    let (f, _) = force(&law, d, [0.0; 6]);
+    let mut sum = [0.0; 3];
+    for [x, _, z] in BLOCK {
+        // u + θ × r
+        let (dx, dz) = (d[0] + t * z, d[2] - t * x);
+        let normal: f64 = KN * (-dz).max(0.0);
+        let shear = (0.5 * KN * dx).clamp(-0.6 * normal, 0.6 * normal);
+        sum[0] += shear;
+        sum[1] -= normal;
+        sum[2] += z * shear + x * normal;
+    }
+    for (given, plain) in [f[0], f[2], f[4]].iter().zip(sum) {
+        assert_relative_eq!(*given, plain, epsilon = 1e-5);
+    }
+}
+
+#[test]
+fn spinning_freely_it_keeps_its_energy_and_feels_its_gyroscopic_moment() {
+    let law = body(&TABLE, &[inertia()]).unwrap();
+    let (f, _) = force(&law, [0.0, 0.0, 5.0, 0.0, 0.0, 0.0], [0.0, 0.0, 0.0, 1.0, 2.0, 3.0]);
+    // Ω × J Ω, by components.
+    let moment = [(150.0 - 400.0) * 6.0, (300.0 - 150.0) * 3.0, (400.0 - 300.0) * 2.0];
+    assert_eq!(f, [0.0, 0.0, 0.0, moment[0], moment[1], moment[2]]);
+    assert_eq!(moment[0] + 2.0 * moment[1] + 3.0 * moment[2], 0.0);
+}
+
+#[test]
+fn refuses_what_cannot_stand() {
+    let parameter = |base: &[Vector3], more: &[(&str, Value)]| {
+        body(base, more).unwrap_err().parameter().unwrap().to_owned()
+    };
+    assert_eq!(parameter(&BLOCK[..1], &[]), "base");
+    assert_eq!(parameter(&[[0.0, 0.0, 1.0], [1.0, 0.0, 1.0]], &[]), "base");
+    assert_eq!(parameter(&BLOCK, &[number("mu", 0.5)]), "ks");
+    assert_eq!(parameter(&TABLE, &[]), "inertia");
+}
