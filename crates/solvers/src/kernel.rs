@@ -78,6 +78,8 @@ const ENOUGH: f64 = 0.9;
 const NEWTON_ITERATIONS: usize = 60;
 const FIXED_POINT_ITERATIONS: usize = 200;
 const TOLERANCE: f64 = 1e-9;
+/// Two units in the last place.
+const DIGIT: f64 = 2.0 * f64::EPSILON;
 /// Step sizes whose factors are kept.
 const KEPT: usize = 6;
 /// From this many equations on, a factor is kept while it still contracts well.
@@ -294,11 +296,13 @@ impl LinkKernel {
                 .max(PSEUDO_SHARE * out.pseudo[a].abs())
                 .max(self.residual[a].abs());
         }
+        let rounding = self.rounding(links, out);
         let mut size = 0.0;
         let mut worst = NoEquilibrium { worst: 0, residual: 0.0 };
         for (a, r) in self.residual.iter().enumerate() {
             let flat = links.active[a];
-            let allowed = TOLERANCE * now[usize::from(links.rotational[flat])];
+            let scale = now[usize::from(links.rotational[flat])];
+            let allowed = (TOLERANCE * scale).max(rounding[a]);
             let share = if *r == 0.0 { 0.0 } else { r.abs() / allowed.max(f64::MIN_POSITIVE) };
             if share > size || !share.is_finite() {
                 size = share;
@@ -306,6 +310,27 @@ impl LinkKernel {
             }
         }
         (size, worst)
+    }
+
+    /// What the last digits of deformations and rates make of the forces of the active coordinates: a
+    /// stiff contact under a body that has gone far.
+    fn rounding(&self, links: &LinkSet, out: &Converged<'_>) -> Vec<f64> {
+        let mut forces = vec![0.0; links.active.len()];
+        for link in &links.links {
+            let n = link.range.len();
+            for i in 0..n {
+                let a = self.place[link.range.start + i];
+                if a == usize::MAX {
+                    continue;
+                }
+                let row = link.block.start + i * n;
+                for (j, flat) in link.range.clone().enumerate() {
+                    let (k, c) = (self.tangents.k[row + j], self.tangents.c[row + j]);
+                    forces[a] += DIGIT * ((k * out.d[flat]).abs() + (c * out.v[flat]).abs());
+                }
+            }
+        }
+        forces
     }
 
     /// Replaces the residual by the Newton correction of f̃.
