@@ -7,6 +7,7 @@
 //!   bending in plane 1–2:  E I₃,  Φ = 12 E I₃ / (G A₂ L²)
 //!   bending in plane 1–3:  E I₂,  Φ = 12 E I₂ / (G A₃ L²)        Φ = 0 without shear areas
 //!   axial E A / L,  torsion G J / L
+//!   P-Δ: geometric stiffness of the axial force N (tension +), cubic shapes of the plane that bends
 //! ```
 //!
 //! | parameter                | symbol | unit  | range | default | meaning                                      |
@@ -273,7 +274,7 @@ impl LinearElement for Beam {
                 self.offset_i + self.offset_j
             )));
         }
-        let (k, m) = self.local(whole, flexible)?;
+        let (k, m) = self.local(whole, flexible, at.tension)?;
         let t = repeated(&at.frame, 4);
         let none = DMatrix::zeros(12, 12);
         Ok(used(&(t.transpose() * k * &t), &(t.transpose() * m * &t), &none))

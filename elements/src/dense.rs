@@ -25,13 +25,15 @@ pub(crate) fn repeated(frame: &Frame, blocks: usize) -> DMatrix<f64> {
 
 /// Element matrices from matrices over all six DOFs of each node, without the DOFs that get nothing.
 ///
-/// A row counts as nothing where its diagonal is rounding noise in all three matrices; these are
-/// positive semi-definite, so the rest of such a row is noise as well.
+/// A row counts as nothing where its diagonal is rounding noise in all three matrices. These are
+/// positive semi-definite, or have a geometric stiffness with a diagonal of its own in every row that
+/// it fills, so the rest of such a row is noise as well.
 pub(crate) fn used(k: &DMatrix<f64>, m: &DMatrix<f64>, c: &DMatrix<f64>) -> ElementMatrices {
     let noise = |a: &DMatrix<f64>| 1e-24 * a.diagonal().amax();
     let (nk, nm, nc) = (noise(k), noise(m), noise(c));
-    let rows: Vec<usize> =
-        (0..k.nrows()).filter(|&i| k[(i, i)] > nk || m[(i, i)] > nm || c[(i, i)] > nc).collect();
+    let rows: Vec<usize> = (0..k.nrows())
+        .filter(|&i| k[(i, i)].abs() > nk || m[(i, i)] > nm || c[(i, i)] > nc)
+        .collect();
     let dofs = rows.iter().map(|r| (r / 6, Dof::ALL[r % 6])).collect();
     let mut out = ElementMatrices::zeros(dofs);
     for (p, &i) in rows.iter().enumerate() {

@@ -158,7 +158,7 @@ mod tests {
     fn matrices(mass: &Mass) -> ElementMatrices {
         let nodes = [[0.0; 3]];
         let frame = Frame::of_nodes(&nodes, None, None).unwrap();
-        mass.matrices(&Geometry { nodes: &nodes, frame }).unwrap()
+        mass.matrices(&Geometry { nodes: &nodes, frame, tension: 0.0 }).unwrap()
     }
 
     #[test]

@@ -167,7 +167,7 @@ mod tests {
 
     fn matrices(spring: &Spring, nodes: &[[f64; 3]]) -> ElementMatrices {
         let frame = Frame::of_nodes(nodes, None, None).unwrap();
-        spring.matrices(&Geometry { nodes, frame }).unwrap()
+        spring.matrices(&Geometry { nodes, frame, tension: 0.0 }).unwrap()
     }
 
     #[test]

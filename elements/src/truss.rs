@@ -87,6 +87,7 @@ impl LinearElement for Truss {
         let length = span_along_axis_1(at, "truss")?;
         let along = at.frame.0[0];
         let k = self.young * self.area / length;
+        let string = at.tension / length;
         let mass = (self.density * self.area + self.distributed_mass) * length;
         let [same, other] = match self.mass_matrix {
             MassMatrix::Lumped => [mass / 2.0, 0.0],
@@ -98,7 +99,9 @@ impl LinearElement for Truss {
                 for i in 0..3 {
                     inertia[(p + i, q + i)] = if p == q { same } else { other };
                     for j in 0..3 {
-                        stiffness[(p + i, q + j)] = a * b * k * along[i] * along[j];
+                        let axial = along[i] * along[j];
+                        let across = f64::from(u8::from(i == j)) - axial;
+                        stiffness[(p + i, q + j)] = a * b * (k * axial + string * across);
                     }
                 }
             }
@@ -125,7 +128,7 @@ mod tests {
         let truss: Truss = read(&given).unwrap();
         let nodes = [[0.0; 3], j];
         let frame = Frame::of_nodes(&nodes, None, None).unwrap();
-        truss.matrices(&Geometry { nodes: &nodes, frame }).unwrap()
+        truss.matrices(&Geometry { nodes: &nodes, frame, tension: 0.0 }).unwrap()
     }
 
     #[test]

@@ -137,6 +137,9 @@ pub struct Geometry<'a> {
     pub nodes: &'a [Vector3],
     /// Its local frame.
     pub frame: Frame,
+    /// Axial force that it carries while it is analysed, N, tension positive; 0 without P-Δ. An element
+    /// with a geometric stiffness adds it.
+    pub tension: f64,
 }
 
 impl Geometry<'_> {

@@ -36,6 +36,8 @@ pub struct Model {
     pub parameters: Vec<Parameter>,
     /// Nodes, in file order.
     pub nodes: Vec<Node>,
+    /// The static case whose axial forces stiffen or soften the structure in every case (P-Δ).
+    pub p_delta: Option<usize>,
     /// Fixed DOFs.
     pub supports: Vec<Support>,
     /// Elements, constraints and links, in file order.

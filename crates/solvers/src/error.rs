@@ -43,6 +43,32 @@ pub enum SolveError {
         /// Where the file defines the case.
         span: Span,
     },
+    /// The axial forces of the P-Δ case make the structure unstable.
+    #[error(
+        "the structure buckles under the axial forces of case \"{case}\" ({worst} carries the largest compression, {force:.4e} N)"
+    )]
+    Buckles {
+        /// Name of the case.
+        case: String,
+        /// The element with the largest compression.
+        worst: String,
+        /// Its axial force, N, tension positive.
+        force: f64,
+        /// Where the file defines the case.
+        span: Span,
+    },
+    /// The axial forces of the P-Δ case and the stiffness they leave do not settle.
+    #[error(
+        "the axial forces of case \"{case}\" do not settle with P-Δ: the last change was {change:.2e} of the largest"
+    )]
+    AxialForces {
+        /// Name of the case.
+        case: String,
+        /// Last change relative to the largest axial force.
+        change: f64,
+        /// Where the file defines the case.
+        span: Span,
+    },
     /// A case that another one continues did not get to its end.
     #[error("case \"{case}\", which is continued, did not finish: {reason}")]
     Predecessor {
@@ -77,9 +103,10 @@ impl SolveError {
     pub fn span(&self) -> Option<Span> {
         match self {
             Self::System(e) => e.span(),
-            Self::StaticNotConverged { span, .. } | Self::InitialNotFree { span, .. } => {
-                Some(span.clone())
-            }
+            Self::StaticNotConverged { span, .. }
+            | Self::InitialNotFree { span, .. }
+            | Self::Buckles { span, .. }
+            | Self::AxialForces { span, .. } => Some(span.clone()),
             _ => None,
         }
     }

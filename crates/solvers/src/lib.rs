@@ -23,6 +23,7 @@ mod massless;
 mod modal;
 mod observe;
 mod outputs;
+mod p_delta;
 mod propagator;
 mod space;
 mod start;
@@ -39,4 +40,5 @@ pub use observe::{
     Adequacy, BasisReport, CaseResult, EnergyTotals, LinkEnergy, Observer, Sample, Shape, Status,
     Work,
 };
+pub use p_delta::assemble;
 pub use stepper::State;

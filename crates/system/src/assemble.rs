@@ -30,6 +30,8 @@ pub struct System {
     pub inertia: [Vec<f64>; 3],
     /// Sum of all masses along Z, supports included, kg.
     pub total_mass: f64,
+    /// Axial force of every element that K was made with, N, tension positive; zeros without P-Δ.
+    pub tension: Vec<f64>,
     matrices: Vec<Option<ElementMatrices>>,
 }
 
@@ -39,7 +41,15 @@ impl System {
     /// # Errors
     /// [`SystemError`] where elements, constraints or supports do not fit together.
     pub fn new(model: &Model) -> Result<Self, SystemError> {
-        let matrices = element_matrices(model)?;
+        Self::with_tension(model, vec![0.0; model.elements.len()])
+    }
+
+    /// Assembles with the geometric stiffness of an axial force (N, tension positive) in every element.
+    ///
+    /// # Errors
+    /// As [`new`](Self::new).
+    pub fn with_tension(model: &Model, tension: Vec<f64>) -> Result<Self, SystemError> {
+        let matrices = element_matrices(model, &tension)?;
         let count = 6 * model.nodes.len();
         let mut used = vec![false; count];
         for (e, m) in model.elements.iter().zip(&matrices) {
@@ -84,6 +94,7 @@ impl System {
             links,
             inertia,
             total_mass: m.bilinear(&r, &r),
+            tension,
             reduction,
             matrices,
         })
@@ -150,6 +161,23 @@ impl System {
         (model.nodes[full / 6].name.clone(), Dof::ALL[full % 6].name())
     }
 
+    /// Axial force of a linear element with two nodes at a displacement of the free DOFs, supports at
+    /// rest; N, tension positive. 0 for every other member.
+    #[must_use]
+    pub fn axial_force(&self, model: &Model, element: usize, u: &[f64]) -> f64 {
+        let e = &model.elements[element];
+        if e.nodes.len() != 2 || self.matrices[element].is_none() {
+            return 0.0;
+        }
+        let along = [Dof::Ux, Dof::Uy, Dof::Uz].into_iter().zip(e.frame.0[0]);
+        along
+            .map(|(dof, c)| {
+                let row = self.end_force(model, element, 1, dof).stiffness;
+                c * row.iter().map(|(j, k)| k * u.get(*j).unwrap_or(&0.0)).sum::<f64>()
+            })
+            .sum()
+    }
+
     /// The force that an element exerts against the displacement of one of its nodes' DOFs, as a row
     /// over the reduced DOFs.
     #[must_use]
@@ -161,11 +189,15 @@ impl System {
     }
 }
 
-fn element_matrices(model: &Model) -> Result<Vec<Option<ElementMatrices>>, SystemError> {
+fn element_matrices(
+    model: &Model,
+    tension: &[f64],
+) -> Result<Vec<Option<ElementMatrices>>, SystemError> {
     model
         .elements
         .iter()
-        .map(|e| {
+        .zip(tension)
+        .map(|(e, tension)| {
             let Body::Linear(element) = &e.body else { return Ok(None) };
             let nodes: Vec<_> = e.nodes.iter().map(|n| model.nodes[*n].position).collect();
             let refuse = |reason: String| SystemError::Element {
@@ -174,7 +206,7 @@ fn element_matrices(model: &Model) -> Result<Vec<Option<ElementMatrices>>, Syste
                 span: e.span.clone(),
             };
             let m = element
-                .matrices(&Geometry { nodes: &nodes, frame: e.frame })
+                .matrices(&Geometry { nodes: &nodes, frame: e.frame, tension: *tension })
                 .map_err(|x| refuse(x.to_string()))?;
             let finite = [&m.stiffness, &m.mass, &m.damping]
                 .iter()

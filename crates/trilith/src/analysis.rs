@@ -19,9 +19,10 @@ impl<'m> Analysis<'m> {
     /// Assembles a model.
     ///
     /// # Errors
-    /// [`Error::System`] where its parts do not fit together.
+    /// [`Error::Solve`] where its parts do not fit together, or where it buckles under the axial forces
+    /// of its P-Δ case.
     pub fn new(model: &'m Model) -> Result<Self, Error> {
-        Ok(Self { model, system: System::new(model)?, frames: 0 })
+        Ok(Self { model, system: trilith_solvers::assemble(model)?, frames: 0 })
     }
 
     /// Keeps up to so many deformed shapes of every run, evenly spaced in time.

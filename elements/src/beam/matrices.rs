@@ -30,6 +30,13 @@ fn bending(ei: f64, phi: f64, l: f64) -> [f64; 16] {
     [s, t, -s, t, t, a, -t, b, -s, -t, s, -t, t, b, -t, a].map(|x| f * x)
 }
 
+/// Geometric stiffness of an axial force (tension positive) with cubic shapes. \[Przemieniecki 1968, eq. 15.34\]
+fn geometric(tension: f64, l: f64) -> [f64; 16] {
+    let f = tension / (30.0 * l);
+    let (s, t, a, b) = (36.0, 3.0 * l, 4.0 * l * l, -l * l);
+    [s, t, -s, t, t, a, -t, b, -s, -t, s, -t, t, b, -t, a].map(|x| f * x)
+}
+
 /// Consistent mass of bending with Φ; total mass, length. \[Przemieniecki 1968, eq. 11.30\]
 fn bending_mass(mass: f64, phi: f64, l: f64) -> [f64; 16] {
     let f = mass / (1.0 + phi).powi(2);
@@ -49,6 +56,7 @@ impl Beam {
         &self,
         whole: f64,
         l: f64,
+        tension: f64,
     ) -> Result<(DMatrix<f64>, DMatrix<f64>), ParameterError> {
         let s = self.section();
         let g = self.shear_modulus();
@@ -63,6 +71,14 @@ impl Beam {
         add(&mut k, &[3, 9], &[1.0; 2], &rod.map(|x| x * g * s.torsion / l));
         in_plane(&mut k, IN_12, &bending(ei3, phi12, l));
         in_plane(&mut k, IN_13, &bending(ei2, phi13, l));
+        for (plane, ei) in [(IN_12, ei3), (IN_13, ei2)] {
+            if ei > 0.0 {
+                in_plane(&mut k, plane, &geometric(tension, l));
+            } else {
+                let [a, _, b, _] = plane.0;
+                add(&mut k, &[a, b], &[1.0; 2], &rod.map(|x| x * tension / l));
+            }
+        }
 
         let per_length = self.density * s.area + self.distributed_mass;
         let mut m = match self.mass_matrix {

@@ -52,7 +52,7 @@ pub(super) fn cases() -> Vec<Case> {
 }
 
 /// The `n`-th (from 0) turning point of θ between passages of zero, or after the last of them.
-fn turning(r: &crate::Trace, n: usize, first_sign: f64) -> (f64, f64) {
+pub(super) fn turning(r: &crate::Trace, n: usize, first_sign: f64) -> (f64, f64) {
     let passages = r.crossings("theta", 0.0);
     let from = if n == 0 { 0.0 } else { passages.get(n - 1).copied().unwrap_or(f64::NAN) };
     let to = passages.get(n).copied().unwrap_or(f64::INFINITY);
@@ -62,7 +62,7 @@ fn turning(r: &crate::Trace, n: usize, first_sign: f64) -> (f64, f64) {
 
 /// Time from a turning point θ₀ to θ = 0 of θ̈ = −p² sin(α − θ), by its energy; θ = θ₀ (1 − s²) takes the
 /// root out of the integrand.
-fn quarter(p: f64, alpha: f64, theta: f64) -> f64 {
+pub(super) fn quarter(p: f64, alpha: f64, theta: f64) -> f64 {
     let n = 1000;
     let rate = |s: f64| {
         let at = theta * (1.0 - s * s);

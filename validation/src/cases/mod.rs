@@ -10,9 +10,11 @@ mod impact;
 mod links;
 mod maxwell;
 mod modes;
+mod p_delta;
 mod records;
 mod restitution;
 mod ritz;
+mod rocking_body;
 mod sliding;
 mod sliding_driven;
 mod time_integration;
@@ -35,7 +37,9 @@ pub fn all() -> Vec<Case> {
         block::cases(),
         block_start::cases(),
         block_rocking::cases(),
+        rocking_body::cases(),
         modes::cases(),
+        p_delta::cases(),
         ritz::cases(),
         time_integration::cases(),
     ]

@@ -6,6 +6,7 @@ mod calibration;
 mod convergence;
 mod frames;
 mod numerical_damping;
+mod overturning;
 mod runs;
 mod seed;
 mod sensitivity;
@@ -23,6 +24,7 @@ pub fn all() -> Vec<Study> {
         &numerical_damping::STUDIES,
         &convergence::STUDIES,
         &calibration::STUDIES,
+        &overturning::STUDIES,
     ]
     .concat()
 }

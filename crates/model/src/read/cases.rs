@@ -3,7 +3,7 @@
 use super::context::{Context, Fields};
 use super::names::Names;
 use super::{dynamic, loads};
-use crate::tree::{Entry, Kind};
+use crate::tree::{Entry, Kind, Node};
 use crate::{Analysis, Case, Function, StaticCase, Support};
 
 /// What cases refer to.
@@ -38,6 +38,25 @@ pub(super) fn cases(
         Some(Case { name: e.key.clone(), after: after?, analysis, span: e.key_span.clone() })
     };
     entries.iter().enumerate().map(one).collect()
+}
+
+/// `p_delta: "gravity"`: a static case that starts from nothing.
+pub(super) fn p_delta(
+    c: &Context<'_>,
+    node: &Node,
+    entries: &[Entry],
+    cases: &[Option<Case>],
+) -> Option<Option<usize>> {
+    let found = Names::new("case", "cases", entries).refer(c, node)?;
+    // A case that could not be read has been reported.
+    let case = cases[found].as_ref()?;
+    if matches!(case.analysis, Analysis::Static(_)) {
+        return Some(Some(found));
+    }
+    let message = format!("`p_delta` names `{}`, which is a dynamic case", case.name);
+    let d = c.diagnostic("E0118", message, node.span.clone());
+    c.report(d.help("name the static case whose axial forces act, such as gravity"));
+    None
 }
 
 /// The case before: only one that stands earlier in the file, so nothing can run in a circle.

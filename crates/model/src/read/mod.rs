@@ -41,6 +41,7 @@ const SECTIONS: &[&str] = &[
     "properties",
     "elements",
     "damping",
+    "p_delta",
     "functions",
     "loads",
     "cases",
@@ -153,6 +154,8 @@ fn sections(c: &mut Context<'_>, root: &Node, overrides: &[(String, String)]) ->
         loads: &load_names,
     };
     let cases = cases::cases(c, case_entries, &about);
+    let p_delta =
+        top.get("p_delta").map_or(Some(None), |n| cases::p_delta(c, n, case_entries, &cases));
     let outputs = outputs::outputs(
         c,
         c.section(&top, "outputs", false),
@@ -165,6 +168,7 @@ fn sections(c: &mut Context<'_>, root: &Node, overrides: &[(String, String)]) ->
         source: Source::clone(&c.source),
         plane,
         gravity: gravity?,
+        p_delta: p_delta?,
         parameters: c.parameters().values(),
         nodes: nodes.into_iter().flatten().collect(),
         supports: supports.into_iter().flatten().collect(),

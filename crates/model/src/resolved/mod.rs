@@ -44,6 +44,9 @@ pub fn resolved(model: &Model) -> String {
     });
     w.map("elements", &model.elements, |e| (e.name.clone(), element(model, e)));
     w.line(1, &format!("damping: {},", damping(&model.damping)));
+    if let Some(case) = model.p_delta {
+        w.line(1, &format!("p_delta: {},", text(&model.cases[case].name)));
+    }
     w.map("functions", &model.functions, |f| (f.name.clone(), function(&f.function, f.dimension)));
     w.map("loads", &model.patterns, |p| {
         let forces = p.forces.iter().map(|f| {

@@ -40,7 +40,6 @@ use crate::{Analysis, Error, Model, RunOptions, SolverKind};
 use trilith_element::{Dof, Link};
 use trilith_model as model;
 use trilith_solvers::{Observer, Sample, Status};
-use trilith_system::System;
 
 /// Output step as share of what an experiment lasts.
 const OUTPUT_SHARE: f64 = 1e-3;
@@ -75,7 +74,7 @@ impl Calibrator {
     /// # Errors
     /// Where the structure cannot be assembled, or is no body that stands free on contacts.
     pub fn new(model: Model, horizontal: Horizontal) -> Result<Self, Error> {
-        let body = Body::new(&model, &System::new(&model)?, horizontal)?;
+        let body = Body::new(&model, &trilith_solvers::assemble(&model)?, horizontal)?;
         Ok(Self { model, body, solver: SolverKind::Fna })
     }
 
@@ -108,7 +107,7 @@ impl Calibrator {
 
     /// Lets the body go at rest from a rigid displacement, under its weight alone.
     fn release(&mut self, pose: body::Pose, duration: f64) -> Result<Gaps, Error> {
-        let system = System::new(&self.model)?;
+        let system = trilith_solvers::assemble(&self.model)?;
         let initial = system.reduction.free.iter().map(|full| {
             let position = self.model.nodes[full / 6].position;
             model::Initial {
