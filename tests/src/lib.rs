@@ -32,7 +32,7 @@ pub fn parse(text: &str, set: &[(&str, String)]) -> (Model, System) {
     let model = trilith_model::read_text(text, &path, &registry(), &set).unwrap_or_else(|errors| {
         panic!("{}", errors.iter().map(ToString::to_string).collect::<Vec<_>>().join("\n"))
     });
-    let system = System::new(&model).unwrap_or_else(|e| panic!("{e}"));
+    let system = trilith_solvers::assemble(&model).unwrap_or_else(|e| panic!("{e}"));
     (model, system)
 }
 
