@@ -2,11 +2,13 @@
 //!
 //! | linear elements | constraints | links |
 //! |---|---|---|
-//! | [`Beam`], [`Truss`], [`Spring`], [`Mass`] | [`RigidBody`], [`RigidLink`], [`Diaphragm`], [`EqualDof`] | [`NLink`], [`Gap`], [`Hook`], [`Dashpot`], [`RockingBody`] |
+//! | [`Beam`], [`Truss`], [`Spring`], [`Mass`] | [`RigidBody`], [`RigidLink`], [`Diaphragm`], [`EqualDof`] | [`NLink`], [`Gap`], [`Hook`], [`Dashpot`], [`RockingBody`], [`Wen`] |
 //!
 //! To add one: write its file, then its lines here (`mod`, `pub use`, and one of registration).
 
 mod dense;
+#[cfg(test)]
+mod driven;
 mod parameters;
 mod restitution;
 
@@ -23,6 +25,7 @@ mod rigid_link;
 mod rocking_body;
 mod spring;
 mod truss;
+mod wen;
 
 pub use beam::{Beam, MassMatrix};
 pub use dashpot::{Dashpot, When};
@@ -37,6 +40,7 @@ pub use rigid_link::RigidLink;
 pub use rocking_body::RockingBody;
 pub use spring::Spring;
 pub use truss::Truss;
+pub use wen::{Wen, WenHistory};
 
 use trilith_element::Register;
 
@@ -55,6 +59,7 @@ pub fn register(to: &mut impl Register) {
     to.link::<Hook>();
     to.link::<Dashpot>();
     to.link::<RockingBody>();
+    to.link::<Wen>();
 }
 
 #[cfg(test)]
