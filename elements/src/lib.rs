@@ -2,13 +2,14 @@
 //!
 //! | linear elements | constraints | links |
 //! |---|---|---|
-//! | [`Beam`], [`Truss`], [`Spring`], [`Mass`] | [`RigidBody`], [`RigidLink`], [`Diaphragm`], [`EqualDof`] | [`NLink`], [`Gap`], [`Hook`], [`Dashpot`], [`RockingBody`], [`Wen`] |
+//! | [`Beam`], [`Truss`], [`Spring`], [`Mass`] | [`RigidBody`], [`RigidLink`], [`Diaphragm`], [`EqualDof`] | [`NLink`], [`Gap`], [`Hook`], [`Dashpot`], [`MultilinearElastic`], [`MultilinearPlastic`], [`RockingBody`], [`Wen`] |
 //!
 //! To add one: write its file, then its lines here (`mod`, `pub use`, and one of registration).
 
 mod dense;
 #[cfg(test)]
 mod driven;
+mod multilinear;
 mod parameters;
 mod restitution;
 
@@ -19,6 +20,8 @@ mod equal_dof;
 mod gap;
 mod hook;
 mod mass;
+mod multilinear_elastic;
+mod multilinear_plastic;
 mod nlink;
 mod rigid_body;
 mod rigid_link;
@@ -34,6 +37,8 @@ pub use equal_dof::{DofName, EqualDof};
 pub use gap::Gap;
 pub use hook::Hook;
 pub use mass::Mass;
+pub use multilinear_elastic::MultilinearElastic;
+pub use multilinear_plastic::{MultilinearPlastic, Rule};
 pub use nlink::{NLink, NLinkHistory};
 pub use rigid_body::RigidBody;
 pub use rigid_link::RigidLink;
@@ -58,6 +63,8 @@ pub fn register(to: &mut impl Register) {
     to.link::<Gap>();
     to.link::<Hook>();
     to.link::<Dashpot>();
+    to.link::<MultilinearElastic>();
+    to.link::<MultilinearPlastic>();
     to.link::<RockingBody>();
     to.link::<Wen>();
 }

@@ -180,7 +180,7 @@ mod tests {
 
     /// z and ∫ z du by Runge-Kutta's method.
     fn integrated(z0: f64, u: f64, n: f64) -> (f64, f64) {
-        let steps = 6_000;
+        let steps = 20_000;
         let h = u / f64::from(steps);
         let rate = |z: f64| if z * u > 0.0 { 1.0 - z.abs().powf(n) } else { 1.0 };
         let (mut z, mut work) = (z0, 0.0);
