@@ -2,13 +2,15 @@
 //!
 //! | linear elements | constraints | links |
 //! |---|---|---|
-//! | [`Beam`], [`Truss`], [`Spring`], [`Mass`] | [`RigidBody`], [`RigidLink`], [`Diaphragm`], [`EqualDof`] | [`NLink`], [`Gap`], [`Hook`], [`Dashpot`], [`MultilinearElastic`], [`MultilinearPlastic`], [`RockingBody`], [`Wen`] |
+//! | [`Beam`], [`Truss`], [`Spring`], [`Mass`] | [`RigidBody`], [`RigidLink`], [`Diaphragm`], [`EqualDof`] | [`NLink`], [`Gap`], [`Hook`], [`Dashpot`], [`MultilinearElastic`], [`MultilinearPlastic`], [`RockingBody`], [`RubberIsolator`], [`Wen`] |
 //!
 //! To add one: write its file, then its lines here (`mod`, `pub use`, and one of registration).
 
+mod biaxial;
 mod dense;
 #[cfg(test)]
 mod driven;
+mod dual;
 mod multilinear;
 mod parameters;
 mod restitution;
@@ -26,6 +28,7 @@ mod nlink;
 mod rigid_body;
 mod rigid_link;
 mod rocking_body;
+mod rubber_isolator;
 mod spring;
 mod truss;
 mod wen;
@@ -43,6 +46,7 @@ pub use nlink::{NLink, NLinkHistory};
 pub use rigid_body::RigidBody;
 pub use rigid_link::RigidLink;
 pub use rocking_body::RockingBody;
+pub use rubber_isolator::{RubberHistory, RubberIsolator};
 pub use spring::Spring;
 pub use truss::Truss;
 pub use wen::{Wen, WenHistory};
@@ -66,6 +70,7 @@ pub fn register(to: &mut impl Register) {
     to.link::<MultilinearElastic>();
     to.link::<MultilinearPlastic>();
     to.link::<RockingBody>();
+    to.link::<RubberIsolator>();
     to.link::<Wen>();
 }
 
