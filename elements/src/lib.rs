@@ -2,7 +2,7 @@
 //!
 //! | linear elements | constraints | links |
 //! |---|---|---|
-//! | [`Beam`], [`Truss`], [`Spring`], [`Mass`] | [`RigidBody`], [`RigidLink`], [`Diaphragm`], [`EqualDof`] | [`NLink`], [`Gap`], [`Hook`], [`Dashpot`], [`MultilinearElastic`], [`MultilinearPlastic`], [`RockingBody`], [`RubberIsolator`], [`Wen`] |
+//! | [`Beam`], [`Truss`], [`Spring`], [`Mass`] | [`RigidBody`], [`RigidLink`], [`Diaphragm`], [`EqualDof`] | [`NLink`], [`Gap`], [`Hook`], [`Dashpot`], [`LeadRubber`], [`MultilinearElastic`], [`MultilinearPlastic`], [`RockingBody`], [`RubberIsolator`], [`Wen`] |
 //!
 //! To add one: write its file, then its lines here (`mod`, `pub use`, and one of registration).
 
@@ -21,6 +21,7 @@ mod diaphragm;
 mod equal_dof;
 mod gap;
 mod hook;
+mod lead_rubber;
 mod mass;
 mod multilinear_elastic;
 mod multilinear_plastic;
@@ -39,6 +40,7 @@ pub use diaphragm::{Diaphragm, Normal};
 pub use equal_dof::{DofName, EqualDof};
 pub use gap::Gap;
 pub use hook::Hook;
+pub use lead_rubber::{LeadHistory, LeadRubber};
 pub use mass::Mass;
 pub use multilinear_elastic::MultilinearElastic;
 pub use multilinear_plastic::{MultilinearPlastic, Rule};
@@ -67,6 +69,7 @@ pub fn register(to: &mut impl Register) {
     to.link::<Gap>();
     to.link::<Hook>();
     to.link::<Dashpot>();
+    to.link::<LeadRubber>();
     to.link::<MultilinearElastic>();
     to.link::<MultilinearPlastic>();
     to.link::<RockingBody>();
