@@ -124,7 +124,8 @@ pub(crate) fn advance(z: [f64; 2], omega: [f64; 2], rate: [f64; 2]) -> Moved {
     let omega = [0, 1].map(|j| Dual::variable(omega[j], j));
     let mut z = z.map(Dual::constant);
     let (mut left, mut loss) = (Dual::constant(1.0), [ZERO; 2]);
-    loop {
+    // Each component comes to zero once at most.
+    for _ in 0..3 {
         let piece = Piece::new(omega, z);
         let zeros = [0, 1].map(|j| piece.zero(j).filter(|u| u.x < left.x));
         let first = match zeros {
