@@ -183,7 +183,7 @@ impl Described for LeadRubber {
               żᵢ = ωᵢ − zᵢ Σⱼ aⱼ ωⱼ zⱼ,  ω = ḋ/Y,  aⱼ = 1 where ḋⱼ zⱼ > 0, else 0\n\
               ρ c A h Ṫ = Q Y Σᵢ zᵢ (ωᵢ − żᵢ) − loss to end plates and shims",
         source: "Kalpakidis & Constantinou 2009; Kumar, Whittaker & Constantinou 2014",
-        example: r#""bearing": LeadRubber(nodes: ("ground", "slab"), kr: "1.5 MN/m", lead_diameter: "160 mm", lead_height: "300 mm", yield_displacement: "10 mm", shim_thickness: "60 mm", kv: "1.5 GN/m")"#,
+        example: r#""bearing": LeadRubber(nodes: ("ground", "slab"), kr: "1.5 MN/m", lead_diameter: "160 mm", lead_height: "300 mm", yield_displacement: "10 mm", shim_thickness: "60 mm", kv: "1500 MN/m")"#,
         exercise: Exercise {
             frequency: 0.4,
             strokes: &[

@@ -100,7 +100,7 @@ impl Described for RubberIsolator {
         law: "fᵢ = rᵢ kᵢ dᵢ + (1 − rᵢ) f_yᵢ zᵢ, i = 2, 3;  f₁ = k_v d₁\n\
               żᵢ = ωᵢ − zᵢ Σⱼ aⱼ ωⱼ zⱼ,  ωⱼ = kⱼ ḋⱼ/f_yⱼ,  aⱼ = 1 where ḋⱼ zⱼ > 0, else 0",
         source: "Park, Wen & Ang, Random Vibration of Hysteretic Systems under Bi-directional Ground Motions, 1986",
-        example: r#""bearing": RubberIsolator(nodes: ("ground", "slab"), k2: "10 MN/m", fy2: "100 kN", ratio2: 0.1, kv: "2 GN/m")"#,
+        example: r#""bearing": RubberIsolator(nodes: ("ground", "slab"), k2: "10 MN/m", fy2: "100 kN", ratio2: 0.1, kv: "2000 MN/m")"#,
         exercise: Exercise {
             frequency: 0.5,
             strokes: &[
