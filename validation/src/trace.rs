@@ -278,6 +278,13 @@ impl Trace {
         found.map_or(f64::NAN, |(_, e)| e.hysteretic + e.viscous)
     }
 
+    /// Work on one link over the whole run from rest: what it stores at the end, and its heat, J.
+    #[must_use]
+    pub fn absorbed(&self, link: &str) -> f64 {
+        let found = self.links.iter().find(|(n, _)| n == link);
+        found.map_or(f64::NAN, |(_, e)| e.stored + e.hysteretic + e.viscous)
+    }
+
     /// Circular frequency of mode `i` (from 0), rad/s.
     #[must_use]
     pub fn omega(&self, i: usize) -> f64 {

@@ -6,7 +6,9 @@ mod block_rocking;
 mod block_start;
 mod dampers;
 mod elastic;
+mod hysteretic;
 mod impact;
+mod isolated;
 mod links;
 mod maxwell;
 mod modes;
@@ -31,6 +33,7 @@ pub fn all() -> Vec<Case> {
         maxwell::cases(),
         links::cases(),
         elastic::cases(),
+        hysteretic::cases(),
         restitution::cases(),
         impact::cases(),
         beam_stop::cases(),

@@ -4,6 +4,7 @@
 //! folder that `TRILITH_RECORDS` names, or from `../shared/records` beside the project; without it the
 //! cases are listed as not run.
 
+use super::isolated::{MD1, md1};
 use crate::case::BOTH;
 use crate::unit::{INCH, JOULE, METRE, NEWTON, NUMBER, SECOND, Unit};
 use crate::{Case, Check, Curve, Item, Outcome, View};
@@ -225,12 +226,12 @@ const MILLIMETRE: Unit = Unit { name: "mm", si: 1e-3 };
 pub(super) fn items() -> Vec<Item> {
     match points() {
         Ok(points) => {
-            let all = std::iter::once(ti4(&points)).chain(eq(&points));
+            let all = std::iter::once(ti4(&points)).chain(eq(&points)).chain([md1(&points)]);
             all.map(|c| Item::Case(Box::new(c))).collect()
         }
         Err(reason) => {
             let eq = EQS.map(|(id, title)| (id, title, EQ));
-            let all = std::iter::once(TI4).chain(eq);
+            let all = std::iter::once(TI4).chain(eq).chain([MD1]);
             all.map(|(id, title, source)| {
                 Item::Missing(Outcome::unavailable(id, title, source, &reason))
             })

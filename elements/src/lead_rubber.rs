@@ -1,0 +1,293 @@
+//! LeadRubber: lead-rubber bearing whose core softens as it heats up.
+//!
+//! ```text
+//!   fᵢ = k_r dᵢ + Q(T) zᵢ,   i = 2, 3        f₁ = k_v d₁
+//!   żᵢ = ωᵢ − zᵢ Σⱼ aⱼ ωⱼ zⱼ,   ω = ḋ/Y      aⱼ = 1 where ḋⱼ zⱼ > 0, else 0
+//!   Q  = A σ₀ e^(−E T),   A = π a²           T: temperature rise of the core, a = D/2
+//!   ρ c A h Ṫ = Q Y Σᵢ zᵢ (ωᵢ − żᵢ) − ρ c A h g(t) T
+//!   g  = k_s/(a ρ c h) (1/F(τ) + 1.274 (t_s/a) τ^(−1/3)),   τ = α_s t/a²     (F: lead_rubber/cooling.rs)
+//! ```
+//!
+//! | parameter            | symbol | unit     | range | default | meaning                                  |
+//! |----------------------|--------|----------|-------|---------|------------------------------------------|
+//! | `kr`                 | k_r    | N/m      | ≥ 0   | –       | shear stiffness of the rubber, G A_r/T_r |
+//! | `lead_diameter`      | D      | m        | > 0   | –       | diameter of the core                     |
+//! | `lead_height`        | h      | m        | > 0   | –       | height of the core, rubber and shims     |
+//! | `lead_strength`      | σ₀     | N/m²     | > 0   | 10 MPa  | yield stress of the core when cold       |
+//! | `yield_displacement` | Y      | m        | > 0   | –       | displacement at which the core yields    |
+//! | `shim_thickness`     | t_s    | m        | ≥ 0   | 0       | thickness of all steel shims together    |
+//! | `heating`            |        |          |       | true    | the core heats up                        |
+//! | `kv`                 | k_v    | N/m      | ≥ 0   | 0       | axial stiffness, both ways               |
+//! | `softening`          | E      | 1/K      | > 0   | 0.0069  | loss of strength with temperature        |
+//! | `lead_density`       | ρ      | kg/m³    | > 0   | 11200   | density of lead                          |
+//! | `lead_heat`          | c      | J/(kg K) | > 0   | 130     | specific heat of lead                    |
+//! | `steel_conductivity` | k_s    | W/(m K)  | ≥ 0   | 50      | thermal conductivity of steel            |
+//! | `steel_diffusivity`  | α_s    | m²/s     | > 0   | 1.41e-5 | thermal diffusivity of steel             |
+//!
+//! z is that of [`RubberIsolator`](crate::RubberIsolator), exact on the straight path of a step. The core is
+//! heated by what it dissipates (published forms count |z| |ḋ|, which is more by the elastic part of the
+//! motion). t counts from the first heating. In a step: half of the loss to the steel, the heating in
+//! closed form, the other half; second order. A static step is slow and does not heat. The axial spring is
+//! linear: neither cavitation nor buckling, nor the dependence of k_v on the displacement.
+//!
+//! **Energy.** The elastic stretch of the core holds up to ½ Q Y |z|². As Q falls, what it can no longer hold
+//! becomes heat; as Q rises in cooling nothing is added.
+//!
+//! Reference: \[Kalpakidis & Constantinou 2009\]; \[Kumar, Whittaker & Constantinou 2014\].
+
+mod cooling;
+#[cfg(test)]
+mod tests;
+
+use crate::biaxial;
+use cooling::Cooling;
+use serde::Deserialize;
+use std::borrow::Cow;
+use std::f64::consts::PI;
+use trilith_element::dimension::{AREA, DENSITY, FREQUENCY, LENGTH, NONE, STIFFNESS, STRESS};
+use trilith_element::{
+    Axis, Card, Category, Coordinates, Described, Dimension, Exercise, Field, History, Kinematics,
+    Link, NodeCount, Parameter, Range, Response, Stroke, history,
+};
+
+/// Lead-rubber bearing with heating of its core.
+#[derive(Clone, Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct LeadRubber {
+    /// Shear stiffness of the rubber k_r, N/m.
+    pub kr: f64,
+    /// Diameter of the lead core D, m.
+    pub lead_diameter: f64,
+    /// Height of the lead core h, m.
+    pub lead_height: f64,
+    /// Yield stress of the cold core σ₀, N/m².
+    pub lead_strength: f64,
+    /// Yield displacement Y, m.
+    pub yield_displacement: f64,
+    /// Thickness of all shims t_s, m.
+    pub shim_thickness: f64,
+    /// The core heats up.
+    pub heating: bool,
+    /// Axial stiffness k_v, N/m.
+    pub kv: f64,
+    /// Loss of strength with temperature E, 1/K.
+    pub softening: f64,
+    /// Density of lead ρ, kg/m³.
+    pub lead_density: f64,
+    /// Specific heat of lead c, J/(kg K).
+    pub lead_heat: f64,
+    /// Thermal conductivity of steel k_s, W/(m K).
+    pub steel_conductivity: f64,
+    /// Thermal diffusivity of steel α_s, m²/s.
+    pub steel_diffusivity: f64,
+}
+
+history! {
+    /// History of a [`LeadRubber`].
+    pub struct LeadHistory {
+        /// Share of the core's force along U2.
+        pub z2: "1",
+        /// Share of the core's force along U3.
+        pub z3: "1",
+        /// Temperature rise of the core.
+        pub temperature: "K",
+        /// Time since the first heating.
+        pub heated: "s",
+        /// Energy in the elastic stretch of the core.
+        pub stretch: "J",
+    }
+}
+
+// Temperature has no dimension of its own: per kelvin is per 1.
+const SPECIFIC_HEAT: Dimension = Dimension { mass: 0.0, length: 2.0, time: -2.0 };
+const CONDUCTIVITY: Dimension = Dimension { mass: 1.0, length: 1.0, time: -3.0 };
+const DIFFUSIVITY: Dimension = Dimension { mass: 0.0, length: AREA.length, time: FREQUENCY.time };
+
+const fn positive(
+    name: &'static str,
+    symbol: &'static str,
+    dimension: Dimension,
+    default: f64,
+    meaning: &'static str,
+) -> Parameter {
+    Parameter::number(name, symbol, dimension, Range::Positive, default, meaning)
+}
+
+impl Described for LeadRubber {
+    const CARD: Card = Card {
+        kind: "LeadRubber",
+        category: Category::Link,
+        summary: "Lead-rubber bearing whose core softens as it heats up.",
+        nodes: NodeCount::GROUND_OR_TWO,
+        parameters: &[
+            Parameter::required(
+                "kr",
+                "k_r",
+                STIFFNESS,
+                Range::NonNegative,
+                "shear stiffness of the rubber",
+            ),
+            Parameter::required(
+                "lead_diameter",
+                "D",
+                LENGTH,
+                Range::Positive,
+                "diameter of the core",
+            ),
+            Parameter::required("lead_height", "h", LENGTH, Range::Positive, "height of the core"),
+            positive("lead_strength", "σ₀", STRESS, 1e7, "yield stress of the cold core"),
+            Parameter::required(
+                "yield_displacement",
+                "Y",
+                LENGTH,
+                Range::Positive,
+                "displacement at which the core yields",
+            ),
+            Parameter::number(
+                "shim_thickness",
+                "t_s",
+                LENGTH,
+                Range::NonNegative,
+                0.0,
+                "thickness of all steel shims together",
+            ),
+            Parameter::flag("heating", true, "the core heats up"),
+            Parameter::number(
+                "kv",
+                "k_v",
+                STIFFNESS,
+                Range::NonNegative,
+                0.0,
+                "axial stiffness, both ways",
+            ),
+            positive("softening", "E", NONE, 0.0069, "loss of strength with temperature, per K"),
+            positive("lead_density", "ρ", DENSITY, 11_200.0, "density of lead"),
+            positive("lead_heat", "c", SPECIFIC_HEAT, 130.0, "specific heat of lead, J/(kg K)"),
+            Parameter::number(
+                "steel_conductivity",
+                "k_s",
+                CONDUCTIVITY,
+                Range::NonNegative,
+                50.0,
+                "thermal conductivity of steel, W/(m K)",
+            ),
+            positive(
+                "steel_diffusivity",
+                "α_s",
+                DIFFUSIVITY,
+                1.41e-5,
+                "thermal diffusivity of steel",
+            ),
+        ],
+        law: "fᵢ = k_r dᵢ + Q zᵢ, i = 2, 3;  f₁ = k_v d₁;  Q = π D²/4 σ₀ e^(−E T)\n\
+              żᵢ = ωᵢ − zᵢ Σⱼ aⱼ ωⱼ zⱼ,  ω = ḋ/Y,  aⱼ = 1 where ḋⱼ zⱼ > 0, else 0\n\
+              ρ c A h Ṫ = Q Y Σᵢ zᵢ (ωᵢ − żᵢ) − loss to end plates and shims",
+        source: "Kalpakidis & Constantinou 2009; Kumar, Whittaker & Constantinou 2014",
+        example: r#""bearing": LeadRubber(nodes: ("ground", "slab"), kr: "1.5 MN/m", lead_diameter: "160 mm", lead_height: "300 mm", yield_displacement: "10 mm", shim_thickness: "60 mm", kv: "1500 MN/m")"#,
+        exercise: Exercise {
+            frequency: 0.4,
+            strokes: &[
+                Stroke::about(-0.001, 0.0),
+                Stroke::about(0.0, 0.2),
+                Stroke { mean: 0.0, amplitude: 0.1, phase: 0.25 },
+            ],
+        },
+    };
+}
+
+impl LeadRubber {
+    /// Force of the core at a temperature rise.
+    fn strength(&self, temperature: f64) -> f64 {
+        let area = 0.25 * PI * self.lead_diameter.powi(2);
+        area * self.lead_strength * (-self.softening * temperature).exp()
+    }
+
+    /// Heat that warms the core by one kelvin, J.
+    fn capacity(&self) -> f64 {
+        let area = 0.25 * PI * self.lead_diameter.powi(2);
+        self.lead_density * self.lead_heat * area * self.lead_height
+    }
+
+    fn cooling(&self) -> Cooling {
+        let a = 0.5 * self.lead_diameter;
+        let per_area = self.lead_density * self.lead_heat * self.lead_height;
+        Cooling {
+            rate: self.steel_conductivity / (a * per_area),
+            diffusion: self.steel_diffusivity / (a * a),
+            shims: self.shim_thickness / a,
+        }
+    }
+
+    /// Temperature at the end of a step with this loss Σ ∫ zᵢ (ωᵢ − żᵢ) du, its derivative by the loss, and
+    /// the heat.
+    fn warmed(&self, old: &LeadHistory, dt: f64, loss: f64) -> (f64, f64, f64) {
+        let (e, y, capacity) = (self.softening, self.yield_displacement, self.capacity());
+        if !self.heating || dt <= 0.0 {
+            return (old.temperature, 0.0, self.strength(old.temperature) * y * loss);
+        }
+        let (cooling, t) = (self.cooling(), old.heated);
+        let kept = |from: f64, to: f64| (-cooling.over(from, to)).exp();
+        let start = old.temperature * kept(t, t + 0.5 * dt);
+        // ρ c A h dT = Q₀ e^(−E T) Y dl
+        let slope = self.strength(start) * y / capacity;
+        let rise = (e * slope * loss).ln_1p() / e;
+        let later = kept(t + 0.5 * dt, t + dt);
+        ((start + rise) * later, later * slope / (1.0 + e * slope * loss), capacity * rise)
+    }
+}
+
+impl Link for LeadRubber {
+    fn coordinates(&self) -> Coordinates {
+        Coordinates::Local(vec![Axis::U1, Axis::U2, Axis::U3])
+    }
+
+    fn history(&self) -> Cow<'static, [Field]> {
+        LeadHistory::FIELDS.into()
+    }
+
+    fn engaged_stiffness(&self, k: &mut [f64]) {
+        let shear = self.kr + self.strength(0.0) / self.yield_displacement;
+        (k[0], k[4], k[8]) = (self.kv, shear, shear);
+    }
+
+    fn respond(
+        &self,
+        at: &Kinematics<'_>,
+        committed: &[f64],
+        trial: &mut [f64],
+        out: &mut Response<'_>,
+    ) {
+        let old = LeadHistory::load(committed);
+        let (y, z0) = (self.yield_displacement, [old.z2, old.z3]);
+        let omega = [1, 2].map(|i| (at.d[i] - at.d0[i]) / y);
+        let moved = biaxial::advance(z0, omega, [at.v[1], at.v[2]]);
+        let loss = moved.loss[0] + moved.loss[1];
+        let (temperature, by_loss, mut heat) = self.warmed(&old, at.dt, loss.x);
+        let (before, q) = (self.strength(old.temperature), self.strength(temperature));
+        let z = moved.z.map(|z| z.x);
+
+        out.f[0] = self.kv * at.d[0];
+        out.k[0] = self.kv;
+        out.energy.stored = 0.5 * self.kv * at.d[0] * at.d[0];
+        for i in 0..2 {
+            let d = at.d[i + 1];
+            out.f[i + 1] = self.kr * d + q * z[i];
+            out.energy.stored += 0.5 * self.kr * d * d;
+            for j in 0..2 {
+                let weaker = -self.softening * q * by_loss * loss.by[j];
+                out.k[3 * (i + 1) + j + 1] = (q * moved.z[i].by[j] + z[i] * weaker) / y;
+            }
+            out.k[4 * (i + 1)] += self.kr;
+        }
+
+        let square = |z: [f64; 2]| z[0] * z[0] + z[1] * z[1];
+        let change = 0.5 * y * (square(z) - square(z0));
+        let stretched = old.stretch + 0.5 * (before + q) * change;
+        let stretch = stretched.min(0.5 * q * y * square(z));
+        heat += stretched - stretch;
+        out.energy.stored += stretch;
+        out.energy.hysteretic = heat;
+        let heated = if temperature > 0.0 { old.heated + at.dt } else { 0.0 };
+        LeadHistory { z2: z[0], z3: z[1], temperature, heated, stretch }.store(trial);
+    }
+}

@@ -1,0 +1,129 @@
+//! MultilinearElastic: nonlinear elastic spring through points, along or about one axis.
+//!
+//! ```text
+//!   f │        ___●      f = fᵢ + (fᵢ₊₁ − fᵢ)/(dᵢ₊₁ − dᵢ) (d − dᵢ)     dᵢ ≤ d < dᵢ₊₁
+//!     │    ●‾‾‾          the first and the last line go on beyond their points
+//!     │  /               back on the same way: nothing is lost
+//!   ──●/──────── d
+//! ```
+//!
+//! | parameter     | symbol | unit     | range | default | meaning                                |
+//! |---------------|--------|----------|-------|---------|----------------------------------------|
+//! | `deformation` | dᵢ     | m, rad   | ascending | –   | deformations of the points             |
+//! | `force`       | fᵢ     | N, N·m   | d f ≥ 0 | –     | forces of the points                   |
+//! | `axis`        |        |          |       | U1      | local axis                             |
+//!
+//! The curve passes through the origin and does not fall beyond its ends. At a point the tangent is that of
+//! the line to the right. Stored energy: ∫ f dd, exactly.
+//!
+//! Reference: \[CSI Analysis Reference Manual, multilinear elastic property\].
+
+use crate::multilinear::{Curve, DEFORMATION, FORCE};
+use serde::Deserialize;
+use trilith_element::{
+    Axis, Card, Category, Coordinates, Described, Exercise, Kinematics, Link, NodeCount, Parameter,
+    ParameterError, Response, Stroke,
+};
+
+/// Elastic spring whose force follows a curve through points.
+#[derive(Clone, Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct MultilinearElastic {
+    /// Deformations of the points, m or rad.
+    pub deformation: Vec<f64>,
+    /// Forces of the points, N or N·m.
+    pub force: Vec<f64>,
+    /// Local axis.
+    pub axis: Axis,
+}
+
+impl MultilinearElastic {
+    fn curve(&self) -> Curve<'_> {
+        Curve { d: &self.deformation, f: &self.force }
+    }
+}
+
+impl Described for MultilinearElastic {
+    const CARD: Card = Card {
+        kind: "MultilinearElastic",
+        category: Category::Link,
+        summary: "Elastic spring whose force follows a curve through points.",
+        nodes: NodeCount::GROUND_OR_TWO,
+        parameters: &[
+            DEFORMATION,
+            FORCE,
+            Parameter::choice("axis", Axis::NAMES, "U1", "local axis"),
+        ],
+        law: "f = fᵢ + (fᵢ₊₁ − fᵢ)/(dᵢ₊₁ − dᵢ) (d − dᵢ) where dᵢ ≤ d < dᵢ₊₁; the lines at the ends go on",
+        source: "CSI Analysis Reference Manual, multilinear elastic property",
+        example: r#""buffer": MultilinearElastic(nodes: ("a", "b"), deformation: ["-50 mm", "-20 mm", "0 mm", "20 mm", "50 mm"], force: ["-400 kN", "-60 kN", "0 kN", "60 kN", "400 kN"])"#,
+        exercise: Exercise { frequency: 1.0, strokes: &[Stroke::about(0.0, 0.06)] },
+    };
+
+    fn check(&self) -> Result<(), ParameterError> {
+        self.curve().check()
+    }
+}
+
+impl Link for MultilinearElastic {
+    fn coordinates(&self) -> Coordinates {
+        Coordinates::Local(vec![self.axis])
+    }
+
+    fn engaged_stiffness(&self, k: &mut [f64]) {
+        k[0] = self.curve().stiffest();
+    }
+
+    fn respond(&self, at: &Kinematics<'_>, _: &[f64], _: &mut [f64], out: &mut Response<'_>) {
+        (out.f[0], out.k[0]) = self.curve().at(at.d[0]);
+        out.energy.stored = self.curve().area(at.d[0]);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::driven::Driven;
+    use crate::parameters::read;
+    use approx::assert_relative_eq;
+    use trilith_element::Value;
+    use trilith_element::conformance::Kit;
+
+    fn law(d: &[f64], f: &[f64]) -> Result<MultilinearElastic, ParameterError> {
+        let list = |x: &[f64]| Value::List(x.iter().map(|x| Value::Number(*x)).collect());
+        read(&[("deformation", list(d)), ("force", list(f))])
+    }
+
+    #[test]
+    fn conforms_softening_hardening_falling_and_without_symmetry() {
+        for (d, f) in [
+            (vec![-8.0, -1.0, 0.0, 1.0, 8.0], vec![-3.0, -2.0, 0.0, 2.0, 3.0]),
+            (vec![-8.0, -3.0, 3.0, 8.0], vec![-30.0, -2.0, 2.0, 30.0]),
+            (vec![-5.0, 0.0, 2.0, 5.0, 6.0], vec![0.0, 0.0, 4.0, 1.0, 1.0]),
+        ] {
+            Kit::new(&[6.0], 1.0).rate_independent().assert(&law(&d, &f).unwrap());
+        }
+    }
+
+    /// Code_Aster SSND103: 2e8 N/m up to 5e4 N, 1e8 N/m beyond, and back on the same way.
+    #[test]
+    fn unloads_on_the_way_it_came() {
+        let law =
+            law(&[-1.0, -2.5e-4, 0.0, 2.5e-4, 8e-4], &[-1e8, -5e4, 0.0, 5e4, 1.05e5]).unwrap();
+        let mut driven = Driven::new(&law);
+        let forces = driven.through(&[2e-4, 8e-4, 2e-4, 0.0]);
+        for (f, expected) in forces.iter().zip([4e4, 1.05e5, 4e4, 0.0]) {
+            assert_relative_eq!(*f, expected, epsilon = 1e-6);
+        }
+        assert_eq!((driven.heat, driven.stored), (0.0, 0.0));
+        driven.through(&[8e-4]);
+        let area = 0.5 * 5e4 * 2.5e-4 + 0.5 * (5e4 + 1.05e5) * 5.5e-4;
+        assert_relative_eq!(driven.stored, area, max_relative = 1e-13);
+    }
+
+    #[test]
+    fn refuses_a_curve_past_the_origin() {
+        let error = law(&[1.0, 2.0], &[1.0, 2.0]).unwrap_err();
+        assert_eq!(error.parameter(), Some("deformation"));
+    }
+}

@@ -1,0 +1,264 @@
+//! MultilinearPlastic: plastic spring whose first loading follows a curve through points, along or about one
+//! axis, with a choice of the rule for everything after.
+//!
+//! ```text
+//!   f │     ___●───      first loading: the curve, f⁺(d) upwards and f⁻(d) downwards
+//!     │  ●‾‾             K₀ = slope of its first line (each side its own)
+//!     │ /
+//!   ──●───────── d
+//! ```
+//!
+//! | rule        | unloading                       | reloading                                      |
+//! |-------------|---------------------------------|------------------------------------------------|
+//! | `Kinematic` | the curve, doubled (Masing)     | the same; closes on the point it left          |
+//! | `Isotropic` | K₀ over the range of both sides | goes on where the curve stands for the plastic path so far |
+//! | `Takeda`    | K₀ to zero force                | straight to the largest deformation on that side, then the curve |
+//! | `Pivot`     | towards a pivot at −α f_y       | to β f_y on the line of K₀ (pinching), on to the largest deformation, then the curve |
+//!
+//! | parameter        | symbol | unit   | range     | default | meaning                                   |
+//! |------------------|--------|--------|-----------|---------|-------------------------------------------|
+//! | `deformation`    | dᵢ     | m, rad | ascending | –       | deformations of the points, (0, 0) among them |
+//! | `force`          | fᵢ     | N, N·m | d f ≥ 0   | –       | forces of the points                      |
+//! | `rule`           |        |        |           | Kinematic | hysteresis                              |
+//! | `alpha1`, `alpha2` | α    | 1      | > 0       | 10, α₁  | `Pivot`: unloading from positive, negative force |
+//! | `beta1`, `beta2` | β      | 1      | 0 … 1     | 0.7, β₁ | `Pivot`: pinching towards positive, negative force |
+//! | `axis`           |        |        |           | U1      | local axis                                |
+//!
+//! What a rule needs of the curve: `Kinematic` lines that get no steeper away from the origin; the
+//! others none steeper than K₀ (`Pivot`: than the line to its pivot). The path in a step is straight and each rule
+//! follows it exactly from corner to corner.
+//!
+//! **Energy.** Stored is what unloading to zero force gives back: ½ k e² of every elastic part
+//! (`Kinematic`, `Isotropic`), f²/(2 Kᵤ) with the slope Kᵤ of unloading (`Takeda`, `Pivot`). The rest of the
+//! work is hysteretic and never falls: ∫ f (1 − Kₜ/Kᵤ) dd, times 1 − f/(2 (f + α f_y)) for `Pivot`, with
+//! the tangent Kₜ ≤ Kᵤ.
+//!
+//! Reference: \[Masing 1926\], \[Iwan 1966\] (`Kinematic`); \[Takeda, Sozen & Nielsen 1970\] with the slope of
+//! unloading kept, as CSI does; \[Dowell, Seible & Wilson 1998\] (`Pivot`, without the softening of
+//! the elastic slopes that CSI calls η).
+
+mod branch;
+mod isotropic;
+mod kinematic;
+mod pivot;
+mod reloading;
+mod takeda;
+#[cfg(test)]
+mod tests;
+
+use crate::multilinear::{Curve, DEFORMATION, FORCE};
+use branch::Branch;
+use serde::Deserialize;
+use std::borrow::Cow;
+use trilith_element::dimension::NONE;
+use trilith_element::{
+    Axis, Card, Category, Coordinates, Described, Exercise, Field, Kinematics, Link, NodeCount,
+    Parameter, ParameterError, Range, Response, Stroke,
+};
+
+/// What a [`MultilinearPlastic`] does after its first loading.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
+pub enum Rule {
+    /// Masing's: the curve doubled.
+    Kinematic,
+    /// The elastic range grows with the plastic path.
+    Isotropic,
+    /// Reloading towards the largest deformation.
+    Takeda,
+    /// The same with pivots for unloading and pinching.
+    Pivot,
+}
+
+/// Plastic spring along a curve through points.
+#[derive(Clone, Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct MultilinearPlastic {
+    /// Deformations of the points, m or rad.
+    pub deformation: Vec<f64>,
+    /// Forces of the points, N or N·m.
+    pub force: Vec<f64>,
+    /// Hysteresis.
+    pub rule: Rule,
+    /// `Pivot`: α of unloading from positive force.
+    pub alpha1: Option<f64>,
+    /// `Pivot`: α of unloading from negative force.
+    pub alpha2: Option<f64>,
+    /// `Pivot`: β of loading towards positive force.
+    pub beta1: Option<f64>,
+    /// `Pivot`: β of loading towards negative force.
+    pub beta2: Option<f64>,
+    /// Local axis.
+    pub axis: Axis,
+}
+
+/// A straight step, for the rules.
+#[derive(Clone, Copy)]
+struct Step {
+    /// Deformation at its start.
+    d0: f64,
+    /// Deformation at its end.
+    d: f64,
+    /// Sign of the motion, 0 at rest.
+    direction: f64,
+}
+
+/// What a rule answers.
+#[derive(Clone, Copy, Default)]
+struct Answer {
+    f: f64,
+    k: f64,
+    stored: f64,
+    heat: f64,
+}
+
+impl Described for MultilinearPlastic {
+    const CARD: Card = Card {
+        kind: "MultilinearPlastic",
+        category: Category::Link,
+        summary: "Plastic spring along a curve through points: kinematic, isotropic, Takeda or pivot.",
+        nodes: NodeCount::GROUND_OR_TWO,
+        parameters: &[
+            DEFORMATION,
+            FORCE,
+            Parameter::choice(
+                "rule",
+                &["Kinematic", "Isotropic", "Takeda", "Pivot"],
+                "Kinematic",
+                "hysteresis",
+            ),
+            Parameter::optional(
+                "alpha1",
+                "α₁",
+                NONE,
+                Range::Positive,
+                "Pivot: unloading from positive force goes towards −α₁ f_y (10)",
+            ),
+            Parameter::optional(
+                "alpha2",
+                "α₂",
+                NONE,
+                Range::Positive,
+                "Pivot: the same from negative force (α₁)",
+            ),
+            Parameter::optional(
+                "beta1",
+                "β₁",
+                NONE,
+                Range::Within(0.0, 1.0),
+                "Pivot: loading to positive force goes through β₁ f_y (0.7)",
+            ),
+            Parameter::optional(
+                "beta2",
+                "β₂",
+                NONE,
+                Range::Within(0.0, 1.0),
+                "Pivot: the same to negative force (β₁)",
+            ),
+            Parameter::choice("axis", Axis::NAMES, "U1", "local axis"),
+        ],
+        law: "first loading: the curve through the points\n\
+              Kinematic: the curve doubled (Masing); Isotropic: K₀ over a range that grows with the plastic path\n\
+              Takeda: back with K₀, then straight to the largest deformation on the other side\n\
+              Pivot: back towards −α f_y on the line of K₀, then through β f_y on it to the largest deformation",
+        source: "Masing 1926; Iwan 1966; Takeda, Sozen & Nielsen 1970; Dowell, Seible & Wilson 1998",
+        example: r#""hinge": MultilinearPlastic(nodes: ("a", "b"), axis: R3, deformation: [-0.04, -0.004, 0, 0.004, 0.04], force: ["-360 kN*m", "-300 kN*m", "0 kN*m", "300 kN*m", "360 kN*m"], rule: Takeda)"#,
+        exercise: Exercise { frequency: 0.5, strokes: &[Stroke::about(0.0, 0.03)] },
+    };
+
+    fn check(&self) -> Result<(), ParameterError> {
+        self.curve().check()?;
+        let wrong = |name: &str, message: &str| Err(ParameterError::inconsistent(name, message));
+        let inside = 1..self.deformation.len() - 1;
+        if !inside.contains(&self.origin()) || self.deformation[self.origin()] != 0.0 {
+            let message = "the points must hold (0, 0) and points on both sides of it";
+            return wrong("deformation", message);
+        }
+        for sign in [1.0, -1.0] {
+            if self.branch(sign).slope(0) <= 0.0 {
+                return wrong("force", "the lines on both sides of (0, 0) must rise");
+            }
+            match self.rule {
+                Rule::Kinematic => kinematic::check(self.branch(sign))?,
+                Rule::Isotropic | Rule::Takeda => self.branch(sign).no_steeper_than_at_first()?,
+                Rule::Pivot => pivot::Pivot::of(self).check(self.branch(sign))?,
+            }
+        }
+        let given = [
+            ("alpha1", self.alpha1),
+            ("alpha2", self.alpha2),
+            ("beta1", self.beta1),
+            ("beta2", self.beta2),
+        ];
+        match given.iter().find(|(_, x)| x.is_some()) {
+            Some((name, _)) if self.rule != Rule::Pivot => {
+                wrong(name, &format!("`{name}` belongs to `rule: Pivot`"))
+            }
+            _ => Ok(()),
+        }
+    }
+}
+
+impl MultilinearPlastic {
+    fn curve(&self) -> Curve<'_> {
+        Curve { d: &self.deformation, f: &self.force }
+    }
+
+    /// The point (0, 0).
+    fn origin(&self) -> usize {
+        self.deformation.partition_point(|d| *d < 0.0)
+    }
+
+    fn branch(&self, sign: f64) -> Branch<'_> {
+        Branch { curve: self.curve(), origin: self.origin(), sign }
+    }
+}
+
+impl Link for MultilinearPlastic {
+    fn coordinates(&self) -> Coordinates {
+        Coordinates::Local(vec![self.axis])
+    }
+
+    fn history(&self) -> Cow<'static, [Field]> {
+        let rotational = self.axis.index() > 2;
+        let (length, force) = if rotational { ("rad", "N·m") } else { ("m", "N") };
+        Cow::Owned(match self.rule {
+            Rule::Kinematic => kinematic::fields(self, length),
+            Rule::Isotropic => isotropic::fields(length),
+            Rule::Takeda | Rule::Pivot => reloading::fields(length, force),
+        })
+    }
+
+    fn at_rest(&self, at: &mut [f64]) {
+        if matches!(self.rule, Rule::Takeda | Rule::Pivot) {
+            reloading::at_rest(self, at);
+        }
+    }
+
+    fn engaged_stiffness(&self, k: &mut [f64]) {
+        k[0] = self.curve().stiffest();
+    }
+
+    fn respond(
+        &self,
+        at: &Kinematics<'_>,
+        committed: &[f64],
+        trial: &mut [f64],
+        out: &mut Response<'_>,
+    ) {
+        let (d0, d) = (at.d0[0], at.d[0]);
+        let motion = if d == d0 { at.v[0] } else { d - d0 };
+        let direction = if motion == 0.0 { 0.0 } else { motion.signum() };
+        let step = Step { d0, d, direction };
+        let answer = match self.rule {
+            Rule::Kinematic => kinematic::respond(self, step, committed, trial),
+            Rule::Isotropic => isotropic::respond(self, step, committed, trial),
+            Rule::Takeda => reloading::respond(self, &takeda::Takeda, step, committed, trial),
+            Rule::Pivot => {
+                reloading::respond(self, &pivot::Pivot::of(self), step, committed, trial)
+            }
+        };
+        (out.f[0], out.k[0]) = (answer.f, answer.k);
+        out.energy.stored = answer.stored;
+        out.energy.hysteretic = answer.heat.max(0.0);
+    }
+}

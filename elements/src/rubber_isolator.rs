@@ -1,0 +1,262 @@
+//! RubberIsolator: bearing with plastic shear coupled in its plane and a linear axial spring.
+//!
+//! ```text
+//!   fᵢ = rᵢ kᵢ dᵢ + (1 − rᵢ) f_yᵢ zᵢ                      i = 2, 3
+//!   ż  = A (k₂ ḋ₂/f_y2, k₃ ḋ₃/f_y3)ᵀ                      |z| ≤ 1, z = 0 at rest
+//!        ⎡ 1 − a₂ z₂²   −a₃ z₂ z₃  ⎤
+//!   A  = ⎣ −a₂ z₂ z₃    1 − a₃ z₃² ⎦                      aᵢ = 1 where ḋᵢ zᵢ > 0, else 0
+//!   f₁ = k_v d₁
+//! ```
+//!
+//! | parameter          | symbol     | unit | range  | default | meaning                                  |
+//! |--------------------|------------|------|--------|---------|------------------------------------------|
+//! | `k2`, `k3`         | k₂, k₃     | N/m  | > 0    | –, k₂   | shear stiffness at rest                  |
+//! | `fy2`, `fy3`       | f_y2, f_y3 | N    | > 0    | –, f_y2 | shear force at which it yields           |
+//! | `ratio2`, `ratio3` | r₂, r₃     | 1    | 0 … 1  | –, r₂   | stiffness after yielding over `k2`, `k3` |
+//! | `kv`               | k_v        | N/m  | ≥ 0    | 0       | axial stiffness, both ways               |
+//!
+//! Along one axis it is a [`Wen`](crate::Wen) with exponent 2. The path in a step is straight, and on it z is
+//! exact (see `biaxial.rs`). With equal parameters the response to straight paths is the same in all directions
+//! of the plane; on curved paths it is nearly so, since unloading is judged axis by axis.
+//!
+//! **Energy.** For each axis as for [`Wen`](crate::Wen): stored ½ r k d² + (1 − r) f_y² z²/(2k), hysteretic
+//! (1 − r) (f_y²/k) ∫ zᵢ² Σⱼ aⱼ ωⱼ zⱼ du ≥ 0; axially ½ k_v d₁².
+//!
+//! Reference: \[Park, Wen & Ang 1986\]; as in \[CSI Analysis Reference Manual, rubber isolator property\].
+
+use crate::biaxial;
+use serde::Deserialize;
+use std::borrow::Cow;
+use trilith_element::dimension::{FORCE, NONE, STIFFNESS};
+use trilith_element::{
+    Axis, Card, Category, Coordinates, Described, Exercise, Field, History, Kinematics, Link,
+    NodeCount, Parameter, Range, Response, Stroke, history,
+};
+
+/// Bearing with coupled plastic shear.
+#[derive(Clone, Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct RubberIsolator {
+    /// Shear stiffness at rest along U2, N/m.
+    pub k2: f64,
+    /// The same along U3; none: that of U2.
+    pub k3: Option<f64>,
+    /// Yield force along U2, N.
+    pub fy2: f64,
+    /// The same along U3; none: that of U2.
+    pub fy3: Option<f64>,
+    /// Stiffness after yielding over `k2`.
+    pub ratio2: f64,
+    /// The same along U3; none: that of U2.
+    pub ratio3: Option<f64>,
+    /// Axial stiffness, N/m.
+    pub kv: f64,
+}
+
+history! {
+    /// History of a [`RubberIsolator`].
+    pub struct RubberHistory {
+        /// Share of the yield force along U2.
+        pub z2: "1",
+        /// Share of the yield force along U3.
+        pub z3: "1",
+    }
+}
+
+impl Described for RubberIsolator {
+    const CARD: Card = Card {
+        kind: "RubberIsolator",
+        category: Category::Link,
+        summary: "Bearing with plastic shear coupled in its plane and a linear axial spring.",
+        nodes: NodeCount::GROUND_OR_TWO,
+        parameters: &[
+            Parameter::required("k2", "k₂", STIFFNESS, Range::Positive, "shear stiffness at rest"),
+            Parameter::optional("k3", "k₃", STIFFNESS, Range::Positive, "the same along U3 (k₂)"),
+            Parameter::required("fy2", "f_y2", FORCE, Range::Positive, "yield force in shear"),
+            Parameter::optional("fy3", "f_y3", FORCE, Range::Positive, "the same along U3 (f_y2)"),
+            Parameter::required(
+                "ratio2",
+                "r₂",
+                NONE,
+                Range::Within(0.0, 1.0),
+                "stiffness after yielding over `k2`",
+            ),
+            Parameter::optional(
+                "ratio3",
+                "r₃",
+                NONE,
+                Range::Within(0.0, 1.0),
+                "the same along U3 (r₂)",
+            ),
+            Parameter::number(
+                "kv",
+                "k_v",
+                STIFFNESS,
+                Range::NonNegative,
+                0.0,
+                "axial stiffness, both ways",
+            ),
+        ],
+        law: "fᵢ = rᵢ kᵢ dᵢ + (1 − rᵢ) f_yᵢ zᵢ, i = 2, 3;  f₁ = k_v d₁\n\
+              żᵢ = ωᵢ − zᵢ Σⱼ aⱼ ωⱼ zⱼ,  ωⱼ = kⱼ ḋⱼ/f_yⱼ,  aⱼ = 1 where ḋⱼ zⱼ > 0, else 0",
+        source: "Park, Wen & Ang, Random Vibration of Hysteretic Systems under Bi-directional Ground Motions, 1986",
+        example: r#""bearing": RubberIsolator(nodes: ("ground", "slab"), k2: "10 MN/m", fy2: "100 kN", ratio2: 0.1, kv: "2000 MN/m")"#,
+        exercise: Exercise {
+            frequency: 0.5,
+            strokes: &[
+                Stroke::about(-0.0005, 0.0),
+                Stroke::about(0.0, 0.15),
+                Stroke { mean: 0.0, amplitude: 0.1, phase: 0.25 },
+            ],
+        },
+    };
+}
+
+impl RubberIsolator {
+    /// k, f_y and r of U2 and U3.
+    fn shear(&self) -> [[f64; 3]; 2] {
+        let second = [self.k2, self.fy2, self.ratio2];
+        let third = [self.k3, self.fy3, self.ratio3];
+        [second, [0, 1, 2].map(|i| third[i].unwrap_or(second[i]))]
+    }
+}
+
+impl Link for RubberIsolator {
+    fn coordinates(&self) -> Coordinates {
+        Coordinates::Local(vec![Axis::U1, Axis::U2, Axis::U3])
+    }
+
+    fn history(&self) -> Cow<'static, [Field]> {
+        RubberHistory::FIELDS.into()
+    }
+
+    fn engaged_stiffness(&self, k: &mut [f64]) {
+        let [[k2, ..], [k3, ..]] = self.shear();
+        (k[0], k[4], k[8]) = (self.kv, k2, k3);
+    }
+
+    fn respond(
+        &self,
+        at: &Kinematics<'_>,
+        committed: &[f64],
+        trial: &mut [f64],
+        out: &mut Response<'_>,
+    ) {
+        let z0 = RubberHistory::load(committed);
+        let shear = self.shear();
+        let omega = |i: usize| shear[i][0] / shear[i][1] * (at.d[i + 1] - at.d0[i + 1]);
+        let moved = biaxial::advance([z0.z2, z0.z3], [omega(0), omega(1)], [at.v[1], at.v[2]]);
+        RubberHistory { z2: moved.z[0].x, z3: moved.z[1].x }.store(trial);
+        out.f[0] = self.kv * at.d[0];
+        out.k[0] = self.kv;
+        out.energy.stored = 0.5 * self.kv * at.d[0] * at.d[0];
+        for i in 0..2 {
+            let ([k, fy, ratio], z, d) = (shear[i], moved.z[i], at.d[i + 1]);
+            out.f[i + 1] = ratio * k * d + (1.0 - ratio) * fy * z.x;
+            for j in 0..2 {
+                out.k[3 * (i + 1) + j + 1] =
+                    (1.0 - ratio) * fy * z.by[j] * shear[j][0] / shear[j][1];
+            }
+            out.k[4 * (i + 1)] += ratio * k;
+            let size = (1.0 - ratio) * fy * fy / k;
+            out.energy.stored += 0.5 * (ratio * k * d * d + size * z.x * z.x);
+            out.energy.hysteretic += size * moved.loss[i].x;
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::Wen;
+    use crate::driven::Driven;
+    use crate::parameters::{numbers, read};
+    use approx::assert_relative_eq;
+    use std::f64::consts::TAU;
+    use trilith_element::conformance::Kit;
+
+    fn law(more: &[(&'static str, f64)]) -> RubberIsolator {
+        let equal = [("k2", 1e7), ("fy2", 1e5), ("ratio2", 0.1), ("kv", 2e9)];
+        read(&numbers(&[&equal, more].concat())).unwrap()
+    }
+
+    #[test]
+    fn conforms_with_equal_and_with_unequal_axes() {
+        let unequal = law(&[("k3", 4e6), ("fy3", 1.5e5), ("ratio3", 0.3)]);
+        let yielding = law(&[("ratio3", 0.0)]);
+        for law in [law(&[]), unequal, yielding] {
+            Kit::new(&[1e-3, 0.02, 0.03], 0.5).rate_independent().assert(&law);
+            Kit::new(&[1e-3, 0.2, 0.1], 0.5).seed(7).rate_independent().assert(&law);
+        }
+    }
+
+    #[test]
+    fn along_a_line_in_any_direction_it_is_a_wen_of_exponent_two() {
+        let wen: Wen =
+            read(&numbers(&[("k", 1e7), ("fy", 1e5), ("ratio", 0.1), ("exponent", 2.0)])).unwrap();
+        let law = law(&[]);
+        for angle in [0.0_f64, 0.3, 0.25 * TAU, 2.0, 4.0] {
+            let (mut one, mut two) = (Driven::new(&wen), Driven::new(&law));
+            for d in [0.004, 0.03, 0.025, -0.02, -0.018, 0.1] {
+                let f = one.step(&[d], 0.0)[0];
+                let g = two.step(&[0.0, d * angle.cos(), d * angle.sin()], 0.0);
+                assert_relative_eq!(g[1], f * angle.cos(), epsilon = 1e-6);
+                assert_relative_eq!(g[2], f * angle.sin(), epsilon = 1e-6);
+                assert_relative_eq!(one.heat, two.heat, max_relative = 1e-9, epsilon = 1e-9);
+            }
+        }
+    }
+
+    /// The matrix A of the manual, integrated with respect to time along an orbit.
+    #[test]
+    fn an_orbit_is_that_of_the_differential_equation() {
+        let law = law(&[("k3", 8e6), ("fy3", 1.2e5)]);
+        let (radius, w) = (0.05, 3.0);
+        let d = |t: f64| [radius * (w * t).sin(), radius * (1.0 - (w * t).cos())];
+        let rate = |t: f64, z: [f64; 2]| {
+            let v = [radius * w * (w * t).cos(), radius * w * (w * t).sin()];
+            let a = [0, 1].map(|i| f64::from(v[i] * z[i] > 0.0));
+            let s = [1e7 / 1e5 * v[0], 8e6 / 1.2e5 * v[1]];
+            [
+                (1.0 - a[0] * z[0] * z[0]) * s[0] - a[1] * z[0] * z[1] * s[1],
+                -a[0] * z[0] * z[1] * s[0] + (1.0 - a[1] * z[1] * z[1]) * s[1],
+            ]
+        };
+        let error = |steps: u32| {
+            let end = 1.5 * TAU / w;
+            let (fine, mut z, mut worst) = (20_000 / steps, [0.0; 2], 0.0_f64);
+            let h = end / f64::from(steps * fine);
+            let mut driven = Driven::new(&law);
+            for i in 0..steps {
+                for j in 0..fine {
+                    let t = f64::from(i * fine + j) * h;
+                    let moved = |r: [f64; 2], h: f64| [z[0] + h * r[0], z[1] + h * r[1]];
+                    let a = rate(t, z);
+                    let b = rate(t + 0.5 * h, moved(a, 0.5 * h));
+                    let c = rate(t + 0.5 * h, moved(b, 0.5 * h));
+                    let e = rate(t + h, moved(c, h));
+                    z = [0, 1].map(|i| z[i] + h * (a[i] + 2.0 * b[i] + 2.0 * c[i] + e[i]) / 6.0);
+                }
+                let [x, y] = d(f64::from((i + 1) * fine) * h);
+                driven.step(&[0.0, x, y], f64::from(fine) * h);
+                worst = worst.max((driven.history[0] - z[0]).hypot(driven.history[1] - z[1]));
+            }
+            worst
+        };
+        // Only the chords of the orbit are in the way: second order.
+        let errors = [250, 1000, 4000].map(error);
+        for pair in errors.windows(2) {
+            assert!((12.0..20.0).contains(&(pair[0] / pair[1])), "{errors:?}");
+        }
+        assert!(errors[2] < 5e-6, "{errors:?}");
+    }
+
+    #[test]
+    fn carries_along_its_axis_only_what_it_is_given() {
+        let mut none = law(&[]);
+        none.kv = 0.0;
+        assert_eq!(Driven::new(&none).step(&[0.1, 0.0, 0.0], 0.0), [0.0; 3]);
+        assert_eq!(Driven::new(&law(&[])).step(&[-1e-3, 0.0, 0.0], 0.0)[0], -2e6);
+        assert!(read::<RubberIsolator>(&numbers(&[("k2", 1.0), ("fy2", 1.0)])).is_err());
+    }
+}

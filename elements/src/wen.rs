@@ -1,0 +1,220 @@
+//! Wen: smooth plastic spring along or about one axis.
+//!
+//! ```text
+//!   f = r k d + (1 − r) f_y z
+//!   ż = (k/f_y) ḋ (1 − |z|ⁿ)      ḋ z > 0   (loading)
+//!   ż = (k/f_y) ḋ                 otherwise (unloading is elastic)        |z| ≤ 1, z = 0 at rest
+//! ```
+//!
+//! | parameter  | symbol | unit          | range      | default | meaning                                  |
+//! |------------|--------|---------------|------------|---------|------------------------------------------|
+//! | `k`        | k      | N/m, N·m/rad  | > 0        | –       | stiffness at rest                        |
+//! | `fy`       | f_y    | N, N·m        | > 0        | –       | force at which it yields                 |
+//! | `ratio`    | r      | 1             | 0 … 1      | –       | stiffness after yielding over `k`        |
+//! | `exponent` | n      | 1             | 1 … 1000   | 2       | sharpness of yielding; above 20 nearly bilinear |
+//! | `axis`     |        |               |            | U1      | local axis                               |
+//!
+//! The path within a step is straight, and on it z is exact (see `wen/transition.rs`): the force depends
+//! neither on speed nor on the step. In the notation of Bouc and Wen it is A = 1, β = γ = ½.
+//!
+//! **Energy.** A spring r k beside a spring (1 − r) k in series with a slider: stored ½ r k d² +
+//! (1 − r) f_y² z²/(2k), hysteretic (1 − r) f_y ∫ z (ḋ − ż f_y/k) dt, which never falls.
+//!
+//! Reference: \[Wen 1976\]; exponent and unloading as in \[CSI Analysis Reference Manual, link properties\].
+
+mod transition;
+
+use serde::Deserialize;
+use trilith_element::dimension::NONE;
+use trilith_element::{
+    Axis, Card, Category, Coordinates, Default, Described, Exercise, Form, History, Kinematics,
+    Link, NodeCount, Parameter, Range, Response, Stroke, history,
+};
+
+/// Smooth plastic spring.
+#[derive(Clone, Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Wen {
+    /// Stiffness at rest k, N/m or N·m/rad.
+    pub k: f64,
+    /// Yield force f_y, N or N·m.
+    pub fy: f64,
+    /// Stiffness after yielding over `k`.
+    pub ratio: f64,
+    /// Exponent n.
+    pub exponent: f64,
+    /// Local axis.
+    pub axis: Axis,
+}
+
+history! {
+    /// History of a [`Wen`].
+    pub struct WenHistory {
+        /// Share of the yield force, −1 … 1.
+        pub z: "1",
+    }
+}
+
+impl Described for Wen {
+    const CARD: Card = Card {
+        kind: "Wen",
+        category: Category::Link,
+        summary: "Plastic spring with a smooth yield (Wen).",
+        nodes: NodeCount::GROUND_OR_TWO,
+        parameters: &[
+            Parameter::new(
+                "k",
+                "k",
+                Form::STIFFNESS_OF_AXIS,
+                Default::Required,
+                "stiffness at rest",
+            )
+            .within(Range::Positive),
+            Parameter::new(
+                "fy",
+                "f_y",
+                Form::FORCE_OF_AXIS,
+                Default::Required,
+                "force at which it yields",
+            )
+            .within(Range::Positive),
+            Parameter::required(
+                "ratio",
+                "r",
+                NONE,
+                Range::Within(0.0, 1.0),
+                "stiffness after yielding over `k`",
+            ),
+            Parameter::number(
+                "exponent",
+                "n",
+                NONE,
+                Range::Within(1.0, 1000.0),
+                2.0,
+                "sharpness of yielding; above 20 nearly bilinear",
+            ),
+            Parameter::choice("axis", Axis::NAMES, "U1", "local axis"),
+        ],
+        law: "f = r k d + (1 − r) f_y z\n\
+              ż = (k/f_y) ḋ (1 − |z|ⁿ) where ḋ z > 0, else (k/f_y) ḋ",
+        source: "Wen, Method for Random Vibration of Hysteretic Systems, 1976",
+        example: r#""isolator": Wen(nodes: ("a", "b"), axis: U2, k: "80 MN/m", fy: "120 kN", ratio: 0.08)"#,
+        exercise: Exercise { frequency: 0.5, strokes: &[Stroke::about(0.0, 0.01)] },
+    };
+}
+
+impl Link for Wen {
+    fn coordinates(&self) -> Coordinates {
+        Coordinates::Local(vec![self.axis])
+    }
+
+    fn history(&self) -> std::borrow::Cow<'static, [trilith_element::Field]> {
+        WenHistory::FIELDS.into()
+    }
+
+    fn engaged_stiffness(&self, k: &mut [f64]) {
+        k[0] = self.k;
+    }
+
+    fn respond(
+        &self,
+        at: &Kinematics<'_>,
+        committed: &[f64],
+        trial: &mut [f64],
+        out: &mut Response<'_>,
+    ) {
+        let Self { k, fy, ratio, .. } = *self;
+        let z0 = WenHistory::load(committed).z;
+        let u = k / fy * (at.d[0] - at.d0[0]);
+        let t = transition::advance(z0, u, at.v[0], self.exponent);
+        WenHistory { z: t.z }.store(trial);
+        let plastic = 1.0 - ratio;
+        out.f[0] = ratio * k * at.d[0] + plastic * fy * t.z;
+        out.k[0] = k * (ratio + plastic * t.slope);
+        let size = plastic * fy * fy / k;
+        out.energy.stored = 0.5 * (ratio * k * at.d[0] * at.d[0] + size * t.z * t.z);
+        out.energy.hysteretic = size * t.loss;
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::driven::Driven;
+    use crate::parameters::{numbers, read};
+    use approx::assert_relative_eq;
+    use trilith_element::Value;
+    use trilith_element::conformance::Kit;
+
+    fn law(k: f64, fy: f64, ratio: f64, exponent: f64) -> Wen {
+        read(&numbers(&[("k", k), ("fy", fy), ("ratio", ratio), ("exponent", exponent)])).unwrap()
+    }
+
+    #[test]
+    fn conforms_for_exponents_and_ratios() {
+        for exponent in [1.0, 1.5, 2.0, 5.0, 20.0, 50.0] {
+            for ratio in [0.0, 0.1, 1.0] {
+                Kit::new(&[0.004], 1.0)
+                    .rate_independent()
+                    .assert(&law(8e7, 1.2e5, ratio, exponent));
+            }
+        }
+    }
+
+    /// Forces of CSI Software Verification 6-008 (n = 1; kip, in) and of the closed forms.
+    #[test]
+    fn follows_the_loading_and_the_reversal_of_the_published_example() {
+        let path = [0.25, 0.5, 1.0, 2.0, 10.0, 9.75, 9.5, 9.0, 8.0, 0.0, -10.0];
+        let expected = [
+            (
+                1.0,
+                [
+                    20.20612, 33.44543, 48.90991, 64.17580, 145.0, 120.0, 95.0, 61.55457, 37.24042,
+                    -45.0, -145.0,
+                ],
+            ),
+            (
+                2.0,
+                [
+                    23.29527, 39.27174, 53.38124, 64.96982, 145.0, 120.0, 95.0, 55.72826, 35.22254,
+                    -45.0, -145.0,
+                ],
+            ),
+            (20.0, [25.0, 48.51015, 55.0, 65.0, 145.0, 120.0, 95.0, 46.48985, 35.0, -45.0, -145.0]),
+        ];
+        for (n, forces) in expected {
+            let law = law(100.0, 50.0, 0.1, n);
+            let one = Driven::new(&law).through(&path);
+            let many = Driven::new(&law).finely(&path, 0.003);
+            for ((a, b), f) in one.iter().zip(&many).zip(forces) {
+                assert_relative_eq!(*a, f, max_relative = 1e-6);
+                assert_relative_eq!(*a, *b, max_relative = 1e-11);
+            }
+        }
+    }
+
+    #[test]
+    fn a_large_step_has_the_energy_of_its_path() {
+        for n in [1.0, 2.0, 9.0] {
+            let law = law(100.0, 50.0, 0.1, n);
+            let (mut one, mut many) = (Driven::new(&law), Driven::new(&law));
+            one.through(&[3.0, -2.0]);
+            many.finely(&[3.0, -2.0], 1e-3);
+            assert_relative_eq!(one.heat, many.heat, max_relative = 1e-9);
+            assert_relative_eq!(many.work, many.heat + many.stored, max_relative = 1e-5);
+        }
+    }
+
+    #[test]
+    fn refuses_numbers_out_of_range_and_takes_any_axis() {
+        let r2 = [
+            numbers(&[("k", 1.0), ("fy", 1.0), ("ratio", 0.5)]),
+            vec![("axis", Value::Text("R2".into()))],
+        ]
+        .concat();
+        assert_eq!(read::<Wen>(&r2).unwrap().axis, Axis::R2);
+        assert!(read::<Wen>(&numbers(&[("k", 1.0), ("fy", 1.0)])).is_err());
+        let range = Wen::CARD.parameter("exponent").unwrap().range;
+        assert!(!range.contains(0.9) && range.contains(25.0));
+    }
+}
