@@ -2,21 +2,28 @@
 //!
 //! | linear elements | constraints | links |
 //! |---|---|---|
-//! | [`Beam`], [`Truss`], [`Spring`], [`Mass`] | [`RigidBody`], [`RigidLink`], [`Diaphragm`], [`EqualDof`] | [`NLink`], [`Gap`], [`Hook`], [`Dashpot`], [`RockingBody`] |
+//! | [`Beam`], [`Truss`], [`Spring`], [`Mass`] | [`RigidBody`], [`RigidLink`], [`Diaphragm`], [`EqualDof`] | [`NLink`], [`Gap`], [`Hook`], [`Dashpot`], [`RockingBody`], [`BilinearDamper`], [`FrequencyIndependentViscoelastic`], [`MaxwellDamper`] |
 //!
 //! To add one: write its file, then its lines here (`mod`, `pub use`, and one of registration).
 
 mod dense;
 mod parameters;
+#[cfg(test)]
+mod probe;
+mod relaxation;
 mod restitution;
+mod series;
 
 mod beam;
+mod bilinear_damper;
 mod dashpot;
 mod diaphragm;
 mod equal_dof;
+mod frequency_independent_viscoelastic;
 mod gap;
 mod hook;
 mod mass;
+mod maxwell_damper;
 mod nlink;
 mod rigid_body;
 mod rigid_link;
@@ -25,12 +32,15 @@ mod spring;
 mod truss;
 
 pub use beam::{Beam, MassMatrix};
+pub use bilinear_damper::BilinearDamper;
 pub use dashpot::{Dashpot, When};
 pub use diaphragm::{Diaphragm, Normal};
 pub use equal_dof::{DofName, EqualDof};
+pub use frequency_independent_viscoelastic::FrequencyIndependentViscoelastic;
 pub use gap::Gap;
 pub use hook::Hook;
 pub use mass::Mass;
+pub use maxwell_damper::MaxwellDamper;
 pub use nlink::{NLink, NLinkHistory};
 pub use rigid_body::RigidBody;
 pub use rigid_link::RigidLink;
@@ -55,6 +65,9 @@ pub fn register(to: &mut impl Register) {
     to.link::<Hook>();
     to.link::<Dashpot>();
     to.link::<RockingBody>();
+    to.link::<BilinearDamper>();
+    to.link::<FrequencyIndependentViscoelastic>();
+    to.link::<MaxwellDamper>();
 }
 
 #[cfg(test)]
