@@ -2,7 +2,7 @@
 //!
 //! | linear elements | constraints | links |
 //! |---|---|---|
-//! | [`Beam`], [`Truss`], [`Spring`], [`Mass`] | [`RigidBody`], [`RigidLink`], [`Diaphragm`], [`EqualDof`] | [`NLink`], [`Gap`], [`Hook`], [`Dashpot`], [`RockingBody`], [`BilinearDamper`], [`FrequencyIndependentViscoelastic`], [`MaxwellDamper`] |
+//! | [`Beam`], [`Truss`], [`Spring`], [`Mass`], [`Inerter`] | [`RigidBody`], [`RigidLink`], [`Diaphragm`], [`EqualDof`] | [`NLink`], [`Gap`], [`Hook`], [`Dashpot`], [`RockingBody`], [`BilinearDamper`], [`FrequencyIndependentViscoelastic`], [`MaxwellDamper`], [`LinearLink`] |
 //!
 //! To add one: write its file, then its lines here (`mod`, `pub use`, and one of registration).
 
@@ -22,6 +22,8 @@ mod equal_dof;
 mod frequency_independent_viscoelastic;
 mod gap;
 mod hook;
+mod inerter;
+mod linear_link;
 mod mass;
 mod maxwell_damper;
 mod nlink;
@@ -39,6 +41,8 @@ pub use equal_dof::{DofName, EqualDof};
 pub use frequency_independent_viscoelastic::FrequencyIndependentViscoelastic;
 pub use gap::Gap;
 pub use hook::Hook;
+pub use inerter::Inerter;
+pub use linear_link::LinearLink;
 pub use mass::Mass;
 pub use maxwell_damper::MaxwellDamper;
 pub use nlink::{NLink, NLinkHistory};
@@ -56,6 +60,7 @@ pub fn register(to: &mut impl Register) {
     to.linear::<Truss>();
     to.linear::<Spring>();
     to.linear::<Mass>();
+    to.linear::<Inerter>();
     to.constraint::<RigidBody>();
     to.constraint::<RigidLink>();
     to.constraint::<Diaphragm>();
@@ -67,6 +72,7 @@ pub fn register(to: &mut impl Register) {
     to.link::<RockingBody>();
     to.link::<BilinearDamper>();
     to.link::<FrequencyIndependentViscoelastic>();
+    to.link::<LinearLink>();
     to.link::<MaxwellDamper>();
 }
 
