@@ -2,7 +2,7 @@
 //!
 //! | linear elements | constraints | links |
 //! |---|---|---|
-//! | [`Beam`], [`Truss`], [`Spring`], [`Mass`], [`Inerter`] | [`RigidBody`], [`RigidLink`], [`Diaphragm`], [`EqualDof`] | [`NLink`], [`Gap`], [`Hook`], [`Dashpot`], [`RockingBody`], [`BilinearDamper`], [`FrequencyIndependentViscoelastic`], [`MaxwellDamper`], [`LinearLink`] |
+//! | [`Beam`], [`Truss`], [`Spring`], [`Mass`], [`Inerter`] | [`RigidBody`], [`RigidLink`], [`Diaphragm`], [`EqualDof`] | [`NLink`], [`Gap`], [`Hook`], [`Dashpot`], [`RockingBody`], [`BilinearDamper`], [`FrequencyIndependentViscoelastic`], [`MaxwellDamper`], [`LinearLink`], [`FrictionSpring`], [`ImpactHertz`], [`ImpactKelvin`] |
 //!
 //! To add one: write its file, then its lines here (`mod`, `pub use`, and one of registration).
 
@@ -20,8 +20,11 @@ mod dashpot;
 mod diaphragm;
 mod equal_dof;
 mod frequency_independent_viscoelastic;
+mod friction_spring;
 mod gap;
 mod hook;
+mod impact_hertz;
+mod impact_kelvin;
 mod inerter;
 mod linear_link;
 mod mass;
@@ -39,8 +42,11 @@ pub use dashpot::{Dashpot, When};
 pub use diaphragm::{Diaphragm, Normal};
 pub use equal_dof::{DofName, EqualDof};
 pub use frequency_independent_viscoelastic::FrequencyIndependentViscoelastic;
+pub use friction_spring::{Direction, FrictionSpring};
 pub use gap::Gap;
 pub use hook::Hook;
+pub use impact_hertz::{HertzModel, ImpactHertz};
+pub use impact_kelvin::{Damps, ImpactKelvin};
 pub use inerter::Inerter;
 pub use linear_link::LinearLink;
 pub use mass::Mass;
@@ -72,6 +78,9 @@ pub fn register(to: &mut impl Register) {
     to.link::<RockingBody>();
     to.link::<BilinearDamper>();
     to.link::<FrequencyIndependentViscoelastic>();
+    to.link::<FrictionSpring>();
+    to.link::<ImpactHertz>();
+    to.link::<ImpactKelvin>();
     to.link::<LinearLink>();
     to.link::<MaxwellDamper>();
 }

@@ -1,4 +1,4 @@
-//! Leading a law of one coordinate through a motion, for tests.
+//! Leading a law of one coordinate through a motion, and a mass against it, for tests.
 
 use trilith_element::{Energy, Kinematics, Link, Response};
 
@@ -77,5 +77,22 @@ impl Led {
             it.step(law, d, v, dt);
         }
         it
+    }
+}
+
+/// Speed of a mass after it has struck a contact at `speed`, as share of it; by the midpoint rule on the
+/// force of the law.
+pub(crate) fn rebound(law: &dyn Link, mass: f64, speed: f64, dt: f64) -> f64 {
+    let (mut d, mut v) = (0.0, -speed);
+    let mut it = Led::from(law, d, v);
+    loop {
+        let (middle, half) = (d + 0.5 * dt * v, v - 0.5 * dt * it.f / mass);
+        it.step(law, middle, half, 0.5 * dt);
+        v -= dt * it.f / mass;
+        d += dt * half;
+        it.step(law, d, v, 0.5 * dt);
+        if d > 0.0 || v > 0.0 && it.f == 0.0 {
+            return v / speed;
+        }
     }
 }
