@@ -7,14 +7,18 @@ mod block_start;
 mod dampers;
 mod elastic;
 mod impact;
+mod inerter;
 mod links;
 mod maxwell;
 mod modes;
 mod p_delta;
+mod pounding;
 mod records;
 mod restitution;
 mod ritz;
 mod rocking_body;
+mod seal;
+mod series_dampers;
 mod sliding;
 mod sliding_driven;
 mod time_integration;
@@ -29,10 +33,14 @@ pub fn all() -> Vec<Case> {
         sliding_driven::cases(),
         dampers::cases(),
         maxwell::cases(),
+        series_dampers::cases(),
+        inerter::cases(),
+        seal::cases(),
         links::cases(),
         elastic::cases(),
         restitution::cases(),
         impact::cases(),
+        pounding::cases(),
         beam_stop::cases(),
         block::cases(),
         block_start::cases(),
