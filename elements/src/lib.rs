@@ -2,7 +2,7 @@
 //!
 //! | linear elements | constraints | links |
 //! |---|---|---|
-//! | [`Beam`], [`Truss`], [`Spring`], [`Mass`], [`Inerter`] | [`RigidBody`], [`RigidLink`], [`Diaphragm`], [`EqualDof`] | [`NLink`], [`Gap`], [`Hook`], [`Dashpot`], [`RockingBody`], [`BilinearDamper`], [`FrequencyIndependentViscoelastic`], [`MaxwellDamper`], [`LinearLink`], [`FrictionSpring`], [`ImpactHertz`], [`ImpactKelvin`] |
+//! | [`Beam`], [`Truss`], [`Spring`], [`Mass`], [`Inerter`] | [`RigidBody`], [`RigidLink`], [`Diaphragm`], [`EqualDof`] | [`NLink`], [`Gap`], [`Hook`], [`Dashpot`], [`BilinearDamper`], [`FrequencyIndependentViscoelastic`], [`FrictionSpring`], [`ImpactHertz`], [`ImpactKelvin`], [`LinearLink`], [`MaxwellDamper`], [`RockingBody`] |
 //!
 //! To add one: write its file, then its lines here (`mod`, `pub use`, and one of registration).
 
@@ -75,7 +75,6 @@ pub fn register(to: &mut impl Register) {
     to.link::<Gap>();
     to.link::<Hook>();
     to.link::<Dashpot>();
-    to.link::<RockingBody>();
     to.link::<BilinearDamper>();
     to.link::<FrequencyIndependentViscoelastic>();
     to.link::<FrictionSpring>();
@@ -83,6 +82,7 @@ pub fn register(to: &mut impl Register) {
     to.link::<ImpactKelvin>();
     to.link::<LinearLink>();
     to.link::<MaxwellDamper>();
+    to.link::<RockingBody>();
 }
 
 #[cfg(test)]
