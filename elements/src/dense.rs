@@ -1,7 +1,7 @@
 //! Small dense algebra between local stiffness and [`ElementMatrices`].
 
 use nalgebra::{DMatrix, Matrix3, Vector3 as V3};
-use trilith_element::{Dof, ElementMatrices, Frame, Vector3};
+use trilith_element::{Dof, ElementMatrices, Frame, Geometry, Vector3};
 
 /// Rows of the frame as a rotation matrix: local = R · global.
 pub(crate) fn rotation(frame: &Frame) -> Matrix3<f64> {
@@ -21,6 +21,21 @@ pub(crate) fn repeated(frame: &Frame, blocks: usize) -> DMatrix<f64> {
         t.view_mut((3 * b, 3 * b), (3, 3)).copy_from(&r);
     }
     t
+}
+
+/// Local deformations from the global displacements of one or two nodes: `6 × 6` or `6 × 12`. Two nodes
+/// apart are joined by a rigid arm from i to j, and the deformation is taken at j.
+pub(crate) fn deformations(at: &Geometry<'_>) -> DMatrix<f64> {
+    let turned = repeated(&at.frame, 2);
+    let [i, j] = at.nodes else { return turned };
+    let mut b = DMatrix::zeros(6, 12);
+    b.view_mut((0, 6), (6, 6)).copy_from(&turned);
+    b.view_mut((0, 0), (6, 6)).copy_from(&(-turned));
+    // −θ × r = r × θ
+    let r = between(*i, *j);
+    let arm = Matrix3::new(0.0, -r[2], r[1], r[2], 0.0, -r[0], -r[1], r[0], 0.0);
+    b.view_mut((0, 3), (3, 3)).copy_from(&(rotation(&at.frame) * arm));
+    b
 }
 
 /// Element matrices from matrices over all six DOFs of each node, without the DOFs that get nothing.

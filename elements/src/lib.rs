@@ -3,6 +3,7 @@
 //! | linear elements | constraints | links |
 //! |---|---|---|
 //! | [`Beam`], [`Truss`], [`Spring`], [`Mass`] | [`RigidBody`], [`RigidLink`], [`Diaphragm`], [`EqualDof`] | [`NLink`], [`Gap`], [`Hook`], [`Dashpot`], [`LeadRubber`], [`MultilinearElastic`], [`MultilinearPlastic`], [`RockingBody`], [`RubberIsolator`], [`Wen`] |
+//! | [`Beam`], [`Truss`], [`Spring`], [`Mass`], [`Inerter`] | [`RigidBody`], [`RigidLink`], [`Diaphragm`], [`EqualDof`] | [`NLink`], [`Gap`], [`Hook`], [`Dashpot`], [`BilinearDamper`], [`FrequencyIndependentViscoelastic`], [`FrictionSpring`], [`ImpactHertz`], [`ImpactKelvin`], [`LinearLink`], [`MaxwellDamper`], [`RockingBody`] |
 //!
 //! To add one: write its file, then its lines here (`mod`, `pub use`, and one of registration).
 
@@ -13,18 +14,30 @@ mod driven;
 mod dual;
 mod multilinear;
 mod parameters;
+#[cfg(test)]
+mod probe;
+mod relaxation;
 mod restitution;
+mod series;
 
 mod beam;
+mod bilinear_damper;
 mod dashpot;
 mod diaphragm;
 mod equal_dof;
+mod frequency_independent_viscoelastic;
+mod friction_spring;
 mod gap;
 mod hook;
 mod lead_rubber;
 mod mass;
 mod multilinear_elastic;
 mod multilinear_plastic;
+mod impact_hertz;
+mod impact_kelvin;
+mod inerter;
+mod linear_link;
+mod maxwell_damper;
 mod nlink;
 mod rigid_body;
 mod rigid_link;
@@ -35,15 +48,23 @@ mod truss;
 mod wen;
 
 pub use beam::{Beam, MassMatrix};
+pub use bilinear_damper::BilinearDamper;
 pub use dashpot::{Dashpot, When};
 pub use diaphragm::{Diaphragm, Normal};
 pub use equal_dof::{DofName, EqualDof};
+pub use frequency_independent_viscoelastic::FrequencyIndependentViscoelastic;
+pub use friction_spring::{Direction, FrictionSpring};
 pub use gap::Gap;
 pub use hook::Hook;
 pub use lead_rubber::{LeadHistory, LeadRubber};
 pub use mass::Mass;
 pub use multilinear_elastic::MultilinearElastic;
 pub use multilinear_plastic::{MultilinearPlastic, Rule};
+pub use impact_hertz::{HertzModel, ImpactHertz};
+pub use impact_kelvin::{Damps, ImpactKelvin};
+pub use inerter::Inerter;
+pub use linear_link::LinearLink;
+pub use maxwell_damper::MaxwellDamper;
 pub use nlink::{NLink, NLinkHistory};
 pub use rigid_body::RigidBody;
 pub use rigid_link::RigidLink;
@@ -61,6 +82,7 @@ pub fn register(to: &mut impl Register) {
     to.linear::<Truss>();
     to.linear::<Spring>();
     to.linear::<Mass>();
+    to.linear::<Inerter>();
     to.constraint::<RigidBody>();
     to.constraint::<RigidLink>();
     to.constraint::<Diaphragm>();
@@ -72,6 +94,13 @@ pub fn register(to: &mut impl Register) {
     to.link::<LeadRubber>();
     to.link::<MultilinearElastic>();
     to.link::<MultilinearPlastic>();
+    to.link::<BilinearDamper>();
+    to.link::<FrequencyIndependentViscoelastic>();
+    to.link::<FrictionSpring>();
+    to.link::<ImpactHertz>();
+    to.link::<ImpactKelvin>();
+    to.link::<LinearLink>();
+    to.link::<MaxwellDamper>();
     to.link::<RockingBody>();
     to.link::<RubberIsolator>();
     to.link::<Wen>();

@@ -6,6 +6,7 @@
 //!   it may not (ends where the force is zero):   ln e = −2 ζ acos(ζ) / √(1 − ζ²)        ζ < 1
 //!                                                ln e = −2                              ζ = 1
 //!                                                ln e = −2 ζ acosh(ζ) / √(ζ² − 1)       ζ > 1
+//!   it acts on approach only:                    half of the last three
 //! ```
 //!
 //! Weight lowers e of slow impacts: a contact in which gravity matters (speed not far above g √(m/k))
@@ -56,6 +57,12 @@ pub(crate) fn damping_ratio(e: f64, pull: bool) -> f64 {
             high = middle;
         }
     }
+}
+
+/// Damping ratio ζ at which the restitution is `e` where the dashpot acts on approach only. The way in
+/// is that of a contact that never pulls, where in and out take equal shares of ln e.
+pub(crate) fn approach_ratio(e: f64) -> f64 {
+    damping_ratio(e * e, false)
 }
 
 /// ln e of a contact that never pulls.

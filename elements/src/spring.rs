@@ -21,8 +21,8 @@
 //!
 //! Reference: \[Wilson 2002, ch. 4\].
 
-use crate::dense::{between, is_semi_definite, repeated, rotation, used};
-use nalgebra::{DMatrix, Matrix3};
+use crate::dense::{deformations, is_semi_definite, used};
+use nalgebra::DMatrix;
 use serde::Deserialize;
 use trilith_element::dimension::{DAMPING, ROTATIONAL_DAMPING, ROTATIONAL_STIFFNESS, STIFFNESS};
 use trilith_element::{
@@ -143,23 +143,10 @@ impl LinearElement for Spring {
     }
 }
 
-/// Local deformations from the global displacements of one or two nodes: `6 × 6` or `6 × 12`.
-fn deformations(at: &Geometry<'_>) -> DMatrix<f64> {
-    let turned = repeated(&at.frame, 2);
-    let [i, j] = at.nodes else { return turned };
-    let mut b = DMatrix::zeros(6, 12);
-    b.view_mut((0, 6), (6, 6)).copy_from(&turned);
-    b.view_mut((0, 0), (6, 6)).copy_from(&(-turned));
-    // −θ × r = r × θ
-    let r = between(*i, *j);
-    let arm = Matrix3::new(0.0, -r[2], r[1], r[2], 0.0, -r[0], -r[1], r[0], 0.0);
-    b.view_mut((0, 3), (3, 3)).copy_from(&(rotation(&at.frame) * arm));
-    b
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::dense::between;
     use crate::parameters::{numbers, read};
     use approx::assert_relative_eq;
     use nalgebra::Vector3 as V3;

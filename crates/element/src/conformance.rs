@@ -9,7 +9,7 @@
 //! | writing  | every history variable of the trial is written and everything is finite |
 //! | restart  | at the start of a step, with dt = 0, the force is that of the end of the last step, and nothing dissipates |
 //! | tangents | `k` and `c` are the central difference quotients of `f`, away from kinks |
-//! | energy   | work = Δ stored + hysteretic + viscous under refinement; the last two never fall |
+//! | energy   | work = Δ stored + hysteretic + viscous under refinement; the last two never fall (unless [`Kit::active`]) |
 //! | passive  | nowhere on three cycles has more energy come out than went in (unless [`Kit::active`]) |
 //! | rates    | a law declared [`Kit::rate_independent`] does not see the speed, nor the step on a straight path |
 //!
@@ -98,7 +98,7 @@ impl Kit {
         self
     }
 
-    /// The law may give energy in a closed cycle.
+    /// The law may give energy in a closed cycle, and enter it as negative dissipation.
     #[must_use]
     pub fn active(mut self) -> Self {
         self.passive = false;
@@ -132,7 +132,7 @@ impl Kit {
             properties::answers(link, path)?;
             properties::tangents(link, path, &mut report)?;
         }
-        let typical = energy::typical(link, &paths)?;
+        let typical = energy::typical(self, link, &paths)?;
         for path in &paths {
             energy::balance(self, link, path, &mut report, typical)?;
             if self.rate_independent {

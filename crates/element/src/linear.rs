@@ -60,6 +60,9 @@ pub struct ElementMatrices {
     pub mass: SquareMatrix,
     /// Damping in N·s/m …; symmetric, positive semi-definite.
     pub damping: SquareMatrix,
+    /// Inertance in kg, kg·m, kg·m²; symmetric, positive semi-definite. It adds to the mass in the
+    /// equation of motion, but has no weight, and a motion of the ground puts no load on it.
+    pub inertance: SquareMatrix,
 }
 
 impl ElementMatrices {
@@ -72,6 +75,7 @@ impl ElementMatrices {
             stiffness: SquareMatrix::zeros(n),
             mass: SquareMatrix::zeros(n),
             damping: SquareMatrix::zeros(n),
+            inertance: SquareMatrix::zeros(n),
         }
     }
 }

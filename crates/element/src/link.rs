@@ -66,9 +66,12 @@ impl Kinematics<'_> {
 pub struct Energy {
     /// Recoverable energy at the end of the step (a total).
     pub stored: f64,
-    /// Energy turned into heat by friction or yielding during the step (an increment).
+    /// Energy turned into heat by friction or yielding during the step (an increment). Never negative,
+    /// but for an active law, which enters here what it gives without regard to rates (the circulatory
+    /// work of an unsymmetric stiffness).
     pub hysteretic: f64,
-    /// Energy turned into heat by rate-dependent forces during the step (an increment).
+    /// Energy turned into heat by rate-dependent forces during the step (an increment). Negative only
+    /// where an active law gives energy by its rates.
     pub viscous: f64,
 }
 

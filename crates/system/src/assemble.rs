@@ -12,7 +12,7 @@ use trilith_model::{Body, Damping, Model};
 pub struct System {
     /// Elimination of supports and constraints.
     pub reduction: Reduction,
-    /// M, free × free, kg.
+    /// M with the inertances, free × free, kg.
     pub mass: Sparse,
     /// C of elements and Rayleigh damping, free × free, N·s/m. Modal damping is not in it.
     pub damping: Sparse,
@@ -26,9 +26,9 @@ pub struct System {
     pub stiffness_support: Sparse,
     /// The links.
     pub links: LinkSet,
-    /// Tᵀ M r for unit translations along X, Y, Z: inertia per unit acceleration, kg.
+    /// Tᵀ M r for unit translations along X, Y, Z, inertances apart: inertia per unit acceleration, kg.
     pub inertia: [Vec<f64>; 3],
-    /// Sum of all masses along Z, supports included, kg.
+    /// Sum of all masses along Z, supports included and inertances apart, kg.
     pub total_mass: f64,
     /// Axial force of every element that K was made with, N, tension positive; zeros without P-Δ.
     pub tension: Vec<f64>,
@@ -62,9 +62,10 @@ impl System {
         if reduction.order() == 0 {
             return Err(SystemError::Empty);
         }
-        let [k, m, c] = full_matrices(model, &matrices, count);
+        let [k, m, c, b] = full_matrices(model, &matrices, count);
         let t = reduction.matrix();
-        let (k, c_elements, m_reduced) = (k.congruence(&t), c.congruence(&t), m.congruence(&t));
+        let m_reduced = Sparse::combine(&[(1.0, &m), (1.0, &b)]).congruence(&t);
+        let (k, c_elements) = (k.congruence(&t), c.congruence(&t));
         let (a0, a1) = match model.damping {
             Damping::Rayleigh { mass, stiffness } => (mass, stiffness),
             _ => (0.0, 0.0),
@@ -208,7 +209,7 @@ fn element_matrices(
             let m = element
                 .matrices(&Geometry { nodes: &nodes, frame: e.frame, tension: *tension })
                 .map_err(|x| refuse(x.to_string()))?;
-            let finite = [&m.stiffness, &m.mass, &m.damping]
+            let finite = [&m.stiffness, &m.mass, &m.damping, &m.inertance]
                 .iter()
                 .all(|a| a.values().iter().all(|x| x.is_finite()));
             if finite { Ok(Some(m)) } else { Err(refuse("its matrices are not finite".into())) }
@@ -216,13 +217,14 @@ fn element_matrices(
         .collect()
 }
 
-/// K, M, C over all DOFs.
-fn full_matrices(model: &Model, matrices: &[Option<ElementMatrices>], count: usize) -> [Sparse; 3] {
-    let mut sums = [(); 3].map(|()| Triplets::new(count, count));
+/// K, M, C and the inertances over all DOFs.
+fn full_matrices(model: &Model, matrices: &[Option<ElementMatrices>], count: usize) -> [Sparse; 4] {
+    let mut sums = [(); 4].map(|()| Triplets::new(count, count));
     for (e, m) in model.elements.iter().zip(matrices) {
         let Some(m) = m else { continue };
         let full: Vec<usize> = m.dofs.iter().map(|(n, d)| 6 * e.nodes[*n] + d.index()).collect();
-        for (sum, a) in sums.iter_mut().zip([&m.stiffness, &m.mass, &m.damping]) {
+        let parts = [&m.stiffness, &m.mass, &m.damping, &m.inertance];
+        for (sum, a) in sums.iter_mut().zip(parts) {
             for (i, row) in full.iter().enumerate() {
                 for (j, column) in full.iter().enumerate() {
                     if a[(i, j)] != 0.0 {

@@ -9,14 +9,18 @@ mod elastic;
 mod hysteretic;
 mod impact;
 mod isolated;
+mod inerter;
 mod links;
 mod maxwell;
 mod modes;
 mod p_delta;
+mod pounding;
 mod records;
 mod restitution;
 mod ritz;
 mod rocking_body;
+mod seal;
+mod series_dampers;
 mod sliding;
 mod sliding_driven;
 mod time_integration;
@@ -31,11 +35,15 @@ pub fn all() -> Vec<Case> {
         sliding_driven::cases(),
         dampers::cases(),
         maxwell::cases(),
+        series_dampers::cases(),
+        inerter::cases(),
+        seal::cases(),
         links::cases(),
         elastic::cases(),
         hysteretic::cases(),
         restitution::cases(),
         impact::cases(),
+        pounding::cases(),
         beam_stop::cases(),
         block::cases(),
         block_start::cases(),

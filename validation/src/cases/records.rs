@@ -138,9 +138,10 @@ const TI4: (&str, &str, &str) = (
     "Chopra, fig. 6.4.2 (record and oscillators); exact solution of the linear record",
 );
 const EQ: &str = "Record GM-1; integrated by Runge-Kutta with a step of 5 µs";
-const EQS: [(&str, &str); 3] = [
+const EQS: [(&str, &str); 4] = [
     ("EQ-A0", "Oscillator with a damper of the power 0.35 under El Centro"),
     ("EQ-A1", "The same damper behind a spring under El Centro"),
+    ("EQ-A1b", "The same as one Maxwell damper under El Centro"),
     ("EQ-A2", "The oscillator without a damper under El Centro"),
 ];
 
@@ -179,6 +180,8 @@ fn eq(points: &str) -> Vec<Case> {
                  \"tie\": EqualDof(nodes: (\"m\", \"end\"), dofs: Ux),\n";
     let behind = "        \"damper\": Dashpot(nodes: (\"end\", \"wall\"), c: 2e5, exponent: 0.35),\n        \
                   \"brace\": Spring(nodes: (\"m\", \"end\"), k1: \"2e7 N/m\"),\n";
+    let maxwell = "        \"damper\": MaxwellDamper(node: \"m\", axis: U2, k: 2e7, c: 2e5, exponent: 0.35),\n        \
+                   \"tie\": EqualDof(nodes: (\"m\", \"end\"), dofs: Ux),\n";
     let none = "        \"tie\": EqualDof(nodes: (\"m\", \"end\"), dofs: Ux),\n";
     let p = 5e-3;
     let peak = |u: f64| Check::new("largest |u|", METRE, u, p, |r| r.peak("u", 0.0, 35.0));
@@ -201,6 +204,11 @@ fn eq(points: &str) -> Vec<Case> {
         (
             behind,
             Some("U1"),
+            vec![peak(0.039_928_8), time(2.1632), force(145_264.0), energy(63_330.9)],
+        ),
+        (
+            maxwell,
+            Some("U2"),
             vec![peak(0.039_928_8), time(2.1632), force(145_264.0), energy(63_330.9)],
         ),
         (none, None, vec![peak(0.153_495_5), time(9.2203)]),

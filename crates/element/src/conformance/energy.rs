@@ -18,7 +18,7 @@ struct Ledger {
     gain: f64,
 }
 
-fn ledger(link: &dyn Link, path: &Path, steps: usize) -> Result<Ledger, Broken> {
+fn ledger(kit: &Kit, link: &dyn Link, path: &Path, steps: usize) -> Result<Ledger, Broken> {
     let (mut sum, mut first, mut last) = (Ledger::default(), None, 0.0);
     let mut dissipated = 0.0;
     march(link, path, 3, steps, |s| {
@@ -29,7 +29,7 @@ fn ledger(link: &dyn Link, path: &Path, steps: usize) -> Result<Ledger, Broken> 
         sum.turned_over += work.abs();
         let e = s.answer.energy;
         for (which, value) in [("hysteretic", e.hysteretic), ("viscous", e.viscous)] {
-            if value < -1e-12 * (sum.turned_over + e.stored.abs()) {
+            if kit.passive && value < -1e-12 * (sum.turned_over + e.stored.abs()) {
                 return Err(Broken::NegativeDissipation {
                     which,
                     value,
@@ -49,10 +49,10 @@ fn ledger(link: &dyn Link, path: &Path, steps: usize) -> Result<Ledger, Broken> 
 }
 
 /// A thousandth of the largest turnover of all paths, J: a path that hardly touches is measured by it.
-pub(super) fn typical(link: &dyn Link, paths: &[Path]) -> Result<f64, Broken> {
+pub(super) fn typical(kit: &Kit, link: &dyn Link, paths: &[Path]) -> Result<f64, Broken> {
     let mut most = f64::MIN_POSITIVE;
     for path in paths {
-        most = most.max(ledger(link, path, FINE / 10)?.turned_over);
+        most = most.max(ledger(kit, link, path, FINE / 10)?.turned_over);
     }
     Ok((1e-3 * most).max(f64::MIN_POSITIVE))
 }
@@ -66,12 +66,12 @@ pub(super) fn balance(
     typical: f64,
 ) -> Result<(), Broken> {
     let error = |l: &Ledger| (l.work - l.accounted).abs() / l.turned_over.max(typical);
-    let mut it = ledger(link, path, FINE)?;
+    let mut it = ledger(kit, link, path, FINE)?;
     let coarse = error(&it);
     if coarse > kit.energy_tolerance {
         // Second order makes it 16 times smaller; impacts and reversals may spoil some of it.
         let steps = 4 * FINE;
-        it = ledger(link, path, steps)?;
+        it = ledger(kit, link, path, steps)?;
         if error(&it) > (coarse / 8.0).min(5.0 * kit.energy_tolerance) {
             let (work, accounted) = (it.work, it.accounted);
             return Err(Broken::Balance { path: path.number, work, accounted, steps });

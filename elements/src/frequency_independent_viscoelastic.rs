@@ -1,0 +1,249 @@
+//! Viscoelastic damper with a loss factor that hardly depends on the frequency: a generalised Zener
+//! (Maxwell–Wiechert) model.
+//!
+//! ```text
+//!   f = k∞ d + Σ fᵢ,      ḟᵢ = kᵢ ḋ − fᵢ/τᵢ                 i = 1 … N
+//!   K'(ω) = k∞ + Σ kᵢ (ωτᵢ)²/(1 + (ωτᵢ)²),   K''(ω) = Σ kᵢ ωτᵢ/(1 + (ωτᵢ)²),   η = K''/K'
+//! ```
+//!
+//! | parameter     | symbol | unit           | range | default | meaning                                          |
+//! |---------------|--------|----------------|-------|---------|--------------------------------------------------|
+//! | `k`           | k      | N/m, N·m/rad   | > 0   | –       | storage stiffness at f₀ = √(f_min f_max)         |
+//! | `loss_factor` | η      | 1              | 0 … 2 | –       | loss factor in the band                          |
+//! | `f_min`       | f_min  | Hz             | > 0   | –       | lower end of the band                            |
+//! | `f_max`       | f_max  | Hz             | > 0   | –       | upper end of the band                            |
+//! | `k_inf`       | k∞     | N/m, N·m/rad   | ≥ 0   | –       | instead: stiffness beside the branches           |
+//! | `stiffness`   | kᵢ     | N/m, N·m/rad   | ≥ 0   | –       | instead: stiffnesses of the branches             |
+//! | `time`        | τᵢ     | s              | > 0   | –       | instead: relaxation times of the branches        |
+//! | `axis`        |        |                |       | U1      | local axis                                       |
+//!
+//! A causal law with a constant loss factor stiffens with the frequency: the only one is the springpot
+//! K (iω/ω₀)^β, β = (2/π) atan η, with K' = k (f/f₀)^β. Its spectrum of relaxation times is
+//! h(ln τ) = k sin(πβ)/(π cos(πβ/2)) (ω₀τ)^(−β); the branches are its values at times spaced evenly in
+//! ln τ, two for each factor of ten, over the band and a factor of three beyond both ends, and one branch
+//! more at each end that stands for all beyond. In the band K' is within 0.2 % of the springpot and η
+//! within 0.2 % of `loss_factor`.
+//!
+//! Steps are exact for a rate that is linear in them. In a static analysis the branches keep their force.
+//!
+//! Reference: \[Bland 1960\] for the model, \[Bagley & Torvik 1983\] for the springpot.
+
+mod branches;
+
+use crate::relaxation::relax;
+use branches::{Branch, Branches};
+use serde::Deserialize;
+use std::borrow::Cow;
+use std::sync::OnceLock;
+use trilith_element::dimension::{FREQUENCY, NONE, TIME};
+use trilith_element::{
+    Axis, Card, Category, Coordinates, Default, Described, Exercise, Field, Form, Kinematics, Link,
+    NodeCount, Parameter, ParameterError, Range, Response, Stroke,
+};
+
+/// Springs and Maxwell branches with a near-constant loss factor.
+#[derive(Clone, Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct FrequencyIndependentViscoelastic {
+    /// Storage stiffness at the middle of the band, N/m or N·m/rad.
+    pub k: Option<f64>,
+    /// Loss factor η.
+    pub loss_factor: Option<f64>,
+    /// Lower end of the band, Hz.
+    pub f_min: Option<f64>,
+    /// Upper end of the band, Hz.
+    pub f_max: Option<f64>,
+    /// Stiffness beside given branches, N/m or N·m/rad.
+    pub k_inf: Option<f64>,
+    /// Stiffnesses of given branches, N/m or N·m/rad.
+    pub stiffness: Option<Vec<f64>>,
+    /// Relaxation times of given branches, s.
+    pub time: Option<Vec<f64>>,
+    /// Local axis.
+    pub axis: Axis,
+    /// Worked out once.
+    #[serde(skip)]
+    branches: OnceLock<Branches>,
+}
+
+const fn optional(
+    name: &'static str,
+    symbol: &'static str,
+    form: Form,
+    range: Range,
+    meaning: &'static str,
+) -> Parameter {
+    Parameter::new(name, symbol, form, Default::Absent, meaning).within(range)
+}
+
+impl Described for FrequencyIndependentViscoelastic {
+    const CARD: Card = Card {
+        kind: "FrequencyIndependentViscoelastic",
+        category: Category::Link,
+        summary: "Viscoelastic damper with a near-constant loss factor: springs and Maxwell branches.",
+        nodes: NodeCount::GROUND_OR_TWO,
+        parameters: &[
+            optional(
+                "k",
+                "k",
+                Form::STIFFNESS_OF_AXIS,
+                Range::Positive,
+                "storage stiffness at √(f_min f_max)",
+            ),
+            optional(
+                "loss_factor",
+                "η",
+                Form::Number(NONE),
+                Range::Above(0.0, 2.0),
+                "loss factor in the band",
+            ),
+            optional(
+                "f_min",
+                "f_min",
+                Form::Number(FREQUENCY),
+                Range::Positive,
+                "lower end of the band",
+            ),
+            optional(
+                "f_max",
+                "f_max",
+                Form::Number(FREQUENCY),
+                Range::Positive,
+                "upper end of the band",
+            ),
+            optional(
+                "k_inf",
+                "k∞",
+                Form::STIFFNESS_OF_AXIS,
+                Range::NonNegative,
+                "instead: stiffness beside the branches",
+            ),
+            optional(
+                "stiffness",
+                "kᵢ",
+                Form::STIFFNESS_OF_AXIS.list(),
+                Range::NonNegative,
+                "instead: stiffnesses of the branches",
+            ),
+            optional(
+                "time",
+                "τᵢ",
+                Form::Number(TIME).list(),
+                Range::Positive,
+                "instead: relaxation times of the branches",
+            ),
+            Parameter::choice("axis", Axis::NAMES, "U1", "local axis"),
+        ],
+        law: "f = k∞ d + Σ fᵢ, ḟᵢ = kᵢ ḋ − fᵢ/τᵢ\n\
+              fitted: K' = k (f/f₀)^β, K'' = η K', β = (2/π) atan η, f₀ = √(f_min f_max)",
+        source: "Bland, The Theory of Linear Viscoelasticity, 1960; Bagley & Torvik 1983 (springpot)",
+        example: r#""pad": FrequencyIndependentViscoelastic(nodes: ("a", "b"), k: "5 MN/m", loss_factor: 0.4, f_min: "0.1 Hz", f_max: "10 Hz")"#,
+        exercise: Exercise { frequency: 1.0, strokes: &[Stroke::about(0.0, 0.02)] },
+    };
+
+    fn check(&self) -> Result<(), ParameterError> {
+        let fitted = [
+            ("k", self.k),
+            ("loss_factor", self.loss_factor),
+            ("f_min", self.f_min),
+            ("f_max", self.f_max),
+        ];
+        let given = self.stiffness.is_some() || self.time.is_some() || self.k_inf.is_some();
+        let wrong = |name: &str, message: &str| Err(ParameterError::inconsistent(name, message));
+        if given {
+            if let Some((name, _)) = fitted.iter().find(|(_, x)| x.is_some()) {
+                let message = "give either `k`, `loss_factor`, `f_min` and `f_max`, or `k_inf`, \
+                               `stiffness` and `time`";
+                return wrong(name, message);
+            }
+            let (Some(k), Some(t)) = (&self.stiffness, &self.time) else {
+                return wrong("stiffness", "branches take both `stiffness` and `time`");
+            };
+            if k.len() != t.len() || k.is_empty() {
+                return wrong("time", "each branch takes one `stiffness` and one `time`");
+            }
+            if t.iter().any(|t| *t <= 0.0) {
+                return wrong("time", "relaxation times must be > 0");
+            }
+            return crate::parameters::none_negative("stiffness", k, "N/m");
+        }
+        if let Some((name, _)) = fitted.iter().find(|(_, x)| x.is_none()) {
+            let message = format!(
+                "`{name}` is missing: a band takes `k`, `loss_factor`, `f_min` and `f_max`; given branches take `k_inf`, `stiffness` and `time`"
+            );
+            return wrong(name, &message);
+        }
+        if self.f_min >= self.f_max {
+            return wrong("f_max", "`f_max` must be larger than `f_min`");
+        }
+        if self.f_max.unwrap_or(0.0) > 1e6 * self.f_min.unwrap_or(0.0) {
+            return wrong("f_max", "the band may not be wider than six decades");
+        }
+        Ok(())
+    }
+}
+
+impl FrequencyIndependentViscoelastic {
+    fn branches(&self) -> &Branches {
+        self.branches.get_or_init(|| match (&self.stiffness, &self.time) {
+            (Some(k), Some(t)) => Branches {
+                k_inf: self.k_inf.unwrap_or(0.0),
+                branches: k.iter().zip(t).map(|(k, tau)| Branch { k: *k, tau: *tau }).collect(),
+            },
+            _ => {
+                let [k, loss, low, high] =
+                    [self.k, self.loss_factor, self.f_min, self.f_max].map(|x| x.unwrap_or(1.0));
+                Branches::fitted(k, loss, low, high)
+            }
+        })
+    }
+
+    /// Storage and loss stiffness at a frequency in Hz, N/m or N·m/rad.
+    #[must_use]
+    pub fn moduli(&self, frequency: f64) -> [f64; 2] {
+        self.branches().moduli(std::f64::consts::TAU * frequency)
+    }
+}
+
+impl Link for FrequencyIndependentViscoelastic {
+    fn coordinates(&self) -> Coordinates {
+        Coordinates::Local(vec![self.axis])
+    }
+
+    fn history(&self) -> Cow<'static, [Field]> {
+        let unit = if self.axis.index() > 2 { "N·m" } else { "N" };
+        let field = |i| Field { name: format!("branch{i}").into(), unit };
+        (1..=self.branches().branches.len()).map(field).collect()
+    }
+
+    fn engaged_stiffness(&self, k: &mut [f64]) {
+        let all = self.branches();
+        k[0] = all.k_inf + all.branches.iter().map(|b| b.k).sum::<f64>();
+    }
+
+    fn respond(
+        &self,
+        at: &Kinematics<'_>,
+        committed: &[f64],
+        trial: &mut [f64],
+        out: &mut Response<'_>,
+    ) {
+        let all = self.branches();
+        let (k, d) = (all.k_inf, at.d[0]);
+        (out.f[0], out.k[0], out.energy.stored) = (k * d, k, 0.5 * k * d * d);
+        for ((branch, f0), f) in all.branches.iter().zip(committed).zip(trial) {
+            let end = relax(branch.k, branch.tau, *f0, at);
+            *f = end.f;
+            out.f[0] += end.f;
+            out.k[0] += end.f_d;
+            out.c[0] += end.f_v;
+            if branch.k > 0.0 {
+                out.energy.stored += 0.5 * end.f * end.f / branch.k;
+                out.energy.viscous += end.viscous;
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,313 @@
+//! Impact element with a Hertz spring and nonlinear damping, for pounding.
+//!
+//! ```text
+//!   δ = −(d + g): penetration,  δ̇ = −ḋ;   f = −N,  N = 0 where δ ≤ 0, and never negative
+//!   Hertzdamp:  N = k δⁿ (1 + ξ δ̇/s)              s: speed of approach
+//!   Jankowski:  N = k δⁿ + 2 ξ √(m k δⁿ⁻¹) δ̇      where δ̇ > 0, else k δⁿ
+//! ```
+//!
+//! | parameter     | symbol | unit  | range     | default   | meaning                                               |
+//! |---------------|--------|-------|-----------|-----------|-------------------------------------------------------|
+//! | `k`           | k      | N/mⁿ  | > 0       | –         | contact stiffness                                     |
+//! | `exponent`    | n      | 1     | 1 … 3     | 1.5       | exponent of the penetration                           |
+//! | `model`       |        |       |           | Hertzdamp | `Hertzdamp` or `Jankowski`                            |
+//! | `restitution` | e      | 1     | 0 < e ≤ 1 | –         | speed after over speed before an impact               |
+//! | `xi`          | ξ      | 1     | ≥ 0       | –         | instead of `restitution`: the damping itself          |
+//! | `impact_mass` | m      | kg    | > 0       | –         | Jankowski: m₁m₂/(m₁ + m₂); none: from the structure   |
+//! | `opening`     | g      | m     | any       | 0         | clearance at rest                                     |
+//! | `min_speed`   | s_min  | m/s   | > 0       | 1e-3      | Hertzdamp: slower approaches damp as this one does    |
+//! | `axis`        |        |       |           | U1        | local axis: U1, U2 or U3                              |
+//!
+//! ξ(e) is the exact solution of the impact of a mass, for any n and speed:
+//!
+//! ```text
+//!   Hertzdamp:  ξ (1 + e) = ln((1 + ξ)/(1 − ξ e))
+//!   Jankowski:  ln e = −ζ acos(ζ)/√(1 − ζ²),  ξ = ζ √((n + 1)/2)
+//! ```
+//!
+//! (v dv/dδ = −N/m separates for the first; with z = δ^((n+1)/2) the second is a linear oscillator.)
+//! Near e = 1 the first is ξ = ¾ (1 − e²) \[Lankarani & Nikravesh 1990\]; OpenSees' `Hertzdamp` takes the
+//! same ξ as a number, for which its manual has 8(1 − e)/(5e), and `JankowskiImpact` takes the second, in
+//! an approximation.
+//!
+//! The dashpot of `Jankowski` grows linearly over the first nanometre.
+//!
+//! s is the largest speed of approach in the contact so far: in an impact that of the first touch, as in
+//! the source; in a contact that is pressed together later it keeps the damping finite. Below `min_speed`
+//! impacts return more than e.
+//!
+//! Reference: \[Muthukumar & DesRoches 2006\], \[Jankowski 2005\].
+
+use crate::restitution::{IMPACT_MASS, approach_ratio, restitution};
+use serde::Deserialize;
+use std::borrow::Cow;
+use std::sync::OnceLock;
+use trilith_element::dimension::{FORCE, LENGTH, NONE, VELOCITY};
+use trilith_element::{
+    Axis, Card, Category, Contact, Coordinates, Default, Described, Exercise, Field, Form, History,
+    Impact, Kinematics, Link, NodeCount, Parameter, ParameterError, Range, Response, Stroke,
+    history,
+};
+
+/// How an [`ImpactHertz`] dissipates.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
+pub enum HertzModel {
+    /// In proportion to the elastic force and the rate over the speed of approach.
+    Hertzdamp,
+    /// On approach only, as a dashpot that follows the tangent stiffness.
+    Jankowski,
+}
+
+/// Hertz spring with nonlinear damping in contact.
+#[derive(Clone, Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct ImpactHertz {
+    /// Contact stiffness k, N/mⁿ.
+    pub k: f64,
+    /// Exponent n.
+    pub exponent: f64,
+    /// How it dissipates.
+    pub model: HertzModel,
+    /// Coefficient of restitution e.
+    pub restitution: Option<f64>,
+    /// Damping ξ, instead of `restitution`.
+    pub xi: Option<f64>,
+    /// Mass for `Jankowski`, kg.
+    pub impact_mass: Option<f64>,
+    /// Clearance at rest g, m.
+    pub opening: f64,
+    /// Speed below which the damping grows no more, m/s.
+    pub min_speed: f64,
+    /// Local axis.
+    pub axis: Axis,
+    /// ξ, worked out once.
+    #[serde(skip)]
+    damping: OnceLock<f64>,
+}
+
+history! {
+    /// History of a contact that remembers its approach.
+    struct Approach {
+        /// Largest speed of approach in this contact; 0 while open.
+        speed: "m/s",
+    }
+}
+
+/// Penetration at which the stiffness of the dummies is taken, m.
+const TYPICAL: f64 = 1e-3;
+
+/// Penetration below which the dashpot of `Jankowski` grows linearly, m.
+const TOUCH: f64 = 1e-9;
+
+impl Described for ImpactHertz {
+    const CARD: Card = Card {
+        kind: "ImpactHertz",
+        category: Category::Link,
+        summary: "Pounding: Hertz spring with nonlinear damping after a clearance.",
+        nodes: NodeCount::GROUND_OR_TWO,
+        parameters: &[
+            Parameter::new(
+                "k",
+                "k",
+                Form::Power { base: FORCE, over: LENGTH, exponent: "exponent" },
+                Default::Required,
+                "contact stiffness",
+            )
+            .within(Range::Positive),
+            Parameter::number(
+                "exponent",
+                "n",
+                NONE,
+                Range::Within(1.0, 3.0),
+                1.5,
+                "exponent of the penetration",
+            ),
+            Parameter::choice(
+                "model",
+                &["Hertzdamp", "Jankowski"],
+                "Hertzdamp",
+                "how it dissipates",
+            ),
+            restitution("speed after over speed before an impact"),
+            Parameter::optional(
+                "xi",
+                "ξ",
+                NONE,
+                Range::NonNegative,
+                "instead of `restitution`: the damping itself",
+            ),
+            IMPACT_MASS,
+            Parameter::number("opening", "g", LENGTH, Range::Any, 0.0, "clearance at rest"),
+            Parameter::number(
+                "min_speed",
+                "s_min",
+                VELOCITY,
+                Range::Positive,
+                1e-3,
+                "Hertzdamp: slower approaches damp as this one does",
+            ),
+            Parameter::choice("axis", &["U1", "U2", "U3"], "U1", "local axis"),
+        ],
+        law: "δ = −(d + g), δ̇ = −ḋ; f = −N where δ > 0, else 0; N ≥ 0\n\
+              Hertzdamp: N = k δⁿ (1 + ξ δ̇/s), ξ (1 + e) = ln((1 + ξ)/(1 − ξ e))\n\
+              Jankowski: N = k δⁿ + 2 ξ √(m k δⁿ⁻¹) δ̇ where δ̇ > 0, else k δⁿ",
+        source: "Muthukumar & DesRoches 2006; Jankowski 2005; Lankarani & Nikravesh 1990",
+        example: r#""joint": ImpactHertz(nodes: ("a", "b"), k: "2000 MN/m^1.5", restitution: 0.65, opening: "20 mm")"#,
+        exercise: Exercise { frequency: 1.0, strokes: &[Stroke::about(0.0, 0.03)] },
+    };
+
+    fn check(&self) -> Result<(), ParameterError> {
+        let (name, message) = if self.restitution.is_some() == self.xi.is_some() {
+            ("restitution", "give either `restitution` or `xi`")
+        } else if self.model == HertzModel::Hertzdamp && self.impact_mass.is_some() {
+            ("impact_mass", "`Hertzdamp` needs no mass: leave `impact_mass` out")
+        } else if self.model == HertzModel::Jankowski
+            && self.xi.is_some()
+            && self.impact_mass.is_none()
+        {
+            ("impact_mass", "`Jankowski` with `xi` needs the `impact_mass`")
+        } else {
+            return Ok(());
+        };
+        Err(ParameterError::inconsistent(name, message))
+    }
+}
+
+/// ξ of `Hertzdamp` at which a mass returns with e.
+fn hertz_damping(e: f64) -> f64 {
+    if e >= 1.0 {
+        return 0.0;
+    }
+    // Negative up to the root, which lies beyond 1.5 (1 − e²)/(1 + e³)/2 and below the pole 1/e.
+    let excess = |x: f64| ((1.0 + x) / (1.0 - x * e)).ln() - x * (1.0 + e);
+    let (mut low, mut high) = (0.75 * (1.0 - e * e) / (1.0 + e * e * e), 1.0 / e);
+    loop {
+        let middle = 0.5 * (low + high);
+        if middle <= low || middle >= high {
+            return middle;
+        }
+        if excess(middle) < 0.0 { low = middle } else { high = middle }
+    }
+}
+
+/// ξ of `Jankowski` at which a mass returns with e.
+fn approach_damping(e: f64, n: f64) -> f64 {
+    approach_ratio(e) * (0.5 * (n + 1.0)).sqrt()
+}
+
+/// Normal force and what it depends on.
+struct Normal {
+    force: f64,
+    by_depth: f64,
+    by_rate: f64,
+    elastic: f64,
+}
+
+impl ImpactHertz {
+    fn xi(&self) -> f64 {
+        *self.damping.get_or_init(|| match (self.xi, self.restitution) {
+            (Some(xi), _) => xi,
+            (None, Some(e)) if self.model == HertzModel::Hertzdamp => hertz_damping(e),
+            (None, Some(e)) => approach_damping(e, self.exponent),
+            _ => 0.0,
+        })
+    }
+
+    /// At penetration `depth` and its `rate`; `speed` of approach known so far.
+    fn normal(&self, depth: f64, rate: f64, speed: f64) -> Normal {
+        if depth <= 0.0 {
+            return Normal { force: 0.0, by_depth: 0.0, by_rate: 0.0, elastic: 0.0 };
+        }
+        let (n, xi) = (self.exponent, self.xi());
+        let elastic = self.k * depth.powf(n);
+        let stiffness = n * elastic / depth;
+        match self.model {
+            HertzModel::Hertzdamp => {
+                let known = speed.max(self.min_speed);
+                let (share, by_rate) = if rate > known {
+                    (xi, 0.0)
+                } else {
+                    (xi * rate / known, xi * elastic / known)
+                };
+                if share < -1.0 {
+                    return Normal { force: 0.0, by_depth: 0.0, by_rate: 0.0, elastic };
+                }
+                let by_depth = stiffness * (1.0 + share);
+                Normal { force: elastic * (1.0 + share), by_depth, by_rate, elastic }
+            }
+            HertzModel::Jankowski if rate > 0.0 => {
+                let mass = self.impact_mass.unwrap_or(0.0);
+                // Just at the touch the slope has no bound for n < 3: there it is linear.
+                let (share, slope) =
+                    if depth < TOUCH { (depth / TOUCH, 1.0) } else { (1.0, 0.5 * (n - 1.0)) };
+                let root = (mass * self.k * depth.max(TOUCH).powf(n - 1.0)).sqrt();
+                let c = 2.0 * xi * share * root;
+                let by_depth = stiffness + slope * c * rate / depth;
+                Normal { force: elastic + c * rate, by_depth, by_rate: c, elastic }
+            }
+            HertzModel::Jankowski => {
+                Normal { force: elastic, by_depth: stiffness, by_rate: 0.0, elastic }
+            }
+        }
+    }
+}
+
+impl Link for ImpactHertz {
+    fn coordinates(&self) -> Coordinates {
+        Coordinates::Local(vec![self.axis])
+    }
+
+    fn history(&self) -> Cow<'static, [Field]> {
+        Cow::Borrowed(Approach::FIELDS)
+    }
+
+    fn engaged_stiffness(&self, k: &mut [f64]) {
+        k[0] = self.exponent * self.k * TYPICAL.powf(self.exponent - 1.0);
+    }
+
+    fn respond(
+        &self,
+        at: &Kinematics<'_>,
+        committed: &[f64],
+        trial: &mut [f64],
+        out: &mut Response<'_>,
+    ) {
+        let depth = -(at.d[0] + self.opening);
+        let known = Approach::load(committed).speed.max(-at.v0[0]);
+        let now = self.normal(depth, -at.v[0], known);
+        let start = self.normal(-(at.d0[0] + self.opening), -at.v0[0], known);
+        let speed = if depth > 0.0 { known.max(-at.v[0]) } else { 0.0 };
+        Approach { speed }.store(trial);
+        (out.f[0], out.k[0], out.c[0]) = (-now.force, now.by_depth, now.by_rate);
+        out.energy.stored = now.elastic * depth.max(0.0) / (self.exponent + 1.0);
+        let (before, after) = (start.elastic - start.force, now.elastic - now.force);
+        out.energy.viscous = at.viscous_work(0, before, after);
+    }
+
+    fn impact(&self) -> Option<Impact> {
+        // Only a law that waits for a mass takes part: there is no linear stiffness to speak of.
+        let waits = self.model == HertzModel::Jankowski && self.restitution.is_some();
+        waits.then_some(Impact {
+            coordinate: 0,
+            stiffness: self.k,
+            damping: 0.0,
+            restitution: self.restitution,
+            mass: self.impact_mass,
+        })
+    }
+
+    fn restituting(&self, restitution: f64, mass: f64) -> Option<Box<dyn Link>> {
+        self.impact()?;
+        let xi = Some(approach_damping(restitution, self.exponent));
+        let (restitution, impact_mass, damping) = (None, Some(mass), OnceLock::new());
+        Some(Box::new(Self { xi, restitution, impact_mass, damping, ..self.clone() }))
+    }
+
+    fn contacts(&self, at: &Kinematics<'_>, _: &[f64], f: &[f64], out: &mut Vec<Contact>) {
+        let gap = at.d[0] + self.opening;
+        out.push(Contact { gap, normal: (-f[0]).max(0.0), ..Contact::default() });
+    }
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,247 @@
+//! Impact element of spring and dashpot (Kelvin–Voigt), for pounding.
+//!
+//! ```text
+//!   i ●──┤  g  ├──/\/\/──● j      δ = −(d + g): penetration,  δ̇ = −ḋ
+//!                └──[]───┘        N = k δ + c δ̇  where δ > 0, else 0;   f = −N
+//!                  k, c           damps Approach: c acts where δ̇ > 0 only
+//!                                 without `pull`: N ≥ 0
+//! ```
+//!
+//! | parameter     | symbol | unit  | range     | default | meaning                                                |
+//! |---------------|--------|-------|-----------|---------|--------------------------------------------------------|
+//! | `k`           | k      | N/m   | > 0       | –       | contact stiffness                                      |
+//! | `damping`     | c      | N·s/m | ≥ 0       | –       | contact dashpot                                        |
+//! | `restitution` | e      | 1     | 0 < e ≤ 1 | –       | instead of `damping`: speed after over speed before    |
+//! | `impact_mass` | m      | kg    | > 0       | –       | mass for it, m₁m₂/(m₁ + m₂); none: from the structure  |
+//! | `opening`     | g      | m     | any       | 0       | clearance at rest                                      |
+//! | `damps`       |        |       |           | Contact | `Contact`: all the time in contact; `Approach`: until it turns |
+//! | `pull`        |        |       |           | false   | the force may pull while closed                        |
+//! | `axis`        |        |       |           | U1      | local axis: U1, U2 or U3                               |
+//!
+//! With `restitution` c = 2 ζ √(k m), and ζ(e) is exact for each variant:
+//!
+//! ```text
+//!   Contact, pull:   ln e = −π ζ/√(1 − ζ²)                 Anagnostopoulos
+//!   Contact:         ln e = −2 ζ acos(ζ)/√(1 − ζ²)
+//!   Approach:        ln e = −ζ acos(ζ)/√(1 − ζ²)           (acosh and √(ζ² − 1) for ζ > 1)
+//! ```
+//!
+//! `Contact` with `pull` is OpenSees' ViscoelasticGap; a gap beside a dashpot that never lets go, as
+//! built in SAP2000, is a `Gap` and a `Dashpot`. In `Contact` without `pull` this is a
+//! [`Dashpot`](crate::Dashpot) in contact with a stiffness.
+//!
+//! Reference: \[Anagnostopoulos 1988\]; damping on approach only as in \[Jankowski 2005\].
+
+use crate::restitution::{IMPACT_MASS, approach_ratio, damping_ratio, restitution};
+use serde::Deserialize;
+use trilith_element::dimension::{DAMPING, LENGTH, STIFFNESS};
+use trilith_element::{
+    Axis, Card, Category, Contact, Coordinates, Described, Exercise, Impact, Kinematics, Link,
+    NodeCount, Parameter, ParameterError, Range, Response, Stroke,
+};
+
+/// When the dashpot of an [`ImpactKelvin`] acts.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
+pub enum Damps {
+    /// All the time in contact.
+    Contact,
+    /// In contact while the penetration grows.
+    Approach,
+}
+
+/// Spring and dashpot in contact.
+#[derive(Clone, Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct ImpactKelvin {
+    /// Contact stiffness k, N/m.
+    pub k: f64,
+    /// Contact dashpot c, N·s/m.
+    pub damping: Option<f64>,
+    /// Coefficient of restitution e, instead of `damping`.
+    pub restitution: Option<f64>,
+    /// Mass for `restitution`, kg.
+    pub impact_mass: Option<f64>,
+    /// Clearance at rest g, m.
+    pub opening: f64,
+    /// When the dashpot acts.
+    pub damps: Damps,
+    /// The force may pull while closed.
+    pub pull: bool,
+    /// Local axis.
+    pub axis: Axis,
+}
+
+impl Described for ImpactKelvin {
+    const CARD: Card = Card {
+        kind: "ImpactKelvin",
+        category: Category::Link,
+        summary: "Pounding: spring and dashpot in contact after a clearance.",
+        nodes: NodeCount::GROUND_OR_TWO,
+        parameters: &[
+            Parameter::required("k", "k", STIFFNESS, Range::Positive, "contact stiffness"),
+            Parameter::optional("damping", "c", DAMPING, Range::NonNegative, "contact dashpot"),
+            restitution("instead of `damping`: speed after over speed before an impact"),
+            IMPACT_MASS,
+            Parameter::number("opening", "g", LENGTH, Range::Any, 0.0, "clearance at rest"),
+            Parameter::choice(
+                "damps",
+                &["Contact", "Approach"],
+                "Contact",
+                "all the time in contact, or until the penetration turns",
+            ),
+            Parameter::flag("pull", false, "the force may pull while closed"),
+            Parameter::choice("axis", &["U1", "U2", "U3"], "U1", "local axis"),
+        ],
+        law: "δ = −(d + g), δ̇ = −ḋ\n\
+              f = −(k δ + c δ̇) where δ > 0, else 0; without `pull` at most 0\n\
+              damps Approach: c acts where δ̇ > 0 only\n\
+              with `restitution`: c = 2 ζ(e) √(k m)",
+        source: "Anagnostopoulos 1988; Jankowski 2005 (approach only)",
+        example: r#""joint": ImpactKelvin(nodes: ("a", "b"), k: "100 MN/m", restitution: 0.6, impact_mass: "50 t", opening: "20 mm")"#,
+        exercise: Exercise { frequency: 1.0, strokes: &[Stroke::about(0.0, 0.03)] },
+    };
+
+    fn check(&self) -> Result<(), ParameterError> {
+        let (name, message) = if self.damping.is_some() == self.restitution.is_some() {
+            ("damping", "give either `damping` or `restitution`")
+        } else if self.impact_mass.is_some() && self.restitution.is_none() {
+            ("impact_mass", "`impact_mass` belongs to `restitution`: give both, or `damping`")
+        } else if self.pull && self.damps == Damps::Approach {
+            ("pull", "a dashpot that acts on approach only never pulls: leave `pull` out")
+        } else {
+            return Ok(());
+        };
+        Err(ParameterError::inconsistent(name, message))
+    }
+}
+
+impl ImpactKelvin {
+    /// Force, its derivatives by d and ḋ, and the force of the spring in it.
+    fn total(&self, d: f64, v: f64) -> [f64; 4] {
+        let spring = self.k * (d + self.opening);
+        if spring >= 0.0 {
+            return [0.0; 4];
+        }
+        let c = match self.damps {
+            Damps::Approach if v >= 0.0 => 0.0,
+            _ => self.damping.unwrap_or(0.0),
+        };
+        let f = spring + c * v;
+        if f > 0.0 && !self.pull { [0.0, 0.0, 0.0, spring] } else { [f, self.k, c, spring] }
+    }
+}
+
+impl Link for ImpactKelvin {
+    fn coordinates(&self) -> Coordinates {
+        Coordinates::Local(vec![self.axis])
+    }
+
+    fn engaged_stiffness(&self, k: &mut [f64]) {
+        k[0] = self.k;
+    }
+
+    fn respond(&self, at: &Kinematics<'_>, _: &[f64], _: &mut [f64], out: &mut Response<'_>) {
+        let [f0, _, _, spring0] = self.total(at.d0[0], at.v0[0]);
+        let [f, k, c, spring] = self.total(at.d[0], at.v[0]);
+        (out.f[0], out.k[0], out.c[0]) = (f, k, c);
+        out.energy.stored = 0.5 * spring * spring / self.k;
+        out.energy.viscous = at.viscous_work(0, f0 - spring0, f - spring);
+    }
+
+    fn impact(&self) -> Option<Impact> {
+        Some(Impact {
+            coordinate: 0,
+            stiffness: self.k,
+            damping: self.damping.unwrap_or(0.0),
+            restitution: self.restitution,
+            mass: self.impact_mass,
+        })
+    }
+
+    fn restituting(&self, restitution: f64, mass: f64) -> Option<Box<dyn Link>> {
+        let ratio = match self.damps {
+            Damps::Contact => damping_ratio(restitution, self.pull),
+            Damps::Approach => approach_ratio(restitution),
+        };
+        let damping = Some(2.0 * ratio * (self.k * mass).sqrt());
+        Some(Box::new(Self { damping, restitution: None, impact_mass: None, ..self.clone() }))
+    }
+
+    fn contacts(&self, at: &Kinematics<'_>, _: &[f64], f: &[f64], out: &mut Vec<Contact>) {
+        let gap = at.d[0] + self.opening;
+        out.push(Contact { gap, normal: (-f[0]).max(0.0), ..Contact::default() });
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::parameters::{numbers, read};
+    use crate::probe::rebound;
+    use approx::assert_relative_eq;
+    use trilith_element::Value;
+    use trilith_element::conformance::Kit;
+
+    const VARIANTS: [(&str, bool); 3] =
+        [("Contact", false), ("Contact", true), ("Approach", false)];
+
+    fn law(given: &[(&str, f64)], (damps, pull): (&str, bool)) -> ImpactKelvin {
+        let mut all = numbers(given);
+        all.push(("k", Value::Number(1e8)));
+        all.push(("damps", Value::Text(damps.into())));
+        all.push(("pull", Value::Flag(pull)));
+        read(&all).unwrap()
+    }
+
+    #[test]
+    fn conforms_in_every_variant() {
+        for variant in VARIANTS {
+            for c in [0.0, 1e5, 2e6] {
+                for opening in [0.0, 0.01, -0.005] {
+                    let law = law(&[("damping", c), ("opening", opening)], variant);
+                    Kit::new(&[0.03], 1.0).assert(&law);
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn an_impact_returns_the_restitution() {
+        for variant in VARIANTS {
+            for e in [0.1, 0.4, 0.65, 0.9, 1.0] {
+                let waiting = law(&[("restitution", e)], variant);
+                let law = waiting.restituting(e, 5e4).unwrap();
+                for speed in [0.01, 1.0] {
+                    let got = rebound(law.as_ref(), 5e4, speed, 2e-6);
+                    assert_relative_eq!(got, e, max_relative = 2e-3);
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn in_contact_it_is_a_dashpot_with_a_stiffness() {
+        let ours = law(&[("damping", 1e6), ("opening", 0.01)], VARIANTS[1]);
+        let pull = ours.total(-0.0101, 0.5)[0];
+        assert_relative_eq!(pull, -1e4 + 5e5, max_relative = 1e-9);
+        assert_eq!(
+            law(&[("damping", 1e6), ("opening", 0.01)], VARIANTS[0]).total(-0.0101, 0.5)[0],
+            0.0
+        );
+        let approach = law(&[("damping", 1e6), ("opening", 0.01)], VARIANTS[2]);
+        assert_relative_eq!(approach.total(-0.0101, 0.5)[0], -1e4, max_relative = 1e-9);
+        assert_relative_eq!(approach.total(-0.0101, -0.5)[0], -5.1e5, max_relative = 1e-9);
+    }
+
+    #[test]
+    fn refuses_both_or_none_and_a_mass_alone() {
+        let k = ("k", 1.0);
+        let refused = |given: &[(&str, f64)]| {
+            let error = read::<ImpactKelvin>(&numbers(given)).unwrap_err();
+            error.parameter().unwrap_or_default().to_owned()
+        };
+        assert_eq!(refused(&[k]), "damping");
+        assert_eq!(refused(&[k, ("damping", 1.0), ("restitution", 0.5)]), "damping");
+        assert_eq!(refused(&[k, ("damping", 1.0), ("impact_mass", 0.5)]), "impact_mass");
+    }
+}

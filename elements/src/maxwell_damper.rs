@@ -1,0 +1,158 @@
+//! Maxwell damper: a spring in series with a dashpot of a power of the rate.
+//!
+//! ```text
+//!   i ●──/\/\/──[]──● j        f = k d_k = c sgn(w) |w|^α,   d = d_k + ∫ w dt
+//!         k    c, α            ḟ = k (ḋ − sgn(f) (|f|/c)^(1/α))
+//! ```
+//!
+//! | parameter  | symbol | unit      | range       | default | meaning                       |
+//! |------------|--------|-----------|-------------|---------|-------------------------------|
+//! | `k`        | k      | N/m       | > 0         | –       | stiffness of the spring       |
+//! | `c`        | c      | N/(m/s)^α | > 0         | –       | coefficient of the dashpot    |
+//! | `exponent` | α      | 1         | 0.1 … 2     | 1       | exponent of the rate          |
+//! | `axis`     |        |           |             | U1      | local axis: U1, U2 or U3      |
+//!
+//! The point between spring and dashpot needs neither node nor mass. For α = 1 a step is exact for a
+//! rate that is linear in it; other exponents are integrated inside the step by an implicit method of
+//! second order. In a static analysis the dashpot follows, and the force stays as it was.
+//!
+//! Reference: \[Soong & Dargush 1997, ch. 6\].
+
+use crate::relaxation::{Followed, relax};
+use crate::series::{Split, Viscous, follow};
+use serde::Deserialize;
+use std::borrow::Cow;
+use trilith_element::dimension::{FORCE, NONE, STIFFNESS, VELOCITY};
+use trilith_element::{
+    Axis, Card, Category, Coordinates, Default, Described, Exercise, Field, Form, History,
+    Kinematics, Link, NodeCount, Parameter, Range, Response, Stroke, history,
+};
+
+/// Spring in series with a power-law dashpot.
+#[derive(Clone, Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct MaxwellDamper {
+    /// Stiffness k, N/m.
+    pub k: f64,
+    /// Coefficient c, N/(m/s)^α.
+    pub c: f64,
+    /// Exponent α.
+    pub exponent: f64,
+    /// Local axis.
+    pub axis: Axis,
+}
+
+history! {
+    /// History of a spring in series with a dashpot.
+    pub(crate) struct SeriesHistory {
+        /// Force.
+        pub(crate) force: "N",
+    }
+}
+
+impl Described for MaxwellDamper {
+    const CARD: Card = Card {
+        kind: "MaxwellDamper",
+        category: Category::Link,
+        summary: "Spring in series with a dashpot of a power of the rate.",
+        nodes: NodeCount::GROUND_OR_TWO,
+        parameters: &[
+            Parameter::required("k", "k", STIFFNESS, Range::Positive, "stiffness of the spring"),
+            Parameter::new(
+                "c",
+                "c",
+                Form::Power { base: FORCE, over: VELOCITY, exponent: "exponent" },
+                Default::Required,
+                "coefficient of the dashpot",
+            )
+            .within(Range::Positive),
+            Parameter::number(
+                "exponent",
+                "α",
+                NONE,
+                Range::Within(0.1, 2.0),
+                1.0,
+                "exponent of the rate",
+            ),
+            Parameter::choice("axis", &["U1", "U2", "U3"], "U1", "local axis"),
+        ],
+        law: "f = k d_k = c sgn(w) |w|^α, d = d_k + ∫ w dt\n\
+              ḟ = k (ḋ − sgn(f) (|f|/c)^(1/α))",
+        source: "Soong & Dargush, Passive Energy Dissipation Systems, 1997, ch. 6",
+        example: r#""damper": MaxwellDamper(nodes: ("a", "b"), k: "20 MN/m", c: "200 kN*(s/m)^0.35", exponent: 0.35)"#,
+        exercise: Exercise { frequency: 1.0, strokes: &[Stroke::about(0.0, 0.05)] },
+    };
+}
+
+impl Viscous for MaxwellDamper {
+    fn split_positive(&self, known: f64, a: f64) -> Split {
+        let (c, alpha) = (self.c, self.exponent);
+        // Both equations are convex and start above their root: Newton's method falls to it and ends
+        // where it no longer falls.
+        if alpha < 1.0 {
+            let p = 1.0 / alpha;
+            let bound = c * (known / a).powf(alpha);
+            // A quotient too small for a number says nothing.
+            let mut f = if bound > 0.0 { known.min(bound) } else { known };
+            loop {
+                let w = (f / c).powf(p);
+                let next = f - (f + a * w - known) / (1.0 + a * p * w / f);
+                if !(next < f && next > 0.0) {
+                    return Split { force: f, rate: w, slope: 1.0 / (1.0 + a * p * w / f) };
+                }
+                f = next;
+            }
+        }
+        let mut w = (known / a).min((known / c).powf(1.0 / alpha));
+        loop {
+            let f = c * w.powf(alpha);
+            let rise = if w > 0.0 { alpha * f / w } else { 0.0 };
+            let next = w - (f + a * w - known) / (rise + a);
+            if !(next < w && next > 0.0) {
+                return Split { force: f, rate: w, slope: rise / (rise + a) };
+            }
+            w = next;
+        }
+    }
+}
+
+impl Link for MaxwellDamper {
+    fn coordinates(&self) -> Coordinates {
+        Coordinates::Local(vec![self.axis])
+    }
+
+    fn history(&self) -> Cow<'static, [Field]> {
+        Cow::Borrowed(SeriesHistory::FIELDS)
+    }
+
+    fn engaged_stiffness(&self, k: &mut [f64]) {
+        k[0] = self.k;
+    }
+
+    fn respond(
+        &self,
+        at: &Kinematics<'_>,
+        committed: &[f64],
+        trial: &mut [f64],
+        out: &mut Response<'_>,
+    ) {
+        let f0 = SeriesHistory::load(committed).force;
+        let end = if self.exponent == 1.0 {
+            relax(self.k, self.c / self.k, f0, at)
+        } else {
+            follow(self.k, self, f0, at)
+        };
+        answer(self.k, &end, trial, out);
+    }
+}
+
+/// Writes what a spring in series with a dashpot did.
+pub(crate) fn answer(k: f64, end: &Followed, trial: &mut [f64], out: &mut Response<'_>) {
+    SeriesHistory { force: end.f }.store(trial);
+    (out.f[0], out.k[0], out.c[0]) = (end.f, end.f_d, end.f_v);
+    out.energy.stored = 0.5 * end.f * end.f / k;
+    out.energy.viscous = end.viscous;
+}
+
+#[cfg(test)]
+mod tests;
