@@ -2,7 +2,7 @@
 //!
 //! | linear elements | constraints | links |
 //! |---|---|---|
-//! | [`Beam`], [`Truss`], [`Spring`], [`Mass`] | [`RigidBody`], [`RigidLink`], [`Diaphragm`], [`EqualDof`] | [`NLink`], [`Gap`], [`Hook`], [`Dashpot`], [`RockingBody`], [`FrictionPendulum`], [`TensionCompressionFriction`] |
+//! | [`Beam`], [`Truss`], [`Spring`], [`Mass`] | [`RigidBody`], [`RigidLink`], [`Diaphragm`], [`EqualDof`] | [`NLink`], [`Gap`], [`Hook`], [`Dashpot`], [`RockingBody`], [`FrictionPendulum`], [`TensionCompressionFriction`], [`TriplePendulum`] |
 //!
 //! To add one: write its file, then its lines here (`mod`, `pub use`, and one of registration).
 
@@ -25,6 +25,7 @@ mod rigid_link;
 mod rocking_body;
 mod spring;
 mod tension_compression_friction;
+mod triple_pendulum;
 mod truss;
 
 pub use beam::{Beam, MassMatrix};
@@ -42,6 +43,7 @@ pub use rocking_body::RockingBody;
 pub use sliding::SlidingHistory;
 pub use spring::Spring;
 pub use tension_compression_friction::TensionCompressionFriction;
+pub use triple_pendulum::TriplePendulum;
 pub use truss::Truss;
 
 use trilith_element::Register;
@@ -63,6 +65,7 @@ pub fn register(to: &mut impl Register) {
     to.link::<RockingBody>();
     to.link::<FrictionPendulum>();
     to.link::<TensionCompressionFriction>();
+    to.link::<TriplePendulum>();
 }
 
 #[cfg(test)]

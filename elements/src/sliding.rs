@@ -12,7 +12,7 @@ mod surface;
 pub(crate) use axial::{Axial, Normal};
 pub use bearing::SlidingHistory;
 pub(crate) use bearing::{Bearing, Side, engaged};
-pub(crate) use coefficient::{Coefficient, exponential};
+pub(crate) use coefficient::{Coefficient, Limit, exponential};
 #[cfg(test)]
 pub(crate) use ride::Ride;
 pub(crate) use stick::{radial_return, share_before};
