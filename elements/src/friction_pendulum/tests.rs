@@ -3,8 +3,8 @@ use crate::NLink;
 use crate::parameters::{numbers, read};
 use crate::sliding::Ride;
 use approx::assert_relative_eq;
-use trilith_element::Value;
 use trilith_element::conformance::Kit;
+use trilith_element::{Described, Value};
 
 const KN: f64 = 5e8;
 

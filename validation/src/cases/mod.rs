@@ -1,6 +1,7 @@
 //! The cases, one file a group.
 
 mod beam_stop;
+mod bearings;
 mod block;
 mod block_rocking;
 mod block_start;
@@ -30,6 +31,7 @@ pub fn all() -> Vec<Case> {
         dampers::cases(),
         maxwell::cases(),
         links::cases(),
+        bearings::cases(),
         elastic::cases(),
         restitution::cases(),
         impact::cases(),
