@@ -47,7 +47,7 @@ fn with_rims(law: TriplePendulum) -> TriplePendulum {
 #[test]
 fn conforms_with_and_without_rims_and_dashpot() {
     let scale = [1e-4, 4e-4, 3e-4];
-    let kit = || Kit::new(&scale, 5.0).active();
+    let kit = || Kit::new(&scale, 5.0).active().paths(3);
     kit().rate_independent().assert(&small());
     kit().rate_independent().assert(&with_rims(small()));
     for law in [small(), by_speed(), new([0.1; 4]), new([0.0; 4])] {
