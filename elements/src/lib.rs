@@ -4,6 +4,7 @@
 //! |---|---|---|
 //! | [`Beam`], [`Truss`], [`Spring`], [`Mass`] | [`RigidBody`], [`RigidLink`], [`Diaphragm`], [`EqualDof`] | [`NLink`], [`Gap`], [`Hook`], [`Dashpot`], [`LeadRubber`], [`MultilinearElastic`], [`MultilinearPlastic`], [`RockingBody`], [`RubberIsolator`], [`Wen`] |
 //! | [`Beam`], [`Truss`], [`Spring`], [`Mass`], [`Inerter`] | [`RigidBody`], [`RigidLink`], [`Diaphragm`], [`EqualDof`] | [`NLink`], [`Gap`], [`Hook`], [`Dashpot`], [`BilinearDamper`], [`FrequencyIndependentViscoelastic`], [`FrictionSpring`], [`ImpactHertz`], [`ImpactKelvin`], [`LinearLink`], [`MaxwellDamper`], [`RockingBody`] |
+//! | [`Beam`], [`Truss`], [`Spring`], [`Mass`] | [`RigidBody`], [`RigidLink`], [`Diaphragm`], [`EqualDof`] | [`NLink`], [`Gap`], [`Hook`], [`Dashpot`], [`RockingBody`], [`FrictionPendulum`], [`TensionCompressionFriction`], [`TriplePendulum`] |
 //!
 //! To add one: write its file, then its lines here (`mod`, `pub use`, and one of registration).
 
@@ -19,6 +20,7 @@ mod probe;
 mod relaxation;
 mod restitution;
 mod series;
+mod sliding;
 
 mod beam;
 mod bilinear_damper;
@@ -27,6 +29,7 @@ mod diaphragm;
 mod equal_dof;
 mod frequency_independent_viscoelastic;
 mod friction_spring;
+mod friction_pendulum;
 mod gap;
 mod hook;
 mod lead_rubber;
@@ -44,6 +47,8 @@ mod rigid_link;
 mod rocking_body;
 mod rubber_isolator;
 mod spring;
+mod tension_compression_friction;
+mod triple_pendulum;
 mod truss;
 mod wen;
 
@@ -54,6 +59,7 @@ pub use diaphragm::{Diaphragm, Normal};
 pub use equal_dof::{DofName, EqualDof};
 pub use frequency_independent_viscoelastic::FrequencyIndependentViscoelastic;
 pub use friction_spring::{Direction, FrictionSpring};
+pub use friction_pendulum::{FrictionModel, FrictionPendulum, Surface};
 pub use gap::Gap;
 pub use hook::Hook;
 pub use lead_rubber::{LeadHistory, LeadRubber};
@@ -70,7 +76,10 @@ pub use rigid_body::RigidBody;
 pub use rigid_link::RigidLink;
 pub use rocking_body::RockingBody;
 pub use rubber_isolator::{RubberHistory, RubberIsolator};
+pub use sliding::SlidingHistory;
 pub use spring::Spring;
+pub use tension_compression_friction::TensionCompressionFriction;
+pub use triple_pendulum::TriplePendulum;
 pub use truss::Truss;
 pub use wen::{Wen, WenHistory};
 
@@ -104,6 +113,9 @@ pub fn register(to: &mut impl Register) {
     to.link::<RockingBody>();
     to.link::<RubberIsolator>();
     to.link::<Wen>();
+    to.link::<FrictionPendulum>();
+    to.link::<TensionCompressionFriction>();
+    to.link::<TriplePendulum>();
 }
 
 #[cfg(test)]

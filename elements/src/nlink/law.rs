@@ -2,6 +2,8 @@
 
 use super::NLink;
 use crate::restitution::damping_ratio;
+use crate::sliding::{Axial, Normal, exponential, radial_return, share_before};
+use nalgebra::Vector2;
 use std::borrow::Cow;
 use trilith_element::{
     Axis, Contact, Coordinates, Field, History, Impact, Kinematics, Link, Response, history,
@@ -23,48 +25,16 @@ history! {
     }
 }
 
-/// What the contact does along local 1 at one moment.
-#[derive(Clone, Copy, Default)]
-struct Normal {
-    closed: bool,
-    /// Force of the spring kₙ p, ≥ 0.
-    spring: f64,
-    /// Tension f₁ and its derivatives by d₁ and ḋ₁.
-    f: f64,
-    f_d: f64,
-    f_v: f64,
-    /// Normal force of the friction cone, and its derivatives by d₁ and ḋ₁.
-    cone: f64,
-    cone_d: f64,
-    cone_v: f64,
-}
-
 impl NLink {
     fn normal(&self, d1: f64, v1: f64) -> Normal {
-        let p = -(d1 + self.opening);
-        if p < 0.0 {
-            return Normal::default();
-        }
-        let (kn, c) = (self.kn, self.damping);
-        let spring = kn * p;
-        let f = c * v1 - spring;
-        if self.pull {
-            let (cone, cone_d) = (spring, -kn);
-            return Normal { closed: true, spring, f, f_d: kn, f_v: c, cone, cone_d, cone_v: 0.0 };
-        }
-        if f > 0.0 {
-            return Normal { closed: true, spring, ..Normal::default() };
-        }
-        Normal { closed: true, spring, f, f_d: kn, f_v: c, cone: -f, cone_d: -kn, cone_v: -c }
+        let axial = Axial { kn: self.kn, damping: self.damping, pull: self.pull };
+        axial.normal(d1 + self.opening, v1)
     }
 
     /// Friction coefficient and its derivative by the sliding speed.
     fn coefficient(&self, speed: f64) -> (f64, f64) {
         match (self.mu_slow, self.mu_fast, self.rate) {
-            (Some(slow), Some(fast), Some(rate)) => {
-                let decay = (fast - slow) * (-rate * speed).exp();
-                (fast - decay, rate * decay)
-            }
+            (Some(slow), Some(fast), Some(rate)) => exponential(slow, fast, rate, speed),
             _ => (self.mu.unwrap_or(0.0), 0.0),
         }
     }
@@ -89,8 +59,7 @@ fn anchor(link: &NLink, at: &Kinematics<'_>, was: &NLinkHistory) -> ([f64; 2], f
     }
     // Closed at the end, so gap < = 0 < gap0 and the share of the step before contact is in (0, 1].
     let gap = at.d[0] + link.opening;
-    let share = gap0 / (gap0 - gap);
-    let by_gap = share / (gap0 - gap);
+    let (share, by_gap) = share_before(gap0, gap);
     let delta = [at.d[1] - at.d0[1], at.d[2] - at.d0[2]];
     let start = [at.d0[1] + share * delta[0], at.d0[2] + share * delta[1]];
     (start, share, delta.map(|x| x * by_gap))
@@ -266,28 +235,22 @@ impl NLink {
         if ke <= 0.0 {
             return Friction::default();
         }
-        let xi = [at.d[1] - a[0], at.d[2] - a[1]];
-        let length = xi[0].hypot(xi[1]);
         let vt = [at.v[1], at.v[2]];
         let speed = vt[0].hypot(vt[1]);
         let (mu, mu_v) = self.coefficient(speed);
-        let limit = mu * now.cone;
-        if ke * length <= limit {
-            let by_xi = [[ke, 0.0], [0.0, ke]];
-            return Friction { tau: xi.map(|x| ke * x), by_xi, ..Friction::default() };
-        }
-        let along = xi.map(|x| x / length);
+        let stretch = Vector2::new(at.d[1] - a[0], at.d[2] - a[1]);
+        let it = radial_return(ke, stretch, mu * now.cone);
+        let along = it.by_limit;
         let mut out = Friction {
-            slips: true,
-            tau: along.map(|x| limit * x),
-            by_d1: along.map(|x| mu * now.cone_d * x),
-            by_v1: along.map(|x| mu * now.cone_v * x),
+            slips: it.slips,
+            tau: it.tau.into(),
+            by_d1: (along * (mu * now.cone_d)).into(),
+            by_v1: (along * (mu * now.cone_v)).into(),
             ..Friction::default()
         };
         for i in 0..2 {
             for j in 0..2 {
-                let same = f64::from(u8::from(i == j));
-                out.by_xi[i][j] = limit / length * (same - along[i] * along[j]);
+                out.by_xi[i][j] = it.by_stretch[(i, j)];
                 if speed > 0.0 {
                     out.by_vt[i][j] = along[i] * now.cone * mu_v * vt[j] / speed;
                 }

@@ -1,8 +1,9 @@
 use super::*;
 use crate::parameters::{numbers, read};
+use crate::sliding::Ride;
 use approx::assert_relative_eq;
 use trilith_element::conformance::Kit;
-use trilith_element::{Contact, Energy, History, Kinematics, Link, Response};
+use trilith_element::{Contact, History, Kinematics, Link};
 
 const KN: f64 = 5e8;
 const MU: f64 = 0.4;
@@ -16,48 +17,8 @@ fn with_speed() -> NLink {
     NLink { mu_slow, mu_fast, rate, ks: Some(0.6 * KN), ..NLink::new(KN) }
 }
 
-/// One link on a path of its own.
-struct Ride<'a> {
-    link: &'a NLink,
-    d: Vec<f64>,
-    v: Vec<f64>,
-    history: Vec<f64>,
-    f: Vec<f64>,
-    work: f64,
-    dissipated: Energy,
-}
-
-impl<'a> Ride<'a> {
-    fn new(link: &'a NLink) -> Self {
-        let n = link.coordinates().len();
-        let mut history = vec![0.0; link.history().len()];
-        link.at_rest(&mut history);
-        let zeros = vec![0.0; n];
-        let (d, v, f) = (zeros.clone(), zeros.clone(), zeros);
-        Self { link, d, v, history, f, work: 0.0, dissipated: Energy::default() }
-    }
-
-    fn step(&mut self, d: &[f64], v: &[f64], dt: f64) {
-        let n = d.len();
-        let (mut f, mut k, mut c) = (vec![0.0; n], vec![0.0; n * n], vec![0.0; n * n]);
-        let (mut energy, mut trial) = (Energy::default(), self.history.clone());
-        let mut out = Response { f: &mut f, k: &mut k, c: &mut c, energy: &mut energy };
-        let at = Kinematics { d, v, d0: &self.d, v0: &self.v, dt };
-        self.link.respond(&at, &self.history, &mut trial, &mut out);
-        self.work += (0..n).map(|i| 0.5 * (f[i] + self.f[i]) * (d[i] - self.d[i])).sum::<f64>();
-        self.dissipated.stored = energy.stored;
-        self.dissipated.hysteretic += energy.hysteretic;
-        self.dissipated.viscous += energy.viscous;
-        (self.d, self.v, self.f, self.history) = (d.to_vec(), v.to_vec(), f, trial);
-    }
-
-    fn to(&mut self, d: [f64; 3]) {
-        self.step(&d, &[0.0; 3], 0.0);
-    }
-
-    fn history(&self) -> NLinkHistory {
-        NLinkHistory::load(&self.history)
-    }
+fn history(ride: &Ride<'_>) -> NLinkHistory {
+    NLinkHistory::load(&ride.history)
 }
 
 #[test]
@@ -93,9 +54,9 @@ fn touching_is_closed_and_the_opening_is_free() {
     let link = NLink { opening: 1e-3, ..friction() };
     let mut ride = Ride::new(&link);
     ride.to([-0.9e-3, 0.0, 0.0]);
-    assert_eq!((ride.f.as_slice(), ride.history().closed), ([0.0; 3].as_slice(), 0.0));
+    assert_eq!((ride.f.as_slice(), history(&ride).closed), ([0.0; 3].as_slice(), 0.0));
     ride.to([-1e-3, 0.0, 0.0]);
-    assert_eq!((ride.f[0], ride.history().closed), (0.0, 1.0));
+    assert_eq!((ride.f[0], history(&ride).closed), (0.0, 1.0));
     ride.to([-1.2e-3, 0.0, 0.0]);
     assert_relative_eq!(ride.f[0], -KN * 0.2e-3, max_relative = 1e-12);
 }
@@ -107,11 +68,11 @@ fn slips_at_mu_n_in_the_direction_of_motion() {
     ride.to([-1e-4, 0.0, 0.0]);
     ride.to([-1e-4, 0.3e-4, 0.0]);
     assert_relative_eq!(ride.f[1], KN * 0.3e-4, max_relative = 1e-12);
-    assert_eq!(ride.history().slip, 0.0);
+    assert_eq!(history(&ride).slip, 0.0);
     ride.to([-1e-4, 3e-3, 4e-3]);
     assert_relative_eq!(ride.f[1].hypot(ride.f[2]), MU * KN * 1e-4, max_relative = 1e-12);
     assert_relative_eq!(ride.f[1] / ride.f[2], 0.75, max_relative = 1e-12);
-    assert_relative_eq!(ride.history().slip, 5e-3 - MU * 1e-4, max_relative = 1e-3);
+    assert_relative_eq!(history(&ride).slip, 5e-3 - MU * 1e-4, max_relative = 1e-3);
 }
 
 #[test]
@@ -121,12 +82,12 @@ fn a_friction_loop_dissipates_four_mu_n_times_the_slip_amplitude() {
     let mut ride = Ride::new(&link);
     ride.to([-1e-4, 0.0, 0.0]);
     let mut cycle = |from: f64| {
-        let before = ride.dissipated.hysteretic;
+        let before = ride.energy.hysteretic;
         for i in 1..=4000 {
             let t = from + std::f64::consts::TAU * f64::from(i) / 4000.0;
             ride.to([-1e-4, amplitude * t.sin(), 0.0]);
         }
-        ride.dissipated.hysteretic - before
+        ride.energy.hysteretic - before
     };
     cycle(0.0);
     // The elastic part of a reversal, 2 μN/kₛ, does not slip.
@@ -148,7 +109,7 @@ fn stick_slip_and_separation_balance_to_the_last_digit() {
     ] {
         ride.to(d);
     }
-    let e = ride.dissipated;
+    let e = ride.energy;
     assert_relative_eq!(ride.work, e.stored + e.hysteretic, max_relative = 1e-12);
 }
 
@@ -158,11 +119,11 @@ fn the_anchor_does_not_survive_a_separation() {
     let mut ride = Ride::new(&link);
     ride.to([-1e-4, 0.0, 0.0]);
     ride.to([-1e-4, 0.3e-4, 0.0]);
-    let stuck = ride.dissipated.stored;
+    let stuck = ride.energy.stored;
     ride.to([1e-6, 0.3e-4, 0.0]);
-    assert_eq!(ride.dissipated.stored, 0.0);
+    assert_eq!(ride.energy.stored, 0.0);
     // The elastic energy of the stuck contact turned into heat.
-    assert_relative_eq!(ride.dissipated.hysteretic, stuck - 0.5 * KN * 1e-8, max_relative = 1e-9);
+    assert_relative_eq!(ride.energy.hysteretic, stuck - 0.5 * KN * 1e-8, max_relative = 1e-9);
     ride.to([1e-6, 5e-4, 0.0]);
     ride.to([-1e-4, 5e-4, 0.0]);
     assert_eq!(ride.f[1], 0.0);
@@ -223,7 +184,7 @@ fn a_pendulum_pulls_back_with_n_d_over_r() {
     assert_relative_eq!(ride.f[1], KN * 1e-4 * 0.1 / 2.0, max_relative = 1e-9);
     assert_relative_eq!(ride.f[2], -KN * 1e-4 * 0.05 / 2.0, max_relative = 1e-9);
     let rise = KN * 1e-4 * (0.01 + 0.0025) / 4.0;
-    assert_relative_eq!(ride.dissipated.stored, rise + 0.5 * KN * 1e-8, max_relative = 1e-9);
+    assert_relative_eq!(ride.energy.stored, rise + 0.5 * KN * 1e-8, max_relative = 1e-9);
 }
 
 fn contact(link: &NLink, at: &Kinematics<'_>, ride: &Ride<'_>) -> Contact {
@@ -268,8 +229,8 @@ fn the_dashpot_takes_the_work_of_a_rate_that_is_linear_in_the_step() {
     let link = NLink { damping: 1e4, ..NLink::new(KN) };
     let mut ride = Ride::new(&link);
     ride.step(&[-1e-4, 0.0, 0.0], &[-0.3, 0.0, 0.0], 1e-3);
-    let before = ride.dissipated.viscous;
+    let before = ride.energy.viscous;
     ride.step(&[-3e-4, 0.0, 0.0], &[-0.1, 0.0, 0.0], 1e-3);
     let expected = 1e4 * (0.09 + 0.03 + 0.01) / 3.0 * 1e-3;
-    assert_relative_eq!(ride.dissipated.viscous - before, expected, max_relative = 1e-9);
+    assert_relative_eq!(ride.energy.viscous - before, expected, max_relative = 1e-9);
 }

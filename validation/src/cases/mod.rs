@@ -1,6 +1,7 @@
 //! The cases, one file a group.
 
 mod beam_stop;
+mod bearings;
 mod block;
 mod block_rocking;
 mod block_start;
@@ -39,6 +40,7 @@ pub fn all() -> Vec<Case> {
         inerter::cases(),
         seal::cases(),
         links::cases(),
+        bearings::cases(),
         elastic::cases(),
         hysteretic::cases(),
         restitution::cases(),

@@ -1,0 +1,257 @@
+//! FrictionPendulum: a bearing with one concave sliding surface, or a flat one.
+//!
+//! ```text
+//!   ═══╤═════════╤═══   j        N = −f₁                 pressed together; N = 0: lifted, no friction
+//!      ╲   ◡◡◡   ╱               τ = kₛ (u − a), |τ| ≤ μ N        u = (d₂, d₃); a slips at the limit
+//!   ▔▔▔▔╲_______╱▔▔▔▔  i        f₁ = min(0, kₙ g + c ġ), g = d₁   (closed where g ≤ 0)
+//!         R                      fₜ = τ + N ∇h(u) + kₛₜ (|u| − D)⁺ u/|u|
+//!
+//!   Shallow:    h = u²/(2R),  ∇h = u/R            Spherical:  h = R − √(R² − u²),  ∇h = u/√(R² − u²)
+//!   `rise`:     g = d₁ − h(u): moving out lifts the load; N ∇h is then the reaction of the surface
+//!
+//!   Coulomb            μ
+//!   Velocity           μ = μ_fast − (μ_fast − μ_slow) e^(−r |u̇|)
+//!   VelocityForce      the same with μ_slow = a_slow N^(n_slow−1), μ_fast = a_fast N^(n_fast−1), each at
+//!                      most μ_max, and r = r₀ + r₁ N + r₂ N²
+//!   VelocityPressure   the same with μ_fast = μ_f0 − Δμ tanh(α N/A), μ_f0 given as `mu_fast`
+//! ```
+//!
+//! | parameter        | symbol | unit     | range   | default | meaning                                      |
+//! |------------------|--------|----------|---------|---------|----------------------------------------------|
+//! | `kn`             | kₙ     | N/m      | > 0     | –       | stiffness in compression                     |
+//! | `damping`        | c      | N·s/m    | ≥ 0     | 0       | dashpot along the axis, acts only while closed |
+//! | `pull`           |        |          |         | false   | the dashpot may pull while closed; N = −kₙ g then |
+//! | `ks`             | kₛ     | N/m      | > 0     | –       | stiffness before slip                        |
+//! | `radius`         | R      | m        | ≥ 0     | 0       | effective radius; 0 is flat                  |
+//! | `surface`        |        |          |         | Shallow | `Shallow` or `Spherical`                     |
+//! | `rise`           |        |          |         | false   | moving out lifts the load                    |
+//! | `friction_model` |        |          |         | Coulomb | `Coulomb`, `Velocity`, `VelocityForce`, `VelocityPressure` |
+//! | `mu`             | μ      | 1        | ≥ 0     | –       | Coulomb: friction coefficient                |
+//! | `mu_slow`        | μ_slow | 1        | ≥ 0     | –       | Velocity, VelocityPressure: at rest          |
+//! | `mu_fast`        | μ_fast | 1        | ≥ 0     | –       | Velocity, VelocityPressure: at speed         |
+//! | `rate`           | r      | s/m      | ≥ 0     | –       | Velocity, VelocityPressure: from slow to fast |
+//! | `a_slow`, `a_fast` | a    | N^(1−n)  | ≥ 0     | –       | VelocityForce: factors                       |
+//! | `n_slow`, `n_fast` | n    | 1        | 0 < n ≤ 1 | –     | VelocityForce: exponents; 1 is no dependence |
+//! | `rate_0`         | r₀     | s/m      | ≥ 0     | –       | VelocityForce: rate                          |
+//! | `rate_1`         | r₁     | s/(m·N)  | ≥ 0     | 0       | VelocityForce: its growth with N             |
+//! | `rate_2`         | r₂     | s/(m·N²) | ≥ 0     | 0       | VelocityForce: its growth with N²            |
+//! | `mu_max`         | μ_max  | 1        | > 0     | 1       | VelocityForce: most that μ becomes at small N |
+//! | `area`           | A      | m²       | > 0     | –       | VelocityPressure: area of the slider         |
+//! | `delta_mu`       | Δμ     | 1        | ≥ 0     | –       | VelocityPressure: fall of μ_fast at high pressure |
+//! | `pressure_rate`  | α      | 1/Pa     | ≥ 0     | –       | VelocityPressure: how fast it falls          |
+//! | `stop`           | D      | m        | > 0     | –       | displacement at which the rim is met         |
+//! | `stop_stiffness` | kₛₜ    | N/m      | > 0     | –       | stiffness of the rim                         |
+//!
+//! Friction is elastic–perfectly plastic with radial return (it sticks fully below the limit), the same
+//! as that of [`NLink`](crate::NLink), and so are separation and touching: a lifted bearing forgets its
+//! anchor, and finds a new one where it touches, linear in the step. **Beyond an `NLink` with a
+//! `radius`** this bearing has friction that depends on the normal force or the pressure, the exact
+//! spherical surface, the rise along it, and the rim. An `NLink` has what a bearing does not need: a
+//! clearance, restitution, post-slip and rotational springs.
+//!
+//! The rim is a ring around the bearing: it acts on a lifted slider too. Beyond 0.95 R the slope of a
+//! spherical surface goes on linearly. `rise` matters where the vertical motion does: at u = 0.2 R the
+//! load has gone up by 0.02 R, and a mass on the bearing gains and loses that height in every cycle.
+//!
+//! **Energy.** Stored: ½ kₙ g² + |τ|²/(2 kₛ) + the rim + (without `rise`) the work of the restoring force
+//! so far, which is history: N u/R has no potential where N changes. With `rise` it has: the height of
+//! the load. Friction: ½ (τ₀ + τ₁)·Δa.
+//!
+//! Reference: \[Zayas, Low & Mahin 1990\]; velocity dependence \[Constantinou, Mokha & Reinhorn 1990\];
+//! pressure \[Tsopelas et al. 1994\]; checked with F = (W/R) u + μ W sgn(u̇).
+
+mod card;
+#[cfg(test)]
+mod tests;
+
+use crate::sliding::{Axial, Bearing, Coefficient, Dish, Side, SlidingHistory, Stop, engaged};
+use serde::Deserialize;
+use std::borrow::Cow;
+use trilith_element::{
+    Axis, Contact, Coordinates, Field, History, Impact, Kinematics, Link, Response,
+};
+
+/// How the friction of a [`FrictionPendulum`] depends on speed and normal force.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
+pub enum FrictionModel {
+    /// Not at all.
+    Coulomb,
+    /// On the speed.
+    Velocity,
+    /// On speed and normal force, as a power.
+    VelocityForce,
+    /// On speed and pressure.
+    VelocityPressure,
+}
+
+/// Shape of the surface of a [`FrictionPendulum`].
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
+pub enum Surface {
+    /// Small slopes: restoring force N u/R.
+    Shallow,
+    /// Exact sphere: N u/√(R² − u²).
+    Spherical,
+}
+
+/// Sliding bearing with one concave surface; its card is in `card.rs` beside this file.
+#[derive(Clone, Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct FrictionPendulum {
+    /// Stiffness in compression kₙ, N/m.
+    pub kn: f64,
+    /// Dashpot along the axis c, N·s/m.
+    pub damping: f64,
+    /// The dashpot may pull while closed.
+    pub pull: bool,
+    /// Stiffness before slip kₛ, N/m.
+    pub ks: f64,
+    /// Effective radius R, m; 0 is flat.
+    pub radius: f64,
+    /// Shape of the surface.
+    pub surface: Surface,
+    /// Moving out lifts the load.
+    pub rise: bool,
+    /// What the friction coefficient depends on.
+    pub friction_model: FrictionModel,
+    /// Friction coefficient.
+    pub mu: Option<f64>,
+    /// Friction coefficient at rest.
+    pub mu_slow: Option<f64>,
+    /// Friction coefficient at speed (and small pressure).
+    pub mu_fast: Option<f64>,
+    /// Rate from slow to fast r, s/m.
+    pub rate: Option<f64>,
+    /// Factor at rest, N^(1−n).
+    pub a_slow: Option<f64>,
+    /// Exponent at rest.
+    pub n_slow: Option<f64>,
+    /// Factor at speed, N^(1−n).
+    pub a_fast: Option<f64>,
+    /// Exponent at speed.
+    pub n_fast: Option<f64>,
+    /// Constant part of the rate r₀, s/m.
+    pub rate_0: Option<f64>,
+    /// Growth of the rate with N, s/(m·N).
+    pub rate_1: f64,
+    /// Growth of the rate with N², s/(m·N²).
+    pub rate_2: f64,
+    /// Most that the coefficient becomes at small N.
+    pub mu_max: f64,
+    /// Area of the slider A, m².
+    pub area: Option<f64>,
+    /// Fall of the coefficient at high pressure Δμ.
+    pub delta_mu: Option<f64>,
+    /// How fast it falls with the pressure α, 1/Pa.
+    pub pressure_rate: Option<f64>,
+    /// Displacement at which the rim is met D, m.
+    pub stop: Option<f64>,
+    /// Stiffness of the rim, N/m.
+    pub stop_stiffness: Option<f64>,
+}
+
+impl FrictionPendulum {
+    /// A flat bearing without friction: stiffness in compression `kn` and before slip `ks` (N/m); set
+    /// the other fields as needed.
+    #[must_use]
+    pub fn new(kn: f64, ks: f64) -> Self {
+        Self {
+            kn,
+            damping: 0.0,
+            pull: false,
+            ks,
+            radius: 0.0,
+            surface: Surface::Shallow,
+            rise: false,
+            friction_model: FrictionModel::Coulomb,
+            mu: Some(0.0),
+            mu_slow: None,
+            mu_fast: None,
+            rate: None,
+            a_slow: None,
+            n_slow: None,
+            a_fast: None,
+            n_fast: None,
+            rate_0: None,
+            rate_1: 0.0,
+            rate_2: 0.0,
+            mu_max: 1.0,
+            area: None,
+            delta_mu: None,
+            pressure_rate: None,
+            stop: None,
+            stop_stiffness: None,
+        }
+    }
+
+    fn friction(&self) -> Coefficient {
+        let given = |x: Option<f64>| x.unwrap_or(0.0);
+        let (slow, fast, rate) = (given(self.mu_slow), given(self.mu_fast), given(self.rate));
+        match self.friction_model {
+            FrictionModel::Coulomb => Coefficient::Constant { mu: given(self.mu) },
+            FrictionModel::Velocity => Coefficient::Velocity { slow, fast, rate },
+            FrictionModel::VelocityForce => Coefficient::Force {
+                slow: (given(self.a_slow), self.n_slow.unwrap_or(1.0)),
+                fast: (given(self.a_fast), self.n_fast.unwrap_or(1.0)),
+                most: self.mu_max,
+                rate: [given(self.rate_0), self.rate_1, self.rate_2],
+            },
+            FrictionModel::VelocityPressure => Coefficient::Pressure {
+                slow,
+                fast,
+                rate,
+                drop: given(self.delta_mu),
+                per_force: given(self.pressure_rate) / self.area.unwrap_or(1.0),
+            },
+        }
+    }
+
+    fn bearing(&self) -> Bearing {
+        let axial = Axial { kn: self.kn, damping: self.damping, pull: self.pull };
+        let stop = self.stop.zip(self.stop_stiffness);
+        Bearing {
+            compression: Side { opening: 0.0, axial, friction: self.friction() },
+            tension: None,
+            ks: self.ks,
+            dish: Dish { radius: self.radius, spherical: self.surface == Surface::Spherical },
+            rise: self.rise,
+            stop: stop.map(|(at, stiffness)| Stop { at, stiffness }),
+        }
+    }
+}
+
+impl Link for FrictionPendulum {
+    fn coordinates(&self) -> Coordinates {
+        Coordinates::Local(vec![Axis::U1, Axis::U2, Axis::U3])
+    }
+
+    fn history(&self) -> Cow<'static, [Field]> {
+        SlidingHistory::FIELDS.into()
+    }
+
+    fn at_rest(&self, at: &mut [f64]) {
+        self.bearing().at_rest().store(at);
+    }
+
+    fn engaged_stiffness(&self, k: &mut [f64]) {
+        engaged(self.kn, self.ks, k);
+    }
+
+    fn respond(
+        &self,
+        at: &Kinematics<'_>,
+        committed: &[f64],
+        trial: &mut [f64],
+        out: &mut Response<'_>,
+    ) {
+        self.bearing().respond(at, &SlidingHistory::load(committed), out).store(trial);
+    }
+
+    fn contacts(&self, at: &Kinematics<'_>, history: &[f64], _: &[f64], out: &mut Vec<Contact>) {
+        out.push(self.bearing().contact(at, &SlidingHistory::load(history)));
+    }
+
+    fn impact(&self) -> Option<Impact> {
+        let (stiffness, damping) = (self.kn, self.damping);
+        Some(Impact { coordinate: 0, stiffness, damping, restitution: None, mass: None })
+    }
+}

@@ -1,0 +1,252 @@
+//! Card and checks of the [`FrictionPendulum`].
+
+use super::{FrictionModel, FrictionPendulum, Surface};
+use trilith_element::dimension::{AREA, DAMPING, FORCE, INVERSE_VELOCITY, LENGTH, NONE, STIFFNESS};
+use trilith_element::{
+    Card, Category, Default, Described, Dimension, Exercise, Form, NodeCount, Parameter,
+    ParameterError, Range, Stroke,
+};
+
+const fn coefficient(name: &'static str, symbol: &'static str, meaning: &'static str) -> Parameter {
+    Parameter::optional(name, symbol, NONE, Range::NonNegative, meaning)
+}
+
+/// a in μ = a N^(n−1): N^(1−n).
+const fn factor(
+    name: &'static str,
+    symbol: &'static str,
+    exponent: &'static str,
+    meaning: &'static str,
+) -> Parameter {
+    let form = Form::Power { base: FORCE, over: FORCE, exponent };
+    Parameter::new(name, symbol, form, Default::Absent, meaning).within(Range::NonNegative)
+}
+
+/// 1/Pa.
+const INVERSE_STRESS: Dimension = Dimension { mass: -1.0, length: 1.0, time: 2.0 };
+/// s/(m·N).
+const RATE_PER_FORCE: Dimension = Dimension { mass: -1.0, length: -2.0, time: 3.0 };
+/// s/(m·N²).
+const RATE_PER_FORCE_SQUARED: Dimension = Dimension { mass: -2.0, length: -3.0, time: 5.0 };
+
+impl Described for FrictionPendulum {
+    const CARD: Card = Card {
+        kind: "FrictionPendulum",
+        category: Category::Link,
+        summary: "Sliding bearing with one concave surface: friction by speed, force or pressure; rim.",
+        nodes: NodeCount::GROUND_OR_TWO,
+        parameters: &[
+            Parameter::required("kn", "kₙ", STIFFNESS, Range::Positive, "stiffness in compression"),
+            Parameter::number(
+                "damping",
+                "c",
+                DAMPING,
+                Range::NonNegative,
+                0.0,
+                "dashpot along the axis, acts only while closed",
+            ),
+            Parameter::flag(
+                "pull",
+                false,
+                "the dashpot may pull while closed; friction is of kₙ g then",
+            ),
+            Parameter::required("ks", "kₛ", STIFFNESS, Range::Positive, "stiffness before slip"),
+            Parameter::number(
+                "radius",
+                "R",
+                LENGTH,
+                Range::NonNegative,
+                0.0,
+                "effective radius; 0 is flat",
+            ),
+            Parameter::choice(
+                "surface",
+                &["Shallow", "Spherical"],
+                "Shallow",
+                "restoring force of small slopes, or exact",
+            ),
+            Parameter::flag("rise", false, "moving out lifts the load"),
+            Parameter::choice(
+                "friction_model",
+                &["Coulomb", "Velocity", "VelocityForce", "VelocityPressure"],
+                "Coulomb",
+                "what the friction coefficient depends on",
+            ),
+            coefficient("mu", "μ", "Coulomb: friction coefficient"),
+            coefficient("mu_slow", "μ_slow", "Velocity, VelocityPressure: coefficient at rest"),
+            coefficient("mu_fast", "μ_fast", "Velocity, VelocityPressure: coefficient at speed"),
+            Parameter::optional(
+                "rate",
+                "r",
+                INVERSE_VELOCITY,
+                Range::NonNegative,
+                "Velocity, VelocityPressure: how fast it goes from slow to fast",
+            ),
+            factor("a_slow", "a_slow", "n_slow", "VelocityForce: factor at rest"),
+            Parameter::optional(
+                "n_slow",
+                "n_slow",
+                NONE,
+                Range::Above(0.0, 1.0),
+                "VelocityForce: exponent at rest",
+            ),
+            factor("a_fast", "a_fast", "n_fast", "VelocityForce: factor at speed"),
+            Parameter::optional(
+                "n_fast",
+                "n_fast",
+                NONE,
+                Range::Above(0.0, 1.0),
+                "VelocityForce: exponent at speed",
+            ),
+            Parameter::optional(
+                "rate_0",
+                "r₀",
+                INVERSE_VELOCITY,
+                Range::NonNegative,
+                "VelocityForce: rate from slow to fast",
+            ),
+            Parameter::number(
+                "rate_1",
+                "r₁",
+                RATE_PER_FORCE,
+                Range::NonNegative,
+                0.0,
+                "VelocityForce: growth of the rate with N",
+            ),
+            Parameter::number(
+                "rate_2",
+                "r₂",
+                RATE_PER_FORCE_SQUARED,
+                Range::NonNegative,
+                0.0,
+                "VelocityForce: growth of the rate with N²",
+            ),
+            Parameter::number(
+                "mu_max",
+                "μ_max",
+                NONE,
+                Range::Positive,
+                1.0,
+                "VelocityForce: most that the coefficient becomes at small N",
+            ),
+            Parameter::optional(
+                "area",
+                "A",
+                AREA,
+                Range::Positive,
+                "VelocityPressure: area of the slider",
+            ),
+            coefficient("delta_mu", "Δμ", "VelocityPressure: fall of the coefficient at speed"),
+            Parameter::optional(
+                "pressure_rate",
+                "α",
+                INVERSE_STRESS,
+                Range::NonNegative,
+                "VelocityPressure: how fast it falls with the pressure",
+            ),
+            Parameter::optional(
+                "stop",
+                "D",
+                LENGTH,
+                Range::Positive,
+                "displacement at which the rim is met; none: no rim",
+            ),
+            Parameter::optional(
+                "stop_stiffness",
+                "kₛₜ",
+                STIFFNESS,
+                Range::Positive,
+                "stiffness of the rim",
+            ),
+        ],
+        law: "f₁ = min(0, kₙ g + c ġ) where g = d₁ ≤ 0, else 0;  N = −f₁ (with `pull`: −kₙ g)\n\
+              τ = kₛ (u − a), |τ| ≤ μ N (radial return);  u = (d₂, d₃)\n\
+              fₜ = τ + N ∇h(u) + kₛₜ (|u| − D)⁺ u/|u|\n\
+              Shallow: ∇h = u/R;  Spherical: ∇h = u/√(R² − u²)\n\
+              with `rise`: g = d₁ − h(u)\n\
+              Velocity: μ = μ_fast − (μ_fast − μ_slow) e^(−r |u̇|)\n\
+              VelocityForce: μ_slow, μ_fast = a N^(n−1) ≤ μ_max, r = r₀ + r₁ N + r₂ N²\n\
+              VelocityPressure: μ_fast − Δμ tanh(α N/A) in place of μ_fast",
+        source: "Zayas, Low, Mahin 1990; Constantinou, Mokha, Reinhorn 1990 for μ(v); \
+                 Tsopelas et al. 1994 for μ(p)",
+        example: r#""bearing": FrictionPendulum(node: "base", kn: "2e9 N/m", ks: "1e8 N/m", radius: "1.5 m", friction_model: Velocity, mu_slow: 0.03, mu_fast: 0.06, rate: "20 s/m")"#,
+        exercise: Exercise {
+            frequency: 0.5,
+            strokes: &[
+                Stroke::about(-5e-4, 0.0),
+                Stroke::about(0.0, 0.15),
+                Stroke::about(0.0, 0.0),
+            ],
+        },
+    };
+
+    fn check(&self) -> Result<(), ParameterError> {
+        self.check_friction()?;
+        if self.stop.is_some() != self.stop_stiffness.is_some() {
+            let message = "`stop` and `stop_stiffness` go together: give both, or none";
+            return Err(ParameterError::inconsistent("stop", message));
+        }
+        if self.radius == 0.0 {
+            if self.surface == Surface::Spherical {
+                let message = "a spherical surface needs its `radius`";
+                return Err(ParameterError::inconsistent("surface", message));
+            }
+            if self.rise {
+                let message = "a flat bearing does not rise: give a `radius`, or leave `rise` out";
+                return Err(ParameterError::inconsistent("rise", message));
+            }
+        }
+        match self.stop {
+            Some(stop) if self.surface == Surface::Spherical && stop >= self.radius => {
+                let message = format!(
+                    "the rim at {stop} m must be met before the radius of {} m",
+                    self.radius
+                );
+                Err(ParameterError::inconsistent("stop", message))
+            }
+            _ => Ok(()),
+        }
+    }
+}
+
+impl FrictionPendulum {
+    fn check_friction(&self) -> Result<(), ParameterError> {
+        use FrictionModel::{Coulomb, Velocity, VelocityForce, VelocityPressure};
+        let model = self.friction_model;
+        let by_speed: &[_] = &[Velocity, VelocityPressure];
+        let all: [(&str, bool, &[FrictionModel]); 12] = [
+            ("mu", self.mu.is_some(), &[Coulomb]),
+            ("mu_slow", self.mu_slow.is_some(), by_speed),
+            ("mu_fast", self.mu_fast.is_some(), by_speed),
+            ("rate", self.rate.is_some(), by_speed),
+            ("a_slow", self.a_slow.is_some(), &[VelocityForce]),
+            ("n_slow", self.n_slow.is_some(), &[VelocityForce]),
+            ("a_fast", self.a_fast.is_some(), &[VelocityForce]),
+            ("n_fast", self.n_fast.is_some(), &[VelocityForce]),
+            ("rate_0", self.rate_0.is_some(), &[VelocityForce]),
+            ("area", self.area.is_some(), &[VelocityPressure]),
+            ("delta_mu", self.delta_mu.is_some(), &[VelocityPressure]),
+            ("pressure_rate", self.pressure_rate.is_some(), &[VelocityPressure]),
+        ];
+        let names: Vec<_> = all.iter().filter(|p| p.2.contains(&model)).map(|p| p.0).collect();
+        let names = names.join("`, `");
+        for (name, given, models) in all {
+            if given != models.contains(&model) {
+                let message = format!("`friction_model: {model:?}` takes `{names}`, all of them");
+                return Err(ParameterError::inconsistent(name, message));
+            }
+        }
+        let graded = [self.rate_1, self.rate_2].iter().any(|r| *r != 0.0);
+        if graded && model != VelocityForce {
+            let message = "`rate_1` and `rate_2` belong to `friction_model: VelocityForce`";
+            return Err(ParameterError::inconsistent("rate_1", message));
+        }
+        match (self.mu_fast, self.delta_mu) {
+            (Some(fast), Some(drop)) if drop > fast => {
+                let message = format!("μ would be negative: at most `mu_fast` = {fast}");
+                Err(ParameterError::inconsistent("delta_mu", message))
+            }
+            _ => Ok(()),
+        }
+    }
+}

@@ -1,0 +1,19 @@
+//! What laws of sliding contacts share: the force that presses, the friction coefficient, stick and
+//! slip, the surface that is slid on, and the bearing made of them.
+
+mod axial;
+mod bearing;
+mod coefficient;
+#[cfg(test)]
+mod ride;
+mod stick;
+mod surface;
+
+pub(crate) use axial::{Axial, Normal};
+pub use bearing::SlidingHistory;
+pub(crate) use bearing::{Bearing, Side, engaged};
+pub(crate) use coefficient::{Coefficient, Limit, exponential};
+#[cfg(test)]
+pub(crate) use ride::Ride;
+pub(crate) use stick::{radial_return, share_before};
+pub(crate) use surface::{Dish, Stop};
