@@ -87,7 +87,7 @@ mod tests {
     fn matrices(given: &[(&str, Value)], nodes: &[[f64; 3]]) -> ElementMatrices {
         let inerter: Inerter = read(given).unwrap();
         let frame = Frame::of_nodes(nodes, None, None).unwrap();
-        inerter.matrices(&Geometry { nodes, frame }).unwrap()
+        inerter.matrices(&Geometry { nodes, frame, tension: 0.0 }).unwrap()
     }
 
     #[test]

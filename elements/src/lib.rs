@@ -2,9 +2,10 @@
 //!
 //! | linear elements | constraints | links |
 //! |---|---|---|
-//! | [`Beam`], [`Truss`], [`Spring`], [`Mass`] | [`RigidBody`], [`RigidLink`], [`Diaphragm`], [`EqualDof`] | [`NLink`], [`Gap`], [`Hook`], [`Dashpot`], [`LeadRubber`], [`MultilinearElastic`], [`MultilinearPlastic`], [`RockingBody`], [`RubberIsolator`], [`Wen`] |
-//! | [`Beam`], [`Truss`], [`Spring`], [`Mass`], [`Inerter`] | [`RigidBody`], [`RigidLink`], [`Diaphragm`], [`EqualDof`] | [`NLink`], [`Gap`], [`Hook`], [`Dashpot`], [`BilinearDamper`], [`FrequencyIndependentViscoelastic`], [`FrictionSpring`], [`ImpactHertz`], [`ImpactKelvin`], [`LinearLink`], [`MaxwellDamper`], [`RockingBody`] |
-//! | [`Beam`], [`Truss`], [`Spring`], [`Mass`] | [`RigidBody`], [`RigidLink`], [`Diaphragm`], [`EqualDof`] | [`NLink`], [`Gap`], [`Hook`], [`Dashpot`], [`RockingBody`], [`FrictionPendulum`], [`TensionCompressionFriction`], [`TriplePendulum`] |
+//! | [`Beam`], [`Inerter`], [`Mass`], [`Spring`], [`Truss`] | [`Diaphragm`], [`EqualDof`], [`RigidBody`], [`RigidLink`] | contacts: [`NLink`], [`Gap`], [`Hook`], [`ImpactHertz`], [`ImpactKelvin`], [`RockingBody`] |
+//! | | | dampers: [`BilinearDamper`], [`Dashpot`], [`FrequencyIndependentViscoelastic`], [`FrictionSpring`], [`MaxwellDamper`] |
+//! | | | isolators: [`FrictionPendulum`], [`LeadRubber`], [`RubberIsolator`], [`TensionCompressionFriction`], [`TriplePendulum`] |
+//! | | | springs: [`LinearLink`], [`MultilinearElastic`], [`MultilinearPlastic`], [`Wen`] |
 //!
 //! To add one: write its file, then its lines here (`mod`, `pub use`, and one of registration).
 
@@ -28,19 +29,19 @@ mod dashpot;
 mod diaphragm;
 mod equal_dof;
 mod frequency_independent_viscoelastic;
-mod friction_spring;
 mod friction_pendulum;
+mod friction_spring;
 mod gap;
 mod hook;
-mod lead_rubber;
-mod mass;
-mod multilinear_elastic;
-mod multilinear_plastic;
 mod impact_hertz;
 mod impact_kelvin;
 mod inerter;
+mod lead_rubber;
 mod linear_link;
+mod mass;
 mod maxwell_damper;
+mod multilinear_elastic;
+mod multilinear_plastic;
 mod nlink;
 mod rigid_body;
 mod rigid_link;
@@ -58,19 +59,19 @@ pub use dashpot::{Dashpot, When};
 pub use diaphragm::{Diaphragm, Normal};
 pub use equal_dof::{DofName, EqualDof};
 pub use frequency_independent_viscoelastic::FrequencyIndependentViscoelastic;
-pub use friction_spring::{Direction, FrictionSpring};
 pub use friction_pendulum::{FrictionModel, FrictionPendulum, Surface};
+pub use friction_spring::{Direction, FrictionSpring};
 pub use gap::Gap;
 pub use hook::Hook;
-pub use lead_rubber::{LeadHistory, LeadRubber};
-pub use mass::Mass;
-pub use multilinear_elastic::MultilinearElastic;
-pub use multilinear_plastic::{MultilinearPlastic, Rule};
 pub use impact_hertz::{HertzModel, ImpactHertz};
 pub use impact_kelvin::{Damps, ImpactKelvin};
 pub use inerter::Inerter;
+pub use lead_rubber::{LeadHistory, LeadRubber};
 pub use linear_link::LinearLink;
+pub use mass::Mass;
 pub use maxwell_damper::MaxwellDamper;
+pub use multilinear_elastic::MultilinearElastic;
+pub use multilinear_plastic::{MultilinearPlastic, Rule};
 pub use nlink::{NLink, NLinkHistory};
 pub use rigid_body::RigidBody;
 pub use rigid_link::RigidLink;
@@ -88,34 +89,34 @@ use trilith_element::Register;
 /// Offers every built-in kind.
 pub fn register(to: &mut impl Register) {
     to.linear::<Beam>();
-    to.linear::<Truss>();
-    to.linear::<Spring>();
-    to.linear::<Mass>();
     to.linear::<Inerter>();
-    to.constraint::<RigidBody>();
-    to.constraint::<RigidLink>();
+    to.linear::<Mass>();
+    to.linear::<Spring>();
+    to.linear::<Truss>();
     to.constraint::<Diaphragm>();
     to.constraint::<EqualDof>();
-    to.link::<NLink>();
+    to.constraint::<RigidBody>();
+    to.constraint::<RigidLink>();
+    to.link::<BilinearDamper>();
+    to.link::<Dashpot>();
+    to.link::<FrequencyIndependentViscoelastic>();
+    to.link::<FrictionPendulum>();
+    to.link::<FrictionSpring>();
     to.link::<Gap>();
     to.link::<Hook>();
-    to.link::<Dashpot>();
-    to.link::<LeadRubber>();
-    to.link::<MultilinearElastic>();
-    to.link::<MultilinearPlastic>();
-    to.link::<BilinearDamper>();
-    to.link::<FrequencyIndependentViscoelastic>();
-    to.link::<FrictionSpring>();
     to.link::<ImpactHertz>();
     to.link::<ImpactKelvin>();
+    to.link::<LeadRubber>();
     to.link::<LinearLink>();
     to.link::<MaxwellDamper>();
+    to.link::<MultilinearElastic>();
+    to.link::<MultilinearPlastic>();
+    to.link::<NLink>();
     to.link::<RockingBody>();
     to.link::<RubberIsolator>();
-    to.link::<Wen>();
-    to.link::<FrictionPendulum>();
     to.link::<TensionCompressionFriction>();
     to.link::<TriplePendulum>();
+    to.link::<Wen>();
 }
 
 #[cfg(test)]
