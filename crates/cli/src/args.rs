@@ -22,6 +22,8 @@ pub(crate) enum Command {
     Modes(ModesArguments),
     /// The kinds of elements, constraints and links, or the card of one
     Elements(ElementsArguments),
+    /// Lead a link through a cyclic deformation and draw its loop
+    Exercise(ExerciseArguments),
     /// Run the same case under two or more solvers and show the differences
     Compare(CompareArguments),
     /// Find contact and rotational dashpots from coefficients of restitution
@@ -77,6 +79,37 @@ pub(crate) struct ModesArguments {
 pub(crate) struct ElementsArguments {
     /// Kind to be shown in full
     pub name: Option<String>,
+    /// Write the catalogue of all kinds: HTML with the loops of the links, or Markdown, by the ending
+    #[arg(long, value_name = "FILE", conflicts_with = "name")]
+    pub page: Option<PathBuf>,
+}
+
+#[derive(Args)]
+pub(crate) struct ExerciseArguments {
+    /// Kind of link; its parameters are those of the example on its card (`trilith elements KIND`)
+    pub kind: String,
+    /// Give a parameter of the link another value, such as `k="2 MN/m"`; `none` takes it away
+    #[arg(long, value_name = "NAME=VALUE", value_parser = assignment)]
+    pub set: Vec<(String, String)>,
+    /// Amplitudes of the last cycle: one for each coordinate, such as `2 mm,0,1 mrad`, or by name, such as
+    /// `U2=2 mm` [default: those of the card]
+    #[arg(long, value_name = "AMPLITUDES", allow_hyphen_values = true)]
+    pub amplitude: Option<String>,
+    /// Constant parts of the deformation, given like amplitudes [default: those of the card]
+    #[arg(long, value_name = "MEANS", allow_hyphen_values = true)]
+    pub mean: Option<String>,
+    /// Cycles in a second, such as `0.5 Hz` [default: that of the card]
+    #[arg(long, value_parser = frequency)]
+    pub frequency: Option<f64>,
+    /// How many cycles, growing evenly
+    #[arg(long, default_value_t = 3, value_parser = clap::value_parser!(u16).range(1..=1000))]
+    pub cycles: u16,
+    /// Folder for `loop.svg` and `path.csv` [default: out/exercise_<kind>]
+    #[arg(long, value_name = "DIR")]
+    pub out: Option<PathBuf>,
+    /// Write no files
+    #[arg(long, conflicts_with = "out")]
+    pub no_files: bool,
 }
 
 #[derive(Args)]
@@ -145,6 +178,13 @@ fn length(text: &str) -> Result<f64, String> {
     match trilith::model::quantity(text, trilith::element::dimension::LENGTH)? {
         x if x > 0.0 => Ok(x),
         _ => Err("a length above 0 is wanted, such as `1 m`".into()),
+    }
+}
+
+fn frequency(text: &str) -> Result<f64, String> {
+    match trilith::model::quantity(text, trilith::element::dimension::FREQUENCY)? {
+        x if x > 0.0 => Ok(x),
+        _ => Err("a frequency above 0 is wanted, such as `0.5 Hz`".into()),
     }
 }
 

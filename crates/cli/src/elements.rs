@@ -1,25 +1,46 @@
 //! `trilith elements`: the catalogue.
 
+use crate::args::ElementsArguments;
 use crate::text::{names_help, row, table};
 use crate::{Answer, Failure};
+use std::path::Path;
 use trilith::Registry;
-use trilith::element::{Card, Category, Default, Form, NodeCount, Parameter, Range};
+use trilith::catalogue::{self, CATEGORIES, EVERY_LINK, HEADS, nodes, parameter};
+use trilith::element::{Card, Category};
 
-const CATEGORIES: [(Category, &str); 3] = [
-    (Category::Linear, "linear elements: add to M, C, K"),
-    (Category::Constraint, "constraints: eliminate directions"),
-    (Category::Link, "links: nonlinear laws"),
-];
-
-pub(crate) fn elements(registry: &Registry, name: Option<&str>) -> Result<Answer, Failure> {
-    let Some(name) = name else { return Ok(list(registry).into()) };
-    match registry.card(name) {
-        Some(card) => Ok(full(card).into()),
-        None => {
-            let help = names_help(name, "kinds", registry.cards().map(|c| c.kind));
-            Err(Failure::input(&format!("there is no kind `{name}`"), Some(&help)))
-        }
+pub(crate) fn elements(registry: &Registry, args: &ElementsArguments) -> Result<Answer, Failure> {
+    if let Some(path) = &args.page {
+        return page(registry, path);
     }
+    match args.name.as_deref().map(|name| card(registry, name)).transpose()? {
+        Some(card) => Ok(full(registry, card).into()),
+        None => Ok(list(registry).into()),
+    }
+}
+
+/// The card of a kind.
+fn card(registry: &Registry, name: &str) -> Result<&'static Card, Failure> {
+    registry.card(name).ok_or_else(|| unknown(registry, name))
+}
+
+/// There is no such kind.
+pub(crate) fn unknown(registry: &Registry, name: &str) -> Failure {
+    let help = names_help(name, "kinds", registry.cards().map(|c| c.kind));
+    Failure::input(&format!("there is no kind `{name}`"), Some(&help))
+}
+
+/// Writes the catalogue as HTML or Markdown.
+fn page(registry: &Registry, path: &Path) -> Result<Answer, Failure> {
+    let text = match path.extension().and_then(|e| e.to_str()) {
+        Some("html" | "htm") => catalogue::html(registry),
+        Some("md") => catalogue::markdown(registry),
+        _ => {
+            let message = format!("{} is neither HTML nor Markdown", path.display());
+            return Err(Failure::input(&message, Some("end the name in `.html` or `.md`")));
+        }
+    };
+    std::fs::write(path, text).map_err(|e| Failure::unwritable(path, &e))?;
+    Ok(format!("catalogue: {}\n", path.display()).into())
 }
 
 fn list(registry: &Registry) -> String {
@@ -34,83 +55,30 @@ fn list(registry: &Registry) -> String {
             out += &format!("{title}\n{}\n", table(&rows, &[0, 1, 2]));
         }
     }
-    out + "`trilith elements NAME` shows a kind in full.\n"
+    out + "`trilith elements NAME` shows a kind in full, `trilith exercise NAME` what a link does,\n\
+           `trilith elements --page FILE.html` writes a catalogue.\n"
 }
 
-fn full(card: &Card) -> String {
-    let category = match card.category {
-        Category::Linear => "linear element",
-        Category::Constraint => "constraint",
-        Category::Link => "link",
-    };
+fn full(registry: &Registry, card: &Card) -> String {
+    let category = catalogue::category(card.category);
     let mut out = format!("{} ({category}, {})\n{}\n", card.kind, nodes(card.nodes), card.summary);
     if !card.parameters.is_empty() {
-        let mut rows = vec![row(["name", "symbol", "unit", "range", "default", "meaning"])];
-        rows.extend(card.parameters.iter().map(parameter));
+        let mut rows = vec![row(HEADS)];
+        rows.extend(card.parameters.iter().map(|p| parameter(p).to_vec()));
         out += &format!("\nparameters\n{}", table(&rows, &[0, 1, 2, 3, 4, 5]));
     }
     if card.category == Category::Link {
-        out += "\nEvery link also takes `axis1`, `axis2`, `shear_at` and `effective_stiffness`.\n";
+        out += &format!("\n{EVERY_LINK}\n");
     }
     let indented = |text: &str| text.lines().map(|l| format!("  {l}\n")).collect::<String>();
-    for (title, text) in [("law", card.law), ("source", card.source), ("example", card.example)] {
-        if !text.is_empty() {
-            out += &format!("\n{title}\n{}", indented(text));
-        }
+    let mut parts = vec![("law", card.law.to_owned()), ("source", card.source.to_owned())];
+    parts.push(("example", card.example.to_owned()));
+    if let Some([coordinates, history]) = catalogue::law_facts(registry, card) {
+        parts.push(("coordinates of the example", coordinates));
+        parts.push(("history variables", history));
+    }
+    for (title, text) in parts.iter().filter(|(_, text)| !text.is_empty()) {
+        out += &format!("\n{title}\n{}", indented(text));
     }
     out
-}
-
-fn parameter(p: &Parameter) -> Vec<String> {
-    let (unit, admissible) = form(p);
-    let default = match p.default {
-        Default::Required => "required".into(),
-        Default::Absent => "absent".into(),
-        Default::Number(x) => x.to_string(),
-        Default::Choice(c) => c.to_owned(),
-        Default::Flag(b) => b.to_string(),
-    };
-    row([p.name, p.symbol, &unit, &admissible, &default, p.meaning])
-}
-
-/// Unit and admissible values.
-fn form(p: &Parameter) -> (String, String) {
-    let range = match p.range {
-        Range::Any => "any".to_owned(),
-        range => range.text(),
-    };
-    let unit = |d: trilith::element::Dimension| if d.is_none() { "–".into() } else { d.unit() };
-    match p.form {
-        Form::Number(d) => (unit(d), range),
-        Form::Power { base, over, exponent } => {
-            (format!("{}/({})^{exponent}", unit(base), unit(over)), range)
-        }
-        Form::OfAxis { along, about, list } => {
-            let count = if list { "list, " } else { "" };
-            (format!("{} or {}", unit(along), unit(about)), format!("{count}{range}"))
-        }
-        Form::Choice(all) => (String::new(), all.join(", ")),
-        Form::Choices(all) => (String::new(), format!("some of {}", all.join(", "))),
-        Form::Flag => (String::new(), "true, false".into()),
-        Form::Numbers { dimension, count } => {
-            let count = count.map_or("list".to_owned(), |n| format!("{n} numbers"));
-            (unit(dimension), format!("{count}, {range}"))
-        }
-        Form::Matrix { size, dimension, symmetric } => {
-            let symmetric = if symmetric { ", symmetric" } else { "" };
-            (unit(dimension), format!("{size} × {size}{symmetric}"))
-        }
-        Form::Points => ("m".into(), "list of (x, y, z)".into()),
-        Form::Node => (String::new(), "name of a node".into()),
-    }
-}
-
-fn nodes(count: NodeCount) -> String {
-    match (count.min, count.max) {
-        (1, 1) => "1 node".into(),
-        (1, 2) => "1 node (to the ground) or 2 nodes".into(),
-        (a, b) if a == b => format!("{a} nodes"),
-        (a, usize::MAX) => format!("{a} or more nodes"),
-        (a, b) => format!("{a} to {b} nodes"),
-    }
 }

@@ -21,6 +21,11 @@ impl Failure {
         Self { text: diagnostics::plain(message, help), status: 2 }
     }
 
+    /// A file that cannot be written.
+    pub fn unwritable(path: &std::path::Path, error: &std::io::Error) -> Self {
+        Self::input(&format!("{} cannot be written: {error}", path.display()), None)
+    }
+
     /// A structure or a run that cannot be made, shown in the model file where it has a place there.
     pub fn of(error: &Error, model: &Model) -> Self {
         let status = match error {

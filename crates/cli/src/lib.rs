@@ -16,6 +16,7 @@ mod check;
 mod compare;
 mod diagnostics;
 mod elements;
+mod exercise;
 mod failure;
 mod modes;
 mod progress;
@@ -47,7 +48,8 @@ pub fn main_with(registry: Registry) -> ! {
         Command::Run(a) => run::run(&registry, a),
         Command::Check(a) => check::check(&registry, &a),
         Command::Modes(a) => modes::modes(&registry, &a),
-        Command::Elements(a) => elements::elements(&registry, a.name.as_deref()),
+        Command::Elements(a) => elements::elements(&registry, &a),
+        Command::Exercise(a) => exercise::exercise(&registry, a),
         Command::Compare(a) => compare::compare(&registry, &a),
         Command::Calibrate(a) => calibrate::calibrate(&registry, &a),
     };

@@ -44,6 +44,22 @@ pub(crate) fn svg(figure: &Figure) -> String {
     out.replacen("<svg ", &head, 1).replacen(">\n", &format!(">\n{title}\n"), 1)
 }
 
+/// Several figures side by side in one SVG.
+pub(crate) fn sheet(figures: &[Figure]) -> String {
+    let width: u32 = figures.iter().map(|f| f.size.0).sum();
+    let height = figures.iter().map(|f| f.size.1).max().unwrap_or(0);
+    let mut out = format!(
+        "<svg viewBox=\"0 0 {width} {height}\" width=\"{width}\" height=\"{height}\" \
+         xmlns=\"http://www.w3.org/2000/svg\">\n<rect width=\"100%\" height=\"100%\" fill=\"white\"/>\n"
+    );
+    let mut x = 0;
+    for figure in figures {
+        out += &svg(figure).replacen("<svg ", &format!("<svg x=\"{x}\" "), 1);
+        x += figure.size.0;
+    }
+    out + "</svg>\n"
+}
+
 fn escaped(text: &str) -> String {
     text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;")
 }
@@ -190,10 +206,11 @@ fn draw(figure: &Figure, area: &Area<'_>) -> Result<(), String> {
     draw_legend(&rows, &bottom).map_err(fail)
 }
 
-/// Width of a line, px. The lower of two lines is thicker, so that it shows beside an upper one that
-/// runs over it.
+/// Width of a line, px. The lower of two named lines is thicker, so that it shows beside an upper one
+/// that runs over it.
 fn thickness(figure: &Figure, at: usize) -> u32 {
-    let lines = || figure.series.iter().enumerate().filter(|(_, s)| s.stroke == Stroke::Line);
+    let named = |s: &Series| s.stroke == Stroke::Line && !s.name.is_empty();
+    let lines = || figure.series.iter().enumerate().filter(|(_, s)| named(s));
     let lower = lines().next().is_some_and(|(i, _)| i == at) && lines().count() == 2;
     if lower { 5 } else { 2 }
 }

@@ -203,4 +203,10 @@ impl Figure {
     pub fn svg(&self) -> String {
         crate::draw::svg(self)
     }
+
+    /// Several figures side by side as one SVG.
+    #[must_use]
+    pub fn sheet(figures: &[Self]) -> String {
+        crate::draw::sheet(figures)
+    }
 }

@@ -20,6 +20,9 @@ table { border-collapse: collapse; font-size: .82rem; margin: .6rem 0; }
 td, th { padding: .2rem .6rem; border-bottom: 1px solid #e4e4e4; text-align: left;
   font-variant-numeric: tabular-nums; }
 th { background: #f4f4f4; } .wide { overflow-x: auto; }
+pre { background: #f6f7f8; border: 1px solid #e4e6e8; border-radius: 6px; padding: .6rem .8rem;
+  font: .85rem/1.45 ui-monospace, 'DejaVu Sans Mono', monospace; overflow-x: auto; margin: .6rem 0; }
+nav li.group { padding: .5rem 0 .1rem; text-indent: 0; font-weight: 600; }
 .pass { color: #14692a; } .fail { color: #b3151b; font-weight: 700; }
 .note { color: #555; font-size: .9rem; }
 @media print { body { max-width: none; padding: 0; } section, figure, tr { break-inside: avoid; }
@@ -33,6 +36,8 @@ pub enum Block {
     Text(String),
     /// A paragraph in small print: a source, a remark.
     Note(String),
+    /// Lines shown as they are: an equation, a piece of a file.
+    Code(String),
     /// A table with a row of heads. A cell `pass` or `FAIL` is coloured.
     Table {
         /// Heads of the columns.
@@ -55,11 +60,17 @@ impl Block {
         Self::Note(text.into())
     }
 
+    /// Lines shown as they are.
+    pub fn code(text: impl Into<String>) -> Self {
+        Self::Code(text.into())
+    }
+
     fn markup(&self) -> Markup {
         html! {
             @match self {
                 Self::Text(text) => p { (text) },
                 Self::Note(text) => p.note { (text) },
+                Self::Code(text) => pre { (text) },
                 Self::Table { head, rows } => div.wide { table {
                     thead { tr { @for cell in head { th { (cell) } } } }
                     tbody { @for row in rows { tr { @for cell in row {
@@ -102,13 +113,21 @@ fn verdict(cell: &str) -> Option<&'static str> {
 pub struct Section {
     id: String,
     title: String,
+    group: String,
     blocks: Vec<Block>,
 }
 
 impl Section {
     /// An empty section. The id names its place in the page.
     pub fn new(id: impl Into<String>, title: impl Into<String>) -> Self {
-        Self { id: id.into(), title: title.into(), blocks: Vec::new() }
+        Self { id: id.into(), title: title.into(), group: String::new(), blocks: Vec::new() }
+    }
+
+    /// Puts it under a head of the contents, with the sections of the same group beside it.
+    #[must_use]
+    pub fn group(mut self, head: impl Into<String>) -> Self {
+        self.group = head.into();
+        self
     }
 
     /// Adds a part.
@@ -163,7 +182,10 @@ impl Page {
                     h1 { (self.title) }
                     @for block in &self.lead { (block.markup()) }
                     @if self.sections.len() > 1 {
-                        nav { ol { @for s in &self.sections {
+                        nav { ol { @for (i, s) in self.sections.iter().enumerate() {
+                            @if !s.group.is_empty() && (i == 0 || self.sections[i - 1].group != s.group) {
+                                li.group { (s.group) }
+                            }
                             li { a href={ "#" (s.id) } { (s.title) } }
                         } } }
                     }

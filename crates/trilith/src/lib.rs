@@ -28,15 +28,18 @@
 //!
 //! - [`read`] turns a model file into a [`Model`], or into all its errors at once.
 //! - [`run`] runs a case as the file says; [`Analysis`] runs several, with options.
+//! - [`exercise`] shows what a link does on its own, [`catalogue`] what kinds there are.
 //! - [`calibrate`] finds dashpots from coefficients of restitution.
 //! - A link of your own: implement [`element::Link`], offer it with `registry.link::<MyLink>()`.
 //!
 //! Everything beneath is in the modules [`element`], [`elements`], [`model`], [`system`],
-//! [`solvers`] and [`results`].
+//! [`solvers`], [`results`] and [`report`].
 
 mod analysis;
 pub mod calibrate;
+pub mod catalogue;
 mod error;
+pub mod exercise;
 
 /// The contract that elements, constraints and links fulfil.
 pub mod element {
@@ -61,6 +64,11 @@ pub mod solvers {
 /// Recorders and files.
 pub mod results {
     pub use trilith_results::*;
+}
+
+/// Figures and pages.
+pub mod report {
+    pub use trilith_report::*;
 }
 
 pub use analysis::{Analysis, Run};

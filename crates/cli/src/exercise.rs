@@ -1,0 +1,178 @@
+//! `trilith exercise`: what a link does on its own.
+
+use crate::args::ExerciseArguments;
+use crate::text::{number, percent, row, significant, table};
+use crate::{Answer, Failure, elements};
+use std::path::{Path, PathBuf};
+use trilith::Registry;
+use trilith::element::Stroke;
+use trilith::element::dimension::{LENGTH, NONE};
+use trilith::exercise::{Coordinate, ExerciseError, Motion, Record, Specimen};
+use trilith::model::quantity;
+use trilith::report::Figure;
+
+pub(crate) fn exercise(registry: &Registry, args: ExerciseArguments) -> Result<Answer, Failure> {
+    let specimen = Specimen::new(registry, &args.kind, &args.set).map_err(|e| match e {
+        ExerciseError::UnknownKind(kind) => elements::unknown(registry, &kind),
+        other => refuse(&other),
+    })?;
+    let motion = motion(&specimen, &args)?;
+    let record = specimen.exercise(&motion).map_err(|e| refuse(&e))?;
+    let mut text = text(&specimen, &motion, &record);
+    if !args.no_files {
+        let default = || Path::new("out").join(format!("exercise_{}", specimen.card.kind));
+        let dir = args.out.unwrap_or_else(default);
+        for path in write(&dir, &record)? {
+            text += &format!("{}\n", path.display());
+        }
+    }
+    Ok(text.into())
+}
+
+fn refuse(error: &ExerciseError) -> Failure {
+    match error {
+        ExerciseError::Parameters(all) => Failure::diagnostics(all),
+        ExerciseError::NotALink { .. } => {
+            Failure::input(&error.to_string(), Some("`trilith elements` lists the links"))
+        }
+        ExerciseError::NoStrokes { .. } => {
+            let help = "give `--amplitude` and `--mean` for each of them";
+            Failure::input(&error.to_string(), Some(help))
+        }
+        _ => Failure::input(&error.to_string(), None),
+    }
+}
+
+/// The motion of the card with what the arguments change.
+fn motion(specimen: &Specimen, args: &ExerciseArguments) -> Result<Motion, Failure> {
+    let coordinates = specimen.coordinates();
+    let mut motion = match specimen.motion() {
+        Ok(motion) => motion,
+        // Without a fitting exercise on the card the arguments have to give it.
+        Err(_) if args.amplitude.is_some() => Motion {
+            frequency: specimen.card.exercise.frequency,
+            strokes: vec![Stroke::about(0.0, 0.0); coordinates.len()],
+            cycles: 1,
+        },
+        Err(e) => return Err(refuse(&e)),
+    };
+    if let Some(text) = &args.amplitude {
+        let mut values = motion.strokes.iter().map(|s| s.amplitude).collect::<Vec<_>>();
+        set("--amplitude", text, &coordinates, &mut values)?;
+        motion.strokes.iter_mut().zip(values).for_each(|(s, x)| s.amplitude = x);
+    }
+    if let Some(text) = &args.mean {
+        let mut values = motion.strokes.iter().map(|s| s.mean).collect::<Vec<_>>();
+        set("--mean", text, &coordinates, &mut values)?;
+        motion.strokes.iter_mut().zip(values).for_each(|(s, x)| s.mean = x);
+    }
+    motion.frequency = args.frequency.unwrap_or(motion.frequency);
+    motion.cycles = args.cycles.into();
+    Ok(motion)
+}
+
+/// One value for each coordinate in their order, or `NAME=VALUE` for some.
+fn set(
+    option: &str,
+    text: &str,
+    coordinates: &[Coordinate],
+    values: &mut [f64],
+) -> Result<(), Failure> {
+    let names: Vec<_> = coordinates.iter().map(|c| c.name.as_str()).collect();
+    let items: Vec<&str> = text.split(',').map(str::trim).collect();
+    let named = items.iter().all(|item| item.contains('='));
+    if !named && items.len() != coordinates.len() {
+        let message = format!(
+            "`{option}` has {} of {} values: the law has the coordinates {}",
+            items.len(),
+            coordinates.len(),
+            names.join(", ")
+        );
+        let help = format!("give one for each, or by name, such as `{option} {}=…`", names[0]);
+        return Err(Failure::input(&message, Some(&help)));
+    }
+    for (position, item) in items.iter().enumerate() {
+        let (at, value) = match item.split_once('=') {
+            None => (position, *item),
+            Some((name, value)) => {
+                let at = names.iter().position(|n| *n == name.trim()).ok_or_else(|| {
+                    let message = format!("`{option}`: there is no coordinate `{}`", name.trim());
+                    let help =
+                        crate::text::names_help(name.trim(), "coordinates", names.iter().copied());
+                    Failure::input(&message, Some(&help))
+                })?;
+                (at, value)
+            }
+        };
+        let dimension = if coordinates[at].rotation { NONE } else { LENGTH };
+        values[at] = quantity(value, dimension)
+            .map_err(|why| Failure::input(&format!("`{option}` of {}: {why}", names[at]), None))?;
+    }
+    Ok(())
+}
+
+fn text(specimen: &Specimen, motion: &Motion, record: &Record) -> String {
+    let mut out =
+        format!("{}: {}\n  {}\n", specimen.card.kind, specimen.card.summary, specimen.line);
+    for note in &specimen.notes {
+        out += &format!("  note: {note}\n");
+    }
+    out += &format!(
+        "\nimposed: {} Hz, {}\n",
+        number(motion.frequency),
+        if motion.cycles == 1 {
+            "1 cycle".into()
+        } else {
+            format!("{} growing cycles", motion.cycles)
+        }
+    );
+    let mut rows = vec![row(["", "unit", "mean", "amplitude", "force min", "force max", "unit"])];
+    for (i, (c, s)) in record.coordinates.iter().zip(&motion.strokes).enumerate() {
+        let [_, (low, high)] = record.extremes(i);
+        let (length, force) = units(c);
+        let [mean, amplitude, low, high] = [s.mean, s.amplitude, low, high].map(number);
+        rows.push(row([&c.name, length, &mean, &amplitude, &low, &high, force]));
+    }
+    out += &table(&rows, &[0, 6]);
+    out += "\nlast cycle\n";
+    let mut rows =
+        vec![row(["", "loop area [J]", "effective stiffness", "", "equivalent damping"])];
+    for (i, c) in record.coordinates.iter().enumerate().filter(|(i, _)| record.moves(*i)) {
+        let cycle = record.last_cycle(i);
+        let stiffness = cycle.stiffness.map_or("–".into(), number);
+        let damping = cycle.damping.map_or("–".into(), percent);
+        let unit = if c.rotation { "N·m/rad" } else { "N/m" };
+        rows.push(row([&c.name, &number(cycle.area), &stiffness, unit, &damping]));
+    }
+    out += &table(&rows, &[0, 3]);
+    let [work, stored, hysteretic, viscous] = record.totals();
+    out += "\nenergy [J]\n";
+    let rows = [
+        row(["work done on the link", &number(work)]),
+        row(["stored", &number(stored)]),
+        row(["hysteretic", &number(hysteretic)]),
+        row(["viscous", &number(viscous)]),
+        row(["balance error", &format!("{} %", significant(100.0 * record.energy_error(), 2))]),
+    ];
+    out + &table(&rows, &[0]) + "\n"
+}
+
+fn units(c: &Coordinate) -> (&'static str, &'static str) {
+    if c.rotation { ("rad", "N·m") } else { ("m", "N") }
+}
+
+fn write(dir: &Path, record: &Record) -> Result<Vec<PathBuf>, Failure> {
+    std::fs::create_dir_all(dir).map_err(|e| Failure::unwritable(dir, &e))?;
+    let figures = record.figures();
+    let mut files = vec![("path.csv", record.csv())];
+    if !figures.is_empty() {
+        files.push(("loop.svg", Figure::sheet(&figures)));
+    }
+    let mut written = Vec::new();
+    for (name, text) in files {
+        let path = dir.join(name);
+        std::fs::write(&path, text).map_err(|e| Failure::unwritable(&path, &e))?;
+        written.push(path);
+    }
+    Ok(written)
+}

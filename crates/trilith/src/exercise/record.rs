@@ -1,0 +1,178 @@
+//! What a law did along a motion.
+
+use super::{Coordinate, ExerciseError, Motion};
+use crate::element::{Energy, Field, Kinematics, Link, Response};
+use std::f64::consts::TAU;
+
+/// Steps of a cycle.
+const STEPS: usize = 2000;
+
+/// The last closed cycle of a coordinate.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct LastCycle {
+    /// Area ∮ f dd, J.
+    pub area: f64,
+    /// Force over deformation between the extreme deformations, N/m or N·m/rad; none where it does not move.
+    pub stiffness: Option<f64>,
+    /// Equivalent damping ratio ∮ f dd / (2π k a²) with that stiffness k and the amplitude a; none
+    /// where the stiffness is nearly zero beside the forces.
+    pub damping: Option<f64>,
+}
+
+/// Deformations, forces, energies and history variables along a motion. Lists of coordinates hold a
+/// list of all steps each.
+#[derive(Clone, Debug)]
+pub struct Record {
+    /// The coordinates.
+    pub coordinates: Vec<Coordinate>,
+    /// Times, s.
+    pub time: Vec<f64>,
+    /// Deformations, m or rad.
+    pub deformation: Vec<Vec<f64>>,
+    /// Rates, m/s or rad/s.
+    pub rate: Vec<Vec<f64>>,
+    /// Forces, N or N·m.
+    pub force: Vec<Vec<f64>>,
+    /// Work done on the link since the start, J.
+    pub work: Vec<f64>,
+    /// Stored energy, hysteretic and viscous dissipation since the start, J.
+    pub energy: [Vec<f64>; 3],
+    /// The history variables.
+    pub fields: Vec<Field>,
+    /// Their values.
+    pub history: Vec<Vec<f64>>,
+    /// Sum of the absolute work of the steps, J.
+    turned_over: f64,
+    /// First step of the last cycle.
+    pub(super) last: usize,
+}
+
+impl Record {
+    pub(super) fn new(
+        law: &dyn Link,
+        coordinates: Vec<Coordinate>,
+        motion: &Motion,
+    ) -> Result<Self, ExerciseError> {
+        let n = coordinates.len();
+        let fields = law.history().into_owned();
+        let steps = (motion.periods() * STEPS as f64).round() as usize;
+        let dt = motion.duration() / steps as f64;
+        let mut it = Self {
+            coordinates,
+            time: Vec::with_capacity(steps + 1),
+            deformation: vec![Vec::with_capacity(steps + 1); n],
+            rate: vec![Vec::with_capacity(steps + 1); n],
+            force: vec![Vec::with_capacity(steps + 1); n],
+            work: Vec::with_capacity(steps + 1),
+            energy: Default::default(),
+            history: vec![Vec::with_capacity(steps + 1); fields.len()],
+            fields,
+            turned_over: 0.0,
+            last: steps - STEPS,
+        };
+        let mut committed = vec![0.0; it.fields.len()];
+        law.at_rest(&mut committed);
+        let mut trial = committed.clone();
+        let (mut f, mut k, mut c) = (vec![0.0; n], vec![0.0; n * n], vec![0.0; n * n]);
+        let (mut d0, mut v0) = motion.at(0.0);
+        let mut before = f.clone();
+        let [mut work, mut hysteretic, mut viscous] = [0.0; 3];
+        for step in 0..=steps {
+            let time = step as f64 * dt;
+            let (d, v) = motion.at(time);
+            [&mut f, &mut k, &mut c].into_iter().for_each(|x| x.fill(0.0));
+            let mut energy = Energy::default();
+            let length = if step == 0 { 0.0 } else { dt };
+            let at = Kinematics { d: &d, v: &v, d0: &d0, v0: &v0, dt: length };
+            let mut out = Response { f: &mut f, k: &mut k, c: &mut c, energy: &mut energy };
+            law.respond(&at, &committed, &mut trial, &mut out);
+            let all = f.iter().chain([&energy.stored, &energy.hysteretic, &energy.viscous]);
+            if !all.chain(&trial).all(|x| x.is_finite()) {
+                return Err(ExerciseError::NotFinite(time));
+            }
+            if step > 0 {
+                let done: f64 = (0..n).map(|i| 0.5 * (before[i] + f[i]) * (d[i] - d0[i])).sum();
+                work += done;
+                it.turned_over += done.abs();
+            }
+            hysteretic += energy.hysteretic;
+            viscous += energy.viscous;
+            it.time.push(time);
+            it.work.push(work);
+            for (list, x) in it.energy.iter_mut().zip([energy.stored, hysteretic, viscous]) {
+                list.push(x);
+            }
+            let rows = [
+                (&mut it.deformation, &d),
+                (&mut it.rate, &v),
+                (&mut it.force, &f),
+                (&mut it.history, &trial),
+            ];
+            for (lists, values) in rows {
+                lists.iter_mut().zip(values).for_each(|(list, x)| list.push(*x));
+            }
+            committed.copy_from_slice(&trial);
+            before.copy_from_slice(&f);
+            (d0, v0) = (d, v);
+        }
+        Ok(it)
+    }
+
+    /// Work and change of stored energy, hysteretic and viscous dissipation over the whole motion, J.
+    #[must_use]
+    pub fn totals(&self) -> [f64; 4] {
+        let change = |list: &Vec<f64>| match (list.first(), list.last()) {
+            (Some(first), Some(last)) => last - first,
+            _ => 0.0,
+        };
+        let [stored, hysteretic, viscous] = &self.energy;
+        [change(&self.work), change(stored), change(hysteretic), change(viscous)]
+    }
+
+    /// What of the work the energies do not account for, over the work done and taken.
+    #[must_use]
+    pub fn energy_error(&self) -> f64 {
+        let [work, stored, hysteretic, viscous] = self.totals();
+        let error = (work - stored - hysteretic - viscous).abs();
+        if error == 0.0 { 0.0 } else { error / self.turned_over }
+    }
+
+    /// Smallest and largest of the deformation and of the force of a coordinate.
+    #[must_use]
+    pub fn extremes(&self, coordinate: usize) -> [(f64, f64); 2] {
+        [&self.deformation, &self.force].map(|all| extremes(&all[coordinate]))
+    }
+
+    /// True where the coordinate is moved to and fro.
+    #[must_use]
+    pub fn moves(&self, coordinate: usize) -> bool {
+        let (low, high) = extremes(&self.deformation[coordinate][self.last..]);
+        high - low > 1e-9 * high.abs().max(low.abs())
+    }
+
+    /// The last closed cycle of a coordinate.
+    #[must_use]
+    pub fn last_cycle(&self, coordinate: usize) -> LastCycle {
+        let (d, f) =
+            (&self.deformation[coordinate][self.last..], &self.force[coordinate][self.last..]);
+        let area =
+            d.windows(2).zip(f.windows(2)).map(|(d, f)| 0.5 * (f[0] + f[1]) * (d[1] - d[0])).sum();
+        if !self.moves(coordinate) {
+            return LastCycle { area, stiffness: None, damping: None };
+        }
+        let at = |better: fn(&f64, &f64) -> bool| {
+            (1..d.len()).fold(0, |best, i| if better(&d[i], &d[best]) { i } else { best })
+        };
+        let (low, high) = (at(|a, b| a < b), at(|a, b| a > b));
+        let stiffness = (f[high] - f[low]) / (d[high] - d[low]);
+        let amplitude = 0.5 * (d[high] - d[low]);
+        let (least, most) = extremes(f);
+        let felt = stiffness * amplitude > 1e-3 * (most - least);
+        let damping = felt.then(|| area / (TAU * stiffness * amplitude * amplitude));
+        LastCycle { area, stiffness: Some(stiffness), damping }
+    }
+}
+
+pub(super) fn extremes(values: &[f64]) -> (f64, f64) {
+    values.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), x| (a.min(*x), b.max(*x)))
+}
