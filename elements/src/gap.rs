@@ -49,7 +49,7 @@ impl Described for Gap {
         law: "f = k (d + g) where d + g < 0, else 0",
         source: "Wilson, Static and Dynamic Analysis of Structures, 2002, ch. 21",
         example: r#""stop": Gap(nodes: ("a", "b"), k: "200 MN/m", opening: "50 mm")"#,
-        exercise: Exercise { frequency: 1.0, strokes: &[Stroke::about(0.0, 0.1)] },
+        exercise: Exercise { frequency: 1.0, strokes: &[Stroke::about(0.0, 0.075)] },
     };
 }
 

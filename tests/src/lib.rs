@@ -11,12 +11,17 @@ pub fn root() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).parent().unwrap_or(Path::new(".")).to_path_buf()
 }
 
-/// The built-in kinds and the example of a third party.
+/// Offers the built-in kinds and those of the example of a third party.
+pub fn register(to: &mut impl trilith_element::Register) {
+    trilith_elements::register(to);
+    trilith_thirdparty_example::register(to);
+}
+
+/// The built-in kinds and those of the example of a third party.
 #[must_use]
 pub fn registry() -> Registry {
     let mut kinds = Registry::default();
-    trilith_elements::register(&mut kinds);
-    trilith_thirdparty_example::register(&mut kinds);
+    register(&mut kinds);
     kinds
 }
 

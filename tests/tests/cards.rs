@@ -1,15 +1,9 @@
 //! The example of every card is a line that a model file can hold.
 
 use trilith_element::{Card, Category};
-use trilith_model::{Registry, read_text};
+use trilith_model::read_text;
 use trilith_system::System;
-
-fn registry() -> Registry {
-    let mut registry = Registry::new();
-    trilith_elements::register(&mut registry);
-    trilith_thirdparty_example::register(&mut registry);
-    registry
-}
+use trilith_tests::registry;
 
 /// The texts in quotes that an example gives as nodes.
 fn nodes_of(example: &str) -> Vec<&str> {
@@ -65,13 +59,43 @@ fn the_example_of_every_card_is_read_and_assembled() {
         system.check_supported(&model, false).unwrap_or_else(|e| panic!("{}: {e}", card.kind));
         kinds.push(card.kind);
     }
-    assert!(kinds.contains(&"NLink") && kinds.contains(&"CubicSpring"), "{kinds:?}");
+    assert!(kinds.contains(&"NLink") && kinds.contains(&"TensionBracing"), "{kinds:?}");
+    assert!(registry.duplicates().is_empty());
 }
 
 #[test]
-fn a_kind_of_a_third_party_is_read_beside_the_built_in_ones() {
+fn the_committed_catalogue_is_that_of_the_cards() {
+    let made = trilith::catalogue::markdown(&trilith::registry());
+    let path = trilith_tests::root().join("elements/CATALOGUE.md");
+    let committed = std::fs::read_to_string(path).unwrap_or_default();
+    assert!(
+        made == committed,
+        "elements/CATALOGUE.md is stale: run `cargo run --release -- elements --page elements/CATALOGUE.md`"
+    );
+}
+
+#[test]
+fn every_link_has_an_exercise_that_moves_it_and_balances() {
     let registry = registry();
-    let kinds: Vec<_> = registry.cards().map(|c| c.kind).collect();
-    assert_eq!(kinds.last(), Some(&"CubicSpring"));
-    assert!(registry.duplicates().is_empty());
+    for card in registry.cards().filter(|c| c.category == Category::Link) {
+        let kind = card.kind;
+        let specimen = trilith::exercise::Specimen::new(&registry, kind, &[])
+            .unwrap_or_else(|e| panic!("{kind}: {e}"));
+        let motion = specimen.motion().unwrap_or_else(|e| panic!("{kind}: {e}"));
+        let record = specimen.exercise(&motion).unwrap_or_else(|e| panic!("{kind}: {e}"));
+        assert!(!record.figures().is_empty(), "{kind}: nothing moves");
+        assert!(record.energy_error() < 2e-3, "{kind}: {:.1e}", record.energy_error());
+    }
+}
+
+#[test]
+fn the_page_of_the_catalogue_holds_every_kind_and_a_loop_of_every_link() {
+    let registry = registry();
+    let page = trilith::catalogue::html(&registry);
+    for card in registry.cards() {
+        assert!(page.contains(&format!("<section id=\"{}\">", card.kind)), "{}", card.kind);
+    }
+    let links = registry.cards().filter(|c| c.category == Category::Link).count();
+    assert!(page.matches("<svg").count() >= links, "{links} links");
+    assert!(!page.contains("Not drawn"), "{page}");
 }

@@ -93,7 +93,7 @@ fn dependencies_point_one_way() {
             "trilith-report",
             &["trilith-element", "trilith-model", "trilith-solvers", "trilith-results"],
         ),
-        ("trilith-thirdparty-example", &["trilith-element"]),
+        ("trilith-thirdparty-example", &["trilith-element", "trilith", "trilith-cli"]),
     ];
     let all = manifests();
     for (package, allowed) in LAYERS {

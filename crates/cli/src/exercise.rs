@@ -119,7 +119,7 @@ fn text(specimen: &Specimen, motion: &Motion, record: &Record) -> String {
     }
     out += &format!(
         "\nimposed: {} Hz, {}\n",
-        number(motion.frequency),
+        motion.frequency,
         if motion.cycles == 1 {
             "1 cycle".into()
         } else {

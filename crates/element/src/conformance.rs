@@ -42,19 +42,21 @@ mod tests;
 
 pub use error::ConformanceError;
 
-use crate::Link;
+use crate::{Exercise, Link};
 use path::Path;
 
 /// How a link is examined; see the [module](self).
 #[derive(Clone, Debug)]
 pub struct Kit {
     deformation: Vec<f64>,
+    mean: Vec<f64>,
     frequency: f64,
     seed: u64,
     paths: usize,
     passive: bool,
     rate_independent: bool,
     energy_tolerance: f64,
+    quick: bool,
 }
 
 /// What was examined.
@@ -69,19 +71,47 @@ pub struct Report {
 }
 
 impl Kit {
-    /// A kit that deforms by about `deformation` (m or rad, one for each coordinate), at `frequency`
-    /// cycles in a second.
+    /// A kit that deforms by about `deformation` (m or rad, one for each coordinate; 0 stays at rest), at
+    /// `frequency` cycles in a second.
     #[must_use]
     pub fn new(deformation: &[f64], frequency: f64) -> Self {
         Self {
             deformation: deformation.to_vec(),
+            mean: vec![0.0; deformation.len()],
             frequency,
             seed: 1,
             paths: 8,
             passive: true,
             rate_independent: false,
             energy_tolerance: 2e-3,
+            quick: false,
         }
+    }
+
+    /// A kit that moves about the means of an exercise, by about its amplitudes and at its frequency. A
+    /// coordinate with a mean and no amplitude moves by its mean, so that contacts open.
+    #[must_use]
+    pub fn of(exercise: &Exercise) -> Self {
+        let size =
+            |s: &crate::Stroke| if s.amplitude == 0.0 { s.mean.abs() } else { s.amplitude.abs() };
+        let deformation: Vec<_> = exercise.strokes.iter().map(size).collect();
+        let mean = exercise.strokes.iter().map(|s| s.mean).collect();
+        Self { mean, ..Self::new(&deformation, exercise.frequency) }
+    }
+
+    /// All deformations and means so many times as large.
+    #[must_use]
+    pub fn scaled(mut self, factor: f64) -> Self {
+        self.deformation.iter_mut().chain(&mut self.mean).for_each(|x| *x *= factor);
+        self
+    }
+
+    /// Takes few steps first and many only where the energy balance asks for them, and does not ask
+    /// whether kinks are rare: for thousands of paths. What must hold is the same.
+    #[must_use]
+    pub fn quick(mut self) -> Self {
+        self.quick = true;
+        self
     }
 
     /// Another seed of the random paths.
@@ -126,7 +156,8 @@ impl Kit {
     pub fn check(&self, link: &dyn Link) -> Result<Report, ConformanceError> {
         properties::shape(self, link)?;
         let mut report = Report::default();
-        let path = |number| Path::random(&self.deformation, self.frequency, self.seed, number);
+        let path =
+            |number| Path::random(&self.deformation, &self.mean, self.frequency, self.seed, number);
         let paths: Vec<_> = (0..self.paths).map(path).collect();
         for path in &paths {
             properties::answers(link, path)?;
@@ -141,7 +172,7 @@ impl Kit {
         }
         // Kinks are rare on a random path; a law that is all kinks has not been examined.
         let seen = report.tangents + report.skipped;
-        if 4 * report.skipped > seen {
+        if !self.quick && 4 * report.skipped > seen {
             return Err(ConformanceError::Kinks { skipped: report.skipped, of: seen });
         }
         Ok(report)

@@ -35,5 +35,5 @@ pub use frame::{Axis, Dof, Frame, Geometry, Vector3, cross, dot, norm, sub};
 pub use history::{Field, History};
 pub use linear::{ElementMatrices, LinearElement, SquareMatrix};
 pub use link::{Contact, Coordinates, Energy, Impact, Kinematics, Link, Response};
-pub use register::Register;
+pub use register::{ReadConstraint, ReadLinear, ReadLink, Register};
 pub use values::{Value, Values};

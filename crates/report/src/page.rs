@@ -22,6 +22,7 @@ td, th { padding: .2rem .6rem; border-bottom: 1px solid #e4e4e4; text-align: lef
 th { background: #f4f4f4; } .wide { overflow-x: auto; }
 pre { background: #f6f7f8; border: 1px solid #e4e6e8; border-radius: 6px; padding: .6rem .8rem;
   font: .85rem/1.45 ui-monospace, 'DejaVu Sans Mono', monospace; overflow-x: auto; margin: .6rem 0; }
+code { font: .92em ui-monospace, 'DejaVu Sans Mono', monospace; }
 nav li.group { padding: .5rem 0 .1rem; text-indent: 0; font-weight: 600; }
 .pass { color: #14692a; } .fail { color: #b3151b; font-weight: 700; }
 .note { color: #555; font-size: .9rem; }
@@ -68,13 +69,13 @@ impl Block {
     fn markup(&self) -> Markup {
         html! {
             @match self {
-                Self::Text(text) => p { (text) },
-                Self::Note(text) => p.note { (text) },
+                Self::Text(text) => p { (words(text)) },
+                Self::Note(text) => p.note { (words(text)) },
                 Self::Code(text) => pre { (text) },
                 Self::Table { head, rows } => div.wide { table {
                     thead { tr { @for cell in head { th { (cell) } } } }
                     tbody { @for row in rows { tr { @for cell in row {
-                        td class=[verdict(cell)] { (cell) }
+                        td class=[verdict(cell)] { (words(cell)) }
                     } } } }
                 } },
                 Self::Figures(all) => div.figures { @for f in all {
@@ -98,6 +99,17 @@ impl From<Vec<Figure>> for Block {
     fn from(figures: Vec<Figure>) -> Self {
         Self::Figures(figures)
     }
+}
+
+/// A text with what stands between backticks as code.
+fn words(text: &str) -> Markup {
+    let parts: Vec<&str> = text.split('`').collect();
+    if parts.len() % 2 == 0 {
+        return html! { (text) };
+    }
+    html! { @for (i, part) in parts.iter().enumerate() {
+        @if i % 2 == 1 { code { (part) } } @else { (part) }
+    } }
 }
 
 fn verdict(cell: &str) -> Option<&'static str> {

@@ -1,4 +1,4 @@
-//! Cubic spring: a hardening or softening spring of Duffing's kind.
+//! Cubic spring: a hardening or softening spring of Duffing's kind, without memory.
 //!
 //! ```text
 //!   f = k₁ d + k₃ d³
@@ -15,11 +15,10 @@
 //! Reference: \[Duffing 1918\].
 
 use serde::Deserialize;
-use std::borrow::Cow;
 use trilith_element::dimension::{AREA, STIFFNESS};
 use trilith_element::{
-    Axis, Card, Category, Coordinates, Described, Dimension, Exercise, Field, History, Kinematics,
-    Link, NodeCount, Parameter, Range, Response, Stroke, history,
+    Axis, Card, Category, Coordinates, Described, Dimension, Exercise, Kinematics, Link, NodeCount,
+    Parameter, Range, Response, Stroke,
 };
 
 /// N/m³.
@@ -39,16 +38,6 @@ pub struct CubicSpring {
     pub k3: f64,
     /// Local axis.
     pub axis: Axis,
-}
-
-history! {
-    /// History of a cubic spring, for records; it does not feed back into the force.
-    pub struct CubicSpringHistory {
-        /// Largest deformation so far, ≥ 0.
-        pub peak: "m",
-        /// Length of the path so far.
-        pub path: "m",
-    }
 }
 
 impl Described for CubicSpring {
@@ -74,28 +63,15 @@ impl Link for CubicSpring {
         Coordinates::Local(vec![self.axis])
     }
 
-    fn history(&self) -> Cow<'static, [Field]> {
-        CubicSpringHistory::FIELDS.into()
-    }
-
     fn engaged_stiffness(&self, k: &mut [f64]) {
         k[0] = self.k1;
     }
 
-    fn respond(
-        &self,
-        at: &Kinematics<'_>,
-        committed: &[f64],
-        trial: &mut [f64],
-        out: &mut Response<'_>,
-    ) {
+    fn respond(&self, at: &Kinematics<'_>, _: &[f64], _: &mut [f64], out: &mut Response<'_>) {
         let d = at.d[0];
         out.f[0] = self.k1 * d + self.k3 * d.powi(3);
         out.k[0] = self.k1 + 3.0 * self.k3 * d * d;
         out.energy.stored = 0.5 * self.k1 * d * d + 0.25 * self.k3 * d.powi(4);
-        let was = CubicSpringHistory::load(committed);
-        CubicSpringHistory { peak: was.peak.max(d.abs()), path: was.path + (d - at.d0[0]).abs() }
-            .store(trial);
     }
 }
 
@@ -127,10 +103,8 @@ mod tests {
         let (mut f, mut k, mut c, mut energy) = ([0.0], [0.0], [0.0], Energy::default());
         let mut out = Response { f: &mut f, k: &mut k, c: &mut c, energy: &mut energy };
         let at = Kinematics { d: &[d], v: &[0.0], d0: &[-d], v0: &[0.0], dt: 0.0 };
-        let mut trial = [0.0; 2];
-        law().respond(&at, &[0.0; 2], &mut trial, &mut out);
+        law().respond(&at, &[], &mut [], &mut out);
         assert!((f[0] - 2.0 * 4e4 * d).abs() < 1e-9 * f[0]);
-        assert_eq!(CubicSpringHistory::load(&trial), CubicSpringHistory { peak: d, path: 2.0 * d });
     }
 
     #[test]

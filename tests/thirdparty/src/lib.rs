@@ -1,15 +1,20 @@
-//! A link law in a crate of its own, as a third party would write it: it depends on the contract only.
+//! Links in a crate of their own, as a third party would write them.
 //!
-//! An application offers it beside the built-in kinds with one line:
-//! `trilith_thirdparty_example::register(&mut registry)`.
+//! [`TensionBracing`] has a memory, [`CubicSpring`] has none; each is a file that needs nothing but
+//! `trilith_element`. An application offers them beside the built-in kinds with one line,
+//! `trilith_thirdparty_example::register(&mut registry)`: `src/main.rs` is one.
+//! The README of the crate leads to a link of your own.
 
 mod cubic_spring;
+mod tension_bracing;
 
-pub use cubic_spring::{CubicSpring, CubicSpringHistory};
+pub use cubic_spring::CubicSpring;
+pub use tension_bracing::{TensionBracing, TensionBracingHistory};
 
 use trilith_element::Register;
 
 /// Offers every kind of this crate.
 pub fn register(to: &mut impl Register) {
+    to.link::<TensionBracing>();
     to.link::<CubicSpring>();
 }

@@ -66,8 +66,16 @@ pub(super) fn balance(
     typical: f64,
 ) -> Result<(), Broken> {
     let error = |l: &Ledger| (l.work - l.accounted).abs() / l.turned_over.max(typical);
-    let mut it = ledger(kit, link, path, FINE)?;
-    let coarse = error(&it);
+    let mut it = Ledger::default();
+    let mut coarse = f64::INFINITY;
+    let screen: &[usize] = if kit.quick { &[FINE / 8, FINE] } else { &[FINE] };
+    for steps in screen {
+        it = ledger(kit, link, path, *steps)?;
+        coarse = error(&it);
+        if coarse <= kit.energy_tolerance {
+            break;
+        }
+    }
     if coarse > kit.energy_tolerance {
         // Second order makes it 16 times smaller; impacts and reversals may spoil some of it.
         let steps = 4 * FINE;

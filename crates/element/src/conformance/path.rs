@@ -25,20 +25,29 @@ impl Random {
     }
 }
 
-/// `dᵢ(t) = Σₖ aᵢₖ (sin(k ω t + φᵢₖ) − sin φᵢₖ)`: periodic, zero at the start.
+/// `dᵢ(t) = mᵢ r(t) + Σₖ aᵢₖ (sin(k ω t + φᵢₖ) − sin φᵢₖ)`: zero at the start, periodic once r has gone
+/// smoothly from 0 to 1 in the first half of a cycle.
 pub(super) struct Path {
     pub(super) number: usize,
     pub(super) omega: f64,
     pub(super) scale: Vec<f64>,
+    mean: Vec<f64>,
     waves: Vec<[(f64, f64); 3]>,
 }
 
 impl Path {
-    pub(super) fn random(scale: &[f64], frequency: f64, seed: u64, number: usize) -> Self {
+    pub(super) fn random(
+        scale: &[f64],
+        mean: &[f64],
+        frequency: f64,
+        seed: u64,
+        number: usize,
+    ) -> Self {
         let mut random = Random::new(seed, number);
         let mut wave = |s: f64| [0; 3].map(|_| (0.6 * s * random.next(), TAU * random.next()));
         let waves = scale.iter().map(|s| wave(*s)).collect();
-        Self { number, omega: TAU * frequency, scale: scale.to_vec(), waves }
+        let (omega, scale, mean) = (TAU * frequency, scale.to_vec(), mean.to_vec());
+        Self { number, omega, scale, mean, waves }
     }
 
     pub(super) fn period(&self) -> f64 {
@@ -47,8 +56,11 @@ impl Path {
 
     /// Deformation and rate.
     pub(super) fn at(&self, t: f64) -> (Vec<f64>, Vec<f64>) {
-        let value = |wave: &[(f64, f64); 3]| {
-            let (mut d, mut v) = (0.0, 0.0);
+        // r = 3x² − 2x³ over half a cycle.
+        let x = (2.0 * t / self.period()).clamp(0.0, 1.0);
+        let (ramp, slope) = (x * x * (3.0 - 2.0 * x), 12.0 * x * (1.0 - x) / self.period());
+        let value = |(wave, mean): (&[(f64, f64); 3], &f64)| {
+            let (mut d, mut v) = (mean * ramp, mean * slope);
             for (k, (a, phase)) in wave.iter().enumerate() {
                 let w = (k + 1) as f64 * self.omega;
                 d += a * ((w * t + phase).sin() - phase.sin());
@@ -56,6 +68,6 @@ impl Path {
             }
             (d, v)
         };
-        self.waves.iter().map(value).unzip()
+        self.waves.iter().zip(&self.mean).map(value).unzip()
     }
 }

@@ -160,7 +160,7 @@ pub(super) fn tangents(link: &dyn Link, path: &Path, report: &mut Report) -> Res
     let peak = peaks(link, path)?;
     let n = path.scale.len();
     march(link, path, 2, COARSE, |s| {
-        for column in 0..n {
+        for column in (0..n).filter(|i| path.scale[*i] > 0.0) {
             for rate in [false, true] {
                 let scale = path.scale[column] * if rate { path.omega } else { 1.0 };
                 let moved = |h: f64| {

@@ -189,9 +189,46 @@ fn notices_a_force_that_changes_when_a_step_starts() {
 fn notices_rates_and_steps_in_a_law_that_should_not_see_them() {
     let e = kit().rate_independent().check(&law(Spoil::Nothing)).unwrap_err();
     assert!(matches!(e, ConformanceError::DependsOnRate { index: 0, .. }), "{e}");
-    let path = path::Path::random(&[0.01, 0.01], 0.5, 1, 0);
+    let path = path::Path::random(&[0.01, 0.01], &[0.0, 0.0], 0.5, 1, 0);
     let mut coarse = law(Spoil::ThresholdOnStep);
     coarse.c = 0.0;
     let e = properties::rates(&coarse, &path).unwrap_err();
     assert!(matches!(e, ConformanceError::DependsOnRate { index: 1, .. }), "{e}");
+}
+
+#[test]
+fn a_path_about_a_mean_starts_at_rest_and_has_consistent_rates() {
+    let path = path::Path::random(&[0.01], &[-0.03], 0.5, 1, 0);
+    assert_eq!(path.at(0.0).0, [0.0]);
+    let h = 1e-6;
+    for t in [0.1, 0.7, 0.99, 1.3, 2.9] {
+        let quotient = (path.at(t + h).0[0] - path.at(t - h).0[0]) / (2.0 * h);
+        assert!((quotient - path.at(t).1[0]).abs() < 1e-6, "{t}");
+    }
+    let over_a_cycle: f64 = (0..100).map(|i| path.at(2.0 + 0.02 * f64::from(i)).0[0]).sum();
+    let without = path::Path::random(&[0.01], &[0.0], 0.5, 1, 0);
+    let waves: f64 = (0..100).map(|i| without.at(2.0 + 0.02 * f64::from(i)).0[0]).sum();
+    assert!(((over_a_cycle - waves) / 100.0 + 0.03).abs() < 1e-12);
+}
+
+/// Few steps first: what is sound passes, what is not is caught all the same.
+#[test]
+fn the_quick_kit_passes_and_catches_the_same() {
+    const STROKE: crate::Stroke = crate::Stroke::about(0.0, 0.01);
+    const EXERCISE: crate::Exercise =
+        crate::Exercise { frequency: 1.0, strokes: &[STROKE, STROKE] };
+    let kit = || Kit::of(&EXERCISE).quick();
+    assert!(kit().check(&law(Spoil::Nothing)).is_ok());
+    for spoil in [
+        Spoil::Stiffness,
+        Spoil::Dissipation,
+        Spoil::NegativeDissipation,
+        Spoil::Purity,
+        Spoil::Trial,
+        Spoil::Circulation,
+        Spoil::Finite,
+        Spoil::Restart,
+    ] {
+        assert!(kit().check(&law(spoil)).is_err(), "{spoil:?}");
+    }
 }

@@ -14,8 +14,8 @@ pub fn html(registry: &Registry) -> String {
         "What can stand in the elements of a model file, made from the cards of the kinds. Numbers \
          without unit are SI; any number may carry a unit or be an expression. Loops are those of the \
          example under a cyclic deformation that grows in three cycles: the last cycle dark, the way to \
-         it light (trilith exercise KIND).",
-    ));
+         it light (`trilith exercise KIND`).",
+    )).lead(Block::note(EVERY_LINK));
     for (category, title) in CATEGORIES {
         for card in of(registry, category) {
             page = page.section(section(registry, card, &upper(title)));
@@ -42,7 +42,12 @@ fn section(registry: &Registry, card: &Card, group: &str) -> Section {
         section = section.block(figures);
     }
     if !card.parameters.is_empty() {
-        let rows = card.parameters.iter().map(|p| parameter(p).to_vec()).collect();
+        let row = |p| {
+            let mut row = parameter(p).to_vec();
+            row[0] = format!("`{}`", row[0]);
+            row
+        };
+        let rows = card.parameters.iter().map(row).collect();
         let head = HEADS.map(str::to_owned).to_vec();
         section = section.block(Block::Table { head, rows });
     }
@@ -53,7 +58,6 @@ fn section(registry: &Registry, card: &Card, group: &str) -> Section {
     if let Some([coordinates, history]) = law_facts(registry, card) {
         facts +=
             &format!(" Coordinates of the example: {coordinates}. History variables: {history}.");
-        facts += &format!(" {}", EVERY_LINK.replace('`', ""));
     }
     section = section.block(Block::note(facts));
     if !card.source.is_empty() {

@@ -153,10 +153,10 @@ impl Record {
     /// The last closed cycle of a coordinate.
     #[must_use]
     pub fn last_cycle(&self, coordinate: usize) -> LastCycle {
-        let (d, f) =
-            (&self.deformation[coordinate][self.last..], &self.force[coordinate][self.last..]);
-        let area =
-            d.windows(2).zip(f.windows(2)).map(|(d, f)| 0.5 * (f[0] + f[1]) * (d[1] - d[0])).sum();
+        let d = &self.deformation[coordinate][self.last..];
+        let f = &self.force[coordinate][self.last..];
+        let steps = d.windows(2).zip(f.windows(2));
+        let area: f64 = steps.map(|(d, f)| 0.5 * (f[0] + f[1]) * (d[1] - d[0])).sum();
         if !self.moves(coordinate) {
             return LastCycle { area, stiffness: None, damping: None };
         }
@@ -164,10 +164,14 @@ impl Record {
             (1..d.len()).fold(0, |best, i| if better(&d[i], &d[best]) { i } else { best })
         };
         let (low, high) = (at(|a, b| a < b), at(|a, b| a > b));
-        let stiffness = (f[high] - f[low]) / (d[high] - d[low]);
         let amplitude = 0.5 * (d[high] - d[low]);
         let (least, most) = extremes(f);
-        let felt = stiffness * amplitude > 1e-3 * (most - least);
+        // What is nothing but rounding is nothing.
+        let size = most - least;
+        let real = |x: f64, unit: f64| if x.abs() > 1e-9 * unit { x } else { 0.0 };
+        let area = real(area, size * amplitude);
+        let stiffness = real((f[high] - f[low]) / (2.0 * amplitude), size / amplitude);
+        let felt = stiffness * amplitude > 1e-3 * size;
         let damping = felt.then(|| area / (TAU * stiffness * amplitude * amplitude));
         LastCycle { area, stiffness: Some(stiffness), damping }
     }

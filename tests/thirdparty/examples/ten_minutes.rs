@@ -1,0 +1,97 @@
+//! The program `trilith` with a link of my own.
+
+use serde::Deserialize;
+use std::borrow::Cow;
+use trilith_element::dimension::{FORCE, STIFFNESS};
+use trilith_element::{
+    Axis, Card, Category, Coordinates, Described, Exercise, Field, History, Kinematics, Link,
+    NodeCount, Parameter, Range, Register, Response, Stroke, history,
+};
+
+/// A rod that takes tension only and yields. The fields are the parameters of model files, in SI.
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct YieldingRod {
+    /// Axial stiffness, N/m.
+    pub k: f64,
+    /// Yield force, N.
+    pub fy: f64,
+    /// Local axis.
+    pub axis: Axis,
+}
+
+history! {
+    /// What the rod remembers.
+    struct RodHistory {
+        /// Permanent elongation p.
+        elongation: "m",
+    }
+}
+
+impl Described for YieldingRod {
+    const CARD: Card = Card {
+        kind: "YieldingRod",
+        category: Category::Link,
+        summary: "Rod that takes tension only and yields.",
+        nodes: NodeCount::GROUND_OR_TWO,
+        parameters: &[
+            Parameter::required("k", "k", STIFFNESS, Range::Positive, "axial stiffness"),
+            Parameter::required("fy", "F_y", FORCE, Range::Positive, "yield force"),
+            Parameter::choice("axis", &["U1", "U2", "U3"], "U1", "local axis"),
+        ],
+        law: "f = k max(d − p, 0), at most F_y: there p grows",
+        source: "elementary plasticity",
+        example: r#""rod": YieldingRod(node: "mass", k: "10 MN/m", fy: "50 kN")"#,
+        exercise: Exercise { frequency: 1.0, strokes: &[Stroke::about(0.0, 0.02)] },
+    };
+}
+
+impl Link for YieldingRod {
+    fn coordinates(&self) -> Coordinates {
+        Coordinates::Local(vec![self.axis])
+    }
+
+    fn history(&self) -> Cow<'static, [Field]> {
+        RodHistory::FIELDS.into()
+    }
+
+    fn engaged_stiffness(&self, k: &mut [f64]) {
+        k[0] = self.k;
+    }
+
+    fn respond(
+        &self,
+        at: &Kinematics<'_>,
+        committed: &[f64],
+        trial: &mut [f64],
+        out: &mut Response<'_>,
+    ) {
+        let mut elongation = RodHistory::load(committed).elongation;
+        let stretch = at.d[0] - elongation;
+        if self.k * stretch > self.fy {
+            // Yields: the elongation grows until the force is F_y; a tangent of zero.
+            let more = stretch - self.fy / self.k;
+            elongation += more;
+            out.f[0] = self.fy;
+            out.energy.hysteretic = self.fy * more;
+        } else if stretch > 0.0 {
+            out.f[0] = self.k * stretch;
+            out.k[0] = self.k;
+        }
+        out.energy.stored = 0.5 * out.f[0] * out.f[0] / self.k;
+        RodHistory { elongation }.store(trial);
+    }
+}
+
+fn main() {
+    let mut kinds = trilith::registry();
+    kinds.link::<YieldingRod>();
+    trilith_cli::main_with(kinds)
+}
+
+#[test]
+fn the_rod_keeps_the_contract() {
+    let rod = YieldingRod { k: 1e7, fy: 5e4, axis: Axis::U1 };
+    // Deformations of about 20 mm, one cycle in a second.
+    trilith_element::conformance::Kit::new(&[0.02], 1.0).rate_independent().assert(&rod);
+}
