@@ -23,7 +23,7 @@ th { background: #f4f4f4; } .wide { overflow-x: auto; }
 pre { background: #f6f7f8; border: 1px solid #e4e6e8; border-radius: 6px; padding: .6rem .8rem;
   font: .85rem/1.45 ui-monospace, 'DejaVu Sans Mono', monospace; overflow-x: auto; margin: .6rem 0; }
 code { font: .92em ui-monospace, 'DejaVu Sans Mono', monospace; }
-nav li.group { padding: .5rem 0 .1rem; text-indent: 0; font-weight: 600; }
+nav li.group { padding: .5rem 0 .1rem; text-indent: 0; font-weight: 600; break-after: avoid; }
 .pass { color: #14692a; } .fail { color: #b3151b; font-weight: 700; }
 .note { color: #555; font-size: .9rem; }
 @media print { body { max-width: none; padding: 0; } section, figure, tr { break-inside: avoid; }

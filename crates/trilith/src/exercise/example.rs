@@ -90,6 +90,32 @@ impl Entry {
         all
     }
 
+    /// The same with a prefix to its name and to those of all its nodes.
+    pub fn renamed(&self, prefix: &str, card: &Card) -> Self {
+        let place = |key: &str| {
+            key == "nodes"
+                || key == "node"
+                || card.parameter(key).is_some_and(|p| p.form == Form::Node)
+        };
+        // Names stand at the odd places between quotes.
+        let renamed = |value: &str| {
+            let parts = value.split('"').enumerate();
+            let parts: Vec<_> = parts
+                .map(|(i, part)| if i % 2 == 1 { format!("{prefix}{part}") } else { part.into() })
+                .collect();
+            parts.join("\"")
+        };
+        let fields = self
+            .fields
+            .iter()
+            .map(|(k, v)| (k.clone(), if place(k) { renamed(v) } else { v.clone() }));
+        Self {
+            name: format!("{prefix}{}", self.name),
+            kind: self.kind.clone(),
+            fields: fields.collect(),
+        }
+    }
+
     /// As one line of a model file.
     pub fn line(&self) -> String {
         let fields: Vec<_> = self.fields.iter().map(|(k, v)| format!("{k}: {v}")).collect();
@@ -168,6 +194,8 @@ mod tests {
         entry.set_parameter(&Gap::CARD, "opening", "none");
         let line = r#""stop": Gap(nodes: ("a", "b"), k: "5 kN/m", axis: U2)"#;
         assert_eq!(entry.line(), line);
+        let line = r#""x stop": Gap(nodes: ("x a", "x b"), k: "5 kN/m", axis: U2)"#;
+        assert_eq!(entry.renamed("x ", &Gap::CARD).line(), line);
     }
 
     #[test]

@@ -32,7 +32,7 @@ pub struct Specimen {
     pub line: String,
     /// What was assumed.
     pub notes: Vec<String>,
-    nodes: Vec<String>,
+    entry: Entry,
 }
 
 impl Specimen {
@@ -67,8 +67,23 @@ impl Specimen {
         let Body::Link(law, _) = element.body else { return Err(unknown()) };
         let mut notes = Vec::new();
         let law = settled(law, &mut notes);
-        let (line, nodes) = (entry.line(), entry.nodes());
-        Ok(Self { card, law, values: element.values, line, notes, nodes })
+        let line = entry.line();
+        Ok(Self { card, law, values: element.values, line, notes, entry })
+    }
+
+    /// The names of the nodes that it stands on, in order.
+    #[must_use]
+    pub fn nodes(&self) -> Vec<String> {
+        self.entry.nodes()
+    }
+
+    /// It as an entry of a larger model: names begin with `prefix`, its axes are the global ones.
+    #[must_use]
+    pub fn placed(&self, prefix: &str) -> String {
+        let mut entry = self.entry.renamed(prefix, self.card);
+        entry.set("axis1", Some("(1, 0, 0)".into()));
+        entry.set("axis2", Some("(0, 1, 0)".into()));
+        entry.line()
     }
 
     /// The coordinates of the law.
@@ -80,7 +95,8 @@ impl Specimen {
                 .map(|a| Coordinate { name: a.name().to_owned(), rotation: a.index() > 2 })
                 .collect(),
             Coordinates::Nodal { nodes } => {
-                let node = |i: usize| self.nodes.get(i).cloned().unwrap_or(format!("node {i}"));
+                let names = self.nodes();
+                let node = |i: usize| names.get(i).cloned().unwrap_or(format!("node {i}"));
                 let six = |i| Dof::ALL.map(|dof| (node(i), dof));
                 let all = (0..nodes).flat_map(six);
                 all.map(|(node, dof)| Coordinate {
