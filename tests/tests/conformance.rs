@@ -13,7 +13,16 @@ use trilith_element::{
 };
 
 /// Laws that may give energy, each with the reason why that is right.
-const ACTIVE: &[(&str, &str)] = &[];
+const ACTIVE: &[(&str, &str)] = &[
+    (
+        "LinearLink",
+        "an unsymmetric stiffness does work in a circuit, as the oil film of a bearing does",
+    ),
+    (
+        "FrictionPendulum",
+        "without `rise` the slope turns the normal force and the height does not change",
+    ),
+];
 
 /// Paths with each set of parameters.
 const PATHS: usize = 8;
@@ -104,7 +113,13 @@ fn every_link_keeps_its_contract_on_random_paths_with_random_parameters() {
     let started = std::time::Instant::now();
     let mut wrong = Vec::new();
     for (card, read) in links.0 {
-        let example = Specimen::new(&registry, card.kind, &[]).expect("an example").values;
+        let example = match Specimen::new(&registry, card.kind, &[]) {
+            Ok(specimen) => specimen.values,
+            Err(error) => {
+                wrong.push(format!("the example of {}: {error}", card.kind));
+                continue;
+            }
+        };
         assert!(example.0.len() < NUMBERS, "{} has many parameters", card.kind);
         let config = Config {
             cases: SETS,

@@ -27,10 +27,10 @@ const YOUNG: f64 = 2.1e11;
 /// Outputs may differ by this share of their peak.
 const AGREEMENT: f64 = 0.01;
 /// How far a link may be deformed beside its exercise, at least and at most.
-const EXERCISED: (f64, f64) = (1.0 / 3.0, 3.0);
+const EXERCISED: (f64, f64) = (0.3, 3.0);
 /// Rough runs to that end, and their tolerance and that of the last one.
 const ROUGH_RUNS: usize = 12;
-const TOLERANCE: [f64; 2] = [1e-3, 1e-6];
+const TOLERANCE: [f64; 2] = [1e-4, 1e-6];
 
 /// Marsaglia's xorshift64*.
 struct Random(u64);
@@ -59,6 +59,8 @@ struct Place {
     turn: f64,
     /// Amplitude of the exercise, m or rad; 0: it is not watched.
     amplitude: f64,
+    /// Mean of the exercise, m or rad.
+    mean: f64,
 }
 
 /// A link with its masses.
@@ -102,9 +104,11 @@ impl Animal {
             .map_or((1e3, 1e-2), |i| (force(i), motion.strokes[i].amplitude.abs()));
         let places = places.into_iter().enumerate().map(|(i, (node, dof))| {
             let (amplitude, mean) = (motion.strokes[i].amplitude.abs(), motion.strokes[i].mean);
-            let (mut spring, mut mass, mut turn) = if watched(&i) {
+            let (mut spring, mut mass, mut turn): (f64, f64, f64) = if watched(&i) {
                 // As stiff as the link at its amplitude; the shaking of the mass bends both that far.
-                let spring = force(i) / amplitude;
+                // Springs of different coordinates differ, lest an unsymmetric law make equal
+                // oscillators flutter.
+                let spring = (1 + 2 * (0..i).filter(watched).count()) as f64 * force(i) / amplitude;
                 let mass = if dof.is_rotation() {
                     2.0 * spring / (3.0 * TAU).powi(2)
                 } else {
@@ -133,7 +137,7 @@ impl Animal {
             turn *= random.factor();
             let held = if mean == 0.0 { 0.0 } else { record.force[i][ramp] + spring * mean };
             let amplitude = if watched(&i) { amplitude } else { 0.0 };
-            Place { node, dof, spring, mass, constant: held, turn, amplitude }
+            Place { node, dof, spring, mass, constant: held, turn, amplitude, mean }
         });
         let places = places.collect();
         let link = format!("{prefix}{}", specimen.line.split('"').nth(1).unwrap_or_default());
@@ -160,8 +164,7 @@ fn model(animals: &[Animal], tolerance: f64) -> String {
     let mut parts: [String; 5] = Default::default();
     let [nodes, supports, elements, outputs, loads] = &mut parts;
     let mut patterns = [String::new(), String::new()];
-    let mut put =
-        |to: &mut String, text: String| writeln!(to, "        {text},").expect("a string");
+    let put = |to: &mut String, text: String| writeln!(to, "        {text},").expect("a string");
     let coupled: f64 = animals
         .iter()
         .flat_map(|a| &a.places)
@@ -317,20 +320,24 @@ fn share(animal: &Animal, c: usize, model: &Model, t: &Trace) -> f64 {
 fn adjust(animals: &mut [Animal], model: &Model, t: &Trace, power: f64) -> bool {
     let mut changed = false;
     for animal in animals {
-        for c in (0..animal.places.len())
-            .filter(|c| animal.places[*c].amplitude > 0.0)
-            .collect::<Vec<_>>()
-        {
+        for c in 0..animal.places.len() {
+            if animal.places[c].amplitude == 0.0 {
+                continue;
+            }
             let share = share(animal, c, model, t);
             if (0.5..2.0).contains(&share) {
                 continue;
             }
-            let factor = share.clamp(0.1, 10.0).powf(-power);
+            let factor = share.clamp(0.1, 10.0).powf(power);
             let place = &mut animal.places[c];
-            if place.dof.is_rotation() {
-                place.turn *= factor;
+            // Spring and load only grow: what was set apart stays apart.
+            if factor > 1.0 {
+                place.constant += (factor - 1.0) * place.spring * place.mean;
+                place.spring *= factor;
+            } else if place.dof.is_rotation() {
+                place.turn /= factor;
             } else {
-                place.mass *= factor;
+                place.mass /= factor;
             }
             changed = true;
         }

@@ -161,7 +161,7 @@ impl Kit {
         let paths: Vec<_> = (0..self.paths).map(path).collect();
         for path in &paths {
             properties::answers(link, path)?;
-            properties::tangents(link, path, &mut report)?;
+            properties::tangents(self, link, path, &mut report)?;
         }
         let typical = energy::typical(self, link, &paths)?;
         for path in &paths {

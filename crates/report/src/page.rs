@@ -104,7 +104,7 @@ impl From<Vec<Figure>> for Block {
 /// A text with what stands between backticks as code.
 fn words(text: &str) -> Markup {
     let parts: Vec<&str> = text.split('`').collect();
-    if parts.len() % 2 == 0 {
+    if parts.len().is_multiple_of(2) {
         return html! { (text) };
     }
     html! { @for (i, part) in parts.iter().enumerate() {

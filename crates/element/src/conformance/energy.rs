@@ -51,8 +51,9 @@ fn ledger(kit: &Kit, link: &dyn Link, path: &Path, steps: usize) -> Result<Ledge
 /// A thousandth of the largest turnover of all paths, J: a path that hardly touches is measured by it.
 pub(super) fn typical(kit: &Kit, link: &dyn Link, paths: &[Path]) -> Result<f64, Broken> {
     let mut most = f64::MIN_POSITIVE;
+    let steps = if kit.quick { FINE / 40 } else { FINE / 10 };
     for path in paths {
-        most = most.max(ledger(kit, link, path, FINE / 10)?.turned_over);
+        most = most.max(ledger(kit, link, path, steps)?.turned_over);
     }
     Ok((1e-3 * most).max(f64::MIN_POSITIVE))
 }

@@ -7,6 +7,8 @@ use crate::{Kinematics, Link};
 
 /// Steps of a cycle where states are looked at one by one.
 const COARSE: usize = 48;
+/// A quick kit looks at the tangents of every so manieth step; not a divisor of the steps of a cycle.
+const SPARSE: usize = 5;
 /// Step of a difference quotient, relative to the scale of the coordinate.
 const STEP: f64 = 1e-5;
 /// Admissible error of a tangent, relative to the force over the scale of the coordinate. Quotients
@@ -156,10 +158,20 @@ fn contact(link: &dyn Link, s: &Step<'_>, path: &Path) -> Result<(), Broken> {
 }
 
 /// `k` and `c` against central difference quotients.
-pub(super) fn tangents(link: &dyn Link, path: &Path, report: &mut Report) -> Result<(), Broken> {
+pub(super) fn tangents(
+    kit: &Kit,
+    link: &dyn Link,
+    path: &Path,
+    report: &mut Report,
+) -> Result<(), Broken> {
     let peak = peaks(link, path)?;
     let n = path.scale.len();
+    let mut step = 0_usize;
     march(link, path, 2, COARSE, |s| {
+        step += 1;
+        if kit.quick && !step.is_multiple_of(SPARSE) {
+            return Ok(());
+        }
         for column in (0..n).filter(|i| path.scale[*i] > 0.0) {
             for rate in [false, true] {
                 let scale = path.scale[column] * if rate { path.omega } else { 1.0 };
