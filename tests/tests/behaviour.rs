@@ -244,3 +244,32 @@ fn a_static_case_balances_a_soft_spring_beside_a_stiff_contact() {
         assert!(off.abs() < 1e-4, "{k}: {} instead of {wanted}", t.last[0]);
     }
 }
+
+/// Stiffness values whose inverse times themselves is one to the last digit, and others.
+#[test]
+fn an_open_contact_closes_under_a_weight() {
+    for kn in [1e6, 3e7, 1e8, 1e9] {
+        for friction in ["", ", mu: 0.3, ks: 1e7"] {
+            let text = format!(
+                r#"(
+    plane: XZ, gravity: 10,
+    nodes: {{ "m": (0, 0, 0) }}, supports: {{ "m": Ry }},
+    elements: {{
+        "mass": Mass(node: "m", mass: 1000),
+        "side": Spring(node: "m", k2: 1e5),
+        "foot": NLink(node: "m", kn: {kn}, opening: 1e-3{friction}),
+    }},
+    cases: {{ "rest": Static(loads: [Gravity]), "go": Dynamic(after: "rest", duration: 0.1, dt: 0.01) }},
+    outputs: {{ "z": Displacement(node: "m", dof: Uz) }},
+)"#
+            );
+            let (model, system) = parse(&text, &[]);
+            for solver in [SolverKind::Fna, SolverKind::Hht] {
+                let (trace, result) = trace(&model, &system, solver);
+                assert_eq!(result.status, Status::Converged);
+                let wanted = -1e-3 - 1e4 / kn;
+                assert!((trace.last[0] / wanted - 1.0).abs() < 1e-6, "{kn}: {}", trace.last[0]);
+            }
+        }
+    }
+}

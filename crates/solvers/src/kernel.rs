@@ -78,6 +78,9 @@ const ENOUGH: f64 = 0.9;
 const NEWTON_ITERATIONS: usize = 60;
 const FIXED_POINT_ITERATIONS: usize = 200;
 const TOLERANCE: f64 = 1e-9;
+/// Added to J's diagonal: a direction that nothing holds but its dummy, such as that of an open contact
+/// under a weight, is singular in a static analysis; held by this, it goes far until something stops it.
+const HOLD: f64 = 1e-12;
 /// Two units in the last place.
 const DIGIT: f64 = 2.0 * f64::EPSILON;
 /// Step sizes whose factors are kept.
@@ -402,7 +405,7 @@ impl LinkKernel {
                     *x += k * g + c * h;
                 }
             }
-            line[*a] += 1.0;
+            line[*a] += 1.0 + HOLD;
             for (b, x) in line.iter().enumerate() {
                 match chosen[b] {
                     usize::MAX => coupling[(e, b)] = *x,
