@@ -1,22 +1,22 @@
-//! Numbers with their derivatives by two variables: exact tangents of closed forms.
+//! Numbers with their derivatives by some variables: exact tangents of closed forms.
 
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
-/// A value and its two derivatives.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub(crate) struct Dual {
+/// A value and its derivatives by `N` variables.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Dual<const N: usize = 2> {
     pub(crate) x: f64,
-    pub(crate) by: [f64; 2],
+    pub(crate) by: [f64; N],
 }
 
-impl Dual {
+impl<const N: usize> Dual<N> {
     pub(crate) const fn constant(x: f64) -> Self {
-        Self { x, by: [0.0; 2] }
+        Self { x, by: [0.0; N] }
     }
 
     /// The variable `i`.
     pub(crate) fn variable(x: f64, i: usize) -> Self {
-        let mut by = [0.0; 2];
+        let mut by = [0.0; N];
         by[i] = 1.0;
         Self { x, by }
     }
@@ -27,8 +27,8 @@ impl Dual {
     }
 
     /// A function of it and another with this value and these derivatives.
-    fn with(self, o: Self, x: f64, slope: f64, other: f64) -> Self {
-        Self { x, by: [0, 1].map(|i| slope * self.by[i] + other * o.by[i]) }
+    pub(crate) fn with(self, o: Self, x: f64, slope: f64, other: f64) -> Self {
+        Self { x, by: std::array::from_fn(|i| slope * self.by[i] + other * o.by[i]) }
     }
 
     pub(crate) fn exp_m1(self) -> Self {
@@ -46,49 +46,49 @@ impl Dual {
     }
 }
 
-impl Add for Dual {
+impl<const N: usize> Add for Dual<N> {
     type Output = Self;
     fn add(self, o: Self) -> Self {
-        Self { x: self.x + o.x, by: [self.by[0] + o.by[0], self.by[1] + o.by[1]] }
+        self.with(o, self.x + o.x, 1.0, 1.0)
     }
 }
 
-impl Neg for Dual {
+impl<const N: usize> Neg for Dual<N> {
     type Output = Self;
     fn neg(self) -> Self {
         self * -1.0
     }
 }
 
-impl Sub for Dual {
+impl<const N: usize> Sub for Dual<N> {
     type Output = Self;
     fn sub(self, o: Self) -> Self {
         self + -o
     }
 }
 
-impl Mul for Dual {
+impl<const N: usize> Mul for Dual<N> {
     type Output = Self;
     fn mul(self, o: Self) -> Self {
         self.with(o, self.x * o.x, o.x, self.x)
     }
 }
 
-impl Mul<f64> for Dual {
+impl<const N: usize> Mul<f64> for Dual<N> {
     type Output = Self;
     fn mul(self, o: f64) -> Self {
         self.map(self.x * o, o)
     }
 }
 
-impl Add<f64> for Dual {
+impl<const N: usize> Add<f64> for Dual<N> {
     type Output = Self;
     fn add(self, o: f64) -> Self {
         Self { x: self.x + o, by: self.by }
     }
 }
 
-impl Div for Dual {
+impl<const N: usize> Div for Dual<N> {
     type Output = Self;
     fn div(self, o: Self) -> Self {
         let x = self.x / o.x;

@@ -11,12 +11,14 @@
 //!
 //! | parameter     | symbol | unit  | range | default | meaning                                            |
 //! |---------------|--------|-------|-------|---------|----------------------------------------------------|
-//! | `base`        | rᵢ     | m     |       | –       | base points, from the centre of gravity, body upright |
-//! | `kn`          | kₙ     | N/m   | > 0   | –       | contact stiffness of each point                    |
-//! | `damping`     | c      | N·s/m | ≥ 0   | 0       | contact dashpot of each point, acts only while closed |
+//! | `base`        | rᵢ     | m     |       | none    | base points, from the centre of gravity, body upright |
+//! | `rim_radius`  | ρ      | m     | > 0   | –       | instead of `base`: radius of a circular base       |
+//! | `rim_depth`   | h      | m     | > 0   | –       | depth of the circular base below the centre of gravity |
+//! | `kn`          | kₙ     | N/m   | > 0   | –       | contact stiffness of each point, or of the whole rim |
+//! | `damping`     | c      | N·s/m | ≥ 0   | 0       | contact dashpot of each point or the whole rim, acts only where closed |
 //! | `pull`        |        |       |       | false   | the dashpot may pull while the point is closed     |
 //! | `mu`          | μ      | 1     | ≥ 0   | 0       | friction coefficient                               |
-//! | `ks`          | kₛ     | N/m   | > 0   | –       | pre-slip stiffness of each point; required with friction |
+//! | `ks`          | kₛ     | N/m   | > 0   | –       | pre-slip stiffness of each point or the rim; required with friction |
 //! | `inertia`     | J      | kg·m² | ≥ 0   | –       | moments of inertia about the body's axes X, Y, Z; required where it can rock in space |
 //! | `overturned`  |        | rad   | > 0   | π/2     | tilt at which the body counts as overturned        |
 //!
@@ -31,12 +33,16 @@
 //! well: with all corners of a block it falls onto its side. The run ends when the tilt of the body's
 //! vertical axis reaches `overturned`.
 //!
+//! A **circular base** rolls on its rim: see `rim.rs` beside this file. Its dashpots may pull (`pull: true`).
+//!
 //! In a step the rotation is R₀ exp(θ − θ₀): exact in a plane and about a fixed axis, of second order
 //! otherwise. Other elements at the node see its rotations as small; attach none that matter when it tilts.
 //!
 //! Reference: Euler's equations with exact rotations \[Simo & Vu-Quoc 1988\]; rocking \[Housner 1963\].
 
 mod law;
+mod points;
+mod rim;
 mod rotation;
 #[cfg(test)]
 mod tests;
@@ -44,7 +50,7 @@ mod tests;
 use crate::NLink;
 use serde::Deserialize;
 use std::f64::consts::FRAC_PI_2;
-use trilith_element::dimension::{DAMPING, INERTIA, NONE, STIFFNESS};
+use trilith_element::dimension::{DAMPING, INERTIA, LENGTH, NONE, STIFFNESS};
 use trilith_element::{
     Card, Category, Default, Described, Exercise, Form, NodeCount, Parameter, ParameterError,
     Range, Stroke, Vector3,
@@ -54,11 +60,16 @@ use trilith_element::{
 #[derive(Clone, Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct RockingBody {
-    /// Base points rᵢ from the centre of gravity, body upright, m.
+    /// Base points rᵢ from the centre of gravity, body upright, m; none for a circular base.
+    #[serde(default)]
     pub base: Vec<Vector3>,
-    /// Contact stiffness kₙ of each point, N/m.
+    /// Radius ρ of a circular base, m.
+    pub rim_radius: Option<f64>,
+    /// Depth h of a circular base below the centre of gravity, m.
+    pub rim_depth: Option<f64>,
+    /// Contact stiffness kₙ of each point or of the whole rim, N/m.
     pub kn: f64,
-    /// Contact dashpot c of each point, N·s/m.
+    /// Contact dashpot c of each point or of the whole rim, N·s/m.
     pub damping: f64,
     /// The dashpot may pull while the point is closed.
     pub pull: bool,
@@ -83,17 +94,31 @@ impl Described for RockingBody {
                 "base",
                 "rᵢ",
                 Form::Points,
-                Default::Required,
+                Default::Absent,
                 "base points, from the centre of gravity, body upright",
             ),
-            Parameter::required("kn", "kₙ", STIFFNESS, Range::Positive, "contact stiffness of each point"),
+            Parameter::optional(
+                "rim_radius",
+                "ρ",
+                LENGTH,
+                Range::Positive,
+                "instead of `base`: radius of a circular base",
+            ),
+            Parameter::optional(
+                "rim_depth",
+                "h",
+                LENGTH,
+                Range::Positive,
+                "depth of the circular base below the centre of gravity",
+            ),
+            Parameter::required("kn", "kₙ", STIFFNESS, Range::Positive, "contact stiffness of each point, or of the whole rim"),
             Parameter::number(
                 "damping",
                 "c",
                 DAMPING,
                 Range::NonNegative,
                 0.0,
-                "contact dashpot of each point, acts only while closed",
+                "contact dashpot of each point or the whole rim, acts only where closed",
             ),
             Parameter::flag("pull", false, "the dashpot may pull while the point is closed"),
             Parameter::number("mu", "μ", NONE, Range::NonNegative, 0.0, "friction coefficient"),
@@ -102,7 +127,7 @@ impl Described for RockingBody {
                 "kₛ",
                 STIFFNESS,
                 Range::Positive,
-                "pre-slip stiffness of each point; required with friction",
+                "pre-slip stiffness of each point or the rim; required with friction",
             ),
             Parameter::new(
                 "inertia",
@@ -122,6 +147,7 @@ impl Described for RockingBody {
             ),
         ],
         law: "dᵢ = u + R rᵢ − rᵢ, vᵢ = u̇ + R (Ω × rᵢ): base point i, R = R₀ exp(θ − θ₀)\n\
+              rim: penetration δ(ψ) = a + b cos ψ, springs kₙ/2π and dashpots c/2π along it, friction at the centre of pressure\n\
               fᵢ as NLink: gap kₙ with dashpot c, friction μ with pre-slip stiffness kₛ\n\
               F = Σ fᵢ (global axes), M = Σ rᵢ × Rᵀ fᵢ + Ω × J Ω (axes of the body)\n\
               overturned where the body's vertical axis tilts by `overturned`",
@@ -142,6 +168,9 @@ impl Described for RockingBody {
 
     fn check(&self) -> Result<(), ParameterError> {
         let wrong = |name, message: String| Err(ParameterError::inconsistent(name, message));
+        if self.rim_radius.is_some() || self.rim_depth.is_some() {
+            return self.check_rim();
+        }
         if self.base.len() < 2 {
             let given = self.base.len();
             return wrong(
@@ -170,6 +199,32 @@ impl Described for RockingBody {
 }
 
 impl RockingBody {
+    fn check_rim(&self) -> Result<(), ParameterError> {
+        let (name, message) = if self.rim_radius.is_none() || self.rim_depth.is_none() {
+            ("rim_radius", "`rim_radius` and `rim_depth` go together: give both, or `base`")
+        } else if !self.base.is_empty() {
+            (
+                "base",
+                "a body has base points or a rim: give `base`, or `rim_radius` and `rim_depth`",
+            )
+        } else if self.mu > 0.0 && self.ks.is_none() {
+            (
+                "ks",
+                "a body with friction needs the pre-slip stiffness `ks`, such as the value of `kn`",
+            )
+        } else if self.inertia.is_none() {
+            (
+                "inertia",
+                "a body on a rim needs `inertia`, the three moments that the node's `Mass` has: it turns its axes as it rolls",
+            )
+        } else if self.damping > 0.0 && !self.pull {
+            ("pull", "the dashpots of a rim may pull: add `pull: true`, or leave `damping` out")
+        } else {
+            return Ok(());
+        };
+        Err(ParameterError::inconsistent(name, message))
+    }
+
     /// Height of the ground above the centre of gravity (negative), m.
     fn lowest(&self) -> f64 {
         self.base.iter().map(|r| r[2]).fold(f64::INFINITY, f64::min)

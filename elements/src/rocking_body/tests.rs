@@ -107,6 +107,61 @@ fn spinning_freely_it_keeps_its_energy_and_feels_its_gyroscopic_moment() {
     assert_eq!(moment[0] + 2.0 * moment[1] + 3.0 * moment[2], 0.0);
 }
 
+fn cask(more: &[(&str, Value)]) -> Result<RockingBody, ParameterError> {
+    let mut all =
+        vec![number("rim_radius", 0.5), number("rim_depth", 1.0), number("kn", KN), inertia()];
+    all.extend(more.iter().cloned());
+    read(&all)
+}
+
+#[test]
+fn conforms_on_a_rim() {
+    let friction = [number("mu", 0.4), number("ks", 0.7 * KN)];
+    let all = [0.05, 0.05, 0.05, 0.3, 0.3, 0.3];
+    Kit::new(&all, 0.5).assert(&cask(&[]).unwrap());
+    Kit::new(&all, 0.5).assert(&cask(&friction).unwrap());
+    let dashpots = [number("damping", 2e3), ("pull", Value::Flag(true))];
+    Kit::new(&all, 0.5).assert(&cask(&dashpots).unwrap());
+    Kit::new(&all, 0.5).assert(&cask(&[&friction[..], &dashpots].concat()).unwrap());
+}
+
+/// Many base points on the circle share its stiffness: their sum is the rim's integral.
+#[test]
+fn a_rim_is_a_circle_of_points() {
+    let count = 20_000;
+    let ring: Vec<Vector3> = (0..count)
+        .map(|i| std::f64::consts::TAU * (f64::from(i) + 0.5) / f64::from(count))
+        .map(|chi| [0.5 * chi.cos(), 0.5 * chi.sin(), -1.0])
+        .collect();
+    let share = 1.0 / f64::from(count);
+    let parts = |damping: f64| {
+        let more = [
+            ("kn", Value::Number(KN * share)),
+            ("base", list(&ring)),
+            number("damping", damping * share),
+            ("pull", Value::Flag(true)),
+            inertia(),
+        ];
+        read::<RockingBody>(&more).unwrap()
+    };
+    let whole =
+        |damping: f64| cask(&[number("damping", damping), ("pull", Value::Flag(true))]).unwrap();
+    let v = [0.1, -0.2, 0.3, 0.2, -0.1, 0.4];
+    for (z, x, y) in
+        [(-0.01, 0.001, 0.002), (-0.01, 0.03, -0.05), (0.12, 0.2, -0.3), (0.4, 0.1, 0.1)]
+    {
+        for damping in [0.0, 1e4] {
+            let d = [0.02, 0.01, z, x, y, 0.3];
+            let (a, ea) = force(&parts(damping), d, v);
+            let (b, eb) = force(&whole(damping), d, v);
+            for i in 0..6 {
+                assert_relative_eq!(a[i], b[i], epsilon = 0.1, max_relative = 1e-3);
+            }
+            assert_relative_eq!(ea.stored, eb.stored, epsilon = 1e-3, max_relative = 1e-3);
+        }
+    }
+}
+
 #[test]
 fn refuses_what_cannot_stand() {
     let parameter = |base: &[Vector3], more: &[(&str, Value)]| {
@@ -116,4 +171,8 @@ fn refuses_what_cannot_stand() {
     assert_eq!(parameter(&[[0.0, 0.0, 1.0], [1.0, 0.0, 1.0]], &[]), "base");
     assert_eq!(parameter(&BLOCK, &[number("mu", 0.5)]), "ks");
     assert_eq!(parameter(&TABLE, &[]), "inertia");
+    let rim = |more: &[(&str, Value)]| cask(more).unwrap_err().parameter().unwrap().to_owned();
+    assert_eq!(rim(&[("base", list(&TABLE))]), "base");
+    assert_eq!(rim(&[number("damping", 1.0)]), "pull");
+    assert_eq!(rim(&[number("mu", 0.1)]), "ks");
 }

@@ -1,10 +1,11 @@
-//! A rigid body in finite rotation: rocking from large tilts, in a plane, askew in space, and in the air.
+//! A rigid body in finite rotation: rocking from large tilts along X and Y, rolling on its rim, and in the air.
 
 use super::block_rocking::{quarter, turning};
 use super::set;
 use crate::case::BOTH;
 use crate::unit::{NUMBER, RADIAN, SECOND};
 use crate::{Case, Check, Curve, View};
+use std::f64::consts::{PI, TAU};
 
 const G: f64 = 9.81;
 
@@ -96,6 +97,7 @@ pub(super) fn cases() -> Vec<Case> {
         ),
         shaken(),
         wobble(),
+        rolling(),
     ]
 }
 
@@ -256,5 +258,115 @@ fn wobble() -> Case {
             Curve::new("y", RADIAN).against(y),
             Curve::new("tilt", RADIAN).against(tilt),
         ]),
+    }
+}
+
+/// A cask let go tilted, with a spin that makes it roll on its rim. The start follows from the tilt, the
+/// precession and the spin about its axis as a body that rolls has them.
+const ROLLING: &str = r#"(
+    title: "Cask that rolls on its rim",
+    gravity: "9.81 m/s^2",
+    parameters: {
+        "rho": "1 m", "h": "2 m", "mass": "10 t", "jt": "15833.333333333334 kg*m^2", "ja": "5000 kg*m^2",
+        "kn": "1e12 N/m", "ks": "1e12 N/m", "tilt": 0.3, "precession": 1, "spin": 1,
+        "across": "precession*sin(tilt)",
+        // speed of the centre of gravity along Y
+        "vy": "across*h - spin*rho",
+    },
+    nodes: { "cg": (0, 0, "h") },
+    elements: {
+        "mass": Mass(node: "cg", mass: "mass", inertia: ("jt", "jt", "ja")),
+        "base": RockingBody(
+            node: "cg", rim_radius: "rho", rim_depth: "h", kn: "kn", ks: "ks", mu: 0.3,
+            damping: "1e6 N*s/m", pull: true, inertia: ("jt", "jt", "ja"),
+        ),
+    },
+    cases: {
+        "roll": Dynamic(
+            duration: "3 s", dt: "2 ms", constant: [Gravity],
+            initial: [
+                (node: "cg", dof: Ux, displacement: "rho*(1 - cos(tilt)) + h*sin(tilt)"),
+                (node: "cg", dof: Uz, displacement: "rho*sin(tilt) + h*cos(tilt) - h"),
+                (node: "cg", dof: Ry, displacement: "tilt"),
+                (node: "cg", dof: Uy, velocity: "vy * 1 /s"),
+                (node: "cg", dof: Rx, velocity: "-across * 1 /s"),
+                (node: "cg", dof: Rz, velocity: "spin * 1 /s"),
+            ],
+        ),
+    },
+    outputs: {
+        "tilt": LinkHistory(link: "base", variable: "tilt"),
+        "x": Displacement(node: "cg", dof: Ux),
+        "y": Displacement(node: "cg", dof: Uy),
+    },
+)"#;
+
+/// Tilt and its rate, and angular velocity up the disc and along the axis, of a body that rolls on its rim
+/// without slip: Euler's equations about the centre of gravity in axes that go with the contact, the
+/// contact force eliminated; by Runge and Kutta. The pressed arc, of half angle (3 N/(2 κ ρ sin θ))^⅓ with
+/// κ = kₙ/2π, resists turning about the vertical by μ N ρ ψ/π.
+fn rolls(until: f64) -> f64 {
+    let (m, rho, h, jt, ja, g) = (1e4, 1.0, 2.0, 15833.333333333334, 5000.0, 9.81);
+    let (mu, per_angle) = (0.3, 1e12 / TAU);
+    let cross = |a: [f64; 3], b: [f64; 3]| {
+        [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
+    };
+    let r = [0.0, rho, h];
+    let rate = |y: [f64; 4]| {
+        let (sin, cos) = y[0].sin_cos();
+        let spin = [y[1], y[2], y[3]];
+        let axes = [y[1], y[2], y[2] / sin * cos];
+        let momentum = [jt * y[1], jt * y[2], ja * y[3]];
+        let pull = cross(axes, cross(spin, r));
+        let pull = [m * pull[0], m * (pull[1] + g * sin), m * (pull[2] + g * cos)];
+        let (turn, lever) = (cross(axes, momentum), cross(r, pull));
+        // (J − m r× r×) ω̇ = b: the first equation stands alone.
+        let (a22, a33, a23) = (jt + m * h * h, ja + m * rho * rho, -m * rho * h);
+        let det = a22 * a33 - a23 * a23;
+        let mut pivot = 0.0;
+        let mut change = [0.0; 3];
+        // The normal force depends a little on what the pivoting moment does.
+        for _ in 0..4 {
+            let b = [0, 1, 2].map(|i: usize| -(turn[i] + lever[i]) + pivot * [0.0, sin, cos][i]);
+            change = [
+                b[0] / (jt + m * (rho * rho + h * h)),
+                (b[1] * a33 - b[2] * a23) / det,
+                (b[2] * a22 - b[1] * a23) / det,
+            ];
+            let forward = cross(change, r);
+            let normal = m * (forward[1] * sin + forward[2] * cos) + pull[1] * sin + pull[2] * cos;
+            let half = (1.5 * normal / (per_angle * rho * sin)).cbrt();
+            pivot = -mu * normal * rho * half / PI * (y[2] * sin + y[3] * cos).signum();
+        }
+        [y[1], change[0], change[1], change[2]]
+    };
+    let n = 4000;
+    let dt = until / f64::from(n);
+    let mut y = [0.3, 0.0, 0.3_f64.sin(), 1.0];
+    let at = |y: [f64; 4], k: [f64; 4], s: f64| [0, 1, 2, 3].map(|i: usize| y[i] + s * k[i]);
+    for _ in 0..n {
+        let k1 = rate(y);
+        let k2 = rate(at(y, k1, 0.5 * dt));
+        let k3 = rate(at(y, k2, 0.5 * dt));
+        let k4 = rate(at(y, k3, dt));
+        y = [0, 1, 2, 3].map(|i: usize| y[i] + dt / 6.0 * (k1[i] + 2.0 * (k2[i] + k3[i]) + k4[i]));
+    }
+    y[0]
+}
+
+fn rolling() -> Case {
+    let times = [0.5, 1.0, 1.5, 2.0, 2.5, 3.0];
+    Case {
+        id: "RB-R",
+        title: "Cask that rolls on its rim: tilt",
+        source: "Rolling without slip, with pivoting friction of the pressed arc: Euler's equations, integrated beside",
+        text: ROLLING.into(),
+        set: Vec::new(),
+        solvers: BOTH,
+        checks: times
+            .into_iter()
+            .map(|t| Check::at("tilt", RADIAN, t, rolls(t), 1e-2).other_code())
+            .collect(),
+        view: View::histories([Curve::new("tilt", RADIAN)]),
     }
 }
