@@ -268,7 +268,7 @@ const ROLLING: &str = r#"(
     gravity: "9.81 m/s^2",
     parameters: {
         "rho": "1 m", "h": "2 m", "mass": "10 t", "jt": "15833.333333333334 kg*m^2", "ja": "5000 kg*m^2",
-        "kn": "1e12 N/m", "ks": "1e12 N/m", "tilt": 0.3, "precession": 1, "spin": 1,
+        "kn": "1e11 N/m", "ks": "1e11 N/m", "tilt": 0.3, "precession": 1, "spin": 1,
         "across": "precession*sin(tilt)",
         // speed of the centre of gravity along Y
         "vy": "across*h - spin*rho",
@@ -277,7 +277,7 @@ const ROLLING: &str = r#"(
     elements: {
         "mass": Mass(node: "cg", mass: "mass", inertia: ("jt", "jt", "ja")),
         "base": RockingBody(
-            node: "cg", rim_radius: "rho", rim_depth: "h", kn: "kn", ks: "ks", mu: 0.3,
+            node: "cg", rim_radius: "rho", rim_depth: "h", kn: "kn", ks: "ks", mu: 0.2,
             damping: "1e6 N*s/m", pull: true, inertia: ("jt", "jt", "ja"),
         ),
     },
@@ -307,7 +307,7 @@ const ROLLING: &str = r#"(
 /// κ = kₙ/2π, resists turning about the vertical by μ N ρ ψ/π.
 fn rolls(until: f64) -> f64 {
     let (m, rho, h, jt, ja, g) = (1e4, 1.0, 2.0, 15833.333333333334, 5000.0, 9.81);
-    let (mu, per_angle) = (0.3, 1e12 / TAU);
+    let (mu, per_angle) = (0.2, 1e11 / TAU);
     let cross = |a: [f64; 3], b: [f64; 3]| {
         [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
     };
