@@ -44,7 +44,7 @@ mod matrices;
 #[cfg(test)]
 mod tests;
 
-use crate::dense::{repeated, used};
+use crate::shared::dense::{repeated, used};
 use nalgebra::DMatrix;
 use serde::Deserialize;
 use trilith_element::dimension::{

@@ -22,7 +22,7 @@
 //! ratio p = c_y/c that of oil dampers in \[JSSI 2003\].
 
 use crate::maxwell_damper::{SeriesHistory, answer};
-use crate::series::{Split, Viscous, follow};
+use crate::shared::series::{Split, Viscous, follow};
 use serde::Deserialize;
 use std::borrow::Cow;
 use trilith_element::dimension::{DAMPING, FORCE, STIFFNESS};
@@ -122,8 +122,8 @@ impl Link for BilinearDamper {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::parameters::{numbers, read};
-    use crate::probe::Led;
+    use crate::shared::parameters::{numbers, read};
+    use crate::shared::paths::led;
     use approx::assert_relative_eq;
     use std::f64::consts::TAU;
     use trilith_element::conformance::Kit;
@@ -157,8 +157,8 @@ mod tests {
         };
         for time in [0.01, 0.03, 0.05] {
             let error = |steps| {
-                let it = Led::through(&law, time, steps, |t| (v * t, v));
-                (it.f / exact(time) - 1.0).abs()
+                let it = led(&law, time, steps, |t| (v * t, v));
+                (it.f[0] / exact(time) - 1.0).abs()
             };
             assert!(error(4000) < 2e-6, "{time}: {}", error(4000));
             // Second order where the step that opens the valve lies far behind.
@@ -182,17 +182,18 @@ mod tests {
                 f * v * TAU / w / f64::from(n)
             })
             .sum();
-        let led = |cycles: f64| {
+        let after = |cycles: f64| {
             let motion = |t: f64| (x * (w * t).sin(), x * w * (w * t).cos());
-            Led::through(&law, cycles, 2000 * cycles as usize, motion).viscous
+            led(&law, cycles, 2000 * cycles as usize, motion).energy.viscous
         };
-        assert_relative_eq!(led(2.0) - led(1.0), heat, max_relative = 1e-4);
+        assert_relative_eq!(after(2.0) - after(1.0), heat, max_relative = 1e-4);
     }
 
     #[test]
     fn without_slope_beyond_it_the_relief_force_is_a_cap() {
-        let it = Led::through(&law(5e7, 0.0), 0.5, 500, |t| (t, 1.0));
-        assert_relative_eq!(it.f, 1e5, max_relative = 1e-12);
+        let law = law(5e7, 0.0);
+        let it = led(&law, 0.5, 500, |t| (t, 1.0));
+        assert_relative_eq!(it.f[0], 1e5, max_relative = 1e-12);
         assert!(read::<BilinearDamper>(&numbers(&[("k", 1.0), ("c", 1.0)])).is_err());
     }
 }

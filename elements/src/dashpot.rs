@@ -27,7 +27,7 @@
 //!
 //! Reference: \[Soong & Dargush 1997, ch. 6\]; contact variant \[Wilson 2002, ch. 21\].
 
-use crate::restitution::{IMPACT_MASS, damping_ratio, restitution};
+use crate::shared::restitution::{IMPACT_MASS, damping_ratio, restitution};
 use serde::Deserialize;
 use trilith_element::dimension::{FORCE, FREQUENCY, LENGTH, MOMENT, NONE, STIFFNESS, VELOCITY};
 use trilith_element::{
@@ -261,7 +261,7 @@ impl Link for Dashpot {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::parameters::read;
+    use crate::shared::parameters::read;
     use approx::assert_relative_eq;
     use trilith_element::Value;
     use trilith_element::conformance::assert_conforms;

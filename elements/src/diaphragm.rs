@@ -12,7 +12,7 @@
 //!
 //! Reference: \[Wilson 2002, ch. 7\].
 
-use crate::dense::between;
+use crate::shared::dense::between;
 use serde::Deserialize;
 use trilith_element::{
     Card, Category, Constraint, Described, Dof, Equation, Exercise, NodeCount, Parameter,

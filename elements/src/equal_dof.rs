@@ -90,7 +90,7 @@ impl Constraint for EqualDof {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::parameters::read;
+    use crate::shared::parameters::read;
     use trilith_element::Value;
 
     #[test]

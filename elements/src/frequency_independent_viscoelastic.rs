@@ -30,7 +30,7 @@
 
 mod branches;
 
-use crate::relaxation::relax;
+use crate::shared::relaxation::relax;
 use branches::{Branch, Branches};
 use serde::Deserialize;
 use std::borrow::Cow;
@@ -165,7 +165,7 @@ impl Described for FrequencyIndependentViscoelastic {
             if t.iter().any(|t| *t <= 0.0) {
                 return wrong("time", "relaxation times must be > 0");
             }
-            return crate::parameters::none_negative("stiffness", k, "N/m");
+            return crate::shared::parameters::none_negative("stiffness", k, "N/m");
         }
         if let Some((name, _)) = fitted.iter().find(|(_, x)| x.is_none()) {
             let message = format!(

@@ -64,7 +64,9 @@ mod card;
 #[cfg(test)]
 mod tests;
 
-use crate::sliding::{Axial, Bearing, Coefficient, Dish, Side, SlidingHistory, Stop, engaged};
+use crate::shared::sliding::{
+    Axial, Bearing, Coefficient, Dish, Side, SlidingHistory, Stop, engaged,
+};
 use serde::Deserialize;
 use std::borrow::Cow;
 use trilith_element::{

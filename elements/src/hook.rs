@@ -76,21 +76,17 @@ impl Link for Hook {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::parameters::{numbers, read};
+    use crate::shared::parameters::{numbers, read};
     use approx::assert_relative_eq;
     use trilith_element::conformance::Kit;
-    use trilith_element::{Energy, ParameterError};
+    use trilith_element::{Driver, ParameterError};
 
     fn law(opening: f64) -> Result<Hook, ParameterError> {
         read(&numbers(&[("k", 2e8), ("opening", opening)]))
     }
 
     fn force(law: &Hook, d: f64) -> f64 {
-        let (mut f, mut k, mut c, mut energy) = ([0.0], [0.0], [0.0], Energy::default());
-        let mut out = Response { f: &mut f, k: &mut k, c: &mut c, energy: &mut energy };
-        let at = Kinematics { d: &[d], v: &[0.0], d0: &[0.0], v0: &[0.0], dt: 0.0 };
-        law.respond(&at, &[], &mut [], &mut out);
-        f[0]
+        Driver::new(law).to(&[d])[0]
     }
 
     #[test]

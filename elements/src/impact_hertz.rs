@@ -38,7 +38,7 @@
 //!
 //! Reference: \[Muthukumar & DesRoches 2006\], \[Jankowski 2005\].
 
-use crate::restitution::{IMPACT_MASS, approach_ratio, restitution};
+use crate::shared::restitution::{IMPACT_MASS, approach_ratio, restitution};
 use serde::Deserialize;
 use std::borrow::Cow;
 use std::sync::OnceLock;

@@ -32,7 +32,7 @@
 //!
 //! Reference: \[Anagnostopoulos 1988\]; damping on approach only as in \[Jankowski 2005\].
 
-use crate::restitution::{IMPACT_MASS, approach_ratio, damping_ratio, restitution};
+use crate::shared::restitution::{IMPACT_MASS, approach_ratio, damping_ratio, restitution};
 use serde::Deserialize;
 use trilith_element::dimension::{DAMPING, LENGTH, STIFFNESS};
 use trilith_element::{
@@ -176,8 +176,8 @@ impl Link for ImpactKelvin {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::parameters::{numbers, read};
-    use crate::probe::rebound;
+    use crate::shared::parameters::{numbers, read};
+    use crate::shared::paths::rebound;
     use approx::assert_relative_eq;
     use trilith_element::Value;
     use trilith_element::conformance::Kit;

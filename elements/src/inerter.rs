@@ -17,7 +17,7 @@
 //!
 //! Reference: \[Smith 2002\].
 
-use crate::dense::deformations;
+use crate::shared::dense::deformations;
 use serde::Deserialize;
 use trilith_element::dimension::{INERTIA, MASS};
 use trilith_element::{
@@ -80,7 +80,7 @@ impl LinearElement for Inerter {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::parameters::{numbers, read};
+    use crate::shared::parameters::{numbers, read};
     use approx::assert_relative_eq;
     use trilith_element::{Frame, Value};
 

@@ -39,7 +39,7 @@ mod cooling;
 #[cfg(test)]
 mod tests;
 
-use crate::biaxial;
+use crate::shared::biaxial;
 use cooling::Cooling;
 use serde::Deserialize;
 use std::borrow::Cow;

@@ -1,4 +1,7 @@
-//! The built-in elements, constraints and links of Trilith: one file each.
+//! The built-in elements, constraints and links of Trilith.
+//!
+//! Every file of `src/` is one kind, with a folder of the same name where it is large. What several kinds share
+//! lies in `src/shared/`; `src/tests.rs` tests what holds for all of them.
 //!
 //! | linear elements | constraints | links |
 //! |---|---|---|
@@ -9,19 +12,7 @@
 //!
 //! To add one: write its file, then its lines here (`mod`, `pub use`, and one of registration).
 
-mod biaxial;
-mod dense;
-#[cfg(test)]
-mod driven;
-mod dual;
-mod multilinear;
-mod parameters;
-#[cfg(test)]
-mod probe;
-mod relaxation;
-mod restitution;
-mod series;
-mod sliding;
+mod shared;
 
 mod beam;
 mod bilinear_damper;
@@ -77,7 +68,7 @@ pub use rigid_body::RigidBody;
 pub use rigid_link::RigidLink;
 pub use rocking_body::RockingBody;
 pub use rubber_isolator::{RubberHistory, RubberIsolator};
-pub use sliding::SlidingHistory;
+pub use shared::sliding::SlidingHistory;
 pub use spring::Spring;
 pub use tension_compression_friction::TensionCompressionFriction;
 pub use triple_pendulum::TriplePendulum;

@@ -176,10 +176,10 @@ impl Link for LinearLink {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::parameters::read;
+    use crate::shared::parameters::read;
     use approx::assert_relative_eq;
     use trilith_element::conformance::Kit;
-    use trilith_element::{Energy, Value};
+    use trilith_element::{Driver, Value};
 
     fn rows(a: &Matrix6) -> Value {
         let row = |r: &[f64; 6]| Value::List(r.iter().map(|x| Value::Number(*x)).collect());
@@ -254,20 +254,13 @@ mod tests {
                 let a = std::f64::consts::TAU * f64::from(i) / f64::from(n);
                 [r * a.cos(), r * sense * a.sin()]
             };
-            let mut sum = 0.0;
-            for i in 0..n {
-                let (d0, d) = (at(i), at(i + 1));
-                let (mut f, mut k, mut c) = ([0.0; 2], [0.0; 4], [0.0; 4]);
-                let mut energy = Energy::default();
-                let mut out = Response { f: &mut f, k: &mut k, c: &mut c, energy: &mut energy };
-                let v = [0.0; 2];
-                let at = Kinematics { d: &d, v: &v, d0: &d0, v0: &v, dt: 1e-3 };
-                law.respond(&at, &[], &mut [], &mut out);
-                sum += energy.hysteretic;
+            let mut driver = Driver::starting_at(&law, &at(0), &[0.0; 2]);
+            for i in 1..=n {
+                driver.step(&at(i), &[0.0; 2], 1e-3);
             }
             // f₂ = cross d₃, f₃ = −cross d₂: work −2π r² cross for the positive sense.
             let exact = -sense * std::f64::consts::TAU * r * r * cross;
-            assert_relative_eq!(sum, exact, max_relative = 1e-5);
+            assert_relative_eq!(driver.energy.hysteretic, exact, max_relative = 1e-5);
         }
     }
 

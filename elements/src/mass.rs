@@ -17,8 +17,8 @@
 //! Masses are along, and inertia about, **global X, Y, Z**. With `inertia_local: true` the inertia is
 //! about local 1, 2, 3, which for a node without given axes are +Z, +X, +Y. Only DOFs with mass are used.
 
-use crate::dense::{is_semi_definite, rotation, used};
-use crate::parameters::none_negative;
+use crate::shared::dense::{is_semi_definite, rotation, used};
+use crate::shared::parameters::none_negative;
 use nalgebra::{DMatrix, Matrix3};
 use serde::Deserialize;
 use trilith_element::dimension::{INERTIA, MASS};
@@ -152,7 +152,7 @@ impl LinearElement for Mass {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::parameters::{numbers, read};
+    use crate::shared::parameters::{numbers, read};
     use trilith_element::{Dof, Frame, Value};
 
     fn matrices(mass: &Mass) -> ElementMatrices {

@@ -18,8 +18,8 @@
 //!
 //! Reference: \[Soong & Dargush 1997, ch. 6\].
 
-use crate::relaxation::{Followed, relax};
-use crate::series::{Split, Viscous, follow};
+use crate::shared::relaxation::{Followed, relax};
+use crate::shared::series::{Split, Viscous, follow};
 use serde::Deserialize;
 use std::borrow::Cow;
 use trilith_element::dimension::{FORCE, NONE, STIFFNESS, VELOCITY};

@@ -18,7 +18,7 @@
 //!
 //! Reference: \[CSI Analysis Reference Manual, multilinear elastic property\].
 
-use crate::multilinear::{Curve, DEFORMATION, FORCE};
+use crate::shared::multilinear::{Curve, DEFORMATION, FORCE};
 use serde::Deserialize;
 use trilith_element::{
     Axis, Card, Category, Coordinates, Described, Exercise, Kinematics, Link, NodeCount, Parameter,
@@ -83,11 +83,11 @@ impl Link for MultilinearElastic {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::driven::Driven;
-    use crate::parameters::read;
+    use crate::shared::parameters::read;
+    use crate::shared::paths::through;
     use approx::assert_relative_eq;
-    use trilith_element::Value;
     use trilith_element::conformance::Kit;
+    use trilith_element::{Driver, Value};
 
     fn law(d: &[f64], f: &[f64]) -> Result<MultilinearElastic, ParameterError> {
         let list = |x: &[f64]| Value::List(x.iter().map(|x| Value::Number(*x)).collect());
@@ -110,15 +110,15 @@ mod tests {
     fn unloads_on_the_way_it_came() {
         let law =
             law(&[-1.0, -2.5e-4, 0.0, 2.5e-4, 8e-4], &[-1e8, -5e4, 0.0, 5e4, 1.05e5]).unwrap();
-        let mut driven = Driven::new(&law);
-        let forces = driven.through(&[2e-4, 8e-4, 2e-4, 0.0]);
+        let mut driver = Driver::new(&law);
+        let forces = through(&mut driver, &[2e-4, 8e-4, 2e-4, 0.0]);
         for (f, expected) in forces.iter().zip([4e4, 1.05e5, 4e4, 0.0]) {
             assert_relative_eq!(*f, expected, epsilon = 1e-6);
         }
-        assert_eq!((driven.heat, driven.stored), (0.0, 0.0));
-        driven.through(&[8e-4]);
+        assert_eq!((driver.heat(), driver.energy.stored), (0.0, 0.0));
+        through(&mut driver, &[8e-4]);
         let area = 0.5 * 5e4 * 2.5e-4 + 0.5 * (5e4 + 1.05e5) * 5.5e-4;
-        assert_relative_eq!(driven.stored, area, max_relative = 1e-13);
+        assert_relative_eq!(driver.energy.stored, area, max_relative = 1e-13);
     }
 
     #[test]

@@ -46,7 +46,7 @@ mod takeda;
 #[cfg(test)]
 mod tests;
 
-use crate::multilinear::{Curve, DEFORMATION, FORCE};
+use crate::shared::multilinear::{Curve, DEFORMATION, FORCE};
 use branch::Branch;
 use serde::Deserialize;
 use std::borrow::Cow;

@@ -51,7 +51,7 @@ mod tests;
 
 pub use law::NLinkHistory;
 
-use crate::restitution::{IMPACT_MASS, restitution};
+use crate::shared::restitution::{IMPACT_MASS, restitution};
 use serde::Deserialize;
 use trilith_element::dimension::{
     DAMPING, INVERSE_VELOCITY, LENGTH, NONE, ROTATIONAL_STIFFNESS, STIFFNESS,

@@ -9,7 +9,7 @@
 //!
 //! Reference: \[Bathe 1996, §4.2.2\].
 
-use crate::dense::between;
+use crate::shared::dense::between;
 use serde::Deserialize;
 use trilith_element::{
     Card, Category, Constraint, Described, Dof, Equation, Exercise, NodeCount, ParameterError,

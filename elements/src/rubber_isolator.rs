@@ -24,7 +24,7 @@
 //!
 //! Reference: \[Park, Wen & Ang 1986\]; as in \[CSI Analysis Reference Manual, rubber isolator property\].
 
-use crate::biaxial;
+use crate::shared::biaxial;
 use serde::Deserialize;
 use std::borrow::Cow;
 use trilith_element::dimension::{FORCE, NONE, STIFFNESS};
@@ -169,10 +169,11 @@ impl Link for RubberIsolator {
 mod tests {
     use super::*;
     use crate::Wen;
-    use crate::driven::Driven;
-    use crate::parameters::{numbers, read};
+    use crate::shared::parameters::{numbers, read};
+    use crate::shared::paths::evenly;
     use approx::assert_relative_eq;
     use std::f64::consts::TAU;
+    use trilith_element::Driver;
     use trilith_element::conformance::Kit;
 
     fn law(more: &[(&'static str, f64)]) -> RubberIsolator {
@@ -196,13 +197,13 @@ mod tests {
             read(&numbers(&[("k", 1e7), ("fy", 1e5), ("ratio", 0.1), ("exponent", 2.0)])).unwrap();
         let law = law(&[]);
         for angle in [0.0_f64, 0.3, 0.25 * TAU, 2.0, 4.0] {
-            let (mut one, mut two) = (Driven::new(&wen), Driven::new(&law));
+            let (mut one, mut two) = (Driver::new(&wen), Driver::new(&law));
             for d in [0.004, 0.03, 0.025, -0.02, -0.018, 0.1] {
-                let f = one.step(&[d], 0.0)[0];
-                let g = two.step(&[0.0, d * angle.cos(), d * angle.sin()], 0.0);
+                let f = one.to(&[d])[0];
+                let g = two.to(&[0.0, d * angle.cos(), d * angle.sin()]);
                 assert_relative_eq!(g[1], f * angle.cos(), epsilon = 1e-6);
                 assert_relative_eq!(g[2], f * angle.sin(), epsilon = 1e-6);
-                assert_relative_eq!(one.heat, two.heat, max_relative = 1e-9, epsilon = 1e-9);
+                assert_relative_eq!(one.heat(), two.heat(), max_relative = 1e-9, epsilon = 1e-9);
             }
         }
     }
@@ -226,7 +227,7 @@ mod tests {
             let end = 1.5 * TAU / w;
             let (fine, mut z, mut worst) = (20_000 / steps, [0.0; 2], 0.0_f64);
             let h = end / f64::from(steps * fine);
-            let mut driven = Driven::new(&law);
+            let mut driver = Driver::new(&law);
             for i in 0..steps {
                 for j in 0..fine {
                     let t = f64::from(i * fine + j) * h;
@@ -238,8 +239,8 @@ mod tests {
                     z = [0, 1].map(|i| z[i] + h * (a[i] + 2.0 * b[i] + 2.0 * c[i] + e[i]) / 6.0);
                 }
                 let [x, y] = d(f64::from((i + 1) * fine) * h);
-                driven.step(&[0.0, x, y], f64::from(fine) * h);
-                worst = worst.max((driven.history[0] - z[0]).hypot(driven.history[1] - z[1]));
+                evenly(&mut driver, &[0.0, x, y], f64::from(fine) * h);
+                worst = worst.max((driver.history[0] - z[0]).hypot(driver.history[1] - z[1]));
             }
             worst
         };
@@ -255,8 +256,8 @@ mod tests {
     fn carries_along_its_axis_only_what_it_is_given() {
         let mut none = law(&[]);
         none.kv = 0.0;
-        assert_eq!(Driven::new(&none).step(&[0.1, 0.0, 0.0], 0.0), [0.0; 3]);
-        assert_eq!(Driven::new(&law(&[])).step(&[-1e-3, 0.0, 0.0], 0.0)[0], -2e6);
+        assert_eq!(Driver::new(&none).to(&[0.1, 0.0, 0.0]), [0.0; 3]);
+        assert_eq!(Driver::new(&law(&[])).to(&[-1e-3, 0.0, 0.0])[0], -2e6);
         assert!(read::<RubberIsolator>(&numbers(&[("k2", 1.0), ("fy2", 1.0)])).is_err());
     }
 }

@@ -21,7 +21,7 @@
 //!
 //! Reference: \[Wilson 2002, ch. 4\].
 
-use crate::dense::{deformations, is_semi_definite, used};
+use crate::shared::dense::{deformations, is_semi_definite, used};
 use nalgebra::DMatrix;
 use serde::Deserialize;
 use trilith_element::dimension::{DAMPING, ROTATIONAL_DAMPING, ROTATIONAL_STIFFNESS, STIFFNESS};
@@ -146,8 +146,8 @@ impl LinearElement for Spring {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::dense::between;
-    use crate::parameters::{numbers, read};
+    use crate::shared::dense::between;
+    use crate::shared::parameters::{numbers, read};
     use approx::assert_relative_eq;
     use nalgebra::Vector3 as V3;
     use trilith_element::{Dof, Frame, Value};

@@ -38,7 +38,7 @@
 #[cfg(test)]
 mod tests;
 
-use crate::sliding::{Axial, Bearing, Coefficient, Dish, Side, SlidingHistory, engaged};
+use crate::shared::sliding::{Axial, Bearing, Coefficient, Dish, Side, SlidingHistory, engaged};
 use serde::Deserialize;
 use std::borrow::Cow;
 use trilith_element::dimension::{DAMPING, INVERSE_VELOCITY, LENGTH, NONE, STIFFNESS};

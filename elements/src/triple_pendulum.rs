@@ -58,8 +58,8 @@ mod series;
 #[cfg(test)]
 mod tests;
 
-use crate::parameters::none_negative;
-use crate::sliding::Stop;
+use crate::shared::parameters::none_negative;
+use crate::shared::sliding::Stop;
 use serde::Deserialize;
 use series::SURFACES;
 use trilith_element::dimension::{DAMPING, INVERSE_VELOCITY, LENGTH, NONE, STIFFNESS};

@@ -18,7 +18,7 @@
 //! Reference: \[Przemieniecki 1968, §5.1 and §11.1\].
 
 use crate::beam::{MassMatrix, span_along_axis_1};
-use crate::dense::used;
+use crate::shared::dense::used;
 use nalgebra::DMatrix;
 use serde::Deserialize;
 use trilith_element::dimension::{AREA, DENSITY, MASS_PER_LENGTH, STRESS};
@@ -113,7 +113,7 @@ impl LinearElement for Truss {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::parameters::read;
+    use crate::shared::parameters::read;
     use approx::assert_relative_eq;
     use trilith_element::{Dof, Frame, Value};
 

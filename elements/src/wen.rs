@@ -140,11 +140,11 @@ impl Link for Wen {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::driven::Driven;
-    use crate::parameters::{numbers, read};
+    use crate::shared::parameters::{numbers, read};
+    use crate::shared::paths::{finely, through};
     use approx::assert_relative_eq;
-    use trilith_element::Value;
     use trilith_element::conformance::Kit;
+    use trilith_element::{Driver, Value};
 
     fn law(k: f64, fy: f64, ratio: f64, exponent: f64) -> Wen {
         read(&numbers(&[("k", k), ("fy", fy), ("ratio", ratio), ("exponent", exponent)])).unwrap()
@@ -184,8 +184,8 @@ mod tests {
         ];
         for (n, forces) in expected {
             let law = law(100.0, 50.0, 0.1, n);
-            let one = Driven::new(&law).through(&path);
-            let many = Driven::new(&law).finely(&path, 0.003);
+            let one = through(&mut Driver::new(&law), &path);
+            let many = finely(&mut Driver::new(&law), &path, 0.003);
             for ((a, b), f) in one.iter().zip(&many).zip(forces) {
                 assert_relative_eq!(*a, f, max_relative = 1e-6);
                 assert_relative_eq!(*a, *b, max_relative = 1e-11);
@@ -197,11 +197,11 @@ mod tests {
     fn a_large_step_has_the_energy_of_its_path() {
         for n in [1.0, 2.0, 9.0] {
             let law = law(100.0, 50.0, 0.1, n);
-            let (mut one, mut many) = (Driven::new(&law), Driven::new(&law));
-            one.through(&[3.0, -2.0]);
-            many.finely(&[3.0, -2.0], 1e-3);
-            assert_relative_eq!(one.heat, many.heat, max_relative = 1e-9);
-            assert_relative_eq!(many.work, many.heat + many.stored, max_relative = 1e-5);
+            let (mut one, mut many) = (Driver::new(&law), Driver::new(&law));
+            through(&mut one, &[3.0, -2.0]);
+            finely(&mut many, &[3.0, -2.0], 1e-3);
+            assert_relative_eq!(one.heat(), many.heat(), max_relative = 1e-9);
+            assert_relative_eq!(many.work, many.heat() + many.energy.stored, max_relative = 1e-5);
         }
     }
 

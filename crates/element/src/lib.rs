@@ -10,10 +10,14 @@
 //! model reader takes names, units, ranges and defaults, and the catalogue its pages. A kind is offered
 //! to an application with one line: `registry.link::<MyLink>()` (see [`Register`]).
 //!
+//! To test a link of your own, give it to the [conformance kit](conformance::Kit), which leads it along random
+//! paths, and to a [`Driver`], which leads it along yours.
+//!
 //! SI units throughout: m, kg, s, N, rad.
 
 mod card;
 mod constraint;
+mod driver;
 mod error;
 mod frame;
 mod history;
@@ -30,6 +34,7 @@ pub use card::{
 };
 pub use constraint::{Constraint, Equation};
 pub use dimension::Dimension;
+pub use driver::{Answer, Driver};
 pub use error::ParameterError;
 pub use frame::{Axis, Dof, Frame, Geometry, Vector3, cross, dot, norm, sub};
 pub use history::{Field, History};

@@ -1,5 +1,5 @@
 use super::*;
-use crate::parameters::read;
+use crate::shared::parameters::read;
 use approx::assert_relative_eq;
 use nalgebra::{DVector, SymmetricEigen};
 use trilith_element::{Dof, Frame, Value};

@@ -1,10 +1,10 @@
 use super::*;
-use crate::parameters::{numbers, read};
-use crate::probe::Led;
+use crate::shared::parameters::{numbers, read};
+use crate::shared::paths::led;
 use approx::assert_relative_eq;
 use std::f64::consts::{PI, TAU};
-use trilith_element::Value;
 use trilith_element::conformance::Kit;
+use trilith_element::{Driver, Value};
 
 type Law = FrequencyIndependentViscoelastic;
 
@@ -58,12 +58,12 @@ fn harmonic_motion_shows_both_moduli() {
     let law = fitted(0.4, 0.2, 5.0);
     for f in [0.2, 1.0, 5.0] {
         // Two cycles in a thousandth of a step each: heat of the last one is π K'' X².
-        let led = |cycles: f64| {
+        let after = |cycles: f64| {
             let w = TAU * f;
             let motion = |t: f64| (0.01 * (w * t).cos(), -0.01 * w * (w * t).sin());
-            Led::through(&law, cycles / f, (2000.0 * cycles) as usize, motion)
+            led(&law, cycles / f, (2000.0 * cycles) as usize, motion).energy.viscous
         };
-        let heat = led(41.0).viscous - led(40.0).viscous;
+        let heat = after(41.0) - after(40.0);
         let [_, loss] = law.moduli(f);
         // The slowest branches have not seen all of their transient: it does not turn to heat.
         assert_relative_eq!(heat, PI * loss * 1e-4, max_relative = 1e-3);
@@ -74,15 +74,15 @@ fn harmonic_motion_shows_both_moduli() {
 #[test]
 fn a_step_relaxes_as_a_sum_of_exponentials() {
     let law = given(1e6, &[2e6, 3e6], &[0.02, 0.5]);
-    let mut it = Led::at_rest(&law);
-    it.step(&law, 0.01, 0.0, 1e-9);
-    assert_relative_eq!(it.f, 6e4, max_relative = 1e-6);
+    let mut it = Driver::new(&law);
+    it.step(&[0.01], &[0.0], 1e-9);
+    assert_relative_eq!(it.f[0], 6e4, max_relative = 1e-6);
     for _ in 0..10 {
-        it.step(&law, 0.01, 0.0, 0.03);
+        it.step(&[0.01], &[0.0], 0.03);
     }
     let exact = 1e4 + 2e4 * (-0.3_f64 / 0.02).exp() + 3e4 * (-0.3_f64 / 0.5).exp();
-    assert_relative_eq!(it.f, exact, max_relative = 1e-6);
-    assert_relative_eq!(it.stored + it.viscous, it.work, max_relative = 1e-6);
+    assert_relative_eq!(it.f[0], exact, max_relative = 1e-6);
+    assert_relative_eq!(it.energy.stored + it.energy.viscous, it.work, max_relative = 1e-6);
 }
 
 #[test]

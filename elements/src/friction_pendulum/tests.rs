@@ -1,10 +1,10 @@
 use super::*;
 use crate::NLink;
-use crate::parameters::{numbers, read};
-use crate::sliding::Ride;
+use crate::shared::parameters::{numbers, read};
+use crate::shared::paths::{along, cycle};
 use approx::assert_relative_eq;
 use trilith_element::conformance::Kit;
-use trilith_element::{Described, Value};
+use trilith_element::{Described, Driver, Value};
 
 const KN: f64 = 5e8;
 
@@ -135,7 +135,7 @@ fn the_shallow_pendulum_is_an_nlink_with_a_radius() {
         ks: Some(KN),
         ..NLink::new(KN)
     };
-    let (mut one, mut two) = (Ride::new(&bearing), Ride::new(&link));
+    let (mut one, mut two) = (Driver::new(&bearing), Driver::new(&link));
     // Lifts, touches and slips in all directions.
     for i in 1..400 {
         let t = 0.02 * f64::from(i);
@@ -153,44 +153,44 @@ fn the_shallow_pendulum_is_an_nlink_with_a_radius() {
 #[test]
 fn a_cycle_encloses_four_mu_w_d() {
     let law = large(0.06);
-    let mut ride = Ride::new(&law);
-    ride.to([-1e-4, 0.0, 0.0]);
-    ride.cycle(-1e-4, 0.1, 2000);
-    assert_relative_eq!(ride.cycle(-1e-4, 0.1, 2000), 24_000.0, max_relative = 1e-4);
+    let mut driver = Driver::new(&law);
+    driver.to(&[-1e-4, 0.0, 0.0]);
+    cycle(&mut driver, -1e-4, 0.1, 2000);
+    assert_relative_eq!(cycle(&mut driver, -1e-4, 0.1, 2000), 24_000.0, max_relative = 1e-4);
 }
 
 #[test]
 fn friction_that_grows_with_speed_encloses_the_published_energy() {
     let law = large(0.03);
-    let mut ride = Ride::new(&law);
-    ride.to([-1e-4, 0.0, 0.0]);
-    ride.cycle(-1e-4, 0.1, 4000);
+    let mut driver = Driver::new(&law);
+    driver.to(&[-1e-4, 0.0, 0.0]);
+    cycle(&mut driver, -1e-4, 0.1, 4000);
     // 4 ∫ (0.06 − 0.03 e^(−20 v)) W du over a quarter of u = 0.1 sin 2πt.
-    assert_relative_eq!(ride.cycle(-1e-4, 0.1, 4000), 23_922.377, max_relative = 1e-4);
+    assert_relative_eq!(cycle(&mut driver, -1e-4, 0.1, 4000), 23_922.377, max_relative = 1e-4);
 }
 
 #[test]
 fn the_force_is_w_u_over_r_and_mu_w_against_the_motion_in_any_direction() {
     let law = large(0.06);
-    let mut ride = Ride::new(&law);
-    ride.to([-1e-4, 0.0, 0.0]);
-    ride.along([-1e-4, 0.06, 0.08], 200);
+    let mut driver = Driver::new(&law);
+    driver.to(&[-1e-4, 0.0, 0.0]);
+    along(&mut driver, &[-1e-4, 0.06, 0.08], 200);
     let expected = 1e6 * (0.1 / 1.5 + 0.06);
-    assert_relative_eq!(ride.f[1], 0.6 * expected, max_relative = 1e-9);
-    assert_relative_eq!(ride.f[2], 0.8 * expected, max_relative = 1e-9);
+    assert_relative_eq!(driver.f[1], 0.6 * expected, max_relative = 1e-9);
+    assert_relative_eq!(driver.f[2], 0.8 * expected, max_relative = 1e-9);
     // Turned by 90°: the friction follows, the pendulum does not.
-    ride.along([-1e-4, 0.06 - 0.08, 0.08 + 0.06], 4000);
-    assert_relative_eq!(ride.f[1], 1e6 * (-0.02 / 1.5 - 0.06 * 0.8), max_relative = 1e-3);
-    assert_relative_eq!(ride.f[2], 1e6 * (0.14 / 1.5 + 0.06 * 0.6), max_relative = 1e-3);
+    along(&mut driver, &[-1e-4, 0.06 - 0.08, 0.08 + 0.06], 4000);
+    assert_relative_eq!(driver.f[1], 1e6 * (-0.02 / 1.5 - 0.06 * 0.8), max_relative = 1e-3);
+    assert_relative_eq!(driver.f[2], 1e6 * (0.14 / 1.5 + 0.06 * 0.6), max_relative = 1e-3);
 }
 
 #[test]
 fn a_sphere_pulls_back_harder_than_its_tangent() {
     let law =
         FrictionPendulum { surface: Surface::Spherical, mu: Some(0.0), radius: 1.5, ..coulomb() };
-    let mut ride = Ride::new(&law);
-    ride.to([-1e-4, 0.9, 0.0]);
-    assert_relative_eq!(ride.f[1], KN * 1e-4 * 0.9 / 1.2, max_relative = 1e-12);
+    let mut driver = Driver::new(&law);
+    driver.to(&[-1e-4, 0.9, 0.0]);
+    assert_relative_eq!(driver.f[1], KN * 1e-4 * 0.9 / 1.2, max_relative = 1e-12);
 }
 
 #[test]
@@ -201,42 +201,39 @@ fn rising_stores_the_work_of_the_weight() {
         radius: 1.5,
         ..FrictionPendulum::new(KN, KN)
     };
-    let mut ride = Ride::new(&law);
+    let mut driver = Driver::new(&law);
     let n = KN * 1e-4;
-    ride.to([-1e-4, 0.0, 0.0]);
+    driver.to(&[-1e-4, 0.0, 0.0]);
     // The load goes up by R − √(R² − u²) at constant force.
-    ride.to([-1e-4 + 0.3, 0.9, 0.0]);
-    assert_relative_eq!(ride.f[0], -n, max_relative = 1e-9);
-    assert_relative_eq!(ride.f[1], n * 0.75, max_relative = 1e-9);
-    assert_relative_eq!(ride.energy.stored, 0.5 * n * 1e-4, max_relative = 1e-9);
+    driver.to(&[-1e-4 + 0.3, 0.9, 0.0]);
+    assert_relative_eq!(driver.f[0], -n, max_relative = 1e-9);
+    assert_relative_eq!(driver.f[1], n * 0.75, max_relative = 1e-9);
+    assert_relative_eq!(driver.energy.stored, 0.5 * n * 1e-4, max_relative = 1e-9);
 }
 
 #[test]
 fn a_lifted_bearing_has_no_shear_but_its_rim() {
     let law =
         FrictionPendulum { radius: 1.5, stop: Some(0.2), stop_stiffness: Some(1e7), ..coulomb() };
-    let mut ride = Ride::new(&law);
-    ride.to([-1e-4, 0.1, 0.0]);
-    ride.to([1e-3, 0.15, 0.0]);
-    assert_eq!(ride.f, [0.0; 3]);
-    ride.to([1e-3, 0.0, -0.23]);
-    assert_relative_eq!(ride.f[2], -3e5, max_relative = 1e-9);
+    let mut driver = Driver::new(&law);
+    driver.to(&[-1e-4, 0.1, 0.0]);
+    driver.to(&[1e-3, 0.15, 0.0]);
+    assert_eq!(driver.f, [0.0; 3]);
+    driver.to(&[1e-3, 0.0, -0.23]);
+    assert_relative_eq!(driver.f[2], -3e5, max_relative = 1e-9);
     // It touches halfway in the step and is anchored there.
-    ride.to([1e-3, 0.1, 0.0]);
-    ride.to([-1e-3, 0.1 + 4e-5, 0.0]);
-    assert_relative_eq!(ride.f[1], KN * 2e-5 + KN * 1e-3 * 0.100_04 / 1.5, max_relative = 1e-9);
+    driver.to(&[1e-3, 0.1, 0.0]);
+    driver.to(&[-1e-3, 0.1 + 4e-5, 0.0]);
+    assert_relative_eq!(driver.f[1], KN * 2e-5 + KN * 1e-3 * 0.100_04 / 1.5, max_relative = 1e-9);
 }
 
 #[test]
 fn the_contact_tells_stick_from_slip() {
     let law = coulomb();
-    let mut ride = Ride::new(&law);
+    let mut driver = Driver::new(&law);
     let mut tell = |d: [f64; 3]| {
-        ride.to(d);
-        let at = Kinematics { d: &d, v: &[0.0; 3], d0: &d, v0: &[0.0; 3], dt: 0.0 };
-        let mut all = Vec::new();
-        law.contacts(&at, &ride.history, &ride.f, &mut all);
-        all[0]
+        driver.to(&d);
+        driver.contacts()[0]
     };
     assert!(!tell([-1e-4, 1e-5, 0.0]).slipping);
     let slips = tell([-1e-4, 1e-3, 0.0]);

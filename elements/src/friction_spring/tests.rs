@@ -1,9 +1,8 @@
 use super::*;
-use crate::parameters::{numbers, read};
-use crate::probe::Led;
+use crate::shared::parameters::{numbers, read};
 use approx::assert_relative_eq;
-use trilith_element::Value;
 use trilith_element::conformance::Kit;
+use trilith_element::{Driver, Value};
 
 fn law(u0: f64, us: Option<f64>, direction: &str) -> FrictionSpring {
     let mut all = numbers(&[("k", 5e7), ("k1", 6e6), ("k2", 2e6), ("u0", u0)]);
@@ -25,9 +24,9 @@ fn conforms_with_precompression_stops_and_on_one_side() {
 }
 
 /// Straight from d to d in small steps.
-fn lead(it: &mut Led, law: &FrictionSpring, from: f64, to: f64) {
+fn lead(it: &mut Driver<'_>, from: f64, to: f64) {
     for i in 1..=1000 {
-        it.step(law, from + (to - from) * f64::from(i) / 1000.0, 0.0, 1e-3);
+        it.step(&[from + (to - from) * f64::from(i) / 1000.0], &[0.0], 1e-3);
     }
 }
 
@@ -35,7 +34,7 @@ fn lead(it: &mut Led, law: &FrictionSpring, from: f64, to: f64) {
 fn the_flag_has_the_given_branches() {
     for sign in [1.0, -1.0] {
         let law = law(0.005, None, "Both");
-        let mut it = Led::at_rest(&law);
+        let mut it = Driver::new(&law);
         let path = [
             (0.0, 3e-4, 5e7 * 3e-4),
             (3e-4, 0.04, 6e6 * 0.045),
@@ -47,11 +46,11 @@ fn the_flag_has_the_given_branches() {
             (1e-4, 0.0, 0.0),
         ];
         for (from, to, f) in path {
-            lead(&mut it, &law, sign * from, sign * to);
-            assert_relative_eq!(it.f, sign * f, max_relative = 1e-9, epsilon = 1e-6);
+            lead(&mut it, sign * from, sign * to);
+            assert_relative_eq!(it.f[0], sign * f, max_relative = 1e-9, epsilon = 1e-6);
         }
-        assert_relative_eq!(it.stored, 0.0, epsilon = 1e-9);
-        assert_relative_eq!(it.hysteretic, it.work, max_relative = 1e-4);
+        assert_relative_eq!(it.energy.stored, 0.0, epsilon = 1e-9);
+        assert_relative_eq!(it.energy.hysteretic, it.work, max_relative = 1e-4);
     }
 }
 
@@ -59,10 +58,10 @@ fn the_flag_has_the_given_branches() {
 fn a_cycle_costs_the_area_of_the_flag() {
     let (u0, d) = (0.005, 0.04);
     let law = law(u0, None, "Tension");
-    let mut it = Led::at_rest(&law);
-    lead(&mut it, &law, 0.0, d);
-    lead(&mut it, &law, d, -0.04);
-    assert_eq!(it.f, 0.0);
+    let mut it = Driver::new(&law);
+    lead(&mut it, 0.0, d);
+    lead(&mut it, d, -0.04);
+    assert_eq!(it.f[0], 0.0);
     // Area by its corners: start of slip, top, end of the drop, and where unloading slip ends.
     let (a, b) = (6e6 * u0 / (5e7 - 6e6), 2e6 * u0 / (5e7 - 2e6));
     let drop = (5e7 * d - 6e6 * (d + u0) + 2e6 * u0) / (5e7 - 2e6);
@@ -73,20 +72,20 @@ fn a_cycle_costs_the_area_of_the_flag() {
             0.5 * (x1 * y0 - x0 * y1)
         })
         .sum();
-    assert_relative_eq!(it.hysteretic, area, max_relative = 1e-9);
+    assert_relative_eq!(it.energy.hysteretic, area, max_relative = 1e-9);
 }
 
 #[test]
 fn closed_rings_are_as_stiff_as_before_slip() {
     let law = law(0.005, Some(0.03), "Compression");
-    let mut it = Led::at_rest(&law);
-    lead(&mut it, &law, 0.0, -0.031);
-    assert_relative_eq!(it.f, -(6e6 * 0.035 + 5e7 * 0.001), max_relative = 1e-9);
-    assert_relative_eq!(it.k, 5e7, max_relative = 1e-12);
-    lead(&mut it, &law, -0.031, -0.02);
-    assert_relative_eq!(it.f, -2e6 * 0.025, max_relative = 1e-9);
-    lead(&mut it, &law, -0.02, 0.1);
-    assert_eq!(it.f, 0.0);
+    let mut it = Driver::new(&law);
+    lead(&mut it, 0.0, -0.031);
+    assert_relative_eq!(it.f[0], -(6e6 * 0.035 + 5e7 * 0.001), max_relative = 1e-9);
+    assert_relative_eq!(it.k[0], 5e7, max_relative = 1e-12);
+    lead(&mut it, -0.031, -0.02);
+    assert_relative_eq!(it.f[0], -2e6 * 0.025, max_relative = 1e-9);
+    lead(&mut it, -0.02, 0.1);
+    assert_eq!(it.f[0], 0.0);
 }
 
 #[test]

@@ -1,6 +1,6 @@
 use super::*;
-use crate::parameters::{numbers, read};
-use crate::probe::rebound;
+use crate::shared::parameters::{numbers, read};
+use crate::shared::paths::rebound;
 use approx::assert_relative_eq;
 use trilith_element::Value;
 use trilith_element::conformance::Kit;

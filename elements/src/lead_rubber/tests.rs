@@ -2,12 +2,12 @@
 
 use super::*;
 use crate::RubberIsolator;
-use crate::driven::Driven;
-use crate::parameters::{numbers, read};
+use crate::shared::parameters::{numbers, read};
+use crate::shared::paths::evenly;
 use approx::assert_relative_eq;
 use std::f64::consts::TAU;
-use trilith_element::Value;
 use trilith_element::conformance::Kit;
+use trilith_element::{Driver, Value};
 
 const BEARING: [(&str, f64); 6] = [
     ("kr", 1.5e6),
@@ -43,35 +43,35 @@ fn without_heating_it_is_a_rubber_isolator() {
     let rubber: RubberIsolator =
         read(&numbers(&[("k2", k), ("fy2", fy), ("ratio2", 1.5e6 / k), ("kv", 1.5e9)])).unwrap();
     let law = law(false, &[]);
-    let (mut one, mut two) = (Driven::new(&rubber), Driven::new(&law));
+    let (mut one, mut two) = (Driver::new(&rubber), Driver::new(&law));
     for i in 0..200 {
         let t = 0.05 * f64::from(i);
         let d = [0.0, 0.2 * t.sin(), 0.1 * (2.3 * t).sin()];
-        let (f, g) = (one.step(&d, 0.05), two.step(&d, 0.05));
+        let (f, g) = (evenly(&mut one, &d, 0.05), evenly(&mut two, &d, 0.05));
         for i in 0..3 {
             assert_relative_eq!(f[i], g[i], epsilon = 1e-6 * q);
         }
     }
-    assert_relative_eq!(one.heat, two.heat, max_relative = 1e-6);
+    assert_relative_eq!(one.heat(), two.heat(), max_relative = 1e-6);
 }
 
 /// Without conduction: E T = ln(1 + E σ₀ s/(ρ c h)) with the path s of slip.
 #[test]
 fn a_core_that_keeps_its_heat_warms_by_the_logarithm_of_its_path() {
     let law = law(true, &[("steel_conductivity", 1e-12), ("yield_displacement", 1e-6)]);
-    let mut driven = Driven::new(&law);
+    let mut driver = Driver::new(&law);
     let (mut path, mut last) = (0.0, 0.0);
     for i in 1..=400 {
         let d = 0.3 * (0.05 * f64::from(i)).sin();
-        driven.step(&[0.0, d, 0.0], 0.05);
+        evenly(&mut driver, &[0.0, d, 0.0], 0.05);
         path += f64::abs(d - last);
         last = d;
     }
     let expected = (0.0069 * 1e7 * path / (11_200.0 * 130.0 * 0.3)).ln_1p() / 0.0069;
     assert!(expected > 30.0);
-    assert_relative_eq!(driven.history[2], expected, max_relative = 1e-3);
+    assert_relative_eq!(driver.history[2], expected, max_relative = 1e-3);
     // All that was dissipated is in the lead.
-    assert_relative_eq!(driven.heat, law.capacity() * driven.history[2], max_relative = 1e-3);
+    assert_relative_eq!(driver.heat(), law.capacity() * driver.history[2], max_relative = 1e-3);
 }
 
 #[test]
@@ -91,7 +91,7 @@ fn an_orbit_is_that_of_the_differential_equations_to_second_order() {
         let (end, fine) = (6.0, 64_000 / steps);
         let h = end / f64::from(steps * fine);
         let mut s = [0.0; 3];
-        let mut driven = Driven::new(&law);
+        let mut driver = Driver::new(&law);
         for i in 0..steps {
             for j in 0..fine {
                 let t = f64::from(i * fine + j) * h;
@@ -104,10 +104,10 @@ fn an_orbit_is_that_of_the_differential_equations_to_second_order() {
             }
             let t = f64::from((i + 1) * fine) * h;
             let [x, z] = d(t);
-            driven.step(&[0.0, x, z], f64::from(fine) * h);
+            evenly(&mut driver, &[0.0, x, z], f64::from(fine) * h);
         }
         assert!(s[2] > 25.0, "{s:?}");
-        (driven.history[2] - s[2]).abs() / s[2]
+        (driver.history[2] - s[2]).abs() / s[2]
     };
     let (coarse, fine) = (error(500), error(2000));
     assert!(fine < 1e-4, "{fine}");
@@ -117,18 +117,18 @@ fn an_orbit_is_that_of_the_differential_equations_to_second_order() {
 #[test]
 fn cools_at_rest_and_grows_strong_again() {
     let law = law(true, &[]);
-    let mut driven = Driven::new(&law);
+    let mut driver = Driver::new(&law);
     for i in 1..=2000 {
-        driven.step(&[0.0, 0.2 * (0.005 * f64::from(i) * TAU * 0.4).sin(), 0.0], 0.005);
+        evenly(&mut driver, &[0.0, 0.2 * (0.005 * f64::from(i) * TAU * 0.4).sin(), 0.0], 0.005);
     }
-    let (hot, heat) = (driven.history[2], driven.heat);
-    let d = driven.d.clone();
+    let (hot, heat) = (driver.history[2], driver.heat());
+    let d = driver.d.clone();
     for _ in 0..6000 {
-        driven.step(&d, 0.1);
+        evenly(&mut driver, &d, 0.1);
     }
-    assert!(hot > 50.0 && driven.history[2] < 0.5 * hot, "{hot} {}", driven.history[2]);
-    assert_relative_eq!(driven.heat, heat, max_relative = 1e-9);
+    assert!(hot > 50.0 && driver.history[2] < 0.5 * hot, "{hot} {}", driver.history[2]);
+    assert_relative_eq!(driver.heat(), heat, max_relative = 1e-9);
     // A static step does not heat.
-    driven.step(&[0.0, 0.4, 0.0], 0.0);
-    assert!(driven.history[2] < 0.5 * hot);
+    driver.to(&[0.0, 0.4, 0.0]);
+    assert!(driver.history[2] < 0.5 * hot);
 }

@@ -1,8 +1,9 @@
 use super::*;
-use crate::parameters::{numbers, read};
-use crate::probe::Led;
+use crate::shared::parameters::{numbers, read};
+use crate::shared::paths::led;
 use approx::assert_relative_eq;
 use std::f64::consts::{PI, TAU};
+use trilith_element::Driver;
 use trilith_element::conformance::Kit;
 
 fn law(k: f64, c: f64, exponent: f64) -> MaxwellDamper {
@@ -38,8 +39,8 @@ fn integrated(law: &MaxwellDamper, x: f64, w: f64, time: f64, steps: u32) -> [f6
     [f, heat]
 }
 
-fn led(law: &MaxwellDamper, x: f64, w: f64, time: f64, steps: usize) -> Led {
-    Led::through(law, time, steps, |t| (x * (w * t).sin(), x * w * (w * t).cos()))
+fn harmonic(law: &MaxwellDamper, x: f64, w: f64, time: f64, steps: usize) -> Driver<'_> {
+    led(law, time, steps, |t| (x * (w * t).sin(), x * w * (w * t).cos()))
 }
 
 #[test]
@@ -48,8 +49,8 @@ fn force_and_heat_are_of_second_order() {
         let law = law(3e5, 2e4, exponent);
         let exact = integrated(&law, 0.05, TAU, 0.9, 200_000);
         let error = |steps| {
-            let it = led(&law, 0.05, TAU, 0.9, steps);
-            [(it.f - exact[0]).abs(), (it.viscous - exact[1]).abs()]
+            let it = harmonic(&law, 0.05, TAU, 0.9, steps);
+            [(it.f[0] - exact[0]).abs(), (it.energy.viscous - exact[1]).abs()]
         };
         let (coarse, fine) = (error(200), error(800));
         for i in 0..2 {
@@ -64,9 +65,9 @@ fn force_and_heat_are_of_second_order() {
 fn a_flat_law_behind_a_stiff_spring_is_followed_in_steps_of_any_length() {
     let law = law(1e9, 2e4, 0.1);
     for steps in [20, 200, 20_000] {
-        let it = led(&law, 0.05, TAU, 1.0, steps);
+        let it = harmonic(&law, 0.05, TAU, 1.0, steps);
         // At the end of the cycle the rate is X ω again, and the spring has no say.
-        assert_relative_eq!(it.f, 2e4 * (0.05 * TAU).powf(0.1), max_relative = 1e-3);
+        assert_relative_eq!(it.f[0], 2e4 * (0.05 * TAU).powf(0.1), max_relative = 1e-3);
     }
 }
 
@@ -79,9 +80,13 @@ fn harmonic_motion_gives_storage_and_loss_modulus() {
     {
         let whole = (1.25_f64 * w / TAU).ceil() * TAU / w;
         let steps = 20_000;
-        assert_relative_eq!(led(&law, 1.0, w, whole, steps).f, loss, max_relative = 1e-6);
+        assert_relative_eq!(harmonic(&law, 1.0, w, whole, steps).f[0], loss, max_relative = 1e-6);
         let quarter = whole + 0.25 * TAU / w;
-        assert_relative_eq!(led(&law, 1.0, w, quarter, steps).f, storage, max_relative = 1e-6);
+        assert_relative_eq!(
+            harmonic(&law, 1.0, w, quarter, steps).f[0],
+            storage,
+            max_relative = 1e-6
+        );
     }
 }
 
@@ -93,9 +98,14 @@ fn behind_a_stiff_spring_a_cycle_costs_what_the_dashpot_alone_costs() {
     {
         let law = law(1e9, 1000.0, exponent);
         let w = 2.0 * TAU;
-        let (first, second) = (led(&law, 0.1, w, 0.5, 2000), led(&law, 0.1, w, 1.0, 4000));
+        let (first, second) =
+            (harmonic(&law, 0.1, w, 0.5, 2000), harmonic(&law, 0.1, w, 1.0, 4000));
         let energy = lambda * 1000.0 * 0.1_f64.powf(1.0 + exponent) * w.powf(exponent);
-        assert_relative_eq!(second.viscous - first.viscous, energy, max_relative = 2e-4);
+        assert_relative_eq!(
+            second.energy.viscous - first.energy.viscous,
+            energy,
+            max_relative = 2e-4
+        );
     }
 }
 
@@ -105,10 +115,13 @@ fn a_step_of_any_size_gives_a_finite_force() {
         for k in [1.0, 1e12] {
             let law = law(k, 1e3, exponent);
             for (dt, d) in [(1e-8, 1e-3), (1e-8, 0.0), (1e-2, 1e-300), (1e-2, 1.0), (1e-2, -1.0)] {
-                let it = Led::through(&law, dt, 1, |t| (d * t / dt, d / dt));
-                assert!(it.f.is_finite() && it.viscous >= 0.0, "{law:?} {dt} {d}: {it:?}");
+                let it = led(&law, dt, 1, |t| (d * t / dt, d / dt));
+                assert!(
+                    it.f[0].is_finite() && it.energy.viscous >= 0.0,
+                    "{law:?} {dt} {d}: {it:?}"
+                );
                 let most = k * d.abs() * (1.0 + 1e-12);
-                assert!(it.f.abs() <= most, "{law:?} {dt} {d}: {it:?}");
+                assert!(it.f[0].abs() <= most, "{law:?} {dt} {d}: {it:?}");
             }
         }
     }
@@ -117,12 +130,12 @@ fn a_step_of_any_size_gives_a_finite_force() {
 #[test]
 fn a_static_step_leaves_the_force() {
     let law = law(3e5, 2e4, 0.5);
-    let mut out = Led::at_rest(&law);
-    out.step(&law, 0.01, 0.5, 0.01);
-    let before = out.f;
+    let mut driver = Driver::new(&law);
+    driver.step(&[0.01], &[0.5], 0.01);
+    let before = driver.f[0];
     assert!(before > 0.0);
-    out.step(&law, 0.05, 0.0, 0.0);
-    assert_eq!(out.f, before);
+    driver.to(&[0.05]);
+    assert_eq!(driver.f[0], before);
 }
 
 #[test]

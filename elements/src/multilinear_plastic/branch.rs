@@ -1,6 +1,6 @@
 //! One side of the curve, turned so that deformation and force are positive.
 
-use crate::multilinear::Curve;
+use crate::shared::multilinear::Curve;
 use trilith_element::ParameterError;
 
 /// The curve on the side of `sign`, from the origin outwards.

@@ -1,8 +1,8 @@
 //! The law of the [`NLink`].
 
 use super::NLink;
-use crate::restitution::damping_ratio;
-use crate::sliding::{Axial, Normal, exponential, radial_return, share_before};
+use crate::shared::restitution::damping_ratio;
+use crate::shared::sliding::{Axial, Normal, exponential, radial_return, share_before};
 use nalgebra::Vector2;
 use std::borrow::Cow;
 use trilith_element::{

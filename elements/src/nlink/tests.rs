@@ -1,9 +1,8 @@
 use super::*;
-use crate::parameters::{numbers, read};
-use crate::sliding::Ride;
+use crate::shared::parameters::{numbers, read};
 use approx::assert_relative_eq;
 use trilith_element::conformance::Kit;
-use trilith_element::{Contact, History, Kinematics, Link};
+use trilith_element::{Driver, History};
 
 const KN: f64 = 5e8;
 const MU: f64 = 0.4;
@@ -17,8 +16,8 @@ fn with_speed() -> NLink {
     NLink { mu_slow, mu_fast, rate, ks: Some(0.6 * KN), ..NLink::new(KN) }
 }
 
-fn history(ride: &Ride<'_>) -> NLinkHistory {
-    NLinkHistory::load(&ride.history)
+fn history(driver: &Driver<'_>) -> NLinkHistory {
+    NLinkHistory::load(&driver.history)
 }
 
 #[test]
@@ -52,42 +51,42 @@ fn conforms_with_restoring_forces_which_have_no_potential() {
 #[test]
 fn touching_is_closed_and_the_opening_is_free() {
     let link = NLink { opening: 1e-3, ..friction() };
-    let mut ride = Ride::new(&link);
-    ride.to([-0.9e-3, 0.0, 0.0]);
-    assert_eq!((ride.f.as_slice(), history(&ride).closed), ([0.0; 3].as_slice(), 0.0));
-    ride.to([-1e-3, 0.0, 0.0]);
-    assert_eq!((ride.f[0], history(&ride).closed), (0.0, 1.0));
-    ride.to([-1.2e-3, 0.0, 0.0]);
-    assert_relative_eq!(ride.f[0], -KN * 0.2e-3, max_relative = 1e-12);
+    let mut driver = Driver::new(&link);
+    driver.to(&[-0.9e-3, 0.0, 0.0]);
+    assert_eq!((driver.f.as_slice(), history(&driver).closed), ([0.0; 3].as_slice(), 0.0));
+    driver.to(&[-1e-3, 0.0, 0.0]);
+    assert_eq!((driver.f[0], history(&driver).closed), (0.0, 1.0));
+    driver.to(&[-1.2e-3, 0.0, 0.0]);
+    assert_relative_eq!(driver.f[0], -KN * 0.2e-3, max_relative = 1e-12);
 }
 
 #[test]
 fn slips_at_mu_n_in_the_direction_of_motion() {
     let link = friction();
-    let mut ride = Ride::new(&link);
-    ride.to([-1e-4, 0.0, 0.0]);
-    ride.to([-1e-4, 0.3e-4, 0.0]);
-    assert_relative_eq!(ride.f[1], KN * 0.3e-4, max_relative = 1e-12);
-    assert_eq!(history(&ride).slip, 0.0);
-    ride.to([-1e-4, 3e-3, 4e-3]);
-    assert_relative_eq!(ride.f[1].hypot(ride.f[2]), MU * KN * 1e-4, max_relative = 1e-12);
-    assert_relative_eq!(ride.f[1] / ride.f[2], 0.75, max_relative = 1e-12);
-    assert_relative_eq!(history(&ride).slip, 5e-3 - MU * 1e-4, max_relative = 1e-3);
+    let mut driver = Driver::new(&link);
+    driver.to(&[-1e-4, 0.0, 0.0]);
+    driver.to(&[-1e-4, 0.3e-4, 0.0]);
+    assert_relative_eq!(driver.f[1], KN * 0.3e-4, max_relative = 1e-12);
+    assert_eq!(history(&driver).slip, 0.0);
+    driver.to(&[-1e-4, 3e-3, 4e-3]);
+    assert_relative_eq!(driver.f[1].hypot(driver.f[2]), MU * KN * 1e-4, max_relative = 1e-12);
+    assert_relative_eq!(driver.f[1] / driver.f[2], 0.75, max_relative = 1e-12);
+    assert_relative_eq!(history(&driver).slip, 5e-3 - MU * 1e-4, max_relative = 1e-3);
 }
 
 #[test]
 fn a_friction_loop_dissipates_four_mu_n_times_the_slip_amplitude() {
     let link = friction();
     let (n, amplitude) = (KN * 1e-4, 2e-3);
-    let mut ride = Ride::new(&link);
-    ride.to([-1e-4, 0.0, 0.0]);
+    let mut driver = Driver::new(&link);
+    driver.to(&[-1e-4, 0.0, 0.0]);
     let mut cycle = |from: f64| {
-        let before = ride.energy.hysteretic;
+        let before = driver.energy.hysteretic;
         for i in 1..=4000 {
             let t = from + std::f64::consts::TAU * f64::from(i) / 4000.0;
-            ride.to([-1e-4, amplitude * t.sin(), 0.0]);
+            driver.to(&[-1e-4, amplitude * t.sin(), 0.0]);
         }
-        ride.energy.hysteretic - before
+        driver.energy.hysteretic - before
     };
     cycle(0.0);
     // The elastic part of a reversal, 2 μN/kₛ, does not slip.
@@ -98,7 +97,7 @@ fn a_friction_loop_dissipates_four_mu_n_times_the_slip_amplitude() {
 #[test]
 fn stick_slip_and_separation_balance_to_the_last_digit() {
     let link = friction();
-    let mut ride = Ride::new(&link);
+    let mut driver = Driver::new(&link);
     for d in [
         [-1e-4, 0.0, 0.0],
         [-1e-4, 0.2e-4, 0.1e-4],
@@ -107,36 +106,36 @@ fn stick_slip_and_separation_balance_to_the_last_digit() {
         [-1e-4, 1.9e-4, 1e-4],
         [-1e-4, 1.9e-4, 3e-4],
     ] {
-        ride.to(d);
+        driver.to(&d);
     }
-    let e = ride.energy;
-    assert_relative_eq!(ride.work, e.stored + e.hysteretic, max_relative = 1e-12);
+    let e = driver.energy;
+    assert_relative_eq!(driver.work, e.stored + e.hysteretic, max_relative = 1e-12);
 }
 
 #[test]
 fn the_anchor_does_not_survive_a_separation() {
     let link = friction();
-    let mut ride = Ride::new(&link);
-    ride.to([-1e-4, 0.0, 0.0]);
-    ride.to([-1e-4, 0.3e-4, 0.0]);
-    let stuck = ride.energy.stored;
-    ride.to([1e-6, 0.3e-4, 0.0]);
-    assert_eq!(ride.energy.stored, 0.0);
+    let mut driver = Driver::new(&link);
+    driver.to(&[-1e-4, 0.0, 0.0]);
+    driver.to(&[-1e-4, 0.3e-4, 0.0]);
+    let stuck = driver.energy.stored;
+    driver.to(&[1e-6, 0.3e-4, 0.0]);
+    assert_eq!(driver.energy.stored, 0.0);
     // The elastic energy of the stuck contact turned into heat.
-    assert_relative_eq!(ride.energy.hysteretic, stuck - 0.5 * KN * 1e-8, max_relative = 1e-9);
-    ride.to([1e-6, 5e-4, 0.0]);
-    ride.to([-1e-4, 5e-4, 0.0]);
-    assert_eq!(ride.f[1], 0.0);
+    assert_relative_eq!(driver.energy.hysteretic, stuck - 0.5 * KN * 1e-8, max_relative = 1e-9);
+    driver.to(&[1e-6, 5e-4, 0.0]);
+    driver.to(&[-1e-4, 5e-4, 0.0]);
+    assert_eq!(driver.f[1], 0.0);
 }
 
 #[test]
 fn a_closing_contact_is_anchored_where_it_touched() {
     let link = friction();
-    let mut ride = Ride::new(&link);
-    ride.to([3e-4, 0.0, 0.0]);
-    ride.to([-1e-4, 1e-4, 0.0]);
+    let mut driver = Driver::new(&link);
+    driver.to(&[3e-4, 0.0, 0.0]);
+    driver.to(&[-1e-4, 1e-4, 0.0]);
     // Touched after three quarters of the step, at 0.75e-4.
-    assert_relative_eq!(ride.f[1], KN * 0.25e-4, max_relative = 1e-9);
+    assert_relative_eq!(driver.f[1], KN * 0.25e-4, max_relative = 1e-9);
 }
 
 #[test]
@@ -145,10 +144,10 @@ fn the_dashpot_pulls_only_where_it_may_and_feeds_the_cone_only_where_it_may_not(
     let loose = NLink { damping: c, ..friction() };
     let held = NLink { pull: true, ..loose.clone() };
     let rising = |link: &NLink, d1, v1| {
-        let mut ride = Ride::new(link);
-        ride.to([-1e-4, 0.0, 0.0]);
-        ride.step(&[d1, 1e-2, 0.0], &[v1, 0.0, 0.0], 1e-3);
-        ride.f
+        let mut driver = Driver::new(link);
+        driver.to(&[-1e-4, 0.0, 0.0]);
+        driver.step(&[d1, 1e-2, 0.0], &[v1, 0.0, 0.0], 1e-3);
+        driver.f
     };
     let n = KN * 1e-4;
     assert_eq!(rising(&loose, -1e-4, v), [0.0; 3]);
@@ -165,10 +164,10 @@ fn the_dashpot_pulls_only_where_it_may_and_feeds_the_cone_only_where_it_may_not(
 fn friction_grows_from_slow_to_fast() {
     let link = with_speed();
     let at = |speed: f64| {
-        let mut ride = Ride::new(&link);
-        ride.to([-1e-4, 0.0, 0.0]);
-        ride.step(&[-1e-4, 1e-2, 0.0], &[0.0, speed, 0.0], 0.0);
-        ride.f[1] / (KN * 1e-4)
+        let mut driver = Driver::new(&link);
+        driver.to(&[-1e-4, 0.0, 0.0]);
+        driver.step(&[-1e-4, 1e-2, 0.0], &[0.0, speed, 0.0], 0.0);
+        driver.f[1] / (KN * 1e-4)
     };
     assert_relative_eq!(at(0.0), 0.05, max_relative = 1e-9);
     assert_relative_eq!(at(0.1), 0.4 - 0.35 * (-2.0_f64).exp(), max_relative = 1e-9);
@@ -178,29 +177,22 @@ fn friction_grows_from_slow_to_fast() {
 #[test]
 fn a_pendulum_pulls_back_with_n_d_over_r() {
     let link = NLink { radius: 2.0, ..NLink::new(KN) };
-    let mut ride = Ride::new(&link);
-    ride.to([-1e-4, 0.0, 0.0]);
-    ride.to([-1e-4, 0.1, -0.05]);
-    assert_relative_eq!(ride.f[1], KN * 1e-4 * 0.1 / 2.0, max_relative = 1e-9);
-    assert_relative_eq!(ride.f[2], -KN * 1e-4 * 0.05 / 2.0, max_relative = 1e-9);
+    let mut driver = Driver::new(&link);
+    driver.to(&[-1e-4, 0.0, 0.0]);
+    driver.to(&[-1e-4, 0.1, -0.05]);
+    assert_relative_eq!(driver.f[1], KN * 1e-4 * 0.1 / 2.0, max_relative = 1e-9);
+    assert_relative_eq!(driver.f[2], -KN * 1e-4 * 0.05 / 2.0, max_relative = 1e-9);
     let rise = KN * 1e-4 * (0.01 + 0.0025) / 4.0;
-    assert_relative_eq!(ride.energy.stored, rise + 0.5 * KN * 1e-8, max_relative = 1e-9);
-}
-
-fn contact(link: &NLink, at: &Kinematics<'_>, ride: &Ride<'_>) -> Contact {
-    let mut contacts = Vec::new();
-    link.contacts(at, &ride.history, &ride.f, &mut contacts);
-    contacts[0]
+    assert_relative_eq!(driver.energy.stored, rise + 0.5 * KN * 1e-8, max_relative = 1e-9);
 }
 
 #[test]
 fn the_contact_tells_stick_from_slip() {
     let link = friction();
-    let mut ride = Ride::new(&link);
+    let mut driver = Driver::new(&link);
     let mut tell = |d: [f64; 3]| {
-        ride.to(d);
-        let at = Kinematics { d: &d, v: &[0.0; 3], d0: &d, v0: &[0.0; 3], dt: 0.0 };
-        contact(&link, &at, &ride)
+        driver.to(&d);
+        driver.contacts()[0]
     };
     let still = tell([-1e-4, 0.3e-4, 0.0]);
     assert!(!still.slipping);
@@ -227,10 +219,10 @@ fn rejects_contradictions_by_name() {
 #[test]
 fn the_dashpot_takes_the_work_of_a_rate_that_is_linear_in_the_step() {
     let link = NLink { damping: 1e4, ..NLink::new(KN) };
-    let mut ride = Ride::new(&link);
-    ride.step(&[-1e-4, 0.0, 0.0], &[-0.3, 0.0, 0.0], 1e-3);
-    let before = ride.energy.viscous;
-    ride.step(&[-3e-4, 0.0, 0.0], &[-0.1, 0.0, 0.0], 1e-3);
+    let mut driver = Driver::new(&link);
+    driver.step(&[-1e-4, 0.0, 0.0], &[-0.3, 0.0, 0.0], 1e-3);
+    let before = driver.energy.viscous;
+    driver.step(&[-3e-4, 0.0, 0.0], &[-0.1, 0.0, 0.0], 1e-3);
     let expected = 1e4 * (0.09 + 0.03 + 0.01) / 3.0 * 1e-3;
-    assert_relative_eq!(ride.energy.viscous - before, expected, max_relative = 1e-9);
+    assert_relative_eq!(driver.energy.viscous - before, expected, max_relative = 1e-9);
 }

@@ -1,5 +1,5 @@
 use super::*;
-use crate::parameters::read;
+use crate::shared::parameters::read;
 use approx::assert_relative_eq;
 use trilith_element::conformance::Kit;
 use trilith_element::{Energy, Kinematics, Link, Response, Value};

@@ -1,8 +1,9 @@
 use super::*;
 use crate::FrictionPendulum;
-use crate::parameters::{numbers, read};
-use crate::sliding::Ride;
+use crate::shared::parameters::{numbers, read};
+use crate::shared::paths::along;
 use approx::assert_relative_eq;
+use trilith_element::Driver;
 use trilith_element::conformance::Kit;
 
 const KN: f64 = 5e8;
@@ -47,51 +48,51 @@ fn conforms_with_and_without_clearances_dashpot_and_radius() {
 fn each_side_has_its_clearance_its_stiffness_and_its_friction() {
     let (gap_compression, gap_tension) = (1e-3, 2e-3);
     let law = TensionCompressionFriction { gap_compression, gap_tension, ..coulomb() };
-    let mut ride = Ride::new(&law);
-    ride.to([-1.1e-3, 0.0, 0.0]);
-    ride.along([-1.1e-3, 3e-3, 4e-3], 10);
+    let mut driver = Driver::new(&law);
+    driver.to(&[-1.1e-3, 0.0, 0.0]);
+    along(&mut driver, &[-1.1e-3, 3e-3, 4e-3], 10);
     let n = KN * 1e-4;
-    assert_relative_eq!(ride.f[0], -n, max_relative = 1e-9);
-    assert_relative_eq!(ride.f[1], 0.3 * n * 0.6, max_relative = 1e-9);
-    assert_relative_eq!(ride.f[2], 0.3 * n * 0.8, max_relative = 1e-9);
-    ride.to([1.9e-3, 0.0, 0.0]);
-    assert_eq!(ride.f, [0.0; 3]);
-    ride.to([2.1e-3, 0.0, 0.0]);
-    ride.along([2.1e-3, -3e-3, 0.0], 10);
+    assert_relative_eq!(driver.f[0], -n, max_relative = 1e-9);
+    assert_relative_eq!(driver.f[1], 0.3 * n * 0.6, max_relative = 1e-9);
+    assert_relative_eq!(driver.f[2], 0.3 * n * 0.8, max_relative = 1e-9);
+    driver.to(&[1.9e-3, 0.0, 0.0]);
+    assert_eq!(driver.f, [0.0; 3]);
+    driver.to(&[2.1e-3, 0.0, 0.0]);
+    along(&mut driver, &[2.1e-3, -3e-3, 0.0], 10);
     let n = KT * 1e-4;
-    assert_relative_eq!(ride.f[0], n, max_relative = 1e-9);
-    assert_relative_eq!(ride.f[1], -0.6 * n, max_relative = 1e-9);
+    assert_relative_eq!(driver.f[0], n, max_relative = 1e-9);
+    assert_relative_eq!(driver.f[1], -0.6 * n, max_relative = 1e-9);
 }
 
 #[test]
 fn friction_of_compression_holds_in_tension_where_nothing_is_said() {
     let law = TensionCompressionFriction { mu_tension: None, ..coulomb() };
-    let mut ride = Ride::new(&law);
-    ride.to([1e-4, 0.0, 0.0]);
-    ride.along([1e-4, 1e-3, 0.0], 10);
-    assert_relative_eq!(ride.f[1], 0.3 * KT * 1e-4, max_relative = 1e-9);
+    let mut driver = Driver::new(&law);
+    driver.to(&[1e-4, 0.0, 0.0]);
+    along(&mut driver, &[1e-4, 1e-3, 0.0], 10);
+    assert_relative_eq!(driver.f[1], 0.3 * KT * 1e-4, max_relative = 1e-9);
 }
 
 #[test]
 fn a_step_from_one_side_to_the_other_is_anchored_where_it_went_through() {
-    let mut ride_law = coulomb();
-    ride_law.gap_tension = 1e-4;
-    let mut ride = Ride::new(&ride_law);
-    ride.to([-1e-4, 0.0, 0.0]);
+    let mut law = coulomb();
+    law.gap_tension = 1e-4;
+    let mut driver = Driver::new(&law);
+    driver.to(&[-1e-4, 0.0, 0.0]);
     // Through 0 at a third and through 0.1 mm at two thirds of the way.
-    ride.to([2e-4, 3e-5, 0.0]);
-    assert_relative_eq!(ride.f[1], KN * 1e-5, max_relative = 1e-9);
+    driver.to(&[2e-4, 3e-5, 0.0]);
+    assert_relative_eq!(driver.f[1], KN * 1e-5, max_relative = 1e-9);
 }
 
 #[test]
 fn pulled_at_the_surface_pushes_out() {
     let law =
         TensionCompressionFriction { radius: 2.0, ..TensionCompressionFriction::new(KN, KT, KN) };
-    let mut ride = Ride::new(&law);
-    ride.to([-1e-4, 0.1, 0.0]);
-    assert_relative_eq!(ride.f[1], KN * 1e-4 * 0.05, max_relative = 1e-9);
-    ride.to([1e-4, 0.1, 0.0]);
-    assert_relative_eq!(ride.f[1], -KT * 1e-4 * 0.05, max_relative = 1e-9);
+    let mut driver = Driver::new(&law);
+    driver.to(&[-1e-4, 0.1, 0.0]);
+    assert_relative_eq!(driver.f[1], KN * 1e-4 * 0.05, max_relative = 1e-9);
+    driver.to(&[1e-4, 0.1, 0.0]);
+    assert_relative_eq!(driver.f[1], -KT * 1e-4 * 0.05, max_relative = 1e-9);
 }
 
 #[test]
@@ -100,7 +101,7 @@ fn in_compression_it_is_a_friction_pendulum() {
     let one = TensionCompressionFriction { radius, damping: 1e6, ..coulomb() };
     let two =
         FrictionPendulum { mu: Some(0.3), radius, damping: 1e6, ..FrictionPendulum::new(KN, KN) };
-    let (mut one, mut two) = (Ride::new(&one), Ride::new(&two));
+    let (mut one, mut two) = (Driver::new(&one), Driver::new(&two));
     for i in 1..400 {
         let t = 0.02 * f64::from(i);
         let d = [1e-4 * ((7.0 * t).sin() - 1.1), 3e-4 * (5.0 * t).sin(), 2e-4 * (3.0 * t).cos()];
@@ -117,11 +118,9 @@ fn the_contact_is_the_closer_side() {
     let law = TensionCompressionFriction { gap_compression, gap_tension, ..coulomb() };
     let tell = |d1: f64| {
         let d = [d1, 0.0, 0.0];
-        let mut ride = Ride::new(&law);
-        ride.to(d);
-        let at = Kinematics { d: &d, v: &[0.0; 3], d0: &d, v0: &[0.0; 3], dt: 0.0 };
-        let mut all = Vec::new();
-        law.contacts(&at, &ride.history, &ride.f, &mut all);
+        let mut driver = Driver::new(&law);
+        driver.to(&d);
+        let all = driver.contacts();
         (all[0].gap, all[0].normal)
     };
     assert_eq!(tell(0.0), (1e-3, 0.0));

@@ -2,7 +2,7 @@
 
 use super::TriplePendulum;
 use super::series::{SURFACES, Series, Speed, Surface, solve};
-use crate::sliding::{Axial, Coefficient, Normal, Stop, engaged, share_before};
+use crate::shared::sliding::{Axial, Coefficient, Normal, Stop, engaged, share_before};
 use nalgebra::{Vector2, Vector3};
 use std::borrow::Cow;
 use trilith_element::{Axis, Contact, Coordinates, Field, Impact, Kinematics, Link, Response};

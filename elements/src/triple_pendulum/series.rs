@@ -9,7 +9,7 @@
 //! the only minimum of the sum; friction that grows with speed only makes it steeper. Newton's method
 //! with a search along each step, which always goes down, finds it.
 
-use crate::sliding::{Coefficient, Limit, Stop, radial_return};
+use crate::shared::sliding::{Coefficient, Limit, Stop, radial_return};
 use nalgebra::{Matrix2, Vector2};
 
 /// Number of surfaces.

@@ -1,9 +1,9 @@
 use super::*;
-use crate::parameters::{numbers, read};
-use crate::sliding::Ride;
+use crate::shared::parameters::{numbers, read};
+use crate::shared::paths::cycle;
 use approx::assert_relative_eq;
 use trilith_element::conformance::Kit;
-use trilith_element::{Kinematics, Link, Value};
+use trilith_element::{Driver, Value};
 
 const KN: f64 = 5e8;
 
@@ -118,16 +118,16 @@ fn follows_the_five_regimes_and_their_transitions() {
     // u** = u* + (μ₄ − μ₁)(R₁* + R₃*).
     assert_relative_eq!(points[3].0, points[2].0 + 0.04 * (2.1 + 0.3), max_relative = 1e-12);
     for steps in [7, 50, 400] {
-        let mut ride = Ride::new(&law);
-        ride.to([-1e-4, 0.0, 0.0]);
+        let mut driver = Driver::new(&law);
+        driver.to(&[-1e-4, 0.0, 0.0]);
         let end = points.last().unwrap().0;
         for i in 1..=steps {
             let u = end * f64::from(i) / f64::from(steps);
             // Any direction.
-            ride.to([-1e-4, 0.6 * u, 0.8 * u]);
-            let f = 0.6 * ride.f[1] + 0.8 * ride.f[2];
+            driver.to(&[-1e-4, 0.6 * u, 0.8 * u]);
+            let f = 0.6 * driver.f[1] + 0.8 * driver.f[2];
             assert_relative_eq!(f, line(&points, u), max_relative = 2e-4);
-            assert!((0.8 * ride.f[1] - 0.6 * ride.f[2]).abs() < 1e-6 * W);
+            assert!((0.8 * driver.f[1] - 0.6 * driver.f[2]).abs() < 1e-6 * W);
         }
     }
 }
@@ -163,14 +163,14 @@ fn cycles_follow_four_real_surfaces_that_tilt() {
         })
         .collect();
     let places = real_surfaces(&law, &forces);
-    let mut ride = Ride::new(&law);
-    ride.to([-1e-4, 0.0, 0.0]);
+    let mut driver = Driver::new(&law);
+    driver.to(&[-1e-4, 0.0, 0.0]);
     let (mut worst, mut compared, mut before) = (0.0_f64, 0, 0.0);
     for (u, f) in places.iter().zip(&forces) {
-        ride.to([-1e-4, *u, 0.0]);
+        driver.to(&[-1e-4, *u, 0.0]);
         // Where all stick, the rigid surfaces do not say where in the friction the force is.
         if (u - before).abs() > 1e-6 {
-            worst = worst.max((ride.f[1] - f).abs());
+            worst = worst.max((driver.f[1] - f).abs());
             compared += 1;
         }
         before = *u;
@@ -189,10 +189,10 @@ fn the_outer_surfaces_alone_make_a_loop_of_known_area() {
     let last = points[3];
     points.push((last.0 + 1.0, last.1 + W / (r1 + r4)));
     let amplitude = 0.3;
-    let mut ride = Ride::new(&law);
-    ride.to([-1e-4, 0.0, 0.0]);
-    ride.cycle(-1e-4, amplitude, 4000);
-    let area = ride.cycle(-1e-4, amplitude, 4000);
+    let mut driver = Driver::new(&law);
+    driver.to(&[-1e-4, 0.0, 0.0]);
+    cycle(&mut driver, -1e-4, amplitude, 4000);
+    let area = cycle(&mut driver, -1e-4, amplitude, 4000);
     // Loading curve from −amplitude: F = −F(a) + 2 F((u + a)/2); the loop is 2 ∫ (that) du.
     let n = 20_000;
     let step = 2.0 * amplitude / f64::from(n);
@@ -206,22 +206,22 @@ fn the_outer_surfaces_alone_make_a_loop_of_known_area() {
 #[test]
 fn equilibrium_holds_on_every_surface_whatever_the_step() {
     let law = with_rims(small());
-    let mut ride = Ride::new(&law);
+    let mut driver = Driver::new(&law);
     for i in 1..2000 {
         let t = 1.7 * f64::from(i);
         let size = 10f64.powf(-2.0 * (1.0 + (0.37 * t).sin()));
         let d = [-1e-4 * (1.1 + (1.3 * t).sin()), 1e-3 * size * t.sin(), 1e-3 * (0.7 * t).cos()];
-        ride.to(d);
-        let n = -ride.f[0];
+        driver.to(&d);
+        let n = -driver.f[0];
         let (radii, stops) = (law.radii_in_series(), law.stops());
         let mut sum = nalgebra::Vector2::zeros();
         for j in 0..4 {
-            let h = &ride.history[4 + 5 * j..];
+            let h = &driver.history[4 + 5 * j..];
             let w = nalgebra::Vector2::new(h[0], h[1]);
             let a = nalgebra::Vector2::new(h[2], h[3]);
             let stop = stops[j].unwrap().force(w).0;
             let f = w * (n / radii[j]) + (w - a) * law.ks + stop;
-            let off = (f - nalgebra::Vector2::new(ride.f[1], ride.f[2])).norm();
+            let off = (f - nalgebra::Vector2::new(driver.f[1], driver.f[2])).norm();
             assert!(off < 1e-9 * (n + f.norm()), "surface {j} at {i}: {off} of {f}");
             sum += w;
         }
@@ -232,16 +232,16 @@ fn equilibrium_holds_on_every_surface_whatever_the_step() {
 #[test]
 fn a_lifted_bearing_has_no_shear_up_to_its_rims() {
     let law = with_rims(small());
-    let mut ride = Ride::new(&law);
-    ride.to([-1e-4, 1e-4, 0.0]);
-    ride.to([1e-4, 4e-4, 1e-4]);
-    assert_eq!(ride.f, [0.0; 3]);
-    ride.to([1e-4, 0.0, 6e-4]);
+    let mut driver = Driver::new(&law);
+    driver.to(&[-1e-4, 1e-4, 0.0]);
+    driver.to(&[1e-4, 4e-4, 1e-4]);
+    assert_eq!(driver.f, [0.0; 3]);
+    driver.to(&[1e-4, 0.0, 6e-4]);
     // 0.56 mm in all; four rims in series.
-    assert_relative_eq!(ride.f[2], 0.3 * KN / 4.0 * 0.4e-4, max_relative = 1e-9);
-    ride.to([1e-4, 0.0, 5e-4]);
-    ride.to([-1e-4, 0.0, 5e-4]);
-    let back = ride.f[2];
+    assert_relative_eq!(driver.f[2], 0.3 * KN / 4.0 * 0.4e-4, max_relative = 1e-9);
+    driver.to(&[1e-4, 0.0, 5e-4]);
+    driver.to(&[-1e-4, 0.0, 5e-4]);
+    let back = driver.f[2];
     assert!(back > 0.0 && back < KN * 1e-4 * (5e-4 / 2e-3 + 0.4), "{back}");
 }
 
@@ -256,12 +256,12 @@ fn speed_raises_the_friction_of_the_surfaces_that_slide() {
         stop_stiffness: None,
         ..large()
     };
-    let mut ride = Ride::new(&law);
-    ride.to([-1e-4, 0.0, 0.0]);
+    let mut driver = Driver::new(&law);
+    driver.to(&[-1e-4, 0.0, 0.0]);
     let dt = 1e-3;
     for i in 1..=600 {
         let u = 1e-3 * f64::from(i);
-        ride.step(&[-1e-4, u, 0.0], &[0.0, 1.0, 0.0], dt);
+        driver.step(&[-1e-4, u, 0.0], &[0.0, 1.0, 0.0], dt);
     }
     // Regime III: 1 and 4 slide as their radii, 2 and 3 only in the series.
     let (r1, r2, r3, r4) = (2.1, 0.35, 0.30, 2.4);
@@ -271,18 +271,16 @@ fn speed_raises_the_friction_of_the_surfaces_that_slide() {
     let m2 = mu(0.02, 0.03, r2 / (r1 + r4));
     let m3 = mu(0.02, 0.03, r3 / (r1 + r4));
     let rest = (m1 * (r1 - r2) + m2 * r2 + m3 * r3 + m4 * (r4 - r3)) / (r1 + r4);
-    assert_relative_eq!(ride.f[1], W * 0.6 / (r1 + r4) + rest, max_relative = 1e-4);
+    assert_relative_eq!(driver.f[1], W * 0.6 / (r1 + r4) + rest, max_relative = 1e-4);
 }
 
 #[test]
 fn the_contact_slips_where_a_surface_does() {
     let law = large();
-    let mut ride = Ride::new(&law);
+    let mut driver = Driver::new(&law);
     let mut tell = |d: [f64; 3]| {
-        ride.to(d);
-        let at = Kinematics { d: &d, v: &[0.0; 3], d0: &d, v0: &[0.0; 3], dt: 0.0 };
-        let mut all = Vec::new();
-        law.contacts(&at, &ride.history, &ride.f, &mut all);
+        driver.to(&d);
+        let all = driver.contacts();
         (all[0].normal, all[0].slipping)
     };
     assert_eq!(tell([-1e-4, 0.0, 0.0]), (1e6, false));

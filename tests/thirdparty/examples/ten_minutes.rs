@@ -95,3 +95,15 @@ fn the_rod_keeps_the_contract() {
     // Deformations of about 20 mm, one cycle in a second.
     trilith_element::conformance::Kit::new(&[0.02], 1.0).rate_independent().assert(&rod);
 }
+
+/// Yields at 5 mm: 10 mm turn F_y · 5 mm into heat, and on the way back the rod is loose below 5 mm.
+#[test]
+fn the_rod_yields_and_stays_longer() {
+    let rod = YieldingRod { k: 1e7, fy: 5e4, axis: Axis::U1 };
+    let mut driver = trilith_element::Driver::new(&rod);
+    assert_eq!(driver.to(&[0.01])[0], 5e4);
+    assert!((driver.heat() - 5e4 * 0.005).abs() < 1e-9);
+    assert!((driver.to(&[0.008])[0] - 1e7 * 0.003).abs() < 1e-6);
+    assert_eq!(driver.to(&[0.004])[0], 0.0);
+    assert_eq!(driver.history, [0.005]);
+}

@@ -79,7 +79,7 @@ impl Link for CubicSpring {
 mod tests {
     use super::*;
     use trilith_element::conformance::Kit;
-    use trilith_element::{Energy, ParameterError, Value, Values};
+    use trilith_element::{Driver, ParameterError, Value, Values};
 
     fn read(names: [&str; 3]) -> Result<CubicSpring, ParameterError> {
         let values = [Value::Number(4e4), Value::Number(5e6), Value::Text("U1".into())];
@@ -100,11 +100,10 @@ mod tests {
     #[test]
     fn doubles_its_force_where_both_terms_are_equal() {
         let d = (4e4_f64 / 5e6).sqrt();
-        let (mut f, mut k, mut c, mut energy) = ([0.0], [0.0], [0.0], Energy::default());
-        let mut out = Response { f: &mut f, k: &mut k, c: &mut c, energy: &mut energy };
-        let at = Kinematics { d: &[d], v: &[0.0], d0: &[-d], v0: &[0.0], dt: 0.0 };
-        law().respond(&at, &[], &mut [], &mut out);
-        assert!((f[0] - 2.0 * 4e4 * d).abs() < 1e-9 * f[0]);
+        let law = law();
+        let mut driver = Driver::starting_at(&law, &[-d], &[0.0]);
+        let f = driver.to(&[d])[0];
+        assert!((f - 2.0 * 4e4 * d).abs() < 1e-9 * f);
     }
 
     #[test]

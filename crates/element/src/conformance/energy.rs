@@ -1,7 +1,7 @@
 //! Energy: the balance of a law, and what comes out of it.
 
 use super::path::Path;
-use super::probe::march;
+use super::probe::start;
 use super::{ConformanceError as Broken, Kit, Report};
 use crate::Link;
 
@@ -19,33 +19,22 @@ struct Ledger {
 }
 
 fn ledger(kit: &Kit, link: &dyn Link, path: &Path, steps: usize) -> Result<Ledger, Broken> {
-    let (mut sum, mut first, mut last) = (Ledger::default(), None, 0.0);
-    let mut dissipated = 0.0;
-    march(link, path, 3, steps, |s| {
-        let (f0, f1) = (&s.before.f, &s.answer.f);
-        let work: f64 =
-            (0..f0.len()).map(|i| 0.5 * (f0[i] + f1[i]) * (s.at.d[i] - s.at.d0[i])).sum();
-        sum.work += work;
-        sum.turned_over += work.abs();
-        let e = s.answer.energy;
+    let dt = path.period() / steps as f64;
+    let mut driver = start(link, path);
+    let (at_start, mut gain) = (driver.energy.stored, 0.0_f64);
+    for (time, d, v) in path.ends(3, steps) {
+        let answer = driver.ask(&driver.toward(&d, &v, dt));
+        let e = answer.energy;
+        driver.commit(&d, &v, answer);
         for (which, value) in [("hysteretic", e.hysteretic), ("viscous", e.viscous)] {
-            if kit.passive && value < -1e-12 * (sum.turned_over + e.stored.abs()) {
-                return Err(Broken::NegativeDissipation {
-                    which,
-                    value,
-                    path: path.number,
-                    time: s.time,
-                });
+            if kit.passive && value < -1e-12 * (driver.turned_over + e.stored.abs()) {
+                return Err(Broken::NegativeDissipation { which, value, path: path.number, time });
             }
-            dissipated += value;
         }
-        let at_start = *first.get_or_insert(s.before.energy.stored);
-        sum.gain = sum.gain.max(-sum.work - at_start);
-        last = e.stored;
-        Ok(())
-    })?;
-    sum.accounted = last - first.unwrap_or(0.0) + dissipated;
-    Ok(sum)
+        gain = gain.max(-driver.work - at_start);
+    }
+    let (work, turned_over) = (driver.work, driver.turned_over);
+    Ok(Ledger { work, accounted: driver.accounted(), turned_over, gain })
 }
 
 /// A thousandth of the largest turnover of all paths, J: a path that hardly touches is measured by it.

@@ -54,6 +54,20 @@ impl Path {
         TAU / self.omega
     }
 
+    /// Time, deformation and rate at the ends of all steps, `steps` a cycle.
+    pub(super) fn ends(
+        &self,
+        cycles: usize,
+        steps: usize,
+    ) -> impl Iterator<Item = (f64, Vec<f64>, Vec<f64>)> {
+        let dt = self.period() / steps as f64;
+        (1..=cycles * steps).map(move |number| {
+            let time = number as f64 * dt;
+            let (d, v) = self.at(time);
+            (time, d, v)
+        })
+    }
+
     /// Deformation and rate.
     pub(super) fn at(&self, t: f64) -> (Vec<f64>, Vec<f64>) {
         // r = 3x² − 2x³ over half a cycle.

@@ -1,9 +1,9 @@
 //! The properties, one function each.
 
 use super::path::Path;
-use super::probe::{Answer, Step, ask, march, rest};
+use super::probe::{Step, march};
 use super::{ConformanceError as Broken, Kit, Report};
-use crate::{Kinematics, Link};
+use crate::{Answer, Driver, Kinematics, Link};
 
 /// Steps of a cycle where states are looked at one by one.
 const COARSE: usize = 48;
@@ -89,15 +89,27 @@ pub(super) fn answers(link: &dyn Link, path: &Path) -> Result<(), Broken> {
         // A discarded trial somewhere else must leave no trace.
         let elsewhere: Vec<f64> =
             s.at.d.iter().zip(&path.scale).map(|(d, x)| d - 1.7 * x).collect();
-        ask(link, &Kinematics { d: &elsewhere, ..s.at }, s.committed);
-        same(&ask(link, &s.at, s.committed), s, path)?;
+        let _ = s.before.ask(&Kinematics { d: &elsewhere, ..s.at });
+        same(&s.before.ask(&s.at), s, path)?;
         restart(link, s, path, &peak)?;
         contact(link, s, path)
     })
 }
 
+/// The parts of an answer by name.
+fn parts(answer: &Answer) -> [(&'static str, Vec<f64>); 5] {
+    let e = answer.energy;
+    [
+        ("f", answer.f.clone()),
+        ("k", answer.k.clone()),
+        ("c", answer.c.clone()),
+        ("energy", vec![e.stored, e.hysteretic, e.viscous]),
+        ("trial", answer.trial.clone()),
+    ]
+}
+
 fn finite(s: &Step<'_>, path: &Path) -> Result<(), Broken> {
-    for (what, values) in s.answer.parts() {
+    for (what, values) in parts(s.answer) {
         if let Some(index) = values.iter().position(|x| !x.is_finite()) {
             return Err(Broken::NotFinite { what, index, path: path.number, time: s.time });
         }
@@ -106,7 +118,7 @@ fn finite(s: &Step<'_>, path: &Path) -> Result<(), Broken> {
 }
 
 fn same(again: &Answer, s: &Step<'_>, path: &Path) -> Result<(), Broken> {
-    for ((what, one), (_, two)) in s.answer.parts().iter().zip(&again.parts()) {
+    for ((what, one), (_, two)) in parts(s.answer).iter().zip(&parts(again)) {
         for (index, (first, second)) in one.iter().zip(two).enumerate() {
             if first.to_bits() != second.to_bits() {
                 let (first, second, path) = (*first, *second, path.number);
@@ -119,7 +131,8 @@ fn same(again: &Answer, s: &Step<'_>, path: &Path) -> Result<(), Broken> {
 
 fn restart(link: &dyn Link, s: &Step<'_>, path: &Path, peak: &[f64]) -> Result<(), Broken> {
     let (d, v) = (s.at.d, s.at.v);
-    let next = ask(link, &Kinematics { d, v, d0: d, v0: v, dt: 0.0 }, &s.answer.trial);
+    let at = Kinematics { d, v, d0: d, v0: v, dt: 0.0 };
+    let next = Answer::of(link, &at, &s.answer.trial);
     for (index, (before, after)) in s.answer.f.iter().zip(&next.f).enumerate() {
         let close = (before - after).abs() <= 1e-9 * peak[index];
         if !close {
@@ -183,7 +196,7 @@ pub(super) fn tangents(
                     } else {
                         Kinematics { d: &x, ..s.at }
                     };
-                    ask(link, &at, s.committed).f
+                    s.before.ask(&at).f
                 };
                 let h = STEP * scale;
                 let (plus, minus) = (moved(h), moved(-h));
@@ -236,20 +249,16 @@ pub(super) fn rates(link: &dyn Link, path: &Path) -> Result<(), Broken> {
         let v: Vec<f64> = s.at.v.iter().map(|x| 10.0 * x).collect();
         let v0: Vec<f64> = s.at.v0.iter().map(|x| 10.0 * x).collect();
         let fast = Kinematics { v: &v, v0: &v0, dt: 0.1 * s.at.dt, ..s.at };
-        different(&s.answer.f, &ask(link, &fast, s.committed).f, 1e-9, "at ten times the speed")
+        different(&s.answer.f, &s.before.ask(&fast).f, 1e-9, "at ten times the speed")
     })?;
     let end = path.at(0.37 * path.period()).0;
     let straight = |steps: usize| {
-        let mut history = rest(link);
-        let mut d0 = vec![0.0; end.len()];
-        let mut f = Vec::new();
+        let mut driver = Driver::starting_at(link, &vec![0.0; end.len()], &end);
         for i in 1..=steps {
             let d: Vec<f64> = end.iter().map(|x| x * i as f64 / steps as f64).collect();
-            let answer =
-                ask(link, &Kinematics { d: &d, v: &end, d0: &d0, v0: &end, dt: 1.0 }, &history);
-            (history, d0, f) = (answer.trial, d, answer.f);
+            driver.step(&d, &end, 1.0);
         }
-        f
+        driver.f
     };
     different(&straight(400), &straight(800), 1e-3, "with half the step on a straight path")
 }

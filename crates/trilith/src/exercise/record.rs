@@ -1,7 +1,7 @@
 //! What a law did along a motion.
 
 use super::{Coordinate, ExerciseError, Motion};
-use crate::element::{Energy, Field, Kinematics, Link, Response};
+use crate::element::{Driver, Field, Link};
 use std::f64::consts::TAU;
 
 /// Steps of a cycle.
@@ -70,52 +70,40 @@ impl Record {
             turned_over: 0.0,
             last: steps - STEPS,
         };
-        let mut committed = vec![0.0; it.fields.len()];
-        law.at_rest(&mut committed);
-        let mut trial = committed.clone();
-        let (mut f, mut k, mut c) = (vec![0.0; n], vec![0.0; n * n], vec![0.0; n * n]);
-        let (mut d0, mut v0) = motion.at(0.0);
-        let mut before = f.clone();
-        let [mut work, mut hysteretic, mut viscous] = [0.0; 3];
-        for step in 0..=steps {
+        let (d, v) = motion.at(0.0);
+        let mut driver = Driver::starting_at(law, &d, &v);
+        it.push(0.0, &driver)?;
+        for step in 1..=steps {
             let time = step as f64 * dt;
             let (d, v) = motion.at(time);
-            [&mut f, &mut k, &mut c].into_iter().for_each(|x| x.fill(0.0));
-            let mut energy = Energy::default();
-            let length = if step == 0 { 0.0 } else { dt };
-            let at = Kinematics { d: &d, v: &v, d0: &d0, v0: &v0, dt: length };
-            let mut out = Response { f: &mut f, k: &mut k, c: &mut c, energy: &mut energy };
-            law.respond(&at, &committed, &mut trial, &mut out);
-            let all = f.iter().chain([&energy.stored, &energy.hysteretic, &energy.viscous]);
-            if !all.chain(&trial).all(|x| x.is_finite()) {
-                return Err(ExerciseError::NotFinite(time));
-            }
-            if step > 0 {
-                let done: f64 = (0..n).map(|i| 0.5 * (before[i] + f[i]) * (d[i] - d0[i])).sum();
-                work += done;
-                it.turned_over += done.abs();
-            }
-            hysteretic += energy.hysteretic;
-            viscous += energy.viscous;
-            it.time.push(time);
-            it.work.push(work);
-            for (list, x) in it.energy.iter_mut().zip([energy.stored, hysteretic, viscous]) {
-                list.push(x);
-            }
-            let rows = [
-                (&mut it.deformation, &d),
-                (&mut it.rate, &v),
-                (&mut it.force, &f),
-                (&mut it.history, &trial),
-            ];
-            for (lists, values) in rows {
-                lists.iter_mut().zip(values).for_each(|(list, x)| list.push(*x));
-            }
-            committed.copy_from_slice(&trial);
-            before.copy_from_slice(&f);
-            (d0, v0) = (d, v);
+            driver.step(&d, &v, dt);
+            it.push(time, &driver)?;
         }
+        it.turned_over = driver.turned_over;
         Ok(it)
+    }
+
+    /// Takes down where a law is.
+    fn push(&mut self, time: f64, driver: &Driver<'_>) -> Result<(), ExerciseError> {
+        let e = driver.energy;
+        let energies = [e.stored, e.hysteretic, e.viscous];
+        let mut all = driver.f.iter().chain(&energies).chain(&driver.history);
+        if !all.all(|x| x.is_finite()) {
+            return Err(ExerciseError::NotFinite(time));
+        }
+        self.time.push(time);
+        self.work.push(driver.work);
+        self.energy.iter_mut().zip(energies).for_each(|(list, x)| list.push(x));
+        let rows = [
+            (&mut self.deformation, &driver.d),
+            (&mut self.rate, &driver.v),
+            (&mut self.force, &driver.f),
+            (&mut self.history, &driver.history),
+        ];
+        for (lists, values) in rows {
+            lists.iter_mut().zip(values).for_each(|(list, x)| list.push(*x));
+        }
+        Ok(())
     }
 
     /// Work and change of stored energy, hysteretic and viscous dissipation over the whole motion, J.

@@ -9,7 +9,7 @@
 //! pieces at most, and the end of each is the root of a quadratic equation in e^(λu). |z| ≤ 1 is kept by the
 //! equation itself.
 
-use crate::dual::Dual;
+use crate::shared::dual::Dual;
 
 /// What became of z, with derivatives by ω.
 #[derive(Clone, Copy, Debug)]

@@ -4,8 +4,6 @@
 mod axial;
 mod bearing;
 mod coefficient;
-#[cfg(test)]
-mod ride;
 mod stick;
 mod surface;
 
@@ -13,7 +11,5 @@ pub(crate) use axial::{Axial, Normal};
 pub use bearing::SlidingHistory;
 pub(crate) use bearing::{Bearing, Side, engaged};
 pub(crate) use coefficient::{Coefficient, Limit, exponential};
-#[cfg(test)]
-pub(crate) use ride::Ride;
 pub(crate) use stick::{radial_return, share_before};
 pub(crate) use surface::{Dish, Stop};

@@ -6,11 +6,11 @@
 //!
 //! Integrated by the L-stable, stiffly accurate SDIRK method of two stages and second order,
 //! γ = 1 − 1/√2 \[Alexander 1977\], in a fixed number of equal parts of the step, with the rate of
-//! deformation linear in the step (see [`relaxation`](crate::relaxation)). Each stage is one equation
+//! deformation linear in the step (see [`relaxation`](super::relaxation)). Each stage is one equation
 //! F(w) + a w = known with one root. The heat ∫ f w dt is a third unknown of the same method: its
 //! weights are positive, so it never falls. Derivatives are those of the method itself.
 
-use crate::relaxation::{Followed, rates};
+use crate::shared::relaxation::{Followed, rates};
 use trilith_element::Kinematics;
 
 /// Parts of a step; fixed, so that the force is smooth in d and ḋ.

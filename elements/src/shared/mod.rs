@@ -1,0 +1,13 @@
+//! What several kinds share: pieces of laws, of matrices and of reading.
+
+pub(crate) mod biaxial;
+pub(crate) mod dense;
+pub(crate) mod dual;
+pub(crate) mod multilinear;
+pub(crate) mod parameters;
+#[cfg(test)]
+pub(crate) mod paths;
+pub(crate) mod relaxation;
+pub(crate) mod restitution;
+pub(crate) mod series;
+pub(crate) mod sliding;
