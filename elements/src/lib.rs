@@ -8,7 +8,7 @@
 //! | [`Beam`], [`Inerter`], [`Mass`], [`Spring`], [`Truss`] | [`Diaphragm`], [`EqualDof`], [`RigidBody`], [`RigidLink`] | contacts: [`NLink`], [`Gap`], [`Hook`], [`ImpactHertz`], [`ImpactKelvin`], [`RockingBody`] |
 //! | | | dampers: [`BilinearDamper`], [`Dashpot`], [`FrequencyIndependentViscoelastic`], [`FrictionSpring`], [`MaxwellDamper`] |
 //! | | | isolators: [`FrictionPendulum`], [`LeadRubber`], [`RubberIsolator`], [`TensionCompressionFriction`], [`TriplePendulum`] |
-//! | | | springs: [`LinearLink`], [`MultilinearElastic`], [`MultilinearPlastic`], [`Wen`] |
+//! | | | springs: [`BoucWen`], [`LinearLink`], [`MultilinearElastic`], [`MultilinearPlastic`], [`Wen`] |
 //!
 //! To add one: write its file, then its lines here (`mod`, `pub use`, and one of registration).
 
@@ -16,6 +16,7 @@ mod shared;
 
 mod beam;
 mod bilinear_damper;
+mod bouc_wen;
 mod dashpot;
 mod diaphragm;
 mod equal_dof;
@@ -46,6 +47,7 @@ mod wen;
 
 pub use beam::{Beam, MassMatrix};
 pub use bilinear_damper::BilinearDamper;
+pub use bouc_wen::{BoucWen, BoucWenHistory};
 pub use dashpot::{Dashpot, When};
 pub use diaphragm::{Diaphragm, Normal};
 pub use equal_dof::{DofName, EqualDof};
@@ -89,6 +91,7 @@ pub fn register(to: &mut impl Register) {
     to.constraint::<RigidBody>();
     to.constraint::<RigidLink>();
     to.link::<BilinearDamper>();
+    to.link::<BoucWen>();
     to.link::<Dashpot>();
     to.link::<FrequencyIndependentViscoelastic>();
     to.link::<FrictionPendulum>();

@@ -5,6 +5,7 @@ mod bearings;
 mod block;
 mod block_rocking;
 mod block_start;
+mod bouc_wen;
 mod dampers;
 mod elastic;
 mod hysteretic;
@@ -43,6 +44,7 @@ pub fn all() -> Vec<Case> {
         bearings::cases(),
         elastic::cases(),
         hysteretic::cases(),
+        bouc_wen::cases(),
         restitution::cases(),
         impact::cases(),
         pounding::cases(),
