@@ -14,7 +14,7 @@
 //! least 1, which brackets its only root.
 
 use super::BoucWen;
-use crate::dual::Dual;
+use crate::shared::dual::Dual;
 
 /// Steps of the return to z = 0.
 const RETURNS: usize = 8;
@@ -167,7 +167,7 @@ impl BoucWen {
 
     /// One step of the diagonally implicit method.
     fn step_away(&self, at: State, h: Dual) -> State {
-        let mut rates = [State { z: Dual::default(), work: Dual::default() }; STAGES];
+        let mut rates = [State { z: Dual::constant(0.0), work: Dual::constant(0.0) }; STAGES];
         let mut stage = at;
         for (i, row) in METHOD.iter().enumerate() {
             let mut base = at;

@@ -1,11 +1,11 @@
 use super::integration::{STEPS, advance};
 use super::*;
 use crate::Wen;
-use crate::driven::Driven;
-use crate::parameters::{numbers, read};
+use crate::shared::parameters::{numbers, read};
+use crate::shared::paths::{finely, through};
 use approx::assert_relative_eq;
-use trilith_element::Value;
 use trilith_element::conformance::Kit;
+use trilith_element::{Driver, Value};
 
 /// n, β, γ, A₀, δ_A, δ_ν, δ_η.
 type Shape = [f64; 7];
@@ -69,12 +69,12 @@ fn is_that_of_wen_without_degradation() {
         let theirs: Wen =
             read(&numbers(&[("k", 100.0), ("fy", 50.0), ("ratio", 0.1), ("exponent", n)])).unwrap();
         let path = [0.2, 0.7, 0.1, 0.9, 3.0, 2.2, -0.4, -2.0, 1.0];
-        let (mut a, mut b) = (Driven::new(&ours), Driven::new(&theirs));
-        for (f, g) in a.finely(&path, 0.05).iter().zip(b.finely(&path, 0.05)) {
+        let (mut a, mut b) = (Driver::new(&ours), Driver::new(&theirs));
+        for (f, g) in finely(&mut a, &path, 0.05).iter().zip(finely(&mut b, &path, 0.05)) {
             assert_relative_eq!(*f, g, epsilon = 50.0 * 1e-8);
         }
-        assert_relative_eq!(a.heat, b.heat, max_relative = 1e-7);
-        assert_relative_eq!(a.stored, b.stored, max_relative = 1e-7);
+        assert_relative_eq!(a.heat(), b.heat(), max_relative = 1e-7);
+        assert_relative_eq!(a.energy.stored, b.energy.stored, max_relative = 1e-7);
     }
 }
 
@@ -99,8 +99,8 @@ fn branches_of_exponent_one_are_exponentials() {
     ];
     let path: Vec<f64> = expected.iter().map(|(u, _)| 0.01 * u).collect();
     // One large step to each, and small steps.
-    let one = Driven::new(&law).through(&path);
-    let many = Driven::new(&law).finely(&path, 2e-4);
+    let one = through(&mut Driver::new(&law), &path);
+    let many = finely(&mut Driver::new(&law), &path, 2e-4);
     for (((u, z), f), g) in expected.iter().zip(one).zip(many) {
         let force = 1e6 * 0.01 * (0.2 * u + 0.8 * z);
         assert_relative_eq!(f, force, epsilon = 2e-5 * 1e4);
@@ -113,13 +113,13 @@ fn loops_are_those_of_the_differential_equation() {
     let turns = [3.0, -3.0, 4.0, 2.5, 5.0, -6.0, 0.0, 6.0];
     for shape in SHAPES {
         let law = law_of(4e7, 0.005, 0.05, shape);
-        let mut driven = Driven::new(&law);
+        let mut driven = Driver::new(&law);
         let (mut state, mut u) = ((0.0, 0.0), 0.0);
         for turn in turns {
             for i in 1..=20 {
                 let from = driven.d[0] / 0.005;
                 let to = u + (turn - u) * f64::from(i) / 20.0;
-                driven.step(&[0.005 * to], 0.0);
+                driven.to(&[0.005 * to]);
                 state = integrated(&law, state, to - from, 500);
                 // As sharp as n = 20 is a corner within a step of 0.6.
                 let close = if shape[0] > 10.0 { 2e-3 } else { 2e-5 };
@@ -130,7 +130,7 @@ fn loops_are_those_of_the_differential_equation() {
         }
         let size = 0.95 * 4e7 * 0.005 * 0.005;
         let spring = 0.5 * 0.05 * 4e7 * driven.d[0] * driven.d[0];
-        let work = driven.stored - spring + driven.heat;
+        let work = driven.energy.stored - spring + driven.heat();
         assert_relative_eq!(work, size * state.1, max_relative = 1e-3);
     }
 }
@@ -159,12 +159,12 @@ fn the_scheme_is_of_order_four() {
 fn heat_is_that_of_its_rate() {
     for shape in SHAPES {
         let law = law_of(1.0, 1.0, 0.0, shape);
-        let mut driven = Driven::new(&law);
+        let mut driven = Driver::new(&law);
         let (mut heat, mut d) = (0.0, 0.0);
         for i in 1..=8000 {
             let to = 4.0 * (0.0015 * f64::from(i)).sin();
             let before = driven.history.clone();
-            driven.step(&[to], 0.0);
+            driven.to(&[to]);
             let u: f64 = to - d;
             d = to;
             let z = 0.5 * (before[0] + driven.history[0]);
@@ -177,16 +177,16 @@ fn heat_is_that_of_its_rate() {
                 * z.abs().powf(law.n + 1.0)
                 * yielding;
         }
-        assert_relative_eq!(driven.heat, heat, max_relative = 1e-4);
+        assert_relative_eq!(driven.heat(), heat, max_relative = 1e-4);
     }
 }
 
 #[test]
 fn a_kept_hundredth_of_a_is_where_degradation_ends() {
     let law = law_of(1.0, 1.0, 0.0, [1.0, 0.5, 0.5, 1.0, 0.1, 0.0, 0.0]);
-    let mut driven = Driven::new(&law);
+    let mut driven = Driver::new(&law);
     let path: Vec<f64> = (1..=3000).map(|i| 5.0 * (0.1 * f64::from(i)).sin()).collect();
-    let f = driven.through(&path);
+    let f = through(&mut driven, &path);
     let last = f[2900..].iter().fold(0.0_f64, |a, b| a.max(b.abs()));
     assert!(driven.history[1] > 9.9, "{}", driven.history[1]);
     assert!(last > 0.0 && last < 0.05, "{last}");

@@ -17,7 +17,7 @@
 use super::RockingBody;
 use super::law::Wrench;
 use super::rotation::Turn;
-use crate::dual::Dual;
+use crate::shared::dual::Dual;
 use std::f64::consts::PI;
 use trilith_element::{Contact, Field, History, Kinematics, history};
 
