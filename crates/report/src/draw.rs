@@ -37,11 +37,8 @@ pub(crate) fn svg(figure: &Figure) -> String {
         let drawn = draw(figure, &area).and_then(|()| area.present().map_err(|e| e.to_string()));
         debug_assert!(drawn.is_ok(), "{drawn:?}");
     }
-    // Plotters gives width and height; with a view box the figure shrinks with the page.
-    let (w, h) = figure.size;
     let title = format!("<title>{}</title>", escaped(&figure.title));
-    let head = format!("<svg viewBox=\"0 0 {w} {h}\" role=\"img\" ");
-    out.replacen("<svg ", &head, 1).replacen(">\n", &format!(">\n{title}\n"), 1)
+    out.replacen("<svg ", "<svg role=\"img\" ", 1).replacen(">\n", &format!(">\n{title}\n"), 1)
 }
 
 /// Several figures side by side in one SVG.
