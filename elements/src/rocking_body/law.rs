@@ -155,7 +155,7 @@ impl Link for RockingBody {
         let turn = Attitude::load(history).turn(&at.d[3..6]);
         let own = &history[ATTITUDE..];
         match self.rim() {
-            Some(rim) => out.push(rim.contact(at, &turn, own)),
+            Some(rim) => rim.contacts(at, &turn, own, out),
             None => points::contacts(self, at, &turn, own, out),
         }
     }

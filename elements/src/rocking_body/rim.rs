@@ -331,16 +331,26 @@ impl Rim<'_> {
         (traction, torsion, slip, heat.max(0.0))
     }
 
-    pub fn contact(&self, at: &Kinematics<'_>, turn: &Turn, history: &[f64]) -> Contact {
+    /// What the lowest point of the rim does, which carries the body, and the highest, which lifts off.
+    pub fn contacts(
+        &self,
+        at: &Kinematics<'_>,
+        turn: &Turn,
+        history: &[f64],
+        out: &mut Vec<Contact>,
+    ) {
         let it = RimHistory::load(history);
+        let motion = Motion::new(turn, at.d, at.v);
         let position = [it.slip1, it.slip2];
-        match self.pressed(&Motion::new(turn, at.d, at.v)) {
+        let low = match self.pressed(&motion) {
             Err(gap) => Contact { gap, position, ..Contact::default() },
             Ok(p) => {
                 let size = it.traction1.hypot(it.traction2);
                 let slipping = size > 0.0 && size >= self.body.mu * p.normal.x * (1.0 - 1e-9);
                 Contact { gap: p.gap, normal: p.normal.x.max(0.0), position, slipping }
             }
-        }
+        };
+        let rise = 2.0 * self.radius * motion.r[2][0].x.hypot(motion.r[2][1].x);
+        out.extend([low, Contact { gap: low.gap + rise, position, ..Contact::default() }]);
     }
 }
