@@ -21,8 +21,7 @@
 //! Reference: the law with `c`, `cy` and a force limit is that of SAP2000's bilinear damper; with a
 //! ratio p = c_y/c that of oil dampers in \[JSSI 2003\].
 
-use crate::maxwell_damper::{SeriesHistory, answer};
-use crate::shared::series::{Split, Viscous, follow};
+use crate::shared::series::{SeriesHistory, Split, Viscous, answer, follow};
 use serde::Deserialize;
 use std::borrow::Cow;
 use trilith_element::dimension::{DAMPING, FORCE, STIFFNESS};

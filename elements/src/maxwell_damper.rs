@@ -18,14 +18,14 @@
 //!
 //! Reference: \[Soong & Dargush 1997, ch. 6\].
 
-use crate::shared::relaxation::{Followed, relax};
-use crate::shared::series::{Split, Viscous, follow};
+use crate::shared::relaxation::relax;
+use crate::shared::series::{SeriesHistory, Split, Viscous, answer, follow};
 use serde::Deserialize;
 use std::borrow::Cow;
 use trilith_element::dimension::{FORCE, NONE, STIFFNESS, VELOCITY};
 use trilith_element::{
     Axis, Card, Category, Coordinates, Default, Described, Exercise, Field, Form, History,
-    Kinematics, Link, NodeCount, Parameter, Range, Response, Stroke, history,
+    Kinematics, Link, NodeCount, Parameter, Range, Response, Stroke,
 };
 
 /// Spring in series with a power-law dashpot.
@@ -40,14 +40,6 @@ pub struct MaxwellDamper {
     pub exponent: f64,
     /// Local axis.
     pub axis: Axis,
-}
-
-history! {
-    /// History of a spring in series with a dashpot.
-    pub(crate) struct SeriesHistory {
-        /// Force.
-        pub(crate) force: "N",
-    }
 }
 
 impl Described for MaxwellDamper {
@@ -144,14 +136,6 @@ impl Link for MaxwellDamper {
         };
         answer(self.k, &end, trial, out);
     }
-}
-
-/// Writes what a spring in series with a dashpot did.
-pub(crate) fn answer(k: f64, end: &Followed, trial: &mut [f64], out: &mut Response<'_>) {
-    SeriesHistory { force: end.f }.store(trial);
-    (out.f[0], out.k[0], out.c[0]) = (end.f, end.f_d, end.f_v);
-    out.energy.stored = 0.5 * end.f * end.f / k;
-    out.energy.viscous = end.viscous;
 }
 
 #[cfg(test)]

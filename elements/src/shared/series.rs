@@ -11,10 +11,26 @@
 //! weights are positive, so it never falls. Derivatives are those of the method itself.
 
 use crate::shared::relaxation::{Followed, rates};
-use trilith_element::Kinematics;
+use trilith_element::{History, Kinematics, Response, history};
 
 /// Parts of a step; fixed, so that the force is smooth in d and ḋ.
 const PARTS: usize = 4;
+
+history! {
+    /// History of a spring in series with a dashpot.
+    pub(crate) struct SeriesHistory {
+        /// Force.
+        pub(crate) force: "N",
+    }
+}
+
+/// Writes what a spring in series with a dashpot did.
+pub(crate) fn answer(k: f64, end: &Followed, trial: &mut [f64], out: &mut Response<'_>) {
+    SeriesHistory { force: end.f }.store(trial);
+    (out.f[0], out.k[0], out.c[0]) = (end.f, end.f_d, end.f_v);
+    out.energy.stored = 0.5 * end.f * end.f / k;
+    out.energy.viscous = end.viscous;
+}
 
 /// What a dashpot does where F(w) + a w is known.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -41,10 +57,10 @@ pub(crate) trait Viscous {
     }
 }
 
-/// A number and its derivatives by d and ḋ.
-type Dual = [f64; 3];
+/// A number, and its derivatives by d and ḋ.
+type Graded = [f64; 3];
 
-fn mix<const N: usize>(terms: [(f64, Dual); N]) -> Dual {
+fn mix<const N: usize>(terms: [(f64, Graded); N]) -> Graded {
     std::array::from_fn(|i| terms.iter().map(|(c, x)| c * x[i]).sum())
 }
 
@@ -58,7 +74,7 @@ pub(crate) fn follow(k: f64, law: &impl Viscous, f0: f64, at: &Kinematics<'_>) -
     let rate = |s: f64| [mean + change * (s - 0.5), 1.0 / at.dt, s - 0.5];
     let h = at.dt / PARTS as f64;
     let a = gamma * h * k;
-    let stage = |known: Dual| {
+    let stage = |known: Graded| {
         let it = law.split(known[0], a);
         ([it.force, it.slope * known[1], it.slope * known[2]], it.force * it.rate)
     };
