@@ -168,6 +168,11 @@ impl Described for RockingBody {
 
     fn check(&self) -> Result<(), ParameterError> {
         let wrong = |name, message: String| Err(ParameterError::inconsistent(name, message));
+        if self.mu > 0.0 && self.ks.is_none() {
+            let message =
+                "a body with friction needs the pre-slip stiffness `ks`, such as the value of `kn`";
+            return wrong("ks", message.into());
+        }
         if self.rim_radius.is_some() || self.rim_depth.is_some() {
             return self.check_rim();
         }
@@ -185,11 +190,6 @@ impl Described for RockingBody {
             );
             return wrong("base", message);
         }
-        if self.mu > 0.0 && self.ks.is_none() {
-            let message =
-                "a body with friction needs the pre-slip stiffness `ks`, such as the value of `kn`";
-            return wrong("ks", message.into());
-        }
         if self.inertia.is_none() && !self.is_plane() {
             let message = "base points outside one vertical plane through the centre of gravity need `inertia`, the three moments that the node's `Mass` has: a body that rocks in space turns its axes";
             return wrong("inertia", message.into());
@@ -206,11 +206,6 @@ impl RockingBody {
             (
                 "base",
                 "a body has base points or a rim: give `base`, or `rim_radius` and `rim_depth`",
-            )
-        } else if self.mu > 0.0 && self.ks.is_none() {
-            (
-                "ks",
-                "a body with friction needs the pre-slip stiffness `ks`, such as the value of `kn`",
             )
         } else if self.inertia.is_none() {
             (
