@@ -87,7 +87,7 @@ impl Described for RockingBody {
     const CARD: Card = Card {
         kind: "RockingBody",
         category: Category::Link,
-        summary: "Rigid body standing on base points, in finite rotation: slides, rocks, overturns.",
+        summary: "Rigid body standing on base points or a rim, in finite rotation: slides, rocks, rolls, overturns.",
         nodes: NodeCount::exactly(1),
         parameters: &[
             Parameter::new(
