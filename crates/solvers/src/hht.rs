@@ -183,20 +183,27 @@ impl Propagator for Hht {
         crate::full_newton::mass_acceleration(&self.space, force.to_vec())
     }
 
-    fn predict(&mut self, from: &Motion, forces: &Forces<'_>, to: &mut Motion) {
+    fn predict(
+        &mut self,
+        from: &Motion,
+        forces: &Forces<'_>,
+        to: &mut Motion,
+        d: &mut [f64],
+        v: &mut [f64],
+    ) {
         let n = self.space.order();
         let dt = self.steps[&self.now].dt;
         let (gamma, beta) = newmark(self.alpha);
         let w = 1.0 + self.alpha;
         let (u, rest) = from.split_at(n);
-        let (v, a) = rest.split_at(n);
+        let (v0, a) = rest.split_at(n);
         for i in 0..n {
-            to[i] = u[i] + dt * v[i] + dt * dt * (0.5 - beta) * a[i];
-            to[n + i] = v[i] + dt * (1.0 - gamma) * a[i];
+            to[i] = u[i] + dt * v0[i] + dt * dt * (0.5 - beta) * a[i];
+            to[n + i] = v0[i] + dt * (1.0 - gamma) * a[i];
         }
         let mut right = self.imbalance(forces.load1, &to[..n], &to[n..2 * n]);
         if self.alpha != 0.0 {
-            let mut before = self.imbalance(forces.load0, u, v);
+            let mut before = self.imbalance(forces.load0, u, v0);
             self.space.spread(-1.0, forces.pseudo0, &mut before);
             for (x, y) in right.iter_mut().zip(before) {
                 *x = w * *x - self.alpha * y;
@@ -208,6 +215,8 @@ impl Propagator for Hht {
             to[n + i] += gamma * dt * right[i];
             to[2 * n + i] = right[i];
         }
+        self.space.deform(&to[..n], d);
+        self.space.deform(&to[n..2 * n], v);
     }
 
     fn correct(&mut self, forces: &Forces<'_>, to: &mut Motion) {

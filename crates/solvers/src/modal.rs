@@ -267,14 +267,23 @@ impl Propagator for Modal {
         Ok(a)
     }
 
-    fn predict(&mut self, from: &Motion, forces: &Forces<'_>, to: &mut Motion) {
+    fn predict(
+        &mut self,
+        from: &Motion,
+        forces: &Forces<'_>,
+        to: &mut Motion,
+        d: &mut [f64],
+        v: &mut [f64],
+    ) {
         let m = self.space.order();
         let s0 = self.source(forces.load0, forces.pseudo0);
-        let (q, v) = (&from[..m], &from[m..2 * m]);
+        let (q, rate) = (&from[..m], &from[m..2 * m]);
         for row in [1, 2] {
-            let y = self.apply(row, [q, v, &s0, forces.load1]);
+            let y = self.apply(row, [q, rate, &s0, forces.load1]);
             to[(row - 1) * m..row * m].copy_from_slice(&y);
         }
+        self.space.deform(&to[..m], d);
+        self.space.deform(&to[m..2 * m], v);
     }
 
     fn correct(&mut self, forces: &Forces<'_>, to: &mut Motion) {

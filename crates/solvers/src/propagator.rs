@@ -58,10 +58,18 @@ pub(crate) trait Propagator {
     /// Acceleration that a force on the structure at rest would cause; zero where there is no mass.
     fn acceleration(&mut self, force: &[f64]) -> Result<Vec<f64>, SolveError>;
 
-    /// End of the step with zero pseudo-forces at its end, into `to`.
-    fn predict(&mut self, from: &Motion, forces: &Forces<'_>, to: &mut Motion);
+    /// The step with zero pseudo-forces at its end, as far as the links need it: d* and v* of the active
+    /// coordinates. `to` need not be complete before [`correct`](Self::correct).
+    fn predict(
+        &mut self,
+        from: &Motion,
+        forces: &Forces<'_>,
+        to: &mut Motion,
+        d: &mut [f64],
+        v: &mut [f64],
+    );
 
-    /// Adds the effect of the pseudo-forces at the end of the step.
+    /// Completes the step predicted last with the pseudo-forces at its end.
     fn correct(&mut self, forces: &Forces<'_>, to: &mut Motion);
 
     /// Work done over a step.

@@ -206,7 +206,6 @@ impl<P: Propagator> Stepper for LinkStepper<'_, P> {
     ) -> Result<StepEnergy, StepFailure> {
         self.propagator.prepare(dt)?;
         let space = self.propagator.space();
-        let n = space.order();
         let (load0, load1) = (space.force(&loads.start), space.force(&loads.end));
         let (support_d0, _) = self.support(&loads.start);
         let (support_d, support_v) = self.support(&loads.end);
@@ -214,11 +213,8 @@ impl<P: Propagator> Stepper for LinkStepper<'_, P> {
         to.clone_from(from);
         let zero = vec![0.0; pseudo0.len()];
         let before = Forces { load0: &load0, load1: &load1, pseudo0: &pseudo0, pseudo1: &zero };
-        self.propagator.predict(&from.motion, &before, &mut to.motion);
         let (mut d, mut v) = (zero.clone(), zero.clone());
-        let space = self.propagator.space();
-        space.deform(&to.motion[..n], &mut d);
-        space.deform(&to.motion[n..2 * n], &mut v);
+        self.propagator.predict(&from.motion, &before, &mut to.motion, &mut d, &mut v);
         let compliance = self.propagator.compliance();
         let mut pseudo = pseudo0.clone();
         let mut links = vec![Energy::default(); self.system.links.links.len()];
