@@ -152,6 +152,12 @@ pub trait Link: Send + Sync + Debug {
         out: &mut Response<'_>,
     );
 
+    /// False for a law whose answer does not look at the rates `v` and `v0`: the solvers then need not find
+    /// them in every iteration.
+    fn uses_rates(&self) -> bool {
+        true
+    }
+
     /// Adds what its contacts do, for laws that are contacts; always the same number, in the same order.
     /// `history` is the trial of `respond`, `f` its force.
     fn contacts(

@@ -1,5 +1,6 @@
 //! Dense matrices in column-major order, and dense LU.
 
+use crate::gemv;
 use faer::linalg::matmul::matmul;
 use faer::linalg::solvers::{PartialPivLu, Solve};
 use faer::{Accum, MatMut, MatRef, Par};
@@ -64,22 +65,44 @@ impl Dense {
     }
 
     /// `y += s · A x`.
+    ///
+    /// # Panics
+    /// Where the lengths do not suit.
     pub fn mul_add(&self, s: f64, x: &[f64], y: &mut [f64]) {
-        for j in 0..self.columns {
-            let t = s * x[j];
-            if t != 0.0 {
-                for (a, b) in y.iter_mut().zip(self.column(j)) {
-                    *a += t * b;
-                }
-            }
-        }
+        assert!(x.len() == self.columns && y.len() == self.rows, "lengths of a product");
+        gemv::add_columns(&self.values, s, x, y);
     }
 
     /// `y += s · Aᵀ x`.
+    ///
+    /// # Panics
+    /// Where the lengths do not suit.
     pub fn transpose_mul_add(&self, s: f64, x: &[f64], y: &mut [f64]) {
-        for j in 0..self.columns {
-            y[j] += s * dot(self.column(j), x);
-        }
+        assert!(x.len() == self.rows && y.len() == self.columns, "lengths of a product");
+        gemv::add_dots(&self.values, s, [x], [y]);
+    }
+
+    /// `yᵢ += s · Aᵀ xᵢ` of two vectors, reading A once.
+    ///
+    /// # Panics
+    /// Where the lengths do not suit.
+    pub fn transpose_mul_add_pair(&self, s: f64, x: [&[f64]; 2], y: [&mut [f64]; 2]) {
+        let suits = x.iter().all(|x| x.len() == self.rows)
+            && y.iter().all(|y| y.len() == self.columns);
+        assert!(suits, "lengths of a product");
+        gemv::add_dots(&self.values, s, x, y);
+    }
+
+    /// `x` times column j.
+    ///
+    /// # Panics
+    /// Where the length does not suit.
+    #[must_use]
+    pub fn column_dot(&self, j: usize, x: &[f64]) -> f64 {
+        assert!(x.len() == self.rows, "length of a product");
+        let mut y = [0.0];
+        gemv::add_dots(self.column(j), 1.0, [x], [&mut y]);
+        y[0]
     }
 
     /// The transpose.
@@ -130,11 +153,6 @@ impl std::ops::IndexMut<(usize, usize)> for Dense {
     fn index_mut(&mut self, (i, j): (usize, usize)) -> &mut f64 {
         &mut self.values[j * self.rows + i]
     }
-}
-
-/// `a · b`.
-pub(crate) fn dot(a: &[f64], b: &[f64]) -> f64 {
-    a.iter().zip(b).map(|(x, y)| x * y).sum()
 }
 
 /// A factorised dense square matrix.

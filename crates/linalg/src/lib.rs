@@ -5,13 +5,15 @@
 //! |---|---|
 //! | nalgebra-sparse | storage and assembly of sparse matrices, products with vectors |
 //! | sprs | congruence products TᵀKT of constraint elimination, Matrix Market export |
-//! | faer | sparse LDLᵀ and LU, dense LU, symmetric eigenproblems, dense products |
+//! | faer | sparse LDLᵀ and LU, dense LU, symmetric eigenproblems, products of dense matrices |
+//! | pulp | products of a dense matrix and a vector, as wide as the processor allows |
 //!
 //! Everything runs on one thread, so that results repeat bit for bit.
 
 mod dense;
 mod eigen;
 mod expm;
+mod gemv;
 mod ldlt;
 mod lu;
 mod matrix_market;

@@ -7,7 +7,7 @@ use crate::hht::{average_work, newmark};
 use crate::kernel::Remembered;
 use crate::propagator::{Forces, kinetic_and_strain};
 use crate::space::Space;
-use crate::stepper::{State, StepEnergy, StepFailure, Stepper};
+use crate::stepper::{energy_distance, energy_rounding, State, StepEnergy, StepFailure, Stepper};
 use crate::vector::largest;
 use trilith_element::{Energy, Kinematics};
 use trilith_linalg::{Ldlt, SparseLu, Triplets};
@@ -103,7 +103,8 @@ impl Stepper for FullNewton<'_> {
         to: &mut State,
         loads: &StepLoads,
         dt: f64,
-    ) -> Result<StepEnergy, StepFailure> {
+        energy: &mut StepEnergy,
+    ) -> Result<(), StepFailure> {
         let n = self.space.order();
         let (gamma, beta) = newmark(self.alpha);
         let w = 1.0 + self.alpha;
@@ -114,7 +115,8 @@ impl Stepper for FullNewton<'_> {
         to.clone_from(from);
         let mut a = a0.to_vec();
         let mut tangents = self.system.links.tangents();
-        let mut energy = vec![Energy::default(); self.system.links.links.len()];
+        energy.links.resize(self.system.links.links.len(), Energy::default());
+        let laws = self.system.links.laws(self.model);
         let mut residual = vec![f64::NAN; n];
         for _ in 0..ITERATIONS {
             self.iterations += 1;
@@ -125,14 +127,13 @@ impl Stepper for FullNewton<'_> {
             }
             let (u, v) = (to.motion[..n].to_vec(), to.motion[n..2 * n].to_vec());
             self.deform(&u, &v, &loads.end, &mut to.d, &mut to.v);
-            self.system.links.respond(
-                self.model,
+            laws.respond(
                 Kinematics { d: &to.d, v: &to.v, d0: &from.d, v0: &from.v, dt },
                 &from.history,
                 &mut to.history,
                 &mut to.f,
                 &mut tangents,
-                &mut energy,
+                &mut energy.links,
             );
             let now = self.imbalance(&load1, &u, &v, &to.f);
             let inertia = self.space.mass.mul(&a);
@@ -140,8 +141,9 @@ impl Stepper for FullNewton<'_> {
             let force = largest(&to.f).max(from.scale[0]).max(from.scale[1]);
             let size = largest(&inertia).max(largest(&load1)).max(force);
             if largest(&residual) <= TOLERANCE * size {
-                to.settle(&self.system.links, &energy);
-                return Ok(self.energy(from, to, loads, (&load0, &load1), energy, dt));
+                to.settle(&self.system.links, &energy.links);
+                self.book(from, to, loads, (&load0, &load1), dt, energy);
+                return Ok(());
             }
             self.factorizations += 1;
             let lu = SparseLu::new(&self.tangent(&tangents, dt)).map_err(SolveError::from)?;
@@ -184,12 +186,13 @@ impl Stepper for FullNewton<'_> {
         Ok(())
     }
 
-    fn distance(&self, a: &State, b: &State) -> f64 {
-        crate::stepper::energy_distance(&self.space, a, b)
+    fn distance(&mut self, a: &State, b: &State) -> f64 {
+        let of_structure = |x: &[f64]| kinetic_and_strain(&self.space, x);
+        energy_distance(of_structure, a, b, &mut Vec::new())
     }
 
     fn rounding(&self, state: &State) -> f64 {
-        crate::stepper::energy_rounding(&self.space, &self.system.links.active, state)
+        energy_rounding(&self.space, &self.system.links.active, state)
     }
 
     fn space(&self) -> &Space {
@@ -208,36 +211,36 @@ impl Stepper for FullNewton<'_> {
         Ok(())
     }
 
-    fn stiffness_ratio(&mut self, _dt: f64, _engaged: &[f64]) -> Result<f64, SolveError> {
-        Ok(0.0)
+    fn beyond_exact(&mut self, _dt: f64) -> Result<Option<f64>, SolveError> {
+        Ok(None)
     }
 }
 
 impl FullNewton<'_> {
-    fn energy(
+    fn book(
         &self,
         from: &State,
         to: &State,
         loads: &StepLoads,
         force: (&[f64], &[f64]),
-        links: Vec<Energy>,
         dt: f64,
-    ) -> StepEnergy {
+        energy: &mut StepEnergy,
+    ) {
         let active = &self.system.links.active;
         let pick = |f: &[f64]| -> Vec<f64> { active.iter().map(|i| f[*i]).collect() };
         let (pseudo0, pseudo1) = (pick(&from.f), pick(&to.f));
         let forces =
             Forces { load0: force.0, load1: force.1, pseudo0: &pseudo0, pseudo1: &pseudo1 };
-        let work = average_work(&self.space, dt, &from.motion, &to.motion, &forces);
-        let (kinetic, strain) = kinetic_and_strain(&self.space, &to.motion);
+        energy.work = average_work(&self.space, dt, &from.motion, &to.motion, &forces);
+        energy.link_work = energy.work.links;
+        (energy.kinetic, energy.strain) = kinetic_and_strain(&self.space, &to.motion);
         let n = self.system.links.len();
         let mut moved = [vec![0.0; n], vec![0.0; n]];
         for (d, amplitudes) in moved.iter_mut().zip([&loads.start, &loads.end]) {
             self.loads.support_deformation(amplitudes, d, &mut vec![0.0; n]);
         }
-        let support =
+        energy.support =
             (0..n).map(|i| 0.5 * (from.f[i] + to.f[i]) * (moved[1][i] - moved[0][i])).sum();
-        StepEnergy { link_work: work.links, work, support, kinetic, strain, links }
     }
 }
 

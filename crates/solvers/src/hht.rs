@@ -82,10 +82,10 @@ impl Hht {
             }
             Woodbury { x, inner: DenseLu::new(&inner) }
         });
-        let mut image = Dense::zeros(s.order(), s.rows.len());
-        for (j, row) in s.rows.iter().enumerate() {
-            for (i, c) in row {
-                image[(*i, j)] += c;
+        let mut image = Dense::zeros(s.order(), s.links.len());
+        for j in 0..s.links.len() {
+            for (i, c) in s.links.row(j) {
+                image[(i, j)] += c;
             }
         }
         factor.solve(image.values_mut());
@@ -94,11 +94,11 @@ impl Hht {
                 woodbury.correct(modal_image(&modal.u, image.column(j)), image.column_mut(j));
             }
         }
-        let links = s.rows.len();
+        let links = s.links.len();
         let (mut g, mut h) = (Dense::zeros(links, links), Dense::zeros(links, links));
         let mut d = vec![0.0; links];
         for j in 0..links {
-            s.deform(image.column(j), &mut d);
+            s.links.deform(image.column(j), &mut d);
             for i in 0..links {
                 g[(i, j)] = w * beta * dt * dt * d[i];
                 h[(i, j)] = w * gamma * dt * d[i];
@@ -204,7 +204,7 @@ impl Propagator for Hht {
         let mut right = self.imbalance(forces.load1, &to[..n], &to[n..2 * n]);
         if self.alpha != 0.0 {
             let mut before = self.imbalance(forces.load0, u, v0);
-            self.space.spread(-1.0, forces.pseudo0, &mut before);
+            self.space.links.spread(-1.0, forces.pseudo0, &mut before);
             for (x, y) in right.iter_mut().zip(before) {
                 *x = w * *x - self.alpha * y;
             }
@@ -215,8 +215,8 @@ impl Propagator for Hht {
             to[n + i] += gamma * dt * right[i];
             to[2 * n + i] = right[i];
         }
-        self.space.deform(&to[..n], d);
-        self.space.deform(&to[n..2 * n], v);
+        self.space.links.deform(&to[..n], d);
+        self.space.links.deform(&to[n..2 * n], v);
     }
 
     fn correct(&mut self, forces: &Forces<'_>, to: &mut Motion) {
@@ -232,7 +232,7 @@ impl Propagator for Hht {
         }
     }
 
-    fn work(&self, from: &Motion, to: &Motion, forces: &Forces<'_>) -> StepWork {
+    fn work(&mut self, from: &Motion, to: &Motion, forces: &Forces<'_>) -> StepWork {
         average_work(&self.space, self.steps[&self.now].dt, from, to, forces)
     }
 }
@@ -249,8 +249,8 @@ pub(crate) fn average_work(
     let n = space.order();
     let moved: Vec<f64> = (0..n).map(|i| to[i] - from[i]).collect();
     let external: f64 = (0..n).map(|i| 0.5 * (forces.load0[i] + forces.load1[i]) * moved[i]).sum();
-    let mut d = vec![0.0; space.rows.len()];
-    space.deform(&moved, &mut d);
+    let mut d = vec![0.0; space.links.len()];
+    space.links.deform(&moved, &mut d);
     let links: f64 =
         (0..d.len()).map(|i| 0.5 * (forces.pseudo0[i] + forces.pseudo1[i]) * d[i]).sum();
     let v: Vec<f64> = (n..2 * n).map(|i| 0.5 * (from[i] + to[i])).collect();

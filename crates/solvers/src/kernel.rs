@@ -16,7 +16,7 @@ use serde::{Deserialize, Serialize};
 use trilith_element::{Energy, Kinematics};
 use trilith_linalg::{Dense, DenseLu};
 use trilith_model::{Kernel, Model};
-use trilith_system::{LinkSet, Tangents};
+use trilith_system::{Laws, LinkSet, Tangents};
 
 /// What the linear step gives the kernel.
 pub(crate) struct Affine<'a> {
@@ -86,17 +86,30 @@ const DIGIT: f64 = 2.0 * f64::EPSILON;
 /// Step sizes whose factors are kept.
 const KEPT: usize = 6;
 /// From this many equations on, a factor is kept while it still contracts well.
-const CHORD_FROM: usize = 24;
+const CHORD_FROM: usize = 8;
+/// How well that is: share of the residual that one iteration leaves.
+const CONTRACTS: f64 = 0.2;
 
 /// Workspace and settings of the link equations.
-pub(crate) struct LinkKernel {
+pub(crate) struct LinkKernel<'a> {
     kind: Kernel,
+    links: &'a LinkSet,
+    laws: Laws<'a>,
     /// Dummy stiffness of the active coordinates.
     dummy_k: Vec<f64>,
+    /// Active coordinates of laws that look at rates.
+    rated: Vec<usize>,
     tangents: Tangents,
     /// Active index of each flat coordinate.
     place: Vec<usize>,
+    /// Index of the link of each active coordinate.
+    owner: Vec<usize>,
+    /// Own deformations and rates of the active coordinates, without moving supports.
+    d: Vec<f64>,
+    v: Vec<f64>,
     residual: Vec<f64>,
+    correction: Vec<f64>,
+    search: Search,
     /// Kept factors, one a step size, the one used last at the end.
     factors: Vec<Factor>,
     iterations: usize,
@@ -113,10 +126,10 @@ pub(crate) struct Remembered {
 struct Factor {
     key: u64,
     tangents: Tangents,
+    /// Active coordinates with a row of tangents.
     equations: Vec<usize>,
-    /// J of the chosen equations against the others, column-wise.
-    coupling: Dense,
-    lu: DenseLu,
+    /// From the residual of all active coordinates to the corrections of these.
+    correct: Dense,
 }
 
 /// Line search of a Newton iteration that does not settle: a force like |v|^α with α < ½ throws Newton's
@@ -134,6 +147,12 @@ struct Search {
 }
 
 impl Search {
+    /// Before a new step.
+    fn reset(&mut self) {
+        self.step.clear();
+        (self.share, self.before, self.halvings) = (0.0, 0.0, 0);
+    }
+
     /// Takes back half of the last correction where the residual did not fall; true where it took back.
     fn shortens(&mut self, iteration: usize, residual: &[f64], pseudo: &mut [f64]) -> bool {
         let size = largest(residual);
@@ -159,18 +178,40 @@ impl Search {
     }
 }
 
-impl LinkKernel {
-    pub(crate) fn new(links: &LinkSet, kind: Kernel, dummy_k: Vec<f64>) -> Self {
+impl<'a> LinkKernel<'a> {
+    pub(crate) fn new(
+        model: &'a Model,
+        links: &'a LinkSet,
+        kind: Kernel,
+        dummy_k: Vec<f64>,
+    ) -> Self {
+        let n = links.active.len();
         let mut place = vec![usize::MAX; links.len()];
         for (a, flat) in links.active.iter().enumerate() {
             place[*flat] = a;
         }
+        let laws = links.laws(model);
+        let (mut owner, mut rated) = (vec![0; n], Vec::new());
+        for (l, (law, link)) in laws.iter().enumerate() {
+            for a in link.range.clone().map(|flat| place[flat]).filter(|a| *a != usize::MAX) {
+                owner[a] = l;
+                rated.extend(law.uses_rates().then_some(a));
+            }
+        }
         Self {
             kind,
+            links,
+            laws,
             dummy_k,
+            rated,
             tangents: links.tangents(),
             place,
-            residual: vec![0.0; links.active.len()],
+            owner,
+            d: vec![0.0; n],
+            v: vec![0.0; n],
+            residual: vec![0.0; n],
+            correction: vec![0.0; n],
+            search: Search::default(),
             factors: Vec::new(),
             iterations: 0,
         }
@@ -195,24 +236,37 @@ impl LinkKernel {
     }
 
     /// Makes a factor again, with the compliances of its step size.
-    pub(crate) fn recall(&mut self, links: &LinkSet, memory: Remembered, g: &Dense, h: &Dense) {
+    pub(crate) fn recall(&mut self, memory: Remembered, g: &Dense, h: &Dense) {
         let tangents = Tangents { k: memory.k, c: memory.c };
-        let factor = self.factorise(links, tangents, memory.dt.to_bits(), g, h);
+        let factor = self.factorise(tangents, memory.dt.to_bits(), g, h);
         self.factors.push(factor);
     }
 
-    /// Pseudo-force of forces that act at a deformation (flat arrays, moving supports taken off the deformation).
-    pub(crate) fn pseudo(&self, links: &LinkSet, f: &[f64], d: &[f64], to: &mut [f64]) {
-        for (a, flat) in links.active.iter().enumerate() {
-            to[a] = f[*flat] - self.dummy_k[a] * d[*flat];
+    /// Pseudo-force of forces that act at a deformation; `support` is what moving supports have in it.
+    pub(crate) fn pseudo(&self, f: &[f64], d: &[f64], support: &[f64], to: &mut [f64]) {
+        for (a, flat) in self.links.active.iter().enumerate() {
+            to[a] = f[*flat] - self.dummy_k[a] * (d[*flat] - support[*flat]);
         }
     }
 
     /// Solves the link equations; `out.pseudo` holds the start value on entry.
     pub(crate) fn solve(
         &mut self,
-        model: &Model,
-        links: &LinkSet,
+        affine: &Affine<'_>,
+        from: &Committed<'_>,
+        scale: &ForceScale,
+        out: &mut Converged<'_>,
+    ) -> Result<(), NoEquilibrium> {
+        let outcome = self.iterate(affine, from, scale, out);
+        match outcome {
+            Ok(()) => self.complete_rates(affine, out),
+            Err(_) => self.factors.retain(|f| f.key != affine.key),
+        }
+        outcome
+    }
+
+    fn iterate(
+        &mut self,
         affine: &Affine<'_>,
         from: &Committed<'_>,
         scale: &ForceScale,
@@ -223,12 +277,12 @@ impl LinkKernel {
             Kernel::FixedPoint => FIXED_POINT_ITERATIONS,
         };
         let mut size_before = f64::INFINITY;
-        let mut search = Search::default();
+        self.search.reset();
         let mut worst = NoEquilibrium { worst: 0, residual: f64::INFINITY };
         for iteration in 0..limit {
             self.iterations += 1;
-            self.evaluate(model, links, affine, from, out);
-            let (size, at) = self.measure(links, out, scale);
+            self.evaluate(affine, from, out);
+            let (size, at) = self.measure(out, scale);
             worst = at;
             if size <= 1.0 {
                 return Ok(());
@@ -237,59 +291,72 @@ impl LinkKernel {
                 break;
             }
             if self.kind == Kernel::Newton {
-                if search.shortens(iteration, &self.residual, out.pseudo) {
+                if self.search.shortens(iteration, &self.residual, out.pseudo) {
                     continue;
                 }
                 let before = largest(&self.residual);
-                self.newton_correction(links, affine, size > 0.2 * size_before);
+                self.newton_correction(affine, size > CONTRACTS * size_before);
                 let moves = size * largest(&self.residual) / before;
                 if size <= ROUNDING && moves <= SETTLED {
                     return Ok(());
                 }
             }
             size_before = size;
-            search.goes(&self.residual);
+            self.search.goes(&self.residual);
             for (x, r) in out.pseudo.iter_mut().zip(&self.residual) {
                 *x += r;
             }
         }
-        self.factors.retain(|f| f.key != affine.key);
         Err(worst)
     }
 
     /// Deformations from f̃, laws, residual.
-    fn evaluate(
-        &mut self,
-        model: &Model,
-        links: &LinkSet,
-        affine: &Affine<'_>,
-        from: &Committed<'_>,
-        out: &mut Converged<'_>,
-    ) {
-        let n = links.active.len();
-        let (mut d, mut v) = (affine.d.to_vec(), affine.v.to_vec());
-        affine.g.mul_add(-1.0, out.pseudo, &mut d);
-        affine.h.mul_add(-1.0, out.pseudo, &mut v);
+    fn evaluate(&mut self, affine: &Affine<'_>, from: &Committed<'_>, out: &mut Converged<'_>) {
+        let active = &self.links.active;
+        self.d.copy_from_slice(affine.d);
+        affine.g.mul_add(-1.0, out.pseudo, &mut self.d);
         out.d.copy_from_slice(affine.support_d);
+        for (flat, d) in active.iter().zip(&self.d) {
+            out.d[*flat] += d;
+        }
+        if self.rated.len() == active.len() {
+            self.v.copy_from_slice(affine.v);
+            affine.h.mul_add(-1.0, out.pseudo, &mut self.v);
+        } else {
+            // The compliances are symmetric.
+            for a in &self.rated {
+                self.v[*a] = affine.v[*a] - affine.h.column_dot(*a, out.pseudo);
+            }
+        }
         out.v.copy_from_slice(affine.support_v);
-        for a in 0..n {
-            out.d[links.active[a]] += d[a];
-            out.v[links.active[a]] += v[a];
+        for a in &self.rated {
+            out.v[active[*a]] += self.v[*a];
         }
         let at = Kinematics { d: out.d, v: out.v, d0: from.d, v0: from.v, dt: from.dt };
-        links.respond(model, at, from.history, out.history, out.f, &mut self.tangents, out.energy);
-        for a in 0..n {
-            self.residual[a] = out.f[links.active[a]] - self.dummy_k[a] * d[a] - out.pseudo[a];
+        self.laws.respond(at, from.history, out.history, out.f, &mut self.tangents, out.energy);
+        for (a, flat) in active.iter().enumerate() {
+            self.residual[a] = out.f[*flat] - self.dummy_k[a] * self.d[a] - out.pseudo[a];
+        }
+    }
+
+    /// Rates of the coordinates that no law asked for.
+    fn complete_rates(&mut self, affine: &Affine<'_>, out: &mut Converged<'_>) {
+        if self.rated.len() == self.links.active.len() {
+            return;
+        }
+        self.correction.copy_from_slice(affine.v);
+        affine.h.mul_add(-1.0, out.pseudo, &mut self.correction);
+        for a in &self.rated {
+            self.correction[*a] = 0.0;
+        }
+        for (flat, v) in self.links.active.iter().zip(&self.correction) {
+            out.v[*flat] += v;
         }
     }
 
     /// Largest residual over its tolerance, and where.
-    fn measure(
-        &self,
-        links: &LinkSet,
-        out: &Converged<'_>,
-        scale: &ForceScale,
-    ) -> (f64, NoEquilibrium) {
+    fn measure(&self, out: &Converged<'_>, scale: &ForceScale) -> (f64, NoEquilibrium) {
+        let links = self.links;
         let mut now = *scale;
         for (a, flat) in links.active.iter().enumerate() {
             let kind = usize::from(links.rotational[*flat]);
@@ -299,13 +366,15 @@ impl LinkKernel {
                 .max(PSEUDO_SHARE * out.pseudo[a].abs())
                 .max(self.residual[a].abs());
         }
-        let rounding = self.rounding(links, out);
         let mut size = 0.0;
         let mut worst = NoEquilibrium { worst: 0, residual: 0.0 };
         for (a, r) in self.residual.iter().enumerate() {
             let flat = links.active[a];
             let scale = now[usize::from(links.rotational[flat])];
-            let allowed = (TOLERANCE * scale).max(rounding[a]);
+            let mut allowed = TOLERANCE * scale;
+            if r.abs() > allowed {
+                allowed = allowed.max(self.rounding(a, out));
+            }
             let share = if *r == 0.0 { 0.0 } else { r.abs() / allowed.max(f64::MIN_POSITIVE) };
             if share > size || !share.is_finite() {
                 size = share;
@@ -315,60 +384,47 @@ impl LinkKernel {
         (size, worst)
     }
 
-    /// What the last digits of deformations and rates make of the forces of the active coordinates: a
+    /// What the last digits of deformations and rates make of the force of an active coordinate: a
     /// stiff contact under a body that has gone far.
-    fn rounding(&self, links: &LinkSet, out: &Converged<'_>) -> Vec<f64> {
-        let mut forces = vec![0.0; links.active.len()];
-        for link in &links.links {
-            let n = link.range.len();
-            for i in 0..n {
-                let a = self.place[link.range.start + i];
-                if a == usize::MAX {
-                    continue;
-                }
-                let row = link.block.start + i * n;
-                for (j, flat) in link.range.clone().enumerate() {
-                    let (k, c) = (self.tangents.k[row + j], self.tangents.c[row + j]);
-                    forces[a] += DIGIT * ((k * out.d[flat]).abs() + (c * out.v[flat]).abs());
-                }
-            }
-        }
-        forces
+    fn rounding(&self, a: usize, out: &Converged<'_>) -> f64 {
+        let link = &self.links.links[self.owner[a]];
+        let row = (self.links.active[a] - link.range.start) * link.range.len();
+        let block = link.block.start + row..link.block.start + row + link.range.len();
+        let (k, c) = (&self.tangents.k[block.clone()], &self.tangents.c[block]);
+        let terms = link.range.clone().zip(k.iter().zip(c));
+        DIGIT * terms.map(|(flat, (k, c))| (k * out.d[flat]).abs() + (c * out.v[flat]).abs()).sum::<f64>()
     }
 
     /// Replaces the residual by the Newton correction of f̃.
-    fn newton_correction(&mut self, links: &LinkSet, affine: &Affine<'_>, slow: bool) {
-        let kept = self.factors.iter().position(|f| f.key == affine.key);
-        let factor = kept
-            .map(|at| self.factors.remove(at))
-            .filter(|f| f.tangents == self.tangents || (f.equations.len() >= CHORD_FROM && !slow));
-        let factor = factor.unwrap_or_else(|| {
-            self.factorise(links, self.tangents.clone(), affine.key, affine.g, affine.h)
-        });
-        let mut x: Vec<f64> = factor.equations.iter().map(|a| self.residual[*a]).collect();
-        factor.coupling.mul_add(-1.0, &self.residual, &mut x);
-        factor.lu.solve(&mut x);
+    fn newton_correction(&mut self, affine: &Affine<'_>, slow: bool) {
+        if let Some(at) = self.factors.iter().position(|f| f.key == affine.key) {
+            let kept = self.factors.remove(at);
+            let contracts = kept.equations.len() >= CHORD_FROM && !slow;
+            if contracts || kept.tangents == self.tangents {
+                self.factors.push(kept);
+            }
+        }
+        if self.factors.last().is_none_or(|f| f.key != affine.key) {
+            let factor = self.factorise(self.tangents.clone(), affine.key, affine.g, affine.h);
+            if self.factors.len() >= KEPT {
+                self.factors.remove(0);
+            }
+            self.factors.push(factor);
+        }
+        let Some(factor) = self.factors.last() else { return };
+        let x = &mut self.correction[..factor.equations.len()];
+        x.fill(0.0);
+        factor.correct.mul_add(1.0, &self.residual, x);
         for (a, value) in factor.equations.iter().zip(x) {
-            self.residual[*a] = value;
+            self.residual[*a] = *value;
         }
-        if self.factors.len() >= KEPT {
-            self.factors.remove(0);
-        }
-        self.factors.push(factor);
     }
 
-    fn factorise(
-        &self,
-        links: &LinkSet,
-        tangents: Tangents,
-        key: u64,
-        g: &Dense,
-        h: &Dense,
-    ) -> Factor {
-        let n = links.active.len();
+    fn factorise(&self, tangents: Tangents, key: u64, g: &Dense, h: &Dense) -> Factor {
+        let n = self.links.active.len();
         // Rows of k − k_e and c per active coordinate: (other active, stiffness, damping).
         let mut rows: Vec<Vec<(usize, f64, f64)>> = vec![Vec::new(); n];
-        for link in &links.links {
+        for link in &self.links.links {
             let size = link.range.len();
             for i in 0..size {
                 let a = self.place[link.range.start + i];
@@ -395,8 +451,9 @@ impl LinkKernel {
         for (e, a) in equations.iter().enumerate() {
             chosen[*a] = e;
         }
+        // J of the equations; what the others do to them goes to the right-hand side.
         let mut j = Dense::zeros(equations.len(), equations.len());
-        let mut coupling = Dense::zeros(equations.len(), n);
+        let mut correct = Dense::zeros(equations.len(), n);
         let mut line = vec![0.0; n];
         for (e, a) in equations.iter().enumerate() {
             line.fill(0.0);
@@ -408,11 +465,13 @@ impl LinkKernel {
             line[*a] += 1.0 + HOLD;
             for (b, x) in line.iter().enumerate() {
                 match chosen[b] {
-                    usize::MAX => coupling[(e, b)] = *x,
+                    usize::MAX => correct[(e, b)] = -*x,
                     column => j[(e, column)] = *x,
                 }
             }
+            correct[(e, *a)] = 1.0;
         }
-        Factor { key, tangents, lu: DenseLu::new(&j), equations, coupling }
+        DenseLu::new(&j).solve_columns(&mut correct);
+        Factor { key, tangents, equations, correct }
     }
 }

@@ -18,6 +18,7 @@ mod full_newton;
 mod hht;
 mod kernel;
 mod ledger;
+mod link_map;
 mod march;
 mod massless;
 mod modal;

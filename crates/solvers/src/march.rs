@@ -10,10 +10,11 @@
 //! that the matrices of a step size are made once.
 
 use crate::error::SolveError;
+use crate::space::Space;
 use crate::stepper::{State, StepEnergy, StepFailure, Stepper};
 use serde::{Deserialize, Serialize};
 use trilith_model::StepControl;
-use trilith_system::LoadSet;
+use trilith_system::{LoadSet, StepLoads};
 
 /// Halvings of an output step at most.
 const DEPTH: u32 = 30;
@@ -51,12 +52,25 @@ pub(crate) enum Stop {
     Fatal(SolveError),
 }
 
-/// A march over one segment of constant output step.
+/// A march over segments of constant output step.
 pub(crate) struct March<'a> {
     pub stepper: &'a mut dyn Stepper,
     pub loads: &'a LoadSet,
     pub control: StepControl,
     pub counts: Counts,
+    trial: Trial,
+}
+
+/// States and energies of a step on trial, kept so that a step allocates nothing.
+#[derive(Default)]
+struct Trial {
+    /// The step in one.
+    whole: State,
+    /// In two halves.
+    first: State,
+    second: State,
+    energies: [StepEnergy; 3],
+    loads: StepLoads,
 }
 
 /// How far the energies of the links in a step are from closing, and what is allowed: a share of what
@@ -79,9 +93,17 @@ fn closure(
 }
 
 /// What is told about every accepted substep: end time, state, energies.
-pub(crate) type Accepted<'a> = dyn FnMut(f64, &State, &StepEnergy) -> f64 + 'a;
+pub(crate) type Accepted<'a> = dyn FnMut(f64, &State, &StepEnergy, &Space) -> f64 + 'a;
 
-impl March<'_> {
+impl<'a> March<'a> {
+    pub(crate) fn new(
+        stepper: &'a mut dyn Stepper,
+        loads: &'a LoadSet,
+        control: StepControl,
+    ) -> Self {
+        Self { stepper, loads, control, counts: Counts::default(), trial: Trial::default() }
+    }
+
     /// From t0 over `length`; `accept` sees every substep and returns the energy it knows of.
     pub(crate) fn segment(
         &mut self,
@@ -116,7 +138,8 @@ impl March<'_> {
     ) -> Result<(), Stop> {
         let full: u64 = 1 << DEPTH;
         let mut at: u64 = 0;
-        let mut known: Option<(u32, State)> = None;
+        // The number of halvings whose whole step is there already.
+        let mut known: Option<u32> = None;
         let time = |ticks: u64| t0 + length * (ticks as f64 / full as f64);
         while at < full {
             let mut level = pace.level;
@@ -126,54 +149,49 @@ impl March<'_> {
             let ticks = full >> level;
             let size = length / (1u64 << level) as f64;
             let (start, middle, end) = (time(at), time(at + ticks / 2), time(at + ticks));
-            let whole = match known.take() {
-                Some((l, s)) if l == level => Ok(s),
-                _ => self.try_step(state, start, end, size).map(|(s, _)| s),
-            };
-            let attempt = whole.and_then(|whole| {
-                let (first, e1) = self.try_step(state, start, middle, 0.5 * size)?;
-                match self.try_step(&first, middle, end, 0.5 * size) {
-                    Ok((second, e2)) => Ok((whole, first, e1, second, e2)),
-                    Err(e) => {
-                        known = Some((level + 1, first));
-                        Err(e)
-                    }
-                }
-            });
+            let attempt = self.attempt(state, [start, middle, end], size, known == Some(level));
+            known = None;
             match attempt {
-                Ok((whole, first, e1, second, e2)) => {
+                Ok(()) => {
+                    let Trial { whole, second, energies: [_, e1, e2], .. } = &self.trial;
                     let energy = pace.reference.max(e2.kinetic + e2.strain.abs());
-                    let error = (self.stepper.distance(&whole, &second) / energy).sqrt();
+                    let error = (self.stepper.distance(whole, second) / energy).sqrt();
                     if !error.is_finite() {
                         return Err(Stop::NoEquilibrium { t: start, worst: 0, residual: error });
                     }
-                    let halves = [&e1, &e2];
-                    let (missing, mut allowed) = closure(state, &second, halves, tolerance, energy);
+                    let (missing, mut allowed) =
+                        closure(state, second, [e1, e2], tolerance, energy);
                     if missing > allowed {
                         // No step is short enough to bring it below what rounding leaves.
-                        allowed += ROUNDING * self.stepper.rounding(&second);
+                        allowed += ROUNDING * self.stepper.rounding(second);
                     }
                     let error = error.max(tolerance * missing / allowed);
                     if error > tolerance && level < ACCURACY_DEPTH {
                         self.counts.rejected += 1;
-                        known = Some((level + 1, first));
+                        known = Some(level + 1);
+                        std::mem::swap(&mut self.trial.whole, &mut self.trial.first);
                         pace.level = level + 1;
                         continue;
                     }
                     self.counts.forced += usize::from(error > tolerance);
                     self.counts.substeps += 2;
-                    for (t, s, e) in [(middle, &first, &e1), (end, &second, &e2)] {
-                        let seen = accept(t, s, e);
+                    let Trial { first, second, energies: [_, e1, e2], .. } = &self.trial;
+                    for (t, s, e) in [(middle, first, e1), (end, second, e2)] {
+                        let seen = accept(t, s, e, self.stepper.space());
                         pace.reference = pace.reference.max(seen);
                     }
-                    *state = second;
+                    std::mem::swap(state, &mut self.trial.second);
                     at += ticks;
                     pace.level = level;
                     if error < GROW_BELOW * tolerance && level > 0 {
                         pace.level = level - 1;
                     }
                 }
-                Err(failure) => {
+                Err(Failed { failure, first }) => {
+                    if first {
+                        known = Some(level + 1);
+                        std::mem::swap(&mut self.trial.whole, &mut self.trial.first);
+                    }
                     self.counts.rejected += 1;
                     self.give_up(failure, level, start)?;
                     pace.level = level + 1;
@@ -181,6 +199,27 @@ impl March<'_> {
             }
         }
         Ok(())
+    }
+
+    /// One step in one and in two halves; `known`: the one is there already.
+    fn attempt(
+        &mut self,
+        state: &State,
+        [start, middle, end]: [f64; 3],
+        size: f64,
+        known: bool,
+    ) -> Result<(), Failed> {
+        let Trial { whole, first, second, energies: [e0, e1, e2], loads } = &mut self.trial;
+        let mut step = |from: &State, to: &mut State, t0, t1, dt, energy: &mut StepEnergy| {
+            self.loads.step(t0, t1, loads);
+            self.stepper.step(from, to, loads, dt, energy)
+        };
+        let failed = |first: bool| move |failure| Failed { failure, first };
+        if !known {
+            step(state, whole, start, end, size, e0).map_err(failed(false))?;
+        }
+        step(state, first, start, middle, 0.5 * size, e1).map_err(failed(false))?;
+        step(first, second, middle, end, 0.5 * size, e2).map_err(failed(true))
     }
 
     fn fixed(
@@ -196,11 +235,13 @@ impl March<'_> {
         while at < full {
             let ticks = full >> level;
             let size = length / (1u64 << level) as f64;
-            match self.try_step(state, time(at), time(at + ticks), size) {
-                Ok((next, energy)) => {
-                    accept(time(at + ticks), &next, &energy);
+            let Trial { whole, energies: [energy, ..], loads, .. } = &mut self.trial;
+            self.loads.step(time(at), time(at + ticks), loads);
+            match self.stepper.step(state, whole, loads, size, energy) {
+                Ok(()) => {
+                    accept(time(at + ticks), whole, energy, self.stepper.space());
                     self.counts.substeps += 1;
-                    *state = next;
+                    std::mem::swap(state, whole);
                     at += ticks;
                     while level > 0 && at.is_multiple_of(full >> (level - 1)) {
                         level -= 1;
@@ -226,17 +267,10 @@ impl March<'_> {
             StepFailure::NoEquilibrium { .. } => Ok(()),
         }
     }
+}
 
-    fn try_step(
-        &mut self,
-        from: &State,
-        t0: f64,
-        t1: f64,
-        dt: f64,
-    ) -> Result<(State, StepEnergy), StepFailure> {
-        let loads = self.loads.step(t0, t1);
-        let mut to = State::default();
-        let energy = self.stepper.step(from, &mut to, &loads, dt)?;
-        Ok((to, energy))
-    }
+/// A step without equilibrium; `first`: its first half is there.
+struct Failed {
+    failure: StepFailure,
+    first: bool,
 }

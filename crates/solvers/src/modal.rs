@@ -7,50 +7,59 @@
 //!
 //! Modes without coupling by damping have a recurrence of their own; otherwise (dashpots of the
 //! structure, modal damping beside dummies) one exponential of the whole space is taken. Both are exact,
-//! also for ω = 0 and beyond critical damping.
+//! also for ω = 0 and beyond critical damping. Static shapes follow the loads (see `rules`).
 //!
-//! Static shapes (places without mass) follow the loads, c q̇ + q = s: exactly where the structure damps
-//! them, at the mean rate of the step where it does not.
+//! **Stiff links.** With link forces linear in the step the exact rule is the linear-acceleration method
+//! on a link: stable only for ω_link Δt < 2√3. Steps that are too long for it at the stiffest link are
+//! made by average acceleration instead, which has the same form, the same order and no such limit. A
+//! contact at rest or in steady sliding then needs no short steps; where something happens, the error
+//! control shortens them until the exact rule is back.
 //!
-//! The work of a linear load is exact too: ∫ s q̇ dt = s₁q₁ − s₀q₀ − ṡ ∫q dt.
+//! The work of a linear load is exact too: ∫ s q̇ dt = s₁q₁ − s₀q₀ − ṡ ∫q dt; under average acceleration,
+//! with ∫q = Δt (q₀ + q₁)/2, it is the work by which that rule balances.
 //!
 //! Reference: \[Wilson 2002, ch. 18\].
 
-use crate::error::SolveError;
-use crate::propagator::{Compliance, Forces, Motion, Propagator, StepWork, kinetic_and_strain};
-use crate::space::Space;
-use std::collections::BTreeMap;
-use trilith_linalg::{Dense, expm};
+mod rules;
 
-/// Coefficients of one step size: rows ∫q, q, q̇; columns q₀, q̇₀, s₀, s₁.
-enum Rule {
-    Diagonal(Vec<[[f64; 4]; 3]>),
-    Coupled(Box<[[Dense; 4]; 3]>),
-}
+use crate::error::SolveError;
+use crate::link_map::LinkMap;
+use crate::propagator::{Compliance, Forces, Motion, Propagator, StepWork};
+use crate::space::Space;
+use rules::{Rule, Structure};
+use trilith_linalg::Dense;
+
+/// Steps with a larger G·k of the stiffest link are made by average acceleration; the limit of the exact
+/// rule is 2 (ω²Δt²/6), and well before it the rule is no better any more.
+const LONGEST: f64 = 0.5;
 
 struct Step {
     rule: Rule,
-    /// The static shapes; same rows and columns.
-    statics: Vec<[[f64; 4]; 3]>,
     compliance: Compliance,
-    /// G of the modes alone: what limits the step.
-    limited: Dense,
+    /// Largest eigenvalue of G k of the engaged links under the exact rule.
+    ratio: f64,
     dt: f64,
 }
 
 /// The exact propagator on a basis of modes.
 pub(crate) struct Modal {
     space: Space,
-    /// Number of modes; the static shapes come after them.
-    modes: usize,
-    damping: Dense,
-    coupled: bool,
-    steps: BTreeMap<u64, Step>,
-    now: u64,
+    structure: Structure,
+    /// Stiffness of the engaged links.
+    engaged: Vec<f64>,
+    steps: Vec<Step>,
+    now: usize,
+    /// Loads less link forces at the start and at the end of the step, and the integral of q.
+    source0: Vec<f64>,
+    source1: Vec<f64>,
+    integral: Vec<f64>,
+    /// Pseudo-forces spread last, and (B Φ)ᵀ of them.
+    spread: (Vec<f64>, Vec<f64>),
 }
 
 impl Modal {
-    pub(crate) fn new(space: Space) -> Self {
+    /// `engaged` is the stiffness of the active link coordinates where they are engaged, N/m or N·m.
+    pub(crate) fn new(space: Space, engaged: Vec<f64>) -> Self {
         let m = space.order();
         let mut damping = Dense::zeros(m, m);
         let mut coupled = false;
@@ -58,181 +67,87 @@ impl Modal {
             damping[(i, j)] += v;
             coupled |= i != j && v != 0.0;
         }
-        let modes = m - space.images.columns();
-        Self { space, modes, damping, coupled, steps: BTreeMap::new(), now: 0 }
-    }
-
-    fn omega2(&self) -> Vec<f64> {
-        self.space.stiffness.diagonal()
+        let rates = (0..m).map(|i| damping[(i, i)]).collect();
+        let structure = Structure {
+            modes: m - space.images.columns(),
+            omega2: space.stiffness.diagonal(),
+            rates,
+            damping: coupled.then_some(damping),
+        };
+        let zero = vec![0.0; m];
+        Self {
+            spread: (vec![0.0; space.links.len()], zero.clone()),
+            space,
+            structure,
+            engaged,
+            steps: Vec::new(),
+            now: 0,
+            source0: zero.clone(),
+            source1: zero.clone(),
+            integral: zero,
+        }
     }
 
     fn build(&self, dt: f64) -> Step {
-        let omega2 = &self.omega2()[..self.modes];
-        let rule = if self.coupled {
-            let mut damping = Dense::zeros(self.modes, self.modes);
-            for i in 0..self.modes {
-                for j in 0..self.modes {
-                    damping[(i, j)] = self.damping[(i, j)];
-                }
-            }
-            Rule::Coupled(Box::new(coupled_rule(omega2, &damping, dt)))
-        } else {
-            Rule::Diagonal(
-                (0..self.modes)
-                    .map(|i| {
-                        let one = Dense::from_columns(1, 1, vec![self.damping[(i, i)]]);
-                        coupled_rule(&[omega2[i]], &one, dt)
-                            .map(|row| row.map(|block| block[(0, 0)]))
-                    })
-                    .collect(),
-            )
-        };
-        let statics: Vec<_> = (self.modes..self.space.order())
-            .map(|i| static_rule(self.damping[(i, i)], dt))
-            .collect();
-        let limited = self.compliance_of(&rule, &[], 1);
-        let (g, h) =
-            (self.compliance_of(&rule, &statics, 1), self.compliance_of(&rule, &statics, 2));
-        Step { rule, statics, compliance: Compliance { g, h, key: dt.to_bits() }, limited, dt }
+        let mut rule = Rule::exact(&self.structure, dt);
+        let modes = self.structure.modes;
+        let ratio = ratio(&self.compliance_of(&rule, 1, modes), &self.engaged);
+        if ratio > LONGEST {
+            rule = Rule::average(&self.structure, dt);
+        }
+        let all = self.space.order();
+        let (g, h) = (self.compliance_of(&rule, 1, all), self.compliance_of(&rule, 2, all));
+        Step { rule, compliance: Compliance { g, h, key: dt.to_bits() }, ratio, dt }
     }
 
-    /// B Φ (coefficient of s₁ in the given row) Φᵀ Bᵀ.
-    fn compliance_of(&self, rule: &Rule, statics: &[[[f64; 4]; 3]], row: usize) -> Dense {
-        let l = self.space.rows.len();
-        let mut b = Dense::zeros(self.modes, l);
-        let mut rest = Dense::zeros(statics.len(), l);
-        for (a, terms) in self.space.rows.iter().enumerate() {
-            for (j, c) in terms {
-                match j.checked_sub(self.modes) {
-                    None => b[(*j, a)] = *c,
-                    Some(r) if r < statics.len() => rest[(r, a)] = *c,
-                    Some(_) => {}
-                }
+    /// B Φ (coefficient of s₁ in the given row) Φᵀ Bᵀ of the first coordinates.
+    fn compliance_of(&self, rule: &Rule, row: usize, coordinates: usize) -> Dense {
+        let l = self.space.links.len();
+        let mut b = Dense::zeros(self.space.order(), l);
+        for a in 0..l {
+            for (j, c) in self.space.links.row(a).filter(|(j, _)| *j < coordinates) {
+                b[(j, a)] = c;
             }
         }
-        let scaled = match rule {
-            Rule::Diagonal(c) => {
-                let mut s = b.clone();
-                for a in 0..l {
-                    for (x, c) in s.column_mut(a).iter_mut().zip(c) {
-                        *x *= c[row][3];
-                    }
-                }
-                s
-            }
-            Rule::Coupled(c) => c[row][3].times(&b),
-        };
-        let mut sum = b.transpose_times(&scaled);
-        if !statics.is_empty() {
-            let mut scaled = rest.clone();
-            for a in 0..l {
-                for (x, c) in scaled.column_mut(a).iter_mut().zip(statics) {
-                    *x *= c[row][3];
-                }
-            }
-            let more = rest.transpose_times(&scaled);
-            sum.values_mut().iter_mut().zip(more.values()).for_each(|(x, y)| *x += y);
+        let mut scaled = Dense::zeros(b.rows(), l);
+        for a in 0..l {
+            rule.answer(row, b.column(a), scaled.column_mut(a));
         }
-        sum
+        b.transpose_times(&scaled)
     }
 
     fn step(&self) -> &Step {
-        &self.steps[&self.now]
+        &self.steps[self.now]
     }
 
-    /// Σ over the four inputs of one row of coefficients.
-    fn apply(&self, row: usize, inputs: [&[f64]; 4]) -> Vec<f64> {
-        let one = |c: &[[f64; 4]; 3], i: usize| {
-            let c = &c[row];
-            c[0] * inputs[0][i] + c[1] * inputs[1][i] + c[2] * inputs[2][i] + c[3] * inputs[3][i]
-        };
-        let step = self.step();
-        let mut y: Vec<f64> = match &step.rule {
-            Rule::Diagonal(c) => c.iter().enumerate().map(|(i, c)| one(c, i)).collect(),
-            Rule::Coupled(c) => {
-                let mut y = vec![0.0; self.modes];
-                for (block, x) in c[row].iter().zip(inputs) {
-                    block.mul_add(1.0, &x[..self.modes], &mut y);
-                }
-                y
-            }
-        };
-        y.extend(step.statics.iter().enumerate().map(|(r, c)| one(c, self.modes + r)));
-        y
-    }
-
-    fn source(&self, load: &[f64], pseudo: &[f64]) -> Vec<f64> {
-        let mut s = load.to_vec();
-        self.space.spread(-1.0, pseudo, &mut s);
-        s
-    }
-
-    fn finish(&self, source: &[f64], to: &mut Motion) {
-        let m = self.space.order();
-        let omega2 = self.omega2();
-        let mut a = source.to_vec();
-        self.damping.mul_add(-1.0, &to[m..2 * m], &mut a);
-        for i in 0..self.modes {
-            a[i] -= omega2[i] * to[i];
+    /// Makes (B Φ)ᵀ f̃ of these pseudo-forces the last one.
+    fn spread(&mut self, pseudo: &[f64]) {
+        let (last, spread) = &mut self.spread;
+        if last != pseudo {
+            last.copy_from_slice(pseudo);
+            spread.fill(0.0);
+            self.space.links.spread(1.0, pseudo, spread);
         }
-        a[self.modes..].fill(0.0);
-        to[2 * m..].copy_from_slice(&a);
     }
 }
 
-/// c q̇ + q = s with s linear in the step: rows ∫q, q, q̇; columns q₀, q̇₀, s₀, s₁. Without damping q = s,
-/// at the mean rate of the step, whatever q was before: a load may have jumped.
-fn static_rule(c: f64, dt: f64) -> [[f64; 4]; 3] {
-    let x = dt / c;
-    if !x.is_finite() || x > 1e9 {
-        return [
-            [0.5 * dt, 0.0, 0.0, 0.5 * dt],
-            [0.0, 0.0, 0.0, 1.0],
-            [-dt.recip(), 0.0, 0.0, dt.recip()],
-        ];
+/// Largest eigenvalue of G diag(k).
+fn ratio(g: &Dense, k: &[f64]) -> f64 {
+    const ITERATIONS: usize = 50;
+    let mut x = vec![1.0; k.len()];
+    let mut ratio = 0.0;
+    for _ in 0..ITERATIONS {
+        let f: Vec<f64> = x.iter().zip(k).map(|(a, b)| a * b).collect();
+        let mut y = vec![0.0; k.len()];
+        g.mul_add(1.0, &f, &mut y);
+        let size = y.iter().fold(0.0f64, |a, b| a.max(b.abs()));
+        if size == 0.0 {
+            return 0.0;
+        }
+        ratio = size;
+        x = y.into_iter().map(|v| v / size).collect();
     }
-    let decay = (-x).exp();
-    let mean = -(-x).exp_m1() / x;
-    let q = [decay, 0.0, mean - decay, 1.0 - mean];
-    let v = [-decay / c, 0.0, -(mean - decay) / c, mean / c];
-    // ∫q = ∫s − c (q₁ − q₀)
-    let integral = [c * (1.0 - decay), 0.0, 0.5 * dt - c * q[2], 0.5 * dt - c * q[3]];
-    [integral, q, v]
-}
-
-/// exp of the augmented system, as blocks: rows ∫q, q, q̇; columns q₀, q̇₀, s₀, s₁.
-fn coupled_rule(omega2: &[f64], damping: &Dense, dt: f64) -> [[Dense; 4]; 3] {
-    let m = omega2.len();
-    // States: ∫q, q, q̇, s, ṡ·dt.
-    let mut a = Dense::zeros(5 * m, 5 * m);
-    for i in 0..m {
-        a[(i, m + i)] = dt;
-        a[(m + i, 2 * m + i)] = dt;
-        a[(2 * m + i, m + i)] = -omega2[i] * dt;
-        a[(2 * m + i, 3 * m + i)] = dt;
-        a[(3 * m + i, 4 * m + i)] = 1.0;
-        for j in 0..m {
-            a[(2 * m + i, 2 * m + j)] = -damping[(i, j)] * dt;
-        }
-    }
-    let e = expm(&a);
-    let block = |row: usize, column: usize| {
-        let mut b = Dense::zeros(m, m);
-        for j in 0..m {
-            for i in 0..m {
-                b[(i, j)] = e[(row * m + i, column * m + j)];
-            }
-        }
-        b
-    };
-    [0, 1, 2].map(|row| {
-        let end = block(row, 4);
-        let mut start = block(row, 3);
-        for (x, y) in start.values_mut().iter_mut().zip(end.values()) {
-            *x -= y;
-        }
-        [block(row, 1), block(row, 2), start, end]
-    })
+    ratio
 }
 
 impl Propagator for Modal {
@@ -245,11 +160,14 @@ impl Propagator for Modal {
     }
 
     fn prepare(&mut self, dt: f64) -> Result<(), SolveError> {
-        self.now = dt.to_bits();
-        if !self.steps.contains_key(&self.now) {
-            let step = self.build(dt);
-            self.steps.insert(self.now, step);
+        if self.steps.get(self.now).is_some_and(|s| s.dt == dt) {
+            return Ok(());
         }
+        self.now = self.steps.iter().position(|s| s.dt == dt).unwrap_or_else(|| {
+            let step = self.build(dt);
+            self.steps.push(step);
+            self.steps.len() - 1
+        });
         Ok(())
     }
 
@@ -257,13 +175,13 @@ impl Propagator for Modal {
         &self.step().compliance
     }
 
-    fn limited(&self) -> Option<&Dense> {
-        Some(&self.step().limited)
+    fn stiffness_ratio(&self) -> Option<f64> {
+        Some(self.step().ratio).filter(|r| *r > LONGEST)
     }
 
     fn acceleration(&mut self, force: &[f64]) -> Result<Vec<f64>, SolveError> {
         let mut a = force.to_vec();
-        a[self.modes..].fill(0.0);
+        a[self.structure.modes..].fill(0.0);
         Ok(a)
     }
 
@@ -275,94 +193,71 @@ impl Propagator for Modal {
         d: &mut [f64],
         v: &mut [f64],
     ) {
-        let m = self.space.order();
-        let s0 = self.source(forces.load0, forces.pseudo0);
-        let (q, rate) = (&from[..m], &from[m..2 * m]);
-        for row in [1, 2] {
-            let y = self.apply(row, [q, rate, &s0, forces.load1]);
-            to[(row - 1) * m..row * m].copy_from_slice(&y);
+        self.spread(forces.pseudo0);
+        let m = self.source0.len();
+        for (s, (p, f)) in self.source0.iter_mut().zip(forces.load0.iter().zip(&self.spread.1)) {
+            *s = p - f;
         }
-        self.space.deform(&to[..m], d);
-        self.space.deform(&to[m..2 * m], v);
+        let inputs = [&from[..m], &from[m..2 * m], &self.source0, forces.load1];
+        let rule = &self.steps[self.now].rule;
+        let (q, rest) = to.split_at_mut(m);
+        rule.apply(1, inputs, q);
+        rule.apply(2, inputs, &mut rest[..m]);
+        match &self.space.links {
+            LinkMap::Full(b) => {
+                d.fill(0.0);
+                v.fill(0.0);
+                b.transpose_mul_add_pair(1.0, [q, &rest[..m]], [d, v]);
+            }
+            links @ LinkMap::Sparse(_) => {
+                links.deform(q, d);
+                links.deform(&rest[..m], v);
+            }
+        }
     }
 
     fn correct(&mut self, forces: &Forces<'_>, to: &mut Motion) {
-        let m = self.space.order();
-        let mut s = vec![0.0; m];
-        self.space.spread(-1.0, forces.pseudo1, &mut s);
-        let zero = vec![0.0; m];
-        for row in [1, 2] {
-            let y = self.apply(row, [&zero, &zero, &zero, &s]);
-            for (x, y) in to[(row - 1) * m..row * m].iter_mut().zip(y) {
-                *x += y;
-            }
+        self.spread(forces.pseudo1);
+        let m = self.source0.len();
+        let rule = &self.steps[self.now].rule;
+        let (q, rest) = to.split_at_mut(m);
+        let (v, a) = rest.split_at_mut(m);
+        // What was predicted holds the loads already.
+        let push = &mut self.integral;
+        push.iter_mut().zip(&self.spread.1).for_each(|(x, f)| *x = -f);
+        rule.add_answer(1, push, q);
+        rule.add_answer(2, push, v);
+        for (s, (p, f)) in self.source1.iter_mut().zip(forces.load1.iter().zip(&self.spread.1)) {
+            *s = p - f;
         }
-        let source = self.source(forces.load1, forces.pseudo1);
-        self.finish(&source, to);
+        self.structure.acceleration(&self.source1, q, v, a);
     }
 
-    fn work(&self, from: &Motion, to: &Motion, forces: &Forces<'_>) -> StepWork {
-        let m = self.space.order();
-        let s0 = self.source(forces.load0, forces.pseudo0);
-        let s1 = self.source(forces.load1, forces.pseudo1);
-        let integral = self.apply(0, [&from[..m], &from[m..2 * m], &s0, &s1]);
-        let dt = self.step().dt;
-        let of = |p0: &[f64], p1: &[f64]| -> f64 {
-            (0..m)
-                .map(|i| p1[i] * to[i] - p0[i] * from[i] - (p1[i] - p0[i]) / dt * integral[i])
-                .sum()
+    fn work(&mut self, from: &Motion, to: &Motion, forces: &Forces<'_>) -> StepWork {
+        let m = self.source0.len();
+        let step = &self.steps[self.now];
+        let inputs = [&from[..m], &from[m..2 * m], &self.source0, &self.source1];
+        step.rule.apply(0, inputs, &mut self.integral);
+        let (mut external, mut all) = (0.0, 0.0);
+        let scale = step.dt.recip();
+        for i in 0..m {
+            let (q0, q1, mean) = (from[i], to[i], self.integral[i] * scale);
+            let (p0, p1) = (forces.load0[i], forces.load1[i]);
+            let (s0, s1) = (self.source0[i], self.source1[i]);
+            external += p1 * (q1 - mean) - p0 * (q0 - mean);
+            all += s1 * (q1 - mean) - s0 * (q0 - mean);
+        }
+        let links = external - all;
+        let damping = if self.structure.is_damped() {
+            let ((k0, e0), (k1, e1)) = (self.energy(from), self.energy(to));
+            all - (k1 - k0) - (e1 - e0)
+        } else {
+            0.0
         };
-        let external = of(forces.load0, forces.load1);
-        let links = external - of(&s0, &s1);
-        let (k0, e0) = kinetic_and_strain(&self.space, from);
-        let (k1, e1) = kinetic_and_strain(&self.space, to);
-        let damped = self.damping.values().iter().any(|x| *x != 0.0);
-        let damping = if damped { external - links - (k1 - k0) - (e1 - e0) } else { 0.0 };
         StepWork { external, links, damping, algorithmic: 0.0 }
     }
-}
 
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    /// u = p/k (1 − cos ωt) under a constant load; (p/k)(t/t₁ − sin ωt / ωt₁) under a ramp.
-    #[test]
-    fn constant_and_linear_loads_are_exact() {
-        let (w, dt) = (3.0, 0.7);
-        let c = coupled_rule(&[w * w], &Dense::zeros(1, 1), dt);
-        let x = w * dt;
-        let both = c[1][2][(0, 0)] + c[1][3][(0, 0)];
-        assert!((both - (1.0 - x.cos()) / (w * w)).abs() < 1e-15);
-        assert!((c[1][3][(0, 0)] - (1.0 - x.sin() / x) / (w * w)).abs() < 1e-15);
-        assert!((c[1][0][(0, 0)] - x.cos()).abs() < 1e-14);
-    }
-
-    /// c q̇ + q = s: q = 1 − e^(−t/c) under a constant load, t − c (1 − e^(−t/c)) under a rising one.
-    #[test]
-    fn a_damped_static_shape_follows_constant_and_rising_loads() {
-        let (c, dt) = (0.3, 0.7);
-        let [integral, q, v] = static_rule(c, dt);
-        let decay = f64::exp(-dt / c);
-        assert!((q[2] + q[3] - (1.0 - decay)).abs() < 1e-15);
-        assert!((q[3] * dt - (dt - c * (1.0 - decay))).abs() < 1e-15);
-        assert!((v[2] + v[3] - decay / c).abs() < 1e-14);
-        assert!((integral[2] + integral[3] - (dt - c * (1.0 - decay))).abs() < 1e-15);
-        // Little damping and none are the same for a load that did not jump.
-        let (little, none) = (static_rule(1e-8 * dt, dt), static_rule(0.0, dt));
-        for (a, b) in little.iter().zip(&none) {
-            let at = |r: &[f64; 4]| [r[0] + r[2], r[3]];
-            for (x, y) in at(a).iter().zip(at(b)) {
-                assert!((x - y).abs() < 1e-6, "{little:?} {none:?}");
-            }
-        }
-    }
-
-    #[test]
-    fn a_free_mass_moves_as_under_constant_and_rising_force() {
-        let c = coupled_rule(&[0.0], &Dense::zeros(1, 1), 2.0);
-        assert!((c[1][2][(0, 0)] - 4.0 / 3.0).abs() < 1e-14);
-        assert!((c[1][3][(0, 0)] - 4.0 / 6.0).abs() < 1e-14);
-        assert!((c[2][3][(0, 0)] - 1.0).abs() < 1e-14);
+    fn energy(&self, x: &[f64]) -> (f64, f64) {
+        self.structure.energy(x)
     }
 }

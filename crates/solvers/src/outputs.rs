@@ -39,6 +39,9 @@ pub(crate) struct Outputs {
     rows: Vec<Row>,
     prescribed: usize,
     order: usize,
+    /// True where an output asks for moving supports, or for the acceleration of the base.
+    supported: bool,
+    absolute: bool,
 }
 
 fn sum(row: &[(usize, f64)], x: &[f64]) -> f64 {
@@ -97,8 +100,15 @@ impl Outputs {
                     }
                 }
             })
-            .collect();
-        Self { rows, prescribed: system.reduction.prescribed.len(), order: space.order() }
+            .collect::<Vec<_>>();
+        let supported = rows.iter().any(|row| match row {
+            Row::Nodal { support, .. } => !support.is_empty(),
+            Row::Element { stiffness, damping } => !(stiffness.1.is_empty() && damping.1.is_empty()),
+            _ => false,
+        });
+        let absolute = rows.iter().any(|r| matches!(r, Row::Nodal { base, .. } if *base != [0.0; 3]));
+        let prescribed = system.reduction.prescribed.len();
+        Self { rows, prescribed, order: space.order(), supported, absolute }
     }
 
     /// Values and, for displacements, rates.
@@ -112,8 +122,14 @@ impl Outputs {
     ) {
         let n = self.order;
         let motion = [&state.motion[..n], &state.motion[n..2 * n], &state.motion[2 * n..]];
-        let support = loads.prescribed(t, Side::Before, self.prescribed);
-        let base = loads.base_acceleration(t, Side::Before);
+        let support = match self.supported {
+            true => loads.prescribed(t, Side::Before, self.prescribed),
+            false => Default::default(),
+        };
+        let base = match self.absolute {
+            true => loads.base_acceleration(t, Side::Before),
+            false => [0.0; 3],
+        };
         for (i, row) in self.rows.iter().enumerate() {
             rates[i] = f64::NAN;
             values[i] = match row {

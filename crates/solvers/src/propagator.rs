@@ -50,8 +50,9 @@ pub(crate) trait Propagator {
     /// Compliance of the step prepared last.
     fn compliance(&self) -> &Compliance;
 
-    /// The part of G through which links limit the step, for rules that are stable only below one.
-    fn limited(&self) -> Option<&Dense> {
+    /// Largest G·k of the engaged links under the exact rule, where the step prepared last is too long for
+    /// it and is made by another rule.
+    fn stiffness_ratio(&self) -> Option<f64> {
         None
     }
 
@@ -72,12 +73,17 @@ pub(crate) trait Propagator {
     /// Completes the step predicted last with the pseudo-forces at its end.
     fn correct(&mut self, forces: &Forces<'_>, to: &mut Motion);
 
-    /// Work done over a step.
-    fn work(&self, from: &Motion, to: &Motion, forces: &Forces<'_>) -> StepWork;
+    /// Work done over the step completed last.
+    fn work(&mut self, from: &Motion, to: &Motion, forces: &Forces<'_>) -> StepWork;
+
+    /// ½ vᵀ M v and ½ uᵀ K u (with dummies) of a motion.
+    fn energy(&self, motion: &[f64]) -> (f64, f64) {
+        kinetic_and_strain(self.space(), motion)
+    }
 }
 
 /// ½ vᵀ M v and ½ uᵀ K u (with dummies).
-pub(crate) fn kinetic_and_strain(space: &Space, x: &Motion) -> (f64, f64) {
+pub(crate) fn kinetic_and_strain(space: &Space, x: &[f64]) -> (f64, f64) {
     let n = space.order();
     let (u, v) = (&x[..n], &x[n..2 * n]);
     (0.5 * space.mass.bilinear(v, v), 0.5 * space.stiffness.bilinear(u, u))

@@ -1,6 +1,7 @@
 //! The linear structure in the coordinates of a solver: all free DOFs, or a basis of Ritz vectors.
 
 use crate::basis::RitzBasis;
+use crate::link_map::LinkMap;
 use crate::massless::beside;
 use trilith_linalg::{Dense, Sparse, Triplets};
 use trilith_system::{LoadSet, System};
@@ -20,8 +21,8 @@ pub(crate) struct Space {
     /// Stiffness with the dummies.
     pub stiffness: Sparse,
     pub modal: Option<LowRank>,
-    /// B of the active coordinates, row by row.
-    pub rows: Vec<Vec<(usize, f64)>>,
+    /// B of the active coordinates.
+    pub links: LinkMap,
     /// Dummies of the active coordinates.
     pub dummy_k: Vec<f64>,
     /// One force vector a load channel.
@@ -49,7 +50,7 @@ impl Space {
             damping: system.damping.clone(),
             stiffness,
             modal,
-            rows: links.active.iter().map(|i| links.rows[*i].clone()).collect(),
+            links: LinkMap::Sparse(links.active.iter().map(|i| links.rows[*i].clone()).collect()),
             dummy_k: dummy,
             forces: loads.channels.iter().map(|c| c.force.clone()).collect(),
             shape: None,
@@ -68,18 +69,14 @@ impl Space {
             phi.transpose_mul_add(1.0, p, &mut q);
             q
         };
-        let rows = physical
-            .rows
-            .iter()
-            .map(|row| {
-                (0..m)
-                    .map(|j| {
-                        let column = phi.column(j);
-                        (j, row.iter().map(|(i, c)| c * column[*i]).sum::<f64>())
-                    })
-                    .collect()
-            })
-            .collect();
+        let mut links = Dense::zeros(m, physical.links.len());
+        for a in 0..links.columns() {
+            for (i, c) in physical.links.row(a) {
+                for j in 0..m {
+                    links[(j, a)] += c * phi[(i, j)];
+                }
+            }
+        }
         let mut damping = congruence(&physical.damping, phi);
         if let Some(modal) = &physical.modal {
             let u = phi.transpose_times(&modal.u);
@@ -103,7 +100,7 @@ impl Space {
             damping: sparse(&damping),
             stiffness: diagonal(&[&basis.omega2[..], &vec![1.0; statics]].concat()),
             modal: None,
-            rows,
+            links: LinkMap::Full(links),
             dummy_k: physical.dummy_k.clone(),
             forces: physical.forces.iter().map(project).collect(),
             shape: Some(phi.clone()),
@@ -118,27 +115,17 @@ impl Space {
     /// Σ amplitude · force.
     pub(crate) fn force(&self, amplitudes: &[f64]) -> Vec<f64> {
         let mut p = vec![0.0; self.order()];
+        self.force_into(amplitudes, &mut p);
+        p
+    }
+
+    /// The same, into a given place.
+    pub(crate) fn force_into(&self, amplitudes: &[f64], p: &mut [f64]) {
+        p.fill(0.0);
         for (f, a) in self.forces.iter().zip(amplitudes).filter(|(_, a)| **a != 0.0) {
             for (x, y) in p.iter_mut().zip(f) {
                 *x += a * y;
             }
-        }
-        p
-    }
-
-    /// `p += s · Bᵀ f` of active coordinates.
-    pub(crate) fn spread(&self, s: f64, f: &[f64], p: &mut [f64]) {
-        for (row, x) in self.rows.iter().zip(f).filter(|(_, x)| **x != 0.0) {
-            for (j, c) in row {
-                p[*j] += s * c * x;
-            }
-        }
-    }
-
-    /// `B u` of active coordinates.
-    pub(crate) fn deform(&self, u: &[f64], d: &mut [f64]) {
-        for (x, row) in d.iter_mut().zip(&self.rows) {
-            *x = row.iter().map(|(j, c)| c * u[*j]).sum();
         }
     }
 

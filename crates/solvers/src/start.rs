@@ -76,7 +76,7 @@ fn peak(track: &Track) -> f64 {
 fn dummy_energy(system: &System, space: &Space, state: &State) -> f64 {
     let n = space.order();
     let mut d = vec![0.0; system.links.active.len()];
-    space.deform(&state.motion[..n], &mut d);
+    space.links.deform(&state.motion[..n], &mut d);
     d.iter().zip(&space.dummy_k).map(|(d, k)| 0.5 * k * d * d).sum()
 }
 

@@ -73,10 +73,10 @@ pub(crate) fn equilibrium(
     let (d_before, d_added) = (deform(&u_before), deform(&u_added));
     let dummy: Vec<f64> = links.active.iter().map(|i| engaged[*i]).collect();
     let zero = vec![0.0; links.len()];
-    let mut kernel = LinkKernel::new(links, Kernel::Newton, dummy.clone());
+    let mut kernel = LinkKernel::new(model, links, Kernel::Newton, dummy.clone());
     let mut state = start;
     let mut pseudo = vec![0.0; dummy.len()];
-    kernel.pseudo(links, &state.f, &state.d, &mut pseudo);
+    kernel.pseudo(&state.f, &state.d, &zero, &mut pseudo);
     let (mut reached, mut step, mut made, mut rejected) = (0.0, 1.0 / steps.max(1) as f64, 0, 0);
     while reached < 1.0 {
         let next = if reached + 1.0001 * step >= 1.0 { 1.0 } else { reached + step };
@@ -86,8 +86,6 @@ pub(crate) fn equilibrium(
         let mut attempt = pseudo.clone();
         let mut energy = vec![Energy::default(); links.links.len()];
         let outcome = kernel.solve(
-            model,
-            links,
             &Affine { d: &d, v: &v, support_d: &zero, support_v: &zero, g: &g, h: &none, key: 0 },
             &Committed { d: &state.d, v: &zero, history: &state.history, dt: 0.0 },
             &state.scale,

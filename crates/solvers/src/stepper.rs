@@ -2,12 +2,12 @@
 
 use crate::error::SolveError;
 use crate::kernel::{Affine, Committed, Converged, ForceScale, LinkKernel, Remembered};
-use crate::propagator::{Forces, Motion, Propagator, StepWork, kinetic_and_strain};
+use crate::propagator::{Compliance, Forces, Motion, Propagator, StepWork};
 use crate::space::Space;
 use serde::{Deserialize, Serialize};
 use trilith_element::{Energy, Kinematics};
 use trilith_model::Model;
-use trilith_system::{LinkSet, LoadSet, StepLoads, System};
+use trilith_system::{Channel, LinkSet, LoadSet, StepLoads, System};
 
 /// Everything that changes during a run: copying it is a checkpoint.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
@@ -47,8 +47,7 @@ impl State {
             v,
         };
         let mut energy = vec![Energy::default(); links.links.len()];
-        links.respond(
-            model,
+        links.laws(model).respond(
             Kinematics { d: &state.d, v: &state.v, d0: &state.d, v0: &state.v, dt: 0.0 },
             history,
             &mut state.history,
@@ -58,6 +57,15 @@ impl State {
         );
         state.settle(links, &energy);
         state
+    }
+
+    /// Makes this a place for the step that follows another state.
+    pub(crate) fn follow(&mut self, from: &Self) {
+        if self.motion.len() == from.motion.len() && self.d.len() == from.d.len() {
+            self.scale = from.scale;
+        } else {
+            self.clone_from(from);
+        }
     }
 
     /// Takes note of the forces and stored energies of a converged step.
@@ -107,14 +115,15 @@ impl From<SolveError> for StepFailure {
 /// - `from` is never changed; on failure `to` holds rubbish and is thrown away.
 /// - All memory of the past is in the state and in [`memory`](Self::memory).
 pub(crate) trait Stepper {
-    /// From `from` over `dt` with these loads into `to`.
+    /// From `from` over `dt` with these loads into `to`; what that did to the energies into `energy`.
     fn step(
         &mut self,
         from: &State,
         to: &mut State,
         loads: &StepLoads,
         dt: f64,
-    ) -> Result<StepEnergy, StepFailure>;
+        energy: &mut StepEnergy,
+    ) -> Result<(), StepFailure>;
 
     /// A state at rest or in given motion of the free DOFs; forces in equilibrium with the history.
     fn start(
@@ -129,7 +138,7 @@ pub(crate) trait Stepper {
     fn jump(&mut self, state: &mut State, change: &[f64]) -> Result<(), SolveError>;
 
     /// Squared energy norm of the difference of two states, J.
-    fn distance(&self, a: &State, b: &State) -> f64;
+    fn distance(&mut self, a: &State, b: &State) -> f64;
 
     /// What one rounding of the motion does to the energies of the links, J.
     fn rounding(&self, state: &State) -> f64;
@@ -146,16 +155,22 @@ pub(crate) trait Stepper {
     /// Takes up what an earlier run kept.
     fn recall(&mut self, memory: Vec<Remembered>) -> Result<(), SolveError>;
 
-    /// Spectral radius of G·k for a step and the engaged stiffness of the flat coordinates; 0 for rules
-    /// that are stable whatever it is. The exact rule with link forces linear in the step is stable
-    /// below 2 (ω_link·Δt < 2√3 is ω²Δt²/6 < 2).
-    fn stiffness_ratio(&mut self, dt: f64, engaged: &[f64]) -> Result<f64, SolveError>;
+    /// Largest G·k of the engaged links under the exact rule, where a step of this length is too long for
+    /// it and is made by average acceleration; ω_link²Δt²/6.
+    fn beyond_exact(&mut self, dt: f64) -> Result<Option<f64>, SolveError>;
 }
 
-/// Squared energy norm of the difference of two states, the springs of the links included.
-pub(crate) fn energy_distance(space: &Space, a: &State, b: &State) -> f64 {
-    let difference: Vec<f64> = a.motion.iter().zip(&b.motion).map(|(x, y)| x - y).collect();
-    let (kinetic, strain) = kinetic_and_strain(space, &difference);
+/// Squared energy norm of the difference of two states, the springs of the links included; `energy` of a
+/// motion by the structure.
+pub(crate) fn energy_distance(
+    energy: impl Fn(&[f64]) -> (f64, f64),
+    a: &State,
+    b: &State,
+    difference: &mut Motion,
+) -> f64 {
+    difference.clear();
+    difference.extend(a.motion.iter().zip(&b.motion).map(|(x, y)| x - y));
+    let (kinetic, strain) = energy(difference);
     let links: f64 = (0..a.d.len()).map(|i| ((a.d[i] - b.d[i]) * (a.f[i] - b.f[i])).abs()).sum();
     kinetic.abs() + strain.abs() + 0.5 * links
 }
@@ -163,8 +178,8 @@ pub(crate) fn energy_distance(space: &Space, a: &State, b: &State) -> f64 {
 /// What one rounding of the motion does to the energies of the links, J: deformations are differences of
 /// displacements that may be far larger, and forces act through them.
 pub(crate) fn energy_rounding(space: &Space, active: &[usize], state: &State) -> f64 {
-    let parts = space.rows.iter().zip(active).map(|(row, flat)| {
-        let size: f64 = row.iter().map(|(j, c)| (c * state.motion[*j]).abs()).sum();
+    let parts = active.iter().enumerate().map(|(a, flat)| {
+        let size: f64 = space.links.row(a).map(|(j, c)| (c * state.motion[j]).abs()).sum();
         state.f[*flat].abs() * size
     });
     f64::EPSILON * parts.sum::<f64>()
@@ -172,27 +187,72 @@ pub(crate) fn energy_rounding(space: &Space, active: &[usize], state: &State) ->
 
 /// Any propagator with the link kernel.
 pub(crate) struct LinkStepper<'a, P> {
-    pub model: &'a Model,
-    pub system: &'a System,
-    pub loads: &'a LoadSet,
-    pub propagator: P,
-    pub kernel: LinkKernel,
+    system: &'a System,
+    model: &'a Model,
+    loads: &'a LoadSet,
+    propagator: P,
+    kernel: LinkKernel<'a>,
+    work: Workspace,
 }
 
-impl<P: Propagator> LinkStepper<'_, P> {
-    /// Deformation and rate from moving supports, flat.
-    fn support(&self, amplitudes: &[f64]) -> (Vec<f64>, Vec<f64>) {
-        let n = self.system.links.len();
-        let (mut d, mut v) = (vec![0.0; n], vec![0.0; n]);
-        self.loads.support_deformation(amplitudes, &mut d, &mut v);
-        (d, v)
+/// What a step needs on its way, so that it allocates nothing.
+#[derive(Default)]
+struct Workspace {
+    load0: Vec<f64>,
+    load1: Vec<f64>,
+    /// Deformation that moving supports give the links at the start and the end, and its rate at the end.
+    support0: Vec<f64>,
+    support1: Vec<f64>,
+    support_rate: Vec<f64>,
+    pseudo0: Vec<f64>,
+    pseudo1: Vec<f64>,
+    /// d* and v* of the active coordinates.
+    d: Vec<f64>,
+    v: Vec<f64>,
+    /// True where supports move links.
+    moving: bool,
+    difference: Motion,
+}
+
+impl<'a, P: Propagator> LinkStepper<'a, P> {
+    pub(crate) fn new(
+        model: &'a Model,
+        system: &'a System,
+        loads: &'a LoadSet,
+        propagator: P,
+        kernel: LinkKernel<'a>,
+    ) -> Self {
+        let n = propagator.space().order();
+        let (flat, active) = (system.links.len(), system.links.active.len());
+        let moves = |c: &Channel| !c.deformation.is_empty() || !c.rate.is_empty();
+        let work = Workspace {
+            load0: vec![0.0; n],
+            load1: vec![0.0; n],
+            support0: vec![0.0; flat],
+            support1: vec![0.0; flat],
+            support_rate: vec![0.0; flat],
+            pseudo0: vec![0.0; active],
+            pseudo1: vec![0.0; active],
+            d: vec![0.0; active],
+            v: vec![0.0; active],
+            moving: loads.channels.iter().any(moves),
+            difference: Vec::new(),
+        };
+        Self { system, model, loads, propagator, kernel, work }
     }
 
-    fn pseudo(&self, state: &State, support_d: &[f64]) -> Vec<f64> {
-        let own: Vec<f64> = state.d.iter().zip(support_d).map(|(x, y)| x - y).collect();
-        let mut pseudo = vec![0.0; self.system.links.active.len()];
-        self.kernel.pseudo(&self.system.links, &state.f, &own, &mut pseudo);
-        pseudo
+    /// Takes note of what moving supports do to the links over a step.
+    fn move_supports(&mut self, loads: &StepLoads) {
+        let w = &mut self.work;
+        if !w.moving {
+            return;
+        }
+        for x in [&mut w.support0, &mut w.support1, &mut w.support_rate] {
+            x.fill(0.0);
+        }
+        self.loads.support_deformation(&loads.start, &mut w.support0, &mut w.support_rate);
+        w.support_rate.fill(0.0);
+        self.loads.support_deformation(&loads.end, &mut w.support1, &mut w.support_rate);
     }
 }
 
@@ -203,34 +263,25 @@ impl<P: Propagator> Stepper for LinkStepper<'_, P> {
         to: &mut State,
         loads: &StepLoads,
         dt: f64,
-    ) -> Result<StepEnergy, StepFailure> {
+        energy: &mut StepEnergy,
+    ) -> Result<(), StepFailure> {
         self.propagator.prepare(dt)?;
+        self.move_supports(loads);
+        to.follow(from);
+        energy.links.resize(self.system.links.links.len(), Energy::default());
+        let Workspace { load0, load1, support0, support1, support_rate, pseudo0, pseudo1, d, v, .. } =
+            &mut self.work;
         let space = self.propagator.space();
-        let (load0, load1) = (space.force(&loads.start), space.force(&loads.end));
-        let (support_d0, _) = self.support(&loads.start);
-        let (support_d, support_v) = self.support(&loads.end);
-        let pseudo0 = self.pseudo(from, &support_d0);
-        to.clone_from(from);
-        let zero = vec![0.0; pseudo0.len()];
-        let before = Forces { load0: &load0, load1: &load1, pseudo0: &pseudo0, pseudo1: &zero };
-        let (mut d, mut v) = (zero.clone(), zero.clone());
-        self.propagator.predict(&from.motion, &before, &mut to.motion, &mut d, &mut v);
-        let compliance = self.propagator.compliance();
-        let mut pseudo = pseudo0.clone();
-        let mut links = vec![Energy::default(); self.system.links.links.len()];
+        space.force_into(&loads.start, load0);
+        space.force_into(&loads.end, load1);
+        self.kernel.pseudo(&from.f, &from.d, support0, pseudo0);
+        pseudo1.copy_from_slice(pseudo0);
+        let before = Forces { load0, load1, pseudo0, pseudo1 };
+        self.propagator.predict(&from.motion, &before, &mut to.motion, d, v);
+        let Compliance { g, h, key } = self.propagator.compliance();
         self.kernel
             .solve(
-                self.model,
-                &self.system.links,
-                &Affine {
-                    d: &d,
-                    v: &v,
-                    support_d: &support_d,
-                    support_v: &support_v,
-                    g: &compliance.g,
-                    h: &compliance.h,
-                    key: compliance.key,
-                },
+                &Affine { d, v, support_d: support1, support_v: support_rate, g, h, key: *key },
                 &Committed { d: &from.d, v: &from.v, history: &from.history, dt },
                 &from.scale,
                 &mut Converged {
@@ -238,16 +289,17 @@ impl<P: Propagator> Stepper for LinkStepper<'_, P> {
                     v: &mut to.v,
                     f: &mut to.f,
                     history: &mut to.history,
-                    energy: &mut links,
-                    pseudo: &mut pseudo,
+                    energy: &mut energy.links,
+                    pseudo: pseudo1,
                 },
             )
             .map_err(|e| StepFailure::NoEquilibrium { worst: e.worst, residual: e.residual })?;
-        let forces = Forces { load0: &load0, load1: &load1, pseudo0: &pseudo0, pseudo1: &pseudo };
+        let forces = Forces { load0, load1, pseudo0, pseudo1 };
         self.propagator.correct(&forces, &mut to.motion);
-        to.settle(&self.system.links, &links);
-        let work = self.propagator.work(&from.motion, &to.motion, &forces);
-        Ok(self.energy(from, to, (&support_d0, &support_d), work, links))
+        to.settle(&self.system.links, &energy.links);
+        energy.work = self.propagator.work(&from.motion, &to.motion, &forces);
+        self.book(from, to, energy);
+        Ok(())
     }
 
     fn start(
@@ -260,10 +312,12 @@ impl<P: Propagator> Stepper for LinkStepper<'_, P> {
         let space = self.propagator.space();
         let (q, p) = (space.coordinates(self.system, u), space.coordinates(self.system, v));
         let links = &self.system.links;
-        let (mut d, mut rate) = self.support(amplitudes);
+        let (mut d, mut rate) = (vec![0.0; links.len()], vec![0.0; links.len()]);
+        self.loads.support_deformation(amplitudes, &mut d, &mut rate);
+        let support_d = d.clone();
         let mut own = vec![0.0; links.active.len()];
         for (motion, flat) in [(&q, &mut d), (&p, &mut rate)] {
-            space.deform(motion, &mut own);
+            space.links.deform(motion, &mut own);
             for (a, i) in links.active.iter().enumerate() {
                 flat[*i] += own[a];
             }
@@ -272,9 +326,8 @@ impl<P: Propagator> Stepper for LinkStepper<'_, P> {
         let mut force = space.force(amplitudes);
         space.damp(-1.0, &p, &mut force);
         space.stiffness.mul_add(-1.0, &q, &mut force);
-        let (support_d, _) = self.support(amplitudes);
-        let pseudo = self.pseudo(&state, &support_d);
-        space.spread(-1.0, &pseudo, &mut force);
+        self.kernel.pseudo(&state.f, &state.d, &support_d, &mut own);
+        space.links.spread(-1.0, &own, &mut force);
         let a = self.propagator.acceleration(&force)?;
         state.motion = [q, p, a].concat();
         Ok(state)
@@ -290,8 +343,9 @@ impl<P: Propagator> Stepper for LinkStepper<'_, P> {
         Ok(())
     }
 
-    fn distance(&self, a: &State, b: &State) -> f64 {
-        energy_distance(self.propagator.space(), a, b)
+    fn distance(&mut self, a: &State, b: &State) -> f64 {
+        let of_structure = |x: &[f64]| self.propagator.energy(x);
+        energy_distance(of_structure, a, b, &mut self.work.difference)
     }
 
     fn rounding(&self, state: &State) -> f64 {
@@ -314,56 +368,37 @@ impl<P: Propagator> Stepper for LinkStepper<'_, P> {
         for one in memory {
             self.propagator.prepare(one.dt)?;
             let compliance = self.propagator.compliance();
-            self.kernel.recall(&self.system.links, one, &compliance.g, &compliance.h);
+            self.kernel.recall(one, &compliance.g, &compliance.h);
         }
         Ok(())
     }
 
-    fn stiffness_ratio(&mut self, dt: f64, engaged: &[f64]) -> Result<f64, SolveError> {
+    fn beyond_exact(&mut self, dt: f64) -> Result<Option<f64>, SolveError> {
         self.propagator.prepare(dt)?;
-        let Some(g) = self.propagator.limited() else { return Ok(0.0) };
-        let k: Vec<f64> = self.system.links.active.iter().map(|i| engaged[*i]).collect();
-        let mut x = vec![1.0; k.len()];
-        let mut ratio = 0.0;
-        for _ in 0..50 {
-            let f: Vec<f64> = x.iter().zip(&k).map(|(a, b)| a * b).collect();
-            let mut y = vec![0.0; k.len()];
-            g.mul_add(1.0, &f, &mut y);
-            let size = y.iter().fold(0.0f64, |a, b| a.max(b.abs()));
-            if size == 0.0 {
-                return Ok(0.0);
-            }
-            ratio = size;
-            x = y.into_iter().map(|v| v / size).collect();
-        }
-        Ok(ratio)
+        Ok(self.propagator.stiffness_ratio())
     }
 }
 
 impl<P: Propagator> LinkStepper<'_, P> {
-    /// Takes the dummies out of the books: what they store and damp belongs to the links.
-    fn energy(
-        &self,
-        from: &State,
-        to: &State,
-        support: (&[f64], &[f64]),
-        work: StepWork,
-        links: Vec<Energy>,
-    ) -> StepEnergy {
+    /// Enters a step, taking the dummies out of the books: what they store belongs to the links.
+    fn book(&self, from: &State, to: &State, energy: &mut StepEnergy) {
         let space = self.propagator.space();
-        let (kinetic, mut strain) = kinetic_and_strain(space, &to.motion);
-        let (mut link_work, mut moved) = (work.links, 0.0);
+        let Workspace { support0, support1, moving, .. } = &self.work;
+        (energy.kinetic, energy.strain) = self.propagator.energy(&to.motion);
+        energy.link_work = energy.work.links;
         for (a, flat) in self.system.links.active.iter().enumerate() {
             let k = space.dummy_k[a];
             if k != 0.0 {
-                let (d0, d1) = (from.d[*flat] - support.0[*flat], to.d[*flat] - support.1[*flat]);
-                strain -= 0.5 * k * d1 * d1;
-                link_work += 0.5 * k * (d1 * d1 - d0 * d0);
+                let (d0, d1) = (from.d[*flat] - support0[*flat], to.d[*flat] - support1[*flat]);
+                energy.strain -= 0.5 * k * d1 * d1;
+                energy.link_work += 0.5 * k * (d1 * d1 - d0 * d0);
             }
         }
-        for i in 0..from.d.len() {
-            moved += 0.5 * (from.f[i] + to.f[i]) * (support.1[i] - support.0[i]);
+        energy.support = 0.0;
+        if *moving {
+            for i in 0..from.d.len() {
+                energy.support += 0.5 * (from.f[i] + to.f[i]) * (support1[i] - support0[i]);
+            }
         }
-        StepEnergy { work, link_work, support: moved, kinetic, strain, links }
     }
 }

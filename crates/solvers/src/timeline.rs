@@ -14,24 +14,27 @@ impl Timeline {
         (step as f64 * self.dt).min(self.duration)
     }
 
+    /// True for a time at which a load may jump.
+    pub(crate) fn is_break(&self, t: f64) -> bool {
+        self.breaks.iter().any(|b| (b - t).abs() <= self.near())
+    }
+
     /// (start, length) of the pieces of an output step.
-    pub(crate) fn pieces(&self, step: usize) -> Vec<(f64, f64)> {
+    pub(crate) fn pieces(&self, step: usize) -> impl Iterator<Item = (f64, f64)> + '_ {
         let (t0, t1) = (self.time(step), self.time(step + 1));
-        let near = 1e-9 * self.dt;
-        let inside: Vec<f64> =
-            self.breaks.iter().copied().filter(|t| *t > t0 + near && *t < t1 - near).collect();
-        if inside.is_empty() && step + 1 < self.steps {
-            return vec![(t0, self.dt)];
-        }
-        let mut ends = inside;
-        ends.push(t1);
-        let mut start = t0;
-        ends.into_iter()
-            .map(|end| {
-                let piece = (start, end - start);
-                start = end;
-                piece
-            })
-            .collect()
+        let near = self.near();
+        let inside = move |t: &f64| *t > t0 + near && *t < t1 - near;
+        let whole = step + 1 < self.steps && !self.breaks.iter().any(inside);
+        let ends = self.breaks.iter().copied().filter(inside).chain([t1]);
+        ends.scan(t0, move |start, end| {
+            let piece = (*start, if whole { self.dt } else { end - *start });
+            *start = end;
+            Some(piece)
+        })
+    }
+
+    /// Times closer than this are one.
+    fn near(&self) -> f64 {
+        1e-9 * self.dt
     }
 }

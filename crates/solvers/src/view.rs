@@ -5,20 +5,23 @@ use crate::observe::{EnergyTotals, Observer, Sample, Shape};
 use crate::outputs::Outputs;
 use crate::space::Space;
 use crate::stepper::State;
-use trilith_element::{Contact, Kinematics};
+use trilith_element::{Contact, Kinematics, Link};
 use trilith_model::{Model, Side};
-use trilith_system::{LoadSet, System};
+use trilith_system::{Laws, LinkInstance, LoadSet, System};
 
 /// Displacements of all nodes of one state.
 struct Figure<'a> {
     system: &'a System,
     space: &'a Space,
     state: &'a State,
-    prescribed: Vec<f64>,
+    loads: &'a LoadSet,
+    t: f64,
 }
 
 impl Shape for Figure<'_> {
     fn displacements(&self, u: &mut [f64]) {
+        let count = self.system.reduction.prescribed.len();
+        let [prescribed, _, _] = self.loads.prescribed(self.t, Side::Before, count);
         let free = self.space.expand(&self.state.motion[..self.space.order()]);
         for (full, x) in u.iter_mut().enumerate() {
             *x = self
@@ -26,7 +29,7 @@ impl Shape for Figure<'_> {
                 .reduction
                 .expand(full)
                 .iter()
-                .map(|(j, c)| c * free.get(*j).unwrap_or_else(|| &self.prescribed[j - free.len()]))
+                .map(|(j, c)| c * free.get(*j).unwrap_or_else(|| &prescribed[j - free.len()]))
                 .sum();
         }
     }
@@ -34,12 +37,14 @@ impl Shape for Figure<'_> {
 
 /// Shows accepted substeps to the observers.
 pub(crate) struct Viewer<'a, 'b> {
-    model: &'a Model,
     system: &'a System,
     loads: &'a LoadSet,
     outputs: Outputs,
     values: Vec<f64>,
     rates: Vec<f64>,
+    laws: Laws<'a>,
+    contacts: Vec<(usize, Contact)>,
+    own: Vec<Contact>,
     observers: &'a mut [&'b mut dyn Observer],
 }
 
@@ -53,19 +58,16 @@ impl<'a, 'b> Viewer<'a, 'b> {
     ) -> Self {
         let count = model.outputs.len();
         Self {
-            model,
             system,
             loads,
             outputs: Outputs::new(model, system, space),
             values: vec![0.0; count],
             rates: vec![0.0; count],
+            laws: system.links.laws(model),
+            contacts: Vec::new(),
+            own: Vec::new(),
             observers,
         }
-    }
-
-    /// True where nobody looks.
-    pub(crate) fn is_idle(&self) -> bool {
-        self.observers.is_empty()
     }
 
     /// Shows a state; `step` is the index of the output step that ends there.
@@ -81,11 +83,9 @@ impl<'a, 'b> Viewer<'a, 'b> {
             return;
         }
         self.outputs.evaluate(t, state, self.loads, &mut self.values, &mut self.rates);
-        let contacts = contacts(self.model, self.system, state);
-        let overturned = overturned(self.model, self.system, state);
-        let count = self.system.reduction.prescribed.len();
-        let [prescribed, _, _] = self.loads.prescribed(t, Side::Before, count);
-        let shape = Figure { system: self.system, space, state, prescribed };
+        self.touch(state);
+        let overturned = self.overturned(state);
+        let shape = Figure { system: self.system, space, state, loads: self.loads, t };
         for observer in self.observers.iter_mut() {
             observer.sample(&Sample {
                 t,
@@ -93,40 +93,36 @@ impl<'a, 'b> Viewer<'a, 'b> {
                 values: &self.values,
                 rates: &self.rates,
                 energy: &ledger.totals,
-                contacts: &contacts,
+                contacts: &self.contacts,
                 overturned,
                 shape: &shape,
             });
         }
     }
-}
 
-/// Index of the element of the first body that has fallen over.
-pub(crate) fn overturned(model: &Model, system: &System, state: &State) -> Option<usize> {
-    let links = &system.links;
-    let fallen = links.links.iter().find(|link| {
-        let r = link.range.clone();
-        let (d, v) = (&state.d[r.clone()], &state.v[r]);
-        let at = Kinematics { d, v, d0: d, v0: v, dt: 0.0 };
-        links
-            .law(model, link)
-            .is_some_and(|law| law.overturned(&at, &state.history[link.history.clone()]))
-    });
-    fallen.map(|link| link.element)
-}
-
-fn contacts(model: &Model, system: &System, state: &State) -> Vec<(usize, Contact)> {
-    let links = &system.links;
-    let (mut all, mut own) = (Vec::new(), Vec::new());
-    for link in &links.links {
-        let Some(law) = links.law(model, link) else { continue };
-        let r = link.range.clone();
-        let (d, v) = (&state.d[r.clone()], &state.v[r.clone()]);
-        let at = Kinematics { d, v, d0: d, v0: v, dt: 0.0 };
-        law.contacts(&at, &state.history[link.history.clone()], &state.f[r], &mut own);
-        all.extend(own.drain(..).map(|c| (link.element, c)));
+    /// Index of the element of the first body that has fallen over.
+    pub(crate) fn overturned(&self, state: &State) -> Option<usize> {
+        let fallen = |(law, link): &(&dyn Link, &LinkInstance)| {
+            law.overturned(&standing(link, state), &state.history[link.history.clone()])
+        };
+        self.laws.iter().find(fallen).map(|(_, link)| link.element)
     }
-    all
+
+    /// Takes note of what the contacts do.
+    fn touch(&mut self, state: &State) {
+        self.contacts.clear();
+        for (law, link) in self.laws.iter() {
+            let (history, f) = (&state.history[link.history.clone()], &state.f[link.range.clone()]);
+            law.contacts(&standing(link, state), history, f, &mut self.own);
+            self.contacts.extend(self.own.drain(..).map(|c| (link.element, c)));
+        }
+    }
+}
+
+/// A link as it stands, no step made.
+fn standing<'a>(link: &LinkInstance, state: &'a State) -> Kinematics<'a> {
+    let (d, v) = (&state.d[link.range.clone()], &state.v[link.range.clone()]);
+    Kinematics { d, v, d0: d, v0: v, dt: 0.0 }
 }
 
 /// Shows the end of a static case: one sample at t = 0.

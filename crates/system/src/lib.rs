@@ -14,6 +14,6 @@ pub use assemble::System;
 pub use elastic::EndForceRow;
 pub use error::SystemError;
 pub use impact::ImpactMass;
-pub use links::{LinkInstance, LinkSet, Tangents};
+pub use links::{Laws, LinkInstance, LinkSet, Tangents};
 pub use loads::{Channel, LoadSet, StepLoads, Track};
 pub use reduction::Reduction;

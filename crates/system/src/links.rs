@@ -82,6 +82,54 @@ pub(crate) fn mark_used(model: &Model, used: &mut [bool]) {
     }
 }
 
+/// The laws of all links with their places in the flat arrays.
+#[derive(Clone, Debug)]
+pub struct Laws<'a>(Vec<(&'a dyn Link, &'a LinkInstance)>);
+
+impl<'a> Laws<'a> {
+    /// The laws in model order.
+    pub fn iter(&self) -> impl Iterator<Item = (&'a dyn Link, &'a LinkInstance)> + '_ {
+        self.0.iter().copied()
+    }
+
+    /// Evaluates all laws at (d, v) from the committed history. Writes forces, tangents, trial history, and
+    /// the energies of each link.
+    pub fn respond(
+        &self,
+        at: Kinematics<'_>,
+        committed: &[f64],
+        trial: &mut [f64],
+        f: &mut [f64],
+        tangents: &mut Tangents,
+        energy: &mut [Energy],
+    ) {
+        f.fill(0.0);
+        tangents.k.fill(0.0);
+        tangents.c.fill(0.0);
+        for ((law, link), energy) in self.0.iter().zip(energy) {
+            let r = link.range.clone();
+            *energy = Energy::default();
+            law.respond(
+                &Kinematics {
+                    d: &at.d[r.clone()],
+                    v: &at.v[r.clone()],
+                    d0: &at.d0[r.clone()],
+                    v0: &at.v0[r.clone()],
+                    dt: at.dt,
+                },
+                &committed[link.history.clone()],
+                &mut trial[link.history.clone()],
+                &mut Response {
+                    f: &mut f[r],
+                    k: &mut tangents.k[link.block.clone()],
+                    c: &mut tangents.c[link.block.clone()],
+                    energy,
+                },
+            );
+        }
+    }
+}
+
 impl LinkSet {
     pub(crate) fn new(
         model: &Model,
@@ -187,43 +235,10 @@ impl LinkSet {
         }
     }
 
-    /// Evaluates all laws at (d, v) from the committed history. Writes forces, tangents, trial history;
-    /// returns the energies of each link through `energy` (one entry a link).
-    pub fn respond(
-        &self,
-        model: &Model,
-        at: Kinematics<'_>,
-        committed: &[f64],
-        trial: &mut [f64],
-        f: &mut [f64],
-        tangents: &mut Tangents,
-        energy: &mut [Energy],
-    ) {
-        f.fill(0.0);
-        tangents.k.fill(0.0);
-        tangents.c.fill(0.0);
-        for (link, energy) in self.links.iter().zip(energy) {
-            let Some(law) = self.law(model, link) else { continue };
-            let r = link.range.clone();
-            *energy = Energy::default();
-            law.respond(
-                &Kinematics {
-                    d: &at.d[r.clone()],
-                    v: &at.v[r.clone()],
-                    d0: &at.d0[r.clone()],
-                    v0: &at.v0[r.clone()],
-                    dt: at.dt,
-                },
-                &committed[link.history.clone()],
-                &mut trial[link.history.clone()],
-                &mut Response {
-                    f: &mut f[r],
-                    k: &mut tangents.k[link.block.clone()],
-                    c: &mut tangents.c[link.block.clone()],
-                    energy,
-                },
-            );
-        }
+    /// The laws that run, looked up once.
+    #[must_use]
+    pub fn laws<'a>(&'a self, model: &'a Model) -> Laws<'a> {
+        Laws(self.links.iter().filter_map(|l| self.law(model, l).map(|law| (law, l))).collect())
     }
 
     /// History before anything has happened.

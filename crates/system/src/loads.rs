@@ -178,11 +178,10 @@ impl System {
 
 impl LoadSet {
     /// Amplitudes over a step.
-    #[must_use]
-    pub fn step(&self, t0: f64, t1: f64) -> StepLoads {
-        StepLoads {
-            start: self.channels.iter().map(|c| c.track.at(t0, Side::After)).collect(),
-            end: self.channels.iter().map(|c| c.track.at(t1, Side::Before)).collect(),
+    pub fn step(&self, t0: f64, t1: f64, loads: &mut StepLoads) {
+        for (to, t, side) in [(&mut loads.start, t0, Side::After), (&mut loads.end, t1, Side::Before)] {
+            to.clear();
+            to.extend(self.channels.iter().map(|c| c.track.at(t, side)));
         }
     }
 
