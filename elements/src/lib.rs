@@ -7,7 +7,7 @@
 //! |---|---|---|
 //! | [`Beam`], [`Inerter`], [`Mass`], [`Spring`], [`Truss`] | [`Diaphragm`], [`EqualDof`], [`RigidBody`], [`RigidLink`] | contacts: [`NLink`], [`Gap`], [`Hook`], [`ImpactHertz`], [`ImpactKelvin`], [`RockingBody`] |
 //! | | | dampers: [`BilinearDamper`], [`Dashpot`], [`FrequencyIndependentViscoelastic`], [`FrictionSpring`], [`MaxwellDamper`] |
-//! | | | isolators: [`FrictionPendulum`], [`LeadRubber`], [`RubberIsolator`], [`TensionCompressionFriction`], [`TriplePendulum`] |
+//! | | | isolators: [`ElastomericBearing`], [`FrictionPendulum`], [`LeadRubber`], [`RubberIsolator`], [`TensionCompressionFriction`], [`TriplePendulum`] |
 //! | | | springs: [`BoucWen`], [`LinearLink`], [`MultilinearElastic`], [`MultilinearPlastic`], [`Wen`] |
 //!
 //! To add one: write its file, then its lines here (`mod`, `pub use`, and one of registration).
@@ -19,6 +19,7 @@ mod bilinear_damper;
 mod bouc_wen;
 mod dashpot;
 mod diaphragm;
+mod elastomeric_bearing;
 mod equal_dof;
 mod frequency_independent_viscoelastic;
 mod friction_pendulum;
@@ -50,6 +51,7 @@ pub use bilinear_damper::BilinearDamper;
 pub use bouc_wen::{BoucWen, BoucWenHistory};
 pub use dashpot::{Dashpot, When};
 pub use diaphragm::{Diaphragm, Normal};
+pub use elastomeric_bearing::{BearingHistory, ElastomericBearing};
 pub use equal_dof::{DofName, EqualDof};
 pub use frequency_independent_viscoelastic::FrequencyIndependentViscoelastic;
 pub use friction_pendulum::{FrictionModel, FrictionPendulum, Surface};
@@ -93,6 +95,7 @@ pub fn register(to: &mut impl Register) {
     to.link::<BilinearDamper>();
     to.link::<BoucWen>();
     to.link::<Dashpot>();
+    to.link::<ElastomericBearing>();
     to.link::<FrequencyIndependentViscoelastic>();
     to.link::<FrictionPendulum>();
     to.link::<FrictionSpring>();

@@ -18,6 +18,7 @@ mod diagnostics;
 mod elements;
 mod exercise;
 mod failure;
+mod generate;
 mod modes;
 mod progress;
 mod report;
@@ -51,6 +52,7 @@ pub fn main_with(registry: Registry) -> ! {
         Command::Elements(a) => elements::elements(&registry, &a),
         Command::Exercise(a) => exercise::exercise(&registry, a),
         Command::Compare(a) => compare::compare(&registry, &a),
+        Command::Generate(a) => generate::generate(a),
         Command::Calibrate(a) => calibrate::calibrate(&registry, &a),
     };
     let status = match answer {

@@ -29,6 +29,7 @@
 //! - [`read`] turns a model file into a [`Model`], or into all its errors at once.
 //! - [`run`] runs a case as the file says; [`Analysis`] runs several, with options.
 //! - [`exercise`] shows what a link does on its own, [`catalogue`] what kinds there are.
+//! - [`generate`] makes models from a few numbers.
 //! - [`calibrate`] finds dashpots from coefficients of restitution.
 //! - A link of your own: implement [`element::Link`], offer it with `registry.link::<MyLink>()`.
 //!
@@ -40,6 +41,7 @@ pub mod calibrate;
 pub mod catalogue;
 mod error;
 pub mod exercise;
+pub mod generate;
 
 /// The contract that elements, constraints and links fulfil.
 pub mod element {

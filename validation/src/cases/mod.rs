@@ -8,6 +8,7 @@ mod block_start;
 mod bouc_wen;
 mod dampers;
 mod elastic;
+mod frames;
 mod hysteretic;
 mod impact;
 mod inerter;
@@ -57,6 +58,7 @@ pub fn all() -> Vec<Case> {
         p_delta::cases(),
         ritz::cases(),
         time_integration::cases(),
+        frames::cases(),
     ]
     .into_iter()
     .flatten()

@@ -1,0 +1,261 @@
+//! ElastomericBearing: bearing with bilinear shear coupled in its plane, of plasticity theory.
+//!
+//! ```text
+//!   f = r k d + q,   q = (1 − r) k (d − p),   |q| ≤ (1 − r) f_y         d, p, q, f along U2, U3
+//!   ṗ = λ q,   λ ≥ 0,   λ > 0 only where |q| = (1 − r) f_y              p = 0 at rest
+//!
+//!     f │   ╱─────  r k            in the plane of d the circle |q| = (1 − r) f_y moves
+//!   f_y │  ╱                       with the centre r k d (kinematic hardening)
+//!       │ ╱ k
+//!       └────────── d
+//! ```
+//!
+//! | parameter | symbol | unit | range     | default | meaning                               |
+//! |-----------|--------|------|-----------|---------|---------------------------------------|
+//! | `k`       | k      | N/m  | > 0       | –       | shear stiffness before yielding       |
+//! | `fy`      | f_y    | N    | > 0       | –       | shear force at which it yields        |
+//! | `ratio`   | r      | 1    | 0 ≤ r < 1 | 0       | stiffness after yielding over `k`     |
+//!
+//! The same in all directions of the plane, elastic up to f_y, and f_y does not depend on the axial force:
+//! a lead–rubber or high-damping bearing, or with r = 0 a slider under constant load. It carries nothing
+//! along its axis. A step returns the elastic trial force radially onto the circle: exact on straight paths through
+//! the origin and where yielding goes on in one direction, first order in the step where the direction turns.
+//!
+//! **Energy.** Stored ½ r k d² + ½ q²/((1 − r) k), hysteretic ∫ q·dp ≥ 0.
+//!
+//! Reference: \[Simo & Hughes 1998, §3.3\] (the return); \[Naeim & Kelly 1999, ch. 4\] (bearings as bilinear).
+
+use crate::shared::sliding::radial_return;
+use nalgebra::Vector2;
+use serde::Deserialize;
+use std::borrow::Cow;
+use trilith_element::dimension::{FORCE, NONE, STIFFNESS};
+use trilith_element::{
+    Axis, Card, Category, Coordinates, Described, Exercise, Field, History, Kinematics, Link,
+    NodeCount, Parameter, ParameterError, Range, Response, Stroke, history,
+};
+
+/// Bearing with bilinear shear coupled in its plane.
+#[derive(Clone, Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct ElastomericBearing {
+    /// Shear stiffness before yielding, N/m.
+    pub k: f64,
+    /// Shear force at which it yields, N.
+    pub fy: f64,
+    /// Stiffness after yielding over `k`.
+    pub ratio: f64,
+}
+
+history! {
+    /// History of an [`ElastomericBearing`].
+    pub struct BearingHistory {
+        /// Plastic deformation along U2.
+        pub plastic2: "m",
+        /// Plastic deformation along U3.
+        pub plastic3: "m",
+    }
+}
+
+impl Described for ElastomericBearing {
+    const CARD: Card = Card {
+        kind: "ElastomericBearing",
+        category: Category::Link,
+        summary: "Bearing with bilinear shear coupled in its plane, of plasticity theory.",
+        nodes: NodeCount::GROUND_OR_TWO,
+        parameters: &[
+            Parameter::required(
+                "k",
+                "k",
+                STIFFNESS,
+                Range::Positive,
+                "shear stiffness before yielding",
+            ),
+            Parameter::required(
+                "fy",
+                "f_y",
+                FORCE,
+                Range::Positive,
+                "shear force at which it yields",
+            ),
+            Parameter::number(
+                "ratio",
+                "r",
+                NONE,
+                Range::Within(0.0, 1.0),
+                0.0,
+                "stiffness after yielding over `k`, below 1",
+            ),
+        ],
+        law: "f = r k d + q,  q = (1 − r) k (d − p),  |q| ≤ (1 − r) f_y  (vectors along U2, U3)\n\
+              ṗ = λ q, λ ≥ 0, λ > 0 only where |q| = (1 − r) f_y",
+        source: "Simo & Hughes, Computational Inelasticity, 1998, §3.3; Naeim & Kelly, Design of Seismic Isolated Structures, 1999, ch. 4",
+        example: r#""bearing": ElastomericBearing(nodes: ("ground", "slab"), k: "10 MN/m", fy: "100 kN", ratio: 0.1)"#,
+        exercise: Exercise {
+            frequency: 0.5,
+            strokes: &[Stroke::about(0.0, 0.15), Stroke { mean: 0.0, amplitude: 0.1, phase: 0.25 }],
+        },
+    };
+
+    fn check(&self) -> Result<(), ParameterError> {
+        if self.ratio < 1.0 {
+            return Ok(());
+        }
+        let message = "`ratio` = 1 never yields: must be below 1, or use a `Spring`";
+        Err(ParameterError::inconsistent("ratio", message))
+    }
+}
+
+impl Link for ElastomericBearing {
+    fn coordinates(&self) -> Coordinates {
+        Coordinates::Local(vec![Axis::U2, Axis::U3])
+    }
+
+    fn history(&self) -> Cow<'static, [Field]> {
+        BearingHistory::FIELDS.into()
+    }
+
+    fn engaged_stiffness(&self, k: &mut [f64]) {
+        (k[0], k[3]) = (self.k, self.k);
+    }
+
+    fn respond(
+        &self,
+        at: &Kinematics<'_>,
+        committed: &[f64],
+        trial: &mut [f64],
+        out: &mut Response<'_>,
+    ) {
+        let was = BearingHistory::load(committed);
+        let (elastic, after) = ((1.0 - self.ratio) * self.k, self.ratio * self.k);
+        let plastic = Vector2::new(was.plastic2, was.plastic3);
+        let (d0, d) = (Vector2::new(at.d0[0], at.d0[1]), Vector2::new(at.d[0], at.d[1]));
+        let start = (d0 - plastic) * elastic;
+        let end = radial_return(elastic, d - plastic, (1.0 - self.ratio) * self.fy);
+        let now = if end.slips { d - end.tau / elastic } else { plastic };
+        BearingHistory { plastic2: now.x, plastic3: now.y }.store(trial);
+        for i in 0..2 {
+            out.f[i] = after * d[i] + end.tau[i];
+            for j in 0..2 {
+                out.k[2 * i + j] = end.by_stretch[(i, j)];
+            }
+            out.k[3 * i] += after;
+        }
+        out.energy.stored = 0.5 * (after * d.norm_squared() + end.tau.norm_squared() / elastic);
+        // The return is along q: never negative but for rounding.
+        out.energy.hysteretic = (0.5 * (start + end.tau).dot(&(now - plastic))).max(0.0);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::shared::parameters::{numbers, read};
+    use approx::assert_relative_eq;
+    use std::f64::consts::TAU;
+    use trilith_element::Driver;
+    use trilith_element::conformance::Kit;
+
+    const K: f64 = 1e7;
+    const FY: f64 = 1e5;
+
+    fn law(ratio: f64) -> ElastomericBearing {
+        read(&numbers(&[("k", K), ("fy", FY), ("ratio", ratio)])).unwrap()
+    }
+
+    #[test]
+    fn conforms_with_and_without_hardening() {
+        for ratio in [0.0, 0.1, 0.7] {
+            Kit::new(&[0.02, 0.03], 0.5).rate_independent().assert(&law(ratio));
+            Kit::new(&[0.2, 0.1], 0.5).seed(7).rate_independent().assert(&law(ratio));
+        }
+    }
+
+    /// Along a line it is the one-dimensional law, here with a back force instead of a parallel spring.
+    #[test]
+    fn along_a_line_in_any_direction_it_is_bilinear() {
+        for ratio in [0.0, 0.3] {
+            let law = law(ratio);
+            for angle in [0.0_f64, 0.3, 0.25 * TAU, 2.0, 4.0] {
+                let mut driver = Driver::new(&law);
+                let (mut plastic, hardening) = (0.0_f64, ratio * K / (1.0 - ratio));
+                for d in [0.004_f64, 0.03, 0.025, -0.02, -0.018, 0.1, 0.1, -0.3] {
+                    let trial = K * (d - plastic) - hardening * plastic;
+                    let over = (trial.abs() - FY).max(0.0);
+                    plastic += trial.signum() * over / (K + hardening);
+                    let f = K * (d - plastic);
+                    let g = driver.to(&[d * angle.cos(), d * angle.sin()]);
+                    assert_relative_eq!(g[0], f * angle.cos(), epsilon = 1e-6);
+                    assert_relative_eq!(g[1], f * angle.sin(), epsilon = 1e-6);
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn a_loop_encloses_the_parallelogram_and_balances_to_the_last_digit() {
+        let (ratio, amplitude) = (0.1, 0.15);
+        let law = law(ratio);
+        let mut driver = Driver::new(&law);
+        driver.to(&[amplitude, 0.0]);
+        let before = driver.energy.hysteretic;
+        // The corners of the loop: a yield range of 2 f_y/k, then along the slope after yielding.
+        for d in [amplitude - 2.0 * FY / K, -amplitude, -amplitude + 2.0 * FY / K, amplitude] {
+            driver.to(&[d, 0.0]);
+        }
+        let area = 4.0 * (1.0 - ratio) * FY * (amplitude - FY / K);
+        assert_relative_eq!(driver.energy.hysteretic - before, area, max_relative = 1e-12);
+        driver.to(&[0.05, 0.2]);
+        driver.to(&[-0.05, 0.1]);
+        let e = driver.energy;
+        assert_relative_eq!(driver.work, e.stored + e.hysteretic, max_relative = 1e-12);
+    }
+
+    /// Yielding along X, then pushed along Y: with the angle β between force and motion,
+    /// β' = −(k/f_y) sin β, so tan(β/2) = tan(β₀/2) exp(−k s/f_y) at the distance s.
+    #[test]
+    fn the_force_turns_into_a_new_direction_as_the_closed_form_says() {
+        let law = law(0.0);
+        let s = 0.02;
+        let beta = 2.0 * (-K * s / FY).exp().atan();
+        let error = |steps: u32| {
+            let mut driver = Driver::new(&law);
+            driver.to(&[0.1, 0.0]);
+            for i in 1..=steps {
+                driver.to(&[0.1, s * f64::from(i) / f64::from(steps)]);
+            }
+            assert_relative_eq!(driver.f[0].hypot(driver.f[1]), FY, max_relative = 1e-12);
+            (driver.f[0] - FY * beta.sin()).hypot(driver.f[1] - FY * beta.cos()) / FY
+        };
+        let errors = [50, 200, 800].map(error);
+        for pair in errors.windows(2) {
+            assert!((3.8..4.2).contains(&(pair[0] / pair[1])), "{errors:?}");
+        }
+        assert!(errors[2] < 1e-3, "{errors:?}");
+    }
+
+    #[test]
+    fn the_centre_of_the_yield_circle_moves_with_hardening() {
+        let ratio = 0.2;
+        let law = law(ratio);
+        let mut driver = Driver::new(&law);
+        let force = driver.to(&[0.1, 0.0]).to_vec();
+        assert_relative_eq!(force[0], FY + ratio * K * (0.1 - FY / K), max_relative = 1e-12);
+        // A diameter of the circle back: elastic; what follows yields.
+        let history = driver.history.clone();
+        let back = driver.to(&[0.1 - 2.0 * FY / K, 0.0])[0];
+        assert_relative_eq!(back, force[0] - 2.0 * FY, max_relative = 1e-12);
+        assert_relative_eq!(driver.history[0], history[0], max_relative = 1e-12);
+        driver.to(&[-0.1, 0.0]);
+        assert!(driver.history[0] < history[0] - 0.1);
+    }
+
+    #[test]
+    fn a_ratio_of_one_is_refused() {
+        let given = [("k", K), ("fy", FY), ("ratio", 1.0)];
+        let error = read::<ElastomericBearing>(&numbers(&given)).unwrap_err().to_string();
+        assert!(error.contains("below 1"), "{error}");
+        assert!(read::<ElastomericBearing>(&numbers(&[("k", K)])).is_err());
+        assert_eq!(law(0.0).ratio, 0.0);
+    }
+}
