@@ -115,6 +115,10 @@ impl Link for ElastomericBearing {
         BearingHistory::FIELDS.into()
     }
 
+    fn uses_rates(&self) -> bool {
+        false
+    }
+
     fn engaged_stiffness(&self, k: &mut [f64]) {
         (k[0], k[3]) = (self.k, self.k);
     }

@@ -188,6 +188,10 @@ impl Link for FrictionSpring {
         vec![Field::new("slip", unit)].into()
     }
 
+    fn uses_rates(&self) -> bool {
+        false
+    }
+
     fn engaged_stiffness(&self, k: &mut [f64]) {
         k[0] = self.k;
     }

@@ -58,6 +58,10 @@ impl Link for Gap {
         Coordinates::Local(vec![self.axis])
     }
 
+    fn uses_rates(&self) -> bool {
+        false
+    }
+
     fn engaged_stiffness(&self, k: &mut [f64]) {
         k[0] = self.k;
     }

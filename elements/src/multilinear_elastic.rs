@@ -70,6 +70,10 @@ impl Link for MultilinearElastic {
         Coordinates::Local(vec![self.axis])
     }
 
+    fn uses_rates(&self) -> bool {
+        false
+    }
+
     fn engaged_stiffness(&self, k: &mut [f64]) {
         k[0] = self.curve().stiffest();
     }

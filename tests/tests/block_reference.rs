@@ -188,6 +188,7 @@ fn vertical_pulses_lift_the_block_only_above_one_g() {
             if name.starts_with("v1.5") { (true, "flight") } else { (false, "rest") };
         assert_eq!(contact.mode, mode, "{name}");
         assert_eq!(trace.max[1] > 0.0, flies, "{name}");
-        assert!(trace.peak(0) < 1e-12, "{name} slides");
+        // The link equations are solved to 1e-9 of the largest force: about 1e-12 m of pre-slip here.
+        assert!(trace.peak(0) < 1e-10, "{name} slides {}", trace.peak(0));
     }
 }

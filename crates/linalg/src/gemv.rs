@@ -29,21 +29,31 @@ impl AddColumns<'_> {
     #[inline(always)]
     fn group<S: Simd, const N: usize>(&mut self, simd: S, columns: [usize; N]) {
         let n = self.y.len();
-        let t = columns.map(|j| self.s * self.x[j]);
-        let parts = columns.map(|j| S::as_simd_f64s(&self.a[j * n..(j + 1) * n]));
+        let length = n / S::F64_LANES;
+        // No closures here: they would not be compiled for the processor that was found.
+        let mut heads: [&[S::f64s]; N] = [&[]; N];
+        let mut tails: [&[f64]; N] = [&[]; N];
+        let mut factors = [simd.splat_f64s(0.0); N];
+        let mut t = [0.0; N];
+        for k in 0..N {
+            let j = columns[k];
+            t[k] = self.s * self.x[j];
+            factors[k] = simd.splat_f64s(t[k]);
+            let (head, tail) = S::as_simd_f64s(&self.a[j * n..(j + 1) * n]);
+            (heads[k], tails[k]) = (&head[..length], tail);
+        }
         let (head, tail) = S::as_mut_simd_f64s(self.y);
-        let factors = t.map(|t| simd.splat_f64s(t));
-        let heads = parts.map(|(c, _)| &c[..head.len()]);
-        for (i, y) in head.iter_mut().enumerate() {
-            let mut sum = *y;
+        let head = &mut head[..length];
+        for i in 0..length {
+            let mut sum = head[i];
             for k in 0..N {
                 sum = simd.mul_add_e_f64s(factors[k], heads[k][i], sum);
             }
-            *y = sum;
+            head[i] = sum;
         }
-        for (i, y) in tail.iter_mut().enumerate() {
+        for i in 0..tail.len() {
             for k in 0..N {
-                *y += t[k] * parts[k].1[i];
+                tail[i] += t[k] * tails[k][i];
             }
         }
     }
@@ -83,26 +93,32 @@ impl<const R: usize> AddDots<'_, R> {
     #[inline(always)]
     fn group<S: Simd, const N: usize>(&mut self, simd: S, first: usize) {
         let n = self.x[0].len();
-        let x = self.x.map(|x| S::as_simd_f64s(x));
         let length = n / S::F64_LANES;
-        let columns: [_; N] = std::array::from_fn(|k| {
+        let mut columns: [&[S::f64s]; N] = [&[]; N];
+        let mut column_tails: [&[f64]; N] = [&[]; N];
+        for k in 0..N {
             let (head, tail) = S::as_simd_f64s(&self.a[(first + k) * n..(first + k + 1) * n]);
-            (&head[..length], tail)
-        });
-        let x = x.map(|(head, tail)| (&head[..length], tail));
+            (columns[k], column_tails[k]) = (&head[..length], tail);
+        }
+        let mut x: [&[S::f64s]; R] = [&[]; R];
+        let mut x_tails: [&[f64]; R] = [&[]; R];
+        for r in 0..R {
+            let (head, tail) = S::as_simd_f64s(self.x[r]);
+            (x[r], x_tails[r]) = (&head[..length], tail);
+        }
         let mut sums = [[simd.splat_f64s(0.0); R]; N];
         for i in 0..length {
             for k in 0..N {
                 for r in 0..R {
-                    sums[k][r] = simd.mul_add_e_f64s(columns[k].0[i], x[r].0[i], sums[k][r]);
+                    sums[k][r] = simd.mul_add_e_f64s(columns[k][i], x[r][i], sums[k][r]);
                 }
             }
         }
         for k in 0..N {
             for r in 0..R {
                 let mut sum = simd.reduce_sum_f64s(sums[k][r]);
-                for (c, x) in columns[k].1.iter().zip(x[r].1) {
-                    sum += c * x;
+                for i in 0..x_tails[r].len() {
+                    sum += column_tails[k][i] * x_tails[r][i];
                 }
                 self.y[r][first + k] += self.s * sum;
             }

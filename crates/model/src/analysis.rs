@@ -112,6 +112,8 @@ pub struct Solution {
     pub step: StepControl,
     /// Solution of the link equations.
     pub kernel: Kernel,
+    /// Share of the largest link force by which a link may be out of equilibrium.
+    pub link_tolerance: f64,
     /// Largest share of the energy that may be unaccounted for before the run says so.
     pub energy_limit: f64,
     /// Settings of FNA and of other solvers on a Ritz basis.
@@ -126,6 +128,7 @@ impl Default for Solution {
             solver: SolverKind::Fna,
             step: StepControl::default(),
             kernel: Kernel::Newton,
+            link_tolerance: 1e-9,
             energy_limit: 1e-3,
             basis: Basis::default(),
             alpha: 0.0,

@@ -157,7 +157,7 @@ impl Table {
             let held = if self.after_end == AfterEnd::Zero { 0.0 } else { self.values[last] };
             return [held, 0.0, 0.0];
         }
-        let i = self.times.partition_point(|&x| side.is_past(t, x)).clamp(1, last) - 1;
+        let i = self.segment(t, side);
         let (h, x) = (self.times[i + 1] - self.times[i], t - self.times[i]);
         let (y0, y1) = (self.values[i], self.values[i + 1]);
         let slope = (y1 - y0) / h;
@@ -166,6 +166,23 @@ impl Table {
         }
         let [b, c, d] = self.coefficients(i);
         [y0 + x * (b + x * (c + x * d)), b + x * (2.0 * c + 3.0 * x * d), 2.0 * c + 6.0 * x * d]
+    }
+
+    /// Index of the segment that holds t. Samples are mostly evenly spaced, so it is guessed first.
+    fn segment(&self, t: f64, side: Side) -> usize {
+        let last = self.times.len() - 1;
+        let share = (t - self.start()) / (self.end() - self.start());
+        let guess = ((share * last as f64) as usize).min(last - 1);
+        let holds = |i: usize| {
+            (i == 0 || side.is_past(t, self.times[i]))
+                && (i + 1 == last || !side.is_past(t, self.times[i + 1]))
+        };
+        for i in [guess, guess.saturating_sub(1), (guess + 1).min(last - 1)] {
+            if holds(i) {
+                return i;
+            }
+        }
+        self.times.partition_point(|&x| side.is_past(t, x)).clamp(1, last) - 1
     }
 
     /// Coefficients of x, x², x³ in segment i of the spline.

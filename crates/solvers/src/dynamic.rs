@@ -97,7 +97,7 @@ pub(crate) fn run(
     let none = vec![0.0; system.links.len()];
     let effective = if kind == SolverKind::FullNewton { &none } else { &system.links.effective };
     let physical = Space::physical(system, &loads, effective, damping);
-    let kernel = LinkKernel::new(model, &system.links, solution.kernel, physical.dummy_k.clone());
+    let kernel = LinkKernel::new(model, &system.links, solution.kernel, solution.link_tolerance, physical.dummy_k.clone());
     let mut stepper: Box<dyn Stepper + '_> = match (kind, &bases) {
         (SolverKind::Fna, Some(b)) => {
             let engaged = system.links.engaged(model);

@@ -77,7 +77,6 @@ const HALVINGS: usize = 6;
 const ENOUGH: f64 = 0.9;
 const NEWTON_ITERATIONS: usize = 60;
 const FIXED_POINT_ITERATIONS: usize = 200;
-const TOLERANCE: f64 = 1e-9;
 /// Added to J's diagonal: a direction that nothing holds but its dummy, such as that of an open contact
 /// under a weight, is singular in a static analysis; held by this, it goes far until something stops it.
 const HOLD: f64 = 1e-12;
@@ -93,6 +92,8 @@ const CONTRACTS: f64 = 0.2;
 /// Workspace and settings of the link equations.
 pub(crate) struct LinkKernel<'a> {
     kind: Kernel,
+    /// Share of the largest force so far by which a link may be out of equilibrium.
+    tolerance: f64,
     links: &'a LinkSet,
     laws: Laws<'a>,
     /// Dummy stiffness of the active coordinates.
@@ -183,6 +184,7 @@ impl<'a> LinkKernel<'a> {
         model: &'a Model,
         links: &'a LinkSet,
         kind: Kernel,
+        tolerance: f64,
         dummy_k: Vec<f64>,
     ) -> Self {
         let n = links.active.len();
@@ -200,6 +202,7 @@ impl<'a> LinkKernel<'a> {
         }
         Self {
             kind,
+            tolerance,
             links,
             laws,
             dummy_k,
@@ -358,20 +361,24 @@ impl<'a> LinkKernel<'a> {
     fn measure(&self, out: &Converged<'_>, scale: &ForceScale) -> (f64, NoEquilibrium) {
         let links = self.links;
         let mut now = *scale;
+        let mut left: ForceScale = [0.0; 2];
         for (a, flat) in links.active.iter().enumerate() {
             let kind = usize::from(links.rotational[*flat]);
+            let r = self.residual[a].abs();
+            left[kind] = left[kind].max(r);
             // The residual counts as a force: before the first link is touched there is no other.
-            now[kind] = now[kind]
-                .max(out.f[*flat].abs())
-                .max(PSEUDO_SHARE * out.pseudo[a].abs())
-                .max(self.residual[a].abs());
+            now[kind] = now[kind].max(out.f[*flat].abs()).max(PSEUDO_SHARE * out.pseudo[a].abs());
+        }
+        let mut worst = NoEquilibrium { worst: 0, residual: 0.0 };
+        let within = |kind: usize| left[kind] <= self.tolerance * now[kind];
+        if within(0) && within(1) && self.residual.iter().all(|r| !r.is_nan()) {
+            return (1.0, worst);
         }
         let mut size = 0.0;
-        let mut worst = NoEquilibrium { worst: 0, residual: 0.0 };
         for (a, r) in self.residual.iter().enumerate() {
             let flat = links.active[a];
-            let scale = now[usize::from(links.rotational[flat])];
-            let mut allowed = TOLERANCE * scale;
+            let kind = usize::from(links.rotational[flat]);
+            let mut allowed = self.tolerance * now[kind].max(left[kind]);
             if r.abs() > allowed {
                 allowed = allowed.max(self.rounding(a, out));
             }

@@ -56,6 +56,14 @@ pub enum ConformanceError {
         /// Time.
         time: f64,
     },
+    /// A law that says it does not look at rates answers otherwise when they change.
+    #[error("`uses_rates` is false, but the answer depends on rates at t = {time} s of path {path}")]
+    UsesRates {
+        /// Number of the path.
+        path: usize,
+        /// Time.
+        time: f64,
+    },
     /// The force at the start of a step is not that of the end of the last one.
     #[error(
         "f[{index}] = {before:e} at the end of a step and {after:e} at the start of the next, at t = {time} s of path {path}"

@@ -24,6 +24,7 @@ enum Spoil {
     Finite,
     Restart,
     ThresholdOnStep,
+    HiddenRates,
 }
 
 /// Elastic–plastic spring with a dashpot, and a second uncoupled linear spring.
@@ -44,6 +45,9 @@ impl Link for Law {
     }
     fn history(&self) -> Cow<'static, [Field]> {
         vec![Field::new("plastic", "m"), Field::new("taken", "J")].into()
+    }
+    fn uses_rates(&self) -> bool {
+        self.spoil != Spoil::HiddenRates
     }
     fn engaged_stiffness(&self, k: &mut [f64]) {
         k[0] = K;
@@ -163,6 +167,11 @@ fn notices_energy_from_nothing_unless_it_is_allowed() {
 fn notices_memory_in_the_law() {
     assert!(matches!(broken(Spoil::Purity), ConformanceError::Impure { what: "f", .. }));
     assert!(matches!(broken(Spoil::Memory), ConformanceError::Impure { what: "trial", .. }));
+}
+
+#[test]
+fn notices_rates_that_are_said_to_be_unused() {
+    assert!(matches!(broken(Spoil::HiddenRates), ConformanceError::UsesRates { .. }));
 }
 
 #[test]

@@ -22,6 +22,7 @@ pub(super) const FIELDS: &[&str] = &[
     "solver",
     "step",
     "kernel",
+    "link_tolerance",
     "energy_limit",
     "basis",
     "alpha",

@@ -20,15 +20,18 @@ pub(super) fn solution(c: &Context<'_>, fields: &Fields<'_>) -> Option<Solution>
         let all = [Kernel::Newton, Kernel::FixedPoint];
         c.choice(n, "kernel", &["Newton", "FixedPoint"]).map(|i| all[i])
     });
-    let energy_limit = fields
-        .get("energy_limit")
-        .map_or(Some(plain.energy_limit), |n| tolerance(c, n, "energy_limit"));
+    let share = |name: &str, plain: f64| {
+        fields.get(name).map_or(Some(plain), |n| tolerance(c, n, name))
+    };
+    let link_tolerance = share("link_tolerance", plain.link_tolerance);
+    let energy_limit = share("energy_limit", plain.energy_limit);
     let basis = fields.get("basis").map_or(Some(plain.basis), |n| basis(c, n));
     let alpha = fields.get("alpha").map_or(Some(plain.alpha), |n| alpha(c, n));
     Some(Solution {
         solver: solver?,
         step: step?,
         kernel: kernel?,
+        link_tolerance: link_tolerance?,
         energy_limit: energy_limit?,
         basis: basis?,
         alpha: alpha?,

@@ -93,8 +93,8 @@ fn solution(s: &Solution) -> String {
         BasisKind::Complete => "Complete".into(),
     };
     format!(
-        "solver: {solver}, step: {step}, kernel: {kernel}, energy_limit: {:?}, basis: {basis}, \
-         alpha: {:?}",
-        s.energy_limit, s.alpha
+        "solver: {solver}, step: {step}, kernel: {kernel}, link_tolerance: {:?}, energy_limit: {:?}, \
+         basis: {basis}, alpha: {:?}",
+        s.link_tolerance, s.energy_limit, s.alpha
     )
 }

@@ -241,11 +241,11 @@ impl Frame {
                 self.storeys
             )?;
         }
-        for (n, at) in self.all_joints().take(self.isolators()).enumerate() {
-            for (axis, dof) in [("x", "Ux"), ("y", "Uy")] {
+        for n in 0..self.isolators() {
+            for (axis, local) in [("x", "U2"), ("y", "U3")] {
                 writeln!(
                     out,
-                    "        \"iso {n} {axis}\": Displacement(node: \"{at}\", dof: {dof}),"
+                    "        \"iso {n} {axis}\": LinkDeformation(link: \"bearing {n}\", axis: {local}),"
                 )?;
             }
         }
