@@ -169,8 +169,8 @@ pub trait Link: Send + Sync + Debug {
     ) {
     }
 
-    /// True once a body has fallen over for good; the run ends there. `history` as for
-    /// [`contacts`](Self::contacts).
+    /// True once a body has fallen over for good; the run ends there. Only asked of laws that have
+    /// contacts. `history` as for [`contacts`](Self::contacts).
     fn overturned(&self, _at: &Kinematics<'_>, _history: &[f64]) -> bool {
         false
     }

@@ -217,6 +217,9 @@ impl Propagator for Hht {
         }
         self.space.links.deform(&to[..n], d);
         self.space.links.deform(&to[n..2 * n], v);
+        let Compliance { g, h, .. } = &self.steps[&self.now].compliance;
+        g.mul_add(-1.0, forces.pseudo1, d);
+        h.mul_add(-1.0, forces.pseudo1, v);
     }
 
     fn correct(&mut self, forces: &Forces<'_>, to: &mut Motion) {

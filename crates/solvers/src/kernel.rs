@@ -7,7 +7,7 @@
 //! ```
 //!
 //! `Newton` solves `R(f̃) = law(d, ḋ) − k_e d − f̃ = 0` with the full tangents of the laws,
-//! `J = I + (k − k_e) G + c H`; coordinates whose row of tangents is zero need no equation.
+//! `J = I + (k − k_e) G + c H`; coordinates whose row of tangents is zero or weak need no equation.
 //! `FixedPoint` is Wilson's constant-stiffness iteration, f̃ ← law − k_e d; it converges only
 //! while |k − k_e| G < 1. Neither touches a matrix of the structure.
 
@@ -20,7 +20,7 @@ use trilith_system::{Laws, LinkSet, Tangents};
 
 /// What the linear step gives the kernel.
 pub(crate) struct Affine<'a> {
-    /// d* and v* of the active coordinates.
+    /// d and v of the active coordinates at the start value of f̃.
     pub d: &'a [f64],
     pub v: &'a [f64],
     /// Deformation and rate that moving supports add, flat.
@@ -69,12 +69,19 @@ const SETTLED: f64 = 1e-4;
 /// A pseudo-force counts as a force only by its rounding: with stiff dummies on a sliding contact it may
 /// be millions of times any force there is.
 const PSEUDO_SHARE: f64 = 1e-5;
+/// Iterations before the first look at what rounding leaves.
+const ROUNDING_FROM: usize = 2;
 /// Plain Newton iterations before the first line search.
 const SEARCH_FROM: usize = 2;
 /// Halvings of a correction at most.
 const HALVINGS: usize = 6;
 /// A correction that leaves more than this share of the residual went too far.
 const ENOUGH: f64 = 0.9;
+/// Row sum of (k − k_e) G + c H below which a coordinate needs no equation: what one iteration without it
+/// leaves of its residual, at most.
+const WEAK: f64 = 0.02;
+/// Fewer coordinates than this all get an equation if they have tangents: an iteration costs more than it.
+const WEAK_FROM: usize = 48;
 const NEWTON_ITERATIONS: usize = 60;
 const FIXED_POINT_ITERATIONS: usize = 200;
 /// Added to J's diagonal: a direction that nothing holds but its dummy, such as that of an open contact
@@ -98,8 +105,9 @@ pub(crate) struct LinkKernel<'a> {
     laws: Laws<'a>,
     /// Dummy stiffness of the active coordinates.
     dummy_k: Vec<f64>,
-    /// Active coordinates of laws that look at rates.
+    /// Active coordinates of laws that look at rates, and the others.
     rated: Vec<usize>,
+    unrated: Vec<usize>,
     tangents: Tangents,
     /// Active index of each flat coordinate.
     place: Vec<usize>,
@@ -127,7 +135,7 @@ pub(crate) struct Remembered {
 struct Factor {
     key: u64,
     tangents: Tangents,
-    /// Active coordinates with a row of tangents.
+    /// Active coordinates with a row of tangents that counts.
     equations: Vec<usize>,
     /// From the residual of all active coordinates to the corrections of these.
     correct: Dense,
@@ -154,21 +162,18 @@ impl Search {
         (self.share, self.before, self.halvings) = (0.0, 0.0, 0);
     }
 
-    /// Takes back half of the last correction where the residual did not fall; true where it took back.
-    fn shortens(&mut self, iteration: usize, residual: &[f64], pseudo: &mut [f64]) -> bool {
-        let size = largest(residual);
+    /// Where the residual did not fall, the part of the last correction that is to be taken back: half of
+    /// what is left of it.
+    fn shortens(&mut self, iteration: usize, size: f64) -> Option<f64> {
         let grew =
             iteration >= SEARCH_FROM && size > ENOUGH * self.before && self.halvings < HALVINGS;
-        if grew {
-            self.share *= 0.5;
-            self.halvings += 1;
-            for (x, r) in pseudo.iter_mut().zip(&self.step) {
-                *x -= self.share * r;
-            }
-        } else {
+        if !grew {
             self.before = size;
+            return None;
         }
-        grew
+        self.share *= 0.5;
+        self.halvings += 1;
+        Some(self.share)
     }
 
     /// Takes note of a correction about to be made.
@@ -193,11 +198,11 @@ impl<'a> LinkKernel<'a> {
             place[*flat] = a;
         }
         let laws = links.laws(model);
-        let (mut owner, mut rated) = (vec![0; n], Vec::new());
+        let (mut owner, mut rated, mut unrated) = (vec![0; n], Vec::new(), Vec::new());
         for (l, (law, link)) in laws.iter().enumerate() {
             for a in link.range.clone().map(|flat| place[flat]).filter(|a| *a != usize::MAX) {
                 owner[a] = l;
-                rated.extend(law.uses_rates().then_some(a));
+                if law.uses_rates() { rated.push(a) } else { unrated.push(a) }
             }
         }
         Self {
@@ -207,6 +212,7 @@ impl<'a> LinkKernel<'a> {
             laws,
             dummy_k,
             rated,
+            unrated,
             tangents: links.tangents(),
             place,
             owner,
@@ -223,6 +229,11 @@ impl<'a> LinkKernel<'a> {
     /// Iterations made so far.
     pub(crate) fn iterations(&self) -> usize {
         self.iterations
+    }
+
+    /// Active coordinates whose rates no law looks at: [`solve`](Self::solve) leaves them to the caller.
+    pub(crate) fn unrated(&self) -> &[usize] {
+        &self.unrated
     }
 
     /// The kept factors, to be recalled after a restart: a kept factor decides the last bits of an
@@ -252,7 +263,8 @@ impl<'a> LinkKernel<'a> {
         }
     }
 
-    /// Solves the link equations; `out.pseudo` holds the start value on entry.
+    /// Solves the link equations; `out.pseudo` holds the start value on entry. The rates of coordinates
+    /// whose law does not look at them stay as they are predicted.
     pub(crate) fn solve(
         &mut self,
         affine: &Affine<'_>,
@@ -261,9 +273,8 @@ impl<'a> LinkKernel<'a> {
         out: &mut Converged<'_>,
     ) -> Result<(), NoEquilibrium> {
         let outcome = self.iterate(affine, from, scale, out);
-        match outcome {
-            Ok(()) => self.complete_rates(affine, out),
-            Err(_) => self.factors.retain(|f| f.key != affine.key),
+        if outcome.is_err() {
+            self.factors.retain(|f| f.key != affine.key);
         }
         outcome
     }
@@ -282,10 +293,12 @@ impl<'a> LinkKernel<'a> {
         let mut size_before = f64::INFINITY;
         self.search.reset();
         let mut worst = NoEquilibrium { worst: 0, residual: f64::INFINITY };
+        self.d.copy_from_slice(affine.d);
+        self.v.copy_from_slice(affine.v);
         for iteration in 0..limit {
             self.iterations += 1;
             self.evaluate(affine, from, out);
-            let (size, at) = self.measure(out, scale);
+            let (size, at) = self.measure(out, scale, iteration);
             worst = at;
             if size <= 1.0 {
                 return Ok(());
@@ -294,10 +307,14 @@ impl<'a> LinkKernel<'a> {
                 break;
             }
             if self.kind == Kernel::Newton {
-                if self.search.shortens(iteration, &self.residual, out.pseudo) {
+                let before = largest(&self.residual);
+                if let Some(back) = self.search.shortens(iteration, before) {
+                    for (x, step) in self.residual.iter_mut().zip(&self.search.step) {
+                        *x = -back * step;
+                    }
+                    self.correct(affine, out);
                     continue;
                 }
-                let before = largest(&self.residual);
                 self.newton_correction(affine, size > CONTRACTS * size_before);
                 let moves = size * largest(&self.residual) / before;
                 if size <= ROUNDING && moves <= SETTLED {
@@ -306,34 +323,35 @@ impl<'a> LinkKernel<'a> {
             }
             size_before = size;
             self.search.goes(&self.residual);
-            for (x, r) in out.pseudo.iter_mut().zip(&self.residual) {
-                *x += r;
-            }
+            self.correct(affine, out);
         }
         Err(worst)
     }
 
-    /// Deformations from f̃, laws, residual.
-    fn evaluate(&mut self, affine: &Affine<'_>, from: &Committed<'_>, out: &mut Converged<'_>) {
-        let active = &self.links.active;
-        self.d.copy_from_slice(affine.d);
-        affine.g.mul_add(-1.0, out.pseudo, &mut self.d);
-        out.d.copy_from_slice(affine.support_d);
-        for (flat, d) in active.iter().zip(&self.d) {
-            out.d[*flat] += d;
+    /// Changes f̃ by what the residual holds now, and with it deformations and rates.
+    fn correct(&mut self, affine: &Affine<'_>, out: &mut Converged<'_>) {
+        for (x, change) in out.pseudo.iter_mut().zip(&self.residual) {
+            *x += change;
         }
-        if self.rated.len() == active.len() {
-            self.v.copy_from_slice(affine.v);
-            affine.h.mul_add(-1.0, out.pseudo, &mut self.v);
+        affine.g.mul_add(-1.0, &self.residual, &mut self.d);
+        if self.rated.len() == self.v.len() {
+            affine.h.mul_add(-1.0, &self.residual, &mut self.v);
         } else {
             // The compliances are symmetric.
             for a in &self.rated {
-                self.v[*a] = affine.v[*a] - affine.h.column_dot(*a, out.pseudo);
+                self.v[*a] -= affine.h.column_dot(*a, &self.residual);
             }
         }
+    }
+
+    /// Laws and residual at the present deformations.
+    fn evaluate(&mut self, affine: &Affine<'_>, from: &Committed<'_>, out: &mut Converged<'_>) {
+        let active = &self.links.active;
+        out.d.copy_from_slice(affine.support_d);
         out.v.copy_from_slice(affine.support_v);
-        for a in &self.rated {
-            out.v[active[*a]] += self.v[*a];
+        for ((flat, d), v) in active.iter().zip(&self.d).zip(&self.v) {
+            out.d[*flat] += d;
+            out.v[*flat] += v;
         }
         let at = Kinematics { d: out.d, v: out.v, d0: from.d, v0: from.v, dt: from.dt };
         self.laws.respond(at, from.history, out.history, out.f, &mut self.tangents, out.energy);
@@ -342,23 +360,13 @@ impl<'a> LinkKernel<'a> {
         }
     }
 
-    /// Rates of the coordinates that no law asked for.
-    fn complete_rates(&mut self, affine: &Affine<'_>, out: &mut Converged<'_>) {
-        if self.rated.len() == self.links.active.len() {
-            return;
-        }
-        self.correction.copy_from_slice(affine.v);
-        affine.h.mul_add(-1.0, out.pseudo, &mut self.correction);
-        for a in &self.rated {
-            self.correction[*a] = 0.0;
-        }
-        for (flat, v) in self.links.active.iter().zip(&self.correction) {
-            out.v[*flat] += v;
-        }
-    }
-
     /// Largest residual over its tolerance, and where.
-    fn measure(&self, out: &Converged<'_>, scale: &ForceScale) -> (f64, NoEquilibrium) {
+    fn measure(
+        &self,
+        out: &Converged<'_>,
+        scale: &ForceScale,
+        iteration: usize,
+    ) -> (f64, NoEquilibrium) {
         let links = self.links;
         let mut now = *scale;
         let mut left: ForceScale = [0.0; 2];
@@ -373,6 +381,12 @@ impl<'a> LinkKernel<'a> {
         let within = |kind: usize| left[kind] <= self.tolerance * now[kind];
         if within(0) && within(1) && self.residual.iter().all(|r| !r.is_nan()) {
             return (1.0, worst);
+        }
+        if iteration < ROUNDING_FROM {
+            let share = |kind: usize| left[kind] / (self.tolerance * now[kind].max(left[kind]));
+            let size = [0, 1].map(share).into_iter().filter(|s| !s.is_nan()).fold(0.0, f64::max);
+            let sound = self.residual.iter().all(|r| r.is_finite());
+            return (if sound { size } else { f64::NAN }, worst);
         }
         let mut size = 0.0;
         for (a, r) in self.residual.iter().enumerate() {
@@ -453,7 +467,14 @@ impl<'a> LinkKernel<'a> {
                 }
             }
         }
-        let equations: Vec<usize> = (0..n).filter(|a| !rows[*a].is_empty()).collect();
+        // Where a link is weak against the structure, f̃ ← law − k_e d converges as well as Newton's method.
+        let weak = if n < WEAK_FROM { 0.0 } else { WEAK };
+        let sum = |m: &Dense, b: usize| m.column(b).iter().map(|x| x.abs()).sum::<f64>();
+        let strong = |a: &usize| {
+            let terms = rows[*a].iter();
+            terms.map(|(b, k, c)| k.abs() * sum(g, *b) + c.abs() * sum(h, *b)).sum::<f64>() > weak
+        };
+        let equations: Vec<usize> = (0..n).filter(strong).collect();
         let mut chosen = vec![usize::MAX; n];
         for (e, a) in equations.iter().enumerate() {
             chosen[*a] = e;

@@ -131,6 +131,13 @@ impl Modal {
     }
 }
 
+/// Loads less link forces.
+fn less(load: &[f64], links: &[f64], source: &mut [f64]) {
+    for (s, (p, f)) in source.iter_mut().zip(load.iter().zip(links)) {
+        *s = p - f;
+    }
+}
+
 /// Largest eigenvalue of G diag(k).
 fn ratio(g: &Dense, k: &[f64]) -> f64 {
     const ITERATIONS: usize = 50;
@@ -193,12 +200,12 @@ impl Propagator for Modal {
         d: &mut [f64],
         v: &mut [f64],
     ) {
-        self.spread(forces.pseudo0);
         let m = self.source0.len();
-        for (s, (p, f)) in self.source0.iter_mut().zip(forces.load0.iter().zip(&self.spread.1)) {
-            *s = p - f;
-        }
-        let inputs = [&from[..m], &from[m..2 * m], &self.source0, forces.load1];
+        self.spread(forces.pseudo0);
+        less(forces.load0, &self.spread.1, &mut self.source0);
+        self.spread(forces.pseudo1);
+        less(forces.load1, &self.spread.1, &mut self.source1);
+        let inputs = [&from[..m], &from[m..2 * m], &self.source0, &self.source1];
         let rule = &self.steps[self.now].rule;
         let (q, rest) = to.split_at_mut(m);
         rule.apply(1, inputs, q);
@@ -222,14 +229,14 @@ impl Propagator for Modal {
         let rule = &self.steps[self.now].rule;
         let (q, rest) = to.split_at_mut(m);
         let (v, a) = rest.split_at_mut(m);
-        // What was predicted holds the loads already.
-        let push = &mut self.integral;
-        push.iter_mut().zip(&self.spread.1).for_each(|(x, f)| *x = -f);
-        rule.add_answer(1, push, q);
-        rule.add_answer(2, push, v);
-        for (s, (p, f)) in self.source1.iter_mut().zip(forces.load1.iter().zip(&self.spread.1)) {
-            *s = p - f;
+        let change = &mut self.integral;
+        for (i, x) in change.iter_mut().enumerate() {
+            let source = forces.load1[i] - self.spread.1[i];
+            *x = source - self.source1[i];
+            self.source1[i] = source;
         }
+        rule.add_answer(1, change, q);
+        rule.add_answer(2, change, v);
         self.structure.acceleration(&self.source1, q, v, a);
     }
 

@@ -59,8 +59,8 @@ pub(crate) trait Propagator {
     /// Acceleration that a force on the structure at rest would cause; zero where there is no mass.
     fn acceleration(&mut self, force: &[f64]) -> Result<Vec<f64>, SolveError>;
 
-    /// The step with zero pseudo-forces at its end, as far as the links need it: d* and v* of the active
-    /// coordinates. `to` need not be complete before [`correct`](Self::correct).
+    /// The step with the pseudo-forces `pseudo1` at its end, as far as the links need it: d and v of the
+    /// active coordinates. `to` need not be complete before [`correct`](Self::correct).
     fn predict(
         &mut self,
         from: &Motion,
@@ -70,7 +70,7 @@ pub(crate) trait Propagator {
         v: &mut [f64],
     );
 
-    /// Completes the step predicted last with the pseudo-forces at its end.
+    /// Completes the step predicted last with the pseudo-forces at its end, now known.
     fn correct(&mut self, forces: &Forces<'_>, to: &mut Motion);
 
     /// Work done over the step completed last.

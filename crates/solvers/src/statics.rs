@@ -82,7 +82,8 @@ pub(crate) fn equilibrium(
     let (mut reached, mut step, mut made, mut rejected) = (0.0, 1.0 / steps.max(1) as f64, 0, 0);
     while reached < 1.0 {
         let next = if reached + 1.0001 * step >= 1.0 { 1.0 } else { reached + step };
-        let d: Vec<f64> = d_before.iter().zip(&d_added).map(|(a, b)| a + next * b).collect();
+        let mut d: Vec<f64> = d_before.iter().zip(&d_added).map(|(a, b)| a + next * b).collect();
+        g.mul_add(-1.0, &pseudo, &mut d);
         let v = vec![0.0; d.len()];
         let mut trial = state.clone();
         let mut attempt = pseudo.clone();

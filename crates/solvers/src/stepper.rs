@@ -296,6 +296,16 @@ impl<P: Propagator> Stepper for LinkStepper<'_, P> {
             .map_err(|e| StepFailure::NoEquilibrium { worst: e.worst, residual: e.residual })?;
         let forces = Forces { load0, load1, pseudo0, pseudo1 };
         self.propagator.correct(&forces, &mut to.motion);
+        let unrated = self.kernel.unrated();
+        if !unrated.is_empty() {
+            let space = self.propagator.space();
+            let n = space.order();
+            space.links.deform(&to.motion[n..2 * n], v);
+            for a in unrated {
+                let flat = self.system.links.active[*a];
+                to.v[flat] = support_rate[flat] + v[*a];
+            }
+        }
         to.settle(&self.system.links, &energy.links);
         energy.work = self.propagator.work(&from.motion, &to.motion, &forces);
         self.book(from, to, energy);

@@ -7,7 +7,7 @@ use crate::space::Space;
 use crate::stepper::State;
 use trilith_element::{Contact, Kinematics, Link};
 use trilith_model::{Model, Side};
-use trilith_system::{Laws, LinkInstance, LoadSet, System};
+use trilith_system::{LinkInstance, LoadSet, System};
 
 /// Displacements of all nodes of one state.
 struct Figure<'a> {
@@ -42,7 +42,8 @@ pub(crate) struct Viewer<'a, 'b> {
     outputs: Outputs,
     values: Vec<f64>,
     rates: Vec<f64>,
-    laws: Laws<'a>,
+    /// The links that are contacts.
+    touching: Vec<(&'a dyn Link, &'a LinkInstance)>,
     contacts: Vec<(usize, Contact)>,
     own: Vec<Contact>,
     observers: &'a mut [&'b mut dyn Observer],
@@ -57,13 +58,22 @@ impl<'a, 'b> Viewer<'a, 'b> {
         observers: &'a mut [&'b mut dyn Observer],
     ) -> Self {
         let count = model.outputs.len();
+        let (rest, mut own) = (vec![0.0; system.links.len()], Vec::new());
+        let history = system.links.at_rest(model);
+        let laws = system.links.laws(model);
+        let touches = |(law, link): &(&dyn Link, &LinkInstance)| {
+            let at = &rest[link.range.clone()];
+            let still = Kinematics { d: at, v: at, d0: at, v0: at, dt: 0.0 };
+            law.contacts(&still, &history[link.history.clone()], at, &mut own);
+            own.drain(..).next().is_some()
+        };
         Self {
             system,
             loads,
             outputs: Outputs::new(model, system, space),
             values: vec![0.0; count],
             rates: vec![0.0; count],
-            laws: system.links.laws(model),
+            touching: laws.iter().filter(touches).collect(),
             contacts: Vec::new(),
             own: Vec::new(),
             observers,
@@ -105,13 +115,13 @@ impl<'a, 'b> Viewer<'a, 'b> {
         let fallen = |(law, link): &(&dyn Link, &LinkInstance)| {
             law.overturned(&standing(link, state), &state.history[link.history.clone()])
         };
-        self.laws.iter().find(fallen).map(|(_, link)| link.element)
+        self.touching.iter().find(|l| fallen(l)).map(|(_, link)| link.element)
     }
 
     /// Takes note of what the contacts do.
     fn touch(&mut self, state: &State) {
         self.contacts.clear();
-        for (law, link) in self.laws.iter() {
+        for (law, link) in &self.touching {
             let (history, f) = (&state.history[link.history.clone()], &state.f[link.range.clone()]);
             law.contacts(&standing(link, state), history, f, &mut self.own);
             self.contacts.extend(self.own.drain(..).map(|c| (link.element, c)));
