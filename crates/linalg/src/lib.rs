@@ -18,6 +18,7 @@ mod ldlt;
 mod lu;
 mod matrix_market;
 mod sparse;
+mod vector;
 
 pub use dense::{Dense, DenseLu};
 pub use eigen::{all_modes, lowest_modes, symmetric_eigen};
@@ -26,6 +27,7 @@ pub use ldlt::{Ldlt, unsupported};
 pub use lu::SparseLu;
 pub use matrix_market::matrix_market;
 pub use sparse::{Sparse, Triplets};
+pub use vector::{dot, largest};
 
 /// What can go wrong in a factorisation or an eigenproblem.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]

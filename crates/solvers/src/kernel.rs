@@ -111,6 +111,10 @@ pub(crate) struct LinkKernel<'a> {
     tangents: Tangents,
     /// Active index of each flat coordinate.
     place: Vec<usize>,
+    /// True where some coordinate is a rotation.
+    rotations: bool,
+    /// True where all coordinates are active.
+    complete: bool,
     /// Index of the link of each active coordinate.
     owner: Vec<usize>,
     /// Own deformations and rates of the active coordinates, without moving supports.
@@ -215,6 +219,8 @@ impl<'a> LinkKernel<'a> {
             unrated,
             tangents: links.tangents(),
             place,
+            rotations: links.rotational.iter().any(|r| *r),
+            complete: n == links.len(),
             owner,
             d: vec![0.0; n],
             v: vec![0.0; n],
@@ -349,14 +355,24 @@ impl<'a> LinkKernel<'a> {
         let active = &self.links.active;
         out.d.copy_from_slice(affine.support_d);
         out.v.copy_from_slice(affine.support_v);
-        for ((flat, d), v) in active.iter().zip(&self.d).zip(&self.v) {
-            out.d[*flat] += d;
-            out.v[*flat] += v;
+        if self.complete {
+            out.d.iter_mut().zip(&self.d).for_each(|(x, d)| *x += d);
+            out.v.iter_mut().zip(&self.v).for_each(|(x, v)| *x += v);
+        } else {
+            for ((flat, d), v) in active.iter().zip(&self.d).zip(&self.v) {
+                out.d[*flat] += d;
+                out.v[*flat] += v;
+            }
         }
         let at = Kinematics { d: out.d, v: out.v, d0: from.d, v0: from.v, dt: from.dt };
         self.laws.respond(at, from.history, out.history, out.f, &mut self.tangents, out.energy);
-        for (a, flat) in active.iter().enumerate() {
-            self.residual[a] = out.f[*flat] - self.dummy_k[a] * self.d[a] - out.pseudo[a];
+        let dummies = self.dummy_k.iter().zip(&self.d).map(|(k, d)| k * d);
+        let terms = out.pseudo.iter().zip(dummies).zip(self.residual.iter_mut());
+        if self.complete {
+            terms.zip(out.f.iter()).for_each(|(((x, held), r), f)| *r = f - held - *x);
+        } else {
+            let forces = active.iter().map(|flat| out.f[*flat]);
+            terms.zip(forces).for_each(|(((x, held), r), f)| *r = f - held - *x);
         }
     }
 
@@ -368,25 +384,27 @@ impl<'a> LinkKernel<'a> {
         iteration: usize,
     ) -> (f64, NoEquilibrium) {
         let links = self.links;
-        let mut now = *scale;
-        let mut left: ForceScale = [0.0; 2];
-        for (a, flat) in links.active.iter().enumerate() {
-            let kind = usize::from(links.rotational[*flat]);
-            let r = self.residual[a].abs();
-            left[kind] = left[kind].max(r);
-            // The residual counts as a force: before the first link is touched there is no other.
-            now[kind] = now[kind].max(out.f[*flat].abs()).max(PSEUDO_SHARE * out.pseudo[a].abs());
+        let (mut now, mut left) = (*scale, [0.0; 2]);
+        if self.rotations {
+            for (a, flat) in links.active.iter().enumerate() {
+                let kind = usize::from(links.rotational[*flat]);
+                left[kind] = self.residual[a].abs().max(left[kind]);
+                now[kind] = out.f[*flat].abs().max(PSEUDO_SHARE * out.pseudo[a].abs()).max(now[kind]);
+            }
+        } else {
+            left[0] = largest(&self.residual);
+            now[0] = largest(out.f).max(PSEUDO_SHARE * largest(out.pseudo)).max(now[0]);
         }
         let mut worst = NoEquilibrium { worst: 0, residual: 0.0 };
-        let within = |kind: usize| left[kind] <= self.tolerance * now[kind];
-        if within(0) && within(1) && self.residual.iter().all(|r| !r.is_nan()) {
-            return (1.0, worst);
+        if !largest(&self.residual).is_finite() {
+            return (f64::NAN, worst);
         }
-        if iteration < ROUNDING_FROM {
-            let share = |kind: usize| left[kind] / (self.tolerance * now[kind].max(left[kind]));
-            let size = [0, 1].map(share).into_iter().filter(|s| !s.is_nan()).fold(0.0, f64::max);
-            let sound = self.residual.iter().all(|r| r.is_finite());
-            return (if sound { size } else { f64::NAN }, worst);
+        // The residual counts as a force: before the first link is touched there is no other.
+        let share = |kind: usize| left[kind] / (self.tolerance * now[kind].max(left[kind]));
+        let shares = [0, 1].map(|kind| if left[kind] > 0.0 { share(kind) } else { 0.0 });
+        let most = shares[0].max(shares[1]);
+        if most <= 1.0 || iteration < ROUNDING_FROM {
+            return (most, worst);
         }
         let mut size = 0.0;
         for (a, r) in self.residual.iter().enumerate() {

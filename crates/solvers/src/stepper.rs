@@ -74,8 +74,10 @@ impl State {
             *stored = e.stored;
         }
         for (f, rotational) in self.f.iter().zip(&links.rotational) {
-            let kind = usize::from(*rotational);
-            self.scale[kind] = self.scale[kind].max(f.abs());
+            let scale = &mut self.scale[usize::from(*rotational)];
+            if f.abs() > *scale {
+                *scale = f.abs();
+            }
         }
     }
 }
