@@ -273,3 +273,25 @@ fn an_open_contact_closes_under_a_weight() {
         }
     }
 }
+
+/// A block at rest, and one that slides and comes to rest again, take about the steps that were asked for (each
+/// made once whole and twice by halves), however stiff the contact: 1e12 N/m is ω Δt = 22 here.
+#[test]
+fn a_stiff_contact_at_rest_or_in_steady_sliding_costs_no_substeps() {
+    for stiffness in ["1e8", "1e10", "1e12"] {
+        for (ah, mu) in [("0.05", "0.6"), ("0.5", "0.2")] {
+            let set: [(&str, String); 4] = [
+                ("kn", stiffness.into()),
+                ("ks", stiffness.into()),
+                ("ah", ah.into()),
+                ("mu", mu.into()),
+            ];
+            let (model, system) = shipped("rigid_block.ron", &set);
+            for solver in [SolverKind::Fna, SolverKind::Hht] {
+                let (_, result) = trace(&model, &system, solver);
+                let share = result.work.substeps as f64 / result.work.steps as f64;
+                assert!(share < 3.0, "{stiffness} N/m, {ah} g, {}: {share}", solver.name());
+            }
+        }
+    }
+}

@@ -9,6 +9,7 @@ use crate::full_newton::FullNewton;
 use crate::hht::Hht;
 use crate::kernel::LinkKernel;
 use crate::ledger::Ledger;
+use crate::link_side::LinkSide;
 use crate::march::{March, Pace, Stop};
 use crate::modal::Modal;
 use crate::observe::{CaseResult, Observer, Status, Work};
@@ -97,17 +98,23 @@ pub(crate) fn run(
     let none = vec![0.0; system.links.len()];
     let effective = if kind == SolverKind::FullNewton { &none } else { &system.links.effective };
     let physical = Space::physical(system, &loads, effective, damping);
-    let kernel = LinkKernel::new(model, &system.links, solution.kernel, solution.link_tolerance, physical.dummy_k.clone());
+    let side = |order: usize| {
+        let dummies = physical.dummy_k.clone();
+        let kernel = LinkKernel::new(model, &system.links, solution, dummies);
+        LinkSide::new(model, system, &loads, kernel, order)
+    };
     let mut stepper: Box<dyn Stepper + '_> = match (kind, &bases) {
         (SolverKind::Fna, Some(b)) => {
             let engaged = system.links.engaged(model);
             let engaged = system.links.active.iter().map(|i| engaged[*i]).collect();
-            let propagator = Modal::new(Space::reduced(&physical, &b.stepping), engaged);
-            Box::new(LinkStepper::new(model, system, &loads, propagator, kernel))
+            let space = Space::reduced(&physical, &b.stepping);
+            let side = side(space.order());
+            Box::new(LinkStepper::new(Modal::new(space, engaged), side))
         }
         (SolverKind::RitzHht, Some(b)) => {
-            let propagator = Hht::new(Space::reduced(&physical, &b.stepping), solution.alpha);
-            Box::new(LinkStepper::new(model, system, &loads, propagator, kernel))
+            let space = Space::reduced(&physical, &b.stepping);
+            let side = side(space.order());
+            Box::new(LinkStepper::new(Hht::new(space, solution.alpha), side))
         }
         (SolverKind::FullNewton, _) => Box::new(FullNewton {
             model,
@@ -119,8 +126,8 @@ pub(crate) fn run(
             factorizations: 0,
         }),
         _ => {
-            let propagator = Hht::new(physical, solution.alpha);
-            Box::new(LinkStepper::new(model, system, &loads, propagator, kernel))
+            let side = side(physical.order());
+            Box::new(LinkStepper::new(Hht::new(physical, solution.alpha), side))
         }
     };
     let timeline = Timeline {

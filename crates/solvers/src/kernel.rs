@@ -15,7 +15,7 @@ use crate::vector::largest;
 use serde::{Deserialize, Serialize};
 use trilith_element::{Energy, Kinematics};
 use trilith_linalg::{Dense, DenseLu};
-use trilith_model::{Kernel, Model};
+use trilith_model::{Kernel, Model, Solution};
 use trilith_system::{Laws, LinkSet, Tangents};
 
 /// What the linear step gives the kernel.
@@ -123,6 +123,9 @@ pub(crate) struct LinkKernel<'a> {
     residual: Vec<f64>,
     correction: Vec<f64>,
     search: Search,
+    /// Iterations in this step, and the size of the residual before the last one.
+    iteration: usize,
+    size_before: f64,
     /// Kept factors, one a step size, the one used last at the end.
     factors: Vec<Factor>,
     iterations: usize,
@@ -192,8 +195,7 @@ impl<'a> LinkKernel<'a> {
     pub(crate) fn new(
         model: &'a Model,
         links: &'a LinkSet,
-        kind: Kernel,
-        tolerance: f64,
+        solution: &Solution,
         dummy_k: Vec<f64>,
     ) -> Self {
         let n = links.active.len();
@@ -210,8 +212,8 @@ impl<'a> LinkKernel<'a> {
             }
         }
         Self {
-            kind,
-            tolerance,
+            kind: solution.kernel,
+            tolerance: solution.link_tolerance,
             links,
             laws,
             dummy_k,
@@ -227,6 +229,8 @@ impl<'a> LinkKernel<'a> {
             residual: vec![0.0; n],
             correction: vec![0.0; n],
             search: Search::default(),
+            iteration: 0,
+            size_before: f64::INFINITY,
             factors: Vec::new(),
             iterations: 0,
         }
@@ -278,68 +282,81 @@ impl<'a> LinkKernel<'a> {
         scale: &ForceScale,
         out: &mut Converged<'_>,
     ) -> Result<(), NoEquilibrium> {
-        let outcome = self.iterate(affine, from, scale, out);
-        if outcome.is_err() {
-            self.factors.retain(|f| f.key != affine.key);
+        self.begin(affine);
+        while !self.advance(affine, from, scale, out)? {
+            affine.g.mul_add(-1.0, &self.residual, &mut self.d);
+            self.change_rates(affine);
         }
-        outcome
+        Ok(())
     }
 
-    fn iterate(
+    /// Takes up the link equations of a step.
+    pub(crate) fn begin(&mut self, affine: &Affine<'_>) {
+        self.d.copy_from_slice(affine.d);
+        self.v.copy_from_slice(affine.v);
+        self.search.reset();
+        (self.iteration, self.size_before) = (0, f64::INFINITY);
+    }
+
+    /// One iteration: true where the links are in equilibrium; else f̃ has changed by what
+    /// [`change`](Self::change) says, and deformations and rates must follow.
+    pub(crate) fn advance(
         &mut self,
         affine: &Affine<'_>,
         from: &Committed<'_>,
         scale: &ForceScale,
         out: &mut Converged<'_>,
-    ) -> Result<(), NoEquilibrium> {
+    ) -> Result<bool, NoEquilibrium> {
         let limit = match self.kind {
             Kernel::Newton => NEWTON_ITERATIONS,
             Kernel::FixedPoint => FIXED_POINT_ITERATIONS,
         };
-        let mut size_before = f64::INFINITY;
-        self.search.reset();
-        let mut worst = NoEquilibrium { worst: 0, residual: f64::INFINITY };
-        self.d.copy_from_slice(affine.d);
-        self.v.copy_from_slice(affine.v);
-        for iteration in 0..limit {
-            self.iterations += 1;
-            self.evaluate(affine, from, out);
-            let (size, at) = self.measure(out, scale, iteration);
-            worst = at;
-            if size <= 1.0 {
-                return Ok(());
-            }
-            if !size.is_finite() {
-                break;
-            }
-            if self.kind == Kernel::Newton {
-                let before = largest(&self.residual);
-                if let Some(back) = self.search.shortens(iteration, before) {
-                    for (x, step) in self.residual.iter_mut().zip(&self.search.step) {
-                        *x = -back * step;
-                    }
-                    self.correct(affine, out);
-                    continue;
-                }
-                self.newton_correction(affine, size > CONTRACTS * size_before);
-                let moves = size * largest(&self.residual) / before;
-                if size <= ROUNDING && moves <= SETTLED {
-                    return Ok(());
-                }
-            }
-            size_before = size;
-            self.search.goes(&self.residual);
-            self.correct(affine, out);
+        self.iterations += 1;
+        self.evaluate(affine, from, out);
+        let (size, worst) = self.measure(out, scale, self.iteration);
+        if size <= 1.0 {
+            return Ok(true);
         }
-        Err(worst)
+        self.iteration += 1;
+        if !size.is_finite() || self.iteration == limit {
+            self.factors.retain(|f| f.key != affine.key);
+            return Err(worst);
+        }
+        if self.kind == Kernel::Newton {
+            let before = largest(&self.residual);
+            if let Some(back) = self.search.shortens(self.iteration - 1, before) {
+                for (x, step) in self.residual.iter_mut().zip(&self.search.step) {
+                    *x = -back * step;
+                }
+                self.take(out);
+                return Ok(false);
+            }
+            self.newton_correction(affine, size > CONTRACTS * self.size_before);
+            let moves = size * largest(&self.residual) / before;
+            if size <= ROUNDING && moves <= SETTLED {
+                return Ok(true);
+            }
+        }
+        self.size_before = size;
+        self.search.goes(&self.residual);
+        self.take(out);
+        Ok(false)
     }
 
-    /// Changes f̃ by what the residual holds now, and with it deformations and rates.
-    fn correct(&mut self, affine: &Affine<'_>, out: &mut Converged<'_>) {
+    fn take(&self, out: &mut Converged<'_>) {
         for (x, change) in out.pseudo.iter_mut().zip(&self.residual) {
             *x += change;
         }
-        affine.g.mul_add(-1.0, &self.residual, &mut self.d);
+    }
+
+    /// The last change of f̃, and the deformations of the active coordinates, which must follow it by
+    /// −G times it.
+    pub(crate) fn change(&mut self) -> (&[f64], &mut [f64]) {
+        (&self.residual, &mut self.d)
+    }
+
+    /// Lets the rates that laws look at follow the last change of f̃.
+    pub(crate) fn change_rates(&mut self, affine: &Affine<'_>) {
         if self.rated.len() == self.v.len() {
             affine.h.mul_add(-1.0, &self.residual, &mut self.v);
         } else {
@@ -396,7 +413,11 @@ impl<'a> LinkKernel<'a> {
             now[0] = largest(out.f).max(PSEUDO_SHARE * largest(out.pseudo)).max(now[0]);
         }
         let mut worst = NoEquilibrium { worst: 0, residual: 0.0 };
-        if !largest(&self.residual).is_finite() {
+        if let (false, Some(a)) = (
+            largest(&self.residual).is_finite(),
+            self.residual.iter().position(|r| !r.is_finite()),
+        ) {
+            worst = NoEquilibrium { worst: links.active[a], residual: self.residual[a].abs() };
             return (f64::NAN, worst);
         }
         // The residual counts as a force: before the first link is touched there is no other.

@@ -19,6 +19,7 @@ mod hht;
 mod kernel;
 mod ledger;
 mod link_map;
+mod link_side;
 mod march;
 mod massless;
 mod modal;

@@ -43,6 +43,19 @@ impl LinkMap {
         }
     }
 
+    /// `d = B u` of two vectors.
+    pub(crate) fn deform_pair(&self, u: [&[f64]; 2], d: [&mut [f64]; 2]) {
+        match self {
+            Self::Sparse(_) => u.into_iter().zip(d).for_each(|(u, d)| self.deform(u, d)),
+            Self::Full(columns) => {
+                let [a, b] = d;
+                a.fill(0.0);
+                b.fill(0.0);
+                columns.transpose_mul_add_pair(1.0, u, [a, b]);
+            }
+        }
+    }
+
     /// `p += s · Bᵀ f`.
     pub(crate) fn spread(&self, s: f64, f: &[f64], p: &mut [f64]) {
         match self {

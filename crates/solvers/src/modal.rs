@@ -23,7 +23,6 @@
 mod rules;
 
 use crate::error::SolveError;
-use crate::link_map::LinkMap;
 use crate::propagator::{Compliance, Forces, Motion, Propagator, StepWork};
 use crate::space::Space;
 use rules::{Rule, Structure};
@@ -43,22 +42,70 @@ struct Step {
 
 /// The exact propagator on a basis of modes.
 pub(crate) struct Modal {
-    space: Space,
+    modes: Modes,
+    now: Sources,
+}
+
+/// The structure on a basis, and its rule for every step size: the same for all motions of it.
+pub(crate) struct Modes {
+    pub space: Space,
     structure: Structure,
     /// Stiffness of the engaged links.
     engaged: Vec<f64>,
     steps: Vec<Step>,
     now: usize,
+}
+
+/// What one motion needs on its way through a step.
+pub(crate) struct Sources {
     /// Loads less link forces at the start and at the end of the step, and the integral of q.
     source0: Vec<f64>,
     source1: Vec<f64>,
     integral: Vec<f64>,
     /// Pseudo-forces spread last, and (B Φ)ᵀ of them.
-    spread: (Vec<f64>, Vec<f64>),
+    pseudo: Vec<f64>,
+    spread: Vec<f64>,
+}
+
+impl Sources {
+    pub(crate) fn new(space: &Space) -> Self {
+        let zero = vec![0.0; space.order()];
+        Self {
+            pseudo: vec![0.0; space.links.len()],
+            spread: zero.clone(),
+            source0: zero.clone(),
+            source1: zero.clone(),
+            integral: zero,
+        }
+    }
+
+    /// Where (B Φ)ᵀ f̃ of these pseudo-forces must be added, unless they are those spread last.
+    pub(crate) fn renew_spread(&mut self, pseudo: &[f64]) -> Option<&mut [f64]> {
+        if self.pseudo == pseudo {
+            return None;
+        }
+        self.pseudo.copy_from_slice(pseudo);
+        self.spread.fill(0.0);
+        Some(&mut self.spread)
+    }
 }
 
 impl Modal {
     /// `engaged` is the stiffness of the active link coordinates where they are engaged, N/m or N·m.
+    pub(crate) fn new(space: Space, engaged: Vec<f64>) -> Self {
+        let modes = Modes::new(space, engaged);
+        Self { now: Sources::new(&modes.space), modes }
+    }
+
+    fn spread(&mut self, pseudo: &[f64]) {
+        if let Some(to) = self.now.renew_spread(pseudo) {
+            self.modes.space.links.spread(1.0, pseudo, to);
+        }
+    }
+}
+
+impl Modes {
+    /// As [`Modal::new`].
     pub(crate) fn new(space: Space, engaged: Vec<f64>) -> Self {
         let m = space.order();
         let mut damping = Dense::zeros(m, m);
@@ -67,25 +114,13 @@ impl Modal {
             damping[(i, j)] += v;
             coupled |= i != j && v != 0.0;
         }
-        let rates = (0..m).map(|i| damping[(i, i)]).collect();
         let structure = Structure {
             modes: m - space.images.columns(),
             omega2: space.stiffness.diagonal(),
-            rates,
+            rates: (0..m).map(|i| damping[(i, i)]).collect(),
             damping: coupled.then_some(damping),
         };
-        let zero = vec![0.0; m];
-        Self {
-            spread: (vec![0.0; space.links.len()], zero.clone()),
-            space,
-            structure,
-            engaged,
-            steps: Vec::new(),
-            now: 0,
-            source0: zero.clone(),
-            source1: zero.clone(),
-            integral: zero,
-        }
+        Self { space, structure, engaged, steps: Vec::new(), now: 0 }
     }
 
     fn build(&self, dt: f64) -> Step {
@@ -120,14 +155,88 @@ impl Modal {
         &self.steps[self.now]
     }
 
-    /// Makes (B Φ)ᵀ f̃ of these pseudo-forces the last one.
-    fn spread(&mut self, pseudo: &[f64]) {
-        let (last, spread) = &mut self.spread;
-        if last != pseudo {
-            last.copy_from_slice(pseudo);
-            spread.fill(0.0);
-            self.space.links.spread(1.0, pseudo, spread);
+    /// Prepares for steps of length `dt`.
+    pub(crate) fn prepare(&mut self, dt: f64) {
+        if self.steps.get(self.now).is_some_and(|s| s.dt == dt) {
+            return;
         }
+        self.now = self.steps.iter().position(|s| s.dt == dt).unwrap_or_else(|| {
+            let step = self.build(dt);
+            self.steps.push(step);
+            self.steps.len() - 1
+        });
+    }
+
+    /// Compliance of the step prepared last.
+    pub(crate) fn compliance(&self) -> &Compliance {
+        &self.step().compliance
+    }
+
+    /// Takes the load at the start, with the pseudo-forces spread last.
+    pub(crate) fn at_start(now: &mut Sources, load: &[f64]) {
+        less(load, &now.spread, &mut now.source0);
+    }
+
+    /// The motion at the end under the load there and the pseudo-forces spread last.
+    pub(crate) fn predict(&self, now: &mut Sources, from: &Motion, load: &[f64], to: &mut Motion) {
+        let m = load.len();
+        less(load, &now.spread, &mut now.source1);
+        let inputs = [&from[..m], &from[m..2 * m], &now.source0, &now.source1];
+        let (q, rest) = to.split_at_mut(m);
+        self.step().rule.apply(1, inputs, q);
+        self.step().rule.apply(2, inputs, &mut rest[..m]);
+    }
+
+    /// What was predicted, with the pseudo-forces spread last instead.
+    pub(crate) fn correct(&self, now: &mut Sources, load: &[f64], to: &mut Motion) {
+        let m = load.len();
+        let rule = &self.step().rule;
+        let (q, rest) = to.split_at_mut(m);
+        let (v, a) = rest.split_at_mut(m);
+        for (i, x) in now.integral.iter_mut().enumerate() {
+            let source = load[i] - now.spread[i];
+            *x = source - now.source1[i];
+            now.source1[i] = source;
+        }
+        rule.add_answer(1, &now.integral, q);
+        rule.add_answer(2, &now.integral, v);
+        self.structure.acceleration(&now.source1, q, v, a);
+    }
+
+    /// Work done over the step completed last.
+    pub(crate) fn work(
+        &self,
+        now: &mut Sources,
+        from: &Motion,
+        to: &Motion,
+        forces: &Forces<'_>,
+    ) -> StepWork {
+        let m = forces.load0.len();
+        let step = self.step();
+        let inputs = [&from[..m], &from[m..2 * m], &now.source0, &now.source1];
+        step.rule.apply(0, inputs, &mut now.integral);
+        let (mut external, mut all) = (0.0, 0.0);
+        let scale = step.dt.recip();
+        for i in 0..m {
+            let (q0, q1, mean) = (from[i], to[i], now.integral[i] * scale);
+            let (p0, p1) = (forces.load0[i], forces.load1[i]);
+            let (s0, s1) = (now.source0[i], now.source1[i]);
+            external += p1 * (q1 - mean) - p0 * (q0 - mean);
+            all += s1 * (q1 - mean) - s0 * (q0 - mean);
+        }
+        let links = external - all;
+        let damping = if self.structure.is_damped() {
+            let ((k0, e0), (k1, e1)) = (self.energy(from), self.energy(to));
+            all - (k1 - k0) - (e1 - e0)
+        } else {
+            0.0
+        };
+        StepWork { external, links, damping, algorithmic: 0.0 }
+    }
+
+    /// ½ q̇ᵀ q̇ and ½ qᵀ Ω² q.
+    pub(crate) fn energy(&self, x: &[f64]) -> (f64, f64) {
+        self.structure.energy(x)
     }
 }
 
@@ -159,7 +268,7 @@ fn ratio(g: &Dense, k: &[f64]) -> f64 {
 
 impl Propagator for Modal {
     fn space(&self) -> &Space {
-        &self.space
+        &self.modes.space
     }
 
     fn factorizations(&self) -> usize {
@@ -167,28 +276,21 @@ impl Propagator for Modal {
     }
 
     fn prepare(&mut self, dt: f64) -> Result<(), SolveError> {
-        if self.steps.get(self.now).is_some_and(|s| s.dt == dt) {
-            return Ok(());
-        }
-        self.now = self.steps.iter().position(|s| s.dt == dt).unwrap_or_else(|| {
-            let step = self.build(dt);
-            self.steps.push(step);
-            self.steps.len() - 1
-        });
+        self.modes.prepare(dt);
         Ok(())
     }
 
     fn compliance(&self) -> &Compliance {
-        &self.step().compliance
+        self.modes.compliance()
     }
 
     fn stiffness_ratio(&self) -> Option<f64> {
-        Some(self.step().ratio).filter(|r| *r > LONGEST)
+        Some(self.modes.step().ratio).filter(|r| *r > LONGEST)
     }
 
     fn acceleration(&mut self, force: &[f64]) -> Result<Vec<f64>, SolveError> {
         let mut a = force.to_vec();
-        a[self.structure.modes..].fill(0.0);
+        a[self.modes.structure.modes..].fill(0.0);
         Ok(a)
     }
 
@@ -200,71 +302,24 @@ impl Propagator for Modal {
         d: &mut [f64],
         v: &mut [f64],
     ) {
-        let m = self.source0.len();
         self.spread(forces.pseudo0);
-        less(forces.load0, &self.spread.1, &mut self.source0);
+        Modes::at_start(&mut self.now, forces.load0);
         self.spread(forces.pseudo1);
-        less(forces.load1, &self.spread.1, &mut self.source1);
-        let inputs = [&from[..m], &from[m..2 * m], &self.source0, &self.source1];
-        let rule = &self.steps[self.now].rule;
-        let (q, rest) = to.split_at_mut(m);
-        rule.apply(1, inputs, q);
-        rule.apply(2, inputs, &mut rest[..m]);
-        match &self.space.links {
-            LinkMap::Full(b) => {
-                d.fill(0.0);
-                v.fill(0.0);
-                b.transpose_mul_add_pair(1.0, [q, &rest[..m]], [d, v]);
-            }
-            links @ LinkMap::Sparse(_) => {
-                links.deform(q, d);
-                links.deform(&rest[..m], v);
-            }
-        }
+        self.modes.predict(&mut self.now, from, forces.load1, to);
+        let m = forces.load0.len();
+        self.modes.space.links.deform_pair([&to[..m], &to[m..2 * m]], [d, v]);
     }
 
     fn correct(&mut self, forces: &Forces<'_>, to: &mut Motion) {
         self.spread(forces.pseudo1);
-        let m = self.source0.len();
-        let rule = &self.steps[self.now].rule;
-        let (q, rest) = to.split_at_mut(m);
-        let (v, a) = rest.split_at_mut(m);
-        let change = &mut self.integral;
-        for (i, x) in change.iter_mut().enumerate() {
-            let source = forces.load1[i] - self.spread.1[i];
-            *x = source - self.source1[i];
-            self.source1[i] = source;
-        }
-        rule.add_answer(1, change, q);
-        rule.add_answer(2, change, v);
-        self.structure.acceleration(&self.source1, q, v, a);
+        self.modes.correct(&mut self.now, forces.load1, to);
     }
 
     fn work(&mut self, from: &Motion, to: &Motion, forces: &Forces<'_>) -> StepWork {
-        let m = self.source0.len();
-        let step = &self.steps[self.now];
-        let inputs = [&from[..m], &from[m..2 * m], &self.source0, &self.source1];
-        step.rule.apply(0, inputs, &mut self.integral);
-        let (mut external, mut all) = (0.0, 0.0);
-        let scale = step.dt.recip();
-        for i in 0..m {
-            let (q0, q1, mean) = (from[i], to[i], self.integral[i] * scale);
-            let (p0, p1) = (forces.load0[i], forces.load1[i]);
-            let (s0, s1) = (self.source0[i], self.source1[i]);
-            external += p1 * (q1 - mean) - p0 * (q0 - mean);
-            all += s1 * (q1 - mean) - s0 * (q0 - mean);
-        }
-        let links = external - all;
-        let damping = if self.structure.is_damped() {
-            let ((k0, e0), (k1, e1)) = (self.energy(from), self.energy(to));
-            all - (k1 - k0) - (e1 - e0)
-        } else {
-            0.0
-        };
-        StepWork { external, links, damping, algorithmic: 0.0 }
+        self.modes.work(&mut self.now, from, to, forces)
     }
 
     fn energy(&self, x: &[f64]) -> (f64, f64) {
-        self.structure.energy(x)
+        self.modes.energy(x)
     }
 }

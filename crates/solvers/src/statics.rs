@@ -12,12 +12,10 @@ use crate::kernel::{Affine, Committed, Converged, LinkKernel, NoEquilibrium};
 use crate::stepper::State;
 use trilith_element::Energy;
 use trilith_linalg::{Dense, Ldlt};
-use trilith_model::{Kernel, Model};
+use trilith_model::{Model, Solution};
 use trilith_system::System;
 
 const SMALLEST: f64 = 1e-4;
-/// Share of the largest link force by which a link may be out of equilibrium.
-const TOLERANCE: f64 = 1e-9;
 
 /// What a static case leaves: displacements of the free DOFs and the link history.
 #[derive(Clone, Debug)]
@@ -75,7 +73,7 @@ pub(crate) fn equilibrium(
     let (d_before, d_added) = (deform(&u_before), deform(&u_added));
     let dummy: Vec<f64> = links.active.iter().map(|i| engaged[*i]).collect();
     let zero = vec![0.0; links.len()];
-    let mut kernel = LinkKernel::new(model, links, Kernel::Newton, TOLERANCE, dummy.clone());
+    let mut kernel = LinkKernel::new(model, links, &Solution::default(), dummy.clone());
     let mut state = start;
     let mut pseudo = vec![0.0; dummy.len()];
     kernel.pseudo(&state.f, &state.d, &zero, &mut pseudo);

@@ -1,13 +1,14 @@
 //! One step of a solver: linear propagator and link kernel together.
 
 use crate::error::SolveError;
-use crate::kernel::{Affine, Committed, Converged, ForceScale, LinkKernel, Remembered};
-use crate::propagator::{Compliance, Forces, Motion, Propagator, StepWork};
+use crate::kernel::{ForceScale, Remembered};
+use crate::link_side::LinkSide;
+use crate::propagator::{Motion, Propagator, StepWork};
 use crate::space::Space;
 use serde::{Deserialize, Serialize};
 use trilith_element::{Energy, Kinematics};
 use trilith_model::Model;
-use trilith_system::{Channel, LinkSet, LoadSet, StepLoads, System};
+use trilith_system::{LinkSet, StepLoads};
 
 /// Everything that changes during a run: copying it is a checkpoint.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
@@ -189,72 +190,14 @@ pub(crate) fn energy_rounding(space: &Space, active: &[usize], state: &State) ->
 
 /// Any propagator with the link kernel.
 pub(crate) struct LinkStepper<'a, P> {
-    system: &'a System,
-    model: &'a Model,
-    loads: &'a LoadSet,
     propagator: P,
-    kernel: LinkKernel<'a>,
-    work: Workspace,
-}
-
-/// What a step needs on its way, so that it allocates nothing.
-#[derive(Default)]
-struct Workspace {
-    load0: Vec<f64>,
-    load1: Vec<f64>,
-    /// Deformation that moving supports give the links at the start and the end, and its rate at the end.
-    support0: Vec<f64>,
-    support1: Vec<f64>,
-    support_rate: Vec<f64>,
-    pseudo0: Vec<f64>,
-    pseudo1: Vec<f64>,
-    /// d* and v* of the active coordinates.
-    d: Vec<f64>,
-    v: Vec<f64>,
-    /// True where supports move links.
-    moving: bool,
+    side: LinkSide<'a>,
     difference: Motion,
 }
 
 impl<'a, P: Propagator> LinkStepper<'a, P> {
-    pub(crate) fn new(
-        model: &'a Model,
-        system: &'a System,
-        loads: &'a LoadSet,
-        propagator: P,
-        kernel: LinkKernel<'a>,
-    ) -> Self {
-        let n = propagator.space().order();
-        let (flat, active) = (system.links.len(), system.links.active.len());
-        let moves = |c: &Channel| !c.deformation.is_empty() || !c.rate.is_empty();
-        let work = Workspace {
-            load0: vec![0.0; n],
-            load1: vec![0.0; n],
-            support0: vec![0.0; flat],
-            support1: vec![0.0; flat],
-            support_rate: vec![0.0; flat],
-            pseudo0: vec![0.0; active],
-            pseudo1: vec![0.0; active],
-            d: vec![0.0; active],
-            v: vec![0.0; active],
-            moving: loads.channels.iter().any(moves),
-            difference: Vec::new(),
-        };
-        Self { system, model, loads, propagator, kernel, work }
-    }
-
-    /// Takes note of what moving supports do to the links over a step.
-    fn move_supports(&mut self, loads: &StepLoads) {
-        let w = &mut self.work;
-        if !w.moving {
-            return;
-        }
-        for x in [&mut w.support0, &mut w.support1, &mut w.support_rate] {
-            x.fill(0.0);
-        }
-        self.loads.support_deformation(&loads.start, &mut w.support0, &mut w.support_rate);
-        w.support_rate.fill(0.0);
-        self.loads.support_deformation(&loads.end, &mut w.support1, &mut w.support_rate);
+    pub(crate) fn new(propagator: P, side: LinkSide<'a>) -> Self {
+        Self { propagator, side, difference: Vec::new() }
     }
 }
 
@@ -268,49 +211,16 @@ impl<P: Propagator> Stepper for LinkStepper<'_, P> {
         energy: &mut StepEnergy,
     ) -> Result<(), StepFailure> {
         self.propagator.prepare(dt)?;
-        self.move_supports(loads);
-        to.follow(from);
-        energy.links.resize(self.system.links.links.len(), Energy::default());
-        let Workspace { load0, load1, support0, support1, support_rate, pseudo0, pseudo1, d, v, .. } =
-            &mut self.work;
-        let space = self.propagator.space();
-        space.force_into(&loads.start, load0);
-        space.force_into(&loads.end, load1);
-        self.kernel.pseudo(&from.f, &from.d, support0, pseudo0);
-        pseudo1.copy_from_slice(pseudo0);
-        let before = Forces { load0, load1, pseudo0, pseudo1 };
-        self.propagator.predict(&from.motion, &before, &mut to.motion, d, v);
-        let Compliance { g, h, key } = self.propagator.compliance();
-        self.kernel
-            .solve(
-                &Affine { d, v, support_d: support1, support_v: support_rate, g, h, key: *key },
-                &Committed { d: &from.d, v: &from.v, history: &from.history, dt },
-                &from.scale,
-                &mut Converged {
-                    d: &mut to.d,
-                    v: &mut to.v,
-                    f: &mut to.f,
-                    history: &mut to.history,
-                    energy: &mut energy.links,
-                    pseudo: pseudo1,
-                },
-            )
-            .map_err(|e| StepFailure::NoEquilibrium { worst: e.worst, residual: e.residual })?;
-        let forces = Forces { load0, load1, pseudo0, pseudo1 };
-        self.propagator.correct(&forces, &mut to.motion);
-        let unrated = self.kernel.unrated();
-        if !unrated.is_empty() {
-            let space = self.propagator.space();
-            let n = space.order();
-            space.links.deform(&to.motion[n..2 * n], v);
-            for a in unrated {
-                let flat = self.system.links.active[*a];
-                to.v[flat] = support_rate[flat] + v[*a];
-            }
-        }
-        to.settle(&self.system.links, &energy.links);
-        energy.work = self.propagator.work(&from.motion, &to.motion, &forces);
-        self.book(from, to, energy);
+        let side = &mut self.side;
+        side.begin(self.propagator.space(), from, to, loads, energy);
+        let (forces, d, v) = side.prediction();
+        self.propagator.predict(&from.motion, &forces, &mut to.motion, d, v);
+        side.solve(self.propagator.compliance(), from, to, dt, energy)?;
+        self.propagator.correct(&side.forces(), &mut to.motion);
+        side.settle(self.propagator.space(), to, energy);
+        energy.work = self.propagator.work(&from.motion, &to.motion, &side.forces());
+        let of_motion = self.propagator.energy(&to.motion);
+        side.book(&self.propagator.space().dummy_k, from, to, of_motion, energy);
         Ok(())
     }
 
@@ -322,26 +232,9 @@ impl<P: Propagator> Stepper for LinkStepper<'_, P> {
         amplitudes: &[f64],
     ) -> Result<State, SolveError> {
         let space = self.propagator.space();
-        let (q, p) = (space.coordinates(self.system, u), space.coordinates(self.system, v));
-        let links = &self.system.links;
-        let (mut d, mut rate) = (vec![0.0; links.len()], vec![0.0; links.len()]);
-        self.loads.support_deformation(amplitudes, &mut d, &mut rate);
-        let support_d = d.clone();
-        let mut own = vec![0.0; links.active.len()];
-        for (motion, flat) in [(&q, &mut d), (&p, &mut rate)] {
-            space.links.deform(motion, &mut own);
-            for (a, i) in links.active.iter().enumerate() {
-                flat[*i] += own[a];
-            }
-        }
-        let mut state = State::of_links(self.model, links, d, rate, &history);
-        let mut force = space.force(amplitudes);
-        space.damp(-1.0, &p, &mut force);
-        space.stiffness.mul_add(-1.0, &q, &mut force);
-        self.kernel.pseudo(&state.f, &state.d, &support_d, &mut own);
-        space.links.spread(-1.0, &own, &mut force);
+        let (mut state, force) = self.side.start(space, u, v, history, amplitudes);
         let a = self.propagator.acceleration(&force)?;
-        state.motion = [q, p, a].concat();
+        state.motion.extend(a);
         Ok(state)
     }
 
@@ -357,11 +250,11 @@ impl<P: Propagator> Stepper for LinkStepper<'_, P> {
 
     fn distance(&mut self, a: &State, b: &State) -> f64 {
         let of_structure = |x: &[f64]| self.propagator.energy(x);
-        energy_distance(of_structure, a, b, &mut self.work.difference)
+        energy_distance(of_structure, a, b, &mut self.difference)
     }
 
     fn rounding(&self, state: &State) -> f64 {
-        energy_rounding(self.propagator.space(), &self.system.links.active, state)
+        energy_rounding(self.propagator.space(), &self.side.links().active, state)
     }
 
     fn space(&self) -> &Space {
@@ -369,18 +262,18 @@ impl<P: Propagator> Stepper for LinkStepper<'_, P> {
     }
 
     fn work(&self) -> (usize, usize) {
-        (self.kernel.iterations(), self.propagator.factorizations())
+        (self.side.kernel.iterations(), self.propagator.factorizations())
     }
 
     fn memory(&self) -> Vec<Remembered> {
-        self.kernel.memory()
+        self.side.kernel.memory()
     }
 
     fn recall(&mut self, memory: Vec<Remembered>) -> Result<(), SolveError> {
         for one in memory {
             self.propagator.prepare(one.dt)?;
             let compliance = self.propagator.compliance();
-            self.kernel.recall(one, &compliance.g, &compliance.h);
+            self.side.kernel.recall(one, &compliance.g, &compliance.h);
         }
         Ok(())
     }
@@ -388,29 +281,5 @@ impl<P: Propagator> Stepper for LinkStepper<'_, P> {
     fn beyond_exact(&mut self, dt: f64) -> Result<Option<f64>, SolveError> {
         self.propagator.prepare(dt)?;
         Ok(self.propagator.stiffness_ratio())
-    }
-}
-
-impl<P: Propagator> LinkStepper<'_, P> {
-    /// Enters a step, taking the dummies out of the books: what they store belongs to the links.
-    fn book(&self, from: &State, to: &State, energy: &mut StepEnergy) {
-        let space = self.propagator.space();
-        let Workspace { support0, support1, moving, .. } = &self.work;
-        (energy.kinetic, energy.strain) = self.propagator.energy(&to.motion);
-        energy.link_work = energy.work.links;
-        for (a, flat) in self.system.links.active.iter().enumerate() {
-            let k = space.dummy_k[a];
-            if k != 0.0 {
-                let (d0, d1) = (from.d[*flat] - support0[*flat], to.d[*flat] - support1[*flat]);
-                energy.strain -= 0.5 * k * d1 * d1;
-                energy.link_work += 0.5 * k * (d1 * d1 - d0 * d0);
-            }
-        }
-        energy.support = 0.0;
-        if *moving {
-            for i in 0..from.d.len() {
-                energy.support += 0.5 * (from.f[i] + to.f[i]) * (support1[i] - support0[i]);
-            }
-        }
     }
 }

@@ -1,0 +1,250 @@
+//! The link side of a step: loads and pseudo-forces, the link equations, the books.
+
+use crate::kernel::{Affine, Committed, Converged, LinkKernel, NoEquilibrium};
+use crate::propagator::{Compliance, Forces};
+use crate::space::Space;
+use crate::stepper::{State, StepEnergy, StepFailure};
+use trilith_element::Energy;
+use trilith_linalg::Dense;
+use trilith_model::Model;
+use trilith_system::{Channel, LinkSet, LoadSet, StepLoads, System};
+
+/// What one motion needs beside the propagator, kept so that a step allocates nothing.
+pub(crate) struct LinkSide<'a> {
+    model: &'a Model,
+    system: &'a System,
+    loads: &'a LoadSet,
+    pub kernel: LinkKernel<'a>,
+    load0: Vec<f64>,
+    load1: Vec<f64>,
+    /// Deformation that moving supports give the links at the start and the end, and its rate at the end.
+    support0: Vec<f64>,
+    support1: Vec<f64>,
+    support_rate: Vec<f64>,
+    pseudo0: Vec<f64>,
+    pseudo1: Vec<f64>,
+    /// d and v of the active coordinates as predicted.
+    d: Vec<f64>,
+    v: Vec<f64>,
+    /// True where supports move links.
+    moving: bool,
+}
+
+impl<'a> LinkSide<'a> {
+    /// `order`: number of coordinates of the solver.
+    pub(crate) fn new(
+        model: &'a Model,
+        system: &'a System,
+        loads: &'a LoadSet,
+        kernel: LinkKernel<'a>,
+        order: usize,
+    ) -> Self {
+        let (flat, active) = (system.links.len(), system.links.active.len());
+        let moves = |c: &Channel| !c.deformation.is_empty() || !c.rate.is_empty();
+        Self {
+            model,
+            system,
+            loads,
+            kernel,
+            load0: vec![0.0; order],
+            load1: vec![0.0; order],
+            support0: vec![0.0; flat],
+            support1: vec![0.0; flat],
+            support_rate: vec![0.0; flat],
+            pseudo0: vec![0.0; active],
+            pseudo1: vec![0.0; active],
+            d: vec![0.0; active],
+            v: vec![0.0; active],
+            moving: loads.channels.iter().any(moves),
+        }
+    }
+
+    pub(crate) fn links(&self) -> &'a LinkSet {
+        &self.system.links
+    }
+
+    /// Loads and pseudo-forces of a step; those at its end start as they are at its start.
+    pub(crate) fn begin(
+        &mut self,
+        space: &Space,
+        from: &State,
+        to: &mut State,
+        loads: &StepLoads,
+        energy: &mut StepEnergy,
+    ) {
+        if self.moving {
+            for x in [&mut self.support0, &mut self.support1, &mut self.support_rate] {
+                x.fill(0.0);
+            }
+            self.loads.support_deformation(&loads.start, &mut self.support0, &mut self.support_rate);
+            self.support_rate.fill(0.0);
+            self.loads.support_deformation(&loads.end, &mut self.support1, &mut self.support_rate);
+        }
+        to.follow(from);
+        energy.links.resize(self.system.links.links.len(), Energy::default());
+        space.force_into(&loads.start, &mut self.load0);
+        space.force_into(&loads.end, &mut self.load1);
+        self.kernel.pseudo(&from.f, &from.d, &self.support0, &mut self.pseudo0);
+        self.pseudo1.copy_from_slice(&self.pseudo0);
+    }
+
+    /// Loads and pseudo-forces at both ends.
+    pub(crate) fn forces(&self) -> Forces<'_> {
+        Forces {
+            load0: &self.load0,
+            load1: &self.load1,
+            pseudo0: &self.pseudo0,
+            pseudo1: &self.pseudo1,
+        }
+    }
+
+    /// The same, and where the predicted d and v of the active coordinates go.
+    pub(crate) fn prediction(&mut self) -> (Forces<'_>, &mut [f64], &mut [f64]) {
+        let Self { load0, load1, pseudo0, pseudo1, d, v, .. } = self;
+        (Forces { load0, load1, pseudo0, pseudo1 }, d, v)
+    }
+
+    /// Solves the link equations.
+    pub(crate) fn solve(
+        &mut self,
+        compliance: &Compliance,
+        from: &State,
+        to: &mut State,
+        dt: f64,
+        energy: &mut StepEnergy,
+    ) -> Result<(), StepFailure> {
+        self.take_up(compliance);
+        while !self.iterate(compliance, from, to, dt, energy)? {
+            self.follow(&compliance.g);
+        }
+        Ok(())
+    }
+
+    /// Takes up the link equations at the predicted d and v.
+    pub(crate) fn take_up(&mut self, compliance: &Compliance) {
+        self.kernel.begin(&affine(compliance, &self.d, &self.v, &self.support1, &self.support_rate));
+    }
+
+    /// One iteration of the link equations; false where deformations must follow.
+    pub(crate) fn iterate(
+        &mut self,
+        compliance: &Compliance,
+        from: &State,
+        to: &mut State,
+        dt: f64,
+        energy: &mut StepEnergy,
+    ) -> Result<bool, StepFailure> {
+        let Self { kernel, d, v, support1, support_rate, pseudo1, .. } = self;
+        let affine = affine(compliance, d, v, support1, support_rate);
+        let settled = kernel
+            .advance(
+                &affine,
+                &Committed { d: &from.d, v: &from.v, history: &from.history, dt },
+                &from.scale,
+                &mut Converged {
+                    d: &mut to.d,
+                    v: &mut to.v,
+                    f: &mut to.f,
+                    history: &mut to.history,
+                    energy: &mut energy.links,
+                    pseudo: pseudo1,
+                },
+            )
+            .map_err(|NoEquilibrium { worst, residual }| StepFailure::NoEquilibrium {
+                worst,
+                residual,
+            })?;
+        if !settled {
+            kernel.change_rates(&affine);
+        }
+        Ok(settled)
+    }
+
+    /// Lets the deformations follow the last change of the pseudo-forces.
+    fn follow(&mut self, g: &Dense) {
+        let (change, d) = self.kernel.change();
+        g.mul_add(-1.0, change, d);
+    }
+
+    /// Takes note of a converged step whose motion is complete.
+    pub(crate) fn settle(&mut self, space: &Space, to: &mut State, energy: &StepEnergy) {
+        let unrated = self.kernel.unrated();
+        if !unrated.is_empty() {
+            let n = space.order();
+            space.links.deform(&to.motion[n..2 * n], &mut self.v);
+            for a in unrated {
+                let flat = self.system.links.active[*a];
+                to.v[flat] = self.support_rate[flat] + self.v[*a];
+            }
+        }
+        to.settle(&self.system.links, &energy.links);
+    }
+
+    /// Enters a step, taking the dummies out of the books: what they store belongs to the links.
+    pub(crate) fn book(
+        &self,
+        dummy_k: &[f64],
+        from: &State,
+        to: &State,
+        (kinetic, strain): (f64, f64),
+        energy: &mut StepEnergy,
+    ) {
+        let (support0, support1) = (&self.support0, &self.support1);
+        (energy.kinetic, energy.strain) = (kinetic, strain);
+        energy.link_work = energy.work.links;
+        for (flat, k) in self.system.links.active.iter().zip(dummy_k).filter(|(_, k)| **k != 0.0) {
+            let (d0, d1) = (from.d[*flat] - support0[*flat], to.d[*flat] - support1[*flat]);
+            energy.strain -= 0.5 * k * d1 * d1;
+            energy.link_work += 0.5 * k * (d1 * d1 - d0 * d0);
+        }
+        energy.support = 0.0;
+        if self.moving {
+            for i in 0..from.d.len() {
+                energy.support += 0.5 * (from.f[i] + to.f[i]) * (support1[i] - support0[i]);
+            }
+        }
+    }
+
+    /// A state at rest or in given motion of the free DOFs, accelerations still missing, and the force that
+    /// causes them.
+    pub(crate) fn start(
+        &self,
+        space: &Space,
+        u: &[f64],
+        v: &[f64],
+        history: Vec<f64>,
+        amplitudes: &[f64],
+    ) -> (State, Vec<f64>) {
+        let (q, p) = (space.coordinates(self.system, u), space.coordinates(self.system, v));
+        let links = &self.system.links;
+        let (mut d, mut rate) = (vec![0.0; links.len()], vec![0.0; links.len()]);
+        self.loads.support_deformation(amplitudes, &mut d, &mut rate);
+        let support_d = d.clone();
+        let mut own = vec![0.0; links.active.len()];
+        for (motion, flat) in [(&q, &mut d), (&p, &mut rate)] {
+            space.links.deform(motion, &mut own);
+            for (a, i) in links.active.iter().enumerate() {
+                flat[*i] += own[a];
+            }
+        }
+        let mut state = State::of_links(self.model, links, d, rate, &history);
+        let mut force = space.force(amplitudes);
+        space.damp(-1.0, &p, &mut force);
+        space.stiffness.mul_add(-1.0, &q, &mut force);
+        self.kernel.pseudo(&state.f, &state.d, &support_d, &mut own);
+        space.links.spread(-1.0, &own, &mut force);
+        state.motion = [q, p].concat();
+        (state, force)
+    }
+}
+
+fn affine<'a>(
+    compliance: &'a Compliance,
+    d: &'a [f64],
+    v: &'a [f64],
+    support_d: &'a [f64],
+    support_v: &'a [f64],
+) -> Affine<'a> {
+    let Compliance { g, h, key } = compliance;
+    Affine { d, v, support_d, support_v, g, h, key: *key }
+}
