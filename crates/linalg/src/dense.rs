@@ -93,6 +93,43 @@ impl Dense {
         gemv::add_dots(&self.values, s, x, y);
     }
 
+    /// `y += s · A x` for all pairs (x, y), reading A once for several of them. The same values as one
+    /// after the other.
+    ///
+    /// # Panics
+    /// Where the lengths do not suit.
+    pub fn mul_add_each(&self, s: f64, pairs: &mut [(&[f64], &mut [f64])]) {
+        for (x, y) in pairs.iter() {
+            assert!(x.len() == self.columns && y.len() == self.rows, "lengths of a product");
+        }
+        let mut parts = pairs.chunks_exact_mut(4);
+        for part in &mut parts {
+            let [a, b, c, d] = part else { continue };
+            gemv::add_columns_each(&self.values, s, [a.0, b.0, c.0, d.0], [a.1, b.1, c.1, d.1]);
+        }
+        for (x, y) in parts.into_remainder() {
+            gemv::add_columns(&self.values, s, x, y);
+        }
+    }
+
+    /// `y += s · Aᵀ x` for all pairs (x, y), likewise.
+    ///
+    /// # Panics
+    /// Where the lengths do not suit.
+    pub fn transpose_mul_add_each(&self, s: f64, pairs: &mut [(&[f64], &mut [f64])]) {
+        for (x, y) in pairs.iter() {
+            assert!(x.len() == self.rows && y.len() == self.columns, "lengths of a product");
+        }
+        let mut parts = pairs.chunks_exact_mut(4);
+        for part in &mut parts {
+            let [a, b, c, d] = part else { continue };
+            gemv::add_dots(&self.values, s, [a.0, b.0, c.0, d.0], [a.1, b.1, c.1, d.1]);
+        }
+        for (x, y) in parts.into_remainder() {
+            gemv::add_dots(&self.values, s, [x], [y]);
+        }
+    }
+
     /// `x` times column j.
     ///
     /// # Panics

@@ -18,6 +18,16 @@ pub(crate) fn add_dots<const R: usize>(a: &[f64], s: f64, x: [&[f64]; R], y: [&m
     Arch::new().dispatch(AddDots { a, s, x, y });
 }
 
+/// `y += s · A x` for several x at once, reading A once; the same values as one after the other.
+pub(crate) fn add_columns_each<const R: usize>(
+    a: &[f64],
+    s: f64,
+    x: [&[f64]; R],
+    y: [&mut [f64]; R],
+) {
+    Arch::new().dispatch(AddColumnsEach { a, s, x, y });
+}
+
 struct AddColumns<'a> {
     a: &'a [f64],
     s: f64,
@@ -82,6 +92,67 @@ impl WithSimd for AddColumns<'_> {
     }
 }
 
+struct AddColumnsEach<'a, const R: usize> {
+    a: &'a [f64],
+    s: f64,
+    x: [&'a [f64]; R],
+    y: [&'a mut [f64]; R],
+}
+
+impl<const R: usize> AddColumnsEach<'_, R> {
+    #[inline(always)]
+    fn group<S: Simd, const N: usize>(&mut self, simd: S, first: usize) {
+        let n = self.y[0].len();
+        let length = n / S::F64_LANES;
+        let mut heads: [&[S::f64s]; N] = [&[]; N];
+        let mut tails: [&[f64]; N] = [&[]; N];
+        for k in 0..N {
+            let (head, tail) = S::as_simd_f64s(&self.a[(first + k) * n..(first + k + 1) * n]);
+            (heads[k], tails[k]) = (&head[..length], tail);
+        }
+        for r in 0..R {
+            let mut t = [0.0; N];
+            let mut factors = [simd.splat_f64s(0.0); N];
+            for k in 0..N {
+                t[k] = self.s * self.x[r][first + k];
+                factors[k] = simd.splat_f64s(t[k]);
+            }
+            let (head, tail) = S::as_mut_simd_f64s(self.y[r]);
+            let head = &mut head[..length];
+            for i in 0..length {
+                let mut sum = head[i];
+                for k in 0..N {
+                    sum = simd.mul_add_e_f64s(factors[k], heads[k][i], sum);
+                }
+                head[i] = sum;
+            }
+            for i in 0..tail.len() {
+                for k in 0..N {
+                    tail[i] += t[k] * tails[k][i];
+                }
+            }
+        }
+    }
+}
+
+impl<const R: usize> WithSimd for AddColumnsEach<'_, R> {
+    type Output = ();
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(mut self, simd: S) {
+        let columns = self.x[0].len();
+        let mut j = 0;
+        while j + 2 * GROUP <= columns {
+            self.group::<S, { 2 * GROUP }>(simd, j);
+            j += 2 * GROUP;
+        }
+        while j < columns {
+            self.group::<S, 1>(simd, j);
+            j += 1;
+        }
+    }
+}
+
 struct AddDots<'a, const R: usize> {
     a: &'a [f64],
     s: f64,
@@ -138,9 +209,13 @@ impl<const R: usize> WithSimd for AddDots<'_, R> {
             self.group::<S, { 2 * GROUP }>(simd, j);
             j += 2 * GROUP;
         }
-        while j + GROUP <= columns {
+        while R <= 2 && j + GROUP <= columns {
             self.group::<S, GROUP>(simd, j);
             j += GROUP;
+        }
+        while j + 2 <= columns {
+            self.group::<S, 2>(simd, j);
+            j += 2;
         }
         while j < columns {
             self.group::<S, 1>(simd, j);
@@ -169,6 +244,10 @@ mod tests {
                 let (mut y, mut w) = (vec![0.5; rows], vec![0.25; columns]);
                 add_columns(&a, -2.0, &x, &mut y);
                 add_dots(&a, 3.0, [&z], [&mut w]);
+                let mut each = [vec![0.5; rows], vec![0.0; rows]];
+                let [first, second] = &mut each;
+                add_columns_each(&a, -2.0, [&x, &x], [first, second]);
+                assert_eq!(each[0], y, "{rows} × {columns}");
                 for i in 0..rows {
                     let sum: f64 = (0..columns).map(|j| a[j * rows + i] * x[j]).sum();
                     assert!((y[i] - (0.5 - 2.0 * sum)).abs() < 1e-13, "{rows} × {columns}");

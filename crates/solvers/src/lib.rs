@@ -32,6 +32,7 @@ mod start;
 mod statics;
 mod stepper;
 mod timeline;
+mod together;
 mod vector;
 mod view;
 

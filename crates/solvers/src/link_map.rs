@@ -56,6 +56,25 @@ impl LinkMap {
         }
     }
 
+    /// `d = B u` of many vectors (u, d).
+    pub(crate) fn deform_each(&self, pairs: &mut [(&[f64], &mut [f64])]) {
+        match self {
+            Self::Sparse(_) => pairs.iter_mut().for_each(|(u, d)| self.deform(u, d)),
+            Self::Full(columns) => {
+                pairs.iter_mut().for_each(|(_, d)| d.fill(0.0));
+                columns.transpose_mul_add_each(1.0, pairs);
+            }
+        }
+    }
+
+    /// `p += Bᵀ f` of many vectors (f, p).
+    pub(crate) fn spread_each(&self, pairs: &mut [(&[f64], &mut [f64])]) {
+        match self {
+            Self::Sparse(_) => pairs.iter_mut().for_each(|(f, p)| self.spread(1.0, f, p)),
+            Self::Full(columns) => columns.mul_add_each(1.0, pairs),
+        }
+    }
+
     /// `p += s · Bᵀ f`.
     pub(crate) fn spread(&self, s: f64, f: &[f64], p: &mut [f64]) {
         match self {

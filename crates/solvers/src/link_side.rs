@@ -166,16 +166,16 @@ impl<'a> LinkSide<'a> {
         g.mul_add(-1.0, change, d);
     }
 
+    /// Where the rates of the active coordinates go once the motion is complete, if the laws left some open.
+    pub(crate) fn open_rates(&mut self) -> Option<&mut [f64]> {
+        (!self.kernel.unrated().is_empty()).then_some(&mut self.v)
+    }
+
     /// Takes note of a converged step whose motion is complete.
-    pub(crate) fn settle(&mut self, space: &Space, to: &mut State, energy: &StepEnergy) {
-        let unrated = self.kernel.unrated();
-        if !unrated.is_empty() {
-            let n = space.order();
-            space.links.deform(&to.motion[n..2 * n], &mut self.v);
-            for a in unrated {
-                let flat = self.system.links.active[*a];
-                to.v[flat] = self.support_rate[flat] + self.v[*a];
-            }
+    pub(crate) fn settle(&mut self, to: &mut State, energy: &StepEnergy) {
+        for a in self.kernel.unrated() {
+            let flat = self.system.links.active[*a];
+            to.v[flat] = self.support_rate[flat] + self.v[*a];
         }
         to.settle(&self.system.links, &energy.links);
     }

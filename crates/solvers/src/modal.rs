@@ -172,6 +172,16 @@ impl Modes {
         &self.step().compliance
     }
 
+    /// Loads jump: accelerations follow.
+    pub(crate) fn jump(&self, motion: &mut Motion, change: &[f64]) {
+        let m = self.space.order();
+        let force = self.space.force(change);
+        let modes = self.structure.modes;
+        for (x, y) in motion[2 * m..2 * m + modes].iter_mut().zip(force) {
+            *x += y;
+        }
+    }
+
     /// Takes the load at the start, with the pseudo-forces spread last.
     pub(crate) fn at_start(now: &mut Sources, load: &[f64]) {
         less(load, &now.spread, &mut now.source0);

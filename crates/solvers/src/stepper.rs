@@ -217,7 +217,12 @@ impl<P: Propagator> Stepper for LinkStepper<'_, P> {
         self.propagator.predict(&from.motion, &forces, &mut to.motion, d, v);
         side.solve(self.propagator.compliance(), from, to, dt, energy)?;
         self.propagator.correct(&side.forces(), &mut to.motion);
-        side.settle(self.propagator.space(), to, energy);
+        if let Some(rates) = side.open_rates() {
+            let space = self.propagator.space();
+            let n = space.order();
+            space.links.deform(&to.motion[n..2 * n], rates);
+        }
+        side.settle(to, energy);
         energy.work = self.propagator.work(&from.motion, &to.motion, &side.forces());
         let of_motion = self.propagator.energy(&to.motion);
         side.book(&self.propagator.space().dummy_k, from, to, of_motion, energy);

@@ -1,0 +1,179 @@
+//! One motion among several.
+
+use crate::ledger::Ledger;
+use crate::link_side::LinkSide;
+use crate::modal::{Modes, Sources};
+use crate::space::Space;
+use crate::start::potential;
+use crate::stepper::{State, StepEnergy};
+use crate::timeline::Timeline;
+use crate::view::Viewer;
+use trilith_model::Side;
+use trilith_system::{LoadSet, StepLoads};
+
+/// One motion, its link side, its books and who watches it.
+pub(crate) struct Course<'a, 'b> {
+    pub side: LinkSide<'a>,
+    pub loads: &'a LoadSet,
+    pub timeline: Timeline,
+    pub state: State,
+    pub ledger: Ledger,
+    pub viewer: Viewer<'a, 'b>,
+    /// Forces of constant loads in the coordinates of the modes.
+    pub constant: Vec<f64>,
+    /// Output steps made.
+    pub made: usize,
+    /// Steps made.
+    pub substeps: usize,
+    /// True for a course that ends before its time, in lock step.
+    pub left: bool,
+    /// Index of the element of a body that has fallen over; the course ends there.
+    pub fallen: Option<usize>,
+    sources: Sources,
+    next: State,
+    energy: StepEnergy,
+    step_loads: StepLoads,
+    settled: bool,
+}
+
+impl<'a, 'b> Course<'a, 'b> {
+    pub(crate) fn new(
+        space: &Space,
+        side: LinkSide<'a>,
+        loads: &'a LoadSet,
+        timeline: Timeline,
+        (state, ledger): (State, Ledger),
+        viewer: Viewer<'a, 'b>,
+    ) -> Self {
+        Self {
+            constant: crate::start::constant_force(space, loads),
+            sources: Sources::new(space),
+            side,
+            loads,
+            timeline,
+            state,
+            ledger,
+            viewer,
+            made: 0,
+            substeps: 0,
+            left: false,
+            fallen: None,
+            next: State::default(),
+            energy: StepEnergy::default(),
+            step_loads: StepLoads::default(),
+            settled: false,
+        }
+    }
+
+    /// True while it goes on with the others.
+    pub(crate) fn is_on_the_way(&self) -> bool {
+        !self.left && self.fallen.is_none() && self.made < self.timeline.steps
+    }
+
+    pub(super) fn is_settled(&self) -> bool {
+        self.settled
+    }
+
+    /// An output step starts: a load may jump there. A step that holds a jump inside leaves the others.
+    pub(crate) fn set_out(&mut self, modes: &Modes) {
+        let mut pieces = self.timeline.pieces(self.made);
+        let start = pieces.next().map_or(0.0, |(t, _)| t);
+        if pieces.next().is_some() {
+            self.left = true;
+            return;
+        }
+        if start > 0.0 && self.timeline.is_break(start) {
+            let channels = self.loads.channels.iter();
+            let change: Vec<f64> = channels
+                .map(|c| c.track.at(start, Side::After) - c.track.at(start, Side::Before))
+                .collect();
+            modes.jump(&mut self.state.motion, &change);
+        }
+    }
+
+    /// The end of an output step.
+    pub(crate) fn arrive(&mut self, space: &Space) {
+        self.made += 1;
+        let t = self.timeline.time(self.made);
+        self.viewer.show(t, Some(self.made), &self.state, space, &self.ledger);
+        self.fallen = self.viewer.overturned(&self.state);
+    }
+
+    /// Start and end of a part of the output step.
+    fn part(&self, part: usize, dt: f64) -> (f64, f64) {
+        let start = self.timeline.time(self.made) + dt * part as f64;
+        (start, start + dt)
+    }
+
+    pub(super) fn begin(&mut self, space: &Space, part: usize, dt: f64) {
+        let (t0, t1) = self.part(part, dt);
+        self.loads.step(t0, t1, &mut self.step_loads);
+        self.side.begin(space, &self.state, &mut self.next, &self.step_loads, &mut self.energy);
+        self.settled = false;
+    }
+
+    /// Pseudo-forces to be spread, and where.
+    pub(super) fn spread_start(&mut self) -> Option<(&[f64], &mut [f64])> {
+        let pseudo = self.side.forces().pseudo0;
+        self.sources.renew_spread(pseudo).map(|to| (pseudo, to))
+    }
+
+    /// The same at the end of the step.
+    pub(super) fn spread_end(&mut self) -> Option<(&[f64], &mut [f64])> {
+        let pseudo = self.side.forces().pseudo1;
+        self.sources.renew_spread(pseudo).map(|to| (pseudo, to))
+    }
+
+    pub(super) fn predict(&mut self, modes: &Modes) {
+        let forces = self.side.forces();
+        Modes::at_start(&mut self.sources, forces.load0);
+        let to = &mut self.next.motion;
+        modes.predict(&mut self.sources, &self.state.motion, forces.load1, to);
+    }
+
+    /// Displacements and velocities as predicted, and where the links' go.
+    pub(super) fn predicted(&mut self, modes: &Modes) -> [(&[f64], &mut [f64]); 2] {
+        let m = modes.space.order();
+        let (_, d, v) = self.side.prediction();
+        [(&self.next.motion[..m], d), (&self.next.motion[m..2 * m], v)]
+    }
+
+    pub(super) fn take_up(&mut self, modes: &Modes) {
+        self.side.take_up(modes.compliance());
+    }
+
+    pub(super) fn iterate(&mut self, modes: &Modes, dt: f64) {
+        let (from, to) = (&self.state, &mut self.next);
+        match self.side.iterate(modes.compliance(), from, to, dt, &mut self.energy) {
+            Ok(settled) => self.settled = settled,
+            Err(_) => (self.left, self.settled) = (true, true),
+        }
+    }
+
+    pub(super) fn change(&mut self) -> (&[f64], &mut [f64]) {
+        self.side.kernel.change()
+    }
+
+    pub(super) fn correct(&mut self, modes: &Modes) {
+        modes.correct(&mut self.sources, self.side.forces().load1, &mut self.next.motion);
+    }
+
+    /// Velocities, and where those of the links go, if the laws left some open.
+    pub(super) fn rates(&mut self, modes: &Modes) -> Option<(&[f64], &mut [f64])> {
+        let m = modes.space.order();
+        let rates = self.side.open_rates()?;
+        Some((&self.next.motion[m..2 * m], rates))
+    }
+
+    /// Closes the books of a step and makes its end the start of the next.
+    pub(super) fn accept(&mut self, modes: &Modes) {
+        let Self { side, state, next, energy, sources, .. } = self;
+        side.settle(next, energy);
+        energy.work = modes.work(sources, &state.motion, &next.motion, &side.forces());
+        let of_motion = modes.energy(&next.motion);
+        side.book(&modes.space.dummy_k, state, next, of_motion, energy);
+        self.ledger.enter(&self.energy, potential(&self.constant, &self.next));
+        std::mem::swap(&mut self.state, &mut self.next);
+        self.substeps += 1;
+    }
+}
