@@ -1,8 +1,9 @@
 //! Products with symmetric matrices that are used in every step.
 //!
-//! Half of the off-diagonal entries are stored, row by row, with short indices; zeros are left out. A
-//! quadratic form `xᵀ A x = Σ xᵢ (aᵢᵢ xᵢ + 2 Σ_{j<i} aᵢⱼ xⱼ)` then takes one pass that writes nothing, and
-//! four of them cost hardly more than one.
+//! Rows with short indices; zeros are left out. Both triangles are stored, although one would do for a
+//! quadratic form: `xᵀ A x = Σ xᵢ (A x)ᵢ` loses no digits where A x is small beside its terms, as for a
+//! stiff structure that moves as a whole, only if all terms of a row come together. One pass gives several
+//! forms.
 
 use crate::Sparse;
 
@@ -10,11 +11,9 @@ use crate::Sparse;
 #[derive(Clone, Debug, Default)]
 pub struct SymmetricOperator {
     order: usize,
-    /// The diagonal; without values where most of it is zero.
+    /// The diagonal of a matrix that is nothing else.
     diagonal: Vec<f64>,
-    /// Entries of the diagonal where it is not stored as a whole.
-    few: Vec<(u32, f64)>,
-    /// Rows that have entries left of the diagonal.
+    /// Rows that are not empty.
     rows: Vec<u32>,
     offsets: Vec<u32>,
     columns: Vec<u32>,
@@ -32,18 +31,16 @@ impl SymmetricOperator {
     #[must_use]
     pub fn difference(a: &Sparse, parts: &[(f64, &Sparse)]) -> Self {
         let n = a.columns();
-        let mut diagonal = vec![0.0; n];
         let mut operator = Self { order: n, offsets: vec![0], ..Self::default() };
-        // Value and size of its terms, of the upper part of a column, which is the lower part of a row.
+        // Value, and size of its terms, of a column, which is a row.
         let mut line = vec![(0.0, 0.0); n];
         let mut places: Vec<usize> = Vec::new();
         for j in 0..n {
             places.clear();
-            for (factor, part) in
-                std::iter::once((1.0, a)).chain(parts.iter().map(|(f, p)| (-f, *p)))
-            {
+            let all = std::iter::once((1.0, a)).chain(parts.iter().map(|(f, p)| (-f, *p)));
+            for (factor, part) in all {
                 let (rows, values) = part.column(j);
-                for (i, v) in rows.iter().zip(values).filter(|(i, v)| **i <= j && **v != 0.0) {
+                for (i, v) in rows.iter().zip(values).filter(|(_, v)| factor * **v != 0.0) {
                     if line[*i].1 == 0.0 {
                         places.push(*i);
                     }
@@ -52,31 +49,30 @@ impl SymmetricOperator {
                 }
             }
             places.sort_unstable();
-            let before = operator.columns.len();
             for i in &places {
                 let (value, size) = std::mem::take(&mut line[*i]);
-                if value.abs() <= ROUNDING * size {
-                    continue;
-                }
-                if *i == j {
-                    diagonal[j] = value;
-                } else {
+                if value.abs() > ROUNDING * size {
                     operator.columns.push(*i as u32);
                     operator.values.push(value);
                 }
             }
-            if operator.columns.len() > before {
+            let end = operator.columns.len() as u32;
+            if operator.offsets.last() != Some(&end) {
                 operator.rows.push(j as u32);
-                operator.offsets.push(operator.columns.len() as u32);
+                operator.offsets.push(end);
             }
         }
-        let stored = diagonal.iter().filter(|d| **d != 0.0).count();
-        if 4 * stored > n {
-            operator.diagonal = diagonal;
-        } else {
-            let entries = diagonal.iter().enumerate().filter(|(_, d)| **d != 0.0);
-            operator.few = entries.map(|(i, d)| (i as u32, *d)).collect();
+        if 4 * operator.rows.len() > n && operator.rows == operator.columns {
+            let mut diagonal = vec![0.0; n];
+            operator
+                .rows
+                .iter()
+                .zip(&operator.values)
+                .for_each(|(i, v)| diagonal[*i as usize] = *v);
+            return Self { order: n, diagonal, ..Self::default() };
         }
+        operator.columns.shrink_to_fit();
+        operator.values.shrink_to_fit();
         operator
     }
 
@@ -89,10 +85,10 @@ impl SymmetricOperator {
     /// Number of stored values.
     #[must_use]
     pub fn stored(&self) -> usize {
-        self.diagonal.len() + self.few.len() + self.values.len()
+        self.diagonal.len() + self.values.len()
     }
 
-    /// Rows with what is left of their diagonal: row, columns, values.
+    /// Rows that are not empty: row, columns, values.
     #[inline(always)]
     fn lines(&self) -> impl Iterator<Item = (usize, &[u32], &[f64])> {
         self.rows.iter().zip(self.offsets.windows(2)).map(|(row, range)| {
@@ -106,49 +102,36 @@ impl SymmetricOperator {
         for ((y, d), x) in y.iter_mut().zip(&self.diagonal).zip(x) {
             *y += s * d * x;
         }
-        for (i, d) in &self.few {
-            y[*i as usize] += s * d * x[*i as usize];
-        }
         for (i, columns, values) in self.lines() {
-            let (mut sum, t) = (0.0, s * x[i]);
-            for (j, v) in columns.iter().zip(values) {
-                let j = *j as usize;
-                sum += v * x[j];
-                y[j] += v * t;
-            }
+            let sum: f64 = columns.iter().zip(values).map(|(j, v)| v * x[*j as usize]).sum();
             y[i] += s * sum;
         }
     }
 
-    /// The quadratic forms `xᵀ A x` of vectors that are stored side by side.
+    /// The quadratic forms `xᵀ A x` of several vectors; `x` gives their values in a row.
     #[must_use]
-    pub fn forms<const N: usize>(&self, x: &[[f64; N]]) -> [f64; N] {
+    pub fn forms<const N: usize>(&self, x: impl Fn(usize) -> [f64; N]) -> [f64; N] {
         pulp::Arch::new().dispatch(
             #[inline(always)]
             || {
                 let mut total = [0.0; N];
-                for (d, x) in self.diagonal.iter().zip(x) {
+                let mut add = |x: [f64; N], y: [f64; N]| {
                     for k in 0..N {
-                        total[k] += d * x[k] * x[k];
+                        total[k] += x[k] * y[k];
                     }
-                }
-                for (i, d) in &self.few {
-                    let x = &x[*i as usize];
-                    for k in 0..N {
-                        total[k] += d * x[k] * x[k];
-                    }
+                };
+                for (i, d) in self.diagonal.iter().enumerate() {
+                    add(x(i), x(i).map(|x| d * x));
                 }
                 for (i, columns, values) in self.lines() {
                     let mut sum = [0.0; N];
                     for (j, v) in columns.iter().zip(values) {
-                        let x = &x[*j as usize];
+                        let x = x(*j as usize);
                         for k in 0..N {
                             sum[k] += v * x[k];
                         }
                     }
-                    for k in 0..N {
-                        total[k] += 2.0 * x[i][k] * sum[k];
-                    }
+                    add(x(i), sum);
                 }
                 total
             },
@@ -180,14 +163,13 @@ mod tests {
     fn products_are_those_of_the_matrix() {
         let a = matrix();
         let operator = SymmetricOperator::new(&a);
-        assert_eq!(operator.stored(), 5 + 3);
+        assert_eq!(operator.stored(), 4 + 2 * 3);
         let (x, z) = ([1.0, -2.0, 3.0, 0.25, 7.0], [0.5, 1.5, -1.0, 2.0, -4.0]);
         let (mut y, mut expected) = (vec![1.0; 5], vec![1.0; 5]);
         operator.mul_add(-2.0, &x, &mut y);
         a.mul_add(-2.0, &x, &mut expected);
-        assert_eq!(y, expected);
-        let pairs: Vec<[f64; 2]> = x.iter().zip(&z).map(|(a, b)| [*a, *b]).collect();
-        let forms = operator.forms(&pairs);
+        y.iter().zip(&expected).for_each(|(a, b)| assert!((a - b).abs() < 1e-13));
+        let forms = operator.forms(|i| [x[i], z[i]]);
         assert!((forms[0] - a.bilinear(&x, &x)).abs() < 1e-12);
         assert!((forms[1] - a.bilinear(&z, &z)).abs() < 1e-12);
     }
@@ -201,10 +183,23 @@ mod tests {
         let rest = rest.build();
         let sum = Sparse::combine(&[(0.3, &a), (1.0, &rest)]);
         let operator = SymmetricOperator::difference(&sum, &[(0.3, &a)]);
-        assert_eq!(operator.stored(), 2);
+        assert_eq!(operator.stored(), 3);
         let x = [1.0, -2.0, 3.0, 0.25, 7.0];
         let mut y = vec![0.0; 5];
         operator.mul_add(1.0, &x, &mut y);
-        assert_eq!(y, rest.mul(&x));
+        y.iter().zip(rest.mul(&x)).for_each(|(a, b)| assert!((a - b).abs() < 1e-14));
+    }
+
+    #[test]
+    fn a_diagonal_matrix_is_multiplied_as_such() {
+        let mut t = Triplets::new(3, 3);
+        t.add(0, 0, 2.0);
+        t.add(2, 2, 3.0);
+        let mass = SymmetricOperator::new(&t.build());
+        assert_eq!(mass.stored(), 3);
+        assert_eq!(mass.forms(|i| [1.0 + i as f64, 1.0]), [29.0, 5.0]);
+        let mut y = vec![1.0; 3];
+        mass.mul_add(0.5, &[1.0, 1.0, 2.0], &mut y);
+        assert_eq!(y, [2.0, 1.0, 4.0]);
     }
 }
