@@ -139,3 +139,42 @@ fn postorder(parent: &[usize], split: usize) -> Vec<usize> {
     }
     found
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A comb: teeth hang on a spine, each a chain.
+    #[test]
+    fn chosen_equations_come_last_and_subtrees_are_together() {
+        let (teeth, length) = (20, 6);
+        let n = teeth * length;
+        let mut pattern = Pattern { offsets: vec![0], rows: Vec::new() };
+        for j in 0..n {
+            pattern.rows.push(j);
+            // Along the tooth, and along the spine of the first of each.
+            pattern.rows.extend((!(j + 1).is_multiple_of(length)).then_some(j + 1));
+            let next = j + length;
+            pattern.rows.extend((j.is_multiple_of(length) && next < n).then_some(next));
+            pattern.offsets.push(pattern.rows.len());
+        }
+        let spine: Vec<usize> = (0..teeth).map(|t| t * length).collect();
+        let order = order(&pattern, &spine).unwrap();
+        assert!(order[n - teeth..].iter().all(|i| i.is_multiple_of(length)));
+        let mut sorted = order.clone();
+        sorted.sort_unstable();
+        assert_eq!(sorted, (0..n).collect::<Vec<_>>());
+        // A postorder: every subtree is a run of places that ends at its root.
+        let parent = elimination_tree(&pattern.neighbours(), &order);
+        let mut first: Vec<usize> = (0..n).collect();
+        for p in 0..n - teeth {
+            if parent[p] < n - teeth {
+                first[parent[p]] = first[parent[p]].min(first[p]);
+            }
+        }
+        for p in 0..n - teeth {
+            let inside = (first[p]..p).all(|q| parent[q] <= p);
+            assert!(inside, "{p}");
+        }
+    }
+}
