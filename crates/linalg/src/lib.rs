@@ -17,15 +17,17 @@ mod gemv;
 mod ldlt;
 mod lu;
 mod matrix_market;
+mod operator;
 mod sparse;
 mod vector;
 
 pub use dense::{Dense, DenseLu};
 pub use eigen::{all_modes, lowest_modes, symmetric_eigen};
 pub use expm::expm;
-pub use ldlt::{Ldlt, unsupported};
+pub use ldlt::{Ldlt, StagedLdlt, StagedPlan, unsupported};
 pub use lu::SparseLu;
 pub use matrix_market::matrix_market;
+pub use operator::SymmetricOperator;
 pub use sparse::{Sparse, Triplets};
 pub use vector::{dot, largest};
 

@@ -3,11 +3,11 @@
 //! [`hht`](crate::hht), same energies, other way to the solution.
 
 use crate::error::SolveError;
-use crate::hht::{average_work, newmark};
+use crate::hht::newmark;
 use crate::kernel::Remembered;
-use crate::propagator::{Forces, kinetic_and_strain};
+use crate::propagator::{Forces, Motion, StepWork, kinetic_and_strain};
 use crate::space::Space;
-use crate::stepper::{energy_distance, energy_rounding, State, StepEnergy, StepFailure, Stepper};
+use crate::stepper::{State, StepEnergy, StepFailure, Stepper, energy_distance, energy_rounding};
 use crate::vector::largest;
 use trilith_element::{Energy, Kinematics};
 use trilith_linalg::{Ldlt, SparseLu, Triplets};
@@ -233,7 +233,7 @@ impl FullNewton<'_> {
             Forces { load0: force.0, load1: force.1, pseudo0: &pseudo0, pseudo1: &pseudo1 };
         energy.work = average_work(&self.space, dt, &from.motion, &to.motion, &forces);
         energy.link_work = energy.work.links;
-        (energy.kinetic, energy.strain) = kinetic_and_strain(&self.space, &to.motion);
+        (energy.kinetic, energy.strain) = (energy.work.kinetic, energy.work.strain);
         let n = self.system.links.len();
         let mut moved = [vec![0.0; n], vec![0.0; n]];
         for (d, amplitudes) in moved.iter_mut().zip([&loads.start, &loads.end]) {
@@ -254,6 +254,38 @@ pub(crate) fn mass_acceleration(
             *p = 0.0;
         }
     }
+    if space.mass.entries().all(|(i, j, m)| i == j || m == 0.0) {
+        for (p, m) in force.iter_mut().zip(space.mass.diagonal()).filter(|(_, m)| *m > 0.0) {
+            *p /= m;
+        }
+        return Ok(force);
+    }
     Ldlt::with_rigid_zeros(&space.mass)?.solve(&mut force);
     Ok(force)
+}
+
+/// Work by the trapezoidal rule, with which average acceleration balances exactly; what another α
+/// leaves is the work of the time rule.
+fn average_work(
+    space: &Space,
+    dt: f64,
+    from: &Motion,
+    to: &Motion,
+    forces: &Forces<'_>,
+) -> StepWork {
+    let n = space.order();
+    let moved: Vec<f64> = (0..n).map(|i| to[i] - from[i]).collect();
+    let external: f64 = (0..n).map(|i| 0.5 * (forces.load0[i] + forces.load1[i]) * moved[i]).sum();
+    let mut d = vec![0.0; space.links.len()];
+    space.links.deform(&moved, &mut d);
+    let links: f64 =
+        (0..d.len()).map(|i| 0.5 * (forces.pseudo0[i] + forces.pseudo1[i]) * d[i]).sum();
+    let v: Vec<f64> = (n..2 * n).map(|i| 0.5 * (from[i] + to[i])).collect();
+    let mut cv = vec![0.0; n];
+    space.damp(dt, &v, &mut cv);
+    let damping: f64 = v.iter().zip(&cv).map(|(a, b)| a * b).sum();
+    let (k0, e0) = kinetic_and_strain(space, from);
+    let (k1, e1) = kinetic_and_strain(space, to);
+    let algorithmic = external - links - damping - (k1 - k0) - (e1 - e0);
+    StepWork { external, links, damping, algorithmic, kinetic: k1, strain: e1 }
 }

@@ -26,6 +26,7 @@ mod modal;
 mod observe;
 mod outputs;
 mod p_delta;
+mod products;
 mod propagator;
 mod space;
 mod start;

@@ -235,13 +235,14 @@ impl Modes {
             all += s1 * (q1 - mean) - s0 * (q0 - mean);
         }
         let links = external - all;
+        let (kinetic, strain) = self.energy(to);
         let damping = if self.structure.is_damped() {
-            let ((k0, e0), (k1, e1)) = (self.energy(from), self.energy(to));
-            all - (k1 - k0) - (e1 - e0)
+            let (k0, e0) = self.energy(from);
+            all - (kinetic - k0) - (strain - e0)
         } else {
             0.0
         };
-        StepWork { external, links, damping, algorithmic: 0.0 }
+        StepWork { external, links, damping, algorithmic: 0.0, kinetic, strain }
     }
 
     /// ½ q̇ᵀ q̇ and ½ qᵀ Ω² q.

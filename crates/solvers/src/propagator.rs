@@ -26,6 +26,10 @@ pub(crate) struct StepWork {
     pub damping: f64,
     /// Removed by the time rule.
     pub algorithmic: f64,
+    /// Kinetic energy at the end.
+    pub kinetic: f64,
+    /// Strain energy at the end, dummies included.
+    pub strain: f64,
 }
 
 /// Loads and pseudo-forces at both ends of a step.

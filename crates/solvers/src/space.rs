@@ -18,6 +18,8 @@ pub(crate) struct LowRank {
 pub(crate) struct Space {
     pub mass: Sparse,
     pub damping: Sparse,
+    /// Shares of M and of K in C, 1/s and s.
+    pub rayleigh: [f64; 2],
     /// Stiffness with the dummies.
     pub stiffness: Sparse,
     pub modal: Option<LowRank>,
@@ -48,6 +50,7 @@ impl Space {
         Self {
             mass: system.mass.clone(),
             damping: system.damping.clone(),
+            rayleigh: system.rayleigh,
             stiffness,
             modal,
             links: LinkMap::Sparse(links.active.iter().map(|i| links.rows[*i].clone()).collect()),
@@ -98,6 +101,7 @@ impl Space {
         Self {
             mass: diagonal(&[vec![1.0; modes], vec![0.0; statics]].concat()),
             damping: sparse(&damping),
+            rayleigh: [0.0; 2],
             stiffness: diagonal(&[&basis.omega2[..], &vec![1.0; statics]].concat()),
             modal: None,
             links: LinkMap::Full(links),

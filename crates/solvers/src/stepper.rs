@@ -224,7 +224,7 @@ impl<P: Propagator> Stepper for LinkStepper<'_, P> {
         }
         side.settle(to, energy);
         energy.work = self.propagator.work(&from.motion, &to.motion, &side.forces());
-        let of_motion = self.propagator.energy(&to.motion);
+        let of_motion = (energy.work.kinetic, energy.work.strain);
         side.book(&self.propagator.space().dummy_k, from, to, of_motion, energy);
         Ok(())
     }

@@ -16,6 +16,8 @@ pub struct System {
     pub mass: Sparse,
     /// C of elements and Rayleigh damping, free × free, N·s/m. Modal damping is not in it.
     pub damping: Sparse,
+    /// Shares of M and of K in C, 1/s and s: zero without Rayleigh damping.
+    pub rayleigh: [f64; 2],
     /// K of the structure without links and dummies, free × free, N/m.
     pub stiffness: Sparse,
     /// The same blocks, free × prescribed.
@@ -88,6 +90,7 @@ impl System {
         Ok(Self {
             mass,
             damping: c.block(&free, &free),
+            rayleigh: [a0, a1],
             stiffness: k.block(&free, &free),
             mass_support: m_reduced.block(&free, &support),
             damping_support: c.block(&free, &support),

@@ -1,5 +1,11 @@
 //! Sparse LDLᵀ of a symmetric matrix, and the search for equations without stiffness.
 
+mod ordering;
+mod staged;
+mod substitution;
+
+pub use staged::{StagedLdlt, StagedPlan};
+
 use crate::{LinalgError, Sparse, Triplets};
 use faer::dyn_stack::{MemBuffer, MemStack};
 use faer::linalg::cholesky::ldlt::factor::{LdltError, LdltRegularization};
@@ -25,9 +31,9 @@ impl std::fmt::Debug for Ldlt {
 }
 
 /// Right-hand sides solved at once.
-const BLOCK: usize = 16;
+pub(super) const BLOCK: usize = 16;
 
-fn backend(e: impl std::fmt::Debug) -> LinalgError {
+pub(super) fn backend(e: impl std::fmt::Debug) -> LinalgError {
     LinalgError::Backend { reason: format!("{e:?}") }
 }
 
