@@ -28,6 +28,7 @@ mod outputs;
 mod p_delta;
 mod propagator;
 mod space;
+mod span;
 mod start;
 mod statics;
 mod stepper;
