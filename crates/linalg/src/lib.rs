@@ -3,8 +3,8 @@
 //!
 //! | backend | does |
 //! |---|---|
-//! | nalgebra-sparse | storage and assembly of sparse matrices, products with vectors |
-//! | sprs | congruence products TᵀKT of constraint elimination, Matrix Market export |
+//! | nalgebra-sparse | storage of sparse matrices |
+//! | sprs | Matrix Market export |
 //! | faer | sparse LDLᵀ and LU, dense LU, symmetric eigenproblems, products of dense matrices |
 //! | pulp | products of a dense matrix and a vector, as wide as the processor allows |
 //!
@@ -19,6 +19,7 @@ mod lu;
 mod matrix_market;
 mod operator;
 mod sparse;
+mod tall;
 mod vector;
 
 pub use dense::{Dense, DenseLu};
@@ -29,6 +30,7 @@ pub use lu::SparseLu;
 pub use matrix_market::matrix_market;
 pub use operator::SymmetricOperator;
 pub use sparse::{Sparse, Triplets};
+pub use tall::Columns;
 pub use vector::{dot, largest};
 
 /// What can go wrong in a factorisation or an eigenproblem.

@@ -1,16 +1,24 @@
 //! Sparse matrices in compressed columns, full storage (both triangles).
 
-use nalgebra_sparse::{CooMatrix, CscMatrix};
+use nalgebra_sparse::CscMatrix;
 
 /// Entries (row, column, value) that are summed into a [`Sparse`] matrix.
 #[derive(Clone, Debug)]
-pub struct Triplets(CooMatrix<f64>);
+pub struct Triplets {
+    rows: usize,
+    columns: usize,
+    entries: Vec<(u32, u32, f64)>,
+}
 
 impl Triplets {
     /// No entries yet.
+    ///
+    /// # Panics
+    /// Where there are more than 2³² rows or columns.
     #[must_use]
     pub fn new(rows: usize, columns: usize) -> Self {
-        Self(CooMatrix::new(rows, columns))
+        assert!(rows.max(columns) < u32::MAX as usize, "size of a matrix");
+        Self { rows, columns, entries: Vec::new() }
     }
 
     /// Adds a value; entries at one place are summed.
@@ -18,14 +26,65 @@ impl Triplets {
     /// # Panics
     /// Where the place is outside the matrix.
     pub fn add(&mut self, row: usize, column: usize, value: f64) {
-        self.0.push(row, column, value);
+        assert!(row < self.rows && column < self.columns, "place in a matrix");
+        self.entries.push((row as u32, column as u32, value));
     }
 
-    /// The matrix.
+    /// The entries in the order in which they were added.
+    pub fn entries(&self) -> impl Iterator<Item = (usize, usize, f64)> + '_ {
+        self.entries.iter().map(|(i, j, v)| (*i as usize, *j as usize, *v))
+    }
+
+    /// The matrix. Sums are taken in the order in which the entries were added.
     #[must_use]
     pub fn build(&self) -> Sparse {
-        Sparse(CscMatrix::from(&self.0))
+        // Sorted by row, then by column; both keep the order of equals.
+        let by_row = sorted(&self.entries, self.rows, |e| e.0);
+        let sorted = sorted(&by_row, self.columns, |e| e.1);
+        drop(by_row);
+        let mut offsets = vec![0; self.columns + 1];
+        let mut rows: Vec<usize> = Vec::with_capacity(sorted.len());
+        let mut values: Vec<f64> = Vec::with_capacity(sorted.len());
+        let mut last = None;
+        for (i, j, v) in sorted {
+            if last == Some((i, j)) {
+                if let Some(sum) = values.last_mut() {
+                    *sum += v;
+                }
+                continue;
+            }
+            last = Some((i, j));
+            rows.push(i as usize);
+            values.push(v);
+            offsets[j as usize + 1] += 1;
+        }
+        rows.shrink_to_fit();
+        values.shrink_to_fit();
+        for j in 0..self.columns {
+            offsets[j + 1] += offsets[j];
+        }
+        Sparse::of_columns(self.rows, self.columns, offsets, rows, values)
     }
+}
+
+/// Entries sorted by a key below `keys`, by counting.
+fn sorted(
+    entries: &[(u32, u32, f64)],
+    keys: usize,
+    key: impl Fn(&(u32, u32, f64)) -> u32,
+) -> Vec<(u32, u32, f64)> {
+    let mut place = vec![0_usize; keys + 1];
+    entries.iter().for_each(|e| place[key(e) as usize + 1] += 1);
+    for k in 0..keys {
+        place[k + 1] += place[k];
+    }
+    let mut out = vec![(0, 0, 0.0); entries.len()];
+    for e in entries {
+        let at = &mut place[key(e) as usize];
+        out[*at] = *e;
+        *at += 1;
+    }
+    out
 }
 
 /// A sparse matrix.
@@ -37,6 +96,19 @@ impl Sparse {
     #[must_use]
     pub fn zeros(rows: usize, columns: usize) -> Self {
         Self(CscMatrix::zeros(rows, columns))
+    }
+
+    /// From compressed columns with rising rows.
+    fn of_columns(
+        rows: usize,
+        columns: usize,
+        offsets: Vec<usize>,
+        indices: Vec<usize>,
+        values: Vec<f64>,
+    ) -> Self {
+        let made = CscMatrix::try_from_csc_data(rows, columns, offsets, indices, values);
+        // Whoever calls has sorted them.
+        Self(made.unwrap_or_else(|_| unreachable!("columns in order")))
     }
 
     /// Number of rows.
@@ -129,22 +201,32 @@ impl Sparse {
     #[must_use]
     pub fn combine(parts: &[(f64, &Self)]) -> Self {
         let (rows, columns) = (parts[0].1.rows(), parts[0].1.columns());
-        let mut sum = Triplets::new(rows, columns);
-        for (factor, part) in parts.iter().filter(|(f, _)| *f != 0.0) {
-            for (i, j, v) in part.entries() {
-                sum.add(i, j, factor * v);
+        let parts: Vec<_> = parts.iter().filter(|(f, _)| *f != 0.0).collect();
+        let most = parts.iter().map(|(_, part)| part.stored()).max().unwrap_or(0);
+        let mut offsets = Vec::with_capacity(columns + 1);
+        offsets.push(0);
+        let (mut indices, mut values) = (Vec::with_capacity(most), Vec::with_capacity(most));
+        // Sums of one column, and the last column that had an entry in each row.
+        let mut sums = vec![0.0; rows];
+        let mut seen = vec![usize::MAX; rows];
+        for j in 0..columns {
+            let start = indices.len();
+            for (factor, part) in &parts {
+                let (rows, entries) = part.column(j);
+                for (i, v) in rows.iter().zip(entries) {
+                    if seen[*i] == j {
+                        sums[*i] += factor * v;
+                    } else {
+                        (seen[*i], sums[*i]) = (j, factor * v);
+                        indices.push(*i);
+                    }
+                }
             }
+            indices[start..].sort_unstable();
+            values.extend(indices[start..].iter().map(|i| sums[*i]));
+            offsets.push(indices.len());
         }
-        sum.build()
-    }
-
-    /// Tᵀ A T, by sprs.
-    #[must_use]
-    pub fn congruence(&self, t: &Self) -> Self {
-        let (a, t) = (self.to_sprs(), t.to_sprs());
-        let transposed = t.transpose_view().to_csc();
-        let product = &(&transposed * &a).to_csc() * &t;
-        Self::from_sprs(product.to_csc())
+        Self::of_columns(rows, columns, offsets, indices, values)
     }
 
     /// The block of the given rows and columns (both sorted).
@@ -173,14 +255,6 @@ impl Sparse {
             values.to_vec(),
         )
     }
-
-    fn from_sprs(a: sprs::CsMat<f64>) -> Self {
-        let mut triplets = Triplets::new(a.rows(), a.cols());
-        for (v, (i, j)) in a.iter() {
-            triplets.add(i, j, *v);
-        }
-        triplets.build()
-    }
 }
 
 #[cfg(test)]
@@ -201,15 +275,29 @@ mod tests {
     }
 
     #[test]
-    fn congruence_equals_the_product_by_hand() {
-        let mut k = Triplets::new(2, 2);
-        for (i, j, v) in [(0, 0, 2.0), (0, 1, -1.0), (1, 0, -1.0), (1, 1, 3.0)] {
-            k.add(i, j, v);
+    fn a_combination_holds_the_places_of_all_its_parts() {
+        let mut t = Triplets::new(2, 3);
+        t.add(1, 2, 4.0);
+        t.add(0, 0, 1.0);
+        let sum = Sparse::combine(&[(2.0, &sample()), (0.0, &sample()), (-1.0, &t.build())]);
+        let expected = [(0, 0, 2.0), (1, 0, 4.0), (0, 2, 6.0), (1, 2, -4.0)];
+        assert_eq!(sum.entries().collect::<Vec<_>>(), expected);
+        assert_eq!(Sparse::combine(&[(0.0, &sample())]), Sparse::zeros(2, 3));
+    }
+
+    #[test]
+    fn entries_come_sorted_by_column_and_row() {
+        let (n, mut t) = (37, Triplets::new(37, 41));
+        let mut sums = vec![0.0; 37 * 41];
+        for k in 0..2000_usize {
+            let (i, j) = ((k * 7919) % n, (k * 104_729) % 41);
+            t.add(i, j, k as f64);
+            sums[j * n + i] += k as f64;
         }
-        let reduced = k.build().congruence(&sample());
-        let x = [1.0, 2.0, 3.0];
-        let tx = sample().mul(&x);
-        let expected = 2.0 * tx[0] * tx[0] - 2.0 * tx[0] * tx[1] + 3.0 * tx[1] * tx[1];
-        assert!((reduced.bilinear(&x, &x) - expected).abs() < 1e-12);
+        let built = t.build();
+        let entries: Vec<_> = built.entries().collect();
+        assert!(entries.windows(2).all(|w| (w[0].1, w[0].0) < (w[1].1, w[1].0)));
+        assert!(entries.iter().all(|(i, j, v)| *v == sums[j * n + i]));
+        assert_eq!(entries.len(), sums.iter().filter(|x| **x != 0.0).count());
     }
 }

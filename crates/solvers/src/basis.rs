@@ -17,9 +17,13 @@
 use crate::error::SolveError;
 use crate::massless;
 use crate::observe::{Adequacy, BasisReport};
-use crate::space::congruence;
+use crate::span::{Origin, Span};
 use crate::vector::dot;
-use trilith_linalg::{Dense, Ldlt, Sparse, all_modes, lowest_modes, symmetric_eigen, unsupported};
+use std::sync::Arc;
+use trilith_linalg::{
+    Dense, DenseLu, Ldlt, LinalgError, Sparse, all_modes, lowest_modes, symmetric_eigen,
+    unsupported,
+};
 use trilith_model::{Basis, BasisKind, Model};
 use trilith_system::System;
 
@@ -27,68 +31,104 @@ use trilith_system::System;
 const COMPLETE_LIMIT: usize = 1500;
 /// Up to this order the complete basis is the automatic choice.
 const COMPLETE_AUTOMATIC: usize = 300;
-/// Share of its M-norm that a new vector must keep to be more than rounding. It may be small: on soft
-/// dummies every static shape is mostly a rigid motion, which the vectors before it hold already.
-const KEEP: f64 = 1e-8;
-/// A static shape of a place with next to no mass is not a mode: faster than this (rad/s) it would only
-/// spoil the digits of the slow ones.
-const FASTEST: f64 = 1e6;
 /// A strain energy below this share of the sum of its terms is rounding: the motion is free.
 const ROUNDING: f64 = 1e-13;
+/// A pivot below this share of its diagonal is rounding: nothing holds the equation.
+const HELD: f64 = 1e-11;
+/// Right-hand sides solved together.
+const BLOCK: usize = 16;
 /// Automatic dummies as a share of the engaged stiffness of a link.
 const DUMMY_SHARE: f64 = 1e-3;
 
 /// M-orthonormal modes in the span of a basis.
 #[derive(Clone, Debug)]
 pub(crate) struct RitzBasis {
-    pub vectors: Dense,
+    /// The modes, and after them static shapes of places without mass.
+    pub shapes: Arc<Dense>,
     pub omega2: Vec<f64>,
-    /// Static shapes of places without mass, and their images under the stiffness.
-    pub statics: Dense,
+    /// Images of the static shapes under the stiffness.
     pub images: Dense,
+}
+
+impl RitzBasis {
+    /// Number of modes, the first columns of the shapes.
+    pub(crate) fn modes(&self) -> usize {
+        self.omega2.len()
+    }
+
+    /// Number of static shapes.
+    pub(crate) fn statics(&self) -> usize {
+        self.images.columns()
+    }
 }
 
 /// A basis in two forms of one span.
 pub(crate) struct Bases {
     /// Modes of the structure with the user's dummies: the coordinates of FNA.
-    pub stepping: RitzBasis,
+    pub stepping: Arc<RitzBasis>,
     /// Modes of the structure alone: what modal damping acts on.
-    pub structural: RitzBasis,
+    pub structural: Arc<RitzBasis>,
     pub report: BasisReport,
 }
 
-/// K̂ and its factor.
+/// K̂ = K + Bᵀ diag(dummies) B + shift M and its factor.
 struct Solvable {
     k: Sparse,
+    dummies: Vec<f64>,
+    shift: f64,
     factor: Ldlt,
 }
 
 fn solvable(model: &Model, system: &System) -> Result<Solvable, SolveError> {
     let links = &system.links;
-    let dummies: Vec<f64> = links
-        .engaged(model)
-        .iter()
-        .zip(&links.effective)
-        .map(|(e, user)| if *user > 0.0 { *user } else { DUMMY_SHARE * e })
-        .collect();
+    let engaged = links.engaged(model);
+    let pairs = || engaged.iter().zip(&links.effective);
+    let dummies: Vec<f64> =
+        pairs().map(|(e, user)| if *user > 0.0 { *user } else { DUMMY_SHARE * e }).collect();
     let mut k = system.stiffness_with(&dummies);
+    // What dummies hold, the links hold when engaged, unless the user's stand where they never do.
+    let as_links = pairs().all(|(e, user)| *user <= 0.0 || *e > 0.0);
+    if as_links && let Some(factor) = held(&k)? {
+        return Ok(Solvable { k, dummies, shift: 0.0, factor });
+    }
+    system.check_supported(model, true)?;
+    let mut shift = 0.0;
     if !unsupported(&k)?.is_empty() {
         let sum = |a: &Sparse| a.diagonal().iter().sum::<f64>();
         let (stiff, heavy) = (sum(&k), sum(&system.mass));
         // A mass shift makes regular what can move freely.
-        let shift = if stiff > 0.0 && heavy > 0.0 { 1e-6 * stiff / heavy } else { 1.0 };
+        shift = if stiff > 0.0 && heavy > 0.0 { 1e-6 * stiff / heavy } else { 1.0 };
         k = Sparse::combine(&[(1.0, &k), (shift, &system.mass)]);
     }
     let factor = Ldlt::new(&k)?;
-    Ok(Solvable { k, factor })
+    Ok(Solvable { k, dummies, shift, factor })
 }
 
-/// Makes the basis for loads given as vectors on the free DOFs.
+/// The factor, where no pivot is rounding. Scaling to a unit diagonal would divide each pivot by its
+/// diagonal entry, so this is the test of [`unsupported`] without a second factorisation.
+fn held(k: &Sparse) -> Result<Option<Ldlt>, SolveError> {
+    let diagonal = k.diagonal();
+    if diagonal.iter().any(|d| *d <= 0.0) {
+        return Ok(None);
+    }
+    let factor = match Ldlt::new(k) {
+        Err(LinalgError::Singular { .. }) => return Ok(None),
+        other => other?,
+    };
+    let mut all = true;
+    factor.pivots(|equation, pivot| all &= pivot > HELD * diagonal[equation]);
+    Ok(all.then_some(factor))
+}
+
+/// Makes the basis for loads given as vectors on the free DOFs. A structure that can move without stiffness
+/// and mass is refused. With `adequacy` the report tells how well every link coordinate is held, which takes a
+/// solution for each.
 pub(crate) fn build(
     model: &Model,
     system: &System,
     settings: &Basis,
     loads: &[(String, Vec<f64>)],
+    adequacy: bool,
 ) -> Result<Bases, SolveError> {
     let order = system.order();
     let complete = settings.kind == BasisKind::Complete
@@ -105,13 +145,16 @@ pub(crate) fn build(
     if span.columns() == 0 {
         return Err(SolveError::NoMass);
     }
-    let structural = modes_in(system, span.clone(), &system.stiffness, loads)?;
-    let stepping = if system.links.effective.iter().all(|k| *k == 0.0) {
-        structural.clone()
+    let dummies = &system.links.effective;
+    let (structural, stepping) = if dummies.iter().all(|k| *k == 0.0) {
+        let both = Arc::new(modes_in(system, span, &system.stiffness, loads)?);
+        (Arc::clone(&both), both)
     } else {
-        modes_in(system, span, &system.stiffness_with(&system.links.effective), loads)?
+        let structural = modes_in(system, span.clone(), &system.stiffness, loads)?;
+        let stepping = modes_in(system, span, &system.stiffness_with(dummies), loads)?;
+        (Arc::new(structural), Arc::new(stepping))
     };
-    let report = report(model, system, &structural, loads, &mut hat);
+    let report = report(model, system, &structural, loads, adequacy, &mut hat);
     Ok(Bases { stepping, structural, report })
 }
 
@@ -125,42 +168,45 @@ fn modes_in(
     let statics = massless::shapes(system, k, loads)?;
     let span = massless::without(&statics, k, span);
     let (mut omega2, vectors) = graded_modes(span, k)?;
+    // Σ |aᵢⱼ xᵢ xⱼ| ≤ Σ xᵢ² Σ |aᵢⱼ|: most modes need no closer look.
+    let mut sums = vec![0.0; k.rows()];
+    k.entries().for_each(|(i, _, a)| sums[i] += a.abs());
     for (j, w) in omega2.iter_mut().enumerate() {
         let x = vectors.column(j);
+        let bound: f64 = x.iter().zip(&sums).map(|(x, s)| x * x * s).sum();
+        if w.abs() > ROUNDING * bound {
+            continue;
+        }
         let terms: f64 = k.entries().map(|(i, l, a)| (a * x[i] * x[l]).abs()).sum();
         if w.abs() <= ROUNDING * terms {
             *w = 0.0;
         }
     }
-    let statics = massless::uncoupled(&statics, &system.damping, &vectors);
-    let mut images = statics.clone();
+    let statics = massless::uncoupled(statics, &system.damping, &vectors);
+    let mut images = Dense::zeros(statics.rows(), statics.columns());
     for j in 0..images.columns() {
-        images.column_mut(j).copy_from_slice(&k.mul(statics.column(j)));
+        k.mul_add(1.0, statics.column(j), images.column_mut(j));
     }
-    Ok(RitzBasis { vectors, omega2, statics, images })
+    let shapes = Arc::new(massless::beside(vectors, &statics));
+    Ok(RitzBasis { shapes, omega2, images })
 }
 
 /// Modes in a span of M-orthonormal vectors, rising. An eigenvalue is found no better than the rounding of
 /// the largest one, so the slow modes are found once more among themselves, until there is no such gap.
-fn graded_modes(span: Dense, k: &Sparse) -> Result<(Vec<f64>, Dense), SolveError> {
+fn graded_modes(mut vectors: Dense, k: &Sparse) -> Result<(Vec<f64>, Dense), SolveError> {
     const GAP: f64 = 1e-5;
-    let (mut omega2, rotation) = symmetric_eigen(&congruence(k, &span))?;
-    let mut vectors = span.times(&rotation);
-    let mut count = omega2.len();
+    let mut count = vectors.columns();
+    let mut omega2 = vec![0.0; count];
     loop {
-        let largest = omega2[..count].last().copied().unwrap_or(0.0);
-        let slow = omega2[..count].iter().filter(|w| **w < GAP * largest).count();
+        let (again, rotation) = symmetric_eigen(&vectors.congruence(k, count))?;
+        vectors.turn(&rotation);
+        omega2[..count].copy_from_slice(&again);
+        let largest = again.last().copied().unwrap_or(0.0);
+        let slow = again.iter().filter(|w| **w < GAP * largest).count();
         if slow == 0 || slow == count {
             return Ok((omega2, vectors));
         }
         count = slow;
-        let values = vectors.values()[..count * vectors.rows()].to_vec();
-        let part = Dense::from_columns(vectors.rows(), count, values);
-        let (again, rotation) = symmetric_eigen(&congruence(k, &part))?;
-        let part = part.times(&rotation);
-        let length = part.values().len();
-        vectors.values_mut()[..length].copy_from_slice(part.values());
-        omega2[..count].copy_from_slice(&again);
     }
 }
 
@@ -179,100 +225,51 @@ fn enriched(
         Some(n) => n,
     };
     let total = settings.vectors.unwrap_or(ground + links.len());
-    let mut span = Span::new(system);
+    let mut span = Span::new(system, total);
     match settings.kind {
         BasisKind::Eigen => {
             let count = ground.min(system.order());
             let (_, vectors) = lowest_modes(&hat.k, &system.mass, count, 0.0)?;
-            for j in 0..vectors.columns() {
-                span.take(vectors.column(j).to_vec(), None);
-            }
+            let all = (0..vectors.columns()).map(|j| vectors.column(j).to_vec()).collect();
+            span.take(all, Origin::Anywhere, None);
         }
-        _ => span.recurse(hat, loads, ground),
+        _ => recurse(&mut span, hat, loads, ground),
     }
     let order = system.order();
-    let mut statics = Dense::zeros(order, links.len());
-    for (j, flat) in links.iter().enumerate() {
-        for (i, c) in &system.links.rows[*flat] {
-            statics[(*i, j)] += c;
-        }
-    }
-    hat.factor.solve(statics.values_mut());
-    for j in 0..links.len() {
-        if span.len() < total {
-            span.take(statics.column(j).to_vec(), Some(&hat.k));
-        }
-    }
-    Ok(span.vectors)
-}
-
-/// M-orthonormal vectors under construction.
-struct Span<'a> {
-    system: &'a System,
-    vectors: Dense,
-    images: Vec<Vec<f64>>,
-}
-
-impl<'a> Span<'a> {
-    fn new(system: &'a System) -> Self {
-        Self { system, vectors: Dense::zeros(system.order(), 0), images: Vec::new() }
-    }
-
-    fn len(&self) -> usize {
-        self.images.len()
-    }
-
-    /// Orthonormalises and keeps a vector, unless nothing of it is left, or, where a stiffness is given,
-    /// what is left would be faster than any mode of interest.
-    fn take(&mut self, mut x: Vec<f64>, stiffness: Option<&Sparse>) -> bool {
-        let largest = x.iter().fold(0.0f64, |a, b| a.max(b.abs()));
-        if largest == 0.0 || !largest.is_finite() {
-            return false;
-        }
-        x.iter_mut().for_each(|v| *v /= largest);
-        let norm = |x: &[f64], m: &[f64]| dot(x, m).max(0.0).sqrt();
-        let before = norm(&x, &self.system.mass.mul(&x));
-        for _ in 0..2 {
-            for (j, image) in self.images.iter().enumerate() {
-                let share = dot(image, &x);
-                for (a, b) in x.iter_mut().zip(self.vectors.column(j)) {
-                    *a -= share * b;
-                }
+    for block in links.chunks(BLOCK) {
+        let mut statics = vec![0.0; order * block.len()];
+        for (column, flat) in statics.chunks_mut(order).zip(block) {
+            for (i, c) in &system.links.rows[*flat] {
+                column[*i] += c;
             }
         }
-        let image = self.system.mass.mul(&x);
-        let after = norm(&x, &image);
-        if before == 0.0 || after <= KEEP * before {
-            return false;
-        }
-        x.iter_mut().for_each(|v| *v /= after);
-        if stiffness.is_some_and(|k| k.bilinear(&x, &x) > FASTEST * FASTEST) {
-            return false;
-        }
-        self.images.push(image.into_iter().map(|v| v / after).collect());
-        let mut values = self.vectors.values().to_vec();
-        values.extend(&x);
-        self.vectors = Dense::from_columns(x.len(), self.images.len(), values);
-        true
-    }
-
-    /// The load-dependent recursion until `count` vectors are there or nothing new comes.
-    fn recurse(&mut self, hat: &mut Solvable, loads: &[(String, Vec<f64>)], count: usize) {
-        let mut block: Vec<Vec<f64>> = loads.iter().map(|(_, p)| p.clone()).collect();
-        while self.len() < count && !block.is_empty() {
-            let mut next = Vec::new();
-            for mut x in block {
-                if self.len() >= count {
-                    break;
-                }
-                hat.factor.solve(&mut x);
-                // Where the loads have shown all they can, what is left of a vector is rounding.
-                if self.take(x, Some(&hat.k)) {
-                    next.push(self.images[self.len() - 1].clone());
-                }
+        hat.factor.solve(&mut statics);
+        for x in statics.chunks(order) {
+            if span.len() < total {
+                span.take(vec![x.to_vec()], Origin::Anywhere, Some(&hat.k));
             }
-            block = next;
         }
+    }
+    Ok(span.into_dense())
+}
+
+/// The load-dependent recursion until `count` vectors are there or nothing new comes.
+fn recurse(span: &mut Span<'_>, hat: &mut Solvable, loads: &[(String, Vec<f64>)], count: usize) {
+    let order = hat.k.rows();
+    let mut block: Vec<Vec<f64>> = loads.iter().map(|(_, p)| p.clone()).collect();
+    while span.len() < count && !block.is_empty() {
+        let mut next = Vec::new();
+        span.next_block();
+        while !block.is_empty() && span.len() < count {
+            let rest = block.split_off(block.len().min(count - span.len()).min(BLOCK));
+            let mut x = block.concat();
+            hat.factor.solve(&mut x);
+            let solved = x.chunks(order).map(<[f64]>::to_vec).collect();
+            // Where the loads have shown all they can, what is left of a vector is rounding.
+            next.extend(span.take(solved, Origin::Recursion, Some(&hat.k)));
+            block = rest;
+        }
+        block = next;
     }
 }
 
@@ -282,34 +279,62 @@ fn report(
     system: &System,
     basis: &RitzBasis,
     loads: &[(String, Vec<f64>)],
+    with_links: bool,
     hat: &mut Solvable,
 ) -> BasisReport {
-    let m = basis.vectors.columns();
-    let phi = &massless::beside(&basis.vectors, &basis.statics);
-    let reduced = trilith_linalg::DenseLu::new(&congruence(&hat.k, phi));
-    let mut share = |p: &[f64]| -> f64 {
-        let mut exact = p.to_vec();
-        hat.factor.solve(&mut exact);
-        let mut q = vec![0.0; phi.columns()];
-        phi.transpose_mul_add(1.0, p, &mut q);
-        let mut y = q.clone();
-        reduced.solve(&mut y);
-        let whole = dot(p, &exact);
-        if whole > 0.0 { (dot(&q, &y) / whole).min(1.0) } else { 1.0 }
+    let m = basis.modes();
+    let phi = &*basis.shapes;
+    let rows = &system.links.rows;
+    // K̂ in the basis: K is diagonal there, with ones for the static shapes, which have no mass.
+    let mut reduced = Dense::zeros(phi.columns(), phi.columns());
+    for j in 0..phi.columns() {
+        reduced[(j, j)] = basis.omega2.get(j).map_or(1.0, |w| w + hat.shift);
+    }
+    let held = |row: &[(usize, f64)], q: &mut [f64]| {
+        for (j, q) in q.iter_mut().enumerate() {
+            let column = phi.column(j);
+            *q = row.iter().map(|(i, c)| c * column[*i]).sum();
+        }
     };
-    let static_participation = loads.iter().map(|(n, p)| (n.clone(), share(p))).collect();
-    let mut adequacy: Vec<Adequacy> = system
-        .links
-        .active
-        .iter()
-        .map(|flat| {
-            let mut b = vec![0.0; system.order()];
-            for (i, c) in &system.links.rows[*flat] {
-                b[*i] += c;
+    let mut q = vec![0.0; phi.columns()];
+    for (row, dummy) in rows.iter().zip(&hat.dummies).filter(|(_, k)| **k != 0.0) {
+        held(row, &mut q);
+        for (j, b) in q.iter().enumerate() {
+            for (a, sum) in q.iter().zip(reduced.column_mut(j)) {
+                *sum += dummy * a * b;
             }
-            Adequacy { coordinate: system.links.name(model, *flat), share: share(&b) }
-        })
-        .collect();
+        }
+    }
+    let reduced = DenseLu::new(&reduced);
+    let share = |whole: f64, q: &[f64]| -> f64 {
+        let mut y = q.to_vec();
+        reduced.solve(&mut y);
+        if whole > 0.0 { (dot(q, &y) / whole).min(1.0) } else { 1.0 }
+    };
+    let order = system.order();
+    let mut static_participation = Vec::with_capacity(loads.len());
+    for (name, p) in loads {
+        let mut exact = p.clone();
+        hat.factor.solve(&mut exact);
+        q.fill(0.0);
+        phi.transpose_mul_add(1.0, p, &mut q);
+        static_participation.push((name.clone(), share(dot(p, &exact), &q)));
+    }
+    let active: &[usize] = if with_links { &system.links.active } else { &[] };
+    let mut adequacy = Vec::with_capacity(active.len());
+    for block in active.chunks(BLOCK) {
+        let mut exact = vec![0.0; order * block.len()];
+        for (column, flat) in exact.chunks_mut(order).zip(block) {
+            rows[*flat].iter().for_each(|(i, c)| column[*i] += c);
+        }
+        hat.factor.solve(&mut exact);
+        for (column, flat) in exact.chunks(order).zip(block) {
+            held(&rows[*flat], &mut q);
+            let whole = rows[*flat].iter().map(|(i, c)| c * column[*i]).sum();
+            let coordinate = system.links.name(model, *flat);
+            adequacy.push(Adequacy { coordinate, share: share(whole, &q) });
+        }
+    }
     adequacy.sort_by(|a, b| a.share.total_cmp(&b.share));
     let mass = |axis: usize| -> Vec<f64> {
         let total: f64 = {
@@ -329,7 +354,7 @@ fn report(
     let [x, y, z] = [mass(0), mass(1), mass(2)];
     BasisReport {
         vectors: m,
-        static_shapes: basis.statics.columns(),
+        static_shapes: basis.statics(),
         omega: basis.omega2.iter().map(|w| w.max(0.0).sqrt()).collect(),
         mass_participation: (0..m).map(|j| [x[j], y[j], z[j]]).collect(),
         static_participation,

@@ -142,7 +142,7 @@ pub fn modes(
         None => (trilith_model::Basis::default(), directions()),
     };
     let loads = if loads.is_empty() { directions() } else { loads };
-    Ok(crate::basis::build(model, system, &settings, &loads)?.report)
+    Ok(crate::basis::build(model, system, &settings, &loads, true)?.report)
 }
 
 /// Sum of loads on the free DOFs.

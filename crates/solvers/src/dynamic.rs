@@ -70,7 +70,6 @@ pub(crate) fn run(
 ) -> Result<CaseResult, SolveError> {
     let clock = Clock::start();
     let Setup { model, system, case, analysis, before } = setup;
-    system.check_supported(model, true)?;
     let solution = &analysis.solution;
     let kind = options.solver.unwrap_or(solution.solver);
     let dt = options.dt.unwrap_or(analysis.dt);
@@ -90,16 +89,18 @@ pub(crate) fn run(
     let reduced = matches!(kind, SolverKind::Fna | SolverKind::RitzHht);
     let bases = if modal || reduced {
         let directions = basis_loads(model, analysis, &loads);
-        Some(basis::build(model, system, &solution.basis, &directions)?)
+        // Who asks for no flexibility of the links needs no report of it.
+        let adequacy = reduced && solution.basis.adequacy > 0.0;
+        Some(basis::build(model, system, &solution.basis, &directions, adequacy)?)
     } else {
+        system.check_supported(model, true)?;
         None
     };
     let damping = bases.as_ref().and_then(|b| modal_damping(model, system, b));
     let none = vec![0.0; system.links.len()];
     let effective = if kind == SolverKind::FullNewton { &none } else { &system.links.effective };
-    let physical = Space::physical(system, &loads, effective, damping);
     let side = |order: usize| {
-        let dummies = physical.dummy_k.clone();
+        let dummies = system.links.active.iter().map(|i| effective[*i]).collect();
         let kernel = LinkKernel::new(model, &system.links, solution, dummies);
         LinkSide::new(model, system, &loads, kernel, order)
     };
@@ -107,12 +108,12 @@ pub(crate) fn run(
         (SolverKind::Fna, Some(b)) => {
             let engaged = system.links.engaged(model);
             let engaged = system.links.active.iter().map(|i| engaged[*i]).collect();
-            let space = Space::reduced(&physical, &b.stepping);
+            let space = Space::reduced(system, &loads, effective, damping.as_ref(), &b.stepping);
             let side = side(space.order());
             Box::new(LinkStepper::new(Modal::new(space, engaged), side))
         }
         (SolverKind::RitzHht, Some(b)) => {
-            let space = Space::reduced(&physical, &b.stepping);
+            let space = Space::reduced(system, &loads, effective, damping.as_ref(), &b.stepping);
             let side = side(space.order());
             Box::new(LinkStepper::new(Hht::new(space, solution.alpha), side))
         }
@@ -120,14 +121,15 @@ pub(crate) fn run(
             model,
             system,
             loads: &loads,
-            space: physical,
+            space: Space::physical(system, &loads, effective, damping),
             alpha: solution.alpha,
             iterations: 0,
             factorizations: 0,
         }),
         _ => {
-            let side = side(physical.order());
-            Box::new(LinkStepper::new(Hht::new(physical, solution.alpha), side))
+            let space = Space::physical(system, &loads, effective, damping);
+            let side = side(space.order());
+            Box::new(LinkStepper::new(Hht::new(space, solution.alpha), side))
         }
     };
     let timeline = Timeline {

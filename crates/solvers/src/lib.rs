@@ -29,6 +29,7 @@ mod p_delta;
 mod products;
 mod propagator;
 mod space;
+mod span;
 mod start;
 mod statics;
 mod stepper;

@@ -72,7 +72,7 @@ pub(crate) fn shapes(
         return Ok(psi);
     }
     // Turned so that damping does not couple them with each other.
-    let (_, rotation) = symmetric_eigen(&crate::space::congruence(&system.damping, &psi))?;
+    let (_, rotation) = symmetric_eigen(&psi.congruence(&system.damping, psi.columns()))?;
     Ok(psi.times(&rotation))
 }
 
@@ -80,10 +80,13 @@ pub(crate) fn shapes(
 fn pushes(system: &System, places: &[usize], loads: &[(String, Vec<f64>)]) -> Vec<Vec<f64>> {
     let mut index = vec![usize::MAX; system.order()];
     places.iter().enumerate().for_each(|(local, full)| index[*full] = local);
-    let of_loads = loads.iter().map(|(_, p)| places.iter().map(|i| p[*i]).collect());
-    let of_links = system.links.active.iter().map(|flat| {
+    let of_loads = loads.iter().filter(|(_, p)| places.iter().any(|i| p[*i] != 0.0));
+    let of_loads = of_loads.map(|(_, p)| places.iter().map(|i| p[*i]).collect());
+    let on_places = |row: &&Vec<(usize, f64)>| row.iter().any(|(i, _)| index[*i] != usize::MAX);
+    let rows = system.links.active.iter().map(|flat| &system.links.rows[*flat]);
+    let of_links = rows.filter(on_places).map(|row| {
         let mut b = vec![0.0; places.len()];
-        for (i, c) in system.links.rows[*flat].iter().filter(|(i, _)| index[*i] != usize::MAX) {
+        for (i, c) in row.iter().filter(|(i, _)| index[*i] != usize::MAX) {
             b[index[*i]] += c;
         }
         b
@@ -93,6 +96,9 @@ fn pushes(system: &System, places: &[usize], loads: &[(String, Vec<f64>)]) -> Ve
 
 /// Takes the static shapes out of vectors: V − Ψ Ψᵀ K V. Their masses stay as they are.
 pub(crate) fn without(psi: &Dense, k: &Sparse, mut vectors: Dense) -> Dense {
+    if psi.columns() == 0 {
+        return vectors;
+    }
     for j in 0..vectors.columns() {
         let image = k.mul(vectors.column(j));
         for r in 0..psi.columns() {
@@ -105,7 +111,10 @@ pub(crate) fn without(psi: &Dense, k: &Sparse, mut vectors: Dense) -> Dense {
 }
 
 /// The shapes that damping does not couple with the modes.
-pub(crate) fn uncoupled(psi: &Dense, damping: &Sparse, modes: &Dense) -> Dense {
+pub(crate) fn uncoupled(psi: Dense, damping: &Sparse, modes: &Dense) -> Dense {
+    if psi.columns() == 0 {
+        return psi;
+    }
     let own: Vec<f64> = (0..modes.columns())
         .map(|j| damping.bilinear(modes.column(j), modes.column(j)).max(0.0))
         .collect();
@@ -121,7 +130,10 @@ pub(crate) fn uncoupled(psi: &Dense, damping: &Sparse, modes: &Dense) -> Dense {
 }
 
 /// Columns of both, one after the other.
-pub(crate) fn beside(a: &Dense, b: &Dense) -> Dense {
+pub(crate) fn beside(a: Dense, b: &Dense) -> Dense {
+    if b.columns() == 0 {
+        return a;
+    }
     let values = [a.values(), b.values()].concat();
     Dense::from_columns(a.rows(), a.columns() + b.columns(), values)
 }

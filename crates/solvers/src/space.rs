@@ -2,7 +2,7 @@
 
 use crate::basis::RitzBasis;
 use crate::link_map::LinkMap;
-use crate::massless::beside;
+use std::sync::Arc;
 use trilith_linalg::{Dense, Sparse, Triplets};
 use trilith_system::{LoadSet, System};
 
@@ -30,7 +30,7 @@ pub(crate) struct Space {
     /// One force vector a load channel.
     pub forces: Vec<Vec<f64>>,
     /// Free DOFs = shape · coordinates; `None` where they are the coordinates.
-    pub shape: Option<Dense>,
+    pub shape: Option<Arc<Dense>>,
     /// K Ψ of the static shapes, which are the last columns of `shape` and have no mass.
     pub images: Dense,
 }
@@ -63,25 +63,45 @@ impl Space {
 
     /// The span of a basis, whose vectors are M-orthonormal modes of `K + dummies`, and of its static
     /// shapes.
-    pub(crate) fn reduced(physical: &Self, basis: &RitzBasis) -> Self {
-        let (modes, statics) = (basis.vectors.columns(), basis.statics.columns());
-        let phi = &beside(&basis.vectors, &basis.statics);
+    pub(crate) fn reduced(
+        system: &System,
+        loads: &LoadSet,
+        effective: &[f64],
+        modal: Option<&LowRank>,
+        basis: &RitzBasis,
+    ) -> Self {
+        let (modes, statics) = (basis.modes(), basis.statics());
+        let phi = &*basis.shapes;
         let m = phi.columns();
         let project = |p: &Vec<f64>| {
             let mut q = vec![0.0; m];
             phi.transpose_mul_add(1.0, p, &mut q);
             q
         };
-        let mut links = Dense::zeros(m, physical.links.len());
-        for a in 0..links.columns() {
-            for (i, c) in physical.links.row(a) {
+        let active = &system.links.active;
+        let mut links = Dense::zeros(m, active.len());
+        for (a, flat) in active.iter().enumerate() {
+            for (i, c) in &system.links.rows[*flat] {
                 for j in 0..m {
-                    links[(j, a)] += c * phi[(i, j)];
+                    links[(j, a)] += c * phi[(*i, j)];
                 }
             }
         }
-        let mut damping = congruence(&physical.damping, phi);
-        if let Some(modal) = &physical.modal {
+        let dummy_k: Vec<f64> = active.iter().map(|i| effective[*i]).collect();
+        let omega2 = [&basis.omega2[..], &vec![1.0; statics]].concat();
+        let mut damping = if dummy_k.iter().all(|k| *k == 0.0) {
+            // The part of M and K is known: both are diagonal here.
+            let mut damping = phi.congruence(&system.element_damping, m);
+            let [of_mass, of_stiffness] = system.rayleigh;
+            for j in 0..m {
+                let mass = if j < modes { of_mass } else { 0.0 };
+                damping[(j, j)] += mass + of_stiffness * omega2[j];
+            }
+            damping
+        } else {
+            phi.congruence(&system.damping, m)
+        };
+        if let Some(modal) = modal {
             let u = phi.transpose_times(&modal.u);
             for k in 0..modal.rate.len() {
                 for j in 0..m {
@@ -102,12 +122,12 @@ impl Space {
             mass: diagonal(&[vec![1.0; modes], vec![0.0; statics]].concat()),
             damping: sparse(&damping),
             rayleigh: [0.0; 2],
-            stiffness: diagonal(&[&basis.omega2[..], &vec![1.0; statics]].concat()),
+            stiffness: diagonal(&omega2),
             modal: None,
             links: LinkMap::Full(links),
-            dummy_k: physical.dummy_k.clone(),
-            forces: physical.forces.iter().map(project).collect(),
-            shape: Some(phi.clone()),
+            dummy_k,
+            forces: loads.channels.iter().map(|c| project(&c.force)).collect(),
+            shape: Some(Arc::clone(&basis.shapes)),
             images: basis.images.clone(),
         }
     }
@@ -183,15 +203,6 @@ impl Space {
                 .collect(),
         }
     }
-}
-
-/// Φᵀ A Φ, dense.
-pub(crate) fn congruence(a: &Sparse, phi: &Dense) -> Dense {
-    let mut image = Dense::zeros(phi.rows(), phi.columns());
-    for j in 0..phi.columns() {
-        a.mul_add(1.0, phi.column(j), image.column_mut(j));
-    }
-    phi.transpose_times(&image)
 }
 
 fn diagonal(values: &[f64]) -> Sparse {

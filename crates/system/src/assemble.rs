@@ -5,7 +5,7 @@ use crate::links::mark_used;
 use crate::{ImpactMass, LinkSet, Reduction, SystemError};
 use trilith_element::{Dof, ElementMatrices, Geometry};
 use trilith_linalg::{Sparse, Triplets, unsupported};
-use trilith_model::{Body, Damping, Model};
+use trilith_model::{Body, Damping, Element, Model};
 
 /// M ü + C u̇ + K u + Bᵀ f(B u, B u̇) = p(t) on the free DOFs; links are not in K.
 #[derive(Debug)]
@@ -16,7 +16,9 @@ pub struct System {
     pub mass: Sparse,
     /// C of elements and Rayleigh damping, free × free, N·s/m. Modal damping is not in it.
     pub damping: Sparse,
-    /// Shares of M and of K in C, 1/s and s: zero without Rayleigh damping.
+    /// C of elements alone, free × free, N·s/m.
+    pub element_damping: Sparse,
+    /// Coefficients of M and K in Rayleigh damping, 1/s and s; 0 without.
     pub rayleigh: [f64; 2],
     /// K of the structure without links and dummies, free × free, N/m.
     pub stiffness: Sparse,
@@ -34,7 +36,6 @@ pub struct System {
     pub total_mass: f64,
     /// Axial force of every element that K was made with, N, tension positive; zeros without P-Δ.
     pub tension: Vec<f64>,
-    matrices: Vec<Option<ElementMatrices>>,
 }
 
 impl System {
@@ -51,56 +52,48 @@ impl System {
     /// # Errors
     /// As [`new`](Self::new).
     pub fn with_tension(model: &Model, tension: Vec<f64>) -> Result<Self, SystemError> {
-        let matrices = element_matrices(model, &tension)?;
         let count = 6 * model.nodes.len();
         let mut used = vec![false; count];
-        for (e, m) in model.elements.iter().zip(&matrices) {
-            for (node, dof) in m.iter().flat_map(|m| &m.dofs) {
-                used[6 * e.nodes[*node] + dof.index()] = true;
-            }
-        }
+        let full = full_entries(model, &tension, &mut used)?;
         mark_used(model, &mut used);
         let reduction = Reduction::new(model, &mut used)?;
         if reduction.order() == 0 {
             return Err(SystemError::Empty);
         }
-        let [k, m, c, b] = full_matrices(model, &matrices, count);
-        let t = reduction.matrix();
-        let m_reduced = Sparse::combine(&[(1.0, &m), (1.0, &b)]).congruence(&t);
-        let (k, c_elements) = (k.congruence(&t), c.congruence(&t));
-        let (a0, a1) = match model.damping {
-            Damping::Rayleigh { mass, stiffness } => (mass, stiffness),
-            _ => (0.0, 0.0),
+        let (inertia, total_mass) = inertia(&full.mass, &reduction);
+        let [k, m, c, b] = [full.stiffness, full.mass, full.damping, full.inertance]
+            .map(|entries| reduce(&entries, &reduction));
+        let sum = |parts: &[(f64, &Split)]| {
+            let free: Vec<_> = parts.iter().map(|(s, part)| (*s, &part.free)).collect();
+            let support: Vec<_> = parts.iter().map(|(s, part)| (*s, &part.support)).collect();
+            Split { free: Sparse::combine(&free), support: Sparse::combine(&support) }
         };
-        let c = Sparse::combine(&[(1.0, &c_elements), (a0, &m_reduced), (a1, &k)]);
-        let order = reduction.order();
-        let free: Vec<usize> = (0..order).collect();
-        let support: Vec<usize> = (order..order + reduction.prescribed.len()).collect();
-        let inertia = [0, 1, 2].map(|axis| {
-            let r: Vec<f64> = (0..count).map(|i| f64::from(u8::from(i % 6 == axis))).collect();
-            let mut p = vec![0.0; t.columns()];
-            t.transpose_mul_add(1.0, &m.mul(&r), &mut p);
-            p.truncate(order);
-            p
-        });
-        let r: Vec<f64> = (0..count).map(|i| f64::from(u8::from(i % 6 == 2))).collect();
+        let m = if b.free.stored() + b.support.stored() == 0 {
+            m
+        } else {
+            sum(&[(1.0, &m), (1.0, &b)])
+        };
+        let rayleigh = match model.damping {
+            Damping::Rayleigh { mass, stiffness } => [mass, stiffness],
+            _ => [0.0; 2],
+        };
+        let damping = sum(&[(1.0, &c), (rayleigh[0], &m), (rayleigh[1], &k)]);
         let mut links = LinkSet::new(model, &reduction, &used)?;
-        let mass = m_reduced.block(&free, &free);
-        crate::impact::settle(&mut links, model, &mass)?;
+        crate::impact::settle(&mut links, model, &m.free)?;
         Ok(Self {
-            mass,
-            damping: c.block(&free, &free),
-            rayleigh: [a0, a1],
-            stiffness: k.block(&free, &free),
-            mass_support: m_reduced.block(&free, &support),
-            damping_support: c.block(&free, &support),
-            stiffness_support: k.block(&free, &support),
+            mass: m.free,
+            damping: damping.free,
+            element_damping: c.free,
+            rayleigh,
+            stiffness: k.free,
+            mass_support: m.support,
+            damping_support: damping.support,
+            stiffness_support: k.support,
             links,
             inertia,
-            total_mass: m.bilinear(&r, &r),
+            total_mass,
             tension,
             reduction,
-            matrices,
         })
     }
 
@@ -122,9 +115,6 @@ impl System {
     #[must_use]
     pub fn stiffness_with(&self, values: &[f64]) -> Sparse {
         let mut sum = Triplets::new(self.order(), self.order());
-        for (i, j, v) in self.stiffness.entries() {
-            sum.add(i, j, v);
-        }
         for (row, x) in self.links.rows.iter().zip(values).filter(|(_, x)| **x != 0.0) {
             for (i, a) in row {
                 for (j, b) in row {
@@ -132,7 +122,7 @@ impl System {
                 }
             }
         }
-        sum.build()
+        Sparse::combine(&[(1.0, &self.stiffness), (1.0, &sum.build())])
     }
 
     /// Refuses a structure that can move without stiffness (links count with the stiffness they have
@@ -170,13 +160,13 @@ impl System {
     #[must_use]
     pub fn axial_force(&self, model: &Model, element: usize, u: &[f64]) -> f64 {
         let e = &model.elements[element];
-        if e.nodes.len() != 2 || self.matrices[element].is_none() {
+        let Some(m) = self.matrices(model, element).filter(|_| e.nodes.len() == 2) else {
             return 0.0;
-        }
+        };
         let along = [Dof::Ux, Dof::Uy, Dof::Uz].into_iter().zip(e.frame.0[0]);
         along
             .map(|(dof, c)| {
-                let row = self.end_force(model, element, 1, dof).stiffness;
+                let row = end_force_row(&m, &e.nodes, 1, dof, &self.reduction).stiffness;
                 c * row.iter().map(|(j, k)| k * u.get(*j).unwrap_or(&0.0)).sum::<f64>()
             })
             .sum()
@@ -186,56 +176,111 @@ impl System {
     /// over the reduced DOFs.
     #[must_use]
     pub fn end_force(&self, model: &Model, element: usize, end: usize, dof: Dof) -> EndForceRow {
-        match &self.matrices[element] {
-            Some(m) => end_force_row(m, &model.elements[element].nodes, end, dof, &self.reduction),
+        match self.matrices(model, element) {
+            Some(m) => end_force_row(&m, &model.elements[element].nodes, end, dof, &self.reduction),
             None => EndForceRow::default(),
         }
+    }
+
+    /// Matrices of an element, made once more: kept, they would outweigh everything else.
+    fn matrices(&self, model: &Model, element: usize) -> Option<ElementMatrices> {
+        element_matrices(model, &model.elements[element], self.tension[element]).ok().flatten()
     }
 }
 
 fn element_matrices(
     model: &Model,
-    tension: &[f64],
-) -> Result<Vec<Option<ElementMatrices>>, SystemError> {
-    model
-        .elements
+    e: &Element,
+    tension: f64,
+) -> Result<Option<ElementMatrices>, SystemError> {
+    let Body::Linear(element) = &e.body else { return Ok(None) };
+    let nodes: Vec<_> = e.nodes.iter().map(|n| model.nodes[*n].position).collect();
+    let refuse = |reason: String| SystemError::Element {
+        element: e.name.clone(),
+        reason,
+        span: e.span.clone(),
+    };
+    let m = element
+        .matrices(&Geometry { nodes: &nodes, frame: e.frame, tension })
+        .map_err(|x| refuse(x.to_string()))?;
+    let finite = [&m.stiffness, &m.mass, &m.damping, &m.inertance]
         .iter()
-        .zip(tension)
-        .map(|(e, tension)| {
-            let Body::Linear(element) = &e.body else { return Ok(None) };
-            let nodes: Vec<_> = e.nodes.iter().map(|n| model.nodes[*n].position).collect();
-            let refuse = |reason: String| SystemError::Element {
-                element: e.name.clone(),
-                reason,
-                span: e.span.clone(),
-            };
-            let m = element
-                .matrices(&Geometry { nodes: &nodes, frame: e.frame, tension: *tension })
-                .map_err(|x| refuse(x.to_string()))?;
-            let finite = [&m.stiffness, &m.mass, &m.damping, &m.inertance]
-                .iter()
-                .all(|a| a.values().iter().all(|x| x.is_finite()));
-            if finite { Ok(Some(m)) } else { Err(refuse("its matrices are not finite".into())) }
-        })
-        .collect()
+        .all(|a| a.values().iter().all(|x| x.is_finite()));
+    if finite { Ok(Some(m)) } else { Err(refuse("its matrices are not finite".into())) }
 }
 
-/// K, M, C and the inertances over all DOFs.
-fn full_matrices(model: &Model, matrices: &[Option<ElementMatrices>], count: usize) -> [Sparse; 4] {
-    let mut sums = [(); 4].map(|()| Triplets::new(count, count));
-    for (e, m) in model.elements.iter().zip(matrices) {
-        let Some(m) = m else { continue };
-        let full: Vec<usize> = m.dofs.iter().map(|(n, d)| 6 * e.nodes[*n] + d.index()).collect();
-        let parts = [&m.stiffness, &m.mass, &m.damping, &m.inertance];
-        for (sum, a) in sums.iter_mut().zip(parts) {
-            for (i, row) in full.iter().enumerate() {
-                for (j, column) in full.iter().enumerate() {
-                    if a[(i, j)] != 0.0 {
-                        sum.add(*row, *column, a[(i, j)]);
-                    }
+/// Entries over all DOFs.
+struct Full {
+    stiffness: Triplets,
+    mass: Triplets,
+    damping: Triplets,
+    inertance: Triplets,
+}
+
+/// The entries of all elements; marks the DOFs that they use.
+fn full_entries(model: &Model, tension: &[f64], used: &mut [bool]) -> Result<Full, SystemError> {
+    let none = || Triplets::new(used.len(), used.len());
+    let mut full = Full { stiffness: none(), mass: none(), damping: none(), inertance: none() };
+    let mut places = Vec::new();
+    for (e, tension) in model.elements.iter().zip(tension) {
+        let Some(m) = element_matrices(model, e, *tension)? else { continue };
+        places.clear();
+        places.extend(m.dofs.iter().map(|(n, d)| 6 * e.nodes[*n] + d.index()));
+        places.iter().for_each(|i| used[*i] = true);
+        let parts = [
+            (&mut full.stiffness, &m.stiffness),
+            (&mut full.mass, &m.mass),
+            (&mut full.damping, &m.damping),
+            (&mut full.inertance, &m.inertance),
+        ];
+        for (sum, a) in parts {
+            for (row, values) in places.iter().zip(a.values().chunks(places.len().max(1))) {
+                for (column, value) in places.iter().zip(values).filter(|(_, v)| **v != 0.0) {
+                    sum.add(*row, *column, *value);
                 }
             }
         }
     }
-    sums.map(|s| s.build())
+    Ok(full)
+}
+
+/// A matrix over the free DOFs, and its columns of prescribed ones.
+struct Split {
+    free: Sparse,
+    support: Sparse,
+}
+
+/// Tᵀ A T, rows of the free DOFs.
+fn reduce(full: &Triplets, reduction: &Reduction) -> Split {
+    let order = reduction.order();
+    let mut free = Triplets::new(order, order);
+    let mut support = Triplets::new(order, reduction.prescribed.len());
+    for (i, j, v) in full.entries() {
+        for (row, a) in reduction.expand(i).iter().filter(|(row, _)| *row < order) {
+            for (column, b) in reduction.expand(j) {
+                match column.checked_sub(order) {
+                    None => free.add(*row, *column, v * (a * b)),
+                    Some(column) => support.add(*row, column, v * (a * b)),
+                }
+            }
+        }
+    }
+    Split { free: free.build(), support: support.build() }
+}
+
+/// Tᵀ M r of unit translations, and the mass along Z.
+fn inertia(mass: &Triplets, reduction: &Reduction) -> ([Vec<f64>; 3], f64) {
+    let order = reduction.order();
+    let mut all = [(); 3].map(|()| vec![0.0; order]);
+    let mut total = 0.0;
+    for (i, j, v) in mass.entries() {
+        let Some(p) = all.get_mut(j % 6) else { continue };
+        for (row, a) in reduction.expand(i).iter().filter(|(row, _)| *row < order) {
+            p[*row] += a * v;
+        }
+        if i % 6 == 2 && j % 6 == 2 {
+            total += v;
+        }
+    }
+    (all, total)
 }

@@ -6,7 +6,6 @@
 
 use crate::SystemError;
 use std::collections::BTreeMap;
-use trilith_linalg::{Sparse, Triplets};
 use trilith_model::{Body, Model};
 
 /// The map from all DOFs (six a node, in node order) to free and prescribed ones.
@@ -90,6 +89,12 @@ impl Reduction {
         }
         let rows = (0..count)
             .map(|i| {
+                if !dependent.contains_key(&i) {
+                    return match place[i] {
+                        usize::MAX => Vec::new(),
+                        new => vec![(new, 1.0)],
+                    };
+                }
                 substitute(&BTreeMap::from([(i, 1.0)]), dependent)
                     .into_iter()
                     .filter(|(j, c)| place[*j] != usize::MAX && *c != 0.0)
@@ -110,18 +115,6 @@ impl Reduction {
     #[must_use]
     pub fn expand(&self, full: usize) -> &[(usize, f64)] {
         &self.rows[full]
-    }
-
-    /// T, full DOFs × (free + prescribed).
-    #[must_use]
-    pub fn matrix(&self) -> Sparse {
-        let mut t = Triplets::new(self.rows.len(), self.free.len() + self.prescribed.len());
-        for (i, row) in self.rows.iter().enumerate() {
-            for (j, c) in row {
-                t.add(i, *j, *c);
-            }
-        }
-        t.build()
     }
 }
 

@@ -123,7 +123,8 @@ impl Ldlt {
         }
     }
 
-    fn pivots(&self, mut visit: impl FnMut(usize, f64)) {
+    /// Shows equation and value of every pivot.
+    pub fn pivots(&self, mut visit: impl FnMut(usize, f64)) {
         let SymbolicCholeskyRaw::Supernodal(symbolic) = self.symbolic.raw() else { return };
         let l = supernodal::SupernodalLdltRef::new(symbolic, &self.values);
         let forward = self.symbolic.perm().map(|p| p.arrays().0);

@@ -1,0 +1,335 @@
+//! Tall matrices of many columns: projections that read them once, whatever the number of vectors.
+//!
+//! Rows are taken in tiles that stay in the nearest cache while all columns pass.
+
+use crate::{Dense, Sparse};
+use faer::linalg::matmul::matmul;
+use faer::{Accum, MatRef, Par};
+use pulp::{Arch, Simd, WithSimd};
+
+/// Rows of a tile.
+const TILE: usize = 1024;
+/// Columns taken together.
+const GROUP: usize = 4;
+/// Columns of a product that are made at once.
+const BLOCK: usize = 16;
+
+/// Vectors one after the other, whose number may grow.
+#[derive(Clone, Debug)]
+pub struct Columns {
+    rows: usize,
+    values: Vec<f64>,
+}
+
+impl Columns {
+    /// None yet, with room for `count`.
+    #[must_use]
+    pub fn with_capacity(rows: usize, count: usize) -> Self {
+        Self { rows, values: Vec::with_capacity(rows * count) }
+    }
+
+    /// How many there are.
+    #[must_use]
+    pub fn len(&self) -> usize {
+        self.values.len().checked_div(self.rows).unwrap_or(0)
+    }
+
+    /// True where there is none.
+    #[must_use]
+    pub fn is_empty(&self) -> bool {
+        self.values.is_empty()
+    }
+
+    /// One more.
+    ///
+    /// # Panics
+    /// Where its length does not suit.
+    pub fn push(&mut self, x: &[f64]) {
+        assert!(x.len() == self.rows, "length of a column");
+        self.values.extend_from_slice(x);
+    }
+
+    /// Takes from every vector x of a block its shares in the columns from `first` on: x −= V (Vᵀ y), where y
+    /// is the image of x that the columns are orthonormal to.
+    ///
+    /// # Panics
+    /// Where the lengths do not suit.
+    pub fn take_out(&self, first: usize, x: &mut [Vec<f64>], y: &[Vec<f64>]) {
+        let columns = &self.values[(first * self.rows).min(self.values.len())..];
+        for (x, y) in x.chunks_mut(2).zip(y.chunks(2)) {
+            match (x, y) {
+                ([a, b], [c, d]) => take_out(columns, self.rows, [a, b], [c, d]),
+                ([a], [c]) => take_out(columns, self.rows, [a], [c]),
+                _ => {}
+            }
+        }
+    }
+
+    /// As a matrix.
+    #[must_use]
+    pub fn into_dense(self) -> Dense {
+        Dense::from_columns(self.rows, self.len(), self.values)
+    }
+}
+
+fn take_out<const R: usize>(a: &[f64], n: usize, x: [&mut Vec<f64>; R], y: [&Vec<f64>; R]) {
+    if a.is_empty() {
+        return;
+    }
+    let m = a.len() / n;
+    let mut shares = vec![0.0; R * m];
+    for start in (0..n).step_by(TILE) {
+        let end = (start + TILE).min(n);
+        let y = y.map(|y| &y[start..end]);
+        Arch::new().dispatch(Dots { a, n, start, y, shares: &mut shares });
+    }
+    let [mut x] = [x];
+    for start in (0..n).step_by(TILE) {
+        let end = (start + TILE).min(n);
+        let x = x.each_mut().map(|x| &mut x[start..end]);
+        Arch::new().dispatch(Subtract { a, n, start, x, shares: &shares });
+    }
+}
+
+struct Dots<'a, const R: usize> {
+    a: &'a [f64],
+    n: usize,
+    start: usize,
+    y: [&'a [f64]; R],
+    /// R shares a column.
+    shares: &'a mut [f64],
+}
+
+impl<const R: usize> Dots<'_, R> {
+    #[inline(always)]
+    fn group<S: Simd, const N: usize>(&mut self, simd: S, first: usize) {
+        let length = self.y[0].len();
+        let y = self.y.map(|y| S::as_simd_f64s(y));
+        let heads = length / S::F64_LANES;
+        let columns: [_; N] = std::array::from_fn(|k| {
+            let at = (first + k) * self.n + self.start;
+            let (head, tail) = S::as_simd_f64s(&self.a[at..at + length]);
+            (&head[..heads], tail)
+        });
+        let y = y.map(|(head, tail)| (&head[..heads], tail));
+        let mut sums = [[simd.splat_f64s(0.0); R]; N];
+        for i in 0..heads {
+            for k in 0..N {
+                for r in 0..R {
+                    sums[k][r] = simd.mul_add_e_f64s(columns[k].0[i], y[r].0[i], sums[k][r]);
+                }
+            }
+        }
+        for k in 0..N {
+            for r in 0..R {
+                let mut sum = simd.reduce_sum_f64s(sums[k][r]);
+                for (c, y) in columns[k].1.iter().zip(y[r].1) {
+                    sum += c * y;
+                }
+                self.shares[(first + k) * R + r] += sum;
+            }
+        }
+    }
+}
+
+impl<const R: usize> WithSimd for Dots<'_, R> {
+    type Output = ();
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(mut self, simd: S) {
+        let columns = self.shares.len() / R;
+        let mut j = 0;
+        while j + GROUP <= columns {
+            self.group::<S, GROUP>(simd, j);
+            j += GROUP;
+        }
+        while j < columns {
+            self.group::<S, 1>(simd, j);
+            j += 1;
+        }
+    }
+}
+
+struct Subtract<'a, const R: usize> {
+    a: &'a [f64],
+    n: usize,
+    start: usize,
+    x: [&'a mut [f64]; R],
+    shares: &'a [f64],
+}
+
+impl<const R: usize> Subtract<'_, R> {
+    #[inline(always)]
+    fn group<S: Simd, const N: usize>(&mut self, simd: S, first: usize) {
+        let length = self.x[0].len();
+        let heads = length / S::F64_LANES;
+        let columns: [_; N] = std::array::from_fn(|k| {
+            let at = (first + k) * self.n + self.start;
+            let (head, tail) = S::as_simd_f64s(&self.a[at..at + length]);
+            (&head[..heads], tail)
+        });
+        for (r, x) in self.x.iter_mut().enumerate() {
+            let shares: [f64; N] = std::array::from_fn(|k| -self.shares[(first + k) * R + r]);
+            let factors = shares.map(|s| simd.splat_f64s(s));
+            let (head, tail) = S::as_mut_simd_f64s(x);
+            for (i, x) in head.iter_mut().enumerate() {
+                let mut sum = *x;
+                for k in 0..N {
+                    sum = simd.mul_add_e_f64s(factors[k], columns[k].0[i], sum);
+                }
+                *x = sum;
+            }
+            for (i, x) in tail.iter_mut().enumerate() {
+                for k in 0..N {
+                    *x += shares[k] * columns[k].1[i];
+                }
+            }
+        }
+    }
+}
+
+impl<const R: usize> WithSimd for Subtract<'_, R> {
+    type Output = ();
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(mut self, simd: S) {
+        let columns = self.shares.len() / R;
+        let mut j = 0;
+        while j + GROUP <= columns {
+            self.group::<S, GROUP>(simd, j);
+            j += GROUP;
+        }
+        while j < columns {
+            self.group::<S, 1>(simd, j);
+            j += 1;
+        }
+    }
+}
+
+impl Dense {
+    /// Vᵀ A V of the first `count` columns V, for a symmetric A.
+    ///
+    /// # Panics
+    /// Where there are fewer columns, or the sizes differ.
+    #[must_use]
+    pub fn congruence(&self, a: &Sparse, count: usize) -> Self {
+        let n = self.rows();
+        assert!(a.rows() == n && a.columns() == n && count <= self.columns(), "sizes of a product");
+        let mut c = Self::zeros(count, count);
+        if a.stored() == 0 || n == 0 {
+            return c;
+        }
+        let mut image = Self::zeros(n, BLOCK.min(count));
+        for start in (0..count).step_by(BLOCK) {
+            let width = BLOCK.min(count - start);
+            for j in 0..width {
+                image.column_mut(j).fill(0.0);
+                a.mul_add(1.0, self.column(start + j), image.column_mut(j));
+            }
+            // Nothing above the diagonal block: symmetry gives it.
+            let left = &self.values()[start * n..count * n];
+            let left = MatRef::from_column_major_slice(left, n, count - start);
+            let right = MatRef::from_column_major_slice(&image.values()[..n * width], n, width);
+            let below = c.as_mut().submatrix_mut(start, start, count - start, width);
+            matmul(below, Accum::Replace, left.transpose(), right, 1.0, Par::Seq);
+        }
+        for j in 0..count {
+            for i in 0..j {
+                // Within a diagonal block both halves are made.
+                c[(i, j)] = c[(j, i)];
+            }
+        }
+        c
+    }
+
+    /// V ← V T on the first columns, as many as T has, in place.
+    ///
+    /// # Panics
+    /// Where T is not square or has more columns.
+    pub fn turn(&mut self, t: &Self) {
+        let (n, count) = (self.rows(), t.columns());
+        assert!(t.rows() == count && count <= self.columns(), "sizes of a product");
+        const ROWS: usize = 256;
+        let mut part = Self::zeros(ROWS.min(n), count);
+        for start in (0..n).step_by(ROWS) {
+            let length = ROWS.min(n - start);
+            let mut part = part.as_mut().subrows_mut(0, length);
+            let here = self.as_ref().submatrix(start, 0, length, count);
+            matmul(part.as_mut(), Accum::Replace, here, t.as_ref(), 1.0, Par::Seq);
+            self.as_mut().submatrix_mut(start, 0, length, count).copy_from(part);
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::Triplets;
+
+    fn number(i: usize) -> f64 {
+        ((i * 7919) % 1009) as f64 / 1009.0 - 0.5
+    }
+
+    fn sample(rows: usize, columns: usize) -> Dense {
+        Dense::from_columns(rows, columns, (0..rows * columns).map(number).collect())
+    }
+
+    #[test]
+    fn shares_are_taken_out_of_one_two_and_three_vectors() {
+        let n = 2500;
+        let v = sample(n, 7);
+        let mut columns = Columns::with_capacity(n, 7);
+        (0..7).for_each(|j| columns.push(v.column(j)));
+        assert_eq!((columns.len(), columns.is_empty()), (7, false));
+        for count in 1..4 {
+            let y: Vec<Vec<f64>> =
+                (0..count).map(|c| (0..n).map(|i| number(3 * i + c)).collect()).collect();
+            let mut x = y.clone();
+            columns.take_out(2, &mut x, &y);
+            for (x, y) in x.iter().zip(&y) {
+                let mut expected = y.clone();
+                for j in 2..7 {
+                    let share: f64 = v.column(j).iter().zip(y).map(|(a, b)| a * b).sum();
+                    expected.iter_mut().zip(v.column(j)).for_each(|(e, a)| *e -= share * a);
+                }
+                for (x, e) in x.iter().zip(&expected) {
+                    assert!((x - e).abs() < 1e-10 * (1.0 + e.abs()), "{x} {e}");
+                }
+            }
+        }
+        assert_eq!(columns.into_dense(), v);
+    }
+
+    #[test]
+    fn a_congruence_and_a_turn_are_the_products_by_hand() {
+        let (n, m) = (600, 37);
+        let mut t = Triplets::new(n, n);
+        for i in 0..n {
+            t.add(i, i, 2.0 + number(i));
+            if i > 2 {
+                t.add(i, i - 3, number(i));
+                t.add(i - 3, i, number(i));
+            }
+        }
+        let (a, v) = (t.build(), sample(n, m));
+        for count in [m, 20, 1, 0] {
+            let c = v.congruence(&a, count);
+            for i in 0..count {
+                for j in 0..count {
+                    let expected = a.bilinear(v.column(i), v.column(j));
+                    assert!((c[(i, j)] - expected).abs() < 1e-10, "{} {expected}", c[(i, j)]);
+                }
+            }
+            let turn = sample(count, count);
+            let mut turned = v.clone();
+            turned.turn(&turn);
+            for j in 0..m {
+                for i in (0..n).step_by(13) {
+                    let product = || (0..count).map(|k| v[(i, k)] * turn[(k, j)]).sum();
+                    let expected: f64 = if j < count { product() } else { v[(i, j)] };
+                    assert!((turned[(i, j)] - expected).abs() < 1e-12);
+                }
+            }
+        }
+    }
+}

@@ -1,0 +1,171 @@
+//! M-orthonormal vectors under construction.
+
+use crate::vector::dot;
+use trilith_linalg::{Columns, Dense, Sparse};
+use trilith_system::System;
+
+/// Share of its M-norm that a new vector must keep to be more than rounding. It may be small: on soft
+/// dummies every static shape is mostly a rigid motion, which the vectors before it hold already.
+const KEEP: f64 = 1e-8;
+/// A static shape of a place with next to no mass is not a mode: faster than this (rad/s) it would only
+/// spoil the digits of the slow ones.
+const FASTEST: f64 = 1e6;
+/// Where a vector keeps this share of its norm when its shares in others are taken out, what is left is
+/// orthogonal to the others to rounding. \[Daniel, Gragg, Kaufman & Stewart 1976\]
+const SETTLED: f64 = 0.5;
+
+/// Where new vectors come from.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Origin {
+    /// K̂⁻¹M of the block before: K̂⁻¹M is symmetric in the product of M, so only the two blocks before
+    /// have more than rounding in common with them.
+    Recursion,
+    /// Anything.
+    Anywhere,
+}
+
+/// M-orthonormal vectors, block after block.
+pub(crate) struct Span<'a> {
+    mass: &'a Sparse,
+    columns: Columns,
+    /// First vectors of the two blocks before, and of this one.
+    starts: [usize; 3],
+}
+
+impl<'a> Span<'a> {
+    /// None yet, with room for so many.
+    pub(crate) fn new(system: &'a System, most: usize) -> Self {
+        let columns = Columns::with_capacity(system.order(), most.min(system.order()));
+        Self { mass: &system.mass, columns, starts: [0; 3] }
+    }
+
+    pub(crate) fn len(&self) -> usize {
+        self.columns.len()
+    }
+
+    pub(crate) fn into_dense(self) -> Dense {
+        self.columns.into_dense()
+    }
+
+    /// What follows in the recursion is a new block.
+    pub(crate) fn next_block(&mut self) {
+        self.starts = [self.starts[1], self.starts[2], self.len()];
+    }
+
+    fn norms(&self, x: &[Vec<f64>]) -> (Vec<Vec<f64>>, Vec<f64>) {
+        let images: Vec<_> = x.iter().map(|x| self.mass.mul(x)).collect();
+        let norms = x.iter().zip(&images).map(|(x, m)| dot(x, m).max(0.0).sqrt()).collect();
+        (images, norms)
+    }
+
+    /// Orthonormalises vectors and keeps them, but for those of which nothing is left, and, where a
+    /// stiffness is given, those of which what is left would be faster than any mode of interest. Returns the
+    /// images under M of those kept.
+    pub(crate) fn take(
+        &mut self,
+        mut x: Vec<Vec<f64>>,
+        origin: Origin,
+        stiffness: Option<&Sparse>,
+    ) -> Vec<Vec<f64>> {
+        let size = |x: &[f64]| x.iter().fold(0.0f64, |a, b| a.max(b.abs()));
+        x.retain(|x| x.iter().all(|v| v.is_finite()) && size(x) > 0.0);
+        for x in &mut x {
+            let scale = size(x);
+            x.iter_mut().for_each(|v| *v /= scale);
+        }
+        let (mut images, before) = self.norms(&x);
+        let first = if origin == Origin::Recursion { self.starts[0] } else { 0 };
+        self.columns.take_out(first, &mut x, &images);
+        let mut norms;
+        (images, norms) = self.norms(&x);
+        loop {
+            self.columns.take_out(0, &mut x, &images);
+            let earlier = norms;
+            (images, norms) = self.norms(&x);
+            let lost = |i: usize| norms[i] < SETTLED * earlier[i] && norms[i] > KEEP * before[i];
+            if !(0..x.len()).any(lost) {
+                break;
+            }
+        }
+        let start = self.len();
+        let mut kept = Vec::with_capacity(x.len());
+        for ((x, norm), before) in x.into_iter().zip(norms).zip(before) {
+            if before > 0.0 && norm > KEEP * before {
+                kept.extend(self.keep(x, norm, before, start, stiffness));
+            }
+        }
+        kept
+    }
+
+    /// Keeps a vector that is orthogonal to those before `start`.
+    fn keep(
+        &mut self,
+        x: Vec<f64>,
+        norm: f64,
+        before: f64,
+        start: usize,
+        stiffness: Option<&Sparse>,
+    ) -> Option<Vec<f64>> {
+        let (mut x, mut norm, mut first) = (vec![x], norm, start);
+        let mut images = vec![self.mass.mul(&x[0])];
+        while first < self.len() {
+            let earlier = norm;
+            self.columns.take_out(first, &mut x, &images);
+            let now = self.norms(&x);
+            (images, norm) = (now.0, now.1[0]);
+            let left = norm > KEEP * before;
+            if !left {
+                return None;
+            }
+            if norm >= SETTLED * earlier {
+                break;
+            }
+            // What was lost has brought shares in all others back to light.
+            first = 0;
+        }
+        let (mut x, mut image) = (x.pop()?, images.pop()?);
+        x.iter_mut().for_each(|v| *v /= norm);
+        if stiffness.is_some_and(|k| k.bilinear(&x, &x) > FASTEST * FASTEST) {
+            return None;
+        }
+        image.iter_mut().for_each(|v| *v /= norm);
+        self.columns.push(&x);
+        Some(image)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use trilith_linalg::Triplets;
+
+    #[test]
+    fn vectors_that_are_nearly_alike_become_orthonormal_and_copies_are_left_out() {
+        let n = 400;
+        let mut mass = Triplets::new(n, n);
+        (0..n / 2).for_each(|i| mass.add(2 * i, 2 * i, 1.0 + i as f64));
+        let mass = mass.build();
+        let number = |i: usize| ((i * 7919) % 1009) as f64 / 1009.0 - 0.5;
+        let base: Vec<f64> = (0..n).map(number).collect();
+        // A millionth apart: one pass would leave shares of 1e-10.
+        let near = |c: usize| -> Vec<f64> {
+            base.iter().enumerate().map(|(i, x)| x + 1e-6 * number(31 * i + c)).collect()
+        };
+        let columns = Columns::with_capacity(n, 8);
+        let mut span = Span { mass: &mass, columns, starts: [0; 3] };
+        let sizes = [
+            span.take(vec![base.clone()], Origin::Anywhere, None).len(),
+            span.take(vec![near(1), near(2), base.clone()], Origin::Anywhere, None).len(),
+            span.take(vec![near(3), near(1), vec![0.0; n]], Origin::Anywhere, None).len(),
+        ];
+        assert_eq!((sizes, span.len()), ([1, 2, 1], 4));
+        let v = span.into_dense();
+        for i in 0..4 {
+            for j in 0..4 {
+                let expected = if i == j { 1.0 } else { 0.0 };
+                let found = mass.bilinear(v.column(i), v.column(j));
+                assert!((found - expected).abs() < 1e-13, "{i} {j} {found}");
+            }
+        }
+    }
+}
