@@ -82,23 +82,9 @@ pub fn run(
     observers: &mut [&mut dyn Observer],
 ) -> Result<CaseResult, SolveError> {
     let case = &model.cases[options.case];
-    let before = match case.after {
-        Some(earlier) if options.from.is_none() => {
-            let result = run(
-                model,
-                system,
-                RunOptions { case: earlier, solver: options.solver, ..RunOptions::default() },
-                &mut [],
-            )?;
-            if let Status::NotConverged { .. } | Status::Overturned { .. } = result.status {
-                return Err(SolveError::Predecessor {
-                    case: result.case,
-                    reason: result.status.text(),
-                });
-            }
-            Some(result.end)
-        }
-        _ => None,
+    let before = match options.from {
+        None => before(model, system, case, options.solver)?,
+        Some(_) => None,
     };
     match &case.analysis {
         Analysis::Static(analysis) => run_static(model, system, case, analysis, before, observers),
@@ -107,6 +93,23 @@ pub fn run(
             dynamic::run(setup, options, observers)
         }
     }
+}
+
+/// The end of the case that a case continues.
+pub(crate) fn before(
+    model: &Model,
+    system: &System,
+    case: &Case,
+    solver: Option<SolverKind>,
+) -> Result<Option<EndState>, SolveError> {
+    let Some(earlier) = case.after else { return Ok(None) };
+    let options = RunOptions { case: earlier, solver, ..RunOptions::default() };
+    let result = run(model, system, options, &mut [])?;
+    if let Status::NotConverged { .. } | Status::Overturned { .. } = result.status {
+        let reason = result.status.text();
+        return Err(SolveError::Predecessor { case: result.case, reason });
+    }
+    Ok(Some(result.end))
 }
 
 /// Modes of the structure without links in the basis that a case would use, with participation and the

@@ -7,18 +7,20 @@ use crate::damping::modal_damping;
 use crate::error::SolveError;
 use crate::full_newton::FullNewton;
 use crate::hht::Hht;
-use crate::kernel::LinkKernel;
+use crate::kernel::{LinkKernel, Remembered};
 use crate::ledger::Ledger;
 use crate::link_side::LinkSide;
 use crate::march::{March, Pace, Stop};
-use crate::modal::Modal;
+use crate::modal::{Modal, Modes};
 use crate::observe::{CaseResult, Observer, Status, Work};
 use crate::space::Space;
 use crate::start::{check, constant_force, potential, resume, start};
 use crate::stepper::{LinkStepper, State, StepEnergy, Stepper};
 use crate::timeline::Timeline;
 use crate::view::Viewer;
-use trilith_model::{Case, Damping, DynamicCase, Model, Side, SolverKind, StepControl};
+use trilith_model::{
+    Analysis, Case, Damping, DynamicCase, Model, Side, Solution, SolverKind, StepControl,
+};
 use trilith_system::{LoadSet, System, Track};
 
 /// A dynamic case and what it starts from.
@@ -76,41 +78,22 @@ pub(crate) fn run(
     if let Some(end) = &options.from {
         check(model, system, case, kind, dt, end)?;
     }
-    let mut constant = constant_load(model, system, &analysis.constant);
-    if let Some(end) = &before {
-        for (x, y) in constant.iter_mut().zip(&end.load) {
-            *x += y;
-        }
-    } else if let Some(end) = &options.from {
-        constant.clone_from(&end.load);
-    }
-    let loads = system.dynamic_loads(model, analysis, constant.clone());
-    let modal = matches!(model.damping, Damping::Modal { .. } | Damping::ModalTable { .. });
-    let reduced = matches!(kind, SolverKind::Fna | SolverKind::RitzHht);
-    let bases = if modal || reduced {
-        let directions = basis_loads(model, analysis, &loads);
-        // Who asks for no flexibility of the links needs no report of it.
-        let adequacy = reduced && solution.basis.adequacy > 0.0;
-        Some(basis::build(model, system, &solution.basis, &directions, adequacy)?)
-    } else {
-        system.check_supported(model, true)?;
-        None
+    let constant = match &options.from {
+        Some(end) => end.load.clone(),
+        None => held_load(model, system, analysis, before.as_ref()),
     };
+    let loads = system.dynamic_loads(model, analysis, constant.clone());
+    let reduced = is_reduced(kind);
+    let bases = bases(model, system, analysis, kind, &loads)?;
     let damping = bases.as_ref().and_then(|b| modal_damping(model, system, b));
     let none = vec![0.0; system.links.len()];
     let effective = if kind == SolverKind::FullNewton { &none } else { &system.links.effective };
-    let side = |order: usize| {
-        let dummies = system.links.active.iter().map(|i| effective[*i]).collect();
-        let kernel = LinkKernel::new(model, &system.links, solution, dummies);
-        LinkSide::new(model, system, &loads, kernel, order)
-    };
+    let side = |order: usize| link_side(model, system, solution, &loads, order);
     let mut stepper: Box<dyn Stepper + '_> = match (kind, &bases) {
         (SolverKind::Fna, Some(b)) => {
-            let engaged = system.links.engaged(model);
-            let engaged = system.links.active.iter().map(|i| engaged[*i]).collect();
-            let space = Space::reduced(system, &loads, effective, damping.as_ref(), &b.stepping);
-            let side = side(space.order());
-            Box::new(LinkStepper::new(Modal::new(space, engaged), side))
+            let modes = modes(model, system, &loads, b);
+            let side = side(modes.space.order());
+            Box::new(LinkStepper::new(Modal::new(modes), side))
         }
         (SolverKind::RitzHht, Some(b)) => {
             let space = Space::reduced(system, &loads, effective, damping.as_ref(), &b.stepping);
@@ -132,24 +115,10 @@ pub(crate) fn run(
             Box::new(LinkStepper::new(Hht::new(space, solution.alpha), side))
         }
     };
-    let timeline = Timeline {
-        dt,
-        steps: ((analysis.duration / dt) - 1e-9).ceil().max(1.0) as usize,
-        duration: analysis.duration,
-        breaks: loads.breaks(analysis.duration),
-    };
+    let timeline = Timeline::new(dt, analysis.duration, &loads);
     let mut warnings = Vec::new();
     if let (Some(b), true) = (&bases, reduced) {
         adequacy_warning(b, solution.basis.adequacy, &mut warnings);
-    }
-    if let StepControl::Fixed { substeps } = solution.step {
-        let size = dt / substeps as f64;
-        if let Some(ratio) = stepper.beyond_exact(size)? {
-            warnings.push(format!(
-                "fixed steps of {size:.3e} s are too long for the exact rule at the stiffest link (ω Δt = {:.2}; limit of stability 3.46): they are made by average acceleration, and nothing watches their error; `step: Adaptive(…)` does",
-                (6.0 * ratio).sqrt()
-            ));
-        }
     }
     let (mut state, mut pace, mut ledger, first) = match options.from {
         Some(end) => resume(end, stepper.as_mut())?,
@@ -194,72 +163,181 @@ pub(crate) fn run(
         }
     }
     let counts = march.counts;
-    let status = match stop {
-        Some(Stop::Fatal(e)) => return Err(e),
-        Some(Stop::NoEquilibrium { t, worst, residual }) => {
-            Status::NotConverged { t, worst: system.links.name(model, worst), residual }
-        }
-        None if ledger.totals.error_relative > solution.energy_limit => Status::EnergyError {
-            share: ledger.totals.error_relative,
-            limit: solution.energy_limit,
-        },
-        None => fallen.map_or(Status::Converged, |element| Status::Overturned {
-            t: timeline.time(made),
-            body: model.elements[element].name.clone(),
-        }),
-    };
+    if let Some(Stop::Fatal(e)) = stop {
+        return Err(e);
+    }
     if counts.forced > 0 {
         warnings.push(format!(
             "{} substeps were accepted at the smallest size although their error was above the tolerance",
             counts.forced
         ));
     }
+    if let (StepControl::Fixed { .. }, Some(ratio)) = (solution.step, stepper.beyond_exact()) {
+        warnings.push(format!(
+            "fixed steps were too long for the exact rule at the stiffest link (ω Δt = {:.2}; limit of stability 3.46): they were made by average acceleration, and nothing watched their error; `step: Adaptive(…)` does",
+            (6.0 * ratio).sqrt()
+        ));
+    }
     let (iterations, factorizations) = stepper.work();
-    let n = stepper.space().order();
-    let end = EndState {
-        model: model.source.sha256.clone(),
-        case: case.name.clone(),
-        solver: kind.name().into(),
-        parameters: parameters(model),
-        dt,
-        time: timeline.time(made),
-        step: made,
-        displacement: stepper.space().expand(&state.motion[..n]),
-        velocity: stepper.space().expand(&state.motion[n..2 * n]),
-        load: constant,
-        pace,
-        memory: stepper.memory(),
-        ledger: ledger.clone(),
-        state,
+    let work = Work {
+        steps: made - first,
+        substeps: counts.substeps,
+        iterations,
+        rejected: counts.rejected,
+        factorizations,
+        forced: counts.forced,
+        wall_s: clock.wall(),
+        setup_cpu_s: setup_cpu,
+        march_cpu_s: clock.cpu() - setup_cpu,
+        peak_rss_mb: peak_rss_mb(),
     };
-    Ok(CaseResult {
-        case: case.name.clone(),
-        solver: kind.name(),
-        status,
-        work: Work {
-            steps: made - first,
-            substeps: counts.substeps,
-            iterations,
-            rejected: counts.rejected,
-            factorizations,
-            forced: counts.forced,
-            wall_s: clock.wall(),
-            setup_cpu_s: setup_cpu,
-            march_cpu_s: clock.cpu() - setup_cpu,
-            peak_rss_mb: peak_rss_mb(),
-        },
-        energy: ledger.totals,
-        link_energy: system
-            .links
-            .links
-            .iter()
-            .zip(&ledger.links)
-            .map(|(l, e)| (l.element, *e))
-            .collect(),
-        basis: if reduced { bases.map(|b| b.report) } else { None },
-        warnings,
-        end,
-    })
+    let arrival = Arrival { timeline: &timeline, made, state, pace, ledger, constant, fallen };
+    let mut result =
+        arrival.result(model, system, case, kind, stepper.space(), stepper.memory(), work);
+    if let Some(Stop::NoEquilibrium { t, worst, residual }) = stop {
+        let worst = system.links.name(model, worst);
+        result.status = Status::NotConverged { t, worst, residual };
+    }
+    result.basis = if reduced { bases.map(|b| b.report) } else { None };
+    result.warnings = warnings;
+    Ok(result)
+}
+
+/// Where a run ended, and what it carries there.
+pub(crate) struct Arrival<'a> {
+    pub timeline: &'a Timeline,
+    /// Output steps made since the start of the case.
+    pub made: usize,
+    pub state: State,
+    pub pace: Pace,
+    pub ledger: Ledger,
+    /// Constant loads on the free DOFs.
+    pub constant: Vec<f64>,
+    /// Index of the element of a body that has fallen over.
+    pub fallen: Option<usize>,
+}
+
+impl Arrival<'_> {
+    /// What the run leaves; basis and warnings still missing.
+    pub(crate) fn result(
+        self,
+        model: &Model,
+        system: &System,
+        case: &Case,
+        kind: SolverKind,
+        space: &Space,
+        memory: Vec<Remembered>,
+        work: Work,
+    ) -> CaseResult {
+        let Self { timeline, made, state, pace, ledger, constant, fallen } = self;
+        let share = ledger.totals.error_relative;
+        let limit = match &case.analysis {
+            Analysis::Dynamic(analysis) => analysis.solution.energy_limit,
+            Analysis::Static(_) => f64::INFINITY,
+        };
+        let status = if share > limit {
+            Status::EnergyError { share, limit }
+        } else {
+            fallen.map_or(Status::Converged, |element| Status::Overturned {
+                t: timeline.time(made),
+                body: model.elements[element].name.clone(),
+            })
+        };
+        let n = space.order();
+        let totals = ledger.totals;
+        let links = system.links.links.iter().zip(&ledger.links);
+        let link_energy = links.map(|(l, e)| (l.element, *e)).collect();
+        let end = EndState {
+            model: model.source.sha256.clone(),
+            case: case.name.clone(),
+            solver: kind.name().into(),
+            parameters: parameters(model),
+            dt: timeline.dt,
+            time: timeline.time(made),
+            step: made,
+            displacement: space.expand(&state.motion[..n]),
+            velocity: space.expand(&state.motion[n..2 * n]),
+            load: constant,
+            pace,
+            memory,
+            ledger,
+            state,
+        };
+        CaseResult {
+            case: case.name.clone(),
+            solver: kind.name(),
+            status,
+            work,
+            energy: totals,
+            link_energy,
+            basis: None,
+            warnings: Vec::new(),
+            end,
+        }
+    }
+}
+
+/// Constant loads on the free DOFs: the case's own and those of the case before.
+pub(crate) fn held_load(
+    model: &Model,
+    system: &System,
+    analysis: &DynamicCase,
+    before: Option<&EndState>,
+) -> Vec<f64> {
+    let mut constant = constant_load(model, system, &analysis.constant);
+    if let Some(end) = before {
+        constant.iter_mut().zip(&end.load).for_each(|(x, y)| *x += y);
+    }
+    constant
+}
+
+fn is_reduced(kind: SolverKind) -> bool {
+    matches!(kind, SolverKind::Fna | SolverKind::RitzHht)
+}
+
+/// The bases that a solver or modal damping needs.
+pub(crate) fn bases(
+    model: &Model,
+    system: &System,
+    analysis: &DynamicCase,
+    kind: SolverKind,
+    loads: &LoadSet,
+) -> Result<Option<Bases>, SolveError> {
+    let modal = matches!(model.damping, Damping::Modal { .. } | Damping::ModalTable { .. });
+    if !modal && !is_reduced(kind) {
+        system.check_supported(model, true)?;
+        return Ok(None);
+    }
+    let directions = basis_loads(model, analysis, loads);
+    let settings = &analysis.solution.basis;
+    // Who asks for no flexibility of the links needs no report of it.
+    let adequacy = is_reduced(kind) && settings.adequacy > 0.0;
+    Ok(Some(basis::build(model, system, settings, &directions, adequacy)?))
+}
+
+/// The structure of FNA on its basis.
+pub(crate) fn modes(model: &Model, system: &System, loads: &LoadSet, bases: &Bases) -> Modes {
+    let links = &system.links;
+    let engaged = links.engaged(model);
+    let engaged = links.active.iter().map(|i| engaged[*i]).collect();
+    let damping = modal_damping(model, system, bases);
+    let stepping = &bases.stepping;
+    let space = Space::reduced(system, loads, &links.effective, damping.as_ref(), stepping);
+    Modes::new(space, engaged)
+}
+
+/// The link side of a motion with this many coordinates.
+pub(crate) fn link_side<'a>(
+    model: &'a Model,
+    system: &'a System,
+    solution: &Solution,
+    loads: &'a LoadSet,
+    order: usize,
+) -> LinkSide<'a> {
+    let links = &system.links;
+    let dummies = links.active.iter().map(|i| links.effective[*i]).collect();
+    let kernel = LinkKernel::new(model, links, solution, dummies);
+    LinkSide::new(model, system, loads, kernel, order)
 }
 
 fn adequacy_warning(bases: &Bases, wanted: f64, warnings: &mut Vec<String>) {

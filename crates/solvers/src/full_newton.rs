@@ -141,7 +141,7 @@ impl Stepper for FullNewton<'_> {
             let force = largest(&to.f).max(from.scale[0]).max(from.scale[1]);
             let size = largest(&inertia).max(largest(&load1)).max(force);
             if largest(&residual) <= TOLERANCE * size {
-                to.settle(&self.system.links, &energy.links);
+                to.settle(&self.system.links, &energy.links, &tangents);
                 self.book(from, to, loads, (&load0, &load1), dt, energy);
                 return Ok(());
             }
@@ -209,10 +209,6 @@ impl Stepper for FullNewton<'_> {
 
     fn recall(&mut self, _memory: Vec<Remembered>) -> Result<(), SolveError> {
         Ok(())
-    }
-
-    fn beyond_exact(&mut self, _dt: f64) -> Result<Option<f64>, SolveError> {
-        Ok(None)
     }
 }
 

@@ -11,6 +11,7 @@
 //! `FixedPoint` is Wilson's constant-stiffness iteration, f̃ ← law − k_e d; it converges only
 //! while |k − k_e| G < 1. Neither touches a matrix of the structure.
 
+use crate::propagator::StepKey;
 use crate::vector::largest;
 use serde::{Deserialize, Serialize};
 use trilith_element::{Energy, Kinematics};
@@ -30,7 +31,7 @@ pub(crate) struct Affine<'a> {
     pub g: &'a Dense,
     pub h: &'a Dense,
     /// Identity of the compliances: a factor made with others is not used again.
-    pub key: u64,
+    pub key: StepKey,
 }
 
 /// The committed side of a step, flat.
@@ -131,16 +132,16 @@ pub(crate) struct LinkKernel<'a> {
     iterations: usize,
 }
 
-/// A kept factor as a checkpoint holds it: the step size and the tangents it was made with.
+/// A kept factor as a checkpoint holds it: the step and the tangents it was made with.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub(crate) struct Remembered {
-    pub dt: f64,
+    pub key: StepKey,
     pub k: Vec<f64>,
     pub c: Vec<f64>,
 }
 
 struct Factor {
-    key: u64,
+    key: StepKey,
     tangents: Tangents,
     /// Active coordinates with a row of tangents that counts.
     equations: Vec<usize>,
@@ -241,6 +242,11 @@ impl<'a> LinkKernel<'a> {
         self.iterations
     }
 
+    /// Tangents of the last iteration.
+    pub(crate) fn tangents(&self) -> &Tangents {
+        &self.tangents
+    }
+
     /// Active coordinates whose rates no law looks at: [`solve`](Self::solve) leaves them to the caller.
     pub(crate) fn unrated(&self) -> &[usize] {
         &self.unrated
@@ -251,18 +257,14 @@ impl<'a> LinkKernel<'a> {
     pub(crate) fn memory(&self) -> Vec<Remembered> {
         self.factors
             .iter()
-            .map(|f| Remembered {
-                dt: f64::from_bits(f.key),
-                k: f.tangents.k.clone(),
-                c: f.tangents.c.clone(),
-            })
+            .map(|f| Remembered { key: f.key, k: f.tangents.k.clone(), c: f.tangents.c.clone() })
             .collect()
     }
 
     /// Makes a factor again, with the compliances of its step size.
     pub(crate) fn recall(&mut self, memory: Remembered, g: &Dense, h: &Dense) {
         let tangents = Tangents { k: memory.k, c: memory.c };
-        let factor = self.factorise(tangents, memory.dt.to_bits(), g, h);
+        let factor = self.factorise(tangents, memory.key, g, h);
         self.factors.push(factor);
     }
 
@@ -406,17 +408,17 @@ impl<'a> LinkKernel<'a> {
             for (a, flat) in links.active.iter().enumerate() {
                 let kind = usize::from(links.rotational[*flat]);
                 left[kind] = self.residual[a].abs().max(left[kind]);
-                now[kind] = out.f[*flat].abs().max(PSEUDO_SHARE * out.pseudo[a].abs()).max(now[kind]);
+                now[kind] =
+                    out.f[*flat].abs().max(PSEUDO_SHARE * out.pseudo[a].abs()).max(now[kind]);
             }
         } else {
             left[0] = largest(&self.residual);
             now[0] = largest(out.f).max(PSEUDO_SHARE * largest(out.pseudo)).max(now[0]);
         }
         let mut worst = NoEquilibrium { worst: 0, residual: 0.0 };
-        if let (false, Some(a)) = (
-            largest(&self.residual).is_finite(),
-            self.residual.iter().position(|r| !r.is_finite()),
-        ) {
+        if let (false, Some(a)) =
+            (largest(&self.residual).is_finite(), self.residual.iter().position(|r| !r.is_finite()))
+        {
             worst = NoEquilibrium { worst: links.active[a], residual: self.residual[a].abs() };
             return (f64::NAN, worst);
         }
@@ -452,7 +454,10 @@ impl<'a> LinkKernel<'a> {
         let block = link.block.start + row..link.block.start + row + link.range.len();
         let (k, c) = (&self.tangents.k[block.clone()], &self.tangents.c[block]);
         let terms = link.range.clone().zip(k.iter().zip(c));
-        DIGIT * terms.map(|(flat, (k, c))| (k * out.d[flat]).abs() + (c * out.v[flat]).abs()).sum::<f64>()
+        DIGIT
+            * terms
+                .map(|(flat, (k, c))| (k * out.d[flat]).abs() + (c * out.v[flat]).abs())
+                .sum::<f64>()
     }
 
     /// Replaces the residual by the Newton correction of f̃.
@@ -480,7 +485,7 @@ impl<'a> LinkKernel<'a> {
         }
     }
 
-    fn factorise(&self, tangents: Tangents, key: u64, g: &Dense, h: &Dense) -> Factor {
+    fn factorise(&self, tangents: Tangents, key: StepKey, g: &Dense, h: &Dense) -> Factor {
         let n = self.links.active.len();
         // Rows of k − k_e and c per active coordinate: (other active, stiffness, damping).
         let mut rows: Vec<Vec<(usize, f64, f64)>> = vec![Vec::new(); n];

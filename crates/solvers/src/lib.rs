@@ -47,3 +47,4 @@ pub use observe::{
 };
 pub use p_delta::assemble;
 pub use stepper::State;
+pub use together::{Member, run_together};

@@ -10,8 +10,9 @@
 //! also for ω = 0 and beyond critical damping. Static shapes follow the loads (see `rules`).
 //!
 //! **Stiff links.** With link forces linear in the step the exact rule is the linear-acceleration method
-//! on a link: stable only for ω_link Δt < 2√3. Steps that are too long for it at the stiffest link are
-//! made by average acceleration instead, which has the same form, the same order and no such limit. A
+//! on a link: stable only for ω_link Δt < 2√3. Steps that are too long for it at the stiffest link, as stiff as
+//! it is then, are made by average acceleration instead, which has the same form, the same order and no such
+//! limit. A
 //! contact at rest or in steady sliding then needs no short steps; where something happens, the error
 //! control shortens them until the exact rule is back.
 //!
@@ -23,21 +24,28 @@
 mod rules;
 
 use crate::error::SolveError;
-use crate::propagator::{Compliance, Forces, Motion, Propagator, StepWork};
+use crate::propagator::{Compliance, Forces, Motion, Propagator, StepKey, StepWork};
 use crate::space::Space;
 use rules::{Rule, Structure};
 use trilith_linalg::Dense;
 
 /// Steps with a larger G·k of the stiffest link are made by average acceleration; the limit of the exact
 /// rule is 2 (ω²Δt²/6), and well before it the rule is no better any more.
-const LONGEST: f64 = 0.5;
+pub(crate) const LONGEST: f64 = 0.5;
 
+/// Rules of one step size.
 struct Step {
-    rule: Rule,
-    compliance: Compliance,
+    dt: f64,
     /// Largest eigenvalue of G k of the engaged links under the exact rule.
     ratio: f64,
-    dt: f64,
+    exact: Way,
+    /// Average acceleration, where it is needed.
+    average: Option<Way>,
+}
+
+struct Way {
+    rule: Rule,
+    compliance: Compliance,
 }
 
 /// The exact propagator on a basis of modes.
@@ -53,7 +61,12 @@ pub(crate) struct Modes {
     /// Stiffness of the engaged links.
     engaged: Vec<f64>,
     steps: Vec<Step>,
-    now: usize,
+    /// Step size and whether by average acceleration.
+    now: (usize, bool),
+    /// Largest G·k that the exact rule would not have borne.
+    beyond: Option<f64>,
+    /// √k of the links as they are.
+    root: Vec<f64>,
 }
 
 /// What one motion needs on its way through a step.
@@ -91,10 +104,13 @@ impl Sources {
 }
 
 impl Modal {
-    /// `engaged` is the stiffness of the active link coordinates where they are engaged, N/m or N·m.
-    pub(crate) fn new(space: Space, engaged: Vec<f64>) -> Self {
-        let modes = Modes::new(space, engaged);
+    pub(crate) fn new(modes: Modes) -> Self {
         Self { now: Sources::new(&modes.space), modes }
+    }
+
+    /// What several motions can share.
+    pub(crate) fn into_modes(self) -> Modes {
+        self.modes
     }
 
     fn spread(&mut self, pseudo: &[f64]) {
@@ -105,7 +121,7 @@ impl Modal {
 }
 
 impl Modes {
-    /// As [`Modal::new`].
+    /// `engaged` is the stiffness of the active link coordinates where they are engaged, N/m or N·m.
     pub(crate) fn new(space: Space, engaged: Vec<f64>) -> Self {
         let m = space.order();
         let mut damping = Dense::zeros(m, m);
@@ -120,19 +136,56 @@ impl Modes {
             rates: (0..m).map(|i| damping[(i, i)]).collect(),
             damping: coupled.then_some(damping),
         };
-        Self { space, structure, engaged, steps: Vec::new(), now: 0 }
+        Self {
+            space,
+            structure,
+            engaged,
+            steps: Vec::new(),
+            now: (0, false),
+            beyond: None,
+            root: Vec::new(),
+        }
     }
 
-    fn build(&self, dt: f64) -> Step {
-        let mut rule = Rule::exact(&self.structure, dt);
-        let modes = self.structure.modes;
-        let ratio = ratio(&self.compliance_of(&rule, 1, modes), &self.engaged);
-        if ratio > LONGEST {
-            rule = Rule::average(&self.structure, dt);
+    /// Index of a step size.
+    fn size(&mut self, dt: f64) -> usize {
+        if self.steps.get(self.now.0).is_some_and(|s| s.dt == dt) {
+            return self.now.0;
         }
+        self.steps.iter().position(|s| s.dt == dt).unwrap_or_else(|| {
+            let exact = self.way(Rule::exact(&self.structure, dt), StepKey { dt, average: false });
+            let of_modes = self.compliance_of(&exact.rule, 1, self.structure.modes);
+            let ratio = ratio(&of_modes, &self.engaged);
+            self.steps.push(Step { dt, ratio, exact, average: None });
+            self.steps.len() - 1
+        })
+    }
+
+    fn way(&self, rule: Rule, key: StepKey) -> Way {
         let all = self.space.order();
         let (g, h) = (self.compliance_of(&rule, 1, all), self.compliance_of(&rule, 2, all));
-        Step { rule, compliance: Compliance { g, h, key: dt.to_bits() }, ratio, dt }
+        Way { rule, compliance: Compliance { g, h, key } }
+    }
+
+    /// The rule for a step from a state whose links have this stiffness.
+    pub(crate) fn choose(&mut self, dt: f64, stiffness: &[f64]) -> StepKey {
+        let size = self.size(dt);
+        let step = &self.steps[size];
+        let mut average = false;
+        if step.ratio > LONGEST {
+            let present = bound(&step.exact.compliance.g, stiffness, &mut self.root);
+            average = present > LONGEST;
+            if average {
+                self.beyond = Some(self.beyond.unwrap_or(0.0).max(step.ratio.min(present)));
+            }
+        }
+        StepKey { dt, average }
+    }
+
+    /// Largest G·k of the engaged links for a step size.
+    pub(crate) fn ratio(&mut self, dt: f64) -> f64 {
+        let size = self.size(dt);
+        self.steps[size].ratio
     }
 
     /// B Φ (coefficient of s₁ in the given row) Φᵀ Bᵀ of the first coordinates.
@@ -151,25 +204,27 @@ impl Modes {
         b.transpose_times(&scaled)
     }
 
-    fn step(&self) -> &Step {
-        &self.steps[self.now]
+    fn way_now(&self) -> &Way {
+        let step = &self.steps[self.now.0];
+        match (&step.average, self.now.1) {
+            (Some(average), true) => average,
+            _ => &step.exact,
+        }
     }
 
-    /// Prepares for steps of length `dt`.
-    pub(crate) fn prepare(&mut self, dt: f64) {
-        if self.steps.get(self.now).is_some_and(|s| s.dt == dt) {
-            return;
+    /// Prepares for steps.
+    pub(crate) fn prepare(&mut self, key: StepKey) {
+        let size = self.size(key.dt);
+        if key.average && self.steps[size].average.is_none() {
+            let way = self.way(Rule::average(&self.structure, key.dt), key);
+            self.steps[size].average = Some(way);
         }
-        self.now = self.steps.iter().position(|s| s.dt == dt).unwrap_or_else(|| {
-            let step = self.build(dt);
-            self.steps.push(step);
-            self.steps.len() - 1
-        });
+        self.now = (size, key.average);
     }
 
     /// Compliance of the step prepared last.
     pub(crate) fn compliance(&self) -> &Compliance {
-        &self.step().compliance
+        &self.way_now().compliance
     }
 
     /// Loads jump: accelerations follow.
@@ -193,14 +248,14 @@ impl Modes {
         less(load, &now.spread, &mut now.source1);
         let inputs = [&from[..m], &from[m..2 * m], &now.source0, &now.source1];
         let (q, rest) = to.split_at_mut(m);
-        self.step().rule.apply(1, inputs, q);
-        self.step().rule.apply(2, inputs, &mut rest[..m]);
+        self.way_now().rule.apply(1, inputs, q);
+        self.way_now().rule.apply(2, inputs, &mut rest[..m]);
     }
 
     /// What was predicted, with the pseudo-forces spread last instead.
     pub(crate) fn correct(&self, now: &mut Sources, load: &[f64], to: &mut Motion) {
         let m = load.len();
-        let rule = &self.step().rule;
+        let rule = &self.way_now().rule;
         let (q, rest) = to.split_at_mut(m);
         let (v, a) = rest.split_at_mut(m);
         for (i, x) in now.integral.iter_mut().enumerate() {
@@ -222,9 +277,9 @@ impl Modes {
         forces: &Forces<'_>,
     ) -> StepWork {
         let m = forces.load0.len();
-        let step = self.step();
+        let (step, rule) = (&self.steps[self.now.0], &self.way_now().rule);
         let inputs = [&from[..m], &from[m..2 * m], &now.source0, &now.source1];
-        step.rule.apply(0, inputs, &mut now.integral);
+        rule.apply(0, inputs, &mut now.integral);
         let (mut external, mut all) = (0.0, 0.0);
         let scale = step.dt.recip();
         for i in 0..m {
@@ -258,6 +313,16 @@ fn less(load: &[f64], links: &[f64], source: &mut [f64]) {
     }
 }
 
+/// A bound of the largest eigenvalue of G diag(k): the row sums of √k G √k.
+fn bound(g: &Dense, k: &[f64], root: &mut Vec<f64>) -> f64 {
+    root.clear();
+    root.extend(k.iter().map(|k| k.max(0.0).sqrt()));
+    let row = |(a, x): (usize, &f64)| {
+        x * g.column(a).iter().zip(&*root).map(|(g, y)| g.abs() * y).sum::<f64>()
+    };
+    root.iter().enumerate().filter(|(_, x)| **x > 0.0).map(row).fold(0.0, f64::max)
+}
+
 /// Largest eigenvalue of G diag(k).
 fn ratio(g: &Dense, k: &[f64]) -> f64 {
     const ITERATIONS: usize = 50;
@@ -286,8 +351,12 @@ impl Propagator for Modal {
         0
     }
 
-    fn prepare(&mut self, dt: f64) -> Result<(), SolveError> {
-        self.modes.prepare(dt);
+    fn choose(&mut self, dt: f64, stiffness: &[f64]) -> StepKey {
+        self.modes.choose(dt, stiffness)
+    }
+
+    fn prepare(&mut self, key: StepKey) -> Result<(), SolveError> {
+        self.modes.prepare(key);
         Ok(())
     }
 
@@ -295,8 +364,8 @@ impl Propagator for Modal {
         self.modes.compliance()
     }
 
-    fn stiffness_ratio(&self) -> Option<f64> {
-        Some(self.modes.step().ratio).filter(|r| *r > LONGEST)
+    fn beyond_exact(&self) -> Option<f64> {
+        self.modes.beyond
     }
 
     fn acceleration(&mut self, force: &[f64]) -> Result<Vec<f64>, SolveError> {

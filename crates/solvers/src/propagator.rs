@@ -2,6 +2,7 @@
 
 use crate::error::SolveError;
 use crate::space::Space;
+use serde::{Deserialize, Serialize};
 use trilith_linalg::Dense;
 
 /// Displacements, velocities and accelerations in the coordinates of a solver, one after the other.
@@ -11,8 +12,17 @@ pub(crate) type Motion = Vec<f64>;
 pub(crate) struct Compliance {
     pub g: Dense,
     pub h: Dense,
-    /// Identity of the step size.
-    pub key: u64,
+    /// Identity of the step.
+    pub key: StepKey,
+}
+
+/// What the matrices of a step depend on.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub(crate) struct StepKey {
+    /// Length, s.
+    pub dt: f64,
+    /// Average acceleration where the exact rule would go too far.
+    pub average: bool,
 }
 
 /// Work over one step, J.
@@ -48,15 +58,20 @@ pub(crate) trait Propagator {
     /// Number of factorisations of structure matrices so far.
     fn factorizations(&self) -> usize;
 
-    /// Prepares for steps of length `dt`; what is expensive is kept.
-    fn prepare(&mut self, dt: f64) -> Result<(), SolveError>;
+    /// The step of length `dt` from a state whose active link coordinates have this stiffness.
+    fn choose(&mut self, dt: f64, _stiffness: &[f64]) -> StepKey {
+        StepKey { dt, average: false }
+    }
+
+    /// Prepares for such steps; what is expensive is kept.
+    fn prepare(&mut self, key: StepKey) -> Result<(), SolveError>;
 
     /// Compliance of the step prepared last.
     fn compliance(&self) -> &Compliance;
 
-    /// Largest G·k of the engaged links under the exact rule, where the step prepared last is too long for
-    /// it and is made by another rule.
-    fn stiffness_ratio(&self) -> Option<f64> {
+    /// Largest G·k of the links so far under the exact rule, where steps were too long for it and were made
+    /// by another rule.
+    fn beyond_exact(&self) -> Option<f64> {
         None
     }
 

@@ -9,6 +9,7 @@
 
 use crate::error::SolveError;
 use crate::kernel::{Affine, Committed, Converged, LinkKernel, NoEquilibrium};
+use crate::propagator::StepKey;
 use crate::stepper::State;
 use trilith_element::Energy;
 use trilith_linalg::{Dense, Ldlt};
@@ -87,7 +88,15 @@ pub(crate) fn equilibrium(
         let mut attempt = pseudo.clone();
         let mut energy = vec![Energy::default(); links.links.len()];
         let outcome = kernel.solve(
-            &Affine { d: &d, v: &v, support_d: &zero, support_v: &zero, g: &g, h: &none, key: 0 },
+            &Affine {
+                d: &d,
+                v: &v,
+                support_d: &zero,
+                support_v: &zero,
+                g: &g,
+                h: &none,
+                key: StepKey::default(),
+            },
             &Committed { d: &state.d, v: &zero, history: &state.history, dt: 0.0 },
             &state.scale,
             &mut Converged {
@@ -101,7 +110,7 @@ pub(crate) fn equilibrium(
         );
         match outcome {
             Ok(()) => {
-                trial.settle(links, &energy);
+                trial.settle(links, &energy, kernel.tangents());
                 state = trial;
                 pseudo = attempt;
                 reached = next;

@@ -8,7 +8,7 @@ use crate::space::Space;
 use serde::{Deserialize, Serialize};
 use trilith_element::{Energy, Kinematics};
 use trilith_model::Model;
-use trilith_system::{LinkSet, StepLoads};
+use trilith_system::{LinkSet, StepLoads, Tangents};
 
 /// Everything that changes during a run: copying it is a checkpoint.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
@@ -27,6 +27,8 @@ pub struct State {
     pub(crate) scale: ForceScale,
     /// Energy stored in each link.
     pub(crate) stored: Vec<f64>,
+    /// Stiffness of the active link coordinates as they are, N/m or N·m.
+    pub(crate) stiffness: Vec<f64>,
 }
 
 impl State {
@@ -44,19 +46,21 @@ impl State {
             history: history.to_vec(),
             scale: [0.0; 2],
             stored: vec![0.0; links.links.len()],
+            stiffness: vec![0.0; links.active.len()],
             d,
             v,
         };
         let mut energy = vec![Energy::default(); links.links.len()];
+        let mut tangents = links.tangents();
         links.laws(model).respond(
             Kinematics { d: &state.d, v: &state.v, d0: &state.d, v0: &state.v, dt: 0.0 },
             history,
             &mut state.history,
             &mut state.f,
-            &mut links.tangents(),
+            &mut tangents,
             &mut energy,
         );
-        state.settle(links, &energy);
+        state.settle(links, &energy, &tangents);
         state
     }
 
@@ -69,8 +73,11 @@ impl State {
         }
     }
 
-    /// Takes note of the forces and stored energies of a converged step.
-    pub(crate) fn settle(&mut self, links: &LinkSet, energy: &[Energy]) {
+    /// Takes note of the forces, stored energies and stiffness of a converged step.
+    pub(crate) fn settle(&mut self, links: &LinkSet, energy: &[Energy], tangents: &Tangents) {
+        for (stiffness, flat) in self.stiffness.iter_mut().zip(&links.active) {
+            *stiffness = tangents.k[links.diagonal[*flat]];
+        }
         for (stored, e) in self.stored.iter_mut().zip(energy) {
             *stored = e.stored;
         }
@@ -158,9 +165,11 @@ pub(crate) trait Stepper {
     /// Takes up what an earlier run kept.
     fn recall(&mut self, memory: Vec<Remembered>) -> Result<(), SolveError>;
 
-    /// Largest G·k of the engaged links under the exact rule, where a step of this length is too long for
-    /// it and is made by average acceleration; ω_link²Δt²/6.
-    fn beyond_exact(&mut self, dt: f64) -> Result<Option<f64>, SolveError>;
+    /// Largest G·k of the links so far under the exact rule (ω_link²Δt²/6), where steps were too long for it
+    /// and were made by average acceleration.
+    fn beyond_exact(&self) -> Option<f64> {
+        None
+    }
 }
 
 /// Squared energy norm of the difference of two states, the springs of the links included; `energy` of a
@@ -199,6 +208,10 @@ impl<'a, P: Propagator> LinkStepper<'a, P> {
     pub(crate) fn new(propagator: P, side: LinkSide<'a>) -> Self {
         Self { propagator, side, difference: Vec::new() }
     }
+
+    pub(crate) fn into_parts(self) -> (P, LinkSide<'a>) {
+        (self.propagator, self.side)
+    }
 }
 
 impl<P: Propagator> Stepper for LinkStepper<'_, P> {
@@ -210,7 +223,8 @@ impl<P: Propagator> Stepper for LinkStepper<'_, P> {
         dt: f64,
         energy: &mut StepEnergy,
     ) -> Result<(), StepFailure> {
-        self.propagator.prepare(dt)?;
+        let key = self.propagator.choose(dt, &from.stiffness);
+        self.propagator.prepare(key)?;
         let side = &mut self.side;
         side.begin(self.propagator.space(), from, to, loads, energy);
         let (forces, d, v) = side.prediction();
@@ -276,15 +290,14 @@ impl<P: Propagator> Stepper for LinkStepper<'_, P> {
 
     fn recall(&mut self, memory: Vec<Remembered>) -> Result<(), SolveError> {
         for one in memory {
-            self.propagator.prepare(one.dt)?;
+            self.propagator.prepare(one.key)?;
             let compliance = self.propagator.compliance();
             self.side.kernel.recall(one, &compliance.g, &compliance.h);
         }
         Ok(())
     }
 
-    fn beyond_exact(&mut self, dt: f64) -> Result<Option<f64>, SolveError> {
-        self.propagator.prepare(dt)?;
-        Ok(self.propagator.stiffness_ratio())
+    fn beyond_exact(&self) -> Option<f64> {
+        self.propagator.beyond_exact()
     }
 }

@@ -1,5 +1,7 @@
 //! Output times, and where loads jump between them.
 
+use trilith_system::LoadSet;
+
 /// Output times and, between them, the pieces that end where a load jumps.
 pub(crate) struct Timeline {
     pub dt: f64,
@@ -9,6 +11,11 @@ pub(crate) struct Timeline {
 }
 
 impl Timeline {
+    pub(crate) fn new(dt: f64, duration: f64, loads: &LoadSet) -> Self {
+        let steps = ((duration / dt) - 1e-9).ceil().max(1.0) as usize;
+        Self { dt, steps, duration, breaks: loads.breaks(duration) }
+    }
+
     /// Time of an output step.
     pub(crate) fn time(&self, step: usize) -> f64 {
         (step as f64 * self.dt).min(self.duration)

@@ -54,6 +54,8 @@ pub struct LinkSet {
     pub history_len: usize,
     /// Length of the flat tangents.
     pub block_len: usize,
+    /// Place of each flat coordinate's own stiffness in the flat tangents.
+    pub diagonal: Vec<usize>,
 }
 
 /// DOFs that the links act on: translations always, rotations where a law deforms them.
@@ -174,6 +176,7 @@ impl LinkSet {
                 history: set.history_len..set.history_len + fields,
                 settled: None,
             });
+            set.diagonal.extend((0..n).map(|i| set.block_len + i * n + i));
             set.block_len += n * n;
             set.history_len += fields;
         }

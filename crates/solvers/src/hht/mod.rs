@@ -21,7 +21,7 @@ mod tests;
 
 use crate::error::SolveError;
 use crate::products::Products;
-use crate::propagator::{Compliance, Forces, Motion, Propagator, StepWork};
+use crate::propagator::{Compliance, Forces, Motion, Propagator, StepKey, StepWork};
 use crate::space::Space;
 use std::collections::BTreeMap;
 use std::sync::Arc;
@@ -147,7 +147,8 @@ impl Propagator for Hht {
         self.factorizations
     }
 
-    fn prepare(&mut self, dt: f64) -> Result<(), SolveError> {
+    fn prepare(&mut self, key: StepKey) -> Result<(), SolveError> {
+        let dt = key.dt;
         self.now = dt.to_bits();
         self.clock += 1;
         if !self.steps.contains_key(&self.now) {

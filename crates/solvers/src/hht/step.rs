@@ -8,7 +8,7 @@
 
 use super::newmark;
 use crate::error::SolveError;
-use crate::propagator::Compliance;
+use crate::propagator::{Compliance, StepKey};
 use crate::space::{LowRank, Space};
 use std::sync::Arc;
 use trilith_linalg::{Dense, DenseLu, StagedLdlt, StagedPlan};
@@ -47,7 +47,7 @@ impl Step {
         let mut h = g.clone();
         g.values_mut().iter_mut().for_each(|x| *x *= w * beta * dt * dt);
         h.values_mut().iter_mut().for_each(|x| *x *= w * gamma * dt);
-        let compliance = Compliance { g, h, key: dt.to_bits() };
+        let compliance = Compliance { g, h, key: StepKey { dt, average: false } };
         Ok(Self { factor, woodbury, compliance, dt, used: 0 })
     }
 

@@ -2,6 +2,7 @@
 
 use crate::ledger::Ledger;
 use crate::link_side::LinkSide;
+use crate::march::Pace;
 use crate::modal::{Modes, Sources};
 use crate::space::Space;
 use crate::start::potential;
@@ -17,6 +18,7 @@ pub(crate) struct Course<'a, 'b> {
     pub loads: &'a LoadSet,
     pub timeline: Timeline,
     pub state: State,
+    pub pace: Pace,
     pub ledger: Ledger,
     pub viewer: Viewer<'a, 'b>,
     /// Forces of constant loads in the coordinates of the modes.
@@ -34,6 +36,8 @@ pub(crate) struct Course<'a, 'b> {
     energy: StepEnergy,
     step_loads: StepLoads,
     settled: bool,
+    /// End of the step under way, s.
+    at: f64,
 }
 
 impl<'a, 'b> Course<'a, 'b> {
@@ -42,7 +46,7 @@ impl<'a, 'b> Course<'a, 'b> {
         side: LinkSide<'a>,
         loads: &'a LoadSet,
         timeline: Timeline,
-        (state, ledger): (State, Ledger),
+        (state, pace, ledger): (State, Pace, Ledger),
         viewer: Viewer<'a, 'b>,
     ) -> Self {
         Self {
@@ -52,6 +56,7 @@ impl<'a, 'b> Course<'a, 'b> {
             loads,
             timeline,
             state,
+            pace,
             ledger,
             viewer,
             made: 0,
@@ -62,6 +67,7 @@ impl<'a, 'b> Course<'a, 'b> {
             energy: StepEnergy::default(),
             step_loads: StepLoads::default(),
             settled: false,
+            at: 0.0,
         }
     }
 
@@ -72,6 +78,16 @@ impl<'a, 'b> Course<'a, 'b> {
 
     pub(super) fn is_settled(&self) -> bool {
         self.settled
+    }
+
+    /// Shows the state it starts from.
+    pub(super) fn show_start(&mut self, space: &Space) {
+        self.viewer.show(self.timeline.time(0), Some(0), &self.state, space, &self.ledger);
+    }
+
+    /// Length of the output step under way.
+    pub(super) fn length(&self) -> Option<f64> {
+        self.timeline.pieces(self.made).next().map(|(_, length)| length)
     }
 
     /// An output step starts: a load may jump there. A step that holds a jump inside leaves the others.
@@ -110,6 +126,7 @@ impl<'a, 'b> Course<'a, 'b> {
         self.loads.step(t0, t1, &mut self.step_loads);
         self.side.begin(space, &self.state, &mut self.next, &self.step_loads, &mut self.energy);
         self.settled = false;
+        self.at = t1;
     }
 
     /// Pseudo-forces to be spread, and where.
@@ -173,6 +190,9 @@ impl<'a, 'b> Course<'a, 'b> {
         let of_motion = modes.energy(&next.motion);
         side.book(&modes.space.dummy_k, state, next, of_motion, energy);
         self.ledger.enter(&self.energy, potential(&self.constant, &self.next));
+        if self.at < self.timeline.time(self.made + 1) - 1e-12 * self.timeline.dt {
+            self.viewer.show(self.at, None, &self.next, &modes.space, &self.ledger);
+        }
         std::mem::swap(&mut self.state, &mut self.next);
         self.substeps += 1;
     }

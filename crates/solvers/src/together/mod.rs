@@ -7,13 +7,208 @@
 
 mod course;
 
-use crate::modal::Modes;
-pub(crate) use course::Course;
+use crate::case::{EndState, RunOptions, before, run};
+use crate::clock::{Clock, peak_rss_mb};
+use crate::dynamic::{Arrival, bases, held_load, link_side, modes};
+use crate::error::SolveError;
+use crate::modal::{LONGEST, Modal, Modes};
+use crate::observe::{CaseResult, Observer, Work};
+use crate::propagator::StepKey;
+use crate::start::start;
+use crate::stepper::LinkStepper;
+use crate::timeline::Timeline;
+use crate::view::Viewer;
+use course::Course;
+use trilith_model::{Analysis, Case, DynamicCase, Model, SolverKind, StepControl};
+use trilith_system::{LoadSet, System};
+
+/// A model and its equations.
+#[derive(Clone, Copy, Debug)]
+pub struct Member<'a> {
+    /// The model.
+    pub model: &'a Model,
+    /// Its equations.
+    pub system: &'a System,
+}
+
+/// A member with its case and what it starts from.
+struct Entrant<'a> {
+    member: Member<'a>,
+    case: &'a Case,
+    analysis: &'a DynamicCase,
+    before: Option<EndState>,
+    constant: Vec<f64>,
+    loads: LoadSet,
+}
+
+/// Runs a dynamic case of several models by FNA, those in lock step that share the structure: the same
+/// matrices, link maps and load shapes, the same fixed steps; records, scales and link laws may differ.
+/// Whatever does not fit is run alone, and so is a motion whose links find no equilibrium in the common step.
+/// Every result is the one that [`run`] gives. `watch` makes the observer of a member, again where it is run
+/// anew.
+///
+/// # Errors
+/// As [`run`], for the first member that cannot be run.
+pub fn run_together<O: Observer>(
+    members: &[Member<'_>],
+    case: usize,
+    watch: impl Fn(usize) -> O,
+) -> Result<Vec<(CaseResult, O)>, SolveError> {
+    let entrants = members.iter().map(|m| entrant(*m, case)).collect::<Result<Vec<_>, _>>()?;
+    let mut results: Vec<Option<(CaseResult, O)>> = members.iter().map(|_| None).collect();
+    for (first, lead) in entrants.iter().enumerate() {
+        let Some(lead) = lead else { continue };
+        if results[first].is_some() {
+            continue;
+        }
+        let fits = |i: &usize| {
+            results[*i].is_none() && entrants[*i].as_ref().is_some_and(|e| suits(lead, e))
+        };
+        let group: Vec<usize> = (first..members.len()).filter(fits).collect();
+        if group.len() < 2 {
+            continue;
+        }
+        let entered: Vec<&Entrant<'_>> =
+            group.iter().filter_map(|i| entrants[*i].as_ref()).collect();
+        let mut observers: Vec<O> = group.iter().map(|i| watch(*i)).collect();
+        let ended = march(&entered, &mut observers)?;
+        for ((i, observer), result) in group.into_iter().zip(observers).zip(ended) {
+            results[i] = result.map(|r| (r, observer));
+        }
+    }
+    let alone = |(i, result): (usize, Option<(CaseResult, O)>)| match result {
+        Some(found) => Ok(found),
+        None => {
+            let Member { model, system } = members[i];
+            let mut observer = watch(i);
+            let solver = Some(SolverKind::Fna);
+            let options = RunOptions { case, solver, ..RunOptions::default() };
+            run(model, system, options, &mut [&mut observer]).map(|r| (r, observer))
+        }
+    };
+    results.into_iter().enumerate().map(alone).collect()
+}
+
+/// A member that may go with others; none for static cases and steps that are not fixed.
+fn entrant(member: Member<'_>, case: usize) -> Result<Option<Entrant<'_>>, SolveError> {
+    let Member { model, system } = member;
+    let case = &model.cases[case];
+    let Analysis::Dynamic(analysis) = &case.analysis else { return Ok(None) };
+    if !matches!(analysis.solution.step, StepControl::Fixed { .. }) {
+        return Ok(None);
+    }
+    let before = before(model, system, case, Some(SolverKind::Fna))?;
+    let constant = held_load(model, system, analysis, before.as_ref());
+    let loads = system.dynamic_loads(model, analysis, constant.clone());
+    Ok(Some(Entrant { member, case, analysis, before, constant, loads }))
+}
+
+/// True where two members share structure and steps.
+fn suits(a: &Entrant<'_>, b: &Entrant<'_>) -> bool {
+    let (x, y) = (a.member.system, b.member.system);
+    let shape = |e: &Entrant<'_>| (e.analysis.dt, e.analysis.duration);
+    let forces =
+        |e: &Entrant<'_>| e.loads.channels.iter().map(|c| c.force.clone()).collect::<Vec<_>>();
+    std::ptr::eq(a, b)
+        || (shape(a) == shape(b)
+            && a.analysis.solution == b.analysis.solution
+            && a.member.model.damping == b.member.model.damping
+            && x.mass == y.mass
+            && x.stiffness == y.stiffness
+            && x.damping == y.damping
+            && x.links.active == y.links.active
+            && x.links.rows == y.links.rows
+            && x.links.effective == y.links.effective
+            && x.links.engaged(a.member.model) == y.links.engaged(b.member.model)
+            && forces(a) == forces(b))
+}
+
+/// Marches a group; none for those that left it.
+fn march<O: Observer>(
+    group: &[&Entrant<'_>],
+    observers: &mut [O],
+) -> Result<Vec<Option<CaseResult>>, SolveError> {
+    let clock = Clock::start();
+    let none = || group.iter().map(|_| None).collect();
+    let Some(lead) = group.first() else { return Ok(Vec::new()) };
+    let Entrant { member: Member { model, system }, analysis, loads, .. } = lead;
+    let StepControl::Fixed { substeps } = analysis.solution.step else { return Ok(none()) };
+    let Some(bases) = bases(model, system, analysis, SolverKind::Fna, loads)? else {
+        return Ok(none());
+    };
+    let mut modes = modes(model, system, loads, &bases);
+    let dt = analysis.dt;
+    // Stiff links choose their rule step by step, each motion its own.
+    if modes.ratio(dt / substeps as f64) > LONGEST {
+        return Ok(none());
+    }
+    let mut watchers: Vec<[&mut dyn Observer; 1]> =
+        observers.iter_mut().map(|o| [o as &mut dyn Observer]).collect();
+    let mut courses = Vec::new();
+    for (entrant, watcher) in group.iter().zip(&mut watchers) {
+        let Entrant { member: Member { model, system }, analysis, loads, before, .. } = entrant;
+        let side = link_side(model, system, &analysis.solution, loads, modes.space.order());
+        let mut stepper = LinkStepper::new(Modal::new(modes), side);
+        let (state, pace, ledger, _) =
+            start(model, system, analysis, before.clone(), loads, &mut stepper, dt)?;
+        let (modal, side) = stepper.into_parts();
+        modes = modal.into_modes();
+        let viewer = Viewer::new(model, system, loads, &modes.space, watcher);
+        let timeline = Timeline::new(dt, analysis.duration, loads);
+        let mut course =
+            Course::new(&modes.space, side, loads, timeline, (state, pace, ledger), viewer);
+        course.show_start(&modes.space);
+        courses.push(course);
+    }
+    let setup_cpu = clock.cpu();
+    while courses.iter().any(Course::is_on_the_way) {
+        courses.iter_mut().filter(|c| c.is_on_the_way()).for_each(|c| c.set_out(&modes));
+        let mut going = courses.iter().filter(|c| c.is_on_the_way());
+        let Some(length) = going.find_map(Course::length) else { break };
+        let part = length / substeps as f64;
+        for index in 0..substeps {
+            step(&mut modes, &mut courses, index, part);
+        }
+        courses.iter_mut().filter(|c| c.is_on_the_way()).for_each(|c| c.arrive(&modes.space));
+    }
+    let share = (courses.len() as f64).recip();
+    let result = |(course, entrant): (Course<'_, '_>, &&Entrant<'_>)| {
+        if course.left {
+            return None;
+        }
+        let work = Work {
+            steps: course.made,
+            substeps: course.substeps,
+            iterations: course.side.kernel.iterations(),
+            wall_s: clock.wall(),
+            setup_cpu_s: share * setup_cpu,
+            march_cpu_s: share * (clock.cpu() - setup_cpu),
+            peak_rss_mb: peak_rss_mb(),
+            ..Work::default()
+        };
+        let Member { model, system } = entrant.member;
+        let memory = course.side.kernel.memory();
+        let arrival = Arrival {
+            timeline: &course.timeline,
+            made: course.made,
+            state: course.state,
+            pace: course.pace,
+            ledger: course.ledger,
+            constant: entrant.constant.clone(),
+            fallen: course.fallen,
+        };
+        let (case, kind) = (entrant.case, SolverKind::Fna);
+        let mut result = arrival.result(model, system, case, kind, &modes.space, memory, work);
+        result.basis = Some(bases.report.clone());
+        Some(result)
+    };
+    Ok(courses.into_iter().zip(group).map(result).collect())
+}
 
 /// One step of all courses that are on the way, from `index` to `index + 1` in parts of its step, over `dt`.
 /// A course whose links find no equilibrium leaves the others.
-pub(crate) fn step(modes: &mut Modes, courses: &mut [Course<'_, '_>], part: usize, dt: f64) {
-    modes.prepare(dt);
+fn step(modes: &mut Modes, courses: &mut [Course<'_, '_>], part: usize, dt: f64) {
+    modes.prepare(StepKey { dt, average: false });
     let modes = &*modes;
     let mut going: Vec<&mut Course<'_, '_>> =
         courses.iter_mut().filter(|c| c.is_on_the_way()).collect();
