@@ -1,21 +1,15 @@
-//! Products of a dense matrix and a vector: the inner loops of a step.
+//! Products of a dense matrix and vectors: the inner loops of a step.
 //!
 //! Columns are taken four at a time, in vectors as wide as the processor has them; the order of the sums
-//! depends on sizes (and on which factors are zero) alone, so equal inputs give equal bits.
+//! depends on sizes (and on which factors are zero) alone, so equal inputs give equal bits, whether one vector
+//! comes alone or with others. Slices of equal length are walked in step: no index is checked, and no closure
+//! stands in the way of the processor that was found.
 
 use pulp::{Arch, Simd, WithSimd};
-
-/// Columns taken together.
-const GROUP: usize = 4;
 
 /// `y += s · A x` with A column by column; columns of zero factors are not read.
 pub(crate) fn add_columns(a: &[f64], s: f64, x: &[f64], y: &mut [f64]) {
     Arch::new().dispatch(AddColumns { a, s, x, y });
-}
-
-/// `y += s · Aᵀ x` with A column by column, for several x at once; the same bits as one after the other.
-pub(crate) fn add_dots<const R: usize>(a: &[f64], s: f64, x: [&[f64]; R], y: [&mut [f64]; R]) {
-    Arch::new().dispatch(AddDots { a, s, x, y });
 }
 
 /// `y += s · A x` for several x at once, reading A once; the same values as one after the other.
@@ -28,6 +22,84 @@ pub(crate) fn add_columns_each<const R: usize>(
     Arch::new().dispatch(AddColumnsEach { a, s, x, y });
 }
 
+/// `y += s · Aᵀ x` with A column by column, for several x at once; the same bits as one after the other.
+pub(crate) fn add_dots<const R: usize>(a: &[f64], s: f64, x: [&[f64]; R], y: [&mut [f64]; R]) {
+    Arch::new().dispatch(AddDots { a, s, x, y });
+}
+
+/// `y += Σ t c` of four columns.
+#[inline(always)]
+fn add_four<S: Simd>(simd: S, t: [f64; 4], c: [&[f64]; 4], y: &mut [f64]) {
+    let (c0, e0) = S::as_simd_f64s(c[0]);
+    let (c1, e1) = S::as_simd_f64s(c[1]);
+    let (c2, e2) = S::as_simd_f64s(c[2]);
+    let (c3, e3) = S::as_simd_f64s(c[3]);
+    let (y, e) = S::as_mut_simd_f64s(y);
+    let [t0, t1, t2, t3] = t;
+    let (w0, w1) = (simd.splat_f64s(t0), simd.splat_f64s(t1));
+    let (w2, w3) = (simd.splat_f64s(t2), simd.splat_f64s(t3));
+    for ((((y, a), b), c), d) in y.iter_mut().zip(c0).zip(c1).zip(c2).zip(c3) {
+        let sum = simd.mul_add_e_f64s(w0, *a, *y);
+        let sum = simd.mul_add_e_f64s(w1, *b, sum);
+        let sum = simd.mul_add_e_f64s(w2, *c, sum);
+        *y = simd.mul_add_e_f64s(w3, *d, sum);
+    }
+    for ((((y, a), b), c), d) in e.iter_mut().zip(e0).zip(e1).zip(e2).zip(e3) {
+        *y += t0 * a;
+        *y += t1 * b;
+        *y += t2 * c;
+        *y += t3 * d;
+    }
+}
+
+/// The same for two vectors at once.
+#[inline(always)]
+fn add_four_pair<S: Simd>(simd: S, t: [[f64; 4]; 2], c: [&[f64]; 4], y: [&mut [f64]; 2]) {
+    let (c0, e0) = S::as_simd_f64s(c[0]);
+    let (c1, e1) = S::as_simd_f64s(c[1]);
+    let (c2, e2) = S::as_simd_f64s(c[2]);
+    let (c3, e3) = S::as_simd_f64s(c[3]);
+    let [y, z] = y;
+    let ((y, e), (z, f)) = (S::as_mut_simd_f64s(y), S::as_mut_simd_f64s(z));
+    let [[t0, t1, t2, t3], [u0, u1, u2, u3]] = t;
+    let (w0, w1) = (simd.splat_f64s(t0), simd.splat_f64s(t1));
+    let (w2, w3) = (simd.splat_f64s(t2), simd.splat_f64s(t3));
+    let (v0, v1) = (simd.splat_f64s(u0), simd.splat_f64s(u1));
+    let (v2, v3) = (simd.splat_f64s(u2), simd.splat_f64s(u3));
+    for (((((y, z), a), b), c), d) in y.iter_mut().zip(z).zip(c0).zip(c1).zip(c2).zip(c3) {
+        let sum = simd.mul_add_e_f64s(w0, *a, *y);
+        let other = simd.mul_add_e_f64s(v0, *a, *z);
+        let sum = simd.mul_add_e_f64s(w1, *b, sum);
+        let other = simd.mul_add_e_f64s(v1, *b, other);
+        let sum = simd.mul_add_e_f64s(w2, *c, sum);
+        let other = simd.mul_add_e_f64s(v2, *c, other);
+        *y = simd.mul_add_e_f64s(w3, *d, sum);
+        *z = simd.mul_add_e_f64s(v3, *d, other);
+    }
+    for (((((y, z), a), b), c), d) in e.iter_mut().zip(f).zip(e0).zip(e1).zip(e2).zip(e3) {
+        for (x, t) in [(y, [t0, t1, t2, t3]), (z, [u0, u1, u2, u3])] {
+            *x += t[0] * a;
+            *x += t[1] * b;
+            *x += t[2] * c;
+            *x += t[3] * d;
+        }
+    }
+}
+
+/// `y += t c`.
+#[inline(always)]
+fn add_one<S: Simd>(simd: S, t: f64, c: &[f64], y: &mut [f64]) {
+    let (c, tail) = S::as_simd_f64s(c);
+    let (y, e) = S::as_mut_simd_f64s(y);
+    let w = simd.splat_f64s(t);
+    for (y, c) in y.iter_mut().zip(c) {
+        *y = simd.mul_add_e_f64s(w, *c, *y);
+    }
+    for (y, c) in e.iter_mut().zip(tail) {
+        *y += t * c;
+    }
+}
+
 struct AddColumns<'a> {
     a: &'a [f64],
     s: f64,
@@ -35,61 +107,37 @@ struct AddColumns<'a> {
     y: &'a mut [f64],
 }
 
-impl AddColumns<'_> {
-    #[inline(always)]
-    fn group<S: Simd, const N: usize>(&mut self, simd: S, columns: [usize; N]) {
-        let n = self.y.len();
-        let length = n / S::F64_LANES;
-        // No closures here: they would not be compiled for the processor that was found.
-        let mut heads: [&[S::f64s]; N] = [&[]; N];
-        let mut tails: [&[f64]; N] = [&[]; N];
-        let mut factors = [simd.splat_f64s(0.0); N];
-        let mut t = [0.0; N];
-        for k in 0..N {
-            let j = columns[k];
-            t[k] = self.s * self.x[j];
-            factors[k] = simd.splat_f64s(t[k]);
-            let (head, tail) = S::as_simd_f64s(&self.a[j * n..(j + 1) * n]);
-            (heads[k], tails[k]) = (&head[..length], tail);
-        }
-        let (head, tail) = S::as_mut_simd_f64s(self.y);
-        let head = &mut head[..length];
-        for i in 0..length {
-            let mut sum = head[i];
-            for k in 0..N {
-                sum = simd.mul_add_e_f64s(factors[k], heads[k][i], sum);
-            }
-            head[i] = sum;
-        }
-        for i in 0..tail.len() {
-            for k in 0..N {
-                tail[i] += t[k] * tails[k][i];
-            }
-        }
-    }
-}
-
 impl WithSimd for AddColumns<'_> {
     type Output = ();
 
     #[inline(always)]
-    fn with_simd<S: Simd>(mut self, simd: S) {
-        let mut group = [0; GROUP];
+    fn with_simd<S: Simd>(self, simd: S) {
+        let Self { a, s, x, y } = self;
+        let n = y.len();
+        let mut four = [0; 4];
         let mut count = 0;
-        for j in 0..self.x.len() {
-            if self.x[j] != 0.0 {
-                group[count] = j;
+        for j in 0..x.len() {
+            if x[j] != 0.0 {
+                four[count] = j;
                 count += 1;
             }
-            if count == GROUP {
-                self.group(simd, group);
+            if count == 4 {
+                let [i, j, k, l] = four;
+                let t = [s * x[i], s * x[j], s * x[k], s * x[l]];
+                let c = [column(a, n, i), column(a, n, j), column(a, n, k), column(a, n, l)];
+                add_four(simd, t, c, y);
                 count = 0;
             }
         }
-        for j in &group[..count] {
-            self.group(simd, [*j]);
+        for j in &four[..count] {
+            add_one(simd, s * x[*j], column(a, n, *j), y);
         }
     }
+}
+
+#[inline(always)]
+fn column(a: &[f64], n: usize, j: usize) -> &[f64] {
+    &a[j * n..(j + 1) * n]
 }
 
 struct AddColumnsEach<'a, const R: usize> {
@@ -99,58 +147,134 @@ struct AddColumnsEach<'a, const R: usize> {
     y: [&'a mut [f64]; R],
 }
 
-impl<const R: usize> AddColumnsEach<'_, R> {
-    #[inline(always)]
-    fn group<S: Simd, const N: usize>(&mut self, simd: S, first: usize) {
-        let n = self.y[0].len();
-        let length = n / S::F64_LANES;
-        let mut heads: [&[S::f64s]; N] = [&[]; N];
-        let mut tails: [&[f64]; N] = [&[]; N];
-        for k in 0..N {
-            let (head, tail) = S::as_simd_f64s(&self.a[(first + k) * n..(first + k + 1) * n]);
-            (heads[k], tails[k]) = (&head[..length], tail);
-        }
-        for r in 0..R {
-            let mut t = [0.0; N];
-            let mut factors = [simd.splat_f64s(0.0); N];
-            for k in 0..N {
-                t[k] = self.s * self.x[r][first + k];
-                factors[k] = simd.splat_f64s(t[k]);
-            }
-            let (head, tail) = S::as_mut_simd_f64s(self.y[r]);
-            let head = &mut head[..length];
-            for i in 0..length {
-                let mut sum = head[i];
-                for k in 0..N {
-                    sum = simd.mul_add_e_f64s(factors[k], heads[k][i], sum);
-                }
-                head[i] = sum;
-            }
-            for i in 0..tail.len() {
-                for k in 0..N {
-                    tail[i] += t[k] * tails[k][i];
-                }
-            }
-        }
-    }
-}
-
 impl<const R: usize> WithSimd for AddColumnsEach<'_, R> {
     type Output = ();
 
     #[inline(always)]
-    fn with_simd<S: Simd>(mut self, simd: S) {
-        let columns = self.x[0].len();
+    fn with_simd<S: Simd>(self, simd: S) {
+        let Self { a, s, x, mut y } = self;
+        let (n, columns) = (y[0].len(), x[0].len());
         let mut j = 0;
-        while j + 2 * GROUP <= columns {
-            self.group::<S, { 2 * GROUP }>(simd, j);
-            j += 2 * GROUP;
+        while j + 4 <= columns {
+            let c =
+                [column(a, n, j), column(a, n, j + 1), column(a, n, j + 2), column(a, n, j + 3)];
+            let factors = |r: usize| {
+                let x = &x[r][j..j + 4];
+                [s * x[0], s * x[1], s * x[2], s * x[3]]
+            };
+            let mut pairs = y.chunks_exact_mut(2);
+            let mut r = 0;
+            for pair in &mut pairs {
+                if let [y, z] = pair {
+                    add_four_pair(simd, [factors(r), factors(r + 1)], c, [y, z]);
+                }
+                r += 2;
+            }
+            for y in pairs.into_remainder() {
+                add_four(simd, factors(r), c, y);
+            }
+            j += 4;
         }
         while j < columns {
-            self.group::<S, 1>(simd, j);
+            for r in 0..R {
+                add_one(simd, s * x[r][j], column(a, n, j), y[r]);
+            }
             j += 1;
         }
     }
+}
+
+/// Dots of four columns with one vector.
+#[inline(always)]
+fn dot_four<S: Simd>(simd: S, c: [&[f64]; 4], x: &[f64]) -> [f64; 4] {
+    let (c0, e0) = S::as_simd_f64s(c[0]);
+    let (c1, e1) = S::as_simd_f64s(c[1]);
+    let (c2, e2) = S::as_simd_f64s(c[2]);
+    let (c3, e3) = S::as_simd_f64s(c[3]);
+    let (x, e) = S::as_simd_f64s(x);
+    let zero = simd.splat_f64s(0.0);
+    let (mut s0, mut s1, mut s2, mut s3) = (zero, zero, zero, zero);
+    for ((((x, a), b), c), d) in x.iter().zip(c0).zip(c1).zip(c2).zip(c3) {
+        s0 = simd.mul_add_e_f64s(*a, *x, s0);
+        s1 = simd.mul_add_e_f64s(*b, *x, s1);
+        s2 = simd.mul_add_e_f64s(*c, *x, s2);
+        s3 = simd.mul_add_e_f64s(*d, *x, s3);
+    }
+    let mut sums = [
+        simd.reduce_sum_f64s(s0),
+        simd.reduce_sum_f64s(s1),
+        simd.reduce_sum_f64s(s2),
+        simd.reduce_sum_f64s(s3),
+    ];
+    for ((((x, a), b), c), d) in e.iter().zip(e0).zip(e1).zip(e2).zip(e3) {
+        sums[0] += a * x;
+        sums[1] += b * x;
+        sums[2] += c * x;
+        sums[3] += d * x;
+    }
+    sums
+}
+
+/// The same with two vectors at once.
+#[inline(always)]
+fn dot_four_pair<S: Simd>(simd: S, c: [&[f64]; 4], x: [&[f64]; 2]) -> [[f64; 4]; 2] {
+    let (c0, e0) = S::as_simd_f64s(c[0]);
+    let (c1, e1) = S::as_simd_f64s(c[1]);
+    let (c2, e2) = S::as_simd_f64s(c[2]);
+    let (c3, e3) = S::as_simd_f64s(c[3]);
+    let (x0, f0) = S::as_simd_f64s(x[0]);
+    let (x1, f1) = S::as_simd_f64s(x[1]);
+    let zero = simd.splat_f64s(0.0);
+    let (mut s0, mut s1, mut s2, mut s3) = (zero, zero, zero, zero);
+    let (mut t0, mut t1, mut t2, mut t3) = (zero, zero, zero, zero);
+    for (((((x, y), a), b), c), d) in x0.iter().zip(x1).zip(c0).zip(c1).zip(c2).zip(c3) {
+        s0 = simd.mul_add_e_f64s(*a, *x, s0);
+        s1 = simd.mul_add_e_f64s(*b, *x, s1);
+        s2 = simd.mul_add_e_f64s(*c, *x, s2);
+        s3 = simd.mul_add_e_f64s(*d, *x, s3);
+        t0 = simd.mul_add_e_f64s(*a, *y, t0);
+        t1 = simd.mul_add_e_f64s(*b, *y, t1);
+        t2 = simd.mul_add_e_f64s(*c, *y, t2);
+        t3 = simd.mul_add_e_f64s(*d, *y, t3);
+    }
+    let mut sums = [
+        [
+            simd.reduce_sum_f64s(s0),
+            simd.reduce_sum_f64s(s1),
+            simd.reduce_sum_f64s(s2),
+            simd.reduce_sum_f64s(s3),
+        ],
+        [
+            simd.reduce_sum_f64s(t0),
+            simd.reduce_sum_f64s(t1),
+            simd.reduce_sum_f64s(t2),
+            simd.reduce_sum_f64s(t3),
+        ],
+    ];
+    for (((((x, y), a), b), c), d) in f0.iter().zip(f1).zip(e0).zip(e1).zip(e2).zip(e3) {
+        for (sum, z) in sums.iter_mut().zip([x, y]) {
+            sum[0] += a * z;
+            sum[1] += b * z;
+            sum[2] += c * z;
+            sum[3] += d * z;
+        }
+    }
+    sums
+}
+
+/// Dot of one column with one vector.
+#[inline(always)]
+fn dot_one<S: Simd>(simd: S, c: &[f64], x: &[f64]) -> f64 {
+    let ((c, e), (x, f)) = (S::as_simd_f64s(c), S::as_simd_f64s(x));
+    let mut s = simd.splat_f64s(0.0);
+    for (c, x) in c.iter().zip(x) {
+        s = simd.mul_add_e_f64s(*c, *x, s);
+    }
+    let mut sum = simd.reduce_sum_f64s(s);
+    for (c, x) in e.iter().zip(f) {
+        sum += c * x;
+    }
+    sum
 }
 
 struct AddDots<'a, const R: usize> {
@@ -160,65 +284,38 @@ struct AddDots<'a, const R: usize> {
     y: [&'a mut [f64]; R],
 }
 
-impl<const R: usize> AddDots<'_, R> {
-    #[inline(always)]
-    fn group<S: Simd, const N: usize>(&mut self, simd: S, first: usize) {
-        let n = self.x[0].len();
-        let length = n / S::F64_LANES;
-        let mut columns: [&[S::f64s]; N] = [&[]; N];
-        let mut column_tails: [&[f64]; N] = [&[]; N];
-        for k in 0..N {
-            let (head, tail) = S::as_simd_f64s(&self.a[(first + k) * n..(first + k + 1) * n]);
-            (columns[k], column_tails[k]) = (&head[..length], tail);
-        }
-        let mut x: [&[S::f64s]; R] = [&[]; R];
-        let mut x_tails: [&[f64]; R] = [&[]; R];
-        for r in 0..R {
-            let (head, tail) = S::as_simd_f64s(self.x[r]);
-            (x[r], x_tails[r]) = (&head[..length], tail);
-        }
-        let mut sums = [[simd.splat_f64s(0.0); R]; N];
-        for i in 0..length {
-            for k in 0..N {
-                for r in 0..R {
-                    sums[k][r] = simd.mul_add_e_f64s(columns[k][i], x[r][i], sums[k][r]);
-                }
-            }
-        }
-        for k in 0..N {
-            for r in 0..R {
-                let mut sum = simd.reduce_sum_f64s(sums[k][r]);
-                for i in 0..x_tails[r].len() {
-                    sum += column_tails[k][i] * x_tails[r][i];
-                }
-                self.y[r][first + k] += self.s * sum;
-            }
-        }
-    }
-}
-
 impl<const R: usize> WithSimd for AddDots<'_, R> {
     type Output = ();
 
     #[inline(always)]
-    fn with_simd<S: Simd>(mut self, simd: S) {
-        let columns = self.y[0].len();
+    fn with_simd<S: Simd>(self, simd: S) {
+        let Self { a, s, x, mut y } = self;
+        let (n, columns) = (x[0].len(), y[0].len());
         let mut j = 0;
-        // Eight sums at once keep the processor busy while each of them waits for its last product.
-        while R == 1 && j + 2 * GROUP <= columns {
-            self.group::<S, { 2 * GROUP }>(simd, j);
-            j += 2 * GROUP;
-        }
-        while R <= 2 && j + GROUP <= columns {
-            self.group::<S, GROUP>(simd, j);
-            j += GROUP;
-        }
-        while j + 2 <= columns {
-            self.group::<S, 2>(simd, j);
-            j += 2;
+        while j + 4 <= columns {
+            let c =
+                [column(a, n, j), column(a, n, j + 1), column(a, n, j + 2), column(a, n, j + 3)];
+            let mut r = 0;
+            while r + 2 <= R {
+                let sums = dot_four_pair(simd, c, [x[r], x[r + 1]]);
+                for k in 0..4 {
+                    y[r][j + k] += s * sums[0][k];
+                    y[r + 1][j + k] += s * sums[1][k];
+                }
+                r += 2;
+            }
+            if r < R {
+                let sums = dot_four(simd, c, x[r]);
+                for k in 0..4 {
+                    y[r][j + k] += s * sums[k];
+                }
+            }
+            j += 4;
         }
         while j < columns {
-            self.group::<S, 1>(simd, j);
+            for r in 0..R {
+                y[r][j] += s * dot_one(simd, column(a, n, j), x[r]);
+            }
             j += 1;
         }
     }
