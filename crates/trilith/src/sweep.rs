@@ -38,7 +38,7 @@ use crate::{Analysis, Error, Registry, RunOptions};
 use std::path::PathBuf;
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicUsize, Ordering};
-use trilith_model::{Diagnostic, Model, StepControl, read_text};
+use trilith_model::{Diagnostic, Model, ModelText, StepControl};
 use trilith_results::Named;
 use trilith_solvers::lanes::{self, Extremes, LaneOutcome, LaneSetup, Tables};
 use trilith_solvers::{ContactSummary, EnergyTotals, LinkEnergy, Status};
@@ -162,6 +162,13 @@ impl Sweep {
     /// Runs all combinations; outcomes in their order.
     #[must_use]
     pub fn run(&self, combinations: &[Combination]) -> Vec<Result<Outcome, SweepError>> {
+        let parsed = match ModelText::new(&self.text, &self.path) {
+            Ok(parsed) => parsed,
+            Err(errors) => {
+                let failed = || Err(SweepError::Model(errors.clone()));
+                return combinations.iter().map(|_| failed()).collect();
+            }
+        };
         let tables = Tables::new();
         let portion = (PORTION * self.width).max(1);
         let next = AtomicUsize::new(0);
@@ -173,7 +180,7 @@ impl Sweep {
                     break;
                 }
                 let end = (start + portion).min(combinations.len());
-                let outcomes = self.portion(&combinations[start..end], &tables);
+                let outcomes = self.portion(&parsed, &combinations[start..end], &tables);
                 if let Ok(mut done) = done.lock() {
                     done.push((start, outcomes));
                 }
@@ -193,11 +200,12 @@ impl Sweep {
 
     fn portion(
         &self,
+        parsed: &ModelText,
         combinations: &[Combination],
         tables: &Tables,
     ) -> Vec<Result<Outcome, SweepError>> {
         let mut stages: Vec<Stage> =
-            combinations.iter().map(|c| self.prepare(c, tables)).collect();
+            combinations.iter().map(|c| self.prepare(parsed, c, tables)).collect();
         loop {
             let mut group: Vec<usize> = Vec::new();
             for (i, stage) in stages.iter().enumerate() {
@@ -243,9 +251,9 @@ impl Sweep {
         }
     }
 
-    fn prepare(&self, combination: &Combination, tables: &Tables) -> Stage {
+    fn prepare(&self, parsed: &ModelText, combination: &Combination, tables: &Tables) -> Stage {
         let done = |outcome| Stage::Done(Box::new(outcome));
-        let model = match read_text(&self.text, &self.path, &self.registry, combination) {
+        let model = match parsed.read(&self.registry, combination) {
             Ok(model) => model,
             Err(errors) => return done(Err(SweepError::Model(errors))),
         };

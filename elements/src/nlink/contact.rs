@@ -31,17 +31,32 @@ struct Of<R> {
     mu_slow: R,
     mu_fast: R,
     rate: R,
+    /// 1/kₙ and 1/kₑ; 0 without friction.
+    flexibility: [R; 2],
 }
 
 /// Number of parameters.
-pub(super) const PARAMETERS: usize = 10;
+pub(super) const PARAMETERS: usize = 12;
 
 impl<R: Real> Of<R> {
     #[inline(always)]
     fn read(p: &[R]) -> Self {
         let p: &[R; PARAMETERS] = p.try_into().expect("parameters of a contact");
-        let [kn, opening, damping, ke, mu, k_post, curvature, mu_slow, mu_fast, rate] = *p;
-        Self { kn, opening, damping, ke, mu, k_post, curvature, mu_slow, mu_fast, rate }
+        let [kn, opening, damping, ke, mu, k_post, curvature, mu_slow, mu_fast, rate, fn_, fe] = *p;
+        let flexibility = [fn_, fe];
+        Self {
+            kn,
+            opening,
+            damping,
+            ke,
+            mu,
+            k_post,
+            curvature,
+            mu_slow,
+            mu_fast,
+            rate,
+            flexibility,
+        }
     }
 }
 
@@ -239,7 +254,7 @@ impl<const T: usize, const FLAGS: u8> LaneLaw for NLinkContact<T, FLAGS> {
         let sticks = (it.ke * length).le(limit) & zero.lt(limit);
         let kr0 = Self::restoring(&it, before.spring).only(was);
         let kr1 = Self::restoring(&it, now.spring).only(closed);
-        let ke = R::select(zero.lt(it.ke), it.ke, it.kn);
+        let [by_kn, by_ke] = it.flexibility;
 
         let (mut restoring, mut friction, mut sum) = (at.history[4], zero, zero);
         let (mut tau, mut slip) = ([zero; T], [zero; T]);
@@ -249,7 +264,7 @@ impl<const T: usize, const FLAGS: u8> LaneLaw for NLinkContact<T, FLAGS> {
             let tau0 = (it.ke * (d0[i] - at.history[i])).only(was);
             // Where it starts from, and where the spring is unstretched at the end.
             let start = R::select(closed, a[i], R::select(was, at.history[i], d0[i]));
-            let slid = R::select(sticks, a[i], d1[i] - tau[i] / ke);
+            let slid = R::select(sticks, a[i], d1[i] - tau[i] * by_ke);
             let end = R::select(rubs, slid, d1[i]);
             slip[i] = end - start;
             trial[i] = end;
@@ -265,20 +280,18 @@ impl<const T: usize, const FLAGS: u8> LaneLaw for NLinkContact<T, FLAGS> {
         trial[2] = at.history[2] + Self::length(slip).only(rubs);
         trial[3] = it.kn.of(1.0).only(closed);
         trial[4] = restoring;
-        let g0 = before.f + before.spring;
-        let g1 = now.f + now.spring;
-        let two = it.kn.of(2.0);
-        let (v0, v1) = (at.v0[0], at.v[0]);
-        let work = g0 * (two * v0 + v1) + g1 * (v0 + two * v1);
+        // Of the dashpot, where there is one.
+        let mut viscous = zero;
+        if zero.any(zero.lt(it.damping)) {
+            viscous = at.viscous_work(0, before.f + before.spring, now.f + now.spring);
+        }
         let size = Self::length(tau);
         let most = limit * it.kn.of(1.0 - 1e-9);
         let slips = zero.lt(now.cone) & zero.lt(it.ke) & most.le(size);
         LaneStep {
-            stored: half * now.spring * now.spring / it.kn
-                + restoring
-                + R::select(zero.lt(it.ke), half * sum / ke, zero),
+            stored: half * now.spring * now.spring * by_kn + restoring + half * sum * by_ke,
             hysteretic: (half * friction).max(zero),
-            viscous: (at.dt * work / it.kn.of(6.0)).max(zero),
+            viscous,
             contact: LaneContact {
                 gap: at.d[0] + it.opening,
                 normal: now.cone,

@@ -75,6 +75,8 @@ impl NLink {
             graded[0],
             graded[1],
             graded[2],
+            self.kn.recip(),
+            if self.elastic() > 0.0 { self.elastic().recip() } else { 0.0 },
         ]
     }
 }

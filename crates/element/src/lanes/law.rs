@@ -3,6 +3,7 @@
 #[cfg(target_arch = "x86_64")]
 use super::{Arithmetic, FusedOne, Task, WideLanes};
 use super::Real;
+use crate::Kinematics;
 use std::any::TypeId;
 use std::fmt;
 
@@ -24,6 +25,26 @@ pub struct LaneAt<'a, R> {
     pub dt: R,
     /// Committed history.
     pub history: &'a [R],
+}
+
+impl<'a> LaneAt<'a, f64> {
+    /// What an ordinary link is asked about.
+    #[must_use]
+    pub fn new(at: &Kinematics<'a>, history: &'a [f64], parameters: &'a [f64]) -> Self {
+        Self { parameters, d: at.d, v: at.v, d0: at.d0, v0: at.v0, dt: at.dt, history }
+    }
+}
+
+impl<R: Real> LaneAt<'_, R> {
+    /// As [`Kinematics::viscous_work`].
+    #[inline(always)]
+    #[must_use]
+    pub fn viscous_work(&self, i: usize, start: R, end: R) -> R {
+        let (v0, v1) = (self.v0[i], self.v[i]);
+        let two = start.of(2.0);
+        let sum = start * (two * v0 + v1) + end * (v0 + two * v1);
+        (self.dt * sum * start.of(1.0 / 6.0)).max(start.of(0.0))
+    }
 }
 
 /// Force and tangents to be written, all of them: nothing is zeroed before.

@@ -70,6 +70,14 @@ pub trait Real:
         Self::select(self.lt(o), self, o)
     }
 
+    /// As [`select`](Self::select), for a place in memory that keeps its number where no: a sum with zeros,
+    /// which no compiler turns into a store under a mask. Those are slow on some machines.
+    #[inline(always)]
+    #[must_use]
+    fn mix(mask: Self::Mask, yes: Self, no: Self) -> Self {
+        yes.only(mask) + no.only(!mask)
+    }
+
     /// The number where yes, zero where no.
     #[inline(always)]
     #[must_use]

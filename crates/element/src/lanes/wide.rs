@@ -199,6 +199,16 @@ impl Real for Wide {
         }
     }
     #[inline(always)]
+    fn max(self, o: Self) -> Self {
+        let s = self.simd;
+        Self { simd: s, x: [s.max_f64s(self.x[0], o.x[0]), s.max_f64s(self.x[1], o.x[1])] }
+    }
+    #[inline(always)]
+    fn min(self, o: Self) -> Self {
+        let s = self.simd;
+        Self { simd: s, x: [s.min_f64s(self.x[0], o.x[0]), s.min_f64s(self.x[1], o.x[1])] }
+    }
+    #[inline(always)]
     fn any(self, mask: WideMask) -> bool {
         let s = self.simd;
         let either = s.or_m64s(mask.x[0], mask.x[1]);

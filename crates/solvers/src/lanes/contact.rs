@@ -94,7 +94,7 @@ impl<R: Real> Feet<R> {
             lowest = lowest.min(now.gap);
             let x = now.position[0] - foot.start[0];
             let y = now.position[1] - foot.start[1];
-            foot.slip = R::select(carries, x.mul_add(x, y * y).sqrt(), foot.slip);
+            foot.slip = R::mix(carries, x.mul_add(x, y * y).sqrt(), foot.slip);
             slip = slip.max(foot.slip);
             foot.gap = now.gap;
             foot.position = now.position;
@@ -110,10 +110,10 @@ impl<R: Real> Feet<R> {
             slid = mean[0].mul_add(mean[0], mean[1] * mean[1]).sqrt().only(moved);
             let turned = zero.lt(slid);
             for k in 0..2 {
-                self.direction[k] = R::select(turned, mean[k], self.direction[k]);
+                self.direction[k] = R::mix(turned, mean[k], self.direction[k]);
             }
         }
-        self.fresh = R::select(impact | reversal, zero, self.fresh);
+        self.fresh = self.fresh.only(!(impact | reversal));
         let rocks = zero.lt(highest) & lowest.le(zero);
         let flies = zero.lt(lowest);
         let rocked = R::select(rocks, highest, (highest - lowest).only(flies));

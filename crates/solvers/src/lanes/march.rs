@@ -128,9 +128,9 @@ struct Run {
     parameters: usize,
 }
 
-enum Row<R> {
-    Motion { order: usize, own: Vec<R>, base: Vec<R> },
-    Element { stiffness: Vec<R>, damping: Vec<R> },
+enum Row<R, const M: usize> {
+    Motion { order: usize, own: [R; M], base: Vec<R> },
+    Element { stiffness: [R; M], damping: [R; M] },
     Deformation { at: usize, factor: R },
     Force { at: usize, factor: R },
     History { at: usize },
@@ -163,7 +163,7 @@ struct Plan<R, const M: usize, const L: usize, const N: usize> {
     forces: Vec<[R; M]>,
     sources: Vec<Source<R>>,
     constant: [R; M],
-    outputs: Vec<Row<R>>,
+    outputs: Vec<Row<R, M>>,
     /// Indices of the links that are contacts.
     feet: Vec<usize>,
     /// Rates matter to the laws, accelerations to an output.
@@ -261,16 +261,21 @@ impl<R: Real, const M: usize, const L: usize, const N: usize> Plan<R, M, L, N> {
             let last = all.len() - 1;
             (0..len).map(|j| with.gather(|i| all[i.min(last)][j])).collect()
         };
+        let modal = |of: &dyn Fn(&LaneSetup) -> Vec<f64>| -> [R; M] {
+            let mut all = [zero; M];
+            all[..modes].copy_from_slice(&rows(of, modes));
+            all
+        };
         let outputs = (0..one.outputs.len())
             .map(|o| match &one.outputs[o] {
                 Output::Motion { order, base, .. } => Row::Motion {
                     order: *order,
-                    own: rows(&|s| s.outputs[o].own().to_vec(), modes),
+                    own: modal(&|s| s.outputs[o].own().to_vec()),
                     base: rows(&|s| s.outputs[o].base().to_vec(), base.len()),
                 },
                 Output::Element { .. } => Row::Element {
-                    stiffness: rows(&|s| s.outputs[o].own().to_vec(), modes),
-                    damping: rows(&|s| s.outputs[o].base().to_vec(), modes),
+                    stiffness: modal(&|s| s.outputs[o].own().to_vec()),
+                    damping: modal(&|s| s.outputs[o].base().to_vec()),
                 },
                 Output::Deformation { at, .. } => {
                     Row::Deformation { at: places[*at], factor: get(&|s| s.outputs[o].factor()) }
@@ -464,7 +469,9 @@ struct State<R: Real, const M: usize, const L: usize, const N: usize> {
     k: [[R; N]; L],
     c: [[R; N]; L],
     /// Factors of J = I + k G + c H, with inverse diagonals.
-    lu: [[R; L]; L],
+    lu: [[[R; L]; L]; 2],
+    /// Which of both holds.
+    held: usize,
     history: Vec<R>,
     scale: [R; 2],
     alive: R::Mask,
@@ -527,7 +534,8 @@ impl<R: Real, const M: usize, const L: usize, const N: usize> State<R, M, L, N> 
             f: flat(&|s, i| s.f[i]),
             k: [[zero; N]; L],
             c: [[zero; N]; L],
-            lu,
+            lu: [lu; 2],
+            held: 0,
             history: (0..one.history.len()).map(|i| get(&|s| s.history[i])).collect(),
             scale: [0, 1].map(|i| get(&|s| s.scale[i])),
             alive: zero.le(with.splat(1.0)),
@@ -574,7 +582,7 @@ fn keep<R: Real, const M: usize, const L: usize, const N: usize>(
     all(&mut to.f, &from.f);
     all(to.k.as_flattened_mut(), from.k.as_flattened());
     all(to.c.as_flattened_mut(), from.c.as_flattened());
-    all(to.lu.as_flattened_mut(), from.lu.as_flattened());
+    all(to.lu[to.held].as_flattened_mut(), from.lu[from.held].as_flattened());
     all(&mut to.history, &from.history);
     all(&mut to.scale, &from.scale);
     // Who is lost where the step is not its own is not lost.
@@ -677,42 +685,52 @@ fn look<A: Arithmetic, const M: usize, const L: usize, const N: usize>(
     state: &mut State<A::Real, M, L, N>,
     f: &mut [A::Real; L],
 ) {
+    let State { d: d0, v: v0, history, k, c, .. } = state;
     for run in &plan.runs {
         let (law, n) = (&run.law, run.law.coordinates);
         let r = run.first..run.first + run.count * n;
         let (h, p) = (run.history, run.parameters);
-        let mut block = [[dt; 9]; 2];
-        let [own_k, own_c] = &mut block;
         let whole = n == N;
-        let (k, c) = if whole {
-            (
-                state.k[r.clone()].as_flattened_mut(),
-                state.c[r.clone()].as_flattened_mut(),
-            )
-        } else {
-            (&mut own_k[..n * n], &mut own_c[..n * n])
+        // A narrow link: its blocks are spread afterwards.
+        let mut narrow = Narrow::new(dt, whole);
+        let blocks = match &mut narrow {
+            Some(own) => (&mut own.k[..n * n], &mut own.c[..n * n]),
+            None => (k[r.clone()].as_flattened_mut(), c[r.clone()].as_flattened_mut()),
         };
         let mut links = LaneLinks {
             parameters: &plan.parameters[p..p + run.count * law.parameters],
             d: &at.0[r.clone()],
             v: &at.1[r.clone()],
-            d0: &state.d[r.clone()],
-            v0: &state.v[r.clone()],
+            d0: &d0[r.clone()],
+            v0: &v0[r.clone()],
             dt,
-            history: &mut state.history[h..h + run.count * law.history],
+            history: &mut history[h..h + run.count * law.history],
             f: &mut f[r],
-            k,
-            c,
+            k: blocks.0,
+            c: blocks.1,
         };
         with.force(law, &mut links);
-        if !whole {
+        if let Some(own) = &narrow {
             for i in 0..n {
                 for j in 0..n {
-                    state.k[run.first + i][j] = own_k[i * n + j];
-                    state.c[run.first + i][j] = own_c[i * n + j];
+                    k[run.first + i][j] = own.k[i * n + j];
+                    c[run.first + i][j] = own.c[i * n + j];
                 }
             }
         }
+    }
+}
+
+/// Blocks of a link with fewer coordinates than the widest.
+struct Narrow<R> {
+    k: [R; 4],
+    c: [R; 4],
+}
+
+impl<R: Real> Narrow<R> {
+    #[inline(always)]
+    fn new(zero: R, whole: bool) -> Option<Self> {
+        if whole { None } else { Some(Self { k: [zero; 4], c: [zero; 4] }) }
     }
 }
 
@@ -814,7 +832,7 @@ fn substep<A: Arithmetic, const M: usize, const L: usize, const N: usize>(
             }
         }
     }
-    solve(&state.lu, &mut change);
+    solve(&state.lu[state.held], &mut change);
     for a in 0..L {
         f[a] = f[a] + change[a];
     }
@@ -862,12 +880,16 @@ fn substep<A: Arithmetic, const M: usize, const L: usize, const N: usize>(
             }
         }
         factor(&mut j);
+        // From one place to the other: not a store under a mask.
+        let [first, second] = &mut state.lu;
+        let (from, to) = if state.held == 0 { (first, second) } else { (second, first) };
         for a in 0..L {
             for b in 0..L {
-                state.lu[a][b] = A::Real::select(wrong, j[a][b], state.lu[a][b]);
+                to[a][b] = A::Real::select(wrong, j[a][b], from[a][b]);
             }
         }
-        solve(&state.lu, &mut residual);
+        solve(to, &mut residual);
+        state.held = 1 - state.held;
         for a in 0..L {
             f[a] = f[a] + residual[a].only(wrong);
         }

@@ -83,12 +83,13 @@ impl<R: Real> Peak<R> {
             }
             self.rate = rate;
         }
-        let up = self.max.lt(y);
-        self.max = R::select(up, y, self.max);
-        self.t_max = R::select(up, t1, self.t_max);
-        let down = y.lt(self.min);
-        self.min = R::select(down, y, self.min);
-        self.t_min = R::select(down, t1, self.t_min);
+        let (up, down) = (self.max.lt(y), y.lt(self.min));
+        if y.any(up | down) {
+            self.max = self.max.max(y);
+            self.t_max = R::mix(up, t1, self.t_max);
+            self.min = self.min.min(y);
+            self.t_min = R::mix(down, t1, self.t_min);
+        }
         self.y = y;
     }
 
