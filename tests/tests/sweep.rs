@@ -142,8 +142,10 @@ fn what_does_not_fit_runs_on_the_ordinary_engine_and_says_why() {
         Engine::Ordinary(reason) => reason,
         other => panic!("{other:?}"),
     };
-    let turning = FOOT.replace(r#"Hook(node: "cg", k: "1 MN/m", opening: "8 mm", axis: U2)"#,
-        r#"NLink(node: "cg", kn: "1 MN/m", r3: "1 kN*m")"#);
+    let turning = FOOT.replace(
+        r#"Hook(node: "cg", k: "1 MN/m", opening: "8 mm", axis: U2)"#,
+        r#"NLink(node: "cg", kn: "1 MN/m", r3: "1 kN*m")"#,
+    );
     assert!(reason(&turning).contains("no form"), "{}", reason(&turning));
     let stiff = FOOT.replace(r#"kn: "10 MN/m""#, r#"kn: "10e6 MN/m""#);
     assert!(reason(&stiff).contains("stability"), "{}", reason(&stiff));

@@ -259,9 +259,7 @@ impl Sweep {
         };
         match self.try_lane(&model, tables) {
             Ok(Ok(setup)) => Stage::Lane(Box::new((model, setup))),
-            Ok(Err(reason)) => {
-                done(self.ordinary(model, self.substeps, Engine::Ordinary(reason)))
-            }
+            Ok(Err(reason)) => done(self.ordinary(model, self.substeps, Engine::Ordinary(reason))),
             Err(e) => done(Err(e.into())),
         }
     }
@@ -301,7 +299,8 @@ impl Sweep {
         let run = Analysis::new(&model)?.run(RunOptions { case, ..RunOptions::default() })?;
         let output = |(i, o): (usize, &trilith_model::Output)| {
             let p = run.record.peaks().get(i)?;
-            let of = Extremes { max: p.max, t_max: p.t_max, min: p.min, t_min: p.t_min, last: p.last };
+            let of =
+                Extremes { max: p.max, t_max: p.t_max, min: p.min, t_min: p.t_min, last: p.last };
             Some((o.name.clone(), of))
         };
         let result = &run.result;

@@ -209,8 +209,7 @@ impl<const T: usize, const FLAGS: u8> LaneLaw for NLinkContact<T, FLAGS> {
             out.c[row] = by_limit * (mu * now.cone_v);
             for j in 0..T {
                 let own = it.kn.of(f64::from(u8::from(i == j)));
-                let across =
-                    if T == 1 { zero } else { (own - along[i] * along[j]) * turn };
+                let across = if T == 1 { zero } else { (own - along[i] * along[j]) * turn };
                 let stretch = R::select(sticks, own * it.ke, across).only(rubs);
                 out.k[row + 1 + j] = stretch * (it.kn.of(1.0) - by_dt);
                 by_d1_total = by_d1_total - stretch * by_d1[j];
@@ -226,8 +225,7 @@ impl<const T: usize, const FLAGS: u8> LaneLaw for NLinkContact<T, FLAGS> {
                 let kr = Self::restoring(&it, now.spring).only(closed);
                 out.f[1 + i] = tau + kr * at.d[1 + i];
                 out.k[row + 1 + i] = out.k[row + 1 + i] + kr;
-                by_d1_total =
-                    by_d1_total - (it.kn * it.curvature).only(closed) * at.d[1 + i];
+                by_d1_total = by_d1_total - (it.kn * it.curvature).only(closed) * at.d[1 + i];
             }
             out.k[row] = by_d1_total;
         }

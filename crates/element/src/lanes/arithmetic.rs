@@ -1,9 +1,9 @@
 //! How a sweep computes: which number it runs on, and with which instructions.
 
 use super::law::{ErasedLaw, LaneLinks};
-use super::{LaneStep, Real};
 #[cfg(target_arch = "x86_64")]
 use super::{Fused, Wide};
+use super::{LaneStep, Real};
 #[cfg(target_arch = "x86_64")]
 use pulp::x86::V3;
 
@@ -76,12 +76,7 @@ impl Arithmetic for Portable {
         (law.portable.0)(links);
     }
     #[inline(always)]
-    fn commit(
-        self,
-        law: &ErasedLaw,
-        links: &mut LaneLinks<'_, f64>,
-        out: &mut [LaneStep<f64>],
-    ) {
+    fn commit(self, law: &ErasedLaw, links: &mut LaneLinks<'_, f64>, out: &mut [LaneStep<f64>]) {
         (law.portable.1)(links, out);
     }
 }
@@ -188,12 +183,7 @@ impl Arithmetic for WideLanes {
         (law.wide.0)(self, links);
     }
     #[inline(always)]
-    fn commit(
-        self,
-        law: &ErasedLaw,
-        links: &mut LaneLinks<'_, Wide>,
-        out: &mut [LaneStep<Wide>],
-    ) {
+    fn commit(self, law: &ErasedLaw, links: &mut LaneLinks<'_, Wide>, out: &mut [LaneStep<Wide>]) {
         (law.wide.1)(self, links, out);
     }
 }

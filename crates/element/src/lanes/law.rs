@@ -1,8 +1,8 @@
 //! Laws over lanes, and how a sweep calls them.
 
+use super::Real;
 #[cfg(target_arch = "x86_64")]
 use super::{Arithmetic, FusedOne, Task, WideLanes};
-use super::Real;
 use crate::Kinematics;
 use std::any::TypeId;
 use std::fmt;
@@ -90,8 +90,7 @@ impl<R: Real> LaneStep<R> {
     #[must_use]
     pub fn elastic(stored: R) -> Self {
         let zero = stored.of(0.0);
-        let contact =
-            LaneContact { gap: zero, normal: zero, position: [zero; 2], slipping: zero };
+        let contact = LaneContact { gap: zero, normal: zero, position: [zero; 2], slipping: zero };
         Self { stored, hysteretic: zero, viscous: zero, contact }
     }
 }

@@ -17,7 +17,10 @@ pub trait Real:
     + Neg<Output = Self>
 {
     /// Yes or no in every lane.
-    type Mask: Copy + BitAnd<Output = Self::Mask> + BitOr<Output = Self::Mask> + Not<Output = Self::Mask>;
+    type Mask: Copy
+        + BitAnd<Output = Self::Mask>
+        + BitOr<Output = Self::Mask>
+        + Not<Output = Self::Mask>;
 
     /// The same number in every lane.
     #[must_use]

@@ -162,10 +162,7 @@ impl Real for Wide {
     fn mul_add(self, a: Self, b: Self) -> Self {
         let s = self.simd;
         let [x, y] = self.x;
-        Self {
-            simd: s,
-            x: [s.mul_add_f64s(x, a.x[0], b.x[0]), s.mul_add_f64s(y, a.x[1], b.x[1])],
-        }
+        Self { simd: s, x: [s.mul_add_f64s(x, a.x[0], b.x[0]), s.mul_add_f64s(y, a.x[1], b.x[1])] }
     }
     #[inline(always)]
     fn abs(self) -> Self {

@@ -4,6 +4,12 @@ use crate::contact_mode::{ContactSummary, Seen};
 use trilith_element::Contact;
 use trilith_element::lanes::{Arithmetic, LaneStep, Real};
 
+/// √(x² + y²); y is zero in a plane.
+#[inline(always)]
+fn length<R: Real>(x: R, y: R, plane: bool) -> R {
+    if plane { x.abs() } else { x.mul_add(x, y * y).sqrt() }
+}
+
 /// What has been seen.
 #[derive(Clone, Copy)]
 struct SeenLanes<R> {
@@ -35,13 +41,18 @@ pub(super) struct Feet<R: Real> {
     max_uplift: R,
     max_slip: R,
     residual: R,
+    plane: bool,
     /// Which lanes stand on something at the start.
     standing: Vec<bool>,
 }
 
 impl<R: Real> Feet<R> {
-    /// At the start; `contacts` of each lane.
-    pub(super) fn new<A: Arithmetic<Real = R>>(with: A, contacts: &[&[Contact]]) -> Self {
+    /// At the start; `contacts` of each lane; `plane` where all positions are along one axis.
+    pub(super) fn new<A: Arithmetic<Real = R>>(
+        with: A,
+        contacts: &[&[Contact]],
+        plane: bool,
+    ) -> Self {
         let last = contacts.len() - 1;
         let of = |i: usize| contacts[i.min(last)];
         let zero = with.splat(0.0);
@@ -65,6 +76,7 @@ impl<R: Real> Feet<R> {
             max_uplift: with.gather(uplift),
             max_slip: zero,
             residual: zero,
+            plane,
             standing: contacts.iter().map(|l| l.iter().any(|c| c.normal > 0.0)).collect(),
         }
     }
@@ -94,7 +106,8 @@ impl<R: Real> Feet<R> {
             lowest = lowest.min(now.gap);
             let x = now.position[0] - foot.start[0];
             let y = now.position[1] - foot.start[1];
-            foot.slip = R::mix(carries, x.mul_add(x, y * y).sqrt(), foot.slip);
+            let far = length(x, y, self.plane);
+            foot.slip = R::mix(carries, far, foot.slip);
             slip = slip.max(foot.slip);
             foot.gap = now.gap;
             foot.position = now.position;
@@ -107,7 +120,7 @@ impl<R: Real> Feet<R> {
             mean = [mean[0] / count, mean[1] / count];
             let along = mean[0] * self.direction[0] + mean[1] * self.direction[1];
             reversal = moved & along.lt(zero);
-            slid = mean[0].mul_add(mean[0], mean[1] * mean[1]).sqrt().only(moved);
+            slid = length(mean[0], mean[1], self.plane).only(moved);
             let turned = zero.lt(slid);
             for k in 0..2 {
                 self.direction[k] = R::mix(turned, mean[k], self.direction[k]);

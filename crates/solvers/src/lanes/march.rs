@@ -12,14 +12,17 @@ use super::setup::{LaneSetup, Output, Piece};
 use crate::observe::{EnergyTotals, LinkEnergy};
 use std::sync::Arc;
 use trilith_element::Contact;
+use trilith_element::lanes::{Arithmetic, ErasedLaw, LaneLinks, LaneStep, Portable, Real, Task};
 #[cfg(target_arch = "x86_64")]
 use trilith_element::lanes::{FusedOne, WideLanes};
-use trilith_element::lanes::{Arithmetic, ErasedLaw, LaneLinks, LaneStep, Portable, Real, Task};
 use trilith_model::Side;
 
 /// Residual of the link forces that counts as none, as share of the largest force so far.
 const TOLERANCE: f64 = 1e-9;
-const ITERATIONS: usize = 40;
+const ITERATIONS: usize = 60;
+/// Share of Newton's correction that is made, one after the other for so many iterations each.
+const PARTS: [f64; 4] = [1.0, 0.5, 1.0, 0.25];
+const PATIENCE: usize = 8;
 
 /// Analyses that go side by side.
 pub(super) fn width() -> usize {
@@ -81,9 +84,7 @@ struct Lanes<'a, const M: usize, const L: usize, const N: usize> {
     setups: &'a [&'a LaneSetup],
 }
 
-impl<A: Arithmetic, const M: usize, const L: usize, const N: usize> Task<A>
-    for Lanes<'_, M, L, N>
-{
+impl<A: Arithmetic, const M: usize, const L: usize, const N: usize> Task<A> for Lanes<'_, M, L, N> {
     type Output = Vec<LaneOutcome>;
 
     #[inline(always)]
@@ -157,6 +158,8 @@ struct Plan<R, const M: usize, const L: usize, const N: usize> {
     /// 1 where the structure is damped.
     damped: R,
     rotational: [bool; L],
+    /// Some coordinate is a rotation.
+    turns: bool,
     /// Place of each lane coordinate of the setups.
     places: Vec<usize>,
     /// Load of each channel over the modes.
@@ -190,11 +193,7 @@ struct Loads<R, const M: usize> {
 }
 
 /// Picks a number of each lane; lanes without an analysis repeat the last.
-fn pick<A: Arithmetic>(
-    with: A,
-    setups: &[&LaneSetup],
-    of: impl Fn(&LaneSetup) -> f64,
-) -> A::Real {
+fn pick<A: Arithmetic>(with: A, setups: &[&LaneSetup], of: impl Fn(&LaneSetup) -> f64) -> A::Real {
     let last = setups.len() - 1;
     with.gather(|i| of(setups[i.min(last)]))
 }
@@ -217,18 +216,12 @@ impl<R: Real, const M: usize, const L: usize, const N: usize> Plan<R, M, L, N> {
             let joins = |r: &&mut Run| r.law.id == law.id && law.coordinates == N;
             match runs.last_mut().filter(joins) {
                 Some(run) => run.count += 1,
-                None => runs.push(Run {
-                    law,
-                    first,
-                    count: 1,
-                    history,
-                    parameters: parameters.len(),
-                }),
+                None => {
+                    runs.push(Run { law, first, count: 1, history, parameters: parameters.len() })
+                }
             }
             history += law.history;
-            parameters.extend(
-                (0..law.parameters).map(|i| get(&|s| s.forms[l].parameters[i])),
-            );
+            parameters.extend((0..law.parameters).map(|i| get(&|s| s.forms[l].parameters[i])));
         }
         let mut b = [[zero; M]; L];
         let mut rotational = [false; L];
@@ -295,6 +288,7 @@ impl<R: Real, const M: usize, const L: usize, const N: usize> Plan<R, M, L, N> {
             omega2: mode_wise(&|s, j| s.omega2[j]),
             damping: mode_wise(&|s, j| s.damping[j]),
             damped: get(&damped),
+            turns: rotational.contains(&true),
             rotational,
             forces: (0..channels).map(|c| mode_wise(&|s, j| s.forces[c][j])).collect(),
             sources,
@@ -560,7 +554,7 @@ impl<R: Real, const M: usize, const L: usize, const N: usize> State<R, M, L, N> 
             peaks: (0..one.values.len())
                 .map(|o| Peak::new(get(&|s| s.values[o]), get(&|s| s.rates[o])))
                 .collect(),
-            feet: Feet::new(with, &feet),
+            feet: Feet::new(with, &feet, one.forms.iter().all(|f| f.law.coordinates < 3)),
         }
     }
 }
@@ -811,7 +805,11 @@ fn substep<A: Arithmetic, const M: usize, const L: usize, const N: usize>(
     for a in 0..L {
         for j in 0..M {
             d_free[a] = plan.b[a][j].mul_add(q[j], d_free[a]);
-            if plan.rate {
+        }
+    }
+    if plan.rate {
+        for a in 0..L {
+            for j in 0..M {
                 v_free[a] = plan.b[a][j].mul_add(p[j], v_free[a]);
             }
         }
@@ -827,7 +825,12 @@ fn substep<A: Arithmetic, const M: usize, const L: usize, const N: usize>(
         let first = a / N * N;
         for i in 0..N {
             change[a] = state.k[a][i].mul_add(d[first + i] - state.d[first + i], change[a]);
-            if plan.rate {
+        }
+    }
+    if plan.rate {
+        for a in 0..L {
+            let first = a / N * N;
+            for i in 0..N {
                 change[a] = state.c[a][i].mul_add(v[first + i] - state.v[first + i], change[a]);
             }
         }
@@ -838,25 +841,38 @@ fn substep<A: Arithmetic, const M: usize, const L: usize, const N: usize>(
     }
     let mut forces = [zero; L];
     let mut wrong = state.alive;
-    for _ in 0..ITERATIONS {
+    for iteration in 0..ITERATIONS {
         d = deform(&rule.g, &d_free, &f);
         if plan.rate {
             v = deform(&rule.h, &v_free, &f);
         }
         look(with, plan, rule.dt, (&d, &v), state, &mut forces);
         state.iterations = state.iterations + one.only(wrong);
-        let mut scale = state.scale;
-        for a in 0..L {
-            let kind = usize::from(plan.rotational[a]);
-            scale[kind] = scale[kind].max(forces[a].abs());
-        }
         let share = with.splat(TOLERANCE);
-        let allowed = [scale[0] * share, scale[1] * share];
         let mut residual = [zero; L];
-        let mut fine = zero.le(one);
         for a in 0..L {
             residual[a] = forces[a] - f[a];
-            fine = fine & residual[a].abs().le(allowed[usize::from(plan.rotational[a])]);
+        }
+        let mut fine = zero.le(one);
+        if plan.turns {
+            let mut scale = state.scale;
+            for a in 0..L {
+                let kind = usize::from(plan.rotational[a]);
+                scale[kind] = scale[kind].max(forces[a].abs());
+            }
+            for a in 0..L {
+                let allowed = scale[usize::from(plan.rotational[a])] * share;
+                fine = fine & residual[a].abs().le(allowed);
+            }
+        } else {
+            let mut scale = state.scale[0];
+            for a in 0..L {
+                scale = scale.max(forces[a].abs());
+            }
+            let allowed = scale * share;
+            for a in 0..L {
+                fine = fine & residual[a].abs().le(allowed);
+            }
         }
         wrong = wrong & !fine;
         if !zero.any(wrong) {
@@ -890,8 +906,10 @@ fn substep<A: Arithmetic, const M: usize, const L: usize, const N: usize>(
         }
         solve(to, &mut residual);
         state.held = 1 - state.held;
+        // Who goes in circles between two regimes takes shorter ways.
+        let part = with.splat(PARTS[(iteration / PATIENCE).min(PARTS.len() - 1)]);
         for a in 0..L {
-            f[a] = f[a] + residual[a].only(wrong);
+            f[a] = f[a] + (part * residual[a]).only(wrong);
         }
     }
     if zero.any(wrong) {
@@ -969,6 +987,7 @@ fn substep<A: Arithmetic, const M: usize, const L: usize, const N: usize>(
     (state.d, state.v, state.f) = (d, v, f);
     for a in 0..L {
         let kind = usize::from(plan.rotational[a]);
+        let kind = if plan.turns { kind } else { 0 };
         state.scale[kind] = state.scale[kind].max(forces[a].abs());
     }
     let input = state.kinetic0 + state.external + (state.potential - state.potential0);
@@ -1008,8 +1027,12 @@ fn show<A: Arithmetic, const M: usize, const L: usize, const N: usize>(
     let zero = with.splat(0.0);
     for (row, peak) in plan.outputs.iter().zip(&mut state.peaks) {
         let (y, rate) = match row {
-            Row::Motion { order: 0, own, .. } => (dot(zero, own, &state.q), Some(dot(zero, own, &state.p))),
-            Row::Motion { order: 1, own, .. } => (dot(zero, own, &state.p), Some(dot(zero, own, &state.a))),
+            Row::Motion { order: 0, own, .. } => {
+                (dot(zero, own, &state.q), Some(dot(zero, own, &state.p)))
+            }
+            Row::Motion { order: 1, own, .. } => {
+                (dot(zero, own, &state.p), Some(dot(zero, own, &state.a)))
+            }
             Row::Motion { own, base, .. } => {
                 (dot(zero, own, &state.a) + dot(zero, base, &loads.amplitudes), None)
             }
@@ -1058,8 +1081,7 @@ impl<R: Real, const M: usize, const L: usize, const N: usize> State<R, M, L, N> 
         let heat = e.modal_damping + e.link_hysteretic + e.link_viscous;
         let out = e.kinetic + e.strain + e.potential + e.link_stored + heat;
         let error = e.input - out;
-        let standing =
-            of(self.strain).abs() + of(self.stored).abs() + of(self.potential).abs();
+        let standing = of(self.strain).abs() + of(self.stored).abs() + of(self.potential).abs();
         let shares = [SHARE_OF_LARGEST * of(self.largest), SHARE_OF_STANDING * standing];
         let size = [e.input, e.kinetic, e.potential, heat]
             .into_iter()

@@ -233,10 +233,7 @@ pub fn prepare(
     let State { motion, d, v, f, history, stored, scale, .. } = &state;
     let shape = Shape {
         modes: m,
-        links: forms
-            .iter()
-            .map(|f| (f.law.id, f.coordinates.clone(), f.law.coordinates))
-            .collect(),
+        links: forms.iter().map(|f| (f.law.id, f.coordinates.clone(), f.law.coordinates)).collect(),
         channels: loads.channels.iter().map(|c| (kind(&c.track), c.conservative)).collect(),
         outputs: outputs.iter().map(Output::kind).collect(),
         grid,
@@ -290,10 +287,7 @@ const EQUAL: f64 = 1e-9;
 /// Damping of every mode, and the turn of the modes that makes it so: modes of one frequency (such as
 /// those of a body that nothing but links holds) may be any combination of each other. None where damping couples
 /// modes of different frequencies.
-fn uncoupled(
-    omega2: &[f64],
-    damping: &Sparse,
-) -> Result<Option<(Vec<f64>, Dense)>, SolveError> {
+fn uncoupled(omega2: &[f64], damping: &Sparse) -> Result<Option<(Vec<f64>, Dense)>, SolveError> {
     let m = omega2.len();
     let mut c = Dense::zeros(m, m);
     for (i, j, x) in damping.entries() {
@@ -310,11 +304,8 @@ fn uncoupled(
                 part[(i, j)] = 0.5 * (c[(first + i, first + j)] + c[(first + j, first + i)]);
             }
         }
-        let vectors = if n == 1 {
-            Dense::from_columns(1, 1, vec![1.0])
-        } else {
-            symmetric_eigen(&part)?.1
-        };
+        let vectors =
+            if n == 1 { Dense::from_columns(1, 1, vec![1.0]) } else { symmetric_eigen(&part)?.1 };
         for i in 0..n {
             for j in 0..n {
                 turn[(first + i, first + j)] = vectors[(i, j)];
@@ -416,7 +407,8 @@ fn outputs(
         .zip(&model.outputs)
         .map(|(row, output)| match row {
             Row::Nodal { order, own, base, .. } => {
-                let moves = matches!(&output.quantity, Quantity::Acceleration { absolute: true, .. });
+                let moves =
+                    matches!(&output.quantity, Quantity::Acceleration { absolute: true, .. });
                 let mut share = vec![0.0; if moves { channels } else { 0 }];
                 for (i, direction) in directions.iter().enumerate().filter(|_| moves) {
                     share[first + i] = base[*direction];
@@ -424,16 +416,16 @@ fn outputs(
                 let base = share;
                 Output::Motion { order: *order, own: dense(own), base }
             }
-            Row::Deformation { flat, factor } => at(*flat)
-                .map_or(Output::Zero, |at| Output::Deformation { at, factor: *factor }),
+            Row::Deformation { flat, factor } => {
+                at(*flat).map_or(Output::Zero, |at| Output::Deformation { at, factor: *factor })
+            }
             Row::Force { flat, factor } => {
                 at(*flat).map_or(Output::Zero, |at| Output::Force { at, factor: *factor })
             }
             Row::History { at } => Output::History { at: *at },
-            Row::Element { stiffness, damping } => Output::Element {
-                stiffness: dense(&stiffness.0),
-                damping: dense(&damping.0),
-            },
+            Row::Element { stiffness, damping } => {
+                Output::Element { stiffness: dense(&stiffness.0), damping: dense(&damping.0) }
+            }
         })
         .collect()
 }

@@ -1,5 +1,6 @@
 //! Amplitudes of loads at the steps of a case: made once for all analyses whose loads differ by a factor.
 
+use std::collections::VecDeque;
 use std::sync::{Arc, Mutex, PoisonError, Weak};
 use trilith_model::{Harmonic, Side, TimeFunction};
 use trilith_system::Track;
@@ -22,9 +23,18 @@ struct Entry {
     table: Weak<Table>,
 }
 
-/// The tables in use.
+/// Tables that are kept though nobody uses them at the moment.
+const KEPT: usize = 8;
+
+/// The tables in use, and the last ones made.
 #[derive(Debug, Default)]
-pub struct Tables(Mutex<Vec<Entry>>);
+pub struct Tables(Mutex<Store>);
+
+#[derive(Debug, Default)]
+struct Store {
+    entries: Vec<Entry>,
+    kept: VecDeque<Arc<Table>>,
+}
 
 /// A time function of unit amplitude, and the amplitude.
 fn unit(function: &TimeFunction) -> (TimeFunction, f64) {
@@ -105,16 +115,20 @@ impl Tables {
     /// The table of a track of unit amplitude, and its amplitude.
     pub(super) fn of(&self, track: &Track, grid: Grid) -> (Arc<Table>, f64) {
         let (track, size) = split(track);
-        let mut entries = self.0.lock().unwrap_or_else(PoisonError::into_inner);
-        entries.retain(|e| e.table.strong_count() > 0);
-        let found = entries.iter().filter(|e| e.grid == grid && same(&e.track, &track));
+        let mut store = self.0.lock().unwrap_or_else(PoisonError::into_inner);
+        store.entries.retain(|e| e.table.strong_count() > 0);
+        let found = store.entries.iter().filter(|e| e.grid == grid && same(&e.track, &track));
         if let Some(table) = { found }.find_map(|e| e.table.upgrade()) {
             return (table, size);
         }
-        drop(entries);
+        drop(store);
         let table = Arc::new(fill(&track, grid));
-        let mut entries = self.0.lock().unwrap_or_else(PoisonError::into_inner);
-        entries.push(Entry { grid, track, table: Arc::downgrade(&table) });
+        let mut store = self.0.lock().unwrap_or_else(PoisonError::into_inner);
+        store.entries.push(Entry { grid, track, table: Arc::downgrade(&table) });
+        store.kept.push_back(Arc::clone(&table));
+        if store.kept.len() > KEPT {
+            store.kept.pop_front();
+        }
         (table, size)
     }
 }
