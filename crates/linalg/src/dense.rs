@@ -87,8 +87,8 @@ impl Dense {
     /// # Panics
     /// Where the lengths do not suit.
     pub fn transpose_mul_add_pair(&self, s: f64, x: [&[f64]; 2], y: [&mut [f64]; 2]) {
-        let suits = x.iter().all(|x| x.len() == self.rows)
-            && y.iter().all(|y| y.len() == self.columns);
+        let suits =
+            x.iter().all(|x| x.len() == self.rows) && y.iter().all(|y| y.len() == self.columns);
         assert!(suits, "lengths of a product");
         gemv::add_dots(&self.values, s, x, y);
     }

@@ -7,7 +7,7 @@ use crate::hht::{average_work, newmark};
 use crate::kernel::Remembered;
 use crate::propagator::{Forces, kinetic_and_strain};
 use crate::space::Space;
-use crate::stepper::{energy_distance, energy_rounding, State, StepEnergy, StepFailure, Stepper};
+use crate::stepper::{State, StepEnergy, StepFailure, Stepper, energy_distance, energy_rounding};
 use crate::vector::largest;
 use trilith_element::{Energy, Kinematics};
 use trilith_linalg::{Ldlt, SparseLu, Triplets};

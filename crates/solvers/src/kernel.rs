@@ -406,17 +406,17 @@ impl<'a> LinkKernel<'a> {
             for (a, flat) in links.active.iter().enumerate() {
                 let kind = usize::from(links.rotational[*flat]);
                 left[kind] = self.residual[a].abs().max(left[kind]);
-                now[kind] = out.f[*flat].abs().max(PSEUDO_SHARE * out.pseudo[a].abs()).max(now[kind]);
+                now[kind] =
+                    out.f[*flat].abs().max(PSEUDO_SHARE * out.pseudo[a].abs()).max(now[kind]);
             }
         } else {
             left[0] = largest(&self.residual);
             now[0] = largest(out.f).max(PSEUDO_SHARE * largest(out.pseudo)).max(now[0]);
         }
         let mut worst = NoEquilibrium { worst: 0, residual: 0.0 };
-        if let (false, Some(a)) = (
-            largest(&self.residual).is_finite(),
-            self.residual.iter().position(|r| !r.is_finite()),
-        ) {
+        if let (false, Some(a)) =
+            (largest(&self.residual).is_finite(), self.residual.iter().position(|r| !r.is_finite()))
+        {
             worst = NoEquilibrium { worst: links.active[a], residual: self.residual[a].abs() };
             return (f64::NAN, worst);
         }
@@ -452,7 +452,10 @@ impl<'a> LinkKernel<'a> {
         let block = link.block.start + row..link.block.start + row + link.range.len();
         let (k, c) = (&self.tangents.k[block.clone()], &self.tangents.c[block]);
         let terms = link.range.clone().zip(k.iter().zip(c));
-        DIGIT * terms.map(|(flat, (k, c))| (k * out.d[flat]).abs() + (c * out.v[flat]).abs()).sum::<f64>()
+        DIGIT
+            * terms
+                .map(|(flat, (k, c))| (k * out.d[flat]).abs() + (c * out.v[flat]).abs())
+                .sum::<f64>()
     }
 
     /// Replaces the residual by the Newton correction of f̃.

@@ -76,7 +76,11 @@ impl<'a> LinkSide<'a> {
             for x in [&mut self.support0, &mut self.support1, &mut self.support_rate] {
                 x.fill(0.0);
             }
-            self.loads.support_deformation(&loads.start, &mut self.support0, &mut self.support_rate);
+            self.loads.support_deformation(
+                &loads.start,
+                &mut self.support0,
+                &mut self.support_rate,
+            );
             self.support_rate.fill(0.0);
             self.loads.support_deformation(&loads.end, &mut self.support1, &mut self.support_rate);
         }
@@ -122,7 +126,13 @@ impl<'a> LinkSide<'a> {
 
     /// Takes up the link equations at the predicted d and v.
     pub(crate) fn take_up(&mut self, compliance: &Compliance) {
-        self.kernel.begin(&affine(compliance, &self.d, &self.v, &self.support1, &self.support_rate));
+        self.kernel.begin(&affine(
+            compliance,
+            &self.d,
+            &self.v,
+            &self.support1,
+            &self.support_rate,
+        ));
     }
 
     /// One iteration of the link equations; false where deformations must follow.

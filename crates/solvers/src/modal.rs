@@ -30,7 +30,7 @@ use trilith_linalg::Dense;
 
 /// Steps with a larger G·k of the stiffest link are made by average acceleration; the limit of the exact
 /// rule is 2 (ω²Δt²/6), and well before it the rule is no better any more.
-const LONGEST: f64 = 0.5;
+pub(crate) const LONGEST: f64 = 0.5;
 
 struct Step {
     rule: Rule,

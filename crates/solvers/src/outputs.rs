@@ -103,10 +103,13 @@ impl Outputs {
             .collect::<Vec<_>>();
         let supported = rows.iter().any(|row| match row {
             Row::Nodal { support, .. } => !support.is_empty(),
-            Row::Element { stiffness, damping } => !(stiffness.1.is_empty() && damping.1.is_empty()),
+            Row::Element { stiffness, damping } => {
+                !(stiffness.1.is_empty() && damping.1.is_empty())
+            }
             _ => false,
         });
-        let absolute = rows.iter().any(|r| matches!(r, Row::Nodal { base, .. } if *base != [0.0; 3]));
+        let absolute =
+            rows.iter().any(|r| matches!(r, Row::Nodal { base, .. } if *base != [0.0; 3]));
         let prescribed = system.reduction.prescribed.len();
         Self { rows, prescribed, order: space.order(), supported, absolute }
     }

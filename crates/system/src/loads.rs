@@ -179,7 +179,9 @@ impl System {
 impl LoadSet {
     /// Amplitudes over a step.
     pub fn step(&self, t0: f64, t1: f64, loads: &mut StepLoads) {
-        for (to, t, side) in [(&mut loads.start, t0, Side::After), (&mut loads.end, t1, Side::Before)] {
+        for (to, t, side) in
+            [(&mut loads.start, t0, Side::After), (&mut loads.end, t1, Side::Before)]
+        {
             to.clear();
             to.extend(self.channels.iter().map(|c| c.track.at(t, side)));
         }

@@ -57,7 +57,9 @@ pub enum ConformanceError {
         time: f64,
     },
     /// A law that says it does not look at rates answers otherwise when they change.
-    #[error("`uses_rates` is false, but the answer depends on rates at t = {time} s of path {path}")]
+    #[error(
+        "`uses_rates` is false, but the answer depends on rates at t = {time} s of path {path}"
+    )]
     UsesRates {
         /// Number of the path.
         path: usize,

@@ -92,7 +92,8 @@ pub(super) fn answers(link: &dyn Link, path: &Path) -> Result<(), Broken> {
         let _ = s.before.ask(&Kinematics { d: &elsewhere, ..s.at });
         same(&s.before.ask(&s.at), s, path)?;
         if !link.uses_rates() {
-            let other: Vec<f64> = s.at.v.iter().zip(&path.scale).map(|(v, x)| 3.0 * v + x).collect();
+            let other: Vec<f64> =
+                s.at.v.iter().zip(&path.scale).map(|(v, x)| 3.0 * v + x).collect();
             let answer = s.before.ask(&Kinematics { v: &other, v0: &other, ..s.at });
             same(&answer, s, path)
                 .map_err(|_| Broken::UsesRates { path: path.number, time: s.time })?;

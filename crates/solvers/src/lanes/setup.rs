@@ -8,19 +8,19 @@ use crate::damping::modal_damping;
 use crate::dynamic::basis_loads;
 use crate::error::SolveError;
 use crate::kernel::LinkKernel;
-use crate::modal::Modal;
+use crate::link_side::LinkSide;
+use crate::modal::{LONGEST, Modal};
 use crate::observe::Status;
 use crate::outputs::{Outputs, Row};
-use crate::propagator::{Propagator, kinetic_and_strain};
+use crate::propagator::kinetic_and_strain;
 use crate::space::Space;
 use crate::start::{constant_force, potential, start};
-use crate::stepper::{LinkStepper, State};
+use crate::stepper::{LinkStepper, State, Stepper};
 use crate::timeline::Timeline;
-use crate::view::contacts;
 use std::any::TypeId;
 use std::sync::Arc;
-use trilith_element::Contact;
 use trilith_element::lanes::LaneForm;
+use trilith_element::{Contact, Kinematics};
 use trilith_linalg::{Dense, Sparse, symmetric_eigen};
 use trilith_model::{
     Analysis, Damping, DynamicCase, Kernel, Model, Quantity, SolverKind, StepControl,
@@ -167,12 +167,18 @@ pub fn prepare(
     let modal = matches!(model.damping, Damping::Modal { .. } | Damping::ModalTable { .. });
     let damping = if modal { modal_damping(model, system, &bases) } else { None };
     let physical = Space::physical(system, &loads, &system.links.effective, damping);
-    let kernel = LinkKernel::new(&system.links, Kernel::Newton, physical.dummy_k.clone());
-    let propagator = Modal::new(Space::reduced(&physical, &bases.stepping));
-    let mut stepper = LinkStepper { model, system, loads: &loads, propagator, kernel };
+    let dummies = physical.dummy_k.clone();
+    let kernel = LinkKernel::new(model, &system.links, &analysis.solution, dummies);
+    let reduced = Space::reduced(&physical, &bases.stepping);
+    let side = LinkSide::new(model, system, &loads, kernel, reduced.order());
+    let active: Vec<f64> = {
+        let engaged = system.links.engaged(model);
+        system.links.active.iter().map(|i| engaged[*i]).collect()
+    };
+    let mut stepper = LinkStepper::new(Modal::new(reduced, active), side);
     let dt = analysis.dt;
     let (state, _, _, _) = start(model, system, analysis, before, &loads, &mut stepper, dt)?;
-    let space = stepper.propagator.space();
+    let space = stepper.space();
 
     let m = space.order();
     let links = &system.links;
@@ -205,15 +211,15 @@ pub fn prepare(
     let mut rows = vec![vec![0.0; m]; flat.len()];
     for (row, i) in rows.iter_mut().zip(&flat) {
         let Some(a) = links.active.iter().position(|x| x == i) else { continue };
-        space.rows[a].iter().for_each(|(j, c)| row[*j] += c);
+        space.links.row(a).for_each(|(j, c)| row[j] += c);
         *row = turned(&turn, row);
     }
     let step = dt / substeps as f64;
     let rule: Vec<Mode> = omega2.iter().zip(&own).map(|(w, c)| mode(*w, *c, step)).collect();
     let engaged = links.engaged(model);
     let engaged: Vec<f64> = flat.iter().map(|i| engaged[*i]).collect();
-    if stiffness_ratio(&rows, &rule, &engaged) > 2.0 {
-        return Ok(Err("steps beyond the stability limit of the exact rule for the stiffest link"));
+    if stiffness_ratio(&rows, &rule, &engaged) > LONGEST {
+        return Ok(Err("steps too long for the exact rule at the stiffest link"));
     }
     let timeline = Timeline {
         dt,
@@ -271,7 +277,7 @@ pub fn prepare(
         kinetic,
         strain,
         potential: potential(&constant_force(space, &loads), &state),
-        contacts: seen.into_iter().map(|(_, c)| c).collect(),
+        contacts: seen,
         values,
         rates,
         energy_limit: analysis.solution.energy_limit,
@@ -328,6 +334,19 @@ fn turned(turn: &Dense, x: &[f64]) -> Vec<f64> {
     y
 }
 
+/// What every contact does in a state.
+fn contacts(model: &Model, system: &System, state: &State) -> Vec<Contact> {
+    let (links, mut all) = (&system.links, Vec::new());
+    for link in &links.links {
+        let Some(law) = links.law(model, link) else { continue };
+        let r = link.range.clone();
+        let (d, v) = (&state.d[r.clone()], &state.v[r.clone()]);
+        let at = Kinematics { d, v, d0: d, v0: v, dt: 0.0 };
+        law.contacts(&at, &state.history[link.history.clone()], &state.f[r], &mut all);
+    }
+    all
+}
+
 fn kind(track: &Track) -> u8 {
     match track {
         Track::Constant => 0,
@@ -381,7 +400,7 @@ fn cuts(timeline: &Timeline) -> Vec<(usize, Vec<Piece>)> {
     cut.sort_unstable();
     cut.dedup();
     cut.into_iter()
-        .map(|step| (step, timeline.pieces(step)))
+        .map(|step| (step, timeline.pieces(step).collect::<Vec<_>>()))
         .filter(|(_, pieces)| !matches!(pieces[..], [(_, length)] if whole(length)))
         .collect()
 }
