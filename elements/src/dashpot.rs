@@ -30,6 +30,7 @@
 use crate::shared::restitution::{IMPACT_MASS, damping_ratio, restitution};
 use serde::Deserialize;
 use trilith_element::dimension::{FORCE, FREQUENCY, LENGTH, MOMENT, NONE, STIFFNESS, VELOCITY};
+use trilith_element::lanes::{LaneAt, LaneForce, LaneForm, LaneLaw, LaneStep, Real};
 use trilith_element::{
     Axis, Card, Category, Contact, Coordinates, Default, Described, Exercise, Form, Impact,
     Kinematics, Link, NodeCount, Parameter, ParameterError, Range, Response, Stroke,
@@ -194,6 +195,28 @@ impl Dashpot {
         (power.copysign(v), if size > 0.0 { alpha * power / size } else { 0.0 })
     }
 
+    /// Which of the linear laws it is.
+    fn respond_linearly(&self, at: &Kinematics<'_>, c: f64, out: &mut Response<'_>) {
+        fn by<L: LaneLaw>(asked: &LaneAt<'_, f64>, out: &mut Response<'_>) {
+            L::force(asked, &mut LaneForce { f: out.f, k: out.k, c: out.c });
+            let step = L::commit(asked, out.f, &mut []);
+            (out.energy.stored, out.energy.viscous) = (step.stored, step.viscous);
+        }
+        let numbers = self.numbers(c);
+        let asked = LaneAt::new(at, &[], &numbers);
+        match (self.when, self.pull) {
+            (When::Always, _) => by::<Linear<ALWAYS>>(&asked, out),
+            (When::InContact, true) => by::<Linear<PULLS>>(&asked, out),
+            (When::InContact, false) => by::<Linear<PRESSES>>(&asked, out),
+        }
+    }
+
+    /// Parameters of the linear law.
+    fn numbers(&self, c: f64) -> [f64; 4] {
+        let by = if self.stiffness > 0.0 { self.stiffness.recip() } else { 0.0 };
+        [c, self.stiffness, self.opening, by]
+    }
+
     /// Total force, its derivatives by d and ḋ, and the force of the spring in it.
     fn total(&self, d: f64, v: f64) -> [f64; 4] {
         let (force, slope) = self.force(v);
@@ -213,6 +236,53 @@ impl Dashpot {
     }
 }
 
+/// The dashpot with α = 1 over lanes; parameters c, k, g, 1/k (0 without k).
+struct Linear<const WHEN: u8>;
+
+const ALWAYS: u8 = 0;
+const PULLS: u8 = 1;
+const PRESSES: u8 = 2;
+
+impl<const WHEN: u8> Linear<WHEN> {
+    /// Total force, its derivatives by d and ḋ, and the force of the spring in it.
+    #[inline(always)]
+    fn total<R: Real>(p: &[R], d: R, v: R) -> [R; 4] {
+        let (c, k, zero) = (p[0], p[1], p[0].of(0.0));
+        if WHEN == ALWAYS {
+            return [c * v, zero, c, zero];
+        }
+        let gap = d + p[2];
+        let closed = gap.lt(zero);
+        let spring = (k * gap).only(closed);
+        let f = c * v + spring;
+        let acts = if WHEN == PULLS { closed } else { closed & !zero.lt(f) };
+        [f.only(acts), k.only(acts), c.only(acts), spring]
+    }
+}
+
+impl<const WHEN: u8> LaneLaw for Linear<WHEN> {
+    const COORDINATES: usize = 1;
+    const HISTORY: usize = 0;
+    const PARAMETERS: usize = 4;
+
+    #[inline(always)]
+    fn force<R: Real>(at: &LaneAt<'_, R>, out: &mut LaneForce<'_, R>) {
+        let [f, k, c, _] = Self::total(at.parameters, at.d[0], at.v[0]);
+        (out.f[0], out.k[0], out.c[0]) = (f, k, c);
+    }
+
+    #[inline(always)]
+    fn commit<R: Real>(at: &LaneAt<'_, R>, _: &[R], _: &mut [R]) -> LaneStep<R> {
+        let [f0, _, _, spring0] = Self::total(at.parameters, at.d0[0], at.v0[0]);
+        let [f, _, _, spring] = Self::total(at.parameters, at.d[0], at.v[0]);
+        let stored = f.of(0.5) * spring * spring * at.parameters[3];
+        LaneStep {
+            viscous: at.viscous_work(0, f0 - spring0, f - spring),
+            ..LaneStep::elastic(stored)
+        }
+    }
+}
+
 impl Link for Dashpot {
     fn coordinates(&self) -> Coordinates {
         Coordinates::Local(vec![self.axis])
@@ -223,6 +293,9 @@ impl Link for Dashpot {
     }
 
     fn respond(&self, at: &Kinematics<'_>, _: &[f64], _: &mut [f64], out: &mut Response<'_>) {
+        if let (true, Some(c)) = (self.exponent == 1.0, self.coefficient()) {
+            return self.respond_linearly(at, c, out);
+        }
         let [f0, _, _, spring0] = self.total(at.d0[0], at.v0[0]);
         let [f, k, c, spring] = self.total(at.d[0], at.v[0]);
         (out.f[0], out.k[0], out.c[0]) = (f, k, c);
@@ -230,6 +303,16 @@ impl Link for Dashpot {
             out.energy.stored = 0.5 * spring * spring / self.stiffness;
         }
         out.energy.viscous = at.viscous_work(0, f0 - spring0, f - spring);
+    }
+
+    fn lanes(&self, _: &[bool]) -> Option<LaneForm> {
+        let c = self.coefficient().filter(|_| self.exponent == 1.0)?;
+        let numbers = self.numbers(c).to_vec();
+        Some(match (self.when, self.pull) {
+            (When::Always, _) => LaneForm::of::<Linear<ALWAYS>>(vec![0], numbers),
+            (When::InContact, true) => LaneForm::of::<Linear<PULLS>>(vec![0], numbers),
+            (When::InContact, false) => LaneForm::of::<Linear<PRESSES>>(vec![0], numbers),
+        })
     }
 
     fn impact(&self) -> Option<Impact> {

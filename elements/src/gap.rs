@@ -18,6 +18,7 @@
 
 use serde::Deserialize;
 use trilith_element::dimension::{LENGTH, STIFFNESS};
+use trilith_element::lanes::{LaneAt, LaneContact, LaneForce, LaneForm, LaneLaw, LaneStep, Real};
 use trilith_element::{
     Axis, Card, Category, Contact, Coordinates, Described, Exercise, Kinematics, Link, NodeCount,
     Parameter, Range, Response, Stroke,
@@ -53,6 +54,35 @@ impl Described for Gap {
     };
 }
 
+/// The law over lanes; parameters k, g.
+struct GapLaw;
+
+impl LaneLaw for GapLaw {
+    const COORDINATES: usize = 1;
+    const HISTORY: usize = 0;
+    const PARAMETERS: usize = 2;
+    const IS_CONTACT: bool = true;
+
+    #[inline(always)]
+    fn force<R: Real>(at: &LaneAt<'_, R>, out: &mut LaneForce<'_, R>) {
+        let (k, stretch) = (at.parameters[0], at.d[0] + at.parameters[1]);
+        let closed = stretch.lt(k.of(0.0));
+        out.f[0] = (k * stretch).only(closed);
+        out.k[0] = k.only(closed);
+        out.c[0] = k.of(0.0);
+    }
+
+    #[inline(always)]
+    fn commit<R: Real>(at: &LaneAt<'_, R>, f: &[R], _: &mut [R]) -> LaneStep<R> {
+        let (k, gap) = (at.parameters[0], at.d[0] + at.parameters[1]);
+        let zero = k.of(0.0);
+        let stored = (k.of(0.5) * k * gap * gap).only(gap.lt(zero));
+        let normal = (-f[0]).max(zero);
+        let contact = LaneContact { gap, normal, position: [zero; 2], slipping: zero };
+        LaneStep { contact, ..LaneStep::elastic(stored) }
+    }
+}
+
 impl Link for Gap {
     fn coordinates(&self) -> Coordinates {
         Coordinates::Local(vec![self.axis])
@@ -67,13 +97,14 @@ impl Link for Gap {
     }
 
     fn respond(&self, at: &Kinematics<'_>, _: &[f64], _: &mut [f64], out: &mut Response<'_>) {
-        let stretch = at.d[0] + self.opening;
-        if stretch >= 0.0 {
-            return;
-        }
-        out.f[0] = self.k * stretch;
-        out.k[0] = self.k;
-        out.energy.stored = 0.5 * self.k * stretch * stretch;
+        let numbers = [self.k, self.opening];
+        let asked = LaneAt::new(at, &[], &numbers);
+        GapLaw::force(&asked, &mut LaneForce { f: out.f, k: out.k, c: out.c });
+        out.energy.stored = GapLaw::commit(&asked, out.f, &mut []).stored;
+    }
+
+    fn lanes(&self, _: &[bool]) -> Option<LaneForm> {
+        Some(LaneForm::of::<GapLaw>(vec![0], vec![self.k, self.opening]).without_rate())
     }
 
     fn contacts(&self, at: &Kinematics<'_>, _: &[f64], f: &[f64], out: &mut Vec<Contact>) {

@@ -18,6 +18,7 @@
 
 use serde::Deserialize;
 use trilith_element::dimension::{LENGTH, STIFFNESS};
+use trilith_element::lanes::{LaneAt, LaneForce, LaneForm, LaneLaw, LaneStep, Real};
 use trilith_element::{
     Axis, Card, Category, Coordinates, Described, Exercise, Kinematics, Link, NodeCount, Parameter,
     Range, Response, Stroke,
@@ -53,6 +54,31 @@ impl Described for Hook {
     };
 }
 
+/// The law over lanes; parameters k, g.
+struct HookLaw;
+
+impl LaneLaw for HookLaw {
+    const COORDINATES: usize = 1;
+    const HISTORY: usize = 0;
+    const PARAMETERS: usize = 2;
+
+    #[inline(always)]
+    fn force<R: Real>(at: &LaneAt<'_, R>, out: &mut LaneForce<'_, R>) {
+        let (k, stretch) = (at.parameters[0], at.d[0] - at.parameters[1]);
+        let taut = k.of(0.0).lt(stretch);
+        out.f[0] = (k * stretch).only(taut);
+        out.k[0] = k.only(taut);
+        out.c[0] = k.of(0.0);
+    }
+
+    #[inline(always)]
+    fn commit<R: Real>(at: &LaneAt<'_, R>, _: &[R], _: &mut [R]) -> LaneStep<R> {
+        let (k, stretch) = (at.parameters[0], at.d[0] - at.parameters[1]);
+        let taut = k.of(0.0).lt(stretch);
+        LaneStep::elastic((k.of(0.5) * k * stretch * stretch).only(taut))
+    }
+}
+
 impl Link for Hook {
     fn coordinates(&self) -> Coordinates {
         Coordinates::Local(vec![self.axis])
@@ -67,13 +93,14 @@ impl Link for Hook {
     }
 
     fn respond(&self, at: &Kinematics<'_>, _: &[f64], _: &mut [f64], out: &mut Response<'_>) {
-        let stretch = at.d[0] - self.opening;
-        if stretch <= 0.0 {
-            return;
-        }
-        out.f[0] = self.k * stretch;
-        out.k[0] = self.k;
-        out.energy.stored = 0.5 * self.k * stretch * stretch;
+        let numbers = [self.k, self.opening];
+        let asked = LaneAt::new(at, &[], &numbers);
+        HookLaw::force(&asked, &mut LaneForce { f: out.f, k: out.k, c: out.c });
+        out.energy.stored = HookLaw::commit(&asked, out.f, &mut []).stored;
+    }
+
+    fn lanes(&self, _: &[bool]) -> Option<LaneForm> {
+        Some(LaneForm::of::<HookLaw>(vec![0], vec![self.k, self.opening]).without_rate())
     }
 }
 

@@ -45,6 +45,7 @@
 //!
 //! Reference: \[Wilson 2002, ch. 18 and 21\]; velocity dependence \[Constantinou et al. 1990\].
 
+mod contact;
 mod law;
 #[cfg(test)]
 mod tests;

@@ -28,6 +28,7 @@ mod values;
 
 pub mod conformance;
 pub mod dimension;
+pub mod lanes;
 
 pub use card::{
     Card, Category, Default, Described, Exercise, Form, NodeCount, Parameter, Range, Stroke,

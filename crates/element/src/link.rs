@@ -1,5 +1,6 @@
 //! Links: local nonlinear laws.
 
+use crate::lanes::LaneForm;
 use crate::{Axis, Field};
 use std::borrow::Cow;
 use std::fmt::Debug;
@@ -184,6 +185,12 @@ pub trait Link: Send + Sync + Debug {
     /// mass (kg) that strikes it alone. The core runs this law where [`impact`](Self::impact) wants a
     /// restitution.
     fn restituting(&self, _restitution: f64, _mass: f64) -> Option<Box<dyn Link>> {
+        None
+    }
+
+    /// The law in the form in which sweeps run many analyses side by side, for links that have one.
+    /// `active` says which of its coordinates the structure can deform; the others stay zero.
+    fn lanes(&self, _active: &[bool]) -> Option<LaneForm> {
         None
     }
 }

@@ -23,7 +23,7 @@ pub use diagnostic::{Diagnostic, line_column};
 pub use expression::quantity;
 pub use model::*;
 pub use output::*;
-pub use read::{read, read_text};
+pub use read::{ModelText, read, read_text};
 pub use registry::Registry;
 pub use resolved::resolved;
 pub use table::{AfterEnd, Interpolation, Table, TableError};

@@ -28,17 +28,17 @@ pub struct ContactSummary {
 
 /// What has been seen.
 #[derive(Clone, Copy, Debug, Default)]
-struct Seen {
+pub(crate) struct Seen {
     /// Path made while all loaded contacts slipped, and elastic tangential play for comparison, m.
-    slid: f64,
+    pub(crate) slid: f64,
     /// Largest gap while another contact was closed, m.
-    rocked: f64,
+    pub(crate) rocked: f64,
     /// Largest of the smallest gaps, m: how high the whole body was.
-    flew: f64,
+    pub(crate) flew: f64,
 }
 
 impl Seen {
-    fn mode(self, play: f64) -> &'static str {
+    pub(crate) fn mode(self, play: f64) -> &'static str {
         let slides = self.slid > play;
         // In flight the gaps of a body differ by rounding; it rocks where they differ visibly.
         let rocks = self.rocked > 0.05 * self.flew && self.rocked > 0.0;

@@ -17,6 +17,7 @@ mod error;
 mod full_newton;
 mod hht;
 mod kernel;
+pub mod lanes;
 mod ledger;
 mod link_map;
 mod link_side;

@@ -6,7 +6,7 @@ use trilith_model::{Model, NodalTerm, Quantity, Side};
 use trilith_system::{LoadSet, System};
 
 /// One output, ready to be evaluated.
-enum Row {
+pub(crate) enum Row {
     /// Σ on displacements (0), velocities (1) or accelerations (2).
     Nodal {
         order: usize,
@@ -32,11 +32,11 @@ enum Row {
 }
 
 /// Terms (index, factor) on the coordinates of the solver and on prescribed displacements.
-type Split = (Vec<(usize, f64)>, Vec<(usize, f64)>);
+pub(crate) type Split = (Vec<(usize, f64)>, Vec<(usize, f64)>);
 
 /// All outputs of a model.
 pub(crate) struct Outputs {
-    rows: Vec<Row>,
+    pub(crate) rows: Vec<Row>,
     prescribed: usize,
     order: usize,
     /// True where an output asks for moving supports, or for the acceleration of the base.

@@ -30,6 +30,7 @@
 //! - [`run`] runs a case as the file says; [`Analysis`] runs several, with options.
 //! - [`exercise`] shows what a link does on its own, [`catalogue`] what kinds there are.
 //! - [`generate`] makes models from a few numbers.
+//! - [`sweep`] runs a model with many values of its parameters, several analyses side by side.
 //! - [`calibrate`] finds dashpots from coefficients of restitution.
 //! - A link of your own: implement [`element::Link`], offer it with `registry.link::<MyLink>()`.
 //!
@@ -42,6 +43,7 @@ pub mod catalogue;
 mod error;
 pub mod exercise;
 pub mod generate;
+pub mod sweep;
 
 /// The contract that elements, constraints and links fulfil.
 pub mod element {

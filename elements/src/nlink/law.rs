@@ -1,10 +1,11 @@
 //! The law of the [`NLink`].
 
 use super::NLink;
+use super::contact::{GRADED, NLinkContact, PARAMETERS, PULL, RESTORING};
 use crate::shared::restitution::damping_ratio;
-use crate::shared::sliding::{Axial, Normal, exponential, radial_return, share_before};
-use nalgebra::Vector2;
+use crate::shared::sliding::{Axial, Normal, exponential};
 use std::borrow::Cow;
+use trilith_element::lanes::{LaneAt, LaneForce, LaneForm, LaneLaw, LaneStep};
 use trilith_element::{
     Axis, Contact, Coordinates, Field, History, Impact, Kinematics, Link, Response, history,
 };
@@ -50,19 +51,47 @@ impl NLink {
     }
 }
 
-/// Position of the anchor at the start of the step, or at the moment of closing within the step, and
-/// its derivatives: by dₜ (a factor) and by d₁.
-fn anchor(link: &NLink, at: &Kinematics<'_>, was: &NLinkHistory) -> ([f64; 2], f64, [f64; 2]) {
-    let gap0 = at.d0[0] + link.opening;
-    if gap0 <= 0.0 {
-        return ([was.anchor2, was.anchor3], 0.0, [0.0; 2]);
+impl NLink {
+    /// Which parts the contact has.
+    fn flags(&self) -> u8 {
+        let part = |is: bool, flag: u8| if is { flag } else { 0 };
+        part(self.pull, PULL)
+            | part(self.k_post > 0.0 || self.radius > 0.0, RESTORING)
+            | part(self.mu_slow.is_some(), GRADED)
     }
-    // Closed at the end, so gap < = 0 < gap0 and the share of the step before contact is in (0, 1].
-    let gap = at.d[0] + link.opening;
-    let (share, by_gap) = share_before(gap0, gap);
-    let delta = [at.d[1] - at.d0[1], at.d[2] - at.d0[2]];
-    let start = [at.d0[1] + share * delta[0], at.d0[2] + share * delta[1]];
-    (start, share, delta.map(|x| x * by_gap))
+
+    /// The parameters of the contact.
+    fn numbers(&self) -> [f64; PARAMETERS] {
+        let graded = [self.mu_slow, self.mu_fast, self.rate].map(|x| x.unwrap_or(0.0));
+        let curvature = if self.radius > 0.0 { self.radius.recip() } else { 0.0 };
+        [
+            self.kn,
+            self.opening,
+            self.damping,
+            self.elastic(),
+            self.mu.unwrap_or(0.0),
+            self.k_post,
+            curvature,
+            graded[0],
+            graded[1],
+            graded[2],
+            self.kn.recip(),
+            if self.elastic() > 0.0 { self.elastic().recip() } else { 0.0 },
+        ]
+    }
+}
+
+/// Calls a function of the law with the flags as a constant.
+macro_rules! with_flags {
+    ($flags:expr, $t:literal, $law:ident => $call:expr) => {
+        with_flags!(@ $flags, $t, $law, $call, 0 1 2 3 4 5 6 7)
+    };
+    (@ $flags:expr, $t:literal, $law:ident, $call:expr, $($flag:literal)*) => {
+        match $flags {
+            $($flag => { type $law = NLinkContact<$t, $flag>; $call })*
+            _ => unreachable!("three flags"),
+        }
+    };
 }
 
 impl Link for NLink {
@@ -104,68 +133,28 @@ impl Link for NLink {
         out: &mut Response<'_>,
     ) {
         let n = at.d.len();
-        let was = NLinkHistory::load(committed);
-        let before = self.normal(at.d0[0], at.v0[0]);
-        let now = self.normal(at.d[0], at.v[0]);
-        let (dt0, dt1) = ([at.d0[1], at.d0[2]], [at.d[1], at.d[2]]);
-
-        // Axial.
-        out.f[0] = now.f;
-        out.k[0] = now.f_d;
-        out.c[0] = now.f_v;
-        out.energy.stored = 0.5 * now.spring * now.spring / self.kn;
-        out.energy.viscous = at.viscous_work(0, before.f + before.spring, now.f + now.spring);
-
-        // Friction: radial return of the elastic trial force onto the cone.
-        let ke = self.elastic();
-        let old = [was.anchor2, was.anchor3];
-        let tau0 =
-            if before.closed { [ke * (dt0[0] - old[0]), ke * (dt0[1] - old[1])] } else { [0.0; 2] };
-        let (mut start, mut end, mut tau1) = (if before.closed { old } else { dt0 }, dt1, [0.0; 2]);
-        if now.closed {
-            let (a, by_dt, by_d1) = anchor(self, at, &was);
-            start = a;
-            let tangents = self.friction(at, &now, ke, a);
-            tau1 = tangents.tau;
-            if ke > 0.0 {
-                end = [dt1[0] - tau1[0] / ke, dt1[1] - tau1[1] / ke];
-                if !tangents.slips {
-                    end = a;
-                }
-            }
-            for i in 0..2 {
-                let row = (1 + i) * n;
-                out.k[row] = tangents.by_d1[i];
-                out.c[row] = tangents.by_v1[i];
-                for j in 0..2 {
-                    let stretch = tangents.by_xi[i][j];
-                    out.k[row + 1 + j] = stretch * (1.0 - by_dt);
-                    out.k[row] -= stretch * by_d1[j];
-                    out.c[row + 1 + j] = tangents.by_vt[i][j];
-                }
-            }
+        let asked = LaneAt {
+            parameters: &self.numbers(),
+            d: &at.d[..3],
+            v: &at.v[..3],
+            d0: &at.d0[..3],
+            v0: &at.v0[..3],
+            dt: at.dt,
+            history: committed,
+        };
+        let (mut k, mut c) = ([0.0; 9], [0.0; 9]);
+        let mut force = LaneForce { f: &mut out.f[..3], k: &mut k, c: &mut c };
+        let step: LaneStep<f64> = with_flags!(self.flags(), 2, Law => {
+            Law::force(&asked, &mut force);
+            Law::commit(&asked, force.f, trial)
+        });
+        for i in 0..3 {
+            out.k[i * n..i * n + 3].copy_from_slice(&k[3 * i..3 * i + 3]);
+            out.c[i * n..i * n + 3].copy_from_slice(&c[3 * i..3 * i + 3]);
         }
-
-        // Restoring forces: post-slip spring and pendulum.
-        let (kr0, kr1) = (
-            if before.closed { self.restoring(before.spring) } else { 0.0 },
-            if now.closed { self.restoring(now.spring) } else { 0.0 },
-        );
-        let by_spring = if now.closed && self.radius > 0.0 { self.kn / self.radius } else { 0.0 };
-        let mut restoring = was.restoring;
-        for i in 0..2 {
-            out.f[1 + i] = tau1[i] + kr1 * dt1[i];
-            out.k[(1 + i) * n + 1 + i] += kr1;
-            out.k[(1 + i) * n] -= by_spring * dt1[i];
-            restoring += 0.5 * (kr0 * dt0[i] + kr1 * dt1[i]) * (dt1[i] - dt0[i]);
-        }
-        let slip = [end[0] - start[0], end[1] - start[1]];
-        let friction = 0.5 * ((tau0[0] + tau1[0]) * slip[0] + (tau0[1] + tau1[1]) * slip[1]);
-        out.energy.hysteretic = friction.max(0.0);
-        out.energy.stored += restoring;
-        if ke > 0.0 {
-            out.energy.stored += 0.5 * (tau1[0] * tau1[0] + tau1[1] * tau1[1]) / ke;
-        }
+        out.energy.stored = step.stored;
+        out.energy.hysteretic = step.hysteretic;
+        out.energy.viscous = step.viscous;
 
         // Rotational springs.
         for (i, (_, r)) in self.rotational().enumerate() {
@@ -174,16 +163,20 @@ impl Link for NLink {
             out.k[(3 + i) * (n + 1)] = r;
             out.energy.stored += 0.5 * r * theta * theta;
         }
+    }
 
-        let path = if now.closed && ke > 0.0 { slip[0].hypot(slip[1]) } else { 0.0 };
-        NLinkHistory {
-            anchor2: end[0],
-            anchor3: end[1],
-            slip: was.slip + path,
-            closed: f64::from(u8::from(now.closed)),
-            restoring,
+    fn lanes(&self, active: &[bool]) -> Option<LaneForm> {
+        if self.rotational().next().is_some() {
+            return None;
         }
-        .store(trial);
+        let numbers = self.numbers().to_vec();
+        let form = if active[2] {
+            with_flags!(self.flags(), 2, Law => LaneForm::of::<Law>(vec![0, 1, 2], numbers))
+        } else {
+            with_flags!(self.flags(), 1, Law => LaneForm::of::<Law>(vec![0, 1], numbers))
+        };
+        let rated = self.damping != 0.0 || self.mu_slow.is_some();
+        Some(if rated { form } else { form.without_rate() })
     }
 
     fn impact(&self) -> Option<Impact> {
@@ -213,49 +206,5 @@ impl Link for NLink {
             // The force at the limit was scaled onto it: equal up to rounding.
             slipping: now.cone > 0.0 && self.elastic() > 0.0 && tau >= limit * (1.0 - 1e-9),
         });
-    }
-}
-
-/// Friction force and its derivatives.
-#[derive(Default)]
-struct Friction {
-    slips: bool,
-    tau: [f64; 2],
-    /// By the elastic trial deformation ξ = dₜ − a.
-    by_xi: [[f64; 2]; 2],
-    /// By ḋₜ, through the friction coefficient.
-    by_vt: [[f64; 2]; 2],
-    /// By d₁ and ḋ₁, through the normal force.
-    by_d1: [f64; 2],
-    by_v1: [f64; 2],
-}
-
-impl NLink {
-    fn friction(&self, at: &Kinematics<'_>, now: &Normal, ke: f64, a: [f64; 2]) -> Friction {
-        if ke <= 0.0 {
-            return Friction::default();
-        }
-        let vt = [at.v[1], at.v[2]];
-        let speed = vt[0].hypot(vt[1]);
-        let (mu, mu_v) = self.coefficient(speed);
-        let stretch = Vector2::new(at.d[1] - a[0], at.d[2] - a[1]);
-        let it = radial_return(ke, stretch, mu * now.cone);
-        let along = it.by_limit;
-        let mut out = Friction {
-            slips: it.slips,
-            tau: it.tau.into(),
-            by_d1: (along * (mu * now.cone_d)).into(),
-            by_v1: (along * (mu * now.cone_v)).into(),
-            ..Friction::default()
-        };
-        for i in 0..2 {
-            for j in 0..2 {
-                out.by_xi[i][j] = it.by_stretch[(i, j)];
-                if speed > 0.0 {
-                    out.by_vt[i][j] = along[i] * now.cone * mu_v * vt[j] / speed;
-                }
-            }
-        }
-        out
     }
 }

@@ -79,32 +79,63 @@ pub fn read_text(
     registry: &Registry,
     overrides: &[(String, String)],
 ) -> Result<Model, Vec<Diagnostic>> {
-    let path = path.as_ref();
-    let digest = Sha256::digest(text.as_bytes());
-    let sha256 = digest.iter().map(|b| format!("{b:02x}")).collect();
-    let source = Arc::new(Source { path: path.to_owned(), text: text.to_owned(), sha256 });
-    if let Some(kind) = registry.duplicates().first() {
-        let message = format!("two kinds are registered under the name `{kind}`");
-        let help = "give one of them another name";
-        return Err(vec![Diagnostic::new("E0121", message, 0..0, &source).help(help)]);
+    ModelText::new(text, path)?.read(registry, overrides)
+}
+
+/// A model file whose text has been understood, to be read with many values of its parameters.
+#[derive(Clone, Debug)]
+pub struct ModelText {
+    source: Arc<Source>,
+    root: Node,
+}
+
+impl ModelText {
+    /// Takes a text apart. Files it names are looked for in the folder of `path`.
+    ///
+    /// # Errors
+    /// What is wrong with the text itself.
+    pub fn new(text: &str, path: impl AsRef<Path>) -> Result<Self, Vec<Diagnostic>> {
+        let digest = Sha256::digest(text.as_bytes());
+        let sha256 = digest.iter().map(|b| format!("{b:02x}")).collect();
+        let path = path.as_ref().to_owned();
+        let source = Arc::new(Source { path, text: text.to_owned(), sha256 });
+        let root = tree::parse(text).map_err(|e| {
+            let d = Diagnostic::new(e.code, e.message, e.span, &source);
+            vec![match e.related {
+                Some(first) => d.related(first, "first given here").help("keep one of the two"),
+                None => d,
+            }]
+        })?;
+        Ok(Self { source, root })
     }
-    let root = tree::parse(text).map_err(|e| {
-        let d = Diagnostic::new(e.code, e.message, e.span, &source);
-        vec![match e.related {
-            Some(first) => d.related(first, "first given here").help("keep one of the two"),
-            None => d,
-        }]
-    })?;
-    let folder = path.parent().unwrap_or(Path::new("")).to_owned();
-    let mut context = Context::new(Arc::clone(&source), folder, registry);
-    let model = sections(&mut context, &root, overrides);
-    let errors = context.into_errors();
-    match model {
-        Some(model) if errors.is_empty() => Ok(model),
-        _ if errors.is_empty() => {
-            Err(vec![Diagnostic::new("E0105", "this is no model", root.span, &source)])
+
+    /// The model with these values of its parameters.
+    ///
+    /// # Errors
+    /// As [`read`].
+    pub fn read(
+        &self,
+        registry: &Registry,
+        overrides: &[(String, String)],
+    ) -> Result<Model, Vec<Diagnostic>> {
+        let source = &self.source;
+        if let Some(kind) = registry.duplicates().first() {
+            let message = format!("two kinds are registered under the name `{kind}`");
+            let help = "give one of them another name";
+            return Err(vec![Diagnostic::new("E0121", message, 0..0, source).help(help)]);
         }
-        _ => Err(errors),
+        let folder = source.path.parent().unwrap_or(Path::new("")).to_owned();
+        let mut context = Context::new(Arc::clone(source), folder, registry);
+        let model = sections(&mut context, &self.root, overrides);
+        let errors = context.into_errors();
+        match model {
+            Some(model) if errors.is_empty() => Ok(model),
+            _ if errors.is_empty() => {
+                let span = self.root.span.clone();
+                Err(vec![Diagnostic::new("E0105", "this is no model", span, source)])
+            }
+            _ => Err(errors),
+        }
     }
 }
 

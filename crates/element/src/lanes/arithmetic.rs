@@ -1,0 +1,189 @@
+//! How a sweep computes: which number it runs on, and with which instructions.
+
+use super::law::{ErasedLaw, LaneLinks};
+#[cfg(target_arch = "x86_64")]
+use super::{Fused, Wide};
+use super::{LaneStep, Real};
+#[cfg(target_arch = "x86_64")]
+use pulp::x86::V3;
+
+/// Work to be done with the instructions of an arithmetic; `run` must be `#[inline(always)]`, and what
+/// it calls as well.
+pub trait Task<A: Arithmetic> {
+    /// What it gives.
+    type Output;
+    /// Does it.
+    fn run(self, with: A) -> Self::Output;
+}
+
+/// A kind of number and the instructions for it.
+pub trait Arithmetic: Copy + Send + Sync {
+    /// The number.
+    type Real: Real;
+    /// Number of lanes.
+    const WIDTH: usize;
+
+    /// Runs a task with all instructions that the machine has.
+    fn run<T: Task<Self>>(self, task: T) -> T::Output;
+
+    /// The same number in every lane.
+    fn splat(self, x: f64) -> Self::Real;
+
+    /// A number for each lane.
+    fn gather(self, of: impl FnMut(usize) -> f64) -> Self::Real;
+
+    /// The number of one lane.
+    fn lane(self, x: Self::Real, lane: usize) -> f64;
+
+    /// Forces and tangents of links of one law.
+    fn force(self, law: &ErasedLaw, links: &mut LaneLinks<'_, Self::Real>);
+
+    /// History and energies of links of one law after a step.
+    fn commit(
+        self,
+        law: &ErasedLaw,
+        links: &mut LaneLinks<'_, Self::Real>,
+        out: &mut [LaneStep<Self::Real>],
+    );
+}
+
+/// One analysis at a time, on any machine.
+#[derive(Clone, Copy, Debug)]
+pub struct Portable;
+
+impl Arithmetic for Portable {
+    type Real = f64;
+    const WIDTH: usize = 1;
+
+    #[inline(always)]
+    fn run<T: Task<Self>>(self, task: T) -> T::Output {
+        task.run(self)
+    }
+    #[inline(always)]
+    fn splat(self, x: f64) -> f64 {
+        x
+    }
+    #[inline(always)]
+    fn gather(self, mut of: impl FnMut(usize) -> f64) -> f64 {
+        of(0)
+    }
+    #[inline(always)]
+    fn lane(self, x: f64, _: usize) -> f64 {
+        x
+    }
+    #[inline(always)]
+    fn force(self, law: &ErasedLaw, links: &mut LaneLinks<'_, f64>) {
+        (law.portable.0)(links);
+    }
+    #[inline(always)]
+    fn commit(self, law: &ErasedLaw, links: &mut LaneLinks<'_, f64>, out: &mut [LaneStep<f64>]) {
+        (law.portable.1)(links, out);
+    }
+}
+
+/// One analysis at a time with FMA: equal to a lane of [`WideLanes`] to the bit.
+#[cfg(target_arch = "x86_64")]
+#[derive(Clone, Copy, Debug)]
+pub struct FusedOne(pub(super) V3);
+
+/// Eight analyses at a time.
+#[cfg(target_arch = "x86_64")]
+#[derive(Clone, Copy, Debug)]
+pub struct WideLanes(pub(super) V3);
+
+#[cfg(target_arch = "x86_64")]
+struct Within<A, T>(A, T);
+
+#[cfg(target_arch = "x86_64")]
+impl<A: Arithmetic, T: Task<A>> pulp::WithSimd for Within<A, T> {
+    type Output = T::Output;
+    #[inline(always)]
+    fn with_simd<S: pulp::Simd>(self, _: S) -> T::Output {
+        self.1.run(self.0)
+    }
+}
+
+#[cfg(target_arch = "x86_64")]
+impl FusedOne {
+    /// Where the machine has AVX2 and FMA.
+    #[must_use]
+    pub fn available() -> Option<Self> {
+        V3::try_new().map(Self)
+    }
+}
+
+#[cfg(target_arch = "x86_64")]
+impl WideLanes {
+    /// Where the machine has AVX2 and FMA.
+    #[must_use]
+    pub fn available() -> Option<Self> {
+        V3::try_new().map(Self)
+    }
+}
+
+#[cfg(target_arch = "x86_64")]
+impl Arithmetic for FusedOne {
+    type Real = Fused;
+    const WIDTH: usize = 1;
+
+    #[inline(always)]
+    fn run<T: Task<Self>>(self, task: T) -> T::Output {
+        pulp::Simd::vectorize(self.0, Within(self, task))
+    }
+    #[inline(always)]
+    fn splat(self, x: f64) -> Fused {
+        Fused(x)
+    }
+    #[inline(always)]
+    fn gather(self, mut of: impl FnMut(usize) -> f64) -> Fused {
+        Fused(of(0))
+    }
+    #[inline(always)]
+    fn lane(self, x: Fused, _: usize) -> f64 {
+        x.0
+    }
+    #[inline(always)]
+    fn force(self, law: &ErasedLaw, links: &mut LaneLinks<'_, Fused>) {
+        (law.fused.0)(self, links);
+    }
+    #[inline(always)]
+    fn commit(
+        self,
+        law: &ErasedLaw,
+        links: &mut LaneLinks<'_, Fused>,
+        out: &mut [LaneStep<Fused>],
+    ) {
+        (law.fused.1)(self, links, out);
+    }
+}
+
+#[cfg(target_arch = "x86_64")]
+impl Arithmetic for WideLanes {
+    type Real = Wide;
+    const WIDTH: usize = 8;
+
+    #[inline(always)]
+    fn run<T: Task<Self>>(self, task: T) -> T::Output {
+        pulp::Simd::vectorize(self.0, Within(self, task))
+    }
+    #[inline(always)]
+    fn splat(self, x: f64) -> Wide {
+        Wide { simd: self.0, x: [pulp::Simd::splat_f64s(self.0, x); 2] }
+    }
+    #[inline(always)]
+    fn gather(self, of: impl FnMut(usize) -> f64) -> Wide {
+        Wide::from_lanes(self.0, std::array::from_fn(of))
+    }
+    #[inline(always)]
+    fn lane(self, x: Wide, lane: usize) -> f64 {
+        x.lanes()[lane]
+    }
+    #[inline(always)]
+    fn force(self, law: &ErasedLaw, links: &mut LaneLinks<'_, Wide>) {
+        (law.wide.0)(self, links);
+    }
+    #[inline(always)]
+    fn commit(self, law: &ErasedLaw, links: &mut LaneLinks<'_, Wide>, out: &mut [LaneStep<Wide>]) {
+        (law.wide.1)(self, links, out);
+    }
+}

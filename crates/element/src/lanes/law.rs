@@ -1,0 +1,325 @@
+//! Laws over lanes, and how a sweep calls them.
+
+use super::Real;
+#[cfg(target_arch = "x86_64")]
+use super::{Arithmetic, FusedOne, Task, WideLanes};
+use crate::Kinematics;
+use std::any::TypeId;
+use std::fmt;
+
+/// What a law is asked about, as [`Kinematics`](crate::Kinematics) and the committed history, with the
+/// parameters of the link.
+#[derive(Clone, Copy, Debug)]
+pub struct LaneAt<'a, R> {
+    /// Parameters.
+    pub parameters: &'a [R],
+    /// Deformation at the end of the step.
+    pub d: &'a [R],
+    /// Rate at the end of the step; zero where [`LaneForm::rate`] says that nobody looks.
+    pub v: &'a [R],
+    /// Deformation at the start of the step.
+    pub d0: &'a [R],
+    /// Rate at the start of the step.
+    pub v0: &'a [R],
+    /// Step, s; zero at the very start.
+    pub dt: R,
+    /// Committed history.
+    pub history: &'a [R],
+}
+
+impl<'a> LaneAt<'a, f64> {
+    /// What an ordinary link is asked about.
+    #[must_use]
+    pub fn new(at: &Kinematics<'a>, history: &'a [f64], parameters: &'a [f64]) -> Self {
+        Self { parameters, d: at.d, v: at.v, d0: at.d0, v0: at.v0, dt: at.dt, history }
+    }
+}
+
+impl<R: Real> LaneAt<'_, R> {
+    /// As [`Kinematics::viscous_work`].
+    #[inline(always)]
+    #[must_use]
+    pub fn viscous_work(&self, i: usize, start: R, end: R) -> R {
+        let (v0, v1) = (self.v0[i], self.v[i]);
+        let two = start.of(2.0);
+        let sum = start * (two * v0 + v1) + end * (v0 + two * v1);
+        (self.dt * sum * start.of(1.0 / 6.0)).max(start.of(0.0))
+    }
+}
+
+/// Force and tangents to be written, all of them: nothing is zeroed before.
+#[derive(Debug)]
+pub struct LaneForce<'a, R> {
+    /// Force.
+    pub f: &'a mut [R],
+    /// ∂f/∂d, row by row.
+    pub k: &'a mut [R],
+    /// ∂f/∂ḋ, row by row.
+    pub c: &'a mut [R],
+}
+
+/// What a contact does, as [`Contact`](crate::Contact).
+#[derive(Clone, Copy, Debug)]
+pub struct LaneContact<R> {
+    /// Distance between the surfaces, m.
+    pub gap: R,
+    /// Normal force, N.
+    pub normal: R,
+    /// Tangential position, m.
+    pub position: [R; 2],
+    /// 1 while slipping goes on, else 0.
+    pub slipping: R,
+}
+
+/// What a step did: energies as [`Energy`](crate::Energy), and the contact for laws that are one.
+#[derive(Clone, Copy, Debug)]
+pub struct LaneStep<R> {
+    /// Recoverable energy at the end of the step, J.
+    pub stored: R,
+    /// Heat of friction and yielding in the step, J.
+    pub hysteretic: R,
+    /// Heat of rate-dependent forces in the step, J.
+    pub viscous: R,
+    /// The contact; looked at where [`LaneLaw::IS_CONTACT`].
+    pub contact: LaneContact<R>,
+}
+
+impl<R: Real> LaneStep<R> {
+    /// Of an elastic law that is no contact.
+    #[inline(always)]
+    #[must_use]
+    pub fn elastic(stored: R) -> Self {
+        let zero = stored.of(0.0);
+        let contact = LaneContact { gap: zero, normal: zero, position: [zero; 2], slipping: zero };
+        Self { stored, hysteretic: zero, viscous: zero, contact }
+    }
+}
+
+/// A law over lanes. Same contract as [`Link`](crate::Link), in two parts: the iteration of a step asks
+/// for forces only. Both functions must be `#[inline(always)]`.
+pub trait LaneLaw: 'static {
+    /// Number of coordinates n.
+    const COORDINATES: usize;
+    /// Number of history variables, which are those of the link.
+    const HISTORY: usize;
+    /// Number of parameters.
+    const PARAMETERS: usize;
+    /// True for a contact.
+    const IS_CONTACT: bool = false;
+
+    /// Force and tangents.
+    fn force<R: Real>(at: &LaneAt<'_, R>, out: &mut LaneForce<'_, R>);
+
+    /// History and energies after a step that has found `f`; writes the whole trial history.
+    fn commit<R: Real>(at: &LaneAt<'_, R>, f: &[R], trial: &mut [R]) -> LaneStep<R>;
+}
+
+/// A link in the form for lanes. Analyses whose links have the same law run together.
+#[derive(Clone, Debug)]
+pub struct LaneForm {
+    /// The law.
+    pub law: ErasedLaw,
+    /// The coordinates of the link that it works on, as indices into those of the link; the others
+    /// must be zero at all times.
+    pub coordinates: Vec<usize>,
+    /// Its parameters.
+    pub parameters: Vec<f64>,
+    /// True where rates of deformation matter.
+    pub rate: bool,
+}
+
+impl LaneForm {
+    /// A link of a law.
+    ///
+    /// # Panics
+    /// Where the numbers of coordinates or parameters are not those of the law.
+    #[must_use]
+    pub fn of<L: LaneLaw>(coordinates: Vec<usize>, parameters: Vec<f64>) -> Self {
+        assert_eq!(coordinates.len(), L::COORDINATES, "coordinates of a law over lanes");
+        assert_eq!(parameters.len(), L::PARAMETERS, "parameters of a law over lanes");
+        Self { law: ErasedLaw::of::<L>(), coordinates, parameters, rate: true }
+    }
+
+    /// The same where its law does not look at rates.
+    #[must_use]
+    pub fn without_rate(self) -> Self {
+        Self { rate: false, ..self }
+    }
+}
+
+/// Links of one law, one after the other in every slice.
+#[derive(Debug)]
+pub struct LaneLinks<'a, R> {
+    /// Parameters of all links.
+    pub parameters: &'a [R],
+    /// Deformations at the end of the step.
+    pub d: &'a [R],
+    /// Their rates.
+    pub v: &'a [R],
+    /// Deformations at the start of the step.
+    pub d0: &'a [R],
+    /// Their rates.
+    pub v0: &'a [R],
+    /// Step.
+    pub dt: R,
+    /// History: committed; `commit` replaces it by the trial.
+    pub history: &'a mut [R],
+    /// Forces; read by `commit`.
+    pub f: &'a mut [R],
+    /// ∂f/∂d, block by block.
+    pub k: &'a mut [R],
+    /// ∂f/∂ḋ, block by block.
+    pub c: &'a mut [R],
+}
+
+/// History of one link at most.
+const MOST_HISTORY: usize = 16;
+
+#[inline(always)]
+fn force_all<L: LaneLaw, R: Real>(links: &mut LaneLinks<'_, R>) {
+    let (n, h, p) = (L::COORDINATES, L::HISTORY, L::PARAMETERS);
+    for i in 0..links.d.len() / n {
+        let r = i * n..(i + 1) * n;
+        let block = i * n * n..(i + 1) * n * n;
+        let at = LaneAt {
+            parameters: &links.parameters[i * p..(i + 1) * p],
+            d: &links.d[r.clone()],
+            v: &links.v[r.clone()],
+            d0: &links.d0[r.clone()],
+            v0: &links.v0[r.clone()],
+            dt: links.dt,
+            history: &links.history[i * h..(i + 1) * h],
+        };
+        let mut out = LaneForce {
+            f: &mut links.f[r],
+            k: &mut links.k[block.clone()],
+            c: &mut links.c[block],
+        };
+        L::force(&at, &mut out);
+    }
+}
+
+#[inline(always)]
+fn commit_all<L: LaneLaw, R: Real>(links: &mut LaneLinks<'_, R>, steps: &mut [LaneStep<R>]) {
+    let (n, h, p) = (L::COORDINATES, L::HISTORY, L::PARAMETERS);
+    let mut trial = [links.dt; MOST_HISTORY];
+    for (i, step) in steps.iter_mut().enumerate() {
+        let r = i * n..(i + 1) * n;
+        let at = LaneAt {
+            parameters: &links.parameters[i * p..(i + 1) * p],
+            d: &links.d[r.clone()],
+            v: &links.v[r.clone()],
+            d0: &links.d0[r.clone()],
+            v0: &links.v0[r.clone()],
+            dt: links.dt,
+            history: &links.history[i * h..(i + 1) * h],
+        };
+        *step = L::commit(&at, &links.f[r], &mut trial[..h]);
+        links.history[i * h..(i + 1) * h].copy_from_slice(&trial[..h]);
+    }
+}
+
+type ForceOf<R> = fn(&mut LaneLinks<'_, R>);
+type CommitOf<R> = fn(&mut LaneLinks<'_, R>, &mut [LaneStep<R>]);
+#[cfg(target_arch = "x86_64")]
+type ForceBy<A> = fn(A, &mut LaneLinks<'_, <A as Arithmetic>::Real>);
+#[cfg(target_arch = "x86_64")]
+type CommitBy<A> =
+    fn(A, &mut LaneLinks<'_, <A as Arithmetic>::Real>, &mut [LaneStep<<A as Arithmetic>::Real>]);
+
+/// A law over lanes without its type: entries for every [`Arithmetic`].
+#[derive(Clone, Copy)]
+pub struct ErasedLaw {
+    /// Which law it is.
+    pub id: TypeId,
+    /// Number of coordinates.
+    pub coordinates: usize,
+    /// Number of history variables.
+    pub history: usize,
+    /// Number of parameters.
+    pub parameters: usize,
+    /// True for a contact.
+    pub is_contact: bool,
+    pub(super) portable: (ForceOf<f64>, CommitOf<f64>),
+    #[cfg(target_arch = "x86_64")]
+    pub(super) fused: (ForceBy<FusedOne>, CommitBy<FusedOne>),
+    #[cfg(target_arch = "x86_64")]
+    pub(super) wide: (ForceBy<WideLanes>, CommitBy<WideLanes>),
+}
+
+impl fmt::Debug for ErasedLaw {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct("ErasedLaw").field("id", &self.id).finish_non_exhaustive()
+    }
+}
+
+#[cfg(target_arch = "x86_64")]
+struct ForceTask<'a, 'b, L, R>(&'a mut LaneLinks<'b, R>, std::marker::PhantomData<L>);
+
+#[cfg(target_arch = "x86_64")]
+impl<A: Arithmetic, L: LaneLaw> Task<A> for ForceTask<'_, '_, L, A::Real> {
+    type Output = ();
+    #[inline(always)]
+    fn run(self, _: A) {
+        force_all::<L, A::Real>(self.0);
+    }
+}
+
+#[cfg(target_arch = "x86_64")]
+struct CommitTask<'a, 'b, L, R>(
+    &'a mut LaneLinks<'b, R>,
+    &'a mut [LaneStep<R>],
+    std::marker::PhantomData<L>,
+);
+
+#[cfg(target_arch = "x86_64")]
+impl<A: Arithmetic, L: LaneLaw> Task<A> for CommitTask<'_, '_, L, A::Real> {
+    type Output = ();
+    #[inline(always)]
+    fn run(self, _: A) {
+        commit_all::<L, A::Real>(self.0, self.1);
+    }
+}
+
+#[cfg(target_arch = "x86_64")]
+fn force_by<A: Arithmetic, L: LaneLaw>(with: A, links: &mut LaneLinks<'_, A::Real>) {
+    with.run(ForceTask::<L, _>(links, std::marker::PhantomData));
+}
+
+#[cfg(target_arch = "x86_64")]
+fn commit_by<A: Arithmetic, L: LaneLaw>(
+    with: A,
+    links: &mut LaneLinks<'_, A::Real>,
+    out: &mut [LaneStep<A::Real>],
+) {
+    with.run(CommitTask::<L, _>(links, out, std::marker::PhantomData));
+}
+
+impl ErasedLaw {
+    /// The entries of a law.
+    #[must_use]
+    pub fn of<L: LaneLaw>() -> Self {
+        const { assert!(L::HISTORY <= MOST_HISTORY, "too many history variables for lanes") };
+        Self {
+            id: TypeId::of::<L>(),
+            coordinates: L::COORDINATES,
+            history: L::HISTORY,
+            parameters: L::PARAMETERS,
+            is_contact: L::IS_CONTACT,
+            portable: (
+                |links| force_all::<L, f64>(links),
+                |links, out| commit_all::<L, f64>(links, out),
+            ),
+            #[cfg(target_arch = "x86_64")]
+            fused: (force_by::<FusedOne, L>, commit_by::<FusedOne, L>),
+            #[cfg(target_arch = "x86_64")]
+            wide: (force_by::<WideLanes, L>, commit_by::<WideLanes, L>),
+        }
+    }
+
+    /// The law as one link sees it: for tests and for laws whose `respond` is their form for lanes.
+    pub fn respond_one(&self, links: &mut LaneLinks<'_, f64>, out: &mut [LaneStep<f64>]) {
+        (self.portable.0)(links);
+        (self.portable.1)(links, out);
+    }
+}

@@ -1,0 +1,53 @@
+//! Sweeps: one small model with many values of its parameters, several analyses side by side.
+//!
+//! ```text
+//! registers hold one number of each of eight analyses; all go through the same fixed steps
+//! q, q̇:  the exact recurrences of FNA, with coefficients of each analysis
+//! f = law(d* − G f, v* − H f):  Newton in the link coordinates; who has converged is held by a mask
+//! ```
+//!
+//! Every analysis gives the same bits whoever its neighbours are, and alone. One that finds no
+//! equilibrium in a step is given up and says so: the caller runs it on the ordinary engine.
+//!
+//! A model fits where it is solved by `fna` with fixed steps and Newton's method, all its links have a form
+//! for lanes, its modes are not coupled by damping, and no support moves a link.
+
+mod contact;
+mod march;
+mod peaks;
+mod rule;
+mod setup;
+mod tables;
+
+pub use march::{march, march_alone};
+pub use peaks::{Extremes, inner_extremes};
+pub use setup::{LaneSetup, fixed_substeps, prepare};
+pub use tables::Tables;
+
+use crate::contact_mode::ContactSummary;
+use crate::observe::{EnergyTotals, LinkEnergy};
+
+/// Analyses that go side by side.
+#[must_use]
+pub fn width() -> usize {
+    march::width()
+}
+
+/// What one analysis of a sweep left.
+#[derive(Clone, Debug)]
+pub struct LaneOutcome {
+    /// Time at which it found no equilibrium and was given up, s; what follows is rubbish then.
+    pub lost: Option<f64>,
+    /// Steps.
+    pub steps: usize,
+    /// Evaluations of the link laws.
+    pub iterations: usize,
+    /// Extremes of the outputs, in the order of the model.
+    pub outputs: Vec<Extremes>,
+    /// Energies at the end.
+    pub energy: EnergyTotals,
+    /// Energies of each link at the end: (index of the element, energies).
+    pub link_energy: Vec<(usize, LinkEnergy)>,
+    /// How the contacts behaved.
+    pub contact: Option<ContactSummary>,
+}

@@ -1,0 +1,450 @@
+//! What one analysis brings to a sweep: made by the ordinary assembly, basis and start.
+
+use super::rule::{Mode, mode, stiffness_ratio};
+use super::tables::{Grid, Table, Tables};
+use crate::basis;
+use crate::case::{RunOptions, constant_load, run};
+use crate::damping::modal_damping;
+use crate::dynamic::basis_loads;
+use crate::error::SolveError;
+use crate::kernel::LinkKernel;
+use crate::link_side::LinkSide;
+use crate::modal::{LONGEST, Modal};
+use crate::observe::Status;
+use crate::outputs::{Outputs, Row};
+use crate::propagator::kinetic_and_strain;
+use crate::space::Space;
+use crate::start::{constant_force, potential, start};
+use crate::stepper::{LinkStepper, State, Stepper};
+use crate::timeline::Timeline;
+use std::any::TypeId;
+use std::sync::Arc;
+use trilith_element::lanes::LaneForm;
+use trilith_element::{Contact, Kinematics};
+use trilith_linalg::{Dense, Sparse, symmetric_eigen};
+use trilith_model::{
+    Analysis, Damping, DynamicCase, Kernel, Model, Quantity, SolverKind, StepControl,
+};
+use trilith_system::{System, Track};
+
+/// What must be equal for analyses to go side by side.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Shape {
+    pub modes: usize,
+    pub links: Vec<(TypeId, Vec<usize>, usize)>,
+    pub channels: Vec<(u8, bool)>,
+    pub outputs: Vec<u8>,
+    pub grid: Grid,
+}
+
+/// One output over modal coordinates and lane coordinates.
+#[derive(Clone, Debug)]
+pub(super) enum Output {
+    /// On displacements (0), velocities (1) or accelerations (2), and on the loads of each channel (base
+    /// acceleration).
+    Motion { order: usize, own: Vec<f64>, base: Vec<f64> },
+    /// On displacements and velocities.
+    Element { stiffness: Vec<f64>, damping: Vec<f64> },
+    /// Deformation of a lane coordinate.
+    Deformation { at: usize, factor: f64 },
+    /// Force of a lane coordinate.
+    Force { at: usize, factor: f64 },
+    /// History.
+    History { at: usize },
+    /// Of a coordinate that nothing deforms.
+    Zero,
+}
+
+impl Output {
+    fn kind(&self) -> u8 {
+        match self {
+            Self::Motion { order, .. } => *order as u8,
+            Self::Element { .. } => 3,
+            Self::Deformation { at, .. } => 10 + 4 * *at as u8,
+            Self::Force { at, .. } => 11 + 4 * *at as u8,
+            Self::History { at } => 12 + 4 * *at as u8,
+            Self::Zero => 4,
+        }
+    }
+}
+
+/// A piece of an output step that loads cut: (start, length).
+pub(super) type Piece = (f64, f64);
+
+/// One analysis, ready to go in a lane.
+#[derive(Debug)]
+pub struct LaneSetup {
+    pub(super) shape: Shape,
+    /// Coefficients of the usual step.
+    pub rule: Vec<Mode>,
+    pub(super) omega2: Vec<f64>,
+    pub(super) damping: Vec<f64>,
+    /// B of the lane coordinates over the modes.
+    pub(super) rows: Vec<Vec<f64>>,
+    pub(super) rotational: Vec<bool>,
+    pub(super) forms: Vec<LaneForm>,
+    /// Index of the element of each link.
+    pub(super) elements: Vec<usize>,
+    /// Load of each channel over the modes.
+    pub(super) forces: Vec<Vec<f64>>,
+    pub(super) tracks: Vec<Track>,
+    pub(super) conservative: Vec<bool>,
+    /// Table and amplitude of each channel that varies.
+    pub(super) tables: Vec<Option<(Arc<Table>, f64)>>,
+    /// Output steps that loads cut.
+    pub(super) cut: Vec<(usize, Vec<Piece>)>,
+    pub(super) outputs: Vec<Output>,
+    pub(super) q: Vec<f64>,
+    pub(super) p: Vec<f64>,
+    pub(super) a: Vec<f64>,
+    pub(super) d: Vec<f64>,
+    pub(super) v: Vec<f64>,
+    pub(super) f: Vec<f64>,
+    pub(super) history: Vec<f64>,
+    pub(super) stored: Vec<f64>,
+    pub(super) scale: [f64; 2],
+    pub(super) kinetic: f64,
+    pub(super) strain: f64,
+    pub(super) potential: f64,
+    pub(super) contacts: Vec<Contact>,
+    pub(super) values: Vec<f64>,
+    pub(super) rates: Vec<f64>,
+    /// Largest share of the energy that may be unaccounted for.
+    pub energy_limit: f64,
+}
+
+impl LaneSetup {
+    /// True where both can go side by side.
+    #[must_use]
+    pub fn fits(&self, other: &Self) -> bool {
+        self.shape == other.shape
+    }
+}
+
+/// Modes, link coordinates and coordinates of one link at most.
+pub(super) const MOST: (usize, usize, usize) = (12, 12, 3);
+
+/// Prepares a case for a lane, with so many fixed substeps an output step; `Err` with the reason where it
+/// does not fit.
+///
+/// # Errors
+/// [`SolveError`] where the case cannot be run at all.
+pub fn prepare(
+    model: &Model,
+    system: &System,
+    case: usize,
+    substeps: usize,
+    tables: &Tables,
+) -> Result<Result<LaneSetup, &'static str>, SolveError> {
+    let Analysis::Dynamic(analysis) = &model.cases[case].analysis else {
+        return Ok(Err("a static case"));
+    };
+    if let Some(reason) = unsuited(system, analysis) {
+        return Ok(Err(reason));
+    }
+    system.check_supported(model, true)?;
+    let before = match model.cases[case].after {
+        Some(earlier) => {
+            let options = RunOptions { case: earlier, ..RunOptions::default() };
+            let result = run(model, system, options, &mut [])?;
+            if let Status::NotConverged { .. } | Status::Overturned { .. } = result.status {
+                return Err(SolveError::Predecessor {
+                    case: result.case,
+                    reason: result.status.text(),
+                });
+            }
+            Some(result.end)
+        }
+        None => None,
+    };
+    let mut constant = constant_load(model, system, &analysis.constant);
+    for (x, y) in constant.iter_mut().zip(before.iter().flat_map(|end| &end.load)) {
+        *x += y;
+    }
+    let loads = system.dynamic_loads(model, analysis, constant);
+    let directions = basis_loads(model, analysis, &loads);
+    let bases = basis::build(model, system, &analysis.solution.basis, &directions)?;
+    let modal = matches!(model.damping, Damping::Modal { .. } | Damping::ModalTable { .. });
+    let damping = if modal { modal_damping(model, system, &bases) } else { None };
+    let physical = Space::physical(system, &loads, &system.links.effective, damping);
+    let dummies = physical.dummy_k.clone();
+    let kernel = LinkKernel::new(model, &system.links, &analysis.solution, dummies);
+    let reduced = Space::reduced(&physical, &bases.stepping);
+    let side = LinkSide::new(model, system, &loads, kernel, reduced.order());
+    let active: Vec<f64> = {
+        let engaged = system.links.engaged(model);
+        system.links.active.iter().map(|i| engaged[*i]).collect()
+    };
+    let mut stepper = LinkStepper::new(Modal::new(reduced, active), side);
+    let dt = analysis.dt;
+    let (state, _, _, _) = start(model, system, analysis, before, &loads, &mut stepper, dt)?;
+    let space = stepper.space();
+
+    let m = space.order();
+    let links = &system.links;
+    if space.images.columns() > 0 {
+        return Ok(Err("places without mass"));
+    }
+    let omega2 = space.stiffness.diagonal();
+    let Some((own, turn)) = uncoupled(&omega2, &space.damping)? else {
+        return Ok(Err("damping that couples modes"));
+    };
+    let mut active = vec![false; links.len()];
+    links.active.iter().for_each(|i| active[*i] = true);
+    let (mut forms, mut flat) = (Vec::new(), Vec::new());
+    for link in &links.links {
+        let own = &active[link.range.clone()];
+        let Some(form) = links.law(model, link).and_then(|law| law.lanes(own)) else {
+            return Ok(Err("a link that has no form for lanes"));
+        };
+        let left_out = (0..own.len()).any(|i| own[i] && !form.coordinates.contains(&i));
+        if left_out || form.law.history != link.history.len() {
+            return Ok(Err("a link that has no form for lanes"));
+        }
+        flat.extend(form.coordinates.iter().map(|i| link.range.start + i));
+        forms.push(form);
+    }
+    let widest = forms.iter().map(|f| f.law.coordinates).max().unwrap_or(1);
+    if m > MOST.0 || forms.len() * widest > MOST.1 || widest > MOST.2 {
+        return Ok(Err("too many modes or link coordinates"));
+    }
+    let mut rows = vec![vec![0.0; m]; flat.len()];
+    for (row, i) in rows.iter_mut().zip(&flat) {
+        let Some(a) = links.active.iter().position(|x| x == i) else { continue };
+        space.links.row(a).for_each(|(j, c)| row[j] += c);
+        *row = turned(&turn, row);
+    }
+    let step = dt / substeps as f64;
+    let rule: Vec<Mode> = omega2.iter().zip(&own).map(|(w, c)| mode(*w, *c, step)).collect();
+    let engaged = links.engaged(model);
+    let engaged: Vec<f64> = flat.iter().map(|i| engaged[*i]).collect();
+    if stiffness_ratio(&rows, &rule, &engaged) > LONGEST {
+        return Ok(Err("steps too long for the exact rule at the stiffest link"));
+    }
+    let timeline = Timeline {
+        dt,
+        steps: ((analysis.duration / dt) - 1e-9).ceil().max(1.0) as usize,
+        duration: analysis.duration,
+        breaks: loads.breaks(analysis.duration),
+    };
+    let grid = Grid { dt, steps: timeline.steps, substeps };
+    let first = usize::from(loads.channels.iter().any(|c| matches!(c.track, Track::Constant)));
+    let base: Vec<usize> = analysis.base.iter().map(|b| b.direction.index()).collect();
+    let outputs = outputs(model, system, space, &flat, (loads.channels.len(), first, &base), &turn);
+    let (mut values, mut rates) = (vec![0.0; outputs.len()], vec![0.0; outputs.len()]);
+    Outputs::new(model, system, space).evaluate(0.0, &state, &loads, &mut values, &mut rates);
+    let (kinetic, strain) = kinetic_and_strain(space, &state.motion);
+    let pick = |of: &[f64]| flat.iter().map(|i| of[*i]).collect::<Vec<f64>>();
+    let seen = contacts(model, system, &state);
+    let State { motion, d, v, f, history, stored, scale, .. } = &state;
+    let shape = Shape {
+        modes: m,
+        links: forms.iter().map(|f| (f.law.id, f.coordinates.clone(), f.law.coordinates)).collect(),
+        channels: loads.channels.iter().map(|c| (kind(&c.track), c.conservative)).collect(),
+        outputs: outputs.iter().map(Output::kind).collect(),
+        grid,
+    };
+    Ok(Ok(LaneSetup {
+        shape,
+        rule,
+        damping: own,
+        rows,
+        rotational: flat.iter().map(|i| links.rotational[*i]).collect(),
+        forms,
+        elements: links.links.iter().map(|l| l.element).collect(),
+        forces: space.forces.iter().map(|p| turned(&turn, p)).collect(),
+        tracks: loads.channels.iter().map(|c| c.track.clone()).collect(),
+        conservative: loads.channels.iter().map(|c| c.conservative).collect(),
+        tables: loads
+            .channels
+            .iter()
+            .map(|c| match c.track {
+                Track::Constant => None,
+                _ => Some(tables.of(&c.track, grid)),
+            })
+            .collect(),
+        cut: cuts(&timeline),
+        outputs,
+        q: turned(&turn, &motion[..m]),
+        p: turned(&turn, &motion[m..2 * m]),
+        a: turned(&turn, &motion[2 * m..]),
+        d: pick(d),
+        v: pick(v),
+        f: pick(f),
+        history: history.clone(),
+        stored: stored.clone(),
+        scale: *scale,
+        kinetic,
+        strain,
+        potential: potential(&constant_force(space, &loads), &state),
+        contacts: seen,
+        values,
+        rates,
+        energy_limit: analysis.solution.energy_limit,
+        omega2,
+    }))
+}
+
+/// Damping between modes that counts as none, as share of the largest.
+const COUPLES: f64 = 1e-10;
+/// Squares of frequencies that differ by less than this share are one.
+const EQUAL: f64 = 1e-9;
+
+/// Damping of every mode, and the turn of the modes that makes it so: modes of one frequency (such as
+/// those of a body that nothing but links holds) may be any combination of each other. None where damping couples
+/// modes of different frequencies.
+fn uncoupled(omega2: &[f64], damping: &Sparse) -> Result<Option<(Vec<f64>, Dense)>, SolveError> {
+    let m = omega2.len();
+    let mut c = Dense::zeros(m, m);
+    for (i, j, x) in damping.entries() {
+        c[(i, j)] += x;
+    }
+    let mut turn = Dense::zeros(m, m);
+    let mut first = 0;
+    while first < m {
+        let near = |j: &usize| (omega2[*j] - omega2[first]).abs() <= EQUAL * omega2[*j].abs();
+        let n = (first..m).take_while(near).count().max(1);
+        let mut part = Dense::zeros(n, n);
+        for i in 0..n {
+            for j in 0..n {
+                part[(i, j)] = 0.5 * (c[(first + i, first + j)] + c[(first + j, first + i)]);
+            }
+        }
+        let vectors =
+            if n == 1 { Dense::from_columns(1, 1, vec![1.0]) } else { symmetric_eigen(&part)?.1 };
+        for i in 0..n {
+            for j in 0..n {
+                turn[(first + i, first + j)] = vectors[(i, j)];
+            }
+        }
+        first += n;
+    }
+    let c = turn.transpose_times(&c.times(&turn));
+    let largest = (0..m).fold(0.0f64, |a, i| a.max(c[(i, i)].abs()));
+    let small = |x: f64| x.abs() <= COUPLES * largest;
+    let couples = (0..m).any(|i| (0..m).any(|j| i != j && !small(c[(i, j)])));
+    let own = (0..m).map(|i| if small(c[(i, i)]) { 0.0 } else { c[(i, i)] }).collect();
+    Ok((!couples).then_some((own, turn)))
+}
+
+/// Tᵀ x.
+fn turned(turn: &Dense, x: &[f64]) -> Vec<f64> {
+    let mut y = vec![0.0; x.len()];
+    turn.transpose_mul_add(1.0, x, &mut y);
+    y
+}
+
+/// What every contact does in a state.
+fn contacts(model: &Model, system: &System, state: &State) -> Vec<Contact> {
+    let (links, mut all) = (&system.links, Vec::new());
+    for link in &links.links {
+        let Some(law) = links.law(model, link) else { continue };
+        let r = link.range.clone();
+        let (d, v) = (&state.d[r.clone()], &state.v[r.clone()]);
+        let at = Kinematics { d, v, d0: d, v0: v, dt: 0.0 };
+        law.contacts(&at, &state.history[link.history.clone()], &state.f[r], &mut all);
+    }
+    all
+}
+
+fn kind(track: &Track) -> u8 {
+    match track {
+        Track::Constant => 0,
+        Track::Value { .. } => 1,
+        Track::Rate { .. } => 2,
+        Track::Curvature { .. } => 3,
+    }
+}
+
+/// Why a case does not fit, as far as its settings tell.
+fn unsuited(system: &System, analysis: &DynamicCase) -> Option<&'static str> {
+    let solution = &analysis.solution;
+    if solution.solver != SolverKind::Fna {
+        return Some("another solver than fna");
+    }
+    if solution.kernel != Kernel::Newton {
+        return Some("another iteration than Newton's");
+    }
+    if !analysis.supports.is_empty() {
+        return Some("supports that move");
+    }
+    if system.links.effective.iter().any(|k| *k != 0.0) {
+        return Some("effective stiffnesses of links");
+    }
+    if system.links.links.is_empty() {
+        return Some("a model without links");
+    }
+    None
+}
+
+/// Substeps of the case's own fixed steps.
+#[must_use]
+pub fn fixed_substeps(analysis: &DynamicCase) -> Option<usize> {
+    match analysis.solution.step {
+        StepControl::Fixed { substeps } => Some(substeps),
+        StepControl::Adaptive { .. } => None,
+    }
+}
+
+/// The output steps that are not one whole step.
+fn cuts(timeline: &Timeline) -> Vec<(usize, Vec<Piece>)> {
+    let whole = |length: f64| (length - timeline.dt).abs() <= 1e-9 * timeline.dt;
+    let mut cut: Vec<usize> = timeline
+        .breaks
+        .iter()
+        .map(|t| (t / timeline.dt).floor() as usize)
+        .flat_map(|step| [step.saturating_sub(1), step, step + 1])
+        .chain([timeline.steps - 1])
+        .filter(|step| *step < timeline.steps)
+        .collect();
+    cut.sort_unstable();
+    cut.dedup();
+    cut.into_iter()
+        .map(|step| (step, timeline.pieces(step).collect::<Vec<_>>()))
+        .filter(|(_, pieces)| !matches!(pieces[..], [(_, length)] if whole(length)))
+        .collect()
+}
+
+/// The outputs; `channels` are their number, the first that is base motion, and the directions of those.
+fn outputs(
+    model: &Model,
+    system: &System,
+    space: &Space,
+    flat: &[usize],
+    (channels, first, directions): (usize, usize, &[usize]),
+    turn: &Dense,
+) -> Vec<Output> {
+    let m = space.order();
+    let dense = |row: &[(usize, f64)]| {
+        let mut full = vec![0.0; m];
+        row.iter().for_each(|(j, c)| full[*j] += c);
+        turned(turn, &full)
+    };
+    let at = |i: usize| flat.iter().position(|x| *x == i);
+    let rows = Outputs::new(model, system, space).rows;
+    rows.iter()
+        .zip(&model.outputs)
+        .map(|(row, output)| match row {
+            Row::Nodal { order, own, base, .. } => {
+                let moves =
+                    matches!(&output.quantity, Quantity::Acceleration { absolute: true, .. });
+                let mut share = vec![0.0; if moves { channels } else { 0 }];
+                for (i, direction) in directions.iter().enumerate().filter(|_| moves) {
+                    share[first + i] = base[*direction];
+                }
+                let base = share;
+                Output::Motion { order: *order, own: dense(own), base }
+            }
+            Row::Deformation { flat, factor } => {
+                at(*flat).map_or(Output::Zero, |at| Output::Deformation { at, factor: *factor })
+            }
+            Row::Force { flat, factor } => {
+                at(*flat).map_or(Output::Zero, |at| Output::Force { at, factor: *factor })
+            }
+            Row::History { at } => Output::History { at: *at },
+            Row::Element { stiffness, damping } => {
+                Output::Element { stiffness: dense(&stiffness.0), damping: dense(&damping.0) }
+            }
+        })
+        .collect()
+}

@@ -1,0 +1,134 @@
+//! Amplitudes of loads at the steps of a case: made once for all analyses whose loads differ by a factor.
+
+use std::collections::VecDeque;
+use std::sync::{Arc, Mutex, PoisonError, Weak};
+use trilith_model::{Harmonic, Side, TimeFunction};
+use trilith_system::Track;
+
+/// The steps of a case.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Grid {
+    pub dt: f64,
+    pub steps: usize,
+    pub substeps: usize,
+}
+
+/// Amplitude of a load at the start and at the end of every step.
+pub(super) type Table = Vec<[f64; 2]>;
+
+#[derive(Debug)]
+struct Entry {
+    grid: Grid,
+    track: Track,
+    table: Weak<Table>,
+}
+
+/// Tables that are kept though nobody uses them at the moment.
+const KEPT: usize = 8;
+
+/// The tables in use, and the last ones made.
+#[derive(Debug, Default)]
+pub struct Tables(Mutex<Store>);
+
+#[derive(Debug, Default)]
+struct Store {
+    entries: Vec<Entry>,
+    kept: VecDeque<Arc<Table>>,
+}
+
+/// A time function of unit amplitude, and the amplitude.
+fn unit(function: &TimeFunction) -> (TimeFunction, f64) {
+    use TimeFunction as F;
+    let one = |h: &Harmonic| Harmonic { amplitude: 1.0, ..*h };
+    match function {
+        F::Constant(x) => (F::Constant(1.0), *x),
+        F::Step { amplitude, start, end } => {
+            (F::Step { amplitude: 1.0, start: *start, end: *end }, *amplitude)
+        }
+        F::Ramp { amplitude, start, rise } => {
+            (F::Ramp { amplitude: 1.0, start: *start, rise: *rise }, *amplitude)
+        }
+        F::Sine(h) => (F::Sine(one(h)), h.amplitude),
+        F::Cosine(h) => (F::Cosine(one(h)), h.amplitude),
+        F::HalfSine { amplitude, duration, start } => {
+            (F::HalfSine { amplitude: 1.0, duration: *duration, start: *start }, *amplitude)
+        }
+        F::Ricker { amplitude, frequency, center } => {
+            (F::Ricker { amplitude: 1.0, frequency: *frequency, center: *center }, *amplitude)
+        }
+        F::Table(_) => (function.clone(), 1.0),
+    }
+}
+
+/// A track of unit factor and amplitude, and their product.
+fn split(track: &Track) -> (Track, f64) {
+    let part = |function: &TimeFunction, factor: f64| {
+        let (function, amplitude) = unit(function);
+        (function, amplitude * factor)
+    };
+    match track {
+        Track::Constant => (Track::Constant, 1.0),
+        Track::Value { function, factor } => {
+            let (function, size) = part(function, *factor);
+            (Track::Value { function, factor: 1.0 }, size)
+        }
+        Track::Rate { function, factor } => {
+            let (function, size) = part(function, *factor);
+            (Track::Rate { function, factor: 1.0 }, size)
+        }
+        Track::Curvature { function, factor } => {
+            let (function, size) = part(function, *factor);
+            (Track::Curvature { function, factor: 1.0 }, size)
+        }
+    }
+}
+
+fn same(a: &Track, b: &Track) -> bool {
+    match (a, b) {
+        (Track::Constant, Track::Constant) => true,
+        (Track::Value { function: f, .. }, Track::Value { function: g, .. })
+        | (Track::Rate { function: f, .. }, Track::Rate { function: g, .. })
+        | (Track::Curvature { function: f, .. }, Track::Curvature { function: g, .. }) => f == g,
+        _ => false,
+    }
+}
+
+fn fill(track: &Track, grid: Grid) -> Table {
+    let part = grid.dt / grid.substeps as f64;
+    let mut table = Vec::with_capacity(grid.steps * grid.substeps);
+    for step in 0..grid.steps {
+        for i in 0..grid.substeps {
+            let t = step as f64 * grid.dt + part * i as f64;
+            table.push([track.at(t, Side::After), track.at(t + part, Side::Before)]);
+        }
+    }
+    table
+}
+
+impl Tables {
+    /// None yet.
+    #[must_use]
+    pub fn new() -> Self {
+        Self::default()
+    }
+
+    /// The table of a track of unit amplitude, and its amplitude.
+    pub(super) fn of(&self, track: &Track, grid: Grid) -> (Arc<Table>, f64) {
+        let (track, size) = split(track);
+        let mut store = self.0.lock().unwrap_or_else(PoisonError::into_inner);
+        store.entries.retain(|e| e.table.strong_count() > 0);
+        let found = store.entries.iter().filter(|e| e.grid == grid && same(&e.track, &track));
+        if let Some(table) = { found }.find_map(|e| e.table.upgrade()) {
+            return (table, size);
+        }
+        drop(store);
+        let table = Arc::new(fill(&track, grid));
+        let mut store = self.0.lock().unwrap_or_else(PoisonError::into_inner);
+        store.entries.push(Entry { grid, track, table: Arc::downgrade(&table) });
+        store.kept.push_back(Arc::clone(&table));
+        if store.kept.len() > KEPT {
+            store.kept.pop_front();
+        }
+        (table, size)
+    }
+}

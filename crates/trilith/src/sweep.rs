@@ -1,0 +1,353 @@
+//! Sweeps: one model with many values of its parameters.
+//!
+//! Analyses of a small model go side by side, several to a core, where the model fits (see
+//! [`solvers::lanes`](crate::solvers::lanes)): solver `fna`, fixed steps, links that have a form for lanes.
+//! All others run one by one on the ordinary engine; the outcome is of the same kind and says how it came.
+//!
+//! ```
+//! use trilith::sweep::Sweep;
+//!
+//! let text = r#"(
+//!     plane: XZ, gravity: "g", parameters: { "mu": 0.3, "a": "1 m/s^2" },
+//!     nodes: { "cg": (0, 0, 0) },
+//!     elements: {
+//!         "mass": Mass(node: "cg", mass: "1 t", inertia: (0, 1, 0)),
+//!         "upright": Spring(node: "cg", r3: "1 MN*m"),
+//!         "foot": NLink(node: "cg", kn: "10 MN/m", ks: "10 MN/m", mu: "mu", damping: "10 kN*s/m"),
+//!     },
+//!     functions: { "pulse": Sine(amplitude: "a", frequency: "2 Hz", cycles: 1) },
+//!     cases: {
+//!         "gravity": Static(loads: [Gravity]),
+//!         "shake": Dynamic(after: "gravity", duration: "1 s", dt: "1 ms",
+//!             base: [(direction: X, function: "pulse")]),
+//!     },
+//!     outputs: { "slide": Displacement(node: "cg", dof: Ux) },
+//! )"#;
+//! let sweep = Sweep::new(text, "foot.ron", trilith::registry()).case("shake").fixed_steps(1);
+//! let grid: Vec<_> = [1.0, 2.0, 4.0]
+//!     .iter()
+//!     .map(|a| vec![("a".to_owned(), format!("{a} m/s^2"))])
+//!     .collect();
+//! let outcomes = sweep.run(&grid);
+//! let slide = |i: usize| outcomes[i].as_ref().expect("a run").outputs.get("slide").expect("an output").max;
+//! // Friction holds the mass below 0.3 g.
+//! assert!(slide(0).abs() < 1e-3 && slide(2).abs() > 1e-3);
+//! ```
+
+use crate::{Analysis, Error, Registry, RunOptions};
+use std::path::PathBuf;
+use std::sync::Mutex;
+use std::sync::atomic::{AtomicUsize, Ordering};
+use trilith_model::{Diagnostic, Model, ModelText, StepControl};
+use trilith_results::Named;
+use trilith_solvers::lanes::{self, Extremes, LaneOutcome, LaneSetup, Tables};
+use trilith_solvers::{ContactSummary, EnergyTotals, LinkEnergy, Status};
+
+/// Values of parameters, by name, as `--set` takes them.
+pub type Combination = Vec<(String, String)>;
+
+/// Why a combination has no outcome.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum SweepError {
+    /// The model cannot be read with these values.
+    #[error("{} error(s) in the model; the first: {}", .0.len(), .0.first().map_or("", |d| d.message.as_str()))]
+    Model(Vec<Diagnostic>),
+    /// It cannot be run.
+    #[error(transparent)]
+    Run(#[from] Error),
+}
+
+/// How an outcome was computed.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Engine {
+    /// Side by side with others, at fixed steps.
+    Lanes,
+    /// On the ordinary engine: the model or the case does not fit, for this reason.
+    Ordinary(&'static str),
+    /// On the ordinary engine with adaptive steps, after a step in its lane found no equilibrium.
+    Rerun,
+}
+
+/// What one combination gave.
+#[derive(Clone, Debug)]
+pub struct Outcome {
+    /// How it was computed.
+    pub engine: Engine,
+    /// How it ended.
+    pub status: Status,
+    /// Extremes and final values of the outputs, by name, SI.
+    pub outputs: Named<Extremes>,
+    /// Energies at the end, J.
+    pub energy: EnergyTotals,
+    /// Energies of every link at the end, by its name, J.
+    pub link_energy: Named<LinkEnergy>,
+    /// How the contacts behaved, for models with contacts.
+    pub contact: Option<ContactSummary>,
+    /// Steps.
+    pub steps: usize,
+    /// Iterations of the link equations.
+    pub iterations: usize,
+}
+
+/// A model to be run with many values of its parameters.
+#[derive(Debug)]
+pub struct Sweep {
+    text: String,
+    path: PathBuf,
+    registry: Registry,
+    case: Option<String>,
+    substeps: Option<usize>,
+    threads: usize,
+    width: usize,
+}
+
+/// Combinations that a thread takes at a time, in widths of the lanes.
+const PORTION: usize = 4;
+
+/// One combination on its way.
+enum Stage {
+    Lane(Box<(Model, LaneSetup)>),
+    Done(Box<Result<Outcome, SweepError>>),
+    Gone,
+}
+
+impl Sweep {
+    /// Of a model text; `path` as in [`read_text`](crate::read_text).
+    #[must_use]
+    pub fn new(text: impl Into<String>, path: impl Into<PathBuf>, registry: Registry) -> Self {
+        let threads = std::thread::available_parallelism().map_or(1, std::num::NonZero::get);
+        Self {
+            text: text.into(),
+            path: path.into(),
+            registry,
+            case: None,
+            substeps: None,
+            threads,
+            width: lanes::width(),
+        }
+    }
+
+    /// The case to run; without it the last of the model.
+    #[must_use]
+    pub fn case(mut self, name: impl Into<String>) -> Self {
+        self.case = Some(name.into());
+        self
+    }
+
+    /// Fixed steps, so many to an output step, whatever the model says. Without it the steps of the
+    /// model, which must be fixed ones for analyses to go side by side.
+    #[must_use]
+    pub fn fixed_steps(mut self, substeps: usize) -> Self {
+        self.substeps = Some(substeps.max(1));
+        self
+    }
+
+    /// Number of threads; without it as many as the machine runs at once. The outcomes are the same to
+    /// the bit.
+    #[must_use]
+    pub fn threads(mut self, threads: usize) -> Self {
+        self.threads = threads.max(1);
+        self
+    }
+
+    /// Analyses side by side, at most as many as the machine's registers hold: 1 runs each alone, with
+    /// the same bits.
+    #[must_use]
+    pub fn width(mut self, width: usize) -> Self {
+        self.width = width.clamp(1, lanes::width());
+        self
+    }
+
+    /// Runs all combinations; outcomes in their order.
+    #[must_use]
+    pub fn run(&self, combinations: &[Combination]) -> Vec<Result<Outcome, SweepError>> {
+        let parsed = match ModelText::new(&self.text, &self.path) {
+            Ok(parsed) => parsed,
+            Err(errors) => {
+                let failed = || Err(SweepError::Model(errors.clone()));
+                return combinations.iter().map(|_| failed()).collect();
+            }
+        };
+        let tables = Tables::new();
+        let portion = (PORTION * self.width).max(1);
+        let next = AtomicUsize::new(0);
+        let done = Mutex::new(Vec::new());
+        let work = || {
+            loop {
+                let start = next.fetch_add(portion, Ordering::Relaxed);
+                if start >= combinations.len() {
+                    break;
+                }
+                let end = (start + portion).min(combinations.len());
+                let outcomes = self.portion(&parsed, &combinations[start..end], &tables);
+                if let Ok(mut done) = done.lock() {
+                    done.push((start, outcomes));
+                }
+            }
+        };
+        let threads = self.threads.min(combinations.len().div_ceil(portion)).max(1);
+        std::thread::scope(|scope| {
+            for _ in 1..threads {
+                scope.spawn(work);
+            }
+            work();
+        });
+        let mut done = done.into_inner().unwrap_or_default();
+        done.sort_by_key(|(start, _)| *start);
+        done.into_iter().flat_map(|(_, outcomes)| outcomes).collect()
+    }
+
+    fn portion(
+        &self,
+        parsed: &ModelText,
+        combinations: &[Combination],
+        tables: &Tables,
+    ) -> Vec<Result<Outcome, SweepError>> {
+        let mut stages: Vec<Stage> =
+            combinations.iter().map(|c| self.prepare(parsed, c, tables)).collect();
+        loop {
+            let mut group: Vec<usize> = Vec::new();
+            for (i, stage) in stages.iter().enumerate() {
+                let Stage::Lane(own) = stage else { continue };
+                let fits = group.first().is_none_or(|g| match &stages[*g] {
+                    Stage::Lane(first) => first.1.fits(&own.1),
+                    _ => false,
+                });
+                if fits && group.len() < self.width {
+                    group.push(i);
+                }
+            }
+            if group.is_empty() {
+                break;
+            }
+            let setups: Vec<&LaneSetup> = group
+                .iter()
+                .filter_map(|i| match &stages[*i] {
+                    Stage::Lane(own) => Some(&own.1),
+                    _ => None,
+                })
+                .collect();
+            let found = lanes::march(&setups);
+            for (i, outcome) in group.into_iter().zip(found) {
+                let waiting = std::mem::replace(&mut stages[i], Stage::Gone);
+                if let Stage::Lane(own) = waiting {
+                    let (model, setup) = *own;
+                    stages[i] = Stage::Done(Box::new(self.finish(model, &setup, outcome)));
+                }
+            }
+        }
+        let done = stages.into_iter().filter_map(|stage| match stage {
+            Stage::Done(outcome) => Some(*outcome),
+            _ => None,
+        });
+        done.collect()
+    }
+
+    fn index(&self, model: &Model) -> Result<usize, Error> {
+        match &self.case {
+            Some(name) => model.case(name).ok_or_else(|| Error::unknown_case(model, name)),
+            None => model.cases.len().checked_sub(1).ok_or_else(|| Error::unknown_case(model, "")),
+        }
+    }
+
+    fn prepare(&self, parsed: &ModelText, combination: &Combination, tables: &Tables) -> Stage {
+        let done = |outcome| Stage::Done(Box::new(outcome));
+        let model = match parsed.read(&self.registry, combination) {
+            Ok(model) => model,
+            Err(errors) => return done(Err(SweepError::Model(errors))),
+        };
+        match self.try_lane(&model, tables) {
+            Ok(Ok(setup)) => Stage::Lane(Box::new((model, setup))),
+            Ok(Err(reason)) => done(self.ordinary(model, self.substeps, Engine::Ordinary(reason))),
+            Err(e) => done(Err(e.into())),
+        }
+    }
+
+    fn try_lane(
+        &self,
+        model: &Model,
+        tables: &Tables,
+    ) -> Result<Result<LaneSetup, &'static str>, Error> {
+        let case = self.index(model)?;
+        let trilith_model::Analysis::Dynamic(analysis) = &model.cases[case].analysis else {
+            return Ok(Err("a static case"));
+        };
+        let Some(substeps) = self.substeps.or_else(|| lanes::fixed_substeps(analysis)) else {
+            return Ok(Err("adaptive steps"));
+        };
+        let system = trilith_solvers::assemble(model)?;
+        Ok(lanes::prepare(model, &system, case, substeps, tables)?)
+    }
+
+    /// Runs a model on the ordinary engine.
+    fn ordinary(
+        &self,
+        mut model: Model,
+        substeps: Option<usize>,
+        engine: Engine,
+    ) -> Result<Outcome, SweepError> {
+        let case = self.index(&model)?;
+        if let trilith_model::Analysis::Dynamic(analysis) = &mut model.cases[case].analysis {
+            if let Some(substeps) = substeps {
+                analysis.solution.step = StepControl::Fixed { substeps };
+            }
+            if engine == Engine::Rerun {
+                analysis.solution.step = StepControl::default();
+            }
+        }
+        let run = Analysis::new(&model)?.run(RunOptions { case, ..RunOptions::default() })?;
+        let output = |(i, o): (usize, &trilith_model::Output)| {
+            let p = run.record.peaks().get(i)?;
+            let of =
+                Extremes { max: p.max, t_max: p.t_max, min: p.min, t_min: p.t_min, last: p.last };
+            Some((o.name.clone(), of))
+        };
+        let result = &run.result;
+        Ok(Outcome {
+            engine,
+            status: result.status.clone(),
+            outputs: Named(model.outputs.iter().enumerate().filter_map(output).collect()),
+            energy: result.energy,
+            link_energy: named(&model, &result.link_energy),
+            contact: run.contact.clone(),
+            steps: result.work.substeps,
+            iterations: result.work.iterations,
+        })
+    }
+
+    fn finish(
+        &self,
+        model: Model,
+        setup: &LaneSetup,
+        lane: LaneOutcome,
+    ) -> Result<Outcome, SweepError> {
+        if lane.lost.is_some() {
+            return self.ordinary(model, None, Engine::Rerun);
+        }
+        let names = model.outputs.iter().map(|o| o.name.clone());
+        let share = lane.energy.error_relative;
+        let status = if share > setup.energy_limit {
+            Status::EnergyError { share, limit: setup.energy_limit }
+        } else {
+            Status::Converged
+        };
+        Ok(Outcome {
+            engine: Engine::Lanes,
+            status,
+            outputs: Named(names.zip(lane.outputs).collect()),
+            energy: lane.energy,
+            link_energy: named(&model, &lane.link_energy),
+            contact: lane.contact,
+            steps: lane.steps,
+            iterations: lane.iterations,
+        })
+    }
+}
+
+fn named(model: &Model, links: &[(usize, LinkEnergy)]) -> Named<LinkEnergy> {
+    let one = |(element, energy): &(usize, LinkEnergy)| {
+        model.elements.get(*element).map(|e| (e.name.clone(), *energy))
+    };
+    Named(links.iter().filter_map(one).collect())
+}

@@ -1,0 +1,301 @@
+//! The contact itself over [`Real`]: one text for a single analysis and for sweeps in lanes.
+//!
+//! `T` tangential directions: 2 in space, 1 in a plane. `FLAGS` says which parts there are.
+
+use super::NLinkHistory;
+use trilith_element::History;
+use trilith_element::lanes::{LaneAt, LaneContact, LaneForce, LaneLaw, LaneStep, Real};
+
+/// The dashpot may pull while closed.
+pub(super) const PULL: u8 = 1;
+/// There is a post-slip spring or a pendulum.
+pub(super) const RESTORING: u8 = 2;
+/// Friction grows from slow to fast.
+pub(super) const GRADED: u8 = 4;
+
+/// The law without the rotational springs.
+pub(super) struct NLinkContact<const T: usize, const FLAGS: u8>;
+
+/// Parameters in the order of their slice.
+#[derive(Clone, Copy)]
+struct Of<R> {
+    kn: R,
+    opening: R,
+    damping: R,
+    /// Stiffness of the elastic–plastic branch; 0 without friction.
+    ke: R,
+    mu: R,
+    k_post: R,
+    /// 1/R of the pendulum.
+    curvature: R,
+    mu_slow: R,
+    mu_fast: R,
+    rate: R,
+    /// 1/kₙ and 1/kₑ; 0 without friction.
+    flexibility: [R; 2],
+}
+
+/// Number of parameters.
+pub(super) const PARAMETERS: usize = 12;
+
+impl<R: Real> Of<R> {
+    #[inline(always)]
+    fn read(p: &[R]) -> Self {
+        let p: &[R; PARAMETERS] = p.try_into().expect("parameters of a contact");
+        let [kn, opening, damping, ke, mu, k_post, curvature, mu_slow, mu_fast, rate, fn_, fe] = *p;
+        let flexibility = [fn_, fe];
+        Self {
+            kn,
+            opening,
+            damping,
+            ke,
+            mu,
+            k_post,
+            curvature,
+            mu_slow,
+            mu_fast,
+            rate,
+            flexibility,
+        }
+    }
+}
+
+/// What the contact does along its normal; see [`Normal`](crate::shared::sliding::Normal).
+#[derive(Clone, Copy)]
+struct Pressed<R: Real> {
+    open: R::Mask,
+    spring: R,
+    f: R,
+    f_d: R,
+    f_v: R,
+    cone: R,
+    cone_d: R,
+    cone_v: R,
+}
+
+impl<const T: usize, const FLAGS: u8> NLinkContact<T, FLAGS> {
+    #[inline(always)]
+    fn pressed<R: Real>(it: &Of<R>, gap: R, rate: R) -> Pressed<R> {
+        let zero = gap.of(0.0);
+        let p = -gap;
+        let open = p.lt(zero);
+        let closed = !open;
+        let (spring, kn) = ((it.kn * p).only(closed), it.kn.only(closed));
+        let c = it.damping.only(closed);
+        // Zeros are kept from the sign that a subtraction of nothing would give them.
+        let f = (it.damping * rate - it.kn * p).only(closed);
+        if FLAGS & PULL != 0 {
+            return Pressed {
+                open,
+                spring,
+                f,
+                f_d: kn,
+                f_v: c,
+                cone: spring,
+                cone_d: -kn,
+                cone_v: zero,
+            };
+        }
+        let holds = !zero.lt(f);
+        let (f, f_d, f_v) = (f.only(holds), kn.only(holds), c.only(holds));
+        Pressed { open, spring, f, f_d, f_v, cone: -f, cone_d: -f_d, cone_v: -f_v }
+    }
+
+    /// Friction coefficient and its derivative by the sliding speed.
+    #[inline(always)]
+    fn coefficient<R: Real>(it: &Of<R>, speed: R) -> (R, R) {
+        if FLAGS & GRADED == 0 {
+            return (it.mu, speed.of(0.0));
+        }
+        let decay = (it.mu_fast - it.mu_slow) * (-it.rate * speed).map(f64::exp);
+        (it.mu_fast - decay, it.rate * decay)
+    }
+
+    /// Length of a tangential vector.
+    #[inline(always)]
+    fn length<R: Real>(x: [R; T]) -> R {
+        if T == 1 { x[0].abs() } else { x[0].map2(x[1], f64::hypot) }
+    }
+
+    #[inline(always)]
+    fn tangential<R: Real>(x: &[R]) -> [R; T] {
+        x[1..=T].try_into().expect("T tangential coordinates")
+    }
+
+    /// Restoring stiffness at a spring force.
+    #[inline(always)]
+    fn restoring<R: Real>(it: &Of<R>, spring: R) -> R {
+        spring.mul_add(it.curvature, it.k_post)
+    }
+
+    /// Anchor at the start of the step, or at the moment of closing within the step, and its
+    /// derivatives: by dₜ (a factor) and by d₁.
+    #[inline(always)]
+    fn anchor<R: Real>(it: &Of<R>, at: &LaneAt<'_, R>, now: &Pressed<R>) -> ([R; T], R, [R; T]) {
+        let zero = it.kn.of(0.0);
+        let old: [R; T] = [at.history[0], at.history[1]][..T].try_into().expect("T ≤ 2");
+        let gap0 = at.d0[0] + it.opening;
+        let closes = zero.lt(gap0) & !now.open;
+        if !zero.any(closes) {
+            return (old, zero, [zero; T]);
+        }
+        let gap = at.d[0] + it.opening;
+        let left = gap0 - gap;
+        let share = (gap0 / left).only(closes);
+        let by_gap = (share / left).only(closes);
+        let (mut a, mut by) = (old, [zero; T]);
+        for i in 0..T {
+            let delta = at.d[1 + i] - at.d0[1 + i];
+            a[i] = R::select(closes, at.d0[1 + i] + share * delta, old[i]);
+            by[i] = delta * by_gap;
+        }
+        (a, share, by)
+    }
+}
+
+impl<const T: usize, const FLAGS: u8> LaneLaw for NLinkContact<T, FLAGS> {
+    const COORDINATES: usize = 1 + T;
+    const HISTORY: usize = NLinkHistory::FIELDS.len();
+    const PARAMETERS: usize = PARAMETERS;
+    const IS_CONTACT: bool = true;
+
+    #[inline(always)]
+    fn force<R: Real>(at: &LaneAt<'_, R>, out: &mut LaneForce<'_, R>) {
+        let n = 1 + T;
+        let it = Of::read(at.parameters);
+        let zero = it.kn.of(0.0);
+        let now = Self::pressed(&it, at.d[0] + it.opening, at.v[0]);
+        let closed = !now.open;
+        out.f[0] = now.f;
+        out.k[0] = now.f_d;
+        out.c[0] = now.f_v;
+        for j in 1..n {
+            out.k[j] = zero;
+            out.c[j] = zero;
+        }
+
+        // Friction: radial return of the elastic trial force onto the cone.
+        let (a, by_dt, by_d1) = Self::anchor(&it, at, &now);
+        let vt = Self::tangential(at.v);
+        let speed = if FLAGS & GRADED == 0 { zero } else { Self::length(vt) };
+        let (mu, mu_v) = Self::coefficient(&it, speed);
+        let limit = mu * now.cone;
+        let mut xi = Self::tangential(at.d);
+        for i in 0..T {
+            xi[i] = xi[i] - a[i];
+        }
+        let length = if T == 1 { xi[0].abs() } else { (xi[0] * xi[0] + xi[1] * xi[1]).sqrt() };
+        let sticks = (it.ke * length).le(limit) & zero.lt(limit);
+        let nowhere = length.le(zero);
+        // Direction of the stretch; zero where there is none.
+        let mut along = [zero; T];
+        if T == 1 {
+            let one = it.kn.of(1.0);
+            along[0] = R::select(nowhere, zero, R::select(xi[0].lt(zero), -one, one));
+        } else {
+            for i in 0..T {
+                along[i] = R::select(nowhere, zero, xi[i] / length);
+            }
+        }
+        let turn = if T == 1 { zero } else { R::select(nowhere, zero, limit / length) };
+        // Slips without friction too, with a force of zero.
+        let rubs = closed & zero.lt(it.ke);
+        for i in 0..T {
+            let tau = R::select(sticks, xi[i] * it.ke, along[i] * limit).only(rubs);
+            // By the limit: zero while it sticks.
+            let by_limit = along[i].only(!sticks & rubs);
+            let row = (1 + i) * n;
+            let mut by_d1_total = by_limit * (mu * now.cone_d);
+            out.c[row] = by_limit * (mu * now.cone_v);
+            for j in 0..T {
+                let own = it.kn.of(f64::from(u8::from(i == j)));
+                let across = if T == 1 { zero } else { (own - along[i] * along[j]) * turn };
+                let stretch = R::select(sticks, own * it.ke, across).only(rubs);
+                out.k[row + 1 + j] = stretch * (it.kn.of(1.0) - by_dt);
+                by_d1_total = by_d1_total - stretch * by_d1[j];
+                out.c[row + 1 + j] = if FLAGS & GRADED == 0 {
+                    zero
+                } else {
+                    let slope = by_limit * now.cone * mu_v * vt[j] / speed;
+                    R::select(zero.lt(speed), slope, zero)
+                };
+            }
+            out.f[1 + i] = tau;
+            if FLAGS & RESTORING != 0 {
+                let kr = Self::restoring(&it, now.spring).only(closed);
+                out.f[1 + i] = tau + kr * at.d[1 + i];
+                out.k[row + 1 + i] = out.k[row + 1 + i] + kr;
+                by_d1_total = by_d1_total - (it.kn * it.curvature).only(closed) * at.d[1 + i];
+            }
+            out.k[row] = by_d1_total;
+        }
+    }
+
+    #[inline(always)]
+    fn commit<R: Real>(at: &LaneAt<'_, R>, f: &[R], trial: &mut [R]) -> LaneStep<R> {
+        let it = Of::read(at.parameters);
+        let (zero, half) = (it.kn.of(0.0), it.kn.of(0.5));
+        let before = Self::pressed(&it, at.d0[0] + it.opening, at.v0[0]);
+        let now = Self::pressed(&it, at.d[0] + it.opening, at.v[0]);
+        let (was, closed) = (!before.open, !now.open);
+        let rubs = closed & zero.lt(it.ke);
+        let (a, _, _) = Self::anchor(&it, at, &now);
+        let (d0, d1) = (Self::tangential::<R>(at.d0), Self::tangential::<R>(at.d));
+        let speed = if FLAGS & GRADED == 0 { zero } else { Self::length(Self::tangential(at.v)) };
+        let (mu, _) = Self::coefficient(&it, speed);
+        let limit = mu * now.cone;
+        let mut xi = d1;
+        for i in 0..T {
+            xi[i] = d1[i] - a[i];
+        }
+        let length = if T == 1 { xi[0].abs() } else { (xi[0] * xi[0] + xi[1] * xi[1]).sqrt() };
+        let sticks = (it.ke * length).le(limit) & zero.lt(limit);
+        let kr0 = Self::restoring(&it, before.spring).only(was);
+        let kr1 = Self::restoring(&it, now.spring).only(closed);
+        let [by_kn, by_ke] = it.flexibility;
+
+        let (mut restoring, mut friction, mut sum) = (at.history[4], zero, zero);
+        let (mut tau, mut slip) = ([zero; T], [zero; T]);
+        for i in 0..T {
+            tau[i] = if FLAGS & RESTORING == 0 { f[1 + i] } else { f[1 + i] - kr1 * d1[i] };
+            tau[i] = tau[i].only(rubs);
+            let tau0 = (it.ke * (d0[i] - at.history[i])).only(was);
+            // Where it starts from, and where the spring is unstretched at the end.
+            let start = R::select(closed, a[i], R::select(was, at.history[i], d0[i]));
+            let slid = R::select(sticks, a[i], d1[i] - tau[i] * by_ke);
+            let end = R::select(rubs, slid, d1[i]);
+            slip[i] = end - start;
+            trial[i] = end;
+            friction = friction + (tau0 + tau[i]) * slip[i];
+            sum = sum + tau[i] * tau[i];
+            if FLAGS & RESTORING != 0 {
+                restoring = restoring + half * (kr0 * d0[i] + kr1 * d1[i]) * (d1[i] - d0[i]);
+            }
+        }
+        if T == 1 {
+            trial[1] = zero;
+        }
+        trial[2] = at.history[2] + Self::length(slip).only(rubs);
+        trial[3] = it.kn.of(1.0).only(closed);
+        trial[4] = restoring;
+        // Of the dashpot, where there is one.
+        let mut viscous = zero;
+        if zero.any(zero.lt(it.damping)) {
+            viscous = at.viscous_work(0, before.f + before.spring, now.f + now.spring);
+        }
+        let size = Self::length(tau);
+        let most = limit * it.kn.of(1.0 - 1e-9);
+        let slips = zero.lt(now.cone) & zero.lt(it.ke) & most.le(size);
+        LaneStep {
+            stored: half * now.spring * now.spring * by_kn + restoring + half * sum * by_ke,
+            hysteretic: (half * friction).max(zero),
+            viscous,
+            contact: LaneContact {
+                gap: at.d[0] + it.opening,
+                normal: now.cone,
+                position: [d1[0], if T == 1 { zero } else { d1[T - 1] }],
+                slipping: it.kn.of(1.0).only(slips),
+            },
+        }
+    }
+}

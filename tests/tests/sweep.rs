@@ -1,0 +1,166 @@
+//! Sweeps in lanes give what the ordinary engine gives, whoever the neighbours are.
+
+use trilith::model::{Analysis, StepControl};
+use trilith::sweep::{Combination, Engine, Outcome, Sweep};
+use trilith::{Model, RunOptions};
+
+/// A mass on a sliding foot between stops, with dashpots: all links that have a form for lanes.
+const FOOT: &str = r#"(
+    plane: XZ, gravity: "g",
+    parameters: { "mu": 0.3, "a": "2 m/s^2", "f": "2 Hz", "k": "4 kN/m", "c": "0.2 kN*s/m", "pull": 0 },
+    nodes: { "cg": (0, 0, 0) },
+    elements: {
+        "mass": Mass(node: "cg", mass: "1 t", inertia: (0, 1, 0)),
+        "upright": Spring(node: "cg", k2: "k", r3: "1 MN*m", c1: "1 kN*s/m"),
+        "foot": NLink(node: "cg", kn: "10 MN/m", ks: "5 MN/m", mu: "mu", damping: "10 kN*s/m", pull: "pull"),
+        "stop": Gap(node: "cg", k: "2 MN/m", opening: "8 mm", axis: U2),
+        "cable": Hook(node: "cg", k: "1 MN/m", opening: "8 mm", axis: U2),
+        "damper": Dashpot(node: "cg", c: "c", axis: U2),
+    },
+    functions: { "pulse": Sine(amplitude: "a", frequency: "f", cycles: 1.5) },
+    cases: {
+        "gravity": Static(loads: [Gravity]),
+        "shake": Dynamic(after: "gravity", duration: "1.5 s", dt: "1 ms",
+            base: [(direction: X, function: "pulse")]),
+    },
+    outputs: {
+        "slide": Displacement(node: "cg", dof: Ux),
+        "speed": Velocity(node: "cg", dof: Ux),
+        "acceleration": Acceleration(node: "cg", dof: Ux, absolute: true),
+        "press": LinkForce(link: "foot", axis: U1),
+        "stretch": LinkDeformation(link: "cable", axis: U2),
+    },
+)"#;
+
+fn set(values: &[(&str, &str)]) -> Combination {
+    values.iter().map(|(n, v)| ((*n).to_owned(), (*v).to_owned())).collect()
+}
+
+fn sweep(text: &str) -> Sweep {
+    Sweep::new(text, "model.ron", trilith::registry()).case("shake").fixed_steps(1)
+}
+
+fn outcomes(sweep: &Sweep, combinations: &[Combination]) -> Vec<Outcome> {
+    sweep.run(combinations).into_iter().map(|o| o.expect("an outcome")).collect()
+}
+
+/// Everything in an outcome, digit by digit.
+fn text(outcomes: &[Outcome]) -> String {
+    format!("{outcomes:?}")
+}
+
+fn read(text: &str, combination: &Combination) -> Model {
+    trilith::read_text(text, "model.ron", &trilith::registry(), combination).expect("a model")
+}
+
+fn ordinary(text: &str, combination: &Combination) -> trilith::Run {
+    let mut model = read(text, combination);
+    let case = model.case("shake").expect("a case");
+    if let Analysis::Dynamic(dynamic) = &mut model.cases[case].analysis {
+        dynamic.solution.step = StepControl::Fixed { substeps: 1 };
+    }
+    let analysis = trilith::Analysis::new(&model).expect("a structure");
+    analysis.run(RunOptions { case, ..RunOptions::default() }).expect("a run")
+}
+
+/// Amplitudes, friction, stiffness and a frequency whose pulse ends between two steps.
+fn combinations() -> Vec<Combination> {
+    let mut all = Vec::new();
+    for a in ["1 m/s^2", "3 m/s^2", "5 m/s^2"] {
+        for (f, mu) in [("2 Hz", "0.1"), ("2.3456 Hz", "0.2"), ("1.7 Hz", "0.3")] {
+            for k in ["4 kN/m", "0 N/m"] {
+                all.push(set(&[("a", a), ("f", f), ("mu", mu), ("k", k)]));
+            }
+        }
+    }
+    all
+}
+
+#[track_caller]
+fn near(a: f64, b: f64, size: f64, what: &str) {
+    assert!((a - b).abs() <= 1e-9 * size, "{what}: {a} {b}");
+}
+
+#[test]
+fn lanes_give_what_the_ordinary_engine_gives() {
+    let all = combinations();
+    for (lane, values) in outcomes(&sweep(FOOT), &all).iter().zip(&all) {
+        assert_eq!(lane.engine, Engine::Lanes, "{values:?}");
+        let run = ordinary(FOOT, values);
+        for name in ["slide", "speed", "press", "stretch", "acceleration"] {
+            let (a, b) = (lane.outputs.get(name).expect("an output"), run.peak(name).expect("one"));
+            let what = format!("{name} of {values:?}");
+            let size = b.magnitude();
+            near(a.max, b.max, size, &what);
+            near(a.min, b.min, size, &what);
+            near(a.last, b.last, size, &what);
+            if size > 0.0 && b.max > 1e-9 * size {
+                assert!((a.t_max - b.t_max).abs() < 1e-6, "{what}: {a:?} {b:?}");
+            }
+        }
+        let (a, b) = (&lane.energy, &run.result.energy);
+        for (x, y, what) in [
+            (a.input, b.input, "input"),
+            (a.kinetic, b.kinetic, "kinetic"),
+            (a.strain, b.strain, "strain"),
+            (a.potential, b.potential, "potential"),
+            (a.modal_damping, b.modal_damping, "damping"),
+            (a.link_stored, b.link_stored, "stored"),
+            (a.link_hysteretic, b.link_hysteretic, "hysteretic"),
+            (a.link_viscous, b.link_viscous, "viscous"),
+            (a.error, b.error, "error"),
+        ] {
+            near(x, y, b.input.abs().max(1.0), &format!("{what} of {values:?}"));
+        }
+        near(a.error_relative, b.error_relative, 1.0, "share");
+        let (a, b) = (lane.contact.as_ref().expect("feet"), run.contact.as_ref().expect("feet"));
+        assert_eq!((a.initial_mode, a.mode), (b.initial_mode, b.mode));
+        near(a.max_slip, b.max_slip, 1.0, "slip");
+        near(a.max_uplift, b.max_uplift, 1.0, "uplift");
+        assert_eq!(lane.steps, run.result.work.substeps);
+    }
+}
+
+#[test]
+fn an_outcome_does_not_depend_on_neighbours_or_threads() {
+    let all = combinations();
+    let lanes = text(&outcomes(&sweep(FOOT).threads(1), &all));
+    assert_eq!(lanes, text(&outcomes(&sweep(FOOT).threads(1).width(1), &all)), "alone");
+    assert_eq!(lanes, text(&outcomes(&sweep(FOOT).threads(1).width(5), &all)), "in fives");
+    assert_eq!(lanes, text(&outcomes(&sweep(FOOT).threads(3), &all)), "by three threads");
+    let mut backwards: Vec<Combination> = all.clone();
+    backwards.reverse();
+    let mut found = outcomes(&sweep(FOOT), &backwards);
+    found.reverse();
+    assert_eq!(lanes, text(&found), "backwards");
+}
+
+#[test]
+fn what_does_not_fit_runs_on_the_ordinary_engine_and_says_why() {
+    let one = [set(&[])];
+    let reason = |text: &str| match outcomes(&sweep(text), &one)[0].engine {
+        Engine::Ordinary(reason) => reason,
+        other => panic!("{other:?}"),
+    };
+    let turning = FOOT.replace(
+        r#"Hook(node: "cg", k: "1 MN/m", opening: "8 mm", axis: U2)"#,
+        r#"NLink(node: "cg", kn: "1 MN/m", r3: "1 kN*m")"#,
+    );
+    assert!(reason(&turning).contains("no form"), "{}", reason(&turning));
+    let stiff = FOOT.replace(r#"kn: "10 MN/m""#, r#"kn: "10e6 MN/m""#);
+    assert!(reason(&stiff).contains("too long"), "{}", reason(&stiff));
+    let hht = FOOT.replace(r#"dt: "1 ms""#, r#"dt: "1 ms", solver: Hht"#);
+    assert!(reason(&hht).contains("fna"), "{}", reason(&hht));
+    let adaptive = Sweep::new(FOOT, "model.ron", trilith::registry()).case("shake");
+    let found = outcomes(&adaptive, &one);
+    assert_eq!(found[0].engine, Engine::Ordinary("adaptive steps"));
+    let run = trilith::run(&read(FOOT, &one[0]), "shake").expect("a run");
+    assert_eq!(found[0].energy, run.result.energy);
+}
+
+#[test]
+fn a_wrong_value_spoils_its_own_outcome_only() {
+    let all = [set(&[("mu", "0.2")]), set(&[("mu", "0.2 m")]), set(&[("mu", "0.2")])];
+    let found = sweep(FOOT).run(&all);
+    assert!(found[0].is_ok() && found[1].is_err() && found[2].is_ok());
+}
