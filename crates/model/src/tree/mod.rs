@@ -3,11 +3,13 @@
 //! The parsing is done by `ron` alone: a `&RawValue` borrows from the text that is read, so its
 //! address tells where it stands.
 
+mod numeric;
 mod shape;
 
 use crate::Span;
 use ron::value::RawValue;
 use shape::{Key, Shape};
+use std::collections::HashMap;
 
 /// A value of the file.
 #[derive(Clone, Debug)]
@@ -172,16 +174,31 @@ fn offset(text: &str, part: &str) -> Option<usize> {
     (at <= text.len() && at + part.len() <= text.len()).then_some(at)
 }
 
+/// A raw value without the blanks and comments around it; `None` where only a parser can tell.
+fn bare(raw: &str) -> Option<&str> {
+    let body = raw[comments(raw)..].trim_end();
+    // A comment behind a value ends with `*/`, or with the line it is on.
+    let line = body.rfind('\n').map_or(body, |i| &body[i..]);
+    (!body.is_empty() && !body.ends_with("*/") && !line.contains("//")).then_some(body)
+}
+
 fn child(text: &str, raw: &RawValue) -> Result<Node, TreeError> {
-    // `trim` trusts that the text is RON by itself; one that leans on an extension which the file
-    // enables is not.
-    let trimmed = RawValue::from_ron(raw.get_ron()).map(RawValue::trim).map_err(|e| {
-        let start = offset(text, raw.get_ron()).unwrap_or(0);
-        let span = start..start + raw.get_ron().len();
-        TreeError { code: "E0101", message: e.code.to_string(), span, related: None }
-    })?;
-    let part = trimmed.get_ron();
+    let part = match bare(raw.get_ron()) {
+        Some(part) => part,
+        // `trim` trusts that the text is RON by itself; one that leans on an extension which the file
+        // enables is not.
+        None => RawValue::from_ron(raw.get_ron())
+            .map(|r| r.trim().get_ron())
+            .map_err(|e| {
+                let start = offset(text, raw.get_ron()).unwrap_or(0);
+                let span = start..start + raw.get_ron().len();
+                TreeError { code: "E0101", message: e.code.to_string(), span, related: None }
+            })?,
+    };
     let start = offset(text, part).unwrap_or(0);
+    if let Some(node) = numeric::read(part, start) {
+        return Ok(node);
+    }
     let span = start..start + part.len();
     let shape = options().from_str::<Shape<'_>>(part).map_err(|e| TreeError {
         code: "E0101",
@@ -222,6 +239,7 @@ fn build(text: &str, shape: Shape<'_>, span: Span, part: &str) -> Result<Node, T
         }
         Shape::Entries(entries) => {
             let mut out: Vec<Entry> = Vec::with_capacity(entries.len());
+            let mut places: HashMap<String, usize> = HashMap::with_capacity(entries.len());
             for (key, raw) in entries {
                 let value = child(text, raw)?;
                 let key_span = match &key {
@@ -231,7 +249,7 @@ fn build(text: &str, shape: Shape<'_>, span: Span, part: &str) -> Result<Node, T
                     Key::Owned(_) => value.span.clone(),
                 };
                 let key = key.into_string();
-                if let Some(first) = out.iter().find(|e| e.key == key) {
+                if let Some(first) = places.insert(key.clone(), out.len()).map(|i| &out[i]) {
                     return Err(TreeError {
                         code: "E0102",
                         message: format!("`{key}` is given twice"),
