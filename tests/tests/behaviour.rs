@@ -170,7 +170,11 @@ fn a_fixed_step_too_long_for_the_exact_rule_is_told() {
     let options =
         || RunOptions { solver: Some(SolverKind::Fna), dt: Some(0.02), ..RunOptions::default() };
     let (_, coarse) = trace_with(&model, &system, options());
-    assert!(coarse.warnings.iter().any(|w| w.contains("limit of stability")), "{:?}", coarse.warnings);
+    assert!(
+        coarse.warnings.iter().any(|w| w.contains("limit of stability")),
+        "{:?}",
+        coarse.warnings
+    );
     let (_, fine) = trace_with(&model, &system, RunOptions { dt: Some(1e-3), ..options() });
     assert!(fine.warnings.is_empty(), "{:?}", fine.warnings);
 }

@@ -29,5 +29,7 @@ pub fn json<T: DeserializeOwned>(program: &Path, arguments: &[String]) -> Result
         .rev()
         .find(|l| l.starts_with('{'))
         .ok_or_else(|| format!("{name} {} gave no result", arguments.join(" ")))
-        .and_then(|l| serde_json::from_str(l).map_err(|e| format!("the result of {name} cannot be read: {e}")))
+        .and_then(|l| {
+            serde_json::from_str(l).map_err(|e| format!("the result of {name} cannot be read: {e}"))
+        })
 }

@@ -57,8 +57,7 @@ impl Endurance {
 /// A sentence where the frame cannot be read or run.
 pub fn endure(name: &str, text: &str, task: Task) -> Result<Endurance, String> {
     let subject = Subject::new(text, task)?;
-    let analysis =
-        Analysis::new(&subject.model).map_err(|e| e.to_string())?.without_histories();
+    let analysis = Analysis::new(&subject.model).map_err(|e| e.to_string())?.without_histories();
     let every = (task.steps / MOMENTS).max(1);
     let mut memory = Vec::with_capacity(MOMENTS + 1);
     let mut made = 0_usize;
@@ -104,7 +103,7 @@ mod tests {
     #[test]
     fn growth_is_seen_and_the_start_is_not() {
         let run = |f: fn(f64) -> f64| -> Vec<Moment> {
-            (1..=100).map(|i| f64::from(i)).map(|t| Moment { t, mb: f(t) }).collect()
+            (1..=100).map(f64::from).map(|t| Moment { t, mb: f(t) }).collect()
         };
         assert_eq!(growth(&run(|t| if t < 4.0 { 5.0 } else { 20.0 })), 0.0);
         assert!((growth(&run(|t| 20.0 + 0.1 * t)) - 9.5).abs() < 1e-9);

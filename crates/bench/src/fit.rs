@@ -44,7 +44,10 @@ mod tests {
     fn a_power_law_is_found() {
         let points = [1.0, 3.0, 10.0, 50.0].map(|x: f64| (x, 2.5 * x.powf(1.25)));
         let law = Power::through(&points).unwrap();
-        assert!((law.exponent - 1.25).abs() < 1e-12 && (law.at(2.0) - points[0].1 * 2f64.powf(1.25)).abs() < 1e-12);
+        assert!(
+            (law.exponent - 1.25).abs() < 1e-12
+                && (law.at(2.0) - points[0].1 * 2f64.powf(1.25)).abs() < 1e-12
+        );
         assert_eq!(Power::through(&points[..1]), None);
         assert_eq!(Power::through(&[(1.0, 2.0), (1.0, 3.0)]), None);
     }

@@ -6,8 +6,8 @@ use std::process::ExitCode;
 use trilith::SolverKind;
 use trilith_bench::report::{self, Results};
 use trilith_bench::{
-    Effort, Endurance, Measurement, Programs, SIZES, Size, Subject, Task, WHOLE, child, endure, export,
-    find, grow, measure, side_by_side,
+    Effort, Endurance, Measurement, Programs, SIZES, Size, Subject, Task, WHOLE, child, endure,
+    export, find, grow, measure, side_by_side,
 };
 
 /// Measures what runs of Trilith cost: a frame on isolators in six sizes, growth, long runs, other
@@ -57,6 +57,9 @@ struct Suite {
     /// A Python with OpenSeesPy: runs both programs in turn, nothing else
     #[arg(long, value_name = "PYTHON")]
     peers: Option<PathBuf>,
+    /// Put the tables into the marked block of this file, such as README.md
+    #[arg(long, value_name = "FILE")]
+    update: Option<PathBuf>,
     /// How often both programs run in turn
     #[arg(long, default_value_t = 3)]
     pairs: usize,
@@ -85,6 +88,9 @@ struct One {
     /// Vectors of FNA
     #[arg(long)]
     vectors: Option<usize>,
+    /// Fixed steps in an output step of 5 ms
+    #[arg(long, default_value_t = 1)]
+    substeps: usize,
     /// Most runs behind a median
     #[arg(long, default_value_t = Effort::default().runs)]
     runs: usize,
@@ -93,7 +99,7 @@ struct One {
 impl One {
     fn task(&self) -> Task {
         let Part { steps, offset, .. } = self.part;
-        Task { solver: self.solver, vectors: self.vectors, steps, offset }
+        Task { solver: self.solver, vectors: self.vectors, steps, substeps: self.substeps, offset }
     }
 }
 
@@ -143,7 +149,7 @@ fn long_json(one: &One) -> Result<bool, String> {
 
 fn export_json(part: &Part) -> Result<bool, String> {
     let Part { size, steps, offset } = *part;
-    let task = Task { solver: SolverKind::Hht, vectors: None, steps, offset };
+    let task = Task { solver: SolverKind::Hht, vectors: None, steps, substeps: 1, offset };
     print(&export(&Subject::new(&size.frame().to_ron(), task)?)?)
 }
 
@@ -186,6 +192,9 @@ fn suite(suite: &Suite) -> Result<bool, String> {
         }
         finish(&folder, &results)?;
     }
+    if let Some(file) = &suite.update {
+        report::update(file, &results)?;
+    }
     print!("{}", results.text());
     println!("report: {}", folder.join("report.html").display());
     Ok(results.good())
@@ -197,10 +206,17 @@ fn finish(folder: &Path, results: &Results) -> Result<(), String> {
 }
 
 /// In a process of its own.
-fn frame(own: &Path, suite: &Suite, size: &Size, solver: SolverKind) -> Result<Measurement, String> {
+fn frame(
+    own: &Path,
+    suite: &Suite,
+    size: &Size,
+    solver: SolverKind,
+) -> Result<Measurement, String> {
     let usual = if solver == SolverKind::Hht { size.hht_steps } else { WHOLE };
     let steps = suite.steps.unwrap_or(usual).to_string();
-    let mut words = ["one", size.name, "--solver", solver.name(), "--steps", &steps].map(str::to_owned).to_vec();
+    let mut words = ["one", size.name, "--solver", solver.name(), "--steps", &steps]
+        .map(str::to_owned)
+        .to_vec();
     if let Some(vectors) = suite.vectors {
         words.extend(["--vectors".to_owned(), vectors.to_string()]);
     }

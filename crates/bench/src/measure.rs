@@ -128,7 +128,8 @@ pub fn measure(name: &str, text: &str, task: Task, effort: Effort) -> Result<Mea
         bare_step_s: median(bare),
         whole_s: subject.parse + assembly + setup_s + WHOLE as f64 * step_s,
         iterations: work.iterations as f64 / work.substeps.max(1) as f64,
-        unconverged: work.rejected + usize::from(matches!(result.status, Status::NotConverged { .. })),
+        unconverged: work.rejected
+            + usize::from(matches!(result.status, Status::NotConverged { .. })),
         peak_mb: peak,
         runs,
         status: result.status.word().to_owned(),

@@ -124,7 +124,8 @@ pub struct Programs<'a> {
 /// A sentence where one of them fails.
 pub fn side_by_side(size: &Size, programs: Programs<'_>) -> Result<SideBySide, String> {
     let Programs { own, python, folder, pairs } = programs;
-    let task = Task { solver: SolverKind::Hht, vectors: None, steps: STRONG, offset: OFFSET };
+    let task =
+        Task { solver: SolverKind::Hht, vectors: None, steps: STRONG, substeps: 1, offset: OFFSET };
     let subject = Subject::new(&size.frame().to_ron(), task)?;
     let file = folder.join(format!("{}.json", size.name));
     let model = export(&subject)?;
@@ -143,9 +144,8 @@ pub fn side_by_side(size: &Size, programs: Programs<'_>) -> Result<SideBySide, S
         let script = scripts().join("opensees.py").display().to_string();
         let (model, warm, steps) =
             (file.display().to_string(), WARM.to_string(), measured.to_string());
-        let words = [
-            "-B", &script, &model, "--algorithm", algorithm, "--warm", &warm, "--steps", &steps,
-        ];
+        let words =
+            ["-B", &script, &model, "--algorithm", algorithm, "--warm", &warm, "--steps", &steps];
         child::json::<OpenSees>(python, &words.map(str::to_owned))
     };
     let mut all = Vec::new();

@@ -26,7 +26,8 @@ impl Results {
     #[must_use]
     pub fn good(&self) -> bool {
         let verdicts = self.frames.iter().map(|m| self.verdict(m));
-        verdicts.chain(self.endurance.iter().map(|e| if e.is_flat() { "pass" } else { "FAIL" }))
+        verdicts
+            .chain(self.endurance.iter().map(|e| if e.is_flat() { "pass" } else { "FAIL" }))
             .all(|v| v != "FAIL")
     }
 
@@ -35,10 +36,9 @@ impl Results {
         if let Some(a) = find(&m.size).and_then(|s| m.accuracy(s)) {
             return Some((a.isolator, a.roof, a.pass(), a.against));
         }
-        let other = self
-            .frames
-            .iter()
-            .find(|o| o.size == m.size && o.solver == "hht" && o.steps == m.steps && m.solver != "hht")?;
+        let other = self.frames.iter().find(|o| {
+            o.size == m.size && o.solver == "hht" && o.steps == m.steps && m.solver != "hht"
+        })?;
         let (isolator, roof) = (m.isolator / other.isolator - 1.0, m.roof / other.roof - 1.0);
         Some((isolator, roof, true, "HHT here"))
     }
@@ -54,8 +54,19 @@ impl Results {
 
     fn costs(&self) -> Table {
         let mut t = Table::new([
-            "frame", "solver", "DOF", "links", "vectors", "read ms", "assembly ms", "set-up ms", "of it factor ms",
-            "step µs", "unwatched µs", "whole run s", "memory MB",
+            "frame",
+            "solver",
+            "DOF",
+            "links",
+            "vectors",
+            "read ms",
+            "assembly ms",
+            "set-up ms",
+            "of it factor ms",
+            "step µs",
+            "unwatched µs",
+            "whole run s",
+            "memory MB",
         ]);
         for m in &self.frames {
             t.row([
@@ -79,8 +90,19 @@ impl Results {
 
     fn quality(&self) -> Table {
         let mut t = Table::new([
-            "frame", "solver", "steps", "iterations", "unconverged", "isolator m", "roof m", "isolator error",
-            "roof error", "against", "energy error", "status", "verdict",
+            "frame",
+            "solver",
+            "steps",
+            "iterations",
+            "unconverged",
+            "isolator m",
+            "roof m",
+            "isolator error",
+            "roof error",
+            "against",
+            "energy error",
+            "status",
+            "verdict",
         ]);
         for m in &self.frames {
             let errors = self.errors(m);
@@ -105,8 +127,18 @@ impl Results {
 
     fn times_beside(&self) -> Table {
         let mut t = Table::new([
-            "frame", "vectors", "FNA µs", "HHT µs", "Newton ms", "iterations", "tuned ms", "iterations", "FNA whole s",
-            "Newton whole s", "tuned whole s", "same motion",
+            "frame",
+            "vectors",
+            "FNA µs",
+            "HHT µs",
+            "Newton ms",
+            "iterations",
+            "tuned ms",
+            "iterations",
+            "FNA whole s",
+            "Newton whole s",
+            "tuned whole s",
+            "same motion",
         ]);
         for s in &self.peers {
             t.row([
@@ -142,7 +174,9 @@ impl Results {
         let mut t = Table::new(["cost", "over", "exponent", "first", "last"]);
         for g in &self.growth {
             for c in &g.curves {
-                let ends = |p: Option<&(f64, f64)>| p.map_or("–".into(), |(x, y)| format!("{} at {}", short(*y), short(*x)));
+                let ends = |p: Option<&(f64, f64)>| {
+                    p.map_or("–".into(), |(x, y)| format!("{} at {}", short(*y), short(*x)))
+                };
                 t.row([
                     format!("{} ({})", c.name, g.quantity),
                     g.cause.into(),
@@ -156,7 +190,17 @@ impl Results {
     }
 
     fn long(&self) -> Table {
-        let mut t = Table::new(["frame", "solver", "motion s", "steps", "CPU s", "memory MB", "growth MB", "status", "verdict"]);
+        let mut t = Table::new([
+            "frame",
+            "solver",
+            "motion s",
+            "steps",
+            "CPU s",
+            "memory MB",
+            "growth MB",
+            "status",
+            "verdict",
+        ]);
         for e in &self.endurance {
             let memory = e.memory.last();
             t.row([
@@ -201,7 +245,11 @@ impl Results {
                 pair.newton.version,
                 self.peers.iter().map(|s| s.pairs.len()).min().unwrap_or(0)
             );
-            parts.push(("Side by side with OpenSees", note, vec![self.times_beside(), self.ratios()]));
+            parts.push((
+                "Side by side with OpenSees",
+                note,
+                vec![self.times_beside(), self.ratios()],
+            ));
         }
         parts
     }
@@ -271,7 +319,9 @@ impl Results {
         };
         vec![
             pair("A step", "CPU time [µs]", |m| 1e6 * m.step_s),
-            pair("Set-up, with reading and assembly", "CPU time [s]", |m| m.parse_s + m.assembly_s + m.setup_s),
+            pair("Set-up, with reading and assembly", "CPU time [s]", |m| {
+                m.parse_s + m.assembly_s + m.setup_s
+            }),
             pair("The whole run", "CPU time [s]", |m| m.whole_s),
             pair("Memory", "largest resident memory [MB]", |m| m.peak_mb),
         ]
@@ -303,9 +353,13 @@ fn figure(g: &Growth) -> Figure {
 fn memory(e: &Endurance) -> Figure {
     let top = e.memory.iter().fold(1.0, |a: f64, m| a.max(m.mb));
     let end = e.memory.last().map_or(1.0, |m| m.t);
-    Figure::new(format!("{} under {}", e.size, e.solver.to_uppercase()), "motion [s]", "resident memory [MB]")
-        .line("", e.memory.iter().map(|m| (m.t, m.mb)))
-        .ranges((0.0, end), (0.0, 1.2 * top))
+    Figure::new(
+        format!("{} under {}", e.size, e.solver.to_uppercase()),
+        "motion [s]",
+        "resident memory [MB]",
+    )
+    .line("", e.memory.iter().map(|m| (m.t, m.mb)))
+    .ranges((0.0, end), (0.0, 1.2 * top))
 }
 
 /// The folder of reports: `benchmark` in Cargo's target folder.
@@ -325,4 +379,62 @@ pub fn write(folder: &Path, results: &Results) -> std::io::Result<()> {
     std::fs::write(folder.join("results.json"), json)?;
     std::fs::write(folder.join("REPORT.md"), results.markdown())?;
     std::fs::write(folder.join("report.html"), results.html())
+}
+
+/// What the block of a file that [`update`] fills stands between.
+const MARKS: [&str; 2] = ["<!-- cargo benchmark -->\n", "<!-- end of cargo benchmark -->\n"];
+
+/// Puts the tables into the marked block of a file.
+///
+/// # Errors
+/// A sentence where the file cannot be read or written, or has no such block.
+pub fn update(file: &Path, results: &Results) -> Result<(), String> {
+    let wrong = |e: std::io::Error| format!("{}: {e}", file.display());
+    let text = std::fs::read_to_string(file).map_err(wrong)?;
+    let new = replaced(&text, &results.markdown())
+        .ok_or_else(|| format!("{} has no block {}", file.display(), MARKS[0].trim()))?;
+    std::fs::write(file, new).map_err(wrong)
+}
+
+fn replaced(text: &str, block: &str) -> Option<String> {
+    let (before, rest) = text.split_once(MARKS[0])?;
+    let (_, after) = rest.split_once(MARKS[1])?;
+    Some(format!("{before}{}\n{}\n\n{}{after}", MARKS[0], block.trim(), MARKS[1]))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn only_the_marked_block_is_replaced() {
+        let text = format!("a\n{}old\n{}b\n", MARKS[0], MARKS[1]);
+        let new = replaced(&text, "| new |\n").unwrap();
+        assert!(
+            new.starts_with("a\n")
+                && new.ends_with("b\n")
+                && new.contains("| new |")
+                && !new.contains("old")
+        );
+        assert_eq!(replaced(&new, "| new |"), Some(new.clone()));
+        assert_eq!(replaced("a", "b"), None);
+    }
+
+    #[test]
+    fn an_unconverged_step_and_a_wrong_peak_fail() {
+        let size = find("P1e2").unwrap();
+        let truth = size.newmark.unwrap();
+        let right = Measurement {
+            size: "P1e2".into(),
+            solver: "hht".into(),
+            steps: WHOLE,
+            isolator: truth.isolator,
+            roof: truth.roof,
+            ..Measurement::default()
+        };
+        let good = |m: Measurement| Results { frames: vec![m], ..Results::default() }.good();
+        assert!(good(right.clone()));
+        assert!(!good(Measurement { unconverged: 1, ..right.clone() }));
+        assert!(!good(Measurement { isolator: 1.001 * truth.isolator, ..right }));
+    }
 }

@@ -3,7 +3,8 @@
 use crate::clock::timed;
 use std::sync::Arc;
 use trilith::model::{
-    AfterEnd, Analysis, DynamicCase, Interpolation, Output, Quantity, StepControl, Table, TimeFunction,
+    AfterEnd, Analysis, DynamicCase, Interpolation, Output, Quantity, StepControl, Table,
+    TimeFunction,
 };
 use trilith::{Model, SolverKind};
 
@@ -19,8 +20,10 @@ pub struct Task {
     pub solver: SolverKind,
     /// Vectors of FNA; `None`: as the frame says.
     pub vectors: Option<usize>,
-    /// Output steps, one fixed step each.
+    /// Output steps.
     pub steps: usize,
+    /// Fixed steps in an output step.
+    pub substeps: usize,
     /// The motion starts there, s: later than 0 to be in strong motion from the first step on.
     pub offset: f64,
 }
@@ -58,7 +61,7 @@ impl Subject {
         let Analysis::Dynamic(dynamic) = &mut model.cases[case].analysis else {
             return Err("the last case of the frame is not dynamic".into());
         };
-        dynamic.solution.step = StepControl::Fixed { substeps: 1 };
+        dynamic.solution.step = StepControl::Fixed { substeps: task.substeps.max(1) };
         if task.vectors.is_some() {
             dynamic.solution.basis.vectors = task.vectors;
         }
@@ -90,7 +93,9 @@ fn motion(f: &TimeFunction, dt: f64, offset: f64, steps: usize) -> Result<TimeFu
     let first = (offset / dt).round() as usize;
     let even = |t: &[f64]| t.iter().enumerate().all(|(i, t)| (t / dt - i as f64).abs() < 1e-6);
     if !even(table.times()) || first + 1 >= samples.len() {
-        return Err("the motion is not sampled at the output step, or ends before the offset".into());
+        return Err(
+            "the motion is not sampled at the output step, or ends before the offset".into()
+        );
     }
     let mut values: Vec<f64> = samples[first..].iter().copied().cycle().take(steps + 1).collect();
     values[0] = 0.0;
@@ -125,7 +130,13 @@ mod tests {
     #[test]
     fn the_motion_starts_at_the_offset_and_repeats() {
         let text = Frame { duration: 1.0, ..Frame::default() }.to_ron();
-        let task = Task { solver: SolverKind::Fna, vectors: Some(5), steps: 300, offset: 0.25 };
+        let task = Task {
+            solver: SolverKind::Fna,
+            vectors: Some(5),
+            steps: 300,
+            substeps: 1,
+            offset: 0.25,
+        };
         let whole = Subject::new(&text, Task { steps: 200, offset: 0.0, ..task }).unwrap();
         let part = Subject::new(&text, task).unwrap();
         let values = |s: &Subject| match &s.model.functions[0].function {

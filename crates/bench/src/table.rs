@@ -29,7 +29,8 @@ impl Table {
         for line in lines() {
             for (c, (cell, w)) in line.iter().zip(&widths).enumerate() {
                 let pad = " ".repeat(w - cell.chars().count());
-                let _ = if c == 0 { write!(out, "{cell}{pad}") } else { write!(out, "  {pad}{cell}") };
+                let _ =
+                    if c == 0 { write!(out, "{cell}{pad}") } else { write!(out, "  {pad}{cell}") };
             }
             out.truncate(out.trim_end().len());
             out.push('\n');
@@ -39,7 +40,8 @@ impl Table {
 
     /// As Markdown.
     pub fn markdown(&self) -> String {
-        let mut out = format!("| {} |\n|{}\n", self.head.join(" | "), "---|".repeat(self.head.len()));
+        let mut out =
+            format!("| {} |\n|{}\n", self.head.join(" | "), "---|".repeat(self.head.len()));
         for row in &self.rows {
             let _ = writeln!(out, "| {} |", row.join(" | "));
         }
