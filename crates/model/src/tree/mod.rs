@@ -187,13 +187,11 @@ fn child(text: &str, raw: &RawValue) -> Result<Node, TreeError> {
         Some(part) => part,
         // `trim` trusts that the text is RON by itself; one that leans on an extension which the file
         // enables is not.
-        None => RawValue::from_ron(raw.get_ron())
-            .map(|r| r.trim().get_ron())
-            .map_err(|e| {
-                let start = offset(text, raw.get_ron()).unwrap_or(0);
-                let span = start..start + raw.get_ron().len();
-                TreeError { code: "E0101", message: e.code.to_string(), span, related: None }
-            })?,
+        None => RawValue::from_ron(raw.get_ron()).map(|r| r.trim().get_ron()).map_err(|e| {
+            let start = offset(text, raw.get_ron()).unwrap_or(0);
+            let span = start..start + raw.get_ron().len();
+            TreeError { code: "E0101", message: e.code.to_string(), span, related: None }
+        })?,
     };
     let start = offset(text, part).unwrap_or(0);
     if let Some(node) = numeric::read(part, start) {
