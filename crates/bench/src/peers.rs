@@ -71,10 +71,11 @@ pub struct SideBySide {
 type Ratio = (&'static str, fn(&Pair) -> (f64, f64));
 
 /// The ratios, by name: how often ours fits into theirs.
-pub const RATIOS: [Ratio; 7] = [
+pub const RATIOS: [Ratio; 8] = [
     ("FNA step v. Newton", |p| (p.newton.step_s, p.fna.step_s)),
     ("FNA step v. tuned", |p| (p.tuned.step_s, p.fna.step_s)),
     ("FNA whole run v. Newton", |p| (p.newton.whole_s(), p.fna.whole_s)),
+    ("the same with reading the file", |p| (p.newton.whole_s(), p.fna.parse_s + p.fna.whole_s)),
     ("FNA whole run v. tuned", |p| (p.tuned.whole_s(), p.fna.whole_s)),
     ("HHT step v. Newton", |p| (p.newton.step_s, p.hht.step_s)),
     ("HHT step v. tuned", |p| (p.tuned.step_s, p.hht.step_s)),

@@ -223,7 +223,7 @@ impl Results {
         if !self.frames.is_empty() {
             let note = format!(
                 "CPU times, one thread. Step: mean over the march with the peaks of all isolators kept, one fixed step \
-                 each 5 ms. Whole run: reading, assembly, set-up and {WHOLE} steps (where fewer ran: {WHOLE} times the \
+                 each 5 ms. Whole run: assembly, set-up and {WHOLE} steps (where fewer ran: {WHOLE} times the \
                  mean step). {SOURCE}. FNA must hold isolators to 0.1 % and roof to 1 %, HHT both to 1e-6."
             );
             parts.push(("What a run costs", note, vec![self.costs(), self.quality()]));
