@@ -180,7 +180,7 @@ mod tests {
             assert!((value.as_f64().unwrap() / wanted - 1.0).abs() < 1e-9, "{value} {wanted}");
         };
         // Known from an independent program; the column stands along Z with its depth along X.
-        close(&json["bearings"][0]["fy"], 37_015.5825);
+        close(&json["bearings"][0]["fy"], 37_015.582_5);
         close(&json["bearings"][0]["k"], 37_015_582.5);
         close(&json["springs"][0]["k"][2], 616_926_375.0);
         close(&json["springs"][0]["k"][0], 246_770.55);

@@ -20,8 +20,9 @@ pub(super) fn solution(c: &Context<'_>, fields: &Fields<'_>) -> Option<Solution>
         let all = [Kernel::Newton, Kernel::FixedPoint];
         c.choice(n, "kernel", &["Newton", "FixedPoint"]).map(|i| all[i])
     });
-    let share =
-        |name: &str, plain: f64| fields.get(name).map_or(Some(plain), |n| tolerance(c, n, name));
+    let share = |name: &str, plain: f64| {
+        fields.get(name).map_or(Some(plain), |n| tolerance(c, n, name))
+    };
     let link_tolerance = share("link_tolerance", plain.link_tolerance);
     let energy_limit = share("energy_limit", plain.energy_limit);
     let basis = fields.get("basis").map_or(Some(plain.basis), |n| basis(c, n));
