@@ -75,7 +75,7 @@ fn own(dependencies: Vec<String>) -> Vec<String> {
 
 #[test]
 fn dependencies_point_one_way() {
-    const LAYERS: [(&str, &[&str]); 9] = [
+    const LAYERS: [(&str, &[&str]); 10] = [
         ("trilith-element", &[]),
         ("trilith-linalg", &[]),
         ("trilith-elements", &["trilith-element"]),
@@ -93,6 +93,7 @@ fn dependencies_point_one_way() {
             "trilith-report",
             &["trilith-element", "trilith-model", "trilith-solvers", "trilith-results"],
         ),
+        ("trilith-bench", &["trilith", "trilith-linalg", "trilith-report"]),
         ("trilith-thirdparty-example", &["trilith-element", "trilith", "trilith-cli"]),
     ];
     let all = manifests();
@@ -100,6 +101,16 @@ fn dependencies_point_one_way() {
         let Some(manifest) = all.get(package) else { continue };
         for d in own(dependencies(manifest, normal)) {
             assert!(allowed.contains(&d.as_str()), "{package} must not depend on {d}");
+        }
+    }
+}
+
+#[test]
+fn nothing_leans_on_measurements() {
+    for (package, manifest) in manifests() {
+        for d in dependencies(&manifest, any) {
+            let measures = ["trilith-bench", "trilith-validation"].contains(&d.as_str());
+            assert!(!measures, "{package} must not depend on {d}");
         }
     }
 }

@@ -57,7 +57,7 @@ pub(crate) struct RunArguments {
     /// Folder for the results [default: out/<name of the model file>]
     #[arg(long, value_name = "DIR")]
     pub out: Option<PathBuf>,
-    /// Write no files
+    /// Write no files; no histories are kept then, and memory does not grow with the length of the run
     #[arg(long, conflicts_with_all = ["out", "checkpoint_at"])]
     pub no_files: bool,
     /// Stop at this time (s) and write `checkpoint.json` into the folder

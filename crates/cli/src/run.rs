@@ -27,7 +27,9 @@ pub(crate) fn run(registry: &Registry, args: RunArguments) -> Result<Answer, Fai
             progress: Some(&mut show),
         };
         Analysis::new(&model)
-            .and_then(|a| a.with_frames(frames).run(options))
+            .map(|a| a.with_frames(frames))
+            .map(|a| if args.no_files { a.without_histories() } else { a })
+            .and_then(|a| a.run(options))
             .map_err(|e| Failure::of(&e, &model))?
     };
     let summary = run.summary(&model);

@@ -289,7 +289,7 @@ impl<const R: usize> WithSimd for AddDots<'_, R> {
 
     #[inline(always)]
     fn with_simd<S: Simd>(self, simd: S) {
-        let Self { a, s, x, mut y } = self;
+        let Self { a, s, x, y } = self;
         let (n, columns) = (x[0].len(), y[0].len());
         let mut j = 0;
         while j + 4 <= columns {

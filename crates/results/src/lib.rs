@@ -1,12 +1,13 @@
 //! What a run leaves behind: histories, peaks and files.
 //!
-//! [`Recorder`] watches a run. [`Summary`] is `summary.json`, [`Files`] writes it together with
+//! [`Recorder`] watches a run, [`Envelope`] keeps its extremes only. [`Summary`] is `summary.json`, [`Files`] writes it together with
 //! `histories.csv`, `histories.npz` and frames for ParaView.
 //!
 //! Peaks are those of all accepted substeps, not of the output times only, and where the time
 //! derivative of an output is known they are those of the cubic Hermite polynomial between substeps.
 
 mod csv;
+mod envelope;
 mod error;
 mod files;
 mod frames;
@@ -18,6 +19,7 @@ mod summary;
 mod tests;
 mod vtk;
 
+pub use envelope::Envelope;
 pub use error::FileError;
 pub use files::Files;
 pub use frames::{Frame, Frames};

@@ -1,6 +1,6 @@
 //! Records what the model asks for.
 
-use crate::{Frames, Peak};
+use crate::{Envelope, Frames, Peak};
 use trilith_model::Model;
 use trilith_solvers::{EnergyTotals, Observer, Sample};
 
@@ -26,10 +26,9 @@ pub struct Recorder {
     time: Vec<f64>,
     histories: Vec<Vec<f64>>,
     energy: [Vec<f64>; ENERGIES.len()],
-    peaks: Vec<Peak>,
+    envelope: Envelope,
     frames: Frames,
-    /// Time, values and rates of the sample before.
-    before: Option<(f64, Vec<f64>, Vec<f64>)>,
+    keeps_histories: bool,
 }
 
 impl Recorder {
@@ -40,10 +39,17 @@ impl Recorder {
             time: Vec::new(),
             histories: vec![Vec::new(); model.outputs.len()],
             energy: Default::default(),
-            peaks: Vec::new(),
+            envelope: Envelope::new(),
             frames: Frames::new(model.nodes.len(), 0),
-            before: None,
+            keeps_histories: true,
         }
+    }
+
+    /// Keeps no histories: memory then does not grow with the length of the run.
+    #[must_use]
+    pub fn without_histories(mut self) -> Self {
+        self.keeps_histories = false;
+        self
     }
 
     /// Keeps up to `limit` deformed shapes as well, evenly spaced in time.
@@ -74,7 +80,7 @@ impl Recorder {
     /// Extremes of the outputs in the model's order; empty where nothing was recorded.
     #[must_use]
     pub fn peaks(&self) -> &[Peak] {
-        &self.peaks
+        self.envelope.peaks()
     }
 
     /// The deformed shapes.
@@ -82,31 +88,16 @@ impl Recorder {
     pub fn frames(&self) -> &Frames {
         &self.frames
     }
-
-    fn peak(&mut self, s: &Sample<'_>) {
-        match &mut self.before {
-            None => {
-                self.peaks = s.values.iter().map(|y| Peak::new(s.t, *y)).collect();
-                self.before = Some((s.t, s.values.to_vec(), s.rates.to_vec()));
-            }
-            Some((t, values, rates)) => {
-                let from = values.iter().zip(rates.iter());
-                let to = s.values.iter().zip(s.rates);
-                for (peak, ((y0, r0), (y1, r1))) in self.peaks.iter_mut().zip(from.zip(to)) {
-                    peak.advance((*t, *y0, *r0), (s.t, *y1, *r1));
-                }
-                *t = s.t;
-                values.copy_from_slice(s.values);
-                rates.copy_from_slice(s.rates);
-            }
-        }
-    }
 }
 
 impl Observer for Recorder {
     fn sample(&mut self, s: &Sample<'_>) {
-        self.peak(s);
+        self.envelope.sample(s);
         let Some(step) = s.output_step else { return };
+        self.frames.take(step, s.t, s.shape);
+        if !self.keeps_histories {
+            return;
+        }
         self.time.push(s.t);
         for (history, y) in self.histories.iter_mut().zip(s.values) {
             history.push(*y);
@@ -114,7 +105,6 @@ impl Observer for Recorder {
         for (history, e) in self.energy.iter_mut().zip(energies(s.energy)) {
             history.push(e);
         }
-        self.frames.take(step, s.t, s.shape);
     }
 }
 

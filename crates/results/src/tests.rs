@@ -1,6 +1,6 @@
 //! A made-up run, written and read back.
 
-use crate::{ENERGIES, Files, Recorder, Summary};
+use crate::{ENERGIES, Envelope, Files, Recorder, Summary};
 use std::collections::BTreeSet;
 use std::io::Read;
 use trilith_model::{Model, Registry, read_text};
@@ -36,7 +36,10 @@ impl Shape for Lifted {
 
 /// Two substeps per output step; the output jumps up between output times.
 fn record(model: &Model) -> Recorder {
-    let mut recorder = Recorder::new(model).with_frames(model, 5);
+    shown(Recorder::new(model).with_frames(model, 5))
+}
+
+fn shown<T: Observer>(mut recorder: T) -> T {
     for i in 0..=20 {
         let t = 0.05 * f64::from(i);
         let energy = EnergyTotals { input: t, ..EnergyTotals::default() };
@@ -92,6 +95,16 @@ fn peaks_are_those_of_all_substeps() {
     assert!((peak.t_max - 0.35).abs() < 1e-12);
     assert_eq!((record.time().len(), record.history(0).unwrap().len()), (11, 11));
     assert!(record.history(0).unwrap().iter().all(|y| *y < 1.0));
+}
+
+#[test]
+fn without_histories_the_peaks_are_the_same() {
+    let model = model();
+    let (whole, bare) = (record(&model), shown(Recorder::new(&model).without_histories()));
+    assert_eq!(bare.peaks(), whole.peaks());
+    assert_eq!(shown(Envelope::new()).peaks(), whole.peaks());
+    assert!(bare.time().is_empty() && bare.history(0).is_some_and(<[f64]>::is_empty));
+    assert!(bare.energy().iter().all(Vec::is_empty));
 }
 
 #[test]

@@ -13,6 +13,7 @@ pub struct Analysis<'m> {
     model: &'m Model,
     system: System,
     frames: usize,
+    histories: bool,
 }
 
 impl<'m> Analysis<'m> {
@@ -22,13 +23,21 @@ impl<'m> Analysis<'m> {
     /// [`Error::Solve`] where its parts do not fit together, or where it buckles under the axial forces
     /// of its P-Δ case.
     pub fn new(model: &'m Model) -> Result<Self, Error> {
-        Ok(Self { model, system: trilith_solvers::assemble(model)?, frames: 0 })
+        Ok(Self { model, system: trilith_solvers::assemble(model)?, frames: 0, histories: true })
     }
 
     /// Keeps up to so many deformed shapes of every run, evenly spaced in time.
     #[must_use]
     pub fn with_frames(mut self, limit: usize) -> Self {
         self.frames = limit;
+        self
+    }
+
+    /// Keeps no histories, only the extremes of every output: the memory of a run then does not grow with
+    /// its length.
+    #[must_use]
+    pub fn without_histories(mut self) -> Self {
+        self.histories = false;
         self
     }
 
@@ -60,6 +69,9 @@ impl<'m> Analysis<'m> {
             return Err(Error::unknown_case(self.model, &format!("#{}", options.case)));
         }
         let mut record = Recorder::new(self.model).with_frames(self.model, self.frames);
+        if !self.histories {
+            record = record.without_histories();
+        }
         let mut contact = ContactMode::new();
         let mut all: Vec<&mut dyn Observer> = vec![&mut record, &mut contact];
         for observer in observers {
@@ -93,7 +105,7 @@ pub struct Run {
 }
 
 impl Run {
-    /// The output times, s.
+    /// The output times, s; none where no histories were kept.
     #[must_use]
     pub fn time(&self) -> &[f64] {
         self.record.time()

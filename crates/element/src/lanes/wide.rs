@@ -26,7 +26,7 @@ pub struct WideMask {
 
 impl fmt::Debug for Wide {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.debug_list().entries(&self.x).finish()
+        f.debug_list().entries(self.x).finish()
     }
 }
 

@@ -3,15 +3,13 @@
 //! The parsing is done by `ron` alone: a `&RawValue` borrows from the text that is read, so its
 //! address tells where it stands.
 
+mod numeric;
 mod shape;
 
 use crate::Span;
 use ron::value::RawValue;
 use shape::{Key, Shape};
 use std::collections::HashMap;
-
-/// Keys that are compared one by one.
-const FEW: usize = 16;
 
 /// A value of the file.
 #[derive(Clone, Debug)]
@@ -176,13 +174,30 @@ fn offset(text: &str, part: &str) -> Option<usize> {
     (at <= text.len() && at + part.len() <= text.len()).then_some(at)
 }
 
+/// A raw value without the blanks and comments around it; `None` where only a parser can tell.
+fn bare(raw: &str) -> Option<&str> {
+    let body = raw[comments(raw)..].trim_end();
+    // A comment behind a value ends with `*/`, or with the line it is on.
+    let line = body.rfind('\n').map_or(body, |i| &body[i..]);
+    (!body.is_empty() && !body.ends_with("*/") && !line.contains("//")).then_some(body)
+}
+
 fn child(text: &str, raw: &RawValue) -> Result<Node, TreeError> {
-    let part = trimmed(text, raw)?;
+    let part = match bare(raw.get_ron()) {
+        Some(part) => part,
+        // `trim` trusts that the text is RON by itself; one that leans on an extension which the file
+        // enables is not.
+        None => RawValue::from_ron(raw.get_ron()).map(|r| r.trim().get_ron()).map_err(|e| {
+            let start = offset(text, raw.get_ron()).unwrap_or(0);
+            let span = start..start + raw.get_ron().len();
+            TreeError { code: "E0101", message: e.code.to_string(), span, related: None }
+        })?,
+    };
     let start = offset(text, part).unwrap_or(0);
-    let span = start..start + part.len();
-    if let Some(kind) = plain(part) {
-        return Ok(Node { span, kind });
+    if let Some(node) = numeric::read(part, start) {
+        return Ok(node);
     }
+    let span = start..start + part.len();
     let shape = options().from_str::<Shape<'_>>(part).map_err(|e| TreeError {
         code: "E0101",
         message: e.code.to_string(),
@@ -190,45 +205,6 @@ fn child(text: &str, raw: &RawValue) -> Result<Node, TreeError> {
         related: None,
     })?;
     build(text, shape, span, part)
-}
-
-/// A value without the blanks and comments around it.
-fn trimmed<'a>(text: &str, raw: &'a RawValue) -> Result<&'a str, TreeError> {
-    let part = raw.get_ron().trim();
-    if !part.contains("//") && !part.contains("/*") {
-        return Ok(part);
-    }
-    // `trim` trusts that the text is RON by itself; one that leans on an extension which the file
-    // enables is not.
-    RawValue::from_ron(raw.get_ron()).map(|r| r.trim().get_ron()).map_err(|e| {
-        let start = offset(text, raw.get_ron()).unwrap_or(0);
-        let span = start..start + raw.get_ron().len();
-        TreeError { code: "E0101", message: e.code.to_string(), span, related: None }
-    })
-}
-
-/// A short decimal number or a text without escapes, which make up nearly all of a large file and need no
-/// parser of their own.
-fn plain(part: &str) -> Option<Kind> {
-    if let Some(inside) = part.strip_prefix('"').and_then(|p| p.strip_suffix('"')) {
-        let escapes = inside.bytes().any(|b| b == b'"' || b == b'\\');
-        return (!escapes).then(|| Kind::Text(inside.to_owned()));
-    }
-    let digits = part.strip_prefix('-').unwrap_or(part);
-    let number = |b: u8| b.is_ascii_digit() || b == b'.' || b == b'e' || b == b'-';
-    let usual = digits.starts_with(|c: char| c.is_ascii_digit())
-        && digits.ends_with(|c: char| c.is_ascii_digit())
-        && digits.len() <= 24
-        && digits.bytes().all(number)
-        // Whole numbers of more digits, and those that start with 0, are for the parser to judge.
-        && (digits.contains('.') || (digits.len() < 16 && !digits.contains('e')))
-        && (digits.len() == 1 || !digits.starts_with('0') || digits.starts_with("0."))
-        && digits != "0";
-    match part {
-        "0" => Some(Kind::Number(0.0)),
-        _ if usual => part.parse().ok().map(Kind::Number),
-        _ => None,
-    }
 }
 
 /// The identifier that a value starts with.
@@ -261,7 +237,7 @@ fn build(text: &str, shape: Shape<'_>, span: Span, part: &str) -> Result<Node, T
         }
         Shape::Entries(entries) => {
             let mut out: Vec<Entry> = Vec::with_capacity(entries.len());
-            let mut places: HashMap<String, usize> = HashMap::new();
+            let mut places: HashMap<String, usize> = HashMap::with_capacity(entries.len());
             for (key, raw) in entries {
                 let value = child(text, raw)?;
                 let key_span = match &key {
@@ -271,25 +247,13 @@ fn build(text: &str, shape: Shape<'_>, span: Span, part: &str) -> Result<Node, T
                     Key::Owned(_) => value.span.clone(),
                 };
                 let key = key.into_string();
-                // Few keys are found faster one by one.
-                let first = if out.len() < FEW {
-                    out.iter().find(|e| e.key == key)
-                } else {
-                    if places.is_empty() {
-                        places.extend(out.iter().enumerate().map(|(i, e)| (e.key.clone(), i)));
-                    }
-                    places.get(&key).map(|i| &out[*i])
-                };
-                if let Some(first) = first {
+                if let Some(first) = places.insert(key.clone(), out.len()).map(|i| &out[i]) {
                     return Err(TreeError {
                         code: "E0102",
                         message: format!("`{key}` is given twice"),
                         span: key_span,
                         related: Some(first.key_span.clone()),
                     });
-                }
-                if out.len() >= FEW {
-                    places.insert(key.clone(), out.len());
                 }
                 out.push(Entry { key, key_span, value });
             }

@@ -2,15 +2,10 @@
 
 use super::rule::{Mode, mode, stiffness_ratio};
 use super::tables::{Grid, Table, Tables};
-use crate::basis;
-use crate::case::{RunOptions, constant_load, run};
-use crate::damping::modal_damping;
-use crate::dynamic::basis_loads;
+use crate::case::before;
+use crate::dynamic::{bases, held_load, link_side, modes};
 use crate::error::SolveError;
-use crate::kernel::LinkKernel;
-use crate::link_side::LinkSide;
 use crate::modal::{LONGEST, Modal};
-use crate::observe::Status;
 use crate::outputs::{Outputs, Row};
 use crate::propagator::kinetic_and_strain;
 use crate::space::Space;
@@ -22,9 +17,7 @@ use std::sync::Arc;
 use trilith_element::lanes::LaneForm;
 use trilith_element::{Contact, Kinematics};
 use trilith_linalg::{Dense, Sparse, symmetric_eigen};
-use trilith_model::{
-    Analysis, Damping, DynamicCase, Kernel, Model, Quantity, SolverKind, StepControl,
-};
+use trilith_model::{Analysis, DynamicCase, Kernel, Model, Quantity, SolverKind, StepControl};
 use trilith_system::{System, Track};
 
 /// What must be equal for analyses to go side by side.
@@ -142,40 +135,16 @@ pub fn prepare(
     if let Some(reason) = unsuited(system, analysis) {
         return Ok(Err(reason));
     }
-    system.check_supported(model, true)?;
-    let before = match model.cases[case].after {
-        Some(earlier) => {
-            let options = RunOptions { case: earlier, ..RunOptions::default() };
-            let result = run(model, system, options, &mut [])?;
-            if let Status::NotConverged { .. } | Status::Overturned { .. } = result.status {
-                return Err(SolveError::Predecessor {
-                    case: result.case,
-                    reason: result.status.text(),
-                });
-            }
-            Some(result.end)
-        }
-        None => None,
-    };
-    let mut constant = constant_load(model, system, &analysis.constant);
-    for (x, y) in constant.iter_mut().zip(before.iter().flat_map(|end| &end.load)) {
-        *x += y;
-    }
+    let case = &model.cases[case];
+    let before = before(model, system, case, None)?;
+    let constant = held_load(model, system, analysis, before.as_ref());
     let loads = system.dynamic_loads(model, analysis, constant);
-    let directions = basis_loads(model, analysis, &loads);
-    let bases = basis::build(model, system, &analysis.solution.basis, &directions)?;
-    let modal = matches!(model.damping, Damping::Modal { .. } | Damping::ModalTable { .. });
-    let damping = if modal { modal_damping(model, system, &bases) } else { None };
-    let physical = Space::physical(system, &loads, &system.links.effective, damping);
-    let dummies = physical.dummy_k.clone();
-    let kernel = LinkKernel::new(model, &system.links, &analysis.solution, dummies);
-    let reduced = Space::reduced(&physical, &bases.stepping);
-    let side = LinkSide::new(model, system, &loads, kernel, reduced.order());
-    let active: Vec<f64> = {
-        let engaged = system.links.engaged(model);
-        system.links.active.iter().map(|i| engaged[*i]).collect()
+    let Some(bases) = bases(model, system, analysis, SolverKind::Fna, &loads)? else {
+        return Ok(Err("no basis"));
     };
-    let mut stepper = LinkStepper::new(Modal::new(reduced, active), side);
+    let modes = modes(model, system, &loads, &bases);
+    let side = link_side(model, system, &analysis.solution, &loads, modes.space.order());
+    let mut stepper = LinkStepper::new(Modal::new(modes), side);
     let dt = analysis.dt;
     let (state, _, _, _) = start(model, system, analysis, before, &loads, &mut stepper, dt)?;
     let space = stepper.space();
@@ -221,12 +190,7 @@ pub fn prepare(
     if stiffness_ratio(&rows, &rule, &engaged) > LONGEST {
         return Ok(Err("steps too long for the exact rule at the stiffest link"));
     }
-    let timeline = Timeline {
-        dt,
-        steps: ((analysis.duration / dt) - 1e-9).ceil().max(1.0) as usize,
-        duration: analysis.duration,
-        breaks: loads.breaks(analysis.duration),
-    };
+    let timeline = Timeline::new(dt, analysis.duration, &loads);
     let grid = Grid { dt, steps: timeline.steps, substeps };
     let first = usize::from(loads.channels.iter().any(|c| matches!(c.track, Track::Constant)));
     let base: Vec<usize> = analysis.base.iter().map(|b| b.direction.index()).collect();

@@ -1,0 +1,106 @@
+//! `cargo bench -p trilith-bench`: what a law answers in, and a step of the smallest frame.
+
+use criterion::{Criterion, criterion_group, criterion_main};
+use std::hint::black_box;
+use std::time::{Duration, Instant};
+use trilith::element::{Energy, Kinematics, Link, Response};
+use trilith::model::Body;
+use trilith::{Analysis, RunOptions, SolverKind};
+use trilith_bench::{Gauge, Subject, Task, find};
+
+/// A link led around a circle that slides all the time.
+fn law(c: &mut Criterion, name: &str, link: &dyn Link) {
+    let n = link.coordinates().len();
+    let mut committed = vec![0.0; link.history().len()];
+    let mut trial = committed.clone();
+    let (mut f, mut k, mut damping) = (vec![0.0; n], vec![0.0; n * n], vec![0.0; n * n]);
+    let at = |i: usize| {
+        let mut d = vec![0.0; n];
+        let phase = 0.01 * i as f64;
+        // Pressed together, where there is a normal direction.
+        d[0] = -1e-3;
+        (d[n - 2], d[n - 1]) = (0.05 * phase.cos(), 0.05 * phase.sin());
+        d
+    };
+    let path: Vec<Vec<f64>> = (0..629).map(at).collect();
+    let v = vec![0.0; n];
+    let mut i = 0;
+    c.bench_function(name, |b| {
+        b.iter(|| {
+            let (d0, d) = (&path[i % 629], &path[(i + 1) % 629]);
+            i += 1;
+            k.fill(0.0);
+            damping.fill(0.0);
+            let mut energy = Energy::default();
+            let mut out = Response { f: &mut f, k: &mut k, c: &mut damping, energy: &mut energy };
+            let at = Kinematics { d: black_box(d), v: &v, d0, v0: &v, dt: 1e-3 };
+            link.respond(&at, &committed, &mut trial, &mut out);
+            std::mem::swap(&mut committed, &mut trial);
+            energy.hysteretic
+        });
+    });
+}
+
+const LINKS: &str = r#"(
+    nodes: { "a": (0, 0, 0) },
+    elements: {
+        "ElastomericBearing, sliding": ElastomericBearing(node: "a", k: "10 MN/m", fy: "100 kN", ratio: 0.1),
+        "NLink, sliding": NLink(node: "a", kn: "5e8 N/m", ks: "5e8 N/m", mu: 0.5, damping: "1e6 N*s/m"),
+    },
+)"#;
+
+fn laws(c: &mut Criterion) {
+    let model = trilith::read_text(LINKS, "links.ron", &trilith::registry(), &[]);
+    let model = model.unwrap_or_else(|e| panic!("{e:?}"));
+    for e in &model.elements {
+        if let Body::Link(link, _) = &e.body {
+            law(c, &e.name, link.as_ref());
+        }
+    }
+}
+
+/// Time of `steps` steps: the marches of whole runs are put together.
+fn step(c: &mut Criterion, name: &str, solver: SolverKind) {
+    const STEPS: usize = 1600;
+    let Some(size) = find("P1e2") else { return };
+    let task = Task { solver, vectors: None, steps: STEPS, substeps: 1, offset: 4.0 };
+    let Ok(subject) = Subject::new(&size.frame().to_ron(), task) else { return };
+    let Ok(analysis) = Analysis::new(&subject.model) else { return };
+    let march = || {
+        let (mut made, mut start, mut spent) = (0, Instant::now(), Duration::ZERO);
+        let mut progress = |_share: f64| {
+            made += 1;
+            match made {
+                1 => start = Instant::now(),
+                STEPS => spent = start.elapsed(),
+                _ => {}
+            }
+        };
+        let options = RunOptions {
+            case: subject.case,
+            solver: Some(solver),
+            progress: Some(&mut progress),
+            ..RunOptions::default()
+        };
+        let mut gauge = Gauge::default();
+        let run =
+            trilith::solvers::run(&subject.model, analysis.system(), options, &mut [&mut gauge]);
+        black_box(run.is_ok());
+        spent.as_secs_f64() / (STEPS - 1) as f64
+    };
+    c.bench_function(name, |b| {
+        b.iter_custom(|steps| {
+            let runs = steps.div_ceil(STEPS as u64).max(1);
+            let mean = (0..runs).map(|_| march()).sum::<f64>() / runs as f64;
+            Duration::from_secs_f64(mean * steps as f64)
+        });
+    });
+}
+
+fn steps(c: &mut Criterion) {
+    step(c, "FNA step of P1e2", SolverKind::Fna);
+    step(c, "HHT step of P1e2", SolverKind::Hht);
+}
+
+criterion_group!(all, laws, steps);
+criterion_main!(all);

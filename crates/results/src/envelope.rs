@@ -1,0 +1,48 @@
+//! Extremes without histories.
+
+use crate::Peak;
+use trilith_solvers::{Observer, Sample};
+
+/// Watches a run and keeps the extremes of every output, their times and the last values: its memory
+/// does not grow with the length of the run.
+#[derive(Clone, Debug, Default)]
+pub struct Envelope {
+    peaks: Vec<Peak>,
+    /// Time, values and rates of the sample before.
+    before: Option<(f64, Vec<f64>, Vec<f64>)>,
+}
+
+impl Envelope {
+    /// Nothing seen yet.
+    #[must_use]
+    pub fn new() -> Self {
+        Self::default()
+    }
+
+    /// Extremes of the outputs in the model's order; empty where nothing was seen.
+    #[must_use]
+    pub fn peaks(&self) -> &[Peak] {
+        &self.peaks
+    }
+}
+
+impl Observer for Envelope {
+    fn sample(&mut self, s: &Sample<'_>) {
+        match &mut self.before {
+            None => {
+                self.peaks = s.values.iter().map(|y| Peak::new(s.t, *y)).collect();
+                self.before = Some((s.t, s.values.to_vec(), s.rates.to_vec()));
+            }
+            Some((t, values, rates)) => {
+                let from = values.iter().zip(rates.iter());
+                let to = s.values.iter().zip(s.rates);
+                for (peak, ((y0, r0), (y1, r1))) in self.peaks.iter_mut().zip(from.zip(to)) {
+                    peak.advance((*t, *y0, *r0), (s.t, *y1, *r1));
+                }
+                *t = s.t;
+                values.copy_from_slice(s.values);
+                rates.copy_from_slice(s.rates);
+            }
+        }
+    }
+}
