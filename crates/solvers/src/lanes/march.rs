@@ -237,7 +237,7 @@ impl<R: Real, const M: usize, const L: usize, const N: usize> Plan<R, M, L, N> {
                     let same = |s: &&LaneSetup| {
                         s.tables[c].as_ref().is_some_and(|(t, _)| Arc::ptr_eq(t, table))
                     };
-                    if setups.iter().all(|s| same(s)) {
+                    if setups.iter().all(same) {
                         let size = get(&|s| s.tables[c].as_ref().map_or(0.0, |t| t.1));
                         Source::Shared(Arc::clone(table), size)
                     } else {
