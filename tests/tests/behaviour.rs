@@ -278,8 +278,8 @@ fn an_open_contact_closes_under_a_weight() {
     }
 }
 
-/// A block at rest, and one that slides and comes to rest again, take about the steps that were asked for (each
-/// made once whole and twice by halves), however stiff the contact: 1e12 N/m is ω Δt = 22 here.
+/// A block at rest, and one that slides and comes to rest again, take about the steps that were asked for (two
+/// substeps each, and some where it starts and stops), however stiff the contact: 1e12 N/m is ω Δt = 22 here.
 #[test]
 fn a_stiff_contact_at_rest_or_in_steady_sliding_costs_no_substeps() {
     for stiffness in ["1e8", "1e10", "1e12"] {
@@ -294,7 +294,8 @@ fn a_stiff_contact_at_rest_or_in_steady_sliding_costs_no_substeps() {
             for solver in [SolverKind::Fna, SolverKind::Hht] {
                 let (_, result) = trace(&model, &system, solver);
                 let share = result.work.substeps as f64 / result.work.steps as f64;
-                assert!(share < 3.0, "{stiffness} N/m, {ah} g, {}: {share}", solver.name());
+                let most = if ah == "0.05" { 2.6 } else { 4.0 };
+                assert!(share < most, "{stiffness} N/m, {ah} g, {}: {share}", solver.name());
             }
         }
     }

@@ -44,11 +44,12 @@ fn add_four<S: Simd>(simd: S, t: [f64; 4], c: [&[f64]; 4], y: &mut [f64]) {
         let sum = simd.mul_add_e_f64s(w2, *c, sum);
         *y = simd.mul_add_e_f64s(w3, *d, sum);
     }
-    for ((((y, a), b), c), d) in e.iter_mut().zip(e0).zip(e1).zip(e2).zip(e3) {
-        *y += t0 * a;
-        *y += t1 * b;
-        *y += t2 * c;
-        *y += t3 * d;
+    if !e.is_empty() {
+        let sum = simd.mul_add_e_f64s(w0, simd.partial_load_f64s(e0), simd.partial_load_f64s(e));
+        let sum = simd.mul_add_e_f64s(w1, simd.partial_load_f64s(e1), sum);
+        let sum = simd.mul_add_e_f64s(w2, simd.partial_load_f64s(e2), sum);
+        let sum = simd.mul_add_e_f64s(w3, simd.partial_load_f64s(e3), sum);
+        simd.partial_store_f64s(e, sum);
     }
 }
 
@@ -76,13 +77,17 @@ fn add_four_pair<S: Simd>(simd: S, t: [[f64; 4]; 2], c: [&[f64]; 4], y: [&mut [f
         *y = simd.mul_add_e_f64s(w3, *d, sum);
         *z = simd.mul_add_e_f64s(v3, *d, other);
     }
-    for (((((y, z), a), b), c), d) in e.iter_mut().zip(f).zip(e0).zip(e1).zip(e2).zip(e3) {
-        for (x, t) in [(y, [t0, t1, t2, t3]), (z, [u0, u1, u2, u3])] {
-            *x += t[0] * a;
-            *x += t[1] * b;
-            *x += t[2] * c;
-            *x += t[3] * d;
-        }
+    if !e.is_empty() {
+        let (a, b) = (simd.partial_load_f64s(e0), simd.partial_load_f64s(e1));
+        let (c, d) = (simd.partial_load_f64s(e2), simd.partial_load_f64s(e3));
+        let sum = simd.mul_add_e_f64s(w0, a, simd.partial_load_f64s(e));
+        let other = simd.mul_add_e_f64s(v0, a, simd.partial_load_f64s(f));
+        let sum = simd.mul_add_e_f64s(w1, b, sum);
+        let other = simd.mul_add_e_f64s(v1, b, other);
+        let sum = simd.mul_add_e_f64s(w2, c, sum);
+        let other = simd.mul_add_e_f64s(v2, c, other);
+        simd.partial_store_f64s(e, simd.mul_add_e_f64s(w3, d, sum));
+        simd.partial_store_f64s(f, simd.mul_add_e_f64s(v3, d, other));
     }
 }
 
@@ -95,8 +100,9 @@ fn add_one<S: Simd>(simd: S, t: f64, c: &[f64], y: &mut [f64]) {
     for (y, c) in y.iter_mut().zip(c) {
         *y = simd.mul_add_e_f64s(w, *c, *y);
     }
-    for (y, c) in e.iter_mut().zip(tail) {
-        *y += t * c;
+    if !e.is_empty() {
+        let sum = simd.mul_add_e_f64s(w, simd.partial_load_f64s(tail), simd.partial_load_f64s(e));
+        simd.partial_store_f64s(e, sum);
     }
 }
 
@@ -200,19 +206,19 @@ fn dot_four<S: Simd>(simd: S, c: [&[f64]; 4], x: &[f64]) -> [f64; 4] {
         s2 = simd.mul_add_e_f64s(*c, *x, s2);
         s3 = simd.mul_add_e_f64s(*d, *x, s3);
     }
-    let mut sums = [
+    if !e.is_empty() {
+        let x = simd.partial_load_f64s(e);
+        s0 = simd.mul_add_e_f64s(simd.partial_load_f64s(e0), x, s0);
+        s1 = simd.mul_add_e_f64s(simd.partial_load_f64s(e1), x, s1);
+        s2 = simd.mul_add_e_f64s(simd.partial_load_f64s(e2), x, s2);
+        s3 = simd.mul_add_e_f64s(simd.partial_load_f64s(e3), x, s3);
+    }
+    [
         simd.reduce_sum_f64s(s0),
         simd.reduce_sum_f64s(s1),
         simd.reduce_sum_f64s(s2),
         simd.reduce_sum_f64s(s3),
-    ];
-    for ((((x, a), b), c), d) in e.iter().zip(e0).zip(e1).zip(e2).zip(e3) {
-        sums[0] += a * x;
-        sums[1] += b * x;
-        sums[2] += c * x;
-        sums[3] += d * x;
-    }
-    sums
+    ]
 }
 
 /// The same with two vectors at once.
@@ -237,29 +243,32 @@ fn dot_four_pair<S: Simd>(simd: S, c: [&[f64]; 4], x: [&[f64]; 2]) -> [[f64; 4];
         t2 = simd.mul_add_e_f64s(*c, *y, t2);
         t3 = simd.mul_add_e_f64s(*d, *y, t3);
     }
-    let mut sums = [
-        [
-            simd.reduce_sum_f64s(s0),
-            simd.reduce_sum_f64s(s1),
-            simd.reduce_sum_f64s(s2),
-            simd.reduce_sum_f64s(s3),
-        ],
-        [
-            simd.reduce_sum_f64s(t0),
-            simd.reduce_sum_f64s(t1),
-            simd.reduce_sum_f64s(t2),
-            simd.reduce_sum_f64s(t3),
-        ],
-    ];
-    for (((((x, y), a), b), c), d) in f0.iter().zip(f1).zip(e0).zip(e1).zip(e2).zip(e3) {
-        for (sum, z) in sums.iter_mut().zip([x, y]) {
-            sum[0] += a * z;
-            sum[1] += b * z;
-            sum[2] += c * z;
-            sum[3] += d * z;
-        }
+    if !f0.is_empty() {
+        let (a, b) = (simd.partial_load_f64s(e0), simd.partial_load_f64s(e1));
+        let (c, d) = (simd.partial_load_f64s(e2), simd.partial_load_f64s(e3));
+        let (x, y) = (simd.partial_load_f64s(f0), simd.partial_load_f64s(f1));
+        s0 = simd.mul_add_e_f64s(a, x, s0);
+        s1 = simd.mul_add_e_f64s(b, x, s1);
+        s2 = simd.mul_add_e_f64s(c, x, s2);
+        s3 = simd.mul_add_e_f64s(d, x, s3);
+        t0 = simd.mul_add_e_f64s(a, y, t0);
+        t1 = simd.mul_add_e_f64s(b, y, t1);
+        t2 = simd.mul_add_e_f64s(c, y, t2);
+        t3 = simd.mul_add_e_f64s(d, y, t3);
     }
-    sums
+    let first = [
+        simd.reduce_sum_f64s(s0),
+        simd.reduce_sum_f64s(s1),
+        simd.reduce_sum_f64s(s2),
+        simd.reduce_sum_f64s(s3),
+    ];
+    let second = [
+        simd.reduce_sum_f64s(t0),
+        simd.reduce_sum_f64s(t1),
+        simd.reduce_sum_f64s(t2),
+        simd.reduce_sum_f64s(t3),
+    ];
+    [first, second]
 }
 
 /// Dot of one column with one vector.
@@ -270,11 +279,10 @@ fn dot_one<S: Simd>(simd: S, c: &[f64], x: &[f64]) -> f64 {
     for (c, x) in c.iter().zip(x) {
         s = simd.mul_add_e_f64s(*c, *x, s);
     }
-    let mut sum = simd.reduce_sum_f64s(s);
-    for (c, x) in e.iter().zip(f) {
-        sum += c * x;
+    if !f.is_empty() {
+        s = simd.mul_add_e_f64s(simd.partial_load_f64s(e), simd.partial_load_f64s(f), s);
     }
-    sum
+    simd.reduce_sum_f64s(s)
 }
 
 struct AddDots<'a, const R: usize> {
