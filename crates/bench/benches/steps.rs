@@ -47,6 +47,7 @@ const LINKS: &str = r#"(
         "ElastomericBearing, sliding": ElastomericBearing(node: "a", k: "10 MN/m", fy: "100 kN", ratio: 0.1),
         "NLink, sliding": NLink(node: "a", kn: "5e8 N/m", ks: "5e8 N/m", mu: 0.5, damping: "1e6 N*s/m"),
     },
+    cases: { "rest": Static(loads: [Gravity]) },
 )"#;
 
 fn laws(c: &mut Criterion) {
