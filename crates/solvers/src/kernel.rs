@@ -92,7 +92,7 @@ const HOLD: f64 = 1e-12;
 const DIGIT: f64 = 2.0 * f64::EPSILON;
 /// Step sizes whose factors are kept.
 const KEPT: usize = 6;
-/// From this many equations on, a factor is kept while it still contracts well.
+/// From this many active coordinates on, a factor is kept while it still contracts well.
 const CHORD_FROM: usize = 8;
 /// How well that is: share of the residual that one iteration leaves.
 const CONTRACTS: f64 = 0.2;
@@ -464,7 +464,7 @@ impl<'a> LinkKernel<'a> {
     fn newton_correction(&mut self, affine: &Affine<'_>, slow: bool) {
         if let Some(at) = self.factors.iter().position(|f| f.key == affine.key) {
             let kept = self.factors.remove(at);
-            let contracts = kept.equations.len() >= CHORD_FROM && !slow;
+            let contracts = self.links.active.len() >= CHORD_FROM && !slow;
             if contracts || kept.tangents == self.tangents {
                 self.factors.push(kept);
             }
