@@ -50,13 +50,13 @@ pub const SIZES: [Size; 6] = [
     Size {
         name: "P1e4s",
         newmark: Some(peaks(0.170_918_540_157_334, 0.026_156_962_423_013_318)),
-        fine: Some((peaks(0.171_003_015_863, 0.026_084_253_806), 0.00125)),
+        fine: None,
         hht_steps: 4000,
     },
     Size {
         name: "P1e4",
         newmark: Some(peaks(0.210_000_132_052_326_87, 0.074_953_099_621_585_22)),
-        fine: Some((peaks(0.210_199_721_662, 0.074_907_112_290), 0.00125)),
+        fine: None,
         hht_steps: 4000,
     },
     Size { name: "P5e4", newmark: None, fine: None, hht_steps: 400 },
