@@ -198,7 +198,7 @@ impl Measurement {
         if self.steps != WHOLE {
             return None;
         }
-        // FNA integrates the modes exactly: its truth is that of a fine step. Direct integration must be
+        // FNA integrates the modes exactly: its truth is that of a fine step, where there is one. Direct integration must be
         // the same scheme as the reference, whose tolerance is the limit.
         let fna = self.solver == SolverKind::Fna.name();
         let (truth, against) = match (fna, size.fine, size.newmark) {
