@@ -21,8 +21,8 @@ use crate::span::{Origin, Span};
 use crate::vector::dot;
 use std::sync::Arc;
 use trilith_linalg::{
-    Dense, DenseLu, LinalgError, Sparse, StagedLdlt, StagedPlan, all_modes, lowest_modes,
-    symmetric_eigen, unsupported,
+    Dense, DenseLu, LinalgError, Sparse, StagedLdlt, all_modes, lowest_modes, symmetric_eigen,
+    unsupported,
 };
 use trilith_model::{Basis, BasisKind, Model};
 use trilith_system::System;
@@ -73,8 +73,9 @@ pub(crate) struct Bases {
 
 /// K̂ = K + Bᵀ diag(dummies) B + shift M and its factor.
 struct Solvable {
-    k: Sparse,
     dummies: Vec<f64>,
+    /// Bᵀ diag(dummies) B.
+    springs: Sparse,
     shift: f64,
     factor: StagedLdlt,
 }
@@ -86,8 +87,9 @@ struct Flexibility {
 }
 
 impl Solvable {
-    fn factorised(k: &Sparse) -> Result<StagedLdlt, LinalgError> {
-        StagedLdlt::new(&StagedPlan::new(&[k], &[])?, &[(1.0, k)])
+    /// K̂ as a sum; made, it would weigh as much as K.
+    fn parts<'a>(&'a self, system: &'a System) -> [(f64, &'a Sparse); 3] {
+        [(1.0, &system.stiffness), (1.0, &self.springs), (self.shift, &system.mass)]
     }
 
     /// `known`: of the links, where they have been found already.
@@ -135,33 +137,37 @@ fn solvable(model: &Model, system: &System) -> Result<Solvable, SolveError> {
     let pairs = || engaged.iter().zip(&links.effective);
     let dummies: Vec<f64> =
         pairs().map(|(e, user)| if *user > 0.0 { *user } else { DUMMY_SHARE * e }).collect();
-    let mut k = system.stiffness_with(&dummies);
+    let springs = system.springs(&dummies);
+    let held_by = [(1.0, &system.stiffness), (1.0, &springs)];
     // What dummies hold, the links hold when engaged, unless the user's stand where they never do.
     let as_links = pairs().all(|(e, user)| *user <= 0.0 || *e > 0.0);
-    if as_links && let Some(factor) = held(&k)? {
-        return Ok(Solvable { k, dummies, shift: 0.0, factor });
+    if as_links && let Some(factor) = held(&held_by)? {
+        return Ok(Solvable { dummies, springs, shift: 0.0, factor });
     }
     system.check_supported(model, true)?;
+    let k = Sparse::combine(&held_by);
     let mut shift = 0.0;
     if !unsupported(&k)?.is_empty() {
         let sum = |a: &Sparse| a.diagonal().iter().sum::<f64>();
         let (stiff, heavy) = (sum(&k), sum(&system.mass));
         // A mass shift makes regular what can move freely.
         shift = if stiff > 0.0 && heavy > 0.0 { 1e-6 * stiff / heavy } else { 1.0 };
-        k = Sparse::combine(&[(1.0, &k), (shift, &system.mass)]);
     }
-    let factor = Solvable::factorised(&k)?;
-    Ok(Solvable { k, dummies, shift, factor })
+    let factor = StagedLdlt::alone(&[(1.0, &k), (shift, &system.mass)])?;
+    Ok(Solvable { dummies, springs, shift, factor })
 }
 
-/// The factor, where no pivot is rounding. Scaling to a unit diagonal would divide each pivot by its
+/// The factor of a sum, where no pivot is rounding. Scaling to a unit diagonal would divide each pivot by its
 /// diagonal entry, so this is the test of [`unsupported`] without a second factorisation.
-fn held(k: &Sparse) -> Result<Option<StagedLdlt>, SolveError> {
-    let diagonal = k.diagonal();
+fn held(parts: &[(f64, &Sparse)]) -> Result<Option<StagedLdlt>, SolveError> {
+    let mut diagonal = vec![0.0; parts.first().map_or(0, |(_, a)| a.rows())];
+    for (factor, part) in parts {
+        diagonal.iter_mut().zip(part.diagonal()).for_each(|(sum, d)| *sum += factor * d);
+    }
     if diagonal.iter().any(|d| *d <= 0.0) {
         return Ok(None);
     }
-    let factor = match Solvable::factorised(k) {
+    let factor = match StagedLdlt::alone(parts) {
         Err(LinalgError::Singular { .. }) => return Ok(None),
         other => other?,
     };
@@ -188,7 +194,7 @@ pub(crate) fn build(
         if order > COMPLETE_LIMIT {
             return Err(SolveError::BasisTooLarge { order, limit: COMPLETE_LIMIT });
         }
-        (all_modes(&hat.k, &system.mass)?.1, None)
+        (all_modes(&Sparse::combine(&hat.parts(system)), &system.mass)?.1, None)
     } else {
         enriched(system, settings, loads, &hat)?
     };
@@ -197,7 +203,8 @@ pub(crate) fn build(
     }
     // The factor is not needed any longer, and weighs as much as many vectors.
     let exact = hat.flexibility(system, loads, known.or((!adequacy).then(Vec::new)));
-    let Solvable { dummies: held, shift, .. } = hat;
+    let Solvable { dummies: held, shift, factor, .. } = hat;
+    drop(factor);
     let dummies = &system.links.effective;
     let (structural, stepping) = if dummies.iter().all(|k| *k == 0.0) {
         let both = Arc::new(modes_in(system, span, &system.stiffness, loads)?);
@@ -282,17 +289,18 @@ fn enriched(
     match settings.kind {
         BasisKind::Eigen => {
             let count = ground.min(system.order());
-            let (_, vectors) = lowest_modes(&hat.k, &system.mass, count, 0.0)?;
+            let (_, vectors) =
+                lowest_modes(&Sparse::combine(&hat.parts(system)), &system.mass, count, 0.0)?;
             let all = (0..vectors.columns()).map(|j| vectors.column(j).to_vec()).collect();
             span.take(all, Origin::Anywhere, None);
         }
-        _ => recurse(&mut span, hat, loads, ground),
+        _ => recurse(&mut span, system, hat, loads, ground),
     }
     let mut known = Vec::with_capacity(links.len());
     hat.static_shapes(system, links, |x, flexibility| {
         known.push(flexibility);
         if span.len() < total {
-            span.take(vec![x.to_vec()], Origin::Anywhere, Some(&hat.k));
+            span.take(vec![x.to_vec()], Origin::Anywhere, Some(&hat.parts(system)));
         }
     });
     let known = (settings.adequacy > 0.0).then_some(known);
@@ -300,8 +308,14 @@ fn enriched(
 }
 
 /// The load-dependent recursion until `count` vectors are there or nothing new comes.
-fn recurse(span: &mut Span<'_>, hat: &Solvable, loads: &[(String, Vec<f64>)], count: usize) {
-    let order = hat.k.rows();
+fn recurse(
+    span: &mut Span<'_>,
+    system: &System,
+    hat: &Solvable,
+    loads: &[(String, Vec<f64>)],
+    count: usize,
+) {
+    let order = system.order();
     let mut block: Vec<Vec<f64>> = loads.iter().map(|(_, p)| p.clone()).collect();
     while span.len() < count && !block.is_empty() {
         let mut next = Vec::new();
@@ -312,7 +326,7 @@ fn recurse(span: &mut Span<'_>, hat: &Solvable, loads: &[(String, Vec<f64>)], co
             hat.factor.solve(&mut x);
             let solved = x.chunks(order).map(<[f64]>::to_vec).collect();
             // Where the loads have shown all they can, what is left of a vector is rounding.
-            next.extend(span.take(solved, Origin::Recursion, Some(&hat.k)));
+            next.extend(span.take(solved, Origin::Recursion, Some(&hat.parts(system))));
             block = rest;
         }
         block = next;

@@ -216,6 +216,23 @@ impl StagedLdlt {
         Ok(Self { plan: Arc::clone(plan), values, reciprocal })
     }
 
+    /// Factorises Σ factor · matrix for solutions alone: without a tail, and without what other matrices of the
+    /// pattern would need.
+    ///
+    /// # Errors
+    /// As [`new`](Self::new).
+    pub fn alone(parts: &[(f64, &Sparse)]) -> Result<Self, LinalgError> {
+        let of_pattern: Vec<&Sparse> =
+            parts.iter().filter(|(factor, _)| *factor != 0.0).map(|(_, part)| *part).collect();
+        let plan = StagedPlan::new(&of_pattern, &[])?;
+        let mut factor = Self::new(&plan, parts)?;
+        drop(plan);
+        if let Some(plan) = Arc::get_mut(&mut factor.plan) {
+            plan.pattern = Pattern { offsets: vec![0], rows: Vec::new() };
+        }
+        Ok(factor)
+    }
+
     /// The plan it was made by.
     #[must_use]
     pub fn plan(&self) -> &StagedPlan {

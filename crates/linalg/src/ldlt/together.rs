@@ -4,6 +4,7 @@
 //! is solved to the same bits whatever stands beside it.
 
 use super::substitution::{Panels, View};
+use pulp::{Simd, WithSimd};
 
 /// One equation of the four.
 pub(crate) type Four = [f64; 4];
@@ -14,14 +15,7 @@ const WIDTH: usize = 4;
 impl Panels {
     /// x ← L⁻¹ x with the unit lower factor; `work` holds [`height`](Self::height) places or more.
     pub(crate) fn forward_four(&self, values: &[f64], x: &mut [Four], work: &mut [Four]) {
-        pulp::Arch::new().dispatch(
-            #[inline(always)]
-            || {
-                for node in &self.nodes {
-                    forward(&self.view(node, values), x, work);
-                }
-            },
-        );
+        pulp::Arch::new().dispatch(Forward { panels: self, values, x, work });
     }
 
     /// x ← L⁻ᵀ D⁻¹ x; `reciprocal` is 1/D. Rows beyond the columns of the group are known already.
@@ -32,14 +26,42 @@ impl Panels {
         x: &mut [Four],
         work: &mut [Four],
     ) {
-        pulp::Arch::new().dispatch(
-            #[inline(always)]
-            || {
-                for node in self.nodes.iter().rev() {
-                    backward(&self.view(node, values), reciprocal, x, work);
-                }
-            },
-        );
+        pulp::Arch::new().dispatch(Backward { panels: self, values, reciprocal, x, work });
+    }
+}
+
+struct Forward<'a> {
+    panels: &'a Panels,
+    values: &'a [f64],
+    x: &'a mut [Four],
+    work: &'a mut [Four],
+}
+
+impl WithSimd for Forward<'_> {
+    type Output = ();
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, _: S) {
+        for node in &self.panels.nodes {
+            forward(&self.panels.view(node, self.values), self.x, self.work);
+        }
+    }
+}
+
+struct Backward<'a> {
+    panels: &'a Panels,
+    values: &'a [f64],
+    reciprocal: &'a [f64],
+    x: &'a mut [Four],
+    work: &'a mut [Four],
+}
+
+impl WithSimd for Backward<'_> {
+    type Output = ();
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, _: S) {
+        for node in self.panels.nodes.iter().rev() {
+            backward(&self.panels.view(node, self.values), self.reciprocal, self.x, self.work);
+        }
     }
 }
 
