@@ -1,6 +1,7 @@
 //! Sparse matrices in compressed columns, full storage (both triangles).
 
 use nalgebra_sparse::CscMatrix;
+use std::sync::Arc;
 
 /// Entries (row, column, value) that are summed into a [`Sparse`] matrix.
 #[derive(Clone, Debug)]
@@ -87,15 +88,15 @@ fn sorted(
     out
 }
 
-/// A sparse matrix.
+/// A sparse matrix. It never changes, so copies share its entries.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Sparse(pub(crate) CscMatrix<f64>);
+pub struct Sparse(pub(crate) Arc<CscMatrix<f64>>);
 
 impl Sparse {
     /// The zero matrix.
     #[must_use]
     pub fn zeros(rows: usize, columns: usize) -> Self {
-        Self(CscMatrix::zeros(rows, columns))
+        Self(Arc::new(CscMatrix::zeros(rows, columns)))
     }
 
     /// From compressed columns with rising rows.
@@ -108,7 +109,7 @@ impl Sparse {
     ) -> Self {
         let made = CscMatrix::try_from_csc_data(rows, columns, offsets, indices, values);
         // Whoever calls has sorted them.
-        Self(made.unwrap_or_else(|_| unreachable!("columns in order")))
+        Self(Arc::new(made.unwrap_or_else(|_| unreachable!("columns in order"))))
     }
 
     /// Number of rows.

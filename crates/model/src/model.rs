@@ -3,6 +3,7 @@
 use crate::{Case, Output, TimeFunction};
 use std::ops::Range;
 use std::path::PathBuf;
+use std::sync::Arc;
 use trilith_element::{
     Axis, Constraint, Dimension, Dof, Frame, LinearElement, Link, Values, Vector3,
 };
@@ -133,7 +134,7 @@ pub struct Element {
     /// Where the file defines it.
     pub span: Span,
     /// The parameters of its kind in SI, defaults filled in, in the order of the card.
-    pub values: Values,
+    pub values: Arc<Values>,
     /// Directions of local axes 1 and 2 as the file gives them.
     pub axes: [Option<Vector3>; 2],
 }

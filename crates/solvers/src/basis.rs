@@ -21,7 +21,7 @@ use crate::span::{Origin, Span};
 use crate::vector::dot;
 use std::sync::Arc;
 use trilith_linalg::{
-    Dense, DenseLu, Ldlt, LinalgError, Sparse, all_modes, lowest_modes, symmetric_eigen,
+    Dense, DenseLu, LinalgError, Sparse, StagedLdlt, all_modes, lowest_modes, symmetric_eigen,
     unsupported,
 };
 use trilith_model::{Basis, BasisKind, Model};
@@ -73,10 +73,62 @@ pub(crate) struct Bases {
 
 /// K̂ = K + Bᵀ diag(dummies) B + shift M and its factor.
 struct Solvable {
-    k: Sparse,
     dummies: Vec<f64>,
+    /// Bᵀ diag(dummies) B.
+    springs: Sparse,
     shift: f64,
-    factor: Ldlt,
+    factor: StagedLdlt,
+}
+
+/// What the report needs of K̂⁻¹: p K̂⁻¹ p of the loads, and b K̂⁻¹ bᵀ of the active link coordinates.
+struct Flexibility {
+    loads: Vec<f64>,
+    links: Vec<f64>,
+}
+
+impl Solvable {
+    /// K̂ as a sum; made, it would weigh as much as K.
+    fn parts<'a>(&'a self, system: &'a System) -> [(f64, &'a Sparse); 3] {
+        [(1.0, &system.stiffness), (1.0, &self.springs), (self.shift, &system.mass)]
+    }
+
+    /// `known`: of the links, where they have been found already.
+    fn flexibility(
+        &self,
+        system: &System,
+        loads: &[(String, Vec<f64>)],
+        known: Option<Vec<f64>>,
+    ) -> Flexibility {
+        let of_loads = loads.iter().map(|(_, p)| {
+            let mut x = p.clone();
+            self.factor.solve(&mut x);
+            dot(p, &x)
+        });
+        let loads = of_loads.collect();
+        let links = known.unwrap_or_else(|| {
+            let mut links = Vec::new();
+            self.static_shapes(system, &system.links.active, |_, flexibility| {
+                links.push(flexibility);
+            });
+            links
+        });
+        Flexibility { loads, links }
+    }
+
+    /// K̂⁻¹ bᵀ of link coordinates, and b of them.
+    fn static_shapes(&self, system: &System, flat: &[usize], mut visit: impl FnMut(&[f64], f64)) {
+        let order = system.order();
+        for block in flat.chunks(BLOCK) {
+            let mut shapes = vec![0.0; order * block.len()];
+            for (column, flat) in shapes.chunks_mut(order).zip(block) {
+                system.links.rows[*flat].iter().for_each(|(i, c)| column[*i] += c);
+            }
+            self.factor.solve(&mut shapes);
+            for (x, flat) in shapes.chunks(order).zip(block) {
+                visit(x, system.links.rows[*flat].iter().map(|(i, c)| c * x[*i]).sum());
+            }
+        }
+    }
 }
 
 fn solvable(model: &Model, system: &System) -> Result<Solvable, SolveError> {
@@ -85,33 +137,37 @@ fn solvable(model: &Model, system: &System) -> Result<Solvable, SolveError> {
     let pairs = || engaged.iter().zip(&links.effective);
     let dummies: Vec<f64> =
         pairs().map(|(e, user)| if *user > 0.0 { *user } else { DUMMY_SHARE * e }).collect();
-    let mut k = system.stiffness_with(&dummies);
+    let springs = system.springs(&dummies);
+    let held_by = [(1.0, &system.stiffness), (1.0, &springs)];
     // What dummies hold, the links hold when engaged, unless the user's stand where they never do.
     let as_links = pairs().all(|(e, user)| *user <= 0.0 || *e > 0.0);
-    if as_links && let Some(factor) = held(&k)? {
-        return Ok(Solvable { k, dummies, shift: 0.0, factor });
+    if as_links && let Some(factor) = held(&held_by)? {
+        return Ok(Solvable { dummies, springs, shift: 0.0, factor });
     }
     system.check_supported(model, true)?;
+    let k = Sparse::combine(&held_by);
     let mut shift = 0.0;
     if !unsupported(&k)?.is_empty() {
         let sum = |a: &Sparse| a.diagonal().iter().sum::<f64>();
         let (stiff, heavy) = (sum(&k), sum(&system.mass));
         // A mass shift makes regular what can move freely.
         shift = if stiff > 0.0 && heavy > 0.0 { 1e-6 * stiff / heavy } else { 1.0 };
-        k = Sparse::combine(&[(1.0, &k), (shift, &system.mass)]);
     }
-    let factor = Ldlt::new(&k)?;
-    Ok(Solvable { k, dummies, shift, factor })
+    let factor = StagedLdlt::alone(&[(1.0, &k), (shift, &system.mass)])?;
+    Ok(Solvable { dummies, springs, shift, factor })
 }
 
-/// The factor, where no pivot is rounding. Scaling to a unit diagonal would divide each pivot by its
+/// The factor of a sum, where no pivot is rounding. Scaling to a unit diagonal would divide each pivot by its
 /// diagonal entry, so this is the test of [`unsupported`] without a second factorisation.
-fn held(k: &Sparse) -> Result<Option<Ldlt>, SolveError> {
-    let diagonal = k.diagonal();
+fn held(parts: &[(f64, &Sparse)]) -> Result<Option<StagedLdlt>, SolveError> {
+    let mut diagonal = vec![0.0; parts.first().map_or(0, |(_, a)| a.rows())];
+    for (factor, part) in parts {
+        diagonal.iter_mut().zip(part.diagonal()).for_each(|(sum, d)| *sum += factor * d);
+    }
     if diagonal.iter().any(|d| *d <= 0.0) {
         return Ok(None);
     }
-    let factor = match Ldlt::new(k) {
+    let factor = match StagedLdlt::alone(parts) {
         Err(LinalgError::Singular { .. }) => return Ok(None),
         other => other?,
     };
@@ -133,18 +189,22 @@ pub(crate) fn build(
     let order = system.order();
     let complete = settings.kind == BasisKind::Complete
         || (settings.vectors.is_none() && order <= COMPLETE_AUTOMATIC);
-    let mut hat = solvable(model, system)?;
-    let span = if complete {
+    let hat = solvable(model, system)?;
+    let (span, known) = if complete {
         if order > COMPLETE_LIMIT {
             return Err(SolveError::BasisTooLarge { order, limit: COMPLETE_LIMIT });
         }
-        all_modes(&hat.k, &system.mass)?.1
+        (all_modes(&Sparse::combine(&hat.parts(system)), &system.mass)?.1, None)
     } else {
-        enriched(system, settings, loads, &mut hat)?
+        enriched(system, settings, loads, &hat)?
     };
     if span.columns() == 0 {
         return Err(SolveError::NoMass);
     }
+    // The factor is not needed any longer, and weighs as much as many vectors.
+    let exact = hat.flexibility(system, loads, known.or((!adequacy).then(Vec::new)));
+    let Solvable { dummies: held, shift, factor, .. } = hat;
+    drop(factor);
     let dummies = &system.links.effective;
     let (structural, stepping) = if dummies.iter().all(|k| *k == 0.0) {
         let both = Arc::new(modes_in(system, span, &system.stiffness, loads)?);
@@ -154,7 +214,7 @@ pub(crate) fn build(
         let stepping = modes_in(system, span, &system.stiffness_with(dummies), loads)?;
         (Arc::new(structural), Arc::new(stepping))
     };
-    let report = report(model, system, &structural, loads, adequacy, &mut hat);
+    let report = report(model, system, &structural, loads, &held, shift, &exact);
     Ok(Bases { stepping, structural, report })
 }
 
@@ -182,7 +242,7 @@ fn modes_in(
             *w = 0.0;
         }
     }
-    let statics = massless::uncoupled(statics, &system.damping, &vectors);
+    let statics = massless::uncoupled(statics, system, &vectors);
     let mut images = Dense::zeros(statics.rows(), statics.columns());
     for j in 0..images.columns() {
         k.mul_add(1.0, statics.column(j), images.column_mut(j));
@@ -214,8 +274,8 @@ fn enriched(
     system: &System,
     settings: &Basis,
     loads: &[(String, Vec<f64>)],
-    hat: &mut Solvable,
-) -> Result<Dense, SolveError> {
+    hat: &Solvable,
+) -> Result<(Dense, Option<Vec<f64>>), SolveError> {
     // Who asks for no flexibility of the links gets no vectors for them.
     let links: &[usize] = if settings.adequacy > 0.0 { &system.links.active } else { &[] };
     let automatic = 20 * loads.len().max(2);
@@ -229,33 +289,33 @@ fn enriched(
     match settings.kind {
         BasisKind::Eigen => {
             let count = ground.min(system.order());
-            let (_, vectors) = lowest_modes(&hat.k, &system.mass, count, 0.0)?;
+            let (_, vectors) =
+                lowest_modes(&Sparse::combine(&hat.parts(system)), &system.mass, count, 0.0)?;
             let all = (0..vectors.columns()).map(|j| vectors.column(j).to_vec()).collect();
             span.take(all, Origin::Anywhere, None);
         }
-        _ => recurse(&mut span, hat, loads, ground),
+        _ => recurse(&mut span, system, hat, loads, ground),
     }
-    let order = system.order();
-    for block in links.chunks(BLOCK) {
-        let mut statics = vec![0.0; order * block.len()];
-        for (column, flat) in statics.chunks_mut(order).zip(block) {
-            for (i, c) in &system.links.rows[*flat] {
-                column[*i] += c;
-            }
+    let mut known = Vec::with_capacity(links.len());
+    hat.static_shapes(system, links, |x, flexibility| {
+        known.push(flexibility);
+        if span.len() < total {
+            span.take(vec![x.to_vec()], Origin::Anywhere, Some(&hat.parts(system)));
         }
-        hat.factor.solve(&mut statics);
-        for x in statics.chunks(order) {
-            if span.len() < total {
-                span.take(vec![x.to_vec()], Origin::Anywhere, Some(&hat.k));
-            }
-        }
-    }
-    Ok(span.into_dense())
+    });
+    let known = (settings.adequacy > 0.0).then_some(known);
+    Ok((span.into_dense(), known))
 }
 
 /// The load-dependent recursion until `count` vectors are there or nothing new comes.
-fn recurse(span: &mut Span<'_>, hat: &mut Solvable, loads: &[(String, Vec<f64>)], count: usize) {
-    let order = hat.k.rows();
+fn recurse(
+    span: &mut Span<'_>,
+    system: &System,
+    hat: &Solvable,
+    loads: &[(String, Vec<f64>)],
+    count: usize,
+) {
+    let order = system.order();
     let mut block: Vec<Vec<f64>> = loads.iter().map(|(_, p)| p.clone()).collect();
     while span.len() < count && !block.is_empty() {
         let mut next = Vec::new();
@@ -266,21 +326,23 @@ fn recurse(span: &mut Span<'_>, hat: &mut Solvable, loads: &[(String, Vec<f64>)]
             hat.factor.solve(&mut x);
             let solved = x.chunks(order).map(<[f64]>::to_vec).collect();
             // Where the loads have shown all they can, what is left of a vector is rounding.
-            next.extend(span.take(solved, Origin::Recursion, Some(&hat.k)));
+            next.extend(span.take(solved, Origin::Recursion, Some(&hat.parts(system))));
             block = rest;
         }
         block = next;
     }
 }
 
-/// Participation of masses and loads, and the flexibility of every link coordinate that the basis holds.
+/// Participation of masses and loads, and the flexibility of every link coordinate that the basis holds;
+/// `dummies` and `shift` are those of K̂.
 fn report(
     model: &Model,
     system: &System,
     basis: &RitzBasis,
     loads: &[(String, Vec<f64>)],
-    with_links: bool,
-    hat: &mut Solvable,
+    dummies: &[f64],
+    shift: f64,
+    exact: &Flexibility,
 ) -> BasisReport {
     let m = basis.modes();
     let phi = &*basis.shapes;
@@ -288,7 +350,7 @@ fn report(
     // K̂ in the basis: K is diagonal there, with ones for the static shapes, which have no mass.
     let mut reduced = Dense::zeros(phi.columns(), phi.columns());
     for j in 0..phi.columns() {
-        reduced[(j, j)] = basis.omega2.get(j).map_or(1.0, |w| w + hat.shift);
+        reduced[(j, j)] = basis.omega2.get(j).map_or(1.0, |w| w + shift);
     }
     let held = |row: &[(usize, f64)], q: &mut [f64]| {
         for (j, q) in q.iter_mut().enumerate() {
@@ -297,7 +359,7 @@ fn report(
         }
     };
     let mut q = vec![0.0; phi.columns()];
-    for (row, dummy) in rows.iter().zip(&hat.dummies).filter(|(_, k)| **k != 0.0) {
+    for (row, dummy) in rows.iter().zip(dummies).filter(|(_, k)| **k != 0.0) {
         held(row, &mut q);
         for (j, b) in q.iter().enumerate() {
             for (a, sum) in q.iter().zip(reduced.column_mut(j)) {
@@ -311,29 +373,17 @@ fn report(
         reduced.solve(&mut y);
         if whole > 0.0 { (dot(q, &y) / whole).min(1.0) } else { 1.0 }
     };
-    let order = system.order();
     let mut static_participation = Vec::with_capacity(loads.len());
-    for (name, p) in loads {
-        let mut exact = p.clone();
-        hat.factor.solve(&mut exact);
+    for ((name, p), whole) in loads.iter().zip(&exact.loads) {
         q.fill(0.0);
         phi.transpose_mul_add(1.0, p, &mut q);
-        static_participation.push((name.clone(), share(dot(p, &exact), &q)));
+        static_participation.push((name.clone(), share(*whole, &q)));
     }
-    let active: &[usize] = if with_links { &system.links.active } else { &[] };
-    let mut adequacy = Vec::with_capacity(active.len());
-    for block in active.chunks(BLOCK) {
-        let mut exact = vec![0.0; order * block.len()];
-        for (column, flat) in exact.chunks_mut(order).zip(block) {
-            rows[*flat].iter().for_each(|(i, c)| column[*i] += c);
-        }
-        hat.factor.solve(&mut exact);
-        for (column, flat) in exact.chunks(order).zip(block) {
-            held(&rows[*flat], &mut q);
-            let whole = rows[*flat].iter().map(|(i, c)| c * column[*i]).sum();
-            let coordinate = system.links.name(model, *flat);
-            adequacy.push(Adequacy { coordinate, share: share(whole, &q) });
-        }
+    let mut adequacy = Vec::with_capacity(exact.links.len());
+    for (flat, whole) in system.links.active.iter().zip(&exact.links) {
+        held(&rows[*flat], &mut q);
+        let coordinate = system.links.name(model, *flat);
+        adequacy.push(Adequacy { coordinate, share: share(*whole, &q) });
     }
     adequacy.sort_by(|a, b| a.share.total_cmp(&b.share));
     let mass = |axis: usize| -> Vec<f64> {

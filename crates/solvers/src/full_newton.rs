@@ -53,9 +53,7 @@ impl FullNewton<'_> {
         let (wc, wk) = (w * gamma * dt, w * beta * dt * dt);
         let n = self.space.order();
         let mut j = Triplets::new(n, n);
-        for (factor, part) in
-            [(1.0, &self.space.mass), (wc, &self.space.damping), (wk, &self.space.stiffness)]
-        {
+        for (factor, part) in self.space.sum(wc, wk) {
             for (a, b, x) in part.entries() {
                 j.add(a, b, factor * x);
             }

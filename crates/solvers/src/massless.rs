@@ -72,7 +72,7 @@ pub(crate) fn shapes(
         return Ok(psi);
     }
     // Turned so that damping does not couple them with each other.
-    let (_, rotation) = symmetric_eigen(&psi.congruence(&system.damping, psi.columns()))?;
+    let (_, rotation) = symmetric_eigen(&psi.congruence(&system.damping(), psi.columns()))?;
     Ok(psi.times(&rotation))
 }
 
@@ -111,10 +111,11 @@ pub(crate) fn without(psi: &Dense, k: &Sparse, mut vectors: Dense) -> Dense {
 }
 
 /// The shapes that damping does not couple with the modes.
-pub(crate) fn uncoupled(psi: Dense, damping: &Sparse, modes: &Dense) -> Dense {
+pub(crate) fn uncoupled(psi: Dense, system: &System, modes: &Dense) -> Dense {
     if psi.columns() == 0 {
         return psi;
     }
+    let damping = system.damping();
     let own: Vec<f64> = (0..modes.columns())
         .map(|j| damping.bilinear(modes.column(j), modes.column(j)).max(0.0))
         .collect();

@@ -29,12 +29,10 @@ pub(crate) struct Energies {
 
 impl Products {
     pub(crate) fn new(space: &Space) -> Self {
-        let [a0, a1] = space.rayleigh;
-        let parts = [(a0, &space.mass), (a1, &space.stiffness)];
         Self {
             mass: SymmetricOperator::new(&space.mass),
             stiffness: SymmetricOperator::new(&space.stiffness),
-            damping: SymmetricOperator::difference(&space.damping, &parts),
+            damping: SymmetricOperator::new(&space.damping),
             rayleigh: space.rayleigh,
         }
     }

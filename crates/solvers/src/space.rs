@@ -17,8 +17,9 @@ pub(crate) struct LowRank {
 #[derive(Debug)]
 pub(crate) struct Space {
     pub mass: Sparse,
+    /// C beyond Rayleigh's.
     pub damping: Sparse,
-    /// Shares of M and of K in C, 1/s and s.
+    /// Shares of M and of K in C beside it, 1/s and s.
     pub rayleigh: [f64; 2],
     /// Stiffness with the dummies.
     pub stiffness: Sparse,
@@ -47,9 +48,16 @@ impl Space {
         let links = &system.links;
         let dummy: Vec<f64> = links.active.iter().map(|i| effective[*i]).collect();
         let stiffness = system.stiffness_with(effective);
+        let of_stiffness = system.rayleigh[1];
+        let damping = if of_stiffness == 0.0 || effective.iter().all(|k| *k == 0.0) {
+            system.element_damping.clone()
+        } else {
+            let springs = system.springs(effective);
+            Sparse::combine(&[(1.0, &system.element_damping), (-of_stiffness, &springs)])
+        };
         Self {
             mass: system.mass.clone(),
-            damping: system.damping.clone(),
+            damping,
             rayleigh: system.rayleigh,
             stiffness,
             modal,
@@ -99,7 +107,7 @@ impl Space {
             }
             damping
         } else {
-            phi.congruence(&system.damping, m)
+            phi.congruence(&system.damping(), m)
         };
         if let Some(modal) = modal {
             let u = phi.transpose_times(&modal.u);
@@ -153,9 +161,26 @@ impl Space {
         }
     }
 
+    /// M + `c` C + `k` K as a sum, without modal damping.
+    pub(crate) fn sum(&self, c: f64, k: f64) -> [(f64, &Sparse); 3] {
+        let [of_mass, of_stiffness] = self.rayleigh;
+        [
+            (1.0 + c * of_mass, &self.mass),
+            (c, &self.damping),
+            (k + c * of_stiffness, &self.stiffness),
+        ]
+    }
+
     /// `p += s · C v`, modal damping included.
     pub(crate) fn damp(&self, s: f64, v: &[f64], p: &mut [f64]) {
         self.damping.mul_add(s, v, p);
+        let [of_mass, of_stiffness] = self.rayleigh;
+        if of_mass != 0.0 {
+            self.mass.mul_add(s * of_mass, v, p);
+        }
+        if of_stiffness != 0.0 {
+            self.stiffness.mul_add(s * of_stiffness, v, p);
+        }
         if let Some(modal) = &self.modal {
             let mut y = vec![0.0; modal.rate.len()];
             modal.u.transpose_mul_add(1.0, v, &mut y);

@@ -65,7 +65,7 @@ impl<'a> Span<'a> {
         &mut self,
         mut x: Vec<Vec<f64>>,
         origin: Origin,
-        stiffness: Option<&Sparse>,
+        stiffness: Option<&[(f64, &Sparse)]>,
     ) -> Vec<Vec<f64>> {
         let size = |x: &[f64]| x.iter().fold(0.0f64, |a, b| a.max(b.abs()));
         x.retain(|x| x.iter().all(|v| v.is_finite()) && size(x) > 0.0);
@@ -104,7 +104,7 @@ impl<'a> Span<'a> {
         norm: f64,
         before: f64,
         start: usize,
-        stiffness: Option<&Sparse>,
+        stiffness: Option<&[(f64, &Sparse)]>,
     ) -> Option<Vec<f64>> {
         let (mut x, mut norm, mut first) = (vec![x], norm, start);
         let mut images = vec![self.mass.mul(&x[0])];
@@ -125,7 +125,10 @@ impl<'a> Span<'a> {
         }
         let (mut x, mut image) = (x.pop()?, images.pop()?);
         x.iter_mut().for_each(|v| *v /= norm);
-        if stiffness.is_some_and(|k| k.bilinear(&x, &x) > FASTEST * FASTEST) {
+        let of = |parts: &[(f64, &Sparse)]| -> f64 {
+            parts.iter().map(|(s, part)| s * part.bilinear(&x, &x)).sum()
+        };
+        if stiffness.is_some_and(|parts| of(parts) > FASTEST * FASTEST) {
             return None;
         }
         image.iter_mut().for_each(|v| *v /= norm);

@@ -31,7 +31,8 @@ impl Timeline {
         let (t0, t1) = (self.time(step), self.time(step + 1));
         let near = self.near();
         let inside = move |t: &f64| *t > t0 + near && *t < t1 - near;
-        let whole = step + 1 < self.steps && !self.breaks.iter().any(inside);
+        // The last step may be shorter; one that is not has the length of the others to the bit.
+        let whole = (t1 - t0 - self.dt).abs() <= near && !self.breaks.iter().any(inside);
         let ends = self.breaks.iter().copied().filter(inside).chain([t1]);
         ends.scan(t0, move |start, end| {
             let piece = (*start, if whole { self.dt } else { end - *start });

@@ -14,9 +14,7 @@ pub struct System {
     pub reduction: Reduction,
     /// M with the inertances, free × free, kg.
     pub mass: Sparse,
-    /// C of elements and Rayleigh damping, free × free, N·s/m. Modal damping is not in it.
-    pub damping: Sparse,
-    /// C of elements alone, free × free, N·s/m.
+    /// C of elements alone, free × free, N·s/m; see [`damping`](Self::damping).
     pub element_damping: Sparse,
     /// Coefficients of M and K in Rayleigh damping, 1/s and s; 0 without.
     pub rayleigh: [f64; 2],
@@ -63,31 +61,32 @@ impl System {
         let (inertia, total_mass) = inertia(&full.mass, &reduction);
         let [k, m, c, b] = [full.stiffness, full.mass, full.damping, full.inertance]
             .map(|entries| reduce(&entries, &reduction));
-        let sum = |parts: &[(f64, &Split)]| {
-            let free: Vec<_> = parts.iter().map(|(s, part)| (*s, &part.free)).collect();
-            let support: Vec<_> = parts.iter().map(|(s, part)| (*s, &part.support)).collect();
-            Split { free: Sparse::combine(&free), support: Sparse::combine(&support) }
-        };
         let m = if b.free.stored() + b.support.stored() == 0 {
             m
         } else {
-            sum(&[(1.0, &m), (1.0, &b)])
+            Split {
+                free: Sparse::combine(&[(1.0, &m.free), (1.0, &b.free)]),
+                support: Sparse::combine(&[(1.0, &m.support), (1.0, &b.support)]),
+            }
         };
         let rayleigh = match model.damping {
             Damping::Rayleigh { mass, stiffness } => [mass, stiffness],
             _ => [0.0; 2],
         };
-        let damping = sum(&[(1.0, &c), (rayleigh[0], &m), (rayleigh[1], &k)]);
+        let damping_support = Sparse::combine(&[
+            (1.0, &c.support),
+            (rayleigh[0], &m.support),
+            (rayleigh[1], &k.support),
+        ]);
         let mut links = LinkSet::new(model, &reduction, &used)?;
         crate::impact::settle(&mut links, model, &m.free)?;
         Ok(Self {
             mass: m.free,
-            damping: damping.free,
             element_damping: c.free,
             rayleigh,
             stiffness: k.free,
             mass_support: m.support,
-            damping_support: damping.support,
+            damping_support,
             stiffness_support: k.support,
             links,
             inertia,
@@ -111,9 +110,33 @@ impl System {
         self.reduction.order()
     }
 
+    /// C of elements and Rayleigh damping, free × free, N·s/m; modal damping is not in it. It is made anew:
+    /// kept, it would weigh as much as K.
+    #[must_use]
+    pub fn damping(&self) -> Sparse {
+        let [of_mass, of_stiffness] = self.rayleigh;
+        if of_mass == 0.0 && of_stiffness == 0.0 {
+            return self.element_damping.clone();
+        }
+        Sparse::combine(&[
+            (1.0, &self.element_damping),
+            (of_mass, &self.mass),
+            (of_stiffness, &self.stiffness),
+        ])
+    }
+
     /// K + Bᵀ diag(values) B; `values` on the flat link coordinates, such as dummies.
     #[must_use]
     pub fn stiffness_with(&self, values: &[f64]) -> Sparse {
+        if values.iter().all(|x| *x == 0.0) {
+            return self.stiffness.clone();
+        }
+        Sparse::combine(&[(1.0, &self.stiffness), (1.0, &self.springs(values))])
+    }
+
+    /// Bᵀ diag(values) B; `values` on the flat link coordinates.
+    #[must_use]
+    pub fn springs(&self, values: &[f64]) -> Sparse {
         let mut sum = Triplets::new(self.order(), self.order());
         for (row, x) in self.links.rows.iter().zip(values).filter(|(_, x)| **x != 0.0) {
             for (i, a) in row {
@@ -122,7 +145,7 @@ impl System {
                 }
             }
         }
-        Sparse::combine(&[(1.0, &self.stiffness), (1.0, &sum.build())])
+        sum.build()
     }
 
     /// Refuses a structure that can move without stiffness (links count with the stiffness they have
@@ -137,9 +160,10 @@ impl System {
             let (stiff, heavy) = (mean(&k), mean(&self.mass));
             let shift = if heavy > 0.0 && stiff > 0.0 { stiff / heavy } else { 1.0 };
             // Velocity-proportional elements hold a direction as well.
-            let viscous = mean(&self.damping);
+            let damping = self.damping();
+            let viscous = mean(&damping);
             let rate = if viscous > 0.0 && stiff > 0.0 { stiff / viscous } else { 1.0 };
-            k = Sparse::combine(&[(1.0, &k), (shift, &self.mass), (rate, &self.damping)]);
+            k = Sparse::combine(&[(1.0, &k), (shift, &self.mass), (rate, &damping)]);
         }
         let loose = unsupported(&k)?;
         let Some(first) = loose.first() else { return Ok(()) };

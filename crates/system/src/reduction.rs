@@ -11,7 +11,9 @@ use trilith_model::{Body, Model};
 /// The map from all DOFs (six a node, in node order) to free and prescribed ones.
 #[derive(Clone, Debug)]
 pub struct Reduction {
-    rows: Vec<Vec<(usize, f64)>>,
+    /// Where the terms of each DOF begin, and end.
+    offsets: Vec<usize>,
+    terms: Vec<(usize, f64)>,
     /// Full index (6·node + direction) of each free DOF.
     pub free: Vec<usize>,
     /// Full index of each prescribed DOF.
@@ -87,22 +89,19 @@ impl Reduction {
         for (new, old) in free.iter().chain(&prescribed).enumerate() {
             place[*old] = new;
         }
-        let rows = (0..count)
-            .map(|i| {
-                if !dependent.contains_key(&i) {
-                    return match place[i] {
-                        usize::MAX => Vec::new(),
-                        new => vec![(new, 1.0)],
-                    };
-                }
-                substitute(&BTreeMap::from([(i, 1.0)]), dependent)
-                    .into_iter()
-                    .filter(|(j, c)| place[*j] != usize::MAX && *c != 0.0)
-                    .map(|(j, c)| (place[j], c))
-                    .collect()
-            })
-            .collect();
-        Self { rows, free, prescribed }
+        let (mut offsets, mut terms) = (Vec::with_capacity(count + 1), Vec::with_capacity(count));
+        offsets.push(0);
+        for i in 0..count {
+            if dependent.contains_key(&i) {
+                let sum = substitute(&BTreeMap::from([(i, 1.0)]), dependent);
+                let kept = sum.into_iter().filter(|(j, c)| place[*j] != usize::MAX && *c != 0.0);
+                terms.extend(kept.map(|(j, c)| (place[j], c)));
+            } else if place[i] != usize::MAX {
+                terms.push((place[i], 1.0));
+            }
+            offsets.push(terms.len());
+        }
+        Self { offsets, terms, free, prescribed }
     }
 
     /// Number of free DOFs.
@@ -114,7 +113,7 @@ impl Reduction {
     /// A full DOF as (index, factor) of free DOFs and, from [`order`](Self::order) on, prescribed ones.
     #[must_use]
     pub fn expand(&self, full: usize) -> &[(usize, f64)] {
-        &self.rows[full]
+        &self.terms[self.offsets[full]..self.offsets[full + 1]]
     }
 }
 

@@ -3,6 +3,7 @@
 mod ordering;
 mod staged;
 mod substitution;
+mod together;
 
 pub use staged::{StagedLdlt, StagedPlan};
 
@@ -31,7 +32,7 @@ impl std::fmt::Debug for Ldlt {
 }
 
 /// Right-hand sides solved at once.
-pub(super) const BLOCK: usize = 16;
+const BLOCK: usize = 16;
 
 pub(super) fn backend(e: impl std::fmt::Debug) -> LinalgError {
     LinalgError::Backend { reason: format!("{e:?}") }

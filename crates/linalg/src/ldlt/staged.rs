@@ -15,20 +15,20 @@
 //! tail before the other half. The matrices of a model have one pattern whatever the step size: the plan,
 //! made once, holds all that does not depend on values.
 
+use super::backend;
 use super::ordering::{self, Pattern};
 use super::substitution::{Node, Panels};
-use super::{BLOCK, backend};
 use crate::{LinalgError, Sparse};
 use faer::dyn_stack::{MemBuffer, MemStack};
 use faer::linalg::cholesky::ldlt::factor::{LdltError, LdltRegularization};
 use faer::perm::PermRef;
 use faer::sparse::linalg::cholesky::{
-    CholeskySymbolicParams, LdltRef, SymbolicCholesky, SymbolicCholeskyRaw, SymmetricOrdering,
+    CholeskySymbolicParams, SymbolicCholesky, SymbolicCholeskyRaw, SymmetricOrdering,
     factorize_symbolic_cholesky,
 };
 use faer::sparse::linalg::{SupernodalThreshold, SymbolicSupernodalParams};
 use faer::sparse::{SparseColMatRef, SymbolicSparseColMatRef};
-use faer::{Conj, MatMut, Par, Side};
+use faer::{Par, Side};
 use std::sync::Arc;
 
 /// Columns up to which supernodes are merged, and the share of zeros that may be stored for it.
@@ -88,6 +88,12 @@ impl StagedPlan {
     #[must_use]
     pub fn split(&self) -> usize {
         self.split
+    }
+
+    /// Number of values in a factor.
+    #[must_use]
+    pub fn stored(&self) -> usize {
+        self.symbolic.len_val()
     }
 
     /// Values that the substitutions need as workspace.
@@ -210,6 +216,23 @@ impl StagedLdlt {
         Ok(Self { plan: Arc::clone(plan), values, reciprocal })
     }
 
+    /// Factorises Σ factor · matrix for solutions alone: without a tail, and without what other matrices of the
+    /// pattern would need.
+    ///
+    /// # Errors
+    /// As [`new`](Self::new).
+    pub fn alone(parts: &[(f64, &Sparse)]) -> Result<Self, LinalgError> {
+        let of_pattern: Vec<&Sparse> =
+            parts.iter().filter(|(factor, _)| *factor != 0.0).map(|(_, part)| *part).collect();
+        let plan = StagedPlan::new(&of_pattern, &[])?;
+        let mut factor = Self::new(&plan, parts)?;
+        drop(plan);
+        if let Some(plan) = Arc::get_mut(&mut factor.plan) {
+            plan.pattern = Pattern { offsets: vec![0], rows: Vec::new() };
+        }
+        Ok(factor)
+    }
+
     /// The plan it was made by.
     #[must_use]
     pub fn plan(&self) -> &StagedPlan {
@@ -248,142 +271,39 @@ impl StagedLdlt {
         self.reciprocal[self.plan.split..].iter().map(|r| r.recip())
     }
 
+    /// Shows equation and value of every pivot.
+    pub fn pivots(&self, mut visit: impl FnMut(usize, f64)) {
+        for (equation, r) in self.plan.equations.iter().zip(&self.reciprocal) {
+            visit(*equation as usize, r.recip());
+        }
+    }
+
     /// Solves whole right-hand sides, one after the other, in the order of the equations, in place.
-    ///
-    /// # Errors
-    /// Where there is no memory.
-    pub fn solve(&self, x: &mut [f64]) -> Result<(), LinalgError> {
-        let n = self.reciprocal.len();
+    pub fn solve(&self, x: &mut [f64]) {
+        let (n, split) = (self.reciprocal.len(), self.plan.split);
         if n == 0 {
-            return Ok(());
+            return;
         }
-        let scratch = self.plan.symbolic.solve_in_place_scratch::<f64>(BLOCK, Par::Seq);
-        let mut work = MemBuffer::try_new(scratch).map_err(backend)?;
-        let factor = LdltRef::new(&self.plan.symbolic, &self.values);
-        for block in x.chunks_mut(n * BLOCK) {
-            let columns = block.len() / n;
-            factor.solve_in_place_with_conj(
-                Conj::No,
-                MatMut::from_column_major_slice_mut(block, n, columns),
-                Par::Seq,
-                MemStack::new(&mut work),
-            );
+        let StagedPlan { equations, front, tail, .. } = &*self.plan;
+        let mut four = vec![[0.0; 4]; n];
+        let mut work = vec![[0.0; 4]; self.plan.workspace()];
+        for block in x.chunks_mut(4 * n) {
+            four.fill([0.0; 4]);
+            for (k, x) in block.chunks(n).enumerate() {
+                four.iter_mut().zip(equations).for_each(|(y, i)| y[k] = x[*i as usize]);
+            }
+            front.forward_four(&self.values, &mut four, &mut work);
+            tail.forward_four(&self.values, &mut four[split..], &mut work);
+            let of_tail = &self.reciprocal[split..];
+            tail.backward_four(&self.values, of_tail, &mut four[split..], &mut work);
+            front.backward_four(&self.values, &self.reciprocal, &mut four, &mut work);
+            for (k, x) in block.chunks_mut(n).enumerate() {
+                four.iter().zip(equations).for_each(|(y, i)| x[*i as usize] = y[k]);
+            }
         }
-        Ok(())
     }
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::Triplets;
-
-    /// A grid of springs, some of them to the ground; numbers that repeat.
-    fn grid(side: usize) -> Sparse {
-        let n = side * side;
-        let mut k = Triplets::new(n, n);
-        let mut seed = 1u64;
-        let mut random = || {
-            seed = seed.wrapping_mul(6364136223846793005).wrapping_add(1442695040888963407);
-            0.5 + (seed >> 40) as f64 / (1u64 << 24) as f64
-        };
-        for i in 0..n {
-            k.add(i, i, 0.01 * random());
-            for other in [i + 1, i + side] {
-                if other < n && (other != i + 1 || !other.is_multiple_of(side)) {
-                    let s = random();
-                    for (a, b, v) in [(i, i, s), (other, other, s), (i, other, -s), (other, i, -s)]
-                    {
-                        k.add(a, b, v);
-                    }
-                    // A place that is stored and zero.
-                    k.add(i, n - 1 - i, 0.0);
-                }
-            }
-        }
-        k.build()
-    }
-
-    fn staged(a: &Sparse, last: &[usize]) {
-        let n = a.rows();
-        let plan = StagedPlan::new(&[a], last).unwrap();
-        let factor = StagedLdlt::new(&plan, &[(2.0, a), (-1.0, a)]).unwrap();
-        let mut work = vec![0.0; plan.workspace()];
-        let b: Vec<f64> = (0..n).map(|i| (i as f64).sin()).collect();
-        let mut change = vec![0.0; n];
-        last.iter().for_each(|i| change[*i] = (*i as f64).cos());
-        let place =
-            |v: &[f64]| -> Vec<f64> { plan.equations().iter().map(|i| v[*i as usize]).collect() };
-        let solved = |b: &[f64]| {
-            let mut x = b.to_vec();
-            factor.solve(&mut x).unwrap();
-            // Against the matrix itself.
-            for (y, b) in a.mul(&x).iter().zip(b) {
-                assert!((y - b).abs() < 1e-11, "{y} {b}");
-            }
-            place(&x)
-        };
-        let split = plan.split();
-        assert_eq!(split + last.len(), n);
-        let mut x = place(&b);
-        factor.forward(&mut x, &mut work);
-        let mut early = x[split..].to_vec();
-        factor.tail_backward(&mut early, &mut work);
-        let expected = solved(&b);
-        for (x, y) in early.iter().zip(&expected[split..]) {
-            assert!((x - y).abs() < 1e-10 * y.abs().max(1.0), "{x} {y}");
-        }
-        let mut more = place(&change)[split..].to_vec();
-        factor.tail_forward(&mut more, &mut work);
-        x[split..].iter_mut().zip(&more).for_each(|(x, y)| *x += y);
-        factor.tail_backward(&mut x[split..], &mut work);
-        factor.finish(&mut x, &mut work);
-        let sum: Vec<f64> = b.iter().zip(&change).map(|(a, b)| a + b).collect();
-        for (x, y) in x.iter().zip(&solved(&sum)) {
-            assert!((x - y).abs() < 1e-10 * y.abs().max(1.0), "{x} {y}");
-        }
-    }
-
-    #[test]
-    fn a_solution_in_stages_is_the_solution() {
-        let a = grid(23);
-        let n = a.rows();
-        for last in [
-            vec![],
-            vec![7],
-            (0..n).collect(),
-            (0..40).collect(),
-            (0..n).step_by(9).collect(),
-            (0..n - 1).collect::<Vec<_>>(),
-        ] {
-            staged(&a, &last);
-        }
-    }
-
-    #[test]
-    fn separate_parts_and_empty_matrices_are_solved() {
-        let mut t = Triplets::new(30, 30);
-        for i in 0..30 {
-            t.add(i, i, 2.0 + i as f64);
-            if !(i + 1usize).is_multiple_of(5) {
-                t.add(i, i + 1, -1.0);
-                t.add(i + 1, i, -1.0);
-            }
-        }
-        let a = t.build();
-        staged(&a, &[0, 7, 8, 29]);
-        staged(&a, &(0..30).collect::<Vec<_>>());
-        staged(&Triplets::new(0, 0).build(), &[]);
-    }
-
-    #[test]
-    fn a_zero_pivot_is_named() {
-        let mut t = Triplets::new(3, 3);
-        t.add(0, 0, 1.0);
-        t.add(2, 2, 1.0);
-        let a = t.build();
-        let plan = StagedPlan::new(&[&a], &[0]).unwrap();
-        let error = StagedLdlt::new(&plan, &[(1.0, &a)]).unwrap_err();
-        assert_eq!(error, LinalgError::Singular { equation: 1 });
-    }
-}
+#[path = "staged_tests.rs"]
+mod tests;

@@ -39,13 +39,13 @@ pub(crate) struct Panels {
 }
 
 /// The parts of a node: first column, number of columns, rows below, panel.
-struct View<'a> {
-    start: usize,
-    columns: usize,
-    height: usize,
-    stride: usize,
-    rows: &'a [u32],
-    panel: &'a [f64],
+pub(super) struct View<'a> {
+    pub start: usize,
+    pub columns: usize,
+    pub height: usize,
+    pub stride: usize,
+    pub rows: &'a [u32],
+    pub panel: &'a [f64],
 }
 
 impl Panels {
@@ -55,7 +55,7 @@ impl Panels {
     }
 
     #[inline(always)]
-    fn view<'a>(&'a self, node: &Node, values: &'a [f64]) -> View<'a> {
+    pub(super) fn view<'a>(&'a self, node: &Node, values: &'a [f64]) -> View<'a> {
         let (columns, height) = (node.columns as usize, node.height as usize);
         View {
             start: node.start as usize,

@@ -7,9 +7,12 @@ use crate::diagnostic::names_help;
 use crate::registry::Reader;
 use crate::tree::{Entry, Node};
 use crate::{Body, Element, LinkOptions, Span};
+use std::cell::RefCell;
+use std::collections::VecDeque;
+use std::sync::Arc;
 use trilith_element::dimension::{LENGTH, MOMENT, NONE, STIFFNESS};
 use trilith_element::{
-    Card, Category, Coordinates, Frame, Link, NodeCount, ParameterError, Range, Vector3,
+    Card, Category, Coordinates, Frame, Link, NodeCount, ParameterError, Range, Values, Vector3,
 };
 
 const FRONT: &[&str] = &["axis1", "axis2"];
@@ -22,7 +25,12 @@ struct Reading<'c, 'n> {
     properties: &'n [Entry],
     names: &'c Names<'n>,
     nodes: &'c [Option<crate::Node>],
+    /// Parameter values met last: most elements of a model share a few sets.
+    met: RefCell<VecDeque<Arc<Values>>>,
 }
+
+/// Sets of parameter values that are looked through for an equal one.
+const MET: usize = 16;
 
 pub(super) fn elements<'n>(
     c: &Context<'_>,
@@ -32,7 +40,7 @@ pub(super) fn elements<'n>(
     nodes: &[Option<crate::Node>],
 ) -> Vec<Option<Element>> {
     let sets = Names::new("property set", "property sets", properties);
-    let reading = Reading { c, sets, properties, names, nodes };
+    let reading = Reading { c, sets, properties, names, nodes, met: RefCell::default() };
     for e in properties {
         // Known kind and known fields; values are read where the set is used.
         if let Some((card, _)) = kind(c, &e.value) {
@@ -125,9 +133,23 @@ impl Reading<'_, '_> {
             frame: frame?,
             body,
             span: e.key_span.clone(),
-            values,
+            values: self.shared_values(values),
             axes: [axis1, axis2],
         })
+    }
+
+    /// The same values, in one place for all elements that have them.
+    fn shared_values(&self, values: Values) -> Arc<Values> {
+        let mut met = self.met.borrow_mut();
+        if let Some(same) = met.iter().find(|v| ***v == values) {
+            return Arc::clone(same);
+        }
+        let new = Arc::new(values);
+        if met.len() == MET {
+            met.pop_front();
+        }
+        met.push_back(Arc::clone(&new));
+        new
     }
 
     fn refuse<T>(

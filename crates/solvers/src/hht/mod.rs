@@ -152,8 +152,9 @@ impl Propagator for Hht {
         self.now = dt.to_bits();
         self.clock += 1;
         if !self.steps.contains_key(&self.now) {
+            let plan = self.plan()?;
+            self.make_room(plan.stored());
             let step = self.build(dt)?;
-            self.make_room(step.stored());
             self.steps.insert(self.now, step);
         }
         if let Some(step) = self.steps.get_mut(&self.now) {

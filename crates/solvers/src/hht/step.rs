@@ -33,13 +33,9 @@ impl Step {
     ) -> Result<Self, SolveError> {
         let (gamma, beta) = newmark(alpha);
         let w = 1.0 + alpha;
-        let parts =
-            [(1.0, &s.mass), (w * gamma * dt, &s.damping), (w * beta * dt * dt, &s.stiffness)];
-        let factor = StagedLdlt::new(plan, &parts)?;
-        let woodbury = match &s.modal {
-            Some(modal) => Some(Woodbury::new(&factor, modal, w * gamma * dt)?),
-            None => None,
-        };
+        let factor = StagedLdlt::new(plan, &s.sum(w * gamma * dt, w * beta * dt * dt))?;
+        let modal = s.modal.as_ref();
+        let woodbury = modal.map(|modal| Woodbury::new(&factor, modal, w * gamma * dt));
         let mut g = tail_compliance(s, &factor, panel);
         if let Some(woodbury) = &woodbury {
             woodbury.soften(s, &mut g);
@@ -93,9 +89,9 @@ fn tail_compliance(s: &Space, factor: &StagedLdlt, panel: &mut [f64]) -> Dense {
 }
 
 impl Woodbury {
-    fn new(factor: &StagedLdlt, modal: &LowRank, s: f64) -> Result<Self, SolveError> {
+    fn new(factor: &StagedLdlt, modal: &LowRank, s: f64) -> Self {
         let mut x = modal.u.clone();
-        factor.solve(x.values_mut())?;
+        factor.solve(x.values_mut());
         let mut inner = modal.u.transpose_times(&x);
         for (k, rate) in modal.rate.iter().enumerate() {
             inner[(k, k)] += 1.0 / (s * rate);
@@ -107,7 +103,7 @@ impl Woodbury {
                 *to = x.column(k)[*i as usize];
             }
         }
-        Ok(Self { x, tail, inner: DenseLu::new(&inner) })
+        Self { x, tail, inner: DenseLu::new(&inner) }
     }
 
     /// g −= B X inner⁻¹ (B X)ᵀ.

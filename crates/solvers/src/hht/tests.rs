@@ -38,11 +38,10 @@ fn space(modal: bool, links: LinkMap) -> Space {
     }
     let (mass, stiffness) = (mass.build(), stiffness.build());
     let rayleigh = [0.3, 0.01];
-    let damping = Sparse::combine(&[(0.3, &mass), (0.01, &stiffness), (1.0, &rest.build())]);
     let low_rank = LowRank { u: Dense::from_columns(N, 2, some(2 * N, 3)), rate: vec![4.0, 9.0] };
     Space {
         mass,
-        damping,
+        damping: rest.build(),
         rayleigh,
         stiffness,
         modal: modal.then_some(low_rank),
@@ -78,7 +77,10 @@ fn form(a: &Dense, x: &[f64]) -> f64 {
 fn follows(alpha: f64, modal: bool, links: LinkMap) {
     let space = space(modal, links);
     let l = space.links.len();
-    let (m, k, mut c) = (full(&space.mass), full(&space.stiffness), full(&space.damping));
+    let (m, k) = (full(&space.mass), full(&space.stiffness));
+    let [a0, a1] = space.rayleigh;
+    let sum = [(a0, &space.mass), (a1, &space.stiffness), (1.0, &space.damping)];
+    let mut c = full(&Sparse::combine(&sum));
     for (r, rate) in space.modal.iter().flat_map(|m| m.rate.iter().enumerate()) {
         let u = space.modal.as_ref().map_or(&[][..], |m| m.u.column(r));
         for i in 0..N {

@@ -115,7 +115,8 @@ fn suits(a: &Entrant<'_>, b: &Entrant<'_>) -> bool {
             && a.member.model.damping == b.member.model.damping
             && x.mass == y.mass
             && x.stiffness == y.stiffness
-            && x.damping == y.damping
+            && x.element_damping == y.element_damping
+            && x.rayleigh == y.rayleigh
             && x.links.active == y.links.active
             && x.links.rows == y.links.rows
             && x.links.effective == y.links.effective

@@ -172,7 +172,7 @@ impl Calibrator {
             frame,
             body: model::Body::Linear(Box::new(spring)),
             span: 0..0,
-            values: Values::default(),
+            values: Values::default().into(),
             axes: [None, None],
         });
         true

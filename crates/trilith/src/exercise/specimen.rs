@@ -4,6 +4,7 @@ use super::example::Entry;
 use super::{ExerciseError, Motion, Record};
 use crate::element::{Card, Category, Coordinates, Dof, Link, Values};
 use crate::model::{Body, Registry};
+use std::sync::Arc;
 
 /// Mass that strikes a contact whose restitution has to be turned into a dashpot, kg.
 const STRIKING: f64 = 1000.0;
@@ -68,7 +69,7 @@ impl Specimen {
         let mut notes = Vec::new();
         let law = settled(law, &mut notes);
         let line = entry.line();
-        Ok(Self { card, law, values: element.values, line, notes, entry })
+        Ok(Self { card, law, values: Arc::unwrap_or_clone(element.values), line, notes, entry })
     }
 
     /// The names of the nodes that it stands on, in order.

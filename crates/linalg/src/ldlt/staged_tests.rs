@@ -1,0 +1,110 @@
+use super::*;
+use crate::Triplets;
+
+/// A grid of springs, some of them to the ground; numbers that repeat.
+fn grid(side: usize) -> Sparse {
+    let n = side * side;
+    let mut k = Triplets::new(n, n);
+    let mut seed = 1u64;
+    let mut random = || {
+        seed = seed.wrapping_mul(6364136223846793005).wrapping_add(1442695040888963407);
+        0.5 + (seed >> 40) as f64 / (1u64 << 24) as f64
+    };
+    for i in 0..n {
+        k.add(i, i, 0.01 * random());
+        for other in [i + 1, i + side] {
+            if other < n && (other != i + 1 || !other.is_multiple_of(side)) {
+                let s = random();
+                for (a, b, v) in [(i, i, s), (other, other, s), (i, other, -s), (other, i, -s)] {
+                    k.add(a, b, v);
+                }
+                // A place that is stored and zero.
+                k.add(i, n - 1 - i, 0.0);
+            }
+        }
+    }
+    k.build()
+}
+
+fn staged(a: &Sparse, last: &[usize]) {
+    let n = a.rows();
+    let plan = StagedPlan::new(&[a], last).unwrap();
+    let factor = StagedLdlt::new(&plan, &[(2.0, a), (-1.0, a)]).unwrap();
+    let mut work = vec![0.0; plan.workspace()];
+    let b: Vec<f64> = (0..n).map(|i| (i as f64).sin()).collect();
+    let mut change = vec![0.0; n];
+    last.iter().for_each(|i| change[*i] = (*i as f64).cos());
+    let place =
+        |v: &[f64]| -> Vec<f64> { plan.equations().iter().map(|i| v[*i as usize]).collect() };
+    let solved = |b: &[f64]| {
+        let mut x = b.to_vec();
+        factor.solve(&mut x);
+        // Against the matrix itself.
+        for (y, b) in a.mul(&x).iter().zip(b) {
+            assert!((y - b).abs() < 1e-11, "{y} {b}");
+        }
+        place(&x)
+    };
+    let split = plan.split();
+    assert_eq!(split + last.len(), n);
+    let mut x = place(&b);
+    factor.forward(&mut x, &mut work);
+    let mut early = x[split..].to_vec();
+    factor.tail_backward(&mut early, &mut work);
+    let expected = solved(&b);
+    for (x, y) in early.iter().zip(&expected[split..]) {
+        assert!((x - y).abs() < 1e-10 * y.abs().max(1.0), "{x} {y}");
+    }
+    let mut more = place(&change)[split..].to_vec();
+    factor.tail_forward(&mut more, &mut work);
+    x[split..].iter_mut().zip(&more).for_each(|(x, y)| *x += y);
+    factor.tail_backward(&mut x[split..], &mut work);
+    factor.finish(&mut x, &mut work);
+    let sum: Vec<f64> = b.iter().zip(&change).map(|(a, b)| a + b).collect();
+    for (x, y) in x.iter().zip(&solved(&sum)) {
+        assert!((x - y).abs() < 1e-10 * y.abs().max(1.0), "{x} {y}");
+    }
+}
+
+#[test]
+fn a_solution_in_stages_is_the_solution() {
+    let a = grid(23);
+    let n = a.rows();
+    for last in [
+        vec![],
+        vec![7],
+        (0..n).collect(),
+        (0..40).collect(),
+        (0..n).step_by(9).collect(),
+        (0..n - 1).collect::<Vec<_>>(),
+    ] {
+        staged(&a, &last);
+    }
+}
+
+#[test]
+fn separate_parts_and_empty_matrices_are_solved() {
+    let mut t = Triplets::new(30, 30);
+    for i in 0..30 {
+        t.add(i, i, 2.0 + i as f64);
+        if !(i + 1usize).is_multiple_of(5) {
+            t.add(i, i + 1, -1.0);
+            t.add(i + 1, i, -1.0);
+        }
+    }
+    let a = t.build();
+    staged(&a, &[0, 7, 8, 29]);
+    staged(&a, &(0..30).collect::<Vec<_>>());
+    staged(&Triplets::new(0, 0).build(), &[]);
+}
+
+#[test]
+fn a_zero_pivot_is_named() {
+    let mut t = Triplets::new(3, 3);
+    t.add(0, 0, 1.0);
+    t.add(2, 2, 1.0);
+    let a = t.build();
+    let plan = StagedPlan::new(&[&a], &[0]).unwrap();
+    let error = StagedLdlt::new(&plan, &[(1.0, &a)]).unwrap_err();
+    assert_eq!(error, LinalgError::Singular { equation: 1 });
+}
