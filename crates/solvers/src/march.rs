@@ -17,7 +17,7 @@ use trilith_model::StepControl;
 use trilith_system::{LoadSet, StepLoads};
 
 /// Halvings of an output step at most.
-const DEPTH: u32 = 30;
+pub(crate) const DEPTH: u32 = 30;
 /// Halvings for the sake of accuracy at most; then the step is accepted and counted.
 const ACCURACY_DEPTH: u32 = 26;
 /// Share of the dissipation of a step that its energy balance may miss; a third of the usual limit of a

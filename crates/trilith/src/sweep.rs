@@ -8,7 +8,7 @@
 //! use trilith::sweep::Sweep;
 //!
 //! let text = r#"(
-//!     plane: XZ, gravity: "g", parameters: { "mu": 0.3, "a": "1 m/s^2" },
+//!     plane: XZ, gravity: "1 g", parameters: { "mu": 0.3, "a": "1 m/s^2" },
 //!     nodes: { "cg": (0, 0, 0) },
 //!     elements: {
 //!         "mass": Mass(node: "cg", mass: "1 t", inertia: (0, 1, 0)),
@@ -65,7 +65,8 @@ pub enum Engine {
     Lanes,
     /// On the ordinary engine: the model or the case does not fit, for this reason.
     Ordinary(&'static str),
-    /// On the ordinary engine with adaptive steps, after a step in its lane found no equilibrium.
+    /// On the ordinary engine with adaptive steps, after its lane found no equilibrium in however short a
+    /// step.
     Rerun,
 }
 

@@ -7,16 +7,28 @@
 //! ```
 //!
 //! Every analysis gives the same bits whoever its neighbours are, and alone. One that finds no
-//! equilibrium in a step is given up and says so: the caller runs it on the ordinary engine.
+//! equilibrium in a step makes that in halves, as the ordinary engine does with fixed steps; where that does
+//! not help it is given up and says so: the caller runs it on the ordinary engine.
 //!
 //! A model fits where it is solved by `fna` with fixed steps and Newton's method, all its links have a form
 //! for lanes, its modes are not coupled by damping, and no support moves a link.
 
+mod coefficients;
 mod contact;
+mod laws;
+mod loads;
 mod march;
+mod newton;
+mod outcome;
 mod peaks;
+mod pieces;
+mod plan;
 mod rule;
 mod setup;
+mod show;
+mod small;
+mod state;
+mod step;
 mod tables;
 
 pub use march::{march, march_alone};

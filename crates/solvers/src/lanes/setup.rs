@@ -104,6 +104,7 @@ pub struct LaneSetup {
     pub(super) rates: Vec<f64>,
     /// Largest share of the energy that may be unaccounted for.
     pub energy_limit: f64,
+    pub(super) tolerance: f64,
 }
 
 impl LaneSetup {
@@ -245,6 +246,7 @@ pub fn prepare(
         values,
         rates,
         energy_limit: analysis.solution.energy_limit,
+        tolerance: analysis.solution.link_tolerance,
         omega2,
     }))
 }

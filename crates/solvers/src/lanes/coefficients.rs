@@ -1,0 +1,65 @@
+//! Coefficients of a step size for all lanes.
+
+use super::plan::Plan;
+use super::rule::{Mode, mode};
+use super::setup::LaneSetup;
+use trilith_element::lanes::{Arithmetic, Real};
+
+/// Coefficients of a step size.
+pub(super) struct Rule<R, const M: usize, const L: usize> {
+    pub dt: R,
+    pub per_dt: R,
+    pub c: [[[R; 4]; 3]; M],
+    /// −G and −H.
+    pub g: [[R; L]; L],
+    pub h: [[R; L]; L],
+}
+
+impl<R: Real, const M: usize, const L: usize> Rule<R, M, L> {
+    /// Of the usual step, or of a length for each analysis.
+    pub fn new<A: Arithmetic<Real = R>, const N: usize>(
+        with: A,
+        setups: &[&LaneSetup],
+        plan: &Plan<R, M, L, N>,
+        lengths: Option<&[f64]>,
+    ) -> Self {
+        let zero = with.splat(0.0);
+        let grid = setups[0].shape.grid;
+        let part = grid.dt / grid.substeps as f64;
+        let rules: Vec<Vec<Mode>> = setups
+            .iter()
+            .enumerate()
+            .map(|(i, s)| match lengths {
+                None => s.rule.clone(),
+                Some(t) => {
+                    s.omega2.iter().zip(&s.damping).map(|(w, c)| mode(*w, *c, t[i])).collect()
+                }
+            })
+            .collect();
+        let last = setups.len() - 1;
+        let mut c = [[[zero; 4]; 3]; M];
+        for (j, c) in c.iter_mut().enumerate().take(setups[0].shape.modes) {
+            for (row, c) in c.iter_mut().enumerate() {
+                for (column, c) in c.iter_mut().enumerate() {
+                    *c = with.gather(|i| rules[i.min(last)][j][row][column]);
+                }
+            }
+        }
+        let compliance = |row: usize| -> [[R; L]; L] {
+            let mut g = [[zero; L]; L];
+            for a in 0..L {
+                for b in 0..L {
+                    for j in 0..M {
+                        g[a][b] = g[a][b] - plan.b[a][j] * c[j][row][3] * plan.b[b][j];
+                    }
+                }
+            }
+            g
+        };
+        let dt = match lengths {
+            None => with.splat(part),
+            Some(t) => with.gather(|i| t[i.min(last)]),
+        };
+        Self { dt, per_dt: with.splat(1.0) / dt, c, g: compliance(1), h: compliance(2) }
+    }
+}

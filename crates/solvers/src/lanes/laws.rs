@@ -1,0 +1,64 @@
+//! How the laws of all links are asked.
+
+use super::plan::Plan;
+use super::state::State;
+use trilith_element::lanes::{Arithmetic, LaneLinks, Real};
+
+/// Calls the laws.
+#[inline(always)]
+pub(super) fn look<A: Arithmetic, const M: usize, const L: usize, const N: usize>(
+    with: A,
+    plan: &Plan<A::Real, M, L, N>,
+    dt: A::Real,
+    at: (&[A::Real; L], &[A::Real; L]),
+    state: &mut State<A::Real, M, L, N>,
+    f: &mut [A::Real; L],
+) {
+    let State { d: d0, v: v0, history, k, c, .. } = state;
+    for run in &plan.runs {
+        let (law, n) = (&run.law, run.law.coordinates);
+        let r = run.first..run.first + run.count * n;
+        let (h, p) = (run.history, run.parameters);
+        let whole = n == N;
+        // A narrow link: its blocks are spread afterwards.
+        let mut narrow = Narrow::new(dt, whole);
+        let blocks = match &mut narrow {
+            Some(own) => (&mut own.k[..n * n], &mut own.c[..n * n]),
+            None => (k[r.clone()].as_flattened_mut(), c[r.clone()].as_flattened_mut()),
+        };
+        let mut links = LaneLinks {
+            parameters: &plan.parameters[p..p + run.count * law.parameters],
+            d: &at.0[r.clone()],
+            v: &at.1[r.clone()],
+            d0: &d0[r.clone()],
+            v0: &v0[r.clone()],
+            dt,
+            history: &mut history[h..h + run.count * law.history],
+            f: &mut f[r],
+            k: blocks.0,
+            c: blocks.1,
+        };
+        with.force(law, &mut links);
+        if let Some(own) = &narrow {
+            for i in 0..n {
+                for j in 0..n {
+                    k[run.first + i][j] = own.k[i * n + j];
+                    c[run.first + i][j] = own.c[i * n + j];
+                }
+            }
+        }
+    }
+}
+
+/// Blocks of a link with fewer coordinates than the widest.
+struct Narrow<R> {
+    k: [R; 4],
+    c: [R; 4],
+}
+
+impl<R: Real> Narrow<R> {
+    #[inline(always)]
+    fn new(zero: R, whole: bool) -> Option<Self> {
+        if whole { None } else { Some(Self { k: [zero; 4], c: [zero; 4] }) }
+    }
+}

@@ -1,0 +1,87 @@
+//! Loads over a step.
+
+use super::plan::{Plan, Source, pick};
+use super::setup::{LaneSetup, Piece};
+use trilith_element::lanes::{Arithmetic, Real};
+use trilith_model::Side;
+
+/// Loads over a step.
+pub(super) struct Loads<R, const M: usize> {
+    pub start: [R; M],
+    pub end: [R; M],
+    /// Amplitudes at the end.
+    pub amplitudes: Vec<R>,
+}
+
+impl<R: Real, const M: usize, const L: usize, const N: usize> Plan<R, M, L, N> {
+    pub fn no_loads<A: Arithmetic<Real = R>>(&self, with: A) -> Loads<R, M> {
+        let zero = with.splat(0.0);
+        Loads { start: [zero; M], end: [zero; M], amplitudes: vec![zero; self.forces.len()] }
+    }
+
+    /// Loads of the usual step with this index.
+    #[inline(always)]
+    pub fn loads<A: Arithmetic<Real = R>>(
+        &self,
+        with: A,
+        setups: &[&LaneSetup],
+        at: usize,
+        out: &mut Loads<R, M>,
+    ) {
+        let zero = with.splat(0.0);
+        (out.start, out.end) = ([zero; M], [zero; M]);
+        for (c, source) in self.sources.iter().enumerate() {
+            let (start, end) = match source {
+                Source::Constant => (with.splat(1.0), with.splat(1.0)),
+                Source::Shared(table, size) => {
+                    let [x, y] = table[at];
+                    if x == 0.0 && y == 0.0 {
+                        out.amplitudes[c] = zero;
+                        continue;
+                    }
+                    (with.splat(x) * *size, with.splat(y) * *size)
+                }
+                Source::Own => {
+                    let of = |s: &LaneSetup, k: usize| match &s.tables[c] {
+                        Some((table, size)) => table[at][k] * size,
+                        None => 1.0,
+                    };
+                    (pick(with, setups, |s| of(s, 0)), pick(with, setups, |s| of(s, 1)))
+                }
+            };
+            out.amplitudes[c] = end;
+            for j in 0..M {
+                out.start[j] = start.mul_add(self.forces[c][j], out.start[j]);
+                out.end[j] = end.mul_add(self.forces[c][j], out.end[j]);
+            }
+        }
+    }
+
+    /// Loads of a piece of a step: one (start, length) for each analysis.
+    pub fn loads_of_pieces<A: Arithmetic<Real = R>>(
+        &self,
+        with: A,
+        setups: &[&LaneSetup],
+        pieces: &[Piece],
+    ) -> Loads<R, M> {
+        let mut out = self.no_loads(with);
+        let last = setups.len() - 1;
+        for c in 0..self.forces.len() {
+            let track = |i: usize| (&setups[i.min(last)].tracks[c], pieces[i.min(last)]);
+            let start = with.gather(|i| {
+                let (track, (t, _)) = track(i);
+                track.at(t, Side::After)
+            });
+            let end = with.gather(|i| {
+                let (track, (t, length)) = track(i);
+                track.at(t + length, Side::Before)
+            });
+            out.amplitudes[c] = end;
+            for j in 0..M {
+                out.start[j] = start.mul_add(self.forces[c][j], out.start[j]);
+                out.end[j] = end.mul_add(self.forces[c][j], out.end[j]);
+            }
+        }
+        out
+    }
+}

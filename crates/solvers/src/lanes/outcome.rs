@@ -1,0 +1,77 @@
+//! What is left at the end of a march, for each lane.
+
+use super::LaneOutcome;
+use super::setup::LaneSetup;
+use super::state::State;
+use crate::observe::{EnergyTotals, LinkEnergy};
+use trilith_element::lanes::{Arithmetic, Real};
+
+/// Where all energy has left again, the error is measured against this share of the largest, and never
+/// against less than this share of what stands in springs and loads; as in the ledger.
+const SHARE_OF_LARGEST: f64 = 0.01;
+const SHARE_OF_STANDING: f64 = 1e-6;
+
+impl<R: Real, const M: usize, const L: usize, const N: usize> State<R, M, L, N> {
+    pub fn outcome<A: Arithmetic<Real = R>>(
+        &self,
+        with: A,
+        setup: &LaneSetup,
+        lane: usize,
+    ) -> LaneOutcome {
+        let of = |x: R| with.lane(x, lane);
+        let total = |x: &[R]| -> f64 { x.iter().map(|y| of(*y)).sum() };
+        let potential = of(self.potential) - setup.potential;
+        let mut energy = EnergyTotals {
+            input: setup.kinetic + of(self.external) + potential,
+            kinetic: of(self.kinetic),
+            strain: of(self.strain) - setup.strain,
+            potential,
+            modal_damping: of(self.damping),
+            link_stored: of(self.stored) - setup.stored.iter().sum::<f64>(),
+            link_hysteretic: total(&self.hysteretic),
+            link_viscous: total(&self.viscous),
+            ..EnergyTotals::default()
+        };
+        let e = &energy;
+        let heat = e.modal_damping + e.link_hysteretic + e.link_viscous;
+        let out = e.kinetic + e.strain + e.potential + e.link_stored + heat;
+        let error = e.input - out;
+        let standing = of(self.strain).abs() + of(self.stored).abs() + of(self.potential).abs();
+        let shares = [SHARE_OF_LARGEST * of(self.largest), SHARE_OF_STANDING * standing];
+        let size = [e.input, e.kinetic, e.potential, heat]
+            .into_iter()
+            .chain(shares)
+            .fold(0.0, |a: f64, b| a.max(b.abs()));
+        energy.error = error;
+        energy.error_relative = if size > 0.0 { error.abs() / size } else { 0.0 };
+        let alive = of(with.splat(1.0).only(self.alive)) == 1.0;
+        let finite = energy.error_relative.is_finite();
+        let grid = setup.shape.grid;
+        let lost = match (alive, finite) {
+            (true, true) => None,
+            (true, false) => Some(grid.steps as f64 * grid.dt),
+            (false, _) => Some(of(self.lost)),
+        };
+        LaneOutcome {
+            lost,
+            steps: of(self.count) as usize,
+            iterations: of(self.iterations) as usize,
+            outputs: self.peaks.iter().map(|p| p.of_lane(with, lane)).collect(),
+            energy,
+            link_energy: setup
+                .elements
+                .iter()
+                .enumerate()
+                .map(|(i, element)| {
+                    let energy = LinkEnergy {
+                        stored: of(self.steps[i].stored),
+                        hysteretic: of(self.hysteretic[i]),
+                        viscous: of(self.viscous[i]),
+                    };
+                    (*element, energy)
+                })
+                .collect(),
+            contact: self.feet.of_lane(with, lane),
+        }
+    }
+}

@@ -1,0 +1,200 @@
+//! Steps in pieces: where loads cut a step, and where a step has no equilibrium and is halved, as the
+//! ordinary engine does with fixed steps. Every analysis goes its own way, whoever its neighbours are.
+
+use super::coefficients::Rule;
+use super::loads::Loads;
+use super::newton::{Found, equilibrium};
+use super::plan::Plan;
+use super::setup::{LaneSetup, Piece};
+use super::state::{State, forget, keep};
+use super::step::finish;
+use crate::march::DEPTH;
+use trilith_element::lanes::{Arithmetic, Real, Task};
+
+/// What one analysis has still to go of a step.
+struct Walk {
+    pieces: Vec<Piece>,
+    /// Pieces done.
+    done: usize,
+    /// Where it is in the present piece, and how often that is halved.
+    at: u64,
+    level: u32,
+}
+
+const FULL: u64 = 1 << DEPTH;
+
+impl Walk {
+    fn new(pieces: Vec<Piece>, level: u32) -> Self {
+        Self { pieces, done: 0, at: 0, level }
+    }
+
+    /// Start and length of the next substep.
+    fn next(&self) -> Option<Piece> {
+        let (t, length) = *self.pieces.get(self.done)?;
+        let share = self.at as f64 / FULL as f64;
+        Some((t + length * share, length / (1u64 << self.level) as f64))
+    }
+
+    fn advance(&mut self) {
+        self.at += FULL >> self.level;
+        while self.level > 0 && self.at.is_multiple_of(FULL >> (self.level - 1)) {
+            self.level -= 1;
+        }
+        if self.at == FULL {
+            (self.at, self.done) = (0, self.done + 1);
+        }
+    }
+
+    /// False where halving does not help.
+    fn halve(&mut self) -> bool {
+        let more = self.level + 2 < DEPTH;
+        if more {
+            self.level += 1
+        } else {
+            self.done = self.pieces.len()
+        }
+        more
+    }
+}
+
+/// A step that loads of some analyses cut.
+#[inline(never)]
+pub(super) fn cut_step<A: Arithmetic, const M: usize, const L: usize, const N: usize>(
+    with: A,
+    setups: &[&LaneSetup],
+    plan: &Plan<A::Real, M, L, N>,
+    step: usize,
+    state: &mut State<A::Real, M, L, N>,
+) {
+    let grid = setups[0].shape.grid;
+    let parts = grid.substeps;
+    let split = |pieces: &[Piece]| -> Vec<Piece> {
+        let cut = |(t, length): &Piece| {
+            let (t, part) = (*t, length / parts as f64);
+            (0..parts).map(move |i| (t + part * i as f64, part)).collect::<Vec<_>>()
+        };
+        pieces.iter().flat_map(cut).collect()
+    };
+    let walks = setups.iter().map(|s| match s.cut.iter().find(|c| c.0 == step) {
+        Some((_, pieces)) => Walk::new(split(pieces), 0),
+        None => Walk::new(split(&[(step as f64 * grid.dt, grid.dt)]), 0),
+    });
+    walk(with, setups, plan, walks.collect(), state);
+}
+
+/// Ends a usual step in which some found no equilibrium: they go on in halves.
+#[inline(never)]
+pub(super) fn in_halves<A: Arithmetic, const M: usize, const L: usize, const N: usize>(
+    with: A,
+    setups: &[&LaneSetup],
+    plan: &Plan<A::Real, M, L, N>,
+    (rule, loads, t): (&Rule<A::Real, M, L>, &Loads<A::Real, M>, f64),
+    found: Found<A::Real, M, L>,
+    state: &mut State<A::Real, M, L, N>,
+) {
+    let wrong = found.wrong;
+    let before = state.clone();
+    let begin = with.splat(t);
+    with.run(End { plan, rule, loads, t: begin, found, before: &before, state });
+    let grid = setups[0].shape.grid;
+    let length = grid.dt / grid.substeps as f64;
+    let walks = (0..setups.len()).map(|i| {
+        let failed = with.lane(with.splat(1.0).only(wrong), i) == 1.0;
+        Walk::new(if failed { vec![(t, length)] } else { Vec::new() }, 1)
+    });
+    walk(with, setups, plan, walks.collect(), state);
+}
+
+fn walk<A: Arithmetic, const M: usize, const L: usize, const N: usize>(
+    with: A,
+    setups: &[&LaneSetup],
+    plan: &Plan<A::Real, M, L, N>,
+    mut walks: Vec<Walk>,
+    state: &mut State<A::Real, M, L, N>,
+) {
+    let grid = setups[0].shape.grid;
+    let last = walks.len() - 1;
+    let zero = with.splat(0.0);
+    loop {
+        let next: Vec<Option<Piece>> = walks.iter().map(Walk::next).collect();
+        if next.iter().all(Option::is_none) {
+            break;
+        }
+        let goes = with.gather(|i| f64::from(u8::from(next[i.min(last)].is_some())));
+        // Who has nothing left takes any step, and forgets it.
+        let now: Vec<Piece> = next.iter().map(|p| p.unwrap_or((0.0, grid.dt))).collect();
+        let lengths: Vec<f64> = now.iter().map(|p| p.1).collect();
+        let rule = Rule::new(with, setups, plan, Some(&lengths));
+        let loads = plan.loads_of_pieces(with, setups, &now);
+        let t = with.gather(|i| now[i.min(last)].0);
+        let before = state.clone();
+        let who = zero.lt(goes);
+        let (rule, loads) = (&rule, &loads);
+        let wrong = with.run(Substep { plan, rule, loads, t, who, before: &before, state });
+        let failed = with.splat(1.0).only(wrong);
+        let mut lost = vec![false; walks.len()];
+        for (i, walk) in walks.iter_mut().enumerate().filter(|(i, _)| next[*i].is_some()) {
+            if with.lane(failed, i) == 1.0 { lost[i] = !walk.halve() } else { walk.advance() }
+        }
+        if lost.contains(&true) {
+            let lost = with.gather(|i| f64::from(u8::from(lost[i.min(last)])));
+            let lost = zero.lt(lost);
+            state.lost = A::Real::select(lost, t, state.lost);
+            state.alive = state.alive & !lost;
+        }
+    }
+}
+
+/// A substep of the analyses in `who`, as a task; gives back who found no equilibrium and is where it was.
+struct Substep<'a, R: Real, const M: usize, const L: usize, const N: usize> {
+    plan: &'a Plan<R, M, L, N>,
+    rule: &'a Rule<R, M, L>,
+    loads: &'a Loads<R, M>,
+    t: R,
+    who: R::Mask,
+    before: &'a State<R, M, L, N>,
+    state: &'a mut State<R, M, L, N>,
+}
+
+impl<A: Arithmetic, const M: usize, const L: usize, const N: usize> Task<A>
+    for Substep<'_, A::Real, M, L, N>
+{
+    type Output = <A::Real as Real>::Mask;
+
+    #[inline(always)]
+    fn run(self, with: A) -> <A::Real as Real>::Mask {
+        let Self { plan, rule, loads, t, who, before, state } = self;
+        let found = equilibrium(with, plan, rule, loads, who, state);
+        let wrong = found.wrong;
+        finish(with, plan, rule, loads, t, found, state);
+        keep(who & !wrong, state, before);
+        forget(wrong, state);
+        wrong
+    }
+}
+
+/// The end of a step for who found an equilibrium, as a task.
+struct End<'a, R: Real, const M: usize, const L: usize, const N: usize> {
+    plan: &'a Plan<R, M, L, N>,
+    rule: &'a Rule<R, M, L>,
+    loads: &'a Loads<R, M>,
+    t: R,
+    found: Found<R, M, L>,
+    before: &'a State<R, M, L, N>,
+    state: &'a mut State<R, M, L, N>,
+}
+
+impl<A: Arithmetic, const M: usize, const L: usize, const N: usize> Task<A>
+    for End<'_, A::Real, M, L, N>
+{
+    type Output = ();
+
+    #[inline(always)]
+    fn run(self, with: A) {
+        let Self { plan, rule, loads, t, found, before, state } = self;
+        let wrong = found.wrong;
+        finish(with, plan, rule, loads, t, found, state);
+        keep(!wrong, state, before);
+        forget(wrong, state);
+    }
+}

@@ -1,0 +1,206 @@
+//! What does not change in a march: the structure of every lane, gathered from the setups.
+
+use super::setup::{LaneSetup, Output};
+use super::tables::Table;
+use std::sync::Arc;
+use trilith_element::lanes::{Arithmetic, ErasedLaw, Real};
+
+/// Links of one law that follow each other.
+#[derive(Clone, Copy)]
+pub(super) struct Run {
+    pub law: ErasedLaw,
+    pub first: usize,
+    pub count: usize,
+    pub history: usize,
+    pub parameters: usize,
+}
+
+pub(super) enum Row<R, const M: usize> {
+    Motion { order: usize, own: [R; M], base: Vec<R> },
+    Element { stiffness: [R; M], damping: [R; M] },
+    Deformation { at: usize, factor: R },
+    Force { at: usize, factor: R },
+    History { at: usize },
+    Zero,
+}
+
+/// How a channel gets its amplitudes.
+pub(super) enum Source<R> {
+    Constant,
+    /// One table for all, times a factor.
+    Shared(Arc<Table>, R),
+    /// A table for each.
+    Own,
+}
+
+/// What does not change in a march.
+pub(super) struct Plan<R, const M: usize, const L: usize, const N: usize> {
+    pub runs: Vec<Run>,
+    pub parameters: Vec<R>,
+    /// B.
+    pub b: [[R; M]; L],
+    pub omega2: [R; M],
+    pub damping: [R; M],
+    /// 1 where the structure is damped.
+    pub damped: R,
+    pub rotational: [bool; L],
+    /// Some coordinate is a rotation.
+    pub turns: bool,
+    /// Place of each lane coordinate of the setups.
+    pub places: Vec<usize>,
+    /// Load of each channel over the modes.
+    pub forces: Vec<[R; M]>,
+    pub sources: Vec<Source<R>>,
+    pub constant: [R; M],
+    pub outputs: Vec<Row<R, M>>,
+    /// Residual of the link forces that counts as none, as share of the largest force so far.
+    pub tolerance: R,
+    /// Indices of the links that are contacts.
+    pub feet: Vec<usize>,
+    /// Rates matter to the laws, accelerations to an output.
+    pub rate: bool,
+    pub accelerations: bool,
+}
+
+/// Picks a number of each lane; lanes without an analysis repeat the last.
+pub(super) fn pick<A: Arithmetic>(
+    with: A,
+    setups: &[&LaneSetup],
+    of: impl Fn(&LaneSetup) -> f64,
+) -> A::Real {
+    let last = setups.len() - 1;
+    with.gather(|i| of(setups[i.min(last)]))
+}
+
+impl<R: Real, const M: usize, const L: usize, const N: usize> Plan<R, M, L, N> {
+    pub fn new<A: Arithmetic<Real = R>>(with: A, setups: &[&LaneSetup]) -> Self {
+        let one = setups[0];
+        let zero = with.splat(0.0);
+        let get = |of: &dyn Fn(&LaneSetup) -> f64| pick(with, setups, of);
+        let modes = one.shape.modes;
+        let mode_wise = |of: &dyn Fn(&LaneSetup, usize) -> f64| -> [R; M] {
+            std::array::from_fn(|j| if j < modes { get(&|s| of(s, j)) } else { zero })
+        };
+        let mut places = Vec::new();
+        let mut runs: Vec<Run> = Vec::new();
+        let (mut history, mut parameters) = (0, Vec::new());
+        for (l, form) in one.forms.iter().enumerate() {
+            let (first, law) = (l * N, form.law);
+            places.extend((0..law.coordinates).map(|i| first + i));
+            let joins = |r: &&mut Run| r.law.id == law.id && law.coordinates == N;
+            match runs.last_mut().filter(joins) {
+                Some(run) => run.count += 1,
+                None => {
+                    runs.push(Run { law, first, count: 1, history, parameters: parameters.len() })
+                }
+            }
+            history += law.history;
+            parameters.extend((0..law.parameters).map(|i| get(&|s| s.forms[l].parameters[i])));
+        }
+        let mut b = [[zero; M]; L];
+        let mut rotational = [false; L];
+        for (i, place) in places.iter().enumerate() {
+            b[*place] = mode_wise(&|s, j| s.rows[i][j]);
+            rotational[*place] = one.rotational[i];
+        }
+        let channels = one.forces.len();
+        let sources = (0..channels)
+            .map(|c| match &one.tables[c] {
+                None => Source::Constant,
+                Some((table, _)) => {
+                    let same = |s: &&LaneSetup| {
+                        s.tables[c].as_ref().is_some_and(|(t, _)| Arc::ptr_eq(t, table))
+                    };
+                    if setups.iter().all(same) {
+                        let size = get(&|s| s.tables[c].as_ref().map_or(0.0, |t| t.1));
+                        Source::Shared(Arc::clone(table), size)
+                    } else {
+                        Source::Own
+                    }
+                }
+            })
+            .collect();
+        let conserved = |s: &LaneSetup, j: usize| -> f64 {
+            (0..channels).filter(|c| s.conservative[*c]).map(|c| s.forces[c][j]).sum()
+        };
+        let rows = |of: &dyn Fn(&LaneSetup) -> Vec<f64>, len: usize| -> Vec<R> {
+            let all: Vec<Vec<f64>> = setups.iter().map(|s| of(s)).collect();
+            let last = all.len() - 1;
+            (0..len).map(|j| with.gather(|i| all[i.min(last)][j])).collect()
+        };
+        let modal = |of: &dyn Fn(&LaneSetup) -> Vec<f64>| -> [R; M] {
+            let mut all = [zero; M];
+            all[..modes].copy_from_slice(&rows(of, modes));
+            all
+        };
+        let outputs = (0..one.outputs.len())
+            .map(|o| match &one.outputs[o] {
+                Output::Motion { order, base, .. } => Row::Motion {
+                    order: *order,
+                    own: modal(&|s| s.outputs[o].own().to_vec()),
+                    base: rows(&|s| s.outputs[o].base().to_vec(), base.len()),
+                },
+                Output::Element { .. } => Row::Element {
+                    stiffness: modal(&|s| s.outputs[o].own().to_vec()),
+                    damping: modal(&|s| s.outputs[o].base().to_vec()),
+                },
+                Output::Deformation { at, .. } => {
+                    Row::Deformation { at: places[*at], factor: get(&|s| s.outputs[o].factor()) }
+                }
+                Output::Force { at, .. } => {
+                    Row::Force { at: places[*at], factor: get(&|s| s.outputs[o].factor()) }
+                }
+                Output::History { at } => Row::History { at: *at },
+                Output::Zero => Row::Zero,
+            })
+            .collect();
+        let damped = |s: &LaneSetup| f64::from(u8::from(s.damping.iter().any(|c| *c != 0.0)));
+        Self {
+            runs,
+            parameters,
+            b,
+            omega2: mode_wise(&|s, j| s.omega2[j]),
+            damping: mode_wise(&|s, j| s.damping[j]),
+            damped: get(&damped),
+            turns: rotational.contains(&true),
+            rotational,
+            forces: (0..channels).map(|c| mode_wise(&|s, j| s.forces[c][j])).collect(),
+            sources,
+            tolerance: get(&|s| s.tolerance),
+            constant: mode_wise(&|s, j| conserved(s, j)),
+            rate: setups.iter().any(|s| s.forms.iter().any(|f| f.rate)),
+            accelerations: one
+                .outputs
+                .iter()
+                .any(|o| matches!(o, Output::Motion { order: 1 | 2, .. })),
+            outputs,
+            feet: (0..one.forms.len()).filter(|l| one.forms[*l].law.is_contact).collect(),
+            places,
+        }
+    }
+}
+
+impl Output {
+    fn own(&self) -> &[f64] {
+        match self {
+            Self::Motion { own, .. } => own,
+            Self::Element { stiffness, .. } => stiffness,
+            _ => &[],
+        }
+    }
+
+    fn base(&self) -> &[f64] {
+        match self {
+            Self::Motion { base, .. } => base,
+            Self::Element { damping, .. } => damping,
+            _ => &[],
+        }
+    }
+
+    fn factor(&self) -> f64 {
+        match self {
+            Self::Deformation { factor, .. } | Self::Force { factor, .. } => *factor,
+            _ => 0.0,
+        }
+    }
+}

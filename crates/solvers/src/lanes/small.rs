@@ -1,0 +1,61 @@
+//! Small matrices, one in each lane.
+
+use trilith_element::lanes::Real;
+
+/// Deformations (or rates) with forces at the end; `g` is minus the compliance.
+#[inline(always)]
+pub(super) fn deform<R: Real, const L: usize>(
+    g: &[[R; L]; L],
+    free: &[R; L],
+    f: &[R; L],
+) -> [R; L] {
+    let mut d = *free;
+    for a in 0..L {
+        for b in 0..L {
+            d[a] = g[a][b].mul_add(f[b], d[a]);
+        }
+    }
+    d
+}
+
+/// Solves with the factors.
+#[inline(always)]
+pub(super) fn solve<R: Real, const L: usize>(lu: &[[R; L]; L], x: &mut [R; L]) {
+    for i in 1..L {
+        for j in 0..i {
+            x[i] = (-lu[i][j]).mul_add(x[j], x[i]);
+        }
+    }
+    for i in (0..L).rev() {
+        for j in i + 1..L {
+            x[i] = (-lu[i][j]).mul_add(x[j], x[i]);
+        }
+        x[i] = x[i] * lu[i][i];
+    }
+}
+
+/// Factors in place, without pivots: J is I plus something that is positive for passive links.
+#[inline(always)]
+pub(super) fn factor<R: Real, const L: usize>(a: &mut [[R; L]; L]) {
+    for i in 0..L {
+        let inverse = a[i][i].of(1.0) / a[i][i];
+        a[i][i] = inverse;
+        for r in i + 1..L {
+            let share = a[r][i] * inverse;
+            a[r][i] = share;
+            for j in i + 1..L {
+                a[r][j] = (-share).mul_add(a[i][j], a[r][j]);
+            }
+        }
+    }
+}
+
+/// Sum of products.
+#[inline(always)]
+pub(super) fn dot<R: Real>(zero: R, row: &[R], x: &[R]) -> R {
+    let mut y = zero;
+    for (c, x) in row.iter().zip(x) {
+        y = c.mul_add(*x, y);
+    }
+    y
+}

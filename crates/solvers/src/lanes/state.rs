@@ -1,0 +1,177 @@
+//! Everything that changes in a march.
+
+use super::contact::Feet;
+use super::peaks::Peak;
+use super::plan::{Plan, pick};
+use super::setup::LaneSetup;
+use trilith_element::Contact;
+use trilith_element::lanes::{Arithmetic, LaneStep, Real};
+
+/// Everything that changes.
+#[derive(Clone)]
+pub(super) struct State<R: Real, const M: usize, const L: usize, const N: usize> {
+    pub q: [R; M],
+    pub p: [R; M],
+    pub a: [R; M],
+    pub d: [R; L],
+    pub v: [R; L],
+    pub f: [R; L],
+    /// Tangents of the last look at the laws: a row of the block of its link for every coordinate.
+    pub k: [[R; N]; L],
+    pub c: [[R; N]; L],
+    /// Factors of J = I + k G + c H, with inverse diagonals.
+    pub lu: [[[R; L]; L]; 2],
+    /// Which of both holds.
+    pub held: usize,
+    pub history: Vec<R>,
+    pub scale: [R; 2],
+    pub alive: R::Mask,
+    pub lost: R,
+    pub steps: Vec<LaneStep<R>>,
+    pub hysteretic: Vec<R>,
+    pub viscous: Vec<R>,
+    pub external: R,
+    pub damping: R,
+    pub kinetic: R,
+    pub strain: R,
+    pub potential: R,
+    pub stored: R,
+    pub heat: R,
+    pub largest: R,
+    pub kinetic0: R,
+    pub strain0: R,
+    pub stored0: R,
+    pub potential0: R,
+    pub iterations: R,
+    pub count: R,
+    pub peaks: Vec<Peak<R>>,
+    pub feet: Feet<R>,
+}
+
+impl<R: Real, const M: usize, const L: usize, const N: usize> State<R, M, L, N> {
+    pub fn new<A: Arithmetic<Real = R>>(
+        with: A,
+        setups: &[&LaneSetup],
+        plan: &Plan<R, M, L, N>,
+    ) -> Self {
+        let one = setups[0];
+        let zero = with.splat(0.0);
+        let get = |of: &dyn Fn(&LaneSetup) -> f64| pick(with, setups, of);
+        let modes = one.shape.modes;
+        let mode_wise = |of: &dyn Fn(&LaneSetup, usize) -> f64| -> [R; M] {
+            std::array::from_fn(|j| if j < modes { get(&|s| of(s, j)) } else { zero })
+        };
+        let flat = |of: &dyn Fn(&LaneSetup, usize) -> f64| -> [R; L] {
+            let mut x = [zero; L];
+            for (i, place) in plan.places.iter().enumerate() {
+                x[*place] = get(&|s| of(s, i));
+            }
+            x
+        };
+        let mut lu = [[zero; L]; L];
+        for (i, row) in lu.iter_mut().enumerate() {
+            row[i] = with.splat(1.0);
+        }
+        let links = one.forms.len();
+        let stored: Vec<R> = (0..links).map(|l| get(&|s| s.stored[l])).collect();
+        let feet: Vec<&[Contact]> = setups.iter().map(|s| &s.contacts[..]).collect();
+        let kinetic = get(&|s| s.kinetic);
+        Self {
+            q: mode_wise(&|s, j| s.q[j]),
+            p: mode_wise(&|s, j| s.p[j]),
+            a: mode_wise(&|s, j| s.a[j]),
+            d: flat(&|s, i| s.d[i]),
+            v: flat(&|s, i| s.v[i]),
+            f: flat(&|s, i| s.f[i]),
+            k: [[zero; N]; L],
+            c: [[zero; N]; L],
+            lu: [lu; 2],
+            held: 0,
+            history: (0..one.history.len()).map(|i| get(&|s| s.history[i])).collect(),
+            scale: [0, 1].map(|i| get(&|s| s.scale[i])),
+            alive: zero.le(with.splat(1.0)),
+            lost: zero,
+            steps: stored.iter().map(|s| LaneStep::elastic(*s)).collect(),
+            hysteretic: vec![zero; links],
+            viscous: vec![zero; links],
+            external: zero,
+            damping: zero,
+            kinetic,
+            strain: get(&|s| s.strain),
+            potential: get(&|s| s.potential),
+            stored: get(&|s| s.stored.iter().sum()),
+            heat: zero,
+            largest: kinetic,
+            kinetic0: kinetic,
+            strain0: get(&|s| s.strain),
+            stored0: get(&|s| s.stored.iter().sum()),
+            potential0: get(&|s| s.potential),
+            iterations: zero,
+            count: zero,
+            peaks: (0..one.values.len())
+                .map(|o| Peak::new(get(&|s| s.values[o]), get(&|s| s.rates[o])))
+                .collect(),
+            feet: Feet::new(with, &feet, one.forms.iter().all(|f| f.law.coordinates < 3)),
+        }
+    }
+}
+
+/// Takes the other state where a mask says no. Who is alive and how often the laws were asked is left.
+pub(super) fn keep<R: Real, const M: usize, const L: usize, const N: usize>(
+    mask: R::Mask,
+    to: &mut State<R, M, L, N>,
+    from: &State<R, M, L, N>,
+) {
+    let one = |x: &mut R, y: &R| *x = R::select(mask, *x, *y);
+    let all = |x: &mut [R], y: &[R]| x.iter_mut().zip(y).for_each(|(x, y)| one(x, y));
+    all(&mut to.q, &from.q);
+    all(&mut to.p, &from.p);
+    all(&mut to.a, &from.a);
+    all(&mut to.d, &from.d);
+    all(&mut to.v, &from.v);
+    all(&mut to.f, &from.f);
+    all(to.k.as_flattened_mut(), from.k.as_flattened());
+    all(to.c.as_flattened_mut(), from.c.as_flattened());
+    all(to.lu[to.held].as_flattened_mut(), from.lu[from.held].as_flattened());
+    all(&mut to.history, &from.history);
+    all(&mut to.scale, &from.scale);
+    all(&mut to.hysteretic, &from.hysteretic);
+    all(&mut to.viscous, &from.viscous);
+    for (x, y) in to.steps.iter_mut().zip(&from.steps) {
+        one(&mut x.stored, &y.stored);
+    }
+    for (x, y) in [
+        (&mut to.external, &from.external),
+        (&mut to.damping, &from.damping),
+        (&mut to.kinetic, &from.kinetic),
+        (&mut to.strain, &from.strain),
+        (&mut to.potential, &from.potential),
+        (&mut to.stored, &from.stored),
+        (&mut to.heat, &from.heat),
+        (&mut to.largest, &from.largest),
+        (&mut to.count, &from.count),
+    ] {
+        one(x, y);
+    }
+    for (x, y) in to.peaks.iter_mut().zip(&from.peaks) {
+        x.keep(mask, y);
+    }
+    to.feet.keep(mask, &from.feet);
+}
+
+/// The next Newton iteration starts from nothing where a mask says so: after a failure the tangents may
+/// be no numbers.
+pub(super) fn forget<R: Real, const M: usize, const L: usize, const N: usize>(
+    mask: R::Mask,
+    state: &mut State<R, M, L, N>,
+) {
+    let blocks = [&mut state.k, &mut state.c];
+    for x in blocks.into_iter().flat_map(|b| b.as_flattened_mut()) {
+        *x = R::select(mask, x.of(0.0), *x);
+    }
+    for (i, row) in state.lu[state.held].iter_mut().enumerate() {
+        for (j, x) in row.iter_mut().enumerate() {
+            *x = R::select(mask, x.of(f64::from(u8::from(i == j))), *x);
+        }
+    }
+}
