@@ -5,7 +5,7 @@ use super::loads::Loads;
 use super::plan::{Plan, Row};
 use super::small::dot;
 use super::state::State;
-use trilith_element::lanes::{Arithmetic, Real};
+use trilith_element::lanes::Arithmetic;
 
 /// Extremes of the outputs after a step that began at `t`.
 #[inline(always)]
