@@ -99,6 +99,21 @@ fn separate_parts_and_empty_matrices_are_solved() {
 }
 
 #[test]
+fn right_hand_sides_together_are_solved_as_alone() {
+    let a = grid(23);
+    let (n, factor) = (a.rows(), StagedLdlt::alone(&[(1.0, &a)]).unwrap());
+    let b: Vec<f64> = (0..6 * n).map(|i| (i as f64).sin()).collect();
+    let mut together = b.clone();
+    factor.solve(&mut together);
+    for (x, b) in together.chunks(n).zip(b.chunks(n)) {
+        let mut alone = b.to_vec();
+        factor.solve(&mut alone);
+        assert_eq!(x, alone);
+        a.mul(x).iter().zip(b).for_each(|(y, b)| assert!((y - b).abs() < 1e-11, "{y} {b}"));
+    }
+}
+
+#[test]
 fn a_zero_pivot_is_named() {
     let mut t = Triplets::new(3, 3);
     t.add(0, 0, 1.0);
