@@ -12,7 +12,6 @@ mod error;
 mod files;
 mod frames;
 mod npz;
-mod peak;
 mod recorder;
 mod summary;
 #[cfg(test)]
@@ -24,6 +23,6 @@ pub use error::FileError;
 pub use files::Files;
 pub use frames::{Frame, Frames};
 pub use npz::npy;
-pub use peak::Peak;
 pub use recorder::{ENERGIES, Recorder};
 pub use summary::{BasisSummary, ModelSummary, Named, OutputSummary, Summary};
+pub use trilith_solvers::Peak;

@@ -27,6 +27,7 @@ mod modal;
 mod observe;
 mod outputs;
 mod p_delta;
+mod peak;
 mod products;
 mod propagator;
 mod space;
@@ -47,5 +48,6 @@ pub use observe::{
     Work,
 };
 pub use p_delta::assemble;
+pub use peak::Peak;
 pub use stepper::State;
 pub use together::{Member, run_together};

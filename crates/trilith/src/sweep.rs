@@ -39,8 +39,8 @@ use std::path::PathBuf;
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use trilith_model::{Diagnostic, Model, ModelText, StepControl};
-use trilith_results::Named;
-use trilith_solvers::lanes::{self, Extremes, LaneOutcome, LaneSetup, Tables};
+use trilith_results::{Named, Peak};
+use trilith_solvers::lanes::{self, LaneOutcome, LaneSetup, Tables};
 use trilith_solvers::{ContactSummary, EnergyTotals, LinkEnergy, Status};
 
 /// Values of parameters, by name, as `--set` takes them.
@@ -78,7 +78,7 @@ pub struct Outcome {
     /// How it ended.
     pub status: Status,
     /// Extremes and final values of the outputs, by name, SI.
-    pub outputs: Named<Extremes>,
+    pub outputs: Named<Peak>,
     /// Energies at the end, J.
     pub energy: EnergyTotals,
     /// Energies of every link at the end, by its name, J.
@@ -299,10 +299,7 @@ impl Sweep {
         }
         let run = Analysis::new(&model)?.run(RunOptions { case, ..RunOptions::default() })?;
         let output = |(i, o): (usize, &trilith_model::Output)| {
-            let p = run.record.peaks().get(i)?;
-            let of =
-                Extremes { max: p.max, t_max: p.t_max, min: p.min, t_min: p.t_min, last: p.last };
-            Some((o.name.clone(), of))
+            run.record.peaks().get(i).map(|peak| (o.name.clone(), *peak))
         };
         let result = &run.result;
         Ok(Outcome {

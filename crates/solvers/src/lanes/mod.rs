@@ -32,7 +32,6 @@ mod step;
 mod tables;
 
 pub use march::{march, march_alone};
-pub use peaks::{Extremes, inner_extremes};
 pub use setup::{LaneSetup, fixed_substeps, prepare};
 pub use tables::Tables;
 
@@ -55,7 +54,7 @@ pub struct LaneOutcome {
     /// Evaluations of the link laws.
     pub iterations: usize,
     /// Extremes of the outputs, in the order of the model.
-    pub outputs: Vec<Extremes>,
+    pub outputs: Vec<crate::Peak>,
     /// Energies at the end.
     pub energy: EnergyTotals,
     /// Energies of each link at the end: (index of the element, energies).

@@ -1,47 +1,7 @@
 //! Extremes of outputs, between the steps as well.
 
-use serde::Serialize;
+use crate::peak::{self, inner_extremes};
 use trilith_element::lanes::{Arithmetic, Real};
-
-/// Extremes of one quantity, with their times in s.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
-pub struct Extremes {
-    /// Largest value.
-    pub max: f64,
-    /// When it was reached first.
-    pub t_max: f64,
-    /// Smallest value.
-    pub min: f64,
-    /// When it was reached first.
-    pub t_min: f64,
-    /// Value at the end.
-    #[serde(rename = "final")]
-    pub last: f64,
-}
-
-/// Time and value of the extremes, strictly inside, of the cubic Hermite polynomial between two moments
-/// of (time, value, rate); none where a rate is not a number.
-#[must_use]
-pub fn inner_extremes(
-    (t0, y0, r0): (f64, f64, f64),
-    (t1, y1, r1): (f64, f64, f64),
-) -> [Option<(f64, f64)>; 2] {
-    let h = t1 - t0;
-    let (m0, m1) = (h * r0, h * r1);
-    // p(s) = y0 + m0 s + (3Δ − 2m0 − m1) s² + (m0 + m1 − 2Δ) s³ with s = (t − t0)/h, Δ = y1 − y0.
-    let rise = y1 - y0;
-    let (c2, c3) = (3.0 * rise - 2.0 * m0 - m1, m0 + m1 - 2.0 * rise);
-    // p' = m0 + 2 c2 s + 3 c3 s²; q avoids cancellation, and c3 = 0 leaves the root m0/q.
-    let discriminant = c2 * c2 - 3.0 * c3 * m0;
-    if discriminant.is_nan() || discriminant < 0.0 {
-        return [None; 2];
-    }
-    let q = -(c2 + discriminant.sqrt().copysign(c2));
-    [m0 / q, q / (3.0 * c3)].map(|s| {
-        let inside = s > 0.0 && s < 1.0;
-        inside.then_some((t0 + s * h, y0 + s * (m0 + s * (c2 + s * c3))))
-    })
-}
 
 /// Extremes in lanes.
 #[derive(Clone, Copy)]
@@ -129,9 +89,9 @@ impl<R: Real> Peak<R> {
         };
     }
 
-    pub(super) fn of_lane<A: Arithmetic<Real = R>>(&self, with: A, lane: usize) -> Extremes {
+    pub(super) fn of_lane<A: Arithmetic<Real = R>>(&self, with: A, lane: usize) -> peak::Peak {
         let of = |x: R| with.lane(x, lane);
-        Extremes {
+        peak::Peak {
             max: of(self.max),
             t_max: of(self.t_max),
             min: of(self.min),

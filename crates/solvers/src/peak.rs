@@ -41,7 +41,7 @@ impl Peak {
     }
 
     /// Takes the next moment of the quantity, `(t, value, rate)` each; the rates may be NaN.
-    pub(crate) fn advance(&mut self, from: (f64, f64, f64), to: (f64, f64, f64)) {
+    pub fn advance(&mut self, from: (f64, f64, f64), to: (f64, f64, f64)) {
         for (t, value) in inner_extremes(from, to).into_iter().flatten() {
             self.include(t, value);
         }
@@ -50,8 +50,9 @@ impl Peak {
     }
 }
 
-/// Time and value of the extremes, strictly inside, of the cubic Hermite polynomial between two moments.
-fn inner_extremes(
+/// Time and value of the extremes, strictly inside, of the cubic Hermite polynomial between two moments
+/// of (time, value, rate); none where a rate is not a number.
+pub(crate) fn inner_extremes(
     (t0, y0, r0): (f64, f64, f64),
     (t1, y1, r1): (f64, f64, f64),
 ) -> [Option<(f64, f64)>; 2] {
