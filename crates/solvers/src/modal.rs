@@ -11,10 +11,9 @@
 //!
 //! **Stiff links.** With link forces linear in the step the exact rule is the linear-acceleration method
 //! on a link: stable only for ω_link Δt < 2√3. Steps that are too long for it at the stiffest link, as stiff as
-//! it is then, are made by average acceleration instead, which has the same form, the same order and no such
-//! limit. A
-//! contact at rest or in steady sliding then needs no short steps; where something happens, the error
-//! control shortens them until the exact rule is back.
+//! it is then, are made by average acceleration instead in the modes that hang on such links; it has the same
+//! form, the same order and no such limit. A contact at rest or in steady sliding then needs no short steps;
+//! where something happens, the error control shortens them until the exact rule is back.
 //!
 //! The work of a linear load is exact too: ∫ s q̇ dt = s₁q₁ − s₀q₀ − ṡ ∫q dt; under average acceleration,
 //! with ∫q = Δt (q₀ + q₁)/2, it is the work by which that rule balances.
@@ -32,6 +31,8 @@ use trilith_linalg::Dense;
 /// Steps with a larger G·k of the stiffest link are made by average acceleration; the limit of the exact
 /// rule is 2 (ω²Δt²/6), and well before it the rule is no better any more.
 pub(crate) const LONGEST: f64 = 0.5;
+/// A mode whose own share of G·k is below this stays with the exact rule.
+const FREE: f64 = 1e-3;
 
 /// Rules of one step size.
 struct Step {
@@ -39,10 +40,11 @@ struct Step {
     /// Largest eigenvalue of G k of the engaged links under the exact rule.
     ratio: f64,
     exact: Way,
-    /// Average acceleration, where it is needed.
-    average: Option<Way>,
+    /// With average acceleration of some modes, as far as it was needed.
+    others: Vec<Way>,
 }
 
+/// A rule and what it makes of the links.
 struct Way {
     rule: Rule,
     compliance: Compliance,
@@ -61,8 +63,8 @@ pub(crate) struct Modes {
     /// Stiffness of the engaged links.
     engaged: Vec<f64>,
     steps: Vec<Step>,
-    /// Step size and whether by average acceleration.
-    now: (usize, bool),
+    /// Step size, and which of its other ways.
+    now: (usize, Option<usize>),
     /// Largest G·k that the exact rule would not have borne.
     beyond: Option<f64>,
     /// √k of the links as they are.
@@ -141,7 +143,7 @@ impl Modes {
             structure,
             engaged,
             steps: Vec::new(),
-            now: (0, false),
+            now: (0, None),
             beyond: None,
             root: Vec::new(),
         }
@@ -153,10 +155,10 @@ impl Modes {
             return self.now.0;
         }
         self.steps.iter().position(|s| s.dt == dt).unwrap_or_else(|| {
-            let exact = self.way(Rule::exact(&self.structure, dt), StepKey { dt, average: false });
+            let exact = self.way(Rule::exact(&self.structure, dt), StepKey { dt, average: 0 });
             let of_modes = self.compliance_of(&exact.rule, 1, self.structure.modes);
             let ratio = ratio(&of_modes, &self.engaged);
-            self.steps.push(Step { dt, ratio, exact, average: None });
+            self.steps.push(Step { dt, ratio, exact, others: Vec::new() });
             self.steps.len() - 1
         })
     }
@@ -171,15 +173,29 @@ impl Modes {
     pub(crate) fn choose(&mut self, dt: f64, stiffness: &[f64]) -> StepKey {
         let size = self.size(dt);
         let step = &self.steps[size];
-        let mut average = false;
+        let mut average = 0;
         if step.ratio > LONGEST {
             let present = bound(&step.exact.compliance.g, stiffness, &mut self.root);
-            average = present > LONGEST;
-            if average {
+            if present > LONGEST {
                 self.beyond = Some(self.beyond.unwrap_or(0.0).max(step.ratio.min(present)));
+                average = self.held(dt, stiffness);
             }
         }
         StepKey { dt, average }
+    }
+
+    /// The modes that stiff links hold.
+    fn held(&mut self, dt: f64, stiffness: &[f64]) -> u64 {
+        if self.structure.damping.is_some() {
+            return u64::MAX;
+        }
+        self.root.clear();
+        self.root.resize(self.space.order(), 0.0);
+        for (a, k) in stiffness.iter().enumerate().filter(|(_, k)| **k > 0.0) {
+            self.space.links.row(a).for_each(|(j, b)| self.root[j] += k * b * b);
+        }
+        let shares = self.root[..self.structure.modes].iter().enumerate();
+        shares.filter(|(_, k)| *k * dt * dt / 6.0 > FREE).fold(0, |all, (j, _)| all | bit(j))
     }
 
     /// Largest G·k of the engaged links for a step size.
@@ -206,20 +222,23 @@ impl Modes {
 
     fn way_now(&self) -> &Way {
         let step = &self.steps[self.now.0];
-        match (&step.average, self.now.1) {
-            (Some(average), true) => average,
-            _ => &step.exact,
-        }
+        self.now.1.map_or(&step.exact, |at| &step.others[at])
     }
 
     /// Prepares for steps.
     pub(crate) fn prepare(&mut self, key: StepKey) {
         let size = self.size(key.dt);
-        if key.average && self.steps[size].average.is_none() {
-            let way = self.way(Rule::average(&self.structure, key.dt), key);
-            self.steps[size].average = Some(way);
+        self.now = (size, None);
+        if key.average == 0 {
+            return;
         }
-        self.now = (size, key.average);
+        let others = &self.steps[size].others;
+        let at = others.iter().position(|w| w.compliance.key == key).unwrap_or(others.len());
+        if at == others.len() {
+            let way = self.way(Rule::mixed(&self.structure, key.dt, key.average), key);
+            self.steps[size].others.push(way);
+        }
+        self.now = (size, Some(at));
     }
 
     /// Compliance of the step prepared last.
@@ -311,6 +330,11 @@ fn less(load: &[f64], links: &[f64], source: &mut [f64]) {
     for (s, (p, f)) in source.iter_mut().zip(load.iter().zip(links)) {
         *s = p - f;
     }
+}
+
+/// The bit of a mode.
+fn bit(mode: usize) -> u64 {
+    1 << mode.min(63)
 }
 
 /// A bound of the largest eigenvalue of G diag(k): the row sums of √k G √k.

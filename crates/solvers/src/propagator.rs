@@ -21,8 +21,9 @@ pub(crate) struct Compliance {
 pub(crate) struct StepKey {
     /// Length, s.
     pub dt: f64,
-    /// Average acceleration where the exact rule would go too far.
-    pub average: bool,
+    /// Modes that move by average acceleration, where the exact rule would go too far: a bit each, the
+    /// last one for all from the 64th on.
+    pub average: u64,
 }
 
 /// Work over one step, J.
@@ -60,7 +61,7 @@ pub(crate) trait Propagator {
 
     /// The step of length `dt` from a state whose active link coordinates have this stiffness.
     fn choose(&mut self, dt: f64, _stiffness: &[f64]) -> StepKey {
-        StepKey { dt, average: false }
+        StepKey { dt, average: 0 }
     }
 
     /// Prepares for such steps; what is expensive is kept.

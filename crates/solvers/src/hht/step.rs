@@ -43,7 +43,7 @@ impl Step {
         let mut h = g.clone();
         g.values_mut().iter_mut().for_each(|x| *x *= w * beta * dt * dt);
         h.values_mut().iter_mut().for_each(|x| *x *= w * gamma * dt);
-        let compliance = Compliance { g, h, key: StepKey { dt, average: false } };
+        let compliance = Compliance { g, h, key: StepKey { dt, average: 0 } };
         Ok(Self { factor, woodbury, compliance, dt, used: 0 })
     }
 

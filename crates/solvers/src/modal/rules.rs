@@ -3,6 +3,7 @@
 //! Static shapes (places without mass) follow the loads, c q̇ + q = s: exactly where the structure damps
 //! them, at the mean rate of the step where it does not.
 
+use super::bit;
 use trilith_linalg::{Dense, DenseLu, expm};
 
 /// The linear structure on a basis: modes first, static shapes (without mass, of stiffness one) behind them.
@@ -51,29 +52,32 @@ pub(super) struct Rule {
     own: [[Vec<f64>; 4]; 3],
 }
 
+/// Blocks of a rule for modes with these ω², this damping, a step.
+type OfModes = fn(&[f64], &Dense, f64) -> [[Dense; 4]; 3];
+
 impl Rule {
     /// Exact for loads linear in the step.
     pub(super) fn exact(structure: &Structure, dt: f64) -> Self {
-        Self::new(structure, dt, exact_rule)
+        Self::new(structure, dt, |_| exact_rule)
     }
 
-    /// Average acceleration.
-    pub(super) fn average(structure: &Structure, dt: f64) -> Self {
-        Self::new(structure, dt, average_rule)
+    /// Average acceleration of the modes whose bit is set, exact for the others; of all where damping
+    /// couples them.
+    pub(super) fn mixed(structure: &Structure, dt: f64, average: u64) -> Self {
+        Self::new(structure, dt, |mode| match average & bit(mode) {
+            0 => exact_rule,
+            _ => average_rule,
+        })
     }
 
-    fn new(
-        structure: &Structure,
-        dt: f64,
-        of_modes: fn(&[f64], &Dense, f64) -> [[Dense; 4]; 3],
-    ) -> Self {
+    fn new(structure: &Structure, dt: f64, of_mode: impl Fn(usize) -> OfModes) -> Self {
         let modes = structure.modes;
         let coupled = structure.damping.as_ref().map(|all| {
             let mut damping = Dense::zeros(modes, modes);
             for j in 0..modes {
                 damping.column_mut(j).copy_from_slice(&all.column(j)[..modes]);
             }
-            Box::new(of_modes(&structure.omega2[..modes], &damping, dt))
+            Box::new(of_mode(0)(&structure.omega2[..modes], &damping, dt))
         });
         let mut own: [[Vec<f64>; 4]; 3] = Default::default();
         let first = if coupled.is_some() { modes } else { 0 };
@@ -81,7 +85,7 @@ impl Rule {
             let rate = structure.rates[i];
             let one = if i < modes {
                 let damping = Dense::from_columns(1, 1, vec![rate]);
-                of_modes(&[structure.omega2[i]], &damping, dt).map(|row| row.map(|b| b[(0, 0)]))
+                of_mode(i)(&[structure.omega2[i]], &damping, dt).map(|row| row.map(|b| b[(0, 0)]))
             } else {
                 static_rule(rate, dt)
             };

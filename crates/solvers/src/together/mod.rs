@@ -209,7 +209,7 @@ fn march<O: Observer>(
 /// One step of all courses that are on the way, from `index` to `index + 1` in parts of its step, over `dt`.
 /// A course whose links find no equilibrium leaves the others.
 fn step(modes: &mut Modes, courses: &mut [Course<'_, '_>], part: usize, dt: f64) {
-    modes.prepare(StepKey { dt, average: false });
+    modes.prepare(StepKey { dt, average: 0 });
     let modes = &*modes;
     let mut going: Vec<&mut Course<'_, '_>> =
         courses.iter_mut().filter(|c| c.is_on_the_way()).collect();
