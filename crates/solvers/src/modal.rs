@@ -170,7 +170,7 @@ impl Modes {
     }
 
     /// The rule for a step from a state whose links have this stiffness.
-    pub(crate) fn choose(&mut self, dt: f64, stiffness: &[f64]) -> StepKey {
+    pub(crate) fn choose(&mut self, dt: f64, stiffness: &[f64], stiffest: &[f64]) -> StepKey {
         let size = self.size(dt);
         let step = &self.steps[size];
         let mut average = 0;
@@ -178,20 +178,20 @@ impl Modes {
             let present = bound(&step.exact.compliance.g, stiffness, &mut self.root);
             if present > LONGEST {
                 self.beyond = Some(self.beyond.unwrap_or(0.0).max(step.ratio.min(present)));
-                average = self.held(dt, stiffness);
+                average = self.held(dt, stiffest);
             }
         }
         StepKey { dt, average }
     }
 
-    /// The modes that stiff links hold.
-    fn held(&mut self, dt: f64, stiffness: &[f64]) -> u64 {
+    /// The modes that hang on links which are or have been stiff: one that slips now may stick within the step.
+    fn held(&mut self, dt: f64, stiffest: &[f64]) -> u64 {
         if self.structure.damping.is_some() {
             return u64::MAX;
         }
         self.root.clear();
         self.root.resize(self.space.order(), 0.0);
-        for (a, k) in stiffness.iter().enumerate().filter(|(_, k)| **k > 0.0) {
+        for (a, k) in stiffest.iter().enumerate().filter(|(_, k)| **k > 0.0) {
             self.space.links.row(a).for_each(|(j, b)| self.root[j] += k * b * b);
         }
         let shares = self.root[..self.structure.modes].iter().enumerate();
@@ -375,8 +375,8 @@ impl Propagator for Modal {
         0
     }
 
-    fn choose(&mut self, dt: f64, stiffness: &[f64]) -> StepKey {
-        self.modes.choose(dt, stiffness)
+    fn choose(&mut self, dt: f64, stiffness: &[f64], stiffest: &[f64]) -> StepKey {
+        self.modes.choose(dt, stiffness, stiffest)
     }
 
     fn prepare(&mut self, key: StepKey) -> Result<(), SolveError> {

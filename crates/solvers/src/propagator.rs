@@ -59,8 +59,9 @@ pub(crate) trait Propagator {
     /// Number of factorisations of structure matrices so far.
     fn factorizations(&self) -> usize;
 
-    /// The step of length `dt` from a state whose active link coordinates have this stiffness.
-    fn choose(&mut self, dt: f64, _stiffness: &[f64]) -> StepKey {
+    /// The step of length `dt` from a state whose active link coordinates have this stiffness, and had that
+    /// one at most so far.
+    fn choose(&mut self, dt: f64, _stiffness: &[f64], _stiffest: &[f64]) -> StepKey {
         StepKey { dt, average: 0 }
     }
 

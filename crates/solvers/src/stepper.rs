@@ -29,6 +29,8 @@ pub struct State {
     pub(crate) stored: Vec<f64>,
     /// Stiffness of the active link coordinates as they are, N/m or N·m.
     pub(crate) stiffness: Vec<f64>,
+    /// The largest that it has been so far.
+    pub(crate) stiffest: Vec<f64>,
 }
 
 impl State {
@@ -47,6 +49,7 @@ impl State {
             scale: [0.0; 2],
             stored: vec![0.0; links.links.len()],
             stiffness: vec![0.0; links.active.len()],
+            stiffest: vec![0.0; links.active.len()],
             d,
             v,
         };
@@ -68,6 +71,7 @@ impl State {
     pub(crate) fn follow(&mut self, from: &Self) {
         if self.motion.len() == from.motion.len() && self.d.len() == from.d.len() {
             self.scale = from.scale;
+            self.stiffest.copy_from_slice(&from.stiffest);
         } else {
             self.clone_from(from);
         }
@@ -77,6 +81,11 @@ impl State {
     pub(crate) fn settle(&mut self, links: &LinkSet, energy: &[Energy], tangents: &Tangents) {
         for (stiffness, flat) in self.stiffness.iter_mut().zip(&links.active) {
             *stiffness = tangents.k[links.diagonal[*flat]];
+        }
+        for (most, now) in self.stiffest.iter_mut().zip(&self.stiffness) {
+            if now > most {
+                *most = *now;
+            }
         }
         for (stored, e) in self.stored.iter_mut().zip(energy) {
             *stored = e.stored;
@@ -223,7 +232,7 @@ impl<P: Propagator> Stepper for LinkStepper<'_, P> {
         dt: f64,
         energy: &mut StepEnergy,
     ) -> Result<(), StepFailure> {
-        let key = self.propagator.choose(dt, &from.stiffness);
+        let key = self.propagator.choose(dt, &from.stiffness, &from.stiffest);
         self.propagator.prepare(key)?;
         let side = &mut self.side;
         side.begin(self.propagator.space(), from, to, loads, energy);
