@@ -114,9 +114,11 @@ pub(crate) fn check(
     }
     let (links, state) = (&system.links, &end.state);
     let flat = [&state.d, &state.v, &state.f].iter().all(|x| x.len() == links.len());
+    let active = [&state.stiffness, &state.stiffest].iter().all(|x| x.len() == links.active.len());
     let blocks = end.memory.iter().flat_map(|m| [&m.k, &m.c]);
     let whole = here.len() == end.parameters.len()
         && flat
+        && active
         && end.load.len() == system.order()
         && state.history.len() == links.history_len
         && state.stored.len() == links.links.len()
