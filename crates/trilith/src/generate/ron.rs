@@ -223,11 +223,15 @@ impl Frame {
             Some(n) => format!("\n            basis: Ritz(vectors: {n}, adequacy: 0),"),
             None => String::new(),
         };
+        let tolerance = match self.link_tolerance {
+            Some(share) => format!(" link_tolerance: {share:?},"),
+            None => String::new(),
+        };
         writeln!(
             out,
             "    cases: {{
         \"earthquake\": Dynamic(
-            duration: \"{} s\", dt: \"{} s\", step: Fixed(substeps: 1),
+            duration: \"{} s\", dt: \"{} s\", step: Fixed(substeps: 1),{tolerance}
             base: [(direction: X, function: \"record x\"), (direction: Y, function: \"record y\")],{basis}
         ),
     }},
