@@ -3,11 +3,13 @@
 //! `cargo benchmark` measures the frames of [`trilith::generate`] in up to six sizes under FNA and under
 //! direct integration, each in a process of its own: CPU time of reading, assembly, set-up and one step, the
 //! whole run, memory, iterations, and how near the peaks are to those of another program. It shows how
-//! the cost grows, lets a model run for an hour of record, and runs other programs beside it.
+//! the cost grows, lets a model run for an hour of record, sweeps a block through many parameters, and runs other
+//! programs beside it.
 //!
 //! All times are CPU times of the process. The table is printed and written with its figures to
 //! `report.html` and `results.json` under `target/benchmark/`.
 
+mod block;
 pub mod child;
 pub mod clock;
 mod endurance;
@@ -22,6 +24,7 @@ mod size;
 mod subject;
 mod table;
 
+pub use block::{BlockPair, BlockSweep, block_beside, block_ratios, sweep_block};
 pub use endurance::{Endurance, Moment, endure};
 pub use export::export;
 pub use gauge::Gauge;

@@ -6,12 +6,12 @@ use std::process::ExitCode;
 use trilith::SolverKind;
 use trilith_bench::report::{self, Results};
 use trilith_bench::{
-    Effort, Endurance, Measurement, Programs, SIZES, Size, Subject, Task, WHOLE, child, endure,
-    export, find, grow, measure, side_by_side,
+    BlockSweep, Effort, Endurance, Measurement, Programs, SIZES, Size, Subject, Task, WHOLE,
+    block_beside, child, endure, export, find, grow, measure, side_by_side, sweep_block,
 };
 
 /// Measures what runs of Trilith cost: a frame on isolators in six sizes, growth, long runs, other
-/// programs beside it. Writes report.html and results.json under target/benchmark.
+/// programs beside it, a sweep of a block. Writes report.html and results.json under target/benchmark.
 #[derive(Parser)]
 #[command(name = "benchmark", max_term_width = 100, args_conflicts_with_subcommands = true)]
 struct Arguments {
@@ -29,6 +29,8 @@ enum Command {
     Long(One),
     /// Print the model of a frame as plain numbers for other programs
     Export(Part),
+    /// Sweep a rigid block through many parameters and print what it costs as JSON
+    Block,
 }
 
 #[derive(Args)]
@@ -36,7 +38,7 @@ struct Suite {
     /// Frames [default: P1e2 P1e3 P1e4s P1e4]
     #[arg(value_parser = size)]
     sizes: Vec<&'static Size>,
-    /// All six frames and the run of an hour
+    /// All six frames, growth, the run of an hour and the sweep
     #[arg(long, conflicts_with = "sizes")]
     all: bool,
     /// Solvers
@@ -54,6 +56,9 @@ struct Suite {
     /// Run the smallest frame for an hour of motion as well
     #[arg(long)]
     hour: bool,
+    /// Sweep a rigid block through many parameters as well
+    #[arg(long)]
+    sweep: bool,
     /// A Python with OpenSeesPy: runs both programs in turn, nothing else
     #[arg(long, value_name = "PYTHON")]
     peers: Option<PathBuf>,
@@ -119,6 +124,7 @@ fn main() -> ExitCode {
         Some(Command::One(one)) => one_json(one),
         Some(Command::Long(one)) => long_json(one),
         Some(Command::Export(part)) => export_json(part),
+        Some(Command::Block) => print(&sweep_block(SIDE)),
         None => suite(&arguments.suite),
     };
     match done {
@@ -153,6 +159,9 @@ fn export_json(part: &Part) -> Result<bool, String> {
     print(&export(&Subject::new(&size.frame().to_ron(), task)?)?)
 }
 
+/// Frictions, and amplitudes, of the sweep.
+const SIDE: usize = 8;
+
 /// An hour at 5 ms.
 const HOUR: usize = 720_000;
 
@@ -173,6 +182,12 @@ fn suite(suite: &Suite) -> Result<bool, String> {
             results.peers.push(side_by_side(size, programs)?);
             finish(&folder, &results)?;
         }
+        if suite.sweep || suite.all {
+            eprintln!("the block beside OpenSees and Exudyn …");
+            let programs = Programs { own: &own, python, folder: &folder, pairs: suite.pairs };
+            results.blocks = block_beside(programs)?;
+            finish(&folder, &results)?;
+        }
     } else {
         for size in sizes {
             for solver in &suite.solvers {
@@ -189,6 +204,10 @@ fn suite(suite: &Suite) -> Result<bool, String> {
             eprintln!("an hour …");
             let words = ["long", SIZES[0].name, "--solver", "fna", "--steps", &HOUR.to_string()];
             results.endurance.push(child::json::<Endurance>(&own, &words.map(str::to_owned))?);
+        }
+        if suite.sweep || suite.all {
+            eprintln!("a sweep …");
+            results.sweep = Some(child::json::<BlockSweep>(&own, &["block".to_owned()])?);
         }
         finish(&folder, &results)?;
     }

@@ -2,7 +2,10 @@
 
 use crate::peers::RATIOS;
 use crate::table::{Table, percent, short};
-use crate::{Curve, Endurance, Growth, Measurement, SOURCE, SideBySide, WHOLE, find};
+use crate::{
+    BlockPair, BlockSweep, Curve, Endurance, Growth, Measurement, SOURCE, SideBySide, WHOLE,
+    block_ratios, find,
+};
 use serde::Serialize;
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
@@ -19,6 +22,10 @@ pub struct Results {
     pub endurance: Vec<Endurance>,
     /// Other programs.
     pub peers: Vec<SideBySide>,
+    /// The sweep of a block.
+    pub sweep: Option<BlockSweep>,
+    /// The same beside other programs.
+    pub blocks: Vec<BlockPair>,
 }
 
 impl Results {
@@ -29,6 +36,11 @@ impl Results {
         verdicts
             .chain(self.endurance.iter().map(|e| if e.is_flat() { "pass" } else { "FAIL" }))
             .all(|v| v != "FAIL")
+            && self.sweeps().all(BlockSweep::good)
+    }
+
+    fn sweeps(&self) -> impl Iterator<Item = &BlockSweep> {
+        self.sweep.iter().chain(self.blocks.iter().map(|p| &p.own))
     }
 
     /// Errors of the peaks, against the known ones or against direct integration here over the same steps.
@@ -218,6 +230,50 @@ impl Results {
         t
     }
 
+    fn swept(&self) -> Table {
+        let mut t = Table::new([
+            "sweep",
+            "analyses",
+            "alone /s",
+            "in lanes /s",
+            "set-up µs",
+            "threads",
+            "speed-up",
+            "iterations",
+            "left lanes",
+            "failed",
+            "same bits",
+            "error",
+            "verdict",
+        ]);
+        for s in self.sweeps() {
+            t.row([
+                "block, 20 s at 1 ms".into(),
+                s.analyses.to_string(),
+                short(s.alone_s.recip()),
+                short(s.lanes_s.recip()),
+                short(1e6 * s.setup_s),
+                s.threads.to_string(),
+                format!("{:.2}", s.speedup),
+                format!("{:.2}", s.iterations),
+                s.left.to_string(),
+                s.failed.to_string(),
+                if s.same { "yes" } else { "no" }.into(),
+                percent(s.error),
+                if s.good() { "pass" } else { "FAIL" }.into(),
+            ]);
+        }
+        t
+    }
+
+    fn swept_beside(&self) -> Table {
+        let mut t = Table::new(["an analysis takes longer in", "than alone", "than in lanes"]);
+        for (name, alone, lanes) in block_ratios(&self.blocks) {
+            t.row([name.into(), short(alone), short(lanes)]);
+        }
+        t
+    }
+
     fn parts(&self) -> Vec<(&'static str, String, Vec<Table>)> {
         let mut parts = Vec::new();
         if !self.frames.is_empty() {
@@ -250,6 +306,18 @@ impl Results {
                 note,
                 vec![self.times_beside(), self.ratios()],
             ));
+        }
+        if self.sweeps().next().is_some() {
+            let note = "A rigid block on two friction contacts, 20 s at 1 ms, friction 0.2 to 0.8 by sines of 0.2 to \
+                        1 g: CPU time on one thread, reading and set-up included; speed-up of all threads on the clock of \
+                        the wall. Error: largest sway against OpenSees at steps of 0.02 ms. The other programs run \
+                        one combination, 0.4 and 0.8 g."
+                .into();
+            let mut tables = vec![self.swept()];
+            if !self.blocks.is_empty() {
+                tables.push(self.swept_beside());
+            }
+            parts.push(("Sweeps", note, tables));
         }
         parts
     }
