@@ -11,11 +11,17 @@
 //! `FixedPoint` is Wilson's constant-stiffness iteration, f̃ ← law − k_e d; it converges only
 //! while |k − k_e| G < 1. Neither touches a matrix of the structure.
 
+mod factors;
+mod search;
+
+pub(crate) use factors::Remembered;
+
 use crate::propagator::StepKey;
 use crate::vector::largest;
-use serde::{Deserialize, Serialize};
+use factors::{Equations, Factors};
+use search::Search;
 use trilith_element::{Energy, Kinematics};
-use trilith_linalg::{Dense, DenseLu};
+use trilith_linalg::Dense;
 use trilith_model::{Kernel, Model, Solution};
 use trilith_system::{Laws, LinkSet, Tangents};
 
@@ -72,26 +78,10 @@ const SETTLED: f64 = 1e-4;
 const PSEUDO_SHARE: f64 = 1e-5;
 /// Iterations before the first look at what rounding leaves.
 const ROUNDING_FROM: usize = 2;
-/// Plain Newton iterations before the first line search.
-const SEARCH_FROM: usize = 2;
-/// Halvings of a correction at most.
-const HALVINGS: usize = 6;
-/// A correction that leaves more than this share of the residual went too far.
-const ENOUGH: f64 = 0.9;
-/// Row sum of (k − k_e) G + c H below which a coordinate needs no equation: what one iteration without it
-/// leaves of its residual, at most.
-const WEAK: f64 = 0.02;
-/// Fewer coordinates than this all get an equation if they have tangents: an iteration costs more than it.
-const WEAK_FROM: usize = 48;
 const NEWTON_ITERATIONS: usize = 60;
 const FIXED_POINT_ITERATIONS: usize = 200;
-/// Added to J's diagonal: a direction that nothing holds but its dummy, such as that of an open contact
-/// under a weight, is singular in a static analysis; held by this, it goes far until something stops it.
-const HOLD: f64 = 1e-12;
 /// Two units in the last place.
 const DIGIT: f64 = 2.0 * f64::EPSILON;
-/// Step sizes whose factors are kept.
-const KEPT: usize = 6;
 /// From this many active coordinates on, a factor is kept while it still contracts well.
 const CHORD_FROM: usize = 8;
 /// How well that is: share of the residual that one iteration leaves.
@@ -127,69 +117,8 @@ pub(crate) struct LinkKernel<'a> {
     /// Iterations in this step, and the size of the residual before the last one.
     iteration: usize,
     size_before: f64,
-    /// Kept factors, one a step size, the one used last at the end.
-    factors: Vec<Factor>,
+    factors: Factors,
     iterations: usize,
-}
-
-/// A kept factor as a checkpoint holds it: the step and the tangents it was made with.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
-pub(crate) struct Remembered {
-    pub key: StepKey,
-    pub k: Vec<f64>,
-    pub c: Vec<f64>,
-}
-
-struct Factor {
-    key: StepKey,
-    tangents: Tangents,
-    /// Active coordinates with a row of tangents that counts.
-    equations: Vec<usize>,
-    /// From the residual of all active coordinates to the corrections of these.
-    correct: Dense,
-}
-
-/// Line search of a Newton iteration that does not settle: a force like |v|^α with α < ½ throws Newton's
-/// method to the other side of zero, farther than it came from.
-#[derive(Default)]
-struct Search {
-    /// The last correction.
-    step: Vec<f64>,
-    /// Part of it that is taken back next.
-    share: f64,
-    /// Largest residual before the last correction.
-    before: f64,
-    /// Halvings of the last correction.
-    halvings: usize,
-}
-
-impl Search {
-    /// Before a new step.
-    fn reset(&mut self) {
-        self.step.clear();
-        (self.share, self.before, self.halvings) = (0.0, 0.0, 0);
-    }
-
-    /// Where the residual did not fall, the part of the last correction that is to be taken back: half of
-    /// what is left of it.
-    fn shortens(&mut self, iteration: usize, size: f64) -> Option<f64> {
-        let grew =
-            iteration >= SEARCH_FROM && size > ENOUGH * self.before && self.halvings < HALVINGS;
-        if !grew {
-            self.before = size;
-            return None;
-        }
-        self.share *= 0.5;
-        self.halvings += 1;
-        Some(self.share)
-    }
-
-    /// Takes note of a correction about to be made.
-    fn goes(&mut self, step: &[f64]) {
-        self.step.clear();
-        self.step.extend_from_slice(step);
-        (self.share, self.halvings) = (1.0, 0);
-    }
 }
 
 impl<'a> LinkKernel<'a> {
@@ -232,7 +161,7 @@ impl<'a> LinkKernel<'a> {
             search: Search::default(),
             iteration: 0,
             size_before: f64::INFINITY,
-            factors: Vec::new(),
+            factors: Factors::default(),
             iterations: 0,
         }
     }
@@ -255,17 +184,15 @@ impl<'a> LinkKernel<'a> {
     /// The kept factors, to be recalled after a restart: a kept factor decides the last bits of an
     /// iteration.
     pub(crate) fn memory(&self) -> Vec<Remembered> {
-        self.factors
-            .iter()
-            .map(|f| Remembered { key: f.key, k: f.tangents.k.clone(), c: f.tangents.c.clone() })
-            .collect()
+        self.factors.memory()
     }
 
     /// Makes a factor again, with the compliances of its step size.
     pub(crate) fn recall(&mut self, memory: Remembered, g: &Dense, h: &Dense) {
-        let tangents = Tangents { k: memory.k, c: memory.c };
-        let factor = self.factorise(tangents, memory.key, g, h);
-        self.factors.push(factor);
+        let Remembered { key, k, c } = memory;
+        let of =
+            Equations { links: self.links, place: &self.place, dummy_k: &self.dummy_k, g, h, key };
+        self.factors.make(of, Tangents { k, c });
     }
 
     /// Pseudo-force of forces that act at a deformation; `support` is what moving supports have in it.
@@ -321,7 +248,7 @@ impl<'a> LinkKernel<'a> {
         }
         self.iteration += 1;
         if !size.is_finite() || self.iteration == limit {
-            self.factors.retain(|f| f.key != affine.key);
+            self.factors.forget(affine.key);
             return Err(worst);
         }
         if self.kind == Kernel::Newton {
@@ -462,88 +389,17 @@ impl<'a> LinkKernel<'a> {
 
     /// Replaces the residual by the Newton correction of f̃.
     fn newton_correction(&mut self, affine: &Affine<'_>, slow: bool) {
-        if let Some(at) = self.factors.iter().position(|f| f.key == affine.key) {
-            let kept = self.factors.remove(at);
-            let contracts = self.links.active.len() >= CHORD_FROM && !slow;
-            if contracts || kept.tangents == self.tangents {
-                self.factors.push(kept);
-            }
-        }
-        if self.factors.last().is_none_or(|f| f.key != affine.key) {
-            let factor = self.factorise(self.tangents.clone(), affine.key, affine.g, affine.h);
-            if self.factors.len() >= KEPT {
-                self.factors.remove(0);
-            }
-            self.factors.push(factor);
-        }
-        let Some(factor) = self.factors.last() else { return };
-        let x = &mut self.correction[..factor.equations.len()];
-        x.fill(0.0);
-        factor.correct.mul_add(1.0, &self.residual, x);
-        for (a, value) in factor.equations.iter().zip(x) {
-            self.residual[*a] = *value;
-        }
-    }
-
-    fn factorise(&self, tangents: Tangents, key: StepKey, g: &Dense, h: &Dense) -> Factor {
-        let n = self.links.active.len();
-        // Rows of k − k_e and c per active coordinate: (other active, stiffness, damping).
-        let mut rows: Vec<Vec<(usize, f64, f64)>> = vec![Vec::new(); n];
-        for link in &self.links.links {
-            let size = link.range.len();
-            for i in 0..size {
-                let a = self.place[link.range.start + i];
-                if a == usize::MAX {
-                    continue;
-                }
-                for j in 0..size {
-                    let b = self.place[link.range.start + j];
-                    if b == usize::MAX {
-                        continue;
-                    }
-                    let at = link.block.start + i * size + j;
-                    let own = f64::from(u8::from(i == j));
-                    let k = tangents.k[at] - own * self.dummy_k[a];
-                    let c = tangents.c[at];
-                    if k != 0.0 || c != 0.0 {
-                        rows[a].push((b, k, c));
-                    }
-                }
-            }
-        }
-        // Where a link is weak against the structure, f̃ ← law − k_e d converges as well as Newton's method.
-        let weak = if n < WEAK_FROM { 0.0 } else { WEAK };
-        let sum = |m: &Dense, b: usize| m.column(b).iter().map(|x| x.abs()).sum::<f64>();
-        let strong = |a: &usize| {
-            let terms = rows[*a].iter();
-            terms.map(|(b, k, c)| k.abs() * sum(g, *b) + c.abs() * sum(h, *b)).sum::<f64>() > weak
+        let of = Equations {
+            links: self.links,
+            place: &self.place,
+            dummy_k: &self.dummy_k,
+            g: affine.g,
+            h: affine.h,
+            key: affine.key,
         };
-        let equations: Vec<usize> = (0..n).filter(strong).collect();
-        let mut chosen = vec![usize::MAX; n];
-        for (e, a) in equations.iter().enumerate() {
-            chosen[*a] = e;
-        }
-        // J of the equations; what the others do to them goes to the right-hand side.
-        let mut j = Dense::zeros(equations.len(), equations.len());
-        let mut correct = Dense::zeros(equations.len(), n);
-        let mut line = vec![0.0; n];
-        for (e, a) in equations.iter().enumerate() {
-            line.fill(0.0);
-            for (b, k, c) in &rows[*a] {
-                for (x, (g, h)) in line.iter_mut().zip(g.column(*b).iter().zip(h.column(*b))) {
-                    *x += k * g + c * h;
-                }
-            }
-            line[*a] += 1.0 + HOLD;
-            for (b, x) in line.iter().enumerate() {
-                match chosen[b] {
-                    usize::MAX => correct[(e, b)] = -*x,
-                    column => j[(e, column)] = *x,
-                }
-            }
-            correct[(e, *a)] = 1.0;
-        }
-        DenseLu::new(&j).solve_columns(&mut correct);
-        Factor { key, tangents, equations, correct }
+        let chord = self.links.active.len() >= CHORD_FROM && !slow;
+        let factor =
+            self.factors.take(of, &self.tangents, |kept| chord || kept.tangents == self.tangents);
+        factor.correct(&mut self.residual, &mut self.correction);
     }
 }
