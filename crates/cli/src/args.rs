@@ -62,11 +62,14 @@ pub(crate) struct RunArguments {
     /// Links whose hysteresis loops the report shows [default: those that dissipate most]
     #[arg(long, value_name = "LINK,LINK", value_delimiter = ',')]
     pub loops: Vec<String>,
+    /// Write figures as SVG into the folder: of outputs and links by name, and `energy`
+    #[arg(long, value_name = "NAME,NAME", value_delimiter = ',')]
+    pub figure: Vec<String>,
     /// Write no report (`report.html` and its data `report.json`)
     #[arg(long, conflicts_with = "loops")]
     pub no_report: bool,
     /// Write no files; no histories are kept then, and memory does not grow with the length of the run
-    #[arg(long, conflicts_with_all = ["out", "checkpoint_at", "loops"])]
+    #[arg(long, conflicts_with_all = ["out", "checkpoint_at", "loops", "figure"])]
     pub no_files: bool,
     /// Stop at this time (s) and write `checkpoint.json` into the folder
     #[arg(long, value_name = "T", value_parser = positive)]

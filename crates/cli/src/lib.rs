@@ -18,6 +18,7 @@ mod diagnostics;
 mod elements;
 mod exercise;
 mod failure;
+mod figures;
 mod generate;
 mod modes;
 mod progress;

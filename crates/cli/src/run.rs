@@ -3,7 +3,7 @@
 use crate::args::{ReportArguments, RunArguments};
 use crate::progress::Progress;
 use crate::text::names_help;
-use crate::{Answer, Failure, case, diagnostics, read};
+use crate::{Answer, Failure, case, diagnostics, figures, read};
 use std::path::{Path, PathBuf};
 use trilith::model::{Body, Element};
 use trilith::solvers::EndState;
@@ -17,6 +17,7 @@ pub(crate) fn run(registry: &Registry, args: RunArguments) -> Result<Answer, Fai
     let case = case(&model, args.case.as_deref())?;
     let from = args.restart.as_deref().map(checkpoint).transpose()?;
     check_links(&model, &args.loops)?;
+    figures::check(&model, &args.figure)?;
     let (analysis, run) = {
         let mut bar = Progress::new(&model.cases[case].name);
         let mut show = |share| bar.show(share);
@@ -33,7 +34,7 @@ pub(crate) fn run(registry: &Registry, args: RunArguments) -> Result<Answer, Fai
             analysis = analysis.without_histories();
         } else {
             analysis = analysis.with_frames(FRAMES);
-            if !args.no_report {
+            if !args.no_report || !args.figure.is_empty() {
                 analysis = analysis.with_loops();
             }
         }
@@ -55,6 +56,9 @@ pub(crate) fn run(registry: &Registry, args: RunArguments) -> Result<Answer, Fai
             let data = run.report(&analysis, &args.model.set, &args.loops);
             let page = trilith::write_report(&dir, &data).map_err(|e| Failure::of(&e, &model))?;
             text += &format!("report: {}\n", page.display());
+        }
+        for path in figures::write(&analysis, &run, &dir, &args.figure)? {
+            text += &format!("figure: {}\n", path.display());
         }
         if args.checkpoint_at.is_some() {
             let path = dir.join("checkpoint.json");

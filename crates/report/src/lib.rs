@@ -19,6 +19,6 @@ mod thin;
 pub use figure::{Axis, Color, Figure, Series, Stroke};
 pub use page::{Block, Page, Section};
 pub use run::{
-    Collect, FaceMark, Family, Frames, History, LineKind, LineMark, LinkMark, Loop, Mode, NodeMark,
-    Numbers, Picture, RunData, Shown, run_page,
+    Collect, ENERGY, FaceMark, Family, Frames, History, LineKind, LineMark, LinkMark, Loop, Mode,
+    NodeMark, Numbers, Picture, RunData, Shown, named_figures, run_page,
 };

@@ -51,6 +51,31 @@ pub(crate) fn link_loop(l: &Loop) -> Figure {
         .sized(300, 250)
 }
 
+/// The figures that a name stands for: an output, `energy`, or a link with a loop for each coordinate.
+/// Each with a name of its own for a file.
+#[must_use]
+pub fn named_figures(data: &RunData, name: &str) -> Vec<(String, Figure)> {
+    let clean = |text: &str| -> String {
+        text.chars()
+            .map(|c| if c.is_alphanumeric() || "_-.".contains(c) { c } else { '_' })
+            .collect()
+    };
+    let large = |figure: Figure| figure.sized(720, 380);
+    if let Some(h) = data.histories.iter().find(|h| h.name == name) {
+        return vec![(clean(name), large(history(h)))];
+    }
+    if name == ENERGY && !data.energies.is_empty() {
+        return vec![(clean(name), large(energy_curves(data)))];
+    }
+    let loops = data.loops.iter().filter(|l| l.link == name);
+    loops
+        .map(|l| (clean(&format!("{name}_{}", l.coordinate)), link_loop(l).sized(560, 460)))
+        .collect()
+}
+
+/// The name of the figure of energies.
+pub const ENERGY: &str = "energy";
+
 /// The energies as curves, as in plots of input, link, damper, kinetic and potential energy and error.
 pub(crate) fn energy_curves(data: &RunData) -> Figure {
     let unit = data.energies.first().map_or("J", |h| h.shown.unit.as_str());

@@ -18,4 +18,5 @@ pub use data::{
     FaceMark, Family, Frames, History, LineKind, LineMark, LinkMark, Loop, Mode, NodeMark, Numbers,
     Picture, RunData, Shown,
 };
+pub use figures::{ENERGY, named_figures};
 pub use page::run_page;
