@@ -89,7 +89,7 @@ mod tests {
         for (normal, flat) in [(Normal::X, 0), (Normal::Y, 1), (Normal::Z, 2)] {
             let mut nodes = nodes;
             nodes[1][flat] = nodes[0][flat];
-            let rigid = RigidBody {}.equations(&nodes).unwrap();
+            let rigid = RigidBody { corners: Vec::new() }.equations(&nodes).unwrap();
             let in_plane = Diaphragm { normal }.equations(&nodes).unwrap();
             assert_eq!(in_plane.len(), 3);
             for e in in_plane {

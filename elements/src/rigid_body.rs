@@ -7,19 +7,27 @@
 //! All six DOFs of every following node are eliminated. A following node must not be fixed nor follow
 //! anything else. Mass and inertia are separate `Mass` elements at any of the nodes.
 //!
+//! | parameter | symbol | unit | range | default | meaning                                             |
+//! |-----------|--------|------|-------|---------|-----------------------------------------------------|
+//! | `corners` |        | m    | any   | –       | corners of the body from its first node, in order; drawn as a face, without effect on the motion |
+//!
 //! Reference: \[Bathe 1996, §4.2.2\].
 
 use crate::shared::dense::between;
 use serde::Deserialize;
 use trilith_element::{
-    Card, Category, Constraint, Described, Dof, Equation, Exercise, NodeCount, ParameterError,
-    Vector3,
+    Card, Category, Constraint, Default, Described, Dof, Equation, Exercise, Form, NodeCount,
+    Outline, Parameter, ParameterError, Vector3,
 };
 
 /// Several nodes that move as one rigid body; the law is on top of this page's source file.
 #[derive(Clone, Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub struct RigidBody {}
+pub struct RigidBody {
+    /// Corners of the body from its first node, in order, m; for pictures only.
+    #[serde(default)]
+    pub corners: Vec<Vector3>,
+}
 
 impl Described for RigidBody {
     const CARD: Card = Card {
@@ -27,7 +35,13 @@ impl Described for RigidBody {
         category: Category::Constraint,
         summary: "Nodes that move as one rigid body; the first leads, the others follow.",
         nodes: NodeCount::at_least(2),
-        parameters: &[],
+        parameters: &[Parameter::new(
+            "corners",
+            "",
+            Form::Points,
+            Default::Absent,
+            "corners of the body from its first node, in order; only drawn",
+        )],
         law: "u_s = u_m + θ_m × r\nθ_s = θ_m\nr   = x_s − x_m",
         source: "Kinematics of a rigid body at small rotations; Bathe, Finite Element Procedures, 1996, §4.2.2",
         example: r#""block": RigidBody(nodes: ("cg", "left", "right"))"#,
@@ -40,6 +54,10 @@ impl Constraint for RigidBody {
         let Some((lead, rest)) = nodes.split_first() else { return Ok(Vec::new()) };
         let follow = rest.iter().enumerate();
         Ok(follow.flat_map(|(s, x)| rigid_equations(s + 1, *lead, *x, true)).collect())
+    }
+
+    fn outline(&self, _: &[Vector3]) -> Option<Outline> {
+        (!self.corners.is_empty()).then(|| Outline::face(self.corners.clone()))
     }
 }
 
@@ -75,11 +93,21 @@ mod tests {
     use nalgebra::Vector3 as V3;
 
     #[test]
+    fn corners_are_drawn_as_one_face_and_change_no_equation() {
+        let nodes = [[0.0, 0.0, 2.0], [-1.0, 0.0, 0.0]];
+        let corners = vec![[-1.0, 0.0, -2.0], [1.0, 0.0, -2.0], [1.0, 0.0, 2.0]];
+        let (plain, drawn) = (RigidBody { corners: Vec::new() }, RigidBody { corners });
+        assert_eq!(plain.equations(&nodes).unwrap(), drawn.equations(&nodes).unwrap());
+        assert_eq!(plain.outline(&nodes), None);
+        assert_eq!(drawn.outline(&nodes).unwrap().paths, [[0, 1, 2, 0]]);
+    }
+
+    #[test]
     fn followers_move_by_u_plus_theta_cross_r() {
         let nodes = [[1.0, 2.0, 3.0], [4.0, -1.0, 0.5], [1.0, 2.0, 8.0]];
         let (u, theta) = (V3::new(0.1, -0.2, 0.3), V3::new(1e-3, 2e-3, -5e-3));
         let lead = [u[0], u[1], u[2], theta[0], theta[1], theta[2]];
-        let equations = RigidBody {}.equations(&nodes).unwrap();
+        let equations = RigidBody { corners: Vec::new() }.equations(&nodes).unwrap();
         assert_eq!(equations.len(), 12);
         for e in equations {
             let (s, dof) = e.dependent;

@@ -41,6 +41,7 @@
 //! Reference: Euler's equations with exact rotations \[Simo & Vu-Quoc 1988\]; rocking \[Housner 1963\].
 
 mod law;
+mod outline;
 mod points;
 mod rim;
 mod rotation;

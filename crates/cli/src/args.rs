@@ -24,6 +24,8 @@ pub(crate) enum Command {
     Elements(ElementsArguments),
     /// Lead a link through a cyclic deformation and draw its loop
     Exercise(ExerciseArguments),
+    /// Make the report of a run again from its folder
+    Report(ReportArguments),
     /// Run the same case under two or more solvers and show the differences
     Compare(CompareArguments),
     /// Make a model file from a few numbers
@@ -57,8 +59,17 @@ pub(crate) struct RunArguments {
     /// Folder for the results [default: out/<name of the model file>]
     #[arg(long, value_name = "DIR")]
     pub out: Option<PathBuf>,
+    /// Links whose hysteresis loops the report shows [default: those that dissipate most]
+    #[arg(long, value_name = "LINK,LINK", value_delimiter = ',')]
+    pub loops: Vec<String>,
+    /// Write figures as SVG into the folder: of outputs and links by name, and `energy`
+    #[arg(long, value_name = "NAME,NAME", value_delimiter = ',')]
+    pub figure: Vec<String>,
+    /// Write no report (`report.html` and its data `report.json`)
+    #[arg(long, conflicts_with = "loops")]
+    pub no_report: bool,
     /// Write no files; no histories are kept then, and memory does not grow with the length of the run
-    #[arg(long, conflicts_with_all = ["out", "checkpoint_at"])]
+    #[arg(long, conflicts_with_all = ["out", "checkpoint_at", "loops", "figure"])]
     pub no_files: bool,
     /// Stop at this time (s) and write `checkpoint.json` into the folder
     #[arg(long, value_name = "T", value_parser = positive)]
@@ -66,6 +77,12 @@ pub(crate) struct RunArguments {
     /// Continue from a checkpoint of the same model and case
     #[arg(long, value_name = "FILE")]
     pub restart: Option<PathBuf>,
+}
+
+#[derive(Args)]
+pub(crate) struct ReportArguments {
+    /// Folder of a run, with its `summary.json` and `report.json`
+    pub dir: PathBuf,
 }
 
 #[derive(Args)]

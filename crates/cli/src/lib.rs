@@ -18,6 +18,7 @@ mod diagnostics;
 mod elements;
 mod exercise;
 mod failure;
+mod figures;
 mod generate;
 mod modes;
 mod progress;
@@ -51,6 +52,7 @@ pub fn main_with(registry: Registry) -> ! {
         Command::Modes(a) => modes::modes(&registry, &a),
         Command::Elements(a) => elements::elements(&registry, &a),
         Command::Exercise(a) => exercise::exercise(&registry, a),
+        Command::Report(a) => run::report(&a),
         Command::Compare(a) => compare::compare(&registry, &a),
         Command::Generate(a) => generate::generate(a),
         Command::Calibrate(a) => calibrate::calibrate(&registry, &a),

@@ -1,11 +1,13 @@
 //! `trilith run`.
 
-use crate::args::RunArguments;
+use crate::args::{ReportArguments, RunArguments};
 use crate::progress::Progress;
-use crate::{Answer, Failure, case, diagnostics, read, report};
+use crate::text::names_help;
+use crate::{Answer, Failure, case, diagnostics, figures, read};
 use std::path::{Path, PathBuf};
+use trilith::model::{Body, Element};
 use trilith::solvers::EndState;
-use trilith::{Analysis, Registry, Run, RunOptions};
+use trilith::{Analysis, Model, Registry, Run, RunOptions};
 
 /// Deformed shapes kept for ParaView.
 const FRAMES: usize = 200;
@@ -14,8 +16,9 @@ pub(crate) fn run(registry: &Registry, args: RunArguments) -> Result<Answer, Fai
     let model = read(registry, &args.model)?;
     let case = case(&model, args.case.as_deref())?;
     let from = args.restart.as_deref().map(checkpoint).transpose()?;
-    let frames = if args.no_files { 0 } else { FRAMES };
-    let run = {
+    check_links(&model, &args.loops)?;
+    figures::check(&model, &args.figure)?;
+    let (analysis, run) = {
         let mut bar = Progress::new(&model.cases[case].name);
         let mut show = |share| bar.show(share);
         let options = RunOptions {
@@ -26,21 +29,37 @@ pub(crate) fn run(registry: &Registry, args: RunArguments) -> Result<Answer, Fai
             from,
             progress: Some(&mut show),
         };
-        Analysis::new(&model)
-            .map(|a| a.with_frames(frames))
-            .map(|a| if args.no_files { a.without_histories() } else { a })
-            .and_then(|a| a.run(options))
-            .map_err(|e| Failure::of(&e, &model))?
+        let mut analysis = Analysis::new(&model).map_err(|e| Failure::of(&e, &model))?;
+        if args.no_files {
+            analysis = analysis.without_histories();
+        } else {
+            analysis = analysis.with_frames(FRAMES);
+            if !args.no_report || !args.figure.is_empty() {
+                analysis = analysis.with_loops();
+            }
+        }
+        let run = analysis.run(options).map_err(|e| Failure::of(&e, &model))?;
+        (analysis, run)
     };
     let summary = run.summary(&model);
     for w in &summary.warnings {
         eprint!("{}", diagnostics::warning(w));
     }
-    let mut text = report::text(&model, &summary);
+    let mut text = crate::report::text(&model, &summary);
     if !args.no_files {
         let dir = args.out.unwrap_or_else(|| default_folder(&args.model.model));
         run.write(&model, &dir).map_err(|e| Failure::of(&e, &model))?;
         text += &format!("files: {}\n", dir.display());
+        if args.no_report {
+            trilith::remove_report(&dir).map_err(|e| Failure::of(&e, &model))?;
+        } else {
+            let data = run.report(&analysis, &args.model.set, &args.loops);
+            let page = trilith::write_report(&dir, &data).map_err(|e| Failure::of(&e, &model))?;
+            text += &format!("report: {}\n", page.display());
+        }
+        for path in figures::write(&analysis, &run, &dir, &args.figure)? {
+            text += &format!("figure: {}\n", path.display());
+        }
         if args.checkpoint_at.is_some() {
             let path = dir.join("checkpoint.json");
             write_checkpoint(&path, &run)?;
@@ -54,6 +73,30 @@ pub(crate) fn run(registry: &Registry, args: RunArguments) -> Result<Answer, Fai
         1
     };
     Ok(Answer { text, status })
+}
+
+/// `trilith report`: the page again.
+pub(crate) fn report(args: &ReportArguments) -> Result<Answer, Failure> {
+    let page = trilith::rebuild_report(&args.dir).map_err(|e| {
+        let help = "`trilith run MODEL --out DIR` writes such a folder";
+        Failure::input(&e.to_string(), Some(help))
+    })?;
+    Ok(format!("report: {}\n", page.display()).into())
+}
+
+/// Names of links that the model must have.
+fn check_links(model: &Model, names: &[String]) -> Result<(), Failure> {
+    let links = || {
+        let is_link = |e: &&Element| matches!(e.body, Body::Link(..));
+        model.elements.iter().filter(is_link).map(|e| e.name.as_str())
+    };
+    match names.iter().find(|n| !links().any(|l| l == n.as_str())) {
+        None => Ok(()),
+        Some(name) => {
+            let help = names_help(name, "links", links().collect::<Vec<_>>().into_iter());
+            Err(Failure::input(&format!("there is no link \"{name}\""), Some(&help)))
+        }
+    }
 }
 
 /// `out/<name of the model file>`.

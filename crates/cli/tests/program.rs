@@ -283,3 +283,66 @@ fn a_catalogue_is_written_by_the_ending_of_its_name() {
     let (status, _, err) = trilith(folder.path(), &["elements", "--page", "all.pdf"]);
     assert!(status == 2 && err.contains("`.html` or `.md`"), "{err}");
 }
+
+#[test]
+fn a_run_ends_with_a_report_that_its_folder_can_make_again() {
+    let folder = folder();
+    let (status, out, err) = trilith(folder.path(), &["run", "swing.ron", "--set", "k=30 N/m"]);
+    assert_eq!(status, 0, "{out}{err}");
+    let dir = folder.path().join("out/swing");
+    let page = std::fs::read_to_string(dir.join("report.html")).unwrap();
+    let parts = [
+        "A swinging mass",
+        "sway",
+        "Mode shapes",
+        "Energy",
+        "SHA-256",
+        "30 N/m",
+        "<svg",
+        "data-plot=\"history 0\"",
+    ];
+    for part in parts {
+        assert!(page.contains(part), "{part}");
+    }
+    // Nothing is fetched: the only addresses are names of formats.
+    for (at, _) in page.match_indices("http") {
+        assert!(page[at..].starts_with("http://www.w3.org/"), "{}", &page[at..at + 40]);
+    }
+    for fetched in ["src=", "@import", "url("] {
+        assert!(!page.contains(fetched), "{fetched}");
+    }
+    std::fs::remove_file(dir.join("report.html")).unwrap();
+    let (status, out, err) = trilith(folder.path(), &["report", "out/swing"]);
+    assert_eq!(status, 0, "{out}{err}");
+    assert_eq!(std::fs::read_to_string(dir.join("report.html")).unwrap(), page);
+    // A report of another run would be left among the new files.
+    let (status, ..) = trilith(folder.path(), &["run", "swing.ron", "--no-report"]);
+    assert_eq!(status, 0);
+    assert!(!dir.join("report.html").exists() && !dir.join("report.json").exists());
+    let (status, _, err) = trilith(folder.path(), &["report", "out/swing"]);
+    assert!(status == 2 && err.contains("report.json") && err.contains("trilith run"), "{err}");
+}
+
+#[test]
+fn the_report_shows_the_loops_that_are_asked_for() {
+    let folder = folder();
+    // The stop lies across the mast.
+    let text = MODEL.replace("opening: \"1 cm\"", "opening: \"1 cm\", axis1: (1, 0, 0)");
+    std::fs::write(folder.path().join("swing.ron"), text).unwrap();
+    let (status, _, err) = trilith(folder.path(), &["run", "swing.ron", "--loops", "stpo"]);
+    assert!(status == 2 && err.contains("did you mean `stop`?"), "{err}");
+    let (status, _, err) = trilith(folder.path(), &["run", "swing.ron", "--loops", "stop"]);
+    assert_eq!(status, 0, "{err}");
+    let text = std::fs::read_to_string(folder.path().join("out/swing/report.json")).unwrap();
+    let data: serde_json::Value = serde_json::from_str(&text).unwrap();
+    let [stop] = &data["loops"].as_array().unwrap()[..] else { panic!("{}", data["loops"]) };
+    assert_eq!((&stop["link"], &stop["kind"]), (&"stop".into(), &"Gap".into()));
+    // A gap pushes with k (d + opening) where d < −opening, and is free elsewhere.
+    let numbers = |of: &serde_json::Value| -> Vec<f64> {
+        let step = of["step"].as_f64().unwrap();
+        of["n"].as_array().unwrap().iter().map(|n| n.as_f64().unwrap() * step).collect()
+    };
+    for (d, f) in numbers(&stop["d"]).iter().zip(numbers(&stop["f"])) {
+        assert!((f - 1000.0 * (d + 0.01).min(0.0)).abs() < 0.05, "{d} {f}");
+    }
+}

@@ -1,6 +1,6 @@
 //! Constraints: linear equations between DOFs, eliminated and never penalised.
 
-use crate::{Dof, ParameterError, Vector3};
+use crate::{Dof, Outline, ParameterError, Vector3};
 use std::fmt::Debug;
 
 /// `u[dependent] = Σ coefficient · u[retained]`.
@@ -19,4 +19,10 @@ pub trait Constraint: Send + Sync + Debug {
     /// # Errors
     /// [`ParameterError::Geometry`] where the nodes do not suit.
     fn equations(&self, nodes: &[Vector3]) -> Result<Vec<Equation>, ParameterError>;
+
+    /// What it looks like in a picture, for constraints that know: points from its first node, with which
+    /// they move as parts of one rigid body. Others are drawn as lines between their nodes.
+    fn outline(&self, _nodes: &[Vector3]) -> Option<Outline> {
+        None
+    }
 }

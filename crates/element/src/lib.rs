@@ -23,6 +23,7 @@ mod frame;
 mod history;
 mod linear;
 mod link;
+mod outline;
 mod register;
 mod values;
 
@@ -41,5 +42,6 @@ pub use frame::{Axis, Dof, Frame, Geometry, Vector3, cross, dot, norm, sub};
 pub use history::{Field, History};
 pub use linear::{ElementMatrices, LinearElement, SquareMatrix};
 pub use link::{Contact, Coordinates, Energy, Impact, Kinematics, Link, Response};
+pub use outline::Outline;
 pub use register::{ReadConstraint, ReadLinear, ReadLink, Register};
 pub use values::{Value, Values};

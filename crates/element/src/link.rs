@@ -1,7 +1,7 @@
 //! Links: local nonlinear laws.
 
 use crate::lanes::LaneForm;
-use crate::{Axis, Field};
+use crate::{Axis, Field, Outline};
 use std::borrow::Cow;
 use std::fmt::Debug;
 
@@ -174,6 +174,13 @@ pub trait Link: Send + Sync + Debug {
     /// contacts. `history` as for [`contacts`](Self::contacts).
     fn overturned(&self, _at: &Kinematics<'_>, _history: &[f64]) -> bool {
         false
+    }
+
+    /// What its body looks like in a picture, for laws that have one: where its points are now, in global
+    /// axes from the place that its first node has without displacement. The number of points and the
+    /// paths never change. `history` as for [`contacts`](Self::contacts).
+    fn outline(&self, _at: &Kinematics<'_>, _history: &[f64]) -> Option<Outline> {
+        None
     }
 
     /// What it does in an impact, for contacts with a dashpot that a restitution can set.

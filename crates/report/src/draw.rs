@@ -19,6 +19,9 @@ const LEGEND_LINE: i32 = 18;
 /// Pixels a character of the legend takes, about.
 const LEGEND_CHARACTER: i32 = 7;
 
+/// Opacity of areas.
+const OPACITY: f64 = 0.85;
+
 /// Corners of a square mark, px.
 const SQUARE: [(i32, i32); 2] = [(-3, -3), (3, 3)];
 /// Where the legend starts, px.
@@ -193,6 +196,11 @@ fn draw(figure: &Figure, area: &Area<'_>) -> Result<(), String> {
                 let style = style.stroke_width(2);
                 chart.draw_series(points().map(|p| Cross::new(p, 4, style))).map_err(fail)?;
             }
+            Stroke::Area => {
+                let corners: Vec<_> = points().collect();
+                let area = Polygon::new(corners, style.mix(OPACITY).filled());
+                chart.draw_series(std::iter::once(area)).map_err(fail)?;
+            }
             Stroke::Squares => {
                 let square = || Rectangle::new(SQUARE, style.filled());
                 let marks = points().map(|p| EmptyElement::at(p) + square());
@@ -273,6 +281,10 @@ fn draw_legend(rows: &[Vec<(&Series, u32)>], area: &Area<'_>) -> Result<(), Fail
                 }
                 Stroke::Rings => area.draw(&Circle::new(middle, 4, style.stroke_width(2)))?,
                 Stroke::Crosses => area.draw(&Cross::new(middle, 4, style.stroke_width(2)))?,
+                Stroke::Area => {
+                    let box_ = [(x + 4, y - 6), (end - 4, y + 6)];
+                    area.draw(&Rectangle::new(box_, style.mix(OPACITY).filled()))?;
+                }
                 Stroke::Squares => {
                     let square = EmptyElement::at(middle) + Rectangle::new(SQUARE, style.filled());
                     area.draw(&square)?;

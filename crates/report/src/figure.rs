@@ -26,6 +26,8 @@ pub enum Stroke {
     Crosses,
     /// A small filled square at each point.
     Squares,
+    /// The polygon through the points, filled.
+    Area,
 }
 
 /// Red, green, blue.

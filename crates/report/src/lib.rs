@@ -13,7 +13,12 @@
 mod draw;
 mod figure;
 mod page;
+mod run;
 mod thin;
 
 pub use figure::{Axis, Color, Figure, Series, Stroke};
 pub use page::{Block, Page, Section};
+pub use run::{
+    Collect, ENERGY, FaceMark, Family, Frames, History, LineKind, LineMark, LinkMark, Loop, Mode,
+    NodeMark, Numbers, Picture, RunData, Shown, named_figures, run_page,
+};

@@ -3,7 +3,7 @@
 use crate::Figure;
 use maud::{DOCTYPE, Markup, PreEscaped, html};
 
-const STYLE: &str = "
+pub(crate) const STYLE: &str = "
 :root { color-scheme: light; }
 body { font: 15px/1.5 system-ui, sans-serif; color: #222; background: #fff; max-width: 1180px;
   margin: 0 auto; padding: 1.5rem; }

@@ -3,8 +3,13 @@
 /// Keeps the points that a line needs to stay within `tolerance` (in the unit of the points) of the
 /// original: Ramer 1972, Douglas and Peucker 1973. Works for loops too.
 pub(crate) fn thinned(points: &[(f64, f64)], tolerance: f64) -> Vec<(f64, f64)> {
+    kept(points, tolerance).into_iter().map(|i| points[i]).collect()
+}
+
+/// The same as indices.
+pub(crate) fn kept(points: &[(f64, f64)], tolerance: f64) -> Vec<usize> {
     if points.len() < 3 {
-        return points.to_vec();
+        return (0..points.len()).collect();
     }
     let mut keep = vec![false; points.len()];
     keep[0] = true;
@@ -19,7 +24,7 @@ pub(crate) fn thinned(points: &[(f64, f64)], tolerance: f64) -> Vec<(f64, f64)> 
             spans.extend([(a, far.0), (far.0, b)]);
         }
     }
-    points.iter().zip(keep).filter(|(_, k)| *k).map(|(p, _)| *p).collect()
+    (0..points.len()).filter(|i| keep[*i]).collect()
 }
 
 /// Distance of a point from a segment.

@@ -1,5 +1,6 @@
 //! Deformed shapes, evenly thinned while a run goes on.
 
+use trilith_element::Vector3;
 use trilith_solvers::Shape;
 
 /// A deformed shape.
@@ -9,6 +10,9 @@ pub struct Frame {
     pub t: f64,
     /// Six displacements of every node, node after node (m, rad).
     pub displacements: Vec<f32>,
+    /// Places of the points of the outlines of links, link after link, each from the first node of its link
+    /// without displacement, m.
+    pub outlines: Vec<[f32; 3]>,
 }
 
 /// Keeps at most so many deformed shapes: when they become too many, every second one goes and from
@@ -20,6 +24,7 @@ pub struct Frames {
     kept: Vec<Frame>,
     last: Option<Frame>,
     buffer: Vec<f64>,
+    points: Vec<Vector3>,
 }
 
 impl Frames {
@@ -28,7 +33,14 @@ impl Frames {
     pub fn new(nodes: usize, limit: usize) -> Self {
         let buffer = vec![0.0; 6 * nodes];
         // The last moment is kept beside the evenly spaced ones.
-        Self { limit: limit.saturating_sub(1), stride: 1, kept: Vec::new(), last: None, buffer }
+        Self {
+            limit: limit.saturating_sub(1),
+            stride: 1,
+            kept: Vec::new(),
+            last: None,
+            buffer,
+            points: Vec::new(),
+        }
     }
 
     /// The shapes kept, in time order; the last output time is always among them.
@@ -42,10 +54,18 @@ impl Frames {
             return;
         }
         shape.displacements(&mut self.buffer);
-        let last = self.last.get_or_insert_with(|| Frame { t, displacements: Vec::new() });
+        self.points.clear();
+        shape.outlines(&mut self.points);
+        let last = self.last.get_or_insert_with(|| Frame {
+            t,
+            displacements: Vec::new(),
+            outlines: Vec::new(),
+        });
         last.t = t;
         last.displacements.clear();
         last.displacements.extend(self.buffer.iter().map(|u| *u as f32));
+        last.outlines.clear();
+        last.outlines.extend(self.points.iter().map(|p| p.map(|x| x as f32)));
         if step.is_multiple_of(self.stride) {
             if self.kept.len() == self.limit {
                 let mut even = false;

@@ -1,6 +1,6 @@
 //! Records what the model asks for.
 
-use crate::{Envelope, Frames, Peak};
+use crate::{Envelope, Frames, Loops, Peak};
 use trilith_model::Model;
 use trilith_solvers::{EnergyTotals, Observer, Sample};
 
@@ -28,6 +28,7 @@ pub struct Recorder {
     energy: [Vec<f64>; ENERGIES.len()],
     envelope: Envelope,
     frames: Frames,
+    loops: Loops,
     keeps_histories: bool,
 }
 
@@ -41,6 +42,7 @@ impl Recorder {
             energy: Default::default(),
             envelope: Envelope::new(),
             frames: Frames::new(model.nodes.len(), 0),
+            loops: Loops::default(),
             keeps_histories: true,
         }
     }
@@ -56,6 +58,13 @@ impl Recorder {
     #[must_use]
     pub fn with_frames(mut self, model: &Model, limit: usize) -> Self {
         self.frames = Frames::new(model.nodes.len(), limit);
+        self
+    }
+
+    /// Keeps deformation and force of all links as well.
+    #[must_use]
+    pub fn with_loops(mut self, model: &Model) -> Self {
+        self.loops = Loops::new(model);
         self
     }
 
@@ -88,6 +97,12 @@ impl Recorder {
     pub fn frames(&self) -> &Frames {
         &self.frames
     }
+
+    /// Deformation and force of the links.
+    #[must_use]
+    pub fn loops(&self) -> &Loops {
+        &self.loops
+    }
 }
 
 impl Observer for Recorder {
@@ -95,6 +110,7 @@ impl Observer for Recorder {
         self.envelope.sample(s);
         let Some(step) = s.output_step else { return };
         self.frames.take(step, s.t, s.shape);
+        self.loops.take(step, s.t, s.deformation, s.force);
         if !self.keeps_histories {
             return;
         }

@@ -51,6 +51,8 @@ fn shown<T: Observer>(mut recorder: T) -> T {
             energy: &energy,
             contacts: &[],
             overturned: None,
+            deformation: &[t],
+            force: &[2.0 * t],
             shape: &Lifted(t),
         });
     }

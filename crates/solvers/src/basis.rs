@@ -16,7 +16,7 @@
 
 use crate::error::SolveError;
 use crate::massless;
-use crate::observe::{Adequacy, BasisReport};
+use crate::observe::{Adequacy, BasisReport, ModeShape};
 use crate::span::{Origin, Span};
 use crate::vector::dot;
 use std::sync::Arc;
@@ -39,6 +39,8 @@ const HELD: f64 = 1e-11;
 const BLOCK: usize = 16;
 /// Automatic dummies as a share of the engaged stiffness of a link.
 const DUMMY_SHARE: f64 = 1e-3;
+/// Modes shown in pictures.
+const SHAPES: usize = 6;
 
 /// M-orthonormal modes in the span of a basis.
 #[derive(Clone, Debug)]
@@ -409,5 +411,22 @@ fn report(
         mass_participation: (0..m).map(|j| [x[j], y[j], z[j]]).collect(),
         static_participation,
         adequacy,
+        shapes: shapes(model, system, basis),
     }
+}
+
+/// The lowest modes that deform the structure, at its nodes.
+fn shapes(model: &Model, system: &System, basis: &RitzBasis) -> Vec<ModeShape> {
+    let bends = basis.omega2.iter().enumerate().filter(|(_, w)| **w > 0.0).take(SHAPES);
+    let shape = |mode: usize| {
+        let column = basis.shapes.column(mode);
+        let full = 0..6 * model.nodes.len();
+        // Supports stand still.
+        let at = |i: usize| -> f64 {
+            let terms = system.reduction.expand(i).iter();
+            terms.filter_map(|(j, c)| column.get(*j).map(|x| c * x)).sum()
+        };
+        ModeShape { mode, displacements: full.map(|i| at(i) as f32).collect() }
+    };
+    bends.map(|(mode, _)| shape(mode)).collect()
 }

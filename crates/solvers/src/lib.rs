@@ -44,8 +44,8 @@ pub use case::{EndState, RunOptions, modes, run};
 pub use contact_mode::{ContactMode, ContactSummary};
 pub use error::SolveError;
 pub use observe::{
-    Adequacy, BasisReport, CaseResult, EnergyTotals, LinkEnergy, Observer, Sample, Shape, Status,
-    Work,
+    Adequacy, BasisReport, CaseResult, EnergyTotals, LinkEnergy, ModeShape, Observer, Sample,
+    Shape, Status, Work,
 };
 pub use p_delta::assemble;
 pub use peak::Peak;

@@ -1,7 +1,7 @@
 //! What a run shows while it goes on, and what it leaves.
 
 use serde::Serialize;
-use trilith_element::Contact;
+use trilith_element::{Contact, Vector3};
 
 /// A moment of a run, shown after every accepted substep.
 pub struct Sample<'a> {
@@ -19,6 +19,10 @@ pub struct Sample<'a> {
     pub contacts: &'a [(usize, Contact)],
     /// Index of the element of a body that has fallen over.
     pub overturned: Option<usize>,
+    /// Deformations of all links, coordinates of link after link in the model's order, m or rad.
+    pub deformation: &'a [f64],
+    /// Their forces in the same order, N or N·m.
+    pub force: &'a [f64],
     /// Displacements of the structure on request.
     pub shape: &'a dyn Shape,
 }
@@ -27,6 +31,10 @@ pub struct Sample<'a> {
 pub trait Shape {
     /// Six displacements of every node, node after node (m, rad); `u` has 6 · nodes values.
     fn displacements(&self, u: &mut [f64]);
+
+    /// Adds where the points of the outlines of links are, link after link in the model's order: global
+    /// axes, m, each from the place of the link's first node without displacement.
+    fn outlines(&self, _points: &mut Vec<Vector3>) {}
 }
 
 /// Watches a run.
@@ -190,6 +198,18 @@ pub struct BasisReport {
     pub static_participation: Vec<(String, f64)>,
     /// Worst coordinates first.
     pub adequacy: Vec<Adequacy>,
+    /// The lowest modes that deform the structure, for pictures.
+    #[serde(skip)]
+    pub shapes: Vec<ModeShape>,
+}
+
+/// What a mode looks like.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct ModeShape {
+    /// Which mode it is: an index into [`BasisReport::omega`].
+    pub mode: usize,
+    /// Six displacements of every node, node after node; of any size.
+    pub displacements: Vec<f32>,
 }
 
 /// What a run leaves.

@@ -5,7 +5,7 @@ use crate::observe::{EnergyTotals, Observer, Sample, Shape};
 use crate::outputs::Outputs;
 use crate::space::Space;
 use crate::stepper::State;
-use trilith_element::{Contact, Kinematics, Link};
+use trilith_element::{Contact, Kinematics, Link, Vector3};
 use trilith_model::{Model, Side};
 use trilith_system::{LinkInstance, LoadSet, System};
 
@@ -15,6 +15,8 @@ struct Figure<'a> {
     space: &'a Space,
     state: &'a State,
     loads: &'a LoadSet,
+    /// The links that have an outline.
+    bodies: &'a [(&'a dyn Link, &'a LinkInstance)],
     t: f64,
 }
 
@@ -33,6 +35,17 @@ impl Shape for Figure<'_> {
                 .sum();
         }
     }
+
+    fn outlines(&self, points: &mut Vec<Vector3>) {
+        for (law, link) in self.bodies {
+            let history = &self.state.history[link.history.clone()];
+            points.extend(
+                law.outline(&standing(link, self.state), history)
+                    .into_iter()
+                    .flat_map(|o| o.points),
+            );
+        }
+    }
 }
 
 /// Shows accepted substeps to the observers.
@@ -44,6 +57,8 @@ pub(crate) struct Viewer<'a, 'b> {
     rates: Vec<f64>,
     /// The links that are contacts.
     touching: Vec<(&'a dyn Link, &'a LinkInstance)>,
+    /// The links that have an outline.
+    bodies: Vec<(&'a dyn Link, &'a LinkInstance)>,
     contacts: Vec<(usize, Contact)>,
     own: Vec<Contact>,
     observers: &'a mut [&'b mut dyn Observer],
@@ -61,10 +76,17 @@ impl<'a, 'b> Viewer<'a, 'b> {
         let (rest, mut own) = (vec![0.0; system.links.len()], Vec::new());
         let history = system.links.at_rest(model);
         let laws = system.links.laws(model);
+        fn still<'r>(rest: &'r [f64], link: &LinkInstance) -> Kinematics<'r> {
+            let at = &rest[link.range.clone()];
+            Kinematics { d: at, v: at, d0: at, v0: at, dt: 0.0 }
+        }
+        let seen = |(law, link): &(&dyn Link, &LinkInstance)| {
+            law.outline(&still(&rest, link), &history[link.history.clone()]).is_some()
+        };
+        let bodies = laws.iter().filter(seen).collect();
         let touches = |(law, link): &(&dyn Link, &LinkInstance)| {
             let at = &rest[link.range.clone()];
-            let still = Kinematics { d: at, v: at, d0: at, v0: at, dt: 0.0 };
-            law.contacts(&still, &history[link.history.clone()], at, &mut own);
+            law.contacts(&still(&rest, link), &history[link.history.clone()], at, &mut own);
             own.drain(..).next().is_some()
         };
         Self {
@@ -74,6 +96,7 @@ impl<'a, 'b> Viewer<'a, 'b> {
             values: vec![0.0; count],
             rates: vec![0.0; count],
             touching: laws.iter().filter(touches).collect(),
+            bodies,
             contacts: Vec::new(),
             own: Vec::new(),
             observers,
@@ -95,7 +118,14 @@ impl<'a, 'b> Viewer<'a, 'b> {
         self.outputs.evaluate(t, state, self.loads, &mut self.values, &mut self.rates);
         self.touch(state);
         let overturned = self.overturned(state);
-        let shape = Figure { system: self.system, space, state, loads: self.loads, t };
+        let shape = Figure {
+            system: self.system,
+            space,
+            state,
+            loads: self.loads,
+            bodies: &self.bodies,
+            t,
+        };
         for observer in self.observers.iter_mut() {
             observer.sample(&Sample {
                 t,
@@ -105,6 +135,8 @@ impl<'a, 'b> Viewer<'a, 'b> {
                 energy: &ledger.totals,
                 contacts: &self.contacts,
                 overturned,
+                deformation: &state.d,
+                force: &state.f,
                 shape: &shape,
             });
         }

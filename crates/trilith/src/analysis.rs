@@ -14,6 +14,7 @@ pub struct Analysis<'m> {
     system: System,
     frames: usize,
     histories: bool,
+    loops: bool,
 }
 
 impl<'m> Analysis<'m> {
@@ -23,7 +24,13 @@ impl<'m> Analysis<'m> {
     /// [`Error::Solve`] where its parts do not fit together, or where it buckles under the axial forces
     /// of its P-Δ case.
     pub fn new(model: &'m Model) -> Result<Self, Error> {
-        Ok(Self { model, system: trilith_solvers::assemble(model)?, frames: 0, histories: true })
+        Ok(Self {
+            model,
+            system: trilith_solvers::assemble(model)?,
+            frames: 0,
+            histories: true,
+            loops: false,
+        })
     }
 
     /// Keeps up to so many deformed shapes of every run, evenly spaced in time.
@@ -39,6 +46,19 @@ impl<'m> Analysis<'m> {
     pub fn without_histories(mut self) -> Self {
         self.histories = false;
         self
+    }
+
+    /// Keeps deformation and force of the links, for the hysteresis loops of a report.
+    #[must_use]
+    pub fn with_loops(mut self) -> Self {
+        self.loops = true;
+        self
+    }
+
+    /// The model.
+    #[must_use]
+    pub fn model(&self) -> &'m Model {
+        self.model
     }
 
     /// The equations.
@@ -69,6 +89,9 @@ impl<'m> Analysis<'m> {
             return Err(Error::unknown_case(self.model, &format!("#{}", options.case)));
         }
         let mut record = Recorder::new(self.model).with_frames(self.model, self.frames);
+        if self.loops {
+            record = record.with_loops(self.model);
+        }
         if !self.histories {
             record = record.without_histories();
         }

@@ -29,6 +29,9 @@ pub enum Error {
     /// The model cannot be calibrated.
     #[error(transparent)]
     Calibration(#[from] crate::calibrate::CalibrationError),
+    /// The report of a folder cannot be made.
+    #[error(transparent)]
+    Report(#[from] crate::ReportError),
     /// A file cannot be written.
     #[error(transparent)]
     File(#[from] FileError),

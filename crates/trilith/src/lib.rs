@@ -28,6 +28,7 @@
 //!
 //! - [`read`] turns a model file into a [`Model`], or into all its errors at once.
 //! - [`run`] runs a case as the file says; [`Analysis`] runs several, with options.
+//! - [`write_report`] makes the page of a run, [`rebuild_report`] makes it again from its folder.
 //! - [`exercise`] shows what a link does on its own, [`catalogue`] what kinds there are.
 //! - [`generate`] makes models from a few numbers.
 //! - [`sweep`] runs a model with many values of its parameters, several analyses side by side.
@@ -43,6 +44,7 @@ pub mod catalogue;
 mod error;
 pub mod exercise;
 pub mod generate;
+mod run_report;
 pub mod sweep;
 
 /// The contract that elements, constraints and links fulfil.
@@ -79,6 +81,7 @@ pub use analysis::{Analysis, Run};
 pub use element::Register;
 pub use error::Error;
 pub use model::{Diagnostic, Model, Registry, SolverKind, read, read_text};
+pub use run_report::{ReportError, rebuild_report, remove_report, write_report};
 pub use solvers::RunOptions;
 
 /// A registry with every built-in kind.

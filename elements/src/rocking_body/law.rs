@@ -2,11 +2,11 @@
 
 use super::rim::Rim;
 use super::rotation::Turn;
-use super::{RockingBody, points};
+use super::{RockingBody, outline, points};
 use nalgebra::{Matrix3, SMatrix, Vector3};
 use std::borrow::Cow;
 use trilith_element::{
-    Contact, Coordinates, Energy, Field, History, Kinematics, Link, Response, history,
+    Contact, Coordinates, Energy, Field, History, Kinematics, Link, Outline, Response, history,
 };
 
 history! {
@@ -158,6 +158,16 @@ impl Link for RockingBody {
             Some(rim) => rim.contacts(at, &turn, own, out),
             None => points::contacts(self, at, &turn, own, out),
         }
+    }
+
+    fn outline(&self, at: &Kinematics<'_>, history: &[f64]) -> Option<Outline> {
+        let turn = Attitude::load(history).turn(&at.d[3..6]);
+        let mut body = outline::upright(self);
+        for point in &mut body.points {
+            let moved = Vector3::from(*point) + turn.shift(Vector3::from(*point));
+            *point = [0, 1, 2].map(|i| at.d[i] + moved[i]);
+        }
+        Some(body)
     }
 
     fn overturned(&self, _: &Kinematics<'_>, history: &[f64]) -> bool {

@@ -176,3 +176,30 @@ fn refuses_what_cannot_stand() {
     assert_eq!(rim(&[number("damping", 1.0)]), "pull");
     assert_eq!(rim(&[number("mu", 0.1)]), "ks");
 }
+
+/// Where the body is drawn: as a block about its centre of gravity, turned exactly however far.
+#[test]
+fn is_drawn_where_it_is() {
+    let at = |law: &RockingBody, d: [f64; 6]| {
+        let mut history = vec![0.0; law.history().len()];
+        law.at_rest(&mut history);
+        let still = [0.0; 6];
+        let at = Kinematics { d: &d, v: &still, d0: &d, v0: &still, dt: 0.0 };
+        law.outline(&at, &history).unwrap()
+    };
+    let block = body(&BLOCK, &[]).unwrap();
+    let rest = at(&block, [0.0; 6]);
+    let mut corners = rest.points.clone();
+    corners.sort_by(|a, b| a.partial_cmp(b).unwrap());
+    assert_eq!(corners, [[-0.5, 0.0, -1.0], [-0.5, 0.0, 1.0], [0.5, 0.0, -1.0], [0.5, 0.0, 1.0]]);
+    // On its side, a quarter turn about Y: (x, z) goes to (z, −x).
+    let fallen = at(&block, [0.3, 0.0, -0.4, 0.0, FRAC_PI_2, 0.0]);
+    for (p, q) in rest.points.iter().zip(&fallen.points) {
+        assert_relative_eq!(q[0], p[2] + 0.3, epsilon = 1e-12);
+        assert_relative_eq!(q[2], -p[0] - 0.4, epsilon = 1e-12);
+    }
+    let table = at(&body(&TABLE, &[inertia()]).unwrap(), [0.0; 6]);
+    assert_eq!((table.points.len(), table.paths.len()), (8, 6));
+    let cask = at(&cask(&[]).unwrap(), [0.0; 6]);
+    assert!(cask.points.iter().all(|p| p[2].abs() == cask.points[0][2].abs()));
+}

@@ -1,0 +1,61 @@
+//! `trilith run --figure`: single figures of a run as files.
+
+use crate::Failure;
+use crate::text::names_help;
+use std::path::{Path, PathBuf};
+use trilith::model::Body;
+use trilith::report::{ENERGY, named_figures};
+use trilith::{Analysis, Model, Run};
+
+/// Names of outputs, of links, or `energy`.
+pub(crate) fn check(model: &Model, names: &[String]) -> Result<(), Failure> {
+    let known: Vec<&str> = std::iter::once(ENERGY)
+        .chain(model.outputs.iter().map(|o| o.name.as_str()))
+        .chain(links(model))
+        .collect();
+    match names.iter().find(|n| !known.contains(&n.as_str())) {
+        None => Ok(()),
+        Some(name) => {
+            let help = names_help(name, "figures", known.into_iter());
+            Err(Failure::input(&format!("there is no figure of \"{name}\""), Some(&help)))
+        }
+    }
+}
+
+fn links(model: &Model) -> impl Iterator<Item = &str> + Clone {
+    model.elements.iter().filter(|e| matches!(e.body, Body::Link(..))).map(|e| e.name.as_str())
+}
+
+/// Writes the figures into the folder of a run.
+pub(crate) fn write(
+    analysis: &Analysis<'_>,
+    run: &Run,
+    dir: &Path,
+    names: &[String],
+) -> Result<Vec<PathBuf>, Failure> {
+    if names.is_empty() {
+        return Ok(Vec::new());
+    }
+    let loops: Vec<String> = names
+        .iter()
+        .filter(|n| links(analysis.model()).any(|l| l == n.as_str()))
+        .cloned()
+        .collect();
+    let data = run.report(analysis, &[], &loops);
+    let mut written = Vec::new();
+    for name in names {
+        let figures = named_figures(&data, name);
+        if figures.is_empty() {
+            let message = format!(
+                "nothing to draw of \"{name}\": it was not recorded in this case, or does not move"
+            );
+            return Err(Failure::input(&message, None));
+        }
+        for (file, figure) in figures {
+            let path = dir.join(format!("{file}.svg"));
+            std::fs::write(&path, figure.svg()).map_err(|e| Failure::unwritable(&path, &e))?;
+            written.push(path);
+        }
+    }
+    Ok(written)
+}

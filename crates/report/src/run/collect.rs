@@ -1,0 +1,127 @@
+//! From model and record to what the page shows.
+
+use super::data::{FORMAT, Frames, Mode, Numbers, RunData};
+use super::picture::Sketch;
+use super::{loops, reduce, settings};
+use trilith_model::Model;
+use trilith_results::{ENERGIES, Frame, Recorder, Summary};
+use trilith_solvers::BasisReport;
+
+/// Steps of a displacement, of the largest.
+const STEPS: f64 = 3e4;
+/// Displacements kept at most, over all frames.
+const ROOM: usize = 1_200_000;
+/// Outputs with a figure of their own.
+const OUTPUTS: usize = 60;
+
+/// What a run left, to be put together for its report.
+#[derive(Clone, Copy, Debug)]
+pub struct Collect<'a> {
+    /// The model.
+    pub model: &'a Model,
+    /// Index of the case.
+    pub case: usize,
+    /// Output step that ran, s.
+    pub dt: Option<f64>,
+    /// What was recorded.
+    pub record: &'a Recorder,
+    /// The summary.
+    pub summary: &'a Summary,
+    /// Modes of the structure, where they are known.
+    pub modes: Option<&'a BasisReport>,
+    /// Parameters given on the command line.
+    pub overrides: &'a [(String, String)],
+    /// Links whose loops are wanted, by name; empty: those that dissipate most.
+    pub loops: &'a [String],
+}
+
+impl Collect<'_> {
+    /// Puts it together.
+    #[must_use]
+    pub fn data(&self) -> RunData {
+        let sketch = Sketch::new(self.model);
+        let mut notes: Vec<String> = sketch.note.iter().cloned().collect();
+        let file = self.model.source.path.file_name();
+        let (frames, modes) = (self.frames(&sketch), self.modes(&sketch));
+        let outputs = self.model.outputs.len();
+        if outputs > OUTPUTS {
+            notes.push(format!(
+                "Figures show the first {OUTPUTS} of {outputs} outputs; the table has all."
+            ));
+        }
+        let free = self.modes.map_or(0, |m| m.omega.iter().filter(|omega| **omega <= 0.0).count());
+        RunData {
+            format: FORMAT,
+            file: file.map_or(String::new(), |f| f.to_string_lossy().into_owned()),
+            parameters: settings::parameters(self.model),
+            overrides: self.overrides.to_vec(),
+            settings: settings::of_case(self.model, self.case, self.summary.solver, self.dt),
+            picture: sketch.picture,
+            frames,
+            outputs: self.model.outputs.iter().map(|o| o.name.clone()).collect(),
+            histories: self.histories(),
+            energies: self.energies(),
+            loops: loops::chosen(self.model, self.record, self.summary, self.loops),
+            modes,
+            free_modes: free,
+            notes,
+        }
+    }
+
+    fn histories(&self) -> Vec<super::History> {
+        let t = self.record.time();
+        let outputs = self.model.outputs.iter().enumerate().take(OUTPUTS);
+        outputs
+            .filter_map(|(i, o)| {
+                let y = self.record.history(i).filter(|y| y.len() == t.len() && y.len() > 1)?;
+                Some(reduce::history(o.name.clone(), &o.unit, t, y))
+            })
+            .collect()
+    }
+
+    fn energies(&self) -> Vec<super::History> {
+        let t = self.record.time();
+        let columns = ENERGIES.iter().zip(self.record.energy());
+        let whole = columns.filter(|(_, e)| e.len() == t.len() && e.len() > 1);
+        let mut all: Vec<_> =
+            whole.map(|(name, e)| reduce::history((*name).to_owned(), "J", t, e)).collect();
+        // One unit for all, so that they can be stacked.
+        let largest = all.iter().flat_map(|h| h.y.values()).fold(0.0_f64, |a, x| a.max(x.abs()));
+        let one = super::units::shown("J", largest);
+        all.iter_mut().for_each(|h| h.shown = one.clone());
+        all
+    }
+
+    fn frames(&self, sketch: &Sketch) -> Frames {
+        let all: Vec<&Frame> = self.record.frames().iter().collect();
+        let room = (ROOM / (3 * sketch.picture.points.len()).max(1)).max(2);
+        let stride = all.len().div_ceil(room).max(1);
+        let last = all.len().saturating_sub(1);
+        let kept: Vec<&Frame> = all
+            .iter()
+            .enumerate()
+            .filter(|(i, _)| i % stride == 0 || *i == last)
+            .map(|(_, f)| *f)
+            .collect();
+        let moved: Vec<f64> =
+            kept.iter().flat_map(|f| sketch.moved(&f.displacements, &f.outlines)).collect();
+        Frames {
+            t: kept.iter().map(|f| f.t).collect(),
+            u: Numbers::new(moved.iter().copied(), STEPS),
+        }
+    }
+
+    fn modes(&self, sketch: &Sketch) -> Vec<Mode> {
+        let Some(report) = self.modes else { return Vec::new() };
+        let one = |shape: &trilith_solvers::ModeShape| {
+            let moved = sketch.moved(&shape.displacements, &[]);
+            Some(Mode {
+                number: shape.mode + 1,
+                frequency: report.omega.get(shape.mode)? / std::f64::consts::TAU,
+                participation: *report.mass_participation.get(shape.mode)?,
+                u: Numbers::new(moved.iter().copied(), 1e3),
+            })
+        };
+        report.shapes.iter().filter_map(one).collect()
+    }
+}

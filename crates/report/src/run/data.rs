@@ -1,0 +1,243 @@
+//! What the page of a run shows, as it lies in the folder of the run.
+
+use serde::{Deserialize, Serialize};
+
+/// `report.json`: what the page of a run shows beside `summary.json`, thinned to what can be seen.
+///
+/// Full histories are in `histories.npz`. SI throughout; `shown` says in which unit a figure is drawn.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct RunData {
+    /// Version of this format.
+    pub format: u32,
+    /// Name of the model file.
+    pub file: String,
+    /// Parameters of the model with the values they had.
+    pub parameters: Vec<(String, String)>,
+    /// Parameters given on the command line.
+    pub overrides: Vec<(String, String)>,
+    /// How the case was solved: what, and its value.
+    pub settings: Vec<(String, String)>,
+    /// The model as points and lines.
+    pub picture: Picture,
+    /// Deformed shapes.
+    pub frames: Frames,
+    /// Names of the outputs, in the order of the model.
+    pub outputs: Vec<String>,
+    /// Outputs over time.
+    pub histories: Vec<History>,
+    /// Energies over time, with the names of `histories.csv`.
+    pub energies: Vec<History>,
+    /// Hysteresis loops of links.
+    pub loops: Vec<Loop>,
+    /// Mode shapes of the structure without links.
+    pub modes: Vec<Mode>,
+    /// Modes without stiffness, beside these.
+    pub free_modes: usize,
+    /// What the page leaves out.
+    pub notes: Vec<String>,
+}
+
+/// The format written here.
+pub(crate) const FORMAT: u32 = 1;
+
+/// Numbers as whole multiples of a step, which makes short files.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Numbers {
+    /// The step.
+    pub step: f64,
+    /// Multiples of it.
+    pub n: Vec<i32>,
+}
+
+impl Numbers {
+    /// Rounds values to so many steps of the largest magnitude; what is not finite becomes zero.
+    pub(crate) fn new(values: impl Iterator<Item = f64> + Clone, steps: f64) -> Self {
+        let largest = values.clone().filter(|x| x.is_finite()).fold(0.0_f64, |a, x| a.max(x.abs()));
+        let step = if largest > 0.0 { largest / steps } else { 1.0 };
+        // A float turns into a whole number with saturation, NaN into zero.
+        Self { step, n: values.map(|x| (x / step).round() as i32).collect() }
+    }
+
+    /// The values.
+    pub fn values(&self) -> impl Iterator<Item = f64> + Clone + '_ {
+        self.n.iter().map(|n| f64::from(*n) * self.step)
+    }
+}
+
+/// In which unit a quantity is drawn: value in SI times factor.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Shown {
+    /// Unit.
+    pub unit: String,
+    /// Factor.
+    pub factor: f64,
+}
+
+/// A quantity over time.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct History {
+    /// Name.
+    pub name: String,
+    /// Unit in figures.
+    pub shown: Shown,
+    /// Times, s.
+    pub t: Numbers,
+    /// Values.
+    pub y: Numbers,
+}
+
+impl History {
+    /// (time in s, value in the unit shown).
+    pub(crate) fn points(&self) -> impl Iterator<Item = (f64, f64)> + '_ {
+        self.t.values().zip(self.y.values().map(|y| y * self.shown.factor))
+    }
+}
+
+/// Force over deformation of a link coordinate.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Loop {
+    /// Name of the link.
+    pub link: String,
+    /// Kind of the link.
+    pub kind: String,
+    /// Name of the coordinate.
+    pub coordinate: String,
+    /// Units of deformation and force in figures.
+    pub shown: [Shown; 2],
+    /// Times, s.
+    pub t: Numbers,
+    /// Deformations.
+    pub d: Numbers,
+    /// Forces.
+    pub f: Numbers,
+}
+
+impl Loop {
+    /// (deformation, force) in the units shown.
+    pub(crate) fn points(&self) -> impl Iterator<Item = (f64, f64)> + '_ {
+        let [d, f] = [self.shown[0].factor, self.shown[1].factor];
+        self.d.values().map(move |x| x * d).zip(self.f.values().map(move |x| x * f))
+    }
+}
+
+/// The model as points with lines, faces and marks on them.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Picture {
+    /// Plane of a plane model, such as `XZ`.
+    pub plane: Option<String>,
+    /// Points, m.
+    pub points: Vec<[f64; 3]>,
+    /// Nodes.
+    pub nodes: Vec<NodeMark>,
+    /// Members and lines of bodies.
+    pub lines: Vec<LineMark>,
+    /// Faces of bodies.
+    pub faces: Vec<FaceMark>,
+    /// Links.
+    pub links: Vec<LinkMark>,
+    /// Level of the ground, where the model stands on one, m.
+    pub ground: Option<f64>,
+}
+
+/// A node.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct NodeMark {
+    /// Name.
+    pub name: String,
+    /// Index of the point.
+    pub at: usize,
+    /// Fixed directions by name; empty for a free node.
+    pub fixed: String,
+}
+
+/// What a line stands for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum LineKind {
+    /// A beam, truss, spring …
+    Member,
+    /// Nodes tied by a constraint.
+    Tie,
+    /// An edge of a body.
+    Edge,
+}
+
+/// A line between two points.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct LineMark {
+    /// Name and kind of the element.
+    pub name: String,
+    /// What it stands for.
+    pub what: LineKind,
+    /// Indices of its points.
+    pub ends: [usize; 2],
+}
+
+/// A face of a body.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct FaceMark {
+    /// Name and kind of the element.
+    pub name: String,
+    /// Indices of its corners, in order.
+    pub corners: Vec<usize>,
+}
+
+/// Families of links, each with a symbol of its own.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Family {
+    /// Opens and closes.
+    Contact,
+    /// Force by rate alone.
+    Dashpot,
+    /// Has a memory: friction, yielding.
+    Hysteretic,
+    /// Force by deformation alone.
+    Spring,
+}
+
+/// A link.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct LinkMark {
+    /// Name.
+    pub name: String,
+    /// Kind.
+    pub kind: String,
+    /// Family.
+    pub family: Family,
+    /// Indices of its points: one for a link on the ground.
+    pub ends: Vec<usize>,
+    /// True where a body is drawn in its place.
+    pub body: bool,
+}
+
+/// Displacements of the points of a picture over time.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Frames {
+    /// Times, s.
+    pub t: Vec<f64>,
+    /// Displacements, m: X, Y, Z of point after point, frame after frame.
+    pub u: Numbers,
+}
+
+impl Frames {
+    /// Displacement of a point in a frame, m.
+    pub(crate) fn at(&self, frame: usize, points: usize, point: usize) -> [f64; 3] {
+        let first = 3 * (frame * points + point);
+        [0, 1, 2].map(|i| self.u.n.get(first + i).map_or(0.0, |n| f64::from(*n) * self.u.step))
+    }
+}
+
+/// A mode shape.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Mode {
+    /// Number among all modes, from 1.
+    pub number: usize,
+    /// Frequency, Hz.
+    pub frequency: f64,
+    /// Share of the mass along X, Y, Z.
+    pub participation: [f64; 3],
+    /// Displacements of the points of the picture, of any size.
+    pub u: Numbers,
+}

@@ -1,0 +1,148 @@
+//! Figures of a run, still: for paper and for readers without scripts.
+
+use super::data::{History, Loop, RunData};
+use crate::{Color, Figure, Stroke};
+
+/// (name in the data, name for readers, colour), in the order in which they are stacked.
+pub(crate) const KINDS: [(&str, &str, Color); 8] = [
+    ("kinetic", "kinetic", Color(86, 180, 233)),
+    ("strain", "strain", Color(0, 114, 178)),
+    ("potential", "potential", Color(150, 150, 150)),
+    ("link_stored", "stored in links", Color(0, 158, 115)),
+    ("modal_damping", "structural damping", Color(240, 228, 66)),
+    ("link_hysteretic", "friction and yielding", Color(213, 94, 0)),
+    ("link_viscous", "viscous in links", Color(204, 121, 167)),
+    ("algorithmic", "time rule", Color(230, 159, 0)),
+];
+/// Kinds smaller than this share of the largest energy are left out of figures.
+const SHARE: f64 = 1e-4;
+
+/// An energy by its name in the data.
+pub(crate) fn energy<'a>(data: &'a RunData, name: &str) -> Option<&'a History> {
+    data.energies.iter().find(|h| h.name == name)
+}
+
+fn largest(h: &History) -> f64 {
+    h.y.values().fold(0.0, |a: f64, y| a.max(y.abs()))
+}
+
+/// The kinds of energy that can be seen.
+pub(crate) fn seen(data: &RunData) -> Vec<(&History, &'static str, Color)> {
+    let most = data.energies.iter().map(largest).fold(0.0, f64::max);
+    KINDS
+        .iter()
+        .filter_map(|(name, words, color)| Some((energy(data, name)?, *words, *color)))
+        .filter(|(h, _, _)| largest(h) > SHARE * most)
+        .collect()
+}
+
+/// An output over time.
+pub(crate) fn history(h: &History) -> Figure {
+    let label = format!("{} [{}]", h.name, h.shown.unit);
+    Figure::new(h.name.clone(), "time [s]", label).line("", h.points()).sized(440, 210)
+}
+
+/// A hysteresis loop.
+pub(crate) fn link_loop(l: &Loop) -> Figure {
+    let [x, y] = ["deformation", "force"];
+    let title = format!("{} {}", l.link, l.coordinate);
+    Figure::new(title, format!("{x} [{}]", l.shown[0].unit), format!("{y} [{}]", l.shown[1].unit))
+        .line("", l.points())
+        .sized(300, 250)
+}
+
+/// The figures that a name stands for: an output, `energy`, or a link with a loop for each coordinate.
+/// Each with a name of its own for a file.
+#[must_use]
+pub fn named_figures(data: &RunData, name: &str) -> Vec<(String, Figure)> {
+    let clean = |text: &str| -> String {
+        text.chars()
+            .map(|c| if c.is_alphanumeric() || "_-.".contains(c) { c } else { '_' })
+            .collect()
+    };
+    let large = |figure: Figure| figure.sized(720, 380);
+    if let Some(h) = data.histories.iter().find(|h| h.name == name) {
+        return vec![(clean(name), large(history(h)))];
+    }
+    if name == ENERGY && !data.energies.is_empty() {
+        return vec![(clean(name), large(energy_curves(data)))];
+    }
+    let loops = data.loops.iter().filter(|l| l.link == name);
+    loops
+        .map(|l| (clean(&format!("{name}_{}", l.coordinate)), link_loop(l).sized(560, 460)))
+        .collect()
+}
+
+/// The name of the figure of energies.
+pub const ENERGY: &str = "energy";
+
+/// The energies as curves, as in plots of input, link, damper, kinetic and potential energy and error.
+pub(crate) fn energy_curves(data: &RunData) -> Figure {
+    let unit = data.energies.first().map_or("J", |h| h.shown.unit.as_str());
+    let mut figure =
+        Figure::new("Energies over time", "time [s]", format!("energy [{unit}]")).sized(480, 360);
+    if let Some(input) = energy(data, "input") {
+        figure = figure.colored("input", Stroke::Line, Color::INK, input.points());
+    }
+    for (h, words, color) in seen(data) {
+        figure = figure.colored(words, Stroke::Line, color, h.points());
+    }
+    if let Some(error) = energy(data, "error") {
+        figure =
+            figure.colored("unaccounted for", Stroke::Dashes, Color(170, 0, 60), error.points());
+    }
+    figure
+}
+
+/// The energies stacked, negative ones downwards, and the input as a line over them.
+pub(crate) fn energy_stack(data: &RunData) -> Figure {
+    let unit = data.energies.first().map_or("J", |h| h.shown.unit.as_str());
+    let title = "Where the input is";
+    let mut figure = Figure::new(title, "time [s]", format!("energy [{unit}]")).sized(480, 360);
+    let times = common(data);
+    let (mut up, mut down) = (vec![0.0; times.len()], vec![0.0; times.len()]);
+    for (h, words, color) in seen(data) {
+        let y = at(h, &times);
+        let (low, high): (Vec<f64>, Vec<f64>) = y
+            .iter()
+            .enumerate()
+            .map(|(i, y)| {
+                let base = if *y >= 0.0 { &mut up[i] } else { &mut down[i] };
+                let from = *base;
+                *base += y;
+                (from, *base)
+            })
+            .unzip();
+        let there = times.iter().copied().zip(high);
+        let back = times.iter().copied().zip(low).rev();
+        figure = figure.colored(words, Stroke::Area, color, there.chain(back));
+    }
+    if let Some(input) = energy(data, "input") {
+        figure = figure.colored("input", Stroke::Line, Color::INK, input.points());
+    }
+    figure
+}
+
+/// Evenly spaced times at which energies are stacked.
+fn common(data: &RunData) -> Vec<f64> {
+    const COUNT: usize = 600;
+    let end = data.energies.first().and_then(|h| h.t.values().last()).unwrap_or(0.0);
+    (0..=COUNT).map(|i| end * i as f64 / COUNT as f64).collect()
+}
+
+/// Values at rising times, linear between points, in the unit shown.
+fn at(h: &History, times: &[f64]) -> Vec<f64> {
+    let points: Vec<(f64, f64)> = h.points().collect();
+    let mut i = 0;
+    times
+        .iter()
+        .map(|t| {
+            while i + 2 < points.len() && points[i + 1].0 < *t {
+                i += 1;
+            }
+            let (Some(a), Some(b)) = (points.get(i), points.get(i + 1)) else { return 0.0 };
+            let share = if b.0 > a.0 { ((t - a.0) / (b.0 - a.0)).clamp(0.0, 1.0) } else { 0.0 };
+            a.1 + share * (b.1 - a.1)
+        })
+        .collect()
+}

@@ -1,0 +1,70 @@
+//! Long histories as short ones that look the same.
+
+use super::data::{History, Numbers};
+use super::units::shown;
+
+/// Histories up to this length are kept as they are.
+const WHOLE: usize = 3000;
+/// Buckets of longer ones; of each the smallest and the largest value stay.
+const BUCKETS: usize = 1000;
+/// Steps of a number, of the largest magnitude.
+const VALUE: f64 = 1e6;
+const TIME: f64 = 1e8;
+
+/// A quantity over time, reduced.
+pub(crate) fn history(name: String, unit: &str, t: &[f64], y: &[f64]) -> History {
+    let largest = y.iter().filter(|x| x.is_finite()).fold(0.0_f64, |a, x| a.max(x.abs()));
+    let kept = extremes(y);
+    History {
+        name,
+        shown: shown(unit, largest),
+        t: Numbers::new(kept.iter().map(|i| t[*i]), TIME),
+        y: Numbers::new(kept.iter().map(|i| y[*i]), VALUE),
+    }
+}
+
+/// Numbers of a loop.
+pub(crate) fn numbers(values: impl Iterator<Item = f64> + Clone) -> Numbers {
+    Numbers::new(values, VALUE)
+}
+
+/// Times.
+pub(crate) fn times(values: impl Iterator<Item = f64> + Clone) -> Numbers {
+    Numbers::new(values, TIME)
+}
+
+/// Indices of the first, the last, and the smallest and largest value of every bucket, rising.
+fn extremes(y: &[f64]) -> Vec<usize> {
+    if y.len() <= WHOLE {
+        return (0..y.len()).collect();
+    }
+    let mut kept = vec![0, y.len() - 1];
+    for bucket in 0..BUCKETS {
+        let range = bucket * y.len() / BUCKETS..(bucket + 1) * y.len() / BUCKETS;
+        let by = |a: &usize, b: &usize| y[*a].total_cmp(&y[*b]);
+        kept.extend(range.clone().min_by(by));
+        kept.extend(range.max_by(by));
+    }
+    kept.sort_unstable();
+    kept.dedup();
+    kept
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_long_history_keeps_its_spikes() {
+        let t: Vec<f64> = (0..200_000).map(|i| 1e-3 * f64::from(i)).collect();
+        let mut y: Vec<f64> = t.iter().map(|t| t.sin()).collect();
+        (y[77_777], y[123_456]) = (9.0, -8.0);
+        let h = history("y".into(), "m", &t, &y);
+        assert!(h.t.n.len() <= 2 * BUCKETS + 2);
+        for (at, value) in [(77.777, 9.0), (123.456, -8.0)] {
+            let found = h.points().find(|(_, v)| (v - value).abs() < 1e-5);
+            assert!(found.is_some_and(|(t, _)| (t - at).abs() < 1e-4), "{found:?}");
+        }
+        assert!((h.t.values().last().unwrap() - 199.999).abs() < 1e-5);
+    }
+}

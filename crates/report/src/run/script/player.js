@@ -1,0 +1,115 @@
+// The deformed shapes in time: play, scrub, speed, scale, ways of looking.
+
+const frames = { t: data.frames.t, u: data.frames.u };
+
+/** Displacements of all points at a time, times a factor. */
+function displaced(t, factor) {
+  const i = before(frames.t, t), j = Math.min(i + 1, frames.t.length - 1);
+  const gap = frames.t[j] - frames.t[i];
+  const share = gap > 0 ? Math.min(Math.max((t - frames.t[i]) / gap, 0), 1) : 0;
+  const step = frames.u.step * factor, n = frames.u.n, size = 3 * POINTS;
+  return Float64Array.from({ length: size }, (_, k) =>
+    step * (n[i * size + k] * (1 - share) + n[j * size + k] * share));
+}
+
+/** Size of the largest displacement. */
+function farthest() {
+  const { n, step } = frames.u;
+  let most = 0;
+  for (let i = 0; i + 2 < n.length; i += 3) most = Math.max(most, Math.hypot(n[i], n[i + 1], n[i + 2]));
+  return most * step;
+}
+
+function player(canvas, controls, tip) {
+  const end = frames.t.at(-1) ?? 0, moves = frames.t.length > 1, most = farthest();
+  const wanted = Number(controls.dataset.scale) || 1;
+  let factor = wanted, playing = false, speed = 1, last = 0;
+  const still = new Float64Array(3 * POINTS);
+  const stage = new Stage(canvas, 440,
+    () => (frames.t.length ? displaced(clock.t ?? 0, factor) : still),
+    () => factor * most);
+  const select = (label, values, chosen, write, change) => {
+    const box = make("select", {}, ...values.map((v) => make("option", { value: String(v), selected: v === chosen }, write(v))));
+    box.addEventListener("change", () => change(box.value));
+    return make("label", {}, `${label} `, box);
+  };
+  const tick = (label, on, change) => {
+    const box = make("input", { type: "checkbox", checked: on });
+    box.addEventListener("change", () => { change(box.checked); stage.draw(); });
+    return make("label", {}, box, ` ${label}`);
+  };
+  if (moves) {
+    const button = make("button", { type: "button" }, "Play");
+    const scrub = make("input", { type: "range", min: "0", max: "1000", value: "0", "aria-label": "time" });
+    const read = make("output", {}, "0 s");
+    const advance = (now) => {
+      if (!playing) return;
+      const t = (clock.t ?? 0) + speed * Math.min((now - last) / 1000, 0.2);
+      last = now;
+      clock.set(t > end ? 0 : t);
+      requestAnimationFrame(advance);
+    };
+    const toggle = () => {
+      playing = !playing;
+      button.textContent = playing ? "Pause" : "Play";
+      last = performance.now();
+      if (playing) requestAnimationFrame(advance);
+    };
+    button.addEventListener("click", toggle);
+    canvas.addEventListener("keydown", (e) => {
+      const step = { ArrowLeft: -0.005, ArrowRight: 0.005 }[e.key];
+      if (e.key === " ") toggle();
+      else if (step) clock.set(Math.min(Math.max((clock.t ?? 0) + step * end, 0), end));
+      else return;
+      e.preventDefault();
+    });
+    scrub.addEventListener("input", () => clock.set((end * scrub.value) / 1000));
+    clock.listeners.push((t) => {
+      scrub.value = String(Math.round((1000 * t) / end));
+      read.textContent = `${t.toFixed(3)} s`;
+      stage.draw();
+    });
+    speed = end < 3 ? 0.25 : end > 60 ? 5 : 1;
+    const factors = [...new Set([1, 2, 5, 10, 20, 50, 100, 200, 500, 1000, wanted])].sort((a, b) => a - b);
+    controls.append(button, make("span", { class: "scrub" }, scrub, read),
+      select("speed", [0.05, 0.1, 0.25, 0.5, 1, 2, 5, 10], speed, (v) => `× ${v}`, (v) => { speed = Number(v); }),
+      select("displacements", factors, wanted, (v) => `× ${v}`, (v) => { factor = Number(v); stage.draw(); }));
+  }
+  if (!picture.plane) {
+    const words = { space: "space (drag to turn)", XZ: "X–Z", YZ: "Y–Z", XY: "X–Y" };
+    controls.append(select("view", Object.keys(words), "space", (v) => words[v], (v) => { stage.view = v; stage.draw(); }));
+  }
+  stage.names = picture.nodes.length <= 40;
+  controls.append(tick("names", stage.names, (on) => { stage.names = on; }));
+  if (moves) controls.append(tick("at rest", true, (on) => { stage.ghost = on; }));
+  canvas.addEventListener("pointermove", (e) => {
+    const r = canvas.getBoundingClientRect();
+    const p = [e.clientX - r.left, e.clientY - r.top];
+    tip.textContent = stage.near(p);
+    tip.hidden = !tip.textContent;
+    tip.style.left = `${Math.min(p[0] + 14, r.width - tip.offsetWidth)}px`;
+    tip.style.top = `${p[1] + 10}px`;
+  });
+  canvas.addEventListener("pointerleave", () => { tip.hidden = true; });
+  stage.draw();
+}
+
+/** A mode shape that swings while the pointer is over it. */
+function mode(canvas) {
+  const shape = unpack(data.modes[canvas.dataset.mode].u);
+  let most = 0;
+  for (let i = 0; i < shape.length; i += 3) most = Math.max(most, Math.hypot(shape[i], shape[i + 1], shape[i + 2]));
+  const sides = [0, 1, 2].map((i) => extremes(picture.points.map((p) => p[i]))).map(([a, b]) => b - a);
+  const size = 0.12 * Math.max(...sides);
+  let phase = Math.PI / 2, swinging = false;
+  const stage = new Stage(canvas, 220, () => shape.map((u) => (u * size * Math.sin(phase)) / most), () => size);
+  const swing = () => {
+    if (!swinging) { phase = Math.PI / 2; stage.draw(); return; }
+    phase += 0.08;
+    stage.draw();
+    requestAnimationFrame(swing);
+  };
+  canvas.addEventListener("pointerenter", () => { swinging = true; requestAnimationFrame(swing); });
+  canvas.addEventListener("pointerleave", () => { swinging = false; });
+  stage.draw();
+}

@@ -1,0 +1,61 @@
+// Which diagrams there are.
+
+const plots = {
+  /** An output over time. */
+  history(host, i) {
+    const h = data.histories[i];
+    new Chart(host, {
+      title: h.name, x: "time [s]", y: `${h.name} [${h.shown.unit}]`, height: 240, timed: true,
+      series: [{ name: h.name, color: "#0072b2", x: unpack(h.t), y: unpack(h.y, h.shown.factor) }],
+    });
+  },
+
+  /** Energies as curves, or stacked. */
+  energy(host, form) {
+    const unit = data.energies[0].shown.unit;
+    const line = (name, words, color, dash) => {
+      const h = data.energies.find((e) => e.name === name);
+      return { name: words, color, dash, x: unpack(h.t), y: unpack(h.y, h.shown.factor) };
+    };
+    const kinds = JSON.parse(host.dataset.kinds).map(([name, words, color]) => line(name, words, color));
+    const input = line("input", "input", "#1e1e1e");
+    const options = { x: "time [s]", y: `energy [${unit}]`, height: 380, timed: true };
+    if (form === "curves") {
+      const error = line("error", "unaccounted for", "#aa003c", [5, 3]);
+      new Chart(host, { ...options, title: "Energies over time", series: [input, ...kinds, error] });
+    } else {
+      new Chart(host, { ...options, title: "Where the input is", series: [...stacked(kinds), input] });
+    }
+  },
+
+  /** A hysteresis loop. */
+  loop(host, i) {
+    const l = data.loops[i];
+    const [d, f] = l.shown;
+    new Chart(host, {
+      title: `${l.link} ${l.coordinate}`, x: `deformation [${d.unit}]`, y: `force [${f.unit}]`, height: 300, timed: false,
+      series: [{
+        name: l.link, color: "#0072b2", times: unpack(l.t), x: unpack(l.d, d.factor), y: unpack(l.f, f.factor),
+      }],
+    });
+  },
+};
+
+/** Curves on top of each other at common times; what is negative goes downwards. */
+function stacked(kinds) {
+  const count = 1200;
+  const end = extremes(...kinds.map((k) => k.x))[1];
+  const x = Float64Array.from({ length: count + 1 }, (_, i) => (end * i) / count);
+  const [up, down] = [new Float64Array(count + 1), new Float64Array(count + 1)];
+  return kinds.map((k) => {
+    const [low, y] = [new Float64Array(count + 1), new Float64Array(count + 1)];
+    x.forEach((t, i) => {
+      const value = valueAt(k.x, k.y, t);
+      const base = value >= 0 ? up : down;
+      low[i] = base[i];
+      base[i] += value;
+      y[i] = base[i];
+    });
+    return { name: k.name, color: k.color, x, y, low };
+  });
+}
