@@ -82,7 +82,13 @@ fn a_checkpoint_of_other_parameters_another_step_or_with_damage_is_refused() {
     let mut short = end();
     short.load.pop();
     assert!(refusal(same, None, short).contains("sizes"));
-    let text =
-        serde_json::to_string(&end()).unwrap().replacen("\"motion\":[", "\"motion\":[0.0,", 1);
-    assert!(refusal(same, None, serde_json::from_str(&text).unwrap()).contains("coordinates"));
+    // One number too many in a list of the state.
+    let text = serde_json::to_string(&end()).unwrap();
+    for list in ["motion", "d", "v", "f", "history", "stored", "stiffness", "stiffest"] {
+        let longer = text.replacen(&format!("\"{list}\":["), &format!("\"{list}\":[0.0,"), 1);
+        assert_ne!(longer, text, "{list}");
+        let told = refusal(same, None, serde_json::from_str(&longer).unwrap());
+        let what = if list == "motion" { "coordinates" } else { "sizes" };
+        assert!(told.contains(what), "{list}: {told}");
+    }
 }
