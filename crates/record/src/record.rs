@@ -106,6 +106,33 @@ impl Record {
         self.acceleration.len().saturating_sub(1) as f64 * self.dt
     }
 
+    /// True unless it is known to be vertical.
+    #[must_use]
+    pub fn is_horizontal(&self) -> bool {
+        self.direction != Direction::Vertical
+    }
+
+    /// The record as columns `t [s],a [m/s^2]` under comments that say what it is; reads back to the same bits.
+    #[must_use]
+    pub fn to_csv(&self) -> String {
+        use std::fmt::Write;
+        let mut out = String::new();
+        let lines = [("event", &self.event), ("station", &self.station), ("component", &self.component)];
+        let told = lines.into_iter().filter(|(_, text)| !text.is_empty());
+        // Writing to a String cannot fail.
+        for (key, text) in told {
+            let _ = writeln!(out, "# {key} {}", text.replace(['\n', '\r'], " "));
+        }
+        for note in &self.notes {
+            let _ = writeln!(out, "# {note}");
+        }
+        let _ = writeln!(out, "# dt = {:?} s\nt [s],a [m/s^2]", self.dt);
+        for (t, a) in self.times().zip(&self.acceleration) {
+            let _ = writeln!(out, "{:?},{a:?}", (t * 1e9).round() / 1e9);
+        }
+        out
+    }
+
     /// Times of the samples, s.
     pub fn times(&self) -> impl Iterator<Item = f64> + '_ {
         (0..self.acceleration.len()).map(|i| i as f64 * self.dt)
@@ -116,6 +143,15 @@ impl Record {
 mod tests {
     use super::Direction::{Azimuth, Unknown, Vertical};
     use super::*;
+
+    #[test]
+    fn a_record_reads_back_to_the_same_bits() {
+        let values = (0..200).map(|i| (0.1 * f64::from(i)).sin() / 3.0).collect();
+        let mut r = Record::new(values, 1.0 / 200.0);
+        r.component = "90".into();
+        let back = crate::parse(r.to_csv().as_bytes(), "a.csv", &Default::default()).unwrap();
+        assert_eq!((back[0].dt, &back[0].acceleration), (r.dt, &r.acceleration));
+    }
 
     #[test]
     fn names_tell_directions() {

@@ -112,8 +112,8 @@ fn stated_unit(
 
 /// Event, station and component of the second line: `IMPERIAL VALLEY 10/15/79, BONDS CORNER, 140`.
 fn describe(text: &Text<'_>, header: usize, record: &mut Record) {
-    let line = text.lines[..header].iter().find(|l| l.matches(',').count() >= 2 && !numeric(l));
-    let Some(line) = line else {
+    let mut words = text.lines[..header].iter().filter(|l| !l.trim().is_empty()).take(2);
+    let Some(line) = words.find(|l| l.matches(',').count() >= 2) else {
         record.event = text.lines.first().map(|l| l.trim().to_owned()).unwrap_or_default();
         return;
     };

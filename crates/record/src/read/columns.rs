@@ -107,6 +107,12 @@ impl Columns {
         self.rows.iter().map(number).collect()
     }
 
+    /// The unit of acceleration in brackets behind the name of a column, m/s².
+    #[must_use]
+    pub fn unit(&self, column: usize) -> Option<f64> {
+        split_unit(self.header.as_ref()?.get(column)?).1.and_then(acceleration_unit)
+    }
+
     /// The place of a row (from 0), `file:line`.
     #[must_use]
     pub fn place(&self, row: usize) -> String {

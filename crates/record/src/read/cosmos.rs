@@ -140,15 +140,17 @@ fn describe(text: &Text<'_>, start: usize, end: usize, record: &mut Record) {
             let name = line.split_once("Code:").map_or(*line, |(_, n)| n);
             record.station = name.split_whitespace().collect::<Vec<_>>().join(" ");
         } else if lower.starts_with("sta ch") {
-            let name = line.split_once(':').map_or("", |(_, n)| n);
-            let name = name.split(['(', 'L']).next().unwrap_or_default();
+            // `Sta Chan  1: 340 deg (Rcrdr Chan  1) Location: …`
+            let head = line.split(['(', 'L']).next().unwrap_or_default();
+            let name = head.rsplit_once(':').map_or("", |(_, n)| n);
             record.component = name.split_whitespace().collect::<Vec<_>>().join(" ");
         } else if lower.starts_with("record of") && record.event.is_empty() {
             record.event = line[9..].split_whitespace().collect::<Vec<_>>().join(" ");
         }
     }
     if record.event.is_empty() {
-        let line = text.lines.get(start + 1).copied().unwrap_or_default();
+        let first = text.find(start, "(format v").filter(|i| *i < end).unwrap_or(start);
+        let line = text.lines.get(first + 1).copied().unwrap_or_default();
         record.event = line.split_whitespace().collect::<Vec<_>>().join(" ");
     }
 }

@@ -14,7 +14,9 @@ use crate::{Direction, Record, acceleration_unit};
 pub(super) fn read(text: &Text<'_>, options: &ReadOptions) -> Result<Vec<Record>, ReadError> {
     let mut records = Vec::new();
     let mut start = 0;
-    while text.lines[start..].iter().any(|l| !l.trim().is_empty()) {
+    // The end of a file of old systems is a mark (Ctrl-Z).
+    let blank = |l: &&str| l.chars().all(|c| c.is_whitespace() || c.is_control());
+    while text.lines[start..].iter().any(|l| !blank(l)) {
         let end = text.find(start, "end of data for").filter(|i| text.lines[*i].starts_with("/&"));
         let Some(end) = end else {
             // The last line of the last channel is missing: so are values.
@@ -69,7 +71,9 @@ fn channel(
         let l = l.to_lowercase();
         l.starts_with("/&") || l.contains("points of")
     };
-    let (values, after) = text.numbers(data + 1, count, width(&line), ends)?;
+    // Some files of volume 2 leave the format out; the fields are ten wide.
+    let width = width(&line).or(Some(10));
+    let (values, after) = text.numbers(data + 1, count, width, ends)?;
     if let Some(next) = text.lines.get(after).filter(|l| after < end && !ends(l)) {
         let found = count + next.split_whitespace().count();
         return Err(text.fail(Some(data), Problem::TooMany { stated: count, found }));

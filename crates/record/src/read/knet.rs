@@ -48,11 +48,11 @@ pub(super) fn read(text: &Text<'_>, options: &ReadOptions) -> Result<Vec<Record>
     // The duration is given in whole seconds; a record may hold a part of a second more.
     let (line, duration) = need("Duration Time(s)", "line `Duration Time(s)`")?;
     let stated = (text.header(line, duration, "duration in s")? * rate).round() as usize;
-    if counts.len() + (rate as usize) < stated {
+    if counts.len() < stated {
         let problem = Problem::Truncated { stated, found: counts.len() };
         return Err(text.fail(Some(text.lines.len() - 1), problem));
     }
-    if counts.len() > stated + rate as usize {
+    if counts.len() >= stated + rate.max(1.0) as usize {
         let problem = Problem::TooMany { stated, found: counts.len() };
         return Err(text.fail(Some(line), problem));
     }
