@@ -211,15 +211,19 @@ impl Problem {
         };
         Some(match self {
             Self::Packed(_) => "unpack it first".into(),
-            Self::Binary => "records are read as text: AT2, COSMOS, CSMIP, K-NET, ESM, or columns".into(),
+            Self::Binary => {
+                "records are read as text: AT2, COSMOS, CSMIP, K-NET, ESM, or columns".into()
+            }
             Self::UnknownFormat | Self::Missing(_) => format!(
                 "the formats are {}; columns of numbers may have comments behind `#` and one header row",
                 crate::Format::ALL.map(crate::Format::name).join(", ")
             ),
             Self::NoStep => "give the time step, or a column of times".into(),
-            Self::NoUnit => "give the unit, or state it in the file, as in `# unit: g` or a header \
+            Self::NoUnit => {
+                "give the unit, or state it in the file, as in `# unit: g` or a header \
                              `t [s], a [g]`"
-                .into(),
+                    .into()
+            }
             Self::UnknownUnit(_) => {
                 format!("known are {}", crate::unit::KNOWN.map(|(n, _)| n).join(", "))
             }

@@ -47,7 +47,8 @@ impl Format {
             return Some(Self::Cosmos);
         }
         let first = head(1).next().unwrap_or_default();
-        if first.starts_with("corrected accelerogram") || first.starts_with("uncorrected accelerogram")
+        if first.starts_with("corrected accelerogram")
+            || first.starts_with("uncorrected accelerogram")
         {
             return Some(Self::Csmip);
         }

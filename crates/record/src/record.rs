@@ -117,7 +117,8 @@ impl Record {
     pub fn to_csv(&self) -> String {
         use std::fmt::Write;
         let mut out = String::new();
-        let lines = [("event", &self.event), ("station", &self.station), ("component", &self.component)];
+        let lines =
+            [("event", &self.event), ("station", &self.station), ("component", &self.component)];
         let told = lines.into_iter().filter(|(_, text)| !text.is_empty());
         // Writing to a String cannot fail.
         for (key, text) in told {

@@ -34,7 +34,10 @@ fn peer_files_of_both_layouts() {
         let [r] = records.as_slice() else { panic!("one component") };
         check(r, 1.0, 30, 1e-6);
         assert_eq!((r.format, r.component.as_str()), (Some(Format::At2), component));
-        assert_eq!((r.station.as_str(), r.event.as_str()), ("MADE-UP STATION", "NOWHERE EQ 01/02/03"));
+        assert_eq!(
+            (r.station.as_str(), r.event.as_str()),
+            ("MADE-UP STATION", "NOWHERE EQ 01/02/03")
+        );
     }
     assert_eq!(all("peer.at2")[0].direction, Direction::Azimuth(90.0));
     assert_eq!(all("older.at2")[0].direction, Direction::Vertical);
@@ -100,7 +103,9 @@ fn columns_with_commas_with_blanks_and_alone() {
 #[test]
 fn values_in_rows_need_step_and_unit() {
     let rows: String = (0..6)
-        .map(|row| (0..5).map(|c| format!("{:9.5}", made(5 * row + c, 1.0))).collect::<String>() + "\n")
+        .map(|row| {
+            (0..5).map(|c| format!("{:9.5}", made(5 * row + c, 1.0))).collect::<String>() + "\n"
+        })
         .collect();
     let options = ReadOptions { dt: Some(0.01), unit: Some(1.0), ..ReadOptions::default() };
     check(&parse(rows.as_bytes(), "rows.txt", &options).unwrap()[0], 1.0, 30, 1e-5);
@@ -129,14 +134,23 @@ fn cut(name: &str, lines: usize) -> String {
 
 #[test]
 fn cut_files_tell_how_much_there_is() {
-    assert!(told(&cut("peer.at2", 2), "a.at2").starts_with("a.at2:8: the file ends after 20 of 30 values"));
-    assert!(told(&cut("esm.asc", 10), "a.asc").starts_with("a.asc:36: the file ends after 20 of 30 values"));
+    assert!(
+        told(&cut("peer.at2", 2), "a.at2")
+            .starts_with("a.at2:8: the file ends after 20 of 30 values")
+    );
+    assert!(
+        told(&cut("esm.asc", 10), "a.asc")
+            .starts_with("a.asc:36: the file ends after 20 of 30 values")
+    );
     let text = told(&cut("csmip.v2", 4), "a.v2");
     assert!(text.contains("no line `/&"), "{text}");
     let text = told(&cut("csmip.v2", 12), "a.v2");
     assert!(text.starts_with("a.v2:171: the file ends after 24 of 30 values"), "{text}");
     assert!(told(&cut("cosmos.v2", 3), "a.v2").contains("the file ends after 16 of 30 values"));
-    assert!(told(&cut("knet.NS", 8), "a.NS").starts_with("a.NS:22: the file ends after 40 of 100 values"));
+    assert!(
+        told(&cut("knet.NS", 8), "a.NS")
+            .starts_with("a.NS:22: the file ends after 40 of 100 values")
+    );
 }
 
 #[test]
@@ -164,7 +178,10 @@ fn headers_without_step_or_unit_are_refused() {
     let text = file("peer.at2").replace("NPTS=     30, DT=   .0100 SEC,", "");
     assert!(told(&text, "a.at2").contains("a.at2 has no line `NPTS="));
     let text = file("peer.at2").replace(" IN UNITS OF G", "");
-    assert!(told(&text, "a.at2").contains("the unit of the acceleration is stated nowhere; give the unit"));
+    assert!(
+        told(&text, "a.at2")
+            .contains("the unit of the acceleration is stated nowhere; give the unit")
+    );
     let text = file("peer.at2").replace("UNITS OF G", "UNITS OF FURLONGS");
     assert!(told(&text, "a.at2").starts_with("a.at2:3: `FURLONGS` is no unit of acceleration"));
     let text = file("columns.csv").replace(" [g]", "");
@@ -180,18 +197,28 @@ fn headers_without_step_or_unit_are_refused() {
 #[test]
 fn what_file_and_user_say_must_agree() {
     let unit = ReadOptions { unit: Some(1.0), ..ReadOptions::default() };
-    assert!(told_with(&file("peer.at2"), "a.at2", &unit).contains("1 unit = 9.80665 m/s², 1 m/s² was given"));
+    assert!(
+        told_with(&file("peer.at2"), "a.at2", &unit)
+            .contains("1 unit = 9.80665 m/s², 1 m/s² was given")
+    );
     let same = ReadOptions { unit: Some(9.80665), dt: Some(0.01), ..ReadOptions::default() };
     assert!(parse(file("peer.at2").as_bytes(), "a.at2", &same).is_ok());
     let dt = ReadOptions { dt: Some(0.02), ..ReadOptions::default() };
-    assert!(told_with(&file("peer.at2"), "a.at2", &dt).contains("a time step of 0.01 s, 0.02 s was given"));
+    assert!(
+        told_with(&file("peer.at2"), "a.at2", &dt)
+            .contains("a time step of 0.01 s, 0.02 s was given")
+    );
 }
 
 #[test]
 fn uneven_and_falling_times_are_refused() {
     let text = file("columns.csv").replace("\n0.05,", "\n0.056,");
     let told_uneven = told(&text, "a.csv");
-    assert!(told_uneven.starts_with("a.csv:8: time steps are uneven: 0.016 s to 0.056 s, 0.01 s before"), "{told_uneven}");
+    assert!(
+        told_uneven
+            .starts_with("a.csv:8: time steps are uneven: 0.016 s to 0.056 s, 0.01 s before"),
+        "{told_uneven}"
+    );
     let text = file("columns.csv").replace("\n0.05,", "\n0.03,");
     assert!(told(&text, "a.csv").starts_with("a.csv:8: time must increase: 0.03 s follows 0.04 s"));
 }
@@ -207,8 +234,15 @@ fn rounded_times_are_even() {
 
 #[test]
 fn a_peak_that_the_data_do_not_have_is_told() {
-    let text = file("csmip.v2").replacen("Peak acceleration =", "Peak acceleration = 300.0 cm/sec/sec ", 1);
-    assert!(told(&text, "a.v2").starts_with("a.v2:18: the header states a peak of 3 m/s², the data have 1."));
+    let text = file("csmip.v2").replacen(
+        "Peak acceleration =",
+        "Peak acceleration = 300.0 cm/sec/sec ",
+        1,
+    );
+    assert!(
+        told(&text, "a.v2")
+            .starts_with("a.v2:18: the header states a peak of 3 m/s², the data have 1.")
+    );
     let text = file("esm.asc").replace("UNITS: cm/s^2", "UNITS: m/s^2");
     assert!(told(&text, "a.asc").contains("the header states a peak of"));
 }
@@ -217,11 +251,24 @@ fn a_peak_that_the_data_do_not_have_is_told() {
 fn what_is_no_record_is_named() {
     assert!(told("", "a.at2").starts_with("a.at2 is empty"));
     assert!(told(" \n\n", "a.at2").starts_with("a.at2 is empty"));
-    assert!(told("PK\u{3}\u{4}abc", "a.at2").starts_with("a.at2 is a packed file (zip); unpack it first"));
+    assert!(
+        told("PK\u{3}\u{4}abc", "a.at2")
+            .starts_with("a.at2 is a packed file (zip); unpack it first")
+    );
     assert!(told("abc\0def", "a.at2").starts_with("a.at2 is a binary file, not a text"));
-    assert!(told("some words\nand more\n", "a.txt").contains("a.txt is in no format that is known here; the formats are AT2,"));
+    assert!(
+        told("some words\nand more\n", "a.txt")
+            .contains("a.txt is in no format that is known here; the formats are AT2,")
+    );
     assert!(told("0.1\n0.2\n", "a.at2").contains("a.at2 has no line `NPTS="));
-    assert!(told_with("# unit: g\n0.1\n", "a.txt", &ReadOptions { dt: Some(0.1), ..Default::default() }).contains("at least two samples, this one has 1"));
+    assert!(
+        told_with(
+            "# unit: g\n0.1\n",
+            "a.txt",
+            &ReadOptions { dt: Some(0.1), ..Default::default() }
+        )
+        .contains("at least two samples, this one has 1")
+    );
     let gone = read("no/such/file.at2", &ReadOptions::default()).unwrap_err().to_string();
     assert!(gone.starts_with("no/such/file.at2 cannot be read: "), "{gone}");
 }
@@ -230,7 +277,8 @@ fn what_is_no_record_is_named() {
 fn film_digitised_in_pairs_is_refused() {
     let text = file("csmip.v1");
     let data = text.find("    30 Accelerogram").unwrap();
-    let text = text[..data].to_owned() + "   .000  -.006   .005   .007\n/&  ---  End of data for channel  1  ---\n";
+    let text = text[..data].to_owned()
+        + "   .000  -.006   .005   .007\n/&  ---  End of data for channel  1  ---\n";
     assert!(told(&text, "a.raw").contains("pairs of time and acceleration"));
 }
 
@@ -252,7 +300,10 @@ fn components_are_chosen_by_name_or_number() {
     assert_eq!(pick(Some(Component::Name("90".into()))).unwrap().component, "90 Deg");
     let error = pick(None).unwrap_err();
     assert_eq!(error.to_string(), "a.v2 has 3 components");
-    assert_eq!(error.help().unwrap(), "name one, or give its number: 1 `360 Deg`, 2 `90 Deg`, 3 `Up`");
+    assert_eq!(
+        error.help().unwrap(),
+        "name one, or give its number: 1 `360 Deg`, 2 `90 Deg`, 3 `Up`"
+    );
     assert!(pick(Some(Component::Name("Deg".into()))).is_err());
     assert!(pick(Some(Component::Number(0))).is_err());
 }

@@ -65,10 +65,7 @@ fn read(file: &Path, args: &Arguments) -> Result<Vec<Item>, Failure> {
     Ok(all.into_iter().map(|record| Item { file: name.clone(), record }).collect())
 }
 
-fn synthetic(
-    seed: u64,
-    args: &Arguments,
-) -> Result<(Item, Option<Target>, Option<Fit>), Failure> {
+fn synthetic(seed: u64, args: &Arguments) -> Result<(Item, Option<Target>, Option<Fit>), Failure> {
     let plain = KanaiTajimi::default();
     let start = KanaiTajimi {
         seed,
@@ -135,7 +132,8 @@ fn write(
     let mut taken: Vec<String> = Vec::new();
     for item in items {
         let stem = Path::new(&item.file).file_stem().unwrap_or_default().to_string_lossy();
-        let several = items.iter().filter(|i| i.file == item.file).count() > 1;
+        let of = |i: &Item| Path::new(&i.file).file_stem().map(std::ffi::OsStr::to_owned);
+        let several = items.iter().filter(|i| of(i) == of(item)).count() > 1;
         let part = if several { format!("_{}", item.record.component) } else { String::new() };
         let plain: String = format!("{stem}{part}")
             .chars()
@@ -159,9 +157,8 @@ fn write(
 
 /// Spectra as lines of a table.
 fn spectra(items: &[Item], args: &Arguments) -> String {
-    let mut out = String::from(
-        "file,component,damping,period [s],sd [m],psv [m/s],psa [m/s^2],sa [m/s^2]\n",
-    );
+    let mut out =
+        String::from("file,component,damping,period [s],sd [m],psv [m/s],psa [m/s^2],sa [m/s^2]\n");
     let quoted = |s: &str| format!("\"{}\"", s.replace('"', "'"));
     for Item { file, record: r } in items {
         for z in &args.damping {

@@ -1,7 +1,7 @@
 //! Time functions.
 
-use super::context::{Context, Fields};
 use super::accelerogram::synthetic;
+use super::context::{Context, Fields};
 use super::names::Names;
 use super::record::record;
 use super::tables::{points, table};

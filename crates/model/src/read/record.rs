@@ -1,15 +1,15 @@
 //! Records: columns of files, and accelerograms in any format.
 
+use super::accelerogram::{processing, table_of};
 use super::context::{Context, Fields};
 use super::functions::{Made, what};
-use super::accelerogram::{processing, table_of};
 use super::tables::{after_end, file_name, unit};
 use crate::Span;
 use crate::diagnostic::names_help;
 use crate::tree::{Entry, Kind, Node};
 use std::path::Path;
-use trilith_element::dimension::{ACCELERATION, TIME};
 use trilith_element::Range;
+use trilith_element::dimension::{ACCELERATION, TIME};
 use trilith_record::{Column, Columns, Component, Format, Problem, ReadError, ReadOptions};
 
 /// A column as the file names it.
@@ -52,7 +52,9 @@ fn report(c: &Context<'_>, error: &ReadError, at: &Span) {
         Problem::NoUnit => Some("give `unit: \"…\"`, or state it in the file".into()),
         Problem::NoStep => Some("give `dt: …`, or a column of times".into()),
         Problem::Counts => Some("give `unit: \"…\"`: the acceleration of one count".into()),
-        Problem::SeveralComponents(all) => Some(format!("choose one by `component`: {}", list(all))),
+        Problem::SeveralComponents(all) => {
+            Some(format!("choose one by `component`: {}", list(all)))
+        }
         Problem::UnknownComponent { name, all } => Some(match all.len() {
             0..=1 => format!("the only one is {}; leave `component` out", list(all)),
             _ => format!("there is no `{name}`; choose one of {}", list(all)),
@@ -98,9 +100,8 @@ pub(super) fn record(c: &Context<'_>, e: &Entry) -> Option<Made> {
     let file = fields.required(c, "file")?;
     let path = c.folder.join(file_name(c, file)?);
     let component = component?;
-    let read = trilith_record::read(&path, &options?).and_then(|all| {
-        trilith_record::select(all, component.as_ref(), &path)
-    });
+    let read = trilith_record::read(&path, &options?)
+        .and_then(|all| trilith_record::select(all, component.as_ref(), &path));
     let record = match read {
         Ok(record) => record,
         Err(error) => {

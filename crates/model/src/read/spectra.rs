@@ -66,10 +66,10 @@ fn one(
     let output = found.unwrap_or_else(|| {
         let plain = format!("{} acceleration", e.key);
         let taken = |n: &str| outputs.iter().flatten().any(|o| o.name == n);
-        let name = (2..).fold(plain.clone(), |name, i| match taken(&name) {
-            true => format!("{plain} {i}"),
-            false => name,
-        });
+        let (mut name, mut i) = (plain.clone(), 2);
+        while taken(&name) {
+            (name, i) = (format!("{plain} {i}"), i + 1);
+        }
         outputs.push(Some(Output { name, unit: "m/s^2".into(), quantity }));
         outputs.len() - 1
     });

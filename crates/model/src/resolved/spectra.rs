@@ -6,9 +6,9 @@ use crate::{FloorSpectrum, Model, Quantity};
 pub(super) fn spectrum(model: &Model, s: &FloorSpectrum) -> String {
     let list = |x: &[f64]| x.iter().map(|x| format!("{x:?}")).collect::<Vec<_>>().join(", ");
     let place = match model.outputs.get(s.output).map(|o| &o.quantity) {
-        Some(Quantity::Acceleration { terms, .. }) => terms.first().map(|t| {
-            format!("node: {}, dof: {}", text(&model.nodes[t.node].name), t.dof.name())
-        }),
+        Some(Quantity::Acceleration { terms, .. }) => terms
+            .first()
+            .map(|t| format!("node: {}, dof: {}", text(&model.nodes[t.node].name), t.dof.name())),
         _ => None,
     };
     let place = place.unwrap_or_default();

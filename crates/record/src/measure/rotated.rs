@@ -53,7 +53,8 @@ pub fn rotated(x: &[f64], y: &[f64], dt: f64, periods: &[f64], damping: f64) -> 
             }
             let o = Oscillator { period, damping };
             let (parts, tail) = ((64.0 * dt / period).ceil().max(1.0) as usize, period);
-            let [u, v] = [x, y].map(|a| o.displacement(&finer(&a[..n], dt, parts, tail), dt / parts as f64));
+            let [u, v] =
+                [x, y].map(|a| o.displacement(&finer(&a[..n], dt, parts, tail), dt / parts as f64));
             let w2 = o.omega().powi(2);
             let r = rotated_peak(&u, &v);
             Rotated {

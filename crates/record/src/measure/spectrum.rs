@@ -76,7 +76,8 @@ pub fn periods(from: f64, to: f64, n: usize) -> Vec<f64> {
 /// The response spectrum of a ground acceleration (m/s², every `dt` s).
 #[must_use]
 pub fn spectrum(acceleration: &[f64], dt: f64, periods: &[f64], damping: f64) -> Spectrum {
-    let all: Vec<Oscillator> = periods.iter().map(|&period| Oscillator { period, damping }).collect();
+    let all: Vec<Oscillator> =
+        periods.iter().map(|&period| Oscillator { period, damping }).collect();
     let mut responses = Vec::with_capacity(all.len());
     for group in all.chunks(LANES) {
         responses.extend(peaks(acceleration, dt, group));
@@ -115,18 +116,12 @@ impl Oscillator {
             let p0 = -alpha / (w * w) + 2.0 * z * beta / (w * w * w);
             let slope = -beta / (w * w);
             let p1 = p0 + slope * h;
-            [
-                p1 - a[0][0] * p0 - a[0][1] * slope,
-                slope - a[1][0] * p0 - a[1][1] * slope,
-            ]
+            [p1 - a[0][0] * p0 - a[0][1] * slope, slope - a[1][0] * p0 - a[1][1] * slope]
         };
         let (left, right) = (of(1.0, 0.0), of(0.0, 1.0));
         // For steps that are short against the period the closed form cancels: take its series.
-        let b = if w * h > 0.05 {
-            [[left[0], right[0]], [left[1], right[1]]]
-        } else {
-            series(w, z, h)
-        };
+        let b =
+            if w * h > 0.05 { [[left[0], right[0]], [left[1], right[1]]] } else { series(w, z, h) };
         Step { a, b }
     }
 
@@ -189,7 +184,8 @@ fn peaks(acceleration: &[f64], dt: f64, group: &[Oscillator]) -> Vec<Response> {
     let h = dt / parts as f64;
     // Lanes that are not used hold a copy of the first.
     let lane = |i: usize| group.get(i).filter(|o| o.period > 0.0);
-    let spare = Oscillator { period: if shortest.is_finite() { shortest } else { 1.0 }, damping: 0.5 };
+    let spare =
+        Oscillator { period: if shortest.is_finite() { shortest } else { 1.0 }, damping: 0.5 };
     let steps: [Step; LANES] = std::array::from_fn(|i| lane(i).unwrap_or(&spare).step(h));
     let by = |f: fn(&Step) -> f64| -> [f64; LANES] { std::array::from_fn(|i| f(&steps[i])) };
     let [a00, a01, a10, a11] =
@@ -239,7 +235,9 @@ mod tests {
     use std::f64::consts::PI;
 
     fn wave(n: usize) -> Vec<f64> {
-        (0..n).map(|i| (0.37 * i as f64).sin() + 0.6 * (1.9 * (i as f64).sqrt()).cos() - 0.6).collect()
+        (0..n)
+            .map(|i| (0.37 * i as f64).sin() + 0.6 * (1.9 * (i as f64).sqrt()).cos() - 0.6)
+            .collect()
     }
 
     /// A step of the ground: u = −a/ω² (1 − e^(−ζωt)(cos ω_d t + ζ/√(1−ζ²) sin ω_d t)), with the peak
@@ -260,7 +258,11 @@ mod tests {
             }
             let r = spectrum(&ground, dt, &[period], z).responses[0];
             let exact = a / (w * w) * (1.0 + (-PI * z / q).exp());
-            assert!(r.sd <= exact * (1.0 + 1e-12) && r.sd > exact * (1.0 - 1.3e-3), "{} {exact}", r.sd);
+            assert!(
+                r.sd <= exact * (1.0 + 1e-12) && r.sd > exact * (1.0 - 1.3e-3),
+                "{} {exact}",
+                r.sd
+            );
             assert!((r.psa / (w * w * r.sd) - 1.0).abs() < 1e-14);
         }
     }

@@ -46,7 +46,9 @@ pub enum FilterError {
     #[error("a filter needs a corner: `highpass`, `lowpass` or both")]
     NoCorner,
     /// Corner outside the band of the record.
-    #[error("a corner at {corner} Hz: must be above 0 and below {nyquist} Hz, half the sampling rate")]
+    #[error(
+        "a corner at {corner} Hz: must be above 0 and below {nyquist} Hz, half the sampling rate"
+    )]
     Corner {
         /// Hz.
         corner: f64,
@@ -117,11 +119,8 @@ impl Filter {
         let mut sections = Vec::new();
         let (real, complex): (Vec<C>, Vec<C>) =
             digital.iter().partition(|p| p.im.abs() < 1e-12 * p.norm().max(1e-300));
-        let mut denominators: Vec<[f64; 2]> = complex
-            .iter()
-            .filter(|p| p.im > 0.0)
-            .map(|p| [-2.0 * p.re, p.norm_sqr()])
-            .collect();
+        let mut denominators: Vec<[f64; 2]> =
+            complex.iter().filter(|p| p.im > 0.0).map(|p| [-2.0 * p.re, p.norm_sqr()]).collect();
         denominators.extend(real.chunks(2).map(|p| match p {
             [a, b] => [-(a.re + b.re), a.re * b.re],
             _ => [-p[0].re, 0.0],
@@ -146,7 +145,8 @@ impl Filter {
             let b = [1.0, -(first + second), first * second];
             // Each section has the gain 1 where the whole has.
             let z = C::from_polar(1.0, -2.0 * PI * at * dt);
-            let gain = (1.0 + z * a[0] + z * z * a[1]).norm() / (b[0] + z * b[1] + z * z * b[2]).norm();
+            let gain =
+                (1.0 + z * a[0] + z * z * a[1]).norm() / (b[0] + z * b[1] + z * z * b[2]).norm();
             sections.push([gain * b[0], gain * b[1], gain * b[2], a[0], a[1]]);
         }
         Ok(sections)
@@ -213,7 +213,8 @@ mod tests {
     #[test]
     fn impulses_have_the_transfer_function_of_the_closed_form() {
         let dt = 0.01;
-        for (highpass, lowpass) in [(None, Some(12.0)), (Some(3.0), None), (Some(1.0), Some(20.0))] {
+        for (highpass, lowpass) in [(None, Some(12.0)), (Some(3.0), None), (Some(1.0), Some(20.0))]
+        {
             for order in [1, 2, 3, 4, 7] {
                 for causal in [true, false] {
                     let f = Filter { highpass, lowpass, order, causal, padding: Padding::None };
@@ -233,7 +234,13 @@ mod tests {
 
     #[test]
     fn forward_and_back_shifts_nothing() {
-        let f = Filter { highpass: None, lowpass: Some(10.0), order: 4, causal: false, padding: Padding::None };
+        let f = Filter {
+            highpass: None,
+            lowpass: Some(10.0),
+            order: 4,
+            causal: false,
+            padding: Padding::None,
+        };
         let mut a = vec![0.0; 1001];
         a[500] = 1.0;
         let out = filter(&a, 0.01, &f).unwrap();
@@ -242,7 +249,13 @@ mod tests {
 
     #[test]
     fn pads_are_cut_or_kept() {
-        let with = |padding| Filter { highpass: Some(0.5), lowpass: None, order: 4, causal: false, padding };
+        let with = |padding| Filter {
+            highpass: Some(0.5),
+            lowpass: None,
+            order: 4,
+            causal: false,
+            padding,
+        };
         let a = vec![1.0; 300];
         assert_eq!(filter(&a, 0.01, &with(Padding::Strip)).unwrap().len(), 300);
         assert_eq!(filter(&a, 0.01, &with(Padding::Keep)).unwrap().len(), 300 + 2 * 1200);
@@ -250,11 +263,23 @@ mod tests {
 
     #[test]
     fn impossible_filters_are_refused() {
-        let f = |highpass, lowpass, order| Filter { highpass, lowpass, order, causal: true, padding: Padding::None };
+        let f = |highpass, lowpass, order| Filter {
+            highpass,
+            lowpass,
+            order,
+            causal: true,
+            padding: Padding::None,
+        };
         let told = |x: Filter| filter(&[0.0; 10], 0.01, &x).unwrap_err();
         assert_eq!(told(f(None, None, 4)), FilterError::NoCorner);
-        assert_eq!(told(f(None, Some(50.0), 4)), FilterError::Corner { corner: 50.0, nyquist: 50.0 });
-        assert_eq!(told(f(Some(9.0), Some(3.0), 4)), FilterError::Band { highpass: 9.0, lowpass: 3.0 });
+        assert_eq!(
+            told(f(None, Some(50.0), 4)),
+            FilterError::Corner { corner: 50.0, nyquist: 50.0 }
+        );
+        assert_eq!(
+            told(f(Some(9.0), Some(3.0), 4)),
+            FilterError::Band { highpass: 9.0, lowpass: 3.0 }
+        );
         assert_eq!(told(f(Some(9.0), None, 0)), FilterError::Order(0));
     }
 }

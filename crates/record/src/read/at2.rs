@@ -49,9 +49,10 @@ fn layout(text: &Text<'_>) -> Result<(usize, usize, f64), ReadError> {
             let s = s.trim_start_matches([' ', '=', ':']);
             s.split([',', ' ']).next().unwrap_or_default().to_owned()
         };
-        let named = upper.find("NPTS").map(|i| &upper[i + 4..]).filter(|r| {
-            r.trim_start().starts_with(['=', ':'])
-        });
+        let named = upper
+            .find("NPTS")
+            .map(|i| &upper[i + 4..])
+            .filter(|r| r.trim_start().starts_with(['=', ':']));
         let (count, dt) = match named {
             Some(rest) => {
                 let Some(at) = rest.find("DT") else {
@@ -70,7 +71,8 @@ fn layout(text: &Text<'_>) -> Result<(usize, usize, f64), ReadError> {
         if dt.is_empty() || dt.starts_with("SEC") {
             return Err(text.fail(Some(line), Problem::NoStep));
         }
-        let digits: String = dt.chars().take_while(|c| !c.is_ascii_alphabetic() || *c == 'E').collect();
+        let digits: String =
+            dt.chars().take_while(|c| !c.is_ascii_alphabetic() || *c == 'E').collect();
         let dt = text.header(line, digits.trim_end_matches(['S', 'E']), "time step")?;
         return Ok((line, count, dt));
     }
@@ -84,10 +86,7 @@ fn layout(text: &Text<'_>) -> Result<(usize, usize, f64), ReadError> {
 }
 
 /// The unit of the header, and the line that states it.
-fn stated_unit(
-    text: &Text<'_>,
-    last: usize,
-) -> Result<(Option<usize>, Option<f64>), ReadError> {
+fn stated_unit(text: &Text<'_>, last: usize) -> Result<(Option<usize>, Option<f64>), ReadError> {
     for (i, line) in text.lines.iter().enumerate().take(last + 1) {
         let lower = line.to_lowercase();
         if lower.contains("velocity time") || lower.contains("displacement time") {

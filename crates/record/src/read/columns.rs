@@ -1,7 +1,7 @@
 //! Columns of numbers: CSV, or separated by semicolons, tabs or blanks; `#`, `%` and `!` begin comments.
 
-use super::text::{first_number, last_digit};
 use super::text::Text;
+use super::text::{first_number, last_digit};
 use super::{ReadOptions, step, unit};
 use crate::error::{Problem, ReadError};
 use crate::unit::time_unit;
@@ -35,7 +35,9 @@ impl Columns {
         let file = path.as_ref().display().to_string();
         match std::fs::read(&path) {
             Ok(bytes) => Self::parse(&bytes, file, skip),
-            Err(e) => Err(ReadError { file, line: None, problem: Problem::Unreadable(e.to_string()) }),
+            Err(e) => {
+                Err(ReadError { file, line: None, problem: Problem::Unreadable(e.to_string()) })
+            }
         }
     }
 
@@ -102,7 +104,11 @@ impl Columns {
                 Ok(x) if x.is_finite() => Ok(x),
                 _ => Err(Problem::NotANumber(cell.clone())),
             })
-            .map_err(|problem| ReadError { file: self.file.clone(), line: Some(*line), problem })
+            .map_err(|problem| ReadError {
+                file: self.file.clone(),
+                line: Some(*line),
+                problem,
+            })
         };
         self.rows.iter().map(number).collect()
     }
@@ -127,7 +133,9 @@ impl Columns {
                 let exact = header.iter().position(|h| h == name);
                 match exact.or_else(|| header.iter().position(|h| split_unit(h).0 == name)) {
                     Some(k) => Ok(k),
-                    None => fail(Problem::UnknownColumn { name: name.clone(), all: header.clone() }),
+                    None => {
+                        fail(Problem::UnknownColumn { name: name.clone(), all: header.clone() })
+                    }
                 }
             }
             (Column::Header(name), None) => fail(Problem::NoHeaderRow(name.clone())),
@@ -147,7 +155,9 @@ fn comment(line: &str) -> bool {
 fn separator(text: &str) -> Option<u8> {
     let rows = || text.lines().filter(|l| !l.trim().is_empty() && !comment(l));
     // The row of numbers tells more than one of words.
-    let numbers = rows().take(60).find(|l| l.trim_start().starts_with(|c: char| c.is_ascii_digit() || "+-.".contains(c)));
+    let numbers = rows()
+        .take(60)
+        .find(|l| l.trim_start().starts_with(|c: char| c.is_ascii_digit() || "+-.".contains(c)));
     let row = numbers.or_else(|| rows().next())?;
     [b',', b';', b'\t'].into_iter().find(|s| row.contains(*s as char))
 }
@@ -299,7 +309,8 @@ fn even_step(
         return Err(text.fail(line(i), problem));
     }
     let dt = (times[n - 1] - times[0]) / (n - 1) as f64;
-    let digit = seconds * (0..n.min(50)).map(|i| last_digit(columns.cell(i, 0))).fold(1.0, f64::min);
+    let digit =
+        seconds * (0..n.min(50)).map(|i| last_digit(columns.cell(i, 0))).fold(1.0, f64::min);
     let off = (1e-3 * dt).max((1.1 * digit).min(0.2 * dt));
     let even = |i: usize| (times[i] - times[0] - i as f64 * dt).abs() <= off;
     if !(1..n).all(even) {
@@ -307,8 +318,11 @@ fn even_step(
         let first = times[1] - times[0];
         let bad = (2..n).find(|&i| (times[i] - times[i - 1] - first).abs() > off.max(1e-3 * first));
         let i = bad.unwrap_or(1);
-        let problem =
-            Problem::Uneven { found: round(times[i] - times[i - 1]), time: times[i], step: round(first) };
+        let problem = Problem::Uneven {
+            found: round(times[i] - times[i - 1]),
+            time: times[i],
+            step: round(first),
+        };
         return Err(text.fail(line(i), problem));
     }
     Ok(round(dt))

@@ -60,9 +60,9 @@ fn channel(
         Some(2) => Some(STANDARD_GRAVITY),
         Some(4) => Some(0.01),
         Some(50) if options.unit.is_none() => return Err(text.fail(Some(data), Problem::Counts)),
-        _ => lower.split_once("units=").and_then(|(_, u)| {
-            acceleration_unit(u.split(['(', ',']).next().unwrap_or_default())
-        }),
+        _ => lower
+            .split_once("units=")
+            .and_then(|(_, u)| acceleration_unit(u.split(['(', ',']).next().unwrap_or_default())),
     };
     let unit = unit(text, Some(data), stated, options.unit)?;
     let ends = |l: &str| l.to_lowercase().starts_with("end-of-data");
@@ -70,7 +70,10 @@ fn channel(
     let end = text.lines[after..].iter().position(|l| !l.trim().is_empty()).map(|i| after + i);
     let end = match end {
         Some(i) if ends(text.lines[i].trim_start()) => i + 1,
-        Some(i) if super::text::number(text.lines[i].split_whitespace().next().unwrap_or("x")).is_some() => {
+        Some(i)
+            if super::text::number(text.lines[i].split_whitespace().next().unwrap_or("x"))
+                .is_some() =>
+        {
             let more: usize = text.lines[i..]
                 .iter()
                 .take_while(|l| !ends(l))
@@ -98,7 +101,8 @@ fn channel(
 
 fn is_data(line: &str) -> bool {
     let lower = line.to_lowercase();
-    lower.contains("pts") && lower.contains("format")
+    lower.contains("pts")
+        && lower.contains("format")
         && line.split_whitespace().next().is_some_and(|w| w.parse::<usize>().is_ok())
 }
 

@@ -59,7 +59,8 @@ fn channel(
     let count = text.count(data, count, "number of values")?;
     let spacing = line.split_once(" at ").and_then(|(_, rest)| first_number(rest));
     let dt = spacing.map(|(x, rest)| {
-        if rest.trim_start().starts_with("pts/sec") || rest.trim_start().starts_with("samples/sec") {
+        if rest.trim_start().starts_with("pts/sec") || rest.trim_start().starts_with("samples/sec")
+        {
             1.0 / x
         } else {
             x

@@ -18,7 +18,8 @@ pub(super) fn read(text: &Text<'_>, options: &ReadOptions) -> Result<Vec<Record>
             .map(|(i, _, v)| (i, v))
             .filter(|(_, v)| !v.is_empty())
     };
-    if let Some((i, kind)) = field("DATA_TYPE").filter(|(_, k)| !k.eq_ignore_ascii_case("ACCELERATION"))
+    if let Some((i, kind)) =
+        field("DATA_TYPE").filter(|(_, k)| !k.eq_ignore_ascii_case("ACCELERATION"))
     {
         return Err(text.fail(Some(i), Problem::NotAcceleration(kind.to_lowercase())));
     }

@@ -99,11 +99,8 @@ pub fn select(
     path: impl AsRef<Path>,
 ) -> Result<Record, ReadError> {
     let names: Vec<String> = records.iter().map(|r| r.component.clone()).collect();
-    let fail = |problem| ReadError {
-        file: path.as_ref().display().to_string(),
-        line: None,
-        problem,
-    };
+    let fail =
+        |problem| ReadError { file: path.as_ref().display().to_string(), line: None, problem };
     let unknown = |name: String| fail(Problem::UnknownComponent { name, all: names.clone() });
     let at = match component {
         None if records.len() == 1 => 0,

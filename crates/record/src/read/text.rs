@@ -130,8 +130,7 @@ pub(super) fn first_number(text: &str) -> Option<(f64, &str)> {
         .find(|(i, c)| {
             let exponent = matches!(c, 'e' | 'E')
                 && rest[i + 1..].starts_with(|c: char| c.is_ascii_digit() || c == '-' || c == '+');
-            let sign = (*c == '-' || *c == '+')
-                && (*i == 0 || rest[..*i].ends_with(['e', 'E']));
+            let sign = (*c == '-' || *c == '+') && (*i == 0 || rest[..*i].ends_with(['e', 'E']));
             !(c.is_ascii_digit() || *c == '.' || exponent || sign)
         })
         .map_or(rest.len(), |(i, _)| i);
@@ -147,8 +146,7 @@ pub(super) fn width(text: &str) -> Option<usize> {
     let open = text.rfind('(')?;
     let inside: String = text[open + 1..].chars().take_while(|c| *c != ')').collect();
     let letter = inside.find(|c: char| "fFiIeEgG".contains(c))?;
-    let digits: String =
-        inside[letter + 1..].chars().take_while(char::is_ascii_digit).collect();
+    let digits: String = inside[letter + 1..].chars().take_while(char::is_ascii_digit).collect();
     digits.parse().ok().filter(|w| (1..=64).contains(w))
 }
 

@@ -150,11 +150,15 @@ impl Task {
 
     fn fit(&self, responses: &[f64]) -> Fit {
         let off = || responses.iter().zip(&self.wanted).map(|(r, w)| (r / w - 1.0).abs());
-        Fit { mean: off().sum::<f64>() / self.wanted.len() as f64, worst: off().fold(0.0, f64::max) }
+        Fit {
+            mean: off().sum::<f64>() / self.wanted.len() as f64,
+            worst: off().fold(0.0, f64::max),
+        }
     }
 
     fn bring_to_size(&self, a: &mut [f64]) {
-        let logs = self.responses(a).iter().zip(&self.wanted).map(|(r, w)| (w / r).ln()).sum::<f64>();
+        let logs =
+            self.responses(a).iter().zip(&self.wanted).map(|(r, w)| (w / r).ln()).sum::<f64>();
         let factor = (logs / self.wanted.len() as f64).exp();
         a.iter_mut().for_each(|x| *x *= factor);
     }
@@ -315,7 +319,11 @@ mod tests {
                 .map(|(t, a)| (a / code(0.05).at(*t) - 1.0).abs())
                 .collect();
             assert!(off.iter().sum::<f64>() / 97.0 < 0.05, "{seed}");
-            assert!(off.iter().all(|x| *x < 0.15), "{seed}: {:?}", off.iter().copied().fold(0.0, f64::max));
+            assert!(
+                off.iter().all(|x| *x < 0.15),
+                "{seed}: {:?}",
+                off.iter().copied().fold(0.0, f64::max)
+            );
             let end = r.acceleration.len() - 1;
             assert!(velocity(&r.acceleration, r.dt)[end].abs() < 1e-10);
             assert!(displacement(&r.acceleration, r.dt)[end].abs() < 1e-10);
@@ -333,9 +341,13 @@ mod tests {
     #[test]
     fn targets_that_are_none_are_refused() {
         let made = |points: Vec<(f64, f64)>| {
-            Compatible { target: Target { points, damping: 0.05 }, start: KanaiTajimi::default() }.make()
+            Compatible { target: Target { points, damping: 0.05 }, start: KanaiTajimi::default() }
+                .make()
         };
         assert_eq!(made(vec![(1.0, 1.0)]).unwrap_err(), SyntheticError::Points(1));
-        assert!(made(vec![(1.0, 1.0), (0.5, 1.0)]).is_err() && made(vec![(0.0, 1.0), (1.0, 1.0)]).is_err());
+        assert!(
+            made(vec![(1.0, 1.0), (0.5, 1.0)]).is_err()
+                && made(vec![(0.0, 1.0), (1.0, 1.0)]).is_err()
+        );
     }
 }

@@ -63,7 +63,8 @@ impl KanaiTajimi {
     fn transfer(&self, f: f64) -> Complex<f64> {
         let i = Complex::new(0.0, 1.0);
         let (x, y) = (f / self.frequency, f / self.highpass);
-        let ground = (1.0 + 2.0 * self.damping * x * i) / (1.0 - x * x + 2.0 * self.damping * x * i);
+        let ground =
+            (1.0 + 2.0 * self.damping * x * i) / (1.0 - x * x + 2.0 * self.damping * x * i);
         ground * (-y * y) / (1.0 - y * y + 2.0 * self.highpass_damping * y * i)
     }
 
@@ -145,7 +146,8 @@ mod tests {
             s.iter().zip(&mut sum).for_each(|(c, s)| *s += c.norm_sqr() * plain.dt / power);
         }
         for band in [8..16, 40..80, 90..120, 200..400, 800..1600] {
-            let mean = |f: &dyn Fn(usize) -> f64| band.clone().map(f).sum::<f64>() / band.len() as f64;
+            let mean =
+                |f: &dyn Fn(usize) -> f64| band.clone().map(f).sum::<f64>() / band.len() as f64;
             let found = mean(&|k| sum[k] / f64::from(runs as u32));
             let exact = mean(&|k| plain.density(k as f64 / 40.96));
             assert!((found / exact - 1.0).abs() < 0.08, "{band:?}: {found} {exact}");

@@ -59,7 +59,11 @@ fn samples(duration: f64, dt: f64) -> Result<usize, SyntheticError> {
         return Err(SyntheticError::TooLong(n));
     }
     if n < 4.0 {
-        return Err(SyntheticError::Range { name: "duration", value: duration, range: "three steps or more" });
+        return Err(SyntheticError::Range {
+            name: "duration",
+            value: duration,
+            range: "three steps or more",
+        });
     }
     Ok(n as usize)
 }
