@@ -51,7 +51,7 @@ pub(crate) fn all(model: &Model, record: &Recorder) -> Vec<(String, FloorSpectru
             s.peak().map(|(sa, period)| SpectrumPeak { damping: s.damping, sa, period })
         });
         let floor = FloorSpectrum {
-            unit: "m/s^2",
+            unit: "m/s²",
             output: model.outputs.get(s.output).map(|o| o.name.clone()).unwrap_or_default(),
             zpa: peak(history),
             peaks: peaks.collect(),
@@ -71,8 +71,8 @@ pub(crate) fn write(path: &Path, all: &Named<FloorSpectrum>) -> Result<(), FileE
         "damping",
         "period [s]",
         "frequency [Hz]",
-        "sa [m/s^2]",
-        "psa [m/s^2]",
+        "sa [m/s²]",
+        "psa [m/s²]",
         "sd [m]",
     ];
     file.write_record(head).map_err(fail)?;

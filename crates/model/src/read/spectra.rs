@@ -1,6 +1,7 @@
 //! Floor spectra.
 
 use super::context::Context;
+use super::motion::{nodal_dimension, unit};
 use super::names::Names;
 use crate::tree::{Entry, Kind, Node};
 use crate::{FloorSpectrum, NodalTerm, Output, Quantity};
@@ -70,7 +71,7 @@ fn one(
         while taken(&name) {
             (name, i) = (format!("{plain} {i}"), i + 1);
         }
-        outputs.push(Some(Output { name, unit: "m/s^2".into(), quantity }));
+        outputs.push(Some(Output { name, unit: unit(nodal_dimension(2, false), false), quantity }));
         outputs.len() - 1
     });
     Some(FloorSpectrum { name: e.key.clone(), output, damping: damping?, periods: periods? })

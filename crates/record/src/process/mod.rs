@@ -53,7 +53,9 @@ pub enum ProcessError {
     #[error(transparent)]
     Filter(#[from] FilterError),
     /// A step that is none.
-    #[error("a new time step of {0} s: must be above 0 and shorter than the record")]
+    #[error(
+        "a new time step of {0} s: must be above 0, shorter than the record, and make fewer than ten million samples"
+    )]
     Step(f64),
     /// Nothing to scale.
     #[error("the record is zero throughout and cannot be scaled to a peak")]
