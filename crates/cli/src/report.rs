@@ -75,7 +75,7 @@ pub(crate) fn text(model: &Model, s: &Summary) -> String {
 
 /// The largest responses of floor spectra.
 fn spectra(s: &Summary) -> String {
-    let mut rows = vec![row(["spectrum", "damping", "peak m/s²", "at s", "rigid m/s²"])];
+    let mut rows = vec![row(["spectrum", "damping", "peak m/s²", "period s", "rigid m/s²"])];
     for (name, floor) in &s.spectra.0 {
         for p in &floor.peaks {
             let [sa, period, zpa] = [p.sa, p.period, floor.zpa].map(number);
