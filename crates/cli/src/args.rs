@@ -33,7 +33,7 @@ pub(crate) enum Command {
     /// Find contact and rotational dashpots from coefficients of restitution
     Calibrate(CalibrateArguments),
     /// Intensities and spectra of ground motion records; synthetic motions
-    Record(crate::record::Arguments),
+    Record(Box<crate::record::Arguments>),
 }
 
 #[derive(Args)]
