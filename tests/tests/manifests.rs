@@ -75,11 +75,12 @@ fn own(dependencies: Vec<String>) -> Vec<String> {
 
 #[test]
 fn dependencies_point_one_way() {
-    const LAYERS: [(&str, &[&str]); 10] = [
+    const LAYERS: [(&str, &[&str]); 11] = [
         ("trilith-element", &[]),
+        ("trilith-record", &[]),
         ("trilith-linalg", &[]),
         ("trilith-elements", &["trilith-element"]),
-        ("trilith-model", &["trilith-element"]),
+        ("trilith-model", &["trilith-element", "trilith-record"]),
         ("trilith-system", &["trilith-element", "trilith-linalg", "trilith-model"]),
         (
             "trilith-solvers",
@@ -87,7 +88,13 @@ fn dependencies_point_one_way() {
         ),
         (
             "trilith-results",
-            &["trilith-element", "trilith-model", "trilith-system", "trilith-solvers"],
+            &[
+                "trilith-element",
+                "trilith-record",
+                "trilith-model",
+                "trilith-system",
+                "trilith-solvers",
+            ],
         ),
         (
             "trilith-report",

@@ -32,6 +32,8 @@ pub(crate) enum Command {
     Generate(GenerateArguments),
     /// Find contact and rotational dashpots from coefficients of restitution
     Calibrate(CalibrateArguments),
+    /// Intensities and spectra of ground motion records; synthetic motions
+    Record(Box<crate::record::Arguments>),
 }
 
 #[derive(Args)]

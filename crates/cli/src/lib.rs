@@ -22,6 +22,7 @@ mod figures;
 mod generate;
 mod modes;
 mod progress;
+mod record;
 mod report;
 mod run;
 mod text;
@@ -56,6 +57,7 @@ pub fn main_with(registry: Registry) -> ! {
         Command::Compare(a) => compare::compare(&registry, &a),
         Command::Generate(a) => generate::generate(a),
         Command::Calibrate(a) => calibrate::calibrate(&registry, &a),
+        Command::Record(a) => record::record(&a),
     };
     let status = match answer {
         Ok(Answer { text, status }) => {

@@ -44,6 +44,7 @@ pub(crate) fn text(model: &Model, s: &Summary) -> String {
     } else if !model.outputs.is_empty() {
         out += "\n  no outputs were recorded in this case\n";
     }
+    out += &spectra(s);
     if let Some(c) = &s.contact {
         out += &format!(
             "\ncontact: {} at first, {} in all{}; uplift ≤ {} m, slip ≤ {} m, {} m at the end\n",
@@ -70,6 +71,18 @@ pub(crate) fn text(model: &Model, s: &Summary) -> String {
     let share = percent(s.energy.error_relative);
     out += &format!("  unaccounted for: {share} of what was put in, released or dissipated\n");
     out + &format!("\nwork: {}\n", work(&s.work))
+}
+
+/// The largest responses of floor spectra.
+fn spectra(s: &Summary) -> String {
+    let mut rows = vec![row(["spectrum", "damping", "peak m/s²", "period s", "rigid m/s²"])];
+    for (name, floor) in &s.spectra.0 {
+        for p in &floor.peaks {
+            let [sa, period, zpa] = [p.sa, p.period, floor.zpa].map(number);
+            rows.push(row([name, &percent(p.damping), &sa, &period, &zpa]));
+        }
+    }
+    if rows.len() > 1 { format!("\n{}", table(&rows, &[0])) } else { String::new() }
 }
 
 /// The work in one line.

@@ -1,6 +1,6 @@
 //! The model after reading: plain data in SI, everything resolved to indices and checked.
 
-use crate::{Case, Output, TimeFunction};
+use crate::{Case, FloorSpectrum, Output, TimeFunction};
 use std::ops::Range;
 use std::path::PathBuf;
 use std::sync::Arc;
@@ -53,6 +53,8 @@ pub struct Model {
     pub cases: Vec<Case>,
     /// What to record.
     pub outputs: Vec<Output>,
+    /// Response spectra of recorded accelerations.
+    pub spectra: Vec<FloorSpectrum>,
 }
 
 /// A named parameter.

@@ -75,3 +75,16 @@ pub struct NodalTerm {
     /// Factor.
     pub factor: f64,
 }
+
+/// The response spectrum of what an output records: how much equipment at that place is shaken.
+#[derive(Clone, Debug, PartialEq)]
+pub struct FloorSpectrum {
+    /// Name.
+    pub name: String,
+    /// Index of the output: an absolute acceleration.
+    pub output: usize,
+    /// Damping of the oscillators, shares of critical.
+    pub damping: Vec<f64>,
+    /// Their periods, s.
+    pub periods: Vec<f64>,
+}

@@ -12,6 +12,7 @@ use trilith_model::Model;
 /// |---|---|
 /// | `summary.json` | the [`Summary`] |
 /// | `histories.csv`, `histories.npz` | outputs and energies at the output times |
+/// | `spectra.csv` | floor spectra, where the model asks for any |
 /// | `model.resolved.ron` | the model in SI with every default |
 /// | `model.pvd`, `frames/*.vtu` | deformed shapes, where the recorder kept any |
 #[derive(Clone, Copy, Debug)]
@@ -39,6 +40,9 @@ impl Files<'_> {
         };
         csv::write(&path("histories.csv"), self.model, self.record)?;
         npz::write(&path("histories.npz"), self.model, self.record)?;
+        if !self.summary.spectra.0.is_empty() {
+            crate::spectra::write(&path("spectra.csv"), &self.summary.spectra)?;
+        }
         let resolved = path("model.resolved.ron");
         std::fs::write(&resolved, trilith_model::resolved(self.model))
             .map_err(FileError::at(&resolved))?;

@@ -1,7 +1,7 @@
 //! What a run leaves behind: histories, peaks and files.
 //!
 //! [`Recorder`] watches a run, [`Envelope`] keeps its extremes only. [`Summary`] is `summary.json`, [`Files`] writes it together with
-//! `histories.csv`, `histories.npz` and frames for ParaView.
+//! `histories.csv`, `histories.npz`, `spectra.csv` and frames for ParaView.
 //!
 //! Peaks are those of all accepted substeps, not of the output times only, and where the time
 //! derivative of an output is known they are those of the cubic Hermite polynomial between substeps.
@@ -14,6 +14,7 @@ mod frames;
 mod loops;
 mod npz;
 mod recorder;
+mod spectra;
 mod summary;
 #[cfg(test)]
 mod tests;
@@ -26,5 +27,6 @@ pub use frames::{Frame, Frames};
 pub use loops::{LoopPoint, Loops};
 pub use npz::npy;
 pub use recorder::{ENERGIES, Recorder};
+pub use spectra::{FloorSpectrum, SpectrumPeak};
 pub use summary::{BasisSummary, ModelSummary, Named, OutputSummary, Summary};
 pub use trilith_solvers::Peak;

@@ -1,6 +1,6 @@
 //! `summary.json`: the keys scripts rely on.
 
-use crate::{Peak, Recorder};
+use crate::{FloorSpectrum, Peak, Recorder};
 use serde::{Serialize, Serializer};
 use trilith_model::Model;
 use trilith_solvers::{
@@ -35,6 +35,8 @@ pub struct Summary {
     pub contact: Option<ContactSummary>,
     /// The basis; `null` for a solver on all DOFs.
     pub basis: Option<BasisSummary>,
+    /// Floor spectra by name: their peaks. `spectra.csv` has the curves.
+    pub spectra: Named<FloorSpectrum>,
     /// What the user should know.
     pub warnings: Vec<String>,
 }
@@ -122,6 +124,7 @@ impl Summary {
             link_energy: Named(result.link_energy.iter().filter_map(link).collect()),
             contact,
             basis: result.basis.as_ref().map(BasisSummary::new),
+            spectra: Named(crate::spectra::all(model, record)),
             warnings: result.warnings.clone(),
         }
     }

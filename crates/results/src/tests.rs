@@ -84,6 +84,7 @@ fn summary(model: &Model, record: &Recorder) -> Summary {
         link_energy: crate::Named(vec![("foot".into(), Default::default())]),
         contact: None,
         basis: None,
+        spectra: crate::Named(crate::spectra::all(model, record)),
         warnings: vec![],
     }
 }

@@ -35,7 +35,7 @@
 //! - [`calibrate`] finds dashpots from coefficients of restitution.
 //! - A link of your own: implement [`element::Link`], offer it with `registry.link::<MyLink>()`.
 //!
-//! Everything beneath is in the modules [`element`], [`elements`], [`model`], [`system`],
+//! Everything beneath is in the modules [`element`], [`elements`], [`mod@record`], [`model`], [`system`],
 //! [`solvers`], [`results`] and [`report`].
 
 mod analysis;
@@ -54,6 +54,10 @@ pub mod element {
 /// The built-in elements, constraints and links.
 pub mod elements {
     pub use trilith_elements::*;
+}
+/// Ground motion records: readers, processing, measures, response spectra, synthetic motions.
+pub mod record {
+    pub use trilith_record::*;
 }
 /// Models and the files they are read from.
 pub mod model {

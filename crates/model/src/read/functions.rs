@@ -1,15 +1,28 @@
 //! Time functions.
 
+use super::accelerogram::synthetic;
 use super::context::{Context, Fields};
 use super::names::Names;
+use super::record::record;
 use super::tables::{points, table};
 use crate::tree::{Entry, Kind};
 use crate::{Function, Harmonic, TimeFunction};
 use trilith_element::dimension::{FREQUENCY, NONE, TIME};
 use trilith_element::{Dimension, Range};
 
-const KINDS: [&str; 10] = [
-    "Constant", "Step", "Ramp", "Sine", "Cosine", "HalfSine", "Ricker", "Table", "Points", "Scaled",
+const KINDS: [&str; 12] = [
+    "Constant",
+    "Step",
+    "Ramp",
+    "Sine",
+    "Cosine",
+    "HalfSine",
+    "Ricker",
+    "Table",
+    "Points",
+    "Scaled",
+    "Record",
+    "Synthetic",
 ];
 const HARMONIC: &[&str] = &["amplitude", "frequency", "cycles", "start", "phase"];
 
@@ -154,6 +167,8 @@ fn function(c: &Context<'_>, e: &Entry, kind: &str) -> Option<Made> {
             ))
         }
         "Table" => table(c, e),
+        "Record" => record(c, e),
+        "Synthetic" => synthetic(c, e),
         _ => points(c, e),
     }
 }

@@ -1,5 +1,6 @@
 //! Reading a model file: RON text in, checked [`Model`] in SI out.
 
+mod accelerogram;
 mod cases;
 mod context;
 mod damping;
@@ -13,6 +14,7 @@ mod nodes;
 mod outputs;
 mod record;
 mod solution;
+mod spectra;
 mod tables;
 mod values;
 
@@ -46,6 +48,7 @@ const SECTIONS: &[&str] = &[
     "loads",
     "cases",
     "outputs",
+    "spectra",
 ];
 
 /// Reads a model file. `overrides` are names and values of parameters that replace those of the
@@ -187,13 +190,15 @@ fn sections(c: &mut Context<'_>, root: &Node, overrides: &[(String, String)]) ->
     let cases = cases::cases(c, case_entries, &about);
     let p_delta =
         top.get("p_delta").map_or(Some(None), |n| cases::p_delta(c, n, case_entries, &cases));
-    let outputs = outputs::outputs(
+    let mut outputs = outputs::outputs(
         c,
         c.section(&top, "outputs", false),
         &node_names,
         &element_names,
         &elements,
     );
+    let spectrum_entries = c.section(&top, "spectra", false);
+    let spectra = spectra::spectra(c, spectrum_entries, &node_names, &mut outputs);
     Some(Model {
         title: title?,
         source: Source::clone(&c.source),
@@ -209,6 +214,7 @@ fn sections(c: &mut Context<'_>, root: &Node, overrides: &[(String, String)]) ->
         patterns: patterns.into_iter().flatten().collect(),
         cases: cases.into_iter().flatten().collect(),
         outputs: outputs.into_iter().flatten().collect(),
+        spectra: spectra.into_iter().flatten().collect(),
     })
 }
 

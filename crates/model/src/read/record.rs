@@ -1,16 +1,16 @@
-//! Records: columns of CSV files.
+//! Records: columns of files, and accelerograms in any format.
 
-use super::context::Context;
+use super::accelerogram::{processing, table_of};
+use super::context::{Context, Fields};
+use super::functions::{Made, what};
+use super::tables::{after_end, file_name, unit};
 use crate::Span;
 use crate::diagnostic::names_help;
-use crate::tree::{Kind, Node};
+use crate::tree::{Entry, Kind, Node};
 use std::path::Path;
-
-/// A column by position (from 0) or by the name in the header row.
-pub(super) enum Column {
-    Position(usize),
-    Header(String),
-}
+use trilith_element::Range;
+use trilith_element::dimension::{ACCELERATION, TIME};
+use trilith_record::{Column, Columns, Component, Format, Problem, ReadError, ReadOptions};
 
 /// A column as the file names it.
 pub(super) fn column(
@@ -26,102 +26,130 @@ pub(super) fn column(
     }
 }
 
-/// A CSV file: comma-separated, `#` comments, a header row or none.
-pub(super) struct Record {
-    shown: String,
-    header: Option<Vec<String>>,
-    /// Line in the file, and its cells.
-    rows: Vec<(u64, Vec<String>)>,
+/// Reads columns; errors are told at `at` in the model.
+pub(super) fn columns(c: &Context<'_>, path: &Path, skip: usize, at: &Span) -> Option<Columns> {
+    Columns::read(path, skip).map_err(|e| report(c, &e, at)).ok()
 }
 
-impl Record {
-    /// Reads a file; errors are told at `at` in the model.
-    pub fn read(c: &Context<'_>, path: &Path, skip: usize, at: &Span) -> Option<Self> {
-        let shown = path.display().to_string();
-        let bytes = match std::fs::read(path) {
-            Ok(bytes) => bytes,
-            Err(error) => {
-                let message = format!("the record {shown} cannot be read: {error}");
-                let d = c.diagnostic("E0117", message, at.clone());
-                c.report(d.help("the path counts from the folder of the model file"));
-                return None;
-            }
-        };
-        let body = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(&bytes);
-        let mut reader = csv::ReaderBuilder::new()
-            .has_headers(false)
-            .flexible(true)
-            .comment(Some(b'#'))
-            .trim(csv::Trim::All)
-            .from_reader(body);
-        let mut rows = Vec::new();
-        for record in reader.records() {
-            match record {
-                Ok(r) => {
-                    let line = r.position().map_or(0, csv::Position::line);
-                    rows.push((line, r.iter().map(str::to_owned).collect::<Vec<_>>()));
-                }
-                Err(error) => {
-                    let message = format!("the record {shown} is no CSV: {error}");
-                    c.report(c.diagnostic("E0117", message, at.clone()));
-                    return None;
-                }
-            }
-        }
-        rows.drain(..skip.min(rows.len()));
-        // A first row without any number names the columns.
-        let named = rows.first().is_some_and(|(_, r)| r.iter().all(|x| x.parse::<f64>().is_err()));
-        let header = named.then(|| rows.remove(0).1);
-        Some(Self { shown, header, rows })
-    }
+/// The numbers of a column; errors are told at `at` in the model.
+pub(super) fn numbers(
+    c: &Context<'_>,
+    columns: &Columns,
+    column: &Column,
+    at: &Span,
+) -> Option<Vec<f64>> {
+    columns.numbers(column).map_err(|e| report(c, &e, at)).ok()
+}
 
-    /// The numbers of a column.
-    pub fn numbers(&self, c: &Context<'_>, column: &Column, at: &Span) -> Option<Vec<f64>> {
-        let fail = |message: String, help: Option<String>| {
-            let mut d = c.diagnostic("E0117", message, at.clone());
-            d.help = help;
-            c.report(d);
-            None
-        };
-        let k = match (column, &self.header) {
-            (Column::Position(k), _) => *k,
-            (Column::Header(name), Some(header)) => match header.iter().position(|h| h == name) {
-                Some(k) => k,
-                None => {
-                    let all = header.iter().map(String::as_str);
-                    let help = names_help(name, "columns", all);
-                    return fail(format!("{} has no column `{name}`", self.shown), Some(help));
-                }
-            },
-            (Column::Header(name), None) => {
-                let message = format!("{} has no header row, so no column `{name}`", self.shown);
-                return fail(message, Some("give the position of the column, from 0".into()));
-            }
-        };
-        let mut numbers = Vec::with_capacity(self.rows.len());
-        for (line, row) in &self.rows {
-            let Some(cell) = row.get(k) else {
-                let message = format!(
-                    "{}:{line}: there is no column {k}, the row has {}",
-                    self.shown,
-                    row.len()
-                );
-                return fail(message, Some("columns count from 0".into()));
+/// Tells what is wrong with a file at a place of the model.
+fn report(c: &Context<'_>, error: &ReadError, at: &Span) {
+    let mut d = c.diagnostic("E0117", error.to_string(), at.clone());
+    d.help = match &error.problem {
+        Problem::Unreadable(_) => Some("the path counts from the folder of the model file".into()),
+        Problem::UnknownColumn { name, all } => {
+            Some(names_help(name, "columns", all.iter().map(String::as_str)))
+        }
+        Problem::NoUnit => Some("give `unit: \"…\"`, or state it in the file".into()),
+        Problem::NoStep => Some("give `dt: …`, or a column of times".into()),
+        Problem::Counts => Some("give `unit: \"…\"`: the acceleration of one count".into()),
+        Problem::SeveralComponents(all) => {
+            Some(format!("choose one by `component`: {}", list(all)))
+        }
+        Problem::UnknownComponent { name, all } => Some(match all.len() {
+            0..=1 => format!("the only one is {}; leave `component` out", list(all)),
+            _ => format!("there is no `{name}`; choose one of {}", list(all)),
+        }),
+        _ => error.help(),
+    };
+    c.report(d);
+}
+
+fn list(names: &[String]) -> String {
+    let one = |(i, n): (usize, &String)| format!("{} `{n}`", i + 1);
+    names.iter().enumerate().map(one).collect::<Vec<_>>().join(", ")
+}
+
+const FIELDS: [&str; 14] = [
+    "file",
+    "component",
+    "format",
+    "unit",
+    "dt",
+    "trim",
+    "baseline",
+    "taper",
+    "filter",
+    "resample",
+    "scale_to",
+    "scale",
+    "start",
+    "after_end",
+];
+
+/// `Record(file: "x.at2", …)`: an accelerogram, processed.
+pub(super) fn record(c: &Context<'_>, e: &Entry) -> Option<Made> {
+    let fields = c.fields(&e.value, &what(e), &FIELDS)?;
+    let processing = processing(c, &fields, &what(e));
+    let after_end = after_end(c, &fields, 1);
+    let start = fields.get("start").map_or(Some(0.0), |n| c.number(n, TIME));
+    let options = options(c, &fields);
+    let component = match fields.get("component") {
+        None => Some(None),
+        Some(n) => component(c, n).map(Some),
+    };
+    let file = fields.required(c, "file")?;
+    let path = c.folder.join(file_name(c, file)?);
+    let component = component?;
+    let read = trilith_record::read(&path, &options?)
+        .and_then(|all| trilith_record::select(all, component.as_ref(), &path));
+    let record = match read {
+        Ok(record) => record,
+        Err(error) => {
+            let key = match error.problem {
+                Problem::UnknownComponent { .. } => "component",
+                Problem::UnitConflict { .. } => "unit",
+                Problem::StepConflict { .. } | Problem::BadStep(_) => "dt",
+                _ => "file",
             };
-            match cell.parse::<f64>() {
-                Ok(x) if x.is_finite() => numbers.push(x),
-                _ => {
-                    let message = format!("{}:{line}: `{cell}` is no finite number", self.shown);
-                    return fail(message, None);
-                }
-            }
+            let at = fields.get(key).unwrap_or(file);
+            report(c, &error, &at.span);
+            return None;
         }
-        Some(numbers)
-    }
+    };
+    let record = match processing?.apply(&record) {
+        Ok(record) => record,
+        Err(error) => {
+            let message = format!("{}: {error}", what(e));
+            c.report(c.diagnostic("E0117", message, e.value.name_span()));
+            return None;
+        }
+    };
+    table_of(c, e, &record, start?, after_end?)
+}
 
-    /// The place of a row, `file:line`.
-    pub fn place(&self, row: usize) -> String {
-        let line = self.rows.get(row).map_or(0, |(line, _)| *line);
-        format!("{}:{line}", self.shown)
+fn options(c: &Context<'_>, fields: &Fields<'_>) -> Option<ReadOptions> {
+    let format = match fields.get("format") {
+        None => Some(None),
+        Some(n) => {
+            c.choice(n, "format", &Format::ALL.map(Format::name)).map(|i| Some(Format::ALL[i]))
+        }
+    };
+    let unit = match fields.get("unit") {
+        None => Some(None),
+        Some(n) => unit(c, n).and_then(|q| c.in_dimension(n, q, ACCELERATION)).map(Some),
+    };
+    let dt = match fields.get("dt") {
+        None => Some(None),
+        Some(n) => c.ranged(n, "dt", TIME, Range::Positive).map(Some),
+    };
+    Some(ReadOptions { format: format?, unit: unit?, dt: dt? })
+}
+
+/// A component by number, name, or `Parameter("name")` of a text parameter.
+fn component(c: &Context<'_>, node: &Node) -> Option<Component> {
+    match &node.kind {
+        Kind::Text(name) => Some(Component::Name(name.clone())),
+        Kind::List(Some(_), _) => file_name(c, node).map(Component::Name),
+        _ => c.count(node, "component", 1).map(Component::Number),
     }
 }

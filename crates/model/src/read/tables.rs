@@ -2,7 +2,7 @@
 
 use super::context::{Context, Fields};
 use super::functions::{Made, what};
-use super::record::{Record, column};
+use super::record::{column, columns, numbers};
 use crate::tree::{Entry, Kind, Node};
 use crate::{AfterEnd, Interpolation, Span, Table, TableError, TimeFunction};
 use std::sync::Arc;
@@ -13,13 +13,16 @@ fn style(c: &Context<'_>, fields: &Fields<'_>) -> Option<(Interpolation, AfterEn
     let interpolation = fields
         .get("interpolation")
         .map_or(Some(0), |n| c.choice(n, "interpolation", &["Linear", "Cubic"]));
+    let after = after_end(c, fields, 0);
+    Some(([Interpolation::Linear, Interpolation::Cubic][interpolation?], after?))
+}
+
+/// What holds after the end; `default` counts in `Error, Zero, Hold`.
+pub(super) fn after_end(c: &Context<'_>, fields: &Fields<'_>, default: usize) -> Option<AfterEnd> {
     let after = fields
         .get("after_end")
-        .map_or(Some(0), |n| c.choice(n, "end of a table", &["Error", "Zero", "Hold"]));
-    Some((
-        [Interpolation::Linear, Interpolation::Cubic][interpolation?],
-        [AfterEnd::Error, AfterEnd::Zero, AfterEnd::Hold][after?],
-    ))
+        .map_or(Some(default), |n| c.choice(n, "end of a table", &["Error", "Zero", "Hold"]));
+    Some([AfterEnd::Error, AfterEnd::Zero, AfterEnd::Hold][after?])
 }
 
 pub(super) fn table(c: &Context<'_>, e: &Entry) -> Option<Made> {
@@ -34,9 +37,9 @@ pub(super) fn table(c: &Context<'_>, e: &Entry) -> Option<Made> {
     let file = fields.required(c, "file")?;
     let path = file_name(c, file)?;
     let at = &file.span;
-    let record = Record::read(c, &c.folder.join(path), skip?, at)?;
-    let times = record.numbers(c, &times?, &place(&fields, "time", at))?;
-    let mut values = record.numbers(c, &values?, &place(&fields, "value", at))?;
+    let record = columns(c, &c.folder.join(path), skip?, at)?;
+    let times = numbers(c, &record, &times?, &place(&fields, "time", at))?;
+    let mut values = numbers(c, &record, &values?, &place(&fields, "value", at))?;
     let mut dimension: Option<Dimension> = None;
     for q in [unit?, scale?].into_iter().flatten() {
         values.iter_mut().for_each(|v| *v *= q.value);
@@ -66,7 +69,7 @@ fn place(fields: &Fields<'_>, key: &str, otherwise: &Span) -> Span {
 }
 
 /// A unit such as `"g"` or `"cm/s^2"`.
-fn unit(c: &Context<'_>, node: &Node) -> Option<crate::expression::Quantity> {
+pub(super) fn unit(c: &Context<'_>, node: &Node) -> Option<crate::expression::Quantity> {
     let text = c.text(node, "unit")?;
     // Behind a number a name is a unit, whatever parameters are called.
     let one = Node { span: node.span.clone(), kind: Kind::Text(format!("1 {text}")) };
@@ -74,7 +77,7 @@ fn unit(c: &Context<'_>, node: &Node) -> Option<crate::expression::Quantity> {
 }
 
 /// `"file.csv"`, or `Parameter("name")` of a text parameter.
-fn file_name(c: &Context<'_>, node: &Node) -> Option<String> {
+pub(super) fn file_name(c: &Context<'_>, node: &Node) -> Option<String> {
     match &node.kind {
         Kind::Text(name) => Some(name.clone()),
         Kind::List(Some(kind), items) if kind == "Parameter" && items.len() == 1 => {

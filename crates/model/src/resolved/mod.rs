@@ -2,6 +2,7 @@
 
 mod cases;
 mod outputs;
+mod spectra;
 
 use crate::{
     AfterEnd, Body, Damping, Harmonic, Interpolation, Model, ParameterValue, Plane, TimeFunction,
@@ -58,6 +59,7 @@ pub fn resolved(model: &Model) -> String {
     });
     w.map("cases", &model.cases, |c| (c.name.clone(), case(model, c)));
     w.map("outputs", &model.outputs, |o| (o.name.clone(), output(model, o)));
+    w.map("spectra", &model.spectra, |s| (s.name.clone(), spectra::spectrum(model, s)));
     w.line(0, ")");
     w.0
 }

@@ -1,0 +1,252 @@
+//! Processing of records, and synthetic motions.
+
+use super::context::{Context, Fields};
+use super::functions::{Made, what};
+use super::tables::after_end;
+use crate::tree::{Entry, Node};
+use crate::{AfterEnd, Interpolation, Table, TimeFunction};
+use std::sync::Arc;
+use trilith_element::dimension::{ACCELERATION, FREQUENCY, NONE, TIME};
+use trilith_element::{Dimension, Range};
+use trilith_record::process::{Baseline, Filter, Padding, Processing, Resampling};
+use trilith_record::synthetic::{Compatible, Envelope, KanaiTajimi, Target};
+
+/// An accelerogram as a table, with its first sample at `start`.
+pub(super) fn table_of(
+    c: &Context<'_>,
+    e: &Entry,
+    record: &trilith_record::Record,
+    start: f64,
+    after_end: AfterEnd,
+) -> Option<Made> {
+    let times = record.times().map(|t| start + t).collect();
+    let values = record.acceleration.clone();
+    match Table::new(times, values, Interpolation::Linear, after_end) {
+        Ok(table) => Some((TimeFunction::Table(Arc::new(table)), Some(ACCELERATION))),
+        Err(error) => {
+            let message = format!("{}: {error}", what(e));
+            c.report(c.diagnostic("E0117", message, e.value.name_span()));
+            None
+        }
+    }
+}
+
+fn optional(
+    c: &Context<'_>,
+    fields: &Fields<'_>,
+    key: &str,
+    dimension: Dimension,
+    range: Range,
+) -> Option<Option<f64>> {
+    match fields.get(key) {
+        None => Some(None),
+        Some(n) => c.ranged(n, key, dimension, range).map(Some),
+    }
+}
+
+/// `trim`, `baseline`, `taper`, `filter`, `resample`, `scale_to`, `scale`.
+pub(super) fn processing(c: &Context<'_>, fields: &Fields<'_>, what: &str) -> Option<Processing> {
+    let trim = match fields.get("trim") {
+        None => Some(None),
+        Some(n) => match n.items().as_slice() {
+            [from, to] if n.is_list() => {
+                let (from, to) = (c.number(from, TIME), c.number(to, TIME));
+                from.zip(to).map(Some)
+            }
+            _ => c.wrong(n, "a pair `(from, to)` of times"),
+        },
+    };
+    let baseline = fields.get("baseline").map_or(Some(None), |n| baseline(c, n, what).map(Some));
+    let taper = optional(c, fields, "taper", NONE, Range::Within(0.0, 0.5));
+    let filter = fields.get("filter").map_or(Some(None), |n| filter(c, n, what).map(Some));
+    let resample = fields.get("resample").map_or(Some(None), |n| resampling(c, n, what).map(Some));
+    let scale_to = optional(c, fields, "scale_to", ACCELERATION, Range::Positive);
+    let scale = match fields.get("scale") {
+        None => Some(None),
+        Some(n) => c.number(n, NONE).map(Some),
+    };
+    Some(Processing {
+        trim: trim?,
+        baseline: baseline?,
+        taper: taper?.unwrap_or(0.0),
+        filter: filter?,
+        resample: resample?,
+        scale_to: scale_to?,
+        scale: scale?,
+    })
+}
+
+fn baseline(c: &Context<'_>, node: &Node, what: &str) -> Option<Baseline> {
+    match c.choice(node, "baseline", &["Mean", "Linear", "Polynomial", "Rest"])? {
+        0 => Some(Baseline::Mean),
+        1 => Some(Baseline::Linear),
+        2 => {
+            let fields = c.fields(node, &format!("the baseline of {what}"), &["order"])?;
+            let n = fields.required(c, "order")?;
+            match c.count(n, "order", 0)? {
+                order if order <= 20 => Some(Baseline::Polynomial(order)),
+                order => {
+                    let message = format!("`order` = {order}: must be between 0 and 20");
+                    c.report(c.diagnostic("E0112", message, n.span.clone()));
+                    None
+                }
+            }
+        }
+        _ => Some(Baseline::Rest),
+    }
+}
+
+/// `Butterworth(highpass: "0.1 Hz", lowpass: "25 Hz", order: 4, causal: false, padding: Strip)`.
+fn filter(c: &Context<'_>, node: &Node, what: &str) -> Option<Filter> {
+    c.choice(node, "filter", &["Butterworth"])?;
+    let allowed = ["highpass", "lowpass", "order", "causal", "padding"];
+    let fields = c.fields(node, &format!("the filter of {what}"), &allowed)?;
+    let highpass = optional(c, &fields, "highpass", FREQUENCY, Range::Positive);
+    let lowpass = optional(c, &fields, "lowpass", FREQUENCY, Range::Positive);
+    let order = fields.get("order").map_or(Some(4), |n| c.count(n, "order", 1));
+    let causal = fields.get("causal").map_or(Some(false), |n| c.flag(n, "causal"));
+    let padding = fields
+        .get("padding")
+        .map_or(Some(1), |n| c.choice(n, "padding", &["None", "Strip", "Keep"]));
+    Some(Filter {
+        highpass: highpass?,
+        lowpass: lowpass?,
+        order: order?,
+        causal: causal?,
+        padding: [Padding::None, Padding::Strip, Padding::Keep][padding?],
+    })
+}
+
+/// `"5 ms"`, or `Linear(dt: "5 ms")`.
+fn resampling(c: &Context<'_>, node: &Node, what: &str) -> Option<(f64, Resampling)> {
+    if node.name().is_none() {
+        let dt = c.ranged(node, "resample", TIME, Range::Positive)?;
+        return Some((dt, Resampling::BandLimited));
+    }
+    let how = c.choice(node, "resampling", &["BandLimited", "Linear"])?;
+    let fields = c.fields(node, &format!("the resampling of {what}"), &["dt"])?;
+    let dt = c.ranged(fields.required(c, "dt")?, "dt", TIME, Range::Positive)?;
+    Some((dt, [Resampling::BandLimited, Resampling::Linear][how]))
+}
+
+const SYNTHETIC: [&str; 13] = [
+    "seed",
+    "duration",
+    "dt",
+    "peak",
+    "frequency",
+    "damping",
+    "highpass",
+    "highpass_damping",
+    "envelope",
+    "spectrum",
+    "spectrum_damping",
+    "scale",
+    "after_end",
+];
+
+/// `Synthetic(seed: 1, peak: "0.3 g", …)`, or with `spectrum: [(period, acceleration), …]`.
+pub(super) fn synthetic(c: &Context<'_>, e: &Entry) -> Option<Made> {
+    let fields = c.fields(&e.value, &what(e), &SYNTHETIC)?;
+    let plain = KanaiTajimi::default();
+    let seed = fields.required(c, "seed").and_then(|n| c.count(n, "seed", 0));
+    let or = |key: &str, d: Dimension, default: f64| {
+        optional(c, &fields, key, d, Range::Positive).map(|x| x.unwrap_or(default))
+    };
+    let (duration, dt) = (or("duration", TIME, plain.duration), or("dt", TIME, plain.dt));
+    let frequency = or("frequency", FREQUENCY, plain.frequency);
+    let damping = or("damping", NONE, plain.damping);
+    let highpass = or("highpass", FREQUENCY, plain.highpass);
+    let highpass_damping = or("highpass_damping", NONE, plain.highpass_damping);
+    let envelope = fields
+        .get("envelope")
+        .map_or(Some(plain.envelope), |n| envelope(c, n, &what(e), plain.envelope));
+    let after_end = after_end(c, &fields, 1);
+    let spectrum_damping = or("spectrum_damping", NONE, 0.05);
+    let scale = fields.get("scale").map_or(Some(1.0), |n| c.number(n, NONE));
+    let target = fields.get("spectrum").map_or(Some(None), |n| points(c, n).map(Some));
+    let peak = match (fields.get("peak"), fields.get("spectrum")) {
+        (Some(n), Some(_)) => {
+            let message = format!("{} has `peak` and `spectrum`", what(e));
+            let d = c.diagnostic("E0102", message, n.span.clone());
+            c.report(d.help("the spectrum says how strong the motion is: leave `peak` out"));
+            None
+        }
+        (None, Some(_)) => Some(plain.peak),
+        (_, None) => fields
+            .required(c, "peak")
+            .and_then(|n| c.ranged(n, "peak", ACCELERATION, Range::Positive)),
+    };
+    let start = KanaiTajimi {
+        frequency: frequency?,
+        damping: damping?,
+        highpass: highpass?,
+        highpass_damping: highpass_damping?,
+        duration: duration?,
+        dt: dt?,
+        envelope: envelope?,
+        peak: peak?,
+        seed: seed? as u64,
+    };
+    let made = match target? {
+        None => start.make(),
+        Some(points) => {
+            let target = Target { points, damping: spectrum_damping? };
+            Compatible { target, start }.make().map(|(record, _)| record)
+        }
+    };
+    let mut record = match made {
+        Ok(record) => record,
+        Err(error) => {
+            let message = format!("{}: {error}", what(e));
+            c.report(c.diagnostic("E0112", message, e.value.name_span()));
+            return None;
+        }
+    };
+    let scale = scale?;
+    record.acceleration.iter_mut().for_each(|a| *a *= scale);
+    table_of(c, e, &record, 0.0, after_end?)
+}
+
+/// Points `(period, acceleration)` of a spectrum.
+fn points(c: &Context<'_>, list: &Node) -> Option<Vec<(f64, f64)>> {
+    if !list.is_list() {
+        return c.wrong(list, "a list of points `(period, acceleration)`");
+    }
+    let one = |item: &Node| {
+        let pair = item.items();
+        if !item.is_list() || pair.len() != 2 {
+            return c.wrong(item, "a pair `(period, acceleration)`");
+        }
+        let period = c.ranged(pair[0], "period", TIME, Range::Positive);
+        period.zip(c.ranged(pair[1], "acceleration", ACCELERATION, Range::Positive))
+    };
+    let read: Vec<_> = list.items().into_iter().map(one).collect();
+    read.into_iter().collect()
+}
+
+/// `Jennings(rise: …, strong: …, decay: …)`, `SaragoniHart(peak_at: …, end: …)` or `Stationary`.
+fn envelope(c: &Context<'_>, node: &Node, what: &str, plain: Envelope) -> Option<Envelope> {
+    let what = format!("the envelope of {what}");
+    match c.choice(node, "envelope", &["Stationary", "Jennings", "SaragoniHart"])? {
+        0 => Some(Envelope::Stationary),
+        1 => {
+            let fields = c.fields(node, &what, &["rise", "strong", "decay"])?;
+            let number = |key: &str, d| {
+                fields.required(c, key).and_then(|n| c.ranged(n, key, d, Range::Positive))
+            };
+            let (rise, strong) = (number("rise", TIME), number("strong", TIME));
+            let decay = number("decay", NONE / TIME);
+            Some(Envelope::Jennings { rise: rise?, strong: strong?, decay: decay? })
+        }
+        _ => {
+            let fields = c.fields(node, &what, &["peak_at", "end"])?;
+            let Envelope::SaragoniHart { peak_at, end } = plain else { return Some(plain) };
+            let share = |key: &str, default: f64| {
+                optional(c, &fields, key, NONE, Range::Positive).map(|x| x.unwrap_or(default))
+            };
+            let (peak_at, end) = (share("peak_at", peak_at), share("end", end));
+            Some(Envelope::SaragoniHart { peak_at: peak_at?, end: end? })
+        }
+    }
+}
