@@ -330,7 +330,10 @@ fn solver(text: &str) -> Result<SolverKind, String> {
 }
 
 fn count(text: &str) -> Result<usize, String> {
-    text.parse().ok().filter(|n| *n > 0).ok_or_else(|| "a number of vectors above 0 is wanted".into())
+    text.parse()
+        .ok()
+        .filter(|n| *n > 0)
+        .ok_or_else(|| "a number of vectors above 0 is wanted".into())
 }
 
 fn factor(text: &str) -> Result<f64, String> {

@@ -95,7 +95,10 @@ fn variants(model: &Model, case: usize, args: &CompareArguments) -> Result<Vec<V
     }
     if all.len() < 2 {
         let help = "such as `--solvers hht,fna`, `--dts 0.01,0.005`, `--vectors 10,20` or `--dummies 0.001,0.1`";
-        return Err(Failure::input("a comparison needs two solvers, or two values of a setting", Some(help)));
+        return Err(Failure::input(
+            "a comparison needs two solvers, or two values of a setting",
+            Some(help),
+        ));
     }
     Ok(all)
 }
@@ -127,7 +130,8 @@ fn text(all: &[Compared]) -> String {
         }
     }
     for c in &all[1..] {
-        out += &format!("\n{} beside {}\n{}", c.variant, first.variant, table(&differences(c), &[0]));
+        out +=
+            &format!("\n{} beside {}\n{}", c.variant, first.variant, table(&differences(c), &[0]));
         if let Some(finding) = &c.finding {
             out += &format!("  likely cause: {finding}\n");
         }
@@ -154,7 +158,7 @@ fn geometry(model: &Model, all: &[Compared]) -> Option<String> {
     let rotation = all.iter().fold(0.0_f64, |a, c| a.max(c.outcome.rotation));
     (contacts && rotation > LARGE).then(|| {
         format!(
-            "geometry: nodes turn by up to {} rad, and every variant takes rotations as small; a `RockingBody` does not",
+            "geometry: nodes tilt by up to {} rad, and every variant takes rotations as small; a `RockingBody` does not",
             number(rotation)
         )
     })

@@ -10,10 +10,15 @@ use trilith::report::{Block, Figure, Page, Section};
 /// One self-contained page.
 pub(crate) fn page(model: &Model, case: &str, all: &[Compared]) -> String {
     let title = if model.title.is_empty() { "Comparison" } else { &model.title };
-    let mut page = Page::new(title)
-        .lead(Block::text(format!("Case \"{case}\" in {} ways; differences are from the first.", all.len())));
+    let mut page = Page::new(title).lead(Block::text(format!(
+        "Case \"{case}\" in {} ways; differences are from the first.",
+        all.len()
+    )));
     for finding in all.iter().filter_map(|c| Some((&c.variant, c.finding.as_ref()?))) {
-        page = page.lead(Block::text(format!("{}: likely cause of its difference: {}.", finding.0, finding.1)));
+        page = page.lead(Block::text(format!(
+            "{}: likely cause of its difference: {}.",
+            finding.0, finding.1
+        )));
     }
     let mut table = vec![row(["variant", "status", "CPU set-up [s]", "CPU march [s]", "work"])];
     for c in all {
@@ -36,7 +41,8 @@ pub(crate) fn page(model: &Model, case: &str, all: &[Compared]) -> String {
             let label = format!("{} [{}]", o.name, o.unit);
             let figure = Figure::new(o.name.clone(), "time [s]", label).sized(620, 340);
             all.iter().fold(figure, |f, c| {
-                let points = c.outcome.time.iter().copied().zip(c.outcome.histories[i].iter().copied());
+                let points =
+                    c.outcome.time.iter().copied().zip(c.outcome.histories[i].iter().copied());
                 f.line(c.variant.to_string(), points)
             })
         })

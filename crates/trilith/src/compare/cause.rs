@@ -132,10 +132,17 @@ pub(crate) fn find(
         }
     }
     let Some((rest, e)) = best else {
-        return found(Cause::Unknown, format!("{name} differs by {}, and no setting is left to try", percent(whole)));
+        return found(
+            Cause::Unknown,
+            format!("{name} differs by {}, and no setting is left to try", percent(whole)),
+        );
     };
     let falls = |words: &str, left: f64| {
-        format!("{words} the difference of {name} falls from {} to {}", percent(whole), percent(left))
+        format!(
+            "{words} the difference of {name} falls from {} to {}",
+            percent(whole),
+            percent(left)
+        )
     };
     if rest <= LEFT * whole {
         return found(e.cause, falls(&e.words, rest));
@@ -155,7 +162,9 @@ pub(crate) fn find(
     }
     let text = format!(
         "{name} differs by {}; {} it still differs by {}, and no other setting takes more away",
-        percent(whole), e.words, percent(rest)
+        percent(whole),
+        e.words,
+        percent(rest)
     );
     found(Cause::Unknown, text)
 }
@@ -167,7 +176,10 @@ fn left(all: &mut Comparison<'_>, pair: &[Setup; 2], output: usize) -> Result<Op
 }
 
 /// A run that may fail: an experiment then says nothing.
-fn run(all: &mut Comparison<'_>, setup: &Setup) -> Result<Option<std::rc::Rc<super::Outcome>>, Error> {
+fn run(
+    all: &mut Comparison<'_>,
+    setup: &Setup,
+) -> Result<Option<std::rc::Rc<super::Outcome>>, Error> {
     match all.outcome(setup) {
         Ok(outcome) => Ok(Some(outcome)),
         Err(Error::Solve(SolveError::BasisTooLarge { .. })) => Ok(None),
@@ -206,7 +218,9 @@ fn experiments(
     let least = vectors.into_iter().flatten().min().unwrap_or(0);
     let (wider, words) = match order <= COMPLETE {
         true => (Wider::All, format!("with all vectors instead of {least}")),
-        false => (Wider::Vectors(2 * most), format!("with {} instead of {least} vectors", 2 * most)),
+        false => {
+            (Wider::Vectors(2 * most), format!("with {} instead of {least} vectors", 2 * most))
+        }
     };
     if least < order && least > 0 {
         add(Cause::Basis, words, &|s| {

@@ -6,6 +6,8 @@ use super::Outcome;
 const POINTS: usize = 4000;
 /// Largest lag looked for, as share of the duration.
 const LAG: f64 = 0.1;
+/// What the farthest shift must be better than none by, as share of full correlation.
+const NEAR: f64 = 0.05;
 /// A quantity smaller than this share of the largest with its unit is left out: it is rounding.
 const ROUNDING: f64 = 1e-6;
 
@@ -40,7 +42,9 @@ pub(crate) fn differences<'a>(
     };
     names
         .enumerate()
-        .filter(|(i, _)| size(*i) > ROUNDING * largest(units[*i]) && !other.histories[*i].is_empty())
+        .filter(|(i, _)| {
+            size(*i) > ROUNDING * largest(units[*i]) && !other.histories[*i].is_empty()
+        })
         .map(|(i, name)| Difference { name: name.to_owned(), ..difference(i, first, other) })
         .collect()
 }
@@ -102,17 +106,33 @@ fn lag(x: &[f64], y: &[f64]) -> f64 {
     let most = (LAG * x.len() as f64) as isize;
     let mean = |v: &[f64]| v.iter().sum::<f64>() / v.len().max(1) as f64;
     let (mx, my) = (mean(x), mean(y));
+    // As a share of what both hold where they overlap, or a shorter overlap would count as less alike.
     let correlation = |shift: isize| -> f64 {
         let pairs = (0..x.len() as isize).filter_map(|i| {
             let j = usize::try_from(i + shift).ok().filter(|j| *j < y.len())?;
-            Some((x[i as usize] - mx) * (y[j] - my))
+            Some((x[i as usize] - mx, y[j] - my))
         });
-        pairs.sum()
+        let [mut both, mut of_x, mut of_y] = [0.0; 3];
+        for (x, y) in pairs {
+            both += x * y;
+            of_x += x * x;
+            of_y += y * y;
+        }
+        if of_x * of_y > 0.0 { both / (of_x * of_y).sqrt() } else { 0.0 }
     };
     let all: Vec<f64> = (-most..=most).map(correlation).collect();
-    let best = all.iter().enumerate().fold((0, f64::MIN), |a, (i, c)| if *c > a.1 { (i, *c) } else { a }).0;
+    // Of a wave every period is as good: the near ones count more.
+    let near = |i: usize| all[i] - NEAR * (i as f64 - most as f64).abs() / most.max(1) as f64;
+    let mut best = (0..all.len()).fold(0, |a, i| if near(i) > near(a) { i } else { a });
+    while best > 0 && all[best - 1] > all[best] {
+        best -= 1;
+    }
+    while best + 1 < all.len() && all[best + 1] > all[best] {
+        best += 1;
+    }
     let middle = best as f64 - most as f64;
-    let (Some(before), Some(after)) = (best.checked_sub(1).map(|i| all[i]), all.get(best + 1)) else {
+    let (Some(before), Some(after)) = (best.checked_sub(1).map(|i| all[i]), all.get(best + 1))
+    else {
         return middle;
     };
     let curve = before - 2.0 * all[best] + after;
@@ -126,7 +146,12 @@ mod tests {
     #[test]
     fn a_delayed_wave_lags_by_its_delay() {
         let wave = |delay: f64| -> Vec<f64> {
-            (0..2000).map(|i| (0.02 * (f64::from(i) - delay)).sin() * (-((f64::from(i) - 1000.0) / 400.0).powi(2)).exp()).collect()
+            (0..2000)
+                .map(|i| {
+                    (0.02 * (f64::from(i) - delay)).sin()
+                        * (-((f64::from(i) - 1000.0) / 400.0).powi(2)).exp()
+                })
+                .collect()
         };
         for delay in [0.0, 7.0, -12.5] {
             let found = lag(&wave(0.0), &wave(delay));

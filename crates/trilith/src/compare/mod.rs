@@ -31,7 +31,7 @@ pub struct Outcome {
     pub good: bool,
     /// Equations of the structure.
     pub order: usize,
-    /// Largest rotation of a node in the deformed shapes kept, rad.
+    /// Largest rotation of a node about X or Y in the deformed shapes kept, rad.
     pub rotation: f64,
 }
 
@@ -59,11 +59,7 @@ pub struct Comparison<'m> {
 
 impl<'m> Comparison<'m> {
     /// For a dynamic case, by its index. `announce` is told what is about to run.
-    pub fn new(
-        model: &'m mut Model,
-        case: usize,
-        announce: impl FnMut(&str) + 'm,
-    ) -> Self {
+    pub fn new(model: &'m mut Model, case: usize, announce: impl FnMut(&str) + 'm) -> Self {
         Self { model, case, done: Vec::new(), announce: Box::new(announce) }
     }
 
@@ -109,7 +105,8 @@ fn solve(model: &Model, case: usize, setup: &Setup) -> Result<Outcome, Error> {
     let analysis = Analysis::new(model)?.with_frames(FRAMES);
     let (solver, dt) = (Some(setup.variant.solver), setup.variant.dt);
     let run = analysis.run(RunOptions { case, solver, dt, ..RunOptions::default() })?;
-    let turned = |u: &[f32]| u.chunks(6).flat_map(|n| &n[3..]).fold(0.0_f32, |a, x| a.max(x.abs()));
+    let turned =
+        |u: &[f32]| u.chunks(6).flat_map(|n| &n[3..5]).fold(0.0_f32, |a, x| a.max(x.abs()));
     let rotation = run.record.frames().iter().map(|f| turned(&f.displacements));
     Ok(Outcome {
         time: run.time().to_vec(),

@@ -1,7 +1,9 @@
 //! Ways to solve a case, and how they are put into a model and taken out again.
 
 use std::fmt;
-use trilith_model::{Analysis, BasisKind, Body, DynamicCase, Kernel, Model, SolverKind, StepControl};
+use trilith_model::{
+    Analysis, BasisKind, Body, DynamicCase, Kernel, Model, SolverKind, StepControl,
+};
 
 /// Share of the loads that a nudge changes.
 pub(crate) const NUDGE: f64 = 1e-6;
@@ -128,7 +130,9 @@ impl Setup {
                 StepControl::Adaptive { tolerance } => {
                     StepControl::Adaptive { tolerance: tolerance / TIGHTER }
                 }
-                StepControl::Fixed { substeps } => StepControl::Fixed { substeps: FINER * substeps },
+                StepControl::Fixed { substeps } => {
+                    StepControl::Fixed { substeps: FINER * substeps }
+                }
             };
         }
         if self.exact_links {
