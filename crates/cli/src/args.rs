@@ -140,12 +140,31 @@ pub(crate) struct CompareArguments {
     /// Case to run [default: the last of the file]
     #[arg(long)]
     pub case: Option<String>,
-    /// Solvers; differences are relative to the first
-    #[arg(long, value_parser = solver, value_delimiter = ',', default_value = "hht,fna")]
+    /// Solvers; differences are relative to the first variant [default: hht,fna, or that of the case where
+    /// another list is given]
+    #[arg(long, value_parser = solver, value_delimiter = ',')]
     pub solvers: Vec<SolverKind>,
     /// Output step in seconds [default: that of the case]
     #[arg(long, value_parser = positive)]
     pub dt: Option<f64>,
+    /// Several output steps in seconds, such as `0.01,0.005`
+    #[arg(long, value_name = "DT,DT", value_parser = positive, value_delimiter = ',', conflicts_with = "dt")]
+    pub dts: Vec<f64>,
+    /// Several sizes of the basis of FNA, such as `10,20,40`
+    #[arg(long, value_name = "N,N", value_delimiter = ',', value_parser = count)]
+    pub vectors: Vec<usize>,
+    /// Several sizes of the dummies of FNA, as multiples of the stiffness of the engaged links, such as `0.001,0.1`
+    #[arg(long, value_name = "K,K", value_parser = factor, value_delimiter = ',')]
+    pub dummies: Vec<f64>,
+    /// Several values of HHT's α, such as `0,-0.1`
+    #[arg(long, value_name = "A,A", value_parser = alpha, value_delimiter = ',', allow_hyphen_values = true)]
+    pub alphas: Vec<f64>,
+    /// Do not look for the causes of differences, which takes several runs more
+    #[arg(long)]
+    pub no_cause: bool,
+    /// Folder for `compare.html` with the histories over each other
+    #[arg(long, value_name = "DIR")]
+    pub out: Option<PathBuf>,
 }
 
 #[derive(Args)]
@@ -310,6 +329,27 @@ fn solver(text: &str) -> Result<SolverKind, String> {
         let names = SolverKind::ALL.iter().map(|s| s.name());
         crate::text::names_help(text, "solvers", names)
     })
+}
+
+fn count(text: &str) -> Result<usize, String> {
+    text.parse()
+        .ok()
+        .filter(|n| *n > 0)
+        .ok_or_else(|| "a number of vectors above 0 is wanted".into())
+}
+
+fn factor(text: &str) -> Result<f64, String> {
+    match text.parse::<f64>() {
+        Ok(x) if x.is_finite() && x > 0.0 => Ok(x),
+        _ => Err("a factor above 0 is wanted, such as 0.001".into()),
+    }
+}
+
+fn alpha(text: &str) -> Result<f64, String> {
+    match text.parse::<f64>() {
+        Ok(x) if (-1.0 / 3.0 - 1e-12..=0.0).contains(&x) => Ok(x.max(-1.0 / 3.0)),
+        _ => Err("a number between -1/3 and 0 is wanted".into()),
+    }
 }
 
 fn positive(text: &str) -> Result<f64, String> {

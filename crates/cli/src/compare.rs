@@ -1,68 +1,126 @@
-//! `trilith compare`: one case under several solvers.
+//! `trilith compare`: one case in several ways, and why the results differ.
 
 use crate::args::CompareArguments;
-use crate::progress::Progress;
 use crate::report::{energies, work};
 use crate::text::{number, percent, row, table};
-use crate::{Answer, Failure, case, diagnostics, read};
-use trilith::results::{Peak, Summary};
-use trilith::{Analysis, Registry, RunOptions};
+use crate::{Answer, Failure, case, compare_page, diagnostics, read};
+use std::io::IsTerminal;
+use trilith::compare::{Compared, Comparison, Variant};
+use trilith::model::Analysis;
+use trilith::results::Peak;
+use trilith::{Model, Registry, SolverKind};
 
 pub(crate) fn compare(registry: &Registry, args: &CompareArguments) -> Result<Answer, Failure> {
-    let model = read(registry, &args.model)?;
+    let mut model = read(registry, &args.model)?;
     let case = case(&model, args.case.as_deref())?;
-    if args.solvers.len() < 2 {
-        let help = "such as `--solvers hht,fna`";
-        return Err(Failure::input("a comparison needs two solvers", Some(help)));
-    }
-    if matches!(model.cases[case].analysis, trilith::model::Analysis::Static(_)) {
-        let message =
-            format!("case \"{}\" is static: there is one solver for it", model.cases[case].name);
-        return Err(Failure::input(&message, Some("name a dynamic case with `--case`")));
-    }
-    let analysis = Analysis::new(&model).map_err(|e| Failure::of(&e, &model))?;
-    let (mut summaries, mut status) = (Vec::new(), 0);
-    for solver in &args.solvers {
-        let mut bar = Progress::new(solver.name());
-        let mut show = |share| bar.show(share);
-        let options = RunOptions {
-            case,
-            solver: Some(*solver),
-            dt: args.dt,
-            progress: Some(&mut show),
-            ..RunOptions::default()
+    let variants = variants(&model, case, args)?;
+    let result = {
+        // Failures are shown in the text of the model, which is on loan.
+        let shown = std::io::stderr().is_terminal();
+        let announce = |what: &str| {
+            if shown {
+                eprintln!("running {what}");
+            }
         };
-        let run = analysis.run(options).map_err(|e| Failure::of(&e, &model))?;
-        drop(bar);
-        if !run.result.status.is_good() {
-            let message = format!("{}: {}", solver.name(), run.result.status.text());
+        Comparison::new(&mut model, case, announce).run(&variants, !args.no_cause)
+    };
+    let all = result.map_err(|e| Failure::of(&e, &model))?;
+    let mut status = 0;
+    for c in &all {
+        if !c.outcome.good {
+            let message = format!("{}: {}", c.variant, c.outcome.summary.message);
             eprint!("{}", diagnostics::plain(&message, None));
             status = 1;
         }
-        for w in &run.result.warnings {
-            eprint!("{}", diagnostics::warning(&format!("{}: {w}", solver.name())));
+        for w in &c.outcome.summary.warnings {
+            eprint!("{}", diagnostics::warning(&format!("{}: {w}", c.variant)));
         }
-        summaries.push(run.summary(&model));
     }
     let head = format!("model  {}\ncase   {}\n", model.title, model.cases[case].name);
-    Ok(Answer { text: head + &text(&summaries), status })
+    let mut text = head + &self::text(&all);
+    text += &geometry(&model, &all).map_or(String::new(), |g| format!("\n{g}\n"));
+    if let Some(dir) = &args.out {
+        let path = dir.join("compare.html");
+        let page = compare_page::page(&model, &model.cases[case].name, &all);
+        std::fs::create_dir_all(dir)
+            .and_then(|()| std::fs::write(&path, page))
+            .map_err(|e| Failure::unwritable(&path, &e))?;
+        text += &format!("\npage: {}\n", path.display());
+    }
+    Ok(Answer { text, status })
 }
 
-fn text(summaries: &[Summary]) -> String {
-    let mut out = format!("\npeaks; differences relative to {}\n", summaries[0].solver);
-    out += &table(&peaks(summaries), &[0, 1]);
-    let names = || summaries.iter().map(|s| s.solver.to_owned());
+/// Every combination of what the command line lists, the first in each list before the others.
+fn variants(model: &Model, case: usize, args: &CompareArguments) -> Result<Vec<Variant>, Failure> {
+    let Analysis::Dynamic(dynamic) = &model.cases[case].analysis else {
+        let message =
+            format!("case \"{}\" is static: there is one solver for it", model.cases[case].name);
+        return Err(Failure::input(&message, Some("name a dynamic case with `--case`")));
+    };
+    let lists = !(args.dts.is_empty()
+        && args.vectors.is_empty()
+        && args.dummies.is_empty()
+        && args.alphas.is_empty());
+    let solvers = match &args.solvers[..] {
+        [] if lists => vec![dynamic.solution.solver],
+        [] => vec![SolverKind::Hht, SolverKind::Fna],
+        given => given.to_vec(),
+    };
+    fn options<T: Copy>(list: &[T]) -> Vec<Option<T>> {
+        if list.is_empty() { vec![None] } else { list.iter().copied().map(Some).collect() }
+    }
+    let dts = match args.dt {
+        Some(dt) => vec![Some(dt)],
+        None => options(&args.dts),
+    };
+    let mut all: Vec<Variant> = Vec::new();
+    for solver in solvers {
+        let plain = Variant::new(solver);
+        let reduced = plain.is_reduced();
+        let conserves = solver == SolverKind::Fna;
+        // A list says nothing to a solver that has no such setting.
+        let vectors = options(if reduced { &args.vectors } else { &[] });
+        let dummies = options(if reduced { &args.dummies } else { &[] });
+        let alphas = options(if conserves { &[] } else { &args.alphas });
+        for dt in &dts {
+            for vectors in &vectors {
+                for dummies in &dummies {
+                    for alpha in &alphas {
+                        let (dt, vectors, dummies, alpha) = (*dt, *vectors, *dummies, *alpha);
+                        all.push(Variant { dt, vectors, dummies, alpha, ..plain.clone() });
+                    }
+                }
+            }
+        }
+    }
+    if all.len() < 2 {
+        let help = "such as `--solvers hht,fna`, `--dts 0.01,0.005`, `--vectors 10,20` or `--dummies 0.001,0.1`";
+        return Err(Failure::input(
+            "a comparison needs two solvers, or two values of a setting",
+            Some(help),
+        ));
+    }
+    Ok(all)
+}
+
+fn text(all: &[Compared]) -> String {
+    let first = &all[0];
+    let mut out = format!("\npeaks; differences relative to {}\n", first.variant);
+    out += &table(&peaks(all), &[0, 1]);
+    let names = || all.iter().map(|c| c.variant.to_string());
     let mut rows = vec![std::iter::once("energy [J]".to_owned()).chain(names()).collect()];
-    for (i, (name, _)) in energies(&summaries[0].energy).iter().enumerate() {
-        let values: Vec<f64> = summaries.iter().map(|s| energies(&s.energy)[i].1).collect();
+    for (i, (name, _)) in energies(&first.outcome.summary.energy).iter().enumerate() {
+        let values: Vec<f64> =
+            all.iter().map(|c| energies(&c.outcome.summary.energy)[i].1).collect();
         if values.iter().any(|e| *e != 0.0) {
             let cells = values.into_iter().map(number);
             rows.push(std::iter::once((*name).to_owned()).chain(cells).collect());
         }
     }
     out += &format!("\n{}\n", table(&rows, &[0]));
-    for s in summaries {
-        out += &format!("{} ({}): {}\n", s.solver, s.status, work(&s.work));
+    for c in all {
+        let s = &c.outcome.summary;
+        out += &format!("{} ({}): {}\n", c.variant, s.status, work(&s.work));
         if let Some(worst) = s.basis.as_ref().and_then(|b| b.worst.as_ref()) {
             out += &format!(
                 "  the basis holds {} of the flexibility of {}, the worst link coordinate\n",
@@ -71,22 +129,54 @@ fn text(summaries: &[Summary]) -> String {
             );
         }
     }
+    for c in &all[1..] {
+        out +=
+            &format!("\n{} beside {}\n{}", c.variant, first.variant, table(&differences(c), &[0]));
+        if let Some(finding) = &c.finding {
+            out += &format!("  likely cause: {finding}\n");
+        }
+    }
     out
 }
 
-fn peaks(summaries: &[Summary]) -> Vec<Vec<String>> {
+/// Differences over time, a row for each output.
+pub(crate) fn differences(c: &Compared) -> Vec<Vec<String>> {
+    let mut rows = vec![row(["output", "peak", "rms of difference", "later by [s]", "final"])];
+    for d in &c.differences {
+        let signed = |x: f64| if x == 0.0 { "0".into() } else { format!("{:+.3} %", 100.0 * x) };
+        let (peak, rms, last) = (signed(d.peak), percent(d.rms), signed(d.residual));
+        rows.push(row([&d.name, &peak, &rms, &crate::text::significant(d.lag, 3), &last]));
+    }
+    rows
+}
+
+/// What all variants have in common and none of them can show: small rotations of bodies on contacts.
+fn geometry(model: &Model, all: &[Compared]) -> Option<String> {
+    /// Rotation whose neglect makes rocking periods wrong by about 2 % for a slender block, rad.
+    const LARGE: f64 = 0.01;
+    let contacts = model.elements.iter().any(|e| e.kind == "NLink");
+    let rotation = all.iter().fold(0.0_f64, |a, c| a.max(c.outcome.rotation));
+    (contacts && rotation > LARGE).then(|| {
+        format!(
+            "geometry: nodes tilt by up to {} rad, and every variant takes rotations as small; a `RockingBody` does not",
+            number(rotation)
+        )
+    })
+}
+
+fn peaks(all: &[Compared]) -> Vec<Vec<String>> {
     let mut head = row(["output", "unit"]);
-    for (i, s) in summaries.iter().enumerate() {
-        head.push(format!("{} max", s.solver));
+    for (i, c) in all.iter().enumerate() {
+        head.push(format!("{} max", c.variant));
         head.extend((i > 0).then(|| "diff".to_owned()));
-        head.push(format!("{} min", s.solver));
+        head.push(format!("{} min", c.variant));
         head.extend((i > 0).then(|| "diff".to_owned()));
     }
     let mut rows = vec![head];
-    for (name, first) in &summaries[0].outputs.0 {
+    for (name, first) in &all[0].outcome.summary.outputs.0 {
         let mut cells = row([name, &first.unit]);
-        for (i, s) in summaries.iter().enumerate() {
-            let peak = s.outputs.get(name).and_then(|o| o.peak);
+        for (i, c) in all.iter().enumerate() {
+            let peak = c.outcome.summary.outputs.get(name).and_then(|o| o.peak);
             for value in [|p: &Peak| p.max, |p: &Peak| p.min] {
                 cells.push(peak.as_ref().map_or("–".into(), |p| number(value(p))));
                 if i > 0 {

@@ -14,6 +14,7 @@ mod args;
 mod calibrate;
 mod check;
 mod compare;
+mod compare_page;
 mod diagnostics;
 mod elements;
 mod exercise;

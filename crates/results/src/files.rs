@@ -14,6 +14,7 @@ use trilith_model::Model;
 /// | `histories.csv`, `histories.npz` | outputs and energies at the output times |
 /// | `spectra.csv` | floor spectra, where the model asks for any |
 /// | `model.resolved.ron` | the model in SI with every default |
+/// | `report.json`, `report.html` | beside these, what the report of a run is made from, and its page (`trilith_report`) |
 /// | `model.pvd`, `frames/*.vtu` | deformed shapes, where the recorder kept any |
 #[derive(Clone, Copy, Debug)]
 pub struct Files<'a> {

@@ -29,6 +29,7 @@
 //! - [`read`] turns a model file into a [`Model`], or into all its errors at once.
 //! - [`run`] runs a case as the file says; [`Analysis`] runs several, with options.
 //! - [`write_report`] makes the page of a run, [`rebuild_report`] makes it again from its folder.
+//! - [`compare`] solves a case in several ways and finds why the results differ.
 //! - [`exercise`] shows what a link does on its own, [`catalogue`] what kinds there are.
 //! - [`generate`] makes models from a few numbers.
 //! - [`sweep`] runs a model with many values of its parameters, several analyses side by side.
@@ -41,6 +42,7 @@
 mod analysis;
 pub mod calibrate;
 pub mod catalogue;
+pub mod compare;
 mod error;
 pub mod exercise;
 pub mod generate;

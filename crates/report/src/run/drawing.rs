@@ -8,6 +8,8 @@ const SIZE: (f64, f64) = (1120.0, 460.0);
 const MARGIN: f64 = 46.0;
 /// More names than this are not written.
 const NAMES: usize = 60;
+/// Nor are more nodes marked.
+const DOTS: usize = 300;
 /// Azimuth and elevation from which models in space are seen, rad.
 const VIEW: (f64, f64) = (0.52, 0.35);
 
@@ -139,15 +141,22 @@ fn shape(out: &mut String, picture: &Picture, at: &[(f64, f64)], px: Place<'_>, 
         };
         let _ = writeln!(out, "<polygon points=\"{}\" {style}/>", corners.join(" "));
     }
-    for line in &picture.lines {
-        let ((x1, y1), (x2, y2)) = (px(at[line.ends[0]]), px(at[line.ends[1]]));
-        let style = match (ghost, line.what) {
+    // One path for all lines of a sort: a large frame has thousands.
+    for what in [LineKind::Member, LineKind::Tie, LineKind::Edge] {
+        let mut d = String::new();
+        for line in picture.lines.iter().filter(|l| l.what == what) {
+            let ((x1, y1), (x2, y2)) = (px(at[line.ends[0]]), px(at[line.ends[1]]));
+            let _ = write!(d, "M{x1:.1} {y1:.1}L{x2:.1} {y2:.1}");
+        }
+        let style = match (ghost, what) {
             (true, _) => "stroke=\"#ccc\"",
             (_, LineKind::Member) => "stroke=\"#0072b2\" stroke-width=\"2\"",
             (_, LineKind::Tie) => "stroke=\"#999\" stroke-dasharray=\"3 3\"",
             (_, LineKind::Edge) => "stroke=\"#0072b2\"",
         };
-        let _ = writeln!(out, "<path d=\"M{x1:.1} {y1:.1}L{x2:.1} {y2:.1}\" {style}/>");
+        if !d.is_empty() {
+            let _ = writeln!(out, "<path d=\"{d}\" fill=\"none\" {style}/>");
+        }
     }
 }
 
@@ -176,6 +185,9 @@ fn marks(out: &mut String, picture: &Picture, at: &[(f64, f64)], px: Place<'_>, 
                 out,
                 "<path d=\"M{x:.1} {y:.1}l-6 10h12z\" fill=\"none\" stroke=\"#333\"/>"
             );
+        }
+        if picture.nodes.len() > DOTS {
+            continue;
         }
         let _ = writeln!(out, "<circle cx=\"{x:.1}\" cy=\"{y:.1}\" r=\"2\" fill=\"#333\"/>");
         let free = write.then(|| place(&mut taken, &node.name, x, y)).flatten();

@@ -2,8 +2,11 @@
 
 use super::data::Shown;
 
-/// (SI unit, its steps: below this size in SI, this unit and factor).
-const STEPS: [(&str, &[(f64, &str, f64)]); 7] = [
+/// Below this size in SI: this unit and factor.
+type Step = (f64, &'static str, f64);
+
+/// SI units with their steps.
+const STEPS: [(&str, &[Step]); 7] = [
     ("m", &[(1e-4, "µm", 1e6), (0.2, "mm", 1e3)]),
     ("rad", &[(1e-4, "µrad", 1e6), (0.1, "mrad", 1e3)]),
     ("m/s", &[(0.1, "mm/s", 1e3)]),

@@ -2,6 +2,8 @@
 
 const picture = data.picture;
 const POINTS = picture.points.length;
+/** Lines and symbols of large models are drawn thinner and smaller. */
+const DENSE = picture.lines.length > 800;
 
 /** Directions on the sheet to the right and up for a way of looking. */
 function directions(view, azimuth, elevation) {
@@ -107,7 +109,7 @@ class Stage {
     for (const line of picture.lines) {
       c.setLineDash(line.what === "tie" ? [3, 3] : []);
       const color = ghost ? "#d4d4d4" : line.what === "tie" ? "#999" : "#0072b2";
-      stroke(c, [at[line.ends[0]], at[line.ends[1]]], color, !ghost && line.what === "member" ? 2 : 1);
+      stroke(c, [at[line.ends[0]], at[line.ends[1]]], color, ghost ? 1 : DENSE ? 0.6 : line.what === "member" ? 2 : 1);
     }
     c.setLineDash([]);
   }
@@ -120,6 +122,7 @@ class Stage {
       const [x, y] = [0, 1].map((i) => ends.reduce((sum, p) => sum + p[i], 0) / ends.length);
       c.save();
       c.translate(x, y);
+      if (DENSE || this.height < 300) c.scale(0.55, 0.55);
       c.fillStyle = "#ffffffb3";
       c.strokeStyle = "#d55e00";
       c.lineWidth = 1.6;
