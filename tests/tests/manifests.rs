@@ -75,7 +75,7 @@ fn own(dependencies: Vec<String>) -> Vec<String> {
 
 #[test]
 fn dependencies_point_one_way() {
-    const LAYERS: [(&str, &[&str]); 10] = [
+    const LAYERS: [(&str, &[&str]); 11] = [
         ("trilith-element", &[]),
         ("trilith-linalg", &[]),
         ("trilith-elements", &["trilith-element"]),
@@ -93,6 +93,7 @@ fn dependencies_point_one_way() {
             "trilith-report",
             &["trilith-element", "trilith-model", "trilith-solvers", "trilith-results"],
         ),
+        ("trilith-study", &["trilith"]),
         ("trilith-bench", &["trilith", "trilith-linalg", "trilith-report"]),
         ("trilith-thirdparty-example", &["trilith-element", "trilith", "trilith-cli"]),
     ];

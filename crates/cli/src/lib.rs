@@ -24,6 +24,7 @@ mod modes;
 mod progress;
 mod report;
 mod run;
+mod sweep;
 mod text;
 
 use args::{Arguments, Command};
@@ -54,6 +55,7 @@ pub fn main_with(registry: Registry) -> ! {
         Command::Exercise(a) => exercise::exercise(&registry, a),
         Command::Report(a) => run::report(&a),
         Command::Compare(a) => compare::compare(&registry, &a),
+        Command::Sweep(a) => sweep::sweep(&registry, &a),
         Command::Generate(a) => generate::generate(a),
         Command::Calibrate(a) => calibrate::calibrate(&registry, &a),
     };
