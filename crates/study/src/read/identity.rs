@@ -17,6 +17,7 @@ pub(super) fn identity(
     parsed: &ModelText,
     plan: &Plan,
     registry: &Registry,
+    first: &[(String, String)],
     how: (usize, Option<SolverKind>),
     columns: &[Column],
     stop: &Option<Option<Condition>>,
@@ -24,8 +25,7 @@ pub(super) fn identity(
     let study = hexadecimal(Sha256::digest(format!("{plan:?}\n{how:?}\n{columns:?}\n{stop:?}")));
     // Records are named by texts: every text of every axis and point, one after the other.
     let mut motions = Sha256::new();
-    let first = plan.nominal(&plan.place(0));
-    let model = parsed.read(registry, &first).ok()?;
+    let model = parsed.read(registry, first).ok()?;
     motions.update(format!("{:?}", model.functions));
     let is_text = |name: &str| {
         let text = |p: &trilith::model::Parameter| {
@@ -41,7 +41,7 @@ pub(super) fn identity(
             continue;
         }
         seen.push((name, value));
-        let mut set = first.clone();
+        let mut set = first.to_vec();
         set.retain(|(n, _)| n != name);
         set.push((name.clone(), value.clone()));
         if let Ok(model) = parsed.read(registry, &set) {

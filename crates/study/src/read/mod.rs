@@ -184,7 +184,9 @@ fn whole(
         let message = format!("the study has more than {MOST} runs");
         c.report(c.diagnostic("E0112", message, root.span.start..root.span.start + 1));
     }
-    let identity = identity::identity(&parsed, &plan, registry, (case?, solver?), &columns, &stop)?;
+    let how = (case?, solver?);
+    let identity =
+        identity::identity(&parsed, &plan, registry, &settings.first(&plan), how, &columns, &stop)?;
     Some(Study {
         title: title?,
         path: path.to_owned(),
@@ -219,8 +221,7 @@ fn first_model(
     if plan.axes.iter().any(|a| a.values.is_empty()) {
         return None;
     }
-    let set = plan.nominal(&plan.place(0));
-    match parsed.read(registry, &set) {
+    match parsed.read(registry, &settings.first(plan)) {
         Ok(model) => Some(model),
         Err(errors) => {
             settings.tell(c, errors, None, foreign);

@@ -127,6 +127,16 @@ impl Settings {
         }
     }
 
+    /// The first value of everything; of what is drawn, the median.
+    pub fn first(&self, plan: &Plan) -> Vec<(String, String)> {
+        let mut set = plan.nominal(&plan.place(0));
+        for s in self.0.iter().filter(|s| s.part == "samples") {
+            set.retain(|(name, _)| *name != s.name);
+            set.push((s.name.clone(), s.value.clone()));
+        }
+        set
+    }
+
     /// Tries every value on its own, so that a wrong one is told before anything runs.
     pub fn check_all(
         &self,
@@ -136,7 +146,7 @@ impl Settings {
         registry: &Registry,
         foreign: &mut Vec<Diagnostic>,
     ) {
-        let first = plan.nominal(&plan.place(0));
+        let first = self.first(plan);
         for (i, s) in self.0.iter().enumerate().filter(|(_, s)| !s.value.is_empty()).take(TRIED) {
             let mut set = first.clone();
             // Not what a `--set` has replaced.
@@ -145,7 +155,6 @@ impl Settings {
                 ("axes" | "points", Some(current)) if current.1 != s.value => {
                     current.1.clone_from(&s.value);
                 }
-                ("samples" | "ensemble", None) => set.push((s.name.clone(), s.value.clone())),
                 _ => continue,
             }
             if let Err(errors) = parsed.read(registry, &set) {
