@@ -20,7 +20,7 @@ const MODEL: &str = r#"(
     cases: {
         "gravity": Static(loads: [Gravity]),
         "shake": Dynamic(after: "gravity", duration: "0.6 s", dt: "10 ms",
-            base: [(direction: X, function: "pulse")]),
+            base: [(direction: X, function: "pulse")], energy_limit: 0.5),
     },
     outputs: { "slide": Displacement(node: "cg", dof: Ux) },
 )"#;

@@ -12,7 +12,7 @@ const MODEL: &str = r#"(
     plane: XZ, gravity: "9.81 m/s^2",
     parameters: {
         "mu": 0.3, "a": "1 m/s^2", "k": "0 N/m", "record": Text("quiet.csv"), "mass": "1 t",
-        "limit": 1e-3,
+        "limit": 0.5,
     },
     nodes: { "cg": (0, 0, 0) },
     elements: {
@@ -154,7 +154,7 @@ fn runs_that_fail_among_others_are_rows_and_the_study_goes_on() {
     let folder = folder();
     // −1: the model refuses it. An energy limit of nothing at all: the run loses too much.
     let body = r#"points: [
-        { "mu": 0.3, "limit": 1e-3 }, { "mu": 0.2, "limit": 1e-300 }, { "mu": 0.1, "limit": 1e-3 },
+        { "mu": 0.3, "limit": 0.5 }, { "mu": 0.2, "limit": 1e-300 }, { "mu": 0.1, "limit": 0.5 },
     ]"#;
     let study = read(folder.path(), body).unwrap();
     let out = folder.path().join("out");

@@ -40,6 +40,8 @@ pub(super) fn ida(study: &Study, records: &[Record], demand: &str, intensity: &s
     let value = |r: &Record| r.number(&study.varied, &study.columns, demand);
     let mut curves: Vec<Vec<(f64, f64)>> = Vec::new();
     let mut right = 0.0f64;
+    // Beyond the demand where a series was stopped nothing is known of it.
+    let mut known = f64::INFINITY;
     for s in &all {
         let mut curve = vec![(0.0, 0.0)];
         for (im, r) in s.iter().filter(|(_, r)| r.good) {
@@ -53,6 +55,12 @@ pub(super) fn ida(study: &Study, records: &[Record], demand: &str, intensity: &s
                     break;
                 }
             }
+        }
+        let stopped = |r: &Record| study.stop.as_ref().is_some_and(|c| c.holds(&study.columns, r));
+        if let Some(end) = curve.last().filter(|p| p.0.is_finite())
+            && s.last().is_some_and(|(_, r)| stopped(r))
+        {
+            known = known.min(end.0);
         }
         curves.push(curve);
     }
@@ -84,7 +92,7 @@ pub(super) fn ida(study: &Study, records: &[Record], demand: &str, intensity: &s
             reached.sort_by(f64::total_cmp);
             (x, crate::statistics::quantile(&reached, p))
         };
-        figure = figure.line(name, (1..=200).map(at).filter(|q| q.1.is_finite()));
+        figure = figure.line(name, (1..=200).map(at).filter(|q| q.1.is_finite() && q.0 <= known));
     }
     figure.caption(format!(
         "{} series; fractiles are those of the intensity at which a demand is first reached. Flat lines: overturned.",
