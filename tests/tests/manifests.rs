@@ -100,6 +100,7 @@ fn dependencies_point_one_way() {
             "trilith-report",
             &["trilith-element", "trilith-model", "trilith-solvers", "trilith-results"],
         ),
+        ("trilith-study", &["trilith"]),
         ("trilith-bench", &["trilith", "trilith-linalg", "trilith-report"]),
         ("trilith-thirdparty-example", &["trilith-element", "trilith", "trilith-cli"]),
     ];

@@ -28,6 +28,8 @@ pub(crate) enum Command {
     Report(ReportArguments),
     /// Run the same case under two or more solvers and show the differences
     Compare(CompareArguments),
+    /// Run a study: a model with many values of its parameters, on all cores, into one table
+    Sweep(SweepArguments),
     /// Make a model file from a few numbers
     Generate(GenerateArguments),
     /// Find contact and rotational dashpots from coefficients of restitution
@@ -165,6 +167,24 @@ pub(crate) struct CompareArguments {
     /// Folder for `compare.html` with the histories over each other
     #[arg(long, value_name = "DIR")]
     pub out: Option<PathBuf>,
+}
+
+#[derive(Args)]
+pub(crate) struct SweepArguments {
+    /// Study file (RON)
+    pub study: PathBuf,
+    /// Give a parameter of the model one value in all runs, in place of its axis if it has one
+    #[arg(long, value_name = "NAME=VALUE", value_parser = assignment)]
+    pub set: Vec<(String, String)>,
+    /// Folder for the results; a study that was stopped goes on there [default: out/<name of the study file>]
+    #[arg(long, value_name = "DIR")]
+    pub out: Option<PathBuf>,
+    /// Runs at the same time; the results are the same to the bit [default: one for each core]
+    #[arg(long, value_parser = clap::value_parser!(u16).range(1..=1024))]
+    pub threads: Option<u16>,
+    /// Check the study and show what would be run
+    #[arg(long)]
+    pub dry_run: bool,
 }
 
 #[derive(Args)]

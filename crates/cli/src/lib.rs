@@ -26,6 +26,7 @@ mod progress;
 mod record;
 mod report;
 mod run;
+mod sweep;
 mod text;
 
 use args::{Arguments, Command};
@@ -56,6 +57,7 @@ pub fn main_with(registry: Registry) -> ! {
         Command::Exercise(a) => exercise::exercise(&registry, a),
         Command::Report(a) => run::report(&a),
         Command::Compare(a) => compare::compare(&registry, &a),
+        Command::Sweep(a) => sweep::sweep(&registry, &a),
         Command::Generate(a) => generate::generate(a),
         Command::Calibrate(a) => calibrate::calibrate(&registry, &a),
         Command::Record(a) => record::record(&a),

@@ -46,3 +46,62 @@ impl Drop for Progress {
         }
     }
 }
+
+/// How often a study that writes to a file, not a terminal, says how far it is.
+const LINE: Duration = Duration::from_secs(30);
+
+/// Progress of many runs: a bar with the time left on a terminal, a line now and then elsewhere.
+pub(crate) struct Steps {
+    start: Instant,
+    said: Instant,
+    /// Runs that were done when the first one was shown.
+    first: Option<usize>,
+    terminal: bool,
+    name: String,
+    bar: Option<ProgressBar>,
+}
+
+impl Steps {
+    pub fn new(name: &str) -> Self {
+        let now = Instant::now();
+        let terminal = std::io::stderr().is_terminal();
+        Self { start: now, said: now, first: None, terminal, name: name.to_owned(), bar: None }
+    }
+
+    /// Shows how many are done.
+    pub fn show(&mut self, done: usize, total: usize, failed: usize) {
+        let first = *self.first.get_or_insert(done.saturating_sub(1));
+        let failures = if failed > 0 { format!(", {failed} failed") } else { String::new() };
+        if !self.terminal {
+            if self.said.elapsed() > LINE {
+                self.said = Instant::now();
+                let new = done.saturating_sub(first).max(1) as f64;
+                let left = self.start.elapsed().as_secs_f64() / new * (total - done) as f64;
+                eprintln!("{done} of {total} runs{failures}, {left:.0} s left");
+            }
+            return;
+        }
+        if self.start.elapsed() < PATIENCE {
+            return;
+        }
+        let bar = self.bar.get_or_insert_with(|| {
+            let bar = ProgressBar::new(total as u64).with_elapsed(self.start.elapsed());
+            let template = "{msg} {bar:40} {pos}/{len} {per_sec} {eta} left{prefix}";
+            if let Ok(style) = ProgressStyle::with_template(template) {
+                bar.set_style(style);
+            }
+            bar.set_message(self.name.clone());
+            bar
+        });
+        bar.set_prefix(failures);
+        bar.set_position(done as u64);
+    }
+}
+
+impl Drop for Steps {
+    fn drop(&mut self) {
+        if let Some(bar) = &self.bar {
+            bar.finish_and_clear();
+        }
+    }
+}

@@ -18,6 +18,17 @@ mod time_function;
 mod tree;
 mod units;
 
+/// What other RON files than models are read with: values with their places, fields whose names are
+/// checked, quantities, errors.
+pub mod file {
+    pub use crate::diagnostic::{closest, names_help};
+    pub use crate::expression::{
+        ExpressionError, Quantity, Scope, evaluate, expression_diagnostic,
+    };
+    pub use crate::read::{Context, Fields, parse};
+    pub use crate::tree::{Entry, Kind, Node};
+}
+
 pub use analysis::*;
 pub use diagnostic::{Diagnostic, line_column};
 pub use expression::quantity;

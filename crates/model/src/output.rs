@@ -63,6 +63,35 @@ pub enum Quantity {
         /// Factor.
         factor: f64,
     },
+    /// Outputs before it, put together.
+    Combination {
+        /// How.
+        how: Combine,
+        /// Added to a sum; 0 otherwise.
+        constant: f64,
+        /// (index of the output, factor).
+        terms: Vec<(usize, f64)>,
+    },
+}
+
+/// How outputs are put together, each times its factor.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Combine {
+    /// Their sum.
+    Sum,
+    /// Root of the sum of their squares.
+    Norm,
+    /// The largest.
+    Largest,
+    /// The smallest.
+    Smallest,
+}
+
+impl Combine {
+    /// The names in model files, in the order of the kinds.
+    pub const NAMES: [&'static str; 4] = ["Sum", "Norm", "Largest", "Smallest"];
+    /// All kinds.
+    pub const ALL: [Self; 4] = [Self::Sum, Self::Norm, Self::Largest, Self::Smallest];
 }
 
 /// One term of a nodal output.

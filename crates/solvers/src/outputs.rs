@@ -2,7 +2,7 @@
 
 use crate::space::Space;
 use crate::stepper::State;
-use trilith_model::{Model, NodalTerm, Quantity, Side};
+use trilith_model::{Combine, Model, NodalTerm, Quantity, Side};
 use trilith_system::{LoadSet, System};
 
 /// One output, ready to be evaluated.
@@ -28,6 +28,12 @@ pub(crate) enum Row {
     Element {
         stiffness: Split,
         damping: Split,
+    },
+    /// Of the rows before.
+    Combination {
+        how: Combine,
+        constant: f64,
+        terms: Vec<(usize, f64)>,
     },
 }
 
@@ -89,6 +95,9 @@ impl Outputs {
                 Quantity::LinkHistory { element, field } => {
                     Row::History { at: link(*element).map_or(0, |l| l.history.start + field) }
                 }
+                Quantity::Combination { how, constant, terms } => {
+                    Row::Combination { how: *how, constant: *constant, terms: terms.clone() }
+                }
                 Quantity::ElementForce { element, end, dof, factor } => {
                     let row = system.end_force(model, *element, *end, *dof);
                     let scaled = |r: &[(usize, f64)]| -> Vec<(usize, f64)> {
@@ -149,6 +158,11 @@ impl Outputs {
                 }
                 Row::Force { flat, factor } => factor * state.f[*flat],
                 Row::History { at } => state.history[*at],
+                Row::Combination { how, constant, terms } => {
+                    let value;
+                    (value, rates[i]) = combined(*how, *constant, terms, values, rates);
+                    value
+                }
                 Row::Element { stiffness, damping } => {
                     sum(&stiffness.0, motion[0])
                         + sum(&stiffness.1, &support[0])
@@ -157,5 +171,27 @@ impl Outputs {
                 }
             };
         }
+    }
+}
+
+/// Value and rate of outputs put together.
+fn combined(
+    how: Combine,
+    constant: f64,
+    terms: &[(usize, f64)],
+    values: &[f64],
+    rates: &[f64],
+) -> (f64, f64) {
+    let parts = || terms.iter().map(|(i, factor)| (factor * values[*i], factor * rates[*i]));
+    match how {
+        Combine::Sum => parts().fold((constant, 0.0), |(y, r), (a, b)| (y + a, r + b)),
+        Combine::Norm => {
+            let size = parts().map(|(a, _)| a * a).sum::<f64>().sqrt();
+            let rate = parts().map(|(a, b)| a * b).sum::<f64>() / size;
+            (size, if size > 0.0 { rate } else { f64::NAN })
+        }
+        // Between two of them a rate would bend what has a corner.
+        Combine::Largest => (parts().map(|p| p.0).fold(f64::NEG_INFINITY, f64::max), f64::NAN),
+        Combine::Smallest => (parts().map(|p| p.0).fold(f64::INFINITY, f64::min), f64::NAN),
     }
 }

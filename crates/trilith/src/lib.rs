@@ -48,6 +48,7 @@ pub mod exercise;
 pub mod generate;
 mod run_report;
 pub mod sweep;
+pub mod theory;
 
 /// The contract that elements, constraints and links fulfil.
 pub mod element {

@@ -23,6 +23,9 @@ history! {
         z: "1",
         /// Angle between the body's vertical axis and the vertical.
         tilt: "rad",
+        /// Horizontal part of the body's vertical axis, a vector of length 1: along X and Y.
+        lean1: "1",
+        lean2: "1",
     }
 }
 
@@ -40,7 +43,18 @@ impl Attitude {
         // The angle by its sine where its cosine is flat.
         let axis = turn.matrix.column(2);
         let tilt = axis[0].hypot(axis[1]).atan2(axis[2]);
-        Self { turned1: theta[0], turned2: theta[1], turned3: theta[2], w, x, y, z, tilt }
+        Self {
+            turned1: theta[0],
+            turned2: theta[1],
+            turned3: theta[2],
+            w,
+            x,
+            y,
+            z,
+            tilt,
+            lean1: axis[0],
+            lean2: axis[1],
+        }
     }
 }
 

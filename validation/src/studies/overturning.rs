@@ -7,6 +7,7 @@ use super::runs::{FNA, HHT, Method};
 use crate::case::{Kind, Tolerance};
 use crate::{Findings, Study};
 use std::f64::consts::TAU;
+use trilith::theory::half_sine_overturning;
 use trilith::{Analysis, RunOptions};
 use trilith_report::{Figure, Stroke};
 
@@ -92,19 +93,6 @@ impl Pulse {
     }
 }
 
-/// Housner's problem as corrected: the amplitude in g α at ω/p.
-fn half_sine_theory(ratio: f64) -> f64 {
-    let excess =
-        |psi: f64| ratio * psi.sin() - psi.cos() - (-(std::f64::consts::PI - psi) / ratio).exp();
-    // The left side grows with ψ in (0, π/2].
-    let (mut low, mut high) = (1e-9, std::f64::consts::FRAC_PI_2);
-    for _ in 0..60 {
-        let middle = 0.5 * (low + high);
-        if excess(middle) < 0.0 { low = middle } else { high = middle }
-    }
-    1.0 / low.sin()
-}
-
 fn half_sine(found: &mut Findings) -> Result<(), String> {
     let alpha = 0.1;
     found.text(format!(
@@ -117,12 +105,12 @@ fn half_sine(found: &mut Findings) -> Result<(), String> {
         Figure::new("Least half sine that overturns a slender block", "ω/p", "amplitude / (g α)")
             .reference(
                 "theory",
-                (10..=100).map(|i| (0.1 * f64::from(i), half_sine_theory(0.1 * f64::from(i)))),
+                (10..=100).map(|i| (0.1 * f64::from(i), half_sine_overturning(0.1 * f64::from(i)))),
             );
     for (method, stroke) in [(FNA, Stroke::Squares), (HHT, Stroke::Crosses)] {
         let mut points = Vec::new();
         for ratio in ratios {
-            let expected = half_sine_theory(ratio);
+            let expected = half_sine_overturning(ratio);
             let border =
                 Pulse { alpha, ratio, cycles: 0.5, shear: 2.0 }.border(method, expected, true)?;
             points.push((ratio, border));

@@ -20,22 +20,25 @@ use crate::Span;
 use crate::diagnostic::names_help;
 use crate::units;
 use apply::{FUNCTIONS, apply, common};
-pub(crate) use place::expression_diagnostic;
+pub use place::expression_diagnostic;
 use trilith_element::Dimension;
 use trilith_element::dimension::NONE;
 use unit_product::unknown_unit;
 
 /// A value with its dimension.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct Quantity {
+pub struct Quantity {
     /// In SI; a bare number as it stands.
     pub value: f64,
+    /// Its dimension.
     pub dimension: Dimension,
     /// True where a unit took part; a value without may stand for any dimension, in file units.
     pub measured: bool,
 }
 
 impl Quantity {
+    /// A number without a unit.
+    #[must_use]
     pub fn bare(value: f64) -> Self {
         Self { value, dimension: NONE, measured: false }
     }
@@ -43,28 +46,38 @@ impl Quantity {
 
 /// An error within an expression; the span counts from the start of its text.
 #[derive(Clone, Debug, PartialEq)]
-pub(crate) struct ExpressionError {
+pub struct ExpressionError {
+    /// Stable code, such as `E0108`.
     pub code: &'static str,
+    /// What is wrong.
     pub message: String,
+    /// What would be right.
     pub help: Option<String>,
+    /// The part that is wrong.
     pub span: Span,
 }
 
 /// What an expression may refer to.
-pub(crate) trait Scope {
+pub trait Scope {
     /// Names of all parameters.
     fn names(&self) -> Vec<&str>;
     /// True where there is a parameter of that name.
     fn has(&self, name: &str) -> bool;
     /// Value of a parameter that there is, or code and message of why it has none; `Err(None)`
     /// where its own error has been told.
+    ///
+    /// # Errors
+    /// As said.
     fn value(&mut self, name: &str) -> Result<Quantity, Option<(&'static str, String)>>;
 }
 
-type Parsed<T> = Result<T, Option<ExpressionError>>;
+pub(crate) type Parsed<T> = Result<T, Option<ExpressionError>>;
 
-/// Evaluates an expression; `Err(None)` where the error has been told already.
-pub(crate) fn evaluate(text: &str, scope: &mut dyn Scope) -> Parsed<Quantity> {
+/// Evaluates an expression.
+///
+/// # Errors
+/// What is wrong with it; none where the scope has told it already.
+pub fn evaluate(text: &str, scope: &mut dyn Scope) -> Result<Quantity, Option<ExpressionError>> {
     let mut parser = Parser { text, at: 0, depth: 0, scope };
     parser.blanks();
     let value = parser.sum()?;

@@ -15,7 +15,8 @@ fn inner_span(source: &str, node: &Node, text: &str) -> Span {
 }
 
 /// An error of an expression in quotes as a diagnostic of the file.
-pub(crate) fn expression_diagnostic(
+#[must_use]
+pub fn expression_diagnostic(
     error: ExpressionError,
     source: &Arc<Source>,
     node: &Node,

@@ -12,27 +12,30 @@ use std::sync::Arc;
 use trilith_element::{Dimension, Dof, Range};
 
 /// The reader's surroundings. A method that returns `None` has reported why.
-pub(crate) struct Context<'a> {
-    pub source: Arc<Source>,
-    pub folder: PathBuf,
-    pub registry: &'a Registry,
-    pub units: FileUnits,
+pub struct Context<'a> {
+    pub(crate) source: Arc<Source>,
+    pub(crate) folder: PathBuf,
+    pub(crate) registry: &'a Registry,
+    pub(crate) units: FileUnits,
     parameters: Parameters,
     errors: RefCell<Vec<Diagnostic>>,
 }
 
 /// Fields in parentheses whose names have been checked.
-pub(crate) struct Fields<'n> {
+pub struct Fields<'n> {
     what: String,
     span: Span,
     entries: &'n [Entry],
 }
 
 impl<'n> Fields<'n> {
+    /// The value of a field.
+    #[must_use]
     pub fn get(&self, key: &str) -> Option<&'n Node> {
         self.entries.iter().find(|e| e.key == key).map(|e| &e.value)
     }
 
+    /// The value of a field; that it is missing is reported.
     pub fn required(&self, c: &Context<'_>, key: &str) -> Option<&'n Node> {
         let found = self.get(key);
         if found.is_none() {
@@ -43,29 +46,40 @@ impl<'n> Fields<'n> {
         found
     }
 
+    /// All fields.
+    #[must_use]
     pub fn entries(&self) -> &'n [Entry] {
         self.entries
     }
 }
 
 impl<'a> Context<'a> {
+    /// For a file whose files are looked for in a folder.
+    #[must_use]
     pub fn new(source: Arc<Source>, folder: PathBuf, registry: &'a Registry) -> Self {
         let units = FileUnits::default();
         let (parameters, _) = Parameters::new(&[], &[], units, &source);
         Self { source, folder, registry, units, parameters, errors: RefCell::default() }
     }
 
-    pub fn set_parameters(&mut self, entries: &[Entry], overrides: &[(String, String)]) {
+    /// The file that is read.
+    #[must_use]
+    pub fn source(&self) -> &Arc<Source> {
+        &self.source
+    }
+
+    pub(crate) fn set_parameters(&mut self, entries: &[Entry], overrides: &[(String, String)]) {
         let (all, errors) = Parameters::new(entries, overrides, self.units, &self.source);
         self.parameters = all;
         self.errors.borrow_mut().extend(errors);
     }
 
-    pub fn parameters(&self) -> &Parameters {
+    pub(crate) fn parameters(&self) -> &Parameters {
         &self.parameters
     }
 
     /// The errors in the order of the file; what was found twice is told once.
+    #[must_use]
     pub fn into_errors(self) -> Vec<Diagnostic> {
         let mut errors = self.errors.into_inner();
         errors.sort_by_key(|d| (d.source.path != self.source.path, d.span.start));
@@ -74,10 +88,13 @@ impl<'a> Context<'a> {
         errors
     }
 
+    /// Takes an error.
     pub fn report(&self, diagnostic: Diagnostic) {
         self.errors.borrow_mut().push(diagnostic);
     }
 
+    /// An error at a place of the file.
+    #[must_use]
     pub fn diagnostic(
         &self,
         code: &'static str,
@@ -156,10 +173,12 @@ impl<'a> Context<'a> {
         found
     }
 
+    /// A direction.
     pub fn dof(&self, node: &Node) -> Option<Dof> {
         self.choice(node, "direction", &Dof::ALL.map(Dof::name)).map(|i| Dof::ALL[i])
     }
 
+    /// A text in quotes.
     pub fn text(&self, node: &Node, what: &str) -> Option<String> {
         match &node.kind {
             Kind::Text(text) => Some(text.clone()),
@@ -248,6 +267,7 @@ impl<'a> Context<'a> {
         None
     }
 
+    /// True or false, or 1 or 0.
     pub fn flag(&self, node: &Node, name: &str) -> Option<bool> {
         if let Kind::Flag(b) = node.kind {
             return Some(b);

@@ -24,7 +24,7 @@ mod tests;
 use crate::tree::{self, Node};
 use crate::units::{FileUnits, STANDARD_GRAVITY};
 use crate::{Diagnostic, Model, Plane, Registry, Source};
-use context::Context;
+pub use context::{Context, Fields};
 pub(crate) use motion::nodal_dimension;
 use names::Names;
 use sha2::{Digest, Sha256};
@@ -85,6 +85,25 @@ pub fn read_text(
     ModelText::new(text, path)?.read(registry, overrides)
 }
 
+/// Takes a RON text apart.
+///
+/// # Errors
+/// What is wrong with the text itself.
+pub fn parse(text: &str, path: impl AsRef<Path>) -> Result<(Arc<Source>, Node), Vec<Diagnostic>> {
+    let digest = Sha256::digest(text.as_bytes());
+    let sha256 = digest.iter().map(|b| format!("{b:02x}")).collect();
+    let path = path.as_ref().to_owned();
+    let source = Arc::new(Source { path, text: text.to_owned(), sha256 });
+    let root = tree::parse(text).map_err(|e| {
+        let d = Diagnostic::new(e.code, e.message, e.span, &source);
+        vec![match e.related {
+            Some(first) => d.related(first, "first given here").help("keep one of the two"),
+            None => d,
+        }]
+    })?;
+    Ok((source, root))
+}
+
 /// A model file whose text has been understood, to be read with many values of its parameters.
 #[derive(Clone, Debug)]
 pub struct ModelText {
@@ -98,17 +117,7 @@ impl ModelText {
     /// # Errors
     /// What is wrong with the text itself.
     pub fn new(text: &str, path: impl AsRef<Path>) -> Result<Self, Vec<Diagnostic>> {
-        let digest = Sha256::digest(text.as_bytes());
-        let sha256 = digest.iter().map(|b| format!("{b:02x}")).collect();
-        let path = path.as_ref().to_owned();
-        let source = Arc::new(Source { path, text: text.to_owned(), sha256 });
-        let root = tree::parse(text).map_err(|e| {
-            let d = Diagnostic::new(e.code, e.message, e.span, &source);
-            vec![match e.related {
-                Some(first) => d.related(first, "first given here").help("keep one of the two"),
-                None => d,
-            }]
-        })?;
+        let (source, root) = parse(text, path)?;
         Ok(Self { source, root })
     }
 

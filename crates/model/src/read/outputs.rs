@@ -1,17 +1,19 @@
 //! What is recorded.
 
+mod combination;
+
 use super::context::{Context, Fields};
 use super::names::Names;
 use crate::diagnostic::names_help;
 use crate::expression::Quantity as Number;
 use crate::tree::{Entry, Kind, Node};
-use crate::{Body, Element, NodalTerm, Output, Quantity};
+use crate::{Body, Combine, Element, NodalTerm, Output, Quantity};
 use trilith_element::dimension::{FORCE, LENGTH, MOMENT, NONE};
 use trilith_element::{Axis, Coordinates, Dimension, Dof, Link};
 
 use super::motion::{nodal_dimension, unit};
 
-const KINDS: [&str; 7] = [
+const KINDS: [&str; 11] = [
     "Displacement",
     "Velocity",
     "Acceleration",
@@ -19,6 +21,10 @@ const KINDS: [&str; 7] = [
     "LinkDeformation",
     "LinkHistory",
     "ElementForce",
+    "Sum",
+    "Norm",
+    "Largest",
+    "Smallest",
 ];
 const TERM: [&str; 3] = ["node", "dof", "factor"];
 
@@ -27,6 +33,8 @@ struct Reading<'c, 'n> {
     nodes: &'c Names<'n>,
     names: &'c Names<'n>,
     elements: &'c [Option<Element>],
+    /// Names and units of the outputs before.
+    before: Vec<(String, Option<String>)>,
 }
 
 pub(super) fn outputs(
@@ -36,12 +44,14 @@ pub(super) fn outputs(
     names: &Names<'_>,
     elements: &[Option<Element>],
 ) -> Vec<Option<Output>> {
-    let reading = Reading { c, nodes, names, elements };
-    let one = |e: &Entry| {
-        let (quantity, unit) = reading.output(e)?;
-        Some(Output { name: e.key.clone(), unit, quantity })
-    };
-    entries.iter().map(one).collect()
+    let mut reading = Reading { c, nodes, names, elements, before: Vec::new() };
+    let mut all = Vec::with_capacity(entries.len());
+    for e in entries {
+        let found = reading.output(e);
+        reading.before.push((e.key.clone(), found.as_ref().map(|(_, unit)| unit.clone())));
+        all.push(found.map(|(quantity, unit)| Output { name: e.key.clone(), unit, quantity }));
+    }
+    all
 }
 
 impl Reading<'_, '_> {
@@ -52,7 +62,8 @@ impl Reading<'_, '_> {
             0..=2 => self.nodal(&e.value, &what, kind),
             3 | 4 => self.link(&e.value, &what, kind == 3),
             5 => self.history(&e.value, &what),
-            _ => self.element_force(&e.value, &what),
+            6 => self.element_force(&e.value, &what),
+            _ => combination::combination(self, &e.value, &what, Combine::ALL[kind - 7]),
         }
     }
 

@@ -3,7 +3,7 @@
 use super::{factor, text};
 use crate::read::nodal_dimension;
 use crate::units;
-use crate::{Body, Model, NodalTerm, Output, Quantity};
+use crate::{Body, Combine, Model, NodalTerm, Output, Quantity};
 use trilith_element::dimension::{FORCE, LENGTH, MOMENT, NONE};
 use trilith_element::{Coordinates, Dimension};
 
@@ -51,6 +51,20 @@ pub(super) fn output(model: &Model, o: &Output) -> String {
             let name = text(&model.elements[*element].name);
             let by = factor(*by, total / own);
             format!("ElementForce(element: {name}, end: {end}, dof: {}, factor: {by})", dof.name())
+        }
+        Quantity::Combination { how, constant, terms } => {
+            let one = |(i, by): &(usize, f64)| {
+                let other = &model.outputs[*i];
+                let own = units::dimension(&other.unit).unwrap_or(NONE);
+                format!("(output: {}, factor: {})", text(&other.name), factor(*by, total / own))
+            };
+            let terms = terms.iter().map(one).collect::<Vec<_>>().join(", ");
+            let name = Combine::NAMES[*how as usize];
+            let constant = match how {
+                Combine::Sum => format!(", constant: {}", factor(*constant, total)),
+                _ => String::new(),
+            };
+            format!("{name}(terms: [{terms}]{constant})")
         }
     }
 }

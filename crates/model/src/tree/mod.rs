@@ -13,7 +13,7 @@ use std::collections::HashMap;
 
 /// A value of the file.
 #[derive(Clone, Debug)]
-pub(crate) struct Node {
+pub struct Node {
     /// Where it stands, comments and blanks around it left out.
     pub span: Span,
     /// What it is.
@@ -22,7 +22,7 @@ pub(crate) struct Node {
 
 /// What a value is.
 #[derive(Clone, Debug)]
-pub(crate) enum Kind {
+pub enum Kind {
     /// A number; not necessarily finite.
     Number(f64),
     /// `true` or `false`.
@@ -41,9 +41,12 @@ pub(crate) enum Kind {
 
 /// A key with its value.
 #[derive(Clone, Debug)]
-pub(crate) struct Entry {
+pub struct Entry {
+    /// The key.
     pub key: String,
+    /// Where the key stands.
     pub key_span: Span,
+    /// The value.
     pub value: Node,
 }
 
@@ -58,6 +61,7 @@ pub(crate) struct TreeError {
 
 impl Node {
     /// In words, for messages.
+    #[must_use]
     pub fn describe(&self) -> String {
         match &self.kind {
             Kind::Number(x) => format!("the number {x}"),
@@ -72,6 +76,7 @@ impl Node {
     }
 
     /// The name of `Name`, `Name(…)`.
+    #[must_use]
     pub fn name(&self) -> Option<&str> {
         match &self.kind {
             Kind::Name(n) => Some(n),
@@ -81,12 +86,14 @@ impl Node {
     }
 
     /// The span of the name of `Name(…)`, or of the whole value.
+    #[must_use]
     pub fn name_span(&self) -> Span {
         let start = self.span.start;
         self.name().map_or(self.span.clone(), |n| start..(start + n.len()).min(self.span.end))
     }
 
     /// The items of a list without a name; one value that is no list counts as its only item.
+    #[must_use]
     pub fn items(&self) -> Vec<&Self> {
         match &self.kind {
             Kind::List(None, items) => items.iter().collect(),
@@ -96,6 +103,7 @@ impl Node {
     }
 
     /// True for a list without a name.
+    #[must_use]
     pub fn is_list(&self) -> bool {
         match &self.kind {
             Kind::List(None, _) => true,

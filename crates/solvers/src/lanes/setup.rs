@@ -133,6 +133,9 @@ pub fn prepare(
     let Analysis::Dynamic(analysis) = &model.cases[case].analysis else {
         return Ok(Err("a static case"));
     };
+    if model.outputs.iter().any(|o| matches!(o.quantity, Quantity::Combination { .. })) {
+        return Ok(Err("an output put together from others"));
+    }
     if let Some(reason) = unsuited(system, analysis) {
         return Ok(Err(reason));
     }
@@ -408,6 +411,8 @@ fn outputs(
                 at(*flat).map_or(Output::Zero, |at| Output::Force { at, factor: *factor })
             }
             Row::History { at } => Output::History { at: *at },
+            // `prepare` sends such models to the ordinary engine.
+            Row::Combination { .. } => Output::Zero,
             Row::Element { stiffness, damping } => {
                 Output::Element { stiffness: dense(&stiffness.0), damping: dense(&damping.0) }
             }

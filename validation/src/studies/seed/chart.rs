@@ -6,6 +6,7 @@ use crate::{Findings, Study};
 use std::f64::consts::PI;
 use trilith::SolverKind;
 use trilith::model::{AfterEnd, Interpolation, Table, TimeFunction};
+use trilith::theory;
 use trilith_report::{Color, Figure, Stroke};
 
 /// Points along each axis.
@@ -81,23 +82,10 @@ pub(super) fn studies() -> Vec<Study> {
     ]
 }
 
-/// Friction coefficient above which a rocking block of height/width `slender` does not slide.
-fn critical(a: f64, slender: f64) -> f64 {
-    (a * (4.0 + slender * slender) + 3.0 * slender)
-        / (1.0 + 4.0 * slender * slender + 3.0 * a * slender)
-}
-
 /// The mode at acceleration `a` (g) and friction `mu`, as index into [`MODES`].
 pub(super) fn shenton(a: f64, mu: f64, slender: f64) -> usize {
-    if a <= mu.min(1.0 / slender) {
-        0
-    } else if mu <= 1.0 / slender {
-        1
-    } else if mu >= critical(a, slender) {
-        2
-    } else {
-        3
-    }
+    let mode = theory::initial_mode(a, mu, slender);
+    MODES.iter().position(|m| *m == mode).unwrap_or_default()
 }
 
 /// True where the mode changes within the band.
@@ -114,7 +102,10 @@ pub(super) fn borders(figure: Figure, slender: f64) -> Figure {
     figure
         .reference("closed form", [(0.0, 0.0), (corner, corner), (MU, corner)])
         .reference("", [(corner, corner), (corner, A)])
-        .reference("", curve.map(|a| (critical(a, slender), a)).filter(|(mu, _)| *mu <= MU))
+        .reference(
+            "",
+            curve.map(|a| (theory::friction_to_rock(a, slender), a)).filter(|(mu, _)| *mu <= MU),
+        )
 }
 
 /// From zero to `amplitude` along a half cosine, then held: no kink that would set the contacts ringing.

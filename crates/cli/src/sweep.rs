@@ -1,0 +1,117 @@
+//! `trilith sweep`.
+
+use crate::args::SweepArguments;
+use crate::progress::Steps;
+use crate::text::{row, table};
+use crate::{Answer, Failure};
+use std::path::Path;
+use std::sync::Mutex;
+use std::time::Instant;
+use trilith::Registry;
+use trilith_study::{Results, Study, execute};
+
+/// Failed runs that are told one by one.
+const TOLD: usize = 5;
+
+pub(crate) fn sweep(registry: &Registry, args: &SweepArguments) -> Result<Answer, Failure> {
+    let study =
+        Study::read(&args.study, registry, &args.set).map_err(|e| Failure::diagnostics(&e))?;
+    if args.dry_run {
+        return Ok(plan(&study).into());
+    }
+    let stem = args.study.file_stem().unwrap_or("study".as_ref());
+    let folder = args.out.clone().unwrap_or_else(|| Path::new("out").join(stem));
+    let cores = std::thread::available_parallelism().map_or(1, std::num::NonZero::get);
+    let threads = args.threads.map_or(cores, usize::from);
+    let start = Instant::now();
+    let results = {
+        let bar = Mutex::new(Steps::new(&study.title));
+        let show = |p: trilith_study::Progress| {
+            if let Ok(mut bar) = bar.lock() {
+                bar.show(p.done, p.total, p.failed);
+            }
+        };
+        execute(&study, registry, &folder, threads, &show)
+            .map_err(|e| Failure::input(&e.to_string(), Some(e.help())))?
+    };
+    let text = report(&study, &results, start.elapsed().as_secs_f64(), &folder);
+    let failed = results.failed();
+    if failed > 0 {
+        let help = "they are rows of the table with their status and message";
+        let message = format!("{failed} of {} runs failed", results.records.len());
+        eprint!("{}", crate::diagnostics::plain(&message, Some(help)));
+    }
+    Ok(Answer { text, status: i32::from(failed > 0) })
+}
+
+/// What would be run.
+fn plan(study: &Study) -> String {
+    let mut out = String::new();
+    for (name, value) in [("study", study.title.as_str()), ("model", &study.model_title)] {
+        out += &format!("{name:7} {value}\n");
+    }
+    let mut rows = vec![row(["", "parameter", "values"])];
+    if study.plan.rows.len() > 1 {
+        rows.push(row(["points", "", &study.plan.rows.len().to_string()]));
+    }
+    for axis in &study.plan.axes {
+        let values = match axis.values.as_slice() {
+            all if all.len() <= 6 => all.join(", "),
+            all => format!("{}, {} … {} ({})", all[0], all[1], all[all.len() - 1], all.len()),
+        };
+        rows.push(row(["axis", &axis.name, &values]));
+    }
+    if let Some(samples) = &study.plan.samples {
+        rows.push(row(["samples", &samples.names.join(", "), &samples.values.len().to_string()]));
+    }
+    if let Some(ensemble) = &study.plan.ensemble {
+        let members = format!("{} members", ensemble.factors.len());
+        rows.push(row(["ensemble", &ensemble.names.join(", "), &members]));
+    }
+    out += &format!("\n{}", table(&rows, &[0, 1, 2]));
+    let columns: Vec<&str> = study.columns.iter().map(|c| c.name.as_str()).collect();
+    out += &format!("\ncolumns: {}\n", columns.join(", "));
+    if let Some(stop) = &study.stop {
+        out += &format!("a series ends where: {}\n", stop.text());
+    }
+    out + &format!("runs: {}\n", study.identity.runs)
+}
+
+fn report(study: &Study, results: &Results, seconds: f64, folder: &Path) -> String {
+    let mut out = format!("study   {}\nmodel   {}\n", study.title, study.model_title);
+    let mut counts: Vec<(&str, usize)> = Vec::new();
+    for r in &results.records {
+        match counts.iter_mut().find(|c| c.0 == r.status) {
+            Some(c) => c.1 += 1,
+            None => counts.push((&r.status, 1)),
+        }
+    }
+    let mut rows = vec![row(["status", "runs"])];
+    rows.extend(counts.iter().map(|(status, n)| row([status, &n.to_string()])));
+    if results.left_out > 0 {
+        rows.push(row(["left out beyond the limit", &results.left_out.to_string()]));
+    }
+    out += &format!("\n{}", table(&rows, &[0]));
+    for r in results.records.iter().filter(|r| !r.good).take(TOLD) {
+        out += &format!("  run {}: {}: {}\n", r.run + 1, r.status, r.message);
+    }
+    let new = results.records.len().saturating_sub(results.resumed);
+    out += &format!("\nnew runs: {new} in {} s", crate::text::significant(seconds, 3));
+    if new > 0 {
+        out += &format!(", {} a second", crate::text::significant(new as f64 / seconds, 3));
+    }
+    if results.resumed > 0 {
+        out += &format!("; {} were on disk", results.resumed);
+    }
+    if results.torn > 0 {
+        out += &format!("; {} torn line(s) of the journal run again", results.torn);
+    }
+    out += "\n";
+    for file in &results.files {
+        out += &format!("file: {}\n", file.display());
+    }
+    if study.histories.is_some() {
+        out += &format!("histories: {}\n", folder.join("runs").display());
+    }
+    out
+}

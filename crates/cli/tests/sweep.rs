@@ -1,0 +1,173 @@
+//! Studies from outside: killed at any moment, refused, on a full disk.
+
+use std::collections::HashSet;
+use std::path::Path;
+use std::process::{Command, Stdio};
+use std::time::{Duration, Instant};
+
+/// A mass that slides on friction under one sine.
+const MODEL: &str = r#"(
+    title: "Sliding mass",
+    plane: XZ, gravity: "9.81 m/s^2",
+    parameters: { "mu": 0.3, "a": "1 m/s^2" },
+    nodes: { "cg": (0, 0, 0) },
+    elements: {
+        "mass": Mass(node: "cg", mass: "1 t", inertia: (0, 1, 0)),
+        "upright": Spring(node: "cg", r3: "1 MN*m"),
+        "foot": NLink(node: "cg", kn: "10 MN/m", ks: "10 MN/m", mu: "mu", damping: "10 kN*s/m"),
+    },
+    functions: { "pulse": Sine(amplitude: "a", frequency: "2 Hz", cycles: 1) },
+    cases: {
+        "gravity": Static(loads: [Gravity]),
+        "shake": Dynamic(after: "gravity", duration: "0.6 s", dt: "10 ms",
+            base: [(direction: X, function: "pulse")], energy_limit: 0.5),
+    },
+    outputs: { "slide": Displacement(node: "cg", dof: Ux) },
+)"#;
+
+fn folder(side: usize) -> tempfile::TempDir {
+    let folder = tempfile::tempdir().unwrap();
+    std::fs::write(folder.path().join("mass.ron"), MODEL).unwrap();
+    let study = format!(
+        r#"(
+    model: "mass.ron",
+    axes: {{
+        "a": Range(from: "1 m/s^2", to: "8 m/s^2", count: {side}),
+        "mu": Range(from: 0.05, to: 0.95, count: {side}),
+    }},
+    columns: {{ "slide": Peak("slide"), "heat": Energy("link_hysteretic") }},
+)"#
+    );
+    std::fs::write(folder.path().join("study.ron"), study).unwrap();
+    folder
+}
+
+fn command(folder: &Path, args: &[&str]) -> Command {
+    let mut command = Command::new(env!("CARGO_BIN_EXE_trilith"));
+    command.current_dir(folder).args(["sweep", "study.ron"]).args(args);
+    command
+}
+
+/// Exit status, stdout, stderr.
+fn sweep(folder: &Path, args: &[&str]) -> (i32, String, String) {
+    let output = command(folder, args).output().unwrap();
+    let text = |b: Vec<u8>| String::from_utf8(b).unwrap();
+    (output.status.code().unwrap(), text(output.stdout), text(output.stderr))
+}
+
+fn lines(journal: &Path) -> usize {
+    std::fs::read(journal).map_or(0, |b| b.iter().filter(|b| **b == b'\n').count())
+}
+
+/// Kills a study again and again, each time after some further runs, and lets it end.
+fn killed_and_resumed(side: usize, kills: usize) {
+    let folder = folder(side);
+    let here = folder.path();
+    let (status, _, err) = sweep(here, &["--out", "whole", "--threads", "2"]);
+    assert_eq!(status, 0, "{err}");
+    let journal = here.join("broken/runs.journal");
+    let all = side * side;
+    let mut seed = 12_345u64;
+    for kill in 0..kills {
+        seed = seed.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+        let before = lines(&journal);
+        // A kill at any moment: after a random number of runs, then after a random part of a millisecond.
+        let more = (seed >> 40) as usize % (all / (kills + 1)).max(1);
+        let mut child = command(here, &["--out", "broken", "--threads", "2"])
+            .stdout(Stdio::null())
+            .stderr(Stdio::null())
+            .spawn()
+            .unwrap();
+        let start = Instant::now();
+        while lines(&journal) < before + more && start.elapsed() < Duration::from_secs(120) {
+            std::thread::sleep(Duration::from_micros(300));
+        }
+        std::thread::sleep(Duration::from_micros((seed >> 20) % 2000));
+        child.kill().unwrap();
+        child.wait().unwrap();
+        eprintln!("kill {kill}: {} lines", lines(&journal));
+    }
+    let before = lines(&journal);
+    assert!(before > 1 && before < all + 1, "killed too early or too late: {before}");
+    let (status, out, err) = sweep(here, &["--out", "broken", "--threads", "1"]);
+    assert_eq!(status, 0, "{err}");
+    assert!(out.contains("were on disk"), "{out}");
+    for name in ["table.parquet", "table.csv", "study.html"] {
+        let read = |folder: &str| std::fs::read(here.join(folder).join(name)).unwrap();
+        assert!(read("whole") == read("broken"), "{name} differs");
+    }
+    // No run is in the journal twice: only runs in flight were made again.
+    let text = std::fs::read_to_string(&journal).unwrap();
+    let run = |l: &str| l.split("\"run\":").nth(1).unwrap().split(',').next().unwrap().to_owned();
+    let runs: Vec<String> = text.lines().skip(1).map(run).collect();
+    assert_eq!(runs.len(), all);
+    assert_eq!(runs.iter().collect::<HashSet<_>>().len(), all);
+}
+
+#[test]
+fn a_study_killed_at_random_moments_ends_with_the_same_table() {
+    killed_and_resumed(20, 4);
+}
+
+#[test]
+#[ignore = "ten thousand runs, twice"]
+fn ten_thousand_runs_killed_at_random_moments_end_with_the_same_table() {
+    killed_and_resumed(100, 6);
+}
+
+#[test]
+fn a_study_prints_what_it_did_and_a_dry_run_does_nothing() {
+    let folder = folder(3);
+    let here = folder.path();
+    let (status, out, err) = sweep(here, &["--dry-run"]);
+    assert_eq!(status, 0, "{err}");
+    for part in ["Sliding mass", "axis", "mu", "runs: 9"] {
+        assert!(out.contains(part), "{part} in\n{out}");
+    }
+    assert!(!here.join("out").exists());
+    let (status, out, err) = sweep(here, &["--set", "mu=0.1"]);
+    assert_eq!(status, 0, "{err}");
+    assert!(out.contains("converged     3") || out.contains("converged  3"), "{out}");
+    assert!(here.join("out/study/table.parquet").is_file());
+    // The same folder with another value of the parameter is another study.
+    let (status, _, err) = sweep(here, &["--set", "mu=0.2"]);
+    assert!(status == 2 && err.contains("runs of another study") && err.contains("--out"), "{err}");
+}
+
+#[test]
+fn wrong_studies_are_shown_with_their_lines() {
+    let folder = folder(3);
+    let here = folder.path();
+    let text = std::fs::read_to_string(here.join("study.ron")).unwrap();
+    std::fs::write(here.join("study.ron"), text.replace("\"mu\":", "\"mue\":")).unwrap();
+    let (status, out, err) = sweep(here, &[]);
+    assert_eq!((status, out.as_str()), (2, ""));
+    for part in ["study.ron:5:", "no parameter `mue`", "did you mean `mu`?", "^"] {
+        assert!(err.contains(part), "{part} in\n{err}");
+    }
+    let (status, _, err) = sweep(here, &["--set", "nu=1"]);
+    assert!(status == 2 && err.contains("--set nu=1"), "{err}");
+}
+
+/// A limit on the size of files stands for a disk without room: the last line is cut in two.
+#[cfg(target_os = "linux")]
+#[test]
+fn a_full_disk_is_told_and_the_study_goes_on_when_there_is_room() {
+    let folder = folder(10);
+    let here = folder.path();
+    let script = "ulimit -f 8; trap '' XFSZ; exec \"$0\" sweep study.ron --out full";
+    let limited = ["-c", script, env!("CARGO_BIN_EXE_trilith")];
+    let output = Command::new("bash").current_dir(here).args(limited).output().unwrap();
+    let err = String::from_utf8(output.stderr).unwrap();
+    assert_eq!(output.status.code(), Some(2), "{err}");
+    assert!(err.contains("runs.journal cannot be written"), "{err}");
+    let journal = std::fs::read(here.join("full/runs.journal")).unwrap();
+    let kept = lines(&here.join("full/runs.journal"));
+    assert!(kept > 10 && kept < 101 && journal.ends_with(b"\n"), "{kept}");
+    let (status, out, err) = sweep(here, &["--out", "full"]);
+    assert_eq!(status, 0, "{err}");
+    assert!(out.contains(&format!("{} were on disk", kept - 1)), "{out}");
+    sweep(here, &["--out", "whole"]);
+    let table = |folder: &str| std::fs::read(here.join(folder).join("table.parquet")).unwrap();
+    assert!(table("full") == table("whole"));
+}

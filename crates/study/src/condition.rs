@@ -1,0 +1,75 @@
+//! Conditions on a run: what stops a series, what asks for histories, what is counted.
+
+use crate::{Cell, Column, Record};
+
+/// A condition on a finished run.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Condition {
+    /// Every run.
+    All,
+    /// A body has fallen over.
+    Overturned,
+    /// The run did not come to a trusted end.
+    Failed,
+    /// A column is above a value.
+    Above(String, f64),
+    /// A column is below a value.
+    Below(String, f64),
+    /// The response mode over the whole run.
+    Mode(String),
+    /// Any of these.
+    Any(Vec<Self>),
+}
+
+impl Condition {
+    /// True where it holds. A run that has fallen over is above every value: what it would have reached has
+    /// no end.
+    #[must_use]
+    pub fn holds(&self, columns: &[Column], record: &Record) -> bool {
+        let value = |name: &str| {
+            let column = columns.iter().position(|c| c.name == name);
+            column.and_then(|i| record.values.get(i).copied().flatten())
+        };
+        match self {
+            Self::All => true,
+            Self::Overturned => record.overturned,
+            Self::Failed => !record.good,
+            Self::Above(name, limit) => {
+                record.overturned || value(name).is_some_and(|x| x > *limit)
+            }
+            Self::Below(name, limit) => {
+                !record.overturned && value(name).is_some_and(|x| x < *limit)
+            }
+            Self::Mode(mode) => record.mode.as_deref() == Some(mode),
+            Self::Any(all) => all.iter().any(|c| c.holds(columns, record)),
+        }
+    }
+
+    /// In words.
+    #[must_use]
+    pub fn text(&self) -> String {
+        match self {
+            Self::All => "all runs".into(),
+            Self::Overturned => "overturned".into(),
+            Self::Failed => "failed".into(),
+            Self::Above(name, limit) => format!("{name} > {limit}"),
+            Self::Below(name, limit) => format!("{name} < {limit}"),
+            Self::Mode(mode) => format!("mode {mode}"),
+            Self::Any(all) => all.iter().map(Self::text).collect::<Vec<_>>().join(" or "),
+        }
+    }
+}
+
+impl Record {
+    /// A number of the run: a column, or a varied parameter.
+    #[must_use]
+    pub fn number(&self, varied: &[String], columns: &[Column], name: &str) -> Option<f64> {
+        if let Some(i) = columns.iter().position(|c| c.name == name) {
+            return self.values.get(i).copied().flatten();
+        }
+        match self.parameters.get(varied.iter().position(|n| n == name)?)? {
+            Cell::Number(x) => Some(*x),
+            _ => None,
+        }
+    }
+}

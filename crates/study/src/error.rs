@@ -1,0 +1,98 @@
+//! What stops a study.
+
+use serde::{Deserialize, Serialize};
+use std::path::{Path, PathBuf};
+
+/// What stops a study. Runs that are finished stay on disk.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum StudyError {
+    /// A file cannot be written or read.
+    #[error("{} cannot be written: {cause}", .path.display())]
+    File {
+        /// The file.
+        path: PathBuf,
+        /// Why.
+        cause: std::io::Error,
+    },
+    /// Another process writes the same folder.
+    #[error("another process is running a study in {}", .folder.display())]
+    Locked {
+        /// The folder.
+        folder: PathBuf,
+    },
+    /// The folder has runs of something else.
+    #[error("{} has runs of another study: {} changed since", .folder.display(), .changed.join(", "))]
+    OtherStudy {
+        /// The folder.
+        folder: PathBuf,
+        /// What is not the same.
+        changed: Vec<&'static str>,
+    },
+    /// The file in the place of the journal is none.
+    #[error("{} is no journal of a study", .path.display())]
+    NoJournal {
+        /// The file.
+        path: PathBuf,
+    },
+}
+
+impl StudyError {
+    pub(crate) fn at(path: &Path) -> impl Fn(std::io::Error) -> Self {
+        let path = path.to_owned();
+        move |cause| Self::File { path: path.clone(), cause }
+    }
+
+    /// What would be right.
+    #[must_use]
+    pub fn help(&self) -> &'static str {
+        match self {
+            Self::File { cause, .. } if cause.kind() == std::io::ErrorKind::StorageFull => {
+                "make room and start the same study again: it goes on where it was"
+            }
+            Self::File { .. } => "every finished run is kept; the same study started again goes on",
+            Self::Locked { .. } => "wait for it, or give another folder with `--out`",
+            Self::OtherStudy { .. } | Self::NoJournal { .. } => {
+                "give another folder with `--out`, or remove this one"
+            }
+        }
+    }
+}
+
+/// What a study is, so that the runs of one are not taken for those of another.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Identity {
+    /// Version of the program.
+    pub version: String,
+    /// SHA-256 of what is run and kept.
+    pub study: String,
+    /// SHA-256 of the model file.
+    pub model: String,
+    /// SHA-256 of the time functions of the model, records included.
+    pub motions: String,
+    /// Number of runs.
+    pub runs: usize,
+}
+
+impl Identity {
+    /// Refuses a journal of something else.
+    pub(crate) fn same(&self, found: &Self, journal: &Path) -> Result<(), StudyError> {
+        let mut changed = Vec::new();
+        let parts = [
+            (self.model != found.model, "the model"),
+            (self.study != found.study || self.runs != found.runs, "the runs of the study"),
+            (self.motions != found.motions, "a ground motion"),
+            (self.version != found.version, "the version of the program"),
+        ];
+        changed.extend(parts.into_iter().filter(|(differs, _)| *differs).map(|(_, what)| what));
+        // A change of the model changes its time functions, too, as a rule.
+        if changed.first() == Some(&"the model") {
+            changed.retain(|what| *what != "a ground motion");
+        }
+        if changed.is_empty() {
+            return Ok(());
+        }
+        let folder = journal.parent().unwrap_or(journal).to_owned();
+        Err(StudyError::OtherStudy { folder, changed })
+    }
+}

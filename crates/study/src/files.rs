@@ -1,0 +1,28 @@
+//! The files of a finished study.
+
+use crate::table::replaced;
+use crate::{Record, Study, StudyError, Table};
+use std::io::Write;
+use std::path::{Path, PathBuf};
+
+pub(crate) fn write(
+    study: &Study,
+    records: &[Record],
+    left_out: usize,
+    folder: &Path,
+) -> Result<Vec<PathBuf>, StudyError> {
+    let mut written = Vec::new();
+    let mut path = |name: &str| {
+        written.push(folder.join(name));
+        folder.join(name)
+    };
+    let table = Table::of(study, records);
+    table.write_parquet(&path("table.parquet"))?;
+    table.write_csv(&path("table.csv"))?;
+    if study.has_groups() {
+        study.statistics(records).write_csv(&path("statistics.csv"))?;
+    }
+    let html = crate::page::page(study, records, left_out);
+    replaced(&path("study.html"), |file| file.write_all(html.as_bytes()))?;
+    Ok(written)
+}

@@ -1,0 +1,45 @@
+//! Studies: one model with many values of its parameters, run on all cores into one table.
+//!
+//! A study is a RON file that names a model and says which parameters take which values: grids, lists, random
+//! draws, records × scales, ensembles about every point. [`Study::read`] checks it, [`execute()`] runs it. Every
+//! finished run is on disk at once; a study that was killed goes on where it was and ends with the same table
+//! to the bit, whatever the number of threads.
+//!
+//! | file | what |
+//! |---|---|
+//! | `table.parquet`, `table.csv` | a row for each run |
+//! | `statistics.csv` | medians, dispersions and probabilities of each point with several runs |
+//! | `study.html` | figures |
+//! | `runs.journal` | finished runs while the study goes on |
+//! | `runs/NNNNNN/` | histories of the runs that the study asks for |
+
+mod column;
+mod condition;
+mod distribution;
+mod draw;
+mod error;
+mod execute;
+mod figure;
+mod files;
+mod fragility;
+mod journal;
+mod number;
+mod page;
+mod plan;
+mod read;
+mod statistics;
+mod study;
+mod table;
+
+pub use column::{Column, Measure};
+pub use condition::Condition;
+pub use distribution::{Distribution, phi, phi_inverse};
+pub use error::{Identity, StudyError};
+pub use execute::{Progress, Results, execute};
+pub use figure::Drawing;
+pub use fragility::{Band, Capacity, Fragility, FragilityError};
+pub use journal::{Cell, Record};
+pub use plan::{Axis, Ensemble, Place, Plan, Samples};
+pub use statistics::{Spread, wilson};
+pub use study::Study;
+pub use table::{Data, Table, Values};

@@ -1,0 +1,58 @@
+//! What tells the runs of a study from those of another.
+
+use crate::{Column, Condition, Identity, Plan};
+use sha2::{Digest, Sha256};
+use trilith::model::ModelText;
+use trilith::{Registry, SolverKind};
+
+/// Most combinations of texts whose time functions are looked at one by one.
+const MOST: usize = 10_000;
+
+fn hexadecimal(digest: impl AsRef<[u8]>) -> String {
+    digest.as_ref().iter().map(|b| format!("{b:02x}")).collect()
+}
+
+/// Figures, events and statistics are left out: they can change without a run.
+pub(super) fn identity(
+    parsed: &ModelText,
+    plan: &Plan,
+    registry: &Registry,
+    first: &[(String, String)],
+    how: (usize, Option<SolverKind>),
+    columns: &[Column],
+    stop: &Option<Option<Condition>>,
+) -> Option<Identity> {
+    let study = hexadecimal(Sha256::digest(format!("{plan:?}\n{how:?}\n{columns:?}\n{stop:?}")));
+    // Records are named by texts: every text of every axis and point, one after the other.
+    let mut motions = Sha256::new();
+    let model = parsed.read(registry, first).ok()?;
+    motions.update(format!("{:?}", model.functions));
+    let is_text = |name: &str| {
+        let text = |p: &trilith::model::Parameter| {
+            p.name == name && matches!(p.value, trilith::model::ParameterValue::Text(_))
+        };
+        model.parameters.iter().any(text)
+    };
+    let axes = plan.axes.iter().flat_map(|a| a.values.iter().map(|v| (&a.name, v)));
+    let points = plan.rows.iter().flatten().map(|(n, v)| (n, v));
+    let mut seen: Vec<(&String, &String)> = Vec::new();
+    for (name, value) in axes.chain(points).filter(|(name, _)| is_text(name)) {
+        if seen.contains(&(name, value)) || seen.len() > MOST {
+            continue;
+        }
+        seen.push((name, value));
+        let mut set = first.to_vec();
+        set.retain(|(n, _)| n != name);
+        set.push((name.clone(), value.clone()));
+        if let Ok(model) = parsed.read(registry, &set) {
+            motions.update(format!("{:?}", model.functions));
+        }
+    }
+    Some(Identity {
+        version: env!("CARGO_PKG_VERSION").to_owned(),
+        study,
+        model: String::new(),
+        motions: hexadecimal(motions.finalize()),
+        runs: 0,
+    })
+}

@@ -1,0 +1,258 @@
+//! Reading a study file.
+
+mod axes;
+mod columns;
+mod figures;
+mod identity;
+mod names;
+mod random;
+mod setting;
+
+use crate::{Condition, Plan, Study};
+use names::Names;
+use setting::Settings;
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+use trilith::model::file::{Context, Kind, Node, parse};
+use trilith::model::{Analysis, Diagnostic, Model, ModelText, ParameterValue, Source};
+use trilith::{Registry, SolverKind};
+
+const FIELDS: [&str; 17] = [
+    "title",
+    "model",
+    "case",
+    "solver",
+    "set",
+    "points",
+    "axes",
+    "samples",
+    "ensemble",
+    "seed",
+    "stop",
+    "columns",
+    "histories",
+    "events",
+    "over",
+    "sensitive_above",
+    "figures",
+];
+
+/// Most runs of a study.
+const MOST: usize = 100_000_000;
+
+impl Study {
+    /// Reads a study file and its model. `overrides` are names and values of parameters that replace those of
+    /// the study: a value that all runs have, or the only value of an axis.
+    ///
+    /// # Errors
+    /// All errors of the study at once, then those of its model.
+    pub fn read(
+        path: impl AsRef<Path>,
+        registry: &Registry,
+        overrides: &[(String, String)],
+    ) -> Result<Self, Vec<Diagnostic>> {
+        let path = path.as_ref();
+        match std::fs::read_to_string(path) {
+            Ok(text) => Self::read_text(&text, path, registry, overrides),
+            Err(error) => {
+                let source = Arc::new(Source { path: path.to_owned(), ..Source::default() });
+                let message = format!("the study file cannot be read: {error}");
+                Err(vec![Diagnostic::new("E0100", message, 0..0, &source)])
+            }
+        }
+    }
+
+    /// Reads a study from a text; its model is looked for in the folder of `path`.
+    ///
+    /// # Errors
+    /// As [`read`](Self::read).
+    pub fn read_text(
+        text: &str,
+        path: impl AsRef<Path>,
+        registry: &Registry,
+        overrides: &[(String, String)],
+    ) -> Result<Self, Vec<Diagnostic>> {
+        let path = path.as_ref();
+        let (source, root) = parse(text, path)?;
+        let folder = path.parent().unwrap_or(Path::new("")).to_owned();
+        let c = Context::new(source, folder.clone(), registry);
+        let mut foreign = Vec::new();
+        let study = whole(&c, &root, path, &folder, registry, overrides, &mut foreign);
+        let mut errors = c.into_errors();
+        errors.append(&mut foreign);
+        match study {
+            Some(study) if errors.is_empty() => Ok(study),
+            _ if errors.is_empty() => {
+                let (source, root) = parse(text, path)?;
+                Err(vec![Diagnostic::new("E0105", "this is no study", root.span, &source)])
+            }
+            _ => Err(errors),
+        }
+    }
+}
+
+fn whole(
+    c: &Context<'_>,
+    root: &Node,
+    path: &Path,
+    folder: &Path,
+    registry: &Registry,
+    overrides: &[(String, String)],
+    foreign: &mut Vec<Diagnostic>,
+) -> Option<Study> {
+    let top = c.fields(root, "the study", &FIELDS)?;
+    let title = top.get("title").map_or(Some(String::new()), |n| c.text(n, "title"));
+    let seed = top.get("seed").map_or(Some(1), |n| c.count(n, "seed", 0));
+    let solver = top.get("solver").map_or(Some(None), |n| {
+        let names = SolverKind::ALL.map(SolverKind::name);
+        c.choice(n, "solver", &names).map(|i| Some(SolverKind::ALL[i]))
+    });
+
+    let mut settings = Settings::default();
+    let mut plan = Plan::default();
+    plan.fixed = axes::fixed(c, top.get("set"), &mut settings);
+    plan.rows = axes::points(c, top.get("points"), &mut settings);
+    plan.axes = axes::axes(c, top.get("axes"), &mut settings);
+    let seed = seed.unwrap_or(1) as u64;
+    plan.samples = top.get("samples").and_then(|n| random::samples(c, n, seed, &mut settings));
+    plan.ensemble = top.get("ensemble").and_then(|n| random::ensemble(c, n, seed, &mut settings));
+    settings.check_twice(c);
+    for (name, value) in overrides {
+        if let Some(axis) = plan.axes.iter_mut().find(|a| a.name == *name) {
+            axis.values = vec![value.clone()];
+        } else {
+            plan.fixed.retain(|(n, _)| n != name);
+            plan.fixed.push((name.clone(), value.clone()));
+        }
+    }
+
+    // Without a model nothing else can be checked.
+    let model_node = top.required(c, "model");
+    let model_path: PathBuf = folder.join(c.text(model_node?, "model")?);
+    let text = match std::fs::read_to_string(&model_path) {
+        Ok(text) => text,
+        Err(error) => {
+            let message = format!("the model {} cannot be read: {error}", model_path.display());
+            let help = "the path counts from the folder of the study";
+            c.report(c.diagnostic("E0100", message, model_node?.span.clone()).help(help));
+            return None;
+        }
+    };
+    let parsed = match ModelText::new(&text, &model_path) {
+        Ok(parsed) => parsed,
+        Err(errors) => {
+            foreign.extend(errors);
+            return None;
+        }
+    };
+    let model = first_model(c, &parsed, &plan, registry, &settings, foreign)?;
+    settings.check_all(c, &parsed, &plan, registry, foreign);
+    settings.check_perturbed(c, &model);
+
+    let case = match top.get("case") {
+        Some(node) => {
+            let names: Vec<&str> = model.cases.iter().map(|case| case.name.as_str()).collect();
+            c.choice(node, "case", &names)
+        }
+        None => model.cases.len().checked_sub(1),
+    };
+    if let Some(Analysis::Static(_)) = case.map(|i| &model.cases[i].analysis) {
+        let at = top.get("case").or(model_node).map_or(0..0, |n| n.span.clone());
+        let message = "the case of the study is static";
+        c.report(c.diagnostic("E0112", message, at).help("name a dynamic case with `case`"));
+    }
+    let columns = columns::columns(c, top.get("columns"), &model);
+    let varied: Vec<String> = plan.varied().into_iter().map(str::to_owned).collect();
+    let kind = |name: &String| match model.parameters.iter().find(|p| p.name == *name)?.value {
+        ParameterValue::Number(_, dimension) => Some(dimension),
+        ParameterValue::Text(_) => None,
+    };
+    let kinds: Vec<_> = varied.iter().map(kind).collect();
+    let names = Names::new(&varied, &kinds, &columns);
+    let stop = top.get("stop").map(|n| stop(c, n, &mut plan, &names));
+    let histories = top.get("histories").map(|n| columns::condition(c, n, &names));
+    let events = top.get("events").map_or(Some(Vec::new()), |n| columns::events(c, n, &names));
+    let over = top.get("over").map_or(Some(Vec::new()), |n| over(c, n, &plan));
+    let sensitive = top.get("sensitive_above").map_or(Some(10.0), |n| {
+        let dimension = trilith::element::dimension::NONE;
+        c.ranged(n, "sensitive_above", dimension, trilith::element::Range::Positive)
+    });
+    let figures =
+        top.get("figures").map_or(Some(Vec::new()), |n| figures::figures(c, n, &names, &model));
+    let runs = plan.runs().filter(|runs| *runs <= MOST);
+    if runs.is_none() {
+        let message = format!("the study has more than {MOST} runs");
+        c.report(c.diagnostic("E0112", message, root.span.start..root.span.start + 1));
+    }
+    let how = (case?, solver?);
+    let identity =
+        identity::identity(&parsed, &plan, registry, &settings.first(&plan), how, &columns, &stop)?;
+    Some(Study {
+        title: title?,
+        path: path.to_owned(),
+        model_path,
+        model_title: model.title,
+        columns,
+        stop: stop.flatten(),
+        histories: histories.flatten(),
+        events: events?,
+        over: over?,
+        sensitive_above: sensitive?,
+        figures: figures?,
+        identity: crate::Identity { runs: runs?, model: model.source.sha256, ..identity },
+        plan,
+        varied,
+        text: parsed,
+        case: case?,
+        solver: solver?,
+        kinds,
+    })
+}
+
+/// The model with the first value of everything.
+fn first_model(
+    c: &Context<'_>,
+    parsed: &ModelText,
+    plan: &Plan,
+    registry: &Registry,
+    settings: &Settings,
+    foreign: &mut Vec<Diagnostic>,
+) -> Option<Model> {
+    if plan.axes.iter().any(|a| a.values.is_empty()) {
+        return None;
+    }
+    match parsed.read(registry, &settings.first(plan)) {
+        Ok(model) => Some(model),
+        Err(errors) => {
+            settings.tell(c, errors, None, foreign);
+            None
+        }
+    }
+}
+
+/// `stop: (along: "scale", when: Overturned)`.
+fn stop(c: &Context<'_>, node: &Node, plan: &mut Plan, names: &Names<'_>) -> Option<Condition> {
+    let fields = c.fields(node, "`stop`", &["along", "when"])?;
+    let along = fields.required(c, "along").and_then(|n| axis(c, n, plan));
+    let when = fields.required(c, "when").and_then(|n| columns::condition(c, n, names));
+    plan.chain = Some(along?);
+    when
+}
+
+fn over(c: &Context<'_>, node: &Node, plan: &Plan) -> Option<Vec<usize>> {
+    let all: Vec<_> = node.items().into_iter().map(|n| axis(c, n, plan)).collect();
+    all.into_iter().collect()
+}
+
+/// The axis that a value names.
+fn axis(c: &Context<'_>, node: &Node, plan: &Plan) -> Option<usize> {
+    let Kind::Text(name) = &node.kind else {
+        return c.wrong(node, "the name of an axis in quotes");
+    };
+    let names: Vec<&str> = plan.axes.iter().map(|a| a.name.as_str()).collect();
+    let found = names.iter().position(|n| n == name);
+    if found.is_none() {
+        names::unknown(c, node, "axis", "axes", name, &names);
+    }
+    found
+}

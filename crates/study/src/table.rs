@@ -1,0 +1,288 @@
+//! The table of a study: a row for each run, as Parquet and as CSV.
+
+use crate::{Cell, Record, Study, StudyError};
+use parquet::basic::{Compression, LogicalType, Repetition, Type as Physical};
+use parquet::column::writer::ColumnWriter;
+use parquet::data_type::ByteArray;
+use parquet::errors::ParquetError;
+use parquet::file::metadata::KeyValue;
+use parquet::file::properties::WriterProperties;
+use parquet::file::writer::SerializedFileWriter;
+use parquet::schema::types::Type;
+use std::io::Write;
+use std::path::Path;
+use std::sync::Arc;
+
+/// A table.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Table {
+    /// What it shows.
+    pub title: String,
+    /// Columns of one length.
+    pub columns: Vec<Data>,
+}
+
+/// A column of a table.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Data {
+    /// Name.
+    pub name: String,
+    /// SI unit; empty for none.
+    pub unit: String,
+    /// Values.
+    pub values: Values,
+}
+
+/// Values of a column; none where there is no value.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Values {
+    /// Whole numbers.
+    Counts(Vec<Option<i64>>),
+    /// Numbers.
+    Numbers(Vec<Option<f64>>),
+    /// Texts.
+    Texts(Vec<Option<String>>),
+    /// True or false.
+    Flags(Vec<Option<bool>>),
+}
+
+impl Values {
+    /// Number of rows.
+    #[must_use]
+    pub fn len(&self) -> usize {
+        match self {
+            Self::Counts(v) => v.len(),
+            Self::Numbers(v) => v.len(),
+            Self::Texts(v) => v.len(),
+            Self::Flags(v) => v.len(),
+        }
+    }
+
+    /// True without rows.
+    #[must_use]
+    pub fn is_empty(&self) -> bool {
+        self.len() == 0
+    }
+
+    fn text(&self, row: usize) -> String {
+        match self {
+            Self::Counts(v) => v[row].map_or_else(String::new, |x| x.to_string()),
+            Self::Numbers(v) => v[row].map_or_else(String::new, |x| format!("{x:?}")),
+            Self::Texts(v) => v[row].clone().unwrap_or_default(),
+            Self::Flags(v) => v[row].map_or_else(String::new, |x| x.to_string()),
+        }
+    }
+}
+
+impl Table {
+    /// The runs of a study: number, place, varied parameters, columns, status.
+    pub(crate) fn of(study: &Study, records: &[Record]) -> Self {
+        let mut columns = Vec::new();
+        let mut add = |name: &str, unit: &str, values| {
+            columns.push(Data { name: name.to_owned(), unit: unit.to_owned(), values });
+        };
+        let counts = |of: &dyn Fn(&Record) -> usize| {
+            Values::Counts(records.iter().map(|r| i64::try_from(of(r)).ok()).collect())
+        };
+        add("run", "", counts(&|r| r.run + 1));
+        if study.plan.samples.is_some() {
+            add("sample", "", counts(&|r| study.plan.place(r.run).sample + 1));
+        }
+        if study.plan.ensemble.is_some() {
+            add("member", "", counts(&|r| study.plan.place(r.run).member));
+        }
+        for (i, name) in study.varied.iter().enumerate() {
+            let cell = |r: &Record| r.parameters.get(i).cloned();
+            let values = if study.is_text(name) {
+                let text = |c| match c {
+                    Some(Cell::Text(t)) => Some(t),
+                    _ => None,
+                };
+                Values::Texts(records.iter().map(|r| text(cell(r))).collect())
+            } else {
+                let number = |c| match c {
+                    Some(Cell::Number(x)) => Some(x),
+                    _ => None,
+                };
+                Values::Numbers(records.iter().map(|r| number(cell(r))).collect())
+            };
+            add(name, &study.unit(name), values);
+        }
+        for (i, column) in study.columns.iter().enumerate() {
+            let value = |r: &Record| r.values.get(i).copied().flatten();
+            add(&column.name, &column.unit, Values::Numbers(records.iter().map(value).collect()));
+        }
+        let texts = |of: &dyn Fn(&Record) -> Option<String>| {
+            Values::Texts(records.iter().map(of).collect())
+        };
+        add("initial_mode", "", texts(&|r| r.initial_mode.clone()));
+        add("mode", "", texts(&|r| r.mode.clone()));
+        let fallen = |r: &Record| r.good.then_some(r.overturned);
+        add("overturned", "", Values::Flags(records.iter().map(fallen).collect()));
+        add("status", "", texts(&|r| Some(r.status.clone())));
+        let told = |r: &Record| (!r.message.is_empty()).then(|| r.message.clone());
+        add("message", "", texts(&told));
+        Self { title: study.title.clone(), columns }
+    }
+
+    fn rows(&self) -> usize {
+        self.columns.first().map_or(0, |c| c.values.len())
+    }
+
+    /// Writes it as CSV, units behind the names in brackets. Numbers read back to the same bits.
+    ///
+    /// # Errors
+    /// [`StudyError::File`].
+    pub fn write_csv(&self, path: &Path) -> Result<(), StudyError> {
+        replaced(path, |file| {
+            let mut csv = csv::Writer::from_writer(file);
+            csv.write_record(self.columns.iter().map(|c| match c.unit.as_str() {
+                "" | "1" => c.name.clone(),
+                unit => format!("{} [{unit}]", c.name),
+            }))?;
+            for row in 0..self.rows() {
+                csv.write_record(self.columns.iter().map(|c| c.values.text(row)))?;
+            }
+            csv.flush()
+        })
+    }
+
+    /// Writes it as Parquet; the metadata `units` has the unit of every column as JSON.
+    ///
+    /// # Errors
+    /// [`StudyError::File`].
+    pub fn write_parquet(&self, path: &Path) -> Result<(), StudyError> {
+        replaced(path, |file| self.parquet(file).map_err(std::io::Error::other))
+    }
+
+    fn parquet(&self, file: &mut (impl Write + Send)) -> Result<(), ParquetError> {
+        let field = |c: &Data| {
+            let physical = match c.values {
+                Values::Counts(_) => Physical::INT64,
+                Values::Numbers(_) => Physical::DOUBLE,
+                Values::Texts(_) => Physical::BYTE_ARRAY,
+                Values::Flags(_) => Physical::BOOLEAN,
+            };
+            let text = matches!(c.values, Values::Texts(_)).then_some(LogicalType::String);
+            let made = Type::primitive_type_builder(&c.name, physical)
+                .with_repetition(Repetition::OPTIONAL)
+                .with_logical_type(text);
+            made.build().map(Arc::new)
+        };
+        let fields = self.columns.iter().map(field).collect::<Result<Vec<_>, _>>()?;
+        let schema = Type::group_type_builder("study").with_fields(fields).build()?;
+        let units: serde_json::Map<String, serde_json::Value> = self
+            .columns
+            .iter()
+            .map(|c| (c.name.clone(), serde_json::Value::String(c.unit.clone())))
+            .collect();
+        let more = vec![
+            KeyValue::new("title".to_owned(), self.title.clone()),
+            KeyValue::new("units".to_owned(), serde_json::Value::Object(units).to_string()),
+        ];
+        let properties = WriterProperties::builder()
+            .set_compression(Compression::UNCOMPRESSED)
+            .set_key_value_metadata(Some(more))
+            .build();
+        let mut writer = SerializedFileWriter::new(file, Arc::new(schema), Arc::new(properties))?;
+        let mut group = writer.next_row_group()?;
+        for column in &self.columns {
+            let Some(mut open) = group.next_column()? else { break };
+            match (open.untyped(), &column.values) {
+                (ColumnWriter::Int64ColumnWriter(w), Values::Counts(v)) => {
+                    let (values, levels) = present(v, |x| *x);
+                    w.write_batch(&values, Some(&levels), None)?;
+                }
+                (ColumnWriter::DoubleColumnWriter(w), Values::Numbers(v)) => {
+                    let (values, levels) = present(v, |x| *x);
+                    w.write_batch(&values, Some(&levels), None)?;
+                }
+                (ColumnWriter::BoolColumnWriter(w), Values::Flags(v)) => {
+                    let (values, levels) = present(v, |x| *x);
+                    w.write_batch(&values, Some(&levels), None)?;
+                }
+                (ColumnWriter::ByteArrayColumnWriter(w), Values::Texts(v)) => {
+                    let (values, levels) = present(v, |x| ByteArray::from(x.as_bytes().to_vec()));
+                    w.write_batch(&values, Some(&levels), None)?;
+                }
+                _ => {}
+            }
+            open.close()?;
+        }
+        group.close()?;
+        writer.close()?;
+        Ok(())
+    }
+}
+
+/// The values that there are, and for each row whether there is one.
+fn present<T, U>(all: &[Option<T>], of: impl Fn(&T) -> U) -> (Vec<U>, Vec<i16>) {
+    let values = all.iter().flatten().map(of).collect();
+    (values, all.iter().map(|x| i16::from(x.is_some())).collect())
+}
+
+/// Writes a file beside the old one and puts it in its place when it is whole.
+pub(crate) fn replaced(
+    path: &Path,
+    write: impl FnOnce(&mut std::io::BufWriter<std::fs::File>) -> std::io::Result<()>,
+) -> Result<(), StudyError> {
+    let mut name = path.file_name().unwrap_or_default().to_owned();
+    name.push(".part");
+    let part = path.with_file_name(name);
+    let made = std::fs::File::create(&part).and_then(|file| {
+        let mut file = std::io::BufWriter::new(file);
+        write(&mut file)?;
+        file.into_inner().map_err(std::io::IntoInnerError::into_error)?.sync_data()
+    });
+    let made = made.and_then(|()| std::fs::rename(&part, path));
+    made.map_err(|e| {
+        let _ = std::fs::remove_file(&part);
+        StudyError::at(path)(e)
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use parquet::file::reader::{FileReader, SerializedFileReader};
+    use parquet::record::Field;
+
+    #[test]
+    fn a_table_is_read_back_with_its_gaps_and_units() {
+        let data =
+            |name: &str, unit: &str, values| Data { name: name.into(), unit: unit.into(), values };
+        let table = Table {
+            title: "T".into(),
+            columns: vec![
+                data("run", "", Values::Counts(vec![Some(1), Some(2)])),
+                data("slide", "m", Values::Numbers(vec![Some(0.1 + 0.2), None])),
+                data("mode", "", Values::Texts(vec![None, Some("slide, rock".into())])),
+                data("overturned", "", Values::Flags(vec![Some(true), None])),
+            ],
+        };
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("t.parquet");
+        table.write_parquet(&path).unwrap();
+        let reader = SerializedFileReader::new(std::fs::File::open(&path).unwrap()).unwrap();
+        let more = reader.metadata().file_metadata().key_value_metadata().unwrap().clone();
+        assert!(more.iter().any(|k| k.key == "units"
+            && k.value.as_deref().is_some_and(|v| v.contains("\"slide\":\"m\""))));
+        let rows: Vec<Vec<Field>> = reader
+            .get_row_iter(None)
+            .unwrap()
+            .map(|r| r.unwrap().get_column_iter().map(|(_, f)| f.clone()).collect())
+            .collect();
+        assert_eq!(
+            rows,
+            [
+                [Field::Long(1), Field::Double(0.1 + 0.2), Field::Null, Field::Bool(true)],
+                [Field::Long(2), Field::Null, Field::Str("slide, rock".into()), Field::Null],
+            ]
+        );
+        table.write_csv(&folder.path().join("t.csv")).unwrap();
+        let text = std::fs::read_to_string(folder.path().join("t.csv")).unwrap();
+        let expected =
+            "run,slide [m],mode,overturned\n1,0.30000000000000004,,true\n2,,\"slide, rock\",\n";
+        assert_eq!(text, expected);
+    }
+}

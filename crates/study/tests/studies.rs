@@ -1,0 +1,300 @@
+//! Studies from their text to their table.
+
+use std::path::Path;
+use std::sync::Mutex;
+use std::sync::atomic::{AtomicUsize, Ordering};
+use trilith::model::Diagnostic;
+use trilith_study::{Results, Study, StudyError, execute};
+
+/// A mass that slides on friction under one sine; `k` a spring that holds it, `f` makes the model fail.
+const MODEL: &str = r#"(
+    title: "Sliding mass",
+    plane: XZ, gravity: "9.81 m/s^2",
+    parameters: {
+        "mu": 0.3, "a": "1 m/s^2", "k": "0 N/m", "record": Text("quiet.csv"), "mass": "1 t",
+        "limit": 0.5,
+    },
+    nodes: { "cg": (0, 0, 0) },
+    elements: {
+        "mass": Mass(node: "cg", mass: "mass", inertia: (0, 1, 0)),
+        "upright": Spring(node: "cg", k1: "k", r3: "1 MN*m"),
+        "foot": NLink(node: "cg", kn: "10 MN/m", ks: "10 MN/m", mu: "mu", damping: "10 kN*s/m"),
+    },
+    functions: {
+        "pulse": Sine(amplitude: "a", frequency: "2 Hz", cycles: 1),
+        "more": Table(file: Parameter("record"), after_end: Zero, scale: "1 m/s^2"),
+    },
+    cases: {
+        "gravity": Static(loads: [Gravity]),
+        "shake": Dynamic(after: "gravity", duration: "0.6 s", dt: "10 ms",
+            base: [(direction: X, function: "pulse"), (direction: X, function: "more")],
+            energy_limit: "limit"),
+    },
+    outputs: { "slide": Displacement(node: "cg", dof: Ux) },
+)"#;
+
+fn folder() -> tempfile::TempDir {
+    let folder = tempfile::tempdir().unwrap();
+    std::fs::write(folder.path().join("mass.ron"), MODEL).unwrap();
+    std::fs::write(folder.path().join("quiet.csv"), "0,0\n1,0\n").unwrap();
+    std::fs::write(folder.path().join("loud.csv"), "0,2\n0.2,2\n0.21,0\n1,0\n").unwrap();
+    folder
+}
+
+fn read(folder: &Path, body: &str) -> Result<Study, Vec<Diagnostic>> {
+    let text = format!("(model: \"mass.ron\", {body})");
+    Study::read_text(&text, folder.join("study.ron"), &trilith::registry(), &[])
+}
+
+fn run(study: &Study, out: &Path, threads: usize) -> Result<Results, StudyError> {
+    execute(study, &trilith::registry(), out, threads, &|_| {})
+}
+
+fn bytes(out: &Path, name: &str) -> Vec<u8> {
+    std::fs::read(out.join(name)).unwrap()
+}
+
+const GRID: &str = r#"
+    axes: { "a": Range(from: "1 m/s^2", to: "8 m/s^2", count: 8), "mu": [0.1, 0.3, "3*0.2"] },
+    columns: { "slide": Peak("slide"), "ratio": "slide*mu*9.81/a", "rms": Rms("slide") },
+"#;
+
+#[test]
+fn a_grid_is_a_table_whatever_the_threads() {
+    let folder = folder();
+    let study = read(folder.path(), GRID).unwrap();
+    let (one, three) = (folder.path().join("one"), folder.path().join("three"));
+    let results = run(&study, &one, 1).unwrap();
+    run(&study, &three, 3).unwrap();
+    for name in ["table.parquet", "table.csv", "study.html"] {
+        assert_eq!(bytes(&one, name), bytes(&three, name), "{name}");
+    }
+    assert_eq!((results.records.len(), results.failed()), (24, 0));
+    let text = String::from_utf8(bytes(&one, "table.csv")).unwrap();
+    let mut lines = text.lines();
+    let head = lines.next().unwrap();
+    assert!(
+        head.starts_with("run,a [m/s²],mu,slide [m],ratio [m],rms [m],initial_mode,mode,"),
+        "{head}"
+    );
+    let rows: Vec<Vec<&str>> = lines.map(|l| l.split(',').collect()).collect();
+    // mu is the fast axis; the friction of 0.1 is overcome from 1 m/s² on, that of 0.6 from 6 m/s².
+    assert_eq!((rows[5][1], rows[5][2]), ("2.0", "0.6000000000000001"));
+    let slide = |row: usize| rows[row][3].parse::<f64>().unwrap();
+    assert!(slide(3) > 1e-3 && slide(5) < 1e-3 && slide(23) > 1e-3, "{text}");
+    assert_eq!(rows[3][7], "slide");
+}
+
+#[test]
+fn a_journal_cut_anywhere_ends_with_the_same_table_and_no_run_twice() {
+    let folder = folder();
+    let study = read(folder.path(), GRID).unwrap();
+    let whole = folder.path().join("whole");
+    run(&study, &whole, 2).unwrap();
+    let journal = bytes(&whole, "runs.journal");
+    for share in [0.0, 0.1, 0.37, 0.5, 0.93, 1.0] {
+        let out = folder.path().join(format!("cut{share}"));
+        std::fs::create_dir(&out).unwrap();
+        let cut = (share * journal.len() as f64) as usize;
+        std::fs::write(out.join("runs.journal"), &journal[..cut]).unwrap();
+        let lines = journal[..cut].iter().filter(|b| **b == b'\n').count();
+        let results = run(&study, &out, 2).unwrap();
+        assert_eq!(results.resumed, lines.saturating_sub(1));
+        for name in ["table.parquet", "table.csv"] {
+            assert_eq!(bytes(&out, name), bytes(&whole, name), "{name} cut at {share}");
+        }
+        let now = bytes(&out, "runs.journal");
+        assert_eq!(now.iter().filter(|b| **b == b'\n').count(), 25, "cut at {share}");
+    }
+}
+
+#[test]
+fn a_series_ends_at_its_limit_and_ensembles_keep_their_members() {
+    let folder = folder();
+    let body = r#"
+        axes: {
+            "record": ["quiet.csv", "loud.csv"],
+            "a": ["1 m/s^2", "2 m/s^2", "4 m/s^2", "8 m/s^2"],
+        },
+        ensemble: (members: 3, of: { "mu": 0.05, "mass": 0.01 }),
+        stop: (along: "a", when: Above("peak_slide", "20 mm")),
+        over: ["record"],
+        events: { "moves": Above("peak_slide", "1 mm") },
+        figures: [
+            Ida(demand: "peak_slide", intensity: "a"),
+            Fragility(intensity: "a", event: Above("peak_slide", "5 mm")),
+            Hazard(demand: "peak_slide", intensity: "a", rates: [("1 m/s^2", 0.01), ("8 m/s^2", 1e-4)]),
+            Spread(x: "a", y: "peak_slide"), Points(x: "mu", y: "peak_slide", by: "record"),
+        ],
+    "#;
+    let study = read(folder.path(), body).unwrap();
+    let out = folder.path().join("out");
+    let results = run(&study, &out, 2).unwrap();
+    assert_eq!(study.identity.runs, 24);
+    assert!(results.left_out > 0 && results.records.len() + results.left_out == 24);
+    let at = |member: usize| {
+        let of = results.records.iter().filter(move |r| study.plan.place(r.run).member == member);
+        of.map(|r| r.number(&study.varied, &study.columns, "mu").unwrap()).collect::<Vec<_>>()
+    };
+    assert!(at(0).iter().all(|mu| *mu == 0.3));
+    assert!(at(1).iter().all(|mu| *mu == at(1)[0] && *mu != 0.3));
+    // Going on from half of the journal leaves out the same runs.
+    let journal = bytes(&out, "runs.journal");
+    let again = folder.path().join("again");
+    std::fs::create_dir(&again).unwrap();
+    std::fs::write(again.join("runs.journal"), &journal[..journal.len() / 2]).unwrap();
+    run(&study, &again, 1).unwrap();
+    for name in ["table.csv", "statistics.csv", "study.html"] {
+        assert_eq!(bytes(&again, name), bytes(&out, name), "{name}");
+    }
+}
+
+#[test]
+fn runs_that_fail_among_others_are_rows_and_the_study_goes_on() {
+    let folder = folder();
+    // −1: the model refuses it. An energy limit of nothing at all: the run loses too much.
+    let body = r#"points: [
+        { "mu": 0.3, "limit": 0.5 }, { "mu": 0.2, "limit": 1e-300 }, { "mu": 0.1, "limit": 0.5 },
+    ]"#;
+    let study = read(folder.path(), body).unwrap();
+    let out = folder.path().join("out");
+    let results = run(&study, &out, 2).unwrap();
+    let status: Vec<_> = results.records.iter().map(|r| r.status.as_str()).collect();
+    assert_eq!(status, ["converged", "energy error", "converged"]);
+    assert_eq!(results.failed(), 1);
+    assert!(results.records[1].values.iter().all(Option::is_none));
+    assert!(results.records[1].message.contains("unaccounted"));
+    let html = String::from_utf8(bytes(&out, "study.html")).unwrap();
+    assert!(html.contains("Runs that failed"));
+    let random =
+        r#"seed: 2, samples: Random(count: 12, of: { "mu": Normal(mean: 0.1, deviation: 0.2) })"#;
+    let study = read(folder.path(), random).unwrap();
+    let results = run(&study, &folder.path().join("random"), 2).unwrap();
+    let refused: Vec<_> = results.records.iter().filter(|r| r.status == "model error").collect();
+    assert!(!refused.is_empty() && refused.len() < 12);
+    assert!(refused[0].message.contains("must be ≥ 0"), "{}", refused[0].message);
+}
+
+#[test]
+fn two_at_once_and_folders_of_others_are_refused() {
+    let folder = folder();
+    let out = folder.path().join("out");
+    let study = read(folder.path(), GRID).unwrap();
+    let second = Mutex::new(None);
+    let first_call = AtomicUsize::new(0);
+    execute(&study, &trilith::registry(), &out, 1, &|_| {
+        if first_call.fetch_add(1, Ordering::Relaxed) == 0 {
+            *second.lock().unwrap() = Some(run(&study, &out, 1).unwrap_err());
+        }
+    })
+    .unwrap();
+    assert!(matches!(second.into_inner().unwrap(), Some(StudyError::Locked { .. })));
+    // Figures may change, runs may not.
+    let figures = format!("{GRID} figures: [Points(x: \"a\", y: \"slide\")]");
+    let results = run(&read(folder.path(), &figures).unwrap(), &out, 1).unwrap();
+    assert_eq!(results.resumed, 24);
+    let refused =
+        |body: &str| run(&read(folder.path(), body).unwrap(), &out, 1).unwrap_err().to_string();
+    assert!(refused(&GRID.replace("0.3", "0.31")).contains("the runs of the study changed"));
+    std::fs::write(folder.path().join("quiet.csv"), "0,0\n1,0.1\n").unwrap();
+    assert!(refused(GRID).contains("a ground motion changed"));
+    std::fs::write(folder.path().join("mass.ron"), MODEL.replace("10 ms", "5 ms")).unwrap();
+    assert!(refused(GRID).contains("the model"));
+}
+
+#[test]
+fn histories_are_kept_of_the_runs_asked_for() {
+    let folder = folder();
+    let body = r#"axes: { "a": ["1 m/s^2", "8 m/s^2"] }, histories: Above("peak_slide", "1 mm")"#;
+    let out = folder.path().join("out");
+    run(&read(folder.path(), body).unwrap(), &out, 2).unwrap();
+    assert!(!out.join("runs/000001").exists());
+    assert!(out.join("runs/000002/histories.csv").is_file());
+}
+
+#[test]
+fn a_folder_that_cannot_be_written_is_named() {
+    let folder = folder();
+    let study = read(folder.path(), GRID).unwrap();
+    let file = folder.path().join("mass.ron");
+    let error = run(&study, &file.join("out"), 1).unwrap_err().to_string();
+    assert!(error.contains("mass.ron") && error.contains("cannot be written"), "{error}");
+}
+
+/// (text of the study, parts of the error).
+const WRONG: &[(&str, &[&str])] = &[
+    (r#"axes: { "muu": [0.1] }"#, &["no parameter `muu`", "did you mean `mu`?", "study.ron:1:"]),
+    (r#"axes: { "mu": [] }"#, &["the axis `mu` has no values"]),
+    (r#"axes: { "mu": [0.1, -0.2] }"#, &["must be ≥ 0"]),
+    (r#"axes: { "mu": [0.1, "2 m"] }"#, &["`mu` is set to a value in m"]),
+    (r#"axes: { "record": ["quiet.csv", "none.csv"] }"#, &["none.csv"]),
+    (r#"axes: { "mu": Range(from: 0.1, to: 0.9) }"#, &["has no `count`"]),
+    (r#"axes: { "mu": Range(from: 0, to: 1, step: 0.3) }"#, &["no whole number of steps"]),
+    (r#"axes: { "mu": Log(from: 0, to: 1, count: 3) }"#, &["must be above 0"]),
+    (r#"axes: { "mu": Range(from: 0, to: "1 m", count: 3) }"#, &["`to` is in m"]),
+    (r#"axes: { "mu": Grid(1) }"#, &["no axis `Grid`", "`Range`"]),
+    (r#"axs: {}"#, &["no field `axs`", "did you mean `axes`?"]),
+    (r#"set: { "mu": 0.1 }, axes: { "mu": [0.1] }"#, &["`set` and `axes` both set `mu`"]),
+    (r#"set: { "nu": 0.1 }"#, &["no parameter `nu`", "did you mean `mu`?"]),
+    (r#"points: [{ "mu": 0.1 }, { "a": 1 }]"#, &["same parameters as the first"]),
+    (r#"case: "gravity""#, &["static"]),
+    (r#"case: "shak""#, &["did you mean `shake`?"]),
+    (r#"columns: { "x": Peak("slid") }"#, &["no output `slid`", "did you mean `slide`?"]),
+    (r#"columns: { "x": "slid*2" }"#, &["no parameter `slid`"]),
+    (r#"columns: { "x": "a + mu" }"#, &["cannot be added"]),
+    (r#"columns: { "mu": Peak("slide") }"#, &["the model has a parameter `mu`"]),
+    (r#"columns: { "x": Duration(output: "slide", above: "1 s") }"#, &["must be a value in m"]),
+    (r#"histories: Above("slide", 1)"#, &["no column `slide`", "`peak_slide`"]),
+    (r#"histories: Abov("slide", 1)"#, &["did you mean `Above`?"]),
+    (r#"stop: (along: "mu", when: Overturned)"#, &["no axis `mu`"]),
+    (r#"samples: Random(count: 0, of: { "mu": Uniform(from: 0, to: 1) })"#, &["1 or more"]),
+    (
+        r#"samples: Random(count: 5, of: { "mu": Uniform(from: 1, to: 0) })"#,
+        &["`from` must be below `to`"],
+    ),
+    (r#"samples: Random(count: 5, of: { "mu": Norml(mean: 1) })"#, &["did you mean `Normal`?"]),
+    (r#"samples: Random(count: 5, of: {})"#, &["names no parameter"]),
+    (
+        r#"ensemble: (members: 5, of: { "mue": 0.1 })"#,
+        &["no parameter `mue`", "did you mean `mu`?"],
+    ),
+    (r#"ensemble: (members: 5, of: { "record": 0.1 })"#, &["`record` is a text"]),
+    (r#"figures: [Points(x: "mu", y: "peak_slide")]"#, &["no column or varied parameter `mu`"]),
+    (
+        r#"figures: [Hazard(demand: "peak_slide", intensity: "peak_slide", rates: [(1, 2), (2, 3)])]"#,
+        &["must rise"],
+    ),
+    (r#"solver: "fnaa""#, &["did you mean `fna`?"]),
+    (
+        r#"axes: { "mu": Range(from: 0, to: 1, count: 100000), "a": Range(from: 1, to: 2, count: 100000) }"#,
+        &["more than 100000000 runs"],
+    ),
+];
+
+#[test]
+fn wrong_studies_say_where_and_what_would_be_right() {
+    let folder = folder();
+    for (body, parts) in WRONG {
+        let errors = match read(folder.path(), body) {
+            Ok(_) => panic!("{body} was taken"),
+            Err(errors) => errors,
+        };
+        let text: String = errors.iter().map(|d| format!("{d}\n")).collect();
+        for part in *parts {
+            assert!(text.contains(part), "{body}: `{part}` in\n{text}");
+        }
+    }
+}
+
+#[test]
+fn all_errors_of_a_study_are_told_at_once() {
+    let folder = folder();
+    let body = r#"axes: { "muu": [0.1], "a": [] }, seed: -1, columns: { "x": Peak("slid") }"#;
+    let errors = read(folder.path(), body).unwrap_err();
+    assert!(errors.len() >= 3, "{errors:?}");
+    let missing = Study::read_text("(axes: {})", "s.ron", &trilith::registry(), &[]).unwrap_err();
+    assert!(missing[0].message.contains("has no `model`"));
+    let none =
+        Study::read_text("(model: \"none.ron\")", "s.ron", &trilith::registry(), &[]).unwrap_err();
+    assert!(none[0].message.contains("none.ron cannot be read"));
+}
