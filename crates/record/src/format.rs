@@ -72,7 +72,7 @@ impl Format {
             let mut cells = l.split([',', ';', ' ', '\t']).filter(|c| !c.is_empty()).peekable();
             cells.peek().is_some() && cells.all(|c| c.trim().parse::<f64>().is_ok())
         };
-        if lines.iter().take(60).any(|l| numbers(&l)) {
+        if lines.iter().take(60).any(numbers) {
             // A file that calls itself AT2 and lost its header should say so.
             let ending = path.extension().and_then(|e| e.to_str()).unwrap_or_default();
             return Some(match ending.to_lowercase().as_str() {

@@ -21,7 +21,7 @@ pub enum Resampling {
 pub fn resample(a: &[f64], dt: f64, to: f64, how: Resampling) -> Result<Vec<f64>, ProcessError> {
     let duration = a.len().saturating_sub(1) as f64 * dt;
     let samples = duration / to * (1.0 + 1e-9);
-    if !(to > 0.0 && to.is_finite() && samples >= 1.0 && samples < 1e7) {
+    if !(to > 0.0 && to.is_finite() && (1.0..1e7).contains(&samples)) {
         return Err(ProcessError::Step(to));
     }
     let times = (0..=samples.floor() as usize).map(|i| i as f64 * to / dt);
