@@ -176,7 +176,8 @@ fn mills(z: f64) -> f64 {
     if z > 12.0 {
         // Asymptotic series.
         let s = 1.0 / (z * z);
-        return z / (1.0 - s * (1.0 - 3.0 * s * (1.0 - 5.0 * s)));
+        return z
+            / (1.0 - s * (1.0 - 3.0 * s * (1.0 - 5.0 * s * (1.0 - 7.0 * s * (1.0 - 9.0 * s)))));
     }
     (-0.5 * z * z).exp() / ((2.0 * PI).sqrt() * phi(-z))
 }

@@ -112,7 +112,8 @@ impl Plan {
         let mut all = self.fixed.clone();
         all.extend(self.rows.get(place.row).into_iter().flatten().cloned());
         for (axis, i) in self.axes.iter().zip(&place.axes) {
-            all.push((axis.name.clone(), axis.values[*i].clone()));
+            // An axis without values is told by the reader of the study.
+            all.extend(axis.values.get(*i).map(|v| (axis.name.clone(), v.clone())));
         }
         if let Some(samples) = &self.samples {
             all.extend(samples.names.iter().cloned().zip(samples.values[place.sample].clone()));

@@ -74,7 +74,7 @@ fn a_grid_is_a_table_whatever_the_threads() {
     let mut lines = text.lines();
     let head = lines.next().unwrap();
     assert!(
-        head.starts_with("run,a [m/s²],mu,slide [m],ratio [m],rms [m],initial_mode,mode,"),
+        head.starts_with("run,a [m/s²],mu,slide [m],ratio [s^2],rms [m],initial_mode,mode,"),
         "{head}"
     );
     let rows: Vec<Vec<&str>> = lines.map(|l| l.split(',').collect()).collect();
@@ -133,11 +133,12 @@ fn a_series_ends_at_its_limit_and_ensembles_keep_their_members() {
     assert_eq!(study.identity.runs, 24);
     assert!(results.left_out > 0 && results.records.len() + results.left_out == 24);
     let at = |member: usize| {
-        let of = results.records.iter().filter(move |r| study.plan.place(r.run).member == member);
+        let of = results.records.iter().filter(|r| study.plan.place(r.run).member == member);
         of.map(|r| r.number(&study.varied, &study.columns, "mu").unwrap()).collect::<Vec<_>>()
     };
     assert!(at(0).iter().all(|mu| *mu == 0.3));
-    assert!(at(1).iter().all(|mu| *mu == at(1)[0] && *mu != 0.3));
+    let first = at(1)[0];
+    assert!(at(1).iter().all(|mu| *mu == first && *mu != 0.3));
     // Going on from half of the journal leaves out the same runs.
     let journal = bytes(&out, "runs.journal");
     let again = folder.path().join("again");

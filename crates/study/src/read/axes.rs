@@ -100,7 +100,9 @@ pub(super) fn axes(c: &Context<'_>, node: Option<&Node>, settings: &mut Settings
             let message = format!("the axis `{}` has no values", e.key);
             c.report(c.diagnostic("E0104", message, e.value.span.clone()).label("empty"));
         }
-        for (value, span) in &values {
+        // A range stands at one place: its ends speak for it.
+        let ends = if e.value.is_list() { values.len() } else { 1 };
+        for (value, span) in values.iter().take(ends).chain(values.last()) {
             settings.add("axes", (&e.key, &e.key_span), value, span);
         }
         let values = values.into_iter().map(|(v, _)| v).collect();

@@ -218,14 +218,12 @@ fn first_model(
     settings: &Settings,
     foreign: &mut Vec<Diagnostic>,
 ) -> Option<Model> {
-    if plan.axes.iter().any(|a| a.values.is_empty()) {
-        return None;
-    }
     match parsed.read(registry, &settings.first(plan)) {
         Ok(model) => Some(model),
         Err(errors) => {
             settings.tell(c, errors, None, foreign);
-            None
+            // As it stands in its file it still has the names that the rest of the study refers to.
+            parsed.read(registry, &[]).ok()
         }
     }
 }

@@ -1,6 +1,7 @@
 //! Where in the study each value of a parameter stands, so that what the model says about it is told there.
 
-use crate::Plan;
+use crate::{Place, Plan};
+use std::collections::{HashMap, HashSet};
 use trilith::Registry;
 use trilith::model::file::{Context, closest, names_help};
 use trilith::model::{Diagnostic, Model, ModelText, ParameterValue, Span};
@@ -41,13 +42,11 @@ impl Settings {
 
     /// Reports parameters that two parts of the study set. An ensemble may perturb what another part sets.
     pub fn check_twice(&self, c: &Context<'_>) {
-        let mut told: Vec<&str> = Vec::new();
-        for (i, s) in self.0.iter().enumerate().filter(|(_, s)| s.part != "ensemble") {
-            let other = |o: &&Setting| o.name == s.name && o.part != s.part && o.part != "ensemble";
-            if let Some(other) = self.0[..i].iter().find(other)
-                && !told.contains(&s.name.as_str())
-            {
-                told.push(&s.name);
+        let mut first: HashMap<&str, &Setting> = HashMap::new();
+        let mut told: HashSet<&str> = HashSet::new();
+        for s in self.0.iter().filter(|s| s.part != "ensemble") {
+            let other = *first.entry(&s.name).or_insert(s);
+            if other.part != s.part && told.insert(&s.name) {
                 let message = format!("`{}` and `{}` both set `{}`", other.part, s.part, s.name);
                 c.report(
                     c.diagnostic("E0102", message, s.name_span.clone())
@@ -129,7 +128,8 @@ impl Settings {
 
     /// The first value of everything; of what is drawn, the median.
     pub fn first(&self, plan: &Plan) -> Vec<(String, String)> {
-        let mut set = plan.nominal(&plan.place(0));
+        let place = Place { row: 0, sample: 0, axes: vec![0; plan.axes.len()], member: 0 };
+        let mut set = plan.nominal(&place);
         for s in self.0.iter().filter(|s| s.part == "samples") {
             set.retain(|(name, _)| *name != s.name);
             set.push((s.name.clone(), s.value.clone()));
