@@ -52,15 +52,18 @@ fn a_rectangular_pulse_slides_them_as_far_as_newton_says() {
     }
 }
 
-/// A body that cannot slide lifts off where a > g b/h, and not before.
+/// A body that cannot slide lifts off where a > g b/h, and not before. A soft rim carries on an arc of its
+/// edge: the cask needs contacts ten times as stiff as those that ship to be rigid to the percent.
 #[test]
 fn they_lift_off_where_statics_says() {
-    for (file, limit) in [("storage_cask.ron", 1.7 / 3.0), ("cabinet.ron", 0.3 / 0.95)] {
+    for (file, limit, kn) in
+        [("storage_cask.ron", 1.7 / 3.0, "4e11 N/m"), ("cabinet.ron", 0.3 / 0.95, "2e8 N/m")]
+    {
         for (factor, lifts) in [(0.97, false), (1.05, true)] {
             let a = factor * limit * 9.81;
             // Up slowly, so that the contacts do not overshoot.
             let motion = format!("(0, 0), (1, {a}), (1.6, {a}), (1.7, 0), (3, 0)");
-            let model = model(file, &motion, &[("mu", "2"), ("duration", "1.6 s")]);
+            let model = model(file, &motion, &[("mu", "2"), ("duration", "1.6 s"), ("kn", kn)]);
             for solver in SOLVERS {
                 let run = run(&model, solver);
                 let margin = run.peak("margin").unwrap().min;

@@ -123,7 +123,9 @@ impl Fragility {
             let step = [0, 1].map(|i| inverse[i][0] * g[0] + inverse[i][1] * g[1]);
             let mut length = 1.0;
             let mut next = likelihood(&all, a + step[0], b + step[1]);
-            while !(next.value >= now.value - 1e-12 * now.value.abs()) && length > 1e-12 {
+            let least = now.value - 1e-12 * now.value.abs();
+            // A step too far may have no number for its likelihood.
+            while (next.value.is_nan() || next.value < least) && length > 1e-12 {
                 length *= 0.5;
                 next = likelihood(&all, a + length * step[0], b + length * step[1]);
             }
@@ -133,7 +135,7 @@ impl Fragility {
                 break;
             }
         }
-        if !(a > 1e-6 / spread) {
+        if a.is_nan() || a <= 1e-6 / spread {
             return Err(FragilityError::Falls);
         }
         let covariance = inverse(now.information).ok_or(FragilityError::Parted)?;

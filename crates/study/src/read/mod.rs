@@ -109,10 +109,12 @@ fn whole(
     });
 
     let mut settings = Settings::default();
-    let mut plan = Plan::default();
-    plan.fixed = axes::fixed(c, top.get("set"), &mut settings);
-    plan.rows = axes::points(c, top.get("points"), &mut settings);
-    plan.axes = axes::axes(c, top.get("axes"), &mut settings);
+    let mut plan = Plan {
+        fixed: axes::fixed(c, top.get("set"), &mut settings),
+        rows: axes::points(c, top.get("points"), &mut settings),
+        axes: axes::axes(c, top.get("axes"), &mut settings),
+        ..Plan::default()
+    };
     let seed = seed.unwrap_or(1) as u64;
     plan.samples = top.get("samples").and_then(|n| random::samples(c, n, seed, &mut settings));
     plan.ensemble = top.get("ensemble").and_then(|n| random::ensemble(c, n, seed, &mut settings));
