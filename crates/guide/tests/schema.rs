@@ -102,7 +102,8 @@ fn defaults_are_those_of_the_reader() {
     for (place, block) in blocks() {
         let plain = read(&place, block.example);
         for f in block.fields {
-            if let Default::Value(value) = f.default {
+            let given = block.example.contains(&format!("{}: ", f.name));
+            if let (Default::Value(value), false) = (f.default, given) {
                 let said = read(&place, &with(block.example, f.name, value));
                 assert_eq!(plain, said, "{place} {}: `{}` is not {value} by default", block.name, f.name);
                 seen += 1;

@@ -104,9 +104,10 @@ pub fn words(line: &str) -> Vec<String> {
     all
 }
 
-/// A value of a summary: `outputs.slide.max`, with `abs` for the largest magnitude of an output; times the
-/// factor of a unit.
+/// A value of a summary: `outputs.slide.max`, with `abs` for the largest magnitude of an output, `-` in front
+/// for the other sign; times the factor of a unit.
 pub fn value(summary: &serde_json::Value, key: &str) -> Result<f64, String> {
+    let (sign, key) = key.strip_prefix('-').map_or((1.0, key), |rest| (-1.0, rest));
     let (path, unit) = key.rsplit_once(" in ").unwrap_or((key, "1"));
     let factor = match unit {
         "1" => 1.0,
@@ -127,7 +128,7 @@ pub fn value(summary: &serde_json::Value, key: &str) -> Result<f64, String> {
         }
         _ => get(&parts),
     };
-    found.map(|x| factor * x).ok_or_else(|| format!("the summary has no number `{path}`"))
+    found.map(|x| sign * factor * x).ok_or_else(|| format!("the summary has no number `{path}`"))
 }
 
 /// True where a number as it is shown is that value, within one unit of its last digit; `≈`: within 5 %.

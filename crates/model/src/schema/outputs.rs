@@ -67,7 +67,7 @@ pub static LINK_DEFORMATION: Block = Block {
 pub static LINK_HISTORY: Block = Block {
     name: "LinkHistory",
     meaning: "A history variable of a link, such as its plastic slip.",
-    example: r#"LinkHistory(link: "link", variable: "slip_2")"#,
+    example: r#"LinkHistory(link: "link", variable: "slip")"#,
     fields: &[LINK, needed("variable", Words("a name; a wrong one is answered with those there are"), "The variable.")],
 };
 /// End force of a linear element.
