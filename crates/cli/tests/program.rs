@@ -355,7 +355,11 @@ fn a_frame_of_so_many_bays_is_generated() {
         trilith(folder.path(), &args)
     };
     let (status, out, err) = frame("3,2");
-    assert_eq!((status, out.lines().next()), (0, Some("24 nodes, 46 beams, 12 isolators")), "{err}");
+    assert_eq!(
+        (status, out.lines().next()),
+        (0, Some("24 nodes, 46 beams, 12 isolators")),
+        "{err}"
+    );
     let (status, _, err) = frame("3");
     assert!(status == 2 && err.contains("two values"), "{err}");
 }

@@ -10,7 +10,8 @@ use trilith_guide::pages;
 pub(crate) fn draw(folder: &Path) -> Result<(), Box<dyn Error>> {
     let to = folder.join("figures");
     std::fs::create_dir_all(&to)?;
-    let save = |name: &str, figure: Figure| std::fs::write(to.join(name), figure.sized(560, 300).svg());
+    let save =
+        |name: &str, figure: Figure| std::fs::write(to.join(name), figure.sized(560, 300).svg());
     save("block.svg", block()?)?;
     save("wall.svg", wall()?)?;
     save("isolated.svg", isolated()?)?;

@@ -10,7 +10,9 @@ const USAGE: &str = "trilith-guide reference   writes src/reference.md from the 
 fn main() -> Result<(), Box<dyn std::error::Error>> {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("src");
     match std::env::args().nth(1).as_deref() {
-        Some("reference") => std::fs::write(folder.join("reference.md"), trilith_guide::reference())?,
+        Some("reference") => {
+            std::fs::write(folder.join("reference.md"), trilith_guide::reference())?
+        }
         Some("figures") => figures::draw(&folder)?,
         _ => {
             eprint!("{USAGE}");

@@ -169,12 +169,14 @@ impl Reading {
 
     fn comment(&mut self, html: &str, page: &mut Page) {
         let inner = html.trim().strip_prefix("<!--").and_then(|t| t.strip_suffix("-->"));
-        let Some(inner) = inner.map(str::trim) else { return };
+        let Some(inner) = inner else { return };
+        let inner = inner.split_whitespace().collect::<Vec<_>>().join(" ");
         if let Some(rest) = inner.strip_prefix("table:") {
             let mut parts = rest.split(';').map(|p| p.trim().to_owned());
             let run = parts.next().unwrap_or_default();
             self.table = Some((run, parts.collect()));
-        } else if let Some((run, key)) = inner.strip_prefix("trilith ").and_then(|t| t.rsplit_once(": "))
+        } else if let Some((run, key)) =
+            inner.strip_prefix("trilith ").and_then(|t| t.rsplit_once(": "))
         {
             let shown = last_number(&self.before);
             page.measured.push(Measured { shown, run: run.to_owned(), key: key.to_owned() });

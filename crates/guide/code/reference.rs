@@ -65,7 +65,8 @@ fn block(out: &mut String, b: &Block, place: &str) {
     out.push_str("\n| field | takes | default | meaning |\n|---|---|---|---|\n");
     for f in b.fields {
         let Field { name, meaning, .. } = f;
-        let _ = writeln!(out, "| `{name}` | {} | {} | {meaning} |", takes(f.takes), default(f.default));
+        let _ =
+            writeln!(out, "| `{name}` | {} | {} | {meaning} |", takes(f.takes), default(f.default));
     }
 }
 
@@ -95,8 +96,12 @@ fn takes(t: Takes) -> String {
 
 fn bounds(range: trilith::element::Range) -> String {
     match range {
-        trilith::element::Range::Above(a, b) if (b - 1.0).abs() < 1e-9 && a == 0.0 => "> 0 and < 1".into(),
-        trilith::element::Range::Within(a, b) if (a + 1.0 / 3.0).abs() < 1e-9 => format!("−1/3 … {b}"),
+        trilith::element::Range::Above(a, b) if (b - 1.0).abs() < 1e-9 && a == 0.0 => {
+            "> 0 and < 1".into()
+        }
+        trilith::element::Range::Within(a, b) if (a + 1.0 / 3.0).abs() < 1e-9 => {
+            format!("−1/3 … {b}")
+        }
         range => range.text(),
     }
 }
@@ -137,7 +142,11 @@ fn kinds(out: &mut String) {
 fn units(out: &mut String) {
     out.push_str("\n## Units\n\nA unit stands behind a number and may be a product such as `N*s/m` or `m/s^2`.\n\n| unit | of | in SI |\n|---|---|---|\n");
     for (name, factor, si) in schema::units() {
-        let _ = writeln!(out, "| `{name}` | {} | {factor} |", if si == "1" { "pure number" } else { &si });
+        let _ = writeln!(
+            out,
+            "| `{name}` | {} | {factor} |",
+            if si == "1" { "pure number" } else { &si }
+        );
     }
     let all: Vec<_> = schema::expression_functions().iter().map(|f| format!("`{f}`")).collect();
     let _ = write!(out, "\nFunctions of expressions: {}.\n", all.join(", "));

@@ -74,24 +74,37 @@ fn every_measured_number_is_measured_again() {
     for page in book() {
         let mut workshop = Workshop::of(&page);
         for m in &page.measured {
-            let v = value(workshop.summary(&m.run), &m.key).unwrap_or_else(|e| panic!("{}: {e}", page.name));
+            let v = value(workshop.summary(&m.run), &m.key)
+                .unwrap_or_else(|e| panic!("{}: {e}", page.name));
             seen += 1;
             if !shows(&m.shown, v) {
-                wrong.push(format!("{}: {} is {v:.6e}: trilith {}: {}", page.name, m.shown, m.run, m.key));
+                wrong.push(format!(
+                    "{}: {} is {v:.6e}: trilith {}: {}",
+                    page.name, m.shown, m.run, m.key
+                ));
             }
         }
         for table in page.tables.iter().filter(|t| !t.columns.is_empty()) {
-            assert!(!table.rows.is_empty(), "{}: the table of {} has no rows or another number of columns", page.name, table.run);
+            assert!(
+                !table.rows.is_empty(),
+                "{}: the table of {} has no rows or another number of columns",
+                page.name,
+                table.run
+            );
             for row in &table.rows {
                 let mut run = table.run.clone();
                 for (i, cell) in row.iter().enumerate() {
                     run = run.replace(&format!("{{{}}}", i + 1), cell);
                 }
                 for (cell, key) in row.iter().zip(&table.columns).filter(|(_, k)| *k != "-") {
-                    let v = value(workshop.summary(&run), key).unwrap_or_else(|e| panic!("{}: {e}", page.name));
+                    let v = value(workshop.summary(&run), key)
+                        .unwrap_or_else(|e| panic!("{}: {e}", page.name));
                     seen += 1;
                     if !shows(cell, v) {
-                        wrong.push(format!("{}: {cell} is {v:.6e}: trilith {run}: {key}", page.name));
+                        wrong.push(format!(
+                            "{}: {cell} is {v:.6e}: trilith {run}: {key}",
+                            page.name
+                        ));
                     }
                 }
             }
@@ -138,5 +151,7 @@ fn headings(text: &str) -> BTreeSet<String> {
 fn a_number_is_shown_within_its_last_digit() {
     assert!(shows("0.254", 0.2544) && shows("−1.2e3", -1.25e3) && shows("≈4000", 4100.0));
     assert!(!shows("0.254", 0.2562) && !shows("25.4", 25.6) && !shows("≈4000", 4300.0));
-    assert!(same("slide m 0.25 …", "slide  m  0.2541 7 8") && !same("slide m 0.25", "slide m 0.27"));
+    assert!(
+        same("slide m 0.25 …", "slide  m  0.2541 7 8") && !same("slide m 0.25", "slide m 0.27")
+    );
 }

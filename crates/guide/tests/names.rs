@@ -18,7 +18,11 @@ fn commands(text: &str) -> Vec<String> {
     let list = text.split_once("Commands:\n").map_or("", |(_, rest)| rest);
     let lines = list.lines().take_while(|l| !l.trim().is_empty());
     let names = lines.filter(|l| l.starts_with("  ") && !l.starts_with("   "));
-    names.filter_map(|l| l.split_whitespace().next()).filter(|n| *n != "help").map(str::to_owned).collect()
+    names
+        .filter_map(|l| l.split_whitespace().next())
+        .filter(|n| *n != "help")
+        .map(str::to_owned)
+        .collect()
 }
 
 fn options(text: &str) -> BTreeSet<String> {
@@ -55,7 +59,9 @@ fn every_command_and_option_is_there() {
             }
             if let Some(rest) = text.strip_prefix("trilith ") {
                 let words: Vec<&str> = rest.split_whitespace().collect();
-                let fits = |names: &[String]| names.iter().zip(&words).all(|(a, b)| a == b) && names.len() <= words.len();
+                let fits = |names: &[String]| {
+                    names.iter().zip(&words).all(|(a, b)| a == b) && names.len() <= words.len()
+                };
                 let Some((names, own)) = program.iter().find(|(names, _)| fits(names)) else {
                     wrong.push(format!("{}: `{text}` is no command", page.name));
                     continue;
@@ -98,7 +104,9 @@ fn schema_names() -> BTreeSet<String> {
         add(&[card.kind]);
         for p in card.parameters {
             add(&[p.name]);
-            if let trilith::element::Form::Choice(names) | trilith::element::Form::Choices(names) = p.form {
+            if let trilith::element::Form::Choice(names) | trilith::element::Form::Choices(names) =
+                p.form
+            {
                 add(names);
             }
         }
@@ -109,10 +117,26 @@ fn schema_names() -> BTreeSet<String> {
 /// What else the book may put in backticks: words of the program, of Rust, of results.
 const OTHERS: &[&str] = &[
     // solvers on the command line, status of a run, modes of response
-    "fna", "hht", "ritz-hht", "full-newton", "converged", "overturned", "rest", "slide", "rock",
-    "slide-rock", "flight",
+    "fna",
+    "hht",
+    "ritz-hht",
+    "full-newton",
+    "converged",
+    "overturned",
+    "rest",
+    "slide",
+    "rock",
+    "slide-rock",
+    "flight",
     // words of examples and of the summary
-    "trilith", "Link", "Kit", "conformance", "read_text", "Name", "Kind", "error_relative",
+    "trilith",
+    "Link",
+    "Kit",
+    "conformance",
+    "read_text",
+    "Name",
+    "Kind",
+    "error_relative",
 ];
 
 /// A word in backticks that looks like a name of a model file.

@@ -131,13 +131,17 @@ pub fn value(summary: &serde_json::Value, key: &str) -> Result<f64, String> {
     found.map(|x| sign * factor * x).ok_or_else(|| format!("the summary has no number `{path}`"))
 }
 
-/// True where a number as it is shown is that value, within one unit of its last digit; `≈`: within 5 %.
+/// True where a number as it is shown is that value, within one unit of its last digit; `≈`: within 5 %;
+/// `0`: nothing but rounding.
 pub fn shows(shown: &str, value: f64) -> bool {
     let shown = shown.trim().replace('−', "-");
     if let Some(about) = shown.strip_prefix('≈') {
         return about.trim().parse::<f64>().is_ok_and(|x| (x - value).abs() <= 0.05 * value.abs());
     }
     let Ok(number) = shown.parse::<f64>() else { return false };
+    if shown == "0" {
+        return value.abs() < 1e-6;
+    }
     let (digits, power) = shown.split_once(['e', 'E']).unwrap_or((&shown, "0"));
     let decimals = digits.split_once('.').map_or(0, |(_, d)| d.len());
     let last = 10f64.powi(power.parse::<i32>().unwrap_or(0) - decimals as i32);

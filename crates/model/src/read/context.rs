@@ -133,7 +133,12 @@ impl<'a> Context<'a> {
     }
 
     /// The fields of a block of the schema. Unknown ones are reported.
-    pub(crate) fn block<'n>(&self, node: &'n Node, what: &str, block: &Block) -> Option<Fields<'n>> {
+    pub(crate) fn block<'n>(
+        &self,
+        node: &'n Node,
+        what: &str,
+        block: &Block,
+    ) -> Option<Fields<'n>> {
         self.fields(node, what, &block.names())
     }
 

@@ -65,8 +65,9 @@ impl Reading<'_, '_> {
     fn base(&self, node: &Node) -> Option<BaseMotion> {
         let c = self.c;
         let fields = c.block(node, "a base motion", schema::BASE_MOTION.blocks[0])?;
-        let direction =
-            fields.required(c, "direction").and_then(|n| c.choice(n, "direction", &schema::BASE_DIRECTIONS));
+        let direction = fields
+            .required(c, "direction")
+            .and_then(|n| c.choice(n, "direction", &schema::BASE_DIRECTIONS));
         let (function, factor) = self.function(&fields, ACCELERATION)?;
         Some(BaseMotion { direction: Dof::ALL[direction? % 3], function, factor })
     }

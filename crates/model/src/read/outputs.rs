@@ -14,7 +14,6 @@ use trilith_element::{Axis, Coordinates, Dimension, Dof, Link};
 
 use super::motion::{nodal_dimension, unit};
 
-
 struct Reading<'c, 'n> {
     c: &'c Context<'c>,
     nodes: &'c Names<'n>,
@@ -257,12 +256,7 @@ impl Reading<'_, '_> {
         None
     }
 
-    fn element_force(
-        &self,
-        node: &Node,
-        what: &str,
-        kind: &Block,
-    ) -> Option<(Quantity, String)> {
+    fn element_force(&self, node: &Node, what: &str, kind: &Block) -> Option<(Quantity, String)> {
         let c = self.c;
         let fields = c.block(node, what, kind)?;
         let name = fields.required(c, "element");

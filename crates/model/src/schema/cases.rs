@@ -50,7 +50,12 @@ pub static BASE_MOTION: Group = Group {
         fields: &[
             needed("direction", Choice(&BASE_DIRECTIONS), "Direction."),
             needed("function", Name("function"), "Its history, an acceleration."),
-            plain("factor", Quantity, "1", "Multiple of the function; a plain function may get its unit here."),
+            plain(
+                "factor",
+                Quantity,
+                "1",
+                "Multiple of the function; a plain function may get its unit here.",
+            ),
         ],
     }],
 };
@@ -80,7 +85,11 @@ pub static SUPPORT_MOTION: Group = Group {
         fields: &[
             needed("node", Name("node"), "The supported node."),
             needed("dof", Choice(&DIRECTIONS), "Direction."),
-            needed("displacement", Name("function"), "Its history, a length or an angle; a table needs `interpolation: Cubic`."),
+            needed(
+                "displacement",
+                Name("function"),
+                "Its history, a length or an angle; a table needs `interpolation: Cubic`.",
+            ),
             plain("factor", Quantity, "1", "Multiple."),
         ],
     }],
@@ -92,12 +101,22 @@ pub static INITIAL: Group = Group {
     blocks: &[&Block {
         name: "",
         meaning: "Displacement, velocity or both of one direction.",
-        example: r#"(node: "m", dof: Ux, velocity: "1 m/s")"#,
+        example: r#"(node: "m", dof: Ux, displacement: "1 cm", velocity: "1 m/s")"#,
         fields: &[
             needed("node", Name("node"), "The node."),
             needed("dof", Choice(&DIRECTIONS), "Direction."),
-            absent("displacement", super::Takes::Words("a length or an angle"), "as it is", "Displacement at the start."),
-            absent("velocity", super::Takes::Words("m/s or rad/s"), "as it is", "Velocity at the start."),
+            absent(
+                "displacement",
+                super::Takes::Words("a length or an angle"),
+                "as it is",
+                "Displacement at the start.",
+            ),
+            absent(
+                "velocity",
+                super::Takes::Words("m/s or rad/s"),
+                "as it is",
+                "Velocity at the start.",
+            ),
         ],
     }],
 };
@@ -107,7 +126,12 @@ pub static ADAPTIVE: Block = Block {
     name: "Adaptive",
     meaning: "Substeps by error control: each is taken whole and in two halves.",
     example: "Adaptive",
-    fields: &[plain("tolerance", Number(d::NONE, SHARE), "1e-4", "Distance of the two in the energy norm, relative to the largest energy so far (as square roots).")],
+    fields: &[plain(
+        "tolerance",
+        Number(d::NONE, SHARE),
+        "1e-4",
+        "Distance of the two in the energy norm, relative to the largest energy so far (as square roots).",
+    )],
 };
 /// Equal steps.
 pub static FIXED: Block = Block {
@@ -117,11 +141,19 @@ pub static FIXED: Block = Block {
     fields: &[plain("substeps", Count(1), "1", "Substeps in an output step.")],
 };
 /// Step control.
-pub static STEPS: Group =
-    Group { name: "step", meaning: "How the march chooses its substeps.", blocks: &[&ADAPTIVE, &FIXED] };
+pub static STEPS: Group = Group {
+    name: "step",
+    meaning: "How the march chooses its substeps.",
+    blocks: &[&ADAPTIVE, &FIXED],
+};
 
 const VECTORS: Field = absent("vectors", Count(1), "chosen by the program", "How many vectors.");
-const ADEQUACY: Field = plain("adequacy", Number(d::NONE, Within(0.0, 1.0)), "0.99", "Share of the exact flexibility at every link coordinate that the basis must hold; 0: no vectors for links.");
+const ADEQUACY: Field = plain(
+    "adequacy",
+    Number(d::NONE, Within(0.0, 1.0)),
+    "0.99",
+    "Share of the exact flexibility at every link coordinate that the basis must hold; 0: no vectors for links.",
+);
 /// Load-dependent vectors.
 pub static RITZ: Block = Block {
     name: "Ritz",
@@ -150,7 +182,12 @@ pub static BASES: Group = Group {
     blocks: &[&RITZ, &EIGEN, &COMPLETE],
 };
 
-const AFTER: Field = absent("after", Name("case"), "from rest, unloaded", "Earlier case whose end is the start: displacements, link histories and loads are carried on.");
+const AFTER: Field = absent(
+    "after",
+    Name("case"),
+    "from rest, unloaded",
+    "Earlier case whose end is the start: displacements, link histories and loads are carried on.",
+);
 /// Static case.
 pub static STATIC: Block = Block {
     name: "Static",
@@ -170,19 +207,48 @@ pub static DYNAMIC: Block = Block {
     fields: &[
         AFTER,
         needed("duration", Number(d::TIME, Positive), "Length of the analysis."),
-        needed("dt", Number(d::TIME, Positive), "Output step; the march takes substeps in it by itself."),
-        plain("constant", List(&LOADS), "[]", "Loads that act unchanged from the start, beside those carried on."),
+        needed(
+            "dt",
+            Number(d::TIME, Positive),
+            "Output step; the march takes substeps in it by itself.",
+        ),
+        plain(
+            "constant",
+            List(&LOADS),
+            "[]",
+            "Loads that act unchanged from the start, beside those carried on.",
+        ),
         plain("base", List(&BASE_MOTION), "[]", "Acceleration of the ground."),
         plain("forces", List(&FORCE_HISTORY), "[]", "Forces that vary."),
         plain("supports", List(&SUPPORT_MOTION), "[]", "Supports that move."),
         plain("initial", List(&INITIAL), "[]", "Values at the start."),
         plain("solver", Choice(&SOLVERS), "Fna", "Solver, where `--solver` names none."),
         plain("step", One(&STEPS), "Adaptive", "Step control."),
-        plain("kernel", Choice(&KERNELS), "Newton", "Solution of the link equations: Newton with full tangents, or the constant-stiffness iteration of Wilson."),
-        plain("link_tolerance", Number(d::NONE, SHARE), "1e-9", "Share of the largest link force by which a link may miss equilibrium."),
-        plain("energy_limit", Number(d::NONE, SHARE), "1e-3", "Share of the energy that may be unaccounted for before the run says so."),
+        plain(
+            "kernel",
+            Choice(&KERNELS),
+            "Newton",
+            "Solution of the link equations: Newton with full tangents, or the constant-stiffness iteration of Wilson.",
+        ),
+        plain(
+            "link_tolerance",
+            Number(d::NONE, SHARE),
+            "1e-9",
+            "Share of the largest link force by which a link may miss equilibrium.",
+        ),
+        plain(
+            "energy_limit",
+            Number(d::NONE, SHARE),
+            "1e-3",
+            "Share of the energy that may be unaccounted for before the run says so.",
+        ),
         plain("basis", One(&BASES), "Ritz", "Basis of `Fna` and `RitzHht`."),
-        plain("alpha", Number(d::NONE, Within(-1.0 / 3.0, 0.0)), "0", "α of HHT; 0 is the average acceleration method."),
+        plain(
+            "alpha",
+            Number(d::NONE, Within(-1.0 / 3.0, 0.0)),
+            "0",
+            "α of HHT; 0 is the average acceleration method.",
+        ),
     ],
 };
 /// Cases.

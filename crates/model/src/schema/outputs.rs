@@ -8,10 +8,21 @@ static AXES: [&str; 6] = ["U1", "U2", "U3", "R1", "R2", "R3"];
 const FACTOR: Field = plain("factor", Quantity, "1", "Factor, with or without unit.");
 const ONE: Field = absent("node", Name("node"), "`terms`", "The node.");
 const DIRECTION: Field = absent("dof", Choice(&DIRECTIONS), "`terms`", "Direction.");
-const TERMS: Field = absent("terms", List(&TERM), "a single term", "Several terms that are added, such as a drift; in place of `node` and `dof`.");
+const TERMS: Field = absent(
+    "terms",
+    List(&TERM),
+    "a single term",
+    "Several terms that are added, such as a drift; in place of `node` and `dof`.",
+);
 const LINK: Field = needed("link", Name("element"), "The link.");
-const AXIS: Field = absent("axis", Choice(&AXES), "`coordinate`", "Local axis of a link between two nodes or a node and the ground.");
-const COORDINATE: Field = absent("coordinate", Count(0), "`axis`", "Coordinate of the law, from 0.");
+const AXIS: Field = absent(
+    "axis",
+    Choice(&AXES),
+    "`coordinate`",
+    "Local axis of a link between two nodes or a node and the ground.",
+);
+const COORDINATE: Field =
+    absent("coordinate", Count(0), "`axis`", "Coordinate of the law, from 0.");
 
 /// A term of a sum.
 pub static TERM: Group = Group {
@@ -47,7 +58,13 @@ pub static ACCELERATION: Block = Block {
     name: "Acceleration",
     meaning: "Acceleration, relative to the base or absolute.",
     example: r#"Acceleration(node: "m", dof: Ux)"#,
-    fields: &[ONE, DIRECTION, FACTOR, TERMS, plain("absolute", Flag, "false", "With the acceleration of the base.")],
+    fields: &[
+        ONE,
+        DIRECTION,
+        FACTOR,
+        TERMS,
+        plain("absolute", Flag, "false", "With the acceleration of the base."),
+    ],
 };
 /// Force of a link.
 pub static LINK_FORCE: Block = Block {
@@ -68,7 +85,14 @@ pub static LINK_HISTORY: Block = Block {
     name: "LinkHistory",
     meaning: "A history variable of a link, such as its plastic slip.",
     example: r#"LinkHistory(link: "link", variable: "slip")"#,
-    fields: &[LINK, needed("variable", Words("a name; a wrong one is answered with those there are"), "The variable.")],
+    fields: &[
+        LINK,
+        needed(
+            "variable",
+            Words("a name; a wrong one is answered with those there are"),
+            "The variable.",
+        ),
+    ],
 };
 /// End force of a linear element.
 pub static ELEMENT_FORCE: Block = Block {

@@ -23,19 +23,74 @@ pub static MODEL: Group = Group {
         fields: &[
             plain("title", Text, r#""""#, "Shown above results."),
             absent("units", One(&UNITS), "SI", "What bare numbers are measured in."),
-            absent("plane", Choice(&PLANES), "all of space", "Motion stays in this plane: the other three directions of every node are fixed."),
-            plain("gravity", Number(d::ACCELERATION, NonNegative), r#""9.80665 m/s^2""#, "Acceleration of gravity, which acts along −Z where a case loads `Gravity`."),
-            absent("parameters", Words("a map from names to numbers, expressions or texts"), "none", "Names that expressions may use; `--set NAME=VALUE` changes them."),
+            absent(
+                "plane",
+                Choice(&PLANES),
+                "all of space",
+                "Motion stays in this plane: the other three directions of every node are fixed.",
+            ),
+            plain(
+                "gravity",
+                Number(d::ACCELERATION, NonNegative),
+                r#""9.80665 m/s^2""#,
+                "Acceleration of gravity, which acts along −Z where a case loads `Gravity`.",
+            ),
+            absent(
+                "parameters",
+                Words("a map from names to numbers, expressions or texts"),
+                "none",
+                "Names that expressions may use; `--set NAME=VALUE` changes them.",
+            ),
             needed("nodes", Words("a map from names to positions `(x, y, z)`, lengths"), "Nodes."),
-            absent("supports", Words("a map from nodes to `Fixed`, `Pinned` (no translation), a direction, or a list of directions"), "none", "Directions that do not move, or move as a case says."),
-            absent("properties", Words("a map from names to `Kind(…)` with parameters"), "none", "Sets of parameters that elements share with `use`."),
-            needed("elements", Words("a map from names to `Kind(…)`"), "Elements, constraints and links: see *Fields of all elements* and *Kinds*."),
-            plain("damping", One(&DAMPING), "None", "Damping of the structure; links damp by their own laws."),
-            absent("p_delta", Name("case"), "none", "Static case whose axial forces stiffen or soften beams and trusses (geometric stiffness)."),
+            absent(
+                "supports",
+                Words(
+                    "a map from nodes to `Fixed`, `Pinned` (no translation), a direction, or a list of directions",
+                ),
+                "none",
+                "Directions that do not move, or move as a case says.",
+            ),
+            absent(
+                "properties",
+                Words("a map from names to `Kind(…)` with parameters"),
+                "none",
+                "Sets of parameters that elements share with `use`.",
+            ),
+            needed(
+                "elements",
+                Words("a map from names to `Kind(…)`"),
+                "Elements, constraints and links: see *Fields of all elements* and *Kinds*.",
+            ),
+            plain(
+                "damping",
+                One(&DAMPING),
+                "None",
+                "Damping of the structure; links damp by their own laws.",
+            ),
+            absent(
+                "p_delta",
+                Name("case"),
+                "none",
+                "Static case whose axial forces stiffen or soften beams and trusses (geometric stiffness).",
+            ),
             absent("functions", Map(&FUNCTIONS), "none", "Functions of time."),
-            absent("loads", Words("a map from names to lists of forces, see *A force of a load*"), "none", "Patterns of nodal forces."),
-            needed("cases", Map(&CASES), "Analysis cases; `trilith run` runs the last one, and those it continues, unless `--case` names another."),
-            absent("outputs", Map(&OUTPUTS), "none", "Recorded quantities; their peaks are in the summary, their histories in files."),
+            absent(
+                "loads",
+                Words("a map from names to lists of forces, see *A force of a load*"),
+                "none",
+                "Patterns of nodal forces.",
+            ),
+            needed(
+                "cases",
+                Map(&CASES),
+                "Analysis cases; `trilith run` runs the last one, and those it continues, unless `--case` names another.",
+            ),
+            absent(
+                "outputs",
+                Map(&OUTPUTS),
+                "none",
+                "Recorded quantities; their peaks are in the summary, their histories in files.",
+            ),
         ],
     }],
 };
@@ -72,7 +127,11 @@ pub static MODAL_TABLE: Block = Block {
     name: "ModalTable",
     meaning: "Ratio by frequency, linear between points and constant beyond them.",
     example: r#"ModalTable(points: [("1 Hz", 0.02), ("10 Hz", 0.05)])"#,
-    fields: &[needed("points", Words("a list of `(frequency, ratio)`, frequencies rising"), "The ratios.")],
+    fields: &[needed(
+        "points",
+        Words("a list of `(frequency, ratio)`, frequencies rising"),
+        "The ratios.",
+    )],
 };
 /// Proportional to mass and stiffness.
 pub static RAYLEIGH: Block = Block {
@@ -98,8 +157,8 @@ pub static RAYLEIGH_AT: Block = Block {
 /// Damping statements.
 pub static DAMPING: Group = Group {
     name: "damping",
-    meaning: "One statement that all solvers realise alike. It acts on the structure, not on links nor on the \
-              stiffness that FNA borrows from them.",
+    meaning: "One statement that all solvers realise alike. It acts on the structure, not on links \
+              nor on their `effective_stiffness`.",
     blocks: &[&NO_DAMPING, &MODAL, &MODAL_TABLE, &RAYLEIGH, &RAYLEIGH_AT],
 };
 
@@ -111,13 +170,22 @@ pub static FORCE: Block = Block {
     fields: &[
         needed("node", Name("node"), "Where it acts."),
         needed("dof", Choice(&super::DIRECTIONS), "Direction."),
-        absent("force", Number(d::FORCE, trilith_element::Range::Any), "for a rotation", "Force along Ux, Uy or Uz."),
-        absent("moment", Number(d::MOMENT, trilith_element::Range::Any), "for a translation", "Moment about Rx, Ry or Rz."),
+        absent(
+            "force",
+            Number(d::FORCE, trilith_element::Range::Any),
+            "for a rotation",
+            "Force along Ux, Uy or Uz.",
+        ),
+        absent(
+            "moment",
+            Number(d::MOMENT, trilith_element::Range::Any),
+            "for a translation",
+            "Moment about Rx, Ry or Rz.",
+        ),
     ],
 };
 
-const NODES: Field =
-    absent("nodes", Words("a list of names of nodes"), "`node`", "The nodes.");
+const NODES: Field = absent("nodes", Words("a list of names of nodes"), "`node`", "The nodes.");
 /// Where an element stands.
 pub static PLACE: Block = Block {
     name: "",
@@ -125,8 +193,18 @@ pub static PLACE: Block = Block {
     example: r#"Spring(nodes: ("base", "m"), k1: "1 kN/m")"#,
     fields: &[
         NODES,
-        absent("node", Name("node"), "`nodes`", "The only node: a link or spring between it and the ground."),
-        absent("use", Words("the name of a set of `properties` of the same kind"), "none", "Parameters from the set; those given beside it come first."),
+        absent(
+            "node",
+            Name("node"),
+            "`nodes`",
+            "The only node: a link or spring between it and the ground.",
+        ),
+        absent(
+            "use",
+            Words("the name of a set of `properties` of the same kind"),
+            "none",
+            "Parameters from the set; those given beside it come first.",
+        ),
     ],
 };
 /// Fields of every kind.
@@ -135,8 +213,18 @@ pub static ELEMENT: Block = Block {
     meaning: "Local axes of any kind that has them.",
     example: r#"Spring(node: "m", k1: "1 kN/m", axis1: (1, 0, 0))"#,
     fields: &[
-        absent("axis1", Words("a vector `(x, y, z)`"), "from the first node to the second; +Z for one node", "Direction of local axis 1."),
-        absent("axis2", Words("a vector `(x, y, z)`"), "the upward direction square to axis 1; +X for a vertical one", "Vector in the plane of local axes 1 and 2."),
+        absent(
+            "axis1",
+            Words("a vector `(x, y, z)`"),
+            "from the first node to the second; +Z for one node",
+            "Direction of local axis 1.",
+        ),
+        absent(
+            "axis2",
+            Words("a vector `(x, y, z)`"),
+            "the upward direction square to axis 1; +X for a vertical one",
+            "Vector in the plane of local axes 1 and 2.",
+        ),
     ],
 };
 /// Fields of every link.
@@ -145,7 +233,19 @@ pub static LINK: Block = Block {
     meaning: "What every link takes beside the parameters of its card.",
     example: r#"Gap(node: "m", k: "1 MN/m", effective_stiffness: "1 kN/m")"#,
     fields: &[
-        absent("effective_stiffness", Words("a stiffness (moment about rotations), ≥ 0, or a list with one for each coordinate of the law"), "0; the basis is made with a thousandth of the stiffness of the closed link", "Stiffness that stands for the link in the linear structure (K effective of FNA). The link equations take it out again."),
-        plain("shear_at", Number(d::LENGTH, trilith_element::Range::Any), "0", "Distance from the first node at which the shear of a link with two nodes acts."),
+        absent(
+            "effective_stiffness",
+            Words(
+                "a stiffness (moment about rotations), ≥ 0, or a list with one for each coordinate of the law",
+            ),
+            "0; the basis is made with a thousandth of the stiffness of the closed link",
+            "Stiffness that stands for the link in the linear structure (K effective of FNA). The link equations take it out again.",
+        ),
+        plain(
+            "shear_at",
+            Number(d::LENGTH, trilith_element::Range::Any),
+            "0",
+            "Distance from the first node at which the shear of a link with two nodes acts.",
+        ),
     ],
 };
