@@ -97,6 +97,12 @@ fn schema_names() -> BTreeSet<String> {
     add(&schema::SUPPORTS);
     add(schema::expression_functions());
     add(&["Parameter", "true", "false"]);
+    // Studies: what their reader spells.
+    let folder = root().join("crates/study/src/read");
+    for entry in std::fs::read_dir(folder).into_iter().flatten() {
+        let text = std::fs::read_to_string(entry.unwrap().path()).unwrap();
+        add(&text.split('"').skip(1).step_by(2).collect::<Vec<_>>());
+    }
     for (unit, ..) in schema::units() {
         add(&[unit]);
     }

@@ -36,7 +36,7 @@ impl Workshop {
         let folder = tempfile::tempdir().unwrap();
         copy(&root().join("models"), &folder.path().join("models"));
         for fence in &page.fences {
-            if let Some(file) = fence.attribute("file") {
+            if let Some(file) = fence.attribute("file").or(fence.attribute("study")) {
                 std::fs::write(folder.path().join(file), &fence.text).unwrap();
             }
         }
