@@ -308,7 +308,7 @@ fn share(text: &str) -> Result<f64, String> {
 }
 
 /// Two values with a comma between them.
-fn pair<T>(
+pub(crate) fn pair<T>(
     one: fn(&str) -> Result<T, String>,
 ) -> impl Fn(&str) -> Result<[T; 2], String> + Clone + Send + Sync + 'static
 where

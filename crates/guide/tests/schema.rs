@@ -27,6 +27,20 @@ fn model(place: &str, block: &str) -> Option<String> {
             section = format!("functions: {{ \"shake\": Constant(1), \"f\": {block} }},")
         }
         "outputs" => section = format!("outputs: {{ \"o\": {block} }},"),
+        "baseline" | "filter" | "resample" => {
+            section = format!(
+                "functions: {{ \"f\": Record(file: \"record.csv\", unit: \"g\", {place}: {block}) }},"
+            );
+        }
+        "envelope" => {
+            section =
+                format!("functions: {{ \"f\": Synthetic(seed: 1, peak: 1, envelope: {block}) }},");
+        }
+        "spectra" => section = format!("spectra: {{ \"s\": {block} }},"),
+        "series" => {
+            section =
+                format!("spectra: {{ \"s\": (node: \"m\", dof: Ux, frequencies: {block}) }},");
+        }
         "terms" => section = format!("outputs: {{ \"o\": Displacement(terms: [{block}]) }},"),
         "elements" => {}
         "forces-of-a-load" => section = format!("loads: {{ \"p\": [{block}] }},"),
@@ -69,7 +83,8 @@ fn read(place: &str, block: &str) -> String {
         panic!("tests/schema.rs knows no model around a block of `{place}`: add one");
     };
     let folder = tempfile::tempdir().unwrap();
-    std::fs::write(folder.path().join("record.csv"), "0,0\n1,1\n").unwrap();
+    let samples = (0..500).map(|i| format!("{},{}\n", 0.01 * f64::from(i), f64::from(i % 7)));
+    std::fs::write(folder.path().join("record.csv"), samples.collect::<String>()).unwrap();
     match read_text(&text, folder.path().join("model.ron"), &trilith::registry(), &[]) {
         Ok(model) => {
             let all = resolved(&model);

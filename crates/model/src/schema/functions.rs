@@ -1,7 +1,7 @@
 //! Functions of time.
 
 use super::Takes::{Choice, Count, Name, Number, Quantity, Text, Words};
-use super::{Block, Field, Group, absent, needed, plain};
+use super::{Block, Field, Group, RECORD, SYNTHETIC, absent, needed, plain};
 use trilith_element::Range::{Any, Positive};
 use trilith_element::dimension as d;
 
@@ -160,5 +160,6 @@ pub static FUNCTIONS: Group = Group {
     meaning: "Functions of time. The unit of the values decides where a function may be used.",
     blocks: &[
         &CONSTANT, &STEP, &RAMP, &SINE, &COSINE, &HALF_SINE, &RICKER, &TABLE, &POINTS, &SCALED,
+        &RECORD, &SYNTHETIC,
     ],
 };

@@ -6,6 +6,7 @@
 mod cases;
 mod functions;
 mod outputs;
+mod records;
 mod structure;
 
 pub use cases::{
@@ -20,6 +21,10 @@ pub use functions::{
 pub use outputs::{
     ACCELERATION, DISPLACEMENT, ELEMENT_FORCE, LARGEST, LINK_DEFORMATION, LINK_FORCE, LINK_HISTORY, NORM, OUTPUTS, PARTS, SMALLEST, SUM,
     TERM, VELOCITY,
+};
+pub use records::{
+    BASELINE, BUTTERWORTH, ENVELOPE, FILTER, FORMATS, PADDINGS, POLYNOMIAL, RECORD, RESAMPLE,
+    SERIES, SPECTRA, SYNTHETIC,
 };
 pub use structure::{
     DAMPING, ELEMENT, FORCE, LINK, MODAL, MODAL_TABLE, MODEL, NO_DAMPING, PLACE, PLANES, RAYLEIGH,

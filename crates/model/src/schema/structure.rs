@@ -1,7 +1,7 @@
 //! The model itself: sections, units, supports, loads, damping, fields of all elements.
 
 use super::Takes::{Choice, Map, Name, Number, One, Text, Words};
-use super::{Block, CASES, FUNCTIONS, Field, Group, OUTPUTS, absent, needed, plain};
+use super::{Block, CASES, FUNCTIONS, Field, Group, OUTPUTS, SPECTRA, absent, needed, plain};
 use trilith_element::Range::{NonNegative, Positive, Within};
 use trilith_element::dimension as d;
 
@@ -91,6 +91,7 @@ pub static MODEL: Group = Group {
                 "none",
                 "Recorded quantities; their peaks are in the summary, their histories in files.",
             ),
+            absent("spectra", Map(&SPECTRA), "none", "Floor spectra."),
         ],
     }],
 };
