@@ -86,7 +86,9 @@ fn takes(t: Takes) -> String {
         Takes::Count(least) => format!("whole number ≥ {least}"),
         Takes::Flag => "`true`, `false`".into(),
         Takes::Choice(all) => names(all),
-        Takes::Name(what) => format!("name of a {what}").replace("a e", "an e"),
+        Takes::Name(what) => {
+            format!("name of a {what}").replace("a e", "an e").replace("a o", "an o")
+        }
         Takes::One(g) => format!("one of {}", link(g)),
         Takes::List(g) => format!("list of {}", link(g)),
         Takes::Map(g) => format!("map from names to {}", link(g)),

@@ -26,7 +26,13 @@ fn model(place: &str, block: &str) -> Option<String> {
         "functions" => {
             section = format!("functions: {{ \"shake\": Constant(1), \"f\": {block} }},")
         }
-        "outputs" => section = format!("outputs: {{ \"o\": {block} }},"),
+        "outputs" | "parts" => {
+            let of = |node| format!("Displacement(node: \"{node}\", dof: Ux)");
+            let last =
+                if place == "parts" { format!("Sum(terms: [{block}])") } else { block.to_owned() };
+            section =
+                format!("outputs: {{ \"x\": {}, \"y\": {}, \"o\": {last} }},", of("m"), of("base"));
+        }
         "baseline" | "filter" | "resample" => {
             section = format!(
                 "functions: {{ \"f\": Record(file: \"record.csv\", unit: \"g\", {place}: {block}) }},"

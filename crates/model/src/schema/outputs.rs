@@ -120,8 +120,7 @@ pub static PARTS: Group = Group {
         ],
     }],
 };
-const PARTS_OF: Field =
-    needed("terms", List(&PARTS), "The outputs, each at the same time.");
+const PARTS_OF: Field = needed("terms", List(&PARTS), "The outputs, each at the same time.");
 /// Sum of outputs.
 pub static SUM: Block = Block {
     name: "Sum",
@@ -155,7 +154,16 @@ pub static OUTPUTS: Group = Group {
     name: "outputs",
     meaning: "Recorded quantities.",
     blocks: &[
-        &DISPLACEMENT, &VELOCITY, &ACCELERATION, &LINK_FORCE, &LINK_DEFORMATION, &LINK_HISTORY,
-        &ELEMENT_FORCE, &SUM, &NORM, &LARGEST, &SMALLEST,
+        &DISPLACEMENT,
+        &VELOCITY,
+        &ACCELERATION,
+        &LINK_FORCE,
+        &LINK_DEFORMATION,
+        &LINK_HISTORY,
+        &ELEMENT_FORCE,
+        &SUM,
+        &NORM,
+        &LARGEST,
+        &SMALLEST,
     ],
 };
