@@ -226,8 +226,8 @@ pub(crate) struct FrameArguments {
     #[arg(long, value_parser = trilith::generate::Frame::PRESETS)]
     pub preset: Option<String>,
     /// Bays along X and Y, such as `5,4`
-    #[arg(long, value_name = "X,Y", value_delimiter = ',', num_args = 2)]
-    pub bays: Option<Vec<usize>>,
+    #[arg(long, value_name = "X,Y", value_parser = pair(count))]
+    pub bays: Option<[usize; 2]>,
     /// Storeys above the base level
     #[arg(long)]
     pub storeys: Option<usize>,
@@ -241,14 +241,14 @@ pub(crate) struct FrameArguments {
     #[arg(long, value_parser = length)]
     pub storey: Option<f64>,
     /// Width and depth of the columns, such as `60 cm,60 cm`
-    #[arg(long, value_name = "B,H", value_parser = length, value_delimiter = ',', num_args = 2)]
-    pub column: Option<Vec<f64>>,
+    #[arg(long, value_name = "B,H", value_parser = pair(length))]
+    pub column: Option<[f64; 2]>,
     /// Width and depth of the beams
-    #[arg(long, value_name = "B,H", value_parser = length, value_delimiter = ',', num_args = 2)]
-    pub beam: Option<Vec<f64>>,
+    #[arg(long, value_name = "B,H", value_parser = pair(length))]
+    pub beam: Option<[f64; 2]>,
     /// Width and depth of the beams of the base level
-    #[arg(long, value_name = "B,H", value_parser = length, value_delimiter = ',', num_args = 2)]
-    pub base_beam: Option<Vec<f64>>,
+    #[arg(long, value_name = "B,H", value_parser = pair(length))]
+    pub base_beam: Option<[f64; 2]>,
     /// Young's modulus, such as `30 GPa`
     #[arg(long, value_parser = stress)]
     pub young: Option<f64>,
@@ -265,8 +265,8 @@ pub(crate) struct FrameArguments {
     #[arg(long)]
     pub damper_ratio: Option<f64>,
     /// Largest ground acceleration along X and Y, such as `0.4 g,0.3 g`
-    #[arg(long, value_name = "X,Y", value_parser = acceleration, value_delimiter = ',', num_args = 2)]
-    pub peak: Option<Vec<f64>>,
+    #[arg(long, value_name = "X,Y", value_parser = pair(acceleration))]
+    pub peak: Option<[f64; 2]>,
     /// Step of the motion and of the analysis, in seconds
     #[arg(long, value_parser = positive)]
     pub dt: Option<f64>,
@@ -305,6 +305,23 @@ fn share(text: &str) -> Result<f64, String> {
         Ok(x) if x > 0.0 && x <= 1.0 => Ok(x),
         _ => Err("a number above 0 and at most 1 is wanted".into()),
     }
+}
+
+/// Two values with a comma between them.
+pub(crate) fn pair<T>(
+    one: fn(&str) -> Result<T, String>,
+) -> impl Fn(&str) -> Result<[T; 2], String> + Clone + Send + Sync + 'static
+where
+    T: 'static,
+{
+    move |text| match text.split(',').map(str::trim).collect::<Vec<_>>().as_slice() {
+        [a, b] => Ok([one(a)?, one(b)?]),
+        _ => Err("two values with a comma between them are wanted".into()),
+    }
+}
+
+fn count(text: &str) -> Result<usize, String> {
+    text.parse().map_err(|_| "a whole number is wanted".into())
 }
 
 fn length(text: &str) -> Result<f64, String> {

@@ -27,31 +27,24 @@ pub(crate) fn generate(args: GenerateArguments) -> Result<Answer, Failure> {
 /// The preset, or the plain frame, with what the arguments change.
 fn frame(args: &FrameArguments) -> Frame {
     let plain = args.preset.as_deref().and_then(Frame::preset).unwrap_or_default();
-    let pair = |given: &Option<Vec<f64>>| match given.as_deref() {
-        Some([a, b]) => Some([*a, *b]),
-        _ => None,
-    };
-    let section = |given: &Option<Vec<f64>>, plain: Section| {
-        pair(given).map_or(plain, |[width, depth]| Section { width, depth })
+    let section = |given: Option<[f64; 2]>, plain: Section| {
+        given.map_or(plain, |[width, depth]| Section { width, depth })
     };
     Frame {
-        bays: match args.bays.as_deref() {
-            Some([x, y]) => [*x, *y],
-            _ => plain.bays,
-        },
+        bays: args.bays.unwrap_or(plain.bays),
         storeys: args.storeys.unwrap_or(plain.storeys),
         cuts: args.cuts.unwrap_or(plain.cuts),
         bay: args.bay.unwrap_or(plain.bay),
         storey: args.storey.unwrap_or(plain.storey),
         young: args.young.unwrap_or(plain.young),
-        column: section(&args.column, plain.column),
-        beam: section(&args.beam, plain.beam),
-        base_beam: section(&args.base_beam, plain.base_beam),
+        column: section(args.column, plain.column),
+        beam: section(args.beam, plain.beam),
+        base_beam: section(args.base_beam, plain.base_beam),
         mu: args.mu.unwrap_or(plain.mu),
         radius: args.radius.unwrap_or(plain.radius),
         slip: args.uy.unwrap_or(plain.slip),
         damper_ratio: args.damper_ratio.unwrap_or(plain.damper_ratio),
-        peak: pair(&args.peak).unwrap_or(plain.peak),
+        peak: args.peak.unwrap_or(plain.peak),
         dt: args.dt.unwrap_or(plain.dt),
         duration: args.duration.unwrap_or(plain.duration),
         vectors: args.vectors.or(plain.vectors),

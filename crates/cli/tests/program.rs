@@ -346,3 +346,20 @@ fn the_report_shows_the_loops_that_are_asked_for() {
         assert!((f - 1000.0 * (d + 0.01).min(0.0)).abs() < 0.05, "{d} {f}");
     }
 }
+
+#[test]
+fn a_frame_of_so_many_bays_is_generated() {
+    let folder = folder();
+    let frame = |bays: &str| {
+        let args = ["generate", "frame", "--bays", bays, "--storeys", "1", "--out", "frame.ron"];
+        trilith(folder.path(), &args)
+    };
+    let (status, out, err) = frame("3,2");
+    assert_eq!(
+        (status, out.lines().next()),
+        (0, Some("24 nodes, 46 beams, 12 isolators")),
+        "{err}"
+    );
+    let (status, _, err) = frame("3");
+    assert!(status == 2 && err.contains("two values"), "{err}");
+}

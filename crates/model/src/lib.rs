@@ -13,6 +13,7 @@ mod parameters;
 mod read;
 mod registry;
 mod resolved;
+pub mod schema;
 mod table;
 mod time_function;
 mod tree;

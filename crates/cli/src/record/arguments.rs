@@ -27,8 +27,8 @@ pub(crate) struct Arguments {
     #[arg(long, value_parser = time)]
     pub dt: Option<f64>,
     /// Keep a part, such as `1 s,20 s`
-    #[arg(long, value_name = "FROM,TO", value_parser = moment, value_delimiter = ',', num_args = 2)]
-    pub trim: Option<Vec<f64>>,
+    #[arg(long, value_name = "FROM,TO", value_parser = crate::args::pair(moment))]
+    pub trim: Option<[f64; 2]>,
     /// Take a baseline away: mean, linear, the order of a polynomial, or rest (velocity and displacement then end
     /// at zero)
     #[arg(long, value_parser = baseline)]
@@ -106,10 +106,7 @@ impl Arguments {
             return Err(Failure::input("`--scale` must be a finite number", None));
         }
         Ok(Processing {
-            trim: match self.trim.as_deref() {
-                Some([from, to]) => Some((*from, *to)),
-                _ => None,
-            },
+            trim: self.trim.map(|[from, to]| (from, to)),
             baseline: self.baseline,
             taper: self.taper,
             filter,

@@ -6,7 +6,7 @@ use trilith_element::Dimension;
 use trilith_element::dimension::NONE;
 
 /// The functions.
-pub(super) const FUNCTIONS: [&str; 13] = [
+pub(crate) const FUNCTIONS: [&str; 13] = [
     "sqrt", "abs", "min", "max", "sin", "cos", "tan", "asin", "acos", "atan", "atan2", "exp", "ln",
 ];
 

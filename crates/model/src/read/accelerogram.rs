@@ -3,6 +3,7 @@
 use super::context::{Context, Fields};
 use super::functions::{Made, what};
 use super::tables::after_end;
+use crate::schema;
 use crate::tree::{Entry, Node};
 use crate::{AfterEnd, Interpolation, Table, TimeFunction};
 use std::sync::Arc;
@@ -77,11 +78,11 @@ pub(super) fn processing(c: &Context<'_>, fields: &Fields<'_>, what: &str) -> Op
 }
 
 fn baseline(c: &Context<'_>, node: &Node, what: &str) -> Option<Baseline> {
-    match c.choice(node, "baseline", &["Mean", "Linear", "Polynomial", "Rest"])? {
+    match c.choice(node, "baseline", &schema::BASELINE.names())? {
         0 => Some(Baseline::Mean),
         1 => Some(Baseline::Linear),
         2 => {
-            let fields = c.fields(node, &format!("the baseline of {what}"), &["order"])?;
+            let fields = c.block(node, &format!("the baseline of {what}"), &schema::POLYNOMIAL)?;
             let n = fields.required(c, "order")?;
             match c.count(n, "order", 0)? {
                 order if order <= 20 => Some(Baseline::Polynomial(order)),
@@ -98,16 +99,14 @@ fn baseline(c: &Context<'_>, node: &Node, what: &str) -> Option<Baseline> {
 
 /// `Butterworth(highpass: "0.1 Hz", lowpass: "25 Hz", order: 4, causal: false, padding: Strip)`.
 fn filter(c: &Context<'_>, node: &Node, what: &str) -> Option<Filter> {
-    c.choice(node, "filter", &["Butterworth"])?;
-    let allowed = ["highpass", "lowpass", "order", "causal", "padding"];
-    let fields = c.fields(node, &format!("the filter of {what}"), &allowed)?;
+    let kind = c.one_of(node, "filter", &schema::FILTER)?;
+    let fields = c.block(node, &format!("the filter of {what}"), kind)?;
     let highpass = optional(c, &fields, "highpass", FREQUENCY, Range::Positive);
     let lowpass = optional(c, &fields, "lowpass", FREQUENCY, Range::Positive);
     let order = fields.get("order").map_or(Some(4), |n| c.count(n, "order", 1));
     let causal = fields.get("causal").map_or(Some(false), |n| c.flag(n, "causal"));
-    let padding = fields
-        .get("padding")
-        .map_or(Some(1), |n| c.choice(n, "padding", &["None", "Strip", "Keep"]));
+    let padding =
+        fields.get("padding").map_or(Some(1), |n| c.choice(n, "padding", &schema::PADDINGS));
     Some(Filter {
         highpass: highpass?,
         lowpass: lowpass?,
@@ -123,31 +122,16 @@ fn resampling(c: &Context<'_>, node: &Node, what: &str) -> Option<(f64, Resampli
         let dt = c.ranged(node, "resample", TIME, Range::Positive)?;
         return Some((dt, Resampling::BandLimited));
     }
-    let how = c.choice(node, "resampling", &["BandLimited", "Linear"])?;
-    let fields = c.fields(node, &format!("the resampling of {what}"), &["dt"])?;
+    let kind = c.one_of(node, "resampling", &schema::RESAMPLE)?;
+    let fields = c.block(node, &format!("the resampling of {what}"), kind)?;
     let dt = c.ranged(fields.required(c, "dt")?, "dt", TIME, Range::Positive)?;
-    Some((dt, [Resampling::BandLimited, Resampling::Linear][how]))
+    let linear = kind.name == "Linear";
+    Some((dt, if linear { Resampling::Linear } else { Resampling::BandLimited }))
 }
-
-const SYNTHETIC: [&str; 13] = [
-    "seed",
-    "duration",
-    "dt",
-    "peak",
-    "frequency",
-    "damping",
-    "highpass",
-    "highpass_damping",
-    "envelope",
-    "spectrum",
-    "spectrum_damping",
-    "scale",
-    "after_end",
-];
 
 /// `Synthetic(seed: 1, peak: "0.3 g", …)`, or with `spectrum: [(period, acceleration), …]`.
 pub(super) fn synthetic(c: &Context<'_>, e: &Entry) -> Option<Made> {
-    let fields = c.fields(&e.value, &what(e), &SYNTHETIC)?;
+    let fields = c.block(&e.value, &what(e), &schema::SYNTHETIC)?;
     let plain = KanaiTajimi::default();
     let seed = fields.required(c, "seed").and_then(|n| c.count(n, "seed", 0));
     let or = |key: &str, d: Dimension, default: f64| {
@@ -228,10 +212,11 @@ fn points(c: &Context<'_>, list: &Node) -> Option<Vec<(f64, f64)>> {
 /// `Jennings(rise: …, strong: …, decay: …)`, `SaragoniHart(peak_at: …, end: …)` or `Stationary`.
 fn envelope(c: &Context<'_>, node: &Node, what: &str, plain: Envelope) -> Option<Envelope> {
     let what = format!("the envelope of {what}");
-    match c.choice(node, "envelope", &["Stationary", "Jennings", "SaragoniHart"])? {
-        0 => Some(Envelope::Stationary),
-        1 => {
-            let fields = c.fields(node, &what, &["rise", "strong", "decay"])?;
+    let kind = c.one_of(node, "envelope", &schema::ENVELOPE)?;
+    let fields = c.block(node, &what, kind)?;
+    match kind.name {
+        "Stationary" => Some(Envelope::Stationary),
+        "Jennings" => {
             let number = |key: &str, d| {
                 fields.required(c, key).and_then(|n| c.ranged(n, key, d, Range::Positive))
             };
@@ -240,7 +225,6 @@ fn envelope(c: &Context<'_>, node: &Node, what: &str, plain: Envelope) -> Option
             Some(Envelope::Jennings { rise: rise?, strong: strong?, decay: decay? })
         }
         _ => {
-            let fields = c.fields(node, &what, &["peak_at", "end"])?;
             let Envelope::SaragoniHart { peak_at, end } = plain else { return Some(plain) };
             let share = |key: &str, default: f64| {
                 optional(c, &fields, key, NONE, Range::Positive).map(|x| x.unwrap_or(default))

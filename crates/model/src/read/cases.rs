@@ -3,6 +3,7 @@
 use super::context::{Context, Fields};
 use super::names::Names;
 use super::{dynamic, loads};
+use crate::schema;
 use crate::tree::{Entry, Kind, Node};
 use crate::{Analysis, Case, Function, StaticCase, Support};
 
@@ -23,12 +24,10 @@ pub(super) fn cases(
     let names = Names::new("case", "cases", entries);
     let one = |(i, e): (usize, &Entry)| {
         let what = format!("case `{}`", e.key);
-        let kind = c.choice(&e.value, "analysis", &["Static", "Dynamic"])?;
-        let allowed: &[&str] =
-            if kind == 0 { &["after", "loads", "steps"] } else { dynamic::FIELDS };
-        let fields = c.fields(&e.value, &what, allowed)?;
+        let kind = c.one_of(&e.value, "analysis", &schema::CASES)?;
+        let fields = c.block(&e.value, &what, kind)?;
         let after = after(c, &fields, &names, i);
-        let analysis = if kind == 0 {
+        let analysis = if kind.name == "Static" {
             let applied = fields.required(c, "loads").and_then(|n| loads::list(c, n, about.loads));
             let steps = fields.get("steps").map_or(Some(1), |n| c.count(n, "steps", 1));
             Analysis::Static(StaticCase { loads: applied?, steps: steps? })

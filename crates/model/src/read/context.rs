@@ -3,6 +3,7 @@
 use crate::diagnostic::{closest, names_help};
 use crate::expression::{Quantity, evaluate, expression_diagnostic};
 use crate::parameters::{Evaluated, Parameters};
+use crate::schema::{Block, Group};
 use crate::tree::{Entry, Kind, Node};
 use crate::units::FileUnits;
 use crate::{Diagnostic, Registry, Source, Span};
@@ -129,6 +130,21 @@ impl<'a> Context<'a> {
             self.report(d.help("a model needs at least one node, one element and one case"));
         }
         entries
+    }
+
+    /// The fields of a block of the schema. Unknown ones are reported.
+    pub(crate) fn block<'n>(
+        &self,
+        node: &'n Node,
+        what: &str,
+        block: &Block,
+    ) -> Option<Fields<'n>> {
+        self.fields(node, what, &block.names())
+    }
+
+    /// The block of a group that a value names.
+    pub(crate) fn one_of(&self, node: &Node, what: &str, group: &Group) -> Option<&'static Block> {
+        self.choice(node, what, &group.names()).map(|i| group.blocks[i])
     }
 
     /// The fields of `(…)` or `Name(…)`; a bare name has none. Unknown ones are reported.

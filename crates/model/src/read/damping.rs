@@ -2,26 +2,27 @@
 
 use super::context::Context;
 use crate::Damping;
+use crate::schema;
 use crate::tree::Node;
 use std::f64::consts::TAU;
 use trilith_element::Range;
 use trilith_element::dimension::{FREQUENCY, NONE, TIME};
 
-const KINDS: [&str; 5] = ["None", "Modal", "ModalTable", "Rayleigh", "RayleighAt"];
 const RATIO: Range = Range::Within(0.0, 0.999);
 
 pub(super) fn damping(c: &Context<'_>, node: &Node) -> Option<Damping> {
     let what = "`damping`";
-    match KINDS[c.choice(node, "damping", &KINDS)?] {
-        "None" => c.fields(node, what, &[]).map(|_| Damping::None),
+    let kind = c.one_of(node, "damping", &schema::DAMPING)?;
+    match kind.name {
+        "None" => c.block(node, what, kind).map(|_| Damping::None),
         "Modal" => {
-            let fields = c.fields(node, what, &["ratio"])?;
+            let fields = c.block(node, what, kind)?;
             let ratio = c.ranged(fields.required(c, "ratio")?, "ratio", NONE, RATIO)?;
             Some(Damping::Modal { ratio })
         }
         "ModalTable" => table(c, node),
         "Rayleigh" => {
-            let fields = c.fields(node, what, &["mass", "stiffness"])?;
+            let fields = c.block(node, what, kind)?;
             let one = |key, dimension| {
                 fields
                     .get(key)
@@ -31,7 +32,7 @@ pub(super) fn damping(c: &Context<'_>, node: &Node) -> Option<Damping> {
             Some(Damping::Rayleigh { mass: mass?, stiffness: stiffness? })
         }
         _ => {
-            let fields = c.fields(node, what, &["ratio", "f1", "f2"])?;
+            let fields = c.block(node, what, kind)?;
             let ratio = fields.required(c, "ratio").and_then(|n| c.ranged(n, "ratio", NONE, RATIO));
             let frequency = |key: &str| {
                 c.ranged(fields.required(c, key)?, key, FREQUENCY, Range::Positive).map(|f| TAU * f)
@@ -46,7 +47,7 @@ pub(super) fn damping(c: &Context<'_>, node: &Node) -> Option<Damping> {
 }
 
 fn table(c: &Context<'_>, node: &Node) -> Option<Damping> {
-    let fields = c.fields(node, "`damping`", &["points"])?;
+    let fields = c.block(node, "`damping`", &schema::MODAL_TABLE)?;
     let list = fields.required(c, "points")?;
     let mut points: Vec<(f64, f64)> = Vec::new();
     for item in list.items() {

@@ -3,30 +3,13 @@
 use super::cases::Surroundings;
 use super::context::{Context, Fields};
 use super::{loads, solution};
+use crate::schema;
 use crate::tree::{Kind, Node};
 use crate::{
     AfterEnd, BaseMotion, DynamicCase, ForceHistory, Initial, Interpolation, SupportMotion,
 };
 use trilith_element::dimension::{ACCELERATION, FREQUENCY, LENGTH, NONE, TIME, VELOCITY};
 use trilith_element::{Dimension, Dof, Range};
-
-pub(super) const FIELDS: &[&str] = &[
-    "after",
-    "duration",
-    "dt",
-    "constant",
-    "base",
-    "forces",
-    "supports",
-    "initial",
-    "solver",
-    "step",
-    "kernel",
-    "link_tolerance",
-    "energy_limit",
-    "basis",
-    "alpha",
-];
 
 struct Reading<'c, 'n> {
     c: &'c Context<'c>,
@@ -81,17 +64,17 @@ impl Reading<'_, '_> {
 
     fn base(&self, node: &Node) -> Option<BaseMotion> {
         let c = self.c;
-        let fields = c.fields(node, "a base motion", &["direction", "function", "factor"])?;
-        let names = ["X", "Y", "Z", "Ux", "Uy", "Uz"];
-        let direction =
-            fields.required(c, "direction").and_then(|n| c.choice(n, "direction", &names));
+        let fields = c.block(node, "a base motion", schema::BASE_MOTION.blocks[0])?;
+        let direction = fields
+            .required(c, "direction")
+            .and_then(|n| c.choice(n, "direction", &schema::BASE_DIRECTIONS));
         let (function, factor) = self.function(&fields, ACCELERATION)?;
         Some(BaseMotion { direction: Dof::ALL[direction? % 3], function, factor })
     }
 
     fn force(&self, node: &Node) -> Option<ForceHistory> {
         let c = self.c;
-        let fields = c.fields(node, "a force history", &["load", "function", "factor"])?;
+        let fields = c.block(node, "a force history", schema::FORCE_HISTORY.blocks[0])?;
         let pattern = fields.required(c, "load").and_then(|n| self.about.loads.refer(c, n));
         let (function, factor) = self.function(&fields, NONE)?;
         Some(ForceHistory { pattern: pattern?, function, factor })
@@ -99,8 +82,7 @@ impl Reading<'_, '_> {
 
     fn support(&self, item: &Node) -> Option<SupportMotion> {
         let c = self.c;
-        let allowed = ["node", "dof", "displacement", "factor"];
-        let fields = c.fields(item, "a support motion", &allowed)?;
+        let fields = c.block(item, "a support motion", schema::SUPPORT_MOTION.blocks[0])?;
         let (node, dof) = self.place(&fields);
         let (node, dof) = (node?, dof?);
         let wanted = if dof.is_rotation() { NONE } else { LENGTH };
@@ -131,8 +113,7 @@ impl Reading<'_, '_> {
 
     fn initial(&self, item: &Node) -> Option<Initial> {
         let c = self.c;
-        let allowed = ["node", "dof", "displacement", "velocity"];
-        let fields = c.fields(item, "an initial value", &allowed)?;
+        let fields = c.block(item, "an initial value", schema::INITIAL.blocks[0])?;
         let (node, dof) = self.place(&fields);
         let dof = dof?;
         let (length, speed) =

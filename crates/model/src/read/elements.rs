@@ -5,6 +5,7 @@ use super::names::Names;
 use super::values::{Given, values};
 use crate::diagnostic::names_help;
 use crate::registry::Reader;
+use crate::schema;
 use crate::tree::{Entry, Node};
 use crate::{Body, Element, LinkOptions, Span};
 use std::cell::RefCell;
@@ -14,10 +15,6 @@ use trilith_element::dimension::{LENGTH, MOMENT, NONE, STIFFNESS};
 use trilith_element::{
     Card, Category, Coordinates, Frame, Link, NodeCount, ParameterError, Range, Values, Vector3,
 };
-
-const FRONT: &[&str] = &["axis1", "axis2"];
-const LINK_FRONT: &[&str] = &["effective_stiffness", "shear_at"];
-const PLACE: &[&str] = &["nodes", "node", "use"];
 
 struct Reading<'c, 'n> {
     c: &'c Context<'c>,
@@ -74,9 +71,9 @@ fn kind(c: &Context<'_>, node: &Node) -> Option<(&'static Card, Reader)> {
 fn allowed(card: &Card, place: &[&'static str]) -> Vec<&'static str> {
     let mut all: Vec<&str> = place.to_vec();
     all.extend(card.parameters.iter().map(|p| p.name));
-    all.extend(FRONT);
+    all.extend(schema::ELEMENT.names());
     if card.category == Category::Link {
-        all.extend(LINK_FRONT);
+        all.extend(schema::LINK.names());
     }
     all
 }
@@ -86,7 +83,7 @@ impl Reading<'_, '_> {
         let c = self.c;
         let (card, reader) = kind(c, &e.value)?;
         let what = format!("element `{}`", e.key);
-        let fields = c.fields(&e.value, &what, &allowed(card, PLACE))?;
+        let fields = c.fields(&e.value, &what, &allowed(card, &schema::PLACE.names()))?;
         let at = e.value.name_span();
         let shared = match fields.get("use") {
             Some(node) => self.shared(node, card),

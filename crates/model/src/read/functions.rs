@@ -5,26 +5,11 @@ use super::context::{Context, Fields};
 use super::names::Names;
 use super::record::record;
 use super::tables::{points, table};
+use crate::schema::{self, Block};
 use crate::tree::{Entry, Kind};
 use crate::{Function, Harmonic, TimeFunction};
 use trilith_element::dimension::{FREQUENCY, NONE, TIME};
 use trilith_element::{Dimension, Range};
-
-const KINDS: [&str; 12] = [
-    "Constant",
-    "Step",
-    "Ramp",
-    "Sine",
-    "Cosine",
-    "HalfSine",
-    "Ricker",
-    "Table",
-    "Points",
-    "Scaled",
-    "Record",
-    "Synthetic",
-];
-const HARMONIC: &[&str] = &["amplitude", "frequency", "cycles", "start", "phase"];
 
 /// A function and the dimension of its values; no dimension for plain numbers.
 pub(super) type Made = (TimeFunction, Option<Dimension>);
@@ -37,12 +22,12 @@ pub(super) fn functions(
     let mut made: Vec<Option<Made>> = Vec::new();
     let mut scaled: Vec<(usize, usize, f64, Option<Dimension>)> = Vec::new();
     for (i, e) in entries.iter().enumerate() {
-        let kind = c.choice(&e.value, "function", &KINDS);
-        if kind == Some(9) {
+        let kind = c.one_of(&e.value, "function", &schema::FUNCTIONS);
+        if kind.is_some_and(|k| k.name == schema::SCALED.name) {
             scaled.extend(reference(c, e, names).map(|(of, factor, d)| (i, of, factor, d)));
             made.push(None);
         } else {
-            made.push(kind.and_then(|k| function(c, e, KINDS[k])));
+            made.push(kind.and_then(|k| function(c, e, k)));
         }
     }
     // A scaled function may stand before the one it scales.
@@ -94,7 +79,7 @@ fn reference(
     e: &Entry,
     names: &Names<'_>,
 ) -> Option<(usize, f64, Option<Dimension>)> {
-    let fields = c.fields(&e.value, &what(e), &["function", "factor"])?;
+    let fields = c.block(&e.value, &what(e), &schema::SCALED)?;
     let of = fields.required(c, "function").and_then(|n| names.refer(c, n));
     let factor = fields.required(c, "factor").and_then(|n| c.quantity(n));
     let factor = factor?;
@@ -105,21 +90,21 @@ pub(super) fn what(e: &Entry) -> String {
     format!("function `{}`", e.key)
 }
 
-fn function(c: &Context<'_>, e: &Entry, kind: &str) -> Option<Made> {
+fn function(c: &Context<'_>, e: &Entry, kind: &Block) -> Option<Made> {
     let node = &e.value;
-    let open = |allowed: &[&str]| c.fields(node, &what(e), allowed);
-    match kind {
+    let open = || c.block(node, &what(e), kind);
+    match kind.name {
         "Constant" => {
             // `Constant(3)` as well as `Constant(value: 3)`.
             let value = match &node.kind {
                 Kind::List(_, items) if items.len() == 1 => &items[0],
-                _ => open(&["value"])?.required(c, "value")?,
+                _ => open()?.required(c, "value")?,
             };
             let q = c.quantity(value)?;
             Some((TimeFunction::Constant(q.value), q.measured.then_some(q.dimension)))
         }
         "Step" => {
-            let fields = open(&["amplitude", "start", "end"])?;
+            let fields = open()?;
             let (amplitude, dimension) = amplitude(c, &fields)?;
             let start = time(c, &fields, "start")?;
             let end = match fields.get("end") {
@@ -135,19 +120,19 @@ fn function(c: &Context<'_>, e: &Entry, kind: &str) -> Option<Made> {
             Some((TimeFunction::Step { amplitude, start, end }, dimension))
         }
         "Ramp" => {
-            let fields = open(&["amplitude", "start", "rise"])?;
+            let fields = open()?;
             let (a, start) = (amplitude(c, &fields), time(c, &fields, "start"));
             let rise = positive(c, &fields, "rise", TIME);
             let (amplitude, dimension) = a?;
             Some((TimeFunction::Ramp { amplitude, start: start?, rise: rise? }, dimension))
         }
         "Sine" | "Cosine" => {
-            let (harmonic, dimension) = harmonic(c, &open(HARMONIC)?)?;
-            let f = if kind == "Sine" { TimeFunction::Sine } else { TimeFunction::Cosine };
+            let (harmonic, dimension) = harmonic(c, &open()?)?;
+            let f = if kind.name == "Sine" { TimeFunction::Sine } else { TimeFunction::Cosine };
             Some((f(harmonic), dimension))
         }
         "HalfSine" => {
-            let fields = open(&["amplitude", "duration", "start"])?;
+            let fields = open()?;
             let (a, start) = (amplitude(c, &fields), time(c, &fields, "start"));
             let duration = positive(c, &fields, "duration", TIME);
             let (amplitude, dimension) = a?;
@@ -157,7 +142,7 @@ fn function(c: &Context<'_>, e: &Entry, kind: &str) -> Option<Made> {
             ))
         }
         "Ricker" => {
-            let fields = open(&["amplitude", "frequency", "center"])?;
+            let fields = open()?;
             let (a, center) = (amplitude(c, &fields), time(c, &fields, "center"));
             let frequency = positive(c, &fields, "frequency", FREQUENCY);
             let (amplitude, dimension) = a?;

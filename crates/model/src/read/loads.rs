@@ -2,6 +2,7 @@
 
 use super::context::Context;
 use super::names::Names;
+use crate::schema;
 use crate::tree::{Entry, Kind, Node};
 use crate::{Load, NodalForce, Pattern};
 use trilith_element::dimension::{FORCE, MOMENT, NONE};
@@ -27,7 +28,7 @@ pub(super) fn patterns(
 
 fn force(c: &Context<'_>, item: &Node, nodes: &Names<'_>, load: &str) -> Option<NodalForce> {
     let what = format!("load `{load}`");
-    let fields = c.fields(item, &what, &["node", "dof", "force", "moment"])?;
+    let fields = c.block(item, &what, &schema::FORCE)?;
     let node = fields.required(c, "node").and_then(|n| nodes.refer(c, n));
     let dof = fields.required(c, "dof").and_then(|n| c.dof(n))?;
     let (key, other, dimension) =
@@ -49,15 +50,15 @@ pub(super) fn list(c: &Context<'_>, node: &Node, loads: &Names<'_>) -> Option<Ve
 
 fn load(c: &Context<'_>, node: &Node, loads: &Names<'_>) -> Option<Load> {
     if node.name().is_some() {
-        c.choice(node, "load", &["Gravity"])?;
-        let fields = c.fields(node, "`Gravity`", &["factor"])?;
+        c.choice(node, "load", &[schema::GRAVITY.name])?;
+        let fields = c.block(node, "`Gravity`", &schema::GRAVITY)?;
         let factor = fields.get("factor").map_or(Some(1.0), |n| c.number(n, NONE))?;
         return Some(Load::Gravity { factor });
     }
     if let Kind::Text(_) = node.kind {
         return Some(Load::Pattern { pattern: loads.refer(c, node)?, factor: 1.0 });
     }
-    let fields = c.fields(node, "a load", &["load", "factor"])?;
+    let fields = c.block(node, "a load", &schema::LOAD)?;
     let pattern = fields.required(c, "load").and_then(|n| loads.refer(c, n));
     let factor = fields.get("factor").map_or(Some(1.0), |n| c.number(n, NONE));
     Some(Load::Pattern { pattern: pattern?, factor: factor? })

@@ -21,6 +21,7 @@ mod values;
 #[cfg(test)]
 mod tests;
 
+use crate::schema;
 use crate::tree::{self, Node};
 use crate::units::{FileUnits, STANDARD_GRAVITY};
 use crate::{Diagnostic, Model, Plane, Registry, Source};
@@ -31,25 +32,6 @@ use sha2::{Digest, Sha256};
 use std::path::Path;
 use std::sync::Arc;
 use trilith_element::dimension as d;
-
-const SECTIONS: &[&str] = &[
-    "title",
-    "units",
-    "plane",
-    "gravity",
-    "parameters",
-    "nodes",
-    "supports",
-    "properties",
-    "elements",
-    "damping",
-    "p_delta",
-    "functions",
-    "loads",
-    "cases",
-    "outputs",
-    "spectra",
-];
 
 /// Reads a model file. `overrides` are names and values of parameters that replace those of the
 /// file; a value is an expression, or the text of a text parameter.
@@ -152,7 +134,7 @@ impl ModelText {
 }
 
 fn sections(c: &mut Context<'_>, root: &Node, overrides: &[(String, String)]) -> Option<Model> {
-    let top = c.fields(root, "the model", SECTIONS)?;
+    let top = c.block(root, "the model", schema::MODEL.blocks[0])?;
     if let Some(node) = top.get("units") {
         c.units = file_units(c, node).unwrap_or_default();
     }
@@ -162,7 +144,7 @@ fn sections(c: &mut Context<'_>, root: &Node, overrides: &[(String, String)]) ->
 
     let plane = top.get("plane").and_then(|node| {
         let all = [Plane::XZ, Plane::YZ, Plane::XY];
-        c.choice(node, "plane", &["XZ", "YZ", "XY"]).map(|i| all[i])
+        c.choice(node, "plane", &schema::PLANES).map(|i| all[i])
     });
     let gravity = match top.get("gravity") {
         Some(node) => {
@@ -229,7 +211,7 @@ fn sections(c: &mut Context<'_>, root: &Node, overrides: &[(String, String)]) ->
 
 /// `units: (length: "in", force: "kip", time: "s")`; mass may stand in place of force.
 fn file_units(c: &Context<'_>, node: &Node) -> Option<FileUnits> {
-    let fields = c.fields(node, "`units`", &["length", "force", "mass", "time"])?;
+    let fields = c.block(node, "`units`", schema::UNITS.blocks[0])?;
     let one = |key: &'static str, dimension| match fields.get(key) {
         None => Some(1.0),
         Some(node) => base_unit(c, node, key, dimension),

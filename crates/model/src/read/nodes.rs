@@ -2,6 +2,7 @@
 
 use super::context::Context;
 use super::names::Names;
+use crate::schema;
 use crate::tree::{Entry, Kind};
 use crate::{Node, Support};
 use trilith_element::Dof;
@@ -36,7 +37,7 @@ pub(super) fn supports(
                     c.report(d.help("write `Fixed`, `Pinned` or directions such as `(Ux, Uz)`"));
                 }
                 for item in items {
-                    let names = [&Dof::ALL.map(Dof::name)[..], &["Fixed", "Pinned"]].concat();
+                    let names = [&Dof::ALL.map(Dof::name)[..], &schema::SUPPORTS].concat();
                     match c.choice(item, "support direction", &names) {
                         Some(i) if i < 6 && !fixed[i] => fixed[i] = true,
                         Some(i) => {

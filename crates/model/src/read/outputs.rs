@@ -6,27 +6,13 @@ use super::context::{Context, Fields};
 use super::names::Names;
 use crate::diagnostic::names_help;
 use crate::expression::Quantity as Number;
+use crate::schema::{self, Block};
 use crate::tree::{Entry, Kind, Node};
-use crate::{Body, Combine, Element, NodalTerm, Output, Quantity};
+use crate::{Body, Element, NodalTerm, Output, Quantity};
 use trilith_element::dimension::{FORCE, LENGTH, MOMENT, NONE};
 use trilith_element::{Axis, Coordinates, Dimension, Dof, Link};
 
 use super::motion::{nodal_dimension, unit};
-
-const KINDS: [&str; 11] = [
-    "Displacement",
-    "Velocity",
-    "Acceleration",
-    "LinkForce",
-    "LinkDeformation",
-    "LinkHistory",
-    "ElementForce",
-    "Sum",
-    "Norm",
-    "Largest",
-    "Smallest",
-];
-const TERM: [&str; 3] = ["node", "dof", "factor"];
 
 struct Reading<'c, 'n> {
     c: &'c Context<'c>,
@@ -56,35 +42,41 @@ pub(super) fn outputs(
 
 impl Reading<'_, '_> {
     fn output(&self, e: &Entry) -> Option<(Quantity, String)> {
-        let kind = self.c.choice(&e.value, "output", &KINDS)?;
+        let kind = self.c.one_of(&e.value, "output", &schema::OUTPUTS)?;
         let what = format!("output `{}`", e.key);
-        match kind {
-            0..=2 => self.nodal(&e.value, &what, kind),
-            3 | 4 => self.link(&e.value, &what, kind == 3),
-            5 => self.history(&e.value, &what),
-            6 => self.element_force(&e.value, &what),
-            _ => combination::combination(self, &e.value, &what, Combine::ALL[kind - 7]),
+        match kind.name {
+            "Displacement" => self.nodal(&e.value, &what, kind, 0),
+            "Velocity" => self.nodal(&e.value, &what, kind, 1),
+            "Acceleration" => self.nodal(&e.value, &what, kind, 2),
+            "LinkForce" => self.link(&e.value, &what, kind, true),
+            "LinkDeformation" => self.link(&e.value, &what, kind, false),
+            "LinkHistory" => self.history(&e.value, &what, kind),
+            "ElementForce" => self.element_force(&e.value, &what, kind),
+            _ => combination::combination(self, &e.value, &what, kind),
         }
     }
 
-    fn nodal(&self, node: &Node, what: &str, order: usize) -> Option<(Quantity, String)> {
+    fn nodal(
+        &self,
+        node: &Node,
+        what: &str,
+        kind: &Block,
+        order: usize,
+    ) -> Option<(Quantity, String)> {
         let c = self.c;
-        let mut allowed = vec!["node", "dof", "factor", "terms"];
-        if order == 2 {
-            allowed.push("absolute");
-        }
-        let fields = c.fields(node, what, &allowed)?;
+        let fields = c.block(node, what, kind)?;
         let absolute = fields.get("absolute").map_or(Some(false), |n| c.flag(n, "absolute"));
         let mut terms: Vec<Option<(NodalTerm, Dimension)>> = Vec::new();
         let mut target = None;
         if let Some(list) = fields.get("terms") {
-            if let Some(extra) = TERM.iter().find_map(|k| fields.get(k)) {
+            let term = schema::TERM.blocks[0];
+            if let Some(extra) = term.names().into_iter().find_map(|k| fields.get(k)) {
                 let message = format!("{what} has `terms` and fields of a single term");
                 c.report(c.diagnostic("E0102", message, extra.span.clone()));
             }
             for item in list.items() {
                 let term = c
-                    .fields(item, &format!("a term of {what}"), &TERM)
+                    .block(item, &format!("a term of {what}"), term)
                     .and_then(|f| self.term(&f, order, target));
                 target = target.or(term.map(|(_, d)| d));
                 terms.push(term);
@@ -165,9 +157,15 @@ impl Reading<'_, '_> {
         }
     }
 
-    fn link(&self, node: &Node, what: &str, force: bool) -> Option<(Quantity, String)> {
+    fn link(
+        &self,
+        node: &Node,
+        what: &str,
+        kind: &Block,
+        force: bool,
+    ) -> Option<(Quantity, String)> {
         let c = self.c;
-        let fields = c.fields(node, what, &["link", "axis", "coordinate", "factor"])?;
+        let fields = c.block(node, what, kind)?;
         let (found, factor) = (self.law(&fields), self.factor(&fields));
         let (element, law) = found?;
         let coordinates = law.coordinates();
@@ -238,9 +236,9 @@ impl Reading<'_, '_> {
         None
     }
 
-    fn history(&self, node: &Node, what: &str) -> Option<(Quantity, String)> {
+    fn history(&self, node: &Node, what: &str, kind: &Block) -> Option<(Quantity, String)> {
         let c = self.c;
-        let fields = c.fields(node, what, &["link", "variable"])?;
+        let fields = c.block(node, what, kind)?;
         let variable = fields.required(c, "variable")?;
         let (element, law) = self.law(&fields)?;
         let (Kind::Text(name) | Kind::Name(name)) = &variable.kind else {
@@ -258,9 +256,9 @@ impl Reading<'_, '_> {
         None
     }
 
-    fn element_force(&self, node: &Node, what: &str) -> Option<(Quantity, String)> {
+    fn element_force(&self, node: &Node, what: &str, kind: &Block) -> Option<(Quantity, String)> {
         let c = self.c;
-        let fields = c.fields(node, what, &["element", "end", "dof", "factor"])?;
+        let fields = c.block(node, what, kind)?;
         let name = fields.required(c, "element");
         let element = name.and_then(|n| self.names.refer(c, n));
         let dof: Option<Dof> = fields.required(c, "dof").and_then(|n| c.dof(n));

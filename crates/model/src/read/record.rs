@@ -6,6 +6,7 @@ use super::functions::{Made, what};
 use super::tables::{after_end, file_name, unit};
 use crate::Span;
 use crate::diagnostic::names_help;
+use crate::schema;
 use crate::tree::{Entry, Kind, Node};
 use std::path::Path;
 use trilith_element::Range;
@@ -69,26 +70,9 @@ fn list(names: &[String]) -> String {
     names.iter().enumerate().map(one).collect::<Vec<_>>().join(", ")
 }
 
-const FIELDS: [&str; 14] = [
-    "file",
-    "component",
-    "format",
-    "unit",
-    "dt",
-    "trim",
-    "baseline",
-    "taper",
-    "filter",
-    "resample",
-    "scale_to",
-    "scale",
-    "start",
-    "after_end",
-];
-
 /// `Record(file: "x.at2", …)`: an accelerogram, processed.
 pub(super) fn record(c: &Context<'_>, e: &Entry) -> Option<Made> {
-    let fields = c.fields(&e.value, &what(e), &FIELDS)?;
+    let fields = c.block(&e.value, &what(e), &schema::RECORD)?;
     let processing = processing(c, &fields, &what(e));
     let after_end = after_end(c, &fields, 1);
     let start = fields.get("start").map_or(Some(0.0), |n| c.number(n, TIME));
@@ -130,9 +114,7 @@ pub(super) fn record(c: &Context<'_>, e: &Entry) -> Option<Made> {
 fn options(c: &Context<'_>, fields: &Fields<'_>) -> Option<ReadOptions> {
     let format = match fields.get("format") {
         None => Some(None),
-        Some(n) => {
-            c.choice(n, "format", &Format::ALL.map(Format::name)).map(|i| Some(Format::ALL[i]))
-        }
+        Some(n) => c.choice(n, "format", &schema::FORMATS).map(|i| Some(Format::ALL[i])),
     };
     let unit = match fields.get("unit") {
         None => Some(None),

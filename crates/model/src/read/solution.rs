@@ -1,6 +1,7 @@
 //! How a dynamic case is solved.
 
 use super::context::{Context, Fields};
+use crate::schema;
 use crate::tree::Node;
 use crate::{Basis, BasisKind, Kernel, Solution, SolverKind, StepControl};
 use trilith_element::Range;
@@ -12,13 +13,12 @@ const TOLERANCE: Range = Range::Within(f64::MIN_POSITIVE, 1.0 - f64::EPSILON);
 pub(super) fn solution(c: &Context<'_>, fields: &Fields<'_>) -> Option<Solution> {
     let plain = Solution::default();
     let solver = fields.get("solver").map_or(Some(plain.solver), |n| {
-        let names = ["Fna", "Hht", "RitzHht", "FullNewton"];
-        c.choice(n, "solver", &names).map(|i| SolverKind::ALL[i])
+        c.choice(n, "solver", &schema::SOLVERS).map(|i| SolverKind::ALL[i])
     });
     let step = fields.get("step").map_or(Some(plain.step), |n| step(c, n));
     let kernel = fields.get("kernel").map_or(Some(plain.kernel), |n| {
         let all = [Kernel::Newton, Kernel::FixedPoint];
-        c.choice(n, "kernel", &["Newton", "FixedPoint"]).map(|i| all[i])
+        c.choice(n, "kernel", &schema::KERNELS).map(|i| all[i])
     });
     let share =
         |name: &str, plain: f64| fields.get(name).map_or(Some(plain), |n| tolerance(c, n, name));
@@ -58,24 +58,23 @@ fn alpha(c: &Context<'_>, node: &Node) -> Option<f64> {
 }
 
 fn step(c: &Context<'_>, node: &Node) -> Option<StepControl> {
-    if c.choice(node, "step control", &["Adaptive", "Fixed"])? == 0 {
-        let fields = c.fields(node, "`Adaptive`", &["tolerance"])?;
+    let kind = c.one_of(node, "step control", &schema::STEPS)?;
+    let fields = c.block(node, &format!("`{}`", kind.name), kind)?;
+    if kind.name == "Adaptive" {
         let plain = StepControl::default();
         let Some(node) = fields.get("tolerance") else { return Some(plain) };
         return tolerance(c, node, "tolerance")
             .map(|tolerance| StepControl::Adaptive { tolerance });
     }
-    let fields = c.fields(node, "`Fixed`", &["substeps"])?;
     let substeps = fields.get("substeps").map_or(Some(1), |n| c.count(n, "substeps", 1))?;
     Some(StepControl::Fixed { substeps })
 }
 
 fn basis(c: &Context<'_>, node: &Node) -> Option<Basis> {
     let plain = Basis::default();
-    let names = ["Ritz", "Eigen", "Complete"];
-    let kind = c.choice(node, "basis", &names)?;
-    let allowed: &[&str] = if kind == 2 { &[] } else { &["vectors", "adequacy"] };
-    let fields = c.fields(node, &format!("`{}`", names[kind]), allowed)?;
+    let kind = c.choice(node, "basis", &schema::BASES.names())?;
+    let block = schema::BASES.blocks[kind];
+    let fields = c.block(node, &format!("`{}`", block.name), block)?;
     let vectors = fields.get("vectors").map_or(Some(None), |n| c.count(n, "vectors", 1).map(Some));
     let adequacy = fields
         .get("adequacy")

@@ -3,12 +3,12 @@
 use super::context::Context;
 use super::motion::{nodal_dimension, unit};
 use super::names::Names;
+use crate::schema;
 use crate::tree::{Entry, Kind, Node};
 use crate::{FloorSpectrum, NodalTerm, Output, Quantity};
 use trilith_element::dimension::{FREQUENCY, NONE, TIME};
 use trilith_element::{Dimension, Range};
 
-const FIELDS: [&str; 5] = ["node", "dof", "damping", "periods", "frequencies"];
 /// Frequencies where none are given, Hz, and their number.
 const FREQUENCIES: (f64, f64, usize) = (0.2, 50.0, 100);
 
@@ -30,7 +30,7 @@ fn one(
     outputs: &mut Vec<Option<Output>>,
 ) -> Option<FloorSpectrum> {
     let what = format!("spectrum `{}`", e.key);
-    let fields = c.fields(&e.value, &what, &FIELDS)?;
+    let fields = c.block(&e.value, &what, schema::SPECTRA.blocks[0])?;
     let node = fields.required(c, "node").and_then(|n| nodes.refer(c, n));
     let dof = fields.required(c, "dof").and_then(|n| c.dof(n).map(|d| (d, n)));
     let damping = match fields.get("damping") {
@@ -99,7 +99,7 @@ fn series(c: &Context<'_>, node: &Node, name: &str, dimension: Dimension) -> Opt
     if !matches!(&node.kind, Kind::Fields(None, entries) if !entries.is_empty()) {
         return list(c, node, name, dimension, Range::Positive);
     }
-    let fields = c.fields(node, &format!("`{name}`"), &["from", "to", "count"])?;
+    let fields = c.block(node, &format!("`{name}`"), schema::SERIES.blocks[0])?;
     let end = |key: &str| {
         fields.required(c, key).and_then(|n| c.ranged(n, key, dimension, Range::Positive))
     };

@@ -3,6 +3,7 @@
 use super::context::{Context, Fields};
 use super::functions::{Made, what};
 use super::record::{column, columns, numbers};
+use crate::schema;
 use crate::tree::{Entry, Kind, Node};
 use crate::{AfterEnd, Interpolation, Span, Table, TableError, TimeFunction};
 use std::sync::Arc;
@@ -12,7 +13,7 @@ use trilith_element::dimension::{NONE, TIME};
 fn style(c: &Context<'_>, fields: &Fields<'_>) -> Option<(Interpolation, AfterEnd)> {
     let interpolation = fields
         .get("interpolation")
-        .map_or(Some(0), |n| c.choice(n, "interpolation", &["Linear", "Cubic"]));
+        .map_or(Some(0), |n| c.choice(n, "interpolation", &schema::INTERPOLATIONS));
     let after = after_end(c, fields, 0);
     Some(([Interpolation::Linear, Interpolation::Cubic][interpolation?], after?))
 }
@@ -21,13 +22,12 @@ fn style(c: &Context<'_>, fields: &Fields<'_>) -> Option<(Interpolation, AfterEn
 pub(super) fn after_end(c: &Context<'_>, fields: &Fields<'_>, default: usize) -> Option<AfterEnd> {
     let after = fields
         .get("after_end")
-        .map_or(Some(default), |n| c.choice(n, "end of a table", &["Error", "Zero", "Hold"]));
+        .map_or(Some(default), |n| c.choice(n, "end of a table", &schema::AFTER_END));
     Some([AfterEnd::Error, AfterEnd::Zero, AfterEnd::Hold][after?])
 }
 
 pub(super) fn table(c: &Context<'_>, e: &Entry) -> Option<Made> {
-    let allowed = ["file", "time", "value", "unit", "scale", "skip", "interpolation", "after_end"];
-    let fields = c.fields(&e.value, &what(e), &allowed)?;
+    let fields = c.block(&e.value, &what(e), &schema::TABLE)?;
     let style = style(c, &fields);
     let scale = fields.get("scale").map_or(Some(None), |n| c.quantity(n).map(Some));
     let unit = fields.get("unit").map_or(Some(None), |n| unit(c, n).map(Some));
@@ -99,7 +99,7 @@ pub(super) fn file_name(c: &Context<'_>, node: &Node) -> Option<String> {
 }
 
 pub(super) fn points(c: &Context<'_>, e: &Entry) -> Option<Made> {
-    let fields = c.fields(&e.value, &what(e), &["points", "interpolation", "after_end"])?;
+    let fields = c.block(&e.value, &what(e), &schema::POINTS)?;
     let style = style(c, &fields);
     let list = fields.required(c, "points")?;
     let mut times = Vec::new();

@@ -4,6 +4,7 @@ use super::super::motion::unit;
 use super::Reading;
 use crate::diagnostic::{closest, names_help};
 use crate::expression::Quantity as Number;
+use crate::schema::{self, Block};
 use crate::tree::{Kind, Node};
 use crate::{Combine, Quantity, units};
 use trilith_element::Dimension;
@@ -14,11 +15,11 @@ pub(super) fn combination(
     reading: &Reading<'_, '_>,
     node: &Node,
     what: &str,
-    how: Combine,
+    kind: &Block,
 ) -> Option<(Quantity, String)> {
     let c = reading.c;
-    let allowed: &[&str] = if how == Combine::Sum { &["terms", "constant"] } else { &["terms"] };
-    let fields = c.fields(node, what, allowed)?;
+    let how = Combine::ALL[Combine::NAMES.iter().position(|n| *n == kind.name)?];
+    let fields = c.block(node, what, kind)?;
     let list = fields.required(c, "terms")?;
     let mut terms = Vec::new();
     let mut angles = true;
@@ -55,7 +56,7 @@ fn term(
     let (name, factor) = match &item.kind {
         Kind::Text(_) => (item, None),
         _ => {
-            let fields = c.fields(item, &format!("a term of {what}"), &["output", "factor"])?;
+            let fields = c.block(item, &format!("a term of {what}"), schema::PARTS.blocks[0])?;
             (fields.required(c, "output")?, fields.get("factor"))
         }
     };

@@ -1,0 +1,17 @@
+//! The guide: a book in plain Markdown, the reference that is written from the schema, and what its tests
+//! need to run every example.
+//!
+//! The pages are in `src`, in the order of `SUMMARY.md`; mdBook makes a site of them. The blocks of Rust in
+//! them are compiled and run as documentation tests of [`rust`].
+
+mod page;
+mod reference;
+
+pub use page::{Fence, Measured, Page, Table, pages};
+pub use reference::reference;
+
+/// The pages with Rust in them.
+pub mod rust {
+    #[doc = include_str!("../src/from_rust.md")]
+    pub mod from_rust {}
+}

@@ -1,0 +1,155 @@
+//! The reference of model files, written from the schema.
+
+use std::fmt::Write;
+use trilith::element::Category;
+use trilith::model::schema::{self, Block, Default, Field, Group, Takes};
+
+/// The page.
+#[must_use]
+pub fn reference() -> String {
+    let mut out = String::from(HEAD);
+    for g in schema::groups() {
+        group(&mut out, g);
+        if g.name == "model" {
+            beside(&mut out);
+        }
+    }
+    kinds(&mut out);
+    units(&mut out);
+    out
+}
+
+const HEAD: &str = "# Model file reference
+
+This page is written from the tables that the reader of model files itself uses
+(`cargo run --release -p trilith-guide -- reference`); a test compares the two. The parameters of elements,
+constraints and links are on their cards: `trilith elements NLink`, or all together in
+[the catalogue](../../../elements/CATALOGUE.md).
+
+A model file is [RON](https://github.com/ron-rs/ron): `(field: value)` is a block, `Name(field: value)` a
+block with a name, `[…]` or `(…)` a list, `{ \"name\": … }` a map. Every number may be a bare number (SI, or what
+`units` says), a text with a unit such as `\"4 m\"`, or an expression such as `\"mu * mass * g\"`; expressions
+have `+ - * / ^`, parentheses, the parameters of the file, and the functions listed under *Units*. Numbers
+are checked for dimension. Unknown names are refused with a suggestion, all errors of a file at once.
+`trilith check MODEL` prints a model with every default filled in.
+";
+
+fn group(out: &mut String, g: &Group) {
+    let _ = write!(out, "\n## {}\n\n{}\n", title(g.name), g.meaning);
+    for b in g.blocks {
+        if !b.name.is_empty() {
+            let _ = write!(out, "\n### {}\n", b.name);
+        }
+        block(out, b, g.name);
+    }
+}
+
+/// What the sections of a model hold that is no group of blocks.
+fn beside(out: &mut String) {
+    for (name, b, place) in [
+        ("Place of an element", &schema::PLACE, "elements"),
+        ("Fields of all elements", &schema::ELEMENT, "elements"),
+        ("Fields of all links", &schema::LINK, "elements"),
+        ("A force of a load", &schema::FORCE, "forces of a load"),
+    ] {
+        let _ = write!(out, "\n## {name}\n");
+        block(out, b, place);
+    }
+}
+
+fn block(out: &mut String, b: &Block, place: &str) {
+    let _ = write!(out, "\n{}\n\n```ron,in={}\n{}\n```\n", b.meaning, anchor(place), b.example);
+    if b.fields.is_empty() {
+        return;
+    }
+    out.push_str("\n| field | takes | default | meaning |\n|---|---|---|---|\n");
+    for f in b.fields {
+        let Field { name, meaning, .. } = f;
+        let _ =
+            writeln!(out, "| `{name}` | {} | {} | {meaning} |", takes(f.takes), default(f.default));
+    }
+}
+
+fn takes(t: Takes) -> String {
+    let names = |all: &[&str]| all.iter().map(|n| format!("`{n}`")).collect::<Vec<_>>().join(", ");
+    let link = |g: &Group| format!("[{}](#{})", title(g.name), anchor(g.name));
+    match t {
+        Takes::Text => "text".into(),
+        Takes::Number(dimension, range) => {
+            let unit = if dimension.is_none() { "number".into() } else { dimension.unit() };
+            match range {
+                trilith::element::Range::Any => unit,
+                range => format!("{unit}, {}", bounds(range)),
+            }
+        }
+        Takes::Quantity => "number with any unit".into(),
+        Takes::Count(least) => format!("whole number ≥ {least}"),
+        Takes::Flag => "`true`, `false`".into(),
+        Takes::Choice(all) => names(all),
+        Takes::Name(what) => {
+            format!("name of a {what}").replace("a e", "an e").replace("a o", "an o")
+        }
+        Takes::One(g) => format!("one of {}", link(g)),
+        Takes::List(g) => format!("list of {}", link(g)),
+        Takes::Map(g) => format!("map from names to {}", link(g)),
+        Takes::Words(words) => words.into(),
+    }
+}
+
+fn bounds(range: trilith::element::Range) -> String {
+    match range {
+        trilith::element::Range::Above(a, b) if (b - 1.0).abs() < 1e-9 && a == 0.0 => {
+            "> 0 and < 1".into()
+        }
+        trilith::element::Range::Within(a, b) if (a + 1.0 / 3.0).abs() < 1e-9 => {
+            format!("−1/3 … {b}")
+        }
+        range => range.text(),
+    }
+}
+
+fn default(d: Default) -> String {
+    match d {
+        Default::Required => "**must be given**".into(),
+        Default::Absent(words) => words.into(),
+        Default::Value(text) => format!("`{text}`"),
+    }
+}
+
+fn title(name: &str) -> String {
+    let mut letters = name.chars();
+    letters.next().map_or(String::new(), |c| c.to_uppercase().chain(letters).collect())
+}
+
+fn anchor(name: &str) -> String {
+    name.replace(' ', "-")
+}
+
+fn kinds(out: &mut String) {
+    out.push_str("\n## Kinds\n\nWhat `elements` and `properties` may hold.\n");
+    let registry = trilith::registry();
+    for (category, name) in [
+        (Category::Linear, "Linear elements"),
+        (Category::Constraint, "Constraints"),
+        (Category::Link, "Links"),
+    ] {
+        let _ = write!(out, "\n### {name}\n\n| kind | is | parameters |\n|---|---|---|\n");
+        for card in registry.cards().filter(|c| c.category == category) {
+            let all: Vec<_> = card.parameters.iter().map(|p| format!("`{}`", p.name)).collect();
+            let _ = writeln!(out, "| `{}` | {} | {} |", card.kind, card.summary, all.join(", "));
+        }
+    }
+}
+
+fn units(out: &mut String) {
+    out.push_str("\n## Units\n\nA unit stands behind a number and may be a product such as `N*s/m` or `m/s^2`.\n\n| unit | of | in SI |\n|---|---|---|\n");
+    for (name, factor, si) in schema::units() {
+        let _ = writeln!(
+            out,
+            "| `{name}` | {} | {factor} |",
+            if si == "1" { "pure number" } else { &si }
+        );
+    }
+    let all: Vec<_> = schema::expression_functions().iter().map(|f| format!("`{f}`")).collect();
+    let _ = write!(out, "\nFunctions of expressions: {}.\n", all.join(", "));
+}

@@ -1,0 +1,178 @@
+//! Every command, option, kind and field that the book names is there.
+
+mod common;
+
+use common::{book, root, trilith_in};
+use std::collections::BTreeSet;
+use trilith::model::schema::{self, Takes};
+
+fn help(arguments: &[&str]) -> String {
+    let all: Vec<String> = arguments.iter().map(|a| (*a).to_owned()).collect();
+    let done = trilith_in(&root(), &[all, vec!["--help".to_owned()]].concat());
+    assert_eq!(done.status, 0, "{arguments:?}: {}", done.err);
+    done.out
+}
+
+/// Names of the commands in a help text.
+fn commands(text: &str) -> Vec<String> {
+    let list = text.split_once("Commands:\n").map_or("", |(_, rest)| rest);
+    let lines = list.lines().take_while(|l| !l.trim().is_empty());
+    let names = lines.filter(|l| l.starts_with("  ") && !l.starts_with("   "));
+    names
+        .filter_map(|l| l.split_whitespace().next())
+        .filter(|n| *n != "help")
+        .map(str::to_owned)
+        .collect()
+}
+
+fn options(text: &str) -> BTreeSet<String> {
+    let words = text.split(|c: char| !(c.is_ascii_alphanumeric() || c == '-'));
+    words.filter(|w| w.starts_with("--") && w.len() > 2).map(str::to_owned).collect()
+}
+
+/// All commands with their own commands, and the options of each.
+fn program() -> Vec<(Vec<String>, BTreeSet<String>)> {
+    let mut found = Vec::new();
+    for command in commands(&help(&[])) {
+        let text = help(&[&command]);
+        for inner in commands(&text) {
+            found.push((vec![command.clone(), inner.clone()], options(&help(&[&command, &inner]))));
+        }
+        found.push((vec![command], options(&text)));
+    }
+    found
+}
+
+#[test]
+fn every_command_and_option_is_there() {
+    let program = program();
+    assert!(program.len() > 8, "{program:?}");
+    let known: BTreeSet<&String> = program.iter().flat_map(|(_, o)| o).collect();
+    let mut wrong = Vec::new();
+    for page in book() {
+        let blocks = page.fences.iter().filter(|f| f.language() == "console");
+        let lines = blocks.flat_map(|f| f.text.lines()).filter_map(|l| l.strip_prefix("$ "));
+        for text in lines.chain(page.words.iter().map(String::as_str)) {
+            let foreign = ["cargo ", "mdbook "].iter().any(|p| text.starts_with(p));
+            if foreign {
+                continue;
+            }
+            if let Some(rest) = text.strip_prefix("trilith ") {
+                let words: Vec<&str> = rest.split_whitespace().collect();
+                let fits = |names: &[String]| {
+                    names.iter().zip(&words).all(|(a, b)| a == b) && names.len() <= words.len()
+                };
+                let Some((names, own)) = program.iter().find(|(names, _)| fits(names)) else {
+                    wrong.push(format!("{}: `{text}` is no command", page.name));
+                    continue;
+                };
+                for o in options(rest).iter().filter(|o| !own.contains(*o)) {
+                    wrong.push(format!("{}: {} has no option {o}", page.name, names.join(" ")));
+                }
+            } else {
+                for o in options(text).iter().filter(|o| !known.contains(o)) {
+                    wrong.push(format!("{}: no command has the option {o} of `{text}`", page.name));
+                }
+            }
+        }
+    }
+    assert!(wrong.is_empty(), "{}", wrong.join("\n"));
+}
+
+/// Names of blocks, fields, choices, kinds and their parameters.
+fn schema_names() -> BTreeSet<String> {
+    let mut all: BTreeSet<String> = BTreeSet::new();
+    let mut add = |names: &[&str]| all.extend(names.iter().map(|n| (*n).to_owned()));
+    let blocks = schema::groups().into_iter().flat_map(|g| g.blocks.iter().copied());
+    let beside = [&schema::PLACE, &schema::ELEMENT, &schema::LINK, &schema::FORCE];
+    for b in blocks.chain(beside) {
+        add(&[b.name]);
+        add(&b.names());
+        for f in b.fields {
+            if let Takes::Choice(names) = f.takes {
+                add(names);
+            }
+        }
+    }
+    add(&schema::SUPPORTS);
+    add(schema::expression_functions());
+    add(&["Parameter", "true", "false"]);
+    // Studies: what their reader spells.
+    let folder = root().join("crates/study/src/read");
+    for entry in std::fs::read_dir(folder).into_iter().flatten() {
+        let text = std::fs::read_to_string(entry.unwrap().path()).unwrap();
+        add(&text.split('"').skip(1).step_by(2).collect::<Vec<_>>());
+    }
+    for (unit, ..) in schema::units() {
+        add(&[unit]);
+    }
+    for card in trilith::registry().cards() {
+        add(&[card.kind]);
+        for p in card.parameters {
+            add(&[p.name]);
+            if let trilith::element::Form::Choice(names) | trilith::element::Form::Choices(names) =
+                p.form
+            {
+                add(names);
+            }
+        }
+    }
+    all
+}
+
+/// What else the book may put in backticks: words of the program, of Rust, of results.
+const OTHERS: &[&str] = &[
+    // solvers on the command line, status of a run, modes of response
+    "fna",
+    "hht",
+    "ritz-hht",
+    "full-newton",
+    "converged",
+    "overturned",
+    "rest",
+    "slide",
+    "rock",
+    "slide-rock",
+    "flight",
+    // words of examples and of the summary
+    "trilith",
+    "Link",
+    "Kit",
+    "conformance",
+    "read_text",
+    "Name",
+    "Kind",
+    "error_relative",
+];
+
+/// A word in backticks that looks like a name of a model file.
+fn looks_like_a_name(word: &str) -> Option<&str> {
+    let end = word.find(['(', ':']).unwrap_or(word.len());
+    let (name, rest) = word.split_at(end);
+    let letters = |c: char| c.is_ascii_alphanumeric() || c == '_';
+    let first = name.chars().next()?;
+    let plain = rest.is_empty() || rest.starts_with('(') || rest.starts_with(": ");
+    (first.is_ascii_alphabetic() && name.chars().all(letters) && plain).then_some(name)
+}
+
+#[test]
+fn every_kind_and_field_is_there() {
+    let names = schema_names();
+    let models = std::fs::read_dir(root().join("models")).unwrap().map(|e| e.unwrap().path());
+    let models = models.filter(|p| p.extension().is_some_and(|e| e == "ron"));
+    let shipped: Vec<String> = models.map(|p| std::fs::read_to_string(p).unwrap()).collect();
+    let mut wrong = Vec::new();
+    for page in book() {
+        // Names that the models of the page or the shipped ones give themselves are their own.
+        let blocks = page.fences.iter().filter(|f| f.language() == "ron").map(|f| &f.text);
+        let texts: Vec<&String> = blocks.chain(&shipped).collect();
+        let own = |word: &str| texts.iter().any(|t| t.contains(&format!("\"{word}\"")));
+        for word in &page.words {
+            let Some(name) = looks_like_a_name(word) else { continue };
+            if !names.contains(name) && !OTHERS.contains(&name) && !own(name) {
+                wrong.push(format!("{}: `{word}`", page.name));
+            }
+        }
+    }
+    assert!(wrong.is_empty(), "no such kind or field:\n{}", wrong.join("\n"));
+}

@@ -1,0 +1,169 @@
+//! Recorded quantities.
+
+use super::Takes::{Choice, Count, Flag, List, Name, Quantity, Words};
+use super::{Block, DIRECTIONS, Field, Group, absent, needed, plain};
+
+/// Local axes of a link.
+static AXES: [&str; 6] = ["U1", "U2", "U3", "R1", "R2", "R3"];
+const FACTOR: Field = plain("factor", Quantity, "1", "Factor, with or without unit.");
+const ONE: Field = absent("node", Name("node"), "`terms`", "The node.");
+const DIRECTION: Field = absent("dof", Choice(&DIRECTIONS), "`terms`", "Direction.");
+const TERMS: Field = absent(
+    "terms",
+    List(&TERM),
+    "a single term",
+    "Several terms that are added, such as a drift; in place of `node` and `dof`.",
+);
+const LINK: Field = needed("link", Name("element"), "The link.");
+const AXIS: Field = absent(
+    "axis",
+    Choice(&AXES),
+    "`coordinate`",
+    "Local axis of a link between two nodes or a node and the ground.",
+);
+const COORDINATE: Field =
+    absent("coordinate", Count(0), "`axis`", "Coordinate of the law, from 0.");
+
+/// A term of a sum.
+pub static TERM: Group = Group {
+    name: "terms",
+    meaning: "Terms of a nodal output.",
+    blocks: &[&Block {
+        name: "",
+        meaning: "The motion of one direction times a factor.",
+        example: r#"(node: "m", dof: Ux)"#,
+        fields: &[
+            needed("node", Name("node"), "The node."),
+            needed("dof", Choice(&DIRECTIONS), "Direction."),
+            plain("factor", Quantity, "1", "Factor; a length brings a rotation to a displacement."),
+        ],
+    }],
+};
+/// Displacement.
+pub static DISPLACEMENT: Block = Block {
+    name: "Displacement",
+    meaning: "Displacement or rotation, relative to the base.",
+    example: r#"Displacement(node: "m", dof: Ux)"#,
+    fields: &[ONE, DIRECTION, FACTOR, TERMS],
+};
+/// Velocity.
+pub static VELOCITY: Block = Block {
+    name: "Velocity",
+    meaning: "Velocity, relative to the base.",
+    example: r#"Velocity(node: "m", dof: Ux)"#,
+    fields: &[ONE, DIRECTION, FACTOR, TERMS],
+};
+/// Acceleration.
+pub static ACCELERATION: Block = Block {
+    name: "Acceleration",
+    meaning: "Acceleration, relative to the base or absolute.",
+    example: r#"Acceleration(node: "m", dof: Ux)"#,
+    fields: &[
+        ONE,
+        DIRECTION,
+        FACTOR,
+        TERMS,
+        plain("absolute", Flag, "false", "With the acceleration of the base."),
+    ],
+};
+/// Force of a link.
+pub static LINK_FORCE: Block = Block {
+    name: "LinkForce",
+    meaning: "Force or moment of a link.",
+    example: r#"LinkForce(link: "link", axis: U1)"#,
+    fields: &[LINK, AXIS, COORDINATE, FACTOR],
+};
+/// Deformation of a link.
+pub static LINK_DEFORMATION: Block = Block {
+    name: "LinkDeformation",
+    meaning: "Deformation of a link.",
+    example: r#"LinkDeformation(link: "link", axis: U1)"#,
+    fields: &[LINK, AXIS, COORDINATE, FACTOR],
+};
+/// History variable of a link.
+pub static LINK_HISTORY: Block = Block {
+    name: "LinkHistory",
+    meaning: "A history variable of a link, such as its plastic slip.",
+    example: r#"LinkHistory(link: "link", variable: "slip")"#,
+    fields: &[
+        LINK,
+        needed(
+            "variable",
+            Words("a name; a wrong one is answered with those there are"),
+            "The variable.",
+        ),
+    ],
+};
+/// End force of a linear element.
+pub static ELEMENT_FORCE: Block = Block {
+    name: "ElementForce",
+    meaning: "Force of a linear element on one of its nodes, along global directions.",
+    example: r#"ElementForce(element: "spring", end: 0, dof: Ux)"#,
+    fields: &[
+        needed("element", Name("element"), "The element."),
+        needed("end", Count(0), "Its node, from 0."),
+        needed("dof", Choice(&DIRECTIONS), "Direction."),
+        FACTOR,
+    ],
+};
+/// A part of a combination.
+pub static PARTS: Group = Group {
+    name: "parts",
+    meaning: "Outputs that another is put together from; the name alone will do where the factor is 1.",
+    blocks: &[&Block {
+        name: "",
+        meaning: "An output that stands before, times a factor.",
+        example: r#"(output: "x")"#,
+        fields: &[
+            needed("output", Name("output"), "The output."),
+            plain("factor", Quantity, "1", "Factor; all parts must come to one unit."),
+        ],
+    }],
+};
+const PARTS_OF: Field = needed("terms", List(&PARTS), "The outputs, each at the same time.");
+/// Sum of outputs.
+pub static SUM: Block = Block {
+    name: "Sum",
+    meaning: "Sum of other outputs.",
+    example: r#"Sum(terms: ["x", "y"])"#,
+    fields: &[PARTS_OF, plain("constant", Quantity, "0", "A number that is added.")],
+};
+/// Root of the sum of squares.
+pub static NORM: Block = Block {
+    name: "Norm",
+    meaning: "Root of the sum of the squares of other outputs.",
+    example: r#"Norm(terms: ["x", "y"])"#,
+    fields: &[PARTS_OF],
+};
+/// Largest of outputs.
+pub static LARGEST: Block = Block {
+    name: "Largest",
+    meaning: "Largest of other outputs.",
+    example: r#"Largest(terms: ["x", "y"])"#,
+    fields: &[PARTS_OF],
+};
+/// Smallest of outputs.
+pub static SMALLEST: Block = Block {
+    name: "Smallest",
+    meaning: "Smallest of other outputs.",
+    example: r#"Smallest(terms: ["x", "y"])"#,
+    fields: &[PARTS_OF],
+};
+/// Outputs.
+pub static OUTPUTS: Group = Group {
+    name: "outputs",
+    meaning: "Recorded quantities.",
+    blocks: &[
+        &DISPLACEMENT,
+        &VELOCITY,
+        &ACCELERATION,
+        &LINK_FORCE,
+        &LINK_DEFORMATION,
+        &LINK_HISTORY,
+        &ELEMENT_FORCE,
+        &SUM,
+        &NORM,
+        &LARGEST,
+        &SMALLEST,
+    ],
+};
