@@ -226,7 +226,7 @@ pub(crate) struct FrameArguments {
     #[arg(long, value_parser = trilith::generate::Frame::PRESETS)]
     pub preset: Option<String>,
     /// Bays along X and Y, such as `5,4`
-    #[arg(long, value_name = "X,Y", value_parser = pair(count))]
+    #[arg(long, value_name = "X,Y", value_parser = pair(whole))]
     pub bays: Option<[usize; 2]>,
     /// Storeys above the base level
     #[arg(long)]
@@ -320,7 +320,7 @@ where
     }
 }
 
-fn count(text: &str) -> Result<usize, String> {
+fn whole(text: &str) -> Result<usize, String> {
     text.parse().map_err(|_| "a whole number is wanted".into())
 }
 
