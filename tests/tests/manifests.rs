@@ -118,7 +118,8 @@ fn dependencies_point_one_way() {
 fn nothing_leans_on_measurements_nor_on_the_guide() {
     for (package, manifest) in manifests() {
         for d in dependencies(&manifest, any) {
-            let measures = ["trilith-bench", "trilith-validation", "trilith-guide"].contains(&d.as_str());
+            let measures =
+                ["trilith-bench", "trilith-validation", "trilith-guide"].contains(&d.as_str());
             assert!(!measures, "{package} must not depend on {d}");
         }
     }
