@@ -96,10 +96,10 @@ fn top_and_edge_of_a_tilted_cask_are_where_geometry_says() {
             // Ground to −X: it leans to +X, towards the neighbour.
             assert!((top[i] - (1.0 - x[i] - (height - half) * t.sin())).abs() < 1e-6, "{t}");
         }
-        // It turns about its edge: the centre of gravity moves along a circle.
+        // It turns about the edge at +X: from (−r, h) of it the centre of gravity goes to (−r cos t + h sin t, …).
         let i = (0..tilt.len()).max_by(|a, b| tilt[*a].total_cmp(&tilt[*b])).unwrap();
         let t = tilt[i];
-        let along = half * t.sin() - radius * (1.0 - t.cos());
+        let along = half * t.sin() + radius * (1.0 - t.cos());
         assert!((x[i] / along - 1.0).abs() < 0.02, "{} {along}", x[i]);
     }
 }
