@@ -2,6 +2,7 @@
 
 use crate::column::{self, Watch};
 use crate::journal::Journal;
+use crate::number::NoNames;
 use crate::{Cell, Place, Record, Study, StudyError};
 use std::collections::BTreeMap;
 use std::fs::OpenOptions;
@@ -9,7 +10,7 @@ use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::{Path, PathBuf};
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
-use trilith::model::file::{Scope, evaluate};
+use trilith::model::file::evaluate;
 use trilith::model::{Model, ParameterValue};
 use trilith::{Analysis, Registry, Run, RunOptions};
 
@@ -316,22 +317,5 @@ impl Study {
             parameters: self.varied.iter().map(cell).collect(),
             values: vec![None; self.columns.len()],
         }
-    }
-}
-
-struct NoNames;
-
-impl Scope for NoNames {
-    fn names(&self) -> Vec<&str> {
-        Vec::new()
-    }
-    fn has(&self, _: &str) -> bool {
-        false
-    }
-    fn value(
-        &mut self,
-        _: &str,
-    ) -> Result<trilith::model::file::Quantity, Option<(&'static str, String)>> {
-        Err(None)
     }
 }

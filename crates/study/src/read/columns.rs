@@ -65,22 +65,7 @@ pub(super) fn columns(c: &Context<'_>, node: Option<&Node>, model: &Model) -> Ve
 
 /// Dimension of a unit of an output.
 fn dimension(unit: &str) -> Dimension {
-    struct Nothing;
-    impl trilith::model::file::Scope for Nothing {
-        fn names(&self) -> Vec<&str> {
-            Vec::new()
-        }
-        fn has(&self, _: &str) -> bool {
-            false
-        }
-        fn value(
-            &mut self,
-            _: &str,
-        ) -> Result<trilith::model::file::Quantity, Option<(&'static str, String)>> {
-            Err(None)
-        }
-    }
-    evaluate(&format!("1 {unit}"), &mut Nothing).map_or(NONE, |q| q.dimension)
+    evaluate(&format!("1 {unit}"), &mut crate::number::NoNames).map_or(NONE, |q| q.dimension)
 }
 
 type Found = (Measure, String, Dimension);
