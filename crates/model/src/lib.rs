@@ -24,7 +24,7 @@ mod units;
 pub mod file {
     pub use crate::diagnostic::{closest, names_help};
     pub use crate::expression::{
-        ExpressionError, Quantity, Scope, evaluate, expression_diagnostic,
+        ExpressionError, NoNames, Quantity, Scope, evaluate, expression_diagnostic,
     };
     pub use crate::read::{Context, Fields, parse};
     pub use crate::tree::{Entry, Kind, Node};

@@ -2,7 +2,6 @@
 
 use crate::column::{self, Watch};
 use crate::journal::Journal;
-use crate::number::NoNames;
 use crate::{Cell, Place, Record, Study, StudyError};
 use std::collections::BTreeMap;
 use std::fs::OpenOptions;
@@ -10,7 +9,7 @@ use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::{Path, PathBuf};
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
-use trilith::model::file::evaluate;
+use trilith::model::file::{NoNames, evaluate};
 use trilith::model::{Model, ParameterValue};
 use trilith::{Analysis, Registry, Run, RunOptions};
 

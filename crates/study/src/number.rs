@@ -1,28 +1,10 @@
 //! Numbers as a model file would have them.
 
 use trilith::element::Dimension;
-use trilith::model::file::{Quantity, Scope};
 
 /// A number in SI with its unit, read back to the same bits.
 pub(crate) fn written(x: f64, dimension: Dimension) -> String {
     if dimension.is_none() { format!("{x:?}") } else { format!("{x:?} {}", dimension.unit()) }
-}
-
-/// No names: an expression of numbers and units alone.
-pub(crate) struct NoNames;
-
-impl Scope for NoNames {
-    fn names(&self) -> Vec<&str> {
-        Vec::new()
-    }
-
-    fn has(&self, _: &str) -> bool {
-        false
-    }
-
-    fn value(&mut self, _: &str) -> Result<Quantity, Option<(&'static str, String)>> {
-        Err(None)
-    }
 }
 
 #[cfg(test)]

@@ -114,8 +114,9 @@ pub fn quantity(text: &str, dimension: Dimension) -> Result<f64, String> {
     Ok(q.value)
 }
 
-/// A scope without parameters.
-pub(crate) struct NoNames;
+/// A scope without parameters: numbers and units alone.
+#[derive(Clone, Copy, Debug)]
+pub struct NoNames;
 
 impl Scope for NoNames {
     fn names(&self) -> Vec<&str> {

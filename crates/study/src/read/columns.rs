@@ -7,7 +7,7 @@ use crate::{Column, Condition, Measure};
 use trilith::element::Dimension;
 use trilith::element::dimension::{LENGTH, MOMENT, NONE, TIME};
 use trilith::model::Model;
-use trilith::model::file::{Context, Entry, Kind, Node, evaluate, expression_diagnostic};
+use trilith::model::file::{Context, Entry, Kind, NoNames, Node, evaluate, expression_diagnostic};
 use trilith::results::ENERGIES;
 
 const MEASURES: [&str; 12] = [
@@ -65,7 +65,7 @@ pub(super) fn columns(c: &Context<'_>, node: Option<&Node>, model: &Model) -> Ve
 
 /// Dimension of a unit of an output.
 fn dimension(unit: &str) -> Dimension {
-    evaluate(&format!("1 {unit}"), &mut crate::number::NoNames).map_or(NONE, |q| q.dimension)
+    evaluate(&format!("1 {unit}"), &mut NoNames).map_or(NONE, |q| q.dimension)
 }
 
 type Found = (Measure, String, Dimension);
