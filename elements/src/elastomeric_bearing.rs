@@ -138,13 +138,9 @@ impl Link for ElastomericBearing {
         let end = radial_return(elastic, d - plastic, (1.0 - self.ratio) * self.fy);
         let now = if end.slips { d - end.tau / elastic } else { plastic };
         BearingHistory { plastic2: now.x, plastic3: now.y }.store(trial);
-        for i in 0..2 {
-            out.f[i] = after * d[i] + end.tau[i];
-            for j in 0..2 {
-                out.k[2 * i + j] = end.by_stretch[(i, j)];
-            }
-            out.k[3 * i] += after;
-        }
+        let (tau, k) = (end.tau, end.by_stretch);
+        out.f.copy_from_slice(&[after * d.x + tau.x, after * d.y + tau.y]);
+        out.k.copy_from_slice(&[k.m11 + after, k.m12, k.m21, k.m22 + after]);
         out.energy.stored = 0.5 * (after * d.norm_squared() + end.tau.norm_squared() / elastic);
         // The return is along q: never negative but for rounding.
         out.energy.hysteretic = (0.5 * (start + end.tau).dot(&(now - plastic))).max(0.0);

@@ -5,6 +5,9 @@ use faer::linalg::matmul::matmul;
 use faer::linalg::solvers::{PartialPivLu, Solve};
 use faer::{Accum, MatMut, MatRef, Par};
 
+/// A single sum of fewer products is made one by one.
+const SHORT: usize = 32;
+
 /// A dense matrix, column by column.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Dense {
@@ -82,17 +85,6 @@ impl Dense {
         gemv::add_dots(&self.values, s, [x], [y]);
     }
 
-    /// `yᵢ += s · Aᵀ xᵢ` of two vectors, reading A once.
-    ///
-    /// # Panics
-    /// Where the lengths do not suit.
-    pub fn transpose_mul_add_pair(&self, s: f64, x: [&[f64]; 2], y: [&mut [f64]; 2]) {
-        let suits =
-            x.iter().all(|x| x.len() == self.rows) && y.iter().all(|y| y.len() == self.columns);
-        assert!(suits, "lengths of a product");
-        gemv::add_dots(&self.values, s, x, y);
-    }
-
     /// `y += s · A x` for all pairs (x, y), reading A once for several of them. The same values as one
     /// after the other.
     ///
@@ -137,6 +129,9 @@ impl Dense {
     #[must_use]
     pub fn column_dot(&self, j: usize, x: &[f64]) -> f64 {
         assert!(x.len() == self.rows, "length of a product");
+        if x.len() < SHORT {
+            return self.column(j).iter().zip(x).map(|(a, b)| a * b).sum();
+        }
         let mut y = [0.0];
         gemv::add_dots(self.column(j), 1.0, [x], [&mut y]);
         y[0]

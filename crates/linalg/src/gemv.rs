@@ -1,9 +1,9 @@
 //! Products of a dense matrix and vectors: the inner loops of a step.
 //!
-//! Columns are taken four at a time, in vectors as wide as the processor has them; the order of the sums
-//! depends on sizes (and on which factors are zero) alone, so equal inputs give equal bits, whether one vector
-//! comes alone or with others. Slices of equal length are walked in step: no index is checked, and no closure
-//! stands in the way of the processor that was found.
+//! Columns are taken several at a time, in vectors as wide as the processor has them; a short result stays in
+//! registers while all columns pass. The order of the sums depends on sizes (and on which factors are zero)
+//! alone, so equal inputs give equal bits, whether one vector comes alone or with others. Slices of equal length
+//! are walked in step: no index is checked, and no closure stands in the way of the processor that was found.
 
 use pulp::{Arch, Simd, WithSimd};
 
@@ -106,6 +106,11 @@ fn add_one<S: Simd>(simd: S, t: f64, c: &[f64], y: &mut [f64]) {
     }
 }
 
+/// Vectors of a result that stay in registers.
+const TILE: usize = 8;
+/// Results of so many tiles at most are made tile by tile: longer columns are better read from end to end.
+const TILES: usize = 4;
+
 struct AddColumns<'a> {
     a: &'a [f64],
     s: f64,
@@ -120,6 +125,27 @@ impl WithSimd for AddColumns<'_> {
     fn with_simd<S: Simd>(self, simd: S) {
         let Self { a, s, x, y } = self;
         let n = y.len();
+        let vectors = n.div_ceil(S::F64_LANES);
+        if vectors <= TILES * TILE {
+            let tiles = vectors.div_ceil(TILE);
+            let mut row = 0;
+            for tile in 0..tiles {
+                let mine = vectors * (tile + 1) / tiles - row / S::F64_LANES;
+                let product = Tile { simd, a, n, row, s, x };
+                match mine {
+                    1 => product.add::<1>(y),
+                    2 => product.add::<2>(y),
+                    3 => product.add::<3>(y),
+                    4 => product.add::<4>(y),
+                    5 => product.add::<5>(y),
+                    6 => product.add::<6>(y),
+                    7 => product.add::<7>(y),
+                    _ => product.add::<8>(y),
+                }
+                row += mine * S::F64_LANES;
+            }
+            return;
+        }
         let mut four = [0; 4];
         let mut count = 0;
         for j in 0..x.len() {
@@ -137,6 +163,69 @@ impl WithSimd for AddColumns<'_> {
         }
         for j in &four[..count] {
             add_one(simd, s * x[*j], column(a, n, *j), y);
+        }
+    }
+}
+
+/// Some rows of a product.
+struct Tile<'a, S> {
+    simd: S,
+    a: &'a [f64],
+    /// Rows of A.
+    n: usize,
+    /// The first of the tile.
+    row: usize,
+    s: f64,
+    x: &'a [f64],
+}
+
+impl<S: Simd> Tile<'_, S> {
+    /// Of `V` vectors of rows, the last of which may go beyond the end.
+    #[inline(always)]
+    fn add<const V: usize>(self, y: &mut [f64]) {
+        let Self { simd, a, n, row, s, x } = self;
+        let end = n.min(row + V * S::F64_LANES);
+        let y = &mut y[row..end];
+        let mut sums = [simd.splat_f64s(0.0); V];
+        let (full, rest) = S::as_simd_f64s(y);
+        for (sum, y) in sums.iter_mut().zip(full) {
+            *sum = *y;
+        }
+        if !rest.is_empty() {
+            sums[V - 1] = simd.partial_load_f64s(rest);
+        }
+        // Beyond the end of a column the next one is read; nobody looks at what that gives.
+        let reach = V * S::F64_LANES;
+        let whole = match (a.len() + n).checked_sub(row + reach) {
+            Some(room) if n > 0 => (room / n).min(x.len()),
+            _ => 0,
+        };
+        let (first, last) = x.split_at(whole);
+        for (j, x) in first.iter().enumerate() {
+            let start = j * n + row;
+            let (column, _) = S::as_simd_f64s(&a[start..start + reach]);
+            let w = simd.splat_f64s(s * x);
+            for k in 0..V {
+                sums[k] = simd.mul_add_e_f64s(w, column[k], sums[k]);
+            }
+        }
+        for (j, x) in last.iter().enumerate() {
+            let start = (whole + j) * n + row;
+            let (column, tail) = S::as_simd_f64s(&a[start..start + end - row]);
+            let w = simd.splat_f64s(s * x);
+            for k in 0..column.len().min(V) {
+                sums[k] = simd.mul_add_e_f64s(w, column[k], sums[k]);
+            }
+            if !tail.is_empty() {
+                sums[V - 1] = simd.mul_add_e_f64s(w, simd.partial_load_f64s(tail), sums[V - 1]);
+            }
+        }
+        let (full, rest) = S::as_mut_simd_f64s(y);
+        for (y, sum) in full.iter_mut().zip(sums) {
+            *y = sum;
+        }
+        if !rest.is_empty() {
+            simd.partial_store_f64s(rest, sums[V - 1]);
         }
     }
 }
@@ -190,6 +279,58 @@ impl<const R: usize> WithSimd for AddColumnsEach<'_, R> {
     }
 }
 
+/// Dots of eight columns with one vector.
+#[inline(always)]
+fn dot_eight<S: Simd>(simd: S, c: [&[f64]; 8], x: &[f64]) -> [f64; 8] {
+    let (c0, e0) = S::as_simd_f64s(c[0]);
+    let (c1, e1) = S::as_simd_f64s(c[1]);
+    let (c2, e2) = S::as_simd_f64s(c[2]);
+    let (c3, e3) = S::as_simd_f64s(c[3]);
+    let (c4, e4) = S::as_simd_f64s(c[4]);
+    let (c5, e5) = S::as_simd_f64s(c[5]);
+    let (c6, e6) = S::as_simd_f64s(c[6]);
+    let (c7, e7) = S::as_simd_f64s(c[7]);
+    let (x, e) = S::as_simd_f64s(x);
+    let m = x.len();
+    let (c0, c1, c2, c3) = (&c0[..m], &c1[..m], &c2[..m], &c3[..m]);
+    let (c4, c5, c6, c7) = (&c4[..m], &c5[..m], &c6[..m], &c7[..m]);
+    let zero = simd.splat_f64s(0.0);
+    let (mut s0, mut s1, mut s2, mut s3) = (zero, zero, zero, zero);
+    let (mut s4, mut s5, mut s6, mut s7) = (zero, zero, zero, zero);
+    for i in 0..m {
+        let x = x[i];
+        s0 = simd.mul_add_e_f64s(c0[i], x, s0);
+        s1 = simd.mul_add_e_f64s(c1[i], x, s1);
+        s2 = simd.mul_add_e_f64s(c2[i], x, s2);
+        s3 = simd.mul_add_e_f64s(c3[i], x, s3);
+        s4 = simd.mul_add_e_f64s(c4[i], x, s4);
+        s5 = simd.mul_add_e_f64s(c5[i], x, s5);
+        s6 = simd.mul_add_e_f64s(c6[i], x, s6);
+        s7 = simd.mul_add_e_f64s(c7[i], x, s7);
+    }
+    if !e.is_empty() {
+        let x = simd.partial_load_f64s(e);
+        s0 = simd.mul_add_e_f64s(simd.partial_load_f64s(e0), x, s0);
+        s1 = simd.mul_add_e_f64s(simd.partial_load_f64s(e1), x, s1);
+        s2 = simd.mul_add_e_f64s(simd.partial_load_f64s(e2), x, s2);
+        s3 = simd.mul_add_e_f64s(simd.partial_load_f64s(e3), x, s3);
+        s4 = simd.mul_add_e_f64s(simd.partial_load_f64s(e4), x, s4);
+        s5 = simd.mul_add_e_f64s(simd.partial_load_f64s(e5), x, s5);
+        s6 = simd.mul_add_e_f64s(simd.partial_load_f64s(e6), x, s6);
+        s7 = simd.mul_add_e_f64s(simd.partial_load_f64s(e7), x, s7);
+    }
+    [
+        simd.reduce_sum_f64s(s0),
+        simd.reduce_sum_f64s(s1),
+        simd.reduce_sum_f64s(s2),
+        simd.reduce_sum_f64s(s3),
+        simd.reduce_sum_f64s(s4),
+        simd.reduce_sum_f64s(s5),
+        simd.reduce_sum_f64s(s6),
+        simd.reduce_sum_f64s(s7),
+    ]
+}
+
 /// Dots of four columns with one vector.
 #[inline(always)]
 fn dot_four<S: Simd>(simd: S, c: [&[f64]; 4], x: &[f64]) -> [f64; 4] {
@@ -221,7 +362,7 @@ fn dot_four<S: Simd>(simd: S, c: [&[f64]; 4], x: &[f64]) -> [f64; 4] {
     ]
 }
 
-/// The same with two vectors at once.
+/// Dots of four columns with two vectors at once.
 #[inline(always)]
 fn dot_four_pair<S: Simd>(simd: S, c: [&[f64]; 4], x: [&[f64]; 2]) -> [[f64; 4]; 2] {
     let (c0, e0) = S::as_simd_f64s(c[0]);
@@ -300,6 +441,17 @@ impl<const R: usize> WithSimd for AddDots<'_, R> {
         let Self { a, s, x, y } = self;
         let (n, columns) = (x[0].len(), y[0].len());
         let mut j = 0;
+        while R == 1 && j + 8 <= columns {
+            let mut c = [x[0]; 8];
+            for k in 0..8 {
+                c[k] = column(a, n, j + k);
+            }
+            let sums = dot_eight(simd, c, x[0]);
+            for k in 0..8 {
+                y[0][j + k] += s * sums[k];
+            }
+            j += 8;
+        }
         while j + 4 <= columns {
             let c =
                 [column(a, n, j), column(a, n, j + 1), column(a, n, j + 2), column(a, n, j + 3)];
@@ -340,8 +492,8 @@ mod tests {
     /// Against the sums written out, for sizes on both sides of every group and vector width.
     #[test]
     fn both_products_equal_the_sums_written_out() {
-        for rows in [0, 1, 3, 4, 7, 8, 9, 16, 31] {
-            for columns in [0, 1, 3, 4, 5, 8, 11] {
+        for rows in [0, 1, 3, 4, 7, 8, 9, 16, 31, 33, 47, 62, 64, 65, 150] {
+            for columns in [0, 1, 3, 4, 5, 8, 11, 21] {
                 let a: Vec<f64> = (0..rows * columns).map(number).collect();
                 let x: Vec<f64> =
                     (0..columns).map(|j| if j % 3 == 1 { 0.0 } else { number(j + 5) }).collect();

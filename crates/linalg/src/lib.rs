@@ -6,7 +6,7 @@
 //! | nalgebra-sparse | storage of sparse matrices |
 //! | sprs | Matrix Market export |
 //! | faer | sparse LDLᵀ and LU, dense LU, symmetric eigenproblems, products of dense matrices |
-//! | pulp | products of a dense matrix and a vector, as wide as the processor allows |
+//! | pulp | products of a dense matrix and a vector, sums over modes, as wide as the processor allows |
 //!
 //! Everything runs on one thread, so that results repeat bit for bit.
 
@@ -17,6 +17,7 @@ mod gemv;
 mod ldlt;
 mod lu;
 mod matrix_market;
+mod modewise;
 mod operator;
 mod sparse;
 mod tall;
@@ -28,6 +29,7 @@ pub use expm::expm;
 pub use ldlt::{Ldlt, StagedLdlt, StagedPlan, unsupported};
 pub use lu::SparseLu;
 pub use matrix_market::matrix_market;
+pub use modewise::{add_products, combine, weighted_square, work_of_linear};
 pub use operator::SymmetricOperator;
 pub use sparse::{Sparse, Triplets};
 pub use tall::Columns;

@@ -17,8 +17,19 @@ pub fn dot(a: &[f64], b: &[f64]) -> f64 {
 /// Largest magnitude; not a number where one of them is not finite, so that no comparison holds.
 #[must_use]
 pub fn largest(x: &[f64]) -> f64 {
-    Arch::new().dispatch(Largest(x))
+    if x.len() >= SHORT {
+        return Arch::new().dispatch(Largest(x));
+    }
+    let (mut largest, mut check) = (0.0, 0.0);
+    for x in x {
+        largest = if x.abs() > largest { x.abs() } else { largest };
+        check += x * 0.0;
+    }
+    largest + check
 }
+
+/// Fewer numbers are looked at one by one.
+const SHORT: usize = 16;
 
 struct Largest<'a>(&'a [f64]);
 

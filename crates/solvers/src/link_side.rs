@@ -1,11 +1,11 @@
 //! The link side of a step: loads and pseudo-forces, the link equations, the books.
 
 use crate::kernel::{Affine, Committed, Converged, LinkKernel, NoEquilibrium};
-use crate::propagator::{Compliance, Forces};
+use crate::propagator::{Compliance, Forces, Wanted};
 use crate::space::Space;
 use crate::stepper::{State, StepEnergy, StepFailure};
+use crate::view::looks_at_rates;
 use trilith_element::Energy;
-use trilith_linalg::Dense;
 use trilith_model::Model;
 use trilith_system::{Channel, LinkSet, LoadSet, StepLoads, System};
 
@@ -17,6 +17,8 @@ pub(crate) struct LinkSide<'a> {
     pub kernel: LinkKernel<'a>,
     load0: Vec<f64>,
     load1: Vec<f64>,
+    /// Of the loads at the end.
+    amplitudes: Vec<f64>,
     /// Deformation that moving supports give the links at the start and the end, and its rate at the end.
     support0: Vec<f64>,
     support1: Vec<f64>,
@@ -28,6 +30,8 @@ pub(crate) struct LinkSide<'a> {
     v: Vec<f64>,
     /// True where supports move links.
     moving: bool,
+    /// True where outputs or the view of contacts may look at rates that no law looks at.
+    watched: bool,
 }
 
 impl<'a> LinkSide<'a> {
@@ -48,6 +52,7 @@ impl<'a> LinkSide<'a> {
             kernel,
             load0: vec![0.0; order],
             load1: vec![0.0; order],
+            amplitudes: Vec::new(),
             support0: vec![0.0; flat],
             support1: vec![0.0; flat],
             support_rate: vec![0.0; flat],
@@ -56,6 +61,7 @@ impl<'a> LinkSide<'a> {
             d: vec![0.0; active],
             v: vec![0.0; active],
             moving: loads.channels.iter().any(moves),
+            watched: looks_at_rates(model, system),
         }
     }
 
@@ -86,8 +92,13 @@ impl<'a> LinkSide<'a> {
         }
         to.follow(from);
         energy.links.resize(self.system.links.links.len(), Energy::default());
-        space.force_into(&loads.start, &mut self.load0);
+        if loads.start == self.amplitudes {
+            std::mem::swap(&mut self.load0, &mut self.load1);
+        } else {
+            space.force_into(&loads.start, &mut self.load0);
+        }
         space.force_into(&loads.end, &mut self.load1);
+        self.amplitudes.clone_from(&loads.end);
         self.kernel.pseudo(&from.f, &from.d, &self.support0, &mut self.pseudo0);
         self.pseudo1.copy_from_slice(&self.pseudo0);
     }
@@ -103,9 +114,10 @@ impl<'a> LinkSide<'a> {
     }
 
     /// The same, and where the predicted d and v of the active coordinates go.
-    pub(crate) fn prediction(&mut self) -> (Forces<'_>, &mut [f64], &mut [f64]) {
-        let Self { load0, load1, pseudo0, pseudo1, d, v, .. } = self;
-        (Forces { load0, load1, pseudo0, pseudo1 }, d, v)
+    pub(crate) fn prediction(&mut self) -> (Forces<'_>, Wanted<'_>) {
+        let Self { load0, load1, pseudo0, pseudo1, d, v, kernel, .. } = self;
+        let rated = kernel.rated();
+        (Forces { load0, load1, pseudo0, pseudo1 }, Wanted { d, v, rated })
     }
 
     /// Solves the link equations.
@@ -117,25 +129,32 @@ impl<'a> LinkSide<'a> {
         dt: f64,
         energy: &mut StepEnergy,
     ) -> Result<(), StepFailure> {
-        self.take_up(compliance);
+        if self.take_up(compliance, from, to, dt) {
+            self.follow(compliance);
+        }
         while !self.iterate(compliance, from, to, dt, energy)? {
-            self.follow(&compliance.g);
+            self.follow(compliance);
         }
         Ok(())
     }
 
-    /// Takes up the link equations at the predicted d and v.
-    pub(crate) fn take_up(&mut self, compliance: &Compliance) {
-        self.kernel.begin(&affine(
-            compliance,
-            &self.d,
-            &self.v,
-            &self.support1,
-            &self.support_rate,
-        ));
+    /// Takes up the link equations at the predicted d and v, with the pseudo-forces that the tangents at the
+    /// start of the step foresee: true where deformations must [follow](Self::follow) them.
+    pub(crate) fn take_up(
+        &mut self,
+        compliance: &Compliance,
+        from: &State,
+        to: &mut State,
+        dt: f64,
+    ) -> bool {
+        let Self { kernel, d, v, support1, support_rate, pseudo1, .. } = self;
+        let affine = affine(compliance, d, v, support1, support_rate);
+        kernel.begin(&affine);
+        let mut links = Vec::new();
+        kernel.foresee(&affine, &committed(from, dt), &mut converged(to, &mut links, pseudo1))
     }
 
-    /// One iteration of the link equations; false where deformations must follow.
+    /// One iteration of the link equations; false where deformations must [follow](Self::follow).
     pub(crate) fn iterate(
         &mut self,
         compliance: &Compliance,
@@ -146,46 +165,42 @@ impl<'a> LinkSide<'a> {
     ) -> Result<bool, StepFailure> {
         let Self { kernel, d, v, support1, support_rate, pseudo1, .. } = self;
         let affine = affine(compliance, d, v, support1, support_rate);
-        let settled = kernel
-            .advance(
-                &affine,
-                &Committed { d: &from.d, v: &from.v, history: &from.history, dt },
-                &from.scale,
-                &mut Converged {
-                    d: &mut to.d,
-                    v: &mut to.v,
-                    f: &mut to.f,
-                    history: &mut to.history,
-                    energy: &mut energy.links,
-                    pseudo: pseudo1,
-                },
-            )
-            .map_err(|NoEquilibrium { worst, residual }| StepFailure::NoEquilibrium {
-                worst,
-                residual,
-            })?;
-        if !settled {
-            kernel.change_rates(&affine);
-        }
-        Ok(settled)
+        let out = &mut converged(to, &mut energy.links, pseudo1);
+        kernel.advance(&affine, &committed(from, dt), &from.scale, out).map_err(
+            |NoEquilibrium { worst, residual }| StepFailure::NoEquilibrium { worst, residual },
+        )
     }
 
-    /// Lets the deformations follow the last change of the pseudo-forces.
-    fn follow(&mut self, g: &Dense) {
+    /// Lets deformations and rates follow the last change of the pseudo-forces.
+    fn follow(&mut self, compliance: &Compliance) {
         let (change, d) = self.kernel.change();
-        g.mul_add(-1.0, change, d);
+        compliance.g.mul_add(-1.0, change, d);
+        self.follow_rates(compliance);
     }
 
-    /// Where the rates of the active coordinates go once the motion is complete, if the laws left some open.
+    /// Lets the rates alone follow.
+    pub(crate) fn follow_rates(&mut self, compliance: &Compliance) {
+        self.kernel.change_rates(&compliance.h);
+    }
+
+    /// The motion of the end takes the forces that the laws gave: as the next step does at its start.
+    pub(crate) fn take_forces(&mut self, to: &State) {
+        self.kernel.pseudo(&to.f, &to.d, &self.support1, &mut self.pseudo1);
+    }
+
+    /// Where the rates of the active coordinates go once the motion is complete, if the laws left some open and
+    /// somebody looks at them; else those stay zero.
     pub(crate) fn open_rates(&mut self) -> Option<&mut [f64]> {
-        (!self.kernel.unrated().is_empty()).then_some(&mut self.v)
+        (self.watched && !self.kernel.unrated().is_empty()).then_some(&mut self.v)
     }
 
     /// Takes note of a converged step whose motion is complete.
     pub(crate) fn settle(&mut self, to: &mut State, energy: &StepEnergy) {
-        for a in self.kernel.unrated() {
-            let flat = self.system.links.active[*a];
-            to.v[flat] = self.support_rate[flat] + self.v[*a];
+        if self.watched {
+            for a in self.kernel.unrated() {
+                let flat = self.system.links.active[*a];
+                to.v[flat] = self.support_rate[flat] + self.v[*a];
+            }
         }
         to.settle(&self.system.links, &energy.links, self.kernel.tangents());
     }
@@ -246,6 +261,20 @@ impl<'a> LinkSide<'a> {
         state.motion = [q, p].concat();
         (state, force)
     }
+}
+
+fn committed(from: &State, dt: f64) -> Committed<'_> {
+    let State { d, v, f, history, tangents, .. } = from;
+    Committed { d, v, f, history, tangents, dt }
+}
+
+fn converged<'a>(
+    to: &'a mut State,
+    energy: &'a mut [Energy],
+    pseudo: &'a mut [f64],
+) -> Converged<'a> {
+    let State { d, v, f, history, .. } = to;
+    Converged { d, v, f, history, energy, pseudo }
 }
 
 fn affine<'a>(

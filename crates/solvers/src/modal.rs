@@ -23,10 +23,10 @@
 mod rules;
 
 use crate::error::SolveError;
-use crate::propagator::{Compliance, Forces, Motion, Propagator, StepKey, StepWork};
+use crate::propagator::{Compliance, Forces, Motion, Propagator, StepKey, StepWork, Wanted};
 use crate::space::Space;
 use rules::{Rule, Structure};
-use trilith_linalg::Dense;
+use trilith_linalg::{Dense, work_of_linear};
 
 /// Steps with a larger G·k of the stiffest link are made by average acceleration; the limit of the exact
 /// rule is 2 (ω²Δt²/6), and well before it the rule is no better any more.
@@ -299,15 +299,10 @@ impl Modes {
         let (step, rule) = (&self.steps[self.now.0], &self.way_now().rule);
         let inputs = [&from[..m], &from[m..2 * m], &now.source0, &now.source1];
         rule.apply(0, inputs, &mut now.integral);
-        let (mut external, mut all) = (0.0, 0.0);
-        let scale = step.dt.recip();
-        for i in 0..m {
-            let (q0, q1, mean) = (from[i], to[i], now.integral[i] * scale);
-            let (p0, p1) = (forces.load0[i], forces.load1[i]);
-            let (s0, s1) = (now.source0[i], now.source1[i]);
-            external += p1 * (q1 - mean) - p0 * (q0 - mean);
-            all += s1 * (q1 - mean) - s0 * (q0 - mean);
-        }
+        let (ends, scale) = ([&from[..m], &to[..m]], step.dt.recip());
+        let loads = [forces.load0, forces.load1];
+        let external = work_of_linear(loads, ends, &now.integral, scale);
+        let all = work_of_linear([&now.source0, &now.source1], ends, &now.integral, scale);
         let links = external - all;
         let (kinetic, strain) = self.energy(to);
         let damping = if self.structure.is_damped() {
@@ -398,20 +393,15 @@ impl Propagator for Modal {
         Ok(a)
     }
 
-    fn predict(
-        &mut self,
-        from: &Motion,
-        forces: &Forces<'_>,
-        to: &mut Motion,
-        d: &mut [f64],
-        v: &mut [f64],
-    ) {
+    fn predict(&mut self, from: &Motion, forces: &Forces<'_>, to: &mut Motion, wanted: Wanted<'_>) {
         self.spread(forces.pseudo0);
         Modes::at_start(&mut self.now, forces.load0);
         self.spread(forces.pseudo1);
         self.modes.predict(&mut self.now, from, forces.load1, to);
         let m = forces.load0.len();
-        self.modes.space.links.deform_pair([&to[..m], &to[m..2 * m]], [d, v]);
+        let links = &self.modes.space.links;
+        links.deform(&to[..m], wanted.d);
+        links.deform_some(&to[m..2 * m], wanted.rated, wanted.v);
     }
 
     fn correct(&mut self, forces: &Forces<'_>, to: &mut Motion) {

@@ -2,6 +2,8 @@
 
 use crate::space::Space;
 use crate::stepper::State;
+use std::ops::Range;
+use trilith_linalg::Dense;
 use trilith_model::{Combine, Model, NodalTerm, Quantity, Side};
 use trilith_system::{LoadSet, System};
 
@@ -40,9 +42,54 @@ pub(crate) enum Row {
 /// Terms (index, factor) on the coordinates of the solver and on prescribed displacements.
 pub(crate) type Split = (Vec<(usize, f64)>, Vec<(usize, f64)>);
 
+/// Full nodal rows of one order, one after the other.
+struct Run {
+    rows: Range<usize>,
+    order: usize,
+    /// A column for each.
+    own: Dense,
+}
+
+impl Run {
+    /// All of them.
+    fn of(rows: &[Row], order: usize) -> Vec<Self> {
+        let full = |row: &Row| match row {
+            Row::Nodal { order: of, own, support, base } => {
+                let alone = support.is_empty() && *base == [0.0; 3];
+                (alone && own.len() == order).then_some(*of)
+            }
+            _ => None,
+        };
+        let mut runs = Vec::new();
+        let mut start = 0;
+        for group in rows.chunk_by(|a, b| full(a).is_some() && full(a) == full(b)) {
+            let range = start..start + group.len();
+            start = range.end;
+            let (Some(of), true) = (group.first().and_then(full), group.len() >= TOGETHER) else {
+                continue;
+            };
+            let mut own = Dense::zeros(order, group.len());
+            for (j, row) in group.iter().enumerate() {
+                if let Row::Nodal { own: terms, .. } = row {
+                    terms.iter().for_each(|(i, c)| own[(*i, j)] += c);
+                }
+            }
+            runs.push(Self { rows: range, order: of, own });
+        }
+        runs
+    }
+}
+
+/// Full rows from which on they are evaluated together.
+const TOGETHER: usize = 2;
+
 /// All outputs of a model.
 pub(crate) struct Outputs {
     pub(crate) rows: Vec<Row>,
+    /// Nodal rows of one order that follow each other, where they are full and nothing else adds to them.
+    runs: Vec<Run>,
+    /// All other rows.
+    others: Vec<usize>,
     prescribed: usize,
     order: usize,
     /// True where an output asks for moving supports, or for the acceleration of the base.
@@ -120,7 +167,10 @@ impl Outputs {
         let absolute =
             rows.iter().any(|r| matches!(r, Row::Nodal { base, .. } if *base != [0.0; 3]));
         let prescribed = system.reduction.prescribed.len();
-        Self { rows, prescribed, order: space.order(), supported, absolute }
+        let runs = Run::of(&rows, space.order());
+        let in_run = |i: &usize| runs.iter().any(|run| run.rows.contains(i));
+        let others = (0..rows.len()).filter(|i| !in_run(i)).collect();
+        Self { rows, runs, others, prescribed, order: space.order(), supported, absolute }
     }
 
     /// Values and, for displacements, rates.
@@ -142,9 +192,18 @@ impl Outputs {
             true => loads.base_acceleration(t, Side::Before),
             false => [0.0; 3],
         };
-        for (i, row) in self.rows.iter().enumerate() {
-            rates[i] = f64::NAN;
-            values[i] = match row {
+        rates.fill(f64::NAN);
+        for Run { rows, order, own } in &self.runs {
+            for (order, to) in [(*order, &mut *values), (order + 1, &mut *rates)] {
+                if let Some(motion) = motion.get(order) {
+                    let to = &mut to[rows.clone()];
+                    to.fill(0.0);
+                    own.transpose_mul_add(1.0, motion, to);
+                }
+            }
+        }
+        for i in self.others.iter().copied() {
+            values[i] = match &self.rows[i] {
                 Row::Nodal { order, own, support: tied, base: share } => {
                     if *order < 2 {
                         rates[i] = sum(own, motion[order + 1]) + sum(tied, &support[order + 1]);

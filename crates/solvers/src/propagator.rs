@@ -51,6 +51,14 @@ pub(crate) struct Forces<'a> {
     pub pseudo1: &'a [f64],
 }
 
+/// What the link equations ask of a prediction: deformations of the active coordinates, and rates of those whose
+/// law looks at them.
+pub(crate) struct Wanted<'a> {
+    pub d: &'a mut [f64],
+    pub v: &'a mut [f64],
+    pub rated: &'a [usize],
+}
+
 /// One rule for time, on one space.
 pub(crate) trait Propagator {
     /// The space it moves in.
@@ -82,14 +90,7 @@ pub(crate) trait Propagator {
 
     /// The step with the pseudo-forces `pseudo1` at its end, as far as the links need it: d and v of the
     /// active coordinates. `to` need not be complete before [`correct`](Self::correct).
-    fn predict(
-        &mut self,
-        from: &Motion,
-        forces: &Forces<'_>,
-        to: &mut Motion,
-        d: &mut [f64],
-        v: &mut [f64],
-    );
+    fn predict(&mut self, from: &Motion, forces: &Forces<'_>, to: &mut Motion, wanted: Wanted<'_>);
 
     /// Completes the step predicted last with the pseudo-forces at its end, now known.
     fn correct(&mut self, forces: &Forces<'_>, to: &mut Motion);

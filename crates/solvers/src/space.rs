@@ -132,7 +132,7 @@ impl Space {
             rayleigh: [0.0; 2],
             stiffness: diagonal(&omega2),
             modal: None,
-            links: LinkMap::Full(links),
+            links: LinkMap::full(links),
             dummy_k,
             forces: loads.channels.iter().map(|c| project(&c.force)).collect(),
             shape: Some(Arc::clone(&basis.shapes)),

@@ -97,7 +97,14 @@ pub(crate) fn equilibrium(
                 h: &none,
                 key: StepKey::default(),
             },
-            &Committed { d: &state.d, v: &zero, history: &state.history, dt: 0.0 },
+            &Committed {
+                d: &state.d,
+                v: &zero,
+                f: &state.f,
+                history: &state.history,
+                tangents: &state.tangents,
+                dt: 0.0,
+            },
             &state.scale,
             &mut Converged {
                 d: &mut trial.d,

@@ -27,6 +27,8 @@ pub struct State {
     pub(crate) scale: ForceScale,
     /// Energy stored in each link.
     pub(crate) stored: Vec<f64>,
+    /// Tangents of the laws.
+    pub(crate) tangents: Tangents,
     /// Stiffness of the active link coordinates as they are, N/m or N·m.
     pub(crate) stiffness: Vec<f64>,
     /// The largest that it has been so far.
@@ -48,6 +50,7 @@ impl State {
             history: history.to_vec(),
             scale: [0.0; 2],
             stored: vec![0.0; links.links.len()],
+            tangents: links.tangents(),
             stiffness: vec![0.0; links.active.len()],
             stiffest: vec![0.0; links.active.len()],
             d,
@@ -79,6 +82,8 @@ impl State {
 
     /// Takes note of the forces, stored energies and stiffness of a converged step.
     pub(crate) fn settle(&mut self, links: &LinkSet, energy: &[Energy], tangents: &Tangents) {
+        self.tangents.k.copy_from_slice(&tangents.k);
+        self.tangents.c.copy_from_slice(&tangents.c);
         for (stiffness, flat) in self.stiffness.iter_mut().zip(&links.active) {
             *stiffness = tangents.k[links.diagonal[*flat]];
         }
@@ -236,9 +241,10 @@ impl<P: Propagator> Stepper for LinkStepper<'_, P> {
         self.propagator.prepare(key)?;
         let side = &mut self.side;
         side.begin(self.propagator.space(), from, to, loads, energy);
-        let (forces, d, v) = side.prediction();
-        self.propagator.predict(&from.motion, &forces, &mut to.motion, d, v);
+        let (forces, wanted) = side.prediction();
+        self.propagator.predict(&from.motion, &forces, &mut to.motion, wanted);
         side.solve(self.propagator.compliance(), from, to, dt, energy)?;
+        side.take_forces(to);
         self.propagator.correct(&side.forces(), &mut to.motion);
         if let Some(rates) = side.open_rates() {
             let space = self.propagator.space();

@@ -6,7 +6,7 @@ use crate::outputs::Outputs;
 use crate::space::Space;
 use crate::stepper::State;
 use trilith_element::{Contact, Kinematics, Link, Vector3};
-use trilith_model::{Model, Side};
+use trilith_model::{Model, Output, Quantity, Side};
 use trilith_system::{LinkInstance, LoadSet, System};
 
 /// Displacements of all nodes of one state.
@@ -64,15 +64,16 @@ pub(crate) struct Viewer<'a, 'b> {
     observers: &'a mut [&'b mut dyn Observer],
 }
 
-impl<'a, 'b> Viewer<'a, 'b> {
-    pub(crate) fn new(
-        model: &'a Model,
-        system: &'a System,
-        loads: &'a LoadSet,
-        space: &Space,
-        observers: &'a mut [&'b mut dyn Observer],
-    ) -> Self {
-        let count = model.outputs.len();
+/// Links that are looked at beside the outputs.
+struct Seen<'a> {
+    /// Those with contacts.
+    touching: Vec<(&'a dyn Link, &'a LinkInstance)>,
+    /// Those with an outline.
+    bodies: Vec<(&'a dyn Link, &'a LinkInstance)>,
+}
+
+impl<'a> Seen<'a> {
+    fn new(model: &'a Model, system: &'a System) -> Self {
         let (rest, mut own) = (vec![0.0; system.links.len()], Vec::new());
         let history = system.links.at_rest(model);
         let laws = system.links.laws(model);
@@ -89,13 +90,34 @@ impl<'a, 'b> Viewer<'a, 'b> {
             law.contacts(&still(&rest, link), &history[link.history.clone()], at, &mut own);
             own.drain(..).next().is_some()
         };
+        Self { touching: laws.iter().filter(touches).collect(), bodies }
+    }
+}
+
+/// True where something beside the laws may look at rates of deformation.
+pub(crate) fn looks_at_rates(model: &Model, system: &System) -> bool {
+    let of_links = |o: &Output| matches!(o.quantity, Quantity::LinkDeformation { .. });
+    let Seen { touching, bodies } = Seen::new(model, system);
+    model.outputs.iter().any(of_links) || !touching.is_empty() || !bodies.is_empty()
+}
+
+impl<'a, 'b> Viewer<'a, 'b> {
+    pub(crate) fn new(
+        model: &'a Model,
+        system: &'a System,
+        loads: &'a LoadSet,
+        space: &Space,
+        observers: &'a mut [&'b mut dyn Observer],
+    ) -> Self {
+        let count = model.outputs.len();
+        let Seen { touching, bodies } = Seen::new(model, system);
         Self {
             system,
             loads,
             outputs: Outputs::new(model, system, space),
             values: vec![0.0; count],
             rates: vec![0.0; count],
-            touching: laws.iter().filter(touches).collect(),
+            touching,
             bodies,
             contacts: Vec::new(),
             own: Vec::new(),

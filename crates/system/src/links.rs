@@ -4,6 +4,7 @@
 //! structure cannot deform (their row of B is empty). `active` lists the others; the link equations are
 //! solved on the active ones.
 
+use serde::{Deserialize, Serialize};
 use std::ops::Range;
 use std::sync::Arc;
 use trilith_element::{Coordinates, Dof, Energy, Kinematics, Link, Response, Vector3};
@@ -27,7 +28,7 @@ pub struct LinkInstance {
 }
 
 /// Tangents of all links: blocks of n² values, row by row.
-#[derive(Clone, Debug, Default, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Tangents {
     /// ∂f/∂d.
     pub k: Vec<f64>,

@@ -21,7 +21,7 @@ mod tests;
 
 use crate::error::SolveError;
 use crate::products::Products;
-use crate::propagator::{Compliance, Forces, Motion, Propagator, StepKey, StepWork};
+use crate::propagator::{Compliance, Forces, Motion, Propagator, StepKey, StepWork, Wanted};
 use crate::space::Space;
 use std::collections::BTreeMap;
 use std::sync::Arc;
@@ -171,14 +171,7 @@ impl Propagator for Hht {
         crate::full_newton::mass_acceleration(&self.space, force.to_vec())
     }
 
-    fn predict(
-        &mut self,
-        from: &Motion,
-        forces: &Forces<'_>,
-        to: &mut Motion,
-        d: &mut [f64],
-        v: &mut [f64],
-    ) {
+    fn predict(&mut self, from: &Motion, forces: &Forces<'_>, to: &mut Motion, wanted: Wanted<'_>) {
         let n = self.space.order();
         let step = &self.steps[&self.now];
         let work = &mut self.work;
@@ -244,8 +237,8 @@ impl Propagator for Hht {
             to_u[i] += beta * dt * dt * work.tail_a[p];
             to_v[i] += gamma * dt * work.tail_a[p];
         }
-        self.space.links.deform(to_u, d);
-        self.space.links.deform(to_v, v);
+        self.space.links.deform(to_u, wanted.d);
+        self.space.links.deform_some(to_v, wanted.rated, wanted.v);
     }
 
     fn correct(&mut self, forces: &Forces<'_>, to: &mut Motion) {

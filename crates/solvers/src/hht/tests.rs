@@ -2,7 +2,7 @@
 
 use super::{Hht, newmark};
 use crate::link_map::LinkMap;
-use crate::propagator::{Forces, Propagator, StepKey};
+use crate::propagator::{Forces, Propagator, StepKey, Wanted};
 use crate::space::{LowRank, Space};
 use trilith_linalg::{Dense, DenseLu, Sparse, Triplets};
 
@@ -127,7 +127,8 @@ fn follows(alpha: f64, modal: bool, links: LinkMap) {
         hht.prepare(StepKey { dt, average: 0 }).unwrap();
         let (mut d, mut velocity, mut to) = (vec![0.0; l], vec![0.0; l], vec![f64::NAN; 3 * N]);
         let before = Forces { load0: &load0, load1: &load1, pseudo0: &pseudo0, pseudo1: &guess };
-        hht.predict(&from, &before, &mut to, &mut d, &mut velocity);
+        let wanted = Wanted { d: &mut d, v: &mut velocity, rated: &[0] };
+        hht.predict(&from, &before, &mut to, wanted);
         let compliance = hht.compliance();
         compliance.g.mul_add(-1.0, &change, &mut d);
         compliance.h.mul_add(-1.0, &change, &mut velocity);
@@ -181,7 +182,7 @@ fn a_step_solves_the_equations_of_the_method() {
     for alpha in [0.0, -0.1, -1.0 / 3.0] {
         for modal in [false, true] {
             follows(alpha, modal, few());
-            follows(alpha, modal, LinkMap::Full(Dense::from_columns(N, 3, some(3 * N, 2))));
+            follows(alpha, modal, LinkMap::full(Dense::from_columns(N, 3, some(3 * N, 2))));
             follows(alpha, modal, LinkMap::Sparse(Vec::new()));
         }
     }

@@ -23,7 +23,7 @@ use search::Search;
 use trilith_element::{Energy, Kinematics};
 use trilith_linalg::Dense;
 use trilith_model::{Kernel, Model, Solution};
-use trilith_system::{Laws, LinkSet, Tangents};
+use trilith_system::{Laws, LinkInstance, LinkSet, Tangents};
 
 /// What the linear step gives the kernel.
 pub(crate) struct Affine<'a> {
@@ -44,7 +44,9 @@ pub(crate) struct Affine<'a> {
 pub(crate) struct Committed<'a> {
     pub d: &'a [f64],
     pub v: &'a [f64],
+    pub f: &'a [f64],
     pub history: &'a [f64],
+    pub tangents: &'a Tangents,
     pub dt: f64,
 }
 
@@ -87,6 +89,28 @@ const CHORD_FROM: usize = 8;
 /// How well that is: share of the residual that one iteration leaves.
 const CONTRACTS: f64 = 0.2;
 
+/// The tangent of the force of an active coordinate by a flat coordinate.
+struct Pair {
+    active: usize,
+    other: usize,
+    /// Its index in the tangents.
+    at: usize,
+}
+
+/// All of a link; `place` is the active index of each flat coordinate.
+fn pairs<'a>(link: &'a LinkInstance, place: &'a [usize]) -> impl Iterator<Item = Pair> + 'a {
+    let n = link.range.len();
+    let all = link.range.clone().enumerate().flat_map(move |(i, flat)| {
+        let others = link.range.clone().enumerate();
+        others.map(move |(j, other)| (place[flat], other, link.block.start + i * n + j))
+    });
+    all.filter(|(active, ..)| *active != usize::MAX).map(|(active, other, at)| Pair {
+        active,
+        other,
+        at,
+    })
+}
+
 /// Workspace and settings of the link equations.
 pub(crate) struct LinkKernel<'a> {
     kind: Kernel,
@@ -99,6 +123,11 @@ pub(crate) struct LinkKernel<'a> {
     /// Active coordinates of laws that look at rates, and the others.
     rated: Vec<usize>,
     unrated: Vec<usize>,
+    /// All tangents of active coordinates, and those of laws that look at rates.
+    pairs: Vec<Pair>,
+    rated_pairs: Vec<Pair>,
+    /// How deformations or rates change in a step, flat.
+    moved: Vec<f64>,
     tangents: Tangents,
     /// Active index of each flat coordinate.
     place: Vec<usize>,
@@ -141,8 +170,14 @@ impl<'a> LinkKernel<'a> {
                 if law.uses_rates() { rated.push(a) } else { unrated.push(a) }
             }
         }
+        let pairs = laws.iter().flat_map(|(_, link)| pairs(link, &place)).collect();
+        let rate_dependent = laws.iter().filter(|(law, _)| law.uses_rates());
+        let rated_pairs = rate_dependent.flat_map(|(_, link)| self::pairs(link, &place)).collect();
         Self {
             kind: solution.kernel,
+            pairs,
+            rated_pairs,
+            moved: Vec::new(),
             tolerance: solution.link_tolerance,
             links,
             laws,
@@ -176,6 +211,11 @@ impl<'a> LinkKernel<'a> {
         &self.tangents
     }
 
+    /// Active coordinates whose rates their law looks at.
+    pub(crate) fn rated(&self) -> &[usize] {
+        &self.rated
+    }
+
     /// Active coordinates whose rates no law looks at: [`solve`](Self::solve) leaves them to the caller.
     pub(crate) fn unrated(&self) -> &[usize] {
         &self.unrated
@@ -197,6 +237,12 @@ impl<'a> LinkKernel<'a> {
 
     /// Pseudo-force of forces that act at a deformation; `support` is what moving supports have in it.
     pub(crate) fn pseudo(&self, f: &[f64], d: &[f64], support: &[f64], to: &mut [f64]) {
+        if self.complete {
+            let own = d.iter().zip(support).zip(&self.dummy_k);
+            let forces = to.iter_mut().zip(f).zip(own);
+            forces.for_each(|((to, f), ((d, support), k))| *to = f - k * (d - support));
+            return;
+        }
         for (a, flat) in self.links.active.iter().enumerate() {
             to[a] = f[*flat] - self.dummy_k[a] * (d[*flat] - support[*flat]);
         }
@@ -214,7 +260,7 @@ impl<'a> LinkKernel<'a> {
         self.begin(affine);
         while !self.advance(affine, from, scale, out)? {
             affine.g.mul_add(-1.0, &self.residual, &mut self.d);
-            self.change_rates(affine);
+            self.change_rates(affine.h);
         }
         Ok(())
     }
@@ -225,6 +271,55 @@ impl<'a> LinkKernel<'a> {
         self.v.copy_from_slice(affine.v);
         self.search.reset();
         (self.iteration, self.size_before) = (0, f64::INFINITY);
+    }
+
+    /// Moves f̃ to where the tangents at the start of the step put it: where every law goes on along them,
+    /// that is the equilibrium. False where nothing is foreseen; else deformations and rates must follow the
+    /// [`change`](Self::change).
+    pub(crate) fn foresee(
+        &mut self,
+        affine: &Affine<'_>,
+        from: &Committed<'_>,
+        out: &mut Converged<'_>,
+    ) -> bool {
+        if self.kind != Kernel::Newton {
+            return false;
+        }
+        self.deform(affine, out);
+        let change = |now: &[f64], then: &[f64], to: &mut Vec<f64>| {
+            to.clear();
+            to.extend(now.iter().zip(then).map(|(now, then)| now - then));
+        };
+        change(out.d, from.d, &mut self.moved);
+        let held = self.dummy_k.iter().zip(&self.d).map(|(k, d)| k * d);
+        let forces = self.residual.iter_mut().zip(&*out.pseudo).zip(held);
+        if self.complete {
+            forces.zip(from.f).for_each(|(((r, pseudo), held), f)| *r = f - held - pseudo);
+        } else {
+            let own = self.links.active.iter().map(|flat| from.f[*flat]);
+            forces.zip(own).for_each(|(((r, pseudo), held), f)| *r = f - held - pseudo);
+        }
+        for Pair { active, other, at } in &self.pairs {
+            self.residual[*active] += from.tangents.k[*at] * self.moved[*other];
+        }
+        if !self.rated_pairs.is_empty() {
+            change(out.v, from.v, &mut self.moved);
+        }
+        for Pair { active, other, at } in &self.rated_pairs {
+            self.residual[*active] += from.tangents.c[*at] * self.moved[*other];
+        }
+        if largest(&self.residual) == 0.0 {
+            return false;
+        }
+        self.tangents.k.copy_from_slice(&from.tangents.k);
+        self.tangents.c.copy_from_slice(&from.tangents.c);
+        self.newton_correction(affine, false);
+        if !largest(&self.residual).is_finite() {
+            self.factors.forget(affine.key);
+            return false;
+        }
+        self.take(out);
+        true
     }
 
     /// One iteration: true where the links are in equilibrium; else f̃ has changed by what
@@ -285,31 +380,38 @@ impl<'a> LinkKernel<'a> {
     }
 
     /// Lets the rates that laws look at follow the last change of f̃.
-    pub(crate) fn change_rates(&mut self, affine: &Affine<'_>) {
+    pub(crate) fn change_rates(&mut self, h: &Dense) {
         if self.rated.len() == self.v.len() {
-            affine.h.mul_add(-1.0, &self.residual, &mut self.v);
+            h.mul_add(-1.0, &self.residual, &mut self.v);
         } else {
             // The compliances are symmetric.
             for a in &self.rated {
-                self.v[*a] -= affine.h.column_dot(*a, &self.residual);
+                self.v[*a] -= h.column_dot(*a, &self.residual);
+            }
+        }
+    }
+
+    /// Deformations and rates of all coordinates.
+    fn deform(&self, affine: &Affine<'_>, out: &mut Converged<'_>) {
+        if self.complete {
+            let sum = |to: &mut [f64], own: &[f64], support: &[f64]| {
+                to.iter_mut().zip(own.iter().zip(support)).for_each(|(x, (y, z))| *x = z + y);
+            };
+            sum(out.d, &self.d, affine.support_d);
+            sum(out.v, &self.v, affine.support_v);
+        } else {
+            out.d.copy_from_slice(affine.support_d);
+            out.v.copy_from_slice(affine.support_v);
+            for ((flat, d), v) in self.links.active.iter().zip(&self.d).zip(&self.v) {
+                out.d[*flat] += d;
+                out.v[*flat] += v;
             }
         }
     }
 
     /// Laws and residual at the present deformations.
     fn evaluate(&mut self, affine: &Affine<'_>, from: &Committed<'_>, out: &mut Converged<'_>) {
-        let active = &self.links.active;
-        out.d.copy_from_slice(affine.support_d);
-        out.v.copy_from_slice(affine.support_v);
-        if self.complete {
-            out.d.iter_mut().zip(&self.d).for_each(|(x, d)| *x += d);
-            out.v.iter_mut().zip(&self.v).for_each(|(x, v)| *x += v);
-        } else {
-            for ((flat, d), v) in active.iter().zip(&self.d).zip(&self.v) {
-                out.d[*flat] += d;
-                out.v[*flat] += v;
-            }
-        }
+        self.deform(affine, out);
         let at = Kinematics { d: out.d, v: out.v, d0: from.d, v0: from.v, dt: from.dt };
         self.laws.respond(at, from.history, out.history, out.f, &mut self.tangents, out.energy);
         let dummies = self.dummy_k.iter().zip(&self.d).map(|(k, d)| k * d);
@@ -317,7 +419,7 @@ impl<'a> LinkKernel<'a> {
         if self.complete {
             terms.zip(out.f.iter()).for_each(|(((x, held), r), f)| *r = f - held - *x);
         } else {
-            let forces = active.iter().map(|flat| out.f[*flat]);
+            let forces = self.links.active.iter().map(|flat| out.f[*flat]);
             terms.zip(forces).for_each(|(((x, held), r), f)| *r = f - held - *x);
         }
     }
@@ -331,6 +433,10 @@ impl<'a> LinkKernel<'a> {
     ) -> (f64, NoEquilibrium) {
         let links = self.links;
         let (mut now, mut left) = (*scale, [0.0; 2]);
+        let of_residual = largest(&self.residual);
+        if !self.rotations && of_residual <= self.tolerance * now[0] {
+            return (0.0, NoEquilibrium { worst: 0, residual: 0.0 });
+        }
         if self.rotations {
             for (a, flat) in links.active.iter().enumerate() {
                 let kind = usize::from(links.rotational[*flat]);
@@ -339,12 +445,12 @@ impl<'a> LinkKernel<'a> {
                     out.f[*flat].abs().max(PSEUDO_SHARE * out.pseudo[a].abs()).max(now[kind]);
             }
         } else {
-            left[0] = largest(&self.residual);
+            left[0] = of_residual;
             now[0] = largest(out.f).max(PSEUDO_SHARE * largest(out.pseudo)).max(now[0]);
         }
         let mut worst = NoEquilibrium { worst: 0, residual: 0.0 };
         if let (false, Some(a)) =
-            (largest(&self.residual).is_finite(), self.residual.iter().position(|r| !r.is_finite()))
+            (of_residual.is_finite(), self.residual.iter().position(|r| !r.is_finite()))
         {
             worst = NoEquilibrium { worst: links.active[a], residual: self.residual[a].abs() };
             return (f64::NAN, worst);

@@ -4,7 +4,7 @@
 //! them, at the mean rate of the step where it does not.
 
 use super::bit;
-use trilith_linalg::{Dense, DenseLu, expm};
+use trilith_linalg::{Dense, DenseLu, add_products, combine, dot, expm, weighted_square};
 
 /// The linear structure on a basis: modes first, static shapes (without mass, of stiffness one) behind them.
 pub(super) struct Structure {
@@ -24,18 +24,17 @@ impl Structure {
         a.copy_from_slice(s);
         match &self.damping {
             Some(damping) => damping.mul_add(-1.0, v, a),
-            None => a.iter_mut().zip(v.iter().zip(&self.rates)).for_each(|(a, (v, c))| *a -= c * v),
+            None => add_products(-1.0, &self.rates, v, a),
         }
-        a.iter_mut().zip(q.iter().zip(&self.omega2)).for_each(|(a, (q, w))| *a -= w * q);
+        add_products(-1.0, &self.omega2, q, a);
         a[self.modes..].fill(0.0);
     }
 
     /// ½ q̇ᵀ q̇ of the modes and ½ qᵀ Ω² q of all.
     pub(super) fn energy(&self, x: &[f64]) -> (f64, f64) {
         let m = self.omega2.len();
-        let kinetic: f64 = x[m..m + self.modes].iter().map(|v| v * v).sum();
-        let strain: f64 = x[..m].iter().zip(&self.omega2).map(|(q, w)| w * q * q).sum();
-        (0.5 * kinetic, 0.5 * strain)
+        let (q, v) = (&x[..m], &x[m..m + self.modes]);
+        (0.5 * dot(v, v), 0.5 * weighted_square(&self.omega2, q))
     }
 
     /// True where something damps.
@@ -109,11 +108,8 @@ impl Rule {
                 block.mul_add(1.0, &x[..first], &mut y[..first]);
             }
         }
-        let [q, v, s, t] = inputs.map(|x| &x[first..first + n]);
-        let (b, c, d) = (&b[..n], &c[..n], &d[..n]);
-        for (i, y) in y[first..].iter_mut().enumerate() {
-            *y = a[i] * q[i] + b[i] * v[i] + c[i] * s[i] + d[i] * t[i];
-        }
+        let inputs = inputs.map(|x| &x[first..first + n]);
+        combine([a, b, c, d], inputs, &mut y[first..]);
     }
 
     /// What a source at the end of the step alone does.
@@ -129,9 +125,7 @@ impl Rule {
         if let Some(blocks) = &self.coupled {
             blocks[row][3].mul_add(1.0, &s[..first], &mut y[..first]);
         }
-        for (y, (c, s)) in y[first..].iter_mut().zip(end.iter().zip(&s[first..])) {
-            *y += c * s;
-        }
+        add_products(1.0, end, &s[first..], &mut y[first..]);
     }
 }
 

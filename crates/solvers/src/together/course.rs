@@ -148,15 +148,17 @@ impl<'a, 'b> Course<'a, 'b> {
         modes.predict(&mut self.sources, &self.state.motion, forces.load1, to);
     }
 
-    /// Displacements and velocities as predicted, and where the links' go.
-    pub(super) fn predicted(&mut self, modes: &Modes) -> [(&[f64], &mut [f64]); 2] {
+    /// Displacements as predicted, and where those of the links go; rates that laws look at are put in place.
+    pub(super) fn predicted(&mut self, modes: &Modes) -> (&[f64], &mut [f64]) {
         let m = modes.space.order();
-        let (_, d, v) = self.side.prediction();
-        [(&self.next.motion[..m], d), (&self.next.motion[m..2 * m], v)]
+        let (_, wanted) = self.side.prediction();
+        modes.space.links.deform_some(&self.next.motion[m..2 * m], wanted.rated, wanted.v);
+        (&self.next.motion[..m], wanted.d)
     }
 
-    pub(super) fn take_up(&mut self, modes: &Modes) {
-        self.side.take_up(modes.compliance());
+    /// True where deformations must follow what is foreseen.
+    pub(super) fn take_up(&mut self, modes: &Modes, dt: f64) -> bool {
+        self.side.take_up(modes.compliance(), &self.state, &mut self.next, dt)
     }
 
     pub(super) fn iterate(&mut self, modes: &Modes, dt: f64) {
@@ -167,8 +169,15 @@ impl<'a, 'b> Course<'a, 'b> {
         }
     }
 
-    pub(super) fn change(&mut self) -> (&[f64], &mut [f64]) {
+    /// The last change of the pseudo-forces, and the deformations that must follow; the rates have done so.
+    pub(super) fn change(&mut self, modes: &Modes) -> (&[f64], &mut [f64]) {
+        self.side.follow_rates(modes.compliance());
         self.side.kernel.change()
+    }
+
+    /// The motion takes the forces that the laws gave.
+    pub(super) fn take_forces(&mut self) {
+        self.side.take_forces(&self.next);
     }
 
     pub(super) fn correct(&mut self, modes: &Modes) {

@@ -217,19 +217,26 @@ fn step(modes: &mut Modes, courses: &mut [Course<'_, '_>], part: usize, dt: f64)
     let mut pairs: Vec<_> = going.iter_mut().filter_map(|c| c.spread_start()).collect();
     modes.space.links.spread_each(&mut pairs);
     going.iter_mut().for_each(|c| c.predict(modes));
-    let mut pairs: Vec<_> = going.iter_mut().flat_map(|c| c.predicted(modes)).collect();
+    let mut pairs: Vec<_> = going.iter_mut().map(|c| c.predicted(modes)).collect();
     modes.space.links.deform_each(&mut pairs);
-    going.iter_mut().for_each(|c| c.take_up(modes));
+    let mut moved = Vec::new();
+    for course in &mut going {
+        if course.take_up(modes, dt) {
+            moved.push(course.change(modes));
+        }
+    }
+    modes.compliance().g.mul_add_each(-1.0, &mut moved);
     loop {
         going.iter_mut().filter(|c| !c.is_settled()).for_each(|c| c.iterate(modes, dt));
         let open = going.iter_mut().filter(|c| c.is_on_the_way() && !c.is_settled());
-        let mut pairs: Vec<_> = open.map(|c| c.change()).collect();
+        let mut pairs: Vec<_> = open.map(|c| c.change(modes)).collect();
         if pairs.is_empty() {
             break;
         }
         modes.compliance().g.mul_add_each(-1.0, &mut pairs);
     }
     going.retain(|c| c.is_on_the_way());
+    going.iter_mut().for_each(|c| c.take_forces());
     let mut pairs: Vec<_> = going.iter_mut().filter_map(|c| c.spread_end()).collect();
     modes.space.links.spread_each(&mut pairs);
     going.iter_mut().for_each(|c| c.correct(modes));
