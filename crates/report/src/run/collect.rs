@@ -2,9 +2,9 @@
 
 use super::data::{FORMAT, Frames, Mode, Numbers, RunData};
 use super::picture::Sketch;
-use super::{loops, reduce, settings};
+use super::{loops, reduce, settings, shaking};
 use trilith_model::Model;
-use trilith_results::{ENERGIES, Frame, Recorder, Summary};
+use trilith_results::{ENERGIES, Frame, Recorder, Summary, ground_motions};
 use trilith_solvers::BasisReport;
 
 /// Steps of a displacement, of the largest.
@@ -49,6 +49,7 @@ impl Collect<'_> {
                 "Figures show the first {OUTPUTS} of {outputs} outputs; the table has all."
             ));
         }
+        let motions = ground_motions(self.model, self.case, self.dt.unwrap_or(0.0));
         let free = self.modes.map_or(0, |m| m.omega.iter().filter(|omega| **omega <= 0.0).count());
         RunData {
             format: FORMAT,
@@ -59,7 +60,10 @@ impl Collect<'_> {
             picture: sketch.picture,
             frames,
             outputs: self.model.outputs.iter().map(|o| o.name.clone()).collect(),
+            ground: shaking::ground(&motions),
+            ground_spectra: shaking::ground_spectra(&motions),
             histories: self.histories(),
+            floor_spectra: shaking::floor_spectra(self.summary),
             energies: self.energies(),
             loops: loops::chosen(self.model, self.record, self.summary, self.loops),
             modes,

@@ -10,13 +10,14 @@ mod picture;
 mod reduce;
 mod script;
 mod settings;
+mod shaking;
 mod thin_frame;
 mod units;
 
 pub use collect::Collect;
 pub use data::{
-    FaceMark, Family, Frames, History, LineKind, LineMark, LinkMark, Loop, Mode, NodeMark, Numbers,
-    Picture, RunData, Shown,
+    FaceMark, Family, Frames, Ground, History, LineKind, LineMark, LinkMark, Loop, Mode, NodeMark,
+    Numbers, Picture, RunData, Shown, SpectrumChart, SpectrumCurve,
 };
-pub use figures::{ENERGY, named_figures};
+pub use figures::{ENERGY, GROUND, SPECTRA, named_figures};
 pub use page::run_page;

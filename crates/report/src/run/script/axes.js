@@ -34,3 +34,17 @@ function ticks([low, high], count) {
   };
   return { values: found, write };
 }
+
+/** Round numbers along a logarithmic axis of some pixels: 1, 2, 5 of every decade, or 1 where these crowd. */
+function decades([low, high], width) {
+  const span = Math.log10(high / low);
+  // Zoomed in far, even steps are as good.
+  if (span < 0.5) return ticks([low, high], Math.max(width / 70, 3));
+  const within = width / span > 130 ? [1, 2, 5] : [1];
+  const values = [];
+  for (let power = Math.floor(Math.log10(low)); power <= Math.log10(high); power++) {
+    for (const k of within) values.push(Number(`${k}e${power}`));
+  }
+  const inside = (v) => v >= low * (1 - 1e-9) && v <= high * (1 + 1e-9);
+  return { values: values.filter(inside), write: number };
+}

@@ -1,0 +1,50 @@
+//! What the run came to, and what the reader should know of it.
+
+use super::{text, value};
+use crate::run::RunData;
+use crate::run::units::{number, percent, shown};
+use maud::{Markup, html};
+use serde_json::Value;
+
+fn measured(unit: &str, x: f64) -> String {
+    let s = shown(unit, x.abs());
+    format!("{} {}", number(x * s.factor), s.unit)
+}
+
+pub(super) fn facts(summary: &Value) -> Markup {
+    let status = text(&summary["status"]);
+    let good = ["converged", "overturned"].contains(&status.as_str());
+    let class = if good { "fact good" } else { "fact bad" };
+    let contact = summary.get("contact").filter(|c| c.is_object());
+    let fact = |words: &str, what: String| html! { div.fact { span { (words) } b { (what) } } };
+    html! {
+        div.facts {
+            div class=(class) { span { "status" } b { (status) } }
+            (fact("case", text(&summary["case"])))
+            (fact("solver", text(&summary["solver"])))
+            @if let Some(c) = contact {
+                (fact("leaves rest by", text(&c["initial_mode"])))
+                (fact("response mode", text(&c["mode"])))
+                (fact("largest uplift", measured("m", value(&c["max_uplift"]))))
+                (fact("largest slip", measured("m", value(&c["max_slip"]))))
+                (fact("slip at the end", measured("m", value(&c["residual_slip"]))))
+            }
+            (fact("energy unaccounted for", percent(value(&summary["energy"]["error_relative"]))))
+        }
+    }
+}
+
+pub(super) fn warnings(summary: &Value, data: &RunData) -> Markup {
+    let mut all: Vec<String> = Vec::new();
+    if summary["status"].as_str() != Some("converged") {
+        all.extend(summary["message"].as_str().map(str::to_owned));
+    }
+    let warned = summary["warnings"].as_array().into_iter().flatten();
+    all.extend(warned.filter_map(Value::as_str).map(str::to_owned));
+    html! {
+        @if !all.is_empty() {
+            div.warnings role="note" { b { "What to know" } ul { @for w in &all { li { (w) } } } }
+        }
+        @for note in &data.notes { p.note { (note) } }
+    }
+}
