@@ -1,6 +1,7 @@
 //! Figures of a run, still: for paper and for readers without scripts.
 
 use super::data::{History, Loop, RunData, SpectrumChart};
+use super::units::labelled;
 use crate::{Color, Figure, Stroke};
 
 /// (name in the data, name for readers, colour), in the order in which they are stacked.
@@ -38,7 +39,7 @@ pub(crate) fn seen(data: &RunData) -> Vec<(&History, &'static str, Color)> {
 
 /// An output over time.
 pub(crate) fn history(h: &History) -> Figure {
-    let label = format!("{} [{}]", h.name, h.shown.unit);
+    let label = labelled(&h.name, &h.shown);
     Figure::new(h.name.clone(), "time [s]", label).line("", h.points()).sized(440, 210)
 }
 

@@ -1,5 +1,6 @@
 //! The report of a run: its data as a file of its own, and the page made from it.
 
+mod choice;
 mod collect;
 mod data;
 mod drawing;

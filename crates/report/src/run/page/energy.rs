@@ -32,6 +32,8 @@ pub(super) fn energy(summary: &Value, data: &RunData) -> Markup {
         rows.filter(|(k, _)| *k == "input" || value(&e[*k]).abs() > 1e-12 * largest).collect();
     let s = shown("J", largest);
     let (links, kinds) = (links(summary), kinds(data));
+    // Of two kinds one may be nothing but rounding beside the other.
+    let in_link = |x: f64, of: f64| if x.abs() < 1e-9 * of.abs() { 0.0 } else { x };
     let in_links = shown("J", links.first().map_or(0.0, |(_, h, v)| h + v));
     html! {
         div.figures.board {
@@ -50,7 +52,7 @@ pub(super) fn energy(summary: &Value, data: &RunData) -> Markup {
             } }
             @if !links.is_empty() { div { table {
                 thead { tr { th { "link" } th { "friction, yielding [" (in_links.unit) "]" } th { "viscous [" (in_links.unit) "]" } } }
-                tbody { @for (name, h, v) in &links { tr { td { (name) } td.num { (number(*h * in_links.factor)) } td.num { (number(*v * in_links.factor)) } } } }
+                tbody { @for (name, h, v) in &links { tr { td { (name) } td.num { (number(in_link(*h, h + v) * in_links.factor)) } td.num { (number(in_link(*v, h + v) * in_links.factor)) } } } }
             } } }
         }
     }

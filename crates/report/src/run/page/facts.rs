@@ -1,12 +1,18 @@
 //! What the run came to, and what the reader should know of it.
 
+use super::rounding::is_rounding;
 use super::{text, value};
 use crate::run::RunData;
 use crate::run::units::{number, percent, shown};
 use maud::{Markup, html};
 use serde_json::Value;
 
-fn measured(unit: &str, x: f64) -> String {
+/// A length beside the largest of its like.
+fn measured(x: f64, largest: f64) -> String {
+    let unit = "m";
+    if is_rounding(x.abs(), unit, largest) {
+        return format!("0 {unit}");
+    }
     let s = shown(unit, x.abs());
     format!("{} {}", number(x * s.factor), s.unit)
 }
@@ -16,6 +22,10 @@ pub(super) fn facts(summary: &Value) -> Markup {
     let good = ["converged", "overturned"].contains(&status.as_str());
     let class = if good { "fact good" } else { "fact bad" };
     let contact = summary.get("contact").filter(|c| c.is_object());
+    let length = |c: &Value, key: &str| {
+        let all = ["max_uplift", "max_slip", "residual_slip"].map(|k| value(&c[k]).abs());
+        measured(value(&c[key]), all.into_iter().fold(0.0, f64::max))
+    };
     let fact = |words: &str, what: String| html! { div.fact { span { (words) } b { (what) } } };
     html! {
         div.facts {
@@ -25,9 +35,9 @@ pub(super) fn facts(summary: &Value) -> Markup {
             @if let Some(c) = contact {
                 (fact("leaves rest by", text(&c["initial_mode"])))
                 (fact("response mode", text(&c["mode"])))
-                (fact("largest uplift", measured("m", value(&c["max_uplift"]))))
-                (fact("largest slip", measured("m", value(&c["max_slip"]))))
-                (fact("slip at the end", measured("m", value(&c["residual_slip"]))))
+                (fact("largest uplift", length(c, "max_uplift")))
+                (fact("largest slip", length(c, "max_slip")))
+                (fact("slip at the end", length(c, "residual_slip")))
             }
             (fact("energy unaccounted for", percent(value(&summary["energy"]["error_relative"]))))
         }

@@ -6,12 +6,14 @@ mod facts;
 mod modes;
 mod motion;
 mod peaks;
+mod rounding;
 mod settings;
 mod shaking;
 
-use super::{RunData, script};
+use super::{Frames, Numbers, RunData, script};
 use crate::Figure;
 use crate::page::STYLE;
+use base64::prelude::{BASE64_STANDARD, Engine as _};
 use maud::{DOCTYPE, Markup, PreEscaped, html};
 use serde_json::Value;
 
@@ -51,7 +53,7 @@ pub fn run_page(summary: &Value, data: &RunData) -> String {
         "peaks" => peaks::peaks(summary, data),
         "ground" => shaking::ground(data),
         "floors" => shaking::floors(summary, data),
-        "histories" => curves::histories(data),
+        "histories" => curves::histories(summary, data),
         "energy" => energy::energy(summary, data),
         "loops" => curves::loops(data),
         "modes" => modes::modes(data),
@@ -75,6 +77,7 @@ pub fn run_page(summary: &Value, data: &RunData) -> String {
                 nav { ol { @for (id, head) in &shown { li { a href={ "#" (id) } { (head) } } } } }
                 @for (id, head) in &shown { section id=(id) { h2 { (head) } (body(id)) } }
                 script type="application/json" id="data" { (PreEscaped(embedded(data))) }
+                script type="text/plain" id="shapes" { (PreEscaped(shapes(data))) }
                 script { (PreEscaped(script::text())) }
             }
         }
@@ -82,10 +85,26 @@ pub fn run_page(summary: &Value, data: &RunData) -> String {
     .into_string()
 }
 
-/// The data as JSON that cannot end its element.
+/// The data as JSON that cannot end its element, without the deformed shapes.
 fn embedded(data: &RunData) -> String {
+    let frames = Frames { u: Numbers { n: Vec::new(), ..data.frames.u }, ..data.frames.clone() };
+    let rest = RunData { frames, ..data.clone() };
     // Numbers, texts and lists: nothing that JSON does not have.
-    serde_json::to_string(data).unwrap_or_default().replace('<', "\\u003c")
+    serde_json::to_string(&rest).unwrap_or_default().replace('<', "\\u003c")
+}
+
+/// The deformed shapes, which are most of the page of a large model: two bytes a number, the low one first, in
+/// base 64. Their steps are chosen so that they fit.
+fn shapes(data: &RunData) -> String {
+    let bytes: Vec<u8> = data
+        .frames
+        .u
+        .n
+        .iter()
+        .map(|n| i16::try_from(*n).unwrap_or(if *n > 0 { i16::MAX } else { i16::MIN }))
+        .flat_map(i16::to_le_bytes)
+        .collect();
+    BASE64_STANDARD.encode(bytes)
 }
 
 fn text(value: &Value) -> String {

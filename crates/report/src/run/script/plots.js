@@ -3,12 +3,15 @@
 /** Colours of curves, in order of use. */
 const PALETTE = ["#0072b2", "#d55e00", "#009e73", "#cc79a7", "#56b4e9", "#e69f00"];
 
+/** A quantity and its unit, where it has one. */
+const labelled = (what, shown) => (shown.unit ? `${what} [${shown.unit}]` : what);
+
 const plots = {
   /** An output over time. */
   history(host, i) {
     const h = data.histories[i];
     new Chart(host, {
-      title: h.name, x: "time [s]", y: `${h.name} [${h.shown.unit}]`, height: 240, timed: true,
+      title: h.name, x: "time [s]", y: labelled(h.name, h.shown), height: 240, timed: true,
       series: [{ name: h.name, color: "#0072b2", x: unpack(h.t), y: unpack(h.y, h.shown.factor) }],
     });
   },
@@ -17,7 +20,7 @@ const plots = {
   ground(host, i) {
     const h = data.ground[i].history;
     new Chart(host, {
-      title: h.name, x: "time [s]", y: `${h.name} [${h.shown.unit}]`, height: 240, timed: true,
+      title: h.name, x: "time [s]", y: labelled(h.name, h.shown), height: 240, timed: true,
       series: [{ name: h.name, color: "#0072b2", x: unpack(h.t), y: unpack(h.y, h.shown.factor) }],
     });
   },
