@@ -76,6 +76,9 @@ pub struct Figure {
     pub caption: String,
     /// Width and height in pixels.
     pub size: (u32, u32),
+    /// All lines are equally thick. Otherwise the lower of two is thicker, so that it shows beside an upper one that
+    /// runs over it.
+    pub even: bool,
 }
 
 impl Figure {
@@ -89,6 +92,7 @@ impl Figure {
             series: Vec::new(),
             caption: String::new(),
             size: (640, 360),
+            even: false,
         }
     }
 
@@ -183,6 +187,13 @@ impl Figure {
     pub fn ranges(mut self, x: (f64, f64), y: (f64, f64)) -> Self {
         self.x.range = Some(x);
         self.y.range = Some(y);
+        self
+    }
+
+    /// Makes all lines equally thick: of curves that are not meant to run over each other.
+    #[must_use]
+    pub fn even(mut self) -> Self {
+        self.even = true;
         self
     }
 

@@ -46,7 +46,7 @@ pub(crate) fn history(h: &History) -> Figure {
 /// Response spectra.
 pub(crate) fn spectra(chart: &SpectrumChart) -> Figure {
     let label = format!("{} [{}]", chart.quantity, chart.shown.unit);
-    let figure = Figure::new(chart.title.clone(), "period [s]", label).log_x();
+    let figure = Figure::new(chart.title.clone(), "period [s]", label).log_x().even();
     let lone = chart.curves.len() == 1;
     let curves = chart.curves.iter();
     curves

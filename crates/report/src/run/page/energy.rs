@@ -29,7 +29,7 @@ pub(super) fn energy(summary: &Value, data: &RunData) -> Markup {
         .chain(figures::KINDS.iter().map(|(k, w, _)| (*k, *w)))
         .chain([("error", "unaccounted for")]);
     let rows: Vec<_> =
-        rows.filter(|(k, _)| *k == "input" || value(&e[*k]).abs() > 1e-12 * largest).collect();
+        rows.filter(|(k, _)| *k == "input" || value(&e[*k]).abs() > 1e-9 * largest).collect();
     let s = shown("J", largest);
     let (links, kinds) = (links(summary), kinds(data));
     // Of two kinds one may be nothing but rounding beside the other.
