@@ -18,10 +18,7 @@ pub enum PngError {
     Drawing(String),
 }
 
-/// Pixels of a PNG for one of the figure, so that it stays sharp on paper: 192 to the inch.
-pub(crate) const SCALE: u32 = 2;
-
-/// An SVG of so many pixels as PNG of [`SCALE`] times as many.
+/// An SVG of so many pixels as PNG of twice as many each way.
 #[cfg(feature = "png")]
 pub(crate) fn png(svg: &str, size: (u32, u32)) -> Result<Vec<u8>, PngError> {
     raster::png(svg, size)

@@ -3,10 +3,12 @@
 //! The letters are DejaVu Sans, built in, never those of the machine: a machine without fonts draws the same, to
 //! the byte.
 
-use super::{PngError, SCALE};
+use super::PngError;
 use resvg::{tiny_skia, usvg};
 use std::sync::{Arc, OnceLock};
 
+/// Pixels of a PNG for one of the figure, so that it stays sharp on paper: 192 to the inch.
+const SCALE: u32 = 2;
 /// Pixels of an SVG in an inch.
 const PER_INCH: f64 = 96.0;
 const INCH: f64 = 0.0254;
