@@ -1,5 +1,6 @@
 //! Arguments of the program.
 
+use crate::figure_files::Format;
 use clap::{Args, Parser, Subcommand};
 use std::path::PathBuf;
 use trilith::SolverKind;
@@ -66,9 +67,19 @@ pub(crate) struct RunArguments {
     /// Links whose hysteresis loops the report shows [default: those that dissipate most]
     #[arg(long, value_name = "LINK,LINK", value_delimiter = ',')]
     pub loops: Vec<String>,
-    /// Write figures as SVG into the folder: of outputs and links by name, and `energy`
+    /// Write figures into the folder: of outputs and links by name, `energy`, `ground` (motion and its spectrum),
+    /// `spectra` (of floors)
     #[arg(long, value_name = "NAME,NAME", value_delimiter = ',')]
     pub figure: Vec<String>,
+    /// What these figures are written as, such as `svg,png`
+    #[arg(
+        long,
+        value_name = "FORMAT,FORMAT",
+        value_delimiter = ',',
+        default_value = "svg",
+        requires = "figure"
+    )]
+    pub figure_format: Vec<Format>,
     /// Write no report (`report.html` and its data `report.json`)
     #[arg(long, conflicts_with = "loops")]
     pub no_report: bool,
@@ -182,6 +193,9 @@ pub(crate) struct SweepArguments {
     /// Runs at the same time; the results are the same to the bit [default: one for each core]
     #[arg(long, value_parser = clap::value_parser!(u16).range(1..=1024))]
     pub threads: Option<u16>,
+    /// Write the figures of the study as files beside `study.html`, as `svg`, `png` or `svg,png`
+    #[arg(long, value_name = "FORMAT,FORMAT", value_delimiter = ',')]
+    pub figure_format: Vec<Format>,
     /// Check the study and show what would be run
     #[arg(long)]
     pub dry_run: bool,

@@ -1,15 +1,17 @@
 //! `trilith run --figure`: single figures of a run as files.
 
 use crate::Failure;
+use crate::figure_files::{self, Format};
 use crate::text::names_help;
 use std::path::{Path, PathBuf};
 use trilith::model::Body;
-use trilith::report::{ENERGY, named_figures};
+use trilith::report::{ENERGY, GROUND, SPECTRA, named_figures};
 use trilith::{Analysis, Model, Run};
 
-/// Names of outputs, of links, or `energy`.
+/// Names of outputs, of links, or `energy`, `ground`, `spectra`.
 pub(crate) fn check(model: &Model, names: &[String]) -> Result<(), Failure> {
-    let known: Vec<&str> = std::iter::once(ENERGY)
+    let known: Vec<&str> = [ENERGY, GROUND, SPECTRA]
+        .into_iter()
         .chain(model.outputs.iter().map(|o| o.name.as_str()))
         .chain(links(model))
         .collect();
@@ -32,6 +34,7 @@ pub(crate) fn write(
     run: &Run,
     dir: &Path,
     names: &[String],
+    formats: &[Format],
 ) -> Result<Vec<PathBuf>, Failure> {
     if names.is_empty() {
         return Ok(Vec::new());
@@ -52,9 +55,7 @@ pub(crate) fn write(
             return Err(Failure::input(&message, None));
         }
         for (file, figure) in figures {
-            let path = dir.join(format!("{file}.svg"));
-            std::fs::write(&path, figure.svg()).map_err(|e| Failure::unwritable(&path, &e))?;
-            written.push(path);
+            written.extend(figure_files::write(dir, &file, &figure, formats)?);
         }
     }
     Ok(written)

@@ -19,6 +19,7 @@ mod diagnostics;
 mod elements;
 mod exercise;
 mod failure;
+mod figure_files;
 mod figures;
 mod generate;
 mod modes;

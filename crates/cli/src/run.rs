@@ -3,7 +3,7 @@
 use crate::args::{ReportArguments, RunArguments};
 use crate::progress::Progress;
 use crate::text::names_help;
-use crate::{Answer, Failure, case, diagnostics, figures, read};
+use crate::{Answer, Failure, case, diagnostics, figure_files, figures, read};
 use std::path::{Path, PathBuf};
 use trilith::model::{Body, Element};
 use trilith::solvers::EndState;
@@ -18,6 +18,7 @@ pub(crate) fn run(registry: &Registry, args: RunArguments) -> Result<Answer, Fai
     let from = args.restart.as_deref().map(checkpoint).transpose()?;
     check_links(&model, &args.loops)?;
     figures::check(&model, &args.figure)?;
+    figure_files::check(&args.figure_format)?;
     let (analysis, run) = {
         let mut bar = Progress::new(&model.cases[case].name);
         let mut show = |share| bar.show(share);
@@ -57,7 +58,7 @@ pub(crate) fn run(registry: &Registry, args: RunArguments) -> Result<Answer, Fai
             let page = trilith::write_report(&dir, &data).map_err(|e| Failure::of(&e, &model))?;
             text += &format!("report: {}\n", page.display());
         }
-        for path in figures::write(&analysis, &run, &dir, &args.figure)? {
+        for path in figures::write(&analysis, &run, &dir, &args.figure, &args.figure_format)? {
             text += &format!("figure: {}\n", path.display());
         }
         if args.checkpoint_at.is_some() {

@@ -3,7 +3,7 @@
 use crate::args::SweepArguments;
 use crate::progress::Steps;
 use crate::text::{row, table};
-use crate::{Answer, Failure};
+use crate::{Answer, Failure, figure_files};
 use std::path::Path;
 use std::sync::Mutex;
 use std::time::Instant;
@@ -14,8 +14,13 @@ use trilith_study::{Results, Study, execute};
 const TOLD: usize = 5;
 
 pub(crate) fn sweep(registry: &Registry, args: &SweepArguments) -> Result<Answer, Failure> {
+    figure_files::check(&args.figure_format)?;
     let study =
         Study::read(&args.study, registry, &args.set).map_err(|e| Failure::diagnostics(&e))?;
+    if !args.figure_format.is_empty() && study.figures.is_empty() {
+        let help = "`figures: [Points(x: \"mu\", y: \"slide\")]` in the study file asks for one";
+        return Err(Failure::input("the study has no figures to write", Some(help)));
+    }
     if args.dry_run {
         return Ok(plan(&study).into());
     }
@@ -34,7 +39,14 @@ pub(crate) fn sweep(registry: &Registry, args: &SweepArguments) -> Result<Answer
         execute(&study, registry, &folder, threads, &show)
             .map_err(|e| Failure::input(&e.to_string(), Some(e.help())))?
     };
-    let text = report(&study, &results, start.elapsed().as_secs_f64(), &folder);
+    let mut text = report(&study, &results, start.elapsed().as_secs_f64(), &folder);
+    if !args.figure_format.is_empty() {
+        for (name, figure) in trilith_study::figures(&study, &results.records) {
+            for path in figure_files::write(&folder, &name, &figure, &args.figure_format)? {
+                text += &format!("figure: {}\n", path.display());
+            }
+        }
+    }
     let failed = results.failed();
     if failed > 0 {
         let help = "they are rows of the table with their status and message";

@@ -363,3 +363,73 @@ fn a_frame_of_so_many_bays_is_generated() {
     let (status, _, err) = frame("3");
     assert!(status == 2 && err.contains("two values"), "{err}");
 }
+
+#[test]
+fn figures_are_svg_and_on_request_png() {
+    let folder = folder();
+    let run = |formats: &[&str]| {
+        let args = ["run", "swing.ron", "--figure", "sway,energy", "--out", "figures"];
+        trilith(folder.path(), &[&args, formats].concat())
+    };
+    let file = |name: &str| std::fs::read(folder.path().join("figures").join(name));
+    assert_eq!(run(&[]).0, 0);
+    assert!(file("sway.svg").unwrap().starts_with(b"<svg") && file("sway.png").is_err());
+    let (status, out, err) = run(&["--figure-format", "png,svg"]);
+    if cfg!(feature = "png") {
+        assert_eq!(status, 0, "{err}");
+        assert!(out.contains("sway.png") && out.contains("energy.svg"), "{out}");
+        for name in ["sway.png", "energy.png"] {
+            assert!(file(name).unwrap().starts_with(b"\x89PNG\r\n"), "{name}");
+        }
+    } else {
+        assert!(status == 2 && err.contains("--features png") && out.is_empty(), "{out}{err}");
+    }
+    let (status, _, err) = run(&["--figure-format", "jpg"]);
+    assert!(status == 2 && err.contains("svg") && err.contains("png"), "{err}");
+    let args = ["run", "swing.ron", "--figure-format", "svg"];
+    let (status, _, err) = trilith(folder.path(), &args);
+    assert!(status == 2 && err.contains("--figure"), "{err}");
+}
+
+/// The motion that the page shows is that which the recorder has of a node that is fixed to the ground.
+#[test]
+fn the_ground_motion_of_the_report_is_that_of_a_fixed_node() {
+    let folder = tempfile::tempdir().unwrap();
+    let model = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../models/floor_spectra.ron");
+    let model = model.display().to_string();
+    let args = ["run", &model, "--out", "floors", "--figure", "ground,spectra"];
+    let (status, out, err) = trilith(folder.path(), &args);
+    assert_eq!(status, 0, "{err}");
+    for name in ["ground_1.svg", "ground_2.svg", "spectra_1.svg", "spectra_2.svg"] {
+        assert!(out.contains(name), "{out}");
+    }
+    let dir = folder.path().join("floors");
+    let text = std::fs::read_to_string(dir.join("report.json")).unwrap();
+    let data: serde_json::Value = serde_json::from_str(&text).unwrap();
+    let zpa = summary(&dir)["spectra"]["ground"]["zpa"].as_f64().unwrap();
+    let peak = data["ground"][0]["peak"].as_f64().unwrap();
+    assert!((peak.abs() / zpa - 1.0).abs() < 1e-9, "{peak} {zpa}");
+    // The spectrum of the motion beside the floor spectrum of that node, which goes by absolute acceleration.
+    let curve = |chart: &serde_json::Value| -> Vec<(f64, f64)> {
+        let of = |n: &serde_json::Value| -> Vec<f64> {
+            let step = n["step"].as_f64().unwrap();
+            n["n"].as_array().unwrap().iter().map(|x| x.as_f64().unwrap() * step).collect()
+        };
+        of(&chart["period"]).into_iter().zip(of(&chart["y"])).collect()
+    };
+    let ground = curve(&data["ground_spectra"][0]["curves"][0]);
+    let floors = data["floor_spectra"].as_array().unwrap();
+    assert_eq!(floors.len(), 2, "a chart for each damping");
+    let five = floors.iter().find(|c| c["title"].as_str().unwrap().contains("5 %")).unwrap();
+    let floor = curve(&five["curves"][0]);
+    let mut compared = 0;
+    for (period, sa) in floor.iter().filter(|(t, _)| (0.05..2.0).contains(t)) {
+        let i = ground.iter().position(|(t, _)| t > period).unwrap();
+        let ((t0, y0), (t1, y1)) = (ground[i - 1], ground[i]);
+        let psa = y0 + (y1 - y0) * (period - t0) / (t1 - t0);
+        // Sa is above PSA by the force of the damper, and between periods the curve is a chord.
+        assert!((0.97..1.08).contains(&(sa / psa)), "{period} s: {sa} {psa}");
+        compared += 1;
+    }
+    assert!(compared > 20, "{compared}");
+}

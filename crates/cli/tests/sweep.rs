@@ -171,3 +171,28 @@ fn a_full_disk_is_told_and_the_study_goes_on_when_there_is_room() {
     let table = |folder: &str| std::fs::read(here.join(folder).join("table.parquet")).unwrap();
     assert!(table("full") == table("whole"));
 }
+
+#[test]
+fn figures_of_a_study_are_files_on_request() {
+    let folder = folder(3);
+    let path = folder.path().join("study.ron");
+    let (status, _, err) = sweep(folder.path(), &["--figure-format", "svg"]);
+    assert!(status == 2 && err.contains("no figures") && err.contains("figures: ["), "{err}");
+    assert!(!folder.path().join("out").exists());
+    let figures =
+        r#"figures: [Points(x: "a", y: "slide", by: "mu"), Points(x: "mu", y: "heat")], columns:"#;
+    let text = std::fs::read_to_string(&path).unwrap();
+    std::fs::write(&path, text.replace("columns:", figures)).unwrap();
+    let (status, out, err) = sweep(folder.path(), &["--figure-format", "svg"]);
+    assert_eq!(status, 0, "{err}");
+    let page = std::fs::read_to_string(folder.path().join("out/study/study.html")).unwrap();
+    for name in ["figure_1_runs.svg", "figure_2_runs.svg"] {
+        assert!(out.contains(name), "{out}");
+        let svg = std::fs::read_to_string(folder.path().join("out/study").join(name)).unwrap();
+        assert!(svg.starts_with("<svg") && page.contains(&svg), "{name} is not that of the page");
+    }
+    if !cfg!(feature = "png") {
+        let (status, _, err) = sweep(folder.path(), &["--figure-format", "png"]);
+        assert!(status == 2 && err.contains("--features png"), "{err}");
+    }
+}

@@ -211,13 +211,12 @@ fn draw(figure: &Figure, area: &Area<'_>) -> Result<(), String> {
     draw_legend(&rows, &bottom).map_err(fail)
 }
 
-/// Width of a line, px. The lower of two named lines is thicker, so that it shows beside an upper one
-/// that runs over it.
+/// Width of a line, px; see [`Figure::even`].
 fn thickness(figure: &Figure, at: usize) -> u32 {
     let named = |s: &Series| s.stroke == Stroke::Line && !s.name.is_empty();
     let lines = || figure.series.iter().enumerate().filter(|(_, s)| named(s));
     let lower = lines().next().is_some_and(|(i, _)| i == at) && lines().count() == 2;
-    if lower { 5 } else { 2 }
+    if lower && !figure.even { 5 } else { 2 }
 }
 
 /// The pieces of a line between points that cannot be drawn or lie outside.

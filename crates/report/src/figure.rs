@@ -76,6 +76,9 @@ pub struct Figure {
     pub caption: String,
     /// Width and height in pixels.
     pub size: (u32, u32),
+    /// All lines are equally thick. Otherwise the lower of two is thicker, so that it shows beside an upper one that
+    /// runs over it.
+    pub even: bool,
 }
 
 impl Figure {
@@ -89,6 +92,7 @@ impl Figure {
             series: Vec::new(),
             caption: String::new(),
             size: (640, 360),
+            even: false,
         }
     }
 
@@ -186,6 +190,13 @@ impl Figure {
         self
     }
 
+    /// Makes all lines equally thick: of curves that are not meant to run over each other.
+    #[must_use]
+    pub fn even(mut self) -> Self {
+        self.even = true;
+        self
+    }
+
     /// Sets width and height, px.
     #[must_use]
     pub fn sized(mut self, width: u32, height: u32) -> Self {
@@ -204,6 +215,15 @@ impl Figure {
     #[must_use]
     pub fn svg(&self) -> String {
         crate::draw::svg(self)
+    }
+
+    /// The figure as a PNG file with twice as many pixels each way, 192 to the inch. The letters are built in: the
+    /// same figure gives the same bytes on any machine.
+    ///
+    /// # Errors
+    /// [`PngError`](crate::PngError) in a build without the feature `png`, and for sizes that cannot be drawn.
+    pub fn png(&self) -> Result<Vec<u8>, crate::PngError> {
+        crate::png::png(&self.svg(), self.size)
     }
 
     /// Several figures side by side as one SVG.

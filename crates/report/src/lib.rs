@@ -13,12 +13,15 @@
 mod draw;
 mod figure;
 mod page;
+mod png;
 mod run;
 mod thin;
 
 pub use figure::{Axis, Color, Figure, Series, Stroke};
 pub use page::{Block, Page, Section};
+pub use png::{PngError, png_is_built_in};
 pub use run::{
-    Collect, ENERGY, FaceMark, Family, Frames, History, LineKind, LineMark, LinkMark, Loop, Mode,
-    NodeMark, Numbers, Picture, RunData, Shown, named_figures, run_page,
+    Collect, ENERGY, FaceMark, Family, Frames, GROUND, Ground, History, LineKind, LineMark,
+    LinkMark, Loop, Mode, NodeMark, Numbers, Picture, RunData, SPECTRA, Shown, SpectrumChart,
+    SpectrumCurve, named_figures, run_page,
 };

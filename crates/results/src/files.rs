@@ -11,6 +11,7 @@ use trilith_model::Model;
 /// | file | what |
 /// |---|---|
 /// | `summary.json` | the [`Summary`] |
+/// | `peaks.csv` | extremes of all outputs |
 /// | `histories.csv`, `histories.npz` | outputs and energies at the output times |
 /// | `spectra.csv` | floor spectra, where the model asks for any |
 /// | `model.resolved.ron` | the model in SI with every default |
@@ -39,6 +40,7 @@ impl Files<'_> {
             written.push(dir.join(name));
             dir.join(name)
         };
+        crate::peaks::write(&path("peaks.csv"), &self.summary.outputs)?;
         csv::write(&path("histories.csv"), self.model, self.record)?;
         npz::write(&path("histories.npz"), self.model, self.record)?;
         if !self.summary.spectra.0.is_empty() {

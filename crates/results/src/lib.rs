@@ -1,7 +1,7 @@
 //! What a run leaves behind: histories, peaks and files.
 //!
 //! [`Recorder`] watches a run, [`Envelope`] keeps its extremes only. [`Summary`] is `summary.json`, [`Files`] writes it together with
-//! `histories.csv`, `histories.npz`, `spectra.csv` and frames for ParaView.
+//! `peaks.csv`, `histories.csv`, `histories.npz`, `spectra.csv` and frames for ParaView.
 //!
 //! Peaks are those of all accepted substeps, not of the output times only, and where the time
 //! derivative of an output is known they are those of the cubic Hermite polynomial between substeps.
@@ -11,8 +11,10 @@ mod envelope;
 mod error;
 mod files;
 mod frames;
+mod ground;
 mod loops;
 mod npz;
+mod peaks;
 mod recorder;
 mod spectra;
 mod summary;
@@ -24,6 +26,7 @@ pub use envelope::Envelope;
 pub use error::FileError;
 pub use files::Files;
 pub use frames::{Frame, Frames};
+pub use ground::{GroundMotion, ground_motions};
 pub use loops::{LoopPoint, Loops};
 pub use npz::npy;
 pub use recorder::{ENERGIES, Recorder};

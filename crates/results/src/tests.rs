@@ -192,3 +192,59 @@ fn an_error_of_writing_names_the_file() {
         .unwrap_err();
     assert!(error.to_string().contains("histories.csv cannot be written"), "{error}");
 }
+
+#[test]
+fn peaks_csv_reads_back_to_the_same_bits() {
+    let model = model();
+    let record = record(&model);
+    let summary = summary(&model, &record);
+    let folder = tempfile::tempdir().unwrap();
+    Files { model: &model, record: &record, summary: &summary }.write(folder.path()).unwrap();
+    let mut file = csv::Reader::from_path(folder.path().join("peaks.csv")).unwrap();
+    let rows: Vec<csv::StringRecord> = file.records().map(Result::unwrap).collect();
+    assert_eq!(rows.len(), model.outputs.len());
+    for ((row, o), p) in rows.iter().zip(&model.outputs).zip(record.peaks()) {
+        assert_eq!((&row[0], &row[1]), (o.name.as_str(), o.unit.as_str()));
+        let numbers: Vec<f64> = row.iter().skip(2).map(|x| x.parse().unwrap()).collect();
+        assert_eq!(numbers, [p.max, p.t_max, p.min, p.t_min, p.last]);
+    }
+}
+
+#[test]
+fn motions_of_one_direction_add_up_and_each_has_its_spectrum() {
+    // A half sine and a constant along X, a mirrored half sine along Z.
+    let cases = r#"functions: {
+            "pulse": HalfSine(amplitude: "3 m/s^2", duration: 0.5, start: 0.2),
+            "push": Step(amplitude: "1 m/s^2", start: 0.1, end: 1.1),
+        },
+        cases: { "still": Dynamic(duration: 1, dt: 0.1), "shake": Dynamic(duration: 2, dt: 0.01, base: [
+            (direction: X, function: "pulse"), (direction: X, function: "push"),
+            (direction: Z, function: "pulse", factor: -2),
+        ]) },"#;
+    let text = TEXT.replace(r#"cases: { "shake": Dynamic(duration: 1, dt: 0.1) },"#, cases);
+    let mut registry = Registry::new();
+    trilith_elements::register(&mut registry);
+    let model = read_text(&text, "x.ron", &registry, &[]).unwrap_or_else(|e| panic!("{e:?}"));
+    assert!(crate::ground_motions(&model, 0, 0.1).is_empty());
+    assert!(crate::ground_motions(&model, 9, 0.1).is_empty());
+    let all = crate::ground_motions(&model, 1, 0.01);
+    let of = |i: usize| (all[i].direction.name(), all[i].peak.0, all[i].peak.1);
+    assert_eq!(all.len(), 2);
+    for (i, name, peak) in [(0, "Ux", 4.0), (1, "Uz", -6.0)] {
+        let found = of(i);
+        assert_eq!(found.0, name);
+        assert!((found.1 - peak).abs() < 1e-12 && (found.2 - 0.45).abs() < 1e-9, "{found:?}");
+        // Sampled at 5 ms over the whole case.
+        assert_eq!((all[i].time.len(), all[i].acceleration.len()), (401, 401));
+    }
+    // An undamped oscillator of the period of the pulse answers a half sine with 1.73 times its peak (Chopra, Dynamics
+    // of Structures, fig. 4.8.2); 5 % of damping takes a few per cent, and a stiff one follows the ground.
+    let z = &all[1].spectrum;
+    let at = |period: f64| {
+        let i = z.periods.iter().position(|p| *p >= period).unwrap();
+        z.responses[i].psa / 6.0
+    };
+    assert!((at(0.02) - 1.0).abs() < 0.01, "{}", at(0.02));
+    assert!((1.55..1.73).contains(&at(0.5)), "{}", at(0.5));
+    assert_eq!(z.damping, 0.05);
+}

@@ -7,6 +7,7 @@ mod modes;
 mod overturning;
 mod spread;
 
+pub use draw::figures;
 pub(crate) use draw::section;
 
 use crate::Condition;

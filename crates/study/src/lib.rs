@@ -36,7 +36,7 @@ pub use condition::Condition;
 pub use distribution::{Distribution, phi, phi_inverse};
 pub use error::{Identity, StudyError};
 pub use execute::{Progress, Results, execute};
-pub use figure::Drawing;
+pub use figure::{Drawing, figures};
 pub use fragility::{Band, Capacity, Fragility, FragilityError};
 pub use journal::{Cell, Record};
 pub use plan::{Axis, Ensemble, Place, Plan, Samples};

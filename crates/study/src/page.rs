@@ -1,6 +1,7 @@
 //! `study.html`.
 
 use crate::{Record, Study, figure};
+use std::path::{Component, Path, PathBuf};
 use trilith::report::{Block, Page, Section};
 
 /// Rows that a table of a page shows.
@@ -17,7 +18,7 @@ pub(crate) fn page(study: &Study, records: &[Record], left_out: usize) -> String
         .lead(Block::text(format!(
             "{} runs of `{}` ({}), {failed} of them failed.{out}",
             records.len(),
-            study.model_path.display(),
+            plain(&study.model_path).display(),
             study.model_title
         )))
         .lead(outcomes(records));
@@ -34,6 +35,22 @@ pub(crate) fn page(study: &Study, records: &[Record], left_out: usize) -> String
         page = page.section(Section::new("file", "The study").block(Block::code(text)));
     }
     page.html()
+}
+
+/// A path without the way up and down again: `models/studies/../block.ron` is `models/block.ron`.
+fn plain(path: &Path) -> PathBuf {
+    let mut out = PathBuf::new();
+    for part in path.components() {
+        let last = out.components().next_back();
+        match part {
+            Component::ParentDir if matches!(last, Some(Component::Normal(_))) => {
+                out.pop();
+            }
+            Component::CurDir => {}
+            _ => out.push(part),
+        }
+    }
+    out
 }
 
 /// How many runs ended how.
@@ -143,4 +160,22 @@ fn failures(study: &Study, records: &[Record]) -> Section {
         cells
     });
     Section::new("failed", "Runs that failed").block(Block::Table { head, rows: rows.collect() })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_path_is_shown_without_detours() {
+        for (path, shown) in [
+            ("models/studies/../block.ron", "models/block.ron"),
+            ("./studies/../a/../../block.ron", "../block.ron"),
+            ("../block.ron", "../block.ron"),
+            ("../../a/./b.ron", "../../a/b.ron"),
+            ("/models/studies/../block.ron", "/models/block.ron"),
+        ] {
+            assert_eq!(plain(Path::new(path)), Path::new(shown));
+        }
+    }
 }

@@ -2,17 +2,15 @@
 
 use super::data::{FORMAT, Frames, Mode, Numbers, RunData};
 use super::picture::Sketch;
-use super::{loops, reduce, settings};
+use super::{choice, loops, reduce, settings, shaking};
 use trilith_model::Model;
-use trilith_results::{ENERGIES, Frame, Recorder, Summary};
+use trilith_results::{ENERGIES, Frame, Recorder, Summary, ground_motions};
 use trilith_solvers::BasisReport;
 
 /// Steps of a displacement, of the largest.
 const STEPS: f64 = 3e4;
 /// Displacements kept at most, over all frames.
-const ROOM: usize = 1_200_000;
-/// Outputs with a figure of their own.
-const OUTPUTS: usize = 60;
+const ROOM: usize = 800_000;
 
 /// What a run left, to be put together for its report.
 #[derive(Clone, Copy, Debug)]
@@ -44,11 +42,15 @@ impl Collect<'_> {
         let file = self.model.source.path.file_name();
         let (frames, modes) = (self.frames(&sketch), self.modes(&sketch));
         let outputs = self.model.outputs.len();
-        if outputs > OUTPUTS {
+        let shown = self.chosen();
+        let count = shown.iter().filter(|s| **s).count();
+        if count < outputs {
             notes.push(format!(
-                "Figures show the first {OUTPUTS} of {outputs} outputs; the table has all."
+                "Tables and figures show {count} of {outputs} outputs: the first of the file and the largest. All peaks \
+                 are in peaks.csv, all histories in histories.csv and .npz."
             ));
         }
+        let motions = ground_motions(self.model, self.case, self.dt.unwrap_or(0.0));
         let free = self.modes.map_or(0, |m| m.omega.iter().filter(|omega| **omega <= 0.0).count());
         RunData {
             format: FORMAT,
@@ -59,7 +61,10 @@ impl Collect<'_> {
             picture: sketch.picture,
             frames,
             outputs: self.model.outputs.iter().map(|o| o.name.clone()).collect(),
-            histories: self.histories(),
+            ground: shaking::ground(&motions),
+            ground_spectra: shaking::ground_spectra(&motions),
+            histories: self.histories(&shown),
+            floor_spectra: shaking::floor_spectra(self.summary),
             energies: self.energies(),
             loops: loops::chosen(self.model, self.record, self.summary, self.loops),
             modes,
@@ -68,10 +73,26 @@ impl Collect<'_> {
         }
     }
 
-    fn histories(&self) -> Vec<super::History> {
+    /// Whether each output has a figure.
+    fn chosen(&self) -> Vec<bool> {
+        let sizes: Vec<(&str, f64)> = self
+            .model
+            .outputs
+            .iter()
+            .map(|o| {
+                let peak = self.summary.outputs.get(&o.name).and_then(|s| s.peak.as_ref());
+                let size = peak.map_or(0.0, |p| p.max.abs().max(p.min.abs()).max(p.last.abs()));
+                (o.unit.as_str(), size)
+            })
+            .collect();
+        choice::chosen(&sizes)
+    }
+
+    fn histories(&self, shown: &[bool]) -> Vec<super::History> {
         let t = self.record.time();
-        let outputs = self.model.outputs.iter().enumerate().take(OUTPUTS);
+        let outputs = self.model.outputs.iter().enumerate();
         outputs
+            .filter(|(i, _)| shown[*i])
             .filter_map(|(i, o)| {
                 let y = self.record.history(i).filter(|y| y.len() == t.len() && y.len() > 1)?;
                 Some(reduce::history(o.name.clone(), &o.unit, t, y))

@@ -24,8 +24,17 @@ pub struct RunData {
     pub frames: Frames,
     /// Names of the outputs, in the order of the model.
     pub outputs: Vec<String>,
+    /// Accelerations of the base.
+    #[serde(default)]
+    pub ground: Vec<Ground>,
+    /// Their response spectra, one chart.
+    #[serde(default)]
+    pub ground_spectra: Vec<SpectrumChart>,
     /// Outputs over time.
     pub histories: Vec<History>,
+    /// Floor spectra, a chart for each damping.
+    #[serde(default)]
+    pub floor_spectra: Vec<SpectrumChart>,
     /// Energies over time, with the names of `histories.csv`.
     pub energies: Vec<History>,
     /// Hysteresis loops of links.
@@ -39,7 +48,7 @@ pub struct RunData {
 }
 
 /// The format written here.
-pub(crate) const FORMAT: u32 = 1;
+pub(crate) const FORMAT: u32 = 2;
 
 /// Numbers as whole multiples of a step, which makes short files.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
@@ -92,6 +101,41 @@ impl History {
     pub(crate) fn points(&self) -> impl Iterator<Item = (f64, f64)> + '_ {
         self.t.values().zip(self.y.values().map(|y| y * self.shown.factor))
     }
+}
+
+/// An acceleration of the base.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Ground {
+    /// Over time.
+    pub history: History,
+    /// The largest, with its sign, m/s².
+    pub peak: f64,
+    /// Its time, s.
+    pub t_peak: f64,
+}
+
+/// Response spectra in one diagram.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct SpectrumChart {
+    /// Title.
+    pub title: String,
+    /// What is drawn, such as `PSA`.
+    pub quantity: String,
+    /// Unit in figures.
+    pub shown: Shown,
+    /// The curves.
+    pub curves: Vec<SpectrumCurve>,
+}
+
+/// A response spectrum.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct SpectrumCurve {
+    /// Name.
+    pub name: String,
+    /// Periods, s, rising.
+    pub period: Numbers,
+    /// Accelerations, m/s².
+    pub y: Numbers,
 }
 
 /// Force over deformation of a link coordinate.

@@ -8,6 +8,8 @@ const SIZE: (f64, f64) = (1120.0, 460.0);
 const MARGIN: f64 = 46.0;
 /// More names than this are not written.
 const NAMES: usize = 60;
+/// Of more lines than this the picture is coarser, and they are thinner; the script does the same.
+const DENSE: usize = 800;
 /// Nor are more nodes marked.
 const DOTS: usize = 300;
 /// Azimuth and elevation from which models in space are seen, rad.
@@ -77,6 +79,15 @@ pub(crate) fn extent(picture: &Picture) -> f64 {
 
 /// The model at rest, or moved, with itself at rest in grey beneath; with the names of its nodes if wanted.
 pub(crate) fn svg(data: &RunData, moved: &[[f64; 3]], title: &str, names: bool) -> String {
+    picture(data, moved, title, names, true)
+}
+
+/// The shape of a mode. Beneath that of a large model its rest would only be a grey block.
+pub(crate) fn mode_svg(data: &RunData, moved: &[[f64; 3]], title: &str) -> String {
+    picture(data, moved, title, false, data.picture.lines.len() <= DENSE)
+}
+
+fn picture(data: &RunData, moved: &[[f64; 3]], title: &str, names: bool, ghost: bool) -> String {
     let picture = &data.picture;
     let [right, up] = axes(picture);
     let flat = |p: [f64; 3]| (dot(p, right), dot(p, up));
@@ -114,7 +125,7 @@ pub(crate) fn svg(data: &RunData, moved: &[[f64; 3]], title: &str, names: bool) 
             SIZE.0, SIZE.0
         );
     }
-    if !moved.is_empty() {
+    if !moved.is_empty() && ghost {
         shape(&mut out, picture, &rest, &px, true);
     }
     shape(&mut out, picture, &now, &px, false);
@@ -141,15 +152,22 @@ fn shape(out: &mut String, picture: &Picture, at: &[(f64, f64)], px: Place<'_>, 
         };
         let _ = writeln!(out, "<polygon points=\"{}\" {style}/>", corners.join(" "));
     }
+    let dense = picture.lines.len() > DENSE;
     // One path for all lines of a sort: a large frame has thousands.
     for what in [LineKind::Member, LineKind::Tie, LineKind::Edge] {
         let mut d = String::new();
         for line in picture.lines.iter().filter(|l| l.what == what) {
             let ((x1, y1), (x2, y2)) = (px(at[line.ends[0]]), px(at[line.ends[1]]));
-            let _ = write!(d, "M{x1:.1} {y1:.1}L{x2:.1} {y2:.1}");
+            if dense {
+                let [x1, y1, x2, y2] = [x1, y1, x2, y2].map(|x| x.round() as i64);
+                let _ = write!(d, "M{x1} {y1}l{} {}", x2 - x1, y2 - y1);
+            } else {
+                let _ = write!(d, "M{x1:.1} {y1:.1}L{x2:.1} {y2:.1}");
+            }
         }
         let style = match (ghost, what) {
             (true, _) => "stroke=\"#ccc\"",
+            (_, LineKind::Member) if dense => "stroke=\"#0072b2\" stroke-width=\"0.6\"",
             (_, LineKind::Member) => "stroke=\"#0072b2\" stroke-width=\"2\"",
             (_, LineKind::Tie) => "stroke=\"#999\" stroke-dasharray=\"3 3\"",
             (_, LineKind::Edge) => "stroke=\"#0072b2\"",

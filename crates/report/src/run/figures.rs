@@ -1,6 +1,7 @@
 //! Figures of a run, still: for paper and for readers without scripts.
 
-use super::data::{History, Loop, RunData};
+use super::data::{History, Loop, RunData, SpectrumChart};
+use super::units::labelled;
 use crate::{Color, Figure, Stroke};
 
 /// (name in the data, name for readers, colour), in the order in which they are stacked.
@@ -38,8 +39,23 @@ pub(crate) fn seen(data: &RunData) -> Vec<(&History, &'static str, Color)> {
 
 /// An output over time.
 pub(crate) fn history(h: &History) -> Figure {
-    let label = format!("{} [{}]", h.name, h.shown.unit);
+    let label = labelled(&h.name, &h.shown);
     Figure::new(h.name.clone(), "time [s]", label).line("", h.points()).sized(440, 210)
+}
+
+/// Response spectra.
+pub(crate) fn spectra(chart: &SpectrumChart) -> Figure {
+    let label = format!("{} [{}]", chart.quantity, chart.shown.unit);
+    let figure = Figure::new(chart.title.clone(), "period [s]", label).log_x().even();
+    let lone = chart.curves.len() == 1;
+    let curves = chart.curves.iter();
+    curves
+        .fold(figure, |f, c| {
+            let y = c.y.values().map(|y| y * chart.shown.factor);
+            let name = if lone { "" } else { c.name.as_str() };
+            f.series(name, Stroke::Line, c.period.values().zip(y))
+        })
+        .sized(480, 300)
 }
 
 /// A hysteresis loop.
@@ -51,7 +67,8 @@ pub(crate) fn link_loop(l: &Loop) -> Figure {
         .sized(300, 250)
 }
 
-/// The figures that a name stands for: an output, `energy`, or a link with a loop for each coordinate.
+/// The figures that a name stands for: an output, `energy`, `ground`, `spectra`, or a link with a loop for each
+/// coordinate.
 /// Each with a name of its own for a file.
 #[must_use]
 pub fn named_figures(data: &RunData, name: &str) -> Vec<(String, Figure)> {
@@ -67,6 +84,20 @@ pub fn named_figures(data: &RunData, name: &str) -> Vec<(String, Figure)> {
     if name == ENERGY && !data.energies.is_empty() {
         return vec![(clean(name), large(energy_curves(data)))];
     }
+    let numbered = |i: usize, all: usize| match all {
+        1 => clean(name),
+        _ => clean(&format!("{name}_{}", i + 1)),
+    };
+    if name == GROUND {
+        let motions = data.ground.iter().map(|g| history(&g.history));
+        let all: Vec<Figure> = motions.chain(data.ground_spectra.iter().map(spectra)).collect();
+        let count = all.len();
+        return all.into_iter().enumerate().map(|(i, f)| (numbered(i, count), large(f))).collect();
+    }
+    if name == SPECTRA {
+        let all = data.floor_spectra.iter().map(spectra).enumerate();
+        return all.map(|(i, f)| (numbered(i, data.floor_spectra.len()), large(f))).collect();
+    }
     let loops = data.loops.iter().filter(|l| l.link == name);
     loops
         .map(|l| (clean(&format!("{name}_{}", l.coordinate)), link_loop(l).sized(560, 460)))
@@ -75,6 +106,10 @@ pub fn named_figures(data: &RunData, name: &str) -> Vec<(String, Figure)> {
 
 /// The name of the figure of energies.
 pub const ENERGY: &str = "energy";
+/// The name of the figures of the ground motion: its accelerations and their spectra.
+pub const GROUND: &str = "ground";
+/// The name of the figures of floor spectra.
+pub const SPECTRA: &str = "spectra";
 
 /// The energies as curves, as in plots of input, link, damper, kinetic and potential energy and error.
 pub(crate) fn energy_curves(data: &RunData) -> Figure {

@@ -1,5 +1,6 @@
 //! The report of a run: its data as a file of its own, and the page made from it.
 
+mod choice;
 mod collect;
 mod data;
 mod drawing;
@@ -10,13 +11,14 @@ mod picture;
 mod reduce;
 mod script;
 mod settings;
+mod shaking;
 mod thin_frame;
 mod units;
 
 pub use collect::Collect;
 pub use data::{
-    FaceMark, Family, Frames, History, LineKind, LineMark, LinkMark, Loop, Mode, NodeMark, Numbers,
-    Picture, RunData, Shown,
+    FaceMark, Family, Frames, Ground, History, LineKind, LineMark, LinkMark, Loop, Mode, NodeMark,
+    Numbers, Picture, RunData, Shown, SpectrumChart, SpectrumCurve,
 };
-pub use figures::{ENERGY, named_figures};
+pub use figures::{ENERGY, GROUND, SPECTRA, named_figures};
 pub use page::run_page;

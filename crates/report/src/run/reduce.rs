@@ -8,7 +8,7 @@ const WHOLE: usize = 3000;
 /// Buckets of longer ones; of each the smallest and the largest value stay.
 const BUCKETS: usize = 1000;
 /// Steps of a number, of the largest magnitude.
-const VALUE: f64 = 1e6;
+const VALUE: f64 = 2e5;
 const TIME: f64 = 1e8;
 
 /// A quantity over time, reduced.
@@ -18,7 +18,7 @@ pub(crate) fn history(name: String, unit: &str, t: &[f64], y: &[f64]) -> History
     History {
         name,
         shown: shown(unit, largest),
-        t: Numbers::new(kept.iter().map(|i| t[*i]), TIME),
+        t: steps(t, &kept),
         y: Numbers::new(kept.iter().map(|i| y[*i]), VALUE),
     }
 }
@@ -26,6 +26,19 @@ pub(crate) fn history(name: String, unit: &str, t: &[f64], y: &[f64]) -> History
 /// Numbers of a loop.
 pub(crate) fn numbers(values: impl Iterator<Item = f64> + Clone) -> Numbers {
     Numbers::new(values, VALUE)
+}
+
+/// Times at some of the output times: multiples of the output step where they are that, which makes short numbers.
+fn steps(t: &[f64], kept: &[usize]) -> Numbers {
+    let step = t.get(1).map_or(0.0, |second| second - t[0]);
+    let even = |i: &usize| {
+        let n = t[*i] / step;
+        (n - n.round()).abs() < 1e-6 && n.abs() < 1e9
+    };
+    if step > 0.0 && kept.iter().all(even) {
+        return Numbers { step, n: kept.iter().map(|i| (t[*i] / step).round() as i32).collect() };
+    }
+    times(kept.iter().map(|i| t[*i]))
 }
 
 /// Times.
@@ -62,9 +75,14 @@ mod tests {
         let h = history("y".into(), "m", &t, &y);
         assert!(h.t.n.len() <= 2 * BUCKETS + 2);
         for (at, value) in [(77.777, 9.0), (123.456, -8.0)] {
-            let found = h.points().find(|(_, v)| (v - value).abs() < 1e-5);
+            let found = h.points().find(|(_, v)| (v - value).abs() < 5e-5);
             assert!(found.is_some_and(|(t, _)| (t - at).abs() < 1e-4), "{found:?}");
         }
         assert!((h.t.values().last().unwrap() - 199.999).abs() < 1e-5);
+        assert_eq!(h.t.n.last(), Some(&199_999));
+        // A last step that is cut short keeps its time.
+        let odd = [0.0, 0.1, 0.2, 0.25];
+        let h = history("y".into(), "m", &odd, &[0.0, 1.0, 2.0, 3.0]);
+        assert!(h.t.values().zip(odd).all(|(a, b)| (a - b).abs() < 1e-8));
     }
 }

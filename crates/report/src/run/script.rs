@@ -1,12 +1,13 @@
 //! The script of the page, in the order in which its parts build on each other.
 
-const PARTS: [&str; 7] = [
+const PARTS: [&str; 8] = [
     include_str!("script/base.js"),
     include_str!("script/axes.js"),
     include_str!("script/chart.js"),
     include_str!("script/plots.js"),
     include_str!("script/model.js"),
     include_str!("script/player.js"),
+    include_str!("script/filter.js"),
     include_str!("script/main.js"),
 ];
 

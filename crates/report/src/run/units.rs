@@ -18,12 +18,21 @@ const STEPS: [(&str, &[Step]); 7] = [
 
 /// The unit in which values of this size are shown.
 pub(crate) fn shown(unit: &str, size: f64) -> Shown {
-    let unit = unit.replace('*', "·");
+    // A pure number has no unit.
+    let unit = if unit == "1" { String::new() } else { unit.replace('*', "·") };
     let steps = STEPS.iter().find(|(si, _)| *si == unit).map_or(&[][..], |(_, s)| s);
     let step = steps.iter().find(|(below, _, _)| size < *below && size > 0.0);
     match step {
         Some((_, unit, factor)) => Shown { unit: (*unit).to_owned(), factor: *factor },
         None => Shown { unit, factor: 1.0 },
+    }
+}
+
+/// A quantity and its unit in brackets, for an axis.
+pub(crate) fn labelled(what: &str, shown: &Shown) -> String {
+    match shown.unit.as_str() {
+        "" => what.to_owned(),
+        unit => format!("{what} [{unit}]"),
     }
 }
 
@@ -79,6 +88,7 @@ mod tests {
             ("N", 2.5e5, "kN", 1e-3),
             ("N*m", 2e7, "MN·m", 1e-6),
             ("m/s^2", 1e-9, "m/s^2", 1.0),
+            ("1", 0.5, "", 1.0),
         ] {
             let s = shown(unit, size);
             assert_eq!((s.unit.as_str(), s.factor), (label, factor), "{unit} {size}");

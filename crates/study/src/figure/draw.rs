@@ -2,62 +2,94 @@
 
 use super::{fragile, hazard, modes, overturning, spread};
 use crate::{Drawing, Record, Study};
-use trilith::report::{Block, Section};
+use trilith::report::{Block, Figure, Section};
 
-/// The section of the figure with this number.
-pub(crate) fn section(study: &Study, records: &[Record], number: usize) -> Section {
-    let id = format!("figure-{}", number + 1);
-    let section = |title: &str| Section::new(id.clone(), title);
-    match &study.figures[number] {
-        Drawing::ModeChart { x, y, slenderness } => {
-            section("Mode chart").block(modes::draw(study, records, (x, y), *slenderness))
+impl Drawing {
+    /// What it is called: its head on the page, and part of the name of its file.
+    pub(crate) fn title(&self) -> &'static str {
+        match self {
+            Self::ModeChart { .. } => "Mode chart",
+            Self::Ida { .. } => "Incremental dynamic analysis",
+            Self::Fragility { .. } => "Fragility",
+            Self::Overturning { .. } => "Overturning spectrum",
+            Self::Hazard { .. } => "Hazard",
+            Self::Spread { .. } => "Points with several runs",
+            Self::Points { .. } => "Runs",
         }
-        Drawing::Ida { demand, intensity } => section("Incremental dynamic analysis")
-            .block(fragile::ida(study, records, demand, intensity)),
+    }
+}
+
+/// What is drawn for the figure with this number, and the rows of a table beside it.
+fn drawn(study: &Study, records: &[Record], number: usize) -> (Vec<Figure>, Vec<Vec<String>>) {
+    let figure = match &study.figures[number] {
+        Drawing::ModeChart { x, y, slenderness } => {
+            modes::draw(study, records, (x, y), *slenderness)
+        }
+        Drawing::Ida { demand, intensity } => fragile::ida(study, records, demand, intensity),
         Drawing::Fragility { intensity, event, confidence, by } => {
             let by = by.as_deref();
             let (figure, rows) =
                 fragile::fragility(study, records, intensity, event, *confidence, by);
-            let unit = match study.unit(intensity).as_str() {
-                "" | "1" => String::new(),
-                unit => format!(" [{unit}]"),
-            };
-            let median = format!("median{unit}");
-            let head = [
-                "event",
-                "of",
-                median.as_str(),
-                "error of ln(median)",
-                "dispersion",
-                "error of dispersion",
-                "observations",
-            ];
-            let series = if study.plan.chain.is_some() {
-                "Each series of rising intensity is one observation: its capacity lies between two \
-                 intensities."
-            } else {
-                "Each run is one observation."
-            };
-            section("Fragility")
-                .block(figure)
-                .block(Block::Table { head: head.map(str::to_owned).to_vec(), rows })
-                .block(Block::note(format!(
-                    "Lognormal curve of greatest likelihood (Baker 2015). {series} The band is pointwise, from \
-                     the observed information."
-                )))
+            return (vec![figure], rows);
         }
         Drawing::Overturning { frequency, amplitude, half_sine } => {
-            let figure = overturning::draw(study, records, (frequency, amplitude), *half_sine);
-            section("Overturning spectrum").block(figure)
+            overturning::draw(study, records, (frequency, amplitude), *half_sine)
         }
         Drawing::Hazard { demand, intensity, rates } => {
-            section("Hazard").block(hazard::draw(study, records, (demand, intensity), rates))
+            return (hazard::draw(study, records, (demand, intensity), rates), Vec::new());
         }
-        Drawing::Spread { x, y } => {
-            section("Points with several runs").block(spread::spread(study, records, x, y))
-        }
-        Drawing::Points { x, y, by } => {
-            section("Runs").block(spread::points(study, records, (x, y), by.as_deref()))
+        Drawing::Spread { x, y } => return (spread::spread(study, records, x, y), Vec::new()),
+        Drawing::Points { x, y, by } => spread::points(study, records, (x, y), by.as_deref()),
+    };
+    (vec![figure], Vec::new())
+}
+
+/// The figures that a study asks for, each with a name for a file: `figure_1_mode_chart`.
+#[must_use]
+pub fn figures(study: &Study, records: &[Record]) -> Vec<(String, Figure)> {
+    let mut all = Vec::new();
+    for (i, drawing) in study.figures.iter().enumerate() {
+        let title = drawing.title().to_lowercase().replace(' ', "_");
+        let name = format!("figure_{}_{title}", i + 1);
+        let drawn = drawn(study, records, i).0;
+        let lone = drawn.len() == 1;
+        for (k, figure) in drawn.into_iter().enumerate() {
+            let name = if lone { name.clone() } else { format!("{name}_{}", k + 1) };
+            all.push((name, figure));
         }
     }
+    all
+}
+
+/// The section of the figure with this number.
+pub(crate) fn section(study: &Study, records: &[Record], number: usize) -> Section {
+    let drawing = &study.figures[number];
+    let (figures, rows) = drawn(study, records, number);
+    let section = Section::new(format!("figure-{}", number + 1), drawing.title()).block(figures);
+    let Drawing::Fragility { intensity, .. } = drawing else { return section };
+    let unit = match study.unit(intensity).as_str() {
+        "" | "1" => String::new(),
+        unit => format!(" [{unit}]"),
+    };
+    let median = format!("median{unit}");
+    let head = [
+        "event",
+        "of",
+        median.as_str(),
+        "error of ln(median)",
+        "dispersion",
+        "error of dispersion",
+        "observations",
+    ];
+    let series = if study.plan.chain.is_some() {
+        "Each series of rising intensity is one observation: its capacity lies between two intensities."
+    } else {
+        "Each run is one observation."
+    };
+    section.block(Block::Table { head: head.map(str::to_owned).to_vec(), rows }).block(Block::note(
+        format!(
+            "Lognormal curve of greatest likelihood (Baker 2015). {series} The band is pointwise, from the \
+             observed information."
+        ),
+    ))
 }

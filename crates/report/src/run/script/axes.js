@@ -5,7 +5,7 @@ function number(x) {
   if (x === 0) return "0";
   const size = Math.abs(x);
   const text = size >= 1e-3 && size < 1e6 ? x.toPrecision(4) : x.toExponential(3);
-  return text.replace(/(\.\d*?)0+(?=$|e)/, "$1").replace(/\.(?=$|e)/, "").replace("-", "−");
+  return text.replace(/(\.\d*?)0+(?=$|e)/, "$1").replace(/\.(?=$|e)/, "").replace("e+", "e").replaceAll("-", "−");
 }
 
 /** Room around a range of values; a constant gets a tenth of itself. */
@@ -29,8 +29,23 @@ function ticks([low, high], count) {
   }
   const write = (x) => {
     const big = Math.max(Math.abs(low), Math.abs(high));
-    if (decimals > 5 || big >= 1e6) return number(Math.abs(x) < 1e-9 * big ? 0 : x);
+    // Small numbers with many zeros have no room beside the axis; of close ones all digits are wanted.
+    if (decimals > 5 || (decimals > 3 && big < 0.01) || big >= 1e6) return number(Math.abs(x) < 1e-9 * big ? 0 : x);
     return (Math.abs(x) < 1e-9 * big ? 0 : x).toFixed(decimals).replace("-", "−");
   };
   return { values: found, write };
+}
+
+/** Round numbers along a logarithmic axis of some pixels: 1, 2, 5 of every decade, or 1 where these crowd. */
+function decades([low, high], width) {
+  const span = Math.log10(high / low);
+  // Zoomed in far, even steps are as good.
+  if (span < 0.5) return ticks([low, high], Math.max(width / 70, 3));
+  const within = width / span > 130 ? [1, 2, 5] : [1];
+  const values = [];
+  for (let power = Math.floor(Math.log10(low)); power <= Math.log10(high); power++) {
+    for (const k of within) values.push(Number(`${k}e${power}`));
+  }
+  const inside = (v) => v >= low * (1 - 1e-9) && v <= high * (1 + 1e-9);
+  return { values: values.filter(inside), write: number };
 }

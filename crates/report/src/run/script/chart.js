@@ -6,7 +6,8 @@ const EDGE = { left: 64, right: 14, top: 26, bottom: 40 };
 class Chart {
   /**
    * options: title, x and y (names of the axes), height, timed (x is the shared time), series: [{name, color, x, y,
-   * low (areas: the lower edge), dash, times (loops: the time of every point)}].
+   * low (areas: the lower edge), dash, times (loops: the time of every point)}]; log: x logarithmic, of curves that
+   * are functions of it.
    */
   constructor(host, options) {
     Object.assign(this, options);
@@ -45,7 +46,7 @@ class Chart {
     const all = this.shown();
     const whole = () => extremes(...this.series.map((s) => s.x));
     if (!this.timed) {
-      return this.box ?? { x: roomy(whole()), y: roomy(extremes(...all.map((s) => s.y))) };
+      return this.box ?? { x: this.log ? whole() : roomy(whole()), y: roomy(extremes(...all.map((s) => s.y))) };
     }
     const x = span.range ?? whole();
     const parts = all.flatMap((s) => {
@@ -63,9 +64,12 @@ class Chart {
     this.range = this.ranges();
     const { x, y } = this.range;
     const [w, h] = [width - EDGE.left - EDGE.right, this.height - EDGE.top - EDGE.bottom];
-    this.toX = (v) => EDGE.left + ((v - x[0]) / (x[1] - x[0])) * w;
+    // Where a value stands along the axis, and back.
+    const [place, value] = this.log ? [Math.log10, (p) => 10 ** p] : [(v) => v, (p) => p];
+    const [x0, x1] = x.map(place);
+    this.toX = (v) => EDGE.left + ((place(v) - x0) / (x1 - x0)) * w;
     this.toY = (v) => EDGE.top + h - ((v - y[0]) / (y[1] - y[0])) * h;
-    this.fromX = (p) => x[0] + ((p - EDGE.left) / w) * (x[1] - x[0]);
+    this.fromX = (p) => value(x0 + ((p - EDGE.left) / w) * (x1 - x0));
     this.fromY = (p) => y[0] + ((EDGE.top + h - p) / h) * (y[1] - y[0]);
     c.fillStyle = "#fff";
     c.fillRect(0, 0, width, this.height);
@@ -86,7 +90,9 @@ class Chart {
     const { x, y } = this.range;
     c.font = FONT;
     c.lineWidth = 1;
-    const [alongX, alongY] = [ticks(x, Math.max(w / 70, 3)), ticks(y, Math.max(h / 34, 2))];
+    const [alongX, alongY] = [
+      this.log ? decades(x, w) : ticks(x, Math.max(w / 70, 3)), ticks(y, Math.max(h / 34, 2)),
+    ];
     c.textBaseline = "top";
     c.textAlign = "center";
     for (const v of alongX.values) {
@@ -210,6 +216,13 @@ class Chart {
       });
       text = `${number(t)} s: ${values.join(" · ")}`;
     }
+    if (this.log) {
+      const [from, to] = extremes(...this.series.map((s) => s.x));
+      const x = Math.min(Math.max(this.fromX(p[0]), from), to);
+      const values = this.shown().map((s) =>
+        (this.series.length > 1 ? `${s.name} ` : "") + number(valueAt(s.x, s.y, x)));
+      text = `${number(x)} s: ${values.join(" · ")}`;
+    }
     this.tip.textContent = text;
     this.tip.hidden = false;
     const left = Math.min(p[0] + 12, this.size[0] - this.tip.offsetWidth - 2);
@@ -237,7 +250,8 @@ class Chart {
 
   zoomBy(factor, p) {
     const about = (range, v) => range.map((end) => v + factor * (end - v));
-    const x = about(this.range.x, this.fromX(p[0]));
+    const scaled = (range, v) => range.map((end) => v * (end / v) ** factor);
+    const x = (this.log ? scaled : about)(this.range.x, this.fromX(p[0]));
     if (this.timed) this.setTime(x);
     else { this.box = { x, y: about(this.range.y, this.fromY(p[1])) }; this.draw(); }
   }
@@ -246,7 +260,11 @@ class Chart {
     const { x, y } = this.range;
     const dx = this.fromX(a[0]) - this.fromX(b[0]), dy = this.fromY(a[1]) - this.fromY(b[1]);
     if (this.timed) this.setTime([x[0] + dx, x[1] + dx]);
-    else { this.box = { x: x.map((v) => v + dx), y: y.map((v) => v + dy) }; this.draw(); }
+    else if (this.log) {
+      const along = this.fromX(a[0]) / this.fromX(b[0]);
+      this.box = { x: x.map((v) => v * along), y: y.map((v) => v + dy) };
+      this.draw();
+    } else { this.box = { x: x.map((v) => v + dx), y: y.map((v) => v + dy) }; this.draw(); }
   }
 
   /** A part of the time, no longer than all of it. */

@@ -4,6 +4,10 @@ const picture = data.picture;
 const POINTS = picture.points.length;
 /** Lines and symbols of large models are drawn thinner and smaller. */
 const DENSE = picture.lines.length > 800;
+/** Ends of the lines of each sort. */
+const LINES = ["member", "tie", "edge"]
+  .map((what) => [what, picture.lines.filter((l) => l.what === what).map((l) => l.ends)])
+  .filter(([, ends]) => ends.length);
 
 /** Directions on the sheet to the right and up for a way of looking. */
 function directions(view, azimuth, elevation) {
@@ -20,7 +24,7 @@ class Stage {
     this.view = picture.plane ?? "space";
     [this.azimuth, this.elevation] = [0.52, 0.35];
     this.names = false;
-    this.ghost = true;
+    this.ghost = !DENSE;
     new ResizeObserver(() => this.draw()).observe(canvas.parentElement);
     if (!picture.plane) this.turn();
   }
@@ -106,10 +110,17 @@ class Stage {
       c.strokeStyle = ghost ? "#c4c4c4" : "#0072b2";
       c.stroke();
     }
-    for (const line of picture.lines) {
-      c.setLineDash(line.what === "tie" ? [3, 3] : []);
-      const color = ghost ? "#d4d4d4" : line.what === "tie" ? "#999" : "#0072b2";
-      stroke(c, [at[line.ends[0]], at[line.ends[1]]], color, ghost ? 1 : DENSE ? 0.6 : line.what === "member" ? 2 : 1);
+    // One path for all lines of a sort: thousands of single ones would not move smoothly.
+    for (const [what, ends] of LINES) {
+      c.beginPath();
+      for (const [a, b] of ends) {
+        c.moveTo(...at[a]);
+        c.lineTo(...at[b]);
+      }
+      c.setLineDash(what === "tie" ? [3, 3] : []);
+      c.strokeStyle = ghost ? "#d4d4d4" : what === "tie" ? "#999" : "#0072b2";
+      c.lineWidth = ghost ? 1 : DENSE ? 0.6 : what === "member" ? 2 : 1;
+      c.stroke();
     }
     c.setLineDash([]);
   }

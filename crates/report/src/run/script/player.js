@@ -1,6 +1,13 @@
 // The deformed shapes in time: play, scrub, speed, scale, ways of looking.
 
-const frames = { t: data.frames.t, u: data.frames.u };
+/** Displacements of all points at all times, as multiples of a step: two bytes each, the low one first. */
+function shapes() {
+  const text = atob(document.getElementById("shapes").textContent);
+  const bytes = new DataView(Uint8Array.from(text, (c) => c.charCodeAt(0)).buffer);
+  return Int16Array.from({ length: bytes.byteLength / 2 }, (_, i) => bytes.getInt16(2 * i, true));
+}
+
+const frames = { t: data.frames.t, u: { step: data.frames.u.step, n: shapes() } };
 
 /** Displacements of all points at a time, times a factor. */
 function displaced(t, factor) {
@@ -81,7 +88,7 @@ function player(canvas, controls, tip) {
   }
   stage.names = picture.nodes.length <= 40;
   controls.append(tick("names", stage.names, (on) => { stage.names = on; }));
-  if (moves) controls.append(tick("at rest", true, (on) => { stage.ghost = on; }));
+  if (moves) controls.append(tick("at rest", stage.ghost, (on) => { stage.ghost = on; }));
   canvas.addEventListener("pointermove", (e) => {
     const r = canvas.getBoundingClientRect();
     const p = [e.clientX - r.left, e.clientY - r.top];

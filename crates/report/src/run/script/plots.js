@@ -1,12 +1,39 @@
 // Which diagrams there are.
 
+/** Colours of curves, in order of use. */
+const PALETTE = ["#0072b2", "#d55e00", "#009e73", "#cc79a7", "#56b4e9", "#e69f00"];
+
+/** A quantity and its unit, where it has one. */
+const labelled = (what, shown) => (shown.unit ? `${what} [${shown.unit}]` : what);
+
 const plots = {
   /** An output over time. */
   history(host, i) {
     const h = data.histories[i];
     new Chart(host, {
-      title: h.name, x: "time [s]", y: `${h.name} [${h.shown.unit}]`, height: 240, timed: true,
+      title: h.name, x: "time [s]", y: labelled(h.name, h.shown), height: 240, timed: true,
       series: [{ name: h.name, color: "#0072b2", x: unpack(h.t), y: unpack(h.y, h.shown.factor) }],
+    });
+  },
+
+  /** An acceleration of the base. */
+  ground(host, i) {
+    const h = data.ground[i].history;
+    new Chart(host, {
+      title: h.name, x: "time [s]", y: labelled(h.name, h.shown), height: 240, timed: true,
+      series: [{ name: h.name, color: "#0072b2", x: unpack(h.t), y: unpack(h.y, h.shown.factor) }],
+    });
+  },
+
+  /** Response spectra: `spectra ground 0`, `spectra floor 1`. */
+  spectra(host, where, i) {
+    const chart = data[`${where}_spectra`][i];
+    new Chart(host, {
+      title: chart.title, x: "period [s]", y: `${chart.quantity} [${chart.shown.unit}]`, height: where === "ground" ? 240 : 340,
+      timed: false, log: true,
+      series: chart.curves.map((c, k) => ({
+        name: c.name, color: PALETTE[k % PALETTE.length], x: unpack(c.period), y: unpack(c.y, chart.shown.factor),
+      })),
     });
   },
 

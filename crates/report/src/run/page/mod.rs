@@ -1,0 +1,127 @@
+//! The page of a run.
+
+mod curves;
+mod energy;
+mod facts;
+mod modes;
+mod motion;
+mod peaks;
+mod rounding;
+mod settings;
+mod shaking;
+
+use super::{Frames, Numbers, RunData, script};
+use crate::Figure;
+use crate::page::STYLE;
+use base64::prelude::{BASE64_STANDARD, Engine as _};
+use maud::{DOCTYPE, Markup, PreEscaped, html};
+use serde_json::Value;
+
+const RUN_STYLE: &str = include_str!("../run.css");
+
+/// Links to the sections.
+const SECTIONS: [(&str, &str); 9] = [
+    ("motion", "Model and motion"),
+    ("peaks", "Peaks"),
+    ("ground", "Ground motion"),
+    ("histories", "Time histories"),
+    ("floors", "Floor spectra"),
+    ("energy", "Energy"),
+    ("loops", "Hysteresis loops"),
+    ("modes", "Mode shapes"),
+    ("settings", "Settings and work"),
+];
+
+/// The page of a run as one HTML document without network: still figures, and a script of ours that makes
+/// them move. `summary` is `summary.json`; a key that is missing leaves its place empty.
+#[must_use]
+pub fn run_page(summary: &Value, data: &RunData) -> String {
+    let title = summary["model"]["title"].as_str().filter(|t| !t.is_empty()).unwrap_or(&data.file);
+    let there = |id: &str| match id {
+        "motion" => !data.picture.points.is_empty(),
+        "peaks" => !data.outputs.is_empty(),
+        "ground" => !data.ground.is_empty(),
+        "floors" => !data.floor_spectra.is_empty(),
+        "histories" => !data.histories.is_empty(),
+        "energy" => !data.energies.is_empty(),
+        "loops" => !data.loops.is_empty(),
+        "modes" => !data.modes.is_empty(),
+        _ => true,
+    };
+    let body = |id: &str| match id {
+        "motion" => motion::motion(data),
+        "peaks" => peaks::peaks(summary, data),
+        "ground" => shaking::ground(data),
+        "floors" => shaking::floors(summary, data),
+        "histories" => curves::histories(summary, data),
+        "energy" => energy::energy(summary, data),
+        "loops" => curves::loops(data),
+        "modes" => modes::modes(data),
+        _ => settings::settings(summary, data),
+    };
+    let shown: Vec<_> = SECTIONS.iter().filter(|(id, _)| there(id)).collect();
+    html! {
+        (DOCTYPE)
+        html lang="en" {
+            head {
+                meta charset="utf-8";
+                meta name="viewport" content="width=device-width, initial-scale=1";
+                title { (title) " – " (text(&summary["case"])) " – " (text(&summary["solver"])) }
+                style { (PreEscaped(STYLE)) (PreEscaped(RUN_STYLE)) }
+                link rel="icon" href="data:,";
+            }
+            body {
+                h1 { (title) }
+                (facts::facts(summary))
+                (facts::warnings(summary, data))
+                nav { ol { @for (id, head) in &shown { li { a href={ "#" (id) } { (head) } } } } }
+                @for (id, head) in &shown { section id=(id) { h2 { (head) } (body(id)) } }
+                script type="application/json" id="data" { (PreEscaped(embedded(data))) }
+                script type="text/plain" id="shapes" { (PreEscaped(shapes(data))) }
+                script { (PreEscaped(script::text())) }
+            }
+        }
+    }
+    .into_string()
+}
+
+/// The data as JSON that cannot end its element, without the deformed shapes.
+fn embedded(data: &RunData) -> String {
+    let frames = Frames { u: Numbers { n: Vec::new(), ..data.frames.u }, ..data.frames.clone() };
+    let rest = RunData { frames, ..data.clone() };
+    // Numbers, texts and lists: nothing that JSON does not have.
+    serde_json::to_string(&rest).unwrap_or_default().replace('<', "\\u003c")
+}
+
+/// The deformed shapes, which are most of the page of a large model: two bytes a number, the low one first, in
+/// base 64. Their steps are chosen so that they fit.
+fn shapes(data: &RunData) -> String {
+    let bytes: Vec<u8> = data
+        .frames
+        .u
+        .n
+        .iter()
+        .map(|n| i16::try_from(*n).unwrap_or(if *n > 0 { i16::MAX } else { i16::MIN }))
+        .flat_map(i16::to_le_bytes)
+        .collect();
+    BASE64_STANDARD.encode(bytes)
+}
+
+fn text(value: &Value) -> String {
+    value.as_str().map_or_else(|| "–".into(), str::to_owned)
+}
+
+fn value(value: &Value) -> f64 {
+    value.as_f64().unwrap_or(f64::NAN)
+}
+
+/// A figure that the script replaces by a live one.
+fn figure(id: &str, still: &Figure, caption: &str, kinds: Option<&str>) -> Markup {
+    html! {
+        figure {
+            div.still { (PreEscaped(still.svg())) }
+            div.plot.live data-plot=(id) data-kinds=[kinds] {}
+            @if !caption.is_empty() { figcaption { (caption) } }
+        }
+    }
+}

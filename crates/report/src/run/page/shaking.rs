@@ -1,0 +1,66 @@
+//! The motion of the ground and the spectra of the floors.
+
+use super::{figure, value};
+use crate::run::units::{number, short};
+use crate::run::{RunData, figures};
+use maud::{Markup, html};
+use serde_json::Value;
+use trilith_model::STANDARD_GRAVITY;
+
+/// An acceleration in g.
+fn in_g(x: f64) -> String {
+    number(x / STANDARD_GRAVITY)
+}
+
+pub(super) fn ground(data: &RunData) -> Markup {
+    let peak = |g: &crate::run::Ground| {
+        format!("Peak {} g ({} m/s²) at {} s.", in_g(g.peak), number(g.peak), short(g.t_peak, 4))
+    };
+    html! {
+        p.note { "The acceleration of the base that loads the model, positive along the axis, over the whole case." }
+        div.figures.board {
+            @for (i, g) in data.ground.iter().enumerate() {
+                (figure(&format!("ground {i}"), &figures::history(&g.history), &peak(g), None))
+            }
+            @for (i, s) in data.ground_spectra.iter().enumerate() {
+                (figure(&format!("spectra ground {i}"), &figures::spectra(s).sized(440, 210),
+                    "Pseudo-acceleration of oscillators on the ground.", None))
+            }
+        }
+    }
+}
+
+pub(super) fn floors(summary: &Value, data: &RunData) -> Markup {
+    // In the order of the model, which a JSON object does not keep.
+    let mut names: Vec<&str> = Vec::new();
+    for curve in data.floor_spectra.iter().flat_map(|c| &c.curves) {
+        if !names.contains(&curve.name.as_str()) {
+            names.push(&curve.name);
+        }
+    }
+    let floors = names.into_iter().map(|name| (name, &summary["spectra"][name]));
+    html! {
+        p.note {
+            "Largest absolute acceleration of oscillators on each place, from its acceleration at the output times. "
+            "All curves are in " code { "spectra.csv" } "."
+        }
+        div.figures.board { @for (i, s) in data.floor_spectra.iter().enumerate() {
+            (figure(&format!("spectra floor {i}"), &figures::spectra(s), "", None))
+        } }
+        div.wide { table {
+            thead { tr {
+                th { "place" } th { "damping" } th { "largest [g]" } th { "period [s]" } th { "frequency [Hz]" } th { "rigid [g]" }
+            } }
+            tbody { @for (name, floor) in floors {
+                @for p in floor["peaks"].as_array().into_iter().flatten() { tr {
+                    td { (name) }
+                    td.num { (short(100.0 * value(&p["damping"]), 3)) " %" }
+                    td.num { (in_g(value(&p["sa"]))) }
+                    td.num { (number(value(&p["period"]))) }
+                    td.num { (number(1.0 / value(&p["period"]))) }
+                    td.num { (in_g(value(&floor["zpa"]))) }
+                } }
+            } }
+        } }
+    }
+}
