@@ -1,8 +1,8 @@
 //! Fixed values, points and axes.
 
 use super::setting::Settings;
-use crate::Axis;
 use crate::number::written;
+use crate::{Axis, schema};
 use trilith::element::Dimension;
 use trilith::model::Span;
 use trilith::model::file::{Context, Entry, Kind, Node};
@@ -122,11 +122,10 @@ fn along(c: &Context<'_>, e: &Entry) -> Option<Vec<(String, Span)>> {
     if node.name().is_none() {
         return c.wrong(node, help);
     }
-    let log = c.choice(node, "axis", &["Range", "Log"])? == 1;
+    let kind = c.one_of(node, "axis", &schema::AXES)?;
+    let log = kind.name == schema::LOG.name;
     let what = format!("the axis `{}`", e.key);
-    let allowed: &[&str] =
-        if log { &["from", "to", "count"] } else { &["from", "to", "count", "step"] };
-    let fields = c.fields(node, &what, allowed)?;
+    let fields = c.block(node, &what, kind)?;
     let (from, to) = (fields.required(c, "from"), fields.required(c, "to"));
     let (from_node, to_node) = (from?, to?);
     let (from, to) = (c.quantity(from_node), c.quantity(to_node));
