@@ -20,5 +20,5 @@ pub use figure::{Axis, Color, Figure, Series, Stroke};
 pub use page::{Block, Page, Section};
 pub use run::{
     Collect, ENERGY, FaceMark, Family, Frames, History, LineKind, LineMark, LinkMark, Loop, Mode,
-    NodeMark, Numbers, Picture, RunData, Shown, named_figures, run_page,
+    NodeMark, Numbers, Picture, RunData, Shown, named_figures, run_page, short,
 };

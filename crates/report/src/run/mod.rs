@@ -12,6 +12,7 @@ mod script;
 mod settings;
 mod thin_frame;
 mod units;
+pub use units::short;
 
 pub use collect::Collect;
 pub use data::{

@@ -31,6 +31,7 @@ pub(crate) fn section(study: &Study, records: &[Record], number: usize) -> Secti
                 "dispersion",
                 "error of dispersion",
                 "observations",
+                "motions",
             ];
             let series = if study.plan.chain.is_some() {
                 "Each series of rising intensity is one observation: its capacity lies between two \
@@ -38,12 +39,13 @@ pub(crate) fn section(study: &Study, records: &[Record], number: usize) -> Secti
             } else {
                 "Each run is one observation."
             };
-            section("Fragility")
+            section(&format!("Fragility: {}", study.words(event)))
                 .block(figure)
                 .block(Block::Table { head: head.map(str::to_owned).to_vec(), rows })
                 .block(Block::note(format!(
-                    "Lognormal curve of greatest likelihood (Baker 2015). {series} The band is pointwise, from \
-                     the observed information."
+                    "Lognormal curve of greatest likelihood (Baker 2015). {series} The band is pointwise: from \
+                     the scatter between motions where motions have several observations (Liang and Zeger 1986), \
+                     from the observed information otherwise."
                 )))
         }
         Drawing::Overturning { frequency, amplitude, half_sine } => {

@@ -32,7 +32,7 @@ pub(super) fn spread(study: &Study, records: &[Record], x: &str, y: &str) -> Vec
             low.push((place, s.low));
             median.push((place, s.median));
             high.push((place, s.high));
-            if study.sensitivity(group).is_some_and(|s| s.sensitive) {
+            if study.sensitivity(group).is_some_and(|s| s.sensitive > 0) {
                 flagged.push((place, s.median));
             }
         }

@@ -184,7 +184,9 @@ fn along(c: &Context<'_>, e: &Entry) -> Option<Vec<(String, Span)>> {
         } else if log {
             from.value * (to.value / from.value).powf(x / last)
         } else {
-            (from.value * (last - x) + to.value * x) / last
+            let between = (from.value * (last - x) + to.value * x) / last;
+            // 1.55, not 1.5499999999999998.
+            format!("{between:.13e}").parse().unwrap_or(between)
         }
     };
     Some((0..count).map(|i| (written(at(i), dimension), node.span.clone())).collect())
