@@ -363,3 +363,28 @@ fn a_frame_of_so_many_bays_is_generated() {
     let (status, _, err) = frame("3");
     assert!(status == 2 && err.contains("two values"), "{err}");
 }
+
+#[test]
+fn floor_spectra_of_long_output_steps_are_warned_of() {
+    let folder = folder();
+    let spectra = r#"spectra: { "top": (node: "top", dof: Ux, frequencies: [1, 10]) },
+    cases:"#;
+    let text = MODEL.replace("cases:", spectra);
+    std::fs::write(folder.path().join("swing.ron"), text).unwrap();
+    let told = |step: &str| {
+        let (status, out, err) = trilith(folder.path(), &["run", "swing.ron", "--dt", step]);
+        assert_eq!(status, 0, "{out}{err}");
+        out + &err
+    };
+    // 10 Hz in 10 ms: ten steps a period, and one too few.
+    assert!(!told("0.01").contains("floor spectrum"));
+    let text = told("0.0125");
+    for part in [
+        "floor spectrum `top`: 8.000 output steps of 0.0125 s",
+        "0.1 s",
+        "up to 5 %",
+        "`dt` ≤ 0.01 s",
+    ] {
+        assert!(text.contains(part), "{part} in\n{text}");
+    }
+}

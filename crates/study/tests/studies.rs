@@ -228,7 +228,12 @@ const WRONG: &[(&str, &[&str])] = &[
     (r#"axes: { "mu": [] }"#, &["the axis `mu` has no values"]),
     (r#"axes: { "mu": [0.1, -0.2] }"#, &["must be ≥ 0"]),
     (r#"axes: { "mu": [0.1, "2 m"] }"#, &["`mu` is set to a value in m"]),
-    (r#"axes: { "record": ["quiet.csv", "none.csv"] }"#, &["none.csv"]),
+    (r#"axes: {}"#, &["`axes` names no parameter", "study.ron:1:"]),
+    (r#"axes: { "mu": [0.1, inf] }"#, &["a finite number", "not the number inf"]),
+    (
+        r#"axes: { "record": ["quiet.csv", "none.csv"] }"#,
+        &["study.ron:1:", "none.csv cannot be read", "met at", "mass.ron:"],
+    ),
     (r#"axes: { "mu": Range(from: 0.1, to: 0.9) }"#, &["has no `count`"]),
     (r#"axes: { "mu": Range(from: 0, to: 1, step: 0.3) }"#, &["no whole number of steps"]),
     (r#"axes: { "mu": Log(from: 0, to: 1, count: 3) }"#, &["must be above 0"]),
@@ -293,6 +298,9 @@ fn all_errors_of_a_study_are_told_at_once() {
     let body = r#"axes: { "muu": [0.1], "a": [] }, seed: -1, columns: { "x": Peak("slid") }"#;
     let errors = read(folder.path(), body).unwrap_err();
     assert!(errors.len() >= 3, "{errors:?}");
+    // One wrong value is one error.
+    let errors = read(folder.path(), r#"axes: { "mu": [0.1, inf] }"#).unwrap_err();
+    assert_eq!(errors.len(), 1, "{errors:?}");
     let missing = Study::read_text("(axes: {})", "s.ron", &trilith::registry(), &[]).unwrap_err();
     assert!(missing[0].message.contains("has no `model`"));
     let none =

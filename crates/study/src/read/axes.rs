@@ -93,10 +93,13 @@ pub(super) fn points(
 /// `axes: { "mu": Range(from: 0.1, to: 0.9, count: 9), "record": ["a.csv", "b.csv"] }`.
 pub(super) fn axes(c: &Context<'_>, node: Option<&Node>, settings: &mut Settings) -> Vec<Axis> {
     let Some(entries) = node.and_then(|n| map(c, n, "axes")) else { return Vec::new() };
+    if let (Some(node), []) = (node, entries) {
+        c.report(c.diagnostic("E0104", "`axes` names no parameter", node.span.clone()));
+    }
     let mut all = Vec::new();
     for e in entries {
         let values = along(c, e).unwrap_or_default();
-        if values.is_empty() && e.value.is_list() {
+        if e.value.is_list() && e.value.items().is_empty() {
             let message = format!("the axis `{}` has no values", e.key);
             c.report(c.diagnostic("E0104", message, e.value.span.clone()).label("empty"));
         }
