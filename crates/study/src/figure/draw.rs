@@ -39,9 +39,16 @@ pub(crate) fn section(study: &Study, records: &[Record], number: usize) -> Secti
             } else {
                 "Each run is one observation."
             };
+            // Curves of one kind need no name.
+            let mut head = head.map(str::to_owned).to_vec();
+            let mut rows = rows;
+            if by.is_none() {
+                head.remove(1);
+                rows.iter_mut().for_each(|row| drop(row.remove(1)));
+            }
             section(&format!("Fragility: {}", study.words(event)))
                 .block(figure)
-                .block(Block::Table { head: head.map(str::to_owned).to_vec(), rows })
+                .block(Block::Table { head, rows })
                 .block(Block::note(format!(
                     "Lognormal curve of greatest likelihood (Baker 2015). {series} The band is pointwise: from \
                      the scatter between motions where motions have several observations (Liang and Zeger 1986), \

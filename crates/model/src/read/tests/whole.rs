@@ -105,7 +105,7 @@ fn a_record_is_read_beside_the_model_file() {
     std::fs::create_dir_all(&folder).unwrap();
     std::fs::write(folder.join("x.csv"), "# made up\ntime, acc\n0, 0.0\n0.5, 0.1\n1.0, -0.2\n")
         .unwrap();
-    let extra = r#"parameters: { "record": Text("x.csv"), "scale": 2, "g": 3 },
+    let extra = r#"parameters: { "record": Text("x.csv"), "scale": 2, "g": "3 m/s^2" },
         functions: { "f": Table(file: Parameter("record"), value: "acc", unit: "g", scale: "scale") }"#;
     let text = small(extra).replace(
         "Static(loads: [Gravity])",
