@@ -156,5 +156,8 @@ fn parameters_named_like_units_of_another_dimension() {
     refused(&small(r#"parameters: {"g": 3},"#), "E0105", "unit of m/s", "g");
     let fine = small(r#"parameters: {"g": "9.81 m/s^2", "gap": "1 cm", "load": "2 GN"},"#);
     let model = super::super::read_text(&fine, "model.ron", &registry(), &[]).unwrap();
-    assert_eq!(model.parameters[2].value, crate::ParameterValue::Number(2e9, d::FORCE));
+    assert_eq!(
+        model.parameters[2].value,
+        crate::ParameterValue::Number(2e9, trilith_element::dimension::FORCE)
+    );
 }
