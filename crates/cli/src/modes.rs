@@ -28,6 +28,14 @@ fn text(report: &BasisReport) -> String {
         rows.push(row([&(i + 1).to_string(), &period, &number(omega / TAU), &x, &y, &z]));
     }
     out += &table(&rows, &[]);
+    let free = report.omega.iter().filter(|omega| **omega <= 0.0).count();
+    if free > 0 && !report.adequacy.is_empty() {
+        out += &format!(
+            "  {free} of {} modes are free: links hold what moves in them, and count without stiffness here.\n  \
+             For periods at small displacements put a `Spring` of its stiffness in the place of such a link.\n",
+            report.omega.len()
+        );
+    }
     if report.static_shapes > 0 {
         out += &format!("  static shapes of places without mass: {}\n", report.static_shapes);
     }

@@ -433,3 +433,28 @@ fn the_ground_motion_of_the_report_is_that_of_a_fixed_node() {
     }
     assert!(compared > 20, "{compared}");
 }
+
+#[test]
+fn floor_spectra_of_long_output_steps_are_warned_of() {
+    let folder = folder();
+    let spectra = r#"spectra: { "top": (node: "top", dof: Ux, frequencies: [1, 10]) },
+    cases:"#;
+    let text = MODEL.replace("cases:", spectra);
+    std::fs::write(folder.path().join("swing.ron"), text).unwrap();
+    let told = |step: &str| {
+        let (status, out, err) = trilith(folder.path(), &["run", "swing.ron", "--dt", step]);
+        assert_eq!(status, 0, "{out}{err}");
+        out + &err
+    };
+    // 10 Hz in 10 ms: ten steps a period, and one too few.
+    assert!(!told("0.01").contains("floor spectrum"));
+    let text = told("0.0125");
+    for part in [
+        "floor spectrum `top`: 8.000 output steps of 0.0125 s",
+        "0.1 s",
+        "up to 5 %",
+        "`dt` ≤ 0.01 s",
+    ] {
+        assert!(text.contains(part), "{part} in\n{text}");
+    }
+}

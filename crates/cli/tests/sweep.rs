@@ -196,3 +196,92 @@ fn figures_of_a_study_are_files_on_request() {
         assert!(status == 2 && err.contains("--features png"), "{err}");
     }
 }
+
+/// Runs that do not come to a trusted end: their rows say why, the others are kept, the status is 1.
+#[test]
+fn runs_that_fail_are_rows_and_make_the_status_one() {
+    let folder = folder(3);
+    let here = folder.path();
+    let model = MODEL.replace("energy_limit: 0.5", "energy_limit: \"limit\"");
+    let model = model.replace("\"mu\": 0.3,", "\"mu\": 0.3, \"limit\": 0.5,");
+    std::fs::write(here.join("mass.ron"), model).unwrap();
+    let study = r#"(model: "mass.ron", axes: { "a": [3, 4, 5], "limit": [0.5, 1e-300] })"#;
+    std::fs::write(here.join("study.ron"), study).unwrap();
+    let (status, out, err) = sweep(here, &[]);
+    assert_eq!(status, 1, "{out}{err}");
+    assert!(
+        out.contains("run 2: energy error") && err.contains("3 of 6 runs failed"),
+        "{out}{err}"
+    );
+    let table = std::fs::read_to_string(here.join("out/study/table.csv")).unwrap();
+    assert_eq!(table.lines().filter(|l| l.contains("is unaccounted for")).count(), 3, "{table}");
+    assert_eq!(table.lines().filter(|l| l.contains(",converged,")).count(), 3, "{table}");
+}
+
+/// Records that cannot be used are all told, at their place in the study, with the line of the record.
+#[test]
+fn bad_records_of_a_study_are_told_with_both_lines() {
+    let folder = folder(3);
+    let here = folder.path();
+    let sine = "Sine(amplitude: \"a\", frequency: \"2 Hz\", cycles: 1)";
+    let record = "Record(file: Parameter(\"record\"), scale_to: \"a\")";
+    let model = MODEL
+        .replace(sine, record)
+        .replace("\"mu\": 0.3,", "\"mu\": 0.3, \"record\": Text(\"good.at2\"),");
+    std::fs::write(here.join("mass.ron"), model).unwrap();
+    // Made here: a sine of 100 samples in the layout of AT2 files.
+    let at2 = |head: &str, unit: &str| {
+        let numbers = (0..100).map(|i| format!("{:15.7E}", (0.2 * f64::from(i)).sin()));
+        let numbers: Vec<String> = numbers.collect();
+        let lines: Vec<String> = numbers.chunks(5).map(<[String]>::concat).collect();
+        format!(
+            "PEER\nMade for a test\nACCELERATION TIME SERIES{unit}\n{head}\n{}\n",
+            lines.join("\n")
+        )
+    };
+    let (head, unit) = ("NPTS=   100, DT=   .0100 SEC,", " IN UNITS OF G");
+    let good = at2(head, unit);
+    for (name, text) in [
+        ("good", good.clone()),
+        ("count", at2("NPTS=   105, DT=   .0100 SEC,", unit)),
+        ("step", at2("NPTS=   100", unit)),
+        ("unit", at2(head, "")),
+        ("number", good.replacen("0.0000000E0", "        NaN", 1)),
+        ("cut", good[..good.len() / 2].to_owned()),
+        ("binary", "\0\u{1}\u{2}".repeat(99)),
+    ] {
+        std::fs::write(here.join(name.to_owned() + ".at2"), text).unwrap();
+    }
+    let study = r#"(
+    model: "mass.ron",
+    axes: { "record": [
+        "good.at2",
+        "count.at2",
+        "step.at2",
+        "unit.at2",
+        "number.at2",
+        "cut.at2",
+        "binary.at2",
+    ] },
+)"#;
+    std::fs::write(here.join("study.ron"), study).unwrap();
+    let (status, out, err) = sweep(here, &[]);
+    assert_eq!((status, out.as_str()), (2, ""));
+    for (line, told) in [
+        (5, "count.at2:24: the file ends after 100 of 105 values"),
+        (6, "step.at2:4: the time step is stated nowhere"),
+        (7, "unit.at2: the unit of the acceleration is stated nowhere"),
+        (8, "number.at2:5: `NaN` is no finite number"),
+        (9, "of 100 values"),
+        (10, "binary.at2 is a binary file"),
+    ] {
+        assert!(
+            err.contains(&format!("study.ron:{line}:9")) && err.contains(told),
+            "{line} {told}\n{err}"
+        );
+    }
+    assert!(
+        err.contains("6 errors") && err.contains("met at") && err.contains("mass.ron:"),
+        "{err}"
+    );
+}

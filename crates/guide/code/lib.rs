@@ -8,7 +8,7 @@ mod page;
 mod reference;
 
 pub use page::{Fence, Measured, Page, Table, pages};
-pub use reference::reference;
+pub use reference::{reference, study_reference};
 
 /// The pages with Rust in them.
 pub mod rust {

@@ -4,14 +4,15 @@ mod figures;
 
 use std::path::Path;
 
-const USAGE: &str = "trilith-guide reference   writes src/reference.md from the schema\n\
+const USAGE: &str = "trilith-guide reference   writes src/reference.md and src/study_reference.md from the schemas\n\
                      trilith-guide figures     runs the examples and draws src/figures/*.svg\n";
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("src");
     match std::env::args().nth(1).as_deref() {
         Some("reference") => {
-            std::fs::write(folder.join("reference.md"), trilith_guide::reference())?
+            std::fs::write(folder.join("reference.md"), trilith_guide::reference())?;
+            std::fs::write(folder.join("study_reference.md"), trilith_guide::study_reference())?;
         }
         Some("figures") => figures::draw(&folder)?,
         _ => {

@@ -1,4 +1,4 @@
-//! The reference of model files, written from the schema.
+//! The references of model files and study files, written from the schemas.
 
 use std::fmt::Write;
 use trilith::element::Category;
@@ -9,7 +9,7 @@ use trilith::model::schema::{self, Block, Default, Field, Group, Takes};
 pub fn reference() -> String {
     let mut out = String::from(HEAD);
     for g in schema::groups() {
-        group(&mut out, g);
+        group(&mut out, g, "in");
         if g.name == "model" {
             beside(&mut out);
         }
@@ -18,6 +18,26 @@ pub fn reference() -> String {
     units(&mut out);
     out
 }
+
+/// The page on study files.
+#[must_use]
+pub fn study_reference() -> String {
+    let mut out = String::from(STUDY_HEAD);
+    for g in trilith_study::schema::groups() {
+        group(&mut out, g, "study-in");
+    }
+    out
+}
+
+const STUDY_HEAD: &str = "# Study file reference
+
+This page is written from the tables that the reader of study files itself uses
+(`cargo run --release -p trilith-guide -- reference`); a test compares the two. A study is
+[RON](https://github.com/ron-rs/ron) like a [model](reference.md), with the same numbers, units and errors. A
+value of a parameter is what `--set NAME=VALUE` takes: a number, an expression in the parameters of the model
+in quotes, or a text for a text parameter such as a record. Random numbers hang on `seed` and the name of the
+parameter alone. `trilith sweep STUDY --dry-run` checks a study and counts its runs.
+";
 
 const HEAD: &str = "# Model file reference
 
@@ -34,13 +54,13 @@ are checked for dimension. Unknown names are refused with a suggestion, all erro
 `trilith check MODEL` prints a model with every default filled in.
 ";
 
-fn group(out: &mut String, g: &Group) {
+fn group(out: &mut String, g: &Group, within: &str) {
     let _ = write!(out, "\n## {}\n\n{}\n", title(g.name), g.meaning);
     for b in g.blocks {
         if !b.name.is_empty() {
             let _ = write!(out, "\n### {}\n", b.name);
         }
-        block(out, b, g.name);
+        block(out, b, (within, g.name));
     }
 }
 
@@ -53,20 +73,27 @@ fn beside(out: &mut String) {
         ("A force of a load", &schema::FORCE, "forces of a load"),
     ] {
         let _ = write!(out, "\n## {name}\n");
-        block(out, b, place);
+        block(out, b, ("in", place));
     }
 }
 
-fn block(out: &mut String, b: &Block, place: &str) {
-    let _ = write!(out, "\n{}\n\n```ron,in={}\n{}\n```\n", b.meaning, anchor(place), b.example);
+fn block(out: &mut String, b: &Block, (within, place): (&str, &str)) {
+    let place = anchor(place);
+    let _ = write!(out, "\n{}\n\n```ron,{within}={place}\n{}\n```\n", b.meaning, b.example);
     if b.fields.is_empty() {
         return;
     }
     out.push_str("\n| field | takes | default | meaning |\n|---|---|---|---|\n");
     for f in b.fields {
-        let Field { name, meaning, .. } = f;
+        let Field { meaning, .. } = f;
+        // A number is a position.
+        let name = if f.name.parse::<u8>().is_ok() {
+            format!("{}.", f.name)
+        } else {
+            format!("`{}`", f.name)
+        };
         let _ =
-            writeln!(out, "| `{name}` | {} | {} | {meaning} |", takes(f.takes), default(f.default));
+            writeln!(out, "| {name} | {} | {} | {meaning} |", takes(f.takes), default(f.default));
     }
 }
 

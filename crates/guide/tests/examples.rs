@@ -12,7 +12,8 @@ fn every_model_of_the_book_runs() {
     for page in book() {
         let workshop = Workshop::of(&page);
         for fence in page.fences.iter().filter(|f| f.language() == "ron") {
-            let marked = ["file", "study", "in"].iter().any(|a| fence.attribute(a).is_some());
+            let marks = ["file", "study", "in", "study-in"];
+            let marked = marks.iter().any(|a| fence.attribute(a).is_some());
             assert!(marked, "{}: a block of RON is no model, study or fragment", page.name);
             let Some(file) = fence.attribute("file") else { continue };
             let done = workshop.trilith(&format!("run {file}"));

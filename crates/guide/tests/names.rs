@@ -83,7 +83,8 @@ fn every_command_and_option_is_there() {
 fn schema_names() -> BTreeSet<String> {
     let mut all: BTreeSet<String> = BTreeSet::new();
     let mut add = |names: &[&str]| all.extend(names.iter().map(|n| (*n).to_owned()));
-    let blocks = schema::groups().into_iter().flat_map(|g| g.blocks.iter().copied());
+    let groups = schema::groups().into_iter().chain(trilith_study::schema::groups());
+    let blocks = groups.flat_map(|g| g.blocks.iter().copied());
     let beside = [&schema::PLACE, &schema::ELEMENT, &schema::LINK, &schema::FORCE];
     for b in blocks.chain(beside) {
         add(&[b.name]);
@@ -97,12 +98,6 @@ fn schema_names() -> BTreeSet<String> {
     add(&schema::SUPPORTS);
     add(schema::expression_functions());
     add(&["Parameter", "true", "false"]);
-    // Studies: what their reader spells.
-    let folder = root().join("crates/study/src/read");
-    for entry in std::fs::read_dir(folder).into_iter().flatten() {
-        let text = std::fs::read_to_string(entry.unwrap().path()).unwrap();
-        add(&text.split('"').skip(1).step_by(2).collect::<Vec<_>>());
-    }
     for (unit, ..) in schema::units() {
         add(&[unit]);
     }

@@ -8,12 +8,14 @@ use trilith::model::{read_text, resolved};
 
 #[test]
 fn the_reference_is_that_of_the_schema() {
-    let path = root().join("crates/guide/src/reference.md");
-    let there = std::fs::read_to_string(path).unwrap();
-    assert!(
-        there == trilith_guide::reference(),
-        "reference.md is old: cargo run --release -p trilith-guide -- reference"
-    );
+    let made = [
+        ("reference.md", trilith_guide::reference()),
+        ("study_reference.md", trilith_guide::study_reference()),
+    ];
+    for (name, text) in made {
+        let there = std::fs::read_to_string(root().join("crates/guide/src").join(name)).unwrap();
+        assert!(there == text, "{name} is old: cargo run --release -p trilith-guide -- reference");
+    }
 }
 
 /// A model in which a block stands at its place.
@@ -189,8 +191,8 @@ fn fields_that_must_be_given_are_missed() {
 /// The reader takes names of fields and choices from the schema and from cards, so that the reference has them all.
 #[test]
 fn the_reader_knows_no_names_of_its_own() {
-    let folder = root().join("crates/model/src/read");
-    for entry in std::fs::read_dir(folder).unwrap() {
+    let files = |folder: &str| std::fs::read_dir(root().join(folder)).unwrap();
+    for entry in files("crates/model/src/read").chain(files("crates/study/src/read")) {
         let path = entry.unwrap().path();
         let name = path.file_name().unwrap().to_string_lossy().into_owned();
         if !name.ends_with(".rs") || name == "context.rs" {
@@ -208,10 +210,12 @@ fn the_reader_knows_no_names_of_its_own() {
                     "p.name, names",
                     "item, name, names",
                     "\"support direction\", &names",
+                    "\"case\", &names",
+                    "\"energy\", &ENERGIES",
                 ];
                 assert!(
                     fine.iter().any(|f| arguments.contains(f)),
-                    "{name}: {arguments}\nput these names into crates/model/src/schema and call `block`, `one_of` or \
+                    "{name}: {arguments}\nput these names into the schema of the crate and call `block`, `one_of` or \
                      `choice` with what is there: the reference of the guide is written from it"
                 );
             }

@@ -155,7 +155,7 @@ impl SolverKind {
 
     /// Name on the command line and in results.
     #[must_use]
-    pub fn name(self) -> &'static str {
+    pub const fn name(self) -> &'static str {
         match self {
             Self::Fna => "fna",
             Self::Hht => "hht",

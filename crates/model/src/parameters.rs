@@ -79,6 +79,9 @@ impl Parameters {
         for i in 0..all.slots.len() {
             all.resolve(i);
         }
+        for (i, entry) in entries.iter().enumerate() {
+            all.check_unit(i, entry);
+        }
         let errors = std::mem::take(&mut all.errors);
         (all, errors)
     }
@@ -123,6 +126,29 @@ impl Parameters {
             let span = entry.key_span.clone();
             self.errors.push(Diagnostic::new("E0105", message, span, &self.source).help(help));
         }
+    }
+
+    /// Behind a number `h` is the hour, elsewhere the parameter `h`: only of the unit's own dimension, as `g`, can
+    /// both be meant.
+    fn check_unit(&mut self, i: usize, entry: &Entry) {
+        let (Some(unit), State::Number(q)) = (crate::units::find(&entry.key), &self.slots[i].state)
+        else {
+            return;
+        };
+        if q.measured && q.dimension.matches(unit.dimension) {
+            return;
+        }
+        let (name, dimension) = (unit.name, unit.dimension.unit());
+        let is = match q.measured {
+            true => format!("in {}", q.dimension),
+            false => "a bare number".to_owned(),
+        };
+        let message = format!("`{name}` is a unit of {dimension}, and this parameter is {is}");
+        let help = format!(
+            "`2*{name}` and `2 {name}` would differ: choose another name, or give a value in {dimension}"
+        );
+        let span = entry.key_span.clone();
+        self.errors.push(Diagnostic::new("E0105", message, span, &self.source).help(help));
     }
 
     fn resolve(&mut self, i: usize) {

@@ -30,6 +30,6 @@ pub use ground::{GroundMotion, ground_motions};
 pub use loops::{LoopPoint, Loops};
 pub use npz::npy;
 pub use recorder::{ENERGIES, Recorder};
-pub use spectra::{FloorSpectrum, SpectrumPeak};
+pub use spectra::{FloorSpectrum, SpectrumPeak, spectrum_warnings};
 pub use summary::{BasisSummary, ModelSummary, Named, OutputSummary, Summary};
 pub use trilith_solvers::Peak;

@@ -1,6 +1,7 @@
 //! Conditions on a run: what stops a series, what asks for histories, what is counted.
 
 use crate::{Cell, Column, Record};
+use trilith::report::short;
 
 /// A condition on a finished run.
 #[derive(Clone, Debug, PartialEq)]
@@ -56,6 +57,25 @@ impl Condition {
             Self::Below(name, limit) => format!("{name} < {limit}"),
             Self::Mode(mode) => format!("mode {mode}"),
             Self::Any(all) => all.iter().map(Self::text).collect::<Vec<_>>().join(" or "),
+        }
+    }
+}
+
+impl crate::Study {
+    /// A condition in words for a reader, with units.
+    pub(crate) fn words(&self, condition: &Condition) -> String {
+        let limit = |name: &str, sign: &str, x: f64| {
+            let unit = self.unit(name);
+            let text = format!("{} {sign} {} {unit}", name.replace('_', " "), short(x, 6));
+            text.trim_end().to_owned()
+        };
+        match condition {
+            Condition::Above(name, x) => limit(name, ">", *x),
+            Condition::Below(name, x) => limit(name, "<", *x),
+            Condition::Any(all) => {
+                all.iter().map(|c| self.words(c)).collect::<Vec<_>>().join(" or ")
+            }
+            other => other.text(),
         }
     }
 }

@@ -6,9 +6,19 @@
 //! Σ ln(Φ(a ln high + b) − Φ(a ln low + b)) is concave in (a, b): Newton's iteration finds its one maximum, and
 //! the inverse of the observed information there is the covariance of the estimates. The band is that of the
 //! linear predictor, mapped by Φ.
+//!
+//! Runs of one motion, at other scales or with slightly other parameters, are no independent draws. Where motions
+//! have several, the covariance is the sandwich A⁻¹ (Σ gᵢ gᵢᵀ) A⁻¹ G/(G − 1) with the information A and the sum gᵢ
+//! of the scores of each of G motions, and the band takes Student's t with G − 1 degrees of freedom (Liang and
+//! Zeger 1986, Biometrika 73(1), 13–22; Cameron and Miller 2015, Journal of Human Resources 50(2), 317–372).
 
 use crate::distribution::{phi, phi_inverse};
+use statrs::distribution::{ContinuousCDF, StudentsT};
+use std::collections::BTreeMap;
 use std::f64::consts::PI;
+
+/// Fewest motions that their scatter is taken from.
+const FEWEST: usize = 4;
 
 /// A lognormal fragility curve.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -23,8 +33,10 @@ pub struct Fragility {
     centre: f64,
     slope: f64,
     value: f64,
-    /// Runs that the fit rests on.
+    /// Runs, or series of runs, that the fit rests on.
     pub runs: usize,
+    /// Motions whose scatter the band is from; none where every run counts as a draw of its own.
+    pub motions: Option<usize>,
 }
 
 /// A curve and its confidence band at an intensity.
@@ -70,32 +82,47 @@ pub struct Capacity {
     pub high: f64,
 }
 
+impl Capacity {
+    /// What a run at an intensity says.
+    #[must_use]
+    pub const fn of_outcome(intensity: f64, event: bool) -> Self {
+        if event {
+            Self { low: 0.0, high: intensity }
+        } else {
+            Self { low: intensity, high: f64::INFINITY }
+        }
+    }
+}
+
 impl Fragility {
-    /// Fits a curve to runs of (intensity, event), each with a motion of its own.
+    /// Fits a curve to runs of (intensity above 0, event), each with a motion of its own.
     ///
     /// # Errors
-    /// As [`fit`](Self::fit).
+    /// As [`fit_motions`](Self::fit_motions).
     pub fn of_outcomes(runs: &[(f64, bool)]) -> Result<Self, FragilityError> {
-        let one = |(im, event): &(f64, bool)| {
-            if *event {
-                Capacity { low: 0.0, high: *im }
-            } else {
-                Capacity { low: *im, high: f64::INFINITY }
-            }
-        };
-        Self::fit(&runs.iter().filter(|(im, _)| *im > 0.0).map(one).collect::<Vec<_>>())
+        let known = |(im, event): &(f64, bool)| Capacity::of_outcome(*im, *event);
+        Self::fit(&runs.iter().map(known).collect::<Vec<_>>())
     }
 
-    /// Fits a curve to capacities known between two intensities each.
+    /// Fits a curve to capacities known between two intensities each, draws of their own.
+    ///
+    /// # Errors
+    /// As [`fit_motions`](Self::fit_motions).
+    pub fn fit(capacities: &[Capacity]) -> Result<Self, FragilityError> {
+        let own: Vec<_> = capacities.iter().enumerate().map(|(i, c)| (*c, i)).collect();
+        Self::fit_motions(&own)
+    }
+
+    /// Fits a curve to capacities known between two intensities each, and the number of the motion of each.
     ///
     /// # Errors
     /// [`FragilityError`] where no curve is the most likely one.
-    pub fn fit(capacities: &[Capacity]) -> Result<Self, FragilityError> {
-        let all: Vec<(f64, f64)> = capacities
-            .iter()
-            .filter(|c| c.high > c.low && c.low >= 0.0)
-            .map(|c| (c.low.ln(), c.high.ln()))
-            .collect();
+    pub fn fit_motions(capacities: &[(Capacity, usize)]) -> Result<Self, FragilityError> {
+        let known = capacities.iter().filter(|(c, _)| {
+            c.high > c.low && c.low >= 0.0 && (c.low > 0.0 || c.high < f64::INFINITY)
+        });
+        let (all, motions): (Vec<(f64, f64)>, Vec<usize>) =
+            known.map(|(c, motion)| ((c.low.ln(), c.high.ln()), *motion)).unzip();
         if all.is_empty() {
             return Err(FragilityError::Nothing);
         }
@@ -139,6 +166,10 @@ impl Fragility {
             return Err(FragilityError::Falls);
         }
         let covariance = inverse(now.information).ok_or(FragilityError::Parted)?;
+        let (covariance, motions) = match of_motions(&all, motions, (a, b), covariance) {
+            Some((covariance, count)) => (covariance, Some(count)),
+            None => (covariance, None),
+        };
         Ok(Self {
             median: (centre - b / a).exp(),
             dispersion: 1.0 / a,
@@ -147,6 +178,7 @@ impl Fragility {
             slope: a,
             value: b,
             runs: all.len(),
+            motions,
         })
     }
 
@@ -156,7 +188,12 @@ impl Fragility {
         let x = intensity.ln() - self.centre;
         let eta = self.slope * x + self.value;
         let [[aa, ab], [_, bb]] = self.covariance;
-        let z = phi_inverse(0.5 + 0.5 * confidence);
+        let share = 0.5 + 0.5 * confidence;
+        let degrees = self.motions.map(|g| StudentsT::new(0.0, 1.0, g as f64 - 1.0));
+        let z = match degrees {
+            Some(Ok(t)) => t.inverse_cdf(share),
+            _ => phi_inverse(share),
+        };
         let half = z * (aa * x * x + 2.0 * ab * x + bb).max(0.0).sqrt();
         Band { probability: phi(eta), low: phi(eta - half), high: phi(eta + half) }
     }
@@ -171,6 +208,34 @@ impl Fragility {
         let median = da * da * aa + 2.0 * da * db * ab + db * db * bb;
         [median.max(0.0).sqrt(), aa.sqrt() / (a * a)]
     }
+}
+
+/// The covariance from the scatter of the scores of motions, and their number; none where all capacities have
+/// motions of their own, or too few motions are left.
+fn of_motions(
+    all: &[(f64, f64)],
+    motions: Vec<usize>,
+    (a, b): (f64, f64),
+    inverse: [[f64; 2]; 2],
+) -> Option<([[f64; 2]; 2], usize)> {
+    let mut groups: BTreeMap<usize, Vec<(f64, f64)>> = BTreeMap::new();
+    for (capacity, motion) in all.iter().zip(motions) {
+        groups.entry(motion).or_default().push(*capacity);
+    }
+    let count = groups.len();
+    if count == all.len() || count < FEWEST {
+        return None;
+    }
+    let mut covariance = [[0.0; 2]; 2];
+    let factor = count as f64 / (count as f64 - 1.0);
+    for group in groups.values() {
+        let g = likelihood(group, a, b).gradient;
+        let step = inverse.map(|row| row[0] * g[0] + row[1] * g[1]);
+        for (row, x) in covariance.iter_mut().zip(step) {
+            row.iter_mut().zip(step).for_each(|(cell, y)| *cell += factor * x * y);
+        }
+    }
+    Some((covariance, count))
 }
 
 /// φ(z)/(1 − Φ(z)), also far out.

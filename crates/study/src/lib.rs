@@ -27,6 +27,7 @@ mod number;
 mod page;
 mod plan;
 mod read;
+pub mod schema;
 mod statistics;
 mod study;
 mod table;

@@ -1,5 +1,7 @@
 //! `study.html`.
 
+mod statistics;
+
 use crate::{Record, Study, figure};
 use std::path::{Component, Path, PathBuf};
 use trilith::report::{Block, Page, Section};
@@ -26,7 +28,7 @@ pub(crate) fn page(study: &Study, records: &[Record], left_out: usize) -> String
         page = page.section(figure::section(study, records, number));
     }
     if study.has_groups() {
-        page = page.section(statistics(study, records));
+        page = page.section(statistics::section(study, records));
     }
     if failed > 0 {
         page = page.section(failures(study, records));
@@ -68,79 +70,6 @@ fn outcomes(records: &[Record]) -> Block {
         head: ["status", "runs", "share"].map(str::to_owned).to_vec(),
         rows: rows.collect(),
     }
-}
-
-fn statistics(study: &Study, records: &[Record]) -> Section {
-    let groups = study.groups(records);
-    let counted = study.counted(records);
-    let axes: Vec<usize> = (0..study.plan.axes.len()).filter(|i| !study.over.contains(i)).collect();
-    let mut head: Vec<String> = axes.iter().map(|i| study.plan.axes[*i].name.clone()).collect();
-    head.push("runs".into());
-    for c in study.columns.iter().take(4) {
-        head.push(study.label(&c.name) + ", median");
-        head.push("16 % … 84 %".into());
-    }
-    head.extend(counted.iter().map(|(name, _)| format!("P({name}), 90 % interval")));
-    let ensemble = study.plan.ensemble.is_some();
-    if ensemble {
-        head.push("scatter over that of the parameters".into());
-        head.push("sensitive".into());
-    }
-    let number = |x: f64| format!("{x:.4}");
-    let row =
-        |g: &crate::statistics::Group<'_>| {
-            let mut cells: Vec<String> =
-                axes.iter().map(|i| study.plan.axes[*i].values[g.place.axes[*i]].clone()).collect();
-            cells.push(g.records.len().to_string());
-            for i in 0..study.columns.len().min(4) {
-                match study.spread(g, i) {
-                    Some(s) => {
-                        cells.push(number(s.median));
-                        cells.push(format!("{} … {}", number(s.low), number(s.high)));
-                    }
-                    None => cells.extend(["–".to_owned(), "–".to_owned()]),
-                }
-            }
-            for (_, condition) in &counted {
-                cells.push(study.share(g, condition).map_or("–".into(), |[p, low, high]| {
-                    format!("{p:.3} ({low:.3} … {high:.3})")
-                }));
-            }
-            if ensemble {
-                let s = study.sensitivity(g);
-                cells.push(s.map_or("–".into(), |s| format!("{:.1}", s.amplification)));
-                cells.push(s.map_or("–".into(), |s| {
-                    match (s.divided, s.sensitive) {
-                        (true, _) => "yes: some overturn, some do not",
-                        (false, true) => "yes",
-                        _ => "no",
-                    }
-                    .to_owned()
-                }));
-            }
-            cells
-        };
-    let rows: Vec<_> = groups.iter().take(ROWS).map(row).collect();
-    let mut section = Section::new("statistics", "Statistics").block(Block::Table { head, rows });
-    if ensemble {
-        let all = groups.iter().filter_map(|g| study.sensitivity(g));
-        let sensitive = all.filter(|s| s.sensitive).count();
-        section = section.block(Block::text(format!(
-            "{sensitive} of {} points are sensitive: their members part over overturning, or half the band of \
-             16 % to 84 % of an output, over its median, is more than {} times the scatter of the parameters. \
-             There a single run says little.",
-            groups.len(),
-            study.sensitive_above
-        )));
-    }
-    let more = if groups.len() > ROWS {
-        format!("The first {ROWS} of {} points. ", groups.len())
-    } else {
-        String::new()
-    };
-    section.block(Block::note(format!(
-        "{more}All points and columns are in `statistics.csv`. Quantiles: type 7; intervals of probabilities: Wilson."
-    )))
 }
 
 fn failures(study: &Study, records: &[Record]) -> Section {

@@ -89,6 +89,8 @@ pub(crate) struct Group<'a> {
     /// The point, with sample and member 0 and the axes under statistics at their first value.
     pub place: Place,
     pub records: Vec<&'a Record>,
+    /// For each run that was left out beyond the limit of its series: the run that met the limit.
+    pub stopped: Vec<&'a Record>,
 }
 
 /// What the members of a point say about its nominal case.
@@ -98,8 +100,10 @@ pub(crate) struct Sensitivity {
     pub amplification: f64,
     /// The members do not agree whether the body overturns.
     pub divided: bool,
-    /// Either is beyond the limit.
-    pub sensitive: bool,
+    /// Nominal cases of the point.
+    pub cases: usize,
+    /// Those of them whose members do not agree, or scatter beyond the limit.
+    pub sensitive: usize,
 }
 
 impl Study {
@@ -112,16 +116,29 @@ impl Study {
     pub(crate) fn groups<'a>(&self, records: &'a [Record]) -> Vec<Group<'a>> {
         let mut found: Vec<Group<'a>> = Vec::new();
         let mut index = std::collections::HashMap::new();
-        for record in records {
-            let mut place = self.plan.place(record.run);
+        let mut group = |run: usize, found: &mut Vec<Group<'a>>| {
+            let mut place = self.plan.place(run);
             (place.sample, place.member) = (0, 0);
             self.over.iter().for_each(|axis| place.axes[*axis] = 0);
-            let i = *index.entry(place.clone()).or_insert_with(|| {
-                found.push(Group { place, records: Vec::new() });
+            *index.entry(place.clone()).or_insert_with(|| {
+                found.push(Group { place, records: Vec::new(), stopped: Vec::new() });
                 found.len() - 1
-            });
+            })
+        };
+        let length = self.plan.chain_length();
+        for (k, record) in records.iter().enumerate() {
+            let i = group(record.run, &mut found);
             found[i].records.push(record);
+            let end = (record.run / length + 1) * length;
+            let next = records.get(k + 1).map_or(end, |r| r.run.min(end));
+            let met = self.stop.as_ref().is_some_and(|c| c.holds(&self.columns, record));
+            for run in (record.run + 1..next).filter(|_| met) {
+                let i = group(run, &mut found);
+                found[i].stopped.push(record);
+            }
         }
+        found.retain(|g| !g.records.is_empty());
+        found.sort_by_key(|g| g.records[0].run);
         found
     }
 
@@ -131,20 +148,34 @@ impl Study {
         Spread::of(&values.collect::<Vec<_>>())
     }
 
-    /// None without an ensemble, or with statistics over more than it.
+    /// None without an ensemble. Where a point holds several nominal cases, such as those of several records,
+    /// each is judged by its own members.
     pub(crate) fn sensitivity(&self, group: &Group<'_>) -> Option<Sensitivity> {
         let ensemble = self.plan.ensemble.as_ref()?;
-        if self.plan.samples.is_some() || !self.over.is_empty() {
-            return None;
-        }
         let given = ensemble.scatter.iter().map(|s| s * s).sum::<f64>().sqrt();
-        let spreads = (0..self.columns.len()).filter_map(|i| self.spread(group, i));
-        let amplification = spreads.map(|s| s.relative() / given).fold(0.0, f64::max);
-        let good = group.records.iter().filter(|r| r.good).count();
-        let fallen = group.records.iter().filter(|r| r.good && r.overturned).count();
-        let divided = fallen > 0 && fallen < good;
-        let sensitive = divided || amplification > self.sensitive_above;
-        Some(Sensitivity { amplification, divided, sensitive })
+        let mut cases: Vec<(Place, Vec<&Record>)> = Vec::new();
+        for r in &group.records {
+            let place = Place { member: 0, ..self.plan.place(r.run) };
+            match cases.iter_mut().find(|c| c.0 == place) {
+                Some(case) => case.1.push(r),
+                None => cases.push((place, vec![r])),
+            }
+        }
+        let mut all =
+            Sensitivity { amplification: 0.0, divided: false, cases: cases.len(), sensitive: 0 };
+        for (_, records) in &cases {
+            let values = |i: usize| records.iter().filter_map(move |r| r.values.get(i)?.as_ref());
+            let spread = |i| Spread::of(&values(i).copied().collect::<Vec<_>>());
+            let spreads = (0..self.columns.len()).filter_map(spread);
+            let amplification = spreads.map(|s| s.relative() / given).fold(0.0, f64::max);
+            let good = records.iter().filter(|r| r.good).count();
+            let fallen = records.iter().filter(|r| r.good && r.overturned).count();
+            let divided = fallen > 0 && fallen < good;
+            all.amplification = all.amplification.max(amplification);
+            all.divided |= divided;
+            all.sensitive += usize::from(divided || amplification > self.sensitive_above);
+        }
+        Some(all)
     }
 
     /// Overturning, where any body can, and the events of the study.
@@ -179,6 +210,10 @@ impl Study {
         );
         let failed = |g: &Group<'_>| count(g.records.iter().filter(|r| !r.good).count());
         add("failed".into(), "", Values::Counts(groups.iter().map(failed).collect()));
+        if self.stop.is_some() {
+            let left = |g: &Group<'_>| count(g.stopped.len());
+            add("left_out".into(), "", Values::Counts(groups.iter().map(left).collect()));
+        }
         for (i, column) in self.columns.iter().enumerate() {
             let spreads: Vec<_> = groups.iter().map(|g| self.spread(g, i)).collect();
             let mut part = |part: &str, unit: &str, of: &dyn Fn(&Spread) -> Option<f64>| {
@@ -210,18 +245,30 @@ impl Study {
             let all: Vec<_> = groups.iter().map(|g| self.sensitivity(g)).collect();
             let amplification = all.iter().map(|s| s.map(|s| s.amplification)).collect();
             add("amplification".into(), "", Values::Numbers(amplification));
-            let flags = all.iter().map(|s| s.map(|s| s.sensitive)).collect();
+            let flags = all.iter().map(|s| s.map(|s| s.sensitive > 0)).collect();
             add("sensitive".into(), "", Values::Flags(flags));
+            if !self.over.is_empty() || self.plan.samples.is_some() {
+                let of = |part: fn(&Sensitivity) -> usize| {
+                    Values::Counts(all.iter().map(|s| count(part(s.as_ref()?))).collect())
+                };
+                add("cases".into(), "", of(|s| s.cases));
+                add("sensitive_cases".into(), "", of(|s| s.sensitive));
+            }
         }
         Table { title: self.title.clone(), columns }
     }
 
-    /// Share of the good runs of a group in which something happens, with its interval.
+    /// Share of the good runs of a group in which something happens, with its interval. What happened in every
+    /// run that met the limit of its series counts for the runs left out beyond as well: otherwise those that
+    /// fall early would make a fall look rare at strong motions.
     pub(crate) fn share(&self, group: &Group<'_>, condition: &Condition) -> Option<[f64; 3]> {
+        let holds = |r: &&&Record| condition.holds(&self.columns, r);
         let good: Vec<_> = group.records.iter().filter(|r| r.good).collect();
-        let hits = good.iter().filter(|r| condition.holds(&self.columns, r)).count();
-        let (low, high) = wilson(hits, good.len(), CONFIDENCE);
-        (!good.is_empty()).then(|| [hits as f64 / good.len() as f64, low, high])
+        let beyond = if group.stopped.iter().all(|r| holds(&r)) { group.stopped.len() } else { 0 };
+        let hits = good.iter().filter(|r| holds(r)).count() + beyond;
+        let count = good.len() + beyond;
+        let (low, high) = wilson(hits, count, CONFIDENCE);
+        (count > 0).then(|| [hits as f64 / count as f64, low, high])
     }
 }
 

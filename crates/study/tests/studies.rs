@@ -119,7 +119,7 @@ fn a_series_ends_at_its_limit_and_ensembles_keep_their_members() {
         ensemble: (members: 3, of: { "mu": 0.05, "mass": 0.01 }),
         stop: (along: "a", when: Above("peak_slide", "20 mm")),
         over: ["record"],
-        events: { "moves": Above("peak_slide", "1 mm") },
+        events: { "moves": Above("peak_slide", "1 mm"), "stops": Above("peak_slide", "20 mm") },
         figures: [
             Ida(demand: "peak_slide", intensity: "a"),
             Fragility(intensity: "a", event: Above("peak_slide", "5 mm")),
@@ -139,6 +139,27 @@ fn a_series_ends_at_its_limit_and_ensembles_keep_their_members() {
     assert!(at(0).iter().all(|mu| *mu == 0.3));
     let first = at(1)[0];
     assert!(at(1).iter().all(|mu| *mu == first && *mu != 0.3));
+    // What stopped a series counts beyond: its share is that of all series that have stopped so far.
+    let table = String::from_utf8(bytes(&out, "statistics.csv")).unwrap();
+    let rows: Vec<Vec<&str>> = table.lines().map(|l| l.split(',').collect()).collect();
+    let column = |name: &str| {
+        let k = rows[0]
+            .iter()
+            .position(|h| *h == name)
+            .unwrap_or_else(|| panic!("{name}: {:?}", rows[0]));
+        rows[1..].iter().map(|r| r[k].parse::<f64>().unwrap()).collect::<Vec<_>>()
+    };
+    let (runs, left) = (column("runs"), column("left_out"));
+    assert!(runs.iter().zip(&left).all(|(r, l)| r + l == 6.0), "{table}");
+    let stopped = |a: f64| {
+        let met = results.records.iter().filter(|r| r.values[0].is_some_and(|x| x > 0.02));
+        let at = |r: &&_| trilith_study::Record::number(r, &study.varied, &study.columns, "a");
+        met.filter(|r| at(r).is_some_and(|x| x <= a)).count() as f64 / 6.0
+    };
+    assert_eq!(column("stops_probability"), [1.0, 2.0, 4.0, 8.0].map(stopped));
+    assert!(left[2] > 0.0 && stopped(4.0) < 1.0, "{table}");
+    // Each record is a nominal case of its own, as long as it is run.
+    assert_eq!(column("cases"), [2.0, 2.0, 2.0, 1.0]);
     // Going on from half of the journal leaves out the same runs.
     let journal = bytes(&out, "runs.journal");
     let again = folder.path().join("again");
@@ -228,7 +249,12 @@ const WRONG: &[(&str, &[&str])] = &[
     (r#"axes: { "mu": [] }"#, &["the axis `mu` has no values"]),
     (r#"axes: { "mu": [0.1, -0.2] }"#, &["must be ≥ 0"]),
     (r#"axes: { "mu": [0.1, "2 m"] }"#, &["`mu` is set to a value in m"]),
-    (r#"axes: { "record": ["quiet.csv", "none.csv"] }"#, &["none.csv"]),
+    (r#"axes: {}"#, &["`axes` names no parameter", "study.ron:1:"]),
+    (r#"axes: { "mu": [0.1, inf] }"#, &["a finite number", "not the number inf"]),
+    (
+        r#"axes: { "record": ["quiet.csv", "none.csv"] }"#,
+        &["study.ron:1:", "none.csv cannot be read", "met at", "mass.ron:"],
+    ),
     (r#"axes: { "mu": Range(from: 0.1, to: 0.9) }"#, &["has no `count`"]),
     (r#"axes: { "mu": Range(from: 0, to: 1, step: 0.3) }"#, &["no whole number of steps"]),
     (r#"axes: { "mu": Log(from: 0, to: 1, count: 3) }"#, &["must be above 0"]),
@@ -293,6 +319,9 @@ fn all_errors_of_a_study_are_told_at_once() {
     let body = r#"axes: { "muu": [0.1], "a": [] }, seed: -1, columns: { "x": Peak("slid") }"#;
     let errors = read(folder.path(), body).unwrap_err();
     assert!(errors.len() >= 3, "{errors:?}");
+    // One wrong value is one error.
+    let errors = read(folder.path(), r#"axes: { "mu": [0.1, inf] }"#).unwrap_err();
+    assert_eq!(errors.len(), 1, "{errors:?}");
     let missing = Study::read_text("(axes: {})", "s.ron", &trilith::registry(), &[]).unwrap_err();
     assert!(missing[0].message.contains("has no `model`"));
     let none =

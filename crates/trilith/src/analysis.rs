@@ -100,7 +100,8 @@ impl<'m> Analysis<'m> {
         for observer in observers {
             all.push(*observer);
         }
-        let result = trilith_solvers::run(self.model, &self.system, options, &mut all)?;
+        let mut result = trilith_solvers::run(self.model, &self.system, options, &mut all)?;
+        result.warnings.extend(trilith_results::spectrum_warnings(self.model, &record));
         let contact = contact.summary();
         let names = self.model.outputs.iter().map(|o| o.name.clone()).collect();
         Ok(Run { result, record, contact, names })

@@ -82,14 +82,14 @@ const OSCILLATOR: &str = r#"(
     title: "Oscillator with a viscous damper",
     units: (length: "in", force: "lbf", time: "s"),
     parameters: {
-        "m": 1, "k": 1, "c": 0, "u0": 0, "v0": 0, "push": 0, "frequency": 1, "duration": 1,
+        "mass": 1, "k": 1, "c": 0, "u0": 0, "v0": 0, "push": 0, "frequency": 1, "duration": 1,
     },
     nodes: { "spring damper": (0, 0, 0), "link damper": (10, 0, 0) },
     supports: {
         "spring damper": (Uy, Uz, Rx, Ry, Rz),
         "link damper": (Uy, Uz, Rx, Ry, Rz),
     },
-    properties: { "mass": Mass(mass: "m") },
+    properties: { "mass": Mass(mass: "mass") },
     elements: {
         "mass 1": Mass(node: "spring damper", use: "mass"),
         "mass 2": Mass(node: "link damper", use: "mass"),
@@ -299,7 +299,7 @@ fn dp8() -> Vec<Case> {
             title,
             "ANSYS VM71; Thomson",
             vec![
-                set("m", m),
+                set("mass", m),
                 set("k", k),
                 set("c", ratio * critical),
                 set("u0", 1),
@@ -319,7 +319,7 @@ fn dp8() -> Vec<Case> {
         "DP-8d",
         "Logarithmic decrement",
         "ANSYS VM72; Thomson",
-        vec![set("m", m), set("k", k), set("c", 0.12), set("u0", 1), set("duration", 0.5)],
+        vec![set("mass", m), set("k", k), set("c", 0.12), set("u0", 1), set("duration", 0.5)],
         checks,
         both("step", oscillator(m, k, 0.12, [1.0, 0.0, 0.0])),
     ));
@@ -331,7 +331,13 @@ fn dp8() -> Vec<Case> {
             id,
             title,
             "ANSYS VM74; Thomson",
-            vec![set("m", 0.5), set("k", 200), set("c", c), set("v0", 20), set("duration", 0.12)],
+            vec![
+                set("mass", 0.5),
+                set("k", 200),
+                set("c", c),
+                set("v0", 20),
+                set("duration", 0.12),
+            ],
             at(twice("u(0.1)", INCH, u, p, |r, n| r.at(n, 0.1)), 0.1),
             both("step", oscillator(0.5, 200.0, c, [0.0, 20.0, 0.0])),
         ));
@@ -349,7 +355,7 @@ fn dp8() -> Vec<Case> {
             title,
             "ANSYS VM75; Thomson",
             vec![
-                set("m", 0.5),
+                set("mass", 0.5),
                 set("k", 200),
                 set("c", c),
                 set("push", 200),
@@ -366,7 +372,7 @@ fn dp8() -> Vec<Case> {
         "Steady vibration at resonance",
         "ANSYS VM86; Thomson",
         vec![
-            set("m", 0.5),
+            set("mass", 0.5),
             set("k", 200),
             set("c", 6),
             set("push", 10),

@@ -267,17 +267,17 @@ const ROLLING: &str = r#"(
     title: "Cask that rolls on its rim",
     gravity: "9.81 m/s^2",
     parameters: {
-        "rho": "1 m", "h": "2 m", "mass": "10 t", "jt": "15833.333333333334 kg*m^2", "ja": "5000 kg*m^2",
+        "rho": "1 m", "height": "2 m", "mass": "10 t", "jt": "15833.333333333334 kg*m^2", "ja": "5000 kg*m^2",
         "kn": "1e11 N/m", "ks": "1e11 N/m", "tilt": 0.3, "precession": 1, "spin": 1,
         "across": "precession*sin(tilt)",
         // speed of the centre of gravity along Y
-        "vy": "across*h - spin*rho",
+        "vy": "across*height - spin*rho",
     },
-    nodes: { "cg": (0, 0, "h") },
+    nodes: { "cg": (0, 0, "height") },
     elements: {
         "mass": Mass(node: "cg", mass: "mass", inertia: ("jt", "jt", "ja")),
         "base": RockingBody(
-            node: "cg", rim_radius: "rho", rim_depth: "h", kn: "kn", ks: "ks", mu: 0.2,
+            node: "cg", rim_radius: "rho", rim_depth: "height", kn: "kn", ks: "ks", mu: 0.2,
             damping: "1e6 N*s/m", pull: true, inertia: ("jt", "jt", "ja"),
         ),
     },
@@ -285,8 +285,8 @@ const ROLLING: &str = r#"(
         "roll": Dynamic(
             duration: "3 s", dt: "2 ms", constant: [Gravity],
             initial: [
-                (node: "cg", dof: Ux, displacement: "rho*(1 - cos(tilt)) + h*sin(tilt)"),
-                (node: "cg", dof: Uz, displacement: "rho*sin(tilt) + h*cos(tilt) - h"),
+                (node: "cg", dof: Ux, displacement: "rho*(1 - cos(tilt)) + height*sin(tilt)"),
+                (node: "cg", dof: Uz, displacement: "rho*sin(tilt) + height*cos(tilt) - height"),
                 (node: "cg", dof: Ry, displacement: "tilt"),
                 (node: "cg", dof: Uy, velocity: "vy * 1 /s"),
                 (node: "cg", dof: Rx, velocity: "-across * 1 /s"),

@@ -9,19 +9,21 @@ use crate::{AfterEnd, Interpolation, Table, TimeFunction};
 use std::sync::Arc;
 use trilith_element::dimension::{ACCELERATION, FREQUENCY, NONE, TIME};
 use trilith_element::{Dimension, Range};
-use trilith_record::process::{Baseline, Filter, Padding, Processing, Resampling};
+use trilith_record::process::{Baseline, Filter, Padding, Processing, Resampling, scaled};
 use trilith_record::synthetic::{Compatible, Envelope, KanaiTajimi, Target};
 
-/// An accelerogram as a table, with its first sample at `start`.
+/// An accelerogram times a factor as a table, with its first sample at `start`.
 pub(super) fn table_of(
     c: &Context<'_>,
     e: &Entry,
     record: &trilith_record::Record,
+    factor: Option<f64>,
     start: f64,
     after_end: AfterEnd,
 ) -> Option<Made> {
     let times = record.times().map(|t| start + t).collect();
-    let values = record.acceleration.clone();
+    let plain = &record.acceleration;
+    let values = factor.map_or_else(|| plain.clone(), |f| scaled(plain, f));
     match Table::new(times, values, Interpolation::Linear, after_end) {
         Ok(table) => Some((TimeFunction::Table(Arc::new(table)), Some(ACCELERATION))),
         Err(error) => {
@@ -172,24 +174,21 @@ pub(super) fn synthetic(c: &Context<'_>, e: &Entry) -> Option<Made> {
         peak: peak?,
         seed: seed? as u64,
     };
-    let made = match target? {
+    let damping = spectrum_damping?;
+    let target = target?.map(|points| Target { points, damping });
+    let key = format!("{start:?} {target:?}");
+    let make = || match target {
         None => start.make(),
-        Some(points) => {
-            let target = Target { points, damping: spectrum_damping? };
-            Compatible { target, start }.make().map(|(record, _)| record)
-        }
+        Some(target) => Compatible { target, start }.make().map(|(record, _)| record),
     };
-    let mut record = match made {
-        Ok(record) => record,
+    match c.motions.records.get(key, make) {
+        Ok(record) => table_of(c, e, &record, Some(scale?), 0.0, after_end?),
         Err(error) => {
             let message = format!("{}: {error}", what(e));
             c.report(c.diagnostic("E0112", message, e.value.name_span()));
-            return None;
+            None
         }
-    };
-    let scale = scale?;
-    record.acceleration.iter_mut().for_each(|a| *a *= scale);
-    table_of(c, e, &record, 0.0, after_end?)
+    }
 }
 
 /// Points `(period, acceleration)` of a spectrum.

@@ -1,5 +1,6 @@
 //! What every part of the reader needs: parameters, units, and a place for errors.
 
+use super::motions::Motions;
 use crate::diagnostic::{closest, names_help};
 use crate::expression::{Quantity, evaluate, expression_diagnostic};
 use crate::parameters::{Evaluated, Parameters};
@@ -18,6 +19,7 @@ pub struct Context<'a> {
     pub(crate) folder: PathBuf,
     pub(crate) registry: &'a Registry,
     pub(crate) units: FileUnits,
+    pub(crate) motions: Arc<Motions>,
     parameters: Parameters,
     errors: RefCell<Vec<Diagnostic>>,
 }
@@ -60,7 +62,15 @@ impl<'a> Context<'a> {
     pub fn new(source: Arc<Source>, folder: PathBuf, registry: &'a Registry) -> Self {
         let units = FileUnits::default();
         let (parameters, _) = Parameters::new(&[], &[], units, &source);
-        Self { source, folder, registry, units, parameters, errors: RefCell::default() }
+        Self {
+            source,
+            folder,
+            registry,
+            units,
+            motions: Arc::default(),
+            parameters,
+            errors: RefCell::default(),
+        }
     }
 
     /// The file that is read.
@@ -133,17 +143,12 @@ impl<'a> Context<'a> {
     }
 
     /// The fields of a block of the schema. Unknown ones are reported.
-    pub(crate) fn block<'n>(
-        &self,
-        node: &'n Node,
-        what: &str,
-        block: &Block,
-    ) -> Option<Fields<'n>> {
+    pub fn block<'n>(&self, node: &'n Node, what: &str, block: &Block) -> Option<Fields<'n>> {
         self.fields(node, what, &block.names())
     }
 
     /// The block of a group that a value names.
-    pub(crate) fn one_of(&self, node: &Node, what: &str, group: &Group) -> Option<&'static Block> {
+    pub fn one_of(&self, node: &Node, what: &str, group: &Group) -> Option<&'static Block> {
         self.choice(node, what, &group.names()).map(|i| group.blocks[i])
     }
 

@@ -9,6 +9,7 @@ mod elements;
 mod functions;
 mod loads;
 mod motion;
+mod motions;
 mod names;
 mod nodes;
 mod outputs;
@@ -44,14 +45,19 @@ pub fn read(
     overrides: &[(String, String)],
 ) -> Result<Model, Vec<Diagnostic>> {
     let path = path.as_ref();
-    match std::fs::read_to_string(path) {
-        Ok(text) => read_text(&text, path, registry, overrides),
-        Err(error) => {
-            let source = Arc::new(Source { path: path.to_owned(), ..Source::default() });
-            let message = format!("the model file cannot be read: {error}");
-            Err(vec![Diagnostic::new("E0100", message, 0..0, &source)])
-        }
-    }
+    read_text(&open(path, "model")?, path, registry, overrides)
+}
+
+/// The text of a file; `what` it is stands in the error.
+///
+/// # Errors
+/// E0100 where it cannot be read.
+pub fn open(path: &Path, what: &str) -> Result<String, Vec<Diagnostic>> {
+    std::fs::read_to_string(path).map_err(|error| {
+        let source = Arc::new(Source { path: path.to_owned(), ..Source::default() });
+        let message = format!("the {what} file cannot be read: {error}");
+        vec![Diagnostic::new("E0100", message, 0..0, &source)]
+    })
 }
 
 /// Reads a model from a text. Files it names are looked for in the folder of `path`.
@@ -86,11 +92,13 @@ pub fn parse(text: &str, path: impl AsRef<Path>) -> Result<(Arc<Source>, Node), 
     Ok((source, root))
 }
 
-/// A model file whose text has been understood, to be read with many values of its parameters.
+/// A model file whose text has been understood, to be read with many values of its parameters. Motions are
+/// read from their files, or made, once: what changes on disk afterwards is not seen.
 #[derive(Clone, Debug)]
 pub struct ModelText {
     source: Arc<Source>,
     root: Node,
+    motions: Arc<motions::Motions>,
 }
 
 impl ModelText {
@@ -100,7 +108,7 @@ impl ModelText {
     /// What is wrong with the text itself.
     pub fn new(text: &str, path: impl AsRef<Path>) -> Result<Self, Vec<Diagnostic>> {
         let (source, root) = parse(text, path)?;
-        Ok(Self { source, root })
+        Ok(Self { source, root, motions: Arc::default() })
     }
 
     /// The model with these values of its parameters.
@@ -120,6 +128,7 @@ impl ModelText {
         }
         let folder = source.path.parent().unwrap_or(Path::new("")).to_owned();
         let mut context = Context::new(Arc::clone(source), folder, registry);
+        context.motions = Arc::clone(&self.motions);
         let model = sections(&mut context, &self.root, overrides);
         let errors = context.into_errors();
         match model {

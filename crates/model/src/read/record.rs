@@ -83,11 +83,19 @@ pub(super) fn record(c: &Context<'_>, e: &Entry) -> Option<Made> {
     };
     let file = fields.required(c, "file")?;
     let path = c.folder.join(file_name(c, file)?);
-    let component = component?;
-    let read = trilith_record::read(&path, &options?)
-        .and_then(|all| trilith_record::select(all, component.as_ref(), &path));
-    let record = match read {
-        Ok(record) => record,
+    let (component, options) = (component?, options?);
+    // The factor differs from run to run and comes last.
+    let mut processing = processing?;
+    let factor = processing.scale.take();
+    let read = || {
+        let all = trilith_record::read(&path, &options)?;
+        trilith_record::select(all, component.as_ref(), &path)
+    };
+    let make = || match read() {
+        Ok(record) => processing.apply(&record).map_err(|error| {
+            let message = format!("{}: {error}", what(e));
+            c.report(c.diagnostic("E0117", message, e.value.name_span()));
+        }),
         Err(error) => {
             let key = match error.problem {
                 Problem::UnknownComponent { .. } => "component",
@@ -97,18 +105,12 @@ pub(super) fn record(c: &Context<'_>, e: &Entry) -> Option<Made> {
             };
             let at = fields.get(key).unwrap_or(file);
             report(c, &error, &at.span);
-            return None;
+            Err(())
         }
     };
-    let record = match processing?.apply(&record) {
-        Ok(record) => record,
-        Err(error) => {
-            let message = format!("{}: {error}", what(e));
-            c.report(c.diagnostic("E0117", message, e.value.name_span()));
-            return None;
-        }
-    };
-    table_of(c, e, &record, start?, after_end?)
+    let key = format!("{path:?} {options:?} {component:?} {processing:?}");
+    let record = c.motions.records.get(key, make).ok()?;
+    table_of(c, e, &record, factor, start?, after_end?)
 }
 
 fn options(c: &Context<'_>, fields: &Fields<'_>) -> Option<ReadOptions> {

@@ -37,9 +37,16 @@ pub(super) fn table(c: &Context<'_>, e: &Entry) -> Option<Made> {
     let file = fields.required(c, "file")?;
     let path = file_name(c, file)?;
     let at = &file.span;
-    let record = columns(c, &c.folder.join(path), skip?, at)?;
-    let times = numbers(c, &record, &times?, &place(&fields, "time", at))?;
-    let mut values = numbers(c, &record, &values?, &place(&fields, "value", at))?;
+    let (path, skip, times, values) = (c.folder.join(path), skip?, times?, values?);
+    let read = || {
+        let all = columns(c, &path, skip, at)?;
+        let times = numbers(c, &all, &times, &place(&fields, "time", at));
+        let values = numbers(c, &all, &values, &place(&fields, "value", at));
+        times.zip(values)
+    };
+    let key = format!("{path:?} {skip} {times:?} {values:?}");
+    let found = c.motions.columns.get(key, || read().ok_or(())).ok()?;
+    let (times, mut values) = (&found.0, found.1.clone());
     let mut dimension: Option<Dimension> = None;
     for q in [unit?, scale?].into_iter().flatten() {
         values.iter_mut().for_each(|v| *v *= q.value);
@@ -48,7 +55,7 @@ pub(super) fn table(c: &Context<'_>, e: &Entry) -> Option<Made> {
         }
     }
     let seconds = c.units.scale(TIME);
-    let times = times.into_iter().map(|t| t * seconds).collect();
+    let times = times.iter().map(|t| t * seconds).collect();
     let (interpolation, after_end) = style?;
     match Table::new(times, values, interpolation, after_end) {
         Ok(table) => Some((TimeFunction::Table(Arc::new(table)), dimension)),
@@ -57,7 +64,7 @@ pub(super) fn table(c: &Context<'_>, e: &Entry) -> Option<Made> {
                 TableError::Order { index, .. } | TableError::NotFinite(index) => index,
                 _ => 0,
             };
-            let message = format!("{}: {error}", record.place(row));
+            let message = format!("{}: {error}", columns(c, &path, skip, at)?.place(row));
             c.report(c.diagnostic("E0117", message, at.clone()));
             None
         }

@@ -124,12 +124,14 @@ pub enum Default {
 }
 
 /// A field that a file must give.
-const fn needed(name: &'static str, takes: Takes, meaning: &'static str) -> Field {
+#[must_use]
+pub const fn needed(name: &'static str, takes: Takes, meaning: &'static str) -> Field {
     Field { name, takes, default: Default::Required, meaning }
 }
 
 /// A field with a default, as the file would write it.
-const fn plain(
+#[must_use]
+pub const fn plain(
     name: &'static str,
     takes: Takes,
     default: &'static str,
@@ -139,7 +141,8 @@ const fn plain(
 }
 
 /// A field that may be left out.
-const fn absent(
+#[must_use]
+pub const fn absent(
     name: &'static str,
     takes: Takes,
     without: &'static str,
@@ -151,7 +154,13 @@ const fn absent(
 /// All groups, in the order in which a reader wants them: the model first, then what its fields hold.
 #[must_use]
 pub fn groups() -> Vec<&'static Group> {
-    let mut found: Vec<&'static Group> = vec![&MODEL];
+    groups_of(&MODEL)
+}
+
+/// A group and all that its fields hold, and theirs.
+#[must_use]
+pub fn groups_of(first: &'static Group) -> Vec<&'static Group> {
+    let mut found: Vec<&'static Group> = vec![first];
     let mut at = 0;
     while let Some(group) = found.get(at).copied() {
         for field in group.blocks.iter().flat_map(|b| b.fields) {

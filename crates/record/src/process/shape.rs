@@ -55,3 +55,26 @@ pub fn scaled_to(a: &[f64], target: f64) -> Result<Vec<f64>, ProcessError> {
     }
     Ok(scaled(a, target / largest))
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_taper_is_half_a_cosine_at_each_end() {
+        // A quarter of 9 samples is 2 steps: sin² of 0 and of a quarter of π, then all.
+        let mut a = vec![2.0; 9];
+        taper(&mut a, 0.25).unwrap();
+        let expected = [0.0, 1.0, 2.0, 2.0, 2.0, 2.0, 2.0, 1.0, 0.0];
+        assert!(a.iter().zip(expected).all(|(x, e)| (x - e).abs() < 1e-15), "{a:?}");
+        assert!(taper(&mut a, 0.6).is_err());
+    }
+
+    #[test]
+    fn a_trim_keeps_both_ends() {
+        let a: Vec<f64> = (0..11).map(f64::from).collect();
+        // 0.3/0.1 is below 3 and 0.7/0.1 below 7 by rounding.
+        assert_eq!(trim(&a, 0.1, 0.3, 0.7).unwrap(), [3.0, 4.0, 5.0, 6.0, 7.0]);
+        assert!(trim(&a, 0.1, 0.3, 1.2).is_err() && trim(&a, 0.1, 0.5, 0.5).is_err());
+    }
+}

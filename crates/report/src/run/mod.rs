@@ -14,6 +14,7 @@ mod settings;
 mod shaking;
 mod thin_frame;
 mod units;
+pub use units::short;
 
 pub use collect::Collect;
 pub use data::{

@@ -57,7 +57,8 @@ pub(crate) fn digits(x: f64, digits: usize) -> String {
 }
 
 /// A number with up to so many significant digits, without zeros at its end.
-pub(crate) fn short(x: f64, most: usize) -> String {
+#[must_use]
+pub fn short(x: f64, most: usize) -> String {
     let text = digits(x, most);
     let (mantissa, power) =
         text.split_once('e').map_or((text.as_str(), None), |(m, p)| (m, Some(p)));

@@ -65,8 +65,12 @@ pub fn figures(study: &Study, records: &[Record]) -> Vec<(String, Figure)> {
 pub(crate) fn section(study: &Study, records: &[Record], number: usize) -> Section {
     let drawing = &study.figures[number];
     let (figures, rows) = drawn(study, records, number);
-    let section = Section::new(format!("figure-{}", number + 1), drawing.title()).block(figures);
-    let Drawing::Fragility { intensity, .. } = drawing else { return section };
+    let title = match drawing {
+        Drawing::Fragility { event, .. } => format!("{}: {}", drawing.title(), study.words(event)),
+        _ => drawing.title().to_owned(),
+    };
+    let section = Section::new(format!("figure-{}", number + 1), title).block(figures);
+    let Drawing::Fragility { intensity, by, .. } = drawing else { return section };
     let unit = match study.unit(intensity).as_str() {
         "" | "1" => String::new(),
         unit => format!(" [{unit}]"),
@@ -80,16 +84,22 @@ pub(crate) fn section(study: &Study, records: &[Record], number: usize) -> Secti
         "dispersion",
         "error of dispersion",
         "observations",
+        "motions",
     ];
     let series = if study.plan.chain.is_some() {
         "Each series of rising intensity is one observation: its capacity lies between two intensities."
     } else {
         "Each run is one observation."
     };
-    section.block(Block::Table { head: head.map(str::to_owned).to_vec(), rows }).block(Block::note(
-        format!(
-            "Lognormal curve of greatest likelihood (Baker 2015). {series} The band is pointwise, from the \
-             observed information."
-        ),
-    ))
+    // Curves of one kind need no name.
+    let (mut head, mut rows) = (head.map(str::to_owned).to_vec(), rows);
+    if by.is_none() {
+        head.remove(1);
+        rows.iter_mut().for_each(|row| drop(row.remove(1)));
+    }
+    section.block(Block::Table { head, rows }).block(Block::note(format!(
+        "Lognormal curve of greatest likelihood (Baker 2015). {series} The band is pointwise: from the scatter \
+         between motions where motions have several observations (Liang and Zeger 1986), from the observed \
+         information otherwise."
+    )))
 }

@@ -119,7 +119,7 @@ pub(super) fn fragility(
     confidence: f64,
     by: Option<&str>,
 ) -> (Figure, Vec<Vec<String>>) {
-    let what = event.text();
+    let what = study.words(event);
     let axis = format!("probability of: {what}");
     let mut figure = Figure::new(format!("Fragility: {what}"), study.label(intensity), axis);
     let mut rows = Vec::new();
@@ -138,18 +138,30 @@ pub(super) fn fragility(
         let from = outcomes.iter().map(|o| o.0).filter(|x| *x > 0.0).fold(f64::MAX, f64::min);
         let to = outcomes.iter().fold(0.0f64, |a, o| a.max(o.0));
         right = right.max(to);
-        let (points, fit) = if study.plan.chain.is_some() {
-            let capacities: Vec<Capacity> =
-                group.iter().filter_map(|s| capacity(study, s, event)).collect();
-            let mut reached: Vec<f64> =
-                capacities.iter().map(|c| c.high).filter(|x| x.is_finite()).collect();
+        let motions = motions(study, &group);
+        let (points, capacities) = if study.plan.chain.is_some() {
+            let one = |(s, m): (&Vec<_>, &usize)| Some((capacity(study, s, event)?, *m));
+            let capacities: Vec<_> = group.iter().zip(&motions).filter_map(one).collect();
+            let highs = capacities.iter().map(|(c, _)| c.high);
+            let mut reached: Vec<f64> = highs.filter(|x| x.is_finite()).collect();
             reached.sort_by(f64::total_cmp);
             let n = capacities.len() as f64;
             let share = |(i, x): (usize, &f64)| (*x, (i + 1) as f64 / n);
-            (reached.iter().enumerate().map(share).collect(), Fragility::fit(&capacities))
+            let mut steps: Vec<(f64, f64)> = reached.iter().enumerate().map(share).collect();
+            // At each intensity the share of all series that have come to it.
+            steps.reverse();
+            steps.dedup_by_key(|p| p.0);
+            steps.reverse();
+            (steps, capacities)
         } else {
-            (shares(&outcomes), Fragility::of_outcomes(&outcomes))
+            let all =
+                group.iter().zip(&motions).flat_map(|(s, m)| s.iter().map(|(im, r)| (*im, *r, *m)));
+            let one = |(im, r, m): (f64, &Record, usize)| {
+                (Capacity::of_outcome(im, event.holds(&study.columns, r)), m)
+            };
+            (shares(&outcomes), all.filter(|(_, r, _)| r.good).map(one).collect())
         };
+        let fit = Fragility::fit_motions(&capacities);
         figure = figure.colored(label("share of runs"), Stroke::Rings, color, points);
         match fit {
             Ok(fit) => {
@@ -180,15 +192,42 @@ pub(super) fn fragility(
                     format!("{:.3}", fit.dispersion),
                     format!("{:.3}", dispersion),
                     fit.runs.to_string(),
+                    fit.motions.map_or("each its own".to_owned(), |n| n.to_string()),
                 ]);
             }
             Err(e) => {
                 let none = || "–".to_owned();
-                rows.push(vec![what.clone(), name, none(), none(), none(), none(), e.to_string()]);
+                let mut row = vec![what.clone(), name, none(), none(), none(), none()];
+                row.extend([e.to_string(), none()]);
+                rows.push(row);
             }
         }
     }
     (figure.ranges((0.0, 1.1 * right), (0.0, 1.0)), rows)
+}
+
+/// A number for each series, the same for those of one motion: where texts tell points apart those are the
+/// records, otherwise everything but the members of an ensemble does.
+fn motions(study: &Study, series: &[Vec<(f64, &Record)>]) -> Vec<usize> {
+    let axes = &study.plan.axes;
+    let texts: Vec<usize> = (0..axes.len()).filter(|i| study.is_text(&axes[*i].name)).collect();
+    let text_rows = study.plan.rows.first().is_some_and(|r| r.iter().any(|p| study.is_text(&p.0)));
+    let mut known: HashMap<(usize, usize, Vec<usize>), usize> = HashMap::new();
+    let mut number = |place: Place| {
+        let records = texts.iter().map(|i| place.axes[*i]).collect();
+        let key = if !texts.is_empty() || text_rows {
+            (if text_rows { place.row } else { 0 }, 0, records)
+        } else {
+            let mut all = place.axes;
+            if let Some(axis) = study.plan.chain {
+                all[axis] = 0;
+            }
+            (place.row, place.sample, all)
+        };
+        let next = known.len();
+        *known.entry(key).or_insert(next)
+    };
+    series.iter().map(|s| s.first().map_or(0, |(_, r)| number(study.plan.place(r.run)))).collect()
 }
 
 /// Between which intensities a series shows the event first.

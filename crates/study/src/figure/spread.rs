@@ -32,7 +32,7 @@ pub(super) fn spread(study: &Study, records: &[Record], x: &str, y: &str) -> Vec
             low.push((place, s.low));
             median.push((place, s.median));
             high.push((place, s.high));
-            if study.sensitivity(group).is_some_and(|s| s.sensitive) {
+            if study.sensitivity(group).is_some_and(|s| s.sensitive > 0) {
                 flagged.push((place, s.median));
             }
         }
@@ -55,6 +55,23 @@ pub(super) fn spread(study: &Study, records: &[Record], x: &str, y: &str) -> Vec
     }
     if !flagged.is_empty() {
         figure = figure.colored("sensitive", Stroke::Crosses, Color::PALETTE[1], flagged);
+    }
+    // A body that fell has turned by whatever the end of the run left it: its frame would hide all others.
+    let fell = records.iter().any(|r| r.overturned);
+    let standing = |r: &&Record| !r.overturned;
+    let places = || groups.iter().enumerate().filter_map(|(i, g)| at(i, g.records.first()?));
+    let (mut left, mut right) = (f64::INFINITY, f64::NEG_INFINITY);
+    places().for_each(|x| (left, right) = (left.min(x), right.max(x)));
+    let values = || {
+        let of = |r: &Record| r.number(&study.varied, &study.columns, y);
+        records.iter().filter(standing).filter_map(of)
+    };
+    let (low, high) = (values().fold(0.0f64, f64::min), values().fold(f64::NEG_INFINITY, f64::max));
+    if fell && high > low && right > left {
+        let edge = 0.03 * (right - left);
+        figure = figure
+            .ranges((left - edge, right + edge), (1.05 * low, 1.05 * high))
+            .caption("Runs that overturned are above the frame where they left it.");
     }
     let mut figures = vec![if text { figure.whole_x() } else { figure }];
     if !counted.is_empty() {

@@ -98,3 +98,51 @@ fn narrow_intervals_give_the_moments_of_the_logarithms() {
     assert!((median / (deviation / (n as f64).sqrt()) - 1.0).abs() < 1e-4, "{median}");
     assert!((dispersion / (deviation / (2.0 * n as f64).sqrt()) - 1.0).abs() < 1e-4);
 }
+
+#[test]
+fn copies_of_a_motion_tell_no_more_than_the_motion() {
+    // Known to a part in a thousand, 12 capacities three times each: the error of the median is s/√12 with the
+    // standard deviation s (divided by n − 1) of their logarithms, and the band that of Student's t with 11.
+    let logarithms: Vec<f64> = (0..12).map(|i| 0.3 * ((i * i * 7) % 11) as f64 / 5.0).collect();
+    let mean = logarithms.iter().sum::<f64>() / 12.0;
+    let deviation = (logarithms.iter().map(|x| (x - mean).powi(2)).sum::<f64>() / 11.0).sqrt();
+    let narrow = |x: &f64| Capacity { low: (x - 1e-4).exp(), high: (x + 1e-4).exp() };
+    let own = logarithms.iter().enumerate().map(|(i, x)| (narrow(x), i));
+    let fit =
+        Fragility::fit_motions(&own.clone().chain(own.clone()).chain(own).collect::<Vec<_>>());
+    let fit = fit.unwrap();
+    assert_eq!((fit.runs, fit.motions), (36, Some(12)));
+    let error = deviation / 12f64.sqrt();
+    assert!((fit.standard_errors()[0] / error - 1.0).abs() < 1e-4, "{fit:?}");
+    // 95 % quantile of Student's t with 11 degrees of freedom from a table.
+    let band = fit.at(fit.median, 0.9);
+    assert!((band.high - phi(1.795_885 * error / fit.dispersion)).abs() < 1e-4, "{band:?}");
+}
+
+#[test]
+fn the_band_covers_the_truth_where_motions_have_several_runs() {
+    let (theta, beta, motions, trials) = (0.6f64, 0.4, 24, 400u64);
+    let (mut inside, mut independent) = (0, 0);
+    for seed in 0..trials {
+        let u = draw::independent(seed, "test", "motion", motions);
+        let v = draw::independent(seed, "test", "member", 5 * motions);
+        let one = |(i, v): (usize, &f64)| {
+            let x = theta.ln() + beta * phi_inverse(u[i / 5]) + 0.05 * phi_inverse(*v);
+            let scale = (x / 0.1).floor() * 0.1;
+            (Capacity { low: scale.exp(), high: (scale + 0.1).exp() }, i / 5)
+        };
+        let all: Vec<_> = v.iter().enumerate().map(one).collect();
+        let own: Vec<_> = all.iter().map(|(c, _)| *c).collect();
+        let covers = |fit: Fragility| {
+            let band = fit.at(0.5, 0.9);
+            let truth = phi((0.5f64 / theta).ln() / beta.hypot(0.05));
+            usize::from(band.low <= truth && truth <= band.high)
+        };
+        inside += covers(Fragility::fit_motions(&all).unwrap());
+        independent += covers(Fragility::fit(&own).unwrap());
+    }
+    let share = |n: usize| n as f64 / trials as f64;
+    // Three standard deviations of 400 trials at 0.9; runs taken for draws of their own miss it by far.
+    assert!((share(inside) - 0.9).abs() < 0.045, "{}", share(inside));
+    assert!(share(independent) < 0.7, "{}", share(independent));
+}

@@ -1,8 +1,8 @@
 //! Fixed values, points and axes.
 
 use super::setting::Settings;
-use crate::Axis;
 use crate::number::written;
+use crate::{Axis, schema};
 use trilith::element::Dimension;
 use trilith::model::Span;
 use trilith::model::file::{Context, Entry, Kind, Node};
@@ -93,10 +93,13 @@ pub(super) fn points(
 /// `axes: { "mu": Range(from: 0.1, to: 0.9, count: 9), "record": ["a.csv", "b.csv"] }`.
 pub(super) fn axes(c: &Context<'_>, node: Option<&Node>, settings: &mut Settings) -> Vec<Axis> {
     let Some(entries) = node.and_then(|n| map(c, n, "axes")) else { return Vec::new() };
+    if let (Some(node), []) = (node, entries) {
+        c.report(c.diagnostic("E0104", "`axes` names no parameter", node.span.clone()));
+    }
     let mut all = Vec::new();
     for e in entries {
         let values = along(c, e).unwrap_or_default();
-        if values.is_empty() && e.value.is_list() {
+        if e.value.is_list() && e.value.items().is_empty() {
             let message = format!("the axis `{}` has no values", e.key);
             c.report(c.diagnostic("E0104", message, e.value.span.clone()).label("empty"));
         }
@@ -122,11 +125,10 @@ fn along(c: &Context<'_>, e: &Entry) -> Option<Vec<(String, Span)>> {
     if node.name().is_none() {
         return c.wrong(node, help);
     }
-    let log = c.choice(node, "axis", &["Range", "Log"])? == 1;
+    let kind = c.one_of(node, "axis", &schema::AXES)?;
+    let log = kind.name == schema::LOG.name;
     let what = format!("the axis `{}`", e.key);
-    let allowed: &[&str] =
-        if log { &["from", "to", "count"] } else { &["from", "to", "count", "step"] };
-    let fields = c.fields(node, &what, allowed)?;
+    let fields = c.block(node, &what, kind)?;
     let (from, to) = (fields.required(c, "from"), fields.required(c, "to"));
     let (from_node, to_node) = (from?, to?);
     let (from, to) = (c.quantity(from_node), c.quantity(to_node));
@@ -185,7 +187,9 @@ fn along(c: &Context<'_>, e: &Entry) -> Option<Vec<(String, Span)>> {
         } else if log {
             from.value * (to.value / from.value).powf(x / last)
         } else {
-            (from.value * (last - x) + to.value * x) / last
+            let between = (from.value * (last - x) + to.value * x) / last;
+            // 1.55, not 1.5499999999999998.
+            format!("{between:.13e}").parse().unwrap_or(between)
         }
     };
     Some((0..count).map(|i| (written(at(i), dimension), node.span.clone())).collect())

@@ -3,33 +3,16 @@
 use super::axes::map;
 use super::names::{Names, unknown};
 use crate::column::Known;
-use crate::{Column, Condition, Measure};
+use crate::{Column, Condition, Measure, schema};
 use trilith::element::Dimension;
 use trilith::element::dimension::{LENGTH, MOMENT, NONE, TIME};
 use trilith::model::Model;
 use trilith::model::file::{Context, Entry, Kind, NoNames, Node, evaluate, expression_diagnostic};
 use trilith::results::ENERGIES;
 
-const MEASURES: [&str; 12] = [
-    "Peak",
-    "Max",
-    "Min",
-    "TimeOfPeak",
-    "Final",
-    "Rms",
-    "Duration",
-    "Energy",
-    "EnergyError",
-    "Uplift",
-    "Slip",
-    "ResidualSlip",
-];
 /// Columns that every table has.
 const TAKEN: [&str; 8] =
     ["run", "sample", "member", "initial_mode", "mode", "overturned", "status", "message"];
-/// Modes of [`ContactSummary`](trilith::solvers::ContactSummary).
-const MODES: [&str; 5] = ["rest", "slide", "rock", "slide-rock", "flight"];
-
 /// The columns that a study asks for, or the peaks of all outputs.
 pub(super) fn columns(c: &Context<'_>, node: Option<&Node>, model: &Model) -> Vec<Column> {
     let Some(node) = node else {
@@ -75,11 +58,11 @@ fn measure(c: &Context<'_>, e: &Entry, model: &Model) -> Option<Found> {
     if node.name().is_none() {
         return c.wrong(node, "a measure such as `Peak(\"slide\")`, or an expression in quotes,");
     }
-    let kind = c.choice(node, "measure", &MEASURES)?;
+    let kind = c.choice(node, "measure", &schema::MEASURES.names())?;
     let what = format!("column `{}`", e.key);
     let only = || match &node.kind {
         Kind::List(_, items) if items.len() == 1 => Some(&items[0]),
-        _ => c.wrong(node, &format!("{}(\"name\")", MEASURES[kind])),
+        _ => c.wrong(node, &format!("`{}`", schema::MEASURES.blocks[kind].example)),
     };
     let metres = |measure| Some((measure, "m".to_owned(), LENGTH));
     match kind {
@@ -96,7 +79,7 @@ fn measure(c: &Context<'_>, e: &Entry, model: &Model) -> Option<Found> {
             })
         }
         6 => {
-            let fields = c.fields(node, &what, &["output", "above"])?;
+            let fields = c.block(node, &what, &schema::DURATION)?;
             let found = fields.required(c, "output").and_then(|n| output(c, n, model));
             let above = fields.required(c, "above");
             let ((i, unit), above) = (found?, above?);
@@ -169,11 +152,10 @@ pub(super) fn events(
 
 /// A condition on a run.
 pub(super) fn condition(c: &Context<'_>, node: &Node, names: &Names<'_>) -> Option<Condition> {
-    let kinds = ["All", "Overturned", "Failed", "Above", "Below", "Mode", "Any"];
     if node.name().is_none() {
         return c.wrong(node, "a condition such as `Overturned` or `Above(\"slide\", \"10 cm\")`");
     }
-    let kind = c.choice(node, "condition", &kinds)?;
+    let kind = c.choice(node, "condition", &schema::CONDITIONS.names())?;
     let items: &[Node] = match &node.kind {
         Kind::List(_, items) => items,
         _ => &[],
@@ -192,24 +174,13 @@ pub(super) fn condition(c: &Context<'_>, node: &Node, names: &Names<'_>) -> Opti
             })
         }
         (5, [mode]) => {
-            let i = c.choice(mode, "response mode", &MODES)?;
-            Some(Condition::Mode(MODES[i].to_owned()))
+            let i = c.choice(mode, "response mode", &schema::MODES)?;
+            Some(Condition::Mode(schema::MODES[i].to_owned()))
         }
         (6, [_, ..]) => {
             let all: Vec<_> = items.iter().map(|n| condition(c, n, names)).collect();
             all.into_iter().collect::<Option<_>>().map(Condition::Any)
         }
-        _ => {
-            let forms = [
-                "`All`",
-                "`Overturned`",
-                "`Failed`",
-                "`Above(\"column\", value)`",
-                "`Below(\"column\", value)`",
-                "`Mode(\"slide\")`",
-                "`Any(condition, …)`",
-            ];
-            c.wrong(node, forms[kind])
-        }
+        _ => c.wrong(node, &format!("`{}`", schema::CONDITIONS.blocks[kind].example)),
     }
 }

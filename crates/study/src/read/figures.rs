@@ -1,15 +1,12 @@
 //! Figures that a study asks for.
 
 use super::names::Names;
-use crate::Drawing;
 use crate::column::Known;
+use crate::{Drawing, schema};
 use trilith::element::Range;
 use trilith::element::dimension::{FREQUENCY, NONE};
 use trilith::model::Model;
 use trilith::model::file::{Context, Fields, Kind, Node, evaluate, expression_diagnostic};
-
-const KINDS: [&str; 7] =
-    ["ModeChart", "Ida", "Fragility", "Overturning", "Hazard", "Spread", "Points"];
 
 pub(super) fn figures(
     c: &Context<'_>,
@@ -26,19 +23,11 @@ pub(super) fn figures(
 
 fn figure(c: &Context<'_>, node: &Node, names: &Names<'_>, model: &Model) -> Option<Drawing> {
     if node.name().is_none() {
-        return c.wrong(node, &format!("a figure ({})", KINDS.join(", ")));
+        return c.wrong(node, &format!("a figure ({})", schema::FIGURES.names().join(", ")));
     }
-    let kind = c.choice(node, "figure", &KINDS)?;
-    let allowed: &[&str] = match kind {
-        0 => &["mu", "acceleration", "slenderness"],
-        1 => &["demand", "intensity"],
-        2 => &["intensity", "event", "confidence", "by"],
-        3 => &["frequency", "amplitude", "half_sine"],
-        4 => &["demand", "intensity", "rates"],
-        5 => &["x", "y"],
-        _ => &["x", "y", "by"],
-    };
-    let fields = c.fields(node, KINDS[kind], allowed)?;
+    let kind = c.choice(node, "figure", &schema::FIGURES.names())?;
+    let block = schema::FIGURES.blocks[kind];
+    let fields = c.block(node, block.name, block)?;
     let number =
         |key: &str| fields.required(c, key).and_then(|n| names.number(c, n)).map(|(name, _)| name);
     let by = || fields.get("by").map_or(Some(None), |n| names.any(c, n).map(Some));

@@ -8,34 +8,13 @@ mod names;
 mod random;
 mod setting;
 
-use crate::{Condition, Plan, Study};
+use crate::{Condition, Plan, Study, schema};
 use names::Names;
 use setting::Settings;
 use std::path::{Path, PathBuf};
-use std::sync::Arc;
-use trilith::model::file::{Context, Kind, Node, parse};
-use trilith::model::{Analysis, Diagnostic, Model, ModelText, ParameterValue, Source};
+use trilith::model::file::{Context, Kind, Node, open, parse};
+use trilith::model::{Analysis, Diagnostic, Model, ModelText, ParameterValue};
 use trilith::{Registry, SolverKind};
-
-const FIELDS: [&str; 17] = [
-    "title",
-    "model",
-    "case",
-    "solver",
-    "set",
-    "points",
-    "axes",
-    "samples",
-    "ensemble",
-    "seed",
-    "stop",
-    "columns",
-    "histories",
-    "events",
-    "over",
-    "sensitive_above",
-    "figures",
-];
 
 /// Most runs of a study.
 const MOST: usize = 100_000_000;
@@ -52,14 +31,7 @@ impl Study {
         overrides: &[(String, String)],
     ) -> Result<Self, Vec<Diagnostic>> {
         let path = path.as_ref();
-        match std::fs::read_to_string(path) {
-            Ok(text) => Self::read_text(&text, path, registry, overrides),
-            Err(error) => {
-                let source = Arc::new(Source { path: path.to_owned(), ..Source::default() });
-                let message = format!("the study file cannot be read: {error}");
-                Err(vec![Diagnostic::new("E0100", message, 0..0, &source)])
-            }
-        }
+        Self::read_text(&open(path, "study")?, path, registry, overrides)
     }
 
     /// Reads a study from a text; its model is looked for in the folder of `path`.
@@ -100,12 +72,11 @@ fn whole(
     overrides: &[(String, String)],
     foreign: &mut Vec<Diagnostic>,
 ) -> Option<Study> {
-    let top = c.fields(root, "the study", &FIELDS)?;
+    let top = c.block(root, "the study", schema::STUDY.blocks[0])?;
     let title = top.get("title").map_or(Some(String::new()), |n| c.text(n, "title"));
     let seed = top.get("seed").map_or(Some(1), |n| c.count(n, "seed", 0));
     let solver = top.get("solver").map_or(Some(None), |n| {
-        let names = SolverKind::ALL.map(SolverKind::name);
-        c.choice(n, "solver", &names).map(|i| Some(SolverKind::ALL[i]))
+        c.choice(n, "solver", &schema::SOLVERS).map(|i| Some(SolverKind::ALL[i]))
     });
 
     let mut settings = Settings::default();
@@ -232,7 +203,7 @@ fn first_model(
 
 /// `stop: (along: "scale", when: Overturned)`.
 fn stop(c: &Context<'_>, node: &Node, plan: &mut Plan, names: &Names<'_>) -> Option<Condition> {
-    let fields = c.fields(node, "`stop`", &["along", "when"])?;
+    let fields = c.block(node, "`stop`", schema::STOP.blocks[0])?;
     let along = fields.required(c, "along").and_then(|n| axis(c, n, plan));
     let when = fields.required(c, "when").and_then(|n| columns::condition(c, n, names));
     plan.chain = Some(along?);

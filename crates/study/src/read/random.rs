@@ -3,12 +3,10 @@
 use super::axes::map;
 use super::setting::Settings;
 use crate::number::written;
-use crate::{Distribution, Ensemble, Samples, draw};
+use crate::{Distribution, Ensemble, Samples, draw, schema};
 use trilith::element::dimension::NONE;
 use trilith::element::{Dimension, Range};
 use trilith::model::file::{Context, Entry, Node};
-
-const KINDS: [&str; 4] = ["Uniform", "LogUniform", "Normal", "LogNormal"];
 
 /// `LatinHypercube(count: 200, of: { "mu": Uniform(from: 0.2, to: 0.8) })`, or `Random(…)`.
 pub(super) fn samples(
@@ -17,8 +15,9 @@ pub(super) fn samples(
     seed: u64,
     settings: &mut Settings,
 ) -> Option<Samples> {
-    let latin = c.choice(node, "kind of samples", &["LatinHypercube", "Random"])? == 0;
-    let fields = c.fields(node, "`samples`", &["count", "of"])?;
+    let kind = c.one_of(node, "kind of samples", &schema::SAMPLES)?;
+    let latin = kind.name == "LatinHypercube";
+    let fields = c.block(node, "`samples`", kind)?;
     let count = fields.required(c, "count").and_then(|n| c.count(n, "count", 1));
     let of = fields.required(c, "of")?;
     let entries = map(c, of, "of")?;
@@ -48,15 +47,11 @@ pub(super) fn samples(
 
 fn distribution(c: &Context<'_>, e: &Entry) -> Option<(Distribution, Dimension)> {
     let node = &e.value;
-    let kind = c.choice(node, "distribution", &KINDS)?;
+    let kind = c.choice(node, "distribution", &schema::DISTRIBUTIONS.names())?;
     let what = format!("the distribution of `{}`", e.key);
-    let allowed: &[&str] = match kind {
-        0 | 1 => &["from", "to"],
-        2 => &["mean", "deviation", "from", "to"],
-        _ => &["median", "dispersion", "from", "to"],
-    };
-    let fields = c.fields(node, &what, allowed)?;
-    let first = fields.required(c, allowed[0])?;
+    let block = schema::DISTRIBUTIONS.blocks[kind];
+    let fields = c.block(node, &what, block)?;
+    let first = fields.required(c, block.fields[0].name)?;
     let q = c.quantity(first)?;
     let dimension = if q.measured { q.dimension } else { NONE };
     let same = |key: &str, range: Range| match fields.get(key) {
@@ -118,7 +113,7 @@ pub(super) fn ensemble(
     seed: u64,
     settings: &mut Settings,
 ) -> Option<Ensemble> {
-    let fields = c.fields(node, "`ensemble`", &["members", "of"])?;
+    let fields = c.block(node, "`ensemble`", schema::ENSEMBLE.blocks[0])?;
     let members = fields.required(c, "members").and_then(|n| c.count(n, "members", 2));
     let of = fields.required(c, "of")?;
     let entries = map(c, of, "of")?;

@@ -4,7 +4,7 @@ use crate::{Place, Plan};
 use std::collections::{HashMap, HashSet};
 use trilith::Registry;
 use trilith::model::file::{Context, closest, names_help};
-use trilith::model::{Diagnostic, Model, ModelText, ParameterValue, Span};
+use trilith::model::{Diagnostic, Model, ModelText, ParameterValue, Span, line_column};
 
 /// Values of an axis that are tried before the study begins.
 const TRIED: usize = 2000;
@@ -77,9 +77,23 @@ impl Settings {
                 exact.or_else(|| all.clone().find(of_name)).map(|(_, s)| s)
             });
             let Some(s) = setting else {
-                if !foreign.iter().any(|f| {
+                let told = |f: &Diagnostic| {
                     f.span == d.span && f.message == d.message && f.source.path == d.source.path
-                }) {
+                };
+                // What only this value brings about, such as a record that cannot be read, is told there.
+                if let Some(s) = only.and_then(|i| self.0.get(i))
+                    && !foreign.iter().any(told)
+                {
+                    let (line, column) = line_column(&d.source.text, d.span.start);
+                    let place = format!("met at {}:{line}:{column}", d.source.path.display());
+                    let help = match d.help {
+                        Some(help) => format!("{help}; {place}"),
+                        None => place,
+                    };
+                    c.report(c.diagnostic(d.code, d.message, s.span.clone()).help(help));
+                    continue;
+                }
+                if !foreign.iter().any(told) {
                     foreign.push(d);
                 }
                 continue;

@@ -149,3 +149,15 @@ fn empty_sections_are_refused() {
     refused("(nodes: {}, elements: {}, cases: {})", "E0104", "`elements` is empty", "{}");
     refused("(title: \"x\")", "E0104", "`nodes`", "title");
 }
+
+#[test]
+fn parameters_named_like_units_of_another_dimension() {
+    refused(&small(r#"parameters: {"h": "2 m"},"#), "E0105", "`2*h` and `2 h`", "h");
+    refused(&small(r#"parameters: {"g": 3},"#), "E0105", "unit of m/s", "g");
+    let fine = small(r#"parameters: {"g": "9.81 m/s^2", "gap": "1 cm", "load": "2 GN"},"#);
+    let model = super::super::read_text(&fine, "model.ron", &registry(), &[]).unwrap();
+    assert_eq!(
+        model.parameters[2].value,
+        crate::ParameterValue::Number(2e9, trilith_element::dimension::FORCE)
+    );
+}

@@ -105,7 +105,7 @@ fn a_record_is_read_beside_the_model_file() {
     std::fs::create_dir_all(&folder).unwrap();
     std::fs::write(folder.join("x.csv"), "# made up\ntime, acc\n0, 0.0\n0.5, 0.1\n1.0, -0.2\n")
         .unwrap();
-    let extra = r#"parameters: { "record": Text("x.csv"), "scale": 2, "g": 3 },
+    let extra = r#"parameters: { "record": Text("x.csv"), "scale": 2, "g": "3 m/s^2" },
         functions: { "f": Table(file: Parameter("record"), value: "acc", unit: "g", scale: "scale") }"#;
     let text = small(extra).replace(
         "Static(loads: [Gravity])",
@@ -122,4 +122,47 @@ fn a_record_is_read_beside_the_model_file() {
     let cell = read(&text).expect_err("a cell without number");
     assert!(cell[0].message.contains("x.csv:3: `much`"), "{}", shown(&cell));
     std::fs::remove_dir_all(&folder).unwrap();
+}
+
+#[test]
+fn motions_that_are_kept_are_those_of_their_parameters() {
+    let folder = std::env::temp_dir().join(format!("trilith-motions-{}", std::process::id()));
+    std::fs::create_dir_all(&folder).unwrap();
+    let row = |i: i32| format!("{},{},{}\n", 0.01 * f64::from(i), i % 7 - 3, i % 5 - 2);
+    std::fs::write(folder.join("x.csv"), (0..300).map(row).collect::<String>()).unwrap();
+    let extra = r#"parameters: { "scale": 2, "to": "2 s", "seed": 1, "skip": 0, "level": 3, "damping": 0.5 },
+        functions: {
+            "record": Record(file: "x.csv", component: 2, unit: "g", trim: (0, "to"), scale: "scale"),
+            "table": Table(file: "x.csv", value: 1, skip: "skip", scale: "scale"),
+            "noise": Synthetic(seed: "seed", peak: "1 m/s^2", duration: "5 s", damping: "damping", scale: "scale"),
+            "spectrum": Synthetic(
+                seed: "seed", duration: "8 s", spectrum: [(0.1, "level"), (0.5, "level"), (2, 1)], scale: "scale",
+            ),
+        }"#;
+    let (text, path) = (small(extra), folder.join("model.ron"));
+    let kept = super::super::ModelText::new(&text, &path).unwrap();
+    let read = |set: &[(String, String)]| kept.read(&registry(), set).unwrap().functions;
+    let plain = read(&[]);
+    for (name, value, changes) in [
+        ("scale", "3", [true; 4]),
+        ("to", "1 s", [true, false, false, false]),
+        ("skip", "2", [false, true, false, false]),
+        ("seed", "2", [false, false, true, true]),
+        ("damping", "0.7", [false, false, true, false]),
+        ("level", "4", [false, false, false, true]),
+    ] {
+        let set = [(name.to_owned(), value.to_owned())];
+        let (again, fresh) = (read(&set), read_text(&text, &path, &registry(), &set).unwrap());
+        for (i, changes) in changes.into_iter().enumerate() {
+            let what = format!("{name}, {}", plain[i].name);
+            assert!(
+                again[i].function == fresh.functions[i].function,
+                "{what}: not what a fresh reading gives"
+            );
+            assert_eq!(again[i].function != plain[i].function, changes, "{what}");
+        }
+    }
+    // What was there first is still there, though the file is gone.
+    std::fs::remove_dir_all(&folder).unwrap();
+    assert!(read(&[]).iter().zip(&plain).all(|(a, b)| a.function == b.function));
 }
