@@ -102,7 +102,7 @@ fn dependencies_point_one_way() {
         ),
         ("trilith-study", &["trilith"]),
         ("trilith-bench", &["trilith", "trilith-linalg", "trilith-report"]),
-        ("trilith-guide", &["trilith", "trilith-cli"]),
+        ("trilith-guide", &["trilith", "trilith-cli", "trilith-study"]),
         ("trilith-thirdparty-example", &["trilith-element", "trilith", "trilith-cli"]),
     ];
     let all = manifests();

@@ -79,6 +79,25 @@ pub struct BlockSweep {
 }
 
 impl BlockSweep {
+    /// Medians of the times of several; of what must hold in each the worst.
+    pub(crate) fn median<'a>(all: impl Iterator<Item = &'a Self>) -> Option<Self> {
+        let all: Vec<&Self> = all.collect();
+        let of = |read: fn(&Self) -> f64| median(all.iter().map(|s| read(s)).collect());
+        let first = all.first()?;
+        Some(Self {
+            alone_s: of(|s| s.alone_s),
+            lanes_s: of(|s| s.lanes_s),
+            setup_s: of(|s| s.setup_s),
+            speedup: of(|s| s.speedup),
+            iterations: of(|s| s.iterations),
+            left: all.iter().map(|s| s.left).max()?,
+            failed: all.iter().map(|s| s.failed).max()?,
+            same: all.iter().all(|s| s.same),
+            error: all.iter().map(|s| s.error).fold(0.0, f64::max),
+            ..(*first).clone()
+        })
+    }
+
     /// False where analyses failed, bits differ or a sway is off by more than a thousandth.
     #[must_use]
     pub fn good(&self) -> bool {

@@ -99,8 +99,8 @@ impl<'a> LinkSide<'a> {
         }
         space.force_into(&loads.end, &mut self.load1);
         self.amplitudes.clone_from(&loads.end);
-        self.kernel.pseudo(&from.f, &from.d, &self.support0, &mut self.pseudo0);
-        self.pseudo1.copy_from_slice(&self.pseudo0);
+        self.pseudo0.copy_from_slice(&from.pseudo);
+        self.pseudo1.copy_from_slice(&from.pseudo);
     }
 
     /// Loads and pseudo-forces at both ends.
@@ -183,11 +183,6 @@ impl<'a> LinkSide<'a> {
         self.kernel.change_rates(&compliance.h);
     }
 
-    /// The motion of the end takes the forces that the laws gave: as the next step does at its start.
-    pub(crate) fn take_forces(&mut self, to: &State) {
-        self.kernel.pseudo(&to.f, &to.d, &self.support1, &mut self.pseudo1);
-    }
-
     /// Where the rates of the active coordinates go once the motion is complete, if the laws left some open and
     /// somebody looks at them; else those stay zero.
     pub(crate) fn open_rates(&mut self) -> Option<&mut [f64]> {
@@ -202,6 +197,7 @@ impl<'a> LinkSide<'a> {
                 to.v[flat] = self.support_rate[flat] + self.v[*a];
             }
         }
+        to.pseudo.copy_from_slice(&self.pseudo1);
         to.settle(&self.system.links, &energy.links, self.kernel.tangents());
     }
 
@@ -258,6 +254,7 @@ impl<'a> LinkSide<'a> {
         space.stiffness.mul_add(-1.0, &q, &mut force);
         self.kernel.pseudo(&state.f, &state.d, &support_d, &mut own);
         space.links.spread(-1.0, &own, &mut force);
+        state.pseudo = own;
         state.motion = [q, p].concat();
         (state, force)
     }

@@ -21,6 +21,9 @@ pub struct State {
     pub(crate) v: Vec<f64>,
     /// Link forces.
     pub(crate) f: Vec<f64>,
+    /// Pseudo-forces of the active coordinates that the motion feels: those of the laws but for what the
+    /// tolerance of the link equations leaves.
+    pub(crate) pseudo: Vec<f64>,
     /// Link history.
     pub(crate) history: Vec<f64>,
     /// Largest link forces so far.
@@ -47,6 +50,7 @@ impl State {
         let mut state = Self {
             motion: Vec::new(),
             f: vec![0.0; links.len()],
+            pseudo: vec![0.0; links.active.len()],
             history: history.to_vec(),
             scale: [0.0; 2],
             stored: vec![0.0; links.links.len()],
@@ -244,7 +248,6 @@ impl<P: Propagator> Stepper for LinkStepper<'_, P> {
         let (forces, wanted) = side.prediction();
         self.propagator.predict(&from.motion, &forces, &mut to.motion, wanted);
         side.solve(self.propagator.compliance(), from, to, dt, energy)?;
-        side.take_forces(to);
         self.propagator.correct(&side.forces(), &mut to.motion);
         if let Some(rates) = side.open_rates() {
             let space = self.propagator.space();

@@ -175,11 +175,6 @@ impl<'a, 'b> Course<'a, 'b> {
         self.side.kernel.change()
     }
 
-    /// The motion takes the forces that the laws gave.
-    pub(super) fn take_forces(&mut self) {
-        self.side.take_forces(&self.next);
-    }
-
     pub(super) fn correct(&mut self, modes: &Modes) {
         modes.correct(&mut self.sources, self.side.forces().load1, &mut self.next.motion);
     }

@@ -236,7 +236,6 @@ fn step(modes: &mut Modes, courses: &mut [Course<'_, '_>], part: usize, dt: f64)
         modes.compliance().g.mul_add_each(-1.0, &mut pairs);
     }
     going.retain(|c| c.is_on_the_way());
-    going.iter_mut().for_each(|c| c.take_forces());
     let mut pairs: Vec<_> = going.iter_mut().filter_map(|c| c.spread_end()).collect();
     modes.space.links.spread_each(&mut pairs);
     going.iter_mut().for_each(|c| c.correct(modes));

@@ -1,0 +1,142 @@
+//! Values of arguments, from text.
+
+use trilith::SolverKind;
+
+/// The uplift that a swing should keep.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) enum Kept {
+    /// What rigid theory says.
+    Housner,
+    /// A share.
+    Share(f64),
+}
+
+pub(super) fn rocking(text: &str) -> Result<Kept, String> {
+    if text.eq_ignore_ascii_case("housner") {
+        return Ok(Kept::Housner);
+    }
+    match text.parse::<f64>() {
+        Ok(x) if x > 0.0 && x < 1.0 => Ok(Kept::Share(x)),
+        _ => Err("`housner` is wanted, or a number between 0 and 1".into()),
+    }
+}
+
+pub(super) fn share(text: &str) -> Result<f64, String> {
+    match text.parse::<f64>() {
+        Ok(x) if x > 0.0 && x <= 1.0 => Ok(x),
+        _ => Err("a number above 0 and at most 1 is wanted".into()),
+    }
+}
+
+/// Two values with a comma between them.
+pub(crate) fn pair<T>(
+    one: fn(&str) -> Result<T, String>,
+) -> impl Fn(&str) -> Result<[T; 2], String> + Clone + Send + Sync + 'static
+where
+    T: 'static,
+{
+    move |text| match text.split(',').map(str::trim).collect::<Vec<_>>().as_slice() {
+        [a, b] => Ok([one(a)?, one(b)?]),
+        _ => Err("two values with a comma between them are wanted".into()),
+    }
+}
+
+pub(super) fn whole(text: &str) -> Result<usize, String> {
+    text.parse().map_err(|_| "a whole number is wanted".into())
+}
+
+pub(super) fn length(text: &str) -> Result<f64, String> {
+    match trilith::model::quantity(text, trilith::element::dimension::LENGTH)? {
+        x if x > 0.0 => Ok(x),
+        _ => Err("a length above 0 is wanted, such as `1 m`".into()),
+    }
+}
+
+pub(super) fn stress(text: &str) -> Result<f64, String> {
+    match trilith::model::quantity(text, trilith::element::dimension::STRESS)? {
+        x if x > 0.0 => Ok(x),
+        _ => Err("a stress above 0 is wanted, such as `30 GPa`".into()),
+    }
+}
+
+pub(super) fn acceleration(text: &str) -> Result<f64, String> {
+    match trilith::model::quantity(text, trilith::element::dimension::ACCELERATION)? {
+        x if x > 0.0 => Ok(x),
+        _ => Err("an acceleration above 0 is wanted, such as `0.4 g`".into()),
+    }
+}
+
+pub(super) fn frequency(text: &str) -> Result<f64, String> {
+    match trilith::model::quantity(text, trilith::element::dimension::FREQUENCY)? {
+        x if x > 0.0 => Ok(x),
+        _ => Err("a frequency above 0 is wanted, such as `0.5 Hz`".into()),
+    }
+}
+
+pub(super) fn assignment(text: &str) -> Result<(String, String), String> {
+    match text.split_once('=') {
+        Some((name, value)) if !name.trim().is_empty() && !value.trim().is_empty() => {
+            Ok((name.trim().to_owned(), value.trim().to_owned()))
+        }
+        _ => Err("NAME=VALUE is wanted, such as `mu=0.4`".into()),
+    }
+}
+
+pub(super) fn solver(text: &str) -> Result<SolverKind, String> {
+    SolverKind::ALL.into_iter().find(|s| s.name() == text).ok_or_else(|| {
+        let names = SolverKind::ALL.iter().map(|s| s.name());
+        crate::text::names_help(text, "solvers", names)
+    })
+}
+
+pub(super) fn count(text: &str) -> Result<usize, String> {
+    text.parse()
+        .ok()
+        .filter(|n| *n > 0)
+        .ok_or_else(|| "a number of vectors above 0 is wanted".into())
+}
+
+pub(super) fn factor(text: &str) -> Result<f64, String> {
+    match text.parse::<f64>() {
+        Ok(x) if x.is_finite() && x > 0.0 => Ok(x),
+        _ => Err("a factor above 0 is wanted, such as 0.001".into()),
+    }
+}
+
+pub(super) fn alpha(text: &str) -> Result<f64, String> {
+    match text.parse::<f64>() {
+        Ok(x) if (-1.0 / 3.0 - 1e-12..=0.0).contains(&x) => Ok(x.max(-1.0 / 3.0)),
+        _ => Err("a number between -1/3 and 0 is wanted".into()),
+    }
+}
+
+pub(super) fn positive(text: &str) -> Result<f64, String> {
+    match text.parse::<f64>() {
+        Ok(x) if x.is_finite() && x > 0.0 => Ok(x),
+        _ => Err("a number of seconds above 0 is wanted".into()),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_arguments_are_consistent() {
+        use clap::CommandFactory;
+        Arguments::command().debug_assert();
+    }
+
+    #[test]
+    fn an_assignment_splits_at_the_first_equals_sign() {
+        assert_eq!(assignment("mu = 0.4"), Ok(("mu".into(), "0.4".into())));
+        assert_eq!(assignment("a=b=c"), Ok(("a".into(), "b=c".into())));
+        assert!(assignment("mu").is_err() && assignment("=1").is_err());
+    }
+
+    #[test]
+    fn a_misspelt_solver_is_corrected() {
+        assert_eq!(solver("fna"), Ok(SolverKind::Fna));
+        assert_eq!(solver("fnaa"), Err("did you mean `fna`?".into()));
+    }
+}
