@@ -122,12 +122,6 @@ mod tests {
     use super::*;
 
     #[test]
-    fn the_arguments_are_consistent() {
-        use clap::CommandFactory;
-        Arguments::command().debug_assert();
-    }
-
-    #[test]
     fn an_assignment_splits_at_the_first_equals_sign() {
         assert_eq!(assignment("mu = 0.4"), Ok(("mu".into(), "0.4".into())));
         assert_eq!(assignment("a=b=c"), Ok(("a".into(), "b=c".into())));

@@ -7,7 +7,8 @@
 //! ```
 //!
 //! `Newton` solves `R(f̃) = law(d, ḋ) − k_e d − f̃ = 0` with the full tangents of the laws,
-//! `J = I + (k − k_e) G + c H`; coordinates whose row of tangents is zero or weak need no equation.
+//! `J = I + (k − k_e) G + c H`; coordinates whose row of tangents is zero or weak need no equation. It starts
+//! from what the tangents at the start of the step foresee.
 //! `FixedPoint` is Wilson's constant-stiffness iteration, f̃ ← law − k_e d; it converges only
 //! while |k − k_e| G < 1. Neither touches a matrix of the structure.
 
