@@ -304,7 +304,7 @@ fn a_stiff_contact_at_rest_or_in_steady_sliding_costs_no_substeps() {
 /// Nor does a body in finite rotation, which trembles at rest by angles below the last digit of one.
 #[test]
 fn a_body_in_finite_rotation_at_rest_costs_no_substeps() {
-    let (model, system) = shipped("rocking_body.ron", &[("ah".into(), "0.2".into())]);
+    let (model, system) = shipped("rocking_body.ron", &[("ah", "0.2".into())]);
     for solver in [SolverKind::Fna, SolverKind::Hht] {
         let (_, result) = trace(&model, &system, solver);
         let per_step = |count: usize| count as f64 / result.work.steps as f64;
@@ -318,7 +318,7 @@ fn a_body_in_finite_rotation_at_rest_costs_no_substeps() {
 /// Where every contact sticks, the tangents foresee the forces of a step: one look at the laws confirms them.
 #[test]
 fn a_step_without_a_change_takes_one_look_at_the_laws() {
-    let set = [("ah".into(), "0.1".into()), ("mu".into(), "0.6".into())];
+    let set = [("ah", "0.1".into()), ("mu", "0.6".into())];
     let (mut model, system) = shipped("rigid_block.ron", &set);
     set_step(&mut model, StepControl::Fixed { substeps: 4 });
     let (_, result) = trace(&model, &system, SolverKind::Fna);
