@@ -13,6 +13,7 @@
 //! while |k − k_e| G < 1. Neither touches a matrix of the structure.
 
 mod factors;
+mod foresee;
 mod search;
 
 pub(crate) use factors::Remembered;
@@ -20,11 +21,12 @@ pub(crate) use factors::Remembered;
 use crate::propagator::StepKey;
 use crate::vector::largest;
 use factors::{Equations, Factors};
+use foresee::{Pair, pairs};
 use search::Search;
 use trilith_element::{Energy, Kinematics};
 use trilith_linalg::Dense;
 use trilith_model::{Kernel, Model, Solution};
-use trilith_system::{Laws, LinkInstance, LinkSet, Tangents};
+use trilith_system::{Laws, LinkSet, Tangents};
 
 /// What the linear step gives the kernel.
 pub(crate) struct Affine<'a> {
@@ -89,28 +91,6 @@ const DIGIT: f64 = 2.0 * f64::EPSILON;
 const CHORD_FROM: usize = 8;
 /// How well that is: share of the residual that one iteration leaves.
 const CONTRACTS: f64 = 0.2;
-
-/// The tangent of the force of an active coordinate by a flat coordinate.
-struct Pair {
-    active: usize,
-    other: usize,
-    /// Its index in the tangents.
-    at: usize,
-}
-
-/// All of a link; `place` is the active index of each flat coordinate.
-fn pairs<'a>(link: &'a LinkInstance, place: &'a [usize]) -> impl Iterator<Item = Pair> + 'a {
-    let n = link.range.len();
-    let all = link.range.clone().enumerate().flat_map(move |(i, flat)| {
-        let others = link.range.clone().enumerate();
-        others.map(move |(j, other)| (place[flat], other, link.block.start + i * n + j))
-    });
-    all.filter(|(active, ..)| *active != usize::MAX).map(|(active, other, at)| Pair {
-        active,
-        other,
-        at,
-    })
-}
 
 /// Workspace and settings of the link equations.
 pub(crate) struct LinkKernel<'a> {
@@ -272,55 +252,6 @@ impl<'a> LinkKernel<'a> {
         self.v.copy_from_slice(affine.v);
         self.search.reset();
         (self.iteration, self.size_before) = (0, f64::INFINITY);
-    }
-
-    /// Moves f̃ to where the tangents at the start of the step put it: where every law goes on along them,
-    /// that is the equilibrium. False where nothing is foreseen; else deformations and rates must follow the
-    /// [`change`](Self::change).
-    pub(crate) fn foresee(
-        &mut self,
-        affine: &Affine<'_>,
-        from: &Committed<'_>,
-        out: &mut Converged<'_>,
-    ) -> bool {
-        if self.kind != Kernel::Newton {
-            return false;
-        }
-        self.deform(affine, out);
-        let change = |now: &[f64], then: &[f64], to: &mut Vec<f64>| {
-            to.clear();
-            to.extend(now.iter().zip(then).map(|(now, then)| now - then));
-        };
-        change(out.d, from.d, &mut self.moved);
-        let held = self.dummy_k.iter().zip(&self.d).map(|(k, d)| k * d);
-        let forces = self.residual.iter_mut().zip(&*out.pseudo).zip(held);
-        if self.complete {
-            forces.zip(from.f).for_each(|(((r, pseudo), held), f)| *r = f - held - pseudo);
-        } else {
-            let own = self.links.active.iter().map(|flat| from.f[*flat]);
-            forces.zip(own).for_each(|(((r, pseudo), held), f)| *r = f - held - pseudo);
-        }
-        for Pair { active, other, at } in &self.pairs {
-            self.residual[*active] += from.tangents.k[*at] * self.moved[*other];
-        }
-        if !self.rated_pairs.is_empty() {
-            change(out.v, from.v, &mut self.moved);
-        }
-        for Pair { active, other, at } in &self.rated_pairs {
-            self.residual[*active] += from.tangents.c[*at] * self.moved[*other];
-        }
-        if largest(&self.residual) == 0.0 {
-            return false;
-        }
-        self.tangents.k.copy_from_slice(&from.tangents.k);
-        self.tangents.c.copy_from_slice(&from.tangents.c);
-        self.newton_correction(affine, false);
-        if !largest(&self.residual).is_finite() {
-            self.factors.forget(affine.key);
-            return false;
-        }
-        self.take(out);
-        true
     }
 
     /// One iteration: true where the links are in equilibrium; else f̃ has changed by what
