@@ -56,9 +56,10 @@ pub(crate) fn text(model: &Model, s: &Summary) -> String {
             number(c.residual_slip)
         );
     }
-    let share =
-        |e: f64| if s.energy.input > 0.0 { percent(e / s.energy.input) } else { "–".into() };
     let largest = energies(&s.energy).iter().fold(0.0, |a: f64, (_, e)| a.max(e.abs()));
+    // A body that starts displaced gets no input but rounding.
+    let driven = s.energy.input > 1e-9 * largest;
+    let share = |e: f64| if driven { percent(e / s.energy.input) } else { "–".into() };
     let mut rows = vec![row(["energy", "J", "of input"])];
     for (name, e) in energies(&s.energy) {
         // Kinds that are nothing but rounding are left out.

@@ -47,7 +47,7 @@ pub(super) fn energy(summary: &Value, data: &RunData) -> Markup {
                 thead { tr { th { "at the end" } th { (s.unit) } th { "of input" } } }
                 tbody { @for (k, words) in &rows { tr {
                     td { (words) } td.num { (number(value(&e[*k]) * s.factor)) }
-                    td.num { @if input > 0.0 { (percent(value(&e[*k]) / input)) } @else { "–" } }
+                    td.num { @if input > 1e-9 * largest { (percent(value(&e[*k]) / input)) } @else { "–" } }
                 } } }
             } }
             @if !links.is_empty() { div { table {
