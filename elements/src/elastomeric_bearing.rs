@@ -132,16 +132,18 @@ impl Link for ElastomericBearing {
     ) {
         let was = BearingHistory::load(committed);
         let (elastic, after) = ((1.0 - self.ratio) * self.k, self.ratio * self.k);
+        let flexibility = elastic.recip();
         let plastic = Vector2::new(was.plastic2, was.plastic3);
         let (d0, d) = (Vector2::new(at.d0[0], at.d0[1]), Vector2::new(at.d[0], at.d[1]));
         let start = (d0 - plastic) * elastic;
         let end = radial_return(elastic, d - plastic, (1.0 - self.ratio) * self.fy);
-        let now = if end.slips { d - end.tau / elastic } else { plastic };
+        let now = if end.slips { d - end.tau * flexibility } else { plastic };
         BearingHistory { plastic2: now.x, plastic3: now.y }.store(trial);
         let (tau, k) = (end.tau, end.by_stretch);
         out.f.copy_from_slice(&[after * d.x + tau.x, after * d.y + tau.y]);
         out.k.copy_from_slice(&[k.m11 + after, k.m12, k.m21, k.m22 + after]);
-        out.energy.stored = 0.5 * (after * d.norm_squared() + end.tau.norm_squared() / elastic);
+        out.energy.stored =
+            0.5 * (after * d.norm_squared() + end.tau.norm_squared() * flexibility);
         // The return is along q: never negative but for rounding.
         out.energy.hysteretic = (0.5 * (start + end.tau).dot(&(now - plastic))).max(0.0);
     }

@@ -19,6 +19,7 @@ mod lu;
 mod matrix_market;
 mod modewise;
 mod operator;
+mod panel;
 mod sparse;
 mod tall;
 mod vector;
@@ -29,11 +30,14 @@ pub use expm::expm;
 pub use ldlt::{Ldlt, StagedLdlt, StagedPlan, unsupported};
 pub use lu::SparseLu;
 pub use matrix_market::matrix_market;
-pub use modewise::{add_products, combine, weighted_square, work_of_linear};
+pub use modewise::{
+    OwnModes, Start, StepSums, add_products, combine, weighted_square, work_of_linear,
+};
 pub use operator::SymmetricOperator;
+pub use panel::{Panel, Product};
 pub use sparse::{Sparse, Triplets};
 pub use tall::Columns;
-pub use vector::{dot, largest};
+pub use vector::{dot, largest, residual};
 
 /// What can go wrong in a factorisation or an eigenproblem.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]

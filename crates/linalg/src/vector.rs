@@ -20,15 +20,32 @@ pub fn largest(x: &[f64]) -> f64 {
     if x.len() >= SHORT {
         return Arch::new().dispatch(Largest(x));
     }
-    let (mut largest, mut check) = (0.0, 0.0);
-    for x in x {
-        largest = if x.abs() > largest { x.abs() } else { largest };
-        check += x * 0.0;
+    let (four, rest) = x.as_chunks::<4>();
+    let (mut largest, mut check) = ([0.0; 4], [0.0; 4]);
+    let mut take = |i: usize, x: f64| {
+        largest[i] = if x.abs() > largest[i] { x.abs() } else { largest[i] };
+        check[i] += x * 0.0;
+    };
+    for x in four {
+        x.iter().enumerate().for_each(|(i, x)| take(i, *x));
     }
-    largest + check
+    rest.iter().enumerate().for_each(|(i, x)| take(i, *x));
+    let of = |a: f64, b: f64| if a > b { a } else { b };
+    let [a, b, c, d] = largest;
+    of(of(a, b), of(c, d)) + check.iter().sum::<f64>()
 }
 
-/// Fewer numbers are looked at one by one.
+/// `r = f − k d − x`, element by element, and the [`largest`] magnitudes of r, f and x; those of f and x may be
+/// anything where r holds what is not finite.
+///
+/// # Panics
+/// Where the lengths differ.
+pub fn residual(f: &[f64], k: &[f64], d: &[f64], x: &[f64], r: &mut [f64]) -> [f64; 3] {
+    assert!([f, k, d, x].iter().all(|y| y.len() == r.len()), "lengths of a residual");
+    Arch::new().dispatch(Residual { f, k, d, x, r })
+}
+
+/// Fewer numbers are looked at without vectors.
 const SHORT: usize = 16;
 
 struct Largest<'a>(&'a [f64]);
@@ -55,9 +72,70 @@ impl WithSimd for Largest<'_> {
     }
 }
 
+struct Residual<'a> {
+    f: &'a [f64],
+    k: &'a [f64],
+    d: &'a [f64],
+    x: &'a [f64],
+    r: &'a mut [f64],
+}
+
+impl WithSimd for Residual<'_> {
+    type Output = [f64; 3];
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, simd: S) -> [f64; 3] {
+        let n = self.r.len();
+        let ((f, fe), (k, ke)) = (S::as_simd_f64s(&self.f[..n]), S::as_simd_f64s(&self.k[..n]));
+        let ((d, de), (x, xe)) = (S::as_simd_f64s(&self.d[..n]), S::as_simd_f64s(&self.x[..n]));
+        let (r, re) = S::as_mut_simd_f64s(self.r);
+        let m = r.len();
+        let (f, k, d, x) = (&f[..m], &k[..m], &d[..m], &x[..m]);
+        let zero = simd.splat_f64s(0.0);
+        let (mut of_r, mut of_f, mut of_x, mut sound) = (zero, zero, zero, zero);
+        for i in 0..m {
+            r[i] = simd.sub_f64s(simd.sub_f64s(f[i], simd.mul_f64s(k[i], d[i])), x[i]);
+            of_r = simd.max_f64s(of_r, simd.abs_f64s(r[i]));
+            of_f = simd.max_f64s(of_f, simd.abs_f64s(f[i]));
+            of_x = simd.max_f64s(of_x, simd.abs_f64s(x[i]));
+            sound = simd.mul_add_e_f64s(r[i], zero, sound);
+        }
+        let mut check = simd.reduce_sum_f64s(sound);
+        let (mut of_r, mut of_f) = (simd.reduce_max_f64s(of_r), simd.reduce_max_f64s(of_f));
+        let mut of_x = simd.reduce_max_f64s(of_x);
+        for i in 0..re.len() {
+            re[i] = fe[i] - ke[i] * de[i] - xe[i];
+            of_r = of_r.max(re[i].abs());
+            of_f = of_f.max(fe[i].abs());
+            of_x = of_x.max(xe[i].abs());
+            check += re[i] * 0.0;
+        }
+        [of_r + check, of_f, of_x]
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn a_residual_is_told_with_its_sizes_at_every_length() {
+        for n in 0..20 {
+            let number = |i: usize| ((i * 7919 + 13) % 101) as f64 / 50.0 - 1.0;
+            let x: Vec<Vec<f64>> = (0..4).map(|k| (0..n).map(|i| number(i + 31 * k)).collect()).collect();
+            let mut r = vec![9.0; n];
+            let sizes = residual(&x[0], &x[1], &x[2], &x[3], &mut r);
+            for i in 0..n {
+                assert_eq!(r[i], x[0][i] - x[1][i] * x[2][i] - x[3][i]);
+            }
+            assert_eq!(sizes, [largest(&r), largest(&x[0]), largest(&x[3])]);
+            if n > 0 {
+                let mut broken = x[0].clone();
+                broken[n / 2] = f64::NAN;
+                assert!(residual(&broken, &x[1], &x[2], &x[3], &mut r)[0].is_nan());
+            }
+        }
+    }
 
     #[test]
     fn the_largest_magnitude_is_found_at_every_place_and_what_is_not_finite_is_told() {

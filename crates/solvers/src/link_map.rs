@@ -1,7 +1,6 @@
 //! The map B from the coordinates of a solver to the deformations of the links.
 
-use std::ops::Range;
-use trilith_linalg::Dense;
+use trilith_linalg::{Dense, Panel};
 
 /// B of the active link coordinates: a few terms each on the free DOFs, full rows on a basis.
 #[derive(Clone, Debug)]
@@ -17,19 +16,17 @@ pub(crate) enum LinkMap {
 pub(crate) struct FullMap {
     /// Bᵀ: one column for each link coordinate.
     columns: Dense,
-    /// B itself where it has not many rows: a short result is made faster in this form.
-    rows: Option<Dense>,
+    /// B and Bᵀ once more, where they have few rows.
+    deform: Option<Panel>,
+    spread: Option<Panel>,
 }
-
-/// Numbers of rows with which B is kept a second time: with fewer, sums of products over the modes are as fast,
-/// and with more as well.
-const SHORT: Range<usize> = 24..128;
 
 impl LinkMap {
     /// Of full rows, as the columns of Bᵀ.
     pub(crate) fn full(columns: Dense) -> Self {
-        let rows = SHORT.contains(&columns.columns()).then(|| columns.transpose());
-        Self::Full(FullMap { columns, rows })
+        let few = columns.columns() <= Panel::MOST_ROWS;
+        let deform = few.then(|| Panel::new(&columns.transpose()));
+        Self::Full(FullMap { deform, spread: Panel::of_few(&columns), columns })
     }
 
     /// Number of link coordinates.
@@ -56,12 +53,10 @@ impl LinkMap {
                     *x = row.iter().map(|(j, c)| c * u[*j]).sum();
                 }
             }
-            Self::Full(FullMap { columns, rows }) => {
+            Self::Full(FullMap { deform: Some(panel), .. }) => panel.times(u, d),
+            Self::Full(full) => {
                 d.fill(0.0);
-                match rows {
-                    Some(rows) => rows.mul_add(1.0, u, d),
-                    None => columns.transpose_mul_add(1.0, u, d),
-                }
+                full.columns.transpose_mul_add(1.0, u, d);
             }
         }
     }
@@ -82,22 +77,31 @@ impl LinkMap {
     /// `d = B u` of many vectors (u, d).
     pub(crate) fn deform_each(&self, pairs: &mut [(&[f64], &mut [f64])]) {
         match self {
-            Self::Sparse(_) => pairs.iter_mut().for_each(|(u, d)| self.deform(u, d)),
-            Self::Full(FullMap { columns, rows }) => {
+            Self::Full(FullMap { deform: None, columns, .. }) => {
                 pairs.iter_mut().for_each(|(_, d)| d.fill(0.0));
-                match rows {
-                    Some(rows) => rows.mul_add_each(1.0, pairs),
-                    None => columns.transpose_mul_add_each(1.0, pairs),
-                }
+                columns.transpose_mul_add_each(1.0, pairs);
             }
+            _ => pairs.iter_mut().for_each(|(u, d)| self.deform(u, d)),
         }
     }
 
-    /// `p += Bᵀ f` of many vectors (f, p).
+    /// `p = Bᵀ f`.
+    pub(crate) fn spread_into(&self, f: &[f64], p: &mut [f64]) {
+        if let Self::Full(FullMap { spread: Some(panel), .. }) = self {
+            return panel.times(f, p);
+        }
+        p.fill(0.0);
+        self.spread(1.0, f, p);
+    }
+
+    /// `p = Bᵀ f` of many vectors (f, p).
     pub(crate) fn spread_each(&self, pairs: &mut [(&[f64], &mut [f64])]) {
         match self {
-            Self::Sparse(_) => pairs.iter_mut().for_each(|(f, p)| self.spread(1.0, f, p)),
-            Self::Full(full) => full.columns.mul_add_each(1.0, pairs),
+            Self::Full(FullMap { spread: None, columns, .. }) => {
+                pairs.iter_mut().for_each(|(_, p)| p.fill(0.0));
+                columns.mul_add_each(1.0, pairs);
+            }
+            _ => pairs.iter_mut().for_each(|(f, p)| self.spread_into(f, p)),
         }
     }
 

@@ -148,7 +148,8 @@ impl<'a> LinkSide<'a> {
         dt: f64,
     ) -> bool {
         let Self { kernel, d, v, support1, support_rate, pseudo1, .. } = self;
-        let affine = affine(compliance, d, v, support1, support_rate);
+        let support = self.moving.then_some([&support1[..], &support_rate[..]]);
+        let affine = affine(compliance, d, v, support);
         kernel.begin(&affine);
         let mut links = Vec::new();
         kernel.foresee(&affine, &committed(from, dt), &mut converged(to, &mut links, pseudo1))
@@ -164,7 +165,8 @@ impl<'a> LinkSide<'a> {
         energy: &mut StepEnergy,
     ) -> Result<bool, StepFailure> {
         let Self { kernel, d, v, support1, support_rate, pseudo1, .. } = self;
-        let affine = affine(compliance, d, v, support1, support_rate);
+        let support = self.moving.then_some([&support1[..], &support_rate[..]]);
+        let affine = affine(compliance, d, v, support);
         let out = &mut converged(to, &mut energy.links, pseudo1);
         kernel.advance(&affine, &committed(from, dt), &from.scale, out).map_err(
             |NoEquilibrium { worst, residual }| StepFailure::NoEquilibrium { worst, residual },
@@ -173,14 +175,9 @@ impl<'a> LinkSide<'a> {
 
     /// Lets deformations and rates follow the last change of the pseudo-forces.
     fn follow(&mut self, compliance: &Compliance) {
-        let (change, d) = self.kernel.change();
-        compliance.g.mul_add(-1.0, change, d);
-        self.follow_rates(compliance);
-    }
-
-    /// Lets the rates alone follow.
-    pub(crate) fn follow_rates(&mut self, compliance: &Compliance) {
-        self.kernel.change_rates(&compliance.h);
+        if let Some((change, d)) = self.kernel.change(&compliance.h) {
+            compliance.g.mul_add(-1.0, change, d);
+        }
     }
 
     /// Where the rates of the active coordinates go once the motion is complete, if the laws left some open and
@@ -278,9 +275,8 @@ fn affine<'a>(
     compliance: &'a Compliance,
     d: &'a [f64],
     v: &'a [f64],
-    support_d: &'a [f64],
-    support_v: &'a [f64],
+    support: Option<[&'a [f64]; 2]>,
 ) -> Affine<'a> {
     let Compliance { g, h, key } = compliance;
-    Affine { d, v, support_d, support_v, g, h, key: *key }
+    Affine { d, v, support, g, h, key: *key }
 }

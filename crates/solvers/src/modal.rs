@@ -26,7 +26,7 @@ use crate::error::SolveError;
 use crate::propagator::{Compliance, Forces, Motion, Propagator, StepKey, StepWork, Wanted};
 use crate::space::Space;
 use rules::{Rule, Structure};
-use trilith_linalg::{Dense, work_of_linear};
+use trilith_linalg::{Dense, Start, StepSums, work_of_linear};
 
 /// Steps with a larger G·k of the stiffest link are made by average acceleration; the limit of the exact
 /// rule is 2 (ω²Δt²/6), and well before it the rule is no better any more.
@@ -77,6 +77,8 @@ pub(crate) struct Sources {
     source0: Vec<f64>,
     source1: Vec<f64>,
     integral: Vec<f64>,
+    /// What the step completed last did.
+    sums: StepSums,
     /// Pseudo-forces spread last, and (B Φ)ᵀ of them.
     pseudo: Vec<f64>,
     spread: Vec<f64>,
@@ -91,16 +93,16 @@ impl Sources {
             source0: zero.clone(),
             source1: zero.clone(),
             integral: zero,
+            sums: StepSums::default(),
         }
     }
 
-    /// Where (B Φ)ᵀ f̃ of these pseudo-forces must be added, unless they are those spread last.
+    /// Where (B Φ)ᵀ f̃ of these pseudo-forces must go, unless they are those spread last.
     pub(crate) fn renew_spread(&mut self, pseudo: &[f64]) -> Option<&mut [f64]> {
         if self.pseudo == pseudo {
             return None;
         }
         self.pseudo.copy_from_slice(pseudo);
-        self.spread.fill(0.0);
         Some(&mut self.spread)
     }
 }
@@ -117,7 +119,7 @@ impl Modal {
 
     fn spread(&mut self, pseudo: &[f64]) {
         if let Some(to) = self.now.renew_spread(pseudo) {
-            self.modes.space.links.spread(1.0, pseudo, to);
+            self.modes.space.links.spread_into(pseudo, to);
         }
     }
 }
@@ -136,6 +138,7 @@ impl Modes {
             modes: m - space.images.columns(),
             omega2: space.stiffness.diagonal(),
             rates: (0..m).map(|i| damping[(i, i)]).collect(),
+            mass: (0..m).map(|i| if i < m - space.images.columns() { 1.0 } else { 0.0 }).collect(),
             damping: coupled.then_some(damping),
         };
         Self {
@@ -256,62 +259,81 @@ impl Modes {
         }
     }
 
-    /// Takes the load at the start, with the pseudo-forces spread last.
-    pub(crate) fn at_start(now: &mut Sources, load: &[f64]) {
-        less(load, &now.spread, &mut now.source0);
+    /// A step from a motion under loads.
+    fn start<'a>(&self, from: &'a Motion, loads: [&'a [f64]; 2]) -> Start<'a> {
+        let m = self.space.order();
+        let per_dt = self.steps[self.now.0].dt.recip();
+        Start { q: &from[..m], v: &from[m..2 * m], p: loads, per_dt }
     }
 
-    /// The motion at the end under the load there and the pseudo-forces spread last.
-    pub(crate) fn predict(&self, now: &mut Sources, from: &Motion, load: &[f64], to: &mut Motion) {
-        let m = load.len();
-        less(load, &now.spread, &mut now.source1);
-        let inputs = [&from[..m], &from[m..2 * m], &now.source0, &now.source1];
-        let (q, rest) = to.split_at_mut(m);
-        self.way_now().rule.apply(1, inputs, q);
-        self.way_now().rule.apply(2, inputs, &mut rest[..m]);
-    }
-
-    /// What was predicted, with the pseudo-forces spread last instead.
-    pub(crate) fn correct(&self, now: &mut Sources, load: &[f64], to: &mut Motion) {
-        let m = load.len();
-        let rule = &self.way_now().rule;
-        let (q, rest) = to.split_at_mut(m);
-        let (v, a) = rest.split_at_mut(m);
-        for (i, x) in now.integral.iter_mut().enumerate() {
-            let source = load[i] - now.spread[i];
-            *x = source - now.source1[i];
-            now.source1[i] = source;
-        }
-        rule.add_answer(1, &now.integral, q);
-        rule.add_answer(2, &now.integral, v);
-        self.structure.acceleration(&now.source1, q, v, a);
-    }
-
-    /// Work done over the step completed last.
-    pub(crate) fn work(
+    /// The motion at the end of a step under the pseudo-forces spread last, at both ends.
+    pub(crate) fn predict(
         &self,
         now: &mut Sources,
         from: &Motion,
-        to: &Motion,
-        forces: &Forces<'_>,
-    ) -> StepWork {
-        let m = forces.load0.len();
-        let (step, rule) = (&self.steps[self.now.0], &self.way_now().rule);
-        let inputs = [&from[..m], &from[m..2 * m], &now.source0, &now.source1];
-        rule.apply(0, inputs, &mut now.integral);
-        let (ends, scale) = ([&from[..m], &to[..m]], step.dt.recip());
-        let loads = [forces.load0, forces.load1];
-        let external = work_of_linear(loads, ends, &now.integral, scale);
-        let all = work_of_linear([&now.source0, &now.source1], ends, &now.integral, scale);
-        let links = external - all;
-        let (kinetic, strain) = self.energy(to);
-        let damping = if self.structure.is_damped() {
-            let (k0, e0) = self.energy(from);
-            all - (kinetic - k0) - (strain - e0)
-        } else {
-            0.0
-        };
-        StepWork { external, links, damping, algorithmic: 0.0, kinetic, strain }
+        loads: [&[f64]; 2],
+        to: &mut Motion,
+    ) {
+        let rule = &self.way_now().rule;
+        let start = self.start(from, loads);
+        let Sources { source0, source1, spread, .. } = now;
+        let (q, rest) = to.split_at_mut(self.space.order());
+        let v = &mut rest[..q.len()];
+        if let Some(modes) = rule.own(&self.structure) {
+            return modes.predict(start, spread, [source0, source1], [q, v]);
+        }
+        less(loads[0], spread, source0);
+        less(loads[1], spread, source1);
+        let inputs = [start.q, start.v, source0, source1];
+        rule.apply(1, inputs, q);
+        rule.apply(2, inputs, v);
+    }
+
+    /// What was predicted, with the pseudo-forces spread last at the end instead.
+    pub(crate) fn complete(
+        &self,
+        now: &mut Sources,
+        from: &Motion,
+        loads: [&[f64]; 2],
+        to: &mut Motion,
+    ) {
+        let rule = &self.way_now().rule;
+        let start = self.start(from, loads);
+        let Sources { source0, source1, integral, spread, sums, .. } = now;
+        let (q, rest) = to.split_at_mut(self.space.order());
+        let (v, a) = rest.split_at_mut(q.len());
+        if let Some(modes) = rule.own(&self.structure) {
+            *sums = modes.complete(start, spread, (source0, source1), [q, v, a]);
+            return;
+        }
+        for (i, x) in integral.iter_mut().enumerate() {
+            let source = loads[1][i] - spread[i];
+            *x = source - source1[i];
+            source1[i] = source;
+        }
+        rule.add_answer(1, integral, q);
+        rule.add_answer(2, integral, v);
+        self.structure.acceleration(source1, q, v, a);
+        rule.apply(0, [start.q, start.v, source0, source1], integral);
+        let ends = [start.q, &*q];
+        let external = work_of_linear(loads, ends, integral, start.per_dt);
+        let all = work_of_linear([source0, source1], ends, integral, start.per_dt);
+        let ((k0, e0), (k1, e1)) = (self.energy(from), self.energy(to));
+        *sums = StepSums { external, all, kinetic: [k0, k1], strain: [e0, e1] };
+    }
+
+    /// Work done over the step completed last.
+    pub(crate) fn work(&self, now: &Sources) -> StepWork {
+        let StepSums { external, all, kinetic: [k0, kinetic], strain: [e0, strain] } = now.sums;
+        let damped = self.structure.is_damped();
+        StepWork {
+            external,
+            links: external - all,
+            damping: if damped { all - (kinetic - k0) - (strain - e0) } else { 0.0 },
+            algorithmic: 0.0,
+            kinetic,
+            strain,
+        }
     }
 
     /// ½ q̇ᵀ q̇ and ½ qᵀ Ω² q.
@@ -395,22 +417,20 @@ impl Propagator for Modal {
 
     fn predict(&mut self, from: &Motion, forces: &Forces<'_>, to: &mut Motion, wanted: Wanted<'_>) {
         self.spread(forces.pseudo0);
-        Modes::at_start(&mut self.now, forces.load0);
-        self.spread(forces.pseudo1);
-        self.modes.predict(&mut self.now, from, forces.load1, to);
-        let m = forces.load0.len();
+        self.modes.predict(&mut self.now, from, [forces.load0, forces.load1], to);
+        let m = self.modes.space.order();
         let links = &self.modes.space.links;
         links.deform(&to[..m], wanted.d);
         links.deform_some(&to[m..2 * m], wanted.rated, wanted.v);
     }
 
-    fn correct(&mut self, forces: &Forces<'_>, to: &mut Motion) {
+    fn correct(&mut self, from: &Motion, forces: &Forces<'_>, to: &mut Motion) {
         self.spread(forces.pseudo1);
-        self.modes.correct(&mut self.now, forces.load1, to);
+        self.modes.complete(&mut self.now, from, [forces.load0, forces.load1], to);
     }
 
-    fn work(&mut self, from: &Motion, to: &Motion, forces: &Forces<'_>) -> StepWork {
-        self.modes.work(&mut self.now, from, to, forces)
+    fn work(&mut self, _: &Motion, _: &Motion, _: &Forces<'_>) -> StepWork {
+        self.modes.work(&self.now)
     }
 
     fn energy(&self, x: &[f64]) -> (f64, f64) {

@@ -88,12 +88,12 @@ pub(crate) trait Propagator {
     /// Acceleration that a force on the structure at rest would cause; zero where there is no mass.
     fn acceleration(&mut self, force: &[f64]) -> Result<Vec<f64>, SolveError>;
 
-    /// The step with the pseudo-forces `pseudo1` at its end, as far as the links need it: d and v of the
+    /// The step with the pseudo-forces `pseudo0` at both ends, as far as the links need it: d and v of the
     /// active coordinates. `to` need not be complete before [`correct`](Self::correct).
     fn predict(&mut self, from: &Motion, forces: &Forces<'_>, to: &mut Motion, wanted: Wanted<'_>);
 
     /// Completes the step predicted last with the pseudo-forces at its end, now known.
-    fn correct(&mut self, forces: &Forces<'_>, to: &mut Motion);
+    fn correct(&mut self, from: &Motion, forces: &Forces<'_>, to: &mut Motion);
 
     /// Work done over the step completed last.
     fn work(&mut self, from: &Motion, to: &Motion, forces: &Forces<'_>) -> StepWork;

@@ -91,8 +91,7 @@ pub(crate) fn equilibrium(
             &Affine {
                 d: &d,
                 v: &v,
-                support_d: &zero,
-                support_v: &zero,
+                support: None,
                 g: &g,
                 h: &none,
                 key: StepKey::default(),

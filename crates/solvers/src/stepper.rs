@@ -248,7 +248,7 @@ impl<P: Propagator> Stepper for LinkStepper<'_, P> {
         let (forces, wanted) = side.prediction();
         self.propagator.predict(&from.motion, &forces, &mut to.motion, wanted);
         side.solve(self.propagator.compliance(), from, to, dt, energy)?;
-        self.propagator.correct(&side.forces(), &mut to.motion);
+        self.propagator.correct(&from.motion, &side.forces(), &mut to.motion);
         if let Some(rates) = side.open_rates() {
             let space = self.propagator.space();
             let n = space.order();

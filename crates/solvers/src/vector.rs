@@ -1,3 +1,3 @@
 //! Sums over vectors.
 
-pub(crate) use trilith_linalg::{dot, largest};
+pub(crate) use trilith_linalg::{dot, largest, residual};

@@ -241,7 +241,7 @@ impl Propagator for Hht {
         self.space.links.deform_some(to_v, wanted.rated, wanted.v);
     }
 
-    fn correct(&mut self, forces: &Forces<'_>, to: &mut Motion) {
+    fn correct(&mut self, _: &Motion, forces: &Forces<'_>, to: &mut Motion) {
         let n = self.space.order();
         let step = &self.steps[&self.now];
         let work = &mut self.work;

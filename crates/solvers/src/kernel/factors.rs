@@ -2,7 +2,7 @@
 
 use crate::propagator::StepKey;
 use serde::{Deserialize, Serialize};
-use trilith_linalg::{Dense, DenseLu};
+use trilith_linalg::{Dense, DenseLu, Product};
 use trilith_system::{LinkSet, Tangents};
 
 /// Row sum of (k − k_e) G + c H below which a coordinate needs no equation: what one iteration without it
@@ -13,6 +13,8 @@ const WEAK_FROM: usize = 48;
 /// Added to J's diagonal: a direction that nothing holds but its dummy, such as that of an open contact
 /// under a weight, is singular in a static analysis; held by this, it goes far until something stops it.
 const HOLD: f64 = 1e-12;
+/// Up to this many coordinates one product gives corrections and what follows from them.
+const FEW: usize = 64;
 /// Rules whose factors are kept.
 const KEPT: usize = 6;
 
@@ -32,6 +34,8 @@ pub(super) struct Equations<'a> {
     pub place: &'a [usize],
     /// Dummy stiffness of the active coordinates.
     pub dummy_k: &'a [f64],
+    /// Active coordinates whose law looks at rates.
+    pub rated: &'a [usize],
     /// Compliances, active × active, symmetric.
     pub g: &'a Dense,
     pub h: &'a Dense,
@@ -46,7 +50,9 @@ pub(super) struct Factor {
     /// Active coordinates with a row of tangents that counts.
     equations: Vec<usize>,
     /// From the residual of all active coordinates to the corrections of these.
-    correct: Dense,
+    correct: Product,
+    /// From it to the corrections of all, and how deformations and looked-at rates follow; for few.
+    all: Option<Product>,
 }
 
 /// The kept factors, the one used last at the end.
@@ -101,7 +107,7 @@ impl Factors {
 
 impl Factor {
     fn new(of: Equations<'_>, tangents: Tangents) -> Self {
-        let Equations { links, place, dummy_k, g, h, key } = of;
+        let Equations { links, place, dummy_k, rated, g, h, key } = of;
         let n = links.active.len();
         // Rows of k − k_e and c per active coordinate: (other active, stiffness, damping).
         let mut rows: Vec<Vec<(usize, f64, f64)>> = vec![Vec::new(); n];
@@ -160,16 +166,50 @@ impl Factor {
             correct[(e, *a)] = 1.0;
         }
         DenseLu::new(&j).solve_columns(&mut correct);
-        Self { key, tangents, equations, correct }
+        let all = (n <= FEW).then(|| with_what_follows(&equations, &correct, rated, [g, h]));
+        let (correct, all) = (Product::new(correct), all.map(Product::new));
+        Self { key, tangents, equations, correct, all }
     }
 
     /// Replaces the residuals of the active coordinates by the corrections; those without an equation stay.
-    pub fn correct(&self, residual: &mut [f64], space: &mut [f64]) {
-        let x = &mut space[..self.equations.len()];
-        x.fill(0.0);
-        self.correct.mul_add(1.0, residual, x);
-        for (a, value) in self.equations.iter().zip(x) {
+    /// True where changes of deformations and of looked-at rates stand behind the corrections in `space`.
+    pub fn correct(&self, residual: &mut [f64], space: &mut Vec<f64>) -> bool {
+        if let Some(all) = &self.all {
+            space.resize(all.rows(), 0.0);
+            all.times(residual, space);
+            residual.copy_from_slice(&space[..residual.len()]);
+            return true;
+        }
+        space.resize(self.equations.len(), 0.0);
+        self.correct.times(residual, space);
+        for (a, value) in self.equations.iter().zip(space) {
             residual[*a] = *value;
         }
+        false
     }
+}
+
+/// C of all coordinates, −G C, and the rows of −H C that are looked at, one above the other.
+fn with_what_follows(
+    equations: &[usize],
+    correct: &Dense,
+    rated: &[usize],
+    [g, h]: [&Dense; 2],
+) -> Dense {
+    let n = correct.columns();
+    let mut whole = Dense::zeros(n, n);
+    (0..n).for_each(|a| whole[(a, a)] = 1.0);
+    for (e, a) in equations.iter().enumerate() {
+        (0..n).for_each(|b| whole[(*a, b)] = correct[(e, b)]);
+    }
+    let (d, v) = (g.times(&whole), h.times(&whole));
+    let mut all = Dense::zeros(2 * n + rated.len(), n);
+    for j in 0..n {
+        let (own, others) = all.column_mut(j).split_at_mut(n);
+        own.copy_from_slice(whole.column(j));
+        let rates = rated.iter().map(|a| v[(*a, j)]);
+        let follows = d.column(j).iter().copied().chain(rates);
+        others.iter_mut().zip(follows).for_each(|(x, y)| *x = -y);
+    }
+    all
 }

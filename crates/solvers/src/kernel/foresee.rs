@@ -1,7 +1,6 @@
 //! The first guess of a step: where the tangents at its start put the forces.
 
 use super::{Affine, Committed, Converged, LinkKernel};
-use crate::vector::largest;
 use trilith_model::Kernel;
 use trilith_system::LinkInstance;
 
@@ -49,14 +48,7 @@ impl LinkKernel<'_> {
             to.extend(now.iter().zip(then).map(|(now, then)| now - then));
         };
         change(out.d, from.d, &mut self.moved);
-        let held = self.dummy_k.iter().zip(&self.d).map(|(k, d)| k * d);
-        let forces = self.residual.iter_mut().zip(&*out.pseudo).zip(held);
-        if self.complete {
-            forces.zip(from.f).for_each(|(((r, pseudo), held), f)| *r = f - held - pseudo);
-        } else {
-            let own = self.links.active.iter().map(|flat| from.f[*flat]);
-            forces.zip(own).for_each(|(((r, pseudo), held), f)| *r = f - held - pseudo);
-        }
+        self.leave(from.f, out.pseudo);
         for Pair { active, other, at } in &self.pairs {
             self.residual[*active] += from.tangents.k[*at] * self.moved[*other];
         }
@@ -66,13 +58,11 @@ impl LinkKernel<'_> {
         for Pair { active, other, at } in &self.rated_pairs {
             self.residual[*active] += from.tangents.c[*at] * self.moved[*other];
         }
-        if largest(&self.residual) == 0.0 {
+        if self.residual.iter().all(|r| *r == 0.0) {
             return false;
         }
-        self.tangents.k.copy_from_slice(&from.tangents.k);
-        self.tangents.c.copy_from_slice(&from.tangents.c);
-        self.newton_correction(affine, false);
-        if !largest(&self.residual).is_finite() {
+        self.newton_correction(affine, from.tangents, false);
+        if !self.residual.iter().all(|x| x.is_finite()) {
             self.factors.forget(affine.key);
             return false;
         }

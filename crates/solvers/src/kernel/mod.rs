@@ -19,7 +19,7 @@ mod search;
 pub(crate) use factors::Remembered;
 
 use crate::propagator::StepKey;
-use crate::vector::largest;
+use crate::vector::{largest, residual};
 use factors::{Equations, Factors};
 use foresee::{Pair, pairs};
 use search::Search;
@@ -33,9 +33,8 @@ pub(crate) struct Affine<'a> {
     /// d and v of the active coordinates at the start value of f̃.
     pub d: &'a [f64],
     pub v: &'a [f64],
-    /// Deformation and rate that moving supports add, flat.
-    pub support_d: &'a [f64],
-    pub support_v: &'a [f64],
+    /// Deformation and rate that supports add, flat, where they move.
+    pub support: Option<[&'a [f64]; 2]>,
     /// Compliances, active × active, symmetric.
     pub g: &'a Dense,
     pub h: &'a Dense,
@@ -122,7 +121,12 @@ pub(crate) struct LinkKernel<'a> {
     d: Vec<f64>,
     v: Vec<f64>,
     residual: Vec<f64>,
+    /// Largest residual, force and pseudo-force.
+    sizes: [f64; 3],
+    /// What a factor gives.
     correction: Vec<f64>,
+    /// True where deformations and rates have followed the last change of f̃ already.
+    followed: bool,
     search: Search,
     /// Iterations in this step, and the size of the residual before the last one.
     iteration: usize,
@@ -173,7 +177,9 @@ impl<'a> LinkKernel<'a> {
             d: vec![0.0; n],
             v: vec![0.0; n],
             residual: vec![0.0; n],
-            correction: vec![0.0; n],
+            sizes: [0.0; 3],
+            correction: Vec::new(),
+            followed: false,
             search: Search::default(),
             iteration: 0,
             size_before: f64::INFINITY,
@@ -211,9 +217,9 @@ impl<'a> LinkKernel<'a> {
     /// Makes a factor again, with the compliances of its step size.
     pub(crate) fn recall(&mut self, memory: Remembered, g: &Dense, h: &Dense) {
         let Remembered { key, k, c } = memory;
-        let of =
-            Equations { links: self.links, place: &self.place, dummy_k: &self.dummy_k, g, h, key };
-        self.factors.make(of, Tangents { k, c });
+        let mut factors = std::mem::take(&mut self.factors);
+        factors.make(self.equations(g, h, key), Tangents { k, c });
+        self.factors = factors;
     }
 
     /// Pseudo-force of forces that act at a deformation; `support` is what moving supports have in it.
@@ -240,8 +246,9 @@ impl<'a> LinkKernel<'a> {
     ) -> Result<(), NoEquilibrium> {
         self.begin(affine);
         while !self.advance(affine, from, scale, out)? {
-            affine.g.mul_add(-1.0, &self.residual, &mut self.d);
-            self.change_rates(affine.h);
+            if let Some((change, d)) = self.change(affine.h) {
+                affine.g.mul_add(-1.0, change, d);
+            }
         }
         Ok(())
     }
@@ -278,8 +285,9 @@ impl<'a> LinkKernel<'a> {
             self.factors.forget(affine.key);
             return Err(worst);
         }
+        self.followed = false;
         if self.kind == Kernel::Newton {
-            let before = largest(&self.residual);
+            let before = self.sizes[0];
             if let Some(back) = self.search.shortens(self.iteration - 1, before) {
                 for (x, step) in self.residual.iter_mut().zip(&self.search.step) {
                     *x = -back * step;
@@ -287,9 +295,10 @@ impl<'a> LinkKernel<'a> {
                 self.take(out);
                 return Ok(false);
             }
-            self.newton_correction(affine, size > CONTRACTS * self.size_before);
-            let moves = size * largest(&self.residual) / before;
-            if size <= ROUNDING && moves <= SETTLED {
+            let tangents = std::mem::take(&mut self.tangents);
+            self.newton_correction(affine, &tangents, size > CONTRACTS * self.size_before);
+            self.tangents = tangents;
+            if size <= ROUNDING && size * largest(&self.residual) <= SETTLED * before {
                 return Ok(true);
             }
         }
@@ -299,20 +308,31 @@ impl<'a> LinkKernel<'a> {
         Ok(false)
     }
 
-    fn take(&self, out: &mut Converged<'_>) {
-        for (x, change) in out.pseudo.iter_mut().zip(&self.residual) {
-            *x += change;
+    fn take(&mut self, out: &mut Converged<'_>) {
+        let add = |to: &mut [f64], change: &[f64]| {
+            to.iter_mut().zip(change).for_each(|(x, change)| *x += change);
+        };
+        add(out.pseudo, &self.residual);
+        if self.followed {
+            let (d, v) = self.correction[self.d.len()..].split_at(self.d.len());
+            add(&mut self.d, d);
+            for (a, change) in self.rated.iter().zip(v) {
+                self.v[*a] += change;
+            }
         }
     }
 
     /// The last change of f̃, and the deformations of the active coordinates, which must follow it by
-    /// −G times it.
-    pub(crate) fn change(&mut self) -> (&[f64], &mut [f64]) {
-        (&self.residual, &mut self.d)
+    /// −G times it; none where they have done so already. The rates that laws look at have followed.
+    pub(crate) fn change(&mut self, h: &Dense) -> Option<(&[f64], &mut [f64])> {
+        if self.followed {
+            return None;
+        }
+        self.change_rates(h);
+        Some((&self.residual, &mut self.d))
     }
 
-    /// Lets the rates that laws look at follow the last change of f̃.
-    pub(crate) fn change_rates(&mut self, h: &Dense) {
+    fn change_rates(&mut self, h: &Dense) {
         if self.rated.len() == self.v.len() {
             h.mul_add(-1.0, &self.residual, &mut self.v);
         } else {
@@ -325,19 +345,24 @@ impl<'a> LinkKernel<'a> {
 
     /// Deformations and rates of all coordinates.
     fn deform(&self, affine: &Affine<'_>, out: &mut Converged<'_>) {
-        if self.complete {
-            let sum = |to: &mut [f64], own: &[f64], support: &[f64]| {
-                to.iter_mut().zip(own.iter().zip(support)).for_each(|(x, (y, z))| *x = z + y);
-            };
-            sum(out.d, &self.d, affine.support_d);
-            sum(out.v, &self.v, affine.support_v);
-        } else {
-            out.d.copy_from_slice(affine.support_d);
-            out.v.copy_from_slice(affine.support_v);
-            for ((flat, d), v) in self.links.active.iter().zip(&self.d).zip(&self.v) {
-                out.d[*flat] += d;
-                out.v[*flat] += v;
+        if let (true, None) = (self.complete, affine.support) {
+            out.d.copy_from_slice(&self.d);
+            out.v.copy_from_slice(&self.v);
+            return;
+        }
+        match affine.support {
+            Some([d, v]) => {
+                out.d.copy_from_slice(d);
+                out.v.copy_from_slice(v);
             }
+            None => {
+                out.d.fill(0.0);
+                out.v.fill(0.0);
+            }
+        }
+        for ((flat, d), v) in self.links.active.iter().zip(&self.d).zip(&self.v) {
+            out.d[*flat] += d;
+            out.v[*flat] += v;
         }
     }
 
@@ -346,14 +371,20 @@ impl<'a> LinkKernel<'a> {
         self.deform(affine, out);
         let at = Kinematics { d: out.d, v: out.v, d0: from.d, v0: from.v, dt: from.dt };
         self.laws.respond(at, from.history, out.history, out.f, &mut self.tangents, out.energy);
-        let dummies = self.dummy_k.iter().zip(&self.d).map(|(k, d)| k * d);
-        let terms = out.pseudo.iter().zip(dummies).zip(self.residual.iter_mut());
+        self.sizes = self.leave(out.f, out.pseudo);
+    }
+
+    /// The residual of forces, flat, against pseudo-forces at the present deformations, and the largest of all
+    /// three.
+    fn leave(&mut self, f: &[f64], pseudo: &[f64]) -> [f64; 3] {
+        let Self { dummy_k, d, residual: r, correction: own, .. } = self;
         if self.complete {
-            terms.zip(out.f.iter()).for_each(|(((x, held), r), f)| *r = f - held - *x);
-        } else {
-            let forces = self.links.active.iter().map(|flat| out.f[*flat]);
-            terms.zip(forces).for_each(|(((x, held), r), f)| *r = f - held - *x);
+            return residual(f, dummy_k, d, pseudo, r);
         }
+        own.clear();
+        own.extend(self.links.active.iter().map(|flat| f[*flat]));
+        let [left, _, pseudo] = residual(own, dummy_k, d, pseudo, r);
+        [left, largest(f), pseudo]
     }
 
     /// Largest residual over its tolerance, and where.
@@ -365,7 +396,7 @@ impl<'a> LinkKernel<'a> {
     ) -> (f64, NoEquilibrium) {
         let links = self.links;
         let (mut now, mut left) = (*scale, [0.0; 2]);
-        let of_residual = largest(&self.residual);
+        let [of_residual, of_force, of_pseudo] = self.sizes;
         if !self.rotations && of_residual <= self.tolerance * now[0] {
             return (0.0, NoEquilibrium { worst: 0, residual: 0.0 });
         }
@@ -378,7 +409,7 @@ impl<'a> LinkKernel<'a> {
             }
         } else {
             left[0] = of_residual;
-            now[0] = largest(out.f).max(PSEUDO_SHARE * largest(out.pseudo)).max(now[0]);
+            now[0] = of_force.max(PSEUDO_SHARE * of_pseudo).max(now[0]);
         }
         let mut worst = NoEquilibrium { worst: 0, residual: 0.0 };
         if let (false, Some(a)) =
@@ -426,18 +457,17 @@ impl<'a> LinkKernel<'a> {
     }
 
     /// Replaces the residual by the Newton correction of f̃.
-    fn newton_correction(&mut self, affine: &Affine<'_>, slow: bool) {
-        let of = Equations {
-            links: self.links,
-            place: &self.place,
-            dummy_k: &self.dummy_k,
-            g: affine.g,
-            h: affine.h,
-            key: affine.key,
-        };
+    fn newton_correction(&mut self, affine: &Affine<'_>, tangents: &Tangents, slow: bool) {
         let chord = self.links.active.len() >= CHORD_FROM && !slow;
-        let factor =
-            self.factors.take(of, &self.tangents, |kept| chord || kept.tangents == self.tangents);
-        factor.correct(&mut self.residual, &mut self.correction);
+        let mut factors = std::mem::take(&mut self.factors);
+        let of = self.equations(affine.g, affine.h, affine.key);
+        let factor = factors.take(of, tangents, |kept| chord || kept.tangents == *tangents);
+        self.followed = factor.correct(&mut self.residual, &mut self.correction);
+        self.factors = factors;
+    }
+
+    fn equations<'e>(&'e self, g: &'e Dense, h: &'e Dense, key: StepKey) -> Equations<'e> {
+        let Self { links, place, dummy_k, rated, .. } = self;
+        Equations { links, place, dummy_k, rated, g, h, key }
     }
 }

@@ -4,7 +4,9 @@
 //! them, at the mean rate of the step where it does not.
 
 use super::bit;
-use trilith_linalg::{Dense, DenseLu, add_products, combine, dot, expm, weighted_square};
+use trilith_linalg::{
+    Dense, DenseLu, OwnModes, add_products, combine, dot, expm, weighted_square,
+};
 
 /// The linear structure on a basis: modes first, static shapes (without mass, of stiffness one) behind them.
 pub(super) struct Structure {
@@ -14,6 +16,8 @@ pub(super) struct Structure {
     pub omega2: Vec<f64>,
     /// Diagonal of the damping.
     pub rates: Vec<f64>,
+    /// 1 of the modes, 0 of the static shapes.
+    pub mass: Vec<f64>,
     /// All of it, where it couples the modes.
     pub damping: Option<Dense>,
 }
@@ -95,6 +99,12 @@ impl Rule {
             }
         }
         Self { coupled, own }
+    }
+
+    /// The modes of a structure, where each moves on its own.
+    pub(super) fn own<'a>(&'a self, structure: &'a Structure) -> Option<OwnModes<'a>> {
+        let Structure { omega2, rates, mass, .. } = structure;
+        self.coupled.is_none().then_some(OwnModes { c: &self.own, omega2, rates, mass })
     }
 
     /// Σ over the four inputs of one row.

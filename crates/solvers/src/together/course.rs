@@ -143,9 +143,8 @@ impl<'a, 'b> Course<'a, 'b> {
 
     pub(super) fn predict(&mut self, modes: &Modes) {
         let forces = self.side.forces();
-        Modes::at_start(&mut self.sources, forces.load0);
-        let to = &mut self.next.motion;
-        modes.predict(&mut self.sources, &self.state.motion, forces.load1, to);
+        let loads = [forces.load0, forces.load1];
+        modes.predict(&mut self.sources, &self.state.motion, loads, &mut self.next.motion);
     }
 
     /// Displacements as predicted, and where those of the links go; rates that laws look at are put in place.
@@ -169,14 +168,16 @@ impl<'a, 'b> Course<'a, 'b> {
         }
     }
 
-    /// The last change of the pseudo-forces, and the deformations that must follow; the rates have done so.
-    pub(super) fn change(&mut self, modes: &Modes) -> (&[f64], &mut [f64]) {
-        self.side.follow_rates(modes.compliance());
-        self.side.kernel.change()
+    /// The last change of the pseudo-forces, and the deformations that must follow, where they have not done so
+    /// with it; the rates have.
+    pub(super) fn change(&mut self, modes: &Modes) -> Option<(&[f64], &mut [f64])> {
+        self.side.kernel.change(&modes.compliance().h)
     }
 
     pub(super) fn correct(&mut self, modes: &Modes) {
-        modes.correct(&mut self.sources, self.side.forces().load1, &mut self.next.motion);
+        let forces = self.side.forces();
+        let loads = [forces.load0, forces.load1];
+        modes.complete(&mut self.sources, &self.state.motion, loads, &mut self.next.motion);
     }
 
     /// Velocities, and where those of the links go, if the laws left some open.
@@ -190,8 +191,8 @@ impl<'a, 'b> Course<'a, 'b> {
     pub(super) fn accept(&mut self, modes: &Modes) {
         let Self { side, state, next, energy, sources, .. } = self;
         side.settle(next, energy);
-        energy.work = modes.work(sources, &state.motion, &next.motion, &side.forces());
-        let of_motion = modes.energy(&next.motion);
+        energy.work = modes.work(sources);
+        let of_motion = (energy.work.kinetic, energy.work.strain);
         side.book(&modes.space.dummy_k, state, next, of_motion, energy);
         self.ledger.enter(&self.energy, potential(&self.constant, &self.next));
         if self.at < self.timeline.time(self.made + 1) - 1e-12 * self.timeline.dt {

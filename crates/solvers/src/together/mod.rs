@@ -222,17 +222,18 @@ fn step(modes: &mut Modes, courses: &mut [Course<'_, '_>], part: usize, dt: f64)
     let mut moved = Vec::new();
     for course in &mut going {
         if course.take_up(modes, dt) {
-            moved.push(course.change(modes));
+            moved.extend(course.change(modes));
         }
     }
     modes.compliance().g.mul_add_each(-1.0, &mut moved);
     loop {
         going.iter_mut().filter(|c| !c.is_settled()).for_each(|c| c.iterate(modes, dt));
-        let open = going.iter_mut().filter(|c| c.is_on_the_way() && !c.is_settled());
-        let mut pairs: Vec<_> = open.map(|c| c.change(modes)).collect();
-        if pairs.is_empty() {
+        let is_open = |c: &Course<'_, '_>| c.is_on_the_way() && !c.is_settled();
+        if !going.iter().any(|c| is_open(c)) {
             break;
         }
+        let open = going.iter_mut().filter(|c| is_open(c));
+        let mut pairs: Vec<_> = open.filter_map(|c| c.change(modes)).collect();
         modes.compliance().g.mul_add_each(-1.0, &mut pairs);
     }
     going.retain(|c| c.is_on_the_way());

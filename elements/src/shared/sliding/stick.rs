@@ -19,6 +19,7 @@ pub(crate) struct Friction {
 }
 
 /// Returns the elastic force kₑ ξ onto the circle of radius `limit`.
+#[inline]
 pub(crate) fn radial_return(ke: f64, stretch: Vector2<f64>, limit: f64) -> Friction {
     let length = stretch.norm();
     if ke * length <= limit && limit > 0.0 {
@@ -33,12 +34,13 @@ pub(crate) fn radial_return(ke: f64, stretch: Vector2<f64>, limit: f64) -> Frict
         let (tau, by_limit) = (Vector2::zeros(), Vector2::zeros());
         return Friction { slips: true, tau, by_stretch: Matrix2::zeros(), by_limit };
     }
-    let along = stretch / length;
+    let inverse = length.recip();
+    let along = stretch * inverse;
     let across = Matrix2::identity() - along * along.transpose();
     Friction {
         slips: true,
         tau: along * limit,
-        by_stretch: across * (limit / length),
+        by_stretch: across * (limit * inverse),
         by_limit: along,
     }
 }

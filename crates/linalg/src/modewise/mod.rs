@@ -1,6 +1,10 @@
 //! Loops over numbers that belong to the modes of a structure, one by one, in vectors as wide as the processor
 //! has them.
 
+mod step;
+
+pub use step::{OwnModes, Start, StepSums};
+
 use pulp::{Arch, Simd, WithSimd};
 
 /// `y = a₀ x₀ + a₁ x₁ + a₂ x₂ + a₃ x₃`, element by element.
@@ -163,7 +167,7 @@ impl WithSimd for Work<'_> {
 mod tests {
     use super::*;
 
-    fn numbers(n: usize, seed: usize) -> Vec<f64> {
+    pub(super) fn numbers(n: usize, seed: usize) -> Vec<f64> {
         (0..n).map(|i| (((i + seed) * 7919 + 13) % 101) as f64 / 50.0 - 1.0).collect()
     }
 
