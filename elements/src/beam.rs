@@ -44,7 +44,7 @@ mod matrices;
 #[cfg(test)]
 mod tests;
 
-use crate::shared::dense::{repeated, used};
+use crate::shared::dense::{to_global, used};
 use nalgebra::DMatrix;
 use serde::Deserialize;
 use trilith_element::dimension::{
@@ -275,9 +275,8 @@ impl LinearElement for Beam {
             )));
         }
         let (k, m) = self.local(whole, flexible, at.tension)?;
-        let t = repeated(&at.frame, 4);
         let none = DMatrix::zeros(12, 12);
-        Ok(used(&(t.transpose() * k * &t), &(t.transpose() * m * &t), &none))
+        Ok(used(&to_global(&k, &at.frame), &to_global(&m, &at.frame), &none))
     }
 }
 

@@ -142,8 +142,7 @@ impl Link for ElastomericBearing {
         let (tau, k) = (end.tau, end.by_stretch);
         out.f.copy_from_slice(&[after * d.x + tau.x, after * d.y + tau.y]);
         out.k.copy_from_slice(&[k.m11 + after, k.m12, k.m21, k.m22 + after]);
-        out.energy.stored =
-            0.5 * (after * d.norm_squared() + end.tau.norm_squared() * flexibility);
+        out.energy.stored = 0.5 * (after * d.norm_squared() + end.tau.norm_squared() * flexibility);
         // The return is along q: never negative but for rounding.
         out.energy.hysteretic = (0.5 * (start + end.tau).dot(&(now - plastic))).max(0.0);
     }

@@ -122,7 +122,8 @@ mod tests {
     fn a_residual_is_told_with_its_sizes_at_every_length() {
         for n in 0..20 {
             let number = |i: usize| ((i * 7919 + 13) % 101) as f64 / 50.0 - 1.0;
-            let x: Vec<Vec<f64>> = (0..4).map(|k| (0..n).map(|i| number(i + 31 * k)).collect()).collect();
+            let x: Vec<Vec<f64>> =
+                (0..4).map(|k| (0..n).map(|i| number(i + 31 * k)).collect()).collect();
             let mut r = vec![9.0; n];
             let sizes = residual(&x[0], &x[1], &x[2], &x[3], &mut r);
             for i in 0..n {

@@ -161,11 +161,14 @@ impl Table {
         let (h, x) = (self.times[i + 1] - self.times[i], t - self.times[i]);
         let (y0, y1) = (self.values[i], self.values[i + 1]);
         let slope = (y1 - y0) / h;
+        // The value at a sample is the same from both sides, to the bit.
+        let value = |inside: f64| if x == h { y1 } else { inside };
         if self.curvatures.is_empty() {
-            return [y0 + slope * x, slope, 0.0];
+            return [value(y0 + slope * x), slope, 0.0];
         }
         let [b, c, d] = self.coefficients(i);
-        [y0 + x * (b + x * (c + x * d)), b + x * (2.0 * c + 3.0 * x * d), 2.0 * c + 6.0 * x * d]
+        let inside = y0 + x * (b + x * (c + x * d));
+        [value(inside), b + x * (2.0 * c + 3.0 * x * d), 2.0 * c + 6.0 * x * d]
     }
 
     /// Index of the segment that holds t. Samples are mostly evenly spaced, so it is guessed first.

@@ -375,8 +375,10 @@ fn output_step(
     viewer: &mut Viewer<'_, '_>,
 ) -> Result<(), Stop> {
     let end = timeline.time(step + 1);
-    for (t0, length) in timeline.pieces(step) {
+    for piece in timeline.pieces(step) {
+        let t0 = piece.start;
         if t0 > 0.0 && timeline.is_break(t0) {
+            march.cut();
             let change: Vec<f64> = march
                 .loads
                 .channels
@@ -394,7 +396,7 @@ fn output_step(
             }
             energy
         };
-        march.segment(state, pace, t0, length, &mut accept)?;
+        march.segment(state, pace, piece, &mut accept)?;
     }
     Ok(())
 }

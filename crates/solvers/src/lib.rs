@@ -30,6 +30,7 @@ mod p_delta;
 mod peak;
 mod products;
 mod propagator;
+mod single_mode;
 mod space;
 mod span;
 mod start;

@@ -12,6 +12,7 @@
 use crate::error::SolveError;
 use crate::space::Space;
 use crate::stepper::{State, StepEnergy, StepFailure, Stepper};
+use crate::timeline::Piece;
 use serde::{Deserialize, Serialize};
 use trilith_model::StepControl;
 use trilith_system::{LoadSet, StepLoads};
@@ -104,23 +105,26 @@ impl<'a> March<'a> {
         Self { stepper, loads, control, counts: Counts::default(), trial: Trial::default() }
     }
 
-    /// From t0 over `length`; `accept` sees every substep and returns the energy it knows of.
+    /// The next segment starts where a load may jump.
+    pub(crate) fn cut(&mut self) {
+        self.trial.loads.cut();
+    }
+
+    /// Over a piece of an output step; `accept` sees every substep and returns the energy it knows of.
     pub(crate) fn segment(
         &mut self,
         state: &mut State,
         pace: &mut Pace,
-        t0: f64,
-        length: f64,
+        piece: Piece,
         accept: &mut Accepted<'_>,
     ) -> Result<(), Stop> {
         match self.control {
             StepControl::Adaptive { tolerance } => {
-                self.adaptive(state, pace, t0, length, tolerance, accept)
+                self.adaptive(state, pace, piece, tolerance, accept)
             }
             StepControl::Fixed { substeps } => {
-                let part = length / substeps as f64;
-                for i in 0..substeps {
-                    self.fixed(state, t0 + part * i as f64, part, accept)?;
+                for part in piece.parts(substeps) {
+                    self.fixed(state, part, accept)?;
                 }
                 Ok(())
             }
@@ -131,8 +135,7 @@ impl<'a> March<'a> {
         &mut self,
         state: &mut State,
         pace: &mut Pace,
-        t0: f64,
-        length: f64,
+        piece: Piece,
         tolerance: f64,
         accept: &mut Accepted<'_>,
     ) -> Result<(), Stop> {
@@ -140,14 +143,14 @@ impl<'a> March<'a> {
         let mut at: u64 = 0;
         // The number of halvings whose whole step is there already.
         let mut known: Option<u32> = None;
-        let time = |ticks: u64| t0 + length * (ticks as f64 / full as f64);
+        let time = |ticks: u64| piece.time(ticks as f64 / full as f64);
         while at < full {
             let mut level = pace.level;
             while !at.is_multiple_of(full >> level) {
                 level += 1;
             }
             let ticks = full >> level;
-            let size = length / (1u64 << level) as f64;
+            let size = piece.length / (1u64 << level) as f64;
             let (start, middle, end) = (time(at), time(at + ticks / 2), time(at + ticks));
             let attempt = self.attempt(state, [start, middle, end], size, known == Some(level));
             known = None;
@@ -225,16 +228,15 @@ impl<'a> March<'a> {
     fn fixed(
         &mut self,
         state: &mut State,
-        t0: f64,
-        length: f64,
+        piece: Piece,
         accept: &mut Accepted<'_>,
     ) -> Result<(), Stop> {
         let full: u64 = 1 << DEPTH;
         let (mut at, mut level) = (0u64, 0u32);
-        let time = |ticks: u64| t0 + length * (ticks as f64 / full as f64);
+        let time = |ticks: u64| piece.time(ticks as f64 / full as f64);
         while at < full {
             let ticks = full >> level;
-            let size = length / (1u64 << level) as f64;
+            let size = piece.length / (1u64 << level) as f64;
             let Trial { whole, energies: [energy, ..], loads, .. } = &mut self.trial;
             self.loads.step(time(at), time(at + ticks), loads);
             match self.stepper.step(state, whole, loads, size, energy) {

@@ -173,7 +173,12 @@ impl Modes {
     }
 
     /// The rule for a step from a state whose links have this stiffness.
-    pub(crate) fn choose(&mut self, dt: f64, stiffness: &[f64], stiffest: &[f64]) -> StepKey {
+    pub(crate) fn choose(
+        &mut self,
+        dt: f64,
+        stiffness: &mut dyn Iterator<Item = f64>,
+        stiffest: &[f64],
+    ) -> StepKey {
         let size = self.size(dt);
         let step = &self.steps[size];
         let mut average = 0;
@@ -355,9 +360,9 @@ fn bit(mode: usize) -> u64 {
 }
 
 /// A bound of the largest eigenvalue of G diag(k): the row sums of √k G √k.
-fn bound(g: &Dense, k: &[f64], root: &mut Vec<f64>) -> f64 {
+fn bound(g: &Dense, k: &mut dyn Iterator<Item = f64>, root: &mut Vec<f64>) -> f64 {
     root.clear();
-    root.extend(k.iter().map(|k| k.max(0.0).sqrt()));
+    root.extend(k.map(|k| k.max(0.0).sqrt()));
     let row = |(a, x): (usize, &f64)| {
         x * g.column(a).iter().zip(&*root).map(|(g, y)| g.abs() * y).sum::<f64>()
     };
@@ -392,7 +397,12 @@ impl Propagator for Modal {
         0
     }
 
-    fn choose(&mut self, dt: f64, stiffness: &[f64], stiffest: &[f64]) -> StepKey {
+    fn choose(
+        &mut self,
+        dt: f64,
+        stiffness: &mut dyn Iterator<Item = f64>,
+        stiffest: &[f64],
+    ) -> StepKey {
         self.modes.choose(dt, stiffness, stiffest)
     }
 

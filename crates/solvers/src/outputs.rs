@@ -3,7 +3,7 @@
 use crate::space::Space;
 use crate::stepper::State;
 use std::ops::Range;
-use trilith_linalg::Dense;
+use trilith_linalg::{Dense, Product};
 use trilith_model::{Combine, Model, NodalTerm, Quantity, Side};
 use trilith_system::{LoadSet, System};
 
@@ -46,8 +46,7 @@ pub(crate) type Split = (Vec<(usize, f64)>, Vec<(usize, f64)>);
 struct Run {
     rows: Range<usize>,
     order: usize,
-    /// A column for each.
-    own: Dense,
+    own: Product,
 }
 
 impl Run {
@@ -68,12 +67,13 @@ impl Run {
             let (Some(of), true) = (group.first().and_then(full), group.len() >= TOGETHER) else {
                 continue;
             };
-            let mut own = Dense::zeros(order, group.len());
+            let mut own = Dense::zeros(group.len(), order);
             for (j, row) in group.iter().enumerate() {
                 if let Row::Nodal { own: terms, .. } = row {
-                    terms.iter().for_each(|(i, c)| own[(*i, j)] += c);
+                    terms.iter().for_each(|(i, c)| own[(j, *i)] += c);
                 }
             }
+            let own = Product::new(own);
             runs.push(Self { rows: range, order: of, own });
         }
         runs
@@ -88,6 +88,8 @@ pub(crate) struct Outputs {
     pub(crate) rows: Vec<Row>,
     /// Nodal rows of one order that follow each other, where they are full and nothing else adds to them.
     runs: Vec<Run>,
+    /// Deformations of links: row, flat coordinate, factor.
+    deformations: Vec<(usize, usize, f64)>,
     /// All other rows.
     others: Vec<usize>,
     prescribed: usize,
@@ -169,8 +171,23 @@ impl Outputs {
         let prescribed = system.reduction.prescribed.len();
         let runs = Run::of(&rows, space.order());
         let in_run = |i: &usize| runs.iter().any(|run| run.rows.contains(i));
-        let others = (0..rows.len()).filter(|i| !in_run(i)).collect();
-        Self { rows, runs, others, prescribed, order: space.order(), supported, absolute }
+        let deformation = |(i, row): (usize, &Row)| match row {
+            Row::Deformation { flat, factor } => Some((i, *flat, *factor)),
+            _ => None,
+        };
+        let deformations = rows.iter().enumerate().filter_map(deformation).collect();
+        let is_other = |i: &usize| !in_run(i) && !matches!(rows[*i], Row::Deformation { .. });
+        let others = (0..rows.len()).filter(is_other).collect();
+        Self {
+            rows,
+            runs,
+            deformations,
+            others,
+            prescribed,
+            order: space.order(),
+            supported,
+            absolute,
+        }
     }
 
     /// Values and, for displacements, rates.
@@ -196,11 +213,12 @@ impl Outputs {
         for Run { rows, order, own } in &self.runs {
             for (order, to) in [(*order, &mut *values), (order + 1, &mut *rates)] {
                 if let Some(motion) = motion.get(order) {
-                    let to = &mut to[rows.clone()];
-                    to.fill(0.0);
-                    own.transpose_mul_add(1.0, motion, to);
+                    own.times(motion, &mut to[rows.clone()]);
                 }
             }
+        }
+        for (i, flat, factor) in &self.deformations {
+            (values[*i], rates[*i]) = (factor * state.d[*flat], factor * state.v[*flat]);
         }
         for i in self.others.iter().copied() {
             values[i] = match &self.rows[i] {
@@ -211,10 +229,7 @@ impl Outputs {
                     let moving: f64 = share.iter().zip(base).map(|(a, b)| a * b).sum();
                     sum(own, motion[*order]) + sum(tied, &support[*order]) + moving
                 }
-                Row::Deformation { flat, factor } => {
-                    rates[i] = factor * state.v[*flat];
-                    factor * state.d[*flat]
-                }
+                Row::Deformation { flat, factor } => factor * state.d[*flat],
                 Row::Force { flat, factor } => factor * state.f[*flat],
                 Row::History { at } => state.history[*at],
                 Row::Combination { how, constant, terms } => {

@@ -69,7 +69,12 @@ pub(crate) trait Propagator {
 
     /// The step of length `dt` from a state whose active link coordinates have this stiffness, and had that
     /// one at most so far.
-    fn choose(&mut self, dt: f64, _stiffness: &[f64], _stiffest: &[f64]) -> StepKey {
+    fn choose(
+        &mut self,
+        dt: f64,
+        _stiffness: &mut dyn Iterator<Item = f64>,
+        _stiffest: &[f64],
+    ) -> StepKey {
         StepKey { dt, average: 0 }
     }
 

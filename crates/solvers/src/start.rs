@@ -114,7 +114,7 @@ pub(crate) fn check(
     }
     let (links, state) = (&system.links, &end.state);
     let flat = [&state.d, &state.v, &state.f].iter().all(|x| x.len() == links.len());
-    let active = [&state.stiffness, &state.stiffest, &state.pseudo];
+    let active = [&state.stiffest, &state.pseudo];
     let active = active.iter().all(|x| x.len() == links.active.len());
     let tangents = [&state.tangents.k, &state.tangents.c];
     let blocks = end.memory.iter().flat_map(|m| [&m.k, &m.c]).chain(tangents);

@@ -88,14 +88,7 @@ pub(crate) fn equilibrium(
         let mut attempt = pseudo.clone();
         let mut energy = vec![Energy::default(); links.links.len()];
         let outcome = kernel.solve(
-            &Affine {
-                d: &d,
-                v: &v,
-                support: None,
-                g: &g,
-                h: &none,
-                key: StepKey::default(),
-            },
+            &Affine { d: &d, v: &v, support: None, g: &g, h: &none, key: StepKey::default() },
             &Committed {
                 d: &state.d,
                 v: &zero,

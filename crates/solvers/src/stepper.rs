@@ -32,9 +32,7 @@ pub struct State {
     pub(crate) stored: Vec<f64>,
     /// Tangents of the laws.
     pub(crate) tangents: Tangents,
-    /// Stiffness of the active link coordinates as they are, N/m or N·m.
-    pub(crate) stiffness: Vec<f64>,
-    /// The largest that it has been so far.
+    /// The largest stiffness of the active link coordinates so far, N/m or N·m.
     pub(crate) stiffest: Vec<f64>,
 }
 
@@ -55,7 +53,6 @@ impl State {
             scale: [0.0; 2],
             stored: vec![0.0; links.links.len()],
             tangents: links.tangents(),
-            stiffness: vec![0.0; links.active.len()],
             stiffest: vec![0.0; links.active.len()],
             d,
             v,
@@ -88,12 +85,9 @@ impl State {
     pub(crate) fn settle(&mut self, links: &LinkSet, energy: &[Energy], tangents: &Tangents) {
         self.tangents.k.copy_from_slice(&tangents.k);
         self.tangents.c.copy_from_slice(&tangents.c);
-        for (stiffness, flat) in self.stiffness.iter_mut().zip(&links.active) {
-            *stiffness = tangents.k[links.diagonal[*flat]];
-        }
-        for (most, now) in self.stiffest.iter_mut().zip(&self.stiffness) {
-            if now > most {
-                *most = *now;
+        for (most, now) in self.stiffest.iter_mut().zip(links.stiffness(tangents)) {
+            if now > *most {
+                *most = now;
             }
         }
         for (stored, e) in self.stored.iter_mut().zip(energy) {
@@ -241,7 +235,8 @@ impl<P: Propagator> Stepper for LinkStepper<'_, P> {
         dt: f64,
         energy: &mut StepEnergy,
     ) -> Result<(), StepFailure> {
-        let key = self.propagator.choose(dt, &from.stiffness, &from.stiffest);
+        let now = &mut self.side.links().stiffness(&from.tangents);
+        let key = self.propagator.choose(dt, now, &from.stiffest);
         self.propagator.prepare(key)?;
         let side = &mut self.side;
         side.begin(self.propagator.space(), from, to, loads, energy);

@@ -10,6 +10,29 @@ pub(crate) struct Timeline {
     pub breaks: Vec<f64>,
 }
 
+/// A piece of an output step; its length is that of other steps to the bit where it is a whole one.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Piece {
+    pub start: f64,
+    pub end: f64,
+    pub length: f64,
+}
+
+impl Piece {
+    /// Time at a share of it; the end to the bit.
+    pub(crate) fn time(&self, share: f64) -> f64 {
+        if share == 1.0 { self.end } else { self.start + self.length * share }
+    }
+
+    /// Equal parts of it.
+    pub(crate) fn parts(self, count: usize) -> impl Iterator<Item = Self> {
+        let length = self.length / count as f64;
+        let time =
+            move |i: usize| if i == count { self.end } else { self.start + length * i as f64 };
+        (0..count).map(move |i| Self { start: time(i), end: time(i + 1), length })
+    }
+}
+
 impl Timeline {
     pub(crate) fn new(dt: f64, duration: f64, loads: &LoadSet) -> Self {
         let steps = ((duration / dt) - 1e-9).ceil().max(1.0) as usize;
@@ -26,8 +49,8 @@ impl Timeline {
         self.breaks.iter().any(|b| (b - t).abs() <= self.near())
     }
 
-    /// (start, length) of the pieces of an output step.
-    pub(crate) fn pieces(&self, step: usize) -> impl Iterator<Item = (f64, f64)> + '_ {
+    /// The pieces of an output step.
+    pub(crate) fn pieces(&self, step: usize) -> impl Iterator<Item = Piece> + '_ {
         let (t0, t1) = (self.time(step), self.time(step + 1));
         let near = self.near();
         let inside = move |t: &f64| *t > t0 + near && *t < t1 - near;
@@ -35,7 +58,8 @@ impl Timeline {
         let whole = (t1 - t0 - self.dt).abs() <= near && !self.breaks.iter().any(inside);
         let ends = self.breaks.iter().copied().filter(inside).chain([t1]);
         ends.scan(t0, move |start, end| {
-            let piece = (*start, if whole { self.dt } else { end - *start });
+            let length = if whole { self.dt } else { end - *start };
+            let piece = Piece { start: *start, end, length };
             *start = end;
             Some(piece)
         })

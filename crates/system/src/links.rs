@@ -55,7 +55,7 @@ pub struct LinkSet {
     pub history_len: usize,
     /// Length of the flat tangents.
     pub block_len: usize,
-    /// Place of each flat coordinate's own stiffness in the flat tangents.
+    /// Place of the own stiffness of each active coordinate in the flat tangents.
     pub diagonal: Vec<usize>,
 }
 
@@ -177,10 +177,15 @@ impl LinkSet {
                 history: set.history_len..set.history_len + fields,
                 settled: None,
             });
-            set.diagonal.extend((0..n).map(|i| set.block_len + i * n + i));
             set.block_len += n * n;
             set.history_len += fields;
         }
+        let diagonal = |link: &LinkInstance| {
+            let (start, n) = (link.block.start, link.range.len());
+            (0..n).map(move |i| start + i * (n + 1))
+        };
+        let flat = set.links.iter().flat_map(diagonal).enumerate();
+        set.diagonal = flat.filter(|(i, _)| !set.rows[*i].is_empty()).map(|(_, at)| at).collect();
         set.active = (0..set.rows.len()).filter(|i| !set.rows[*i].is_empty()).collect();
         Ok(set)
     }
@@ -278,6 +283,11 @@ impl LinkSet {
     #[must_use]
     pub fn tangents(&self) -> Tangents {
         Tangents { k: vec![0.0; self.block_len], c: vec![0.0; self.block_len] }
+    }
+
+    /// Stiffness of the active coordinates as they are, N/m or N·m.
+    pub fn stiffness<'a>(&'a self, tangents: &'a Tangents) -> impl Iterator<Item = f64> + 'a {
+        self.diagonal.iter().map(|at| tangents.k[*at])
     }
 
     /// Name of a flat coordinate, such as `"foot" U1`.

@@ -66,6 +66,15 @@ pub struct StepLoads {
     pub start: Vec<f64>,
     /// At the end.
     pub end: Vec<f64>,
+    /// When that is, s; none where a load may jump there.
+    until: Option<f64>,
+}
+
+impl StepLoads {
+    /// The next step starts where a load may jump.
+    pub fn cut(&mut self) {
+        self.until = None;
+    }
 }
 
 /// All loads of a case.
@@ -177,14 +186,20 @@ impl System {
 }
 
 impl LoadSet {
-    /// Amplitudes over a step.
+    /// Amplitudes over a step; what is known from a step that ended at its start is kept.
     pub fn step(&self, t0: f64, t1: f64, loads: &mut StepLoads) {
-        for (to, t, side) in
-            [(&mut loads.start, t0, Side::After), (&mut loads.end, t1, Side::Before)]
-        {
+        let goes_on = |c: &Channel| matches!(c.track, Track::Constant | Track::Value { .. });
+        let all = |to: &mut Vec<f64>, t: f64, side: Side| {
             to.clear();
             to.extend(self.channels.iter().map(|c| c.track.at(t, side)));
+        };
+        if loads.until == Some(t0) && self.channels.iter().all(goes_on) {
+            std::mem::swap(&mut loads.start, &mut loads.end);
+        } else {
+            all(&mut loads.start, t0, Side::After);
         }
+        all(&mut loads.end, t1, Side::Before);
+        loads.until = Some(t1);
     }
 
     /// Σ amplitude · force.

@@ -86,9 +86,11 @@ impl Beam {
             MassMatrix::Consistent => self.consistent(&s, per_length, l, phi12, phi13),
         };
         self.release(&mut k, &mut m)?;
-        let arms = self.arms();
-        k = arms.transpose() * k * &arms;
-        m = arms.transpose() * m * &arms;
+        if self.offset_i != 0.0 || self.offset_j != 0.0 {
+            let arms = self.arms();
+            k = arms.transpose() * k * &arms;
+            m = arms.transpose() * m * &arms;
+        }
         match self.mass_matrix {
             MassMatrix::Lumped => {
                 for i in [0, 1, 2, 6, 7, 8] {

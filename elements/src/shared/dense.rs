@@ -13,20 +13,33 @@ pub(crate) fn between(a: Vector3, b: Vector3) -> V3<f64> {
     V3::from(b) - V3::from(a)
 }
 
-/// The frame repeated along the diagonal, `blocks` times.
-pub(crate) fn repeated(frame: &Frame, blocks: usize) -> DMatrix<f64> {
+/// The frame twice along the diagonal.
+fn twice(frame: &Frame) -> DMatrix<f64> {
     let r = rotation(frame);
-    let mut t = DMatrix::zeros(3 * blocks, 3 * blocks);
-    for b in 0..blocks {
+    let mut t = DMatrix::zeros(6, 6);
+    for b in 0..2 {
         t.view_mut((3 * b, 3 * b), (3, 3)).copy_from(&r);
     }
     t
 }
 
+/// A matrix over triples of local displacements or rotations, over global ones.
+pub(crate) fn to_global(local: &DMatrix<f64>, frame: &Frame) -> DMatrix<f64> {
+    let r = rotation(frame);
+    let mut global = DMatrix::zeros(local.nrows(), local.ncols());
+    for a in (0..local.nrows()).step_by(3) {
+        for b in (0..local.ncols()).step_by(3) {
+            let block: Matrix3<f64> = local.fixed_view::<3, 3>(a, b).into();
+            global.fixed_view_mut::<3, 3>(a, b).copy_from(&(r.transpose() * block * r));
+        }
+    }
+    global
+}
+
 /// Local deformations from the global displacements of one or two nodes: `6 × 6` or `6 × 12`. Two nodes
 /// apart are joined by a rigid arm from i to j, and the deformation is taken at j.
 pub(crate) fn deformations(at: &Geometry<'_>) -> DMatrix<f64> {
-    let turned = repeated(&at.frame, 2);
+    let turned = twice(&at.frame);
     let [i, j] = at.nodes else { return turned };
     let mut b = DMatrix::zeros(6, 12);
     b.view_mut((0, 6), (6, 6)).copy_from(&turned);

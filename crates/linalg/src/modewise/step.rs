@@ -231,7 +231,10 @@ mod tests {
                 std::array::from_fn(|_| vec![9.0; n]);
             modes.predict(from, &x[6], [&mut s0, &mut s1], [&mut q, &mut v]);
             let with = |row: usize, i: usize, s: f64, t: f64| {
-                c[row][0][i] * x[2][i] + c[row][1][i] * x[3][i] + c[row][2][i] * s + c[row][3][i] * t
+                c[row][0][i] * x[2][i]
+                    + c[row][1][i] * x[3][i]
+                    + c[row][2][i] * s
+                    + c[row][3][i] * t
             };
             let close = |a: f64, b: f64| assert!((a - b).abs() < 1e-13, "{n}: {a} {b}");
             for i in 0..n {

@@ -1,8 +1,8 @@
 //! Coefficients of a step size for all lanes.
 
 use super::plan::Plan;
-use super::rule::{Mode, mode};
 use super::setup::LaneSetup;
+use crate::single_mode::{self, Mode};
 use trilith_element::lanes::{Arithmetic, Real};
 
 /// Coefficients of a step size.
@@ -31,9 +31,12 @@ impl<R: Real, const M: usize, const L: usize> Rule<R, M, L> {
             .enumerate()
             .map(|(i, s)| match lengths {
                 None => s.rule.clone(),
-                Some(t) => {
-                    s.omega2.iter().zip(&s.damping).map(|(w, c)| mode(*w, *c, t[i])).collect()
-                }
+                Some(t) => s
+                    .omega2
+                    .iter()
+                    .zip(&s.damping)
+                    .map(|(w, c)| single_mode::exact(*w, *c, t[i]))
+                    .collect(),
             })
             .collect();
         let last = setups.len() - 1;

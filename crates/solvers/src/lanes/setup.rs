@@ -1,6 +1,6 @@
 //! What one analysis brings to a sweep: made by the ordinary assembly, basis and start.
 
-use super::rule::{Mode, mode, stiffness_ratio};
+use super::rule::stiffness_ratio;
 use super::tables::{Grid, Table, Tables};
 use crate::case::before;
 use crate::dynamic::{bases, held_load, link_side, modes};
@@ -8,6 +8,7 @@ use crate::error::SolveError;
 use crate::modal::{LONGEST, Modal};
 use crate::outputs::{Outputs, Row};
 use crate::propagator::kinetic_and_strain;
+use crate::single_mode::{self, Mode};
 use crate::space::Space;
 use crate::start::{constant_force, potential, start};
 use crate::stepper::{LinkStepper, State, Stepper};
@@ -188,7 +189,8 @@ pub fn prepare(
         *row = turned(&turn, row);
     }
     let step = dt / substeps as f64;
-    let rule: Vec<Mode> = omega2.iter().zip(&own).map(|(w, c)| mode(*w, *c, step)).collect();
+    let rule: Vec<Mode> =
+        omega2.iter().zip(&own).map(|(w, c)| single_mode::exact(*w, *c, step)).collect();
     let engaged = links.engaged(model);
     let engaged: Vec<f64> = flat.iter().map(|i| engaged[*i]).collect();
     if stiffness_ratio(&rows, &rule, &engaged) > LONGEST {
@@ -369,7 +371,7 @@ fn cuts(timeline: &Timeline) -> Vec<(usize, Vec<Piece>)> {
     cut.sort_unstable();
     cut.dedup();
     cut.into_iter()
-        .map(|step| (step, timeline.pieces(step).collect::<Vec<_>>()))
+        .map(|step| (step, timeline.pieces(step).map(|p| (p.start, p.length)).collect::<Vec<_>>()))
         .filter(|(_, pieces)| !matches!(pieces[..], [(_, length)] if whole(length)))
         .collect()
 }

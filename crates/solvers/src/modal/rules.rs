@@ -4,9 +4,8 @@
 //! them, at the mean rate of the step where it does not.
 
 use super::bit;
-use trilith_linalg::{
-    Dense, DenseLu, OwnModes, add_products, combine, dot, expm, weighted_square,
-};
+use crate::single_mode;
+use trilith_linalg::{Dense, DenseLu, OwnModes, add_products, combine, dot, expm, weighted_square};
 
 /// The linear structure on a basis: modes first, static shapes (without mass, of stiffness one) behind them.
 pub(super) struct Structure {
@@ -55,42 +54,40 @@ pub(super) struct Rule {
     own: [[Vec<f64>; 4]; 3],
 }
 
-/// Blocks of a rule for modes with these ω², this damping, a step.
-type OfModes = fn(&[f64], &Dense, f64) -> [[Dense; 4]; 3];
-
 impl Rule {
     /// Exact for loads linear in the step.
     pub(super) fn exact(structure: &Structure, dt: f64) -> Self {
-        Self::new(structure, dt, |_| exact_rule)
+        Self::new(structure, dt, |_| false)
     }
 
     /// Average acceleration of the modes whose bit is set, exact for the others; of all where damping
     /// couples them.
     pub(super) fn mixed(structure: &Structure, dt: f64, average: u64) -> Self {
-        Self::new(structure, dt, |mode| match average & bit(mode) {
-            0 => exact_rule,
-            _ => average_rule,
-        })
+        Self::new(structure, dt, |mode| average & bit(mode) != 0)
     }
 
-    fn new(structure: &Structure, dt: f64, of_mode: impl Fn(usize) -> OfModes) -> Self {
+    fn new(structure: &Structure, dt: f64, is_average: impl Fn(usize) -> bool) -> Self {
         let modes = structure.modes;
         let coupled = structure.damping.as_ref().map(|all| {
             let mut damping = Dense::zeros(modes, modes);
             for j in 0..modes {
                 damping.column_mut(j).copy_from_slice(&all.column(j)[..modes]);
             }
-            Box::new(of_mode(0)(&structure.omega2[..modes], &damping, dt))
+            let rule = if is_average(0) { average_rule } else { exact_rule };
+            Box::new(rule(&structure.omega2[..modes], &damping, dt))
         });
         let mut own: [[Vec<f64>; 4]; 3] = Default::default();
         let first = if coupled.is_some() { modes } else { 0 };
         for i in first..structure.omega2.len() {
             let rate = structure.rates[i];
-            let one = if i < modes {
-                let damping = Dense::from_columns(1, 1, vec![rate]);
-                of_mode(i)(&[structure.omega2[i]], &damping, dt).map(|row| row.map(|b| b[(0, 0)]))
-            } else {
+            let omega2 = structure.omega2[i];
+            let one = if i >= modes {
                 static_rule(rate, dt)
+            } else if is_average(i) {
+                let damping = Dense::from_columns(1, 1, vec![rate]);
+                average_rule(&[omega2], &damping, dt).map(|row| row.map(|b| b[(0, 0)]))
+            } else {
+                single_mode::exact(omega2, rate, dt)
             };
             for (row, values) in own.iter_mut().zip(one) {
                 for (column, value) in row.iter_mut().zip(values) {

@@ -87,18 +87,19 @@ impl<'a, 'b> Course<'a, 'b> {
 
     /// Length of the output step under way.
     pub(super) fn length(&self) -> Option<f64> {
-        self.timeline.pieces(self.made).next().map(|(_, length)| length)
+        self.timeline.pieces(self.made).next().map(|piece| piece.length)
     }
 
     /// An output step starts: a load may jump there. A step that holds a jump inside leaves the others.
     pub(crate) fn set_out(&mut self, modes: &Modes) {
         let mut pieces = self.timeline.pieces(self.made);
-        let start = pieces.next().map_or(0.0, |(t, _)| t);
+        let start = pieces.next().map_or(0.0, |piece| piece.start);
         if pieces.next().is_some() {
             self.left = true;
             return;
         }
         if start > 0.0 && self.timeline.is_break(start) {
+            self.step_loads.cut();
             let channels = self.loads.channels.iter();
             let change: Vec<f64> = channels
                 .map(|c| c.track.at(start, Side::After) - c.track.at(start, Side::Before))
@@ -115,14 +116,11 @@ impl<'a, 'b> Course<'a, 'b> {
         self.fallen = self.viewer.overturned(&self.state);
     }
 
-    /// Start and end of a part of the output step.
-    fn part(&self, part: usize, dt: f64) -> (f64, f64) {
-        let start = self.timeline.time(self.made) + dt * part as f64;
-        (start, start + dt)
-    }
-
-    pub(super) fn begin(&mut self, space: &Space, part: usize, dt: f64) {
-        let (t0, t1) = self.part(part, dt);
+    /// Takes up one part of so many of the output step.
+    pub(super) fn begin(&mut self, space: &Space, part: usize, of: usize) {
+        let whole = self.timeline.pieces(self.made).next();
+        let part = whole.and_then(|whole| whole.parts(of).nth(part));
+        let (t0, t1) = part.map_or((self.at, self.at), |part| (part.start, part.end));
         self.loads.step(t0, t1, &mut self.step_loads);
         self.side.begin(space, &self.state, &mut self.next, &self.step_loads, &mut self.energy);
         self.settled = false;

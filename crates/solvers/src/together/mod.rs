@@ -168,7 +168,7 @@ fn march<O: Observer>(
         let Some(length) = going.find_map(Course::length) else { break };
         let part = length / substeps as f64;
         for index in 0..substeps {
-            step(&mut modes, &mut courses, index, part);
+            step(&mut modes, &mut courses, (index, substeps), part);
         }
         courses.iter_mut().filter(|c| c.is_on_the_way()).for_each(|c| c.arrive(&modes.space));
     }
@@ -206,14 +206,14 @@ fn march<O: Observer>(
     Ok(courses.into_iter().zip(group).map(result).collect())
 }
 
-/// One step of all courses that are on the way, from `index` to `index + 1` in parts of its step, over `dt`.
+/// One step of all courses that are on the way: a part of so many of their output step, over `dt`.
 /// A course whose links find no equilibrium leaves the others.
-fn step(modes: &mut Modes, courses: &mut [Course<'_, '_>], part: usize, dt: f64) {
+fn step(modes: &mut Modes, courses: &mut [Course<'_, '_>], (part, of): (usize, usize), dt: f64) {
     modes.prepare(StepKey { dt, average: 0 });
     let modes = &*modes;
     let mut going: Vec<&mut Course<'_, '_>> =
         courses.iter_mut().filter(|c| c.is_on_the_way()).collect();
-    going.iter_mut().for_each(|c| c.begin(&modes.space, part, dt));
+    going.iter_mut().for_each(|c| c.begin(&modes.space, part, of));
     let mut pairs: Vec<_> = going.iter_mut().filter_map(|c| c.spread_start()).collect();
     modes.space.links.spread_each(&mut pairs);
     going.iter_mut().for_each(|c| c.predict(modes));
