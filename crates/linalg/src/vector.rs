@@ -41,8 +41,25 @@ pub fn largest(x: &[f64]) -> f64 {
 /// # Panics
 /// Where the lengths differ.
 pub fn residual(f: &[f64], k: &[f64], d: &[f64], x: &[f64], r: &mut [f64]) -> [f64; 3] {
-    assert!([f, k, d, x].iter().all(|y| y.len() == r.len()), "lengths of a residual");
+    let n = r.len();
+    assert!(f.len() == n && k.len() == n && d.len() == n && x.len() == n, "lengths of a residual");
     Arch::new().dispatch(Residual { f, k, d, x, r })
+}
+
+/// `x += change`, element by element.
+///
+/// # Panics
+/// Where the lengths differ.
+pub fn add(x: &mut [f64], change: &[f64]) {
+    assert!(x.len() == change.len(), "lengths of a sum");
+    let (four, rest) = x.as_chunks_mut::<4>();
+    let (by_four, by_rest) = change.as_chunks::<4>();
+    for (x, change) in four.iter_mut().zip(by_four) {
+        for i in 0..4 {
+            x[i] += change[i];
+        }
+    }
+    rest.iter_mut().zip(by_rest).for_each(|(x, change)| *x += change);
 }
 
 /// Fewer numbers are looked at without vectors.

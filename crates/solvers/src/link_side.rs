@@ -189,9 +189,8 @@ impl<'a> LinkSide<'a> {
     /// Takes note of a converged step whose motion is complete.
     pub(crate) fn settle(&mut self, to: &mut State, energy: &StepEnergy) {
         if self.watched {
-            for a in self.kernel.unrated() {
-                let flat = self.system.links.active[*a];
-                to.v[flat] = self.support_rate[flat] + self.v[*a];
+            for (a, flat) in self.kernel.unrated() {
+                to.v[*flat] = self.support_rate[*flat] + self.v[*a];
             }
         }
         to.pseudo.copy_from_slice(&self.pseudo1);

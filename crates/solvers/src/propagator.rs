@@ -93,7 +93,7 @@ pub(crate) trait Propagator {
     /// Acceleration that a force on the structure at rest would cause; zero where there is no mass.
     fn acceleration(&mut self, force: &[f64]) -> Result<Vec<f64>, SolveError>;
 
-    /// The step with the pseudo-forces `pseudo0` at both ends, as far as the links need it: d and v of the
+    /// The step with the pseudo-forces at its end as they are at its start, as far as the links need it: d and v of the
     /// active coordinates. `to` need not be complete before [`correct`](Self::correct).
     fn predict(&mut self, from: &Motion, forces: &Forces<'_>, to: &mut Motion, wanted: Wanted<'_>);
 

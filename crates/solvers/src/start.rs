@@ -144,8 +144,11 @@ pub(crate) fn resume(end: EndState, stepper: &mut dyn Stepper) -> Result<Start, 
     Ok((end.state, end.pace, end.ledger, end.step))
 }
 
-/// Σ of constant loads in the coordinates of the solver.
+/// Σ of constant loads in the coordinates of the solver; empty where there are none.
 pub(crate) fn constant_force(space: &Space, loads: &LoadSet) -> Vec<f64> {
+    if !loads.channels.iter().any(|c| c.conservative) {
+        return Vec::new();
+    }
     let amplitudes: Vec<f64> =
         loads.channels.iter().map(|c| f64::from(u8::from(c.conservative))).collect();
     space.force(&amplitudes)

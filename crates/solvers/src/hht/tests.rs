@@ -140,7 +140,7 @@ fn follows(alpha: f64, modal: bool, links: LinkMap) {
         g.values_mut().iter_mut().for_each(|x| *x *= w * beta * dt * dt);
         close(compliance.g.values(), g.values());
         let forces = Forces { pseudo1: &pseudo1, ..before };
-        hht.correct(&forces, &mut to);
+        hht.correct(&from, &forces, &mut to);
         close(&to, &[u1.clone(), v1.clone(), now].concat());
         let (mut expected, mut expected_rate) = (vec![0.0; l], vec![0.0; l]);
         b.mul_add(1.0, &u1, &mut expected);

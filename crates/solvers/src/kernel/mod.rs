@@ -19,7 +19,7 @@ mod search;
 pub(crate) use factors::Remembered;
 
 use crate::propagator::StepKey;
-use crate::vector::{largest, residual};
+use crate::vector::{add, largest, residual};
 use factors::{Equations, Factors};
 use foresee::{Pair, pairs};
 use search::Search;
@@ -100,9 +100,9 @@ pub(crate) struct LinkKernel<'a> {
     laws: Laws<'a>,
     /// Dummy stiffness of the active coordinates.
     dummy_k: Vec<f64>,
-    /// Active coordinates of laws that look at rates, and the others.
+    /// Active coordinates of laws that look at rates, and the others with their flat index.
     rated: Vec<usize>,
-    unrated: Vec<usize>,
+    unrated: Vec<(usize, usize)>,
     /// All tangents of active coordinates, and those of laws that look at rates.
     pairs: Vec<Pair>,
     rated_pairs: Vec<Pair>,
@@ -152,7 +152,7 @@ impl<'a> LinkKernel<'a> {
         for (l, (law, link)) in laws.iter().enumerate() {
             for a in link.range.clone().map(|flat| place[flat]).filter(|a| *a != usize::MAX) {
                 owner[a] = l;
-                if law.uses_rates() { rated.push(a) } else { unrated.push(a) }
+                if law.uses_rates() { rated.push(a) } else { unrated.push((a, links.active[a])) }
             }
         }
         let pairs = laws.iter().flat_map(|(_, link)| pairs(link, &place)).collect();
@@ -203,8 +203,9 @@ impl<'a> LinkKernel<'a> {
         &self.rated
     }
 
-    /// Active coordinates whose rates no law looks at: [`solve`](Self::solve) leaves them to the caller.
-    pub(crate) fn unrated(&self) -> &[usize] {
+    /// Active and flat index of coordinates whose rates no law looks at: [`solve`](Self::solve) leaves them to
+    /// the caller.
+    pub(crate) fn unrated(&self) -> &[(usize, usize)] {
         &self.unrated
     }
 
@@ -303,15 +304,14 @@ impl<'a> LinkKernel<'a> {
             }
         }
         self.size_before = size;
-        self.search.goes(&self.residual);
+        if self.iteration > 1 {
+            self.search.goes(&self.residual);
+        }
         self.take(out);
         Ok(false)
     }
 
     fn take(&mut self, out: &mut Converged<'_>) {
-        let add = |to: &mut [f64], change: &[f64]| {
-            to.iter_mut().zip(change).for_each(|(x, change)| *x += change);
-        };
         add(out.pseudo, &self.residual);
         if self.followed {
             let (d, v) = self.correction[self.d.len()..].split_at(self.d.len());

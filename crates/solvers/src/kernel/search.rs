@@ -42,7 +42,7 @@ impl Search {
         Some(self.share)
     }
 
-    /// Takes note of a correction about to be made.
+    /// Takes note of a correction about to be made; nobody comes back to the first of a step.
     pub fn goes(&mut self, step: &[f64]) {
         self.step.clear();
         self.step.extend_from_slice(step);
