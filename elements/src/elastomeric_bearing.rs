@@ -25,11 +25,10 @@
 //!
 //! Reference: \[Simo & Hughes 1998, §3.3\] (the return); \[Naeim & Kelly 1999, ch. 4\] (bearings as bilinear).
 
-use crate::shared::sliding::radial_return;
-use nalgebra::Vector2;
 use serde::Deserialize;
 use std::borrow::Cow;
 use trilith_element::dimension::{FORCE, NONE, STIFFNESS};
+use trilith_element::lanes::{LaneAt, LaneForce, LaneForm, LaneLaw, LaneStep, Real};
 use trilith_element::{
     Axis, Card, Category, Coordinates, Described, Exercise, Field, History, Kinematics, Link,
     NodeCount, Parameter, ParameterError, Range, Response, Stroke, history,
@@ -130,21 +129,94 @@ impl Link for ElastomericBearing {
         trial: &mut [f64],
         out: &mut Response<'_>,
     ) {
-        let was = BearingHistory::load(committed);
-        let (elastic, after) = ((1.0 - self.ratio) * self.k, self.ratio * self.k);
-        let flexibility = elastic.recip();
-        let plastic = Vector2::new(was.plastic2, was.plastic3);
-        let (d0, d) = (Vector2::new(at.d0[0], at.d0[1]), Vector2::new(at.d[0], at.d[1]));
-        let start = (d0 - plastic) * elastic;
-        let end = radial_return(elastic, d - plastic, (1.0 - self.ratio) * self.fy);
-        let now = if end.slips { d - end.tau * flexibility } else { plastic };
-        BearingHistory { plastic2: now.x, plastic3: now.y }.store(trial);
-        let (tau, k) = (end.tau, end.by_stretch);
-        out.f.copy_from_slice(&[after * d.x + tau.x, after * d.y + tau.y]);
-        out.k.copy_from_slice(&[k.m11 + after, k.m12, k.m21, k.m22 + after]);
-        out.energy.stored = 0.5 * (after * d.norm_squared() + end.tau.norm_squared() * flexibility);
+        let numbers = self.numbers();
+        let asked = LaneAt::new(at, committed, &numbers);
+        let mut force = LaneForce { f: out.f, k: out.k, c: out.c };
+        BearingLaw::force(&asked, &mut force);
+        let step = BearingLaw::commit(&asked, force.f, trial);
+        (out.energy.stored, out.energy.hysteretic) = (step.stored, step.hysteretic);
+    }
+
+    fn lanes(&self, _: &[bool]) -> Option<LaneForm> {
+        let form = LaneForm::of::<BearingLaw>(vec![0, 1], self.numbers().to_vec());
+        Some(form.without_rate())
+    }
+}
+
+impl ElastomericBearing {
+    /// Parameters of the law: r k, (1 − r) k, (1 − r) f_y, 1/((1 − r) k).
+    fn numbers(&self) -> [f64; 4] {
+        let elastic = (1.0 - self.ratio) * self.k;
+        [self.ratio * self.k, elastic, (1.0 - self.ratio) * self.fy, elastic.recip()]
+    }
+}
+
+/// The law over lanes; history p.
+struct BearingLaw;
+
+/// The return of the elastic trial force onto the circle.
+struct Returned<R: Real> {
+    slips: R::Mask,
+    /// q.
+    tau: [R; 2],
+    /// Direction of the trial force; anything where it is zero.
+    along: [R; 2],
+    /// Limit over elastic stretch; anything where that is zero.
+    ratio: R,
+}
+
+impl<R: Real> Returned<R> {
+    #[inline(always)]
+    fn of(at: &LaneAt<'_, R>) -> Self {
+        let (elastic, limit) = (at.parameters[1], at.parameters[2]);
+        let (x, y) = (at.d[0] - at.history[0], at.d[1] - at.history[1]);
+        let length = x.mul_add(x, y * y).sqrt();
+        let slips = limit.lt(elastic * length);
+        let inverse = length.of(1.0) / length;
+        let along = [x * inverse, y * inverse];
+        let tau = [
+            R::select(slips, limit * along[0], elastic * x),
+            R::select(slips, limit * along[1], elastic * y),
+        ];
+        Self { slips, tau, along, ratio: limit * inverse }
+    }
+}
+
+impl LaneLaw for BearingLaw {
+    const COORDINATES: usize = 2;
+    const HISTORY: usize = 2;
+    const PARAMETERS: usize = 4;
+
+    #[inline(always)]
+    fn force<R: Real>(at: &LaneAt<'_, R>, out: &mut LaneForce<'_, R>) {
+        let (after, elastic) = (at.parameters[0], at.parameters[1]);
+        let it = Returned::of(at);
+        let (zero, one) = (after.of(0.0), after.of(1.0));
+        for i in 0..2 {
+            out.f[i] = after.mul_add(at.d[i], it.tau[i]);
+            // Slipping, the force turns but does not grow.
+            let across = it.ratio * (one - it.along[i] * it.along[i]);
+            out.k[3 * i] = after + R::select(it.slips, across, elastic);
+            out.k[1 + i] = (-(it.ratio * it.along[0] * it.along[1])).only(it.slips);
+        }
+        out.c.fill(zero);
+    }
+
+    #[inline(always)]
+    fn commit<R: Real>(at: &LaneAt<'_, R>, _: &[R], trial: &mut [R]) -> LaneStep<R> {
+        let (after, elastic, flexibility) = (at.parameters[0], at.parameters[1], at.parameters[3]);
+        let it = Returned::of(at);
+        let (half, zero) = (after.of(0.5), after.of(0.0));
+        let (mut stored, mut heat) = (zero, zero);
+        for i in 0..2 {
+            let plastic = at.history[i];
+            let now = R::select(it.slips, at.d[i] - it.tau[i] * flexibility, plastic);
+            stored = stored + after * at.d[i] * at.d[i] + it.tau[i] * it.tau[i] * flexibility;
+            heat = ((at.d0[i] - plastic) * elastic + it.tau[i]).mul_add(now - plastic, heat);
+            trial[i] = now;
+        }
         // The return is along q: never negative but for rounding.
-        out.energy.hysteretic = (0.5 * (start + end.tau).dot(&(now - plastic))).max(0.0);
+        LaneStep { hysteretic: (half * heat).max(zero), ..LaneStep::elastic(half * stored) }
     }
 }
 

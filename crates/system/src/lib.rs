@@ -3,6 +3,7 @@
 //! [`System`] is passive data: matrices, link maps and names. It knows no solver.
 
 mod assemble;
+mod batch;
 mod elastic;
 mod error;
 mod impact;
@@ -14,6 +15,6 @@ pub use assemble::System;
 pub use elastic::EndForceRow;
 pub use error::SystemError;
 pub use impact::ImpactMass;
-pub use links::{Laws, LinkInstance, LinkSet, Tangents};
+pub use links::{Laws, LinkInstance, LinkSet, StepLaws, Tangents};
 pub use loads::{Channel, LoadSet, StepLoads, Track};
 pub use reduction::Reduction;

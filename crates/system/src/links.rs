@@ -10,6 +10,7 @@ use std::sync::Arc;
 use trilith_element::{Coordinates, Dof, Energy, Kinematics, Link, Response, Vector3};
 use trilith_model::{Body, Model};
 
+use crate::batch::{Pack, packs};
 use crate::{Reduction, SystemError};
 
 /// One link in the flat arrays.
@@ -109,27 +110,93 @@ impl<'a> Laws<'a> {
         f.fill(0.0);
         tangents.k.fill(0.0);
         tangents.c.fill(0.0);
-        for ((law, link), energy) in self.0.iter().zip(energy) {
-            let r = link.range.clone();
-            *energy = Energy::default();
-            law.respond(
-                &Kinematics {
-                    d: &at.d[r.clone()],
-                    v: &at.v[r.clone()],
-                    d0: &at.d0[r.clone()],
-                    v0: &at.v0[r.clone()],
-                    dt: at.dt,
-                },
-                &committed[link.history.clone()],
-                &mut trial[link.history.clone()],
-                &mut Response {
-                    f: &mut f[r],
-                    k: &mut tangents.k[link.block.clone()],
-                    c: &mut tangents.c[link.block.clone()],
-                    energy,
-                },
-            );
+        for (i, energy) in energy.iter_mut().enumerate() {
+            self.respond_one(i, at, committed, trial, f, tangents, energy);
         }
+    }
+
+    /// The same of one link; forces and tangents must be zero before.
+    #[inline]
+    fn respond_one(
+        &self,
+        i: usize,
+        at: Kinematics<'_>,
+        committed: &[f64],
+        trial: &mut [f64],
+        f: &mut [f64],
+        tangents: &mut Tangents,
+        energy: &mut Energy,
+    ) {
+        let (law, link) = self.0[i];
+        let r = link.range.clone();
+        *energy = Energy::default();
+        law.respond(
+            &Kinematics {
+                d: &at.d[r.clone()],
+                v: &at.v[r.clone()],
+                d0: &at.d0[r.clone()],
+                v0: &at.v0[r.clone()],
+                dt: at.dt,
+            },
+            &committed[link.history.clone()],
+            &mut trial[link.history.clone()],
+            &mut Response {
+                f: &mut f[r],
+                k: &mut tangents.k[link.block.clone()],
+                c: &mut tangents.c[link.block.clone()],
+                energy,
+            },
+        );
+    }
+}
+
+/// The laws of all links as the iteration of a step asks them: links of one kind side by side where their law has
+/// a form for that, and their history and energies once, at the end.
+#[derive(Debug)]
+pub struct StepLaws<'a> {
+    laws: Laws<'a>,
+    packs: Vec<Pack>,
+    /// Indices of links that are asked one by one.
+    alone: Vec<usize>,
+}
+
+impl<'a> StepLaws<'a> {
+    /// Of these laws.
+    #[must_use]
+    pub fn new(laws: Laws<'a>) -> Self {
+        let (packs, alone) = packs(&laws.0);
+        Self { laws, packs, alone }
+    }
+
+    /// Takes up a step: of `at` the deformations and rates at the start, and the length.
+    pub fn start(&mut self, at: Kinematics<'_>, committed: &[f64]) {
+        self.packs.iter_mut().for_each(|pack| pack.start(&at, committed));
+    }
+
+    /// Forces and tangents at (d, v) in the step taken up last; history and energies may wait for the
+    /// [end](Self::end).
+    pub fn respond(
+        &mut self,
+        at: Kinematics<'_>,
+        committed: &[f64],
+        trial: &mut [f64],
+        f: &mut [f64],
+        tangents: &mut Tangents,
+        energy: &mut [Energy],
+    ) {
+        f.fill(0.0);
+        tangents.k.fill(0.0);
+        tangents.c.fill(0.0);
+        self.packs.iter_mut().for_each(|pack| pack.force(&at, f, tangents));
+        for i in &self.alone {
+            let energy = &mut energy[*i];
+            self.laws.respond_one(*i, at, committed, trial, f, tangents, energy);
+        }
+    }
+
+    /// The step ends where the laws were asked last: what of history and energies still waits.
+    pub fn end(&mut self, trial: &mut [f64], energy: &mut [Energy]) {
+        self.packs.iter_mut().for_each(|pack| pack.commit(trial, energy));
     }
 }
 

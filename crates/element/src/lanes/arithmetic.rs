@@ -32,6 +32,18 @@ pub trait Arithmetic: Copy + Send + Sync {
     /// A number for each lane.
     fn gather(self, of: impl FnMut(usize) -> f64) -> Self::Real;
 
+    /// The numbers of all lanes, side by side in memory.
+    ///
+    /// # Panics
+    /// Where there are fewer than [`WIDTH`](Self::WIDTH).
+    fn load(self, from: &[f64]) -> Self::Real;
+
+    /// Puts the numbers of all lanes side by side.
+    ///
+    /// # Panics
+    /// Where there are fewer places than [`WIDTH`](Self::WIDTH).
+    fn store(self, x: Self::Real, to: &mut [f64]);
+
     /// The number of one lane.
     fn lane(self, x: Self::Real, lane: usize) -> f64;
 
@@ -66,6 +78,14 @@ impl Arithmetic for Portable {
     #[inline(always)]
     fn gather(self, mut of: impl FnMut(usize) -> f64) -> f64 {
         of(0)
+    }
+    #[inline(always)]
+    fn load(self, from: &[f64]) -> f64 {
+        from[0]
+    }
+    #[inline(always)]
+    fn store(self, x: f64, to: &mut [f64]) {
+        to[0] = x;
     }
     #[inline(always)]
     fn lane(self, x: f64, _: usize) -> f64 {
@@ -139,6 +159,14 @@ impl Arithmetic for FusedOne {
         Fused(of(0))
     }
     #[inline(always)]
+    fn load(self, from: &[f64]) -> Fused {
+        Fused(from[0])
+    }
+    #[inline(always)]
+    fn store(self, x: Fused, to: &mut [f64]) {
+        to[0] = x.0;
+    }
+    #[inline(always)]
     fn lane(self, x: Fused, _: usize) -> f64 {
         x.0
     }
@@ -173,6 +201,15 @@ impl Arithmetic for WideLanes {
     #[inline(always)]
     fn gather(self, of: impl FnMut(usize) -> f64) -> Wide {
         Wide::from_lanes(self.0, std::array::from_fn(of))
+    }
+    #[inline(always)]
+    fn load(self, from: &[f64]) -> Wide {
+        let [a, b, c, d, e, f, g, h] = from[..8] else { unreachable!("eight numbers") };
+        Wide::from_lanes(self.0, [a, b, c, d, e, f, g, h])
+    }
+    #[inline(always)]
+    fn store(self, x: Wide, to: &mut [f64]) {
+        to[..8].copy_from_slice(&x.lanes());
     }
     #[inline(always)]
     fn lane(self, x: Wide, lane: usize) -> f64 {

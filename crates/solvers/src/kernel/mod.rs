@@ -26,7 +26,7 @@ use search::Search;
 use trilith_element::{Energy, Kinematics};
 use trilith_linalg::Dense;
 use trilith_model::{Kernel, Model, Solution};
-use trilith_system::{Laws, LinkSet, Tangents};
+use trilith_system::{LinkSet, StepLaws, Tangents};
 
 /// What the linear step gives the kernel.
 pub(crate) struct Affine<'a> {
@@ -97,7 +97,7 @@ pub(crate) struct LinkKernel<'a> {
     /// Share of the largest force so far by which a link may be out of equilibrium.
     tolerance: f64,
     links: &'a LinkSet,
-    laws: Laws<'a>,
+    laws: StepLaws<'a>,
     /// Dummy stiffness of the active coordinates.
     dummy_k: Vec<f64>,
     /// Active coordinates of laws that look at rates, and the others with their flat index.
@@ -165,7 +165,7 @@ impl<'a> LinkKernel<'a> {
             moved: Vec::new(),
             tolerance: solution.link_tolerance,
             links,
-            laws,
+            laws: StepLaws::new(laws),
             dummy_k,
             rated,
             unrated,
@@ -279,6 +279,7 @@ impl<'a> LinkKernel<'a> {
         self.evaluate(affine, from, out);
         let (size, worst) = self.measure(out, scale, self.iteration);
         if size <= 1.0 {
+            self.laws.end(out.history, out.energy);
             return Ok(true);
         }
         self.iteration += 1;
@@ -300,6 +301,7 @@ impl<'a> LinkKernel<'a> {
             self.newton_correction(affine, &tangents, size > CONTRACTS * self.size_before);
             self.tangents = tangents;
             if size <= ROUNDING && size * largest(&self.residual) <= SETTLED * before {
+                self.laws.end(out.history, out.energy);
                 return Ok(true);
             }
         }
@@ -370,6 +372,9 @@ impl<'a> LinkKernel<'a> {
     fn evaluate(&mut self, affine: &Affine<'_>, from: &Committed<'_>, out: &mut Converged<'_>) {
         self.deform(affine, out);
         let at = Kinematics { d: out.d, v: out.v, d0: from.d, v0: from.v, dt: from.dt };
+        if self.iteration == 0 {
+            self.laws.start(at, from.history);
+        }
         self.laws.respond(at, from.history, out.history, out.f, &mut self.tangents, out.energy);
         self.sizes = self.leave(out.f, out.pseudo);
     }
