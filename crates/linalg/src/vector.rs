@@ -147,6 +147,12 @@ mod tests {
                 assert_eq!(r[i], x[0][i] - x[1][i] * x[2][i] - x[3][i]);
             }
             assert_eq!(sizes, [largest(&r), largest(&x[0]), largest(&x[3])]);
+            for at in 0..n {
+                let (mut f, mut y) = (x[0].clone(), x[3].clone());
+                (f[at], y[at]) = (-7.0, 8.0);
+                let sizes = residual(&f, &x[1], &x[2], &y, &mut r);
+                assert_eq!(sizes, [largest(&r), 7.0, 8.0], "{n} {at}");
+            }
             if n > 0 {
                 let mut broken = x[0].clone();
                 broken[n / 2] = f64::NAN;
