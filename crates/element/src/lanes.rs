@@ -1,10 +1,11 @@
-//! Laws for many analyses side by side.
+//! Laws for many analyses, or many links of one analysis, side by side.
 //!
 //! A sweep runs one small model with many values of its parameters. Analyses that go in lock step share
 //! instructions: a register holds one number of each of them, its *lanes*. A law takes part by being
 //! written over [`Real`], a number that is one `f64` or several lanes of them: no `if` on values but
 //! [`Real::select`], no memory, no allocation. The same text then serves [`Link::respond`](crate::Link)
-//! with `f64`, and [`LaneForm`] hands it to the sweep.
+//! with `f64`, and [`LaneForm`] hands it to the sweep. Where a model has four or more links of one such law, an
+//! ordinary run asks them together as well.
 //!
 //! ```
 //! use trilith_element::lanes::{LaneAt, LaneForce, LaneForm, LaneLaw, LaneStep, Real};

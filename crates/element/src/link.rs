@@ -195,8 +195,9 @@ pub trait Link: Send + Sync + Debug {
         None
     }
 
-    /// The law in the form in which sweeps run many analyses side by side, for links that have one.
-    /// `active` says which of its coordinates the structure can deform; the others stay zero.
+    /// The law in the form in which sweeps run many analyses side by side, and a run asks links of one law at
+    /// once where there are several; for links that have one. It answers as [`respond`](Self::respond) does, up to
+    /// rounding. `active` says which of its coordinates the structure can deform; the others stay zero.
     fn lanes(&self, _active: &[bool]) -> Option<LaneForm> {
         None
     }
