@@ -31,7 +31,7 @@ pub use ldlt::{Ldlt, StagedLdlt, StagedPlan, unsupported};
 pub use lu::SparseLu;
 pub use matrix_market::matrix_market;
 pub use modewise::{
-    OwnModes, Start, StepSums, add_products, combine, weighted_square, work_of_linear,
+    ModalStep, OwnModes, StepSums, add_products, combine, weighted_square, work_of_linear,
 };
 pub use operator::SymmetricOperator;
 pub use panel::{Panel, Product};

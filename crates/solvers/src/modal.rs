@@ -26,7 +26,7 @@ use crate::error::SolveError;
 use crate::propagator::{Compliance, Forces, Motion, Propagator, StepKey, StepWork, Wanted};
 use crate::space::Space;
 use rules::{Rule, Structure};
-use trilith_linalg::{Dense, Start, StepSums, work_of_linear};
+use trilith_linalg::{Dense, ModalStep, StepSums, work_of_linear};
 
 /// Steps with a larger G·k of the stiffest link are made by average acceleration; the limit of the exact
 /// rule is 2 (ω²Δt²/6), and well before it the rule is no better any more.
@@ -265,10 +265,10 @@ impl Modes {
     }
 
     /// A step from a motion under loads.
-    fn start<'a>(&self, from: &'a Motion, loads: [&'a [f64]; 2]) -> Start<'a> {
+    fn start<'a>(&self, from: &'a Motion, loads: [&'a [f64]; 2]) -> ModalStep<'a> {
         let m = self.space.order();
         let per_dt = self.steps[self.now.0].dt.recip();
-        Start { q: &from[..m], v: &from[m..2 * m], p: loads, per_dt }
+        ModalStep { q: &from[..m], v: &from[m..2 * m], p: loads, per_dt }
     }
 
     /// The motion at the end of a step under the pseudo-forces spread last, at both ends.

@@ -229,7 +229,8 @@ impl Outputs {
                     let moving: f64 = share.iter().zip(base).map(|(a, b)| a * b).sum();
                     sum(own, motion[*order]) + sum(tied, &support[*order]) + moving
                 }
-                Row::Deformation { flat, factor } => factor * state.d[*flat],
+                // Among those above.
+                Row::Deformation { .. } => continue,
                 Row::Force { flat, factor } => factor * state.f[*flat],
                 Row::History { at } => state.history[*at],
                 Row::Combination { how, constant, terms } => {

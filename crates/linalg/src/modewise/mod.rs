@@ -3,7 +3,7 @@
 
 mod step;
 
-pub use step::{OwnModes, Start, StepSums};
+pub use step::{ModalStep, OwnModes, StepSums};
 
 use pulp::{Arch, Simd, WithSimd};
 

@@ -21,7 +21,7 @@ pub struct OwnModes<'a> {
 
 /// A step: where it starts, its loads and length.
 #[derive(Clone, Copy, Debug)]
-pub struct Start<'a> {
+pub struct ModalStep<'a> {
     /// q₀.
     pub q: &'a [f64],
     /// q̇₀.
@@ -64,7 +64,13 @@ impl OwnModes<'_> {
     ///
     /// # Panics
     /// Where a length is not that of the coefficients.
-    pub fn predict(&self, from: Start<'_>, links: &[f64], s: [&mut [f64]; 2], to: [&mut [f64]; 2]) {
+    pub fn predict(
+        &self,
+        from: ModalStep<'_>,
+        links: &[f64],
+        s: [&mut [f64]; 2],
+        to: [&mut [f64]; 2],
+    ) {
         Arch::new().dispatch(Predict { modes: *self, from, links, s, to });
     }
 
@@ -75,7 +81,7 @@ impl OwnModes<'_> {
     /// Where a length is not that of the coefficients.
     pub fn complete(
         &self,
-        from: Start<'_>,
+        from: ModalStep<'_>,
         links: &[f64],
         s: (&[f64], &mut [f64]),
         to: [&mut [f64]; 3],
@@ -86,7 +92,7 @@ impl OwnModes<'_> {
 
 struct Predict<'a> {
     modes: OwnModes<'a>,
-    from: Start<'a>,
+    from: ModalStep<'a>,
     links: &'a [f64],
     s: [&'a mut [f64]; 2],
     to: [&'a mut [f64]; 2],
@@ -133,7 +139,7 @@ impl WithSimd for Predict<'_> {
 
 struct Complete<'a> {
     modes: OwnModes<'a>,
-    from: Start<'a>,
+    from: ModalStep<'a>,
     links: &'a [f64],
     s: (&'a [f64], &'a mut [f64]),
     to: [&'a mut [f64]; 3],
@@ -226,7 +232,7 @@ mod tests {
             let mass: Vec<f64> = (0..n).map(|i| f64::from(u8::from(i % 5 != 3))).collect();
             let modes = OwnModes { c: &c, omega2: &x[0], rates: &x[1], mass: &mass };
             let per_dt = 0.7;
-            let from = Start { q: &x[2], v: &x[3], p: [&x[4], &x[5]], per_dt };
+            let from = ModalStep { q: &x[2], v: &x[3], p: [&x[4], &x[5]], per_dt };
             let [mut s0, mut s1, mut q, mut v, mut a]: [Vec<f64>; 5] =
                 std::array::from_fn(|_| vec![9.0; n]);
             modes.predict(from, &x[6], [&mut s0, &mut s1], [&mut q, &mut v]);
