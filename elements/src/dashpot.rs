@@ -305,6 +305,11 @@ impl Link for Dashpot {
         out.energy.viscous = at.viscous_work(0, f0 - spring0, f - spring);
     }
 
+    fn damping_constant(&self) -> Option<f64> {
+        let linear = self.when == When::Always && self.exponent == 1.0;
+        self.coefficient().filter(|_| linear)
+    }
+
     fn lanes(&self, _: &[bool]) -> Option<LaneForm> {
         let c = self.coefficient().filter(|_| self.exponent == 1.0)?;
         let numbers = self.numbers(c).to_vec();

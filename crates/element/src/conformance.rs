@@ -9,6 +9,7 @@
 //! | writing  | every history variable of the trial is written and everything is finite |
 //! | restart  | at the start of a step, with dt = 0, the force is that of the end of the last step, and nothing dissipates |
 //! | tangents | `k` and `c` are the central difference quotients of `f`, away from kinks |
+//! | forms    | what the law says over lanes, and as the constant of a dashpot, is what it answers, up to rounding |
 //! | energy   | work = Δ stored + hysteretic + viscous under refinement; the last two never fall (unless [`Kit::active`]) |
 //! | passive  | nowhere on three cycles has more energy come out than went in (unless [`Kit::active`]) |
 //! | rates    | a law declared [`Kit::rate_independent`] does not see the speed, nor the step on a straight path |
@@ -34,6 +35,7 @@
 
 mod energy;
 mod error;
+mod forms;
 mod path;
 mod probe;
 mod properties;
@@ -161,6 +163,7 @@ impl Kit {
         let paths: Vec<_> = (0..self.paths).map(path).collect();
         for path in &paths {
             properties::answers(link, path)?;
+            forms::forms(link, path)?;
             properties::tangents(self, link, path, &mut report)?;
         }
         let typical = energy::typical(self, link, &paths)?;

@@ -195,6 +195,12 @@ pub trait Link: Send + Sync + Debug {
         None
     }
 
+    /// The constant c of a law of one coordinate that is `f = c ḋ` at all times, N·s/m or N·m·s: the solvers then
+    /// need not ask it in every iteration.
+    fn damping_constant(&self) -> Option<f64> {
+        None
+    }
+
     /// The law in the form in which sweeps run many analyses side by side, and a run asks links of one law at
     /// once where there are several; for links that have one. It answers as [`respond`](Self::respond) does, up to
     /// rounding. `active` says which of its coordinates the structure can deform; the others stay zero.

@@ -188,7 +188,10 @@ impl<'a> LinkSide<'a> {
 
     /// Takes note of a converged step whose motion is complete.
     pub(crate) fn settle(&mut self, to: &mut State, energy: &StepEnergy) {
-        if self.watched {
+        if self.watched && self.kernel.is_complete() && !self.moving {
+            self.kernel.rated().iter().for_each(|a| self.v[*a] = to.v[*a]);
+            to.v.copy_from_slice(&self.v);
+        } else if self.watched {
             for (a, flat) in self.kernel.unrated() {
                 to.v[*flat] = self.support_rate[*flat] + self.v[*a];
             }
@@ -257,8 +260,8 @@ impl<'a> LinkSide<'a> {
 }
 
 fn committed(from: &State, dt: f64) -> Committed<'_> {
-    let State { d, v, f, history, tangents, .. } = from;
-    Committed { d, v, f, history, tangents, dt }
+    let State { d, v, f, history, tangents, unforeseen, .. } = from;
+    Committed { d, v, f, history, tangents, unforeseen, dt }
 }
 
 fn converged<'a>(
@@ -266,8 +269,8 @@ fn converged<'a>(
     energy: &'a mut [Energy],
     pseudo: &'a mut [f64],
 ) -> Converged<'a> {
-    let State { d, v, f, history, .. } = to;
-    Converged { d, v, f, history, energy, pseudo }
+    let State { d, v, f, history, unforeseen, .. } = to;
+    Converged { d, v, f, history, energy, pseudo, unforeseen }
 }
 
 fn affine<'a>(

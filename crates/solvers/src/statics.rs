@@ -8,7 +8,7 @@
 //! The load grows in steps, halved where the links find no equilibrium; link history is carried on.
 
 use crate::error::SolveError;
-use crate::kernel::{Affine, Committed, Converged, LinkKernel, NoEquilibrium};
+use crate::kernel::{Affine, Committed, Converged, LinkKernel, NoEquilibrium, Unforeseen};
 use crate::propagator::StepKey;
 use crate::stepper::State;
 use trilith_element::Energy;
@@ -95,6 +95,7 @@ pub(crate) fn equilibrium(
                 f: &state.f,
                 history: &state.history,
                 tangents: &state.tangents,
+                unforeseen: &Unforeseen::default(),
                 dt: 0.0,
             },
             &state.scale,
@@ -105,6 +106,7 @@ pub(crate) fn equilibrium(
                 history: &mut trial.history,
                 energy: &mut energy,
                 pseudo: &mut attempt,
+                unforeseen: &mut Unforeseen::default(),
             },
         );
         match outcome {

@@ -1,10 +1,11 @@
 //! One step of a solver: linear propagator and link kernel together.
 
 use crate::error::SolveError;
-use crate::kernel::{ForceScale, Remembered};
+use crate::kernel::{ForceScale, Remembered, Unforeseen};
 use crate::link_side::LinkSide;
 use crate::propagator::{Motion, Propagator, StepWork};
 use crate::space::Space;
+use crate::vector::largest;
 use serde::{Deserialize, Serialize};
 use trilith_element::{Energy, Kinematics};
 use trilith_model::Model;
@@ -32,6 +33,8 @@ pub struct State {
     pub(crate) stored: Vec<f64>,
     /// Tangents of the laws.
     pub(crate) tangents: Tangents,
+    /// What the guesses of the last steps left.
+    pub(crate) unforeseen: Unforeseen,
     /// The largest stiffness of the active link coordinates so far, N/m or N·m.
     pub(crate) stiffest: Vec<f64>,
 }
@@ -53,6 +56,7 @@ impl State {
             scale: [0.0; 2],
             stored: vec![0.0; links.links.len()],
             tangents: links.tangents(),
+            unforeseen: Unforeseen::default(),
             stiffest: vec![0.0; links.active.len()],
             d,
             v,
@@ -92,6 +96,10 @@ impl State {
         }
         for (stored, e) in self.stored.iter_mut().zip(energy) {
             *stored = e.stored;
+        }
+        if !links.turns {
+            self.scale[0] = self.scale[0].max(largest(&self.f));
+            return;
         }
         for (f, rotational) in self.f.iter().zip(&links.rotational) {
             let scale = &mut self.scale[usize::from(*rotational)];

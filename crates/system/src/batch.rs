@@ -27,24 +27,38 @@ fn lanes() -> Option<Lanes> {
     None
 }
 
-/// Where a link of a pack lies in the flat arrays.
-#[derive(Clone, Copy, Debug)]
-struct Place {
-    /// Its index.
-    link: usize,
-    coordinate: usize,
-    block: usize,
-    history: usize,
+/// Where the numbers of the links of a pack lie in a flat array.
+#[derive(Clone, Debug)]
+enum Places {
+    /// Link after link from here on.
+    Run(usize),
+    /// Each for itself.
+    Apart(Vec<usize>),
 }
 
-/// As many links of one law as there are lanes, or fewer: then the last one fills the others.
+impl Places {
+    /// Of links that have `n` numbers each.
+    fn new(starts: Vec<usize>, n: usize) -> Self {
+        if starts.windows(2).all(|two| two[0] + n == two[1]) {
+            return Self::Run(starts.first().copied().unwrap_or(0));
+        }
+        Self::Apart(starts)
+    }
+}
+
+/// As many links of one law as there are lanes, or fewer: then the others hold links at rest.
 #[derive(Clone, Debug)]
 pub(crate) struct Pack {
     with: Lanes,
     law: ErasedLaw,
     /// True where the law looks at rates.
     rate: bool,
-    places: Vec<Place>,
+    /// Indices of the links.
+    links: Vec<usize>,
+    /// Where their deformations, tangents and histories lie.
+    coordinates: Places,
+    blocks: Places,
+    histories: Places,
     parameters: Vec<Real>,
     d: Vec<Real>,
     v: Vec<Real>,
@@ -58,9 +72,12 @@ pub(crate) struct Pack {
     step: LaneStep<Real>,
 }
 
-/// The packs of the links that have a law over lanes in company, and the indices of all others.
-pub(crate) fn packs(laws: &[(&dyn Link, &LinkInstance)]) -> (Vec<Pack>, Vec<usize>) {
-    let Some(with) = lanes() else { return (Vec::new(), (0..laws.len()).collect()) };
+/// The packs of those of some links that have a law over lanes in company, and the indices of the others.
+pub(crate) fn packs(
+    laws: &[(&dyn Link, &LinkInstance)],
+    some: Vec<usize>,
+) -> (Vec<Pack>, Vec<usize>) {
+    let Some(with) = lanes() else { return (Vec::new(), some) };
     let forms: Vec<_> = laws
         .iter()
         .map(|(law, link)| {
@@ -72,15 +89,15 @@ pub(crate) fn packs(laws: &[(&dyn Link, &LinkInstance)]) -> (Vec<Pack>, Vec<usiz
         })
         .collect();
     let (mut packs, mut alone, mut done) = (Vec::new(), Vec::new(), vec![false; laws.len()]);
-    for i in 0..laws.len() {
+    for (at, i) in some.iter().copied().enumerate() {
         if done[i] {
             continue;
         }
         let of =
             |j: usize| forms[j].as_ref().map(|form| (form.law.id, form.rate, form.law.coordinates));
         let kind = of(i);
-        let same: Vec<usize> =
-            (i..laws.len()).filter(|j| kind.is_some() && of(*j) == kind).collect();
+        let like = |j: &usize| kind.is_some() && of(*j) == kind;
+        let same: Vec<usize> = some[at..].iter().copied().filter(like).collect();
         if same.len() < WORTH_LANES {
             alone.push(i);
             continue;
@@ -88,10 +105,8 @@ pub(crate) fn packs(laws: &[(&dyn Link, &LinkInstance)]) -> (Vec<Pack>, Vec<usiz
         for group in same.chunks(Lanes::WIDTH) {
             let own: Vec<_> = group.iter().filter_map(|j| forms[*j].as_ref()).collect();
             let Some(first) = own.first() else { continue };
-            let place = |j: &usize| {
-                let link = laws[*j].1;
-                let (coordinate, block) = (link.range.start, link.block.start);
-                Place { link: *j, coordinate, block, history: link.history.start }
+            let places = |n: usize, start: fn(&LinkInstance) -> usize| {
+                Places::new(group.iter().map(|j| start(laws[*j].1)).collect(), n)
             };
             let last = own.len() - 1;
             let parameter = |p: usize| with.gather(|lane| own[lane.min(last)].parameters[p]);
@@ -100,7 +115,10 @@ pub(crate) fn packs(laws: &[(&dyn Link, &LinkInstance)]) -> (Vec<Pack>, Vec<usiz
                 with,
                 law: first.law,
                 rate: first.rate && group.iter().any(|j| laws[*j].0.uses_rates()),
-                places: group.iter().map(place).collect(),
+                links: group.to_vec(),
+                coordinates: places(n, |link| link.range.start),
+                blocks: places(n * n, |link| link.block.start),
+                histories: places(first.law.history, |link| link.history.start),
                 parameters: (0..first.law.parameters).map(parameter).collect(),
                 d: vec![zero; n],
                 v: vec![zero; n],
@@ -119,44 +137,65 @@ pub(crate) fn packs(laws: &[(&dyn Link, &LinkInstance)]) -> (Vec<Pack>, Vec<usiz
     (packs, alone)
 }
 
-/// Fills numbers of each link from a flat array: a row of lanes for each of the `N` of a link.
+/// Fills numbers of `count` links from a flat array: a row of lanes for each of the `N` of a link, zero in the lanes
+/// that are left.
+#[inline]
 fn take_rows<const N: usize>(
     with: Lanes,
-    places: &[Place],
+    (count, places): (usize, &Places),
     from: &[f64],
-    at: fn(&Place) -> usize,
     to: &mut [Real],
 ) {
-    let mut rows = [[0.0; Lanes::WIDTH]; N];
-    for lane in 0..Lanes::WIDTH {
-        let start = at(&places[lane.min(places.len() - 1)]);
-        let own = &from[start..start + N];
-        for i in 0..N {
-            rows[i][lane] = own[i];
+    let mut own = [[0.0; N]; Lanes::WIDTH];
+    match places {
+        Places::Run(start) => {
+            let (run, _) = from[*start..*start + N * count].as_chunks::<N>();
+            if let Ok(whole) = <&[[f64; N]; Lanes::WIDTH]>::try_from(run) {
+                return turn(with, whole, to);
+            }
+            own[..count].copy_from_slice(run);
+        }
+        Places::Apart(starts) => {
+            for (own, start) in own.iter_mut().zip(starts) {
+                own.copy_from_slice(&from[*start..*start + N]);
+            }
         }
     }
-    for (x, row) in to.iter_mut().zip(&rows) {
-        *x = with.load(row);
+    turn(with, &own, to);
+}
+
+/// Rows of lanes from the numbers of each link.
+#[inline(always)]
+fn turn<const N: usize>(with: Lanes, own: &[[f64; N]; Lanes::WIDTH], to: &mut [Real]) {
+    for (i, x) in to.iter_mut().enumerate().take(N) {
+        *x = with.gather(|lane| own[lane][i]);
     }
 }
 
-/// Puts numbers of each link into a flat array.
+/// Puts numbers of `count` links into a flat array.
+#[inline]
 fn give_rows<const N: usize>(
     with: Lanes,
-    places: &[Place],
+    (count, places): (usize, &Places),
     from: &[Real],
-    at: fn(&Place) -> usize,
     to: &mut [f64],
 ) {
     let mut rows = [[0.0; Lanes::WIDTH]; N];
     for (x, row) in from.iter().zip(&mut rows) {
         with.store(*x, row);
     }
-    for (lane, place) in places.iter().enumerate().take(Lanes::WIDTH) {
-        let start = at(place);
-        let own = &mut to[start..start + N];
-        for i in 0..N {
-            own[i] = rows[i][lane];
+    let mut own = [[0.0; N]; Lanes::WIDTH];
+    for (lane, own) in own.iter_mut().enumerate() {
+        (0..N).for_each(|i| own[i] = rows[i][lane]);
+    }
+    match places {
+        Places::Run(start) => {
+            to[*start..*start + N * count].copy_from_slice(own[..count].as_flattened());
+        }
+        Places::Apart(starts) => {
+            for (own, start) in own.iter().zip(starts) {
+                to[*start..*start + N].copy_from_slice(own);
+            }
         }
     }
 }
@@ -177,56 +216,56 @@ macro_rules! by_rows {
     };
 }
 
-fn take(with: Lanes, places: &[Place], from: &[f64], at: fn(&Place) -> usize, to: &mut [Real]) {
-    by_rows!(to.len(), take_rows, with, places, from, at, to);
+fn take(with: Lanes, places: (usize, &Places), from: &[f64], to: &mut [Real]) {
+    by_rows!(to.len(), take_rows, with, places, from, to);
 }
 
-fn give(with: Lanes, places: &[Place], from: &[Real], at: fn(&Place) -> usize, to: &mut [f64]) {
-    by_rows!(from.len(), give_rows, with, places, from, at, to);
+fn give(with: Lanes, places: (usize, &Places), from: &[Real], to: &mut [f64]) {
+    by_rows!(from.len(), give_rows, with, places, from, to);
 }
 
 impl Pack {
     /// Takes up a step from the deformations and rates at its start.
     pub(crate) fn start(&mut self, at: &Kinematics<'_>, committed: &[f64]) {
-        let Self { with, places, d0, v0, history, .. } = self;
-        take(*with, places, at.d0, |p| p.coordinate, d0);
+        let Self { with, links, coordinates, histories, d0, v0, history, .. } = self;
+        let count = links.len();
+        take(*with, (count, coordinates), at.d0, d0);
         if self.rate {
-            take(*with, places, at.v0, |p| p.coordinate, v0);
+            take(*with, (count, coordinates), at.v0, v0);
         }
-        take(*with, places, committed, |p| p.history, history);
+        take(*with, (count, histories), committed, history);
         self.dt = with.splat(at.dt);
     }
 
     /// Forces and tangents.
     pub(crate) fn force(&mut self, at: &Kinematics<'_>, to: &mut [f64], tangents: &mut Tangents) {
-        let Self {
-            with, law, rate, places, parameters, d, v, d0, v0, dt, history, f, k, c, ..
-        } = self;
-        take(*with, places, at.d, |p| p.coordinate, d);
+        let coordinates = (self.links.len(), &self.coordinates);
+        let blocks = (self.links.len(), &self.blocks);
+        let Self { with, law, rate, parameters, d, v, d0, v0, dt, history, f, k, c, .. } = self;
+        take(*with, coordinates, at.d, d);
         if *rate {
-            take(*with, places, at.v, |p| p.coordinate, v);
+            take(*with, coordinates, at.v, v);
         }
         let mut links = LaneLinks { parameters, d, v, d0, v0, dt: *dt, history, f, k, c };
         with.force(law, &mut links);
-        give(*with, places, f, |p| p.coordinate, to);
-        give(*with, places, k, |p| p.block, &mut tangents.k);
+        give(*with, coordinates, f, to);
+        give(*with, blocks, k, &mut tangents.k);
         if *rate {
-            give(*with, places, c, |p| p.block, &mut tangents.c);
+            give(*with, blocks, c, &mut tangents.c);
         }
     }
 
     /// History and energies of the step at the forces asked for last.
     pub(crate) fn commit(&mut self, trial: &mut [f64], energy: &mut [Energy]) {
-        let Self {
-            with, law, places, parameters, d, v, d0, v0, dt, history, f, k, c, step, ..
-        } = self;
+        let histories = (self.links.len(), &self.histories);
+        let Self { with, law, parameters, d, v, d0, v0, dt, history, f, k, c, step, .. } = self;
         let mut links = LaneLinks { parameters, d, v, d0, v0, dt: *dt, history, f, k, c };
         with.commit(law, &mut links, std::slice::from_mut(step));
-        give(*with, places, history, |p| p.history, trial);
-        for (lane, place) in places.iter().enumerate() {
+        give(*with, histories, history, trial);
+        for (lane, link) in self.links.iter().enumerate() {
             let of = |x: Real| with.lane(x, lane);
             let LaneStep { stored, hysteretic, viscous, .. } = *step;
-            energy[place.link] =
+            energy[*link] =
                 Energy { stored: of(stored), hysteretic: of(hysteretic), viscous: of(viscous) };
         }
     }

@@ -4,6 +4,8 @@
 
 mod assemble;
 mod batch;
+mod blocks;
+mod dampers;
 mod elastic;
 mod error;
 mod impact;
@@ -12,6 +14,7 @@ mod loads;
 mod reduction;
 
 pub use assemble::System;
+pub use blocks::LinkBlocks;
 pub use elastic::EndForceRow;
 pub use error::SystemError;
 pub use impact::ImpactMass;

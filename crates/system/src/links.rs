@@ -11,6 +11,7 @@ use trilith_element::{Coordinates, Dof, Energy, Kinematics, Link, Response, Vect
 use trilith_model::{Body, Model};
 
 use crate::batch::{Pack, packs};
+use crate::dampers::Damper;
 use crate::{Reduction, SystemError};
 
 /// One link in the flat arrays.
@@ -50,6 +51,8 @@ pub struct LinkSet {
     pub support_rows: Vec<Vec<(usize, f64)>>,
     /// True for coordinates that are rotations.
     pub rotational: Vec<bool>,
+    /// True where some are.
+    pub turns: bool,
     /// Effective stiffness of each flat coordinate set by the user (0 where not).
     pub effective: Vec<f64>,
     /// Length of the history arrays.
@@ -107,15 +110,12 @@ impl<'a> Laws<'a> {
         tangents: &mut Tangents,
         energy: &mut [Energy],
     ) {
-        f.fill(0.0);
-        tangents.k.fill(0.0);
-        tangents.c.fill(0.0);
         for (i, energy) in energy.iter_mut().enumerate() {
             self.respond_one(i, at, committed, trial, f, tangents, energy);
         }
     }
 
-    /// The same of one link; forces and tangents must be zero before.
+    /// The same of one link.
     #[inline]
     fn respond_one(
         &self,
@@ -129,6 +129,9 @@ impl<'a> Laws<'a> {
     ) {
         let (law, link) = self.0[i];
         let r = link.range.clone();
+        let (k, c) = (&mut tangents.k[link.block.clone()], &mut tangents.c[link.block.clone()]);
+        let f = &mut f[r.clone()];
+        [&mut *f, &mut *k, &mut *c].into_iter().for_each(|x| x.fill(0.0));
         *energy = Energy::default();
         law.respond(
             &Kinematics {
@@ -140,12 +143,7 @@ impl<'a> Laws<'a> {
             },
             &committed[link.history.clone()],
             &mut trial[link.history.clone()],
-            &mut Response {
-                f: &mut f[r],
-                k: &mut tangents.k[link.block.clone()],
-                c: &mut tangents.c[link.block.clone()],
-                energy,
-            },
+            &mut Response { f, k, c, energy },
         );
     }
 }
@@ -155,6 +153,7 @@ impl<'a> Laws<'a> {
 #[derive(Debug)]
 pub struct StepLaws<'a> {
     laws: Laws<'a>,
+    dampers: Vec<Damper>,
     packs: Vec<Pack>,
     /// Indices of links that are asked one by one.
     alone: Vec<usize>,
@@ -164,8 +163,14 @@ impl<'a> StepLaws<'a> {
     /// Of these laws.
     #[must_use]
     pub fn new(laws: Laws<'a>) -> Self {
-        let (packs, alone) = packs(&laws.0);
-        Self { laws, packs, alone }
+        let dampers: Vec<Damper> = laws
+            .iter()
+            .enumerate()
+            .filter_map(|(i, (law, link))| Damper::of(i, law, link))
+            .collect();
+        let rest = (0..laws.0.len()).filter(|i| dampers.iter().all(|d| d.link != *i)).collect();
+        let (packs, alone) = packs(&laws.0, rest);
+        Self { laws, dampers, packs, alone }
     }
 
     /// Takes up a step: of `at` the deformations and rates at the start, and the length.
@@ -184,9 +189,7 @@ impl<'a> StepLaws<'a> {
         tangents: &mut Tangents,
         energy: &mut [Energy],
     ) {
-        f.fill(0.0);
-        tangents.k.fill(0.0);
-        tangents.c.fill(0.0);
+        self.dampers.iter().for_each(|damper| damper.force(&at, f, tangents));
         self.packs.iter_mut().for_each(|pack| pack.force(&at, f, tangents));
         for i in &self.alone {
             let energy = &mut energy[*i];
@@ -194,8 +197,9 @@ impl<'a> StepLaws<'a> {
         }
     }
 
-    /// The step ends where the laws were asked last: what of history and energies still waits.
-    pub fn end(&mut self, trial: &mut [f64], energy: &mut [Energy]) {
+    /// The step ends where the laws were asked last, at the same place: what of history and energies still waits.
+    pub fn end(&mut self, at: Kinematics<'_>, trial: &mut [f64], energy: &mut [Energy]) {
+        self.dampers.iter().for_each(|damper| damper.energy(&at, energy));
         self.packs.iter_mut().for_each(|pack| pack.commit(trial, energy));
     }
 }
@@ -251,6 +255,7 @@ impl LinkSet {
             let (start, n) = (link.block.start, link.range.len());
             (0..n).map(move |i| start + i * (n + 1))
         };
+        set.turns = set.rotational.contains(&true);
         let flat = set.links.iter().flat_map(diagonal).enumerate();
         set.diagonal = flat.filter(|(i, _)| !set.rows[*i].is_empty()).map(|(_, at)| at).collect();
         set.active = (0..set.rows.len()).filter(|i| !set.rows[*i].is_empty()).collect();

@@ -102,6 +102,34 @@ pub enum ConformanceError {
         /// Time.
         time: f64,
     },
+    /// A form for lanes with another history than the law.
+    #[error("the form for lanes has {given} history variables, and the link {own}")]
+    LaneHistory {
+        /// Variables of the form.
+        given: usize,
+        /// Variables of the link.
+        own: usize,
+    },
+    /// Another form of the law answers otherwise than the law.
+    #[error(
+        "`{form}`: {what}[{index}] = {given:e}, and `respond` gives {own:e}, at t = {time} s of path {path}"
+    )]
+    Form {
+        /// `lanes` or `damping_constant`.
+        form: &'static str,
+        /// `f`, `k`, `c`, `energy` or `trial`.
+        what: &'static str,
+        /// Which entry.
+        index: usize,
+        /// What the form says.
+        given: f64,
+        /// What the law says.
+        own: f64,
+        /// Number of the path.
+        path: usize,
+        /// Time.
+        time: f64,
+    },
     /// The force has kinks nearly everywhere.
     #[error(
         "{skipped} of {of} difference quotients lie at kinks: the tangents could not be examined"

@@ -2,36 +2,10 @@
 
 use super::{Affine, Committed, Converged, LinkKernel};
 use trilith_model::Kernel;
-use trilith_system::LinkInstance;
-
-/// The tangent of the force of an active coordinate by a flat coordinate.
-pub(super) struct Pair {
-    active: usize,
-    other: usize,
-    /// Its index in the tangents.
-    at: usize,
-}
-
-/// All of a link; `place` is the active index of each flat coordinate.
-pub(super) fn pairs<'a>(
-    link: &'a LinkInstance,
-    place: &'a [usize],
-) -> impl Iterator<Item = Pair> + 'a {
-    let n = link.range.len();
-    let all = link.range.clone().enumerate().flat_map(move |(i, flat)| {
-        let others = link.range.clone().enumerate();
-        others.map(move |(j, other)| (place[flat], other, link.block.start + i * n + j))
-    });
-    all.filter(|(active, ..)| *active != usize::MAX).map(|(active, other, at)| Pair {
-        active,
-        other,
-        at,
-    })
-}
 
 impl LinkKernel<'_> {
-    /// Moves f̃ to where the tangents at the start of the step put it: where every law goes on along them,
-    /// that is the equilibrium. False where nothing is foreseen; else deformations and rates must follow the
+    /// Moves f̃ to where the tangents at the start of the step put it, and what steps before left
+    /// [unforeseen](super::Unforeseen): where every law goes on along its tangents, that is the equilibrium. False where nothing is foreseen; else deformations and rates must follow the
     /// [`change`](Self::change).
     pub(crate) fn foresee(
         &mut self,
@@ -49,15 +23,24 @@ impl LinkKernel<'_> {
         };
         change(out.d, from.d, &mut self.moved);
         self.leave(from.f, out.pseudo);
-        for Pair { active, other, at } in &self.pairs {
-            self.residual[*active] += from.tangents.k[*at] * self.moved[*other];
-        }
-        if !self.rated_pairs.is_empty() {
+        let (k, c) = (&from.tangents.k, &from.tangents.c);
+        if self.complete {
+            self.blocks.mul_add(k, &self.moved, &mut self.residual);
+            if !self.rated_blocks.is_empty() {
+                change(out.v, from.v, &mut self.moved);
+                self.rated_blocks.mul_add(c, &self.moved, &mut self.residual);
+            }
+        } else {
+            self.then.clear();
+            self.then.resize(self.moved.len(), 0.0);
+            self.blocks.mul_add(k, &self.moved, &mut self.then);
             change(out.v, from.v, &mut self.moved);
+            self.rated_blocks.mul_add(c, &self.moved, &mut self.then);
+            for (r, flat) in self.residual.iter_mut().zip(&self.links.active) {
+                *r += self.then[*flat];
+            }
         }
-        for Pair { active, other, at } in &self.rated_pairs {
-            self.residual[*active] += from.tangents.c[*at] * self.moved[*other];
-        }
+        let expected = from.unforeseen.expect(affine.key, &mut self.residual);
         if self.residual.iter().all(|r| *r == 0.0) {
             return false;
         }
@@ -67,6 +50,7 @@ impl LinkKernel<'_> {
             return false;
         }
         self.take(out);
+        self.expected = expected;
         true
     }
 }

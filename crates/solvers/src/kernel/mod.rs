@@ -15,18 +15,19 @@
 mod factors;
 mod foresee;
 mod search;
+mod unforeseen;
 
 pub(crate) use factors::Remembered;
+pub(crate) use unforeseen::Unforeseen;
 
 use crate::propagator::StepKey;
 use crate::vector::{add, largest, residual};
 use factors::{Equations, Factors};
-use foresee::{Pair, pairs};
 use search::Search;
 use trilith_element::{Energy, Kinematics};
 use trilith_linalg::Dense;
 use trilith_model::{Kernel, Model, Solution};
-use trilith_system::{LinkSet, StepLaws, Tangents};
+use trilith_system::{LinkBlocks, LinkSet, StepLaws, Tangents};
 
 /// What the linear step gives the kernel.
 pub(crate) struct Affine<'a> {
@@ -49,6 +50,7 @@ pub(crate) struct Committed<'a> {
     pub f: &'a [f64],
     pub history: &'a [f64],
     pub tangents: &'a Tangents,
+    pub unforeseen: &'a Unforeseen,
     pub dt: f64,
 }
 
@@ -60,6 +62,7 @@ pub(crate) struct Converged<'a> {
     pub history: &'a mut [f64],
     pub energy: &'a mut [Energy],
     pub pseudo: &'a mut [f64],
+    pub unforeseen: &'a mut Unforeseen,
 }
 
 /// No equilibrium: the worst flat coordinate and its residual.
@@ -103,16 +106,15 @@ pub(crate) struct LinkKernel<'a> {
     /// Active coordinates of laws that look at rates, and the others with their flat index.
     rated: Vec<usize>,
     unrated: Vec<(usize, usize)>,
-    /// All tangents of active coordinates, and those of laws that look at rates.
-    pairs: Vec<Pair>,
-    rated_pairs: Vec<Pair>,
-    /// How deformations or rates change in a step, flat.
+    /// Blocks of all links, and of those whose laws look at rates.
+    blocks: LinkBlocks,
+    rated_blocks: LinkBlocks,
+    /// How deformations or rates change in a step, and the forces that follow from it, flat.
     moved: Vec<f64>,
+    then: Vec<f64>,
     tangents: Tangents,
     /// Active index of each flat coordinate.
     place: Vec<usize>,
-    /// True where some coordinate is a rotation.
-    rotations: bool,
     /// True where all coordinates are active.
     complete: bool,
     /// Index of the link of each active coordinate.
@@ -125,6 +127,8 @@ pub(crate) struct LinkKernel<'a> {
     sizes: [f64; 3],
     /// What a factor gives.
     correction: Vec<f64>,
+    /// True where the first guess of this step holds what the steps before left unforeseen.
+    expected: bool,
     /// True where deformations and rates have followed the last change of f̃ already.
     followed: bool,
     search: Search,
@@ -155,14 +159,15 @@ impl<'a> LinkKernel<'a> {
                 if law.uses_rates() { rated.push(a) } else { unrated.push((a, links.active[a])) }
             }
         }
-        let pairs = laws.iter().flat_map(|(_, link)| pairs(link, &place)).collect();
+        let blocks = LinkBlocks::of(laws.iter().map(|(_, link)| link));
         let rate_dependent = laws.iter().filter(|(law, _)| law.uses_rates());
-        let rated_pairs = rate_dependent.flat_map(|(_, link)| self::pairs(link, &place)).collect();
+        let rated_blocks = LinkBlocks::of(rate_dependent.map(|(_, link)| link));
         Self {
             kind: solution.kernel,
-            pairs,
-            rated_pairs,
+            blocks,
+            rated_blocks,
             moved: Vec::new(),
+            then: Vec::new(),
             tolerance: solution.link_tolerance,
             links,
             laws: StepLaws::new(laws),
@@ -171,7 +176,6 @@ impl<'a> LinkKernel<'a> {
             unrated,
             tangents: links.tangents(),
             place,
-            rotations: links.rotational.iter().any(|r| *r),
             complete: n == links.len(),
             owner,
             d: vec![0.0; n],
@@ -179,6 +183,7 @@ impl<'a> LinkKernel<'a> {
             residual: vec![0.0; n],
             sizes: [0.0; 3],
             correction: Vec::new(),
+            expected: false,
             followed: false,
             search: Search::default(),
             iteration: 0,
@@ -223,6 +228,11 @@ impl<'a> LinkKernel<'a> {
         self.factors = factors;
     }
 
+    /// True where all coordinates are active.
+    pub(crate) fn is_complete(&self) -> bool {
+        self.complete
+    }
+
     /// Pseudo-force of forces that act at a deformation; `support` is what moving supports have in it.
     pub(crate) fn pseudo(&self, f: &[f64], d: &[f64], support: &[f64], to: &mut [f64]) {
         if self.complete {
@@ -259,7 +269,7 @@ impl<'a> LinkKernel<'a> {
         self.d.copy_from_slice(affine.d);
         self.v.copy_from_slice(affine.v);
         self.search.reset();
-        (self.iteration, self.size_before) = (0, f64::INFINITY);
+        (self.iteration, self.size_before, self.expected) = (0, f64::INFINITY, false);
     }
 
     /// One iteration: true where the links are in equilibrium; else f̃ has changed by what
@@ -277,9 +287,12 @@ impl<'a> LinkKernel<'a> {
         };
         self.iterations += 1;
         self.evaluate(affine, from, out);
+        if self.iteration == 0 && self.kind == Kernel::Newton {
+            out.unforeseen.note(from.unforeseen, affine.key, &self.residual, self.expected);
+        }
         let (size, worst) = self.measure(out, scale, self.iteration);
         if size <= 1.0 {
-            self.laws.end(out.history, out.energy);
+            self.end(from, out);
             return Ok(true);
         }
         self.iteration += 1;
@@ -301,7 +314,7 @@ impl<'a> LinkKernel<'a> {
             self.newton_correction(affine, &tangents, size > CONTRACTS * self.size_before);
             self.tangents = tangents;
             if size <= ROUNDING && size * largest(&self.residual) <= SETTLED * before {
-                self.laws.end(out.history, out.energy);
+                self.end(from, out);
                 return Ok(true);
             }
         }
@@ -311,6 +324,12 @@ impl<'a> LinkKernel<'a> {
         }
         self.take(out);
         Ok(false)
+    }
+
+    /// The laws end the step where they were asked last.
+    fn end(&mut self, from: &Committed<'_>, out: &mut Converged<'_>) {
+        let at = Kinematics { d: out.d, v: out.v, d0: from.d, v0: from.v, dt: from.dt };
+        self.laws.end(at, out.history, out.energy);
     }
 
     fn take(&mut self, out: &mut Converged<'_>) {
@@ -402,10 +421,10 @@ impl<'a> LinkKernel<'a> {
         let links = self.links;
         let (mut now, mut left) = (*scale, [0.0; 2]);
         let [of_residual, of_force, of_pseudo] = self.sizes;
-        if !self.rotations && of_residual <= self.tolerance * now[0] {
+        if !links.turns && of_residual <= self.tolerance * now[0] {
             return (0.0, NoEquilibrium { worst: 0, residual: 0.0 });
         }
-        if self.rotations {
+        if links.turns {
             for (a, flat) in links.active.iter().enumerate() {
                 let kind = usize::from(links.rotational[*flat]);
                 left[kind] = self.residual[a].abs().max(left[kind]);
@@ -417,8 +436,8 @@ impl<'a> LinkKernel<'a> {
             now[0] = of_force.max(PSEUDO_SHARE * of_pseudo).max(now[0]);
         }
         let mut worst = NoEquilibrium { worst: 0, residual: 0.0 };
-        if let (false, Some(a)) =
-            (of_residual.is_finite(), self.residual.iter().position(|r| !r.is_finite()))
+        if !of_residual.is_finite()
+            && let Some(a) = self.residual.iter().position(|r| !r.is_finite())
         {
             worst = NoEquilibrium { worst: links.active[a], residual: self.residual[a].abs() };
             return (f64::NAN, worst);

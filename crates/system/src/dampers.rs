@@ -1,0 +1,35 @@
+//! Links that are `f = c ḋ` at all times: nothing to ask their laws about in a step.
+
+use crate::links::{LinkInstance, Tangents};
+use trilith_element::{Energy, Kinematics, Link};
+
+/// A linear dashpot.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Damper {
+    /// Index of the link.
+    pub link: usize,
+    coordinate: usize,
+    block: usize,
+    c: f64,
+}
+
+impl Damper {
+    /// The link with this index, where its law is a dashpot and nothing else.
+    pub(crate) fn of(index: usize, law: &dyn Link, link: &LinkInstance) -> Option<Self> {
+        let c = law.damping_constant().filter(|_| link.range.len() == 1)?;
+        Some(Self { link: index, coordinate: link.range.start, block: link.block.start, c })
+    }
+
+    /// Force and tangents.
+    pub(crate) fn force(&self, at: &Kinematics<'_>, f: &mut [f64], tangents: &mut Tangents) {
+        f[self.coordinate] = self.c * at.v[self.coordinate];
+        (tangents.k[self.block], tangents.c[self.block]) = (0.0, self.c);
+    }
+
+    /// Energies of a step.
+    pub(crate) fn energy(&self, at: &Kinematics<'_>, energy: &mut [Energy]) {
+        let i = self.coordinate;
+        let viscous = at.viscous_work(i, self.c * at.v0[i], self.c * at.v[i]);
+        energy[self.link] = Energy { viscous, ..Energy::default() };
+    }
+}
