@@ -65,6 +65,7 @@ fn links_of_one_kind_answer_together_as_alone() {
         let zero = || vec![0.0; n];
         let none =
             || Tangents { k: vec![f64::NAN; links.block_len], c: vec![f64::NAN; links.block_len] };
+        let mut two = links.tangents();
         let mut history = links.at_rest(&model);
         let (mut d0, mut v0) = (zero(), zero());
         let dt = 0.01;
@@ -72,7 +73,7 @@ fn links_of_one_kind_answer_together_as_alone() {
             let mut d = zero();
             let mut v = zero();
             let (mut of, mut other) = (zero(), zero());
-            let (mut one, mut two) = (none(), none());
+            let mut one = none();
             let (mut trial, mut second) = (history.clone(), history.clone());
             let mut energy = vec![Energy::default(); links.links.len()];
             let mut energies = energy.clone();
@@ -91,7 +92,8 @@ fn links_of_one_kind_answer_together_as_alone() {
                 close("stiffness", &one.k, &two.k, 1e7);
                 close("damping", &one.c, &two.c, 1e7);
             }
-            together.end(&mut second, &mut energies);
+            let at = Kinematics { d: &d, v: &v, d0: &d0, v0: &v0, dt };
+            together.end(at, &mut second, &mut energies);
             close("history", &trial, &second, 1.0);
             for (a, b) in energy.iter().zip(&energies) {
                 let of = |e: &Energy| [e.stored, e.hysteretic, e.viscous];
