@@ -8,6 +8,7 @@
 use crate::observe::{Observer, Sample};
 use serde::Serialize;
 use trilith_element::Contact;
+use trilith_system::System;
 
 /// Response mode and extremes of all contacts of a model.
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]
@@ -24,6 +25,17 @@ pub struct ContactSummary {
     pub residual_slip: f64,
     /// True where a body has fallen over.
     pub overturned: bool,
+}
+
+/// Elements of links on what nothing else holds against gravity.
+pub(crate) fn falling(system: &System) -> Vec<usize> {
+    let links = system.links.links.iter().zip(system.on_falling_parts());
+    links.filter(|(_, falls)| *falls).map(|(l, _)| l.element).collect()
+}
+
+/// True where a contact carries something at the start, or something falls onto one.
+pub(crate) fn stands(contacts: &[(usize, Contact)], falling: &[usize]) -> bool {
+    contacts.iter().any(|(element, c)| c.normal > 0.0 || falling.contains(element))
 }
 
 /// What has been seen.
@@ -65,19 +77,22 @@ pub struct ContactMode {
     initial_over: bool,
     whole: Seen,
     play: f64,
-    /// True for a model that stands on nothing at the start: stops between structures, for instance.
-    stands_on_nothing: bool,
+    /// Elements of links on what nothing else holds against gravity.
+    falling: Vec<usize>,
+    /// False for a model that stands on nothing, such as frames with stops between them; known from the first
+    /// sample on.
+    stands: Option<bool>,
     summary: ContactSummary,
 }
 
 impl ContactMode {
     /// Nothing seen yet.
     #[must_use]
-    pub fn new() -> Self {
-        Self::default()
+    pub fn new(system: &System) -> Self {
+        Self { falling: falling(system), ..Self::default() }
     }
 
-    /// The summary; `None` for a model that no contact carries at the start.
+    /// The summary; `None` for a model that no contact carries at the start, unless it falls onto one.
     #[must_use]
     pub fn summary(&self) -> Option<ContactSummary> {
         (!self.start.is_empty()).then(|| ContactSummary {
@@ -145,10 +160,7 @@ impl ContactMode {
 impl Observer for ContactMode {
     fn sample(&mut self, sample: &Sample<'_>) {
         let now: Vec<Contact> = sample.contacts.iter().map(|(_, c)| *c).collect();
-        if self.before.is_empty() {
-            self.stands_on_nothing = now.iter().all(|c| c.normal <= 0.0);
-        }
-        if self.stands_on_nothing {
+        if !*self.stands.get_or_insert_with(|| stands(sample.contacts, &self.falling)) {
             return;
         }
         if self.before.is_empty() {

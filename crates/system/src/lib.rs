@@ -8,6 +8,7 @@ mod blocks;
 mod dampers;
 mod elastic;
 mod error;
+mod falling;
 mod impact;
 mod links;
 mod loads;

@@ -42,15 +42,16 @@ pub(super) struct Feet<R: Real> {
     max_slip: R,
     residual: R,
     plane: bool,
-    /// Which lanes stand on something at the start.
+    /// Which lanes stand on something, or fall onto it.
     standing: Vec<bool>,
 }
 
 impl<R: Real> Feet<R> {
-    /// At the start; `contacts` of each lane; `plane` where all positions are along one axis.
+    /// At the start; `contacts` of each lane, and whether it stands; `plane` where all positions are along one axis.
     pub(super) fn new<A: Arithmetic<Real = R>>(
         with: A,
         contacts: &[&[Contact]],
+        standing: Vec<bool>,
         plane: bool,
     ) -> Self {
         let last = contacts.len() - 1;
@@ -77,7 +78,7 @@ impl<R: Real> Feet<R> {
             max_slip: zero,
             residual: zero,
             plane,
-            standing: contacts.iter().map(|l| l.iter().any(|c| c.normal > 0.0)).collect(),
+            standing,
         }
     }
 

@@ -3,6 +3,7 @@
 use super::rule::stiffness_ratio;
 use super::tables::{Grid, Table, Tables};
 use crate::case::before;
+use crate::contact_mode::{falling, stands};
 use crate::dynamic::{bases, held_load, link_side, modes};
 use crate::error::SolveError;
 use crate::modal::{LONGEST, Modal};
@@ -101,6 +102,8 @@ pub struct LaneSetup {
     pub(super) strain: f64,
     pub(super) potential: f64,
     pub(super) contacts: Vec<Contact>,
+    /// True where something stands on them, or falls onto them.
+    pub(super) stands: bool,
     pub(super) values: Vec<f64>,
     pub(super) rates: Vec<f64>,
     /// Largest share of the energy that may be unaccounted for.
@@ -247,7 +250,8 @@ pub fn prepare(
         kinetic,
         strain,
         potential: potential(&constant_force(space, &loads), &state),
-        contacts: seen,
+        stands: stands(&seen, &falling(system)),
+        contacts: seen.into_iter().map(|(_, c)| c).collect(),
         values,
         rates,
         energy_limit: analysis.solution.energy_limit,
@@ -305,15 +309,16 @@ fn turned(turn: &Dense, x: &[f64]) -> Vec<f64> {
     y
 }
 
-/// What every contact does in a state.
-fn contacts(model: &Model, system: &System, state: &State) -> Vec<Contact> {
-    let (links, mut all) = (&system.links, Vec::new());
+/// What every contact does in a state, with the index of its element.
+fn contacts(model: &Model, system: &System, state: &State) -> Vec<(usize, Contact)> {
+    let (links, mut all, mut own) = (&system.links, Vec::new(), Vec::new());
     for link in &links.links {
         let Some(law) = links.law(model, link) else { continue };
         let r = link.range.clone();
         let (d, v) = (&state.d[r.clone()], &state.v[r.clone()]);
         let at = Kinematics { d, v, d0: d, v0: v, dt: 0.0 };
-        law.contacts(&at, &state.history[link.history.clone()], &state.f[r], &mut all);
+        law.contacts(&at, &state.history[link.history.clone()], &state.f[r], &mut own);
+        all.extend(own.drain(..).map(|c| (link.element, c)));
     }
     all
 }

@@ -111,7 +111,12 @@ impl<R: Real, const M: usize, const L: usize, const N: usize> State<R, M, L, N> 
             peaks: (0..one.values.len())
                 .map(|o| Peak::new(get(&|s| s.values[o]), get(&|s| s.rates[o])))
                 .collect(),
-            feet: Feet::new(with, &feet, one.forms.iter().all(|f| f.law.coordinates < 3)),
+            feet: Feet::new(
+                with,
+                &feet,
+                setups.iter().map(|s| s.stands).collect(),
+                one.forms.iter().all(|f| f.law.coordinates < 3),
+            ),
         }
     }
 }
