@@ -4,9 +4,9 @@ use super::{Affine, Committed, Converged, LinkKernel};
 use trilith_model::Kernel;
 
 impl LinkKernel<'_> {
-    /// Moves f̃ to where the tangents at the start of the step put it, and what steps before left
-    /// [unforeseen](super::Unforeseen): where every law goes on along its tangents, that is the equilibrium. False where nothing is foreseen; else deformations and rates must follow the
-    /// [`change`](Self::change).
+    /// Moves f̃ to where the tangents at the start of the step put it, and what the steps before left
+    /// [unforeseen](super::Unforeseen): where every law goes on along its tangents, that is the equilibrium.
+    /// False where nothing is foreseen; else deformations and rates must follow the [`change`](Self::change).
     pub(crate) fn foresee(
         &mut self,
         affine: &Affine<'_>,
@@ -31,13 +31,13 @@ impl LinkKernel<'_> {
                 self.rated_blocks.mul_add(c, &self.moved, &mut self.residual);
             }
         } else {
-            self.then.clear();
-            self.then.resize(self.moved.len(), 0.0);
-            self.blocks.mul_add(k, &self.moved, &mut self.then);
+            self.pull.clear();
+            self.pull.resize(self.moved.len(), 0.0);
+            self.blocks.mul_add(k, &self.moved, &mut self.pull);
             change(out.v, from.v, &mut self.moved);
-            self.rated_blocks.mul_add(c, &self.moved, &mut self.then);
+            self.rated_blocks.mul_add(c, &self.moved, &mut self.pull);
             for (r, flat) in self.residual.iter_mut().zip(&self.links.active) {
-                *r += self.then[*flat];
+                *r += self.pull[*flat];
             }
         }
         let expected = from.unforeseen.expect(affine.key, &mut self.residual);

@@ -8,7 +8,7 @@
 //!
 //! `Newton` solves `R(f̃) = law(d, ḋ) − k_e d − f̃ = 0` with the full tangents of the laws,
 //! `J = I + (k − k_e) G + c H`; coordinates whose row of tangents is zero or weak need no equation. It starts
-//! from what the tangents at the start of the step foresee.
+//! from what the tangents at the start of the step foresee, and what such guesses lacked in the steps before.
 //! `FixedPoint` is Wilson's constant-stiffness iteration, f̃ ← law − k_e d; it converges only
 //! while |k − k_e| G < 1. Neither touches a matrix of the structure.
 
@@ -111,7 +111,7 @@ pub(crate) struct LinkKernel<'a> {
     rated_blocks: LinkBlocks,
     /// How deformations or rates change in a step, and the forces that follow from it, flat.
     moved: Vec<f64>,
-    then: Vec<f64>,
+    pull: Vec<f64>,
     tangents: Tangents,
     /// Active index of each flat coordinate.
     place: Vec<usize>,
@@ -167,7 +167,7 @@ impl<'a> LinkKernel<'a> {
             blocks,
             rated_blocks,
             moved: Vec::new(),
-            then: Vec::new(),
+            pull: Vec::new(),
             tolerance: solution.link_tolerance,
             links,
             laws: StepLaws::new(laws),
