@@ -70,7 +70,7 @@ fn run_case(case: &Value, solver: SolverKind, dt: f64) -> (Trace, CaseResult, Co
         ["slide", "uplift_left", "uplift_right", "rotation"].map(|n| output(&model, n)),
         [0, 1, 2, 3]
     );
-    let (mut trace, mut mode) = (Trace::default(), ContactMode::new(&system));
+    let (mut trace, mut mode) = (Trace::default(), ContactMode::new(&model, &system));
     let options = RunOptions {
         case: model.cases.len() - 1,
         solver: Some(solver),

@@ -8,7 +8,7 @@ const BOTH: [SolverKind; 2] = [SolverKind::Fna, SolverKind::Hht];
 
 fn overturned(set: &[(&str, String)], solver: SolverKind) -> (Status, bool, Trace, usize) {
     let (model, system) = shipped("rocking_body.ron", set);
-    let (mut contact, mut trace) = (ContactMode::new(&system), Trace::default());
+    let (mut contact, mut trace) = (ContactMode::new(&model, &system), Trace::default());
     let case = model.cases.len() - 1;
     let options = RunOptions { case, solver: Some(solver), ..RunOptions::default() };
     let result = run(&model, &system, options, &mut [&mut contact, &mut trace]).unwrap();

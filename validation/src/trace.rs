@@ -112,7 +112,7 @@ impl Trace {
             ..Self::default()
         };
         trace.equations = analysis.system().order();
-        let mut contact = ContactMode::new(analysis.system());
+        let mut contact = ContactMode::new(model, analysis.system());
         let options =
             RunOptions { case: index(model, name)?, solver: Some(solver), ..RunOptions::default() };
         let result = trilith::solvers::run(

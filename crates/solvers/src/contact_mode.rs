@@ -7,8 +7,9 @@
 
 use crate::observe::{Observer, Sample};
 use serde::Serialize;
-use trilith_element::Contact;
-use trilith_system::System;
+use trilith_element::{Contact, Kinematics, Link};
+use trilith_model::Model;
+use trilith_system::{LinkInstance, System};
 
 /// Response mode and extremes of all contacts of a model.
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]
@@ -27,10 +28,26 @@ pub struct ContactSummary {
     pub overturned: bool,
 }
 
-/// Elements of links on what nothing else holds against gravity.
-pub(crate) fn falling(system: &System) -> Vec<usize> {
-    let links = system.links.links.iter().zip(system.on_falling_parts());
-    links.filter(|(_, falls)| *falls).map(|(l, _)| l.element).collect()
+/// Elements of contacts on what nothing else holds against gravity.
+pub(crate) fn falling(model: &Model, system: &System) -> Vec<usize> {
+    let links = &system.links;
+    let mut seen = Vec::new();
+    let is_contact = |(law, link): (&dyn Link, &LinkInstance)| {
+        let rest = vec![0.0; link.range.len()];
+        let at = Kinematics { d: &rest, v: &rest, d0: &rest, v0: &rest, dt: 0.0 };
+        let mut history = vec![0.0; link.history.len()];
+        law.at_rest(&mut history);
+        seen.clear();
+        law.contacts(&at, &history, &rest, &mut seen);
+        !seen.is_empty()
+    };
+    let contacts: Vec<bool> = links.laws(model).iter().map(is_contact).collect();
+    if !contacts.contains(&true) {
+        return Vec::new();
+    }
+    let falling = system.on_falling_parts(model, |i| !contacts[i]);
+    let all = links.links.iter().zip(contacts.iter().zip(falling));
+    all.filter(|(_, (contact, falls))| **contact && *falls).map(|(l, _)| l.element).collect()
 }
 
 /// True where a contact carries something at the start, or something falls onto one.
@@ -77,7 +94,7 @@ pub struct ContactMode {
     initial_over: bool,
     whole: Seen,
     play: f64,
-    /// Elements of links on what nothing else holds against gravity.
+    /// Elements of contacts on what nothing else holds against gravity.
     falling: Vec<usize>,
     /// False for a model that stands on nothing, such as frames with stops between them; known from the first
     /// sample on.
@@ -88,8 +105,8 @@ pub struct ContactMode {
 impl ContactMode {
     /// Nothing seen yet.
     #[must_use]
-    pub fn new(system: &System) -> Self {
-        Self { falling: falling(system), ..Self::default() }
+    pub fn new(model: &Model, system: &System) -> Self {
+        Self { falling: falling(model, system), ..Self::default() }
     }
 
     /// The summary; `None` for a model that no contact carries at the start, unless it falls onto one.

@@ -95,7 +95,7 @@ impl<'m> Analysis<'m> {
         if !self.histories {
             record = record.without_histories();
         }
-        let mut contact = ContactMode::new(&self.system);
+        let mut contact = ContactMode::new(self.model, &self.system);
         let mut all: Vec<&mut dyn Observer> = vec![&mut record, &mut contact];
         for observer in observers {
             all.push(*observer);

@@ -250,7 +250,7 @@ pub fn prepare(
         kinetic,
         strain,
         potential: potential(&constant_force(space, &loads), &state),
-        stands: stands(&seen, &falling(system)),
+        stands: stands(&seen, &falling(model, system)),
         contacts: seen.into_iter().map(|(_, c)| c).collect(),
         values,
         rates,
