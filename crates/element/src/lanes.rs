@@ -45,7 +45,7 @@ mod wide;
 
 pub use arithmetic::{Arithmetic, Portable, Task};
 #[cfg(target_arch = "x86_64")]
-pub use arithmetic::{FusedOne, WideLanes};
+pub use arithmetic::{Avx2Lanes, Avx512Lanes, FusedOne};
 pub use law::{ErasedLaw, LaneAt, LaneContact, LaneForce, LaneForm, LaneLaw, LaneLinks, LaneStep};
 pub use real::Real;
 #[cfg(target_arch = "x86_64")]

@@ -4,28 +4,20 @@
 //! parts: the iteration of a step asks for forces only, history and energies follow once at its end.
 
 use crate::links::{LinkInstance, Tangents};
-#[cfg(not(target_arch = "x86_64"))]
-use trilith_element::lanes::Portable as Lanes;
+use std::fmt::Debug;
+use trilith_element::lanes::{Arithmetic, ErasedLaw, LaneForm, LaneLinks, LaneStep, Task};
 #[cfg(target_arch = "x86_64")]
-use trilith_element::lanes::WideLanes as Lanes;
-use trilith_element::lanes::{Arithmetic, ErasedLaw, LaneLinks, LaneStep};
+use trilith_element::lanes::{Avx2Lanes, Avx512Lanes};
 use trilith_element::{Energy, Kinematics, Link};
 
-type Real = <Lanes as Arithmetic>::Real;
+/// Lanes of every arithmetic that has several.
+const WIDTH: usize = 8;
 
 /// Fewer links of one law are asked one by one.
 const WORTH_LANES: usize = 4;
 
 /// Numbers of a kind that a link of a pack has at most.
 const MOST: usize = 9;
-
-/// The lanes of this machine, where it has any.
-fn lanes() -> Option<Lanes> {
-    #[cfg(target_arch = "x86_64")]
-    return Lanes::available();
-    #[cfg(not(target_arch = "x86_64"))]
-    None
-}
 
 /// Where the numbers of the links of a pack lie in a flat array.
 #[derive(Clone, Debug)]
@@ -46,10 +38,22 @@ impl Places {
     }
 }
 
+/// Links of one law that are asked together.
+pub(crate) trait Pack: Debug {
+    /// Takes up a step from the deformations and rates at its start.
+    fn start(&mut self, at: &Kinematics<'_>, committed: &[f64]);
+
+    /// Forces and tangents.
+    fn force(&mut self, at: &Kinematics<'_>, to: &mut [f64], tangents: &mut Tangents);
+
+    /// History and energies of the step at the forces asked for last.
+    fn commit(&mut self, trial: &mut [f64], energy: &mut [Energy]);
+}
+
 /// As many links of one law as there are lanes, or fewer: then the others hold links at rest.
-#[derive(Clone, Debug)]
-pub(crate) struct Pack {
-    with: Lanes,
+#[derive(Debug)]
+struct Lanes<A: Arithmetic> {
+    with: A,
     law: ErasedLaw,
     /// True where the law looks at rates.
     rate: bool,
@@ -59,26 +63,41 @@ pub(crate) struct Pack {
     coordinates: Places,
     blocks: Places,
     histories: Places,
-    parameters: Vec<Real>,
-    d: Vec<Real>,
-    v: Vec<Real>,
-    d0: Vec<Real>,
-    v0: Vec<Real>,
-    dt: Real,
-    history: Vec<Real>,
-    f: Vec<Real>,
-    k: Vec<Real>,
-    c: Vec<Real>,
-    step: LaneStep<Real>,
+    parameters: Vec<A::Real>,
+    d: Vec<A::Real>,
+    v: Vec<A::Real>,
+    d0: Vec<A::Real>,
+    v0: Vec<A::Real>,
+    dt: A::Real,
+    history: Vec<A::Real>,
+    f: Vec<A::Real>,
+    k: Vec<A::Real>,
+    c: Vec<A::Real>,
+    step: LaneStep<A::Real>,
 }
 
+type Laws<'a> = [(&'a dyn Link, &'a LinkInstance)];
+
 /// The packs of those of some links that have a law over lanes in company, and the indices of the others.
-pub(crate) fn packs(
-    laws: &[(&dyn Link, &LinkInstance)],
+pub(crate) fn packs(laws: &Laws<'_>, some: Vec<usize>) -> (Vec<Box<dyn Pack>>, Vec<usize>) {
+    #[cfg(target_arch = "x86_64")]
+    if let Some(with) = Avx512Lanes::available() {
+        return packs_of(with, laws, some);
+    }
+    #[cfg(target_arch = "x86_64")]
+    if let Some(with) = Avx2Lanes::available() {
+        return packs_of(with, laws, some);
+    }
+    (Vec::new(), some)
+}
+
+fn packs_of<A: Arithmetic + Debug + 'static>(
+    with: A,
+    laws: &Laws<'_>,
     some: Vec<usize>,
-) -> (Vec<Pack>, Vec<usize>) {
-    let Some(with) = lanes() else { return (Vec::new(), some) };
-    let forms: Vec<_> = laws
+) -> (Vec<Box<dyn Pack>>, Vec<usize>) {
+    const { assert!(A::WIDTH == WIDTH, "lanes") };
+    let forms: Vec<Option<LaneForm>> = laws
         .iter()
         .map(|(law, link)| {
             let n = link.range.len();
@@ -102,55 +121,61 @@ pub(crate) fn packs(
             alone.push(i);
             continue;
         }
-        for group in same.chunks(Lanes::WIDTH) {
-            let own: Vec<_> = group.iter().filter_map(|j| forms[*j].as_ref()).collect();
-            let Some(first) = own.first() else { continue };
-            let places = |n: usize, start: fn(&LinkInstance) -> usize| {
-                Places::new(group.iter().map(|j| start(laws[*j].1)).collect(), n)
-            };
-            let last = own.len() - 1;
-            let parameter = |p: usize| with.gather(|lane| own[lane.min(last)].parameters[p]);
-            let (n, zero) = (first.law.coordinates, with.splat(0.0));
-            packs.push(Pack {
-                with,
-                law: first.law,
-                rate: first.rate && group.iter().any(|j| laws[*j].0.uses_rates()),
-                links: group.to_vec(),
-                coordinates: places(n, |link| link.range.start),
-                blocks: places(n * n, |link| link.block.start),
-                histories: places(first.law.history, |link| link.history.start),
-                parameters: (0..first.law.parameters).map(parameter).collect(),
-                d: vec![zero; n],
-                v: vec![zero; n],
-                d0: vec![zero; n],
-                v0: vec![zero; n],
-                dt: zero,
-                history: vec![zero; first.law.history],
-                f: vec![zero; n],
-                k: vec![zero; n * n],
-                c: vec![zero; n * n],
-                step: LaneStep::elastic(zero),
-            });
+        for group in same.chunks(WIDTH) {
+            let own: Vec<&LaneForm> = group.iter().filter_map(|j| forms[*j].as_ref()).collect();
+            packs.extend(Lanes::new(with, laws, group, &own));
         }
         same.iter().for_each(|j| done[*j] = true);
     }
     (packs, alone)
 }
 
+impl<A: Arithmetic + Debug + 'static> Lanes<A> {
+    /// Of a group of links with their forms; none where there are none.
+    fn new(with: A, laws: &Laws<'_>, group: &[usize], own: &[&LaneForm]) -> Option<Box<dyn Pack>> {
+        let (first, last) = (own.first()?, own.len() - 1);
+        let places = |n: usize, start: fn(&LinkInstance) -> usize| {
+            Places::new(group.iter().map(|j| start(laws[*j].1)).collect(), n)
+        };
+        let parameter = |p: usize| with.gather(|lane| own[lane.min(last)].parameters[p]);
+        let (n, zero) = (first.law.coordinates, with.splat(0.0));
+        Some(Box::new(Self {
+            with,
+            law: first.law,
+            rate: first.rate && group.iter().any(|j| laws[*j].0.uses_rates()),
+            links: group.to_vec(),
+            coordinates: places(n, |link| link.range.start),
+            blocks: places(n * n, |link| link.block.start),
+            histories: places(first.law.history, |link| link.history.start),
+            parameters: (0..first.law.parameters).map(parameter).collect(),
+            d: vec![zero; n],
+            v: vec![zero; n],
+            d0: vec![zero; n],
+            v0: vec![zero; n],
+            dt: zero,
+            history: vec![zero; first.law.history],
+            f: vec![zero; n],
+            k: vec![zero; n * n],
+            c: vec![zero; n * n],
+            step: LaneStep::elastic(zero),
+        }))
+    }
+}
+
 /// Fills numbers of `count` links from a flat array: a row of lanes for each of the `N` of a link, zero in the lanes
 /// that are left.
-#[inline]
-fn take_rows<const N: usize>(
-    with: Lanes,
+#[inline(always)]
+fn take_rows<A: Arithmetic, const N: usize>(
+    with: A,
     (count, places): (usize, &Places),
     from: &[f64],
-    to: &mut [Real],
+    to: &mut [A::Real],
 ) {
-    let mut own = [[0.0; N]; Lanes::WIDTH];
+    let mut own = [[0.0; N]; WIDTH];
     match places {
         Places::Run(start) => {
             let (run, _) = from[*start..*start + N * count].as_chunks::<N>();
-            if let Ok(whole) = <&[[f64; N]; Lanes::WIDTH]>::try_from(run) {
+            if let Ok(whole) = <&[[f64; N]; WIDTH]>::try_from(run) {
                 return turn(with, whole, to);
             }
             own[..count].copy_from_slice(run);
@@ -166,25 +191,25 @@ fn take_rows<const N: usize>(
 
 /// Rows of lanes from the numbers of each link.
 #[inline(always)]
-fn turn<const N: usize>(with: Lanes, own: &[[f64; N]; Lanes::WIDTH], to: &mut [Real]) {
+fn turn<A: Arithmetic, const N: usize>(with: A, own: &[[f64; N]; WIDTH], to: &mut [A::Real]) {
     for (i, x) in to.iter_mut().enumerate().take(N) {
         *x = with.gather(|lane| own[lane][i]);
     }
 }
 
 /// Puts numbers of `count` links into a flat array.
-#[inline]
-fn give_rows<const N: usize>(
-    with: Lanes,
+#[inline(always)]
+fn give_rows<A: Arithmetic, const N: usize>(
+    with: A,
     (count, places): (usize, &Places),
-    from: &[Real],
+    from: &[A::Real],
     to: &mut [f64],
 ) {
-    let mut rows = [[0.0; Lanes::WIDTH]; N];
+    let mut rows = [[0.0; WIDTH]; N];
     for (x, row) in from.iter().zip(&mut rows) {
         with.store(*x, row);
     }
-    let mut own = [[0.0; N]; Lanes::WIDTH];
+    let mut own = [[0.0; N]; WIDTH];
     for (lane, own) in own.iter_mut().enumerate() {
         (0..N).for_each(|i| own[i] = rows[i][lane]);
     }
@@ -212,21 +237,66 @@ macro_rules! by_rows {
         }
     };
     (! $call:ident, $size:literal, ($($arguments:expr),*)) => {
-        $call::<$size>($($arguments),*)
+        $call::<A, $size>($($arguments),*)
     };
 }
 
-fn take(with: Lanes, places: (usize, &Places), from: &[f64], to: &mut [Real]) {
-    by_rows!(to.len(), take_rows, with, places, from, to);
+/// Takes numbers from a flat array, with the instructions of an arithmetic.
+struct Take<'a, R> {
+    count: usize,
+    places: &'a Places,
+    from: &'a [f64],
+    to: &'a mut [R],
 }
 
-fn give(with: Lanes, places: (usize, &Places), from: &[Real], to: &mut [f64]) {
-    by_rows!(from.len(), give_rows, with, places, from, to);
+impl<A: Arithmetic> Task<A> for Take<'_, A::Real> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run(self, with: A) {
+        let Self { count, places, from, to } = self;
+        by_rows!(to.len(), take_rows, with, (count, places), from, to);
+    }
 }
 
-impl Pack {
-    /// Takes up a step from the deformations and rates at its start.
-    pub(crate) fn start(&mut self, at: &Kinematics<'_>, committed: &[f64]) {
+/// Gives numbers to a flat array, with the instructions of an arithmetic.
+struct Give<'a, R> {
+    count: usize,
+    places: &'a Places,
+    from: &'a [R],
+    to: &'a mut [f64],
+}
+
+impl<A: Arithmetic> Task<A> for Give<'_, A::Real> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run(self, with: A) {
+        let Self { count, places, from, to } = self;
+        by_rows!(from.len(), give_rows, with, (count, places), from, to);
+    }
+}
+
+fn take<A: Arithmetic>(
+    with: A,
+    (count, places): (usize, &Places),
+    from: &[f64],
+    to: &mut [A::Real],
+) {
+    with.run(Take { count, places, from, to });
+}
+
+fn give<A: Arithmetic>(
+    with: A,
+    (count, places): (usize, &Places),
+    from: &[A::Real],
+    to: &mut [f64],
+) {
+    with.run(Give { count, places, from, to });
+}
+
+impl<A: Arithmetic + Debug> Pack for Lanes<A> {
+    fn start(&mut self, at: &Kinematics<'_>, committed: &[f64]) {
         let Self { with, links, coordinates, histories, d0, v0, history, .. } = self;
         let count = links.len();
         take(*with, (count, coordinates), at.d0, d0);
@@ -237,8 +307,7 @@ impl Pack {
         self.dt = with.splat(at.dt);
     }
 
-    /// Forces and tangents.
-    pub(crate) fn force(&mut self, at: &Kinematics<'_>, to: &mut [f64], tangents: &mut Tangents) {
+    fn force(&mut self, at: &Kinematics<'_>, to: &mut [f64], tangents: &mut Tangents) {
         let coordinates = (self.links.len(), &self.coordinates);
         let blocks = (self.links.len(), &self.blocks);
         let Self { with, law, rate, parameters, d, v, d0, v0, dt, history, f, k, c, .. } = self;
@@ -255,18 +324,24 @@ impl Pack {
         }
     }
 
-    /// History and energies of the step at the forces asked for last.
-    pub(crate) fn commit(&mut self, trial: &mut [f64], energy: &mut [Energy]) {
+    fn commit(&mut self, trial: &mut [f64], energy: &mut [Energy]) {
         let histories = (self.links.len(), &self.histories);
         let Self { with, law, parameters, d, v, d0, v0, dt, history, f, k, c, step, .. } = self;
         let mut links = LaneLinks { parameters, d, v, d0, v0, dt: *dt, history, f, k, c };
         with.commit(law, &mut links, std::slice::from_mut(step));
         give(*with, histories, history, trial);
+        let [stored, hysteretic, viscous] =
+            [step.stored, step.hysteretic, step.viscous].map(|x| {
+                let mut lanes = [0.0; WIDTH];
+                with.store(x, &mut lanes);
+                lanes
+            });
         for (lane, link) in self.links.iter().enumerate() {
-            let of = |x: Real| with.lane(x, lane);
-            let LaneStep { stored, hysteretic, viscous, .. } = *step;
-            energy[*link] =
-                Energy { stored: of(stored), hysteretic: of(hysteretic), viscous: of(viscous) };
+            energy[*link] = Energy {
+                stored: stored[lane],
+                hysteretic: hysteretic[lane],
+                viscous: viscous[lane],
+            };
         }
     }
 }

@@ -154,7 +154,7 @@ impl<'a> Laws<'a> {
 pub struct StepLaws<'a> {
     laws: Laws<'a>,
     dampers: Vec<Damper>,
-    packs: Vec<Pack>,
+    packs: Vec<Box<dyn Pack>>,
     /// Indices of links that are asked one by one.
     alone: Vec<usize>,
 }

@@ -12,6 +12,8 @@ pub(super) const PULL: u8 = 1;
 pub(super) const RESTORING: u8 = 2;
 /// Friction grows from slow to fast.
 pub(super) const GRADED: u8 = 4;
+/// There is no dashpot, and friction does not look at rates either; alone or with [`RESTORING`].
+pub(super) const UNDAMPED: u8 = 8;
 
 /// The law without the rotational springs.
 pub(super) struct NLinkContact<const T: usize, const FLAGS: u8>;
@@ -81,6 +83,11 @@ impl<const T: usize, const FLAGS: u8> NLinkContact<T, FLAGS> {
         let open = p.lt(zero);
         let closed = !open;
         let (spring, kn) = ((it.kn * p).only(closed), it.kn.only(closed));
+        if FLAGS & UNDAMPED != 0 {
+            let f = (it.kn * gap).only(closed);
+            let (cone, cone_d) = (spring, -kn);
+            return Pressed { open, spring, f, f_d: kn, f_v: zero, cone, cone_d, cone_v: zero };
+        }
         let c = it.damping.only(closed);
         // Zeros are kept from the sign that a subtraction of nothing would give them.
         let f = (it.damping * rate - it.kn * p).only(closed);
@@ -206,7 +213,8 @@ impl<const T: usize, const FLAGS: u8> LaneLaw for NLinkContact<T, FLAGS> {
             let by_limit = along[i].only(!sticks & rubs);
             let row = (1 + i) * n;
             let mut by_d1_total = by_limit * (mu * now.cone_d);
-            out.c[row] = by_limit * (mu * now.cone_v);
+            out.c[row] =
+                if FLAGS & UNDAMPED == 0 { by_limit * (mu * now.cone_v) } else { zero };
             for j in 0..T {
                 let own = it.kn.of(f64::from(u8::from(i == j)));
                 let across = if T == 1 { zero } else { (own - along[i] * along[j]) * turn };
@@ -280,7 +288,7 @@ impl<const T: usize, const FLAGS: u8> LaneLaw for NLinkContact<T, FLAGS> {
         trial[4] = restoring;
         // Of the dashpot, where there is one.
         let mut viscous = zero;
-        if zero.any(zero.lt(it.damping)) {
+        if FLAGS & UNDAMPED == 0 && zero.any(zero.lt(it.damping)) {
             viscous = at.viscous_work(0, before.f + before.spring, now.f + now.spring);
         }
         let size = Self::length(tau);

@@ -1,7 +1,7 @@
 //! The law of the [`NLink`].
 
 use super::NLink;
-use super::contact::{GRADED, NLinkContact, PARAMETERS, PULL, RESTORING};
+use super::contact::{GRADED, NLinkContact, PARAMETERS, PULL, RESTORING, UNDAMPED};
 use crate::shared::restitution::damping_ratio;
 use crate::shared::sliding::{Axial, Normal, exponential};
 use std::borrow::Cow;
@@ -55,9 +55,11 @@ impl NLink {
     /// Which parts the contact has.
     fn flags(&self) -> u8 {
         let part = |is: bool, flag: u8| if is { flag } else { 0 };
-        part(self.pull, PULL)
-            | part(self.k_post > 0.0 || self.radius > 0.0, RESTORING)
-            | part(self.mu_slow.is_some(), GRADED)
+        let restoring = part(self.k_post > 0.0 || self.radius > 0.0, RESTORING);
+        if self.damping == 0.0 && self.mu_slow.is_none() {
+            return UNDAMPED | restoring;
+        }
+        part(self.pull, PULL) | restoring | part(self.mu_slow.is_some(), GRADED)
     }
 
     /// The parameters of the contact.
@@ -84,12 +86,12 @@ impl NLink {
 /// Calls a function of the law with the flags as a constant.
 macro_rules! with_flags {
     ($flags:expr, $t:literal, $law:ident => $call:expr) => {
-        with_flags!(@ $flags, $t, $law, $call, 0 1 2 3 4 5 6 7)
+        with_flags!(@ $flags, $t, $law, $call, 0 1 2 3 4 5 6 7 8 10)
     };
     (@ $flags:expr, $t:literal, $law:ident, $call:expr, $($flag:literal)*) => {
         match $flags {
             $($flag => { type $law = NLinkContact<$t, $flag>; $call })*
-            _ => unreachable!("three flags"),
+            _ => unreachable!("what `flags` gives"),
         }
     };
 }
@@ -175,8 +177,7 @@ impl Link for NLink {
         } else {
             with_flags!(self.flags(), 1, Law => LaneForm::of::<Law>(vec![0, 1], numbers))
         };
-        let rated = self.damping != 0.0 || self.mu_slow.is_some();
-        Some(if rated { form } else { form.without_rate() })
+        Some(if self.flags() & UNDAMPED == 0 { form } else { form.without_rate() })
     }
 
     fn impact(&self) -> Option<Impact> {

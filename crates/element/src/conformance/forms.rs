@@ -4,7 +4,7 @@ use super::ConformanceError as Broken;
 use super::path::Path;
 use super::probe::march;
 #[cfg(target_arch = "x86_64")]
-use crate::lanes::WideLanes;
+use crate::lanes::{Avx2Lanes, Avx512Lanes};
 use crate::lanes::{Arithmetic, LaneForm, LaneLinks, LaneStep, Portable};
 use crate::{Answer, Kinematics, Link};
 
@@ -57,8 +57,9 @@ pub(super) fn forms(link: &dyn Link, path: &Path) -> Result<(), Broken> {
     let look = Look { form: &form, cases: &cases, path, scales: Scales::of(&cases, path) };
     look.compare(Portable)?;
     #[cfg(target_arch = "x86_64")]
-    if let Some(wide) = WideLanes::available() {
-        look.compare(wide)?;
+    {
+        Avx2Lanes::available().map_or(Ok(()), |with| look.compare(with))?;
+        Avx512Lanes::available().map_or(Ok(()), |with| look.compare(with))?;
     }
     Ok(())
 }
@@ -308,7 +309,7 @@ mod tests {
     #[test]
     #[cfg(target_arch = "x86_64")]
     fn lanes_that_are_not_alone_are_caught() {
-        if crate::lanes::WideLanes::available().is_some() {
+        if crate::lanes::Avx2Lanes::available().is_some() {
             assert_eq!(broken(&Law::Stop(stop::<2>)), ("lanes", "f"));
         }
     }

@@ -5,7 +5,7 @@ use super::law::{ErasedLaw, LaneLinks};
 use super::{Fused, Wide};
 use super::{LaneStep, Real};
 #[cfg(target_arch = "x86_64")]
-use pulp::x86::V3;
+use pulp::x86::{V3, V4};
 
 /// Work to be done with the instructions of an arithmetic; `run` must be `#[inline(always)]`, and what
 /// it calls as well.
@@ -101,15 +101,10 @@ impl Arithmetic for Portable {
     }
 }
 
-/// One analysis at a time with FMA: equal to a lane of [`WideLanes`] to the bit.
+/// One analysis at a time with FMA: equal to a lane of [`Avx2Lanes`] and [`Avx512Lanes`] to the bit.
 #[cfg(target_arch = "x86_64")]
 #[derive(Clone, Copy, Debug)]
 pub struct FusedOne(pub(super) V3);
-
-/// Eight analyses at a time.
-#[cfg(target_arch = "x86_64")]
-#[derive(Clone, Copy, Debug)]
-pub struct WideLanes(pub(super) V3);
 
 #[cfg(target_arch = "x86_64")]
 struct Within<A, T>(A, T);
@@ -125,15 +120,6 @@ impl<A: Arithmetic, T: Task<A>> pulp::WithSimd for Within<A, T> {
 
 #[cfg(target_arch = "x86_64")]
 impl FusedOne {
-    /// Where the machine has AVX2 and FMA.
-    #[must_use]
-    pub fn available() -> Option<Self> {
-        V3::try_new().map(Self)
-    }
-}
-
-#[cfg(target_arch = "x86_64")]
-impl WideLanes {
     /// Where the machine has AVX2 and FMA.
     #[must_use]
     pub fn available() -> Option<Self> {
@@ -185,42 +171,75 @@ impl Arithmetic for FusedOne {
     }
 }
 
+/// Eight analyses at a time, in the registers that a token of [`pulp`] stands for.
 #[cfg(target_arch = "x86_64")]
-impl Arithmetic for WideLanes {
-    type Real = Wide;
-    const WIDTH: usize = 8;
+macro_rules! eight_lanes {
+    ($(#[$doc:meta])* $name:ident, $token:ident, $registers:literal, $entries:ident) => {
+        $(#[$doc])*
+        #[derive(Clone, Copy, Debug)]
+        pub struct $name($token);
 
-    #[inline(always)]
-    fn run<T: Task<Self>>(self, task: T) -> T::Output {
-        pulp::Simd::vectorize(self.0, Within(self, task))
-    }
-    #[inline(always)]
-    fn splat(self, x: f64) -> Wide {
-        Wide { simd: self.0, x: [pulp::Simd::splat_f64s(self.0, x); 2] }
-    }
-    #[inline(always)]
-    fn gather(self, of: impl FnMut(usize) -> f64) -> Wide {
-        Wide::from_lanes(self.0, std::array::from_fn(of))
-    }
-    #[inline(always)]
-    fn load(self, from: &[f64]) -> Wide {
-        let [a, b, c, d, e, f, g, h] = from[..8] else { unreachable!("eight numbers") };
-        Wide::from_lanes(self.0, [a, b, c, d, e, f, g, h])
-    }
-    #[inline(always)]
-    fn store(self, x: Wide, to: &mut [f64]) {
-        to[..8].copy_from_slice(&x.lanes());
-    }
-    #[inline(always)]
-    fn lane(self, x: Wide, lane: usize) -> f64 {
-        x.lanes()[lane]
-    }
-    #[inline(always)]
-    fn force(self, law: &ErasedLaw, links: &mut LaneLinks<'_, Wide>) {
-        (law.wide.0)(self, links);
-    }
-    #[inline(always)]
-    fn commit(self, law: &ErasedLaw, links: &mut LaneLinks<'_, Wide>, out: &mut [LaneStep<Wide>]) {
-        (law.wide.1)(self, links, out);
-    }
+        impl $name {
+            /// Where the machine has them.
+            #[must_use]
+            pub fn available() -> Option<Self> {
+                $token::try_new().map(Self)
+            }
+        }
+
+        impl Arithmetic for $name {
+            type Real = Wide<$token, $registers>;
+            const WIDTH: usize = 8;
+
+            #[inline(always)]
+            fn run<T: Task<Self>>(self, task: T) -> T::Output {
+                pulp::Simd::vectorize(self.0, Within(self, task))
+            }
+            #[inline(always)]
+            fn splat(self, x: f64) -> Self::Real {
+                Wide::splat(self.0, x)
+            }
+            #[inline(always)]
+            fn gather(self, of: impl FnMut(usize) -> f64) -> Self::Real {
+                Wide::from_lanes(self.0, std::array::from_fn(of))
+            }
+            #[inline(always)]
+            fn load(self, from: &[f64]) -> Self::Real {
+                let [a, b, c, d, e, f, g, h] = from[..8] else { unreachable!("eight numbers") };
+                Wide::from_lanes(self.0, [a, b, c, d, e, f, g, h])
+            }
+            #[inline(always)]
+            fn store(self, x: Self::Real, to: &mut [f64]) {
+                to[..8].copy_from_slice(&x.lanes());
+            }
+            #[inline(always)]
+            fn lane(self, x: Self::Real, lane: usize) -> f64 {
+                x.lanes()[lane]
+            }
+            #[inline(always)]
+            fn force(self, law: &ErasedLaw, links: &mut LaneLinks<'_, Self::Real>) {
+                (law.$entries.0)(self, links);
+            }
+            #[inline(always)]
+            fn commit(
+                self,
+                law: &ErasedLaw,
+                links: &mut LaneLinks<'_, Self::Real>,
+                out: &mut [LaneStep<Self::Real>],
+            ) {
+                (law.$entries.1)(self, links, out);
+            }
+        }
+    };
+}
+
+#[cfg(target_arch = "x86_64")]
+eight_lanes! {
+    /// Eight analyses at a time with AVX2 and FMA.
+    Avx2Lanes, V3, 2, avx2
+}
+#[cfg(target_arch = "x86_64")]
+eight_lanes! {
+    /// Eight analyses at a time with AVX-512 (F, BW, CD, DQ and VL), with the bits of [`Avx2Lanes`].
+    Avx512Lanes, V4, 1, avx512
 }

@@ -2,7 +2,7 @@
 
 use super::Real;
 #[cfg(target_arch = "x86_64")]
-use super::{Arithmetic, FusedOne, Task, WideLanes};
+use super::{Arithmetic, Avx2Lanes, Avx512Lanes, FusedOne, Task};
 use crate::Kinematics;
 use std::any::TypeId;
 use std::fmt;
@@ -226,6 +226,9 @@ type ForceBy<A> = fn(A, &mut LaneLinks<'_, <A as Arithmetic>::Real>);
 #[cfg(target_arch = "x86_64")]
 type CommitBy<A> =
     fn(A, &mut LaneLinks<'_, <A as Arithmetic>::Real>, &mut [LaneStep<<A as Arithmetic>::Real>]);
+/// A law on an arithmetic: its forces, and the end of a step.
+#[cfg(target_arch = "x86_64")]
+pub(super) type LawBy<A> = (ForceBy<A>, CommitBy<A>);
 
 /// A law over lanes without its type: entries for every [`Arithmetic`].
 #[derive(Clone, Copy)]
@@ -242,9 +245,11 @@ pub struct ErasedLaw {
     pub is_contact: bool,
     pub(super) portable: (ForceOf<f64>, CommitOf<f64>),
     #[cfg(target_arch = "x86_64")]
-    pub(super) fused: (ForceBy<FusedOne>, CommitBy<FusedOne>),
+    pub(super) fused: LawBy<FusedOne>,
     #[cfg(target_arch = "x86_64")]
-    pub(super) wide: (ForceBy<WideLanes>, CommitBy<WideLanes>),
+    pub(super) avx2: LawBy<Avx2Lanes>,
+    #[cfg(target_arch = "x86_64")]
+    pub(super) avx512: LawBy<Avx512Lanes>,
 }
 
 impl fmt::Debug for ErasedLaw {
@@ -295,6 +300,11 @@ fn commit_by<A: Arithmetic, L: LaneLaw>(
     with.run(CommitTask::<L, _>(links, out, std::marker::PhantomData));
 }
 
+#[cfg(target_arch = "x86_64")]
+fn law_by<A: Arithmetic, L: LaneLaw>() -> LawBy<A> {
+    (force_by::<A, L>, commit_by::<A, L>)
+}
+
 impl ErasedLaw {
     /// The entries of a law.
     #[must_use]
@@ -311,9 +321,11 @@ impl ErasedLaw {
                 |links, out| commit_all::<L, f64>(links, out),
             ),
             #[cfg(target_arch = "x86_64")]
-            fused: (force_by::<FusedOne, L>, commit_by::<FusedOne, L>),
+            fused: law_by::<FusedOne, L>(),
             #[cfg(target_arch = "x86_64")]
-            wide: (force_by::<WideLanes, L>, commit_by::<WideLanes, L>),
+            avx2: law_by::<Avx2Lanes, L>(),
+            #[cfg(target_arch = "x86_64")]
+            avx512: law_by::<Avx512Lanes, L>(),
         }
     }
 

@@ -73,12 +73,12 @@ pub trait Real:
         Self::select(self.lt(o), self, o)
     }
 
-    /// As [`select`](Self::select), for a place in memory that keeps its number where no: a sum with zeros,
-    /// which no compiler turns into a store under a mask. Those are slow on some machines.
+    /// As [`select`](Self::select), for a place in memory that keeps its number where no: with zero added,
+    /// which no compiler turns into a store under a mask. Those are slow on some machines. Zero comes out positive.
     #[inline(always)]
     #[must_use]
     fn mix(mask: Self::Mask, yes: Self, no: Self) -> Self {
-        yes.only(mask) + no.only(!mask)
+        Self::select(mask, yes, no) + yes.of(0.0)
     }
 
     /// The number where yes, zero where no.

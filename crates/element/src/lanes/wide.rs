@@ -1,8 +1,8 @@
-//! Numbers for machines with AVX2 and FMA. They exist only where [`V3`] says that the machine has them.
+//! Numbers for machines with FMA and registers of 256 bits (AVX2) or 512 (AVX-512). They exist only where a
+//! token of [`pulp`] says that the machine has them.
 
 use super::Real;
-use pulp::x86::V3;
-use pulp::{Simd, f64x4, m64x4};
+use pulp::{Simd, bytemuck};
 use std::fmt;
 use std::ops::{Add, BitAnd, BitOr, Div, Mul, Neg, Not, Sub};
 
@@ -10,23 +10,24 @@ use std::ops::{Add, BitAnd, BitOr, Div, Mul, Neg, Not, Sub};
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Fused(pub f64);
 
-/// Eight numbers in two registers.
+/// Eight numbers in `K` registers: two of AVX2, one of AVX-512. They lie in one line of the cache.
 #[derive(Clone, Copy)]
-pub struct Wide {
-    pub(super) simd: V3,
-    pub(super) x: [f64x4; 2],
+#[repr(align(64))]
+pub struct Wide<S: Simd, const K: usize> {
+    pub(super) simd: S,
+    x: [S::f64s; K],
 }
 
 /// Eight answers.
 #[derive(Clone, Copy)]
-pub struct WideMask {
-    simd: V3,
-    x: [m64x4; 2],
+pub struct WideMask<S: Simd, const K: usize> {
+    simd: S,
+    x: [S::m64s; K],
 }
 
-impl fmt::Debug for Wide {
+impl<S: Simd, const K: usize> fmt::Debug for Wide<S, K> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.debug_list().entries(self.x).finish()
+        f.debug_list().entries(self.lanes()).finish()
     }
 }
 
@@ -39,12 +40,11 @@ macro_rules! operators {
                 Self(self.0 $op o.0)
             }
         }
-        impl $trait for Wide {
+        impl<S: Simd, const K: usize> $trait for Wide<S, K> {
             type Output = Self;
             #[inline(always)]
             fn $method(self, o: Self) -> Self {
-                let s = self.simd;
-                Self { simd: s, x: [s.$simd(self.x[0], o.x[0]), s.$simd(self.x[1], o.x[1])] }
+                self.by_two(o, |s, x, y| s.$simd(x, y))
             }
         }
     )*};
@@ -53,24 +53,26 @@ operators!(Add add + add_f64s, Sub sub - sub_f64s, Mul mul * mul_f64s, Div div /
 
 macro_rules! masks {
     ($($trait:ident $method:ident $simd:ident),*) => {$(
-        impl $trait for WideMask {
+        impl<S: Simd, const K: usize> $trait for WideMask<S, K> {
             type Output = Self;
             #[inline(always)]
             fn $method(self, o: Self) -> Self {
-                let s = self.simd;
-                Self { simd: s, x: [s.$simd(self.x[0], o.x[0]), s.$simd(self.x[1], o.x[1])] }
+                let mut x = self.x;
+                x.iter_mut().zip(o.x).for_each(|(x, o)| *x = self.simd.$simd(*x, o));
+                Self { simd: self.simd, x }
             }
         }
     )*};
 }
 masks!(BitAnd bitand and_m64s, BitOr bitor or_m64s);
 
-impl Not for WideMask {
+impl<S: Simd, const K: usize> Not for WideMask<S, K> {
     type Output = Self;
     #[inline(always)]
     fn not(self) -> Self {
-        let s = self.simd;
-        Self { simd: s, x: [s.not_m64s(self.x[0]), s.not_m64s(self.x[1])] }
+        let mut x = self.x;
+        x.iter_mut().for_each(|x| *x = self.simd.not_m64s(*x));
+        Self { simd: self.simd, x }
     }
 }
 
@@ -82,12 +84,11 @@ impl Neg for Fused {
     }
 }
 
-impl Neg for Wide {
+impl<S: Simd, const K: usize> Neg for Wide<S, K> {
     type Output = Self;
     #[inline(always)]
     fn neg(self) -> Self {
-        let s = self.simd;
-        Self { simd: s, x: [s.neg_f64s(self.x[0]), s.neg_f64s(self.x[1])] }
+        self.by_one(|s, x| s.neg_f64s(x))
     }
 }
 
@@ -136,80 +137,103 @@ impl Real for Fused {
     }
 }
 
-impl Wide {
+impl<S: Simd, const K: usize> Wide<S, K> {
     /// The lanes one by one.
     #[inline(always)]
     #[must_use]
     pub fn lanes(self) -> [f64; 8] {
-        let [a, b] = self.x;
-        [a.0, a.1, a.2, a.3, b.0, b.1, b.2, b.3]
+        let mut lanes = [0.0; 8];
+        lanes.copy_from_slice(bytemuck::cast_slice(&self.x));
+        lanes
     }
 
     #[inline(always)]
-    pub(super) fn from_lanes(simd: V3, x: [f64; 8]) -> Self {
-        Self { simd, x: [f64x4(x[0], x[1], x[2], x[3]), f64x4(x[4], x[5], x[6], x[7])] }
+    pub(super) fn from_lanes(simd: S, x: [f64; 8]) -> Self {
+        let x: &[S::f64s] = bytemuck::cast_slice(&x);
+        Self { simd, x: std::array::from_fn(|i| x[i]) }
+    }
+
+    #[inline(always)]
+    pub(super) fn splat(simd: S, x: f64) -> Self {
+        Self { simd, x: [simd.splat_f64s(x); K] }
+    }
+
+    #[inline(always)]
+    fn by_one(self, f: impl Fn(S, S::f64s) -> S::f64s) -> Self {
+        let mut x = self.x;
+        x.iter_mut().for_each(|x| *x = f(self.simd, *x));
+        Self { simd: self.simd, x }
+    }
+
+    #[inline(always)]
+    fn by_two(self, o: Self, f: impl Fn(S, S::f64s, S::f64s) -> S::f64s) -> Self {
+        let mut x = self.x;
+        x.iter_mut().zip(o.x).for_each(|(x, o)| *x = f(self.simd, *x, o));
+        Self { simd: self.simd, x }
+    }
+
+    #[inline(always)]
+    fn compare(
+        self,
+        o: Self,
+        f: impl Fn(S, S::f64s, S::f64s) -> S::m64s,
+    ) -> WideMask<S, K> {
+        WideMask { simd: self.simd, x: std::array::from_fn(|i| f(self.simd, self.x[i], o.x[i])) }
     }
 }
 
-impl Real for Wide {
-    type Mask = WideMask;
+impl<S: Simd, const K: usize> Real for Wide<S, K> {
+    type Mask = WideMask<S, K>;
 
     #[inline(always)]
     fn of(self, x: f64) -> Self {
-        Self { simd: self.simd, x: [self.simd.splat_f64s(x); 2] }
+        Self::splat(self.simd, x)
     }
     #[inline(always)]
     fn mul_add(self, a: Self, b: Self) -> Self {
-        let s = self.simd;
-        let [x, y] = self.x;
-        Self { simd: s, x: [s.mul_add_f64s(x, a.x[0], b.x[0]), s.mul_add_f64s(y, a.x[1], b.x[1])] }
+        let mut x = self.x;
+        for i in 0..K {
+            x[i] = self.simd.mul_add_f64s(x[i], a.x[i], b.x[i]);
+        }
+        Self { simd: self.simd, x }
     }
     #[inline(always)]
     fn abs(self) -> Self {
-        let s = self.simd;
-        Self { simd: s, x: [s.abs_f64s(self.x[0]), s.abs_f64s(self.x[1])] }
+        self.by_one(|s, x| s.abs_f64s(x))
     }
     #[inline(always)]
     fn sqrt(self) -> Self {
-        let s = self.simd;
-        Self { simd: s, x: [s.sqrt_f64x4(self.x[0]), s.sqrt_f64x4(self.x[1])] }
+        self.by_one(|s, x| s.sqrt_f64s(x))
     }
     #[inline(always)]
-    fn lt(self, o: Self) -> WideMask {
-        let s = self.simd;
-        let x = [s.cmp_lt_f64x4(self.x[0], o.x[0]), s.cmp_lt_f64x4(self.x[1], o.x[1])];
-        WideMask { simd: s, x }
+    fn lt(self, o: Self) -> Self::Mask {
+        self.compare(o, |s, x, y| s.less_than_f64s(x, y))
     }
     #[inline(always)]
-    fn le(self, o: Self) -> WideMask {
-        let s = self.simd;
-        let x = [s.cmp_le_f64x4(self.x[0], o.x[0]), s.cmp_le_f64x4(self.x[1], o.x[1])];
-        WideMask { simd: s, x }
+    fn le(self, o: Self) -> Self::Mask {
+        self.compare(o, |s, x, y| s.less_than_or_equal_f64s(x, y))
     }
     #[inline(always)]
-    fn select(mask: WideMask, yes: Self, no: Self) -> Self {
-        let s = yes.simd;
-        let [a, b] = mask.x;
-        Self {
-            simd: s,
-            x: [s.select_f64x4(a, yes.x[0], no.x[0]), s.select_f64x4(b, yes.x[1], no.x[1])],
+    fn select(mask: Self::Mask, yes: Self, no: Self) -> Self {
+        let mut x = yes.x;
+        for i in 0..K {
+            x[i] = yes.simd.select_f64s(mask.x[i], x[i], no.x[i]);
         }
+        Self { simd: yes.simd, x }
     }
     #[inline(always)]
     fn max(self, o: Self) -> Self {
-        let s = self.simd;
-        Self { simd: s, x: [s.max_f64s(self.x[0], o.x[0]), s.max_f64s(self.x[1], o.x[1])] }
+        self.by_two(o, |s, x, y| s.max_f64s(x, y))
     }
     #[inline(always)]
     fn min(self, o: Self) -> Self {
-        let s = self.simd;
-        Self { simd: s, x: [s.min_f64s(self.x[0], o.x[0]), s.min_f64s(self.x[1], o.x[1])] }
+        self.by_two(o, |s, x, y| s.min_f64s(x, y))
     }
     #[inline(always)]
-    fn any(self, mask: WideMask) -> bool {
+    fn any(self, mask: Self::Mask) -> bool {
         let s = self.simd;
-        let either = s.or_m64s(mask.x[0], mask.x[1]);
-        s.first_true_m64s(either) < 4
+        let either = mask.x[1..].iter().fold(mask.x[0], |a, b| s.or_m64s(a, *b));
+        s.first_true_m64s(either) < S::F64_LANES
     }
     #[inline(always)]
     fn map(self, f: impl Fn(f64) -> f64) -> Self {

@@ -9,6 +9,8 @@ use trilith_element::lanes::{Arithmetic, Real};
 pub(super) struct Rule<R, const M: usize, const L: usize> {
     pub dt: R,
     pub per_dt: R,
+    /// A third of the step.
+    pub third: R,
     pub c: [[[R; 4]; 3]; M],
     /// −G and −H.
     pub g: [[R; L]; L],
@@ -63,6 +65,7 @@ impl<R: Real, const M: usize, const L: usize> Rule<R, M, L> {
             None => with.splat(part),
             Some(t) => with.gather(|i| t[i.min(last)]),
         };
-        Self { dt, per_dt: with.splat(1.0) / dt, c, g: compliance(1), h: compliance(2) }
+        let (per_dt, third) = (with.splat(1.0) / dt, dt * with.splat(1.0 / 3.0));
+        Self { dt, per_dt, third, c, g: compliance(1), h: compliance(2) }
     }
 }

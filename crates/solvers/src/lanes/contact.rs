@@ -2,12 +2,24 @@
 
 use crate::contact_mode::{ContactSummary, Seen};
 use trilith_element::Contact;
-use trilith_element::lanes::{Arithmetic, LaneStep, Real};
+use trilith_element::lanes::{Arithmetic, LaneContact, LaneStep, Real};
 
 /// √(x² + y²); y is zero in a plane.
 #[inline(always)]
-fn length<R: Real>(x: R, y: R, plane: bool) -> R {
-    if plane { x.abs() } else { x.mul_add(x, y * y).sqrt() }
+fn length<R: Real>(plane: bool, of: impl Fn(usize) -> R) -> R {
+    let x = of(0);
+    if plane {
+        return x.abs();
+    }
+    let y = of(1);
+    x.mul_add(x, y * y).sqrt()
+}
+
+/// Pressed together, with a force.
+#[inline(always)]
+fn loaded<R: Real>(now: &LaneContact<R>) -> R::Mask {
+    let zero = now.gap.of(0.0);
+    now.gap.lt(zero) & zero.lt(now.normal)
 }
 
 /// What has been seen.
@@ -86,62 +98,81 @@ impl<R: Real> Feet<R> {
     #[inline(always)]
     pub(super) fn enter(&mut self, steps: &[LaneStep<R>], which: &[usize]) {
         let Some(first) = self.feet.first() else { return };
-        let zero = first.gap.of(0.0);
-        let one = first.gap.of(1.0);
+        let (zero, one) = (first.gap.of(0.0), first.gap.of(1.0));
         let never = one.lt(zero);
-        let (mut impact, mut sticks) = (never, never);
-        let (mut mean, mut count) = ([zero; 2], zero);
+        let (mut impact, mut some, mut sticks) = (never, never, never);
         let (mut highest, mut lowest) = (first.gap.of(f64::MIN), first.gap.of(f64::MAX));
+        for (foot, link) in self.feet.iter().zip(which) {
+            let now = &steps[*link].contact;
+            let loaded = loaded(now);
+            impact = impact | (zero.lt(foot.gap) & now.gap.le(zero));
+            some = some | loaded;
+            sticks = sticks | (loaded & now.slipping.le(zero));
+            highest = highest.max(now.gap);
+            lowest = lowest.min(now.gap);
+        }
+        let moved = some & !sticks;
+        if zero.any(moved) {
+            let (slid, reversal) = self.slide(steps, which, moved);
+            self.fresh = self.fresh.only(!(impact | reversal));
+            self.whole.slid = self.whole.slid + slid;
+            self.initial.slid = self.initial.slid + slid.only(zero.lt(self.fresh));
+        } else {
+            self.fresh = self.fresh.only(!impact);
+        }
+        let lifts = zero.lt(highest);
+        if zero.any(lifts) {
+            let flies = zero.lt(lowest);
+            let rocks = lifts & lowest.le(zero);
+            let rocked = R::select(rocks, highest, (highest - lowest).only(flies));
+            let flew = lowest.only(flies);
+            let fresh = zero.lt(self.fresh);
+            self.whole.rocked = self.whole.rocked.max(rocked);
+            self.whole.flew = self.whole.flew.max(flew);
+            self.initial.rocked = self.initial.rocked.max(rocked.only(fresh));
+            self.initial.flew = self.initial.flew.max(flew.only(fresh));
+            self.max_uplift = self.max_uplift.max(highest);
+        }
         let mut slip = zero;
         for (foot, link) in self.feet.iter_mut().zip(which) {
             let now = &steps[*link].contact;
-            let carries = zero.lt(now.normal);
-            let loaded = now.gap.lt(zero) & carries;
-            impact = impact | (zero.lt(foot.gap) & now.gap.le(zero));
-            sticks = sticks | (loaded & now.slipping.le(zero));
-            for k in 0..2 {
-                mean[k] = mean[k] + (now.position[k] - foot.position[k]).only(loaded);
-            }
-            count = count + one.only(loaded);
-            highest = highest.max(now.gap);
-            lowest = lowest.min(now.gap);
-            let x = now.position[0] - foot.start[0];
-            let y = now.position[1] - foot.start[1];
-            let far = length(x, y, self.plane);
-            foot.slip = R::mix(carries, far, foot.slip);
+            let far = length(self.plane, |k| now.position[k] - foot.start[k]);
+            foot.slip = R::mix(zero.lt(now.normal), far, foot.slip);
             slip = slip.max(foot.slip);
             foot.gap = now.gap;
             foot.position = now.position;
         }
-        let moved = zero.lt(count) & !sticks;
-        let slides = zero.any(moved);
-        let (mut slid, mut reversal) = (zero, never);
-        if slides {
-            let count = count.max(one);
-            mean = [mean[0] / count, mean[1] / count];
-            let along = mean[0] * self.direction[0] + mean[1] * self.direction[1];
-            reversal = moved & along.lt(zero);
-            slid = length(mean[0], mean[1], self.plane).only(moved);
-            let turned = zero.lt(slid);
-            for k in 0..2 {
-                self.direction[k] = R::mix(turned, mean[k], self.direction[k]);
-            }
-        }
-        self.fresh = self.fresh.only(!(impact | reversal));
-        let rocks = zero.lt(highest) & lowest.le(zero);
-        let flies = zero.lt(lowest);
-        let rocked = R::select(rocks, highest, (highest - lowest).only(flies));
-        let flew = lowest.only(flies);
-        self.whole.slid = self.whole.slid + slid;
-        self.whole.rocked = self.whole.rocked.max(rocked);
-        self.whole.flew = self.whole.flew.max(flew);
-        let fresh = zero.lt(self.fresh);
-        self.initial.slid = self.initial.slid + slid.only(fresh);
-        self.initial.rocked = self.initial.rocked.max(rocked.only(fresh));
-        self.initial.flew = self.initial.flew.max(flew.only(fresh));
-        self.max_uplift = self.max_uplift.max(highest);
         self.max_slip = self.max_slip.max(slip);
         self.residual = slip;
+    }
+
+    /// How far a mask has slid, in the mean of the loaded contacts, and where it has turned back.
+    #[inline(always)]
+    fn slide(&mut self, steps: &[LaneStep<R>], which: &[usize], moved: R::Mask) -> (R, R::Mask) {
+        let zero = self.fresh.of(0.0);
+        let one = self.fresh.of(1.0);
+        let axes = if self.plane { 1 } else { 2 };
+        let (mut mean, mut count) = ([zero; 2], zero);
+        for (foot, link) in self.feet.iter().zip(which) {
+            let now = &steps[*link].contact;
+            let loaded = loaded(now);
+            for k in 0..axes {
+                mean[k] = mean[k] + (now.position[k] - foot.position[k]).only(loaded);
+            }
+            count = count + one.only(loaded);
+        }
+        let share = one / count.max(one);
+        let mut along = zero;
+        for k in 0..axes {
+            mean[k] = mean[k] * share;
+            along = mean[k].mul_add(self.direction[k], along);
+        }
+        let slid = length(self.plane, |k| mean[k]).only(moved);
+        let turned = zero.lt(slid);
+        for k in 0..axes {
+            self.direction[k] = R::mix(turned, mean[k], self.direction[k]);
+        }
+        (slid, moved & along.lt(zero))
     }
 
     /// Takes the other where the mask says no.

@@ -16,7 +16,12 @@ pub(super) struct Loads<R, const M: usize> {
 impl<R: Real, const M: usize, const L: usize, const N: usize> Plan<R, M, L, N> {
     pub fn no_loads<A: Arithmetic<Real = R>>(&self, with: A) -> Loads<R, M> {
         let zero = with.splat(0.0);
-        Loads { start: [zero; M], end: [zero; M], amplitudes: vec![zero; self.forces.len()] }
+        let amplitude = |source: &Source<R>| match source {
+            Source::Constant => with.splat(1.0),
+            _ => zero,
+        };
+        let amplitudes = self.sources.iter().map(amplitude).collect();
+        Loads { start: [zero; M], end: [zero; M], amplitudes }
     }
 
     /// Loads of the usual step with this index.
@@ -29,10 +34,10 @@ impl<R: Real, const M: usize, const L: usize, const N: usize> Plan<R, M, L, N> {
         out: &mut Loads<R, M>,
     ) {
         let zero = with.splat(0.0);
-        (out.start, out.end) = ([zero; M], [zero; M]);
+        (out.start, out.end) = (self.steady, self.steady);
         for (c, source) in self.sources.iter().enumerate() {
             let (start, end) = match source {
-                Source::Constant => (with.splat(1.0), with.splat(1.0)),
+                Source::Constant => continue,
                 Source::Shared(table, size) => {
                     let [x, y] = table[at];
                     if x == 0.0 && y == 0.0 {

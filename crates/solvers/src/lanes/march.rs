@@ -2,7 +2,7 @@
 
 use super::LaneOutcome;
 use super::coefficients::Rule;
-use super::newton::equilibrium;
+use super::newton::{Found, equilibrium};
 use super::pieces::{cut_step, in_halves};
 use super::plan::Plan;
 use super::setup::LaneSetup;
@@ -10,13 +10,13 @@ use super::state::State;
 use super::step::finish;
 use trilith_element::lanes::{Arithmetic, Portable, Real, Task};
 #[cfg(target_arch = "x86_64")]
-use trilith_element::lanes::{FusedOne, WideLanes};
+use trilith_element::lanes::{Avx2Lanes, Avx512Lanes, FusedOne};
 
 /// Analyses that go side by side.
 pub(super) fn width() -> usize {
     #[cfg(target_arch = "x86_64")]
-    if WideLanes::available().is_some() {
-        return WideLanes::WIDTH;
+    if Avx2Lanes::available().is_some() {
+        return Avx2Lanes::WIDTH;
     }
     Portable::WIDTH
 }
@@ -33,11 +33,14 @@ pub fn march(setups: &[&LaneSetup]) -> Vec<LaneOutcome> {
     assert!(!setups.is_empty() && setups.len() <= width(), "one to width() analyses");
     assert!(setups.iter().all(|s| s.fits(setups[0])), "analyses that fit each other");
     #[cfg(target_arch = "x86_64")]
-    if let (Some(wide), Some(one)) = (WideLanes::available(), FusedOne::available()) {
-        if setups.len() >= WORTH_LANES {
-            return sized(wide, setups);
+    if let (Some(wide), Some(one)) = (Avx2Lanes::available(), FusedOne::available()) {
+        if setups.len() < WORTH_LANES {
+            return setups.iter().flat_map(|s| sized(one, &[*s])).collect();
         }
-        return setups.iter().flat_map(|s| sized(one, &[*s])).collect();
+        return match Avx512Lanes::available() {
+            Some(widest) => sized(widest, setups),
+            None => sized(wide, setups),
+        };
     }
     setups.iter().flat_map(|s| sized(Portable, &[*s])).collect()
 }
@@ -84,6 +87,7 @@ impl<A: Arithmetic, const M: usize, const L: usize, const N: usize> Task<A> for 
         let part = shape.grid.dt / parts as f64;
         let usual = Rule::new(with, self.setups, &plan, None);
         let mut loads = plan.no_loads(with);
+        let mut found = Found::new(with.splat(0.0));
         let mut cuts: Vec<usize> =
             self.setups.iter().flat_map(|s| s.cut.iter().map(|c| c.0)).collect();
         cuts.sort_unstable();
@@ -97,12 +101,13 @@ impl<A: Arithmetic, const M: usize, const L: usize, const N: usize> Task<A> for 
                     plan.loads(with, self.setups, step * parts + i, &mut loads);
                     let t = step as f64 * shape.grid.dt + part * i as f64;
                     let alive = state.alive;
-                    let found = equilibrium(with, &plan, &usual, &loads, alive, &mut state);
+                    equilibrium(with, &plan, &usual, &loads, alive, &mut state, &mut found);
                     if found.d[0].any(found.wrong) {
                         let step = (&usual, &loads, t);
-                        in_halves(with, self.setups, &plan, step, found, &mut state);
+                        in_halves(with, self.setups, &plan, step, &mut found, &mut state);
                     } else {
-                        finish(with, &plan, &usual, &loads, with.splat(t), found, &mut state);
+                        let t = with.splat(t);
+                        finish(with, &plan, &usual, &loads, t, &mut found, &mut state);
                     }
                 }
             }

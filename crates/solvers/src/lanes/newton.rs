@@ -1,8 +1,9 @@
 //! The equilibrium of a step: Newton's method in the link coordinates.
 //!
-//! It starts from the forces that the tangents of the step before predict: where no link changes its
-//! regime (open, sticking, slipping …) these are exact for piecewise linear laws, and one look at the laws
-//! confirms them. Otherwise Newton's method goes on with the tangents found there.
+//! With the link forces held at those of the start the modes go somewhere; what the tangents found last answer to
+//! that is the first guess. Where no link changes its regime (open, sticking, slipping …) it is exact for
+//! piecewise linear laws, and one look at the laws confirms it. Otherwise Newton's method goes on with the
+//! tangents found there.
 
 use super::coefficients::Rule;
 use super::laws::look;
@@ -17,7 +18,7 @@ const ITERATIONS: usize = 60;
 const PARTS: [f64; 4] = [1.0, 0.5, 1.0, 0.25];
 const PATIENCE: usize = 8;
 
-/// The end of a step.
+/// The end of a step; written by [`equilibrium`] in place, as nothing of it should be copied in every step.
 pub(super) struct Found<R: Real, const M: usize, const L: usize> {
     /// Deformations, their rates, and forces of the links.
     pub d: [R; L],
@@ -25,9 +26,9 @@ pub(super) struct Found<R: Real, const M: usize, const L: usize> {
     pub f: [R; L],
     /// Laws at d and v: f up to the tolerance.
     pub forces: [R; L],
-    /// Modal loads at the start, links included.
-    pub source0: [R; M],
-    /// ∫q, q and q̇ without the link forces at the end.
+    /// Largest force so far, and largest moment.
+    pub scale: [R; 2],
+    /// ∫q, q and q̇ with the link forces held at those of the start.
     pub integral: [R; M],
     pub q: [R; M],
     pub p: [R; M],
@@ -35,7 +36,25 @@ pub(super) struct Found<R: Real, const M: usize, const L: usize> {
     pub wrong: R::Mask,
 }
 
-/// Looks for the equilibrium of the analyses in a mask. Of the state it changes the tangents only.
+impl<R: Real, const M: usize, const L: usize> Found<R, M, L> {
+    /// Nothing yet.
+    pub fn new(zero: R) -> Self {
+        Self {
+            d: [zero; L],
+            v: [zero; L],
+            f: [zero; L],
+            forces: [zero; L],
+            scale: [zero; 2],
+            integral: [zero; M],
+            q: [zero; M],
+            p: [zero; M],
+            wrong: zero.lt(zero),
+        }
+    }
+}
+
+/// Looks for the equilibrium of the analyses in a mask. Of the state it changes the tangents only, and what follows
+/// from them.
 #[inline(always)]
 pub(super) fn equilibrium<A: Arithmetic, const M: usize, const L: usize, const N: usize>(
     with: A,
@@ -44,103 +63,81 @@ pub(super) fn equilibrium<A: Arithmetic, const M: usize, const L: usize, const N
     loads: &Loads<A::Real, M>,
     who: <A::Real as Real>::Mask,
     state: &mut State<A::Real, M, L, N>,
-) -> Found<A::Real, M, L> {
+    found: &mut Found<A::Real, M, L>,
+) {
     let zero = with.splat(0.0);
     let one = with.splat(1.0);
-    // Modes without the forces at the end.
-    let mut source0 = loads.start;
-    for a in 0..L {
-        for j in 0..M {
-            source0[j] = (-state.f[a]).mul_add(plan.b[a][j], source0[j]);
-        }
-    }
-    let (mut integral, mut q, mut p) = ([zero; M], [zero; M], [zero; M]);
+    // Modes with the forces held.
     for j in 0..M {
-        let inputs = [state.q[j], state.p[j], source0[j], loads.end[j]];
-        let c = &rule.c[j];
-        for i in 0..4 {
-            integral[j] = c[0][i].mul_add(inputs[i], integral[j]);
-            q[j] = c[1][i].mul_add(inputs[i], q[j]);
-            p[j] = c[2][i].mul_add(inputs[i], p[j]);
-        }
-    }
-    let (mut d_free, mut v_free) = ([zero; L], [zero; L]);
-    for a in 0..L {
-        for j in 0..M {
-            d_free[a] = plan.b[a][j].mul_add(q[j], d_free[a]);
-        }
-    }
-    if plan.rate {
-        for a in 0..L {
-            for j in 0..M {
-                v_free[a] = plan.b[a][j].mul_add(p[j], v_free[a]);
+        let (start, end) = (loads.start[j] - state.push[j], loads.end[j] - state.push[j]);
+        let inputs = [state.q[j], state.p[j], start, end];
+        let after = |c: &[A::Real; 4]| {
+            let mut sum = c[0] * inputs[0];
+            for i in 1..4 {
+                sum = c[i].mul_add(inputs[i], sum);
             }
-        }
+            sum
+        };
+        let [integral, q, p] = &rule.c[j];
+        (found.integral[j], found.q[j], found.p[j]) = (after(integral), after(q), after(p));
     }
-    // What the tangents of the step before predict.
-    let mut f = state.f;
-    let (mut d, mut v) = (deform(&rule.g, &d_free, &f), v_free);
-    if plan.rate {
-        v = deform(&rule.h, &v_free, &f);
-    }
+    let held = plan.deform(&found.q);
+    let rates_held = if plan.rate { plan.deform(&found.p) } else { [zero; L] };
+    // What the tangents found last answer.
     let mut change = [zero; L];
-    for a in 0..L {
-        let first = a / N * N;
-        for i in 0..N {
-            change[a] = state.k[a][i].mul_add(d[first + i] - state.d[first + i], change[a]);
+    for b in 0..L {
+        let moved = held[b] - state.d[b];
+        for a in 0..L {
+            change[a] = state.answer[b][a].mul_add(moved, change[a]);
         }
     }
     if plan.rate {
-        for a in 0..L {
-            let first = a / N * N;
-            for i in 0..N {
-                change[a] = state.c[a][i].mul_add(v[first + i] - state.v[first + i], change[a]);
+        for b in 0..L {
+            let moved = rates_held[b] - state.v[b];
+            for a in 0..L {
+                change[a] = state.answer_to_rate[b][a].mul_add(moved, change[a]);
             }
         }
     }
-    solve(&state.lu[state.held], &mut change);
-    for a in 0..L {
-        f[a] = f[a] + change[a];
-    }
-    let mut forces = [zero; L];
     let mut wrong = state.alive & who;
     for iteration in 0..ITERATIONS {
-        d = deform(&rule.g, &d_free, &f);
+        found.d = deform(&rule.g, &held, &change);
         if plan.rate {
-            v = deform(&rule.h, &v_free, &f);
+            found.v = deform(&rule.h, &rates_held, &change);
         }
-        look(with, plan, rule.dt, (&d, &v), state, &mut forces);
+        look(with, plan, rule.dt, (&found.d, &found.v), state, &mut found.forces);
         state.iterations = state.iterations + one.only(wrong);
-        let share = plan.tolerance;
         let mut residual = [zero; L];
         for a in 0..L {
-            residual[a] = forces[a] - f[a];
+            found.f[a] = state.f[a] + change[a];
+            residual[a] = found.forces[a] - found.f[a];
         }
         let mut fine = zero.le(one);
+        let mut scale = state.scale;
         if plan.turns {
-            let mut scale = state.scale;
             for a in 0..L {
                 let kind = usize::from(plan.rotational[a]);
-                scale[kind] = scale[kind].max(forces[a].abs());
+                scale[kind] = scale[kind].max(found.forces[a].abs());
             }
             for a in 0..L {
-                let allowed = scale[usize::from(plan.rotational[a])] * share;
+                let allowed = scale[usize::from(plan.rotational[a])] * plan.tolerance;
                 fine = fine & residual[a].abs().le(allowed);
             }
         } else {
-            let mut scale = state.scale[0];
-            for a in 0..L {
-                scale = scale.max(forces[a].abs());
+            for force in found.forces {
+                scale[0] = scale[0].max(force.abs());
             }
-            let allowed = scale * share;
-            for a in 0..L {
-                fine = fine & residual[a].abs().le(allowed);
+            let allowed = scale[0] * plan.tolerance;
+            for x in residual {
+                fine = fine & x.abs().le(allowed);
             }
         }
+        found.scale = scale;
         wrong = wrong & !fine;
         if !zero.any(wrong) {
             break;
         }
+        // J = I + k G + c H.
         let mut j = [[zero; L]; L];
         for a in 0..L {
             let first = a / N * N;
@@ -159,21 +156,38 @@ pub(super) fn equilibrium<A: Arithmetic, const M: usize, const L: usize, const N
             }
         }
         factor(&mut j);
-        // From one place to the other: not a store under a mask.
-        let [first, second] = &mut state.lu;
-        let (from, to) = if state.held == 0 { (first, second) } else { (second, first) };
-        for a in 0..L {
-            for b in 0..L {
-                to[a][b] = A::Real::select(wrong, j[a][b], from[a][b]);
-            }
-        }
-        solve(to, &mut residual);
-        state.held = 1 - state.held;
+        state.keep_answers(&j, wrong, plan.rate);
+        solve(&j, &mut residual);
         // Who goes in circles between two regimes takes shorter ways.
         let part = with.splat(PARTS[(iteration / PATIENCE).min(PARTS.len() - 1)]);
         for a in 0..L {
-            f[a] = f[a] + (part * residual[a]).only(wrong);
+            change[a] = change[a] + (part * residual[a]).only(wrong);
         }
     }
-    Found { d, v, f, forces, source0, integral, q, p, wrong }
+    found.wrong = wrong;
+}
+
+impl<R: Real, const M: usize, const L: usize, const N: usize> State<R, M, L, N> {
+    /// J⁻¹ k and J⁻¹ c, column by column, where a mask says so; `j` holds the factors.
+    #[inline(always)]
+    fn keep_answers(&mut self, j: &[[R; L]; L], mask: R::Mask, rate: bool) {
+        let zero = self.external.of(0.0);
+        let kinds = [
+            Some((&self.k, &mut self.answer)),
+            rate.then_some((&self.c, &mut self.answer_to_rate)),
+        ];
+        for (tangents, answer) in kinds.into_iter().flatten() {
+            for b in 0..L {
+                let first = b / N * N;
+                let mut column = [zero; L];
+                for i in 0..N {
+                    column[first + i] = tangents[first + i][b - first];
+                }
+                solve(j, &mut column);
+                for a in 0..L {
+                    answer[b][a] = R::mix(mask, column[a], answer[b][a]);
+                }
+            }
+        }
+    }
 }

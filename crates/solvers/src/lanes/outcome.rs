@@ -19,7 +19,7 @@ impl<R: Real, const M: usize, const L: usize, const N: usize> State<R, M, L, N> 
         lane: usize,
     ) -> LaneOutcome {
         let of = |x: R| with.lane(x, lane);
-        let total = |x: &[R]| -> f64 { x.iter().map(|y| of(*y)).sum() };
+        let heat = |kind: usize| -> f64 { self.heat.iter().map(|x| of(x[kind])).sum() };
         let potential = of(self.potential) - setup.potential;
         let mut energy = EnergyTotals {
             input: setup.kinetic + of(self.external) + potential,
@@ -28,8 +28,8 @@ impl<R: Real, const M: usize, const L: usize, const N: usize> State<R, M, L, N> 
             potential,
             modal_damping: of(self.damping),
             link_stored: of(self.stored) - setup.stored.iter().sum::<f64>(),
-            link_hysteretic: total(&self.hysteretic),
-            link_viscous: total(&self.viscous),
+            link_hysteretic: heat(0),
+            link_viscous: heat(1),
             ..EnergyTotals::default()
         };
         let e = &energy;
@@ -65,8 +65,8 @@ impl<R: Real, const M: usize, const L: usize, const N: usize> State<R, M, L, N> 
                 .map(|(i, element)| {
                     let energy = LinkEnergy {
                         stored: of(self.steps[i].stored),
-                        hysteretic: of(self.hysteretic[i]),
-                        viscous: of(self.viscous[i]),
+                        hysteretic: of(self.heat[i][0]),
+                        viscous: of(self.heat[i][1]),
                     };
                     (*element, energy)
                 })

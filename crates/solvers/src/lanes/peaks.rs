@@ -26,31 +26,34 @@ impl<R: Real> Peak<R> {
     pub(super) fn advance<A: Arithmetic<Real = R>>(
         &mut self,
         with: A,
-        t0: R,
-        dt: R,
+        (t0, dt, third): (R, R, R),
         y: R,
         rate: Option<R>,
     ) {
-        let t1 = t0 + dt;
+        let (mut high, mut low) = (y, y);
         if let Some(rate) = rate {
-            let third = dt * y.of(1.0 / 3.0);
             let first = third.mul_add(self.rate, self.y);
             let second = (-third).mul_add(rate, y);
-            let above = self.max.max(y).lt(first.max(second));
-            let below = first.min(second).lt(self.min.min(y));
-            if y.any(above | below) {
+            high = high.max(first).max(second);
+            low = low.min(first).min(second);
+        }
+        if y.any(self.max.lt(high) | low.lt(self.min)) {
+            let t1 = t0 + dt;
+            if let Some(rate) = rate
+                && y.any(self.max.max(y).lt(high) | low.lt(self.min.min(y)))
+            {
                 self.look_inside(with, t0, t1, y, rate);
             }
-            self.rate = rate;
-        }
-        let (up, down) = (self.max.lt(y), y.lt(self.min));
-        if y.any(up | down) {
+            let (up, down) = (self.max.lt(y), y.lt(self.min));
             self.max = self.max.max(y);
             self.t_max = R::mix(up, t1, self.t_max);
             self.min = self.min.min(y);
             self.t_min = R::mix(down, t1, self.t_min);
         }
         self.y = y;
+        if let Some(rate) = rate {
+            self.rate = rate;
+        }
     }
 
     #[inline(never)]

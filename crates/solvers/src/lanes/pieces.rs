@@ -89,7 +89,7 @@ pub(super) fn in_halves<A: Arithmetic, const M: usize, const L: usize, const N: 
     setups: &[&LaneSetup],
     plan: &Plan<A::Real, M, L, N>,
     (rule, loads, t): (&Rule<A::Real, M, L>, &Loads<A::Real, M>, f64),
-    found: Found<A::Real, M, L>,
+    found: &mut Found<A::Real, M, L>,
     state: &mut State<A::Real, M, L, N>,
 ) {
     let wrong = found.wrong;
@@ -164,9 +164,10 @@ impl<A: Arithmetic, const M: usize, const L: usize, const N: usize> Task<A>
     #[inline(always)]
     fn run(self, with: A) -> <A::Real as Real>::Mask {
         let Self { plan, rule, loads, t, who, before, state } = self;
-        let found = equilibrium(with, plan, rule, loads, who, state);
+        let mut found = Found::new(with.splat(0.0));
+        equilibrium(with, plan, rule, loads, who, state, &mut found);
         let wrong = found.wrong;
-        finish(with, plan, rule, loads, t, found, state);
+        finish(with, plan, rule, loads, t, &mut found, state);
         keep(who & !wrong, state, before);
         forget(wrong, state);
         wrong
@@ -179,7 +180,7 @@ struct End<'a, R: Real, const M: usize, const L: usize, const N: usize> {
     rule: &'a Rule<R, M, L>,
     loads: &'a Loads<R, M>,
     t: R,
-    found: Found<R, M, L>,
+    found: &'a mut Found<R, M, L>,
     before: &'a State<R, M, L, N>,
     state: &'a mut State<R, M, L, N>,
 }

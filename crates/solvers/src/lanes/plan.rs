@@ -16,7 +16,9 @@ pub(super) struct Run {
 }
 
 pub(super) enum Row<R, const M: usize> {
-    Motion { order: usize, own: [R; M], base: Vec<R> },
+    Displacement { own: [R; M] },
+    Velocity { own: [R; M] },
+    Acceleration { own: [R; M], base: Vec<R> },
     Element { stiffness: [R; M], damping: [R; M] },
     Deformation { at: usize, factor: R },
     Force { at: usize, factor: R },
@@ -43,13 +45,17 @@ pub(super) struct Plan<R, const M: usize, const L: usize, const N: usize> {
     pub damping: [R; M],
     /// 1 where the structure is damped.
     pub damped: R,
+    /// Some mode of some lane is damped, or has a stiffness.
+    pub damps: bool,
+    pub elastic: bool,
     pub rotational: [bool; L],
     /// Some coordinate is a rotation.
     pub turns: bool,
     /// Place of each lane coordinate of the setups.
     pub places: Vec<usize>,
-    /// Load of each channel over the modes.
+    /// Load of each channel over the modes, and the sum of those that never change.
     pub forces: Vec<[R; M]>,
+    pub steady: [R; M],
     pub sources: Vec<Source<R>>,
     pub constant: [R; M],
     pub outputs: Vec<Row<R, M>>,
@@ -135,11 +141,17 @@ impl<R: Real, const M: usize, const L: usize, const N: usize> Plan<R, M, L, N> {
         };
         let outputs = (0..one.outputs.len())
             .map(|o| match &one.outputs[o] {
-                Output::Motion { order, base, .. } => Row::Motion {
-                    order: *order,
-                    own: modal(&|s| s.outputs[o].own().to_vec()),
-                    base: rows(&|s| s.outputs[o].base().to_vec(), base.len()),
-                },
+                Output::Motion { order, base, .. } => {
+                    let own = modal(&|s| s.outputs[o].own().to_vec());
+                    match order {
+                        0 => Row::Displacement { own },
+                        1 => Row::Velocity { own },
+                        _ => Row::Acceleration {
+                            own,
+                            base: rows(&|s| s.outputs[o].base().to_vec(), base.len()),
+                        },
+                    }
+                }
                 Output::Element { .. } => Row::Element {
                     stiffness: modal(&|s| s.outputs[o].own().to_vec()),
                     damping: modal(&|s| s.outputs[o].base().to_vec()),
@@ -154,6 +166,12 @@ impl<R: Real, const M: usize, const L: usize, const N: usize> Plan<R, M, L, N> {
                 Output::Zero => Row::Zero,
             })
             .collect();
+        let mut steady = [zero; M];
+        for c in (0..channels).filter(|c| one.tables[*c].is_none()) {
+            for j in 0..modes {
+                steady[j] = steady[j] + get(&|s| s.forces[c][j]);
+            }
+        }
         let damped = |s: &LaneSetup| f64::from(u8::from(s.damping.iter().any(|c| *c != 0.0)));
         Self {
             runs,
@@ -162,6 +180,9 @@ impl<R: Real, const M: usize, const L: usize, const N: usize> Plan<R, M, L, N> {
             omega2: mode_wise(&|s, j| s.omega2[j]),
             damping: mode_wise(&|s, j| s.damping[j]),
             damped: get(&damped),
+            damps: setups.iter().any(|s| damped(s) != 0.0),
+            elastic: setups.iter().any(|s| s.omega2.iter().any(|w| *w != 0.0)),
+            steady,
             turns: rotational.contains(&true),
             rotational,
             forces: (0..channels).map(|c| mode_wise(&|s, j| s.forces[c][j])).collect(),
@@ -177,6 +198,34 @@ impl<R: Real, const M: usize, const L: usize, const N: usize> Plan<R, M, L, N> {
             feet: (0..one.forms.len()).filter(|l| one.forms[*l].law.is_contact).collect(),
             places,
         }
+    }
+}
+
+impl<R: Real, const M: usize, const L: usize, const N: usize> Plan<R, M, L, N> {
+    /// B q.
+    #[inline(always)]
+    pub fn deform(&self, q: &[R; M]) -> [R; L] {
+        let mut d = [q[0]; L];
+        for a in 0..L {
+            d[a] = self.b[a][0] * q[0];
+            for j in 1..M {
+                d[a] = self.b[a][j].mul_add(q[j], d[a]);
+            }
+        }
+        d
+    }
+
+    /// Bᵀ f.
+    #[inline(always)]
+    pub fn push(&self, f: &[R; L]) -> [R; M] {
+        let mut push = [f[0]; M];
+        for j in 0..M {
+            push[j] = f[0] * self.b[0][j];
+            for a in 1..L {
+                push[j] = f[a].mul_add(self.b[a][j], push[j]);
+            }
+        }
+        push
     }
 }
 

@@ -20,13 +20,11 @@ pub(super) fn show<A: Arithmetic, const M: usize, const L: usize, const N: usize
     let zero = with.splat(0.0);
     for (row, peak) in plan.outputs.iter().zip(&mut state.peaks) {
         let (y, rate) = match row {
-            Row::Motion { order: 0, own, .. } => {
+            Row::Displacement { own } => {
                 (dot(zero, own, &state.q), Some(dot(zero, own, &state.p)))
             }
-            Row::Motion { order: 1, own, .. } => {
-                (dot(zero, own, &state.p), Some(dot(zero, own, &state.a)))
-            }
-            Row::Motion { own, base, .. } => {
+            Row::Velocity { own } => (dot(zero, own, &state.p), Some(dot(zero, own, &state.a))),
+            Row::Acceleration { own, base } => {
                 (dot(zero, own, &state.a) + dot(zero, base, &loads.amplitudes), None)
             }
             Row::Element { stiffness, damping } => {
@@ -40,6 +38,6 @@ pub(super) fn show<A: Arithmetic, const M: usize, const L: usize, const N: usize
             Row::History { at } => (state.history[*at], None),
             Row::Zero => (zero, None),
         };
-        peak.advance(with, t, rule.dt, y, rate);
+        peak.advance(with, (t, rule.dt, rule.third), y, rate);
     }
 }

@@ -19,24 +19,25 @@ pub(super) struct State<R: Real, const M: usize, const L: usize, const N: usize>
     /// Tangents of the last look at the laws: a row of the block of its link for every coordinate.
     pub k: [[R; N]; L],
     pub c: [[R; N]; L],
-    /// Factors of J = I + k G + c H, with inverse diagonals.
-    pub lu: [[[R; L]; L]; 2],
-    /// Which of both holds.
-    pub held: usize,
+    /// Bᵀ f.
+    pub push: [R; M],
+    /// What the forces answer to deformations, and to rates, that the modes would have with forces held: (I + k G
+    /// + c H)⁻¹ times k, and c, column by column.
+    pub answer: [[R; L]; L],
+    pub answer_to_rate: [[R; L]; L],
     pub history: Vec<R>,
     pub scale: [R; 2],
     pub alive: R::Mask,
     pub lost: R,
     pub steps: Vec<LaneStep<R>>,
-    pub hysteretic: Vec<R>,
-    pub viscous: Vec<R>,
+    /// Heat of each link: hysteretic, viscous.
+    pub heat: Vec<[R; 2]>,
     pub external: R,
     pub damping: R,
     pub kinetic: R,
     pub strain: R,
     pub potential: R,
     pub stored: R,
-    pub heat: R,
     pub largest: R,
     pub kinetic0: R,
     pub strain0: R,
@@ -68,10 +69,7 @@ impl<R: Real, const M: usize, const L: usize, const N: usize> State<R, M, L, N> 
             }
             x
         };
-        let mut lu = [[zero; L]; L];
-        for (i, row) in lu.iter_mut().enumerate() {
-            row[i] = with.splat(1.0);
-        }
+        let f = flat(&|s, i| s.f[i]);
         let links = one.forms.len();
         let stored: Vec<R> = (0..links).map(|l| get(&|s| s.stored[l])).collect();
         let feet: Vec<&[Contact]> = setups.iter().map(|s| &s.contacts[..]).collect();
@@ -82,25 +80,24 @@ impl<R: Real, const M: usize, const L: usize, const N: usize> State<R, M, L, N> 
             a: mode_wise(&|s, j| s.a[j]),
             d: flat(&|s, i| s.d[i]),
             v: flat(&|s, i| s.v[i]),
-            f: flat(&|s, i| s.f[i]),
+            push: plan.push(&f),
+            f,
             k: [[zero; N]; L],
             c: [[zero; N]; L],
-            lu: [lu; 2],
-            held: 0,
+            answer: [[zero; L]; L],
+            answer_to_rate: [[zero; L]; L],
             history: (0..one.history.len()).map(|i| get(&|s| s.history[i])).collect(),
             scale: [0, 1].map(|i| get(&|s| s.scale[i])),
             alive: zero.le(with.splat(1.0)),
             lost: zero,
             steps: stored.iter().map(|s| LaneStep::elastic(*s)).collect(),
-            hysteretic: vec![zero; links],
-            viscous: vec![zero; links],
+            heat: vec![[zero; 2]; links],
             external: zero,
             damping: zero,
             kinetic,
             strain: get(&|s| s.strain),
             potential: get(&|s| s.potential),
             stored: get(&|s| s.stored.iter().sum()),
-            heat: zero,
             largest: kinetic,
             kinetic0: kinetic,
             strain0: get(&|s| s.strain),
@@ -137,11 +134,12 @@ pub(super) fn keep<R: Real, const M: usize, const L: usize, const N: usize>(
     all(&mut to.f, &from.f);
     all(to.k.as_flattened_mut(), from.k.as_flattened());
     all(to.c.as_flattened_mut(), from.c.as_flattened());
-    all(to.lu[to.held].as_flattened_mut(), from.lu[from.held].as_flattened());
+    all(&mut to.push, &from.push);
+    all(to.answer.as_flattened_mut(), from.answer.as_flattened());
+    all(to.answer_to_rate.as_flattened_mut(), from.answer_to_rate.as_flattened());
     all(&mut to.history, &from.history);
     all(&mut to.scale, &from.scale);
-    all(&mut to.hysteretic, &from.hysteretic);
-    all(&mut to.viscous, &from.viscous);
+    all(to.heat.as_flattened_mut(), from.heat.as_flattened());
     for (x, y) in to.steps.iter_mut().zip(&from.steps) {
         one(&mut x.stored, &y.stored);
     }
@@ -152,7 +150,6 @@ pub(super) fn keep<R: Real, const M: usize, const L: usize, const N: usize>(
         (&mut to.strain, &from.strain),
         (&mut to.potential, &from.potential),
         (&mut to.stored, &from.stored),
-        (&mut to.heat, &from.heat),
         (&mut to.largest, &from.largest),
         (&mut to.count, &from.count),
     ] {
@@ -170,13 +167,9 @@ pub(super) fn forget<R: Real, const M: usize, const L: usize, const N: usize>(
     mask: R::Mask,
     state: &mut State<R, M, L, N>,
 ) {
-    let blocks = [&mut state.k, &mut state.c];
-    for x in blocks.into_iter().flat_map(|b| b.as_flattened_mut()) {
+    let tangents = [&mut state.k, &mut state.c].map(|b| b.as_flattened_mut());
+    let answers = [&mut state.answer, &mut state.answer_to_rate].map(|b| b.as_flattened_mut());
+    for x in tangents.into_iter().chain(answers).flatten() {
         *x = R::select(mask, x.of(0.0), *x);
-    }
-    for (i, row) in state.lu[state.held].iter_mut().enumerate() {
-        for (j, x) in row.iter_mut().enumerate() {
-            *x = R::select(mask, x.of(f64::from(u8::from(i == j))), *x);
-        }
     }
 }

@@ -16,43 +16,50 @@ pub(super) fn finish<A: Arithmetic, const M: usize, const L: usize, const N: usi
     rule: &Rule<A::Real, M, L>,
     loads: &Loads<A::Real, M>,
     t: A::Real,
-    found: Found<A::Real, M, L>,
+    found: &mut Found<A::Real, M, L>,
     state: &mut State<A::Real, M, L, N>,
 ) {
     let zero = with.splat(0.0);
-    let Found { d, v, f, mut forces, source0, mut integral, mut q, mut p, .. } = found;
-    let mut push = [zero; M];
-    for a in 0..L {
-        for j in 0..M {
-            push[j] = f[a].mul_add(plan.b[a][j], push[j]);
-        }
-    }
-    let (mut external, mut total) = (zero, zero);
-    let (mut kinetic, mut strain, mut potential) = (zero, zero, zero);
+    let push = plan.push(&found.f);
+    // Work of all loads, and of the links among them; a load is linear in the step, and what it does is
+    // ∫ s q̇ dt = s₁ (q₁ − q̄) − s₀ (q₀ − q̄) with q̄ the mean of q.
+    let (mut external, mut taken) = (zero, zero);
+    let (mut kinetic, mut potential) = (zero, zero);
     for j in 0..M {
         let c = &rule.c[j];
-        integral[j] = (-c[0][3]).mul_add(push[j], integral[j]);
-        q[j] = (-c[1][3]).mul_add(push[j], q[j]);
-        p[j] = (-c[2][3]).mul_add(push[j], p[j]);
-        let source1 = loads.end[j] - push[j];
-        // ∫ s q̇ dt of a load that is linear in the step.
-        let mean = integral[j] * rule.per_dt;
-        let ext1 = loads.end[j] * (q[j] - mean);
-        let ext0 = loads.start[j] * (state.q[j] - mean);
-        external = external + (ext1 - ext0);
-        total = total + (source1 * (q[j] - mean) - source0[j] * (state.q[j] - mean));
-        kinetic = p[j].mul_add(p[j], kinetic);
-        let w = plan.omega2[j] * q[j];
-        strain = w.mul_add(q[j], strain);
-        potential = (-plan.constant[j]).mul_add(q[j], potential);
-        if plan.accelerations {
-            state.a[j] = (-plan.damping[j]).mul_add(p[j], source1) - w;
-        }
+        let change = state.push[j] - push[j];
+        let integral = c[0][3].mul_add(change, found.integral[j]);
+        let q = c[1][3].mul_add(change, found.q[j]);
+        let p = c[2][3].mul_add(change, found.p[j]);
+        let mean = integral * rule.per_dt;
+        let (to, from) = (q - mean, mean - state.q[j]);
+        external = loads.start[j].mul_add(from, loads.end[j].mul_add(to, external));
+        taken = state.push[j].mul_add(from, push[j].mul_add(to, taken));
+        kinetic = p.mul_add(p, kinetic);
+        potential = (-plan.constant[j]).mul_add(q, potential);
+        (state.q[j], state.p[j], state.push[j]) = (q, p, push[j]);
     }
     let half = with.splat(0.5);
-    let (kinetic, strain) = (half * kinetic, half * strain);
-    let damping = total - (kinetic - state.kinetic) - (strain - state.strain);
-    state.damping = state.damping + damping.only(zero.lt(plan.damped));
+    let kinetic = half * kinetic;
+    let mut strain = zero;
+    if plan.elastic {
+        for j in 0..M {
+            strain = (plan.omega2[j] * state.q[j]).mul_add(state.q[j], strain);
+        }
+        strain = half * strain;
+    }
+    if plan.accelerations {
+        for j in 0..M {
+            let source = loads.end[j] - push[j];
+            let held = (-plan.damping[j]).mul_add(state.p[j], source);
+            state.a[j] = (-plan.omega2[j]).mul_add(state.q[j], held);
+        }
+    }
+    if plan.damps {
+        let gained = (kinetic - state.kinetic) + (strain - state.strain);
+        let damping = external - taken - gained;
+        state.damping = state.damping + damping.only(zero.lt(plan.damped));
+    }
     (state.kinetic, state.strain, state.potential) = (kinetic, strain, potential);
     state.external = state.external + external;
 
@@ -64,13 +71,13 @@ pub(super) fn finish<A: Arithmetic, const M: usize, const L: usize, const N: usi
         let (h, o) = (run.history, run.parameters);
         let mut links = LaneLinks {
             parameters: &plan.parameters[o..o + run.count * law.parameters],
-            d: &d[r.clone()],
-            v: &v[r.clone()],
+            d: &found.d[r.clone()],
+            v: &found.v[r.clone()],
             d0: &state.d[r.clone()],
             v0: &state.v[r.clone()],
             dt: rule.dt,
             history: &mut state.history[h..h + run.count * law.history],
-            f: &mut forces[r],
+            f: &mut found.forces[r],
             k: &mut [],
             c: &mut [],
         };
@@ -78,30 +85,28 @@ pub(super) fn finish<A: Arithmetic, const M: usize, const L: usize, const N: usi
         at += run.count;
     }
     let mut stored = zero;
-    for (i, step) in state.steps.iter().enumerate() {
+    for (step, [hysteretic, viscous]) in state.steps.iter().zip(&mut state.heat) {
         stored = stored + step.stored;
-        state.hysteretic[i] = state.hysteretic[i] + step.hysteretic;
-        state.viscous[i] = state.viscous[i] + step.viscous;
-        state.heat = state.heat + (step.hysteretic + step.viscous);
+        *hysteretic = *hysteretic + step.hysteretic;
+        if plan.rate {
+            *viscous = *viscous + step.viscous;
+        }
     }
     state.stored = stored;
-    (state.q, state.p) = (q, p);
-    (state.d, state.v, state.f) = (d, v, f);
-    for a in 0..L {
-        let kind = usize::from(plan.rotational[a]);
-        let kind = if plan.turns { kind } else { 0 };
-        state.scale[kind] = state.scale[kind].max(forces[a].abs());
+    (state.d, state.f, state.scale) = (found.d, found.f, found.scale);
+    if plan.rate {
+        state.v = found.v;
     }
-    let input = state.kinetic0 + state.external + (state.potential - state.potential0);
-    for size in [
-        input,
-        state.kinetic,
-        state.potential - state.potential0,
-        state.strain - state.strain0,
-        stored - state.stored0,
-    ] {
-        state.largest = state.largest.max(size.abs());
+    let fallen = potential - state.potential0;
+    let input = state.kinetic0 + state.external + fallen;
+    let mut largest = state.largest.max(kinetic).max(input.abs());
+    for size in [fallen, stored - state.stored0] {
+        largest = largest.max(size.abs());
     }
+    if plan.elastic {
+        largest = largest.max((strain - state.strain0).abs());
+    }
+    state.largest = largest;
     state.count = state.count + with.splat(1.0);
     show(with, plan, rule, loads, t, state);
     state.feet.enter(&state.steps, &plan.feet);
