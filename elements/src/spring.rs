@@ -133,10 +133,15 @@ impl LinearElement for Spring {
         let c = [self.c1, self.c2, self.c3, self.cr1, self.cr2, self.cr3];
         let b = deformations(at);
         let assembled = |diagonal: [f64; 6], full: &Option<Matrix6>| {
-            let local = DMatrix::from_fn(6, 6, |i, j| {
-                full.map_or(0.0, |a| a[i][j]) + if i == j { diagonal[i] } else { 0.0 }
-            });
-            b.transpose() * local * &b
+            let mut sum = full.map_or_else(
+                || DMatrix::zeros(b.ncols(), b.ncols()),
+                |a| b.transpose() * DMatrix::from_fn(6, 6, |i, j| a[i][j]) * &b,
+            );
+            for (i, x) in diagonal.into_iter().enumerate().filter(|(_, x)| *x != 0.0) {
+                let row = b.row(i).transpose();
+                sum.ger(x, &row, &row, 1.0);
+            }
+            sum
         };
         let none = DMatrix::zeros(b.ncols(), b.ncols());
         Ok(used(&assembled(k, &self.stiffness), &none, &assembled(c, &self.damping)))

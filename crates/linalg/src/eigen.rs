@@ -9,6 +9,9 @@ use faer::Side;
 /// [`LinalgError::Backend`] where the iteration of the backend fails.
 pub fn symmetric_eigen(a: &Dense) -> Result<(Vec<f64>, Dense), LinalgError> {
     let n = a.rows();
+    if let Some(found) = of_diagonal(a) {
+        return Ok(found);
+    }
     let eigen = a
         .as_ref()
         .self_adjoint_eigen(Side::Lower)
@@ -17,6 +20,20 @@ pub fn symmetric_eigen(a: &Dense) -> Result<(Vec<f64>, Dense), LinalgError> {
     let mut vectors = Dense::zeros(n, n);
     vectors.as_mut().copy_from(eigen.U());
     Ok((values, vectors))
+}
+
+/// The same of a matrix that is diagonal already.
+fn of_diagonal(a: &Dense) -> Option<(Vec<f64>, Dense)> {
+    let n = a.rows();
+    let apart = |j: usize| (0..n).all(|i| i == j || a[(i, j)] == 0.0);
+    if !(0..n).all(|j| apart(j) && a[(j, j)].is_finite()) {
+        return None;
+    }
+    let mut order: Vec<usize> = (0..n).collect();
+    order.sort_by(|i, j| a[(*i, *i)].total_cmp(&a[(*j, *j)]));
+    let mut vectors = Dense::zeros(n, n);
+    order.iter().enumerate().for_each(|(j, i)| vectors[(*i, j)] = 1.0);
+    Some((order.iter().map(|i| a[(*i, *i)]).collect(), vectors))
 }
 
 /// Lowest `count` modes of `(K − λ M) φ = 0` by subspace iteration with the shift `sigma` ≤ 0 that
@@ -204,6 +221,16 @@ mod tests {
         for j in 1..=3 {
             assert!((few[j - 1].sqrt() / exact(j) - 1.0).abs() < 1e-10, "{few:?}");
         }
+    }
+
+    #[test]
+    fn a_diagonal_matrix_is_its_own_answer_and_others_are_not_taken_for_one() {
+        let a = |corner: f64| Dense::from_columns(3, 3, vec![2.0, 0.0, corner, 0.0, -1.0, 0.0, corner, 0.0, 0.5]);
+        let (values, vectors) = symmetric_eigen(&a(0.0)).unwrap();
+        assert_eq!(values, [-1.0, 0.5, 2.0]);
+        assert_eq!(vectors.values(), [0.0, 1.0, 0.0, 0.0, 0.0, 1.0, 1.0, 0.0, 0.0]);
+        let (values, _) = symmetric_eigen(&a(1.0)).unwrap();
+        assert!((values[1] - 0.5 * (2.5 - 6.25f64.sqrt())).abs() < 1e-14, "{values:?}");
     }
 
     #[test]

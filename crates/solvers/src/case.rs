@@ -81,6 +81,18 @@ pub fn run(
     options: RunOptions<'_>,
     observers: &mut [&mut dyn Observer],
 ) -> Result<CaseResult, SolveError> {
+    let mut result = chain(model, system, options, observers)?;
+    result.work.peak_rss_mb = peak_rss_mb();
+    Ok(result)
+}
+
+/// [`run`], as the next case or a caller of many sees it: nobody reads how much memory there was.
+fn chain(
+    model: &Model,
+    system: &System,
+    options: RunOptions<'_>,
+    observers: &mut [&mut dyn Observer],
+) -> Result<CaseResult, SolveError> {
     let case = &model.cases[options.case];
     let before = match options.from {
         None => before(model, system, case, options.solver)?,
@@ -104,7 +116,7 @@ pub(crate) fn before(
 ) -> Result<Option<EndState>, SolveError> {
     let Some(earlier) = case.after else { return Ok(None) };
     let options = RunOptions { case: earlier, solver, ..RunOptions::default() };
-    let result = run(model, system, options, &mut [])?;
+    let result = chain(model, system, options, &mut [])?;
     if let Status::NotConverged { .. } | Status::Overturned { .. } = result.status {
         let reason = result.status.text();
         return Err(SolveError::Predecessor { case: result.case, reason });
@@ -214,7 +226,6 @@ fn run_static(
             factorizations: 1,
             wall_s: clock.wall(),
             march_cpu_s: cpu,
-            peak_rss_mb: peak_rss_mb(),
             ..Work::default()
         },
         energy,

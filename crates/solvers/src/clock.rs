@@ -6,12 +6,17 @@ use std::time::Instant;
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Clock {
     wall: Instant,
-    cpu: Option<u64>,
+    #[cfg(unix)]
+    cpu: f64,
 }
 
 impl Clock {
     pub(crate) fn start() -> Self {
-        Self { wall: Instant::now(), cpu: thread_nanoseconds() }
+        Self {
+            wall: Instant::now(),
+            #[cfg(unix)]
+            cpu: thread_seconds(),
+        }
     }
 
     pub(crate) fn wall(&self) -> f64 {
@@ -19,16 +24,17 @@ impl Clock {
     }
 
     pub(crate) fn cpu(&self) -> f64 {
-        match (self.cpu, thread_nanoseconds()) {
-            (Some(a), Some(b)) => (b - a) as f64 * 1e-9,
-            _ => self.wall(),
-        }
+        #[cfg(unix)]
+        return thread_seconds() - self.cpu;
+        #[cfg(not(unix))]
+        self.wall()
     }
 }
 
-fn thread_nanoseconds() -> Option<u64> {
-    let text = std::fs::read_to_string("/proc/thread-self/schedstat").ok()?;
-    text.split_whitespace().next()?.parse().ok()
+#[cfg(unix)]
+fn thread_seconds() -> f64 {
+    let t = rustix::time::clock_gettime(rustix::time::ClockId::ThreadCPUTime);
+    t.tv_sec as f64 + 1e-9 * t.tv_nsec as f64
 }
 
 /// Largest resident memory so far, MB; 0 where the system does not tell.

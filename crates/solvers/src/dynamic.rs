@@ -2,7 +2,7 @@
 
 use crate::basis::{self, Bases};
 use crate::case::{EndState, RunOptions, constant_load, parameters};
-use crate::clock::{Clock, peak_rss_mb};
+use crate::clock::Clock;
 use crate::damping::modal_damping;
 use crate::error::SolveError;
 use crate::full_newton::FullNewton;
@@ -189,7 +189,7 @@ pub(crate) fn run(
         wall_s: clock.wall(),
         setup_cpu_s: setup_cpu,
         march_cpu_s: clock.cpu() - setup_cpu,
-        peak_rss_mb: peak_rss_mb(),
+        ..Work::default()
     };
     let arrival = Arrival { timeline: &timeline, made, state, pace, ledger, constant, fallen };
     let mut result =

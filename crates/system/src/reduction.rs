@@ -46,11 +46,9 @@ impl Reduction {
         let fixed = fixed_dofs(model, count);
         let mut dependent: BTreeMap<usize, Vec<(usize, f64)>> = BTreeMap::new();
         for row in &rows {
-            let mut sum = BTreeMap::from([(row.dependent, 1.0)]);
-            for (i, c) in &row.terms {
-                *sum.entry(*i).or_insert(0.0) -= c;
-            }
-            let sum = substitute(&sum, &dependent);
+            let own = [(row.dependent, 1.0)];
+            let sum = collected(own.into_iter().chain(row.terms.iter().map(|(i, c)| (*i, -c))));
+            let sum = substitute(sum, &dependent);
             let left: Vec<(usize, f64)> = sum
                 .into_iter()
                 .filter(|(i, c)| c.abs() > 1e-12 && (!fixed[*i] || prescribed_at[*i]))
@@ -93,7 +91,7 @@ impl Reduction {
         offsets.push(0);
         for i in 0..count {
             if dependent.contains_key(&i) {
-                let sum = substitute(&BTreeMap::from([(i, 1.0)]), dependent);
+                let sum = substitute(vec![(i, 1.0)], dependent);
                 let kept = sum.into_iter().filter(|(j, c)| place[*j] != usize::MAX && *c != 0.0);
                 terms.extend(kept.map(|(j, c)| (place[j], c)));
             } else if place[i] != usize::MAX {
@@ -140,6 +138,12 @@ fn constraint_rows(model: &Model) -> Result<Vec<Row>, SystemError> {
 /// Declared dependencies must not run in a circle; the elimination could resolve one, but it never
 /// is what the author of the model meant.
 fn refuse_cycles(model: &Model, rows: &[Row]) -> Result<(), SystemError> {
+    let mut dependents: Vec<usize> = rows.iter().map(|row| row.dependent).collect();
+    dependents.sort_unstable();
+    let follows = |(i, c): &(usize, f64)| *c != 0.0 && dependents.binary_search(i).is_ok();
+    if !rows.iter().flat_map(|row| &row.terms).any(follows) {
+        return Ok(());
+    }
     let mut follows: BTreeMap<usize, Vec<&Row>> = BTreeMap::new();
     for row in rows {
         follows.entry(row.dependent).or_default().push(row);
@@ -223,19 +227,32 @@ fn fixed_dofs(model: &Model, count: usize) -> Vec<bool> {
     fixed
 }
 
+/// Terms by rising DOF, those of one DOF added up in their order.
+fn collected(terms: impl Iterator<Item = (usize, f64)>) -> Vec<(usize, f64)> {
+    let mut all: Vec<(usize, f64)> = terms.collect();
+    all.sort_by_key(|term| term.0);
+    all.dedup_by(|next, sum| {
+        let same = next.0 == sum.0;
+        if same {
+            sum.1 += next.1;
+        }
+        same
+    });
+    all
+}
+
 /// Replaces dependent DOFs until none is left. Stored expressions hold no DOF that was dependent when
 /// they were stored, so this ends.
 fn substitute(
-    sum: &BTreeMap<usize, f64>,
+    sum: Vec<(usize, f64)>,
     dependent: &BTreeMap<usize, Vec<(usize, f64)>>,
-) -> BTreeMap<usize, f64> {
-    let mut open: Vec<(usize, f64)> = sum.iter().map(|(i, c)| (*i, *c)).collect();
-    let mut result = BTreeMap::new();
+) -> Vec<(usize, f64)> {
+    let (mut open, mut result) = (sum, Vec::new());
     while let Some((i, c)) = open.pop() {
         match dependent.get(&i) {
             Some(terms) => open.extend(terms.iter().map(|(j, x)| (*j, c * x))),
-            None => *result.entry(i).or_insert(0.0) += c,
+            None => result.push((i, c)),
         }
     }
-    result
+    collected(result.into_iter())
 }
