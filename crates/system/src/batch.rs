@@ -70,6 +70,7 @@ struct Lanes<A: Arithmetic> {
     v0: Vec<A::Real>,
     dt: A::Real,
     history: Vec<A::Real>,
+    trial: Vec<A::Real>,
     f: Vec<A::Real>,
     k: Vec<A::Real>,
     c: Vec<A::Real>,
@@ -154,6 +155,7 @@ impl<A: Arithmetic + Debug + 'static> Lanes<A> {
             v0: vec![zero; n],
             dt: zero,
             history: vec![zero; first.law.history],
+            trial: vec![zero; first.law.history],
             f: vec![zero; n],
             k: vec![zero; n * n],
             c: vec![zero; n * n],
@@ -310,12 +312,13 @@ impl<A: Arithmetic + Debug> Pack for Lanes<A> {
     fn force(&mut self, at: &Kinematics<'_>, to: &mut [f64], tangents: &mut Tangents) {
         let coordinates = (self.links.len(), &self.coordinates);
         let blocks = (self.links.len(), &self.blocks);
-        let Self { with, law, rate, parameters, d, v, d0, v0, dt, history, f, k, c, .. } = self;
+        let Self { with, law, rate, parameters, d, v, d0, v0, dt, history, trial, f, k, c, .. } =
+            self;
         take(*with, coordinates, at.d, d);
         if *rate {
             take(*with, coordinates, at.v, v);
         }
-        let mut links = LaneLinks { parameters, d, v, d0, v0, dt: *dt, history, f, k, c };
+        let mut links = LaneLinks { parameters, d, v, d0, v0, dt: *dt, history, trial, f, k, c };
         with.force(law, &mut links);
         give(*with, coordinates, f, to);
         give(*with, blocks, k, &mut tangents.k);
@@ -324,12 +327,13 @@ impl<A: Arithmetic + Debug> Pack for Lanes<A> {
         }
     }
 
-    fn commit(&mut self, trial: &mut [f64], energy: &mut [Energy]) {
+    fn commit(&mut self, to: &mut [f64], energy: &mut [Energy]) {
         let histories = (self.links.len(), &self.histories);
-        let Self { with, law, parameters, d, v, d0, v0, dt, history, f, k, c, step, .. } = self;
-        let mut links = LaneLinks { parameters, d, v, d0, v0, dt: *dt, history, f, k, c };
+        let Self { with, law, parameters, d, v, d0, v0, dt, history, trial, f, k, c, step, .. } =
+            self;
+        let mut links = LaneLinks { parameters, d, v, d0, v0, dt: *dt, history, trial, f, k, c };
         with.commit(law, &mut links, std::slice::from_mut(step));
-        give(*with, histories, history, trial);
+        give(*with, histories, trial, to);
         let [stored, hysteretic, viscous] =
             [step.stored, step.hysteretic, step.viscous].map(|x| {
                 let mut lanes = [0.0; WIDTH];

@@ -179,9 +179,10 @@ impl Look<'_> {
             let (d, v) = (take(|c| &c.d), take(|c| &c.v));
             let (d0, v0) = (take(|c| &c.d0), take(|c| &c.v0));
             let parameters: Vec<_> = form.parameters.iter().map(|p| with.splat(*p)).collect();
-            let mut history: Vec<_> =
+            let history: Vec<_> =
                 (0..law.history).map(|i| with.gather(|lane| of(lane).history[i])).collect();
             let (mut f, mut k, mut c) = (vec![zero; n], vec![zero; n * n], vec![zero; n * n]);
+            let mut trial = history.clone();
             let mut links = LaneLinks {
                 parameters: &parameters,
                 d: &d,
@@ -189,7 +190,8 @@ impl Look<'_> {
                 d0: &d0,
                 v0: &v0,
                 dt: with.gather(|lane| of(lane).dt),
-                history: &mut history,
+                history: &history,
+                trial: &mut trial,
                 f: &mut f,
                 k: &mut k,
                 c: &mut c,
@@ -202,7 +204,7 @@ impl Look<'_> {
                 let all = |x: &[A::Real]| x.iter().map(one).collect();
                 let energy = [step.stored, step.hysteretic, step.viscous].map(|x| one(&x));
                 let given =
-                    Parts { f: all(&f), k: all(&k), c: all(&c), energy, trial: all(&history) };
+                    Parts { f: all(&f), k: all(&k), c: all(&c), energy, trial: all(&trial) };
                 scales.agree("lanes", &given, at, case, path)?;
             }
         }

@@ -57,6 +57,14 @@ pub trait Arithmetic: Copy + Send + Sync {
         links: &mut LaneLinks<'_, Self::Real>,
         out: &mut [LaneStep<Self::Real>],
     );
+
+    /// Both at once, where the step may well end here.
+    fn respond(
+        self,
+        law: &ErasedLaw,
+        links: &mut LaneLinks<'_, Self::Real>,
+        out: &mut [LaneStep<Self::Real>],
+    );
 }
 
 /// One analysis at a time, on any machine.
@@ -93,11 +101,15 @@ impl Arithmetic for Portable {
     }
     #[inline(always)]
     fn force(self, law: &ErasedLaw, links: &mut LaneLinks<'_, f64>) {
-        (law.portable.0)(links);
+        (law.portable.force)(links);
     }
     #[inline(always)]
     fn commit(self, law: &ErasedLaw, links: &mut LaneLinks<'_, f64>, out: &mut [LaneStep<f64>]) {
-        (law.portable.1)(links, out);
+        (law.portable.commit)(links, out);
+    }
+    #[inline(always)]
+    fn respond(self, law: &ErasedLaw, links: &mut LaneLinks<'_, f64>, out: &mut [LaneStep<f64>]) {
+        (law.portable.respond)(links, out);
     }
 }
 
@@ -158,7 +170,7 @@ impl Arithmetic for FusedOne {
     }
     #[inline(always)]
     fn force(self, law: &ErasedLaw, links: &mut LaneLinks<'_, Fused>) {
-        (law.fused.0)(self, links);
+        (law.fused.force)(self, links);
     }
     #[inline(always)]
     fn commit(
@@ -167,7 +179,16 @@ impl Arithmetic for FusedOne {
         links: &mut LaneLinks<'_, Fused>,
         out: &mut [LaneStep<Fused>],
     ) {
-        (law.fused.1)(self, links, out);
+        (law.fused.commit)(self, links, out);
+    }
+    #[inline(always)]
+    fn respond(
+        self,
+        law: &ErasedLaw,
+        links: &mut LaneLinks<'_, Fused>,
+        out: &mut [LaneStep<Fused>],
+    ) {
+        (law.fused.respond)(self, links, out);
     }
 }
 
@@ -218,7 +239,7 @@ macro_rules! eight_lanes {
             }
             #[inline(always)]
             fn force(self, law: &ErasedLaw, links: &mut LaneLinks<'_, Self::Real>) {
-                (law.$entries.0)(self, links);
+                (law.$entries.force)(self, links);
             }
             #[inline(always)]
             fn commit(
@@ -227,7 +248,16 @@ macro_rules! eight_lanes {
                 links: &mut LaneLinks<'_, Self::Real>,
                 out: &mut [LaneStep<Self::Real>],
             ) {
-                (law.$entries.1)(self, links, out);
+                (law.$entries.commit)(self, links, out);
+            }
+            #[inline(always)]
+            fn respond(
+                self,
+                law: &ErasedLaw,
+                links: &mut LaneLinks<'_, Self::Real>,
+                out: &mut [LaneStep<Self::Real>],
+            ) {
+                (law.$entries.respond)(self, links, out);
             }
         }
     };

@@ -162,8 +162,10 @@ pub struct LaneLinks<'a, R> {
     pub v0: &'a [R],
     /// Step.
     pub dt: R,
-    /// History: committed; `commit` replaces it by the trial.
-    pub history: &'a mut [R],
+    /// Committed history.
+    pub history: &'a [R],
+    /// History at the end of the step; written by `commit`.
+    pub trial: &'a mut [R],
     /// Forces; read by `commit`.
     pub f: &'a mut [R],
     /// ∂f/∂d, block by block.
@@ -172,50 +174,64 @@ pub struct LaneLinks<'a, R> {
     pub c: &'a mut [R],
 }
 
-/// History of one link at most.
-const MOST_HISTORY: usize = 16;
+impl<'a, R: Real> LaneLinks<'a, R> {
+    /// What the link with this index is asked about.
+    #[inline(always)]
+    fn question<L: LaneLaw>(&self, i: usize) -> LaneAt<'a, R> {
+        let (n, h, p) = (L::COORDINATES, L::HISTORY, L::PARAMETERS);
+        let r = i * n..(i + 1) * n;
+        LaneAt {
+            parameters: &self.parameters[i * p..(i + 1) * p],
+            d: &self.d[r.clone()],
+            v: &self.v[r.clone()],
+            d0: &self.d0[r.clone()],
+            v0: &self.v0[r],
+            dt: self.dt,
+            history: &self.history[i * h..(i + 1) * h],
+        }
+    }
+
+    #[inline(always)]
+    fn force<L: LaneLaw>(&mut self, i: usize, at: &LaneAt<'_, R>) {
+        let n = L::COORDINATES;
+        let block = i * n * n..(i + 1) * n * n;
+        let mut out = LaneForce {
+            f: &mut self.f[i * n..(i + 1) * n],
+            k: &mut self.k[block.clone()],
+            c: &mut self.c[block],
+        };
+        L::force(at, &mut out);
+    }
+
+    #[inline(always)]
+    fn commit<L: LaneLaw>(&mut self, i: usize, at: &LaneAt<'_, R>) -> LaneStep<R> {
+        let (n, h) = (L::COORDINATES, L::HISTORY);
+        L::commit(at, &self.f[i * n..(i + 1) * n], &mut self.trial[i * h..(i + 1) * h])
+    }
+}
 
 #[inline(always)]
 fn force_all<L: LaneLaw, R: Real>(links: &mut LaneLinks<'_, R>) {
-    let (n, h, p) = (L::COORDINATES, L::HISTORY, L::PARAMETERS);
-    for i in 0..links.d.len() / n {
-        let r = i * n..(i + 1) * n;
-        let block = i * n * n..(i + 1) * n * n;
-        let at = LaneAt {
-            parameters: &links.parameters[i * p..(i + 1) * p],
-            d: &links.d[r.clone()],
-            v: &links.v[r.clone()],
-            d0: &links.d0[r.clone()],
-            v0: &links.v0[r.clone()],
-            dt: links.dt,
-            history: &links.history[i * h..(i + 1) * h],
-        };
-        let mut out = LaneForce {
-            f: &mut links.f[r],
-            k: &mut links.k[block.clone()],
-            c: &mut links.c[block],
-        };
-        L::force(&at, &mut out);
+    for i in 0..links.d.len() / L::COORDINATES {
+        let at = links.question::<L>(i);
+        links.force::<L>(i, &at);
     }
 }
 
 #[inline(always)]
 fn commit_all<L: LaneLaw, R: Real>(links: &mut LaneLinks<'_, R>, steps: &mut [LaneStep<R>]) {
-    let (n, h, p) = (L::COORDINATES, L::HISTORY, L::PARAMETERS);
-    let mut trial = [links.dt; MOST_HISTORY];
     for (i, step) in steps.iter_mut().enumerate() {
-        let r = i * n..(i + 1) * n;
-        let at = LaneAt {
-            parameters: &links.parameters[i * p..(i + 1) * p],
-            d: &links.d[r.clone()],
-            v: &links.v[r.clone()],
-            d0: &links.d0[r.clone()],
-            v0: &links.v0[r.clone()],
-            dt: links.dt,
-            history: &links.history[i * h..(i + 1) * h],
-        };
-        *step = L::commit(&at, &links.f[r], &mut trial[..h]);
-        links.history[i * h..(i + 1) * h].copy_from_slice(&trial[..h]);
+        let at = links.question::<L>(i);
+        *step = links.commit::<L>(i, &at);
+    }
+}
+
+#[inline(always)]
+fn respond_all<L: LaneLaw, R: Real>(links: &mut LaneLinks<'_, R>, steps: &mut [LaneStep<R>]) {
+    for (i, step) in steps.iter_mut().enumerate() {
+        let at = links.question::<L>(i);
+        links.force::<L>(i, &at);
+        *step = links.commit::<L>(i, &at);
     }
 }
 
@@ -226,9 +242,17 @@ type ForceBy<A> = fn(A, &mut LaneLinks<'_, <A as Arithmetic>::Real>);
 #[cfg(target_arch = "x86_64")]
 type CommitBy<A> =
     fn(A, &mut LaneLinks<'_, <A as Arithmetic>::Real>, &mut [LaneStep<<A as Arithmetic>::Real>]);
-/// A law on an arithmetic: its forces, and the end of a step.
+
+/// A law on one arithmetic: its forces, the end of a step, and both at once.
+#[derive(Clone, Copy)]
+pub(super) struct Entries<F, C> {
+    pub force: F,
+    pub commit: C,
+    pub respond: C,
+}
+
 #[cfg(target_arch = "x86_64")]
-pub(super) type LawBy<A> = (ForceBy<A>, CommitBy<A>);
+type EntriesBy<A> = Entries<ForceBy<A>, CommitBy<A>>;
 
 /// A law over lanes without its type: entries for every [`Arithmetic`].
 #[derive(Clone, Copy)]
@@ -243,13 +267,13 @@ pub struct ErasedLaw {
     pub parameters: usize,
     /// True for a contact.
     pub is_contact: bool,
-    pub(super) portable: (ForceOf<f64>, CommitOf<f64>),
+    pub(super) portable: Entries<ForceOf<f64>, CommitOf<f64>>,
     #[cfg(target_arch = "x86_64")]
-    pub(super) fused: LawBy<FusedOne>,
+    pub(super) fused: EntriesBy<FusedOne>,
     #[cfg(target_arch = "x86_64")]
-    pub(super) avx2: LawBy<Avx2Lanes>,
+    pub(super) avx2: EntriesBy<Avx2Lanes>,
     #[cfg(target_arch = "x86_64")]
-    pub(super) avx512: LawBy<Avx512Lanes>,
+    pub(super) avx512: EntriesBy<Avx512Lanes>,
 }
 
 impl fmt::Debug for ErasedLaw {
@@ -287,51 +311,52 @@ impl<A: Arithmetic, L: LaneLaw> Task<A> for CommitTask<'_, '_, L, A::Real> {
 }
 
 #[cfg(target_arch = "x86_64")]
-fn force_by<A: Arithmetic, L: LaneLaw>(with: A, links: &mut LaneLinks<'_, A::Real>) {
-    with.run(ForceTask::<L, _>(links, std::marker::PhantomData));
+struct RespondTask<'a, 'b, L, R>(
+    &'a mut LaneLinks<'b, R>,
+    &'a mut [LaneStep<R>],
+    std::marker::PhantomData<L>,
+);
+
+#[cfg(target_arch = "x86_64")]
+impl<A: Arithmetic, L: LaneLaw> Task<A> for RespondTask<'_, '_, L, A::Real> {
+    type Output = ();
+    #[inline(always)]
+    fn run(self, _: A) {
+        respond_all::<L, A::Real>(self.0, self.1);
+    }
 }
 
 #[cfg(target_arch = "x86_64")]
-fn commit_by<A: Arithmetic, L: LaneLaw>(
-    with: A,
-    links: &mut LaneLinks<'_, A::Real>,
-    out: &mut [LaneStep<A::Real>],
-) {
-    with.run(CommitTask::<L, _>(links, out, std::marker::PhantomData));
-}
-
-#[cfg(target_arch = "x86_64")]
-fn law_by<A: Arithmetic, L: LaneLaw>() -> LawBy<A> {
-    (force_by::<A, L>, commit_by::<A, L>)
+fn entries_by<A: Arithmetic, L: LaneLaw>() -> EntriesBy<A> {
+    use std::marker::PhantomData;
+    Entries {
+        force: |with, links| with.run(ForceTask::<L, _>(links, PhantomData)),
+        commit: |with, links, out| with.run(CommitTask::<L, _>(links, out, PhantomData)),
+        respond: |with, links, out| with.run(RespondTask::<L, _>(links, out, PhantomData)),
+    }
 }
 
 impl ErasedLaw {
     /// The entries of a law.
     #[must_use]
     pub fn of<L: LaneLaw>() -> Self {
-        const { assert!(L::HISTORY <= MOST_HISTORY, "too many history variables for lanes") };
         Self {
             id: TypeId::of::<L>(),
             coordinates: L::COORDINATES,
             history: L::HISTORY,
             parameters: L::PARAMETERS,
             is_contact: L::IS_CONTACT,
-            portable: (
-                |links| force_all::<L, f64>(links),
-                |links, out| commit_all::<L, f64>(links, out),
-            ),
+            portable: Entries {
+                force: |links| force_all::<L, f64>(links),
+                commit: |links, out| commit_all::<L, f64>(links, out),
+                respond: |links, out| respond_all::<L, f64>(links, out),
+            },
             #[cfg(target_arch = "x86_64")]
-            fused: law_by::<FusedOne, L>(),
+            fused: entries_by::<FusedOne, L>(),
             #[cfg(target_arch = "x86_64")]
-            avx2: law_by::<Avx2Lanes, L>(),
+            avx2: entries_by::<Avx2Lanes, L>(),
             #[cfg(target_arch = "x86_64")]
-            avx512: law_by::<Avx512Lanes, L>(),
+            avx512: entries_by::<Avx512Lanes, L>(),
         }
-    }
-
-    /// The law as one link sees it: for tests and for laws whose `respond` is their form for lanes.
-    pub fn respond_one(&self, links: &mut LaneLinks<'_, f64>, out: &mut [LaneStep<f64>]) {
-        (self.portable.0)(links);
-        (self.portable.1)(links, out);
     }
 }

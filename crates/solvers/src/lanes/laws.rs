@@ -4,7 +4,7 @@ use super::plan::Plan;
 use super::state::State;
 use trilith_element::lanes::{Arithmetic, LaneLinks, Real};
 
-/// Calls the laws.
+/// Calls the laws: forces and tangents, and history and energies for the case that the step ends here.
 #[inline(always)]
 pub(super) fn look<A: Arithmetic, const M: usize, const L: usize, const N: usize>(
     with: A,
@@ -14,7 +14,8 @@ pub(super) fn look<A: Arithmetic, const M: usize, const L: usize, const N: usize
     state: &mut State<A::Real, M, L, N>,
     f: &mut [A::Real; L],
 ) {
-    let State { d: d0, v: v0, history, k, c, .. } = state;
+    let State { d: d0, v: v0, history, trial, k, c, steps, .. } = state;
+    let mut steps = &mut steps[..];
     for run in &plan.runs {
         let (law, n) = (&run.law, run.law.coordinates);
         let r = run.first..run.first + run.count * n;
@@ -33,12 +34,15 @@ pub(super) fn look<A: Arithmetic, const M: usize, const L: usize, const N: usize
             d0: &d0[r.clone()],
             v0: &v0[r.clone()],
             dt,
-            history: &mut history[h..h + run.count * law.history],
+            history: &history[h..h + run.count * law.history],
+            trial: &mut trial[h..h + run.count * law.history],
             f: &mut f[r],
             k: blocks.0,
             c: blocks.1,
         };
-        with.force(law, &mut links);
+        let (own, rest) = steps.split_at_mut(run.count);
+        with.respond(law, &mut links, own);
+        steps = rest;
         if let Some(own) = &narrow {
             for i in 0..n {
                 for j in 0..n {

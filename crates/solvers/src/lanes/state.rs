@@ -26,6 +26,8 @@ pub(super) struct State<R: Real, const M: usize, const L: usize, const N: usize>
     pub answer: [[R; L]; L],
     pub answer_to_rate: [[R; L]; L],
     pub history: Vec<R>,
+    /// History at the end of the step that is looked for.
+    pub trial: Vec<R>,
     pub scale: [R; 2],
     pub alive: R::Mask,
     pub lost: R,
@@ -70,6 +72,8 @@ impl<R: Real, const M: usize, const L: usize, const N: usize> State<R, M, L, N> 
             x
         };
         let f = flat(&|s, i| s.f[i]);
+        let history: Vec<R> =
+            (0..one.history.len()).map(|i| get(&|s| s.history[i])).collect();
         let links = one.forms.len();
         let stored: Vec<R> = (0..links).map(|l| get(&|s| s.stored[l])).collect();
         let feet: Vec<&[Contact]> = setups.iter().map(|s| &s.contacts[..]).collect();
@@ -86,7 +90,8 @@ impl<R: Real, const M: usize, const L: usize, const N: usize> State<R, M, L, N> 
             c: [[zero; N]; L],
             answer: [[zero; L]; L],
             answer_to_rate: [[zero; L]; L],
-            history: (0..one.history.len()).map(|i| get(&|s| s.history[i])).collect(),
+            trial: history.clone(),
+            history,
             scale: [0, 1].map(|i| get(&|s| s.scale[i])),
             alive: zero.le(with.splat(1.0)),
             lost: zero,

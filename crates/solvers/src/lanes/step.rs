@@ -6,7 +6,7 @@ use super::newton::Found;
 use super::plan::Plan;
 use super::show::show;
 use super::state::State;
-use trilith_element::lanes::{Arithmetic, LaneLinks, Real};
+use trilith_element::lanes::{Arithmetic, Real};
 
 /// Takes the end of a step that began at `t`.
 #[inline(always)]
@@ -64,26 +64,7 @@ pub(super) fn finish<A: Arithmetic, const M: usize, const L: usize, const N: usi
     state.external = state.external + external;
 
     // What the links did.
-    let mut at = 0;
-    for run in &plan.runs {
-        let (law, n) = (&run.law, run.law.coordinates);
-        let r = run.first..run.first + run.count * n;
-        let (h, o) = (run.history, run.parameters);
-        let mut links = LaneLinks {
-            parameters: &plan.parameters[o..o + run.count * law.parameters],
-            d: &found.d[r.clone()],
-            v: &found.v[r.clone()],
-            d0: &state.d[r.clone()],
-            v0: &state.v[r.clone()],
-            dt: rule.dt,
-            history: &mut state.history[h..h + run.count * law.history],
-            f: &mut found.forces[r],
-            k: &mut [],
-            c: &mut [],
-        };
-        with.commit(law, &mut links, &mut state.steps[at..at + run.count]);
-        at += run.count;
-    }
+    std::mem::swap(&mut state.history, &mut state.trial);
     let mut stored = zero;
     for (step, [hysteretic, viscous]) in state.steps.iter().zip(&mut state.heat) {
         stored = stored + step.stored;
