@@ -29,4 +29,8 @@ impl Observer for Gauge {
         self.roof = self.roof.max(roof.abs());
         self.last = *roof;
     }
+
+    fn wants_rates(&self) -> bool {
+        false
+    }
 }

@@ -200,4 +200,8 @@ impl Observer for ContactMode {
         self.summary.overturned |= sample.overturned.is_some();
         self.before = now;
     }
+
+    fn wants_rates(&self) -> bool {
+        false
+    }
 }

@@ -41,6 +41,12 @@ pub trait Shape {
 pub trait Observer {
     /// Called at the start and after every accepted substep, in time order.
     fn sample(&mut self, sample: &Sample<'_>);
+
+    /// False where it never looks at the rates of a sample: where no observer does, nobody makes them, and they
+    /// are not numbers.
+    fn wants_rates(&self) -> bool {
+        true
+    }
 }
 
 /// Energies since the start of the case, J. Stored kinds are changes since the start, kinetic is absolute.

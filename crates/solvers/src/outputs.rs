@@ -190,15 +190,8 @@ impl Outputs {
         }
     }
 
-    /// Values and, for displacements, rates.
-    pub(crate) fn evaluate(
-        &self,
-        t: f64,
-        state: &State,
-        loads: &LoadSet,
-        values: &mut [f64],
-        rates: &mut [f64],
-    ) {
+    /// The outputs in a state.
+    pub(crate) fn at<'a>(&'a self, t: f64, state: &'a State, loads: &LoadSet) -> Now<'a> {
         let n = self.order;
         let motion = [&state.motion[..n], &state.motion[n..2 * n], &state.motion[2 * n..]];
         let support = match self.supported {
@@ -209,23 +202,34 @@ impl Outputs {
             true => loads.base_acceleration(t, Side::Before),
             false => [0.0; 3],
         };
-        rates.fill(f64::NAN);
-        for Run { rows, order, own } in &self.runs {
-            for (order, to) in [(*order, &mut *values), (order + 1, &mut *rates)] {
-                if let Some(motion) = motion.get(order) {
-                    own.times(motion, &mut to[rows.clone()]);
-                }
-            }
+        Now { outputs: self, state, motion, support, base }
+    }
+}
+
+/// Outputs in a state.
+pub(crate) struct Now<'a> {
+    outputs: &'a Outputs,
+    state: &'a State,
+    /// Displacements, velocities and accelerations, and those of supports.
+    motion: [&'a [f64]; 3],
+    support: [Vec<f64>; 3],
+    /// Acceleration of the base.
+    base: [f64; 3],
+}
+
+impl Now<'_> {
+    /// Values of all.
+    pub(crate) fn values(&self, values: &mut [f64]) {
+        let Self { outputs, state, motion, support, base } = self;
+        for Run { rows, order, own } in &outputs.runs {
+            own.times(motion[*order], &mut values[rows.clone()]);
         }
-        for (i, flat, factor) in &self.deformations {
-            (values[*i], rates[*i]) = (factor * state.d[*flat], factor * state.v[*flat]);
+        for (i, flat, factor) in &outputs.deformations {
+            values[*i] = factor * state.d[*flat];
         }
-        for i in self.others.iter().copied() {
-            values[i] = match &self.rows[i] {
+        for i in outputs.others.iter().copied() {
+            values[i] = match &outputs.rows[i] {
                 Row::Nodal { order, own, support: tied, base: share } => {
-                    if *order < 2 {
-                        rates[i] = sum(own, motion[order + 1]) + sum(tied, &support[order + 1]);
-                    }
                     let moving: f64 = share.iter().zip(base).map(|(a, b)| a * b).sum();
                     sum(own, motion[*order]) + sum(tied, &support[*order]) + moving
                 }
@@ -234,9 +238,7 @@ impl Outputs {
                 Row::Force { flat, factor } => factor * state.f[*flat],
                 Row::History { at } => state.history[*at],
                 Row::Combination { how, constant, terms } => {
-                    let value;
-                    (value, rates[i]) = combined(*how, *constant, terms, values, rates);
-                    value
+                    combined(*how, *constant, terms, values)
                 }
                 Row::Element { stiffness, damping } => {
                     sum(&stiffness.0, motion[0])
@@ -247,26 +249,57 @@ impl Outputs {
             };
         }
     }
+
+    /// Rates of those that have one, not numbers of the others.
+    pub(crate) fn rates(&self, values: &[f64], rates: &mut [f64]) {
+        let Self { outputs, state, motion, support, .. } = self;
+        rates.fill(f64::NAN);
+        for Run { rows, order, own } in &outputs.runs {
+            if let Some(motion) = motion.get(order + 1) {
+                own.times(motion, &mut rates[rows.clone()]);
+            }
+        }
+        for (i, flat, factor) in &outputs.deformations {
+            rates[*i] = factor * state.v[*flat];
+        }
+        for i in outputs.others.iter().copied() {
+            rates[i] = match &outputs.rows[i] {
+                Row::Nodal { order, own, support: tied, .. } if *order < 2 => {
+                    sum(own, motion[order + 1]) + sum(tied, &support[order + 1])
+                }
+                Row::Combination { how, terms, .. } => {
+                    rate_combined(*how, terms, values[i], values, rates)
+                }
+                _ => continue,
+            };
+        }
+    }
 }
 
-/// Value and rate of outputs put together.
-fn combined(
+/// Value of outputs put together.
+fn combined(how: Combine, constant: f64, terms: &[(usize, f64)], values: &[f64]) -> f64 {
+    let parts = || terms.iter().map(|(i, factor)| factor * values[*i]);
+    match how {
+        Combine::Sum => parts().fold(constant, |sum, x| sum + x),
+        Combine::Norm => parts().map(|x| x * x).sum::<f64>().sqrt(),
+        Combine::Largest => parts().fold(f64::NEG_INFINITY, f64::max),
+        Combine::Smallest => parts().fold(f64::INFINITY, f64::min),
+    }
+}
+
+/// Rate of outputs put together, which have this value.
+fn rate_combined(
     how: Combine,
-    constant: f64,
     terms: &[(usize, f64)],
+    value: f64,
     values: &[f64],
     rates: &[f64],
-) -> (f64, f64) {
+) -> f64 {
     let parts = || terms.iter().map(|(i, factor)| (factor * values[*i], factor * rates[*i]));
     match how {
-        Combine::Sum => parts().fold((constant, 0.0), |(y, r), (a, b)| (y + a, r + b)),
-        Combine::Norm => {
-            let size = parts().map(|(a, _)| a * a).sum::<f64>().sqrt();
-            let rate = parts().map(|(a, b)| a * b).sum::<f64>() / size;
-            (size, if size > 0.0 { rate } else { f64::NAN })
-        }
-        // Between two of them a rate would bend what has a corner.
-        Combine::Largest => (parts().map(|p| p.0).fold(f64::NEG_INFINITY, f64::max), f64::NAN),
-        Combine::Smallest => (parts().map(|p| p.0).fold(f64::INFINITY, f64::min), f64::NAN),
+        Combine::Sum => parts().map(|p| p.1).fold(0.0, |sum, x| sum + x),
+        Combine::Norm if value > 0.0 => parts().map(|(a, b)| a * b).sum::<f64>() / value,
+        // Between two of the largest or the smallest a rate would bend what has a corner.
+        Combine::Norm | Combine::Largest | Combine::Smallest => f64::NAN,
     }
 }

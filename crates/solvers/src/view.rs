@@ -55,6 +55,8 @@ pub(crate) struct Viewer<'a, 'b> {
     outputs: Outputs,
     values: Vec<f64>,
     rates: Vec<f64>,
+    /// True where an observer looks at them.
+    rated: bool,
     /// The links that are contacts.
     touching: Vec<(&'a dyn Link, &'a LinkInstance)>,
     /// The links that have an outline.
@@ -116,7 +118,8 @@ impl<'a, 'b> Viewer<'a, 'b> {
             loads,
             outputs: Outputs::new(model, system, space),
             values: vec![0.0; count],
-            rates: vec![0.0; count],
+            rates: vec![f64::NAN; count],
+            rated: observers.iter().any(|o| o.wants_rates()),
             touching,
             bodies,
             contacts: Vec::new(),
@@ -137,7 +140,11 @@ impl<'a, 'b> Viewer<'a, 'b> {
         if self.observers.is_empty() {
             return;
         }
-        self.outputs.evaluate(t, state, self.loads, &mut self.values, &mut self.rates);
+        let now = self.outputs.at(t, state, self.loads);
+        now.values(&mut self.values);
+        if self.rated {
+            now.rates(&self.values, &mut self.rates);
+        }
         self.touch(state);
         let overturned = self.overturned(state);
         let shape = Figure {

@@ -86,6 +86,10 @@ impl Observer for Watch {
             row.add(sample.t, *y);
         }
     }
+
+    fn wants_rates(&self) -> bool {
+        false
+    }
 }
 
 impl Integral {

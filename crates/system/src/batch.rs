@@ -16,27 +16,11 @@ const WIDTH: usize = 8;
 /// Fewer links of one law are asked one by one.
 const WORTH_LANES: usize = 4;
 
-/// Numbers of a kind that a link of a pack has at most.
-const MOST: usize = 9;
+/// Coordinates and history variables that a link of a pack has at most.
+const MOST: (usize, usize) = (3, 9);
 
-/// Where the numbers of the links of a pack lie in a flat array.
-#[derive(Clone, Debug)]
-enum Places {
-    /// Link after link from here on.
-    Run(usize),
-    /// Each for itself.
-    Apart(Vec<usize>),
-}
-
-impl Places {
-    /// Of links that have `n` numbers each.
-    fn new(starts: Vec<usize>, n: usize) -> Self {
-        if starts.windows(2).all(|two| two[0] + n == two[1]) {
-            return Self::Run(starts.first().copied().unwrap_or(0));
-        }
-        Self::Apart(starts)
-    }
-}
+/// Where the numbers of the links of a pack begin in a flat array; lanes that are left repeat the last link.
+type Places = [usize; WIDTH];
 
 /// Links of one law that are asked together.
 pub(crate) trait Pack: Debug {
@@ -50,7 +34,7 @@ pub(crate) trait Pack: Debug {
     fn commit(&mut self, trial: &mut [f64], energy: &mut [Energy]);
 }
 
-/// As many links of one law as there are lanes, or fewer: then the others hold links at rest.
+/// As many links of one law as there are lanes, or fewer: then the others repeat the last one.
 #[derive(Debug)]
 struct Lanes<A: Arithmetic> {
     with: A,
@@ -104,7 +88,7 @@ fn packs_of<A: Arithmetic + Debug + 'static>(
             let n = link.range.len();
             let form = law.lanes(&vec![true; n])?;
             let whole = form.coordinates.iter().copied().eq(0..n);
-            let short = n * n <= MOST && form.law.history <= MOST;
+            let short = n <= MOST.0 && form.law.history <= MOST.1;
             (whole && short && form.law.history == link.history.len()).then_some(form)
         })
         .collect();
@@ -135,8 +119,8 @@ impl<A: Arithmetic + Debug + 'static> Lanes<A> {
     /// Of a group of links with their forms; none where there are none.
     fn new(with: A, laws: &Laws<'_>, group: &[usize], own: &[&LaneForm]) -> Option<Box<dyn Pack>> {
         let (first, last) = (own.first()?, own.len() - 1);
-        let places = |n: usize, start: fn(&LinkInstance) -> usize| {
-            Places::new(group.iter().map(|j| start(laws[*j].1)).collect(), n)
+        let places = |start: fn(&LinkInstance) -> usize| -> Places {
+            std::array::from_fn(|lane| start(laws[group[lane.min(last)]].1))
         };
         let parameter = |p: usize| with.gather(|lane| own[lane.min(last)].parameters[p]);
         let (n, zero) = (first.law.coordinates, with.splat(0.0));
@@ -145,9 +129,9 @@ impl<A: Arithmetic + Debug + 'static> Lanes<A> {
             law: first.law,
             rate: first.rate && group.iter().any(|j| laws[*j].0.uses_rates()),
             links: group.to_vec(),
-            coordinates: places(n, |link| link.range.start),
-            blocks: places(n * n, |link| link.block.start),
-            histories: places(first.law.history, |link| link.history.start),
+            coordinates: places(|link| link.range.start),
+            blocks: places(|link| link.block.start),
+            histories: places(|link| link.history.start),
             parameters: (0..first.law.parameters).map(parameter).collect(),
             d: vec![zero; n],
             v: vec![zero; n],
@@ -164,46 +148,28 @@ impl<A: Arithmetic + Debug + 'static> Lanes<A> {
     }
 }
 
-/// Fills numbers of `count` links from a flat array: a row of lanes for each of the `N` of a link, zero in the lanes
-/// that are left.
+/// A row of lanes for each of the `N` numbers that the links have in a flat array.
 #[inline(always)]
-fn take_rows<A: Arithmetic, const N: usize>(
+fn take<A: Arithmetic, const N: usize>(
     with: A,
-    (count, places): (usize, &Places),
+    places: &Places,
     from: &[f64],
     to: &mut [A::Real],
 ) {
-    let mut own = [[0.0; N]; WIDTH];
-    match places {
-        Places::Run(start) => {
-            let (run, _) = from[*start..*start + N * count].as_chunks::<N>();
-            if let Ok(whole) = <&[[f64; N]; WIDTH]>::try_from(run) {
-                return turn(with, whole, to);
-            }
-            own[..count].copy_from_slice(run);
-        }
-        Places::Apart(starts) => {
-            for (own, start) in own.iter_mut().zip(starts) {
-                own.copy_from_slice(&from[*start..*start + N]);
-            }
-        }
+    let mut own = [&[0.0; N]; WIDTH];
+    for (own, start) in own.iter_mut().zip(places) {
+        *own = from[*start..].first_chunk().expect("numbers of a link");
     }
-    turn(with, &own, to);
-}
-
-/// Rows of lanes from the numbers of each link.
-#[inline(always)]
-fn turn<A: Arithmetic, const N: usize>(with: A, own: &[[f64; N]; WIDTH], to: &mut [A::Real]) {
     for (i, x) in to.iter_mut().enumerate().take(N) {
         *x = with.gather(|lane| own[lane][i]);
     }
 }
 
-/// Puts numbers of `count` links into a flat array.
+/// Puts the numbers of the first `count` links into a flat array.
 #[inline(always)]
-fn give_rows<A: Arithmetic, const N: usize>(
+fn give<A: Arithmetic, const N: usize>(
     with: A,
-    (count, places): (usize, &Places),
+    (places, count): (&Places, usize),
     from: &[A::Real],
     to: &mut [f64],
 ) {
@@ -211,30 +177,21 @@ fn give_rows<A: Arithmetic, const N: usize>(
     for (x, row) in from.iter().zip(&mut rows) {
         with.store(*x, row);
     }
-    let mut own = [[0.0; N]; WIDTH];
-    for (lane, own) in own.iter_mut().enumerate() {
+    for (lane, start) in places.iter().enumerate().take(count) {
+        let own: &mut [f64; N] =
+            to[*start..].first_chunk_mut().expect("numbers of a link");
         (0..N).for_each(|i| own[i] = rows[i][lane]);
-    }
-    match places {
-        Places::Run(start) => {
-            to[*start..*start + N * count].copy_from_slice(own[..count].as_flattened());
-        }
-        Places::Apart(starts) => {
-            for (own, start) in own.iter().zip(starts) {
-                to[*start..*start + N].copy_from_slice(own);
-            }
-        }
     }
 }
 
-/// Chooses the number of rows that a loop is compiled for; none are no work.
-macro_rules! by_rows {
-    ($n:expr, $call:ident, $($arguments:expr),*) => {
-        by_rows!(@ $n, $call, ($($arguments),*), 1 2 3 4 5 6 7 8 9)
+/// Calls a function for the number of history variables, as a constant; for none, nothing.
+macro_rules! by_history {
+    ($n:expr, $call:ident, $arguments:tt) => {
+        by_history!(@ $n, $call, $arguments, 1 2 3 4 5 6 7 8 9)
     };
     (@ $n:expr, $call:ident, $arguments:tt, $($size:literal)*) => {
         match $n {
-            $($size => by_rows!(! $call, $size, $arguments),)*
+            $($size => by_history!(! $call, $size, $arguments),)*
             _ => {}
         }
     };
@@ -243,109 +200,127 @@ macro_rules! by_rows {
     };
 }
 
-/// Takes numbers from a flat array, with the instructions of an arithmetic.
-struct Take<'a, R> {
-    count: usize,
-    places: &'a Places,
-    from: &'a [f64],
-    to: &'a mut [R],
+/// The start of a step of a pack, with the instructions of its arithmetic.
+struct Start<'a, A: Arithmetic> {
+    pack: &'a mut Lanes<A>,
+    at: &'a Kinematics<'a>,
+    committed: &'a [f64],
 }
 
-impl<A: Arithmetic> Task<A> for Take<'_, A::Real> {
-    type Output = ();
-
+impl<A: Arithmetic> Start<'_, A> {
     #[inline(always)]
-    fn run(self, with: A) {
-        let Self { count, places, from, to } = self;
-        by_rows!(to.len(), take_rows, with, (count, places), from, to);
+    fn of<const N: usize>(self) {
+        let Self { pack, at, committed } = self;
+        let Lanes { with, coordinates, histories, d0, v0, history, rate, dt, .. } = pack;
+        take::<A, N>(*with, coordinates, at.d0, d0);
+        if *rate {
+            take::<A, N>(*with, coordinates, at.v0, v0);
+        }
+        by_history!(history.len(), take, (*with, histories, committed, history));
+        *dt = with.splat(at.dt);
     }
 }
 
-/// Gives numbers to a flat array, with the instructions of an arithmetic.
-struct Give<'a, R> {
-    count: usize,
-    places: &'a Places,
-    from: &'a [R],
+impl<A: Arithmetic> Task<A> for Start<'_, A> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run(self, _: A) {
+        match self.pack.law.coordinates {
+            1 => self.of::<1>(),
+            2 => self.of::<2>(),
+            _ => self.of::<3>(),
+        }
+    }
+}
+
+/// Forces and tangents of a pack, with the instructions of its arithmetic.
+struct Force<'a, A: Arithmetic> {
+    pack: &'a mut Lanes<A>,
+    at: &'a Kinematics<'a>,
     to: &'a mut [f64],
+    tangents: &'a mut Tangents,
 }
 
-impl<A: Arithmetic> Task<A> for Give<'_, A::Real> {
+impl<A: Arithmetic> Force<'_, A> {
+    /// Of links with `N` coordinates, and blocks of `B` numbers.
+    #[inline(always)]
+    fn of<const N: usize, const B: usize>(self) {
+        let Self { pack, at, to, tangents } = self;
+        let (count, with, rate) = (pack.links.len(), pack.with, pack.rate);
+        take::<A, N>(with, &pack.coordinates, at.d, &mut pack.d);
+        if rate {
+            take::<A, N>(with, &pack.coordinates, at.v, &mut pack.v);
+        }
+        let law = pack.law;
+        with.force(&law, &mut pack.questions());
+        give::<A, N>(with, (&pack.coordinates, count), &pack.f, to);
+        give::<A, B>(with, (&pack.blocks, count), &pack.k, &mut tangents.k);
+        if rate {
+            give::<A, B>(with, (&pack.blocks, count), &pack.c, &mut tangents.c);
+        }
+    }
+}
+
+impl<A: Arithmetic> Task<A> for Force<'_, A> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run(self, _: A) {
+        match self.pack.law.coordinates {
+            1 => self.of::<1, 1>(),
+            2 => self.of::<2, 4>(),
+            _ => self.of::<3, 9>(),
+        }
+    }
+}
+
+/// The end of a step of a pack, with the instructions of its arithmetic.
+struct Commit<'a, A: Arithmetic> {
+    pack: &'a mut Lanes<A>,
+    to: &'a mut [f64],
+    energy: &'a mut [Energy],
+}
+
+impl<A: Arithmetic> Task<A> for Commit<'_, A> {
     type Output = ();
 
     #[inline(always)]
     fn run(self, with: A) {
-        let Self { count, places, from, to } = self;
-        by_rows!(from.len(), give_rows, with, (count, places), from, to);
+        let Self { pack, to, energy } = self;
+        let (law, count, mut step) = (pack.law, pack.links.len(), pack.step);
+        with.commit(&law, &mut pack.questions(), std::slice::from_mut(&mut step));
+        let (places, trial) = ((&pack.histories, count), &pack.trial);
+        by_history!(trial.len(), give, (with, places, trial, to));
+        let mut rows = [[0.0; WIDTH]; 3];
+        for (x, row) in [step.stored, step.hysteretic, step.viscous].iter().zip(&mut rows) {
+            with.store(*x, row);
+        }
+        let [stored, hysteretic, viscous] = rows;
+        for (lane, link) in pack.links.iter().enumerate() {
+            let (stored, hysteretic) = (stored[lane], hysteretic[lane]);
+            energy[*link] = Energy { stored, hysteretic, viscous: viscous[lane] };
+        }
     }
 }
 
-fn take<A: Arithmetic>(
-    with: A,
-    (count, places): (usize, &Places),
-    from: &[f64],
-    to: &mut [A::Real],
-) {
-    with.run(Take { count, places, from, to });
-}
-
-fn give<A: Arithmetic>(
-    with: A,
-    (count, places): (usize, &Places),
-    from: &[A::Real],
-    to: &mut [f64],
-) {
-    with.run(Give { count, places, from, to });
+impl<A: Arithmetic> Lanes<A> {
+    fn questions(&mut self) -> LaneLinks<'_, A::Real> {
+        let Self { parameters, d, v, d0, v0, dt, history, trial, f, k, c, .. } = self;
+        LaneLinks { parameters, d, v, d0, v0, dt: *dt, history, trial, f, k, c }
+    }
 }
 
 impl<A: Arithmetic + Debug> Pack for Lanes<A> {
     fn start(&mut self, at: &Kinematics<'_>, committed: &[f64]) {
-        let Self { with, links, coordinates, histories, d0, v0, history, .. } = self;
-        let count = links.len();
-        take(*with, (count, coordinates), at.d0, d0);
-        if self.rate {
-            take(*with, (count, coordinates), at.v0, v0);
-        }
-        take(*with, (count, histories), committed, history);
-        self.dt = with.splat(at.dt);
+        self.with.run(Start { pack: self, at, committed });
     }
 
     fn force(&mut self, at: &Kinematics<'_>, to: &mut [f64], tangents: &mut Tangents) {
-        let coordinates = (self.links.len(), &self.coordinates);
-        let blocks = (self.links.len(), &self.blocks);
-        let Self { with, law, rate, parameters, d, v, d0, v0, dt, history, trial, f, k, c, .. } =
-            self;
-        take(*with, coordinates, at.d, d);
-        if *rate {
-            take(*with, coordinates, at.v, v);
-        }
-        let mut links = LaneLinks { parameters, d, v, d0, v0, dt: *dt, history, trial, f, k, c };
-        with.force(law, &mut links);
-        give(*with, coordinates, f, to);
-        give(*with, blocks, k, &mut tangents.k);
-        if *rate {
-            give(*with, blocks, c, &mut tangents.c);
-        }
+        self.with.run(Force { pack: self, at, to, tangents });
     }
 
     fn commit(&mut self, to: &mut [f64], energy: &mut [Energy]) {
-        let histories = (self.links.len(), &self.histories);
-        let Self { with, law, parameters, d, v, d0, v0, dt, history, trial, f, k, c, step, .. } =
-            self;
-        let mut links = LaneLinks { parameters, d, v, d0, v0, dt: *dt, history, trial, f, k, c };
-        with.commit(law, &mut links, std::slice::from_mut(step));
-        give(*with, histories, trial, to);
-        let [stored, hysteretic, viscous] =
-            [step.stored, step.hysteretic, step.viscous].map(|x| {
-                let mut lanes = [0.0; WIDTH];
-                with.store(x, &mut lanes);
-                lanes
-            });
-        for (lane, link) in self.links.iter().enumerate() {
-            energy[*link] = Energy {
-                stored: stored[lane],
-                hysteretic: hysteretic[lane],
-                viscous: viscous[lane],
-            };
-        }
+        self.with.run(Commit { pack: self, to, energy });
     }
 }

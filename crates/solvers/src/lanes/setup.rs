@@ -205,7 +205,10 @@ pub fn prepare(
     let base: Vec<usize> = analysis.base.iter().map(|b| b.direction.index()).collect();
     let outputs = outputs(model, system, space, &flat, (loads.channels.len(), first, &base), &turn);
     let (mut values, mut rates) = (vec![0.0; outputs.len()], vec![0.0; outputs.len()]);
-    Outputs::new(model, system, space).evaluate(0.0, &state, &loads, &mut values, &mut rates);
+    let all = Outputs::new(model, system, space);
+    let now = all.at(0.0, &state, &loads);
+    now.values(&mut values);
+    now.rates(&values, &mut rates);
     let (kinetic, strain) = kinetic_and_strain(space, &state.motion);
     let pick = |of: &[f64]| flat.iter().map(|i| of[*i]).collect::<Vec<f64>>();
     let seen = contacts(model, system, &state);

@@ -66,6 +66,10 @@ impl Observer for Gaps {
         let gap = |e: &usize| s.contacts.iter().find(|(i, _)| i == e).map_or(f64::NAN, |c| c.1.gap);
         self.seen.push((s.t, self.elements.iter().map(gap).collect()));
     }
+
+    fn wants_rates(&self) -> bool {
+        false
+    }
 }
 
 impl Calibrator {
