@@ -6,7 +6,7 @@ use trilith_element::{
     NodeCount, Parameter, Range, Register, Response, dimension,
 };
 use trilith_model::{Analysis, Kernel, SolverKind, StepControl};
-use trilith_solvers::{RunOptions, Status, run};
+use trilith_solvers::{Observer, RunOptions, Sample, Status, run};
 use trilith_system::System;
 use trilith_tests::{Trace, parse, registry, set_step, shipped, trace, trace_with};
 
@@ -93,6 +93,44 @@ fn a_run_that_finds_no_equilibrium_says_where_and_keeps_the_last_good_state() {
         assert_eq!(result.end.displacement[0].to_bits(), seen.last[0].to_bits());
         assert!(seen.history.len() >= 5, "the history up to the failure is kept");
     }
+}
+
+/// Keeps (value, rate) of the first output.
+#[derive(Default)]
+struct Looks {
+    at_rates: bool,
+    seen: Vec<(f64, f64)>,
+}
+
+impl Observer for Looks {
+    fn sample(&mut self, s: &Sample<'_>) {
+        self.seen.push((s.values[0], s.rates[0]));
+    }
+
+    fn wants_rates(&self) -> bool {
+        self.at_rates
+    }
+}
+
+#[test]
+fn rates_of_outputs_are_made_where_an_observer_looks_at_them() {
+    let (model, system) = shipped("rigid_block.ron", &[]);
+    let of = |at_rates: &[bool]| -> Vec<Looks> {
+        let looks = |at_rates: &bool| Looks { at_rates: *at_rates, ..Looks::default() };
+        let mut all: Vec<Looks> = at_rates.iter().map(looks).collect();
+        let mut observers: Vec<&mut dyn Observer> =
+            all.iter_mut().map(|o| o as &mut dyn Observer).collect();
+        let case = model.cases.len() - 1;
+        let options = RunOptions { case, until: Some(0.5), ..RunOptions::default() };
+        run(&model, &system, options, &mut observers).unwrap();
+        all
+    };
+    let (blind, mixed) = (of(&[false]), of(&[false, true]));
+    assert!(blind[0].seen.len() > 10 && blind[0].seen.iter().all(|(_, rate)| rate.is_nan()));
+    assert!(mixed[1].seen.iter().all(|(_, rate)| rate.is_finite()));
+    assert!(mixed[1].seen.iter().any(|(_, rate)| *rate != 0.0));
+    let values = |l: &Looks| l.seen.iter().map(|(y, _)| y.to_bits()).collect::<Vec<_>>();
+    assert!(mixed.iter().all(|l| values(l) == values(&blind[0])), "the same values");
 }
 
 /// A rigid column between a moving support and a mass: u relative to the ground equals the response to

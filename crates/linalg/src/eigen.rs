@@ -225,7 +225,9 @@ mod tests {
 
     #[test]
     fn a_diagonal_matrix_is_its_own_answer_and_others_are_not_taken_for_one() {
-        let a = |corner: f64| Dense::from_columns(3, 3, vec![2.0, 0.0, corner, 0.0, -1.0, 0.0, corner, 0.0, 0.5]);
+        let a = |corner: f64| {
+            Dense::from_columns(3, 3, vec![2.0, 0.0, corner, 0.0, -1.0, 0.0, corner, 0.0, 0.5])
+        };
         let (values, vectors) = symmetric_eigen(&a(0.0)).unwrap();
         assert_eq!(values, [-1.0, 0.5, 2.0]);
         assert_eq!(vectors.values(), [0.0, 1.0, 0.0, 0.0, 0.0, 1.0, 1.0, 0.0, 0.0]);

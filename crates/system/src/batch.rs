@@ -150,12 +150,7 @@ impl<A: Arithmetic + Debug + 'static> Lanes<A> {
 
 /// A row of lanes for each of the `N` numbers that the links have in a flat array.
 #[inline(always)]
-fn take<A: Arithmetic, const N: usize>(
-    with: A,
-    places: &Places,
-    from: &[f64],
-    to: &mut [A::Real],
-) {
+fn take<A: Arithmetic, const N: usize>(with: A, places: &Places, from: &[f64], to: &mut [A::Real]) {
     let mut own = [&[0.0; N]; WIDTH];
     for (own, start) in own.iter_mut().zip(places) {
         *own = from[*start..].first_chunk().expect("numbers of a link");
@@ -178,8 +173,7 @@ fn give<A: Arithmetic, const N: usize>(
         with.store(*x, row);
     }
     for (lane, start) in places.iter().enumerate().take(count) {
-        let own: &mut [f64; N] =
-            to[*start..].first_chunk_mut().expect("numbers of a link");
+        let own: &mut [f64; N] = to[*start..].first_chunk_mut().expect("numbers of a link");
         (0..N).for_each(|i| own[i] = rows[i][lane]);
     }
 }

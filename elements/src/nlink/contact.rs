@@ -213,8 +213,7 @@ impl<const T: usize, const FLAGS: u8> LaneLaw for NLinkContact<T, FLAGS> {
             let by_limit = along[i].only(!sticks & rubs);
             let row = (1 + i) * n;
             let mut by_d1_total = by_limit * (mu * now.cone_d);
-            out.c[row] =
-                if FLAGS & UNDAMPED == 0 { by_limit * (mu * now.cone_v) } else { zero };
+            out.c[row] = if FLAGS & UNDAMPED == 0 { by_limit * (mu * now.cone_v) } else { zero };
             for j in 0..T {
                 let own = it.kn.of(f64::from(u8::from(i == j)));
                 let across = if T == 1 { zero } else { (own - along[i] * along[j]) * turn };

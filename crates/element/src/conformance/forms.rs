@@ -3,9 +3,9 @@
 use super::ConformanceError as Broken;
 use super::path::Path;
 use super::probe::march;
+use crate::lanes::{Arithmetic, LaneForm, LaneLinks, LaneStep, Portable};
 #[cfg(target_arch = "x86_64")]
 use crate::lanes::{Avx2Lanes, Avx512Lanes};
-use crate::lanes::{Arithmetic, LaneForm, LaneLinks, LaneStep, Portable};
 use crate::{Answer, Kinematics, Link};
 
 /// Steps of a cycle; not a multiple of the number of lanes.

@@ -173,11 +173,7 @@ impl<S: Simd, const K: usize> Wide<S, K> {
     }
 
     #[inline(always)]
-    fn compare(
-        self,
-        o: Self,
-        f: impl Fn(S, S::f64s, S::f64s) -> S::m64s,
-    ) -> WideMask<S, K> {
+    fn compare(self, o: Self, f: impl Fn(S, S::f64s, S::f64s) -> S::m64s) -> WideMask<S, K> {
         WideMask { simd: self.simd, x: std::array::from_fn(|i| f(self.simd, self.x[i], o.x[i])) }
     }
 }

@@ -20,9 +20,7 @@ pub(super) fn show<A: Arithmetic, const M: usize, const L: usize, const N: usize
     let zero = with.splat(0.0);
     for (row, peak) in plan.outputs.iter().zip(&mut state.peaks) {
         let (y, rate) = match row {
-            Row::Displacement { own } => {
-                (dot(zero, own, &state.q), Some(dot(zero, own, &state.p)))
-            }
+            Row::Displacement { own } => (dot(zero, own, &state.q), Some(dot(zero, own, &state.p))),
             Row::Velocity { own } => (dot(zero, own, &state.p), Some(dot(zero, own, &state.a))),
             Row::Acceleration { own, base } => {
                 (dot(zero, own, &state.a) + dot(zero, base, &loads.amplitudes), None)

@@ -72,8 +72,7 @@ impl<R: Real, const M: usize, const L: usize, const N: usize> State<R, M, L, N> 
             x
         };
         let f = flat(&|s, i| s.f[i]);
-        let history: Vec<R> =
-            (0..one.history.len()).map(|i| get(&|s| s.history[i])).collect();
+        let history: Vec<R> = (0..one.history.len()).map(|i| get(&|s| s.history[i])).collect();
         let links = one.forms.len();
         let stored: Vec<R> = (0..links).map(|l| get(&|s| s.stored[l])).collect();
         let feet: Vec<&[Contact]> = setups.iter().map(|s| &s.contacts[..]).collect();
