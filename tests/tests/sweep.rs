@@ -1,6 +1,8 @@
 //! Sweeps in lanes give what the ordinary engine gives, whoever the neighbours are.
 
 use trilith::model::{Analysis, StepControl};
+use trilith::solvers::assemble;
+use trilith::solvers::lanes::{Instructions, LaneSetup, Tables, march_by, prepare};
 use trilith::sweep::{Combination, Engine, Outcome, Sweep};
 use trilith::{Model, RunOptions};
 
@@ -74,6 +76,33 @@ fn combinations() -> Vec<Combination> {
         }
     }
     all
+}
+
+/// The widest registers that the machine has are not the only ones that are used: others must give the same.
+#[test]
+fn all_instructions_with_fma_give_the_same_bits() {
+    let tables = Tables::default();
+    let chosen: Vec<Combination> = combinations().into_iter().step_by(2).take(8).collect();
+    let setups: Vec<LaneSetup> = chosen
+        .iter()
+        .map(|combination| {
+            let model = read(FOOT, combination);
+            let system = assemble(&model).expect("a structure");
+            let case = model.case("shake").expect("a case");
+            prepare(&model, &system, case, 1, &tables).expect("a start").expect("a lane")
+        })
+        .collect();
+    let setups: Vec<&LaneSetup> = setups.iter().collect();
+    let with = |i: Instructions| march_by(i, &setups).map(|found| format!("{found:?}"));
+    let all = Instructions::ALL.map(|i| (i, with(i)));
+    for (instructions, found) in &all {
+        assert_eq!(found.is_some(), instructions.are_available(), "{instructions:?}");
+    }
+    let fused: Vec<_> =
+        all[1..].iter().filter_map(|(i, found)| Some((i, found.as_ref()?))).collect();
+    for two in fused.windows(2) {
+        assert_eq!(two[0].1, two[1].1, "{:?} and {:?}", two[0].0, two[1].0);
+    }
 }
 
 #[track_caller]

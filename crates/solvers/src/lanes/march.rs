@@ -12,13 +12,54 @@ use trilith_element::lanes::{Arithmetic, Portable, Real, Task};
 #[cfg(target_arch = "x86_64")]
 use trilith_element::lanes::{Avx2Lanes, Avx512Lanes, FusedOne};
 
+/// What a march is computed with. All with FMA give the same bits.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Instructions {
+    /// One analysis at a time, on any machine.
+    Portable,
+    /// One analysis at a time, with FMA.
+    Fma,
+    /// Eight at a time with AVX2 and FMA.
+    Avx2,
+    /// Eight at a time with AVX-512.
+    Avx512,
+}
+
+impl Instructions {
+    /// All of them, the best last.
+    pub const ALL: [Self; 4] = [Self::Portable, Self::Fma, Self::Avx2, Self::Avx512];
+
+    /// True where the machine has them.
+    #[must_use]
+    pub fn are_available(self) -> bool {
+        #[cfg(target_arch = "x86_64")]
+        match self {
+            Self::Portable => true,
+            Self::Fma => FusedOne::available().is_some(),
+            Self::Avx2 => Avx2Lanes::available().is_some(),
+            Self::Avx512 => Avx512Lanes::available().is_some(),
+        }
+        #[cfg(not(target_arch = "x86_64"))]
+        matches!(self, Self::Portable)
+    }
+
+    fn best() -> Self {
+        let mut all = Self::ALL.into_iter().rev();
+        all.find(|i| i.are_available()).unwrap_or(Self::Portable)
+    }
+
+    /// Analyses that go side by side.
+    fn width(self) -> usize {
+        match self {
+            Self::Portable | Self::Fma => 1,
+            Self::Avx2 | Self::Avx512 => 8,
+        }
+    }
+}
+
 /// Analyses that go side by side.
 pub(super) fn width() -> usize {
-    #[cfg(target_arch = "x86_64")]
-    if Avx2Lanes::available().is_some() {
-        return Avx2Lanes::WIDTH;
-    }
-    Portable::WIDTH
+    Instructions::best().width()
 }
 
 /// Fewer than this go one by one.
@@ -30,29 +71,32 @@ const WORTH_LANES: usize = 3;
 /// Where there are none, too many, or they do not fit.
 #[must_use]
 pub fn march(setups: &[&LaneSetup]) -> Vec<LaneOutcome> {
-    assert!(!setups.is_empty() && setups.len() <= width(), "one to width() analyses");
-    assert!(setups.iter().all(|s| s.fits(setups[0])), "analyses that fit each other");
-    #[cfg(target_arch = "x86_64")]
-    if let (Some(wide), Some(one)) = (Avx2Lanes::available(), FusedOne::available()) {
-        if setups.len() < WORTH_LANES {
-            return setups.iter().flat_map(|s| sized(one, &[*s])).collect();
-        }
-        return match Avx512Lanes::available() {
-            Some(widest) => sized(widest, setups),
-            None => sized(wide, setups),
-        };
-    }
-    setups.iter().flat_map(|s| sized(Portable, &[*s])).collect()
+    let best = Instructions::best();
+    let few = best.width() > 1 && setups.len() < WORTH_LANES;
+    let found = march_by(if few { Instructions::Fma } else { best }, setups);
+    found.expect("instructions that the machine has")
 }
 
-/// Each alone, with the same bits: to compare.
+/// The same with given instructions; none where the machine does not have them.
+///
+/// # Panics
+/// As [`march`].
 #[must_use]
-pub fn march_alone(setup: &LaneSetup) -> Option<LaneOutcome> {
-    #[cfg(target_arch = "x86_64")]
-    if let Some(one) = FusedOne::available() {
-        return sized(one, &[setup]).pop();
+pub fn march_by(instructions: Instructions, setups: &[&LaneSetup]) -> Option<Vec<LaneOutcome>> {
+    assert!(!setups.is_empty() && setups.len() <= 8, "one to eight analyses");
+    assert!(setups.iter().all(|s| s.fits(setups[0])), "analyses that fit each other");
+    fn one_by_one<A: Arithmetic>(with: A, setups: &[&LaneSetup]) -> Vec<LaneOutcome> {
+        setups.iter().flat_map(|s| sized(with, &[*s])).collect()
     }
-    sized(Portable, &[setup]).pop()
+    #[cfg(target_arch = "x86_64")]
+    return match instructions {
+        Instructions::Portable => Some(one_by_one(Portable, setups)),
+        Instructions::Fma => FusedOne::available().map(|with| one_by_one(with, setups)),
+        Instructions::Avx2 => Avx2Lanes::available().map(|with| sized(with, setups)),
+        Instructions::Avx512 => Avx512Lanes::available().map(|with| sized(with, setups)),
+    };
+    #[cfg(not(target_arch = "x86_64"))]
+    (instructions == Instructions::Portable).then(|| one_by_one(Portable, setups))
 }
 
 /// Chooses the sizes that the loops are compiled for: modes, link coordinates, coordinates of a link.

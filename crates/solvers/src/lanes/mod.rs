@@ -31,7 +31,7 @@ mod state;
 mod step;
 mod tables;
 
-pub use march::{march, march_alone};
+pub use march::{Instructions, march, march_by};
 pub use setup::{LaneSetup, fixed_substeps, prepare};
 pub use tables::Tables;
 
