@@ -108,7 +108,7 @@ fn packs_of<A: Arithmetic + Debug + 'static>(
         }
         for group in same.chunks(WIDTH) {
             let own: Vec<&LaneForm> = group.iter().filter_map(|j| forms[*j].as_ref()).collect();
-            packs.extend(Lanes::new(with, laws, group, &own));
+            packs.extend(Lanes::new(with, laws, group, &own).map(|p| Box::new(p) as Box<dyn Pack>));
         }
         same.iter().for_each(|j| done[*j] = true);
     }
@@ -117,14 +117,14 @@ fn packs_of<A: Arithmetic + Debug + 'static>(
 
 impl<A: Arithmetic + Debug + 'static> Lanes<A> {
     /// Of a group of links with their forms; none where there are none.
-    fn new(with: A, laws: &Laws<'_>, group: &[usize], own: &[&LaneForm]) -> Option<Box<dyn Pack>> {
+    fn new(with: A, laws: &Laws<'_>, group: &[usize], own: &[&LaneForm]) -> Option<Self> {
         let (first, last) = (own.first()?, own.len() - 1);
         let places = |start: fn(&LinkInstance) -> usize| -> Places {
             std::array::from_fn(|lane| start(laws[group[lane.min(last)]].1))
         };
         let parameter = |p: usize| with.gather(|lane| own[lane.min(last)].parameters[p]);
         let (n, zero) = (first.law.coordinates, with.splat(0.0));
-        Some(Box::new(Self {
+        Some(Self {
             with,
             law: first.law,
             rate: first.rate && group.iter().any(|j| laws[*j].0.uses_rates()),
@@ -144,7 +144,7 @@ impl<A: Arithmetic + Debug + 'static> Lanes<A> {
             k: vec![zero; n * n],
             c: vec![zero; n * n],
             step: LaneStep::elastic(zero),
-        }))
+        })
     }
 }
 
