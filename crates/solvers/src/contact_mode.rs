@@ -28,9 +28,8 @@ pub struct ContactSummary {
     pub overturned: bool,
 }
 
-/// Elements of contacts on what nothing else holds against gravity.
-pub(crate) fn falling(model: &Model, system: &System) -> Vec<usize> {
-    let links = &system.links;
+/// For each link: true where it is a contact.
+pub(crate) fn are_contacts(model: &Model, system: &System) -> Vec<bool> {
     let mut seen = Vec::new();
     let is_contact = |(law, link): (&dyn Link, &LinkInstance)| {
         let rest = vec![0.0; link.range.len()];
@@ -41,7 +40,13 @@ pub(crate) fn falling(model: &Model, system: &System) -> Vec<usize> {
         law.contacts(&at, &history, &rest, &mut seen);
         !seen.is_empty()
     };
-    let contacts: Vec<bool> = links.laws(model).iter().map(is_contact).collect();
+    system.links.laws(model).iter().map(is_contact).collect()
+}
+
+/// Elements of contacts on what nothing else holds against gravity.
+pub(crate) fn falling(model: &Model, system: &System) -> Vec<usize> {
+    let links = &system.links;
+    let contacts = are_contacts(model, system);
     if !contacts.contains(&true) {
         return Vec::new();
     }

@@ -1,5 +1,6 @@
 //! Shows accepted states to the observers.
 
+use crate::contact_mode::are_contacts;
 use crate::ledger::Ledger;
 use crate::observe::{EnergyTotals, Observer, Sample, Shape};
 use crate::outputs::Outputs;
@@ -76,23 +77,18 @@ struct Seen<'a> {
 
 impl<'a> Seen<'a> {
     fn new(model: &'a Model, system: &'a System) -> Self {
-        let (rest, mut own) = (vec![0.0; system.links.len()], Vec::new());
+        let rest = vec![0.0; system.links.len()];
         let history = system.links.at_rest(model);
         let laws = system.links.laws(model);
-        fn still<'r>(rest: &'r [f64], link: &LinkInstance) -> Kinematics<'r> {
-            let at = &rest[link.range.clone()];
-            Kinematics { d: at, v: at, d0: at, v0: at, dt: 0.0 }
-        }
-        let seen = |(law, link): &(&dyn Link, &LinkInstance)| {
-            law.outline(&still(&rest, link), &history[link.history.clone()]).is_some()
+        let has_outline = |(law, link): &(&dyn Link, &LinkInstance)| {
+            let d = &rest[link.range.clone()];
+            let at = Kinematics { d, v: d, d0: d, v0: d, dt: 0.0 };
+            law.outline(&at, &history[link.history.clone()]).is_some()
         };
-        let bodies = laws.iter().filter(seen).collect();
-        let touches = |(law, link): &(&dyn Link, &LinkInstance)| {
-            let at = &rest[link.range.clone()];
-            law.contacts(&still(&rest, link), &history[link.history.clone()], at, &mut own);
-            own.drain(..).next().is_some()
-        };
-        Self { touching: laws.iter().filter(touches).collect(), bodies }
+        let bodies = laws.iter().filter(has_outline).collect();
+        let contacts = are_contacts(model, system);
+        let touching = laws.iter().zip(contacts).filter_map(|(link, is)| is.then_some(link));
+        Self { touching: touching.collect(), bodies }
     }
 }
 

@@ -168,7 +168,9 @@ impl<'a> StepLaws<'a> {
             .enumerate()
             .filter_map(|(i, (law, link))| Damper::of(i, law, link))
             .collect();
-        let rest = (0..laws.0.len()).filter(|i| dampers.iter().all(|d| d.link != *i)).collect();
+        let mut taken = vec![false; laws.0.len()];
+        dampers.iter().for_each(|d| taken[d.link] = true);
+        let rest = (0..laws.0.len()).filter(|i| !taken[*i]).collect();
         let (packs, alone) = packs(&laws.0, rest);
         Self { laws, dampers, packs, alone }
     }

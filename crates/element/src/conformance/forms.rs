@@ -182,7 +182,8 @@ impl Look<'_> {
             let history: Vec<_> =
                 (0..law.history).map(|i| with.gather(|lane| of(lane).history[i])).collect();
             let (mut f, mut k, mut c) = (vec![zero; n], vec![zero; n * n], vec![zero; n * n]);
-            let mut trial = history.clone();
+            // What a law leaves unwritten is found.
+            let mut trial = vec![with.splat(f64::NAN); law.history];
             let mut links = LaneLinks {
                 parameters: &parameters,
                 d: &d,
