@@ -86,7 +86,8 @@ pub fn run(
     Ok(result)
 }
 
-/// [`run`], as the next case or a caller of many sees it: nobody reads how much memory there was.
+/// [`run`] as a case that is continued needs it: without a look at the memory of the process, which costs more than
+/// a small static case.
 fn chain(
     model: &Model,
     system: &System,

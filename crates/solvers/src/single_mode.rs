@@ -59,10 +59,12 @@ mod tests {
     #[test]
     fn the_rule_of_a_free_mode_is_that_of_the_exponential() {
         let dt = 0.3;
+        // The series of the exponential rounds at every squaring.
+        let allowed = |damping: f64| if damping == 0.0 { 1e-15 } else { 1e-14 };
         for damping in [0.0, 1e-9, 1e-3, 0.7, 3.2, 3.4, 20.0, 100.0] {
             for (a, b) in exact(0.0, damping, dt).iter().zip(&by_exponential(0.0, damping, dt)) {
                 for (x, y) in a.iter().zip(b) {
-                    assert!((x - y).abs() < 1e-14, "{damping}: {a:?} {b:?}");
+                    assert!((x - y).abs() < allowed(damping), "{damping}: {a:?} {b:?}");
                 }
             }
         }

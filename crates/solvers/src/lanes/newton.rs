@@ -53,8 +53,8 @@ impl<R: Real, const M: usize, const L: usize> Found<R, M, L> {
     }
 }
 
-/// Looks for the equilibrium of the analyses in a mask. Of the state it changes the tangents only, and what follows
-/// from them.
+/// Looks for the equilibrium of the analyses in a mask. Of the state it changes the tangents and what follows from
+/// them, and what the laws say of a step that ends where they were asked last.
 #[inline(always)]
 pub(super) fn equilibrium<A: Arithmetic, const M: usize, const L: usize, const N: usize>(
     with: A,

@@ -16,7 +16,8 @@ pub(super) struct State<R: Real, const M: usize, const L: usize, const N: usize>
     pub d: [R; L],
     pub v: [R; L],
     pub f: [R; L],
-    /// Tangents of the last look at the laws: a row of the block of its link for every coordinate.
+    /// Tangents of the last look at the laws, for the iteration of a step: a row of the block of its link for every
+    /// coordinate.
     pub k: [[R; N]; L],
     pub c: [[R; N]; L],
     /// Bᵀ f.
@@ -136,8 +137,6 @@ pub(super) fn keep<R: Real, const M: usize, const L: usize, const N: usize>(
     all(&mut to.d, &from.d);
     all(&mut to.v, &from.v);
     all(&mut to.f, &from.f);
-    all(to.k.as_flattened_mut(), from.k.as_flattened());
-    all(to.c.as_flattened_mut(), from.c.as_flattened());
     all(&mut to.push, &from.push);
     all(to.answer.as_flattened_mut(), from.answer.as_flattened());
     all(to.answer_to_rate.as_flattened_mut(), from.answer_to_rate.as_flattened());
@@ -165,15 +164,13 @@ pub(super) fn keep<R: Real, const M: usize, const L: usize, const N: usize>(
     to.feet.keep(mask, &from.feet);
 }
 
-/// The next Newton iteration starts from nothing where a mask says so: after a failure the tangents may
-/// be no numbers.
+/// The next first guess expects no answer where a mask says so: after a failure the tangents may be no numbers.
 pub(super) fn forget<R: Real, const M: usize, const L: usize, const N: usize>(
     mask: R::Mask,
     state: &mut State<R, M, L, N>,
 ) {
-    let tangents = [&mut state.k, &mut state.c].map(|b| b.as_flattened_mut());
-    let answers = [&mut state.answer, &mut state.answer_to_rate].map(|b| b.as_flattened_mut());
-    for x in tangents.into_iter().chain(answers).flatten() {
+    let answers = [&mut state.answer, &mut state.answer_to_rate];
+    for x in answers.into_iter().flat_map(|b| b.as_flattened_mut()) {
         *x = R::select(mask, x.of(0.0), *x);
     }
 }
