@@ -5,9 +5,6 @@ use faer::linalg::matmul::matmul;
 use faer::linalg::solvers::{PartialPivLu, Solve};
 use faer::{Accum, MatMut, MatRef, Par};
 
-/// A single sum of fewer products is made one by one.
-const SHORT: usize = 32;
-
 /// A dense matrix, column by column.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Dense {
@@ -128,13 +125,7 @@ impl Dense {
     /// Where the length does not suit.
     #[must_use]
     pub fn column_dot(&self, j: usize, x: &[f64]) -> f64 {
-        assert!(x.len() == self.rows, "length of a product");
-        if x.len() < SHORT {
-            return self.column(j).iter().zip(x).map(|(a, b)| a * b).sum();
-        }
-        let mut y = [0.0];
-        gemv::add_dots(self.column(j), 1.0, [x], [&mut y]);
-        y[0]
+        crate::dot(self.column(j), x)
     }
 
     /// The transpose.

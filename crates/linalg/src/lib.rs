@@ -11,6 +11,7 @@
 //! Everything runs on one thread, so that results repeat bit for bit.
 
 mod dense;
+mod differences;
 mod eigen;
 mod expm;
 mod gemv;
@@ -25,6 +26,7 @@ mod tall;
 mod vector;
 
 pub use dense::{Dense, DenseLu};
+pub use differences::backward_differences;
 pub use eigen::{all_modes, lowest_modes, symmetric_eigen};
 pub use expm::{expm, expm_small};
 pub use ldlt::{Ldlt, StagedLdlt, StagedPlan, unsupported};

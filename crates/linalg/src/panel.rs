@@ -10,11 +10,14 @@ const GRAIN: usize = 8;
 const TILE: usize = 8;
 
 /// A matrix of few rows, column by column, whose columns fill whole vectors: a product takes each vector of the
-/// result through all columns without leaving the registers, and without a look at what is left over.
+/// result through all columns without leaving the registers, and without a look at what is left over. Columns of
+/// very few rows are summed in several turns side by side: one sum would wait for itself.
 #[derive(Clone, Debug)]
 pub struct Panel {
     rows: usize,
     columns: usize,
+    /// Where the first column begins: at the start of a cache line, unless this is a clone.
+    start: usize,
     values: Vec<f64>,
 }
 
@@ -27,11 +30,12 @@ impl Panel {
     pub fn new(of: &Dense) -> Self {
         let (rows, columns) = (of.rows(), of.columns());
         let stride = rows.next_multiple_of(GRAIN);
-        let mut values = vec![0.0; stride * columns];
+        let mut values = vec![0.0; stride * columns + GRAIN - 1];
+        let start = values.as_ptr().align_offset(GRAIN * size_of::<f64>()).min(GRAIN - 1);
         for j in 0..columns {
-            values[j * stride..j * stride + rows].copy_from_slice(of.column(j));
+            values[start + j * stride..][..rows].copy_from_slice(of.column(j));
         }
-        Self { rows, columns, values }
+        Self { rows, columns, start, values }
     }
 
     /// The same matrix, unless it has too many rows.
@@ -46,19 +50,34 @@ impl Panel {
         self.rows
     }
 
+    /// Number of columns.
+    #[must_use]
+    pub fn columns(&self) -> usize {
+        self.columns
+    }
+
+    /// One column.
+    #[must_use]
+    pub fn column(&self, j: usize) -> &[f64] {
+        &self.values[self.start + j * self.rows.next_multiple_of(GRAIN)..][..self.rows]
+    }
+
     /// `y = A x`.
     ///
     /// # Panics
     /// Where the lengths do not suit.
     pub fn times(&self, x: &[f64], y: &mut [f64]) {
         assert!(x.len() == self.columns && y.len() == self.rows, "lengths of a product");
-        Arch::new().dispatch(Times { a: &self.values, x, y });
+        let a = &self.values[self.start..][..y.len().next_multiple_of(GRAIN) * x.len()];
+        Arch::new().dispatch(Times { a, x, y });
     }
 }
 
 /// A matrix prepared for many products `y = A x`.
 #[derive(Clone, Debug)]
 pub enum Product {
+    /// Of one row.
+    One(Vec<f64>),
     /// Of few rows.
     Few(Panel),
     /// Of many.
@@ -69,6 +88,9 @@ impl Product {
     /// Of a matrix.
     #[must_use]
     pub fn new(of: Dense) -> Self {
+        if of.rows() == 1 {
+            return Self::One(of.values().to_vec());
+        }
         Panel::of_few(&of).map_or_else(|| Self::Many(of), Self::Few)
     }
 
@@ -76,8 +98,29 @@ impl Product {
     #[must_use]
     pub fn rows(&self) -> usize {
         match self {
+            Self::One(_) => 1,
             Self::Few(panel) => panel.rows(),
             Self::Many(dense) => dense.rows(),
+        }
+    }
+
+    /// Number of columns.
+    #[must_use]
+    pub fn columns(&self) -> usize {
+        match self {
+            Self::One(row) => row.len(),
+            Self::Few(panel) => panel.columns(),
+            Self::Many(dense) => dense.columns(),
+        }
+    }
+
+    /// One column.
+    #[must_use]
+    pub fn column(&self, j: usize) -> &[f64] {
+        match self {
+            Self::One(row) => &row[j..=j],
+            Self::Few(panel) => panel.column(j),
+            Self::Many(dense) => dense.column(j),
         }
     }
 
@@ -87,6 +130,7 @@ impl Product {
     /// Where the lengths do not suit.
     pub fn times(&self, x: &[f64], y: &mut [f64]) {
         match self {
+            Self::One(row) => y.copy_from_slice(&[crate::dot(row, x)]),
             Self::Few(panel) => panel.times(x, y),
             Self::Many(dense) => {
                 y.fill(0.0);
@@ -111,15 +155,26 @@ impl WithSimd for Times<'_> {
         let stride = y.len().next_multiple_of(GRAIN);
         for (tile, y) in y.chunks_mut(TILE * S::F64_LANES).enumerate() {
             let tile = Tile { simd, a, stride, row: tile * TILE * S::F64_LANES, x };
-            match y.len().div_ceil(S::F64_LANES) {
-                1 => tile.times::<1>(y),
-                2 => tile.times::<2>(y),
-                3 => tile.times::<3>(y),
-                4 => tile.times::<4>(y),
-                5 => tile.times::<5>(y),
-                6 => tile.times::<6>(y),
-                7 => tile.times::<7>(y),
-                _ => tile.times::<8>(y),
+            // Turns depend on the number of rows alone, so that processors agree as far as they can.
+            match (stride / GRAIN, y.len().div_ceil(S::F64_LANES)) {
+                (..=2, 1) => tile.times::<1, 4>(y),
+                (..=2, 2) => tile.times::<2, 4>(y),
+                (..=2, 3) => tile.times::<3, 4>(y),
+                (..=2, 4) => tile.times::<4, 4>(y),
+                (..=4, 3) => tile.times::<3, 2>(y),
+                (..=4, 4) => tile.times::<4, 2>(y),
+                (..=4, 5) => tile.times::<5, 2>(y),
+                (..=4, 6) => tile.times::<6, 2>(y),
+                (..=4, 7) => tile.times::<7, 2>(y),
+                (..=4, 8) => tile.times::<8, 2>(y),
+                (_, 1) => tile.times::<1, 1>(y),
+                (_, 2) => tile.times::<2, 1>(y),
+                (_, 3) => tile.times::<3, 1>(y),
+                (_, 4) => tile.times::<4, 1>(y),
+                (_, 5) => tile.times::<5, 1>(y),
+                (_, 6) => tile.times::<6, 1>(y),
+                (_, 7) => tile.times::<7, 1>(y),
+                _ => tile.times::<8, 1>(y),
             }
         }
     }
@@ -135,29 +190,67 @@ struct Tile<'a, S> {
 }
 
 impl<S: Simd> Tile<'_, S> {
-    /// Of `V` vectors of rows.
+    /// Of `V` vectors of rows, with columns summed in `T` turns.
     #[inline(always)]
-    fn times<const V: usize>(self, y: &mut [f64]) {
+    fn times<const V: usize, const T: usize>(self, y: &mut [f64]) {
         let Self { simd, a, stride, row, x } = self;
-        let mut sums = [simd.splat_f64s(0.0); V];
-        for (column, x) in a.chunks_exact(stride).zip(x) {
-            let (column, _) = S::as_simd_f64s(&column[row..row + V * S::F64_LANES]);
-            let x = simd.splat_f64s(*x);
-            for k in 0..V {
-                sums[k] = simd.mul_add_e_f64s(column[k], x, sums[k]);
+        let mut sums = [[simd.splat_f64s(0.0); V]; T];
+        let (turns, last) = x.as_chunks::<T>();
+        let mut columns = a.chunks_exact(stride);
+        for x in turns {
+            for (sums, x) in sums.iter_mut().zip(x) {
+                if let Some(column) = columns.next() {
+                    add(simd, &column[row..row + V * S::F64_LANES], *x, sums);
+                }
+            }
+        }
+        for (sums, (column, x)) in sums.iter_mut().zip(columns.zip(last)) {
+            add(simd, &column[row..row + V * S::F64_LANES], *x, sums);
+        }
+        let mut left = T;
+        while left > 1 {
+            left /= 2;
+            for t in 0..left {
+                for k in 0..V {
+                    sums[t][k] = simd.add_f64s(sums[t][k], sums[t + left][k]);
+                }
             }
         }
         let (full, rest) = S::as_mut_simd_f64s(y);
         if full.len() == V {
-            full.copy_from_slice(&sums);
+            full.copy_from_slice(&sums[0]);
         } else {
-            full.copy_from_slice(&sums[..V - 1]);
-            let last = [sums[V - 1]];
-            for (y, sum) in rest.iter_mut().zip(pulp::bytemuck::cast_slice(&last)) {
-                *y = *sum;
-            }
+            full.copy_from_slice(&sums[0][..V - 1]);
+            let last = [sums[0][V - 1]];
+            copy_some(pulp::bytemuck::cast_slice(&last), rest);
         }
     }
+}
+
+/// Sums take a column.
+#[inline(always)]
+fn add<S: Simd, const V: usize>(simd: S, column: &[f64], x: f64, sums: &mut [S::f64s; V]) {
+    let (column, _) = S::as_simd_f64s(column);
+    let x = simd.splat_f64s(x);
+    for k in 0..V {
+        sums[k] = simd.mul_add_e_f64s(column[k], x, sums[k]);
+    }
+}
+
+/// Copies as many numbers as there is room for, fewer than eight, by moves of known size.
+#[inline(always)]
+fn copy_some(mut from: &[f64], mut to: &mut [f64]) {
+    macro_rules! copy {
+        ($($size:literal)*) => {
+            $(if to.len() & $size != 0 {
+                let ((own, from_rest), (room, rest)) = (from.split_at($size), to.split_at_mut($size));
+                room.copy_from_slice(own);
+                (from, to) = (from_rest, rest);
+            })*
+        };
+    }
+    copy!(4 2 1);
+    let _ = (from, to);
 }
 
 #[cfg(test)]
@@ -168,12 +261,15 @@ mod tests {
     fn products_equal_the_sums_written_out_for_all_numbers_of_rows() {
         let number = |i: usize| ((i * 7919 + 13) % 101) as f64 / 50.0 - 1.0;
         for rows in (0..40).chain([63, 64, 65, 96, 127, 128, 150]) {
-            for columns in [0, 1, 2, 7, 24] {
+            for columns in [0, 1, 2, 3, 5, 7, 24] {
                 let values = (0..rows * columns).map(number).collect();
                 let a = Dense::from_columns(rows, columns, values);
                 let x: Vec<f64> = (0..columns).map(|j| number(j + 5)).collect();
                 let mut y = vec![9.0; rows];
-                Panel::new(&a).times(&x, &mut y);
+                let product = Product::new(a.clone());
+                product.times(&x, &mut y);
+                assert_eq!((product.rows(), product.columns()), (rows, columns));
+                (0..columns).for_each(|j| assert_eq!(product.column(j), a.column(j)));
                 for i in 0..rows {
                     let sum: f64 = (0..columns).map(|j| a[(i, j)] * x[j]).sum();
                     assert!((y[i] - sum).abs() < 1e-13, "{rows} × {columns}");

@@ -9,9 +9,7 @@ use pulp::{Arch, Simd, WithSimd};
 #[must_use]
 pub fn dot(a: &[f64], b: &[f64]) -> f64 {
     assert!(a.len() == b.len(), "lengths of a product");
-    let mut y = [0.0];
-    crate::gemv::add_dots(a, 1.0, [b], [&mut y]);
-    y[0]
+    Arch::new().dispatch(Dot { a, b })
 }
 
 /// Largest magnitude; not a number where one of them is not finite, so that no comparison holds.
@@ -64,6 +62,36 @@ pub fn add(x: &mut [f64], change: &[f64]) {
 
 /// Fewer numbers are looked at without vectors.
 const SHORT: usize = 16;
+
+struct Dot<'a> {
+    a: &'a [f64],
+    b: &'a [f64],
+}
+
+impl WithSimd for Dot<'_> {
+    type Output = f64;
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, simd: S) -> f64 {
+        let ((a, ae), (b, be)) = (S::as_simd_f64s(self.a), S::as_simd_f64s(self.b));
+        let mut sums = [simd.splat_f64s(0.0); 4];
+        let ((fours, a), (by_fours, b)) = (a.as_chunks::<4>(), b.as_chunks::<4>());
+        for (a, b) in fours.iter().zip(by_fours) {
+            for k in 0..4 {
+                sums[k] = simd.mul_add_e_f64s(a[k], b[k], sums[k]);
+            }
+        }
+        for (sum, (a, b)) in sums.iter_mut().zip(a.iter().zip(b)) {
+            *sum = simd.mul_add_e_f64s(*a, *b, *sum);
+        }
+        let [x, y, z, w] = sums;
+        let mut sum = simd.reduce_sum_f64s(simd.add_f64s(simd.add_f64s(x, y), simd.add_f64s(z, w)));
+        for (a, b) in ae.iter().zip(be) {
+            sum += a * b;
+        }
+        sum
+    }
+}
 
 struct Largest<'a>(&'a [f64]);
 

@@ -48,6 +48,9 @@ pub enum TableError {
     NotFinite(usize),
 }
 
+/// Share of a segment within which a time is guessed to be that of a sample.
+const LEAN: f64 = 1e-6;
+
 /// Samples of a function of time; zero before the first one.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Table {
@@ -55,6 +58,8 @@ pub struct Table {
     values: Vec<f64>,
     /// Second derivatives of the spline at the samples; empty for linear interpolation.
     curvatures: Vec<f64>,
+    /// Mean number of segments in a second.
+    per_time: f64,
     after_end: AfterEnd,
 }
 
@@ -88,7 +93,9 @@ impl Table {
             Interpolation::Linear => Vec::new(),
             Interpolation::Cubic => natural_spline(&times, &values),
         };
-        Ok(Self { times, values, curvatures, after_end })
+        let last = times.len() - 1;
+        let per_time = last as f64 / (times[last] - times[0]);
+        Ok(Self { times, values, curvatures, per_time, after_end })
     }
 
     /// Times of the samples, s.
@@ -174,8 +181,9 @@ impl Table {
     /// Index of the segment that holds t. Samples are mostly evenly spaced, so it is guessed first.
     fn segment(&self, t: f64, side: Side) -> usize {
         let last = self.times.len() - 1;
-        let share = (t - self.start()) / (self.end() - self.start());
-        let guess = ((share * last as f64) as usize).min(last - 1);
+        // A sample seen from before belongs to the segment that ends there.
+        let lean = if side == Side::Before { -LEAN } else { LEAN };
+        let guess = (((t - self.start()) * self.per_time + lean) as usize).min(last - 1);
         let holds = |i: usize| {
             (i == 0 || side.is_past(t, self.times[i]))
                 && (i + 1 == last || !side.is_past(t, self.times[i + 1]))

@@ -139,7 +139,9 @@ impl Stepper for FullNewton<'_> {
             let force = largest(&to.f).max(from.scale[0]).max(from.scale[1]);
             let size = largest(&inertia).max(largest(&load1)).max(force);
             if largest(&residual) <= TOLERANCE * size {
-                to.settle(&self.system.links, &energy.links, &tangents);
+                to.tangents = tangents;
+                let force = largest(&to.f);
+                to.settle(&self.system.links, &energy.links, force);
                 self.book(from, to, loads, (&load0, &load1), dt, energy);
                 return Ok(());
             }

@@ -58,13 +58,16 @@ impl Ledger {
     /// Enters a step; `potential` of constant loads after it. Returns the energy in motion and springs.
     pub(crate) fn enter(&mut self, step: &StepEnergy, potential: f64) -> f64 {
         let t = &mut self.totals;
+        let (mut hysteretic, mut viscous, mut stored) = (t.link_hysteretic, t.link_viscous, 0.0);
         for (link, e) in self.links.iter_mut().zip(&step.links) {
             link.stored = e.stored;
             link.hysteretic += e.hysteretic;
             link.viscous += e.viscous;
-            t.link_hysteretic += e.hysteretic;
-            t.link_viscous += e.viscous;
+            hysteretic += e.hysteretic;
+            viscous += e.viscous;
+            stored += e.stored;
         }
+        (t.link_hysteretic, t.link_viscous) = (hysteretic, viscous);
         self.external += step.work.external;
         self.support += step.support;
         t.kinetic = step.kinetic;
@@ -72,7 +75,6 @@ impl Ledger {
         t.potential = potential - self.potential0;
         t.modal_damping += step.work.damping;
         t.algorithmic += step.work.algorithmic;
-        let stored: f64 = self.links.iter().map(|l| l.stored).sum();
         t.link_stored = stored - self.stored0;
         // The external work holds that of constant loads, which is minus the change of the potential.
         t.input = self.kinetic0 + self.external + t.potential + self.support;

@@ -23,11 +23,8 @@ pub(crate) struct LinkSide<'a> {
     support0: Vec<f64>,
     support1: Vec<f64>,
     support_rate: Vec<f64>,
-    pseudo0: Vec<f64>,
-    pseudo1: Vec<f64>,
-    /// d and v of the active coordinates as predicted.
-    d: Vec<f64>,
-    v: Vec<f64>,
+    /// Rates of the active coordinates at the end, where laws left some open.
+    rates: Vec<f64>,
     /// True where supports move links.
     moving: bool,
     /// True where outputs or the view of contacts may look at rates that no law looks at.
@@ -56,10 +53,7 @@ impl<'a> LinkSide<'a> {
             support0: vec![0.0; flat],
             support1: vec![0.0; flat],
             support_rate: vec![0.0; flat],
-            pseudo0: vec![0.0; active],
-            pseudo1: vec![0.0; active],
-            d: vec![0.0; active],
-            v: vec![0.0; active],
+            rates: vec![0.0; active],
             moving: loads.channels.iter().any(moves),
             watched: looks_at_rates(model, system),
         }
@@ -69,7 +63,7 @@ impl<'a> LinkSide<'a> {
         &self.system.links
     }
 
-    /// Loads and pseudo-forces of a step; those at its end start as they are at its start.
+    /// Loads of a step, and pseudo-forces at its end, which start as they are at its start.
     pub(crate) fn begin(
         &mut self,
         space: &Space,
@@ -99,25 +93,19 @@ impl<'a> LinkSide<'a> {
         }
         space.force_into(&loads.end, &mut self.load1);
         self.amplitudes.clone_from(&loads.end);
-        self.pseudo0.copy_from_slice(&from.pseudo);
-        self.pseudo1.copy_from_slice(&from.pseudo);
     }
 
-    /// Loads and pseudo-forces at both ends.
-    pub(crate) fn forces(&self) -> Forces<'_> {
-        Forces {
-            load0: &self.load0,
-            load1: &self.load1,
-            pseudo0: &self.pseudo0,
-            pseudo1: &self.pseudo1,
-        }
+    /// Loads and these pseudo-forces at both ends.
+    pub(crate) fn forces<'f>(&'f self, pseudo0: &'f [f64], pseudo1: &'f [f64]) -> Forces<'f> {
+        Forces { load0: &self.load0, load1: &self.load1, pseudo0, pseudo1 }
     }
 
-    /// The same, and where the predicted d and v of the active coordinates go.
-    pub(crate) fn prediction(&mut self) -> (Forces<'_>, Wanted<'_>) {
-        let Self { load0, load1, pseudo0, pseudo1, d, v, kernel, .. } = self;
-        let rated = kernel.rated();
-        (Forces { load0, load1, pseudo0, pseudo1 }, Wanted { d, v, rated })
+    /// The same with the pseudo-forces at the end as they are at the start, and where the predicted d and v of the
+    /// active coordinates go.
+    pub(crate) fn prediction<'f>(&'f mut self, from: &'f State) -> (Forces<'f>, Wanted<'f>) {
+        let Self { load0, load1, kernel, .. } = self;
+        let pseudo = &from.pseudo;
+        (Forces { load0, load1, pseudo0: pseudo, pseudo1: pseudo }, kernel.wanted())
     }
 
     /// Solves the link equations.
@@ -147,12 +135,11 @@ impl<'a> LinkSide<'a> {
         to: &mut State,
         dt: f64,
     ) -> bool {
-        let Self { kernel, d, v, support1, support_rate, pseudo1, .. } = self;
+        let Self { kernel, support1, support_rate, .. } = self;
         let support = self.moving.then_some([&support1[..], &support_rate[..]]);
-        let affine = affine(compliance, d, v, support);
-        kernel.begin(&affine);
-        let mut links = Vec::new();
-        kernel.foresee(&affine, &committed(from, dt), &mut converged(to, &mut links, pseudo1))
+        let affine = affine(compliance, support);
+        kernel.begin();
+        kernel.foresee(&affine, &committed(from, dt), &mut converged(to, &mut []))
     }
 
     /// One iteration of the link equations; false where deformations must [follow](Self::follow).
@@ -164,10 +151,10 @@ impl<'a> LinkSide<'a> {
         dt: f64,
         energy: &mut StepEnergy,
     ) -> Result<bool, StepFailure> {
-        let Self { kernel, d, v, support1, support_rate, pseudo1, .. } = self;
+        let Self { kernel, support1, support_rate, .. } = self;
         let support = self.moving.then_some([&support1[..], &support_rate[..]]);
-        let affine = affine(compliance, d, v, support);
-        let out = &mut converged(to, &mut energy.links, pseudo1);
+        let affine = affine(compliance, support);
+        let out = &mut converged(to, &mut energy.links);
         kernel.advance(&affine, &committed(from, dt), &from.scale, out).map_err(
             |NoEquilibrium { worst, residual }| StepFailure::NoEquilibrium { worst, residual },
         )
@@ -183,21 +170,20 @@ impl<'a> LinkSide<'a> {
     /// Where the rates of the active coordinates go once the motion is complete, if the laws left some open and
     /// somebody looks at them; else those stay zero.
     pub(crate) fn open_rates(&mut self) -> Option<&mut [f64]> {
-        (self.watched && !self.kernel.unrated().is_empty()).then_some(&mut self.v)
+        (self.watched && !self.kernel.unrated().is_empty()).then_some(&mut self.rates)
     }
 
     /// Takes note of a converged step whose motion is complete.
     pub(crate) fn settle(&mut self, to: &mut State, energy: &StepEnergy) {
         if self.watched && self.kernel.is_complete() && !self.moving {
-            self.kernel.rated().iter().for_each(|a| self.v[*a] = to.v[*a]);
-            to.v.copy_from_slice(&self.v);
+            self.kernel.rated().iter().for_each(|a| self.rates[*a] = to.v[*a]);
+            to.v.copy_from_slice(&self.rates);
         } else if self.watched {
             for (a, flat) in self.kernel.unrated() {
-                to.v[*flat] = self.support_rate[*flat] + self.v[*a];
+                to.v[*flat] = self.support_rate[*flat] + self.rates[*a];
             }
         }
-        to.pseudo.copy_from_slice(&self.pseudo1);
-        to.settle(&self.system.links, &energy.links, self.kernel.tangents());
+        to.settle(&self.system.links, &energy.links, self.kernel.largest_force());
     }
 
     /// Enters a step, taking the dummies out of the books: what they store belongs to the links.
@@ -264,21 +250,12 @@ fn committed(from: &State, dt: f64) -> Committed<'_> {
     Committed { d, v, f, history, tangents, unforeseen, dt }
 }
 
-fn converged<'a>(
-    to: &'a mut State,
-    energy: &'a mut [Energy],
-    pseudo: &'a mut [f64],
-) -> Converged<'a> {
-    let State { d, v, f, history, unforeseen, .. } = to;
-    Converged { d, v, f, history, energy, pseudo, unforeseen }
+fn converged<'a>(to: &'a mut State, energy: &'a mut [Energy]) -> Converged<'a> {
+    let State { d, v, f, history, tangents, pseudo, unforeseen, .. } = to;
+    Converged { d, v, f, history, tangents, energy, pseudo, unforeseen }
 }
 
-fn affine<'a>(
-    compliance: &'a Compliance,
-    d: &'a [f64],
-    v: &'a [f64],
-    support: Option<[&'a [f64]; 2]>,
-) -> Affine<'a> {
+fn affine<'a>(compliance: &'a Compliance, support: Option<[&'a [f64]; 2]>) -> Affine<'a> {
     let Compliance { g, h, key } = compliance;
-    Affine { d, v, support, g, h, key: *key }
+    Affine { support, g, h, key: *key }
 }

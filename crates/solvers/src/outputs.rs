@@ -64,9 +64,7 @@ impl Run {
         for group in rows.chunk_by(|a, b| full(a).is_some() && full(a) == full(b)) {
             let range = start..start + group.len();
             start = range.end;
-            let (Some(of), true) = (group.first().and_then(full), group.len() >= TOGETHER) else {
-                continue;
-            };
+            let Some(of) = group.first().and_then(full) else { continue };
             let mut own = Dense::zeros(group.len(), order);
             for (j, row) in group.iter().enumerate() {
                 if let Row::Nodal { own: terms, .. } = row {
@@ -79,9 +77,6 @@ impl Run {
         runs
     }
 }
-
-/// Full rows from which on they are evaluated together.
-const TOGETHER: usize = 2;
 
 /// All outputs of a model.
 pub(crate) struct Outputs {

@@ -3,7 +3,7 @@
 use crate::basis::RitzBasis;
 use crate::link_map::LinkMap;
 use std::sync::Arc;
-use trilith_linalg::{Dense, Sparse, Triplets};
+use trilith_linalg::{Dense, Product, Sparse, Triplets};
 use trilith_system::{LoadSet, System};
 
 /// C += U diag(rate) Uᵀ: modal damping, M Φ diag(2 ζ ω) Φᵀ M.
@@ -28,8 +28,8 @@ pub(crate) struct Space {
     pub links: LinkMap,
     /// Dummies of the active coordinates.
     pub dummy_k: Vec<f64>,
-    /// One force vector a load channel.
-    pub forces: Vec<Vec<f64>>,
+    /// A column of forces for each load channel.
+    pub forces: Product,
     /// Free DOFs = shape · coordinates; `None` where they are the coordinates.
     pub shape: Option<Arc<Dense>>,
     /// K Ψ of the static shapes, which are the last columns of `shape` and have no mass.
@@ -55,6 +55,11 @@ impl Space {
             let springs = system.springs(effective);
             Sparse::combine(&[(1.0, &system.element_damping), (-of_stiffness, &springs)])
         };
+        let n = system.order();
+        let mut forces = Dense::zeros(n, loads.channels.len());
+        for (j, channel) in loads.channels.iter().enumerate() {
+            forces.column_mut(j).copy_from_slice(&channel.force);
+        }
         Self {
             mass: system.mass.clone(),
             damping,
@@ -63,9 +68,9 @@ impl Space {
             modal,
             links: LinkMap::Sparse(links.active.iter().map(|i| links.rows[*i].clone()).collect()),
             dummy_k: dummy,
-            forces: loads.channels.iter().map(|c| c.force.clone()).collect(),
+            forces: Product::new(forces),
             shape: None,
-            images: Dense::zeros(system.order(), 0),
+            images: Dense::zeros(n, 0),
         }
     }
 
@@ -81,11 +86,10 @@ impl Space {
         let (modes, statics) = (basis.modes(), basis.statics());
         let phi = &*basis.shapes;
         let m = phi.columns();
-        let project = |p: &Vec<f64>| {
-            let mut q = vec![0.0; m];
-            phi.transpose_mul_add(1.0, p, &mut q);
-            q
-        };
+        let mut forces = Dense::zeros(m, loads.channels.len());
+        for (j, channel) in loads.channels.iter().enumerate() {
+            phi.transpose_mul_add(1.0, &channel.force, forces.column_mut(j));
+        }
         let active = &system.links.active;
         let mut links = Dense::zeros(m, active.len());
         for (a, flat) in active.iter().enumerate() {
@@ -134,7 +138,7 @@ impl Space {
             modal: None,
             links: LinkMap::full(links),
             dummy_k,
-            forces: loads.channels.iter().map(|c| project(&c.force)).collect(),
+            forces: Product::new(forces),
             shape: Some(Arc::clone(&basis.shapes)),
             images: basis.images.clone(),
         }
@@ -153,12 +157,7 @@ impl Space {
 
     /// The same, into a given place.
     pub(crate) fn force_into(&self, amplitudes: &[f64], p: &mut [f64]) {
-        p.fill(0.0);
-        for (f, a) in self.forces.iter().zip(amplitudes).filter(|(_, a)| **a != 0.0) {
-            for (x, y) in p.iter_mut().zip(f) {
-                *x += a * y;
-            }
-        }
+        self.forces.times(amplitudes, p);
     }
 
     /// M + `c` C + `k` K as a sum, without modal damping.

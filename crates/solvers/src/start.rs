@@ -7,6 +7,7 @@ use crate::march::Pace;
 use crate::propagator::kinetic_and_strain;
 use crate::space::Space;
 use crate::stepper::{State, Stepper};
+use crate::vector::dot;
 use trilith_model::{Case, DynamicCase, Model, Side, SolverKind};
 use trilith_system::{LoadSet, System, Track};
 
@@ -156,5 +157,5 @@ pub(crate) fn constant_force(space: &Space, loads: &LoadSet) -> Vec<f64> {
 
 /// Potential of the constant loads.
 pub(crate) fn potential(constant: &[f64], state: &State) -> f64 {
-    -constant.iter().zip(&state.motion).map(|(p, u)| p * u).sum::<f64>()
+    if constant.is_empty() { 0.0 } else { -dot(constant, &state.motion[..constant.len()]) }
 }

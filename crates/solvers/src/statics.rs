@@ -9,7 +9,7 @@
 
 use crate::error::SolveError;
 use crate::kernel::{Affine, Committed, Converged, LinkKernel, NoEquilibrium, Unforeseen};
-use crate::propagator::StepKey;
+use crate::propagator::{StepKey, Wanted};
 use crate::stepper::State;
 use trilith_element::Energy;
 use trilith_linalg::{Dense, Ldlt};
@@ -81,14 +81,17 @@ pub(crate) fn equilibrium(
     let (mut reached, mut step, mut made, mut rejected) = (0.0, 1.0 / steps.max(1) as f64, 0, 0);
     while reached < 1.0 {
         let next = if reached + 1.0001 * step >= 1.0 { 1.0 } else { reached + step };
-        let mut d: Vec<f64> = d_before.iter().zip(&d_added).map(|(a, b)| a + next * b).collect();
-        g.mul_add(-1.0, &pseudo, &mut d);
-        let v = vec![0.0; d.len()];
+        let Wanted { d, v, .. } = kernel.wanted();
+        for (d, (a, b)) in d.iter_mut().zip(d_before.iter().zip(&d_added)) {
+            *d = a + next * b;
+        }
+        g.mul_add(-1.0, &pseudo, d);
+        v.fill(0.0);
         let mut trial = state.clone();
         let mut attempt = pseudo.clone();
         let mut energy = vec![Energy::default(); links.links.len()];
         let outcome = kernel.solve(
-            &Affine { d: &d, v: &v, support: None, g: &g, h: &none, key: StepKey::default() },
+            &Affine { support: None, g: &g, h: &none, key: StepKey::default() },
             &Committed {
                 d: &state.d,
                 v: &zero,
@@ -104,6 +107,7 @@ pub(crate) fn equilibrium(
                 v: &mut trial.v,
                 f: &mut trial.f,
                 history: &mut trial.history,
+                tangents: &mut trial.tangents,
                 energy: &mut energy,
                 pseudo: &mut attempt,
                 unforeseen: &mut Unforeseen::default(),
@@ -111,7 +115,7 @@ pub(crate) fn equilibrium(
         );
         match outcome {
             Ok(()) => {
-                trial.settle(links, &energy, kernel.tangents());
+                trial.settle(links, &energy, kernel.largest_force());
                 state = trial;
                 pseudo = attempt;
                 reached = next;

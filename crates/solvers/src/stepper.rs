@@ -62,34 +62,34 @@ impl State {
             v,
         };
         let mut energy = vec![Energy::default(); links.links.len()];
-        let mut tangents = links.tangents();
         links.laws(model).respond(
             Kinematics { d: &state.d, v: &state.v, d0: &state.d, v0: &state.v, dt: 0.0 },
             history,
             &mut state.history,
             &mut state.f,
-            &mut tangents,
+            &mut state.tangents,
             &mut energy,
         );
-        state.settle(links, &energy, &tangents);
+        let force = largest(&state.f);
+        state.settle(links, &energy, force);
         state
     }
 
-    /// Makes this a place for the step that follows another state.
+    /// Makes this a place for the step that follows another state, with the pseudo-forces from there.
     pub(crate) fn follow(&mut self, from: &Self) {
         if self.motion.len() == from.motion.len() && self.d.len() == from.d.len() {
             self.scale = from.scale;
+            self.pseudo.copy_from_slice(&from.pseudo);
             self.stiffest.copy_from_slice(&from.stiffest);
         } else {
             self.clone_from(from);
         }
     }
 
-    /// Takes note of the forces, stored energies and stiffness of a converged step.
-    pub(crate) fn settle(&mut self, links: &LinkSet, energy: &[Energy], tangents: &Tangents) {
-        self.tangents.k.copy_from_slice(&tangents.k);
-        self.tangents.c.copy_from_slice(&tangents.c);
-        for (most, now) in self.stiffest.iter_mut().zip(links.stiffness(tangents)) {
+    /// Takes note of the forces, the largest of which is given, the stored energies and the stiffness of a converged
+    /// step.
+    pub(crate) fn settle(&mut self, links: &LinkSet, energy: &[Energy], force: f64) {
+        for (most, now) in self.stiffest.iter_mut().zip(links.stiffness(&self.tangents)) {
             if now > *most {
                 *most = now;
             }
@@ -98,7 +98,7 @@ impl State {
             *stored = e.stored;
         }
         if !links.turns {
-            self.scale[0] = self.scale[0].max(largest(&self.f));
+            self.scale[0] = self.scale[0].max(force);
             return;
         }
         for (f, rotational) in self.f.iter().zip(&links.rotational) {
@@ -248,17 +248,19 @@ impl<P: Propagator> Stepper for LinkStepper<'_, P> {
         self.propagator.prepare(key)?;
         let side = &mut self.side;
         side.begin(self.propagator.space(), from, to, loads, energy);
-        let (forces, wanted) = side.prediction();
+        let (forces, wanted) = side.prediction(from);
         self.propagator.predict(&from.motion, &forces, &mut to.motion, wanted);
         side.solve(self.propagator.compliance(), from, to, dt, energy)?;
-        self.propagator.correct(&from.motion, &side.forces(), &mut to.motion);
+        let forces = side.forces(&from.pseudo, &to.pseudo);
+        self.propagator.correct(&from.motion, &forces, &mut to.motion);
         if let Some(rates) = side.open_rates() {
             let space = self.propagator.space();
             let n = space.order();
             space.links.deform(&to.motion[n..2 * n], rates);
         }
         side.settle(to, energy);
-        energy.work = self.propagator.work(&from.motion, &to.motion, &side.forces());
+        let forces = side.forces(&from.pseudo, &to.pseudo);
+        energy.work = self.propagator.work(&from.motion, &to.motion, &forces);
         let of_motion = (energy.work.kinetic, energy.work.strain);
         side.book(&self.propagator.space().dummy_k, from, to, of_motion, energy);
         Ok(())

@@ -39,15 +39,15 @@ impl LinkBlocks {
         self.0.is_empty()
     }
 
-    /// `y += A x`, both flat; `blocks` are those of A.
+    /// `y += A (x₁ − x₀)`, all flat; `blocks` are those of A.
     ///
     /// # Panics
     /// Where an array is shorter than the links that this was made of.
-    pub fn mul_add(&self, blocks: &[f64], x: &[f64], y: &mut [f64]) {
+    pub fn add_change(&self, blocks: &[f64], [x0, x1]: [&[f64]; 2], y: &mut [f64]) {
         for run in &self.0 {
             let Run { n, count, coordinate, block } = *run;
             let r = coordinate..coordinate + count * n;
-            let (x, y) = (&x[r.clone()], &mut y[r]);
+            let (x, y) = ([&x0[r.clone()], &x1[r.clone()]], &mut y[r]);
             let blocks = &blocks[block..block + count * n * n];
             match n {
                 1 => small::<1>(blocks, x, y),
@@ -55,10 +55,12 @@ impl LinkBlocks {
                 3 => small::<3>(blocks, x, y),
                 6 => small::<6>(blocks, x, y),
                 _ => {
-                    let own = x.chunks_exact(n).zip(y.chunks_exact_mut(n));
-                    for (block, (x, y)) in blocks.chunks_exact(n * n).zip(own) {
+                    let [x0, x1] = x.map(|x| x.chunks_exact(n));
+                    let own = x0.zip(x1).zip(y.chunks_exact_mut(n));
+                    for (block, ((x0, x1), y)) in blocks.chunks_exact(n * n).zip(own) {
                         for (row, y) in block.chunks_exact(n).zip(y) {
-                            row.iter().zip(x).for_each(|(a, x)| *y += a * x);
+                            let change = x0.iter().zip(x1).map(|(x0, x1)| x1 - x0);
+                            row.iter().zip(change).for_each(|(a, x)| *y += a * x);
                         }
                     }
                 }
@@ -68,13 +70,14 @@ impl LinkBlocks {
 }
 
 /// The same for blocks of a size that the compiler knows.
-fn small<const N: usize>(blocks: &[f64], x: &[f64], y: &mut [f64]) {
+fn small<const N: usize>(blocks: &[f64], x: [&[f64]; 2], y: &mut [f64]) {
     let (rows, _) = blocks.as_chunks::<N>();
-    let own = x.as_chunks::<N>().0.iter().zip(y.as_chunks_mut::<N>().0);
-    for (rows, (x, y)) in rows.chunks_exact(N).zip(own) {
+    let [x0, x1] = x.map(|x| x.as_chunks::<N>().0);
+    let own = x0.iter().zip(x1).zip(y.as_chunks_mut::<N>().0);
+    for (rows, ((x0, x1), y)) in rows.chunks_exact(N).zip(own) {
         for i in 0..N {
             for j in 0..N {
-                y[i] += rows[i][j] * x[j];
+                y[i] += rows[i][j] * (x1[j] - x0[j]);
             }
         }
     }
@@ -108,17 +111,18 @@ mod tests {
         let (n, m) = (links.last().unwrap().range.end, links.last().unwrap().block.end);
         let blocks: Vec<f64> = (0..m).map(|i| (i as f64 * 0.7).sin()).collect();
         let x: Vec<f64> = (0..n).map(|i| (i as f64 * 1.3).cos()).collect();
+        let x0: Vec<f64> = (0..n).map(|i| (i as f64 * 2.1).sin()).collect();
         for some in [|_: usize| true, |i: usize| !i.is_multiple_of(3)] {
             let chosen = || links.iter().enumerate().filter(|(i, _)| some(*i)).map(|(_, l)| l);
             let mut y = vec![0.5; n];
-            LinkBlocks::of(chosen()).mul_add(&blocks, &x, &mut y);
+            LinkBlocks::of(chosen()).add_change(&blocks, [&x0, &x], &mut y);
             let mut expected = vec![0.5; n];
             for link in chosen() {
                 let n = link.range.len();
                 for i in 0..n {
                     for j in 0..n {
-                        expected[link.range.start + i] +=
-                            blocks[link.block.start + i * n + j] * x[link.range.start + j];
+                        expected[link.range.start + i] += blocks[link.block.start + i * n + j]
+                            * (x[link.range.start + j] - x0[link.range.start + j]);
                     }
                 }
             }

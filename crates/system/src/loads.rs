@@ -190,8 +190,10 @@ impl LoadSet {
     pub fn step(&self, t0: f64, t1: f64, loads: &mut StepLoads) {
         let goes_on = |c: &Channel| matches!(c.track, Track::Constant | Track::Value { .. });
         let all = |to: &mut Vec<f64>, t: f64, side: Side| {
-            to.clear();
-            to.extend(self.channels.iter().map(|c| c.track.at(t, side)));
+            to.resize(self.channels.len(), 0.0);
+            for (x, c) in to.iter_mut().zip(&self.channels) {
+                *x = c.track.at(t, side);
+            }
         };
         if loads.until == Some(t0) && self.channels.iter().all(goes_on) {
             std::mem::swap(&mut loads.start, &mut loads.end);

@@ -4,7 +4,7 @@ use super::{Hht, newmark};
 use crate::link_map::LinkMap;
 use crate::propagator::{Forces, Propagator, StepKey, Wanted};
 use crate::space::{LowRank, Space};
-use trilith_linalg::{Dense, DenseLu, Sparse, Triplets};
+use trilith_linalg::{Dense, DenseLu, Product, Sparse, Triplets};
 
 const N: usize = 24;
 
@@ -47,7 +47,7 @@ fn space(modal: bool, links: LinkMap) -> Space {
         modal: modal.then_some(low_rank),
         dummy_k: vec![0.0; links.len()],
         links,
-        forces: Vec::new(),
+        forces: Product::new(Dense::zeros(N, 0)),
         shape: None,
         images: Dense::zeros(N, 0),
     }

@@ -97,7 +97,9 @@ impl Factors {
         match at.filter(|at| good(&self.0[*at])) {
             Some(at) => {
                 let last = self.0.len() - 1;
-                self.0[at..].rotate_left(1);
+                if at < last {
+                    self.0[at..].rotate_left(1);
+                }
                 &self.0[last]
             }
             None => self.make(of, tangents.clone()),
@@ -172,12 +174,12 @@ impl Factor {
     }
 
     /// Replaces the residuals of the active coordinates by the corrections; those without an equation stay.
-    /// True where changes of deformations and of looked-at rates stand behind the corrections in `space`.
+    /// True where the residuals stay and the corrections stand in `space`, with the changes of deformations and of
+    /// looked-at rates behind them.
     pub fn correct(&self, residual: &mut [f64], space: &mut Vec<f64>) -> bool {
         if let Some(all) = &self.all {
             space.resize(all.rows(), 0.0);
             all.times(residual, space);
-            residual.copy_from_slice(&space[..residual.len()]);
             return true;
         }
         space.resize(self.equations.len(), 0.0);

@@ -17,25 +17,17 @@ impl LinkKernel<'_> {
             return false;
         }
         self.deform(affine, out);
-        let change = |now: &[f64], then: &[f64], to: &mut Vec<f64>| {
-            to.clear();
-            to.extend(now.iter().zip(then).map(|(now, then)| now - then));
-        };
-        change(out.d, from.d, &mut self.moved);
         self.leave(from.f, out.pseudo);
         let (k, c) = (&from.tangents.k, &from.tangents.c);
         if self.complete {
-            self.blocks.mul_add(k, &self.moved, &mut self.residual);
-            if !self.rated_blocks.is_empty() {
-                change(out.v, from.v, &mut self.moved);
-                self.rated_blocks.mul_add(c, &self.moved, &mut self.residual);
-            }
+            let (d, v) = if self.plain { (&*self.d, &*self.v) } else { (&*out.d, &*out.v) };
+            self.blocks.add_change(k, [from.d, d], &mut self.residual);
+            self.rated_blocks.add_change(c, [from.v, v], &mut self.residual);
         } else {
             self.pull.clear();
-            self.pull.resize(self.moved.len(), 0.0);
-            self.blocks.mul_add(k, &self.moved, &mut self.pull);
-            change(out.v, from.v, &mut self.moved);
-            self.rated_blocks.mul_add(c, &self.moved, &mut self.pull);
+            self.pull.resize(self.links.len(), 0.0);
+            self.blocks.add_change(k, [from.d, out.d], &mut self.pull);
+            self.rated_blocks.add_change(c, [from.v, out.v], &mut self.pull);
             for (r, flat) in self.residual.iter_mut().zip(&self.links.active) {
                 *r += self.pull[*flat];
             }
@@ -45,7 +37,7 @@ impl LinkKernel<'_> {
             return false;
         }
         self.newton_correction(affine, from.tangents, false);
-        if !self.residual.iter().all(|x| x.is_finite()) {
+        if !self.step().iter().all(|x| x.is_finite()) {
             self.factors.forget(affine.key);
             return false;
         }

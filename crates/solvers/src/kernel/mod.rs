@@ -20,7 +20,7 @@ mod unforeseen;
 pub(crate) use factors::Remembered;
 pub(crate) use unforeseen::Unforeseen;
 
-use crate::propagator::StepKey;
+use crate::propagator::{StepKey, Wanted};
 use crate::vector::{add, largest, residual};
 use factors::{Equations, Factors};
 use search::Search;
@@ -31,9 +31,6 @@ use trilith_system::{LinkBlocks, LinkSet, StepLaws, Tangents};
 
 /// What the linear step gives the kernel.
 pub(crate) struct Affine<'a> {
-    /// d and v of the active coordinates at the start value of f̃.
-    pub d: &'a [f64],
-    pub v: &'a [f64],
     /// Deformation and rate that supports add, flat, where they move.
     pub support: Option<[&'a [f64]; 2]>,
     /// Compliances, active × active, symmetric.
@@ -54,12 +51,14 @@ pub(crate) struct Committed<'a> {
     pub dt: f64,
 }
 
-/// Where the converged values go, flat; `pseudo` is f̃ of the active coordinates.
+/// Where the converged values go, flat; `pseudo` is f̃ of the active coordinates. What is zero in the tangents of a
+/// law at all times is zero in `tangents` before.
 pub(crate) struct Converged<'a> {
     pub d: &'a mut [f64],
     pub v: &'a mut [f64],
     pub f: &'a mut [f64],
     pub history: &'a mut [f64],
+    pub tangents: &'a mut Tangents,
     pub energy: &'a mut [Energy],
     pub pseudo: &'a mut [f64],
     pub unforeseen: &'a mut Unforeseen,
@@ -109,14 +108,14 @@ pub(crate) struct LinkKernel<'a> {
     /// Blocks of all links, and of those whose laws look at rates.
     blocks: LinkBlocks,
     rated_blocks: LinkBlocks,
-    /// How deformations or rates change in a step, and the forces that follow from it, flat.
-    moved: Vec<f64>,
+    /// Forces that follow from deformations and rates along the tangents, flat.
     pull: Vec<f64>,
-    tangents: Tangents,
     /// Active index of each flat coordinate.
     place: Vec<usize>,
     /// True where all coordinates are active.
     complete: bool,
+    /// True where in addition no support moves: the own deformations and rates are those of all coordinates.
+    plain: bool,
     /// Index of the link of each active coordinate.
     owner: Vec<usize>,
     /// Own deformations and rates of the active coordinates, without moving supports.
@@ -166,7 +165,6 @@ impl<'a> LinkKernel<'a> {
             kind: solution.kernel,
             blocks,
             rated_blocks,
-            moved: Vec::new(),
             pull: Vec::new(),
             tolerance: solution.link_tolerance,
             links,
@@ -174,9 +172,9 @@ impl<'a> LinkKernel<'a> {
             dummy_k,
             rated,
             unrated,
-            tangents: links.tangents(),
             place,
             complete: n == links.len(),
+            plain: false,
             owner,
             d: vec![0.0; n],
             v: vec![0.0; n],
@@ -198,9 +196,15 @@ impl<'a> LinkKernel<'a> {
         self.iterations
     }
 
-    /// Tangents of the last iteration.
-    pub(crate) fn tangents(&self) -> &Tangents {
-        &self.tangents
+    /// Largest of the forces of the last iteration, N or N·m.
+    pub(crate) fn largest_force(&self) -> f64 {
+        self.sizes[1]
+    }
+
+    /// What the next step must know before it begins: where deformations and rates of the active coordinates go
+    /// at the start value of f̃.
+    pub(crate) fn wanted(&mut self) -> Wanted<'_> {
+        Wanted { d: &mut self.d, v: &mut self.v, rated: &self.rated }
     }
 
     /// Active coordinates whose rates their law looks at.
@@ -246,8 +250,8 @@ impl<'a> LinkKernel<'a> {
         }
     }
 
-    /// Solves the link equations; `out.pseudo` holds the start value on entry. The rates of coordinates
-    /// whose law does not look at them stay as they are predicted.
+    /// Solves the link equations at what was [wanted](Self::wanted); `out.pseudo` holds the start value on entry.
+    /// The rates of coordinates whose law does not look at them stay as they are predicted.
     pub(crate) fn solve(
         &mut self,
         affine: &Affine<'_>,
@@ -255,7 +259,7 @@ impl<'a> LinkKernel<'a> {
         scale: &ForceScale,
         out: &mut Converged<'_>,
     ) -> Result<(), NoEquilibrium> {
-        self.begin(affine);
+        self.begin();
         while !self.advance(affine, from, scale, out)? {
             if let Some((change, d)) = self.change(affine.h) {
                 affine.g.mul_add(-1.0, change, d);
@@ -265,9 +269,7 @@ impl<'a> LinkKernel<'a> {
     }
 
     /// Takes up the link equations of a step.
-    pub(crate) fn begin(&mut self, affine: &Affine<'_>) {
-        self.d.copy_from_slice(affine.d);
-        self.v.copy_from_slice(affine.v);
+    pub(crate) fn begin(&mut self) {
         self.search.reset();
         (self.iteration, self.size_before, self.expected) = (0, f64::INFINITY, false);
     }
@@ -310,37 +312,48 @@ impl<'a> LinkKernel<'a> {
                 self.take(out);
                 return Ok(false);
             }
-            let tangents = std::mem::take(&mut self.tangents);
-            self.newton_correction(affine, &tangents, size > CONTRACTS * self.size_before);
-            self.tangents = tangents;
-            if size <= ROUNDING && size * largest(&self.residual) <= SETTLED * before {
+            self.newton_correction(affine, out.tangents, size > CONTRACTS * self.size_before);
+            let may_settle = self.iteration >= ROUNDING_FROM && size <= ROUNDING;
+            if may_settle && size * largest(self.step()) <= SETTLED * before {
                 self.end(from, out);
                 return Ok(true);
             }
         }
         self.size_before = size;
         if self.iteration > 1 {
-            self.search.goes(&self.residual);
+            let step = if self.followed { &self.correction } else { &self.residual };
+            self.search.goes(&step[..self.residual.len()]);
         }
         self.take(out);
         Ok(false)
     }
 
+    /// The last change of f̃.
+    fn step(&self) -> &[f64] {
+        let step = if self.followed { &self.correction } else { &self.residual };
+        &step[..self.residual.len()]
+    }
+
     /// The laws end the step where they were asked last.
     fn end(&mut self, from: &Committed<'_>, out: &mut Converged<'_>) {
+        if self.plain {
+            out.d.copy_from_slice(&self.d);
+            out.v.copy_from_slice(&self.v);
+        }
         let at = Kinematics { d: out.d, v: out.v, d0: from.d, v0: from.v, dt: from.dt };
         self.laws.end(at, out.history, out.energy);
     }
 
+    /// f̃ takes the step, and what follows it already.
     fn take(&mut self, out: &mut Converged<'_>) {
-        add(out.pseudo, &self.residual);
-        if self.followed {
-            let (d, v) = self.correction[self.d.len()..].split_at(self.d.len());
-            add(&mut self.d, d);
-            for (a, change) in self.rated.iter().zip(v) {
-                self.v[*a] += change;
-            }
+        if !self.followed {
+            return add(out.pseudo, &self.residual);
         }
+        let (step, follows) = self.correction.split_at(self.residual.len());
+        let (d, v) = follows.split_at(self.d.len());
+        add(out.pseudo, step);
+        add(&mut self.d, d);
+        self.rated.iter().zip(v).for_each(|(a, change)| self.v[*a] += change);
     }
 
     /// The last change of f̃, and the deformations of the active coordinates, which must follow it by
@@ -364,11 +377,10 @@ impl<'a> LinkKernel<'a> {
         }
     }
 
-    /// Deformations and rates of all coordinates.
-    fn deform(&self, affine: &Affine<'_>, out: &mut Converged<'_>) {
-        if let (true, None) = (self.complete, affine.support) {
-            out.d.copy_from_slice(&self.d);
-            out.v.copy_from_slice(&self.v);
+    /// Deformations and rates of all coordinates, where the own ones are not those.
+    fn deform(&mut self, affine: &Affine<'_>, out: &mut Converged<'_>) {
+        self.plain = self.complete && affine.support.is_none();
+        if self.plain {
             return;
         }
         match affine.support {
@@ -390,11 +402,12 @@ impl<'a> LinkKernel<'a> {
     /// Laws and residual at the present deformations.
     fn evaluate(&mut self, affine: &Affine<'_>, from: &Committed<'_>, out: &mut Converged<'_>) {
         self.deform(affine, out);
-        let at = Kinematics { d: out.d, v: out.v, d0: from.d, v0: from.v, dt: from.dt };
+        let (d, v) = if self.plain { (&*self.d, &*self.v) } else { (&*out.d, &*out.v) };
+        let at = Kinematics { d, v, d0: from.d, v0: from.v, dt: from.dt };
         if self.iteration == 0 {
             self.laws.start(at, from.history);
         }
-        self.laws.respond(at, from.history, out.history, out.f, &mut self.tangents, out.energy);
+        self.laws.respond(at, from.history, out.history, out.f, out.tangents, out.energy);
         self.sizes = self.leave(out.f, out.pseudo);
     }
 
@@ -472,15 +485,13 @@ impl<'a> LinkKernel<'a> {
         let link = &self.links.links[self.owner[a]];
         let row = (self.links.active[a] - link.range.start) * link.range.len();
         let block = link.block.start + row..link.block.start + row + link.range.len();
-        let (k, c) = (&self.tangents.k[block.clone()], &self.tangents.c[block]);
+        let (k, c) = (&out.tangents.k[block.clone()], &out.tangents.c[block]);
+        let (d, v) = if self.plain { (&*self.d, &*self.v) } else { (&*out.d, &*out.v) };
         let terms = link.range.clone().zip(k.iter().zip(c));
-        DIGIT
-            * terms
-                .map(|(flat, (k, c))| (k * out.d[flat]).abs() + (c * out.v[flat]).abs())
-                .sum::<f64>()
+        DIGIT * terms.map(|(flat, (k, c))| (k * d[flat]).abs() + (c * v[flat]).abs()).sum::<f64>()
     }
 
-    /// Replaces the residual by the Newton correction of f̃.
+    /// From the residual to the Newton correction of f̃.
     fn newton_correction(&mut self, affine: &Affine<'_>, tangents: &Tangents, slow: bool) {
         let chord = self.links.active.len() >= CHORD_FROM && !slow;
         let mut factors = std::mem::take(&mut self.factors);

@@ -1,41 +1,48 @@
 //! What the first guess of a step left over in the steps before: it comes again, a little changed.
 //!
 //! The guess goes along the tangents at the start of the step; what it misses is of second order, such as the
-//! turn of a sliding friction force, and changes slowly from step to step. The next step therefore expects
+//! turn of a sliding friction force, and changes smoothly from step to step. The next step therefore expects what the
+//! polynomial through the last steps goes on to, by backward differences ∇ of as many orders p as would have
+//! brought the last step nearest:
 //!
 //! ```text
-//! e(n+1) = 2 e(n) − e(n−1)
+//! e(n+1) ≈ e(n) + ∇e(n) + … + ∇ᵖ⁻¹e(n),      which misses by ∇ᵖe(n+1)
 //! ```
 //!
-//! where that would have brought the last step nearer: not after a link has changed its regime.
+//! and nothing where none would have: after a link has changed its regime.
 
 use crate::propagator::StepKey;
+use crate::vector::add;
 use serde::{Deserialize, Serialize};
+use trilith_linalg::backward_differences;
 
 /// An expectation that leaves more than this share of what it is about is not worth it.
 const WORTH: f64 = 0.5;
+/// Differences that are kept, that of order 0 among them.
+const ORDERS: usize = 5;
 
 /// Residuals of the active link coordinates that the forces along the tangents left.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub(crate) struct Unforeseen {
     /// The steps that they are about.
     key: StepKey,
-    /// Of the last step, and of the one before.
-    last: Vec<f64>,
-    before: Vec<f64>,
+    /// ∇⁰e, ∇¹e … of the last step, one after the other.
+    differences: Vec<f64>,
+    /// How many of them are known.
+    known: usize,
+    /// What the next step expects; only where it is trusted.
+    hope: Vec<f64>,
     trusted: bool,
 }
 
 impl Unforeseen {
     /// Adds what the next step expects; false where it expects nothing.
     pub fn expect(&self, key: StepKey, residual: &mut [f64]) -> bool {
-        if !self.trusted || self.key != key {
-            return false;
+        let expects = self.trusted && self.key == key && self.hope.len() == residual.len();
+        if expects {
+            add(residual, &self.hope);
         }
-        for (r, (last, before)) in residual.iter_mut().zip(self.last.iter().zip(&self.before)) {
-            *r += 2.0 * last - before;
-        }
-        true
+        expects
     }
 
     /// Becomes what the step after this one knows: `from` is what this one knew, and `residual` what its guess
@@ -43,24 +50,32 @@ impl Unforeseen {
     pub fn note(&mut self, from: &Self, key: StepKey, residual: &[f64], expected: bool) {
         let n = residual.len();
         self.key = key;
-        self.last.resize(n, 0.0);
-        if from.key != key || from.last.len() != n {
-            self.last.copy_from_slice(residual);
-            self.before.clone_from(&self.last);
-            self.trusted = false;
+        self.differences.resize(ORDERS * n, 0.0);
+        let last = &mut self.differences[..n];
+        last.copy_from_slice(residual);
+        if expected {
+            add(last, &from.hope);
+        }
+        self.trusted = false;
+        self.known = 1;
+        if from.key != key || from.differences.len() != self.differences.len() {
             return;
         }
-        self.before.clone_from(&from.last);
-        let (mut left, mut whole) = (0.0, 0.0);
-        let own = self.last.iter_mut().zip(residual);
-        for ((now, r), (last, before)) in own.zip(from.last.iter().zip(&from.before)) {
-            let hoped = 2.0 * last - before;
-            *now = if expected { r + hoped } else { *r };
-            let (miss, size) = ((*now - hoped).abs(), now.abs());
-            left = if miss > left { miss } else { left };
-            whole = if size > whole { size } else { whole };
+        self.known = from.known.saturating_add(1).min(ORDERS);
+        let mut missed = [0.0; ORDERS];
+        backward_differences(&from.differences, &mut self.differences, &mut missed);
+        let (mut order, mut least) = (0, WORTH * missed[0]);
+        for (p, missed) in missed.iter().enumerate().take(self.known).skip(1) {
+            if *missed < least {
+                (order, least) = (p, *missed);
+            }
         }
-        self.trusted = left < WORTH * whole;
+        if order > 0 {
+            self.trusted = true;
+            self.hope.clear();
+            self.hope.extend_from_slice(&self.differences[..n]);
+            self.differences[n..order * n].chunks_exact(n).for_each(|x| add(&mut self.hope, x));
+        }
     }
 }
 
@@ -87,10 +102,21 @@ mod tests {
     }
 
     #[test]
-    fn a_remainder_that_changes_steadily_is_expected() {
-        let (_, left) = lead(&[1.0, 1.1, 1.2, 1.3, 1.4]);
-        assert_eq!(left[..2], [1.0, 1.1]);
-        assert!(left[2..].iter().all(|x| x.abs() < 1e-15), "{left:?}");
+    fn a_remainder_that_changes_like_a_polynomial_is_expected() {
+        let cubic = |i: usize| (i as f64).mul_add(0.1, 1.0).powi(3);
+        let remainders: Vec<f64> = (0..8).map(cubic).collect();
+        let (_, left) = lead(&remainders);
+        assert_eq!(left[0], 1.0);
+        assert!(left[1..4].iter().all(|x| x.abs() > 1e-3), "{left:?}");
+        assert!(left[5..].iter().all(|x| x.abs() < 1e-14), "{left:?}");
+    }
+
+    #[test]
+    fn the_order_is_that_which_would_have_missed_least() {
+        // What alternates is worse foreseen by every higher order.
+        let (known, left) = lead(&[1.0, 1.1, 1.0, 1.1, 1.0, 1.1]);
+        assert!(left[2..].iter().all(|x| (x.abs() - 0.1).abs() < 1e-14), "{left:?}");
+        assert_eq!(known.hope, [1.1]);
     }
 
     #[test]
@@ -98,8 +124,8 @@ mod tests {
         let (_, left) = lead(&[0.1, 0.1, 0.1, 9.0, 0.1, 0.1, 0.1, 0.1]);
         // 9 was unforeseen; after it nothing is expected until two steps agree again.
         let sizes: Vec<f64> = left.iter().map(|x| (x * 1e9).round() / 1e9).collect();
-        assert_eq!(sizes[3..7], [8.9, 0.1, 0.1, 0.1]);
-        assert!(sizes[7].abs() < 1e-9, "{left:?}");
+        assert_eq!(sizes[3..6], [8.9, 0.1, 0.1]);
+        assert!(sizes[6..].iter().all(|x| x.abs() < 1e-9), "{left:?}");
     }
 
     #[test]

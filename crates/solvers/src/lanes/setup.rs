@@ -228,7 +228,9 @@ pub fn prepare(
         rotational: flat.iter().map(|i| links.rotational[*i]).collect(),
         forms,
         elements: links.links.iter().map(|l| l.element).collect(),
-        forces: space.forces.iter().map(|p| turned(&turn, p)).collect(),
+        forces: (0..space.forces.columns())
+            .map(|j| turned(&turn, space.forces.column(j)))
+            .collect(),
         tracks: loads.channels.iter().map(|c| c.track.clone()).collect(),
         conservative: loads.channels.iter().map(|c| c.conservative).collect(),
         tables: loads

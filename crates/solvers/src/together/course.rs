@@ -129,18 +129,18 @@ impl<'a, 'b> Course<'a, 'b> {
 
     /// Pseudo-forces to be spread, and where.
     pub(super) fn spread_start(&mut self) -> Option<(&[f64], &mut [f64])> {
-        let pseudo = self.side.forces().pseudo0;
+        let pseudo = &self.state.pseudo[..];
         self.sources.renew_spread(pseudo).map(|to| (pseudo, to))
     }
 
     /// The same at the end of the step.
     pub(super) fn spread_end(&mut self) -> Option<(&[f64], &mut [f64])> {
-        let pseudo = self.side.forces().pseudo1;
+        let pseudo = &self.next.pseudo[..];
         self.sources.renew_spread(pseudo).map(|to| (pseudo, to))
     }
 
     pub(super) fn predict(&mut self, modes: &Modes) {
-        let forces = self.side.forces();
+        let forces = self.side.forces(&self.state.pseudo, &self.next.pseudo);
         let loads = [forces.load0, forces.load1];
         modes.predict(&mut self.sources, &self.state.motion, loads, &mut self.next.motion);
     }
@@ -148,7 +148,7 @@ impl<'a, 'b> Course<'a, 'b> {
     /// Displacements as predicted, and where those of the links go; rates that laws look at are put in place.
     pub(super) fn predicted(&mut self, modes: &Modes) -> (&[f64], &mut [f64]) {
         let m = modes.space.order();
-        let (_, wanted) = self.side.prediction();
+        let wanted = self.side.kernel.wanted();
         modes.space.links.deform_some(&self.next.motion[m..2 * m], wanted.rated, wanted.v);
         (&self.next.motion[..m], wanted.d)
     }
@@ -173,7 +173,7 @@ impl<'a, 'b> Course<'a, 'b> {
     }
 
     pub(super) fn correct(&mut self, modes: &Modes) {
-        let forces = self.side.forces();
+        let forces = self.side.forces(&self.state.pseudo, &self.next.pseudo);
         let loads = [forces.load0, forces.load1];
         modes.complete(&mut self.sources, &self.state.motion, loads, &mut self.next.motion);
     }
