@@ -5,6 +5,9 @@ use crate::Dense;
 /// (1/2)¹⁸/18! < 1e-21: rounding is reached well before.
 const TERMS: i32 = 18;
 
+/// So many terms that change nothing in turn, and no later one will.
+const LAST: usize = 2;
+
 /// Halvings that bring a norm to 1/2 at most.
 fn squarings(norm: f64) -> i32 {
     if norm > 0.5 { (norm / 0.5).log2().ceil() as i32 } else { 0 }
@@ -29,11 +32,17 @@ pub fn expm_small<const N: usize>(a: [[f64; N]; N]) -> [[f64; N]; N] {
     let unit: [[f64; N]; N] =
         std::array::from_fn(|i| std::array::from_fn(|j| f64::from(u8::from(i == j))));
     let (mut sum, mut term) = (unit, unit);
+    let mut idle = 0;
     for k in 1..=TERMS {
         let factor = 1.0 / f64::from(k);
         term = times(&scaled, &term).map(|row| row.map(|x| x * factor));
+        let before = sum;
         for (s, t) in sum.iter_mut().flatten().zip(term.iter().flatten()) {
             *s += t;
+        }
+        idle = if sum == before { idle + 1 } else { 0 };
+        if idle == LAST {
+            break;
         }
     }
     for _ in 0..squarings {

@@ -143,6 +143,12 @@ impl Sparse {
         (&rows[range.clone()], &values[range])
     }
 
+    /// Rows and values of every column.
+    fn by_column(&self) -> impl Iterator<Item = (&[usize], &[f64])> {
+        let (offsets, rows, values) = self.0.csc_data();
+        offsets.windows(2).map(|at| (&rows[at[0]..at[1]], &values[at[0]..at[1]]))
+    }
+
     /// The diagonal.
     #[must_use]
     pub fn diagonal(&self) -> Vec<f64> {
@@ -157,10 +163,9 @@ impl Sparse {
 
     /// `y += s · A x`. Lengths: `x` columns, `y` rows.
     pub fn mul_add(&self, s: f64, x: &[f64], y: &mut [f64]) {
-        for j in 0..self.columns() {
-            let t = s * x[j];
+        for ((rows, values), x) in self.by_column().zip(x) {
+            let t = s * x;
             if t != 0.0 {
-                let (rows, values) = self.column(j);
                 for (i, v) in rows.iter().zip(values) {
                     y[*i] += t * v;
                 }
@@ -178,21 +183,28 @@ impl Sparse {
 
     /// `y += s · Aᵀ x`. Lengths: `x` rows, `y` columns.
     pub fn transpose_mul_add(&self, s: f64, x: &[f64], y: &mut [f64]) {
-        for j in 0..self.columns() {
-            let (rows, values) = self.column(j);
-            y[j] += s * rows.iter().zip(values).map(|(i, v)| v * x[*i]).sum::<f64>();
+        for ((rows, values), y) in self.by_column().zip(y) {
+            *y += s * rows.iter().zip(values).map(|(i, v)| v * x[*i]).sum::<f64>();
         }
+    }
+
+    /// Σ |aᵢⱼ| of every row: Σ |aᵢⱼ xᵢ xⱼ| of a symmetric matrix is at most Σ xᵢ² times these.
+    #[must_use]
+    pub fn row_sums(&self) -> Vec<f64> {
+        let mut sums = vec![0.0; self.rows()];
+        for (rows, values) in self.by_column() {
+            rows.iter().zip(values).for_each(|(i, v)| sums[*i] += v.abs());
+        }
+        sums
     }
 
     /// `xᵀ A y`.
     #[must_use]
     pub fn bilinear(&self, x: &[f64], y: &[f64]) -> f64 {
-        (0..self.columns())
-            .map(|j| {
-                let (rows, values) = self.column(j);
-                y[j] * rows.iter().zip(values).map(|(i, v)| v * x[*i]).sum::<f64>()
-            })
-            .sum()
+        let own = |((rows, values), y): ((&[usize], &[f64]), &f64)| {
+            y * rows.iter().zip(values).map(|(i, v)| v * x[*i]).sum::<f64>()
+        };
+        self.by_column().zip(y).map(own).sum()
     }
 
     /// `Σ factor · matrix`, all of one size.

@@ -17,7 +17,7 @@
 use crate::error::SolveError;
 use crate::massless;
 use crate::observe::{Adequacy, BasisReport, ModeShape};
-use crate::span::{Origin, Span};
+use crate::span::{Origin, Span, Speed};
 use crate::vector::dot;
 use std::sync::Arc;
 use trilith_linalg::{
@@ -230,9 +230,8 @@ fn modes_in(
     let statics = massless::shapes(system, k, loads)?;
     let span = massless::without(&statics, k, span);
     let (mut omega2, vectors) = graded_modes(span, k)?;
-    // Σ |aᵢⱼ xᵢ xⱼ| ≤ Σ xᵢ² Σ |aᵢⱼ|: most modes need no closer look.
-    let mut sums = vec![0.0; k.rows()];
-    k.entries().for_each(|(i, _, a)| sums[i] += a.abs());
+    // Most modes need no closer look.
+    let sums = k.row_sums();
     for (j, w) in omega2.iter_mut().enumerate() {
         let x = vectors.column(j);
         let bound: f64 = x.iter().zip(&sums).map(|(x, s)| x * x * s).sum();
@@ -287,22 +286,23 @@ fn enriched(
         Some(n) => n,
     };
     let total = settings.vectors.unwrap_or(ground + links.len());
-    let mut span = Span::new(system, total);
+    let parts = hat.parts(system);
+    let mut span = Span::new(system, &parts, total);
     match settings.kind {
         BasisKind::Eigen => {
             let count = ground.min(system.order());
             let (_, vectors) =
                 lowest_modes(&Sparse::combine(&hat.parts(system)), &system.mass, count, 0.0)?;
             let all = (0..vectors.columns()).map(|j| vectors.column(j).to_vec()).collect();
-            span.take(all, Origin::Anywhere, None);
+            span.take(all, Origin::Anywhere, Speed::Any);
         }
-        _ => recurse(&mut span, system, hat, loads, ground),
+        _ => recurse(&mut span, hat, loads, ground),
     }
     let mut known = Vec::with_capacity(links.len());
     hat.static_shapes(system, links, |x, flexibility| {
         known.push(flexibility);
         if span.len() < total {
-            span.take(vec![x.to_vec()], Origin::Anywhere, Some(&hat.parts(system)));
+            span.take(vec![x.to_vec()], Origin::Anywhere, Speed::OfModes);
         }
     });
     let known = (settings.adequacy > 0.0).then_some(known);
@@ -310,14 +310,7 @@ fn enriched(
 }
 
 /// The load-dependent recursion until `count` vectors are there or nothing new comes.
-fn recurse(
-    span: &mut Span<'_>,
-    system: &System,
-    hat: &Solvable,
-    loads: &[(String, Vec<f64>)],
-    count: usize,
-) {
-    let order = system.order();
+fn recurse(span: &mut Span<'_>, hat: &Solvable, loads: &[(String, Vec<f64>)], count: usize) {
     let mut block: Vec<Vec<f64>> = loads.iter().map(|(_, p)| p.clone()).collect();
     while span.len() < count && !block.is_empty() {
         let mut next = Vec::new();
@@ -326,9 +319,9 @@ fn recurse(
             let rest = block.split_off(block.len().min(count - span.len()).min(BLOCK));
             let mut x = block.concat();
             hat.factor.solve(&mut x);
-            let solved = x.chunks(order).map(<[f64]>::to_vec).collect();
+            let solved = x.chunks(x.len() / block.len()).map(<[f64]>::to_vec).collect();
             // Where the loads have shown all they can, what is left of a vector is rounding.
-            next.extend(span.take(solved, Origin::Recursion, Some(&hat.parts(system))));
+            next.extend(span.take(solved, Origin::Recursion, Speed::OfModes));
             block = rest;
         }
         block = next;

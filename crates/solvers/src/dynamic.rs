@@ -120,10 +120,11 @@ pub(crate) fn run(
     if let (Some(b), true) = (&bases, reduced) {
         adequacy_warning(b, solution.basis.adequacy, &mut warnings);
     }
-    let (mut state, mut pace, mut ledger, first) = match options.from {
+    let (state, mut pace, mut ledger, first) = match options.from {
         Some(end) => resume(end, stepper.as_mut())?,
         None => start(model, system, analysis, before, &loads, stepper.as_mut(), dt)?,
     };
+    let mut state = Box::new(state);
     let mut viewer = Viewer::new(model, system, &loads, stepper.space(), observers);
     viewer.show(timeline.time(first), Some(first), &state, stepper.space(), &ledger);
     let setup_cpu = clock.cpu();
@@ -191,6 +192,7 @@ pub(crate) fn run(
         march_cpu_s: clock.cpu() - setup_cpu,
         ..Work::default()
     };
+    let state = *state;
     let arrival = Arrival { timeline: &timeline, made, state, pace, ledger, constant, fallen };
     let mut result =
         arrival.result(model, system, case, kind, stepper.space(), stepper.memory(), work);
@@ -369,7 +371,7 @@ fn output_step(
     step: usize,
     march: &mut March<'_>,
     constant: &[f64],
-    state: &mut State,
+    state: &mut Box<State>,
     pace: &mut Pace,
     ledger: &mut Ledger,
     viewer: &mut Viewer<'_, '_>,

@@ -62,14 +62,15 @@ pub(crate) struct March<'a> {
     trial: Trial,
 }
 
-/// States and energies of a step on trial, kept so that a step allocates nothing.
+/// States and energies of a step on trial, kept so that a step allocates nothing; a state that is accepted changes
+/// places with the one before.
 #[derive(Default)]
 struct Trial {
     /// The step in one.
-    whole: State,
+    whole: Box<State>,
     /// In two halves.
-    first: State,
-    second: State,
+    first: Box<State>,
+    second: Box<State>,
     energies: [StepEnergy; 3],
     loads: StepLoads,
 }
@@ -113,7 +114,7 @@ impl<'a> March<'a> {
     /// Over a piece of an output step; `accept` sees every substep and returns the energy it knows of.
     pub(crate) fn segment(
         &mut self,
-        state: &mut State,
+        state: &mut Box<State>,
         pace: &mut Pace,
         piece: Piece,
         accept: &mut Accepted<'_>,
@@ -133,7 +134,7 @@ impl<'a> March<'a> {
 
     fn adaptive(
         &mut self,
-        state: &mut State,
+        state: &mut Box<State>,
         pace: &mut Pace,
         piece: Piece,
         tolerance: f64,
@@ -227,7 +228,7 @@ impl<'a> March<'a> {
 
     fn fixed(
         &mut self,
-        state: &mut State,
+        state: &mut Box<State>,
         piece: Piece,
         accept: &mut Accepted<'_>,
     ) -> Result<(), Stop> {

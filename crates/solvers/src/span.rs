@@ -24,19 +24,40 @@ pub(crate) enum Origin {
     Anywhere,
 }
 
+/// How fast new vectors may be.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Speed {
+    /// As fast as modes of interest.
+    OfModes,
+    Any,
+}
+
 /// M-orthonormal vectors, block after block.
 pub(crate) struct Span<'a> {
     mass: &'a Sparse,
+    /// The stiffness as a sum, and a bound of its row sums.
+    stiffness: &'a [(f64, &'a Sparse)],
+    sums: Vec<f64>,
     columns: Columns,
     /// First vectors of the two blocks before, and of this one.
     starts: [usize; 3],
 }
 
 impl<'a> Span<'a> {
-    /// None yet, with room for so many.
-    pub(crate) fn new(system: &'a System, most: usize) -> Self {
-        let columns = Columns::with_capacity(system.order(), most.min(system.order()));
-        Self { mass: &system.mass, columns, starts: [0; 3] }
+    /// None yet, with room for so many; the stiffness as a sum.
+    pub(crate) fn new(system: &'a System, stiffness: &'a [(f64, &'a Sparse)], most: usize) -> Self {
+        Self::of(&system.mass, stiffness, most)
+    }
+
+    fn of(mass: &'a Sparse, stiffness: &'a [(f64, &'a Sparse)], most: usize) -> Self {
+        let order = mass.rows();
+        let mut sums = vec![0.0; order];
+        for (factor, part) in stiffness.iter().filter(|(factor, _)| *factor != 0.0) {
+            let own = part.row_sums();
+            sums.iter_mut().zip(own).for_each(|(sum, own)| *sum += factor.abs() * own);
+        }
+        let columns = Columns::with_capacity(order, most.min(order));
+        Self { mass, stiffness, sums, columns, starts: [0; 3] }
     }
 
     pub(crate) fn len(&self) -> usize {
@@ -58,14 +79,13 @@ impl<'a> Span<'a> {
         (images, norms)
     }
 
-    /// Orthonormalises vectors and keeps them, but for those of which nothing is left, and, where a
-    /// stiffness is given, those of which what is left would be faster than any mode of interest. Returns the
-    /// images under M of those kept.
+    /// Orthonormalises vectors and keeps them, but for those of which nothing is left, and those of which what is left
+    /// would be too fast. Returns the images under M of those kept.
     pub(crate) fn take(
         &mut self,
         mut x: Vec<Vec<f64>>,
         origin: Origin,
-        stiffness: Option<&[(f64, &Sparse)]>,
+        speed: Speed,
     ) -> Vec<Vec<f64>> {
         let size = |x: &[f64]| x.iter().fold(0.0f64, |a, b| a.max(b.abs()));
         x.retain(|x| x.iter().all(|v| v.is_finite()) && size(x) > 0.0);
@@ -91,7 +111,7 @@ impl<'a> Span<'a> {
         let mut kept = Vec::with_capacity(x.len());
         for ((x, norm), before) in x.into_iter().zip(norms).zip(before) {
             if before > 0.0 && norm > KEEP * before {
-                kept.extend(self.keep(x, norm, before, start, stiffness));
+                kept.extend(self.keep(x, norm, before, start, speed));
             }
         }
         kept
@@ -104,7 +124,7 @@ impl<'a> Span<'a> {
         norm: f64,
         before: f64,
         start: usize,
-        stiffness: Option<&[(f64, &Sparse)]>,
+        speed: Speed,
     ) -> Option<Vec<f64>> {
         let (mut x, mut norm, mut first) = (vec![x], norm, start);
         let mut images = vec![self.mass.mul(&x[0])];
@@ -125,15 +145,20 @@ impl<'a> Span<'a> {
         }
         let (mut x, mut image) = (x.pop()?, images.pop()?);
         x.iter_mut().for_each(|v| *v /= norm);
-        let of = |parts: &[(f64, &Sparse)]| -> f64 {
-            parts.iter().map(|(s, part)| s * part.bilinear(&x, &x)).sum()
-        };
-        if stiffness.is_some_and(|parts| of(parts) > FASTEST * FASTEST) {
+        if speed == Speed::OfModes && self.is_too_fast(&x) {
             return None;
         }
         image.iter_mut().for_each(|v| *v /= norm);
         self.columns.push(&x);
         Some(image)
+    }
+
+    /// True for an M-orthonormal vector that is faster than any mode of interest.
+    fn is_too_fast(&self, x: &[f64]) -> bool {
+        let bound: f64 = x.iter().zip(&self.sums).map(|(x, sum)| x * x * sum).sum();
+        // Most vectors need no closer look.
+        let omega2 = || self.stiffness.iter().map(|(s, part)| s * part.bilinear(x, x)).sum::<f64>();
+        bound > FASTEST * FASTEST && omega2() > FASTEST * FASTEST
     }
 }
 
@@ -154,12 +179,12 @@ mod tests {
         let near = |c: usize| -> Vec<f64> {
             base.iter().enumerate().map(|(i, x)| x + 1e-6 * number(31 * i + c)).collect()
         };
-        let columns = Columns::with_capacity(n, 8);
-        let mut span = Span { mass: &mass, columns, starts: [0; 3] };
+        let mut span = Span::of(&mass, &[], 8);
+        let mut take = |x| span.take(x, Origin::Anywhere, Speed::Any).len();
         let sizes = [
-            span.take(vec![base.clone()], Origin::Anywhere, None).len(),
-            span.take(vec![near(1), near(2), base.clone()], Origin::Anywhere, None).len(),
-            span.take(vec![near(3), near(1), vec![0.0; n]], Origin::Anywhere, None).len(),
+            take(vec![base.clone()]),
+            take(vec![near(1), near(2), base.clone()]),
+            take(vec![near(3), near(1), vec![0.0; n]]),
         ];
         assert_eq!((sizes, span.len()), ([1, 2, 1], 4));
         let v = span.into_dense();
@@ -170,5 +195,23 @@ mod tests {
                 assert!((found - expected).abs() < 1e-13, "{i} {j} {found}");
             }
         }
+    }
+
+    #[test]
+    fn what_is_faster_than_any_mode_of_interest_is_left_out() {
+        let diagonal = |values: &[f64]| {
+            let mut t = Triplets::new(values.len(), values.len());
+            values.iter().enumerate().for_each(|(i, v)| t.add(i, i, *v));
+            t.build()
+        };
+        let mass = diagonal(&[1.0, 1.0, 4.0]);
+        let (k, more) = (diagonal(&[1e11, 2e12, 1e12]), diagonal(&[1.0, 1e12, 2.9e12]));
+        let stiffness = [(1.0, &k), (1.0, &more)];
+        let unit = |i: usize| (0..3).map(|j| if i == j { 3.0 } else { 0.0 }).collect::<Vec<f64>>();
+        let mut span = Span::of(&mass, &stiffness, 3);
+        let mut kept = |i, speed| span.take(vec![unit(i)], Origin::Anywhere, speed).len();
+        // ω² of 1e11, 3e12 and 3.9e12/4.
+        assert_eq!([0, 1, 2].map(|i| kept(i, Speed::OfModes)), [1, 0, 1]);
+        assert_eq!(kept(1, Speed::Any), 1);
     }
 }
