@@ -6,7 +6,7 @@
 //! | nalgebra-sparse | storage of sparse matrices |
 //! | sprs | Matrix Market export |
 //! | faer | sparse LDLᵀ and LU, dense LU, symmetric eigenproblems, products of dense matrices |
-//! | pulp | products of a dense matrix and a vector, sums over modes, as wide as the processor allows |
+//! | pulp | products of a dense matrix and a vector, sums over modes, differences, as wide as the processor allows |
 //!
 //! Everything runs on one thread, so that results repeat bit for bit.
 

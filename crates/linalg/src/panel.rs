@@ -140,6 +140,19 @@ impl Product {
     }
 }
 
+/// Calls the product of a tile for the number of its vectors, as a constant.
+macro_rules! by_vectors {
+    ($tile:ident, $y:ident, $turns:literal) => {
+        by_vectors!(@ $tile, $y, $turns, 1 2 3 4 5 6 7)
+    };
+    (@ $tile:ident, $y:ident, $turns:literal, $($vectors:literal)*) => {
+        match $y.len().div_ceil(S::F64_LANES) {
+            $($vectors => $tile.times::<$vectors, $turns>($y),)*
+            _ => $tile.times::<TILE, $turns>($y),
+        }
+    };
+}
+
 struct Times<'a> {
     a: &'a [f64],
     x: &'a [f64],
@@ -155,26 +168,11 @@ impl WithSimd for Times<'_> {
         let stride = y.len().next_multiple_of(GRAIN);
         for (tile, y) in y.chunks_mut(TILE * S::F64_LANES).enumerate() {
             let tile = Tile { simd, a, stride, row: tile * TILE * S::F64_LANES, x };
-            // Turns depend on the number of rows alone, so that processors agree as far as they can.
-            match (stride / GRAIN, y.len().div_ceil(S::F64_LANES)) {
-                (..=2, 1) => tile.times::<1, 4>(y),
-                (..=2, 2) => tile.times::<2, 4>(y),
-                (..=2, 3) => tile.times::<3, 4>(y),
-                (..=2, 4) => tile.times::<4, 4>(y),
-                (..=4, 3) => tile.times::<3, 2>(y),
-                (..=4, 4) => tile.times::<4, 2>(y),
-                (..=4, 5) => tile.times::<5, 2>(y),
-                (..=4, 6) => tile.times::<6, 2>(y),
-                (..=4, 7) => tile.times::<7, 2>(y),
-                (..=4, 8) => tile.times::<8, 2>(y),
-                (_, 1) => tile.times::<1, 1>(y),
-                (_, 2) => tile.times::<2, 1>(y),
-                (_, 3) => tile.times::<3, 1>(y),
-                (_, 4) => tile.times::<4, 1>(y),
-                (_, 5) => tile.times::<5, 1>(y),
-                (_, 6) => tile.times::<6, 1>(y),
-                (_, 7) => tile.times::<7, 1>(y),
-                _ => tile.times::<8, 1>(y),
+            // Turns depend on the number of rows alone, so that the order of sums is that of every processor.
+            match stride / GRAIN {
+                0..=2 => by_vectors!(tile, y, 4),
+                3..=4 => by_vectors!(tile, y, 2),
+                _ => by_vectors!(tile, y, 1),
             }
         }
     }
@@ -239,18 +237,19 @@ fn add<S: Simd, const V: usize>(simd: S, column: &[f64], x: f64, sums: &mut [S::
 
 /// Copies as many numbers as there is room for, fewer than eight, by moves of known size.
 #[inline(always)]
-fn copy_some(mut from: &[f64], mut to: &mut [f64]) {
-    macro_rules! copy {
-        ($($size:literal)*) => {
-            $(if to.len() & $size != 0 {
-                let ((own, from_rest), (room, rest)) = (from.split_at($size), to.split_at_mut($size));
-                room.copy_from_slice(own);
-                (from, to) = (from_rest, rest);
-            })*
-        };
+fn copy_some(from: &[f64], to: &mut [f64]) {
+    let (n, mut at) = (to.len(), 0);
+    if n & 4 != 0 {
+        to[..4].copy_from_slice(&from[..4]);
+        at = 4;
     }
-    copy!(4 2 1);
-    let _ = (from, to);
+    if n & 2 != 0 {
+        to[at..at + 2].copy_from_slice(&from[at..at + 2]);
+        at += 2;
+    }
+    if n & 1 != 0 {
+        to[at] = from[at];
+    }
 }
 
 #[cfg(test)]

@@ -35,7 +35,7 @@ pub(crate) enum Speed {
 /// M-orthonormal vectors, block after block.
 pub(crate) struct Span<'a> {
     mass: &'a Sparse,
-    /// The stiffness as a sum, and a bound of its row sums.
+    /// The stiffness as a sum, and a bound of the sum of magnitudes in each of its rows.
     stiffness: &'a [(f64, &'a Sparse)],
     sums: Vec<f64>,
     columns: Columns,

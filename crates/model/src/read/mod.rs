@@ -206,9 +206,9 @@ fn sections(c: &mut Context<'_>, root: &Node, overrides: &[(String, String)]) ->
         gravity: gravity?,
         p_delta: p_delta?,
         parameters: c.parameters().values(),
-        nodes: nodes.into_iter().flatten().collect(),
+        nodes: without_gaps(nodes),
         supports: supports.into_iter().flatten().collect(),
-        elements: elements.into_iter().flatten().collect(),
+        elements: without_gaps(elements),
         damping: damping?,
         functions: functions.into_iter().flatten().collect(),
         patterns: patterns.into_iter().flatten().collect(),
@@ -216,6 +216,13 @@ fn sections(c: &mut Context<'_>, root: &Node, overrides: &[(String, String)]) ->
         outputs: outputs.into_iter().flatten().collect(),
         spectra: spectra.into_iter().flatten().collect(),
     })
+}
+
+/// What could be read, with no room to spare: large models are nodes and elements above all.
+fn without_gaps<T>(read: Vec<Option<T>>) -> Vec<T> {
+    let mut all = Vec::with_capacity(read.len());
+    all.extend(read.into_iter().flatten());
+    all
 }
 
 /// `units: (length: "in", force: "kip", time: "s")`; mass may stand in place of force.

@@ -1,6 +1,6 @@
 //! The first guess of a step: where the tangents at its start put the forces.
 
-use super::{Affine, Committed, Converged, LinkKernel};
+use super::{Affine, Committed, Converged, LinkKernel, step};
 use trilith_model::Kernel;
 
 impl LinkKernel<'_> {
@@ -37,7 +37,7 @@ impl LinkKernel<'_> {
             return false;
         }
         self.newton_correction(affine, from.tangents, false);
-        if !self.step().iter().all(|x| x.is_finite()) {
+        if !step(self.followed, &self.correction, &self.residual).iter().all(|x| x.is_finite()) {
             self.factors.forget(affine.key);
             return false;
         }

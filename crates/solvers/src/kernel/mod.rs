@@ -314,24 +314,18 @@ impl<'a> LinkKernel<'a> {
             }
             self.newton_correction(affine, out.tangents, size > CONTRACTS * self.size_before);
             let may_settle = self.iteration >= ROUNDING_FROM && size <= ROUNDING;
-            if may_settle && size * largest(self.step()) <= SETTLED * before {
+            let step = step(self.followed, &self.correction, &self.residual);
+            if may_settle && size * largest(step) <= SETTLED * before {
                 self.end(from, out);
                 return Ok(true);
             }
         }
         self.size_before = size;
         if self.iteration > 1 {
-            let step = if self.followed { &self.correction } else { &self.residual };
-            self.search.goes(&step[..self.residual.len()]);
+            self.search.goes(step(self.followed, &self.correction, &self.residual));
         }
         self.take(out);
         Ok(false)
-    }
-
-    /// The last change of f̃.
-    fn step(&self) -> &[f64] {
-        let step = if self.followed { &self.correction } else { &self.residual };
-        &step[..self.residual.len()]
     }
 
     /// The laws end the step where they were asked last.
@@ -505,4 +499,10 @@ impl<'a> LinkKernel<'a> {
         let Self { links, place, dummy_k, rated, .. } = self;
         Equations { links, place, dummy_k, rated, g, h, key }
     }
+}
+
+/// The last change of f̃: at the front of what a factor gave where deformations follow it already, else in place of the
+/// residual.
+fn step<'a>(followed: bool, correction: &'a [f64], residual: &'a [f64]) -> &'a [f64] {
+    if followed { &correction[..residual.len()] } else { residual }
 }

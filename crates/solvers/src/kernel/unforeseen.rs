@@ -30,15 +30,14 @@ pub(crate) struct Unforeseen {
     differences: Vec<f64>,
     /// How many of them are known.
     known: usize,
-    /// What the next step expects; only where it is trusted.
+    /// What the next step expects; empty where it expects nothing.
     hope: Vec<f64>,
-    trusted: bool,
 }
 
 impl Unforeseen {
     /// Adds what the next step expects; false where it expects nothing.
     pub fn expect(&self, key: StepKey, residual: &mut [f64]) -> bool {
-        let expects = self.trusted && self.key == key && self.hope.len() == residual.len();
+        let expects = self.key == key && self.hope.len() == residual.len();
         if expects {
             add(residual, &self.hope);
         }
@@ -56,9 +55,10 @@ impl Unforeseen {
         if expected {
             add(last, &from.hope);
         }
-        self.trusted = false;
+        self.hope.clear();
         self.known = 1;
         if from.key != key || from.differences.len() != self.differences.len() {
+            self.differences[n..].fill(0.0);
             return;
         }
         self.known = from.known.saturating_add(1).min(ORDERS);
@@ -71,8 +71,6 @@ impl Unforeseen {
             }
         }
         if order > 0 {
-            self.trusted = true;
-            self.hope.clear();
             self.hope.extend_from_slice(&self.differences[..n]);
             self.differences[n..order * n].chunks_exact(n).for_each(|x| add(&mut self.hope, x));
         }
