@@ -4,9 +4,11 @@
 //! address tells where it stands.
 
 mod numeric;
+mod plain;
 mod shape;
 
 use crate::Span;
+use plain::Lists;
 use ron::value::RawValue;
 use shape::{Key, Shape};
 use std::collections::HashMap;
@@ -115,6 +117,8 @@ impl Node {
 
 /// Reads a whole text. A byte-order mark at the start is skipped.
 pub(crate) fn parse(text: &str) -> Result<Node, TreeError> {
+    let (text, mut lists) = plain::lift(text);
+    let text = text.as_str();
     let body = text.strip_prefix('\u{feff}').unwrap_or(text);
     let lead = text.len() - body.len();
     let shape = options().from_str::<Shape<'_>>(body).map_err(|e| {
@@ -128,7 +132,10 @@ pub(crate) fn parse(text: &str) -> Result<Node, TreeError> {
         }
     })?;
     let (start, end) = (lead + comments(body), lead + body.trim_end().len());
-    build(text, shape, start..end, "")
+    match lists.remove(&start) {
+        Some(list) => Ok(list),
+        None => build(text, &mut lists, shape, start..end, ""),
+    }
 }
 
 /// Length of the blanks and comments that a text begins with.
@@ -138,24 +145,28 @@ fn comments(text: &str) -> usize {
         rest = if rest.starts_with("//") {
             rest.find('\n').map_or("", |i| &rest[i..])
         } else if rest.starts_with("/*") {
-            let mut depth = 0_usize;
-            let ends = rest.char_indices().filter_map(|(i, _)| {
-                let here = &rest[i..];
-                if here.starts_with("/*") {
-                    depth += 1;
-                } else if here.starts_with("*/") {
-                    depth = depth.saturating_sub(1);
-                    return (depth == 0).then_some(i + 2);
-                }
-                None
-            });
-            let end = { ends }.next();
-            end.map_or("", |i| &rest[i..])
+            &rest[block_comment(rest)..]
         } else {
             return text.len() - rest.len();
         }
         .trim_start();
     }
+}
+
+/// Length of the block comment that a text begins with, and of those inside it.
+fn block_comment(text: &str) -> usize {
+    let mut depth = 0_usize;
+    let mut ends = text.char_indices().filter_map(|(i, _)| {
+        let here = &text[i..];
+        if here.starts_with("/*") {
+            depth += 1;
+        } else if here.starts_with("*/") {
+            depth = depth.saturating_sub(1);
+            return (depth == 0).then_some(i + 2);
+        }
+        None
+    });
+    ends.next().unwrap_or(text.len())
 }
 
 fn options() -> ron::Options {
@@ -190,7 +201,7 @@ fn bare(raw: &str) -> Option<&str> {
     (!body.is_empty() && !body.ends_with("*/") && !line.contains("//")).then_some(body)
 }
 
-fn child(text: &str, raw: &RawValue) -> Result<Node, TreeError> {
+fn child(text: &str, lists: &mut Lists, raw: &RawValue) -> Result<Node, TreeError> {
     let part = match bare(raw.get_ron()) {
         Some(part) => part,
         // `trim` trusts that the text is RON by itself; one that leans on an extension which the file
@@ -202,7 +213,7 @@ fn child(text: &str, raw: &RawValue) -> Result<Node, TreeError> {
         })?,
     };
     let start = offset(text, part).unwrap_or(0);
-    if let Some(node) = numeric::read(part, start) {
+    if let Some(node) = lists.remove(&start).or_else(|| numeric::read(part, start)) {
         return Ok(node);
     }
     let span = start..start + part.len();
@@ -212,7 +223,7 @@ fn child(text: &str, raw: &RawValue) -> Result<Node, TreeError> {
         span: span.clone(),
         related: None,
     })?;
-    build(text, shape, span, part)
+    build(text, lists, shape, span, part)
 }
 
 /// The identifier that a value starts with.
@@ -223,7 +234,13 @@ fn leading_name(part: &str) -> Option<String> {
     name.starts_with(|c: char| c.is_alphabetic() || c == '_').then(|| name.to_owned())
 }
 
-fn build(text: &str, shape: Shape<'_>, span: Span, part: &str) -> Result<Node, TreeError> {
+fn build(
+    text: &str,
+    lists: &mut Lists,
+    shape: Shape<'_>,
+    span: Span,
+    part: &str,
+) -> Result<Node, TreeError> {
     let name = leading_name(part);
     let kind = match shape {
         Shape::Number(x) => Kind::Number(x),
@@ -233,9 +250,10 @@ fn build(text: &str, shape: Shape<'_>, span: Span, part: &str) -> Result<Node, T
             Some(n) if !part.contains('(') => Kind::Name(n),
             name => Kind::Fields(name, Vec::new()),
         },
-        Shape::Some(raw) => return child(text, raw),
+        Shape::Some(raw) => return child(text, lists, raw),
         Shape::List(items) => {
-            let items = items.into_iter().map(|r| child(text, r)).collect::<Result<Vec<_>, _>>()?;
+            let items: Vec<_> =
+                items.into_iter().map(|r| child(text, lists, r)).collect::<Result<_, _>>()?;
             let name = if part.starts_with('[') { None } else { name };
             if items.is_empty() && !part.starts_with('[') {
                 Kind::Fields(name, Vec::new())
@@ -247,7 +265,7 @@ fn build(text: &str, shape: Shape<'_>, span: Span, part: &str) -> Result<Node, T
             let mut out: Vec<Entry> = Vec::with_capacity(entries.len());
             let mut places: HashMap<String, usize> = HashMap::with_capacity(entries.len());
             for (key, raw) in entries {
-                let value = child(text, raw)?;
+                let value = child(text, lists, raw)?;
                 let key_span = match &key {
                     Key::Borrowed(k) => {
                         offset(text, k).map_or(value.span.clone(), |at| at..at + k.len())

@@ -1,7 +1,6 @@
-//! Numbers and lists of plain numbers: a record in a model file, read at once.
+//! Numbers and lists of plain numbers, read at once.
 //!
-//! Going down level by level, `ron` would read every number of a list again at each level. What is not
-//! obviously a list of numbers is left to it, and with that every error.
+//! What is not obviously one is left to `ron`, and with that every error.
 
 use super::{Kind, Node};
 
@@ -13,6 +12,11 @@ pub(super) fn read(part: &str, at: usize) -> Option<Node> {
     let mut cursor = Cursor { text: part, next: 0, at };
     let node = cursor.value(0)?;
     (cursor.next == part.len()).then_some(node)
+}
+
+/// The list of numbers that `text` begins with.
+pub(super) fn list(text: &str, at: usize) -> Option<Node> {
+    Cursor { text, next: 0, at }.value(0)
 }
 
 struct Cursor<'a> {
