@@ -33,12 +33,6 @@ impl LinkBlocks {
         Self(runs)
     }
 
-    /// True where no link has a block.
-    #[must_use]
-    pub fn is_empty(&self) -> bool {
-        self.0.is_empty()
-    }
-
     /// `y += A (x₁ − x₀)`, all flat; `blocks` are those of A.
     ///
     /// # Panics
