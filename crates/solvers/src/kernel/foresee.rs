@@ -1,6 +1,6 @@
 //! The first guess of a step: where the tangents at its start put the forces.
 
-use super::{Affine, Committed, Converged, LinkKernel, step};
+use super::{Affine, Committed, Converged, LinkKernel, choose, step};
 use trilith_model::Kernel;
 
 impl LinkKernel<'_> {
@@ -20,7 +20,7 @@ impl LinkKernel<'_> {
         self.leave(from.f, out.pseudo);
         let (k, c) = (&from.tangents.k, &from.tangents.c);
         if self.complete {
-            let (d, v) = if self.plain { (&*self.d, &*self.v) } else { (&*out.d, &*out.v) };
+            let [d, v] = choose(self.plain, [&self.d, &self.v], [out.d, out.v]);
             self.blocks.add_change(k, [from.d, d], &mut self.residual);
             self.rated_blocks.add_change(c, [from.v, v], &mut self.residual);
         } else {

@@ -14,6 +14,7 @@
 
 mod factors;
 mod foresee;
+mod measure;
 mod search;
 mod unforeseen;
 
@@ -79,15 +80,10 @@ pub(crate) type ForceScale = [f64; 2];
 const ROUNDING: f64 = 1e3;
 /// A correction below this share of the tolerance changes nothing any more.
 const SETTLED: f64 = 1e-4;
-/// A pseudo-force counts as a force only by its rounding: with stiff dummies on a sliding contact it may
-/// be millions of times any force there is.
-const PSEUDO_SHARE: f64 = 1e-5;
 /// Iterations before the first look at what rounding leaves.
 const ROUNDING_FROM: usize = 2;
 const NEWTON_ITERATIONS: usize = 60;
 const FIXED_POINT_ITERATIONS: usize = 200;
-/// Two units in the last place.
-const DIGIT: f64 = 2.0 * f64::EPSILON;
 /// From this many active coordinates on, a factor is kept while it still contracts well.
 const CHORD_FROM: usize = 8;
 /// How well that is: share of the residual that one iteration leaves.
@@ -396,7 +392,7 @@ impl<'a> LinkKernel<'a> {
     /// Laws and residual at the present deformations.
     fn evaluate(&mut self, affine: &Affine<'_>, from: &Committed<'_>, out: &mut Converged<'_>) {
         self.deform(affine, out);
-        let (d, v) = if self.plain { (&*self.d, &*self.v) } else { (&*out.d, &*out.v) };
+        let [d, v] = choose(self.plain, [&self.d, &self.v], [out.d, out.v]);
         let at = Kinematics { d, v, d0: from.d, v0: from.v, dt: from.dt };
         if self.iteration == 0 {
             self.laws.start(at, from.history);
@@ -418,73 +414,6 @@ impl<'a> LinkKernel<'a> {
         [left, largest(f), pseudo]
     }
 
-    /// Largest residual over its tolerance, and where.
-    fn measure(
-        &self,
-        out: &Converged<'_>,
-        scale: &ForceScale,
-        iteration: usize,
-    ) -> (f64, NoEquilibrium) {
-        let links = self.links;
-        let (mut now, mut left) = (*scale, [0.0; 2]);
-        let [of_residual, of_force, of_pseudo] = self.sizes;
-        if !links.turns && of_residual <= self.tolerance * now[0] {
-            return (0.0, NoEquilibrium { worst: 0, residual: 0.0 });
-        }
-        if links.turns {
-            for (a, flat) in links.active.iter().enumerate() {
-                let kind = usize::from(links.rotational[*flat]);
-                left[kind] = self.residual[a].abs().max(left[kind]);
-                now[kind] =
-                    out.f[*flat].abs().max(PSEUDO_SHARE * out.pseudo[a].abs()).max(now[kind]);
-            }
-        } else {
-            left[0] = of_residual;
-            now[0] = of_force.max(PSEUDO_SHARE * of_pseudo).max(now[0]);
-        }
-        let mut worst = NoEquilibrium { worst: 0, residual: 0.0 };
-        if !of_residual.is_finite()
-            && let Some(a) = self.residual.iter().position(|r| !r.is_finite())
-        {
-            worst = NoEquilibrium { worst: links.active[a], residual: self.residual[a].abs() };
-            return (f64::NAN, worst);
-        }
-        // The residual counts as a force: before the first link is touched there is no other.
-        let share = |kind: usize| left[kind] / (self.tolerance * now[kind].max(left[kind]));
-        let shares = [0, 1].map(|kind| if left[kind] > 0.0 { share(kind) } else { 0.0 });
-        let most = shares[0].max(shares[1]);
-        if most <= 1.0 || iteration < ROUNDING_FROM {
-            return (most, worst);
-        }
-        let mut size = 0.0;
-        for (a, r) in self.residual.iter().enumerate() {
-            let flat = links.active[a];
-            let kind = usize::from(links.rotational[flat]);
-            let mut allowed = self.tolerance * now[kind].max(left[kind]);
-            if r.abs() > allowed {
-                allowed = allowed.max(self.rounding(a, out));
-            }
-            let share = if *r == 0.0 { 0.0 } else { r.abs() / allowed.max(f64::MIN_POSITIVE) };
-            if share > size || !share.is_finite() {
-                size = share;
-                worst = NoEquilibrium { worst: flat, residual: r.abs() };
-            }
-        }
-        (size, worst)
-    }
-
-    /// What the last digits of deformations and rates make of the force of an active coordinate: a
-    /// stiff contact under a body that has gone far.
-    fn rounding(&self, a: usize, out: &Converged<'_>) -> f64 {
-        let link = &self.links.links[self.owner[a]];
-        let row = (self.links.active[a] - link.range.start) * link.range.len();
-        let block = link.block.start + row..link.block.start + row + link.range.len();
-        let (k, c) = (&out.tangents.k[block.clone()], &out.tangents.c[block]);
-        let (d, v) = if self.plain { (&*self.d, &*self.v) } else { (&*out.d, &*out.v) };
-        let terms = link.range.clone().zip(k.iter().zip(c));
-        DIGIT * terms.map(|(flat, (k, c))| (k * d[flat]).abs() + (c * v[flat]).abs()).sum::<f64>()
-    }
-
     /// From the residual to the Newton correction of f̃.
     fn newton_correction(&mut self, affine: &Affine<'_>, tangents: &Tangents, slow: bool) {
         let chord = self.links.active.len() >= CHORD_FROM && !slow;
@@ -499,6 +428,11 @@ impl<'a> LinkKernel<'a> {
         let Self { links, place, dummy_k, rated, .. } = self;
         Equations { links, place, dummy_k, rated, g, h, key }
     }
+}
+
+/// Deformations and rates of all coordinates: the own ones where those are `plain`.
+fn choose<'a>(plain: bool, own: [&'a [f64]; 2], all: [&'a [f64]; 2]) -> [&'a [f64]; 2] {
+    if plain { own } else { all }
 }
 
 /// The last change of f̃: at the front of what a factor gave where deformations follow it already, else in place of the
