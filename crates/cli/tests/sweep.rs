@@ -110,7 +110,6 @@ fn a_study_killed_at_random_moments_ends_with_the_same_table() {
 }
 
 #[test]
-#[ignore = "ten thousand runs, twice"]
 fn ten_thousand_runs_killed_at_random_moments_end_with_the_same_table() {
     killed_and_resumed(100, 6);
 }
