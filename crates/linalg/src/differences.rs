@@ -1,6 +1,7 @@
 //! Backward differences of a sequence of vectors.
 
-use pulp::{Arch, Simd, WithSimd};
+use crate::simd::dispatch;
+use pulp::{Simd, WithSimd};
 
 /// Fills a table of backward differences, a row for each order, from that of the vector before:
 ///
@@ -17,7 +18,7 @@ pub fn backward_differences(before: &[f64], table: &mut [f64], sizes: &mut [f64]
     let fits = before.len() == table.len() && table.len().is_multiple_of(sizes.len().max(1));
     assert!(fits, "rows of a table of differences");
     if !table.is_empty() {
-        Arch::new().dispatch(Fill { before, table, sizes });
+        dispatch(Fill { before, table, sizes });
     }
 }
 

@@ -21,6 +21,7 @@ mod matrix_market;
 mod modewise;
 mod operator;
 mod panel;
+mod simd;
 mod sparse;
 mod tall;
 mod vector;

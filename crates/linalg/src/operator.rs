@@ -111,7 +111,7 @@ impl SymmetricOperator {
     /// The quadratic forms `xᵀ A x` of several vectors; `x` gives their values in a row.
     #[must_use]
     pub fn forms<const N: usize>(&self, x: impl Fn(usize) -> [f64; N]) -> [f64; N] {
-        pulp::Arch::new().dispatch(
+        crate::simd::dispatch(
             #[inline(always)]
             || {
                 let mut total = [0.0; N];

@@ -1,11 +1,10 @@
 //! Matrices of few rows, for products in the inner loop of a step.
 
 use crate::Dense;
-use pulp::{Arch, Simd, WithSimd};
+use crate::simd::dispatch;
+use pulp::{Simd, WithSimd};
 
-/// Columns start at multiples of this many numbers, with zeros behind each: as many as the widest vector of any
-/// processor.
-const GRAIN: usize = 8;
+const GRAIN: usize = Panel::GRAIN;
 /// Vectors of a result that stay in registers.
 const TILE: usize = 8;
 
@@ -16,12 +15,18 @@ const TILE: usize = 8;
 pub struct Panel {
     rows: usize,
     columns: usize,
+    /// Numbers from column to column.
+    stride: usize,
     /// Where the first column begins: at the start of a cache line, unless this is a clone.
     start: usize,
     values: Vec<f64>,
 }
 
 impl Panel {
+    /// Columns start at multiples of this many numbers, with zeros behind each: as many as the widest vector of any
+    /// processor.
+    pub const GRAIN: usize = 8;
+
     /// More rows are no few: longer columns are better read from end to end, as [`Dense`] does it.
     pub const MOST_ROWS: usize = 128;
 
@@ -35,7 +40,7 @@ impl Panel {
         for j in 0..columns {
             values[start + j * stride..][..rows].copy_from_slice(of.column(j));
         }
-        Self { rows, columns, start, values }
+        Self { rows, columns, stride, start, values }
     }
 
     /// The same matrix, unless it has too many rows.
@@ -59,7 +64,7 @@ impl Panel {
     /// One column.
     #[must_use]
     pub fn column(&self, j: usize) -> &[f64] {
-        &self.values[self.start + j * self.rows.next_multiple_of(GRAIN)..][..self.rows]
+        &self.values[self.start + j * self.stride..][..self.rows]
     }
 
     /// `y = A x`.
@@ -68,8 +73,22 @@ impl Panel {
     /// Where the lengths do not suit.
     pub fn times(&self, x: &[f64], y: &mut [f64]) {
         assert!(x.len() == self.columns && y.len() == self.rows, "lengths of a product");
-        let a = &self.values[self.start..][..y.len().next_multiple_of(GRAIN) * x.len()];
-        Arch::new().dispatch(Times { a, x, y });
+        dispatch(Times::<false> { a: &self.values[self.start..], stride: self.stride, x, y });
+    }
+
+    /// Number of rows with the zeros that fill up whole vectors.
+    #[must_use]
+    pub fn filled(&self) -> usize {
+        self.stride
+    }
+
+    /// `y += A x`, with `y` [filled](Self::filled) up.
+    ///
+    /// # Panics
+    /// Where the lengths do not suit.
+    pub fn add_times(&self, x: &[f64], y: &mut [f64]) {
+        assert!(x.len() == self.columns && y.len() == self.stride, "lengths of a product");
+        dispatch(Times::<true> { a: &self.values[self.start..], stride: self.stride, x, y });
     }
 }
 
@@ -153,21 +172,22 @@ macro_rules! by_vectors {
     };
 }
 
-struct Times<'a> {
+/// A product that becomes `y`, or is added to it.
+struct Times<'a, const ADD: bool> {
     a: &'a [f64],
+    stride: usize,
     x: &'a [f64],
     y: &'a mut [f64],
 }
 
-impl WithSimd for Times<'_> {
+impl<const ADD: bool> WithSimd for Times<'_, ADD> {
     type Output = ();
 
     #[inline(always)]
     fn with_simd<S: Simd>(self, simd: S) {
-        let Self { a, x, y } = self;
-        let stride = y.len().next_multiple_of(GRAIN);
+        let Self { a, stride, x, y } = self;
         for (tile, y) in y.chunks_mut(TILE * S::F64_LANES).enumerate() {
-            let tile = Tile { simd, a, stride, row: tile * TILE * S::F64_LANES, x };
+            let tile = Tile::<S, ADD> { simd, a, stride, row: tile * TILE * S::F64_LANES, x };
             // Turns depend on the number of rows alone, so that the order of sums is that of every processor.
             match stride / GRAIN {
                 0..=2 => by_vectors!(tile, y, 4),
@@ -179,7 +199,7 @@ impl WithSimd for Times<'_> {
 }
 
 /// Some rows of a product.
-struct Tile<'a, S> {
+struct Tile<'a, S, const ADD: bool> {
     simd: S,
     a: &'a [f64],
     stride: usize,
@@ -187,24 +207,23 @@ struct Tile<'a, S> {
     x: &'a [f64],
 }
 
-impl<S: Simd> Tile<'_, S> {
+impl<S: Simd, const ADD: bool> Tile<'_, S, ADD> {
     /// Of `V` vectors of rows, with columns summed in `T` turns.
     #[inline(always)]
     fn times<const V: usize, const T: usize>(self, y: &mut [f64]) {
         let Self { simd, a, stride, row, x } = self;
         let mut sums = [[simd.splat_f64s(0.0); V]; T];
         let (turns, last) = x.as_chunks::<T>();
-        let mut columns = a.chunks_exact(stride);
+        // Columns one after the other, without the division by which chunks are counted.
+        let mut columns = a.get(row..).unwrap_or_default();
+        let mut next = |sums: &mut [S::f64s; V], x: f64| {
+            add(simd, &columns[..V * S::F64_LANES], x, sums);
+            columns = columns.get(stride..).unwrap_or_default();
+        };
         for x in turns {
-            for (sums, x) in sums.iter_mut().zip(x) {
-                if let Some(column) = columns.next() {
-                    add(simd, &column[row..row + V * S::F64_LANES], *x, sums);
-                }
-            }
+            sums.iter_mut().zip(x).for_each(|(sums, x)| next(sums, *x));
         }
-        for (sums, (column, x)) in sums.iter_mut().zip(columns.zip(last)) {
-            add(simd, &column[row..row + V * S::F64_LANES], *x, sums);
-        }
+        sums.iter_mut().zip(last).for_each(|(sums, x)| next(sums, *x));
         let mut left = T;
         while left > 1 {
             left /= 2;
@@ -215,7 +234,11 @@ impl<S: Simd> Tile<'_, S> {
             }
         }
         let (full, rest) = S::as_mut_simd_f64s(y);
-        if full.len() == V {
+        if ADD {
+            for (y, sum) in full.iter_mut().zip(&sums[0]) {
+                *y = simd.add_f64s(*y, *sum);
+            }
+        } else if full.len() == V {
             full.copy_from_slice(&sums[0]);
         } else {
             full.copy_from_slice(&sums[0][..V - 1]);

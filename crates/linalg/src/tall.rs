@@ -2,10 +2,11 @@
 //!
 //! Rows are taken in tiles that stay in the nearest cache while all columns pass.
 
+use crate::simd::dispatch;
 use crate::{Dense, Sparse};
 use faer::linalg::matmul::matmul;
 use faer::{Accum, MatRef, Par};
-use pulp::{Arch, Simd, WithSimd};
+use pulp::{Simd, WithSimd};
 
 /// Rows of a tile.
 const TILE: usize = 1024;
@@ -81,13 +82,13 @@ fn take_out<const R: usize>(a: &[f64], n: usize, x: [&mut Vec<f64>; R], y: [&Vec
     for start in (0..n).step_by(TILE) {
         let end = (start + TILE).min(n);
         let y = y.map(|y| &y[start..end]);
-        Arch::new().dispatch(Dots { a, n, start, y, shares: &mut shares });
+        dispatch(Dots { a, n, start, y, shares: &mut shares });
     }
     let [mut x] = [x];
     for start in (0..n).step_by(TILE) {
         let end = (start + TILE).min(n);
         let x = x.each_mut().map(|x| &mut x[start..end]);
-        Arch::new().dispatch(Subtract { a, n, start, x, shares: &shares });
+        dispatch(Subtract { a, n, start, x, shares: &shares });
     }
 }
 

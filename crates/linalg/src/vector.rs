@@ -1,6 +1,7 @@
 //! Sums and extremes of vectors.
 
-use pulp::{Arch, Simd, WithSimd};
+use crate::simd::dispatch;
+use pulp::{Simd, WithSimd};
 
 /// Σ aᵢ bᵢ.
 ///
@@ -9,14 +10,14 @@ use pulp::{Arch, Simd, WithSimd};
 #[must_use]
 pub fn dot(a: &[f64], b: &[f64]) -> f64 {
     assert!(a.len() == b.len(), "lengths of a product");
-    Arch::new().dispatch(Dot { a, b })
+    dispatch(Dot { a, b })
 }
 
 /// Largest magnitude; not a number where one of them is not finite, so that no comparison holds.
 #[must_use]
 pub fn largest(x: &[f64]) -> f64 {
     if x.len() >= SHORT {
-        return Arch::new().dispatch(Largest(x));
+        return dispatch(Largest(x));
     }
     let (four, rest) = x.as_chunks::<4>();
     let (mut largest, mut check) = ([0.0; 4], [0.0; 4]);
@@ -41,7 +42,7 @@ pub fn largest(x: &[f64]) -> f64 {
 pub fn residual(f: &[f64], k: &[f64], d: &[f64], x: &[f64], r: &mut [f64]) -> [f64; 3] {
     let n = r.len();
     assert!(f.len() == n && k.len() == n && d.len() == n && x.len() == n, "lengths of a residual");
-    Arch::new().dispatch(Residual { f, k, d, x, r })
+    dispatch(Residual { f, k, d, x, r })
 }
 
 /// `x += change`, element by element.

@@ -17,7 +17,7 @@ use crate::space::Space;
 use crate::start::{check, constant_force, potential, resume, start};
 use crate::stepper::{LinkStepper, State, StepEnergy, Stepper};
 use crate::timeline::Timeline;
-use crate::view::Viewer;
+use crate::view::{Viewer, looks_at_rates};
 use trilith_model::{
     Analysis, Case, Damping, DynamicCase, Model, Side, Solution, SolverKind, StepControl,
 };
@@ -88,7 +88,8 @@ pub(crate) fn run(
     let damping = bases.as_ref().and_then(|b| modal_damping(model, system, b));
     let none = vec![0.0; system.links.len()];
     let effective = if kind == SolverKind::FullNewton { &none } else { &system.links.effective };
-    let side = |order: usize| link_side(model, system, solution, &loads, order);
+    let watched = looks_at_rates(model, system, observers.iter().any(|o| o.wants_rates()));
+    let side = |order: usize| link_side(model, system, solution, &loads, order, watched);
     let mut stepper: Box<dyn Stepper + '_> = match (kind, &bases) {
         (SolverKind::Fna, Some(b)) => {
             let modes = modes(model, system, &loads, b);
@@ -328,18 +329,19 @@ pub(crate) fn modes(model: &Model, system: &System, loads: &LoadSet, bases: &Bas
     Modes::new(space, engaged)
 }
 
-/// The link side of a motion with this many coordinates.
+/// The link side of a motion with this many coordinates; `watched` as [`looks_at_rates`] says.
 pub(crate) fn link_side<'a>(
     model: &'a Model,
     system: &'a System,
     solution: &Solution,
     loads: &'a LoadSet,
     order: usize,
+    watched: bool,
 ) -> LinkSide<'a> {
     let links = &system.links;
     let dummies = links.active.iter().map(|i| links.effective[*i]).collect();
     let kernel = LinkKernel::new(model, links, solution, dummies);
-    LinkSide::new(model, system, loads, kernel, order)
+    LinkSide::new(model, system, loads, kernel, order, watched)
 }
 
 fn adequacy_warning(bases: &Bases, wanted: f64, warnings: &mut Vec<String>) {

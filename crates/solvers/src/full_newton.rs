@@ -207,7 +207,7 @@ impl Stepper for FullNewton<'_> {
         Vec::new()
     }
 
-    fn recall(&mut self, _memory: Vec<Remembered>) -> Result<(), SolveError> {
+    fn recall(&mut self, _: Vec<Remembered>, _: f64, _: &mut State) -> Result<(), SolveError> {
         Ok(())
     }
 }

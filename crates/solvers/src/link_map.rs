@@ -61,13 +61,13 @@ impl LinkMap {
         }
     }
 
-    /// `d = B u` of some link coordinates; the others stay.
+    /// `d = B u` of some link coordinates, one after the other.
     pub(crate) fn deform_some(&self, u: &[f64], which: &[usize], d: &mut [f64]) {
-        if which.len() == d.len() {
+        if which.len() == self.len() {
             return self.deform(u, d);
         }
-        for a in which {
-            d[*a] = match self {
+        for (a, d) in which.iter().zip(d) {
+            *d = match self {
                 Self::Sparse(rows) => rows[*a].iter().map(|(j, c)| c * u[*j]).sum(),
                 Self::Full(full) => full.columns.column_dot(*a, u),
             };

@@ -1,10 +1,9 @@
 //! The link side of a step: loads and pseudo-forces, the link equations, the books.
 
-use crate::kernel::{Affine, Committed, Converged, LinkKernel, NoEquilibrium};
+use crate::kernel::{Affine, Committed, Converged, LinkKernel};
 use crate::propagator::{Compliance, Forces, Wanted};
 use crate::space::Space;
 use crate::stepper::{State, StepEnergy, StepFailure};
-use crate::view::looks_at_rates;
 use trilith_element::Energy;
 use trilith_model::Model;
 use trilith_system::{Channel, LinkSet, LoadSet, StepLoads, System};
@@ -32,13 +31,15 @@ pub(crate) struct LinkSide<'a> {
 }
 
 impl<'a> LinkSide<'a> {
-    /// `order`: number of coordinates of the solver.
+    /// `order`: number of coordinates of the solver; `watched`: whether somebody may look at rates that no law looks
+    /// at.
     pub(crate) fn new(
         model: &'a Model,
         system: &'a System,
         loads: &'a LoadSet,
         kernel: LinkKernel<'a>,
         order: usize,
+        watched: bool,
     ) -> Self {
         let (flat, active) = (system.links.len(), system.links.active.len());
         let moves = |c: &Channel| !c.deformation.is_empty() || !c.rate.is_empty();
@@ -55,7 +56,7 @@ impl<'a> LinkSide<'a> {
             support_rate: vec![0.0; flat],
             rates: vec![0.0; active],
             moving: loads.channels.iter().any(moves),
-            watched: looks_at_rates(model, system),
+            watched,
         }
     }
 
@@ -63,7 +64,7 @@ impl<'a> LinkSide<'a> {
         &self.system.links
     }
 
-    /// Loads of a step, and pseudo-forces at its end, which start as they are at its start.
+    /// Loads of a step, and a place for its end.
     pub(crate) fn begin(
         &mut self,
         space: &Space,
@@ -117,17 +118,16 @@ impl<'a> LinkSide<'a> {
         dt: f64,
         energy: &mut StepEnergy,
     ) -> Result<(), StepFailure> {
-        if self.take_up(compliance, from, to, dt) {
-            self.follow(compliance);
-        }
-        while !self.iterate(compliance, from, to, dt, energy)? {
-            self.follow(compliance);
-        }
-        Ok(())
+        let Self { kernel, support1, support_rate, .. } = self;
+        let support = self.moving.then_some([&support1[..], &support_rate[..]]);
+        let affine = affine(compliance, support);
+        let out = &mut converged(to, &mut energy.links);
+        let done = kernel.solve(&from.pseudo, &affine, &committed(from, dt), &from.scale, out);
+        done.map_err(StepFailure::from)
     }
 
     /// Takes up the link equations at the predicted d and v, with the pseudo-forces that the tangents at the
-    /// start of the step foresee: true where deformations must [follow](Self::follow) them.
+    /// start of the step foresee: true where deformations must follow them.
     pub(crate) fn take_up(
         &mut self,
         compliance: &Compliance,
@@ -138,11 +138,11 @@ impl<'a> LinkSide<'a> {
         let Self { kernel, support1, support_rate, .. } = self;
         let support = self.moving.then_some([&support1[..], &support_rate[..]]);
         let affine = affine(compliance, support);
-        kernel.begin();
+        kernel.begin(&from.pseudo);
         kernel.foresee(&affine, &committed(from, dt), &mut converged(to, &mut []))
     }
 
-    /// One iteration of the link equations; false where deformations must [follow](Self::follow).
+    /// One iteration of the link equations; false where deformations must follow, as [`LinkKernel::change`] says.
     pub(crate) fn iterate(
         &mut self,
         compliance: &Compliance,
@@ -155,31 +155,36 @@ impl<'a> LinkSide<'a> {
         let support = self.moving.then_some([&support1[..], &support_rate[..]]);
         let affine = affine(compliance, support);
         let out = &mut converged(to, &mut energy.links);
-        kernel.advance(&affine, &committed(from, dt), &from.scale, out).map_err(
-            |NoEquilibrium { worst, residual }| StepFailure::NoEquilibrium { worst, residual },
-        )
-    }
-
-    /// Lets deformations and rates follow the last change of the pseudo-forces.
-    fn follow(&mut self, compliance: &Compliance) {
-        if let Some((change, d)) = self.kernel.change(&compliance.h) {
-            compliance.g.mul_add(-1.0, change, d);
-        }
+        kernel.advance(&affine, &committed(from, dt), &from.scale, out).map_err(StepFailure::from)
     }
 
     /// Where the rates of the active coordinates go once the motion is complete, if the laws left some open and
     /// somebody looks at them; else those stay zero.
     pub(crate) fn open_rates(&mut self) -> Option<&mut [f64]> {
-        (self.watched && !self.kernel.unrated().is_empty()).then_some(&mut self.rates)
+        (self.watched && !self.kernel.layout().unrated.is_empty()).then_some(&mut self.rates)
+    }
+
+    /// Rates of a state that was made while nobody looked at them; `t` is its time, s.
+    pub(crate) fn recall_rates(&mut self, space: &Space, t: f64, state: &mut State) {
+        let Some(rates) = self.open_rates() else { return };
+        let n = space.order();
+        space.links.deform(&state.motion[n..2 * n], rates);
+        let mut now = StepLoads::default();
+        self.loads.step(t, t, &mut now);
+        self.support_rate.fill(0.0);
+        self.loads.support_deformation(&now.end, &mut self.support0, &mut self.support_rate);
+        for (a, flat) in &self.kernel.layout().unrated {
+            state.v[*flat] = self.support_rate[*flat] + self.rates[*a];
+        }
     }
 
     /// Takes note of a converged step whose motion is complete.
     pub(crate) fn settle(&mut self, to: &mut State, energy: &StepEnergy) {
-        if self.watched && self.kernel.is_complete() && !self.moving {
-            self.kernel.rated().iter().for_each(|a| self.rates[*a] = to.v[*a]);
+        if self.watched && self.kernel.layout().complete && !self.moving {
+            self.kernel.layout().rated.iter().for_each(|a| self.rates[*a] = to.v[*a]);
             to.v.copy_from_slice(&self.rates);
         } else if self.watched {
-            for (a, flat) in self.kernel.unrated() {
+            for (a, flat) in &self.kernel.layout().unrated {
                 to.v[*flat] = self.support_rate[*flat] + self.rates[*a];
             }
         }

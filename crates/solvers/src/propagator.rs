@@ -51,8 +51,8 @@ pub(crate) struct Forces<'a> {
     pub pseudo1: &'a [f64],
 }
 
-/// What the link equations ask of a prediction: deformations of the active coordinates, and rates of those whose
-/// law looks at them.
+/// What the link equations ask of a prediction: deformations of the active coordinates, and the rates of those that
+/// are `rated`, one after the other: laws look at them.
 pub(crate) struct Wanted<'a> {
     pub d: &'a mut [f64],
     pub v: &'a mut [f64],

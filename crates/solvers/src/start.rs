@@ -131,7 +131,7 @@ pub(crate) fn check(
 }
 
 /// Takes up a checkpoint that was checked.
-pub(crate) fn resume(end: EndState, stepper: &mut dyn Stepper) -> Result<Start, SolveError> {
+pub(crate) fn resume(mut end: EndState, stepper: &mut dyn Stepper) -> Result<Start, SolveError> {
     if end.state.motion.len() != 3 * stepper.space().order() {
         return Err(SolveError::Checkpoint {
             reason: format!(
@@ -141,7 +141,7 @@ pub(crate) fn resume(end: EndState, stepper: &mut dyn Stepper) -> Result<Start, 
             ),
         });
     }
-    stepper.recall(end.memory)?;
+    stepper.recall(end.memory, end.time, &mut end.state)?;
     Ok((end.state, end.pace, end.ledger, end.step))
 }
 

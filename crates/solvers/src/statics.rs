@@ -88,9 +88,10 @@ pub(crate) fn equilibrium(
         g.mul_add(-1.0, &pseudo, d);
         v.fill(0.0);
         let mut trial = state.clone();
-        let mut attempt = pseudo.clone();
+        let mut attempt = vec![0.0; pseudo.len()];
         let mut energy = vec![Energy::default(); links.links.len()];
         let outcome = kernel.solve(
+            &pseudo,
             &Affine { support: None, g: &g, h: &none, key: StepKey::default() },
             &Committed {
                 d: &state.d,

@@ -1,7 +1,7 @@
 //! One step of a solver: linear propagator and link kernel together.
 
 use crate::error::SolveError;
-use crate::kernel::{ForceScale, Remembered, Unforeseen};
+use crate::kernel::{ForceScale, NoEquilibrium, Remembered, Unforeseen};
 use crate::link_side::LinkSide;
 use crate::propagator::{Motion, Propagator, StepWork};
 use crate::space::Space;
@@ -75,11 +75,10 @@ impl State {
         state
     }
 
-    /// Makes this a place for the step that follows another state, with the pseudo-forces from there.
+    /// Makes this a place for the step that follows another state.
     pub(crate) fn follow(&mut self, from: &Self) {
         if self.motion.len() == from.motion.len() && self.d.len() == from.d.len() {
             self.scale = from.scale;
-            self.pseudo.copy_from_slice(&from.pseudo);
             self.stiffest.copy_from_slice(&from.stiffest);
         } else {
             self.clone_from(from);
@@ -133,6 +132,12 @@ pub(crate) enum StepFailure {
     Fatal(SolveError),
 }
 
+impl From<NoEquilibrium> for StepFailure {
+    fn from(NoEquilibrium { worst, residual }: NoEquilibrium) -> Self {
+        Self::NoEquilibrium { worst, residual }
+    }
+}
+
 impl From<SolveError> for StepFailure {
     fn from(e: SolveError) -> Self {
         Self::Fatal(e)
@@ -182,8 +187,13 @@ pub(crate) trait Stepper {
     /// What is kept beside the state and decides the last bits of what follows.
     fn memory(&self) -> Vec<Remembered>;
 
-    /// Takes up what an earlier run kept.
-    fn recall(&mut self, memory: Vec<Remembered>) -> Result<(), SolveError>;
+    /// Takes up what an earlier run kept, and makes of its state at `t` (s) what nobody looked at then.
+    fn recall(
+        &mut self,
+        memory: Vec<Remembered>,
+        t: f64,
+        state: &mut State,
+    ) -> Result<(), SolveError>;
 
     /// Largest G·k of the links so far under the exact rule (ω_link²Δt²/6), where steps were too long for it
     /// and were made by average acceleration.
@@ -311,12 +321,18 @@ impl<P: Propagator> Stepper for LinkStepper<'_, P> {
         self.side.kernel.memory()
     }
 
-    fn recall(&mut self, memory: Vec<Remembered>) -> Result<(), SolveError> {
+    fn recall(
+        &mut self,
+        memory: Vec<Remembered>,
+        t: f64,
+        state: &mut State,
+    ) -> Result<(), SolveError> {
         for one in memory {
             self.propagator.prepare(one.key)?;
             let compliance = self.propagator.compliance();
             self.side.kernel.recall(one, &compliance.g, &compliance.h);
         }
+        self.side.recall_rates(self.propagator.space(), t, state);
         Ok(())
     }
 

@@ -92,11 +92,13 @@ impl<'a> Seen<'a> {
     }
 }
 
-/// True where something beside the laws may look at rates of deformation.
-pub(crate) fn looks_at_rates(model: &Model, system: &System) -> bool {
+/// True where something beside the laws may look at rates of deformation; `wanted`: whether an observer wants those
+/// of outputs.
+pub(crate) fn looks_at_rates(model: &Model, system: &System, wanted: bool) -> bool {
     let of_links = |o: &Output| matches!(o.quantity, Quantity::LinkDeformation { .. });
     let Seen { touching, bodies } = Seen::new(model, system);
-    model.outputs.iter().any(of_links) || !touching.is_empty() || !bodies.is_empty()
+    let outputs = wanted && model.outputs.iter().any(of_links);
+    outputs || !touching.is_empty() || !bodies.is_empty()
 }
 
 impl<'a, 'b> Viewer<'a, 'b> {

@@ -8,13 +8,13 @@
 mod columns;
 mod dots;
 
+use crate::simd::dispatch;
 use columns::{AddColumns, AddColumnsEach};
 use dots::AddDots;
-use pulp::Arch;
 
 /// `y += s · A x` with A column by column; columns of zero factors are not read.
 pub(crate) fn add_columns(a: &[f64], s: f64, x: &[f64], y: &mut [f64]) {
-    Arch::new().dispatch(AddColumns { a, s, x, y });
+    dispatch(AddColumns { a, s, x, y });
 }
 
 /// `y += s · A x` for several x at once, reading A once; the same values as one after the other.
@@ -24,12 +24,12 @@ pub(crate) fn add_columns_each<const R: usize>(
     x: [&[f64]; R],
     y: [&mut [f64]; R],
 ) {
-    Arch::new().dispatch(AddColumnsEach { a, s, x, y });
+    dispatch(AddColumnsEach { a, s, x, y });
 }
 
 /// `y += s · Aᵀ x` with A column by column, for several x at once; the same bits as one after the other.
 pub(crate) fn add_dots<const R: usize>(a: &[f64], s: f64, x: [&[f64]; R], y: [&mut [f64]; R]) {
-    Arch::new().dispatch(AddDots { a, s, x, y });
+    dispatch(AddDots { a, s, x, y });
 }
 
 #[inline(always)]

@@ -69,7 +69,7 @@ impl Panels {
 
     /// x ← L⁻¹ x with the unit lower factor; `work` holds [`height`](Self::height) values or more.
     pub(crate) fn forward(&self, values: &[f64], x: &mut [f64], work: &mut [f64]) {
-        pulp::Arch::new().dispatch(
+        crate::simd::dispatch(
             #[inline(always)]
             || {
                 for node in &self.nodes {
@@ -87,7 +87,7 @@ impl Panels {
         x: &mut [f64],
         work: &mut [f64],
     ) {
-        pulp::Arch::new().dispatch(
+        crate::simd::dispatch(
             #[inline(always)]
             || {
                 for node in self.nodes.iter().rev() {

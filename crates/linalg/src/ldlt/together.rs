@@ -15,7 +15,7 @@ const WIDTH: usize = 4;
 impl Panels {
     /// x ← L⁻¹ x with the unit lower factor; `work` holds [`height`](Self::height) places or more.
     pub(crate) fn forward_four(&self, values: &[f64], x: &mut [Four], work: &mut [Four]) {
-        pulp::Arch::new().dispatch(Forward { panels: self, values, x, work });
+        crate::simd::dispatch(Forward { panels: self, values, x, work });
     }
 
     /// x ← L⁻ᵀ D⁻¹ x; `reciprocal` is 1/D. Rows beyond the columns of the group are known already.
@@ -26,7 +26,7 @@ impl Panels {
         x: &mut [Four],
         work: &mut [Four],
     ) {
-        pulp::Arch::new().dispatch(Backward { panels: self, values, reciprocal, x, work });
+        crate::simd::dispatch(Backward { panels: self, values, reciprocal, x, work });
     }
 }
 

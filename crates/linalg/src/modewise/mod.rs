@@ -5,7 +5,8 @@ mod step;
 
 pub use step::{ModalStep, OwnModes, StepSums};
 
-use pulp::{Arch, Simd, WithSimd};
+use crate::simd::dispatch;
+use pulp::{Simd, WithSimd};
 
 /// `y = a₀ x₀ + a₁ x₁ + a₂ x₂ + a₃ x₃`, element by element.
 ///
@@ -14,7 +15,7 @@ use pulp::{Arch, Simd, WithSimd};
 pub fn combine(a: [&[f64]; 4], x: [&[f64]; 4], y: &mut [f64]) {
     let n = y.len();
     assert!(a.iter().chain(&x).all(|z| z.len() == n), "lengths of a sum");
-    Arch::new().dispatch(Combine { a, x, y });
+    dispatch(Combine { a, x, y });
 }
 
 /// `y += s · a x`, element by element.
@@ -23,7 +24,7 @@ pub fn combine(a: [&[f64]; 4], x: [&[f64]; 4], y: &mut [f64]) {
 /// Where the lengths differ.
 pub fn add_products(s: f64, a: &[f64], x: &[f64], y: &mut [f64]) {
     assert!(a.len() == y.len() && x.len() == y.len(), "lengths of a sum");
-    Arch::new().dispatch(AddProducts { s, a, x, y });
+    dispatch(AddProducts { s, a, x, y });
 }
 
 /// Σ w x².
@@ -33,7 +34,7 @@ pub fn add_products(s: f64, a: &[f64], x: &[f64], y: &mut [f64]) {
 #[must_use]
 pub fn weighted_square(w: &[f64], x: &[f64]) -> f64 {
     assert!(w.len() == x.len(), "lengths of a sum");
-    Arch::new().dispatch(WeightedSquare { w, x })
+    dispatch(WeightedSquare { w, x })
 }
 
 /// Σ p₁ (q₁ − r ∫q) − p₀ (q₀ − r ∫q): the work of loads that change linearly in a step from p₀ to p₁, with r
@@ -45,7 +46,7 @@ pub fn weighted_square(w: &[f64], x: &[f64]) -> f64 {
 pub fn work_of_linear(p: [&[f64]; 2], q: [&[f64]; 2], integral: &[f64], r: f64) -> f64 {
     let n = integral.len();
     assert!(p.iter().chain(&q).all(|z| z.len() == n), "lengths of a sum");
-    Arch::new().dispatch(Work { p, q, integral, r })
+    dispatch(Work { p, q, integral, r })
 }
 
 struct Combine<'a> {

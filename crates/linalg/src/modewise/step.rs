@@ -4,7 +4,8 @@
 //! (∫q, q, q̇)₁ = C (q₀, q̇₀, s₀, s₁)        s = p − r: loads less what the links hold
 //! ```
 
-use pulp::{Arch, Simd, WithSimd};
+use crate::simd::dispatch;
+use pulp::{Simd, WithSimd};
 
 /// The modes: what they are made of, and the coefficients of a step.
 #[derive(Clone, Copy, Debug)]
@@ -71,7 +72,7 @@ impl OwnModes<'_> {
         s: [&mut [f64]; 2],
         to: [&mut [f64]; 2],
     ) {
-        Arch::new().dispatch(Predict { modes: *self, from, links, s, to });
+        dispatch(Predict { modes: *self, from, links, s, to });
     }
 
     /// The step predicted last with link forces `links` at its end instead: changes s₁, q and q̇, and gives
@@ -86,7 +87,7 @@ impl OwnModes<'_> {
         s: (&[f64], &mut [f64]),
         to: [&mut [f64]; 3],
     ) -> StepSums {
-        Arch::new().dispatch(Complete { modes: *self, from, links, s, to })
+        dispatch(Complete { modes: *self, from, links, s, to })
     }
 }
 

@@ -1,9 +1,10 @@
 //! The kept factors of the link equations, one for each rule of a step.
 
+use super::Layout;
 use crate::propagator::StepKey;
 use serde::{Deserialize, Serialize};
-use trilith_linalg::{Dense, DenseLu, Product};
-use trilith_system::{LinkSet, Tangents};
+use trilith_linalg::{Dense, DenseLu, Panel, Product};
+use trilith_system::Tangents;
 
 /// Row sum of (k − k_e) G + c H below which a coordinate needs no equation: what one iteration without it
 /// leaves of its residual, at most.
@@ -29,13 +30,7 @@ pub(crate) struct Remembered {
 /// What the equations of a factor are about.
 #[derive(Clone, Copy)]
 pub(super) struct Equations<'a> {
-    pub links: &'a LinkSet,
-    /// Active index of each flat coordinate.
-    pub place: &'a [usize],
-    /// Dummy stiffness of the active coordinates.
-    pub dummy_k: &'a [f64],
-    /// Active coordinates whose law looks at rates.
-    pub rated: &'a [usize],
+    pub layout: &'a Layout<'a>,
     /// Compliances, active × active, symmetric.
     pub g: &'a Dense,
     pub h: &'a Dense,
@@ -52,7 +47,9 @@ pub(super) struct Factor {
     /// From the residual of all active coordinates to the corrections of these.
     correct: Product,
     /// From it to the corrections of all, and how deformations and looked-at rates follow; for few.
-    all: Option<Product>,
+    all: Option<Panel>,
+    /// True where all of that is finite: no equations are singular.
+    sound: bool,
 }
 
 /// The kept factors, the one used last at the end.
@@ -109,22 +106,16 @@ impl Factors {
 
 impl Factor {
     fn new(of: Equations<'_>, tangents: Tangents) -> Self {
-        let Equations { links, place, dummy_k, rated, g, h, key } = of;
+        let Equations { layout: Layout { links, place, dummy_k, rated, .. }, g, h, key } = of;
         let n = links.active.len();
         // Rows of k − k_e and c per active coordinate: (other active, stiffness, damping).
         let mut rows: Vec<Vec<(usize, f64, f64)>> = vec![Vec::new(); n];
         for link in &links.links {
             let size = link.range.len();
             for i in 0..size {
-                let a = place[link.range.start + i];
-                if a == usize::MAX {
-                    continue;
-                }
+                let Some(a) = place[link.range.start + i] else { continue };
                 for j in 0..size {
-                    let b = place[link.range.start + j];
-                    if b == usize::MAX {
-                        continue;
-                    }
+                    let Some(b) = place[link.range.start + j] else { continue };
                     let at = link.block.start + i * size + j;
                     let own = f64::from(u8::from(i == j));
                     let k = tangents.k[at] - own * dummy_k[a];
@@ -169,17 +160,30 @@ impl Factor {
         }
         DenseLu::new(&j).solve_columns(&mut correct);
         let all = (n <= FEW).then(|| with_what_follows(&equations, &correct, rated, [g, h]));
-        let (correct, all) = (Product::new(correct), all.map(Product::new));
-        Self { key, tangents, equations, correct, all }
+        let sound = correct.values().iter().all(|x| x.is_finite());
+        let (correct, all) = (Product::new(correct), all.as_ref().map(Panel::new));
+        Self { key, tangents, equations, correct, all, sound }
+    }
+
+    /// False where the equations are singular.
+    pub fn is_sound(&self) -> bool {
+        self.sound
+    }
+
+    /// Moves a row of [unknowns](super::layout::Unknowns) by the correction of these residuals, and what follows from
+    /// it; false where they are too many for that, and nothing has moved.
+    pub fn go(&self, residual: &[f64], row: &mut [f64]) -> bool {
+        self.all.as_ref().map(|all| all.add_times(residual, row)).is_some()
     }
 
     /// Replaces the residuals of the active coordinates by the corrections; those without an equation stay.
     /// True where the residuals stay and the corrections stand in `space`, with the changes of deformations and of
-    /// looked-at rates behind them.
+    /// looked-at rates behind them, as in a row of [unknowns](super::layout::Unknowns).
     pub fn correct(&self, residual: &mut [f64], space: &mut Vec<f64>) -> bool {
         if let Some(all) = &self.all {
-            space.resize(all.rows(), 0.0);
-            all.times(residual, space);
+            space.clear();
+            space.resize(all.filled(), 0.0);
+            all.add_times(residual, space);
             return true;
         }
         space.resize(self.equations.len(), 0.0);

@@ -1,6 +1,6 @@
 //! The first guess of a step: where the tangents at its start put the forces.
 
-use super::{Affine, Committed, Converged, LinkKernel, choose, step};
+use super::{Affine, Committed, Converged, LinkKernel, choose};
 use trilith_model::Kernel;
 
 impl LinkKernel<'_> {
@@ -17,18 +17,19 @@ impl LinkKernel<'_> {
             return false;
         }
         self.deform(affine, out);
-        self.leave(from.f, out.pseudo);
+        self.leave(from.f);
         let (k, c) = (&from.tangents.k, &from.tangents.c);
-        if self.complete {
-            let [d, v] = choose(self.plain, [&self.d, &self.v], [out.d, out.v]);
+        let links = self.layout.links;
+        if self.layout.complete {
+            let [d, v] = choose(self.plain, &self.unknowns, [out.d, out.v]);
             self.blocks.add_change(k, [from.d, d], &mut self.residual);
             self.rated_blocks.add_change(c, [from.v, v], &mut self.residual);
         } else {
             self.pull.clear();
-            self.pull.resize(self.links.len(), 0.0);
+            self.pull.resize(links.len(), 0.0);
             self.blocks.add_change(k, [from.d, out.d], &mut self.pull);
             self.rated_blocks.add_change(c, [from.v, out.v], &mut self.pull);
-            for (r, flat) in self.residual.iter_mut().zip(&self.links.active) {
+            for (r, flat) in self.residual.iter_mut().zip(&links.active) {
                 *r += self.pull[*flat];
             }
         }
@@ -36,13 +37,8 @@ impl LinkKernel<'_> {
         if self.residual.iter().all(|r| *r == 0.0) {
             return false;
         }
-        self.newton_correction(affine, from.tangents, false);
-        if !step(self.followed, &self.correction, &self.residual).iter().all(|x| x.is_finite()) {
-            self.factors.forget(affine.key);
-            return false;
-        }
-        self.take(out);
-        self.expected = expected;
-        true
+        let goes = self.go(affine, from.tangents, false);
+        self.expected = expected && goes;
+        goes
     }
 }

@@ -1,6 +1,6 @@
 //! How far the links are from equilibrium, as shares of what is allowed.
 
-use super::{Converged, ForceScale, LinkKernel, NoEquilibrium, ROUNDING_FROM, choose};
+use super::{Converged, ForceScale, Layout, LinkKernel, NoEquilibrium, ROUNDING_FROM, choose};
 
 /// A pseudo-force counts as a force only by its rounding: with stiff dummies on a sliding contact it may
 /// be millions of times any force there is.
@@ -10,13 +10,9 @@ const DIGIT: f64 = 2.0 * f64::EPSILON;
 
 impl LinkKernel<'_> {
     /// Largest residual over its tolerance, and where.
-    pub(super) fn measure(
-        &self,
-        out: &Converged<'_>,
-        scale: &ForceScale,
-        iteration: usize,
-    ) -> (f64, NoEquilibrium) {
-        let links = self.links;
+    pub(super) fn measure(&self, out: &Converged<'_>, scale: &ForceScale) -> (f64, NoEquilibrium) {
+        let links = self.layout.links;
+        let pseudo = self.unknowns.pseudo();
         let (mut now, mut left) = (*scale, [0.0; 2]);
         let [of_residual, of_force, of_pseudo] = self.sizes;
         if !links.turns && of_residual <= self.tolerance * now[0] {
@@ -26,8 +22,7 @@ impl LinkKernel<'_> {
             for (a, flat) in links.active.iter().enumerate() {
                 let kind = usize::from(links.rotational[*flat]);
                 left[kind] = self.residual[a].abs().max(left[kind]);
-                now[kind] =
-                    out.f[*flat].abs().max(PSEUDO_SHARE * out.pseudo[a].abs()).max(now[kind]);
+                now[kind] = out.f[*flat].abs().max(PSEUDO_SHARE * pseudo[a].abs()).max(now[kind]);
             }
         } else {
             left[0] = of_residual;
@@ -44,7 +39,7 @@ impl LinkKernel<'_> {
         let share = |kind: usize| left[kind] / (self.tolerance * now[kind].max(left[kind]));
         let shares = [0, 1].map(|kind| if left[kind] > 0.0 { share(kind) } else { 0.0 });
         let most = shares[0].max(shares[1]);
-        if most <= 1.0 || iteration < ROUNDING_FROM {
+        if most <= 1.0 || self.iteration < ROUNDING_FROM {
             return (most, worst);
         }
         let mut size = 0.0;
@@ -67,11 +62,12 @@ impl LinkKernel<'_> {
     /// What the last digits of deformations and rates make of the force of an active coordinate: a
     /// stiff contact under a body that has gone far.
     fn rounding(&self, a: usize, out: &Converged<'_>) -> f64 {
-        let link = &self.links.links[self.owner[a]];
-        let row = (self.links.active[a] - link.range.start) * link.range.len();
+        let Layout { links, owner, .. } = &self.layout;
+        let link = &links.links[owner[a]];
+        let row = (links.active[a] - link.range.start) * link.range.len();
         let block = link.block.start + row..link.block.start + row + link.range.len();
         let (k, c) = (&out.tangents.k[block.clone()], &out.tangents.c[block]);
-        let [d, v] = choose(self.plain, [&self.d, &self.v], [out.d, out.v]);
+        let [d, v] = choose(self.plain, &self.unknowns, [out.d, out.v]);
         let terms = link.range.clone().zip(k.iter().zip(c));
         DIGIT * terms.map(|(flat, (k, c))| (k * d[flat]).abs() + (c * v[flat]).abs()).sum::<f64>()
     }

@@ -14,6 +14,7 @@
 
 mod factors;
 mod foresee;
+mod layout;
 mod measure;
 mod search;
 mod unforeseen;
@@ -23,7 +24,9 @@ pub(crate) use unforeseen::Unforeseen;
 
 use crate::propagator::{StepKey, Wanted};
 use crate::vector::{add, largest, residual};
-use factors::{Equations, Factors};
+use factors::{Equations, Factor, Factors};
+pub(crate) use layout::Layout;
+use layout::Unknowns;
 use search::Search;
 use trilith_element::{Energy, Kinematics};
 use trilith_linalg::Dense;
@@ -94,29 +97,17 @@ pub(crate) struct LinkKernel<'a> {
     kind: Kernel,
     /// Share of the largest force so far by which a link may be out of equilibrium.
     tolerance: f64,
-    links: &'a LinkSet,
     laws: StepLaws<'a>,
-    /// Dummy stiffness of the active coordinates.
-    dummy_k: Vec<f64>,
-    /// Active coordinates of laws that look at rates, and the others with their flat index.
-    rated: Vec<usize>,
-    unrated: Vec<(usize, usize)>,
+    layout: Layout<'a>,
+    unknowns: Unknowns,
     /// Blocks of all links, and of those whose laws look at rates.
     blocks: LinkBlocks,
     rated_blocks: LinkBlocks,
     /// Forces that follow from deformations and rates along the tangents, flat.
     pull: Vec<f64>,
-    /// Active index of each flat coordinate.
-    place: Vec<usize>,
-    /// True where all coordinates are active.
-    complete: bool,
-    /// True where in addition no support moves: the own deformations and rates are those of all coordinates.
+    /// True where all coordinates are active and no support moves: the own deformations and rates are those of all
+    /// coordinates.
     plain: bool,
-    /// Index of the link of each active coordinate.
-    owner: Vec<usize>,
-    /// Own deformations and rates of the active coordinates, without moving supports.
-    d: Vec<f64>,
-    v: Vec<f64>,
     residual: Vec<f64>,
     /// Largest residual, force and pseudo-force.
     sizes: [f64; 3],
@@ -141,39 +132,22 @@ impl<'a> LinkKernel<'a> {
         solution: &Solution,
         dummy_k: Vec<f64>,
     ) -> Self {
-        let n = links.active.len();
-        let mut place = vec![usize::MAX; links.len()];
-        for (a, flat) in links.active.iter().enumerate() {
-            place[*flat] = a;
-        }
         let laws = links.laws(model);
-        let (mut owner, mut rated, mut unrated) = (vec![0; n], Vec::new(), Vec::new());
-        for (l, (law, link)) in laws.iter().enumerate() {
-            for a in link.range.clone().map(|flat| place[flat]).filter(|a| *a != usize::MAX) {
-                owner[a] = l;
-                if law.uses_rates() { rated.push(a) } else { unrated.push((a, links.active[a])) }
-            }
-        }
         let blocks = LinkBlocks::of(laws.iter().map(|(_, link)| link));
         let rate_dependent = laws.iter().filter(|(law, _)| law.uses_rates());
         let rated_blocks = LinkBlocks::of(rate_dependent.map(|(_, link)| link));
+        let layout = Layout::new(links, &laws, dummy_k);
+        let n = links.active.len();
         Self {
             kind: solution.kernel,
+            tolerance: solution.link_tolerance,
+            unknowns: Unknowns::new(n, layout.rated.len()),
+            layout,
             blocks,
             rated_blocks,
             pull: Vec::new(),
-            tolerance: solution.link_tolerance,
-            links,
             laws: StepLaws::new(laws),
-            dummy_k,
-            rated,
-            unrated,
-            place,
-            complete: n == links.len(),
             plain: false,
-            owner,
-            d: vec![0.0; n],
-            v: vec![0.0; n],
             residual: vec![0.0; n],
             sizes: [0.0; 3],
             correction: Vec::new(),
@@ -200,18 +174,13 @@ impl<'a> LinkKernel<'a> {
     /// What the next step must know before it begins: where deformations and rates of the active coordinates go
     /// at the start value of f̃.
     pub(crate) fn wanted(&mut self) -> Wanted<'_> {
-        Wanted { d: &mut self.d, v: &mut self.v, rated: &self.rated }
+        let [_, d, v] = self.unknowns.parts();
+        Wanted { d, v, rated: &self.layout.rated }
     }
 
-    /// Active coordinates whose rates their law looks at.
-    pub(crate) fn rated(&self) -> &[usize] {
-        &self.rated
-    }
-
-    /// Active and flat index of coordinates whose rates no law looks at: [`solve`](Self::solve) leaves them to
-    /// the caller.
-    pub(crate) fn unrated(&self) -> &[(usize, usize)] {
-        &self.unrated
+    /// Which coordinates there are.
+    pub(crate) fn layout(&self) -> &Layout<'a> {
+        &self.layout
     }
 
     /// The kept factors, to be recalled after a restart: a kept factor decides the last bits of an
@@ -223,50 +192,49 @@ impl<'a> LinkKernel<'a> {
     /// Makes a factor again, with the compliances of its step size.
     pub(crate) fn recall(&mut self, memory: Remembered, g: &Dense, h: &Dense) {
         let Remembered { key, k, c } = memory;
-        let mut factors = std::mem::take(&mut self.factors);
-        factors.make(self.equations(g, h, key), Tangents { k, c });
-        self.factors = factors;
-    }
-
-    /// True where all coordinates are active.
-    pub(crate) fn is_complete(&self) -> bool {
-        self.complete
+        let of = Equations { layout: &self.layout, g, h, key };
+        self.factors.make(of, Tangents { k, c });
     }
 
     /// Pseudo-force of forces that act at a deformation; `support` is what moving supports have in it.
     pub(crate) fn pseudo(&self, f: &[f64], d: &[f64], support: &[f64], to: &mut [f64]) {
-        if self.complete {
-            let own = d.iter().zip(support).zip(&self.dummy_k);
-            let forces = to.iter_mut().zip(f).zip(own);
-            forces.for_each(|((to, f), ((d, support), k))| *to = f - k * (d - support));
-            return;
-        }
-        for (a, flat) in self.links.active.iter().enumerate() {
-            to[a] = f[*flat] - self.dummy_k[a] * (d[*flat] - support[*flat]);
+        let Layout { links, dummy_k, .. } = &self.layout;
+        for (a, flat) in links.active.iter().enumerate() {
+            to[a] = f[*flat] - dummy_k[a] * (d[*flat] - support[*flat]);
         }
     }
 
-    /// Solves the link equations at what was [wanted](Self::wanted); `out.pseudo` holds the start value on entry.
-    /// The rates of coordinates whose law does not look at them stay as they are predicted.
+    /// Solves the link equations at what was [wanted](Self::wanted), from these pseudo-forces, at which that was
+    /// predicted. The rates of coordinates whose law does not look at them are left to the caller.
     pub(crate) fn solve(
         &mut self,
+        pseudo: &[f64],
         affine: &Affine<'_>,
         from: &Committed<'_>,
         scale: &ForceScale,
         out: &mut Converged<'_>,
     ) -> Result<(), NoEquilibrium> {
-        self.begin();
+        self.begin(pseudo);
+        if self.foresee(affine, from, out) {
+            self.follow(affine);
+        }
         while !self.advance(affine, from, scale, out)? {
-            if let Some((change, d)) = self.change(affine.h) {
-                affine.g.mul_add(-1.0, change, d);
-            }
+            self.follow(affine);
         }
         Ok(())
     }
 
-    /// Takes up the link equations of a step.
-    pub(crate) fn begin(&mut self) {
+    /// Lets deformations and rates follow the last change of f̃.
+    fn follow(&mut self, affine: &Affine<'_>) {
+        if let Some((change, d)) = self.change(affine.h) {
+            affine.g.mul_add(-1.0, change, d);
+        }
+    }
+
+    /// Takes up the link equations of a step, with these pseudo-forces.
+    pub(crate) fn begin(&mut self, pseudo: &[f64]) {
         self.search.reset();
+        self.unknowns.parts()[0].copy_from_slice(pseudo);
         (self.iteration, self.size_before, self.expected) = (0, f64::INFINITY, false);
     }
 
@@ -288,7 +256,7 @@ impl<'a> LinkKernel<'a> {
         if self.iteration == 0 && self.kind == Kernel::Newton {
             out.unforeseen.note(from.unforeseen, affine.key, &self.residual, self.expected);
         }
-        let (size, worst) = self.measure(out, scale, self.iteration);
+        let (size, worst) = self.measure(out, scale);
         if size <= 1.0 {
             self.end(from, out);
             return Ok(true);
@@ -305,10 +273,16 @@ impl<'a> LinkKernel<'a> {
                 for (x, step) in self.residual.iter_mut().zip(&self.search.step) {
                     *x = -back * step;
                 }
-                self.take(out);
+                self.take();
                 return Ok(false);
             }
-            self.newton_correction(affine, out.tangents, size > CONTRACTS * self.size_before);
+            let slow = size > CONTRACTS * self.size_before;
+            if self.iteration == 1 {
+                // Nobody asks how far the first step goes.
+                self.size_before = size;
+                return if self.go(affine, out.tangents, slow) { Ok(false) } else { Err(worst) };
+            }
+            self.correct(affine, out.tangents, slow);
             let may_settle = self.iteration >= ROUNDING_FROM && size <= ROUNDING;
             let step = step(self.followed, &self.correction, &self.residual);
             if may_settle && size * largest(step) <= SETTLED * before {
@@ -320,30 +294,28 @@ impl<'a> LinkKernel<'a> {
         if self.iteration > 1 {
             self.search.goes(step(self.followed, &self.correction, &self.residual));
         }
-        self.take(out);
+        self.take();
         Ok(false)
     }
 
     /// The laws end the step where they were asked last.
     fn end(&mut self, from: &Committed<'_>, out: &mut Converged<'_>) {
         if self.plain {
-            out.d.copy_from_slice(&self.d);
-            out.v.copy_from_slice(&self.v);
+            out.d.copy_from_slice(self.unknowns.d());
+            out.v.copy_from_slice(self.unknowns.v());
         }
+        out.pseudo.copy_from_slice(self.unknowns.pseudo());
         let at = Kinematics { d: out.d, v: out.v, d0: from.d, v0: from.v, dt: from.dt };
         self.laws.end(at, out.history, out.energy);
     }
 
     /// f̃ takes the step, and what follows it already.
-    fn take(&mut self, out: &mut Converged<'_>) {
-        if !self.followed {
-            return add(out.pseudo, &self.residual);
+    fn take(&mut self) {
+        if self.followed {
+            self.unknowns.add(&self.correction);
+        } else {
+            add(self.unknowns.parts()[0], &self.residual);
         }
-        let (step, follows) = self.correction.split_at(self.residual.len());
-        let (d, v) = follows.split_at(self.d.len());
-        add(out.pseudo, step);
-        add(&mut self.d, d);
-        self.rated.iter().zip(v).for_each(|(a, change)| self.v[*a] += change);
     }
 
     /// The last change of f̃, and the deformations of the active coordinates, which must follow it by
@@ -352,24 +324,24 @@ impl<'a> LinkKernel<'a> {
         if self.followed {
             return None;
         }
-        self.change_rates(h);
-        Some((&self.residual, &mut self.d))
-    }
-
-    fn change_rates(&mut self, h: &Dense) {
-        if self.rated.len() == self.v.len() {
-            h.mul_add(-1.0, &self.residual, &mut self.v);
+        let Self { unknowns, residual, layout, .. } = self;
+        let [_, d, v] = unknowns.parts();
+        if v.len() == residual.len() {
+            h.mul_add(-1.0, residual, v);
         } else {
             // The compliances are symmetric.
-            for a in &self.rated {
-                self.v[*a] -= h.column_dot(*a, &self.residual);
+            for (v, a) in v.iter_mut().zip(&layout.rated) {
+                *v -= h.column_dot(*a, residual);
             }
         }
+        Some((residual, d))
     }
 
     /// Deformations and rates of all coordinates, where the own ones are not those.
     fn deform(&mut self, affine: &Affine<'_>, out: &mut Converged<'_>) {
-        self.plain = self.complete && affine.support.is_none();
+        let Layout { links, complete, rated, .. } = &self.layout;
+        self.unknowns.place_rates(rated);
+        self.plain = *complete && affine.support.is_none();
         if self.plain {
             return;
         }
@@ -383,7 +355,7 @@ impl<'a> LinkKernel<'a> {
                 out.v.fill(0.0);
             }
         }
-        for ((flat, d), v) in self.links.active.iter().zip(&self.d).zip(&self.v) {
+        for ((flat, d), v) in links.active.iter().zip(self.unknowns.d()).zip(self.unknowns.v()) {
             out.d[*flat] += d;
             out.v[*flat] += v;
         }
@@ -392,47 +364,73 @@ impl<'a> LinkKernel<'a> {
     /// Laws and residual at the present deformations.
     fn evaluate(&mut self, affine: &Affine<'_>, from: &Committed<'_>, out: &mut Converged<'_>) {
         self.deform(affine, out);
-        let [d, v] = choose(self.plain, [&self.d, &self.v], [out.d, out.v]);
+        let [d, v] = choose(self.plain, &self.unknowns, [out.d, out.v]);
         let at = Kinematics { d, v, d0: from.d, v0: from.v, dt: from.dt };
         if self.iteration == 0 {
             self.laws.start(at, from.history);
         }
         self.laws.respond(at, from.history, out.history, out.f, out.tangents, out.energy);
-        self.sizes = self.leave(out.f, out.pseudo);
+        self.sizes = self.leave(out.f);
     }
 
     /// The residual of forces, flat, against pseudo-forces at the present deformations, and the largest of all
     /// three.
-    fn leave(&mut self, f: &[f64], pseudo: &[f64]) -> [f64; 3] {
-        let Self { dummy_k, d, residual: r, correction: own, .. } = self;
-        if self.complete {
-            return residual(f, dummy_k, d, pseudo, r);
+    fn leave(&mut self, f: &[f64]) -> [f64; 3] {
+        let Self { layout, unknowns, residual: r, correction: own, .. } = self;
+        let (pseudo, d) = (unknowns.pseudo(), unknowns.d());
+        if layout.complete {
+            return residual(f, &layout.dummy_k, d, pseudo, r);
         }
         own.clear();
-        own.extend(self.links.active.iter().map(|flat| f[*flat]));
-        let [left, _, pseudo] = residual(own, dummy_k, d, pseudo, r);
+        own.extend(layout.links.active.iter().map(|flat| f[*flat]));
+        let [left, _, pseudo] = residual(own, &layout.dummy_k, d, pseudo, r);
         [left, largest(f), pseudo]
     }
 
-    /// From the residual to the Newton correction of f̃.
-    fn newton_correction(&mut self, affine: &Affine<'_>, tangents: &Tangents, slow: bool) {
-        let chord = self.links.active.len() >= CHORD_FROM && !slow;
-        let mut factors = std::mem::take(&mut self.factors);
-        let of = self.equations(affine.g, affine.h, affine.key);
+    /// The factor for a step from the start or from the last iteration; `slow`: that the last one brought little.
+    fn factor(&mut self, affine: &Affine<'_>, tangents: &Tangents, slow: bool) -> Parts<'_> {
+        let Self { layout, factors, residual, correction, unknowns, .. } = self;
+        let Affine { g, h, key, .. } = affine;
+        let chord = layout.links.active.len() >= CHORD_FROM && !slow;
+        let of = Equations { layout, g, h, key: *key };
         let factor = factors.take(of, tangents, |kept| chord || kept.tangents == *tangents);
-        self.followed = factor.correct(&mut self.residual, &mut self.correction);
-        self.factors = factors;
+        Parts { factor, residual, correction, unknowns }
     }
 
-    fn equations<'e>(&'e self, g: &'e Dense, h: &'e Dense, key: StepKey) -> Equations<'e> {
-        let Self { links, place, dummy_k, rated, .. } = self;
-        Equations { links, place, dummy_k, rated, g, h, key }
+    /// From the residual to the Newton correction of f̃.
+    fn correct(&mut self, affine: &Affine<'_>, tangents: &Tangents, slow: bool) {
+        let Parts { factor, residual, correction, .. } = self.factor(affine, tangents, slow);
+        self.followed = factor.correct(residual, correction);
+    }
+
+    /// The same, and f̃ takes it at once; false where the equations are singular.
+    fn go(&mut self, affine: &Affine<'_>, tangents: &Tangents, slow: bool) -> bool {
+        let Parts { factor, residual, correction, unknowns } = self.factor(affine, tangents, slow);
+        if !factor.is_sound() {
+            self.factors.forget(affine.key);
+            return false;
+        }
+        let followed = factor.go(residual, unknowns.row());
+        if !followed {
+            factor.correct(residual, correction);
+            add(unknowns.parts()[0], residual);
+        }
+        self.followed = followed;
+        true
     }
 }
 
+/// What a correction needs of a kernel.
+struct Parts<'a> {
+    factor: &'a Factor,
+    residual: &'a mut Vec<f64>,
+    correction: &'a mut Vec<f64>,
+    unknowns: &'a mut Unknowns,
+}
+
 /// Deformations and rates of all coordinates: the own ones where those are `plain`.
-fn choose<'a>(plain: bool, own: [&'a [f64]; 2], all: [&'a [f64]; 2]) -> [&'a [f64]; 2] {
-    if plain { own } else { all }
+fn choose<'a>(plain: bool, own: &'a Unknowns, all: [&'a [f64]; 2]) -> [&'a [f64]; 2] {
+    if plain { [own.d(), own.v()] } else { all }
 }
 
 /// The last change of f̃: at the front of what a factor gave where deformations follow it already, else in place of the

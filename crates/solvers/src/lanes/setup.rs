@@ -151,7 +151,8 @@ pub fn prepare(
         return Ok(Err("no basis"));
     };
     let modes = modes(model, system, &loads, &bases);
-    let side = link_side(model, system, &analysis.solution, &loads, modes.space.order());
+    let order = modes.space.order();
+    let side = link_side(model, system, &analysis.solution, &loads, order, true);
     let mut stepper = LinkStepper::new(Modal::new(modes), side);
     let dt = analysis.dt;
     let (state, _, _, _) = start(model, system, analysis, before, &loads, &mut stepper, dt)?;

@@ -17,7 +17,7 @@ use crate::propagator::StepKey;
 use crate::start::start;
 use crate::stepper::LinkStepper;
 use crate::timeline::Timeline;
-use crate::view::Viewer;
+use crate::view::{Viewer, looks_at_rates};
 use course::Course;
 use trilith_model::{Analysis, Case, DynamicCase, Model, SolverKind, StepControl};
 use trilith_system::{LoadSet, System};
@@ -148,7 +148,9 @@ fn march<O: Observer>(
     let mut courses = Vec::new();
     for (entrant, watcher) in group.iter().zip(&mut watchers) {
         let Entrant { member: Member { model, system }, analysis, loads, before, .. } = entrant;
-        let side = link_side(model, system, &analysis.solution, loads, modes.space.order());
+        let watched = looks_at_rates(model, system, watcher.iter().any(|o| o.wants_rates()));
+        let order = modes.space.order();
+        let side = link_side(model, system, &analysis.solution, loads, order, watched);
         let mut stepper = LinkStepper::new(Modal::new(modes), side);
         let (state, pace, ledger, _) =
             start(model, system, analysis, before.clone(), loads, &mut stepper, dt)?;

@@ -1,0 +1,98 @@
+//! Which coordinates the link equations are about.
+
+use crate::vector::add;
+use trilith_system::{Laws, LinkSet};
+
+/// The active link coordinates of a model, and what is known of each.
+pub(crate) struct Layout<'a> {
+    pub links: &'a LinkSet,
+    /// Dummy stiffness of the active coordinates.
+    pub dummy_k: Vec<f64>,
+    /// Active coordinates of laws that look at rates.
+    pub rated: Vec<usize>,
+    /// Active and flat index of the others: the [kernel](super::LinkKernel) leaves their rates to its caller.
+    pub unrated: Vec<(usize, usize)>,
+    /// Active index of each flat coordinate; none of the fixed ones.
+    pub place: Vec<Option<usize>>,
+    /// Index of the link of each active coordinate.
+    pub owner: Vec<usize>,
+    /// True where all coordinates are active.
+    pub complete: bool,
+}
+
+impl<'a> Layout<'a> {
+    /// `dummy_k`: of the active coordinates.
+    pub fn new(links: &'a LinkSet, laws: &Laws<'a>, dummy_k: Vec<f64>) -> Self {
+        let n = links.active.len();
+        let mut place = vec![None; links.len()];
+        for (a, flat) in links.active.iter().enumerate() {
+            place[*flat] = Some(a);
+        }
+        let (mut owner, mut rated, mut unrated) = (vec![0; n], Vec::new(), Vec::new());
+        for (l, (law, link)) in laws.iter().enumerate() {
+            for a in link.range.clone().filter_map(|flat| place[flat]) {
+                owner[a] = l;
+                if law.uses_rates() { rated.push(a) } else { unrated.push((a, links.active[a])) }
+            }
+        }
+        let complete = n == links.len();
+        Self { links, dummy_k, rated, unrated, place, owner, complete }
+    }
+}
+
+/// What the link equations move, in one row: f̃ of the active coordinates, their deformations, and the rates that
+/// laws look at. A factor of few coordinates moves all of it in one product.
+pub(super) struct Unknowns {
+    /// Number of active coordinates.
+    n: usize,
+    /// Number of rates that laws look at.
+    rated: usize,
+    /// The row, with zeros behind it that fill up whole vectors.
+    row: Vec<f64>,
+    /// Rates of all active coordinates; zero where no law looks at them.
+    v: Vec<f64>,
+}
+
+impl Unknowns {
+    pub fn new(n: usize, rated: usize) -> Self {
+        let filled = (2 * n + rated).next_multiple_of(trilith_linalg::Panel::GRAIN);
+        Self { n, rated, row: vec![0.0; filled], v: vec![0.0; n] }
+    }
+
+    /// f̃, deformations and looked-at rates.
+    pub fn parts(&mut self) -> [&mut [f64]; 3] {
+        let (pseudo, rest) = self.row.split_at_mut(self.n);
+        let (d, v) = rest.split_at_mut(self.n);
+        [pseudo, d, &mut v[..self.rated]]
+    }
+
+    pub fn pseudo(&self) -> &[f64] {
+        &self.row[..self.n]
+    }
+
+    /// Deformations.
+    pub fn d(&self) -> &[f64] {
+        &self.row[self.n..2 * self.n]
+    }
+
+    /// Rates of all active coordinates as they were [placed](Self::place_rates).
+    pub fn v(&self) -> &[f64] {
+        &self.v
+    }
+
+    /// Puts the rates that laws look at where they belong among those of all coordinates.
+    pub fn place_rates(&mut self, rated: &[usize]) {
+        let v = &self.row[2 * self.n..];
+        rated.iter().zip(v).for_each(|(a, v)| self.v[*a] = *v);
+    }
+
+    /// The whole row, as a product moves it.
+    pub fn row(&mut self) -> &mut [f64] {
+        &mut self.row
+    }
+
+    /// Adds a change of the whole row.
+    pub fn add(&mut self, change: &[f64]) {
+        add(&mut self.row, change);
+    }
+}
