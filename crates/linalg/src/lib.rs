@@ -6,14 +6,14 @@
 //! | nalgebra-sparse | storage of sparse matrices |
 //! | sprs | Matrix Market export |
 //! | faer | sparse LDLᵀ and LU, dense LU, symmetric eigenproblems, products of dense matrices |
-//! | pulp | products of a dense matrix and a vector, sums over modes, differences, as wide as the processor allows |
+//! | pulp | products of a dense matrix and a vector, sums over modes, extrapolations, as wide as the processor allows |
 //!
 //! Everything runs on one thread, so that results repeat bit for bit.
 
 mod dense;
-mod differences;
 mod eigen;
 mod expm;
+mod extrapolation;
 mod gemv;
 mod ldlt;
 mod lu;
@@ -27,9 +27,9 @@ mod tall;
 mod vector;
 
 pub use dense::{Dense, DenseLu};
-pub use differences::backward_differences;
 pub use eigen::{all_modes, lowest_modes, symmetric_eigen};
 pub use expm::{expm, expm_small};
+pub use extrapolation::extrapolate;
 pub use ldlt::{Ldlt, StagedLdlt, StagedPlan, unsupported};
 pub use lu::SparseLu;
 pub use matrix_market::matrix_market;

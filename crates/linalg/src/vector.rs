@@ -34,15 +34,16 @@ pub fn largest(x: &[f64]) -> f64 {
     of(of(a, b), of(c, d)) + check.iter().sum::<f64>()
 }
 
-/// `r = f − k d − x`, element by element, and the [`largest`] magnitudes of r, f and x; those of f and x may be
+/// `r = f − k d − x`, element by element, and as `sizes` the [`largest`] magnitudes of r, f and x; those of f and x may be
 /// anything where r holds what is not finite.
 ///
 /// # Panics
 /// Where the lengths differ.
-pub fn residual(f: &[f64], k: &[f64], d: &[f64], x: &[f64], r: &mut [f64]) -> [f64; 3] {
+#[inline]
+pub fn residual(f: &[f64], k: &[f64], d: &[f64], x: &[f64], r: &mut [f64], sizes: &mut [f64; 3]) {
     let n = r.len();
     assert!(f.len() == n && k.len() == n && d.len() == n && x.len() == n, "lengths of a residual");
-    dispatch(Residual { f, k, d, x, r })
+    dispatch(Residual { f, k, d, x, r, sizes });
 }
 
 /// `x += change`, element by element.
@@ -124,13 +125,14 @@ struct Residual<'a> {
     d: &'a [f64],
     x: &'a [f64],
     r: &'a mut [f64],
+    sizes: &'a mut [f64; 3],
 }
 
 impl WithSimd for Residual<'_> {
-    type Output = [f64; 3];
+    type Output = ();
 
     #[inline(always)]
-    fn with_simd<S: Simd>(self, simd: S) -> [f64; 3] {
+    fn with_simd<S: Simd>(self, simd: S) {
         let n = self.r.len();
         let ((f, fe), (k, ke)) = (S::as_simd_f64s(&self.f[..n]), S::as_simd_f64s(&self.k[..n]));
         let ((d, de), (x, xe)) = (S::as_simd_f64s(&self.d[..n]), S::as_simd_f64s(&self.x[..n]));
@@ -156,7 +158,7 @@ impl WithSimd for Residual<'_> {
             of_x = of_x.max(xe[i].abs());
             check += re[i] * 0.0;
         }
-        [of_r + check, of_f, of_x]
+        *self.sizes = [of_r + check, of_f, of_x];
     }
 }
 
@@ -171,7 +173,8 @@ mod tests {
             let x: Vec<Vec<f64>> =
                 (0..4).map(|k| (0..n).map(|i| number(i + 31 * k)).collect()).collect();
             let mut r = vec![9.0; n];
-            let sizes = residual(&x[0], &x[1], &x[2], &x[3], &mut r);
+            let mut sizes = [f64::NAN; 3];
+            residual(&x[0], &x[1], &x[2], &x[3], &mut r, &mut sizes);
             for i in 0..n {
                 assert_eq!(r[i], x[0][i] - x[1][i] * x[2][i] - x[3][i]);
             }
@@ -179,13 +182,14 @@ mod tests {
             for at in 0..n {
                 let (mut f, mut y) = (x[0].clone(), x[3].clone());
                 (f[at], y[at]) = (-7.0, 8.0);
-                let sizes = residual(&f, &x[1], &x[2], &y, &mut r);
+                residual(&f, &x[1], &x[2], &y, &mut r, &mut sizes);
                 assert_eq!(sizes, [largest(&r), 7.0, 8.0], "{n} {at}");
             }
             if n > 0 {
                 let mut broken = x[0].clone();
                 broken[n / 2] = f64::NAN;
-                assert!(residual(&broken, &x[1], &x[2], &x[3], &mut r)[0].is_nan());
+                residual(&broken, &x[1], &x[2], &x[3], &mut r, &mut sizes);
+                assert!(sizes[0].is_nan());
             }
         }
     }

@@ -181,11 +181,12 @@ impl<'a> StepLaws<'a> {
     }
 
     /// Forces and tangents at (d, v) in the step taken up last; history and energies may wait for the
-    /// [end](Self::end). `tangents` are [those](LinkSet::tangents) that nobody else writes: what is zero at all
+    /// [end](Self::end); `last`: whether the step may well end here. `tangents` are [those](LinkSet::tangents) that nobody else writes: what is zero at all
     /// times stays as it is.
     pub fn respond(
         &mut self,
         at: Kinematics<'_>,
+        last: bool,
         committed: &[f64],
         trial: &mut [f64],
         f: &mut [f64],
@@ -193,7 +194,7 @@ impl<'a> StepLaws<'a> {
         energy: &mut [Energy],
     ) {
         self.dampers.iter().for_each(|damper| damper.force(&at, f, tangents));
-        self.packs.iter_mut().for_each(|pack| pack.force(&at, f, tangents));
+        self.packs.iter_mut().for_each(|pack| pack.force(&at, last, f, tangents));
         for i in &self.alone {
             let energy = &mut energy[*i];
             self.laws.respond_one(*i, at, committed, trial, f, tangents, energy);

@@ -47,6 +47,16 @@ pub trait Arithmetic: Copy + Send + Sync {
     /// The number of one lane.
     fn lane(self, x: Self::Real, lane: usize) -> f64;
 
+    /// The first and the second numbers of [`WIDTH`](Self::WIDTH) pairs that lie one after the other, two numbers for
+    /// each lane; lanes come in an order of their own, from which [`join_pairs`](Self::join_pairs) goes back.
+    ///
+    /// # Panics
+    /// Where there are fewer.
+    fn split_pairs(self, from: &[f64]) -> [Self::Real; 2];
+
+    /// The pairs of all lanes, one after the other; behind them, where there are fewer than eight lanes, zeros.
+    fn join_pairs(self, x: [Self::Real; 2]) -> [f64; 16];
+
     /// Forces and tangents of links of one law.
     fn force(self, law: &ErasedLaw, links: &mut LaneLinks<'_, Self::Real>);
 
@@ -98,6 +108,16 @@ impl Arithmetic for Portable {
     #[inline(always)]
     fn lane(self, x: f64, _: usize) -> f64 {
         x
+    }
+    #[inline(always)]
+    fn split_pairs(self, from: &[f64]) -> [f64; 2] {
+        [from[0], from[1]]
+    }
+    #[inline(always)]
+    fn join_pairs(self, [x, y]: [f64; 2]) -> [f64; 16] {
+        let mut pairs = [0.0; 16];
+        (pairs[0], pairs[1]) = (x, y);
+        pairs
     }
     #[inline(always)]
     fn force(self, law: &ErasedLaw, links: &mut LaneLinks<'_, f64>) {
@@ -169,6 +189,14 @@ impl Arithmetic for FusedOne {
         x.0
     }
     #[inline(always)]
+    fn split_pairs(self, from: &[f64]) -> [Fused; 2] {
+        [Fused(from[0]), Fused(from[1])]
+    }
+    #[inline(always)]
+    fn join_pairs(self, [x, y]: [Fused; 2]) -> [f64; 16] {
+        Portable.join_pairs([x.0, y.0])
+    }
+    #[inline(always)]
     fn force(self, law: &ErasedLaw, links: &mut LaneLinks<'_, Fused>) {
         (law.fused.force)(self, links);
     }
@@ -236,6 +264,15 @@ macro_rules! eight_lanes {
             #[inline(always)]
             fn lane(self, x: Self::Real, lane: usize) -> f64 {
                 x.lanes()[lane]
+            }
+            #[inline(always)]
+            fn split_pairs(self, from: &[f64]) -> [Self::Real; 2] {
+                let pairs = from.first_chunk().expect("eight pairs");
+                Wide::split_pairs(self.0, pairs)
+            }
+            #[inline(always)]
+            fn join_pairs(self, x: [Self::Real; 2]) -> [f64; 16] {
+                Wide::join_pairs(x)
             }
             #[inline(always)]
             fn force(self, law: &ErasedLaw, links: &mut LaneLinks<'_, Self::Real>) {

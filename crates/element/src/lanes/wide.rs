@@ -158,6 +158,29 @@ impl<S: Simd, const K: usize> Wide<S, K> {
         Self { simd, x: [simd.splat_f64s(x); K] }
     }
 
+    /// Eight pairs, their first numbers and their second.
+    #[inline(always)]
+    pub(super) fn split_pairs(simd: S, pairs: &[f64; 16]) -> [Self; 2] {
+        let pairs: &[S::f64s] = bytemuck::cast_slice(pairs);
+        let mut both = [Self::splat(simd, 0.0); 2];
+        for k in 0..K {
+            let [x, y] = simd.deinterleave_shfl_f64s([pairs[2 * k], pairs[2 * k + 1]]);
+            (both[0].x[k], both[1].x[k]) = (x, y);
+        }
+        both
+    }
+
+    #[inline(always)]
+    pub(super) fn join_pairs([first, second]: [Self; 2]) -> [f64; 16] {
+        let mut all = [0.0; 16];
+        let pairs: &mut [S::f64s] = bytemuck::cast_slice_mut(&mut all);
+        for k in 0..K {
+            let two = first.simd.interleave_shfl_f64s([first.x[k], second.x[k]]);
+            (pairs[2 * k], pairs[2 * k + 1]) = (two[0], two[1]);
+        }
+        all
+    }
+
     #[inline(always)]
     fn by_one(self, f: impl Fn(S, S::f64s) -> S::f64s) -> Self {
         let mut x = self.x;

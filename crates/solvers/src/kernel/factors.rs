@@ -1,6 +1,7 @@
 //! The kept factors of the link equations, one for each rule of a step.
 
 use super::Layout;
+use super::layout::Unknowns;
 use crate::propagator::StepKey;
 use serde::{Deserialize, Serialize};
 use trilith_linalg::{Dense, DenseLu, Panel, Product};
@@ -170,7 +171,7 @@ impl Factor {
         self.sound
     }
 
-    /// Moves a row of [unknowns](super::layout::Unknowns) by the correction of these residuals, and what follows from
+    /// Moves a row of [`Unknowns`] by the correction of these residuals, and what follows from
     /// it; false where they are too many for that, and nothing has moved.
     pub fn go(&self, residual: &[f64], row: &mut [f64]) -> bool {
         self.all.as_ref().map(|all| all.add_times(residual, row)).is_some()
@@ -178,7 +179,7 @@ impl Factor {
 
     /// Replaces the residuals of the active coordinates by the corrections; those without an equation stay.
     /// True where the residuals stay and the corrections stand in `space`, with the changes of deformations and of
-    /// looked-at rates behind them, as in a row of [unknowns](super::layout::Unknowns).
+    /// looked-at rates, as in a row of [`Unknowns`].
     pub fn correct(&self, residual: &mut [f64], space: &mut Vec<f64>) -> bool {
         if let Some(all) = &self.all {
             space.clear();
@@ -195,7 +196,7 @@ impl Factor {
     }
 }
 
-/// C of all coordinates, −G C, and the rows of −H C that are looked at, one above the other.
+/// −G C, the rows of −H C that are looked at, and C of all coordinates, as they lie in a row of [`Unknowns`].
 fn with_what_follows(
     equations: &[usize],
     correct: &Dense,
@@ -209,13 +210,14 @@ fn with_what_follows(
         (0..n).for_each(|b| whole[(*a, b)] = correct[(e, b)]);
     }
     let (d, v) = (g.times(&whole), h.times(&whole));
-    let mut all = Dense::zeros(2 * n + rated.len(), n);
+    let pseudo = Unknowns::place_of_pseudo(n, rated.len());
+    let mut all = Dense::zeros(pseudo + n, n);
     for j in 0..n {
-        let (own, others) = all.column_mut(j).split_at_mut(n);
+        let (follows, own) = all.column_mut(j).split_at_mut(pseudo);
         own.copy_from_slice(whole.column(j));
         let rates = rated.iter().map(|a| v[(*a, j)]);
-        let follows = d.column(j).iter().copied().chain(rates);
-        others.iter_mut().zip(follows).for_each(|(x, y)| *x = -y);
+        let changes = d.column(j).iter().copied().chain(rates);
+        follows.iter_mut().zip(changes).for_each(|(x, y)| *x = -y);
     }
     all
 }

@@ -1,6 +1,7 @@
 //! Which coordinates the link equations are about.
 
 use crate::vector::add;
+use trilith_linalg::Panel;
 use trilith_system::{Laws, LinkSet};
 
 /// The active link coordinates of a model, and what is known of each.
@@ -40,14 +41,15 @@ impl<'a> Layout<'a> {
     }
 }
 
-/// What the link equations move, in one row: f̃ of the active coordinates, their deformations, and the rates that
-/// laws look at. A factor of few coordinates moves all of it in one product.
+/// What the link equations move, in one row: deformations of the active coordinates, the rates that laws look at, and
+/// f̃. A factor of few coordinates moves all of it in one product.
+///
+/// Deformations and f̃ begin where whole vectors do: what one product stores in vectors the next reads again in the same.
 pub(super) struct Unknowns {
     /// Number of active coordinates.
     n: usize,
     /// Number of rates that laws look at.
     rated: usize,
-    /// The row, with zeros behind it that fill up whole vectors.
     row: Vec<f64>,
     /// Rates of all active coordinates; zero where no law looks at them.
     v: Vec<f64>,
@@ -55,24 +57,36 @@ pub(super) struct Unknowns {
 
 impl Unknowns {
     pub fn new(n: usize, rated: usize) -> Self {
-        let filled = (2 * n + rated).next_multiple_of(trilith_linalg::Panel::GRAIN);
+        let length = Self::place_of_pseudo(n, rated) + n;
+        let filled = length.next_multiple_of(Panel::GRAIN);
         Self { n, rated, row: vec![0.0; filled], v: vec![0.0; n] }
     }
 
-    /// f̃, deformations and looked-at rates.
+    /// Where f̃ begins in a row of so many coordinates and rates.
+    pub fn place_of_pseudo(n: usize, rated: usize) -> usize {
+        n + rated
+    }
+
+    /// Deformations, looked-at rates and f̃.
     pub fn parts(&mut self) -> [&mut [f64]; 3] {
-        let (pseudo, rest) = self.row.split_at_mut(self.n);
-        let (d, v) = rest.split_at_mut(self.n);
-        [pseudo, d, &mut v[..self.rated]]
+        let Self { n, rated, .. } = *self;
+        let (moves, pseudo) = self.row.split_at_mut(Self::place_of_pseudo(n, rated));
+        let (d, v) = moves.split_at_mut(n);
+        [d, &mut v[..rated], &mut pseudo[..n]]
+    }
+
+    /// f̃ in a row.
+    pub fn pseudo_of<'r>(&self, row: &'r [f64]) -> &'r [f64] {
+        &row[Self::place_of_pseudo(self.n, self.rated)..][..self.n]
     }
 
     pub fn pseudo(&self) -> &[f64] {
-        &self.row[..self.n]
+        self.pseudo_of(&self.row)
     }
 
     /// Deformations.
     pub fn d(&self) -> &[f64] {
-        &self.row[self.n..2 * self.n]
+        &self.row[..self.n]
     }
 
     /// Rates of all active coordinates as they were [placed](Self::place_rates).
@@ -82,7 +96,7 @@ impl Unknowns {
 
     /// Puts the rates that laws look at where they belong among those of all coordinates.
     pub fn place_rates(&mut self, rated: &[usize]) {
-        let v = &self.row[2 * self.n..];
+        let v = &self.row[self.n..];
         rated.iter().zip(v).for_each(|(a, v)| self.v[*a] = *v);
     }
 

@@ -174,7 +174,7 @@ impl<'a> LinkKernel<'a> {
     /// What the next step must know before it begins: where deformations and rates of the active coordinates go
     /// at the start value of f̃.
     pub(crate) fn wanted(&mut self) -> Wanted<'_> {
-        let [_, d, v] = self.unknowns.parts();
+        let [d, v, _] = self.unknowns.parts();
         Wanted { d, v, rated: &self.layout.rated }
     }
 
@@ -234,7 +234,7 @@ impl<'a> LinkKernel<'a> {
     /// Takes up the link equations of a step, with these pseudo-forces.
     pub(crate) fn begin(&mut self, pseudo: &[f64]) {
         self.search.reset();
-        self.unknowns.parts()[0].copy_from_slice(pseudo);
+        self.unknowns.parts()[2].copy_from_slice(pseudo);
         (self.iteration, self.size_before, self.expected) = (0, f64::INFINITY, false);
     }
 
@@ -284,7 +284,7 @@ impl<'a> LinkKernel<'a> {
             }
             self.correct(affine, out.tangents, slow);
             let may_settle = self.iteration >= ROUNDING_FROM && size <= ROUNDING;
-            let step = step(self.followed, &self.correction, &self.residual);
+            let step = self.step();
             if may_settle && size * largest(step) <= SETTLED * before {
                 self.end(from, out);
                 return Ok(true);
@@ -292,7 +292,11 @@ impl<'a> LinkKernel<'a> {
         }
         self.size_before = size;
         if self.iteration > 1 {
-            self.search.goes(step(self.followed, &self.correction, &self.residual));
+            let step = match self.followed {
+                true => self.unknowns.pseudo_of(&self.correction),
+                false => &self.residual,
+            };
+            self.search.goes(step);
         }
         self.take();
         Ok(false)
@@ -314,8 +318,14 @@ impl<'a> LinkKernel<'a> {
         if self.followed {
             self.unknowns.add(&self.correction);
         } else {
-            add(self.unknowns.parts()[0], &self.residual);
+            add(self.unknowns.parts()[2], &self.residual);
         }
+    }
+
+    /// The last change of f̃: in the row that a factor gave where deformations have followed it already, else in place of
+    /// the residual.
+    fn step(&self) -> &[f64] {
+        if self.followed { self.unknowns.pseudo_of(&self.correction) } else { &self.residual }
     }
 
     /// The last change of f̃, and the deformations of the active coordinates, which must follow it by
@@ -325,7 +335,7 @@ impl<'a> LinkKernel<'a> {
             return None;
         }
         let Self { unknowns, residual, layout, .. } = self;
-        let [_, d, v] = unknowns.parts();
+        let [d, v, _] = unknowns.parts();
         if v.len() == residual.len() {
             h.mul_add(-1.0, residual, v);
         } else {
@@ -369,22 +379,22 @@ impl<'a> LinkKernel<'a> {
         if self.iteration == 0 {
             self.laws.start(at, from.history);
         }
-        self.laws.respond(at, from.history, out.history, out.f, out.tangents, out.energy);
-        self.sizes = self.leave(out.f);
+        let last = self.iteration > 0;
+        self.laws.respond(at, last, from.history, out.history, out.f, out.tangents, out.energy);
+        self.leave(out.f);
     }
 
-    /// The residual of forces, flat, against pseudo-forces at the present deformations, and the largest of all
-    /// three.
-    fn leave(&mut self, f: &[f64]) -> [f64; 3] {
-        let Self { layout, unknowns, residual: r, correction: own, .. } = self;
+    /// The residual of forces, flat, against pseudo-forces at the present deformations, and the sizes of all three.
+    fn leave(&mut self, f: &[f64]) {
+        let Self { layout, unknowns, residual: r, correction: own, sizes, .. } = self;
         let (pseudo, d) = (unknowns.pseudo(), unknowns.d());
         if layout.complete {
-            return residual(f, &layout.dummy_k, d, pseudo, r);
+            return residual(f, &layout.dummy_k, d, pseudo, r, sizes);
         }
         own.clear();
         own.extend(layout.links.active.iter().map(|flat| f[*flat]));
-        let [left, _, pseudo] = residual(own, &layout.dummy_k, d, pseudo, r);
-        [left, largest(f), pseudo]
+        residual(own, &layout.dummy_k, d, pseudo, r, sizes);
+        sizes[1] = largest(f);
     }
 
     /// The factor for a step from the start or from the last iteration; `slow`: that the last one brought little.
@@ -413,7 +423,7 @@ impl<'a> LinkKernel<'a> {
         let followed = factor.go(residual, unknowns.row());
         if !followed {
             factor.correct(residual, correction);
-            add(unknowns.parts()[0], residual);
+            add(unknowns.parts()[2], residual);
         }
         self.followed = followed;
         true
@@ -431,10 +441,4 @@ struct Parts<'a> {
 /// Deformations and rates of all coordinates: the own ones where those are `plain`.
 fn choose<'a>(plain: bool, own: &'a Unknowns, all: [&'a [f64]; 2]) -> [&'a [f64]; 2] {
     if plain { [own.d(), own.v()] } else { all }
-}
-
-/// The last change of f̃: at the front of what a factor gave where deformations follow it already, else in place of the
-/// residual.
-fn step<'a>(followed: bool, correction: &'a [f64], residual: &'a [f64]) -> &'a [f64] {
-    if followed { &correction[..residual.len()] } else { residual }
 }

@@ -14,65 +14,67 @@
 use crate::propagator::StepKey;
 use crate::vector::add;
 use serde::{Deserialize, Serialize};
-use trilith_linalg::backward_differences;
+use trilith_linalg::{Panel, extrapolate};
 
 /// An expectation that leaves more than this share of what it is about is not worth it.
 const WORTH: f64 = 0.5;
-/// Differences that are kept, that of order 0 among them.
-const ORDERS: usize = 5;
+/// The highest order.
+const ORDERS: usize = 4;
 
 /// Residuals of the active link coordinates that the forces along the tangents left.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub(crate) struct Unforeseen {
     /// The steps that they are about.
     key: StepKey,
-    /// ∇⁰e, ∇¹e … of the last step, one after the other.
-    differences: Vec<f64>,
-    /// How many of them are known.
+    /// What each order expects of the next step, order by order; of so many coordinates each that they fill whole
+    /// vectors.
+    expected: Vec<f64>,
+    /// How many steps they come from, as far as that counts.
     known: usize,
-    /// What the next step expects; empty where it expects nothing.
-    hope: Vec<f64>,
+    /// The order that the next step goes by; 0 where it expects nothing.
+    order: usize,
 }
 
 impl Unforeseen {
     /// Adds what the next step expects; false where it expects nothing.
     pub fn expect(&self, key: StepKey, residual: &mut [f64]) -> bool {
-        let expects = self.key == key && self.hope.len() == residual.len();
-        if expects {
-            add(residual, &self.hope);
-        }
-        expects
+        let hope = self.hope(residual.len()).filter(|_| self.key == key);
+        hope.map(|hope| add(residual, hope)).is_some()
+    }
+
+    fn hope(&self, n: usize) -> Option<&[f64]> {
+        let filled = n.next_multiple_of(Panel::GRAIN);
+        let start = self.order.checked_sub(1)? * filled;
+        self.expected.get(start..start + n)
     }
 
     /// Becomes what the step after this one knows: `from` is what this one knew, and `residual` what its guess
     /// left; `expected`: whether the guess held what was to be expected.
     pub fn note(&mut self, from: &Self, key: StepKey, residual: &[f64], expected: bool) {
         let n = residual.len();
-        self.key = key;
-        self.differences.resize(ORDERS * n, 0.0);
-        let last = &mut self.differences[..n];
+        let filled = n.next_multiple_of(Panel::GRAIN);
+        (self.key, self.known, self.order) = (key, 1, 0);
+        self.expected.resize(ORDERS * filled, 0.0);
+        let last = &mut self.expected[..n];
         last.copy_from_slice(residual);
-        if expected {
-            add(last, &from.hope);
+        if expected && let Some(hope) = from.hope(n) {
+            add(last, hope);
         }
-        self.hope.clear();
-        self.known = 1;
-        if from.key != key || from.differences.len() != self.differences.len() {
-            self.differences[n..].fill(0.0);
+        if from.key != key || from.expected.len() != self.expected.len() || n == 0 {
+            self.expected[filled..].fill(0.0);
             return;
         }
-        self.known = from.known.saturating_add(1).min(ORDERS);
-        let mut missed = [0.0; ORDERS];
-        backward_differences(&from.differences, &mut self.differences, &mut missed);
-        let (mut order, mut least) = (0, WORTH * missed[0]);
-        for (p, missed) in missed.iter().enumerate().take(self.known).skip(1) {
+        self.known = from.known.saturating_add(1).min(ORDERS + 1);
+        let mut before = from.expected.chunks_exact(filled);
+        let before = [(); ORDERS].map(|()| before.next().unwrap_or_default());
+        let mut rows = self.expected.chunks_exact_mut(filled);
+        let rows = [(); ORDERS].map(|()| rows.next().unwrap_or_default());
+        let (size, misses) = extrapolate(before, rows);
+        let mut least = WORTH * size;
+        for (p, missed) in misses.iter().enumerate().take(self.known - 1) {
             if *missed < least {
-                (order, least) = (p, *missed);
+                (self.order, least) = (p + 1, *missed);
             }
-        }
-        if order > 0 {
-            self.hope.extend_from_slice(&self.differences[..n]);
-            self.differences[n..order * n].chunks_exact(n).for_each(|x| add(&mut self.hope, x));
         }
     }
 }
@@ -114,7 +116,8 @@ mod tests {
         // What alternates is worse foreseen by every higher order.
         let (known, left) = lead(&[1.0, 1.1, 1.0, 1.1, 1.0, 1.1]);
         assert!(left[2..].iter().all(|x| (x.abs() - 0.1).abs() < 1e-14), "{left:?}");
-        assert_eq!(known.hope, [1.1]);
+        assert_eq!(known.order, 1);
+        assert_eq!(known.hope(1), Some(&[1.1][..]));
     }
 
     #[test]

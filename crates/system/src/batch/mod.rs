@@ -3,15 +3,15 @@
 //! A law over lanes ([`LaneForm`](trilith_element::lanes::LaneForm)) answers for several links at once, and in two
 //! parts: the iteration of a step asks for forces only, history and energies follow once at its end.
 
+mod places;
+
 use crate::links::{LinkInstance, Tangents};
+use places::{Places, WIDTH, are_pairs, order_of_pairs};
 use std::fmt::Debug;
 use trilith_element::lanes::{Arithmetic, ErasedLaw, LaneForm, LaneLinks, LaneStep, Task};
 #[cfg(target_arch = "x86_64")]
 use trilith_element::lanes::{Avx2Lanes, Avx512Lanes};
 use trilith_element::{Energy, Kinematics, Link};
-
-/// Lanes of every arithmetic that has several.
-const WIDTH: usize = 8;
 
 /// Fewer links of one law are asked one by one.
 const WORTH_LANES: usize = 4;
@@ -19,22 +19,19 @@ const WORTH_LANES: usize = 4;
 /// Coordinates and history variables that a link of a pack has at most.
 const MOST: (usize, usize) = (3, 9);
 
-/// Where the numbers of the links of a pack begin in a flat array; lanes that are left repeat the last link.
-type Places = [usize; WIDTH];
-
 /// Links of one law that are asked together.
 pub(crate) trait Pack: Debug {
     /// Takes up a step from the deformations and rates at its start.
     fn start(&mut self, at: &Kinematics<'_>, committed: &[f64]);
 
-    /// Forces and tangents.
-    fn force(&mut self, at: &Kinematics<'_>, to: &mut [f64], tangents: &mut Tangents);
+    /// Forces and tangents; `last`: whether the step may well end here.
+    fn force(&mut self, at: &Kinematics<'_>, last: bool, to: &mut [f64], tangents: &mut Tangents);
 
     /// History and energies of the step at the forces asked for last.
     fn commit(&mut self, trial: &mut [f64], energy: &mut [Energy]);
 }
 
-/// As many links of one law as there are lanes, or fewer: then the others repeat the last one.
+/// As many links of one law as there are lanes, or fewer: then other lanes repeat some of them.
 #[derive(Debug)]
 struct Lanes<A: Arithmetic> {
     with: A,
@@ -58,7 +55,9 @@ struct Lanes<A: Arithmetic> {
     f: Vec<A::Real>,
     k: Vec<A::Real>,
     c: Vec<A::Real>,
+    /// What the end of the step does, and whether it came with the forces asked for last.
     step: LaneStep<A::Real>,
+    ended: bool,
 }
 
 type Laws<'a> = [(&'a dyn Link, &'a LinkInstance)];
@@ -118,20 +117,26 @@ fn packs_of<A: Arithmetic + Debug + 'static>(
 impl<A: Arithmetic + Debug + 'static> Lanes<A> {
     /// Of a group of links with their forms; none where there are none.
     fn new(with: A, laws: &Laws<'_>, group: &[usize], own: &[&LaneForm]) -> Option<Self> {
-        let (first, last) = (own.first()?, own.len() - 1);
-        let places = |start: fn(&LinkInstance) -> usize| -> Places {
-            std::array::from_fn(|lane| start(laws[group[lane.min(last)]].1))
+        let (first, count) = (own.first()?, own.len());
+        let starts = |start: fn(&LinkInstance) -> usize| -> Vec<usize> {
+            group.iter().map(|link| start(laws[*link].1)).collect()
         };
-        let parameter = |p: usize| with.gather(|lane| own[lane.min(last)].parameters[p]);
+        let coordinates = starts(|link| link.range.start);
+        let paired = first.law.coordinates == 2 && are_pairs(&coordinates);
+        let order = match paired {
+            true => order_of_pairs(with, count),
+            false => std::array::from_fn(|lane| lane.min(count - 1)),
+        };
+        let parameter = |p: usize| with.gather(|lane| own[order[lane]].parameters[p]);
         let (n, zero) = (first.law.coordinates, with.splat(0.0));
         Some(Self {
             with,
             law: first.law,
             rate: first.rate && group.iter().any(|j| laws[*j].0.uses_rates()),
             links: group.to_vec(),
-            coordinates: places(|link| link.range.start),
-            blocks: places(|link| link.block.start),
-            histories: places(|link| link.history.start),
+            coordinates: Places::new(coordinates, order, paired),
+            blocks: Places::new(starts(|link| link.block.start), order, false),
+            histories: Places::new(starts(|link| link.history.start), order, paired),
             parameters: (0..first.law.parameters).map(parameter).collect(),
             d: vec![zero; n],
             v: vec![zero; n],
@@ -144,53 +149,24 @@ impl<A: Arithmetic + Debug + 'static> Lanes<A> {
             k: vec![zero; n * n],
             c: vec![zero; n * n],
             step: LaneStep::elastic(zero),
+            ended: false,
         })
-    }
-}
-
-/// A row of lanes for each of the `N` numbers that the links have in a flat array.
-#[inline(always)]
-fn take<A: Arithmetic, const N: usize>(with: A, places: &Places, from: &[f64], to: &mut [A::Real]) {
-    let mut own = [&[0.0; N]; WIDTH];
-    for (own, start) in own.iter_mut().zip(places) {
-        *own = from[*start..].first_chunk().expect("numbers of a link");
-    }
-    for (i, x) in to.iter_mut().enumerate().take(N) {
-        *x = with.gather(|lane| own[lane][i]);
-    }
-}
-
-/// Puts the numbers of the first `count` links into a flat array.
-#[inline(always)]
-fn give<A: Arithmetic, const N: usize>(
-    with: A,
-    (places, count): (&Places, usize),
-    from: &[A::Real],
-    to: &mut [f64],
-) {
-    let mut rows = [[0.0; WIDTH]; N];
-    for (x, row) in from.iter().zip(&mut rows) {
-        with.store(*x, row);
-    }
-    for (lane, start) in places.iter().enumerate().take(count) {
-        let own: &mut [f64; N] = to[*start..].first_chunk_mut().expect("numbers of a link");
-        (0..N).for_each(|i| own[i] = rows[i][lane]);
     }
 }
 
 /// Calls a function for the number of history variables, as a constant; for none, nothing.
 macro_rules! by_history {
-    ($n:expr, $call:ident, $arguments:tt) => {
-        by_history!(@ $n, $call, $arguments, 1 2 3 4 5 6 7 8 9)
+    ($n:expr, $of:ident . $call:ident $arguments:tt) => {
+        by_history!(@ $n, $of, $call, $arguments, 1 2 3 4 5 6 7 8 9)
     };
-    (@ $n:expr, $call:ident, $arguments:tt, $($size:literal)*) => {
+    (@ $n:expr, $of:ident, $call:ident, $arguments:tt, $($size:literal)*) => {
         match $n {
-            $($size => by_history!(! $call, $size, $arguments),)*
+            $($size => by_history!(! $of, $call, $size, $arguments),)*
             _ => {}
         }
     };
-    (! $call:ident, $size:literal, ($($arguments:expr),*)) => {
-        $call::<A, $size>($($arguments),*)
+    (! $of:ident, $call:ident, $size:literal, ($($arguments:expr),*)) => {
+        $of.$call::<A, $size>($($arguments),*)
     };
 }
 
@@ -206,11 +182,11 @@ impl<A: Arithmetic> Start<'_, A> {
     fn of<const N: usize>(self) {
         let Self { pack, at, committed } = self;
         let Lanes { with, coordinates, histories, d0, v0, history, rate, dt, .. } = pack;
-        take::<A, N>(*with, coordinates, at.d0, d0);
+        coordinates.take::<A, N>(*with, at.d0, d0);
         if *rate {
-            take::<A, N>(*with, coordinates, at.v0, v0);
+            coordinates.take::<A, N>(*with, at.v0, v0);
         }
-        by_history!(history.len(), take, (*with, histories, committed, history));
+        by_history!(history.len(), histories.take(*with, committed, history));
         *dt = with.splat(at.dt);
     }
 }
@@ -232,6 +208,7 @@ impl<A: Arithmetic> Task<A> for Start<'_, A> {
 struct Force<'a, A: Arithmetic> {
     pack: &'a mut Lanes<A>,
     at: &'a Kinematics<'a>,
+    last: bool,
     to: &'a mut [f64],
     tangents: &'a mut Tangents,
 }
@@ -240,18 +217,23 @@ impl<A: Arithmetic> Force<'_, A> {
     /// Of links with `N` coordinates, and blocks of `B` numbers.
     #[inline(always)]
     fn of<const N: usize, const B: usize>(self) {
-        let Self { pack, at, to, tangents } = self;
-        let (count, with, rate) = (pack.links.len(), pack.with, pack.rate);
-        take::<A, N>(with, &pack.coordinates, at.d, &mut pack.d);
+        let Self { pack, at, last, to, tangents } = self;
+        let (law, with, rate) = (pack.law, pack.with, pack.rate);
+        pack.coordinates.take::<A, N>(with, at.d, &mut pack.d);
         if rate {
-            take::<A, N>(with, &pack.coordinates, at.v, &mut pack.v);
+            pack.coordinates.take::<A, N>(with, at.v, &mut pack.v);
         }
-        let law = pack.law;
-        with.force(&law, &mut pack.questions());
-        give::<A, N>(with, (&pack.coordinates, count), &pack.f, to);
-        give::<A, B>(with, (&pack.blocks, count), &pack.k, &mut tangents.k);
+        pack.ended = last;
+        let (mut questions, step) = pack.questions();
+        if last {
+            with.respond(&law, &mut questions, step);
+        } else {
+            with.force(&law, &mut questions);
+        }
+        pack.coordinates.give::<A, N>(with, &pack.f, to);
+        pack.blocks.give::<A, B>(with, &pack.k, &mut tangents.k);
         if rate {
-            give::<A, B>(with, (&pack.blocks, count), &pack.c, &mut tangents.c);
+            pack.blocks.give::<A, B>(with, &pack.c, &mut tangents.c);
         }
     }
 }
@@ -282,16 +264,20 @@ impl<A: Arithmetic> Task<A> for Commit<'_, A> {
     #[inline(always)]
     fn run(self, with: A) {
         let Self { pack, to, energy } = self;
-        let (law, count, mut step) = (pack.law, pack.links.len(), pack.step);
-        with.commit(&law, &mut pack.questions(), std::slice::from_mut(&mut step));
-        let (places, trial) = ((&pack.histories, count), &pack.trial);
-        by_history!(trial.len(), give, (with, places, trial, to));
+        if !pack.ended {
+            let law = pack.law;
+            let (mut questions, step) = pack.questions();
+            with.commit(&law, &mut questions, step);
+        }
+        let step = &pack.step;
+        let (histories, trial) = (&pack.histories, &pack.trial);
+        by_history!(trial.len(), histories.give(with, trial, to));
         let mut rows = [[0.0; WIDTH]; 3];
         for (x, row) in [step.stored, step.hysteretic, step.viscous].iter().zip(&mut rows) {
             with.store(*x, row);
         }
         let [stored, hysteretic, viscous] = rows;
-        for (lane, link) in pack.links.iter().enumerate() {
+        for (lane, link) in histories.lanes().iter().copied().zip(&pack.links) {
             let (stored, hysteretic) = (stored[lane], hysteretic[lane]);
             energy[*link] = Energy { stored, hysteretic, viscous: viscous[lane] };
         }
@@ -299,9 +285,11 @@ impl<A: Arithmetic> Task<A> for Commit<'_, A> {
 }
 
 impl<A: Arithmetic> Lanes<A> {
-    fn questions(&mut self) -> LaneLinks<'_, A::Real> {
-        let Self { parameters, d, v, d0, v0, dt, history, trial, f, k, c, .. } = self;
-        LaneLinks { parameters, d, v, d0, v0, dt: *dt, history, trial, f, k, c }
+    /// What the law is asked, and where the end of the step goes.
+    fn questions(&mut self) -> (LaneLinks<'_, A::Real>, &mut [LaneStep<A::Real>]) {
+        let Self { parameters, d, v, d0, v0, dt, history, trial, f, k, c, step, .. } = self;
+        let links = LaneLinks { parameters, d, v, d0, v0, dt: *dt, history, trial, f, k, c };
+        (links, std::slice::from_mut(step))
     }
 }
 
@@ -310,8 +298,8 @@ impl<A: Arithmetic + Debug> Pack for Lanes<A> {
         self.with.run(Start { pack: self, at, committed });
     }
 
-    fn force(&mut self, at: &Kinematics<'_>, to: &mut [f64], tangents: &mut Tangents) {
-        self.with.run(Force { pack: self, at, to, tangents });
+    fn force(&mut self, at: &Kinematics<'_>, last: bool, to: &mut [f64], tangents: &mut Tangents) {
+        self.with.run(Force { pack: self, at, last, to, tangents });
     }
 
     fn commit(&mut self, to: &mut [f64], energy: &mut [Energy]) {
