@@ -159,15 +159,27 @@ impl Product {
     }
 }
 
-/// Calls the product of a tile for the number of its vectors, as a constant.
+/// Calls a product of a tile for the number of its vectors, as a constant.
 macro_rules! by_vectors {
-    ($tile:ident, $y:ident, $turns:literal) => {
-        by_vectors!(@ $tile, $y, $turns, 1 2 3 4 5 6 7)
+    ($tile:ident.$times:ident($y:expr), $number:expr, $turns:literal) => {
+        by_vectors!(@ $tile, $times, $y, $number, $turns, 1 2 3 4 5 6 7)
     };
-    (@ $tile:ident, $y:ident, $turns:literal, $($vectors:literal)*) => {
-        match $y.len().div_ceil(S::F64_LANES) {
-            $($vectors => $tile.times::<$vectors, $turns>($y),)*
-            _ => $tile.times::<TILE, $turns>($y),
+    (@ $tile:ident, $times:ident, $y:expr, $number:expr, $turns:literal, $($vectors:literal)*) => {
+        match $number {
+            $($vectors => $tile.$times::<$vectors, $turns>($y),)*
+            _ => $tile.$times::<TILE, $turns>($y),
+        }
+    };
+}
+
+/// The same for the number of turns in which columns of so many rows are summed. It depends on that number alone, so that
+/// the order of sums is that of every processor.
+macro_rules! by_turns {
+    ($stride:expr, $tile:ident.$times:ident($y:expr), $number:expr) => {
+        match $stride / GRAIN {
+            0..=2 => by_vectors!($tile.$times($y), $number, 4),
+            3..=4 => by_vectors!($tile.$times($y), $number, 2),
+            _ => by_vectors!($tile.$times($y), $number, 1),
         }
     };
 }
@@ -186,14 +198,15 @@ impl<const ADD: bool> WithSimd for Times<'_, ADD> {
     #[inline(always)]
     fn with_simd<S: Simd>(self, simd: S) {
         let Self { a, stride, x, y } = self;
+        let vectors = stride / S::F64_LANES;
+        if vectors <= TILE {
+            let tile = Tile::<S, ADD> { simd, a, stride, row: 0, x };
+            by_turns!(stride, tile.whole(y), vectors);
+            return;
+        }
         for (tile, y) in y.chunks_mut(TILE * S::F64_LANES).enumerate() {
             let tile = Tile::<S, ADD> { simd, a, stride, row: tile * TILE * S::F64_LANES, x };
-            // Turns depend on the number of rows alone, so that the order of sums is that of every processor.
-            match stride / GRAIN {
-                0..=2 => by_vectors!(tile, y, 4),
-                3..=4 => by_vectors!(tile, y, 2),
-                _ => by_vectors!(tile, y, 1),
-            }
+            by_turns!(stride, tile.part(y), y.len().div_ceil(S::F64_LANES));
         }
     }
 }
@@ -208,50 +221,72 @@ struct Tile<'a, S, const ADD: bool> {
 }
 
 impl<S: Simd, const ADD: bool> Tile<'_, S, ADD> {
-    /// Of `V` vectors of rows, with columns summed in `T` turns.
+    /// Of columns that are `V` vectors long, summed in `T` turns.
     #[inline(always)]
-    fn times<const V: usize, const T: usize>(self, y: &mut [f64]) {
+    fn whole<const V: usize, const T: usize>(self, y: &mut [f64]) {
+        let Self { simd, a, stride, x, .. } = self;
+        let mut sums = [[simd.splat_f64s(0.0); V]; T];
+        let (columns, _) = S::as_simd_f64s(&a[..stride * x.len()]).0.as_chunks::<V>();
+        let ((columns, last_columns), (turns, last)) =
+            (columns.as_chunks::<T>(), x.as_chunks::<T>());
+        for (columns, x) in columns.iter().zip(turns) {
+            for t in 0..T {
+                add(simd, &columns[t], x[t], &mut sums[t]);
+            }
+        }
+        for (sums, (column, x)) in sums.iter_mut().zip(last_columns.iter().zip(last)) {
+            add(simd, column, *x, sums);
+        }
+        finish::<S, ADD, V, T>(simd, sums, y);
+    }
+
+    /// Of `V` vectors out of longer columns, the same.
+    #[inline(always)]
+    fn part<const V: usize, const T: usize>(self, y: &mut [f64]) {
         let Self { simd, a, stride, row, x } = self;
         let mut sums = [[simd.splat_f64s(0.0); V]; T];
-        let (turns, last) = x.as_chunks::<T>();
-        // Columns one after the other, without the division by which chunks are counted.
-        let mut columns = a.get(row..).unwrap_or_default();
-        let mut next = |sums: &mut [S::f64s; V], x: f64| {
-            add(simd, &columns[..V * S::F64_LANES], x, sums);
-            columns = columns.get(stride..).unwrap_or_default();
-        };
-        for x in turns {
-            sums.iter_mut().zip(x).for_each(|(sums, x)| next(sums, *x));
+        for (j, x) in x.iter().enumerate() {
+            let (column, _) = S::as_simd_f64s(&a[j * stride + row..]).0.as_chunks::<V>();
+            add(simd, &column[0], *x, &mut sums[j % T]);
         }
-        sums.iter_mut().zip(last).for_each(|(sums, x)| next(sums, *x));
-        let mut left = T;
-        while left > 1 {
-            left /= 2;
-            for t in 0..left {
-                for k in 0..V {
-                    sums[t][k] = simd.add_f64s(sums[t][k], sums[t + left][k]);
-                }
+        finish::<S, ADD, V, T>(simd, sums, y);
+    }
+}
+
+/// The sum of the sums of all turns becomes `y`, or is added to it.
+#[inline(always)]
+fn finish<S: Simd, const ADD: bool, const V: usize, const T: usize>(
+    simd: S,
+    mut sums: [[S::f64s; V]; T],
+    y: &mut [f64],
+) {
+    let mut left = T;
+    while left > 1 {
+        left /= 2;
+        for t in 0..left {
+            for k in 0..V {
+                sums[t][k] = simd.add_f64s(sums[t][k], sums[t + left][k]);
             }
         }
-        let (full, rest) = S::as_mut_simd_f64s(y);
-        if ADD {
-            for (y, sum) in full.iter_mut().zip(&sums[0]) {
-                *y = simd.add_f64s(*y, *sum);
-            }
-        } else if full.len() == V {
-            full.copy_from_slice(&sums[0]);
-        } else {
-            full.copy_from_slice(&sums[0][..V - 1]);
-            let last = [sums[0][V - 1]];
-            copy_some(pulp::bytemuck::cast_slice(&last), rest);
+    }
+    let (full, rest) = S::as_mut_simd_f64s(y);
+    let whole = V.min(full.len());
+    let full = &mut full[..whole];
+    if ADD {
+        for (y, sum) in full.iter_mut().zip(&sums[0]) {
+            *y = simd.add_f64s(*y, *sum);
         }
+        return;
+    }
+    full.copy_from_slice(&sums[0][..full.len()]);
+    if let Some(last) = sums[0].get(full.len()) {
+        copy_some(pulp::bytemuck::cast_slice(std::slice::from_ref(last)), rest);
     }
 }
 
 /// Sums take a column.
 #[inline(always)]
-fn add<S: Simd, const V: usize>(simd: S, column: &[f64], x: f64, sums: &mut [S::f64s; V]) {
-    let (column, _) = S::as_simd_f64s(column);
+fn add<S: Simd, const V: usize>(simd: S, column: &[S::f64s; V], x: f64, sums: &mut [S::f64s; V]) {
     let x = simd.splat_f64s(x);
     for k in 0..V {
         sums[k] = simd.mul_add_e_f64s(column[k], x, sums[k]);
