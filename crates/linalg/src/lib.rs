@@ -10,6 +10,7 @@
 //!
 //! Everything runs on one thread, so that results repeat bit for bit.
 
+mod aligned;
 mod dense;
 mod eigen;
 mod expm;

@@ -1,6 +1,7 @@
 //! Matrices of few rows, for products in the inner loop of a step.
 
 use crate::Dense;
+use crate::aligned::{Aligned, LINE};
 use crate::simd::dispatch;
 use pulp::{Simd, WithSimd};
 
@@ -17,15 +18,13 @@ pub struct Panel {
     columns: usize,
     /// Numbers from column to column.
     stride: usize,
-    /// Where the first column begins: at the start of a cache line, unless this is a clone.
-    start: usize,
-    values: Vec<f64>,
+    values: Aligned,
 }
 
 impl Panel {
     /// Columns start at multiples of this many numbers, with zeros behind each: as many as the widest vector of any
     /// processor.
-    pub const GRAIN: usize = 8;
+    pub const GRAIN: usize = LINE;
 
     /// More rows are no few: longer columns are better read from end to end, as [`Dense`] does it.
     pub const MOST_ROWS: usize = 128;
@@ -35,12 +34,11 @@ impl Panel {
     pub fn new(of: &Dense) -> Self {
         let (rows, columns) = (of.rows(), of.columns());
         let stride = rows.next_multiple_of(GRAIN);
-        let mut values = vec![0.0; stride * columns + GRAIN - 1];
-        let start = values.as_ptr().align_offset(GRAIN * size_of::<f64>()).min(GRAIN - 1);
+        let mut values = Aligned::zeros(stride * columns);
         for j in 0..columns {
-            values[start + j * stride..][..rows].copy_from_slice(of.column(j));
+            values[j * stride..][..rows].copy_from_slice(of.column(j));
         }
-        Self { rows, columns, stride, start, values }
+        Self { rows, columns, stride, values }
     }
 
     /// The same matrix, unless it has too many rows.
@@ -64,7 +62,7 @@ impl Panel {
     /// One column.
     #[must_use]
     pub fn column(&self, j: usize) -> &[f64] {
-        &self.values[self.start + j * self.stride..][..self.rows]
+        &self.values[j * self.stride..][..self.rows]
     }
 
     /// `y = A x`.
@@ -73,7 +71,7 @@ impl Panel {
     /// Where the lengths do not suit.
     pub fn times(&self, x: &[f64], y: &mut [f64]) {
         assert!(x.len() == self.columns && y.len() == self.rows, "lengths of a product");
-        dispatch(Times::<false> { a: &self.values[self.start..], stride: self.stride, x, y });
+        dispatch(Times::<false> { a: &self.values, stride: self.stride, x, y });
     }
 
     /// Number of rows with the zeros that fill up whole vectors.
@@ -88,7 +86,7 @@ impl Panel {
     /// Where the lengths do not suit.
     pub fn add_times(&self, x: &[f64], y: &mut [f64]) {
         assert!(x.len() == self.columns && y.len() == self.stride, "lengths of a product");
-        dispatch(Times::<true> { a: &self.values[self.start..], stride: self.stride, x, y });
+        dispatch(Times::<true> { a: &self.values, stride: self.stride, x, y });
     }
 }
 
@@ -224,9 +222,9 @@ impl<S: Simd, const ADD: bool> Tile<'_, S, ADD> {
     /// Of columns that are `V` vectors long, summed in `T` turns.
     #[inline(always)]
     fn whole<const V: usize, const T: usize>(self, y: &mut [f64]) {
-        let Self { simd, a, stride, x, .. } = self;
+        let Self { simd, a, x, .. } = self;
         let mut sums = [[simd.splat_f64s(0.0); V]; T];
-        let (columns, _) = S::as_simd_f64s(&a[..stride * x.len()]).0.as_chunks::<V>();
+        let (columns, _) = S::as_simd_f64s(a).0.as_chunks::<V>();
         let ((columns, last_columns), (turns, last)) =
             (columns.as_chunks::<T>(), x.as_chunks::<T>());
         for (columns, x) in columns.iter().zip(turns) {

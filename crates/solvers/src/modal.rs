@@ -37,6 +37,7 @@ const FREE: f64 = 1e-3;
 /// Rules of one step size.
 struct Step {
     dt: f64,
+    per_dt: f64,
     /// Largest eigenvalue of G k of the engaged links under the exact rule.
     ratio: f64,
     exact: Way,
@@ -73,26 +74,23 @@ pub(crate) struct Modes {
 
 /// What one motion needs on its way through a step.
 pub(crate) struct Sources {
-    /// Loads less link forces at the start and at the end of the step, and the integral of q.
-    source0: Vec<f64>,
-    source1: Vec<f64>,
+    /// Loads less link forces at the start and at the end of the step, and (B Φ)ᵀ of the pseudo-forces spread last,
+    /// one after the other.
+    sources: Vec<f64>,
+    /// The integral of q.
     integral: Vec<f64>,
     /// What the step completed last did.
     sums: StepSums,
-    /// Pseudo-forces spread last, and (B Φ)ᵀ of them.
+    /// Pseudo-forces spread last.
     pseudo: Vec<f64>,
-    spread: Vec<f64>,
 }
 
 impl Sources {
     pub(crate) fn new(space: &Space) -> Self {
-        let zero = vec![0.0; space.order()];
         Self {
             pseudo: vec![0.0; space.links.len()],
-            spread: zero.clone(),
-            source0: zero.clone(),
-            source1: zero.clone(),
-            integral: zero,
+            sources: vec![0.0; 3 * space.order()],
+            integral: vec![0.0; space.order()],
             sums: StepSums::default(),
         }
     }
@@ -103,7 +101,16 @@ impl Sources {
             return None;
         }
         self.pseudo.copy_from_slice(pseudo);
-        Some(&mut self.spread)
+        let [_, _, spread] = self.parts();
+        Some(spread)
+    }
+
+    /// Loads less link forces at both ends, and the link forces spread last.
+    fn parts(&mut self) -> [&mut [f64]; 3] {
+        let n = self.sources.len() / 3;
+        let (source0, rest) = self.sources.split_at_mut(n);
+        let (source1, spread) = rest.split_at_mut(n);
+        [source0, source1, spread]
     }
 }
 
@@ -161,7 +168,7 @@ impl Modes {
             let exact = self.way(Rule::exact(&self.structure, dt), StepKey { dt, average: 0 });
             let of_modes = self.compliance_of(&exact.rule, 1, self.structure.modes);
             let ratio = ratio(&of_modes, &self.engaged);
-            self.steps.push(Step { dt, ratio, exact, others: Vec::new() });
+            self.steps.push(Step { dt, per_dt: dt.recip(), ratio, exact, others: Vec::new() });
             self.steps.len() - 1
         })
     }
@@ -266,9 +273,8 @@ impl Modes {
 
     /// A step from a motion under loads.
     fn start<'a>(&self, from: &'a Motion, loads: [&'a [f64]; 2]) -> ModalStep<'a> {
-        let m = self.space.order();
-        let per_dt = self.steps[self.now.0].dt.recip();
-        ModalStep { q: &from[..m], v: &from[m..2 * m], p: loads, per_dt }
+        let per_dt = self.steps[self.now.0].per_dt;
+        ModalStep { from, p: loads, per_dt }
     }
 
     /// The motion at the end of a step under the pseudo-forces spread last, at both ends.
@@ -280,18 +286,18 @@ impl Modes {
         to: &mut Motion,
     ) {
         let rule = &self.way_now().rule;
-        let start = self.start(from, loads);
-        let Sources { source0, source1, spread, .. } = now;
-        let (q, rest) = to.split_at_mut(self.space.order());
-        let v = &mut rest[..q.len()];
-        if let Some(modes) = rule.own(&self.structure) {
-            return modes.predict(start, spread, [source0, source1], [q, v]);
+        let step = self.start(from, loads);
+        if let Some(modes) = rule.own() {
+            return modes.predict(step, &mut now.sources, to);
         }
+        let [source0, source1, spread] = now.parts();
         less(loads[0], spread, source0);
         less(loads[1], spread, source1);
-        let inputs = [start.q, start.v, source0, source1];
+        let n = self.space.order();
+        let (q, rest) = to.split_at_mut(n);
+        let inputs = [&from[..n], &from[n..2 * n], source0, source1];
         rule.apply(1, inputs, q);
-        rule.apply(2, inputs, v);
+        rule.apply(2, inputs, &mut rest[..n]);
     }
 
     /// What was predicted, with the pseudo-forces spread last at the end instead.
@@ -303,28 +309,30 @@ impl Modes {
         to: &mut Motion,
     ) {
         let rule = &self.way_now().rule;
-        let start = self.start(from, loads);
-        let Sources { source0, source1, integral, spread, sums, .. } = now;
-        let (q, rest) = to.split_at_mut(self.space.order());
-        let (v, a) = rest.split_at_mut(q.len());
-        if let Some(modes) = rule.own(&self.structure) {
-            *sums = modes.complete(start, spread, (source0, source1), [q, v, a]);
-            return;
+        let step = self.start(from, loads);
+        if let Some(modes) = rule.own() {
+            return modes.complete(step, &mut now.sources, to, &mut now.sums);
         }
+        let n = self.space.order();
+        let mut integral = std::mem::take(&mut now.integral);
+        let [source0, source1, spread] = now.parts();
+        let (q, rest) = to.split_at_mut(n);
+        let (v, a) = rest.split_at_mut(n);
         for (i, x) in integral.iter_mut().enumerate() {
             let source = loads[1][i] - spread[i];
             *x = source - source1[i];
             source1[i] = source;
         }
-        rule.add_answer(1, integral, q);
-        rule.add_answer(2, integral, v);
+        rule.add_answer(1, &integral, q);
+        rule.add_answer(2, &integral, v);
         self.structure.acceleration(source1, q, v, a);
-        rule.apply(0, [start.q, start.v, source0, source1], integral);
-        let ends = [start.q, &*q];
-        let external = work_of_linear(loads, ends, integral, start.per_dt);
-        let all = work_of_linear([source0, source1], ends, integral, start.per_dt);
+        rule.apply(0, [&from[..n], &from[n..2 * n], source0, source1], &mut integral);
+        let ends = [&from[..n], &*q];
+        let external = work_of_linear(loads, ends, &integral, step.per_dt);
+        let all = work_of_linear([source0, source1], ends, &integral, step.per_dt);
         let ((k0, e0), (k1, e1)) = (self.energy(from), self.energy(to));
-        *sums = StepSums { external, all, kinetic: [k0, k1], strain: [e0, e1] };
+        now.sums = StepSums { external, all, kinetic: [k0, k1], strain: [e0, e1] };
+        now.integral = integral;
     }
 
     /// Work done over the step completed last.

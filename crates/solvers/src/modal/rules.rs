@@ -52,6 +52,8 @@ pub(super) struct Rule {
     coupled: Option<Box<[[Dense; 4]; 3]>>,
     /// Of all that move on their own.
     own: [[Vec<f64>; 4]; 3],
+    /// The same once more, where these are all.
+    modes: Option<OwnModes>,
 }
 
 impl Rule {
@@ -95,13 +97,14 @@ impl Rule {
                 }
             }
         }
-        Self { coupled, own }
+        let Structure { omega2, rates, mass, .. } = structure;
+        let modes = coupled.is_none().then(|| OwnModes::new(&own, omega2, rates, mass));
+        Self { coupled, own, modes }
     }
 
     /// The modes of a structure, where each moves on its own.
-    pub(super) fn own<'a>(&'a self, structure: &'a Structure) -> Option<OwnModes<'a>> {
-        let Structure { omega2, rates, mass, .. } = structure;
-        self.coupled.is_none().then_some(OwnModes { c: &self.own, omega2, rates, mass })
+    pub(super) fn own(&self) -> Option<&OwnModes> {
+        self.modes.as_ref()
     }
 
     /// Σ over the four inputs of one row.
