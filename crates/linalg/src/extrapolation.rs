@@ -3,75 +3,80 @@
 use crate::simd::dispatch;
 use pulp::{Simd, WithSimd};
 
-/// What the polynomials through the last 1, 2 … `P` vectors of a sequence go on to, a row for each, from those of the
+/// Orders of extrapolation.
+pub const ORDERS: usize = 4;
+
+/// What the polynomials through the last 1, 2, 3 and 4 vectors of a sequence go on to, a row for each, from those of the
 /// vector before:
 ///
 /// ```text
 /// S¹ₙ = xₙ        Sᵖ⁺¹ₙ = Sᵖₙ + ∇ᵖxₙ        ∇ᵖxₙ = xₙ − Sᵖₙ₋₁
 /// ```
 ///
-/// The first of `rows` holds xₙ on entry. Gives the largest magnitudes of xₙ and of ∇¹xₙ … ∇ᴾxₙ, the backward differences:
-/// how far each row of `before` missed xₙ.
+/// The first of `rows` holds xₙ on entry. `sizes` become the largest magnitudes of xₙ and of ∇¹xₙ … ∇⁴xₙ, the backward
+/// differences: how far each row of `before` missed xₙ.
 ///
 /// # Panics
-/// Where the rows differ in length.
-pub fn extrapolate<const P: usize>(before: [&[f64]; P], rows: [&mut [f64]; P]) -> (f64, [f64; P]) {
-    let n = rows.first().map_or(0, |row| row.len());
-    let fits = before.iter().all(|row| row.len() == n) && rows.iter().all(|row| row.len() == n);
+/// Where the tables are not of one size.
+pub fn extrapolate(before: &[f64], rows: &mut [f64], sizes: &mut [f64; ORDERS + 1]) {
+    let fits = before.len() == rows.len() && rows.len().is_multiple_of(ORDERS);
     assert!(fits, "rows of extrapolations");
-    let (mut size, mut misses) = (0.0, [0.0; P]);
-    dispatch(Extrapolate { before, rows, size: &mut size, misses: &mut misses });
-    (size, misses)
+    dispatch(Extrapolate { before, rows, sizes });
 }
 
-struct Extrapolate<'a, const P: usize> {
-    before: [&'a [f64]; P],
-    rows: [&'a mut [f64]; P],
-    size: &'a mut f64,
-    misses: &'a mut [f64; P],
+struct Extrapolate<'a> {
+    before: &'a [f64],
+    rows: &'a mut [f64],
+    sizes: &'a mut [f64; ORDERS + 1],
 }
 
-impl<const P: usize> WithSimd for Extrapolate<'_, P> {
+impl WithSimd for Extrapolate<'_> {
     type Output = ();
 
     #[inline(always)]
     fn with_simd<S: Simd>(self, simd: S) {
-        // No closures: what they call would not have the instructions of this function.
-        let Self { before, rows, size, misses } = self;
-        let n = before.first().map_or(0, |row| row.len());
-        let whole = n - n % S::F64_LANES;
-        let (mut most, mut largest) = ([simd.splat_f64s(0.0); P], simd.splat_f64s(0.0));
-        for i in (0..whole).step_by(S::F64_LANES) {
-            let here = i..i + S::F64_LANES;
-            let x = S::as_simd_f64s(&rows[0][here.clone()]).0[0];
-            largest = simd.max_f64s(largest, simd.abs_f64s(x));
-            let mut next = x;
-            for p in 0..P {
-                let before = S::as_simd_f64s(&before[p][here.clone()]).0[0];
-                let missed = simd.sub_f64s(x, before);
-                most[p] = simd.max_f64s(most[p], simd.abs_f64s(missed));
-                next = simd.add_f64s(next, missed);
-                if p + 1 < P {
-                    S::as_mut_simd_f64s(&mut rows[p + 1][here.clone()]).0[0] = next;
-                }
+        let Self { before, rows, sizes } = self;
+        let n = rows.len() / ORDERS;
+        let (ab, cd) = before.split_at(2 * n);
+        let ((a, b), (c, d)) = (ab.split_at(n), cd.split_at(n));
+        let (xy, zw) = rows.split_at_mut(2 * n);
+        let ((x, y), (z, w)) = (xy.split_at_mut(n), zw.split_at_mut(n));
+        let (x, xe) = S::as_simd_f64s(x);
+        let m = x.len();
+        let ((a, ae), (b, be)) = (S::as_simd_f64s(a), S::as_simd_f64s(b));
+        let ((c, ce), (d, de)) = (S::as_simd_f64s(c), S::as_simd_f64s(d));
+        let (y, ye) = S::as_mut_simd_f64s(y);
+        let ((z, ze), (w, we)) = (S::as_mut_simd_f64s(z), S::as_mut_simd_f64s(w));
+        let (a, b, c, d) = (&a[..m], &b[..m], &c[..m], &d[..m]);
+        let (y, z, w) = (&mut y[..m], &mut z[..m], &mut w[..m]);
+        let mut most = [simd.splat_f64s(0.0); ORDERS + 1];
+        for i in 0..m {
+            let x = x[i];
+            let missed = [
+                x,
+                simd.sub_f64s(x, a[i]),
+                simd.sub_f64s(x, b[i]),
+                simd.sub_f64s(x, c[i]),
+                simd.sub_f64s(x, d[i]),
+            ];
+            for p in 0..=ORDERS {
+                most[p] = simd.max_f64s(most[p], simd.abs_f64s(missed[p]));
             }
+            y[i] = simd.add_f64s(x, missed[1]);
+            z[i] = simd.add_f64s(y[i], missed[2]);
+            w[i] = simd.add_f64s(z[i], missed[3]);
         }
-        *size = simd.reduce_max_f64s(largest);
-        for p in 0..P {
-            misses[p] = simd.reduce_max_f64s(most[p]);
+        for p in 0..=ORDERS {
+            sizes[p] = simd.reduce_max_f64s(most[p]);
         }
-        for i in whole..n {
-            let x = rows[0][i];
-            *size = size.max(x.abs());
-            let mut next = x;
-            for p in 0..P {
-                let missed = x - before[p][i];
-                misses[p] = misses[p].max(missed.abs());
-                next += missed;
-                if p + 1 < P {
-                    rows[p + 1][i] = next;
-                }
+        for (i, x) in xe.iter().enumerate() {
+            let missed = [*x, x - ae[i], x - be[i], x - ce[i], x - de[i]];
+            for p in 0..=ORDERS {
+                sizes[p] = sizes[p].max(missed[p].abs());
             }
+            ye[i] = x + missed[1];
+            ze[i] = ye[i] + missed[2];
+            we[i] = ze[i] + missed[3];
         }
     }
 }
@@ -82,28 +87,31 @@ mod tests {
 
     #[test]
     fn polynomials_are_gone_on_with_at_every_length() {
-        for n in [1, 2, 7, 8, 9, 16, 19] {
+        for n in [0, 1, 2, 7, 8, 9, 16, 19] {
             let x = |k: usize, i: usize| (((i + 31 * k) * 7919 + 13) % 101) as f64 / 50.0 - 1.0;
-            let mut tables = vec![[(); 3].map(|()| vec![0.0; n]); 5];
-            let mut last = (f64::NAN, [f64::NAN; 3]);
-            for k in 1..5 {
+            let mut tables = vec![vec![0.0; ORDERS * n]; 6];
+            let mut sizes = [f64::NAN; ORDERS + 1];
+            for k in 1..6 {
                 let (before, here) = tables.split_at_mut(k);
-                (0..n).for_each(|i| here[0][0][i] = x(k, i));
-                let before = before[k - 1].each_ref().map(|row| &row[..]);
-                last = extrapolate(before, here[0].each_mut().map(|row| &mut row[..]));
+                (0..n).for_each(|i| here[0][i] = x(k, i));
+                extrapolate(&before[k - 1], &mut here[0], &mut sizes);
             }
-            let close = |a: f64, b: f64| assert!((a - b).abs() < 1e-14, "{n}: {a} {b}");
-            let mut sizes = [0.0_f64; 4];
+            let close = |a: f64, b: f64| assert!((a - b).abs() < 1e-13, "{n}: {a} {b}");
+            let mut largest = [0.0_f64; ORDERS + 1];
             for i in 0..n {
-                let [a, b, c, d] = [4, 3, 2, 1].map(|k| x(k, i));
-                let own = [a, 2.0 * a - b, 3.0 * a - 3.0 * b + c];
-                own.iter().zip(&tables[4]).for_each(|(own, row)| close(row[i], *own));
-                let missed = [a, a - b, a - 2.0 * b + c, a - 3.0 * b + 3.0 * c - d];
-                sizes.iter_mut().zip(missed).for_each(|(s, m)| *s = s.max(m.abs()));
+                let [a, b, c, d, e] = [5, 4, 3, 2, 1].map(|k| x(k, i));
+                let own = [a, 2.0 * a - b, 3.0 * a - 3.0 * b + c, 4.0 * a - 6.0 * b + 4.0 * c - d];
+                (0..ORDERS).for_each(|p| close(tables[5][p * n + i], own[p]));
+                let missed = [
+                    a,
+                    a - b,
+                    a - 2.0 * b + c,
+                    a - 3.0 * b + 3.0 * c - d,
+                    a - 4.0 * b + 6.0 * c - 4.0 * d + e,
+                ];
+                largest.iter_mut().zip(missed).for_each(|(s, m)| *s = s.max(m.abs()));
             }
-            close(last.0, sizes[0]);
-            last.1.iter().zip(&sizes[1..]).for_each(|(a, b)| close(*a, *b));
+            sizes.iter().zip(largest).for_each(|(a, b)| close(*a, b));
         }
-        assert_eq!(extrapolate([&[], &[]], [&mut [], &mut []]), (0.0, [0.0; 2]));
     }
 }

@@ -30,7 +30,7 @@ mod vector;
 pub use dense::{Dense, DenseLu};
 pub use eigen::{all_modes, lowest_modes, symmetric_eigen};
 pub use expm::{expm, expm_small};
-pub use extrapolation::extrapolate;
+pub use extrapolation::{ORDERS, extrapolate};
 pub use ldlt::{Ldlt, StagedLdlt, StagedPlan, unsupported};
 pub use lu::SparseLu;
 pub use matrix_market::matrix_market;

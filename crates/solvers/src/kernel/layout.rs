@@ -95,6 +95,7 @@ impl Unknowns {
     }
 
     /// Puts the rates that laws look at where they belong among those of all coordinates.
+    #[inline]
     pub fn place_rates(&mut self, rated: &[usize]) {
         let v = &self.row[self.n..];
         rated.iter().zip(v).for_each(|(a, v)| self.v[*a] = *v);

@@ -348,13 +348,17 @@ impl<'a> LinkKernel<'a> {
     }
 
     /// Deformations and rates of all coordinates, where the own ones are not those.
+    #[inline]
     fn deform(&mut self, affine: &Affine<'_>, out: &mut Converged<'_>) {
-        let Layout { links, complete, rated, .. } = &self.layout;
-        self.unknowns.place_rates(rated);
-        self.plain = *complete && affine.support.is_none();
-        if self.plain {
-            return;
+        self.unknowns.place_rates(&self.layout.rated);
+        self.plain = self.layout.complete && affine.support.is_none();
+        if !self.plain {
+            self.deform_all(affine, out);
         }
+    }
+
+    fn deform_all(&mut self, affine: &Affine<'_>, out: &mut Converged<'_>) {
+        let links = self.layout.links;
         match affine.support {
             Some([d, v]) => {
                 out.d.copy_from_slice(d);
@@ -385,6 +389,7 @@ impl<'a> LinkKernel<'a> {
     }
 
     /// The residual of forces, flat, against pseudo-forces at the present deformations, and the sizes of all three.
+    #[inline]
     fn leave(&mut self, f: &[f64]) {
         let Self { layout, unknowns, residual: r, correction: own, sizes, .. } = self;
         let (pseudo, d) = (unknowns.pseudo(), unknowns.d());

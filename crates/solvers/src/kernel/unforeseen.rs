@@ -14,12 +14,10 @@
 use crate::propagator::StepKey;
 use crate::vector::add;
 use serde::{Deserialize, Serialize};
-use trilith_linalg::{Panel, extrapolate};
+use trilith_linalg::{ORDERS, Panel, extrapolate};
 
 /// An expectation that leaves more than this share of what it is about is not worth it.
 const WORTH: f64 = 0.5;
-/// The highest order.
-const ORDERS: usize = 4;
 
 /// Residuals of the active link coordinates that the forces along the tangents left.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
@@ -65,15 +63,12 @@ impl Unforeseen {
             return;
         }
         self.known = from.known.saturating_add(1).min(ORDERS + 1);
-        let mut before = from.expected.chunks_exact(filled);
-        let before = [(); ORDERS].map(|()| before.next().unwrap_or_default());
-        let mut rows = self.expected.chunks_exact_mut(filled);
-        let rows = [(); ORDERS].map(|()| rows.next().unwrap_or_default());
-        let (size, misses) = extrapolate(before, rows);
-        let mut least = WORTH * size;
-        for (p, missed) in misses.iter().enumerate().take(self.known - 1) {
-            if *missed < least {
-                (self.order, least) = (p + 1, *missed);
+        let mut sizes = [0.0; ORDERS + 1];
+        extrapolate(&from.expected, &mut self.expected, &mut sizes);
+        let mut least = WORTH * sizes[0];
+        for p in 1..=ORDERS {
+            if p < self.known && sizes[p] < least {
+                (self.order, least) = (p, sizes[p]);
             }
         }
     }
