@@ -1,13 +1,13 @@
 //! Links of one kind are asked side by side: the answers are those of each law alone.
 
-use std::fmt::Write;
 use trilith_element::{Energy, Kinematics};
 use trilith_system::{StepLaws, Tangents};
 use trilith_tests::parse;
 
-/// A mass on so many links of each kind that has a law over lanes, each with numbers of its own.
-fn model(each: usize) -> String {
-    let mut elements = String::new();
+/// A mass on so many links of each kind that has a law over lanes, each with numbers of its own; kind after kind, or one
+/// of each in turn.
+fn model(each: usize, sorted: bool) -> String {
+    let mut elements = Vec::new();
     for i in 0..each {
         let x = 1.0 + 0.13 * i as f64;
         for (name, law) in [
@@ -37,9 +37,13 @@ fn model(each: usize) -> String {
             ("gap", format!("Gap(node: \"n\", k: {}, opening: {})", 1e7 * x, 1e-3 * x)),
             ("hook", format!("Hook(node: \"n\", k: {}, opening: {})", 1e7 * x, 1e-3 * x)),
         ] {
-            writeln!(elements, "\"{name} {i}\": {law},").unwrap();
+            elements.push((name, format!("\"{name} {i}\": {law},\n")));
         }
     }
+    if sorted {
+        elements.sort_by_key(|(name, _)| *name);
+    }
+    let elements: String = elements.into_iter().map(|(_, text)| text).collect();
     format!(
         "(nodes: {{ \"n\": (0, 0, 0) }}, elements: {{ \"mass\": Mass(node: \"n\", mass: \"1 t\", inertia: (1, 1, 1)),
         \"upright\": Spring(node: \"n\", r1: 1e6, r2: 1e6, r3: 1e6), {elements} }},
@@ -56,8 +60,8 @@ fn close(what: &str, a: &[f64], b: &[f64], size: f64) {
 /// Numbers on both sides of the width of the lanes; steps in which every law changes its regime.
 #[test]
 fn links_of_one_kind_answer_together_as_alone() {
-    for each in [1, 3, 4, 5, 8, 9, 17] {
-        let (model, system) = parse(&model(each), &[]);
+    for (each, sorted) in [1, 3, 4, 5, 8, 9, 17].into_iter().flat_map(|n| [(n, false), (n, true)]) {
+        let (model, system) = parse(&model(each, sorted), &[]);
         let links = &system.links;
         let laws = links.laws(&model);
         let mut together = StepLaws::new(laws.clone());
@@ -87,7 +91,8 @@ fn links_of_one_kind_answer_together_as_alone() {
                 }
                 let at = Kinematics { d: &d, v: &v, d0: &d0, v0: &v0, dt };
                 laws.respond(at, &history, &mut trial, &mut of, &mut one, &mut energy);
-                together.respond(at, &history, &mut second, &mut other, &mut two, &mut energies);
+                let (f, last) = (&mut other, (step + look) % 2 == 0);
+                together.respond(at, last, &history, &mut second, f, &mut two, &mut energies);
                 close("force", &of, &other, 1e5);
                 close("stiffness", &one.k, &two.k, 1e7);
                 close("damping", &one.c, &two.c, 1e7);

@@ -39,7 +39,7 @@ pub fn largest(x: &[f64]) -> f64 {
 ///
 /// # Panics
 /// Where the lengths differ.
-#[inline]
+#[inline(always)]
 pub fn residual(f: &[f64], k: &[f64], d: &[f64], x: &[f64], r: &mut [f64], sizes: &mut [f64; 3]) {
     let n = r.len();
     assert!(f.len() == n && k.len() == n && d.len() == n && x.len() == n, "lengths of a residual");

@@ -165,25 +165,45 @@ impl Table {
             return [held, 0.0, 0.0];
         }
         let i = self.segment(t, side);
-        let (h, x) = (self.times[i + 1] - self.times[i], t - self.times[i]);
-        let (y0, y1) = (self.values[i], self.values[i + 1]);
-        let slope = (y1 - y0) / h;
-        // The value at a sample is the same from both sides, to the bit.
-        let value = |inside: f64| if x == h { y1 } else { inside };
+        let (times, values) =
+            ([self.times[i], self.times[i + 1]], [self.values[i], self.values[i + 1]]);
         if self.curvatures.is_empty() {
-            return [value(y0 + slope * x), slope, 0.0];
+            let (value, slope) = within(times, values, t);
+            return [value, slope, 0.0];
         }
+        let (h, x) = (times[1] - times[0], t - times[0]);
         let [b, c, d] = self.coefficients(i);
-        let inside = y0 + x * (b + x * (c + x * d));
-        [value(inside), b + x * (2.0 * c + 3.0 * x * d), 2.0 * c + 6.0 * x * d]
+        let inside = values[0] + x * (b + x * (c + x * d));
+        let value = if x == h { values[1] } else { inside };
+        [value, b + x * (2.0 * c + 3.0 * x * d), 2.0 * c + 6.0 * x * d]
+    }
+
+    /// Value at t.
+    pub(crate) fn value(&self, t: f64, side: Side) -> f64 {
+        // Mostly t lies in the segment that is guessed, or at its end.
+        let i = self.guess(t, side).min(self.times.len());
+        if self.curvatures.is_empty()
+            && let (Some([t0, t1]), Some([y0, y1])) =
+                (self.times.get(i..i + 2), self.values.get(i..i + 2))
+            && side.is_past(t, *t0)
+            && !side.is_past(t, *t1)
+        {
+            return within([*t0, *t1], [*y0, *y1], t).0;
+        }
+        self.at(t, side)[0]
+    }
+
+    /// Index of the segment in which t lies if samples are evenly spaced, or more than there are.
+    fn guess(&self, t: f64, side: Side) -> usize {
+        // A sample seen from before belongs to the segment that ends there.
+        let lean = if side == Side::Before { -LEAN } else { LEAN };
+        ((t - self.start()) * self.per_time + lean) as usize
     }
 
     /// Index of the segment that holds t. Samples are mostly evenly spaced, so it is guessed first.
     fn segment(&self, t: f64, side: Side) -> usize {
         let last = self.times.len() - 1;
-        // A sample seen from before belongs to the segment that ends there.
-        let lean = if side == Side::Before { -LEAN } else { LEAN };
-        let guess = (((t - self.start()) * self.per_time + lean) as usize).min(last - 1);
+        let guess = self.guess(t, side).min(last - 1);
         let holds = |i: usize| {
             (i == 0 || side.is_past(t, self.times[i]))
                 && (i + 1 == last || !side.is_past(t, self.times[i + 1]))
@@ -220,6 +240,13 @@ impl Table {
             .map(|x| self.times[i] + x)
             .collect()
     }
+}
+
+/// Value and slope within a straight segment. The value at a sample is the same from both sides, to the bit.
+fn within([t0, t1]: [f64; 2], [y0, y1]: [f64; 2], t: f64) -> (f64, f64) {
+    let (h, x) = (t1 - t0, t - t0);
+    let slope = (y1 - y0) / h;
+    (if x == h { y1 } else { y0 + slope * x }, slope)
 }
 
 /// Second derivatives at the samples of a natural cubic spline (Thomas algorithm).

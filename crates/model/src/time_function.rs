@@ -118,7 +118,10 @@ impl TimeFunction {
     /// Value at t (s), in SI.
     #[must_use]
     pub fn value(&self, t: f64, side: Side) -> f64 {
-        self.all(t, side)[0]
+        match self {
+            Self::Table(table) => table.value(t, side),
+            _ => self.all(t, side)[0],
+        }
     }
 
     /// First and second derivative at t (s), per s and per s².

@@ -23,10 +23,11 @@
 mod rules;
 
 use crate::error::SolveError;
+use crate::link_map::LinkMap;
 use crate::propagator::{Compliance, Forces, Motion, Propagator, StepKey, StepWork, Wanted};
 use crate::space::Space;
 use rules::{Rule, Structure};
-use trilith_linalg::{Dense, ModalStep, StepSums, work_of_linear};
+use trilith_linalg::{Dense, ModalStep, Panel, StepSums, work_of_linear};
 
 /// Steps with a larger G·k of the stiffest link are made by average acceleration; the limit of the exact
 /// rule is 2 (ω²Δt²/6), and well before it the rule is no better any more.
@@ -83,6 +84,9 @@ pub(crate) struct Sources {
     sums: StepSums,
     /// Pseudo-forces spread last.
     pseudo: Vec<f64>,
+    /// The link coordinates whose rates laws look at, and their rows of B Φ where these are not too many.
+    rated: Vec<usize>,
+    rows: Option<Panel>,
 }
 
 impl Sources {
@@ -92,6 +96,24 @@ impl Sources {
             sources: vec![0.0; 3 * space.order()],
             integral: vec![0.0; space.order()],
             sums: StepSums::default(),
+            rated: Vec::new(),
+            rows: None,
+        }
+    }
+
+    /// Rates that laws look at, of the motion in these modes.
+    pub(crate) fn rates(&mut self, links: &LinkMap, v: &[f64], wanted: Wanted<'_>) {
+        if self.rated != wanted.rated {
+            self.rated = wanted.rated.to_vec();
+            let mut rows = Dense::zeros(self.rated.len(), v.len());
+            for (i, a) in self.rated.iter().enumerate() {
+                links.row(*a).for_each(|(j, c)| rows[(i, j)] = c);
+            }
+            self.rows = Panel::of_few(&rows);
+        }
+        match &self.rows {
+            Some(rows) => rows.times(v, wanted.v),
+            None => links.deform_some(v, wanted.rated, wanted.v),
         }
     }
 
@@ -439,7 +461,7 @@ impl Propagator for Modal {
         let m = self.modes.space.order();
         let links = &self.modes.space.links;
         links.deform(&to[..m], wanted.d);
-        links.deform_some(&to[m..2 * m], wanted.rated, wanted.v);
+        self.now.rates(links, &to[m..2 * m], wanted);
     }
 
     fn correct(&mut self, from: &Motion, forces: &Forces<'_>, to: &mut Motion) {

@@ -100,7 +100,7 @@ pub(crate) struct LinkKernel<'a> {
     laws: StepLaws<'a>,
     layout: Layout<'a>,
     unknowns: Unknowns,
-    /// Blocks of all links, and of those whose laws look at rates.
+    /// Blocks of all links but dashpots, and of those whose laws look at rates.
     blocks: LinkBlocks,
     rated_blocks: LinkBlocks,
     /// Forces that follow from deformations and rates along the tangents, flat.
@@ -133,7 +133,8 @@ impl<'a> LinkKernel<'a> {
         dummy_k: Vec<f64>,
     ) -> Self {
         let laws = links.laws(model);
-        let blocks = LinkBlocks::of(laws.iter().map(|(_, link)| link));
+        let stiff = laws.iter().filter(|(law, _)| law.damping_constant().is_none());
+        let blocks = LinkBlocks::of(stiff.map(|(_, link)| link));
         let rate_dependent = laws.iter().filter(|(law, _)| law.uses_rates());
         let rated_blocks = LinkBlocks::of(rate_dependent.map(|(_, link)| link));
         let layout = Layout::new(links, &laws, dummy_k);
@@ -348,7 +349,7 @@ impl<'a> LinkKernel<'a> {
     }
 
     /// Deformations and rates of all coordinates, where the own ones are not those.
-    #[inline]
+    #[inline(always)]
     fn deform(&mut self, affine: &Affine<'_>, out: &mut Converged<'_>) {
         self.unknowns.place_rates(&self.layout.rated);
         self.plain = self.layout.complete && affine.support.is_none();
@@ -389,17 +390,20 @@ impl<'a> LinkKernel<'a> {
     }
 
     /// The residual of forces, flat, against pseudo-forces at the present deformations, and the sizes of all three.
-    #[inline]
+    #[inline(always)]
     fn leave(&mut self, f: &[f64]) {
         let Self { layout, unknowns, residual: r, correction: own, sizes, .. } = self;
-        let (pseudo, d) = (unknowns.pseudo(), unknowns.d());
-        if layout.complete {
-            return residual(f, &layout.dummy_k, d, pseudo, r, sizes);
+        let mut of_active = f;
+        if !layout.complete {
+            own.clear();
+            own.extend(layout.links.active.iter().map(|flat| f[*flat]));
+            of_active = own;
         }
-        own.clear();
-        own.extend(layout.links.active.iter().map(|flat| f[*flat]));
-        residual(own, &layout.dummy_k, d, pseudo, r, sizes);
-        sizes[1] = largest(f);
+        let (pseudo, d) = (unknowns.pseudo(), unknowns.d());
+        residual(of_active, &layout.dummy_k, d, pseudo, r, sizes);
+        if !layout.complete {
+            sizes[1] = largest(f);
+        }
     }
 
     /// The factor for a step from the start or from the last iteration; `slow`: that the last one brought little.

@@ -148,9 +148,10 @@ impl<'a, 'b> Course<'a, 'b> {
     /// Displacements as predicted, and where those of the links go; rates that laws look at are put in place.
     pub(super) fn predicted(&mut self, modes: &Modes) -> (&[f64], &mut [f64]) {
         let m = modes.space.order();
+        let (displacement, rest) = self.next.motion.split_at(m);
         let wanted = self.side.kernel.wanted();
-        modes.space.links.deform_some(&self.next.motion[m..2 * m], wanted.rated, wanted.v);
-        (&self.next.motion[..m], wanted.d)
+        self.sources.rates(&modes.space.links, &rest[..m], wanted);
+        (displacement, self.side.kernel.wanted().d)
     }
 
     /// True where deformations must follow what is foreseen.
