@@ -18,6 +18,7 @@ pub const ORDERS: usize = 4;
 ///
 /// # Panics
 /// Where the tables are not of one size.
+#[inline]
 pub fn extrapolate(before: &[f64], rows: &mut [f64], sizes: &mut [f64; ORDERS + 1]) {
     let fits = before.len() == rows.len() && rows.len().is_multiple_of(ORDERS);
     assert!(fits, "rows of extrapolations");

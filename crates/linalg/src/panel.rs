@@ -69,6 +69,7 @@ impl Panel {
     ///
     /// # Panics
     /// Where the lengths do not suit.
+    #[inline]
     pub fn times(&self, x: &[f64], y: &mut [f64]) {
         assert!(x.len() == self.columns && y.len() == self.rows, "lengths of a product");
         dispatch(Times::<false> { a: &self.values, stride: self.stride, x, y });
@@ -84,6 +85,7 @@ impl Panel {
     ///
     /// # Panics
     /// Where the lengths do not suit.
+    #[inline]
     pub fn add_times(&self, x: &[f64], y: &mut [f64]) {
         assert!(x.len() == self.columns && y.len() == self.stride, "lengths of a product");
         dispatch(Times::<true> { a: &self.values, stride: self.stride, x, y });

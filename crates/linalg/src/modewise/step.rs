@@ -77,6 +77,7 @@ impl OwnModes {
     ///
     /// # Panics
     /// Where a length does not suit the number of modes.
+    #[inline]
     pub fn predict(&self, step: ModalStep<'_>, sources: &mut [f64], to: &mut [f64]) {
         dispatch(Predict { modes: self, step, sources, to });
     }
@@ -86,6 +87,7 @@ impl OwnModes {
     ///
     /// # Panics
     /// Where a length does not suit the number of modes.
+    #[inline]
     pub fn complete(
         &self,
         step: ModalStep<'_>,
