@@ -149,7 +149,7 @@ impl Product {
     /// Where the lengths do not suit.
     pub fn times(&self, x: &[f64], y: &mut [f64]) {
         match self {
-            Self::One(row) => y.copy_from_slice(&[crate::dot(row, x)]),
+            Self::One(row) => y.fill(crate::dot(row, x)),
             Self::Few(panel) => panel.times(x, y),
             Self::Many(dense) => {
                 y.fill(0.0);

@@ -1,6 +1,6 @@
 //! The link side of a step: loads and pseudo-forces, the link equations, the books.
 
-use crate::kernel::{Affine, Committed, Converged, LinkKernel};
+use crate::kernel::{Affine, Committed, Converged, Layout, LinkKernel};
 use crate::propagator::{Compliance, Forces, Wanted};
 use crate::space::Space;
 use crate::stepper::{State, StepEnergy, StepFailure};
@@ -24,6 +24,8 @@ pub(crate) struct LinkSide<'a> {
     support_rate: Vec<f64>,
     /// Rates of the active coordinates at the end, where laws left some open.
     rates: Vec<f64>,
+    /// Flat coordinates with dummies, and their stiffness.
+    dummies: Vec<(usize, f64)>,
     /// True where supports move links.
     moving: bool,
     /// True where outputs or the view of contacts may look at rates that no law looks at.
@@ -42,6 +44,9 @@ impl<'a> LinkSide<'a> {
         watched: bool,
     ) -> Self {
         let (flat, active) = (system.links.len(), system.links.active.len());
+        let Layout { links, dummy_k, .. } = kernel.layout();
+        let dummies = links.active.iter().copied().zip(dummy_k.iter().copied());
+        let dummies = dummies.filter(|(_, k)| *k != 0.0).collect();
         let moves = |c: &Channel| !c.deformation.is_empty() || !c.rate.is_empty();
         Self {
             model,
@@ -55,6 +60,7 @@ impl<'a> LinkSide<'a> {
             support1: vec![0.0; flat],
             support_rate: vec![0.0; flat],
             rates: vec![0.0; active],
+            dummies,
             moving: loads.channels.iter().any(moves),
             watched,
         }
@@ -194,7 +200,6 @@ impl<'a> LinkSide<'a> {
     /// Enters a step, taking the dummies out of the books: what they store belongs to the links.
     pub(crate) fn book(
         &self,
-        dummy_k: &[f64],
         from: &State,
         to: &State,
         (kinetic, strain): (f64, f64),
@@ -203,7 +208,7 @@ impl<'a> LinkSide<'a> {
         let (support0, support1) = (&self.support0, &self.support1);
         (energy.kinetic, energy.strain) = (kinetic, strain);
         energy.link_work = energy.work.links;
-        for (flat, k) in self.system.links.active.iter().zip(dummy_k).filter(|(_, k)| **k != 0.0) {
+        for (flat, k) in &self.dummies {
             let (d0, d1) = (from.d[*flat] - support0[*flat], to.d[*flat] - support1[*flat]);
             energy.strain -= 0.5 * k * d1 * d1;
             energy.link_work += 0.5 * k * (d1 * d1 - d0 * d0);

@@ -189,10 +189,7 @@ impl Outputs {
     pub(crate) fn at<'a>(&'a self, t: f64, state: &'a State, loads: &LoadSet) -> Now<'a> {
         let n = self.order;
         let motion = [&state.motion[..n], &state.motion[n..2 * n], &state.motion[2 * n..]];
-        let support = match self.supported {
-            true => loads.prescribed(t, Side::Before, self.prescribed),
-            false => Default::default(),
-        };
+        let support = self.supported.then(|| loads.prescribed(t, Side::Before, self.prescribed));
         let base = match self.absolute {
             true => loads.base_acceleration(t, Side::Before),
             false => [0.0; 3],
@@ -205,17 +202,22 @@ impl Outputs {
 pub(crate) struct Now<'a> {
     outputs: &'a Outputs,
     state: &'a State,
-    /// Displacements, velocities and accelerations, and those of supports.
+    /// Displacements, velocities and accelerations, and those of supports that outputs ask for.
     motion: [&'a [f64]; 3],
-    support: [Vec<f64>; 3],
+    support: Option<[Vec<f64>; 3]>,
     /// Acceleration of the base.
     base: [f64; 3],
 }
 
 impl Now<'_> {
+    /// The share of moving supports in a row of this order.
+    fn of_support(&self, terms: &[(usize, f64)], order: usize) -> f64 {
+        self.support.as_ref().map_or(0.0, |support| sum(terms, &support[order]))
+    }
+
     /// Values of all.
     pub(crate) fn values(&self, values: &mut [f64]) {
-        let Self { outputs, state, motion, support, base } = self;
+        let Self { outputs, state, motion, base, .. } = self;
         for Run { rows, order, own } in &outputs.runs {
             own.times(motion[*order], &mut values[rows.clone()]);
         }
@@ -226,7 +228,7 @@ impl Now<'_> {
             values[i] = match &outputs.rows[i] {
                 Row::Nodal { order, own, support: tied, base: share } => {
                     let moving: f64 = share.iter().zip(base).map(|(a, b)| a * b).sum();
-                    sum(own, motion[*order]) + sum(tied, &support[*order]) + moving
+                    sum(own, motion[*order]) + self.of_support(tied, *order) + moving
                 }
                 // Among those above.
                 Row::Deformation { .. } => continue,
@@ -237,9 +239,9 @@ impl Now<'_> {
                 }
                 Row::Element { stiffness, damping } => {
                     sum(&stiffness.0, motion[0])
-                        + sum(&stiffness.1, &support[0])
+                        + self.of_support(&stiffness.1, 0)
                         + sum(&damping.0, motion[1])
-                        + sum(&damping.1, &support[1])
+                        + self.of_support(&damping.1, 1)
                 }
             };
         }
@@ -247,7 +249,7 @@ impl Now<'_> {
 
     /// Rates of those that have one, not numbers of the others.
     pub(crate) fn rates(&self, values: &[f64], rates: &mut [f64]) {
-        let Self { outputs, state, motion, support, .. } = self;
+        let Self { outputs, state, motion, .. } = self;
         rates.fill(f64::NAN);
         for Run { rows, order, own } in &outputs.runs {
             if let Some(motion) = motion.get(order + 1) {
@@ -260,7 +262,7 @@ impl Now<'_> {
         for i in outputs.others.iter().copied() {
             rates[i] = match &outputs.rows[i] {
                 Row::Nodal { order, own, support: tied, .. } if *order < 2 => {
-                    sum(own, motion[order + 1]) + sum(tied, &support[order + 1])
+                    sum(own, motion[order + 1]) + self.of_support(tied, order + 1)
                 }
                 Row::Combination { how, terms, .. } => {
                     rate_combined(*how, terms, values[i], values, rates)

@@ -272,7 +272,7 @@ impl<P: Propagator> Stepper for LinkStepper<'_, P> {
         let forces = side.forces(&from.pseudo, &to.pseudo);
         energy.work = self.propagator.work(&from.motion, &to.motion, &forces);
         let of_motion = (energy.work.kinetic, energy.work.strain);
-        side.book(&self.propagator.space().dummy_k, from, to, of_motion, energy);
+        side.book(from, to, of_motion, energy);
         Ok(())
     }
 

@@ -170,7 +170,11 @@ impl<'a, 'b> Viewer<'a, 'b> {
     }
 
     /// Index of the element of the first body that has fallen over.
+    #[inline]
     pub(crate) fn overturned(&self, state: &State) -> Option<usize> {
+        if self.touching.is_empty() {
+            return None;
+        }
         let fallen = |(law, link): &(&dyn Link, &LinkInstance)| {
             law.overturned(&standing(link, state), &state.history[link.history.clone()])
         };

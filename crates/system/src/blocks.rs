@@ -68,7 +68,7 @@ fn small<const N: usize>(blocks: &[f64], x: [&[f64]; 2], y: &mut [f64]) {
     let (rows, _) = blocks.as_chunks::<N>();
     let [x0, x1] = x.map(|x| x.as_chunks::<N>().0);
     let own = x0.iter().zip(x1).zip(y.as_chunks_mut::<N>().0);
-    for (rows, ((x0, x1), y)) in rows.chunks_exact(N).zip(own) {
+    for (rows, ((x0, x1), y)) in rows.as_chunks::<N>().0.iter().zip(own) {
         for i in 0..N {
             for j in 0..N {
                 y[i] += rows[i][j] * (x1[j] - x0[j]);

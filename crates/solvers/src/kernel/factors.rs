@@ -91,7 +91,8 @@ impl Factors {
         tangents: &Tangents,
         good: impl FnOnce(&Factor) -> bool,
     ) -> &Factor {
-        let at = self.0.iter().position(|f| f.key == of.key);
+        // Mostly the one used last.
+        let at = self.0.iter().rposition(|f| f.key == of.key);
         match at.filter(|at| good(&self.0[*at])) {
             Some(at) => {
                 let last = self.0.len() - 1;

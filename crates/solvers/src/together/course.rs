@@ -192,7 +192,7 @@ impl<'a, 'b> Course<'a, 'b> {
         side.settle(next, energy);
         energy.work = modes.work(sources);
         let of_motion = (energy.work.kinetic, energy.work.strain);
-        side.book(&modes.space.dummy_k, state, next, of_motion, energy);
+        side.book(state, next, of_motion, energy);
         self.ledger.enter(&self.energy, potential(&self.constant, &self.next));
         if self.at < self.timeline.time(self.made + 1) - 1e-12 * self.timeline.dt {
             self.viewer.show(self.at, None, &self.next, &modes.space, &self.ledger);
