@@ -63,7 +63,8 @@ impl LinkBlocks {
     }
 }
 
-/// The same for blocks of a size that the compiler knows.
+/// The same for blocks of a size that the compiler knows; a function each, so that none prepares for all.
+#[inline(never)]
 fn small<const N: usize>(blocks: &[f64], x: [&[f64]; 2], y: &mut [f64]) {
     let (rows, _) = blocks.as_chunks::<N>();
     let [x0, x1] = x.map(|x| x.as_chunks::<N>().0);
