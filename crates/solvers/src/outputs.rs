@@ -78,13 +78,46 @@ impl Run {
     }
 }
 
+/// Deformations of links in rows that follow each other, as their flat coordinates do.
+struct Deformations {
+    rows: Range<usize>,
+    /// Coordinate of the first.
+    flat: usize,
+    factor: f64,
+}
+
+impl Deformations {
+    /// Those among the rows.
+    fn of(rows: &[Row]) -> Vec<Self> {
+        let mut all: Vec<Self> = Vec::new();
+        for (i, row) in rows.iter().enumerate() {
+            let Row::Deformation { flat, factor } = row else { continue };
+            let joins = |last: &&mut Self| {
+                (last.rows.end, last.flat + last.rows.len(), last.factor) == (i, *flat, *factor)
+            };
+            match all.last_mut().filter(joins) {
+                Some(last) => last.rows.end += 1,
+                None => all.push(Self { rows: i..i + 1, flat: *flat, factor: *factor }),
+            }
+        }
+        all
+    }
+
+    /// Out of the values of all flat coordinates.
+    fn put(&self, flat: &[f64], to: &mut [f64]) {
+        let Self { rows, flat: first, factor } = self;
+        let own = &flat[*first..*first + rows.len()];
+        to[rows.clone()].iter_mut().zip(own).for_each(|(to, x)| *to = factor * x);
+    }
+}
+
 /// All outputs of a model.
 pub(crate) struct Outputs {
     pub(crate) rows: Vec<Row>,
     /// Nodal rows of one order that follow each other, where they are full and nothing else adds to them.
     runs: Vec<Run>,
-    /// Deformations of links: row, flat coordinate, factor.
-    deformations: Vec<(usize, usize, f64)>,
+    /// Deformations of links.
+    deformations: Vec<Deformations>,
     /// All other rows.
     others: Vec<usize>,
     prescribed: usize,
@@ -166,11 +199,7 @@ impl Outputs {
         let prescribed = system.reduction.prescribed.len();
         let runs = Run::of(&rows, space.order());
         let in_run = |i: &usize| runs.iter().any(|run| run.rows.contains(i));
-        let deformation = |(i, row): (usize, &Row)| match row {
-            Row::Deformation { flat, factor } => Some((i, *flat, *factor)),
-            _ => None,
-        };
-        let deformations = rows.iter().enumerate().filter_map(deformation).collect();
+        let deformations = Deformations::of(&rows);
         let is_other = |i: &usize| !in_run(i) && !matches!(rows[*i], Row::Deformation { .. });
         let others = (0..rows.len()).filter(is_other).collect();
         Self {
@@ -221,9 +250,7 @@ impl Now<'_> {
         for Run { rows, order, own } in &outputs.runs {
             own.times(motion[*order], &mut values[rows.clone()]);
         }
-        for (i, flat, factor) in &outputs.deformations {
-            values[*i] = factor * state.d[*flat];
-        }
+        outputs.deformations.iter().for_each(|some| some.put(&state.d, values));
         for i in outputs.others.iter().copied() {
             values[i] = match &outputs.rows[i] {
                 Row::Nodal { order, own, support: tied, base: share } => {
@@ -256,9 +283,7 @@ impl Now<'_> {
                 own.times(motion, &mut rates[rows.clone()]);
             }
         }
-        for (i, flat, factor) in &outputs.deformations {
-            rates[*i] = factor * state.v[*flat];
-        }
+        outputs.deformations.iter().for_each(|some| some.put(&state.v, rates));
         for i in outputs.others.iter().copied() {
             rates[i] = match &outputs.rows[i] {
                 Row::Nodal { order, own, support: tied, .. } if *order < 2 => {
