@@ -1,8 +1,8 @@
 //! Repeatability: the same bits from a repetition, a checkpoint, and after a failed step.
 
 use trilith_model::SolverKind;
-use trilith_solvers::{EndState, RunOptions};
-use trilith_tests::{Trace, shipped, trace, trace_with};
+use trilith_solvers::{EndState, Observer, RunOptions, Sample};
+use trilith_tests::{Trace, parse, shipped, trace, trace_with};
 
 fn bits(history: &[Vec<f64>]) -> Vec<Vec<u64>> {
     history.iter().map(|row| row.iter().map(|x| x.to_bits()).collect()).collect()
@@ -42,6 +42,57 @@ fn a_run_continued_from_a_written_checkpoint_gives_the_same_bits() {
             assert_eq!(bits(&joined), bits(&whole.history), "{file} {}", solver.name());
             assert_eq!(finished.end.state, end.end.state, "{file} {}", solver.name());
             assert_eq!(finished.energy, end.energy, "{file} {}", solver.name());
+        }
+    }
+}
+
+/// Rates of the outputs at each shown state.
+#[derive(Default)]
+struct Rates(Vec<Vec<f64>>);
+
+impl Observer for Rates {
+    fn sample(&mut self, sample: &Sample<'_>) {
+        self.0.push(sample.rates.to_vec());
+    }
+}
+
+#[test]
+fn who_looks_at_a_run_that_nobody_watched_before_sees_the_rates_of_its_first_state() {
+    // Its law looks at no rates, and nothing else does but the output.
+    let text = r#"(
+        nodes: { "n": (0, 0, 0) },
+        elements: {
+            "mass": Mass(node: "n", mass: "1 t"),
+            "upright": Spring(node: "n", k3: 1e6),
+            "bearing": ElastomericBearing(node: "n", k: 1e6, fy: 2e3, ratio: 0.2),
+        },
+        cases: { "free": Dynamic(duration: "2 s", dt: "0.01 s",
+            initial: [(node: "n", dof: Ux, displacement: 0.02), (node: "n", dof: Uy, velocity: 0.5)]) },
+        outputs: {
+            "x": LinkDeformation(link: "bearing", axis: U2),
+            "y": LinkDeformation(link: "bearing", axis: U3),
+        },
+    )"#;
+    let (model, system) = parse(text, &[]);
+    for solver in [SolverKind::Fna, SolverKind::Hht] {
+        let options = |from, until| RunOptions {
+            case: model.cases.len() - 1,
+            solver: Some(solver),
+            from,
+            until,
+            ..RunOptions::default()
+        };
+        let run = |options, observers: &mut [&mut dyn Observer]| {
+            trilith_solvers::run(&model, &system, options, observers).unwrap()
+        };
+        let (mut all, mut rest) = (Rates::default(), Rates::default());
+        run(options(None, Some(0.7)), &mut [&mut all]);
+        let unwatched = run(options(None, Some(0.7)), &mut []);
+        run(options(Some(unwatched.end), Some(0.8)), &mut [&mut rest]);
+        let (last, first) = (all.0.last().unwrap(), &rest.0[0]);
+        for (first, last) in first.iter().zip(last) {
+            assert!(last.abs() > 1e-6, "{}: it moves", solver.name());
+            assert_eq!(first.to_bits(), last.to_bits(), "{}", solver.name());
         }
     }
 }
