@@ -65,7 +65,7 @@ struct Suite {
     /// Put the tables into the marked block of this file, such as README.md
     #[arg(long, value_name = "FILE")]
     update: Option<PathBuf>,
-    /// How often both programs run in turn
+    /// How often both programs run in turn, at least
     #[arg(long, default_value_t = 3)]
     pairs: usize,
 }

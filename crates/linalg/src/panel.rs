@@ -327,6 +327,15 @@ mod tests {
                 product.times(&x, &mut y);
                 assert_eq!((product.rows(), product.columns()), (rows, columns));
                 (0..columns).for_each(|j| assert_eq!(product.column(j), a.column(j)));
+                let panel = Panel::new(&a);
+                let mut one = vec![9.0; rows];
+                panel.times(&x, &mut one);
+                let mut added: Vec<f64> = (0..panel.filled()).map(number).collect();
+                panel.add_times(&x, &mut added);
+                for (i, added) in added.iter().enumerate() {
+                    let sum = number(i) + one.get(i).unwrap_or(&0.0);
+                    assert_eq!(*added, sum, "{rows} × {columns}");
+                }
                 for i in 0..rows {
                     let sum: f64 = (0..columns).map(|j| a[(i, j)] * x[j]).sum();
                     assert!((y[i] - sum).abs() < 1e-13, "{rows} × {columns}");

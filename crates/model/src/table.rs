@@ -278,6 +278,24 @@ mod tests {
     }
 
     #[test]
+    fn a_value_alone_is_that_which_comes_with_derivatives() {
+        let times = [0.5, 1.0, 1.7, 1.75, 3.0, 4.5];
+        for interpolation in [Interpolation::Linear, Interpolation::Cubic] {
+            for after_end in [AfterEnd::Zero, AfterEnd::Hold] {
+                let values = vec![3.0, -1.0, 2.0, 5.0, 4.0, 7.0];
+                let table = Table::new(times.to_vec(), values, interpolation, after_end).unwrap();
+                let between = (0..600).map(|i| 0.01 * f64::from(i));
+                for t in between.chain(times).chain([-1e300, -1.0, 1e300]) {
+                    for side in [Side::Before, Side::After] {
+                        let [value, ..] = table.at(t, side);
+                        assert_eq!(table.value(t, side).to_bits(), value.to_bits(), "{t}");
+                    }
+                }
+            }
+        }
+    }
+
+    #[test]
     fn a_spline_through_a_sine_has_its_derivatives() {
         let [y, first, second] = sine(40).at(1.0, Side::Before);
         assert!((y - 1.0_f64.sin()).abs() < 1e-6);

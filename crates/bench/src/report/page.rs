@@ -28,11 +28,12 @@ impl Results {
         if let Some(pair) = self.peers.first().and_then(|s| s.pairs.first()) {
             let note = format!(
                 "OpenSeesPy {}, Newmark, CPU times in strong motion (the motion from 4 s on), one thread, both programs in \
-                 turn; medians of {} pairs. Newton: tangent in every iteration. Tuned: initial tangent, one factorisation. \
+                 turn; medians of {} to {} pairs. Newton: tangent in every iteration. Tuned: initial tangent, one factorisation. \
                  Whole runs there: building, first step and {WHOLE} times the median step. Same motion: difference of the \
                  roof drift between HHT here and Newton there.",
                 pair.newton.version,
-                self.peers.iter().map(|s| s.pairs.len()).min().unwrap_or(0)
+                self.peers.iter().map(|s| s.pairs.len()).min().unwrap_or(0),
+                self.peers.iter().map(|s| s.pairs.len()).max().unwrap_or(0)
             );
             parts.push((
                 "Side by side with OpenSees",

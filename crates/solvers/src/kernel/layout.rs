@@ -43,13 +43,12 @@ impl<'a> Layout<'a> {
 
 /// What the link equations move, in one row: deformations of the active coordinates, the rates that laws look at, and
 /// f̃. A factor of few coordinates moves all of it in one product.
-///
-/// Deformations and f̃ begin where whole vectors do: what one product stores in vectors the next reads again in the same.
 pub(super) struct Unknowns {
     /// Number of active coordinates.
     n: usize,
     /// Number of rates that laws look at.
     rated: usize,
+    /// The row, with zeros behind it that fill up whole vectors.
     row: Vec<f64>,
     /// Rates of all active coordinates; zero where no law looks at them.
     v: Vec<f64>,
@@ -57,8 +56,7 @@ pub(super) struct Unknowns {
 
 impl Unknowns {
     pub fn new(n: usize, rated: usize) -> Self {
-        let length = Self::place_of_pseudo(n, rated) + n;
-        let filled = length.next_multiple_of(Panel::GRAIN);
+        let filled = (2 * n + rated).next_multiple_of(Panel::GRAIN);
         Self { n, rated, row: vec![0.0; filled], v: vec![0.0; n] }
     }
 

@@ -59,6 +59,14 @@ impl LinkKernel<'_> {
         (size, worst)
     }
 
+    /// The coordinate with the largest residual.
+    pub(super) fn farthest(&self) -> NoEquilibrium {
+        let sizes = self.residual.iter().map(|r| r.abs()).enumerate();
+        let (a, residual) = sizes.max_by(|x, y| x.1.total_cmp(&y.1)).unwrap_or_default();
+        let worst = self.layout.links.active.get(a).copied().unwrap_or_default();
+        NoEquilibrium { worst, residual }
+    }
+
     /// What the last digits of deformations and rates make of the force of an active coordinate: a
     /// stiff contact under a body that has gone far.
     fn rounding(&self, a: usize, out: &Converged<'_>) -> f64 {

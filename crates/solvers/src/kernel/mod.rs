@@ -268,37 +268,33 @@ impl<'a> LinkKernel<'a> {
             return Err(worst);
         }
         self.followed = false;
-        if self.kind == Kernel::Newton {
-            let before = self.sizes[0];
-            if let Some(back) = self.search.shortens(self.iteration - 1, before) {
-                for (x, step) in self.residual.iter_mut().zip(&self.search.step) {
-                    *x = -back * step;
-                }
-                self.take();
-                return Ok(false);
-            }
-            let slow = size > CONTRACTS * self.size_before;
-            if self.iteration == 1 {
-                // Nobody asks how far the first step goes.
-                self.size_before = size;
-                return if self.go(affine, out.tangents, slow) { Ok(false) } else { Err(worst) };
-            }
-            self.correct(affine, out.tangents, slow);
-            let may_settle = self.iteration >= ROUNDING_FROM && size <= ROUNDING;
-            let step = self.step();
-            if may_settle && size * largest(step) <= SETTLED * before {
-                self.end(from, out);
-                return Ok(true);
-            }
+        if self.kind == Kernel::FixedPoint {
+            self.take();
+            return Ok(false);
         }
+        let before = self.sizes[0];
+        if let Some(back) = self.search.shortens(self.iteration - 1, before) {
+            for (x, step) in self.residual.iter_mut().zip(&self.search.step) {
+                *x = -back * step;
+            }
+            self.take();
+            return Ok(false);
+        }
+        let slow = size > CONTRACTS * self.size_before;
         self.size_before = size;
-        if self.iteration > 1 {
-            let step = match self.followed {
-                true => self.unknowns.pseudo_of(&self.correction),
-                false => &self.residual,
-            };
-            self.search.goes(step);
+        if self.iteration == 1 {
+            // Nobody asks how far the first correction goes.
+            let goes = self.go(affine, out.tangents, slow);
+            return if goes { Ok(false) } else { Err(self.farthest()) };
         }
+        self.correct(affine, out.tangents, slow);
+        let Self { followed, unknowns, correction, residual, search, .. } = self;
+        let step = if *followed { unknowns.pseudo_of(correction) } else { residual };
+        if size <= ROUNDING && size * largest(step) <= SETTLED * before {
+            self.end(from, out);
+            return Ok(true);
+        }
+        search.goes(step);
         self.take();
         Ok(false)
     }
@@ -323,12 +319,6 @@ impl<'a> LinkKernel<'a> {
         }
     }
 
-    /// The last change of f̃: in the row that a factor gave where deformations have followed it already, else in place of
-    /// the residual.
-    fn step(&self) -> &[f64] {
-        if self.followed { self.unknowns.pseudo_of(&self.correction) } else { &self.residual }
-    }
-
     /// The last change of f̃, and the deformations of the active coordinates, which must follow it by
     /// −G times it; none where they have done so already. The rates that laws look at have followed.
     pub(crate) fn change(&mut self, h: &Dense) -> Option<(&[f64], &mut [f64])> {
@@ -348,7 +338,7 @@ impl<'a> LinkKernel<'a> {
         Some((residual, d))
     }
 
-    /// Deformations and rates of all coordinates, where the own ones are not those.
+    /// Deformations and rates of all coordinates.
     #[inline(always)]
     fn deform(&mut self, affine: &Affine<'_>, out: &mut Converged<'_>) {
         self.unknowns.place_rates(&self.layout.rated);
@@ -358,6 +348,7 @@ impl<'a> LinkKernel<'a> {
         }
     }
 
+    /// Those of the active coordinates, and what supports do.
     fn deform_all(&mut self, affine: &Affine<'_>, out: &mut Converged<'_>) {
         let links = self.layout.links;
         match affine.support {
