@@ -128,7 +128,8 @@ impl<'a> LinkSide<'a> {
         let support = self.moving.then_some([&support1[..], &support_rate[..]]);
         let affine = affine(compliance, support);
         let out = &mut converged(to, &mut energy.links);
-        let done = kernel.solve(&from.pseudo, &affine, &committed(from, dt), &from.scale, out);
+        let start = &committed(from, dt);
+        let done = kernel.solve_step(&from.pseudo, &affine, start, &from.scale, out);
         done.map_err(StepFailure::from)
     }
 

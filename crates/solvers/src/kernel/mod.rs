@@ -216,6 +216,22 @@ impl<'a> LinkKernel<'a> {
         out: &mut Converged<'_>,
     ) -> Result<(), NoEquilibrium> {
         self.begin(pseudo);
+        while !self.advance(affine, from, scale, out)? {
+            self.follow(affine);
+        }
+        Ok(())
+    }
+
+    /// The same for a step in time, from what is [foreseen](Self::foresee) at its start.
+    pub(crate) fn solve_step(
+        &mut self,
+        pseudo: &[f64],
+        affine: &Affine<'_>,
+        from: &Committed<'_>,
+        scale: &ForceScale,
+        out: &mut Converged<'_>,
+    ) -> Result<(), NoEquilibrium> {
+        self.begin(pseudo);
         if self.foresee(affine, from, out) {
             self.follow(affine);
         }
