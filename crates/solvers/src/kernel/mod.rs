@@ -216,10 +216,7 @@ impl<'a> LinkKernel<'a> {
         out: &mut Converged<'_>,
     ) -> Result<(), NoEquilibrium> {
         self.begin(pseudo);
-        while !self.advance(affine, from, scale, out)? {
-            self.follow(affine);
-        }
-        Ok(())
+        self.settle(affine, from, scale, out)
     }
 
     /// The same for a step in time, from what is [foreseen](Self::foresee) at its start.
@@ -235,6 +232,17 @@ impl<'a> LinkKernel<'a> {
         if self.foresee(affine, from, out) {
             self.follow(affine);
         }
+        self.settle(affine, from, scale, out)
+    }
+
+    /// Iterates until the links are in equilibrium.
+    fn settle(
+        &mut self,
+        affine: &Affine<'_>,
+        from: &Committed<'_>,
+        scale: &ForceScale,
+        out: &mut Converged<'_>,
+    ) -> Result<(), NoEquilibrium> {
         while !self.advance(affine, from, scale, out)? {
             self.follow(affine);
         }
