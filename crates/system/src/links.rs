@@ -181,7 +181,8 @@ impl<'a> StepLaws<'a> {
     }
 
     /// Forces and tangents at (d, v) in the step taken up last; history and energies may wait for the
-    /// [end](Self::end); `last`: whether the step may well end here. `tangents` are [those](LinkSet::tangents) that nobody else writes: what is zero at all
+    /// [end](Self::end); `last`: whether the step may well end here. `tangents` are [those](LinkSet::tangents) that
+    /// nobody else writes: what is zero at all
     /// times stays as it is.
     pub fn respond(
         &mut self,
