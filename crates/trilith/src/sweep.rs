@@ -103,8 +103,8 @@ pub struct Sweep {
     width: usize,
 }
 
-/// Combinations that a thread takes at a time, in widths of the lanes.
-const PORTION: usize = 4;
+/// Most combinations that a thread takes at a time, in widths of the lanes.
+const MOST: usize = 4;
 
 /// One combination on its way.
 enum Stage {
@@ -171,23 +171,20 @@ impl Sweep {
             }
         };
         let tables = Tables::new();
-        let portion = (PORTION * self.width).max(1);
+        let all = combinations.len();
+        let threads = self.threads.min(all.div_ceil(self.width)).max(1);
+        let after = |start: usize| start + share(all - start, self.width, threads);
         let next = AtomicUsize::new(0);
         let done = Mutex::new(Vec::new());
         let work = || {
-            loop {
-                let start = next.fetch_add(portion, Ordering::Relaxed);
-                if start >= combinations.len() {
-                    break;
-                }
-                let end = (start + portion).min(combinations.len());
-                let outcomes = self.portion(&parsed, &combinations[start..end], &tables);
+            let take = |start| (start < all).then(|| after(start));
+            while let Ok(start) = next.fetch_update(Ordering::Relaxed, Ordering::Relaxed, take) {
+                let outcomes = self.portion(&parsed, &combinations[start..after(start)], &tables);
                 if let Ok(mut done) = done.lock() {
                     done.push((start, outcomes));
                 }
             }
         };
-        let threads = self.threads.min(combinations.len().div_ceil(portion)).max(1);
         std::thread::scope(|scope| {
             for _ in 1..threads {
                 scope.spawn(work);
@@ -341,6 +338,13 @@ impl Sweep {
             iterations: lane.iterations,
         })
     }
+}
+
+/// How many of the combinations that are left a thread takes: whole widths, and fewer towards the end, so that no
+/// thread is left with much while the others have nothing.
+fn share(left: usize, width: usize, threads: usize) -> usize {
+    let widths = left / (2 * threads * width);
+    (widths.clamp(1, MOST) * width).min(left)
 }
 
 fn named(model: &Model, links: &[(usize, LinkEnergy)]) -> Named<LinkEnergy> {
