@@ -190,7 +190,7 @@ fn reference_error() -> f64 {
 /// second thread on a core of its own.
 const ROUNDS: usize = 8;
 
-/// Measures a sweep of `side` × `side` combinations, medians of three.
+/// Measures a sweep of `side` × `side` combinations, medians of five.
 #[must_use]
 pub fn sweep_block(side: usize) -> BlockSweep {
     let combinations = grid(side);
@@ -199,7 +199,7 @@ pub fn sweep_block(side: usize) -> BlockSweep {
     let (mut alone, mut lanes, mut setup, mut speedup) = (vec![], vec![], vec![], vec![]);
     let mut found = None;
     let threads = std::thread::available_parallelism().map_or(1, usize::from);
-    for _ in 0..3 {
+    for _ in 0..5 {
         let (one, seconds) = timed(|| sweep("20 s").threads(1).width(1).run(&combinations));
         alone.push(seconds / each);
         let wall = Instant::now();
