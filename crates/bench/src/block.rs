@@ -216,7 +216,8 @@ pub fn sweep_block(side: usize) -> BlockSweep {
     }
     let (one, side_by_side, together) = found.unwrap_or_default();
     let one = text(&one);
-    let same = |all: &Outcomes| all.chunks(combinations.len().max(1)).all(|round| text(round) == one);
+    let same =
+        |all: &Outcomes| all.chunks(combinations.len().max(1)).all(|round| text(round) == one);
     let good = || side_by_side.iter().flatten();
     let iterations: f64 = good().map(|o| o.iterations as f64).sum();
     BlockSweep {

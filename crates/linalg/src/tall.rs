@@ -215,18 +215,35 @@ impl Dense {
     #[must_use]
     pub fn congruence(&self, a: &Sparse, count: usize) -> Self {
         let n = self.rows();
-        assert!(a.rows() == n && a.columns() == n && count <= self.columns(), "sizes of a product");
+        assert!(a.rows() == n && a.columns() == n, "sizes of a product");
+        if a.stored() == 0 {
+            return Self::zeros(count, count);
+        }
+        self.congruence_by(count, |x, images| {
+            images.fill(0.0);
+            for (x, image) in x.chunks(n).zip(images.chunks_mut(n)) {
+                a.mul_add(1.0, x, image);
+            }
+        })
+    }
+
+    /// The same for an A that `images` of columns one after the other are made with.
+    ///
+    /// # Panics
+    /// Where there are fewer columns.
+    #[must_use]
+    pub fn congruence_by(&self, count: usize, mut images: impl FnMut(&[f64], &mut [f64])) -> Self {
+        let n = self.rows();
+        assert!(count <= self.columns(), "sizes of a product");
         let mut c = Self::zeros(count, count);
-        if a.stored() == 0 || n == 0 {
+        if n == 0 {
             return c;
         }
         let mut image = Self::zeros(n, BLOCK.min(count));
         for start in (0..count).step_by(BLOCK) {
             let width = BLOCK.min(count - start);
-            for j in 0..width {
-                image.column_mut(j).fill(0.0);
-                a.mul_add(1.0, self.column(start + j), image.column_mut(j));
-            }
+            let block = start * n..(start + width) * n;
+            images(&self.values()[block], &mut image.values_mut()[..n * width]);
             // Nothing above the diagonal block: symmetry gives it.
             let left = &self.values()[start * n..count * n];
             let left = MatRef::from_column_major_slice(left, n, count - start);

@@ -14,9 +14,11 @@
 //!
 //! Reference: \[Wilson 2002, ch. 14 and 18\].
 
+use crate::condensation::Condensation;
 use crate::error::SolveError;
 use crate::massless;
 use crate::observe::{Adequacy, BasisReport, ModeShape};
+use crate::shapes::Shapes;
 use crate::span::{Origin, Span, Speed};
 use crate::vector::dot;
 use std::sync::Arc;
@@ -33,6 +35,8 @@ const COMPLETE_LIMIT: usize = 1500;
 const COMPLETE_AUTOMATIC: usize = 300;
 /// A strain energy below this share of the sum of its terms is rounding: the motion is free.
 const ROUNDING: f64 = 1e-13;
+/// How much more than the terms of what is kept of a motion those of all of it may be, before a closer look.
+const DOUBT: f64 = 1e4;
 /// A pivot below this share of its diagonal is rounding: nothing holds the equation.
 const HELD: f64 = 1e-11;
 /// Right-hand sides solved together.
@@ -46,7 +50,7 @@ const SHAPES: usize = 6;
 #[derive(Clone, Debug)]
 pub(crate) struct RitzBasis {
     /// The modes, and after them static shapes of places without mass.
-    pub shapes: Arc<Dense>,
+    pub shapes: Arc<Shapes>,
     pub omega2: Vec<f64>,
     /// Images of the static shapes under the stiffness.
     pub images: Dense,
@@ -196,11 +200,12 @@ pub(crate) fn build(
         if order > COMPLETE_LIMIT {
             return Err(SolveError::BasisTooLarge { order, limit: COMPLETE_LIMIT });
         }
-        (all_modes(&Sparse::combine(&hat.parts(system)), &system.mass)?.1, None)
+        let all = all_modes(&Sparse::combine(&hat.parts(system)), &system.mass)?.1;
+        (Shapes::new(Arc::new(Condensation::none(order)), all), None)
     } else {
         enriched(system, settings, loads, &hat)?
     };
-    if span.columns() == 0 {
+    if span.len() == 0 {
         return Err(SolveError::NoMass);
     }
     // The factor is not needed any longer, and weighs as much as many vectors.
@@ -223,7 +228,7 @@ pub(crate) fn build(
 /// Turns a span of M-orthonormal vectors into modes of `k`, with the static shapes beside them.
 fn modes_in(
     system: &System,
-    span: Dense,
+    span: Shapes,
     k: &Sparse,
     loads: &[(String, Vec<f64>)],
 ) -> Result<RitzBasis, SolveError> {
@@ -232,12 +237,13 @@ fn modes_in(
     let (mut omega2, vectors) = graded_modes(span, k)?;
     // Most modes need no closer look.
     let sums = k.row_sums();
+    let sums = vectors.rows().gather(&sums);
     for (j, w) in omega2.iter_mut().enumerate() {
-        let x = vectors.column(j);
-        let bound: f64 = x.iter().zip(&sums).map(|(x, s)| x * x * s).sum();
-        if w.abs() > ROUNDING * bound {
+        let bound: f64 = vectors.kept(j).iter().zip(&*sums).map(|(x, s)| x * x * s).sum();
+        if w.abs() > DOUBT * ROUNDING * bound {
             continue;
         }
+        let x = vectors.column(j);
         let terms: f64 = k.entries().map(|(i, l, a)| (a * x[i] * x[l]).abs()).sum();
         if w.abs() <= ROUNDING * terms {
             *w = 0.0;
@@ -248,19 +254,19 @@ fn modes_in(
     for j in 0..images.columns() {
         k.mul_add(1.0, statics.column(j), images.column_mut(j));
     }
-    let shapes = Arc::new(massless::beside(vectors, &statics));
+    let shapes = Arc::new(vectors.beside(&statics));
     Ok(RitzBasis { shapes, omega2, images })
 }
 
 /// Modes in a span of M-orthonormal vectors, rising. An eigenvalue is found no better than the rounding of
 /// the largest one, so the slow modes are found once more among themselves, until there is no such gap.
-fn graded_modes(mut vectors: Dense, k: &Sparse) -> Result<(Vec<f64>, Dense), SolveError> {
+fn graded_modes(mut vectors: Shapes, k: &Sparse) -> Result<(Vec<f64>, Shapes), SolveError> {
     const GAP: f64 = 1e-5;
-    let mut count = vectors.columns();
+    let mut count = vectors.len();
     let mut omega2 = vec![0.0; count];
     loop {
-        let (again, rotation) = symmetric_eigen(&vectors.congruence(k, count))?;
-        vectors.turn(&rotation);
+        let (again, rotation) = symmetric_eigen(&vectors.stiffness(k, count))?;
+        vectors.kept_mut().turn(&rotation);
         omega2[..count].copy_from_slice(&again);
         let largest = again.last().copied().unwrap_or(0.0);
         let slow = again.iter().filter(|w| **w < GAP * largest).count();
@@ -276,7 +282,7 @@ fn enriched(
     settings: &Basis,
     loads: &[(String, Vec<f64>)],
     hat: &Solvable,
-) -> Result<(Dense, Option<Vec<f64>>), SolveError> {
+) -> Result<(Shapes, Option<Vec<f64>>), SolveError> {
     // Who asks for no flexibility of the links gets no vectors for them.
     let links: &[usize] = if settings.adequacy > 0.0 { &system.links.active } else { &[] };
     let automatic = 20 * loads.len().max(2);
@@ -287,39 +293,52 @@ fn enriched(
     };
     let total = settings.vectors.unwrap_or(ground + links.len());
     let parts = hat.parts(system);
-    let mut span = Span::new(system, &parts, total);
+    let rows = Condensation::new(system, loads)?;
+    let mut span = Span::new(&rows, &system.mass, &parts, total);
     match settings.kind {
         BasisKind::Eigen => {
             let count = ground.min(system.order());
             let (_, vectors) =
                 lowest_modes(&Sparse::combine(&hat.parts(system)), &system.mass, count, 0.0)?;
-            let all = (0..vectors.columns()).map(|j| vectors.column(j).to_vec()).collect();
+            let kept = |j| rows.gather(vectors.column(j)).into_owned();
+            let all = (0..vectors.columns()).map(kept).collect();
             span.take(all, Origin::Anywhere, Speed::Any);
         }
-        _ => recurse(&mut span, hat, loads, ground),
+        _ => recurse(&mut span, &rows, hat, loads, ground),
     }
     let mut known = Vec::with_capacity(links.len());
     hat.static_shapes(system, links, |x, flexibility| {
         known.push(flexibility);
         if span.len() < total {
-            span.take(vec![x.to_vec()], Origin::Anywhere, Speed::OfModes);
+            span.take(vec![rows.gather(x).into_owned()], Origin::Anywhere, Speed::OfModes);
         }
     });
     let known = (settings.adequacy > 0.0).then_some(known);
-    Ok((span.into_dense(), known))
+    let kept = span.into_dense();
+    Ok((Shapes::new(Arc::new(rows), kept), known))
 }
 
 /// The load-dependent recursion until `count` vectors are there or nothing new comes.
-fn recurse(span: &mut Span<'_>, hat: &Solvable, loads: &[(String, Vec<f64>)], count: usize) {
-    let mut block: Vec<Vec<f64>> = loads.iter().map(|(_, p)| p.clone()).collect();
+fn recurse(
+    span: &mut Span<'_>,
+    rows: &Condensation,
+    hat: &Solvable,
+    loads: &[(String, Vec<f64>)],
+    count: usize,
+) {
+    let order = rows.order();
+    let mut block: Vec<Vec<f64>> = loads.iter().map(|(_, p)| rows.gather(p).into_owned()).collect();
     while span.len() < count && !block.is_empty() {
         let mut next = Vec::new();
         span.next_block();
         while !block.is_empty() && span.len() < count {
             let rest = block.split_off(block.len().min(count - span.len()).min(BLOCK));
-            let mut x = block.concat();
+            let mut x = vec![0.0; order * block.len()];
+            x.chunks_mut(order).zip(&block).for_each(|(x, p)| rows.scatter(p, x));
+            drop(block);
             hat.factor.solve(&mut x);
-            let solved = x.chunks(x.len() / block.len()).map(<[f64]>::to_vec).collect();
+            let solved = x.chunks(order).map(|x| rows.gather(x).into_owned()).collect();
+            drop(x);
             // Where the loads have shown all they can, what is left of a vector is rounding.
             next.extend(span.take(solved, Origin::Recursion, Speed::OfModes));
             block = rest;
@@ -343,19 +362,12 @@ fn report(
     let phi = &*basis.shapes;
     let rows = &system.links.rows;
     // K̂ in the basis: K is diagonal there, with ones for the static shapes, which have no mass.
-    let mut reduced = Dense::zeros(phi.columns(), phi.columns());
-    for j in 0..phi.columns() {
+    let mut reduced = Dense::zeros(phi.len(), phi.len());
+    for j in 0..phi.len() {
         reduced[(j, j)] = basis.omega2.get(j).map_or(1.0, |w| w + shift);
     }
-    let held = |row: &[(usize, f64)], q: &mut [f64]| {
-        for (j, q) in q.iter_mut().enumerate() {
-            let column = phi.column(j);
-            *q = row.iter().map(|(i, c)| c * column[*i]).sum();
-        }
-    };
-    let mut q = vec![0.0; phi.columns()];
     for (row, dummy) in rows.iter().zip(dummies).filter(|(_, k)| **k != 0.0) {
-        held(row, &mut q);
+        let q = phi.row(row);
         for (j, b) in q.iter().enumerate() {
             for (a, sum) in q.iter().zip(reduced.column_mut(j)) {
                 *sum += dummy * a * b;
@@ -370,15 +382,12 @@ fn report(
     };
     let mut static_participation = Vec::with_capacity(loads.len());
     for ((name, p), whole) in loads.iter().zip(&exact.loads) {
-        q.fill(0.0);
-        phi.transpose_mul_add(1.0, p, &mut q);
-        static_participation.push((name.clone(), share(*whole, &q)));
+        static_participation.push((name.clone(), share(*whole, &phi.load(p))));
     }
     let mut adequacy = Vec::with_capacity(exact.links.len());
     for (flat, whole) in system.links.active.iter().zip(&exact.links) {
-        held(&rows[*flat], &mut q);
         let coordinate = system.links.name(model, *flat);
-        adequacy.push(Adequacy { coordinate, share: share(*whole, &q) });
+        adequacy.push(Adequacy { coordinate, share: share(*whole, &phi.row(&rows[*flat])) });
     }
     adequacy.sort_by(|a, b| a.share.total_cmp(&b.share));
     let mass = |axis: usize| -> Vec<f64> {
@@ -389,12 +398,8 @@ fn report(
             }
             dot(&r, &system.inertia[axis])
         };
-        (0..m)
-            .map(|j| {
-                let l = dot(phi.column(j), &system.inertia[axis]);
-                if total > 0.0 { l * l / total } else { 0.0 }
-            })
-            .collect()
+        let shares = phi.load(&system.inertia[axis]);
+        shares[..m].iter().map(|l| if total > 0.0 { l * l / total } else { 0.0 }).collect()
     };
     let [x, y, z] = [mass(0), mass(1), mass(2)];
     BasisReport {

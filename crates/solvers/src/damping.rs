@@ -40,7 +40,7 @@ pub(crate) fn modal_damping(model: &Model, system: &System, bases: &Bases) -> Op
     }
     let mut u = Dense::zeros(system.order(), kept.len());
     for (new, old) in kept.iter().enumerate() {
-        system.mass.mul_add(1.0, modes.shapes.column(*old), u.column_mut(new));
+        system.mass.mul_add(1.0, &modes.shapes.heavy(*old), u.column_mut(new));
     }
     Some(LowRank { u, rate: kept.iter().map(|j| rates[*j]).collect() })
 }

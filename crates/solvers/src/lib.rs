@@ -10,6 +10,7 @@
 mod basis;
 mod case;
 mod clock;
+mod condensation;
 mod contact_mode;
 mod damping;
 mod dynamic;
@@ -30,6 +31,7 @@ mod p_delta;
 mod peak;
 mod products;
 mod propagator;
+mod shapes;
 mod single_mode;
 mod space;
 mod span;

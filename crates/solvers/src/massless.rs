@@ -11,6 +11,7 @@
 //! shapes are left out, and the basis is reported as lacking that flexibility.
 
 use crate::error::SolveError;
+use crate::shapes::Shapes;
 use crate::vector::{dot, largest};
 use trilith_linalg::{Dense, Ldlt, Sparse, symmetric_eigen};
 use trilith_system::System;
@@ -95,46 +96,33 @@ fn pushes(system: &System, places: &[usize], loads: &[(String, Vec<f64>)]) -> Ve
 }
 
 /// Takes the static shapes out of vectors: V − Ψ Ψᵀ K V. Their masses stay as they are.
-pub(crate) fn without(psi: &Dense, k: &Sparse, mut vectors: Dense) -> Dense {
-    if psi.columns() == 0 {
-        return vectors;
-    }
-    for j in 0..vectors.columns() {
-        let image = k.mul(vectors.column(j));
-        for r in 0..psi.columns() {
-            let share = dot(psi.column(r), &image);
-            let column = vectors.column_mut(j);
-            column.iter_mut().zip(psi.column(r)).for_each(|(v, x)| *v -= share * x);
+pub(crate) fn without(psi: &Dense, k: &Sparse, mut vectors: Shapes) -> Shapes {
+    for r in 0..psi.columns() {
+        let shares = vectors.load(&k.mul(psi.column(r)));
+        let own = vectors.rows().gather(psi.column(r)).into_owned();
+        for (j, share) in shares.into_iter().enumerate() {
+            let column = vectors.kept_mut().column_mut(j);
+            column.iter_mut().zip(&own).for_each(|(v, x)| *v -= share * x);
         }
     }
     vectors
 }
 
 /// The shapes that damping does not couple with the modes.
-pub(crate) fn uncoupled(psi: Dense, system: &System, modes: &Dense) -> Dense {
+pub(crate) fn uncoupled(psi: Dense, system: &System, modes: &Shapes) -> Dense {
     if psi.columns() == 0 {
         return psi;
     }
     let damping = system.damping();
-    let own: Vec<f64> = (0..modes.columns())
-        .map(|j| damping.bilinear(modes.column(j), modes.column(j)).max(0.0))
-        .collect();
+    let mut own = Vec::with_capacity(modes.len());
+    modes.each(|_, mode| own.push(damping.bilinear(mode, mode).max(0.0)));
     let free = |r: &usize| {
         let image = damping.mul(psi.column(*r));
         let size = dot(psi.column(*r), &image).max(0.0);
-        (0..modes.columns())
-            .all(|j| dot(modes.column(j), &image).abs() <= UNCOUPLED * (size * own[j]).sqrt())
+        let shares = modes.load(&image);
+        shares.iter().zip(&own).all(|(s, own)| s.abs() <= UNCOUPLED * (size * own).sqrt())
     };
     let kept: Vec<usize> = (0..psi.columns()).filter(free).collect();
     let values = kept.iter().flat_map(|r| psi.column(*r).to_vec()).collect();
     Dense::from_columns(psi.rows(), kept.len(), values)
-}
-
-/// Columns of both, one after the other.
-pub(crate) fn beside(a: Dense, b: &Dense) -> Dense {
-    if b.columns() == 0 {
-        return a;
-    }
-    let values = [a.values(), b.values()].concat();
-    Dense::from_columns(a.rows(), a.columns() + b.columns(), values)
 }

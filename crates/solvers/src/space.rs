@@ -2,6 +2,7 @@
 
 use crate::basis::RitzBasis;
 use crate::link_map::LinkMap;
+use crate::shapes::Shapes;
 use std::sync::Arc;
 use trilith_linalg::{Dense, Product, Sparse, Triplets};
 use trilith_system::{LoadSet, System};
@@ -31,7 +32,7 @@ pub(crate) struct Space {
     /// A column of forces for each load channel.
     pub forces: Product,
     /// Free DOFs = shape · coordinates; `None` where they are the coordinates.
-    pub shape: Option<Arc<Dense>>,
+    pub shape: Option<Arc<Shapes>>,
     /// K Ψ of the static shapes, which are the last columns of `shape` and have no mass.
     pub images: Dense,
 }
@@ -85,19 +86,15 @@ impl Space {
     ) -> Self {
         let (modes, statics) = (basis.modes(), basis.statics());
         let phi = &*basis.shapes;
-        let m = phi.columns();
+        let m = phi.len();
         let mut forces = Dense::zeros(m, loads.channels.len());
         for (j, channel) in loads.channels.iter().enumerate() {
-            phi.transpose_mul_add(1.0, &channel.force, forces.column_mut(j));
+            forces.column_mut(j).copy_from_slice(&phi.load(&channel.force));
         }
         let active = &system.links.active;
         let mut links = Dense::zeros(m, active.len());
         for (a, flat) in active.iter().enumerate() {
-            for (i, c) in &system.links.rows[*flat] {
-                for j in 0..m {
-                    links[(j, a)] += c * phi[(*i, j)];
-                }
-            }
+            links.column_mut(a).copy_from_slice(&phi.row(&system.links.rows[*flat]));
         }
         let dummy_k: Vec<f64> = active.iter().map(|i| effective[*i]).collect();
         let omega2 = [&basis.omega2[..], &vec![1.0; statics]].concat();
@@ -114,7 +111,7 @@ impl Space {
             phi.congruence(&system.damping(), m)
         };
         if let Some(modal) = modal {
-            let u = phi.transpose_times(&modal.u);
+            let u = phi.loads(&modal.u);
             for k in 0..modal.rate.len() {
                 for j in 0..m {
                     let s = modal.rate[k] * u[(j, k)];
@@ -195,8 +192,7 @@ impl Space {
         match &self.shape {
             None => u.to_vec(),
             Some(phi) => {
-                let mut q = vec![0.0; phi.columns()];
-                phi.transpose_mul_add(1.0, &system.mass.mul(u), &mut q);
+                let mut q = phi.load(&system.mass.mul(u));
                 let modes = q.len() - self.images.columns();
                 for (j, x) in q[modes..].iter_mut().enumerate() {
                     *x = self.images.column(j).iter().zip(u).map(|(a, b)| a * b).sum();
@@ -210,11 +206,7 @@ impl Space {
     pub(crate) fn expand(&self, q: &[f64]) -> Vec<f64> {
         match &self.shape {
             None => q.to_vec(),
-            Some(phi) => {
-                let mut u = vec![0.0; phi.rows()];
-                phi.mul_add(1.0, q, &mut u);
-                u
-            }
+            Some(phi) => phi.expand(q),
         }
     }
 
@@ -222,9 +214,7 @@ impl Space {
     pub(crate) fn row(&self, free: &[(usize, f64)]) -> Vec<(usize, f64)> {
         match &self.shape {
             None => free.to_vec(),
-            Some(phi) => (0..phi.columns())
-                .map(|j| (j, free.iter().map(|(i, c)| c * phi.column(j)[*i]).sum()))
-                .collect(),
+            Some(phi) => phi.row(free).into_iter().enumerate().collect(),
         }
     }
 }

@@ -1,8 +1,8 @@
 //! M-orthonormal vectors under construction.
 
+use crate::condensation::Condensation;
 use crate::vector::dot;
 use trilith_linalg::{Columns, Dense, Sparse};
-use trilith_system::System;
 
 /// Share of its M-norm that a new vector must keep to be more than rounding. It may be small: on soft
 /// dummies every static shape is mostly a rigid motion, which the vectors before it hold already.
@@ -34,8 +34,11 @@ pub(crate) enum Speed {
 
 /// M-orthonormal vectors, block after block.
 pub(crate) struct Span<'a> {
-    mass: &'a Sparse,
-    /// The stiffness as a sum, and a bound of the sum of magnitudes in each of its rows.
+    rows: &'a Condensation,
+    /// Of the rows that are kept.
+    mass: Sparse,
+    /// The stiffness as a sum, and a bound of the sum of magnitudes in each of its rows that are kept: what follows
+    /// from them takes from the strain energy.
     stiffness: &'a [(f64, &'a Sparse)],
     sums: Vec<f64>,
     columns: Columns,
@@ -45,19 +48,21 @@ pub(crate) struct Span<'a> {
 
 impl<'a> Span<'a> {
     /// None yet, with room for so many; the stiffness as a sum.
-    pub(crate) fn new(system: &'a System, stiffness: &'a [(f64, &'a Sparse)], most: usize) -> Self {
-        Self::of(&system.mass, stiffness, most)
-    }
-
-    fn of(mass: &'a Sparse, stiffness: &'a [(f64, &'a Sparse)], most: usize) -> Self {
+    pub(crate) fn new(
+        rows: &'a Condensation,
+        mass: &Sparse,
+        stiffness: &'a [(f64, &'a Sparse)],
+        most: usize,
+    ) -> Self {
         let order = mass.rows();
         let mut sums = vec![0.0; order];
         for (factor, part) in stiffness.iter().filter(|(factor, _)| *factor != 0.0) {
             let own = part.row_sums();
             sums.iter_mut().zip(own).for_each(|(sum, own)| *sum += factor.abs() * own);
         }
-        let columns = Columns::with_capacity(order, most.min(order));
-        Self { mass, stiffness, sums, columns, starts: [0; 3] }
+        let (sums, mass) = (rows.gather(&sums).into_owned(), rows.block(mass));
+        let columns = Columns::with_capacity(rows.kept(), most.min(rows.kept()));
+        Self { rows, mass, stiffness, sums, columns, starts: [0; 3] }
     }
 
     pub(crate) fn len(&self) -> usize {
@@ -79,7 +84,7 @@ impl<'a> Span<'a> {
         (images, norms)
     }
 
-    /// Orthonormalises vectors and keeps them, but for those of which nothing is left, and those of which what is left
+    /// Orthonormalises vectors, of which the rows that are kept are given, and keeps them, but for those of which nothing is left, and those of which what is left
     /// would be too fast. Returns the images under M of those kept.
     pub(crate) fn take(
         &mut self,
@@ -157,7 +162,10 @@ impl<'a> Span<'a> {
     fn is_too_fast(&self, x: &[f64]) -> bool {
         let bound: f64 = x.iter().zip(&self.sums).map(|(x, sum)| x * x * sum).sum();
         // Most vectors need no closer look.
-        let omega2 = || self.stiffness.iter().map(|(s, part)| s * part.bilinear(x, x)).sum::<f64>();
+        let omega2 = || {
+            let all = self.rows.complete(x);
+            self.stiffness.iter().map(|(s, part)| s * part.bilinear(&all, &all)).sum::<f64>()
+        };
         bound > FASTEST * FASTEST && omega2() > FASTEST * FASTEST
     }
 }
@@ -179,7 +187,8 @@ mod tests {
         let near = |c: usize| -> Vec<f64> {
             base.iter().enumerate().map(|(i, x)| x + 1e-6 * number(31 * i + c)).collect()
         };
-        let mut span = Span::of(&mass, &[], 8);
+        let all = Condensation::none(n);
+        let mut span = Span::new(&all, &mass, &[], 8);
         let mut take = |x| span.take(x, Origin::Anywhere, Speed::Any).len();
         let sizes = [
             take(vec![base.clone()]),
@@ -210,7 +219,8 @@ mod tests {
         let k = matrix([1e11, 2e12, 1e12, 9e12, 9e12], -9e12);
         let more = matrix([1.0, 1e12, 2.9e12, 0.0, 0.0], 0.0);
         let stiffness = [(1.0, &k), (1.0, &more)];
-        let mut span = Span::of(&mass, &stiffness, 5);
+        let all = Condensation::none(5);
+        let mut span = Span::new(&all, &mass, &stiffness, 5);
         let mut kept =
             |x: [f64; 5], speed| span.take(vec![x.to_vec()], Origin::Anywhere, speed).len() == 1;
         let unit = |i: usize| std::array::from_fn(|j| if i == j { 3.0 } else { 0.0 });
