@@ -6,6 +6,7 @@
 //! forms.
 
 use crate::Sparse;
+use pulp::{Simd, WithSimd};
 
 /// A symmetric matrix for products.
 #[derive(Clone, Debug, Default)]
@@ -111,31 +112,40 @@ impl SymmetricOperator {
     /// The quadratic forms `xᵀ A x` of several vectors; `x` gives their values in a row.
     #[must_use]
     pub fn forms<const N: usize>(&self, x: impl Fn(usize) -> [f64; N]) -> [f64; N] {
-        crate::simd::dispatch(
-            #[inline(always)]
-            || {
-                let mut total = [0.0; N];
-                let mut add = |x: [f64; N], y: [f64; N]| {
-                    for k in 0..N {
-                        total[k] += x[k] * y[k];
-                    }
-                };
-                for (i, d) in self.diagonal.iter().enumerate() {
-                    add(x(i), x(i).map(|x| d * x));
+        crate::simd::dispatch(Forms { of: self, x })
+    }
+}
+
+struct Forms<'a, F> {
+    of: &'a SymmetricOperator,
+    x: F,
+}
+
+impl<const N: usize, F: Fn(usize) -> [f64; N]> WithSimd for Forms<'_, F> {
+    type Output = [f64; N];
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, _: S) -> [f64; N] {
+        let mut total = [0.0; N];
+        for (i, d) in self.of.diagonal.iter().enumerate() {
+            let x = (self.x)(i);
+            for k in 0..N {
+                total[k] += x[k] * (d * x[k]);
+            }
+        }
+        for (i, columns, values) in self.of.lines() {
+            let mut sum = [0.0; N];
+            for (j, v) in columns.iter().zip(values) {
+                let x = (self.x)(*j as usize);
+                for k in 0..N {
+                    sum[k] += v * x[k];
                 }
-                for (i, columns, values) in self.lines() {
-                    let mut sum = [0.0; N];
-                    for (j, v) in columns.iter().zip(values) {
-                        let x = x(*j as usize);
-                        for k in 0..N {
-                            sum[k] += v * x[k];
-                        }
-                    }
-                    add(x(i), sum);
-                }
-                total
-            },
-        )
+            }
+            let x = (self.x)(i);
+            for k in 0..N {
+                total[k] += x[k] * sum[k];
+            }
+        }
+        total
     }
 }
 

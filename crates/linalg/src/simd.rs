@@ -2,7 +2,7 @@
 
 use pulp::{Arch, Scalar, WithSimd};
 
-/// Runs a task with them.
+/// Runs a task with them. The task is a type of its own: a closure in its place would not be compiled for them.
 #[inline(always)]
 pub(crate) fn dispatch<T: WithSimd>(task: T) -> T::Output {
     match Arch::new() {

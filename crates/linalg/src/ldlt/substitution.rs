@@ -12,6 +12,8 @@
 //! columns at a time, against a contiguous copy of the values it touches. The order of additions does
 //! not depend on the width of the vector unit: any machine gives the same bits.
 
+use pulp::{Simd, WithSimd};
+
 /// Columns handled at once.
 const WIDTH: usize = 4;
 
@@ -69,14 +71,7 @@ impl Panels {
 
     /// x ← L⁻¹ x with the unit lower factor; `work` holds [`height`](Self::height) values or more.
     pub(crate) fn forward(&self, values: &[f64], x: &mut [f64], work: &mut [f64]) {
-        crate::simd::dispatch(
-            #[inline(always)]
-            || {
-                for node in &self.nodes {
-                    forward(&self.view(node, values), x, work);
-                }
-            },
-        );
+        crate::simd::dispatch(Forward { panels: self, values, x, work });
     }
 
     /// x ← L⁻ᵀ D⁻¹ x; `reciprocal` is 1/D. Rows beyond the columns of the group are known already.
@@ -87,14 +82,42 @@ impl Panels {
         x: &mut [f64],
         work: &mut [f64],
     ) {
-        crate::simd::dispatch(
-            #[inline(always)]
-            || {
-                for node in self.nodes.iter().rev() {
-                    backward(&self.view(node, values), reciprocal, x, work);
-                }
-            },
-        );
+        crate::simd::dispatch(Backward { panels: self, values, reciprocal, x, work });
+    }
+}
+
+struct Forward<'a> {
+    panels: &'a Panels,
+    values: &'a [f64],
+    x: &'a mut [f64],
+    work: &'a mut [f64],
+}
+
+impl WithSimd for Forward<'_> {
+    type Output = ();
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, _: S) {
+        for node in &self.panels.nodes {
+            forward(&self.panels.view(node, self.values), self.x, self.work);
+        }
+    }
+}
+
+struct Backward<'a> {
+    panels: &'a Panels,
+    values: &'a [f64],
+    reciprocal: &'a [f64],
+    x: &'a mut [f64],
+    work: &'a mut [f64],
+}
+
+impl WithSimd for Backward<'_> {
+    type Output = ();
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, _: S) {
+        for node in self.panels.nodes.iter().rev() {
+            backward(&self.panels.view(node, self.values), self.reciprocal, self.x, self.work);
+        }
     }
 }
 
@@ -175,7 +198,7 @@ fn backward(node: &View<'_>, reciprocal: &[f64], x: &mut [f64], work: &mut [f64]
         let column = |k: usize| &node.panel[(j + k) * node.stride..][..h][j..];
         let l = [column(0), column(1), column(2), column(3)];
         let w = &mut w[j..];
-        let sum = dots(l.map(|l| &l[4..]), &w[4..]);
+        let sum = dots([&l[0][4..], &l[1][4..], &l[2][4..], &l[3][4..]], &w[4..]);
         let e = w[3] - sum[3];
         let d = w[2] - sum[2] - l[2][3] * e;
         let b = w[1] - sum[1] - l[1][2] * d - l[1][3] * e;
@@ -189,7 +212,13 @@ fn backward(node: &View<'_>, reciprocal: &[f64], x: &mut [f64], work: &mut [f64]
 #[inline(always)]
 fn dots(l: [&[f64]; WIDTH], x: &[f64]) -> [f64; WIDTH] {
     let n = x.len();
-    let parts = l.map(|l| l[..n].as_chunks::<4>());
+    let [l0, l1, l2, l3] = l;
+    let parts = [
+        l0[..n].as_chunks::<4>(),
+        l1[..n].as_chunks::<4>(),
+        l2[..n].as_chunks::<4>(),
+        l3[..n].as_chunks::<4>(),
+    ];
     let (chunks, rest) = x.as_chunks::<4>();
     let mut sum = [[0.0; 4]; WIDTH];
     for (i, x) in chunks.iter().enumerate() {
