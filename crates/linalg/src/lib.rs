@@ -6,6 +6,7 @@
 //! | nalgebra-sparse | storage of sparse matrices |
 //! | sprs | Matrix Market export |
 //! | faer | sparse LDLᵀ and LU, dense LU, symmetric eigenproblems, products of dense matrices |
+//! | memmap2 | memory on large pages, for factors |
 //! | pulp | products of a dense matrix and a vector, sums over modes, extrapolations, as wide as the processor allows |
 //!
 //! Everything runs on one thread, so that results repeat bit for bit.
@@ -16,6 +17,7 @@ mod eigen;
 mod expm;
 mod extrapolation;
 mod gemv;
+mod large;
 mod ldlt;
 mod lu;
 mod matrix_market;

@@ -1,6 +1,7 @@
 //! Sparse LDLᵀ of a symmetric matrix, and the search for equations without stiffness.
 
 mod ordering;
+mod packing;
 mod staged;
 mod substitution;
 mod together;

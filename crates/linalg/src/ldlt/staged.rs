@@ -17,7 +17,9 @@
 
 use super::backend;
 use super::ordering::{self, Pattern};
+use super::packing::Unpacked;
 use super::substitution::{Node, Panels};
+use crate::large::Large;
 use crate::{LinalgError, Sparse};
 use faer::dyn_stack::{MemBuffer, MemStack};
 use faer::linalg::cholesky::ldlt::factor::{LdltError, LdltRegularization};
@@ -46,6 +48,8 @@ pub struct StagedPlan {
     front: Panels,
     /// Counted from `split`.
     tail: Panels,
+    /// Where the factorisation leaves the columns of both.
+    unpacked: Unpacked,
 }
 
 impl StagedPlan {
@@ -73,9 +77,9 @@ impl StagedPlan {
         )
         .map_err(backend)?;
         let split = n - last.len();
-        let (front, tail) = panels(&symbolic, split);
+        let (front, tail, unpacked) = panels(&symbolic, split);
         let equations = forward.into_iter().map(|i| i as u32).collect();
-        Ok(Arc::new(Self { pattern, symbolic, equations, split, front, tail }))
+        Ok(Arc::new(Self { pattern, symbolic, equations, split, front, tail, unpacked }))
     }
 
     /// Equation of each place in the order of elimination; those of the tail come last.
@@ -93,7 +97,7 @@ impl StagedPlan {
     /// Number of values in a factor.
     #[must_use]
     pub fn stored(&self) -> usize {
-        self.symbolic.len_val()
+        self.front.nodes.iter().chain(&self.tail.nodes).map(Node::packed).sum()
     }
 
     /// Values that the substitutions need as workspace.
@@ -127,9 +131,13 @@ fn union(parts: &[&Sparse]) -> Pattern {
     pattern
 }
 
-fn panels(symbolic: &SymbolicCholesky<usize>, split: usize) -> (Panels, Panels) {
+fn panels(symbolic: &SymbolicCholesky<usize>, split: usize) -> (Panels, Panels, Unpacked) {
     let (mut front, mut tail) = (Panels::default(), Panels::default());
-    let SymbolicCholeskyRaw::Supernodal(symbolic) = symbolic.raw() else { return (front, tail) };
+    let mut unpacked = Unpacked::default();
+    let SymbolicCholeskyRaw::Supernodal(symbolic) = symbolic.raw() else {
+        return (front, tail, unpacked);
+    };
+    let mut stored = 0;
     for k in 0..symbolic.n_supernodes() {
         let (start, end) = (symbolic.supernode_begin()[k], symbolic.supernode_end()[k]);
         let below = symbolic.supernode(k).pattern();
@@ -141,19 +149,21 @@ fn panels(symbolic: &SymbolicCholesky<usize>, split: usize) -> (Panels, Panels) 
                 continue;
             }
             let skipped = from - start;
-            group.nodes.push(Node {
+            let node = Node {
                 start: (from - base) as u32,
                 columns: (to - from) as u32,
                 height: (stride - skipped) as u32,
-                stride: stride as u32,
-                values: values + skipped * stride + skipped,
+                values: stored,
                 rows: group.rows.len(),
-            });
+            };
+            stored += node.packed();
+            group.nodes.push(node);
+            unpacked.0.push((values + skipped * stride + skipped, stride as u32));
             let rows = (to..end).chain(below.iter().copied());
             group.rows.extend(rows.map(|r| (r - base) as u32));
         }
     }
-    (front, tail)
+    (front, tail, unpacked)
 }
 
 /// A factorised symmetric matrix, solved in stages. Vectors are in the order of elimination, see
@@ -161,7 +171,7 @@ fn panels(symbolic: &SymbolicCholesky<usize>, split: usize) -> (Panels, Panels) 
 #[derive(Debug)]
 pub struct StagedLdlt {
     plan: Arc<StagedPlan>,
-    values: Vec<f64>,
+    values: Large,
     /// 1/D.
     reciprocal: Vec<f64>,
 }
@@ -208,11 +218,11 @@ impl StagedLdlt {
             .map_err(|LdltError::ZeroPivot { index }| LinalgError::Singular {
                 equation: plan.equations.get(index).map_or(index, |i| *i as usize),
             })?;
-        let mut reciprocal = Vec::with_capacity(n);
-        for node in plan.front.nodes.iter().chain(&plan.tail.nodes) {
-            let (first, step) = (node.values, node.stride as usize + 1);
-            reciprocal.extend((0..node.columns as usize).map(|j| values[first + j * step].recip()));
-        }
+        // Both forms of the factor are enough beside each other.
+        drop((sum, work));
+        let groups = [&plan.front, &plan.tail];
+        let reciprocal = plan.unpacked.diagonal(groups, &values).map(f64::recip).collect();
+        let values = plan.unpacked.pack(groups, &values);
         Ok(Self { plan: Arc::clone(plan), values, reciprocal })
     }
 

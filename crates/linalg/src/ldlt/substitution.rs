@@ -2,7 +2,7 @@
 //!
 //! ```text
 //!            ┌ 1        ┐ columns of a supernode: consecutive, of one pattern;
-//!            │ l 1      │ stored column by column, `stride` values each
+//!            │ l 1      │ stored as `packing` says
 //!   panel =  │ l l 1    │
 //!            │ l l l    │ ← rows[0]      rows below the block on the diagonal
 //!            └ l l l    ┘ ← rows[1]
@@ -12,10 +12,8 @@
 //! columns at a time, against a contiguous copy of the values it touches. The order of additions does
 //! not depend on the width of the vector unit: any machine gives the same bits.
 
-use pulp::{Simd, WithSimd};
-
-/// Columns handled at once.
-const WIDTH: usize = 4;
+use super::packing::{BLOCK, TILE, WIDTH, four};
+use pulp::{Simd, WithSimd, bytemuck};
 
 /// One supernode, or the part of one that belongs to a group.
 #[derive(Clone, Copy, Debug)]
@@ -25,7 +23,6 @@ pub(crate) struct Node {
     pub columns: u32,
     /// Rows of the panel, the block on the diagonal included.
     pub height: u32,
-    pub stride: u32,
     /// Where its values begin.
     pub values: usize,
     /// Where its rows begin.
@@ -45,7 +42,6 @@ pub(super) struct View<'a> {
     pub start: usize,
     pub columns: usize,
     pub height: usize,
-    pub stride: usize,
     pub rows: &'a [u32],
     pub panel: &'a [f64],
 }
@@ -63,9 +59,8 @@ impl Panels {
             start: node.start as usize,
             columns,
             height,
-            stride: node.stride as usize,
             rows: &self.rows[node.rows..node.rows + height - columns],
-            panel: &values[node.values..],
+            panel: &values[node.values..][..node.packed()],
         }
     }
 
@@ -96,9 +91,9 @@ struct Forward<'a> {
 impl WithSimd for Forward<'_> {
     type Output = ();
     #[inline(always)]
-    fn with_simd<S: Simd>(self, _: S) {
+    fn with_simd<S: Simd>(self, simd: S) {
         for node in &self.panels.nodes {
-            forward(&self.panels.view(node, self.values), self.x, self.work);
+            forward(simd, &self.panels.view(node, self.values), self.x, self.work);
         }
     }
 }
@@ -114,19 +109,25 @@ struct Backward<'a> {
 impl WithSimd for Backward<'_> {
     type Output = ();
     #[inline(always)]
-    fn with_simd<S: Simd>(self, _: S) {
+    fn with_simd<S: Simd>(self, simd: S) {
         for node in self.panels.nodes.iter().rev() {
-            backward(&self.panels.view(node, self.values), self.reciprocal, self.x, self.work);
+            backward(
+                simd,
+                &self.panels.view(node, self.values),
+                self.reciprocal,
+                self.x,
+                self.work,
+            );
         }
     }
 }
 
 #[inline(always)]
-fn forward(node: &View<'_>, x: &mut [f64], work: &mut [f64]) {
+fn forward<S: Simd>(simd: S, node: &View<'_>, x: &mut [f64], work: &mut [f64]) {
     let (s, c, h) = (node.start, node.columns, node.height);
     if c == 1 {
         let t = x[s];
-        for (r, l) in node.rows.iter().zip(&node.panel[1..h]) {
+        for (r, l) in node.rows.iter().zip(node.panel) {
             x[*r as usize] -= l * t;
         }
         return;
@@ -134,25 +135,25 @@ fn forward(node: &View<'_>, x: &mut [f64], work: &mut [f64]) {
     let w = &mut work[..h];
     w[..c].copy_from_slice(&x[s..s + c]);
     w[c..].fill(0.0);
-    let mut j = 0;
+    let (mut j, mut panel) = (0, node.panel);
     while j + WIDTH <= c {
-        let column = |k: usize| &node.panel[(j + k) * node.stride..][..h][j..];
-        let [l0, l1, l2, l3] = [column(0), column(1), column(2), column(3)];
+        let (own, rest) = panel.split_at(four(h - j));
+        panel = rest;
+        let (block, below) = own.split_at(BLOCK);
         let w = &mut w[j..];
         let a = w[0];
-        let b = w[1] - l0[1] * a;
-        let d = w[2] - l0[2] * a - l1[2] * b;
-        let e = w[3] - l0[3] * a - l1[3] * b - l2[3] * d;
+        let b = w[1] - block[0] * a;
+        let d = w[2] - block[1] * a - block[3] * b;
+        let e = w[3] - block[2] * a - block[4] * b - block[5] * d;
         (w[1], w[2], w[3]) = (b, d, e);
-        let columns = l0[4..].iter().zip(&l1[4..]).zip(&l2[4..]).zip(&l3[4..]);
-        for (y, (((l0, l1), l2), l3)) in w[4..].iter_mut().zip(columns) {
-            *y -= (l0 * a + l1 * b) + (l2 * d + l3 * e);
-        }
+        less(simd, &mut w[WIDTH..], below, [a, b, d, e]);
         j += WIDTH;
     }
     while j < c {
-        let t = w[j];
-        for (y, l) in w[j + 1..].iter_mut().zip(&node.panel[j * node.stride + j + 1..]) {
+        let (t, below) = (w[j], &mut w[j + 1..]);
+        let (own, rest) = panel.split_at(below.len());
+        panel = rest;
+        for (y, l) in below.iter_mut().zip(own) {
             *y -= l * t;
         }
         j += 1;
@@ -164,12 +165,18 @@ fn forward(node: &View<'_>, x: &mut [f64], work: &mut [f64]) {
 }
 
 #[inline(always)]
-fn backward(node: &View<'_>, reciprocal: &[f64], x: &mut [f64], work: &mut [f64]) {
+fn backward<S: Simd>(
+    simd: S,
+    node: &View<'_>,
+    reciprocal: &[f64],
+    x: &mut [f64],
+    work: &mut [f64],
+) {
     let (s, c, h) = (node.start, node.columns, node.height);
     if c == 1 {
         let mut sum = [0.0; 2];
         let (rows, more) = node.rows.as_chunks::<2>();
-        let (l, last) = node.panel[1..h].as_chunks::<2>();
+        let (l, last) = node.panel.as_chunks::<2>();
         for (r, l) in rows.iter().zip(l) {
             sum[0] += l[0] * x[r[0] as usize];
             sum[1] += l[1] * x[r[1] as usize];
@@ -187,52 +194,83 @@ fn backward(node: &View<'_>, reciprocal: &[f64], x: &mut [f64], work: &mut [f64]
     for (y, r) in w[c..].iter_mut().zip(node.rows) {
         *y = x[*r as usize];
     }
-    let mut j = c;
+    let (mut j, mut panel) = (c, node.panel);
     while !j.is_multiple_of(WIDTH) {
         j -= 1;
         let below = &w[j + 1..];
-        w[j] -= dot(&node.panel[j * node.stride + j + 1..][..below.len()], below);
+        let (rest, own) = panel.split_at(panel.len() - below.len());
+        panel = rest;
+        w[j] -= dot(own, below);
     }
     while j > 0 {
         j -= WIDTH;
-        let column = |k: usize| &node.panel[(j + k) * node.stride..][..h][j..];
-        let l = [column(0), column(1), column(2), column(3)];
         let w = &mut w[j..];
-        let sum = dots([&l[0][4..], &l[1][4..], &l[2][4..], &l[3][4..]], &w[4..]);
+        let (rest, own) = panel.split_at(panel.len() - four(h - j));
+        panel = rest;
+        let (block, below) = own.split_at(BLOCK);
+        let sum = dots(simd, below, &w[WIDTH..]);
         let e = w[3] - sum[3];
-        let d = w[2] - sum[2] - l[2][3] * e;
-        let b = w[1] - sum[1] - l[1][2] * d - l[1][3] * e;
-        w[0] = w[0] - sum[0] - l[0][1] * b - l[0][2] * d - l[0][3] * e;
+        let d = w[2] - sum[2] - block[5] * e;
+        let b = w[1] - sum[1] - block[3] * d - block[4] * e;
+        w[0] = w[0] - sum[0] - block[0] * b - block[1] * d - block[2] * e;
         (w[1], w[2], w[3]) = (b, d, e);
     }
     x[s..s + c].copy_from_slice(&w[..c]);
 }
 
-/// Four products with one vector.
+/// y −= four columns, which lie in tiles, times four numbers.
 #[inline(always)]
-fn dots(l: [&[f64]; WIDTH], x: &[f64]) -> [f64; WIDTH] {
-    let n = x.len();
-    let [l0, l1, l2, l3] = l;
-    let parts = [
-        l0[..n].as_chunks::<4>(),
-        l1[..n].as_chunks::<4>(),
-        l2[..n].as_chunks::<4>(),
-        l3[..n].as_chunks::<4>(),
-    ];
-    let (chunks, rest) = x.as_chunks::<4>();
-    let mut sum = [[0.0; 4]; WIDTH];
-    for (i, x) in chunks.iter().enumerate() {
-        for (sum, (l, _)) in sum.iter_mut().zip(&parts) {
-            let l = &l[i];
-            for k in 0..4 {
-                sum[k] += l[k] * x[k];
+fn less<S: Simd>(simd: S, y: &mut [f64], l: &[f64], t: [f64; WIDTH]) {
+    let (tiles, last) = l.as_chunks::<{ WIDTH * TILE }>();
+    let (rows, left) = y.as_chunks_mut::<TILE>();
+    let [a, b, d, e] = t;
+    let [va, vb, vd, ve] =
+        [simd.splat_f64s(a), simd.splat_f64s(b), simd.splat_f64s(d), simd.splat_f64s(e)];
+    for (y, l) in rows.iter_mut().zip(tiles) {
+        let ((y, _), (l, _)) = (S::as_mut_simd_f64s(y), S::as_simd_f64s(l));
+        let n = y.len();
+        let l = &l[..WIDTH * n];
+        for k in 0..n {
+            let one = simd.add_f64s(simd.mul_f64s(l[k], va), simd.mul_f64s(l[n + k], vb));
+            let two =
+                simd.add_f64s(simd.mul_f64s(l[2 * n + k], vd), simd.mul_f64s(l[3 * n + k], ve));
+            y[k] = simd.sub_f64s(y[k], simd.add_f64s(one, two));
+        }
+    }
+    let n = left.len();
+    let last = &last[..WIDTH * n];
+    for k in 0..n {
+        left[k] -= (last[k] * a + last[n + k] * b) + (last[2 * n + k] * d + last[3 * n + k] * e);
+    }
+}
+
+/// Four products with one vector, of columns that lie in tiles.
+#[inline(always)]
+fn dots<S: Simd>(simd: S, l: &[f64], x: &[f64]) -> [f64; WIDTH] {
+    let (tiles, last) = l.as_chunks::<{ WIDTH * TILE }>();
+    let (rows, left) = x.as_chunks::<TILE>();
+    // As many of the registers as a tile takes.
+    let mut sum = [[simd.splat_f64s(0.0); TILE]; WIDTH];
+    for (x, l) in rows.iter().zip(tiles) {
+        let ((x, _), (l, _)) = (S::as_simd_f64s(x), S::as_simd_f64s(l));
+        let n = TILE / S::F64_LANES;
+        let (x, l) = (&x[..n], &l[..WIDTH * n]);
+        for c in 0..WIDTH {
+            for k in 0..n {
+                sum[c][k] = simd.add_f64s(sum[c][k], simd.mul_f64s(l[n * c + k], x[k]));
             }
         }
     }
+    let n = left.len();
+    let last = &last[..WIDTH * n];
     let mut total = [0.0; WIDTH];
-    for k in 0..WIDTH {
-        let tail: f64 = parts[k].1.iter().zip(rest).map(|(a, b)| a * b).sum();
-        total[k] = (sum[k][0] + sum[k][1]) + (sum[k][2] + sum[k][3]) + tail;
+    for c in 0..WIDTH {
+        let mut tail = 0.0;
+        for k in 0..n {
+            tail += last[n * c + k] * left[k];
+        }
+        let s: &[f64] = bytemuck::cast_slice(&sum[c][..TILE / S::F64_LANES]);
+        total[c] = ((s[0] + s[1]) + (s[2] + s[3])) + ((s[4] + s[5]) + (s[6] + s[7])) + tail;
     }
     total
 }

@@ -3,14 +3,12 @@
 //! Values of the four stand side by side, so every value of the factor is read once for all of them. Each
 //! is solved to the same bits whatever stands beside it.
 
+use super::packing::{BLOCK, TILE, WIDTH, four};
 use super::substitution::{Panels, View};
 use pulp::{Simd, WithSimd};
 
 /// One equation of the four.
 pub(crate) type Four = [f64; 4];
-
-/// Columns handled at once.
-const WIDTH: usize = 4;
 
 impl Panels {
     /// x ← L⁻¹ x with the unit lower factor; `work` holds [`height`](Self::height) places or more.
@@ -79,30 +77,38 @@ fn forward(node: &View<'_>, x: &mut [Four], work: &mut [Four]) {
     let w = &mut work[..h];
     w[..c].copy_from_slice(&x[s..s + c]);
     w[c..].fill([0.0; 4]);
-    let mut j = 0;
+    let (mut j, mut panel) = (0, node.panel);
+    while j + WIDTH <= c {
+        let (own, rest) = panel.split_at(four(h - j));
+        panel = rest;
+        let (block, values) = own.split_at(BLOCK);
+        let (own, below) = w[j..].split_at_mut(WIDTH);
+        let a = own[0];
+        less(&mut own[1], block[0], &a);
+        less(&mut own[2], block[1], &a);
+        less(&mut own[3], block[2], &a);
+        let b = own[1];
+        less(&mut own[2], block[3], &b);
+        less(&mut own[3], block[4], &b);
+        let d = own[2];
+        less(&mut own[3], block[5], &d);
+        let e = own[3];
+        let (tiles, last) = values.as_chunks::<{ WIDTH * TILE }>();
+        let (rows, left) = below.as_chunks_mut::<TILE>();
+        for (y, l) in rows.iter_mut().zip(tiles) {
+            less_four(y, l, [&a, &b, &d, &e]);
+        }
+        less_four(left, last, [&a, &b, &d, &e]);
+        j += WIDTH;
+    }
     while j < c {
-        let width = WIDTH.min(c - j);
-        let column = |k: usize| &node.panel[(j + k) * node.stride..][..h][j..];
-        let (block, below) = w[j..].split_at_mut(width);
-        for k in 0..width {
-            let t = block[k];
-            block[k + 1..].iter_mut().zip(&column(k)[k + 1..]).for_each(|(y, l)| less(y, *l, &t));
+        let (t, below) = (w[j], &mut w[j + 1..]);
+        let (own, rest) = panel.split_at(below.len());
+        panel = rest;
+        for (y, l) in below.iter_mut().zip(own) {
+            less(y, *l, &t);
         }
-        if let Ok([a, b, d, e]) = <[Four; WIDTH]>::try_from(&*block) {
-            let [l0, l1, l2, l3] = [0, 1, 2, 3].map(|k| &column(k)[WIDTH..]);
-            let columns = l0.iter().zip(l1).zip(l2).zip(l3);
-            for (y, (((l0, l1), l2), l3)) in below.iter_mut().zip(columns) {
-                for k in 0..4 {
-                    y[k] -= (l0 * a[k] + l1 * b[k]) + (l2 * d[k] + l3 * e[k]);
-                }
-            }
-        } else {
-            for (k, t) in block.iter().enumerate() {
-                let l = &column(k)[width..];
-                below.iter_mut().zip(l).for_each(|(y, l)| less(y, *l, t));
-            }
-        }
-        j += width;
+        j += 1;
     }
     x[s..s + c].copy_from_slice(&w[..c]);
     for (r, y) in node.rows.iter().zip(&w[c..]) {
@@ -120,37 +126,75 @@ fn backward(node: &View<'_>, reciprocal: &[f64], x: &mut [Four], work: &mut [Fou
     for (y, r) in w[c..].iter_mut().zip(node.rows) {
         *y = x[*r as usize];
     }
-    let mut j = c;
+    let (mut j, mut panel) = (c, node.panel);
+    while !j.is_multiple_of(WIDTH) {
+        j -= 1;
+        let (upper, below) = w[j..].split_at_mut(1);
+        let (rest, own) = panel.split_at(panel.len() - below.len());
+        panel = rest;
+        let mut sum = [0.0; 4];
+        for (y, l) in below.iter().zip(own) {
+            for k in 0..4 {
+                sum[k] += l * y[k];
+            }
+        }
+        less(&mut upper[0], 1.0, &sum);
+    }
     while j > 0 {
-        let width = if j.is_multiple_of(WIDTH) { WIDTH } else { j % WIDTH };
-        j -= width;
-        let column = |k: usize| &node.panel[(j + k) * node.stride..][..h][j..];
-        let (block, below) = w[j..].split_at_mut(width);
+        j -= WIDTH;
+        let (rest, own) = panel.split_at(panel.len() - four(h - j));
+        panel = rest;
+        let (block, values) = own.split_at(BLOCK);
+        let (own, below) = w[j..].split_at_mut(WIDTH);
+        let (tiles, last) = values.as_chunks::<{ WIDTH * TILE }>();
+        let (rows, left) = below.as_chunks::<TILE>();
         let mut sums = [[0.0; 4]; WIDTH];
-        if width == WIDTH {
-            let [l0, l1, l2, l3] = [0, 1, 2, 3].map(|k| &column(k)[WIDTH..]);
-            let [mut a, mut b, mut d, mut e] = sums;
-            for (y, (((l0, l1), l2), l3)) in below.iter().zip(l0.iter().zip(l1).zip(l2).zip(l3)) {
-                for k in 0..4 {
-                    a[k] += l0 * y[k];
-                    b[k] += l1 * y[k];
-                    d[k] += l2 * y[k];
-                    e[k] += l3 * y[k];
-                }
-            }
-            sums = [a, b, d, e];
-        } else {
-            for (k, sum) in sums[..width].iter_mut().enumerate() {
-                for (l, y) in column(k)[width..].iter().zip(&*below) {
-                    sum.iter_mut().zip(y).for_each(|(s, y)| *s += l * y);
-                }
-            }
+        for (y, l) in rows.iter().zip(tiles) {
+            add_four(&mut sums, y, l);
         }
-        for k in (0..width).rev() {
-            let (upper, known) = block.split_at_mut(k + 1);
-            less(&mut upper[k], 1.0, &sums[k]);
-            known.iter().zip(&column(k)[k + 1..]).for_each(|(y, l)| less(&mut upper[k], *l, y));
-        }
+        add_four(&mut sums, left, last);
+        let [a, b, d, e] = sums;
+        less(&mut own[3], 1.0, &e);
+        let last = own[3];
+        less(&mut own[2], 1.0, &d);
+        less(&mut own[2], block[5], &last);
+        let third = own[2];
+        less(&mut own[1], 1.0, &b);
+        less(&mut own[1], block[3], &third);
+        less(&mut own[1], block[4], &last);
+        let second = own[1];
+        less(&mut own[0], 1.0, &a);
+        less(&mut own[0], block[0], &second);
+        less(&mut own[0], block[1], &third);
+        less(&mut own[0], block[2], &last);
     }
     x[s..s + c].copy_from_slice(&w[..c]);
+}
+
+/// y −= four columns of a tile times four numbers each.
+#[inline(always)]
+fn less_four(y: &mut [Four], l: &[f64], t: [&Four; WIDTH]) {
+    let n = y.len();
+    let l = &l[..WIDTH * n];
+    let [a, b, d, e] = t;
+    for (i, y) in y.iter_mut().enumerate() {
+        let [l0, l1, l2, l3] = [l[i], l[n + i], l[2 * n + i], l[3 * n + i]];
+        for k in 0..4 {
+            y[k] -= (l0 * a[k] + l1 * b[k]) + (l2 * d[k] + l3 * e[k]);
+        }
+    }
+}
+
+/// Sums of four columns of a tile times y.
+#[inline(always)]
+fn add_four(sums: &mut [Four; WIDTH], y: &[Four], l: &[f64]) {
+    let n = y.len();
+    let l = &l[..WIDTH * n];
+    for (i, y) in y.iter().enumerate() {
+        for (c, sum) in sums.iter_mut().enumerate() {
+            for k in 0..4 {
+                sum[k] += l[c * n + i] * y[k];
+            }
+        }
+    }
 }
