@@ -270,17 +270,13 @@ fn finish<S: Simd, const ADD: bool, const V: usize, const T: usize>(
         }
     }
     let (full, rest) = S::as_mut_simd_f64s(y);
-    let whole = V.min(full.len());
-    let full = &mut full[..whole];
-    if ADD {
-        for (y, sum) in full.iter_mut().zip(&sums[0]) {
-            *y = simd.add_f64s(*y, *sum);
+    for k in 0..V {
+        let sum = sums[0][k];
+        if let Some(y) = full.get_mut(k) {
+            *y = if ADD { simd.add_f64s(*y, sum) } else { sum };
+        } else if !ADD && k == full.len() {
+            copy_some(pulp::bytemuck::cast_slice(std::slice::from_ref(&sum)), rest);
         }
-        return;
-    }
-    full.copy_from_slice(&sums[0][..full.len()]);
-    if let Some(last) = sums[0].get(full.len()) {
-        copy_some(pulp::bytemuck::cast_slice(std::slice::from_ref(last)), rest);
     }
 }
 

@@ -34,13 +34,32 @@ pub fn largest(x: &[f64]) -> f64 {
     of(of(a, b), of(c, d)) + check.iter().sum::<f64>()
 }
 
-/// `r = f − k d − x`, element by element, and as `sizes` the [`largest`] magnitudes of r, f and x; those of f and x may be
+/// `r = f − k d − x`, element by element.
+///
+/// # Panics
+/// Where the lengths differ.
+pub fn residual(f: &[f64], k: &[f64], d: &[f64], x: &[f64], r: &mut [f64]) {
+    let n = r.len();
+    assert!(f.len() == n && k.len() == n && d.len() == n && x.len() == n, "lengths of a residual");
+    for i in 0..n {
+        r[i] = f[i] - k[i] * d[i] - x[i];
+    }
+}
+
+/// The [`residual`] and as `sizes` the [`largest`] magnitudes of r, f and x; those of f and x may be
 /// anything where r holds what is not finite.
 ///
 /// # Panics
 /// Where the lengths differ.
 #[inline(always)]
-pub fn residual(f: &[f64], k: &[f64], d: &[f64], x: &[f64], r: &mut [f64], sizes: &mut [f64; 3]) {
+pub fn sized_residual(
+    f: &[f64],
+    k: &[f64],
+    d: &[f64],
+    x: &[f64],
+    r: &mut [f64],
+    sizes: &mut [f64; 3],
+) {
     let n = r.len();
     assert!(f.len() == n && k.len() == n && d.len() == n && x.len() == n, "lengths of a residual");
     dispatch(Residual { f, k, d, x, r, sizes });
@@ -174,7 +193,10 @@ mod tests {
                 (0..4).map(|k| (0..n).map(|i| number(i + 31 * k)).collect()).collect();
             let mut r = vec![9.0; n];
             let mut sizes = [f64::NAN; 3];
-            residual(&x[0], &x[1], &x[2], &x[3], &mut r, &mut sizes);
+            sized_residual(&x[0], &x[1], &x[2], &x[3], &mut r, &mut sizes);
+            let mut plain = vec![9.0; n];
+            residual(&x[0], &x[1], &x[2], &x[3], &mut plain);
+            assert_eq!(r, plain);
             for i in 0..n {
                 assert_eq!(r[i], x[0][i] - x[1][i] * x[2][i] - x[3][i]);
             }
@@ -182,13 +204,13 @@ mod tests {
             for at in 0..n {
                 let (mut f, mut y) = (x[0].clone(), x[3].clone());
                 (f[at], y[at]) = (-7.0, 8.0);
-                residual(&f, &x[1], &x[2], &y, &mut r, &mut sizes);
+                sized_residual(&f, &x[1], &x[2], &y, &mut r, &mut sizes);
                 assert_eq!(sizes, [largest(&r), 7.0, 8.0], "{n} {at}");
             }
             if n > 0 {
                 let mut broken = x[0].clone();
                 broken[n / 2] = f64::NAN;
-                residual(&broken, &x[1], &x[2], &x[3], &mut r, &mut sizes);
+                sized_residual(&broken, &x[1], &x[2], &x[3], &mut r, &mut sizes);
                 assert!(sizes[0].is_nan());
             }
         }

@@ -127,10 +127,12 @@ impl<'a> LinkSide<'a> {
         let Self { kernel, support1, support_rate, .. } = self;
         let support = self.moving.then_some([&support1[..], &support_rate[..]]);
         let affine = affine(compliance, support);
-        let out = &mut converged(to, &mut energy.links);
-        let start = &committed(from, dt);
-        let done = kernel.solve_step(&from.pseudo, &affine, start, &from.scale, out);
-        done.map_err(StepFailure::from)
+        let (start, out) = (&committed(from, dt), &mut converged(to, &mut energy.links));
+        kernel.begin(&from.pseudo, start);
+        if kernel.foresee(&affine, start, out) {
+            kernel.follow(&affine);
+        }
+        kernel.settle(&affine, start, &from.scale, out).map_err(StepFailure::from)
     }
 
     /// Takes up the link equations at the predicted d and v, with the pseudo-forces that the tangents at the
@@ -145,8 +147,9 @@ impl<'a> LinkSide<'a> {
         let Self { kernel, support1, support_rate, .. } = self;
         let support = self.moving.then_some([&support1[..], &support_rate[..]]);
         let affine = affine(compliance, support);
-        kernel.begin(&from.pseudo);
-        kernel.foresee(&affine, &committed(from, dt), &mut converged(to, &mut []))
+        let start = &committed(from, dt);
+        kernel.begin(&from.pseudo, start);
+        kernel.foresee(&affine, start, &mut converged(to, &mut []))
     }
 
     /// One iteration of the link equations; false where deformations must follow, as [`LinkKernel::change`] says.

@@ -90,31 +90,28 @@ pub(crate) fn equilibrium(
         let mut trial = state.clone();
         let mut attempt = vec![0.0; pseudo.len()];
         let mut energy = vec![Energy::default(); links.links.len()];
-        let outcome = kernel.solve(
-            &pseudo,
-            &Affine { support: None, g: &g, h: &none, key: StepKey::default() },
-            &Committed {
-                d: &state.d,
-                v: &zero,
-                f: &state.f,
-                history: &state.history,
-                tangents: &state.tangents,
-                unforeseen: &Unforeseen::default(),
-                dt: 0.0,
-            },
-            &state.scale,
-            &mut Converged {
-                d: &mut trial.d,
-                v: &mut trial.v,
-                f: &mut trial.f,
-                history: &mut trial.history,
-                tangents: &mut trial.tangents,
-                energy: &mut energy,
-                pseudo: &mut attempt,
-                unforeseen: &mut Unforeseen::default(),
-            },
-        );
-        match outcome {
+        let from = Committed {
+            d: &state.d,
+            v: &zero,
+            f: &state.f,
+            history: &state.history,
+            tangents: &state.tangents,
+            unforeseen: &Unforeseen::default(),
+            dt: 0.0,
+        };
+        let mut out = Converged {
+            d: &mut trial.d,
+            v: &mut trial.v,
+            f: &mut trial.f,
+            history: &mut trial.history,
+            tangents: &mut trial.tangents,
+            energy: &mut energy,
+            pseudo: &mut attempt,
+            unforeseen: &mut Unforeseen::default(),
+        };
+        let affine = Affine { support: None, g: &g, h: &none, key: StepKey::default() };
+        kernel.begin(&pseudo, &from);
+        match kernel.settle(&affine, &from, &state.scale, &mut out) {
             Ok(()) => {
                 trial.settle(links, &energy, kernel.largest_force());
                 state = trial;

@@ -1,3 +1,3 @@
 //! Sums over vectors.
 
-pub(crate) use trilith_linalg::{add, dot, largest, residual};
+pub(crate) use trilith_linalg::{add, dot, largest, residual, sized_residual};

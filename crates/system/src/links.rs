@@ -176,17 +176,16 @@ impl<'a> StepLaws<'a> {
     }
 
     /// Takes up a step: of `at` the deformations and rates at the start, and the length.
-    pub fn start(&mut self, at: Kinematics<'_>, committed: &[f64]) {
-        self.packs.iter_mut().for_each(|pack| pack.start(&at, committed));
+    pub fn start(&mut self, at: &Kinematics<'_>, committed: &[f64]) {
+        self.packs.iter_mut().for_each(|pack| pack.start(at, committed));
     }
 
     /// Forces and tangents at (d, v) in the step taken up last; history and energies may wait for the
     /// [end](Self::end); `last`: whether the step may well end here. `tangents` are [those](LinkSet::tangents) that
-    /// nobody else writes: what is zero at all
-    /// times stays as it is.
+    /// nobody else writes: what is zero at all times stays as it is.
     pub fn respond(
         &mut self,
-        at: Kinematics<'_>,
+        at: &Kinematics<'_>,
         last: bool,
         committed: &[f64],
         trial: &mut [f64],
@@ -194,17 +193,17 @@ impl<'a> StepLaws<'a> {
         tangents: &mut Tangents,
         energy: &mut [Energy],
     ) {
-        self.dampers.iter().for_each(|damper| damper.force(&at, f, tangents));
-        self.packs.iter_mut().for_each(|pack| pack.force(&at, last, f, tangents));
+        self.dampers.iter().for_each(|damper| damper.force(at, f, tangents));
+        self.packs.iter_mut().for_each(|pack| pack.force(at, last, f, tangents));
         for i in &self.alone {
             let energy = &mut energy[*i];
-            self.laws.respond_one(*i, at, committed, trial, f, tangents, energy);
+            self.laws.respond_one(*i, *at, committed, trial, f, tangents, energy);
         }
     }
 
     /// The step ends where the laws were asked last, at the same place: what of history and energies still waits.
-    pub fn end(&mut self, at: Kinematics<'_>, trial: &mut [f64], energy: &mut [Energy]) {
-        self.dampers.iter().for_each(|damper| damper.energy(&at, energy));
+    pub fn end(&mut self, at: &Kinematics<'_>, trial: &mut [f64], energy: &mut [Energy]) {
+        self.dampers.iter().for_each(|damper| damper.energy(at, energy));
         self.packs.iter_mut().for_each(|pack| pack.commit(trial, energy));
     }
 }

@@ -1,6 +1,7 @@
 //! The first guess of a step: where the tangents at its start put the forces.
 
-use super::{Affine, Committed, Converged, LinkKernel, choose};
+use super::{Affine, Committed, Converged, LinkKernel, active, choose};
+use crate::vector::residual;
 use trilith_model::Kernel;
 
 impl LinkKernel<'_> {
@@ -17,7 +18,9 @@ impl LinkKernel<'_> {
             return false;
         }
         self.deform(affine, out);
-        self.leave(from.f);
+        let Self { layout, unknowns, residual: r, correction, .. } = self;
+        let of_active = active(layout, from.f, correction);
+        residual(of_active, &layout.dummy_k, unknowns.d(), unknowns.pseudo(), r);
         let (k, c) = (&from.tangents.k, &from.tangents.c);
         let links = self.layout.links;
         if self.layout.complete {

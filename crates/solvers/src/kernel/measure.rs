@@ -10,14 +10,21 @@ const DIGIT: f64 = 2.0 * f64::EPSILON;
 
 impl LinkKernel<'_> {
     /// Largest residual over its tolerance, and where.
+    #[inline]
     pub(super) fn measure(&self, out: &Converged<'_>, scale: &ForceScale) -> (f64, NoEquilibrium) {
+        // Mostly no force is larger than those before.
+        if !self.layout.links.turns && self.sizes[0] <= self.tolerance * scale[0] {
+            return (0.0, NoEquilibrium { worst: 0, residual: 0.0 });
+        }
+        self.compare(out, scale)
+    }
+
+    /// The same where the forces of now may count as well.
+    fn compare(&self, out: &Converged<'_>, scale: &ForceScale) -> (f64, NoEquilibrium) {
         let links = self.layout.links;
         let pseudo = self.unknowns.pseudo();
         let (mut now, mut left) = (*scale, [0.0; 2]);
         let [of_residual, of_force, of_pseudo] = self.sizes;
-        if !links.turns && of_residual <= self.tolerance * now[0] {
-            return (0.0, NoEquilibrium { worst: 0, residual: 0.0 });
-        }
         if links.turns {
             for (a, flat) in links.active.iter().enumerate() {
                 let kind = usize::from(links.rotational[*flat]);
@@ -37,8 +44,12 @@ impl LinkKernel<'_> {
         }
         // The residual counts as a force: before the first link is touched there is no other.
         let share = |kind: usize| left[kind] / (self.tolerance * now[kind].max(left[kind]));
-        let shares = [0, 1].map(|kind| if left[kind] > 0.0 { share(kind) } else { 0.0 });
-        let most = shares[0].max(shares[1]);
+        let mut most: f64 = 0.0;
+        for kind in [0, 1] {
+            if left[kind] > 0.0 {
+                most = most.max(share(kind));
+            }
+        }
         if most <= 1.0 || self.iteration < ROUNDING_FROM {
             return (most, worst);
         }

@@ -23,7 +23,7 @@ pub(crate) use factors::Remembered;
 pub(crate) use unforeseen::Unforeseen;
 
 use crate::propagator::{StepKey, Wanted};
-use crate::vector::{add, largest, residual};
+use crate::vector::{add, largest, sized_residual};
 use factors::{Equations, Factor, Factors};
 pub(crate) use layout::Layout;
 use layout::Unknowns;
@@ -205,38 +205,19 @@ impl<'a> LinkKernel<'a> {
         }
     }
 
-    /// Solves the link equations at what was [wanted](Self::wanted), from these pseudo-forces, at which that was
-    /// predicted. The rates of coordinates whose law does not look at them are left to the caller.
-    pub(crate) fn solve(
-        &mut self,
-        pseudo: &[f64],
-        affine: &Affine<'_>,
-        from: &Committed<'_>,
-        scale: &ForceScale,
-        out: &mut Converged<'_>,
-    ) -> Result<(), NoEquilibrium> {
-        self.begin(pseudo);
-        self.settle(affine, from, scale, out)
+    /// Takes up the link equations of a step at what was [wanted](Self::wanted), from these pseudo-forces, at which that
+    /// was predicted.
+    pub(crate) fn begin(&mut self, pseudo: &[f64], from: &Committed<'_>) {
+        self.search.reset();
+        self.unknowns.parts()[2].copy_from_slice(pseudo);
+        (self.iteration, self.size_before, self.expected) = (0, f64::INFINITY, false);
+        let Committed { d, v, .. } = *from;
+        self.laws.start(&Kinematics { d, v, d0: d, v0: v, dt: from.dt }, from.history);
     }
 
-    /// The same for a step in time, from what is [foreseen](Self::foresee) at its start.
-    pub(crate) fn solve_step(
-        &mut self,
-        pseudo: &[f64],
-        affine: &Affine<'_>,
-        from: &Committed<'_>,
-        scale: &ForceScale,
-        out: &mut Converged<'_>,
-    ) -> Result<(), NoEquilibrium> {
-        self.begin(pseudo);
-        if self.foresee(affine, from, out) {
-            self.follow(affine);
-        }
-        self.settle(affine, from, scale, out)
-    }
-
-    /// Iterates until the links are in equilibrium.
-    fn settle(
+    /// Iterates until the links are in equilibrium. The rates of coordinates whose law does not look at them are left
+    /// to the caller.
+    pub(crate) fn settle(
         &mut self,
         affine: &Affine<'_>,
         from: &Committed<'_>,
@@ -250,17 +231,10 @@ impl<'a> LinkKernel<'a> {
     }
 
     /// Lets deformations and rates follow the last change of f̃.
-    fn follow(&mut self, affine: &Affine<'_>) {
+    pub(crate) fn follow(&mut self, affine: &Affine<'_>) {
         if let Some((change, d)) = self.change(affine.h) {
             affine.g.mul_add(-1.0, change, d);
         }
-    }
-
-    /// Takes up the link equations of a step, with these pseudo-forces.
-    pub(crate) fn begin(&mut self, pseudo: &[f64]) {
-        self.search.reset();
-        self.unknowns.parts()[2].copy_from_slice(pseudo);
-        (self.iteration, self.size_before, self.expected) = (0, f64::INFINITY, false);
     }
 
     /// One iteration: true where the links are in equilibrium; else f̃ has changed by what
@@ -272,10 +246,6 @@ impl<'a> LinkKernel<'a> {
         scale: &ForceScale,
         out: &mut Converged<'_>,
     ) -> Result<bool, NoEquilibrium> {
-        let limit = match self.kind {
-            Kernel::Newton => NEWTON_ITERATIONS,
-            Kernel::FixedPoint => FIXED_POINT_ITERATIONS,
-        };
         self.iterations += 1;
         self.evaluate(affine, from, out);
         if self.iteration == 0 && self.kind == Kernel::Newton {
@@ -287,6 +257,10 @@ impl<'a> LinkKernel<'a> {
             return Ok(true);
         }
         self.iteration += 1;
+        let limit = match self.kind {
+            Kernel::Newton => NEWTON_ITERATIONS,
+            Kernel::FixedPoint => FIXED_POINT_ITERATIONS,
+        };
         if !size.is_finite() || self.iteration == limit {
             self.factors.forget(affine.key);
             return Err(worst);
@@ -331,7 +305,7 @@ impl<'a> LinkKernel<'a> {
         }
         out.pseudo.copy_from_slice(self.unknowns.pseudo());
         let at = Kinematics { d: out.d, v: out.v, d0: from.d, v0: from.v, dt: from.dt };
-        self.laws.end(at, out.history, out.energy);
+        self.laws.end(&at, out.history, out.energy);
     }
 
     /// f̃ takes the step, and what follows it already.
@@ -396,28 +370,13 @@ impl<'a> LinkKernel<'a> {
         self.deform(affine, out);
         let [d, v] = choose(self.plain, &self.unknowns, [out.d, out.v]);
         let at = Kinematics { d, v, d0: from.d, v0: from.v, dt: from.dt };
-        if self.iteration == 0 {
-            self.laws.start(at, from.history);
-        }
         let last = self.iteration > 0;
-        self.laws.respond(at, last, from.history, out.history, out.f, out.tangents, out.energy);
-        self.leave(out.f);
-    }
-
-    /// The residual of forces, flat, against pseudo-forces at the present deformations, and the sizes of all three.
-    #[inline(always)]
-    fn leave(&mut self, f: &[f64]) {
-        let Self { layout, unknowns, residual: r, correction: own, sizes, .. } = self;
-        let mut of_active = f;
+        self.laws.respond(&at, last, from.history, out.history, out.f, out.tangents, out.energy);
+        let Self { layout, unknowns, residual: r, correction, sizes, .. } = self;
+        let of_active = active(layout, out.f, correction);
+        sized_residual(of_active, &layout.dummy_k, unknowns.d(), unknowns.pseudo(), r, sizes);
         if !layout.complete {
-            own.clear();
-            own.extend(layout.links.active.iter().map(|flat| f[*flat]));
-            of_active = own;
-        }
-        let (pseudo, d) = (unknowns.pseudo(), unknowns.d());
-        residual(of_active, &layout.dummy_k, d, pseudo, r, sizes);
-        if !layout.complete {
-            sizes[1] = largest(f);
+            sizes[1] = largest(out.f);
         }
     }
 
@@ -465,4 +424,14 @@ struct Parts<'a> {
 /// Deformations and rates of all coordinates: the own ones where those are `plain`.
 fn choose<'a>(plain: bool, own: &'a Unknowns, all: [&'a [f64]; 2]) -> [&'a [f64]; 2] {
     if plain { [own.d(), own.v()] } else { all }
+}
+
+/// Of flat forces those of the active coordinates, which `space` may be taken for.
+fn active<'a>(layout: &Layout<'_>, f: &'a [f64], space: &'a mut Vec<f64>) -> &'a [f64] {
+    if layout.complete {
+        return f;
+    }
+    space.clear();
+    space.extend(layout.links.active.iter().map(|flat| f[*flat]));
+    space
 }
