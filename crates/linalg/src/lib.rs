@@ -43,7 +43,7 @@ pub use operator::SymmetricOperator;
 pub use panel::{Panel, Product};
 pub use sparse::{Sparse, Triplets};
 pub use tall::Columns;
-pub use vector::{add, dot, largest, residual, sized_residual};
+pub use vector::{add, dot, equal, largest, residual, sized_residual};
 
 /// What can go wrong in a factorisation or an eigenproblem.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]

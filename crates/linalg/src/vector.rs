@@ -81,6 +81,19 @@ pub fn add(x: &mut [f64], change: &[f64]) {
     rest.iter_mut().zip(by_rest).for_each(|(x, change)| *x += change);
 }
 
+/// True where the numbers of both are equal, one by one; mostly they are, so all are looked at side by side.
+#[must_use]
+pub fn equal(a: &[f64], b: &[f64]) -> bool {
+    if a.len() != b.len() {
+        return false;
+    }
+    let mut equal = true;
+    for (a, b) in a.iter().zip(b) {
+        equal &= a == b;
+    }
+    equal
+}
+
 /// Fewer numbers are looked at without vectors.
 const SHORT: usize = 16;
 
@@ -212,6 +225,21 @@ mod tests {
                 broken[n / 2] = f64::NAN;
                 sized_residual(&broken, &x[1], &x[2], &x[3], &mut r, &mut sizes);
                 assert!(sizes[0].is_nan());
+            }
+        }
+    }
+
+    #[test]
+    fn what_differs_anywhere_is_not_equal() {
+        for n in 0..20 {
+            let x: Vec<f64> = (0..n).map(|i| i as f64 - 7.0).collect();
+            assert!(equal(&x, &x) && !equal(&x, &[&x[..], &[0.0]].concat()));
+            for at in 0..n {
+                for other in [99.0, f64::NAN] {
+                    let mut y = x.clone();
+                    y[at] = other;
+                    assert!(!equal(&x, &y) && (other.is_finite() || !equal(&y, &y)));
+                }
             }
         }
     }

@@ -197,7 +197,8 @@ impl Table {
     fn guess(&self, t: f64, side: Side) -> usize {
         // A sample seen from before belongs to the segment that ends there.
         let lean = if side == Side::Before { -LEAN } else { LEAN };
-        ((t - self.start()) * self.per_time + lean) as usize
+        // Of 32 bits, which takes far fewer instructions.
+        ((t - self.start()) * self.per_time + lean) as u32 as usize
     }
 
     /// Index of the segment that holds t. Samples are mostly evenly spaced, so it is guessed first.

@@ -6,6 +6,7 @@
 
 use crate::observe::{EnergyTotals, LinkEnergy};
 use crate::stepper::{State, StepEnergy};
+use crate::vector::larger;
 use serde::{Deserialize, Serialize};
 
 /// Where all energy has left again, the error is measured against this share of the largest.
@@ -88,17 +89,17 @@ impl Ledger {
             + t.link_viscous;
         t.error = t.input - out;
         for size in [t.input, t.kinetic, t.potential, t.strain, t.link_stored] {
-            self.largest = self.largest.max(size.abs());
+            self.largest = larger(self.largest, size.abs());
         }
         // A pulse may put in far more than it leaves; what counts is what stayed, or was turned to heat.
         let heat = t.modal_damping + t.algorithmic + t.link_hysteretic + t.link_viscous;
         // At rest under load there is nothing but rounding, of the energy that stands in springs.
         let standing = step.strain.abs() + stored.abs() + potential.abs();
         let shares = [SHARE_OF_LARGEST * self.largest, SHARE_OF_STANDING * standing];
-        let size = [t.input, t.kinetic, t.potential, heat]
+        let [moved, stood] = shares;
+        let size = [t.input, t.kinetic, t.potential, heat, moved, stood]
             .into_iter()
-            .chain(shares)
-            .fold(0.0, |a: f64, b| a.max(b.abs()));
+            .fold(0.0, |size: f64, x| larger(size, x.abs()));
         t.error_relative = if size > 0.0 { t.error.abs() / size } else { 0.0 };
         step.kinetic + step.strain.abs() + stored.abs()
     }

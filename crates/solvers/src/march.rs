@@ -140,18 +140,18 @@ impl<'a> March<'a> {
         tolerance: f64,
         accept: &mut Accepted<'_>,
     ) -> Result<(), Stop> {
-        let full: u64 = 1 << DEPTH;
-        let mut at: u64 = 0;
+        let full: u32 = 1 << DEPTH;
+        let mut at: u32 = 0;
         // The number of halvings whose whole step is there already.
         let mut known: Option<u32> = None;
-        let time = |ticks: u64| piece.time(ticks as f64 / full as f64);
+        let time = |ticks: u32| piece.time(f64::from(ticks) / f64::from(full));
         while at < full {
             let mut level = pace.level;
             while !at.is_multiple_of(full >> level) {
                 level += 1;
             }
             let ticks = full >> level;
-            let size = piece.length / (1u64 << level) as f64;
+            let size = piece.length / f64::from(1u32 << level);
             let (start, middle, end) = (time(at), time(at + ticks / 2), time(at + ticks));
             let attempt = self.attempt(state, [start, middle, end], size, known == Some(level));
             known = None;
@@ -232,12 +232,12 @@ impl<'a> March<'a> {
         piece: Piece,
         accept: &mut Accepted<'_>,
     ) -> Result<(), Stop> {
-        let full: u64 = 1 << DEPTH;
-        let (mut at, mut level) = (0u64, 0u32);
-        let time = |ticks: u64| piece.time(ticks as f64 / full as f64);
+        let full: u32 = 1 << DEPTH;
+        let (mut at, mut level) = (0u32, 0u32);
+        let time = |ticks: u32| piece.time(f64::from(ticks) / f64::from(full));
         while at < full {
             let ticks = full >> level;
-            let size = piece.length / (1u64 << level) as f64;
+            let size = piece.length / f64::from(1u32 << level);
             let Trial { whole, energies: [energy, ..], loads, .. } = &mut self.trial;
             self.loads.step(time(at), time(at + ticks), loads);
             match self.stepper.step(state, whole, loads, size, energy) {

@@ -26,6 +26,7 @@ use crate::error::SolveError;
 use crate::link_map::LinkMap;
 use crate::propagator::{Compliance, Forces, Motion, Propagator, StepKey, StepWork, Wanted};
 use crate::space::Space;
+use crate::vector::equal;
 use rules::{Rule, Structure};
 use trilith_linalg::{Dense, ModalStep, Panel, StepSums, work_of_linear};
 
@@ -119,7 +120,7 @@ impl Sources {
 
     /// Where (B Φ)ᵀ f̃ of these pseudo-forces must go, unless they are those spread last.
     pub(crate) fn renew_spread(&mut self, pseudo: &[f64]) -> Option<&mut [f64]> {
-        if self.pseudo == pseudo {
+        if equal(&self.pseudo, pseudo) {
             return None;
         }
         self.pseudo.copy_from_slice(pseudo);

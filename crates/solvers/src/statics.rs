@@ -88,6 +88,7 @@ pub(crate) fn equilibrium(
         g.mul_add(-1.0, &pseudo, d);
         v.fill(0.0);
         let mut trial = state.clone();
+        trial.v.fill(0.0);
         let mut attempt = vec![0.0; pseudo.len()];
         let mut energy = vec![Energy::default(); links.links.len()];
         let from = Committed {

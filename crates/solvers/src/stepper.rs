@@ -5,7 +5,7 @@ use crate::kernel::{ForceScale, NoEquilibrium, Remembered, Unforeseen};
 use crate::link_side::LinkSide;
 use crate::propagator::{Motion, Propagator, StepWork};
 use crate::space::Space;
-use crate::vector::largest;
+use crate::vector::{larger, largest};
 use serde::{Deserialize, Serialize};
 use trilith_element::{Energy, Kinematics};
 use trilith_model::Model;
@@ -88,23 +88,19 @@ impl State {
     /// Takes note of the forces, the largest of which is given, the stored energies and the stiffness of a converged
     /// step.
     pub(crate) fn settle(&mut self, links: &LinkSet, energy: &[Energy], force: f64) {
-        for (most, now) in self.stiffest.iter_mut().zip(links.stiffness(&self.tangents)) {
-            if now > *most {
-                *most = now;
-            }
+        for (most, at) in self.stiffest.iter_mut().zip(&links.diagonal) {
+            *most = larger(*most, self.tangents.k[*at]);
         }
         for (stored, e) in self.stored.iter_mut().zip(energy) {
             *stored = e.stored;
         }
         if !links.turns {
-            self.scale[0] = self.scale[0].max(force);
+            self.scale[0] = larger(self.scale[0], force);
             return;
         }
         for (f, rotational) in self.f.iter().zip(&links.rotational) {
             let scale = &mut self.scale[usize::from(*rotational)];
-            if f.abs() > *scale {
-                *scale = f.abs();
-            }
+            *scale = larger(*scale, f.abs());
         }
     }
 }

@@ -24,9 +24,9 @@ impl LinkKernel<'_> {
         let (k, c) = (&from.tangents.k, &from.tangents.c);
         let links = self.layout.links;
         if self.layout.complete {
-            let [d, v] = choose(self.plain, &self.unknowns, [out.d, out.v]);
+            let d = choose(self.plain, &self.unknowns, out.d);
             self.blocks.add_change(k, [from.d, d], &mut self.residual);
-            self.rated_blocks.add_change(c, [from.v, v], &mut self.residual);
+            self.rated_blocks.add_change(c, [from.v, out.v], &mut self.residual);
         } else {
             self.pull.clear();
             self.pull.resize(links.len(), 0.0);

@@ -50,14 +50,12 @@ pub(super) struct Unknowns {
     rated: usize,
     /// The row, with zeros behind it that fill up whole vectors.
     row: Vec<f64>,
-    /// Rates of all active coordinates; zero where no law looks at them.
-    v: Vec<f64>,
 }
 
 impl Unknowns {
     pub fn new(n: usize, rated: usize) -> Self {
         let filled = (2 * n + rated).next_multiple_of(Panel::GRAIN);
-        Self { n, rated, row: vec![0.0; filled], v: vec![0.0; n] }
+        Self { n, rated, row: vec![0.0; filled] }
     }
 
     /// Where f̃ begins in a row of so many coordinates and rates.
@@ -87,16 +85,9 @@ impl Unknowns {
         &self.row[..self.n]
     }
 
-    /// Rates of all active coordinates as they were [placed](Self::place_rates).
+    /// Rates that laws look at.
     pub fn v(&self) -> &[f64] {
-        &self.v
-    }
-
-    /// Puts the rates that laws look at where they belong among those of all coordinates.
-    #[inline]
-    pub fn place_rates(&mut self, rated: &[usize]) {
-        let v = &self.row[self.n..];
-        rated.iter().zip(v).for_each(|(a, v)| self.v[*a] = *v);
+        &self.row[self.n..][..self.rated]
     }
 
     /// The whole row, as a product moves it.

@@ -20,6 +20,7 @@ impl LinkKernel<'_> {
     }
 
     /// The same where the forces of now may count as well.
+    #[inline(never)]
     fn compare(&self, out: &Converged<'_>, scale: &ForceScale) -> (f64, NoEquilibrium) {
         let links = self.layout.links;
         let pseudo = self.unknowns.pseudo();
@@ -86,7 +87,7 @@ impl LinkKernel<'_> {
         let row = (links.active[a] - link.range.start) * link.range.len();
         let block = link.block.start + row..link.block.start + row + link.range.len();
         let (k, c) = (&out.tangents.k[block.clone()], &out.tangents.c[block]);
-        let [d, v] = choose(self.plain, &self.unknowns, [out.d, out.v]);
+        let (d, v) = (choose(self.plain, &self.unknowns, out.d), &*out.v);
         let terms = link.range.clone().zip(k.iter().zip(c));
         DIGIT * terms.map(|(flat, (k, c))| (k * d[flat]).abs() + (c * v[flat]).abs()).sum::<f64>()
     }

@@ -55,8 +55,8 @@ pub(crate) struct Committed<'a> {
     pub dt: f64,
 }
 
-/// Where the converged values go, flat; `pseudo` is f̃ of the active coordinates. What is zero in the tangents of a
-/// law at all times is zero in `tangents` before.
+/// Where the converged values go, flat; `pseudo` is f̃ of the active coordinates. Rates that no law looks at stay as they
+/// are. What is zero in the tangents of a law at all times is zero in `tangents` before.
 pub(crate) struct Converged<'a> {
     pub d: &'a mut [f64],
     pub v: &'a mut [f64],
@@ -301,7 +301,6 @@ impl<'a> LinkKernel<'a> {
     fn end(&mut self, from: &Committed<'_>, out: &mut Converged<'_>) {
         if self.plain {
             out.d.copy_from_slice(self.unknowns.d());
-            out.v.copy_from_slice(self.unknowns.v());
         }
         out.pseudo.copy_from_slice(self.unknowns.pseudo());
         let at = Kinematics { d: out.d, v: out.v, d0: from.d, v0: from.v, dt: from.dt };
@@ -339,10 +338,12 @@ impl<'a> LinkKernel<'a> {
     /// Deformations and rates of all coordinates.
     #[inline(always)]
     fn deform(&mut self, affine: &Affine<'_>, out: &mut Converged<'_>) {
-        self.unknowns.place_rates(&self.layout.rated);
         self.plain = self.layout.complete && affine.support.is_none();
         if !self.plain {
-            self.deform_all(affine, out);
+            return self.deform_all(affine, out);
+        }
+        for (a, v) in self.layout.rated.iter().zip(self.unknowns.v()) {
+            out.v[*a] = *v;
         }
     }
 
@@ -359,16 +360,18 @@ impl<'a> LinkKernel<'a> {
                 out.v.fill(0.0);
             }
         }
-        for ((flat, d), v) in links.active.iter().zip(self.unknowns.d()).zip(self.unknowns.v()) {
+        for (flat, d) in links.active.iter().zip(self.unknowns.d()) {
             out.d[*flat] += d;
-            out.v[*flat] += v;
+        }
+        for (a, v) in self.layout.rated.iter().zip(self.unknowns.v()) {
+            out.v[links.active[*a]] += v;
         }
     }
 
     /// Laws and residual at the present deformations.
     fn evaluate(&mut self, affine: &Affine<'_>, from: &Committed<'_>, out: &mut Converged<'_>) {
         self.deform(affine, out);
-        let [d, v] = choose(self.plain, &self.unknowns, [out.d, out.v]);
+        let (d, v) = (choose(self.plain, &self.unknowns, out.d), &*out.v);
         let at = Kinematics { d, v, d0: from.d, v0: from.v, dt: from.dt };
         let last = self.iteration > 0;
         self.laws.respond(&at, last, from.history, out.history, out.f, out.tangents, out.energy);
@@ -421,9 +424,9 @@ struct Parts<'a> {
     unknowns: &'a mut Unknowns,
 }
 
-/// Deformations and rates of all coordinates: the own ones where those are `plain`.
-fn choose<'a>(plain: bool, own: &'a Unknowns, all: [&'a [f64]; 2]) -> [&'a [f64]; 2] {
-    if plain { [own.d(), own.v()] } else { all }
+/// Deformations of all coordinates: the own ones where those are `plain`.
+fn choose<'a>(plain: bool, own: &'a Unknowns, all: &'a [f64]) -> &'a [f64] {
+    if plain { own.d() } else { all }
 }
 
 /// Of flat forces those of the active coordinates, which `space` may be taken for.

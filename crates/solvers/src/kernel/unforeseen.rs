@@ -54,9 +54,13 @@ impl Unforeseen {
         (self.key, self.known, self.order) = (key, 1, 0);
         self.expected.resize(ORDERS * filled, 0.0);
         let last = &mut self.expected[..n];
-        last.copy_from_slice(residual);
-        if expected && let Some(hope) = from.hope(n) {
-            add(last, hope);
+        match from.hope(n).filter(|_| expected) {
+            Some(hope) => {
+                for ((last, left), hope) in last.iter_mut().zip(residual).zip(hope) {
+                    *last = left + hope;
+                }
+            }
+            None => last.copy_from_slice(residual),
         }
         if from.key != key || from.expected.len() != self.expected.len() || n == 0 {
             self.expected[filled..].fill(0.0);
