@@ -1,7 +1,7 @@
 //! Links of one kind are asked side by side: the answers are those of each law alone.
 
 use trilith_element::{Energy, Kinematics};
-use trilith_system::{StepLaws, Tangents};
+use trilith_system::{Answers, StepLaws, Tangents};
 use trilith_tests::parse;
 
 /// A mass on so many links of each kind that has a law over lanes, each with numbers of its own; kind after kind, or one
@@ -69,10 +69,13 @@ fn links_of_one_kind_answer_together_as_alone() {
         let zero = || vec![0.0; n];
         let none =
             || Tangents { k: vec![f64::NAN; links.block_len], c: vec![f64::NAN; links.block_len] };
-        let mut two = links.tangents();
         let mut history = links.at_rest(&model);
         let (mut d0, mut v0) = (zero(), zero());
         let dt = 0.01;
+        let mut two = links.tangents();
+        let at = Kinematics { d: &d0, v: &v0, d0: &d0, v0: &v0, dt };
+        let mut energy = vec![Energy::default(); links.links.len()];
+        laws.respond(at, &history, &mut history.clone(), &mut zero(), &mut two, &mut energy);
         for step in 0..60 {
             let mut d = zero();
             let mut v = zero();
@@ -82,7 +85,7 @@ fn links_of_one_kind_answer_together_as_alone() {
             let mut energy = vec![Energy::default(); links.links.len()];
             let mut energies = energy.clone();
             let start = Kinematics { d: &d0, v: &v0, d0: &d0, v0: &v0, dt };
-            together.start(start, &history);
+            together.start(&start, &history);
             // Two looks, as an iteration makes them.
             for look in 0..2 {
                 for i in 0..n {
@@ -91,14 +94,20 @@ fn links_of_one_kind_answer_together_as_alone() {
                 }
                 let at = Kinematics { d: &d, v: &v, d0: &d0, v0: &v0, dt };
                 laws.respond(at, &history, &mut trial, &mut of, &mut one, &mut energy);
-                let (f, last) = (&mut other, (step + look) % 2 == 0);
-                together.respond(at, last, &history, &mut second, f, &mut two, &mut energies);
+                let last = (step + look) % 2 == 0;
+                let (f, tangents, energy) = (&mut other, &mut two, &mut energies);
+                let to = &mut Answers { history: &mut second, f, tangents, energy };
+                together.respond(&at, last, &history, to);
+                if look == 0 {
+                    together.tangents(to.tangents);
+                }
+                if look == 1 {
+                    together.end(&at, to);
+                }
                 close("force", &of, &other, 1e5);
                 close("stiffness", &one.k, &two.k, 1e7);
                 close("damping", &one.c, &two.c, 1e7);
             }
-            let at = Kinematics { d: &d, v: &v, d0: &d0, v0: &v0, dt };
-            together.end(at, &mut second, &mut energies);
             close("history", &trial, &second, 1.0);
             for (a, b) in energy.iter().zip(&energies) {
                 let of = |e: &Energy| [e.stored, e.hysteretic, e.viscous];

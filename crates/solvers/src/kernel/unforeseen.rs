@@ -56,8 +56,8 @@ impl Unforeseen {
         let last = &mut self.expected[..n];
         match from.hope(n).filter(|_| expected) {
             Some(hope) => {
-                for ((last, left), hope) in last.iter_mut().zip(residual).zip(hope) {
-                    *last = left + hope;
+                for i in 0..n {
+                    last[i] = residual[i] + hope[i];
                 }
             }
             None => last.copy_from_slice(residual),

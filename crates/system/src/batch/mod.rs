@@ -5,7 +5,7 @@
 
 mod places;
 
-use crate::links::{LinkInstance, Tangents};
+use crate::links::{Answers, LinkInstance, Tangents};
 use places::{Places, WIDTH, are_pairs, order_of_pairs};
 use std::fmt::Debug;
 use trilith_element::lanes::{Arithmetic, ErasedLaw, LaneForm, LaneLinks, LaneStep, Task};
@@ -24,11 +24,14 @@ pub(crate) trait Pack: Debug {
     /// Takes up a step from the deformations and rates at its start.
     fn start(&mut self, at: &Kinematics<'_>, committed: &[f64]);
 
-    /// Forces and tangents; `last`: whether the step may well end here.
-    fn force(&mut self, at: &Kinematics<'_>, last: bool, to: &mut [f64], tangents: &mut Tangents);
+    /// Forces; `last`: whether the step may well end here, so that tangents go with them.
+    fn force(&mut self, at: &Kinematics<'_>, last: bool, to: &mut Answers<'_>);
 
-    /// History and energies of the step at the forces asked for last.
-    fn commit(&mut self, trial: &mut [f64], energy: &mut [Energy]);
+    /// Tangents that still wait.
+    fn tangents(&mut self, to: &mut Tangents);
+
+    /// Tangents that still wait, history and energies of the step at the forces asked for last.
+    fn commit(&mut self, to: &mut Answers<'_>);
 }
 
 /// As many links of one law as there are lanes, or fewer: then other lanes repeat some of them.
@@ -204,20 +207,19 @@ impl<A: Arithmetic> Task<A> for Start<'_, A> {
     }
 }
 
-/// Forces and tangents of a pack, with the instructions of its arithmetic.
-struct Force<'a, A: Arithmetic> {
+/// Forces of a pack, with the instructions of its arithmetic.
+struct Force<'a, 'b, A: Arithmetic> {
     pack: &'a mut Lanes<A>,
     at: &'a Kinematics<'a>,
     last: bool,
-    to: &'a mut [f64],
-    tangents: &'a mut Tangents,
+    to: &'a mut Answers<'b>,
 }
 
-impl<A: Arithmetic> Force<'_, A> {
+impl<A: Arithmetic> Force<'_, '_, A> {
     /// Of links with `N` coordinates, and blocks of `B` numbers.
     #[inline(always)]
     fn of<const N: usize, const B: usize>(self) {
-        let Self { pack, at, last, to, tangents } = self;
+        let Self { pack, at, last, to } = self;
         let (law, with, rate) = (pack.law, pack.with, pack.rate);
         pack.coordinates.take::<A, N>(with, at.d, &mut pack.d);
         if rate {
@@ -230,15 +232,14 @@ impl<A: Arithmetic> Force<'_, A> {
         } else {
             with.force(&law, &mut questions);
         }
-        pack.coordinates.give::<A, N>(with, &pack.f, to);
-        pack.blocks.give::<A, B>(with, &pack.k, &mut tangents.k);
-        if rate {
-            pack.blocks.give::<A, B>(with, &pack.c, &mut tangents.c);
+        pack.coordinates.give::<A, N>(with, &pack.f, to.f);
+        if last {
+            pack.give_tangents::<B>(to.tangents);
         }
     }
 }
 
-impl<A: Arithmetic> Task<A> for Force<'_, A> {
+impl<A: Arithmetic> Task<A> for Force<'_, '_, A> {
     type Output = ();
 
     #[inline(always)]
@@ -251,20 +252,39 @@ impl<A: Arithmetic> Task<A> for Force<'_, A> {
     }
 }
 
-/// The end of a step of a pack, with the instructions of its arithmetic.
-struct Commit<'a, A: Arithmetic> {
-    pack: &'a mut Lanes<A>,
-    to: &'a mut [f64],
-    energy: &'a mut [Energy],
+/// Tangents of a pack, with the instructions of its arithmetic.
+struct Give<'a, A: Arithmetic> {
+    pack: &'a Lanes<A>,
+    to: &'a mut Tangents,
 }
 
-impl<A: Arithmetic> Task<A> for Commit<'_, A> {
+impl<A: Arithmetic> Task<A> for Give<'_, A> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run(self, _: A) {
+        match self.pack.law.coordinates {
+            1 => self.pack.give_tangents::<1>(self.to),
+            2 => self.pack.give_tangents::<4>(self.to),
+            _ => self.pack.give_tangents::<9>(self.to),
+        }
+    }
+}
+
+/// The end of a step of a pack, with the instructions of its arithmetic.
+struct Commit<'a, 'b, A: Arithmetic> {
+    pack: &'a mut Lanes<A>,
+    to: &'a mut Answers<'b>,
+}
+
+impl<A: Arithmetic> Task<A> for Commit<'_, '_, A> {
     type Output = ();
 
     #[inline(always)]
     fn run(self, with: A) {
-        let Self { pack, to, energy } = self;
+        let Self { pack, to: Answers { history: to, tangents, energy, .. } } = self;
         if !pack.ended {
+            Give { pack, to: tangents }.run(with);
             let law = pack.law;
             let (mut questions, step) = pack.questions();
             with.commit(&law, &mut questions, step);
@@ -285,6 +305,15 @@ impl<A: Arithmetic> Task<A> for Commit<'_, A> {
 }
 
 impl<A: Arithmetic> Lanes<A> {
+    /// Puts the tangents, in blocks of `B` numbers, where they belong.
+    #[inline(always)]
+    fn give_tangents<const B: usize>(&self, to: &mut Tangents) {
+        self.blocks.give::<A, B>(self.with, &self.k, &mut to.k);
+        if self.rate {
+            self.blocks.give::<A, B>(self.with, &self.c, &mut to.c);
+        }
+    }
+
     /// What the law is asked, and where the end of the step goes.
     fn questions(&mut self) -> (LaneLinks<'_, A::Real>, &mut [LaneStep<A::Real>]) {
         let Self { parameters, d, v, d0, v0, dt, history, trial, f, k, c, step, .. } = self;
@@ -298,11 +327,17 @@ impl<A: Arithmetic + Debug> Pack for Lanes<A> {
         self.with.run(Start { pack: self, at, committed });
     }
 
-    fn force(&mut self, at: &Kinematics<'_>, last: bool, to: &mut [f64], tangents: &mut Tangents) {
-        self.with.run(Force { pack: self, at, last, to, tangents });
+    fn force(&mut self, at: &Kinematics<'_>, last: bool, to: &mut Answers<'_>) {
+        self.with.run(Force { pack: self, at, last, to });
     }
 
-    fn commit(&mut self, to: &mut [f64], energy: &mut [Energy]) {
-        self.with.run(Commit { pack: self, to, energy });
+    fn tangents(&mut self, to: &mut Tangents) {
+        if !self.ended {
+            self.with.run(Give { pack: self, to });
+        }
+    }
+
+    fn commit(&mut self, to: &mut Answers<'_>) {
+        self.with.run(Commit { pack: self, to });
     }
 }
