@@ -147,6 +147,7 @@ impl Product {
     ///
     /// # Panics
     /// Where the lengths do not suit.
+    #[inline]
     pub fn times(&self, x: &[f64], y: &mut [f64]) {
         match self {
             Self::One(row) => y.fill(crate::dot(row, x)),

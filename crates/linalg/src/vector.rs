@@ -38,6 +38,7 @@ pub fn largest(x: &[f64]) -> f64 {
 ///
 /// # Panics
 /// Where the lengths differ.
+#[inline]
 pub fn residual(f: &[f64], k: &[f64], d: &[f64], x: &[f64], r: &mut [f64]) {
     let n = r.len();
     assert!(f.len() == n && k.len() == n && d.len() == n && x.len() == n, "lengths of a residual");
@@ -83,6 +84,7 @@ pub fn add(x: &mut [f64], change: &[f64]) {
 
 /// True where the numbers of both are the same to the bit; mostly they are, so all are looked at side by side.
 #[must_use]
+#[inline]
 pub fn equal(a: &[f64], b: &[f64]) -> bool {
     if a.len() != b.len() {
         return false;

@@ -179,6 +179,7 @@ impl Table {
     }
 
     /// Value at t.
+    #[inline]
     pub(crate) fn value(&self, t: f64, side: Side) -> f64 {
         // Mostly t lies in the segment that is guessed, or at its end.
         let i = self.guess(t, side).min(self.times.len());

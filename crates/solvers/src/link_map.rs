@@ -46,6 +46,7 @@ impl LinkMap {
     }
 
     /// `d = B u`.
+    #[inline]
     pub(crate) fn deform(&self, u: &[f64], d: &mut [f64]) {
         match self {
             Self::Sparse(rows) => {
@@ -86,6 +87,7 @@ impl LinkMap {
     }
 
     /// `p = Bᵀ f`.
+    #[inline]
     pub(crate) fn spread_into(&self, f: &[f64], p: &mut [f64]) {
         if let Self::Full(FullMap { spread: Some(panel), .. }) = self {
             return panel.times(f, p);

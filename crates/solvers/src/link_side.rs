@@ -71,6 +71,7 @@ impl<'a> LinkSide<'a> {
     }
 
     /// Loads of a step, and a place for its end.
+    #[inline]
     pub(crate) fn begin(
         &mut self,
         space: &Space,
@@ -109,6 +110,7 @@ impl<'a> LinkSide<'a> {
 
     /// The same with the pseudo-forces at the end as they are at the start, and where the predicted d and v of the
     /// active coordinates go.
+    #[inline]
     pub(crate) fn prediction<'f>(&'f mut self, from: &'f State) -> (Forces<'f>, Wanted<'f>) {
         let Self { load0, load1, kernel, .. } = self;
         let pseudo = &from.pseudo;
@@ -116,6 +118,7 @@ impl<'a> LinkSide<'a> {
     }
 
     /// Solves the link equations.
+    #[inline]
     pub(crate) fn solve(
         &mut self,
         compliance: &Compliance,
@@ -170,6 +173,7 @@ impl<'a> LinkSide<'a> {
 
     /// Where the rates of the active coordinates go once the motion is complete, if the laws left some open and
     /// somebody looks at them; else those stay zero.
+    #[inline]
     pub(crate) fn open_rates(&mut self) -> Option<&mut [f64]> {
         (self.watched && !self.kernel.layout().unrated.is_empty()).then_some(&mut self.rates)
     }
@@ -189,6 +193,7 @@ impl<'a> LinkSide<'a> {
     }
 
     /// Takes note of a converged step whose motion is complete.
+    #[inline]
     pub(crate) fn settle(&mut self, to: &mut State, energy: &StepEnergy) {
         if self.watched && self.kernel.layout().complete && !self.moving {
             self.kernel.layout().rated.iter().for_each(|a| self.rates[*a] = to.v[*a]);
@@ -202,6 +207,7 @@ impl<'a> LinkSide<'a> {
     }
 
     /// Enters a step, taking the dummies out of the books: what they store belongs to the links.
+    #[inline]
     pub(crate) fn book(
         &self,
         from: &State,

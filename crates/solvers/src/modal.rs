@@ -103,6 +103,7 @@ impl Sources {
     }
 
     /// Rates that laws look at, of the motion in these modes.
+    #[inline]
     pub(crate) fn rates(&mut self, links: &LinkMap, v: &[f64], wanted: Wanted<'_>) {
         if self.rated != wanted.rated {
             self.rated = wanted.rated.to_vec();
@@ -119,6 +120,7 @@ impl Sources {
     }
 
     /// Where (B Φ)ᵀ f̃ of these pseudo-forces must go, unless they are those spread last.
+    #[inline]
     pub(crate) fn renew_spread(&mut self, pseudo: &[f64]) -> Option<&mut [f64]> {
         if equal(&self.pseudo, pseudo) {
             return None;
@@ -147,6 +149,7 @@ impl Modal {
         self.modes
     }
 
+    #[inline]
     fn spread(&mut self, pseudo: &[f64]) {
         if let Some(to) = self.now.renew_spread(pseudo) {
             self.modes.space.links.spread_into(pseudo, to);
@@ -183,6 +186,7 @@ impl Modes {
     }
 
     /// Index of a step size.
+    #[inline]
     fn size(&mut self, dt: f64) -> usize {
         if self.steps.get(self.now.0).is_some_and(|s| s.dt == dt) {
             return self.now.0;
@@ -203,6 +207,7 @@ impl Modes {
     }
 
     /// The rule for a step from a state whose links have this stiffness.
+    #[inline]
     pub(crate) fn choose(
         &mut self,
         dt: f64,
@@ -264,6 +269,7 @@ impl Modes {
     }
 
     /// Prepares for steps.
+    #[inline]
     pub(crate) fn prepare(&mut self, key: StepKey) {
         let size = self.size(key.dt);
         self.now = (size, None);
@@ -301,6 +307,7 @@ impl Modes {
     }
 
     /// The motion at the end of a step under the pseudo-forces spread last, at both ends.
+    #[inline]
     pub(crate) fn predict(
         &self,
         now: &mut Sources,
@@ -324,6 +331,7 @@ impl Modes {
     }
 
     /// What was predicted, with the pseudo-forces spread last at the end instead.
+    #[inline]
     pub(crate) fn complete(
         &self,
         now: &mut Sources,
@@ -359,6 +367,7 @@ impl Modes {
     }
 
     /// Work done over the step completed last.
+    #[inline]
     pub(crate) fn work(&self, now: &Sources) -> StepWork {
         let StepSums { external, all, kinetic: [k0, kinetic], strain: [e0, strain] } = now.sums;
         let damped = self.structure.is_damped();

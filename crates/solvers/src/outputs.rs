@@ -215,6 +215,7 @@ impl Outputs {
     }
 
     /// The outputs in a state.
+    #[inline]
     pub(crate) fn at<'a>(&'a self, t: f64, state: &'a State, loads: &LoadSet) -> Now<'a> {
         let n = self.order;
         let motion = [&state.motion[..n], &state.motion[n..2 * n], &state.motion[2 * n..]];
@@ -245,6 +246,7 @@ impl Now<'_> {
     }
 
     /// Values of all.
+    #[inline]
     pub(crate) fn values(&self, values: &mut [f64]) {
         let Self { outputs, state, motion, base, .. } = self;
         for Run { rows, order, own } in &outputs.runs {

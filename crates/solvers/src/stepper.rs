@@ -76,6 +76,7 @@ impl State {
     }
 
     /// Makes this a place for the step that follows another state.
+    #[inline]
     pub(crate) fn follow(&mut self, from: &Self) {
         if self.motion.len() == from.motion.len() && self.d.len() == from.d.len() {
             self.scale = from.scale;
@@ -87,6 +88,7 @@ impl State {
 
     /// Takes note of the forces, the largest of which is given, the stored energies and the stiffness of a converged
     /// step.
+    #[inline]
     pub(crate) fn settle(&mut self, links: &LinkSet, energy: &[Energy], force: f64) {
         for (most, at) in self.stiffest.iter_mut().zip(&links.diagonal) {
             *most = larger(*most, self.tangents.k[*at]);

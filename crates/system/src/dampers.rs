@@ -20,11 +20,13 @@ impl Damper {
     }
 
     /// Force; the tangents are the same at all times.
+    #[inline]
     pub(crate) fn force(&self, at: &Kinematics<'_>, f: &mut [f64]) {
         f[self.coordinate] = self.c * at.v[self.coordinate];
     }
 
     /// Energies of a step.
+    #[inline]
     pub(crate) fn energy(&self, at: &Kinematics<'_>, energy: &mut [Energy]) {
         let i = self.coordinate;
         let viscous = at.viscous_work(i, self.c * at.v0[i], self.c * at.v[i]);

@@ -188,6 +188,7 @@ impl<'a> StepLaws<'a> {
     }
 
     /// Takes up a step: of `at` the deformations and rates at the start, and the length.
+    #[inline]
     pub fn start(&mut self, at: &Kinematics<'_>, committed: &[f64]) {
         self.packs.iter_mut().for_each(|pack| pack.start(at, committed));
     }
@@ -215,6 +216,7 @@ impl<'a> StepLaws<'a> {
     }
 
     /// The step ends where the laws were asked last, at the same place: what still waits.
+    #[inline]
     pub fn end(&mut self, at: &Kinematics<'_>, to: &mut Answers<'_>) {
         self.dampers.iter().for_each(|damper| damper.energy(at, to.energy));
         self.packs.iter_mut().for_each(|pack| pack.commit(to));

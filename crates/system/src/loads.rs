@@ -34,6 +34,7 @@ pub enum Track {
 impl Track {
     /// Amplitude at t.
     #[must_use]
+    #[inline]
     pub fn at(&self, t: f64, side: Side) -> f64 {
         match self {
             Self::Constant => 1.0,
@@ -187,6 +188,7 @@ impl System {
 
 impl LoadSet {
     /// Amplitudes over a step; what is known from a step that ended at its start is kept.
+    #[inline]
     pub fn step(&self, t0: f64, t1: f64, loads: &mut StepLoads) {
         let goes_on = |c: &Channel| matches!(c.track, Track::Constant | Track::Value { .. });
         let all = |to: &mut Vec<f64>, t: f64, side: Side| {

@@ -69,6 +69,7 @@ impl Factors {
     }
 
     /// True where there is one for a rule.
+    #[inline]
     pub fn have(&self, key: StepKey) -> bool {
         self.0.iter().rev().any(|f| f.key == key)
     }
@@ -90,6 +91,7 @@ impl Factors {
     }
 
     /// The kept factor of a rule, where it is good enough; else a new one.
+    #[inline]
     pub fn take(
         &mut self,
         of: Equations<'_>,
@@ -179,6 +181,7 @@ impl Factor {
 
     /// Moves a row of [`Unknowns`] by the correction of these residuals, and what follows from
     /// it; false where they are too many for that, and nothing has moved.
+    #[inline]
     pub fn go(&self, residual: &[f64], row: &mut [f64]) -> bool {
         self.all.as_ref().map(|all| all.add_times(residual, row)).is_some()
     }

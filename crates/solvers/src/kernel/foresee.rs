@@ -8,6 +8,7 @@ impl LinkKernel<'_> {
     /// Moves f̃ to where the tangents at the start of the step put it, and what the steps before left
     /// [unforeseen](super::Unforeseen): where every law goes on along its tangents, that is the equilibrium.
     /// False where nothing is foreseen; else deformations and rates must follow the [`change`](Self::change).
+    #[inline]
     pub(crate) fn foresee(
         &mut self,
         affine: &Affine<'_>,

@@ -30,7 +30,8 @@ impl LinkKernel<'_> {
             for (a, flat) in links.active.iter().enumerate() {
                 let kind = usize::from(links.rotational[*flat]);
                 left[kind] = self.residual[a].abs().max(left[kind]);
-                now[kind] = out.laws.f[*flat].abs().max(PSEUDO_SHARE * pseudo[a].abs()).max(now[kind]);
+                now[kind] =
+                    out.laws.f[*flat].abs().max(PSEUDO_SHARE * pseudo[a].abs()).max(now[kind]);
             }
         } else {
             left[0] = of_residual;

@@ -204,6 +204,7 @@ impl<'a> LinkKernel<'a> {
 
     /// Takes up the link equations of a step at what was [wanted](Self::wanted), from these pseudo-forces, at which that
     /// was predicted.
+    #[inline]
     pub(crate) fn begin(&mut self, pseudo: &[f64], from: &Committed<'_>) {
         self.search.reset();
         self.unknowns.parts()[2].copy_from_slice(pseudo);
@@ -214,6 +215,7 @@ impl<'a> LinkKernel<'a> {
 
     /// Iterates until the links are in equilibrium. The rates of coordinates whose law does not look at them are left
     /// to the caller.
+    #[inline]
     pub(crate) fn settle(
         &mut self,
         affine: &Affine<'_>,
@@ -228,6 +230,7 @@ impl<'a> LinkKernel<'a> {
     }
 
     /// Lets deformations and rates follow the last change of f̃.
+    #[inline]
     pub(crate) fn follow(&mut self, affine: &Affine<'_>) {
         if let Some((change, d)) = self.change(affine.h) {
             affine.g.mul_add(-1.0, change, d);
@@ -298,6 +301,7 @@ impl<'a> LinkKernel<'a> {
     }
 
     /// The laws end the step where they were asked last.
+    #[inline]
     fn end(&mut self, from: &Committed<'_>, out: &mut Converged<'_>) {
         if self.plain {
             out.d.copy_from_slice(self.unknowns.d());
@@ -318,6 +322,7 @@ impl<'a> LinkKernel<'a> {
 
     /// The last change of f̃, and the deformations of the active coordinates, which must follow it by
     /// −G times it; none where they have done so already. The rates that laws look at have followed.
+    #[inline]
     pub(crate) fn change(&mut self, h: &Dense) -> Option<(&[f64], &mut [f64])> {
         if self.followed {
             return None;
@@ -410,6 +415,7 @@ impl<'a> LinkKernel<'a> {
     }
 
     /// The same, and f̃ takes it at once; false where the equations are singular.
+    #[inline]
     fn go(&mut self, affine: &Affine<'_>, tangents: &Tangents, slow: bool) -> bool {
         let Parts { factor, residual, correction, unknowns } = self.factor(affine, tangents, slow);
         if !factor.is_sound() {
