@@ -281,6 +281,7 @@ impl<'a> LinkKernel<'a> {
         let slow = size > CONTRACTS * self.size_before;
         self.size_before = size;
         if self.iteration == 1 {
+            // Nobody looks at the tangents of the first look but who makes a factor.
             if slow || !self.keeps(affine.key) {
                 self.laws.tangents(out.laws.tangents);
             }
@@ -445,7 +446,7 @@ fn choose<'a>(plain: bool, own: &'a Unknowns, all: &'a [f64]) -> &'a [f64] {
     if plain { own.d() } else { all }
 }
 
-/// Of flat forces those of the active coordinates, which `space` may be taken for.
+/// Forces of the active coordinates out of flat ones, in `space` unless those are all.
 fn active<'a>(layout: &Layout<'_>, f: &'a [f64], space: &'a mut Vec<f64>) -> &'a [f64] {
     if layout.complete {
         return f;
