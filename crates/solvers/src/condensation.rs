@@ -9,7 +9,7 @@
 //! rows u_m need be kept and made orthogonal, and nothing is lost. In frames whose nodes have no rotary inertia that
 //! is half of them.
 //!
-//! Reference: [Guyan 1965], exact here.
+//! Reference: \[Guyan 1965\], exact here.
 
 use crate::error::SolveError;
 use std::borrow::Cow;

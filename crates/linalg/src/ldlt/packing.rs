@@ -7,8 +7,9 @@
 //!   columns left over:                  one after the other, below the diagonal
 //! ```
 //!
-//! Four columns are used together, and so they are read as one stream: as four, of some thousand bytes each, they are
-//! fetched at half the speed. What lies on and above the diagonal is left out, a quarter of a large frame's factor.
+//! Four columns are used together and read as one stream: a step of direct integration takes about a tenth less than
+//! with columns one after the other. What lies on and above the diagonal is left out, a quarter of a large frame's
+//! factor.
 
 use super::substitution::{Node, Panels};
 use crate::large::Large;
