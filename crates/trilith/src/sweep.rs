@@ -353,3 +353,24 @@ fn named(model: &Model, links: &[(usize, LinkEnergy)]) -> Named<LinkEnergy> {
     };
     Named(links.iter().filter_map(one).collect())
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn shares_are_whole_widths_and_small_at_the_end() {
+        for (all, width, threads) in [(64, 8, 2), (1000, 8, 3), (7, 8, 1), (100, 1, 4), (0, 8, 2)] {
+            let mut left = all;
+            let mut before = usize::MAX;
+            while left > 0 {
+                let taken = share(left, width, threads);
+                assert!(taken > 0 && taken <= before.min(MOST * width), "{taken} of {left}");
+                assert!(taken % width == 0 || taken == left);
+                // Nobody takes more than one of two shares of what is left, unless it is the least there is.
+                assert!(taken <= width || 2 * threads * taken <= left);
+                (left, before) = (left - taken, taken);
+            }
+        }
+    }
+}
