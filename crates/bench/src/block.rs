@@ -186,8 +186,8 @@ fn reference_error() -> f64 {
     REFERENCE.into_iter().map(error).fold(0.0, f64::max)
 }
 
-/// How often the combinations come in the sweeps in lanes: one round of them is over before a machine has put the
-/// second thread on a core of its own.
+/// How often the combinations come in the sweeps in lanes: one round of them is over in 25 ms, too short to tell what
+/// several threads are worth.
 const ROUNDS: usize = 8;
 
 /// Measures a sweep of `side` × `side` combinations, medians of five.

@@ -12,11 +12,12 @@
 //! Reference: \[Guyan 1965\], exact here.
 
 use crate::error::SolveError;
+use crate::massless;
 use std::borrow::Cow;
-use trilith_linalg::{Sparse, StagedLdlt};
+use trilith_linalg::{LinalgError, Sparse, StagedLdlt};
 use trilith_system::System;
 
-/// Up to this order all rows are kept: solving for some of them would cost more than it spares.
+/// Up to this order all rows are kept: there is little to spare.
 const WORTH_IT: usize = 300;
 
 /// Which of the free DOFs are kept, and how the others follow.
@@ -51,10 +52,8 @@ impl Condensation {
         if order <= WORTH_IT {
             return Ok(Self::none(order));
         }
-        // A zero on the diagonal of M, which is semi-definite, is a row of zeros.
-        let (stiff, heavy) = (k.diagonal(), system.mass.diagonal());
-        let mut follows: Vec<bool> =
-            stiff.iter().zip(heavy).map(|(k, m)| *k > 0.0 && m == 0.0).collect();
+        let mut follows = vec![false; order];
+        massless::places(system, k).into_iter().for_each(|i| follows[i] = true);
         for (_, p) in loads {
             follows.iter_mut().zip(p).for_each(|(f, p)| *f &= *p == 0.0);
         }
@@ -68,7 +67,11 @@ impl Condensation {
         if places.is_empty() {
             return Ok(Self::none(order));
         }
-        let factor = StagedLdlt::alone(&[(1.0, &k.block(&places, &places))])?;
+        let factor = match StagedLdlt::alone(&[(1.0, &k.block(&places, &places))]) {
+            // What nothing holds by itself does not follow.
+            Err(LinalgError::Singular { .. }) => return Ok(Self::none(order)),
+            other => other?,
+        };
         let coupling = k.block(&places, &kept);
         Ok(Self { order, kept, rest: Some(Rest { places, coupling, factor }) })
     }
@@ -233,6 +236,18 @@ mod tests {
             };
             assert!((work(&u, &row) - work(&kept, &rows.row(&row))).abs() < 1e-14);
         }
+    }
+
+    #[test]
+    fn what_nothing_holds_is_kept() {
+        let mut t = Triplets::new(4, 4);
+        for (i, j, v) in
+            [(0, 0, 1.0), (1, 1, 1.0), (2, 2, 1.0), (1, 2, -1.0), (2, 1, -1.0), (3, 3, 1.0)]
+        {
+            t.add(i, j, v);
+        }
+        let rows = Condensation::of(&t.build(), &[false, true, true, false]).unwrap();
+        assert!(rows.is_none() && rows.kept() == 4);
     }
 
     #[test]

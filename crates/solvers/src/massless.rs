@@ -23,6 +23,13 @@ const SOLVED: f64 = 1e-8;
 /// Damping between shape and modes, as share of their own, that counts as none.
 const UNCOUPLED: f64 = 1e-9;
 
+/// Free DOFs with a stiffness and without mass.
+pub(crate) fn places(system: &System, k: &Sparse) -> Vec<usize> {
+    // A zero on the diagonal of M, which is semi-definite, is a row of zeros.
+    let (stiff, heavy) = (k.diagonal(), system.mass.diagonal());
+    (0..system.order()).filter(|i| stiff[*i] > 0.0 && heavy[*i] == 0.0).collect()
+}
+
 /// The shapes Ψ for a stiffness, order × number, mutually uncoupled by damping.
 pub(crate) fn shapes(
     system: &System,
@@ -30,9 +37,7 @@ pub(crate) fn shapes(
     loads: &[(String, Vec<f64>)],
 ) -> Result<Dense, SolveError> {
     let order = system.order();
-    // A zero on the diagonal of M, which is semi-definite, is a row of zeros.
-    let (stiff, heavy) = (k.diagonal(), system.mass.diagonal());
-    let places: Vec<usize> = (0..order).filter(|i| stiff[*i] > 0.0 && heavy[*i] == 0.0).collect();
+    let places = places(system, k);
     let pushed = pushes(system, &places, loads);
     if pushed.is_empty() {
         return Ok(Dense::zeros(order, 0));
@@ -114,8 +119,11 @@ pub(crate) fn uncoupled(psi: Dense, system: &System, modes: &Shapes) -> Dense {
         return psi;
     }
     let damping = system.damping();
-    let mut own = Vec::with_capacity(modes.len());
-    modes.each(|_, mode| own.push(damping.bilinear(mode, mode).max(0.0)));
+    let own_of = |j| {
+        let mode = modes.column(j);
+        damping.bilinear(&mode, &mode).max(0.0)
+    };
+    let own: Vec<f64> = (0..modes.len()).map(own_of).collect();
     let free = |r: &usize| {
         let image = damping.mul(psi.column(*r));
         let size = dot(psi.column(*r), &image).max(0.0);

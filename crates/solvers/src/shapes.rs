@@ -51,15 +51,6 @@ impl Shapes {
         self.rows.complete(self.kept.column(j))
     }
 
-    /// Shows each of them with its number.
-    pub(crate) fn each(&self, mut visit: impl FnMut(usize, &[f64])) {
-        let (kept, order) = (self.rows.kept().max(1), self.rows.order().max(1));
-        for (block, x) in self.kept.values().chunks(BLOCK * kept).enumerate() {
-            let all = self.rows.complete(x);
-            all.chunks(order).enumerate().for_each(|(k, u)| visit(BLOCK * block + k, u));
-        }
-    }
-
     /// A row over the free DOFs as a row over the vectors.
     pub(crate) fn row(&self, free: &[(usize, f64)]) -> Vec<f64> {
         let row = self.rows.row(free);

@@ -84,8 +84,8 @@ impl<'a> Span<'a> {
         (images, norms)
     }
 
-    /// Orthonormalises vectors, of which the rows that are kept are given, and keeps them, but for those of which nothing is left, and those of which what is left
-    /// would be too fast. Returns the images under M of those kept.
+    /// Orthonormalises vectors, of which the rows that are kept are given, and takes them up, but for those of which
+    /// nothing is left, and those of which what is left would be too fast. Returns the images under M of those taken.
     pub(crate) fn take(
         &mut self,
         mut x: Vec<Vec<f64>>,
