@@ -366,8 +366,8 @@ mod tests {
             while left > 0 {
                 let taken = share(left, width, threads);
                 assert!(taken > 0 && taken <= before.min(MOST * width), "{taken} of {left}");
-                assert!(taken % width == 0 || taken == left);
-                // Nobody takes more than one of two shares of what is left, unless it is the least there is.
+                assert!(taken.is_multiple_of(width) || taken == left);
+                // At most half of what falls to a thread, unless it is the least there is.
                 assert!(taken <= width || 2 * threads * taken <= left);
                 (left, before) = (left - taken, taken);
             }
