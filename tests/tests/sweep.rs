@@ -78,30 +78,108 @@ fn combinations() -> Vec<Combination> {
     all
 }
 
-/// The widest registers that the machine has are not the only ones that are used: others must give the same.
+/// A table on four feet whose friction grows with the speed of sliding, shaken in both directions.
+const TABLE: &str = r#"(
+    gravity: "9.81 m/s^2",
+    parameters: { "mu": 0.2, "a": "5 m/s^2" },
+    nodes: {
+        "cg": (0, 0, 0.5),
+        "a": (-0.4, -0.3, 0), "b": (0.4, -0.3, 0), "c": (0.4, 0.3, 0), "d": (-0.4, 0.3, 0),
+    },
+    properties: {
+        "foot": NLink(kn: "10 MN/m", ks: "5 MN/m", mu_slow: "mu / 2", mu_fast: "mu", rate: "10 s/m",
+            damping: "2 kN*s/m"),
+    },
+    elements: {
+        "table": RigidBody(nodes: ("cg", "a", "b", "c", "d")),
+        "inertia": Mass(node: "cg", mass: "1 t", inertia: (150, 150, 100)),
+        "a": NLink(node: "a", use: "foot"), "b": NLink(node: "b", use: "foot"),
+        "c": NLink(node: "c", use: "foot"), "d": NLink(node: "d", use: "foot"),
+    },
+    functions: { "sine": Sine(amplitude: "a", frequency: "3 Hz", cycles: 3) },
+    cases: {
+        "gravity": Static(loads: [Gravity]),
+        "shake": Dynamic(after: "gravity", duration: "1.2 s", dt: "1 ms", base: [
+            (direction: X, function: "sine"), (direction: Y, function: "sine", factor: 0.7),
+        ]),
+    },
+    outputs: {
+        "x": Displacement(node: "cg", dof: Ux), "y": Displacement(node: "cg", dof: Uy),
+        "a": Displacement(node: "a", dof: Uz), "b": Displacement(node: "b", dof: Uz),
+        "c": Displacement(node: "c", dof: Uz), "speed": Velocity(node: "cg", dof: Ux),
+    },
+)"#;
+
+/// A mass between seven stops on one side and a cable on the other.
+const STOPS: &str = r#"(
+    plane: XZ, gravity: "1 g",
+    parameters: { "a": "3 m/s^2", "k": "200 kN/m" },
+    nodes: { "cg": (0, 0, 0) },
+    elements: {
+        "mass": Mass(node: "cg", mass: "1 t", inertia: (0, 1, 0)),
+        "springs": Spring(node: "cg", k1: "10 MN/m", k2: "4 kN/m", r3: "1 MN*m"),
+        "1": Gap(node: "cg", k: "k", opening: "1 mm", axis: U2),
+        "2": Gap(node: "cg", k: "k", opening: "2 mm", axis: U2),
+        "3": Gap(node: "cg", k: "k", opening: "3 mm", axis: U2),
+        "4": Gap(node: "cg", k: "k", opening: "5 mm", axis: U2),
+        "5": Gap(node: "cg", k: "k", opening: "8 mm", axis: U2),
+        "6": Gap(node: "cg", k: "k", opening: "13 mm", axis: U2),
+        "7": Gap(node: "cg", k: "k", opening: "21 mm", axis: U2),
+        "cable": Hook(node: "cg", k: "1 MN/m", opening: "8 mm", axis: U2),
+    },
+    functions: { "pulse": Sine(amplitude: "a", frequency: "2 Hz", cycles: 1.5) },
+    cases: {
+        "gravity": Static(loads: [Gravity]),
+        "shake": Dynamic(after: "gravity", duration: "1.5 s", dt: "1 ms",
+            base: [(direction: X, function: "pulse")]),
+    },
+    outputs: { "x": Displacement(node: "cg", dof: Ux), "last": LinkForce(link: "7", axis: U2) },
+)"#;
+
+/// The widest registers that the machine has are not the only ones that are used: others must give the same. So must
+/// links that go side by side, in pairs and in fours, where an analysis goes alone.
 #[test]
 fn all_instructions_with_fma_give_the_same_bits() {
+    let amplitudes: Vec<Combination> =
+        ["1 m/s^2", "3 m/s^2", "6 m/s^2"].map(|a| set(&[("a", a)])).into();
+    let frictions = ["0.2", "0.5", "0.7"].map(|mu| set(&[("mu", mu), ("a", "0.6")]));
+    for (name, text, chosen) in [
+        ("foot", FOOT, combinations().into_iter().step_by(2).take(8).collect()),
+        ("block", BLOCK, frictions.into()),
+        ("table", TABLE, amplitudes.clone()),
+        ("stops", STOPS, amplitudes),
+    ] {
+        agree(name, text, &chosen);
+    }
+}
+
+/// All instructions give the same bits, and in all combinations something happens.
+fn agree(name: &str, text: &str, chosen: &[Combination]) {
     let tables = Tables::default();
-    let chosen: Vec<Combination> = combinations().into_iter().step_by(2).take(8).collect();
     let setups: Vec<LaneSetup> = chosen
         .iter()
         .map(|combination| {
-            let model = read(FOOT, combination);
+            let model = read(text, combination);
             let system = assemble(&model).expect("a structure");
             let case = model.case("shake").expect("a case");
             prepare(&model, &system, case, 1, &tables).expect("a start").expect("a lane")
         })
         .collect();
     let setups: Vec<&LaneSetup> = setups.iter().collect();
-    let with = |i: Instructions| march_by(i, &setups).map(|found| format!("{found:?}"));
-    let all = Instructions::ALL.map(|i| (i, with(i)));
+    let all = Instructions::ALL.map(|i| (i, march_by(i, &setups)));
     for (instructions, found) in &all {
-        assert_eq!(found.is_some(), instructions.are_available(), "{instructions:?}");
+        assert_eq!(found.is_some(), instructions.are_available(), "{name}: {instructions:?}");
+        for outcome in found.iter().flatten() {
+            assert_eq!(outcome.lost, None, "{name}: {instructions:?}");
+            assert!(outcome.iterations > outcome.steps, "{name}: {instructions:?}");
+        }
     }
-    let fused: Vec<_> =
-        all[1..].iter().filter_map(|(i, found)| Some((i, found.as_ref()?))).collect();
+    let fused: Vec<_> = all[1..]
+        .iter()
+        .filter_map(|(i, found)| Some((i, format!("{:?}", found.as_ref()?))))
+        .collect();
     for two in fused.windows(2) {
-        assert_eq!(two[0].1, two[1].1, "{:?} and {:?}", two[0].0, two[1].0);
+        assert_eq!(two[0].1, two[1].1, "{name}: {:?} and {:?}", two[0].0, two[1].0);
     }
 }
 

@@ -41,6 +41,8 @@ mod arithmetic;
 mod law;
 mod real;
 #[cfg(target_arch = "x86_64")]
+mod side_by_side;
+#[cfg(target_arch = "x86_64")]
 mod wide;
 
 pub use arithmetic::{Arithmetic, Portable, Task};

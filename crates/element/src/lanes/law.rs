@@ -2,6 +2,8 @@
 
 use super::Real;
 #[cfg(target_arch = "x86_64")]
+use super::side_by_side::RespondTogether;
+#[cfg(target_arch = "x86_64")]
 use super::{Arithmetic, Avx2Lanes, Avx512Lanes, FusedOne, Task};
 use crate::Kinematics;
 use std::any::TypeId;
@@ -203,6 +205,14 @@ impl<'a, R: Real> LaneLinks<'a, R> {
         L::force(at, &mut out);
     }
 
+    /// Force and commit.
+    #[inline(always)]
+    pub(super) fn respond<L: LaneLaw>(&mut self, i: usize) -> LaneStep<R> {
+        let at = self.question::<L>(i);
+        self.force::<L>(i, &at);
+        self.commit::<L>(i, &at)
+    }
+
     #[inline(always)]
     fn commit<L: LaneLaw>(&mut self, i: usize, at: &LaneAt<'_, R>) -> LaneStep<R> {
         let (n, h) = (L::COORDINATES, L::HISTORY);
@@ -229,9 +239,7 @@ fn commit_all<L: LaneLaw, R: Real>(links: &mut LaneLinks<'_, R>, steps: &mut [La
 #[inline(always)]
 fn respond_all<L: LaneLaw, R: Real>(links: &mut LaneLinks<'_, R>, steps: &mut [LaneStep<R>]) {
     for (i, step) in steps.iter_mut().enumerate() {
-        let at = links.question::<L>(i);
-        links.force::<L>(i, &at);
-        *step = links.commit::<L>(i, &at);
+        *step = links.respond::<L>(i);
     }
 }
 
@@ -352,7 +360,10 @@ impl ErasedLaw {
                 respond: |links, out| respond_all::<L, f64>(links, out),
             },
             #[cfg(target_arch = "x86_64")]
-            fused: entries_by::<FusedOne, L>(),
+            fused: Entries {
+                respond: |with, links, out| with.run(RespondTogether::<L>::new(links, out)),
+                ..entries_by::<FusedOne, L>()
+            },
             #[cfg(target_arch = "x86_64")]
             avx2: entries_by::<Avx2Lanes, L>(),
             #[cfg(target_arch = "x86_64")]

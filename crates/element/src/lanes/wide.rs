@@ -10,7 +10,8 @@ use std::ops::{Add, BitAnd, BitOr, Div, Mul, Neg, Not, Sub};
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Fused(pub f64);
 
-/// Eight numbers in `K` registers: two of AVX2, one of AVX-512. They lie in one line of the cache.
+/// Numbers in `K` registers: eight in two of AVX2 or in one of AVX-512, which lie in one line of the cache; four in one
+/// of AVX2.
 #[derive(Clone, Copy)]
 #[repr(align(64))]
 pub struct Wide<S: Simd, const K: usize> {
@@ -138,12 +139,13 @@ impl Real for Fused {
 }
 
 impl<S: Simd, const K: usize> Wide<S, K> {
-    /// The lanes one by one.
+    /// The lanes one by one; behind them, where there are fewer than eight, zeros.
     #[inline(always)]
     #[must_use]
     pub fn lanes(self) -> [f64; 8] {
         let mut lanes = [0.0; 8];
-        lanes.copy_from_slice(bytemuck::cast_slice(&self.x));
+        let own = bytemuck::cast_slice(&self.x);
+        lanes[..own.len()].copy_from_slice(own);
         lanes
     }
 
@@ -156,6 +158,16 @@ impl<S: Simd, const K: usize> Wide<S, K> {
     #[inline(always)]
     pub(super) fn splat(simd: S, x: f64) -> Self {
         Self { simd, x: [simd.splat_f64s(x); K] }
+    }
+
+    #[inline(always)]
+    pub(super) fn of_registers(simd: S, x: [S::f64s; K]) -> Self {
+        Self { simd, x }
+    }
+
+    #[inline(always)]
+    pub(super) fn registers(self) -> [S::f64s; K] {
+        self.x
     }
 
     /// Eight pairs, their first numbers and their second.

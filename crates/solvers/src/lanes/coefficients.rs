@@ -11,8 +11,9 @@ pub(super) struct Rule<R, const M: usize, const L: usize> {
     pub per_dt: R,
     /// A third of the step.
     pub third: R,
-    pub c: [[[R; 4]; 3]; M],
-    /// −G and −H.
+    /// What ∫q, q and q̇ at the end take from q, q̇ and the loads at the start and at the end: of all modes side by side.
+    pub c: [[[R; M]; 4]; 3],
+    /// −G and −H, column by column.
     pub g: [[R; L]; L],
     pub h: [[R; L]; L],
 }
@@ -42,10 +43,10 @@ impl<R: Real, const M: usize, const L: usize> Rule<R, M, L> {
             })
             .collect();
         let last = setups.len() - 1;
-        let mut c = [[[zero; 4]; 3]; M];
-        for (j, c) in c.iter_mut().enumerate().take(setups[0].shape.modes) {
-            for (row, c) in c.iter_mut().enumerate() {
-                for (column, c) in c.iter_mut().enumerate() {
+        let mut c = [[[zero; M]; 4]; 3];
+        for (row, c) in c.iter_mut().enumerate() {
+            for (column, c) in c.iter_mut().enumerate() {
+                for (j, c) in c.iter_mut().enumerate().take(setups[0].shape.modes) {
                     *c = with.gather(|i| rules[i.min(last)][j][row][column]);
                 }
             }
@@ -55,7 +56,7 @@ impl<R: Real, const M: usize, const L: usize> Rule<R, M, L> {
             for a in 0..L {
                 for b in 0..L {
                     for j in 0..M {
-                        g[a][b] = g[a][b] - plan.b[a][j] * c[j][row][3] * plan.b[b][j];
+                        g[b][a] = g[b][a] - plan.b[a][j] * c[row][3][j] * plan.b[b][j];
                     }
                 }
             }

@@ -108,6 +108,8 @@ fn sized<A: Arithmetic>(with: A, setups: &[&LaneSetup]) -> Vec<LaneOutcome> {
     match (n, coordinates) {
         (1, ..=2) if small => with.run(Lanes::<3, 2, 1> { setups }),
         (1, _) => with.run(Lanes::<12, 12, 1> { setups }),
+        // Alone four modes are one register.
+        (2, ..=4) if small && A::WIDTH == 1 => with.run(Lanes::<4, 4, 2> { setups }),
         (2, ..=4) if small => with.run(Lanes::<3, 4, 2> { setups }),
         (2, _) => with.run(Lanes::<12, 12, 2> { setups }),
         (_, ..=6) if small => with.run(Lanes::<3, 6, 3> { setups }),

@@ -20,6 +20,7 @@ mod loads;
 mod march;
 mod newton;
 mod outcome;
+mod outputs;
 mod peaks;
 mod pieces;
 mod plan;

@@ -9,7 +9,7 @@ use super::coefficients::Rule;
 use super::laws::look;
 use super::loads::Loads;
 use super::plan::Plan;
-use super::small::{deform, factor, solve};
+use super::small::{combine, deform, factor, less, solve};
 use super::state::State;
 use trilith_element::lanes::{Arithmetic, Real};
 
@@ -68,19 +68,13 @@ pub(super) fn equilibrium<A: Arithmetic, const M: usize, const L: usize, const N
     let zero = with.splat(0.0);
     let one = with.splat(1.0);
     // Modes with the forces held.
-    for j in 0..M {
-        let (start, end) = (loads.start[j] - state.push[j], loads.end[j] - state.push[j]);
-        let inputs = [state.q[j], state.p[j], start, end];
-        let after = |c: &[A::Real; 4]| {
-            let mut sum = c[0] * inputs[0];
-            for i in 1..4 {
-                sum = c[i].mul_add(inputs[i], sum);
-            }
-            sum
-        };
-        let [integral, q, p] = &rule.c[j];
-        (found.integral[j], found.q[j], found.p[j]) = (after(integral), after(q), after(p));
-    }
+    let start = less(&loads.start, &state.push);
+    let end = less(&loads.end, &state.push);
+    let inputs = [&state.q, &state.p, &start, &end];
+    let [integral, q, p] = &rule.c;
+    found.integral = combine(integral, inputs);
+    found.q = combine(q, inputs);
+    found.p = combine(p, inputs);
     let held = plan.deform(&found.q);
     let rates_held = if plan.rate { plan.deform(&found.p) } else { [zero; L] };
     // What the tangents found last answer.
@@ -145,12 +139,12 @@ pub(super) fn equilibrium<A: Arithmetic, const M: usize, const L: usize, const N
             for i in 0..N {
                 let k = -state.k[a][i];
                 for b in 0..L {
-                    j[a][b] = k.mul_add(rule.g[first + i][b], j[a][b]);
+                    j[a][b] = k.mul_add(rule.g[b][first + i], j[a][b]);
                 }
                 if plan.rate {
                     let c = -state.c[a][i];
                     for b in 0..L {
-                        j[a][b] = c.mul_add(rule.h[first + i][b], j[a][b]);
+                        j[a][b] = c.mul_add(rule.h[b][first + i], j[a][b]);
                     }
                 }
             }

@@ -56,7 +56,7 @@ impl<R: Real, const M: usize, const L: usize, const N: usize> State<R, M, L, N> 
             lost,
             steps: of(self.count) as usize,
             iterations: of(self.iterations) as usize,
-            outputs: self.peaks.iter().map(|p| p.of_lane(with, lane)).collect(),
+            outputs: self.peaks.of_lane(with, lane),
             energy,
             link_energy: setup
                 .elements

@@ -3,20 +3,23 @@
 use crate::peak::{self, inner_extremes};
 use trilith_element::lanes::{Arithmetic, Real};
 
-/// Extremes in lanes.
+/// So many outputs are looked at together, where an analysis goes alone.
+pub(super) const TOGETHER: usize = 4;
+
+/// Extremes of `K` outputs in lanes.
 #[derive(Clone, Copy)]
-pub(super) struct Peak<R> {
-    pub y: R,
-    pub rate: R,
-    pub max: R,
-    pub t_max: R,
-    pub min: R,
-    pub t_min: R,
+pub(super) struct Peaks<R, const K: usize> {
+    y: [R; K],
+    rate: [R; K],
+    max: [R; K],
+    t_max: [R; K],
+    min: [R; K],
+    t_min: [R; K],
 }
 
-impl<R: Real> Peak<R> {
-    pub(super) fn new(y: R, rate: R) -> Self {
-        let zero = y.of(0.0);
+impl<R: Real, const K: usize> Peaks<R, K> {
+    pub(super) fn new(y: [R; K], rate: [R; K]) -> Self {
+        let zero = [y[0].of(0.0); K];
         Self { y, rate, max: y, t_max: zero, min: y, t_min: zero }
     }
 
@@ -27,28 +30,24 @@ impl<R: Real> Peak<R> {
         &mut self,
         with: A,
         (t0, dt, third): (R, R, R),
-        y: R,
-        rate: Option<R>,
+        y: [R; K],
+        rate: Option<[R; K]>,
     ) {
         let (mut high, mut low) = (y, y);
         if let Some(rate) = rate {
-            let first = third.mul_add(self.rate, self.y);
-            let second = (-third).mul_add(rate, y);
-            high = high.max(first).max(second);
-            low = low.min(first).min(second);
-        }
-        if y.any(self.max.lt(high) | low.lt(self.min)) {
-            let t1 = t0 + dt;
-            if let Some(rate) = rate
-                && y.any(self.max.max(y).lt(high) | low.lt(self.min.min(y)))
-            {
-                self.look_inside(with, t0, t1, y, rate);
+            for i in 0..K {
+                let first = third.mul_add(self.rate[i], self.y[i]);
+                let second = (-third).mul_add(rate[i], y[i]);
+                high[i] = high[i].max(first).max(second);
+                low[i] = low[i].min(first).min(second);
             }
-            let (up, down) = (self.max.lt(y), y.lt(self.min));
-            self.max = self.max.max(y);
-            self.t_max = R::mix(up, t1, self.t_max);
-            self.min = self.min.min(y);
-            self.t_min = R::mix(down, t1, self.t_min);
+        }
+        let mut beyond = self.max[0].lt(high[0]) | low[0].lt(self.min[0]);
+        for i in 1..K {
+            beyond = beyond | (self.max[i].lt(high[i]) | low[i].lt(self.min[i]));
+        }
+        if y[0].any(beyond) {
+            self.pass(with, (t0, t0 + dt), (y, rate), (high, low));
         }
         self.y = y;
         if let Some(rate) = rate {
@@ -56,14 +55,44 @@ impl<R: Real> Peak<R> {
         }
     }
 
+    /// Some output passes an extreme, or may do so on its way from `t0` to `t1`.
+    #[inline(always)]
+    fn pass<A: Arithmetic<Real = R>>(
+        &mut self,
+        with: A,
+        (t0, t1): (R, R),
+        (y, rate): ([R; K], Option<[R; K]>),
+        (high, low): ([R; K], [R; K]),
+    ) {
+        for i in 0..K {
+            let y = y[i];
+            if let Some(rate) = rate
+                && y.any(self.max[i].max(y).lt(high[i]) | low[i].lt(self.min[i].min(y)))
+            {
+                self.look_inside(with, i, (t0, t1), (y, rate[i]));
+            }
+            let (up, down) = (self.max[i].lt(y), y.lt(self.min[i]));
+            self.max[i] = self.max[i].max(y);
+            self.t_max[i] = R::mix(up, t1, self.t_max[i]);
+            self.min[i] = self.min[i].min(y);
+            self.t_min[i] = R::mix(down, t1, self.t_min[i]);
+        }
+    }
+
     #[inline(never)]
-    fn look_inside<A: Arithmetic<Real = R>>(&mut self, with: A, t0: R, t1: R, y: R, rate: R) {
+    fn look_inside<A: Arithmetic<Real = R>>(
+        &mut self,
+        with: A,
+        k: usize,
+        (t0, t1): (R, R),
+        (y, rate): (R, R),
+    ) {
         let of = |x: R| -> [f64; 8] {
             std::array::from_fn(|i| if i < A::WIDTH { with.lane(x, i) } else { 0.0 })
         };
-        let (t0, t1, y0, y1) = (of(t0), of(t1), of(self.y), of(y));
-        let (r0, r1) = (of(self.rate), of(rate));
-        let mut to = [of(self.max), of(self.t_max), of(self.min), of(self.t_min)];
+        let (t0, t1, y0, y1) = (of(t0), of(t1), of(self.y[k]), of(y));
+        let (r0, r1) = (of(self.rate[k]), of(rate));
+        let mut to = [self.max[k], self.t_max[k], self.min[k], self.t_min[k]].map(of);
         for i in 0..A::WIDTH {
             let inner = inner_extremes((t0[i], y0[i], r0[i]), (t1[i], y1[i], r1[i]));
             for (t, value) in inner.into_iter().flatten() {
@@ -76,30 +105,40 @@ impl<R: Real> Peak<R> {
             }
         }
         let [max, t_max, min, t_min] = to.map(|x| with.gather(|i| x[i]));
-        (self.max, self.t_max, self.min, self.t_min) = (max, t_max, min, t_min);
+        (self.max[k], self.t_max[k]) = (max, t_max);
+        (self.min[k], self.t_min[k]) = (min, t_min);
     }
 
     /// Takes the other where the mask says no.
     pub(super) fn keep(&mut self, mask: R::Mask, other: &Self) {
-        let one = |x: R, y: R| R::select(mask, x, y);
-        *self = Self {
-            y: one(self.y, other.y),
-            rate: one(self.rate, other.rate),
-            max: one(self.max, other.max),
-            t_max: one(self.t_max, other.t_max),
-            min: one(self.min, other.min),
-            t_min: one(self.t_min, other.t_min),
-        };
+        for (x, y) in [
+            (&mut self.y, &other.y),
+            (&mut self.rate, &other.rate),
+            (&mut self.max, &other.max),
+            (&mut self.t_max, &other.t_max),
+            (&mut self.min, &other.min),
+            (&mut self.t_min, &other.t_min),
+        ] {
+            for (x, y) in x.iter_mut().zip(y) {
+                *x = R::select(mask, *x, *y);
+            }
+        }
     }
 
-    pub(super) fn of_lane<A: Arithmetic<Real = R>>(&self, with: A, lane: usize) -> peak::Peak {
+    /// Of one output and one lane.
+    pub(super) fn of_lane<A: Arithmetic<Real = R>>(
+        &self,
+        with: A,
+        k: usize,
+        lane: usize,
+    ) -> peak::Peak {
         let of = |x: R| with.lane(x, lane);
         peak::Peak {
-            max: of(self.max),
-            t_max: of(self.t_max),
-            min: of(self.min),
-            t_min: of(self.t_min),
-            last: of(self.y),
+            max: of(self.max[k]),
+            t_max: of(self.t_max[k]),
+            min: of(self.min[k]),
+            t_min: of(self.t_min[k]),
+            last: of(self.y[k]),
         }
     }
 }

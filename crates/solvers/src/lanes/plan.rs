@@ -1,5 +1,6 @@
 //! What does not change in a march: the structure of every lane, gathered from the setups.
 
+use super::outputs::Outputs;
 use super::setup::{LaneSetup, Output};
 use super::tables::Table;
 use std::sync::Arc;
@@ -15,17 +16,6 @@ pub(super) struct Run {
     pub parameters: usize,
 }
 
-pub(super) enum Row<R, const M: usize> {
-    Displacement { own: [R; M] },
-    Velocity { own: [R; M] },
-    Acceleration { own: [R; M], base: Vec<R> },
-    Element { stiffness: [R; M], damping: [R; M] },
-    Deformation { at: usize, factor: R },
-    Force { at: usize, factor: R },
-    History { at: usize },
-    Zero,
-}
-
 /// How a channel gets its amplitudes.
 pub(super) enum Source<R> {
     Constant,
@@ -39,8 +29,9 @@ pub(super) enum Source<R> {
 pub(super) struct Plan<R, const M: usize, const L: usize, const N: usize> {
     pub runs: Vec<Run>,
     pub parameters: Vec<R>,
-    /// B.
+    /// B by rows, and by columns.
     pub b: [[R; M]; L],
+    pub columns: [[R; L]; M],
     pub omega2: [R; M],
     pub damping: [R; M],
     /// 1 where the structure is damped.
@@ -58,7 +49,7 @@ pub(super) struct Plan<R, const M: usize, const L: usize, const N: usize> {
     pub steady: [R; M],
     pub sources: Vec<Source<R>>,
     pub constant: [R; M],
-    pub outputs: Vec<Row<R, M>>,
+    pub outputs: Outputs<R, M>,
     /// Residual of the link forces that counts as none, as share of the largest force so far.
     pub tolerance: R,
     /// Indices of the links that are contacts.
@@ -109,6 +100,12 @@ impl<R: Real, const M: usize, const L: usize, const N: usize> Plan<R, M, L, N> {
             b[*place] = mode_wise(&|s, j| s.rows[i][j]);
             rotational[*place] = one.rotational[i];
         }
+        let mut columns = [[zero; L]; M];
+        for (j, column) in columns.iter_mut().enumerate() {
+            for (to, row) in column.iter_mut().zip(&b) {
+                *to = row[j];
+            }
+        }
         let channels = one.forces.len();
         let sources = (0..channels)
             .map(|c| match &one.tables[c] {
@@ -129,43 +126,6 @@ impl<R: Real, const M: usize, const L: usize, const N: usize> Plan<R, M, L, N> {
         let conserved = |s: &LaneSetup, j: usize| -> f64 {
             (0..channels).filter(|c| s.conservative[*c]).map(|c| s.forces[c][j]).sum()
         };
-        let rows = |of: &dyn Fn(&LaneSetup) -> Vec<f64>, len: usize| -> Vec<R> {
-            let all: Vec<Vec<f64>> = setups.iter().map(|s| of(s)).collect();
-            let last = all.len() - 1;
-            (0..len).map(|j| with.gather(|i| all[i.min(last)][j])).collect()
-        };
-        let modal = |of: &dyn Fn(&LaneSetup) -> Vec<f64>| -> [R; M] {
-            let mut all = [zero; M];
-            all[..modes].copy_from_slice(&rows(of, modes));
-            all
-        };
-        let outputs = (0..one.outputs.len())
-            .map(|o| match &one.outputs[o] {
-                Output::Motion { order, base, .. } => {
-                    let own = modal(&|s| s.outputs[o].own().to_vec());
-                    match order {
-                        0 => Row::Displacement { own },
-                        1 => Row::Velocity { own },
-                        _ => Row::Acceleration {
-                            own,
-                            base: rows(&|s| s.outputs[o].base().to_vec(), base.len()),
-                        },
-                    }
-                }
-                Output::Element { .. } => Row::Element {
-                    stiffness: modal(&|s| s.outputs[o].own().to_vec()),
-                    damping: modal(&|s| s.outputs[o].base().to_vec()),
-                },
-                Output::Deformation { at, .. } => {
-                    Row::Deformation { at: places[*at], factor: get(&|s| s.outputs[o].factor()) }
-                }
-                Output::Force { at, .. } => {
-                    Row::Force { at: places[*at], factor: get(&|s| s.outputs[o].factor()) }
-                }
-                Output::History { at } => Row::History { at: *at },
-                Output::Zero => Row::Zero,
-            })
-            .collect();
         let mut steady = [zero; M];
         for c in (0..channels).filter(|c| one.tables[*c].is_none()) {
             for j in 0..modes {
@@ -177,6 +137,7 @@ impl<R: Real, const M: usize, const L: usize, const N: usize> Plan<R, M, L, N> {
             runs,
             parameters,
             b,
+            columns,
             omega2: mode_wise(&|s, j| s.omega2[j]),
             damping: mode_wise(&|s, j| s.damping[j]),
             damped: get(&damped),
@@ -194,7 +155,7 @@ impl<R: Real, const M: usize, const L: usize, const N: usize> Plan<R, M, L, N> {
                 .outputs
                 .iter()
                 .any(|o| matches!(o, Output::Motion { order: 1 | 2, .. })),
-            outputs,
+            outputs: Outputs::new(with, setups, &places),
             feet: (0..one.forms.len()).filter(|l| one.forms[*l].law.is_contact).collect(),
             places,
         }
@@ -207,9 +168,11 @@ impl<R: Real, const M: usize, const L: usize, const N: usize> Plan<R, M, L, N> {
     pub fn deform(&self, q: &[R; M]) -> [R; L] {
         let mut d = [q[0]; L];
         for a in 0..L {
-            d[a] = self.b[a][0] * q[0];
-            for j in 1..M {
-                d[a] = self.b[a][j].mul_add(q[j], d[a]);
+            d[a] = self.columns[0][a] * q[0];
+        }
+        for j in 1..M {
+            for a in 0..L {
+                d[a] = self.columns[j][a].mul_add(q[j], d[a]);
             }
         }
         d
@@ -221,35 +184,12 @@ impl<R: Real, const M: usize, const L: usize, const N: usize> Plan<R, M, L, N> {
         let mut push = [f[0]; M];
         for j in 0..M {
             push[j] = f[0] * self.b[0][j];
-            for a in 1..L {
+        }
+        for a in 1..L {
+            for j in 0..M {
                 push[j] = f[a].mul_add(self.b[a][j], push[j]);
             }
         }
         push
-    }
-}
-
-impl Output {
-    fn own(&self) -> &[f64] {
-        match self {
-            Self::Motion { own, .. } => own,
-            Self::Element { stiffness, .. } => stiffness,
-            _ => &[],
-        }
-    }
-
-    fn base(&self) -> &[f64] {
-        match self {
-            Self::Motion { base, .. } => base,
-            Self::Element { damping, .. } => damping,
-            _ => &[],
-        }
-    }
-
-    fn factor(&self) -> f64 {
-        match self {
-            Self::Deformation { factor, .. } | Self::Force { factor, .. } => *factor,
-            _ => 0.0,
-        }
     }
 }

@@ -2,10 +2,12 @@
 
 use super::coefficients::Rule;
 use super::loads::Loads;
-use super::plan::{Plan, Row};
+use super::outputs::Row;
+use super::peaks::TOGETHER;
+use super::plan::Plan;
 use super::small::dot;
 use super::state::State;
-use trilith_element::lanes::Arithmetic;
+use trilith_element::lanes::{Arithmetic, Real};
 
 /// Extremes of the outputs after a step that began at `t`.
 #[inline(always)]
@@ -18,10 +20,17 @@ pub(super) fn show<A: Arithmetic, const M: usize, const L: usize, const N: usize
     state: &mut State<A::Real, M, L, N>,
 ) {
     let zero = with.splat(0.0);
-    for (row, peak) in plan.outputs.iter().zip(&mut state.peaks) {
+    let step = (t, rule.dt, rule.third);
+    for (rows, peaks) in plan.outputs.together.iter().zip(&mut state.peaks.together) {
+        let (y, rate) = (displacements(rows, &state.q), displacements(rows, &state.p));
+        peaks.advance(with, step, y, Some(rate));
+    }
+    for (row, peak) in plan.outputs.alone.iter().zip(&mut state.peaks.alone) {
         let (y, rate) = match row {
-            Row::Displacement { own } => (dot(zero, own, &state.q), Some(dot(zero, own, &state.p))),
-            Row::Velocity { own } => (dot(zero, own, &state.p), Some(dot(zero, own, &state.a))),
+            Row::Displacement { own } => {
+                (dot(zero, own, &state.q), Some([dot(zero, own, &state.p)]))
+            }
+            Row::Velocity { own } => (dot(zero, own, &state.p), Some([dot(zero, own, &state.a)])),
             Row::Acceleration { own, base } => {
                 (dot(zero, own, &state.a) + dot(zero, base, &loads.amplitudes), None)
             }
@@ -30,12 +39,27 @@ pub(super) fn show<A: Arithmetic, const M: usize, const L: usize, const N: usize
             }
             Row::Deformation { at, factor } => {
                 let v = if plan.rate { state.v[*at] } else { dot(zero, &plan.b[*at], &state.p) };
-                (*factor * state.d[*at], Some(*factor * v))
+                (*factor * state.d[*at], Some([*factor * v]))
             }
             Row::Force { at, factor } => (*factor * state.f[*at], None),
             Row::History { at } => (state.history[*at], None),
             Row::Zero => (zero, None),
         };
-        peak.advance(with, (t, rule.dt, rule.third), y, rate);
+        peak.advance(with, step, [y], rate);
     }
+}
+
+/// What several outputs take from all modes.
+#[inline(always)]
+fn displacements<R: Real, const M: usize>(
+    rows: &[[R; TOGETHER]; M],
+    modes: &[R; M],
+) -> [R; TOGETHER] {
+    let mut sum = [modes[0].of(0.0); TOGETHER];
+    for j in 0..M {
+        for i in 0..TOGETHER {
+            sum[i] = rows[j][i].mul_add(modes[j], sum[i]);
+        }
+    }
+    sum
 }

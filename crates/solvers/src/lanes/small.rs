@@ -2,7 +2,32 @@
 
 use trilith_element::lanes::Real;
 
-/// Deformations (or rates) with forces at the end; `g` is minus the compliance.
+/// Sums of rows times coefficients, place by place.
+#[inline(always)]
+pub(super) fn combine<R: Real, const M: usize>(c: &[[R; M]; 4], x: [&[R; M]; 4]) -> [R; M] {
+    let mut sum = *x[0];
+    for j in 0..M {
+        sum[j] = c[0][j] * sum[j];
+    }
+    for i in 1..4 {
+        for j in 0..M {
+            sum[j] = c[i][j].mul_add(x[i][j], sum[j]);
+        }
+    }
+    sum
+}
+
+/// x − y.
+#[inline(always)]
+pub(super) fn less<R: Real, const M: usize>(x: &[R; M], y: &[R; M]) -> [R; M] {
+    let mut z = *x;
+    for j in 0..M {
+        z[j] = z[j] - y[j];
+    }
+    z
+}
+
+/// Deformations (or rates) with forces at the end; `g` is minus the compliance, column by column.
 #[inline(always)]
 pub(super) fn deform<R: Real, const L: usize>(
     g: &[[R; L]; L],
@@ -10,9 +35,9 @@ pub(super) fn deform<R: Real, const L: usize>(
     f: &[R; L],
 ) -> [R; L] {
     let mut d = *free;
-    for a in 0..L {
-        for b in 0..L {
-            d[a] = g[a][b].mul_add(f[b], d[a]);
+    for b in 0..L {
+        for a in 0..L {
+            d[a] = g[b][a].mul_add(f[b], d[a]);
         }
     }
     d

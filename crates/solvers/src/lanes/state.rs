@@ -1,7 +1,7 @@
 //! Everything that changes in a march.
 
 use super::contact::Feet;
-use super::peaks::Peak;
+use super::outputs::Extremes;
 use super::plan::{Plan, pick};
 use super::setup::LaneSetup;
 use trilith_element::Contact;
@@ -48,7 +48,7 @@ pub(super) struct State<R: Real, const M: usize, const L: usize, const N: usize>
     pub potential0: R,
     pub iterations: R,
     pub count: R,
-    pub peaks: Vec<Peak<R>>,
+    pub peaks: Extremes<R>,
     pub feet: Feet<R>,
 }
 
@@ -110,9 +110,7 @@ impl<R: Real, const M: usize, const L: usize, const N: usize> State<R, M, L, N> 
             potential0: get(&|s| s.potential),
             iterations: zero,
             count: zero,
-            peaks: (0..one.values.len())
-                .map(|o| Peak::new(get(&|s| s.values[o]), get(&|s| s.rates[o])))
-                .collect(),
+            peaks: plan.outputs.extremes(with, setups),
             feet: Feet::new(
                 with,
                 &feet,
@@ -158,9 +156,7 @@ pub(super) fn keep<R: Real, const M: usize, const L: usize, const N: usize>(
     ] {
         one(x, y);
     }
-    for (x, y) in to.peaks.iter_mut().zip(&from.peaks) {
-        x.keep(mask, y);
-    }
+    to.peaks.keep(mask, &from.peaks);
     to.feet.keep(mask, &from.feet);
 }
 

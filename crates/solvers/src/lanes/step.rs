@@ -26,11 +26,10 @@ pub(super) fn finish<A: Arithmetic, const M: usize, const L: usize, const N: usi
     let (mut external, mut taken) = (zero, zero);
     let (mut kinetic, mut potential) = (zero, zero);
     for j in 0..M {
-        let c = &rule.c[j];
         let change = state.push[j] - push[j];
-        let integral = c[0][3].mul_add(change, found.integral[j]);
-        let q = c[1][3].mul_add(change, found.q[j]);
-        let p = c[2][3].mul_add(change, found.p[j]);
+        let integral = rule.c[0][3][j].mul_add(change, found.integral[j]);
+        let q = rule.c[1][3][j].mul_add(change, found.q[j]);
+        let p = rule.c[2][3][j].mul_add(change, found.p[j]);
         let mean = integral * rule.per_dt;
         let (to, from) = (q - mean, mean - state.q[j]);
         external = loads.start[j].mul_add(from, loads.end[j].mul_add(to, external));

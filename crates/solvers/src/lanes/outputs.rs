@@ -1,0 +1,175 @@
+//! Outputs of a march: where they come from, and their extremes.
+
+use super::peaks::{Peaks, TOGETHER};
+use super::plan::pick;
+use super::setup::{LaneSetup, Output};
+use crate::peak::Peak;
+use trilith_element::lanes::{Arithmetic, Real};
+
+/// Where an output comes from.
+pub(super) enum Row<R, const M: usize> {
+    Displacement { own: [R; M] },
+    Velocity { own: [R; M] },
+    Acceleration { own: [R; M], base: Vec<R> },
+    Element { stiffness: [R; M], damping: [R; M] },
+    Deformation { at: usize, factor: R },
+    Force { at: usize, factor: R },
+    History { at: usize },
+    Zero,
+}
+
+/// Which extremes are those of an output.
+#[derive(Clone, Copy)]
+enum Place {
+    Alone(usize),
+    /// The group, and the output in it.
+    Together(usize, usize),
+}
+
+/// Where the outputs come from.
+pub(super) struct Outputs<R, const M: usize> {
+    /// Those that are looked at one by one.
+    pub alone: Vec<Row<R, M>>,
+    /// Displacements, [`TOGETHER`] side by side: what they take from each mode. Where an analysis goes alone they
+    /// fill a register.
+    pub together: Vec<[[R; TOGETHER]; M]>,
+    places: Vec<Place>,
+}
+
+/// Extremes of all outputs.
+#[derive(Clone)]
+pub(super) struct Extremes<R> {
+    pub alone: Vec<Peaks<R, 1>>,
+    pub together: Vec<Peaks<R, TOGETHER>>,
+    places: Vec<Place>,
+}
+
+impl<R: Real, const M: usize> Outputs<R, M> {
+    /// Of the setups; `places` says where their link coordinates lie.
+    pub fn new<A: Arithmetic<Real = R>>(with: A, setups: &[&LaneSetup], places: &[usize]) -> Self {
+        let one = setups[0];
+        let zero = with.splat(0.0);
+        let modes = one.shape.modes;
+        let get = |of: &dyn Fn(&LaneSetup) -> f64| pick(with, setups, of);
+        let rows = |of: &dyn Fn(&LaneSetup) -> Vec<f64>, len: usize| -> Vec<R> {
+            let all: Vec<Vec<f64>> = setups.iter().map(|s| of(s)).collect();
+            let last = all.len() - 1;
+            (0..len).map(|j| with.gather(|i| all[i.min(last)][j])).collect()
+        };
+        let modal = |of: &dyn Fn(&LaneSetup) -> Vec<f64>| -> [R; M] {
+            let mut all = [zero; M];
+            all[..modes].copy_from_slice(&rows(of, modes));
+            all
+        };
+        let row = |o: usize| match &one.outputs[o] {
+            Output::Motion { order, base, .. } => {
+                let own = modal(&|s| s.outputs[o].own().to_vec());
+                match order {
+                    0 => Row::Displacement { own },
+                    1 => Row::Velocity { own },
+                    _ => Row::Acceleration {
+                        own,
+                        base: rows(&|s| s.outputs[o].base().to_vec(), base.len()),
+                    },
+                }
+            }
+            Output::Element { .. } => Row::Element {
+                stiffness: modal(&|s| s.outputs[o].own().to_vec()),
+                damping: modal(&|s| s.outputs[o].base().to_vec()),
+            },
+            Output::Deformation { at, .. } => {
+                Row::Deformation { at: places[*at], factor: get(&|s| s.outputs[o].factor()) }
+            }
+            Output::Force { at, .. } => {
+                Row::Force { at: places[*at], factor: get(&|s| s.outputs[o].factor()) }
+            }
+            Output::History { at } => Row::History { at: *at },
+            Output::Zero => Row::Zero,
+        };
+        let mut own = Self { alone: Vec::new(), together: Vec::new(), places: Vec::new() };
+        let mut free = TOGETHER;
+        for o in 0..one.outputs.len() {
+            match row(o) {
+                Row::Displacement { own: modes } if A::WIDTH == 1 => {
+                    if free == TOGETHER {
+                        own.together.push([[zero; TOGETHER]; M]);
+                        free = 0;
+                    }
+                    let group = own.together.len() - 1;
+                    for (to, from) in own.together[group].iter_mut().zip(modes) {
+                        to[free] = from;
+                    }
+                    own.places.push(Place::Together(group, free));
+                    free += 1;
+                }
+                row => {
+                    own.places.push(Place::Alone(own.alone.len()));
+                    own.alone.push(row);
+                }
+            }
+        }
+        own
+    }
+
+    /// Extremes at the start.
+    pub fn extremes<A: Arithmetic<Real = R>>(&self, with: A, setups: &[&LaneSetup]) -> Extremes<R> {
+        let zero = with.splat(0.0);
+        let mut alone = vec![([zero; 1], [zero; 1]); self.alone.len()];
+        let mut together = vec![([zero; TOGETHER], [zero; TOGETHER]); self.together.len()];
+        for (o, place) in self.places.iter().enumerate() {
+            let y = pick(with, setups, |s| s.values[o]);
+            let rate = pick(with, setups, |s| s.rates[o]);
+            match *place {
+                Place::Alone(i) => alone[i] = ([y], [rate]),
+                Place::Together(i, k) => (together[i].0[k], together[i].1[k]) = (y, rate),
+            }
+        }
+        Extremes {
+            alone: alone.into_iter().map(|(y, rate)| Peaks::new(y, rate)).collect(),
+            together: together.into_iter().map(|(y, rate)| Peaks::new(y, rate)).collect(),
+            places: self.places.clone(),
+        }
+    }
+}
+
+impl<R: Real> Extremes<R> {
+    /// Takes the other where the mask says no.
+    pub fn keep(&mut self, mask: R::Mask, other: &Self) {
+        self.alone.iter_mut().zip(&other.alone).for_each(|(x, y)| x.keep(mask, y));
+        self.together.iter_mut().zip(&other.together).for_each(|(x, y)| x.keep(mask, y));
+    }
+
+    /// Of a lane, in the order of the model.
+    pub fn of_lane<A: Arithmetic<Real = R>>(&self, with: A, lane: usize) -> Vec<Peak> {
+        let one = |place: &Place| match *place {
+            Place::Alone(i) => self.alone[i].of_lane(with, 0, lane),
+            Place::Together(i, k) => self.together[i].of_lane(with, k, lane),
+        };
+        self.places.iter().map(one).collect()
+    }
+}
+
+impl Output {
+    fn own(&self) -> &[f64] {
+        match self {
+            Self::Motion { own, .. } => own,
+            Self::Element { stiffness, .. } => stiffness,
+            _ => &[],
+        }
+    }
+
+    fn base(&self) -> &[f64] {
+        match self {
+            Self::Motion { base, .. } => base,
+            Self::Element { damping, .. } => damping,
+            _ => &[],
+        }
+    }
+
+    fn factor(&self) -> f64 {
+        match self {
+            Self::Deformation { factor, .. } | Self::Force { factor, .. } => *factor,
+            _ => 0.0,
+        }
+    }
+}
