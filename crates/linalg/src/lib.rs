@@ -24,6 +24,7 @@ mod matrix_market;
 mod modewise;
 mod operator;
 mod panel;
+mod product;
 mod simd;
 mod sparse;
 mod tall;
@@ -40,7 +41,8 @@ pub use modewise::{
     ModalStep, OwnModes, StepSums, add_products, combine, weighted_square, work_of_linear,
 };
 pub use operator::SymmetricOperator;
-pub use panel::{Panel, Product};
+pub use panel::Panel;
+pub use product::{Product, Rows};
 pub use sparse::{Sparse, Triplets};
 pub use tall::Columns;
 pub use vector::{add, dot, equal, largest, residual, sized_residual};

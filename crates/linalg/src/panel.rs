@@ -69,7 +69,6 @@ impl Panel {
     ///
     /// # Panics
     /// Where the lengths do not suit.
-    #[inline]
     pub fn times(&self, x: &[f64], y: &mut [f64]) {
         assert!(x.len() == self.columns && y.len() == self.rows, "lengths of a product");
         dispatch(Times::<false> { a: &self.values, stride: self.stride, x, y });
@@ -85,78 +84,9 @@ impl Panel {
     ///
     /// # Panics
     /// Where the lengths do not suit.
-    #[inline]
     pub fn add_times(&self, x: &[f64], y: &mut [f64]) {
         assert!(x.len() == self.columns && y.len() == self.stride, "lengths of a product");
         dispatch(Times::<true> { a: &self.values, stride: self.stride, x, y });
-    }
-}
-
-/// A matrix prepared for many products `y = A x`.
-#[derive(Clone, Debug)]
-pub enum Product {
-    /// Of one row.
-    One(Vec<f64>),
-    /// Of few rows.
-    Few(Panel),
-    /// Of many.
-    Many(Dense),
-}
-
-impl Product {
-    /// Of a matrix.
-    #[must_use]
-    pub fn new(of: Dense) -> Self {
-        if of.rows() == 1 {
-            return Self::One(of.values().to_vec());
-        }
-        Panel::of_few(&of).map_or_else(|| Self::Many(of), Self::Few)
-    }
-
-    /// Number of rows.
-    #[must_use]
-    pub fn rows(&self) -> usize {
-        match self {
-            Self::One(_) => 1,
-            Self::Few(panel) => panel.rows(),
-            Self::Many(dense) => dense.rows(),
-        }
-    }
-
-    /// Number of columns.
-    #[must_use]
-    pub fn columns(&self) -> usize {
-        match self {
-            Self::One(row) => row.len(),
-            Self::Few(panel) => panel.columns(),
-            Self::Many(dense) => dense.columns(),
-        }
-    }
-
-    /// One column.
-    #[must_use]
-    pub fn column(&self, j: usize) -> &[f64] {
-        match self {
-            Self::One(row) => &row[j..=j],
-            Self::Few(panel) => panel.column(j),
-            Self::Many(dense) => dense.column(j),
-        }
-    }
-
-    /// `y = A x`.
-    ///
-    /// # Panics
-    /// Where the lengths do not suit.
-    #[inline]
-    pub fn times(&self, x: &[f64], y: &mut [f64]) {
-        match self {
-            Self::One(row) => y.fill(crate::dot(row, x)),
-            Self::Few(panel) => panel.times(x, y),
-            Self::Many(dense) => {
-                y.fill(0.0);
-                dense.mul_add(1.0, x, y);
-            }
-        }
     }
 }
 
@@ -276,7 +206,9 @@ fn finish<S: Simd, const ADD: bool, const V: usize, const T: usize>(
         if let Some(y) = full.get_mut(k) {
             *y = if ADD { simd.add_f64s(*y, sum) } else { sum };
         } else if !ADD && k == full.len() {
-            copy_some(pulp::bytemuck::cast_slice(std::slice::from_ref(&sum)), rest);
+            // A copy of its own: the sums that fill a vector else went through memory as well.
+            let last = [sum];
+            copy_some(pulp::bytemuck::cast_slice(&last), rest);
         }
     }
 }
@@ -319,18 +251,15 @@ mod tests {
                 let values = (0..rows * columns).map(number).collect();
                 let a = Dense::from_columns(rows, columns, values);
                 let x: Vec<f64> = (0..columns).map(|j| number(j + 5)).collect();
-                let mut y = vec![9.0; rows];
-                let product = Product::new(a.clone());
-                product.times(&x, &mut y);
-                assert_eq!((product.rows(), product.columns()), (rows, columns));
-                (0..columns).for_each(|j| assert_eq!(product.column(j), a.column(j)));
                 let panel = Panel::new(&a);
-                let mut one = vec![9.0; rows];
-                panel.times(&x, &mut one);
+                let mut y = vec![9.0; rows];
+                panel.times(&x, &mut y);
+                assert_eq!((panel.rows(), panel.columns()), (rows, columns));
+                (0..columns).for_each(|j| assert_eq!(panel.column(j), a.column(j)));
                 let mut added: Vec<f64> = (0..panel.filled()).map(number).collect();
                 panel.add_times(&x, &mut added);
                 for (i, added) in added.iter().enumerate() {
-                    let sum = number(i) + one.get(i).unwrap_or(&0.0);
+                    let sum = number(i) + y.get(i).unwrap_or(&0.0);
                     assert_eq!(*added, sum, "{rows} × {columns}");
                 }
                 for i in 0..rows {
