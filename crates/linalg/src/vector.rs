@@ -182,17 +182,19 @@ impl WithSimd for Residual<'_> {
             of_x = simd.max_f64s(of_x, simd.abs_f64s(x[i]));
             sound = simd.mul_add_e_f64s(r[i], zero, sound);
         }
-        let mut check = simd.reduce_sum_f64s(sound);
-        let (mut of_r, mut of_f) = (simd.reduce_max_f64s(of_r), simd.reduce_max_f64s(of_f));
-        let mut of_x = simd.reduce_max_f64s(of_x);
-        for i in 0..re.len() {
-            re[i] = fe[i] - ke[i] * de[i] - xe[i];
-            of_r = of_r.max(re[i].abs());
-            of_f = of_f.max(fe[i].abs());
-            of_x = of_x.max(xe[i].abs());
-            check += re[i] * 0.0;
+        if !re.is_empty() {
+            let (f, x) = (simd.partial_load_f64s(fe), simd.partial_load_f64s(xe));
+            let held = simd.mul_f64s(simd.partial_load_f64s(ke), simd.partial_load_f64s(de));
+            let r = simd.sub_f64s(simd.sub_f64s(f, held), x);
+            simd.partial_store_f64s(re, r);
+            of_r = simd.max_f64s(of_r, simd.abs_f64s(r));
+            of_f = simd.max_f64s(of_f, simd.abs_f64s(f));
+            of_x = simd.max_f64s(of_x, simd.abs_f64s(x));
+            sound = simd.mul_add_e_f64s(r, zero, sound);
         }
-        *self.sizes = [of_r + check, of_f, of_x];
+        let check = simd.reduce_sum_f64s(sound);
+        let (of_r, of_f) = (simd.reduce_max_f64s(of_r), simd.reduce_max_f64s(of_f));
+        *self.sizes = [of_r + check, of_f, simd.reduce_max_f64s(of_x)];
     }
 }
 
