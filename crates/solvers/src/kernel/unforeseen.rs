@@ -69,12 +69,14 @@ impl Unforeseen {
         self.known = from.known.saturating_add(1).min(ORDERS + 1);
         let mut sizes = [0.0; ORDERS + 1];
         extrapolate(&from.expected, &mut self.expected, &mut sizes);
-        let mut least = WORTH * sizes[0];
+        sizes[self.known..].fill(f64::INFINITY);
+        let (mut order, mut least) = (0, WORTH * sizes[0]);
         for p in 1..=ORDERS {
-            if p < self.known && sizes[p] < least {
-                (self.order, least) = (p, sizes[p]);
-            }
+            // Chosen, not branched on: nobody could predict which it is.
+            order = if sizes[p] < least { p } else { order };
+            least = if sizes[p] < least { sizes[p] } else { least };
         }
+        self.order = order;
     }
 }
 
