@@ -11,16 +11,31 @@ struct Run {
     block: usize,
 }
 
+/// A link of one coordinate, and where its block lies.
+#[derive(Clone, Copy, Debug)]
+struct Single {
+    coordinate: usize,
+    block: usize,
+}
+
 /// A matrix of one block for each link, as in [`Tangents`](crate::Tangents).
 #[derive(Clone, Debug, Default)]
-pub struct LinkBlocks(Vec<Run>);
+pub struct LinkBlocks {
+    singles: Vec<Single>,
+    /// Of more coordinates.
+    runs: Vec<Run>,
+}
 
 impl LinkBlocks {
     /// Of some links, in their order; the blocks of others count as zero.
     pub fn of<'a>(links: impl Iterator<Item = &'a LinkInstance>) -> Self {
-        let mut runs: Vec<Run> = Vec::new();
+        let (mut singles, mut runs): (_, Vec<Run>) = (Vec::new(), Vec::new());
         for link in links {
             let (n, coordinate, block) = (link.range.len(), link.range.start, link.block.start);
+            if n == 1 {
+                singles.push(Single { coordinate, block });
+                continue;
+            }
             let joins = |run: &&mut Run| {
                 let (before, blocks) = (run.count * n, run.count * n * n);
                 run.n == n && (run.coordinate + before, run.block + blocks) == (coordinate, block)
@@ -30,7 +45,7 @@ impl LinkBlocks {
                 None => runs.push(Run { n, count: 1, coordinate, block }),
             }
         }
-        Self(runs)
+        Self { singles, runs }
     }
 
     /// `y += A (x₁ − x₀)`, all flat; `blocks` are those of A.
@@ -38,13 +53,15 @@ impl LinkBlocks {
     /// # Panics
     /// Where an array is shorter than the links that this was made of.
     pub fn add_change(&self, blocks: &[f64], [x0, x1]: [&[f64]; 2], y: &mut [f64]) {
-        for run in &self.0 {
+        for Single { coordinate: i, block } in self.singles.iter().copied() {
+            y[i] += blocks[block] * (x1[i] - x0[i]);
+        }
+        for run in &self.runs {
             let Run { n, count, coordinate, block } = *run;
             let r = coordinate..coordinate + count * n;
             let (x, y) = ([&x0[r.clone()], &x1[r.clone()]], &mut y[r]);
             let blocks = &blocks[block..block + count * n * n];
             match n {
-                1 => small::<1>(blocks, x, y),
                 2 => small::<2>(blocks, x, y),
                 3 => small::<3>(blocks, x, y),
                 6 => small::<6>(blocks, x, y),
