@@ -19,7 +19,10 @@ impl Side {
     /// True where `t`, seen from this side, lies behind `edge`.
     #[must_use]
     pub fn is_past(self, t: f64, edge: f64) -> bool {
-        t > edge || (t == edge && self == Self::After)
+        match self {
+            Self::Before => t > edge,
+            Self::After => t >= edge,
+        }
     }
 }
 
