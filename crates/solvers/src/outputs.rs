@@ -219,12 +219,18 @@ impl Outputs {
     pub(crate) fn at<'a>(&'a self, t: f64, state: &'a State, loads: &LoadSet) -> Now<'a> {
         let n = self.order;
         let motion = [&state.motion[..n], &state.motion[n..2 * n], &state.motion[2 * n..]];
-        let support = self.supported.then(|| loads.prescribed(t, Side::Before, self.prescribed));
+        let support = if self.supported { self.supports(t, loads) } else { None };
         let base = match self.absolute {
             true => loads.base_acceleration(t, Side::Before),
             false => [0.0; 3],
         };
         Now { outputs: self, state, motion, support, base }
+    }
+
+    /// Displacements, velocities and accelerations of supports.
+    #[cold]
+    fn supports(&self, t: f64, loads: &LoadSet) -> Option<Box<[Vec<f64>; 3]>> {
+        Some(Box::new(loads.prescribed(t, Side::Before, self.prescribed)))
     }
 }
 
@@ -232,9 +238,10 @@ impl Outputs {
 pub(crate) struct Now<'a> {
     outputs: &'a Outputs,
     state: &'a State,
-    /// Displacements, velocities and accelerations, and those of supports that outputs ask for.
+    /// Displacements, velocities and accelerations.
     motion: [&'a [f64]; 3],
-    support: Option<[Vec<f64>; 3]>,
+    /// Those of supports that outputs ask for; mostly none, which then take no room.
+    support: Option<Box<[Vec<f64>; 3]>>,
     /// Acceleration of the base.
     base: [f64; 3],
 }
