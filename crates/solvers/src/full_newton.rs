@@ -225,8 +225,7 @@ impl FullNewton<'_> {
         let active = &self.system.links.active;
         let pick = |f: &[f64]| -> Vec<f64> { active.iter().map(|i| f[*i]).collect() };
         let (pseudo0, pseudo1) = (pick(&from.f), pick(&to.f));
-        let forces =
-            Forces { load0: force.0, load1: force.1, pseudo0: &pseudo0, pseudo1: &pseudo1 };
+        let forces = Forces { loads: [force.0, force.1], pseudo0: &pseudo0, pseudo1: &pseudo1 };
         energy.work = average_work(&self.space, dt, &from.motion, &to.motion, &forces);
         energy.link_work = energy.work.links;
         (energy.kinetic, energy.strain) = (energy.work.kinetic, energy.work.strain);
@@ -271,7 +270,8 @@ fn average_work(
 ) -> StepWork {
     let n = space.order();
     let moved: Vec<f64> = (0..n).map(|i| to[i] - from[i]).collect();
-    let external: f64 = (0..n).map(|i| 0.5 * (forces.load0[i] + forces.load1[i]) * moved[i]).sum();
+    let [load0, load1] = forces.loads;
+    let external: f64 = (0..n).map(|i| 0.5 * (load0[i] + load1[i]) * moved[i]).sum();
     let mut d = vec![0.0; space.links.len()];
     space.links.deform(&moved, &mut d);
     let links: f64 =

@@ -105,7 +105,7 @@ impl<'a> LinkSide<'a> {
 
     /// Loads and these pseudo-forces at both ends.
     pub(crate) fn forces<'f>(&'f self, pseudo0: &'f [f64], pseudo1: &'f [f64]) -> Forces<'f> {
-        Forces { load0: &self.load0, load1: &self.load1, pseudo0, pseudo1 }
+        Forces { loads: [&self.load0, &self.load1], pseudo0, pseudo1 }
     }
 
     /// The same with the pseudo-forces at the end as they are at the start, and where the predicted d and v of the
@@ -114,7 +114,7 @@ impl<'a> LinkSide<'a> {
     pub(crate) fn prediction<'f>(&'f mut self, from: &'f State) -> (Forces<'f>, Wanted<'f>) {
         let Self { load0, load1, kernel, .. } = self;
         let pseudo = &from.pseudo;
-        (Forces { load0, load1, pseudo0: pseudo, pseudo1: pseudo }, kernel.wanted())
+        (Forces { loads: [load0, load1], pseudo0: pseudo, pseudo1: pseudo }, kernel.wanted())
     }
 
     /// Solves the link equations.

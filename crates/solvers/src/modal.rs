@@ -28,7 +28,7 @@ use crate::propagator::{Compliance, Forces, Motion, Propagator, StepKey, StepWor
 use crate::space::Space;
 use crate::vector::equal;
 use rules::{Rule, Structure};
-use trilith_linalg::{Dense, ModalStep, Panel, StepSums, work_of_linear};
+use trilith_linalg::{Dense, ModalStep, Panel, Product, StepSums, work_of_linear};
 
 /// Steps with a larger G·k of the stiffest link are made by average acceleration; the limit of the exact
 /// rule is 2 (ω²Δt²/6), and well before it the rule is no better any more.
@@ -85,37 +85,38 @@ pub(crate) struct Sources {
     sums: StepSums,
     /// Pseudo-forces spread last.
     pseudo: Vec<f64>,
-    /// The link coordinates whose rates laws look at, and their rows of B Φ where these are not too many.
+    /// The link coordinates whose rates laws look at, and their rows of B Φ where these are few.
     rated: Vec<usize>,
-    rows: Option<Panel>,
+    rows: Option<Product>,
 }
 
 impl Sources {
-    pub(crate) fn new(space: &Space) -> Self {
+    /// `rated`: the link coordinates whose rates laws look at.
+    pub(crate) fn new(space: &Space, rated: &[usize]) -> Self {
+        let few = rated.len() <= Panel::MOST_ROWS;
+        let rows = few.then(|| {
+            let mut rows = Dense::zeros(rated.len(), space.order());
+            for (i, a) in rated.iter().enumerate() {
+                space.links.row(*a).for_each(|(j, c)| rows[(i, j)] = c);
+            }
+            Product::new(rows)
+        });
         Self {
             pseudo: vec![0.0; space.links.len()],
             sources: vec![0.0; 3 * space.order()],
             integral: vec![0.0; space.order()],
             sums: StepSums::default(),
-            rated: Vec::new(),
-            rows: None,
+            rated: rated.to_vec(),
+            rows,
         }
     }
 
-    /// Rates that laws look at, of the motion in these modes.
+    /// Rates that laws look at, of velocities of the modes.
     #[inline]
-    pub(crate) fn rates(&mut self, links: &LinkMap, v: &[f64], wanted: Wanted<'_>) {
-        if self.rated != wanted.rated {
-            self.rated = wanted.rated.to_vec();
-            let mut rows = Dense::zeros(self.rated.len(), v.len());
-            for (i, a) in self.rated.iter().enumerate() {
-                links.row(*a).for_each(|(j, c)| rows[(i, j)] = c);
-            }
-            self.rows = Panel::of_few(&rows);
-        }
+    pub(crate) fn rates(&self, links: &LinkMap, v: &[f64], rates: &mut [f64]) {
         match &self.rows {
-            Some(rows) => rows.times(v, wanted.v),
-            None => links.deform_some(v, wanted.rated, wanted.v),
+            Some(rows) => rows.times(v, rates),
+            None => links.deform_some(v, &self.rated, rates),
         }
     }
 
@@ -141,7 +142,7 @@ impl Sources {
 
 impl Modal {
     pub(crate) fn new(modes: Modes) -> Self {
-        Self { now: Sources::new(&modes.space), modes }
+        Self { now: Sources::new(&modes.space, &[]), modes }
     }
 
     /// What several motions can share.
@@ -185,12 +186,17 @@ impl Modes {
         }
     }
 
-    /// Index of a step size.
+    /// Index of a step size: mostly that of the step before.
     #[inline]
     fn size(&mut self, dt: f64) -> usize {
-        if self.steps.get(self.now.0).is_some_and(|s| s.dt == dt) {
-            return self.now.0;
+        match self.steps.get(self.now.0) {
+            Some(step) if step.dt == dt => self.now.0,
+            _ => self.other_size(dt),
         }
+    }
+
+    #[cold]
+    fn other_size(&mut self, dt: f64) -> usize {
         self.steps.iter().position(|s| s.dt == dt).unwrap_or_else(|| {
             let exact = self.way(Rule::exact(&self.structure, dt), StepKey { dt, average: 0 });
             let of_modes = self.compliance_of(&exact.rule, 1, self.structure.modes);
@@ -301,7 +307,7 @@ impl Modes {
     }
 
     /// A step from a motion under loads.
-    fn start<'a>(&self, from: &'a Motion, loads: [&'a [f64]; 2]) -> ModalStep<'a> {
+    fn start<'a>(&self, from: &'a Motion, loads: &'a [&'a [f64]; 2]) -> ModalStep<'a> {
         let per_dt = self.steps[self.now.0].per_dt;
         ModalStep { from, p: loads, per_dt }
     }
@@ -312,13 +318,13 @@ impl Modes {
         &self,
         now: &mut Sources,
         from: &Motion,
-        loads: [&[f64]; 2],
+        loads: &[&[f64]; 2],
         to: &mut Motion,
     ) {
         let rule = &self.way_now().rule;
         let step = self.start(from, loads);
         if let Some(modes) = rule.own() {
-            return modes.predict(step, &mut now.sources, to);
+            return modes.predict(&step, &mut now.sources, to);
         }
         let [source0, source1, spread] = now.parts();
         less(loads[0], spread, source0);
@@ -336,13 +342,13 @@ impl Modes {
         &self,
         now: &mut Sources,
         from: &Motion,
-        loads: [&[f64]; 2],
+        loads: &[&[f64]; 2],
         to: &mut Motion,
     ) {
         let rule = &self.way_now().rule;
         let step = self.start(from, loads);
         if let Some(modes) = rule.own() {
-            return modes.complete(step, &mut now.sources, to, &mut now.sums);
+            return modes.complete(&step, &mut now.sources, to, &mut now.sums);
         }
         let n = self.space.order();
         let mut integral = std::mem::take(&mut now.integral);
@@ -359,7 +365,7 @@ impl Modes {
         self.structure.acceleration(source1, q, v, a);
         rule.apply(0, [&from[..n], &from[n..2 * n], source0, source1], &mut integral);
         let ends = [&from[..n], &*q];
-        let external = work_of_linear(loads, ends, &integral, step.per_dt);
+        let external = work_of_linear(*loads, ends, &integral, step.per_dt);
         let all = work_of_linear([source0, source1], ends, &integral, step.per_dt);
         let ((k0, e0), (k1, e1)) = (self.energy(from), self.energy(to));
         now.sums = StepSums { external, all, kinetic: [k0, k1], strain: [e0, e1] };
@@ -437,6 +443,10 @@ impl Propagator for Modal {
         0
     }
 
+    fn look_at_rates(&mut self, rated: &[usize]) {
+        self.now = Sources::new(&self.modes.space, rated);
+    }
+
     fn choose(
         &mut self,
         dt: f64,
@@ -467,16 +477,16 @@ impl Propagator for Modal {
 
     fn predict(&mut self, from: &Motion, forces: &Forces<'_>, to: &mut Motion, wanted: Wanted<'_>) {
         self.spread(forces.pseudo0);
-        self.modes.predict(&mut self.now, from, [forces.load0, forces.load1], to);
+        self.modes.predict(&mut self.now, from, &forces.loads, to);
         let m = self.modes.space.order();
         let links = &self.modes.space.links;
         links.deform(&to[..m], wanted.d);
-        self.now.rates(links, &to[m..2 * m], wanted);
+        self.now.rates(links, &to[m..2 * m], wanted.v);
     }
 
     fn correct(&mut self, from: &Motion, forces: &Forces<'_>, to: &mut Motion) {
         self.spread(forces.pseudo1);
-        self.modes.complete(&mut self.now, from, [forces.load0, forces.load1], to);
+        self.modes.complete(&mut self.now, from, &forces.loads, to);
     }
 
     fn work(&mut self, _: &Motion, _: &Motion, _: &Forces<'_>) -> StepWork {

@@ -45,8 +45,7 @@ pub(crate) struct StepWork {
 
 /// Loads and pseudo-forces at both ends of a step.
 pub(crate) struct Forces<'a> {
-    pub load0: &'a [f64],
-    pub load1: &'a [f64],
+    pub loads: [&'a [f64]; 2],
     pub pseudo0: &'a [f64],
     pub pseudo1: &'a [f64],
 }
@@ -66,6 +65,9 @@ pub(crate) trait Propagator {
 
     /// Number of factorisations of structure matrices so far.
     fn factorizations(&self) -> usize;
+
+    /// Says of which link coordinates laws look at rates: those of every [prediction](Self::predict) to come.
+    fn look_at_rates(&mut self, _rated: &[usize]) {}
 
     /// The step of length `dt` from a state whose active link coordinates have this stiffness, and had that
     /// one at most so far.

@@ -233,7 +233,8 @@ pub(crate) struct LinkStepper<'a, P> {
 }
 
 impl<'a, P: Propagator> LinkStepper<'a, P> {
-    pub(crate) fn new(propagator: P, side: LinkSide<'a>) -> Self {
+    pub(crate) fn new(mut propagator: P, side: LinkSide<'a>) -> Self {
+        propagator.look_at_rates(&side.kernel.layout().rated);
         Self { propagator, side, difference: Vec::new() }
     }
 

@@ -34,7 +34,7 @@ pub struct ModalStep<'a> {
     /// q₀ and q̇₀, one after the other; more may follow.
     pub from: &'a [f64],
     /// Loads at the start and at the end.
-    pub p: [&'a [f64]; 2],
+    pub p: &'a [&'a [f64]; 2],
     /// One over its length, 1/s.
     pub per_dt: f64,
 }
@@ -77,8 +77,7 @@ impl OwnModes {
     ///
     /// # Panics
     /// Where a length does not suit the number of modes.
-    #[inline]
-    pub fn predict(&self, step: ModalStep<'_>, sources: &mut [f64], to: &mut [f64]) {
+    pub fn predict(&self, step: &ModalStep<'_>, sources: &mut [f64], to: &mut [f64]) {
         dispatch(Predict { modes: self, step, sources, to });
     }
 
@@ -87,10 +86,9 @@ impl OwnModes {
     ///
     /// # Panics
     /// Where a length does not suit the number of modes.
-    #[inline]
     pub fn complete(
         &self,
-        step: ModalStep<'_>,
+        step: &ModalStep<'_>,
         sources: &mut [f64],
         to: &mut [f64],
         sums: &mut StepSums,
@@ -101,14 +99,14 @@ impl OwnModes {
 
 struct Predict<'a> {
     modes: &'a OwnModes,
-    step: ModalStep<'a>,
+    step: &'a ModalStep<'a>,
     sources: &'a mut [f64],
     to: &'a mut [f64],
 }
 
 struct Complete<'a> {
     modes: &'a OwnModes,
-    step: ModalStep<'a>,
+    step: &'a ModalStep<'a>,
     sources: &'a mut [f64],
     to: &'a mut [f64],
     sums: &'a mut StepSums,
@@ -143,7 +141,8 @@ impl WithSimd for Predict<'_> {
 
     #[inline(always)]
     fn with_simd<S: Simd>(self, simd: S) {
-        let Self { modes, step: ModalStep { from, p: [p0, p1], .. }, sources, to } = self;
+        let Self { modes, step, sources, to } = self;
+        let ModalStep { from, p: &[p0, p1], .. } = *step;
         let n = modes.count;
         let (groups, _) = modes.groups.as_chunks::<{ ROWS * LINE }>();
         let (q0, v0) = from[..2 * n].split_at(n);
@@ -205,7 +204,7 @@ impl WithSimd for Complete<'_> {
     #[inline(always)]
     fn with_simd<S: Simd>(self, simd: S) {
         let Self { modes, step, sources, to, sums } = self;
-        let ModalStep { from, p: [p0, p1], per_dt } = step;
+        let ModalStep { from, p: &[p0, p1], per_dt } = *step;
         let n = modes.count;
         let (groups, _) = modes.groups.as_chunks::<{ ROWS * LINE }>();
         let (q0, v0) = from[..2 * n].split_at(n);
@@ -304,7 +303,8 @@ mod tests {
             let modes = OwnModes::new(&c, &x[0], &x[1], &mass);
             let per_dt = 0.7;
             let start = [&x[2][..], &x[3], &x[8]].concat();
-            let step = ModalStep { from: &start, p: [&x[4], &x[5]], per_dt };
+            let loads = [&x[4][..], &x[5]];
+            let step = &ModalStep { from: &start, p: &loads, per_dt };
             let mut sources = vec![9.0; 3 * n];
             let mut to = vec![9.0; 3 * n];
             sources[2 * n..].copy_from_slice(&x[6]);

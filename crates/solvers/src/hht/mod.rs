@@ -189,7 +189,7 @@ impl Propagator for Hht {
             to_v[i] = v0[i] + whole * a0[i];
         }
         if alpha == 0.0 {
-            work.right.copy_from_slice(forces.load1);
+            work.right.copy_from_slice(forces.loads[1]);
             self.products.resist(
                 &self.space,
                 to_u,
@@ -201,8 +201,9 @@ impl Propagator for Hht {
         } else {
             work.right.fill(0.0);
             self.space.links.spread(alpha, forces.pseudo0, &mut work.right);
+            let [load0, load1] = forces.loads;
             for i in 0..n {
-                work.right[i] += w * forces.load1[i] - alpha * forces.load0[i];
+                work.right[i] += w * load1[i] - alpha * load0[i];
                 work.v[i] = w * to_v[i] - alpha * v0[i];
                 work.solution[i] = w * to_u[i] - alpha * u0[i];
             }
@@ -292,11 +293,12 @@ impl Propagator for Hht {
     fn work(&mut self, from: &Motion, to: &Motion, forces: &Forces<'_>) -> StepWork {
         let n = self.space.order();
         let work = &mut self.work;
+        let [load0, load1] = forces.loads;
         let mut external = 0.0;
         for i in 0..n {
             work.u[i] = to[i] - from[i];
             work.v[i] = 0.5 * (from[n + i] + to[n + i]);
-            external += 0.5 * (forces.load0[i] + forces.load1[i]) * work.u[i];
+            external += 0.5 * (load0[i] + load1[i]) * work.u[i];
         }
         self.space.links.deform(&work.u, &mut work.moved);
         let links: f64 = (forces.pseudo0.iter().zip(forces.pseudo1).zip(&work.moved))

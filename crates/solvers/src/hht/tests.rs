@@ -126,7 +126,7 @@ fn follows(alpha: f64, modal: bool, links: LinkMap) {
 
         hht.prepare(StepKey { dt, average: 0 }).unwrap();
         let (mut d, mut velocity, mut to) = (vec![0.0; l], vec![0.0; l], vec![f64::NAN; 3 * N]);
-        let before = Forces { load0: &load0, load1: &load1, pseudo0: &pseudo0, pseudo1: &guess };
+        let before = Forces { loads: [&load0, &load1], pseudo0: &pseudo0, pseudo1: &guess };
         let all: Vec<usize> = (0..l).collect();
         let wanted = Wanted { d: &mut d, v: &mut velocity, rated: &all };
         hht.predict(&from, &before, &mut to, wanted);

@@ -51,7 +51,7 @@ impl<'a, 'b> Course<'a, 'b> {
     ) -> Self {
         Self {
             constant: crate::start::constant_force(space, loads),
-            sources: Sources::new(space),
+            sources: Sources::new(space, &side.kernel.layout().rated),
             side,
             loads,
             timeline,
@@ -141,8 +141,7 @@ impl<'a, 'b> Course<'a, 'b> {
 
     pub(super) fn predict(&mut self, modes: &Modes) {
         let forces = self.side.forces(&self.state.pseudo, &self.next.pseudo);
-        let loads = [forces.load0, forces.load1];
-        modes.predict(&mut self.sources, &self.state.motion, loads, &mut self.next.motion);
+        modes.predict(&mut self.sources, &self.state.motion, &forces.loads, &mut self.next.motion);
     }
 
     /// Displacements as predicted, and where those of the links go; rates that laws look at are put in place.
@@ -150,8 +149,8 @@ impl<'a, 'b> Course<'a, 'b> {
         let m = modes.space.order();
         let (displacement, rest) = self.next.motion.split_at(m);
         let wanted = self.side.kernel.wanted();
-        self.sources.rates(&modes.space.links, &rest[..m], wanted);
-        (displacement, self.side.kernel.wanted().d)
+        self.sources.rates(&modes.space.links, &rest[..m], wanted.v);
+        (displacement, wanted.d)
     }
 
     /// True where deformations must follow what is foreseen.
@@ -175,8 +174,7 @@ impl<'a, 'b> Course<'a, 'b> {
 
     pub(super) fn correct(&mut self, modes: &Modes) {
         let forces = self.side.forces(&self.state.pseudo, &self.next.pseudo);
-        let loads = [forces.load0, forces.load1];
-        modes.complete(&mut self.sources, &self.state.motion, loads, &mut self.next.motion);
+        modes.complete(&mut self.sources, &self.state.motion, &forces.loads, &mut self.next.motion);
     }
 
     /// Velocities, and where those of the links go, if the laws left some open.
