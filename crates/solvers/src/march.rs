@@ -122,6 +122,7 @@ impl<'a> March<'a> {
         match self.control {
             StepControl::Adaptive { tolerance } => {
                 self.adaptive(state, pace, piece, tolerance, accept)
+            StepControl::Fixed { substeps: 1 } => self.fixed(state, piece, accept),
             }
             StepControl::Fixed { substeps } => {
                 for part in piece.parts(substeps) {
@@ -234,10 +235,12 @@ impl<'a> March<'a> {
     ) -> Result<(), Stop> {
         let full: u32 = 1 << DEPTH;
         let (mut at, mut level) = (0u32, 0u32);
-        let time = |ticks: u32| piece.time(f64::from(ticks) / f64::from(full));
+        let share = |ticks: u32| f64::from(ticks) / f64::from(full);
+        let time = |ticks: u32| piece.time(share(ticks));
         while at < full {
             let ticks = full >> level;
-            let size = piece.length / f64::from(1u32 << level);
+            // A power of two: no rounding.
+            let size = piece.length * share(ticks);
             let Trial { whole, energies: [energy, ..], loads, .. } = &mut self.trial;
             self.loads.step(time(at), time(at + ticks), loads);
             match self.stepper.step(state, whole, loads, size, energy) {
