@@ -127,7 +127,7 @@ pub(crate) fn run(
     };
     let mut state = Box::new(state);
     let mut viewer = Viewer::new(model, system, &loads, stepper.space(), observers);
-    viewer.show(timeline.time(first), Some(first), &state, stepper.space(), &ledger);
+    viewer.show(timeline.time(first), Some(first), &state, &ledger);
     let setup_cpu = clock.cpu();
     let last = match options.until {
         Some(t) => ((t / dt) - 1e-9).ceil().max(0.0) as usize,
@@ -155,7 +155,7 @@ pub(crate) fn run(
             break;
         }
         made = step + 1;
-        viewer.show(timeline.time(made), Some(made), &state, march.stepper.space(), &ledger);
+        viewer.show(timeline.time(made), Some(made), &state, &ledger);
         if let Some(tell) = progress.as_deref_mut() {
             tell((made - first) as f64 / (last - first) as f64);
         }
@@ -393,10 +393,10 @@ fn output_step(
                 march.stepper.jump(state, &change).map_err(Stop::Fatal)?;
             }
         }
-        let mut accept = |t: f64, s: &State, e: &StepEnergy, space: &Space| -> f64 {
+        let mut accept = |t: f64, s: &State, e: &StepEnergy| -> f64 {
             let energy = ledger.enter(e, potential(constant, s));
             if t < end - 1e-12 * timeline.dt {
-                viewer.show(t, None, s, space, ledger);
+                viewer.show(t, None, s, ledger);
             }
             energy
         };

@@ -10,7 +10,6 @@
 //! that the matrices of a step size are made once.
 
 use crate::error::SolveError;
-use crate::space::Space;
 use crate::stepper::{State, StepEnergy, StepFailure, Stepper};
 use crate::timeline::Piece;
 use serde::{Deserialize, Serialize};
@@ -95,7 +94,7 @@ fn closure(
 }
 
 /// What is told about every accepted substep: end time, state, energies.
-pub(crate) type Accepted<'a> = dyn FnMut(f64, &State, &StepEnergy, &Space) -> f64 + 'a;
+pub(crate) type Accepted<'a> = dyn FnMut(f64, &State, &StepEnergy) -> f64 + 'a;
 
 impl<'a> March<'a> {
     pub(crate) fn new(
@@ -122,8 +121,8 @@ impl<'a> March<'a> {
         match self.control {
             StepControl::Adaptive { tolerance } => {
                 self.adaptive(state, pace, piece, tolerance, accept)
-            StepControl::Fixed { substeps: 1 } => self.fixed(state, piece, accept),
             }
+            StepControl::Fixed { substeps: 1 } => self.fixed(state, piece, accept),
             StepControl::Fixed { substeps } => {
                 for part in piece.parts(substeps) {
                     self.fixed(state, part, accept)?;
@@ -182,7 +181,7 @@ impl<'a> March<'a> {
                     self.counts.substeps += 2;
                     let Trial { first, second, energies: [_, e1, e2], .. } = &self.trial;
                     for (t, s, e) in [(middle, first, e1), (end, second, e2)] {
-                        let seen = accept(t, s, e, self.stepper.space());
+                        let seen = accept(t, s, e);
                         pace.reference = pace.reference.max(seen);
                     }
                     std::mem::swap(state, &mut self.trial.second);
@@ -245,7 +244,7 @@ impl<'a> March<'a> {
             self.loads.step(time(at), time(at + ticks), loads);
             match self.stepper.step(state, whole, loads, size, energy) {
                 Ok(()) => {
-                    accept(time(at + ticks), whole, energy, self.stepper.space());
+                    accept(time(at + ticks), whole, energy);
                     self.counts.substeps += 1;
                     std::mem::swap(state, whole);
                     at += ticks;

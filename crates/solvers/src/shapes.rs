@@ -15,6 +15,11 @@ pub(crate) struct Shapes {
     kept: Dense,
 }
 
+/// The free DOFs at these coordinates, which are themselves those where there is no shape.
+pub(crate) fn expand(shape: Option<&Shapes>, q: &[f64]) -> Vec<f64> {
+    shape.map_or_else(|| q.to_vec(), |shape| shape.expand(q))
+}
+
 impl Shapes {
     /// Of the rows that are kept.
     pub(crate) fn new(rows: Arc<Condensation>, kept: Dense) -> Self {

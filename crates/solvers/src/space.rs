@@ -2,7 +2,7 @@
 
 use crate::basis::RitzBasis;
 use crate::link_map::LinkMap;
-use crate::shapes::Shapes;
+use crate::shapes::{Shapes, expand};
 use std::sync::Arc;
 use trilith_linalg::{Dense, Product, Sparse, Triplets};
 use trilith_system::{LoadSet, System};
@@ -204,10 +204,7 @@ impl Space {
 
     /// Displacements of the free DOFs.
     pub(crate) fn expand(&self, q: &[f64]) -> Vec<f64> {
-        match &self.shape {
-            None => q.to_vec(),
-            Some(phi) => phi.expand(q),
-        }
+        expand(self.shape.as_deref(), q)
     }
 
     /// A row over the free DOFs as a row over the coordinates.

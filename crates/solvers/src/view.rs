@@ -4,16 +4,24 @@ use crate::contact_mode::are_contacts;
 use crate::ledger::Ledger;
 use crate::observe::{EnergyTotals, Observer, Sample, Shape};
 use crate::outputs::Outputs;
+use crate::shapes::{Shapes, expand};
 use crate::space::Space;
 use crate::stepper::State;
+use std::sync::Arc;
 use trilith_element::{Contact, Kinematics, Link, Vector3};
 use trilith_model::{Model, Output, Quantity, Side};
 use trilith_system::{LinkInstance, LoadSet, System};
 
+/// The coordinates of a solver: how many, and what they make of the free DOFs, unless they are these.
+struct Coordinates {
+    order: usize,
+    shape: Option<Arc<Shapes>>,
+}
+
 /// Displacements of all nodes of one state.
 struct Figure<'a> {
     system: &'a System,
-    space: &'a Space,
+    coordinates: &'a Coordinates,
     state: &'a State,
     loads: &'a LoadSet,
     /// The links that have an outline.
@@ -25,7 +33,8 @@ impl Shape for Figure<'_> {
     fn displacements(&self, u: &mut [f64]) {
         let count = self.system.reduction.prescribed.len();
         let [prescribed, _, _] = self.loads.prescribed(self.t, Side::Before, count);
-        let free = self.space.expand(&self.state.motion[..self.space.order()]);
+        let Coordinates { order, shape } = self.coordinates;
+        let free = expand(shape.as_deref(), &self.state.motion[..*order]);
         for (full, x) in u.iter_mut().enumerate() {
             *x = self
                 .system
@@ -53,6 +62,7 @@ impl Shape for Figure<'_> {
 pub(crate) struct Viewer<'a, 'b> {
     system: &'a System,
     loads: &'a LoadSet,
+    coordinates: Coordinates,
     outputs: Outputs,
     values: Vec<f64>,
     rates: Vec<f64>,
@@ -114,6 +124,7 @@ impl<'a, 'b> Viewer<'a, 'b> {
         Self {
             system,
             loads,
+            coordinates: Coordinates { order: space.order(), shape: space.shape.clone() },
             outputs: Outputs::new(model, system, space),
             values: vec![0.0; count],
             rates: vec![f64::NAN; count],
@@ -127,14 +138,7 @@ impl<'a, 'b> Viewer<'a, 'b> {
     }
 
     /// Shows a state; `step` is the index of the output step that ends there.
-    pub(crate) fn show(
-        &mut self,
-        t: f64,
-        step: Option<usize>,
-        state: &State,
-        space: &Space,
-        ledger: &Ledger,
-    ) {
+    pub(crate) fn show(&mut self, t: f64, step: Option<usize>, state: &State, ledger: &Ledger) {
         if self.observers.is_empty() {
             return;
         }
@@ -147,7 +151,7 @@ impl<'a, 'b> Viewer<'a, 'b> {
         let overturned = self.overturned(state);
         let shape = Figure {
             system: self.system,
-            space,
+            coordinates: &self.coordinates,
             state,
             loads: self.loads,
             bodies: &self.bodies,
@@ -210,5 +214,5 @@ pub(crate) fn show_static(
     let space = Space::physical(system, &loads, &vec![0.0; system.links.len()], None);
     let mut viewer = Viewer::new(model, system, &loads, &space, observers);
     let ledger = Ledger::of(energy);
-    viewer.show(0.0, Some(0), state, &space, &ledger);
+    viewer.show(0.0, Some(0), state, &ledger);
 }

@@ -81,8 +81,8 @@ impl<'a, 'b> Course<'a, 'b> {
     }
 
     /// Shows the state it starts from.
-    pub(super) fn show_start(&mut self, space: &Space) {
-        self.viewer.show(self.timeline.time(0), Some(0), &self.state, space, &self.ledger);
+    pub(super) fn show_start(&mut self) {
+        self.viewer.show(self.timeline.time(0), Some(0), &self.state, &self.ledger);
     }
 
     /// Length of the output step under way.
@@ -109,10 +109,10 @@ impl<'a, 'b> Course<'a, 'b> {
     }
 
     /// The end of an output step.
-    pub(crate) fn arrive(&mut self, space: &Space) {
+    pub(crate) fn arrive(&mut self) {
         self.made += 1;
         let t = self.timeline.time(self.made);
-        self.viewer.show(t, Some(self.made), &self.state, space, &self.ledger);
+        self.viewer.show(t, Some(self.made), &self.state, &self.ledger);
         self.fallen = self.viewer.overturned(&self.state);
     }
 
@@ -193,7 +193,7 @@ impl<'a, 'b> Course<'a, 'b> {
         side.book(state, next, of_motion, energy);
         self.ledger.enter(&self.energy, potential(&self.constant, &self.next));
         if self.at < self.timeline.time(self.made + 1) - 1e-12 * self.timeline.dt {
-            self.viewer.show(self.at, None, &self.next, &modes.space, &self.ledger);
+            self.viewer.show(self.at, None, &self.next, &self.ledger);
         }
         std::mem::swap(&mut self.state, &mut self.next);
         self.substeps += 1;

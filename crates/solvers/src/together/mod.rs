@@ -160,7 +160,7 @@ fn march<O: Observer>(
         let timeline = Timeline::new(dt, analysis.duration, loads);
         let mut course =
             Course::new(&modes.space, side, loads, timeline, (state, pace, ledger), viewer);
-        course.show_start(&modes.space);
+        course.show_start();
         courses.push(course);
     }
     let setup_cpu = clock.cpu();
@@ -172,7 +172,7 @@ fn march<O: Observer>(
         for index in 0..substeps {
             step(&mut modes, &mut courses, (index, substeps), part);
         }
-        courses.iter_mut().filter(|c| c.is_on_the_way()).for_each(|c| c.arrive(&modes.space));
+        courses.iter_mut().filter(|c| c.is_on_the_way()).for_each(|c| c.arrive());
     }
     let share = (courses.len() as f64).recip();
     let result = |(course, entrant): (Course<'_, '_>, &&Entrant<'_>)| {
