@@ -6,6 +6,9 @@
 //! f = law(d* − G f, v* − H f):  Newton in the link coordinates; who has converged is held by a mask
 //! ```
 //!
+//! An analysis that goes alone fills the registers with what it has of a kind itself: modes, link coordinates, links of
+//! one law, outputs.
+//!
 //! Every analysis gives the same bits whoever its neighbours are, and alone. One that finds no
 //! equilibrium in a step makes that in halves, as the ordinary engine does with fixed steps; where that does
 //! not help it is given up and says so: the caller runs it on the ordinary engine.
