@@ -84,7 +84,8 @@ fn respond_group<L: LaneLaw, const G: usize>(
         dt: group.splat(links.dt),
         history: &history[..h],
     };
-    let (mut f, mut k, mut c) = ([zero; COORDINATES], [zero; 9], [zero; 9]);
+    let (mut f, mut k, mut c) =
+        ([zero; COORDINATES], [zero; COORDINATES * COORDINATES], [zero; COORDINATES * COORDINATES]);
     let mut force = LaneForce { f: &mut f[..n], k: &mut k[..n * n], c: &mut c[..n * n] };
     L::force(&at, &mut force);
     let mut trial = [zero; NUMBERS];
