@@ -23,8 +23,7 @@ pub(super) fn finish<A: Arithmetic, const M: usize, const L: usize, const N: usi
     let push = plan.push(&found.f);
     // Work of all loads, and of the links among them; a load is linear in the step, and what it does is
     // ∫ s q̇ dt = s₁ (q₁ − q̄) − s₀ (q₀ − q̄) with q̄ the mean of q.
-    let (mut external, mut taken) = (zero, zero);
-    let (mut kinetic, mut potential) = (zero, zero);
+    let mut of_modes = [[zero; M]; 4];
     for j in 0..M {
         let change = state.push[j] - push[j];
         let integral = rule.c[0][3][j].mul_add(change, found.integral[j]);
@@ -32,12 +31,20 @@ pub(super) fn finish<A: Arithmetic, const M: usize, const L: usize, const N: usi
         let p = rule.c[2][3][j].mul_add(change, found.p[j]);
         let mean = integral * rule.per_dt;
         let (to, from) = (q - mean, mean - state.q[j]);
-        external = loads.start[j].mul_add(from, loads.end[j].mul_add(to, external));
-        taken = state.push[j].mul_add(from, push[j].mul_add(to, taken));
-        kinetic = p.mul_add(p, kinetic);
-        potential = (-plan.constant[j]).mul_add(q, potential);
+        of_modes[0][j] = loads.start[j].mul_add(from, loads.end[j] * to);
+        of_modes[1][j] = state.push[j].mul_add(from, push[j] * to);
+        of_modes[2][j] = p * p;
+        of_modes[3][j] = plan.constant[j] * q;
         (state.q[j], state.p[j], state.push[j]) = (q, p, push[j]);
     }
+    let mut sums = [zero; 4];
+    for j in 0..M {
+        for i in 0..4 {
+            sums[i] = sums[i] + of_modes[i][j];
+        }
+    }
+    let [external, taken, kinetic, fallen] = sums;
+    let potential = -fallen;
     let half = with.splat(0.5);
     let kinetic = half * kinetic;
     let mut strain = zero;
