@@ -1,6 +1,6 @@
 //! Loads over a step.
 
-use super::plan::{Plan, Source, pick};
+use super::plan::{Plan, Source, Varying, pick};
 use super::setup::{LaneSetup, Piece};
 use trilith_element::lanes::{Arithmetic, Real};
 use trilith_model::Side;
@@ -9,18 +9,15 @@ use trilith_model::Side;
 pub(super) struct Loads<R, const M: usize> {
     pub start: [R; M],
     pub end: [R; M],
-    /// Amplitudes at the end.
+    /// Amplitudes at the end, where an output asks for accelerations.
     pub amplitudes: Vec<R>,
 }
 
 impl<R: Real, const M: usize, const L: usize, const N: usize> Plan<R, M, L, N> {
     pub fn no_loads<A: Arithmetic<Real = R>>(&self, with: A) -> Loads<R, M> {
         let zero = with.splat(0.0);
-        let amplitude = |source: &Source<R>| match source {
-            Source::Constant => with.splat(1.0),
-            _ => zero,
-        };
-        let amplitudes = self.sources.iter().map(amplitude).collect();
+        let mut amplitudes = vec![with.splat(1.0); self.forces.len()];
+        self.varying.iter().for_each(|v| amplitudes[v.channel] = zero);
         Loads { start: [zero; M], end: [zero; M], amplitudes }
     }
 
@@ -33,33 +30,30 @@ impl<R: Real, const M: usize, const L: usize, const N: usize> Plan<R, M, L, N> {
         at: usize,
         out: &mut Loads<R, M>,
     ) {
-        let zero = with.splat(0.0);
-        (out.start, out.end) = (self.steady, self.steady);
-        for (c, source) in self.sources.iter().enumerate() {
+        let (mut first, mut last) = (self.steady, self.steady);
+        for Varying { channel, source, force } in &self.varying {
             let (start, end) = match source {
-                Source::Constant => continue,
                 Source::Shared(table, size) => {
                     let [x, y] = table[at];
-                    if x == 0.0 && y == 0.0 {
-                        out.amplitudes[c] = zero;
-                        continue;
-                    }
                     (with.splat(x) * *size, with.splat(y) * *size)
                 }
                 Source::Own => {
-                    let of = |s: &LaneSetup, k: usize| match &s.tables[c] {
+                    let of = |s: &LaneSetup, k: usize| match &s.tables[*channel] {
                         Some((table, size)) => table[at][k] * size,
                         None => 1.0,
                     };
                     (pick(with, setups, |s| of(s, 0)), pick(with, setups, |s| of(s, 1)))
                 }
             };
-            out.amplitudes[c] = end;
+            if self.accelerations {
+                out.amplitudes[*channel] = end;
+            }
             for j in 0..M {
-                out.start[j] = start.mul_add(self.forces[c][j], out.start[j]);
-                out.end[j] = end.mul_add(self.forces[c][j], out.end[j]);
+                first[j] = start.mul_add(force[j], first[j]);
+                last[j] = end.mul_add(force[j], last[j]);
             }
         }
+        (out.start, out.end) = (first, last);
     }
 
     /// Loads of a piece of a step: one (start, length) for each analysis.

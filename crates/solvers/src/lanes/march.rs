@@ -2,12 +2,12 @@
 
 use super::LaneOutcome;
 use super::coefficients::Rule;
-use super::newton::{Found, equilibrium};
+use super::newton::{Found, foresee, settle};
 use super::pieces::{cut_step, in_halves};
 use super::plan::Plan;
 use super::setup::LaneSetup;
 use super::state::State;
-use super::step::finish;
+use super::step::{Passed, account, take};
 use trilith_element::lanes::{Arithmetic, Portable, Real, Task};
 #[cfg(target_arch = "x86_64")]
 use trilith_element::lanes::{Avx2Lanes, Avx512Lanes, FusedOne};
@@ -134,6 +134,9 @@ impl<A: Arithmetic, const M: usize, const L: usize, const N: usize> Task<A> for 
         let usual = Rule::new(with, self.setups, &plan, None);
         let mut loads = plan.no_loads(with);
         let mut found = Found::new(with.splat(0.0));
+        let mut passed = Passed::new(with.splat(0.0));
+        // Start of a step that was taken but is not accounted for.
+        let mut open: Option<f64> = None;
         let mut cuts: Vec<usize> =
             self.setups.iter().flat_map(|s| s.cut.iter().map(|c| c.0)).collect();
         cuts.sort_unstable();
@@ -141,19 +144,31 @@ impl<A: Arithmetic, const M: usize, const L: usize, const N: usize> Task<A> for 
         let mut cuts = cuts.into_iter().peekable();
         for step in 0..shape.grid.steps {
             if cuts.next_if_eq(&step).is_some() {
+                if let Some(t) = open.take() {
+                    with.run(Account { plan: &plan, rule: &usual, t, passed: &passed, state: &mut state });
+                }
                 cut_step(with, self.setups, &plan, step, &mut state);
             } else {
                 for i in 0..parts {
                     plan.loads(with, self.setups, step * parts + i, &mut loads);
-                    let t = step as f64 * shape.grid.dt + part * i as f64;
+                    foresee(&plan, &usual, &loads, &state, &mut found);
+                    // While the processor waits for what is foreseen.
+                    if let Some(t) = open.take() {
+                        account(with, &plan, &usual, with.splat(t), &passed, &mut state);
+                    }
+                    let t = step.cast_signed() as f64 * shape.grid.dt + part * i.cast_signed() as f64;
                     let alive = state.alive;
-                    equilibrium(with, &plan, &usual, &loads, alive, &mut state, &mut found);
+                    settle(with, &plan, &usual, alive, &mut state, &mut found);
                     if found.d[0].any(found.wrong) {
                         let step = (&usual, &loads, t);
-                        in_halves(with, self.setups, &plan, step, &mut found, &mut state);
+                        in_halves(with, self.setups, &plan, step, &found, &mut state);
                     } else {
-                        let t = with.splat(t);
-                        finish(with, &plan, &usual, &loads, t, &mut found, &mut state);
+                        take(&plan, &usual, &loads, &found, &mut state, &mut passed);
+                        if A::WIDTH == 1 {
+                            open = Some(t);
+                        } else {
+                            account(with, &plan, &usual, with.splat(t), &passed, &mut state);
+                        }
                     }
                 }
             }
@@ -161,6 +176,30 @@ impl<A: Arithmetic, const M: usize, const L: usize, const N: usize> Task<A> for 
                 break;
             }
         }
+        if let Some(t) = open {
+            with.run(Account { plan: &plan, rule: &usual, t, passed: &passed, state: &mut state });
+        }
         (0..self.setups.len()).map(|i| state.outcome(with, self.setups[i], i)).collect()
+    }
+}
+
+/// What [`account`] does, as a task.
+struct Account<'a, R: Real, const M: usize, const L: usize, const N: usize> {
+    plan: &'a Plan<R, M, L, N>,
+    rule: &'a Rule<R, M, L>,
+    t: f64,
+    passed: &'a Passed<R, M>,
+    state: &'a mut State<R, M, L, N>,
+}
+
+impl<A: Arithmetic, const M: usize, const L: usize, const N: usize> Task<A>
+    for Account<'_, A::Real, M, L, N>
+{
+    type Output = ();
+
+    #[inline(always)]
+    fn run(self, with: A) {
+        let Self { plan, rule, t, passed, state } = self;
+        account(with, plan, rule, with.splat(t), passed, state);
     }
 }

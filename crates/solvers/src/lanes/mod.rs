@@ -18,6 +18,7 @@
 
 mod coefficients;
 mod contact;
+mod history;
 mod laws;
 mod loads;
 mod march;

@@ -18,7 +18,7 @@ const ITERATIONS: usize = 60;
 const PARTS: [f64; 4] = [1.0, 0.5, 1.0, 0.25];
 const PATIENCE: usize = 8;
 
-/// The end of a step; written by [`equilibrium`] in place, as nothing of it should be copied in every step.
+/// The end of a step; written by [`foresee`] and [`settle`] in place, as nothing of it should be copied in every step.
 pub(super) struct Found<R: Real, const M: usize, const L: usize> {
     /// Deformations, their rates, and forces of the links.
     pub d: [R; L],
@@ -32,6 +32,11 @@ pub(super) struct Found<R: Real, const M: usize, const L: usize> {
     pub integral: [R; M],
     pub q: [R; M],
     pub p: [R; M],
+    /// Deformations and rates with the forces held.
+    held: [R; L],
+    rates_held: [R; L],
+    /// Change of the forces.
+    change: [R; L],
     /// Who found none: its numbers are rubbish.
     pub wrong: R::Mask,
 }
@@ -48,25 +53,41 @@ impl<R: Real, const M: usize, const L: usize> Found<R, M, L> {
             integral: [zero; M],
             q: [zero; M],
             p: [zero; M],
+            held: [zero; L],
+            rates_held: [zero; L],
+            change: [zero; L],
             wrong: zero.lt(zero),
+        }
+    }
+
+    /// Deformations, rates and forces that follow from the change of the forces.
+    #[inline(always)]
+    fn follow<const N: usize>(
+        &mut self,
+        plan: &Plan<R, M, L, N>,
+        rule: &Rule<R, M, L>,
+        state: &State<R, M, L, N>,
+    ) {
+        self.d = deform(&rule.g, &self.held, &self.change);
+        if plan.rate {
+            self.v = deform(&rule.h, &self.rates_held, &self.change);
+        }
+        for a in 0..L {
+            self.f[a] = state.f[a] + self.change[a];
         }
     }
 }
 
-/// Looks for the equilibrium of the analyses in a mask. Of the state it changes the tangents and what follows from
-/// them, and what the laws say of a step that ends where they were asked last.
+/// Where the step leads with the forces held, and the first guess of their change.
 #[inline(always)]
-pub(super) fn equilibrium<A: Arithmetic, const M: usize, const L: usize, const N: usize>(
-    with: A,
-    plan: &Plan<A::Real, M, L, N>,
-    rule: &Rule<A::Real, M, L>,
-    loads: &Loads<A::Real, M>,
-    who: <A::Real as Real>::Mask,
-    state: &mut State<A::Real, M, L, N>,
-    found: &mut Found<A::Real, M, L>,
+pub(super) fn foresee<R: Real, const M: usize, const L: usize, const N: usize>(
+    plan: &Plan<R, M, L, N>,
+    rule: &Rule<R, M, L>,
+    loads: &Loads<R, M>,
+    state: &State<R, M, L, N>,
+    found: &mut Found<R, M, L>,
 ) {
-    let zero = with.splat(0.0);
-    let one = with.splat(1.0);
+    let zero = state.external.of(0.0);
     // Modes with the forces held.
     let start = less(&loads.start, &state.push);
     let end = less(&loads.end, &state.push);
@@ -75,35 +96,47 @@ pub(super) fn equilibrium<A: Arithmetic, const M: usize, const L: usize, const N
     found.integral = combine(integral, inputs);
     found.q = combine(q, inputs);
     found.p = combine(p, inputs);
-    let held = plan.deform(&found.q);
-    let rates_held = if plan.rate { plan.deform(&found.p) } else { [zero; L] };
+    found.held = plan.deform(&found.q);
     // What the tangents found last answer.
     let mut change = [zero; L];
+    let moved = less(&found.held, &state.d);
     for b in 0..L {
-        let moved = held[b] - state.d[b];
         for a in 0..L {
-            change[a] = state.answer[b][a].mul_add(moved, change[a]);
+            change[a] = state.answer[b][a].mul_add(moved[b], change[a]);
         }
     }
     if plan.rate {
+        found.rates_held = plan.deform(&found.p);
+        let moved = less(&found.rates_held, &state.v);
         for b in 0..L {
-            let moved = rates_held[b] - state.v[b];
             for a in 0..L {
-                change[a] = state.answer_to_rate[b][a].mul_add(moved, change[a]);
+                change[a] = state.answer_to_rate[b][a].mul_add(moved[b], change[a]);
             }
         }
     }
+    found.change = change;
+    found.follow(plan, rule, state);
+}
+
+/// Looks for the equilibrium of the analyses in a mask, from what is foreseen. Of the state it changes the tangents and
+/// what follows from them, and what the laws say of a step that ends where they were asked last.
+#[inline(always)]
+pub(super) fn settle<A: Arithmetic, const M: usize, const L: usize, const N: usize>(
+    with: A,
+    plan: &Plan<A::Real, M, L, N>,
+    rule: &Rule<A::Real, M, L>,
+    who: <A::Real as Real>::Mask,
+    state: &mut State<A::Real, M, L, N>,
+    found: &mut Found<A::Real, M, L>,
+) {
+    let zero = with.splat(0.0);
+    let one = with.splat(1.0);
     let mut wrong = state.alive & who;
     for iteration in 0..ITERATIONS {
-        found.d = deform(&rule.g, &held, &change);
-        if plan.rate {
-            found.v = deform(&rule.h, &rates_held, &change);
-        }
         look(with, plan, rule.dt, (&found.d, &found.v), state, &mut found.forces);
         state.iterations = state.iterations + one.only(wrong);
         let mut residual = [zero; L];
         for a in 0..L {
-            found.f[a] = state.f[a] + change[a];
             residual[a] = found.forces[a] - found.f[a];
         }
         let mut fine = zero.le(one);
@@ -155,8 +188,9 @@ pub(super) fn equilibrium<A: Arithmetic, const M: usize, const L: usize, const N
         // Who goes in circles between two regimes takes shorter ways.
         let part = with.splat(PARTS[(iteration / PATIENCE).min(PARTS.len() - 1)]);
         for a in 0..L {
-            change[a] = change[a] + (part * residual[a]).only(wrong);
+            found.change[a] = found.change[a] + (part * residual[a]).only(wrong);
         }
+        found.follow(plan, rule, state);
     }
     found.wrong = wrong;
 }

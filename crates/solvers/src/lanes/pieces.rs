@@ -3,11 +3,11 @@
 
 use super::coefficients::Rule;
 use super::loads::Loads;
-use super::newton::{Found, equilibrium};
+use super::newton::{Found, foresee, settle};
 use super::plan::Plan;
 use super::setup::{LaneSetup, Piece};
 use super::state::{State, forget, keep};
-use super::step::finish;
+use super::step::{Passed, account, take};
 use crate::march::DEPTH;
 use trilith_element::lanes::{Arithmetic, Real, Task};
 
@@ -89,7 +89,7 @@ pub(super) fn in_halves<A: Arithmetic, const M: usize, const L: usize, const N: 
     setups: &[&LaneSetup],
     plan: &Plan<A::Real, M, L, N>,
     (rule, loads, t): (&Rule<A::Real, M, L>, &Loads<A::Real, M>, f64),
-    found: &mut Found<A::Real, M, L>,
+    found: &Found<A::Real, M, L>,
     state: &mut State<A::Real, M, L, N>,
 ) {
     let wrong = found.wrong;
@@ -165,9 +165,12 @@ impl<A: Arithmetic, const M: usize, const L: usize, const N: usize> Task<A>
     fn run(self, with: A) -> <A::Real as Real>::Mask {
         let Self { plan, rule, loads, t, who, before, state } = self;
         let mut found = Found::new(with.splat(0.0));
-        equilibrium(with, plan, rule, loads, who, state, &mut found);
+        foresee(plan, rule, loads, state, &mut found);
+        settle(with, plan, rule, who, state, &mut found);
         let wrong = found.wrong;
-        finish(with, plan, rule, loads, t, &mut found, state);
+        let mut passed = Passed::new(with.splat(0.0));
+        take(plan, rule, loads, &found, state, &mut passed);
+        account(with, plan, rule, t, &passed, state);
         keep(who & !wrong, state, before);
         forget(wrong, state);
         wrong
@@ -180,7 +183,7 @@ struct End<'a, R: Real, const M: usize, const L: usize, const N: usize> {
     rule: &'a Rule<R, M, L>,
     loads: &'a Loads<R, M>,
     t: R,
-    found: &'a mut Found<R, M, L>,
+    found: &'a Found<R, M, L>,
     before: &'a State<R, M, L, N>,
     state: &'a mut State<R, M, L, N>,
 }
@@ -194,7 +197,9 @@ impl<A: Arithmetic, const M: usize, const L: usize, const N: usize> Task<A>
     fn run(self, with: A) {
         let Self { plan, rule, loads, t, found, before, state } = self;
         let wrong = found.wrong;
-        finish(with, plan, rule, loads, t, found, state);
+        let mut passed = Passed::new(with.splat(0.0));
+        take(plan, rule, loads, found, state, &mut passed);
+        account(with, plan, rule, t, &passed, state);
         keep(!wrong, state, before);
         forget(wrong, state);
     }

@@ -16,13 +16,19 @@ pub(super) struct Run {
     pub parameters: usize,
 }
 
-/// How a channel gets its amplitudes.
+/// How a channel that varies gets its amplitudes.
 pub(super) enum Source<R> {
-    Constant,
     /// One table for all, times a factor.
     Shared(Arc<Table>, R),
     /// A table for each.
     Own,
+}
+
+/// A channel that varies, and its load over the modes.
+pub(super) struct Varying<R, const M: usize> {
+    pub channel: usize,
+    pub source: Source<R>,
+    pub force: [R; M],
 }
 
 /// What does not change in a march.
@@ -47,7 +53,7 @@ pub(super) struct Plan<R, const M: usize, const L: usize, const N: usize> {
     /// Load of each channel over the modes, and the sum of those that never change.
     pub forces: Vec<[R; M]>,
     pub steady: [R; M],
-    pub sources: Vec<Source<R>>,
+    pub varying: Vec<Varying<R, M>>,
     pub constant: [R; M],
     pub outputs: Outputs<R, M>,
     /// Residual of the link forces that counts as none, as share of the largest force so far.
@@ -107,22 +113,20 @@ impl<R: Real, const M: usize, const L: usize, const N: usize> Plan<R, M, L, N> {
             }
         }
         let channels = one.forces.len();
-        let sources = (0..channels)
-            .map(|c| match &one.tables[c] {
-                None => Source::Constant,
-                Some((table, _)) => {
-                    let same = |s: &&LaneSetup| {
-                        s.tables[c].as_ref().is_some_and(|(t, _)| Arc::ptr_eq(t, table))
-                    };
-                    if setups.iter().all(same) {
-                        let size = get(&|s| s.tables[c].as_ref().map_or(0.0, |t| t.1));
-                        Source::Shared(Arc::clone(table), size)
-                    } else {
-                        Source::Own
-                    }
-                }
-            })
-            .collect();
+        let forces: Vec<[R; M]> =
+            (0..channels).map(|c| mode_wise(&|s, j| s.forces[c][j])).collect();
+        let varying = (0..channels).filter_map(|channel| {
+            let table = |s: &LaneSetup| s.tables[channel].clone();
+            let (shared, _) = table(one)?;
+            let same = |s: &&LaneSetup| table(s).is_some_and(|(t, _)| Arc::ptr_eq(&t, &shared));
+            let source = if setups.iter().all(same) {
+                Source::Shared(shared, get(&|s| table(s).map_or(0.0, |t| t.1)))
+            } else {
+                Source::Own
+            };
+            Some(Varying { channel, source, force: forces[channel] })
+        });
+        let varying = varying.collect();
         let conserved = |s: &LaneSetup, j: usize| -> f64 {
             (0..channels).filter(|c| s.conservative[*c]).map(|c| s.forces[c][j]).sum()
         };
@@ -146,8 +150,8 @@ impl<R: Real, const M: usize, const L: usize, const N: usize> Plan<R, M, L, N> {
             steady,
             turns: rotational.contains(&true),
             rotational,
-            forces: (0..channels).map(|c| mode_wise(&|s, j| s.forces[c][j])).collect(),
-            sources,
+            forces,
+            varying,
             tolerance: get(&|s| s.tolerance),
             constant: mode_wise(&|s, j| conserved(s, j)),
             rate: setups.iter().any(|s| s.forms.iter().any(|f| f.rate)),

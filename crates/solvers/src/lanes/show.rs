@@ -1,7 +1,6 @@
 //! Outputs after a step.
 
 use super::coefficients::Rule;
-use super::loads::Loads;
 use super::outputs::Row;
 use super::peaks::TOGETHER;
 use super::plan::Plan;
@@ -15,7 +14,6 @@ pub(super) fn show<A: Arithmetic, const M: usize, const L: usize, const N: usize
     with: A,
     plan: &Plan<A::Real, M, L, N>,
     rule: &Rule<A::Real, M, L>,
-    loads: &Loads<A::Real, M>,
     t: A::Real,
     state: &mut State<A::Real, M, L, N>,
 ) {
@@ -32,7 +30,7 @@ pub(super) fn show<A: Arithmetic, const M: usize, const L: usize, const N: usize
             }
             Row::Velocity { own } => (dot(zero, own, &state.p), Some([dot(zero, own, &state.a)])),
             Row::Acceleration { own, base } => {
-                (dot(zero, own, &state.a) + dot(zero, base, &loads.amplitudes), None)
+                (dot(zero, own, &state.a) + dot(zero, base, &state.amplitudes), None)
             }
             Row::Element { stiffness, damping } => {
                 (dot(zero, stiffness, &state.q) + dot(zero, damping, &state.p), None)
@@ -42,7 +40,7 @@ pub(super) fn show<A: Arithmetic, const M: usize, const L: usize, const N: usize
                 (*factor * state.d[*at], Some([*factor * v]))
             }
             Row::Force { at, factor } => (*factor * state.f[*at], None),
-            Row::History { at } => (state.history[*at], None),
+            Row::History { at } => (state.histories.held()[*at], None),
             Row::Zero => (zero, None),
         };
         peak.advance(with, step, [y], rate);

@@ -1,6 +1,7 @@
 //! Everything that changes in a march.
 
 use super::contact::Feet;
+use super::history::Histories;
 use super::outputs::Extremes;
 use super::plan::{Plan, pick};
 use super::setup::LaneSetup;
@@ -13,6 +14,8 @@ pub(super) struct State<R: Real, const M: usize, const L: usize, const N: usize>
     pub q: [R; M],
     pub p: [R; M],
     pub a: [R; M],
+    /// Amplitude of each channel, where an output asks for accelerations.
+    pub amplitudes: Vec<R>,
     pub d: [R; L],
     pub v: [R; L],
     pub f: [R; L],
@@ -26,9 +29,7 @@ pub(super) struct State<R: Real, const M: usize, const L: usize, const N: usize>
     /// + c H)⁻¹ times k, and c, column by column.
     pub answer: [[R; L]; L],
     pub answer_to_rate: [[R; L]; L],
-    pub history: Vec<R>,
-    /// History at the end of the step that is looked for.
-    pub trial: Vec<R>,
+    pub histories: Histories<R>,
     pub scale: [R; 2],
     pub alive: R::Mask,
     pub lost: R,
@@ -82,6 +83,7 @@ impl<R: Real, const M: usize, const L: usize, const N: usize> State<R, M, L, N> 
             q: mode_wise(&|s, j| s.q[j]),
             p: mode_wise(&|s, j| s.p[j]),
             a: mode_wise(&|s, j| s.a[j]),
+            amplitudes: vec![zero; one.forces.len()],
             d: flat(&|s, i| s.d[i]),
             v: flat(&|s, i| s.v[i]),
             push: plan.push(&f),
@@ -90,8 +92,7 @@ impl<R: Real, const M: usize, const L: usize, const N: usize> State<R, M, L, N> 
             c: [[zero; N]; L],
             answer: [[zero; L]; L],
             answer_to_rate: [[zero; L]; L],
-            trial: history.clone(),
-            history,
+            histories: Histories::new(history),
             scale: [0, 1].map(|i| get(&|s| s.scale[i])),
             alive: zero.le(with.splat(1.0)),
             lost: zero,
@@ -138,7 +139,7 @@ pub(super) fn keep<R: Real, const M: usize, const L: usize, const N: usize>(
     all(&mut to.push, &from.push);
     all(to.answer.as_flattened_mut(), from.answer.as_flattened());
     all(to.answer_to_rate.as_flattened_mut(), from.answer_to_rate.as_flattened());
-    all(&mut to.history, &from.history);
+    all(to.histories.split().0, from.histories.held());
     all(&mut to.scale, &from.scale);
     all(to.heat.as_flattened_mut(), from.heat.as_flattened());
     for (x, y) in to.steps.iter_mut().zip(&from.steps) {

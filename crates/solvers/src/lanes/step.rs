@@ -1,4 +1,6 @@
-//! The end of a step: state, energies, outputs and contacts.
+//! The end of a step: what the next one starts from, and apart from it energies, outputs and contacts.
+//!
+//! The next step waits for the former only, so that the processor may account for one while it waits for the other.
 
 use super::coefficients::Rule;
 use super::loads::Loads;
@@ -8,22 +10,32 @@ use super::show::show;
 use super::state::State;
 use trilith_element::lanes::{Arithmetic, Real};
 
-/// Takes the end of a step that began at `t`.
+/// What a step leaves to be accounted for.
+pub(super) struct Passed<R, const M: usize> {
+    /// By modes: work of all loads, and of the links among them; twice the kinetic energy; minus the potential energy.
+    of_modes: [[R; M]; 4],
+}
+
+impl<R: Real, const M: usize> Passed<R, M> {
+    /// Nothing yet.
+    pub fn new(zero: R) -> Self {
+        Self { of_modes: [[zero; M]; 4] }
+    }
+}
+
+/// Takes the end of a step: what the next step starts from.
 #[inline(always)]
-pub(super) fn finish<A: Arithmetic, const M: usize, const L: usize, const N: usize>(
-    with: A,
-    plan: &Plan<A::Real, M, L, N>,
-    rule: &Rule<A::Real, M, L>,
-    loads: &Loads<A::Real, M>,
-    t: A::Real,
-    found: &mut Found<A::Real, M, L>,
-    state: &mut State<A::Real, M, L, N>,
+pub(super) fn take<R: Real, const M: usize, const L: usize, const N: usize>(
+    plan: &Plan<R, M, L, N>,
+    rule: &Rule<R, M, L>,
+    loads: &Loads<R, M>,
+    found: &Found<R, M, L>,
+    state: &mut State<R, M, L, N>,
+    passed: &mut Passed<R, M>,
 ) {
-    let zero = with.splat(0.0);
     let push = plan.push(&found.f);
-    // Work of all loads, and of the links among them; a load is linear in the step, and what it does is
-    // ∫ s q̇ dt = s₁ (q₁ − q̄) − s₀ (q₀ − q̄) with q̄ the mean of q.
-    let mut of_modes = [[zero; M]; 4];
+    // A load is linear in the step, and what it does is ∫ s q̇ dt = s₁ (q₁ − q̄) − s₀ (q₀ − q̄) with q̄ the mean of q.
+    let of_modes = &mut passed.of_modes;
     for j in 0..M {
         let change = state.push[j] - push[j];
         let integral = rule.c[0][3][j].mul_add(change, found.integral[j]);
@@ -37,10 +49,36 @@ pub(super) fn finish<A: Arithmetic, const M: usize, const L: usize, const N: usi
         of_modes[3][j] = plan.constant[j] * q;
         (state.q[j], state.p[j], state.push[j]) = (q, p, push[j]);
     }
+    if plan.accelerations {
+        for j in 0..M {
+            let source = loads.end[j] - push[j];
+            let held = (-plan.damping[j]).mul_add(state.p[j], source);
+            state.a[j] = (-plan.omega2[j]).mul_add(state.q[j], held);
+        }
+        state.amplitudes.copy_from_slice(&loads.amplitudes);
+    }
+    state.histories.take();
+    (state.d, state.f, state.scale) = (found.d, found.f, found.scale);
+    if plan.rate {
+        state.v = found.v;
+    }
+}
+
+/// Energies, outputs and contacts after a step that began at `t` and was taken.
+#[inline(always)]
+pub(super) fn account<A: Arithmetic, const M: usize, const L: usize, const N: usize>(
+    with: A,
+    plan: &Plan<A::Real, M, L, N>,
+    rule: &Rule<A::Real, M, L>,
+    t: A::Real,
+    passed: &Passed<A::Real, M>,
+    state: &mut State<A::Real, M, L, N>,
+) {
+    let zero = with.splat(0.0);
     let mut sums = [zero; 4];
     for j in 0..M {
         for i in 0..4 {
-            sums[i] = sums[i] + of_modes[i][j];
+            sums[i] = sums[i] + passed.of_modes[i][j];
         }
     }
     let [external, taken, kinetic, fallen] = sums;
@@ -54,13 +92,6 @@ pub(super) fn finish<A: Arithmetic, const M: usize, const L: usize, const N: usi
         }
         strain = half * strain;
     }
-    if plan.accelerations {
-        for j in 0..M {
-            let source = loads.end[j] - push[j];
-            let held = (-plan.damping[j]).mul_add(state.p[j], source);
-            state.a[j] = (-plan.omega2[j]).mul_add(state.q[j], held);
-        }
-    }
     if plan.damps {
         let gained = (kinetic - state.kinetic) + (strain - state.strain);
         let damping = external - taken - gained;
@@ -70,7 +101,6 @@ pub(super) fn finish<A: Arithmetic, const M: usize, const L: usize, const N: usi
     state.external = state.external + external;
 
     // What the links did.
-    std::mem::swap(&mut state.history, &mut state.trial);
     let mut stored = zero;
     for (step, [hysteretic, viscous]) in state.steps.iter().zip(&mut state.heat) {
         stored = stored + step.stored;
@@ -80,10 +110,6 @@ pub(super) fn finish<A: Arithmetic, const M: usize, const L: usize, const N: usi
         }
     }
     state.stored = stored;
-    (state.d, state.f, state.scale) = (found.d, found.f, found.scale);
-    if plan.rate {
-        state.v = found.v;
-    }
     let fallen = potential - state.potential0;
     let input = state.kinetic0 + state.external + fallen;
     let mut largest = state.largest.max(kinetic).max(input.abs());
@@ -95,6 +121,6 @@ pub(super) fn finish<A: Arithmetic, const M: usize, const L: usize, const N: usi
     }
     state.largest = largest;
     state.count = state.count + with.splat(1.0);
-    show(with, plan, rule, loads, t, state);
+    show(with, plan, rule, t, state);
     state.feet.enter(&state.steps, &plan.feet);
 }
