@@ -2,6 +2,7 @@
 
 use super::plan::Plan;
 use super::setup::LaneSetup;
+use super::small::Aligned;
 use crate::single_mode::{self, Mode};
 use trilith_element::lanes::{Arithmetic, Real};
 
@@ -12,10 +13,10 @@ pub(super) struct Rule<R, const M: usize, const L: usize> {
     /// A third of the step.
     pub third: R,
     /// What ∫q, q and q̇ at the end take from q, q̇ and the loads at the start and at the end: of all modes side by side.
-    pub c: [[[R; M]; 4]; 3],
+    pub c: Aligned<[[[R; M]; 4]; 3]>,
     /// −G and −H, column by column.
-    pub g: [[R; L]; L],
-    pub h: [[R; L]; L],
+    pub g: Aligned<[[R; L]; L]>,
+    pub h: Aligned<[[R; L]; L]>,
 }
 
 impl<R: Real, const M: usize, const L: usize> Rule<R, M, L> {
@@ -67,6 +68,7 @@ impl<R: Real, const M: usize, const L: usize> Rule<R, M, L> {
             Some(t) => with.gather(|i| t[i.min(last)]),
         };
         let (per_dt, third) = (with.splat(1.0) / dt, dt * with.splat(1.0 / 3.0));
-        Self { dt, per_dt, third, c, g: compliance(1), h: compliance(2) }
+        let [g, h] = [1, 2].map(|row| Aligned(compliance(row)));
+        Self { dt, per_dt, third, c: Aligned(c), g, h }
     }
 }

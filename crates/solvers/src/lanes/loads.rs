@@ -2,13 +2,14 @@
 
 use super::plan::{Plan, Source, Varying, pick};
 use super::setup::{LaneSetup, Piece};
+use super::small::Aligned;
 use trilith_element::lanes::{Arithmetic, Real};
 use trilith_model::Side;
 
 /// Loads over a step.
 pub(super) struct Loads<R, const M: usize> {
-    pub start: [R; M],
-    pub end: [R; M],
+    pub start: Aligned<[R; M]>,
+    pub end: Aligned<[R; M]>,
     /// Amplitudes at the end, where an output asks for accelerations.
     pub amplitudes: Vec<R>,
 }
@@ -18,7 +19,8 @@ impl<R: Real, const M: usize, const L: usize, const N: usize> Plan<R, M, L, N> {
         let zero = with.splat(0.0);
         let mut amplitudes = vec![with.splat(1.0); self.forces.len()];
         self.varying.iter().for_each(|v| amplitudes[v.channel] = zero);
-        Loads { start: [zero; M], end: [zero; M], amplitudes }
+        let start = Aligned([zero; M]);
+        Loads { start, end: start, amplitudes }
     }
 
     /// Loads of the usual step with this index.

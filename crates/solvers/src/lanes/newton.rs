@@ -9,7 +9,7 @@ use super::coefficients::Rule;
 use super::laws::look;
 use super::loads::Loads;
 use super::plan::Plan;
-use super::small::{combine, deform, factor, less, solve};
+use super::small::{Aligned, combine, deform, factor, less, solve};
 use super::state::State;
 use trilith_element::lanes::{Arithmetic, Real};
 
@@ -21,22 +21,22 @@ const PATIENCE: usize = 8;
 /// The end of a step; written by [`foresee`] and [`settle`] in place, as nothing of it should be copied in every step.
 pub(super) struct Found<R: Real, const M: usize, const L: usize> {
     /// Deformations, their rates, and forces of the links.
-    pub d: [R; L],
-    pub v: [R; L],
-    pub f: [R; L],
+    pub d: Aligned<[R; L]>,
+    pub v: Aligned<[R; L]>,
+    pub f: Aligned<[R; L]>,
     /// Laws at d and v: f up to the tolerance.
-    pub forces: [R; L],
+    pub forces: Aligned<[R; L]>,
     /// Largest force so far, and largest moment.
     pub scale: [R; 2],
     /// ∫q, q and q̇ with the link forces held at those of the start.
-    pub integral: [R; M],
-    pub q: [R; M],
-    pub p: [R; M],
+    pub integral: Aligned<[R; M]>,
+    pub q: Aligned<[R; M]>,
+    pub p: Aligned<[R; M]>,
     /// Deformations and rates with the forces held.
-    held: [R; L],
-    rates_held: [R; L],
+    held: Aligned<[R; L]>,
+    rates_held: Aligned<[R; L]>,
     /// Change of the forces.
-    change: [R; L],
+    change: Aligned<[R; L]>,
     /// Who found none: its numbers are rubbish.
     pub wrong: R::Mask,
 }
@@ -45,17 +45,17 @@ impl<R: Real, const M: usize, const L: usize> Found<R, M, L> {
     /// Nothing yet.
     pub fn new(zero: R) -> Self {
         Self {
-            d: [zero; L],
-            v: [zero; L],
-            f: [zero; L],
-            forces: [zero; L],
+            d: Aligned([zero; L]),
+            v: Aligned([zero; L]),
+            f: Aligned([zero; L]),
+            forces: Aligned([zero; L]),
             scale: [zero; 2],
-            integral: [zero; M],
-            q: [zero; M],
-            p: [zero; M],
-            held: [zero; L],
-            rates_held: [zero; L],
-            change: [zero; L],
+            integral: Aligned([zero; M]),
+            q: Aligned([zero; M]),
+            p: Aligned([zero; M]),
+            held: Aligned([zero; L]),
+            rates_held: Aligned([zero; L]),
+            change: Aligned([zero; L]),
             wrong: zero.lt(zero),
         }
     }
@@ -68,9 +68,9 @@ impl<R: Real, const M: usize, const L: usize> Found<R, M, L> {
         rule: &Rule<R, M, L>,
         state: &State<R, M, L, N>,
     ) {
-        self.d = deform(&rule.g, &self.held, &self.change);
+        *self.d = deform(&rule.g, &self.held, &self.change);
         if plan.rate {
-            self.v = deform(&rule.h, &self.rates_held, &self.change);
+            *self.v = deform(&rule.h, &self.rates_held, &self.change);
         }
         for a in 0..L {
             self.f[a] = state.f[a] + self.change[a];
@@ -92,11 +92,11 @@ pub(super) fn foresee<R: Real, const M: usize, const L: usize, const N: usize>(
     let start = less(&loads.start, &state.push);
     let end = less(&loads.end, &state.push);
     let inputs = [&state.q, &state.p, &start, &end];
-    let [integral, q, p] = &rule.c;
-    found.integral = combine(integral, inputs);
-    found.q = combine(q, inputs);
-    found.p = combine(p, inputs);
-    found.held = plan.deform(&found.q);
+    let [integral, q, p] = &*rule.c;
+    *found.integral = combine(integral, inputs);
+    *found.q = combine(q, inputs);
+    *found.p = combine(p, inputs);
+    *found.held = plan.deform(&found.q);
     // What the tangents found last answer.
     let mut change = [zero; L];
     let moved = less(&found.held, &state.d);
@@ -106,7 +106,7 @@ pub(super) fn foresee<R: Real, const M: usize, const L: usize, const N: usize>(
         }
     }
     if plan.rate {
-        found.rates_held = plan.deform(&found.p);
+        *found.rates_held = plan.deform(&found.p);
         let moved = less(&found.rates_held, &state.v);
         for b in 0..L {
             for a in 0..L {
@@ -114,7 +114,7 @@ pub(super) fn foresee<R: Real, const M: usize, const L: usize, const N: usize>(
             }
         }
     }
-    found.change = change;
+    *found.change = change;
     found.follow(plan, rule, state);
 }
 
@@ -151,7 +151,7 @@ pub(super) fn settle<A: Arithmetic, const M: usize, const L: usize, const N: usi
                 fine = fine & residual[a].abs().le(allowed);
             }
         } else {
-            for force in found.forces {
+            for force in *found.forces {
                 scale[0] = scale[0].max(force.abs());
             }
             let allowed = scale[0] * plan.tolerance;

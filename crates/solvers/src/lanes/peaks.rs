@@ -8,6 +8,7 @@ pub(super) const TOGETHER: usize = 4;
 
 /// Extremes of `K` outputs in lanes.
 #[derive(Clone, Copy)]
+#[repr(align(32))]
 pub(super) struct Peaks<R, const K: usize> {
     y: [R; K],
     rate: [R; K],

@@ -2,6 +2,7 @@
 
 use super::outputs::Outputs;
 use super::setup::{LaneSetup, Output};
+use super::small::Aligned;
 use super::tables::Table;
 use std::sync::Arc;
 use trilith_element::lanes::{Arithmetic, ErasedLaw, Real};
@@ -28,7 +29,7 @@ pub(super) enum Source<R> {
 pub(super) struct Varying<R, const M: usize> {
     pub channel: usize,
     pub source: Source<R>,
-    pub force: [R; M],
+    pub force: Aligned<[R; M]>,
 }
 
 /// What does not change in a march.
@@ -36,10 +37,10 @@ pub(super) struct Plan<R, const M: usize, const L: usize, const N: usize> {
     pub runs: Vec<Run>,
     pub parameters: Vec<R>,
     /// B by rows, and by columns.
-    pub b: [[R; M]; L],
-    pub columns: [[R; L]; M],
-    pub omega2: [R; M],
-    pub damping: [R; M],
+    pub b: Aligned<[[R; M]; L]>,
+    pub columns: Aligned<[[R; L]; M]>,
+    pub omega2: Aligned<[R; M]>,
+    pub damping: Aligned<[R; M]>,
     /// 1 where the structure is damped.
     pub damped: R,
     /// Some mode of some lane is damped, or has a stiffness.
@@ -51,10 +52,10 @@ pub(super) struct Plan<R, const M: usize, const L: usize, const N: usize> {
     /// Place of each lane coordinate of the setups.
     pub places: Vec<usize>,
     /// Load of each channel over the modes, and the sum of those that never change.
-    pub forces: Vec<[R; M]>,
-    pub steady: [R; M],
+    pub forces: Vec<Aligned<[R; M]>>,
+    pub steady: Aligned<[R; M]>,
     pub varying: Vec<Varying<R, M>>,
-    pub constant: [R; M],
+    pub constant: Aligned<[R; M]>,
     pub outputs: Outputs<R, M>,
     /// Residual of the link forces that counts as none, as share of the largest force so far.
     pub tolerance: R,
@@ -81,8 +82,8 @@ impl<R: Real, const M: usize, const L: usize, const N: usize> Plan<R, M, L, N> {
         let zero = with.splat(0.0);
         let get = |of: &dyn Fn(&LaneSetup) -> f64| pick(with, setups, of);
         let modes = one.shape.modes;
-        let mode_wise = |of: &dyn Fn(&LaneSetup, usize) -> f64| -> [R; M] {
-            std::array::from_fn(|j| if j < modes { get(&|s| of(s, j)) } else { zero })
+        let mode_wise = |of: &dyn Fn(&LaneSetup, usize) -> f64| -> Aligned<[R; M]> {
+            Aligned(std::array::from_fn(|j| if j < modes { get(&|s| of(s, j)) } else { zero }))
         };
         let mut places = Vec::new();
         let mut runs: Vec<Run> = Vec::new();
@@ -100,20 +101,20 @@ impl<R: Real, const M: usize, const L: usize, const N: usize> Plan<R, M, L, N> {
             history += law.history;
             parameters.extend((0..law.parameters).map(|i| get(&|s| s.forms[l].parameters[i])));
         }
-        let mut b = [[zero; M]; L];
+        let mut b = Aligned([[zero; M]; L]);
         let mut rotational = [false; L];
         for (i, place) in places.iter().enumerate() {
-            b[*place] = mode_wise(&|s, j| s.rows[i][j]);
+            b[*place] = *mode_wise(&|s, j| s.rows[i][j]);
             rotational[*place] = one.rotational[i];
         }
-        let mut columns = [[zero; L]; M];
+        let mut columns = Aligned([[zero; L]; M]);
         for (j, column) in columns.iter_mut().enumerate() {
-            for (to, row) in column.iter_mut().zip(&b) {
+            for (to, row) in column.iter_mut().zip(&*b) {
                 *to = row[j];
             }
         }
         let channels = one.forces.len();
-        let forces: Vec<[R; M]> =
+        let forces: Vec<Aligned<[R; M]>> =
             (0..channels).map(|c| mode_wise(&|s, j| s.forces[c][j])).collect();
         let varying = (0..channels).filter_map(|channel| {
             let table = |s: &LaneSetup| s.tables[channel].clone();
@@ -130,7 +131,7 @@ impl<R: Real, const M: usize, const L: usize, const N: usize> Plan<R, M, L, N> {
         let conserved = |s: &LaneSetup, j: usize| -> f64 {
             (0..channels).filter(|c| s.conservative[*c]).map(|c| s.forces[c][j]).sum()
         };
-        let mut steady = [zero; M];
+        let mut steady = Aligned([zero; M]);
         for c in (0..channels).filter(|c| one.tables[*c].is_none()) {
             for j in 0..modes {
                 steady[j] = steady[j] + get(&|s| s.forces[c][j]);

@@ -20,23 +20,23 @@ pub(super) fn show<A: Arithmetic, const M: usize, const L: usize, const N: usize
     let zero = with.splat(0.0);
     let step = (t, rule.dt, rule.third);
     for (rows, peaks) in plan.outputs.together.iter().zip(&mut state.peaks.together) {
-        let (y, rate) = (displacements(rows, &state.q), displacements(rows, &state.p));
+        let (y, rate) = (displacements(rows, &*state.q), displacements(rows, &*state.p));
         peaks.advance(with, step, y, Some(rate));
     }
     for (row, peak) in plan.outputs.alone.iter().zip(&mut state.peaks.alone) {
         let (y, rate) = match row {
             Row::Displacement { own } => {
-                (dot(zero, own, &state.q), Some([dot(zero, own, &state.p)]))
+                (dot(zero, own, &*state.q), Some([dot(zero, own, &*state.p)]))
             }
-            Row::Velocity { own } => (dot(zero, own, &state.p), Some([dot(zero, own, &state.a)])),
+            Row::Velocity { own } => (dot(zero, own, &*state.p), Some([dot(zero, own, &*state.a)])),
             Row::Acceleration { own, base } => {
-                (dot(zero, own, &state.a) + dot(zero, base, &state.amplitudes), None)
+                (dot(zero, own, &*state.a) + dot(zero, base, &state.amplitudes), None)
             }
             Row::Element { stiffness, damping } => {
-                (dot(zero, stiffness, &state.q) + dot(zero, damping, &state.p), None)
+                (dot(zero, stiffness, &*state.q) + dot(zero, damping, &*state.p), None)
             }
             Row::Deformation { at, factor } => {
-                let v = if plan.rate { state.v[*at] } else { dot(zero, &plan.b[*at], &state.p) };
+                let v = if plan.rate { state.v[*at] } else { dot(zero, &plan.b[*at], &*state.p) };
                 (*factor * state.d[*at], Some([*factor * v]))
             }
             Row::Force { at, factor } => (*factor * state.f[*at], None),

@@ -1,5 +1,6 @@
 //! Small matrices, one in each lane.
 
+use std::ops::{Deref, DerefMut};
 use trilith_element::lanes::Real;
 
 /// Sums of rows times coefficients, place by place.
@@ -83,4 +84,25 @@ pub(super) fn dot<R: Real>(zero: R, row: &[R], x: &[R]) -> R {
         y = c.mul_add(*x, y);
     }
     y
+}
+
+/// What the registers read and write as a whole: so that no number lies across two lines of the cache.
+#[derive(Clone, Copy)]
+#[repr(align(32))]
+pub(super) struct Aligned<T>(pub T);
+
+impl<T> Deref for Aligned<T> {
+    type Target = T;
+
+    #[inline(always)]
+    fn deref(&self) -> &T {
+        &self.0
+    }
+}
+
+impl<T> DerefMut for Aligned<T> {
+    #[inline(always)]
+    fn deref_mut(&mut self) -> &mut T {
+        &mut self.0
+    }
 }

@@ -5,30 +5,31 @@ use super::history::Histories;
 use super::outputs::Extremes;
 use super::plan::{Plan, pick};
 use super::setup::LaneSetup;
+use super::small::Aligned;
 use trilith_element::Contact;
 use trilith_element::lanes::{Arithmetic, LaneStep, Real};
 
 /// Everything that changes.
 #[derive(Clone)]
 pub(super) struct State<R: Real, const M: usize, const L: usize, const N: usize> {
-    pub q: [R; M],
-    pub p: [R; M],
-    pub a: [R; M],
+    pub q: Aligned<[R; M]>,
+    pub p: Aligned<[R; M]>,
+    pub a: Aligned<[R; M]>,
     /// Amplitude of each channel, where an output asks for accelerations.
     pub amplitudes: Vec<R>,
-    pub d: [R; L],
-    pub v: [R; L],
-    pub f: [R; L],
+    pub d: Aligned<[R; L]>,
+    pub v: Aligned<[R; L]>,
+    pub f: Aligned<[R; L]>,
     /// Tangents of the last look at the laws, for the iteration of a step: a row of the block of its link for every
     /// coordinate.
-    pub k: [[R; N]; L],
-    pub c: [[R; N]; L],
+    pub k: Aligned<[[R; N]; L]>,
+    pub c: Aligned<[[R; N]; L]>,
     /// Bᵀ f.
-    pub push: [R; M],
+    pub push: Aligned<[R; M]>,
     /// What the forces answer to deformations, and to rates, that the modes would have with forces held: (I + k G
     /// + c H)⁻¹ times k, and c, column by column.
-    pub answer: [[R; L]; L],
-    pub answer_to_rate: [[R; L]; L],
+    pub answer: Aligned<[[R; L]; L]>,
+    pub answer_to_rate: Aligned<[[R; L]; L]>,
     pub histories: Histories<R>,
     pub scale: [R; 2],
     pub alive: R::Mask,
@@ -80,18 +81,18 @@ impl<R: Real, const M: usize, const L: usize, const N: usize> State<R, M, L, N> 
         let feet: Vec<&[Contact]> = setups.iter().map(|s| &s.contacts[..]).collect();
         let kinetic = get(&|s| s.kinetic);
         Self {
-            q: mode_wise(&|s, j| s.q[j]),
-            p: mode_wise(&|s, j| s.p[j]),
-            a: mode_wise(&|s, j| s.a[j]),
+            q: Aligned(mode_wise(&|s, j| s.q[j])),
+            p: Aligned(mode_wise(&|s, j| s.p[j])),
+            a: Aligned(mode_wise(&|s, j| s.a[j])),
             amplitudes: vec![zero; one.forces.len()],
-            d: flat(&|s, i| s.d[i]),
-            v: flat(&|s, i| s.v[i]),
-            push: plan.push(&f),
-            f,
-            k: [[zero; N]; L],
-            c: [[zero; N]; L],
-            answer: [[zero; L]; L],
-            answer_to_rate: [[zero; L]; L],
+            d: Aligned(flat(&|s, i| s.d[i])),
+            v: Aligned(flat(&|s, i| s.v[i])),
+            push: Aligned(plan.push(&f)),
+            f: Aligned(f),
+            k: Aligned([[zero; N]; L]),
+            c: Aligned([[zero; N]; L]),
+            answer: Aligned([[zero; L]; L]),
+            answer_to_rate: Aligned([[zero; L]; L]),
             histories: Histories::new(history),
             scale: [0, 1].map(|i| get(&|s| s.scale[i])),
             alive: zero.le(with.splat(1.0)),
@@ -130,13 +131,13 @@ pub(super) fn keep<R: Real, const M: usize, const L: usize, const N: usize>(
 ) {
     let one = |x: &mut R, y: &R| *x = R::select(mask, *x, *y);
     let all = |x: &mut [R], y: &[R]| x.iter_mut().zip(y).for_each(|(x, y)| one(x, y));
-    all(&mut to.q, &from.q);
-    all(&mut to.p, &from.p);
-    all(&mut to.a, &from.a);
-    all(&mut to.d, &from.d);
-    all(&mut to.v, &from.v);
-    all(&mut to.f, &from.f);
-    all(&mut to.push, &from.push);
+    all(&mut *to.q, &*from.q);
+    all(&mut *to.p, &*from.p);
+    all(&mut *to.a, &*from.a);
+    all(&mut *to.d, &*from.d);
+    all(&mut *to.v, &*from.v);
+    all(&mut *to.f, &*from.f);
+    all(&mut *to.push, &*from.push);
     all(to.answer.as_flattened_mut(), from.answer.as_flattened());
     all(to.answer_to_rate.as_flattened_mut(), from.answer_to_rate.as_flattened());
     all(to.histories.split().0, from.histories.held());

@@ -7,19 +7,20 @@ use super::loads::Loads;
 use super::newton::Found;
 use super::plan::Plan;
 use super::show::show;
+use super::small::Aligned;
 use super::state::State;
 use trilith_element::lanes::{Arithmetic, Real};
 
 /// What a step leaves to be accounted for.
 pub(super) struct Passed<R, const M: usize> {
     /// By modes: work of all loads, and of the links among them; twice the kinetic energy; minus the potential energy.
-    of_modes: [[R; M]; 4],
+    of_modes: Aligned<[[R; M]; 4]>,
 }
 
 impl<R: Real, const M: usize> Passed<R, M> {
     /// Nothing yet.
     pub fn new(zero: R) -> Self {
-        Self { of_modes: [[zero; M]; 4] }
+        Self { of_modes: Aligned([[zero; M]; 4]) }
     }
 }
 
