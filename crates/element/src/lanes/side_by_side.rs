@@ -43,8 +43,11 @@ impl<L: LaneLaw> Task<FusedOne> for RespondTogether<'_, '_, L> {
         let Self { links, steps, .. } = self;
         let mut first = 0;
         if const { fit::<L>() } {
-            if steps.len() == 2 {
-                return respond_group::<L, 2>(with.0, links, 0, steps);
+            // The usual ones stand for themselves: where a group is all there is, bounds cost next to nothing.
+            match steps.len() {
+                2 => return respond_group::<L, 2>(with.0, links, 0, steps),
+                4 => return respond_group::<L, 4>(with.0, links, 0, steps),
+                _ => {}
             }
             while steps.len() - first >= 4 {
                 respond_group::<L, 4>(with.0, links, first, steps);
@@ -132,7 +135,7 @@ impl<const G: usize> Group<G> {
         let from = &from[self.first * count..][..G * count];
         let mut to = [self.splat(Fused(0.0)); N];
         for i in 0..count {
-            let of = |lane: usize| if lane < G { from[lane * count + i].0 } else { 0.0 };
+            let of = |lane: usize| from[lane % G * count + i].0;
             to[i] = Wide::of_registers(self.simd, [f64x4(of(0), of(1), of(2), of(3))]);
         }
         to

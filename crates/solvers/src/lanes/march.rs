@@ -135,8 +135,9 @@ impl<A: Arithmetic, const M: usize, const L: usize, const N: usize> Task<A> for 
         let mut loads = plan.no_loads(with);
         let mut found = Found::new(with.splat(0.0));
         let mut passed = Passed::new(with.splat(0.0));
-        // Start of a step that was taken but is not accounted for.
-        let mut open: Option<f64> = None;
+        // A step was taken but is not accounted for: that waits until the next is foreseen, where an analysis goes
+        // alone and the processor would wait for one number after the other. Lanes keep it busy anyway.
+        let mut open = false;
         let mut cuts: Vec<usize> =
             self.setups.iter().flat_map(|s| s.cut.iter().map(|c| c.0)).collect();
         cuts.sort_unstable();
@@ -144,30 +145,32 @@ impl<A: Arithmetic, const M: usize, const L: usize, const N: usize> Task<A> for 
         let mut cuts = cuts.into_iter().peekable();
         for step in 0..shape.grid.steps {
             if cuts.next_if_eq(&step).is_some() {
-                if let Some(t) = open.take() {
-                    with.run(Account { plan: &plan, rule: &usual, t, passed: &passed, state: &mut state });
+                if std::mem::take(&mut open) {
+                    let (plan, rule, passed) = (&plan, &usual, &passed);
+                    with.run(Account { plan, rule, passed, state: &mut state });
                 }
                 cut_step(with, self.setups, &plan, step, &mut state);
             } else {
                 for i in 0..parts {
                     plan.loads(with, self.setups, step * parts + i, &mut loads);
                     foresee(&plan, &usual, &loads, &state, &mut found);
-                    // While the processor waits for what is foreseen.
-                    if let Some(t) = open.take() {
-                        account(with, &plan, &usual, with.splat(t), &passed, &mut state);
+                    if std::mem::take(&mut open) {
+                        account(with, &plan, &usual, &passed, &mut state);
                     }
-                    let t = step.cast_signed() as f64 * shape.grid.dt + part * i.cast_signed() as f64;
+                    // Integers with a sign become floats in one instruction.
+                    let [step, i] = [step, i].map(|n| n.cast_signed() as f64);
+                    let t = step * shape.grid.dt + part * i;
                     let alive = state.alive;
                     settle(with, &plan, &usual, alive, &mut state, &mut found);
                     if found.d[0].any(found.wrong) {
                         let step = (&usual, &loads, t);
                         in_halves(with, self.setups, &plan, step, &found, &mut state);
                     } else {
-                        take(&plan, &usual, &loads, &found, &mut state, &mut passed);
-                        if A::WIDTH == 1 {
-                            open = Some(t);
-                        } else {
-                            account(with, &plan, &usual, with.splat(t), &passed, &mut state);
+                        let t = with.splat(t);
+                        take(&plan, &usual, (&loads, t), &found, &mut state, &mut passed);
+                        open = A::WIDTH == 1;
+                        if !open {
+                            account(with, &plan, &usual, &passed, &mut state);
                         }
                     }
                 }
@@ -176,8 +179,9 @@ impl<A: Arithmetic, const M: usize, const L: usize, const N: usize> Task<A> for 
                 break;
             }
         }
-        if let Some(t) = open {
-            with.run(Account { plan: &plan, rule: &usual, t, passed: &passed, state: &mut state });
+        if open {
+            let (plan, rule, passed) = (&plan, &usual, &passed);
+            with.run(Account { plan, rule, passed, state: &mut state });
         }
         (0..self.setups.len()).map(|i| state.outcome(with, self.setups[i], i)).collect()
     }
@@ -187,7 +191,6 @@ impl<A: Arithmetic, const M: usize, const L: usize, const N: usize> Task<A> for 
 struct Account<'a, R: Real, const M: usize, const L: usize, const N: usize> {
     plan: &'a Plan<R, M, L, N>,
     rule: &'a Rule<R, M, L>,
-    t: f64,
     passed: &'a Passed<R, M>,
     state: &'a mut State<R, M, L, N>,
 }
@@ -199,7 +202,7 @@ impl<A: Arithmetic, const M: usize, const L: usize, const N: usize> Task<A>
 
     #[inline(always)]
     fn run(self, with: A) {
-        let Self { plan, rule, t, passed, state } = self;
-        account(with, plan, rule, with.splat(t), passed, state);
+        let Self { plan, rule, passed, state } = self;
+        account(with, plan, rule, passed, state);
     }
 }

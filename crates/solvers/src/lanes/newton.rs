@@ -9,7 +9,7 @@ use super::coefficients::Rule;
 use super::laws::look;
 use super::loads::Loads;
 use super::plan::Plan;
-use super::small::{Aligned, combine, deform, factor, less, solve};
+use super::small::{Aligned, combine, factor, less, more, solve, times};
 use super::state::State;
 use trilith_element::lanes::{Arithmetic, Real};
 
@@ -68,13 +68,11 @@ impl<R: Real, const M: usize, const L: usize> Found<R, M, L> {
         rule: &Rule<R, M, L>,
         state: &State<R, M, L, N>,
     ) {
-        *self.d = deform(&rule.g, &self.held, &self.change);
+        *self.d = more(&self.held, &times(&rule.g, &self.change));
         if plan.rate {
-            *self.v = deform(&rule.h, &self.rates_held, &self.change);
+            *self.v = more(&self.rates_held, &times(&rule.h, &self.change));
         }
-        for a in 0..L {
-            self.f[a] = state.f[a] + self.change[a];
-        }
+        *self.f = more(&state.f, &self.change);
     }
 }
 
@@ -87,7 +85,6 @@ pub(super) fn foresee<R: Real, const M: usize, const L: usize, const N: usize>(
     state: &State<R, M, L, N>,
     found: &mut Found<R, M, L>,
 ) {
-    let zero = state.external.of(0.0);
     // Modes with the forces held.
     let start = less(&loads.start, &state.push);
     let end = less(&loads.end, &state.push);
@@ -98,23 +95,12 @@ pub(super) fn foresee<R: Real, const M: usize, const L: usize, const N: usize>(
     *found.p = combine(p, inputs);
     *found.held = plan.deform(&found.q);
     // What the tangents found last answer.
-    let mut change = [zero; L];
-    let moved = less(&found.held, &state.d);
-    for b in 0..L {
-        for a in 0..L {
-            change[a] = state.answer[b][a].mul_add(moved[b], change[a]);
-        }
-    }
+    *found.change = times(&state.answer, &less(&found.held, &state.d));
     if plan.rate {
         *found.rates_held = plan.deform(&found.p);
-        let moved = less(&found.rates_held, &state.v);
-        for b in 0..L {
-            for a in 0..L {
-                change[a] = state.answer_to_rate[b][a].mul_add(moved[b], change[a]);
-            }
-        }
+        let of_rates = times(&state.answer_to_rate, &less(&found.rates_held, &state.v));
+        *found.change = more(&found.change, &of_rates);
     }
-    *found.change = change;
     found.follow(plan, rule, state);
 }
 

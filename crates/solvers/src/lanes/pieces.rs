@@ -169,8 +169,8 @@ impl<A: Arithmetic, const M: usize, const L: usize, const N: usize> Task<A>
         settle(with, plan, rule, who, state, &mut found);
         let wrong = found.wrong;
         let mut passed = Passed::new(with.splat(0.0));
-        take(plan, rule, loads, &found, state, &mut passed);
-        account(with, plan, rule, t, &passed, state);
+        take(plan, rule, (loads, t), &found, state, &mut passed);
+        account(with, plan, rule, &passed, state);
         keep(who & !wrong, state, before);
         forget(wrong, state);
         wrong
@@ -198,8 +198,8 @@ impl<A: Arithmetic, const M: usize, const L: usize, const N: usize> Task<A>
         let Self { plan, rule, loads, t, found, before, state } = self;
         let wrong = found.wrong;
         let mut passed = Passed::new(with.splat(0.0));
-        take(plan, rule, loads, found, state, &mut passed);
-        account(with, plan, rule, t, &passed, state);
+        take(plan, rule, (loads, t), found, state, &mut passed);
+        account(with, plan, rule, &passed, state);
         keep(!wrong, state, before);
         forget(wrong, state);
     }

@@ -2,7 +2,7 @@
 
 use super::outputs::Outputs;
 use super::setup::{LaneSetup, Output};
-use super::small::Aligned;
+use super::small::{Aligned, times};
 use super::tables::Table;
 use std::sync::Arc;
 use trilith_element::lanes::{Arithmetic, ErasedLaw, Real};
@@ -171,30 +171,12 @@ impl<R: Real, const M: usize, const L: usize, const N: usize> Plan<R, M, L, N> {
     /// B q.
     #[inline(always)]
     pub fn deform(&self, q: &[R; M]) -> [R; L] {
-        let mut d = [q[0]; L];
-        for a in 0..L {
-            d[a] = self.columns[0][a] * q[0];
-        }
-        for j in 1..M {
-            for a in 0..L {
-                d[a] = self.columns[j][a].mul_add(q[j], d[a]);
-            }
-        }
-        d
+        times(&self.columns, q)
     }
 
     /// Bᵀ f.
     #[inline(always)]
     pub fn push(&self, f: &[R; L]) -> [R; M] {
-        let mut push = [f[0]; M];
-        for j in 0..M {
-            push[j] = f[0] * self.b[0][j];
-        }
-        for a in 1..L {
-            for j in 0..M {
-                push[j] = f[a].mul_add(self.b[a][j], push[j]);
-            }
-        }
-        push
+        times(&self.b, f)
     }
 }

@@ -8,12 +8,30 @@ use trilith_element::lanes::Real;
 pub(super) fn combine<R: Real, const M: usize>(c: &[[R; M]; 4], x: [&[R; M]; 4]) -> [R; M] {
     let mut sum = *x[0];
     for j in 0..M {
-        sum[j] = c[0][j] * sum[j];
+        let first = c[1][j].mul_add(x[1][j], c[0][j] * x[0][j]);
+        let second = c[3][j].mul_add(x[3][j], c[2][j] * x[2][j]);
+        sum[j] = first + second;
     }
-    for i in 1..4 {
-        for j in 0..M {
-            sum[j] = c[i][j].mul_add(x[i][j], sum[j]);
+    sum
+}
+
+/// A matrix, column by column, times a vector: in two sums, as each waits for its last term.
+#[inline(always)]
+pub(super) fn times<R: Real, const A: usize, const B: usize>(
+    columns: &[[R; A]; B],
+    x: &[R; B],
+) -> [R; A] {
+    let mut sums = [[x[0].of(0.0); A]; 2];
+    for b in 0..B {
+        for a in 0..A {
+            let term = (columns[b][a], x[b]);
+            let sum = &mut sums[b % 2][a];
+            *sum = if b < 2 { term.0 * term.1 } else { term.0.mul_add(term.1, *sum) };
         }
+    }
+    let [mut sum, second] = sums;
+    for a in 0..A {
+        sum[a] = sum[a] + second[a];
     }
     sum
 }
@@ -28,20 +46,14 @@ pub(super) fn less<R: Real, const M: usize>(x: &[R; M], y: &[R; M]) -> [R; M] {
     z
 }
 
-/// Deformations (or rates) with forces at the end; `g` is minus the compliance, column by column.
+/// x + y.
 #[inline(always)]
-pub(super) fn deform<R: Real, const L: usize>(
-    g: &[[R; L]; L],
-    free: &[R; L],
-    f: &[R; L],
-) -> [R; L] {
-    let mut d = *free;
-    for b in 0..L {
-        for a in 0..L {
-            d[a] = g[b][a].mul_add(f[b], d[a]);
-        }
+pub(super) fn more<R: Real, const M: usize>(x: &[R; M], y: &[R; M]) -> [R; M] {
+    let mut z = *x;
+    for j in 0..M {
+        z[j] = z[j] + y[j];
     }
-    d
+    z
 }
 
 /// Solves with the factors.

@@ -13,6 +13,8 @@ use trilith_element::lanes::{Arithmetic, Real};
 
 /// What a step leaves to be accounted for.
 pub(super) struct Passed<R, const M: usize> {
+    /// When the step began.
+    t: R,
     /// By modes: work of all loads, and of the links among them; twice the kinetic energy; minus the potential energy.
     of_modes: Aligned<[[R; M]; 4]>,
 }
@@ -20,20 +22,21 @@ pub(super) struct Passed<R, const M: usize> {
 impl<R: Real, const M: usize> Passed<R, M> {
     /// Nothing yet.
     pub fn new(zero: R) -> Self {
-        Self { of_modes: Aligned([[zero; M]; 4]) }
+        Self { t: zero, of_modes: Aligned([[zero; M]; 4]) }
     }
 }
 
-/// Takes the end of a step: what the next step starts from.
+/// Takes the end of a step that began at `t`: what the next step starts from.
 #[inline(always)]
 pub(super) fn take<R: Real, const M: usize, const L: usize, const N: usize>(
     plan: &Plan<R, M, L, N>,
     rule: &Rule<R, M, L>,
-    loads: &Loads<R, M>,
+    (loads, t): (&Loads<R, M>, R),
     found: &Found<R, M, L>,
     state: &mut State<R, M, L, N>,
     passed: &mut Passed<R, M>,
 ) {
+    passed.t = t;
     let push = plan.push(&found.f);
     // A load is linear in the step, and what it does is ∫ s q̇ dt = s₁ (q₁ − q̄) − s₀ (q₀ − q̄) with q̄ the mean of q.
     let of_modes = &mut passed.of_modes;
@@ -65,13 +68,12 @@ pub(super) fn take<R: Real, const M: usize, const L: usize, const N: usize>(
     }
 }
 
-/// Energies, outputs and contacts after a step that began at `t` and was taken.
+/// Energies, outputs and contacts after a step that was taken.
 #[inline(always)]
 pub(super) fn account<A: Arithmetic, const M: usize, const L: usize, const N: usize>(
     with: A,
     plan: &Plan<A::Real, M, L, N>,
     rule: &Rule<A::Real, M, L>,
-    t: A::Real,
     passed: &Passed<A::Real, M>,
     state: &mut State<A::Real, M, L, N>,
 ) {
@@ -122,6 +124,6 @@ pub(super) fn account<A: Arithmetic, const M: usize, const L: usize, const N: us
     }
     state.largest = largest;
     state.count = state.count + with.splat(1.0);
-    show(with, plan, rule, t, state);
+    show(with, plan, rule, passed.t, state);
     state.feet.enter(&state.steps, &plan.feet);
 }
