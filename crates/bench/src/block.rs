@@ -69,6 +69,10 @@ pub struct BlockSweep {
     pub speedup: f64,
     /// The same in the median of runs in pairs.
     pub speedup_median: f64,
+    /// Time of as many separate sweeps as there are threads, at once, each on its own with its part of the analyses,
+    /// over the time of one sweep on all threads: 1 where sharing out costs nothing. Whatever pace the machine has,
+    /// both have it.
+    pub beside_separate: f64,
     /// Iterations in a step.
     pub iterations: f64,
     /// Analyses that left the lanes, and those that failed.
@@ -93,6 +97,7 @@ impl BlockSweep {
             setup_s: of(|s| s.setup_s),
             speedup: of(|s| s.speedup),
             speedup_median: of(|s| s.speedup_median),
+            beside_separate: of(|s| s.beside_separate),
             iterations: of(|s| s.iterations),
             left: all.iter().map(|s| s.left).max()?,
             failed: all.iter().map(|s| s.failed).max()?,
@@ -197,6 +202,17 @@ const ROUNDS: usize = 8;
 /// How often everything is measured.
 const TIMES: usize = 9;
 
+/// Time on the clock of the wall of so many sweeps at once, each on one thread with its part of the combinations.
+fn separate_sweeps(combinations: &[Combination], count: usize) -> f64 {
+    let wall = Instant::now();
+    std::thread::scope(|scope| {
+        for part in combinations.chunks(combinations.len().div_ceil(count).max(1)) {
+            scope.spawn(|| sweep("20 s").threads(1).run(part));
+        }
+    });
+    wall.elapsed().as_secs_f64()
+}
+
 /// Measures a sweep of `side` × `side` combinations.
 #[must_use]
 pub fn sweep_block(side: usize) -> BlockSweep {
@@ -204,8 +220,8 @@ pub fn sweep_block(side: usize) -> BlockSweep {
     let many = vec![combinations.clone(); ROUNDS].concat();
     let (each, each_of_many) = (combinations.len().max(1) as f64, many.len().max(1) as f64);
     let (mut alone, mut lanes, mut setup) = (vec![], vec![], vec![]);
-    // On the clock of the wall: by one thread, and by all.
-    let mut walls: Vec<[f64; 2]> = vec![];
+    // On the clock of the wall: by one thread, by all, and by separate sweeps.
+    let mut walls: Vec<[f64; 3]> = vec![];
     let mut found = None;
     let threads = std::thread::available_parallelism().map_or(1, usize::from);
     for _ in 0..TIMES {
@@ -217,7 +233,8 @@ pub fn sweep_block(side: usize) -> BlockSweep {
         lanes.push(seconds / each_of_many);
         let wall = Instant::now();
         let together = sweep("20 s").threads(threads).run(&many);
-        walls.push([single, wall.elapsed().as_secs_f64()]);
+        let all = wall.elapsed().as_secs_f64();
+        walls.push([single, all, separate_sweeps(&many, threads)]);
         // One step costs nothing beside what leads to it.
         let (_, seconds) = timed(|| sweep("1 ms").threads(1).run(&many));
         setup.push(seconds / each_of_many);
@@ -237,7 +254,8 @@ pub fn sweep_block(side: usize) -> BlockSweep {
         setup_s: median(setup),
         threads,
         speedup: fastest(0) / fastest(1),
-        speedup_median: median(walls.iter().map(|[one, all]| one / all).collect()),
+        speedup_median: median(walls.iter().map(|[one, all, _]| one / all).collect()),
+        beside_separate: median(walls.iter().map(|[_, all, separate]| separate / all).collect()),
         iterations: iterations / (STEPS * each_of_many),
         left: good().filter(|o| !matches!(o.engine, Engine::Lanes)).count(),
         failed: side_by_side.iter().filter(|o| o.is_err()).count(),

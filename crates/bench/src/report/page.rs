@@ -45,7 +45,8 @@ impl Results {
             let note = "A rigid block on two friction contacts, 20 s at 1 ms, friction 0.2 to 0.8 by sines of 0.2 to \
                         1 g: CPU time on one thread, reading and set-up included; speed-up of all threads on the clock of \
                         the wall, the fastest of nine runs against the fastest of one thread, and in the median of \
-                        pairs. Error: largest sway against OpenSees at steps of 0.02 ms. The other programs run \
+                        pairs; beside it how fast the threads of one sweep are against as many separate sweeps at once, one \
+                        to a thread, which the pace of the machine does not change. Error: largest sway against OpenSees at steps of 0.02 ms. The other programs run \
                         one combination, 0.4 and 0.8 g."
                 .into();
             let mut tables = vec![self.swept()];
