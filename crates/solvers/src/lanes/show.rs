@@ -20,7 +20,7 @@ pub(super) fn show<A: Arithmetic, const M: usize, const L: usize, const N: usize
     let zero = with.splat(0.0);
     let step = (t, rule.dt, rule.third);
     for (rows, peaks) in plan.outputs.together.iter().zip(&mut state.peaks.together) {
-        let (y, rate) = (displacements(rows, &*state.q), displacements(rows, &*state.p));
+        let (y, rate) = (displacements(rows, &state.q), displacements(rows, &state.p));
         peaks.advance(with, step, y, Some(rate));
     }
     for (row, peak) in plan.outputs.alone.iter().zip(&mut state.peaks.alone) {
