@@ -60,12 +60,14 @@ pub struct BlockSweep {
     pub alone_s: f64,
     /// The same side by side in vector lanes.
     pub lanes_s: f64,
+    /// The fastest of the runs that those are the medians of, alone and in lanes: cores of a shared machine change their
+    /// pace from one second to the next, each by itself, and the fastest run had its core for itself most of the time.
+    pub fastest_s: [f64; 2],
     /// Of it reading and set-up, s.
     pub setup_s: f64,
     /// Threads of the machine.
     pub threads: usize,
-    /// How much faster on the clock of the wall they are together than one: the fastest run of each. Cores of a shared
-    /// machine change their pace from one second to the next, each by itself.
+    /// How much faster on the clock of the wall they are together than one: the fastest run of each.
     pub speedup: f64,
     /// The same in the median of runs in pairs.
     pub speedup_median: f64,
@@ -94,6 +96,8 @@ impl BlockSweep {
         Some(Self {
             alone_s: of(|s| s.alone_s),
             lanes_s: of(|s| s.lanes_s),
+            fastest_s: [0, 1]
+                .map(|k| all.iter().map(|s| s.fastest_s[k]).fold(f64::INFINITY, f64::min)),
             setup_s: of(|s| s.setup_s),
             speedup: of(|s| s.speedup),
             speedup_median: of(|s| s.speedup_median),
@@ -247,8 +251,10 @@ pub fn sweep_block(side: usize) -> BlockSweep {
     let good = || side_by_side.iter().flatten();
     let iterations: f64 = good().map(|o| o.iterations as f64).sum();
     let fastest = |k: usize| walls.iter().map(|pair| pair[k]).fold(f64::INFINITY, f64::min);
+    let least = |times: &[f64]| times.iter().copied().fold(f64::INFINITY, f64::min);
     BlockSweep {
         analyses: combinations.len(),
+        fastest_s: [least(&alone), least(&lanes)],
         alone_s: median(alone),
         lanes_s: median(lanes),
         setup_s: median(setup),

@@ -43,11 +43,12 @@ impl Results {
         }
         if self.sweeps().next().is_some() {
             let note = "A rigid block on two friction contacts, 20 s at 1 ms, friction 0.2 to 0.8 by sines of 0.2 to \
-                        1 g: CPU time on one thread, reading and set-up included; speed-up of all threads on the clock of \
-                        the wall, the fastest of nine runs against the fastest of one thread, and in the median of \
-                        pairs; beside it how fast the threads of one sweep are against as many separate sweeps at once, one \
-                        to a thread, which the pace of the machine does not change. Error: largest sway against OpenSees at steps of 0.02 ms. The other programs run \
-                        one combination, 0.4 and 0.8 g."
+                        1 g: analyses in a second of CPU time on one thread, reading and set-up included, by the fastest \
+                        of nine runs and more, and in their median: cores of a shared machine change their pace. Speed-up \
+                        of all threads on the clock of the wall, by the fastest runs and in the median of pairs; beside \
+                        it how fast the threads of one sweep are against as many separate sweeps at once, one to a \
+                        thread, at whatever pace. Error: largest sway against OpenSees at steps of 0.02 ms. The other \
+                        programs run one combination, 0.4 and 0.8 g; ratios are of medians."
                 .into();
             let mut tables = vec![self.swept()];
             if !self.blocks.is_empty() {
