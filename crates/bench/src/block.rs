@@ -72,8 +72,8 @@ pub struct BlockSweep {
     /// The same in the median of runs in pairs.
     pub speedup_median: f64,
     /// Time of as many separate sweeps as there are threads, at once, each on its own with its part of the analyses,
-    /// over the time of one sweep on all threads: 1 where sharing out costs nothing. Whatever pace the machine has,
-    /// both have it.
+    /// over the time of one sweep on all threads: 1 where sharing out costs nothing and all cores have the same pace,
+    /// more where they do not, as the faster core takes more of one sweep.
     pub beside_separate: f64,
     /// Iterations in a step.
     pub iterations: f64,

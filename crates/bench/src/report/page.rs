@@ -47,7 +47,7 @@ impl Results {
                         of nine runs and more, and in their median: cores of a shared machine change their pace. Speed-up \
                         of all threads on the clock of the wall, by the fastest runs and in the median of pairs; beside \
                         it how fast the threads of one sweep are against as many separate sweeps at once, one to a \
-                        thread, at whatever pace. Error: largest sway against OpenSees at steps of 0.02 ms. The other \
+                        thread with an equal part: more than 100 % where one core was faster and took more. Error: largest sway against OpenSees at steps of 0.02 ms. The other \
                         programs run one combination, 0.4 and 0.8 g; ratios are of medians."
                 .into();
             let mut tables = vec![self.swept()];
