@@ -14,9 +14,8 @@ pub(super) fn look<A: Arithmetic, const M: usize, const L: usize, const N: usize
     state: &mut State<A::Real, M, L, N>,
     f: &mut [A::Real; L],
 ) {
-    let State { d, v, histories, k, c, steps, .. } = state;
+    let State { d, v, history, trial, k, c, steps, .. } = state;
     let (d0, v0) = (&**d, &**v);
-    let (history, trial) = histories.split();
     if let [run] = &plan.runs[..]
         && run.law.coordinates == N
         && run.count * N == L

@@ -18,7 +18,6 @@
 
 mod coefficients;
 mod contact;
-mod history;
 mod laws;
 mod loads;
 mod march;

@@ -40,7 +40,7 @@ pub(super) fn show<A: Arithmetic, const M: usize, const L: usize, const N: usize
                 (*factor * state.d[*at], Some([*factor * v]))
             }
             Row::Force { at, factor } => (*factor * state.f[*at], None),
-            Row::History { at } => (state.histories.held()[*at], None),
+            Row::History { at } => (state.history[*at], None),
             Row::Zero => (zero, None),
         };
         peak.advance(with, step, [y], rate);

@@ -1,7 +1,6 @@
 //! Everything that changes in a march.
 
 use super::contact::Feet;
-use super::history::Histories;
 use super::outputs::Extremes;
 use super::plan::{Plan, pick};
 use super::setup::LaneSetup;
@@ -30,7 +29,9 @@ pub(super) struct State<R: Real, const M: usize, const L: usize, const N: usize>
     /// + c H)⁻¹ times k, and c, column by column.
     pub answer: Aligned<[[R; L]; L]>,
     pub answer_to_rate: Aligned<[[R; L]; L]>,
-    pub histories: Histories<R>,
+    pub history: Vec<R>,
+    /// History at the end of the step that is looked for.
+    pub trial: Vec<R>,
     pub scale: [R; 2],
     pub alive: R::Mask,
     pub lost: R,
@@ -93,7 +94,8 @@ impl<R: Real, const M: usize, const L: usize, const N: usize> State<R, M, L, N> 
             c: Aligned([[zero; N]; L]),
             answer: Aligned([[zero; L]; L]),
             answer_to_rate: Aligned([[zero; L]; L]),
-            histories: Histories::new(history),
+            trial: history.clone(),
+            history,
             scale: [0, 1].map(|i| get(&|s| s.scale[i])),
             alive: zero.le(with.splat(1.0)),
             lost: zero,
@@ -140,7 +142,7 @@ pub(super) fn keep<R: Real, const M: usize, const L: usize, const N: usize>(
     all(&mut *to.push, &*from.push);
     all(to.answer.as_flattened_mut(), from.answer.as_flattened());
     all(to.answer_to_rate.as_flattened_mut(), from.answer_to_rate.as_flattened());
-    all(to.histories.split().0, from.histories.held());
+    all(&mut to.history, &from.history);
     all(&mut to.scale, &from.scale);
     all(to.heat.as_flattened_mut(), from.heat.as_flattened());
     for (x, y) in to.steps.iter_mut().zip(&from.steps) {

@@ -61,7 +61,7 @@ pub(super) fn take<R: Real, const M: usize, const L: usize, const N: usize>(
         }
         state.amplitudes.copy_from_slice(&loads.amplitudes);
     }
-    state.histories.take();
+    std::mem::swap(&mut state.history, &mut state.trial);
     (state.d, state.f, state.scale) = (found.d, found.f, found.scale);
     if plan.rate {
         state.v = found.v;
