@@ -1,7 +1,8 @@
 //! Sweeps: a rigid block on two friction contacts under 5 Hz sines, 20 s at 1 ms, with many values of its
 //! friction and amplitude.
 
-use crate::clock::{median, timed};
+use crate::clock::{least, median, timed};
+use crate::threads::{Round, Threads, separately, threads};
 use crate::{Programs, child, peers};
 use serde::{Deserialize, Serialize};
 use std::time::Instant;
@@ -65,16 +66,8 @@ pub struct BlockSweep {
     pub fastest_s: [f64; 2],
     /// Of it reading and set-up, s.
     pub setup_s: f64,
-    /// Threads of the machine.
-    pub threads: usize,
-    /// How much faster on the clock of the wall they are together than one: the fastest run of each.
-    pub speedup: f64,
-    /// The same in the median of runs in pairs.
-    pub speedup_median: f64,
-    /// Time of as many separate sweeps as there are threads, at once, each on its own with its part of the analyses,
-    /// over the time of one sweep on all threads: 1 where sharing out costs nothing and all cores have the same pace,
-    /// more where they do not, as the faster core takes more of one sweep.
-    pub beside_separate: f64,
+    /// What all threads are worth, in lanes.
+    pub threads: Threads,
     /// Iterations in a step.
     pub iterations: f64,
     /// Analyses that left the lanes, and those that failed.
@@ -97,11 +90,9 @@ impl BlockSweep {
             alone_s: of(|s| s.alone_s),
             lanes_s: of(|s| s.lanes_s),
             fastest_s: [0, 1]
-                .map(|k| all.iter().map(|s| s.fastest_s[k]).fold(f64::INFINITY, f64::min)),
+                .map(|k| least(&all.iter().map(|s| s.fastest_s[k]).collect::<Vec<_>>())),
             setup_s: of(|s| s.setup_s),
-            speedup: of(|s| s.speedup),
-            speedup_median: of(|s| s.speedup_median),
-            beside_separate: of(|s| s.beside_separate),
+            threads: Threads::among(&all.iter().map(|s| &s.threads).collect::<Vec<_>>())?,
             iterations: of(|s| s.iterations),
             left: all.iter().map(|s| s.left).max()?,
             failed: all.iter().map(|s| s.failed).max()?,
@@ -201,21 +192,10 @@ fn reference_error() -> f64 {
 
 /// How often the combinations come in the sweeps in lanes: one round of them is over in 25 ms, too short to tell what
 /// several threads are worth.
-const ROUNDS: usize = 8;
+const ROUNDS: usize = 4;
 
-/// How often everything is measured.
-const TIMES: usize = 9;
-
-/// Time on the clock of the wall of so many sweeps at once, each on one thread with its part of the combinations.
-fn separate_sweeps(combinations: &[Combination], count: usize) -> f64 {
-    let wall = Instant::now();
-    std::thread::scope(|scope| {
-        for part in combinations.chunks(combinations.len().div_ceil(count).max(1)) {
-            scope.spawn(|| sweep("20 s").threads(1).run(part));
-        }
-    });
-    wall.elapsed().as_secs_f64()
-}
+/// How often everything is measured: spread over 20 s, longer than a shared machine keeps one pace.
+const TIMES: usize = 54;
 
 /// Measures a sweep of `side` × `side` combinations.
 #[must_use]
@@ -224,21 +204,23 @@ pub fn sweep_block(side: usize) -> BlockSweep {
     let many = vec![combinations.clone(); ROUNDS].concat();
     let (each, each_of_many) = (combinations.len().max(1) as f64, many.len().max(1) as f64);
     let (mut alone, mut lanes, mut setup) = (vec![], vec![], vec![]);
-    // On the clock of the wall: by one thread, by all, and by separate sweeps.
-    let mut walls: Vec<[f64; 3]> = vec![];
+    let mut rounds = vec![];
     let mut found = None;
-    let threads = std::thread::available_parallelism().map_or(1, usize::from);
+    let count = std::thread::available_parallelism().map_or(1, usize::from);
     for _ in 0..TIMES {
         let (one, seconds) = timed(|| sweep("20 s").threads(1).width(1).run(&combinations));
         alone.push(seconds / each);
         let wall = Instant::now();
         let (side_by_side, seconds) = timed(|| sweep("20 s").threads(1).run(&many));
-        let single = wall.elapsed().as_secs_f64();
+        let one_thread = wall.elapsed().as_secs_f64();
         lanes.push(seconds / each_of_many);
         let wall = Instant::now();
-        let together = sweep("20 s").threads(threads).run(&many);
-        let all = wall.elapsed().as_secs_f64();
-        walls.push([single, all, separate_sweeps(&many, threads)]);
+        let together = sweep("20 s").threads(count).run(&many);
+        rounds.push(Round {
+            one: one_thread,
+            all: wall.elapsed().as_secs_f64(),
+            separate: separately(&many, count, |part| drop(sweep("20 s").threads(1).run(part))),
+        });
         // One step costs nothing beside what leads to it.
         let (_, seconds) = timed(|| sweep("1 ms").threads(1).run(&many));
         setup.push(seconds / each_of_many);
@@ -250,18 +232,13 @@ pub fn sweep_block(side: usize) -> BlockSweep {
         |all: &Outcomes| all.chunks(combinations.len().max(1)).all(|round| text(round) == one);
     let good = || side_by_side.iter().flatten();
     let iterations: f64 = good().map(|o| o.iterations as f64).sum();
-    let fastest = |k: usize| walls.iter().map(|pair| pair[k]).fold(f64::INFINITY, f64::min);
-    let least = |times: &[f64]| times.iter().copied().fold(f64::INFINITY, f64::min);
     BlockSweep {
         analyses: combinations.len(),
         fastest_s: [least(&alone), least(&lanes)],
         alone_s: median(alone),
         lanes_s: median(lanes),
         setup_s: median(setup),
-        threads,
-        speedup: fastest(0) / fastest(1),
-        speedup_median: median(walls.iter().map(|[one, all, _]| one / all).collect()),
-        beside_separate: median(walls.iter().map(|[_, all, separate]| separate / all).collect()),
+        threads: threads(count, &rounds),
         iterations: iterations / (STEPS * each_of_many),
         left: good().filter(|o| !matches!(o.engine, Engine::Lanes)).count(),
         failed: side_by_side.iter().filter(|o| o.is_err()).count(),

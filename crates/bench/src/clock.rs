@@ -44,6 +44,11 @@ fn status_mb(key: &str) -> f64 {
         .map_or(0.0, |kb| kb / 1024.0)
 }
 
+/// The smallest of some values; infinite of none.
+pub(crate) fn least(values: &[f64]) -> f64 {
+    values.iter().copied().fold(f64::INFINITY, f64::min)
+}
+
 /// The middle of some values; NaN of none.
 #[must_use]
 pub fn median(mut values: Vec<f64>) -> f64 {

@@ -23,6 +23,7 @@ pub mod report;
 mod size;
 mod subject;
 mod table;
+mod threads;
 
 pub use block::{BlockPair, BlockSweep, block_beside, block_ratios, sweep_block};
 pub use endurance::{Endurance, Moment, endure};
@@ -33,3 +34,4 @@ pub use measure::{Accuracy, Effort, Measurement, WHOLE, measure};
 pub use peers::{OpenSees, Pair, Programs, SideBySide, side_by_side};
 pub use size::{Peaks, SIZES, SOURCE, Size, find};
 pub use subject::{Subject, Task};
+pub use threads::Threads;

@@ -44,11 +44,11 @@ impl Results {
         if self.sweeps().next().is_some() {
             let note = "A rigid block on two friction contacts, 20 s at 1 ms, friction 0.2 to 0.8 by sines of 0.2 to \
                         1 g: analyses in a second of CPU time on one thread, reading and set-up included, by the fastest \
-                        of nine runs and more, and in their median: cores of a shared machine change their pace. Speed-up \
-                        of all threads on the clock of the wall, by the fastest runs and in the median of pairs; beside \
-                        it how fast the threads of one sweep are against as many separate sweeps at once, one to a \
-                        thread with an equal part: more than 100 % where one core was faster and took more. Error: largest sway against OpenSees at steps of 0.02 ms. The other \
-                        programs run one combination, 0.4 and 0.8 g; ratios are of medians."
+                        run and in the median, as cores of a shared machine change their pace. Speed-up of all threads \
+                        on the clock of the wall, likewise; beside it the rate of the threads of one sweep over the sum \
+                        of the rates of separate sweeps at once, one to a thread: 100 % where sharing out costs nothing. \
+                        Error: largest sway against OpenSees at steps of 0.02 ms. The other programs run one \
+                        combination, 0.4 and 0.8 g; ratios are of medians."
                 .into();
             let mut tables = vec![self.swept()];
             if !self.blocks.is_empty() {
