@@ -2,7 +2,7 @@
 //! friction and amplitude.
 
 use crate::clock::{least, median, timed};
-use crate::threads::{Round, Threads, separately, threads};
+use crate::threads::{Round, Threads, separately};
 use crate::{Programs, child, peers};
 use serde::{Deserialize, Serialize};
 use std::time::Instant;
@@ -190,11 +190,11 @@ fn reference_error() -> f64 {
     REFERENCE.into_iter().map(error).fold(0.0, f64::max)
 }
 
-/// How often the combinations come in the sweeps in lanes: one round of them is over in 25 ms, too short to tell what
-/// several threads are worth.
+/// How often the combinations come in the sweeps in lanes: once, they are over in 25 ms on two threads, too soon to tell
+/// what several threads are worth; much oftener, no run has all cores at their best pace.
 const ROUNDS: usize = 4;
 
-/// How often everything is measured: spread over 20 s, longer than a shared machine keeps one pace.
+/// How often everything is measured: half a minute, longer than a shared machine keeps one pace.
 const TIMES: usize = 54;
 
 /// Measures a sweep of `side` × `side` combinations.
@@ -238,7 +238,7 @@ pub fn sweep_block(side: usize) -> BlockSweep {
         alone_s: median(alone),
         lanes_s: median(lanes),
         setup_s: median(setup),
-        threads: threads(count, &rounds),
+        threads: Threads::of(count, &rounds),
         iterations: iterations / (STEPS * each_of_many),
         left: good().filter(|o| !matches!(o.engine, Engine::Lanes)).count(),
         failed: side_by_side.iter().filter(|o| o.is_err()).count(),

@@ -2,6 +2,7 @@
 
 use crate::clock::{least, median};
 use serde::{Deserialize, Serialize};
+use std::panic::resume_unwind;
 use std::time::Instant;
 
 /// The same work on one thread, on all, and as separate pieces, many times in turn.
@@ -19,6 +20,17 @@ pub struct Threads {
 }
 
 impl Threads {
+    /// The figures of several rounds on so many threads.
+    pub(crate) fn of(count: usize, rounds: &[Round]) -> Self {
+        let of = |read: fn(&Round) -> f64| rounds.iter().map(read).collect::<Vec<_>>();
+        Self {
+            count,
+            fastest_s: [least(&of(|r| r.one)), least(&of(|r| r.all))],
+            median: median(of(|r| r.one / r.all)),
+            of_separate: median(of(Round::of_separate)),
+        }
+    }
+
     /// How much faster all threads are than one: the fastest run of each.
     #[must_use]
     pub fn speedup(&self) -> f64 {
@@ -53,17 +65,6 @@ impl Round {
     }
 }
 
-/// The figures of several rounds.
-pub(crate) fn threads(count: usize, rounds: &[Round]) -> Threads {
-    let of = |read: fn(&Round) -> f64| rounds.iter().map(read).collect::<Vec<_>>();
-    Threads {
-        count,
-        fastest_s: [least(&of(|r| r.one)), least(&of(|r| r.all))],
-        median: median(of(|r| r.one / r.all)),
-        of_separate: median(of(Round::of_separate)),
-    }
-}
-
 /// Works on equal pieces at once, each on a thread of its own: the share of each and its wall-clock time, s.
 pub(crate) fn separately<T: Sync>(
     items: &[T],
@@ -78,7 +79,7 @@ pub(crate) fn separately<T: Sync>(
     std::thread::scope(|scope| {
         let pieces = items.chunks(items.len().div_ceil(count).max(1));
         let running: Vec<_> = pieces.map(|piece| scope.spawn(|| one(piece))).collect();
-        running.into_iter().filter_map(|w| w.join().ok()).collect()
+        running.into_iter().map(|w| w.join().unwrap_or_else(|e| resume_unwind(e))).collect()
     })
 }
 
@@ -91,7 +92,7 @@ mod tests {
         // One thread does 10 a second, the other 5; half the work each; together 15 a second where nothing is lost.
         let separate = vec![(0.5, 0.05), (0.5, 0.1)];
         let round = |all: f64| Round { one: 0.1, all, separate: separate.clone() };
-        let found = threads(2, &[round(1.0 / 15.0), round(1.0 / 15.0), round(0.08)]);
+        let found = Threads::of(2, &[round(1.0 / 15.0), round(1.0 / 15.0), round(0.08)]);
         assert!((found.of_separate - 1.0).abs() < 1e-12, "{found:?}");
         assert!((found.median - 1.5).abs() < 1e-12 && found.speedup() == found.median);
         let slower = Threads { fastest_s: [0.09, 0.08], median: 1.2, ..found.clone() };
