@@ -80,9 +80,9 @@ fn a_run_that_finds_no_equilibrium_says_where_and_keeps_the_last_good_state() {
         trilith_model::read_text(text, std::path::Path::new("brittle.ron"), &kinds, &[]).unwrap();
     let system = System::new(&model).unwrap();
     for solver in SolverKind::ALL {
-        let mut seen = Trace::default();
+        let (mut seen, mut told) = (Trace::default(), Told { nodes: 1, ..Told::default() });
         let options = RunOptions { solver: Some(solver), ..RunOptions::default() };
-        let result = run(&model, &system, options, &mut [&mut seen]).unwrap();
+        let result = run(&model, &system, options, &mut [&mut seen, &mut told]).unwrap();
         let Status::NotConverged { t, worst, .. } = &result.status else {
             panic!("{}: {:?}", solver.name(), result.status)
         };
@@ -92,6 +92,66 @@ fn a_run_that_finds_no_equilibrium_says_where_and_keeps_the_last_good_state() {
         assert!((result.end.displacement[0] - 0.5).abs() < 1e-4, "{:?}", result.end.displacement);
         assert_eq!(result.end.displacement[0].to_bits(), seen.last[0].to_bits());
         assert!(seen.history.len() >= 5, "the history up to the failure is kept");
+        // The end is shown where it happened, between two output times.
+        let (end, u) = told.end.unwrap();
+        assert!(told.last == Some((end, u)) && (end - t).abs() < 1e-3 && end > 0.05, "{end}");
+        assert_eq!((told.steps, told.outputs), (Some(100), seen.history.len()));
+    }
+}
+
+/// What an observer is told beside the samples, in its order.
+#[derive(Default)]
+struct Told {
+    steps: Option<usize>,
+    outputs: usize,
+    /// Time, and first number of the shape.
+    last: Option<(f64, f64)>,
+    end: Option<(f64, f64)>,
+    nodes: usize,
+}
+
+impl Told {
+    fn look(&self, s: &Sample<'_>) -> Option<(f64, f64)> {
+        let mut u = vec![0.0; 6 * self.nodes];
+        s.shape.displacements(&mut u);
+        Some((s.t, u.iter().sum()))
+    }
+}
+
+impl Observer for Told {
+    fn start(&mut self, steps: usize) {
+        assert!(self.steps.is_none() && self.last.is_none(), "once, before the first sample");
+        self.steps = Some(steps);
+    }
+
+    fn sample(&mut self, s: &Sample<'_>) {
+        assert!(self.end.is_none(), "nothing after the end");
+        self.outputs += usize::from(s.output_step.is_some());
+        self.last = self.look(s);
+    }
+
+    fn end(&mut self, s: &Sample<'_>) {
+        assert!(self.end.is_none(), "once");
+        self.end = self.look(s);
+    }
+}
+
+#[test]
+fn an_observer_is_told_of_the_start_and_shown_the_end_again() {
+    let (model, system) = shipped("rigid_block.ron", &[]);
+    let gravity = 0;
+    let shake = model.cases.len() - 1;
+    for solver in SolverKind::ALL {
+        for (case, steps) in [(gravity, 0), (shake, 40)] {
+            let mut told = Told { nodes: model.nodes.len(), ..Told::default() };
+            let dt = Some(0.002);
+            let until = Some(0.08);
+            let options =
+                RunOptions { case, solver: Some(solver), dt, until, ..RunOptions::default() };
+            run(&model, &system, options, &mut [&mut told]).unwrap();
+            assert_eq!((told.steps, told.outputs), (Some(steps), steps + 1));
+            assert!(told.end.is_some() && told.end == told.last, "{:?}", told.end);
+        }
     }
 }
 

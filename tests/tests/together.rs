@@ -10,10 +10,19 @@ use trilith_tests::{registry, set_step, shipped};
 struct Seen(Vec<u64>);
 
 impl Observer for Seen {
+    fn start(&mut self, steps: usize) {
+        self.0.push(steps as u64);
+    }
+
     fn sample(&mut self, s: &Sample<'_>) {
         let energies = [s.energy.input, s.energy.kinetic, s.energy.link_hysteretic, s.energy.error];
         let numbers = [&[s.t], s.values, s.rates, &energies].concat();
         self.0.extend(numbers.iter().map(|x| x.to_bits()));
+    }
+
+    fn end(&mut self, s: &Sample<'_>) {
+        self.0.push(u64::MAX);
+        self.sample(s);
     }
 }
 

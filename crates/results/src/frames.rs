@@ -1,4 +1,4 @@
-//! Deformed shapes, evenly thinned while a run goes on.
+//! Deformed shapes, evenly spaced over a run.
 
 use trilith_element::Vector3;
 use trilith_solvers::Shape;
@@ -15,101 +15,112 @@ pub struct Frame {
     pub outlines: Vec<[f32; 3]>,
 }
 
-/// Keeps at most so many deformed shapes: when they become too many, every second one goes and from
-/// then on only every second comes. Memory is bounded whatever the length of the run.
+/// Keeps so many deformed shapes at most, those of the start and of the end among them. No others are asked for: in a
+/// large model a shape costs more than a step.
 #[derive(Clone, Debug)]
 pub struct Frames {
     limit: usize,
     stride: usize,
+    seen: usize,
     kept: Vec<Frame>,
-    last: Option<Frame>,
     buffer: Vec<f64>,
     points: Vec<Vector3>,
 }
 
 impl Frames {
-    /// Keeps up to `limit` shapes of `nodes` nodes; 0 keeps none.
+    /// Keeps up to `limit` shapes of `nodes` nodes; fewer than two, start and end, are none.
     #[must_use]
     pub fn new(nodes: usize, limit: usize) -> Self {
         let buffer = vec![0.0; 6 * nodes];
-        // The last moment is kept beside the evenly spaced ones.
-        Self {
-            limit: limit.saturating_sub(1),
-            stride: 1,
-            kept: Vec::new(),
-            last: None,
-            buffer,
-            points: Vec::new(),
+        Self { limit, stride: 1, seen: 0, kept: Vec::new(), buffer, points: Vec::new() }
+    }
+
+    /// The shapes kept, in time order, evenly spaced but for the last.
+    pub fn iter(&self) -> impl Iterator<Item = &Frame> {
+        self.kept.iter()
+    }
+
+    /// A run of so many output steps starts.
+    pub(crate) fn start(&mut self, steps: usize) {
+        self.stride = steps.div_ceil(self.limit.saturating_sub(1).max(1)).max(1);
+    }
+
+    /// The next output time.
+    pub(crate) fn take(&mut self, t: f64, shape: &dyn Shape) {
+        if self.seen.is_multiple_of(self.stride) {
+            self.keep(t, shape);
+        }
+        self.seen += 1;
+    }
+
+    /// The run ends there.
+    pub(crate) fn end(&mut self, t: f64, shape: &dyn Shape) {
+        if self.kept.last().is_none_or(|last| last.t != t) {
+            self.keep(t, shape);
         }
     }
 
-    /// The shapes kept, in time order; the last output time is always among them.
-    pub fn iter(&self) -> impl Iterator<Item = &Frame> {
-        let t = self.kept.last().map(|f| f.t);
-        self.kept.iter().chain(self.last.iter().filter(move |f| Some(f.t) != t))
-    }
-
-    pub(crate) fn take(&mut self, step: usize, t: f64, shape: &dyn Shape) {
-        if self.limit == 0 {
+    fn keep(&mut self, t: f64, shape: &dyn Shape) {
+        if self.limit < 2 {
             return;
         }
         shape.displacements(&mut self.buffer);
         self.points.clear();
         shape.outlines(&mut self.points);
-        let last = self.last.get_or_insert_with(|| Frame {
+        self.kept.push(Frame {
             t,
-            displacements: Vec::new(),
-            outlines: Vec::new(),
+            displacements: self.buffer.iter().map(|u| *u as f32).collect(),
+            outlines: self.points.iter().map(|p| p.map(|x| x as f32)).collect(),
         });
-        last.t = t;
-        last.displacements.clear();
-        last.displacements.extend(self.buffer.iter().map(|u| *u as f32));
-        last.outlines.clear();
-        last.outlines.extend(self.points.iter().map(|p| p.map(|x| x as f32)));
-        if step.is_multiple_of(self.stride) {
-            if self.kept.len() == self.limit {
-                let mut even = false;
-                self.kept.retain(|_| {
-                    even = !even;
-                    even
-                });
-                self.stride *= 2;
-            }
-            if step.is_multiple_of(self.stride) {
-                self.kept.push(last.clone());
-            }
-        }
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use std::cell::Cell;
 
-    struct Still;
+    #[derive(Default)]
+    struct Still {
+        asked: Cell<usize>,
+    }
+
     impl Shape for Still {
         fn displacements(&self, u: &mut [f64]) {
+            self.asked.set(self.asked.get() + 1);
             u.fill(0.5);
         }
     }
 
-    #[test]
-    fn frames_are_evenly_thinned_and_keep_start_and_end() {
-        let mut frames = Frames::new(1, 10);
-        for step in 0..=1003 {
-            frames.take(step, step as f64, &Still);
-        }
+    fn times(limit: usize, steps: usize, made: usize) -> Vec<f64> {
+        let (mut frames, shape) = (Frames::new(1, limit), Still::default());
+        frames.start(steps);
+        (0..=made).for_each(|step| frames.take(step as f64, &shape));
+        frames.end(made as f64, &shape);
         let times: Vec<f64> = frames.iter().map(|f| f.t).collect();
-        assert!((5..=10).contains(&times.len()), "{times:?}");
-        assert_eq!((times[0], *times.last().unwrap()), (0.0, 1003.0));
-        let steps: Vec<f64> = times[..times.len() - 1].windows(2).map(|w| w[1] - w[0]).collect();
-        assert!(steps.iter().all(|s| *s == steps[0]), "{times:?}");
+        assert_eq!(shape.asked.get(), times.len(), "no shape is made that is not kept");
+        times
+    }
+
+    #[test]
+    fn frames_are_evenly_spaced_and_hold_start_and_end() {
+        for (limit, steps) in [(10, 1003), (10, 1000), (10, 9), (10, 4), (2, 7), (200, 4000)] {
+            let times = times(limit, steps, steps);
+            assert!((limit.min(steps + 1) / 2..=limit).contains(&times.len()), "{times:?}");
+            assert_eq!((times[0], *times.last().unwrap()), (0.0, steps as f64));
+            let even = &times[..times.len() - 1];
+            assert!(even.windows(3).all(|w| w[1] - w[0] == w[2] - w[1]), "{times:?}");
+        }
+    }
+
+    #[test]
+    fn a_run_that_stops_on_the_way_shows_where() {
+        assert_eq!(times(5, 8, 5), [0.0, 2.0, 4.0, 5.0]);
+        assert_eq!(times(5, 0, 0), [0.0]);
     }
 
     #[test]
     fn no_frames_cost_nothing() {
-        let mut frames = Frames::new(1, 0);
-        frames.take(0, 0.0, &Still);
-        assert_eq!(frames.iter().count(), 0);
+        assert!(times(0, 10, 10).is_empty() && times(1, 10, 10).is_empty());
     }
 }

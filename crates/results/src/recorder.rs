@@ -106,10 +106,14 @@ impl Recorder {
 }
 
 impl Observer for Recorder {
+    fn start(&mut self, steps: usize) {
+        self.frames.start(steps);
+    }
+
     fn sample(&mut self, s: &Sample<'_>) {
         self.envelope.sample(s);
         let Some(step) = s.output_step else { return };
-        self.frames.take(step, s.t, s.shape);
+        self.frames.take(s.t, s.shape);
         self.loops.take(step, s.t, s.deformation, s.force);
         if !self.keeps_histories {
             return;
@@ -121,6 +125,10 @@ impl Observer for Recorder {
         for (history, e) in self.energy.iter_mut().zip(energies(s.energy)) {
             history.push(e);
         }
+    }
+
+    fn end(&mut self, s: &Sample<'_>) {
+        self.frames.end(s.t, s.shape);
     }
 }
 

@@ -40,10 +40,11 @@ fn record(model: &Model) -> Recorder {
 }
 
 fn shown<T: Observer>(mut recorder: T) -> T {
+    recorder.start(10);
     for i in 0..=20 {
         let t = 0.05 * f64::from(i);
         let energy = EnergyTotals { input: t, ..EnergyTotals::default() };
-        recorder.sample(&Sample {
+        let sample = Sample {
             t,
             output_step: (i % 2 == 0).then_some(i as usize / 2),
             values: &[if i == 7 { 9.0 } else { t / 3.0 }, 1e-300 * t],
@@ -54,7 +55,11 @@ fn shown<T: Observer>(mut recorder: T) -> T {
             deformation: &[t],
             force: &[2.0 * t],
             shape: &Lifted(t),
-        });
+        };
+        recorder.sample(&sample);
+        if i == 20 {
+            recorder.end(&sample);
+        }
     }
     recorder
 }

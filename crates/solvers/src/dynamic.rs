@@ -127,13 +127,14 @@ pub(crate) fn run(
     };
     let mut state = Box::new(state);
     let mut viewer = Viewer::new(model, system, &loads, stepper.space(), observers);
-    viewer.show(timeline.time(first), Some(first), &state, &ledger);
-    let setup_cpu = clock.cpu();
     let last = match options.until {
         Some(t) => ((t / dt) - 1e-9).ceil().max(0.0) as usize,
         None => timeline.steps,
     }
     .min(timeline.steps);
+    viewer.start(last.saturating_sub(first));
+    viewer.show(timeline.time(first), Some(first), &state, &ledger);
+    let setup_cpu = clock.cpu();
     let mut progress = options.progress;
     let constant_force = constant_force(stepper.space(), &loads);
     let mut march = March::new(stepper.as_mut(), &loads, solution.step);
@@ -164,6 +165,7 @@ pub(crate) fn run(
             break;
         }
     }
+    viewer.end(&state, &ledger);
     let counts = march.counts;
     if let Some(Stop::Fatal(e)) = stop {
         return Err(e);

@@ -39,8 +39,14 @@ pub trait Shape {
 
 /// Watches a run.
 pub trait Observer {
+    /// Called once before the first sample: at most so many output steps follow that one.
+    fn start(&mut self, _steps: usize) {}
+
     /// Called at the start and after every accepted substep, in time order.
     fn sample(&mut self, sample: &Sample<'_>);
+
+    /// Called once where the run ends, wherever that is, with the last sample again.
+    fn end(&mut self, _sample: &Sample<'_>) {}
 
     /// False where it never looks at the rates of a sample: where no observer does, nobody makes them, and they
     /// are not numbers.

@@ -74,6 +74,8 @@ pub(crate) struct Viewer<'a, 'b> {
     bodies: Vec<(&'a dyn Link, &'a LinkInstance)>,
     contacts: Vec<(usize, Contact)>,
     own: Vec<Contact>,
+    /// Time and output step last shown.
+    last: (f64, Option<usize>),
     observers: &'a mut [&'b mut dyn Observer],
 }
 
@@ -133,8 +135,14 @@ impl<'a, 'b> Viewer<'a, 'b> {
             bodies,
             contacts: Vec::new(),
             own: Vec::new(),
+            last: (0.0, None),
             observers,
         }
+    }
+
+    /// Tells that the run starts, with at most so many output steps to come.
+    pub(crate) fn start(&mut self, steps: usize) {
+        self.observers.iter_mut().for_each(|o| o.start(steps));
     }
 
     /// Shows a state; `step` is the index of the output step that ends there.
@@ -148,7 +156,25 @@ impl<'a, 'b> Viewer<'a, 'b> {
             now.rates(&self.values, &mut self.rates);
         }
         self.touch(state);
+        self.last = (t, step);
+        self.tell(state, ledger, |o, sample| o.sample(sample));
+    }
+
+    /// Tells that the run ends, with the state that was shown last.
+    pub(crate) fn end(&mut self, state: &State, ledger: &Ledger) {
+        self.tell(state, ledger, |o, sample| o.end(sample));
+    }
+
+    /// Hands the values of the state shown last to the observers.
+    #[inline]
+    fn tell(
+        &mut self,
+        state: &State,
+        ledger: &Ledger,
+        how: impl Fn(&mut dyn Observer, &Sample<'_>),
+    ) {
         let overturned = self.overturned(state);
+        let (t, output_step) = self.last;
         let shape = Figure {
             system: self.system,
             coordinates: &self.coordinates,
@@ -158,9 +184,9 @@ impl<'a, 'b> Viewer<'a, 'b> {
             t,
         };
         for observer in self.observers.iter_mut() {
-            observer.sample(&Sample {
+            let sample = Sample {
                 t,
-                output_step: step,
+                output_step,
                 values: &self.values,
                 rates: &self.rates,
                 energy: &ledger.totals,
@@ -169,7 +195,8 @@ impl<'a, 'b> Viewer<'a, 'b> {
                 deformation: &state.d,
                 force: &state.f,
                 shape: &shape,
-            });
+            };
+            how(&mut **observer, &sample);
         }
     }
 
@@ -214,5 +241,7 @@ pub(crate) fn show_static(
     let space = Space::physical(system, &loads, &vec![0.0; system.links.len()], None);
     let mut viewer = Viewer::new(model, system, &loads, &space, observers);
     let ledger = Ledger::of(energy);
+    viewer.start(0);
     viewer.show(0.0, Some(0), state, &ledger);
+    viewer.end(state, &ledger);
 }

@@ -82,7 +82,13 @@ impl<'a, 'b> Course<'a, 'b> {
 
     /// Shows the state it starts from.
     pub(super) fn show_start(&mut self) {
+        self.viewer.start(self.timeline.steps);
         self.viewer.show(self.timeline.time(0), Some(0), &self.state, &self.ledger);
+    }
+
+    /// Tells that it has ended.
+    pub(super) fn show_end(&mut self) {
+        self.viewer.end(&self.state, &self.ledger);
     }
 
     /// Length of the output step under way.

@@ -174,6 +174,7 @@ fn march<O: Observer>(
         }
         courses.iter_mut().filter(|c| c.is_on_the_way()).for_each(|c| c.arrive());
     }
+    courses.iter_mut().filter(|c| !c.left).for_each(Course::show_end);
     let share = (courses.len() as f64).recip();
     let result = |(course, entrant): (Course<'_, '_>, &&Entrant<'_>)| {
         if course.left {
