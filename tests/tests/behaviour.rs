@@ -104,7 +104,7 @@ fn a_run_that_finds_no_equilibrium_says_where_and_keeps_the_last_good_state() {
 struct Told {
     steps: Option<usize>,
     outputs: usize,
-    /// Time, and first number of the shape.
+    /// Time, and sum of the displacements.
     last: Option<(f64, f64)>,
     end: Option<(f64, f64)>,
     nodes: usize,

@@ -1,5 +1,6 @@
 //! Deformed shapes, evenly spaced over a run.
 
+use crate::spacing::Spacing;
 use trilith_element::Vector3;
 use trilith_solvers::Shape;
 
@@ -20,8 +21,7 @@ pub struct Frame {
 #[derive(Clone, Debug)]
 pub struct Frames {
     limit: usize,
-    stride: usize,
-    seen: usize,
+    spacing: Spacing,
     kept: Vec<Frame>,
     buffer: Vec<f64>,
     points: Vec<Vector3>,
@@ -32,7 +32,7 @@ impl Frames {
     #[must_use]
     pub fn new(nodes: usize, limit: usize) -> Self {
         let buffer = vec![0.0; 6 * nodes];
-        Self { limit, stride: 1, seen: 0, kept: Vec::new(), buffer, points: Vec::new() }
+        Self { limit, spacing: Spacing::new(limit), kept: Vec::new(), buffer, points: Vec::new() }
     }
 
     /// The shapes kept, in time order, evenly spaced but for the last.
@@ -42,15 +42,14 @@ impl Frames {
 
     /// A run of so many output steps starts.
     pub(crate) fn start(&mut self, steps: usize) {
-        self.stride = steps.div_ceil(self.limit.saturating_sub(1).max(1)).max(1);
+        self.spacing.start(steps);
     }
 
     /// The next output time.
     pub(crate) fn take(&mut self, t: f64, shape: &dyn Shape) {
-        if self.seen.is_multiple_of(self.stride) {
+        if self.spacing.picks() {
             self.keep(t, shape);
         }
-        self.seen += 1;
     }
 
     /// The run ends there.

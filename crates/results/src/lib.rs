@@ -16,6 +16,7 @@ mod loops;
 mod npz;
 mod peaks;
 mod recorder;
+mod spacing;
 mod spectra;
 mod summary;
 #[cfg(test)]

@@ -1,5 +1,6 @@
 //! Deformation and force of the links, kept for their hysteresis loops.
 
+use crate::spacing::Spacing;
 use trilith_model::{Body, Model};
 
 /// Numbers kept at most.
@@ -18,17 +19,15 @@ pub struct LoopPoint {
     pub f: f64,
 }
 
-/// Keeps deformation and force of every link coordinate at output times. When they become too many, every
-/// second moment goes and from then on only every second comes: memory is bounded whatever the length of
-/// the run. Single precision.
-#[derive(Clone, Debug, Default)]
+/// Keeps deformation and force of every link coordinate at output times, all or, in long runs, evenly spaced ones:
+/// memory is bounded whatever the length of the run. Single precision.
+#[derive(Clone, Debug)]
 pub struct Loops {
     /// (element, first coordinate in the flat arrays, number of coordinates).
     links: Vec<(usize, usize, usize)>,
     /// Coordinates of all links.
     width: usize,
-    limit: usize,
-    stride: usize,
+    spacing: Spacing,
     t: Vec<f64>,
     /// Deformations, then forces, moment after moment.
     values: Vec<f32>,
@@ -47,7 +46,16 @@ impl Loops {
             }
         }
         let limit = (ROOM / (2 * width).max(1)).clamp(MOMENTS.0, MOMENTS.1);
-        Self { links, width, limit, stride: 1, t: Vec::new(), values: Vec::new() }
+        Self::of(links, width, limit)
+    }
+
+    /// None.
+    pub(crate) fn none() -> Self {
+        Self::of(Vec::new(), 0, 0)
+    }
+
+    fn of(links: Vec<(usize, usize, usize)>, width: usize, limit: usize) -> Self {
+        Self { links, width, spacing: Spacing::new(limit), t: Vec::new(), values: Vec::new() }
     }
 
     /// Elements that are links, with the number of their coordinates.
@@ -58,7 +66,7 @@ impl Loops {
     /// Output steps from one moment to the next: 1 where nothing was left out.
     #[must_use]
     pub fn stride(&self) -> usize {
-        self.stride
+        self.spacing.stride()
     }
 
     /// The moments of a coordinate of a link, by the index of the element; none for other elements.
@@ -79,31 +87,18 @@ impl Loops {
         })
     }
 
-    pub(crate) fn take(&mut self, step: usize, t: f64, deformation: &[f64], force: &[f64]) {
-        if self.width == 0 || deformation.len() != self.width || !step.is_multiple_of(self.stride) {
+    /// A run of so many output steps starts.
+    pub(crate) fn start(&mut self, steps: usize) {
+        self.spacing.start(steps);
+    }
+
+    /// The next output time.
+    pub(crate) fn take(&mut self, t: f64, deformation: &[f64], force: &[f64]) {
+        if self.width == 0 || deformation.len() != self.width || !self.spacing.picks() {
             return;
-        }
-        if self.t.len() == self.limit {
-            self.halve();
-            if !step.is_multiple_of(self.stride) {
-                return;
-            }
         }
         self.t.push(t);
         self.values.extend(deformation.iter().chain(force).map(|x| *x as f32));
-    }
-
-    /// Drops every second moment.
-    fn halve(&mut self) {
-        let row = 2 * self.width;
-        for (to, from) in (0..self.t.len()).step_by(2).enumerate() {
-            self.t[to] = self.t[from];
-            self.values.copy_within(from * row..(from + 1) * row, to * row);
-        }
-        let kept = self.t.len().div_ceil(2);
-        self.t.truncate(kept);
-        self.values.truncate(kept * row);
-        self.stride *= 2;
     }
 }
 
@@ -113,11 +108,11 @@ mod tests {
 
     #[test]
     fn a_long_run_keeps_every_nth_moment() {
-        let mut loops =
-            Loops { links: vec![(3, 0, 2)], width: 2, limit: 10, stride: 1, ..Loops::default() };
+        let mut loops = Loops::of(vec![(3, 0, 2)], 2, 10);
+        loops.start(1003);
         for step in 0..=1003_u32 {
             let x = f64::from(step);
-            loops.take(step as usize, x, &[x, 2.0 * x], &[3.0 * x, 4.0 * x]);
+            loops.take(x, &[x, 2.0 * x], &[3.0 * x, 4.0 * x]);
         }
         let kept: Vec<LoopPoint> = loops.coordinate(3, 1).collect();
         assert!((5..=10).contains(&kept.len()), "{kept:?}");

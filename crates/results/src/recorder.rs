@@ -42,7 +42,7 @@ impl Recorder {
             energy: Default::default(),
             envelope: Envelope::new(),
             frames: Frames::new(model.nodes.len(), 0),
-            loops: Loops::default(),
+            loops: Loops::none(),
             keeps_histories: true,
         }
     }
@@ -108,13 +108,16 @@ impl Recorder {
 impl Observer for Recorder {
     fn start(&mut self, steps: usize) {
         self.frames.start(steps);
+        self.loops.start(steps);
     }
 
     fn sample(&mut self, s: &Sample<'_>) {
         self.envelope.sample(s);
-        let Some(step) = s.output_step else { return };
+        if s.output_step.is_none() {
+            return;
+        }
         self.frames.take(s.t, s.shape);
-        self.loops.take(step, s.t, s.deformation, s.force);
+        self.loops.take(s.t, s.deformation, s.force);
         if !self.keeps_histories {
             return;
         }
