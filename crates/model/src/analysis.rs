@@ -205,11 +205,21 @@ pub struct Basis {
     /// Flexibility of every link coordinate that the basis must hold, as share of the exact one;
     /// 0: none, so no vector is made for the links.
     pub adequacy: f64,
+    /// Error by reduction that is allowed in any output, as share of its range.
+    pub tolerance: f64,
+    /// True where a basis that is not good enough is enlarged.
+    pub enrich: bool,
 }
 
 impl Default for Basis {
     fn default() -> Self {
-        Self { kind: BasisKind::Ritz, vectors: None, adequacy: 0.99 }
+        Self {
+            kind: BasisKind::Ritz,
+            vectors: None,
+            adequacy: 0.99,
+            tolerance: 0.02,
+            enrich: true,
+        }
     }
 }
 

@@ -16,10 +16,11 @@
 
 use crate::condensation::Condensation;
 use crate::error::SolveError;
-use crate::massless;
+use crate::massless::StaticShapes;
 use crate::observe::{Adequacy, BasisReport, ModeShape};
 use crate::shapes::Shapes;
 use crate::span::{Origin, Span, Speed};
+use crate::start::Initial;
 use crate::vector::dot;
 use std::sync::Arc;
 use trilith_linalg::{
@@ -41,6 +42,9 @@ const DOUBT: f64 = 1e4;
 const HELD: f64 = 1e-11;
 /// Right-hand sides solved together.
 const BLOCK: usize = 16;
+/// One vector in so many is added to make the wider basis, and so many at least.
+const WIDER: usize = 4;
+const AT_LEAST: usize = 8;
 /// Automatic dummies as a share of the engaged stiffness of a link.
 const DUMMY_SHARE: f64 = 1e-3;
 /// Modes shown in pictures.
@@ -49,11 +53,11 @@ const SHAPES: usize = 6;
 /// M-orthonormal modes in the span of a basis.
 #[derive(Clone, Debug)]
 pub(crate) struct RitzBasis {
-    /// The modes, and after them static shapes of places without mass.
+    /// The modes, and after them shapes of directions without mass.
     pub shapes: Arc<Shapes>,
     pub omega2: Vec<f64>,
-    /// Images of the static shapes under the stiffness.
-    pub images: Dense,
+    /// The latter.
+    pub statics: StaticShapes,
 }
 
 impl RitzBasis {
@@ -64,7 +68,7 @@ impl RitzBasis {
 
     /// Number of static shapes.
     pub(crate) fn statics(&self) -> usize {
-        self.images.columns()
+        self.statics.len()
     }
 }
 
@@ -74,16 +78,60 @@ pub(crate) struct Bases {
     pub stepping: Arc<RitzBasis>,
     /// Modes of the structure alone: what modal damping acts on.
     pub structural: Arc<RitzBasis>,
+    /// The same of a span that holds this one and the next vectors of the same sequence.
+    pub wider: Option<Box<Bases>>,
     pub report: BasisReport,
 }
 
-/// K̂ = K + Bᵀ diag(dummies) B + shift M and its factor.
+/// K̂ = K + Bᵀ diag(dummies) B + shift M + rate C and its factor.
 struct Solvable {
     dummies: Vec<f64>,
     /// Bᵀ diag(dummies) B.
     springs: Sparse,
+    /// Of the mass where the structure can move freely, 1/s².
     shift: f64,
+    /// Of the dashpots where they alone hold a direction without mass, 1/s.
+    rate: f64,
     factor: StagedLdlt,
+}
+
+/// What a run asks of a basis, over the free DOFs.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Demands {
+    /// Directions of loads, by name.
+    pub loads: Vec<(String, Vec<f64>)>,
+    /// Displacements and velocities at the start.
+    pub starts: Vec<Vec<f64>>,
+    /// True where a wider basis is wanted as well, which tells what this one lacks.
+    pub wider: bool,
+}
+
+impl Demands {
+    /// Of loads and a start. The force that a displacement at the start asks for is a load as well: it moves what
+    /// dashpots hold.
+    pub(crate) fn new(
+        system: &System,
+        mut loads: Vec<(String, Vec<f64>)>,
+        initial: &Initial,
+    ) -> Self {
+        let moves = |u: &&Vec<f64>| u.iter().any(|x| *x != 0.0);
+        let Initial { beyond_equilibrium: displacement, velocity, .. } = initial;
+        if moves(&displacement) && !system.massless.is_empty() {
+            let force = system.stiffness_with(&system.links.effective).mul(displacement);
+            loads.push(("initial displacement".into(), force));
+        }
+        let starts = [displacement, velocity].into_iter().filter(moves).cloned().collect();
+        Self { loads, starts, wider: false }
+    }
+
+    pub(crate) fn is_empty(&self) -> bool {
+        self.loads.is_empty() && self.starts.is_empty()
+    }
+
+    /// Number of directions that each block of a recursion has.
+    fn count(&self) -> usize {
+        self.loads.len() + self.starts.len()
+    }
 }
 
 /// What the report needs of K̂⁻¹: p K̂⁻¹ p of the loads, and b K̂⁻¹ bᵀ of the active link coordinates.
@@ -94,8 +142,13 @@ struct Flexibility {
 
 impl Solvable {
     /// K̂ as a sum; made, it would weigh as much as K.
-    fn parts<'a>(&'a self, system: &'a System) -> [(f64, &'a Sparse); 3] {
-        [(1.0, &system.stiffness), (1.0, &self.springs), (self.shift, &system.mass)]
+    fn parts<'a>(&'a self, system: &'a System) -> [(f64, &'a Sparse); 4] {
+        [
+            (1.0, &system.stiffness),
+            (1.0, &self.springs),
+            (self.shift, &system.mass),
+            (self.rate, &system.element_damping),
+        ]
     }
 
     /// `known`: of the links, where they have been found already.
@@ -148,19 +201,25 @@ fn solvable(model: &Model, system: &System) -> Result<Solvable, SolveError> {
     // What dummies hold, the links hold when engaged, unless the user's stand where they never do.
     let as_links = pairs().all(|(e, user)| *user <= 0.0 || *e > 0.0);
     if as_links && let Some(factor) = held(&held_by)? {
-        return Ok(Solvable { dummies, springs, shift: 0.0, factor });
+        return Ok(Solvable { dummies, springs, shift: 0.0, rate: 0.0, factor });
     }
     system.check_supported(model, true)?;
     let k = Sparse::combine(&held_by);
-    let mut shift = 0.0;
+    let (mut shift, mut rate) = (0.0, 0.0);
     if !unsupported(&k)?.is_empty() {
         let sum = |a: &Sparse| a.diagonal().iter().sum::<f64>();
         let (stiff, heavy) = (sum(&k), sum(&system.mass));
-        // A mass shift makes regular what can move freely.
+        // A mass shift makes regular what can move freely, dashpots what they alone hold.
         shift = if stiff > 0.0 && heavy > 0.0 { 1e-6 * stiff / heavy } else { 1.0 };
+        let viscous = sum(&system.element_damping);
+        let by_mass = || Sparse::combine(&[(1.0, &k), (shift, &system.mass)]);
+        if viscous > 0.0 && !unsupported(&by_mass())?.is_empty() {
+            rate = if stiff > 0.0 { stiff / viscous } else { 1.0 };
+        }
     }
-    let factor = StagedLdlt::alone(&[(1.0, &k), (shift, &system.mass)])?;
-    Ok(Solvable { dummies, springs, shift, factor })
+    let parts = [(1.0, &k), (shift, &system.mass), (rate, &system.element_damping)];
+    let factor = StagedLdlt::alone(&parts)?;
+    Ok(Solvable { dummies, springs, shift, rate, factor })
 }
 
 /// The factor of a sum, where no pivot is rounding. Scaling to a unit diagonal would divide each pivot by its
@@ -189,21 +248,21 @@ pub(crate) fn build(
     model: &Model,
     system: &System,
     settings: &Basis,
-    loads: &[(String, Vec<f64>)],
+    demands: &Demands,
     adequacy: bool,
 ) -> Result<Bases, SolveError> {
-    let order = system.order();
+    let (order, loads) = (system.order(), &*demands.loads);
     let complete = settings.kind == BasisKind::Complete
         || (settings.vectors.is_none() && order <= COMPLETE_AUTOMATIC);
     let hat = solvable(model, system)?;
-    let (span, known) = if complete {
+    let (span, wider, known) = if complete {
         if order > COMPLETE_LIMIT {
             return Err(SolveError::BasisTooLarge { order, limit: COMPLETE_LIMIT });
         }
         let all = all_modes(&Sparse::combine(&hat.parts(system)), &system.mass)?.1;
-        (Shapes::new(Arc::new(Condensation::none(order)), all), None)
+        (Shapes::new(Arc::new(Condensation::none(order)), all), None, None)
     } else {
-        enriched(system, settings, loads, &hat)?
+        enriched(system, settings, demands, &hat)?
     };
     if span.len() == 0 {
         return Err(SolveError::NoMass);
@@ -212,17 +271,29 @@ pub(crate) fn build(
     let exact = hat.flexibility(system, loads, known.or((!adequacy).then(Vec::new)));
     let Solvable { dummies: held, shift, factor, .. } = hat;
     drop(factor);
+    let mut bases = in_both_forms(system, span, loads)?;
+    if let Some(wider) = wider {
+        bases.wider = Some(Box::new(in_both_forms(system, wider, loads)?));
+    }
+    bases.report = report(model, system, &bases.structural, loads, &held, shift, &exact);
+    Ok(bases)
+}
+
+/// A span as modes with and without the user's dummies.
+fn in_both_forms(
+    system: &System,
+    span: Shapes,
+    loads: &[(String, Vec<f64>)],
+) -> Result<Bases, SolveError> {
     let dummies = &system.links.effective;
-    let (structural, stepping) = if dummies.iter().all(|k| *k == 0.0) {
+    let report = BasisReport::default();
+    if dummies.iter().all(|k| *k == 0.0) {
         let both = Arc::new(modes_in(system, span, &system.stiffness, loads)?);
-        (Arc::clone(&both), both)
-    } else {
-        let structural = modes_in(system, span.clone(), &system.stiffness, loads)?;
-        let stepping = modes_in(system, span, &system.stiffness_with(dummies), loads)?;
-        (Arc::new(structural), Arc::new(stepping))
-    };
-    let report = report(model, system, &structural, loads, &held, shift, &exact);
-    Ok(Bases { stepping, structural, report })
+        return Ok(Bases { structural: Arc::clone(&both), stepping: both, wider: None, report });
+    }
+    let structural = Arc::new(modes_in(system, span.clone(), &system.stiffness, loads)?);
+    let stepping = Arc::new(modes_in(system, span, &system.stiffness_with(dummies), loads)?);
+    Ok(Bases { structural, stepping, wider: None, report })
 }
 
 /// Turns a span of M-orthonormal vectors into modes of `k`, with the static shapes beside them.
@@ -232,8 +303,8 @@ fn modes_in(
     k: &Sparse,
     loads: &[(String, Vec<f64>)],
 ) -> Result<RitzBasis, SolveError> {
-    let statics = massless::shapes(system, k, loads)?;
-    let span = massless::without(&statics, k, span);
+    let statics = StaticShapes::new(system, k, loads)?;
+    let span = statics.out_of(k, span);
     let (mut omega2, vectors) = graded_modes(span, k)?;
     // Most modes need no closer look.
     let sums = k.row_sums();
@@ -249,13 +320,9 @@ fn modes_in(
             *w = 0.0;
         }
     }
-    let statics = massless::uncoupled(statics, system, &vectors);
-    let mut images = Dense::zeros(statics.rows(), statics.columns());
-    for j in 0..images.columns() {
-        k.mul_add(1.0, statics.column(j), images.column_mut(j));
-    }
-    let shapes = Arc::new(vectors.beside(&statics));
-    Ok(RitzBasis { shapes, omega2, images })
+    let statics = statics.beside(system, k, &vectors);
+    let shapes = Arc::new(vectors.beside(&statics.psi));
+    Ok(RitzBasis { shapes, omega2, statics })
 }
 
 /// Modes in a span of M-orthonormal vectors, rising. An eigenvalue is found no better than the rounding of
@@ -280,54 +347,78 @@ fn graded_modes(mut vectors: Shapes, k: &Sparse) -> Result<(Vec<f64>, Shapes), S
 fn enriched(
     system: &System,
     settings: &Basis,
-    loads: &[(String, Vec<f64>)],
+    demands: &Demands,
     hat: &Solvable,
-) -> Result<(Shapes, Option<Vec<f64>>), SolveError> {
+) -> Result<(Shapes, Option<Shapes>, Option<Vec<f64>>), SolveError> {
+    let loads = &*demands.loads;
     // Who asks for no flexibility of the links gets no vectors for them.
     let links: &[usize] = if settings.adequacy > 0.0 { &system.links.active } else { &[] };
-    let automatic = 20 * loads.len().max(2);
-    let ground = match settings.vectors {
-        None => automatic,
-        Some(n) if n >= links.len() + 2 * loads.len().max(1) => n - links.len(),
-        Some(n) => n,
+    let automatic = 20 * demands.count().max(2);
+    // Links and what drives the structure share what there is: neither takes from the half of the other.
+    let (ground, of_links) = match settings.vectors {
+        None => (automatic, links.len()),
+        Some(n) => {
+            let of_links = links.len().min(n / 2);
+            (n - of_links, of_links)
+        }
     };
-    let total = settings.vectors.unwrap_or(ground + links.len());
+    let total = ground + of_links;
+    let more = if demands.wider { total.div_ceil(WIDER).max(AT_LEAST) } else { 0 };
     let parts = hat.parts(system);
     let rows = Condensation::new(system, loads)?;
-    let mut span = Span::new(&rows, &system.mass, &parts, total);
-    match settings.kind {
-        BasisKind::Eigen => {
-            let count = ground.min(system.order());
-            let (_, vectors) =
-                lowest_modes(&Sparse::combine(&hat.parts(system)), &system.mass, count, 0.0)?;
-            let kept = |j| rows.gather(vectors.column(j)).into_owned();
-            let all = (0..vectors.columns()).map(kept).collect();
-            span.take(all, Origin::Anywhere, Speed::Any);
-        }
-        _ => recurse(&mut span, &rows, hat, loads, ground),
+    let mut span = Span::new(&rows, &system.mass, &parts, total + more);
+    let own = |u: &Vec<f64>| rows.gather(u).into_owned();
+    let mut block: Vec<Vec<f64>> = Vec::new();
+    let mut modes: Vec<Vec<f64>> = Vec::new();
+    if settings.kind == BasisKind::Eigen {
+        let count = (ground + more).min(system.order());
+        let (_, vectors) =
+            lowest_modes(&Sparse::combine(&hat.parts(system)), &system.mass, count, 0.0)?;
+        modes = (0..vectors.columns()).map(|j| own(&vectors.column(j).to_vec())).collect();
+        let beyond = modes.split_off(ground.min(modes.len()));
+        span.take(std::mem::replace(&mut modes, beyond), Origin::Anywhere, Speed::Any);
+    } else {
+        block.extend(loads.iter().map(|(_, p)| own(p)));
+        // What the run starts from must be there itself; masses in motion go on as loads.
+        let starts = demands.starts.iter().map(own).take(ground).collect();
+        block.extend(span.take(starts, Origin::Anywhere, Speed::OfModes));
+        block = recurse(&mut span, &rows, hat, block, ground);
     }
     let mut known = Vec::with_capacity(links.len());
+    // Where there is no room for all, those taken are spread over all.
+    let is_taken = |i: usize| (i + 1) * of_links / links.len() > i * of_links / links.len();
     hat.static_shapes(system, links, |x, flexibility| {
         known.push(flexibility);
-        if span.len() < total {
+        if span.len() < total && is_taken(known.len() - 1) {
             span.take(vec![rows.gather(x).into_owned()], Origin::Anywhere, Speed::OfModes);
         }
     });
     let known = (settings.adequacy > 0.0).then_some(known);
-    let kept = span.into_dense();
-    Ok((Shapes::new(Arc::new(rows), kept), known))
+    let count = span.len();
+    if more > 0 {
+        span.take(modes, Origin::Anywhere, Speed::Any);
+        recurse(&mut span, &rows, hat, block, count + more);
+    }
+    let all = span.into_dense();
+    let rows = Arc::new(rows);
+    if all.columns() == count {
+        return Ok((Shapes::new(rows, all), None, known));
+    }
+    let first = all.values()[..count * all.rows()].to_vec();
+    let first = Shapes::new(Arc::clone(&rows), Dense::from_columns(all.rows(), count, first));
+    Ok((first, Some(Shapes::new(rows, all)), known))
 }
 
-/// The load-dependent recursion until `count` vectors are there or nothing new comes.
+/// The load-dependent recursion from right-hand sides until `count` vectors are there or nothing new comes; returns
+/// those it would go on with.
 fn recurse(
     span: &mut Span<'_>,
     rows: &Condensation,
     hat: &Solvable,
-    loads: &[(String, Vec<f64>)],
+    mut block: Vec<Vec<f64>>,
     count: usize,
-) {
+) -> Vec<Vec<f64>> {
     let order = rows.order();
-    let mut block: Vec<Vec<f64>> = loads.iter().map(|(_, p)| rows.gather(p).into_owned()).collect();
     while span.len() < count && !block.is_empty() {
         let mut next = Vec::new();
         span.next_block();
@@ -343,8 +434,9 @@ fn recurse(
             next.extend(span.take(solved, Origin::Recursion, Speed::OfModes));
             block = rest;
         }
-        block = next;
+        block.extend(next);
     }
+    block
 }
 
 /// Participation of masses and loads, and the flexibility of every link coordinate that the basis holds;
@@ -364,7 +456,9 @@ fn report(
     // K̂ in the basis: K is diagonal there, with ones for the static shapes, which have no mass.
     let mut reduced = Dense::zeros(phi.len(), phi.len());
     for j in 0..phi.len() {
-        reduced[(j, j)] = basis.omega2.get(j).map_or(1.0, |w| w + shift);
+        // What dashpots alone hold has no flexibility to be told.
+        let of_static = || basis.statics.stiffness[j - m].max(1e-9);
+        reduced[(j, j)] = basis.omega2.get(j).map_or_else(of_static, |w| w + shift);
     }
     for (row, dummy) in rows.iter().zip(dummies).filter(|(_, k)| **k != 0.0) {
         let q = phi.row(row);

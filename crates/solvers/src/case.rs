@@ -1,5 +1,6 @@
 //! Cases: static ones, dynamic ones, and chains of them.
 
+use crate::basis::Demands;
 use crate::clock::{Clock, peak_rss_mb};
 use crate::dynamic::{self, Setup};
 use crate::error::SolveError;
@@ -7,6 +8,7 @@ use crate::kernel::Remembered;
 use crate::ledger::Ledger;
 use crate::march::Pace;
 use crate::observe::{BasisReport, CaseResult, EnergyTotals, LinkEnergy, Observer, Status, Work};
+use crate::start::Initial;
 use crate::statics::{self, Equilibrium};
 use crate::stepper::State;
 use crate::view::show_static;
@@ -56,6 +58,8 @@ pub struct EndState {
     pub load: Vec<f64>,
     /// The state of the solver.
     pub state: State,
+    /// What the case started from, which its basis is made for.
+    pub(crate) initial: Initial,
     pub(crate) pace: Pace,
     pub(crate) memory: Vec<Remembered>,
     pub(crate) ledger: Ledger,
@@ -149,16 +153,20 @@ pub fn modes(
             .map(|(n, p)| (format!("acceleration {n}"), p.clone()))
             .collect()
     };
-    let (settings, loads) = match chosen {
+    let (settings, mut demands) = match chosen {
         Some(analysis) => {
             let constant = constant_load(model, system, &analysis.constant);
             let set = system.dynamic_loads(model, &analysis, constant);
-            (analysis.solution.basis.clone(), dynamic::basis_loads(model, &analysis, &set))
+            let initial = Initial::new(model, system, &analysis, None)?;
+            let loads = dynamic::basis_loads(model, &analysis, &set);
+            (analysis.solution.basis.clone(), Demands::new(system, loads, &initial))
         }
-        None => (trilith_model::Basis::default(), directions()),
+        None => (trilith_model::Basis::default(), Demands::default()),
     };
-    let loads = if loads.is_empty() { directions() } else { loads };
-    Ok(crate::basis::build(model, system, &settings, &loads, true)?.report)
+    if demands.is_empty() {
+        demands.loads = directions();
+    }
+    Ok(crate::basis::build(model, system, &settings, &demands, true)?.report)
 }
 
 /// Sum of loads on the free DOFs.
@@ -239,6 +247,7 @@ fn run_static(
             .collect(),
         basis: None,
         warnings: Vec::new(),
+        errors: Vec::new(),
         end: EndState {
             model: model.source.sha256.clone(),
             case: case.name.clone(),

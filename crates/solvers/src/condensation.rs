@@ -46,7 +46,7 @@ impl Condensation {
         Self { order, kept: Vec::new(), rest: None }
     }
 
-    /// Keeps what has mass, a link or one of the loads.
+    /// Keeps what has mass, a dashpot, a link or one of the loads.
     pub(crate) fn new(system: &System, loads: &[(String, Vec<f64>)]) -> Result<Self, SolveError> {
         let (order, k) = (system.order(), &system.stiffness);
         if order <= WORTH_IT {
@@ -54,6 +54,8 @@ impl Condensation {
         }
         let mut follows = vec![false; order];
         massless::places(system, k).into_iter().for_each(|i| follows[i] = true);
+        // What a dashpot acts on moves in its own time.
+        follows.iter_mut().zip(system.element_damping.diagonal()).for_each(|(f, c)| *f &= c == 0.0);
         for (_, p) in loads {
             follows.iter_mut().zip(p).for_each(|(f, p)| *f &= *p == 0.0);
         }

@@ -1,7 +1,8 @@
 //! A dynamic case: start state, basis, solver, output steps.
 
-use crate::basis::{self, Bases};
+use crate::basis::{self, Bases, Demands};
 use crate::case::{EndState, RunOptions, constant_load, parameters};
+use crate::certificate::{Certificate, Shadow};
 use crate::clock::Clock;
 use crate::damping::modal_damping;
 use crate::error::SolveError;
@@ -14,7 +15,7 @@ use crate::march::{March, Pace, Stop};
 use crate::modal::{Modal, Modes};
 use crate::observe::{CaseResult, Observer, Status, Work};
 use crate::space::Space;
-use crate::start::{check, constant_force, potential, resume, start};
+use crate::start::{Initial, check, constant_force, potential, resume, start};
 use crate::stepper::{LinkStepper, State, StepEnergy, Stepper};
 use crate::timeline::Timeline;
 use crate::view::{Viewer, looks_at_rates};
@@ -84,7 +85,12 @@ pub(crate) fn run(
     };
     let loads = system.dynamic_loads(model, analysis, constant.clone());
     let reduced = is_reduced(kind);
-    let bases = bases(model, system, analysis, kind, &loads)?;
+    let reduced = is_reduced(kind);
+    let initial = match &options.from {
+        Some(end) => end.initial.clone(),
+        None => Initial::new(model, system, analysis, before.as_ref())?,
+    };
+    let bases = bases(model, system, analysis, kind, &loads, &initial, reduced)?;
     let damping = bases.as_ref().and_then(|b| modal_damping(model, system, b));
     let none = vec![0.0; system.links.len()];
     let effective = if kind == SolverKind::FullNewton { &none } else { &system.links.effective };
@@ -121,12 +127,25 @@ pub(crate) fn run(
     if let (Some(b), true) = (&bases, reduced) {
         adequacy_warning(b, solution.basis.adequacy, &mut warnings);
     }
+    let moves_at = match &options.from {
+        Some(end) => (end.displacement.clone(), end.velocity.clone()),
+        None => (initial.displacement.clone(), initial.velocity.clone()),
+    };
     let (state, mut pace, mut ledger, first) = match options.from {
         Some(end) => resume(end, stepper.as_mut())?,
-        None => start(model, system, analysis, before, &loads, stepper.as_mut(), dt)?,
+        None => start(model, system, &initial, before, &loads, stepper.as_mut(), dt)?,
     };
     let mut state = Box::new(state);
     let mut viewer = Viewer::new(model, system, &loads, stepper.space(), observers);
+    let mut certificate = (reduced || !model.outputs.is_empty()).then(|| {
+        let wider = bases.as_ref().filter(|_| reduced).and_then(|b| b.wider.as_ref());
+        let shadow = wider.map(|wider| {
+            let modes = modes(model, system, &loads, wider);
+            let at = (&*moves_at.0, &*moves_at.1);
+            Shadow::new(model, system, &loads, modes, at, timeline.time(first), &state)
+        });
+        Certificate::new(model, system, &loads, stepper.space(), shadow)
+    });
     let last = match options.until {
         Some(t) => ((t / dt) - 1e-9).ceil().max(0.0) as usize,
         None => timeline.steps,
@@ -150,6 +169,7 @@ pub(crate) fn run(
             &mut pace,
             &mut ledger,
             &mut viewer,
+            &mut certificate,
         );
         if let Err(e) = outcome {
             stop = Some(e);
@@ -157,6 +177,9 @@ pub(crate) fn run(
         }
         made = step + 1;
         viewer.show(timeline.time(made), Some(made), &state, &ledger);
+        if let Some(certificate) = &mut certificate {
+            certificate.look(timeline.time(made), &state);
+        }
         if let Some(tell) = progress.as_deref_mut() {
             tell((made - first) as f64 / (last - first) as f64);
         }
@@ -196,12 +219,22 @@ pub(crate) fn run(
         ..Work::default()
     };
     let state = *state;
-    let arrival = Arrival { timeline: &timeline, made, state, pace, ledger, constant, fallen };
+    let arrival = Arrival { timeline: &timeline, made, state, pace, ledger, constant, initial, fallen };
     let mut result =
         arrival.result(model, system, case, kind, stepper.space(), stepper.memory(), work);
     if let Some(Stop::NoEquilibrium { t, worst, residual }) = stop {
         let worst = system.links.name(model, worst);
         result.status = Status::NotConverged { t, worst, residual };
+    }
+    if let Some(certificate) = &certificate {
+        result.errors = certificate.errors(counts.error_sum);
+        let allowed = solution.basis.tolerance;
+        if let Some((output, share)) = certificate.worst(model).filter(|(_, e)| *e > allowed)
+            && result.status.is_good()
+        {
+            let output = model.outputs[output].name.clone();
+            result.status = Status::Inadequate { output, share, allowed };
+        }
     }
     result.basis = if reduced { bases.map(|b| b.report) } else { None };
     result.warnings = warnings;
@@ -218,6 +251,8 @@ pub(crate) struct Arrival<'a> {
     pub ledger: Ledger,
     /// Constant loads on the free DOFs.
     pub constant: Vec<f64>,
+    /// What it started from.
+    pub initial: Initial,
     /// Index of the element of a body that has fallen over.
     pub fallen: Option<usize>,
 }
@@ -234,7 +269,7 @@ impl Arrival<'_> {
         memory: Vec<Remembered>,
         work: Work,
     ) -> CaseResult {
-        let Self { timeline, made, state, pace, ledger, constant, fallen } = self;
+        let Self { timeline, made, state, pace, ledger, constant, initial, fallen } = self;
         let share = ledger.totals.error_relative;
         let limit = match &case.analysis {
             Analysis::Dynamic(analysis) => analysis.solution.energy_limit,
@@ -263,6 +298,7 @@ impl Arrival<'_> {
             displacement: space.expand(&state.motion[..n]),
             velocity: space.expand(&state.motion[n..2 * n]),
             load: constant,
+            initial,
             pace,
             memory,
             ledger,
@@ -277,6 +313,7 @@ impl Arrival<'_> {
             link_energy,
             basis: None,
             warnings: Vec::new(),
+            errors: Vec::new(),
             end,
         }
     }
@@ -307,17 +344,20 @@ pub(crate) fn bases(
     analysis: &DynamicCase,
     kind: SolverKind,
     loads: &LoadSet,
+    initial: &Initial,
+    wider: bool,
 ) -> Result<Option<Bases>, SolveError> {
     let modal = matches!(model.damping, Damping::Modal { .. } | Damping::ModalTable { .. });
     if !modal && !is_reduced(kind) {
         system.check_supported(model, true)?;
         return Ok(None);
     }
-    let directions = basis_loads(model, analysis, loads);
+    let mut demands = Demands::new(system, basis_loads(model, analysis, loads), initial);
+    demands.wider = wider;
     let settings = &analysis.solution.basis;
     // Who asks for no flexibility of the links needs no report of it.
     let adequacy = is_reduced(kind) && settings.adequacy > 0.0;
-    Ok(Some(basis::build(model, system, settings, &directions, adequacy)?))
+    Ok(Some(basis::build(model, system, settings, &demands, adequacy)?))
 }
 
 /// The structure of FNA on its basis.
@@ -379,6 +419,7 @@ fn output_step(
     pace: &mut Pace,
     ledger: &mut Ledger,
     viewer: &mut Viewer<'_, '_>,
+    certificate: &mut Option<Certificate<'_>>,
 ) -> Result<(), Stop> {
     let end = timeline.time(step + 1);
     for piece in timeline.pieces(step) {
@@ -397,6 +438,9 @@ fn output_step(
         }
         let mut accept = |t: f64, s: &State, e: &StepEnergy| -> f64 {
             let energy = ledger.enter(e, potential(constant, s));
+            if let Some(certificate) = certificate {
+                certificate.follow(t, s);
+            }
             if t < end - 1e-12 * timeline.dt {
                 viewer.show(t, None, s, ledger);
             }

@@ -9,6 +9,7 @@
 
 mod basis;
 mod case;
+mod certificate;
 mod clock;
 mod condensation;
 mod contact_mode;
@@ -44,6 +45,7 @@ mod vector;
 mod view;
 
 pub use case::{EndState, RunOptions, modes, run};
+pub use certificate::OutputError;
 pub use contact_mode::{ContactMode, ContactSummary};
 pub use error::SolveError;
 pub use observe::{

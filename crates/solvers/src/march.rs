@@ -43,6 +43,8 @@ pub(crate) struct Counts {
     pub substeps: usize,
     pub rejected: usize,
     pub forced: usize,
+    /// Sum of the relative errors of all steps that were accepted.
+    pub error_sum: f64,
 }
 
 /// Why a march stopped.
@@ -179,6 +181,7 @@ impl<'a> March<'a> {
                     }
                     self.counts.forced += usize::from(error > tolerance);
                     self.counts.substeps += 2;
+                    self.counts.error_sum += error / 3.0;
                     let Trial { first, second, energies: [_, e1, e2], .. } = &self.trial;
                     for (t, s, e) in [(middle, first, e1), (end, second, e2)] {
                         let seen = accept(t, s, e);

@@ -1,19 +1,22 @@
-//! Static shapes of places without mass, which no mode can hold.
+//! Shapes of directions without mass, which no mode can hold.
 //!
 //! ```text
-//!   M = diag(M_aa, 0):   u_b = −K_bb⁻¹ K_ba u_a + K_bb⁻¹ (p_b − B_bᵀ f)
-//!   Ψ spans (0, K_bb⁻¹ p_b) of all loads and (0, K_bb⁻¹ B_bᵀ) of all link coordinates
-//!   M Ψ = 0,  Ψᵀ K Ψ = 1,  Ψᵀ K Φ = 0:   q̇ᵨ Ψᵀ C Ψ + qᵨ = Ψᵀ (p − Bᵀ f)
+//!   N spans M n = 0:   Nᵀ (K u + C u̇) = Nᵀ (p − Bᵀ f),     C = R c Rᵀ of dashpots on them, + Rayleigh's
+//!   Ψ spans N A⁻¹ Nᵀ (p, Bᵀ, C N, K u₀)                     A = Nᵀ (K + σ C) N
+//!   Ψᵀ A Ψ = 1,  Ψᵀ K Ψ = κ,  Ψᵀ C Ψ = D (both diagonal),  Ψᵀ K Φ = 0:
+//!   D q̇ᵨ + Ψᵀ C Φ q̇ + κ qᵨ = Ψᵀ (p − Bᵀ f)
 //! ```
 //!
-//! Beside the modes they make the response exact at joints between springs and dampers, and under loads
-//! on nodes without mass. A linear dashpot that ties such a place to the modes would couple both; its
-//! shapes are left out, and the basis is reported as lacking that flexibility.
+//! Modes Φ follow statically in these directions. What is left there is made by loads, links and dashpots, each a
+//! force in few directions of its own; A⁻¹ of these spans all of it, for any σ, so beside the modes the shapes make
+//! the response exact: at joints between springs and dampers, where dashpots tie them to the modes, and under loads
+//! on nodes without mass. σ is 0 where springs hold all directions; a joint that only dashpots hold needs σ > 0.
+//! What links alone hold has their dummies in K.
 
 use crate::error::SolveError;
 use crate::shapes::Shapes;
 use crate::vector::{dot, largest};
-use trilith_linalg::{Dense, Ldlt, Sparse, symmetric_eigen};
+use trilith_linalg::{Dense, Ldlt, Sparse, symmetric_eigen, unsupported};
 use trilith_system::System;
 
 /// Shapes that are combinations of others up to this share are left out.
@@ -22,6 +25,25 @@ const INDEPENDENT: f64 = 1e-10;
 const SOLVED: f64 = 1e-8;
 /// Damping between shape and modes, as share of their own, that counts as none.
 const UNCOUPLED: f64 = 1e-9;
+/// Damping of a shape below this share of the largest is rounding.
+const UNDAMPED: f64 = 1e-13;
+/// A shape whose stiffness is below this share of what normed it is an integrator: dashpots alone hold it.
+const HELD: f64 = 1e-6;
+
+/// The shapes Ψ for a stiffness.
+#[derive(Clone, Debug)]
+pub(crate) struct StaticShapes {
+    /// Order × number; those that dashpots tie to the modes come first.
+    pub psi: Dense,
+    /// How many these are.
+    tied: usize,
+    /// κ.
+    pub stiffness: Vec<f64>,
+    /// D.
+    pub damping: Vec<f64>,
+    /// What reads the coordinate of each out of a displacement: its products with these, order × number.
+    pub readers: Dense,
+}
 
 /// Free DOFs with a stiffness and without mass.
 pub(crate) fn places(system: &System, k: &Sparse) -> Vec<usize> {
@@ -30,107 +52,186 @@ pub(crate) fn places(system: &System, k: &Sparse) -> Vec<usize> {
     (0..system.order()).filter(|i| stiff[*i] > 0.0 && heavy[*i] == 0.0).collect()
 }
 
-/// The shapes Ψ for a stiffness, order × number, mutually uncoupled by damping.
-pub(crate) fn shapes(
-    system: &System,
-    k: &Sparse,
-    loads: &[(String, Vec<f64>)],
-) -> Result<Dense, SolveError> {
-    let order = system.order();
-    let places = places(system, k);
-    let pushed = pushes(system, &places, loads);
-    if pushed.is_empty() {
-        return Ok(Dense::zeros(order, 0));
+/// Makes a displacement (or velocity) follow statically in all directions without mass that no dashpot holds.
+pub(crate) fn follow(system: &System, u: &mut [f64]) -> Result<(), SolveError> {
+    let massless = &system.massless;
+    if massless.is_empty() || u.iter().all(|x| *x == 0.0) {
+        return Ok(());
     }
-    let local = k.block(&places, &places);
-    let mut factor = Ldlt::with_rigid_zeros(&local)?;
-    let mut found: Vec<(Vec<f64>, Vec<f64>)> = Vec::new();
-    for p in pushed {
-        let mut x = p.clone();
-        factor.solve(&mut x);
-        let left = local.mul(&x).iter().zip(&p).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
-        let work = dot(&p, &x);
-        if work > 0.0 && work.is_finite() && left <= SOLVED * largest(&p) {
-            let scale = work.sqrt().recip();
-            let scaled = |v: Vec<f64>| v.into_iter().map(|y| scale * y).collect();
-            found.push((scaled(p), scaled(x)));
+    let k = system.stiffness_with(&system.links.effective);
+    let damped = massless.project(&system.element_damping).diagonal();
+    let own: Vec<usize> = (0..massless.len()).filter(|i| damped[*i] == 0.0).collect();
+    let force = massless.load(&k.mul(u));
+    let mut y: Vec<f64> = own.iter().map(|i| force[*i]).collect();
+    Ldlt::with_rigid_zeros(&massless.project(&k).block(&own, &own))?.solve(&mut y);
+    let mut all = vec![0.0; massless.len()];
+    own.iter().zip(y).for_each(|(i, y)| all[*i] = y);
+    massless.expand(-1.0, &all, u);
+    Ok(())
+}
+
+impl StaticShapes {
+    /// The shapes for a stiffness under loads on the free DOFs; couplings with modes are not known yet.
+    pub(crate) fn new(
+        system: &System,
+        k: &Sparse,
+        loads: &[(String, Vec<f64>)],
+    ) -> Result<Self, SolveError> {
+        let order = system.order();
+        let massless = &system.massless;
+        let pushed = pushes(system, loads);
+        if pushed.is_empty() {
+            return Ok(Self::none(order));
         }
-    }
-    let n = found.len();
-    let mut gram = Dense::zeros(n, n);
-    for i in 0..n {
-        for j in 0..n {
-            gram[(i, j)] = dot(&found[i].0, &found[j].1);
+        let mut held = massless.project(k);
+        let damping = system.damping();
+        let c = massless.project(&system.element_damping);
+        if c.entries().any(|(_, _, v)| v != 0.0) && !unsupported(&held)?.is_empty() {
+            let sum = |a: &Sparse| a.diagonal().iter().sum::<f64>();
+            let (stiff, viscous) = (sum(&held), sum(&c));
+            let rate = if stiff > 0.0 { stiff / viscous } else { 1.0 };
+            held = Sparse::combine(&[(1.0, &held), (rate, &c)]);
         }
-    }
-    let (values, vectors) = symmetric_eigen(&gram)?;
-    let kept: Vec<usize> = (0..n).filter(|m| values[*m] > INDEPENDENT * n as f64).collect();
-    let mut psi = Dense::zeros(order, kept.len());
-    for (column, m) in kept.iter().enumerate() {
-        let scale = values[*m].sqrt().recip();
-        for (share, (_, x)) in vectors.column(*m).iter().zip(&found) {
-            for (place, y) in places.iter().zip(x) {
-                psi[(*place, column)] += scale * share * y;
+        let mut factor = Ldlt::with_rigid_zeros(&held)?;
+        let mut found: Vec<(Vec<f64>, Vec<f64>)> = Vec::new();
+        for p in pushed {
+            let mut x = p.clone();
+            factor.solve(&mut x);
+            let left = held.mul(&x).iter().zip(&p).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
+            let work = dot(&p, &x);
+            if work > 0.0 && work.is_finite() && left <= SOLVED * largest(&p) {
+                let scale = work.sqrt().recip();
+                let scaled = |v: Vec<f64>| v.into_iter().map(|y| scale * y).collect();
+                found.push((scaled(p), scaled(x)));
             }
         }
+        let n = found.len();
+        let mut gram = Dense::zeros(n, n);
+        for i in 0..n {
+            for j in 0..n {
+                gram[(i, j)] = dot(&found[i].0, &found[j].1);
+            }
+        }
+        let (values, vectors) = symmetric_eigen(&gram)?;
+        let kept: Vec<usize> = (0..n).filter(|m| values[*m] > INDEPENDENT * n as f64).collect();
+        if kept.is_empty() {
+            return Ok(Self::none(order));
+        }
+        let mut psi = Dense::zeros(order, kept.len());
+        for (column, m) in kept.iter().enumerate() {
+            let scale = values[*m].sqrt().recip();
+            for (share, (_, x)) in vectors.column(*m).iter().zip(&found) {
+                massless.expand(scale * share, x, psi.column_mut(column));
+            }
+        }
+        // Turned so that damping does not couple them with each other.
+        let (rates, rotation) = symmetric_eigen(&psi.congruence(&damping, psi.columns()))?;
+        let psi = psi.times(&rotation);
+        let stiffness = (0..kept.len()).map(|j| k.bilinear(psi.column(j), psi.column(j)));
+        let stiffness: Vec<f64> = stiffness.map(|x| if x < HELD { 0.0 } else { x }).collect();
+        let most = rates.iter().copied().fold(0.0, f64::max);
+        let damping = rates.iter().map(|d| if *d <= UNDAMPED * most { 0.0 } else { *d });
+        let readers = Dense::zeros(order, kept.len());
+        Ok(Self { psi, tied: 0, damping: damping.collect(), stiffness, readers })
     }
-    if kept.is_empty() {
-        return Ok(psi);
+
+    fn none(order: usize) -> Self {
+        let empty = || Dense::zeros(order, 0);
+        Self {
+            psi: empty(),
+            tied: 0,
+            stiffness: Vec::new(),
+            damping: Vec::new(),
+            readers: empty(),
+        }
     }
-    // Turned so that damping does not couple them with each other.
-    let (_, rotation) = symmetric_eigen(&psi.congruence(&system.damping(), psi.columns()))?;
-    Ok(psi.times(&rotation))
+
+    pub(crate) fn len(&self) -> usize {
+        self.stiffness.len()
+    }
+
+    /// True for one that dashpots tie to the modes.
+    pub(crate) fn is_tied(&self, r: usize) -> bool {
+        r < self.tied
+    }
+
+    /// Takes the shapes out of vectors: V − Ψ κ⁻¹ Ψᵀ K V. Their masses stay as they are.
+    pub(crate) fn out_of(&self, k: &Sparse, mut vectors: Shapes) -> Shapes {
+        for (r, stiffness) in self.stiffness.iter().enumerate().filter(|(_, k)| **k > 0.0) {
+            let shares = vectors.load(&k.mul(self.psi.column(r)));
+            let own = vectors.rows().gather(self.psi.column(r)).into_owned();
+            for (j, share) in shares.into_iter().enumerate() {
+                let column = vectors.kept_mut().column_mut(j);
+                column.iter_mut().zip(&own).for_each(|(v, x)| *v -= share / stiffness * x);
+            }
+        }
+        vectors
+    }
+
+    /// Puts those that dashpots tie to the modes first, and finds what reads the coordinates of all.
+    pub(crate) fn beside(self, system: &System, k: &Sparse, modes: &Shapes) -> Self {
+        if self.len() == 0 {
+            return self;
+        }
+        let damping = system.damping();
+        let own = (0..modes.len()).map(|j| {
+            let mode = modes.column(j);
+            damping.bilinear(&mode, &mode).max(0.0)
+        });
+        let own: Vec<f64> = own.collect();
+        let coupling = |r: usize| modes.load(&damping.mul(self.psi.column(r)));
+        let is_free = |r: &usize| {
+            let size = self.damping[*r];
+            let none = || {
+                let shares = coupling(*r);
+                let mut pairs = shares.iter().zip(&own);
+                pairs.all(|(s, own)| s.abs() <= UNCOUPLED * (size * own).sqrt())
+            };
+            size == 0.0 || (self.stiffness[*r] > 0.0 && none())
+        };
+        let (free, tied): (Vec<usize>, Vec<usize>) = (0..self.len()).partition(is_free);
+        let count = tied.len();
+        let all: Vec<usize> = tied.into_iter().chain(free).collect();
+        let pick = |of: &[f64]| all.iter().map(|r| of[*r]).collect::<Vec<f64>>();
+        let order = self.psi.rows();
+        let psi = all.iter().flat_map(|r| self.psi.column(*r).to_vec()).collect();
+        let (psi, stiffness) = (Dense::from_columns(order, all.len(), psi), pick(&self.stiffness));
+        let rates = pick(&self.damping);
+        let mut readers = Dense::zeros(order, all.len());
+        for r in 0..all.len() {
+            let reader = readers.column_mut(r);
+            if stiffness[r] > 0.0 {
+                k.mul_add(stiffness[r].recip(), psi.column(r), reader);
+                continue;
+            }
+            // Nothing but dashpots: D y = Ψᵀ C u − Ψᵀ C Φ Φᵀ M u.
+            let scale = rates[r].recip();
+            damping.mul_add(scale, psi.column(r), reader);
+            for (j, share) in modes.load(&damping.mul(psi.column(r))).iter().enumerate() {
+                system.mass.mul_add(-scale * share, &modes.heavy(j), reader);
+            }
+        }
+        Self { psi, tied: count, stiffness, damping: rates, readers }
+    }
 }
 
-/// Loads and link rows on these places, those that are not zero.
-fn pushes(system: &System, places: &[usize], loads: &[(String, Vec<f64>)]) -> Vec<Vec<f64>> {
-    let mut index = vec![usize::MAX; system.order()];
-    places.iter().enumerate().for_each(|(local, full)| index[*full] = local);
-    let of_loads = loads.iter().filter(|(_, p)| places.iter().any(|i| p[*i] != 0.0));
-    let of_loads = of_loads.map(|(_, p)| places.iter().map(|i| p[*i]).collect());
-    let on_places = |row: &&Vec<(usize, f64)>| row.iter().any(|(i, _)| index[*i] != usize::MAX);
+/// Loads, link rows and dashpots on directions without mass, those that are not zero.
+fn pushes(system: &System, loads: &[(String, Vec<f64>)]) -> Vec<Vec<f64>> {
+    let massless = &system.massless;
+    if massless.is_empty() {
+        return Vec::new();
+    }
+    let of_loads = loads.iter().map(|(_, p)| massless.load(p));
     let rows = system.links.active.iter().map(|flat| &system.links.rows[*flat]);
-    let of_links = rows.filter(on_places).map(|row| {
-        let mut b = vec![0.0; places.len()];
-        for (i, c) in row.iter().filter(|(i, _)| index[*i] != usize::MAX) {
-            b[index[*i]] += c;
-        }
-        b
-    });
-    of_loads.chain(of_links).filter(|p: &Vec<f64>| largest(p) > 0.0).collect()
-}
-
-/// Takes the static shapes out of vectors: V − Ψ Ψᵀ K V. Their masses stay as they are.
-pub(crate) fn without(psi: &Dense, k: &Sparse, mut vectors: Shapes) -> Shapes {
-    for r in 0..psi.columns() {
-        let shares = vectors.load(&k.mul(psi.column(r)));
-        let own = vectors.rows().gather(psi.column(r)).into_owned();
-        for (j, share) in shares.into_iter().enumerate() {
-            let column = vectors.kept_mut().column_mut(j);
-            column.iter_mut().zip(&own).for_each(|(v, x)| *v -= share * x);
-        }
-    }
-    vectors
-}
-
-/// The shapes that damping does not couple with the modes.
-pub(crate) fn uncoupled(psi: Dense, system: &System, modes: &Shapes) -> Dense {
-    if psi.columns() == 0 {
-        return psi;
-    }
-    let damping = system.damping();
-    let own_of = |j| {
-        let mode = modes.column(j);
-        damping.bilinear(&mode, &mode).max(0.0)
+    let of_links = rows.filter(|row| massless.is_touched(row)).map(|row| massless.row(row));
+    let damped = massless.project(&system.element_damping);
+    let column = |j: usize| {
+        let mut p = vec![0.0; massless.len()];
+        let (rows, values) = damped.column(j);
+        rows.iter().zip(values).for_each(|(i, v)| p[*i] += v);
+        p
     };
-    let own: Vec<f64> = (0..modes.len()).map(own_of).collect();
-    let free = |r: &usize| {
-        let image = damping.mul(psi.column(*r));
-        let size = dot(psi.column(*r), &image).max(0.0);
-        let shares = modes.load(&image);
-        shares.iter().zip(&own).all(|(s, own)| s.abs() <= UNCOUPLED * (size * own).sqrt())
-    };
-    let kept: Vec<usize> = (0..psi.columns()).filter(free).collect();
-    let values = kept.iter().flat_map(|r| psi.column(*r).to_vec()).collect();
-    Dense::from_columns(psi.rows(), kept.len(), values)
+    let of_dashpots = (0..massless.len()).map(column);
+    let all = of_loads.chain(of_links).chain(of_dashpots);
+    all.filter(|p: &Vec<f64>| largest(p) > 0.0).collect()
 }

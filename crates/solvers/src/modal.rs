@@ -168,12 +168,21 @@ impl Modes {
             damping[(i, j)] += v;
             coupled |= i != j && v != 0.0;
         }
+        let omega2 = space.stiffness.diagonal();
+        let modes = m - space.readers.columns();
+        // Static shapes that dashpots tie to the modes come first.
+        let is_tied = |r: &usize| {
+            let own = (0..modes).any(|j| damping[(j, *r)] != 0.0);
+            own || omega2[*r] == 0.0
+        };
+        let tied = (modes..m).take_while(is_tied).count();
         let structure = Structure {
-            modes: m - space.images.columns(),
-            omega2: space.stiffness.diagonal(),
+            modes,
+            tied,
+            omega2,
             rates: (0..m).map(|i| damping[(i, i)]).collect(),
-            mass: (0..m).map(|i| if i < m - space.images.columns() { 1.0 } else { 0.0 }).collect(),
-            damping: coupled.then_some(damping),
+            mass: (0..m).map(|i| if i < modes { 1.0 } else { 0.0 }).collect(),
+            damping: (coupled || tied > 0).then_some(damping),
         };
         Self {
             space,
@@ -299,11 +308,8 @@ impl Modes {
     /// Loads jump: accelerations follow.
     pub(crate) fn jump(&self, motion: &mut Motion, change: &[f64]) {
         let m = self.space.order();
-        let force = self.space.force(change);
-        let modes = self.structure.modes;
-        for (x, y) in motion[2 * m..2 * m + modes].iter_mut().zip(force) {
-            *x += y;
-        }
+        let change = self.structure.free_acceleration(&self.space.force(change));
+        motion[2 * m..].iter_mut().zip(change).for_each(|(x, y)| *x += y);
     }
 
     /// A step from a motion under loads.
@@ -470,9 +476,7 @@ impl Propagator for Modal {
     }
 
     fn acceleration(&mut self, force: &[f64]) -> Result<Vec<f64>, SolveError> {
-        let mut a = force.to_vec();
-        a[self.modes.structure.modes..].fill(0.0);
-        Ok(a)
+        Ok(self.modes.structure.free_acceleration(force))
     }
 
     fn predict(&mut self, from: &Motion, forces: &Forces<'_>, to: &mut Motion, wanted: Wanted<'_>) {

@@ -1,5 +1,6 @@
 //! What a run shows while it goes on, and what it leaves.
 
+use crate::certificate::OutputError;
 use serde::Serialize;
 use trilith_element::{Contact, Vector3};
 
@@ -141,6 +142,15 @@ pub enum Status {
         /// Its force residual, N or N·m.
         residual: f64,
     },
+    /// To the end, but the basis does not hold the motion well enough.
+    Inadequate {
+        /// The output that is farthest off.
+        output: String,
+        /// By how much, as a share of its range.
+        share: f64,
+        /// What is allowed.
+        allowed: f64,
+    },
     /// Stopped because a body has fallen over, within the energy limit.
     Overturned {
         /// Time of the last state, s.
@@ -165,6 +175,7 @@ impl Status {
             Self::EnergyError { .. } => "energy error",
             Self::NotConverged { .. } => "not converged",
             Self::Overturned { .. } => "overturned",
+            Self::Inadequate { .. } => "inadequate",
         }
     }
 
@@ -180,6 +191,11 @@ impl Status {
             ),
             Self::NotConverged { t, worst, residual } => format!(
                 "no equilibrium at t = {t:.6} s with the smallest step: {worst} is off by {residual:.3e}"
+            ),
+            Self::Inadequate { output, share, allowed } => format!(
+                "the basis is too small: output \"{output}\" may be off by {:.2} % of its range (allowed {:.2} %): use more vectors",
+                100.0 * share,
+                100.0 * allowed
             ),
             Self::Overturned { t, body } => format!("\"{body}\" overturned at t = {t:.6} s"),
         }
@@ -243,6 +259,8 @@ pub struct CaseResult {
     pub basis: Option<BasisReport>,
     /// What the user should know.
     pub warnings: Vec<String>,
+    /// How far every output of the model may be off, in its order; empty where nobody asked.
+    pub errors: Vec<OutputError>,
     /// The state at the end, to be continued or written as a checkpoint.
     pub end: crate::EndState,
 }

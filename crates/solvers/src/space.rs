@@ -33,8 +33,9 @@ pub(crate) struct Space {
     pub forces: Product,
     /// Free DOFs = shape · coordinates; `None` where they are the coordinates.
     pub shape: Option<Arc<Shapes>>,
-    /// K Ψ of the static shapes, which are the last columns of `shape` and have no mass.
-    pub images: Dense,
+    /// What reads the coordinates of the static shapes, which are the last columns of `shape` and have no mass, out of
+    /// a displacement.
+    pub readers: Dense,
 }
 
 impl Space {
@@ -71,7 +72,7 @@ impl Space {
             dummy_k: dummy,
             forces: Product::new(forces),
             shape: None,
-            images: Dense::zeros(n, 0),
+            readers: Dense::zeros(n, 0),
         }
     }
 
@@ -97,7 +98,7 @@ impl Space {
             links.column_mut(a).copy_from_slice(&phi.row(&system.links.rows[*flat]));
         }
         let dummy_k: Vec<f64> = active.iter().map(|i| effective[*i]).collect();
-        let omega2 = [&basis.omega2[..], &vec![1.0; statics]].concat();
+        let omega2 = [&basis.omega2[..], &basis.statics.stiffness[..]].concat();
         let mut damping = if dummy_k.iter().all(|k| *k == 0.0) {
             // The part of M and K is known: both are diagonal here.
             let mut damping = phi.congruence(&system.element_damping, m);
@@ -121,11 +122,15 @@ impl Space {
                 }
             }
         }
-        // What couples static shapes is rounding: the basis has no others.
-        for i in 0..m {
-            for j in (0..m).filter(|j| *j != i && i.max(*j) >= modes) {
-                damping[(i, j)] = 0.0;
+        // What couples static shapes with each other is rounding, and what they have with modes where nothing damps them.
+        for r in 0..statics {
+            let i = modes + r;
+            let rate = basis.statics.damping[r];
+            let among = if basis.statics.is_tied(r) { modes } else { 0 };
+            for j in among..m {
+                (damping[(i, j)], damping[(j, i)]) = (0.0, 0.0);
             }
+            damping[(i, i)] = rate;
         }
         Self {
             mass: diagonal(&[vec![1.0; modes], vec![0.0; statics]].concat()),
@@ -137,7 +142,7 @@ impl Space {
             dummy_k,
             forces: Product::new(forces),
             shape: Some(Arc::clone(&basis.shapes)),
-            images: basis.images.clone(),
+            readers: basis.statics.readers.clone(),
         }
     }
 
@@ -187,15 +192,15 @@ impl Space {
         }
     }
 
-    /// Coordinates of a displacement (or velocity) of the free DOFs: Φᵀ M u, and Ψᵀ K u.
+    /// Coordinates of a displacement (or velocity) of the free DOFs: Φᵀ M u, and those of the static shapes.
     pub(crate) fn coordinates(&self, system: &System, u: &[f64]) -> Vec<f64> {
         match &self.shape {
             None => u.to_vec(),
             Some(phi) => {
                 let mut q = phi.load(&system.mass.mul(u));
-                let modes = q.len() - self.images.columns();
+                let modes = q.len() - self.readers.columns();
                 for (j, x) in q[modes..].iter_mut().enumerate() {
-                    *x = self.images.column(j).iter().zip(u).map(|(a, b)| a * b).sum();
+                    *x = self.readers.column(j).iter().zip(u).map(|(a, b)| a * b).sum();
                 }
                 q
             }

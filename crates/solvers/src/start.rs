@@ -4,50 +4,83 @@ use crate::case::{EndState, parameters};
 use crate::error::SolveError;
 use crate::ledger::Ledger;
 use crate::march::Pace;
+use crate::massless;
 use crate::propagator::kinetic_and_strain;
 use crate::space::Space;
 use crate::stepper::{State, Stepper};
 use crate::vector::dot;
+use serde::{Deserialize, Serialize};
 use trilith_model::{Case, DynamicCase, Model, Side, SolverKind};
 use trilith_system::{LoadSet, System, Track};
 
 /// State, pace, ledger, and the output step it belongs to.
 pub(crate) type Start = (State, Pace, Ledger, usize);
 
-/// From rest or from the end of the case before, with initial values in their place.
+/// Displacements and velocities of the free DOFs at the start.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub(crate) struct Initial {
+    pub displacement: Vec<f64>,
+    pub velocity: Vec<f64>,
+    /// The displacement but for that of a static case before, which loads and links hold in equilibrium.
+    pub beyond_equilibrium: Vec<f64>,
+}
+
+impl Initial {
+    /// From rest or from the end of the case before, with initial values in their place; what has no mass and no
+    /// dashpot follows them.
+    pub(crate) fn new(
+        model: &Model,
+        system: &System,
+        analysis: &DynamicCase,
+        before: Option<&EndState>,
+    ) -> Result<Self, SolveError> {
+        let order = system.order();
+        let (mut u, mut v) = match before {
+            Some(end) => (end.displacement.clone(), end.velocity.clone()),
+            None => (vec![0.0; order], vec![0.0; order]),
+        };
+        let is_static = before.is_some_and(|end| v.iter().all(|x| *x == 0.0) && end.dt == 0.0);
+        let held = if is_static { u.clone() } else { vec![0.0; order] };
+        for initial in &analysis.initial {
+            let full = 6 * initial.node + initial.dof.index();
+            match system.reduction.expand(full) {
+                [(j, c)] if *j < order && *c == 1.0 => {
+                    u[*j] = initial.displacement.unwrap_or(u[*j]);
+                    v[*j] = initial.velocity.unwrap_or(v[*j]);
+                }
+                _ => {
+                    return Err(SolveError::InitialNotFree {
+                        node: model.nodes[initial.node].name.clone(),
+                        direction: initial.dof.name(),
+                        span: model.nodes[initial.node].span.clone(),
+                    });
+                }
+            }
+        }
+        if !analysis.initial.is_empty() {
+            massless::follow(system, &mut u)?;
+            massless::follow(system, &mut v)?;
+        }
+        let beyond_equilibrium = u.iter().zip(&held).map(|(u, h)| u - h).collect();
+        Ok(Self { displacement: u, velocity: v, beyond_equilibrium })
+    }
+}
+
+/// The state of a start.
 pub(crate) fn start(
     model: &Model,
     system: &System,
-    analysis: &DynamicCase,
+    initial: &Initial,
     before: Option<EndState>,
     loads: &LoadSet,
     stepper: &mut dyn Stepper,
     dt: f64,
 ) -> Result<Start, SolveError> {
-    let order = system.order();
-    let (mut u, mut v, history) = match before {
-        Some(end) => (end.displacement, end.velocity, end.state.history),
-        None => (vec![0.0; order], vec![0.0; order], system.links.at_rest(model)),
-    };
-    for initial in &analysis.initial {
-        let full = 6 * initial.node + initial.dof.index();
-        match system.reduction.expand(full) {
-            [(j, c)] if *j < order && *c == 1.0 => {
-                u[*j] = initial.displacement.unwrap_or(u[*j]);
-                v[*j] = initial.velocity.unwrap_or(v[*j]);
-            }
-            _ => {
-                return Err(SolveError::InitialNotFree {
-                    node: model.nodes[initial.node].name.clone(),
-                    direction: initial.dof.name(),
-                    span: model.nodes[initial.node].span.clone(),
-                });
-            }
-        }
-    }
+    let history = before.map_or_else(|| system.links.at_rest(model), |end| end.state.history);
+    let Initial { displacement: u, velocity: v, .. } = initial;
     let amplitudes: Vec<f64> =
         loads.channels.iter().map(|c| c.track.at(0.0, Side::After)).collect();
-    let state = stepper.start(&u, &v, history, &amplitudes)?;
+    let state = stepper.start(u, v, history, &amplitudes)?;
     let (kinetic, strain) = kinetic_and_strain(stepper.space(), &state.motion);
     let own = strain - dummy_energy(system, stepper.space(), &state);
     let level = potential(&constant_force(stepper.space(), loads), &state);

@@ -2,7 +2,7 @@
 
 use crate::elastic::{EndForceRow, end_force_row};
 use crate::links::mark_used;
-use crate::{ImpactMass, LinkSet, Reduction, SystemError};
+use crate::{ImpactMass, LinkSet, Massless, Reduction, SystemError};
 use trilith_element::{Dof, ElementMatrices, Geometry};
 use trilith_linalg::{Sparse, Triplets, unsupported};
 use trilith_model::{Body, Damping, Element, Model};
@@ -12,6 +12,8 @@ use trilith_model::{Body, Damping, Element, Model};
 pub struct System {
     /// Elimination of supports and constraints.
     pub reduction: Reduction,
+    /// Directions without mass.
+    pub massless: Massless,
     /// M with the inertances, free × free, kg.
     pub mass: Sparse,
     /// C of elements alone, free × free, N·s/m; see [`damping`](Self::damping).
@@ -80,7 +82,8 @@ impl System {
         ]);
         let mut links = LinkSet::new(model, &reduction, &used)?;
         crate::impact::settle(&mut links, model, &m.free)?;
-        Ok(Self {
+        let mut system = Self {
+            massless: Massless::new(&m.free)?,
             mass: m.free,
             element_damping: c.free,
             rayleigh,
@@ -93,7 +96,15 @@ impl System {
             total_mass,
             tension,
             reduction,
-        })
+        };
+        crate::massless::give_dummies(&mut system, model)?;
+        Ok(system)
+    }
+
+    /// Mean diagonal of the stiffness where there is some, N/m; else what would move the mean mass at 1 rad/s.
+    pub(crate) fn usual_stiffness(&self) -> f64 {
+        let mean = |a: &Sparse| a.diagonal().iter().sum::<f64>() / self.order() as f64;
+        [mean(&self.stiffness), mean(&self.mass)].into_iter().find(|x| *x > 0.0).unwrap_or(1.0)
     }
 
     /// The contacts whose dashpot a restitution can set, and the masses that strike them.

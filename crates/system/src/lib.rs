@@ -12,6 +12,7 @@ mod falling;
 mod impact;
 mod links;
 mod loads;
+mod massless;
 mod reduction;
 
 pub use assemble::System;
@@ -21,4 +22,5 @@ pub use error::SystemError;
 pub use impact::ImpactMass;
 pub use links::{Answers, Laws, LinkInstance, LinkSet, StepLaws, Tangents};
 pub use loads::{Channel, LoadSet, StepLoads, Track};
+pub use massless::Massless;
 pub use reduction::Reduction;

@@ -53,7 +53,8 @@ pub struct LinkSet {
     pub rotational: Vec<bool>,
     /// True where some are.
     pub turns: bool,
-    /// Effective stiffness of each flat coordinate set by the user (0 where not).
+    /// Effective stiffness of each flat coordinate: what the user has set, and where links alone hold a direction
+    /// without mass, what the assembly has given them; else 0.
     pub effective: Vec<f64>,
     /// Length of the history arrays.
     pub history_len: usize,

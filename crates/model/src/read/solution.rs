@@ -79,6 +79,16 @@ fn basis(c: &Context<'_>, node: &Node) -> Option<Basis> {
     let adequacy = fields
         .get("adequacy")
         .map_or(Some(plain.adequacy), |n| c.ranged(n, "adequacy", NONE, Range::Within(0.0, 1.0)));
+    let tolerance = fields
+        .get("tolerance")
+        .map_or(Some(plain.tolerance), |n| c.ranged(n, "tolerance", NONE, Range::Within(0.0, 1.0)));
+    let enrich = fields.get("enrich").map_or(Some(plain.enrich), |n| c.flag(n, "enrich"));
     let kind = [BasisKind::Ritz, BasisKind::Eigen, BasisKind::Complete][kind];
-    Some(Basis { kind, vectors: vectors?, adequacy: adequacy? })
+    Some(Basis {
+        kind,
+        vectors: vectors?,
+        adequacy: adequacy?,
+        tolerance: tolerance?,
+        enrich: enrich?,
+    })
 }

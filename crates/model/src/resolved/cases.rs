@@ -2,7 +2,7 @@
 
 use super::{factor, text};
 use crate::{
-    Analysis, BasisKind, DynamicCase, Kernel, Load, Model, Solution, SolverKind, StepControl,
+    Analysis, Basis, BasisKind, DynamicCase, Kernel, Load, Model, Solution, SolverKind, StepControl,
 };
 use trilith_element::Dimension;
 use trilith_element::dimension::{ACCELERATION, LENGTH, NONE};
@@ -86,10 +86,12 @@ fn solution(s: &Solution) -> String {
         Kernel::FixedPoint => "FixedPoint",
     };
     let vectors = s.basis.vectors.map_or(String::new(), |n| format!("vectors: {n}, "));
-    let adequacy = s.basis.adequacy;
+    let Basis { adequacy, tolerance, enrich, .. } = s.basis;
+    let fields =
+        format!("{vectors}adequacy: {adequacy:?}, tolerance: {tolerance:?}, enrich: {enrich}");
     let basis = match s.basis.kind {
-        BasisKind::Ritz => format!("Ritz({vectors}adequacy: {adequacy:?})"),
-        BasisKind::Eigen => format!("Eigen({vectors}adequacy: {adequacy:?})"),
+        BasisKind::Ritz => format!("Ritz({fields})"),
+        BasisKind::Eigen => format!("Eigen({fields})"),
         BasisKind::Complete => "Complete".into(),
     };
     format!(

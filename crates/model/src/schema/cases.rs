@@ -1,6 +1,6 @@
 //! Cases: what acts, how long, how it is solved.
 
-use super::Takes::{Choice, Count, List, Name, Number, One, Quantity};
+use super::Takes::{Choice, Count, Flag, List, Name, Number, One, Quantity};
 use super::{Block, Field, Group, absent, needed, plain};
 use trilith_element::Range::{Any, Positive, Within};
 use trilith_element::dimension as d;
@@ -154,19 +154,31 @@ const ADEQUACY: Field = plain(
     "0.99",
     "Share of the exact flexibility at every link coordinate that the basis must hold; 0: no vectors for links.",
 );
+const TOLERANCE: Field = plain(
+    "tolerance",
+    Number(d::NONE, Within(0.0, 1.0)),
+    "0.02",
+    "Error that the reduction may make in any output, as share of its range; estimated in every run.",
+);
+const ENRICH: Field = plain(
+    "enrich",
+    Flag,
+    "true",
+    "A basis that makes a larger error is enlarged and the run made again; false: the run ends as `inadequate`.",
+);
 /// Load-dependent vectors.
 pub static RITZ: Block = Block {
     name: "Ritz",
     meaning: "Load-dependent Ritz vectors, and a static vector for link coordinates that they hold badly.",
     example: "Ritz",
-    fields: &[VECTORS, ADEQUACY],
+    fields: &[VECTORS, ADEQUACY, TOLERANCE, ENRICH],
 };
 /// Eigenvectors.
 pub static EIGEN: Block = Block {
     name: "Eigen",
     meaning: "Exact eigenvectors, and a static vector for link coordinates that they hold badly.",
     example: "Eigen",
-    fields: &[VECTORS, ADEQUACY],
+    fields: &[VECTORS, ADEQUACY, TOLERANCE, ENRICH],
 };
 /// All eigenvectors.
 pub static COMPLETE: Block = Block {

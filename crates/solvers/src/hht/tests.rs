@@ -49,7 +49,7 @@ fn space(modal: bool, links: LinkMap) -> Space {
         links,
         forces: Product::new(Dense::zeros(N, 0)),
         shape: None,
-        images: Dense::zeros(N, 0),
+        readers: Dense::zeros(N, 0),
     }
 }
 

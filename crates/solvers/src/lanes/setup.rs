@@ -11,7 +11,7 @@ use crate::outputs::{Outputs, Row};
 use crate::propagator::kinetic_and_strain;
 use crate::single_mode::{self, Mode};
 use crate::space::Space;
-use crate::start::{constant_force, potential, start};
+use crate::start::{Initial, constant_force, potential, start};
 use crate::stepper::{LinkStepper, State, Stepper};
 use crate::timeline::Timeline;
 use std::any::TypeId;
@@ -147,7 +147,8 @@ pub fn prepare(
     let before = before(model, system, case, None)?;
     let constant = held_load(model, system, analysis, before.as_ref());
     let loads = system.dynamic_loads(model, analysis, constant);
-    let Some(bases) = bases(model, system, analysis, SolverKind::Fna, &loads)? else {
+    let initial = Initial::new(model, system, analysis, before.as_ref())?;
+    let Some(bases) = bases(model, system, analysis, SolverKind::Fna, &loads, &initial, false)? else {
         return Ok(Err("no basis"));
     };
     let modes = modes(model, system, &loads, &bases);
@@ -155,12 +156,12 @@ pub fn prepare(
     let side = link_side(model, system, &analysis.solution, &loads, order, true);
     let mut stepper = LinkStepper::new(Modal::new(modes), side);
     let dt = analysis.dt;
-    let (state, _, _, _) = start(model, system, analysis, before, &loads, &mut stepper, dt)?;
+    let (state, _, _, _) = start(model, system, &initial, before, &loads, &mut stepper, dt)?;
     let space = stepper.space();
 
     let m = space.order();
     let links = &system.links;
-    if space.images.columns() > 0 {
+    if space.readers.columns() > 0 {
         return Ok(Err("places without mass"));
     }
     let omega2 = space.stiffness.diagonal();

@@ -14,7 +14,7 @@ use crate::error::SolveError;
 use crate::modal::{LONGEST, Modal, Modes};
 use crate::observe::{CaseResult, Observer, Work};
 use crate::propagator::StepKey;
-use crate::start::start;
+use crate::start::{Initial, start};
 use crate::stepper::LinkStepper;
 use crate::timeline::Timeline;
 use crate::view::{Viewer, looks_at_rates};
@@ -37,6 +37,7 @@ struct Entrant<'a> {
     case: &'a Case,
     analysis: &'a DynamicCase,
     before: Option<EndState>,
+    initial: Initial,
     constant: Vec<f64>,
     loads: LoadSet,
 }
@@ -100,7 +101,8 @@ fn entrant(member: Member<'_>, case: usize) -> Result<Option<Entrant<'_>>, Solve
     let before = before(model, system, case, Some(SolverKind::Fna))?;
     let constant = held_load(model, system, analysis, before.as_ref());
     let loads = system.dynamic_loads(model, analysis, constant.clone());
-    Ok(Some(Entrant { member, case, analysis, before, constant, loads }))
+    let initial = Initial::new(model, system, analysis, before.as_ref())?;
+    Ok(Some(Entrant { member, case, analysis, before, initial, constant, loads }))
 }
 
 /// True where two members share structure and steps.
@@ -121,7 +123,9 @@ fn suits(a: &Entrant<'_>, b: &Entrant<'_>) -> bool {
             && x.links.rows == y.links.rows
             && x.links.effective == y.links.effective
             && x.links.engaged(a.member.model) == y.links.engaged(b.member.model)
-            && forces(a) == forces(b))
+            && forces(a) == forces(b)
+            && a.initial.beyond_equilibrium == b.initial.beyond_equilibrium
+            && a.initial.velocity == b.initial.velocity)
 }
 
 /// Marches a group; none for those that left it.
@@ -132,9 +136,9 @@ fn march<O: Observer>(
     let clock = Clock::start();
     let none = || group.iter().map(|_| None).collect();
     let Some(lead) = group.first() else { return Ok(Vec::new()) };
-    let Entrant { member: Member { model, system }, analysis, loads, .. } = lead;
+    let Entrant { member: Member { model, system }, analysis, loads, initial, .. } = lead;
     let StepControl::Fixed { substeps } = analysis.solution.step else { return Ok(none()) };
-    let Some(bases) = bases(model, system, analysis, SolverKind::Fna, loads)? else {
+    let Some(bases) = bases(model, system, analysis, SolverKind::Fna, loads, initial, false)? else {
         return Ok(none());
     };
     let mut modes = modes(model, system, loads, &bases);
@@ -147,13 +151,14 @@ fn march<O: Observer>(
         observers.iter_mut().map(|o| [o as &mut dyn Observer]).collect();
     let mut courses = Vec::new();
     for (entrant, watcher) in group.iter().zip(&mut watchers) {
-        let Entrant { member: Member { model, system }, analysis, loads, before, .. } = entrant;
+        let Entrant { member: Member { model, system }, loads, before, initial, analysis, .. } =
+            entrant;
         let watched = looks_at_rates(model, system, watcher.iter().any(|o| o.wants_rates()));
         let order = modes.space.order();
         let side = link_side(model, system, &analysis.solution, loads, order, watched);
         let mut stepper = LinkStepper::new(Modal::new(modes), side);
         let (state, pace, ledger, _) =
-            start(model, system, analysis, before.clone(), loads, &mut stepper, dt)?;
+            start(model, system, initial, before.clone(), loads, &mut stepper, dt)?;
         let (modal, side) = stepper.into_parts();
         modes = modal.into_modes();
         let viewer = Viewer::new(model, system, loads, &modes.space, watcher);
@@ -199,6 +204,7 @@ fn march<O: Observer>(
             pace: course.pace,
             ledger: course.ledger,
             constant: entrant.constant.clone(),
+            initial: entrant.initial.clone(),
             fallen: course.fallen,
         };
         let (case, kind) = (entrant.case, SolverKind::Fna);

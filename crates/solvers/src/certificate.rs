@@ -1,0 +1,236 @@
+//! How far the outputs of a reduced run are off, estimated while it runs.
+//!
+//! ```text
+//! span Φ₂ ⊃ span Φ:    M ü + C u̇ + K u = p − Bᵀ f   on Φ₂, driven by the link forces f of the run
+//! e_o = max over time |o(Φ₂ q₂) − o(Φ q)|                                       (reduction)
+//! ```
+//!
+//! The run's own link forces and loads drive the linear structure once more on a wider basis, which holds the next
+//! vectors of the same sequence. What that moves beyond the run is what the run's basis has no room for: the response
+//! to the residual of the full equations, dynamics included, to first order in the link forces. Link forces answer by
+//! their present tangents. A complete basis leaves nothing.
+//!
+//! The error of the steps adds up the distance of one step from two halves, a third of which is left in the halves of a
+//! rule of second order.
+//!
+//! References: residual-based estimation of reduced models, \[Antoulas 2005, ch. 11\]; two bases of one sequence as
+//! estimator, \[Bai & Su 2005\]; local extrapolation, \[Hairer, Nørsett & Wanner 1993, II.4\].
+
+use crate::modal::{Modes, Sources};
+use crate::outputs::Outputs;
+use crate::propagator::{Motion, StepKey};
+use crate::space::Space;
+use crate::stepper::State;
+use serde::Serialize;
+use trilith_model::Model;
+use trilith_system::{LinkBlocks, LoadSet, StepLoads, System};
+
+/// Step sizes that differ by less than this share are one.
+const SAME: f64 = 1e-9;
+/// The next vectors of a sequence do not hold all that is left.
+const BEYOND: f64 = 2.0;
+
+/// How far an output may be off, in its unit.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
+pub struct OutputError {
+    /// Because the basis does not hold all motions.
+    pub reduction: f64,
+    /// Because of the steps in time.
+    pub step: f64,
+}
+
+impl OutputError {
+    /// Both.
+    #[must_use]
+    pub fn total(&self) -> f64 {
+        self.reduction + self.step
+    }
+}
+
+/// The wider structure beside a run.
+pub(crate) struct Shadow<'a> {
+    system: &'a System,
+    loads: &'a LoadSet,
+    modes: Modes,
+    sources: Sources,
+    motion: Motion,
+    next: Motion,
+    pseudo: Vec<f64>,
+    load: [Vec<f64>; 2],
+    /// Time it has come to, s, and step sizes so far.
+    t: f64,
+    sizes: Vec<f64>,
+    amplitudes: StepLoads,
+    outputs: Outputs,
+    blocks: LinkBlocks,
+    state: State,
+    values: Vec<f64>,
+    own: Vec<f64>,
+}
+
+impl<'a> Shadow<'a> {
+    /// Beside a run that starts from this state, whose displacements and velocities of the free DOFs are `u` and `v`.
+    pub(crate) fn new(
+        model: &'a Model,
+        system: &'a System,
+        loads: &'a LoadSet,
+        modes: Modes,
+        (u, v): (&[f64], &[f64]),
+        t: f64,
+        state: &State,
+    ) -> Self {
+        let space = &modes.space;
+        let n = space.order();
+        let mut motion = [space.coordinates(system, u), space.coordinates(system, v)].concat();
+        motion.resize(3 * n, 0.0);
+        let outputs = Outputs::new(model, system, space);
+        let laws = system.links.laws(model);
+        let blocks = LinkBlocks::of(laws.iter().map(|(_, link)| link));
+        Self {
+            system,
+            loads,
+            sources: Sources::new(space, &[]),
+            next: motion.clone(),
+            motion,
+            pseudo: state.pseudo.clone(),
+            load: [vec![0.0; n], vec![0.0; n]],
+            t,
+            sizes: Vec::new(),
+            amplitudes: StepLoads::default(),
+            outputs,
+            blocks,
+            state: state.clone(),
+            values: vec![0.0; model.outputs.len()],
+            own: vec![0.0; space.links.len()],
+            modes,
+        }
+    }
+
+    /// Follows the run to a state that it has accepted.
+    pub(crate) fn follow(&mut self, t: f64, state: &State) {
+        let Self { modes, sources, motion, next, pseudo, load, loads, amplitudes, .. } = self;
+        let length = t - self.t;
+        let known = self.sizes.iter().copied().find(|s| (s - length).abs() <= SAME * length);
+        let dt = known.unwrap_or_else(|| {
+            self.sizes.push(length);
+            length
+        });
+        amplitudes.cut();
+        loads.step(self.t, t, amplitudes);
+        let space: &Space = &modes.space;
+        let [load0, load1] = load;
+        space.force_into(&amplitudes.start, load0);
+        space.force_into(&amplitudes.end, load1);
+        modes.prepare(StepKey { dt, average: 0 });
+        let loads = [&load0[..], &load1[..]];
+        if let Some(to) = sources.renew_spread(pseudo) {
+            modes.space.links.spread_into(pseudo, to);
+        }
+        modes.predict(sources, motion, &loads, next);
+        if let Some(to) = sources.renew_spread(&state.pseudo) {
+            modes.space.links.spread_into(&state.pseudo, to);
+        }
+        modes.complete(sources, motion, &loads, next);
+        std::mem::swap(motion, next);
+        pseudo.copy_from_slice(&state.pseudo);
+        self.t = t;
+    }
+
+    /// Compares the outputs of the run at this moment with its own; `errors` grow to the differences.
+    pub(crate) fn compare(&mut self, values: &[f64], state: &State, errors: &mut [f64]) {
+        let Self { system, own, modes, .. } = self;
+        let links = &system.links;
+        let n = modes.space.order();
+        self.state.clone_from(state);
+        let mut support = [vec![0.0; links.len()], vec![0.0; links.len()]];
+        let [d, v] = &mut support;
+        self.loads.support_deformation(&self.amplitudes.end, d, v);
+        for (motion, flat) in [(&self.motion[..n], d), (&self.motion[n..2 * n], v)] {
+            modes.space.links.deform(motion, own);
+            links.active.iter().zip(&*own).for_each(|(i, x)| flat[*i] += x);
+        }
+        let [d, v] = support;
+        self.blocks.add_change(&state.tangents.k, [&state.d, &d], &mut self.state.f);
+        self.blocks.add_change(&state.tangents.c, [&state.v, &v], &mut self.state.f);
+        (self.state.d, self.state.v) = (d, v);
+        self.state.motion.clone_from(&self.motion);
+        self.outputs.at(self.t, &self.state, self.loads).values(&mut self.values);
+        for (error, (a, b)) in errors.iter_mut().zip(self.values.iter().zip(values)) {
+            let off = BEYOND * (a - b).abs();
+            if off > *error {
+                *error = off;
+            }
+        }
+    }
+}
+
+/// What a run knows of the errors of its outputs.
+pub(crate) struct Certificate<'a> {
+    pub shadow: Option<Shadow<'a>>,
+    outputs: Outputs,
+    loads: &'a LoadSet,
+    values: Vec<f64>,
+    reduction: Vec<f64>,
+    /// Smallest and largest value of each output so far.
+    range: Vec<[f64; 2]>,
+}
+
+impl<'a> Certificate<'a> {
+    pub(crate) fn new(
+        model: &Model,
+        system: &System,
+        loads: &'a LoadSet,
+        space: &Space,
+        shadow: Option<Shadow<'a>>,
+    ) -> Self {
+        let count = model.outputs.len();
+        Self {
+            shadow,
+            outputs: Outputs::new(model, system, space),
+            loads,
+            values: vec![0.0; count],
+            reduction: vec![0.0; count],
+            range: vec![[0.0; 2]; count],
+        }
+    }
+
+    /// Takes note of an accepted step.
+    pub(crate) fn follow(&mut self, t: f64, state: &State) {
+        if let Some(shadow) = &mut self.shadow {
+            shadow.follow(t, state);
+        }
+    }
+
+    /// Takes note of the outputs at an output time.
+    pub(crate) fn look(&mut self, t: f64, state: &State) {
+        self.outputs.at(t, state, self.loads).values(&mut self.values);
+        for ([least, most], x) in self.range.iter_mut().zip(&self.values) {
+            (*least, *most) = (least.min(*x), most.max(*x));
+        }
+        if let Some(shadow) = &mut self.shadow {
+            shadow.compare(&self.values, state, &mut self.reduction);
+        }
+    }
+
+    /// The errors, where the errors of all steps add up to this share.
+    pub(crate) fn errors(&self, steps: f64) -> Vec<OutputError> {
+        let size = |[least, most]: &[f64; 2]| most.max(0.0) - least.min(0.0);
+        let pairs = self.reduction.iter().zip(&self.range);
+        pairs.map(|(e, r)| OutputError { reduction: *e, step: steps * size(r) }).collect()
+    }
+
+    /// The largest error of reduction as a share of the range of its output, among those of one kind that are not
+    /// small: index of the output and share.
+    pub(crate) fn worst(&self, model: &Model) -> Option<(usize, f64)> {
+        let size = |i: usize| self.range[i][1].max(0.0) - self.range[i][0].min(0.0);
+        let all = 0..self.reduction.len();
+        let share = |i: usize| {
+            // What hardly moves is measured by the largest of its kind.
+            let alike = |j: &usize| model.outputs[*j].unit == model.outputs[i].unit;
+            let largest = all.clone().filter(alike).map(size).fold(0.0, f64::max);
+            let scale = size(i).max(0.1 * largest);
+            if scale > 0.0 { self.reduction[i] / scale } else { 0.0 }
+        };
+        all.clone().map(|i| (i, share(i))).max_by(|a, b| a.1.total_cmp(&b.1))
+    }
+}
