@@ -85,14 +85,17 @@ pub(crate) fn run(
     let loads = system.dynamic_loads(model, analysis, constant.clone());
     let reduced = is_reduced(kind);
     let bases = bases(model, system, analysis, kind, &loads)?;
-    let damping = bases.as_ref().and_then(|b| modal_damping(model, system, b));
+    let damping = match &bases {
+        Some(bases) => modal_damping(model, system, bases)?,
+        None => None,
+    };
     let none = vec![0.0; system.links.len()];
     let effective = if kind == SolverKind::FullNewton { &none } else { &system.links.effective };
     let watched = looks_at_rates(model, system, observers.iter().any(|o| o.wants_rates()));
     let side = |order: usize| link_side(model, system, solution, &loads, order, watched);
     let mut stepper: Box<dyn Stepper + '_> = match (kind, &bases) {
         (SolverKind::Fna, Some(b)) => {
-            let modes = modes(model, system, &loads, b);
+            let modes = modes(model, system, &loads, b)?;
             let side = side(modes.space.order());
             Box::new(LinkStepper::new(Modal::new(modes), side))
         }
@@ -321,14 +324,19 @@ pub(crate) fn bases(
 }
 
 /// The structure of FNA on its basis.
-pub(crate) fn modes(model: &Model, system: &System, loads: &LoadSet, bases: &Bases) -> Modes {
+pub(crate) fn modes(
+    model: &Model,
+    system: &System,
+    loads: &LoadSet,
+    bases: &Bases,
+) -> Result<Modes, SolveError> {
     let links = &system.links;
     let engaged = links.engaged(model);
     let engaged = links.active.iter().map(|i| engaged[*i]).collect();
-    let damping = modal_damping(model, system, bases);
+    let damping = modal_damping(model, system, bases)?;
     let stepping = &bases.stepping;
     let space = Space::reduced(system, loads, &links.effective, damping.as_ref(), stepping);
-    Modes::new(space, engaged)
+    Ok(Modes::new(space, engaged))
 }
 
 /// The link side of a motion with this many coordinates; `watched` as [`looks_at_rates`] says.

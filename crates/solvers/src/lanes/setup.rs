@@ -150,7 +150,7 @@ pub fn prepare(
     let Some(bases) = bases(model, system, analysis, SolverKind::Fna, &loads)? else {
         return Ok(Err("no basis"));
     };
-    let modes = modes(model, system, &loads, &bases);
+    let modes = modes(model, system, &loads, &bases)?;
     let order = modes.space.order();
     let side = link_side(model, system, &analysis.solution, &loads, order, true);
     let mut stepper = LinkStepper::new(Modal::new(modes), side);

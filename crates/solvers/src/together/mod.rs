@@ -137,7 +137,7 @@ fn march<O: Observer>(
     let Some(bases) = bases(model, system, analysis, SolverKind::Fna, loads)? else {
         return Ok(none());
     };
-    let mut modes = modes(model, system, loads, &bases);
+    let mut modes = modes(model, system, loads, &bases)?;
     let dt = analysis.dt;
     // Stiff links choose their rule step by step, each motion its own.
     if modes.ratio(dt / substeps as f64) > LONGEST {
