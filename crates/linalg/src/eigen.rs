@@ -1,6 +1,6 @@
-//! Symmetric eigenproblems: small dense ones, the lowest modes of sparse ones, all modes of small ones.
+//! Symmetric eigenproblems: dense ones, and all modes of small systems.
 
-use crate::{Dense, Ldlt, LinalgError, Sparse};
+use crate::{Dense, LinalgError, Sparse};
 use faer::Side;
 
 /// Eigenvalues (rising) and orthonormal eigenvectors of a dense symmetric matrix.
@@ -36,155 +36,77 @@ fn of_diagonal(a: &Dense) -> Option<(Vec<f64>, Dense)> {
     Some((order.iter().map(|i| a[(*i, *i)]).collect(), vectors))
 }
 
-/// Lowest `count` modes of `(K − λ M) φ = 0` by subspace iteration with the shift `sigma` ≤ 0 that
-/// makes `K − σ M` regular. M may be singular. Returns λ (rising) and M-orthonormal vectors.
-///
-/// # Errors
-/// Where `K − σ M` is singular or the iteration does not converge.
-pub fn lowest_modes(
-    k: &Sparse,
-    m: &Sparse,
-    count: usize,
-    sigma: f64,
-) -> Result<(Vec<f64>, Dense), LinalgError> {
-    const ITERATIONS: usize = 200;
-    let n = k.rows();
-    let shifted = Sparse::combine(&[(1.0, k), (-sigma, m)]);
-    let mut factor = Ldlt::new(&shifted)?;
-    let size = (2 * count).min(count + 8).min(n);
-    let mut x = start_block(m, size);
-    let mut before = vec![f64::INFINITY; size];
-    for _ in 0..ITERATIONS {
-        let mut y = Dense::zeros(n, size);
-        for j in 0..size {
-            m.mul_add(1.0, x.column(j), y.column_mut(j));
-        }
-        factor.solve(y.values_mut());
-        let (values, vectors) = rayleigh_ritz(&shifted, m, &y)?;
-        let kept = vectors.columns();
-        if kept < count {
-            return Err(LinalgError::NotConverged {
-                what: "the search for modes",
-                iterations: kept,
-            });
-        }
-        // The projected problem is solved no better than to the rounding of its largest value.
-        let largest = values.last().map_or(0.0, |v| v.abs());
-        let settled = before.len() == values.len()
-            && values[..count]
-                .iter()
-                .zip(&before)
-                .all(|(a, b)| (a - b).abs() <= 1e-12 * a.abs().max(1e-2 * largest));
-        if settled {
-            let found = Dense::from_columns(n, count, vectors.values()[..n * count].to_vec());
-            return Ok((values[..count].iter().map(|v| v + sigma).collect(), found));
-        }
-        before = values;
-        x = if kept == size {
-            vectors
-        } else {
-            let mut widened = start_block(m, size);
-            widened.values_mut()[..n * kept].copy_from_slice(vectors.values());
-            widened
-        };
-    }
-    Err(LinalgError::NotConverged { what: "the search for modes", iterations: ITERATIONS })
-}
-
-/// Deterministic start vectors: the mass diagonal, then scattered pseudo-random directions.
-fn start_block(m: &Sparse, size: usize) -> Dense {
-    let n = m.rows();
-    let mut x = Dense::zeros(n, size);
-    let mut seed = 0x9E37_79B9_7F4A_7C15_u64;
-    for j in 0..size {
-        for i in 0..n {
-            seed ^= seed << 13;
-            seed ^= seed >> 7;
-            seed ^= seed << 17;
-            x[(i, j)] = if j == 0 { 1.0 } else { (seed >> 11) as f64 / (1u64 << 52) as f64 - 1.0 };
-        }
-    }
-    x
-}
-
-/// Rayleigh–Ritz in the span of `y`: values rising, M-orthonormal vectors. Directions without mass
-/// are dropped.
-fn rayleigh_ritz(k: &Sparse, m: &Sparse, y: &Dense) -> Result<(Vec<f64>, Dense), LinalgError> {
-    let (n, size) = (y.rows(), y.columns());
-    let apply = |a: &Sparse| {
-        let mut ay = Dense::zeros(n, size);
-        for j in 0..size {
-            a.mul_add(1.0, y.column(j), ay.column_mut(j));
-        }
-        y.transpose_times(&ay)
-    };
-    let (mut kr, mut mr) = (apply(k), apply(m));
-    // Unit diagonal of the projected mass, so that the cut is relative to each vector.
-    let scale: Vec<f64> =
-        (0..size).map(|j| if mr[(j, j)] > 0.0 { 1.0 / mr[(j, j)].sqrt() } else { 0.0 }).collect();
-    for j in 0..size {
-        for i in 0..size {
-            kr[(i, j)] *= scale[i] * scale[j];
-            mr[(i, j)] *= scale[i] * scale[j];
-        }
-    }
-    let (mass, basis) = symmetric_eigen(&mr)?;
-    let kept: Vec<usize> = (0..size).filter(|i| mass[*i] > 1e-13).collect();
-    let mut t = Dense::zeros(size, kept.len());
-    for (new, old) in kept.iter().enumerate() {
-        let factor = 1.0 / mass[*old].sqrt();
-        for i in 0..size {
-            t[(i, new)] = scale[i] * factor * basis[(i, *old)];
-        }
-    }
-    let mut unscaled = apply(k);
-    unscaled = t.transpose_times(&unscaled.times(&t));
-    let (values, vectors) = symmetric_eigen(&unscaled)?;
-    Ok((values, y.times(&t.times(&vectors))))
-}
+/// A mass below this share of what its own equations weigh is rounding: the direction has none.
+const MASSLESS: f64 = 1e-13;
+/// Modes slower than this share of the fastest ones' λ are found once more among themselves.
+const SLOW: f64 = 1e-5;
 
 /// All modes with mass of a small system `(K − λ M) φ = 0`, M singular or not, K positive
 /// semi-definite: massless directions are condensed statically. Dense; for some hundred DOFs.
 /// Returns λ (rising) and M-orthonormal vectors.
 ///
+/// Masses are told from none by what their own equations weigh, so they may be of any size beside each other;
+/// and slow modes are as accurate as fast ones.
+///
 /// # Errors
 /// Where a massless direction has no stiffness.
 pub fn all_modes(k: &Sparse, m: &Sparse) -> Result<(Vec<f64>, Dense), LinalgError> {
-    let n = k.rows();
-    let dense = |a: &Sparse| {
-        let mut d = Dense::zeros(n, n);
-        for (i, j, v) in a.entries() {
-            d[(i, j)] += v;
-        }
-        d
-    };
-    let (kd, md) = (dense(k), dense(m));
-    let (mass, v) = symmetric_eigen(&md)?;
-    let largest = mass.last().copied().unwrap_or(0.0);
-    let massless = mass.iter().filter(|x| **x <= 1e-13 * largest).count();
-    let null = Dense::from_columns(n, massless, v.values()[..n * massless].to_vec());
-    let mut heavy = Dense::from_columns(n, n - massless, v.values()[n * massless..].to_vec());
-    for j in 0..n - massless {
-        let factor = 1.0 / mass[massless + j].sqrt();
-        heavy.column_mut(j).iter_mut().for_each(|x| *x *= factor);
-    }
-    if massless > 0 {
+    let (null, mut modes) = split(m)?;
+    let (massless, count) = (null.columns(), modes.columns());
+    if massless > 0 && count > 0 {
         // x = heavy·y + null·z with nullᵀ K x = 0.
-        let k_null = kd.times(&null);
-        let mut z = k_null.transpose_times(&heavy);
+        let mut k_null = Dense::zeros(null.rows(), massless);
+        for j in 0..massless {
+            k.mul_add(1.0, null.column(j), k_null.column_mut(j));
+        }
+        let mut z = k_null.transpose_times(&modes);
         let inner = null.transpose_times(&k_null);
         crate::DenseLu::new(&inner).solve_columns(&mut z);
         if let Some(at) = z.values().iter().position(|x| !x.is_finite()) {
             return Err(LinalgError::Singular { equation: at % massless });
         }
         let shift = null.times(&z);
-        for (a, b) in heavy.values_mut().iter_mut().zip(shift.values()) {
+        for (a, b) in modes.values_mut().iter_mut().zip(shift.values()) {
             *a -= b;
         }
     }
-    let reduced = heavy.transpose_times(&kd.times(&heavy));
-    let (values, vectors) = symmetric_eigen(&reduced)?;
-    Ok((values, heavy.times(&vectors)))
+    // A dense eigenvalue is found no better than to the rounding of the largest one.
+    let (mut values, mut slow) = (vec![0.0; count], count);
+    while slow > 0 {
+        let (again, rotation) = symmetric_eigen(&modes.congruence(k, slow))?;
+        modes.turn(&rotation);
+        values[..slow].copy_from_slice(&again);
+        let largest = again.last().copied().unwrap_or(0.0);
+        let slower = again.iter().filter(|w| **w < SLOW * largest).count();
+        slow = if slower < slow { slower } else { 0 };
+    }
+    Ok((values, modes))
+}
+
+/// Directions without mass, and M-orthonormal ones with. M is scaled to a unit diagonal, so that neither units nor
+/// sizes of masses decide.
+fn split(m: &Sparse) -> Result<(Dense, Dense), LinalgError> {
+    let n = m.rows();
+    let scale: Vec<f64> =
+        m.diagonal().iter().map(|d| if *d > 0.0 { d.sqrt().recip() } else { 0.0 }).collect();
+    let mut scaled = Dense::zeros(n, n);
+    for (i, j, v) in m.entries() {
+        scaled[(i, j)] += v * scale[i] * scale[j];
+    }
+    for i in (0..n).filter(|i| scale[*i] > 0.0) {
+        scaled[(i, i)] = 1.0;
+    }
+    let (mass, mut v) = symmetric_eigen(&scaled)?;
+    let massless = mass.iter().filter(|x| **x <= MASSLESS).count();
+    for j in 0..n {
+        let size = if j < massless { 1.0 } else { mass[j].sqrt().recip() };
+        for (x, s) in v.column_mut(j).iter_mut().zip(&scale) {
+            *x *= if *s > 0.0 { s * size } else { 1.0 };
+        }
+    }
+    let (null, heavy) = v.values().split_at(n * massless);
+    let matrix = |values: &[f64]| Dense::from_columns(n, values.len() / n.max(1), values.to_vec());
+    Ok((matrix(null), matrix(heavy)))
 }
 
 #[cfg(test)]
@@ -213,13 +135,9 @@ mod tests {
     #[test]
     fn the_chain_has_its_closed_form_frequencies() {
         let (k, m) = chain();
-        let (few, _) = lowest_modes(&k, &m, 3, 0.0).unwrap();
         let (all, _) = all_modes(&k, &m).unwrap();
         for j in 1..=8 {
             assert!((all[j - 1].sqrt() / exact(j) - 1.0).abs() < 1e-12);
-        }
-        for j in 1..=3 {
-            assert!((few[j - 1].sqrt() / exact(j) - 1.0).abs() < 1e-10, "{few:?}");
         }
     }
 
@@ -247,5 +165,40 @@ mod tests {
         assert_eq!(values.len(), 1);
         assert!((values[0] - 0.5).abs() < 1e-12);
         assert!((vectors[(0, 0)] / vectors[(1, 0)] - 0.5).abs() < 1e-12);
+    }
+
+    /// A light mass on a heavy one: λ from the characteristic polynomial.
+    #[test]
+    fn light_masses_beside_heavy_ones_are_masses() {
+        // Apart, and as rotary inertia about a place that the mass is off by e.
+        for (light, e) in [(1e-9, 0.0), (1e-6, 0.0), (1e-9, 2e-8), (1e-12, 3e-9)] {
+            let heavy = 1e6;
+            let mass = [heavy, heavy * e, light + heavy * e * e];
+            let stiffness = [3e6, -1e6, 1e6];
+            let [k, m] = [stiffness, mass].map(|[a, b, c]| {
+                let mut t = Triplets::new(2, 2);
+                for (i, j, v) in [(0, 0, a), (0, 1, b), (1, 0, b), (1, 1, c)] {
+                    t.add(i, j, v);
+                }
+                t.build()
+            });
+            let (values, vectors) = all_modes(&k, &m).unwrap();
+            // a λ² − b λ + c = 0, without the difference that rounding would spoil.
+            let [k, s] = [stiffness, mass];
+            let (a, c) = (heavy * light, k[0] * k[2] - k[1] * k[1]);
+            let b = k[0] * s[2] + k[2] * s[0] - 2.0 * k[1] * s[1];
+            let larger = b + (b * b - 4.0 * a * c).sqrt();
+            let expected = [2.0 * c / larger, larger / (2.0 * a)];
+            assert_eq!(values.len(), 2, "{light} {e}: {values:?}");
+            for (j, (found, expected)) in values.iter().zip(expected).enumerate() {
+                assert!(
+                    (found / expected - 1.0).abs() < 1e-9,
+                    "{light} {e}: {values:?} {expected}"
+                );
+                let image = m.mul(vectors.column(j));
+                let square = crate::dot(vectors.column(j), &image);
+                assert!((square - 1.0).abs() < 1e-9, "{square}");
+            }
+        }
     }
 }

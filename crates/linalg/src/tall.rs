@@ -51,19 +51,46 @@ impl Columns {
     }
 
     /// Takes from every vector x of a block its shares in the columns from `first` on: x −= V (Vᵀ y), where y
-    /// is the image of x that the columns are orthonormal to.
+    /// is the image of x that the columns are orthonormal to. Returns the shares Vᵀ y, one vector's after the
+    /// other's.
     ///
     /// # Panics
     /// Where the lengths do not suit.
-    pub fn take_out(&self, first: usize, x: &mut [Vec<f64>], y: &[Vec<f64>]) {
+    pub fn take_out(&self, first: usize, x: &mut [Vec<f64>], y: &[Vec<f64>]) -> Vec<f64> {
         let columns = &self.values[(first * self.rows).min(self.values.len())..];
+        let mut shares = Vec::new();
         for (x, y) in x.chunks_mut(2).zip(y.chunks(2)) {
             match (x, y) {
-                ([a, b], [c, d]) => take_out(columns, self.rows, [a, b], [c, d]),
-                ([a], [c]) => take_out(columns, self.rows, [a], [c]),
+                ([a, b], [c, d]) => {
+                    let of_both = take_out(columns, self.rows, [a, b], [c, d]);
+                    shares.extend(of_both.iter().step_by(2));
+                    shares.extend(of_both.iter().skip(1).step_by(2));
+                }
+                ([a], [c]) => shares.extend(take_out(columns, self.rows, [a], [c])),
                 _ => {}
             }
         }
+        shares
+    }
+
+    /// One of them.
+    #[must_use]
+    pub fn column(&self, j: usize) -> &[f64] {
+        &self.values[j * self.rows..(j + 1) * self.rows]
+    }
+
+    /// V Q of the first columns, as many as Q has rows.
+    ///
+    /// # Panics
+    /// Where there are fewer columns.
+    #[must_use]
+    pub fn times(&self, q: &Dense) -> Dense {
+        assert!(q.rows() <= self.len(), "sizes of a product");
+        let mut x = Dense::zeros(self.rows, q.columns());
+        let first = &self.values[..self.rows * q.rows()];
+        let own = MatRef::from_column_major_slice(first, self.rows, q.rows());
+        matmul(x.as_mut(), Accum::Replace, own, q.as_ref(), 1.0, Par::Seq);
+        x
     }
 
     /// As a matrix.
@@ -73,9 +100,14 @@ impl Columns {
     }
 }
 
-fn take_out<const R: usize>(a: &[f64], n: usize, x: [&mut Vec<f64>; R], y: [&Vec<f64>; R]) {
+fn take_out<const R: usize>(
+    a: &[f64],
+    n: usize,
+    x: [&mut Vec<f64>; R],
+    y: [&Vec<f64>; R],
+) -> Vec<f64> {
     if a.is_empty() {
-        return;
+        return Vec::new();
     }
     let m = a.len() / n;
     let mut shares = vec![0.0; R * m];
@@ -90,6 +122,7 @@ fn take_out<const R: usize>(a: &[f64], n: usize, x: [&mut Vec<f64>; R], y: [&Vec
         let x = x.each_mut().map(|x| &mut x[start..end]);
         dispatch(Subtract { a, n, start, x, shares: &shares });
     }
+    shares
 }
 
 struct Dots<'a, const R: usize> {
@@ -303,11 +336,13 @@ mod tests {
             let y: Vec<Vec<f64>> =
                 (0..count).map(|c| (0..n).map(|i| number(3 * i + c)).collect()).collect();
             let mut x = y.clone();
-            columns.take_out(2, &mut x, &y);
-            for (x, y) in x.iter().zip(&y) {
+            let shares = columns.take_out(2, &mut x, &y);
+            assert_eq!(shares.len(), 5 * count);
+            for ((x, y), shares) in x.iter().zip(&y).zip(shares.chunks(5)) {
                 let mut expected = y.clone();
                 for j in 2..7 {
                     let share: f64 = v.column(j).iter().zip(y).map(|(a, b)| a * b).sum();
+                    assert!((share - shares[j - 2]).abs() < 1e-10, "{share} {shares:?}");
                     expected.iter_mut().zip(v.column(j)).for_each(|(e, a)| *e -= share * a);
                 }
                 for (x, e) in x.iter().zip(&expected) {
@@ -315,6 +350,15 @@ mod tests {
                 }
             }
         }
+        let q = sample(3, 2);
+        let product = columns.times(&q);
+        for j in 0..2 {
+            for i in (0..n).step_by(7) {
+                let expected: f64 = (0..3).map(|k| v[(i, k)] * q[(k, j)]).sum();
+                assert!((product[(i, j)] - expected).abs() < 1e-14);
+            }
+        }
+        assert_eq!(columns.column(4), v.column(4));
         assert_eq!(columns.into_dense(), v);
     }
 

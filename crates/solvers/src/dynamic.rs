@@ -85,7 +85,6 @@ pub(crate) fn run(
     };
     let loads = system.dynamic_loads(model, analysis, constant.clone());
     let reduced = is_reduced(kind);
-    let reduced = is_reduced(kind);
     let initial = match &options.from {
         Some(end) => end.initial.clone(),
         None => Initial::new(model, system, analysis, before.as_ref())?,
@@ -137,15 +136,14 @@ pub(crate) fn run(
     };
     let mut state = Box::new(state);
     let mut viewer = Viewer::new(model, system, &loads, stepper.space(), observers);
-    let mut certificate = (reduced || !model.outputs.is_empty()).then(|| {
-        let wider = bases.as_ref().filter(|_| reduced).and_then(|b| b.wider.as_ref());
-        let shadow = wider.map(|wider| {
-            let modes = modes(model, system, &loads, wider);
-            let at = (&*moves_at.0, &*moves_at.1);
-            Shadow::new(model, system, &loads, modes, at, timeline.time(first), &state)
-        });
-        Certificate::new(model, system, &loads, stepper.space(), shadow)
+    let wider = bases.as_ref().and_then(|b| b.wider.as_deref());
+    let shadow = wider.map(|wider| {
+        let modes = modes(model, system, &loads, wider);
+        let at = (&*moves_at.0, &*moves_at.1);
+        Shadow::new(model, system, &loads, modes, at, timeline.time(first), &state)
     });
+    let mut certificate = (!model.outputs.is_empty())
+        .then(|| Certificate::new(model, system, &loads, stepper.space(), shadow));
     let last = match options.until {
         Some(t) => ((t / dt) - 1e-9).ceil().max(0.0) as usize,
         None => timeline.steps,
@@ -361,7 +359,12 @@ pub(crate) fn bases(
 }
 
 /// The structure of FNA on its basis.
-pub(crate) fn modes(model: &Model, system: &System, loads: &LoadSet, bases: &Bases) -> Modes {
+pub(crate) fn modes(
+    model: &Model,
+    system: &System,
+    loads: &LoadSet,
+    bases: &Bases,
+) -> Modes {
     let links = &system.links;
     let engaged = links.engaged(model);
     let engaged = links.active.iter().map(|i| engaged[*i]).collect();

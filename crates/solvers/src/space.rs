@@ -1,13 +1,14 @@
 //! The linear structure in the coordinates of a solver: all free DOFs, or a basis of Ritz vectors.
 
 use crate::basis::RitzBasis;
+use crate::damping::ModalDamping;
 use crate::link_map::LinkMap;
 use crate::shapes::{Shapes, expand};
 use std::sync::Arc;
 use trilith_linalg::{Dense, Product, Sparse, Triplets};
 use trilith_system::{LoadSet, System};
 
-/// C += U diag(rate) Uᵀ: modal damping, M Φ diag(2 ζ ω) Φᵀ M.
+/// C += U diag(rate) Uᵀ: modal damping, see [`damping`](crate::damping).
 #[derive(Clone, Debug)]
 pub(crate) struct LowRank {
     pub u: Dense,
@@ -20,7 +21,7 @@ pub(crate) struct Space {
     pub mass: Sparse,
     /// C beyond Rayleigh's.
     pub damping: Sparse,
-    /// Shares of M and of K in C beside it, 1/s and s.
+    /// Shares of M and of K in C beside it, 1/s and s; modal damping has one of K beyond its modes.
     pub rayleigh: [f64; 2],
     /// Stiffness with the dummies.
     pub stiffness: Sparse,
@@ -45,12 +46,13 @@ impl Space {
         system: &System,
         loads: &LoadSet,
         effective: &[f64],
-        modal: Option<LowRank>,
+        modal: Option<ModalDamping>,
     ) -> Self {
         let links = &system.links;
         let dummy: Vec<f64> = links.active.iter().map(|i| effective[*i]).collect();
         let stiffness = system.stiffness_with(effective);
-        let of_stiffness = system.rayleigh[1];
+        let [of_mass, mut of_stiffness] = system.rayleigh;
+        of_stiffness += modal.as_ref().map_or(0.0, |modal| modal.beyond);
         let damping = if of_stiffness == 0.0 || effective.iter().all(|k| *k == 0.0) {
             system.element_damping.clone()
         } else {
@@ -65,9 +67,9 @@ impl Space {
         Self {
             mass: system.mass.clone(),
             damping,
-            rayleigh: system.rayleigh,
+            rayleigh: [of_mass, of_stiffness],
             stiffness,
-            modal,
+            modal: modal.map(ModalDamping::less_beyond),
             links: LinkMap::Sparse(links.active.iter().map(|i| links.rows[*i].clone()).collect()),
             dummy_k: dummy,
             forces: Product::new(forces),
@@ -82,7 +84,7 @@ impl Space {
         system: &System,
         loads: &LoadSet,
         effective: &[f64],
-        modal: Option<&LowRank>,
+        modal: Option<&ModalDamping>,
         basis: &RitzBasis,
     ) -> Self {
         let (modes, statics) = (basis.modes(), basis.statics());
@@ -122,15 +124,19 @@ impl Space {
                 }
             }
         }
-        // What couples static shapes with each other is rounding, and what they have with modes where nothing damps them.
+        let beyond = modal.map_or(0.0, |modal| modal.beyond);
+        // What couples static shapes with each other is rounding, and what they have with modes where nothing ties them.
         for r in 0..statics {
             let i = modes + r;
-            let rate = basis.statics.damping[r];
             let among = if basis.statics.is_tied(r) { modes } else { 0 };
             for j in among..m {
                 (damping[(i, j)], damping[(j, i)]) = (0.0, 0.0);
             }
-            damping[(i, i)] = rate;
+            // ψᵀ K ψ without the dummies.
+            let held = |(a, k): (usize, &f64)| k * links[(i, a)] * links[(i, a)];
+            let of_dummies: f64 = dummy_k.iter().enumerate().map(held).sum();
+            let own = (basis.statics.stiffness[r] - of_dummies).max(0.0);
+            damping[(i, i)] = basis.statics.damping[r] + beyond * own;
         }
         Self {
             mass: diagonal(&[vec![1.0; modes], vec![0.0; statics]].concat()),
