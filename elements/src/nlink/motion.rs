@@ -35,7 +35,8 @@ fn moved(
             let rest = force(t1) - stiffness * x - answer.f[1] - inertia;
             let slope = 4.0 * MASS / (dt * dt) + stiffness + answer.k[4] + 2.0 / dt * answer.c[4];
             x += rest / slope;
-            if rest.abs() < 1e-9 * WEIGHT {
+            // Rounding of the displacement alone makes 1e-5 N of inertia.
+            if rest.abs() < 1e-7 * WEIGHT {
                 break;
             }
             assert!(turn < 50, "no equilibrium at {t1} s");
@@ -136,17 +137,16 @@ fn it_breaks_away_at_the_static_coefficient() {
         NLink { mu: Some(mu), mu_static: Some(mu_static), ks: Some(ks), cs: 3e5, ..NLink::new(KN) };
     let growth = 0.25 * WEIGHT;
     let motion = moved(&law, 1.3, 1e-4, 0.0, |t| growth * t);
-    let away = motion.iter().position(|s| s[0] > 2.0 * mu_static * WEIGHT / ks).unwrap();
-    assert_relative_eq!(1e-4 * away as f64, mu_static / 0.25, max_relative = 1e-2);
-    // Friction is kinetic from there on.
-    let (first, last) = (away + 50, motion.len() - 1);
+    let most = motion.iter().fold(0.0, |a: f64, s| a.max(s[2]));
+    assert_relative_eq!(most, mu_static * WEIGHT, max_relative = 1e-3);
+    let away = motion.iter().position(|s| s[2] == most).unwrap();
+    assert_relative_eq!(1e-4 * away as f64, mu_static / 0.25, max_relative = 5e-3);
+    // Friction is kinetic soon after.
+    let (first, last) = (away + 400, motion.len() - 1);
     assert!(motion[first..].iter().all(|s| (s[2] - mu * WEIGHT).abs() < 1e-6 * WEIGHT));
     let [t0, t1] = [first, last].map(|i| 1e-4 * (i + 1) as f64);
     let gain = (0.5 * growth * (t1 * t1 - t0 * t0) - mu * WEIGHT * (t1 - t0)) / MASS;
-    assert_relative_eq!(motion[last][1] - motion[first][1], gain, max_relative = 1e-6);
-    // The largest friction was the static one.
-    let most = motion.iter().fold(0.0, |a: f64, s| a.max(s[2]));
-    assert_relative_eq!(most, mu_static * WEIGHT, max_relative = 1e-3);
+    assert_relative_eq!(motion[last][1] - motion[first][1], gain, max_relative = 1e-5);
 }
 
 /// A mass pulled by a spring k whose end moves at V: it sticks for 2 z/V and slips for 2 (π − arctan(z ω/V))/ω with
@@ -154,9 +154,10 @@ fn it_breaks_away_at_the_static_coefficient() {
 #[test]
 fn a_pulled_mass_sticks_and_slips_in_its_period() {
     let (mu, mu_static, k, speed) = (0.2, 0.3, 4e4, 0.05);
-    let ks = 2e8;
+    // Letting go takes some √(m/kₛ): 1.4 % of the period with 2e8 N/m, 0.25 % here.
+    let ks = 1e10;
     let law =
-        NLink { mu: Some(mu), mu_static: Some(mu_static), ks: Some(ks), cs: 4e5, ..NLink::new(KN) };
+        NLink { mu: Some(mu), mu_static: Some(mu_static), ks: Some(ks), cs: 1e6, ..NLink::new(KN) };
     let z = (mu_static - mu) * WEIGHT / k;
     let omega = (k / MASS).sqrt();
     let period = 2.0 * z / speed + 2.0 / omega * (PI - (z * omega / speed).atan());
