@@ -2,7 +2,7 @@
 //!
 //! ```text
 //!   ═══╤═════════╤═══   j        N = −f₁                 pressed together; N = 0: lifted, no friction
-//!      ╲   ◡◡◡   ╱               τ = kₛ (u − a), |τ| ≤ μ N        u = (d₂, d₃); a slips at the limit
+//!      ╲   ◡◡◡   ╱               τ = kₛ (u − a) + cₛ (u̇ − ȧ), |τ| ≤ μ N        u = (d₂, d₃); a slips at the limit
 //!   ▔▔▔▔╲_______╱▔▔▔▔  i        f₁ = min(0, kₙ g + c ġ), g = d₁   (closed where g ≤ 0)
 //!         R                      fₜ = τ + N ∇h(u) + kₛₜ (|u| − D)⁺ u/|u|
 //!
@@ -10,7 +10,7 @@
 //!   `rise`:     g = d₁ − h(u): moving out lifts the load; N ∇h is then the reaction of the surface
 //!
 //!   Coulomb            μ
-//!   Velocity           μ = μ_fast − (μ_fast − μ_slow) e^(−r |u̇|)
+//!   Velocity           μ = μ_fast − (μ_fast − μ_slow) e^(−r x), slip rate x = |ȧ|
 //!   VelocityForce      the same with μ_slow = a_slow N^(n_slow−1), μ_fast = a_fast N^(n_fast−1), each at
 //!                      most μ_max, and r = r₀ + r₁ N + r₂ N²
 //!   VelocityPressure   the same with μ_fast = μ_f0 − Δμ tanh(α N/A), μ_f0 given as `mu_fast`
@@ -22,6 +22,9 @@
 //! | `damping`        | c      | N·s/m    | ≥ 0     | 0       | dashpot along the axis, acts only while closed |
 //! | `pull`           |        |          |         | false   | the dashpot may pull while closed; N = −kₙ g then |
 //! | `ks`             | kₛ     | N/m      | > 0     | –       | stiffness before slip                        |
+//! | `cs`             | cₛ     | N·s/m    | ≥ 0     | 0       | dashpot beside the spring before slip        |
+//! | `mu_static`      | μ_static | 1      | ≥ 0     | –       | before it breaks away, where more than at rest |
+//! | `static_slip`    | s₀     | m        | ≥ 0     | 0       | slip over which that is gone                 |
 //! | `radius`         | R      | m        | ≥ 0     | 0       | effective radius; 0 is flat                  |
 //! | `surface`        |        |          |         | Shallow | `Shallow` or `Spherical`                     |
 //! | `rise`           |        |          |         | false   | moving out lifts the load                    |
@@ -49,6 +52,8 @@
 //! spherical surface, the rise along it, and the rim. An `NLink` has what a bearing does not need: a
 //! clearance, restitution, post-slip and rotational springs.
 //!
+//! Slip rate, `mu_static` and `cs` are those of [`NLink`](crate::NLink).
+//!
 //! The rim is a ring around the bearing: it acts on a lifted slider too. Beyond 0.95 R the slope of a
 //! spherical surface goes on linearly. `rise` matters where the vertical motion does: at u = 0.2 R the
 //! load has gone up by 0.02 R, and a mass on the bearing gains and loses that height in every cycle.
@@ -65,7 +70,7 @@ mod card;
 mod tests;
 
 use crate::shared::sliding::{
-    Axial, Bearing, Coefficient, Dish, Side, SlidingHistory, Stop, engaged,
+    Axial, Bearing, BreakAway, Coefficient, Dish, Side, SlidingHistory, Stop, engaged,
 };
 use serde::Deserialize;
 use std::borrow::Cow;
@@ -107,6 +112,12 @@ pub struct FrictionPendulum {
     pub pull: bool,
     /// Stiffness before slip kₛ, N/m.
     pub ks: f64,
+    /// Dashpot beside the spring before slip cₛ, N·s/m.
+    pub cs: f64,
+    /// Friction coefficient before it breaks away.
+    pub mu_static: Option<f64>,
+    /// Slip s₀ over which that is gone, m.
+    pub static_slip: f64,
     /// Effective radius R, m; 0 is flat.
     pub radius: f64,
     /// Shape of the surface.
@@ -161,6 +172,9 @@ impl FrictionPendulum {
             damping: 0.0,
             pull: false,
             ks,
+            cs: 0.0,
+            mu_static: None,
+            static_slip: 0.0,
             radius: 0.0,
             surface: Surface::Shallow,
             rise: false,
@@ -214,6 +228,8 @@ impl FrictionPendulum {
             compression: Side { opening: 0.0, axial, friction: self.friction() },
             tension: None,
             ks: self.ks,
+            cs: self.cs,
+            away: self.mu_static.map(|mu| BreakAway { mu, over: self.static_slip }),
             dish: Dish { radius: self.radius, spherical: self.surface == Surface::Spherical },
             rise: self.rise,
             stop: stop.map(|(at, stiffness)| Stop { at, stiffness }),

@@ -67,7 +67,7 @@ pub use mass::Mass;
 pub use maxwell_damper::MaxwellDamper;
 pub use multilinear_elastic::MultilinearElastic;
 pub use multilinear_plastic::{MultilinearPlastic, Rule};
-pub use nlink::{NLink, NLinkHistory};
+pub use nlink::{NLink, NLinkHistory, NLinkRubbing};
 pub use rigid_body::RigidBody;
 pub use rigid_link::RigidLink;
 pub use rocking_body::RockingBody;

@@ -5,8 +5,9 @@
 //!   f₁ = −kₙ p + c ḋ₁                 closed, `pull`: the dashpot may hold the contact down
 //!   f₁ = min(0, −kₙ p + c ḋ₁)         closed, otherwise: never pulls
 //!   N  = kₙ p (`pull`),  −f₁ (otherwise)
-//!   μ  = μ_fast − (μ_fast − μ_slow) e^(−r v),   v = √(ḋ₂² + ḋ₃²)
-//!   τ  = k_e (dₜ − a), |τ| ≤ μ N      dₜ = (d₂, d₃);  k_e = kₛ − k_post;  a: anchor, slips at the limit
+//!   μ  = μ_fast − (μ_fast − μ_slow) e^(−r x) + (μ_static − μ_slow) (1 − s/D)⁺       D = max(s₀, 2 (μ_static − μ_slow) N/k_e)
+//!   x  = |ȧ|                          slip rate;  s: slip since it last stuck
+//!   τ  = k_e (dₜ − a) + cₛ (ḋₜ − ȧ), |τ| ≤ μ N      dₜ = (d₂, d₃);  k_e = kₛ − k_post;  a: anchor, slips at the limit
 //!   fₜ = τ + k_post dₜ + kₙ p dₜ / R
 //!   f  = 0                            open; the anchor goes with dₜ
 //!   m  = r θ                          rotations about 1, 2, 3, open or closed
@@ -23,7 +24,10 @@
 //! | `mu`               | μ              | 1       | ≥ 0   | 0       | friction coefficient                     |
 //! | `mu_slow`, `mu_fast` | μ_slow, μ_fast | 1     | ≥ 0   | –       | instead of `mu`: at rest and at speed    |
 //! | `rate`             | r              | s/m     | ≥ 0   | –       | how fast μ goes from slow to fast        |
+//! | `mu_static`        | μ_static       | 1       | ≥ μ_slow, μ | –  | before it breaks away                    |
+//! | `static_slip`      | s₀             | m       | ≥ 0   | 0       | slip over which that is gone             |
 //! | `ks`               | kₛ             | N/m     | > 0   | –       | pre-slip stiffness; required with friction |
+//! | `cs`               | cₛ             | N·s/m   | ≥ 0   | 0       | dashpot beside the pre-slip spring       |
 //! | `k_post`           | k_post         | N/m     | ≥ 0   | 0       | post-slip stiffness, < kₛ                |
 //! | `radius`           | R              | m       | ≥ 0   | 0       | radius of a pendulum surface; 0 is flat  |
 //! | `r1`, `r2`, `r3`   | r              | N·m/rad | ≥ 0   | 0       | rotational springs, always linear        |
@@ -32,6 +36,13 @@
 //! Friction is elastic–perfectly plastic with radial return, not of Wen's type: it sticks fully below
 //! the limit, and a separation wipes the anchor out. On closing, the anchor is the tangential position
 //! at the moment of contact, linear in the step.
+//!
+//! The **slip rate** is the rate of the anchor: what the pre-slip spring stretches does not count. Where
+//! friction falls with the rate (`mu_fast` < `mu_slow`) that would have no unique answer, as a spring without
+//! mass lets go at any rate; there x = |ḋₜ|. **Breaking away** takes `mu_static`; it falls with the slip, to the
+//! coefficient of slow slip after `static_slip`, and is back once the contact sticks. It falls no faster than half as
+//! steeply as the spring behind it. The dashpot **`cs`** stretches with the spring: it damps a body that sticks, and
+//! relaxes in cₛ/k_e once it slips; both together stay within μ N.
 //!
 //! With `restitution` the dashpot is c = 2 ζ(e) √(kₙ m), ζ(e) in closed form without gravity. The mass m
 //! worked out is the share that this contact stops when all contacts of its body strike together (a flat
@@ -43,14 +54,17 @@
 //! the balance of a trapezoidal step to the last digit in stick, slip and separation alike; a step in
 //! which slip reverses counts as zero at least. Dashpot: trapezoid of (f₁ + kₙ p) ḋ₁.
 //!
-//! Reference: \[Wilson 2002, ch. 18 and 21\]; velocity dependence \[Constantinou et al. 1990\].
+//! Reference: \[Wilson 2002, ch. 18 and 21\]; velocity dependence \[Constantinou et al. 1990\]; static
+//! friction that is lost over a length of slip \[Rabinowicz 1951\].
 
 mod contact;
 mod law;
 #[cfg(test)]
+mod motion;
+#[cfg(test)]
 mod tests;
 
-pub use law::NLinkHistory;
+pub use law::{NLinkHistory, NLinkRubbing};
 
 use crate::shared::restitution::{IMPACT_MASS, restitution};
 use serde::Deserialize;
@@ -88,8 +102,16 @@ pub struct NLink {
     pub mu_fast: Option<f64>,
     /// Rate constant r of the friction coefficient, s/m.
     pub rate: Option<f64>,
+    /// Friction coefficient before it breaks away.
+    pub mu_static: Option<f64>,
+    /// Slip s₀ over which that is gone, m.
+    #[serde(default)]
+    pub static_slip: f64,
     /// Pre-slip stiffness kₛ, N/m.
     pub ks: Option<f64>,
+    /// Dashpot beside the pre-slip spring cₛ, N·s/m.
+    #[serde(default)]
+    pub cs: f64,
     /// Post-slip stiffness, N/m.
     #[serde(default)]
     pub k_post: f64,
@@ -168,11 +190,34 @@ impl Described for NLink {
                 "rate at which μ goes from slow to fast",
             ),
             Parameter::optional(
+                "mu_static",
+                "μ_static",
+                NONE,
+                Range::NonNegative,
+                "friction coefficient before it breaks away; none: that of slow slip",
+            ),
+            Parameter::number(
+                "static_slip",
+                "s₀",
+                LENGTH,
+                Range::NonNegative,
+                0.0,
+                "slip over which `mu_static` is gone; 0: as soon as the spring `ks` can follow",
+            ),
+            Parameter::optional(
                 "ks",
                 "kₛ",
                 STIFFNESS,
                 Range::Positive,
                 "pre-slip stiffness; required with friction",
+            ),
+            Parameter::number(
+                "cs",
+                "cₛ",
+                DAMPING,
+                Range::NonNegative,
+                0.0,
+                "dashpot beside the spring `ks`: damps a contact that sticks",
             ),
             Parameter::number(
                 "k_post",
@@ -198,12 +243,14 @@ impl Described for NLink {
               f₁ = −kₙ p + c ḋ₁, without `pull` at most 0\n\
               N = kₙ p with `pull`, −f₁ without\n\
               with `restitution`: c = 2 ζ(e) √(kₙ m)\n\
-              μ = μ_fast − (μ_fast − μ_slow) e^(−r |ḋₜ|)\n\
-              τ = (kₛ − k_post) (dₜ − a), |τ| ≤ μ N (radial return)\n\
+              μ = μ_fast − (μ_fast − μ_slow) e^(−r x) + (μ_static − μ_slow) (1 − s/D)⁺,  D = max(s₀, 2 (μ_static − μ_slow) N/kₑ)\n\
+              x: slip rate |ȧ| (|ḋₜ| where μ_fast < μ_slow), s: slip since it last stuck\n\
+              τ = kₑ (dₜ − a) + cₛ (ḋₜ − ȧ), |τ| ≤ μ N, kₑ = kₛ − k_post (radial return)\n\
               fₜ = τ + k_post dₜ + kₙ p dₜ/R\n\
               open: f = 0, no memory of the anchor a",
         source: "Wilson, Static and Dynamic Analysis of Structures, 2002, ch. 18 and 21; \
-                 Constantinou, Mokha, Reinhorn 1990 for μ(v)",
+                 Constantinou, Mokha, Reinhorn 1990 for μ(v); \
+                 Rabinowicz 1951 for static friction lost over a slip",
         example: r#""left": NLink(node: "left", kn: "5e8 N/m", ks: "5e8 N/m", mu: 0.4)"#,
         exercise: Exercise {
             frequency: 1.0,
@@ -238,6 +285,22 @@ impl Described for NLink {
                 return Err(ParameterError::inconsistent(name, message));
             }
         }
+        let slow = self.mu_slow.or(self.mu).unwrap_or(0.0);
+        match self.mu_static {
+            Some(mu) if mu < slow => {
+                let message = format!("a contact breaks away at least at the {slow} of slow slip");
+                return Err(ParameterError::inconsistent("mu_static", message));
+            }
+            None if self.static_slip > 0.0 => {
+                let message = "`static_slip` belongs to `mu_static`: give both, or none";
+                return Err(ParameterError::inconsistent("static_slip", message));
+            }
+            _ => {}
+        }
+        if self.cs > 0.0 && self.ks.is_none() {
+            let message = "the dashpot `cs` is beside the pre-slip spring: give `ks` as well";
+            return Err(ParameterError::inconsistent("cs", message));
+        }
         match self.ks {
             None if self.has_friction() => Err(ParameterError::inconsistent(
                 "ks",
@@ -267,7 +330,10 @@ impl NLink {
             mu_slow: None,
             mu_fast: None,
             rate: None,
+            mu_static: None,
+            static_slip: 0.0,
             ks: None,
+            cs: 0.0,
             k_post: 0.0,
             radius: 0.0,
             r1: 0.0,
@@ -277,7 +343,9 @@ impl NLink {
     }
 
     fn has_friction(&self) -> bool {
-        [self.mu, self.mu_slow, self.mu_fast].iter().any(|m| m.is_some_and(|m| m > 0.0))
+        [self.mu, self.mu_slow, self.mu_fast, self.mu_static]
+            .iter()
+            .any(|m| m.is_some_and(|m| m > 0.0))
     }
 
     /// The rotational springs that exist.

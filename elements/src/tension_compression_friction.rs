@@ -4,9 +4,9 @@
 //!   f₁ = min(0, kₙ (d₁ + g_c) + c ḋ₁)     where d₁ + g_c ≤ 0    pressed, N = −f₁
 //!   f₁ = max(0, kₜ (d₁ − g_t) + c ḋ₁)     where d₁ − g_t ≥ 0    pulled,  N = f₁
 //!   f  = 0                                between               open
-//!   τ  = kₛ (u − a), |τ| ≤ μ N            u = (d₂, d₃); a slips at the limit, with the μ of the side
+//!   τ  = kₛ (u − a) + cₛ (u̇ − ȧ), |τ| ≤ μ N            u = (d₂, d₃); a slips at the limit, with the μ of the side
 //!   fₜ = τ − f₁ u/R                       the surface pushes back in compression, out in tension
-//!   μ  = μ_fast − (μ_fast − μ_slow) e^(−r |u̇|), one set for compression, one for tension
+//!   μ  = μ_fast − (μ_fast − μ_slow) e^(−r x), x = |ȧ|, one set for compression, one for tension
 //! ```
 //!
 //! | parameter          | symbol | unit  | range | default     | meaning                                 |
@@ -18,6 +18,7 @@
 //! | `damping`          | c      | N·s/m | ≥ 0   | 0           | dashpot along the axis, acts only while closed |
 //! | `pull`             |        |       |       | false       | the dashpot may act against the contact force; N is that of the spring then |
 //! | `ks`               | kₛ     | N/m   | > 0   | –           | stiffness before slip                   |
+//! | `cs`               | cₛ     | N·s/m | ≥ 0   | 0           | dashpot beside the spring before slip   |
 //! | `radius`           | R      | m     | ≥ 0   | 0           | effective radius; 0 is flat             |
 //! | `mu`               | μ      | 1     | ≥ 0   | 0           | friction coefficient in compression     |
 //! | `mu_slow`, `mu_fast`, `rate` | | 1, 1, s/m | ≥ 0 | –       | instead of `mu`: at rest, at speed, rate |
@@ -65,6 +66,8 @@ pub struct TensionCompressionFriction {
     pub pull: bool,
     /// Stiffness before slip kₛ, N/m.
     pub ks: f64,
+    /// Dashpot beside the spring before slip cₛ, N·s/m.
+    pub cs: f64,
     /// Effective radius R, m; 0 is flat.
     pub radius: f64,
     /// Friction coefficient in compression.
@@ -133,6 +136,14 @@ impl Described for TensionCompressionFriction {
             ),
             Parameter::required("ks", "kₛ", STIFFNESS, Range::Positive, "stiffness before slip"),
             Parameter::number(
+                "cs",
+                "cₛ",
+                DAMPING,
+                Range::NonNegative,
+                0.0,
+                "dashpot beside the spring `ks`: damps a bearing that sticks",
+            ),
+            Parameter::number(
                 "radius",
                 "R",
                 LENGTH,
@@ -151,8 +162,8 @@ impl Described for TensionCompressionFriction {
         ],
         law: "pressed, d₁ + g_c ≤ 0: f₁ = min(0, kₙ (d₁ + g_c) + c ḋ₁)\n\
               pulled,  d₁ − g_t ≥ 0: f₁ = max(0, kₜ (d₁ − g_t) + c ḋ₁);  N = |f₁|\n\
-              τ = kₛ (u − a), |τ| ≤ μ N (radial return), μ of the side;  u = (d₂, d₃)\n\
-              μ = μ_fast − (μ_fast − μ_slow) e^(−r |u̇|)\n\
+              τ = kₛ (u − a) + cₛ (u̇ − ȧ), |τ| ≤ μ N (radial return), μ of the side;  u = (d₂, d₃)\n\
+              μ = μ_fast − (μ_fast − μ_slow) e^(−r x), slip rate x = |ȧ| (|u̇| where μ falls with it)\n\
               fₜ = τ − f₁ u/R\n\
               open: f = 0, no memory of the anchor a",
         source: "CSI Analysis Reference, T/C friction isolator; Roussis & Constantinou 2006 for tension",
@@ -221,6 +232,7 @@ impl TensionCompressionFriction {
             damping: 0.0,
             pull: false,
             ks,
+            cs: 0.0,
             radius: 0.0,
             mu: None,
             mu_slow: None,
@@ -252,6 +264,8 @@ impl TensionCompressionFriction {
                 friction: pulled,
             }),
             ks: self.ks,
+            cs: self.cs,
+            away: None,
             dish: Dish { radius: self.radius, spherical: false },
             rise: false,
             stop: None,

@@ -39,8 +39,8 @@
 //!   III  1 and 4          N/(R₁* + R₄*)
 //! ```
 //!
-//! Both directions are coupled on every surface. The friction of surface i sees the mean speed vᵢ at which
-//! it slides along its friction force in the step, for 1 and 4 times R*/R̄: it lags half a step behind a
+//! Both directions are coupled on every surface. The friction of surface i sees the mean rate vᵢ at which
+//! it slips in the step (its anchor, not its spring), for 1 and 4 times R*/R̄: it lags half a step behind a
 //! speed that changes. The displacements of a step solve the equilibrium of the series, which has one
 //! solution.
 //!

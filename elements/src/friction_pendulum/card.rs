@@ -52,6 +52,23 @@ impl Described for FrictionPendulum {
             ),
             Parameter::required("ks", "kₛ", STIFFNESS, Range::Positive, "stiffness before slip"),
             Parameter::number(
+                "cs",
+                "cₛ",
+                DAMPING,
+                Range::NonNegative,
+                0.0,
+                "dashpot beside the spring `ks`: damps a bearing that sticks",
+            ),
+            coefficient("mu_static", "μ_static", "before it breaks away; none: as at rest"),
+            Parameter::number(
+                "static_slip",
+                "s₀",
+                LENGTH,
+                Range::NonNegative,
+                0.0,
+                "slip over which `mu_static` is gone; 0: as soon as the spring `ks` can follow",
+            ),
+            Parameter::number(
                 "radius",
                 "R",
                 LENGTH,
@@ -160,11 +177,12 @@ impl Described for FrictionPendulum {
             ),
         ],
         law: "f₁ = min(0, kₙ g + c ġ) where g = d₁ ≤ 0, else 0;  N = −f₁ (with `pull`: −kₙ g)\n\
-              τ = kₛ (u − a), |τ| ≤ μ N (radial return);  u = (d₂, d₃)\n\
+              τ = kₛ (u − a) + cₛ (u̇ − ȧ), |τ| ≤ μ N (radial return);  u = (d₂, d₃)\n\
               fₜ = τ + N ∇h(u) + kₛₜ (|u| − D)⁺ u/|u|\n\
               Shallow: ∇h = u/R;  Spherical: ∇h = u/√(R² − u²)\n\
               with `rise`: g = d₁ − h(u)\n\
-              Velocity: μ = μ_fast − (μ_fast − μ_slow) e^(−r |u̇|)\n\
+              Velocity: μ = μ_fast − (μ_fast − μ_slow) e^(−r x), slip rate x = |ȧ| (|u̇| where μ falls with it)\n\
+              until it has slipped by s₀: more, from `mu_static` on, as an `NLink`\n\
               VelocityForce: μ_slow, μ_fast = a N^(n−1) ≤ μ_max, r = r₀ + r₁ N + r₂ N²\n\
               VelocityPressure: μ_fast − Δμ tanh(α N/A) in place of μ_fast",
         source: "Zayas, Low, Mahin 1990; Constantinou, Mokha, Reinhorn 1990 for μ(v); \
@@ -182,6 +200,18 @@ impl Described for FrictionPendulum {
 
     fn check(&self) -> Result<(), ParameterError> {
         self.check_friction()?;
+        let slow = self.mu_slow.or(self.mu).unwrap_or(0.0);
+        match self.mu_static {
+            Some(mu) if mu < slow => {
+                let message = format!("a bearing breaks away at least at the {slow} of slow slip");
+                return Err(ParameterError::inconsistent("mu_static", message));
+            }
+            None if self.static_slip > 0.0 => {
+                let message = "`static_slip` belongs to `mu_static`: give both, or none";
+                return Err(ParameterError::inconsistent("static_slip", message));
+            }
+            _ => {}
+        }
         if self.stop.is_some() != self.stop_stiffness.is_some() {
             let message = "`stop` and `stop_stiffness` go together: give both, or none";
             return Err(ParameterError::inconsistent("stop", message));

@@ -82,6 +82,21 @@ fn conforms_flat_with_every_friction_model() {
 }
 
 #[test]
+fn conforms_where_it_breaks_away_and_with_a_dashpot_beside_its_spring() {
+    for law in models() {
+        let law = FrictionPendulum { mu_static: Some(0.6), ..law };
+        Kit::new(&SCALE, 5.0).assert(&law);
+        Kit::new(&SCALE, 5.0).assert(&FrictionPendulum {
+            static_slip: 1e-5,
+            cs: 1e6,
+            ..law.clone()
+        });
+        let law = FrictionPendulum { radius: 1e-3, rise: true, cs: 1e6, ..law };
+        Kit::new(&SCALE, 5.0).assert(&law);
+    }
+}
+
+#[test]
 fn conforms_as_a_pendulum_whose_force_has_no_potential() {
     for law in models() {
         for surface in [Surface::Shallow, Surface::Spherical] {
@@ -124,8 +139,17 @@ fn conforms_beyond_the_steepest_slope_and_always_pressed() {
 
 #[test]
 fn the_shallow_pendulum_is_an_nlink_with_a_radius() {
-    let bearing = FrictionPendulum { radius: 1e-3, damping: 1e6, pull: true, ..by_speed() };
+    let bearing = FrictionPendulum {
+        radius: 1e-3,
+        damping: 1e6,
+        pull: true,
+        mu_static: Some(0.5),
+        cs: 1e6,
+        ..by_speed()
+    };
     let link = NLink {
+        mu_static: bearing.mu_static,
+        cs: bearing.cs,
         radius: 1e-3,
         damping: 1e6,
         pull: true,

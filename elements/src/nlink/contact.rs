@@ -2,7 +2,8 @@
 //!
 //! `T` tangential directions: 2 in space, 1 in a plane. `FLAGS` says which parts there are.
 
-use super::NLinkHistory;
+use super::{NLinkHistory, NLinkRubbing};
+use crate::shared::sliding::{Cone, Rubbed, Rubbing, Worn};
 use trilith_element::History;
 use trilith_element::lanes::{LaneAt, LaneContact, LaneForce, LaneLaw, LaneStep, Real};
 
@@ -10,8 +11,9 @@ use trilith_element::lanes::{LaneAt, LaneContact, LaneForce, LaneLaw, LaneStep, 
 pub(super) const PULL: u8 = 1;
 /// There is a post-slip spring or a pendulum.
 pub(super) const RESTORING: u8 = 2;
-/// Friction grows from slow to fast.
-pub(super) const GRADED: u8 = 4;
+/// Friction looks at the slip: at its rate, or for its break-away, or there is a dashpot beside its spring. It
+/// remembers more than its anchor then. Always with [`RESTORING`].
+pub(super) const VARIED: u8 = 4;
 /// There is no dashpot, and friction does not look at rates either; alone or with [`RESTORING`].
 pub(super) const UNDAMPED: u8 = 8;
 
@@ -30,22 +32,36 @@ struct Of<R> {
     k_post: R,
     /// 1/R of the pendulum.
     curvature: R,
-    mu_slow: R,
-    mu_fast: R,
-    rate: R,
     /// 1/kₙ and 1/kₑ; 0 without friction.
     flexibility: [R; 2],
+    varied: Varied<R>,
 }
 
-/// Number of parameters.
-pub(super) const PARAMETERS: usize = 12;
+/// Parameters of friction that looks at the slip.
+#[derive(Clone, Copy)]
+struct Varied<R> {
+    slow: R,
+    fast: R,
+    rate: R,
+    /// μ before it breaks away less that of slow slip, and the slip over which that is gone.
+    away: R,
+    over: R,
+    /// Dashpot beside the spring.
+    dashpot: R,
+}
+
+/// Numbers of parameters, without and with [`VARIED`].
+pub(super) const PARAMETERS: [usize; 2] = [9, 15];
 
 impl<R: Real> Of<R> {
     #[inline(always)]
     fn read(p: &[R]) -> Self {
-        let p: &[R; PARAMETERS] = p.try_into().expect("parameters of a contact");
-        let [kn, opening, damping, ke, mu, k_post, curvature, mu_slow, mu_fast, rate, fn_, fe] = *p;
-        let flexibility = [fn_, fe];
+        let (plain, more) = p.split_at(PARAMETERS[0]);
+        let plain: &[R; PARAMETERS[0]] = plain.try_into().expect("parameters of a contact");
+        let [kn, opening, damping, ke, mu, k_post, curvature, fn_, fe] = *plain;
+        let zero = kn.of(0.0);
+        let more: [R; 6] = more.try_into().unwrap_or([zero; 6]);
+        let [slow, fast, rate, away, over, dashpot] = more;
         Self {
             kn,
             opening,
@@ -54,10 +70,8 @@ impl<R: Real> Of<R> {
             mu,
             k_post,
             curvature,
-            mu_slow,
-            mu_fast,
-            rate,
-            flexibility,
+            flexibility: [fn_, fe],
+            varied: Varied { slow, fast, rate, away, over, dashpot },
         }
     }
 }
@@ -108,16 +122,6 @@ impl<const T: usize, const FLAGS: u8> NLinkContact<T, FLAGS> {
         Pressed { open, spring, f, f_d, f_v, cone: -f, cone_d: -f_d, cone_v: -f_v }
     }
 
-    /// Friction coefficient and its derivative by the sliding speed.
-    #[inline(always)]
-    fn coefficient<R: Real>(it: &Of<R>, speed: R) -> (R, R) {
-        if FLAGS & GRADED == 0 {
-            return (it.mu, speed.of(0.0));
-        }
-        let decay = (it.mu_fast - it.mu_slow) * (-it.rate * speed).map(f64::exp);
-        (it.mu_fast - decay, it.rate * decay)
-    }
-
     /// Length of a tangential vector.
     #[inline(always)]
     fn length<R: Real>(x: [R; T]) -> R {
@@ -160,10 +164,97 @@ impl<const T: usize, const FLAGS: u8> NLinkContact<T, FLAGS> {
     }
 }
 
+/// Friction that looks at the slip.
+impl<const T: usize, const FLAGS: u8> NLinkContact<T, FLAGS> {
+    /// What it remembers.
+    #[inline(always)]
+    fn worn<R: Real>(at: &LaneAt<'_, R>) -> Worn<R, T> {
+        let own = &at.history[NLinkHistory::FIELDS.len()..];
+        let damped = own[2..2 + T].try_into().expect("T ≤ 2");
+        Worn { rate: own[0], since: own[1], damped }
+    }
+
+    /// The friction of a contact that is closed at the end, with the anchor of the step.
+    #[inline(always)]
+    fn rubbed<R: Real>(
+        it: &Of<R>,
+        at: &LaneAt<'_, R>,
+        now: &Pressed<R>,
+        anchor: [R; T],
+    ) -> Rubbed<R, T> {
+        let Varied { slow, fast, rate, away, over, dashpot } = it.varied;
+        let zero = it.kn.of(0.0);
+        let of = |mu: R| [mu * now.cone, mu];
+        let cone = Cone {
+            fast: of(fast),
+            less: of(fast - slow),
+            pace: [rate, zero],
+            more: of(away),
+            over,
+        };
+        let (end, start) = (Self::tangential(at.d), Self::tangential(at.d0));
+        let (mut stretch, mut way) = ([zero; T], [zero; T]);
+        for i in 0..T {
+            stretch[i] = end[i] - anchor[i];
+            way[i] = end[i] - start[i];
+        }
+        let speed = Self::tangential(at.v);
+        let was = Self::worn(at);
+        Rubbing { spring: it.ke, dashpot, stretch, way, speed, dt: at.dt, was }.on(&cone)
+    }
+
+    #[inline(always)]
+    fn varied_force<R: Real>(
+        it: &Of<R>,
+        at: &LaneAt<'_, R>,
+        now: &Pressed<R>,
+        out: &mut LaneForce<'_, R>,
+    ) {
+        let n = 1 + T;
+        let one = it.kn.of(1.0);
+        let (a, by_dt, by_d1) = Self::anchor(it, at, now);
+        let it_rubs = Self::rubbed(it, at, now, a);
+        let rubs = !now.open & it.kn.of(0.0).lt(it.ke);
+        for i in 0..T {
+            let row = (1 + i) * n;
+            let by_normal = it_rubs.by_normal[i].only(rubs);
+            out.f[1 + i] = it_rubs.tau[i].only(rubs);
+            out.k[row] = by_normal * now.cone_d;
+            out.c[row] = by_normal * now.cone_v;
+            for j in 0..T {
+                let stretch = it_rubs.by_stretch[i][j].only(rubs);
+                out.k[row + 1 + j] = stretch * (one - by_dt) + it_rubs.by_way[i][j].only(rubs);
+                out.k[row] = out.k[row] - stretch * by_d1[j];
+                out.c[row + 1 + j] = it_rubs.by_speed[i][j].only(rubs);
+            }
+        }
+    }
+
+    /// Adds the forces that pull back.
+    #[inline(always)]
+    fn restore<R: Real>(
+        it: &Of<R>,
+        at: &LaneAt<'_, R>,
+        now: &Pressed<R>,
+        out: &mut LaneForce<'_, R>,
+    ) {
+        let n = 1 + T;
+        let closed = !now.open;
+        let kr = Self::restoring(it, now.spring).only(closed);
+        for i in 0..T {
+            let row = (1 + i) * n;
+            out.f[1 + i] = out.f[1 + i] + kr * at.d[1 + i];
+            out.k[row + 1 + i] = out.k[row + 1 + i] + kr;
+            out.k[row] = out.k[row] - (it.kn * it.curvature).only(closed) * at.d[1 + i];
+        }
+    }
+}
+
 impl<const T: usize, const FLAGS: u8> LaneLaw for NLinkContact<T, FLAGS> {
     const COORDINATES: usize = 1 + T;
-    const HISTORY: usize = NLinkHistory::FIELDS.len();
-    const PARAMETERS: usize = PARAMETERS;
+    const HISTORY: usize = NLinkHistory::FIELDS.len()
+        + if FLAGS & VARIED == 0 { 0 } else { NLinkRubbing::FIELDS.len() };
+    const PARAMETERS: usize = PARAMETERS[if FLAGS & VARIED == 0 { 0 } else { 1 }];
     const IS_CONTACT: bool = true;
 
     #[inline(always)]
@@ -181,12 +272,17 @@ impl<const T: usize, const FLAGS: u8> LaneLaw for NLinkContact<T, FLAGS> {
             out.c[j] = zero;
         }
 
+        if FLAGS & VARIED != 0 {
+            Self::varied_force(&it, at, &now, out);
+            if FLAGS & RESTORING != 0 {
+                Self::restore(&it, at, &now, out);
+            }
+            return;
+        }
+
         // Friction: radial return of the elastic trial force onto the cone.
         let (a, by_dt, by_d1) = Self::anchor(&it, at, &now);
-        let vt = Self::tangential(at.v);
-        let speed = if FLAGS & GRADED == 0 { zero } else { Self::length(vt) };
-        let (mu, mu_v) = Self::coefficient(&it, speed);
-        let limit = mu * now.cone;
+        let limit = it.mu * now.cone;
         let mut xi = Self::tangential(at.d);
         for i in 0..T {
             xi[i] = xi[i] - a[i];
@@ -212,20 +308,15 @@ impl<const T: usize, const FLAGS: u8> LaneLaw for NLinkContact<T, FLAGS> {
             // By the limit: zero while it sticks.
             let by_limit = along[i].only(!sticks & rubs);
             let row = (1 + i) * n;
-            let mut by_d1_total = by_limit * (mu * now.cone_d);
-            out.c[row] = if FLAGS & UNDAMPED == 0 { by_limit * (mu * now.cone_v) } else { zero };
+            let mut by_d1_total = by_limit * (it.mu * now.cone_d);
+            out.c[row] = if FLAGS & UNDAMPED == 0 { by_limit * (it.mu * now.cone_v) } else { zero };
             for j in 0..T {
                 let own = it.kn.of(f64::from(u8::from(i == j)));
                 let across = if T == 1 { zero } else { (own - along[i] * along[j]) * turn };
                 let stretch = R::select(sticks, own * it.ke, across).only(rubs);
                 out.k[row + 1 + j] = stretch * (it.kn.of(1.0) - by_dt);
                 by_d1_total = by_d1_total - stretch * by_d1[j];
-                out.c[row + 1 + j] = if FLAGS & GRADED == 0 {
-                    zero
-                } else {
-                    let slope = by_limit * now.cone * mu_v * vt[j] / speed;
-                    R::select(zero.lt(speed), slope, zero)
-                };
+                out.c[row + 1 + j] = zero;
             }
             out.f[1 + i] = tau;
             if FLAGS & RESTORING != 0 {
@@ -248,33 +339,52 @@ impl<const T: usize, const FLAGS: u8> LaneLaw for NLinkContact<T, FLAGS> {
         let rubs = closed & zero.lt(it.ke);
         let (a, _, _) = Self::anchor(&it, at, &now);
         let (d0, d1) = (Self::tangential::<R>(at.d0), Self::tangential::<R>(at.d));
-        let speed = if FLAGS & GRADED == 0 { zero } else { Self::length(Self::tangential(at.v)) };
-        let (mu, _) = Self::coefficient(&it, speed);
-        let limit = mu * now.cone;
+        let rubbed = if FLAGS & VARIED == 0 { None } else { Some(Self::rubbed(&it, at, &now, a)) };
         let mut xi = d1;
         for i in 0..T {
             xi[i] = d1[i] - a[i];
         }
-        let length = if T == 1 { xi[0].abs() } else { (xi[0] * xi[0] + xi[1] * xi[1]).sqrt() };
-        let sticks = (it.ke * length).le(limit) & zero.lt(limit);
+        let (limit, sticks) = match &rubbed {
+            Some(rubbed) => (rubbed.limit, rubbed.sticks),
+            None => {
+                let limit = it.mu * now.cone;
+                let length =
+                    if T == 1 { xi[0].abs() } else { (xi[0] * xi[0] + xi[1] * xi[1]).sqrt() };
+                (limit, (it.ke * length).le(limit) & zero.lt(limit))
+            }
+        };
         let kr0 = Self::restoring(&it, before.spring).only(was);
         let kr1 = Self::restoring(&it, now.spring).only(closed);
         let [by_kn, by_ke] = it.flexibility;
 
         let (mut restoring, mut friction, mut sum) = (at.history[4], zero, zero);
+        let mut damped = zero;
         let (mut tau, mut slip) = ([zero; T], [zero; T]);
         for i in 0..T {
             tau[i] = if FLAGS & RESTORING == 0 { f[1 + i] } else { f[1 + i] - kr1 * d1[i] };
             tau[i] = tau[i].only(rubs);
-            let tau0 = (it.ke * (d0[i] - at.history[i])).only(was);
+            let mut tau0 = (it.ke * (d0[i] - at.history[i])).only(was);
+            let mut spring = tau[i];
+            let dashpot = rubbed.map(|r| {
+                let q0 = Self::worn(at).damped[i].only(was);
+                let q1 = r.worn.damped[i].only(rubs);
+                tau0 = tau0 + q0;
+                tau[i] = r.tau[i].only(rubs);
+                spring = tau[i] - q1;
+                (q0, q1)
+            });
             // Where it starts from, and where the spring is unstretched at the end.
             let start = R::select(closed, a[i], R::select(was, at.history[i], d0[i]));
-            let slid = R::select(sticks, a[i], d1[i] - tau[i] * by_ke);
+            let slid = R::select(sticks, a[i], d1[i] - spring * by_ke);
             let end = R::select(rubs, slid, d1[i]);
             slip[i] = end - start;
             trial[i] = end;
             friction = friction + (tau0 + tau[i]) * slip[i];
-            sum = sum + tau[i] * tau[i];
+            sum = sum + spring * spring;
+            if let Some((q0, q1)) = dashpot {
+                let stretched = (d1[i] - end) - (d0[i] - at.history[i]).only(was);
+                damped = damped + (q0 + q1) * stretched;
+            }
             if FLAGS & RESTORING != 0 {
                 restoring = restoring + half * (kr0 * d0[i] + kr1 * d1[i]) * (d1[i] - d0[i]);
             }
@@ -289,6 +399,16 @@ impl<const T: usize, const FLAGS: u8> LaneLaw for NLinkContact<T, FLAGS> {
         let mut viscous = zero;
         if FLAGS & UNDAMPED == 0 && zero.any(zero.lt(it.damping)) {
             viscous = at.viscous_work(0, before.f + before.spring, now.f + now.spring);
+        }
+        if let Some(rubbed) = rubbed {
+            let own = &mut trial[NLinkHistory::FIELDS.len()..];
+            own[0] = rubbed.worn.rate.only(rubs);
+            own[1] = rubbed.worn.since.only(rubs);
+            own[3] = zero;
+            for i in 0..T {
+                own[2 + i] = rubbed.worn.damped[i].only(rubs);
+            }
+            viscous = viscous + (half * damped).max(zero);
         }
         let size = Self::length(tau);
         let most = limit * it.kn.of(1.0 - 1e-9);

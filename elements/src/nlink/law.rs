@@ -1,9 +1,9 @@
 //! The law of the [`NLink`].
 
 use super::NLink;
-use super::contact::{GRADED, NLinkContact, PARAMETERS, PULL, RESTORING, UNDAMPED};
+use super::contact::{NLinkContact, PULL, RESTORING, UNDAMPED, VARIED};
 use crate::shared::restitution::damping_ratio;
-use crate::shared::sliding::{Axial, Normal, exponential};
+use crate::shared::sliding::{Axial, Normal};
 use std::borrow::Cow;
 use trilith_element::lanes::{LaneAt, LaneForce, LaneForm, LaneLaw, LaneStep};
 use trilith_element::{
@@ -26,18 +26,48 @@ history! {
     }
 }
 
+history! {
+    /// What a contact remembers beside its [`NLinkHistory`] where its friction looks at the slip or has a dashpot.
+    pub struct NLinkRubbing {
+        /// Rate of slip.
+        pub slip_rate: "m/s",
+        /// Length of the slip path since it last stuck.
+        pub unstuck: "m",
+        /// Force of the dashpot beside the spring along U2.
+        pub damped2: "N",
+        /// Force of the dashpot beside the spring along U3.
+        pub damped3: "N",
+    }
+}
+
 impl NLink {
     fn normal(&self, d1: f64, v1: f64) -> Normal {
         let axial = Axial { kn: self.kn, damping: self.damping, pull: self.pull };
         axial.normal(d1 + self.opening, v1)
     }
 
-    /// Friction coefficient and its derivative by the sliding speed.
-    fn coefficient(&self, speed: f64) -> (f64, f64) {
-        match (self.mu_slow, self.mu_fast, self.rate) {
-            (Some(slow), Some(fast), Some(rate)) => exponential(slow, fast, rate, speed),
-            _ => (self.mu.unwrap_or(0.0), 0.0),
+    /// True for friction that looks at the slip or has a dashpot.
+    fn is_varied(&self) -> bool {
+        self.mu_slow.is_some() || self.mu_static.is_some() || self.cs > 0.0
+    }
+
+    /// Friction coefficients of slow and of fast slip.
+    fn graded(&self) -> [f64; 2] {
+        let mu = self.mu.unwrap_or(0.0);
+        [self.mu_slow.unwrap_or(mu), self.mu_fast.unwrap_or(mu)]
+    }
+
+    /// The friction coefficient at a moment.
+    fn coefficient(&self, normal: f64, history: &[f64]) -> f64 {
+        if !self.is_varied() {
+            return self.mu.unwrap_or(0.0);
         }
+        let worn = NLinkRubbing::load(&history[NLinkHistory::FIELDS.len()..]);
+        let [slow, fast] = self.graded();
+        let mu = fast - (fast - slow) * (-self.rate.unwrap_or(0.0) * worn.slip_rate).exp();
+        let more = self.mu_static.map_or(0.0, |mu| mu - slow);
+        let over = self.static_slip.max(2.0 * more * normal / self.elastic());
+        if more > 0.0 { mu + more * (1.0 - worn.unstuck / over).max(0.0) } else { mu }
     }
 
     /// Stiffness of the elastic–plastic branch, N/m; 0 without friction.
@@ -56,37 +86,40 @@ impl NLink {
     fn flags(&self) -> u8 {
         let part = |is: bool, flag: u8| if is { flag } else { 0 };
         let restoring = part(self.k_post > 0.0 || self.radius > 0.0, RESTORING);
-        if self.damping == 0.0 && self.mu_slow.is_none() {
+        if self.damping == 0.0 && !self.is_varied() {
             return UNDAMPED | restoring;
         }
-        part(self.pull, PULL) | restoring | part(self.mu_slow.is_some(), GRADED)
+        // Friction that is much to compute anyway has the restoring forces with it, of whatever size.
+        let parts = if self.is_varied() { VARIED | RESTORING } else { restoring };
+        part(self.pull, PULL) | parts
     }
 
     /// The parameters of the contact.
-    fn numbers(&self) -> [f64; PARAMETERS] {
-        let graded = [self.mu_slow, self.mu_fast, self.rate].map(|x| x.unwrap_or(0.0));
-        let curvature = if self.radius > 0.0 { self.radius.recip() } else { 0.0 };
-        [
+    fn numbers(&self) -> Vec<f64> {
+        let mut all = vec![
             self.kn,
             self.opening,
             self.damping,
             self.elastic(),
             self.mu.unwrap_or(0.0),
             self.k_post,
-            curvature,
-            graded[0],
-            graded[1],
-            graded[2],
+            if self.radius > 0.0 { self.radius.recip() } else { 0.0 },
             self.kn.recip(),
             if self.elastic() > 0.0 { self.elastic().recip() } else { 0.0 },
-        ]
+        ];
+        if self.is_varied() {
+            let [slow, fast] = self.graded();
+            let away = self.mu_static.map_or(0.0, |mu| mu - slow);
+            all.extend([slow, fast, self.rate.unwrap_or(0.0), away, self.static_slip, self.cs]);
+        }
+        all
     }
 }
 
 /// Calls a function of the law with the flags as a constant.
 macro_rules! with_flags {
     ($flags:expr, $t:literal, $law:ident => $call:expr) => {
-        with_flags!(@ $flags, $t, $law, $call, 0 1 2 3 4 5 6 7 8 10)
+        with_flags!(@ $flags, $t, $law, $call, 0 1 2 3 6 7 8 10)
     };
     (@ $flags:expr, $t:literal, $law:ident, $call:expr, $($flag:literal)*) => {
         match $flags {
@@ -104,7 +137,11 @@ impl Link for NLink {
     }
 
     fn history(&self) -> Cow<'static, [Field]> {
-        NLinkHistory::FIELDS.into()
+        if self.is_varied() {
+            [NLinkHistory::FIELDS, NLinkRubbing::FIELDS].concat().into()
+        } else {
+            NLinkHistory::FIELDS.into()
+        }
     }
 
     fn at_rest(&self, at: &mut [f64]) {
@@ -171,7 +208,7 @@ impl Link for NLink {
         if self.rotational().next().is_some() {
             return None;
         }
-        let numbers = self.numbers().to_vec();
+        let numbers = self.numbers();
         let form = if active[2] {
             with_flags!(self.flags(), 2, Law => LaneForm::of::<Law>(vec![0, 1, 2], numbers))
         } else {
@@ -195,11 +232,11 @@ impl Link for NLink {
         Some(Box::new(Self { damping, restitution: None, impact_mass: None, ..self.clone() }))
     }
 
-    fn contacts(&self, at: &Kinematics<'_>, _: &[f64], f: &[f64], out: &mut Vec<Contact>) {
+    fn contacts(&self, at: &Kinematics<'_>, history: &[f64], f: &[f64], out: &mut Vec<Contact>) {
         let now = self.normal(at.d[0], at.v[0]);
         let restoring = if now.closed { self.restoring(now.spring) } else { 0.0 };
         let tau = (f[1] - restoring * at.d[1]).hypot(f[2] - restoring * at.d[2]);
-        let limit = self.coefficient(at.v[1].hypot(at.v[2])).0 * now.cone;
+        let limit = self.coefficient(now.cone, history) * now.cone;
         out.push(Contact {
             gap: at.d[0] + self.opening,
             normal: now.cone,

@@ -40,6 +40,69 @@ fn conforms_with_and_without_friction_dashpot_and_pull() {
 }
 
 #[test]
+fn conforms_where_it_breaks_away_and_with_a_dashpot_beside_its_spring() {
+    let scale = [1e-4, 2e-4, 1.5e-4];
+    let static_slip = 1e-5;
+    let away = NLink { mu_static: Some(0.6), static_slip, ..friction() };
+    Kit::new(&scale, 5.0).rate_independent().assert(&away);
+    Kit::new(&scale, 5.0).assert(&NLink { static_slip: 0.0, cs: 1e6, ..away.clone() });
+    Kit::new(&scale, 5.0).assert(&NLink { opening: 5e-5, cs: 1e6, ..friction() });
+    for pull in [false, true] {
+        let law = NLink { mu_static: Some(0.6), static_slip, pull, damping: 1.3e6, ..with_speed() };
+        Kit::new(&scale, 5.0).assert(&law);
+        Kit::new(&scale, 5.0).assert(&NLink { cs: 2e6, opening: -3e-5, ..law });
+    }
+    // Friction that falls with the speed.
+    let falling = NLink { mu_slow: Some(0.4), mu_fast: Some(0.1), ..with_speed() };
+    Kit::new(&scale, 5.0).assert(&falling);
+    Kit::new(&scale, 5.0).assert(&NLink { cs: 2e6, ..falling });
+    let back = NLink { radius: 1e-3, k_post: 0.1 * KN, cs: 1e6, ..away };
+    Kit::new(&scale, 5.0).active().assert(&back);
+}
+
+/// A force that goes up in small steps: the limit is μ_static N, then falls to μ N over the slip, and is back after it stuck.
+#[test]
+fn static_friction_goes_with_the_slip_and_comes_back_with_rest() {
+    let n = KN * 1e-4;
+    let law = NLink { mu_static: Some(0.6), static_slip: 4e-4, ..friction() };
+    let mut driver = Driver::new(&law);
+    driver.to(&[-1e-4, 0.0, 0.0]);
+    driver.to(&[-1e-4, 0.6e-4, 0.0]);
+    assert_relative_eq!(driver.f[1], 0.6 * n, max_relative = 1e-9);
+    // Slip s from u = s + τ/kₛ, τ = (0.6 − 0.2 s/s₀) N.
+    driver.to(&[-1e-4, 2.4e-4, 0.0]);
+    let s = (2.4e-4 - 0.6e-4) / (1.0 - 0.2 * 1e-4 / 4e-4);
+    assert_relative_eq!(driver.f[1], (0.6 - 0.2 * s / 4e-4) * n, max_relative = 1e-9);
+    driver.to(&[-1e-4, 9e-4, 0.0]);
+    assert_relative_eq!(driver.f[1], 0.4 * n, max_relative = 1e-9);
+    driver.to(&[-1e-4, 8.9e-4, 0.0]);
+    driver.to(&[-1e-4, 9.2e-4, 0.0]);
+    assert_relative_eq!(driver.f[1], 0.6 * n, max_relative = 1e-9);
+    assert!(driver.contacts()[0].slipping);
+}
+
+/// Beside the spring in stick, and within the cone with it.
+#[test]
+fn the_dashpot_of_the_spring_stays_within_the_cone() {
+    let (n, cs) = (KN * 1e-4, 1e6);
+    let law = NLink { cs, ..friction() };
+    let mut driver = Driver::new(&law);
+    driver.to(&[-1e-4, 0.0, 0.0]);
+    driver.step(&[-1e-4, 1e-6, 0.0], &[0.0, 1e-3, 0.0], 1e-3);
+    assert_relative_eq!(driver.f[1], KN * 1e-6 + cs * 1e-3, max_relative = 1e-9);
+    for i in 1..=40 {
+        driver.step(&[-1e-4, 1e-6 + 1e-3 * f64::from(i), 0.0], &[0.0, 1.0, 0.0], 1e-3);
+        assert_relative_eq!(driver.f[1], MU * n, max_relative = 1e-9);
+    }
+    // Slipping, the spring has taken over.
+    assert_relative_eq!(
+        driver.energy.stored - 0.5 * n * 1e-4,
+        0.5 * (MU * n).powi(2) / KN,
+        max_relative = 1e-3
+    );
+}
+
+#[test]
 fn conforms_with_restoring_forces_which_have_no_potential() {
     let scale = [1e-4, 2e-4, 1.5e-4];
     let law = NLink { k_post: 0.1 * KN, ..friction() };
@@ -212,6 +275,11 @@ fn rejects_contradictions_by_name() {
     let both = [("kn", 1.0), ("ks", 1.0), ("mu", 0.3), ("mu_slow", 0.3)];
     assert_eq!(name(&both).as_deref(), Some("mu"));
     assert_eq!(name(&[("kn", 1.0), ("ks", 1.0), ("k_post", 1.0)]).as_deref(), Some("k_post"));
+    let low = [("kn", 1.0), ("ks", 1.0), ("mu", 0.3), ("mu_static", 0.2)];
+    assert_eq!(name(&low).as_deref(), Some("mu_static"));
+    let alone = [("kn", 1.0), ("ks", 1.0), ("mu", 0.3), ("static_slip", 0.2)];
+    assert_eq!(name(&alone).as_deref(), Some("static_slip"));
+    assert_eq!(name(&[("kn", 1.0), ("cs", 1.0)]).as_deref(), Some("cs"));
     assert!(read::<NLink>(&numbers(&[("kn", 1.0), ("k_n", 1.0)])).is_err());
     assert!(read::<NLink>(&numbers(&[("kn", 1.0)])).is_ok());
 }

@@ -8,13 +8,14 @@
 //!   c/(2π) δ̇ over the same arc                      dashpots; they may pull
 //!   r꜀ = (−w₁ g/N, −w₂ g/N, −h),  g = ∂U/∂b ρ²/b     centre of pressure in the axes of the body
 //!   T ← T + kₛ Δs, |T| ≤ μ N                         friction there; Δs: way of the material point
-//!   M ← M + kₛ ρ² Δϑ, |M| ≤ μ N ρ ψ꜀/π               torsion about the vertical
+//!   M ← M + kₛ ρ² Δϑ, |M| ≤ μ N ρ m                  torsion about the vertical, see `drilling.rs`
 //! ```
 //!
 //! Rolling moves the centre of pressure along the rim without slip, because T follows the way of the
 //! material that is there. A rim that closes within a step anchors where it is at its end.
 
 use super::RockingBody;
+use super::drilling;
 use super::law::Wrench;
 use super::rotation::Turn;
 use crate::shared::dual::Dual;
@@ -114,8 +115,8 @@ struct Pressed {
     q: V3,
     /// Centre of pressure in the axes of the body.
     centre: V3,
-    /// Half angle of the pressed arc.
-    half: Number,
+    /// Mean distance of what presses from its centre, over the radius.
+    arm: Number,
     /// Power of the dashpots, W.
     power: f64,
 }
@@ -173,6 +174,7 @@ impl Rim<'_> {
                 low: Some([-(w[0] / tilt), -(w[1] / tilt)]),
             };
         }
+        let arm = self.arm(&normal, &a, &square, &arc);
         let (damped, q2, power) = self.dashpots(m, &w, &arc);
         let total = normal + damped;
         Ok(Pressed {
@@ -182,9 +184,33 @@ impl Rim<'_> {
             lift: -total,
             q: [g * w[0] + q2[0], g * w[1] + q2[1], total * h],
             centre: [-(w[0] * g / normal), -(w[1] * g / normal), Number::constant(-h)],
-            half: arc.half,
+            arm,
             power,
         })
+    }
+
+    /// Mean distance of what presses from its centre, over the radius.
+    fn arm(&self, normal: &Number, a: &Number, square: &Number, arc: &Arc) -> Number {
+        let circle = |a: Number| {
+            let flat = *square * (self.radius * self.radius) / (a * a);
+            let (m, slope) = drilling::of_circle(flat.x);
+            flat.map(m, slope)
+        };
+        let piece = |half: Number| {
+            let (m, slope) = drilling::of_arc(half.x);
+            half.map(m, slope)
+        };
+        let Some(stiffness) = self.body.arc_stiffness else {
+            return if arc.low.is_some() { piece(arc.half) } else { circle(*a) };
+        };
+        // As deep as it would be pressed in.
+        let depth = *normal * stiffness.recip();
+        if depth.x * depth.x >= square.x * self.radius * self.radius {
+            return circle(depth);
+        }
+        let share = depth * PI / (square.sqrt() * self.radius);
+        let (half, slope) = drilling::arc(share.x);
+        piece(share.map(half, slope))
     }
 
     /// Normal force of the dashpots, their force conjugate to (w₁, w₂), and their power.
@@ -317,7 +343,7 @@ impl Rim<'_> {
             let length = (traction[0] * traction[0] + traction[1] * traction[1]).sqrt();
             traction = traction.map(|t| t / length * limit);
         }
-        let most = limit * p.half * (self.radius / PI);
+        let most = limit * p.arm * self.radius;
         let mut torsion = turn * kt + was.torsion;
         if torsion.x.abs() > most.x {
             torsion = if torsion.x > 0.0 { most } else { -most };

@@ -4,12 +4,16 @@
 mod axial;
 mod bearing;
 mod coefficient;
+mod rub;
+mod slip;
 mod stick;
 mod surface;
 
 pub(crate) use axial::{Axial, Normal};
 pub use bearing::SlidingHistory;
 pub(crate) use bearing::{Bearing, Side, engaged};
-pub(crate) use coefficient::{Coefficient, Limit, exponential};
-pub(crate) use stick::{radial_return, share_before};
+pub(crate) use coefficient::{BreakAway, Coefficient, Limit};
+pub(crate) use rub::{Rubbed, Rubbing, Worn};
+pub(crate) use slip::{Cone, Slide, Trial};
+pub(crate) use stick::{Friction, radial_return, share_before};
 pub(crate) use surface::{Dish, Stop};

@@ -241,9 +241,7 @@ impl TriplePendulum {
         // Right after the start of a step the speed is that of the last one; a static step has none.
         let standing = at.dt == 0.0 && at.d == at.d0;
         let speed = |i: usize| match at.dt {
-            dt if dt > 0.0 => {
-                Speed::Motion { from: past[i].displacement, factor: self.slide_in_series(i) / dt }
-            }
+            dt if dt > 0.0 => Speed::PerSlip(self.slide_in_series(i) / dt),
             _ => Speed::Known(if standing { past[i].speed } else { 0.0 }),
         };
         let surfaces = std::array::from_fn(|i| Surface {

@@ -2,14 +2,14 @@
 //!
 //! ```text
 //!   F = gᵢ(wᵢ),  Σ wᵢ = d        gᵢ(w) = cᵢ w + kₛ (w − aᵢ) returned onto Lᵢ + stopᵢ(w)
-//!   Lᵢ = μᵢ(v) N,  v = max(0, n·Δw) q      n: direction of the friction; q = 1/Δt, times the tilt
+//!   Lᵢ = μᵢ(v) N,  v = p q                 p: slip of the step, along the stretch; q = 1/Δt, times the tilt
 //! ```
 //!
 //! For a given friction every gᵢ is the gradient of a strictly convex function, so the displacements are
 //! the only minimum of the sum; friction that grows with speed only makes it steeper. Newton's method
 //! with a search along each step, which always goes down, finds it.
 
-use crate::shared::sliding::{Coefficient, Limit, Stop, radial_return};
+use crate::shared::sliding::{Coefficient, Friction, Limit, Slide, Stop, Trial, radial_return};
 use nalgebra::{Matrix2, Vector2};
 
 /// Number of surfaces.
@@ -35,8 +35,8 @@ pub(super) struct Surface {
 pub(super) enum Speed {
     /// Known, m/s.
     Known(f64),
-    /// The motion from here, m, times a factor, 1/s.
-    Motion { from: Vector2<f64>, factor: f64 },
+    /// The slip of the step times this, 1/s.
+    PerSlip(f64),
 }
 
 /// What a surface does at a stretch x = w − a.
@@ -58,20 +58,41 @@ pub(super) struct State {
 }
 
 impl Surface {
+    /// Friction of a stretch, its limit with the derivative by the normal force, and the speed.
+    fn friction(&self, stretch: Vector2<f64>) -> (Friction, Limit, f64) {
+        let (speed, per_slip) = match self.speed {
+            Speed::Known(speed) => (speed, 0.0),
+            Speed::PerSlip(q) => (0.0, q),
+        };
+        if per_slip == 0.0 || self.friction.is_constant() {
+            let limit = self.friction.limit(self.normal, speed);
+            return (radial_return(self.ks, stretch, limit.force), limit, speed);
+        }
+        let length = stretch.norm();
+        let slide = Slide::of(
+            &self.friction.cone(self.normal, None),
+            &Trial {
+                size: self.ks * length,
+                stiffness: self.ks,
+                spring: self.ks,
+                rate: 0.0,
+                per_slip,
+                since: 0.0,
+            },
+        );
+        let mut it = radial_return(self.ks, stretch, slide.limit);
+        it.slips = !slide.sticks;
+        let mut limit = Limit { force: slide.limit, ..Limit::default() };
+        if it.slips {
+            limit.by_normal = slide.by_normal;
+            it.by_stretch += it.by_limit * it.by_limit.transpose() * (slide.by_size * self.ks);
+        }
+        (it, limit, slide.rate)
+    }
+
     fn at(&self, stretch: Vector2<f64>) -> State {
         let displacement = self.anchor + stretch;
-        let length = stretch.norm();
-        let along = if length > 0.0 { stretch / length } else { Vector2::zeros() };
-        let (speed, motion, factor) = match self.speed {
-            Speed::Known(speed) => (speed, Vector2::zeros(), 0.0),
-            Speed::Motion { from, factor } => {
-                let motion = displacement - from;
-                let speed = factor * along.dot(&motion);
-                if speed > 0.0 { (speed, motion, factor) } else { (0.0, Vector2::zeros(), 0.0) }
-            }
-        };
-        let limit = self.friction.limit(self.normal, speed);
-        let it = radial_return(self.ks, stretch, limit.force);
+        let (it, limit, speed) = self.friction(stretch);
         let mut force = displacement * self.restoring + it.tau;
         let mut unrubbed = Matrix2::identity() * self.restoring;
         let mut stop_energy = 0.0;
@@ -81,19 +102,11 @@ impl Surface {
             unrubbed += k;
             stop_energy = energy;
         }
-        // The limit grows with the motion along the friction, which turns with the stretch.
-        let mut by_stretch = it.by_stretch;
-        if it.slips && factor > 0.0 {
-            let growth = limit.by_speed * factor;
-            unrubbed += it.by_limit * along.transpose() * growth;
-            let across = (motion - along * along.dot(&motion)) / length;
-            by_stretch += it.by_limit * across.transpose() * growth;
-        }
         State {
             stretch,
             displacement,
             force,
-            stiffness: unrubbed + by_stretch,
+            stiffness: unrubbed + it.by_stretch,
             tau: it.tau,
             along: it.by_limit,
             slips: it.slips,

@@ -5,7 +5,7 @@ use super::set;
 use crate::case::BOTH;
 use crate::unit::{NUMBER, RADIAN, SECOND};
 use crate::{Case, Check, Curve, View};
-use std::f64::consts::{PI, TAU};
+use std::f64::consts::TAU;
 
 const G: f64 = 9.81;
 
@@ -304,7 +304,7 @@ const ROLLING: &str = r#"(
 /// Tilt and its rate, and angular velocity up the disc and along the axis, of a body that rolls on its rim
 /// without slip: Euler's equations about the centre of gravity in axes that go with the contact, the
 /// contact force eliminated; by Runge and Kutta. The pressed arc, of half angle (3 N/(2 κ ρ sin θ))^⅓ with
-/// κ = kₙ/2π, resists turning about the vertical by μ N ρ ψ/π.
+/// κ = kₙ/2π, carries a pressure like a parabola and resists turning about the vertical by 3/8 μ N ρ ψ.
 fn rolls(until: f64) -> f64 {
     let (m, rho, h, jt, ja, g) = (1e4, 1.0, 2.0, 15833.333333333334, 5000.0, 9.81);
     let (mu, per_angle) = (0.2, 1e11 / TAU);
@@ -336,7 +336,7 @@ fn rolls(until: f64) -> f64 {
             let forward = cross(change, r);
             let normal = m * (forward[1] * sin + forward[2] * cos) + pull[1] * sin + pull[2] * cos;
             let half = (1.5 * normal / (per_angle * rho * sin)).cbrt();
-            pivot = -mu * normal * rho * half / PI * (y[2] * sin + y[3] * cos).signum();
+            pivot = -mu * normal * rho * 0.375 * half * (y[2] * sin + y[3] * cos).signum();
         }
         [y[1], change[0], change[1], change[2]]
     };

@@ -3,7 +3,7 @@
 //! ```text
 //!   g  = d₁ − h(u)            gap with `rise` (the surface lifts the load), else g = d₁;   u = (d₂, d₃)
 //!   F  = F(g, ġ)              compression side, and a tension side where there is one; N = |F|
-//!   τ  = kₛ (u − a), |τ| ≤ L(N, |u̇|)      a: anchor, slips at the limit
+//!   τ  = kₛ (u − a) + cₛ (u̇ − ȧ), |τ| ≤ L(N, |ȧ|)      a: anchor, slips at the limit
 //!   f₁ = F
 //!   fₜ = τ + S ∇h(u) + stop(u)            S = N in compression, −N in tension; with `rise` S = −F
 //! ```
@@ -11,9 +11,9 @@
 //! With `rise` normal force and restoring force come from one potential; without it (small
 //! displacements) the restoring force has none where N changes, and its work is history.
 
-use super::coefficient::Limit;
-use super::{Axial, Coefficient, Dish, Normal, Stop, radial_return, share_before};
-use nalgebra::{Matrix3, Vector2, Vector3};
+use super::coefficient::BreakAway;
+use super::{Axial, Coefficient, Dish, Normal, Rubbing, Stop, Worn, radial_return, share_before};
+use nalgebra::{Matrix2, Matrix3, Vector2, Vector3};
 use trilith_element::{Contact, Kinematics, Response, history};
 
 history! {
@@ -31,6 +31,14 @@ history! {
         pub slipping: "1",
         /// Work of the restoring force so far, without `rise`.
         pub restoring: "J",
+        /// Rate of slip.
+        pub slip_rate: "m/s",
+        /// Length of the slip path since it last stuck.
+        pub unstuck: "m",
+        /// Force of the dashpot beside the pre-slip spring along U2.
+        pub damped2: "N",
+        /// Force of the dashpot beside the pre-slip spring along U3.
+        pub damped3: "N",
     }
 }
 
@@ -48,6 +56,9 @@ pub(crate) struct Bearing {
     pub(crate) compression: Side,
     pub(crate) tension: Option<Side>,
     pub(crate) ks: f64,
+    /// Dashpot beside the pre-slip spring, N·s/m.
+    pub(crate) cs: f64,
+    pub(crate) away: Option<BreakAway>,
     pub(crate) dish: Dish,
     pub(crate) rise: bool,
     pub(crate) stop: Option<Stop>,
@@ -60,6 +71,25 @@ struct Gap {
     by_d: Vector3<f64>,
     rate_by_d: Vector3<f64>,
 }
+
+/// Friction force at the end of a step, its derivatives, and what it remembers.
+struct Rubs {
+    slips: bool,
+    tau: Vector2<f64>,
+    by_stretch: Matrix2<f64>,
+    by_way: Matrix2<f64>,
+    by_speed: Matrix2<f64>,
+    by_normal: Vector2<f64>,
+    worn: Worn<f64, 2>,
+}
+
+impl Rubs {
+    fn damped(&self) -> Vector2<f64> {
+        self.worn.damped.into()
+    }
+}
+
+const FRESH: Worn<f64, 2> = Worn { rate: 0.0, since: 0.0, damped: [0.0; 2] };
 
 /// What presses.
 struct Pressed {
@@ -128,6 +158,56 @@ impl Bearing {
         self.dish.height(u).slope * (pressed.side * pressed.normal.cone)
     }
 
+    /// Friction of a closed side: a stretch if nothing slips, the motion and speed, and the normal force.
+    fn rub(
+        &self,
+        friction: &Coefficient,
+        stretch: Vector2<f64>,
+        way: Vector2<f64>,
+        at: &Kinematics<'_>,
+        (normal, was): (f64, &SlidingHistory),
+    ) -> Rubs {
+        if let Coefficient::Constant { mu } = *friction
+            && self.cs == 0.0
+            && self.away.is_none()
+        {
+            let it = radial_return(self.ks, stretch, mu * normal);
+            return Rubs {
+                slips: it.slips,
+                tau: it.tau,
+                by_stretch: it.by_stretch,
+                by_way: Matrix2::zeros(),
+                by_speed: Matrix2::zeros(),
+                by_normal: it.by_limit * mu,
+                worn: FRESH,
+            };
+        }
+        let rubbing = Rubbing {
+            spring: self.ks,
+            dashpot: self.cs,
+            stretch: stretch.into(),
+            way: way.into(),
+            speed: [at.v[1], at.v[2]],
+            dt: at.dt,
+            was: Worn {
+                rate: was.slip_rate,
+                since: was.unstuck,
+                damped: [was.damped2, was.damped3],
+            },
+        };
+        let it = rubbing.on(&friction.cone(normal, self.away));
+        let matrix = |rows: [[f64; 2]; 2]| Matrix2::from(rows).transpose();
+        Rubs {
+            slips: !it.sticks,
+            tau: it.tau.into(),
+            by_stretch: matrix(it.by_stretch),
+            by_way: matrix(it.by_way),
+            by_speed: matrix(it.by_speed),
+            by_normal: it.by_normal.into(),
+            worn: it.worn,
+        }
+    }
+
     /// History before anything has happened.
     pub(crate) fn at_rest(&self) -> SlidingHistory {
         let zero = [0.0; 3];
@@ -156,10 +236,15 @@ impl Bearing {
 
         // Friction.
         let old = Vector2::new(was.anchor2, was.anchor3);
-        let tau0 = if before.side == 0.0 { Vector2::zeros() } else { (u0 - old) * self.ks };
+        let (stretched0, damped0) = if before.side == 0.0 {
+            (Vector2::zeros(), Vector2::zeros())
+        } else {
+            (u0 - old, Vector2::new(was.damped2, was.damped3))
+        };
+        let tau0 = stretched0 * self.ks + damped0;
         let (mut touch, mut end, mut tau1) =
             (if before.side == 0.0 { u0 } else { old }, u1, Vector2::zeros());
-        let mut slips = false;
+        let (mut slips, mut worn) = (false, FRESH);
         if now.side != 0.0 {
             let cleared = self.clearance(now.side, gap0.x);
             // The anchor moves with the end of the step where contact begins within it.
@@ -172,22 +257,20 @@ impl Bearing {
                 anchor_by_d[(0, 1)] += share;
                 anchor_by_d[(1, 2)] += share;
             }
-            let vt = tangential(at.v);
-            let speed = vt.norm();
-            let limit: Limit = now.friction.limit(n.cone, speed);
-            let it = radial_return(self.ks, u1 - touch, limit.force);
-            (tau1, slips) = (it.tau, it.slips);
-            end = if slips { u1 - tau1 / self.ks } else { touch };
+            let it = self.rub(&now.friction, u1 - touch, u1 - u0, at, (n.cone, was));
+            (tau1, slips, worn) = (it.tau, it.slips, it.worn);
+            end = if slips { u1 - (tau1 - it.damped()) / self.ks } else { touch };
             let mut stretch_by_d = -anchor_by_d;
             stretch_by_d[(0, 1)] += 1.0;
             stretch_by_d[(1, 2)] += 1.0;
             let cone_by_d = gap.by_d * n.cone_d + gap.rate_by_d * n.cone_v;
-            let rows = it.by_stretch * stretch_by_d
-                + it.by_limit * cone_by_d.transpose() * limit.by_normal;
-            let mut rates = it.by_limit * gap.by_d.transpose() * (limit.by_normal * n.cone_v);
-            if speed > 0.0 {
-                let along = Vector3::new(0.0, vt.x, vt.y) / speed;
-                rates += it.by_limit * along.transpose() * limit.by_speed;
+            let mut rows = it.by_stretch * stretch_by_d + it.by_normal * cone_by_d.transpose();
+            let mut rates = it.by_normal * gap.by_d.transpose() * n.cone_v;
+            for i in 0..2 {
+                for j in 0..2 {
+                    rows[(i, 1 + j)] += it.by_way[(i, j)];
+                    rates[(i, 1 + j)] += it.by_speed[(i, j)];
+                }
             }
             for i in 0..2 {
                 f[1 + i] += tau1[i];
@@ -210,7 +293,8 @@ impl Bearing {
         }
         let restoring = was.restoring + 0.5 * (back0 + back1).dot(&(u1 - u0));
 
-        let mut stored = restoring + 0.5 * tau1.norm_squared() / self.ks;
+        let damped1 = Vector2::from(worn.damped);
+        let mut stored = restoring + 0.5 * (tau1 - damped1).norm_squared() / self.ks;
         if now.side != 0.0 {
             let kn = if now.side > 0.0 {
                 self.compression
@@ -239,7 +323,9 @@ impl Bearing {
         out.energy.hysteretic = heat.max(0.0);
         let along_gap = Kinematics { d: &[], v: &[gap.rate], d0: &[], v0: &[gap0.rate], dt: at.dt };
         let damped = |p: &Pressed| p.normal.f + p.side * p.normal.spring;
-        out.energy.viscous = along_gap.viscous_work(0, damped(&before), damped(&now));
+        let stretching = 0.5 * (damped0 + damped1).dot(&(u1 - end - stretched0));
+        out.energy.viscous =
+            along_gap.viscous_work(0, damped(&before), damped(&now)) + stretching.max(0.0);
         write(out, &f, &k, &c);
 
         let path = if now.side == 0.0 { 0.0 } else { (end - touch).norm() };
@@ -250,6 +336,10 @@ impl Bearing {
             side: now.side,
             slipping: f64::from(u8::from(slips && n.cone > 0.0)),
             restoring,
+            slip_rate: worn.rate,
+            unstuck: worn.since,
+            damped2: worn.damped[0],
+            damped3: worn.damped[1],
         }
     }
 

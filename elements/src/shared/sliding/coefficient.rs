@@ -12,6 +12,8 @@
 //! \[Tsopelas et al. 1994\] for that on pressure; the power law of the force is that of \[Bowden &
 //! Tabor 1964\].
 
+use super::slip::Cone;
+
 /// How the friction coefficient depends on normal force and speed.
 #[derive(Clone, Copy, Debug)]
 pub(crate) enum Coefficient {
@@ -56,7 +58,58 @@ pub(crate) fn exponential(slow: f64, fast: f64, rate: f64, speed: f64) -> (f64, 
     (fast - decay, rate * decay)
 }
 
+/// How it breaks away.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct BreakAway {
+    /// Coefficient before it slips.
+    pub(crate) mu: f64,
+    /// Slip over which that is gone, m.
+    pub(crate) over: f64,
+}
+
 impl Coefficient {
+    /// True where the speed does not matter.
+    pub(crate) fn is_constant(&self) -> bool {
+        matches!(self, Self::Constant { .. })
+    }
+
+    /// The largest friction force at a normal force (N, ≥ 0), as it depends on slip rate and slip.
+    pub(crate) fn cone(&self, normal: f64, away: Option<BreakAway>) -> Cone<f64> {
+        let (fast, slow, pace) = match *self {
+            // Nothing touches, and powers of zero have no slope.
+            _ if normal <= 0.0 => {
+                let by_normal = self.coefficient(f64::MIN_POSITIVE, 0.0);
+                ([0.0, by_normal], [0.0, by_normal], [0.0; 2])
+            }
+            Self::Constant { mu } => ([mu * normal, mu], [mu * normal, mu], [0.0; 2]),
+            Self::Velocity { slow, fast, rate } => {
+                ([fast * normal, fast], [slow * normal, slow], [rate, 0.0])
+            }
+            Self::Force { slow, fast, most, rate } => {
+                let (slow, fast) = (power(slow, most, normal), power(fast, most, normal));
+                let pace = rate[0] + normal * (rate[1] + normal * rate[2]);
+                (fast.into(), slow.into(), [pace, rate[1] + 2.0 * normal * rate[2]])
+            }
+            Self::Pressure { slow, fast, rate, drop, per_force } => {
+                let tanh = (per_force * normal).tanh();
+                let mu = fast - drop * tanh;
+                let by_normal = -drop * per_force * (1.0 - tanh * tanh);
+                ([mu * normal, mu + normal * by_normal], [slow * normal, slow], [rate, 0.0])
+            }
+        };
+        let more = away.map_or([0.0; 2], |away| {
+            let more = away.mu * normal - slow[0];
+            if more > 0.0 { [more, away.mu - slow[1]] } else { [0.0; 2] }
+        });
+        Cone {
+            fast,
+            less: [fast[0] - slow[0], fast[1] - slow[1]],
+            pace,
+            more,
+            over: away.map_or(0.0, |away| away.over),
+        }
+    }
+
     /// Largest friction force at a normal force (N, ≥ 0) and a speed (m/s, ≥ 0).
     pub(crate) fn limit(&self, normal: f64, speed: f64) -> Limit {
         // Nothing touches, and powers of zero have no slope.
