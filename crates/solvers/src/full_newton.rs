@@ -88,7 +88,13 @@ impl FullNewton<'_> {
         let of_dof = |(j, b): &(usize, f64)| b * b / (m[*j] + beta * dt * dt * k[*j]);
         let soft = |row: &Vec<(usize, f64)>| gamma * dt * row.iter().map(of_dof).sum::<f64>();
         // A DOF without mass or stiffness follows at once.
-        self.system.links.rows.iter().map(soft).map(|h| if h.is_finite() { h } else { 0.0 }).collect()
+        self.system
+            .links
+            .rows
+            .iter()
+            .map(soft)
+            .map(|h| if h.is_finite() { h } else { 0.0 })
+            .collect()
     }
 
     fn worst(&self, residual: &[f64]) -> StepFailure {

@@ -32,8 +32,8 @@ use crate::apart::Way;
 use crate::error::SolveError;
 use crate::stepper::{State, StepEnergy, StepFailure, Stepper};
 use crate::timeline::Piece;
-use serde::{Deserialize, Serialize};
 use crate::vector::larger;
+use serde::{Deserialize, Serialize};
 use trilith_model::StepControl;
 use trilith_system::{LoadSet, StepLoads};
 

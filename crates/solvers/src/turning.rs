@@ -80,7 +80,8 @@ impl Turning {
                 let out = &mut Response { f, k, c, energy: &mut Energy::default() };
                 law.respond(&at, committed, &mut self.there, out);
                 // At the turning point, beyond what the tangents at the end say.
-                let (k1, c1) = (&to.tangents.k[link.block.clone()], &to.tangents.c[link.block.clone()]);
+                let (k1, c1) =
+                    (&to.tangents.k[link.block.clone()], &to.tangents.c[link.block.clone()]);
                 self.apart.clear();
                 for (row, f) in self.f.iter().enumerate() {
                     let mut told = to.f[r.start + row];
