@@ -211,6 +211,7 @@ pub(crate) fn run(
         rejected: counts.rejected,
         factorizations,
         forced: counts.forced,
+        step_error: counts.error_sum,
         wall_s: clock.wall(),
         setup_cpu_s: setup_cpu,
         march_cpu_s: clock.cpu() - setup_cpu,

@@ -2,12 +2,14 @@
 //! every iteration. The honest baseline for "FNA against direct integration"; same equations as
 //! [`hht`](crate::hht), same energies, other way to the solution.
 
+use crate::apart::{Apart, Way, apart, way};
 use crate::error::SolveError;
 use crate::hht::newmark;
 use crate::kernel::Remembered;
 use crate::propagator::{Forces, Motion, StepWork, kinetic_and_strain};
 use crate::space::Space;
-use crate::stepper::{State, StepEnergy, StepFailure, Stepper, energy_distance, energy_rounding};
+use crate::stepper::{State, StepEnergy, StepFailure, Stepper, energy_rounding};
+use crate::turning::Turning;
 use crate::vector::largest;
 use trilith_element::{Energy, Kinematics};
 use trilith_linalg::{Ldlt, SparseLu, Triplets};
@@ -77,6 +79,22 @@ impl FullNewton<'_> {
             }
         }
         j.build()
+    }
+
+    /// Hᵢᵢ of all link coordinates as if each of their DOFs moved by itself.
+    fn softness(&self, dt: f64) -> Vec<f64> {
+        let (gamma, beta) = newmark(self.alpha);
+        let (m, k) = (self.space.mass.diagonal(), self.space.stiffness.diagonal());
+        let of_dof = |(j, b): &(usize, f64)| b * b / (m[*j] + beta * dt * dt * k[*j]);
+        let soft = |row: &Vec<(usize, f64)>| gamma * dt * row.iter().map(of_dof).sum::<f64>();
+        // A DOF without mass or stiffness follows at once.
+        self.system
+            .links
+            .rows
+            .iter()
+            .map(soft)
+            .map(|h| if h.is_finite() { h } else { 0.0 })
+            .collect()
     }
 
     fn worst(&self, residual: &[f64]) -> StepFailure {
@@ -186,9 +204,19 @@ impl Stepper for FullNewton<'_> {
         Ok(())
     }
 
-    fn distance(&mut self, a: &State, b: &State) -> f64 {
+    fn apart(&mut self, a: &State, b: &State) -> Apart {
         let of_structure = |x: &[f64]| kinetic_and_strain(&self.space, x);
-        energy_distance(of_structure, a, b, &mut Vec::new())
+        apart(&self.space, &self.system.links, of_structure, a, b, &mut Vec::new())
+    }
+
+    fn way(&mut self, a: &State, b: Option<&State>) -> Way {
+        way(&self.space, &self.system.links, a, b, &mut Vec::new())
+    }
+
+    fn missed(&mut self, from: &State, to: &State, dt: f64) -> f64 {
+        let links = &self.system.links;
+        let laws = links.laws(self.model);
+        Turning::default().missed(&laws, from, to, &to.v, &self.softness(dt), dt)
     }
 
     fn rounding(&self, state: &State) -> f64 {

@@ -56,7 +56,8 @@ impl Ledger {
         Self { totals, ..Self::default() }
     }
 
-    /// Enters a step; `potential` of constant loads after it. Returns the energy in motion and springs.
+    /// Enters a step; `potential` of constant loads after it. Returns the energy in motion: kinetic, and
+    /// what springs and links hold more or less than at the start.
     pub(crate) fn enter(&mut self, step: &StepEnergy, potential: f64) -> f64 {
         let t = &mut self.totals;
         let (mut hysteretic, mut viscous, mut stored) = (t.link_hysteretic, t.link_viscous, 0.0);
@@ -101,6 +102,6 @@ impl Ledger {
             .into_iter()
             .fold(0.0, |size: f64, x| larger(size, x.abs()));
         t.error_relative = if size > 0.0 { t.error.abs() / size } else { 0.0 };
-        step.kinetic + step.strain.abs() + stored.abs()
+        t.kinetic + t.strain.abs() + t.link_stored.abs()
     }
 }

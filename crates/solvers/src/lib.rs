@@ -7,6 +7,7 @@
 //! | `ritz-hht` | Ritz vectors | HHT-α |
 //! | `full-newton` | all DOFs | HHT-α, tangent factorised in every iteration |
 
+mod apart;
 mod basis;
 mod case;
 mod certificate;
@@ -41,6 +42,7 @@ mod statics;
 mod stepper;
 mod timeline;
 mod together;
+mod turning;
 mod vector;
 mod view;
 

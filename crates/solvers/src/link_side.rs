@@ -6,7 +6,7 @@ use crate::space::Space;
 use crate::stepper::{State, StepEnergy, StepFailure};
 use trilith_element::Energy;
 use trilith_model::Model;
-use trilith_system::{Answers, Channel, LinkSet, LoadSet, StepLoads, System};
+use trilith_system::{Answers, Channel, Laws, LinkSet, LoadSet, StepLoads, System};
 
 /// What one motion needs beside the propagator, kept so that a step allocates nothing.
 pub(crate) struct LinkSide<'a> {
@@ -68,6 +68,16 @@ impl<'a> LinkSide<'a> {
 
     pub(crate) fn links(&self) -> &'a LinkSet {
         &self.system.links
+    }
+
+    /// The laws of all links.
+    pub(crate) fn laws(&self) -> Laws<'a> {
+        self.system.links.laws(self.model)
+    }
+
+    /// Rates that supports give the links at the end of the step begun last, flat.
+    pub(crate) fn support_rates(&self, to: &mut [f64]) {
+        if self.moving { to.copy_from_slice(&self.support_rate) } else { to.fill(0.0) }
     }
 
     /// Loads of a step, and a place for its end.

@@ -1,17 +1,38 @@
 //! The march: the only loop over time. It knows no solver.
 //!
 //! An output step is cut into substeps of `S/2ᵏ`. With adaptive control a substep is made once whole and
-//! once in two halves; the distance of both in the energy norm, relative to the largest energy so far,
-//! is its error. Too large, or no equilibrium: it is halved, the state being untouched. Small: the next
+//! once in two halves. What the two are apart, and what neither of them has seen, is its error:
+//!
+//! ```text
+//! ε = √(E(Δ) / E)                  energy norm of the difference, over the largest energy of the motion so far
+//! δ = |Δu| / max(|u₁ − u₀|, U/100) displacements, over how far the step went; U: the largest so far
+//! χ = (|Δf| / F)²                  link forces, over the largest so far
+//! κ = √(½ p²/m / E)                impulses of links that turned inside a half (see `turning`)
+//! ```
+//!
+//! All must be below the tolerance, and the energies of the links must close in the step. δ is taken of √(uᵀMu)
+//! and of the deformations of the links, translations and rotations apart. It is an *error per unit step*, with the
+//! way for the step: what steps leave behind adds up along the way, so a smooth motion keeps its phase within some
+//! tolerances of its amplitude whatever the number of steps, and the error of a run falls in proportion to the
+//! tolerance. ε is an *error per step*: jumps of a force, of which there are few, are bracketed with bounded effort.
+//! What is small beside U, such as the ringing of a stiff contact, is held by ε and χ alone.
+//!
+//! Too large, or no equilibrium: the step is halved, the state being untouched. Small: the next
 //! one is doubled, where it stays on the grid of halvings. A gap that closes with a dashpot, or a load
-//! that jumps, is a force jump inside a step, so the error falls only in proportion to the step there:
+//! that jumps, is a force jump inside a step, so ε falls only in proportion to the step there:
 //! the same rule then brackets the event until its impulse error is below the tolerance, whatever the
-//! output step. The energies of the links must close in each step as well. Only powers of two occur, so
-//! that the matrices of a step size are made once.
+//! output step. Only powers of two occur, so that the matrices of a step size are made once.
+//!
+//! The halves are kept. For a rule of second order they are wrong by a third of what they are apart from the whole.
+//!
+//! Reference: error per step and per unit step, scaled norms \[Hairer, Nørsett & Wanner 1993, II.4\];
+//! proportionality of error and tolerance \[Söderlind 2002\].
 
+use crate::apart::Way;
 use crate::error::SolveError;
 use crate::stepper::{State, StepEnergy, StepFailure, Stepper};
 use crate::timeline::Piece;
+use crate::vector::larger;
 use serde::{Deserialize, Serialize};
 use trilith_model::StepControl;
 use trilith_system::{LoadSet, StepLoads};
@@ -25,16 +46,25 @@ const ACCURACY_DEPTH: u32 = 26;
 const CLOSURE: f64 = 3e-4;
 /// Operations whose rounding may add up in the link energies of a step.
 const ROUNDING: f64 = 16.0;
-/// A step is doubled where its error is below this share of the tolerance.
+/// A step is doubled where its error is below this share of the tolerance, ...
 const GROW_BELOW: f64 = 0.08;
+/// ... and that of its displacements, which grows by the way as well, below this share.
+const GROW_BELOW_ON_WAY: f64 = 0.16;
+/// A step counts as going this share of the largest displacement so far at least.
+const LEAST_WAY: f64 = 0.01;
+/// What the halves of a smooth step are wrong by, as share of their distance from the whole: (½)²/(1 − (½)²); and
+/// a vibration shows 2/π of it on the mean, most of it in passing the middle and none at the turning points.
+const OF_HALVES: f64 = std::f64::consts::FRAC_PI_2 / 3.0;
 
 /// What the march carries from step to step beside the state.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub(crate) struct Pace {
     /// Current number of halvings.
     pub level: u32,
-    /// Largest energy so far, J.
+    /// Largest energy of the motion so far, J.
     pub reference: f64,
+    /// Largest displacements so far.
+    pub reached: Way,
 }
 
 /// Counts.
@@ -43,7 +73,7 @@ pub(crate) struct Counts {
     pub substeps: usize,
     pub rejected: usize,
     pub forced: usize,
-    /// Sum of the relative errors of all steps that were accepted.
+    /// Sum of what the accepted steps are wrong by, as share of the largest displacement so far.
     pub error_sum: f64,
 }
 
@@ -74,6 +104,29 @@ struct Trial {
     second: Box<State>,
     energies: [StepEnergy; 3],
     loads: StepLoads,
+    /// Energy of the impulses that the halves have missed, J.
+    missed: f64,
+}
+
+/// The error of a step.
+#[derive(Clone, Copy, Debug)]
+struct Measured {
+    /// Of energies and forces.
+    error: f64,
+    /// Of displacements, for the way that the step went.
+    on_way: f64,
+    /// Of displacements, for the largest so far.
+    displaced: f64,
+}
+
+impl Measured {
+    fn most(&self) -> f64 {
+        larger(self.error, self.on_way)
+    }
+
+    fn may_grow(&self, tolerance: f64) -> bool {
+        self.error < GROW_BELOW * tolerance && self.on_way < GROW_BELOW_ON_WAY * tolerance
+    }
 }
 
 /// How far the energies of the links in a step are from closing, and what is allowed: a share of what
@@ -159,19 +212,11 @@ impl<'a> March<'a> {
             known = None;
             match attempt {
                 Ok(()) => {
-                    let Trial { whole, second, energies: [_, e1, e2], .. } = &self.trial;
-                    let energy = pace.reference.max(e2.kinetic + e2.strain.abs());
-                    let error = (self.stepper.distance(whole, second) / energy).sqrt();
+                    let measured = self.measure(state, pace, tolerance);
+                    let error = measured.most();
                     if !error.is_finite() {
                         return Err(Stop::NoEquilibrium { t: start, worst: 0, residual: error });
                     }
-                    let (missing, mut allowed) =
-                        closure(state, second, [e1, e2], tolerance, energy);
-                    if missing > allowed {
-                        // No step is short enough to bring it below what rounding leaves.
-                        allowed += ROUNDING * self.stepper.rounding(second);
-                    }
-                    let error = error.max(tolerance * missing / allowed);
                     if error > tolerance && level < ACCURACY_DEPTH {
                         self.counts.rejected += 1;
                         known = Some(level + 1);
@@ -179,18 +224,19 @@ impl<'a> March<'a> {
                         pace.level = level + 1;
                         continue;
                     }
+                    self.counts.error_sum += OF_HALVES * larger(measured.displaced, measured.error);
                     self.counts.forced += usize::from(error > tolerance);
                     self.counts.substeps += 2;
-                    self.counts.error_sum += error / 3.0;
                     let Trial { first, second, energies: [_, e1, e2], .. } = &self.trial;
                     for (t, s, e) in [(middle, first, e1), (end, second, e2)] {
                         let seen = accept(t, s, e);
                         pace.reference = pace.reference.max(seen);
                     }
+                    pace.reached.reach(&self.stepper.way(&self.trial.second, None));
                     std::mem::swap(state, &mut self.trial.second);
                     at += ticks;
                     pace.level = level;
-                    if error < GROW_BELOW * tolerance && level > 0 {
+                    if measured.may_grow(tolerance) && level > 0 {
                         pace.level = level - 1;
                     }
                 }
@@ -208,6 +254,28 @@ impl<'a> March<'a> {
         Ok(())
     }
 
+    /// The error of the step on trial.
+    fn measure(&mut self, state: &State, pace: &Pace, tolerance: f64) -> Measured {
+        let Trial { whole, second, energies: [_, e1, e2], missed, .. } = &self.trial;
+        let energy = pace.reference.max(e2.kinetic);
+        let apart = self.stepper.apart(whole, second);
+        let moved = self.stepper.way(second, Some(state));
+        let share = (apart.energy.max(*missed) / energy).sqrt();
+        let (missing, mut allowed) = closure(state, second, [e1, e2], tolerance, energy);
+        if missing > allowed {
+            // No step is short enough to bring it below what rounding leaves.
+            allowed += ROUNDING * self.stepper.rounding(second);
+        }
+        let of_links = larger(tolerance * missing / allowed, apart.force * apart.force);
+        // What is not a number stays so.
+        let error = if share.is_nan() { share } else { larger(share, of_links) };
+        Measured {
+            error,
+            on_way: apart.way.over(&moved, LEAST_WAY, &pace.reached),
+            displaced: apart.way.over(&pace.reached, 1.0, &moved),
+        }
+    }
+
     /// One step in one and in two halves; `known`: the one is there already.
     fn attempt(
         &mut self,
@@ -216,7 +284,7 @@ impl<'a> March<'a> {
         size: f64,
         known: bool,
     ) -> Result<(), Failed> {
-        let Trial { whole, first, second, energies: [e0, e1, e2], loads } = &mut self.trial;
+        let Trial { whole, first, second, energies: [e0, e1, e2], loads, missed } = &mut self.trial;
         let mut step = |from: &State, to: &mut State, t0, t1, dt, energy: &mut StepEnergy| {
             self.loads.step(t0, t1, loads);
             self.stepper.step(from, to, loads, dt, energy)
@@ -226,7 +294,11 @@ impl<'a> March<'a> {
             step(state, whole, start, end, size, e0).map_err(failed(false))?;
         }
         step(state, first, start, middle, 0.5 * size, e1).map_err(failed(false))?;
-        step(first, second, middle, end, 0.5 * size, e2).map_err(failed(true))
+        *missed = self.stepper.missed(state, first, 0.5 * size);
+        self.loads.step(middle, end, loads);
+        self.stepper.step(first, second, loads, 0.5 * size, e2).map_err(failed(true))?;
+        *missed += self.stepper.missed(first, second, 0.5 * size);
+        Ok(())
     }
 
     fn fixed(

@@ -1,5 +1,6 @@
 //! Where a dynamic case starts: from rest, from the case before, or from a checkpoint.
 
+use crate::apart::Way;
 use crate::case::{EndState, parameters};
 use crate::error::SolveError;
 use crate::ledger::Ledger;
@@ -12,6 +13,9 @@ use crate::vector::dot;
 use serde::{Deserialize, Serialize};
 use trilith_model::{Case, DynamicCase, Model, Side, SolverKind};
 use trilith_system::{LoadSet, System, Track};
+
+/// Share of the energy that stands in springs at the start which counts as motion: rounding moves as much.
+const RESTS: f64 = 1e-6;
 
 /// State, pace, ledger, and the output step it belongs to.
 pub(crate) type Start = (State, Pace, Ledger, usize);
@@ -86,22 +90,44 @@ pub(crate) fn start(
     let level = potential(&constant_force(stepper.space(), loads), &state);
     let ledger = Ledger::new(&state, kinetic, own, level);
     let stored: f64 = state.stored.iter().sum();
-    // From rest there is no energy to compare with: a hundredth of the velocity that the loads could
-    // give the whole mass in one output step.
+    // From rest there is nothing to compare with: a hundredth of the velocity that the loads could
+    // give the whole mass in one output step, and that of the motion that sets in.
     let push: f64 = loads
         .channels
         .iter()
         .map(|c| peak(&c.track) * c.force.iter().map(|x| x * x).sum::<f64>().sqrt())
         .sum();
     let mass = if system.total_mass > 0.0 { system.total_mass } else { 1.0 };
-    let floor = 0.5e-4 * push * push * dt * dt / mass;
-    let reference = (kinetic + strain + stored).max(floor).max(f64::MIN_POSITIVE);
-    Ok((state, Pace { level: 0, reference }, ledger, 0))
+    let n = stepper.space().order();
+    let acceleration = &state.motion[2 * n..];
+    let sets_in = stepper.space().mass.bilinear(acceleration, acceleration);
+    let floor = 0.5e-4 * (push * push / mass + sets_in) * dt * dt;
+    let standing = RESTS * (strain.abs() + stored.abs());
+    let reference = (kinetic + standing).max(floor).max(f64::MIN_POSITIVE);
+    // As far as that goes in an output step; rotations by the size of the model.
+    let far = (2.0 * reference).sqrt() * dt;
+    let translation = far / mass.sqrt();
+    let mut reached = Way { motion: far, deformation: [translation, translation / extent(model)] };
+    reached.reach(&stepper.way(&state, None));
+    Ok((state, Pace { level: 0, reference, reached }, ledger, 0))
+}
+
+/// Largest extent of a model along an axis, m; 1 m for a point.
+fn extent(model: &Model) -> f64 {
+    let along = |axis: usize| {
+        let at = model.nodes.iter().map(|node| node.position[axis]);
+        let whole = (f64::INFINITY, f64::NEG_INFINITY);
+        let (low, high) = at.fold(whole, |(low, high): (f64, f64), x| (low.min(x), high.max(x)));
+        high - low
+    };
+    let most = (0..3).map(along).fold(0.0, f64::max);
+    if most > 0.0 { most } else { 1.0 }
 }
 
 fn peak(track: &Track) -> f64 {
     match track {
-        Track::Constant => 1.0,
+        // What is held from the start and not balanced sets a motion in.
+        Track::Constant => 0.0,
         Track::Value { function, factor } => (factor * function.peak()).abs(),
         Track::Rate { .. } | Track::Curvature { .. } => 0.0,
     }

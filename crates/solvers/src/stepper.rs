@@ -1,15 +1,17 @@
 //! One step of a solver: linear propagator and link kernel together.
 
+use crate::apart::{Apart, Way, apart, way};
 use crate::error::SolveError;
 use crate::kernel::{ForceScale, NoEquilibrium, Remembered, Unforeseen};
 use crate::link_side::LinkSide;
 use crate::propagator::{Motion, Propagator, StepWork};
 use crate::space::Space;
+use crate::turning::Turning;
 use crate::vector::{larger, largest};
 use serde::{Deserialize, Serialize};
 use trilith_element::{Energy, Kinematics};
 use trilith_model::Model;
-use trilith_system::{LinkSet, StepLoads, Tangents};
+use trilith_system::{Laws, LinkSet, StepLoads, Tangents};
 
 /// Everything that changes during a run: copying it is a checkpoint.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
@@ -170,8 +172,14 @@ pub(crate) trait Stepper {
     /// Loads jump from one set of amplitudes to another: accelerations follow.
     fn jump(&mut self, state: &mut State, change: &[f64]) -> Result<(), SolveError>;
 
-    /// Squared energy norm of the difference of two states, J.
-    fn distance(&mut self, a: &State, b: &State) -> f64;
+    /// How far two states are apart.
+    fn apart(&mut self, a: &State, b: &State) -> Apart;
+
+    /// The displacements of a state, or how far they are from those of another.
+    fn way(&mut self, a: &State, b: Option<&State>) -> Way;
+
+    /// Energy of the impulses that the step of length `dt` made last has missed where links turned inside, J.
+    fn missed(&mut self, from: &State, to: &State, dt: f64) -> f64;
 
     /// What one rounding of the motion does to the energies of the links, J.
     fn rounding(&self, state: &State) -> f64;
@@ -200,21 +208,6 @@ pub(crate) trait Stepper {
     }
 }
 
-/// Squared energy norm of the difference of two states, the springs of the links included; `energy` of a
-/// motion by the structure.
-pub(crate) fn energy_distance(
-    energy: impl Fn(&[f64]) -> (f64, f64),
-    a: &State,
-    b: &State,
-    difference: &mut Motion,
-) -> f64 {
-    difference.clear();
-    difference.extend(a.motion.iter().zip(&b.motion).map(|(x, y)| x - y));
-    let (kinetic, strain) = energy(difference);
-    let links: f64 = (0..a.d.len()).map(|i| ((a.d[i] - b.d[i]) * (a.f[i] - b.f[i])).abs()).sum();
-    kinetic.abs() + strain.abs() + 0.5 * links
-}
-
 /// What one rounding of the motion does to the energies of the links, J: deformations are differences of
 /// displacements that may be far larger, and forces act through them.
 pub(crate) fn energy_rounding(space: &Space, active: &[usize], state: &State) -> f64 {
@@ -229,13 +222,27 @@ pub(crate) fn energy_rounding(space: &Space, active: &[usize], state: &State) ->
 pub(crate) struct LinkStepper<'a, P> {
     propagator: P,
     side: LinkSide<'a>,
+    laws: Laws<'a>,
+    turning: Turning,
     difference: Motion,
+    /// Rates of all link coordinates, and Hᵢᵢ of the step made last.
+    rates: Vec<f64>,
+    softness: Vec<f64>,
 }
 
 impl<'a, P: Propagator> LinkStepper<'a, P> {
     pub(crate) fn new(mut propagator: P, side: LinkSide<'a>) -> Self {
         propagator.look_at_rates(&side.kernel.layout().rated);
-        Self { propagator, side, difference: Vec::new() }
+        let n = side.links().len();
+        Self {
+            laws: side.laws(),
+            propagator,
+            side,
+            turning: Turning::default(),
+            difference: Vec::new(),
+            rates: vec![0.0; n],
+            softness: vec![0.0; n],
+        }
     }
 
     pub(crate) fn into_parts(self) -> (P, LinkSide<'a>) {
@@ -299,9 +306,29 @@ impl<P: Propagator> Stepper for LinkStepper<'_, P> {
         Ok(())
     }
 
-    fn distance(&mut self, a: &State, b: &State) -> f64 {
-        let of_structure = |x: &[f64]| self.propagator.energy(x);
-        energy_distance(of_structure, a, b, &mut self.difference)
+    fn apart(&mut self, a: &State, b: &State) -> Apart {
+        let Self { propagator, side, difference, .. } = self;
+        let of_structure = |x: &[f64]| propagator.energy(x);
+        apart(propagator.space(), side.links(), of_structure, a, b, difference)
+    }
+
+    fn way(&mut self, a: &State, b: Option<&State>) -> Way {
+        way(self.propagator.space(), self.side.links(), a, b, &mut self.difference)
+    }
+
+    fn missed(&mut self, from: &State, to: &State, dt: f64) -> f64 {
+        let Self { propagator, side, laws, turning, rates, softness, difference } = self;
+        let space = propagator.space();
+        let n = space.order();
+        difference.resize(space.links.len(), 0.0);
+        space.links.deform(&to.motion[n..2 * n], difference);
+        side.support_rates(rates);
+        let h = &propagator.compliance().h;
+        for (a, flat) in side.links().active.iter().enumerate() {
+            rates[*flat] += difference[a];
+            softness[*flat] = h[(a, a)];
+        }
+        turning.missed(laws, from, to, rates, softness, dt)
     }
 
     fn rounding(&self, state: &State) -> f64 {

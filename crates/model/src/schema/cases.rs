@@ -130,7 +130,7 @@ pub static ADAPTIVE: Block = Block {
         "tolerance",
         Number(d::NONE, SHARE),
         "1e-4",
-        "Distance of the two in the energy norm, relative to the largest energy so far (as square roots).",
+        "Error of a step at most: in energy (as a square root), displacement and link force, each relative to the largest so far.",
     )],
 };
 /// Equal steps.
