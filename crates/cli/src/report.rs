@@ -1,6 +1,6 @@
 //! A run as text.
 
-use crate::text::{number, percent, row, table};
+use crate::text::{number, percent, row, significant, table};
 use trilith::Model;
 use trilith::results::Summary;
 use trilith::solvers::{EnergyTotals, Work};
@@ -32,12 +32,16 @@ pub(crate) fn text(model: &Model, s: &Summary) -> String {
     ] {
         out += &format!("{name:7} {value}\n");
     }
-    let mut rows = vec![row(["output", "unit", "max", "at s", "min", "at s", "final"])];
+    let mut rows = vec![row(["output", "unit", "max", "at s", "min", "at s", "final", "±"])];
     for (name, o) in &s.outputs.0 {
         if let Some(p) = &o.peak {
             let [a, b, c, d, e] = [p.max, p.t_max, p.min, p.t_min, p.last].map(number);
-            rows.push(row([name, &o.unit, &a, &b, &c, &d, &e]));
+            let off = o.error.map_or_else(String::new, |e| significant(e.total(), 2));
+            rows.push(row([name, &o.unit, &a, &b, &c, &d, &e, &off]));
         }
+    }
+    if rows.iter().skip(1).all(|r| r.last().is_none_or(String::is_empty)) {
+        rows.iter_mut().for_each(|r| r.truncate(7));
     }
     if rows.len() > 1 {
         out += &format!("\n{}", table(&rows, &[0, 1]));

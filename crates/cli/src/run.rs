@@ -27,6 +27,7 @@ pub(crate) fn run(registry: &Registry, args: RunArguments) -> Result<Answer, Fai
             solver: args.solver,
             dt: args.dt,
             until: args.checkpoint_at,
+            vectors: None,
             from,
             progress: Some(&mut show),
         };

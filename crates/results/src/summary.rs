@@ -4,7 +4,7 @@ use crate::{FloorSpectrum, Peak, Recorder};
 use serde::{Serialize, Serializer};
 use trilith_model::Model;
 use trilith_solvers::{
-    Adequacy, BasisReport, CaseResult, ContactSummary, EnergyTotals, LinkEnergy, Work,
+    Adequacy, BasisReport, CaseResult, ContactSummary, EnergyTotals, LinkEnergy, OutputError, Work,
 };
 
 /// Results of one case, as `summary.json` has them. Numbers are in SI; one that is not finite is
@@ -58,6 +58,9 @@ pub struct OutputSummary {
     /// Extremes; absent where nothing was recorded.
     #[serde(flatten)]
     pub peak: Option<Peak>,
+    /// How far its values may be off, in its unit; absent for static cases.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub error: Option<OutputError>,
 }
 
 /// The basis of a reduced solver in a few numbers.
@@ -106,7 +109,8 @@ impl Summary {
     ) -> Self {
         let output = |(i, o): (usize, &trilith_model::Output)| {
             let peak = record.peaks().get(i).copied();
-            (o.name.clone(), OutputSummary { unit: o.unit.clone(), peak })
+            let error = result.errors.get(i).copied();
+            (o.name.clone(), OutputSummary { unit: o.unit.clone(), peak, error })
         };
         let link = |(element, energy): &(usize, LinkEnergy)| {
             model.elements.get(*element).map(|e| (e.name.clone(), *energy))

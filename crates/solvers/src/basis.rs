@@ -253,7 +253,10 @@ pub(crate) fn build(
 ) -> Result<Bases, SolveError> {
     let (order, loads) = (system.order(), &*demands.loads);
     let complete = settings.kind == BasisKind::Complete
-        || (settings.vectors.is_none() && order <= COMPLETE_AUTOMATIC);
+        || match settings.vectors {
+            None => order <= COMPLETE_AUTOMATIC,
+            Some(n) => n >= order - system.massless.len() && order <= COMPLETE_LIMIT,
+        };
     let hat = solvable(model, system)?;
     let (span, wider, known) = if complete {
         if order > COMPLETE_LIMIT {

@@ -27,6 +27,8 @@ pub struct RunOptions<'a> {
     pub dt: Option<f64>,
     /// Stop at the first output time not before this, s.
     pub until: Option<f64>,
+    /// Vectors of the basis; `None`: as the case says.
+    pub vectors: Option<usize>,
     /// Continue the case from where an earlier run stopped.
     pub from: Option<EndState>,
     /// Told the finished share of the run, 0 … 1.

@@ -73,6 +73,15 @@ pub(crate) fn run(
 ) -> Result<CaseResult, SolveError> {
     let clock = Clock::start();
     let Setup { model, system, case, analysis, before } = setup;
+    let mut widened;
+    let analysis = match options.vectors {
+        None => analysis,
+        Some(vectors) => {
+            widened = analysis.clone();
+            widened.solution.basis.vectors = Some(vectors);
+            &widened
+        }
+    };
     let solution = &analysis.solution;
     let kind = options.solver.unwrap_or(solution.solver);
     let dt = options.dt.unwrap_or(analysis.dt);

@@ -4,8 +4,12 @@ use crate::Error;
 use std::path::{Path, PathBuf};
 use trilith_model::Model;
 use trilith_results::{Files, Peak, Recorder, Summary};
-use trilith_solvers::{BasisReport, CaseResult, ContactMode, ContactSummary, Observer, RunOptions};
+use trilith_solvers::{BasisReport, CaseResult, ContactMode, ContactSummary, Observer, RunOptions, Status};
 use trilith_system::System;
+
+/// Times that a basis is enlarged at most, and by so many vectors at least.
+const ENRICHMENTS: usize = 5;
+const LEAST: usize = 16;
 
 /// A model, assembled once, for any number of runs.
 #[derive(Debug)]
@@ -67,7 +71,8 @@ impl<'m> Analysis<'m> {
         &self.system
     }
 
-    /// Runs a case and, before it, the cases that it continues.
+    /// Runs a case and, before it, the cases that it continues. A run whose basis turns out too small is made
+    /// again with more vectors, unless its case says otherwise.
     ///
     /// # Errors
     /// [`Error::Solve`] where the run cannot be made. A run that stops on the way is no error: its
@@ -88,6 +93,44 @@ impl<'m> Analysis<'m> {
         if options.case >= self.model.cases.len() {
             return Err(Error::unknown_case(self.model, &format!("#{}", options.case)));
         }
+        let RunOptions { case, solver, dt, until, vectors, from, mut progress } = options;
+        let (mut vectors, mut round) = (vectors, 0);
+        loop {
+            let progress: Option<&mut dyn FnMut(f64)> = match &mut progress {
+                Some(tell) => Some(&mut **tell),
+                None => None,
+            };
+            let options =
+                RunOptions { case, solver, dt, until, vectors, from: from.clone(), progress };
+            let mut run = self.once(options, observers)?;
+            let may = round < ENRICHMENTS && from.is_none() && self.enriches(case);
+            let basis = run.result.basis.as_ref().filter(|_| may);
+            let (Status::Inadequate { .. }, Some(basis)) = (&run.result.status, basis) else {
+                if let Some(n) = vectors.filter(|_| round > 0) {
+                    let text = format!("the basis was enlarged to {n} vectors by itself: with fewer, outputs were off by more than allowed");
+                    run.result.warnings.push(text);
+                }
+                return Ok(run);
+            };
+            vectors = Some((2 * basis.vectors).max(basis.vectors + LEAST));
+            round += 1;
+        }
+    }
+
+    /// True for a case whose basis may be enlarged.
+    fn enriches(&self, case: usize) -> bool {
+        match &self.model.cases[case].analysis {
+            trilith_model::Analysis::Dynamic(d) => d.solution.basis.enrich,
+            trilith_model::Analysis::Static(_) => false,
+        }
+    }
+
+    /// One run.
+    fn once(
+        &self,
+        options: RunOptions<'_>,
+        observers: &mut [&mut dyn Observer],
+    ) -> Result<Run, Error> {
         let mut record = Recorder::new(self.model).with_frames(self.model, self.frames);
         if self.loops {
             record = record.with_loops(self.model);

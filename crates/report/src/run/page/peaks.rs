@@ -19,14 +19,29 @@ fn row(name: &str, o: &Value, nothing: bool) -> Markup {
     let [max, min, last] =
         all.map(|x| number(if x.abs() < 1e-9 * size { 0.0 } else { x * s.factor }));
     let [at_max, at_min] = ["t_max", "t_min"].map(|k| number(value(&o[k])));
+    let [reduction, step] = ["reduction", "step"].map(|k| value(&o["error"][k]) * s.factor);
+    let (off, parts) = if (reduction + step).is_finite() {
+        (two_digits(reduction + step), format!("reduction {}, steps {}", two_digits(reduction), two_digits(step)))
+    } else {
+        (String::new(), String::new())
+    };
     if nothing {
         return html! { tr {
-            td { (name) } td {} td.num { "≈ 0" } td.num { "–" } td.num { "≈ 0" } td.num { "–" } td.num { "≈ 0" }
+            td { (name) } td {} td.num { "≈ 0" } td.num { "–" } td.num { "≈ 0" } td.num { "–" } td.num { "≈ 0" } td {}
         } };
     }
     html! { tr {
-        td { (name) } td { (s.unit) } td.num { (max) } td.num { (at_max) } td.num { (min) } td.num { (at_min) } td.num { (last) }
+        td { (name) } td { (s.unit) } td.num { (max) } td.num { (at_max) } td.num { (min) } td.num { (at_min) } td.num { (last) } td.num title=(parts) { (off) }
     } }
+}
+
+/// An error needs no more digits than these.
+fn two_digits(x: f64) -> String {
+    if x == 0.0 {
+        return "0".into();
+    }
+    let scale = 10f64.powi(1 - x.abs().log10().floor() as i32);
+    number((x * scale).round() / scale)
 }
 
 fn table<'a>(
@@ -34,7 +49,7 @@ fn table<'a>(
     rows: impl Iterator<Item = &'a (&'a str, &'a Value)>,
 ) -> Markup {
     html! { div.wide { table.peaks {
-        thead { tr { th { "output" } th { "unit" } th { "max" } th { "at s" } th { "min" } th { "at s" } th { "final" } } }
+        thead { tr { th { "output" } th { "unit" } th { "max" } th { "at s" } th { "min" } th { "at s" } th { "final" } th title="estimated error: reduction and steps" { "±" } } }
         tbody { @for (name, o) in rows { (row(name, o, outputs.is_rounding(name))) } }
     } } }
 }
