@@ -278,7 +278,7 @@ pub(crate) fn build(
     if let Some(wider) = wider {
         bases.wider = Some(Box::new(in_both_forms(system, wider, loads)?));
     }
-    bases.report = report(model, system, &bases.structural, loads, &held, shift, &exact);
+    bases.report = report(model, system, &bases, loads, &held, shift, &exact);
     Ok(bases)
 }
 
@@ -447,12 +447,14 @@ fn recurse(
 fn report(
     model: &Model,
     system: &System,
-    basis: &RitzBasis,
+    bases: &Bases,
     loads: &[(String, Vec<f64>)],
     dummies: &[f64],
     shift: f64,
     exact: &Flexibility,
 ) -> BasisReport {
+    // With the dummies, which hold what links alone do.
+    let basis = &bases.stepping;
     let m = basis.modes();
     let phi = &*basis.shapes;
     let rows = &system.links.rows;
@@ -463,7 +465,9 @@ fn report(
         let of_static = || basis.statics.stiffness[j - m].max(1e-9);
         reduced[(j, j)] = basis.omega2.get(j).map_or_else(of_static, |w| w + shift);
     }
-    for (row, dummy) in rows.iter().zip(dummies).filter(|(_, k)| **k != 0.0) {
+    let there = &system.links.effective;
+    let more = dummies.iter().zip(there).map(|(all, there)| all - there);
+    for (row, dummy) in rows.iter().zip(more).filter(|(_, k)| *k != 0.0) {
         let q = phi.row(row);
         for (j, b) in q.iter().enumerate() {
             for (a, sum) in q.iter().zip(reduced.column_mut(j)) {
@@ -487,6 +491,8 @@ fn report(
         adequacy.push(Adequacy { coordinate, share: share(*whole, &phi.row(&rows[*flat])) });
     }
     adequacy.sort_by(|a, b| a.share.total_cmp(&b.share));
+    let basis = &bases.structural;
+    let phi = &*basis.shapes;
     let mass = |axis: usize| -> Vec<f64> {
         let total: f64 = {
             let mut r = vec![0.0; system.order()];
@@ -501,7 +507,7 @@ fn report(
     let [x, y, z] = [mass(0), mass(1), mass(2)];
     BasisReport {
         vectors: m,
-        static_shapes: basis.statics(),
+        static_shapes: bases.stepping.statics(),
         omega: basis.omega2.iter().map(|w| w.max(0.0).sqrt()).collect(),
         mass_participation: (0..m).map(|j| [x[j], y[j], z[j]]).collect(),
         static_participation,

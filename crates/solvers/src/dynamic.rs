@@ -220,7 +220,7 @@ pub(crate) fn run(
         rejected: counts.rejected,
         factorizations,
         forced: counts.forced,
-        step_error: counts.error_sum,
+        step_error: counts.error(),
         wall_s: clock.wall(),
         setup_cpu_s: setup_cpu,
         march_cpu_s: clock.cpu() - setup_cpu,
@@ -235,7 +235,7 @@ pub(crate) fn run(
         result.status = Status::NotConverged { t, worst, residual };
     }
     if let Some(certificate) = &certificate {
-        result.errors = certificate.errors(counts.error_sum);
+        result.errors = certificate.errors(counts.error());
         let allowed = solution.basis.tolerance;
         if let Some((output, share)) = certificate.worst(model).filter(|(_, e)| *e > allowed)
             && result.status.is_good()

@@ -75,6 +75,15 @@ pub(crate) struct Counts {
     pub forced: usize,
     /// Sum of what the accepted steps are wrong by, as share of the largest displacement so far.
     pub error_sum: f64,
+    /// Sum of the squares of what they are wrong by in energy and force: events, which do not add up in one direction.
+    pub error_squares: f64,
+}
+
+impl Counts {
+    /// What the steps so far may have made of the error of a displacement, as share of the largest one.
+    pub(crate) fn error(&self) -> f64 {
+        self.error_sum + self.error_squares.sqrt()
+    }
 }
 
 /// Why a march stopped.
@@ -224,7 +233,8 @@ impl<'a> March<'a> {
                         pace.level = level + 1;
                         continue;
                     }
-                    self.counts.error_sum += OF_HALVES * larger(measured.displaced, measured.error);
+                    self.counts.error_sum += OF_HALVES * measured.displaced;
+                    self.counts.error_squares += (OF_HALVES * measured.error).powi(2);
                     self.counts.forced += usize::from(error > tolerance);
                     self.counts.substeps += 2;
                     let Trial { first, second, energies: [_, e1, e2], .. } = &self.trial;

@@ -179,6 +179,7 @@ impl Modes {
         let structure = Structure {
             modes,
             tied,
+            undamped: (modes + tied..m).filter(|i| damping[(*i, *i)] == 0.0).collect(),
             omega2,
             rates: (0..m).map(|i| damping[(i, i)]).collect(),
             mass: (0..m).map(|i| if i < modes { 1.0 } else { 0.0 }).collect(),
@@ -310,6 +311,8 @@ impl Modes {
         let m = self.space.order();
         let change = self.structure.free_acceleration(&self.space.force(change));
         motion[2 * m..].iter_mut().zip(change).for_each(|(x, y)| *x += y);
+        // What has no mass may jump with its load: how it moved before says nothing of how it goes on.
+        motion[2 * m + self.structure.modes..].fill(0.0);
     }
 
     /// A step from a motion under loads.
@@ -330,7 +333,8 @@ impl Modes {
         let rule = &self.way_now().rule;
         let step = self.start(from, loads);
         if let Some(modes) = rule.own() {
-            return modes.predict(&step, &mut now.sources, to);
+            modes.predict(&step, &mut now.sources, to);
+            return self.go_on(from, to);
         }
         let [source0, source1, spread] = now.parts();
         less(loads[0], spread, source0);
@@ -340,6 +344,26 @@ impl Modes {
         let inputs = [&from[..n], &from[n..2 * n], source0, source1];
         rule.apply(1, inputs, q);
         rule.apply(2, inputs, &mut rest[..n]);
+        self.go_on(from, to);
+    }
+
+    /// Rates of undamped static shapes: the mean rate of the step, and half a step of the acceleration before, which
+    /// makes them right at second order; errors in them die out by 1/√2 a step, whatever the link.
+    #[inline]
+    fn go_on(&self, from: &Motion, to: &mut Motion) {
+        let n = self.space.order();
+        for i in self.structure.undamped.iter().copied() {
+            to[n + i] += 0.5 * self.steps[self.now.0].dt * from[2 * n + i];
+        }
+    }
+
+    /// Their accelerations.
+    #[inline]
+    fn settle_on(&self, from: &Motion, to: &mut Motion) {
+        let n = self.space.order();
+        for i in self.structure.undamped.iter().copied() {
+            to[2 * n + i] = (to[n + i] - from[n + i]) * self.steps[self.now.0].per_dt;
+        }
     }
 
     /// What was predicted, with the pseudo-forces spread last at the end instead.
@@ -354,7 +378,9 @@ impl Modes {
         let rule = &self.way_now().rule;
         let step = self.start(from, loads);
         if let Some(modes) = rule.own() {
-            return modes.complete(&step, &mut now.sources, to, &mut now.sums);
+            modes.complete(&step, &mut now.sources, to, &mut now.sums);
+            self.go_on(from, to);
+            return self.settle_on(from, to);
         }
         let n = self.space.order();
         let mut integral = std::mem::take(&mut now.integral);
@@ -376,6 +402,7 @@ impl Modes {
         let ((k0, e0), (k1, e1)) = (self.energy(from), self.energy(to));
         now.sums = StepSums { external, all, kinetic: [k0, k1], strain: [e0, e1] };
         now.integral = integral;
+        self.settle_on(from, to);
     }
 
     /// Work done over the step completed last.

@@ -18,6 +18,8 @@ pub(super) struct Structure {
     pub modes: usize,
     /// Number of static shapes, the first ones, that dashpots tie to the modes.
     pub tied: usize,
+    /// The static shapes whose rate is the mean one of a step.
+    pub undamped: Vec<usize>,
     /// ω², and the stiffness of the static shapes.
     pub omega2: Vec<f64>,
     /// Diagonal of the damping.
