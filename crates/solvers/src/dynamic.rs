@@ -4,6 +4,7 @@ use crate::basis::{self, Bases};
 use crate::case::{EndState, RunOptions, constant_load, parameters};
 use crate::clock::Clock;
 use crate::damping::modal_damping;
+use crate::drag::follow_supports;
 use crate::error::SolveError;
 use crate::full_newton::FullNewton;
 use crate::hht::Hht;
@@ -21,7 +22,7 @@ use crate::view::{Viewer, looks_at_rates};
 use trilith_model::{
     Analysis, Case, Damping, DynamicCase, Model, Side, Solution, SolverKind, StepControl,
 };
-use trilith_system::{LoadSet, System, Track};
+use trilith_system::{Channel, LoadSet, System, Track};
 
 /// A dynamic case and what it starts from.
 pub(crate) struct Setup<'a> {
@@ -82,10 +83,11 @@ pub(crate) fn run(
         Some(end) => end.load.clone(),
         None => held_load(model, system, analysis, before.as_ref()),
     };
-    let loads = system.dynamic_loads(model, analysis, constant.clone());
+    let mut loads = system.dynamic_loads(model, analysis, constant.clone());
     let reduced = is_reduced(kind);
     let bases = bases(model, system, analysis, kind, &loads)?;
     let damping = bases.as_ref().and_then(|b| modal_damping(model, system, b));
+    follow_supports(model, system, damping.as_ref(), &mut loads)?;
     let none = vec![0.0; system.links.len()];
     let effective = if kind == SolverKind::FullNewton { &none } else { &system.links.effective };
     let watched = looks_at_rates(model, system, observers.iter().any(|o| o.wants_rates()));
@@ -116,7 +118,7 @@ pub(crate) fn run(
             Box::new(LinkStepper::new(Hht::new(space, solution.alpha), side))
         }
     };
-    let timeline = Timeline::new(dt, analysis.duration, &loads);
+    let timeline = Timeline::new(dt, analysis.duration, &loads, at_least(solution.step));
     let mut warnings = Vec::new();
     if let (Some(b), true) = (&bases, reduced) {
         adequacy_warning(b, solution.basis.adequacy, &mut warnings);
@@ -369,6 +371,21 @@ fn adequacy_warning(bases: &Bases, wanted: f64, warnings: &mut Vec<String>) {
     }
 }
 
+/// Steps that are made of a piece of the timeline at least.
+pub(crate) fn at_least(step: StepControl) -> usize {
+    match step {
+        StepControl::Fixed { substeps } => substeps,
+        StepControl::Adaptive { .. } => 1,
+    }
+}
+
+/// How the amplitudes of the loads jump at a time; none where they do not.
+pub(crate) fn jump(loads: &LoadSet, t: f64) -> Option<Vec<f64>> {
+    let jump = |c: &Channel| c.track.at(t, Side::After) - c.track.at(t, Side::Before);
+    let change: Vec<f64> = loads.channels.iter().map(jump).collect();
+    change.iter().any(|x| *x != 0.0).then_some(change)
+}
+
 /// One output step: its pieces, with loads that jump between them.
 fn output_step(
     timeline: &Timeline,
@@ -383,16 +400,11 @@ fn output_step(
     let end = timeline.time(step + 1);
     for piece in timeline.pieces(step) {
         let t0 = piece.start;
-        if t0 > 0.0 && timeline.is_break(t0) {
+        if t0 > 0.0 && timeline.is_jump(t0) {
             march.cut();
-            let change: Vec<f64> = march
-                .loads
-                .channels
-                .iter()
-                .map(|c| c.track.at(t0, Side::After) - c.track.at(t0, Side::Before))
-                .collect();
-            if change.iter().any(|x| *x != 0.0) {
+            if let Some(change) = jump(march.loads, t0) {
                 march.stepper.jump(state, &change).map_err(Stop::Fatal)?;
+                viewer.show_behind(t0, state, ledger);
             }
         }
         let mut accept = |t: f64, s: &State, e: &StepEnergy| -> f64 {

@@ -13,6 +13,7 @@ mod clock;
 mod condensation;
 mod contact_mode;
 mod damping;
+mod drag;
 mod dynamic;
 mod error;
 mod full_newton;

@@ -36,6 +36,10 @@ pub(crate) const LONGEST: f64 = 0.5;
 /// A mode whose own share of G·k is below this stays with the exact rule.
 const FREE: f64 = 1e-3;
 
+/// Values (8 bytes each) in the matrices of step sizes that are kept, and sizes at most.
+const KEPT_VALUES: usize = 1 << 25;
+const MOST_SIZES: usize = 256;
+
 /// Rules of one step size.
 struct Step {
     dt: f64,
@@ -201,6 +205,11 @@ impl Modes {
             let exact = self.way(Rule::exact(&self.structure, dt), StepKey { dt, average: 0 });
             let of_modes = self.compliance_of(&exact.rule, 1, self.structure.modes);
             let ratio = ratio(&of_modes, &self.engaged);
+            let numbers = 2 * self.engaged.len() * self.engaged.len() + 12 * self.space.order();
+            if self.steps.len() >= (KEPT_VALUES / numbers.max(1)).clamp(8, MOST_SIZES) {
+                // A table with samples at any times may ask for as many sizes.
+                self.steps.remove(0);
+            }
             self.steps.push(Step { dt, per_dt: dt.recip(), ratio, exact, others: Vec::new() });
             self.steps.len() - 1
         })

@@ -214,14 +214,19 @@ impl Outputs {
         }
     }
 
-    /// The outputs in a state.
+    /// The outputs in a state, seen from this side where loads jump.
     #[inline]
-    pub(crate) fn at<'a>(&'a self, t: f64, state: &'a State, loads: &LoadSet) -> Now<'a> {
+    pub(crate) fn at<'a>(
+        &'a self,
+        (t, side): (f64, Side),
+        state: &'a State,
+        loads: &LoadSet,
+    ) -> Now<'a> {
         let n = self.order;
         let motion = [&state.motion[..n], &state.motion[n..2 * n], &state.motion[2 * n..]];
-        let support = if self.supported { self.supports(t, loads) } else { None };
+        let support = if self.supported { self.supports(t, side, loads) } else { None };
         let base = match self.absolute {
-            true => loads.base_acceleration(t, Side::Before),
+            true => loads.base_acceleration(t, side),
             false => [0.0; 3],
         };
         Now { outputs: self, state, motion, support, base }
@@ -229,8 +234,8 @@ impl Outputs {
 
     /// Displacements, velocities and accelerations of supports.
     #[cold]
-    fn supports(&self, t: f64, loads: &LoadSet) -> Option<Box<[Vec<f64>; 3]>> {
-        Some(Box::new(loads.prescribed(t, Side::Before, self.prescribed)))
+    fn supports(&self, t: f64, side: Side, loads: &LoadSet) -> Option<Box<[Vec<f64>; 3]>> {
+        Some(Box::new(loads.prescribed(t, side, self.prescribed)))
     }
 }
 

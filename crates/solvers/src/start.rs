@@ -66,7 +66,8 @@ pub(crate) fn start(
     Ok((state, Pace { level: 0, reference }, ledger, 0))
 }
 
-fn peak(track: &Track) -> f64 {
+/// Largest |amplitude|; 0 of derivatives.
+pub(crate) fn peak(track: &Track) -> f64 {
     match track {
         Track::Constant => 1.0,
         Track::Value { function, factor } => (factor * function.peak()).abs(),

@@ -26,13 +26,13 @@ struct Figure<'a> {
     loads: &'a LoadSet,
     /// The links that have an outline.
     bodies: &'a [(&'a dyn Link, &'a LinkInstance)],
-    t: f64,
+    at: (f64, Side),
 }
 
 impl Shape for Figure<'_> {
     fn displacements(&self, u: &mut [f64]) {
         let count = self.system.reduction.prescribed.len();
-        let [prescribed, _, _] = self.loads.prescribed(self.t, Side::Before, count);
+        let [prescribed, _, _] = self.loads.prescribed(self.at.0, self.at.1, count);
         let Coordinates { order, shape } = self.coordinates;
         let free = expand(shape.as_deref(), &self.state.motion[..*order]);
         for (full, x) in u.iter_mut().enumerate() {
@@ -74,8 +74,8 @@ pub(crate) struct Viewer<'a, 'b> {
     bodies: Vec<(&'a dyn Link, &'a LinkInstance)>,
     contacts: Vec<(usize, Contact)>,
     own: Vec<Contact>,
-    /// Time and output step last shown.
-    last: (f64, Option<usize>),
+    /// Time, the side of it, and output step last shown.
+    last: (f64, Side, Option<usize>),
     observers: &'a mut [&'b mut dyn Observer],
 }
 
@@ -135,7 +135,7 @@ impl<'a, 'b> Viewer<'a, 'b> {
             bodies,
             contacts: Vec::new(),
             own: Vec::new(),
-            last: (0.0, None),
+            last: (0.0, Side::After, None),
             observers,
         }
     }
@@ -147,16 +147,33 @@ impl<'a, 'b> Viewer<'a, 'b> {
 
     /// Shows a state; `step` is the index of the output step that ends there.
     pub(crate) fn show(&mut self, t: f64, step: Option<usize>, state: &State, ledger: &Ledger) {
+        // Before a case there is nothing: what it starts from is what the loads make of it.
+        let side = if t > 0.0 { Side::Before } else { Side::After };
+        self.look((t, side), step, state, ledger);
+    }
+
+    /// Shows a state just behind a time at which loads have jumped.
+    pub(crate) fn show_behind(&mut self, t: f64, state: &State, ledger: &Ledger) {
+        self.look((t, Side::After), None, state, ledger);
+    }
+
+    fn look(
+        &mut self,
+        (t, side): (f64, Side),
+        step: Option<usize>,
+        state: &State,
+        ledger: &Ledger,
+    ) {
         if self.observers.is_empty() {
             return;
         }
-        let now = self.outputs.at(t, state, self.loads);
+        let now = self.outputs.at((t, side), state, self.loads);
         now.values(&mut self.values);
         if self.rated {
             now.rates(&self.values, &mut self.rates);
         }
         self.touch(state);
-        self.last = (t, step);
+        self.last = (t, side, step);
         self.tell(state, ledger, |o, sample| o.sample(sample));
     }
 
@@ -174,14 +191,14 @@ impl<'a, 'b> Viewer<'a, 'b> {
         how: impl Fn(&mut dyn Observer, &Sample<'_>),
     ) {
         let overturned = self.overturned(state);
-        let (t, output_step) = self.last;
+        let (t, side, output_step) = self.last;
         let shape = Figure {
             system: self.system,
             coordinates: &self.coordinates,
             state,
             loads: self.loads,
             bodies: &self.bodies,
-            t,
+            at: (t, side),
         };
         for observer in self.observers.iter_mut() {
             let sample = Sample {
