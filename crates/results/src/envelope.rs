@@ -19,6 +19,13 @@ impl Envelope {
         Self::default()
     }
 
+    /// Goes on from the extremes of an earlier part of the case.
+    #[must_use]
+    pub fn after(mut self, peaks: Vec<Peak>) -> Self {
+        self.peaks = peaks;
+        self
+    }
+
     /// Extremes of the outputs in the model's order; empty where nothing was seen.
     #[must_use]
     pub fn peaks(&self) -> &[Peak] {
@@ -30,7 +37,10 @@ impl Observer for Envelope {
     fn sample(&mut self, s: &Sample<'_>) {
         match &mut self.before {
             None => {
-                self.peaks = s.values.iter().map(|y| Peak::new(s.t, *y)).collect();
+                // A run that is continued starts from a moment that was seen.
+                if self.peaks.len() != s.values.len() {
+                    self.peaks = s.values.iter().map(|y| Peak::new(s.t, *y)).collect();
+                }
                 self.before = Some((s.t, s.values.to_vec(), s.rates.to_vec()));
             }
             Some((t, values, rates)) => {

@@ -61,6 +61,13 @@ impl Recorder {
         self
     }
 
+    /// Goes on from the extremes of an earlier part of the case.
+    #[must_use]
+    pub fn after(mut self, peaks: Vec<Peak>) -> Self {
+        self.envelope = Envelope::new().after(peaks);
+        self
+    }
+
     /// Keeps deformation and force of all links as well.
     #[must_use]
     pub fn with_loops(mut self, model: &Model) -> Self {

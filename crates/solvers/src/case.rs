@@ -1,5 +1,7 @@
 //! Cases: static ones, dynamic ones, and chains of them.
 
+use crate::Peak;
+use crate::contact_mode::ContactMemory;
 use crate::clock::{Clock, peak_rss_mb};
 use crate::dynamic::{self, Setup};
 use crate::error::SolveError;
@@ -59,6 +61,20 @@ pub struct EndState {
     pub(crate) pace: Pace,
     pub(crate) memory: Vec<Remembered>,
     pub(crate) ledger: Ledger,
+    /// What the observers of the case had seen until then, for a run that continues it.
+    #[serde(default)]
+    pub seen: SoFar,
+}
+
+/// What was seen of a case until a checkpoint, so that the extremes of a continued run are those of all of it.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct SoFar {
+    /// Extremes of the outputs in the model's order; empty where nobody took them.
+    pub peaks: Vec<Peak>,
+    /// What the contacts had done.
+    pub contact: Option<ContactMemory>,
+    /// Since when, s: 0 for all of the case.
+    pub since: f64,
 }
 
 /// Parameters of a model as a checkpoint holds them; numbers read back to the bit.

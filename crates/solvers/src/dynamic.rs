@@ -1,7 +1,7 @@
 //! A dynamic case: start state, basis, solver, output steps.
 
 use crate::basis::{self, Bases};
-use crate::case::{EndState, RunOptions, constant_load, parameters};
+use crate::case::{EndState, RunOptions, SoFar, constant_load, parameters};
 use crate::clock::Clock;
 use crate::damping::modal_damping;
 use crate::drag::follow_supports;
@@ -269,6 +269,7 @@ impl Arrival<'_> {
             memory,
             ledger,
             state,
+            seen: SoFar::default(),
         };
         CaseResult {
             case: case.name.clone(),

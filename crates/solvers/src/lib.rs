@@ -44,8 +44,8 @@ mod together;
 mod vector;
 mod view;
 
-pub use case::{EndState, RunOptions, modes, run};
-pub use contact_mode::{ContactMode, ContactSummary};
+pub use case::{EndState, RunOptions, SoFar, modes, run};
+pub use contact_mode::{ContactMemory, ContactMode, ContactSummary};
 pub use error::SolveError;
 pub use observe::{
     Adequacy, BasisReport, CaseResult, EnergyTotals, LinkEnergy, ModeShape, Observer, Sample,
