@@ -62,14 +62,14 @@ fn a_triangle_between_output_times_is_felt_in_full() {
 /// A sine is zero at every output time.
 #[test]
 fn a_sine_whose_period_is_the_output_step_is_felt() {
-    let function = r#"Sine(amplitude: 10, frequency: 10, cycles: 15)"#;
+    let function = r#"Sine(amplitude: 10, frequency: 10, cycles: 20)"#;
     let fine = run(function, 0.001, SolverKind::Fna, StepControl::default()).peak(0);
     for solver in SOLVERS {
         for dt in [0.1, 0.05, 0.2] {
             for step in [StepControl::default(), StepControl::Fixed { substeps: 1 }] {
                 let found = run(function, dt, solver, step).peak(0);
                 let what = format!("{} {dt} {step:?}: {found} {fine}", solver.name());
-                assert!((found / fine - 1.0).abs() < 0.05, "{what}");
+                assert!((found / fine - 1.0).abs() < 0.02, "{what}");
             }
         }
     }
@@ -148,5 +148,56 @@ fn a_case_starts_behind_the_jump_of_its_loads() {
     for solver in SOLVERS {
         let (seen, _) = trace(&model, &system, solver);
         assert!(seen.history[0][1].abs() < 1e-9, "{}: {}", solver.name(), seen.history[0][1]);
+    }
+}
+
+/// An oscillator of two masses of very different periods, let go: no step is too long for its extremes.
+#[test]
+fn extremes_inside_long_steps_are_those_of_the_motion() {
+    let text = |damping: &str, dt: f64| {
+        format!(
+            r#"(
+        nodes: {{ "a": (0, 0, 1), "b": (0, 0, 2) }},
+        supports: {{ "a": (Uy, Uz, Rx, Ry, Rz), "b": (Uy, Uz, Rx, Ry, Rz) }},
+        damping: {damping},
+        elements: {{
+            "ma": Mass(node: "a", mass: 2), "mb": Mass(node: "b", mass: 1),
+            "low": Spring(node: "a", k2: 2000, c2: 2),
+            "high": Spring(nodes: ("a", "b"), k2: 1500, axis2: (1, 0, 0)),
+            "stop": Gap(nodes: ("a", "b"), axis: U2, k: 1000, opening: 10),
+        }},
+        functions: {{ "f": Points(points: [(0, 0), (1, 10), (3, -5)]) }},
+        cases: {{ "free": Dynamic(duration: 3, dt: {dt}, base: [(direction: X, function: "f")],
+            initial: [(node: "b", dof: Ux, displacement: 0.02), (node: "a", dof: Ux, velocity: 0.1)]) }},
+        outputs: {{
+            "u": Displacement(node: "b", dof: Ux), "v": Velocity(node: "a", dof: Ux),
+            "a": Acceleration(node: "b", dof: Ux, absolute: true),
+            "gap": LinkDeformation(link: "stop", axis: U2),
+            "drift": Norm(terms: ["u", "gap"]),
+        }},
+    )"#
+        )
+    };
+    for damping in ["None", "Modal(ratio: 0.01)", "Rayleigh(mass: 0.1, stiffness: 0.0001)"] {
+        let peaks = |dt: f64, step: StepControl| {
+            let (mut model, _) = parse(&text(damping, dt), &[]);
+            set_step(&mut model, step);
+            let analysis = trilith::Analysis::new(&model).unwrap();
+            let options = RunOptions { solver: Some(SolverKind::Fna), ..RunOptions::default() };
+            let run = analysis.run(options).unwrap();
+            let peaks = run.record.peaks().to_vec();
+            (peaks, run.result.work.substeps)
+        };
+        let (fine, _) = peaks(0.001, StepControl::default());
+        for dt in [0.02, 0.1, 0.5] {
+            for step in [StepControl::default(), StepControl::Fixed { substeps: 1 }] {
+                let (found, _) = peaks(dt, step);
+                for (i, (a, b)) in found.iter().zip(&fine).enumerate() {
+                    let allowed = if i == 2 { 0.06 } else { 0.004 } * b.magnitude();
+                    let off = (a.max - b.max).abs().max((a.min - b.min).abs());
+                    assert!(off < allowed, "{damping} {dt} {step:?} {i}: {a:?} {b:?}");
+                }
+            }
+        }
     }
 }

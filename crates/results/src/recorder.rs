@@ -137,6 +137,10 @@ impl Observer for Recorder {
         }
     }
 
+    fn between(&mut self, t: f64, values: &[f64], rates: &[f64]) {
+        self.envelope.between(t, values, rates);
+    }
+
     fn end(&mut self, s: &Sample<'_>) {
         self.frames.end(s.t, s.shape);
     }

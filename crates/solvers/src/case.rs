@@ -61,6 +61,9 @@ pub struct EndState {
     pub(crate) pace: Pace,
     pub(crate) memory: Vec<Remembered>,
     pub(crate) ledger: Ledger,
+    /// Largest values of the outputs so far, where the looks inside long steps hang on them.
+    #[serde(default)]
+    pub(crate) largest: Vec<f64>,
     /// What the observers of the case had seen until then, for a run that continues it.
     #[serde(default)]
     pub seen: SoFar,

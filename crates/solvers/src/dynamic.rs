@@ -123,12 +123,14 @@ pub(crate) fn run(
     if let (Some(b), true) = (&bases, reduced) {
         adequacy_warning(b, solution.basis.adequacy, &mut warnings);
     }
+    let largest = options.from.as_ref().map(|end| end.largest.clone()).unwrap_or_default();
     let (state, mut pace, mut ledger, first) = match options.from {
         Some(end) => resume(end, stepper.as_mut())?,
         None => start(model, system, analysis, before, &loads, stepper.as_mut(), dt)?,
     };
     let mut state = Box::new(state);
     let mut viewer = Viewer::new(model, system, &loads, stepper.space(), observers);
+    viewer.look_inside(stepper.closed_form(), dt, largest);
     let last = match options.until {
         Some(t) => ((t / dt) - 1e-9).ceil().max(0.0) as usize,
         None => timeline.steps,
@@ -168,6 +170,7 @@ pub(crate) fn run(
         }
     }
     viewer.end(&state, &ledger);
+    let largest = viewer.largest();
     let counts = march.counts;
     if let Some(Stop::Fatal(e)) = stop {
         return Err(e);
@@ -198,7 +201,8 @@ pub(crate) fn run(
         ..Work::default()
     };
     let state = *state;
-    let arrival = Arrival { timeline: &timeline, made, state, pace, ledger, constant, fallen };
+    let arrival =
+        Arrival { timeline: &timeline, made, state, pace, ledger, constant, fallen, largest };
     let mut result =
         arrival.result(model, system, case, kind, stepper.space(), stepper.memory(), work);
     if let Some(Stop::NoEquilibrium { t, worst, residual }) = stop {
@@ -222,6 +226,8 @@ pub(crate) struct Arrival<'a> {
     pub constant: Vec<f64>,
     /// Index of the element of a body that has fallen over.
     pub fallen: Option<usize>,
+    /// Largest values of the outputs, where looks inside steps hang on them.
+    pub largest: Vec<f64>,
 }
 
 impl Arrival<'_> {
@@ -236,7 +242,7 @@ impl Arrival<'_> {
         memory: Vec<Remembered>,
         work: Work,
     ) -> CaseResult {
-        let Self { timeline, made, state, pace, ledger, constant, fallen } = self;
+        let Self { timeline, made, state, pace, ledger, constant, fallen, largest } = self;
         let share = ledger.totals.error_relative;
         let limit = match &case.analysis {
             Analysis::Dynamic(analysis) => analysis.solution.energy_limit,
@@ -269,6 +275,7 @@ impl Arrival<'_> {
             memory,
             ledger,
             state,
+            largest,
             seen: SoFar::default(),
         };
         CaseResult {

@@ -18,6 +18,7 @@ mod dynamic;
 mod error;
 mod full_newton;
 mod hht;
+mod inside;
 mod kernel;
 pub mod lanes;
 mod ledger;

@@ -20,6 +20,7 @@
 //!
 //! Reference: \[Wilson 2002, ch. 18\].
 
+mod inside;
 mod rules;
 
 use crate::error::SolveError;
@@ -27,6 +28,7 @@ use crate::link_map::LinkMap;
 use crate::propagator::{Compliance, Forces, Motion, Propagator, StepKey, StepWork, Wanted};
 use crate::space::Space;
 use crate::vector::equal;
+pub(crate) use inside::ClosedForm;
 use rules::{Rule, Structure};
 use trilith_linalg::{Dense, ModalStep, Panel, Product, StepSums, work_of_linear};
 
@@ -476,6 +478,10 @@ impl Propagator for Modal {
 
     fn beyond_exact(&self) -> Option<f64> {
         self.modes.beyond
+    }
+
+    fn closed_form(&self) -> Option<ClosedForm> {
+        Some(self.modes.closed_form())
     }
 
     fn acceleration(&mut self, force: &[f64]) -> Result<Vec<f64>, SolveError> {

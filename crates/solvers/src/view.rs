@@ -1,7 +1,9 @@
 //! Shows accepted states to the observers.
 
 use crate::contact_mode::are_contacts;
+use crate::inside::{Inside, Moment};
 use crate::ledger::Ledger;
+use crate::modal::ClosedForm;
 use crate::observe::{EnergyTotals, Observer, Sample, Shape};
 use crate::outputs::Outputs;
 use crate::shapes::{Shapes, expand};
@@ -66,8 +68,12 @@ pub(crate) struct Viewer<'a, 'b> {
     outputs: Outputs,
     values: Vec<f64>,
     rates: Vec<f64>,
+    /// Those shown before.
+    before: (Vec<f64>, Vec<f64>),
     /// True where an observer looks at them.
     rated: bool,
+    /// Looks inside steps, where they may be long beside what swings.
+    inside: Option<Inside>,
     /// The links that are contacts.
     touching: Vec<(&'a dyn Link, &'a LinkInstance)>,
     /// The links that have an outline.
@@ -130,6 +136,8 @@ impl<'a, 'b> Viewer<'a, 'b> {
             outputs: Outputs::new(model, system, space),
             values: vec![0.0; count],
             rates: vec![f64::NAN; count],
+            before: (vec![0.0; count], vec![f64::NAN; count]),
+            inside: None,
             rated: observers.iter().any(|o| o.wants_rates()),
             touching,
             bodies,
@@ -138,6 +146,18 @@ impl<'a, 'b> Viewer<'a, 'b> {
             last: (0.0, Side::After, None),
             observers,
         }
+    }
+
+    /// Looks inside steps of this length at most, whose motion has a closed form, going on from the largest values
+    /// of an earlier part of the case.
+    pub(crate) fn look_inside(&mut self, form: Option<ClosedForm>, longest: f64, largest: Vec<f64>) {
+        let form = form.filter(|f| self.rated && Inside::is_worth(f, longest));
+        self.inside = form.map(|f| Inside::new(f, &self.outputs, largest));
+    }
+
+    /// The largest values so far, where looks inside steps hang on them.
+    pub(crate) fn largest(&self) -> Vec<f64> {
+        self.inside.as_ref().map(|i| i.largest.clone()).unwrap_or_default()
     }
 
     /// Tells that the run starts, with at most so many output steps to come.
@@ -167,11 +187,14 @@ impl<'a, 'b> Viewer<'a, 'b> {
         if self.observers.is_empty() {
             return;
         }
+        std::mem::swap(&mut self.values, &mut self.before.0);
+        std::mem::swap(&mut self.rates, &mut self.before.1);
         let now = self.outputs.at((t, side), state, self.loads);
         now.values(&mut self.values);
         if self.rated {
             now.rates(&self.values, &mut self.rates);
         }
+        self.tell_inside(t, &state.motion);
         self.touch(state);
         self.last = (t, side, step);
         self.tell(state, ledger, |o, sample| o.sample(sample));
@@ -180,6 +203,44 @@ impl<'a, 'b> Viewer<'a, 'b> {
     /// Tells that the run ends, with the state that was shown last.
     pub(crate) fn end(&mut self, state: &State, ledger: &Ledger) {
         self.tell(state, ledger, |o, sample| o.end(sample));
+    }
+
+    /// Hands what the outputs are inside the step that ends at `t` to the observers.
+    fn tell_inside(&mut self, t: f64, to: &[f64]) {
+        let Self { inside: Some(inside), outputs, values, rates, before, last, observers, .. } = self
+        else {
+            return;
+        };
+        let length = t - last.0;
+        let (moments, trusted) = inside.look(outputs, to, length, values);
+        if !moments.is_empty() {
+            // What the motion does not give runs straight.
+            let parts = |motion: &[f64]| {
+                let mut own = (vec![0.0; values.len()], vec![0.0; values.len()]);
+                outputs.of_motion(motion, &mut own.0, &mut own.1);
+                own
+            };
+            let (from, end) = (parts(inside.from()), parts(to));
+            let straight = |[a0, a]: [f64; 2], [b0, b]: [f64; 2], share: f64| {
+                (1.0 - share) * (a - a0) + share * (b - b0)
+            };
+            for Moment { share, values: mut y, rates: mut r } in moments {
+                for i in 0..y.len() {
+                    y[i] += straight([from.0[i], before.0[i]], [end.0[i], values[i]], share);
+                    r[i] += straight([from.1[i], before.1[i]], [end.1[i], rates[i]], share);
+                }
+                outputs.combine(&mut y, &mut r);
+                if !trusted {
+                    r.fill(f64::NAN);
+                }
+                let at = last.0 + share * length;
+                observers.iter_mut().for_each(|o| o.between(at, &y, &r));
+            }
+        }
+        if !trusted {
+            rates.fill(f64::NAN);
+        }
+        inside.note(to, values);
     }
 
     /// Hands the values of the state shown last to the observers.

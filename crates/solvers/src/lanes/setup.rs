@@ -129,6 +129,9 @@ impl LaneSetup {
     }
 }
 
+/// Longest ω Δt of a mode: a quarter of its period, in which a cubic misses its crest by a hundredth.
+const FASTEST: f64 = std::f64::consts::FRAC_PI_2;
+
 /// Modes, link coordinates and coordinates of one link at most.
 pub(super) const MOST: (usize, usize, usize) = (12, 12, 3);
 
@@ -208,6 +211,10 @@ pub fn prepare(
     let step = dt / grid.substeps as f64;
     let rule: Vec<Mode> =
         omega2.iter().zip(&own).map(|(w, c)| single_mode::exact(*w, *c, step)).collect();
+    // Extremes between steps are those of cubics.
+    if omega2.iter().any(|w| w.max(0.0).sqrt() * step > FASTEST) {
+        return Ok(Err("modes too fast for the steps"));
+    }
     let engaged = links.engaged(model);
     let engaged: Vec<f64> = flat.iter().map(|i| engaged[*i]).collect();
     if stiffness_ratio(&rows, &rule, &engaged) > LONGEST {

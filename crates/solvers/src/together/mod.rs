@@ -166,7 +166,8 @@ fn march<O: Observer>(
             start(model, system, analysis, before.clone(), loads, &mut stepper, dt)?;
         let (modal, side) = stepper.into_parts();
         modes = modal.into_modes();
-        let viewer = Viewer::new(model, system, loads, &modes.space, watcher);
+        let mut viewer = Viewer::new(model, system, loads, &modes.space, watcher);
+        viewer.look_inside(Some(modes.closed_form()), dt, Vec::new());
         let timeline = Timeline::new(dt, analysis.duration, loads, substeps);
         let mut course =
             Course::new(&modes.space, side, loads, timeline, (state, pace, ledger), viewer);
@@ -213,6 +214,7 @@ fn march<O: Observer>(
             ledger: course.ledger,
             constant: entrant.constant.clone(),
             fallen: course.fallen,
+            largest: course.viewer.largest(),
         };
         let (case, kind) = (entrant.case, SolverKind::Fna);
         let mut result = arrival.result(model, system, case, kind, &modes.space, memory, work);
