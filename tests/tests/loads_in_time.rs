@@ -105,7 +105,8 @@ fn the_rigid_block_moves_at_any_output_step() {
         let set = [("duration", "1.2".to_owned())];
         let (model, system) = shipped("rigid_block.ron", &set);
         let at = |dt: f64| {
-            let options = RunOptions { solver: Some(solver), dt: Some(dt), ..RunOptions::default() };
+            let options =
+                RunOptions { solver: Some(solver), dt: Some(dt), ..RunOptions::default() };
             trace_with(&model, &system, options).0
         };
         let fine = at(0.001);

@@ -149,7 +149,8 @@ fn history(model: &(Model, System), solver: SolverKind) -> Vec<Pair> {
 fn apart(a: &[Pair], b: &[Pair]) -> f64 {
     assert_eq!(a.len(), b.len());
     let size = b.iter().flatten().fold(0.0_f64, |m, x| m.max(x.abs()));
-    let off = a.iter().flatten().zip(b.iter().flatten()).fold(0.0_f64, |m, (x, y)| m.max((x - y).abs()));
+    let off =
+        a.iter().flatten().zip(b.iter().flatten()).fold(0.0_f64, |m, (x, y)| m.max((x - y).abs()));
     off / size
 }
 
@@ -228,7 +229,8 @@ fn a_mass_on_a_link_follows_its_support() {
     }
     for solver in SOLVERS {
         let (found, _) = trace(&model, &system, solver);
-        let off = found.history.iter().zip(&expected).fold(0.0_f64, |m, (x, y)| m.max((x[0] - y).abs()));
+        let off =
+            found.history.iter().zip(&expected).fold(0.0_f64, |m, (x, y)| m.max((x[0] - y).abs()));
         let size = expected.iter().fold(0.0_f64, |m, x| m.max(x.abs()));
         assert!(off < 2e-3 * size, "{}: {}", solver.name(), off / size);
     }

@@ -1,8 +1,8 @@
 //! Cases: static ones, dynamic ones, and chains of them.
 
 use crate::Peak;
-use crate::contact_mode::ContactMemory;
 use crate::clock::{Clock, peak_rss_mb};
+use crate::contact_mode::ContactMemory;
 use crate::dynamic::{self, Setup};
 use crate::error::SolveError;
 use crate::kernel::Remembered;

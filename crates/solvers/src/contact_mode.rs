@@ -172,8 +172,9 @@ impl ContactMode {
         let open = |c: &Contact| c.gap > 0.0;
         let impact = now.iter().zip(&self.before).any(|(c, b)| open(b) && !open(c));
         let moved = self.sliding(now);
-        let reversal =
-            moved.is_some_and(|m| m[0] * self.so_far.direction[0] + m[1] * self.so_far.direction[1] < 0.0);
+        let reversal = moved.is_some_and(|m| {
+            m[0] * self.so_far.direction[0] + m[1] * self.so_far.direction[1] < 0.0
+        });
         if impact || reversal {
             self.so_far.initial_over = true;
         }

@@ -275,8 +275,9 @@ mod tests {
     }
 
     fn all(timeline: &Timeline) -> Vec<Piece> {
-        let pieces: Vec<Piece> =
-            (0..timeline.steps).flat_map(|step| timeline.pieces(step).collect::<Vec<_>>()).collect();
+        let pieces: Vec<Piece> = (0..timeline.steps)
+            .flat_map(|step| timeline.pieces(step).collect::<Vec<_>>())
+            .collect();
         for two in pieces.windows(2) {
             assert_eq!(two[0].end, two[1].start);
         }

@@ -150,7 +150,12 @@ impl<'a, 'b> Viewer<'a, 'b> {
 
     /// Looks inside steps of this length at most, whose motion has a closed form, going on from the largest values
     /// of an earlier part of the case.
-    pub(crate) fn look_inside(&mut self, form: Option<ClosedForm>, longest: f64, largest: Vec<f64>) {
+    pub(crate) fn look_inside(
+        &mut self,
+        form: Option<ClosedForm>,
+        longest: f64,
+        largest: Vec<f64>,
+    ) {
         let form = form.filter(|f| self.rated && Inside::is_worth(f, longest));
         self.inside = form.map(|f| Inside::new(f, &self.outputs, largest));
     }
@@ -207,7 +212,8 @@ impl<'a, 'b> Viewer<'a, 'b> {
 
     /// Hands what the outputs are inside the step that ends at `t` to the observers.
     fn tell_inside(&mut self, t: f64, to: &[f64]) {
-        let Self { inside: Some(inside), outputs, values, rates, before, last, observers, .. } = self
+        let Self { inside: Some(inside), outputs, values, rates, before, last, observers, .. } =
+            self
         else {
             return;
         };

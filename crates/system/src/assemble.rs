@@ -74,8 +74,7 @@ impl System {
             Damping::Rayleigh { mass, stiffness } => [mass, stiffness],
             _ => [0.0; 2],
         };
-        let damping_support =
-            Sparse::combine(&[(1.0, &c.support), (rayleigh[1], &k.support)]);
+        let damping_support = Sparse::combine(&[(1.0, &c.support), (rayleigh[1], &k.support)]);
         let mut links = LinkSet::new(model, &reduction, &used)?;
         crate::impact::settle(&mut links, model, &m.free)?;
         Ok(Self {

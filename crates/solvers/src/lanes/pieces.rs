@@ -5,12 +5,12 @@ use super::coefficients::Rule;
 use super::loads::Loads;
 use super::newton::{Found, foresee, settle};
 use super::plan::Plan;
-use super::small::Aligned;
-use super::tables::Grid;
 use super::setup::{LaneSetup, Piece};
 use super::show::show;
+use super::small::Aligned;
 use super::state::{State, forget, keep};
 use super::step::{Passed, acceleration, account, take};
+use super::tables::Grid;
 use crate::march::DEPTH;
 use trilith_element::lanes::{Arithmetic, Real, Task};
 
