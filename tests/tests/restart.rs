@@ -143,3 +143,41 @@ fn a_checkpoint_of_other_parameters_another_step_or_with_damage_is_refused() {
         assert!(told.contains(what), "{list}: {told}");
     }
 }
+
+/// The extremes of a continued run are those of the case, not of its rest.
+#[test]
+fn peaks_and_contacts_go_on_from_a_checkpoint() {
+    let read = || {
+        let text = trilith_tests::shipped_text("rigid_block.ron");
+        let set = [("duration".to_owned(), "1.5".to_owned())];
+        let path = trilith_tests::root().join("models/rigid_block.ron");
+        trilith_model::read_text(&text, &path, &trilith_tests::registry(), &set).unwrap()
+    };
+    let model = read();
+    let analysis = trilith::Analysis::new(&model).unwrap();
+    let case = model.cases.len() - 1;
+    for solver in [SolverKind::Fna, SolverKind::Hht] {
+        let part = |from: Option<EndState>, until| {
+            let solver = Some(solver);
+            analysis.run(RunOptions { case, solver, from, until, ..RunOptions::default() }).unwrap()
+        };
+        let whole = part(None, None);
+        let first = part(None, Some(0.7));
+        let written = serde_json::to_string(&first.result.end).unwrap();
+        let checkpoint: EndState = serde_json::from_str(&written).unwrap();
+        assert_eq!(checkpoint, first.result.end);
+        let rest = part(Some(checkpoint.clone()), None);
+        assert!(rest.result.warnings.is_empty(), "{:?}", rest.result.warnings);
+        for output in &model.outputs {
+            let (a, b) = (whole.peak(&output.name).unwrap(), rest.peak(&output.name).unwrap());
+            assert_eq!(a, b, "{} {}", solver.name(), output.name);
+        }
+        assert_eq!(whole.contact, rest.contact, "{}", solver.name());
+        assert_eq!(rest.contact.as_ref().unwrap().mode, "slide-rock");
+        assert_eq!(whole.result.end.seen, rest.result.end.seen);
+        // One that nobody watched: the summary says what its peaks are.
+        let unwatched = EndState { seen: trilith_solvers::SoFar::default(), ..checkpoint };
+        let told = part(Some(unwatched), None).result.warnings;
+        assert!(told.iter().any(|w| w.contains("count from t = 0.7")), "{told:?}");
+    }
+}

@@ -39,5 +39,5 @@ pub use read::{ModelText, read, read_text};
 pub use registry::Registry;
 pub use resolved::resolved;
 pub use table::{AfterEnd, Interpolation, Table, TableError};
-pub use time_function::{Harmonic, Side, TimeFunction};
+pub use time_function::{Corner, Harmonic, Side, Stretch, TimeFunction};
 pub use units::STANDARD_GRAVITY;

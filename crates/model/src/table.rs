@@ -1,6 +1,6 @@
 //! Tables of time and value, interpolated linearly or by a natural cubic spline.
 
-use crate::Side;
+use crate::{Corner, Side};
 
 /// Interpolation between the samples of a table.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -47,6 +47,9 @@ pub enum TableError {
     #[error("sample {0} is not finite")]
     NotFinite(usize),
 }
+
+/// Distance from a straight line, as a share of the peak, that is rounding.
+const STRAIGHT: f64 = 1e-9;
 
 /// Share of a segment within which a time is guessed to be that of a sample.
 const LEAN: f64 = 1e-6;
@@ -151,6 +154,40 @@ impl Table {
         (0..self.times.len() - 1)
             .flat_map(|i| self.turning_points(i))
             .fold(samples, |a, t| a.max(self.at(t, Side::Before)[0].abs()))
+    }
+
+    /// Samples at which the table bends: those of a spline, and of straight lines those that do not lie on the line
+    /// through the two before.
+    #[must_use]
+    pub fn corners(&self) -> Vec<Corner> {
+        let (t, y) = (&self.times, &self.values);
+        let corner = |i: usize| {
+            let (left, right) = (t[i] - t[i - 1], t[i + 1] - t[i]);
+            Corner { t: t[i], reach: left.min(right) }
+        };
+        let inner = 1..t.len() - 1;
+        if !self.curvatures.is_empty() {
+            return inner.map(corner).collect();
+        }
+        let allowed = STRAIGHT * self.peak();
+        let mut corners = Vec::new();
+        // Start of the line that goes on, and its slope.
+        let line = |i: usize| (t[i], y[i], (y[i + 1] - y[i]) / (t[i + 1] - t[i]));
+        let mut on = line(0);
+        for i in inner {
+            let (t0, y0, slope) = on;
+            if (y[i + 1] - (y0 + slope * (t[i + 1] - t0))).abs() > allowed {
+                corners.push(corner(i));
+                on = line(i);
+            }
+        }
+        corners
+    }
+
+    /// √(largest |y″| / peak), rad/s: how a spline is bent between its samples; 0 of straight lines.
+    pub(crate) fn bend(&self) -> f64 {
+        let largest = self.curvatures.iter().fold(0.0_f64, |a, m| a.max(m.abs()));
+        if largest > 0.0 { (largest / self.peak()).sqrt() } else { 0.0 }
     }
 
     /// Value and first two derivatives at t.
@@ -324,6 +361,25 @@ mod tests {
         assert_eq!(table.at(1.0, Side::After), [2.0, -1.0, 0.0]);
         assert_eq!(table.at(2.0, Side::Before)[0], 1.0);
         assert_eq!(table.at(2.0, Side::After)[0], 0.0);
+    }
+
+    #[test]
+    fn a_table_bends_where_its_samples_leave_the_line() {
+        let times: Vec<f64> = (0..8).map(|i| 0.1 * f64::from(i)).collect();
+        let values = vec![0.0, 0.1, 0.2, 0.3, 0.1, 0.0, 0.0, 0.0];
+        let table = |interpolation| {
+            Table::new(times.clone(), values.clone(), interpolation, AfterEnd::Zero).unwrap()
+        };
+        let at = |table: Table| table.corners().iter().map(|c| c.t).collect::<Vec<_>>();
+        assert_eq!(at(table(Interpolation::Linear)), [times[3], times[4], times[5]]);
+        assert_eq!(at(table(Interpolation::Cubic)), times[1..7]);
+        // A bend that no sample shows against its neighbours is not lost.
+        let n = 200_000;
+        let fine: Vec<f64> = (0..=n).map(|i| f64::from(i) / f64::from(n)).collect();
+        let arch: Vec<f64> = fine.iter().map(|t| t * (1.0 - t)).collect();
+        let arch = Table::new(fine, arch, Interpolation::Linear, AfterEnd::Zero).unwrap();
+        let kept = arch.corners();
+        assert!(kept.len() > 1000, "{}", kept.len());
     }
 
     #[test]

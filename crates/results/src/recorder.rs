@@ -61,6 +61,13 @@ impl Recorder {
         self
     }
 
+    /// Goes on from the extremes of an earlier part of the case.
+    #[must_use]
+    pub fn after(mut self, peaks: Vec<Peak>) -> Self {
+        self.envelope = Envelope::new().after(peaks);
+        self
+    }
+
     /// Keeps deformation and force of all links as well.
     #[must_use]
     pub fn with_loops(mut self, model: &Model) -> Self {
@@ -128,6 +135,10 @@ impl Observer for Recorder {
         for (history, e) in self.energy.iter_mut().zip(energies(s.energy)) {
             history.push(e);
         }
+    }
+
+    fn between(&mut self, t: f64, values: &[f64], rates: &[f64]) {
+        self.envelope.between(t, values, rates);
     }
 
     fn end(&mut self, s: &Sample<'_>) {

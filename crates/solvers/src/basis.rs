@@ -224,7 +224,7 @@ fn solvable(model: &Model, system: &System) -> Result<Solvable, SolveError> {
 
 /// The factor of a sum, where no pivot is rounding. Scaling to a unit diagonal would divide each pivot by its
 /// diagonal entry, so this is the test of [`unsupported`] without a second factorisation.
-fn held(parts: &[(f64, &Sparse)]) -> Result<Option<StagedLdlt>, SolveError> {
+pub(crate) fn held(parts: &[(f64, &Sparse)]) -> Result<Option<StagedLdlt>, SolveError> {
     let mut diagonal = vec![0.0; parts.first().map_or(0, |(_, a)| a.rows())];
     for (factor, part) in parts {
         diagonal.iter_mut().zip(part.diagonal()).for_each(|(sum, d)| *sum += factor * d);

@@ -1,7 +1,9 @@
 //! Cases: static ones, dynamic ones, and chains of them.
 
 use crate::basis::Demands;
+use crate::Peak;
 use crate::clock::{Clock, peak_rss_mb};
+use crate::contact_mode::ContactMemory;
 use crate::dynamic::{self, Setup};
 use crate::error::SolveError;
 use crate::kernel::Remembered;
@@ -60,11 +62,30 @@ pub struct EndState {
     pub load: Vec<f64>,
     /// The state of the solver.
     pub state: State,
+    /// Vectors of the basis where the run was told how many.
+    pub vectors: Option<usize>,
     /// What the case started from, which its basis is made for.
     pub(crate) initial: Initial,
     pub(crate) pace: Pace,
     pub(crate) memory: Vec<Remembered>,
     pub(crate) ledger: Ledger,
+    /// Largest values of the outputs so far, where the looks inside long steps hang on them.
+    #[serde(default)]
+    pub(crate) largest: Vec<f64>,
+    /// What the observers of the case had seen until then, for a run that continues it.
+    #[serde(default)]
+    pub seen: SoFar,
+}
+
+/// What was seen of a case until a checkpoint, so that the extremes of a continued run are those of all of it.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct SoFar {
+    /// Extremes of the outputs in the model's order; empty where nobody took them.
+    pub peaks: Vec<Peak>,
+    /// What the contacts had done.
+    pub contact: Option<ContactMemory>,
+    /// Since when, s: 0 for all of the case.
+    pub since: f64,
 }
 
 /// Parameters of a model as a checkpoint holds them; numbers read back to the bit.

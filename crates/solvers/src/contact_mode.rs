@@ -6,7 +6,7 @@
 //! from rest to the first impact or slip reversal.
 
 use crate::observe::{Observer, Sample};
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 use trilith_element::{Contact, Kinematics, Link};
 use trilith_model::Model;
 use trilith_system::{LinkInstance, System};
@@ -61,7 +61,7 @@ pub(crate) fn stands(contacts: &[(usize, Contact)], falling: &[usize]) -> bool {
 }
 
 /// What has been seen.
-#[derive(Clone, Copy, Debug, Default)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub(crate) struct Seen {
     /// Path made while all loaded contacts slipped, and elastic tangential play for comparison, m.
     pub(crate) slid: f64,
@@ -86,25 +86,34 @@ impl Seen {
     }
 }
 
-/// Observer that classifies the response.
-#[derive(Debug, Default)]
-pub struct ContactMode {
+/// What a classification goes on from in a run that continues another one.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct ContactMemory {
     start: Vec<[f64; 2]>,
     /// Distance from the start of every contact where it last carried load, m: a corner that a large
     /// rotation lifts moves sideways without slipping.
     slip: Vec<f64>,
-    before: Vec<Contact>,
     direction: [f64; 2],
     initial: Seen,
     initial_over: bool,
     whole: Seen,
     play: f64,
-    /// Elements of contacts on what nothing else holds against gravity.
-    falling: Vec<usize>,
     /// False for a model that stands on nothing, such as frames with stops between them; known from the first
     /// sample on.
     stands: Option<bool>,
-    summary: ContactSummary,
+    max_uplift: f64,
+    max_slip: f64,
+    residual_slip: f64,
+    overturned: bool,
+}
+
+/// Observer that classifies the response.
+#[derive(Debug, Default)]
+pub struct ContactMode {
+    so_far: ContactMemory,
+    before: Vec<Contact>,
+    /// Elements of contacts on what nothing else holds against gravity.
+    falling: Vec<usize>,
 }
 
 impl ContactMode {
@@ -114,13 +123,30 @@ impl ContactMode {
         Self { falling: falling(model, system), ..Self::default() }
     }
 
+    /// Goes on from what an earlier part of the case left.
+    #[must_use]
+    pub fn after(mut self, so_far: ContactMemory) -> Self {
+        self.so_far = so_far;
+        self
+    }
+
+    /// What the next part of the case goes on from.
+    #[must_use]
+    pub fn memory(&self) -> ContactMemory {
+        self.so_far.clone()
+    }
+
     /// The summary; `None` for a model that no contact carries at the start, unless it falls onto one.
     #[must_use]
     pub fn summary(&self) -> Option<ContactSummary> {
-        (!self.start.is_empty()).then(|| ContactSummary {
-            initial_mode: self.initial.mode(self.play),
-            mode: self.whole.mode(self.play),
-            ..self.summary.clone()
+        let seen = &self.so_far;
+        (!seen.start.is_empty()).then(|| ContactSummary {
+            initial_mode: seen.initial.mode(seen.play),
+            mode: seen.whole.mode(seen.play),
+            max_uplift: seen.max_uplift,
+            max_slip: seen.max_slip,
+            residual_slip: seen.residual_slip,
+            overturned: seen.overturned,
         })
     }
 
@@ -146,16 +172,17 @@ impl ContactMode {
         let open = |c: &Contact| c.gap > 0.0;
         let impact = now.iter().zip(&self.before).any(|(c, b)| open(b) && !open(c));
         let moved = self.sliding(now);
-        let reversal =
-            moved.is_some_and(|m| m[0] * self.direction[0] + m[1] * self.direction[1] < 0.0);
+        let reversal = moved.is_some_and(|m| {
+            m[0] * self.so_far.direction[0] + m[1] * self.so_far.direction[1] < 0.0
+        });
         if impact || reversal {
-            self.initial_over = true;
+            self.so_far.initial_over = true;
         }
         let mut step = Seen::default();
         if let Some(m) = moved {
             step.slid = m[0].hypot(m[1]);
             if step.slid > 0.0 {
-                self.direction = m;
+                self.so_far.direction = m;
             }
         }
         let highest = now.iter().map(|c| c.gap).fold(f64::MIN, f64::max);
@@ -166,11 +193,9 @@ impl ContactMode {
             step.flew = lowest;
             step.rocked = highest - lowest;
         }
-        let targets: &mut [&mut Seen] = if self.initial_over {
-            &mut [&mut self.whole]
-        } else {
-            &mut [&mut self.whole, &mut self.initial]
-        };
+        let ContactMemory { whole, initial, initial_over, .. } = &mut self.so_far;
+        let targets: &mut [&mut Seen] =
+            if *initial_over { &mut [whole] } else { &mut [whole, initial] };
         for seen in targets {
             seen.slid += step.slid;
             seen.rocked = seen.rocked.max(step.rocked);
@@ -182,27 +207,28 @@ impl ContactMode {
 impl Observer for ContactMode {
     fn sample(&mut self, sample: &Sample<'_>) {
         let now: Vec<Contact> = sample.contacts.iter().map(|(_, c)| *c).collect();
-        if !*self.stands.get_or_insert_with(|| stands(sample.contacts, &self.falling)) {
+        if !*self.so_far.stands.get_or_insert_with(|| stands(sample.contacts, &self.falling)) {
             return;
         }
-        if self.before.is_empty() {
-            self.start = now.iter().map(|c| c.position).collect();
-            self.slip = vec![0.0; now.len()];
+        if self.so_far.start.is_empty() {
+            self.so_far.start = now.iter().map(|c| c.position).collect();
+            self.so_far.slip = vec![0.0; now.len()];
             // Play: what the contacts give elastically, of the order of the static penetration.
-            self.play = now.iter().map(|c| (-c.gap).max(0.0)).fold(0.0, f64::max);
-        } else {
+            self.so_far.play = now.iter().map(|c| (-c.gap).max(0.0)).fold(0.0, f64::max);
+        } else if !self.before.is_empty() {
             self.enter(&now);
         }
-        for ((c, s), slip) in now.iter().zip(&self.start).zip(&mut self.slip) {
+        let seen = &mut self.so_far;
+        for ((c, s), slip) in now.iter().zip(&seen.start).zip(&mut seen.slip) {
             if c.normal > 0.0 {
                 *slip = (c.position[0] - s[0]).hypot(c.position[1] - s[1]);
             }
-            self.summary.max_uplift = self.summary.max_uplift.max(c.gap);
+            seen.max_uplift = seen.max_uplift.max(c.gap);
         }
-        let slip = self.slip.iter().fold(0.0_f64, |a, s| a.max(*s));
-        self.summary.max_slip = self.summary.max_slip.max(slip);
-        self.summary.residual_slip = slip;
-        self.summary.overturned |= sample.overturned.is_some();
+        let slip = seen.slip.iter().fold(0.0_f64, |a, s| a.max(*s));
+        seen.max_slip = seen.max_slip.max(slip);
+        seen.residual_slip = slip;
+        seen.overturned |= sample.overturned.is_some();
         self.before = now;
     }
 

@@ -52,6 +52,19 @@ pub(crate) struct ModalDamping {
 }
 
 impl ModalDamping {
+    /// Adds the damping force of a velocity; `reduced` leaves out what is beyond the modes.
+    pub(crate) fn push(&self, system: &System, reduced: bool, v: &[f64], force: &mut [f64]) {
+        let Self { u, rate, omega2, beyond } = self;
+        let beyond = if reduced { 0.0 } else { *beyond };
+        let mut share = vec![0.0; rate.len()];
+        u.transpose_mul_add(1.0, v, &mut share);
+        for (x, (rate, w2)) in share.iter_mut().zip(rate.iter().zip(omega2)) {
+            *x *= rate - beyond * w2;
+        }
+        u.mul_add(1.0, &share, force);
+        system.stiffness.mul_add(beyond, v, force);
+    }
+
     /// What is to be added to b K of the whole structure.
     pub(crate) fn less_beyond(self) -> LowRank {
         let Self { u, mut rate, omega2, beyond } = self;

@@ -1,10 +1,11 @@
 //! A dynamic case: start state, basis, solver, output steps.
 
 use crate::basis::{self, Bases, Demands};
-use crate::case::{EndState, RunOptions, constant_load, parameters};
+use crate::case::{EndState, RunOptions, SoFar, constant_load, parameters};
 use crate::certificate::{Certificate, Shadow};
 use crate::clock::Clock;
 use crate::damping::modal_damping;
+use crate::drag::follow_supports;
 use crate::error::SolveError;
 use crate::full_newton::FullNewton;
 use crate::hht::Hht;
@@ -22,7 +23,7 @@ use crate::view::{Viewer, looks_at_rates};
 use trilith_model::{
     Analysis, Case, Damping, DynamicCase, Model, Side, Solution, SolverKind, StepControl,
 };
-use trilith_system::{LoadSet, System, Track};
+use trilith_system::{Channel, LoadSet, System, Track};
 
 /// A dynamic case and what it starts from.
 pub(crate) struct Setup<'a> {
@@ -92,7 +93,7 @@ pub(crate) fn run(
         Some(end) => end.load.clone(),
         None => held_load(model, system, analysis, before.as_ref()),
     };
-    let loads = system.dynamic_loads(model, analysis, constant.clone());
+    let mut loads = system.dynamic_loads(model, analysis, constant.clone());
     let reduced = is_reduced(kind);
     let initial = match &options.from {
         Some(end) => end.initial.clone(),
@@ -100,6 +101,7 @@ pub(crate) fn run(
     };
     let bases = bases(model, system, analysis, kind, &loads, &initial, reduced)?;
     let damping = bases.as_ref().and_then(|b| modal_damping(model, system, b));
+    follow_supports(model, system, damping.as_ref(), reduced, &mut loads)?;
     let none = vec![0.0; system.links.len()];
     let effective = if kind == SolverKind::FullNewton { &none } else { &system.links.effective };
     let watched = looks_at_rates(model, system, observers.iter().any(|o| o.wants_rates()));
@@ -130,7 +132,7 @@ pub(crate) fn run(
             Box::new(LinkStepper::new(Hht::new(space, solution.alpha), side))
         }
     };
-    let timeline = Timeline::new(dt, analysis.duration, &loads);
+    let timeline = Timeline::new(dt, analysis.duration, &loads, at_least(solution.step));
     let mut warnings = Vec::new();
     if let (Some(b), true) = (&bases, reduced) {
         adequacy_warning(b, solution.basis.adequacy, &mut warnings);
@@ -139,12 +141,14 @@ pub(crate) fn run(
         Some(end) => (end.displacement.clone(), end.velocity.clone()),
         None => (initial.displacement.clone(), initial.velocity.clone()),
     };
+    let largest = options.from.as_ref().map(|end| end.largest.clone()).unwrap_or_default();
     let (state, mut pace, mut ledger, first) = match options.from {
         Some(end) => resume(end, stepper.as_mut())?,
         None => start(model, system, &initial, before, &loads, stepper.as_mut(), dt)?,
     };
     let mut state = Box::new(state);
     let mut viewer = Viewer::new(model, system, &loads, stepper.space(), observers);
+    viewer.look_inside(stepper.closed_form(), dt, largest);
     let wider = bases.as_ref().and_then(|b| b.wider.as_deref());
     let shadow = wider.map(|wider| {
         let modes = modes(model, system, &loads, wider);
@@ -196,6 +200,7 @@ pub(crate) fn run(
         }
     }
     viewer.end(&state, &ledger);
+    let largest = viewer.largest();
     let counts = march.counts;
     if let Some(Stop::Fatal(e)) = stop {
         return Err(e);
@@ -227,7 +232,17 @@ pub(crate) fn run(
         ..Work::default()
     };
     let state = *state;
-    let arrival = Arrival { timeline: &timeline, made, state, pace, ledger, constant, initial, fallen };
+    let arrival = Arrival {
+        timeline: &timeline,
+        made,
+        state,
+        pace,
+        ledger,
+        constant,
+        initial,
+        fallen,
+        largest,
+    };
     let mut result =
         arrival.result(model, system, case, kind, stepper.space(), stepper.memory(), work);
     if let Some(Stop::NoEquilibrium { t, worst, residual }) = stop {
@@ -244,6 +259,7 @@ pub(crate) fn run(
             result.status = Status::Inadequate { output, share, allowed };
         }
     }
+    result.end.vectors = options.vectors;
     result.basis = if reduced { bases.map(|b| b.report) } else { None };
     result.warnings = warnings;
     Ok(result)
@@ -263,6 +279,8 @@ pub(crate) struct Arrival<'a> {
     pub initial: Initial,
     /// Index of the element of a body that has fallen over.
     pub fallen: Option<usize>,
+    /// Largest values of the outputs, where looks inside steps hang on them.
+    pub largest: Vec<f64>,
 }
 
 impl Arrival<'_> {
@@ -277,7 +295,7 @@ impl Arrival<'_> {
         memory: Vec<Remembered>,
         work: Work,
     ) -> CaseResult {
-        let Self { timeline, made, state, pace, ledger, constant, initial, fallen } = self;
+        let Self { timeline, made, state, pace, ledger, constant, initial, fallen, largest } = self;
         let share = ledger.totals.error_relative;
         let limit = match &case.analysis {
             Analysis::Dynamic(analysis) => analysis.solution.energy_limit,
@@ -311,6 +329,8 @@ impl Arrival<'_> {
             memory,
             ledger,
             state,
+            largest,
+            seen: SoFar::default(),
         };
         CaseResult {
             case: case.name.clone(),
@@ -422,6 +442,21 @@ fn adequacy_warning(bases: &Bases, wanted: f64, warnings: &mut Vec<String>) {
     }
 }
 
+/// Steps that are made of a piece of the timeline at least.
+pub(crate) fn at_least(step: StepControl) -> usize {
+    match step {
+        StepControl::Fixed { substeps } => substeps,
+        StepControl::Adaptive { .. } => 1,
+    }
+}
+
+/// How the amplitudes of the loads jump at a time; none where they do not.
+pub(crate) fn jump(loads: &LoadSet, t: f64) -> Option<Vec<f64>> {
+    let jump = |c: &Channel| c.track.at(t, Side::After) - c.track.at(t, Side::Before);
+    let change: Vec<f64> = loads.channels.iter().map(jump).collect();
+    change.iter().any(|x| *x != 0.0).then_some(change)
+}
+
 /// One output step: its pieces, with loads that jump between them.
 fn output_step(
     timeline: &Timeline,
@@ -437,16 +472,11 @@ fn output_step(
     let end = timeline.time(step + 1);
     for piece in timeline.pieces(step) {
         let t0 = piece.start;
-        if t0 > 0.0 && timeline.is_break(t0) {
+        if t0 > 0.0 && timeline.is_jump(t0) {
             march.cut();
-            let change: Vec<f64> = march
-                .loads
-                .channels
-                .iter()
-                .map(|c| c.track.at(t0, Side::After) - c.track.at(t0, Side::Before))
-                .collect();
-            if change.iter().any(|x| *x != 0.0) {
+            if let Some(change) = jump(march.loads, t0) {
                 march.stepper.jump(state, &change).map_err(Stop::Fatal)?;
+                viewer.show_behind(t0, state, ledger);
             }
         }
         let mut accept = |t: f64, s: &State, e: &StepEnergy| -> f64 {

@@ -15,10 +15,12 @@ mod clock;
 mod condensation;
 mod contact_mode;
 mod damping;
+mod drag;
 mod dynamic;
 mod error;
 mod full_newton;
 mod hht;
+mod inside;
 mod kernel;
 pub mod lanes;
 mod ledger;
@@ -46,9 +48,9 @@ mod turning;
 mod vector;
 mod view;
 
-pub use case::{EndState, RunOptions, modes, run};
+pub use case::{EndState, RunOptions, SoFar, modes, run};
 pub use certificate::OutputError;
-pub use contact_mode::{ContactMode, ContactSummary};
+pub use contact_mode::{ContactMemory, ContactMode, ContactSummary};
 pub use error::SolveError;
 pub use observe::{
     Adequacy, BasisReport, CaseResult, EnergyTotals, LinkEnergy, ModeShape, Observer, Sample,

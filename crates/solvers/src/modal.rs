@@ -20,6 +20,7 @@
 //!
 //! Reference: \[Wilson 2002, ch. 18\].
 
+mod inside;
 mod rules;
 
 use crate::error::SolveError;
@@ -27,6 +28,7 @@ use crate::link_map::LinkMap;
 use crate::propagator::{Compliance, Forces, Motion, Propagator, StepKey, StepWork, Wanted};
 use crate::space::Space;
 use crate::vector::equal;
+pub(crate) use inside::ClosedForm;
 use rules::{Rule, Structure};
 use trilith_linalg::{Dense, ModalStep, Panel, Product, StepSums, work_of_linear};
 
@@ -35,6 +37,10 @@ use trilith_linalg::{Dense, ModalStep, Panel, Product, StepSums, work_of_linear}
 pub(crate) const LONGEST: f64 = 0.5;
 /// A mode whose own share of G·k is below this stays with the exact rule.
 const FREE: f64 = 1e-3;
+
+/// Values (8 bytes each) in the matrices of step sizes that are kept, and sizes at most.
+const KEPT_VALUES: usize = 1 << 25;
+const MOST_SIZES: usize = 256;
 
 /// Rules of one step size.
 struct Step {
@@ -211,6 +217,11 @@ impl Modes {
             let exact = self.way(Rule::exact(&self.structure, dt), StepKey { dt, average: 0 });
             let of_modes = self.compliance_of(&exact.rule, 1, self.structure.modes);
             let ratio = ratio(&of_modes, &self.engaged);
+            let numbers = 2 * self.engaged.len() * self.engaged.len() + 12 * self.space.order();
+            if self.steps.len() >= (KEPT_VALUES / numbers.max(1)).clamp(8, MOST_SIZES) {
+                // A table with samples at any times may ask for as many sizes.
+                self.steps.remove(0);
+            }
             self.steps.push(Step { dt, per_dt: dt.recip(), ratio, exact, others: Vec::new() });
             self.steps.len() - 1
         })
@@ -500,6 +511,10 @@ impl Propagator for Modal {
 
     fn beyond_exact(&self) -> Option<f64> {
         self.modes.beyond
+    }
+
+    fn closed_form(&self) -> Option<ClosedForm> {
+        Some(self.modes.closed_form())
     }
 
     fn acceleration(&mut self, force: &[f64]) -> Result<Vec<f64>, SolveError> {

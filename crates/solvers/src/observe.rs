@@ -46,6 +46,10 @@ pub trait Observer {
     /// Called at the start and after every accepted substep, in time order.
     fn sample(&mut self, sample: &Sample<'_>);
 
+    /// Called between two samples for moments inside a long step, in time order, with the outputs and their rates
+    /// there: for extremes.
+    fn between(&mut self, _t: f64, _values: &[f64], _rates: &[f64]) {}
+
     /// Called once where the run ends, wherever that is, with the last sample again.
     fn end(&mut self, _sample: &Sample<'_>) {}
 

@@ -120,6 +120,8 @@ pub(crate) struct Outputs {
     deformations: Vec<Deformations>,
     /// All other rows.
     others: Vec<usize>,
+    /// What deformations of links take from the motion, row by row; empty for other rows.
+    stretch: Vec<Vec<(usize, f64)>>,
     prescribed: usize,
     order: usize,
     /// True where an output asks for moving supports, or for the acceleration of the base.
@@ -202,11 +204,20 @@ impl Outputs {
         let deformations = Deformations::of(&rows);
         let is_other = |i: &usize| !in_run(i) && !matches!(rows[*i], Row::Deformation { .. });
         let others = (0..rows.len()).filter(is_other).collect();
+        let active = |flat: usize| system.links.active.iter().position(|i| *i == flat);
+        let stretch = |row: &Row| match row {
+            Row::Deformation { flat, factor } => active(*flat).map_or_else(Vec::new, |a| {
+                space.links.row(a).map(|(j, c)| (j, factor * c)).collect()
+            }),
+            _ => Vec::new(),
+        };
+        let stretch = rows.iter().map(stretch).collect();
         Self {
             rows,
             runs,
             deformations,
             others,
+            stretch,
             prescribed,
             order: space.order(),
             supported,
@@ -214,14 +225,73 @@ impl Outputs {
         }
     }
 
-    /// The outputs in a state.
+    /// How much each output takes from each of so many modes, by displacement, velocity and acceleration.
+    pub(crate) fn shares(&self, modes: usize) -> Vec<[Vec<f64>; 3]> {
+        let of = |(row, stretch): (&Row, &Vec<(usize, f64)>)| {
+            let mut shares = [(); 3].map(|()| vec![0.0; modes]);
+            let mut add = |order: usize, terms: &[(usize, f64)]| {
+                for (j, c) in terms.iter().filter(|(j, _)| *j < modes) {
+                    shares[order][*j] += c.abs();
+                }
+            };
+            match row {
+                Row::Nodal { order, own, .. } => add(*order, own),
+                Row::Deformation { .. } => add(0, stretch),
+                Row::Element { stiffness, damping } => {
+                    add(0, &stiffness.0);
+                    add(1, &damping.0);
+                }
+                Row::Force { .. } | Row::History { .. } | Row::Combination { .. } => {}
+            }
+            shares
+        };
+        self.rows.iter().zip(&self.stretch).map(of).collect()
+    }
+
+    /// What a motion gives the outputs, and their rates; not numbers where they have none.
+    pub(crate) fn of_motion(&self, motion: &[f64], values: &mut [f64], rates: &mut [f64]) {
+        let n = self.order;
+        let motion = [&motion[..n], &motion[n..2 * n], &motion[2 * n..]];
+        for (i, (row, stretch)) in self.rows.iter().zip(&self.stretch).enumerate() {
+            (values[i], rates[i]) = match row {
+                Row::Nodal { order, own, .. } => {
+                    let rate = motion.get(order + 1).map_or(f64::NAN, |m| sum(own, m));
+                    (sum(own, motion[*order]), rate)
+                }
+                Row::Deformation { .. } => (sum(stretch, motion[0]), sum(stretch, motion[1])),
+                Row::Element { stiffness, damping } => {
+                    (sum(&stiffness.0, motion[0]) + sum(&damping.0, motion[1]), f64::NAN)
+                }
+                Row::Force { .. } | Row::History { .. } | Row::Combination { .. } => {
+                    (0.0, f64::NAN)
+                }
+            };
+        }
+    }
+
+    /// Puts those together that are made of others.
+    pub(crate) fn combine(&self, values: &mut [f64], rates: &mut [f64]) {
+        for (i, row) in self.rows.iter().enumerate() {
+            if let Row::Combination { how, constant, terms } = row {
+                values[i] = combined(*how, *constant, terms, values);
+                rates[i] = rate_combined(*how, terms, values[i], values, rates);
+            }
+        }
+    }
+
+    /// The outputs in a state, seen from this side where loads jump.
     #[inline]
-    pub(crate) fn at<'a>(&'a self, t: f64, state: &'a State, loads: &LoadSet) -> Now<'a> {
+    pub(crate) fn at<'a>(
+        &'a self,
+        (t, side): (f64, Side),
+        state: &'a State,
+        loads: &LoadSet,
+    ) -> Now<'a> {
         let n = self.order;
         let motion = [&state.motion[..n], &state.motion[n..2 * n], &state.motion[2 * n..]];
-        let support = if self.supported { self.supports(t, loads) } else { None };
+        let support = if self.supported { self.supports(t, side, loads) } else { None };
         let base = match self.absolute {
-            true => loads.base_acceleration(t, Side::Before),
+            true => loads.base_acceleration(t, side),
             false => [0.0; 3],
         };
         Now { outputs: self, state, motion, support, base }
@@ -229,8 +299,8 @@ impl Outputs {
 
     /// Displacements, velocities and accelerations of supports.
     #[cold]
-    fn supports(&self, t: f64, loads: &LoadSet) -> Option<Box<[Vec<f64>; 3]>> {
-        Some(Box::new(loads.prescribed(t, Side::Before, self.prescribed)))
+    fn supports(&self, t: f64, side: Side, loads: &LoadSet) -> Option<Box<[Vec<f64>; 3]>> {
+        Some(Box::new(loads.prescribed(t, side, self.prescribed)))
     }
 }
 

@@ -1,9 +1,9 @@
 //! Extremes of a quantity known at the substeps of a run.
 
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 /// Extremes of one quantity, with their times in s.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Peak {
     /// Largest value.
     pub max: f64,
@@ -29,6 +29,12 @@ impl Peak {
     #[must_use]
     pub fn magnitude(&self) -> f64 {
         self.max.abs().max(self.min.abs())
+    }
+
+    /// True where all of it are numbers.
+    #[must_use]
+    pub fn is_finite(&self) -> bool {
+        [self.max, self.t_max, self.min, self.t_min, self.last].iter().all(|x| x.is_finite())
     }
 
     fn include(&mut self, t: f64, value: f64) {

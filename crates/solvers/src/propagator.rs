@@ -1,6 +1,7 @@
 //! Propagators: linear steps in closed form, affine in the link forces at their end.
 
 use crate::error::SolveError;
+use crate::modal::ClosedForm;
 use crate::space::Space;
 use serde::{Deserialize, Serialize};
 use trilith_linalg::Dense;
@@ -89,6 +90,11 @@ pub(crate) trait Propagator {
     /// Largest G·k of the links so far under the exact rule, where steps were too long for it and were made
     /// by another rule.
     fn beyond_exact(&self) -> Option<f64> {
+        None
+    }
+
+    /// What is known of the motion inside a step, where that is more than its ends.
+    fn closed_form(&self) -> Option<ClosedForm> {
         None
     }
 

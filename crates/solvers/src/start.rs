@@ -124,7 +124,8 @@ fn extent(model: &Model) -> f64 {
     if most > 0.0 { most } else { 1.0 }
 }
 
-fn peak(track: &Track) -> f64 {
+/// Largest |amplitude|; 0 of derivatives.
+pub(crate) fn peak(track: &Track) -> f64 {
     match track {
         // What is held from the start and not balanced sets a motion in.
         Track::Constant => 0.0,

@@ -4,6 +4,7 @@ use crate::apart::{Apart, Way, apart, way};
 use crate::error::SolveError;
 use crate::kernel::{ForceScale, NoEquilibrium, Remembered, Unforeseen};
 use crate::link_side::LinkSide;
+use crate::modal::ClosedForm;
 use crate::propagator::{Motion, Propagator, StepWork};
 use crate::space::Space;
 use crate::turning::Turning;
@@ -201,6 +202,11 @@ pub(crate) trait Stepper {
         state: &mut State,
     ) -> Result<(), SolveError>;
 
+    /// What is known of the motion inside a step, where that is more than its ends.
+    fn closed_form(&self) -> Option<ClosedForm> {
+        None
+    }
+
     /// Largest G·k of the links so far under the exact rule (ω_link²Δt²/6), where steps were too long for it
     /// and were made by average acceleration.
     fn beyond_exact(&self) -> Option<f64> {
@@ -360,6 +366,10 @@ impl<P: Propagator> Stepper for LinkStepper<'_, P> {
         }
         self.side.recall_rates(self.propagator.space(), t, state);
         Ok(())
+    }
+
+    fn closed_form(&self) -> Option<ClosedForm> {
+        self.propagator.closed_form()
     }
 
     fn beyond_exact(&self) -> Option<f64> {

@@ -1,17 +1,28 @@
-//! Output times, and where loads jump between them.
+//! Output times, and the pieces of output steps between which loads bend or jump.
+//!
+//! Between the ends of a step a load runs straight, so no step goes across a sample of a table or the edge of a
+//! pulse, and none is longer than what follows a sine. The matrices of a step are kept by its length, to the bit:
+//! pieces lie on fractions of the output step wherever the samples do.
 
+use trilith_model::{Corner, Stretch};
 use trilith_system::LoadSet;
 
-/// Output times and, between them, the pieces that end where a load jumps.
+/// Output times and, between them, the pieces that end where a load bends or jumps.
 pub(crate) struct Timeline {
     pub dt: f64,
     pub steps: usize,
     pub duration: f64,
-    pub breaks: Vec<f64>,
+    /// Where a load may jump, rising.
+    jumps: Vec<f64>,
+    /// Output steps that are cut, rising, and where their pieces end among all of these.
+    cut: Vec<(usize, usize)>,
+    pieces: Vec<Piece>,
+    /// Where loads are curved, and the longest pieces there.
+    stretches: Vec<Stretch>,
 }
 
-/// A piece of an output step; its length is that of other steps to the bit where it is a whole one.
-#[derive(Clone, Copy, Debug)]
+/// A piece of an output step; its length is that of other steps to the bit where it is a whole one or a fraction.
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Piece {
     pub start: f64,
     pub end: f64,
@@ -33,40 +44,332 @@ impl Piece {
     }
 }
 
+/// Jumps closer than this share of the output step are one, and lengths closer than it are the same.
+const NEAR: f64 = 1e-9;
+/// A corner of a table may be moved by this share of its distance to the next sample: what the load then misses is
+/// less than that of its change between them. Times in files are rounded.
+const MOVED: f64 = 1e-3;
+/// Samples are looked for on fractions of the output step down to this.
+const FRACTIONS: usize = 128;
+/// Halvings of a piece at most, for the sake of curved loads.
+const HALVINGS: i32 = 20;
+
 impl Timeline {
-    pub(crate) fn new(dt: f64, duration: f64, loads: &LoadSet) -> Self {
+    /// `substeps`: steps that are made of a piece at least.
+    pub(crate) fn new(dt: f64, duration: f64, loads: &LoadSet, substeps: usize) -> Self {
         let steps = ((duration / dt) - 1e-9).ceil().max(1.0) as usize;
-        Self { dt, steps, duration, breaks: loads.breaks(duration) }
+        let mut stretches = loads.stretches();
+        stretches.iter_mut().for_each(|s| s.step *= substeps.max(1) as f64);
+        stretches.retain(|s| s.step < dt);
+        let jumps = loads.breaks(duration);
+        let (cut, pieces) = (Vec::new(), Vec::new());
+        let mut timeline = Self { dt, steps, duration, jumps, cut, pieces, stretches };
+        timeline.cut(&loads.corners(duration));
+        timeline.join_lengths();
+        timeline
     }
 
-    /// Time of an output step.
+    /// Time of an output step: that of a jump, to the bit, where one is there.
     pub(crate) fn time(&self, step: usize) -> f64 {
-        (step as f64 * self.dt).min(self.duration)
+        let t = (step as f64 * self.dt).min(self.duration);
+        self.jump_near(t).unwrap_or(t)
     }
 
     /// True for a time at which a load may jump.
-    pub(crate) fn is_break(&self, t: f64) -> bool {
-        self.breaks.iter().any(|b| (b - t).abs() <= self.near())
+    pub(crate) fn is_jump(&self, t: f64) -> bool {
+        self.jump_near(t).is_some()
+    }
+
+    /// Output steps that may be something else than one piece as long as the others, or have a jump at their ends;
+    /// rising.
+    pub(crate) fn cut_steps(&self) -> Vec<usize> {
+        let around = |t: f64| {
+            let step = (t / self.dt) as usize;
+            step.saturating_sub(1)..step + 2
+        };
+        let curved = self.stretches.iter().flat_map(|s| {
+            let from = (s.from.max(0.0) / self.dt) as usize;
+            let to = (s.to.min(self.duration) / self.dt) as usize;
+            from.saturating_sub(1)..to + 2
+        });
+        let mut steps: Vec<usize> = self.cut.iter().map(|(step, _)| *step).collect();
+        steps.extend(curved.chain(self.jumps.iter().flat_map(|t| around(*t))));
+        steps.push(self.steps - 1);
+        steps.retain(|step| *step < self.steps);
+        steps.sort_unstable();
+        steps.dedup();
+        steps
     }
 
     /// The pieces of an output step.
     pub(crate) fn pieces(&self, step: usize) -> impl Iterator<Item = Piece> + '_ {
-        let (t0, t1) = (self.time(step), self.time(step + 1));
-        let near = self.near();
-        let inside = move |t: &f64| *t > t0 + near && *t < t1 - near;
-        // The last step may be shorter; one that is not has the length of the others to the bit.
-        let whole = (t1 - t0 - self.dt).abs() <= near && !self.breaks.iter().any(inside);
-        let ends = self.breaks.iter().copied().filter(inside).chain([t1]);
-        ends.scan(t0, move |start, end| {
-            let length = if whole { self.dt } else { end - *start };
-            let piece = Piece { start: *start, end, length };
-            *start = end;
-            Some(piece)
-        })
+        let whole = self.cut.is_empty().then(|| self.whole(step));
+        let (whole, found) = match whole {
+            Some(whole) => (Some(whole), &[][..]),
+            None => match self.cut.binary_search_by_key(&step, |(step, _)| *step) {
+                Ok(at) => {
+                    let first = at.checked_sub(1).map_or(0, |before| self.cut[before].1);
+                    (None, &self.pieces[first..self.cut[at].1])
+                }
+                Err(_) => (Some(self.whole(step)), &[][..]),
+            },
+        };
+        let all = whole.into_iter().chain(found.iter().copied());
+        all.flat_map(|piece| piece.parts(self.count(&piece)))
     }
 
-    /// Times closer than this are one.
+    /// An output step in one; the last may be shorter, one that is not has the length of the others to the bit.
+    fn whole(&self, step: usize) -> Piece {
+        let (start, end) = (self.time(step), self.time(step + 1));
+        let as_others = (end - start - self.dt).abs() <= self.near();
+        Piece { start, end, length: if as_others { self.dt } else { end - start } }
+    }
+
+    /// Parts of a piece that are short enough for curved loads: a power of two, so that their matrices are those of
+    /// a step that is halved.
+    fn count(&self, piece: &Piece) -> usize {
+        let near = self.near();
+        let meets = |s: &&Stretch| s.from < piece.end - near && s.to > piece.start + near;
+        let shortest = self.stretches.iter().filter(meets).map(|s| s.step);
+        let longest = shortest.fold(f64::INFINITY, f64::min);
+        let halvings = (piece.length / longest * (1.0 - NEAR)).log2().ceil();
+        1 << (halvings.max(0.0) as i32).min(HALVINGS)
+    }
+
+    /// Enters what is inside output steps: jumps and corners.
+    fn cut(&mut self, corners: &[Corner]) {
+        let mut inside: Vec<(usize, Cut)> = Vec::new();
+        let mut enter = |t: f64, reach: f64| {
+            let step = ((t / self.dt) as usize).min(self.steps - 1);
+            // Rounding may have put it in the step before or behind.
+            for step in [step.saturating_sub(1), step, step + 1] {
+                let (start, end) = (self.time(step), self.time(step + 1));
+                if step < self.steps && t > start + reach && t < end - reach {
+                    inside.push((step, Cut { t, reach }));
+                    break;
+                }
+            }
+        };
+        self.jumps.iter().for_each(|t| enter(*t, self.near()));
+        corners.iter().for_each(|c| enter(c.t, MOVED * c.reach.min(self.dt)));
+        inside.sort_by(|(_, a), (_, b)| a.t.total_cmp(&b.t));
+        for group in inside.chunk_by(|(a, _), (b, _)| a == b) {
+            let step = group[0].0;
+            let cuts = apart(group.iter().map(|(_, cut)| *cut));
+            let pieces = divide(self.whole(step), &cuts, self.dt);
+            self.pieces.extend(pieces);
+            self.cut.push((step, self.pieces.len()));
+        }
+    }
+
+    /// Lengths that differ by rounding become one.
+    fn join_lengths(&mut self) {
+        let mut lengths: Vec<f64> = self.pieces.iter().map(|p| p.length).collect();
+        lengths.sort_by(f64::total_cmp);
+        // The smallest of those that are close to each other stands for them.
+        lengths.dedup_by(|next, kept| *next - *kept <= NEAR * *kept);
+        for piece in &mut self.pieces {
+            let at = lengths.partition_point(|x| *x <= piece.length);
+            piece.length = lengths[at.saturating_sub(1)];
+        }
+    }
+
+    /// The jump at a time.
+    fn jump_near(&self, t: f64) -> Option<f64> {
+        let near = self.near();
+        let at = self.jumps.partition_point(|x| *x < t - near);
+        self.jumps.get(at).copied().filter(|x| *x <= t + near)
+    }
+
+    /// Jumps closer than this are one.
     fn near(&self) -> f64 {
-        1e-9 * self.dt
+        NEAR * self.dt
+    }
+}
+
+/// A time inside an output step at which a piece ends, and how far it may be moved.
+#[derive(Clone, Copy)]
+struct Cut {
+    t: f64,
+    reach: f64,
+}
+
+/// Cuts without those that may be moved to another one.
+fn apart(all: impl Iterator<Item = Cut>) -> Vec<Cut> {
+    let mut kept: Vec<Cut> = Vec::new();
+    for cut in all {
+        match kept.last_mut() {
+            Some(last) if cut.t - last.t <= last.reach => *last = cut,
+            Some(last) if cut.t - last.t <= cut.reach => {}
+            _ => kept.push(cut),
+        }
+    }
+    kept
+}
+
+/// An output step in pieces.
+fn divide(whole: Piece, cuts: &[Cut], dt: f64) -> Vec<Piece> {
+    let ends = cuts.iter().map(|cut| cut.t).chain([whole.end]);
+    let starts = [whole.start].into_iter().chain(cuts.iter().map(|cut| cut.t));
+    let piece = |(start, end): (f64, f64)| Piece { start, end, length: end - start };
+    let mut pieces: Vec<Piece> = starts.zip(ends).map(piece).collect();
+    let fractions = || (2..=FRACTIONS).find_map(|n| Some((n, places(whole, cuts, n)?)));
+    if whole.length == dt
+        && let Some((parts, places)) = fractions()
+    {
+        let mut from = 0;
+        for (piece, to) in pieces.iter_mut().zip(places.into_iter().chain([parts])) {
+            piece.length = dt * ((to - from) as f64 / parts as f64);
+            from = to;
+        }
+    }
+    pieces
+}
+
+/// The fractions of the output step on which all cuts are.
+fn places(whole: Piece, cuts: &[Cut], parts: usize) -> Option<Vec<usize>> {
+    let part = whole.length / parts as f64;
+    let mut places = Vec::with_capacity(cuts.len());
+    for cut in cuts {
+        let place = ((cut.t - whole.start) / part).round();
+        let off = cut.t - (whole.start + place * part);
+        let place = place as usize;
+        let follows = place > places.last().copied().unwrap_or(0) && place < parts;
+        if !follows || off.abs() > cut.reach {
+            return None;
+        }
+        places.push(place);
+    }
+    Some(places)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::sync::Arc;
+    use trilith_model::{AfterEnd, Harmonic, Interpolation, Table, TimeFunction};
+    use trilith_system::{Channel, Track};
+
+    fn loads(functions: Vec<TimeFunction>) -> LoadSet {
+        let channel = |function| Channel {
+            force: Vec::new(),
+            deformation: Vec::new(),
+            rate: Vec::new(),
+            track: Track::Value { function, factor: 1.0 },
+            conservative: false,
+        };
+        LoadSet { channels: functions.into_iter().map(channel).collect(), ..LoadSet::default() }
+    }
+
+    /// A zigzag with samples at these times.
+    fn table(times: impl Iterator<Item = f64>) -> TimeFunction {
+        let times: Vec<f64> = times.collect();
+        let values = (0..times.len()).map(|i| f64::from(u8::from(i % 2 == 1))).collect();
+        let table = Table::new(times, values, Interpolation::Linear, AfterEnd::Hold).unwrap();
+        TimeFunction::Table(Arc::new(table))
+    }
+
+    fn sine(frequency: f64, start: f64, cycles: f64) -> TimeFunction {
+        let cycles = Some(cycles);
+        TimeFunction::Sine(Harmonic { amplitude: 1.0, frequency, cycles, start, phase: 0.0 })
+    }
+
+    fn all(timeline: &Timeline) -> Vec<Piece> {
+        let pieces: Vec<Piece> = (0..timeline.steps)
+            .flat_map(|step| timeline.pieces(step).collect::<Vec<_>>())
+            .collect();
+        for two in pieces.windows(2) {
+            assert_eq!(two[0].end, two[1].start);
+        }
+        for p in &pieces {
+            assert!((p.end - p.start - p.length).abs() < 1e-3 * timeline.dt, "{p:?}");
+        }
+        pieces
+    }
+
+    fn lengths(pieces: &[Piece]) -> Vec<u64> {
+        let mut lengths: Vec<u64> = pieces.iter().map(|p| p.length.to_bits()).collect();
+        lengths.sort_unstable();
+        lengths.dedup();
+        lengths
+    }
+
+    #[test]
+    fn samples_on_output_times_cut_nothing() {
+        for spacing in [0.01, 0.02, 0.05] {
+            let record = table((0..2000).map(|i| f64::from(i) * spacing));
+            let timeline = Timeline::new(0.01, 20.0, &loads(vec![record]), 1);
+            let pieces = all(&timeline);
+            assert_eq!(pieces.len(), 2000);
+            assert_eq!(lengths(&pieces), [0.01_f64.to_bits()]);
+        }
+    }
+
+    #[test]
+    fn samples_between_output_times_cut_steps_into_few_lengths() {
+        for (spacing, dt, count) in
+            [(0.005, 0.02, 1), (0.01, 0.025, 2), (1.0 / 300.0, 0.01, 1), (1.0 / 256.0, 0.005, 64)]
+        {
+            // Times as a file holds them.
+            let times = (0..=4000).map(|i| format!("{:.7}", f64::from(i) * spacing));
+            let times: Vec<f64> = times.map(|t| t.parse().unwrap()).collect();
+            let timeline = Timeline::new(dt, 10.0, &loads(vec![table(times.iter().copied())]), 1);
+            let pieces = all(&timeline);
+            let found = lengths(&pieces);
+            assert!(found.len() <= count, "{spacing} {dt}: {}", found.len());
+            // No piece goes across a sample.
+            for p in &pieces {
+                let inside = |t: &&f64| **t > p.start + 2e-3 * dt && **t < p.end - 2e-3 * dt;
+                assert_eq!(times.iter().find(inside), None, "{p:?}");
+            }
+        }
+    }
+
+    #[test]
+    fn lengths_that_differ_by_rounding_are_one() {
+        let record = table((0..3000).map(|i| f64::from(i) * 0.004_73));
+        let timeline = Timeline::new(0.02, 10.0, &loads(vec![record]), 1);
+        let pieces = all(&timeline);
+        let whole = pieces.iter().filter(|p| (p.length - 0.004_73).abs() < 1e-9).copied();
+        assert_eq!(lengths(&whole.collect::<Vec<_>>()).len(), 1);
+    }
+
+    #[test]
+    fn a_pulse_is_followed_whatever_the_output_step() {
+        for substeps in [1, 3] {
+            let timeline = Timeline::new(0.15, 1.5, &loads(vec![sine(5.0, 0.33, 1.0)]), substeps);
+            let pieces = all(&timeline);
+            for p in &pieces {
+                let during = p.start < 0.53 - 1e-9 && p.end > 0.33 + 1e-9;
+                let longest = 0.2 / 16.0 * substeps as f64;
+                assert!(!during || p.length <= longest * (1.0 + 1e-9), "{p:?}");
+                let halvings = (0.15 / p.length).log2();
+                assert!(during || halvings == halvings.round() || p.length > 0.02, "{p:?}");
+            }
+            for edge in [0.33, 0.33 + 1.0 / 5.0] {
+                assert!(pieces.iter().any(|p| p.end == edge) && timeline.is_jump(edge));
+            }
+        }
+    }
+
+    /// A jump at an output time but for rounding is met from its own sides.
+    #[test]
+    fn an_output_time_beside_a_jump_is_that_of_the_jump() {
+        let edge: f64 = 0.1 + 0.2;
+        assert_ne!(edge.to_bits(), 0.3_f64.to_bits());
+        let step = TimeFunction::Step { amplitude: 1.0, start: edge, end: None };
+        let timeline = Timeline::new(0.3, 1.0, &loads(vec![step]), 1);
+        assert_eq!(timeline.time(1).to_bits(), edge.to_bits());
+        assert_eq!(all(&timeline).len(), timeline.steps);
+    }
+
+    #[test]
+    fn a_jump_is_never_moved_to_a_sample_beside_it() {
+        let record = table((0..100).map(|i| f64::from(i) * 0.05));
+        let step = TimeFunction::Step { amplitude: 1.0, start: 0.550_001, end: None };
+        let timeline = Timeline::new(0.1, 1.0, &loads(vec![record, step]), 1);
+        let pieces = all(&timeline);
+        assert!(pieces.iter().any(|p| p.end == 0.550_001));
+        assert!(pieces.iter().all(|p| p.length > 0.01));
     }
 }

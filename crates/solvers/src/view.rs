@@ -1,7 +1,9 @@
 //! Shows accepted states to the observers.
 
 use crate::contact_mode::are_contacts;
+use crate::inside::{Inside, Moment};
 use crate::ledger::Ledger;
+use crate::modal::ClosedForm;
 use crate::observe::{EnergyTotals, Observer, Sample, Shape};
 use crate::outputs::Outputs;
 use crate::shapes::{Shapes, expand};
@@ -26,13 +28,13 @@ struct Figure<'a> {
     loads: &'a LoadSet,
     /// The links that have an outline.
     bodies: &'a [(&'a dyn Link, &'a LinkInstance)],
-    t: f64,
+    at: (f64, Side),
 }
 
 impl Shape for Figure<'_> {
     fn displacements(&self, u: &mut [f64]) {
         let count = self.system.reduction.prescribed.len();
-        let [prescribed, _, _] = self.loads.prescribed(self.t, Side::Before, count);
+        let [prescribed, _, _] = self.loads.prescribed(self.at.0, self.at.1, count);
         let Coordinates { order, shape } = self.coordinates;
         let free = expand(shape.as_deref(), &self.state.motion[..*order]);
         for (full, x) in u.iter_mut().enumerate() {
@@ -66,16 +68,20 @@ pub(crate) struct Viewer<'a, 'b> {
     outputs: Outputs,
     values: Vec<f64>,
     rates: Vec<f64>,
+    /// Those shown before.
+    before: (Vec<f64>, Vec<f64>),
     /// True where an observer looks at them.
     rated: bool,
+    /// Looks inside steps, where they may be long beside what swings.
+    inside: Option<Inside>,
     /// The links that are contacts.
     touching: Vec<(&'a dyn Link, &'a LinkInstance)>,
     /// The links that have an outline.
     bodies: Vec<(&'a dyn Link, &'a LinkInstance)>,
     contacts: Vec<(usize, Contact)>,
     own: Vec<Contact>,
-    /// Time and output step last shown.
-    last: (f64, Option<usize>),
+    /// Time, the side of it, and output step last shown.
+    last: (f64, Side, Option<usize>),
     observers: &'a mut [&'b mut dyn Observer],
 }
 
@@ -130,14 +136,33 @@ impl<'a, 'b> Viewer<'a, 'b> {
             outputs: Outputs::new(model, system, space),
             values: vec![0.0; count],
             rates: vec![f64::NAN; count],
+            before: (vec![0.0; count], vec![f64::NAN; count]),
+            inside: None,
             rated: observers.iter().any(|o| o.wants_rates()),
             touching,
             bodies,
             contacts: Vec::new(),
             own: Vec::new(),
-            last: (0.0, None),
+            last: (0.0, Side::After, None),
             observers,
         }
+    }
+
+    /// Looks inside steps of this length at most, whose motion has a closed form, going on from the largest values
+    /// of an earlier part of the case.
+    pub(crate) fn look_inside(
+        &mut self,
+        form: Option<ClosedForm>,
+        longest: f64,
+        largest: Vec<f64>,
+    ) {
+        let form = form.filter(|f| self.rated && Inside::is_worth(f, longest));
+        self.inside = form.map(|f| Inside::new(f, &self.outputs, largest));
+    }
+
+    /// The largest values so far, where looks inside steps hang on them.
+    pub(crate) fn largest(&self) -> Vec<f64> {
+        self.inside.as_ref().map(|i| i.largest.clone()).unwrap_or_default()
     }
 
     /// Tells that the run starts, with at most so many output steps to come.
@@ -147,22 +172,81 @@ impl<'a, 'b> Viewer<'a, 'b> {
 
     /// Shows a state; `step` is the index of the output step that ends there.
     pub(crate) fn show(&mut self, t: f64, step: Option<usize>, state: &State, ledger: &Ledger) {
+        // Before a case there is nothing: what it starts from is what the loads make of it.
+        let side = if t > 0.0 { Side::Before } else { Side::After };
+        self.look((t, side), step, state, ledger);
+    }
+
+    /// Shows a state just behind a time at which loads have jumped.
+    pub(crate) fn show_behind(&mut self, t: f64, state: &State, ledger: &Ledger) {
+        self.look((t, Side::After), None, state, ledger);
+    }
+
+    fn look(
+        &mut self,
+        (t, side): (f64, Side),
+        step: Option<usize>,
+        state: &State,
+        ledger: &Ledger,
+    ) {
         if self.observers.is_empty() {
             return;
         }
-        let now = self.outputs.at(t, state, self.loads);
+        std::mem::swap(&mut self.values, &mut self.before.0);
+        std::mem::swap(&mut self.rates, &mut self.before.1);
+        let now = self.outputs.at((t, side), state, self.loads);
         now.values(&mut self.values);
         if self.rated {
             now.rates(&self.values, &mut self.rates);
         }
+        self.tell_inside(t, &state.motion);
         self.touch(state);
-        self.last = (t, step);
+        self.last = (t, side, step);
         self.tell(state, ledger, |o, sample| o.sample(sample));
     }
 
     /// Tells that the run ends, with the state that was shown last.
     pub(crate) fn end(&mut self, state: &State, ledger: &Ledger) {
         self.tell(state, ledger, |o, sample| o.end(sample));
+    }
+
+    /// Hands what the outputs are inside the step that ends at `t` to the observers.
+    fn tell_inside(&mut self, t: f64, to: &[f64]) {
+        let Self { inside: Some(inside), outputs, values, rates, before, last, observers, .. } =
+            self
+        else {
+            return;
+        };
+        let length = t - last.0;
+        let (moments, trusted) = inside.look(outputs, to, length, values);
+        if !moments.is_empty() {
+            // What the motion does not give runs straight.
+            let parts = |motion: &[f64]| {
+                let mut own = (vec![0.0; values.len()], vec![0.0; values.len()]);
+                outputs.of_motion(motion, &mut own.0, &mut own.1);
+                own
+            };
+            let (from, end) = (parts(inside.from()), parts(to));
+            let straight = |[a0, a]: [f64; 2], [b0, b]: [f64; 2], share: f64| {
+                (1.0 - share) * (a - a0) + share * (b - b0)
+            };
+            for Moment { share, values: mut y, rates: mut r } in moments {
+                for i in 0..y.len() {
+                    y[i] += straight([from.0[i], before.0[i]], [end.0[i], values[i]], share);
+                    r[i] += straight([from.1[i], before.1[i]], [end.1[i], rates[i]], share);
+                }
+                outputs.combine(&mut y, &mut r);
+                if !trusted {
+                    r.fill(f64::NAN);
+                }
+                let at = last.0 + share * length;
+                observers.iter_mut().for_each(|o| o.between(at, &y, &r));
+            }
+        }
+        if !trusted {
+            rates.fill(f64::NAN);
+        }
+        inside.note(to, values);
     }
 
     /// Hands the values of the state shown last to the observers.
@@ -174,14 +258,14 @@ impl<'a, 'b> Viewer<'a, 'b> {
         how: impl Fn(&mut dyn Observer, &Sample<'_>),
     ) {
         let overturned = self.overturned(state);
-        let (t, output_step) = self.last;
+        let (t, side, output_step) = self.last;
         let shape = Figure {
             system: self.system,
             coordinates: &self.coordinates,
             state,
             loads: self.loads,
             bodies: &self.bodies,
-            t,
+            at: (t, side),
         };
         for observer in self.observers.iter_mut() {
             let sample = Sample {

@@ -24,7 +24,8 @@ pub struct System {
     pub stiffness: Sparse,
     /// The same blocks, free × prescribed.
     pub mass_support: Sparse,
-    /// The same blocks, free × prescribed.
+    /// C of elements and the share of K in Rayleigh damping, free × prescribed; that of M acts on what moves
+    /// against the supports, and these do not.
     pub damping_support: Sparse,
     /// The same blocks, free × prescribed.
     pub stiffness_support: Sparse,
@@ -75,11 +76,7 @@ impl System {
             Damping::Rayleigh { mass, stiffness } => [mass, stiffness],
             _ => [0.0; 2],
         };
-        let damping_support = Sparse::combine(&[
-            (1.0, &c.support),
-            (rayleigh[0], &m.support),
-            (rayleigh[1], &k.support),
-        ]);
+        let damping_support = Sparse::combine(&[(1.0, &c.support), (rayleigh[1], &k.support)]);
         let mut links = LinkSet::new(model, &reduction, &used)?;
         crate::impact::settle(&mut links, model, &m.free)?;
         let mut system = Self {

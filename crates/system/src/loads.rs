@@ -1,7 +1,9 @@
 //! Loads as channels: a vector on the free DOFs times an amplitude in time.
 
 use crate::System;
-use trilith_model::{BaseMotion, DynamicCase, Load, Model, Side, TimeFunction};
+use trilith_model::{
+    BaseMotion, Corner, DynamicCase, Load, Model, Side, Stretch, Table, TimeFunction,
+};
 
 /// What drives the amplitude of a channel.
 #[derive(Clone, Debug)]
@@ -151,7 +153,9 @@ impl System {
         set
     }
 
-    /// A moving support acts through −K_fs u_s − C_fs u̇_s − M_fs ü_s and deforms the links at it.
+    /// A moving support acts through −K_fs u_s − C_fs u̇_s − M_fs ü_s and deforms the links at it. C_fs is that of
+    /// elements and of K; what damps motion against the supports is added to the channel of the rate by
+    /// [`LoadSet::add_to_rates`].
     fn support_channels(&self, set: &mut LoadSet, s: usize, function: &TimeFunction, factor: f64) {
         let column = |a: &trilith_linalg::Sparse| {
             let mut p = vec![0.0; self.order()];
@@ -187,6 +191,14 @@ impl System {
 }
 
 impl LoadSet {
+    /// Adds a force on the free DOFs for each of the moving [`supports`](Self::supports) at unit velocity.
+    pub fn add_to_rates(&mut self, forces: &[Vec<f64>]) {
+        let rates = self.channels.iter_mut().filter(|c| matches!(c.track, Track::Rate { .. }));
+        for (channel, force) in rates.zip(forces) {
+            channel.force.iter_mut().zip(force).for_each(|(x, y)| *x += y);
+        }
+    }
+
     /// Amplitudes over a step; what is known from a step that ended at its start is kept.
     #[inline]
     pub fn step(&self, t0: f64, t1: f64, loads: &mut StepLoads) {
@@ -253,22 +265,53 @@ impl LoadSet {
         motion
     }
 
-    /// Times strictly inside (0, end) at which an amplitude or its slope jumps, rising.
+    /// Times strictly inside (0, end) at which an amplitude or its slope may jump, rising.
     #[must_use]
     pub fn breaks(&self, end: f64) -> Vec<f64> {
         let mut times: Vec<f64> = self
-            .channels
-            .iter()
-            .flat_map(|c| match &c.track {
-                Track::Constant => Vec::new(),
-                Track::Value { function, .. }
-                | Track::Rate { function, .. }
-                | Track::Curvature { function, .. } => function.breaks(),
-            })
+            .functions()
+            .flat_map(|(function, _)| function.breaks())
             .filter(|t| *t > 0.0 && *t < end)
             .collect();
         times.sort_by(f64::total_cmp);
         times.dedup();
         times
+    }
+
+    /// Corners of tables strictly inside (0, end), rising: amplitudes of loads bend there, and rates of moving
+    /// supports may.
+    #[must_use]
+    pub fn corners(&self, end: f64) -> Vec<Corner> {
+        let mut tables: Vec<&Table> = Vec::new();
+        let mut corners = Vec::new();
+        for (function, factor) in self.functions() {
+            let Some(table) = function.table() else { continue };
+            // A moving support has several channels, and several of them may follow one table.
+            if factor == 0.0 || tables.iter().any(|other| std::ptr::eq(*other, table)) {
+                continue;
+            }
+            tables.push(table);
+            corners.extend(function.corners());
+        }
+        corners.retain(|c| c.t > 0.0 && c.t < end);
+        corners.sort_by(|a, b| a.t.total_cmp(&b.t));
+        corners
+    }
+
+    /// Times in which loads are curved, and the steps that follow them.
+    #[must_use]
+    pub fn stretches(&self) -> Vec<Stretch> {
+        let curved = self.functions().filter(|(_, factor)| *factor != 0.0);
+        curved.filter_map(|(function, _)| function.stretch()).collect()
+    }
+
+    /// The functions of time and their factors, channel by channel.
+    fn functions(&self) -> impl Iterator<Item = (&TimeFunction, f64)> {
+        self.channels.iter().filter_map(|c| match &c.track {
+            Track::Constant => None,
+            Track::Value { function, factor }
+            | Track::Rate { function, factor }
+            | Track::Curvature { function, factor } => Some((function, *factor)),
+        })
     }
 }

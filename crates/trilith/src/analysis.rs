@@ -4,7 +4,9 @@ use crate::Error;
 use std::path::{Path, PathBuf};
 use trilith_model::Model;
 use trilith_results::{Files, Peak, Recorder, Summary};
-use trilith_solvers::{BasisReport, CaseResult, ContactMode, ContactSummary, Observer, RunOptions, Status};
+use trilith_solvers::{
+    BasisReport, CaseResult, ContactMode, ContactSummary, Observer, RunOptions, SoFar, Status,
+};
 use trilith_system::System;
 
 /// Times that a basis is enlarged at most, and by so many vectors at least.
@@ -94,7 +96,9 @@ impl<'m> Analysis<'m> {
             return Err(Error::unknown_case(self.model, &format!("#{}", options.case)));
         }
         let RunOptions { case, solver, dt, until, vectors, from, mut progress } = options;
-        let (mut vectors, mut round) = (vectors, 0);
+        // A run goes on with the basis it was made with.
+        let before = from.as_ref().and_then(|end| end.vectors);
+        let (mut vectors, mut round) = (vectors.or(before), 0);
         loop {
             let progress: Option<&mut dyn FnMut(f64)> = match &mut progress {
                 Some(tell) => Some(&mut **tell),
@@ -139,12 +143,40 @@ impl<'m> Analysis<'m> {
             record = record.without_histories();
         }
         let mut contact = ContactMode::new(self.model, &self.system);
+        let (mut since, mut warnings) = (0.0, Vec::new());
+        if let Some(from) = &options.from {
+            let before = from.seen.clone();
+            since = before.since;
+            if before.peaks.len() == self.model.outputs.len() {
+                record = record.after(before.peaks);
+                contact = contact.after(before.contact.unwrap_or_default());
+            } else {
+                since = from.time;
+            }
+            if since > 0.0 {
+                warnings.push(format!(
+                    "the checkpoint holds no extremes: peaks and contacts count from t = {since} s on"
+                ));
+            }
+            if !self.model.spectra.is_empty() {
+                warnings.push(format!(
+                    "floor spectra are made of the histories, which start at t = {} s",
+                    from.time
+                ));
+            }
+        }
         let mut all: Vec<&mut dyn Observer> = vec![&mut record, &mut contact];
         for observer in observers {
             all.push(*observer);
         }
         let mut result = trilith_solvers::run(self.model, &self.system, options, &mut all)?;
         result.warnings.extend(trilith_results::spectrum_warnings(self.model, &record));
+        result.warnings.extend(warnings);
+        let peaks = record.peaks();
+        if peaks.iter().all(Peak::is_finite) {
+            let (peaks, contact) = (peaks.to_vec(), Some(contact.memory()));
+            result.end.seen = SoFar { peaks, contact, since };
+        }
         let contact = contact.summary();
         let names = self.model.outputs.iter().map(|o| o.name.clone()).collect();
         Ok(Run { result, record, contact, names })

@@ -58,7 +58,7 @@ impl<R: Real, const M: usize, const L: usize, const N: usize> Plan<R, M, L, N> {
         (out.start, out.end) = (first, last);
     }
 
-    /// Loads of a piece of a step: one (start, length) for each analysis.
+    /// Loads of a piece of a step: one for each analysis. The amplitudes are those at its end.
     pub fn loads_of_pieces<A: Arithmetic<Real = R>>(
         &self,
         with: A,
@@ -66,17 +66,9 @@ impl<R: Real, const M: usize, const L: usize, const N: usize> Plan<R, M, L, N> {
         pieces: &[Piece],
     ) -> Loads<R, M> {
         let mut out = self.no_loads(with);
-        let last = setups.len() - 1;
         for c in 0..self.forces.len() {
-            let track = |i: usize| (&setups[i.min(last)].tracks[c], pieces[i.min(last)]);
-            let start = with.gather(|i| {
-                let (track, (t, _)) = track(i);
-                track.at(t, Side::After)
-            });
-            let end = with.gather(|i| {
-                let (track, (t, length)) = track(i);
-                track.at(t + length, Side::Before)
-            });
+            let start = amplitude(with, setups, pieces, c, |p| (p.start, Side::After));
+            let end = amplitude(with, setups, pieces, c, |p| (p.end, Side::Before));
             out.amplitudes[c] = end;
             for j in 0..M {
                 out.start[j] = start.mul_add(self.forces[c][j], out.start[j]);
@@ -85,4 +77,31 @@ impl<R: Real, const M: usize, const L: usize, const N: usize> Plan<R, M, L, N> {
         }
         out
     }
+
+    /// Amplitudes at the start of a piece.
+    pub fn amplitudes_behind<A: Arithmetic<Real = R>>(
+        &self,
+        with: A,
+        setups: &[&LaneSetup],
+        pieces: &[Piece],
+    ) -> Vec<R> {
+        let start = |c: usize| amplitude(with, setups, pieces, c, |p| (p.start, Side::After));
+        (0..self.forces.len()).map(start).collect()
+    }
+}
+
+/// The amplitude of a channel, as the table of a usual step has it.
+fn amplitude<A: Arithmetic>(
+    with: A,
+    setups: &[&LaneSetup],
+    pieces: &[Piece],
+    channel: usize,
+    at: impl Fn(&Piece) -> (f64, Side),
+) -> A::Real {
+    let last = setups.len() - 1;
+    with.gather(|i| {
+        let ((track, size), piece) = (&setups[i.min(last)].tracks[channel], &pieces[i.min(last)]);
+        let (t, side) = at(piece);
+        track.at(t, side) * size
+    })
 }

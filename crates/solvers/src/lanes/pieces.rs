@@ -6,8 +6,11 @@ use super::loads::Loads;
 use super::newton::{Found, foresee, settle};
 use super::plan::Plan;
 use super::setup::{LaneSetup, Piece};
+use super::show::show;
+use super::small::Aligned;
 use super::state::{State, forget, keep};
-use super::step::{Passed, account, take};
+use super::step::{Passed, acceleration, account, take};
+use super::tables::Grid;
 use crate::march::DEPTH;
 use trilith_element::lanes::{Arithmetic, Real, Task};
 
@@ -28,11 +31,20 @@ impl Walk {
         Self { pieces, done: 0, at: 0, level }
     }
 
-    /// Start and length of the next substep.
+    /// The next substep.
     fn next(&self) -> Option<Piece> {
-        let (t, length) = *self.pieces.get(self.done)?;
-        let share = self.at as f64 / FULL as f64;
-        Some((t + length * share, length / (1u64 << self.level) as f64))
+        let whole = *self.pieces.get(self.done)?;
+        let until = self.at + (FULL >> self.level);
+        let time = |at: u64| match at {
+            FULL => whole.end,
+            at => whole.start + whole.length * (at as f64 / FULL as f64),
+        };
+        Some(Piece {
+            start: time(self.at),
+            end: time(until),
+            length: whole.length / (1u64 << self.level) as f64,
+            jump: whole.jump && self.at == 0,
+        })
     }
 
     fn advance(&mut self) {
@@ -57,6 +69,16 @@ impl Walk {
     }
 }
 
+/// The steps of an output step that nothing cuts.
+fn usual(grid: Grid, step: usize) -> Vec<Piece> {
+    let length = grid.dt / grid.substeps as f64;
+    let one = |i: usize| {
+        let start = step as f64 * grid.dt + length * i as f64;
+        Piece { start, end: start + length, length, jump: false }
+    };
+    (0..grid.substeps).map(one).collect()
+}
+
 /// A step that loads of some analyses cut.
 #[inline(never)]
 pub(super) fn cut_step<A: Arithmetic, const M: usize, const L: usize, const N: usize>(
@@ -66,18 +88,12 @@ pub(super) fn cut_step<A: Arithmetic, const M: usize, const L: usize, const N: u
     step: usize,
     state: &mut State<A::Real, M, L, N>,
 ) {
-    let grid = setups[0].shape.grid;
-    let parts = grid.substeps;
-    let split = |pieces: &[Piece]| -> Vec<Piece> {
-        let cut = |(t, length): &Piece| {
-            let (t, part) = (*t, length / parts as f64);
-            (0..parts).map(move |i| (t + part * i as f64, part)).collect::<Vec<_>>()
+    let walks = setups.iter().map(|s| {
+        let pieces = match s.cut.iter().find(|c| c.0 == step) {
+            Some((_, pieces)) => pieces.clone(),
+            None => usual(s.shape.grid, step),
         };
-        pieces.iter().flat_map(cut).collect()
-    };
-    let walks = setups.iter().map(|s| match s.cut.iter().find(|c| c.0 == step) {
-        Some((_, pieces)) => Walk::new(split(pieces), 0),
-        None => Walk::new(split(&[(step as f64 * grid.dt, grid.dt)]), 0),
+        Walk::new(pieces, 0)
     });
     walk(with, setups, plan, walks.collect(), state);
 }
@@ -100,7 +116,8 @@ pub(super) fn in_halves<A: Arithmetic, const M: usize, const L: usize, const N: 
     let length = grid.dt / grid.substeps as f64;
     let walks = (0..setups.len()).map(|i| {
         let failed = with.lane(with.splat(1.0).only(wrong), i) == 1.0;
-        Walk::new(if failed { vec![(t, length)] } else { Vec::new() }, 1)
+        let whole = Piece { start: t, end: t + length, length, jump: false };
+        Walk::new(if failed { vec![whole] } else { Vec::new() }, 1)
     });
     walk(with, setups, plan, walks.collect(), state);
 }
@@ -122,11 +139,19 @@ fn walk<A: Arithmetic, const M: usize, const L: usize, const N: usize>(
         }
         let goes = with.gather(|i| f64::from(u8::from(next[i.min(last)].is_some())));
         // Who has nothing left takes any step, and forgets it.
-        let now: Vec<Piece> = next.iter().map(|p| p.unwrap_or((0.0, grid.dt))).collect();
-        let lengths: Vec<f64> = now.iter().map(|p| p.1).collect();
+        let any = Piece { start: 0.0, end: grid.dt, length: grid.dt, jump: false };
+        let now: Vec<Piece> = next.iter().map(|p| p.unwrap_or(any)).collect();
+        let lengths: Vec<f64> = now.iter().map(|p| p.length).collect();
         let rule = Rule::new(with, setups, plan, Some(&lengths));
         let loads = plan.loads_of_pieces(with, setups, &now);
-        let t = with.gather(|i| now[i.min(last)].0);
+        let t = with.gather(|i| now[i.min(last)].start);
+        if plan.accelerations && now.iter().any(|p| p.jump) {
+            let before = state.clone();
+            let jumps = with.gather(|i| f64::from(u8::from(now[i.min(last)].jump)));
+            let who = zero.lt(jumps);
+            state.amplitudes = plan.amplitudes_behind(with, setups, &now);
+            with.run(Behind { plan, load: &loads.start, t, who, before: &before, state });
+        }
         let before = state.clone();
         let who = zero.lt(goes);
         let (rule, loads) = (&rule, &loads);
@@ -142,6 +167,31 @@ fn walk<A: Arithmetic, const M: usize, const L: usize, const N: usize>(
             state.lost = A::Real::select(lost, t, state.lost);
             state.alive = state.alive & !lost;
         }
+    }
+}
+
+/// What outputs are where loads have jumped, of the analyses in `who`, as a task.
+struct Behind<'a, R: Real, const M: usize, const L: usize, const N: usize> {
+    plan: &'a Plan<R, M, L, N>,
+    load: &'a Aligned<[R; M]>,
+    t: R,
+    who: R::Mask,
+    before: &'a State<R, M, L, N>,
+    state: &'a mut State<R, M, L, N>,
+}
+
+impl<A: Arithmetic, const M: usize, const L: usize, const N: usize> Task<A>
+    for Behind<'_, A::Real, M, L, N>
+{
+    type Output = ();
+
+    #[inline(always)]
+    fn run(self, with: A) {
+        let Self { plan, load, t, who, before, state } = self;
+        let zero = with.splat(0.0);
+        acceleration(plan, load, state);
+        show(with, plan, (t, zero, zero), state);
+        keep(who, state, before);
     }
 }
 

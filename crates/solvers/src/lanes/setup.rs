@@ -1,7 +1,7 @@
 //! What one analysis brings to a sweep: made by the ordinary assembly, basis and start.
 
 use super::rule::stiffness_ratio;
-use super::tables::{Grid, Table, Tables};
+use super::tables::{Grid, Table, Tables, split};
 use crate::case::before;
 use crate::contact_mode::{falling, stands};
 use crate::dynamic::{bases, held_load, link_side, modes};
@@ -11,7 +11,7 @@ use crate::outputs::{Outputs, Row};
 use crate::propagator::kinetic_and_strain;
 use crate::single_mode::{self, Mode};
 use crate::space::Space;
-use crate::start::{Initial, constant_force, potential, start};
+use crate::start::{Initial, constant_force, peak, potential, start};
 use crate::stepper::{LinkStepper, State, Stepper};
 use crate::timeline::Timeline;
 use std::any::TypeId;
@@ -19,8 +19,10 @@ use std::sync::Arc;
 use trilith_element::lanes::LaneForm;
 use trilith_element::{Contact, Kinematics};
 use trilith_linalg::{Dense, Sparse, symmetric_eigen};
-use trilith_model::{Analysis, DynamicCase, Kernel, Model, Quantity, SolverKind, StepControl};
-use trilith_system::{System, Track};
+use trilith_model::{
+    Analysis, DynamicCase, Kernel, Model, Quantity, Side, SolverKind, StepControl,
+};
+use trilith_system::{Channel, LoadSet, System, Track};
 
 /// What must be equal for analyses to go side by side.
 #[derive(Clone, Debug, PartialEq)]
@@ -63,8 +65,15 @@ impl Output {
     }
 }
 
-/// A piece of an output step that loads cut: (start, length).
-pub(super) type Piece = (f64, f64);
+/// A piece of an output step, as a step starts on it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Piece {
+    pub start: f64,
+    pub end: f64,
+    pub length: f64,
+    /// A load jumps at its start.
+    pub jump: bool,
+}
 
 /// One analysis, ready to go in a lane.
 #[derive(Debug)]
@@ -82,11 +91,12 @@ pub struct LaneSetup {
     pub(super) elements: Vec<usize>,
     /// Load of each channel over the modes.
     pub(super) forces: Vec<Vec<f64>>,
-    pub(super) tracks: Vec<Track>,
+    /// Track of each channel, of unit amplitude where it varies, and its amplitude.
+    pub(super) tracks: Vec<(Track, f64)>,
     pub(super) conservative: Vec<bool>,
     /// Table and amplitude of each channel that varies.
     pub(super) tables: Vec<Option<(Arc<Table>, f64)>>,
-    /// Output steps that loads cut.
+    /// Steps of output steps that are not steps of the grid.
     pub(super) cut: Vec<(usize, Vec<Piece>)>,
     pub(super) outputs: Vec<Output>,
     pub(super) q: Vec<f64>,
@@ -118,6 +128,9 @@ impl LaneSetup {
         self.shape == other.shape
     }
 }
+
+/// Longest ω Δt of a mode: a quarter of its period, in which a cubic misses its crest by a hundredth.
+const FASTEST: f64 = std::f64::consts::FRAC_PI_2;
 
 /// Modes, link coordinates and coordinates of one link at most.
 pub(super) const MOST: (usize, usize, usize) = (12, 12, 3);
@@ -193,22 +206,27 @@ pub fn prepare(
         space.links.row(a).for_each(|(j, c)| row[j] += c);
         *row = turned(&turn, row);
     }
-    let step = dt / substeps as f64;
+    let timeline = Timeline::new(dt, analysis.duration, &loads, substeps);
+    let parts = common_parts(&timeline);
+    let grid = Grid { dt, steps: timeline.steps, substeps: substeps * parts };
+    let step = dt / grid.substeps as f64;
     let rule: Vec<Mode> =
         omega2.iter().zip(&own).map(|(w, c)| single_mode::exact(*w, *c, step)).collect();
+    // Extremes between steps are those of cubics.
+    if omega2.iter().any(|w| w.max(0.0).sqrt() * step > FASTEST) {
+        return Ok(Err("modes too fast for the steps"));
+    }
     let engaged = links.engaged(model);
     let engaged: Vec<f64> = flat.iter().map(|i| engaged[*i]).collect();
     if stiffness_ratio(&rows, &rule, &engaged) > LONGEST {
         return Ok(Err("steps too long for the exact rule at the stiffest link"));
     }
-    let timeline = Timeline::new(dt, analysis.duration, &loads);
-    let grid = Grid { dt, steps: timeline.steps, substeps };
     let first = usize::from(loads.channels.iter().any(|c| matches!(c.track, Track::Constant)));
     let base: Vec<usize> = analysis.base.iter().map(|b| b.direction.index()).collect();
     let outputs = outputs(model, system, space, &flat, (loads.channels.len(), first, &base), &turn);
     let (mut values, mut rates) = (vec![0.0; outputs.len()], vec![0.0; outputs.len()]);
     let all = Outputs::new(model, system, space);
-    let now = all.at(0.0, &state, &loads);
+    let now = all.at((0.0, Side::After), &state, &loads);
     now.values(&mut values);
     now.rates(&values, &mut rates);
     let (kinetic, strain) = kinetic_and_strain(space, &state.motion);
@@ -233,7 +251,7 @@ pub fn prepare(
         forces: (0..space.forces.columns())
             .map(|j| turned(&turn, space.forces.column(j)))
             .collect(),
-        tracks: loads.channels.iter().map(|c| c.track.clone()).collect(),
+        tracks: loads.channels.iter().map(|c| split(&c.track)).collect(),
         conservative: loads.channels.iter().map(|c| c.conservative).collect(),
         tables: loads
             .channels
@@ -243,7 +261,7 @@ pub fn prepare(
                 _ => Some(tables.of(&c.track, grid)),
             })
             .collect(),
-        cut: cuts(&timeline),
+        cut: cuts(&timeline, &loads, substeps, parts),
         outputs,
         q: turned(&turn, &motion[..m]),
         p: turned(&turn, &motion[m..2 * m]),
@@ -369,23 +387,74 @@ pub fn fixed_substeps(analysis: &DynamicCase) -> Option<usize> {
     }
 }
 
-/// The output steps that are not one whole step.
-fn cuts(timeline: &Timeline) -> Vec<(usize, Vec<Piece>)> {
-    let whole = |length: f64| (length - timeline.dt).abs() <= 1e-9 * timeline.dt;
-    let mut cut: Vec<usize> = timeline
-        .breaks
-        .iter()
-        .map(|t| (t / timeline.dt).floor() as usize)
-        .flat_map(|step| [step.saturating_sub(1), step, step + 1])
-        .chain([timeline.steps - 1])
-        .filter(|step| *step < timeline.steps)
-        .collect();
-    cut.sort_unstable();
-    cut.dedup();
-    cut.into_iter()
-        .map(|step| (step, timeline.pieces(step).map(|p| (p.start, p.length)).collect::<Vec<_>>()))
-        .filter(|(_, pieces)| !matches!(pieces[..], [(_, length)] if whole(length)))
-        .collect()
+/// Parts of an output step are not made shorter than this for the sake of all of them.
+const MOST_PARTS: usize = 64;
+/// The grid follows what cuts one output step in so many.
+const USUAL: usize = 16;
+/// A change of a load below this share of its peak is no jump.
+const JUMPS: f64 = 1e-9;
+
+/// The equal parts of an output step that hold its pieces, unless they would be too many.
+fn parts(timeline: &Timeline, step: usize) -> Option<usize> {
+    let shares: Vec<f64> = timeline.pieces(step).map(|p| p.length / timeline.dt).collect();
+    if (shares.iter().sum::<f64>() - 1.0).abs() > 1e-9 {
+        return None;
+    }
+    let whole = |x: f64| (x - x.round()).abs() < 1e-9 * x;
+    (1..=MOST_PARTS).find(|n| shares.iter().all(|x| whole(x * *n as f64)))
+}
+
+/// Equal parts of every output step, such that few are cut otherwise: 1, unless loads cut many.
+fn common_parts(timeline: &Timeline) -> usize {
+    let mut found = [0_usize; MOST_PARTS + 1];
+    for step in timeline.cut_steps() {
+        parts(timeline, step).into_iter().for_each(|n| found[n] += 1);
+    }
+    let usual = |n: &usize| found[*n] * USUAL >= timeline.steps;
+    let common = |a: usize, b: usize| a / divisor(a, b) * b;
+    let all = (2..=MOST_PARTS).filter(usual).fold(1, common);
+    if all <= MOST_PARTS { all } else { 1 }
+}
+
+/// The greatest common divisor.
+fn divisor(a: usize, b: usize) -> usize {
+    if b == 0 { a } else { divisor(b, a % b) }
+}
+
+/// The output steps that are not so many whole parts, or between which a load jumps, with their steps.
+fn cuts(
+    timeline: &Timeline,
+    loads: &LoadSet,
+    substeps: usize,
+    common: usize,
+) -> Vec<(usize, Vec<Piece>)> {
+    let jumps = |t: f64| {
+        let jump = |c: &Channel| {
+            let change = c.track.at(t, Side::After) - c.track.at(t, Side::Before);
+            change.abs() > JUMPS * peak(&c.track)
+        };
+        t > 0.0 && timeline.is_jump(t) && loads.channels.iter().any(jump)
+    };
+    let steps = timeline.cut_steps();
+    let of_step = |step: usize| -> Vec<Piece> {
+        let pieces = timeline.pieces(step).flat_map(|piece| {
+            let jump = jumps(piece.start);
+            let parts = piece.parts(substeps).enumerate();
+            parts.map(move |(i, p)| Piece {
+                start: p.start,
+                end: p.end,
+                length: p.length,
+                jump: jump && i == 0,
+            })
+        });
+        pieces.collect()
+    };
+    let is_cut = |step: usize| {
+        let (start, end) = (timeline.time(step), timeline.time(step + 1));
+        let as_usual = parts(timeline, step).is_some_and(|n| common.is_multiple_of(n));
+        !as_usual || jumps(start) || jumps(end)
+    };
+    steps.into_iter().filter(|step| is_cut(*step)).map(|step| (step, of_step(step))).collect()
 }
 
 /// The outputs; `channels` are their number, the first that is base motion, and the directions of those.

@@ -1,6 +1,5 @@
 //! Outputs after a step.
 
-use super::coefficients::Rule;
 use super::outputs::Row;
 use super::peaks::TOGETHER;
 use super::plan::Plan;
@@ -8,17 +7,15 @@ use super::small::dot;
 use super::state::State;
 use trilith_element::lanes::{Arithmetic, Real};
 
-/// Extremes of the outputs after a step that began at `t`.
+/// Extremes of the outputs after a step: when it began, its length, and a third of that.
 #[inline(always)]
 pub(super) fn show<A: Arithmetic, const M: usize, const L: usize, const N: usize>(
     with: A,
     plan: &Plan<A::Real, M, L, N>,
-    rule: &Rule<A::Real, M, L>,
-    t: A::Real,
+    step: (A::Real, A::Real, A::Real),
     state: &mut State<A::Real, M, L, N>,
 ) {
     let zero = with.splat(0.0);
-    let step = (t, rule.dt, rule.third);
     for (rows, peaks) in plan.outputs.together.iter().zip(&mut state.peaks.together) {
         let (y, rate) = (displacements(rows, &state.q), displacements(rows, &state.p));
         peaks.advance(with, step, y, Some(rate));

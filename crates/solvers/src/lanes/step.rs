@@ -54,17 +54,27 @@ pub(super) fn take<R: Real, const M: usize, const L: usize, const N: usize>(
         (state.q[j], state.p[j], state.push[j]) = (q, p, push[j]);
     }
     if plan.accelerations {
-        for j in 0..M {
-            let source = loads.end[j] - push[j];
-            let held = (-plan.damping[j]).mul_add(state.p[j], source);
-            state.a[j] = (-plan.omega2[j]).mul_add(state.q[j], held);
-        }
+        acceleration(plan, &loads.end, state);
         state.amplitudes.copy_from_slice(&loads.amplitudes);
     }
     std::mem::swap(&mut state.history, &mut state.trial);
     (state.d, state.f, state.scale) = (found.d, found.f, found.scale);
     if plan.rate {
         state.v = found.v;
+    }
+}
+
+/// Accelerations under loads over the modes.
+#[inline(always)]
+pub(super) fn acceleration<R: Real, const M: usize, const L: usize, const N: usize>(
+    plan: &Plan<R, M, L, N>,
+    load: &Aligned<[R; M]>,
+    state: &mut State<R, M, L, N>,
+) {
+    for j in 0..M {
+        let source = load[j] - state.push[j];
+        let held = (-plan.damping[j]).mul_add(state.p[j], source);
+        state.a[j] = (-plan.omega2[j]).mul_add(state.q[j], held);
     }
 }
 
@@ -124,6 +134,6 @@ pub(super) fn account<A: Arithmetic, const M: usize, const L: usize, const N: us
     }
     state.largest = largest;
     state.count = state.count + with.splat(1.0);
-    show(with, plan, rule, passed.t, state);
+    show(with, plan, (passed.t, rule.dt, rule.third), state);
     state.feet.enter(&state.steps, &plan.feet);
 }

@@ -61,7 +61,7 @@ fn unit(function: &TimeFunction) -> (TimeFunction, f64) {
 }
 
 /// A track of unit factor and amplitude, and their product.
-fn split(track: &Track) -> (Track, f64) {
+pub(super) fn split(track: &Track) -> (Track, f64) {
     let part = |function: &TimeFunction, factor: f64| {
         let (function, amplitude) = unit(function);
         (function, amplitude * factor)

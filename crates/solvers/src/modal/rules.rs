@@ -13,6 +13,7 @@ use crate::single_mode;
 use trilith_linalg::{Dense, DenseLu, OwnModes, add_products, combine, dot, expm, weighted_square};
 
 /// The linear structure on a basis: modes first, static shapes (without mass) behind them.
+#[derive(Clone)]
 pub(super) struct Structure {
     /// Number of modes.
     pub modes: usize,

@@ -1,5 +1,6 @@
 //! One motion among several.
 
+use crate::dynamic::jump;
 use crate::ledger::Ledger;
 use crate::link_side::LinkSide;
 use crate::march::Pace;
@@ -7,9 +8,8 @@ use crate::modal::{Modes, Sources};
 use crate::space::Space;
 use crate::start::potential;
 use crate::stepper::{State, StepEnergy};
-use crate::timeline::Timeline;
+use crate::timeline::{Piece, Timeline};
 use crate::view::Viewer;
-use trilith_model::Side;
 use trilith_system::{LoadSet, StepLoads};
 
 /// One motion, its link side, its books and who watches it.
@@ -36,6 +36,8 @@ pub(crate) struct Course<'a, 'b> {
     energy: StepEnergy,
     step_loads: StepLoads,
     settled: bool,
+    /// Pieces of the output step under way.
+    pieces: Vec<Piece>,
     /// End of the step under way, s.
     at: f64,
 }
@@ -67,6 +69,7 @@ impl<'a, 'b> Course<'a, 'b> {
             energy: StepEnergy::default(),
             step_loads: StepLoads::default(),
             settled: false,
+            pieces: Vec::new(),
             at: 0.0,
         }
     }
@@ -91,26 +94,28 @@ impl<'a, 'b> Course<'a, 'b> {
         self.viewer.end(&self.state, &self.ledger);
     }
 
-    /// Length of the output step under way.
-    pub(super) fn length(&self) -> Option<f64> {
-        self.timeline.pieces(self.made).next().map(|piece| piece.length)
+    /// Lengths of the pieces of the output step under way.
+    pub(super) fn lengths(&self) -> Vec<f64> {
+        self.timeline.pieces(self.made).map(|piece| piece.length).collect()
     }
 
-    /// An output step starts: a load may jump there. A step that holds a jump inside leaves the others.
-    pub(crate) fn set_out(&mut self, modes: &Modes) {
-        let mut pieces = self.timeline.pieces(self.made);
-        let start = pieces.next().map_or(0.0, |piece| piece.start);
-        if pieces.next().is_some() {
-            self.left = true;
-            return;
-        }
-        if start > 0.0 && self.timeline.is_break(start) {
+    /// An output step starts. One that loads cut otherwise than that of the others leaves them.
+    pub(super) fn set_out(&mut self, lengths: &[f64]) {
+        self.pieces.clear();
+        self.pieces.extend(self.timeline.pieces(self.made));
+        let same = self.pieces.iter().map(|piece| &piece.length).eq(lengths);
+        self.left = !same;
+    }
+
+    /// A piece of the output step starts: a load may jump there.
+    pub(crate) fn set_off(&mut self, piece: usize, modes: &Modes) {
+        let start = self.pieces[piece].start;
+        if start > 0.0 && self.timeline.is_jump(start) {
             self.step_loads.cut();
-            let channels = self.loads.channels.iter();
-            let change: Vec<f64> = channels
-                .map(|c| c.track.at(start, Side::After) - c.track.at(start, Side::Before))
-                .collect();
-            modes.jump(&mut self.state.motion, &change);
+            if let Some(change) = jump(self.loads, start) {
+                modes.jump(&mut self.state.motion, &change);
+                self.viewer.show_behind(start, &self.state, &self.ledger);
+            }
         }
     }
 
@@ -122,10 +127,9 @@ impl<'a, 'b> Course<'a, 'b> {
         self.fallen = self.viewer.overturned(&self.state);
     }
 
-    /// Takes up one part of so many of the output step.
-    pub(super) fn begin(&mut self, space: &Space, part: usize, of: usize) {
-        let whole = self.timeline.pieces(self.made).next();
-        let part = whole.and_then(|whole| whole.parts(of).nth(part));
+    /// Takes up one part of so many of a piece of the output step.
+    pub(super) fn begin(&mut self, space: &Space, piece: usize, part: usize, of: usize) {
+        let part = self.pieces[piece].parts(of).nth(part);
         let (t0, t1) = part.map_or((self.at, self.at), |part| (part.start, part.end));
         self.loads.step(t0, t1, &mut self.step_loads);
         self.side.begin(space, &self.state, &mut self.next, &self.step_loads, &mut self.energy);

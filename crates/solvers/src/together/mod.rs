@@ -9,6 +9,8 @@ mod course;
 
 use crate::case::{EndState, RunOptions, before, run};
 use crate::clock::{Clock, peak_rss_mb};
+use crate::damping::modal_damping;
+use crate::drag::follow_supports;
 use crate::dynamic::{Arrival, bases, held_load, link_side, modes};
 use crate::error::SolveError;
 use crate::modal::{LONGEST, Modal, Modes};
@@ -141,7 +143,15 @@ fn march<O: Observer>(
     let Some(bases) = bases(model, system, analysis, SolverKind::Fna, loads, initial, false)? else {
         return Ok(none());
     };
-    let mut modes = modes(model, system, loads, &bases);
+    // What the supports drag along is known with the modes.
+    let damping = modal_damping(model, system, &bases);
+    let mut dragged = Vec::new();
+    for Entrant { member: Member { model, system }, loads, .. } in group {
+        let mut loads = loads.clone();
+        follow_supports(model, system, damping.as_ref(), true, &mut loads)?;
+        dragged.push(loads);
+    }
+    let mut modes = modes(model, system, &dragged[0], &bases);
     let dt = analysis.dt;
     // Stiff links choose their rule step by step, each motion its own.
     if modes.ratio(dt / substeps as f64) > LONGEST {
@@ -150,9 +160,8 @@ fn march<O: Observer>(
     let mut watchers: Vec<[&mut dyn Observer; 1]> =
         observers.iter_mut().map(|o| [o as &mut dyn Observer]).collect();
     let mut courses = Vec::new();
-    for (entrant, watcher) in group.iter().zip(&mut watchers) {
-        let Entrant { member: Member { model, system }, loads, before, initial, analysis, .. } =
-            entrant;
+    for ((entrant, loads), watcher) in group.iter().zip(&dragged).zip(&mut watchers) {
+        let Entrant { member: Member { model, system }, before, initial, analysis, .. } = entrant;
         let watched = looks_at_rates(model, system, watcher.iter().any(|o| o.wants_rates()));
         let order = modes.space.order();
         let side = link_side(model, system, &analysis.solution, loads, order, watched);
@@ -161,8 +170,9 @@ fn march<O: Observer>(
             start(model, system, initial, before.clone(), loads, &mut stepper, dt)?;
         let (modal, side) = stepper.into_parts();
         modes = modal.into_modes();
-        let viewer = Viewer::new(model, system, loads, &modes.space, watcher);
-        let timeline = Timeline::new(dt, analysis.duration, loads);
+        let mut viewer = Viewer::new(model, system, loads, &modes.space, watcher);
+        viewer.look_inside(Some(modes.closed_form()), dt, Vec::new());
+        let timeline = Timeline::new(dt, analysis.duration, loads, substeps);
         let mut course =
             Course::new(&modes.space, side, loads, timeline, (state, pace, ledger), viewer);
         course.show_start();
@@ -170,12 +180,15 @@ fn march<O: Observer>(
     }
     let setup_cpu = clock.cpu();
     while courses.iter().any(Course::is_on_the_way) {
-        courses.iter_mut().filter(|c| c.is_on_the_way()).for_each(|c| c.set_out(&modes));
-        let mut going = courses.iter().filter(|c| c.is_on_the_way());
-        let Some(length) = going.find_map(Course::length) else { break };
-        let part = length / substeps as f64;
-        for index in 0..substeps {
-            step(&mut modes, &mut courses, (index, substeps), part);
+        let lengths = common(&courses);
+        courses.iter_mut().filter(|c| c.is_on_the_way()).for_each(|c| c.set_out(&lengths));
+        for (piece, length) in lengths.into_iter().enumerate() {
+            let going = courses.iter_mut().filter(|c| c.is_on_the_way());
+            going.for_each(|c| c.set_off(piece, &modes));
+            let part = length / substeps as f64;
+            for index in 0..substeps {
+                step(&mut modes, &mut courses, piece, (index, substeps), part);
+            }
         }
         courses.iter_mut().filter(|c| c.is_on_the_way()).for_each(|c| c.arrive());
     }
@@ -206,6 +219,7 @@ fn march<O: Observer>(
             constant: entrant.constant.clone(),
             initial: entrant.initial.clone(),
             fallen: course.fallen,
+            largest: course.viewer.largest(),
         };
         let (case, kind) = (entrant.case, SolverKind::Fna);
         let mut result = arrival.result(model, system, case, kind, &modes.space, memory, work);
@@ -215,14 +229,29 @@ fn march<O: Observer>(
     Ok(courses.into_iter().zip(group).map(result).collect())
 }
 
-/// One step of all courses that are on the way: a part of so many of their output step, over `dt`.
+/// Lengths of the pieces of the next output step that most of the courses on the way have in common, the first of
+/// them where several are as many.
+fn common(courses: &[Course<'_, '_>]) -> Vec<f64> {
+    let going = courses.iter().filter(|c| c.is_on_the_way());
+    let all: Vec<Vec<f64>> = going.map(Course::lengths).collect();
+    let count = |lengths: &Vec<f64>| all.iter().filter(|other| *other == lengths).count();
+    all.iter().rev().max_by_key(|lengths| count(lengths)).cloned().unwrap_or_default()
+}
+
+/// One step of all courses that are on the way: a part of so many of a piece of their output step, over `dt`.
 /// A course whose links find no equilibrium leaves the others.
-fn step(modes: &mut Modes, courses: &mut [Course<'_, '_>], (part, of): (usize, usize), dt: f64) {
+fn step(
+    modes: &mut Modes,
+    courses: &mut [Course<'_, '_>],
+    piece: usize,
+    (part, of): (usize, usize),
+    dt: f64,
+) {
     modes.prepare(StepKey { dt, average: 0 });
     let modes = &*modes;
     let mut going: Vec<&mut Course<'_, '_>> =
         courses.iter_mut().filter(|c| c.is_on_the_way()).collect();
-    going.iter_mut().for_each(|c| c.begin(&modes.space, part, of));
+    going.iter_mut().for_each(|c| c.begin(&modes.space, piece, part, of));
     let mut pairs: Vec<_> = going.iter_mut().filter_map(|c| c.spread_start()).collect();
     modes.space.links.spread_each(&mut pairs);
     going.iter_mut().for_each(|c| c.predict(modes));

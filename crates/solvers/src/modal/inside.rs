@@ -1,0 +1,98 @@
+//! The motion of modes inside a step of the exact rule.
+
+use super::Modes;
+use super::rules::{Rule, Structure};
+
+/// The closed form of FNA over a step, taken from the motions at its ends alone: with loads and link forces linear
+/// in the step, what drives a mode is known at both ends from q̈ + D q̇ + Ω² q.
+pub(crate) struct ClosedForm {
+    structure: Structure,
+    /// ω of the modes, rad/s.
+    pub omega: Vec<f64>,
+    /// The rule of the length used last.
+    rule: Option<(f64, Rule)>,
+}
+
+/// Difference between the closed form and a step that was made otherwise, as a share of the motion.
+const OTHERWISE: f64 = 1e-6;
+
+impl Modes {
+    pub(crate) fn closed_form(&self) -> ClosedForm {
+        let structure = self.structure.clone();
+        let omega = structure.omega2[..structure.modes].iter().map(|w| w.max(0.0).sqrt()).collect();
+        ClosedForm { structure, omega, rule: None }
+    }
+}
+
+impl ClosedForm {
+    /// What drives the modes: s = q̈ + D q̇ + Ω² q.
+    fn source(&self, motion: &[f64]) -> Vec<f64> {
+        let n = self.structure.omega2.len();
+        let mut s = vec![0.0; n];
+        self.structure.acceleration(&vec![0.0; n], &motion[..n], &motion[n..2 * n], &mut s);
+        let modes = self.structure.modes;
+        for (s, a) in s.iter_mut().zip(&motion[2 * n..]).take(modes) {
+            *s = a - *s;
+        }
+        for j in modes..n {
+            s[j] = self.structure.rates[j] * motion[n + j] + motion[j];
+        }
+        s
+    }
+
+    /// Amplitudes with which the modes swing about what the loads move slowly, from a step of this length.
+    pub(crate) fn swing(&self, from: &[f64], to: &[f64], length: f64) -> impl Iterator<Item = f64> {
+        let n = self.structure.omega2.len();
+        let (s0, s1) = (self.source(from), self.source(to));
+        let swing = move |(j, w): (usize, &f64)| {
+            if *w == 0.0 {
+                return 0.0;
+            }
+            let w2 = w * w;
+            let (q, v) = (from[j] - s0[j] / w2, from[n + j] - (s1[j] - s0[j]) / (length * w2));
+            q.hypot(v / w)
+        };
+        self.omega.iter().enumerate().map(swing).collect::<Vec<_>>().into_iter()
+    }
+
+    /// The motions at the ends of all but the last of so many equal parts of a step; none where the step was made by
+    /// another rule.
+    pub(crate) fn inside(
+        &mut self,
+        from: &[f64],
+        to: &[f64],
+        length: f64,
+        parts: usize,
+    ) -> Vec<Vec<f64>> {
+        let n = self.structure.omega2.len();
+        let part = length / parts as f64;
+        let (s0, s1) = (self.source(from), self.source(to));
+        let made = self.rule.take().filter(|(known, _)| *known == part);
+        let (_, rule) = made.unwrap_or_else(|| (part, Rule::exact(&self.structure, part)));
+        let at = |i: usize| -> Vec<f64> {
+            let share = i as f64 / parts as f64;
+            s0.iter().zip(&s1).map(|(a, b)| a + share * (b - a)).collect()
+        };
+        let mut all = vec![from.to_vec()];
+        for i in 1..=parts {
+            let (before, source0, source1) = (&all[i - 1], at(i - 1), at(i));
+            let mut motion = vec![0.0; 3 * n];
+            let (q, rest) = motion.split_at_mut(n);
+            let (v, a) = rest.split_at_mut(n);
+            let inputs = [&before[..n], &before[n..2 * n], &source0[..], &source1[..]];
+            rule.apply(1, inputs, q);
+            rule.apply(2, inputs, v);
+            self.structure.acceleration(&source1, q, v, a);
+            all.push(motion);
+        }
+        self.rule = Some((part, rule));
+        let end = all.pop().unwrap_or_default();
+        let square = |x: &[f64]| x.iter().map(|x| x * x).sum::<f64>();
+        let agree = |j: usize| {
+            let most = all.iter().map(|m| square(&m[j..j + n])).fold(0.0, f64::max);
+            let off: Vec<f64> = (j..j + n).map(|i| end[i] - to[i]).collect();
+            square(&off) <= OTHERWISE * OTHERWISE * most
+        };
+        if agree(0) && agree(n) { all.split_off(1) } else { Vec::new() }
+    }
+}
