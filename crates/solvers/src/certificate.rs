@@ -22,7 +22,7 @@ use crate::propagator::{Motion, StepKey};
 use crate::space::Space;
 use crate::stepper::State;
 use serde::Serialize;
-use trilith_model::Model;
+use trilith_model::{Model, Side};
 use trilith_system::{LinkBlocks, LoadSet, StepLoads, System};
 
 /// Step sizes that differ by less than this share are one.
@@ -154,7 +154,7 @@ impl<'a> Shadow<'a> {
         self.blocks.add_change(&state.tangents.c, [&state.v, &v], &mut self.state.f);
         (self.state.d, self.state.v) = (d, v);
         self.state.motion.clone_from(&self.motion);
-        self.outputs.at(self.t, &self.state, self.loads).values(&mut self.values);
+        self.outputs.at((self.t, Side::Before), &self.state, self.loads).values(&mut self.values);
         for (error, (a, b)) in errors.iter_mut().zip(self.values.iter().zip(values)) {
             let off = BEYOND * (a - b).abs();
             if off > *error {
@@ -203,7 +203,7 @@ impl<'a> Certificate<'a> {
 
     /// Takes note of the outputs at an output time.
     pub(crate) fn look(&mut self, t: f64, state: &State) {
-        self.outputs.at(t, state, self.loads).values(&mut self.values);
+        self.outputs.at((t, Side::Before), state, self.loads).values(&mut self.values);
         for ([least, most], x) in self.range.iter_mut().zip(&self.values) {
             (*least, *most) = (least.min(*x), most.max(*x));
         }

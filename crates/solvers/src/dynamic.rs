@@ -325,6 +325,7 @@ impl Arrival<'_> {
             velocity: space.expand(&state.motion[n..2 * n]),
             load: constant,
             initial,
+            vectors: None,
             pace,
             memory,
             ledger,
