@@ -195,7 +195,9 @@ fn extremes_inside_long_steps_are_those_of_the_motion() {
                 let (found, _) = peaks(dt, step);
                 for (i, (a, b)) in found.iter().zip(&fine).enumerate() {
                     let allowed = if i == 2 { 0.06 } else { 0.004 } * b.magnitude();
-                    let off = (a.max - b.max).abs().max((a.min - b.min).abs());
+                    // A norm has an edge where it is smallest, which no samples find.
+                    let lower = if i == 4 { 0.0 } else { (a.min - b.min).abs() };
+                    let off = (a.max - b.max).abs().max(lower);
                     assert!(off < allowed, "{damping} {dt} {step:?} {i}: {a:?} {b:?}");
                 }
             }

@@ -45,11 +45,14 @@ fn a_loaded_place_without_mass_moves_as_its_spring_says() {
         let (t, _) = trace(&model, &system, solver);
         assert!((t.last[1] - 0.01 + 5.0 * 0.1 / 1e4).abs() < 1e-7, "{}", t.last[1]);
     }
-    // A dashpot from the massless place to the ground couples it with the mass: FNA has no shape for it
-    // and says so.
+    // A dashpot from the massless place to the ground takes c u̇ of the force, u̇ = 2 ḟ/k, and ties it to the mass.
     let (model, system) = parse(text, &[("ground", "5".into())]);
-    let (_, result) = trace(&model, &system, SolverKind::Fna);
-    assert!(result.warnings.iter().any(|w| w.contains("static response")), "{:?}", result.warnings);
+    for solver in SolverKind::ALL {
+        let (t, result) = trace(&model, &system, solver);
+        assert!(result.warnings.is_empty(), "{:?}", result.warnings);
+        let expected = (1.0 - 5.0 * 0.002) / 100.0;
+        assert!((t.last[1] - expected).abs() < 2e-6, "{}: {}", solver.name(), t.last[1]);
+    }
 }
 
 /// A damper behind a brace, shaken; the joint between them has no mass.
@@ -100,5 +103,103 @@ fn a_damper_behind_a_brace_works_under_every_solver() {
             let brace = t.peak(output(&model, "brace"));
             assert!(brace > 5e-3, "the brace deforms: {brace}");
         }
+    }
+}
+
+/// A mass on a spring, shaken, beside two things in a row without mass between them.
+fn in_a_row(first: &str, second: &str) -> String {
+    format!(
+        r#"(
+        nodes: {{ "m": (0, 0, 0), "j": (1, 0, 0), "w": (2, 0, 0) }},
+        supports: {{ "m": (Uy, Uz, Rx, Ry, Rz), "j": (Uy, Uz, Rx, Ry, Rz), "w": Fixed }},
+        elements: {{
+            "spring": Spring(node: "m", k2: 4e5), "mass": Mass(node: "m", mass: "10 t"),
+            "first": {first}, "second": {second},
+        }},
+        functions: {{ "a": Sine(amplitude: "1 m/s^2", frequency: "1 Hz", cycles: 5) }},
+        cases: {{ "shake": Dynamic(duration: "6 s", dt: "5 ms", base: [(direction: X, function: "a")]) }},
+        outputs: {{
+            "u": Displacement(node: "m", dof: Ux), "joint": Displacement(node: "j", dof: Ux),
+        }},
+    )"#
+    )
+}
+
+/// ẍ = −a − (k x + F)/m by Runge and Kutta, F of the row; the joint by its own equation.
+fn shaken(rate: impl Fn(f64, f64, f64) -> [f64; 2]) -> [f64; 2] {
+    let acceleration = |t: f64| if t < 5.0 { (std::f64::consts::TAU * t).sin() } else { 0.0 };
+    // The state is x, ẋ, joint; the row gives its force and the rate of the joint.
+    let all = |t: f64, [x, v, y]: [f64; 3]| {
+        let [force, joint] = rate(x, v, y);
+        [v, -acceleration(t) - (4e5 * x + force) / 1e4, joint]
+    };
+    let (mut s, h) = ([0.0; 3], 1e-4);
+    let mut most = [0.0f64; 2];
+    for i in 0..60_000 {
+        let t = h * f64::from(i);
+        let at = |k: [f64; 3], part: f64| std::array::from_fn(|i| s[i] + part * h * k[i]);
+        let k1 = all(t, s);
+        let k2 = all(t + 0.5 * h, at(k1, 0.5));
+        let k3 = all(t + 0.5 * h, at(k2, 0.5));
+        let k4 = all(t + h, at(k3, 1.0));
+        s = std::array::from_fn(|i| s[i] + h / 6.0 * (k1[i] + 2.0 * (k2[i] + k3[i]) + k4[i]));
+        most = [most[0].max(s[0].abs()), most[1].max(s[2].abs())];
+    }
+    most
+}
+
+/// What ties a joint without mass to the structure, a spring, a dashpot or a link, is an unknown of its own order
+/// under every solver.
+#[test]
+fn joints_of_springs_and_dashpots_are_those_of_their_equations() {
+    let brace = r#"Spring(nodes: ("m", "j"), k1: 1e6)"#;
+    let (near, far) =
+        (r#"Spring(nodes: ("m", "j"), c1: 8e4)"#, r#"Spring(nodes: ("j", "w"), c1: 8e4)"#);
+    let cases = [
+        // k (x − y) = c ẏ
+        (in_a_row(brace, far), shaken(|x, _, y| [1e6 * (x - y), 1e6 * (x - y) / 8e4])),
+        // Two dashpots, nothing else at the joint: half the rate each.
+        (in_a_row(near, far), shaken(|_, v, _| [4e4 * v, 0.5 * v])),
+    ];
+    for (text, expected) in cases {
+        let (model, system) = parse(&text, &[]);
+        for solver in SolverKind::ALL {
+            let (t, result) = trace(&model, &system, solver);
+            assert_eq!(result.status, Status::Converged);
+            assert!(result.warnings.is_empty(), "{:?}", result.warnings);
+            for (i, most) in expected.iter().enumerate() {
+                let off = t.peak(i) / most - 1.0;
+                assert!(off.abs() < 1e-3, "{} output {i}: {off}", solver.name());
+            }
+        }
+    }
+}
+
+/// Links alone hold the joint: both carry the force of the weaker one.
+#[test]
+fn links_in_a_row_carry_one_force() {
+    let link = |nodes: &str, fy: &str| {
+        format!(r#"Wen(nodes: {nodes}, axis: U1, k: "400 kN/m", fy: "{fy}", ratio: 0.05)"#)
+    };
+    let text = in_a_row(&link(r#"("m", "j")"#, "500 N"), &link(r#"("j", "w")"#, "100 kN"));
+    let text = text.replace(
+        r#""u": Displ"#,
+        r#""f": LinkForce(link: "first", axis: U1), "g": LinkForce(link: "second", axis: U1), "u": Displ"#,
+    );
+    let (model, system) = parse(&text, &[]);
+    let runs: Vec<_> = SolverKind::ALL
+        .iter()
+        .map(|solver| {
+            let (t, result) = trace(&model, &system, *solver);
+            assert_eq!(result.status, Status::Converged);
+            assert!(result.warnings.is_empty(), "{:?}", result.warnings);
+            let apart = t.history.iter().map(|h| (h[0] - h[1]).abs()).fold(0.0, f64::max);
+            assert!(apart < 1e-6 * t.peak(0), "{}: {apart}", solver.name());
+            t
+        })
+        .collect();
+    for t in &runs {
+        assert!((t.peak(2) / runs[1].peak(2) - 1.0).abs() < 1e-3);
+        assert!(t.peak(0) > 500.0);
     }
 }

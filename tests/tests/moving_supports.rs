@@ -48,7 +48,7 @@ fn model(damping: &str, moved: Option<[f64; 2]>) -> (Model, System) {
         }},
         functions: {{
             "d": Ricker(amplitude: "{AMPLITUDE} m", frequency: 1, center: 1.5),
-            "a": Points(points: [{}], unit: "m/s^2"),
+            "a": Points(points: [{}]),
         }},
         cases: {{ "move": Dynamic(duration: {DURATION}, dt: 0.002, step: Adaptive(tolerance: 1e-6), {case}) }},
         outputs: {{ "a": Displacement(node: "a", dof: Ux), "b": Displacement(node: "b", dof: Ux) }},

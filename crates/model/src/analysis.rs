@@ -213,13 +213,7 @@ pub struct Basis {
 
 impl Default for Basis {
     fn default() -> Self {
-        Self {
-            kind: BasisKind::Ritz,
-            vectors: None,
-            adequacy: 0.99,
-            tolerance: 0.02,
-            enrich: true,
-        }
+        Self { kind: BasisKind::Ritz, vectors: None, adequacy: 0.99, tolerance: 0.02, enrich: true }
     }
 }
 

@@ -54,8 +54,9 @@ pub(crate) struct Apart {
     pub energy: f64,
     /// Displacements.
     pub way: Way,
-    /// Largest difference of link forces over the largest force of the kind so far.
-    pub force: f64,
+    /// Largest difference of link forces, and the largest forces so far.
+    pub force: ForceScale,
+    pub forces: ForceScale,
 }
 
 /// The displacements of a state, or how far they are from those of another.
@@ -102,9 +103,17 @@ pub(crate) fn apart(
         let of = &mut force[usize::from(*rotational)];
         *of = larger(*of, change);
     }
-    // The largest forces so far hold those of this step.
-    let shares = force.iter().zip(a.scale).zip(b.scale);
-    let shares = shares.filter(|((x, _), _)| **x > 0.0).map(|((x, a), b)| x / larger(a, b));
     let energy = kinetic.abs() + strain.abs() + 0.5 * of_links;
-    Apart { energy, way, force: shares.fold(0.0, larger) }
+    // The largest forces so far hold those of this step.
+    let forces = [0, 1].map(|kind| larger(a.scale[kind], b.scale[kind]));
+    Apart { energy, way, force, forces }
+}
+
+impl Apart {
+    /// Largest difference of link forces over the largest force of the kind so far, which counts as so much at least.
+    pub(crate) fn share_of_force(&self, least: &ForceScale) -> f64 {
+        let kinds = (0..2).filter(|kind| self.force[*kind] > 0.0);
+        let share = |kind: usize| self.force[kind] / larger(self.forces[kind], least[kind]);
+        kinds.map(share).fold(0.0, larger)
+    }
 }

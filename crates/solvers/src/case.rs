@@ -1,7 +1,7 @@
 //! Cases: static ones, dynamic ones, and chains of them.
 
-use crate::basis::Demands;
 use crate::Peak;
+use crate::basis::Demands;
 use crate::clock::{Clock, peak_rss_mb};
 use crate::contact_mode::ContactMemory;
 use crate::dynamic::{self, Setup};

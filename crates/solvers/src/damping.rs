@@ -82,11 +82,7 @@ impl ModalDamping {
 }
 
 /// The damping of the structure, where the model states modal damping.
-pub(crate) fn modal_damping(
-    model: &Model,
-    system: &System,
-    bases: &Bases,
-) -> Option<ModalDamping> {
+pub(crate) fn modal_damping(model: &Model, system: &System, bases: &Bases) -> Option<ModalDamping> {
     let modes = &bases.structural;
     let rates: Vec<f64> = modes
         .omega2

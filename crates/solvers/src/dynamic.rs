@@ -390,12 +390,7 @@ pub(crate) fn bases(
 }
 
 /// The structure of FNA on its basis.
-pub(crate) fn modes(
-    model: &Model,
-    system: &System,
-    loads: &LoadSet,
-    bases: &Bases,
-) -> Modes {
+pub(crate) fn modes(model: &Model, system: &System, loads: &LoadSet, bases: &Bases) -> Modes {
     let links = &system.links;
     let engaged = links.engaged(model);
     let engaged = links.active.iter().map(|i| engaged[*i]).collect();

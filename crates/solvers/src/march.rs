@@ -30,6 +30,7 @@
 
 use crate::apart::Way;
 use crate::error::SolveError;
+use crate::kernel::ForceScale;
 use crate::stepper::{State, StepEnergy, StepFailure, Stepper};
 use crate::timeline::Piece;
 use crate::vector::larger;
@@ -65,6 +66,8 @@ pub(crate) struct Pace {
     pub reference: f64,
     /// Largest displacements so far.
     pub reached: Way,
+    /// Forces that count beside the loads: of translations and of rotations, N and N·m.
+    pub push: ForceScale,
 }
 
 /// Counts.
@@ -276,7 +279,8 @@ impl<'a> March<'a> {
             // No step is short enough to bring it below what rounding leaves.
             allowed += ROUNDING * self.stepper.rounding(second);
         }
-        let of_links = larger(tolerance * missing / allowed, apart.force * apart.force);
+        let force = apart.share_of_force(&pace.push);
+        let of_links = larger(tolerance * missing / allowed, force * force);
         // What is not a number stays so.
         let error = if share.is_nan() { share } else { larger(share, of_links) };
         Measured {

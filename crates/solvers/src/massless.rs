@@ -137,13 +137,7 @@ impl StaticShapes {
 
     fn none(order: usize) -> Self {
         let empty = || Dense::zeros(order, 0);
-        Self {
-            psi: empty(),
-            tied: 0,
-            stiffness: Vec::new(),
-            damping: Vec::new(),
-            readers: empty(),
-        }
+        Self { psi: empty(), tied: 0, stiffness: Vec::new(), damping: Vec::new(), readers: empty() }
     }
 
     pub(crate) fn len(&self) -> usize {

@@ -390,7 +390,6 @@ impl Modes {
         let step = self.start(from, loads);
         if let Some(modes) = rule.own() {
             modes.complete(&step, &mut now.sources, to, &mut now.sums);
-            self.go_on(from, to);
             return self.settle_on(from, to);
         }
         let n = self.space.order();

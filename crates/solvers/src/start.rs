@@ -17,6 +17,9 @@ use trilith_system::{LoadSet, System, Track};
 /// Share of the energy that stands in springs at the start which counts as motion: rounding moves as much.
 const RESTS: f64 = 1e-6;
 
+/// Forces of links below this share of the loads are not looked at from near.
+const FORCE: f64 = 1e-3;
+
 /// State, pace, ledger, and the output step it belongs to.
 pub(crate) type Start = (State, Pace, Ledger, usize);
 
@@ -109,7 +112,9 @@ pub(crate) fn start(
     let translation = far / mass.sqrt();
     let mut reached = Way { motion: far, deformation: [translation, translation / extent(model)] };
     reached.reach(&stepper.way(&state, None));
-    Ok((state, Pace { level: 0, reference, reached }, ledger, 0))
+    let least = FORCE * push;
+    let push = [least, least * extent(model)];
+    Ok((state, Pace { level: 0, reference, reached, push }, ledger, 0))
 }
 
 /// Largest extent of a model along an axis, m; 1 m for a point.

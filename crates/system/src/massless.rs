@@ -51,11 +51,8 @@ impl Massless {
         let mut directions = Vec::new();
         for own in members.iter().filter(|own| !own.is_empty()) {
             // A zero on the diagonal of M, which is semi-definite, is a row of zeros.
-            directions.extend(
-                own.iter().filter(|i| diagonal[**i] <= 0.0).map(|i| vec![(*i, 1.0)]),
-            );
-            let heavy: Vec<usize> =
-                own.iter().copied().filter(|i| diagonal[*i] > 0.0).collect();
+            directions.extend(own.iter().filter(|i| diagonal[**i] <= 0.0).map(|i| vec![(*i, 1.0)]));
+            let heavy: Vec<usize> = own.iter().copied().filter(|i| diagonal[*i] > 0.0).collect();
             if heavy.len() > 1 && heavy.len() <= LARGEST_BLOCK {
                 directions.extend(of_block(mass, &heavy, &diagonal)?);
             }

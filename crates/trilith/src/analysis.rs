@@ -111,7 +111,9 @@ impl<'m> Analysis<'m> {
             let basis = run.result.basis.as_ref().filter(|_| may);
             let (Status::Inadequate { .. }, Some(basis)) = (&run.result.status, basis) else {
                 if let Some(n) = vectors.filter(|_| round > 0) {
-                    let text = format!("the basis was enlarged to {n} vectors by itself: with fewer, outputs were off by more than allowed");
+                    let text = format!(
+                        "the basis was enlarged to {n} vectors by itself: with fewer, outputs were off by more than allowed"
+                    );
                     run.result.warnings.push(text);
                 }
                 return Ok(run);

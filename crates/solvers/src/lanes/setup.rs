@@ -161,7 +161,8 @@ pub fn prepare(
     let constant = held_load(model, system, analysis, before.as_ref());
     let loads = system.dynamic_loads(model, analysis, constant);
     let initial = Initial::new(model, system, analysis, before.as_ref())?;
-    let Some(bases) = bases(model, system, analysis, SolverKind::Fna, &loads, &initial, false)? else {
+    let Some(bases) = bases(model, system, analysis, SolverKind::Fna, &loads, &initial, false)?
+    else {
         return Ok(Err("no basis"));
     };
     let modes = modes(model, system, &loads, &bases);

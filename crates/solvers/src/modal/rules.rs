@@ -401,8 +401,9 @@ mod tests {
             let k2 = rate(t + 0.5 * h, add(x, k1, 0.5 * h));
             let k3 = rate(t + 0.5 * h, add(x, k2, 0.5 * h));
             let k4 = rate(t + h, add(x, k3, h));
-            let y: [f64; 3] =
-                std::array::from_fn(|i| x[i] + h / 6.0 * (k1[i] + 2.0 * k2[i] + 2.0 * k3[i] + k4[i]));
+            let y: [f64; 3] = std::array::from_fn(|i| {
+                x[i] + h / 6.0 * (k1[i] + 2.0 * k2[i] + 2.0 * k3[i] + k4[i])
+            });
             sum[0] += 0.5 * h * (x[0] + y[0]);
             sum[1] += 0.5 * h * (x[2] + y[2]);
             x = y;
@@ -415,7 +416,12 @@ mod tests {
         let [integral, q, v] = system.exact(dt);
         let expected = [x[0], x[2], x[1], rate(dt, x)[2], sum[0], sum[1]];
         let found = [
-            apply(&q, 0), apply(&q, 1), apply(&v, 0), apply(&v, 1), apply(&integral, 0), apply(&integral, 1),
+            apply(&q, 0),
+            apply(&q, 1),
+            apply(&v, 0),
+            apply(&v, 1),
+            apply(&integral, 0),
+            apply(&integral, 1),
         ];
         for (a, b) in found.iter().zip(expected) {
             assert!((a - b).abs() < 1e-8, "{found:?} {expected:?}");

@@ -140,7 +140,8 @@ fn march<O: Observer>(
     let Some(lead) = group.first() else { return Ok(Vec::new()) };
     let Entrant { member: Member { model, system }, analysis, loads, initial, .. } = lead;
     let StepControl::Fixed { substeps } = analysis.solution.step else { return Ok(none()) };
-    let Some(bases) = bases(model, system, analysis, SolverKind::Fna, loads, initial, false)? else {
+    let Some(bases) = bases(model, system, analysis, SolverKind::Fna, loads, initial, false)?
+    else {
         return Ok(none());
     };
     // What the supports drag along is known with the modes.

@@ -21,7 +21,10 @@ fn row(name: &str, o: &Value, nothing: bool) -> Markup {
     let [at_max, at_min] = ["t_max", "t_min"].map(|k| number(value(&o[k])));
     let [reduction, step] = ["reduction", "step"].map(|k| value(&o["error"][k]) * s.factor);
     let (off, parts) = if (reduction + step).is_finite() {
-        (two_digits(reduction + step), format!("reduction {}, steps {}", two_digits(reduction), two_digits(step)))
+        (
+            two_digits(reduction + step),
+            format!("reduction {}, steps {}", two_digits(reduction), two_digits(step)),
+        )
     } else {
         (String::new(), String::new())
     };
