@@ -1,7 +1,7 @@
 //! Random structures under the program against an independent oracle; see `trilith_validation::oracle`.
 //!
 //! ```text
-//! fuzz [--count N] [--seed S] [--solver NAME]… [--seconds T] [--shrink TRIALS] [--keep N] [--show]
+//! fuzz [--count N] [--seed S] [--solver NAME]… [--seconds T] [--shrink TRIALS] [--keep N] [--show] [--aloud]
 //! ```
 
 use std::process::ExitCode;
@@ -22,12 +22,16 @@ struct Wanted {
 
 fn arguments() -> Result<Wanted, String> {
     let budget = Duration::from_secs(3600);
-    let campaign = Campaign { seed: 1, count: 200, solvers: Vec::new(), budget };
+    let campaign = Campaign { seed: 1, count: 200, solvers: Vec::new(), budget, aloud: false };
     let mut it = Wanted { campaign, shrink: 0, keep: 50, show: false };
     let mut given = std::env::args().skip(1);
     while let Some(name) = given.next() {
-        if name == "--show" {
-            it.show = true;
+        match name.as_str() {
+            "--show" => it.show = true,
+            "--aloud" => it.campaign.aloud = true,
+            _ => {}
+        }
+        if matches!(name.as_str(), "--show" | "--aloud") {
             continue;
         }
         let value = given.next().ok_or_else(|| format!("`{name}` needs a value"))?;

@@ -22,6 +22,8 @@ pub struct Campaign {
     pub solvers: Vec<SolverKind>,
     /// No structure is begun after this.
     pub budget: Duration,
+    /// Every run is said on the error output as it ends.
+    pub aloud: bool,
 }
 
 /// What came of one structure under one solver.
@@ -88,14 +90,24 @@ impl Campaign {
         let spec = generate(seed);
         let clock = Instant::now();
         let truth = reference(&spec);
-        own.seconds[0] += clock.elapsed().as_secs_f64();
+        let took = clock.elapsed().as_secs_f64();
+        own.seconds[0] += took;
+        if self.aloud {
+            eprintln!("{seed} {} oracle {took:.2} s", spec.family);
+        }
         let truth = match truth {
             Ok(truth) => truth,
             Err(skip) => return own.skipped.push((seed, skip)),
         };
         let clock = Instant::now();
         for solver in &self.solvers {
+            let before = clock.elapsed().as_secs_f64();
             let verdict = judge(&spec, &truth, *solver);
+            if self.aloud {
+                let took = clock.elapsed().as_secs_f64() - before;
+                let (name, said) = (solver.name(), say(&spec, &verdict));
+                eprintln!("{seed} {} {name} {took:.2} s: {said}", spec.family);
+            }
             own.runs.push(Found { seed, family: spec.family, solver: *solver, verdict });
         }
         own.seconds[1] += clock.elapsed().as_secs_f64();

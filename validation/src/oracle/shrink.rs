@@ -22,10 +22,26 @@ fn smaller(spec: &Spec) -> Vec<Spec> {
         all.push(it);
     };
     if spec.moved.len() + spec.base.len() + spec.forces.len() + spec.initial.len() > 1 {
-        (0..spec.moved.len()).for_each(|i| add(&|s| drop(s.moved.remove(i))));
-        (0..spec.base.len()).for_each(|i| add(&|s| drop(s.base.remove(i))));
-        (0..spec.forces.len()).for_each(|i| add(&|s| drop(s.forces.remove(i))));
-        (0..spec.initial.len()).for_each(|i| add(&|s| drop(s.initial.remove(i))));
+        (0..spec.moved.len()).for_each(|i| {
+            add(&|s| {
+                s.moved.remove(i);
+            })
+        });
+        (0..spec.base.len()).for_each(|i| {
+            add(&|s| {
+                s.base.remove(i);
+            })
+        });
+        (0..spec.forces.len()).for_each(|i| {
+            add(&|s| {
+                s.forces.remove(i);
+            })
+        });
+        (0..spec.initial.len()).for_each(|i| {
+            add(&|s| {
+                s.initial.remove(i);
+            })
+        });
     }
     if !matches!(spec.damping, Damping::None) {
         add(&|s| s.damping = Damping::None);
@@ -40,7 +56,11 @@ fn smaller(spec: &Spec) -> Vec<Spec> {
         add(&|s| s.basis = Basis::Ritz);
     }
     if spec.outputs.len() > 1 {
-        (0..spec.outputs.len()).for_each(|i| add(&|s| drop(s.outputs.remove(i))));
+        (0..spec.outputs.len()).for_each(|i| {
+            add(&|s| {
+                s.outputs.remove(i);
+            })
+        });
     }
     for i in 0..spec.members.len() {
         let named = spec.outputs.iter().any(|o| {
