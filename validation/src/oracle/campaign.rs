@@ -137,7 +137,7 @@ impl Result {
             s.push('\n');
         };
         let mut messages: BTreeMap<(SolverKindName, &str, String), Vec<u64>> = BTreeMap::new();
-        let mut counts: BTreeMap<SolverKindName, [usize; 6]> = BTreeMap::new();
+        let mut counts: BTreeMap<SolverKindName, [usize; 7]> = BTreeMap::new();
         for f in &self.runs {
             let name = f.solver.name();
             let row = counts.entry(name).or_default();
@@ -148,6 +148,7 @@ impl Result {
                 Verdict::Reduced(_) => (3, "", String::new()),
                 Verdict::Failed(..) => (4, "failed", f.family.to_owned()),
                 Verdict::Panicked(m) => (5, "panic", class(m)),
+                Verdict::Small(..) => (6, "small", f.family.to_owned()),
             };
             row[at] += 1;
             if !what.is_empty() {
@@ -188,9 +189,9 @@ impl Result {
             self.seconds[0],
             self.seconds[1]
         ));
-        for (solver, [passed, refused, warned, reduced, failed, panicked]) in counts {
+        for (solver, [passed, refused, warned, reduced, failed, panicked, small]) in counts {
             line(format!(
-                "{solver:12} {passed} passed, {refused} refused, {warned} off with a warning, {reduced} off on a basis cut short, {failed} failed, {panicked} broke off"
+                "{solver:12} {passed} passed, {refused} refused, {warned} off with a warning, {reduced} off on a basis cut short, {small} off in what is small, {failed} failed, {panicked} broke off"
             ));
         }
         s
@@ -240,6 +241,10 @@ pub fn say(spec: &Spec, verdict: &Verdict) -> String {
         Verdict::Failed(o, e, t) => {
             let what = spec.outputs.get(*o).map_or("ended early".into(), |o| format!("{o:?}"));
             format!("o{o} {what} is off by {:.3} % of its size at t = {t:.6} s", 100.0 * e)
+        }
+        Verdict::Small(o, e, t) => {
+            let what = spec.outputs.get(*o).map_or(String::new(), |o| format!("{o:?}"));
+            format!("o{o} {what}, small, is off by {:.3} % of its size at t = {t:.6} s", 100.0 * e)
         }
         Verdict::Panicked(m) => format!("broke off: {m}"),
     }

@@ -17,6 +17,8 @@ pub enum Verdict {
     Warned(f64, String),
     /// Off, on a basis that the model cut short.
     Reduced(f64),
+    /// Off, and it said nothing, but only in what is small beside others of its kind: output, error, time.
+    Small(usize, f64, f64),
     /// Off, and it said nothing: output, error, time.
     Failed(usize, f64, f64),
     /// It broke off.
@@ -98,9 +100,23 @@ pub fn judge(spec: &Spec, found: &Truth, solver: SolverKind) -> Verdict {
         Verdict::Warned(off, warning.clone())
     } else if reduced {
         Verdict::Reduced(off)
+    } else if off * found.scale[output] <= allowed(spec) * SMALL * found.around[output]
+        && error_beside(spec, found, &shown.time, &shown.values)
+    {
+        Verdict::Small(output, off, t)
     } else {
         Verdict::Failed(output, off, t)
     }
+}
+
+/// An error below the allowed share of this share of the largest motion is one of a small quantity.
+const SMALL: f64 = 0.2;
+
+/// No output is off by more than its share of the largest of its kind.
+fn error_beside(spec: &Spec, found: &Truth, time: &[f64], values: &[Vec<f64>]) -> bool {
+    let mut wide = found.clone();
+    wide.scale = found.around.iter().zip(&found.scale).map(|(a, s)| (SMALL * a).max(*s)).collect();
+    error(spec, &wide, time, values).1 <= allowed(spec)
 }
 
 /// A message without its numbers and names: one for all of a class.

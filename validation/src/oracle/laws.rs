@@ -69,6 +69,28 @@ impl Law {
         }
     }
 
+    /// Own unknowns after a sudden deformation from rest: what slips at once has slipped.
+    #[must_use]
+    pub fn thrown(&self, d: &[f64]) -> Vec<f64> {
+        let round = |u: &[f64], limit: f64| {
+            let length = u[0].hypot(u[1]);
+            let share = if length > limit { 1.0 - limit / length } else { 0.0 };
+            vec![share * u[0], share * u[1]]
+        };
+        match self {
+            Self::Plastic(points, _) => {
+                let inner = &points[1..points.len() - 1];
+                inner.iter().map(|p| d[0] - d[0].clamp(-p, *p)).collect()
+            }
+            Self::Elastomeric(k, fy, _) => round(d, fy / k),
+            Self::Contact(c) if c.slow > 0.0 => {
+                let normal = (c.kn * -(d[0] + c.opening)).max(0.0);
+                round(&d[1..], c.slow * normal / c.ks)
+            }
+            _ => vec![0.0; self.unknowns()],
+        }
+    }
+
     /// Forces and residuals of the own equations.
     pub fn answer(&self, at: &At<'_>, f: &mut [Dual], g: &mut [Dual]) {
         let (d, v) = (at.d, at.v);

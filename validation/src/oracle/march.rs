@@ -37,6 +37,28 @@ pub struct Scale {
     d: DVector<f64>,
 }
 
+impl Scale {
+    fn largest(p: &Problem, of: &DVector<f64>, turns: bool) -> f64 {
+        let on = |j: &usize| {
+            let column = p.a.t.column(*j);
+            (0..column.len()).any(|i| column[i] != 0.0 && (i % 6 > 2) == turns)
+        };
+        (0..of.len()).filter(on).map(|j| of[j]).fold(0.0, f64::max)
+    }
+
+    /// Largest displacement, or rotation, of any direction.
+    #[must_use]
+    pub fn displacement(&self, p: &Problem, turns: bool) -> f64 {
+        Self::largest(p, &self.u, turns)
+    }
+
+    /// Largest velocity of any direction.
+    #[must_use]
+    pub fn velocity(&self, p: &Problem, turns: bool) -> f64 {
+        Self::largest(p, &self.v, turns)
+    }
+}
+
 /// Values of the probes over a step: at its start and its three stages.
 #[derive(Clone, Debug)]
 struct Piece {
@@ -638,9 +660,13 @@ impl Course {
 }
 
 impl State {
-    /// The start of a problem, own unknowns at rest.
+    /// The start of a problem from rest, or thrown there.
     #[must_use]
     pub fn start(p: &Problem) -> Self {
-        Self { u: p.u0.clone(), v: p.v0.clone(), z: DVector::zeros(p.unknowns()) }
+        let d = &p.a.b * &p.u0;
+        let at = |first: usize, count: usize| d.as_slice()[first..first + count].to_vec();
+        let links = p.a.links.iter();
+        let z: Vec<f64> = links.flat_map(|l| l.law.thrown(&at(l.first, l.axes.len()))).collect();
+        Self { u: p.u0.clone(), v: p.v0.clone(), z: z.into() }
     }
 }

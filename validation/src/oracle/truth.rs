@@ -2,7 +2,7 @@
 
 use super::march::{Course, Effort, State, march};
 use super::problem::Problem;
-use super::spec::Spec;
+use super::spec::{Output, Spec};
 use std::f64::consts::TAU;
 
 /// The answer.
@@ -15,6 +15,8 @@ pub struct Truth {
     /// What an error of every output is a share of: its size, and no less than a share of those of its
     /// kind.
     pub scale: Vec<f64>,
+    /// Largest of any direction, of its kind, as far as that is known.
+    pub around: Vec<f64>,
     /// How far each output moves between a loose and the tight tolerance, over its scale.
     pub moves: Vec<f64>,
 }
@@ -37,8 +39,7 @@ pub fn truth(spec: &Spec, work: f64) -> Result<Truth, String> {
         let effort = Effort { tolerance: 1e-7, work };
         let course = march(&before, State::start(&before), None, effort)
             .map_err(|e| format!("statics: {e}"))?;
-        start.u = course.end.u;
-        start.z = course.end.z;
+        start = State { v: start.v, ..course.end };
     }
     let loose = march(&problem, start.clone(), None, Effort { tolerance: LOOSE, work })?;
     let effort = Effort { tolerance: TIGHT, work };
@@ -51,11 +52,22 @@ pub fn truth(spec: &Spec, work: f64) -> Result<Truth, String> {
     if size.iter().any(|x| !x.is_finite()) {
         return Err("its values are not finite".into());
     }
-    let kinds: Vec<u8> = spec.outputs.iter().map(|o| kind(spec, o)).collect();
+    let kinds: Vec<u8> = spec.outputs.iter().map(kind).collect();
     let scale: Vec<f64> = (0..size.len())
         .map(|i| {
             let alike = (0..size.len()).filter(|j| kinds[*j] == kinds[i]).map(|j| size[j]);
             size[i].max(SMALL * alike.fold(0.0, f64::max)).max(1e-12)
+        })
+        .collect();
+    let around = (0..size.len())
+        .map(|i| {
+            let alike = (0..size.len()).filter(|j| kinds[*j] == kinds[i]).map(|j| size[j]);
+            let known = match spec.outputs[i] {
+                Output::Displacement(_, d) => course.scale.displacement(&problem, d > 2),
+                Output::Velocity(_, d) => course.scale.velocity(&problem, d > 2),
+                _ => 0.0,
+            };
+            alike.fold(known, f64::max)
         })
         .collect();
     let samples = 400;
@@ -71,7 +83,7 @@ pub fn truth(spec: &Spec, work: f64) -> Result<Truth, String> {
             off.fold(0.0, f64::max) / scale[i]
         })
         .collect();
-    Ok(Truth { course, size, scale, moves })
+    Ok(Truth { course, size, scale, around, moves })
 }
 
 /// Times may be off by this share of the duration.
@@ -84,9 +96,7 @@ pub fn outside(x: f64, low: f64, high: f64) -> f64 {
 }
 
 /// Outputs of one kind have one unit.
-fn kind(spec: &Spec, output: &super::spec::Output) -> u8 {
-    use super::spec::Output;
-    let _ = spec;
+fn kind(output: &Output) -> u8 {
     match output {
         Output::Displacement(_, d) => u8::from(*d > 2),
         Output::Velocity(_, d) => 2 + u8::from(*d > 2),
