@@ -7,6 +7,7 @@
 pub mod case;
 pub mod cases;
 mod figures;
+pub mod oracle;
 mod outcome;
 mod page;
 pub mod report;

@@ -1,0 +1,95 @@
+//! Random structures under the program against an independent oracle; see `trilith_validation::oracle`.
+//!
+//! ```text
+//! fuzz [--count N] [--seed S] [--solver NAME]… [--seconds T] [--shrink TRIALS] [--keep N] [--show] [--aloud]
+//! ```
+
+use std::process::ExitCode;
+use std::time::Duration;
+use trilith::SolverKind;
+use trilith_validation::oracle::campaign::{Campaign, say};
+use trilith_validation::oracle::generate::generate;
+use trilith_validation::oracle::judge::{judge, reference};
+use trilith_validation::oracle::text::text;
+use trilith_validation::report;
+
+struct Wanted {
+    campaign: Campaign,
+    shrink: usize,
+    keep: usize,
+    show: bool,
+}
+
+fn arguments() -> Result<Wanted, String> {
+    let budget = Duration::from_secs(3600);
+    let campaign = Campaign { seed: 1, count: 200, solvers: Vec::new(), budget, aloud: false };
+    let mut it = Wanted { campaign, shrink: 0, keep: 50, show: false };
+    let mut given = std::env::args().skip(1);
+    while let Some(name) = given.next() {
+        match name.as_str() {
+            "--show" => it.show = true,
+            "--aloud" => it.campaign.aloud = true,
+            _ => {}
+        }
+        if matches!(name.as_str(), "--show" | "--aloud") {
+            continue;
+        }
+        let value = given.next().ok_or_else(|| format!("`{name}` needs a value"))?;
+        let number = || value.parse::<u64>().map_err(|_| format!("`{value}` is no whole number"));
+        match name.as_str() {
+            "--count" => it.campaign.count = number()? as usize,
+            "--seed" => it.campaign.seed = number()?,
+            "--seconds" => it.campaign.budget = Duration::from_secs(number()?),
+            "--shrink" => it.shrink = number()? as usize,
+            "--keep" => it.keep = number()? as usize,
+            "--solver" => {
+                let known = SolverKind::ALL.into_iter().find(|s| s.name() == value);
+                it.campaign.solvers.push(known.ok_or_else(|| format!("no solver `{value}`"))?);
+            }
+            _ => return Err(format!("unknown argument `{name}`")),
+        }
+    }
+    if it.campaign.solvers.is_empty() {
+        it.campaign.solvers = SolverKind::ALL.to_vec();
+    }
+    Ok(it)
+}
+
+fn main() -> ExitCode {
+    let wanted = match arguments() {
+        Ok(wanted) => wanted,
+        Err(message) => {
+            eprintln!("{message}");
+            return ExitCode::from(2);
+        }
+    };
+    if wanted.show {
+        let spec = generate(wanted.campaign.seed);
+        print!("{}", text(&spec));
+        match reference(&spec) {
+            Ok(truth) => {
+                println!(
+                    "// size {:?}\n// scale {:?}\n// moves {:?}, {} steps",
+                    truth.size, truth.scale, truth.moves, truth.course.steps
+                );
+                for solver in &wanted.campaign.solvers {
+                    println!(
+                        "// {}: {}",
+                        solver.name(),
+                        say(&spec, &judge(&spec, &truth, *solver))
+                    );
+                }
+            }
+            Err(skip) => println!("// {skip:?}"),
+        }
+        return ExitCode::SUCCESS;
+    }
+    let result = wanted.campaign.run();
+    let folder = report::folder().join("fuzz");
+    if let Err(error) = result.write(&folder, wanted.shrink, wanted.keep) {
+        eprintln!("failures cannot be written to {}: {error}", folder.display());
+    }
+    print!("{}", result.summary());
+    println!("failures: {}", folder.display());
+    if result.failures().is_empty() { ExitCode::SUCCESS } else { ExitCode::FAILURE }
+}

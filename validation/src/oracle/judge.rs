@@ -1,0 +1,142 @@
+//! The verdict on a run.
+
+use super::spec::{Basis, Spec};
+use super::subject::{Ended, run};
+use super::text::text;
+use super::truth::{Truth, WINDOW, outside, truth};
+use trilith::SolverKind;
+
+/// The verdict.
+#[derive(Clone, Debug)]
+pub enum Verdict {
+    /// Within its tolerance; the largest error.
+    Passed(f64),
+    /// It said that it does not solve this, and why.
+    Refused(String),
+    /// Off, but it warned.
+    Warned(f64, String),
+    /// Off, on a basis that the model cut short.
+    Reduced(f64),
+    /// Off, and it said nothing, but only in what is small beside others of its kind: output, error, time.
+    Small(usize, f64, f64),
+    /// Off, and it said nothing: output, error, time.
+    Failed(usize, f64, f64),
+    /// It broke off.
+    Panicked(String),
+}
+
+/// Why a structure is not compared.
+#[derive(Clone, Debug)]
+pub enum Skip {
+    /// The oracle found no answer.
+    NoOracle(String),
+    /// Its answer depends on the tolerance.
+    IllPosed,
+}
+
+/// Share of the size of an output by which it may be off.
+#[must_use]
+pub fn allowed(spec: &Spec) -> f64 {
+    // Steps are judged by energy: amplitudes go with the root of the tolerance of a step, 1e-4.
+    match spec.tolerance {
+        Some(t) if t < 1e-5 => 0.005,
+        _ => 0.02,
+    }
+}
+
+/// Multiplications that the oracle may make for a pass over a structure.
+pub const WORK: f64 = 6e9;
+
+/// The oracle's answer, where it is worth comparing with.
+///
+/// # Errors
+/// Why it is not.
+pub fn reference(spec: &Spec) -> Result<Truth, Skip> {
+    let found = truth(spec, WORK).map_err(Skip::NoOracle)?;
+    let limit = 0.25 * allowed(spec);
+    if found.moves.iter().any(|m| m.is_nan() || *m > limit) {
+        Err(Skip::IllPosed)
+    } else {
+        Ok(found)
+    }
+}
+
+/// Largest error of a run over all outputs and samples: output, share, time.
+#[must_use]
+pub fn error(spec: &Spec, found: &Truth, time: &[f64], values: &[Vec<f64>]) -> (usize, f64, f64) {
+    let mut worst = (0, 0.0, 0.0);
+    for (t, row) in time.iter().zip(values).filter(|(t, _)| **t > 0.0) {
+        for (i, x) in row.iter().enumerate() {
+            let width = WINDOW * spec.duration;
+            let (low, high) =
+                found.course.span(i, (t - width).max(0.0), (t + width).min(spec.duration));
+            let off = outside(*x, low, high) / found.scale[i];
+            if off > worst.1 {
+                worst = (i, off, *t);
+            }
+        }
+    }
+    worst
+}
+
+/// Runs a description under a solver and judges it.
+#[must_use]
+pub fn judge(spec: &Spec, found: &Truth, solver: SolverKind) -> Verdict {
+    let shown = match run(&text(spec), solver) {
+        Ended::Shown(shown) => shown,
+        Ended::Refused(message) => return Verdict::Refused(message),
+        Ended::Panicked(message) => return Verdict::Panicked(message),
+    };
+    let (output, off, t) = error(spec, found, &shown.time, &shown.values);
+    let end = shown.time.last().copied().unwrap_or(0.0);
+    if end < spec.duration * (1.0 - 1e-9) {
+        return Verdict::Failed(usize::MAX, 1.0, end);
+    }
+    let reduced = matches!(solver, SolverKind::Fna | SolverKind::RitzHht)
+        && matches!(spec.basis, Basis::RitzOf(_) | Basis::EigenOf(_));
+    if off <= allowed(spec) {
+        Verdict::Passed(off)
+    } else if let Some(warning) = shown.warnings.first() {
+        Verdict::Warned(off, warning.clone())
+    } else if reduced {
+        Verdict::Reduced(off)
+    } else if off * found.scale[output] <= allowed(spec) * SMALL * found.around[output]
+        && error_beside(spec, found, &shown.time, &shown.values)
+    {
+        Verdict::Small(output, off, t)
+    } else {
+        Verdict::Failed(output, off, t)
+    }
+}
+
+/// An error below the allowed share of this share of the largest motion is one of a small quantity.
+const SMALL: f64 = 0.2;
+
+/// No output is off by more than its share of the largest of its kind.
+fn error_beside(spec: &Spec, found: &Truth, time: &[f64], values: &[Vec<f64>]) -> bool {
+    let mut wide = found.clone();
+    wide.scale = found.around.iter().zip(&found.scale).map(|(a, s)| (SMALL * a).max(*s)).collect();
+    error(spec, &wide, time, values).1 <= allowed(spec)
+}
+
+/// A message without its numbers and names: one for all of a class.
+#[must_use]
+pub fn class(message: &str) -> String {
+    let mut s = String::new();
+    let mut quoted = false;
+    for c in message.chars() {
+        if c == '"' || c == '`' {
+            quoted = !quoted;
+            if quoted {
+                s.push('…');
+            }
+        } else if !quoted && c.is_ascii_digit() {
+            if !s.ends_with('#') {
+                s.push('#');
+            }
+        } else if !quoted {
+            s.push(c);
+        }
+    }
+    s.chars().take(110).collect()
+}

@@ -1,0 +1,228 @@
+//! The laws of links as differential equations of their own unknowns.
+//!
+//! ```text
+//!   f = f(d, ḋ, z),   g(d, ḋ, z, ż) = 0
+//! ```
+//!
+//! Slip of friction and of plastic elements is that of a very fast creep, τ ṡ = (overstress)/k along the
+//! stress: with τ of 10⁻⁹ of a period it is the rate-independent law beyond all tolerances.
+//! [Simo & Hughes 1998, ch. 2: viscoplastic regularisation]
+
+use super::number::Dual;
+use super::spec::{Contact, Law};
+
+/// What a law is asked about.
+#[derive(Clone, Copy)]
+pub struct At<'a> {
+    /// Deformation.
+    pub d: &'a [Dual],
+    /// Its rate.
+    pub v: &'a [Dual],
+    /// Own unknowns.
+    pub z: &'a [Dual],
+    /// Their rates.
+    pub w: &'a [Dual],
+    /// Statics: nothing viscous.
+    pub still: bool,
+    /// Time of creep τ, s.
+    pub creep: f64,
+}
+
+/// Rate below which a power less than 1 of a dashpot is linear, as its card says.
+const LINEAR_BELOW: f64 = 1e-6;
+
+impl Law {
+    /// Number of own unknowns.
+    #[must_use]
+    pub fn unknowns(&self) -> usize {
+        match self {
+            Self::Gap(..) | Self::Hook(..) | Self::Dashpot(..) => 0,
+            Self::Elastic(..) | Self::Linear(..) => 0,
+            Self::Maxwell(..) | Self::Bilinear(..) | Self::Wen(..) => 1,
+            Self::Plastic(d, _) => d.len() - 2,
+            Self::Contact(c) if c.slow > 0.0 => 2,
+            Self::Contact(_) => 0,
+            Self::Elastomeric(..) => 2,
+        }
+    }
+
+    /// The own unknowns are deformations, not pure numbers.
+    #[must_use]
+    pub fn in_metres(&self) -> bool {
+        !matches!(self, Self::Wen(..))
+    }
+
+    /// A stiffness of the size that the law has, for each coordinate. `omega`: turns a dashpot into one.
+    #[must_use]
+    pub fn stiffness(&self, omega: f64) -> Vec<f64> {
+        match self {
+            Self::Gap(k, _) | Self::Hook(k, _) | Self::Maxwell(k, ..) | Self::Bilinear(k, ..) => {
+                vec![0.1 * k]
+            }
+            Self::Dashpot(c, _) => vec![c * omega],
+            Self::Elastic(d, f) | Self::Plastic(d, f) => vec![(f[1] - f[0]) / (d[1] - d[0])],
+            Self::Wen(k, ..) => vec![*k],
+            Self::Contact(c) if c.slow > 0.0 => vec![0.1 * c.kn, 0.1 * c.ks, 0.1 * c.ks],
+            Self::Contact(c) => vec![0.1 * c.kn],
+            Self::Linear(k, c) => (0..2).map(|i| k[i][i].abs() + omega * c[i][i].abs()).collect(),
+            Self::Elastomeric(k, ..) => vec![*k, *k],
+        }
+    }
+
+    /// Own unknowns after a sudden deformation from rest: what slips at once has slipped.
+    #[must_use]
+    pub fn thrown(&self, d: &[f64]) -> Vec<f64> {
+        let round = |u: &[f64], limit: f64| {
+            let length = u[0].hypot(u[1]);
+            let share = if length > limit { 1.0 - limit / length } else { 0.0 };
+            vec![share * u[0], share * u[1]]
+        };
+        match self {
+            Self::Plastic(points, _) => {
+                let inner = &points[1..points.len() - 1];
+                inner.iter().map(|p| d[0] - d[0].clamp(-p, *p)).collect()
+            }
+            Self::Elastomeric(k, fy, _) => round(d, fy / k),
+            Self::Contact(c) if c.slow > 0.0 => {
+                let normal = (c.kn * -(d[0] + c.opening)).max(0.0);
+                round(&d[1..], c.slow * normal / c.ks)
+            }
+            _ => vec![0.0; self.unknowns()],
+        }
+    }
+
+    /// Forces and residuals of the own equations.
+    pub fn answer(&self, at: &At<'_>, f: &mut [Dual], g: &mut [Dual]) {
+        let (d, v) = (at.d, at.v);
+        match self {
+            Self::Gap(k, open) => f[0] = -*k * (-(d[0] + (*open).into())).above_zero(),
+            Self::Hook(k, slack) => f[0] = *k * (d[0] - (*slack).into()).above_zero(),
+            Self::Dashpot(c, p) => {
+                f[0] = *c * if at.still { Dual::default() } else { power(v[0], *p) }
+            }
+            Self::Maxwell(k, c, p) => {
+                // z: elongation of the spring.
+                let z = at.z[0];
+                f[0] = *k * z;
+                g[0] = if at.still {
+                    at.w[0]
+                } else if *p <= 1.0 {
+                    at.w[0] + ((*k / *c) * z).signed_power(1.0 / p) - v[0]
+                } else {
+                    (v[0] - at.w[0]).signed_power(*p) - (*k / *c) * z
+                };
+            }
+            Self::Bilinear(k, c, cy, fl) => {
+                let force = *k * at.z[0];
+                f[0] = force;
+                let rate = if force.0.abs() <= *fl {
+                    (1.0 / c) * force
+                } else {
+                    let sign = force.0.signum();
+                    Dual::from(sign * fl / c) + (1.0 / cy) * (force - (sign * fl).into())
+                };
+                g[0] = if at.still { at.w[0] } else { at.w[0] + rate - v[0] };
+            }
+            Self::Elastic(points, forces) => {
+                let i = points.partition_point(|x| *x <= d[0].0).clamp(1, points.len() - 1);
+                let slope = (forces[i] - forces[i - 1]) / (points[i] - points[i - 1]);
+                f[0] = Dual::from(forces[i - 1]) + slope * (d[0] - points[i - 1].into());
+            }
+            Self::Plastic(points, forces) => plastic(points, forces, at, &mut f[0], g),
+            Self::Wen(k, fy, r, n) => {
+                let z = at.z[0];
+                f[0] = (r * k) * d[0] + ((1.0 - r) * fy) * z;
+                let loading = v[0].0 * z.0 > 0.0;
+                let share = if loading {
+                    Dual::from(1.0) - abs(z).signed_power(*n)
+                } else {
+                    Dual::from(1.0)
+                };
+                g[0] = at.w[0] - (k / fy) * v[0] * share;
+            }
+            Self::Contact(c) => contact(c, at, f, g),
+            Self::Linear(k, c) => {
+                for i in 0..2 {
+                    f[i] = k[i][0] * d[0] + k[i][1] * d[1];
+                    if !at.still {
+                        f[i] = f[i] + c[i][0] * v[0] + c[i][1] * v[1];
+                    }
+                }
+            }
+            Self::Elastomeric(k, fy, r) => {
+                let stiff = (1.0 - r) * k;
+                slip(stiff, Dual::from((1.0 - r) * fy), at, d, f, g);
+                for i in 0..2 {
+                    f[i] = f[i] + (r * k) * d[i];
+                }
+            }
+        }
+    }
+}
+
+fn abs(x: Dual) -> Dual {
+    if x.0 < 0.0 { -x } else { x }
+}
+
+fn power(v: Dual, p: f64) -> Dual {
+    if p < 1.0 && v.0.abs() < LINEAR_BELOW {
+        LINEAR_BELOW.powf(p - 1.0) * v
+    } else {
+        v.signed_power(p)
+    }
+}
+
+/// Parallel elastic-perfectly-plastic elements, whose sum has the curve, and Masing's rules. [Iwan 1966]
+fn plastic(points: &[f64], forces: &[f64], at: &At<'_>, f: &mut Dual, g: &mut [Dual]) {
+    let slope = |i: usize| (forces[i + 1] - forces[i]) / (points[i + 1] - points[i]);
+    let last = points.len() - 2;
+    *f = slope(last) * at.d[0];
+    for i in 0..last {
+        let k = slope(i) - slope(i + 1);
+        let stretch = at.d[0] - at.z[i];
+        *f = *f + k * stretch;
+        let over = (abs(stretch) - points[i + 1].into()).above_zero();
+        g[i] = at.creep * at.w[i] - if stretch.0 < 0.0 { -over } else { over };
+    }
+}
+
+/// q = k (d − z) within a circle of this radius; z creeps along q.
+fn slip(k: f64, limit: Dual, at: &At<'_>, d: &[Dual], f: &mut [Dual], g: &mut [Dual]) {
+    let stretch = [d[0] - at.z[0], d[1] - at.z[1]];
+    let length = (stretch[0] * stretch[0] + stretch[1] * stretch[1]).root();
+    let over = (length - (1.0 / k) * limit).above_zero();
+    for i in 0..2 {
+        f[i] = k * stretch[i];
+        g[i] = at.creep * at.w[i];
+        if over.0 > 0.0 {
+            g[i] = g[i] - over * stretch[i] / length;
+        }
+    }
+}
+
+fn contact(c: &Contact, at: &At<'_>, f: &mut [Dual], g: &mut [Dual]) {
+    let depth = -(at.d[0] + c.opening.into());
+    let closed = depth.0 >= 0.0;
+    let mut normal = Dual::default();
+    f[0] = Dual::default();
+    if closed {
+        let dash = if at.still { Dual::default() } else { c.c * at.v[0] };
+        f[0] = dash - c.kn * depth;
+        if c.pull {
+            normal = c.kn * depth;
+        } else {
+            f[0] = -(-f[0]).above_zero();
+            normal = -f[0];
+        }
+    }
+    if c.slow > 0.0 {
+        let mu = if c.rate > 0.0 && !at.still {
+            let speed = (at.v[1] * at.v[1] + at.v[2] * at.v[2]).root();
+            Dual::from(c.fast) - (c.fast - c.slow) * (-c.rate * speed).exp()
+        } else {
+            Dual::from(c.slow)
+        };
+        // An open contact has no strength: the anchor goes along.
+        slip(c.ks, mu * normal, at, &at.d[1..], &mut f[1..], g);
+    }
+}

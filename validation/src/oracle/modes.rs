@@ -1,0 +1,104 @@
+//! Natural modes with mass, and the damping matrix they give.
+//!
+//! M = P diag P^T; directions without mass are condensed, K̂ = K_aa − K_an K_nn⁺ K_na; then
+//! K̂ φ = ω² M̂ φ by Cholesky's factor of M̂. [Bathe 1996, ch. 10 and 11]
+
+use nalgebra::{DMatrix, DVector, SymmetricEigen};
+
+/// Circular frequencies and M Φ with ΦᵀMΦ = 1.
+#[derive(Clone, Debug)]
+pub struct Modes {
+    /// rad/s, rising.
+    pub omega: Vec<f64>,
+    /// M Φ: free directions over modes.
+    pub image: DMatrix<f64>,
+    /// Φ where there is mass.
+    pub shapes: DMatrix<f64>,
+}
+
+/// Basis of the directions with mass, and of those without.
+fn split(m: &DMatrix<f64>) -> (DMatrix<f64>, DMatrix<f64>) {
+    let n = m.nrows();
+    let size: Vec<f64> = (0..n).map(|i| m[(i, i)].max(0.0).sqrt()).collect();
+    let heavy: Vec<usize> = (0..n).filter(|i| size[*i] > 0.0).collect();
+    // Scaled to a unit diagonal, so that kg and kg·m² can be compared.
+    let unit = DMatrix::from_fn(heavy.len(), heavy.len(), |i, j| {
+        m[(heavy[i], heavy[j])] / (size[heavy[i]] * size[heavy[j]])
+    });
+    let eigen = SymmetricEigen::new(unit);
+    let (mut with, mut without) = (Vec::new(), Vec::new());
+    for (j, value) in eigen.eigenvalues.iter().enumerate() {
+        let mut v = DVector::zeros(n);
+        for (i, at) in heavy.iter().enumerate() {
+            v[*at] = eigen.eigenvectors[(i, j)] / size[*at];
+        }
+        if *value > 1e-11 { &mut with } else { &mut without }.push(v);
+    }
+    for i in (0..n).filter(|i| size[*i] == 0.0) {
+        let mut v = DVector::zeros(n);
+        v[i] = 1.0;
+        without.push(v);
+    }
+    let all = |x: Vec<DVector<f64>>| {
+        if x.is_empty() { DMatrix::zeros(n, 0) } else { DMatrix::from_columns(&x) }
+    };
+    (all(with), all(without))
+}
+
+/// The modes of M and K.
+#[must_use]
+pub fn modes(m: &DMatrix<f64>, k: &DMatrix<f64>) -> Modes {
+    let (p, q) = split(m);
+    let mass = p.transpose() * m * &p;
+    let mut stiff = p.transpose() * k * &p;
+    if q.ncols() > 0 {
+        let own = q.transpose() * k * &q;
+        let tie = q.transpose() * k * &p;
+        let scale: Vec<f64> = (0..own.nrows())
+            .map(|i| if own[(i, i)] > 0.0 { own[(i, i)].sqrt().recip() } else { 0.0 })
+            .collect();
+        let unit =
+            DMatrix::from_fn(own.nrows(), own.nrows(), |i, j| scale[i] * own[(i, j)] * scale[j]);
+        let eigen = SymmetricEigen::new(unit);
+        for (j, value) in eigen.eigenvalues.iter().enumerate() {
+            if *value > 1e-10 {
+                let shape = eigen.eigenvectors.column(j);
+                let y = DVector::from_fn(shape.len(), |i, _| scale[i] * shape[i]);
+                let push = tie.transpose() * y;
+                stiff -= &push * push.transpose() / *value;
+            }
+        }
+    }
+    let Some(factor) = mass.cholesky() else {
+        let none = DMatrix::zeros(m.nrows(), 0);
+        return Modes { omega: Vec::new(), image: none.clone(), shapes: none };
+    };
+    let l = factor.l();
+    let half = l.solve_lower_triangular(&stiff).unwrap_or_else(|| stiff.clone());
+    let inner = l.solve_lower_triangular(&half.transpose()).unwrap_or(half);
+    let inner = (&inner + inner.transpose()) * 0.5;
+    let eigen = SymmetricEigen::new(inner);
+    let shapes =
+        l.transpose().solve_upper_triangular(&eigen.eigenvectors).unwrap_or(eigen.eigenvectors);
+    let shapes = p * shapes;
+    let image = m * &shapes;
+    let mut order: Vec<usize> = (0..eigen.eigenvalues.len()).collect();
+    order.sort_by(|a, b| eigen.eigenvalues[*a].total_cmp(&eigen.eigenvalues[*b]));
+    let omega = order.iter().map(|i| eigen.eigenvalues[*i].max(0.0).sqrt()).collect();
+    Modes { omega, image: image.select_columns(&order), shapes: shapes.select_columns(&order) }
+}
+
+impl Modes {
+    /// M Φ diag(2 ζ ω) Φᵀ M.
+    #[must_use]
+    pub fn damping(&self, ratio: f64) -> DMatrix<f64> {
+        let n = self.image.nrows();
+        let mut c = DMatrix::zeros(n, n);
+        let top = self.omega.last().copied().unwrap_or(0.0);
+        for (j, w) in self.omega.iter().enumerate().filter(|(_, w)| **w > 1e-7 * top) {
+            let x = self.image.column(j);
+            c += x * x.transpose() * (2.0 * ratio * w);
+        }
+        c
+    }
+}

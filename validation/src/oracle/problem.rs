@@ -1,0 +1,201 @@
+//! The equations of a description: matrices, loads over time, laws, outputs.
+
+use super::assemble::{Assembled, GRAVITY, LinkAt};
+use super::modes::{Modes, modes};
+use super::spec::{Damping, Function, Output, Spec};
+use nalgebra::{DMatrix, DVector};
+
+/// A load: a vector times a function or one of its derivatives.
+#[derive(Clone, Debug)]
+pub struct Channel {
+    /// Force on the free directions.
+    pub force: DVector<f64>,
+    /// Its course.
+    pub function: Function,
+    /// Derivative that counts: 0, 1, 2.
+    pub order: usize,
+}
+
+/// A recorded quantity as a sum of rows.
+#[derive(Clone, Debug)]
+pub enum Probe {
+    /// Row over free directions and moved supports.
+    Displacement(DVector<f64>, DVector<f64>),
+    /// The same over their rates.
+    Velocity(DVector<f64>, DVector<f64>),
+    /// A link coordinate.
+    Force(usize),
+    /// A link coordinate.
+    Deformation(usize),
+}
+
+/// A problem.
+#[derive(Clone, Debug)]
+pub struct Problem {
+    /// Matrices.
+    pub a: Assembled,
+    /// Loads that are constant in time.
+    pub constant: DVector<f64>,
+    /// Loads.
+    pub channels: Vec<Channel>,
+    /// Histories of the moved supports.
+    pub moved: Vec<Function>,
+    /// Displacements at the start.
+    pub u0: DVector<f64>,
+    /// Velocities at the start.
+    pub v0: DVector<f64>,
+    /// Stiffness that stands beside each link coordinate and is taken out again.
+    pub beside: DVector<f64>,
+    /// Time of creep, s.
+    pub creep: f64,
+    /// Statics: no inertia, no damping, loads in proportion to time.
+    pub still: bool,
+    /// Times at which loads bend, from 0 to the end.
+    pub breaks: Vec<f64>,
+    /// Recorded quantities.
+    pub probes: Vec<Probe>,
+}
+
+/// Modes of the structure with its links engaged.
+#[must_use]
+pub fn engaged(a: &Assembled) -> Modes {
+    let mut k = a.k.clone();
+    for link in &a.links {
+        for (i, stiff) in link.law.stiffness(0.0).iter().enumerate() {
+            let row = a.b.row(link.first + i);
+            k += row.transpose() * row * *stiff;
+        }
+    }
+    modes(&a.m, &k)
+}
+
+impl Problem {
+    /// Of a description; `omega`: a circular frequency that is typical.
+    ///
+    /// # Errors
+    /// What does not fit together.
+    pub fn new(spec: &Spec, omega: f64) -> Result<Self, String> {
+        let mut a = Assembled::new(spec)?;
+        if let Damping::Modal(ratio) = spec.damping {
+            let own = modes(&a.m, &a.k).damping(ratio);
+            a.damp(&own)?;
+        }
+        let n = a.k.nrows();
+        let mut constant = DVector::zeros(n);
+        if spec.gravity {
+            constant -= a.inertia.column(2) * GRAVITY;
+        }
+        let mut channels = Vec::new();
+        let mut add = |force: DVector<f64>, function: &Function, order| {
+            channels.push(Channel { force, function: function.clone(), order });
+        };
+        for f in &spec.forces {
+            let row = a.t.row(6 * f.node + f.dof).transpose();
+            add(row * f.value, &f.function, 0);
+        }
+        for (direction, f) in &spec.base {
+            add(-a.inertia.column(*direction), f, 0);
+        }
+        for (j, (_, _, f)) in spec.moved.iter().enumerate() {
+            add(-a.k_s.column(j), f, 0);
+            add(-a.c_s.column(j), f, 1);
+            add(-a.m_s.column(j), f, 2);
+        }
+        let (mut u0, mut v0) = (DVector::zeros(n), DVector::zeros(n));
+        for (node, dof, u, v) in &spec.initial {
+            let row = a.t.row(6 * node + dof);
+            let Some(j) = (0..n).find(|j| row[*j] == 1.0 && row.amax() == 1.0) else {
+                return Err("an initial value at a direction that follows others".into());
+            };
+            (u0[j], v0[j]) = (*u, *v);
+        }
+        let beside: Vec<f64> = a.links.iter().flat_map(|l| l.law.stiffness(omega)).collect();
+        let mut breaks = vec![0.0, spec.duration];
+        for f in spec.forces.iter().map(|f| &f.function).chain(spec.base.iter().map(|b| &b.1)) {
+            breaks.extend(f.breaks());
+        }
+        breaks.extend(spec.moved.iter().flat_map(|m| m.2.breaks()));
+        breaks.retain(|t| (0.0..=spec.duration).contains(t));
+        breaks.sort_by(f64::total_cmp);
+        breaks.dedup_by(|b, a| (*b - *a).abs() < 1e-9 * spec.duration);
+        let probes = spec.outputs.iter().map(|o| probe(&a, o)).collect::<Result<_, _>>()?;
+        Ok(Self {
+            constant,
+            channels,
+            moved: spec.moved.iter().map(|m| m.2.clone()).collect(),
+            u0,
+            v0,
+            beside: beside.into(),
+            creep: 1e-9 / omega,
+            still: false,
+            breaks,
+            probes,
+            a,
+        })
+    }
+
+    /// The static problem before it: constant loads from nothing to their value at time 1.
+    #[must_use]
+    pub fn before(&self) -> Self {
+        let n = self.constant.len();
+        let force = self.constant.clone();
+        let mut it = self.clone();
+        it.a.m = DMatrix::zeros(n, n);
+        it.a.c = DMatrix::zeros(n, n);
+        it.a.b_s = &self.a.b_s * 0.0;
+        it.constant = DVector::zeros(n);
+        it.channels = vec![Channel { force, function: Function::Ramp(1.0, 0.0, 1.0), order: 0 }];
+        it.u0.fill(0.0);
+        it.v0.fill(0.0);
+        it.breaks = vec![0.0, 1.0];
+        it.creep = 1e-9;
+        it.still = true;
+        it
+    }
+
+    /// Loads at a time, before any jump there.
+    #[must_use]
+    pub fn load(&self, t: f64) -> DVector<f64> {
+        let mut p = self.constant.clone();
+        for c in &self.channels {
+            p.axpy(c.function.at(t, false)[c.order], &c.force, 1.0);
+        }
+        p
+    }
+
+    /// Displacement and velocity of the moved supports.
+    #[must_use]
+    pub fn supports(&self, t: f64, after: bool) -> [DVector<f64>; 2] {
+        let all: Vec<[f64; 3]> = self.moved.iter().map(|f| f.at(t, after)).collect();
+        [0, 1].map(|i| DVector::from_iterator(all.len(), all.iter().map(|x| x[i])))
+    }
+
+    /// Number of own unknowns of all links.
+    #[must_use]
+    pub fn unknowns(&self) -> usize {
+        self.a.links.iter().map(|l| l.law.unknowns()).sum()
+    }
+}
+
+fn probe(a: &Assembled, output: &Output) -> Result<Probe, String> {
+    let rows =
+        |n: usize, d: usize| (a.t.row(6 * n + d).transpose(), a.s.row(6 * n + d).transpose());
+    let coordinate = |member: usize, axis: usize| {
+        let at = |l: &&LinkAt| l.member == member && l.axes.contains(&axis);
+        let link = a.links.iter().find(at).ok_or("no such link output")?;
+        let local = link.axes.iter().position(|x| *x == axis).unwrap_or(0);
+        Ok::<usize, String>(link.first + local)
+    };
+    Ok(match *output {
+        Output::Displacement(n, d) => {
+            let (t, s) = rows(n, d);
+            Probe::Displacement(t, s)
+        }
+        Output::Velocity(n, d) => {
+            let (t, s) = rows(n, d);
+            Probe::Velocity(t, s)
+        }
+        Output::LinkForce(e, x) => Probe::Force(coordinate(e, x)?),
+        Output::LinkDeformation(e, x) => Probe::Deformation(coordinate(e, x)?),
+    })
+}

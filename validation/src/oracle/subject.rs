@@ -1,0 +1,72 @@
+//! The program under test: a model text, run by a solver.
+
+use crate::trace::read;
+use trilith::solvers::{Observer, RunOptions, Sample};
+use trilith::{Analysis, SolverKind};
+
+/// What a run showed.
+#[derive(Clone, Debug, Default)]
+pub struct Shown {
+    /// Times of its samples.
+    pub time: Vec<f64>,
+    /// Values of the outputs at each.
+    pub values: Vec<Vec<f64>>,
+    /// What it warned of.
+    pub warnings: Vec<String>,
+    /// Substeps made.
+    pub substeps: usize,
+}
+
+impl Observer for Shown {
+    fn sample(&mut self, s: &Sample<'_>) {
+        if self.time.last().is_some_and(|t| *t >= s.t) {
+            self.time.pop();
+            self.values.pop();
+        }
+        self.time.push(s.t);
+        self.values.push(s.values.to_vec());
+    }
+}
+
+/// How a run ended.
+#[derive(Clone, Debug)]
+pub enum Ended {
+    /// To its end, with nothing to complain about but warnings.
+    Shown(Shown),
+    /// Refused or stopped, with this message.
+    Refused(String),
+    /// It broke off.
+    Panicked(String),
+}
+
+/// Runs the last case of a text.
+#[must_use]
+pub fn run(text: &str, solver: SolverKind) -> Ended {
+    let work = || -> Result<Shown, String> {
+        let model = read(text, "fuzz", &[]).map_err(|e| format!("read: {e}"))?;
+        let analysis = Analysis::new(&model).map_err(|e| format!("assembly: {e}"))?;
+        let mut shown = Shown::default();
+        let case = model.cases.len() - 1;
+        let options = RunOptions { case, solver: Some(solver), ..RunOptions::default() };
+        let system = analysis.system();
+        let result = trilith::solvers::run(&model, system, options, &mut [&mut shown])
+            .map_err(|e| format!("run: {e}"))?;
+        if !result.status.is_good() {
+            return Err(format!("status: {}", result.status.text()));
+        }
+        shown.warnings = result.warnings;
+        shown.substeps = result.work.substeps;
+        Ok(shown)
+    };
+    match std::panic::catch_unwind(work) {
+        Ok(Ok(shown)) => Ended::Shown(shown),
+        Ok(Err(message)) => Ended::Refused(message),
+        Err(cause) => {
+            let text = cause
+                .downcast_ref::<String>()
+                .cloned()
+                .or_else(|| cause.downcast_ref::<&str>().map(|s| (*s).to_owned()));
+            Ended::Panicked(text.unwrap_or_else(|| "panic".into()))
+        }
+    }
+}

@@ -1,0 +1,106 @@
+//! The answer of the oracle, and how sure it is of it.
+
+use super::march::{Course, Effort, State, march};
+use super::problem::Problem;
+use super::spec::{Output, Spec};
+use std::f64::consts::TAU;
+
+/// The answer.
+#[derive(Clone, Debug)]
+pub struct Truth {
+    /// Course at the tight tolerance.
+    pub course: Course,
+    /// Largest |value| of every output.
+    pub size: Vec<f64>,
+    /// What an error of every output is a share of: its size, and no less than a share of those of its
+    /// kind.
+    pub scale: Vec<f64>,
+    /// Largest of any direction, of its kind, as far as that is known.
+    pub around: Vec<f64>,
+    /// How far each output moves between a loose and the tight tolerance, over its scale.
+    pub moves: Vec<f64>,
+}
+
+/// Tolerances of the two passes.
+const LOOSE: f64 = 1e-5;
+const TIGHT: f64 = 1e-7;
+/// Outputs below this share of the largest of their kind are compared on that share.
+const SMALL: f64 = 1e-3;
+
+/// Integrates a description; `work`: at most so many multiplications.
+///
+/// # Errors
+/// Why there is no answer.
+pub fn truth(spec: &Spec, work: f64) -> Result<Truth, String> {
+    let problem = Problem::new(spec, 10.0 * TAU / spec.duration)?;
+    let mut start = State::start(&problem);
+    if spec.gravity {
+        let before = problem.before();
+        let effort = Effort { tolerance: 1e-7, work };
+        let course = march(&before, State::start(&before), None, effort)
+            .map_err(|e| format!("statics: {e}"))?;
+        start = State { v: start.v, ..course.end };
+    }
+    let loose = march(&problem, start.clone(), None, Effort { tolerance: LOOSE, work })?;
+    let effort = Effort { tolerance: TIGHT, work };
+    let course = march(&problem, start, Some(loose.scale.clone()), effort)?;
+    let sizes = |c: &Course| -> Vec<f64> {
+        let ends = (0..spec.outputs.len()).map(|i| c.span(i, 0.0, spec.duration));
+        ends.map(|(a, b)| a.abs().max(b.abs())).collect()
+    };
+    let size = sizes(&course);
+    if size.iter().any(|x| !x.is_finite()) {
+        return Err("its values are not finite".into());
+    }
+    let kinds: Vec<u8> = spec.outputs.iter().map(kind).collect();
+    let scale: Vec<f64> = (0..size.len())
+        .map(|i| {
+            let alike = (0..size.len()).filter(|j| kinds[*j] == kinds[i]).map(|j| size[j]);
+            size[i].max(SMALL * alike.fold(0.0, f64::max)).max(1e-12)
+        })
+        .collect();
+    let around = (0..size.len())
+        .map(|i| {
+            let alike = (0..size.len()).filter(|j| kinds[*j] == kinds[i]).map(|j| size[j]);
+            let known = match spec.outputs[i] {
+                Output::Displacement(_, d) => course.scale.displacement(&problem, d > 2),
+                Output::Velocity(_, d) => course.scale.velocity(&problem, d > 2),
+                _ => 0.0,
+            };
+            alike.fold(known, f64::max)
+        })
+        .collect();
+    let samples = 400;
+    let moves = (0..size.len())
+        .map(|i| {
+            let off = (1..=samples).map(|j| {
+                let t = spec.duration * f64::from(j) / f64::from(samples);
+                let width = WINDOW * spec.duration;
+                let (low, high) =
+                    course.span(i, (t - width).max(0.0), (t + width).min(spec.duration));
+                outside(loose.at(i, t), low, high)
+            });
+            off.fold(0.0, f64::max) / scale[i]
+        })
+        .collect();
+    Ok(Truth { course, size, scale, around, moves })
+}
+
+/// Times may be off by this share of the duration.
+pub const WINDOW: f64 = 2e-4;
+
+/// How far a value is outside of an interval.
+#[must_use]
+pub fn outside(x: f64, low: f64, high: f64) -> f64 {
+    if x.is_nan() { f64::INFINITY } else { (low - x).max(x - high).max(0.0) }
+}
+
+/// Outputs of one kind have one unit.
+fn kind(output: &Output) -> u8 {
+    match output {
+        Output::Displacement(_, d) => u8::from(*d > 2),
+        Output::Velocity(_, d) => 2 + u8::from(*d > 2),
+        Output::LinkForce(_, a) => 4 + u8::from(*a > 2),
+        Output::LinkDeformation(_, a) => u8::from(*a > 2),
+    }
+}
