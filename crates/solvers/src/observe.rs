@@ -3,6 +3,7 @@
 use crate::certificate::OutputError;
 use serde::Serialize;
 use trilith_element::{Contact, Vector3};
+use trilith_model::{Analysis, Model};
 
 /// A moment of a run, shown after every accepted substep.
 pub struct Sample<'a> {
@@ -269,4 +270,21 @@ pub struct CaseResult {
     pub errors: Vec<OutputError>,
     /// The state at the end, to be continued or written as a checkpoint.
     pub end: crate::EndState,
+}
+
+/// Times that a basis is enlarged at most, and by so many vectors at least.
+const ENLARGED: usize = 5;
+const LEAST: usize = 16;
+
+impl CaseResult {
+    /// How many vectors the run is to be made with again, after so many enlargements, where its basis was too small
+    /// and its case lets it grow.
+    #[must_use]
+    pub fn enlarged(&self, model: &Model, rounds: usize) -> Option<usize> {
+        let case = model.case(&self.case).map(|i| &model.cases[i].analysis);
+        let may = matches!(case, Some(Analysis::Dynamic(d)) if d.solution.basis.enrich);
+        let small = matches!(self.status, Status::Inadequate { .. });
+        let basis = self.basis.as_ref().filter(|_| may && small && rounds < ENLARGED)?;
+        Some((2 * basis.vectors).max(basis.vectors + LEAST))
+    }
 }

@@ -5,13 +5,9 @@ use std::path::{Path, PathBuf};
 use trilith_model::Model;
 use trilith_results::{Files, Peak, Recorder, Summary};
 use trilith_solvers::{
-    BasisReport, CaseResult, ContactMode, ContactSummary, Observer, RunOptions, SoFar, Status,
+    BasisReport, CaseResult, ContactMode, ContactSummary, Observer, RunOptions, SoFar,
 };
 use trilith_system::System;
-
-/// Times that a basis is enlarged at most, and by so many vectors at least.
-const ENRICHMENTS: usize = 5;
-const LEAST: usize = 16;
 
 /// A model, assembled once, for any number of runs.
 #[derive(Debug)]
@@ -107,27 +103,17 @@ impl<'m> Analysis<'m> {
             let options =
                 RunOptions { case, solver, dt, until, vectors, from: from.clone(), progress };
             let mut run = self.once(options, observers)?;
-            let may = round < ENRICHMENTS && from.is_none() && self.enriches(case);
-            let basis = run.result.basis.as_ref().filter(|_| may);
-            let (Status::Inadequate { .. }, Some(basis)) = (&run.result.status, basis) else {
+            let more = run.result.enlarged(self.model, round).filter(|_| from.is_none());
+            let Some(n) = more else {
                 if let Some(n) = vectors.filter(|_| round > 0) {
-                    let text = format!(
-                        "the basis was enlarged to {n} vectors by itself: with fewer, outputs were off by more than allowed"
-                    );
-                    run.result.warnings.push(text);
+                    run.result.warnings.push(format!(
+                        "the basis was enlarged to {n} vectors: with fewer, outputs were off by more than its `tolerance`"
+                    ));
                 }
                 return Ok(run);
             };
-            vectors = Some((2 * basis.vectors).max(basis.vectors + LEAST));
+            vectors = Some(n);
             round += 1;
-        }
-    }
-
-    /// True for a case whose basis may be enlarged.
-    fn enriches(&self, case: usize) -> bool {
-        match &self.model.cases[case].analysis {
-            trilith_model::Analysis::Dynamic(d) => d.solution.basis.enrich,
-            trilith_model::Analysis::Static(_) => false,
         }
     }
 

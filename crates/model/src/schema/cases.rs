@@ -158,7 +158,7 @@ const TOLERANCE: Field = plain(
     "tolerance",
     Number(d::NONE, Within(0.0, 1.0)),
     "0.02",
-    "Error that the reduction may make in any output, as share of its range; estimated in every run.",
+    "Error that the reduction may make in any output, as share of its range; estimated in every run, but not where it is 1.",
 );
 const ENRICH: Field = plain(
     "enrich",

@@ -220,7 +220,9 @@ impl Frame {
     fn case_and_outputs(&self, out: &mut String) -> fmt::Result {
         let basis = match self.vectors {
             // No vector for the links: the ground motion brings theirs along.
-            Some(n) => format!("\n            basis: Ritz(vectors: {n}, adequacy: 0),"),
+            Some(n) => {
+                format!("\n            basis: Ritz(vectors: {n}, adequacy: 0, tolerance: 1),")
+            }
             None => String::new(),
         };
         let tolerance = match self.link_tolerance {
