@@ -80,7 +80,8 @@ fn summary(model: &Model, record: &Recorder) -> Summary {
                 .iter()
                 .zip(record.peaks())
                 .map(|(o, p)| {
-                    let output = crate::OutputSummary { unit: o.unit.clone(), peak: Some(*p) };
+                    let output =
+                        crate::OutputSummary { unit: o.unit.clone(), peak: Some(*p), error: None };
                     (o.name.clone(), output)
                 })
                 .collect(),

@@ -1,6 +1,7 @@
 //! Bodies that nothing but contacts holds against gravity: they stand on them, or fall onto them.
 
 use crate::System;
+use crate::parts::{join, root};
 use trilith_model::Model;
 
 /// A part of the structure falls where moving it down costs less than this share of what its stiffness could ask.
@@ -66,19 +67,4 @@ impl System {
         let mut acts = |a: usize| links.rows[a].iter().any(|(i, _)| free(*i));
         links.links.iter().map(|l| l.range.clone().any(&mut acts)).collect()
     }
-}
-
-/// Two equations of one part.
-fn join(part: &mut [usize], i: usize, j: usize) {
-    let (a, b) = (root(part, i), root(part, j));
-    part[a.max(b)] = a.min(b);
-}
-
-/// The first equation of the part that this one belongs to.
-fn root(part: &mut [usize], mut i: usize) -> usize {
-    while part[i] != i {
-        part[i] = part[part[i]];
-        i = part[i];
-    }
-    i
 }

@@ -13,6 +13,7 @@ mod impact;
 mod links;
 mod loads;
 mod massless;
+mod parts;
 mod reduction;
 
 pub use assemble::System;

@@ -11,6 +11,7 @@
 //! about it without inertia.
 
 use crate::System;
+use crate::parts::{join, root};
 use trilith_linalg::{Dense, LinalgError, Sparse, Triplets, symmetric_eigen, unsupported};
 use trilith_model::Model;
 
@@ -40,8 +41,7 @@ impl Massless {
         let diagonal = mass.diagonal();
         let mut block: Vec<usize> = (0..n).collect();
         for (i, j, _) in mass.entries().filter(|(i, j, m)| i != j && *m != 0.0) {
-            let (a, b) = (root(&mut block, i), root(&mut block, j));
-            block[a.max(b)] = a.min(b);
+            join(&mut block, i, j);
         }
         let mut members: Vec<Vec<usize>> = vec![Vec::new(); n];
         for i in 0..n {
@@ -145,14 +145,6 @@ fn of_block(
     Ok(light.map(direction).collect())
 }
 
-fn root(part: &mut [usize], mut i: usize) -> usize {
-    while part[i] != i {
-        part[i] = part[part[i]];
-        i = part[i];
-    }
-    i
-}
-
 /// Gives the links that alone hold a direction without mass a dummy, where the user has set none.
 pub(crate) fn give_dummies(system: &mut System, model: &Model) -> Result<(), LinalgError> {
     let massless = &system.massless;
@@ -179,8 +171,7 @@ pub(crate) fn give_dummies(system: &mut System, model: &Model) -> Result<(), Lin
     let mut part: Vec<usize> = (0..massless.len()).collect();
     for (i, j, v) in held.entries().filter(|(i, j, _)| i != j) {
         if v != 0.0 {
-            let (a, b) = (root(&mut part, i), root(&mut part, j));
-            part[a.max(b)] = a.min(b);
+            join(&mut part, i, j);
         }
     }
     let touched: Vec<(usize, Vec<usize>)> = (system.links.active.iter())
@@ -191,8 +182,7 @@ pub(crate) fn give_dummies(system: &mut System, model: &Model) -> Result<(), Lin
         .collect();
     for (_, directions) in &touched {
         for pair in directions.windows(2) {
-            let (a, b) = (root(&mut part, pair[0]), root(&mut part, pair[1]));
-            part[a.max(b)] = a.min(b);
+            join(&mut part, pair[0], pair[1]);
         }
     }
     let loose: Vec<usize> = loose.into_iter().map(|i| root(&mut part, i)).collect();
@@ -218,8 +208,7 @@ fn is_dominated(a: &Sparse) -> bool {
     let (mut part, mut rest): (Vec<usize>, _) = ((0..n).collect(), vec![0.0; n]);
     for (i, j, v) in a.entries().filter(|(i, j, v)| i != j && *v != 0.0) {
         rest[i] += v.abs();
-        let (a, b) = (root(&mut part, i), root(&mut part, j));
-        part[a.max(b)] = a.min(b);
+        join(&mut part, i, j);
     }
     let mut strict = vec![false; n];
     for (i, d) in a.diagonal().into_iter().enumerate() {
