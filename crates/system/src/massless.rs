@@ -247,7 +247,7 @@ mod tests {
         let k = found.project(&matrix(3, &[(0, 0, 5.0), (1, 1, 7.0), (2, 2, 11.0)]));
         let mut own: Vec<f64> = k.diagonal();
         own.sort_by(f64::total_cmp);
-        let turn = (5.0 * 9.0 + 11.0) / 9.0;
+        let turn: f64 = (5.0 * 9.0 + 11.0) / 9.0;
         assert!((own[0] - turn.min(7.0)).abs() < 1e-12 && (own[1] - turn.max(7.0)).abs() < 1e-12);
         assert!(found.is_touched(&[(1, 1.0)]) && found.is_touched(&[(0, 1.0)]));
     }
