@@ -258,12 +258,13 @@ pub(crate) fn build(
             Some(n) => n >= order - system.massless.len() && order <= COMPLETE_LIMIT,
         };
     let hat = solvable(model, system)?;
-    let (span, wider, known) = if complete {
+    let Enriched { span, wider, known } = if complete {
         if order > COMPLETE_LIMIT {
             return Err(SolveError::BasisTooLarge { order, limit: COMPLETE_LIMIT });
         }
         let all = all_modes(&Sparse::combine(&hat.parts(system)), &system.mass)?.1;
-        (Shapes::new(Arc::new(Condensation::none(order)), all), None, None)
+        let span = Shapes::new(Arc::new(Condensation::none(order)), all);
+        Enriched { span, wider: None, known: None }
     } else {
         enriched(system, settings, demands, &hat)?
     };
@@ -347,12 +348,19 @@ fn graded_modes(mut vectors: Shapes, k: &Sparse) -> Result<(Vec<f64>, Shapes), S
     }
 }
 
+/// A span, one that holds more, and the flexibility of the links where it has been found on the way.
+struct Enriched {
+    span: Shapes,
+    wider: Option<Shapes>,
+    known: Option<Vec<f64>>,
+}
+
 fn enriched(
     system: &System,
     settings: &Basis,
     demands: &Demands,
     hat: &Solvable,
-) -> Result<(Shapes, Option<Shapes>, Option<Vec<f64>>), SolveError> {
+) -> Result<Enriched, SolveError> {
     let loads = &*demands.loads;
     // Who asks for no flexibility of the links gets no vectors for them.
     let links: &[usize] = if settings.adequacy > 0.0 { &system.links.active } else { &[] };
@@ -405,11 +413,11 @@ fn enriched(
     let all = span.into_dense();
     let rows = Arc::new(rows);
     if all.columns() == count {
-        return Ok((Shapes::new(rows, all), None, known));
+        return Ok(Enriched { span: Shapes::new(rows, all), wider: None, known });
     }
     let first = all.values()[..count * all.rows()].to_vec();
     let first = Shapes::new(Arc::clone(&rows), Dense::from_columns(all.rows(), count, first));
-    Ok((first, Some(Shapes::new(rows, all)), known))
+    Ok(Enriched { span: first, wider: Some(Shapes::new(rows, all)), known })
 }
 
 /// The load-dependent recursion from right-hand sides until `count` vectors are there or nothing new comes; returns
