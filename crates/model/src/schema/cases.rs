@@ -164,7 +164,7 @@ const ENRICH: Field = plain(
     "enrich",
     Flag,
     "true",
-    "A basis that makes a larger error is enlarged and the run made again; false: the run ends as `inadequate`.",
+    "A basis that makes a larger error is enlarged and the run made again; false: the run ends as inadequate.",
 );
 /// Load-dependent vectors.
 pub static RITZ: Block = Block {
