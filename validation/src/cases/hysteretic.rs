@@ -78,6 +78,7 @@ const STRUCK: &str = r#"(
 )"#;
 
 /// The oscillator of Chopra's example 5.5, elastoplastic.
+/// The force is that of the book, straight between the samples of a half sine: a half sine itself cuts the steps.
 const YIELDING: &str = r#"(
     title: "Elastoplastic oscillator under a half sine",
     nodes: { "m": (0, 0, 0) },
@@ -90,7 +91,9 @@ const YIELDING: &str = r#"(
         ),
     },
     loads: { "push": [(node: "m", dof: Ux, force: 10)] },
-    functions: { "sine": HalfSine(amplitude: 1, duration: 0.6) },
+    functions: { "sine": Points(
+        points: [(0, 0), (0.1, 0.5), (0.2, "3^0.5/2"), (0.3, 1), (0.4, "3^0.5/2"), (0.5, 0.5), (0.6, 0)], after_end: Zero,
+    ) },
     cases: {
         "push": Dynamic(
             duration: 1, dt: 0.1, step: Fixed(substeps: 1), alpha: 0, energy_limit: 0.99,

@@ -26,6 +26,11 @@ const CHOPRA: &str = r#"(
     outputs: { "u": Displacement(node: "m", dof: Ux), "v": Velocity(node: "m", dof: Ux) },
 )"#;
 
+/// A half sine of 0.6 s at every tenth of a second.
+const SAMPLED: &str = r#"Points(
+    points: [(0, 0), (0.1, 0.5), (0.2, "3^0.5/2"), (0.3, 1), (0.4, "3^0.5/2"), (0.5, 0.5), (0.6, 0)], after_end: Zero,
+)"#;
+
 /// Undamped oscillator of period 1 s in steps of a tenth.
 const FREE: &str = r#"(
     title: "Undamped oscillator",
@@ -111,7 +116,8 @@ fn ti1_rule() -> Case {
         id: "TI-1a",
         title: "Average acceleration in steps of 0.1 s",
         source: "Chopra, Dynamics of Structures, ex. 5.3",
-        text: CHOPRA.into(),
+        // The force of the book, straight between its samples: a half sine itself cuts the steps.
+        text: CHOPRA.replace("HalfSine(amplitude: 1, duration: 0.6)", SAMPLED),
         set: Vec::new(),
         solvers: &[Solver::Hht],
         view: View::histories([Curve::new("u", METRE), Curve::new("v", SPEED)]),

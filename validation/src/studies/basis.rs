@@ -26,6 +26,8 @@ fn frame(text: &str, method: Method, basis: Option<(BasisKind, usize)>) -> Resul
             s.energy_limit = 1e9;
             if let Some((kind, vectors)) = basis {
                 (s.basis.kind, s.basis.vectors) = (kind, Some(vectors));
+                // The study is about small bases.
+                s.basis.tolerance = 1.0;
             }
         });
     })
