@@ -466,7 +466,7 @@ fn report(
     let m = basis.modes();
     let phi = &*basis.shapes;
     let rows = &system.links.rows;
-    // K̂ in the basis: K is diagonal there, with ones for the static shapes, which have no mass.
+    // K̂ in the basis: K is diagonal there, with κ for the static shapes, which have no mass.
     let mut reduced = Dense::zeros(phi.len(), phi.len());
     for j in 0..phi.len() {
         // What dashpots alone hold has no flexibility to be told.

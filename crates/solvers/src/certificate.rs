@@ -10,8 +10,8 @@
 //! to the residual of the full equations, dynamics included, to first order in the link forces. Link forces answer by
 //! their present tangents. A complete basis leaves nothing.
 //!
-//! The error of the steps adds up the distance of one step from two halves, a third of which is left in the halves of a
-//! rule of second order.
+//! The error of the steps adds up what the distance of one step from two halves says of the halves: displacements in sum,
+//! energies and forces in the root of the sum of squares (see `march`).
 //!
 //! References: residual-based estimation of reduced models, \[Antoulas 2005, ch. 11\]; two bases of one sequence as
 //! estimator, \[Bai & Su 2005\]; local extrapolation, \[Hairer, Nørsett & Wanner 1993, II.4\].
