@@ -12,7 +12,7 @@ use crate::march::Pace;
 use crate::observe::{BasisReport, CaseResult, EnergyTotals, LinkEnergy, Observer, Status, Work};
 use crate::start::Initial;
 use crate::statics::{self, Equilibrium};
-use crate::stepper::State;
+use crate::stepper::{LinksBefore, State};
 use crate::view::show_static;
 use serde::{Deserialize, Serialize};
 use trilith_model::{Analysis, Case, Load, Model, ParameterValue, SolverKind, StaticCase};
@@ -217,8 +217,8 @@ pub(crate) fn constant_load(model: &Model, system: &System, loads: &[Load]) -> V
 /// A state without motion, as the laws are before anything has happened.
 fn untouched(model: &Model, system: &System) -> State {
     let links = &system.links;
-    let zero = vec![0.0; links.len()];
-    State::of_links(model, links, zero.clone(), zero, &links.at_rest(model))
+    let rest = LinksBefore::rest(model, links);
+    State::of_links(model, links, &rest, rest.d.clone(), rest.d.clone())
 }
 
 fn run_static(

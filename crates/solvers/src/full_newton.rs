@@ -8,7 +8,7 @@ use crate::hht::newmark;
 use crate::kernel::Remembered;
 use crate::propagator::{Forces, Motion, StepWork, kinetic_and_strain};
 use crate::space::Space;
-use crate::stepper::{State, StepEnergy, StepFailure, Stepper, energy_rounding};
+use crate::stepper::{LinksBefore, State, StepEnergy, StepFailure, Stepper, energy_rounding};
 use crate::turning::Turning;
 use crate::vector::largest;
 use trilith_element::{Energy, Kinematics};
@@ -181,13 +181,13 @@ impl Stepper for FullNewton<'_> {
         &mut self,
         u: &[f64],
         v: &[f64],
-        history: Vec<f64>,
+        before: &LinksBefore,
         amplitudes: &[f64],
     ) -> Result<State, SolveError> {
         let links = &self.system.links;
         let (mut d, mut rate) = (vec![0.0; links.len()], vec![0.0; links.len()]);
         self.deform(u, v, amplitudes, &mut d, &mut rate);
-        let mut state = State::of_links(self.model, links, d, rate, &history);
+        let mut state = State::of_links(self.model, links, before, d, rate);
         let load = self.space.force(amplitudes);
         let force = self.imbalance(&load, u, v, &state.f);
         let a = mass_acceleration(&self.space, force)?;

@@ -3,7 +3,7 @@
 use crate::kernel::{Affine, Committed, Converged, Layout, LinkKernel};
 use crate::propagator::{Compliance, Forces, Wanted};
 use crate::space::Space;
-use crate::stepper::{State, StepEnergy, StepFailure};
+use crate::stepper::{LinksBefore, State, StepEnergy, StepFailure};
 use trilith_element::Energy;
 use trilith_model::Model;
 use trilith_system::{Answers, Channel, Laws, LinkSet, LoadSet, StepLoads, System};
@@ -248,7 +248,7 @@ impl<'a> LinkSide<'a> {
         space: &Space,
         u: &[f64],
         v: &[f64],
-        history: Vec<f64>,
+        before: &LinksBefore,
         amplitudes: &[f64],
     ) -> (State, Vec<f64>) {
         let (q, p) = (space.coordinates(self.system, u), space.coordinates(self.system, v));
@@ -263,7 +263,7 @@ impl<'a> LinkSide<'a> {
                 flat[*i] += own[a];
             }
         }
-        let mut state = State::of_links(self.model, links, d, rate, &history);
+        let mut state = State::of_links(self.model, links, before, d, rate);
         let mut force = space.force(amplitudes);
         space.damp(-1.0, &p, &mut force);
         space.stiffness.mul_add(-1.0, &q, &mut force);

@@ -8,7 +8,7 @@ use crate::march::Pace;
 use crate::massless;
 use crate::propagator::kinetic_and_strain;
 use crate::space::Space;
-use crate::stepper::{State, Stepper};
+use crate::stepper::{LinksBefore, State, Stepper};
 use crate::vector::dot;
 use serde::{Deserialize, Serialize};
 use trilith_model::{Case, DynamicCase, Model, Side, SolverKind};
@@ -83,11 +83,14 @@ pub(crate) fn start(
     stepper: &mut dyn Stepper,
     dt: f64,
 ) -> Result<Start, SolveError> {
-    let history = before.map_or_else(|| system.links.at_rest(model), |end| end.state.history);
+    let before = match before {
+        Some(end) => LinksBefore { d: end.state.d, history: end.state.history },
+        None => LinksBefore::rest(model, &system.links),
+    };
     let Initial { displacement: u, velocity: v, .. } = initial;
     let amplitudes: Vec<f64> =
         loads.channels.iter().map(|c| c.track.at(0.0, Side::After)).collect();
-    let state = stepper.start(u, v, history, &amplitudes)?;
+    let state = stepper.start(u, v, &before, &amplitudes)?;
     let (kinetic, strain) = kinetic_and_strain(stepper.space(), &state.motion);
     let own = strain - dummy_energy(system, stepper.space(), &state);
     let level = potential(&constant_force(stepper.space(), loads), &state);

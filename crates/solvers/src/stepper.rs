@@ -42,20 +42,66 @@ pub struct State {
     pub(crate) stiffest: Vec<f64>,
 }
 
+/// Where links are before a case gives them its initial values.
+#[derive(Clone, Debug)]
+pub(crate) struct LinksBefore {
+    /// Deformations, flat.
+    pub d: Vec<f64>,
+    /// Histories, flat.
+    pub history: Vec<f64>,
+}
+
+impl LinksBefore {
+    /// Before anything has happened.
+    pub(crate) fn rest(model: &Model, links: &LinkSet) -> Self {
+        Self { d: vec![0.0; links.len()], history: links.at_rest(model) }
+    }
+}
+
+/// Steps in which links are led to an initial deformation: laws that follow no straight path exactly are led
+/// along it.
+const LED: usize = 64;
+
+/// Histories of links that are led along a straight path, so slowly that nothing viscous acts.
+fn lead(model: &Model, links: &LinkSet, before: &LinksBefore, d: &[f64]) -> Vec<f64> {
+    let mut history = before.history.clone();
+    if before.d == d {
+        return history;
+    }
+    let laws = links.laws(model);
+    let (mut at, mut next) = (before.d.clone(), before.d.clone());
+    let (still, mut f) = (vec![0.0; d.len()], vec![0.0; d.len()]);
+    let (mut tangents, mut led) = (links.tangents(), history.clone());
+    let mut energy = vec![Energy::default(); links.links.len()];
+    for i in 1..=LED {
+        let share = i as f64 / LED as f64;
+        for (x, (from, to)) in next.iter_mut().zip(before.d.iter().zip(d)) {
+            *x = if i == LED { *to } else { from + share * (to - from) };
+        }
+        let path = Kinematics { d: &next, v: &still, d0: &at, v0: &still, dt: 0.0 };
+        laws.respond(path, &history, &mut led, &mut f, &mut tangents, &mut energy);
+        std::mem::swap(&mut history, &mut led);
+        std::mem::swap(&mut at, &mut next);
+    }
+    history
+}
+
 impl State {
-    /// The links at a deformation, as the laws see it at the start of a step; no motion yet.
+    /// The links led slowly and straight from where they were to a deformation, then at a rate, as the laws
+    /// see it at the start of a step; no motion yet.
     pub(crate) fn of_links(
         model: &Model,
         links: &LinkSet,
+        before: &LinksBefore,
         d: Vec<f64>,
         v: Vec<f64>,
-        history: &[f64],
     ) -> Self {
+        let history = lead(model, links, before, &d);
         let mut state = Self {
             motion: Vec::new(),
             f: vec![0.0; links.len()],
             pseudo: vec![0.0; links.active.len()],
-            history: history.to_vec(),
+            history: history.clone(),
             scale: [0.0; 2],
             stored: vec![0.0; links.links.len()],
             tangents: links.tangents(),
@@ -67,7 +113,7 @@ impl State {
         let mut energy = vec![Energy::default(); links.links.len()];
         links.laws(model).respond(
             Kinematics { d: &state.d, v: &state.v, d0: &state.d, v0: &state.v, dt: 0.0 },
-            history,
+            &history,
             &mut state.history,
             &mut state.f,
             &mut state.tangents,
@@ -161,12 +207,12 @@ pub(crate) trait Stepper {
         energy: &mut StepEnergy,
     ) -> Result<(), StepFailure>;
 
-    /// A state at rest or in given motion of the free DOFs; forces in equilibrium with the history.
+    /// A state at rest or in given motion of the free DOFs, to which the links were led from before.
     fn start(
         &mut self,
         u: &[f64],
         v: &[f64],
-        history: Vec<f64>,
+        before: &LinksBefore,
         amplitudes: &[f64],
     ) -> Result<State, SolveError>;
 
@@ -292,11 +338,11 @@ impl<P: Propagator> Stepper for LinkStepper<'_, P> {
         &mut self,
         u: &[f64],
         v: &[f64],
-        history: Vec<f64>,
+        before: &LinksBefore,
         amplitudes: &[f64],
     ) -> Result<State, SolveError> {
         let space = self.propagator.space();
-        let (mut state, force) = self.side.start(space, u, v, history, amplitudes);
+        let (mut state, force) = self.side.start(space, u, v, before, amplitudes);
         let a = self.propagator.acceleration(&force)?;
         state.motion.extend(a);
         Ok(state)

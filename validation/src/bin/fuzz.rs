@@ -1,7 +1,7 @@
 //! Random structures under the program against an independent oracle; see `trilith_validation::oracle`.
 //!
 //! ```text
-//! fuzz [--count N] [--seed S] [--solver NAME]… [--seconds T] [--shrink TRIALS] [--keep N] [--show] [--aloud]
+//! fuzz [--count N] [--seed S] [--solver NAME]… [--seconds T] [--shrink TRIALS] [--keep N] [--show] [--trace OUTPUT] [--aloud]
 //! ```
 
 use std::process::ExitCode;
@@ -10,7 +10,10 @@ use trilith::SolverKind;
 use trilith_validation::oracle::campaign::{Campaign, say};
 use trilith_validation::oracle::generate::generate;
 use trilith_validation::oracle::judge::{judge, reference};
+use trilith_validation::oracle::spec::Spec;
+use trilith_validation::oracle::subject::{Ended, run};
 use trilith_validation::oracle::text::text;
+use trilith_validation::oracle::truth::Truth;
 use trilith_validation::report;
 
 struct Wanted {
@@ -18,12 +21,13 @@ struct Wanted {
     shrink: usize,
     keep: usize,
     show: bool,
+    trace: Option<usize>,
 }
 
 fn arguments() -> Result<Wanted, String> {
     let budget = Duration::from_secs(3600);
     let campaign = Campaign { seed: 1, count: 200, solvers: Vec::new(), budget, aloud: false };
-    let mut it = Wanted { campaign, shrink: 0, keep: 50, show: false };
+    let mut it = Wanted { campaign, shrink: 0, keep: 50, show: false, trace: None };
     let mut given = std::env::args().skip(1);
     while let Some(name) = given.next() {
         match name.as_str() {
@@ -41,6 +45,7 @@ fn arguments() -> Result<Wanted, String> {
             "--seed" => it.campaign.seed = number()?,
             "--seconds" => it.campaign.budget = Duration::from_secs(number()?),
             "--shrink" => it.shrink = number()? as usize,
+            "--trace" => it.trace = Some(number()? as usize),
             "--keep" => it.keep = number()? as usize,
             "--solver" => {
                 let known = SolverKind::ALL.into_iter().find(|s| s.name() == value);
@@ -55,6 +60,15 @@ fn arguments() -> Result<Wanted, String> {
     Ok(it)
 }
 
+/// Both histories of an output side by side.
+fn trace(spec: &Spec, truth: &Truth, solver: SolverKind, output: usize) {
+    let Ended::Shown(shown) = run(&text(spec), solver) else { return };
+    println!("// t, oracle, {}", solver.name());
+    for (t, row) in shown.time.iter().zip(&shown.values) {
+        println!("// {t:.6e} {:14.6e} {:14.6e}", truth.course.at(output, *t), row[output]);
+    }
+}
+
 fn main() -> ExitCode {
     let wanted = match arguments() {
         Ok(wanted) => wanted,
@@ -63,7 +77,7 @@ fn main() -> ExitCode {
             return ExitCode::from(2);
         }
     };
-    if wanted.show {
+    if wanted.show || wanted.trace.is_some() {
         let spec = generate(wanted.campaign.seed);
         print!("{}", text(&spec));
         match reference(&spec) {
@@ -78,6 +92,9 @@ fn main() -> ExitCode {
                         solver.name(),
                         say(&spec, &judge(&spec, &truth, *solver))
                     );
+                    if let Some(output) = wanted.trace {
+                        trace(&spec, &truth, *solver, output);
+                    }
                 }
             }
             Err(skip) => println!("// {skip:?}"),

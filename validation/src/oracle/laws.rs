@@ -69,7 +69,7 @@ impl Law {
         }
     }
 
-    /// Own unknowns after a sudden deformation from rest: what slips at once has slipped.
+    /// Own unknowns after a slow, straight deformation from rest: what slips has slipped.
     #[must_use]
     pub fn thrown(&self, d: &[f64]) -> Vec<f64> {
         let round = |u: &[f64], limit: f64| {
@@ -83,6 +83,7 @@ impl Law {
                 inner.iter().map(|p| d[0] - d[0].clamp(-p, *p)).collect()
             }
             Self::Elastomeric(k, fy, _) => round(d, fy / k),
+            Self::Wen(k, fy, _, n) => vec![d[0].signum() * saturated(d[0].abs() * k / fy, *n)],
             Self::Contact(c) if c.slow > 0.0 => {
                 let normal = (c.kn * -(d[0] + c.opening)).max(0.0);
                 round(&d[1..], c.slow * normal / c.ks)
@@ -158,6 +159,20 @@ impl Law {
             }
         }
     }
+}
+
+/// z at the end of dz/dx = 1 − zⁿ from 0 to x, by the classical Runge–Kutta method.
+fn saturated(x: f64, n: f64) -> f64 {
+    let steps = 4000;
+    let h = x / f64::from(steps);
+    let rate = |z: f64| 1.0 - z.abs().powf(n);
+    (0..steps).fold(0.0, |z, _| {
+        let a = rate(z);
+        let b = rate(z + 0.5 * h * a);
+        let c = rate(z + 0.5 * h * b);
+        let d = rate(z + h * c);
+        z + h / 6.0 * (a + 2.0 * (b + c) + d)
+    })
 }
 
 fn abs(x: Dual) -> Dual {
