@@ -152,7 +152,7 @@ impl Law {
             }
             Self::Elastomeric(k, fy, r) => {
                 let stiff = (1.0 - r) * k;
-                slip(stiff, Dual::from((1.0 - r) * fy), at, d, f, g);
+                slip(stiff, &|_| Dual::from((1.0 - r) * fy), at, d, f, g);
                 for i in 0..2 {
                     f[i] = f[i] + (r * k) * d[i];
                 }
@@ -201,11 +201,21 @@ fn plastic(points: &[f64], forces: &[f64], at: &At<'_>, f: &mut Dual, g: &mut [D
     }
 }
 
-/// q = k (d − z) within a circle of this radius; z creeps along q.
-fn slip(k: f64, limit: Dual, at: &At<'_>, d: &[Dual], f: &mut [Dual], g: &mut [Dual]) {
+/// q = k (d − z) within a circle whose radius may grow with the rate of slip; z creeps along q.
+fn slip(
+    k: f64,
+    limit: &dyn Fn(Dual) -> Dual,
+    at: &At<'_>,
+    d: &[Dual],
+    f: &mut [Dual],
+    g: &mut [Dual],
+) {
     let stretch = [d[0] - at.z[0], d[1] - at.z[1]];
     let length = (stretch[0] * stretch[0] + stretch[1] * stretch[1]).root();
-    let over = (length - (1.0 / k) * limit).above_zero();
+    // Slip goes along the stretch.
+    let along = at.w[0] * stretch[0] + at.w[1] * stretch[1];
+    let rate = if length.0 > 0.0 { along / length } else { Dual::default() };
+    let over = (length - (1.0 / k) * limit(rate)).above_zero();
     for i in 0..2 {
         f[i] = k * stretch[i];
         g[i] = at.creep * at.w[i];
@@ -231,13 +241,13 @@ fn contact(c: &Contact, at: &At<'_>, f: &mut [Dual], g: &mut [Dual]) {
         }
     }
     if c.slow > 0.0 {
-        let mu = if c.rate > 0.0 && !at.still {
-            let speed = (at.v[1] * at.v[1] + at.v[2] * at.v[2]).root();
-            Dual::from(c.fast) - (c.fast - c.slow) * (-c.rate * speed).exp()
-        } else {
-            Dual::from(c.slow)
+        // Below zero the line goes on, for the sake of Newton's method.
+        let mu = |rate: Dual| match rate {
+            _ if c.rate == 0.0 || at.still => Dual::from(c.slow),
+            rate if rate.0 < 0.0 => Dual::from(c.slow) + (c.fast - c.slow) * c.rate * rate,
+            rate => Dual::from(c.fast) - (c.fast - c.slow) * (-c.rate * rate).exp(),
         };
         // An open contact has no strength: the anchor goes along.
-        slip(c.ks, mu * normal, at, &at.d[1..], &mut f[1..], g);
+        slip(c.ks, &|rate| mu(rate) * normal, at, &at.d[1..], &mut f[1..], g);
     }
 }
