@@ -46,12 +46,6 @@ impl Law {
         }
     }
 
-    /// The own unknowns are deformations, not pure numbers.
-    #[must_use]
-    pub fn in_metres(&self) -> bool {
-        !matches!(self, Self::Wen(..))
-    }
-
     /// Size of an own unknown for a deformation of 1.
     #[must_use]
     pub fn own_size(&self) -> f64 {

@@ -226,7 +226,7 @@ impl<'a> Stepper<'a> {
         let mut of_z = Vec::with_capacity(scale.z.len());
         for link in &self.p.a.links {
             let size = of_d[link.first..][..link.axes.len()].iter().fold(0.0, |a: f64, b| a.max(*b));
-            let size = if link.law.in_metres() { size } else { 1.0 };
+            let size = size * link.law.own_size();
             of_z.extend((0..link.law.unknowns()).map(|_| size));
         }
         [&of_d, &of_d, &of_d, &of_z, &of_z, &of_z].into_iter().flatten().copied().collect()
