@@ -139,7 +139,10 @@ impl Law {
                 let i = points.partition_point(|x| *x <= d[0].0).clamp(1, points.len() - 1);
                 let slope = (forces[i] - forces[i - 1]) / (points[i] - points[i - 1]);
                 branch = i as u32;
-                f[0] = Dual::from(forces[i - 1]) + slope * (d[0] - points[i - 1].into());
+                // From the nearer end: the curve goes through 0, where far ends would leave their rounding.
+                let far = |j: usize| (d[0].0 - points[j]).abs();
+                let from = if far(i) < far(i - 1) { i } else { i - 1 };
+                f[0] = Dual::from(forces[from]) + slope * (d[0] - points[from].into());
             }
             Self::Plastic(points, forces) => {
                 branch = plastic(points, forces, at, &mut f[0], g);
