@@ -95,6 +95,8 @@ struct March<'a> {
     heavy: Vec<bool>,
     /// Sizes of own unknowns for a deformation of 1.
     own: DVector<f64>,
+    /// Own unknowns of every link.
+    links: Vec<std::ops::Range<usize>>,
 }
 
 /// A step that was tried: its error as share of the largest values, its halves, where they end.
@@ -120,8 +122,14 @@ pub fn march(
     let heavy = (0..n).map(|i| p.a.m[(i, i)] > 0.0).collect();
     let own = p.a.links.iter().flat_map(|l| vec![l.law.own_size(); l.law.unknowns()]);
     let own = DVector::from_iterator(nz, own);
+    let mut first = 0;
+    let links = p.a.links.iter().map(|l| {
+        first += l.law.unknowns();
+        first - l.law.unknowns()..first
+    });
+    let links = links.collect();
     let mut it =
-        March { steps: Stepper::new(p)?, tolerance: effort.tolerance, scale, heavy, own };
+        March { steps: Stepper::new(p)?, tolerance: effort.tolerance, scale, heavy, own, links };
     it.grow(&start, &p.a.b);
     let mut at_point = it.steps.point(&start);
     let mut end = start;
@@ -230,7 +238,12 @@ impl March<'_> {
         let u = share(&a.u, &b.u, &self.scale.u, [1e-12, noise], any);
         let v = share(&a.v, &b.v, &self.scale.v, [1e-11, noise / h], |i| self.heavy[i]);
         let unit = |x: &DVector<f64>| x.component_div(&self.own);
-        let [x, y, scale] = [&a.z, &b.z, &self.scale.z].map(unit);
+        let [x, y, mut scale] = [&a.z, &b.z, &self.scale.z].map(unit);
+        // Own unknowns of one link are parts of one deformation.
+        for link in &self.links {
+            let size = link.clone().map(|i| scale[i].max(y[i].abs())).fold(0.0, f64::max);
+            link.clone().for_each(|i| scale[i] = size);
+        }
         let z = share(&x, &y, &scale, [(1e-6 * motion).max(1e-12), noise], any);
         u.max(v).max(z)
     }

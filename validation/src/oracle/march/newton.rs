@@ -1,15 +1,17 @@
 //! Newton's method for the links of a step.
 //!
-//! A matrix is kept, over iterations and over steps of one size, while it serves: while the laws are on the
-//! branches that it was made on, and the residual falls fast with it. One that was just made may be followed by shorter steps along a line.
+//! Matrices are kept over iterations and over steps of one size. One serves while the laws are on the
+//! branches that it was made on, and while the residual falls fast with it. One that was just made may be followed by shorter steps along a line.
 
 use super::dense::{Factor, add_product, dot};
 use super::stages::{Known, Room, Tangent, Values};
 
 /// Share of the size of an unknown of the links within which the method stops.
-const ACCURACY: f64 = 1e-11;
+const ACCURACY: f64 = 1e-12;
 /// A kept matrix serves while it leaves no more than this share of the residual.
 const SERVES: f64 = 0.2;
+/// Matrices kept for a step size, at most.
+const MATRICES: usize = 4;
 /// Iterations at most.
 const MOST: usize = 60;
 
@@ -166,7 +168,7 @@ pub fn solve(
     known: &Known<'_>,
     guess: Vec<f64>,
     sizes: &[f64],
-    kept: &mut Option<Kept>,
+    kept: &mut Vec<Kept>,
     space: &mut Space,
 ) -> Option<Settled> {
     let l3 = 3 * known.count.0;
@@ -180,76 +182,73 @@ pub fn solve(
     let mut refine = 0;
     for _ in 0..MOST {
         space.work += (l3 * l3) as f64 + 300.0 * l3 as f64;
-        if kept.as_ref().is_some_and(|k| k.branches != it.branches) {
-            *kept = None;
+        match kept.iter().position(|k| k.branches == it.branches) {
+            Some(i) => kept.swap(0, i),
+            None => {
+                kept.insert(0, Kept::new(known, &x, &it.branches, space)?);
+                kept.truncate(MATRICES);
+                fresh = true;
+            }
         }
-        if kept.is_none() {
-            *kept = Some(Kept::new(known, &x, &it.branches, space)?);
-            fresh = true;
-        }
-        let matrix = kept.as_ref()?;
+        let matrix = &kept[0];
         let largest = (0..l3).map(|i| sizes[i].max(x[i].abs())).fold(1e-300, f64::max);
-        let tolerance =
-            |i: usize, x: &[f64]| ACCURACY * sizes[i].max(x[i].abs()).max(1e-4 * largest);
+        let limit = |i: usize| ACCURACY * sizes[i].max(x[i].abs()).max(1e-4 * largest);
+        let limits: Vec<f64> = (0..x.len()).map(limit).collect();
         // Where nothing holds, the residual itself is the step.
         let step = matrix.step(known, &r, space).unwrap_or_else(|| {
             r.iter().enumerate().map(|(i, r)| if i < l3 { -r } else { 0.0 }).collect()
         });
-        let limits: Vec<f64> = (0..x.len()).map(|i| tolerance(i, &x)).collect();
         let size = |r: &[f64]| {
             let share = |i: usize| r[i] * matrix.weights[i] / limits[i];
             (0..r.len()).map(|i| share(i).powi(2)).sum::<f64>().sqrt()
         };
         let within = |much: f64| step.iter().zip(&limits).all(|(s, t)| s.abs() <= much * t);
         let (before, done) = (size(&r), within(1.0));
-        let (mut share, mut left) = (1.0, 1.0);
-        let serves = loop {
+        let mut share = 1.0;
+        // Whether it serves, and the share of the residual that a whole step leaves.
+        let (serves, left) = loop {
             next.iter_mut().zip(x.iter().zip(&step)).for_each(|(n, (x, s))| *n = x + share * s);
             known.values(&next, &mut space.room, &mut trial);
             known.residual(&next, &trial, &mut rest);
             let after = size(&rest);
             let fell = after <= SERVES * before;
+            let left = if after == 0.0 { 0.0 } else { after / before };
             if !fresh {
-                left = after / before;
-                break fell || (proved && (done || after < 1.0));
+                break (fell || (proved && (done || after < 1.0)), left);
             }
             if done || after <= before * (1.0 - 0.1 * share) || share < 0.02 || after < 1.0 {
                 proved = fell;
-                left = if share == 1.0 { after / before } else { 1.0 };
-                break true;
+                break (true, left);
             }
             share *= 0.5;
         };
-        // Before the residual is 0, so is what is left.
-        let left = if left.is_nan() { 0.0 } else { left };
         if !serves {
             // Another matrix, from the same place.
-            *kept = None;
+            kept.remove(0);
             proved = false;
             continue;
         }
+        let stays = share == 1.0 && matrix.branches == trial.branches;
+        // The next step would be as much shorter as the residual is.
+        let done = done || (stays && left < SERVES && within(0.1 / left.max(1e-12)));
+        refine += usize::from(within(1e3));
         // A matrix that was just made serves on after whole steps.
-        if fresh && share < 1.0 {
-            *kept = None;
+        if share < 1.0 {
+            kept.remove(0);
         }
         proved |= !fresh;
         fresh = false;
-        // The next step would be as much shorter as the residual is.
-        let stays = kept.as_ref().is_some_and(|k| k.branches == trial.branches);
-        let done = done || (stays && left < SERVES && within(0.1 / left.max(1e-12)));
         std::mem::swap(&mut x, &mut next);
         std::mem::swap(&mut it, &mut trial);
         std::mem::swap(&mut r, &mut rest);
         if !x.iter().all(|v| v.is_finite()) {
-            *kept = None;
-            return None;
+            break;
         }
-        refine += usize::from(within(1e3));
         // Rounding: steps that no longer shrink but are small.
         if done || refine > 4 {
             return Some(Settled { x, f: it.f });
         }
     }
-    *kept = None;
+    kept.clear();
     None
 }

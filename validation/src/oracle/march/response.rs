@@ -25,8 +25,8 @@ pub struct Response {
     pub by: [[Vec<f64>; 3]; 3],
     /// Link deformations at the stages over link forces at the stages, by rows.
     pub links: Vec<f64>,
-    /// The matrix of Newton's method that was last of use with it.
-    pub kept: Option<Kept>,
+    /// Matrices of Newton's method that were of use with it, the last first.
+    pub kept: Vec<Kept>,
 }
 
 impl Response {
@@ -69,7 +69,7 @@ impl Response {
             }
         }
         let ones = tilde.map(|row| row.iter().sum());
-        Self { tilde, ones, by, links, kept: None }
+        Self { tilde, ones, by, links, kept: Vec::new() }
     }
 
     /// Stages of all coordinates under loads at the stages, without links.

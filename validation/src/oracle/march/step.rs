@@ -4,7 +4,7 @@ use super::super::problem::{Probe, Problem};
 use super::super::radau::Radau;
 use super::coordinates::Coordinates;
 use super::course::{NODES, Piece, between};
-use super::dense::dot;
+use super::dense::{add_product, dot};
 use super::newton::{Settled, Space, solve};
 use super::response::{Response, Stage};
 use super::stages::Known;
@@ -124,7 +124,7 @@ impl<'a> Stepper<'a> {
         like: Option<(&Solved, f64)>,
     ) -> Option<Solved> {
         let key = h.to_bits() >> 12;
-        let (n, l, nz) = (self.at.len(), self.at.links.ncols(), from.z.len());
+        let (n, l) = (self.at.len(), self.at.links.ncols());
         let mut response = match self.responses.remove(&key) {
             Some(it) => it,
             None => {
@@ -139,7 +139,6 @@ impl<'a> Stepper<'a> {
         }
         self.responses.insert(key, response);
         self.work += std::mem::take(&mut self.space.work);
-        let _ = nz;
         solved
     }
 
@@ -172,7 +171,7 @@ impl<'a> Stepper<'a> {
                 }
             }
             let sizes = self.sizes(&start[2], scale);
-            let mut kept = response.kept.take();
+            let mut kept = std::mem::take(&mut response.kept);
             let known = Known {
                 p,
                 count: (l, nz),
@@ -184,7 +183,7 @@ impl<'a> Stepper<'a> {
             };
             let guess = match like {
                 Some((whole, s)) => guess_within(whole, s, from, l),
-                None => guess_ahead(&known, from, l),
+                None => guess_ahead(&known, from),
             };
             let settled = solve(&known, guess, &sizes, &mut kept, &mut self.space);
             d = known.start;
@@ -295,11 +294,10 @@ fn guess_within(whole: &Solved, s: f64, from: &Point, l: usize) -> Vec<f64> {
 }
 
 /// A first guess: forces and own unknowns as they were.
-fn guess_ahead(known: &Known<'_>, from: &Point, l: usize) -> Vec<f64> {
+fn guess_ahead(known: &Known<'_>, from: &Point) -> Vec<f64> {
     let mut guess: Vec<f64> = known.alone.iter().flatten().copied().collect();
     let forces = [&from.f, &from.f, &from.f].into_iter().flatten().map(|f| -f).collect::<Vec<_>>();
-    super::dense::add_product(&mut guess, &known.response.links, &forces);
-    debug_assert_eq!(guess.len(), 3 * l);
+    add_product(&mut guess, &known.response.links, &forces);
     (0..3).for_each(|_| guess.extend_from_slice(known.own));
     guess
 }
