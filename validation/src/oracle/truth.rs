@@ -23,7 +23,7 @@ pub struct Truth {
 
 /// Tolerances of the two passes.
 const LOOSE: f64 = 1e-5;
-const TIGHT: f64 = 1e-7;
+const TIGHT: f64 = 1e-6;
 /// Outputs below this share of the largest of their kind are compared on that share.
 const SMALL: f64 = 1e-3;
 /// Share of the largest motion that an output is compared on at least.
@@ -60,9 +60,8 @@ pub fn truth(spec: &Spec, work: f64) -> Result<Truth, String> {
     };
     let floor: Vec<f64> =
         spec.outputs.iter().map(|o| ROUNDING * largest(&problem, &course, o)).collect();
-    let scale: Vec<f64> = (0..size.len())
-        .map(|i| size[i].max(SMALL * alike(i)).max(floor[i]).max(1e-12))
-        .collect();
+    let scale: Vec<f64> =
+        (0..size.len()).map(|i| size[i].max(SMALL * alike(i)).max(floor[i]).max(1e-12)).collect();
     let around = (0..size.len())
         .map(|i| {
             let known = match spec.outputs[i] {

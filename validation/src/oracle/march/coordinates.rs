@@ -74,7 +74,8 @@ impl Coordinates {
                 Massless::Held(column) => all.add(column, [0.0, of_stiffness, 1.0, 1.0]),
                 Massless::Loose(column) => {
                     let held = a.b.row_iter().zip(p.beside.iter());
-                    let held = held.map(|(row, k)| k * row.transpose().dot(&column).powi(2)).sum::<f64>();
+                    let held =
+                        held.map(|(row, k)| k * row.transpose().dot(&column).powi(2)).sum::<f64>();
                     let dash = a.dash_rows.row_iter().zip(&a.dash);
                     let dash = dash
                         .map(|(row, c)| c * p.omega * row.transpose().dot(&column).powi(2))
@@ -209,10 +210,8 @@ fn modes(p: &Problem, heavy: &DMatrix<f64>, all: &mut Shapes) -> Result<(), Stri
     }
     let mass = heavy.tr_mul(&(m * heavy));
     let factor = mass.cholesky().ok_or("the mass is no mass")?.unpack();
-    let mut base = factor
-        .solve_lower_triangular(&heavy.transpose())
-        .ok_or("the mass is no mass")?
-        .transpose();
+    let mut base =
+        factor.solve_lower_triangular(&heavy.transpose()).ok_or("the mass is no mass")?.transpose();
     let held: Vec<_> = (0..all.columns.len()).filter(|j| all.own[*j] > 0.0).collect();
     if !held.is_empty() {
         let columns: Vec<_> = held.iter().map(|j| all.columns[*j].clone()).collect();

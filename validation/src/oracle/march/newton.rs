@@ -9,7 +9,7 @@ use super::stages::{Known, Room, Tangent, Values};
 /// Share of the size of an unknown of the links within which the method stops.
 const ACCURACY: f64 = 1e-12;
 /// A kept matrix serves while it leaves no more than this share of the residual.
-const SERVES: f64 = 0.2;
+const SERVES: f64 = 0.05;
 /// Matrices kept for a step size, at most.
 const MATRICES: usize = 4;
 /// Iterations at most.
@@ -58,12 +58,7 @@ fn own_places(at: [usize; 4], nz: usize) -> impl Iterator<Item = usize> + Clone 
 }
 
 impl Kept {
-    fn new(
-        known: &Known<'_>,
-        x: &[f64],
-        branches: &[u32],
-        space: &mut Space,
-    ) -> Option<Self> {
+    fn new(known: &Known<'_>, x: &[f64], branches: &[u32], space: &mut Space) -> Option<Self> {
         let links = known.tangents(x, &mut space.room)?;
         let (l, nz) = known.count;
         let (l3, big) = (3 * l, &known.response.links);
@@ -127,8 +122,7 @@ impl Kept {
         if nonzero {
             add_product(&mut out[..l3], big, &forces);
         }
-        let mut some: Vec<f64> =
-            self.active.iter().map(|i| out[*i] * self.weights[*i]).collect();
+        let mut some: Vec<f64> = self.active.iter().map(|i| out[*i] * self.weights[*i]).collect();
         factor.solve(&mut some, &mut space.b);
         for (i, x) in self.active.iter().zip(&some) {
             out[*i] = *x;

@@ -44,9 +44,8 @@ impl Response {
         let part = |i: usize, j: usize, a: f64, b: C64| {
             rule.to.0[i] * rule.from.0[j] * a + 2.0 * (rule.to.1[i] * rule.from.1[j] * b).re
         };
-        let by = [0, 1, 2].map(|i| {
-            [0, 1, 2].map(|j| (0..n).map(|c| part(i, j, real[c], complex[c])).collect())
-        });
+        let by = [0, 1, 2]
+            .map(|i| [0, 1, 2].map(|j| (0..n).map(|c| part(i, j, real[c], complex[c])).collect()));
         let (re, im): (Vec<f64>, Vec<f64>) = complex.iter().map(|z| (z.re, z.im)).unzip();
         let l = at.links.ncols();
         let mut links = vec![0.0; 9 * l * l];

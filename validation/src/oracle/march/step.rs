@@ -224,7 +224,8 @@ impl<'a> Stepper<'a> {
         let of_d: Vec<f64> = d.iter().enumerate().map(|(i, d)| known(i).max(d.abs())).collect();
         let mut of_z = Vec::with_capacity(scale.z.len());
         for link in &self.p.a.links {
-            let size = of_d[link.first..][..link.axes.len()].iter().fold(0.0, |a: f64, b| a.max(*b));
+            let size =
+                of_d[link.first..][..link.axes.len()].iter().fold(0.0, |a: f64, b| a.max(*b));
             let size = size * link.law.own_size();
             of_z.extend((0..link.law.unknowns()).map(|_| size));
         }
