@@ -236,3 +236,34 @@ fn modes(p: &Problem, heavy: &DMatrix<f64>, all: &mut Shapes) -> Result<(), Stri
     }
     Ok(())
 }
+
+#[cfg(test)]
+mod tests {
+    use super::super::super::generate::generate;
+    use super::*;
+
+    /// Mass, damping and stiffness of random structures are what the coordinates say, dashpots beside.
+    #[test]
+    fn the_matrices_of_a_structure_are_diagonal_in_its_coordinates() {
+        for seed in 1..=60 {
+            let spec = generate(seed);
+            let p = Problem::new(&spec, 1.0).unwrap();
+            if p.a.k.nrows() > 60 {
+                continue;
+            }
+            let it = Coordinates::new(&p).unwrap();
+            let count = p.a.dash.len();
+            let dash = it.links.columns(p.a.b.nrows(), count);
+            let dashes = DMatrix::from_diagonal(&DVector::from_column_slice(&p.a.dash));
+            let none = DMatrix::zeros(it.len(), it.len());
+            let beside = dash * dashes * dash.transpose();
+            let all = [(&p.a.m, &it.m, &none), (&p.a.k, &it.own, &none), (&p.a.c, &it.c, &beside)];
+            for (matrix, numbers, beside) in all {
+                let got = it.shapes.tr_mul(&(matrix * &it.shapes));
+                let want = DMatrix::from_diagonal(&DVector::from_column_slice(numbers)) + beside;
+                let size = want.amax().max(1.0);
+                assert!((got - want).amax() < 1e-7 * size, "seed {seed}");
+            }
+        }
+    }
+}

@@ -1,17 +1,22 @@
 //! Newton's method for the links of a step.
 //!
 //! Matrices are kept over iterations and over steps of one size. One serves while the laws are on the
-//! branches that it was made on, and while the residual falls fast with it. One that was just made may be followed by shorter steps along a line.
+//! branches that it was made on, and while the residual falls fast with it. One that was just made may be followed by shorter steps along a line, or by a whole one where none of them helps.
 
 use super::dense::{Factor, add_product, dot};
 use super::stages::{Known, Room, Tangent, Values};
 
 /// Share of the size of an unknown of the links within which the method stops.
 const ACCURACY: f64 = 1e-12;
+/// Share of the largest deformation that may be rounding.
+const ROUNDING: f64 = 1e-15;
 /// A kept matrix serves while it leaves no more than this share of the residual.
 const SERVES: f64 = 0.05;
 /// Matrices kept for a step size, at most.
 const MATRICES: usize = 4;
+/// Whole steps at most that are made where no shorter one helps, and the shortest share of a step.
+const LEAPS: usize = 6;
+const SHORTEST: f64 = 0.05;
 /// Iterations at most.
 const MOST: usize = 60;
 
@@ -173,7 +178,7 @@ pub fn solve(
     known.residual(&x, &it, &mut r);
     // The matrix was just made; it was seen to serve.
     let (mut fresh, mut proved) = (false, false);
-    let mut refine = 0;
+    let (mut refine, mut leapt) = (0, 0);
     for _ in 0..MOST {
         space.work += (l3 * l3) as f64 + 300.0 * l3 as f64;
         match kept.iter().position(|k| k.branches == it.branches) {
@@ -186,7 +191,7 @@ pub fn solve(
         }
         let matrix = &kept[0];
         let largest = (0..l3).map(|i| sizes[i].max(x[i].abs())).fold(1e-300, f64::max);
-        let limit = |i: usize| ACCURACY * sizes[i].max(x[i].abs()).max(1e-4 * largest);
+        let limit = |i: usize| (ACCURACY * sizes[i].max(x[i].abs())).max(ROUNDING * largest);
         let limits: Vec<f64> = (0..x.len()).map(limit).collect();
         // Where nothing holds, the residual itself is the step.
         let step = matrix.step(known, &r, space).unwrap_or_else(|| {
@@ -197,8 +202,8 @@ pub fn solve(
             (0..r.len()).map(|i| share(i).powi(2)).sum::<f64>().sqrt()
         };
         let within = |much: f64| step.iter().zip(&limits).all(|(s, t)| s.abs() <= much * t);
-        let (before, done) = (size(&r), within(1.0));
-        let mut share = 1.0;
+        let (before, done, small) = (size(&r), within(1.0), within(1e3));
+        let (mut share, mut leaps) = (1.0, false);
         // Whether it serves, and the share of the residual that a whole step leaves.
         let (serves, left) = loop {
             next.iter_mut().zip(x.iter().zip(&step)).for_each(|(n, (x, s))| *n = x + share * s);
@@ -210,9 +215,15 @@ pub fn solve(
             if !fresh {
                 break (fell || (proved && (done || after < 1.0)), left);
             }
-            if done || after <= before * (1.0 - 0.1 * share) || share < 0.02 || after < 1.0 {
+            let falls = after <= before * (1.0 - 0.1 * share);
+            if small || falls || leaps || after < 1.0 {
                 proved = fell;
                 break (true, left);
+            }
+            if share < SHORTEST {
+                // Residuals of other branches have other sizes: a whole step may lead to the right one.
+                (share, leaps, leapt) = (1.0, true, leapt + 1);
+                continue;
             }
             share *= 0.5;
         };
@@ -225,7 +236,7 @@ pub fn solve(
         let stays = share == 1.0 && matrix.branches == trial.branches;
         // The next step would be as much shorter as the residual is.
         let done = done || (stays && left < SERVES && within(0.1 / left.max(1e-12)));
-        refine += usize::from(within(1e3));
+        refine += usize::from(small);
         // A matrix that was just made serves on after whole steps.
         if share < 1.0 {
             kept.remove(0);
@@ -235,7 +246,7 @@ pub fn solve(
         std::mem::swap(&mut x, &mut next);
         std::mem::swap(&mut it, &mut trial);
         std::mem::swap(&mut r, &mut rest);
-        if !x.iter().all(|v| v.is_finite()) {
+        if leapt > LEAPS || !x.iter().all(|v| v.is_finite()) {
             break;
         }
         // Rounding: steps that no longer shrink but are small.
