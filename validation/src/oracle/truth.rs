@@ -23,7 +23,7 @@ pub struct Truth {
 
 /// Tolerances of the two passes.
 const LOOSE: f64 = 1e-5;
-const TIGHT: f64 = 1e-6;
+const TIGHT: f64 = 1e-7;
 /// Outputs below this share of the largest of their kind are compared on that share.
 const SMALL: f64 = 1e-3;
 /// Share of the largest motion that an output is compared on at least.

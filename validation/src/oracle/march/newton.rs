@@ -1,7 +1,8 @@
 //! Newton's method for the links of a step.
 //!
 //! Matrices are kept over iterations and over steps of one size. One serves while the laws are on the
-//! branches that it was made on, and while the residual falls fast with it. One that was just made may be followed by shorter steps along a line, or by a whole one where none of them helps.
+//! branches that it was made on, and while the residual falls fast with it. One
+//! that was just made may be followed by shorter steps along a line, or by a whole one where none helps.
 
 use super::dense::{Factor, add_product, dot};
 use super::stages::{Known, Room, Tangent, Values};
@@ -216,11 +217,11 @@ pub fn solve(
                 break (fell || (proved && (done || after < 1.0)), left);
             }
             let falls = after <= before * (1.0 - 0.1 * share);
-            if small || falls || leaps || after < 1.0 {
+            if small || falls || leaps || share < 0.02 || after < 1.0 {
                 proved = fell;
                 break (true, left);
             }
-            if share < SHORTEST {
+            if share < SHORTEST && leapt < LEAPS {
                 // Residuals of other branches have other sizes: a whole step may lead to the right one.
                 (share, leaps, leapt) = (1.0, true, leapt + 1);
                 continue;
@@ -246,7 +247,7 @@ pub fn solve(
         std::mem::swap(&mut x, &mut next);
         std::mem::swap(&mut it, &mut trial);
         std::mem::swap(&mut r, &mut rest);
-        if leapt > LEAPS || !x.iter().all(|v| v.is_finite()) {
+        if !x.iter().all(|v| v.is_finite()) {
             break;
         }
         // Rounding: steps that no longer shrink but are small.
