@@ -48,6 +48,10 @@ pub struct Assembled {
     pub b_s: DMatrix<f64>,
     /// The links.
     pub links: Vec<LinkAt>,
+    /// Elongations of the dashpots of spring members over free directions.
+    pub dash_rows: DMatrix<f64>,
+    /// Their coefficients.
+    pub dash: Vec<f64>,
 }
 
 /// Acceleration of gravity.
@@ -174,8 +178,16 @@ impl Assembled {
         let mut full = Matrices::none(count);
         let mut weight = DMatrix::zeros(count, count);
         let place = |m: &Member, i: usize| 6 * m.nodes[i / 6] + i % 6;
+        let row = |m: &Member, d: &DMatrix<f64>, axis: usize| {
+            let mut row = DVector::zeros(count);
+            for j in 0..d.ncols() {
+                row[place(m, j)] += d[(axis, j)];
+            }
+            row
+        };
         let mut links = Vec::new();
         let mut rows: Vec<DVector<f64>> = Vec::new();
+        let (mut dash, mut dash_rows) = (Vec::new(), Vec::new());
         for (member, m) in spec.members.iter().enumerate() {
             if let Some((it, heavy)) = element(spec, m) {
                 for i in 0..it.k.nrows() {
@@ -190,18 +202,20 @@ impl Assembled {
                     }
                 }
             }
+            if let Kind::Spring(_, c) = &m.kind {
+                let (from, to) = nodes(spec, m);
+                let d = deformation(from, to, m.axis1);
+                for a in (0..6).filter(|a| c[*a] != 0.0) {
+                    dash.push(c[a]);
+                    dash_rows.push(row(m, &d, a));
+                }
+            }
             if let Kind::Link(law, axis) = &m.kind {
                 let (from, to) = nodes(spec, m);
                 let d = deformation(from, to, m.axis1);
                 let axes = law.axes(*axis);
                 let first = rows.len();
-                for a in &axes {
-                    let mut row = DVector::zeros(count);
-                    for j in 0..d.ncols() {
-                        row[place(m, j)] += d[(*a, j)];
-                    }
-                    rows.push(row);
-                }
+                rows.extend(axes.iter().map(|a| row(m, &d, *a)));
                 links.push(LinkAt { member, law: law.clone(), first, axes });
             }
         }
@@ -227,6 +241,8 @@ impl Assembled {
         Ok(Self {
             inertia: with(&weight, &along),
             b: &b * &t,
+            dash_rows: DMatrix::from_fn(dash.len(), count, |i, j| dash_rows[i][j]) * &t,
+            dash,
             b_s: &b * &s,
             m,
             c,

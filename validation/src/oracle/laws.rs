@@ -46,10 +46,10 @@ impl Law {
         }
     }
 
-    /// The own unknowns are deformations, not pure numbers.
+    /// Size of an own unknown for a deformation of 1.
     #[must_use]
-    pub fn in_metres(&self) -> bool {
-        !matches!(self, Self::Wen(..))
+    pub fn own_size(&self) -> f64 {
+        if let Self::Wen(k, fy, ..) = self { k / fy } else { 1.0 }
     }
 
     /// A stiffness of the size that the law has, for each coordinate. `omega`: turns a dashpot into one.
@@ -92,14 +92,25 @@ impl Law {
         }
     }
 
-    /// Forces and residuals of the own equations.
-    pub fn answer(&self, at: &At<'_>, f: &mut [Dual], g: &mut [Dual]) {
+    /// Forces and residuals of the own equations. The answer is the branch of the law: tangents jump
+    /// between branches alone.
+    pub fn answer(&self, at: &At<'_>, f: &mut [Dual], g: &mut [Dual]) -> u32 {
         let (d, v) = (at.d, at.v);
+        let mut branch = 0;
         match self {
-            Self::Gap(k, open) => f[0] = -*k * (-(d[0] + (*open).into())).above_zero(),
-            Self::Hook(k, slack) => f[0] = *k * (d[0] - (*slack).into()).above_zero(),
+            Self::Gap(k, open) => {
+                let depth = -(d[0] + (*open).into());
+                f[0] = -*k * depth.above_zero();
+                branch = u32::from(depth.0 >= 0.0);
+            }
+            Self::Hook(k, slack) => {
+                let beyond = d[0] - (*slack).into();
+                f[0] = *k * beyond.above_zero();
+                branch = u32::from(beyond.0 >= 0.0);
+            }
             Self::Dashpot(c, p) => {
-                f[0] = *c * if at.still { Dual::default() } else { power(v[0], *p) }
+                f[0] = *c * if at.still { Dual::default() } else { power(v[0], *p) };
+                branch = u32::from(*p < 1.0 && v[0].0.abs() < LINEAR_BELOW);
             }
             Self::Maxwell(k, c, p) => {
                 // z: elongation of the spring.
@@ -116,6 +127,7 @@ impl Law {
             Self::Bilinear(k, c, cy, fl) => {
                 let force = *k * at.z[0];
                 f[0] = force;
+                branch = u32::from(force.0 > *fl) + 2 * u32::from(force.0 < -*fl);
                 let rate = if force.0.abs() <= *fl {
                     (1.0 / c) * force
                 } else {
@@ -127,13 +139,20 @@ impl Law {
             Self::Elastic(points, forces) => {
                 let i = points.partition_point(|x| *x <= d[0].0).clamp(1, points.len() - 1);
                 let slope = (forces[i] - forces[i - 1]) / (points[i] - points[i - 1]);
-                f[0] = Dual::from(forces[i - 1]) + slope * (d[0] - points[i - 1].into());
+                branch = i as u32;
+                // From the nearer end: the curve goes through 0, where far ends would leave their rounding.
+                let far = |j: usize| (d[0].0 - points[j]).abs();
+                let from = if far(i) < far(i - 1) { i } else { i - 1 };
+                f[0] = Dual::from(forces[from]) + slope * (d[0] - points[from].into());
             }
-            Self::Plastic(points, forces) => plastic(points, forces, at, &mut f[0], g),
+            Self::Plastic(points, forces) => {
+                branch = plastic(points, forces, at, &mut f[0], g);
+            }
             Self::Wen(k, fy, r, n) => {
                 let z = at.z[0];
                 f[0] = (r * k) * d[0] + ((1.0 - r) * fy) * z;
                 let loading = v[0].0 * z.0 > 0.0;
+                branch = u32::from(loading);
                 let share = if loading {
                     Dual::from(1.0) - abs(z).signed_power(*n)
                 } else {
@@ -141,7 +160,7 @@ impl Law {
                 };
                 g[0] = at.w[0] - (k / fy) * v[0] * share;
             }
-            Self::Contact(c) => contact(c, at, f, g),
+            Self::Contact(c) => branch = contact(c, at, f, g),
             Self::Linear(k, c) => {
                 for i in 0..2 {
                     f[i] = k[i][0] * d[0] + k[i][1] * d[1];
@@ -152,12 +171,13 @@ impl Law {
             }
             Self::Elastomeric(k, fy, r) => {
                 let stiff = (1.0 - r) * k;
-                slip(stiff, &|_| Dual::from((1.0 - r) * fy), at, d, f, g);
+                branch = slip(stiff, &|_| Dual::from((1.0 - r) * fy), at, d, f, g);
                 for i in 0..2 {
                     f[i] = f[i] + (r * k) * d[i];
                 }
             }
         }
+        branch
     }
 }
 
@@ -188,7 +208,8 @@ fn power(v: Dual, p: f64) -> Dual {
 }
 
 /// Parallel elastic-perfectly-plastic elements, whose sum has the curve, and Masing's rules. [Iwan 1966]
-fn plastic(points: &[f64], forces: &[f64], at: &At<'_>, f: &mut Dual, g: &mut [Dual]) {
+fn plastic(points: &[f64], forces: &[f64], at: &At<'_>, f: &mut Dual, g: &mut [Dual]) -> u32 {
+    let mut branch = 0;
     let slope = |i: usize| (forces[i + 1] - forces[i]) / (points[i + 1] - points[i]);
     let last = points.len() - 2;
     *f = slope(last) * at.d[0];
@@ -198,7 +219,10 @@ fn plastic(points: &[f64], forces: &[f64], at: &At<'_>, f: &mut Dual, g: &mut [D
         *f = *f + k * stretch;
         let over = (abs(stretch) - points[i + 1].into()).above_zero();
         g[i] = at.creep * at.w[i] - if stretch.0 < 0.0 { -over } else { over };
+        let slips = if over.0 <= 0.0 { 0 } else { 1 + u32::from(stretch.0 < 0.0) };
+        branch = 3 * branch + slips;
     }
+    branch
 }
 
 /// q = k (d − z) within a circle whose radius may grow with the rate of slip; z creeps along q.
@@ -209,7 +233,7 @@ fn slip(
     d: &[Dual],
     f: &mut [Dual],
     g: &mut [Dual],
-) {
+) -> u32 {
     let stretch = [d[0] - at.z[0], d[1] - at.z[1]];
     let length = (stretch[0] * stretch[0] + stretch[1] * stretch[1]).root();
     // Slip goes along the stretch.
@@ -223,9 +247,11 @@ fn slip(
             g[i] = g[i] - over * stretch[i] / length;
         }
     }
+    u32::from(over.0 > 0.0)
 }
 
-fn contact(c: &Contact, at: &At<'_>, f: &mut [Dual], g: &mut [Dual]) {
+fn contact(c: &Contact, at: &At<'_>, f: &mut [Dual], g: &mut [Dual]) -> u32 {
+    let mut branch = 0;
     let depth = -(at.d[0] + c.opening.into());
     let closed = depth.0 >= 0.0;
     let mut normal = Dual::default();
@@ -235,7 +261,9 @@ fn contact(c: &Contact, at: &At<'_>, f: &mut [Dual], g: &mut [Dual]) {
         f[0] = dash - c.kn * depth;
         if c.pull {
             normal = c.kn * depth;
+            branch = 1;
         } else {
+            branch = 1 + u32::from(f[0].0 > 0.0);
             f[0] = -(-f[0]).above_zero();
             normal = -f[0];
         }
@@ -248,6 +276,7 @@ fn contact(c: &Contact, at: &At<'_>, f: &mut [Dual], g: &mut [Dual]) {
             rate => Dual::from(c.fast) - (c.fast - c.slow) * (-c.rate * rate).exp(),
         };
         // An open contact has no strength: the anchor goes along.
-        slip(c.ks, &|rate| mu(rate) * normal, at, &at.d[1..], &mut f[1..], g);
+        branch += 3 * slip(c.ks, &|rate| mu(rate) * normal, at, &at.d[1..], &mut f[1..], g);
     }
+    branch
 }

@@ -17,28 +17,34 @@ pub struct Modes {
 }
 
 /// Basis of the directions with mass, and of those without.
-fn split(m: &DMatrix<f64>) -> (DMatrix<f64>, DMatrix<f64>) {
+pub fn split(m: &DMatrix<f64>) -> (DMatrix<f64>, DMatrix<f64>) {
     let n = m.nrows();
     let size: Vec<f64> = (0..n).map(|i| m[(i, i)].max(0.0).sqrt()).collect();
-    let heavy: Vec<usize> = (0..n).filter(|i| size[*i] > 0.0).collect();
+    let (heavy, light): (Vec<usize>, Vec<usize>) = (0..n).partition(|i| size[*i] > 0.0);
+    let at = |i: usize, x: f64| {
+        let mut v = DVector::zeros(n);
+        v[i] = x;
+        v
+    };
+    let (mut with, mut without) = (Vec::new(), Vec::new());
     // Scaled to a unit diagonal, so that kg and kg·m² can be compared.
     let unit = DMatrix::from_fn(heavy.len(), heavy.len(), |i, j| {
         m[(heavy[i], heavy[j])] / (size[heavy[i]] * size[heavy[j]])
     });
-    let eigen = SymmetricEigen::new(unit);
-    let (mut with, mut without) = (Vec::new(), Vec::new());
-    for (j, value) in eigen.eigenvalues.iter().enumerate() {
-        let mut v = DVector::zeros(n);
-        for (i, at) in heavy.iter().enumerate() {
-            v[*at] = eigen.eigenvectors[(i, j)] / size[*at];
+    let full = unit.clone().cholesky().is_some_and(|l| l.l_dirty().diagonal().min() > 1e-3);
+    if heavy.is_empty() || full {
+        with.extend(heavy.iter().map(|i| at(*i, size[*i].recip())));
+    } else {
+        let eigen = SymmetricEigen::new(unit);
+        for (j, value) in eigen.eigenvalues.iter().enumerate() {
+            let mut v = DVector::zeros(n);
+            for (i, at) in heavy.iter().enumerate() {
+                v[*at] = eigen.eigenvectors[(i, j)] / size[*at];
+            }
+            if *value > 1e-11 { &mut with } else { &mut without }.push(v);
         }
-        if *value > 1e-11 { &mut with } else { &mut without }.push(v);
     }
-    for i in (0..n).filter(|i| size[*i] == 0.0) {
-        let mut v = DVector::zeros(n);
-        v[i] = 1.0;
-        without.push(v);
-    }
+    without.extend(light.iter().map(|i| at(*i, 1.0)));
     let all = |x: Vec<DVector<f64>>| {
         if x.is_empty() { DMatrix::zeros(n, 0) } else { DMatrix::from_columns(&x) }
     };

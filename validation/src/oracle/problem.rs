@@ -44,8 +44,12 @@ pub struct Problem {
     pub u0: DVector<f64>,
     /// Velocities at the start.
     pub v0: DVector<f64>,
-    /// Stiffness that stands beside each link coordinate and is taken out again.
+    /// Damping that goes with mass and stiffness.
+    pub damping: Damping,
+    /// A stiffness of the size of each link coordinate.
     pub beside: DVector<f64>,
+    /// A circular frequency that is typical.
+    pub omega: f64,
     /// Time of creep, s.
     pub creep: f64,
     /// Statics: no inertia, no damping, loads in proportion to time.
@@ -125,7 +129,9 @@ impl Problem {
             moved: spec.moved.iter().map(|m| m.2.clone()).collect(),
             u0,
             v0,
+            damping: spec.damping,
             beside: beside.into(),
+            omega,
             creep: 1e-9 / omega,
             still: false,
             breaks,
@@ -143,6 +149,9 @@ impl Problem {
         it.a.m = DMatrix::zeros(n, n);
         it.a.c = DMatrix::zeros(n, n);
         it.a.b_s = &self.a.b_s * 0.0;
+        it.a.dash_rows = DMatrix::zeros(0, n);
+        it.a.dash.clear();
+        it.damping = Damping::None;
         it.constant = DVector::zeros(n);
         it.channels = vec![Channel { force, function: Function::Ramp(1.0, 0.0, 1.0), order: 0 }];
         it.u0.fill(0.0);

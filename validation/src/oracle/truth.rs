@@ -26,6 +26,8 @@ const LOOSE: f64 = 1e-5;
 const TIGHT: f64 = 1e-7;
 /// Outputs below this share of the largest of their kind are compared on that share.
 const SMALL: f64 = 1e-3;
+/// Share of the largest motion that an output is compared on at least.
+const ROUNDING: f64 = 1e-9;
 
 /// Integrates a description; `work`: at most so many multiplications.
 ///
@@ -53,21 +55,21 @@ pub fn truth(spec: &Spec, work: f64) -> Result<Truth, String> {
         return Err("its values are not finite".into());
     }
     let kinds: Vec<u8> = spec.outputs.iter().map(kind).collect();
-    let scale: Vec<f64> = (0..size.len())
-        .map(|i| {
-            let alike = (0..size.len()).filter(|j| kinds[*j] == kinds[i]).map(|j| size[j]);
-            size[i].max(SMALL * alike.fold(0.0, f64::max)).max(1e-12)
-        })
-        .collect();
+    let alike = |i: usize| {
+        (0..size.len()).filter(|j| kinds[*j] == kinds[i]).map(|j| size[j]).fold(0.0, f64::max)
+    };
+    let floor: Vec<f64> =
+        spec.outputs.iter().map(|o| ROUNDING * largest(&problem, &course, o)).collect();
+    let scale: Vec<f64> =
+        (0..size.len()).map(|i| size[i].max(SMALL * alike(i)).max(floor[i]).max(1e-12)).collect();
     let around = (0..size.len())
         .map(|i| {
-            let alike = (0..size.len()).filter(|j| kinds[*j] == kinds[i]).map(|j| size[j]);
             let known = match spec.outputs[i] {
                 Output::Displacement(_, d) => course.scale.displacement(&problem, d > 2),
                 Output::Velocity(_, d) => course.scale.velocity(&problem, d > 2),
                 _ => 0.0,
             };
-            alike.fold(known, f64::max)
+            alike(i).max(known)
         })
         .collect();
     let samples = 400;
@@ -84,6 +86,28 @@ pub fn truth(spec: &Spec, work: f64) -> Result<Truth, String> {
         })
         .collect();
     Ok(Truth { course, size, scale, around, moves })
+}
+
+/// The largest value that an output could have by the motion of the whole structure: what its rounding is
+/// a share of. Outputs that are 0 by symmetry are nothing else.
+fn largest(problem: &Problem, course: &Course, output: &Output) -> f64 {
+    let scale = &course.scale;
+    let of = |member: usize, axis: usize| {
+        let link = problem.a.links.iter().find(|l| l.member == member);
+        let local = link.and_then(|l| Some(l.first + l.axes.iter().position(|a| *a == axis)?));
+        let stiff = local.map_or(0.0, |i| problem.beside[i]);
+        let [u, turn] = [false, true].map(|turns| scale.displacement(problem, turns));
+        (u.max(turn), stiff)
+    };
+    match *output {
+        Output::Displacement(_, d) => scale.displacement(problem, d > 2),
+        Output::Velocity(_, d) => scale.velocity(problem, d > 2),
+        Output::LinkForce(e, a) => {
+            let (motion, stiff) = of(e, a);
+            motion * stiff
+        }
+        Output::LinkDeformation(e, a) => of(e, a).0,
+    }
 }
 
 /// Times may be off by this share of the duration.
