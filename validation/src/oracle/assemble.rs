@@ -62,7 +62,7 @@ fn nodes(spec: &Spec, m: &Member) -> ([f64; 3], Option<[f64; 3]>) {
 }
 
 /// The matrices of a member and whether its inertia is mass that gravity and the ground see.
-fn element(spec: &Spec, m: &Member) -> Option<(Matrices, bool)> {
+pub(super) fn element(spec: &Spec, m: &Member) -> Option<(Matrices, bool)> {
     let (from, to) = nodes(spec, m);
     match (&m.kind, to) {
         (Kind::Beam(b), Some(to)) => Some((beam(b, from, to), true)),

@@ -42,7 +42,7 @@ impl Law {
             Self::Plastic(d, _) => d.len() - 2,
             Self::Contact(c) if c.slow > 0.0 => 2,
             Self::Contact(_) => 0,
-            Self::Elastomeric(..) => 2,
+            Self::Elastomeric(..) | Self::Pendulum(_) => 2,
         }
     }
 
@@ -66,6 +66,7 @@ impl Law {
             Self::Contact(c) => vec![0.1 * c.kn],
             Self::Linear(k, c) => (0..2).map(|i| k[i][i].abs() + omega * c[i][i].abs()).collect(),
             Self::Elastomeric(k, ..) => vec![*k, *k],
+            Self::Pendulum(p) => p.stiffness(),
         }
     }
 
@@ -169,6 +170,7 @@ impl Law {
                     }
                 }
             }
+            Self::Pendulum(p) => branch = p.answer(at, f, g),
             Self::Elastomeric(k, fy, r) => {
                 let stiff = (1.0 - r) * k;
                 branch = slip(stiff, &|_| Dual::from((1.0 - r) * fy), at, d, f, g);
@@ -226,7 +228,7 @@ fn plastic(points: &[f64], forces: &[f64], at: &At<'_>, f: &mut Dual, g: &mut [D
 }
 
 /// q = k (d − z) within a circle whose radius may grow with the rate of slip; z creeps along q.
-fn slip(
+pub(super) fn slip(
     k: f64,
     limit: &dyn Fn(Dual) -> Dual,
     at: &At<'_>,

@@ -1,6 +1,6 @@
 //! The equations of a description: matrices, loads over time, laws, outputs.
 
-use super::assemble::{Assembled, GRAVITY, LinkAt};
+use super::assemble::{Assembled, GRAVITY, LinkAt, element};
 use super::modes::{Modes, modes};
 use super::spec::{Damping, Function, Output, Spec};
 use nalgebra::{DMatrix, DVector};
@@ -27,6 +27,10 @@ pub enum Probe {
     Force(usize),
     /// A link coordinate.
     Deformation(usize),
+    /// The same as of a displacement over second derivatives, and what else is added.
+    Acceleration(DVector<f64>, DVector<f64>, Vec<Function>),
+    /// Rows over displacements and over their rates, as of a displacement.
+    Member([(DVector<f64>, DVector<f64>); 2]),
 }
 
 /// A problem.
@@ -122,7 +126,7 @@ impl Problem {
         breaks.retain(|t| (0.0..=spec.duration).contains(t));
         breaks.sort_by(f64::total_cmp);
         breaks.dedup_by(|b, a| (*b - *a).abs() < 1e-9 * spec.duration);
-        let probes = spec.outputs.iter().map(|o| probe(&a, o)).collect::<Result<_, _>>()?;
+        let probes = spec.outputs.iter().map(|o| probe(spec, &a, o)).collect::<Result<_, _>>()?;
         Ok(Self {
             constant,
             channels,
@@ -186,7 +190,25 @@ impl Problem {
     }
 }
 
-fn probe(a: &Assembled, output: &Output) -> Result<Probe, String> {
+/// Rows of a member's stiffness and damping at one of its directions, over what moves.
+fn end_force(
+    spec: &Spec,
+    a: &Assembled,
+    member: usize,
+    i: usize,
+) -> Result<[(DVector<f64>, DVector<f64>); 2], String> {
+    let m = spec.members.get(member).ok_or("no such member")?;
+    let (it, _) = element(spec, m).ok_or("no linear member")?;
+    Ok([&it.k, &it.c].map(|of| {
+        let mut full = DVector::zeros(a.t.nrows());
+        for j in 0..of.ncols() {
+            full[6 * m.nodes[j / 6] + j % 6] += of[(i, j)];
+        }
+        (a.t.transpose() * &full, a.s.transpose() * full)
+    }))
+}
+
+fn probe(spec: &Spec, a: &Assembled, output: &Output) -> Result<Probe, String> {
     let rows =
         |n: usize, d: usize| (a.t.row(6 * n + d).transpose(), a.s.row(6 * n + d).transpose());
     let coordinate = |member: usize, axis: usize| {
@@ -206,5 +228,15 @@ fn probe(a: &Assembled, output: &Output) -> Result<Probe, String> {
         }
         Output::LinkForce(e, x) => Probe::Force(coordinate(e, x)?),
         Output::LinkDeformation(e, x) => Probe::Deformation(coordinate(e, x)?),
+        Output::Drift(above, below, d) => {
+            let ((t, s), (t0, s0)) = (rows(above, d), rows(below, d));
+            Probe::Displacement(t - t0, s - s0)
+        }
+        Output::Acceleration(n, d) => {
+            let (t, s) = rows(n, d);
+            let base = spec.base.iter().filter(|(along, _)| *along == d);
+            Probe::Acceleration(t, s, base.map(|(_, f)| f.clone()).collect())
+        }
+        Output::End(e, end, d) => Probe::Member(end_force(spec, a, e, 6 * end + d)?),
     })
 }

@@ -64,8 +64,8 @@ fn smaller(spec: &Spec) -> Vec<Spec> {
     }
     for i in 0..spec.members.len() {
         let named = spec.outputs.iter().any(|o| {
-            use super::spec::Output::{LinkDeformation, LinkForce};
-            matches!(o, LinkForce(e, _) | LinkDeformation(e, _) if *e == i)
+            use super::spec::Output::{End, LinkDeformation, LinkForce};
+            matches!(o, LinkForce(e, _) | LinkDeformation(e, _) | End(e, ..) if *e == i)
         });
         if !named {
             add(&|s| remove(s, i));
@@ -74,8 +74,9 @@ fn smaller(spec: &Spec) -> Vec<Spec> {
     // The last node with everything on it.
     for n in (0..spec.nodes.len()).rev() {
         let used = spec.outputs.iter().any(|o| {
-            use super::spec::Output::{Displacement, Velocity};
-            matches!(o, Displacement(m, _) | Velocity(m, _) if *m == n)
+            use super::spec::Output::{Acceleration, Displacement, Drift, Velocity};
+            matches!(o, Displacement(m, _) | Velocity(m, _) | Acceleration(m, _) if *m == n)
+                || matches!(o, Drift(a, b, _) if *a == n || *b == n)
         });
         let held = spec.members.iter().any(|m| {
             m.nodes.contains(&n)
@@ -106,11 +107,12 @@ fn smaller(spec: &Spec) -> Vec<Spec> {
 
 /// Takes a member out; outputs count on.
 fn remove(spec: &mut Spec, i: usize) {
-    use super::spec::Output::{LinkDeformation, LinkForce};
+    use super::spec::Output::{End, LinkDeformation, LinkForce};
     spec.members.remove(i);
-    spec.outputs.retain(|o| !matches!(o, LinkForce(e, _) | LinkDeformation(e, _) if *e == i));
+    spec.outputs
+        .retain(|o| !matches!(o, LinkForce(e, _) | LinkDeformation(e, _) | End(e, ..) if *e == i));
     for o in &mut spec.outputs {
-        if let LinkForce(e, _) | LinkDeformation(e, _) = o
+        if let LinkForce(e, _) | LinkDeformation(e, _) | End(e, ..) = o
             && *e > i
         {
             *e -= 1;

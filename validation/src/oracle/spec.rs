@@ -131,6 +131,25 @@ pub enum Law {
     Linear([[f64; 2]; 2], [[f64; 2]; 2]),
     /// k, f_y, ratio; plastic in the plane of local 2, 3.
     Elastomeric(f64, f64, f64),
+    /// Sliding bearing with a concave surface.
+    Pendulum(Pendulum),
+}
+
+/// Sliding bearing with a concave surface: local 1 is its axis, it slides along 2 and 3.
+#[derive(Clone, Copy, Debug)]
+pub struct Pendulum {
+    /// Stiffness in compression.
+    pub kn: f64,
+    /// Stiffness before slip.
+    pub ks: f64,
+    /// Radius of the surface.
+    pub radius: f64,
+    /// Friction coefficient at rest.
+    pub slow: f64,
+    /// Friction coefficient at speed.
+    pub fast: f64,
+    /// From slow to fast, s/m.
+    pub rate: f64,
 }
 
 /// Contact with friction.
@@ -221,6 +240,12 @@ pub enum Output {
     LinkForce(usize, usize),
     /// Deformation of a link along a local axis.
     LinkDeformation(usize, usize),
+    /// Displacement of the first node against that of the second, along a direction.
+    Drift(usize, usize, usize),
+    /// With that of the base: of a node and direction.
+    Acceleration(usize, usize),
+    /// Force of a linear member, its springs and dashpots, at one of its nodes along a direction.
+    End(usize, usize, usize),
 }
 
 impl Law {
@@ -229,6 +254,7 @@ impl Law {
     pub fn axes(&self, axis: usize) -> Vec<usize> {
         match self {
             Self::Contact(c) if c.slow > 0.0 => vec![0, 1, 2],
+            Self::Pendulum(_) => vec![0, 1, 2],
             Self::Contact(_) => vec![0],
             Self::Linear(..) => vec![0, 1],
             Self::Elastomeric(..) => vec![1, 2],

@@ -15,6 +15,10 @@ pub struct Shown {
     pub warnings: Vec<String>,
     /// Substeps made.
     pub substeps: usize,
+    /// Setting up and marching, s of CPU.
+    pub seconds: f64,
+    /// Vectors of the basis, where there is one.
+    pub vectors: Option<usize>,
 }
 
 impl Observer for Shown {
@@ -56,6 +60,8 @@ pub fn run(text: &str, solver: SolverKind) -> Ended {
         }
         shown.warnings = result.warnings;
         shown.substeps = result.work.substeps;
+        shown.seconds = result.work.setup_cpu_s + result.work.march_cpu_s;
+        shown.vectors = result.basis.map(|b| b.vectors);
         Ok(shown)
     };
     match std::panic::catch_unwind(work) {

@@ -80,6 +80,18 @@ pub fn text(spec: &Spec) -> String {
                     format!("Displacement(node: \"n{n}\", dof: {})", DOFS[*d])
                 }
                 Output::Velocity(n, d) => format!("Velocity(node: \"n{n}\", dof: {})", DOFS[*d]),
+                Output::Drift(n, m, d) => {
+                    let term = |n: &usize, x: i32| {
+                        format!("(node: \"n{n}\", dof: {}, factor: {x})", DOFS[*d])
+                    };
+                    format!("Displacement(terms: [{}, {}])", term(n, 1), term(m, -1))
+                }
+                Output::Acceleration(n, d) => {
+                    format!("Acceleration(node: \"n{n}\", dof: {}, absolute: true)", DOFS[*d])
+                }
+                Output::End(e, end, d) => {
+                    format!("ElementForce(element: \"e{e}\", end: {end}, dof: {})", DOFS[*d])
+                }
                 Output::LinkForce(e, a) => format!("LinkForce(link: \"e{e}\", axis: {})", AXES[*a]),
                 Output::LinkDeformation(e, a) => {
                     format!("LinkDeformation(link: \"e{e}\", axis: {})", AXES[*a])
@@ -285,6 +297,14 @@ fn law(law: &Law, axis: &str, rotation: bool) -> (&'static str, String) {
             };
             ("LinearLink", format!("stiffness: {}, damping: {}", whole(k), whole(c)))
         }
+        Law::Pendulum(p) => (
+            "FrictionPendulum",
+            format!(
+                "kn: {:?}, ks: {:?}, radius: {:?}, friction_model: Velocity, mu_slow: {:?}, \
+                 mu_fast: {:?}, rate: {:?}",
+                p.kn, p.ks, p.radius, p.slow, p.fast, p.rate
+            ),
+        ),
         Law::Elastomeric(k, fy, r) => {
             ("ElastomericBearing", format!("k: {k:?}, fy: {fy:?}, ratio: {r:?}"))
         }

@@ -107,6 +107,8 @@ fn largest(problem: &Problem, course: &Course, output: &Output) -> f64 {
             motion * stiff
         }
         Output::LinkDeformation(e, a) => of(e, a).0,
+        Output::Drift(_, _, d) => scale.displacement(problem, d > 2),
+        Output::Acceleration(..) | Output::End(..) => 0.0,
     }
 }
 
@@ -126,5 +128,8 @@ fn kind(output: &Output) -> u8 {
         Output::Velocity(_, d) => 2 + u8::from(*d > 2),
         Output::LinkForce(_, a) => 4 + u8::from(*a > 2),
         Output::LinkDeformation(_, a) => u8::from(*a > 2),
+        Output::Drift(_, _, d) => u8::from(*d > 2),
+        Output::End(_, _, d) => 4 + u8::from(*d > 2),
+        Output::Acceleration(_, d) => 6 + u8::from(*d > 2),
     }
 }

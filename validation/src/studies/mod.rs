@@ -10,6 +10,7 @@ mod overturning;
 mod runs;
 mod seed;
 mod sensitivity;
+mod structures;
 
 use crate::Study;
 
@@ -25,6 +26,7 @@ pub fn all() -> Vec<Study> {
         &convergence::STUDIES,
         &calibration::STUDIES,
         &overturning::STUDIES,
+        &structures::STUDIES,
     ]
     .concat()
 }

@@ -32,7 +32,7 @@ pub struct Coordinates {
     pub constant: Vec<f64>,
     /// Forces of the channels.
     pub channels: Vec<Vec<f64>>,
-    /// Row of a probe of displacements or velocities.
+    /// Row of a probe of the motion; of a member's force two, over displacements and over rates.
     pub probes: Vec<Vec<f64>>,
 }
 
@@ -107,6 +107,8 @@ impl Coordinates {
         let into = |x: &DVector<f64>| (&back * x).as_slice().to_vec();
         let probes = p.probes.iter().map(|probe| match probe {
             Probe::Displacement(row, _) | Probe::Velocity(row, _) => into(row),
+            Probe::Acceleration(row, ..) => into(row),
+            Probe::Member(rows) => rows.iter().flat_map(|(row, _)| into(row)).collect(),
             Probe::Force(_) | Probe::Deformation(_) => Vec::new(),
         });
         Ok(Self {

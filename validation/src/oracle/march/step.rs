@@ -261,6 +261,26 @@ impl<'a> Stepper<'a> {
                             + beside(m, i, 1);
                     }
                 }
+                Probe::Acceleration(_, m, base) => {
+                    // Rates at the stages, beyond that at the start.
+                    let (x, start) = (x(), dot(row, &before.r));
+                    let rate = s.tilde.map(|t| dot(&t, &x) - start);
+                    for i in 1..4 {
+                        let all = p.moved.iter().map(|f| f.at(times[i], false)[2]);
+                        let with = m.iter().zip(all).map(|(m, a)| m * a);
+                        let base = base.iter().map(|f| f.at(times[i], false)[0]);
+                        values[i] = dot(&s.tilde[i - 1], &rate) + with.chain(base).sum::<f64>();
+                    }
+                }
+                Probe::Member([(_, m), (_, w)]) => {
+                    let (of_place, of_rate) = row.split_at(before.q.len());
+                    let (start, x) = (dot(of_place, &before.q), stages_of(of_place, &s.x));
+                    let y = stages_of(of_rate, &s.x);
+                    for i in 1..4 {
+                        values[i] = start + x[i - 1] + dot(&s.tilde[i - 1], &y);
+                        values[i] += beside(m, i, 0) + beside(w, i, 1);
+                    }
+                }
                 Probe::Force(c) => (1..4).for_each(|i| values[i] = s.f[i - 1][*c]),
                 Probe::Deformation(c) => (1..4).for_each(|i| values[i] = s.d[i - 1][*c]),
             }
