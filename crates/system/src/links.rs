@@ -7,7 +7,9 @@
 use serde::{Deserialize, Serialize};
 use std::ops::Range;
 use std::sync::Arc;
-use trilith_element::{Coordinates, Dof, Energy, Kinematics, Link, Response, Vector3};
+use trilith_element::{
+    Coordinates, Dof, Energy, Kinematics, Link, Response, Vector3, cross, norm, sub,
+};
 use trilith_model::{Body, Model};
 
 use crate::batch::{Pack, packs};
@@ -397,8 +399,9 @@ impl LinkSet {
     }
 }
 
-/// Rows of B over full DOFs. Shear of a link with length includes the rotation of its ends about the
-/// shear location, where those rotations are DOFs that the structure uses.
+/// Rows of B over full DOFs. A link between nodes apart stands between rigid arms of both to the place of its
+/// shear, so that its forces are in equilibrium along whatever axes it has; rotations count where they are
+/// DOFs that the structure uses.
 fn full_rows(
     model: &Model,
     element: usize,
@@ -422,7 +425,13 @@ fn full_rows(
         [i, j] => (j, Some(i)),
         _ => (e.nodes[0], None),
     };
-    let length = i.map_or(0.0, |i| distance(model.nodes[i].position, model.nodes[j].position));
+    // From both nodes to the place of the link, which is on the line between them.
+    let arms = i.map_or([[0.0; 3]; 2], |i| {
+        let line = sub(model.nodes[j].position, model.nodes[i].position);
+        let length = norm(line);
+        let share = if length > 0.0 { shear_at / length } else { 0.0 };
+        [line.map(|x| (1.0 - share) * x), line.map(|x| -share * x)]
+    });
     axes.iter()
         .map(|axis| {
             let a = axis.index();
@@ -435,24 +444,18 @@ fn full_rows(
                         .map(|(k, x)| (6 * node + offset + k, c * x)),
                 );
             };
-            let offset = 3 * (a / 3);
-            add(j, frame[a % 3], offset, 1.0);
+            let (offset, along) = (3 * (a / 3), frame[a % 3]);
+            add(j, along, offset, 1.0);
             if let Some(i) = i {
-                add(i, frame[a % 3], offset, -1.0);
-                // U2 turns with R3, U3 against R2.
-                if let Some((about, sign)) =
-                    [None, Some((2, -1.0)), Some((1, 1.0))].get(a).copied().flatten()
-                {
-                    add(j, frame[about], 3, sign * shear_at);
-                    add(i, frame[about], 3, sign * (length - shear_at));
+                add(i, along, offset, -1.0);
+                if a < 3 {
+                    // e · (θ × r) = θ · (r × e).
+                    add(j, cross(arms[1], along), 3, 1.0);
+                    add(i, cross(arms[0], along), 3, -1.0);
                 }
             }
             terms.retain(|(full, c)| *c != 0.0 && (full % 6 < 3 || used[*full]));
             terms
         })
         .collect()
-}
-
-fn distance(a: Vector3, b: Vector3) -> f64 {
-    trilith_element::norm(trilith_element::sub(b, a))
 }
