@@ -144,6 +144,18 @@ impl Problem {
         })
     }
 
+    /// Steps end within this time of each other, s.
+    pub fn cut(&mut self, longest: f64) {
+        let mut cut = vec![self.breaks[0]];
+        for pair in self.breaks.windows(2) {
+            let parts = ((pair[1] - pair[0]) / longest).ceil().max(1.0);
+            let at = |i: usize| pair[0] + (pair[1] - pair[0]) * i as f64 / parts;
+            cut.extend((1..parts as usize).map(at));
+            cut.push(pair[1]);
+        }
+        self.breaks = cut;
+    }
+
     /// The static problem before it: constant loads from nothing to their value at time 1.
     #[must_use]
     pub fn before(&self) -> Self {

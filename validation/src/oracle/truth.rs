@@ -34,7 +34,16 @@ const ROUNDING: f64 = 1e-9;
 /// # Errors
 /// Why there is no answer.
 pub fn truth(spec: &Spec, work: f64) -> Result<Truth, String> {
-    let problem = Problem::new(spec, 10.0 * TAU / spec.duration)?;
+    truth_in_steps(spec, work, f64::INFINITY)
+}
+
+/// The same, no step longer than this, s: the whole step and its halves may both pass by a short contact.
+///
+/// # Errors
+/// Why there is no answer.
+pub fn truth_in_steps(spec: &Spec, work: f64, longest: f64) -> Result<Truth, String> {
+    let mut problem = Problem::new(spec, 10.0 * TAU / spec.duration)?;
+    problem.cut(longest);
     let mut start = State::start(&problem);
     if spec.gravity {
         let before = problem.before();

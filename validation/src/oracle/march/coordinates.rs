@@ -69,23 +69,15 @@ impl Coordinates {
         let (heavy, light) = split(&a.m);
         let of_stiffness = if let Damping::Rayleigh(_, b) = p.damping { b } else { 0.0 };
         let mut all = Shapes::default();
+        let mut loose = Vec::new();
         for shape in massless(&a.k, &light) {
             match shape {
                 Massless::Held(column) => all.add(column, [0.0, of_stiffness, 1.0, 1.0]),
-                Massless::Loose(column) => {
-                    let held = a.b.row_iter().zip(p.beside.iter());
-                    let held =
-                        held.map(|(row, k)| k * row.transpose().dot(&column).powi(2)).sum::<f64>();
-                    let dash = a.dash_rows.row_iter().zip(&a.dash);
-                    let dash = dash
-                        .map(|(row, c)| c * p.omega * row.transpose().dot(&column).powi(2))
-                        .sum::<f64>();
-                    if held + dash <= 0.0 {
-                        return Err("a direction without mass that nothing holds".into());
-                    }
-                    all.add(column / (held + dash).sqrt(), [0.0, 0.0, 1.0, 0.0]);
-                }
+                Massless::Loose(column) => loose.push(column),
             }
+        }
+        for column in held_by_links(p, &loose)? {
+            all.add(column, [0.0, 0.0, 1.0, 0.0]);
         }
         modes(p, &heavy, &mut all)?;
         let n = a.k.nrows();
@@ -202,6 +194,36 @@ fn massless(k: &DMatrix<f64>, light: &DMatrix<f64>) -> Vec<Massless> {
         }
     };
     eigen.eigenvalues.iter().enumerate().map(shape).collect()
+}
+
+/// Shapes without stiffness, square to each other by the stiffness that links have and of unit one: shapes
+/// that hardly differ in what deforms the links would leave nothing but rounding.
+fn held_by_links(p: &Problem, loose: &[DVector<f64>]) -> Result<Vec<DVector<f64>>, String> {
+    if loose.is_empty() {
+        return Ok(Vec::new());
+    }
+    let (a, mut shapes) = (&p.a, DMatrix::from_columns(loose));
+    let held = |shapes: &DMatrix<f64>| {
+        let (laws, dash) = (&a.b * shapes, &a.dash_rows * shapes);
+        let mut sum = laws.tr_mul(&(DMatrix::from_diagonal(&p.beside) * &laws));
+        for (row, c) in dash.row_iter().zip(&a.dash) {
+            sum += row.transpose() * row * (c * p.omega);
+        }
+        sum
+    };
+    let own = held(&shapes).diagonal();
+    if own.iter().any(|x| *x <= 0.0) {
+        return Err("a direction without mass that nothing holds".into());
+    }
+    for (mut column, x) in shapes.column_iter_mut().zip(own.iter()) {
+        column /= x.sqrt();
+    }
+    let eigen = SymmetricEigen::new(held(&shapes));
+    let one = |(j, value): (usize, &f64)| {
+        let column = &shapes * eigen.eigenvectors.column(j);
+        column / value.max(f64::EPSILON).sqrt()
+    };
+    Ok(eigen.eigenvalues.iter().enumerate().map(one).collect())
 }
 
 /// Natural modes, square to the massless shapes by stiffness.

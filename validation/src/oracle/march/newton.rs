@@ -237,7 +237,7 @@ pub fn solve(
         let stays = share == 1.0 && matrix.branches == trial.branches;
         // The next step would be as much shorter as the residual is.
         let done = done || (stays && left < SERVES && within(0.1 / left.max(1e-12)));
-        refine += usize::from(small);
+        refine += usize::from(small || before < 1.0);
         // A matrix that was just made serves on after whole steps.
         if share < 1.0 {
             kept.remove(0);
@@ -250,7 +250,7 @@ pub fn solve(
         if !x.iter().all(|v| v.is_finite()) {
             break;
         }
-        // Rounding: steps that no longer shrink but are small.
+        // Rounding: steps that no longer shrink but are small, or follow a residual that is.
         if done || refine > 4 {
             return Some(Settled { x, f: it.f });
         }

@@ -6,7 +6,7 @@ use crate::case::{Kind, Tolerance};
 use crate::oracle::spec::Output;
 use crate::oracle::subject::{Ended, Shown, run};
 use crate::oracle::text::text;
-use crate::oracle::truth::{Truth, WINDOW, outside, truth};
+use crate::oracle::truth::{Truth, WINDOW, outside, truth_in_steps};
 use trilith::SolverKind;
 use trilith_report::Figure;
 
@@ -69,13 +69,11 @@ fn off(it: &Structure, truth: &Truth, shown: &Shown, i: usize) -> Off {
 /// Compares.
 pub(super) fn compare(found: &mut Findings, it: &Structure) -> Result<(), String> {
     let start = std::time::Instant::now();
-    let truth = truth(&it.spec, WORK).map_err(|e| format!("no oracle: {e}"))?;
+    let truth =
+        truth_in_steps(&it.spec, WORK, it.spec.dt).map_err(|e| format!("no oracle: {e}"))?;
     let of_oracle = start.elapsed().as_secs_f64();
     let text = text(&it.spec);
-    if let Ok(to) = std::env::var("TEN_DUMP") { let _ = std::fs::write(to, &text); } // SCRATCH
-    let mut it = it.clone(); if let Ok(x) = std::env::var("TEN_TOL") { it.spec.tolerance = x.parse().ok(); } // SCRATCH
-    let it = &it; let text = crate::oracle::text::text(&it.spec); // SCRATCH
-    let mut runs = Vec::new();
+    let mut runs: Vec<Shown> = Vec::new();
     for solver in SOLVERS {
         match run(&text, solver) {
             Ended::Shown(shown) => runs.push(shown),
