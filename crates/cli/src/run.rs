@@ -28,6 +28,7 @@ pub(crate) fn run(registry: &Registry, args: RunArguments) -> Result<Answer, Fai
             dt: args.dt,
             until: args.checkpoint_at,
             vectors: None,
+            substeps: None,
             from,
             progress: Some(&mut show),
         };

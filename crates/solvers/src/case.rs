@@ -31,6 +31,8 @@ pub struct RunOptions<'a> {
     pub until: Option<f64>,
     /// Vectors of the basis; `None`: as the case says.
     pub vectors: Option<usize>,
+    /// Stop when so many substeps have been tried; `None`: go on.
+    pub substeps: Option<usize>,
     /// Continue the case from where an earlier run stopped.
     pub from: Option<EndState>,
     /// Told the finished share of the run, 0 … 1.
@@ -154,8 +156,10 @@ pub(crate) fn before(
         }
         round += 1;
     };
-    if let Status::NotConverged { .. } | Status::Overturned { .. } | Status::Inadequate { .. } =
-        result.status
+    if let Status::NotConverged { .. }
+    | Status::Spent { .. }
+    | Status::Overturned { .. }
+    | Status::Inadequate { .. } = result.status
     {
         let reason = result.status.text();
         return Err(SolveError::Predecessor { case: result.case, reason });

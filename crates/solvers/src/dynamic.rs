@@ -170,6 +170,7 @@ pub(crate) fn run(
     let mut progress = options.progress;
     let constant_force = constant_force(stepper.space(), &loads);
     let mut march = March::new(stepper.as_mut(), &loads, solution.step);
+    march.budget = options.substeps.unwrap_or(usize::MAX);
     let (mut stop, mut fallen) = (None, None);
     let mut made = first;
     for step in first..last {
@@ -247,9 +248,15 @@ pub(crate) fn run(
     };
     let mut result =
         arrival.result(model, system, case, kind, stepper.space(), stepper.memory(), work);
-    if let Some(Stop::NoEquilibrium { t, worst, residual }) = stop {
-        let worst = system.links.name(model, worst);
-        result.status = Status::NotConverged { t, worst, residual };
+    match stop {
+        Some(Stop::NoEquilibrium { t, worst, residual }) => {
+            let worst = system.links.name(model, worst);
+            result.status = Status::NotConverged { t, worst, residual };
+        }
+        Some(Stop::Spent { t }) => {
+            result.status = Status::Spent { t, tried: counts.substeps + counts.rejected };
+        }
+        Some(Stop::Fatal(_)) | None => {}
     }
     if let Some(certificate) = &certificate {
         // Nobody watches fixed steps.

@@ -92,7 +92,15 @@ impl Counts {
 /// Why a march stopped.
 #[derive(Clone, Debug)]
 pub(crate) enum Stop {
-    NoEquilibrium { t: f64, worst: usize, residual: f64 },
+    NoEquilibrium {
+        t: f64,
+        worst: usize,
+        residual: f64,
+    },
+    /// The work is spent at this time, s.
+    Spent {
+        t: f64,
+    },
     Fatal(SolveError),
 }
 
@@ -102,6 +110,8 @@ pub(crate) struct March<'a> {
     pub loads: &'a LoadSet,
     pub control: StepControl,
     pub counts: Counts,
+    /// Substeps that may be tried.
+    pub budget: usize,
     trial: Trial,
 }
 
@@ -169,7 +179,8 @@ impl<'a> March<'a> {
         loads: &'a LoadSet,
         control: StepControl,
     ) -> Self {
-        Self { stepper, loads, control, counts: Counts::default(), trial: Trial::default() }
+        let (counts, trial) = (Counts::default(), Trial::default());
+        Self { stepper, loads, control, counts, budget: usize::MAX, trial }
     }
 
     /// The next segment starts where a load may jump.
@@ -220,6 +231,7 @@ impl<'a> March<'a> {
             let ticks = full >> level;
             let size = piece.length / f64::from(1u32 << level);
             let (start, middle, end) = (time(at), time(at + ticks / 2), time(at + ticks));
+            self.spend(start)?;
             let attempt = self.attempt(state, [start, middle, end], size, known == Some(level));
             known = None;
             match attempt {
@@ -326,6 +338,7 @@ impl<'a> March<'a> {
         let share = |ticks: u32| f64::from(ticks) / f64::from(full);
         let time = |ticks: u32| piece.time(share(ticks));
         while at < full {
+            self.spend(time(at))?;
             let ticks = full >> level;
             // A power of two: no rounding.
             let size = piece.length * share(ticks);
@@ -349,6 +362,15 @@ impl<'a> March<'a> {
             }
         }
         Ok(())
+    }
+
+    /// Ends the run where its work is spent.
+    fn spend(&self, t: f64) -> Result<(), Stop> {
+        if self.counts.substeps + self.counts.rejected < self.budget {
+            Ok(())
+        } else {
+            Err(Stop::Spent { t })
+        }
     }
 
     /// Ends the run where halving does not help.

@@ -149,6 +149,13 @@ pub enum Status {
         /// Its force residual, N or N·m.
         residual: f64,
     },
+    /// Stopped: the work that the run was given is spent.
+    Spent {
+        /// Time of the last accepted state, s.
+        t: f64,
+        /// Substeps tried.
+        tried: usize,
+    },
     /// To the end, but the basis does not hold the motion well enough.
     Inadequate {
         /// The output that is farthest off.
@@ -181,6 +188,7 @@ impl Status {
             Self::Converged => "converged",
             Self::EnergyError { .. } => "energy error",
             Self::NotConverged { .. } => "not converged",
+            Self::Spent { .. } => "spent",
             Self::Overturned { .. } => "overturned",
             Self::Inadequate { .. } => "inadequate",
         }
@@ -198,6 +206,9 @@ impl Status {
             ),
             Self::NotConverged { t, worst, residual } => format!(
                 "no equilibrium at t = {t:.6} s with the smallest step: {worst} is off by {residual:.3e}"
+            ),
+            Self::Spent { t, tried } => format!(
+                "stopped at t = {t:.6} s after {tried} tried substeps, which is all that it was given"
             ),
             Self::Inadequate { output, share, allowed } => format!(
                 "the basis is too small: output \"{output}\" may be off by {:.2} % of its range (allowed {:.2} %): use more vectors",

@@ -91,7 +91,7 @@ impl<'m> Analysis<'m> {
         if options.case >= self.model.cases.len() {
             return Err(Error::unknown_case(self.model, &format!("#{}", options.case)));
         }
-        let RunOptions { case, solver, dt, until, vectors, from, mut progress } = options;
+        let RunOptions { case, solver, dt, until, vectors, substeps, from, mut progress } = options;
         // A run goes on with the basis it was made with.
         let before = from.as_ref().and_then(|end| end.vectors);
         let (mut vectors, mut round) = (vectors.or(before), 0);
@@ -100,8 +100,16 @@ impl<'m> Analysis<'m> {
                 Some(tell) => Some(&mut **tell),
                 None => None,
             };
-            let options =
-                RunOptions { case, solver, dt, until, vectors, from: from.clone(), progress };
+            let options = RunOptions {
+                case,
+                solver,
+                dt,
+                until,
+                vectors,
+                substeps,
+                from: from.clone(),
+                progress,
+            };
             let mut run = self.once(options, observers)?;
             let more = run.result.enlarged(self.model, round).filter(|_| from.is_none());
             let Some(n) = more else {

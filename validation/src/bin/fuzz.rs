@@ -106,7 +106,7 @@ fn main() -> ExitCode {
     if let Err(error) = result.write(&folder, wanted.shrink, wanted.keep) {
         eprintln!("failures cannot be written to {}: {error}", folder.display());
     }
-    print!("{}", result.summary());
+    print!("{}{}", result.summary(), result.certificates());
     println!("failures: {}", folder.display());
     if result.failures().is_empty() { ExitCode::SUCCESS } else { ExitCode::FAILURE }
 }

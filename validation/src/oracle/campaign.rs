@@ -1,7 +1,7 @@
 //! Many structures side by side, and what came of them.
 
 use super::generate::generate;
-use super::judge::{Skip, Verdict, class, judge, reference};
+use super::judge::{NO_ERROR, Pair, Skip, Verdict, class, judge, judge_and_compare, reference};
 use super::shrink::shrink;
 use super::spec::Spec;
 use super::text::text;
@@ -37,6 +37,8 @@ pub struct Found {
     pub solver: SolverKind,
     /// Verdict.
     pub verdict: Verdict,
+    /// Errors of the outputs and what the run says of them.
+    pub pairs: Vec<Pair>,
 }
 
 /// What came of all.
@@ -102,13 +104,13 @@ impl Campaign {
         let clock = Instant::now();
         for solver in &self.solvers {
             let before = clock.elapsed().as_secs_f64();
-            let verdict = judge(&spec, &truth, *solver);
+            let (verdict, pairs) = judge_and_compare(&spec, &truth, *solver);
             if self.aloud {
                 let took = clock.elapsed().as_secs_f64() - before;
                 let (name, said) = (solver.name(), say(&spec, &verdict));
                 eprintln!("{seed} {} {name} {took:.2} s: {said}", spec.family);
             }
-            own.runs.push(Found { seed, family: spec.family, solver: *solver, verdict });
+            own.runs.push(Found { seed, family: spec.family, solver: *solver, verdict, pairs });
         }
         own.seconds[1] += clock.elapsed().as_secs_f64();
     }
@@ -192,6 +194,32 @@ impl Result {
         for (solver, [passed, refused, warned, reduced, failed, panicked, small]) in counts {
             line(format!(
                 "{solver:12} {passed} passed, {refused} refused, {warned} off with a warning, {reduced} off on a basis cut short, {small} off in what is small, {failed} failed, {panicked} broke off"
+            ));
+        }
+        s
+    }
+
+    /// How often the estimates of the runs hold, and how far they are from the errors.
+    #[must_use]
+    pub fn certificates(&self) -> String {
+        let mut s = String::new();
+        for solver in SolverKind::ALL {
+            let runs = self.runs.iter().filter(|f| f.solver == solver);
+            let pairs: Vec<&Pair> =
+                runs.flat_map(|f| &f.pairs).filter(|p| !p.said.is_nan()).collect();
+            if pairs.is_empty() {
+                continue;
+            }
+            let held = pairs.iter().filter(|p| p.holds()).count();
+            let mut ratios: Vec<f64> =
+                pairs.iter().map(|p| p.said.max(NO_ERROR) / p.off.max(NO_ERROR)).collect();
+            ratios.sort_by(f64::total_cmp);
+            s.push_str(&format!(
+                "{:12} {} estimates, {:.2} % hold; estimate over error: median {:.1}\n",
+                solver.name(),
+                pairs.len(),
+                100.0 * held as f64 / pairs.len() as f64,
+                ratios[ratios.len() / 2]
             ));
         }
         s

@@ -1,7 +1,7 @@
 //! The verdict on a run.
 
 use super::spec::{Basis, Spec};
-use super::subject::{Ended, run};
+use super::subject::{Ended, Shown, run};
 use super::text::text;
 use super::truth::{Truth, WINDOW, outside, truth};
 use trilith::SolverKind;
@@ -79,14 +79,59 @@ pub fn error(spec: &Spec, found: &Truth, time: &[f64], values: &[Vec<f64>]) -> (
     worst
 }
 
+/// The largest error of one output and what the run says of it, as shares of its size.
+#[derive(Clone, Copy, Debug)]
+pub struct Pair {
+    /// Largest distance from the oracle beyond what the oracle is sure of.
+    pub off: f64,
+    /// The run's own estimate, reduction and step; not a number where it has none.
+    pub said: f64,
+}
+
+/// Errors below this share are as good as none.
+pub const NO_ERROR: f64 = 1e-5;
+
+impl Pair {
+    /// The estimate holds.
+    #[must_use]
+    pub fn holds(&self) -> bool {
+        self.off <= self.said + NO_ERROR
+    }
+}
+
+fn pairs(spec: &Spec, found: &Truth, shown: &Shown) -> Vec<Pair> {
+    let mut off = vec![0.0_f64; spec.outputs.len()];
+    let width = WINDOW * spec.duration;
+    for (t, row) in shown.time.iter().zip(&shown.values).filter(|(t, _)| **t > 0.0) {
+        for (i, x) in row.iter().enumerate() {
+            let (low, high) =
+                found.course.span(i, (t - width).max(0.0), (t + width).min(spec.duration));
+            off[i] = off[i].max(outside(*x, low, high) / found.scale[i]);
+        }
+    }
+    let said = |i: usize| shown.errors.get(i).map_or(f64::NAN, |e| e.total() / found.scale[i]);
+    let pair =
+        |(i, off): (usize, f64)| Pair { off: (off - found.moves[i]).max(0.0), said: said(i) };
+    off.into_iter().enumerate().map(pair).collect()
+}
+
 /// Runs a description under a solver and judges it.
 #[must_use]
 pub fn judge(spec: &Spec, found: &Truth, solver: SolverKind) -> Verdict {
-    let shown = match run(&text(spec), solver) {
-        Ended::Shown(shown) => shown,
-        Ended::Refused(message) => return Verdict::Refused(message),
-        Ended::Panicked(message) => return Verdict::Panicked(message),
-    };
+    judge_and_compare(spec, found, solver).0
+}
+
+/// As [`judge`], with the error of every output and what the run says of it.
+#[must_use]
+pub fn judge_and_compare(spec: &Spec, found: &Truth, solver: SolverKind) -> (Verdict, Vec<Pair>) {
+    match run(&text(spec), solver) {
+        Ended::Shown(shown) => (verdict(spec, found, solver, &shown), pairs(spec, found, &shown)),
+        Ended::Refused(message) => (Verdict::Refused(message), Vec::new()),
+        Ended::Panicked(message) => (Verdict::Panicked(message), Vec::new()),
+    }
+}
+
+fn verdict(spec: &Spec, found: &Truth, solver: SolverKind, shown: &Shown) -> Verdict {
     let (output, off, t) = error(spec, found, &shown.time, &shown.values);
     let end = shown.time.last().copied().unwrap_or(0.0);
     if end < spec.duration * (1.0 - 1e-9) {

@@ -1,7 +1,7 @@
 //! The program under test: a model text, run by a solver.
 
 use crate::trace::read;
-use trilith::solvers::{Observer, RunOptions, Sample};
+use trilith::solvers::{Observer, OutputError, RunOptions, Sample};
 use trilith::{Analysis, SolverKind};
 
 /// What a run showed.
@@ -19,6 +19,8 @@ pub struct Shown {
     pub seconds: f64,
     /// Vectors of the basis, where there is one.
     pub vectors: Option<usize>,
+    /// How far the run says that each output may be off.
+    pub errors: Vec<OutputError>,
 }
 
 impl Observer for Shown {
@@ -43,6 +45,9 @@ pub enum Ended {
     Panicked(String),
 }
 
+/// Substeps that a run may try: a structure that needs more is told as stuck.
+const SUBSTEPS: usize = 1_000_000;
+
 /// Runs the last case of a text.
 #[must_use]
 pub fn run(text: &str, solver: SolverKind) -> Ended {
@@ -51,7 +56,12 @@ pub fn run(text: &str, solver: SolverKind) -> Ended {
         let analysis = Analysis::new(&model).map_err(|e| format!("assembly: {e}"))?;
         let mut shown = Shown::default();
         let case = model.cases.len() - 1;
-        let options = RunOptions { case, solver: Some(solver), ..RunOptions::default() };
+        let options = RunOptions {
+            case,
+            solver: Some(solver),
+            substeps: Some(SUBSTEPS),
+            ..RunOptions::default()
+        };
         let system = analysis.system();
         let result = trilith::solvers::run(&model, system, options, &mut [&mut shown])
             .map_err(|e| format!("run: {e}"))?;
@@ -61,7 +71,8 @@ pub fn run(text: &str, solver: SolverKind) -> Ended {
         shown.warnings = result.warnings;
         shown.substeps = result.work.substeps;
         shown.seconds = result.work.setup_cpu_s + result.work.march_cpu_s;
-        shown.vectors = result.basis.map(|b| b.vectors);
+        shown.vectors = result.basis.as_ref().map(|b| b.vectors);
+        shown.errors = result.errors;
         Ok(shown)
     };
     match std::panic::catch_unwind(work) {
