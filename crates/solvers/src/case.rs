@@ -219,7 +219,7 @@ pub(crate) fn constant_load(model: &Model, system: &System, loads: &[Load]) -> V
 }
 
 /// A state without motion, as the laws are before anything has happened.
-fn untouched(model: &Model, system: &System) -> State {
+pub(crate) fn untouched(model: &Model, system: &System) -> State {
     let links = &system.links;
     let rest = LinksBefore::rest(model, links);
     State::of_links(model, links, &rest, rest.d.clone(), rest.d.clone())

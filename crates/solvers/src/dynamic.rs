@@ -145,7 +145,7 @@ pub(crate) fn run(
     let largest = options.from.as_ref().map(|end| end.largest.clone()).unwrap_or_default();
     let (state, mut pace, mut ledger, first) = match options.from {
         Some(end) => resume(end, stepper.as_mut())?,
-        None => start(model, system, &initial, before, &loads, stepper.as_mut(), dt)?,
+        None => start(model, system, &initial, &loads, stepper.as_mut(), dt)?,
     };
     let mut state = Box::new(state);
     let mut viewer = Viewer::new(model, system, &loads, stepper.space(), observers);

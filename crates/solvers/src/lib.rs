@@ -21,6 +21,7 @@ mod error;
 mod full_newton;
 mod hht;
 mod inside;
+mod joints;
 mod kernel;
 pub mod lanes;
 mod ledger;

@@ -52,24 +52,6 @@ pub(crate) fn places(system: &System, k: &Sparse) -> Vec<usize> {
     (0..system.order()).filter(|i| stiff[*i] > 0.0 && heavy[*i] == 0.0).collect()
 }
 
-/// Makes a displacement (or velocity) follow statically in all directions without mass that no dashpot holds.
-pub(crate) fn follow(system: &System, u: &mut [f64]) -> Result<(), SolveError> {
-    let massless = &system.massless;
-    if massless.is_empty() || u.iter().all(|x| *x == 0.0) {
-        return Ok(());
-    }
-    let k = system.stiffness_with(&system.links.effective);
-    let damped = massless.project(&system.element_damping).diagonal();
-    let own: Vec<usize> = (0..massless.len()).filter(|i| damped[*i] == 0.0).collect();
-    let force = massless.load(&k.mul(u));
-    let mut y: Vec<f64> = own.iter().map(|i| force[*i]).collect();
-    Ldlt::with_rigid_zeros(&massless.project(&k).block(&own, &own))?.solve(&mut y);
-    let mut all = vec![0.0; massless.len()];
-    own.iter().zip(y).for_each(|(i, y)| all[*i] = y);
-    massless.expand(-1.0, &all, u);
-    Ok(())
-}
-
 impl StaticShapes {
     /// The shapes for a stiffness under loads on the free DOFs; couplings with modes are not known yet.
     pub(crate) fn new(

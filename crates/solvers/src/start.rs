@@ -1,11 +1,11 @@
 //! Where a dynamic case starts: from rest, from the case before, or from a checkpoint.
 
 use crate::apart::Way;
-use crate::case::{EndState, parameters};
+use crate::case::{EndState, parameters, untouched};
 use crate::error::SolveError;
+use crate::joints;
 use crate::ledger::Ledger;
 use crate::march::Pace;
-use crate::massless;
 use crate::propagator::kinetic_and_strain;
 use crate::space::Space;
 use crate::stepper::{LinksBefore, State, Stepper};
@@ -30,6 +30,9 @@ pub(crate) struct Initial {
     pub velocity: Vec<f64>,
     /// The displacement but for that of a static case before, which loads and links hold in equilibrium.
     pub beyond_equilibrium: Vec<f64>,
+    /// Where the links are led from; of no use where a run goes on from a checkpoint.
+    #[serde(skip)]
+    pub links: Option<LinksBefore>,
 }
 
 impl Initial {
@@ -46,6 +49,7 @@ impl Initial {
             Some(end) => (end.displacement.clone(), end.velocity.clone()),
             None => (vec![0.0; order], vec![0.0; order]),
         };
+        let from = u.clone();
         let is_static = before.is_some_and(|end| v.iter().all(|x| *x == 0.0) && end.dt == 0.0);
         let held = if is_static { u.clone() } else { vec![0.0; order] };
         for initial in &analysis.initial {
@@ -64,12 +68,17 @@ impl Initial {
                 }
             }
         }
+        let mut links = before.map(|end| LinksBefore::of(&end.state));
         if !analysis.initial.is_empty() {
-            massless::follow(system, &mut u)?;
-            massless::follow(system, &mut v)?;
+            joints::follow(system, &mut v)?;
+            let resting = before.map_or_else(|| untouched(model, system), |end| end.state.clone());
+            match joints::lead(model, system, resting, &from, &u)? {
+                Some((led, at)) => (u, links) = (led, Some(at)),
+                None => joints::follow(system, &mut u)?,
+            }
         }
         let beyond_equilibrium = u.iter().zip(&held).map(|(u, h)| u - h).collect();
-        Ok(Self { displacement: u, velocity: v, beyond_equilibrium })
+        Ok(Self { displacement: u, velocity: v, beyond_equilibrium, links })
     }
 }
 
@@ -78,15 +87,12 @@ pub(crate) fn start(
     model: &Model,
     system: &System,
     initial: &Initial,
-    before: Option<EndState>,
     loads: &LoadSet,
     stepper: &mut dyn Stepper,
     dt: f64,
 ) -> Result<Start, SolveError> {
-    let before = match before {
-        Some(end) => LinksBefore { d: end.state.d, history: end.state.history },
-        None => LinksBefore::rest(model, &system.links),
-    };
+    let before = initial.links.clone();
+    let before = before.unwrap_or_else(|| LinksBefore::rest(model, &system.links));
     let Initial { displacement: u, velocity: v, .. } = initial;
     let amplitudes: Vec<f64> =
         loads.channels.iter().map(|c| c.track.at(0.0, Side::After)).collect();

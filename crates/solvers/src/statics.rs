@@ -6,6 +6,13 @@
 //!
 //! with the stiffness of the engaged links as dummies, so that a structure that stands is a linear solve.
 //! The load grows in steps, halved where the links find no equilibrium; link history is carried on.
+//!
+//! Joints without mass are led the same way to where initial displacements of the others put them: with N their
+//! directions and A = Nᵀ K̂ N,
+//!
+//! ```text
+//! u = u₀ + λ (I − N A⁻¹ Nᵀ K̂) Δu − N A⁻¹ Nᵀ Bᵀ (f̃ − f̃₀)
+//! ```
 
 use crate::error::SolveError;
 use crate::kernel::{Affine, Committed, Converged, LinkKernel, NoEquilibrium, Unforeseen};
@@ -35,6 +42,28 @@ pub(crate) struct Unbalanced {
     pub residual: f64,
 }
 
+/// What links move, and the way of the linear structure with engaged links: `u = from + λ by − image f̃`.
+pub(crate) struct Path {
+    /// Stiffness of engaged links, flat.
+    pub engaged: Vec<f64>,
+    /// Displacements by unit forces of the active link coordinates, order × active.
+    pub image: Dense,
+    pub from: Vec<f64>,
+    pub by: Vec<f64>,
+}
+
+/// Rows of the active link coordinates as columns, order × active.
+pub(crate) fn columns_of_links(system: &System) -> Dense {
+    let links = &system.links;
+    let mut columns = Dense::zeros(system.order(), links.active.len());
+    for (j, flat) in links.active.iter().enumerate() {
+        for (i, c) in &links.rows[*flat] {
+            columns[(*i, j)] += c;
+        }
+    }
+    columns
+}
+
 /// From a history and constant loads `before` to `before + added`.
 pub(crate) fn equilibrium(
     model: &Model,
@@ -45,17 +74,29 @@ pub(crate) fn equilibrium(
     steps: usize,
 ) -> Result<Result<Equilibrium, Unbalanced>, SolveError> {
     system.check_supported(model, false)?;
-    let links = &system.links;
-    let engaged = links.engaged(model);
+    let engaged = system.links.engaged(model);
     let mut factor = Ldlt::new(&system.stiffness_with(&engaged))?;
-    let order = system.order();
-    let mut image = Dense::zeros(order, links.active.len());
-    for (j, flat) in links.active.iter().enumerate() {
-        for (i, c) in &links.rows[*flat] {
-            image[(*i, j)] += c;
-        }
-    }
+    let mut image = columns_of_links(system);
     factor.solve(image.values_mut());
+    let mut solve = |p: &[f64]| {
+        let mut u = p.to_vec();
+        factor.solve(&mut u);
+        u
+    };
+    let (from, by) = (solve(before), solve(added));
+    Ok(along(model, system, start, &Path { engaged, image, from, by }, steps))
+}
+
+/// Along a path, from λ = 0 to 1.
+pub(crate) fn along(
+    model: &Model,
+    system: &System,
+    start: State,
+    path: &Path,
+    steps: usize,
+) -> Result<Equilibrium, Unbalanced> {
+    let Path { engaged, image, from, by } = path;
+    let links = &system.links;
     let deform = |u: &[f64]| -> Vec<f64> {
         links.active.iter().map(|i| links.rows[*i].iter().map(|(j, c)| c * u[*j]).sum()).collect()
     };
@@ -65,13 +106,7 @@ pub(crate) fn equilibrium(
         g.column_mut(j).copy_from_slice(&d);
     }
     let none = Dense::zeros(links.active.len(), links.active.len());
-    let solve = |p: &[f64], factor: &mut Ldlt| {
-        let mut u = p.to_vec();
-        factor.solve(&mut u);
-        u
-    };
-    let (u_before, u_added) = (solve(before, &mut factor), solve(added, &mut factor));
-    let (d_before, d_added) = (deform(&u_before), deform(&u_added));
+    let (d_before, d_added) = (deform(from), deform(by));
     let dummy: Vec<f64> = links.active.iter().map(|i| engaged[*i]).collect();
     let zero = vec![0.0; links.len()];
     let mut kernel = LinkKernel::new(model, links, &Solution::default(), dummy.clone());
@@ -91,7 +126,7 @@ pub(crate) fn equilibrium(
         trial.v.fill(0.0);
         let mut attempt = vec![0.0; pseudo.len()];
         let mut energy = vec![Energy::default(); links.links.len()];
-        let from = Committed {
+        let committed = Committed {
             d: &state.d,
             v: &zero,
             f: &state.f,
@@ -113,8 +148,8 @@ pub(crate) fn equilibrium(
             unforeseen: &mut Unforeseen::default(),
         };
         let affine = Affine { support: None, g: &g, h: &none, key: StepKey::default() };
-        kernel.begin(&pseudo, &from);
-        match kernel.settle(&affine, &from, &state.scale, &mut out) {
+        kernel.begin(&pseudo, &committed);
+        match kernel.settle(&affine, &committed, &state.scale, &mut out) {
             Ok(()) => {
                 trial.settle(links, &energy, kernel.largest_force());
                 state = trial;
@@ -127,12 +162,12 @@ pub(crate) fn equilibrium(
                 rejected += 1;
                 step *= 0.5;
                 if step < SMALLEST {
-                    return Ok(Err(Unbalanced { reached, worst, residual }));
+                    return Err(Unbalanced { reached, worst, residual });
                 }
             }
         }
     }
-    let mut u: Vec<f64> = u_before.iter().zip(&u_added).map(|(a, b)| a + b).collect();
+    let mut u: Vec<f64> = from.iter().zip(by).map(|(a, b)| a + b).collect();
     image.mul_add(-1.0, &pseudo, &mut u);
-    Ok(Ok(Equilibrium { u, state, iterations: kernel.iterations(), steps: made, rejected }))
+    Ok(Equilibrium { u, state, iterations: kernel.iterations(), steps: made, rejected })
 }

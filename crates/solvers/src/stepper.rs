@@ -43,7 +43,7 @@ pub struct State {
 }
 
 /// Where links are before a case gives them its initial values.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, PartialEq)]
 pub(crate) struct LinksBefore {
     /// Deformations, flat.
     pub d: Vec<f64>,
@@ -55,6 +55,11 @@ impl LinksBefore {
     /// Before anything has happened.
     pub(crate) fn rest(model: &Model, links: &LinkSet) -> Self {
         Self { d: vec![0.0; links.len()], history: links.at_rest(model) }
+    }
+
+    /// In a state.
+    pub(crate) fn of(state: &State) -> Self {
+        Self { d: state.d.clone(), history: state.history.clone() }
     }
 }
 

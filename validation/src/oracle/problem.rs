@@ -1,9 +1,9 @@
 //! The equations of a description: matrices, loads over time, laws, outputs.
 
 use super::assemble::{Assembled, GRAVITY, LinkAt, element};
-use super::modes::{Modes, modes};
-use super::spec::{Damping, Function, Output, Spec};
-use nalgebra::{DMatrix, DVector};
+use super::modes::{Modes, modes, split};
+use super::spec::{Damping, Function, Law, Output, Spec};
+use nalgebra::{DMatrix, DVector, SymmetricEigen};
 
 /// A load: a vector times a function or one of its derivatives.
 #[derive(Clone, Debug)]
@@ -176,6 +176,57 @@ impl Problem {
         it.creep = 1e-9;
         it.still = true;
         it
+    }
+
+    /// The static problem of joints that neither a mass nor a dashpot holds, while all others go slowly and straight
+    /// to their initial displacements at time 1; the joints' directions, and the displacements of the others.
+    #[must_use]
+    pub fn led(&self) -> Option<(Self, DMatrix<f64>, DVector<f64>)> {
+        let (_, light) = split(&self.a.m);
+        if self.u0.amax() == 0.0 || light.ncols() == 0 {
+            return None;
+        }
+        let mut tied = self.a.dash_rows.clone() * &light;
+        for link in &self.a.links {
+            let viscous = match link.law {
+                Law::Dashpot(..) => 1,
+                Law::Linear(_, c) if c[0][0] != 0.0 || c[1][1] != 0.0 => 2,
+                _ => 0,
+            };
+            for i in link.first..link.first + viscous {
+                let n = tied.nrows();
+                tied = tied.insert_row(n, 0.0);
+                tied.row_mut(n).copy_from(&(self.a.b.row(i) * &light));
+            }
+        }
+        for mut row in tied.row_iter_mut() {
+            let size = row.norm();
+            row.iter_mut().for_each(|x| *x /= size.max(f64::MIN_POSITIVE));
+        }
+        let eigen = SymmetricEigen::new(tied.tr_mul(&tied));
+        let free: Vec<usize> =
+            (0..light.ncols()).filter(|j| eigen.eigenvalues[*j].abs() < 1e-9).collect();
+        if free.is_empty() {
+            return None;
+        }
+        let q = (&light * eigen.eigenvectors.select_columns(&free)).qr().q();
+        let others = &self.u0 - &q * q.tr_mul(&self.u0);
+        let mut it = self.before();
+        let ramp = Function::Ramp(1.0, 0.0, 1.0);
+        let force = -q.tr_mul(&(&self.a.k * &others));
+        it.a.m = DMatrix::zeros(q.ncols(), q.ncols());
+        it.a.c = it.a.m.clone();
+        it.a.k = q.tr_mul(&(&self.a.k * &q));
+        it.a.b = &self.a.b * &q;
+        it.a.b_s = DMatrix::from_columns(&[&self.a.b * &others]);
+        it.a.t = &self.a.t * &q;
+        it.a.dash_rows = DMatrix::zeros(0, q.ncols());
+        it.moved = vec![ramp.clone()];
+        it.constant = DVector::zeros(q.ncols());
+        it.channels = vec![Channel { force, function: ramp, order: 0 }];
+        (it.u0, it.v0) = (it.constant.clone(), it.constant.clone());
+        it.probes.clear();
+        Some((it, q, others))
     }
 
     /// Loads at a time, before any jump there.

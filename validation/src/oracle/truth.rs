@@ -51,6 +51,13 @@ pub fn truth_in_steps(spec: &Spec, work: f64, longest: f64) -> Result<Truth, Str
         let course = march(&before, State::start(&before), None, effort)
             .map_err(|e| format!("statics: {e}"))?;
         start = State { v: start.v, ..course.end };
+    } else if let Some((joints, q, others)) = problem.led() {
+        let effort = Effort { tolerance: 1e-7, work };
+        // What no link holds either has no place of its own.
+        if let Ok(course) = march(&joints, State::start(&joints), None, effort) {
+            start.u = others + q * course.end.u;
+            start.z = course.end.z;
+        }
     }
     let loose = march(&problem, start.clone(), None, Effort { tolerance: LOOSE, work })?;
     let effort = Effort { tolerance: TIGHT, work };

@@ -7,7 +7,7 @@
 
 mod course;
 
-use crate::case::{EndState, RunOptions, before, run};
+use crate::case::{RunOptions, before, run};
 use crate::clock::{Clock, peak_rss_mb};
 use crate::damping::modal_damping;
 use crate::drag::follow_supports;
@@ -38,7 +38,6 @@ struct Entrant<'a> {
     member: Member<'a>,
     case: &'a Case,
     analysis: &'a DynamicCase,
-    before: Option<EndState>,
     initial: Initial,
     constant: Vec<f64>,
     loads: LoadSet,
@@ -104,7 +103,7 @@ fn entrant(member: Member<'_>, case: usize) -> Result<Option<Entrant<'_>>, Solve
     let constant = held_load(model, system, analysis, before.as_ref());
     let loads = system.dynamic_loads(model, analysis, constant.clone());
     let initial = Initial::new(model, system, analysis, before.as_ref())?;
-    Ok(Some(Entrant { member, case, analysis, before, initial, constant, loads }))
+    Ok(Some(Entrant { member, case, analysis, initial, constant, loads }))
 }
 
 /// True where two members share structure and steps.
@@ -162,13 +161,12 @@ fn march<O: Observer>(
         observers.iter_mut().map(|o| [o as &mut dyn Observer]).collect();
     let mut courses = Vec::new();
     for ((entrant, loads), watcher) in group.iter().zip(&dragged).zip(&mut watchers) {
-        let Entrant { member: Member { model, system }, before, initial, analysis, .. } = entrant;
+        let Entrant { member: Member { model, system }, initial, analysis, .. } = entrant;
         let watched = looks_at_rates(model, system, watcher.iter().any(|o| o.wants_rates()));
         let order = modes.space.order();
         let side = link_side(model, system, &analysis.solution, loads, order, watched);
         let mut stepper = LinkStepper::new(Modal::new(modes), side);
-        let (state, pace, ledger, _) =
-            start(model, system, initial, before.clone(), loads, &mut stepper, dt)?;
+        let (state, pace, ledger, _) = start(model, system, initial, loads, &mut stepper, dt)?;
         let (modal, side) = stepper.into_parts();
         modes = modal.into_modes();
         let mut viewer = Viewer::new(model, system, loads, &modes.space, watcher);

@@ -1,0 +1,112 @@
+//! Where initial values of the directions with mass put those without.
+//!
+//! What neither a mass nor a dashpot holds follows statically: initial velocities as the linear structure says,
+//! initial displacements in equilibrium with the links, which are led there slowly along a straight path of the
+//! directions that hold.
+
+use crate::case::untouched;
+use crate::error::SolveError;
+use crate::statics::{Equilibrium, Path, along, columns_of_links};
+use crate::stepper::{LinksBefore, State};
+use trilith_linalg::{Dense, Ldlt};
+use trilith_model::Model;
+use trilith_system::System;
+
+/// Steps of the path.
+const STEPS: usize = 64;
+
+/// The directions that follow, among those without mass, and their stiffness.
+struct Followers {
+    own: Vec<usize>,
+    factor: Ldlt,
+}
+
+impl Followers {
+    /// `links`: stiffness of the link coordinates, flat; `held`: directions without mass that stay where they are.
+    fn new(system: &System, links: &[f64], held: &[bool]) -> Result<Self, SolveError> {
+        let massless = &system.massless;
+        let damped = massless.project(&system.element_damping).diagonal();
+        let own: Vec<usize> =
+            (0..massless.len()).filter(|i| damped[*i] == 0.0 && !held[*i]).collect();
+        let k = massless.project(&system.stiffness_with(links));
+        let factor = Ldlt::with_rigid_zeros(&k.block(&own, &own))?;
+        Ok(Self { own, factor })
+    }
+
+    /// What forces on the free DOFs make of them, times `s`: `to += s · N A⁻¹ Nᵀ p`.
+    fn answer(&mut self, system: &System, s: f64, p: &[f64], to: &mut [f64]) {
+        let massless = &system.massless;
+        let force = massless.load(p);
+        let mut y: Vec<f64> = self.own.iter().map(|i| force[*i]).collect();
+        self.factor.solve(&mut y);
+        let mut all = vec![0.0; massless.len()];
+        self.own.iter().zip(y).for_each(|(i, y)| all[*i] = y);
+        massless.expand(s, &all, to);
+    }
+}
+
+/// Makes a displacement (or velocity) follow as the structure with its dummies says.
+pub(crate) fn follow(system: &System, u: &mut [f64]) -> Result<(), SolveError> {
+    if system.massless.is_empty() || u.iter().all(|x| *x == 0.0) {
+        return Ok(());
+    }
+    let links = &system.links.effective;
+    let force = system.stiffness_with(links).mul(u);
+    let none = vec![false; system.massless.len()];
+    Followers::new(system, links, &none)?.answer(system, -1.0, &force, u);
+    Ok(())
+}
+
+/// Makes a displacement follow in equilibrium with the links, from where these were: none where no link acts on
+/// what follows, or no equilibrium is found.
+pub(crate) fn lead(
+    model: &Model,
+    system: &System,
+    start: State,
+    before: &[f64],
+    u: &[f64],
+) -> Result<Option<(Vec<f64>, LinksBefore)>, SolveError> {
+    let (massless, links) = (&system.massless, &system.links);
+    let engaged = links.engaged(model);
+    let acting = links.active.iter().filter(|flat| massless.is_touched(&links.rows[**flat]));
+    let acting: Vec<usize> = acting.copied().collect();
+    if acting.is_empty() || before == u {
+        return Ok(None);
+    }
+    // What is viscous holds as a dashpot does.
+    let mut held = vec![false; massless.len()];
+    let viscous = viscous(model, system, &engaged);
+    for flat in acting.iter().filter(|flat| viscous[**flat]) {
+        let row = massless.row(&links.rows[*flat]);
+        held.iter_mut().zip(row).for_each(|(held, c)| *held |= c != 0.0);
+    }
+    let mut followers = Followers::new(system, &engaged, &held)?;
+    let mut by: Vec<f64> = u.iter().zip(before).map(|(u, b)| u - b).collect();
+    let force = system.stiffness_with(&engaged).mul(&by);
+    followers.answer(system, -1.0, &force, &mut by);
+    let columns = columns_of_links(system);
+    let mut image = Dense::zeros(system.order(), links.active.len());
+    for j in 0..links.active.len() {
+        followers.answer(system, 1.0, columns.column(j), image.column_mut(j));
+    }
+    let pseudo = links.active.iter().map(|i| start.f[*i] - engaged[*i] * start.d[*i]);
+    let mut from = before.to_vec();
+    image.mul_add(1.0, &pseudo.collect::<Vec<f64>>(), &mut from);
+    let path = Path { engaged, image, from, by };
+    let found = along(model, system, start, &path, STEPS).ok();
+    Ok(found.map(|Equilibrium { u, state, .. }| (u, LinksBefore::of(&state))))
+}
+
+/// Link coordinates with a force of their rate at rest, or of nothing but their rate, flat.
+fn viscous(model: &Model, system: &System, engaged: &[f64]) -> Vec<bool> {
+    let links = &system.links;
+    let c = untouched(model, system).tangents.c;
+    let mut viscous = vec![false; links.len()];
+    for (_, link) in links.laws(model).iter().filter(|(law, _)| law.uses_rates()) {
+        link.range.clone().for_each(|flat| viscous[flat] = engaged[flat] == 0.0);
+    }
+    for (flat, at) in links.active.iter().zip(&links.diagonal) {
+        viscous[*flat] |= c[*at] != 0.0;
+    }
+    viscous
+}
