@@ -61,6 +61,35 @@ fn a_smooth_spring_has_yielded_before_it_lets_go() {
     }
 }
 
+/// A joint without mass between a spring that has yielded, 10 N + 100 N/m (d₁ − 0.01 m), and an elastic one,
+/// 1000 N/m d₂: with d₁ + d₂ = 0.03 m the force is 0.12/0.011 N. Both unload with 1000 N/m, ω² = 500/10.
+#[test]
+fn a_joint_between_links_starts_where_they_are_in_equilibrium() {
+    let text = oscillator(
+        "MultilinearPlastic(node: \"j\", axis1: (1, 0, 0), deformation: [-0.05, -0.01, 0, 0.01, 0.05], \
+         force: [-14, -10, 0, 10, 14]), \
+         \"other\": MultilinearElastic(nodes: (\"j\", \"a\"), deformation: [-0.05, 0, 0.05], \
+         force: [-50, 0, 50], axis: U1)",
+    );
+    let text = text.replace("\"a\": (0, 0, 0)", "\"a\": (1, 0, 0), \"j\": (0, 0, 0)").replace(
+        "\"a\": (Uy, Uz, Rx, Ry, Rz)",
+        "\"a\": (Uy, Uz, Rx, Ry, Rz), \"j\": (Uy, Uz, Rx, Ry, Rz)",
+    );
+    let (model, system) = parse(&text, &[]);
+    let (u, f) = (output(&model, "u"), output(&model, "f"));
+    let (force, omega) = (0.12 / 0.011, 50.0_f64.sqrt());
+    for solver in SolverKind::ALL {
+        let (t, result) = trace(&model, &system, solver);
+        assert_eq!(result.status, Status::Converged);
+        let start = t.history[0][f];
+        assert!((start - force).abs() < 1e-6 * force, "{}: {start}", solver.name());
+        for (time, row) in t.time.iter().zip(&t.history) {
+            let expected = 0.03 - force / 500.0 * (1.0 - (omega * time).cos());
+            assert!((row[u] - expected).abs() < 3e-6, "{} at {time}: {}", solver.name(), row[u]);
+        }
+    }
+}
+
 /// A run that has spent what it was given says so, and where it stands.
 #[test]
 fn work_that_is_spent_ends_a_run() {

@@ -29,6 +29,7 @@ pub(crate) fn run(registry: &Registry, args: RunArguments) -> Result<Answer, Fai
             until: args.checkpoint_at,
             vectors: None,
             substeps: None,
+            step_errors: true,
             from,
             progress: Some(&mut show),
         };

@@ -33,6 +33,9 @@ pub struct RunOptions<'a> {
     pub vectors: Option<usize>,
     /// Stop when so many substeps have been tried; `None`: go on.
     pub substeps: Option<usize>,
+    /// Find out what the steps make of the errors of the outputs: the case is run a second time, beside, at a looser
+    /// tolerance. Fixed steps have none.
+    pub step_errors: bool,
     /// Continue the case from where an earlier run stopped.
     pub from: Option<EndState>,
     /// Told the finished share of the run, 0 … 1.
@@ -196,7 +199,7 @@ pub fn modes(
             let constant = constant_load(model, system, &analysis.constant);
             let set = system.dynamic_loads(model, &analysis, constant);
             let initial = Initial::new(model, system, &analysis, None)?;
-            let loads = dynamic::basis_loads(model, &analysis, &set);
+            let loads = crate::equations::basis_loads(model, &analysis, &set);
             (analysis.solution.basis.clone(), Demands::new(system, loads, &initial))
         }
         None => (trilith_model::Basis::default(), Demands::default()),

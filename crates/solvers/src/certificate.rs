@@ -10,17 +10,20 @@
 //! to the residual of the full equations, dynamics included, to first order in the link forces. Link forces answer by
 //! their present tangents. A complete basis leaves nothing.
 //!
-//! The error of the steps adds up what the distance of one step from two halves says of the halves: displacements in sum,
-//! energies and forces in the root of the sum of squares (see `march`).
+//! The error of the steps is what a [companion](crate::companion) at a looser tolerance is away.
 //!
 //! References: residual-based estimation of reduced models, \[Antoulas 2005, ch. 11\]; two bases of one sequence as
-//! estimator, \[Bai & Su 2005\]; local extrapolation, \[Hairer, Nørsett & Wanner 1993, II.4\].
+//! estimator, \[Bai & Su 2005\].
 
+use crate::companion::UNSEEN;
 use crate::modal::{Modes, Sources};
+use crate::output_step::jump;
 use crate::outputs::Outputs;
 use crate::propagator::{Motion, StepKey};
+use crate::samples::Samples;
 use crate::space::Space;
 use crate::stepper::State;
+use crate::timeline::Piece;
 use serde::Serialize;
 use trilith_model::{Model, Side};
 use trilith_system::{LinkBlocks, LoadSet, StepLoads, System};
@@ -35,7 +38,7 @@ const BEYOND: f64 = 2.0;
 pub struct OutputError {
     /// Because the basis does not hold all motions.
     pub reduction: f64,
-    /// Because of the steps in time; not a number where they are fixed and nobody knows.
+    /// Because of the steps in time; not a number where nobody knows.
     pub step: f64,
 }
 
@@ -166,63 +169,62 @@ impl<'a> Shadow<'a> {
 
 /// What a run knows of the errors of its outputs.
 pub(crate) struct Certificate<'a> {
-    pub shadow: Option<Shadow<'a>>,
-    outputs: Outputs,
-    loads: &'a LoadSet,
-    values: Vec<f64>,
+    shadow: Option<Shadow<'a>>,
+    samples: Samples<'a>,
     reduction: Vec<f64>,
     /// Smallest and largest value of each output so far.
     range: Vec<[f64; 2]>,
 }
 
 impl<'a> Certificate<'a> {
-    pub(crate) fn new(
-        model: &Model,
-        system: &System,
-        loads: &'a LoadSet,
-        space: &Space,
-        shadow: Option<Shadow<'a>>,
-    ) -> Self {
-        let count = model.outputs.len();
-        Self {
-            shadow,
-            outputs: Outputs::new(model, system, space),
-            loads,
-            values: vec![0.0; count],
-            reduction: vec![0.0; count],
-            range: vec![[0.0; 2]; count],
+    pub(crate) fn new(samples: Samples<'a>, shadow: Option<Shadow<'a>>, outputs: usize) -> Self {
+        let (reduction, range) = (vec![0.0; outputs], vec![[0.0; 2]; outputs]);
+        Self { shadow, samples, reduction, range }
+    }
+
+    /// Takes note of a jump of the loads at a time.
+    pub(crate) fn jump(&mut self, t: f64) {
+        if let Some(Shadow { modes, motion, loads, .. }) = &mut self.shadow
+            && let Some(change) = jump(loads, t)
+        {
+            modes.jump(motion, &change);
         }
     }
 
-    /// Takes note of an accepted step.
-    pub(crate) fn follow(&mut self, t: f64, state: &State) {
+    /// Takes note of an accepted step in a piece.
+    pub(crate) fn follow(&mut self, piece: Piece, t: f64, state: &State) {
         if let Some(shadow) = &mut self.shadow {
             shadow.follow(t, state);
         }
-    }
-
-    /// Takes note of the outputs at an output time.
-    pub(crate) fn look(&mut self, t: f64, state: &State) {
-        self.outputs.at((t, Side::Before), state, self.loads).values(&mut self.values);
-        for ([least, most], x) in self.range.iter_mut().zip(&self.values) {
+        let Some(values) = self.samples.take(piece, t, state) else { return };
+        for ([least, most], x) in self.range.iter_mut().zip(values) {
             (*least, *most) = (least.min(*x), most.max(*x));
         }
         if let Some(shadow) = &mut self.shadow {
-            shadow.compare(&self.values, state, &mut self.reduction);
+            shadow.compare(values, state, &mut self.reduction);
         }
     }
 
-    /// The errors, where the errors of all steps add up to this share.
-    pub(crate) fn errors(&self, steps: f64) -> Vec<OutputError> {
-        let size = |[least, most]: &[f64; 2]| most.max(0.0) - least.min(0.0);
-        let pairs = self.reduction.iter().zip(&self.range);
-        pairs.map(|(e, r)| OutputError { reduction: *e, step: steps * size(r) }).collect()
+    /// The errors, by what a companion has found.
+    pub(crate) fn errors(&self, companion: Option<&Samples<'_>>) -> Vec<OutputError> {
+        let apart = companion.map(|c| self.samples.apart(c));
+        let step = |i: usize| {
+            let apart = apart.as_ref().map_or(f64::NAN, |apart| apart[i]);
+            apart + UNSEEN * self.size(i)
+        };
+        let reduction = self.reduction.iter().enumerate();
+        reduction.map(|(i, e)| OutputError { reduction: *e, step: step(i) }).collect()
+    }
+
+    /// The largest value of an output less the smallest, 0 among them.
+    fn size(&self, i: usize) -> f64 {
+        self.range[i][1] - self.range[i][0]
     }
 
     /// The largest error of reduction as a share of the range of its output, among those of one kind that are not
     /// small: index of the output and share.
     pub(crate) fn worst(&self, model: &Model) -> Option<(usize, f64)> {
-        let size = |i: usize| self.range[i][1].max(0.0) - self.range[i][0].min(0.0);
+        let size = |i: usize| self.size(i);
         let all = 0..self.reduction.len();
         let share = |i: usize| {
             // What hardly moves is measured by the largest of its kind.

@@ -1,29 +1,27 @@
 //! A dynamic case: start state, basis, solver, output steps.
 
-use crate::basis::{self, Bases, Demands};
+use crate::basis::Bases;
 use crate::case::{EndState, RunOptions, SoFar, constant_load, parameters};
 use crate::certificate::{Certificate, Shadow};
 use crate::clock::Clock;
+use crate::companion::Companion;
 use crate::damping::modal_damping;
 use crate::drag::follow_supports;
+use crate::equations::{Equations, bases, is_reduced, modes};
 use crate::error::SolveError;
-use crate::full_newton::FullNewton;
-use crate::hht::Hht;
-use crate::kernel::{LinkKernel, Remembered};
+use crate::kernel::Remembered;
 use crate::ledger::Ledger;
-use crate::link_side::LinkSide;
 use crate::march::{March, Pace, Stop};
-use crate::modal::{Modal, Modes};
 use crate::observe::{CaseResult, Observer, Status, Work};
+use crate::output_step::{Moment, Moving, at_least, output_step};
+use crate::samples::Samples;
 use crate::space::Space;
-use crate::start::{Initial, check, constant_force, potential, resume, start};
-use crate::stepper::{LinkStepper, State, StepEnergy, Stepper};
+use crate::start::{Initial, check, constant_force, resume, start};
+use crate::stepper::{State, Stepper};
 use crate::timeline::Timeline;
 use crate::view::{Viewer, looks_at_rates};
-use trilith_model::{
-    Analysis, Case, Damping, DynamicCase, Model, Side, Solution, SolverKind, StepControl,
-};
-use trilith_system::{Channel, LoadSet, System, Track};
+use trilith_model::{Analysis, Case, DynamicCase, Model, SolverKind, StepControl};
+use trilith_system::System;
 
 /// A dynamic case and what it starts from.
 pub(crate) struct Setup<'a> {
@@ -32,35 +30,6 @@ pub(crate) struct Setup<'a> {
     pub case: &'a Case,
     pub analysis: &'a DynamicCase,
     pub before: Option<EndState>,
-}
-
-/// Load directions that a basis must hold: name and vector on the free DOFs.
-pub(crate) fn basis_loads(
-    model: &Model,
-    analysis: &DynamicCase,
-    loads: &LoadSet,
-) -> Vec<(String, Vec<f64>)> {
-    let mut names: Vec<String> = Vec::new();
-    if loads.channels.iter().any(|c| matches!(c.track, Track::Constant)) {
-        names.push("constant loads".into());
-    }
-    for b in &analysis.base {
-        names.push(format!("base {}", &b.direction.name()[1..].to_uppercase()));
-    }
-    for f in &analysis.forces {
-        names.push(format!("load {}", model.patterns[f.pattern].name));
-    }
-    for s in &analysis.supports {
-        for kind in ["displacement", "velocity", "acceleration"] {
-            names.push(format!("{kind} of \"{}\" {}", model.nodes[s.node].name, s.dof.name()));
-        }
-    }
-    names
-        .into_iter()
-        .zip(&loads.channels)
-        .filter(|(_, c)| c.force.iter().any(|x| *x != 0.0))
-        .map(|(n, c)| (n, c.force.clone()))
-        .collect()
 }
 
 /// Share of the static response to a load that a basis must hold without a warning.
@@ -103,36 +72,17 @@ pub(crate) fn run(
     let bases = bases(model, system, analysis, kind, &loads, &initial, judged)?;
     let damping = bases.as_ref().and_then(|b| modal_damping(model, system, b));
     follow_supports(model, system, damping.as_ref(), reduced, &mut loads)?;
-    let none = vec![0.0; system.links.len()];
-    let effective = if kind == SolverKind::FullNewton { &none } else { &system.links.effective };
-    let watched = looks_at_rates(model, system, observers.iter().any(|o| o.wants_rates()));
-    let side = |order: usize| link_side(model, system, solution, &loads, order, watched);
-    let mut stepper: Box<dyn Stepper + '_> = match (kind, &bases) {
-        (SolverKind::Fna, Some(b)) => {
-            let modes = modes(model, system, &loads, b);
-            let side = side(modes.space.order());
-            Box::new(LinkStepper::new(Modal::new(modes), side))
-        }
-        (SolverKind::RitzHht, Some(b)) => {
-            let space = Space::reduced(system, &loads, effective, damping.as_ref(), &b.stepping);
-            let side = side(space.order());
-            Box::new(LinkStepper::new(Hht::new(space, solution.alpha), side))
-        }
-        (SolverKind::FullNewton, _) => Box::new(FullNewton {
-            model,
-            system,
-            loads: &loads,
-            space: Space::physical(system, &loads, effective, damping),
-            alpha: solution.alpha,
-            iterations: 0,
-            factorizations: 0,
-        }),
-        _ => {
-            let space = Space::physical(system, &loads, effective, damping);
-            let side = side(space.order());
-            Box::new(LinkStepper::new(Hht::new(space, solution.alpha), side))
-        }
+    let equations = Equations {
+        model,
+        system,
+        solution,
+        kind,
+        loads: &loads,
+        bases: bases.as_ref(),
+        damping: damping.as_ref(),
+        watched: looks_at_rates(model, system, observers.iter().any(|o| o.wants_rates())),
     };
+    let mut stepper = equations.stepper();
     let timeline = Timeline::new(dt, analysis.duration, &loads, at_least(solution.step));
     let mut warnings = Vec::new();
     if let (Some(b), true) = (&bases, reduced) {
@@ -142,66 +92,95 @@ pub(crate) fn run(
         Some(end) => (end.displacement.clone(), end.velocity.clone()),
         None => (initial.displacement.clone(), initial.velocity.clone()),
     };
-    let largest = options.from.as_ref().map(|end| end.largest.clone()).unwrap_or_default();
-    let (state, mut pace, mut ledger, first) = match options.from {
-        Some(end) => resume(end, stepper.as_mut())?,
-        None => start(model, system, &initial, &loads, stepper.as_mut(), dt)?,
+    let RunOptions { from, until, substeps, step_errors, mut progress, vectors, .. } = options;
+    let largest = from.as_ref().map(|end| end.largest.clone()).unwrap_or_default();
+    let set_out = |stepper: &mut dyn Stepper| match from.clone() {
+        Some(end) => resume(end, stepper),
+        None => start(model, system, &initial, &loads, stepper, dt),
     };
-    let mut state = Box::new(state);
+    let (state, pace, ledger, first) = set_out(stepper.as_mut())?;
+    let mut moving = Moving { state: Box::new(state), pace, ledger };
     let mut viewer = Viewer::new(model, system, &loads, stepper.space(), observers);
     viewer.look_inside(stepper.closed_form(), dt, largest);
     let wider = bases.as_ref().and_then(|b| b.wider.as_deref());
     let shadow = wider.map(|wider| {
         let modes = modes(model, system, &loads, wider);
         let at = (&*moves_at.0, &*moves_at.1);
-        Shadow::new(model, system, &loads, modes, at, timeline.time(first), &state)
+        Shadow::new(model, system, &loads, modes, at, timeline.time(first), &moving.state)
     });
-    let adaptive = matches!(solution.step, StepControl::Adaptive { .. });
-    let mut certificate = (!model.outputs.is_empty() && (adaptive || shadow.is_some()))
-        .then(|| Certificate::new(model, system, &loads, stepper.space(), shadow));
-    let last = match options.until {
+    let last = match until {
         Some(t) => ((t / dt) - 1e-9).ceil().max(0.0) as usize,
         None => timeline.steps,
     }
     .min(timeline.steps);
+    let judged = !model.outputs.is_empty() && (step_errors || shadow.is_some());
+    let steps = first..last;
+    let mut certificate = judged.then(|| {
+        let samples =
+            Samples::new(model, system, &loads, stepper.space(), &timeline, steps.clone());
+        Certificate::new(samples, shadow, model.outputs.len())
+    });
     viewer.start(last.saturating_sub(first));
-    viewer.show(timeline.time(first), Some(first), &state, &ledger);
+    viewer.show(timeline.time(first), Some(first), &moving.state, &moving.ledger);
     let setup_cpu = clock.cpu();
-    let mut progress = options.progress;
     let constant_force = constant_force(stepper.space(), &loads);
     let mut march = March::new(stepper.as_mut(), &loads, solution.step);
-    march.budget = options.substeps.unwrap_or(usize::MAX);
+    march.budget = substeps.unwrap_or(usize::MAX);
+    let companion = match solution.step {
+        StepControl::Adaptive { tolerance } if step_errors && judged => {
+            Some(Companion::new(equations, &timeline, tolerance, steps.clone(), march.budget))
+        }
+        _ => None,
+    };
     let (mut stop, mut fallen) = (None, None);
     let mut made = first;
-    for step in first..last {
-        let outcome = output_step(
-            &timeline,
-            step,
-            &mut march,
-            &constant_force,
-            &mut state,
-            &mut pace,
-            &mut ledger,
-            &mut viewer,
-            &mut certificate,
-        );
-        if let Err(e) = outcome {
-            stop = Some(e);
-            break;
+    let mut way = |made: &mut usize| -> Result<(), Stop> {
+        for step in steps.clone() {
+            let end = timeline.time(step + 1) - 1e-12 * dt;
+            let mut tell = |moment: Moment, t: f64, s: &State, l: &Ledger| match moment {
+                Moment::Jump => {
+                    if let Some(certificate) = &mut certificate {
+                        certificate.jump(t);
+                    }
+                    viewer.show_behind(t, s, l);
+                }
+                Moment::Substep(piece) => {
+                    if let Some(certificate) = &mut certificate {
+                        certificate.follow(piece, t, s);
+                    }
+                    if t < end {
+                        viewer.show(t, None, s, l);
+                    }
+                }
+            };
+            output_step(&timeline, step, &mut march, &constant_force, &mut moving, &mut tell)?;
+            *made = step + 1;
+            let Moving { state, ledger, .. } = &moving;
+            viewer.show(timeline.time(*made), Some(*made), state, ledger);
+            if let Some(tell) = progress.as_deref_mut() {
+                tell((*made - first) as f64 / (last - first) as f64);
+            }
+            fallen = viewer.overturned(state);
+            if fallen.is_some() {
+                break;
+            }
         }
-        made = step + 1;
-        viewer.show(timeline.time(made), Some(made), &state, &ledger);
-        if let Some(certificate) = &mut certificate {
-            certificate.look(timeline.time(made), &state);
+        Ok(())
+    };
+    let beside = match &companion {
+        None => {
+            stop = way(&mut made).err();
+            None
         }
-        if let Some(tell) = progress.as_deref_mut() {
-            tell((made - first) as f64 / (last - first) as f64);
-        }
-        fallen = viewer.overturned(&state);
-        if fallen.is_some() {
-            break;
-        }
-    }
+        Some(companion) => std::thread::scope(|scope| {
+            let beside = scope.spawn(|| companion.march(&set_out));
+            stop = way(&mut made).err();
+            companion.end(made);
+            // Where it finds no start, the run finds none either.
+            beside.join().ok().and_then(Result::ok)
+        }),
+    };
+    let Moving { state, pace, ledger } = moving;
     viewer.end(&state, &ledger);
     let largest = viewer.largest();
     let counts = march.counts;
@@ -228,7 +207,6 @@ pub(crate) fn run(
         rejected: counts.rejected,
         factorizations,
         forced: counts.forced,
-        step_error: counts.error(),
         wall_s: clock.wall(),
         setup_cpu_s: setup_cpu,
         march_cpu_s: clock.cpu() - setup_cpu,
@@ -259,8 +237,7 @@ pub(crate) fn run(
         Some(Stop::Fatal(_)) | None => {}
     }
     if let Some(certificate) = &certificate {
-        // Nobody watches fixed steps.
-        result.errors = certificate.errors(if adaptive { counts.error() } else { f64::NAN });
+        result.errors = certificate.errors(beside.as_ref());
         let allowed = solution.basis.tolerance;
         if let Some((output, share)) = certificate.worst(model).filter(|(_, e)| *e > allowed)
             && result.status.is_good()
@@ -269,8 +246,8 @@ pub(crate) fn run(
             result.status = Status::Inadequate { output, share, allowed };
         }
     }
-    result.end.vectors = options.vectors;
-    result.basis = if reduced { bases.map(|b| b.report) } else { None };
+    result.end.vectors = vectors;
+    result.basis = bases.as_ref().filter(|_| reduced).map(|b| b.report.clone());
     result.warnings = warnings;
     Ok(result)
 }
@@ -372,59 +349,6 @@ pub(crate) fn held_load(
     constant
 }
 
-fn is_reduced(kind: SolverKind) -> bool {
-    matches!(kind, SolverKind::Fna | SolverKind::RitzHht)
-}
-
-/// The bases that a solver or modal damping needs.
-pub(crate) fn bases(
-    model: &Model,
-    system: &System,
-    analysis: &DynamicCase,
-    kind: SolverKind,
-    loads: &LoadSet,
-    initial: &Initial,
-    wider: bool,
-) -> Result<Option<Bases>, SolveError> {
-    let modal = matches!(model.damping, Damping::Modal { .. } | Damping::ModalTable { .. });
-    if !modal && !is_reduced(kind) {
-        system.check_supported(model, true)?;
-        return Ok(None);
-    }
-    let mut demands = Demands::new(system, basis_loads(model, analysis, loads), initial);
-    demands.wider = wider;
-    let settings = &analysis.solution.basis;
-    // Who asks for no flexibility of the links needs no report of it.
-    let adequacy = is_reduced(kind) && settings.adequacy > 0.0;
-    Ok(Some(basis::build(model, system, settings, &demands, adequacy)?))
-}
-
-/// The structure of FNA on its basis.
-pub(crate) fn modes(model: &Model, system: &System, loads: &LoadSet, bases: &Bases) -> Modes {
-    let links = &system.links;
-    let engaged = links.engaged(model);
-    let engaged = links.active.iter().map(|i| engaged[*i]).collect();
-    let damping = modal_damping(model, system, bases);
-    let stepping = &bases.stepping;
-    let space = Space::reduced(system, loads, &links.effective, damping.as_ref(), stepping);
-    Modes::new(space, engaged)
-}
-
-/// The link side of a motion with this many coordinates; `watched` as [`looks_at_rates`] says.
-pub(crate) fn link_side<'a>(
-    model: &'a Model,
-    system: &'a System,
-    solution: &Solution,
-    loads: &'a LoadSet,
-    order: usize,
-    watched: bool,
-) -> LinkSide<'a> {
-    let links = &system.links;
-    let dummies = links.active.iter().map(|i| links.effective[*i]).collect();
-    let kernel = LinkKernel::new(model, links, solution, dummies);
-    LinkSide::new(model, system, loads, kernel, order, watched)
-}
-
 fn adequacy_warning(bases: &Bases, wanted: f64, warnings: &mut Vec<String>) {
     let poor: Vec<_> = bases.report.adequacy.iter().filter(|a| a.share < wanted).collect();
     if let Some(worst) = poor.first() {
@@ -446,56 +370,4 @@ fn adequacy_warning(bases: &Bases, wanted: f64, warnings: &mut Vec<String>) {
             100.0 * share
         ));
     }
-}
-
-/// Steps that are made of a piece of the timeline at least.
-pub(crate) fn at_least(step: StepControl) -> usize {
-    match step {
-        StepControl::Fixed { substeps } => substeps,
-        StepControl::Adaptive { .. } => 1,
-    }
-}
-
-/// How the amplitudes of the loads jump at a time; none where they do not.
-pub(crate) fn jump(loads: &LoadSet, t: f64) -> Option<Vec<f64>> {
-    let jump = |c: &Channel| c.track.at(t, Side::After) - c.track.at(t, Side::Before);
-    let change: Vec<f64> = loads.channels.iter().map(jump).collect();
-    change.iter().any(|x| *x != 0.0).then_some(change)
-}
-
-/// One output step: its pieces, with loads that jump between them.
-fn output_step(
-    timeline: &Timeline,
-    step: usize,
-    march: &mut March<'_>,
-    constant: &[f64],
-    state: &mut Box<State>,
-    pace: &mut Pace,
-    ledger: &mut Ledger,
-    viewer: &mut Viewer<'_, '_>,
-    certificate: &mut Option<Certificate<'_>>,
-) -> Result<(), Stop> {
-    let end = timeline.time(step + 1);
-    for piece in timeline.pieces(step) {
-        let t0 = piece.start;
-        if t0 > 0.0 && timeline.is_jump(t0) {
-            march.cut();
-            if let Some(change) = jump(march.loads, t0) {
-                march.stepper.jump(state, &change).map_err(Stop::Fatal)?;
-                viewer.show_behind(t0, state, ledger);
-            }
-        }
-        let mut accept = |t: f64, s: &State, e: &StepEnergy| -> f64 {
-            let energy = ledger.enter(e, potential(constant, s));
-            if let Some(certificate) = certificate {
-                certificate.follow(t, s);
-            }
-            if t < end - 1e-12 * timeline.dt {
-                viewer.show(t, None, s, ledger);
-            }
-            energy
-        };
-        march.segment(state, pace, piece, &mut accept)?;
-    }
-    Ok(())
 }

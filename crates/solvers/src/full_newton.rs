@@ -4,7 +4,7 @@
 
 use crate::apart::{Apart, Way, apart, way};
 use crate::error::SolveError;
-use crate::hht::newmark;
+use crate::hht::{newmark, settle_followers};
 use crate::kernel::Remembered;
 use crate::propagator::{Forces, Motion, StepWork, kinetic_and_strain};
 use crate::space::Space;
@@ -26,6 +26,8 @@ pub(crate) struct FullNewton<'a> {
     pub loads: &'a LoadSet,
     pub space: Space,
     pub alpha: f64,
+    /// As [`Space::followers`] says.
+    pub followers: Vec<usize>,
     pub iterations: usize,
     pub factorizations: usize,
 }
@@ -157,6 +159,7 @@ impl Stepper for FullNewton<'_> {
             let force = largest(&to.f).max(from.scale[0]).max(from.scale[1]);
             let size = largest(&inertia).max(largest(&load1)).max(force);
             if largest(&residual) <= TOLERANCE * size {
+                settle_followers(&self.followers, &from.motion, &mut to.motion, dt);
                 to.tangents = tangents;
                 let force = largest(&to.f);
                 to.settle(&self.system.links, &energy.links, force);

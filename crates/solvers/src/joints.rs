@@ -75,7 +75,7 @@ pub(crate) fn lead(
     }
     // What is viscous holds as a dashpot does.
     let mut held = vec![false; massless.len()];
-    let viscous = viscous(model, system, &engaged);
+    let viscous = viscous(model, system);
     for flat in acting.iter().filter(|flat| viscous[**flat]) {
         let row = massless.row(&links.rows[*flat]);
         held.iter_mut().zip(row).for_each(|(held, c)| *held |= c != 0.0);
@@ -98,13 +98,10 @@ pub(crate) fn lead(
 }
 
 /// Link coordinates with a force of their rate at rest, or of nothing but their rate, flat.
-fn viscous(model: &Model, system: &System, engaged: &[f64]) -> Vec<bool> {
+fn viscous(model: &Model, system: &System) -> Vec<bool> {
     let links = &system.links;
     let c = untouched(model, system).tangents.c;
-    let mut viscous = vec![false; links.len()];
-    for (_, link) in links.laws(model).iter().filter(|(law, _)| law.uses_rates()) {
-        link.range.clone().for_each(|flat| viscous[flat] = engaged[flat] == 0.0);
-    }
+    let mut viscous = links.viscous(model);
     for (flat, at) in links.active.iter().zip(&links.diagonal) {
         viscous[*flat] |= c[*at] != 0.0;
     }

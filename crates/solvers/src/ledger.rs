@@ -27,11 +27,20 @@ pub(crate) struct Ledger {
     external: f64,
     support: f64,
     largest: f64,
+    /// What rounding may make of the energies, J.
+    noise: f64,
 }
 
 impl Ledger {
-    /// Opens the books at a state; `kinetic`, `strain`, `potential` of that state.
-    pub(crate) fn new(state: &State, kinetic: f64, strain: f64, potential: f64) -> Self {
+    /// Opens the books at a state; `kinetic`, `strain`, `potential` of that state, and what rounding may make of
+    /// energies, J.
+    pub(crate) fn new(
+        state: &State,
+        kinetic: f64,
+        strain: f64,
+        potential: f64,
+        noise: f64,
+    ) -> Self {
         let links = state
             .stored
             .iter()
@@ -43,6 +52,7 @@ impl Ledger {
             strain0: strain,
             stored0: state.stored.iter().sum(),
             potential0: potential,
+            noise,
             ..Self::default()
         };
         ledger.totals.kinetic = kinetic;
@@ -98,7 +108,7 @@ impl Ledger {
         let standing = step.strain.abs() + stored.abs() + potential.abs();
         let shares = [SHARE_OF_LARGEST * self.largest, SHARE_OF_STANDING * standing];
         let [moved, stood] = shares;
-        let size = [t.input, t.kinetic, t.potential, heat, moved, stood]
+        let size = [t.input, t.kinetic, t.potential, heat, moved, stood, self.noise]
             .into_iter()
             .fold(0.0, |size: f64, x| larger(size, x.abs()));
         t.error_relative = if size > 0.0 { t.error.abs() / size } else { 0.0 };

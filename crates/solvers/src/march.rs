@@ -53,9 +53,6 @@ const GROW_BELOW: f64 = 0.08;
 const GROW_BELOW_ON_WAY: f64 = 0.16;
 /// A step counts as going this share of the largest displacement so far at least.
 const LEAST_WAY: f64 = 0.01;
-/// What the halves of a smooth step are wrong by, as share of their distance from the whole: (½)²/(1 − (½)²); and
-/// a vibration shows 2/π of it on the mean, most of it in passing the middle and none at the turning points.
-const OF_HALVES: f64 = std::f64::consts::FRAC_PI_2 / 3.0;
 
 /// What the march carries from step to step beside the state.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
@@ -76,17 +73,6 @@ pub(crate) struct Counts {
     pub substeps: usize,
     pub rejected: usize,
     pub forced: usize,
-    /// Sum of what the accepted steps are wrong by, as share of the largest displacement so far.
-    pub error_sum: f64,
-    /// Sum of the squares of what they are wrong by in energy and force: events, which do not add up in one direction.
-    pub error_squares: f64,
-}
-
-impl Counts {
-    /// What the steps so far may have made of the error of a displacement, as share of the largest one.
-    pub(crate) fn error(&self) -> f64 {
-        self.error_sum + self.error_squares.sqrt()
-    }
 }
 
 /// Why a march stopped.
@@ -112,6 +98,8 @@ pub(crate) struct March<'a> {
     pub counts: Counts,
     /// Substeps that may be tried.
     pub budget: usize,
+    /// Keeps the steps in one where it has made them in halves.
+    pub whole: bool,
     trial: Trial,
 }
 
@@ -137,8 +125,6 @@ struct Measured {
     error: f64,
     /// Of displacements, for the way that the step went.
     on_way: f64,
-    /// Of displacements, for the largest so far.
-    displaced: f64,
 }
 
 impl Measured {
@@ -180,7 +166,7 @@ impl<'a> March<'a> {
         control: StepControl,
     ) -> Self {
         let (counts, trial) = (Counts::default(), Trial::default());
-        Self { stepper, loads, control, counts, budget: usize::MAX, trial }
+        Self { stepper, loads, control, counts, budget: usize::MAX, whole: false, trial }
     }
 
     /// The next segment starts where a load may jump.
@@ -248,17 +234,19 @@ impl<'a> March<'a> {
                         pace.level = level + 1;
                         continue;
                     }
-                    self.counts.error_sum += OF_HALVES * measured.displaced;
-                    self.counts.error_squares += (OF_HALVES * measured.error).powi(2);
                     self.counts.forced += usize::from(error > tolerance);
-                    self.counts.substeps += 2;
-                    let Trial { first, second, energies: [_, e1, e2], .. } = &self.trial;
-                    for (t, s, e) in [(middle, first, e1), (end, second, e2)] {
-                        let seen = accept(t, s, e);
+                    let Trial { whole, first, second, energies: [e0, e1, e2], .. } =
+                        &mut self.trial;
+                    let halves = [(middle, &**first, &*e1), (end, &**second, &*e2)];
+                    let kept = if self.whole { &[(end, &**whole, &*e0)][..] } else { &halves };
+                    self.counts.substeps += kept.len();
+                    for (t, s, e) in kept {
+                        let seen = accept(*t, s, e);
                         pace.reference = pace.reference.max(seen);
                     }
-                    pace.reached.reach(&self.stepper.way(&self.trial.second, None));
-                    std::mem::swap(state, &mut self.trial.second);
+                    let last = if self.whole { whole } else { second };
+                    pace.reached.reach(&self.stepper.way(last, None));
+                    std::mem::swap(state, last);
                     at += ticks;
                     pace.level = level;
                     if measured.may_grow(tolerance) && level > 0 {
@@ -295,11 +283,7 @@ impl<'a> March<'a> {
         let of_links = larger(tolerance * missing / allowed, force * force);
         // What is not a number stays so.
         let error = if share.is_nan() { share } else { larger(share, of_links) };
-        Measured {
-            error,
-            on_way: apart.way.over(&moved, LEAST_WAY, &pace.reached),
-            displaced: apart.way.over(&pace.reached, 1.0, &moved),
-        }
+        Measured { error, on_way: apart.way.over(&moved, LEAST_WAY, &pace.reached) }
     }
 
     /// One step in one and in two halves; `known`: the one is there already.

@@ -155,7 +155,9 @@ impl StaticShapes {
             damping.bilinear(&mode, &mode).max(0.0)
         });
         let own: Vec<f64> = own.collect();
-        let coupling = |r: usize| modes.load(&damping.mul(self.psi.column(r)));
+        // Shapes without mass, square to the modes by stiffness: dashpots alone tie them.
+        let dashpots = &system.element_damping;
+        let coupling = |r: usize| modes.load(&dashpots.mul(self.psi.column(r)));
         let is_free = |r: &usize| {
             let size = self.damping[*r];
             let none = || {

@@ -87,8 +87,9 @@ pub(crate) struct Sources {
     sources: Vec<f64>,
     /// The integral of q.
     integral: Vec<f64>,
-    /// What the step completed last did.
+    /// What the step completed last did, and what it lost where loads had jumped.
     sums: StepSums,
+    lost: f64,
     /// Pseudo-forces spread last.
     pseudo: Vec<f64>,
     /// The link coordinates whose rates laws look at, and their rows of B Φ where these are few.
@@ -112,6 +113,7 @@ impl Sources {
             sources: vec![0.0; 3 * space.order()],
             integral: vec![0.0; space.order()],
             sums: StepSums::default(),
+            lost: 0.0,
             rated: rated.to_vec(),
             rows,
         }
@@ -176,12 +178,7 @@ impl Modes {
         }
         let omega2 = space.stiffness.diagonal();
         let modes = m - space.readers.columns();
-        // Static shapes that dashpots tie to the modes come first.
-        let is_tied = |r: &usize| {
-            let own = (0..modes).any(|j| damping[(j, *r)] != 0.0);
-            own || omega2[*r] == 0.0
-        };
-        let tied = (modes..m).take_while(is_tied).count();
+        let tied = space.tied;
         let structure = Structure {
             modes,
             tied,
@@ -390,6 +387,7 @@ impl Modes {
         let step = self.start(from, loads);
         if let Some(modes) = rule.own() {
             modes.complete(&step, &mut now.sources, to, &mut now.sums);
+            now.lost = self.lost(now, from, to);
             return self.settle_on(from, to);
         }
         let n = self.space.order();
@@ -412,7 +410,17 @@ impl Modes {
         let ((k0, e0), (k1, e1)) = (self.energy(from), self.energy(to));
         now.sums = StepSums { external, all, kinetic: [k0, k1], strain: [e0, e1] };
         now.integral = integral;
+        now.lost = self.lost(now, from, to);
         self.settle_on(from, to);
+    }
+
+    /// Static shapes follow a load that jumps at once, and nothing takes the work that it does beyond what their
+    /// springs hold then: ½ (s₀ − κ q₀) (q₁ − q₀).
+    #[inline]
+    fn lost(&self, now: &Sources, from: &Motion, to: &Motion) -> f64 {
+        let omega2 = &self.structure.omega2;
+        let one = |i: &usize| 0.5 * (now.sources[*i] - omega2[*i] * from[*i]) * (to[*i] - from[*i]);
+        self.structure.undamped.iter().map(one).sum()
     }
 
     /// Work done over the step completed last.
@@ -423,8 +431,8 @@ impl Modes {
         StepWork {
             external,
             links: external - all,
-            damping: if damped { all - (kinetic - k0) - (strain - e0) } else { 0.0 },
-            algorithmic: 0.0,
+            damping: if damped { all - (kinetic - k0) - (strain - e0) - now.lost } else { 0.0 },
+            algorithmic: now.lost,
             kinetic,
             strain,
         }

@@ -115,8 +115,6 @@ pub struct Work {
     pub factorizations: usize,
     /// Substeps accepted at the smallest step although their error was above the tolerance.
     pub forced: usize,
-    /// Sum of what adaptive steps were wrong by, as share of the largest displacement so far; 0 for fixed steps.
-    pub step_error: f64,
     /// Wall-clock time, s.
     pub wall_s: f64,
     /// CPU time of assembly, basis and first factorisation, s.

@@ -37,6 +37,8 @@ pub(crate) struct Space {
     /// What reads the coordinates of the static shapes, which are the last columns of `shape` and have no mass, out of
     /// a displacement.
     pub readers: Dense,
+    /// Number of the static shapes, behind the modes, that dashpots tie to these.
+    pub tied: usize,
 }
 
 impl Space {
@@ -75,6 +77,7 @@ impl Space {
             forces: Product::new(forces),
             shape: None,
             readers: Dense::zeros(n, 0),
+            tied: 0,
         }
     }
 
@@ -149,11 +152,21 @@ impl Space {
             forces: Product::new(forces),
             shape: Some(Arc::clone(&basis.shapes)),
             readers: basis.statics.readers.clone(),
+            tied: (0..statics).take_while(|r| basis.statics.is_tied(*r)).count(),
         }
     }
 
     pub(crate) fn order(&self) -> usize {
         self.mass.rows()
+    }
+
+    /// Coordinates without mass and damping: they follow, and the rule for time says nothing of their rates.
+    pub(crate) fn followers(&self) -> Vec<usize> {
+        if self.rayleigh[1] != 0.0 {
+            return Vec::new();
+        }
+        let (heavy, damped) = (self.mass.diagonal(), self.damping.diagonal());
+        (0..self.order()).filter(|i| heavy[*i] == 0.0 && damped[*i] == 0.0).collect()
     }
 
     /// Σ amplitude · force.

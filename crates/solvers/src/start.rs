@@ -17,6 +17,9 @@ use trilith_system::{LoadSet, System, Track};
 /// Share of the energy that stands in springs at the start which counts as motion: rounding moves as much.
 const RESTS: f64 = 1e-6;
 
+/// Deformations below this share of the largest at the start are rounding.
+const NOISE: f64 = 1e-11;
+
 /// Forces of links below this share of the loads are not looked at from near.
 const FORCE: f64 = 1e-3;
 
@@ -100,7 +103,6 @@ pub(crate) fn start(
     let (kinetic, strain) = kinetic_and_strain(stepper.space(), &state.motion);
     let own = strain - dummy_energy(system, stepper.space(), &state);
     let level = potential(&constant_force(stepper.space(), loads), &state);
-    let ledger = Ledger::new(&state, kinetic, own, level);
     let stored: f64 = state.stored.iter().sum();
     // From rest there is nothing to compare with: a hundredth of the velocity that the loads could
     // give the whole mass in one output step, and that of the motion that sets in.
@@ -122,8 +124,24 @@ pub(crate) fn start(
     let mut reached = Way { motion: far, deformation: [translation, translation / extent(model)] };
     reached.reach(&stepper.way(&state, None));
     let least = FORCE * push;
-    let push = [least, least * extent(model)];
+    let (forces, energy) = noise(model, system, &reached);
+    let push = [least.max(forces[0]), (least * extent(model)).max(forces[1])];
+    let reference = reference.max(energy);
+    let ledger = Ledger::new(&state, kinetic, own, level, energy);
     Ok((state, Pace { level: 0, reference, reached, push }, ledger, 0))
+}
+
+/// What rounding of deformations makes of the forces of engaged links, N and N·m, and of their energy, J.
+fn noise(model: &Model, system: &System, reached: &Way) -> ([f64; 2], f64) {
+    let links = &system.links;
+    let mut stiffest = [0.0_f64; 2];
+    for (k, rotational) in links.engaged(model).into_iter().zip(&links.rotational) {
+        let of = &mut stiffest[usize::from(*rotational)];
+        *of = of.max(k);
+    }
+    let off = reached.deformation.map(|d| NOISE * d);
+    let energy = (0..2).map(|kind| 0.5 * stiffest[kind] * off[kind].powi(2)).sum();
+    ([stiffest[0] * off[0], stiffest[1] * off[1]], energy)
 }
 
 /// Largest extent of a model along an axis, m; 1 m for a point.

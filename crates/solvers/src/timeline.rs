@@ -46,9 +46,9 @@ impl Piece {
 
 /// Jumps closer than this share of the output step are one, and lengths closer than it are the same.
 const NEAR: f64 = 1e-9;
-/// A corner of a table may be moved by this share of its distance to the next sample: what the load then misses is
-/// less than that of its change between them. Times in files are rounded.
-const MOVED: f64 = 1e-3;
+/// A piece may end this share of the distance to the next sample away from a corner of a table, where steps are made of
+/// what the load is then: the corner is inside a step, whose error shows it. Times in files are rounded.
+const MOVED: f64 = 1e-4;
 /// Samples are looked for on fractions of the output step down to this.
 const FRACTIONS: usize = 128;
 /// Halvings of a piece at most, for the sake of curved loads.
@@ -217,10 +217,19 @@ fn divide(whole: Piece, cuts: &[Cut], dt: f64) -> Vec<Piece> {
     if whole.length == dt
         && let Some((parts, places)) = fractions()
     {
-        let mut from = 0;
-        for (piece, to) in pieces.iter_mut().zip(places.into_iter().chain([parts])) {
-            piece.length = dt * ((to - from) as f64 / parts as f64);
-            from = to;
+        // What jumps does so at its own time.
+        let place = |to: usize| whole.start + whole.length * (to as f64 / parts as f64);
+        let moved = |cut: &Cut, to: usize| {
+            let at = place(to);
+            if (at - cut.t).abs() <= NEAR * dt { cut.t } else { at }
+        };
+        let ends = cuts.iter().zip(&places).map(|(cut, to)| moved(cut, *to));
+        let ends: Vec<f64> = ends.chain([whole.end]).collect();
+        let (mut from, mut start) = (0, whole.start);
+        for ((piece, to), end) in pieces.iter_mut().zip(places.into_iter().chain([parts])).zip(ends)
+        {
+            *piece = Piece { start, end, length: dt * ((to - from) as f64 / parts as f64) };
+            (from, start) = (to, end);
         }
     }
     pieces
@@ -282,7 +291,7 @@ mod tests {
             assert_eq!(two[0].end, two[1].start);
         }
         for p in &pieces {
-            assert!((p.end - p.start - p.length).abs() < 1e-3 * timeline.dt, "{p:?}");
+            assert!((p.end - p.start - p.length).abs() < 1e-8 * timeline.dt, "{p:?}");
         }
         pieces
     }

@@ -168,7 +168,12 @@ impl System {
             let (stiff, heavy) = (mean(&k), mean(&self.mass));
             let shift = if heavy > 0.0 && stiff > 0.0 { stiff / heavy } else { 1.0 };
             // Velocity-proportional elements hold a direction as well.
-            let damping = self.damping();
+            let held = self.links.viscous(model).into_iter().map(|held| f64::from(u8::from(held)));
+            let of_links = self.springs(&held.collect::<Vec<_>>());
+            let own = self.damping();
+            let size = |a: f64| if a > 0.0 { a } else { 1.0 };
+            let share = size(mean(&own)) / size(mean(&of_links));
+            let damping = Sparse::combine(&[(1.0, &own), (share, &of_links)]);
             let viscous = mean(&damping);
             let rate = if viscous > 0.0 && stiff > 0.0 { stiff / viscous } else { 1.0 };
             k = Sparse::combine(&[(1.0, &k), (shift, &self.mass), (rate, &damping)]);

@@ -373,6 +373,17 @@ impl LinkSet {
         diagonal
     }
 
+    /// Link coordinates of laws that hold by their rate alone, as a dashpot does; flat.
+    #[must_use]
+    pub fn viscous(&self, model: &Model) -> Vec<bool> {
+        let engaged = self.engaged(model);
+        let mut viscous = vec![false; self.len()];
+        for (_, link) in self.laws(model).iter().filter(|(law, _)| law.uses_rates()) {
+            link.range.clone().for_each(|flat| viscous[flat] = engaged[flat] == 0.0);
+        }
+        viscous
+    }
+
     /// Empty tangents of the right length.
     #[must_use]
     pub fn tangents(&self) -> Tangents {

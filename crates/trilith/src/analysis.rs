@@ -91,7 +91,17 @@ impl<'m> Analysis<'m> {
         if options.case >= self.model.cases.len() {
             return Err(Error::unknown_case(self.model, &format!("#{}", options.case)));
         }
-        let RunOptions { case, solver, dt, until, vectors, substeps, from, mut progress } = options;
+        let RunOptions {
+            case,
+            solver,
+            dt,
+            until,
+            vectors,
+            substeps,
+            step_errors,
+            from,
+            mut progress,
+        } = options;
         // A run goes on with the basis it was made with.
         let before = from.as_ref().and_then(|end| end.vectors);
         let (mut vectors, mut round) = (vectors.or(before), 0);
@@ -107,6 +117,7 @@ impl<'m> Analysis<'m> {
                 until,
                 vectors,
                 substeps,
+                step_errors,
                 from: from.clone(),
                 progress,
             };

@@ -1,7 +1,7 @@
 //! Random structures under the program against an independent oracle; see `trilith_validation::oracle`.
 //!
 //! ```text
-//! fuzz [--count N] [--seed S] [--solver NAME]… [--seconds T] [--shrink TRIALS] [--keep N] [--show] [--trace OUTPUT] [--aloud]
+//! fuzz [--count N] [--seed S] [--solver NAME]… [--seconds T] [--shrink TRIALS] [--keep N] [--show] [--tolerance T] [--trace OUTPUT] [--aloud] [--estimates]
 //! ```
 
 use std::process::ExitCode;
@@ -9,7 +9,7 @@ use std::time::Duration;
 use trilith::SolverKind;
 use trilith_validation::oracle::campaign::{Campaign, say};
 use trilith_validation::oracle::generate::generate;
-use trilith_validation::oracle::judge::{judge, reference};
+use trilith_validation::oracle::judge::{Pair, judge_and_compare, reference};
 use trilith_validation::oracle::spec::Spec;
 use trilith_validation::oracle::subject::{Ended, run};
 use trilith_validation::oracle::text::text;
@@ -22,20 +22,31 @@ struct Wanted {
     keep: usize,
     show: bool,
     trace: Option<usize>,
+    estimates: bool,
+    tolerance: Option<f64>,
 }
 
 fn arguments() -> Result<Wanted, String> {
     let budget = Duration::from_secs(3600);
     let campaign = Campaign { seed: 1, count: 200, solvers: Vec::new(), budget, aloud: false };
-    let mut it = Wanted { campaign, shrink: 0, keep: 50, show: false, trace: None };
+    let mut it = Wanted {
+        campaign,
+        shrink: 0,
+        keep: 50,
+        show: false,
+        trace: None,
+        estimates: false,
+        tolerance: None,
+    };
     let mut given = std::env::args().skip(1);
     while let Some(name) = given.next() {
         match name.as_str() {
             "--show" => it.show = true,
             "--aloud" => it.campaign.aloud = true,
+            "--estimates" => it.estimates = true,
             _ => {}
         }
-        if matches!(name.as_str(), "--show" | "--aloud") {
+        if matches!(name.as_str(), "--show" | "--aloud" | "--estimates") {
             continue;
         }
         let value = given.next().ok_or_else(|| format!("`{name}` needs a value"))?;
@@ -46,6 +57,10 @@ fn arguments() -> Result<Wanted, String> {
             "--seconds" => it.campaign.budget = Duration::from_secs(number()?),
             "--shrink" => it.shrink = number()? as usize,
             "--trace" => it.trace = Some(number()? as usize),
+            "--tolerance" => {
+                let t = value.parse().map_err(|_| format!("`{value}` is no number"))?;
+                it.tolerance = Some(t);
+            }
             "--keep" => it.keep = number()? as usize,
             "--solver" => {
                 let known = SolverKind::ALL.into_iter().find(|s| s.name() == value);
@@ -78,7 +93,8 @@ fn main() -> ExitCode {
         }
     };
     if wanted.show || wanted.trace.is_some() {
-        let spec = generate(wanted.campaign.seed);
+        let mut spec = generate(wanted.campaign.seed);
+        spec.tolerance = wanted.tolerance.or(spec.tolerance);
         print!("{}", text(&spec));
         match reference(&spec) {
             Ok(truth) => {
@@ -87,11 +103,11 @@ fn main() -> ExitCode {
                     truth.size, truth.scale, truth.moves, truth.course.steps
                 );
                 for solver in &wanted.campaign.solvers {
-                    println!(
-                        "// {}: {}",
-                        solver.name(),
-                        say(&spec, &judge(&spec, &truth, *solver))
-                    );
+                    let (verdict, pairs) = judge_and_compare(&spec, &truth, *solver);
+                    println!("// {}: {}", solver.name(), say(&spec, &verdict));
+                    for Pair { output, off, said: [reduction, step] } in pairs {
+                        println!("// o{output}: off {off:.2e}, said {reduction:.1e} + {step:.1e}");
+                    }
                     if let Some(output) = wanted.trace {
                         trace(&spec, &truth, *solver, output);
                     }
@@ -105,6 +121,15 @@ fn main() -> ExitCode {
     let folder = report::folder().join("fuzz");
     if let Err(error) = result.write(&folder, wanted.shrink, wanted.keep) {
         eprintln!("failures cannot be written to {}: {error}", folder.display());
+    }
+    if wanted.estimates {
+        println!("seed,family,solver,output,off,reduction,step");
+        for f in &result.runs {
+            for Pair { output, off, said: [reduction, step] } in &f.pairs {
+                let (seed, family, solver) = (f.seed, f.family, f.solver.name());
+                println!("{seed},{family},{solver},{output},{off:e},{reduction:e},{step:e}");
+            }
+        }
     }
     print!("{}{}", result.summary(), result.certificates());
     println!("failures: {}", folder.display());

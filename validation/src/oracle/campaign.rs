@@ -139,7 +139,7 @@ impl Result {
             s.push('\n');
         };
         let mut messages: BTreeMap<(SolverKindName, &str, String), Vec<u64>> = BTreeMap::new();
-        let mut counts: BTreeMap<SolverKindName, [usize; 7]> = BTreeMap::new();
+        let mut counts: BTreeMap<SolverKindName, [usize; 8]> = BTreeMap::new();
         for f in &self.runs {
             let name = f.solver.name();
             let row = counts.entry(name).or_default();
@@ -151,6 +151,7 @@ impl Result {
                 Verdict::Failed(..) => (4, "failed", f.family.to_owned()),
                 Verdict::Panicked(m) => (5, "panic", class(m)),
                 Verdict::Small(..) => (6, "small", f.family.to_owned()),
+                Verdict::Told(_) => (7, "told", f.family.to_owned()),
             };
             row[at] += 1;
             if !what.is_empty() {
@@ -191,9 +192,9 @@ impl Result {
             self.seconds[0],
             self.seconds[1]
         ));
-        for (solver, [passed, refused, warned, reduced, failed, panicked, small]) in counts {
+        for (solver, [passed, refused, warned, reduced, failed, panicked, small, told]) in counts {
             line(format!(
-                "{solver:12} {passed} passed, {refused} refused, {warned} off with a warning, {reduced} off on a basis cut short, {small} off in what is small, {failed} failed, {panicked} broke off"
+                "{solver:12} {passed} passed, {refused} refused, {told} off as told, {warned} off with a warning, {reduced} off on a basis cut short, {small} off in what is small, {failed} failed, {panicked} broke off"
             ));
         }
         s
@@ -206,13 +207,13 @@ impl Result {
         for solver in SolverKind::ALL {
             let runs = self.runs.iter().filter(|f| f.solver == solver);
             let pairs: Vec<&Pair> =
-                runs.flat_map(|f| &f.pairs).filter(|p| !p.said.is_nan()).collect();
+                runs.flat_map(|f| &f.pairs).filter(|p| !p.estimate().is_nan()).collect();
             if pairs.is_empty() {
                 continue;
             }
             let held = pairs.iter().filter(|p| p.holds()).count();
             let mut ratios: Vec<f64> =
-                pairs.iter().map(|p| p.said.max(NO_ERROR) / p.off.max(NO_ERROR)).collect();
+                pairs.iter().map(|p| p.estimate().max(NO_ERROR) / p.off.max(NO_ERROR)).collect();
             ratios.sort_by(f64::total_cmp);
             s.push_str(&format!(
                 "{:12} {} estimates, {:.2} % hold; estimate over error: median {:.1}\n",
@@ -266,6 +267,7 @@ pub fn say(spec: &Spec, verdict: &Verdict) -> String {
         Verdict::Refused(m) => format!("refused: {m}"),
         Verdict::Warned(e, m) => format!("off by {:.3} %, warned: {m}", 100.0 * e),
         Verdict::Reduced(e) => format!("off by {:.3} % on a basis cut short", 100.0 * e),
+        Verdict::Told(e) => format!("off by {:.3} %, as it says", 100.0 * e),
         Verdict::Failed(o, e, t) => {
             let what = spec.outputs.get(*o).map_or("ended early".into(), |o| format!("{o:?}"));
             format!("o{o} {what} is off by {:.3} % of its size at t = {t:.6} s", 100.0 * e)

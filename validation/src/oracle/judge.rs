@@ -17,6 +17,8 @@ pub enum Verdict {
     Warned(f64, String),
     /// Off, on a basis that the model cut short.
     Reduced(f64),
+    /// Off, and it said how far; the largest error.
+    Told(f64),
     /// Off, and it said nothing, but only in what is small beside others of its kind: output, error, time.
     Small(usize, f64, f64),
     /// Off, and it said nothing: output, error, time.
@@ -82,20 +84,28 @@ pub fn error(spec: &Spec, found: &Truth, time: &[f64], values: &[Vec<f64>]) -> (
 /// The largest error of one output and what the run says of it, as shares of its size.
 #[derive(Clone, Copy, Debug)]
 pub struct Pair {
+    /// The output.
+    pub output: usize,
     /// Largest distance from the oracle beyond what the oracle is sure of.
     pub off: f64,
-    /// The run's own estimate, reduction and step; not a number where it has none.
-    pub said: f64,
+    /// What the run says of its reduction and of its steps; not a number where it says nothing.
+    pub said: [f64; 2],
 }
 
 /// Errors below this share are as good as none.
 pub const NO_ERROR: f64 = 1e-5;
 
 impl Pair {
+    /// The estimate; not a number where there is none.
+    #[must_use]
+    pub fn estimate(&self) -> f64 {
+        self.said[0] + self.said[1]
+    }
+
     /// The estimate holds.
     #[must_use]
     pub fn holds(&self) -> bool {
-        self.off <= self.said + NO_ERROR
+        self.off <= self.estimate() + NO_ERROR
     }
 }
 
@@ -109,9 +119,11 @@ fn pairs(spec: &Spec, found: &Truth, shown: &Shown) -> Vec<Pair> {
             off[i] = off[i].max(outside(*x, low, high) / found.scale[i]);
         }
     }
-    let said = |i: usize| shown.errors.get(i).map_or(f64::NAN, |e| e.total() / found.scale[i]);
-    let pair =
-        |(i, off): (usize, f64)| Pair { off: (off - found.moves[i]).max(0.0), said: said(i) };
+    let pair = |(i, off): (usize, f64)| {
+        let said = shown.errors.get(i).map_or([f64::NAN; 2], |e| [e.reduction, e.step]);
+        let off = (off - found.moves[i]).max(0.0);
+        Pair { output: i, off, said: said.map(|x| x / found.scale[i]) }
+    };
     off.into_iter().enumerate().map(pair).collect()
 }
 
@@ -125,13 +137,22 @@ pub fn judge(spec: &Spec, found: &Truth, solver: SolverKind) -> Verdict {
 #[must_use]
 pub fn judge_and_compare(spec: &Spec, found: &Truth, solver: SolverKind) -> (Verdict, Vec<Pair>) {
     match run(&text(spec), solver) {
-        Ended::Shown(shown) => (verdict(spec, found, solver, &shown), pairs(spec, found, &shown)),
+        Ended::Shown(shown) => {
+            let pairs = pairs(spec, found, &shown);
+            (verdict(spec, found, solver, &shown, &pairs), pairs)
+        }
         Ended::Refused(message) => (Verdict::Refused(message), Vec::new()),
         Ended::Panicked(message) => (Verdict::Panicked(message), Vec::new()),
     }
 }
 
-fn verdict(spec: &Spec, found: &Truth, solver: SolverKind, shown: &Shown) -> Verdict {
+fn verdict(
+    spec: &Spec,
+    found: &Truth,
+    solver: SolverKind,
+    shown: &Shown,
+    pairs: &[Pair],
+) -> Verdict {
     let (output, off, t) = error(spec, found, &shown.time, &shown.values);
     let end = shown.time.last().copied().unwrap_or(0.0);
     if end < spec.duration * (1.0 - 1e-9) {
@@ -145,6 +166,8 @@ fn verdict(spec: &Spec, found: &Truth, solver: SolverKind, shown: &Shown) -> Ver
         Verdict::Warned(off, warning.clone())
     } else if reduced {
         Verdict::Reduced(off)
+    } else if pairs.iter().all(|p| p.off <= allowed(spec) || p.holds()) {
+        Verdict::Told(off)
     } else if off * found.scale[output] <= allowed(spec) * SMALL * found.around[output]
         && error_beside(spec, found, &shown.time, &shown.values)
     {

@@ -279,6 +279,10 @@ fn contact(c: &Contact, at: &At<'_>, f: &mut [Dual], g: &mut [Dual]) -> u32 {
         };
         // An open contact has no strength: the anchor goes along.
         branch += 3 * slip(c.ks, &|rate| mu(rate) * normal, at, &at.d[1..], &mut f[1..], g);
+        if normal.0 == 0.0 {
+            // What is left is the creep of the anchor.
+            f[1..].fill(Dual::default());
+        }
     }
     branch
 }

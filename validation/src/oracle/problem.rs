@@ -209,7 +209,9 @@ impl Problem {
         if free.is_empty() {
             return None;
         }
-        let q = (&light * eigen.eigenvectors.select_columns(&free)).qr().q();
+        let mut q = (&light * eigen.eigenvectors.select_columns(&free)).qr().q();
+        // Rounding would be a stiffness.
+        q.iter_mut().filter(|x| x.abs() < 1e-12).for_each(|x| *x = 0.0);
         let others = &self.u0 - &q * q.tr_mul(&self.u0);
         let mut it = self.before();
         let ramp = Function::Ramp(1.0, 0.0, 1.0);

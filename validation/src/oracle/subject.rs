@@ -60,6 +60,7 @@ pub fn run(text: &str, solver: SolverKind) -> Ended {
             case,
             solver: Some(solver),
             substeps: Some(SUBSTEPS),
+            step_errors: true,
             ..RunOptions::default()
         };
         let system = analysis.system();

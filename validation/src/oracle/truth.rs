@@ -1,6 +1,6 @@
 //! The answer of the oracle, and how sure it is of it.
 
-use super::march::{Course, Effort, State, march};
+use super::march::{Course, Effort, Scale, State, march};
 use super::problem::Problem;
 use super::spec::{Output, Spec};
 use std::f64::consts::TAU;
@@ -27,7 +27,7 @@ const TIGHT: f64 = 1e-7;
 /// Outputs below this share of the largest of their kind are compared on that share.
 const SMALL: f64 = 1e-3;
 /// Share of the largest motion that an output is compared on at least.
-const ROUNDING: f64 = 1e-9;
+const ROUNDING: f64 = 1e-7;
 
 /// Integrates a description; `work`: at most so many multiplications.
 ///
@@ -54,7 +54,8 @@ pub fn truth_in_steps(spec: &Spec, work: f64, longest: f64) -> Result<Truth, Str
     } else if let Some((joints, q, others)) = problem.led() {
         let effort = Effort { tolerance: 1e-7, work };
         // What no link holds either has no place of its own.
-        if let Ok(course) = march(&joints, State::start(&joints), None, effort) {
+        let scale = Scale::of(&joints, others.amax());
+        if let Ok(course) = march(&joints, State::start(&joints), Some(scale), effort) {
             start.u = others + q * course.end.u;
             start.z = course.end.z;
         }
@@ -74,8 +75,11 @@ pub fn truth_in_steps(spec: &Spec, work: f64, longest: f64) -> Result<Truth, Str
     let alike = |i: usize| {
         (0..size.len()).filter(|j| kinds[*j] == kinds[i]).map(|j| size[j]).fold(0.0, f64::max)
     };
-    let floor: Vec<f64> =
-        spec.outputs.iter().map(|o| ROUNDING * largest(&problem, &course, o)).collect();
+    let floor: Vec<f64> = spec
+        .outputs
+        .iter()
+        .map(|o| ROUNDING * largest(&problem, &course, extent(spec), o))
+        .collect();
     let scale: Vec<f64> =
         (0..size.len()).map(|i| size[i].max(SMALL * alike(i)).max(floor[i]).max(1e-12)).collect();
     let around = (0..size.len())
@@ -106,26 +110,41 @@ pub fn truth_in_steps(spec: &Spec, work: f64, longest: f64) -> Result<Truth, Str
 
 /// The largest value that an output could have by the motion of the whole structure: what its rounding is
 /// a share of. Outputs that are 0 by symmetry are nothing else.
-fn largest(problem: &Problem, course: &Course, output: &Output) -> f64 {
+fn largest(problem: &Problem, course: &Course, extent: f64, output: &Output) -> f64 {
     let scale = &course.scale;
+    // Rotations move what is far away, and come of displacements that differ.
+    let both = |turns: bool, of: &dyn Fn(bool) -> f64| {
+        let arm = if turns { extent.recip() } else { extent };
+        of(turns).max(arm * of(!turns))
+    };
+    let displacement = |turns| both(turns, &|turns| scale.displacement(problem, turns));
     let of = |member: usize, axis: usize| {
         let link = problem.a.links.iter().find(|l| l.member == member);
         let local = link.and_then(|l| Some(l.first + l.axes.iter().position(|a| *a == axis)?));
         let stiff = local.map_or(0.0, |i| problem.beside[i]);
-        let [u, turn] = [false, true].map(|turns| scale.displacement(problem, turns));
-        (u.max(turn), stiff)
+        (displacement(axis > 2), stiff)
     };
     match *output {
-        Output::Displacement(_, d) => scale.displacement(problem, d > 2),
-        Output::Velocity(_, d) => scale.velocity(problem, d > 2),
+        Output::Displacement(_, d) | Output::Drift(_, _, d) => displacement(d > 2),
+        Output::Velocity(_, d) => {
+            let velocity = both(d > 2, &|turns| scale.velocity(problem, turns));
+            velocity.max(problem.omega * displacement(d > 2))
+        }
         Output::LinkForce(e, a) => {
             let (motion, stiff) = of(e, a);
             motion * stiff
         }
         Output::LinkDeformation(e, a) => of(e, a).0,
-        Output::Drift(_, _, d) => scale.displacement(problem, d > 2),
         Output::Acceleration(..) | Output::End(..) => 0.0,
     }
+}
+
+/// Largest distance of a node from the first, m; 1 m for a point.
+fn extent(spec: &Spec) -> f64 {
+    let from = spec.nodes[0];
+    let far = |n: &[f64; 3]| (0..3).map(|i| (n[i] - from[i]).powi(2)).sum::<f64>().sqrt();
+    let most = spec.nodes.iter().map(far).fold(0.0, f64::max);
+    if most > 0.0 { most } else { 1.0 }
 }
 
 /// Times may be off by this share of the duration.

@@ -69,13 +69,25 @@ pub(crate) struct Hht {
     now: u64,
     clock: usize,
     factorizations: usize,
+    followers: Vec<usize>,
     work: Work,
+}
+
+/// Rates of coordinates that have neither mass nor damping: the mean ones of a step. The rule for time would let
+/// those of the first step ring for ever.
+pub(crate) fn settle_followers(followers: &[usize], from: &[f64], to: &mut [f64], dt: f64) {
+    let n = from.len() / 3;
+    for i in followers {
+        to[n + i] = (to[*i] - from[*i]) / dt;
+        to[2 * n + i] = 0.0;
+    }
 }
 
 impl Hht {
     pub(crate) fn new(space: Space, alpha: f64) -> Self {
         let products = Products::new(&space);
         Self {
+            followers: space.followers(),
             space,
             products,
             alpha,
@@ -242,7 +254,7 @@ impl Propagator for Hht {
         self.space.links.deform_some(to_v, wanted.rated, wanted.v);
     }
 
-    fn correct(&mut self, _: &Motion, forces: &Forces<'_>, to: &mut Motion) {
+    fn correct(&mut self, from: &Motion, forces: &Forces<'_>, to: &mut Motion) {
         let n = self.space.order();
         let step = &self.steps[&self.now];
         let work = &mut self.work;
@@ -286,6 +298,7 @@ impl Propagator for Hht {
             *u += by_u * *a;
             *v += by_v * *a;
         }
+        settle_followers(&self.followers, from, to, step.dt);
     }
 
     /// By the trapezoidal rule, with which average acceleration balances exactly; what another α leaves is

@@ -1,10 +1,10 @@
 //! One motion among several.
 
-use crate::dynamic::jump;
 use crate::ledger::Ledger;
 use crate::link_side::LinkSide;
 use crate::march::Pace;
 use crate::modal::{Modes, Sources};
+use crate::output_step::jump;
 use crate::space::Space;
 use crate::start::potential;
 use crate::stepper::{State, StepEnergy};

@@ -45,6 +45,16 @@ pub struct Scale {
 }
 
 impl Scale {
+    /// Of displacements up to this one.
+    #[must_use]
+    pub fn of(p: &Problem, displacement: f64) -> Self {
+        let (n, l) = (p.a.k.nrows(), p.a.b.nrows());
+        let own = p.a.links.iter().flat_map(|l| vec![l.law.own_size(); l.law.unknowns()]);
+        let z = DVector::from_iterator(p.unknowns(), own) * displacement;
+        let all = |n| DVector::from_element(n, displacement);
+        Self { u: all(n), v: all(n), z, d: all(l) }
+    }
+
     fn largest(p: &Problem, of: &DVector<f64>, turns: bool) -> f64 {
         let on = |j: &usize| {
             let column = p.a.t.column(*j);

@@ -1,0 +1,99 @@
+//! What the steps make of the errors of a run.
+//!
+//! ```text
+//! e_o = max over time |o(8 τ) − o(τ)| + size/20000                  τ: tolerance of the run
+//! ```
+//!
+//! The same motion is marched once more, beside the run, at eight times its tolerance. What this moves in an output is
+//! more than what the steps of the run themselves do, as long as a smaller tolerance gives a smaller error; the
+//! last term is what neither of both sees. It takes a thread of its own: a run on two processors waits for nothing.
+//!
+//! Reference: tolerance proportionality as a measure of the global error \[Shampine & Watts 1976; Söderlind 2002\].
+
+use crate::SolveError;
+use crate::equations::Equations;
+use crate::ledger::Ledger;
+use crate::march::March;
+use crate::output_step::{Moment, Moving, output_step};
+use crate::samples::Samples;
+use crate::start::{Start, constant_force};
+use crate::stepper::{State, Stepper};
+use crate::timeline::Timeline;
+use std::ops::Range;
+use std::sync::atomic::{AtomicUsize, Ordering};
+use trilith_model::StepControl;
+
+/// Its tolerance over that of the run.
+const LOOSER: f64 = 8.0;
+/// What neither of two runs sees, as share of the size of an output.
+pub(crate) const UNSEEN: f64 = 5e-5;
+
+/// The same motion at a looser tolerance.
+pub(crate) struct Companion<'a> {
+    equations: Equations<'a>,
+    timeline: &'a Timeline,
+    tolerance: f64,
+    steps: Range<usize>,
+    /// The last of the output steps that it makes; sooner where the run ends before.
+    last: AtomicUsize,
+    budget: usize,
+}
+
+impl<'a> Companion<'a> {
+    /// Beside a run of this tolerance over output steps; `budget`: substeps that may be tried.
+    pub(crate) fn new(
+        equations: Equations<'a>,
+        timeline: &'a Timeline,
+        tolerance: f64,
+        steps: Range<usize>,
+        budget: usize,
+    ) -> Self {
+        Self {
+            equations,
+            timeline,
+            tolerance: std::env::var("LOOSER").map_or(LOOSER, |x| x.parse().unwrap()) * tolerance,
+            last: AtomicUsize::new(steps.end),
+            steps,
+            budget,
+        }
+    }
+
+    /// The run has ended after so many output steps: nobody looks at what would come later.
+    pub(crate) fn end(&self, made: usize) {
+        self.last.store(made, Ordering::Relaxed);
+    }
+
+    /// Outputs at the times of comparison, as far as it comes.
+    pub(crate) fn march(
+        &self,
+        set_out: &dyn Fn(&mut dyn Stepper) -> Result<Start, SolveError>,
+    ) -> Result<Samples<'a>, SolveError> {
+        let Equations { model, system, loads, .. } = self.equations;
+        let mut stepper = self.equations.stepper();
+        let (state, pace, ledger, _) = set_out(stepper.as_mut())?;
+        let mut moving = Moving { state: Box::new(state), pace, ledger };
+        let steps = self.steps.clone();
+        let mut samples =
+            Samples::new(model, system, loads, stepper.space(), self.timeline, steps.clone());
+        let constant = constant_force(stepper.space(), loads);
+        let control = StepControl::Adaptive { tolerance: self.tolerance };
+        let mut march = March::new(stepper.as_mut(), loads, control);
+        march.budget = self.budget;
+        march.whole = std::env::var("WHOLE").is_ok();
+        for step in steps {
+            if step >= self.last.load(Ordering::Relaxed) {
+                break;
+            }
+            let mut tell = |moment: Moment, t: f64, s: &State, _: &Ledger| {
+                if let Moment::Substep(piece) = moment {
+                    samples.take(piece, t, s);
+                }
+            };
+            let (line, moving) = (self.timeline, &mut moving);
+            if output_step(line, step, &mut march, &constant, moving, &mut tell).is_err() {
+                break;
+            }
+        }
+        Ok(samples)
+    }
+}

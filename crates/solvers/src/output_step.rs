@@ -1,0 +1,72 @@
+//! One output step: its pieces, with loads that jump between them.
+
+use crate::ledger::Ledger;
+use crate::march::{March, Pace, Stop};
+use crate::start::potential;
+use crate::stepper::{State, StepEnergy};
+use crate::timeline::{Piece, Timeline};
+use trilith_model::{Side, StepControl};
+use trilith_system::{Channel, LoadSet};
+
+/// What changes during a run.
+pub(crate) struct Moving {
+    pub state: Box<State>,
+    pub pace: Pace,
+    pub ledger: Ledger,
+}
+
+/// Which moment of a run is told of.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) enum Moment {
+    /// Behind a jump of the loads.
+    Jump,
+    /// The end of a substep in a piece of the output step.
+    Substep(Piece),
+}
+
+/// Told of the moments of a run, their times and states.
+pub(crate) type Tell<'a> = dyn FnMut(Moment, f64, &State, &Ledger) + 'a;
+
+/// Steps that are made of a piece of the timeline at least.
+pub(crate) fn at_least(step: StepControl) -> usize {
+    match step {
+        StepControl::Fixed { substeps } => substeps,
+        StepControl::Adaptive { .. } => 1,
+    }
+}
+
+/// How the amplitudes of the loads jump at a time; none where they do not.
+pub(crate) fn jump(loads: &LoadSet, t: f64) -> Option<Vec<f64>> {
+    let jump = |c: &Channel| c.track.at(t, Side::After) - c.track.at(t, Side::Before);
+    let change: Vec<f64> = loads.channels.iter().map(jump).collect();
+    change.iter().any(|x| *x != 0.0).then_some(change)
+}
+
+/// Makes an output step; `constant`: constant loads in the coordinates of the solver.
+pub(crate) fn output_step(
+    timeline: &Timeline,
+    step: usize,
+    march: &mut March<'_>,
+    constant: &[f64],
+    moving: &mut Moving,
+    tell: &mut Tell<'_>,
+) -> Result<(), Stop> {
+    let Moving { state, pace, ledger } = moving;
+    for piece in timeline.pieces(step) {
+        let t0 = piece.start;
+        if t0 > 0.0 && timeline.is_jump(t0) {
+            march.cut();
+            if let Some(change) = jump(march.loads, t0) {
+                march.stepper.jump(state, &change).map_err(Stop::Fatal)?;
+                tell(Moment::Jump, t0, state, ledger);
+            }
+        }
+        let mut accept = |t: f64, s: &State, e: &StepEnergy| -> f64 {
+            let energy = ledger.enter(e, potential(constant, s));
+            tell(Moment::Substep(piece), t, s, ledger);
+            energy
+        };
+        march.segment(state, pace, piece, &mut accept)?;
+    }
+    Ok(())
+}
