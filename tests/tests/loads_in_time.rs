@@ -204,3 +204,48 @@ fn extremes_inside_long_steps_are_those_of_the_motion() {
         }
     }
 }
+
+/// ü + ω² u = −a under a base acceleration that is straight between samples: exact from sample to sample.
+fn exactly(times: &[f64], values: &[f64], omega: f64, t: f64) -> f64 {
+    let (mut u, mut v) = (0.0, 0.0);
+    for i in 1..times.len() {
+        let (from, to) = (times[i - 1], times[i].min(t));
+        if to <= from {
+            break;
+        }
+        let slope = (values[i] - values[i - 1]) / (times[i] - from);
+        let h = to - from;
+        // u = A cos + B sin − (a + slope τ)/ω².
+        let w2 = omega * omega;
+        let (a, b) = (u + values[i - 1] / w2, (v + slope / w2) / omega);
+        let (sin, cos) = (omega * h).sin_cos();
+        u = a * cos + b * sin - (values[i - 1] + slope * h) / w2;
+        v = omega * (b * cos - a * sin) - slope / w2;
+    }
+    u
+}
+
+/// Samples that are nearly, but not quite, where steps could end: the program may put the end of a piece beside them,
+/// and the motion must not notice.
+#[test]
+fn samples_a_little_beside_the_grid_cost_nothing() {
+    for (off, allowed) in [(4e-5, 1e-7), (4e-6, 1e-5)] {
+        let mut times: Vec<f64> = (0..=40).map(|i| 0.05 * f64::from(i)).collect();
+        let shift = |i: usize| off * ((i * 7919 % 101) as f64 / 50.0 - 1.0);
+        times.iter_mut().enumerate().take(40).skip(1).for_each(|(i, t)| *t += shift(i));
+        let values: Vec<f64> =
+            (0..times.len()).map(|i| (i * 104_729 % 97) as f64 / 48.0 - 1.0).collect();
+        let points: Vec<String> =
+            times.iter().zip(&values).map(|(t, a)| format!("({t:?}, {a:?})")).collect();
+        let function = format!("Points(points: [{}])", points.join(", "));
+        for dt in [0.1, 0.0125] {
+            let found =
+                run(&function, dt, SolverKind::Fna, StepControl::Adaptive { tolerance: 1e-7 });
+            for (t, row) in found.time.iter().zip(&found.history).filter(|(t, _)| **t < 1.99) {
+                let expected = exactly(&times, &values, std::f64::consts::TAU, *t);
+                let share = (row[0] - expected).abs() / found.peak(0);
+                assert!(share < allowed, "{off} {dt} at {t}: {share:e}");
+            }
+        }
+    }
+}

@@ -39,7 +39,7 @@ fn cantilever(case: &str) -> String {
 }
 
 fn run(model: &Model, solver: SolverKind) -> Run {
-    let options = RunOptions { solver: Some(solver), ..RunOptions::default() };
+    let options = RunOptions { solver: Some(solver), step_errors: true, ..RunOptions::default() };
     Analysis::new(model).unwrap().run(options).unwrap()
 }
 

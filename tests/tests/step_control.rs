@@ -2,8 +2,8 @@
 //! energy of a step does not show.
 
 use trilith_model::SolverKind;
-use trilith_solvers::Status;
-use trilith_tests::{Trace, parse, trace};
+use trilith_solvers::{RunOptions, Status};
+use trilith_tests::{Trace, parse, trace, trace_with};
 
 const G: f64 = 9.80665;
 
@@ -242,6 +242,44 @@ fn the_error_falls_with_the_tolerance() {
                 assert!(*error < 5.0 * tolerance, "{} {seed}: {errors:?}", solver.name());
             }
             assert!(errors[3] < 0.1 * errors[0], "{} {seed}: {errors:?}", solver.name());
+        }
+    }
+}
+
+/// Links that carry nothing but rounding until one closes, and a structure that rests for ever: steps are not
+/// measured by it.
+#[test]
+fn rounding_halves_no_steps() {
+    let text = r#"(
+        nodes: { "a": (1, 0, 0), "j": (2, 0, 0), "b": (3, 0, 0) },
+        supports: {
+            "a": (Uy, Uz, Rx, Ry, Rz), "j": (Uy, Uz, Rx, Ry, Rz), "b": (Uy, Uz, Rx, Ry, Rz),
+        },
+        elements: {
+            "ground": Spring(node: "a", axis1: (1, 0, 0), k1: "k"),
+            "mass a": Mass(node: "a", mass: 235.5),
+            "aj": Wen(nodes: ("a", "j"), k: 168100, fy: 717.3, ratio: 0.1623, axis: U1),
+            "hook": Hook(nodes: ("j", "b"), k: 4548000, opening: 0.003139, axis: U1),
+            "mass b": Mass(node: "b", mass: 209.4),
+        },
+        parameters: { "k": "114100 N/m" },
+        cases: {
+            "free": Dynamic(
+                duration: 1, dt: 0.1321, initial: [(node: "a", dof: Ux, displacement: 0.002015)],
+            ),
+        },
+        outputs: { "a": Displacement(node: "a", dof: Ux) },
+    )"#;
+    for k in [114_100.0, 0.0] {
+        let (model, system) = parse(text, &[("k", k.to_string())]);
+        for solver in [SolverKind::Fna, SolverKind::Hht] {
+            let options = RunOptions {
+                solver: Some(solver),
+                substeps: Some(20_000),
+                ..RunOptions::default()
+            };
+            let (_, result) = trace_with(&model, &system, options);
+            assert_eq!(result.status, Status::Converged, "{} {k}", solver.name());
         }
     }
 }

@@ -377,6 +377,9 @@ fn enriched(
     let more = if demands.wider { total.div_ceil(WIDER).max(AT_LEAST) } else { 0 };
     let parts = hat.parts(system);
     let rows = Condensation::new(system, loads)?;
+    // What follows without mass is beside the modes: in vectors it would look like modes that are far too fast, and
+    // come with what is taken out of others.
+    let statics = StaticShapes::new(system, &Sparse::combine(&parts), loads)?;
     let mut span = Span::new(&rows, &system.mass, &parts, total + more);
     let own = |u: &Vec<f64>| rows.gather(u).into_owned();
     let mut block: Vec<Vec<f64>> = Vec::new();
@@ -391,24 +394,43 @@ fn enriched(
     } else {
         block.extend(loads.iter().map(|(_, p)| own(p)));
         // What the run starts from must be there itself; masses in motion go on as loads.
-        let starts = demands.starts.iter().map(own).take(ground).collect();
+        let start = |u: &Vec<f64>| {
+            let (mut u, mut p) = (u.clone(), vec![0.0; u.len()]);
+            parts.iter().for_each(|(factor, part)| part.mul_add(*factor, &u, &mut p));
+            statics.out_of_answer(|psi| dot(psi, &p), &mut u);
+            own(&u)
+        };
+        let starts = demands.starts.iter().map(start).take(ground).collect();
         block.extend(span.take(starts, Origin::Anywhere, Speed::OfModes));
-        block = recurse(&mut span, &rows, hat, block, ground);
+        block = recurse(&mut span, &rows, hat, &statics, block, ground);
     }
     let mut known = Vec::with_capacity(links.len());
     // Where there is no room for all, those taken are spread over all.
     let is_taken = |i: usize| (i + 1) * of_links / links.len() > i * of_links / links.len();
+    let row = |i: usize| &system.links.rows[i];
+    let beside = |i: usize, x: &[f64]| {
+        let mut x = x.to_vec();
+        statics.out_of_answer(|psi| row(i).iter().map(|(j, c)| c * psi[*j]).sum(), &mut x);
+        vec![rows.gather(&x).into_owned()]
+    };
     hat.static_shapes(system, links, |x, flexibility| {
+        let i = known.len();
         known.push(flexibility);
-        if span.len() < total && is_taken(known.len() - 1) {
-            span.take(vec![rows.gather(x).into_owned()], Origin::Anywhere, Speed::OfModes);
+        if span.len() < total && is_taken(i) {
+            span.take(beside(links[i], x), Origin::Anywhere, Speed::OfModes);
         }
     });
     let known = (settings.adequacy > 0.0).then_some(known);
     let count = span.len();
     if more > 0 {
         span.take(modes, Origin::Anywhere, Speed::Any);
-        recurse(&mut span, &rows, hat, block, count + more);
+        // Links that were not taken are the first to lack something; where loads have shown all they can, links
+        // and what they set in motion are all that is left.
+        let untaken = system.links.active.len() - of_links;
+        let mut of_links = beyond(system, hat, &mut span, &beside, count + untaken.min(more / 2));
+        recurse(&mut span, &rows, hat, &statics, block, count + more);
+        of_links.extend(beyond(system, hat, &mut span, &beside, count + more));
+        recurse(&mut span, &rows, hat, &statics, of_links, count + more);
     }
     let all = span.into_dense();
     let rows = Arc::new(rows);
@@ -420,12 +442,39 @@ fn enriched(
     Ok(Enriched { span: first, wider: Some(Shapes::new(rows, all)), known })
 }
 
+/// Takes static shapes of links until `count` vectors are there, and returns their images under M; `beside`: of a
+/// link and its shape, what goes into the span.
+fn beyond(
+    system: &System,
+    hat: &Solvable,
+    span: &mut Span<'_>,
+    beside: &dyn Fn(usize, &[f64]) -> Vec<Vec<f64>>,
+    count: usize,
+) -> Vec<Vec<f64>> {
+    let mut images = Vec::new();
+    for block in system.links.active.chunks(BLOCK) {
+        if span.len() >= count {
+            break;
+        }
+        let mut links = block.iter();
+        hat.static_shapes(system, block, |x, _| {
+            if let Some(link) = links.next()
+                && span.len() < count
+            {
+                images.extend(span.take(beside(*link, x), Origin::Anywhere, Speed::OfModes));
+            }
+        });
+    }
+    images
+}
+
 /// The load-dependent recursion from right-hand sides until `count` vectors are there or nothing new comes; returns
 /// those it would go on with.
 fn recurse(
     span: &mut Span<'_>,
     rows: &Condensation,
     hat: &Solvable,
+    statics: &StaticShapes,
     mut block: Vec<Vec<f64>>,
     count: usize,
 ) -> Vec<Vec<f64>> {
@@ -438,7 +487,11 @@ fn recurse(
             let mut x = vec![0.0; order * block.len()];
             x.chunks_mut(order).zip(&block).for_each(|(x, p)| rows.scatter(p, x));
             drop(block);
+            let p = if statics.len() > 0 { x.clone() } else { Vec::new() };
             hat.factor.solve(&mut x);
+            for (p, x) in p.chunks(order).zip(x.chunks_mut(order)) {
+                statics.out_of_answer(|psi| dot(psi, p), x);
+            }
             let solved = x.chunks(order).map(|x| rows.gather(x).into_owned()).collect();
             drop(x);
             // Where the loads have shown all they can, what is left of a vector is rounding.

@@ -283,6 +283,8 @@ impl Arrival<'_> {
         work: Work,
     ) -> CaseResult {
         let Self { timeline, made, state, pace, ledger, constant, initial, fallen, largest } = self;
+        // Where the links were led from, nobody asks at the end.
+        let initial = Initial { links: None, ..initial };
         let share = ledger.totals.error_relative;
         let limit = match &case.analysis {
             Analysis::Dynamic(analysis) => analysis.solution.energy_limit,

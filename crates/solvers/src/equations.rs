@@ -3,6 +3,7 @@
 use crate::basis::{self, Bases, Demands};
 use crate::damping::{ModalDamping, modal_damping};
 use crate::error::SolveError;
+use crate::followers::Followers;
 use crate::full_newton::FullNewton;
 use crate::hht::Hht;
 use crate::kernel::LinkKernel;
@@ -49,11 +50,13 @@ impl<'a> Equations<'a> {
             }
             (SolverKind::FullNewton, _) => {
                 let space = Space::physical(system, loads, effective, damping.cloned());
+                let rated = &link_side(model, system, solution, loads, 0, watched);
+                let rated = &rated.kernel.layout().rated;
                 Box::new(FullNewton {
                     model,
                     system,
                     loads,
-                    followers: space.followers(),
+                    followers: Followers::new(&space, rated),
                     space,
                     alpha: solution.alpha,
                     iterations: 0,

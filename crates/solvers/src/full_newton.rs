@@ -4,7 +4,8 @@
 
 use crate::apart::{Apart, Way, apart, way};
 use crate::error::SolveError;
-use crate::hht::{newmark, settle_followers};
+use crate::followers::{Followers, JUMPED, accelerate_at_once};
+use crate::hht::newmark;
 use crate::kernel::Remembered;
 use crate::propagator::{Forces, Motion, StepWork, kinetic_and_strain};
 use crate::space::Space;
@@ -26,8 +27,7 @@ pub(crate) struct FullNewton<'a> {
     pub loads: &'a LoadSet,
     pub space: Space,
     pub alpha: f64,
-    /// As [`Space::followers`] says.
-    pub followers: Vec<usize>,
+    pub followers: Followers,
     pub iterations: usize,
     pub factorizations: usize,
 }
@@ -159,7 +159,7 @@ impl Stepper for FullNewton<'_> {
             let force = largest(&to.f).max(from.scale[0]).max(from.scale[1]);
             let size = largest(&inertia).max(largest(&load1)).max(force);
             if largest(&residual) <= TOLERANCE * size {
-                settle_followers(&self.followers, &from.motion, &mut to.motion, dt);
+                self.followers.settle(&from.motion, &mut to.motion, dt);
                 to.tangents = tangents;
                 let force = largest(&to.f);
                 to.settle(&self.system.links, &energy.links, force);
@@ -201,9 +201,7 @@ impl Stepper for FullNewton<'_> {
     fn jump(&mut self, state: &mut State, change: &[f64]) -> Result<(), SolveError> {
         let a = mass_acceleration(&self.space, self.space.force(change))?;
         let n = a.len();
-        for (x, y) in state.motion[2 * n..].iter_mut().zip(a) {
-            *x += y;
-        }
+        accelerate_at_once(&mut state.motion[2 * n..], &a);
         Ok(())
     }
 
@@ -280,6 +278,16 @@ pub(crate) fn mass_acceleration(
             *p = 0.0;
         }
     }
+    let mut a = accelerate(space, force)?;
+    a.iter_mut()
+        .zip(space.mass.diagonal())
+        .filter(|(_, m)| *m <= 0.0)
+        .for_each(|(a, _)| *a = JUMPED);
+    Ok(a)
+}
+
+/// M⁻¹ of a force on what has mass.
+fn accelerate(space: &Space, mut force: Vec<f64>) -> Result<Vec<f64>, SolveError> {
     if space.mass.entries().all(|(i, j, m)| i == j || m == 0.0) {
         for (p, m) in force.iter_mut().zip(space.mass.diagonal()).filter(|(_, m)| *m > 0.0) {
             *p /= m;

@@ -2,13 +2,14 @@
 //!
 //! What neither a mass nor a dashpot holds follows statically: initial velocities as the linear structure says,
 //! initial displacements in equilibrium with the links, which are led there slowly along a straight path of the
-//! directions that hold.
+//! directions that hold. What dashpots hold stays where it is, at the rate with which they carry what else acts there.
 
 use crate::case::untouched;
 use crate::error::SolveError;
 use crate::statics::{Equilibrium, Path, along, columns_of_links};
 use crate::stepper::{LinksBefore, State};
-use trilith_linalg::{Dense, Ldlt};
+use crate::vector::largest;
+use trilith_linalg::{Dense, Ldlt, Sparse};
 use trilith_model::Model;
 use trilith_system::System;
 
@@ -106,4 +107,83 @@ fn viscous(model: &Model, system: &System) -> Vec<bool> {
         viscous[*flat] |= c[*at] != 0.0;
     }
     viscous
+}
+
+/// Most iterations for the rates of what dashpots hold, and the share of the forces that they may leave.
+const ITERATIONS: usize = 40;
+const LEFT: f64 = 1e-10;
+
+/// Rates of what has no mass and is held by dashpots, elements or links: Nᵀ (K u + C v + Bᵀ f(d, v)) = 0. Others stay
+/// as they are, and so do all where no such rates are found.
+pub(crate) fn rates(
+    model: &Model,
+    system: &System,
+    before: &LinksBefore,
+    u: &[f64],
+    v: &mut [f64],
+) -> Result<(), SolveError> {
+    let (massless, links) = (&system.massless, &system.links);
+    let viscous = viscous(model, system);
+    let mut held: Vec<bool> =
+        massless.project(&system.element_damping).diagonal().iter().map(|c| *c != 0.0).collect();
+    for flat in links.active.iter().filter(|flat| viscous[**flat]) {
+        let row = massless.row(&links.rows[*flat]);
+        held.iter_mut().zip(row).for_each(|(held, c)| *held |= c != 0.0);
+    }
+    let own: Vec<usize> = (0..held.len()).filter(|i| held[*i]).collect();
+    if own.is_empty() {
+        return Ok(());
+    }
+    let supports = vec![0.0; system.reduction.prescribed.len()];
+    let mut d = vec![0.0; links.len()];
+    links.deform(u, &supports, &mut d);
+    let mut rest = system.stiffness.mul(u);
+    rest.iter_mut().for_each(|x| *x = -*x);
+    let damping = system.damping();
+    // What is left, and the stiffness against rates.
+    let look = |v: &[f64]| {
+        let mut rate = vec![0.0; links.len()];
+        links.deform(v, &supports, &mut rate);
+        let state = State::of_links(model, links, before, d.clone(), rate);
+        let mut left = rest.clone();
+        damping.mul_add(-1.0, v, &mut left);
+        let force = massless.load(&left).iter().map(|x| x.abs()).fold(0.0, f64::max);
+        links.spread(-1.0, &state.f, &mut left);
+        let left: Vec<f64> = own.iter().map(|i| massless.load(&left)[*i]).collect();
+        (left, force.max(largest(&state.f)), state.tangents.c)
+    };
+    let (mut at, mut tried) = (v.to_vec(), v.to_vec());
+    let (mut left, mut size, mut c) = look(&at);
+    for _ in 0..ITERATIONS {
+        if largest(&left) <= LEFT * size {
+            v.copy_from_slice(&at);
+            return Ok(());
+        }
+        let mut of_links = vec![0.0; links.len()];
+        for (flat, place) in links.active.iter().zip(&links.diagonal) {
+            of_links[*flat] = c[*place];
+        }
+        let sum = Sparse::combine(&[(1.0, &damping), (1.0, &system.springs(&of_links))]);
+        let block = massless.project(&sum).block(&own, &own);
+        let mut step = left.clone();
+        Ldlt::with_rigid_zeros(&block)?.solve(&mut step);
+        let mut share = 1.0;
+        loop {
+            tried.copy_from_slice(&at);
+            let mut all = vec![0.0; massless.len()];
+            own.iter().zip(&step).for_each(|(i, y)| all[*i] = *y);
+            massless.expand(share, &all, &mut tried);
+            let next = look(&tried);
+            if largest(&next.0) < largest(&left) {
+                (left, size, c) = next;
+                std::mem::swap(&mut at, &mut tried);
+                break;
+            }
+            share *= 0.5;
+            if share < 1e-6 {
+                return Ok(());
+            }
+        }
+    }
+    Ok(())
 }

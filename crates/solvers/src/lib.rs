@@ -20,6 +20,7 @@ mod drag;
 mod dynamic;
 mod equations;
 mod error;
+mod followers;
 mod full_newton;
 mod hht;
 mod inside;

@@ -144,6 +144,15 @@ impl StaticShapes {
         vectors
     }
 
+    /// Takes them out of a displacement that a force causes, ψᵀ K u = ψᵀ p, as [`out_of`](Self::out_of) does.
+    pub(crate) fn out_of_answer(&self, p: impl Fn(&[f64]) -> f64, u: &mut [f64]) {
+        for (r, stiffness) in self.stiffness.iter().enumerate().filter(|(_, k)| **k > 0.0) {
+            let psi = self.psi.column(r);
+            let share = p(psi) / stiffness;
+            u.iter_mut().zip(psi).for_each(|(u, x)| *u -= share * x);
+        }
+    }
+
     /// Puts those that dashpots tie to the modes first, and finds what reads the coordinates of all.
     pub(crate) fn beside(self, system: &System, k: &Sparse, modes: &Shapes) -> Self {
         if self.len() == 0 {

@@ -24,6 +24,7 @@ mod inside;
 mod rules;
 
 use crate::error::SolveError;
+use crate::followers::accelerate_at_once;
 use crate::link_map::LinkMap;
 use crate::propagator::{Compliance, Forces, Motion, Propagator, StepKey, StepWork, Wanted};
 use crate::space::Space;
@@ -92,6 +93,8 @@ pub(crate) struct Sources {
     lost: f64,
     /// Pseudo-forces spread last.
     pseudo: Vec<f64>,
+    /// True of what these laws hold by rates.
+    held: Vec<bool>,
     /// The link coordinates whose rates laws look at, and their rows of B Φ where these are few.
     rated: Vec<usize>,
     rows: Option<Product>,
@@ -108,7 +111,12 @@ impl Sources {
             }
             Product::new(rows)
         });
+        let mut held = vec![false; space.order()];
+        for a in rated {
+            space.links.row(*a).filter(|(_, c)| *c != 0.0).for_each(|(i, _)| held[i] = true);
+        }
         Self {
+            held,
             pseudo: vec![0.0; space.links.len()],
             sources: vec![0.0; 3 * space.order()],
             integral: vec![0.0; space.order()],
@@ -318,9 +326,7 @@ impl Modes {
     pub(crate) fn jump(&self, motion: &mut Motion, change: &[f64]) {
         let m = self.space.order();
         let change = self.structure.free_acceleration(&self.space.force(change));
-        motion[2 * m..].iter_mut().zip(change).for_each(|(x, y)| *x += y);
-        // What has no mass may jump with its load: how it moved before says nothing of how it goes on.
-        motion[2 * m + self.structure.modes..].fill(0.0);
+        accelerate_at_once(&mut motion[2 * m..], &change);
     }
 
     /// A step from a motion under loads.
@@ -365,12 +371,20 @@ impl Modes {
         }
     }
 
-    /// Their accelerations.
+    /// Their accelerations, and what a load that jumps does to them at once: that is no rate, and nothing takes the
+    /// work that it does beyond what their springs hold then, ½ (s₀ − κ q₀) (q₁ − q₀).
     #[inline]
-    fn settle_on(&self, from: &Motion, to: &mut Motion) {
+    fn settle_on(&self, now: &mut Sources, from: &Motion, to: &mut Motion) {
         let n = self.space.order();
+        let per_dt = self.steps[self.now.0].per_dt;
+        now.lost = 0.0;
         for i in self.structure.undamped.iter().copied() {
-            to[2 * n + i] = (to[n + i] - from[n + i]) * self.steps[self.now.0].per_dt;
+            let jumped = now.sources[i] - self.structure.omega2[i] * from[i];
+            now.lost += 0.5 * jumped * (to[i] - from[i]);
+            if !now.held[i] {
+                to[n + i] -= jumped / self.structure.omega2[i] * per_dt;
+            }
+            to[2 * n + i] = (to[n + i] - from[n + i]) * per_dt;
         }
     }
 
@@ -387,8 +401,7 @@ impl Modes {
         let step = self.start(from, loads);
         if let Some(modes) = rule.own() {
             modes.complete(&step, &mut now.sources, to, &mut now.sums);
-            now.lost = self.lost(now, from, to);
-            return self.settle_on(from, to);
+            return self.settle_on(now, from, to);
         }
         let n = self.space.order();
         let mut integral = std::mem::take(&mut now.integral);
@@ -410,17 +423,7 @@ impl Modes {
         let ((k0, e0), (k1, e1)) = (self.energy(from), self.energy(to));
         now.sums = StepSums { external, all, kinetic: [k0, k1], strain: [e0, e1] };
         now.integral = integral;
-        now.lost = self.lost(now, from, to);
-        self.settle_on(from, to);
-    }
-
-    /// Static shapes follow a load that jumps at once, and nothing takes the work that it does beyond what their
-    /// springs hold then: ½ (s₀ − κ q₀) (q₁ − q₀).
-    #[inline]
-    fn lost(&self, now: &Sources, from: &Motion, to: &Motion) -> f64 {
-        let omega2 = &self.structure.omega2;
-        let one = |i: &usize| 0.5 * (now.sources[*i] - omega2[*i] * from[*i]) * (to[*i] - from[*i]);
-        self.structure.undamped.iter().map(one).sum()
+        self.settle_on(now, from, to);
     }
 
     /// Work done over the step completed last.

@@ -160,15 +160,6 @@ impl Space {
         self.mass.rows()
     }
 
-    /// Coordinates without mass and damping: they follow, and the rule for time says nothing of their rates.
-    pub(crate) fn followers(&self) -> Vec<usize> {
-        if self.rayleigh[1] != 0.0 {
-            return Vec::new();
-        }
-        let (heavy, damped) = (self.mass.diagonal(), self.damping.diagonal());
-        (0..self.order()).filter(|i| heavy[*i] == 0.0 && damped[*i] == 0.0).collect()
-    }
-
     /// Σ amplitude · force.
     pub(crate) fn force(&self, amplitudes: &[f64]) -> Vec<f64> {
         let mut p = vec![0.0; self.order()];

@@ -17,8 +17,11 @@ use trilith_system::{LoadSet, System, Track};
 /// Share of the energy that stands in springs at the start which counts as motion: rounding moves as much.
 const RESTS: f64 = 1e-6;
 
+/// Energies below this share of what stands in springs, those of dummies among them, are rounding.
+const ROUNDING: f64 = 1e-12;
+
 /// Deformations below this share of the largest at the start are rounding.
-const NOISE: f64 = 1e-11;
+const NOISE: f64 = 1e-10;
 
 /// Forces of links below this share of the loads are not looked at from near.
 const FORCE: f64 = 1e-3;
@@ -79,6 +82,8 @@ impl Initial {
                 Some((led, at)) => (u, links) = (led, Some(at)),
                 None => joints::follow(system, &mut u)?,
             }
+            let at = links.clone().unwrap_or_else(|| LinksBefore::rest(model, &system.links));
+            joints::rates(model, system, &at, &u, &mut v)?;
         }
         let beyond_equilibrium = u.iter().zip(&held).map(|(u, h)| u - h).collect();
         Ok(Self { displacement: u, velocity: v, beyond_equilibrium, links })
@@ -127,7 +132,9 @@ pub(crate) fn start(
     let (forces, energy) = noise(model, system, &reached);
     let push = [least.max(forces[0]), (least * extent(model)).max(forces[1])];
     let reference = reference.max(energy);
-    let ledger = Ledger::new(&state, kinetic, own, level, energy);
+    // Dummies that stand far out leave more.
+    let rounding = energy.max(ROUNDING * (strain.abs() + stored.abs()));
+    let ledger = Ledger::new(&state, kinetic, own, level, rounding);
     Ok((state, Pace { level: 0, reference, reached, push }, ledger, 0))
 }
 

@@ -2,6 +2,7 @@
 
 use crate::apart::{Apart, Way, apart, way};
 use crate::error::SolveError;
+use crate::followers::accelerate_at_once;
 use crate::kernel::{ForceScale, NoEquilibrium, Remembered, Unforeseen};
 use crate::link_side::LinkSide;
 use crate::modal::ClosedForm;
@@ -357,9 +358,7 @@ impl<P: Propagator> Stepper for LinkStepper<'_, P> {
         let force = self.propagator.space().force(change);
         let a = self.propagator.acceleration(&force)?;
         let n = a.len();
-        for (x, y) in state.motion[2 * n..].iter_mut().zip(a) {
-            *x += y;
-        }
+        accelerate_at_once(&mut state.motion[2 * n..], &a);
         Ok(())
     }
 

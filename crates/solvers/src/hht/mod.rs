@@ -20,6 +20,7 @@ mod step;
 mod tests;
 
 use crate::error::SolveError;
+use crate::followers::Followers;
 use crate::products::Products;
 use crate::propagator::{Compliance, Forces, Motion, Propagator, StepKey, StepWork, Wanted};
 use crate::space::Space;
@@ -69,25 +70,15 @@ pub(crate) struct Hht {
     now: u64,
     clock: usize,
     factorizations: usize,
-    followers: Vec<usize>,
+    followers: Followers,
     work: Work,
-}
-
-/// Rates of coordinates that have neither mass nor damping: the mean ones of a step. The rule for time would let
-/// those of the first step ring for ever.
-pub(crate) fn settle_followers(followers: &[usize], from: &[f64], to: &mut [f64], dt: f64) {
-    let n = from.len() / 3;
-    for i in followers {
-        to[n + i] = (to[*i] - from[*i]) / dt;
-        to[2 * n + i] = 0.0;
-    }
 }
 
 impl Hht {
     pub(crate) fn new(space: Space, alpha: f64) -> Self {
         let products = Products::new(&space);
         Self {
-            followers: space.followers(),
+            followers: Followers::default(),
             space,
             products,
             alpha,
@@ -177,6 +168,10 @@ impl Propagator for Hht {
 
     fn compliance(&self) -> &Compliance {
         &self.steps[&self.now].compliance
+    }
+
+    fn look_at_rates(&mut self, rated: &[usize]) {
+        self.followers = Followers::new(&self.space, rated);
     }
 
     fn acceleration(&mut self, force: &[f64]) -> Result<Vec<f64>, SolveError> {
@@ -298,7 +293,7 @@ impl Propagator for Hht {
             *u += by_u * *a;
             *v += by_v * *a;
         }
-        settle_followers(&self.followers, from, to, step.dt);
+        self.followers.settle(from, to, step.dt);
     }
 
     /// By the trapezoidal rule, with which average acceleration balances exactly; what another α leaves is

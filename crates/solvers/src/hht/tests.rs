@@ -50,6 +50,7 @@ fn space(modal: bool, links: LinkMap) -> Space {
         forces: Product::new(Dense::zeros(N, 0)),
         shape: None,
         readers: Dense::zeros(N, 0),
+        tied: 0,
     }
 }
 

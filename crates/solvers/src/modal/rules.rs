@@ -9,6 +9,7 @@
 //! ```
 
 use super::bit;
+use crate::followers::JUMPED;
 use crate::single_mode;
 use trilith_linalg::{Dense, DenseLu, OwnModes, add_products, combine, dot, expm, weighted_square};
 
@@ -53,7 +54,8 @@ impl Structure {
                 a.iter_mut().zip(damping.column(y)).for_each(|(a, e)| *a -= e * rate);
             }
         }
-        a[self.modes..].fill(0.0);
+        // What has no mass may jump with its load: how it moved before says nothing of how it goes on.
+        a[self.modes..].fill(JUMPED);
         a
     }
 
@@ -174,7 +176,7 @@ fn static_rule(c: f64, stiffness: f64, dt: f64) -> [[f64; 4]; 3] {
         return [
             [0.5 * dt * per, 0.0, 0.0, 0.5 * dt * per],
             [0.0, 0.0, 0.0, per],
-            [-per / dt, 0.0, 0.0, per / dt],
+            [-dt.recip(), 0.0, 0.0, per / dt],
         ];
     }
     let c = c * per;

@@ -49,7 +49,7 @@ impl Record {
         between(&p.values[probe], ((t - p.t) / p.h).clamp(0.0, 1.0))
     }
 
-    /// Smallest and largest value of a probe between two times.
+    /// Smallest and largest value of a probe between two times: there, at the nodes and in the middle.
     #[must_use]
     pub fn span(&self, probe: usize, from: f64, to: f64) -> (f64, f64) {
         let (mut low, mut high) = (f64::INFINITY, f64::NEG_INFINITY);
@@ -57,6 +57,7 @@ impl Record {
         let first = self.pieces.partition_point(|p| p.t + p.h < from);
         let last = self.pieces.len() - 1;
         add(self.within(first.min(last), probe, from));
+        add(self.at(probe, 0.5 * (from + to)));
         let mut end = first.min(last);
         while end < last && self.pieces[end].t + self.pieces[end].h < to {
             end += 1;

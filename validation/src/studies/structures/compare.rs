@@ -10,8 +10,9 @@ use crate::oracle::truth::{Truth, WINDOW, outside, truth_in_steps};
 use trilith::SolverKind;
 use trilith_report::Figure;
 
-/// What an output may be off, over time and at its peaks, % of its largest value.
-const ALLOWED: f64 = 1.0;
+/// What an output may be off, over time and at its peaks, % of its largest value: under the solver that a case has
+/// where it names none, and under direct integration, which lets high modes of stiff members lag.
+const ALLOWED: [f64; 2] = [1.0, 2.0];
 /// What the oracle may move by between its two tolerances, %.
 const SURE: f64 = 0.25;
 /// Multiplications that the oracle may make.
@@ -100,8 +101,8 @@ pub(super) fn compare(found: &mut Findings, it: &Structure) -> Result<(), String
     }
     for name in groups {
         let members = || (0..it.names.len()).filter(|i| group(&it.spec.outputs[*i]) == name);
-        for (solver, errors) in SOLVERS.iter().zip(&errors) {
-            let limit = (ALLOWED, Kind::OtherCode);
+        for ((solver, errors), allowed) in SOLVERS.iter().zip(&errors).zip(ALLOWED) {
+            let limit = (allowed, Kind::OtherCode);
             let mut claim = |what: String, of: &dyn Fn(&Off) -> f64| {
                 let value = members().map(|i| of(&errors[i])).fold(0.0, worse);
                 found.check(what, "%", limit, Tolerance::AtMost, solver.name(), value);

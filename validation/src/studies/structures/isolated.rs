@@ -70,7 +70,7 @@ pub(super) fn five_storeys() -> Structure {
         beam: (0.3, 0.6),
     };
     let (mut it, feet) = frame.build();
-    let bearing = Pendulum { kn: 2e9, ks: 5e7, radius: 2.0, slow: 0.03, fast: 0.06, rate: 50.0 };
+    let bearing = Pendulum { kn: 2e9, ks: 5e7, radius: 2.0, slow: 0.05, fast: 0.05, rate: 0.0 };
     for (i, foot) in feet.into_iter().enumerate() {
         let bearing = it.add(&[foot], link(Law::Pendulum(bearing), 0));
         it.record_link(&format!("isolator {}", i + 1), bearing);

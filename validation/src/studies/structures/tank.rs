@@ -10,7 +10,7 @@ pub(super) fn tank() -> Structure {
     let mut it = Structure::plane();
     let slab = it.node([0.0; 3], FREE);
     it.add(&[slab], Kind::Mass(4e5, [0.0, 6e6, 0.0]));
-    let bearing = Pendulum { kn: 4e9, ks: 1e8, radius: 1.8, slow: 0.04, fast: 0.08, rate: 30.0 };
+    let bearing = Pendulum { kn: 4e9, ks: 1e8, radius: 1.8, slow: 0.06, fast: 0.06, rate: 0.0 };
     let mut bearings = Vec::new();
     for x in [-6.0, 0.0, 6.0] {
         let under = it.node([x, 0.0, -0.5], FREE);
