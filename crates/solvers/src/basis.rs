@@ -411,13 +411,13 @@ fn enriched(
     let beside = |i: usize, x: &[f64]| {
         let mut x = x.to_vec();
         statics.out_of_answer(|psi| row(i).iter().map(|(j, c)| c * psi[*j]).sum(), &mut x);
-        vec![rows.gather(&x).into_owned()]
+        rows.gather(&x).into_owned()
     };
     hat.static_shapes(system, links, |x, flexibility| {
         let i = known.len();
         known.push(flexibility);
         if span.len() < total && is_taken(i) {
-            span.take(beside(links[i], x), Origin::Anywhere, Speed::OfModes);
+            span.take(vec![beside(links[i], x)], Origin::Anywhere, Speed::OfModes);
         }
     });
     let known = (settings.adequacy > 0.0).then_some(known);
@@ -442,13 +442,15 @@ fn enriched(
     Ok(Enriched { span: first, wider: Some(Shapes::new(rows, all)), known })
 }
 
-/// Takes static shapes of links until `count` vectors are there, and returns their images under M; `beside`: of a
-/// link and its shape, what goes into the span.
+/// Of a link coordinate and its static shape, what goes into the span.
+type OfLink<'a> = dyn Fn(usize, &[f64]) -> Vec<f64> + 'a;
+
+/// Takes static shapes of links until `count` vectors are there, and returns their images under M.
 fn beyond(
     system: &System,
     hat: &Solvable,
     span: &mut Span<'_>,
-    beside: &dyn Fn(usize, &[f64]) -> Vec<Vec<f64>>,
+    beside: &OfLink<'_>,
     count: usize,
 ) -> Vec<Vec<f64>> {
     let mut images = Vec::new();
@@ -461,7 +463,7 @@ fn beyond(
             if let Some(link) = links.next()
                 && span.len() < count
             {
-                images.extend(span.take(beside(*link, x), Origin::Anywhere, Speed::OfModes));
+                images.extend(span.take(vec![beside(*link, x)], Origin::Anywhere, Speed::OfModes));
             }
         });
     }

@@ -16,6 +16,9 @@ pub struct Channel {
     pub order: usize,
 }
 
+/// Rows over displacements and over their rates: of what is free and of moved supports.
+pub type Rows = [(DVector<f64>, DVector<f64>); 2];
+
 /// A recorded quantity as a sum of rows.
 #[derive(Clone, Debug)]
 pub enum Probe {
@@ -30,7 +33,7 @@ pub enum Probe {
     /// The same as of a displacement over second derivatives, and what else is added.
     Acceleration(DVector<f64>, DVector<f64>, Vec<Function>),
     /// Rows over displacements and over their rates, as of a displacement.
-    Member([(DVector<f64>, DVector<f64>); 2]),
+    Member(Rows),
 }
 
 /// A problem.
@@ -256,12 +259,7 @@ impl Problem {
 }
 
 /// Rows of a member's stiffness and damping at one of its directions, over what moves.
-fn end_force(
-    spec: &Spec,
-    a: &Assembled,
-    member: usize,
-    i: usize,
-) -> Result<[(DVector<f64>, DVector<f64>); 2], String> {
+fn end_force(spec: &Spec, a: &Assembled, member: usize, i: usize) -> Result<Rows, String> {
     let m = spec.members.get(member).ok_or("no such member")?;
     let (it, _) = element(spec, m).ok_or("no linear member")?;
     Ok([&it.k, &it.c].map(|of| {
