@@ -189,22 +189,22 @@ impl Problem {
         if self.u0.amax() == 0.0 || light.ncols() == 0 {
             return None;
         }
-        let mut tied = self.a.dash_rows.clone() * &light;
+        let mut rows: Vec<_> = self.a.dash_rows.row_iter().map(|r| r.into_owned()).collect();
         for link in &self.a.links {
             let viscous = match link.law {
                 Law::Dashpot(..) => 1,
                 Law::Linear(_, c) if c[0][0] != 0.0 || c[1][1] != 0.0 => 2,
                 _ => 0,
             };
-            for i in link.first..link.first + viscous {
-                let n = tied.nrows();
-                tied = tied.insert_row(n, 0.0);
-                tied.row_mut(n).copy_from(&(self.a.b.row(i) * &light));
-            }
+            rows.extend((0..viscous).map(|i| self.a.b.row(link.first + i).into_owned()));
         }
-        for mut row in tied.row_iter_mut() {
-            let size = row.norm();
-            row.iter_mut().for_each(|x| *x /= size.max(f64::MIN_POSITIVE));
+        let mut tied = DMatrix::zeros(rows.len(), light.ncols());
+        for (mut to, row) in tied.row_iter_mut().zip(rows) {
+            let own = &row * &light;
+            // What is left of a row that acts on others is rounding.
+            if own.norm() > 1e-9 * row.norm() {
+                to.copy_from(&own.normalize());
+            }
         }
         let eigen = SymmetricEigen::new(tied.tr_mul(&tied));
         let free: Vec<usize> =
