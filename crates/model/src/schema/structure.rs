@@ -246,7 +246,7 @@ pub static LINK: Block = Block {
             "shear_at",
             Number(d::LENGTH, trilith_element::Range::Any),
             "0",
-            "Distance from the first node at which the shear of a link with two nodes acts.",
+            "Distance from the second node at which the shear of a link with two nodes acts.",
         ),
     ],
 };
