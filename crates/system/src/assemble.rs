@@ -77,7 +77,7 @@ impl System {
             _ => [0.0; 2],
         };
         let damping_support = Sparse::combine(&[(1.0, &c.support), (rayleigh[1], &k.support)]);
-        let mut links = LinkSet::new(model, &reduction, &used)?;
+        let mut links = LinkSet::new(model, &reduction)?;
         crate::impact::settle(&mut links, model, &m.free)?;
         let mut system = Self {
             massless: Massless::new(&m.free)?,

@@ -227,11 +227,7 @@ impl<'a> StepLaws<'a> {
 }
 
 impl LinkSet {
-    pub(crate) fn new(
-        model: &Model,
-        reduction: &Reduction,
-        used: &[bool],
-    ) -> Result<Self, SystemError> {
+    pub(crate) fn new(model: &Model, reduction: &Reduction) -> Result<Self, SystemError> {
         let mut set = Self::default();
         for (element, e) in model.elements.iter().enumerate() {
             let Body::Link(law, options) = &e.body else { continue };
@@ -247,7 +243,7 @@ impl LinkSet {
                 });
             }
             let start = set.rows.len();
-            for terms in full_rows(model, element, &coordinates, options.shear_at, used) {
+            for terms in full_rows(model, element, &coordinates, options.shear_at) {
                 set.push_row(reduction, &terms);
             }
             match coordinates {
@@ -411,14 +407,13 @@ impl LinkSet {
 }
 
 /// Rows of B over full DOFs. A link between nodes apart stands between rigid arms of both to the place of its
-/// shear, so that its forces are in equilibrium along whatever axes it has; rotations count where they are
-/// DOFs that the structure uses.
+/// shear, so that its forces are in equilibrium along whatever axes it has. Rotations that the structure neither
+/// uses nor prescribes are held: the reduction expands them to nothing.
 fn full_rows(
     model: &Model,
     element: usize,
     coordinates: &Coordinates,
     shear_at: f64,
-    used: &[bool],
 ) -> Vec<Vec<(usize, f64)>> {
     let e = &model.elements[element];
     let axes = match coordinates {
@@ -465,7 +460,7 @@ fn full_rows(
                     add(i, cross(arms[0], along), 3, -1.0);
                 }
             }
-            terms.retain(|(full, c)| *c != 0.0 && (full % 6 < 3 || used[*full]));
+            terms.retain(|(_, c)| *c != 0.0);
             terms
         })
         .collect()
