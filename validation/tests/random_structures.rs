@@ -2,7 +2,7 @@
 
 use trilith::SolverKind;
 use trilith_validation::oracle::generate::generate;
-use trilith_validation::oracle::judge::{Verdict, judge, reference};
+use trilith_validation::oracle::judge::{Verdict, WORK, judge, reference};
 
 /// The first thirty random structures; `fuzz` of this crate runs any number under all solvers.
 #[test]
@@ -14,7 +14,7 @@ fn random_structures_move_as_their_equations_say() {
         if spec.family == "long beam" {
             continue;
         }
-        let Ok(truth) = reference(&spec) else { continue };
+        let Ok(truth) = reference(&spec, WORK) else { continue };
         compared += 1;
         match judge(&spec, &truth, SolverKind::Fna) {
             Verdict::Passed(_) => {}

@@ -1,7 +1,7 @@
 //! Random structures under the program against an independent oracle; see `trilith_validation::oracle`.
 //!
 //! ```text
-//! fuzz [--count N] [--seed S] [--solver NAME]… [--seconds T] [--shrink TRIALS] [--keep N] [--show] [--tolerance T] [--trace OUTPUT] [--aloud] [--estimates]
+//! fuzz [--count N] [--seed S] [--solver NAME]… [--seconds T] [--work W] [--shrink TRIALS] [--keep N] [--show] [--tolerance T] [--trace OUTPUT] [--aloud] [--estimates]
 //! ```
 
 use std::process::ExitCode;
@@ -9,7 +9,7 @@ use std::time::Duration;
 use trilith::SolverKind;
 use trilith_validation::oracle::campaign::{Campaign, say};
 use trilith_validation::oracle::generate::generate;
-use trilith_validation::oracle::judge::{Pair, judge_and_compare, reference};
+use trilith_validation::oracle::judge::{Pair, WORK, judge_and_compare, reference};
 use trilith_validation::oracle::spec::Spec;
 use trilith_validation::oracle::subject::{Ended, run};
 use trilith_validation::oracle::text::text;
@@ -28,7 +28,8 @@ struct Wanted {
 
 fn arguments() -> Result<Wanted, String> {
     let budget = Duration::from_secs(3600);
-    let campaign = Campaign { seed: 1, count: 200, solvers: Vec::new(), budget, aloud: false };
+    let campaign =
+        Campaign { seed: 1, count: 200, solvers: Vec::new(), work: WORK, budget, aloud: false };
     let mut it = Wanted {
         campaign,
         shrink: 0,
@@ -51,16 +52,15 @@ fn arguments() -> Result<Wanted, String> {
         }
         let value = given.next().ok_or_else(|| format!("`{name}` needs a value"))?;
         let number = || value.parse::<u64>().map_err(|_| format!("`{value}` is no whole number"));
+        let real = || value.parse::<f64>().map_err(|_| format!("`{value}` is no number"));
         match name.as_str() {
             "--count" => it.campaign.count = number()? as usize,
             "--seed" => it.campaign.seed = number()?,
             "--seconds" => it.campaign.budget = Duration::from_secs(number()?),
             "--shrink" => it.shrink = number()? as usize,
             "--trace" => it.trace = Some(number()? as usize),
-            "--tolerance" => {
-                let t = value.parse().map_err(|_| format!("`{value}` is no number"))?;
-                it.tolerance = Some(t);
-            }
+            "--tolerance" => it.tolerance = Some(real()?),
+            "--work" => it.campaign.work = real()?,
             "--keep" => it.keep = number()? as usize,
             "--solver" => {
                 let known = SolverKind::ALL.into_iter().find(|s| s.name() == value);
@@ -96,7 +96,7 @@ fn main() -> ExitCode {
         let mut spec = generate(wanted.campaign.seed);
         spec.tolerance = wanted.tolerance.or(spec.tolerance);
         print!("{}", text(&spec));
-        match reference(&spec) {
+        match reference(&spec, wanted.campaign.work) {
             Ok(truth) => {
                 println!(
                     "// size {:?}\n// scale {:?}\n// moves {:?}, {} steps",

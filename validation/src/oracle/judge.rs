@@ -46,15 +46,15 @@ pub fn allowed(spec: &Spec) -> f64 {
     }
 }
 
-/// Multiplications that the oracle may make for a pass over a structure.
+/// Multiplications that the oracle may make for a pass over a structure: some seconds.
 pub const WORK: f64 = 6e9;
 
-/// The oracle's answer, where it is worth comparing with.
+/// The oracle's answer, where it is worth comparing with; `work`: see [`WORK`].
 ///
 /// # Errors
 /// Why it is not.
-pub fn reference(spec: &Spec) -> Result<Truth, Skip> {
-    let found = truth(spec, WORK).map_err(Skip::NoOracle)?;
+pub fn reference(spec: &Spec, work: f64) -> Result<Truth, Skip> {
+    let found = truth(spec, work).map_err(Skip::NoOracle)?;
     let limit = 0.25 * allowed(spec);
     if found.moves.iter().any(|m| m.is_nan() || *m > limit) {
         Err(Skip::IllPosed)

@@ -1,12 +1,12 @@
 //! A smaller structure that fails alike.
 
-use super::judge::{Verdict, judge, reference};
+use super::judge::{Verdict, WORK, judge, reference};
 use super::spec::{Basis, Damping, Kind, Spec};
 use trilith::SolverKind;
 
 /// Whether a description still fails.
 fn fails(spec: &Spec, solver: SolverKind) -> bool {
-    let Ok(found) = reference(spec) else { return false };
+    let Ok(found) = reference(spec, WORK) else { return false };
     matches!(
         judge(spec, &found, solver),
         Verdict::Failed(..) | Verdict::Panicked(_) | Verdict::Reduced(_) | Verdict::Warned(..)
