@@ -62,6 +62,17 @@ impl Function {
         }
     }
 
+    /// Shortest period that it has in any strength, s.
+    #[must_use]
+    pub fn period(&self) -> f64 {
+        match self {
+            Self::Sine(_, f, _) => f.recip(),
+            Self::HalfSine(_, _, length) => 2.0 * length,
+            Self::Ricker(_, f, _) => 0.4 / f,
+            Self::Step(..) | Self::Ramp(..) | Self::Points(_) => f64::INFINITY,
+        }
+    }
+
     /// Times at which the value or the slope jumps.
     #[must_use]
     pub fn breaks(&self) -> Vec<f64> {

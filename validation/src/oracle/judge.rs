@@ -121,7 +121,7 @@ fn pairs(spec: &Spec, found: &Truth, shown: &Shown) -> Vec<Pair> {
     }
     let pair = |(i, off): (usize, f64)| {
         let said = shown.errors.get(i).map_or([f64::NAN; 2], |e| [e.reduction, e.step]);
-        let off = (off - found.moves[i]).max(0.0);
+        let off = (off - found.moves[i] - found.rounding[i] / found.scale[i]).max(0.0);
         Pair { output: i, off, said: said.map(|x| x / found.scale[i]) }
     };
     off.into_iter().enumerate().map(pair).collect()

@@ -17,6 +17,8 @@ pub struct Truth {
     pub scale: Vec<f64>,
     /// Largest of any direction, of its kind, as far as that is known.
     pub around: Vec<f64>,
+    /// What every output is rounded by.
+    pub rounding: Vec<f64>,
     /// How far each output moves between a loose and the tight tolerance, over its scale.
     pub moves: Vec<f64>,
 }
@@ -34,7 +36,9 @@ const ROUNDING: f64 = 1e-7;
 /// # Errors
 /// Why there is no answer.
 pub fn truth(spec: &Spec, work: f64) -> Result<Truth, String> {
-    truth_in_steps(spec, work, f64::INFINITY)
+    // Open links are not asked for their error, but what they record follows the supports.
+    let shortest = spec.moved.iter().map(|m| m.2.period()).fold(f64::INFINITY, f64::min);
+    truth_in_steps(spec, work, shortest / 32.0)
 }
 
 /// The same, no step longer than this, s: the whole step and its halves may both pass by a short contact.
@@ -105,7 +109,8 @@ pub fn truth_in_steps(spec: &Spec, work: f64, longest: f64) -> Result<Truth, Str
             off.fold(0.0, f64::max) / scale[i]
         })
         .collect();
-    Ok(Truth { course, size, scale, around, moves })
+    let rounding = floor.iter().map(|x| 1e-2 * x).collect();
+    Ok(Truth { course, size, scale, around, rounding, moves })
 }
 
 /// The largest value that an output could have by the motion of the whole structure: what its rounding is
