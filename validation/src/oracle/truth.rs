@@ -59,10 +59,10 @@ pub fn truth_in_steps(spec: &Spec, work: f64, longest: f64) -> Result<Truth, Str
         let effort = Effort { tolerance: 1e-7, work };
         // What no link holds either has no place of its own.
         let scale = Scale::of(&joints, others.amax());
-        if let Ok(course) = march(&joints, State::start(&joints), Some(scale), effort) {
-            start.u = others + q * course.end.u;
-            start.z = course.end.z;
-        }
+        let course = march(&joints, State::start(&joints), Some(scale), effort)
+            .map_err(|e| format!("joints at the start: {e}"))?;
+        start.u = others + q * course.end.u;
+        start.z = course.end.z;
     }
     let loose = march(&problem, start.clone(), None, Effort { tolerance: LOOSE, work })?;
     let effort = Effort { tolerance: TIGHT, work };

@@ -11,11 +11,26 @@ pub struct Factor {
 impl Factor {
     /// Of a square matrix by rows; none where it is singular.
     #[must_use]
-    pub fn new(mut a: Vec<f64>, n: usize) -> Option<Self> {
+    pub fn new(a: Vec<f64>, n: usize) -> Option<Self> {
+        Self::factored(a, n, false)
+    }
+
+    /// The same, but an unknown that is in no equation that is left is its own right side; none where the
+    /// numbers are not finite.
+    #[must_use]
+    pub fn with_loose(a: Vec<f64>, n: usize) -> Option<Self> {
+        Self::factored(a, n, true)
+    }
+
+    fn factored(mut a: Vec<f64>, n: usize, loose: bool) -> Option<Self> {
         let mut order: Vec<usize> = (0..n).collect();
         for j in 0..n {
             let size = |i: &usize| a[i * n + j].abs();
             let best = (j..n).max_by(|x, y| size(x).total_cmp(&size(y)))?;
+            if size(&best) == 0.0 && loose {
+                a[j * n + j] = 1.0;
+                continue;
+            }
             if !(size(&best) > 0.0 && size(&best).is_finite()) {
                 return None;
             }
@@ -93,6 +108,11 @@ mod tests {
         add_product(&mut x, &a, &exact);
         Factor::new(a, 3).unwrap().solve(&mut x, &mut Vec::new());
         x.iter().zip(exact).for_each(|(x, e)| assert!((x - e).abs() < 1e-14));
-        assert!(Factor::new(vec![1.0, 2.0, 2.0, 4.0], 2).is_none());
+        let singular = vec![1.0, 2.0, 2.0, 4.0];
+        assert!(Factor::new(singular.clone(), 2).is_none());
+        // The first is held by what is left of it, the second by nothing.
+        let mut x = vec![3.0, 6.0];
+        Factor::with_loose(singular, 2).unwrap().solve(&mut x, &mut Vec::new());
+        assert_eq!(x, [3.0, 0.0]);
     }
 }

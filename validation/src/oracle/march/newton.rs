@@ -101,7 +101,7 @@ impl Kept {
             // Rows of one size, for the choice of pivots.
             a[j * n..(j + 1) * n].iter_mut().for_each(|x| *x /= size);
         }
-        let factor = Factor::new(a, n);
+        let factor = Factor::with_loose(a, n);
         Some(Self { links, active, factor, weights, branches: branches.to_vec() })
     }
 
@@ -194,7 +194,7 @@ pub fn solve(
         let largest = (0..l3).map(|i| sizes[i].max(x[i].abs())).fold(1e-300, f64::max);
         let limit = |i: usize| (ACCURACY * sizes[i].max(x[i].abs())).max(ROUNDING * largest);
         let limits: Vec<f64> = (0..x.len()).map(limit).collect();
-        // Where nothing holds, the residual itself is the step.
+        // Where a matrix is not finite, the residual itself is the step.
         let step = matrix.step(known, &r, space).unwrap_or_else(|| {
             r.iter().enumerate().map(|(i, r)| if i < l3 { -r } else { 0.0 }).collect()
         });
