@@ -203,6 +203,10 @@ impl Link for BoucWen {
         k[0] = self.k * (self.alpha + (1.0 - self.alpha) * self.a0);
     }
 
+    fn damps(&self) -> bool {
+        false
+    }
+
     fn respond(
         &self,
         at: &Kinematics<'_>,

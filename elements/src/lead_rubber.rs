@@ -250,6 +250,10 @@ impl Link for LeadRubber {
         (k[0], k[4], k[8]) = (self.kv, shear, shear);
     }
 
+    fn damps(&self) -> bool {
+        false
+    }
+
     fn respond(
         &self,
         at: &Kinematics<'_>,

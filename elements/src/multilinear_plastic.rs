@@ -238,6 +238,10 @@ impl Link for MultilinearPlastic {
         k[0] = self.curve().stiffest();
     }
 
+    fn damps(&self) -> bool {
+        false
+    }
+
     fn respond(
         &self,
         at: &Kinematics<'_>,

@@ -135,6 +135,10 @@ impl Link for RubberIsolator {
         (k[0], k[4], k[8]) = (self.kv, k2, k3);
     }
 
+    fn damps(&self) -> bool {
+        false
+    }
+
     fn respond(
         &self,
         at: &Kinematics<'_>,

@@ -116,6 +116,10 @@ impl Link for Wen {
         k[0] = self.k;
     }
 
+    fn damps(&self) -> bool {
+        false
+    }
+
     fn respond(
         &self,
         at: &Kinematics<'_>,

@@ -159,6 +159,12 @@ pub trait Link: Send + Sync + Debug {
         true
     }
 
+    /// False for a law whose force does not depend on rates, though it may look at them to tell loading from
+    /// unloading where it stands still: a node without mass or damping then follows it at once.
+    fn damps(&self) -> bool {
+        self.uses_rates()
+    }
+
     /// Adds what its contacts do, for laws that are contacts; always the same number, in the same order.
     /// `history` is the trial of `respond`, `f` its force.
     fn contacts(

@@ -50,13 +50,13 @@ impl<'a> Equations<'a> {
             }
             (SolverKind::FullNewton, _) => {
                 let space = Space::physical(system, loads, effective, damping.cloned());
-                let rated = &link_side(model, system, solution, loads, 0, watched);
-                let rated = &rated.kernel.layout().rated;
+                let side = &link_side(model, system, solution, loads, 0, watched);
+                let damped = &side.kernel.layout().damped;
                 Box::new(FullNewton {
                     model,
                     system,
                     loads,
-                    followers: Followers::new(&space, rated),
+                    followers: Followers::new(&space, damped),
                     space,
                     alpha: solution.alpha,
                     iterations: 0,

@@ -22,15 +22,15 @@ pub(crate) fn accelerate_at_once(accelerations: &mut [f64], change: &[f64]) {
 pub(crate) struct Followers(Vec<usize>);
 
 impl Followers {
-    /// Those of a space; `rated`: active link coordinates of laws that look at rates, which are damping.
-    pub(crate) fn new(space: &Space, rated: &[usize]) -> Self {
+    /// Those of a space; `damped`: active link coordinates of laws whose forces depend on rates.
+    pub(crate) fn new(space: &Space, damped: &[usize]) -> Self {
         if space.rayleigh[1] != 0.0 {
             return Self::default();
         }
         let mut held: Vec<bool> = (space.mass.diagonal().iter().zip(space.damping.diagonal()))
             .map(|(m, c)| *m != 0.0 || c != 0.0)
             .collect();
-        for a in rated {
+        for a in damped {
             space.links.row(*a).filter(|(_, c)| *c != 0.0).for_each(|(i, _)| held[i] = true);
         }
         Self((0..held.len()).filter(|i| !held[*i]).collect())

@@ -21,8 +21,8 @@ use trilith_system::System;
 
 /// Shapes that are combinations of others up to this share are left out.
 const INDEPENDENT: f64 = 1e-10;
-/// A shape must satisfy its equation this well; one that does not moves freely.
-const SOLVED: f64 = 1e-8;
+/// A push of which the structure carries no more than this moves freely.
+const CARRIED: f64 = 1e-8;
 /// Damping between shape and modes, as share of their own, that counts as none.
 const UNCOUPLED: f64 = 1e-9;
 /// Damping of a shape below this share of the largest is rounding.
@@ -79,12 +79,13 @@ impl StaticShapes {
         for p in pushed {
             let mut x = p.clone();
             factor.solve(&mut x);
-            let left = held.mul(&x).iter().zip(&p).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
-            let work = dot(&p, &x);
-            if work > 0.0 && work.is_finite() && left <= SOLVED * largest(&p) {
+            // Two pushes that nothing carries alone may carry each other: what is carried of each spans that too.
+            let carried = held.mul(&x);
+            let work = dot(&carried, &x);
+            if work > 0.0 && work.is_finite() && largest(&carried) > CARRIED * largest(&p) {
                 let scale = work.sqrt().recip();
                 let scaled = |v: Vec<f64>| v.into_iter().map(|y| scale * y).collect();
-                found.push((scaled(p), scaled(x)));
+                found.push((scaled(carried), scaled(x)));
             }
         }
         let n = found.len();

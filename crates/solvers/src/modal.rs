@@ -497,7 +497,7 @@ impl Propagator for Modal {
         0
     }
 
-    fn look_at_rates(&mut self, rated: &[usize]) {
+    fn look_at_rates(&mut self, rated: &[usize], _damped: &[usize]) {
         self.now = Sources::new(&self.modes.space, rated);
     }
 

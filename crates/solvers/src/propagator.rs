@@ -67,8 +67,9 @@ pub(crate) trait Propagator {
     /// Number of factorisations of structure matrices so far.
     fn factorizations(&self) -> usize;
 
-    /// Says of which link coordinates laws look at rates: those of every [prediction](Self::predict) to come.
-    fn look_at_rates(&mut self, _rated: &[usize]) {}
+    /// Says of which link coordinates laws look at rates, those of every [prediction](Self::predict) to come, and
+    /// which ones they damp.
+    fn look_at_rates(&mut self, _rated: &[usize], _damped: &[usize]) {}
 
     /// The step of length `dt` from a state whose active link coordinates have this stiffness, and had that
     /// one at most so far.

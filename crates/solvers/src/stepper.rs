@@ -290,7 +290,8 @@ pub(crate) struct LinkStepper<'a, P> {
 
 impl<'a, P: Propagator> LinkStepper<'a, P> {
     pub(crate) fn new(mut propagator: P, side: LinkSide<'a>) -> Self {
-        propagator.look_at_rates(&side.kernel.layout().rated);
+        let layout = side.kernel.layout();
+        propagator.look_at_rates(&layout.rated, &layout.damped);
         let n = side.links().len();
         Self {
             laws: side.laws(),

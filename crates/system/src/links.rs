@@ -374,7 +374,7 @@ impl LinkSet {
     pub fn viscous(&self, model: &Model) -> Vec<bool> {
         let engaged = self.engaged(model);
         let mut viscous = vec![false; self.len()];
-        for (_, link) in self.laws(model).iter().filter(|(law, _)| law.uses_rates()) {
+        for (_, link) in self.laws(model).iter().filter(|(law, _)| law.damps()) {
             link.range.clone().for_each(|flat| viscous[flat] = engaged[flat] == 0.0);
         }
         viscous

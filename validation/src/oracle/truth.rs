@@ -1,6 +1,6 @@
 //! The answer of the oracle, and how sure it is of it.
 
-use super::march::{Course, Effort, Scale, State, march};
+use super::march::{Between, Course, Effort, Scale, State, march};
 use super::problem::Problem;
 use super::spec::{Output, Spec};
 use std::f64::consts::TAU;
@@ -26,6 +26,8 @@ pub struct Truth {
 /// Tolerances of the two passes.
 const LOOSE: f64 = 1e-5;
 const TIGHT: f64 = 1e-7;
+/// Share of its size that an output may be off between the ends of steps, at the tight one, as far as can be told.
+const BETWEEN: f64 = 1e-4;
 /// Outputs below this share of the largest of their kind are compared on that share.
 const SMALL: f64 = 1e-3;
 /// Share of the largest motion that an output is compared on at least.
@@ -52,40 +54,31 @@ pub fn truth_in_steps(spec: &Spec, work: f64, longest: f64) -> Result<Truth, Str
     if spec.gravity {
         let before = problem.before();
         let effort = Effort { tolerance: 1e-7, work };
-        let course = march(&before, State::start(&before), None, effort)
+        let course = march(&before, State::start(&before), None, effort, None)
             .map_err(|e| format!("statics: {e}"))?;
         start = State { v: start.v, ..course.end };
     } else if let Some((joints, q, others)) = problem.led() {
         let effort = Effort { tolerance: 1e-7, work };
         // What no link holds either has no place of its own.
         let scale = Scale::of(&joints, others.amax());
-        let course = march(&joints, State::start(&joints), Some(scale), effort)
+        let course = march(&joints, State::start(&joints), Some(scale), effort, None)
             .map_err(|e| format!("joints at the start: {e}"))?;
         start.u = others + q * course.end.u;
         start.z = course.end.z;
     }
-    let loose = march(&problem, start.clone(), None, Effort { tolerance: LOOSE, work })?;
+    let loose = march(&problem, start.clone(), None, Effort { tolerance: LOOSE, work }, None)?;
     let effort = Effort { tolerance: TIGHT, work };
-    let course = march(&problem, start, Some(loose.scale.clone()), effort)?;
-    let sizes = |c: &Course| -> Vec<f64> {
-        let ends = (0..spec.outputs.len()).map(|i| c.span(i, 0.0, spec.duration));
-        ends.map(|(a, b)| a.abs().max(b.abs())).collect()
+    let between = Between {
+        sizes: Sizes::of(spec, &problem, &loose).scale,
+        share: BETWEEN,
+        window: 0.25 * WINDOW * spec.duration,
     };
-    let size = sizes(&course);
+    let course = march(&problem, start, Some(loose.scale.clone()), effort, Some(&between))?;
+    let Sizes { size, scale, floor } = Sizes::of(spec, &problem, &course);
     if size.iter().any(|x| !x.is_finite()) {
         return Err("its values are not finite".into());
     }
-    let kinds: Vec<u8> = spec.outputs.iter().map(kind).collect();
-    let alike = |i: usize| {
-        (0..size.len()).filter(|j| kinds[*j] == kinds[i]).map(|j| size[j]).fold(0.0, f64::max)
-    };
-    let floor: Vec<f64> = spec
-        .outputs
-        .iter()
-        .map(|o| ROUNDING * largest(&problem, &course, extent(spec), o))
-        .collect();
-    let scale: Vec<f64> =
-        (0..size.len()).map(|i| size[i].max(SMALL * alike(i)).max(floor[i]).max(1e-12)).collect();
+    let alike = |i: usize| largest_alike(spec, &size, i);
     let around = (0..size.len())
         .map(|i| {
             let known = match spec.outputs[i] {
@@ -111,6 +104,33 @@ pub fn truth_in_steps(spec: &Spec, work: f64, longest: f64) -> Result<Truth, Str
         .collect();
     let rounding = floor.iter().map(|x| 1e-2 * x).collect();
     Ok(Truth { course, size, scale, around, rounding, moves })
+}
+
+/// Sizes of the outputs.
+struct Sizes {
+    size: Vec<f64>,
+    scale: Vec<f64>,
+    floor: Vec<f64>,
+}
+
+impl Sizes {
+    fn of(spec: &Spec, problem: &Problem, course: &Course) -> Self {
+        let ends = (0..spec.outputs.len()).map(|i| course.span(i, 0.0, spec.duration));
+        let size: Vec<f64> = ends.map(|(a, b)| a.abs().max(b.abs())).collect();
+        let most = |o| ROUNDING * largest(problem, course, extent(spec), o);
+        let floor: Vec<f64> = spec.outputs.iter().map(most).collect();
+        let scale = (0..size.len())
+            .map(|i| size[i].max(SMALL * largest_alike(spec, &size, i)).max(floor[i]).max(1e-12))
+            .collect();
+        Self { size, scale, floor }
+    }
+}
+
+/// The largest size of the outputs of one kind.
+fn largest_alike(spec: &Spec, size: &[f64], i: usize) -> f64 {
+    let of = kind(&spec.outputs[i]);
+    let alike = spec.outputs.iter().zip(size).filter(|(o, _)| kind(o) == of);
+    alike.map(|(_, size)| *size).fold(0.0, f64::max)
 }
 
 /// The largest value that an output could have by the motion of the whole structure: what its rounding is

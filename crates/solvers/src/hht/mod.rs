@@ -170,8 +170,8 @@ impl Propagator for Hht {
         &self.steps[&self.now].compliance
     }
 
-    fn look_at_rates(&mut self, rated: &[usize]) {
-        self.followers = Followers::new(&self.space, rated);
+    fn look_at_rates(&mut self, _rated: &[usize], damped: &[usize]) {
+        self.followers = Followers::new(&self.space, damped);
     }
 
     fn acceleration(&mut self, force: &[f64]) -> Result<Vec<f64>, SolveError> {

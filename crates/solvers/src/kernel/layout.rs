@@ -11,7 +11,9 @@ pub(crate) struct Layout<'a> {
     pub dummy_k: Vec<f64>,
     /// Active coordinates of laws that look at rates.
     pub rated: Vec<usize>,
-    /// Active and flat index of the others: the [kernel](super::LinkKernel) leaves their rates to its caller.
+    /// Active coordinates of laws whose forces depend on rates.
+    pub damped: Vec<usize>,
+    /// Active and flat index of those whose laws look at no rates: the [kernel](super::LinkKernel) leaves their rates to its caller.
     pub unrated: Vec<(usize, usize)>,
     /// Active index of each flat coordinate; none of the fixed ones.
     pub place: Vec<Option<usize>>,
@@ -29,15 +31,23 @@ impl<'a> Layout<'a> {
         for (a, flat) in links.active.iter().enumerate() {
             place[*flat] = Some(a);
         }
-        let (mut owner, mut rated, mut unrated) = (vec![0; n], Vec::new(), Vec::new());
+        let (mut owner, mut damped) = (vec![0; n], Vec::new());
+        let (mut rated, mut unrated) = (Vec::new(), Vec::new());
         for (l, (law, link)) in laws.iter().enumerate() {
             for a in link.range.clone().filter_map(|flat| place[flat]) {
                 owner[a] = l;
-                if law.uses_rates() { rated.push(a) } else { unrated.push((a, links.active[a])) }
+                if law.uses_rates() {
+                    rated.push(a)
+                } else {
+                    unrated.push((a, links.active[a]))
+                }
+                if law.damps() {
+                    damped.push(a);
+                }
             }
         }
         let complete = n == links.len();
-        Self { links, dummy_k, rated, unrated, place, owner, complete }
+        Self { links, dummy_k, rated, unrated, damped, place, owner, complete }
     }
 }
 

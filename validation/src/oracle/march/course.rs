@@ -29,6 +29,23 @@ pub fn between(values: &[f64; 4], s: f64) -> f64 {
     sum
 }
 
+impl Piece {
+    /// Largest distance from what two pieces with other nodes say of the same time, as share of `sizes`.
+    #[must_use]
+    pub fn apart(&self, halves: &[Self; 2], sizes: &[f64]) -> f64 {
+        let mut most = 0.0_f64;
+        for (i, (values, size)) in self.values.iter().zip(sizes).enumerate() {
+            for half in halves {
+                for (c, x) in NODES.iter().zip(half.values[i]).skip(1) {
+                    let s = (half.t + c * half.h - self.t) / self.h;
+                    most = most.max((between(values, s) - x).abs() / size);
+                }
+            }
+        }
+        most
+    }
+}
+
 /// What a march leaves in its probes.
 #[derive(Clone, Debug, Default)]
 pub struct Record {

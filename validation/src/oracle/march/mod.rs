@@ -97,9 +97,22 @@ pub struct Effort {
     pub work: f64,
 }
 
+/// What the outputs between the ends of steps are asked for, where they are asked: links that stick and slip within
+/// a step bend their forces, though all is well at its ends.
+#[derive(Clone, Debug)]
+pub struct Between {
+    /// Sizes of the outputs.
+    pub sizes: Vec<f64>,
+    /// Share of these that two polynomials may be apart.
+    pub share: f64,
+    /// Times closer than this are alike, s.
+    pub window: f64,
+}
+
 struct March<'a> {
     steps: Stepper<'a>,
     tolerance: f64,
+    between: Option<&'a Between>,
     scale: Scale,
     /// Directions with mass.
     heavy: Vec<bool>,
@@ -125,6 +138,7 @@ pub fn march(
     start: State,
     known: Option<Scale>,
     effort: Effort,
+    between: Option<&Between>,
 ) -> Result<Course, String> {
     let (n, l, nz) = (p.a.k.nrows(), p.a.b.nrows(), p.unknowns());
     let none = |n| DVector::zeros(n);
@@ -138,8 +152,8 @@ pub fn march(
         first - l.law.unknowns()..first
     });
     let links = links.collect();
-    let mut it =
-        March { steps: Stepper::new(p)?, tolerance: effort.tolerance, scale, heavy, own, links };
+    let (steps, tolerance) = (Stepper::new(p)?, effort.tolerance);
+    let mut it = March { steps, tolerance, between, scale, heavy, own, links };
     it.grow(&start, &p.a.b);
     let mut at_point = it.steps.point(&start);
     let mut end = start;
@@ -235,7 +249,15 @@ impl March<'_> {
         };
         let (a, end) = (self.steps.state(&whole.end), self.steps.state(&second.end));
         self.steps.work += 4.0 * (a.u.len() as f64).powi(2);
-        let error = self.distance(h, &a, &end);
+        let mut error = self.distance(h, &a, &end);
+        if let Some(it) = self.between.filter(|it| h > it.window) {
+            let pieces = [
+                self.steps.piece(t, half, from, &first),
+                self.steps.piece(t + half, half, &first.end, &second),
+            ];
+            let apart = self.steps.piece(t, h, from, &whole).apart(&pieces, &it.sizes);
+            error = error.max(apart / it.share * self.tolerance);
+        }
         (Some(Tried { error, halves: [first, second], end }), None)
     }
 
