@@ -1,7 +1,7 @@
 //! Joints without mass: loads on them and links between springs and dampers.
 
 use trilith_model::SolverKind;
-use trilith_solvers::Status;
+use trilith_solvers::{Status, modes};
 use trilith_tests::{output, parse, trace};
 
 /// A force on the free end of two springs in a row, the mass between them.
@@ -232,10 +232,18 @@ fn a_load_that_jumps_where_there_is_no_mass_is_accounted_for() {
             ),
         },
     )"#;
-    let (model, system) = parse(text, &[]);
-    for solver in SolverKind::ALL {
+    // Links that look at rates to tell loading from unloading, but have no damping.
+    let spring = "Spring(nodes: (\"a\", \"b\"), k1: 50)";
+    let plastic = r#"MultilinearPlastic(
+        nodes: ("a", "b"), deformation: [-1, 0, 1], force: [-50, 0, 50], rule: Kinematic, axis: U1,
+    )"#;
+    let wen = r#"Wen(nodes: ("a", "b"), k: 50, fy: 1e6, ratio: 0.5, exponent: 2, axis: U1)"#;
+    for (first, solver) in
+        [spring, plastic, wen].into_iter().flat_map(|first| SolverKind::ALL.map(|s| (first, s)))
+    {
+        let (model, system) = parse(&text.replace(spring, first), &[]);
         let (t, result) = trace(&model, &system, solver);
-        let name = solver.name();
+        let name = format!("{first} {}", solver.name());
         assert_eq!(result.status, Status::Converged, "{name}");
         let lost = result.energy.algorithmic;
         assert!((lost - 1.0).abs() < 1e-6, "{name}: {lost}");
@@ -274,4 +282,36 @@ fn a_joint_that_dashpots_alone_hold_is_held() {
             assert!((row[0] - expected).abs() < 3e-4, "{} {time}: {}", solver.name(), row[0]);
         }
     }
+}
+
+/// A spring whose ends hang on links alone holds no mass: modes of the structure without links move freely, so modal
+/// damping brakes nothing.
+#[test]
+fn a_spring_between_links_takes_no_part_in_modes() {
+    let (model, system) = parse(
+        r#"(
+        plane: XZ,
+        nodes: { "a": (0, 0, 0), "i": (1, 0, 0), "j": (2, 0, 0), "b": (3, 0, 0) },
+        supports: {
+            "a": (Uz, Ry), "i": (Uz, Ry), "j": (Uz, Ry), "b": (Uz, Ry),
+        },
+        elements: {
+            "ma": Mass(node: "a", mass: 2), "mb": Mass(node: "b", mass: 3),
+            "first": Wen(nodes: ("a", "i"), k: 400, fy: 5, ratio: 0.1, axis: U1),
+            "spring": Spring(nodes: ("i", "j"), k1: 300),
+            "second": Gap(nodes: ("j", "b"), k: 1000, opening: 0.1, axis: U1),
+            "ground": Spring(node: "b", axis1: (1, 0, 0), k1: 12),
+        },
+        damping: Modal(ratio: 0.1),
+        cases: {
+            "free": Dynamic(
+                duration: 1, dt: 0.01, initial: [(node: "a", dof: Ux, velocity: -1)],
+            ),
+        },
+    )"#,
+        &[],
+    );
+    let omega = modes(&model, &system, None).unwrap().omega;
+    assert_eq!(omega.len(), 2, "{omega:?}");
+    assert!(omega[0] < 1e-6 && (omega[1] - 2.0).abs() < 1e-9, "{omega:?}");
 }

@@ -92,7 +92,7 @@ impl<'a> Shadow<'a> {
         Self {
             system,
             loads,
-            sources: Sources::new(space, &[]),
+            sources: Sources::new(space, &[], &[]),
             next: motion.clone(),
             motion,
             pseudo: state.pseudo.clone(),

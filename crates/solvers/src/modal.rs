@@ -24,7 +24,7 @@ mod inside;
 mod rules;
 
 use crate::error::SolveError;
-use crate::followers::accelerate_at_once;
+use crate::followers::{JUMPED, accelerate_at_once};
 use crate::link_map::LinkMap;
 use crate::propagator::{Compliance, Forces, Motion, Propagator, StepKey, StepWork, Wanted};
 use crate::space::Space;
@@ -93,16 +93,17 @@ pub(crate) struct Sources {
     lost: f64,
     /// Pseudo-forces spread last.
     pseudo: Vec<f64>,
-    /// True of what these laws hold by rates.
-    held: Vec<bool>,
+    /// True of what laws damp, and of what other links alone act on.
+    damped: Vec<bool>,
+    linked: Vec<bool>,
     /// The link coordinates whose rates laws look at, and their rows of B Φ where these are few.
     rated: Vec<usize>,
     rows: Option<Product>,
 }
 
 impl Sources {
-    /// `rated`: the link coordinates whose rates laws look at.
-    pub(crate) fn new(space: &Space, rated: &[usize]) -> Self {
+    /// `rated`: the link coordinates whose rates laws look at, `damped`: those whose forces depend on them.
+    pub(crate) fn new(space: &Space, rated: &[usize], damped: &[usize]) -> Self {
         let few = rated.len() <= Panel::MOST_ROWS;
         let rows = few.then(|| {
             let mut rows = Dense::zeros(rated.len(), space.order());
@@ -111,12 +112,16 @@ impl Sources {
             }
             Product::new(rows)
         });
-        let mut held = vec![false; space.order()];
-        for a in rated {
-            space.links.row(*a).filter(|(_, c)| *c != 0.0).for_each(|(i, _)| held[i] = true);
-        }
+        let touched = |some: &mut dyn Iterator<Item = usize>| {
+            let mut touched = vec![false; space.order()];
+            for a in some {
+                space.links.row(a).filter(|(_, c)| *c != 0.0).for_each(|(i, _)| touched[i] = true);
+            }
+            touched
+        };
         Self {
-            held,
+            damped: touched(&mut damped.iter().copied()),
+            linked: touched(&mut (0..space.links.len())),
             pseudo: vec![0.0; space.links.len()],
             sources: vec![0.0; 3 * space.order()],
             integral: vec![0.0; space.order()],
@@ -158,7 +163,7 @@ impl Sources {
 
 impl Modal {
     pub(crate) fn new(modes: Modes) -> Self {
-        Self { now: Sources::new(&modes.space, &[]), modes }
+        Self { now: Sources::new(&modes.space, &[], &[]), modes }
     }
 
     /// What several motions can share.
@@ -381,7 +386,10 @@ impl Modes {
         for i in self.structure.undamped.iter().copied() {
             let jumped = now.sources[i] - self.structure.omega2[i] * from[i];
             now.lost += 0.5 * jumped * (to[i] - from[i]);
-            if !now.held[i] {
+            if !now.damped[i] && now.linked[i] && from[2 * n + i] == JUMPED {
+                // Where links carry a share, only all of them say how far it jumped.
+                to[n + i] = from[n + i];
+            } else if !now.damped[i] {
                 to[n + i] -= jumped / self.structure.omega2[i] * per_dt;
             }
             to[2 * n + i] = (to[n + i] - from[n + i]) * per_dt;
@@ -497,8 +505,8 @@ impl Propagator for Modal {
         0
     }
 
-    fn look_at_rates(&mut self, rated: &[usize], _damped: &[usize]) {
-        self.now = Sources::new(&self.modes.space, rated);
+    fn look_at_rates(&mut self, rated: &[usize], damped: &[usize]) {
+        self.now = Sources::new(&self.modes.space, rated, damped);
     }
 
     fn choose(

@@ -51,9 +51,11 @@ impl<'a, 'b> Course<'a, 'b> {
         (state, pace, ledger): (State, Pace, Ledger),
         viewer: Viewer<'a, 'b>,
     ) -> Self {
+        let layout = side.kernel.layout();
+        let sources = Sources::new(space, &layout.rated, &layout.damped);
         Self {
             constant: crate::start::constant_force(space, loads),
-            sources: Sources::new(space, &side.kernel.layout().rated),
+            sources,
             side,
             loads,
             timeline,
