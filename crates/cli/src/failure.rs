@@ -30,7 +30,9 @@ impl Failure {
     pub fn of(error: &Error, model: &Model) -> Self {
         let status = match error {
             Error::Solve(
-                SolveError::StaticNotConverged { .. } | SolveError::Predecessor { .. },
+                SolveError::StaticNotConverged { .. }
+                | SolveError::JointNotHeld { .. }
+                | SolveError::Predecessor { .. },
             ) => 1,
             _ => 2,
         };

@@ -77,6 +77,20 @@ pub enum SolveError {
         /// Its status.
         reason: String,
     },
+    /// Joints without mass found no equilibrium with their links beside initial displacements.
+    #[error(
+        "the initial displacements leave joints without mass out of balance with their links beyond {percent:.1} % of the way: {worst} is off by {residual:.3e} N or N·m; give these joints a mass, or a spring beside the links"
+    )]
+    JointNotHeld {
+        /// Share of the displacements that was reached.
+        percent: f64,
+        /// The link coordinate farthest from equilibrium.
+        worst: String,
+        /// Its residual.
+        residual: f64,
+        /// Where the file defines the link.
+        span: Span,
+    },
     /// An initial value for a direction that is fixed or follows another node.
     #[error(
         "node \"{node}\" {direction} has no value of its own to start from: it is fixed or follows a constraint; give the initial value at the node that leads"
@@ -104,6 +118,7 @@ impl SolveError {
         match self {
             Self::System(e) => e.span(),
             Self::StaticNotConverged { span, .. }
+            | Self::JointNotHeld { span, .. }
             | Self::InitialNotFree { span, .. }
             | Self::Buckles { span, .. }
             | Self::AxialForces { span, .. } => Some(span.clone()),

@@ -9,40 +9,40 @@ use crate::error::SolveError;
 use crate::statics::{Equilibrium, Path, along, columns_of_links};
 use crate::stepper::{LinksBefore, State};
 use crate::vector::largest;
-use trilith_linalg::{Dense, Ldlt, Sparse};
-use trilith_model::Model;
-use trilith_system::System;
+use trilith_linalg::{Dense, Ldlt, Sparse, Triplets};
+use trilith_model::{Model, Span};
+use trilith_system::{Massless, System};
 
 /// Steps of the path.
 const STEPS: usize = 64;
 
+/// What no link and no spring holds stays where it is: springs of this share of the linear structure's.
+const STAY: f64 = 1e-8;
+
 /// The directions that follow, among those without mass, and their stiffness.
 struct Followers {
-    own: Vec<usize>,
+    own: Massless,
     factor: Ldlt,
 }
 
 impl Followers {
-    /// `links`: stiffness of the link coordinates, flat; `held`: directions without mass that stay where they are.
-    fn new(system: &System, links: &[f64], held: &[bool]) -> Result<Self, SolveError> {
+    /// `links`: stiffness of the link coordinates, flat; `held`: rows over the directions without mass, on which links
+    /// act as dashpots do.
+    fn new(system: &System, links: &[f64], held: &[Vec<f64>]) -> Result<Self, SolveError> {
         let massless = &system.massless;
-        let damped = massless.project(&system.element_damping).diagonal();
-        let own: Vec<usize> =
-            (0..massless.len()).filter(|i| damped[*i] == 0.0 && !held[*i]).collect();
-        let k = massless.project(&system.stiffness_with(links));
-        let factor = Ldlt::with_rigid_zeros(&k.block(&own, &own))?;
+        let own = massless.undamped(&massless.project(&system.element_damping), held)?;
+        let k = own.project(&system.stiffness_with(links));
+        let mut stay = Triplets::new(own.len(), own.len());
+        k.diagonal().iter().enumerate().for_each(|(i, k)| stay.add(i, i, STAY * k));
+        let factor = Ldlt::with_rigid_zeros(&Sparse::combine(&[(1.0, &k), (1.0, &stay.build())]))?;
         Ok(Self { own, factor })
     }
 
     /// What forces on the free DOFs make of them, times `s`: `to += s · N A⁻¹ Nᵀ p`.
-    fn answer(&mut self, system: &System, s: f64, p: &[f64], to: &mut [f64]) {
-        let massless = &system.massless;
-        let force = massless.load(p);
-        let mut y: Vec<f64> = self.own.iter().map(|i| force[*i]).collect();
+    fn answer(&mut self, s: f64, p: &[f64], to: &mut [f64]) {
+        let mut y = self.own.load(p);
         self.factor.solve(&mut y);
-        let mut all = vec![0.0; massless.len()];
-        self.own.iter().zip(y).for_each(|(i, y)| all[*i] = y);
-        massless.expand(s, &all, to);
+        self.own.expand(s, &y, to);
     }
 }
 
@@ -53,13 +53,15 @@ pub(crate) fn follow(system: &System, u: &mut [f64]) -> Result<(), SolveError> {
     }
     let links = &system.links.effective;
     let force = system.stiffness_with(links).mul(u);
-    let none = vec![false; system.massless.len()];
-    Followers::new(system, links, &none)?.answer(system, -1.0, &force, u);
+    Followers::new(system, links, &[])?.answer(-1.0, &force, u);
     Ok(())
 }
 
 /// Makes a displacement follow in equilibrium with the links, from where these were: none where no link acts on
-/// what follows, or no equilibrium is found.
+/// what follows.
+///
+/// # Errors
+/// [`SolveError::JointNotHeld`] where no equilibrium is found.
 pub(crate) fn lead(
     model: &Model,
     system: &System,
@@ -75,27 +77,29 @@ pub(crate) fn lead(
         return Ok(None);
     }
     // What is viscous holds as a dashpot does.
-    let mut held = vec![false; massless.len()];
-    let viscous = viscous(model, system);
-    for flat in acting.iter().filter(|flat| viscous[**flat]) {
-        let row = massless.row(&links.rows[*flat]);
-        held.iter_mut().zip(row).for_each(|(held, c)| *held |= c != 0.0);
-    }
-    let mut followers = Followers::new(system, &engaged, &held)?;
+    let mut followers = Followers::new(system, &engaged, &viscous_rows(model, system))?;
     let mut by: Vec<f64> = u.iter().zip(before).map(|(u, b)| u - b).collect();
     let force = system.stiffness_with(&engaged).mul(&by);
-    followers.answer(system, -1.0, &force, &mut by);
+    followers.answer(-1.0, &force, &mut by);
     let columns = columns_of_links(system);
     let mut image = Dense::zeros(system.order(), links.active.len());
     for j in 0..links.active.len() {
-        followers.answer(system, 1.0, columns.column(j), image.column_mut(j));
+        followers.answer(1.0, columns.column(j), image.column_mut(j));
     }
     let pseudo = links.active.iter().map(|i| start.f[*i] - engaged[*i] * start.d[*i]);
     let mut from = before.to_vec();
     image.mul_add(1.0, &pseudo.collect::<Vec<f64>>(), &mut from);
     let path = Path { engaged, image, from, by };
-    let found = along(model, system, start, &path, STEPS).ok();
-    Ok(found.map(|Equilibrium { u, state, .. }| (u, LinksBefore::of(&state))))
+    let Equilibrium { u, state, .. } = along(model, system, start, &path, STEPS).map_err(|e| {
+        let link = links.links.iter().find(|link| link.range.contains(&e.worst));
+        SolveError::JointNotHeld {
+            percent: 100.0 * e.reached,
+            worst: links.name(model, e.worst),
+            residual: e.residual,
+            span: link.map_or_else(Span::default, |l| model.elements[l.element].span.clone()),
+        }
+    })?;
+    Ok(Some((u, LinksBefore::of(&state))))
 }
 
 /// Link coordinates with a force of their rate at rest, or of nothing but their rate, flat.
@@ -107,6 +111,20 @@ fn viscous(model: &Model, system: &System) -> Vec<bool> {
         viscous[*flat] |= c[*at] != 0.0;
     }
     viscous
+}
+
+/// Rows of these over the directions without mass on which they act.
+fn viscous_rows(model: &Model, system: &System) -> Vec<Vec<f64>> {
+    let (massless, links) = (&system.massless, &system.links);
+    let viscous = viscous(model, system);
+    let acting = links.active.iter().filter(|flat| viscous[**flat]);
+    let rows = acting.map(|flat| (massless.row(&links.rows[*flat]), &links.rows[*flat]));
+    // What is left of a row that acts on others is rounding.
+    let counts = |(own, row): &(Vec<f64>, &Vec<(usize, f64)>)| {
+        let most = row.iter().map(|(_, c)| c.abs()).fold(0.0, f64::max);
+        largest(own) > 1e-9 * most
+    };
+    rows.filter(counts).map(|(own, _)| own).collect()
 }
 
 /// Most iterations for the rates of what dashpots hold, and the share of the forces that they may leave.
@@ -123,11 +141,9 @@ pub(crate) fn rates(
     v: &mut [f64],
 ) -> Result<(), SolveError> {
     let (massless, links) = (&system.massless, &system.links);
-    let viscous = viscous(model, system);
     let mut held: Vec<bool> =
         massless.project(&system.element_damping).diagonal().iter().map(|c| *c != 0.0).collect();
-    for flat in links.active.iter().filter(|flat| viscous[**flat]) {
-        let row = massless.row(&links.rows[*flat]);
+    for row in viscous_rows(model, system) {
         held.iter_mut().zip(row).for_each(|(held, c)| *held |= c != 0.0);
     }
     let own: Vec<usize> = (0..held.len()).filter(|i| held[*i]).collect();

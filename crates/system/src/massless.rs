@@ -12,6 +12,7 @@
 
 use crate::System;
 use crate::parts::{join, root};
+use std::collections::BTreeMap;
 use trilith_linalg::{Dense, LinalgError, Sparse, Triplets, symmetric_eigen, unsupported};
 use trilith_model::Model;
 
@@ -58,11 +59,41 @@ impl Massless {
             }
         }
         directions.sort_by_key(|d: &Vec<(usize, f64)>| d[0].0);
+        Ok(Self::of(directions, n))
+    }
+
+    fn of(directions: Vec<Vec<(usize, f64)>>, n: usize) -> Self {
         let mut of = vec![Vec::new(); n];
         for (k, direction) in directions.iter().enumerate() {
             direction.iter().for_each(|(i, c)| of[*i].push((k, *c)));
         }
-        Ok(Self { directions, of })
+        Self { directions, of }
+    }
+
+    /// Combinations of these directions that no dashpot stretches: `c` is the damping of these directions, and `rows`
+    /// act on them as dashpots do.
+    ///
+    /// # Errors
+    /// Where the eigenvalues of a block of the damping are not found.
+    pub fn undamped(&self, c: &Sparse, rows: &[Vec<f64>]) -> Result<Self, LinalgError> {
+        let mut held = Triplets::new(self.len(), self.len());
+        c.entries().for_each(|(i, j, v)| held.add(i, j, v));
+        for row in rows {
+            let own = || row.iter().enumerate().filter(|(_, x)| **x != 0.0);
+            own().for_each(|(i, x)| own().for_each(|(j, y)| held.add(i, j, x * y)));
+        }
+        // What damping leaves alone is found as what mass does.
+        let free = Self::new(&held.build())?;
+        let directions = free.directions.iter().map(|shares| {
+            let mut sum = BTreeMap::new();
+            for (k, share) in shares {
+                for (i, c) in &self.directions[*k] {
+                    *sum.entry(*i).or_insert(0.0) += share * c;
+                }
+            }
+            sum.into_iter().collect()
+        });
+        Ok(Self::of(directions.collect(), self.of.len()))
     }
 
     /// Number of directions.
