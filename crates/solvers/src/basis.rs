@@ -292,19 +292,23 @@ fn in_both_forms(
     let dummies = &system.links.effective;
     let report = BasisReport::default();
     if dummies.iter().all(|k| *k == 0.0) {
-        let both = Arc::new(modes_in(system, span, &system.stiffness, loads)?);
+        let both = Arc::new(modes_in(system, span, &system.stiffness, dummies, loads)?);
         return Ok(Bases { structural: Arc::clone(&both), stepping: both, wider: None, report });
     }
-    let structural = Arc::new(modes_in(system, span.clone(), &system.stiffness, loads)?);
-    let stepping = Arc::new(modes_in(system, span, &system.stiffness_with(dummies), loads)?);
+    let none = vec![0.0; dummies.len()];
+    let structural = Arc::new(modes_in(system, span.clone(), &system.stiffness, &none, loads)?);
+    let with = system.stiffness_with(dummies);
+    let stepping = Arc::new(modes_in(system, span, &with, dummies, loads)?);
     Ok(Bases { structural, stepping, wider: None, report })
 }
 
-/// Turns a span of M-orthonormal vectors into modes of `k`, with the static shapes beside them.
+/// Turns a span of M-orthonormal vectors into modes of `k`, which has these dummies, with the static shapes beside
+/// them.
 fn modes_in(
     system: &System,
     span: Shapes,
     k: &Sparse,
+    dummies: &[f64],
     loads: &[(String, Vec<f64>)],
 ) -> Result<RitzBasis, SolveError> {
     let statics = StaticShapes::new(system, k, loads)?;
@@ -324,7 +328,7 @@ fn modes_in(
             *w = 0.0;
         }
     }
-    let statics = statics.beside(system, k, &vectors);
+    let statics = statics.beside(system, k, dummies, &vectors);
     let shapes = Arc::new(vectors.beside(&statics.psi));
     Ok(RitzBasis { shapes, omega2, statics })
 }

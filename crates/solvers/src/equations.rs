@@ -56,7 +56,7 @@ impl<'a> Equations<'a> {
                     model,
                     system,
                     loads,
-                    followers: Followers::new(&space, damped),
+                    followers: Followers::new(&space, damped).unwrap_or_default(),
                     space,
                     alpha: solution.alpha,
                     iterations: 0,

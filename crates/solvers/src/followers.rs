@@ -1,4 +1,4 @@
-//! Coordinates that have neither mass nor damping, in direct integration.
+//! Directions that have neither mass nor damping, in direct integration.
 //!
 //! They follow loads and links at once, and Newmark's rule would let the rates of one step ring for ever in the next
 //! ones: κ q = s leaves q̇ to `q̇₁ = 2 Δq/Δt − q̇₀`. Theirs are the mean ones of a step and half a step of the
@@ -6,6 +6,9 @@
 //! step, they are those before.
 
 use crate::space::Space;
+use std::collections::BTreeMap;
+use trilith_linalg::LinalgError;
+use trilith_system::Massless;
 
 /// The acceleration of a coordinate without mass where its load has just jumped: too little to be one.
 pub(crate) const JUMPED: f64 = f64::MIN_POSITIVE;
@@ -17,34 +20,67 @@ pub(crate) fn accelerate_at_once(accelerations: &mut [f64], change: &[f64]) {
     }
 }
 
-/// The coordinates.
+/// The directions, orthonormal to each other.
 #[derive(Clone, Debug, Default)]
-pub(crate) struct Followers(Vec<usize>);
+pub(crate) struct Followers(Vec<Vec<(usize, f64)>>);
 
 impl Followers {
-    /// Those of a space; `damped`: active link coordinates of laws whose forces depend on rates.
-    pub(crate) fn new(space: &Space, damped: &[usize]) -> Self {
+    /// Those of a space; `damped`: active link coordinates of laws whose forces depend on rates. A dashpot between two
+    /// that hang together takes their difference out alone.
+    pub(crate) fn new(space: &Space, damped: &[usize]) -> Result<Self, LinalgError> {
         if space.rayleigh[1] != 0.0 {
-            return Self::default();
+            return Ok(Self::default());
         }
-        let mut held: Vec<bool> = (space.mass.diagonal().iter().zip(space.damping.diagonal()))
-            .map(|(m, c)| *m != 0.0 || c != 0.0)
-            .collect();
-        for a in damped {
-            space.links.row(*a).filter(|(_, c)| *c != 0.0).for_each(|(i, _)| held[i] = true);
+        let massless = Massless::new(&space.mass)?;
+        if massless.is_empty() {
+            return Ok(Self::default());
         }
-        Self((0..held.len()).filter(|i| !held[*i]).collect())
+        let row = |a: &usize| massless.row(&space.links.row(*a).collect::<Vec<_>>());
+        let rows: Vec<Vec<f64>> = damped.iter().map(row).collect();
+        let own = massless.undamped(&massless.project(&space.damping), &rows)?;
+        Ok(Self(orthonormal(own.directions)))
     }
 
     /// Their rates and accelerations at the end of a step.
     pub(crate) fn settle(&self, from: &[f64], to: &mut [f64], dt: f64) {
         let n = from.len() / 3;
-        for i in self.0.iter().copied() {
-            let (rate, acceleration) = (from[n + i], from[2 * n + i]);
-            let jumped = acceleration == JUMPED;
-            let mean = (to[i] - from[i]) / dt;
-            to[n + i] = if jumped { rate } else { mean + 0.5 * dt * acceleration };
-            to[2 * n + i] = if jumped { 0.0 } else { (to[n + i] - rate) / dt };
+        for direction in &self.0 {
+            let along = |x: &[f64]| -> f64 { direction.iter().map(|(i, c)| c * x[*i]).sum() };
+            let jumped = direction.iter().any(|(i, _)| from[2 * n + i] == JUMPED);
+            let rate = along(&from[n..2 * n]);
+            let mean = (along(&to[..n]) - along(&from[..n])) / dt;
+            let acceleration = along(&from[2 * n..]);
+            let new = if jumped { rate } else { mean + 0.5 * dt * acceleration };
+            let of_new = if jumped { 0.0 } else { (new - rate) / dt };
+            let more = [new - along(&to[n..2 * n]), of_new - along(&to[2 * n..])];
+            for (i, c) in direction {
+                to[n + i] += c * more[0];
+                to[2 * n + i] += c * more[1];
+            }
         }
     }
+}
+
+/// Directions that share coordinates made square to each other, all of length one.
+fn orthonormal(directions: Vec<Vec<(usize, f64)>>) -> Vec<Vec<(usize, f64)>> {
+    let mut all: Vec<BTreeMap<usize, f64>> = Vec::with_capacity(directions.len());
+    let mut of: BTreeMap<usize, Vec<usize>> = BTreeMap::new();
+    for direction in directions {
+        let mut own: BTreeMap<usize, f64> = direction.into_iter().collect();
+        let mut others: Vec<usize> =
+            own.keys().flat_map(|i| of.get(i).into_iter().flatten().copied()).collect();
+        others.sort_unstable();
+        others.dedup();
+        for other in others {
+            let share: f64 = all[other].iter().filter_map(|(i, x)| Some(x * own.get(i)?)).sum();
+            for (i, x) in &all[other] {
+                *own.entry(*i).or_insert(0.0) -= share * x;
+            }
+        }
+        let length = own.values().map(|x| x * x).sum::<f64>().sqrt();
+        own.values_mut().for_each(|x| *x /= length);
+        own.keys().for_each(|i| of.entry(*i).or_default().push(all.len()));
+        all.push(own);
+    }
+    all.into_iter().map(|own| own.into_iter().collect()).collect()
 }

@@ -143,8 +143,9 @@ pub(crate) fn rates(
     let (massless, links) = (&system.massless, &system.links);
     let mut held: Vec<bool> =
         massless.project(&system.element_damping).diagonal().iter().map(|c| *c != 0.0).collect();
-    for row in viscous_rows(model, system) {
-        held.iter_mut().zip(row).for_each(|(held, c)| *held |= c != 0.0);
+    let rows = viscous_rows(model, system);
+    for row in &rows {
+        held.iter_mut().zip(row).for_each(|(held, c)| *held |= *c != 0.0);
     }
     let own: Vec<usize> = (0..held.len()).filter(|i| held[*i]).collect();
     if own.is_empty() {
@@ -173,6 +174,9 @@ pub(crate) fn rates(
     for _ in 0..ITERATIONS {
         if largest(&left) <= LEFT * size {
             v.copy_from_slice(&at);
+            // What dashpots tie goes on together as its springs say.
+            let force = system.stiffness_with(&links.effective).mul(v);
+            Followers::new(system, &links.effective, &rows)?.answer(-1.0, &force, v);
             return Ok(());
         }
         let mut of_links = vec![0.0; links.len()];

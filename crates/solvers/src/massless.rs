@@ -154,8 +154,15 @@ impl StaticShapes {
         }
     }
 
-    /// Puts those that dashpots tie to the modes first, and finds what reads the coordinates of all.
-    pub(crate) fn beside(self, system: &System, k: &Sparse, modes: &Shapes) -> Self {
+    /// Puts those that damping ties to the modes first, and finds what reads the coordinates of all; `dummies`: those
+    /// in `k`, flat.
+    pub(crate) fn beside(
+        self,
+        system: &System,
+        k: &Sparse,
+        dummies: &[f64],
+        modes: &Shapes,
+    ) -> Self {
         if self.len() == 0 {
             return self;
         }
@@ -165,9 +172,13 @@ impl StaticShapes {
             damping.bilinear(&mode, &mode).max(0.0)
         });
         let own: Vec<f64> = own.collect();
-        // Shapes without mass, square to the modes by stiffness: dashpots alone tie them.
-        let dashpots = &system.element_damping;
-        let coupling = |r: usize| modes.load(&dashpots.mul(self.psi.column(r)));
+        // Shapes without mass, square to the modes by stiffness: dashpots tie them, and the dummies that Rayleigh's
+        // share of the stiffness does not have.
+        let ties = Sparse::combine(&[
+            (1.0, &system.element_damping),
+            (-system.rayleigh[1], &system.springs(dummies)),
+        ]);
+        let coupling = |r: usize| modes.load(&ties.mul(self.psi.column(r)));
         let is_free = |r: &usize| {
             let size = self.damping[*r];
             let none = || {

@@ -62,6 +62,29 @@ impl Function {
         }
     }
 
+    /// The same with jumps that take this long, s; a sine that stops within a half wave jumps all the same.
+    #[must_use]
+    pub fn without_jumps(&self, rise: f64) -> Self {
+        match self {
+            _ if rise == 0.0 => self.clone(),
+            Self::Step(a, start) => Self::Ramp(*a, *start, rise),
+            Self::Points(points) => {
+                let mut points = points.clone();
+                if points[0].1 != 0.0 {
+                    let first = points[0].0;
+                    points[0].0 += rise;
+                    points.insert(0, (first, 0.0));
+                }
+                let last = points[points.len() - 1];
+                if last.1 != 0.0 {
+                    points.push((last.0 + rise, 0.0));
+                }
+                Self::Points(points)
+            }
+            _ => self.clone(),
+        }
+    }
+
     /// Shortest period that it has in any strength, s.
     #[must_use]
     pub fn period(&self) -> f64 {

@@ -5,6 +5,9 @@ use super::modes::{Modes, modes, split};
 use super::spec::{Damping, Function, Law, Output, Spec};
 use nalgebra::{DMatrix, DVector, SymmetricEigen};
 
+/// A jump of a load takes this share of the duration where there are directions without mass.
+const JUMP: f64 = 1e-8;
+
 /// A load: a vector times a function or one of its derivatives.
 #[derive(Clone, Debug)]
 pub struct Channel {
@@ -96,16 +99,20 @@ impl Problem {
         if spec.gravity {
             constant -= a.inertia.column(2) * GRAVITY;
         }
-        let mut channels = Vec::new();
+        // What has no mass jumps with its load, along a path that a law may ask for: stages see none.
+        let (_, light) = split(&a.m);
+        let rise = if light.ncols() > 0 { JUMP * spec.duration } else { 0.0 };
+        let (mut channels, mut breaks) = (Vec::new(), vec![0.0, spec.duration]);
         let mut add = |force: DVector<f64>, function: &Function, order| {
+            breaks.extend(function.breaks());
             channels.push(Channel { force, function: function.clone(), order });
         };
         for f in &spec.forces {
             let row = a.t.row(6 * f.node + f.dof).transpose();
-            add(row * f.value, &f.function, 0);
+            add(row * f.value, &f.function.without_jumps(rise), 0);
         }
         for (direction, f) in &spec.base {
-            add(-a.inertia.column(*direction), f, 0);
+            add(-a.inertia.column(*direction), &f.without_jumps(rise), 0);
         }
         for (j, (_, _, f)) in spec.moved.iter().enumerate() {
             add(-a.k_s.column(j), f, 0);
@@ -121,11 +128,6 @@ impl Problem {
             (u0[j], v0[j]) = (*u, *v);
         }
         let beside: Vec<f64> = a.links.iter().flat_map(|l| l.law.stiffness(omega)).collect();
-        let mut breaks = vec![0.0, spec.duration];
-        for f in spec.forces.iter().map(|f| &f.function).chain(spec.base.iter().map(|b| &b.1)) {
-            breaks.extend(f.breaks());
-        }
-        breaks.extend(spec.moved.iter().flat_map(|m| m.2.breaks()));
         breaks.retain(|t| (0.0..=spec.duration).contains(t));
         breaks.sort_by(f64::total_cmp);
         breaks.dedup_by(|b, a| (*b - *a).abs() < 1e-9 * spec.duration);

@@ -171,7 +171,7 @@ impl Propagator for Hht {
     }
 
     fn look_at_rates(&mut self, _rated: &[usize], damped: &[usize]) {
-        self.followers = Followers::new(&self.space, damped);
+        self.followers = Followers::new(&self.space, damped).unwrap_or_default();
     }
 
     fn acceleration(&mut self, force: &[f64]) -> Result<Vec<f64>, SolveError> {
