@@ -25,7 +25,8 @@ pub struct Shown {
 
 impl Observer for Shown {
     fn sample(&mut self, s: &Sample<'_>) {
-        if self.time.last().is_some_and(|t| *t >= s.t) {
+        // A jump is shown twice, and a run that is made again from the start.
+        while self.time.last().is_some_and(|t| *t >= s.t) {
             self.time.pop();
             self.values.pop();
         }
@@ -54,6 +55,7 @@ pub fn run(text: &str, solver: SolverKind) -> Ended {
     let work = || -> Result<Shown, String> {
         let model = read(text, "fuzz", &[]).map_err(|e| format!("read: {e}"))?;
         let analysis = Analysis::new(&model).map_err(|e| format!("assembly: {e}"))?;
+        let analysis = analysis.without_histories();
         let mut shown = Shown::default();
         let case = model.cases.len() - 1;
         let options = RunOptions {
@@ -63,13 +65,14 @@ pub fn run(text: &str, solver: SolverKind) -> Ended {
             step_errors: true,
             ..RunOptions::default()
         };
-        let system = analysis.system();
-        let result = trilith::solvers::run(&model, system, options, &mut [&mut shown])
-            .map_err(|e| format!("run: {e}"))?;
+        let run = analysis.observed(options, &mut [&mut shown]);
+        let result = run.map_err(|e| format!("run: {e}"))?.result;
         if !result.status.is_good() {
             return Err(format!("status: {}", result.status.text()));
         }
-        shown.warnings = result.warnings;
+        // That a basis grew is no excuse.
+        let counts = |warning: &String| !warning.starts_with("the basis was enlarged");
+        shown.warnings = result.warnings.into_iter().filter(counts).collect();
         shown.substeps = result.work.substeps;
         shown.seconds = result.work.setup_cpu_s + result.work.march_cpu_s;
         shown.vectors = result.basis.as_ref().map(|b| b.vectors);
