@@ -106,6 +106,11 @@ impl Link for BilinearDamper {
         k[0] = self.k;
     }
 
+    // A spring lies before all that is viscous: the force follows the deformation at once.
+    fn damps(&self) -> bool {
+        false
+    }
+
     fn respond(
         &self,
         at: &Kinematics<'_>,

@@ -221,6 +221,11 @@ impl Link for FrequencyIndependentViscoelastic {
         k[0] = all.k_inf + all.branches.iter().map(|b| b.k).sum::<f64>();
     }
 
+    // A spring lies before all that is viscous: the force follows the deformation at once.
+    fn damps(&self) -> bool {
+        false
+    }
+
     fn respond(
         &self,
         at: &Kinematics<'_>,

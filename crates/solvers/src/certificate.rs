@@ -15,7 +15,7 @@
 //! References: residual-based estimation of reduced models, \[Antoulas 2005, ch. 11\]; two bases of one sequence as
 //! estimator, \[Bai & Su 2005\].
 
-use crate::companion::UNSEEN;
+use crate::companion::{SAFE, UNSEEN};
 use crate::modal::{Modes, Sources};
 use crate::output_step::jump;
 use crate::outputs::Outputs;
@@ -210,7 +210,7 @@ impl<'a> Certificate<'a> {
         let apart = companion.map(|c| self.samples.apart(c));
         let step = |i: usize| {
             let apart = apart.as_ref().map_or(f64::NAN, |apart| apart[i]);
-            apart + UNSEEN * self.size(i)
+            SAFE * apart + UNSEEN * self.size(i)
         };
         let reduction = self.reduction.iter().enumerate();
         reduction.map(|(i, e)| OutputError { reduction: *e, step: step(i) }).collect()

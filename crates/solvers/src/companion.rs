@@ -1,13 +1,13 @@
 //! What the steps make of the errors of a run.
 //!
 //! ```text
-//! e_o = max over time |o(h, 2 τ) − o(h/2, τ)| + size/20000          τ: tolerance of the run
+//! e_o = 3/2 max over time |o(h, 2 τ) − o(h/2, τ)| + size/50000          τ: tolerance of the run
 //! ```
 //!
 //! A run makes every step whole and in halves, and keeps the halves. Its companion is the same motion beside it, which
 //! keeps the whole ones, at twice the tolerance: steps that are at least twice as long everywhere. What this moves in
 //! an output is more than what the steps of the run themselves do, as long as shorter steps give a smaller error;
-//! the last term is what neither of both sees. It takes a thread of its own: a run on two processors waits for
+//! where they do so slowly it is about as much, and a half more is on the safe side. The last term is what neither of both sees. It takes a thread of its own: a run on two processors waits for
 //! nothing.
 //!
 //! Reference: global error by a second integration in steps of another length \[Hairer, Nørsett & Wanner 1993, II.4;
@@ -28,8 +28,10 @@ use trilith_model::StepControl;
 
 /// Its tolerance over that of the run.
 const LOOSER: f64 = 2.0;
+/// The error of the steps over what the companion is away.
+pub(crate) const SAFE: f64 = 1.5;
 /// What neither of two runs sees, as share of the size of an output.
-pub(crate) const UNSEEN: f64 = 5e-5;
+pub(crate) const UNSEEN: f64 = 2e-5;
 
 /// The same motion at a looser tolerance.
 pub(crate) struct Companion<'a> {

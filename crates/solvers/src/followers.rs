@@ -7,11 +7,17 @@
 
 use crate::space::Space;
 use std::collections::BTreeMap;
-use trilith_linalg::LinalgError;
+use trilith_linalg::{LinalgError, Sparse, Triplets};
 use trilith_system::Massless;
 
 /// The acceleration of a coordinate without mass where its load has just jumped: too little to be one.
 pub(crate) const JUMPED: f64 = f64::MIN_POSITIVE;
+
+/// An acceleration as a number, which the mark of a jump is none of.
+#[inline]
+pub(crate) fn acceleration(a: f64) -> f64 {
+    if a == JUMPED { 0.0 } else { a }
+}
 
 /// Accelerations after a change of the load that alone would make the others.
 pub(crate) fn accelerate_at_once(accelerations: &mut [f64], change: &[f64]) {
@@ -28,7 +34,8 @@ impl Followers {
     /// Those of a space; `damped`: active link coordinates of laws whose forces depend on rates. A dashpot between two
     /// that hang together takes their difference out alone.
     pub(crate) fn new(space: &Space, damped: &[usize]) -> Result<Self, LinalgError> {
-        if space.rayleigh[1] != 0.0 {
+        // Where no dummies are, the stiffness holds every such direction, and Rayleigh's share of it damps it.
+        if space.rayleigh[1] != 0.0 && space.dummy_k.iter().all(|k| *k == 0.0) {
             return Ok(Self::default());
         }
         let massless = Massless::new(&space.mass)?;
@@ -37,7 +44,7 @@ impl Followers {
         }
         let row = |a: &usize| massless.row(&space.links.row(*a).collect::<Vec<_>>());
         let rows: Vec<Vec<f64>> = damped.iter().map(row).collect();
-        let own = massless.undamped(&massless.project(&space.damping), &rows)?;
+        let own = massless.undamped(&damping(space, &massless), &rows)?;
         Ok(Self(orthonormal(own.directions)))
     }
 
@@ -59,6 +66,24 @@ impl Followers {
             }
         }
     }
+}
+
+/// Damping of directions without mass, Rayleigh's included.
+fn damping(space: &Space, massless: &Massless) -> Sparse {
+    let rest = massless.project(&space.damping);
+    let of_stiffness = space.rayleigh[1];
+    if of_stiffness == 0.0 {
+        return rest;
+    }
+    let k = massless.project(&space.stiffness);
+    let sum = Sparse::combine(&[(1.0, &rest), (of_stiffness, &k)]);
+    // What is left where dummies cancel is rounding.
+    let (own, rest, k) = (sum.diagonal(), rest.diagonal(), k.diagonal());
+    let damps = |i: usize| own[i] > 1e-12 * (rest[i].abs() + of_stiffness * k[i]);
+    let mut kept = Triplets::new(own.len(), own.len());
+    let damped = sum.entries().filter(|(i, j, _)| damps(*i) && damps(*j));
+    damped.for_each(|(i, j, v)| kept.add(i, j, v));
+    kept.build()
 }
 
 /// Directions that share coordinates made square to each other, all of length one.

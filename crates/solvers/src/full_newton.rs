@@ -4,7 +4,7 @@
 
 use crate::apart::{Apart, Way, apart, way};
 use crate::error::SolveError;
-use crate::followers::{Followers, JUMPED, accelerate_at_once};
+use crate::followers::{Followers, JUMPED, accelerate_at_once, acceleration};
 use crate::hht::newmark;
 use crate::kernel::Remembered;
 use crate::propagator::{Forces, Motion, StepWork, kinetic_and_strain};
@@ -131,7 +131,8 @@ impl Stepper for FullNewton<'_> {
         let (v0, a0) = rest.split_at(n);
         let before = self.imbalance(&load0, u0, v0, &from.f);
         to.clone_from(from);
-        let mut a = a0.to_vec();
+        let a0: Vec<f64> = a0.iter().map(|a| acceleration(*a)).collect();
+        let mut a = a0.clone();
         let mut tangents = self.system.links.tangents();
         energy.links.resize(self.system.links.links.len(), Energy::default());
         let laws = self.system.links.laws(self.model);

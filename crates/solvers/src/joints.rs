@@ -89,7 +89,8 @@ pub(crate) fn lead(
     let pseudo = links.active.iter().map(|i| start.f[*i] - engaged[*i] * start.d[*i]);
     let mut from = before.to_vec();
     image.mul_add(1.0, &pseudo.collect::<Vec<f64>>(), &mut from);
-    let path = Path { engaged, image, from, by };
+    // What hardly anything holds goes far with little force.
+    let path = Path { engaged, image, from, by, tolerance: 1e-5 * STAY };
     let Equilibrium { u, state, .. } = along(model, system, start, &path, STEPS).map_err(|e| {
         let link = links.links.iter().find(|link| link.range.contains(&e.worst));
         SolveError::JointNotHeld {

@@ -24,7 +24,7 @@ mod inside;
 mod rules;
 
 use crate::error::SolveError;
-use crate::followers::{JUMPED, accelerate_at_once};
+use crate::followers::{JUMPED, accelerate_at_once, acceleration};
 use crate::link_map::LinkMap;
 use crate::propagator::{Compliance, Forces, Motion, Propagator, StepKey, StepWork, Wanted};
 use crate::space::Space;
@@ -372,7 +372,7 @@ impl Modes {
     fn go_on(&self, from: &Motion, to: &mut Motion) {
         let n = self.space.order();
         for i in self.structure.undamped.iter().copied() {
-            to[n + i] += 0.5 * self.steps[self.now.0].dt * from[2 * n + i];
+            to[n + i] += 0.5 * self.steps[self.now.0].dt * acceleration(from[2 * n + i]);
         }
     }
 

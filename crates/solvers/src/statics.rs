@@ -50,6 +50,8 @@ pub(crate) struct Path {
     pub image: Dense,
     pub from: Vec<f64>,
     pub by: Vec<f64>,
+    /// Share of the largest link force by which a link may be out of equilibrium.
+    pub tolerance: f64,
 }
 
 /// Rows of the active link coordinates as columns, order × active.
@@ -84,7 +86,8 @@ pub(crate) fn equilibrium(
         u
     };
     let (from, by) = (solve(before), solve(added));
-    Ok(along(model, system, start, &Path { engaged, image, from, by }, steps))
+    let tolerance = Solution::default().link_tolerance;
+    Ok(along(model, system, start, &Path { engaged, image, from, by, tolerance }, steps))
 }
 
 /// Along a path, from λ = 0 to 1.
@@ -95,7 +98,8 @@ pub(crate) fn along(
     path: &Path,
     steps: usize,
 ) -> Result<Equilibrium, Unbalanced> {
-    let Path { engaged, image, from, by } = path;
+    let Path { engaged, image, from, by, tolerance } = path;
+    let solution = Solution { link_tolerance: *tolerance, ..Solution::default() };
     let links = &system.links;
     let deform = |u: &[f64]| -> Vec<f64> {
         links.active.iter().map(|i| links.rows[*i].iter().map(|(j, c)| c * u[*j]).sum()).collect()
@@ -109,7 +113,7 @@ pub(crate) fn along(
     let (d_before, d_added) = (deform(from), deform(by));
     let dummy: Vec<f64> = links.active.iter().map(|i| engaged[*i]).collect();
     let zero = vec![0.0; links.len()];
-    let mut kernel = LinkKernel::new(model, links, &Solution::default(), dummy.clone());
+    let mut kernel = LinkKernel::new(model, links, &solution, dummy.clone());
     let mut state = start;
     let mut pseudo = vec![0.0; dummy.len()];
     kernel.pseudo(&state.f, &state.d, &zero, &mut pseudo);

@@ -144,7 +144,7 @@ impl Result {
             s.push('\n');
         };
         let mut messages: BTreeMap<(SolverKindName, &str, String), Vec<u64>> = BTreeMap::new();
-        let mut counts: BTreeMap<SolverKindName, [usize; 8]> = BTreeMap::new();
+        let mut counts: BTreeMap<SolverKindName, [usize; 7]> = BTreeMap::new();
         for f in &self.runs {
             let name = f.solver.name();
             let row = counts.entry(name).or_default();
@@ -152,11 +152,10 @@ impl Result {
                 Verdict::Passed(_) => (0, "", String::new()),
                 Verdict::Refused(m) => (1, "refused", class(m)),
                 Verdict::Warned(_, m) => (2, "warned", class(m)),
-                Verdict::Reduced(_) => (3, "", String::new()),
-                Verdict::Failed(..) => (4, "failed", f.family.to_owned()),
-                Verdict::Panicked(m) => (5, "panic", class(m)),
-                Verdict::Small(..) => (6, "small", f.family.to_owned()),
-                Verdict::Told(_) => (7, "told", f.family.to_owned()),
+                Verdict::Failed(..) => (3, "failed", f.family.to_owned()),
+                Verdict::Panicked(m) => (4, "panic", class(m)),
+                Verdict::Small(..) => (5, "small", f.family.to_owned()),
+                Verdict::Told(_) => (6, "told", f.family.to_owned()),
             };
             row[at] += 1;
             if !what.is_empty() {
@@ -197,9 +196,9 @@ impl Result {
             self.seconds[0],
             self.seconds[1]
         ));
-        for (solver, [passed, refused, warned, reduced, failed, panicked, small, told]) in counts {
+        for (solver, [passed, refused, warned, failed, panicked, small, told]) in counts {
             line(format!(
-                "{solver:12} {passed} passed, {refused} refused, {told} off as told, {warned} off with a warning, {reduced} off on a basis cut short, {small} off in what is small, {failed} failed, {panicked} broke off"
+                "{solver:12} {passed} passed, {refused} refused, {told} off as told, {warned} off with a warning, {small} off in what is small, {failed} failed, {panicked} broke off"
             ));
         }
         s
@@ -271,7 +270,6 @@ pub fn say(spec: &Spec, verdict: &Verdict) -> String {
         Verdict::Passed(e) => format!("passed, off by {:.3} %", 100.0 * e),
         Verdict::Refused(m) => format!("refused: {m}"),
         Verdict::Warned(e, m) => format!("off by {:.3} %, warned: {m}", 100.0 * e),
-        Verdict::Reduced(e) => format!("off by {:.3} % on a basis cut short", 100.0 * e),
         Verdict::Told(e) => format!("off by {:.3} %, as it says", 100.0 * e),
         Verdict::Failed(o, e, t) => {
             let what = spec.outputs.get(*o).map_or("ended early".into(), |o| format!("{o:?}"));

@@ -1,6 +1,6 @@
 //! The verdict on a run.
 
-use super::spec::{Basis, Spec};
+use super::spec::Spec;
 use super::subject::{Ended, Shown, run};
 use super::text::text;
 use super::truth::{Truth, WINDOW, outside, truth};
@@ -15,8 +15,6 @@ pub enum Verdict {
     Refused(String),
     /// Off, but it warned.
     Warned(f64, String),
-    /// Off, on a basis that the model cut short.
-    Reduced(f64),
     /// Off, and it said how far; the largest error.
     Told(f64),
     /// Off, and it said nothing, but only in what is small beside others of its kind: output, error, time.
@@ -139,33 +137,23 @@ pub fn judge_and_compare(spec: &Spec, found: &Truth, solver: SolverKind) -> (Ver
     match run(&text(spec), solver) {
         Ended::Shown(shown) => {
             let pairs = pairs(spec, found, &shown);
-            (verdict(spec, found, solver, &shown, &pairs), pairs)
+            (verdict(spec, found, &shown, &pairs), pairs)
         }
         Ended::Refused(message) => (Verdict::Refused(message), Vec::new()),
         Ended::Panicked(message) => (Verdict::Panicked(message), Vec::new()),
     }
 }
 
-fn verdict(
-    spec: &Spec,
-    found: &Truth,
-    solver: SolverKind,
-    shown: &Shown,
-    pairs: &[Pair],
-) -> Verdict {
+fn verdict(spec: &Spec, found: &Truth, shown: &Shown, pairs: &[Pair]) -> Verdict {
     let (output, off, t) = error(spec, found, &shown.time, &shown.values);
     let end = shown.time.last().copied().unwrap_or(0.0);
     if end < spec.duration * (1.0 - 1e-9) {
         return Verdict::Failed(usize::MAX, 1.0, end);
     }
-    let reduced = matches!(solver, SolverKind::Fna | SolverKind::RitzHht)
-        && matches!(spec.basis, Basis::RitzOf(_) | Basis::EigenOf(_));
     if off <= allowed(spec) {
         Verdict::Passed(off)
     } else if let Some(warning) = shown.warnings.first() {
         Verdict::Warned(off, warning.clone())
-    } else if reduced {
-        Verdict::Reduced(off)
     } else if pairs.iter().all(|p| p.off <= allowed(spec) || p.holds()) {
         Verdict::Told(off)
     } else if off * found.scale[output] <= allowed(spec) * SMALL * found.around[output]

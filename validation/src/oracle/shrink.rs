@@ -9,7 +9,7 @@ fn fails(spec: &Spec, solver: SolverKind) -> bool {
     let Ok(found) = reference(spec, WORK) else { return false };
     matches!(
         judge(spec, &found, solver),
-        Verdict::Failed(..) | Verdict::Panicked(_) | Verdict::Reduced(_) | Verdict::Warned(..)
+        Verdict::Failed(..) | Verdict::Panicked(_) | Verdict::Warned(..)
     )
 }
 

@@ -20,7 +20,7 @@ mod step;
 mod tests;
 
 use crate::error::SolveError;
-use crate::followers::Followers;
+use crate::followers::{Followers, acceleration};
 use crate::products::Products;
 use crate::propagator::{Compliance, Forces, Motion, Propagator, StepKey, StepWork, Wanted};
 use crate::space::Space;
@@ -192,8 +192,9 @@ impl Propagator for Hht {
         let (half, whole) = (dt * dt * (0.5 - beta), dt * (1.0 - gamma));
         // The weighted sum of both ends goes through K and C at once.
         for i in 0..n {
-            to_u[i] = u0[i] + dt * v0[i] + half * a0[i];
-            to_v[i] = v0[i] + whole * a0[i];
+            let a0 = acceleration(a0[i]);
+            to_u[i] = u0[i] + dt * v0[i] + half * a0;
+            to_v[i] = v0[i] + whole * a0;
         }
         if alpha == 0.0 {
             work.right.copy_from_slice(forces.loads[1]);

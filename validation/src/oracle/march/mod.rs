@@ -250,6 +250,10 @@ impl March<'_> {
         let (a, end) = (self.steps.state(&whole.end), self.steps.state(&second.end));
         self.steps.work += 4.0 * (a.u.len() as f64).powi(2);
         let mut error = self.distance(h, &a, &end);
+        for (t, from, step) in [(t, from, &first), (t + half, &first.end, &second)] {
+            let [own, none] = self.steps.unseen(t, half, from, step, self.scale.d.as_slice());
+            error = error.max(own).max(none * 1e-3);
+        }
         if let Some(it) = self.between.filter(|it| h > it.window) {
             let pieces = [
                 self.steps.piece(t, half, from, &first),

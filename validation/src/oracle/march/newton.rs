@@ -39,6 +39,8 @@ pub struct Settled {
     pub x: Vec<f64>,
     /// By stages.
     pub f: Vec<f64>,
+    /// Branches of the laws, by stages.
+    pub branches: Vec<u32>,
 }
 
 /// Room for the numbers of an iteration, and the work done in it.
@@ -252,7 +254,7 @@ pub fn solve(
         }
         // Rounding: steps that no longer shrink but are small, or follow a residual that is.
         if done || refine > 4 {
-            return Some(Settled { x, f: it.f });
+            return Some(Settled { x, f: it.f, branches: it.branches });
         }
     }
     kept.clear();

@@ -23,6 +23,8 @@ pub struct Point {
     pub z: Vec<f64>,
     /// Forces of the links just before.
     pub f: Vec<f64>,
+    /// Branches of their laws just before; none at the start.
+    pub branches: Vec<u32>,
 }
 
 /// A step that was made.
@@ -40,6 +42,8 @@ pub struct Solved {
     d: Stage,
     /// Link forces.
     f: Stage,
+    /// Branches of the laws at the first stage.
+    first: Vec<u32>,
     /// Its end.
     pub end: Point,
 }
@@ -85,7 +89,8 @@ impl<'a> Stepper<'a> {
         // Rates of what has no mass follow from the first step.
         let mut r = self.at.of(self.p, &s.v);
         r.iter_mut().zip(&self.at.m).filter(|(_, m)| **m == 0.0).for_each(|(r, _)| *r = 0.0);
-        Point { q, r, z: s.z.as_slice().to_vec(), f: vec![0.0; self.at.links.ncols()] }
+        let f = vec![0.0; self.at.links.ncols()];
+        Point { q, r, z: s.z.as_slice().to_vec(), f, branches: Vec::new() }
     }
 
     /// A point as a state.
@@ -156,6 +161,7 @@ impl<'a> Stepper<'a> {
         let mut loads = stages(|i| self.loads(times[i]));
         let mut x = response.alone(&self.at, &from.q, &from.r, &mut loads);
         let (mut y, mut z, mut f, mut d) = <(Stage, Stage, Stage, Stage)>::default();
+        let mut all_branches = Vec::new();
         if l > 0 {
             let alone = stages(|i| self.deformations(&x[i]));
             let mut start = stages(|_| self.deformations(&from.q));
@@ -188,7 +194,8 @@ impl<'a> Stepper<'a> {
             let settled = solve(&known, guess, &sizes, &mut kept, &mut self.space);
             d = known.start;
             response.kept = kept;
-            let Settled { x: unknown, f: forces } = settled?;
+            let Settled { x: unknown, f: forces, branches } = settled?;
+            all_branches = branches;
             y = stages(|i| unknown[i * l..(i + 1) * l].to_vec());
             z = stages(|i| unknown[3 * l + i * nz..3 * l + (i + 1) * nz].to_vec());
             f = stages(|i| forces[i * l..(i + 1) * l].to_vec());
@@ -209,8 +216,38 @@ impl<'a> Stepper<'a> {
         }
         let q = from.q.iter().zip(&x[2]).map(|(q, x)| q + x).collect();
         let r = response.rate(2, &x);
-        let end = Point { q, r, z: z[2].clone(), f: f[2].clone() };
-        Some(Solved { x, tilde: response.tilde, y, z, d, f, end })
+        let links = p.a.links.len().min(all_branches.len());
+        let branches = all_branches.split_off(all_branches.len() - links);
+        let end = Point { q, r, z: z[2].clone(), f: f[2].clone(), branches };
+        all_branches.truncate(links);
+        Some(Solved { x, tilde: response.tilde, y, z, d, f, first: all_branches, end })
+    }
+
+    /// How far links go on before the first stage of a step, where they are on another branch than at the end of the
+    /// step before: what they do on the way no stage sees. Largest share of `sizes`, of links with own unknowns
+    /// and of others.
+    pub fn unseen(&self, t: f64, h: f64, from: &Point, step: &Solved, sizes: &[f64]) -> [f64; 2] {
+        let mut unseen = [0.0_f64; 2];
+        let p = self.p;
+        if from.branches.is_empty() {
+            return unseen;
+        }
+        let moved = (!p.moved.is_empty()).then(|| {
+            let [from, _] = p.supports(t, true);
+            let [to, _] = p.supports(self.times(t, h)[0], false);
+            &p.a.b_s * (to - from)
+        });
+        for (i, link) in p.a.links.iter().enumerate() {
+            if from.branches[i] == step.first[i] {
+                continue;
+            }
+            let most = &mut unseen[usize::from(link.law.unknowns() == 0)];
+            for c in link.first..link.first + link.axes.len() {
+                let way = step.y[0][c] + moved.as_ref().map_or(0.0, |m| m[c]);
+                *most = most.max(way.abs() / sizes[c].max(1e-12));
+            }
+        }
+        unseen
     }
 
     fn times(&self, t: f64, h: f64) -> [f64; 3] {
