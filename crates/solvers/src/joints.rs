@@ -77,7 +77,8 @@ pub(crate) fn lead(
         return Ok(None);
     }
     // What is viscous holds as a dashpot does.
-    let mut followers = Followers::new(system, &engaged, &viscous_rows(model, system))?;
+    let held = viscous_rows(model, system);
+    let mut followers = Followers::new(system, &engaged, &held)?;
     let mut by: Vec<f64> = u.iter().zip(before).map(|(u, b)| u - b).collect();
     let force = system.stiffness_with(&engaged).mul(&by);
     followers.answer(-1.0, &force, &mut by);
@@ -91,16 +92,46 @@ pub(crate) fn lead(
     image.mul_add(1.0, &pseudo.collect::<Vec<f64>>(), &mut from);
     // What hardly anything holds goes far with little force.
     let path = Path { engaged, image, from, by, tolerance: 1e-5 * STAY };
-    let Equilibrium { u, state, .. } = along(model, system, start, &path, STEPS).map_err(|e| {
-        let link = links.links.iter().find(|link| link.range.contains(&e.worst));
-        SolveError::JointNotHeld {
-            percent: 100.0 * e.reached,
-            worst: links.name(model, e.worst),
-            residual: e.residual,
-            span: link.map_or_else(Span::default, |l| model.elements[l.element].span.clone()),
-        }
-    })?;
+    let Equilibrium { mut u, mut state, .. } =
+        along(model, system, start, &path, STEPS).map_err(|e| {
+            let link = links.links.iter().find(|link| link.range.contains(&e.worst));
+            SolveError::JointNotHeld {
+                percent: 100.0 * e.reached,
+                worst: links.name(model, e.worst),
+                residual: e.residual,
+                span: link.map_or_else(Span::default, |l| model.elements[l.element].span.clone()),
+            }
+        })?;
+    for _ in 0..POLISH {
+        polish(model, system, &held, &mut u, &mut state)?;
+    }
     Ok(Some((u, LinksBefore::of(&state))))
+}
+
+/// Steps of Newton's method behind the path: they take out what the springs that let joints stay have left.
+const POLISH: usize = 2;
+
+/// One of them; what nothing holds stays.
+fn polish(
+    model: &Model,
+    system: &System,
+    held: &[Vec<f64>],
+    u: &mut [f64],
+    state: &mut State,
+) -> Result<(), SolveError> {
+    let links = &system.links;
+    let mut tangents = vec![0.0; links.len()];
+    for (flat, k) in links.active.iter().zip(links.stiffness(&state.tangents)) {
+        tangents[*flat] = k.max(0.0);
+    }
+    let mut left = system.stiffness.mul(u);
+    links.spread(1.0, &state.f, &mut left);
+    Followers::new(system, &tangents, held)?.answer(-1.0, &left, u);
+    let supports = vec![0.0; system.reduction.prescribed.len()];
+    let mut d = vec![0.0; links.len()];
+    links.deform(u, &supports, &mut d);
+    *state = State::of_links(model, links, &LinksBefore::of(state), d, vec![0.0; links.len()]);
+    Ok(())
 }
 
 /// Link coordinates with a force of their rate at rest, or of nothing but their rate, flat.
