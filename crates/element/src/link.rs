@@ -159,8 +159,9 @@ pub trait Link: Send + Sync + Debug {
         true
     }
 
-    /// False for a law whose force does not depend on rates, though it may look at them to tell loading from
-    /// unloading where it stands still: a node without mass or damping then follows it at once.
+    /// False for a law that no rate alone can hold, though it looks at rates: they only tell loading from unloading
+    /// where it stands still, or a spring lies before all that is viscous. A node without mass or damping then follows
+    /// it at once. Where it is true for no need, the rates of such nodes may ring under direct integration.
     fn damps(&self) -> bool {
         self.uses_rates()
     }

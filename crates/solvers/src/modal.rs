@@ -93,7 +93,7 @@ pub(crate) struct Sources {
     lost: f64,
     /// Pseudo-forces spread last.
     pseudo: Vec<f64>,
-    /// True of what laws damp, and of what other links alone act on.
+    /// True of what laws damp, and of what any link acts on.
     damped: Vec<bool>,
     linked: Vec<bool>,
     /// The link coordinates whose rates laws look at, and their rows of B Φ where these are few.

@@ -11,9 +11,10 @@ pub(crate) struct Layout<'a> {
     pub dummy_k: Vec<f64>,
     /// Active coordinates of laws that look at rates.
     pub rated: Vec<usize>,
-    /// Active coordinates of laws whose forces depend on rates.
+    /// Active coordinates of laws that a rate alone can hold.
     pub damped: Vec<usize>,
-    /// Active and flat index of those whose laws look at no rates: the [kernel](super::LinkKernel) leaves their rates to its caller.
+    /// Active and flat index of those whose laws look at no rates: the [kernel](super::LinkKernel) leaves their rates
+    /// to its caller.
     pub unrated: Vec<(usize, usize)>,
     /// Active index of each flat coordinate; none of the fixed ones.
     pub place: Vec<Option<usize>>,
