@@ -215,7 +215,7 @@ impl Stepper for FullNewton<'_> {
         way(&self.space, &self.system.links, a, b, &mut Vec::new())
     }
 
-    fn missed(&mut self, from: &State, to: &State, dt: f64) -> f64 {
+    fn missed(&mut self, from: &State, to: &State, dt: f64, _: f64) -> f64 {
         let links = &self.system.links;
         let laws = links.laws(self.model);
         Turning::default().missed(&laws, from, to, &to.v, &self.softness(dt), dt)

@@ -52,6 +52,7 @@ mod timeline;
 mod together;
 mod turning;
 mod vector;
+mod vibration;
 mod view;
 
 pub use case::{EndState, RunOptions, SoFar, modes, run};

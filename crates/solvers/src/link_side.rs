@@ -80,6 +80,16 @@ impl<'a> LinkSide<'a> {
         if self.moving { to.copy_from_slice(&self.support_rate) } else { to.fill(0.0) }
     }
 
+    /// Deformations that moving supports give the links at both ends of the step begun last, flat.
+    pub(crate) fn supports(&self) -> Option<[&[f64]; 2]> {
+        self.moving.then_some([&self.support0, &self.support1])
+    }
+
+    /// Flat link coordinates with dummies, and their stiffness.
+    pub(crate) fn dummies(&self) -> &[(usize, f64)] {
+        &self.dummies
+    }
+
     /// Loads of a step, and a place for its end.
     #[inline]
     pub(crate) fn begin(

@@ -7,7 +7,7 @@
 //! ε = √(E(Δ) / E)                  energy norm of the difference, over the largest energy of the motion so far
 //! δ = |Δu| / max(|u₁ − u₀|, U/100) displacements, over how far the step went; U: the largest so far
 //! χ = (|Δf| / F)²                  link forces, over the largest so far
-//! κ = √(½ p²/m / E)                impulses of links that turned inside a half (see `turning`)
+//! κ = √(½ p²/m / E)                impulses of links that turned or vibrated inside a half (`turning`, `vibration`)
 //! ```
 //!
 //! All must be below the tolerance, and the energies of the links must close in the step. δ is taken of √(uᵀMu)
@@ -118,6 +118,14 @@ struct Trial {
     missed: f64,
 }
 
+impl Trial {
+    /// The first half becomes the whole of a step half as long.
+    fn first_is_whole(&mut self) {
+        std::mem::swap(&mut self.whole, &mut self.first);
+        self.energies.swap(0, 1);
+    }
+}
+
 /// The error of a step.
 #[derive(Clone, Copy, Debug)]
 struct Measured {
@@ -218,7 +226,9 @@ impl<'a> March<'a> {
             let size = piece.length / f64::from(1u32 << level);
             let (start, middle, end) = (time(at), time(at + ticks / 2), time(at + ticks));
             self.spend(start)?;
-            let attempt = self.attempt(state, [start, middle, end], size, known == Some(level));
+            let times = [start, middle, end];
+            let notable = tolerance * tolerance * pace.reference;
+            let attempt = self.attempt(state, times, size, known == Some(level), notable);
             known = None;
             match attempt {
                 Ok(()) => {
@@ -230,7 +240,7 @@ impl<'a> March<'a> {
                     if error > tolerance && level < ACCURACY_DEPTH {
                         self.counts.rejected += 1;
                         known = Some(level + 1);
-                        std::mem::swap(&mut self.trial.whole, &mut self.trial.first);
+                        self.trial.first_is_whole();
                         pace.level = level + 1;
                         continue;
                     }
@@ -256,7 +266,7 @@ impl<'a> March<'a> {
                 Err(Failed { failure, first }) => {
                     if first {
                         known = Some(level + 1);
-                        std::mem::swap(&mut self.trial.whole, &mut self.trial.first);
+                        self.trial.first_is_whole();
                     }
                     self.counts.rejected += 1;
                     self.give_up(failure, level, start)?;
@@ -286,13 +296,14 @@ impl<'a> March<'a> {
         Measured { error, on_way: apart.way.over(&moved, LEAST_WAY, &pace.reached) }
     }
 
-    /// One step in one and in two halves; `known`: the one is there already.
+    /// One step in one and in two halves; `known`: the one is there already; `notable`: see [`Stepper::missed`].
     fn attempt(
         &mut self,
         state: &State,
         [start, middle, end]: [f64; 3],
         size: f64,
         known: bool,
+        notable: f64,
     ) -> Result<(), Failed> {
         let Trial { whole, first, second, energies: [e0, e1, e2], loads, missed } = &mut self.trial;
         let mut step = |from: &State, to: &mut State, t0, t1, dt, energy: &mut StepEnergy| {
@@ -304,10 +315,10 @@ impl<'a> March<'a> {
             step(state, whole, start, end, size, e0).map_err(failed(false))?;
         }
         step(state, first, start, middle, 0.5 * size, e1).map_err(failed(false))?;
-        *missed = self.stepper.missed(state, first, 0.5 * size);
+        *missed = self.stepper.missed(state, first, 0.5 * size, notable);
         self.loads.step(middle, end, loads);
         self.stepper.step(first, second, loads, 0.5 * size, e2).map_err(failed(true))?;
-        *missed += self.stepper.missed(first, second, 0.5 * size);
+        *missed += self.stepper.missed(first, second, 0.5 * size, notable);
         Ok(())
     }
 

@@ -10,6 +10,7 @@ use crate::propagator::{Motion, Propagator, StepWork};
 use crate::space::Space;
 use crate::turning::Turning;
 use crate::vector::{larger, largest};
+use crate::vibration::{Made, Vibration};
 use serde::{Deserialize, Serialize};
 use trilith_element::{Energy, Kinematics};
 use trilith_model::Model;
@@ -231,8 +232,9 @@ pub(crate) trait Stepper {
     /// The displacements of a state, or how far they are from those of another.
     fn way(&mut self, a: &State, b: Option<&State>) -> Way;
 
-    /// Energy of the impulses that the step of length `dt` made last has missed where links turned inside, J.
-    fn missed(&mut self, from: &State, to: &State, dt: f64) -> f64;
+    /// Energy of the impulses that the step of length `dt` made last has missed where links turned or vibrated inside,
+    /// J; vibrations that cannot miss more than `notable` (J) need not be looked at.
+    fn missed(&mut self, from: &State, to: &State, dt: f64, notable: f64) -> f64;
 
     /// What one rounding of the motion does to the energies of the links, J.
     fn rounding(&self, state: &State) -> f64;
@@ -282,6 +284,7 @@ pub(crate) struct LinkStepper<'a, P> {
     side: LinkSide<'a>,
     laws: Laws<'a>,
     turning: Turning,
+    vibration: Option<Vibration>,
     difference: Motion,
     /// Rates of all link coordinates, and Hᵢᵢ of the step made last.
     rates: Vec<f64>,
@@ -295,6 +298,7 @@ impl<'a, P: Propagator> LinkStepper<'a, P> {
         let n = side.links().len();
         Self {
             laws: side.laws(),
+            vibration: propagator.closed_form().map(Vibration::new),
             propagator,
             side,
             turning: Turning::default(),
@@ -373,8 +377,8 @@ impl<P: Propagator> Stepper for LinkStepper<'_, P> {
         way(self.propagator.space(), self.side.links(), a, b, &mut self.difference)
     }
 
-    fn missed(&mut self, from: &State, to: &State, dt: f64) -> f64 {
-        let Self { propagator, side, laws, turning, rates, softness, difference } = self;
+    fn missed(&mut self, from: &State, to: &State, dt: f64, notable: f64) -> f64 {
+        let Self { propagator, side, laws, turning, vibration, rates, softness, difference } = self;
         let space = propagator.space();
         let n = space.order();
         difference.resize(space.links.len(), 0.0);
@@ -385,7 +389,14 @@ impl<P: Propagator> Stepper for LinkStepper<'_, P> {
             rates[*flat] += difference[a];
             softness[*flat] = h[(a, a)];
         }
-        turning.missed(laws, from, to, rates, softness, dt)
+        let turned = turning.missed(laws, from, to, rates, softness, dt);
+        let vibration = vibration.as_mut().filter(|_| propagator.compliance().key.average == 0);
+        let vibrated = vibration.map_or(0.0, |vibration| {
+            let (links, dummies, supports) = (side.links(), side.dummies(), side.supports());
+            let made = Made { laws, links, space, dummies, supports, from, to, dt };
+            vibration.missed(&made, notable)
+        });
+        turned + vibrated
     }
 
     fn rounding(&self, state: &State) -> f64 {
