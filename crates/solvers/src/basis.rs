@@ -406,8 +406,10 @@ fn enriched(
         };
         let starts = demands.starts.iter().map(start).take(ground).collect();
         block.extend(span.take(starts, Origin::Anywhere, Speed::OfModes));
-        block = recurse(&mut span, &rows, hat, &statics, block, ground);
+        block = recurse(&mut span, &rows, hat, &statics, block, ground, Speed::OfModes);
     }
+    // A chain ends where its next vector is too fast; what loads and starts set in motion does not.
+    let mut fast = Fast { left: span.left_out(), block: Vec::new() };
     let mut known = Vec::with_capacity(links.len());
     // Where there is no room for all, those taken are spread over all.
     let is_taken = |i: usize| (i + 1) * of_links / links.len() > i * of_links / links.len();
@@ -425,6 +427,10 @@ fn enriched(
         }
     });
     let known = (settings.adequacy > 0.0).then_some(known);
+    if settings.vectors.is_some() {
+        // So many were asked for, by the user or by an error that fewer made.
+        fast.go_on(&mut span, &rows, hat, &statics, total);
+    }
     let count = span.len();
     if more > 0 {
         span.take(modes, Origin::Anywhere, Speed::Any);
@@ -432,9 +438,14 @@ fn enriched(
         // and what they set in motion are all that is left.
         let untaken = system.links.active.len() - of_links;
         let mut of_links = beyond(system, hat, &mut span, &beside, count + untaken.min(more / 2));
-        recurse(&mut span, &rows, hat, &statics, block, count + more);
+        // Those of links are static shapes of places with next to no mass.
+        drop(span.left_out());
+        recurse(&mut span, &rows, hat, &statics, block, count + more, Speed::OfModes);
+        fast.left.extend(span.left_out());
         of_links.extend(beyond(system, hat, &mut span, &beside, count + more));
-        recurse(&mut span, &rows, hat, &statics, of_links, count + more);
+        recurse(&mut span, &rows, hat, &statics, of_links, count + more, Speed::OfModes);
+        // Only what is here is seen as missing.
+        fast.go_on(&mut span, &rows, hat, &statics, count + more);
     }
     let all = span.into_dense();
     let rows = Arc::new(rows);
@@ -474,6 +485,32 @@ fn beyond(
     images
 }
 
+/// What a recursion was about to go on with, but that is too fast for modes of interest.
+struct Fast {
+    /// Vectors that were left out.
+    left: Vec<Vec<f64>>,
+    /// Right-hand sides of what follows from those taken in the end.
+    block: Vec<Vec<f64>>,
+}
+
+impl Fast {
+    /// Takes them, and what follows from them, until `count` vectors are there.
+    fn go_on(
+        &mut self,
+        span: &mut Span<'_>,
+        rows: &Condensation,
+        hat: &Solvable,
+        statics: &StaticShapes,
+        count: usize,
+    ) {
+        let room = count.saturating_sub(span.len()).min(self.left.len());
+        let taken = self.left.drain(..room).collect();
+        self.block.extend(span.take(taken, Origin::Anywhere, Speed::Any));
+        let block = std::mem::take(&mut self.block);
+        self.block = recurse(span, rows, hat, statics, block, count, Speed::Any);
+    }
+}
+
 /// The load-dependent recursion from right-hand sides until `count` vectors are there or nothing new comes; returns
 /// those it would go on with.
 fn recurse(
@@ -483,6 +520,7 @@ fn recurse(
     statics: &StaticShapes,
     mut block: Vec<Vec<f64>>,
     count: usize,
+    speed: Speed,
 ) -> Vec<Vec<f64>> {
     let order = rows.order();
     while span.len() < count && !block.is_empty() {
@@ -501,7 +539,7 @@ fn recurse(
             let solved = x.chunks(order).map(|x| rows.gather(x).into_owned()).collect();
             drop(x);
             // Where the loads have shown all they can, what is left of a vector is rounding.
-            next.extend(span.take(solved, Origin::Recursion, Speed::OfModes));
+            next.extend(span.take(solved, Origin::Recursion, speed));
             block = rest;
         }
         block.extend(next);

@@ -10,12 +10,14 @@
 //! to the residual of the full equations, dynamics included, to first order in the link forces. Link forces answer by
 //! their present tangents. A complete basis leaves nothing.
 //!
-//! The error of the steps is what a [companion](crate::companion) at a looser tolerance is away.
+//! The error of the steps is what a [companion](crate::companion) at a looser tolerance is away; to link forces it adds
+//! what the link equations may leave.
 //!
 //! References: residual-based estimation of reduced models, \[Antoulas 2005, ch. 11\]; two bases of one sequence as
 //! estimator, \[Bai & Su 2005\].
 
 use crate::companion::{SAFE, UNSEEN};
+use crate::kernel::ForceScale;
 use crate::modal::{Modes, Sources};
 use crate::output_step::jump;
 use crate::outputs::Outputs;
@@ -25,8 +27,8 @@ use crate::space::Space;
 use crate::stepper::State;
 use crate::timeline::Piece;
 use serde::Serialize;
-use trilith_model::{Model, Side};
-use trilith_system::{LinkBlocks, LoadSet, StepLoads, System};
+use trilith_model::{Model, Output, Quantity, Side};
+use trilith_system::{LinkBlocks, LinkSet, LoadSet, StepLoads, System};
 
 /// Step sizes that differ by less than this share are one.
 const SAME: f64 = 1e-9;
@@ -172,14 +174,40 @@ pub(crate) struct Certificate<'a> {
     shadow: Option<Shadow<'a>>,
     samples: Samples<'a>,
     reduction: Vec<f64>,
+    /// What the link equations may leave in the outputs that are link forces: kind of force, and share of the largest.
+    left: Vec<Option<(usize, f64)>>,
+    /// Largest link forces so far.
+    forces: ForceScale,
     /// Smallest and largest value of each output so far.
     range: Vec<[f64; 2]>,
 }
 
 impl<'a> Certificate<'a> {
-    pub(crate) fn new(samples: Samples<'a>, shadow: Option<Shadow<'a>>, outputs: usize) -> Self {
-        let (reduction, range) = (vec![0.0; outputs], vec![[0.0; 2]; outputs]);
-        Self { shadow, samples, reduction, range }
+    /// Of a run whose link equations are solved to this tolerance.
+    pub(crate) fn new(
+        model: &Model,
+        links: &LinkSet,
+        samples: Samples<'a>,
+        shadow: Option<Shadow<'a>>,
+        link_tolerance: f64,
+    ) -> Self {
+        let left = |output: &Output| match output.quantity {
+            Quantity::LinkForce { element, coordinate, factor } => {
+                let link = links.links.iter().find(|link| link.element == element)?;
+                let kind = usize::from(links.rotational[link.range.start + coordinate]);
+                Some((kind, link_tolerance * factor.abs()))
+            }
+            _ => None,
+        };
+        let count = model.outputs.len();
+        Self {
+            shadow,
+            samples,
+            reduction: vec![0.0; count],
+            left: model.outputs.iter().map(left).collect(),
+            forces: [0.0; 2],
+            range: vec![[0.0; 2]; count],
+        }
     }
 
     /// Takes note of a jump of the loads at a time.
@@ -196,6 +224,7 @@ impl<'a> Certificate<'a> {
         if let Some(shadow) = &mut self.shadow {
             shadow.follow(t, state);
         }
+        self.forces = state.scale;
         let Some(values) = self.samples.take(piece, t, state) else { return };
         for ([least, most], x) in self.range.iter_mut().zip(values) {
             (*least, *most) = (least.min(*x), most.max(*x));
@@ -210,7 +239,8 @@ impl<'a> Certificate<'a> {
         let apart = companion.map(|c| self.samples.apart(c));
         let step = |i: usize| {
             let apart = apart.as_ref().map_or(f64::NAN, |apart| apart[i]);
-            SAFE * apart + UNSEEN * self.size(i)
+            let left = self.left[i].map_or(0.0, |(kind, share)| share * self.forces[kind]);
+            SAFE * apart + UNSEEN * self.size(i) + left
         };
         let reduction = self.reduction.iter().enumerate();
         reduction.map(|(i, e)| OutputError { reduction: *e, step: step(i) }).collect()

@@ -118,7 +118,7 @@ pub(crate) fn run(
     let mut certificate = judged.then(|| {
         let samples =
             Samples::new(model, system, &loads, stepper.space(), &timeline, steps.clone());
-        Certificate::new(samples, shadow, model.outputs.len())
+        Certificate::new(model, &system.links, samples, shadow, solution.link_tolerance)
     });
     viewer.start(last.saturating_sub(first));
     viewer.show(timeline.time(first), Some(first), &moving.state, &moving.ledger);

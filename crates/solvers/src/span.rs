@@ -44,6 +44,8 @@ pub(crate) struct Span<'a> {
     columns: Columns,
     /// First vectors of the two blocks before, and of this one.
     starts: [usize; 3],
+    /// What was too fast for a mode of interest.
+    left_out: Vec<Vec<f64>>,
 }
 
 impl<'a> Span<'a> {
@@ -62,7 +64,7 @@ impl<'a> Span<'a> {
         }
         let (sums, mass) = (rows.gather(&sums).into_owned(), rows.block(mass));
         let columns = Columns::with_capacity(rows.kept(), most.min(rows.kept()));
-        Self { rows, mass, stiffness, sums, columns, starts: [0; 3] }
+        Self { rows, mass, stiffness, sums, columns, starts: [0; 3], left_out: Vec::new() }
     }
 
     pub(crate) fn len(&self) -> usize {
@@ -76,6 +78,11 @@ impl<'a> Span<'a> {
     /// What follows in the recursion is a new block.
     pub(crate) fn next_block(&mut self) {
         self.starts = [self.starts[1], self.starts[2], self.len()];
+    }
+
+    /// What was left out as too fast since this was asked last.
+    pub(crate) fn left_out(&mut self) -> Vec<Vec<f64>> {
+        std::mem::take(&mut self.left_out)
     }
 
     fn norms(&self, x: &[Vec<f64>]) -> (Vec<Vec<f64>>, Vec<f64>) {
@@ -151,6 +158,7 @@ impl<'a> Span<'a> {
         let (mut x, mut image) = (x.pop()?, images.pop()?);
         x.iter_mut().for_each(|v| *v /= norm);
         if speed == Speed::OfModes && self.is_too_fast(&x) {
+            self.left_out.push(x);
             return None;
         }
         image.iter_mut().for_each(|v| *v /= norm);

@@ -49,6 +49,8 @@ const NEAR: f64 = 1e-9;
 /// A piece may end this share of the distance to the next sample away from a corner of a table, where steps are made of
 /// what the load is then: the corner is inside a step, whose error shows it. Times in files are rounded.
 const MOVED: f64 = 1e-4;
+/// Share of a part of the output step up to which such a place is meant, and not met by chance.
+const MEANT: f64 = 5e-4;
 /// Samples are looked for on fractions of the output step down to this.
 const FRACTIONS: usize = 128;
 /// Halvings of a piece at most, for the sake of curved loads.
@@ -244,7 +246,7 @@ fn places(whole: Piece, cuts: &[Cut], parts: usize) -> Option<Vec<usize>> {
         let off = cut.t - (whole.start + place * part);
         let place = place as usize;
         let follows = place > places.last().copied().unwrap_or(0) && place < parts;
-        if !follows || off.abs() > cut.reach {
+        if !follows || off.abs() > cut.reach.min(MEANT * part) {
             return None;
         }
         places.push(place);

@@ -12,7 +12,8 @@
 //! The law is led from the start to the turning point and from there to the end. What its forces are away from
 //! those of the step, at the end or, beyond the tangents of the end, at the turning point, has acted for τ. That
 //! impulse p = δf τ is an error of the velocity; its energy is ½ p²/m, with the mass 1/m = 2 Hᵢᵢ/Δt that the step
-//! itself shows there.
+//! itself shows there. Beyond the step, a force that is off at its end stays so until the link slips again: the energy
+//! ½ δf²/k of that force on the spring of the link counts as well, as far as the link has come since it turned.
 
 use crate::stepper::State;
 use trilith_element::{Energy, Kinematics, Response};
@@ -102,8 +103,11 @@ impl Turning {
                 let out = &mut Response { f, k, c, energy: &mut Energy::default() };
                 law.respond(&at, &self.there, &mut self.after, out);
                 for (j, flat) in r.clone().enumerate() {
-                    let missed = self.apart[j].max((self.f[j] - to.f[flat]).abs()) * left;
-                    energy += missed * missed * softness[flat] / dt;
+                    let behind = (self.f[j] - to.f[flat]).abs();
+                    let missed = self.apart[j].max(behind) * left;
+                    let way = (d1[j] - self.d[j]).abs();
+                    let kept = 0.5 * behind * way.min(behind / self.k[j * n + j].abs());
+                    energy += (missed * missed * softness[flat] / dt).max(kept);
                 }
             }
         }

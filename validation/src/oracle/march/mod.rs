@@ -109,6 +109,11 @@ pub struct Between {
     pub window: f64,
 }
 
+/// Where loads begin or bend, forces are known at no time before the first stage: their polynomial is led on to the
+/// start, which may be the largest or least value around, and no other time says that. The first step is held to what
+/// is asked between the ends of steps down to this share of the window.
+const FIRST: f64 = 1.0 / 64.0;
+
 struct March<'a> {
     steps: Stepper<'a>,
     tolerance: f64,
@@ -177,7 +182,7 @@ pub fn march(
                 from + length * at as f64 / (1_u64 << deep) as f64,
                 length / (1_u64 << level) as f64,
             );
-            let (tried, first) = it.try_step(t, h, &at_point, whole.take());
+            let (tried, first) = it.try_step(t, h, &at_point, whole.take(), at == 0);
             let rise = match tried {
                 Some(tried) if tried.error <= it.tolerance => {
                     let [first, second] = tried.halves;
@@ -235,6 +240,7 @@ impl March<'_> {
         h: f64,
         from: &Point,
         whole: Option<Solved>,
+        first_of_all: bool,
     ) -> (Option<Tried>, Option<Solved>) {
         let (scale, half) = (&self.scale, 0.5 * h);
         let Some(whole) = whole.or_else(|| self.steps.step(t, h, from, scale, None)) else {
@@ -254,7 +260,8 @@ impl March<'_> {
             let [own, none] = self.steps.unseen(t, half, from, step, self.scale.d.as_slice());
             error = error.max(own).max(none * 1e-3);
         }
-        if let Some(it) = self.between.filter(|it| h > it.window) {
+        let least = if first_of_all { FIRST } else { 1.0 };
+        if let Some(it) = self.between.filter(|it| h > least * it.window) {
             let pieces = [
                 self.steps.piece(t, half, from, &first),
                 self.steps.piece(t + half, half, &first.end, &second),
