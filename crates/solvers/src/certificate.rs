@@ -17,6 +17,7 @@
 //! estimator, \[Bai & Su 2005\].
 
 use crate::companion::{SAFE, UNSEEN};
+use crate::defect::Defect;
 use crate::kernel::ForceScale;
 use crate::modal::{Modes, Sources};
 use crate::output_step::jump;
@@ -26,6 +27,7 @@ use crate::samples::Samples;
 use crate::space::Space;
 use crate::stepper::State;
 use crate::timeline::Piece;
+use crate::vector::larger;
 use serde::Serialize;
 use trilith_model::{Model, Output, Quantity, Side};
 use trilith_system::{LinkBlocks, LinkSet, LoadSet, StepLoads, System};
@@ -34,6 +36,8 @@ use trilith_system::{LinkBlocks, LinkSet, LoadSet, StepLoads, System};
 const SAME: f64 = 1e-9;
 /// The next vectors of a sequence do not hold all that is left.
 const BEYOND: f64 = 2.0;
+/// What runs straight moves links that answer, to first order only.
+const ANSWERED: f64 = 1.25;
 
 /// How far an output may be off, in its unit.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
@@ -172,6 +176,7 @@ impl<'a> Shadow<'a> {
 /// What a run knows of the errors of its outputs.
 pub(crate) struct Certificate<'a> {
     shadow: Option<Shadow<'a>>,
+    defect: Option<Defect<'a>>,
     samples: Samples<'a>,
     reduction: Vec<f64>,
     /// What the link equations may leave in the outputs that are link forces: kind of force, and share of the largest.
@@ -189,6 +194,7 @@ impl<'a> Certificate<'a> {
         links: &LinkSet,
         samples: Samples<'a>,
         shadow: Option<Shadow<'a>>,
+        defect: Option<Defect<'a>>,
         link_tolerance: f64,
     ) -> Self {
         let left = |output: &Output| match output.quantity {
@@ -202,6 +208,7 @@ impl<'a> Certificate<'a> {
         let count = model.outputs.len();
         Self {
             shadow,
+            defect,
             samples,
             reduction: vec![0.0; count],
             left: model.outputs.iter().map(left).collect(),
@@ -211,7 +218,10 @@ impl<'a> Certificate<'a> {
     }
 
     /// Takes note of a jump of the loads at a time.
-    pub(crate) fn jump(&mut self, t: f64) {
+    pub(crate) fn jump(&mut self, t: f64, state: &State) {
+        if let Some(defect) = &mut self.defect {
+            defect.note(t, state);
+        }
         if let Some(Shadow { modes, motion, loads, .. }) = &mut self.shadow
             && let Some(change) = jump(loads, t)
         {
@@ -224,6 +234,9 @@ impl<'a> Certificate<'a> {
         if let Some(shadow) = &mut self.shadow {
             shadow.follow(t, state);
         }
+        if let Some(defect) = &mut self.defect {
+            defect.follow(t, state);
+        }
         self.forces = state.scale;
         let Some(values) = self.samples.take(piece, t, state) else { return };
         for ([least, most], x) in self.range.iter_mut().zip(values) {
@@ -231,6 +244,9 @@ impl<'a> Certificate<'a> {
         }
         if let Some(shadow) = &mut self.shadow {
             shadow.compare(values, state, &mut self.reduction);
+        }
+        if let Some(defect) = &mut self.defect {
+            defect.compare(values, state);
         }
     }
 
@@ -240,7 +256,8 @@ impl<'a> Certificate<'a> {
         let step = |i: usize| {
             let apart = apart.as_ref().map_or(f64::NAN, |apart| apart[i]);
             let left = self.left[i].map_or(0.0, |(kind, share)| share * self.forces[kind]);
-            SAFE * apart + UNSEEN * self.size(i) + left
+            let straight = self.defect.as_ref().map_or(0.0, |defect| ANSWERED * defect.most[i]);
+            larger(SAFE * apart, straight) + UNSEEN * self.size(i) + left
         };
         let reduction = self.reduction.iter().enumerate();
         reduction.map(|(i, e)| OutputError { reduction: *e, step: step(i) }).collect()

@@ -6,6 +6,7 @@ use crate::certificate::{Certificate, Shadow};
 use crate::clock::Clock;
 use crate::companion::Companion;
 use crate::damping::modal_damping;
+use crate::defect::Defect;
 use crate::drag::follow_supports;
 use crate::equations::{Equations, bases, is_reduced, modes};
 use crate::error::SolveError;
@@ -118,7 +119,13 @@ pub(crate) fn run(
     let mut certificate = judged.then(|| {
         let samples =
             Samples::new(model, system, &loads, stepper.space(), &timeline, steps.clone());
-        Certificate::new(model, &system.links, samples, shadow, solution.link_tolerance)
+        let few = Defect::is_worth(&timeline, steps.clone());
+        let exact = bases.as_ref().filter(|_| step_errors && kind == SolverKind::Fna && few);
+        let defect = exact.map(|bases| {
+            let modes = modes(model, system, &loads, bases);
+            Defect::new(model, system, &loads, modes, timeline.time(first), &moving.state)
+        });
+        Certificate::new(model, &system.links, samples, shadow, defect, solution.link_tolerance)
     });
     viewer.start(last.saturating_sub(first));
     viewer.show(timeline.time(first), Some(first), &moving.state, &moving.ledger);
@@ -140,7 +147,7 @@ pub(crate) fn run(
             let mut tell = |moment: Moment, t: f64, s: &State, l: &Ledger| match moment {
                 Moment::Jump => {
                     if let Some(certificate) = &mut certificate {
-                        certificate.jump(t);
+                        certificate.jump(t, s);
                     }
                     viewer.show_behind(t, s, l);
                 }

@@ -7,6 +7,7 @@
 //! | `ritz-hht` | Ritz vectors | HHT-α |
 //! | `full-newton` | all DOFs | HHT-α, tangent factorised in every iteration |
 
+mod answer;
 mod apart;
 mod basis;
 mod case;
@@ -16,6 +17,7 @@ mod companion;
 mod condensation;
 mod contact_mode;
 mod damping;
+mod defect;
 mod drag;
 mod dynamic;
 mod equations;

@@ -15,8 +15,9 @@
 //! itself shows there. Beyond the step, a force that is off at its end stays so until the link slips again: the energy
 //! ½ δf²/k of that force on the spring of the link counts as well, as far as the link has come since it turned.
 
+use crate::answer::Answer;
 use crate::stepper::State;
-use trilith_element::{Energy, Kinematics, Response};
+use trilith_element::Kinematics;
 use trilith_system::Laws;
 
 /// Room for one link.
@@ -25,11 +26,8 @@ pub(crate) struct Turning {
     d: Vec<f64>,
     v: Vec<f64>,
     v0: Vec<f64>,
-    f: Vec<f64>,
-    k: Vec<f64>,
-    c: Vec<f64>,
-    there: Vec<f64>,
-    after: Vec<f64>,
+    there: Answer,
+    after: Answer,
     apart: Vec<f64>,
 }
 
@@ -66,25 +64,15 @@ impl Turning {
                     self.d.push(from.d[j] + s * (v0 + 0.5 * slope * s));
                     self.v.push(v0 + slope * s);
                 }
-                for x in [&mut self.f, &mut self.k, &mut self.c] {
-                    x.clear();
-                }
-                self.f.resize(n, 0.0);
-                self.k.resize(n * n, 0.0);
-                self.c.resize(n * n, 0.0);
                 let committed = &from.history[link.history.clone()];
-                self.there.clear();
-                self.there.extend_from_slice(committed);
                 let (d0, d1) = (&from.d[r.clone()], &to.d[r.clone()]);
                 let at = Kinematics { d: &self.d, v: &self.v, d0, v0: &self.v0, dt: s };
-                let Self { f, k, c, .. } = self;
-                let out = &mut Response { f, k, c, energy: &mut Energy::default() };
-                law.respond(&at, committed, &mut self.there, out);
+                self.there.of(law, &at, committed);
                 // At the turning point, beyond what the tangents at the end say.
                 let (k1, c1) =
                     (&to.tangents.k[link.block.clone()], &to.tangents.c[link.block.clone()]);
                 self.apart.clear();
-                for (row, f) in self.f.iter().enumerate() {
+                for (row, f) in self.there.f.iter().enumerate() {
                     let mut told = to.f[r.start + row];
                     for j in 0..n {
                         told += k1[row * n + j] * (self.d[j] - d1[j]);
@@ -92,21 +80,14 @@ impl Turning {
                     }
                     self.apart.push((f - told).abs());
                 }
-                for x in [&mut self.f, &mut self.k, &mut self.c] {
-                    x.fill(0.0);
-                }
-                self.after.clear();
-                self.after.extend_from_slice(&self.there);
                 let (d0, v0) = (&self.d[..], &self.v[..]);
                 let at = Kinematics { d: d1, v: &rates[r.clone()], d0, v0, dt: left };
-                let Self { f, k, c, .. } = self;
-                let out = &mut Response { f, k, c, energy: &mut Energy::default() };
-                law.respond(&at, &self.there, &mut self.after, out);
+                self.after.of(law, &at, &self.there.history);
                 for (j, flat) in r.clone().enumerate() {
-                    let behind = (self.f[j] - to.f[flat]).abs();
+                    let behind = (self.after.f[j] - to.f[flat]).abs();
                     let missed = self.apart[j].max(behind) * left;
                     let way = (d1[j] - self.d[j]).abs();
-                    let kept = 0.5 * behind * way.min(behind / self.k[j * n + j].abs());
+                    let kept = 0.5 * behind * way.min(behind / self.after.k[j * n + j].abs());
                     energy += (missed * missed * softness[flat] / dt).max(kept);
                 }
             }

@@ -13,10 +13,11 @@
 //! In this order, each only where the one before says that it may matter: the energy of what swings too fast; the laws at
 //! the ends of that swing; the integral.
 
+use crate::answer::Answer;
 use crate::modal::ClosedForm;
 use crate::space::Space;
 use crate::stepper::State;
-use trilith_element::{Energy, Kinematics, Link, Response};
+use trilith_element::{Kinematics, Link};
 use trilith_system::{Laws, LinkInstance, LinkSet};
 
 /// ω Δt up to which the ends of a step show how a mode swings.
@@ -51,26 +52,13 @@ pub(crate) struct Vibration {
     /// (mode, swing) of those that swing too fast, and their energy, J.
     swing: Vec<(usize, f64)>,
     energy: f64,
-    /// Force, tangents and history of one link.
-    f: Vec<f64>,
-    k: Vec<f64>,
-    c: Vec<f64>,
-    history: Vec<f64>,
+    answer: Answer,
 }
 
 impl Vibration {
     pub(crate) fn new(form: ClosedForm) -> Self {
         let fastest = form.omega.iter().copied().fold(0.0, f64::max);
-        Self {
-            form,
-            fastest,
-            swing: Vec::new(),
-            energy: 0.0,
-            f: Vec::new(),
-            k: Vec::new(),
-            c: Vec::new(),
-            history: Vec::new(),
-        }
+        Self { form, fastest, swing: Vec::new(), energy: 0.0, answer: Answer::default() }
     }
 
     /// Energy of what the link forces of a step miss inside it, J; nothing where that cannot be more than `notable`.
@@ -126,9 +114,9 @@ impl Vibration {
                 let d: Vec<f64> = d0.iter().zip(reach).map(|(x, [d, _])| x + side * d).collect();
                 let v: Vec<f64> = v0.iter().zip(reach).map(|(x, [_, v])| x + side * v).collect();
                 let at = Kinematics { d: &d, v: &v, d0, v0, dt: 0.0 };
-                self.ask(law, &at, &to.history[link.history.clone()]);
+                self.answer.of(law, &at, &to.history[link.history.clone()]);
                 let work = (0..r.len()).map(|i| {
-                    let change = self.f[i] - to.f[r.start + i];
+                    let change = self.answer.f[i] - to.f[r.start + i];
                     let of_dummy = step.dummy(r.start + i) * side * reach[i][0];
                     (change - of_dummy).abs() * reach[i][0]
                 });
@@ -174,9 +162,9 @@ impl Vibration {
                     v0: &v0[r.clone()],
                     dt: part,
                 };
-                self.ask(law, &at, &history[link.history.clone()]);
-                history[link.history.clone()].copy_from_slice(&self.history);
-                for (i, f) in r.zip(&self.f) {
+                self.answer.of(law, &at, &history[link.history.clone()]);
+                history[link.history.clone()].copy_from_slice(&self.answer.history);
+                for (i, f) in r.zip(&self.answer.f) {
                     let way = d[i] - (from.d[i] + share * (to.d[i] - from.d[i]));
                     let linear = from.f[i] + share * (to.f[i] - from.f[i]);
                     if let Ok(a) = links.active.binary_search(&i) {
@@ -197,20 +185,6 @@ impl Vibration {
             std::mem::swap(&mut v0, &mut v);
         }
         kicks.iter().map(|[a, b]| 0.5 * (a * a + b * b)).sum()
-    }
-
-    /// Force and history of a law.
-    fn ask(&mut self, law: &dyn Link, at: &Kinematics<'_>, committed: &[f64]) {
-        let n = at.d.len();
-        for (x, n) in [(&mut self.f, n), (&mut self.k, n * n), (&mut self.c, n * n)] {
-            x.clear();
-            x.resize(n, 0.0);
-        }
-        self.history.clear();
-        self.history.extend_from_slice(committed);
-        let Self { f, k, c, .. } = self;
-        let out = &mut Response { f, k, c, energy: &mut Energy::default() };
-        law.respond(at, committed, &mut self.history, out);
     }
 }
 

@@ -55,6 +55,21 @@ impl ClosedForm {
         self.omega.iter().enumerate().map(swing).collect::<Vec<_>>().into_iter()
     }
 
+    /// Leads a motion over a part as long as those that [`inside`](Self::inside) looked at last, under what drives it at
+    /// both ends of the part.
+    pub(crate) fn go_on(&self, motion: &mut Vec<f64>, [source0, source1]: [&[f64]; 2]) {
+        let Some((_, rule)) = &self.rule else { return };
+        let n = self.structure.omega2.len();
+        let mut next = vec![0.0; 3 * n];
+        let (q, rest) = next.split_at_mut(n);
+        let (v, a) = rest.split_at_mut(n);
+        let inputs = [&motion[..n], &motion[n..2 * n], source0, source1];
+        rule.apply(1, inputs, q);
+        rule.apply(2, inputs, v);
+        self.structure.acceleration(source1, q, v, a);
+        *motion = next;
+    }
+
     /// The motions at the ends of all but the last of so many equal parts of a step; none where the step was made by
     /// another rule.
     pub(crate) fn inside(
