@@ -19,6 +19,10 @@ const STEPS: usize = 64;
 /// What no link and no spring holds stays where it is: springs of this share of the linear structure's.
 const STAY: f64 = 1e-8;
 
+/// What leads back to where it was what nothing else holds: springs of this share of the links'. Of what links hold
+/// they take no more than the steps behind the path give back.
+const BACK: f64 = 1e-6;
+
 /// The directions that follow, among those without mass, and their stiffness.
 struct Followers {
     own: Massless,
@@ -67,19 +71,19 @@ pub(crate) fn lead(
     system: &System,
     start: State,
     before: &[f64],
-    u: &[f64],
+    to: &[f64],
 ) -> Result<Option<(Vec<f64>, LinksBefore)>, SolveError> {
     let (massless, links) = (&system.massless, &system.links);
     let engaged = links.engaged(model);
     let acting = links.active.iter().filter(|flat| massless.is_touched(&links.rows[**flat]));
     let acting: Vec<usize> = acting.copied().collect();
-    if acting.is_empty() || before == u {
+    if acting.is_empty() || before == to {
         return Ok(None);
     }
     // What is viscous holds as a dashpot does.
     let held = viscous_rows(model, system);
     let mut followers = Followers::new(system, &engaged, &held)?;
-    let mut by: Vec<f64> = u.iter().zip(before).map(|(u, b)| u - b).collect();
+    let mut by: Vec<f64> = to.iter().zip(before).map(|(u, b)| u - b).collect();
     let force = system.stiffness_with(&engaged).mul(&by);
     followers.answer(-1.0, &force, &mut by);
     let columns = columns_of_links(system);
@@ -102,10 +106,34 @@ pub(crate) fn lead(
                 span: link.map_or_else(Span::default, |l| model.elements[l.element].span.clone()),
             }
         })?;
+    stay(system, &path.engaged, &held, &state, to, &mut u)?;
     for _ in 0..POLISH {
         polish(model, system, &held, &mut u, &mut state)?;
     }
     Ok(Some((u, LinksBefore::of(&state))))
+}
+
+/// What no link acts on at the end of the path goes back to where it was: the springs that let it stay are so soft that
+/// it has gone wherever rounding pushed it.
+fn stay(
+    system: &System,
+    engaged: &[f64],
+    held: &[Vec<f64>],
+    state: &State,
+    put: &[f64],
+    u: &mut [f64],
+) -> Result<(), SolveError> {
+    let links = &system.links;
+    let mut acting: Vec<f64> = engaged.iter().map(|k| BACK * k).collect();
+    let away: Vec<f64> = u.iter().zip(put).map(|(u, p)| u - p).collect();
+    let force = system.springs(&acting).mul(&away);
+    for (flat, k) in links.active.iter().zip(links.stiffness(&state.tangents)) {
+        if k != 0.0 || state.f[*flat] != 0.0 {
+            acting[*flat] = engaged[*flat];
+        }
+    }
+    Followers::new(system, &acting, held)?.answer(-1.0, &force, u);
+    Ok(())
 }
 
 /// Steps of Newton's method behind the path: they take out what the springs that let joints stay have left.
