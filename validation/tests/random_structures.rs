@@ -26,7 +26,7 @@ fn random_structures_move_as_their_equations_say() {
 }
 
 /// Structures that were wrong once, and whose fault it was.
-const ONCE_WRONG: [(u64, &str); 17] = [
+const ONCE_WRONG: [(u64, &str); 30] = [
     (7051, "a spring between joints that links hold: a mode that is none"),
     (7404, "the same"),
     (20021, "the same"),
@@ -44,6 +44,19 @@ const ONCE_WRONG: [(u64, &str); 17] = [
     (30038, "the oracle's joints at the start"),
     (30372, "the oracle's open links on a support that moves"),
     (20088, "the oracle between steps in which a contact sticks and slips"),
+    (50199, "the oracle's first step"),
+    (83173, "the oracle's bodies that only links hold, on a support that moves"),
+    (30687, "a contact inside a step of exact free flight"),
+    (60374, "a link that turns inside a step and keeps a force"),
+    (61378, "the same, with friction"),
+    (60278, "a corner of a table beside a fraction of the step"),
+    (71016, "modes too fast for a basis, which an initial velocity sets in motion"),
+    (72570, "a step as long as the run: waves past a dashpot"),
+    (83115, "a step as long as the run: a curved load"),
+    (41479, "steps of whole periods of a vibration"),
+    (81993, "a joint that only dampers hold, beside an initial displacement"),
+    (80925, "the same, with a gap"),
+    (60408, "what the link equations may leave in a force that is zero"),
 ];
 
 /// Structures in which direct integration stood still: joints that a series of spring and dashpot holds, joints
@@ -64,7 +77,8 @@ fn what_was_wrong_once_is_right_and_knows_how_far() {
         let spec = generate(seed);
         let truth = reference(&spec, WORK).unwrap_or_else(|skip| panic!("{seed}: {skip:?}"));
         let (verdict, pairs) = judge_and_compare(&spec, &truth, SolverKind::Fna);
-        assert!(matches!(verdict, Verdict::Passed(_)), "{seed}, {what}: {verdict:?}");
+        let fine = matches!(verdict, Verdict::Passed(_) | Verdict::Told(_));
+        assert!(fine, "{seed}, {what}: {verdict:?}");
         for pair in pairs {
             assert!(pair.holds(), "{seed}, {what}: {pair:?}");
         }

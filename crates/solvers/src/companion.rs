@@ -74,7 +74,7 @@ impl<'a> Companion<'a> {
         set_out: &dyn Fn(&mut dyn Stepper) -> Result<Start, SolveError>,
     ) -> Result<Samples<'a>, SolveError> {
         let Equations { model, system, loads, .. } = self.equations;
-        let mut stepper = self.equations.stepper();
+        let mut stepper = self.equations.stepper()?;
         let (state, pace, ledger, _) = set_out(stepper.as_mut())?;
         let mut moving = Moving { state: Box::new(state), pace, ledger };
         let steps = self.steps.clone();

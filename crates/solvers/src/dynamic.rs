@@ -83,7 +83,7 @@ pub(crate) fn run(
         damping: damping.as_ref(),
         watched: looks_at_rates(model, system, observers.iter().any(|o| o.wants_rates())),
     };
-    let mut stepper = equations.stepper();
+    let mut stepper = equations.stepper()?;
     let timeline = Timeline::new(dt, analysis.duration, &loads, at_least(solution.step));
     let mut warnings = Vec::new();
     if let (Some(b), true) = (&bases, reduced) {

@@ -31,22 +31,25 @@ pub(crate) struct Equations<'a> {
 
 impl<'a> Equations<'a> {
     /// What steps them.
-    pub(crate) fn stepper(&self) -> Box<dyn Stepper + 'a> {
+    ///
+    /// # Errors
+    /// Where the linear algebra fails.
+    pub(crate) fn stepper(&self) -> Result<Box<dyn Stepper + 'a>, SolveError> {
         let Self { model, system, solution, kind, loads, bases, damping, watched } = *self;
         let none = vec![0.0; system.links.len()];
         let effective =
             if kind == SolverKind::FullNewton { &none } else { &system.links.effective };
         let side = |order: usize| link_side(model, system, solution, loads, order, watched);
-        match (kind, bases) {
+        Ok(match (kind, bases) {
             (SolverKind::Fna, Some(b)) => {
                 let modes = modes(model, system, loads, b);
                 let side = side(modes.space.order());
-                Box::new(LinkStepper::new(Modal::new(modes), side))
+                Box::new(LinkStepper::new(Modal::new(modes), side)?)
             }
             (SolverKind::RitzHht, Some(b)) => {
                 let space = Space::reduced(system, loads, effective, damping, &b.stepping);
                 let side = side(space.order());
-                Box::new(LinkStepper::new(Hht::new(space, solution.alpha), side))
+                Box::new(LinkStepper::new(Hht::new(space, solution.alpha), side)?)
             }
             (SolverKind::FullNewton, _) => {
                 let space = Space::physical(system, loads, effective, damping.cloned());
@@ -56,7 +59,7 @@ impl<'a> Equations<'a> {
                     model,
                     system,
                     loads,
-                    followers: Followers::new(&space, damped).unwrap_or_default(),
+                    followers: Followers::new(&space, damped)?,
                     space,
                     alpha: solution.alpha,
                     iterations: 0,
@@ -66,9 +69,9 @@ impl<'a> Equations<'a> {
             _ => {
                 let space = Space::physical(system, loads, effective, damping.cloned());
                 let side = side(space.order());
-                Box::new(LinkStepper::new(Hht::new(space, solution.alpha), side))
+                Box::new(LinkStepper::new(Hht::new(space, solution.alpha), side)?)
             }
-        }
+        })
     }
 }
 

@@ -505,8 +505,9 @@ impl Propagator for Modal {
         0
     }
 
-    fn look_at_rates(&mut self, rated: &[usize], damped: &[usize]) {
+    fn look_at_rates(&mut self, rated: &[usize], damped: &[usize]) -> Result<(), SolveError> {
         self.now = Sources::new(&self.modes.space, rated, damped);
+        Ok(())
     }
 
     fn choose(

@@ -69,7 +69,9 @@ pub(crate) trait Propagator {
 
     /// Says of which link coordinates laws look at rates, those of every [prediction](Self::predict) to come, and
     /// which ones they damp.
-    fn look_at_rates(&mut self, _rated: &[usize], _damped: &[usize]) {}
+    fn look_at_rates(&mut self, _rated: &[usize], _damped: &[usize]) -> Result<(), SolveError> {
+        Ok(())
+    }
 
     /// The step of length `dt` from a state whose active link coordinates have this stiffness, and had that
     /// one at most so far.

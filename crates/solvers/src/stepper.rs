@@ -292,11 +292,11 @@ pub(crate) struct LinkStepper<'a, P> {
 }
 
 impl<'a, P: Propagator> LinkStepper<'a, P> {
-    pub(crate) fn new(mut propagator: P, side: LinkSide<'a>) -> Self {
+    pub(crate) fn new(mut propagator: P, side: LinkSide<'a>) -> Result<Self, SolveError> {
         let layout = side.kernel.layout();
-        propagator.look_at_rates(&layout.rated, &layout.damped);
+        propagator.look_at_rates(&layout.rated, &layout.damped)?;
         let n = side.links().len();
-        Self {
+        Ok(Self {
             laws: side.laws(),
             vibration: propagator.closed_form().map(Vibration::new),
             propagator,
@@ -305,7 +305,7 @@ impl<'a, P: Propagator> LinkStepper<'a, P> {
             difference: Vec::new(),
             rates: vec![0.0; n],
             softness: vec![0.0; n],
-        }
+        })
     }
 
     pub(crate) fn into_parts(self) -> (P, LinkSide<'a>) {

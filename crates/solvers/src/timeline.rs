@@ -375,6 +375,15 @@ mod tests {
     }
 
     #[test]
+    fn a_corner_stays_where_it_is_beside_a_fraction_that_nobody_meant() {
+        // 62/121 of the step is 2.7e-5 of it away.
+        let corner = 0.071_22;
+        let record = table([0.0, corner, 0.139].into_iter());
+        let timeline = Timeline::new(0.139, 0.278, &loads(vec![record]), 1);
+        assert!(all(&timeline).iter().any(|p| p.end == corner));
+    }
+
+    #[test]
     fn a_jump_is_never_moved_to_a_sample_beside_it() {
         let record = table((0..100).map(|i| f64::from(i) * 0.05));
         let step = TimeFunction::Step { amplitude: 1.0, start: 0.550_001, end: None };

@@ -102,9 +102,12 @@ pub fn truth_in_steps(spec: &Spec, work: f64, longest: f64) -> Result<Truth, Str
             off.fold(0.0, f64::max) / scale[i]
         })
         .collect();
-    let rounding = floor.iter().map(|x| 1e-2 * x).collect();
+    let rounding = floor.iter().map(|x| OF_FLOOR * x).collect();
     Ok(Truth { course, size, scale, around, rounding, moves })
 }
+
+/// Share of the floor of an output that is rounding of the oracle.
+const OF_FLOOR: f64 = 1e-2;
 
 /// Sizes of the outputs.
 struct Sizes {

@@ -170,8 +170,9 @@ impl Propagator for Hht {
         &self.steps[&self.now].compliance
     }
 
-    fn look_at_rates(&mut self, _rated: &[usize], damped: &[usize]) {
-        self.followers = Followers::new(&self.space, damped).unwrap_or_default();
+    fn look_at_rates(&mut self, _rated: &[usize], damped: &[usize]) -> Result<(), SolveError> {
+        self.followers = Followers::new(&self.space, damped)?;
+        Ok(())
     }
 
     fn acceleration(&mut self, force: &[f64]) -> Result<Vec<f64>, SolveError> {

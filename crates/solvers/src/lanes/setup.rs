@@ -169,7 +169,7 @@ pub fn prepare(
     let modes = modes(model, system, &loads, &bases);
     let order = modes.space.order();
     let side = link_side(model, system, &analysis.solution, &loads, order, true);
-    let mut stepper = LinkStepper::new(Modal::new(modes), side);
+    let mut stepper = LinkStepper::new(Modal::new(modes), side)?;
     let dt = analysis.dt;
     let (state, _, _, _) = start(model, system, &initial, &loads, &mut stepper, dt)?;
     let space = stepper.space();

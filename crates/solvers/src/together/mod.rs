@@ -166,7 +166,7 @@ fn march<O: Observer>(
         let watched = looks_at_rates(model, system, watcher.iter().any(|o| o.wants_rates()));
         let order = modes.space.order();
         let side = link_side(model, system, &analysis.solution, loads, order, watched);
-        let mut stepper = LinkStepper::new(Modal::new(modes), side);
+        let mut stepper = LinkStepper::new(Modal::new(modes), side)?;
         let (state, pace, ledger, _) = start(model, system, initial, loads, &mut stepper, dt)?;
         let (modal, side) = stepper.into_parts();
         modes = modal.into_modes();

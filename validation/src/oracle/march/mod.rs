@@ -114,6 +114,9 @@ pub struct Between {
 /// is asked between the ends of steps down to this share of the window.
 const FIRST: f64 = 1.0 / 64.0;
 
+/// Links without unknowns of their own remember nothing of the way that no stage has seen: it counts by this share.
+const OF_NONE: f64 = 1e-3;
+
 struct March<'a> {
     steps: Stepper<'a>,
     tolerance: f64,
@@ -258,7 +261,7 @@ impl March<'_> {
         let mut error = self.distance(h, &a, &end);
         for (t, from, step) in [(t, from, &first), (t + half, &first.end, &second)] {
             let [own, none] = self.steps.unseen(t, half, from, step, self.scale.d.as_slice());
-            error = error.max(own).max(none * 1e-3);
+            error = error.max(own).max(none * OF_NONE);
         }
         let least = if first_of_all { FIRST } else { 1.0 };
         if let Some(it) = self.between.filter(|it| h > least * it.window) {
