@@ -16,7 +16,7 @@
 
 use crate::condensation::Condensation;
 use crate::error::SolveError;
-use crate::massless::StaticShapes;
+use crate::massless::{Following, StaticShapes};
 use crate::observe::{Adequacy, BasisReport, ModeShape};
 use crate::shapes::Shapes;
 use crate::span::{Origin, Span, Speed};
@@ -384,10 +384,20 @@ fn enriched(
     // What follows without mass is beside the modes: in vectors it would look like modes that are far too fast, and
     // come with what is taken out of others.
     let statics = StaticShapes::new(system, &Sparse::combine(&parts), loads)?;
-    let mut span = Span::new(&rows, &system.mass, &parts, total + more);
+    let following = Following::new(system, &parts, &rows)?;
+    let mut span = Span::new(&rows, &system.mass, &parts, following, total + more);
     let own = |u: &Vec<f64>| rows.gather(u).into_owned();
     let mut block: Vec<Vec<f64>> = Vec::new();
     let mut modes: Vec<Vec<f64>> = Vec::new();
+    block.extend(loads.iter().map(|(_, p)| own(p)));
+    // What the run starts from must be there itself; masses in motion go on as loads.
+    let start = |u: &Vec<f64>| {
+        let (mut u, mut p) = (u.clone(), vec![0.0; u.len()]);
+        parts.iter().for_each(|(factor, part)| part.mul_add(*factor, &u, &mut p));
+        statics.out_of_answer(|psi| dot(psi, &p), &mut u);
+        own(&u)
+    };
+    let mut starts: Vec<Vec<f64>> = demands.starts.iter().map(start).collect();
     if settings.kind == BasisKind::Eigen {
         let count = (ground + more).min(system.order());
         let (_, vectors) =
@@ -396,15 +406,8 @@ fn enriched(
         let beyond = modes.split_off(ground.min(modes.len()));
         span.take(std::mem::replace(&mut modes, beyond), Origin::Anywhere, Speed::Any);
     } else {
-        block.extend(loads.iter().map(|(_, p)| own(p)));
-        // What the run starts from must be there itself; masses in motion go on as loads.
-        let start = |u: &Vec<f64>| {
-            let (mut u, mut p) = (u.clone(), vec![0.0; u.len()]);
-            parts.iter().for_each(|(factor, part)| part.mul_add(*factor, &u, &mut p));
-            statics.out_of_answer(|psi| dot(psi, &p), &mut u);
-            own(&u)
-        };
-        let starts = demands.starts.iter().map(start).take(ground).collect();
+        starts.truncate(ground);
+        let starts = std::mem::take(&mut starts);
         block.extend(span.take(starts, Origin::Anywhere, Speed::OfModes));
         block = recurse(&mut span, &rows, hat, &statics, block, ground, Speed::OfModes);
     }
@@ -433,6 +436,15 @@ fn enriched(
     }
     let count = span.len();
     if more > 0 {
+        if settings.kind == BasisKind::Eigen {
+            // No few modes more hold what all that are left answer to slow loads.
+            starts.truncate(more / 2);
+            block.extend(span.take(starts, Origin::Anywhere, Speed::OfModes));
+            block =
+                recurse(&mut span, &rows, hat, &statics, block, count + more / 2, Speed::OfModes);
+            fast.left.extend(span.left_out());
+        }
+        modes.truncate((count + more).saturating_sub(span.len()));
         span.take(modes, Origin::Anywhere, Speed::Any);
         // Links that were not taken are the first to lack something; where loads have shown all they can, links
         // and what they set in motion are all that is left.

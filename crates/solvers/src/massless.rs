@@ -13,11 +13,13 @@
 //! on nodes without mass. σ is 0 where springs hold all directions; a joint that only dashpots hold needs σ > 0.
 //! What links alone hold has their dummies in K.
 
+use crate::basis::held;
+use crate::condensation::Condensation;
 use crate::error::SolveError;
 use crate::shapes::Shapes;
 use crate::vector::{dot, largest};
-use trilith_linalg::{Dense, Ldlt, Sparse, symmetric_eigen, unsupported};
-use trilith_system::System;
+use trilith_linalg::{Dense, Ldlt, Sparse, StagedLdlt, symmetric_eigen, unsupported};
+use trilith_system::{Massless, System};
 
 /// Shapes that are combinations of others up to this share are left out.
 const INDEPENDENT: f64 = 1e-10;
@@ -211,6 +213,39 @@ impl StaticShapes {
             }
         }
         Self { psi, tied: count, stiffness, damping: rates, readers }
+    }
+}
+
+/// Puts directions without mass where what has mass puts them: u − N (Nᵀ K N)⁻¹ Nᵀ K u. Products with M do not see
+/// their rounding, which comes into the next vectors with the shares in these that are taken out, and grows from block
+/// to block until they are far too stiff.
+pub(crate) struct Following<'a> {
+    massless: &'a Massless,
+    stiffness: &'a [(f64, &'a Sparse)],
+    factor: StagedLdlt,
+}
+
+impl<'a> Following<'a> {
+    /// For a stiffness as a sum. None where this has nothing to do: rows that are not kept follow anyhow.
+    pub(crate) fn new(
+        system: &'a System,
+        stiffness: &'a [(f64, &'a Sparse)],
+        rows: &Condensation,
+    ) -> Result<Option<Self>, SolveError> {
+        let massless = &system.massless;
+        if massless.len() <= rows.order() - rows.kept() {
+            return Ok(None);
+        }
+        let factor = held(&[(1.0, &massless.project(&Sparse::combine(stiffness)))])?;
+        Ok(factor.map(|factor| Self { massless, stiffness, factor }))
+    }
+
+    pub(crate) fn settle(&self, u: &mut [f64]) {
+        let mut p = vec![0.0; u.len()];
+        self.stiffness.iter().for_each(|(s, part)| part.mul_add(*s, u, &mut p));
+        let mut y = self.massless.load(&p);
+        self.factor.solve(&mut y);
+        self.massless.expand(-1.0, &y, u);
     }
 }
 

@@ -1,6 +1,7 @@
 //! M-orthonormal vectors under construction.
 
 use crate::condensation::Condensation;
+use crate::massless::Following;
 use crate::vector::dot;
 use trilith_linalg::{Columns, Dense, Sparse};
 
@@ -41,6 +42,8 @@ pub(crate) struct Span<'a> {
     /// from them takes from the strain energy.
     stiffness: &'a [(f64, &'a Sparse)],
     sums: Vec<f64>,
+    /// What puts directions without mass in their place.
+    following: Option<Following<'a>>,
     columns: Columns,
     /// First vectors of the two blocks before, and of this one.
     starts: [usize; 3],
@@ -54,6 +57,7 @@ impl<'a> Span<'a> {
         rows: &'a Condensation,
         mass: &Sparse,
         stiffness: &'a [(f64, &'a Sparse)],
+        following: Option<Following<'a>>,
         most: usize,
     ) -> Self {
         let order = mass.rows();
@@ -64,7 +68,8 @@ impl<'a> Span<'a> {
         }
         let (sums, mass) = (rows.gather(&sums).into_owned(), rows.block(mass));
         let columns = Columns::with_capacity(rows.kept(), most.min(rows.kept()));
-        Self { rows, mass, stiffness, sums, columns, starts: [0; 3], left_out: Vec::new() }
+        let (starts, left_out) = ([0; 3], Vec::new());
+        Self { rows, mass, stiffness, sums, following, columns, starts, left_out }
     }
 
     pub(crate) fn len(&self) -> usize {
@@ -157,6 +162,11 @@ impl<'a> Span<'a> {
         }
         let (mut x, mut image) = (x.pop()?, images.pop()?);
         x.iter_mut().for_each(|v| *v /= norm);
+        if let Some(following) = &self.following {
+            let mut all = self.rows.complete(&x);
+            following.settle(&mut all);
+            x = self.rows.gather(&all).into_owned();
+        }
         if speed == Speed::OfModes && self.is_too_fast(&x) {
             self.left_out.push(x);
             return None;
@@ -196,7 +206,7 @@ mod tests {
             base.iter().enumerate().map(|(i, x)| x + 1e-6 * number(31 * i + c)).collect()
         };
         let all = Condensation::none(n);
-        let mut span = Span::new(&all, &mass, &[], 8);
+        let mut span = Span::new(&all, &mass, &[], None, 8);
         let mut take = |x| span.take(x, Origin::Anywhere, Speed::Any).len();
         let sizes = [
             take(vec![base.clone()]),
@@ -228,7 +238,7 @@ mod tests {
         let more = matrix([1.0, 1e12, 2.9e12, 0.0, 0.0], 0.0);
         let stiffness = [(1.0, &k), (1.0, &more)];
         let all = Condensation::none(5);
-        let mut span = Span::new(&all, &mass, &stiffness, 5);
+        let mut span = Span::new(&all, &mass, &stiffness, None, 5);
         let mut kept =
             |x: [f64; 5], speed| span.take(vec![x.to_vec()], Origin::Anywhere, speed).len() == 1;
         let unit = |i: usize| std::array::from_fn(|j| if i == j { 3.0 } else { 0.0 });
