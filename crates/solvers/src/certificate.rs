@@ -16,26 +16,18 @@
 //! References: residual-based estimation of reduced models, \[Antoulas 2005, ch. 11\]; two bases of one sequence as
 //! estimator, \[Bai & Su 2005\].
 
+use crate::aside::Teller;
 use crate::companion::{SAFE, UNSEEN};
 use crate::defect::Defect;
 use crate::kernel::ForceScale;
-use crate::modal::{Modes, Sources};
-use crate::output_step::jump;
-use crate::outputs::Outputs;
-use crate::propagator::{Motion, StepKey};
 use crate::samples::Samples;
-use crate::space::Space;
 use crate::stepper::State;
 use crate::timeline::Piece;
 use crate::vector::larger;
 use serde::Serialize;
-use trilith_model::{Model, Output, Quantity, Side};
-use trilith_system::{LinkBlocks, LinkSet, LoadSet, StepLoads, System};
+use trilith_model::{Model, Output, Quantity};
+use trilith_system::LinkSet;
 
-/// Step sizes that differ by less than this share are one.
-const SAME: f64 = 1e-9;
-/// The next vectors of a sequence do not hold all that is left.
-const BEYOND: f64 = 2.0;
 /// What runs straight moves links that answer, to first order only.
 const ANSWERED: f64 = 1.25;
 
@@ -56,126 +48,9 @@ impl OutputError {
     }
 }
 
-/// The wider structure beside a run.
-pub(crate) struct Shadow<'a> {
-    system: &'a System,
-    loads: &'a LoadSet,
-    modes: Modes,
-    sources: Sources,
-    motion: Motion,
-    next: Motion,
-    pseudo: Vec<f64>,
-    load: [Vec<f64>; 2],
-    /// Time it has come to, s, and step sizes so far.
-    t: f64,
-    sizes: Vec<f64>,
-    amplitudes: StepLoads,
-    outputs: Outputs,
-    blocks: LinkBlocks,
-    state: State,
-    values: Vec<f64>,
-    own: Vec<f64>,
-}
-
-impl<'a> Shadow<'a> {
-    /// Beside a run that starts from this state, whose displacements and velocities of the free DOFs are `u` and `v`.
-    pub(crate) fn new(
-        model: &'a Model,
-        system: &'a System,
-        loads: &'a LoadSet,
-        modes: Modes,
-        (u, v): (&[f64], &[f64]),
-        t: f64,
-        state: &State,
-    ) -> Self {
-        let space = &modes.space;
-        let n = space.order();
-        let mut motion = [space.coordinates(system, u), space.coordinates(system, v)].concat();
-        motion.resize(3 * n, 0.0);
-        let outputs = Outputs::new(model, system, space);
-        let laws = system.links.laws(model);
-        let blocks = LinkBlocks::of(laws.iter().map(|(_, link)| link));
-        Self {
-            system,
-            loads,
-            sources: Sources::new(space, &[], &[]),
-            next: motion.clone(),
-            motion,
-            pseudo: state.pseudo.clone(),
-            load: [vec![0.0; n], vec![0.0; n]],
-            t,
-            sizes: Vec::new(),
-            amplitudes: StepLoads::default(),
-            outputs,
-            blocks,
-            state: state.clone(),
-            values: vec![0.0; model.outputs.len()],
-            own: vec![0.0; space.links.len()],
-            modes,
-        }
-    }
-
-    /// Follows the run to a state that it has accepted.
-    pub(crate) fn follow(&mut self, t: f64, state: &State) {
-        let Self { modes, sources, motion, next, pseudo, load, loads, amplitudes, .. } = self;
-        let length = t - self.t;
-        let known = self.sizes.iter().copied().find(|s| (s - length).abs() <= SAME * length);
-        let dt = known.unwrap_or_else(|| {
-            self.sizes.push(length);
-            length
-        });
-        amplitudes.cut();
-        loads.step(self.t, t, amplitudes);
-        let space: &Space = &modes.space;
-        let [load0, load1] = load;
-        space.force_into(&amplitudes.start, load0);
-        space.force_into(&amplitudes.end, load1);
-        modes.prepare(StepKey { dt, average: 0 });
-        let loads = [&load0[..], &load1[..]];
-        if let Some(to) = sources.renew_spread(pseudo) {
-            modes.space.links.spread_into(pseudo, to);
-        }
-        modes.predict(sources, motion, &loads, next);
-        if let Some(to) = sources.renew_spread(&state.pseudo) {
-            modes.space.links.spread_into(&state.pseudo, to);
-        }
-        modes.complete(sources, motion, &loads, next);
-        std::mem::swap(motion, next);
-        pseudo.copy_from_slice(&state.pseudo);
-        self.t = t;
-    }
-
-    /// Compares the outputs of the run at this moment with its own; `errors` grow to the differences.
-    pub(crate) fn compare(&mut self, values: &[f64], state: &State, errors: &mut [f64]) {
-        let Self { system, own, modes, .. } = self;
-        let links = &system.links;
-        let n = modes.space.order();
-        self.state.clone_from(state);
-        let mut support = [vec![0.0; links.len()], vec![0.0; links.len()]];
-        let [d, v] = &mut support;
-        self.loads.support_deformation(&self.amplitudes.end, d, v);
-        for (motion, flat) in [(&self.motion[..n], d), (&self.motion[n..2 * n], v)] {
-            modes.space.links.deform(motion, own);
-            links.active.iter().zip(&*own).for_each(|(i, x)| flat[*i] += x);
-        }
-        let [d, v] = support;
-        self.blocks.add_change(&state.tangents.k, [&state.d, &d], &mut self.state.f);
-        self.blocks.add_change(&state.tangents.c, [&state.v, &v], &mut self.state.f);
-        (self.state.d, self.state.v) = (d, v);
-        self.state.motion.clone_from(&self.motion);
-        self.outputs.at((self.t, Side::Before), &self.state, self.loads).values(&mut self.values);
-        for (error, (a, b)) in errors.iter_mut().zip(self.values.iter().zip(values)) {
-            let off = BEYOND * (a - b).abs();
-            if off > *error {
-                *error = off;
-            }
-        }
-    }
-}
-
 /// What a run knows of the errors of its outputs.
 pub(crate) struct Certificate<'a> {
-    shadow: Option<Shadow<'a>>,
+    shadow: Option<Teller>,
     defect: Option<Defect<'a>>,
     samples: Samples<'a>,
     reduction: Vec<f64>,
@@ -193,7 +68,7 @@ impl<'a> Certificate<'a> {
         model: &Model,
         links: &LinkSet,
         samples: Samples<'a>,
-        shadow: Option<Shadow<'a>>,
+        shadow: Option<Teller>,
         defect: Option<Defect<'a>>,
         link_tolerance: f64,
     ) -> Self {
@@ -222,17 +97,15 @@ impl<'a> Certificate<'a> {
         if let Some(defect) = &mut self.defect {
             defect.note(t, state);
         }
-        if let Some(Shadow { modes, motion, loads, .. }) = &mut self.shadow
-            && let Some(change) = jump(loads, t)
-        {
-            modes.jump(motion, &change);
+        if let Some(shadow) = &mut self.shadow {
+            shadow.jump(t);
         }
     }
 
     /// Takes note of an accepted step in a piece.
     pub(crate) fn follow(&mut self, piece: Piece, t: f64, state: &State) {
         if let Some(shadow) = &mut self.shadow {
-            shadow.follow(t, state);
+            shadow.step(t, &state.pseudo);
         }
         if let Some(defect) = &mut self.defect {
             defect.follow(t, state);
@@ -243,10 +116,23 @@ impl<'a> Certificate<'a> {
             (*least, *most) = (least.min(*x), most.max(*x));
         }
         if let Some(shadow) = &mut self.shadow {
-            shadow.compare(values, state, &mut self.reduction);
+            shadow.outputs(values, state);
         }
         if let Some(defect) = &mut self.defect {
             defect.compare(values, state);
+        }
+    }
+
+    /// The run is at its end.
+    pub(crate) fn end(&mut self) {
+        self.shadow = None;
+    }
+
+    /// Takes what the shadow has found, nothing where it broke off.
+    pub(crate) fn reduce(&mut self, errors: Option<Vec<f64>>) {
+        match errors {
+            Some(errors) => self.reduction = errors,
+            None => self.reduction.fill(f64::NAN),
         }
     }
 

@@ -1,8 +1,9 @@
 //! A dynamic case: start state, basis, solver, output steps.
 
+use crate::aside::aside;
 use crate::basis::Bases;
 use crate::case::{EndState, RunOptions, SoFar, constant_load, parameters};
-use crate::certificate::{Certificate, Shadow};
+use crate::certificate::Certificate;
 use crate::clock::Clock;
 use crate::companion::Companion;
 use crate::damping::modal_damping;
@@ -16,6 +17,7 @@ use crate::march::{March, Pace, Stop};
 use crate::observe::{CaseResult, Observer, Status, Work};
 use crate::output_step::{Moment, Moving, at_least, output_step};
 use crate::samples::Samples;
+use crate::shadow::Shadow;
 use crate::space::Space;
 use crate::start::{Initial, check, constant_force, resume, start};
 use crate::stepper::{State, Stepper};
@@ -69,7 +71,7 @@ pub(crate) fn run(
         Some(end) => end.initial.clone(),
         None => Initial::new(model, system, analysis, before.as_ref())?,
     };
-    let judged = reduced && solution.basis.tolerance < 1.0;
+    let judged = reduced && solution.basis.tolerance < 1.0 && !model.outputs.is_empty();
     let bases = bases(model, system, analysis, kind, &loads, &initial, judged)?;
     let damping = bases.as_ref().and_then(|b| modal_damping(model, system, b));
     follow_supports(model, system, damping.as_ref(), reduced, &mut loads)?;
@@ -107,8 +109,10 @@ pub(crate) fn run(
     let shadow = wider.map(|wider| {
         let modes = modes(model, system, &loads, wider);
         let at = (&*moves_at.0, &*moves_at.1);
-        Shadow::new(model, system, &loads, modes, at, timeline.time(first), &moving.state)
+        let t = timeline.time(first);
+        aside(Shadow::new(model, system, &loads, modes, at, t, &moving.state))
     });
+    let (shadow, listener) = shadow.unzip();
     let last = match until {
         Some(t) => ((t / dt) - 1e-9).ceil().max(0.0) as usize,
         None => timeline.steps,
@@ -141,52 +145,57 @@ pub(crate) fn run(
     };
     let (mut stop, mut fallen) = (None, None);
     let mut made = first;
-    let mut way = |made: &mut usize| -> Result<(), Stop> {
-        for step in steps.clone() {
-            let end = timeline.time(step + 1) - 1e-12 * dt;
-            let mut tell = |moment: Moment, t: f64, s: &State, l: &Ledger| match moment {
-                Moment::Jump => {
-                    if let Some(certificate) = &mut certificate {
-                        certificate.jump(t, s);
+    let outputs = model.outputs.len();
+    let (beside, reduction) = std::thread::scope(|scope| {
+        let beside = companion.as_ref().map(|companion| scope.spawn(|| companion.march(&set_out)));
+        let shadow = listener.map(|listener| scope.spawn(move || listener.follow(outputs)));
+        let mut way = |made: &mut usize| -> Result<(), Stop> {
+            for step in steps.clone() {
+                let end = timeline.time(step + 1) - 1e-12 * dt;
+                let mut tell = |moment: Moment, t: f64, s: &State, l: &Ledger| match moment {
+                    Moment::Jump => {
+                        if let Some(certificate) = &mut certificate {
+                            certificate.jump(t, s);
+                        }
+                        viewer.show_behind(t, s, l);
                     }
-                    viewer.show_behind(t, s, l);
+                    Moment::Substep(piece) => {
+                        if let Some(certificate) = &mut certificate {
+                            certificate.follow(piece, t, s);
+                        }
+                        if t < end {
+                            viewer.show(t, None, s, l);
+                        }
+                    }
+                };
+                output_step(&timeline, step, &mut march, &constant_force, &mut moving, &mut tell)?;
+                *made = step + 1;
+                let Moving { state, ledger, .. } = &moving;
+                viewer.show(timeline.time(*made), Some(*made), state, ledger);
+                if let Some(tell) = progress.as_deref_mut() {
+                    tell((*made - first) as f64 / (last - first) as f64);
                 }
-                Moment::Substep(piece) => {
-                    if let Some(certificate) = &mut certificate {
-                        certificate.follow(piece, t, s);
-                    }
-                    if t < end {
-                        viewer.show(t, None, s, l);
-                    }
+                fallen = viewer.overturned(state);
+                if fallen.is_some() {
+                    break;
                 }
-            };
-            output_step(&timeline, step, &mut march, &constant_force, &mut moving, &mut tell)?;
-            *made = step + 1;
-            let Moving { state, ledger, .. } = &moving;
-            viewer.show(timeline.time(*made), Some(*made), state, ledger);
-            if let Some(tell) = progress.as_deref_mut() {
-                tell((*made - first) as f64 / (last - first) as f64);
             }
-            fallen = viewer.overturned(state);
-            if fallen.is_some() {
-                break;
-            }
-        }
-        Ok(())
-    };
-    let beside = match &companion {
-        None => {
-            stop = way(&mut made).err();
-            None
-        }
-        Some(companion) => std::thread::scope(|scope| {
-            let beside = scope.spawn(|| companion.march(&set_out));
-            stop = way(&mut made).err();
+            Ok(())
+        };
+        stop = way(&mut made).err();
+        if let Some(companion) = &companion {
             companion.end(made);
-            // Where it finds no start, the run finds none either.
-            beside.join().ok().and_then(Result::ok)
-        }),
-    };
+        }
+        if let Some(certificate) = &mut certificate {
+            certificate.end();
+        }
+        // Where the companion finds no start, the run finds none either.
+        let beside = beside.and_then(|thread| thread.join().ok()).and_then(Result::ok);
+        (beside, shadow.map(|thread| thread.join().ok()))
+    });
+    if let (Some(certificate), Some(reduction)) = (&mut certificate, reduction) {
+        certificate.reduce(reduction);
+    }
     let Moving { state, pace, ledger } = moving;
     viewer.end(&state, &ledger);
     let largest = viewer.largest();

@@ -9,6 +9,7 @@
 
 mod answer;
 mod apart;
+mod aside;
 mod basis;
 mod case;
 mod certificate;
@@ -43,6 +44,7 @@ mod peak;
 mod products;
 mod propagator;
 mod samples;
+mod shadow;
 mod shapes;
 mod single_mode;
 mod space;
