@@ -8,6 +8,7 @@
 
 use crate::modal::ClosedForm;
 use crate::outputs::Outputs;
+use crate::vector::dot;
 
 /// Share of an extreme that may be missed where a cubic goes between two moments.
 const CUBIC: f64 = 1e-3;
@@ -17,6 +18,9 @@ const SAMPLED: f64 = 0.05;
 const SHORT: f64 = 0.78;
 /// Share of the largest motion below which a swing is rounding.
 const ROUNDING: f64 = 1e-9;
+/// Lengths of steps that differ by less than this share are one, and lengths that are kept at most.
+const SAME: f64 = 1e-9;
+const KEPT: usize = 16;
 /// Looks inside a step at most, as a power of two.
 const MOST: u32 = 10;
 
@@ -28,6 +32,9 @@ pub(crate) struct Inside {
     from: Vec<f64>,
     /// What outputs take from each mode, by displacement, velocity and acceleration.
     shares: Vec<[Vec<f64>; 3]>,
+    /// Swing of each mode in the step looked at last, and what outputs miss of it in steps of some lengths.
+    swing: Vec<f64>,
+    missed: Vec<(f64, Vec<[Vec<f64>; 2]>)>,
     /// Largest value of each output so far, and after them the largest motion.
     pub largest: Vec<f64>,
 }
@@ -50,7 +57,8 @@ impl Inside {
         let fastest = form.omega.iter().copied().fold(0.0, f64::max);
         let count = shares.len() + 1;
         let largest = if largest.len() == count { largest } else { vec![0.0; count] };
-        Self { form, fastest, from: Vec::new(), shares, largest }
+        let (from, swing, missed) = (Vec::new(), Vec::new(), Vec::new());
+        Self { form, fastest, from, shares, swing, missed, largest }
     }
 
     /// Takes note of a state that is shown.
@@ -67,31 +75,59 @@ impl Inside {
 
     /// Parts into which a step must be divided for a look at the outputs, 1 where its ends will do; and whether
     /// cubics are good between these.
-    fn parts(&self, to: &[f64], length: f64, values: &[f64]) -> (usize, bool) {
+    fn parts(&mut self, to: &[f64], length: f64, values: &[f64]) -> (usize, bool) {
         let nothing = ROUNDING * self.largest.last().copied().unwrap_or(0.0);
-        let swing = self.form.swing(&self.from, to, length);
-        let fast: Vec<(usize, f64, f64)> = swing
-            .zip(&self.form.omega)
-            .enumerate()
-            .filter(|(_, (a, w))| **w * length > SHORT && *a > nothing)
-            .map(|(j, (a, w))| (j, a, *w))
-            .collect();
-        let enough = |parts: f64| {
-            self.shares.iter().zip(&self.largest).zip(values).all(|((shares, most), y)| {
-                let mut missed = [0.0; 2];
-                for (j, a, w) in &fast {
-                    let x = w * length / parts;
-                    let cubic = (x.powi(4) / 384.0).min(1.0_f64.max(0.25 * x));
-                    let sampled = (x * x / 8.0).min(1.0);
-                    missed[0] += cubic * a * (shares[0][*j] + w * shares[1][*j]);
-                    missed[1] += sampled * a * w * w * shares[2][*j];
-                }
-                let most = most.max(y.abs());
-                missed[0] <= CUBIC * most && missed[1] <= SAMPLED * most
-            })
-        };
-        let found = (0..=MOST).find(|i| enough(f64::from(1_u32 << i)));
+        self.swing.clear();
+        for (j, w) in self.form.omega.iter().enumerate() {
+            let fast = *w * length > SHORT;
+            let swing = if fast { self.form.swing(j, &self.from, to, length) } else { 0.0 };
+            self.swing.push(if swing > nothing { swing } else { 0.0 });
+        }
+        let at = self.missed_of(length);
+        if self.enough(&self.missed[at].1, values) {
+            return (1, true);
+        }
+        let enough = |i: &u32| self.enough(&self.missed_in(length / f64::from(1_u32 << i)), values);
+        let found = (1..=MOST).find(enough);
         (1 << found.unwrap_or(MOST), found.is_some())
+    }
+
+    /// True where no output misses too much, if it misses these shares of the swing of each mode.
+    fn enough(&self, missed: &[[Vec<f64>; 2]], values: &[f64]) -> bool {
+        missed.iter().zip(&self.largest).zip(values).all(|(([cubic, sampled], most), y)| {
+            let most = most.max(y.abs());
+            dot(cubic, &self.swing) <= CUBIC * most && dot(sampled, &self.swing) <= SAMPLED * most
+        })
+    }
+
+    /// What every output misses of the swing of each mode in steps of this length: by cubics, and in accelerations.
+    fn missed_in(&self, length: f64) -> Vec<[Vec<f64>; 2]> {
+        let mut of_modes = Vec::with_capacity(self.form.omega.len());
+        for w in &self.form.omega {
+            let x = w * length;
+            let cubic = (x.powi(4) / 384.0).min(1.0_f64.max(0.25 * x));
+            of_modes.push((*w, cubic, (x * x / 8.0).min(1.0)));
+        }
+        let of_output = |[u, v, a]: &[Vec<f64>; 3]| {
+            let modes = || of_modes.iter().enumerate();
+            let cubic = modes().map(|(j, (w, cubic, _))| cubic * (u[j] + w * v[j]));
+            let sampled = modes().map(|(j, (w, _, sampled))| sampled * w * w * a[j]);
+            [cubic.collect(), sampled.collect()]
+        };
+        self.shares.iter().map(of_output).collect()
+    }
+
+    /// Where it is kept for steps of this length.
+    fn missed_of(&mut self, length: f64) -> usize {
+        let same = |(known, _): &(f64, _)| (known - length).abs() <= SAME * length;
+        if let Some(at) = self.missed.iter().position(same) {
+            return at;
+        }
+        if self.missed.len() >= KEPT {
+            self.missed.remove(0);
+        }
+        self.missed.push((length, self.missed_in(length)));
+        self.missed.len() - 1
     }
 
     /// Moments inside the step that ends with this motion and these values of the outputs; and whether the cubics

@@ -75,16 +75,11 @@ impl Vibration {
     /// True where what swings too fast is notable.
     fn swings(&mut self, step: &Made<'_>, notable: f64) -> bool {
         let Made { from, to, dt, .. } = step;
-        let (from, to) = (&from.motion, &to.motion);
-        let n = from.len() / 3;
         self.energy = 0.0;
         self.swing.clear();
         for (j, w) in self.form.omega.iter().enumerate().filter(|(_, w)| **w * dt > SHORT) {
-            let w2 = w * w;
-            // What dampers do to it is little in a mode that swings.
-            let slope = (to[2 * n + j] - from[2 * n + j]) / w2 + to[j] - from[j];
-            let swing = (from[2 * n + j] / w2).hypot((from[n + j] - slope / dt) / w);
-            self.energy += 0.5 * w2 * swing * swing;
+            let swing = self.form.swing(j, &from.motion, &to.motion, *dt);
+            self.energy += 0.5 * (w * swing).powi(2);
             self.swing.push((j, swing));
         }
         self.energy > notable

@@ -40,19 +40,16 @@ impl ClosedForm {
         s
     }
 
-    /// Amplitudes with which the modes swing about what the loads move slowly, from a step of this length.
-    pub(crate) fn swing(&self, from: &[f64], to: &[f64], length: f64) -> impl Iterator<Item = f64> {
+    /// Amplitude with which a mode swings about what the loads move slowly, in a step of this length; as if no other mode
+    /// damped it.
+    #[inline]
+    pub(crate) fn swing(&self, j: usize, from: &[f64], to: &[f64], length: f64) -> f64 {
         let n = self.structure.omega2.len();
-        let (s0, s1) = (self.source(from), self.source(to));
-        let swing = move |(j, w): (usize, &f64)| {
-            if *w == 0.0 {
-                return 0.0;
-            }
-            let w2 = w * w;
-            let (q, v) = (from[j] - s0[j] / w2, from[n + j] - (s1[j] - s0[j]) / (length * w2));
-            q.hypot(v / w)
-        };
-        self.omega.iter().enumerate().map(swing).collect::<Vec<_>>().into_iter()
+        let w2 = self.structure.omega2[j];
+        let slow = |x: &[f64]| x[j] + (x[2 * n + j] + self.structure.rates[j] * x[n + j]) / w2;
+        let (start, end) = (slow(from), slow(to));
+        let (q, v) = (from[j] - start, from[n + j] - (end - start) / length);
+        (q * q + v * v / w2).sqrt()
     }
 
     /// Leads a motion over a part as long as those that [`inside`](Self::inside) looked at last, under what drives it at
