@@ -1,0 +1,226 @@
+//! The basis of FNA: load-dependent Ritz vectors, or eigenvectors, with a check of adequacy.
+//!
+//! ```text
+//! K̂ x₁ = p        K̂ xᵢ₊₁ = M xᵢ, each M-orthonormalised twice        (p: every load direction)
+//! K̂ x  = bᵀ                                                          (one for every link coordinate)
+//! ```
+//!
+//! The ground recursion carries the structure, one static vector for each link coordinate carries the
+//! local flexibility; what carries next to no mass of its own is no mode, but a static shape beside the
+//! modes (see `massless`). K̂ holds small dummies
+//! of the links (and a mass shift where the structure can move freely), so that it is regular; the span
+//! is then turned into modes of the structure itself, without the automatic dummies, so these never
+//! enter the dynamics. ω = 0 is an ordinary mode.
+//!
+//! Reference: \[Wilson 2002, ch. 14 and 18\].
+
+mod report;
+mod ritz;
+mod solvable;
+
+use crate::condensation::Condensation;
+use crate::error::SolveError;
+use crate::massless::StaticShapes;
+use crate::observe::BasisReport;
+use crate::shapes::Shapes;
+use crate::start::Initial;
+use report::report;
+use ritz::{Enriched, enriched};
+pub(crate) use solvable::held;
+use solvable::{Solvable, solvable};
+use std::sync::Arc;
+use trilith_linalg::{Sparse, all_modes, symmetric_eigen};
+use trilith_model::{Basis, BasisKind, Model};
+use trilith_system::System;
+
+/// Largest model for which a complete basis is made.
+const COMPLETE_LIMIT: usize = 1500;
+/// Up to this order the complete basis is the automatic choice.
+const COMPLETE_AUTOMATIC: usize = 300;
+/// A strain energy below this share of the sum of its terms is rounding: the motion is free.
+const ROUNDING: f64 = 1e-13;
+/// How much more than the terms of what is kept of a motion those of all of it may be, before a closer look.
+const DOUBT: f64 = 1e4;
+
+/// M-orthonormal modes in the span of a basis.
+#[derive(Clone, Debug)]
+pub(crate) struct RitzBasis {
+    /// The modes, and after them shapes of directions without mass.
+    pub shapes: Arc<Shapes>,
+    pub omega2: Vec<f64>,
+    /// The latter.
+    pub statics: StaticShapes,
+}
+
+impl RitzBasis {
+    /// Number of modes, the first columns of the shapes.
+    pub(crate) fn modes(&self) -> usize {
+        self.omega2.len()
+    }
+
+    /// Number of static shapes.
+    pub(crate) fn statics(&self) -> usize {
+        self.statics.len()
+    }
+}
+
+/// A basis in two forms of one span.
+pub(crate) struct Bases {
+    /// Modes of the structure with the user's dummies: the coordinates of FNA.
+    pub stepping: Arc<RitzBasis>,
+    /// Modes of the structure alone: what modal damping acts on.
+    pub structural: Arc<RitzBasis>,
+    /// The same of a span that holds this one and the next vectors of the same sequence.
+    pub wider: Option<Box<Bases>>,
+    pub report: BasisReport,
+}
+
+/// What a run asks of a basis, over the free DOFs.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Demands {
+    /// Directions of loads, by name.
+    pub loads: Vec<(String, Vec<f64>)>,
+    /// Displacements and velocities at the start.
+    pub starts: Vec<Vec<f64>>,
+    /// True where a wider basis is wanted as well, which tells what this one lacks.
+    pub wider: bool,
+}
+
+impl Demands {
+    /// Of loads and a start. The force that a displacement at the start asks for is a load as well: it moves what
+    /// dashpots hold.
+    pub(crate) fn new(
+        system: &System,
+        mut loads: Vec<(String, Vec<f64>)>,
+        initial: &Initial,
+    ) -> Self {
+        let moves = |u: &&Vec<f64>| u.iter().any(|x| *x != 0.0);
+        let Initial { beyond_equilibrium: displacement, velocity, .. } = initial;
+        if moves(&displacement) && !system.massless.is_empty() {
+            let force = system.stiffness_with(&system.links.effective).mul(displacement);
+            loads.push(("initial displacement".into(), force));
+        }
+        let starts = [displacement, velocity].into_iter().filter(moves).cloned().collect();
+        Self { loads, starts, wider: false }
+    }
+
+    pub(crate) fn is_empty(&self) -> bool {
+        self.loads.is_empty() && self.starts.is_empty()
+    }
+
+    /// Number of directions that each block of a recursion has.
+    fn count(&self) -> usize {
+        self.loads.len() + self.starts.len()
+    }
+}
+
+/// Makes the basis for loads given as vectors on the free DOFs. A structure that can move without stiffness
+/// and mass is refused. With `adequacy` the report tells how well every link coordinate is held, which takes a
+/// solution for each.
+pub(crate) fn build(
+    model: &Model,
+    system: &System,
+    settings: &Basis,
+    demands: &Demands,
+    adequacy: bool,
+) -> Result<Bases, SolveError> {
+    let (order, loads) = (system.order(), &*demands.loads);
+    let complete = settings.kind == BasisKind::Complete
+        || match settings.vectors {
+            None => order <= COMPLETE_AUTOMATIC,
+            Some(n) => n >= order - system.massless.len() && order <= COMPLETE_LIMIT,
+        };
+    let hat = solvable(model, system)?;
+    let Enriched { span, wider, known } = if complete {
+        if order > COMPLETE_LIMIT {
+            return Err(SolveError::BasisTooLarge { order, limit: COMPLETE_LIMIT });
+        }
+        let all = all_modes(&Sparse::combine(&hat.parts(system)), &system.mass)?.1;
+        let span = Shapes::new(Arc::new(Condensation::none(order)), all);
+        Enriched { span, wider: None, known: None }
+    } else {
+        enriched(system, settings, demands, &hat)?
+    };
+    if span.len() == 0 {
+        return Err(SolveError::NoMass);
+    }
+    // The factor is not needed any longer, and weighs as much as many vectors.
+    let exact = hat.flexibility(system, loads, known.or((!adequacy).then(Vec::new)));
+    let Solvable { dummies: held, shift, factor, .. } = hat;
+    drop(factor);
+    let mut bases = in_both_forms(system, span, loads)?;
+    if let Some(wider) = wider {
+        bases.wider = Some(Box::new(in_both_forms(system, wider, loads)?));
+    }
+    bases.report = report(model, system, &bases, loads, &held, shift, &exact);
+    Ok(bases)
+}
+
+/// A span as modes with and without the user's dummies.
+fn in_both_forms(
+    system: &System,
+    span: Shapes,
+    loads: &[(String, Vec<f64>)],
+) -> Result<Bases, SolveError> {
+    let dummies = &system.links.effective;
+    let report = BasisReport::default();
+    if dummies.iter().all(|k| *k == 0.0) {
+        let both = Arc::new(modes_in(system, span, &system.stiffness, dummies, loads)?);
+        return Ok(Bases { structural: Arc::clone(&both), stepping: both, wider: None, report });
+    }
+    let none = vec![0.0; dummies.len()];
+    let structural = Arc::new(modes_in(system, span.clone(), &system.stiffness, &none, loads)?);
+    let with = system.stiffness_with(dummies);
+    let stepping = Arc::new(modes_in(system, span, &with, dummies, loads)?);
+    Ok(Bases { structural, stepping, wider: None, report })
+}
+
+/// Turns a span of M-orthonormal vectors into modes of `k`, which has these dummies, with the static shapes beside
+/// them.
+fn modes_in(
+    system: &System,
+    span: Shapes,
+    k: &Sparse,
+    dummies: &[f64],
+    loads: &[(String, Vec<f64>)],
+) -> Result<RitzBasis, SolveError> {
+    let statics = StaticShapes::new(system, k, loads)?;
+    let span = statics.out_of(k, span);
+    let (mut omega2, vectors) = graded_modes(span, k)?;
+    // Most modes need no closer look.
+    let sums = k.row_sums();
+    let sums = vectors.rows().gather(&sums);
+    for (j, w) in omega2.iter_mut().enumerate() {
+        let bound: f64 = vectors.kept(j).iter().zip(&*sums).map(|(x, s)| x * x * s).sum();
+        if w.abs() > DOUBT * ROUNDING * bound {
+            continue;
+        }
+        let x = vectors.column(j);
+        let terms: f64 = k.entries().map(|(i, l, a)| (a * x[i] * x[l]).abs()).sum();
+        if w.abs() <= ROUNDING * terms {
+            *w = 0.0;
+        }
+    }
+    let statics = statics.beside(system, k, dummies, &vectors);
+    let shapes = Arc::new(vectors.beside(&statics.psi));
+    Ok(RitzBasis { shapes, omega2, statics })
+}
+
+/// Modes in a span of M-orthonormal vectors, rising. An eigenvalue is found no better than the rounding of
+/// the largest one, so the slow modes are found once more among themselves, until there is no such gap.
+fn graded_modes(mut vectors: Shapes, k: &Sparse) -> Result<(Vec<f64>, Shapes), SolveError> {
+    const GAP: f64 = 1e-5;
+    let mut count = vectors.len();
+    let mut omega2 = vec![0.0; count];
+    loop {
+        let (again, rotation) = symmetric_eigen(&vectors.stiffness(k, count))?;
+        vectors.kept_mut().turn(&rotation);
+        omega2[..count].copy_from_slice(&again);
+        let largest = again.last().copied().unwrap_or(0.0);
+        let slow = again.iter().filter(|w| **w < GAP * largest).count();
+        if slow == 0 || slow == count {
+            return Ok((omega2, vectors));
+        }
+        count = slow;
+    }
+}

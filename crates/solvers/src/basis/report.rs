@@ -1,0 +1,102 @@
+//! What a basis holds of masses, loads and links.
+
+use super::solvable::Flexibility;
+use super::{Bases, RitzBasis};
+use crate::observe::{Adequacy, BasisReport, ModeShape};
+use crate::vector::dot;
+use trilith_linalg::{Dense, DenseLu};
+use trilith_model::Model;
+use trilith_system::System;
+
+/// Modes shown in pictures.
+const SHAPES: usize = 6;
+
+/// Participation of masses and loads, and the flexibility of every link coordinate that the basis holds;
+/// `dummies` and `shift` are those of K̂.
+pub(super) fn report(
+    model: &Model,
+    system: &System,
+    bases: &Bases,
+    loads: &[(String, Vec<f64>)],
+    dummies: &[f64],
+    shift: f64,
+    exact: &Flexibility,
+) -> BasisReport {
+    // With the dummies, which hold what links alone do.
+    let basis = &bases.stepping;
+    let m = basis.modes();
+    let phi = &*basis.shapes;
+    let rows = &system.links.rows;
+    // K̂ in the basis: K is diagonal there, with κ for the static shapes, which have no mass.
+    let mut reduced = Dense::zeros(phi.len(), phi.len());
+    for j in 0..phi.len() {
+        // What dashpots alone hold has no flexibility to be told.
+        let of_static = || basis.statics.stiffness[j - m].max(1e-9);
+        reduced[(j, j)] = basis.omega2.get(j).map_or_else(of_static, |w| w + shift);
+    }
+    let there = &system.links.effective;
+    let more = dummies.iter().zip(there).map(|(all, there)| all - there);
+    for (row, dummy) in rows.iter().zip(more).filter(|(_, k)| *k != 0.0) {
+        let q = phi.row(row);
+        for (j, b) in q.iter().enumerate() {
+            for (a, sum) in q.iter().zip(reduced.column_mut(j)) {
+                *sum += dummy * a * b;
+            }
+        }
+    }
+    let reduced = DenseLu::new(&reduced);
+    let share = |whole: f64, q: &[f64]| -> f64 {
+        let mut y = q.to_vec();
+        reduced.solve(&mut y);
+        if whole > 0.0 { (dot(q, &y) / whole).min(1.0) } else { 1.0 }
+    };
+    let mut static_participation = Vec::with_capacity(loads.len());
+    for ((name, p), whole) in loads.iter().zip(&exact.loads) {
+        static_participation.push((name.clone(), share(*whole, &phi.load(p))));
+    }
+    let mut adequacy = Vec::with_capacity(exact.links.len());
+    for (flat, whole) in system.links.active.iter().zip(&exact.links) {
+        let coordinate = system.links.name(model, *flat);
+        adequacy.push(Adequacy { coordinate, share: share(*whole, &phi.row(&rows[*flat])) });
+    }
+    adequacy.sort_by(|a, b| a.share.total_cmp(&b.share));
+    let basis = &bases.structural;
+    let phi = &*basis.shapes;
+    let mass = |axis: usize| -> Vec<f64> {
+        let total: f64 = {
+            let mut r = vec![0.0; system.order()];
+            for (i, full) in system.reduction.free.iter().enumerate() {
+                r[i] = f64::from(u8::from(full % 6 == axis));
+            }
+            dot(&r, &system.inertia[axis])
+        };
+        let shares = phi.load(&system.inertia[axis]);
+        shares[..m].iter().map(|l| if total > 0.0 { l * l / total } else { 0.0 }).collect()
+    };
+    let [x, y, z] = [mass(0), mass(1), mass(2)];
+    BasisReport {
+        vectors: m,
+        static_shapes: bases.stepping.statics(),
+        omega: basis.omega2.iter().map(|w| w.max(0.0).sqrt()).collect(),
+        mass_participation: (0..m).map(|j| [x[j], y[j], z[j]]).collect(),
+        static_participation,
+        adequacy,
+        shapes: shapes(model, system, basis),
+    }
+}
+
+/// The lowest modes that deform the structure, at its nodes.
+fn shapes(model: &Model, system: &System, basis: &RitzBasis) -> Vec<ModeShape> {
+    let bends = basis.omega2.iter().enumerate().filter(|(_, w)| **w > 0.0).take(SHAPES);
+    let shape = |mode: usize| {
+        let column = basis.shapes.column(mode);
+        let full = 0..6 * model.nodes.len();
+        // Supports stand still.
+        let at = |i: usize| -> f64 {
+            let terms = system.reduction.expand(i).iter();
+            terms.filter_map(|(j, c)| column.get(*j).map(|x| c * x)).sum()
+        };
+        ModeShape { mode, displacements: full.map(|i| at(i) as f32).collect() }
+    };
+    bends.map(|(mode, _)| shape(mode)).collect()
+}

@@ -1,0 +1,138 @@
+//! The stiffness that a basis is made with, made regular.
+
+use crate::error::SolveError;
+use crate::vector::dot;
+use trilith_linalg::{LinalgError, Sparse, StagedLdlt, unsupported};
+use trilith_model::Model;
+use trilith_system::System;
+
+/// A pivot below this share of its diagonal is rounding: nothing holds the equation.
+const HELD: f64 = 1e-11;
+/// Right-hand sides solved together.
+pub(super) const BLOCK: usize = 16;
+/// Automatic dummies as a share of the engaged stiffness of a link.
+const DUMMY_SHARE: f64 = 1e-3;
+
+/// K̂ = K + Bᵀ diag(dummies) B + shift M + rate C and its factor.
+pub(super) struct Solvable {
+    pub(super) dummies: Vec<f64>,
+    /// Bᵀ diag(dummies) B.
+    pub(super) springs: Sparse,
+    /// Of the mass where the structure can move freely, 1/s².
+    pub(super) shift: f64,
+    /// Of the dashpots where they alone hold a direction without mass, 1/s.
+    pub(super) rate: f64,
+    pub(super) factor: StagedLdlt,
+}
+
+/// What the report needs of K̂⁻¹: p K̂⁻¹ p of the loads, and b K̂⁻¹ bᵀ of the active link coordinates.
+pub(super) struct Flexibility {
+    pub(super) loads: Vec<f64>,
+    pub(super) links: Vec<f64>,
+}
+
+impl Solvable {
+    /// K̂ as a sum; made, it would weigh as much as K.
+    pub(super) fn parts<'a>(&'a self, system: &'a System) -> [(f64, &'a Sparse); 4] {
+        [
+            (1.0, &system.stiffness),
+            (1.0, &self.springs),
+            (self.shift, &system.mass),
+            (self.rate, &system.element_damping),
+        ]
+    }
+
+    /// `known`: of the links, where they have been found already.
+    pub(super) fn flexibility(
+        &self,
+        system: &System,
+        loads: &[(String, Vec<f64>)],
+        known: Option<Vec<f64>>,
+    ) -> Flexibility {
+        let of_loads = loads.iter().map(|(_, p)| {
+            let mut x = p.clone();
+            self.factor.solve(&mut x);
+            dot(p, &x)
+        });
+        let loads = of_loads.collect();
+        let links = known.unwrap_or_else(|| {
+            let mut links = Vec::new();
+            self.static_shapes(system, &system.links.active, |_, flexibility| {
+                links.push(flexibility);
+            });
+            links
+        });
+        Flexibility { loads, links }
+    }
+
+    /// K̂⁻¹ bᵀ of link coordinates, and b of them.
+    pub(super) fn static_shapes(
+        &self,
+        system: &System,
+        flat: &[usize],
+        mut visit: impl FnMut(&[f64], f64),
+    ) {
+        let order = system.order();
+        for block in flat.chunks(BLOCK) {
+            let mut shapes = vec![0.0; order * block.len()];
+            for (column, flat) in shapes.chunks_mut(order).zip(block) {
+                system.links.rows[*flat].iter().for_each(|(i, c)| column[*i] += c);
+            }
+            self.factor.solve(&mut shapes);
+            for (x, flat) in shapes.chunks(order).zip(block) {
+                visit(x, system.links.rows[*flat].iter().map(|(i, c)| c * x[*i]).sum());
+            }
+        }
+    }
+}
+
+pub(super) fn solvable(model: &Model, system: &System) -> Result<Solvable, SolveError> {
+    let links = &system.links;
+    let engaged = links.engaged(model);
+    let pairs = || engaged.iter().zip(&links.effective);
+    let dummies: Vec<f64> =
+        pairs().map(|(e, user)| if *user > 0.0 { *user } else { DUMMY_SHARE * e }).collect();
+    let springs = system.springs(&dummies);
+    let held_by = [(1.0, &system.stiffness), (1.0, &springs)];
+    // What dummies hold, the links hold when engaged, unless the user's stand where they never do.
+    let as_links = pairs().all(|(e, user)| *user <= 0.0 || *e > 0.0);
+    if as_links && let Some(factor) = held(&held_by)? {
+        return Ok(Solvable { dummies, springs, shift: 0.0, rate: 0.0, factor });
+    }
+    system.check_supported(model, true)?;
+    let k = Sparse::combine(&held_by);
+    let (mut shift, mut rate) = (0.0, 0.0);
+    if !unsupported(&k)?.is_empty() {
+        let sum = |a: &Sparse| a.diagonal().iter().sum::<f64>();
+        let (stiff, heavy) = (sum(&k), sum(&system.mass));
+        // A mass shift makes regular what can move freely, dashpots what they alone hold.
+        shift = if stiff > 0.0 && heavy > 0.0 { 1e-6 * stiff / heavy } else { 1.0 };
+        let viscous = sum(&system.element_damping);
+        let by_mass = || Sparse::combine(&[(1.0, &k), (shift, &system.mass)]);
+        if viscous > 0.0 && !unsupported(&by_mass())?.is_empty() {
+            rate = if stiff > 0.0 { stiff / viscous } else { 1.0 };
+        }
+    }
+    let parts = [(1.0, &k), (shift, &system.mass), (rate, &system.element_damping)];
+    let factor = StagedLdlt::alone(&parts)?;
+    Ok(Solvable { dummies, springs, shift, rate, factor })
+}
+
+/// The factor of a sum, where no pivot is rounding. Scaling to a unit diagonal would divide each pivot by its
+/// diagonal entry, so this is the test of [`unsupported`] without a second factorisation.
+pub(crate) fn held(parts: &[(f64, &Sparse)]) -> Result<Option<StagedLdlt>, SolveError> {
+    let mut diagonal = vec![0.0; parts.first().map_or(0, |(_, a)| a.rows())];
+    for (factor, part) in parts {
+        diagonal.iter_mut().zip(part.diagonal()).for_each(|(sum, d)| *sum += factor * d);
+    }
+    if diagonal.iter().any(|d| *d <= 0.0) {
+        return Ok(None);
+    }
+    let factor = match StagedLdlt::alone(parts) {
+        Err(LinalgError::Singular { .. }) => return Ok(None),
+        other => other?,
+    };
+    let mut all = true;
+    factor.pivots(|equation, pivot| all &= pivot > HELD * diagonal[equation]);
+    Ok(all.then_some(factor))
+}
