@@ -26,7 +26,7 @@ fn random_structures_move_as_their_equations_say() {
 }
 
 /// Structures that were wrong once, and whose fault it was.
-const ONCE_WRONG: [(u64, &str); 30] = [
+const ONCE_WRONG: [(u64, &str); 35] = [
     (7051, "a spring between joints that links hold: a mode that is none"),
     (7404, "the same"),
     (20021, "the same"),
@@ -56,6 +56,11 @@ const ONCE_WRONG: [(u64, &str); 30] = [
     (41479, "steps of whole periods of a vibration"),
     (81993, "a joint that only dampers hold, beside an initial displacement"),
     (80925, "the same, with a gap"),
+    (81032, "directions without mass whose rounding grows from vector to vector"),
+    (81537, "the same, in a complete span"),
+    (81475, "a basis of eigenvectors under slow loads"),
+    (101331, "looks inside steps beside static shapes"),
+    (40033, "the same, with a dashpot at a joint"),
     (60408, "what the link equations may leave in a force that is zero"),
 ];
 

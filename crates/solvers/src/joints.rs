@@ -19,8 +19,8 @@ const STEPS: usize = 64;
 /// What no link and no spring holds stays where it is: springs of this share of the linear structure's.
 const STAY: f64 = 1e-8;
 
-/// What leads back to where it was what nothing else holds: springs of this share of the links'. Of what links hold
-/// they take no more than the steps behind the path give back.
+/// What leads back to where it was put what nothing else holds: springs of this share of the structure's with its links
+/// engaged. Of what links hold they take no more than the steps behind the path give back.
 const BACK: f64 = 1e-6;
 
 /// The directions that follow, among those without mass, and their stiffness.
@@ -113,8 +113,8 @@ pub(crate) fn lead(
     Ok(Some((u, LinksBefore::of(&state))))
 }
 
-/// What no link acts on at the end of the path goes back to where it was: the springs that let it stay are so soft that
-/// it has gone wherever rounding pushed it.
+/// What no link acts on at the end of the path goes back to where it was put: the springs that let it stay are so soft
+/// that it has gone wherever rounding pushed it.
 fn stay(
     system: &System,
     engaged: &[f64],
@@ -123,16 +123,25 @@ fn stay(
     put: &[f64],
     u: &mut [f64],
 ) -> Result<(), SolveError> {
-    let links = &system.links;
-    let mut acting: Vec<f64> = engaged.iter().map(|k| BACK * k).collect();
-    let away: Vec<f64> = u.iter().zip(put).map(|(u, p)| u - p).collect();
-    let force = system.springs(&acting).mul(&away);
+    let (massless, links) = (&system.massless, &system.links);
+    let own = massless.undamped(&massless.project(&system.element_damping), held)?;
+    let mut acting = vec![0.0; links.len()];
     for (flat, k) in links.active.iter().zip(links.stiffness(&state.tangents)) {
         if k != 0.0 || state.f[*flat] != 0.0 {
             acting[*flat] = engaged[*flat];
         }
     }
-    Followers::new(system, &acting, held)?.answer(-1.0, &force, u);
+    let away: Vec<f64> = u.iter().zip(put).map(|(u, p)| u - p).collect();
+    let mut y = own.load(&away);
+    let springs = own.project(&system.stiffness_with(engaged)).diagonal();
+    let mut back = Triplets::new(own.len(), own.len());
+    for (i, (y, k)) in y.iter_mut().zip(&springs).enumerate() {
+        back.add(i, i, BACK * k);
+        *y *= -BACK * k;
+    }
+    let k = own.project(&system.stiffness_with(&acting));
+    Ldlt::with_rigid_zeros(&Sparse::combine(&[(1.0, &k), (1.0, &back.build())]))?.solve(&mut y);
+    own.expand(1.0, &y, u);
     Ok(())
 }
 

@@ -63,11 +63,13 @@ pub(super) fn enriched(
         own(&u)
     };
     let mut starts: Vec<Vec<f64>> = demands.starts.iter().map(start).collect();
+    let lowest = |count: usize| -> Result<Vec<Vec<f64>>, SolveError> {
+        let (k, count) = (Sparse::combine(&hat.parts(system)), count.min(system.order()));
+        let (_, vectors) = lowest_modes(&k, &system.mass, count, 0.0)?;
+        Ok((0..vectors.columns()).map(|j| own(&vectors.column(j).to_vec())).collect())
+    };
     if settings.kind == BasisKind::Eigen {
-        let count = (ground + more).min(system.order());
-        let (_, vectors) =
-            lowest_modes(&Sparse::combine(&hat.parts(system)), &system.mass, count, 0.0)?;
-        modes = (0..vectors.columns()).map(|j| own(&vectors.column(j).to_vec())).collect();
+        modes = lowest(ground + more)?;
         let beyond = modes.split_off(ground.min(modes.len()));
         span.take(std::mem::replace(&mut modes, beyond), Origin::Anywhere, Speed::Any);
     } else {
@@ -123,6 +125,10 @@ pub(super) fn enriched(
         recurse(&mut span, &rows, hat, &statics, of_links, count + more, Speed::OfModes);
         // Only what is here is seen as missing.
         fast.go_on(&mut span, &rows, hat, &statics, count + more);
+        if span.len() == count && count + system.massless.len() < system.order() {
+            // Damping that couples modes and links that do may move what loads do not.
+            span.take(lowest(count + more)?, Origin::Anywhere, Speed::Any);
+        }
     }
     let all = span.into_dense();
     let rows = Arc::new(rows);

@@ -2,6 +2,7 @@
 
 use super::Modes;
 use super::rules::{Rule, Structure};
+use trilith_linalg::add_products;
 
 /// The closed form of FNA over a step, taken from the motions at its ends alone: with loads and link forces linear
 /// in the step, what drives a mode is known at both ends from q̈ + D q̇ + Ω² q.
@@ -25,18 +26,18 @@ impl Modes {
 }
 
 impl ClosedForm {
-    /// What drives the modes: s = q̈ + D q̇ + Ω² q.
+    /// What drives the modes and the static shapes: s = q̈ + D q̇ + Ω² q, without q̈ in these.
     fn source(&self, motion: &[f64]) -> Vec<f64> {
-        let n = self.structure.omega2.len();
-        let mut s = vec![0.0; n];
-        self.structure.acceleration(&vec![0.0; n], &motion[..n], &motion[n..2 * n], &mut s);
-        let modes = self.structure.modes;
-        for (s, a) in s.iter_mut().zip(&motion[2 * n..]).take(modes) {
-            *s = a - *s;
+        let Structure { modes, omega2, rates, damping, .. } = &self.structure;
+        let n = omega2.len();
+        let mut s = motion[2 * n..].to_vec();
+        s[*modes..].fill(0.0);
+        let (q, v) = (&motion[..n], &motion[n..2 * n]);
+        match damping {
+            Some(damping) => damping.mul_add(1.0, v, &mut s),
+            None => add_products(1.0, rates, v, &mut s),
         }
-        for j in modes..n {
-            s[j] = self.structure.rates[j] * motion[n + j] + motion[j];
-        }
+        add_products(1.0, omega2, q, &mut s);
         s
     }
 
@@ -99,12 +100,14 @@ impl ClosedForm {
         }
         self.rule = Some((part, rule));
         let end = all.pop().unwrap_or_default();
-        let square = |x: &[f64]| x.iter().map(|x| x * x).sum::<f64>();
-        let agree = |j: usize| {
-            let most = all.iter().map(|m| square(&m[j..j + n])).fold(0.0, f64::max);
-            let off: Vec<f64> = (j..j + n).map(|i| end[i] - to[i]).collect();
-            square(&off) <= OTHERWISE * OTHERWISE * most
+        // Static shapes that nothing damps have rates of their own making.
+        let free = |order: usize, i: &usize| order == 0 || !self.structure.undamped.contains(i);
+        let agree = |order: usize| {
+            let own = || (0..n).filter(|i| free(order, i)).map(|i| order * n + i);
+            let square = |x: &mut dyn Iterator<Item = f64>| x.map(|x| x * x).sum::<f64>();
+            let most = all.iter().map(|m| square(&mut own().map(|i| m[i]))).fold(0.0, f64::max);
+            square(&mut own().map(|i| end[i] - to[i])) <= OTHERWISE * OTHERWISE * most
         };
-        if agree(0) && agree(n) { all.split_off(1) } else { Vec::new() }
+        if agree(0) && agree(1) { all.split_off(1) } else { Vec::new() }
     }
 }
