@@ -1,10 +1,14 @@
 //! The verdict of all validation cases and studies.
 
+use trilith_validation::studies::RANDOM_FNA;
 use trilith_validation::{all, run_all};
 
+/// All but the study of minutes: the first of its structures have a test of their own, and `cargo run` of this crate makes it.
 #[test]
 fn every_case_and_study_meets_its_reference() {
-    let outcomes = run_all(&all(), &|_| {});
+    let mut chosen = all();
+    chosen.retain(|c| c.id() != RANDOM_FNA);
+    let outcomes = run_all(&chosen, &|_| {});
     let failed: Vec<String> = outcomes
         .iter()
         .flat_map(|o| &o.rows)

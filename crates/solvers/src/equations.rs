@@ -126,10 +126,14 @@ pub(crate) fn bases(
     }
     let mut demands = Demands::new(system, basis_loads(model, analysis, loads), initial);
     demands.wider = wider;
-    let settings = &analysis.solution.basis;
+    let mut settings = analysis.solution.basis.clone();
+    if !is_reduced(kind) {
+        // Modal damping is the structure's: a basis that the file cuts for FNA is no part of it.
+        settings.vectors = None;
+    }
     // Who asks for no flexibility of the links needs no report of it.
     let adequacy = is_reduced(kind) && settings.adequacy > 0.0;
-    Ok(Some(basis::build(model, system, settings, &demands, adequacy)?))
+    Ok(Some(basis::build(model, system, &settings, &demands, adequacy)?))
 }
 
 /// The structure of FNA on its basis.

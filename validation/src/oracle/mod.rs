@@ -5,7 +5,7 @@
 //! | `generate/` | makes a structure, its motion and outputs from a seed |
 //! | `spec` | its description, from which both sides are made |
 //! | `text` | the model file |
-//! | `matrices`, `assemble`, `modes`, `functions`, `laws`, `pendulum` | the equations, written from the textbook |
+//! | `matrices`, `assemble`, `modes`, `functions`, `laws/` | the equations, written from the textbook |
 //! | `radau`, `march`, `problem`, `truth` | their solution by an implicit Runge–Kutta method of order 5 |
 //! | `subject`, `judge` | the program's answer and the verdict on it |
 //! | `shrink`, `campaign` | a smaller structure that fails alike, and many structures side by side |
@@ -23,7 +23,6 @@ mod march;
 mod matrices;
 mod modes;
 mod number;
-mod pendulum;
 mod problem;
 mod radau;
 mod rng;

@@ -2,20 +2,28 @@
 
 /// SplitMix64. [Steele, Lea & Flood 2014]
 #[derive(Clone, Debug)]
-pub struct Rng(u64);
+pub struct Rng {
+    state: u64,
+    /// Structures may have links of all kinds. Those of smaller seeds are what they were.
+    pub all_kinds: bool,
+}
+
+/// From this seed on.
+const ALL_KINDS: u64 = 1_000_000;
 
 impl Rng {
     /// A stream of its own for every seed.
     #[must_use]
     pub fn new(seed: u64) -> Self {
-        let mut it = Self(seed.wrapping_mul(0xD134_2543_DE82_EF95) ^ 0x5851_F42D_4C95_7F2D);
+        let state = seed.wrapping_mul(0xD134_2543_DE82_EF95) ^ 0x5851_F42D_4C95_7F2D;
+        let mut it = Self { state, all_kinds: seed >= ALL_KINDS };
         it.next();
         it
     }
 
     fn next(&mut self) -> u64 {
-        self.0 = self.0.wrapping_add(0x9E37_79B9_7F4A_7C15);
-        let mut z = self.0;
+        self.state = self.state.wrapping_add(0x9E37_79B9_7F4A_7C15);
+        let mut z = self.state;
         z = (z ^ (z >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
         z = (z ^ (z >> 27)).wrapping_mul(0x94D0_49BB_1331_11EB);
         z ^ (z >> 31)

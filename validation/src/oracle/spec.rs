@@ -133,6 +133,143 @@ pub enum Law {
     Elastomeric(f64, f64, f64),
     /// Sliding bearing with a concave surface.
     Pendulum(Pendulum),
+    /// Spring and dashpot in contact.
+    Kelvin(Kelvin),
+    /// Spring of a power and a dissipation in contact.
+    Hertz(Hertz),
+    /// Ring spring.
+    Ring(Ring),
+    /// Smooth hysteresis that wears.
+    Degrading(Degrading),
+    /// Stiffness beside Maxwell branches, their stiffnesses and relaxation times.
+    Branches(f64, Vec<f64>, Vec<f64>),
+    /// Bearing that slides pressed and pulled.
+    Tension(Tension),
+    /// Bearing with four concave surfaces.
+    Triple(Triple),
+    /// Bearing with smooth plastic shear.
+    Shear(Shear),
+}
+
+/// Pounding with a spring and a dashpot.
+#[derive(Clone, Copy, Debug)]
+pub struct Kelvin {
+    /// Contact stiffness.
+    pub k: f64,
+    /// Contact dashpot.
+    pub c: f64,
+    /// Clearance.
+    pub opening: f64,
+    /// The dashpot acts on approach alone.
+    pub approach: bool,
+    /// It may pull.
+    pub pull: bool,
+}
+
+/// Pounding with a spring of a power.
+#[derive(Clone, Copy, Debug)]
+pub struct Hertz {
+    /// Contact stiffness, N/mⁿ.
+    pub k: f64,
+    /// Exponent.
+    pub n: f64,
+    /// Damping.
+    pub xi: f64,
+    /// Mass that strikes; counts where the dissipation acts on approach alone.
+    pub mass: f64,
+    /// Clearance.
+    pub opening: f64,
+    /// The dissipation goes with the speed over that at first touch, at least this one; 0: it acts on approach alone.
+    pub slowest: f64,
+}
+
+/// Ring spring.
+#[derive(Clone, Copy, Debug)]
+pub struct Ring {
+    /// Stiffness before slip.
+    pub k: f64,
+    /// Stiffness in slip, loading.
+    pub k1: f64,
+    /// Stiffness in slip, unloading.
+    pub k2: f64,
+    /// Precompression.
+    pub u0: f64,
+    /// Deformation at which the rings are closed; may be infinite.
+    pub us: f64,
+}
+
+/// Smooth hysteresis after Bouc, Wen and Baber.
+#[derive(Clone, Copy, Debug)]
+pub struct Degrading {
+    /// Stiffness at rest.
+    pub k: f64,
+    /// Deformation that z counts in.
+    pub dy: f64,
+    /// Stiffness after yielding over k.
+    pub alpha: f64,
+    /// Sharpness.
+    pub n: f64,
+    /// Shape.
+    pub beta: f64,
+    /// Shape.
+    pub gamma: f64,
+    /// Stiffness of z at rest.
+    pub a0: f64,
+    /// Loss of stiffness and strength.
+    pub delta_a: f64,
+    /// Loss of strength.
+    pub delta_nu: f64,
+    /// Loss of stiffness.
+    pub delta_eta: f64,
+}
+
+/// Bearing that slides pressed and pulled.
+#[derive(Clone, Copy, Debug)]
+pub struct Tension {
+    /// Stiffness pressed and pulled.
+    pub stiff: [f64; 2],
+    /// Clearances on both sides.
+    pub gaps: [f64; 2],
+    /// Dashpot along the axis.
+    pub c: f64,
+    /// Stiffness before slip.
+    pub ks: f64,
+    /// Radius; 0: flat.
+    pub radius: f64,
+    /// Friction coefficients pressed and pulled: slow, fast, rate s/m.
+    pub friction: [[f64; 3]; 2],
+}
+
+/// Bearing with four concave surfaces.
+#[derive(Clone, Copy, Debug)]
+pub struct Triple {
+    /// Stiffness in compression.
+    pub kn: f64,
+    /// Stiffness before slip of each surface.
+    pub ks: f64,
+    /// Radii, less their heights.
+    pub radii: [f64; 4],
+    /// Ways to the rims; 0: none.
+    pub capacities: [f64; 4],
+    /// Stiffness of the rims.
+    pub stop: f64,
+    /// Friction coefficients: slow, fast, rate s/m.
+    pub friction: [[f64; 3]; 4],
+}
+
+/// Bearing with smooth plastic shear along local 2 and 3.
+#[derive(Clone, Copy, Debug)]
+pub struct Shear {
+    /// Axial stiffness; 0: none.
+    pub axial: f64,
+    /// Elastic stiffness beside.
+    pub elastic: [f64; 2],
+    /// Strength.
+    pub strength: [f64; 2],
+    /// Deformation that z counts in.
+    pub yields: [f64; 2],
+    /// It is a rubber bearing, with a lead core of this diameter that stays cold.
+    pub lead: Option<f64>,
 }
 
 /// Sliding bearing with a concave surface: local 1 is its axis, it slides along 2 and 3.
@@ -254,7 +391,9 @@ impl Law {
     pub fn axes(&self, axis: usize) -> Vec<usize> {
         match self {
             Self::Contact(c) if c.slow > 0.0 => vec![0, 1, 2],
-            Self::Pendulum(_) => vec![0, 1, 2],
+            Self::Pendulum(_) | Self::Tension(_) | Self::Triple(_) => vec![0, 1, 2],
+            Self::Shear(s) if s.axial > 0.0 => vec![0, 1, 2],
+            Self::Shear(_) => vec![1, 2],
             Self::Contact(_) => vec![0],
             Self::Linear(..) => vec![0, 1],
             Self::Elastomeric(..) => vec![1, 2],

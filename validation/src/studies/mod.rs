@@ -7,12 +7,14 @@ mod convergence;
 mod frames;
 mod numerical_damping;
 mod overturning;
+mod random;
 mod runs;
 mod seed;
 mod sensitivity;
 mod structures;
 
 use crate::Study;
+pub use random::RANDOM_FNA;
 
 /// All studies.
 #[must_use]
@@ -27,6 +29,7 @@ pub fn all() -> Vec<Study> {
         &calibration::STUDIES,
         &overturning::STUDIES,
         &structures::STUDIES,
+        &random::STUDIES,
     ]
     .concat()
 }

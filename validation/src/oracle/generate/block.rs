@@ -1,6 +1,6 @@
 //! A rigid body, or a point, on contacts with friction.
 
-use super::links::{FREE, along, axial, between, node};
+use super::links::{FREE, along, axial, between, node, sliding, tension};
 use crate::oracle::rng::{Rng, figures};
 use crate::oracle::spec::{Contact, Kind, Law, Spec};
 
@@ -22,7 +22,11 @@ pub fn block(rng: &mut Rng) -> Spec {
         let fixed = [false, false, false, true, true, true];
         let n = node(&mut spec, [0.0, 0.0, 1.0], fixed);
         spec.members.push(between(&[n], Kind::Mass(mass, [0.0; 3])));
-        spec.members.push(between(&[n], Kind::Link(Law::Contact(contact), 0)));
+        let law = match rng.all_kinds && rng.chance(0.6) {
+            true => sliding(rng, kn),
+            false => Law::Contact(contact),
+        };
+        spec.members.push(between(&[n], Kind::Link(law, 0)));
         if rng.chance(0.7) {
             let k = figures(mass * (std::f64::consts::TAU * rng.log(0.3, 2.0)).powi(2));
             spec.members.push(along(&[n], [1.0, 0.0, 0.0], axial(k, 0.0)));
@@ -49,8 +53,12 @@ pub fn block(rng: &mut Rng) -> Spec {
         spec.members.push(between(&[centre, left], Kind::RigidLink));
         spec.members.push(between(&[centre, right], Kind::RigidLink));
     }
+    let law = match rng.all_kinds && rng.chance(0.3) {
+        true => tension(rng, kn),
+        false => Law::Contact(contact),
+    };
     for n in [left, right] {
-        spec.members.push(between(&[n], Kind::Link(Law::Contact(contact), 0)));
+        spec.members.push(between(&[n], Kind::Link(law.clone(), 0)));
     }
     spec
 }

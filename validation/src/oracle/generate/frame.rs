@@ -1,6 +1,6 @@
 //! Frames of beams in a plane and in space, and long beams.
 
-use super::links::{FREE, HELD, Size, along, between, law, node, section};
+use super::links::{FREE, HELD, Size, along, between, law, node, section, shear};
 use crate::oracle::rng::{Rng, figures};
 use crate::oracle::spec::{Contact, Kind, Law, Spec, V3};
 
@@ -57,11 +57,12 @@ fn foot(spec: &mut Spec, rng: &mut Rng, at: V3, s: Size, plane: bool) -> usize {
                 c6[2] = c6[1];
             }
             let isolator = match rng.whole(0, 2) {
+                _ if rng.all_kinds && rng.chance(0.5) => Kind::Link(shear(rng, k, s), 1),
                 0 => Kind::Link(Law::Elastomeric(k, figures(k * s.u), 0.1), 1),
                 1 => Kind::Link(Law::Wen(k, figures(k * s.u), 0.15, 2.0), 1),
                 _ => Kind::Spring(only(1, k), [0.0; 6]),
             };
-            if !matches!(isolator, Kind::Link(Law::Elastomeric(..), _)) {
+            if !matches!(isolator, Kind::Link(Law::Elastomeric(..) | Law::Shear(_), _)) {
                 k6[2] = k;
             }
             spec.members.push(along(&[n], UP, Kind::Spring(k6, c6)));

@@ -1,7 +1,10 @@
 //! Random laws for a stiffness and a deformation that are typical.
 
 use crate::oracle::rng::{Rng, figures};
-use crate::oracle::spec::{Beam, Kind, Law, Member, Spec, V3};
+use crate::oracle::spec::{
+    Beam, Degrading, Hertz, Kelvin, Kind, Law, Member, Pendulum, Ring, Shear, Spec, Tension,
+    Triple, V3,
+};
 
 /// What a structure is made around: k N/m, deformation u m, rate ω rad/s.
 #[derive(Clone, Copy, Debug)]
@@ -16,6 +19,9 @@ pub struct Size {
 
 /// A law on one axis that holds its ends together at all times, or not.
 pub fn law(rng: &mut Rng, s: Size, holds: bool) -> Law {
+    if rng.all_kinds && rng.chance(0.5) {
+        return other(rng, s, holds);
+    }
     let k = figures(s.k * rng.log(0.1, 3.0));
     let u = figures(s.u * rng.log(0.2, 1.5));
     let c = figures(s.k / s.w * rng.log(0.05, 1.0));
@@ -53,6 +59,139 @@ pub fn law(rng: &mut Rng, s: Size, holds: bool) -> Law {
         _ => {
             let n = rng.pick(&[1.0, 2.0, 2.0, 3.0, 5.0]);
             Law::Wen(k, figures(k * u), figures(rng.log(0.02, 0.5)), n)
+        }
+    }
+}
+
+/// One of the kinds that came later.
+fn other(rng: &mut Rng, s: Size, holds: bool) -> Law {
+    let k = figures(s.k * rng.log(0.1, 3.0));
+    let u = figures(s.u * rng.log(0.2, 1.5));
+    let mass = s.k / (s.w * s.w);
+    let from = if holds { 2 } else { 0 };
+    match rng.weighted(&[1.0, 1.5, 1.2, 1.5, 1.0][from..]) + from {
+        0 => {
+            let k = figures(k * rng.log(1.0, 30.0));
+            let c = figures(rng.log(0.02, 1.0) * (k * mass).sqrt());
+            let (approach, pull) = (rng.chance(0.5), rng.chance(0.2));
+            Law::Kelvin(Kelvin { k, c, opening: u, approach, pull: pull && !approach })
+        }
+        1 => {
+            let n = rng.pick(&[1.5, 1.5, 1.2, 2.0]);
+            let slowest = if rng.chance(0.5) { 1e-3 } else { 0.0 };
+            Law::Hertz(Hertz {
+                k: figures(k * rng.log(1.0, 30.0) * (0.1 * u).powf(1.0 - n)),
+                n,
+                xi: figures(if slowest > 0.0 { rng.log(0.1, 2.0) } else { rng.log(0.03, 0.6) }),
+                mass: figures(mass),
+                opening: u,
+                slowest,
+            })
+        }
+        2 => Law::Ring(Ring {
+            k: figures(5.0 * k),
+            k1: k,
+            k2: figures(k * rng.even(0.2, 0.9)),
+            u0: if rng.chance(0.7) { figures(u * rng.log(0.1, 2.0)) } else { 0.0 },
+            us: if rng.chance(0.3) { figures(u * rng.log(1.0, 4.0)) } else { f64::INFINITY },
+        }),
+        3 => {
+            let beta = figures(rng.even(0.4, 0.9));
+            let wears = rng.chance(0.6);
+            let loss = |rng: &mut Rng, most: f64| {
+                if wears && rng.chance(0.6) { figures(rng.log(0.1, 1.0) * most) } else { 0.0 }
+            };
+            Law::Degrading(Degrading {
+                k,
+                dy: u,
+                alpha: figures(rng.log(0.02, 0.5)),
+                n: rng.pick(&[1.0, 1.5, 2.0, 3.0]),
+                beta,
+                gamma: figures((1.0 - beta) * rng.even(0.3, 1.0)).min(beta),
+                a0: 1.0,
+                delta_a: loss(rng, 0.01),
+                delta_nu: loss(rng, 0.1),
+                delta_eta: loss(rng, 0.1),
+            })
+        }
+        _ => {
+            let count = rng.whole(1, 3);
+            let stiff = (0..count).map(|_| figures(k * rng.log(0.2, 2.0))).collect();
+            let time = (0..count).map(|_| figures(rng.log(0.05, 5.0) / s.w)).collect();
+            Law::Branches(figures(k * rng.log(0.1, 1.0)), stiff, time)
+        }
+    }
+}
+
+/// A bearing with smooth plastic shear of a stiffness, along local 2 and 3.
+pub fn shear(rng: &mut Rng, k: f64, s: Size) -> Law {
+    let axial = if rng.chance(0.5) { figures(s.k * 5.0) } else { 0.0 };
+    let own = |rng: &mut Rng, k: f64| {
+        let (r, y) = (rng.even(0.05, 0.4), figures(s.u * rng.log(0.2, 1.0)));
+        (figures(r * k), figures((1.0 - r) * k * y), y)
+    };
+    let (elastic, strength, y) = own(rng, k);
+    let lead = rng.chance(0.4).then_some(0.15);
+    let (elastic3, strength3, y3) = match lead {
+        None if rng.chance(0.4) => own(rng, 1.5 * k),
+        _ => (elastic, strength, y),
+    };
+    Law::Shear(Shear {
+        axial,
+        elastic: [elastic, elastic3],
+        strength: [strength, strength3],
+        yields: [y, y3],
+        lead,
+    })
+}
+
+/// A friction coefficient: slow, fast, rate.
+fn friction(rng: &mut Rng) -> [f64; 3] {
+    let slow = figures(rng.even(0.02, 0.15));
+    let fast = figures(slow * rng.even(1.0, 2.0));
+    [slow, fast, figures(rng.log(5.0, 50.0))]
+}
+
+/// A bearing that slides pressed and pulled.
+pub fn tension(rng: &mut Rng, kn: f64) -> Law {
+    let by_rate = rng.chance(0.5);
+    let of = |rng: &mut Rng| {
+        let [slow, fast, rate] = friction(rng);
+        if by_rate { [slow, fast, rate] } else { [slow, slow, 0.0] }
+    };
+    Law::Tension(Tension {
+        stiff: [kn, figures(kn * rng.log(0.1, 1.0))],
+        gaps: [0.0, if rng.chance(0.5) { figures(rng.log(1e-4, 5e-3)) } else { 0.0 }],
+        c: 0.0,
+        ks: figures(kn * rng.log(0.3, 1.0)),
+        radius: if rng.chance(0.5) { figures(rng.log(0.5, 4.0)) } else { 0.0 },
+        friction: [of(rng), of(rng)],
+    })
+}
+
+/// A bearing that slides under a weight.
+pub fn sliding(rng: &mut Rng, kn: f64) -> Law {
+    let ks = figures(kn * rng.log(0.3, 1.0));
+    match rng.whole(0, 2) {
+        0 => {
+            let ([slow, fast, rate], radius) = (friction(rng), figures(rng.log(0.5, 4.0)));
+            Law::Pendulum(Pendulum { kn, ks, radius, slow, fast, rate })
+        }
+        1 => tension(rng, kn),
+        _ => {
+            let (inner, outer) = (figures(rng.log(0.2, 0.5)), figures(rng.log(1.0, 3.0)));
+            let by_rate = rng.chance(0.4);
+            let inside = figures(rng.even(0.01, 0.04));
+            let (low, high) = (figures(rng.even(0.04, 0.1)), figures(rng.even(0.06, 0.15)));
+            let all = [low, inside, inside, high];
+            let rate = figures(rng.log(5.0, 50.0));
+            let friction =
+                all.map(|m| if by_rate { [m, figures(1.5 * m), rate] } else { [m, m, 0.0] });
+            let rims = rng.chance(0.5);
+            let capacities = if rims { [0.15, 0.06, 0.06, 0.15] } else { [0.0; 4] };
+            let stop = if rims { figures(0.3 * kn) } else { 0.0 };
+            let radii = [outer, inner, inner, outer];
+            Law::Triple(Triple { kn, ks, radii, capacities, stop, friction })
         }
     }
 }

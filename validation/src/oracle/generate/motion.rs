@@ -116,7 +116,18 @@ fn regular(k: &DMatrix<f64>) -> bool {
 fn held(a: &Assembled) -> bool {
     let mean = |x: &DMatrix<f64>| x.diagonal().sum() / x.nrows() as f64;
     let unit = |x: &DMatrix<f64>| if mean(x) > 0.0 { x / mean(x) } else { x.clone() };
-    let closed = |law: &Law| !matches!(law, Law::Gap(..) | Law::Hook(..) | Law::Contact(_));
+    let opens = |law: &Law| {
+        matches!(
+            law,
+            Law::Gap(..)
+                | Law::Hook(..)
+                | Law::Contact(_)
+                | Law::Kelvin(_)
+                | Law::Hertz(_)
+                | Law::Tension(_)
+        )
+    };
+    let closed = |law: &Law| !opens(law);
     let links = with_links(a, a.k.clone() * 0.0, closed);
     regular(&(unit(&a.m) + unit(&a.k) + unit(&a.c) + unit(&links)))
 }
@@ -131,6 +142,10 @@ fn stands(a: &Assembled) -> bool {
                 | Law::Elastomeric(..)
                 | Law::Linear(..)
                 | Law::Plastic(..)
+                | Law::Shear(_)
+                | Law::Ring(_)
+                | Law::Degrading(_)
+                | Law::Branches(..)
         )
     };
     regular(&with_links(a, a.k.clone(), steady))

@@ -8,8 +8,15 @@
 //! stress: with τ of 10⁻⁹ of a period it is the rate-independent law beyond all tolerances.
 //! [Simo & Hughes 1998, ch. 2: viscoplastic regularisation]
 
+mod hysteresis;
+mod impact;
+mod pendulum;
+mod ring;
+mod sliding;
+
 use super::number::Dual;
 use super::spec::{Contact, Law};
+use hysteresis::straight;
 
 /// What a law is asked about.
 #[derive(Clone, Copy)]
@@ -42,14 +49,25 @@ impl Law {
             Self::Plastic(d, _) => d.len() - 2,
             Self::Contact(c) if c.slow > 0.0 => 2,
             Self::Contact(_) => 0,
-            Self::Elastomeric(..) | Self::Pendulum(_) => 2,
+            Self::Elastomeric(..) | Self::Pendulum(_) | Self::Tension(_) | Self::Shear(_) => 2,
+            Self::Kelvin(_) => 0,
+            Self::Hertz(h) => usize::from(h.slowest > 0.0),
+            Self::Ring(_) => 1,
+            Self::Degrading(_) => 2,
+            Self::Branches(_, k, _) => k.len(),
+            Self::Triple(_) => 14,
         }
     }
 
     /// Size of an own unknown for a deformation of 1.
     #[must_use]
     pub fn own_size(&self) -> f64 {
-        if let Self::Wen(k, fy, ..) = self { k / fy } else { 1.0 }
+        match self {
+            Self::Wen(k, fy, ..) => k / fy,
+            Self::Degrading(b) => 1.0 / b.dy,
+            Self::Shear(s) => 1.0 / s.yields[0].min(s.yields[1]),
+            _ => 1.0,
+        }
     }
 
     /// A stiffness of the size that the law has, for each coordinate. `omega`: turns a dashpot into one.
@@ -67,6 +85,19 @@ impl Law {
             Self::Linear(k, c) => (0..2).map(|i| k[i][i].abs() + omega * c[i][i].abs()).collect(),
             Self::Elastomeric(k, ..) => vec![*k, *k],
             Self::Pendulum(p) => p.stiffness(),
+            Self::Kelvin(i) => vec![0.1 * i.k],
+            // Of a depth of a millimetre.
+            Self::Hertz(i) => vec![0.1 * i.k * 1e-3_f64.powf(i.n - 1.0)],
+            Self::Ring(r) => vec![0.1 * r.k],
+            Self::Degrading(b) => vec![b.k],
+            Self::Branches(beside, k, _) => vec![beside + 0.1 * k.iter().sum::<f64>()],
+            Self::Tension(t) => vec![0.1 * t.stiff[0], 0.1 * t.ks, 0.1 * t.ks],
+            Self::Triple(t) => vec![0.1 * t.kn, 0.1 * t.ks, 0.1 * t.ks],
+            Self::Shear(s) => {
+                let first = if s.axial > 0.0 { Some(s.axial) } else { None };
+                let across = |i: usize| s.elastic[i] + s.strength[i] / s.yields[i];
+                first.into_iter().chain([across(0), across(1)]).collect()
+            }
         }
     }
 
@@ -84,7 +115,13 @@ impl Law {
                 inner.iter().map(|p| d[0] - d[0].clamp(-p, *p)).collect()
             }
             Self::Elastomeric(k, fy, _) => round(d, fy / k),
-            Self::Wen(k, fy, _, n) => vec![d[0].signum() * saturated(d[0].abs() * k / fy, *n)],
+            Self::Wen(k, fy, _, n) => {
+                let [z] = straight([0.0], d[0].abs() * k / fy, &|[z]| [1.0 - z.abs().powf(*n)]);
+                vec![d[0].signum() * z]
+            }
+            Self::Ring(r) => vec![r.thrown(d[0])],
+            Self::Degrading(b) => b.thrown(d[0]),
+            Self::Shear(s) => s.thrown(d),
             Self::Contact(c) if c.slow > 0.0 => {
                 let normal = (c.kn * -(d[0] + c.opening)).max(0.0);
                 round(&d[1..], c.slow * normal / c.ks)
@@ -171,6 +208,24 @@ impl Law {
                 }
             }
             Self::Pendulum(p) => branch = p.answer(at, f, g),
+            Self::Kelvin(i) => branch = i.answer(at, &mut f[0]),
+            Self::Hertz(i) => branch = i.answer(at, &mut f[0], g),
+            Self::Ring(r) => branch = r.answer(at, &mut f[0], &mut g[0]),
+            Self::Degrading(b) => branch = b.answer(at, &mut f[0], g),
+            Self::Tension(t) => branch = t.answer(at, f, g),
+            Self::Triple(t) => branch = t.answer(at, f, g),
+            Self::Shear(s) => branch = s.answer(at, f, g),
+            Self::Branches(beside, stiff, time) => {
+                // z: elongations of the springs.
+                f[0] = *beside * d[0];
+                for (i, (k, tau)) in stiff.iter().zip(time).enumerate() {
+                    f[0] = f[0] + *k * at.z[i];
+                    g[i] = at.w[i];
+                    if !at.still {
+                        g[i] = g[i] - v[0] + (1.0 / tau) * at.z[i];
+                    }
+                }
+            }
             Self::Elastomeric(k, fy, r) => {
                 let stiff = (1.0 - r) * k;
                 branch = slip(stiff, &|_| Dual::from((1.0 - r) * fy), at, d, f, g);
@@ -181,20 +236,6 @@ impl Law {
         }
         branch
     }
-}
-
-/// z at the end of dz/dx = 1 − zⁿ from 0 to x, by the classical Runge–Kutta method.
-fn saturated(x: f64, n: f64) -> f64 {
-    let steps = 4000;
-    let h = x / f64::from(steps);
-    let rate = |z: f64| 1.0 - z.abs().powf(n);
-    (0..steps).fold(0.0, |z, _| {
-        let a = rate(z);
-        let b = rate(z + 0.5 * h * a);
-        let c = rate(z + 0.5 * h * b);
-        let d = rate(z + h * c);
-        z + h / 6.0 * (a + 2.0 * (b + c) + d)
-    })
 }
 
 fn abs(x: Dual) -> Dual {
@@ -228,7 +269,7 @@ fn plastic(points: &[f64], forces: &[f64], at: &At<'_>, f: &mut Dual, g: &mut [D
 }
 
 /// q = k (d − z) within a circle whose radius may grow with the rate of slip; z creeps along q.
-pub(super) fn slip(
+fn slip(
     k: f64,
     limit: &dyn Fn(Dual) -> Dual,
     at: &At<'_>,
@@ -252,6 +293,16 @@ pub(super) fn slip(
     u32::from(over.0 > 0.0)
 }
 
+/// Friction coefficient at a rate of slip, of [slow, fast, rate]. Below zero the line goes on, for the sake of
+/// Newton's method.
+fn friction(&[slow, fast, by]: &[f64; 3], rate: Dual, still: bool) -> Dual {
+    match rate {
+        _ if by == 0.0 || still => Dual::from(slow),
+        rate if rate.0 < 0.0 => Dual::from(slow) + (fast - slow) * by * rate,
+        rate => Dual::from(fast) - (fast - slow) * (-by * rate).exp(),
+    }
+}
+
 fn contact(c: &Contact, at: &At<'_>, f: &mut [Dual], g: &mut [Dual]) -> u32 {
     let mut branch = 0;
     let depth = -(at.d[0] + c.opening.into());
@@ -271,12 +322,7 @@ fn contact(c: &Contact, at: &At<'_>, f: &mut [Dual], g: &mut [Dual]) -> u32 {
         }
     }
     if c.slow > 0.0 {
-        // Below zero the line goes on, for the sake of Newton's method.
-        let mu = |rate: Dual| match rate {
-            _ if c.rate == 0.0 || at.still => Dual::from(c.slow),
-            rate if rate.0 < 0.0 => Dual::from(c.slow) + (c.fast - c.slow) * c.rate * rate,
-            rate => Dual::from(c.fast) - (c.fast - c.slow) * (-c.rate * rate).exp(),
-        };
+        let mu = |rate: Dual| friction(&[c.slow, c.fast, c.rate], rate, at.still);
         // An open contact has no strength: the anchor goes along.
         branch += 3 * slip(c.ks, &|rate| mu(rate) * normal, at, &at.d[1..], &mut f[1..], g);
         if normal.0 == 0.0 {

@@ -1,6 +1,9 @@
 //! The text of a model from its description.
 
-use super::spec::{AXES, Basis, DOFS, Damping, Function, Kind, Law, Output, Spec};
+mod law;
+
+use super::spec::{AXES, Basis, DOFS, Damping, Function, Kind, Output, Spec};
+use law::law;
 use std::fmt::Write as _;
 
 /// The model file.
@@ -239,74 +242,4 @@ fn kind(kind: &Kind) -> (&'static str, String) {
 
 fn spread(consistent: bool) -> &'static str {
     if consistent { "Consistent" } else { "Lumped" }
-}
-
-fn law(law: &Law, axis: &str, rotation: bool) -> (&'static str, String) {
-    match law {
-        Law::Gap(k, g) => ("Gap", format!("k: {k:?}, opening: {g:?}, {axis}")),
-        Law::Hook(k, g) => ("Hook", format!("k: {k:?}, opening: {g:?}, {axis}")),
-        Law::Dashpot(c, a) => {
-            let name = if rotation { "cr" } else { "c" };
-            ("Dashpot", format!("{name}: {c:?}, exponent: {a:?}, {axis}"))
-        }
-        Law::Maxwell(k, c, a) => {
-            ("MaxwellDamper", format!("k: {k:?}, c: {c:?}, exponent: {a:?}, {axis}"))
-        }
-        Law::Bilinear(k, c, cy, fl) => {
-            ("BilinearDamper", format!("k: {k:?}, c: {c:?}, cy: {cy:?}, fl: {fl:?}, {axis}"))
-        }
-        Law::Elastic(d, f) => {
-            ("MultilinearElastic", format!("deformation: {}, force: {}, {axis}", list(d), list(f)))
-        }
-        Law::Plastic(d, f) => {
-            let both = |x: &[f64]| -> Vec<f64> {
-                x[1..].iter().rev().map(|v| -v).chain(x.iter().copied()).collect()
-            };
-            let (d, f) = (list(&both(d)), list(&both(f)));
-            ("MultilinearPlastic", format!("deformation: {d}, force: {f}, rule: Kinematic, {axis}"))
-        }
-        Law::Wen(k, fy, r, n) => {
-            ("Wen", format!("k: {k:?}, fy: {fy:?}, ratio: {r:?}, exponent: {n:?}, {axis}"))
-        }
-        Law::Contact(c) => {
-            let mut s = format!(
-                "kn: {:?}, opening: {:?}, damping: {:?}, pull: {}",
-                c.kn, c.opening, c.c, c.pull
-            );
-            if c.slow > 0.0 && c.rate > 0.0 {
-                let (slow, fast, rate) = (c.slow, c.fast, c.rate);
-                let _ = write!(s, ", mu_slow: {slow:?}, mu_fast: {fast:?}, rate: {rate:?}");
-            } else if c.slow > 0.0 {
-                let _ = write!(s, ", mu: {:?}", c.slow);
-            }
-            if c.slow > 0.0 {
-                let _ = write!(s, ", ks: {:?}", c.ks);
-            }
-            ("NLink", s)
-        }
-        Law::Linear(k, c) => {
-            let whole = |m: &[[f64; 2]; 2]| {
-                let mut rows = vec![vec![0.0; 6]; 6];
-                for i in 0..2 {
-                    for j in 0..2 {
-                        rows[i][j] = m[i][j];
-                    }
-                }
-                let rows: Vec<String> = rows.iter().map(|r| list(r)).collect();
-                format!("[{}]", rows.join(", "))
-            };
-            ("LinearLink", format!("stiffness: {}, damping: {}", whole(k), whole(c)))
-        }
-        Law::Pendulum(p) => (
-            "FrictionPendulum",
-            format!(
-                "kn: {:?}, ks: {:?}, radius: {:?}, friction_model: Velocity, mu_slow: {:?}, \
-                 mu_fast: {:?}, rate: {:?}",
-                p.kn, p.ks, p.radius, p.slow, p.fast, p.rate
-            ),
-        ),
-        Law::Elastomeric(k, fy, r) => {
-            ("ElastomericBearing", format!("k: {k:?}, fy: {fy:?}, ratio: {r:?}"))
-        }
-    }
 }

@@ -8,9 +8,9 @@
 //! What slides is the anchor z, and its rate is the velocity of sliding that the coefficient hangs on.
 //! [Zayas, Low & Mahin 1990; Constantinou, Mokha & Reinhorn 1990]
 
-use super::laws::{At, slip};
-use super::number::Dual;
-use super::spec::Pendulum;
+use super::{At, friction, slip};
+use crate::oracle::number::Dual;
+use crate::oracle::spec::Pendulum;
 
 impl Pendulum {
     /// A stiffness of the size that the law has, for each coordinate.
@@ -22,13 +22,7 @@ impl Pendulum {
     pub(super) fn answer(&self, at: &At<'_>, f: &mut [Dual], g: &mut [Dual]) -> u32 {
         let normal = self.kn * (-at.d[0]).above_zero();
         f[0] = -normal;
-        // Below zero the line goes on, for the sake of Newton's method.
-        let more = self.fast - self.slow;
-        let mu = |v: Dual| match v {
-            _ if at.still => Dual::from(self.slow),
-            v if v.0 < 0.0 => Dual::from(self.slow) + more * self.rate * v,
-            v => Dual::from(self.fast) - more * (-self.rate * v).exp(),
-        };
+        let mu = |v: Dual| friction(&[self.slow, self.fast, self.rate], v, at.still);
         let slips = slip(self.ks, &|v| mu(v) * normal, at, &at.d[1..], &mut f[1..], g);
         for i in 0..2 {
             f[i + 1] = f[i + 1] + (1.0 / self.radius) * normal * at.d[i + 1];
