@@ -2,7 +2,7 @@
 //!
 //! ```text
 //!   δ = −(d + g): penetration,  δ̇ = −ḋ;   f = −N,  N = 0 where δ ≤ 0, and never negative
-//!   Hertzdamp:  N = k δⁿ (1 + ξ δ̇/s)              s: speed of approach
+//!   Hertzdamp:  N = k δⁿ (1 + ξ δ̇/s)              s: speed at first touch, s_min at least
 //!   Jankowski:  N = k δⁿ + 2 ξ √(m k δⁿ⁻¹) δ̇      where δ̇ > 0, else k δⁿ
 //! ```
 //!
@@ -32,9 +32,15 @@
 //!
 //! The dashpot of `Jankowski` grows linearly over the first nanometre.
 //!
-//! s is the largest speed of approach in the contact so far: in an impact that of the first touch, as in
-//! the source; in a contact that is pressed together later it keeps the damping finite. Below `min_speed`
-//! impacts return more than e.
+//! s is the speed at the moment the gap closes, as in the source, and stays for as long as it is closed; a new
+//! touch has a speed of its own. A contact that never closed (at rest, or led together by a static case) has
+//! s_min: where it is pressed together later, it damps as an impact at that speed does. Below `min_speed`
+//! impacts return more than e. Where the gap closes within a step, s is that of a motion of constant
+//! acceleration between its ends:
+//!
+//! ```text
+//!   s² = (1 − r) δ̇₀² + r δ̇₁²,   r = δ₀/(δ₀ − δ₁)
+//! ```
 //!
 //! Reference: \[Muthukumar & DesRoches 2006\], \[Jankowski 2005\].
 
@@ -86,9 +92,9 @@ pub struct ImpactHertz {
 }
 
 history! {
-    /// History of a contact that remembers its approach.
+    /// History of a contact that remembers its first touch.
     struct Approach {
-        /// Largest speed of approach in this contact; 0 while open.
+        /// Speed at which this contact closed; 0 while open.
         speed: "m/s",
     }
 }
@@ -149,7 +155,7 @@ impl Described for ImpactHertz {
             Parameter::choice("axis", &["U1", "U2", "U3"], "U1", "local axis"),
         ],
         law: "δ = −(d + g), δ̇ = −ḋ; f = −N where δ > 0, else 0; N ≥ 0\n\
-              Hertzdamp: N = k δⁿ (1 + ξ δ̇/s), ξ (1 + e) = ln((1 + ξ)/(1 − ξ e))\n\
+              Hertzdamp: N = k δⁿ (1 + ξ δ̇/s), ξ (1 + e) = ln((1 + ξ)/(1 − ξ e)), s: δ̇ at first touch, s_min at least\n\
               Jankowski: N = k δⁿ + 2 ξ √(m k δⁿ⁻¹) δ̇ where δ̇ > 0, else k δⁿ",
         source: "Muthukumar & DesRoches 2006; Jankowski 2005; Lankarani & Nikravesh 1990",
         example: r#""joint": ImpactHertz(nodes: ("a", "b"), k: "2000 MN/m^1.5", restitution: 0.65, opening: "20 mm")"#,
@@ -195,6 +201,38 @@ fn approach_damping(e: f64, n: f64) -> f64 {
     approach_ratio(e) * (0.5 * (n + 1.0)).sqrt()
 }
 
+/// Speed at first touch, as far as it is known, and how it depends on the end of a step in which it happens.
+#[derive(Clone, Copy)]
+struct Touch {
+    speed: f64,
+    by_depth: f64,
+    by_rate: f64,
+}
+
+impl Touch {
+    /// Known from before; 0: none.
+    fn known(speed: f64) -> Self {
+        Self { speed, by_depth: 0.0, by_rate: 0.0 }
+    }
+
+    /// Within a step from an open gap (depth ≤ 0) to a closed one, each with its rate.
+    fn within([depth0, rate0]: [f64; 2], [depth, rate]: [f64; 2]) -> Self {
+        let way = depth - depth0;
+        let share = -depth0 / way;
+        let speed = ((1.0 - share) * rate0 * rate0 + share * rate * rate).sqrt();
+        if speed == 0.0 {
+            return Self::known(0.0);
+        }
+        let by_depth = 0.5 * share * (rate0 * rate0 - rate * rate) / (way * speed);
+        Self { speed, by_depth, by_rate: share * rate / speed }
+    }
+
+    /// No slower than this.
+    fn at_least(self, speed: f64) -> Self {
+        if self.speed > speed { self } else { Self::known(speed) }
+    }
+}
+
 /// Normal force and what it depends on.
 struct Normal {
     force: f64,
@@ -213,8 +251,8 @@ impl ImpactHertz {
         })
     }
 
-    /// At penetration `depth` and its `rate`; `speed` of approach known so far.
-    fn normal(&self, depth: f64, rate: f64, speed: f64) -> Normal {
+    /// At penetration `depth` and its `rate`, after a touch.
+    fn normal(&self, depth: f64, rate: f64, touch: Touch) -> Normal {
         if depth <= 0.0 {
             return Normal { force: 0.0, by_depth: 0.0, by_rate: 0.0, elastic: 0.0 };
         }
@@ -223,16 +261,14 @@ impl ImpactHertz {
         let stiffness = n * elastic / depth;
         match self.model {
             HertzModel::Hertzdamp => {
-                let known = speed.max(self.min_speed);
-                let (share, by_rate) = if rate > known {
-                    (xi, 0.0)
-                } else {
-                    (xi * rate / known, xi * elastic / known)
-                };
+                let touch = touch.at_least(self.min_speed);
+                let share = xi * rate / touch.speed;
                 if share < -1.0 {
                     return Normal { force: 0.0, by_depth: 0.0, by_rate: 0.0, elastic };
                 }
-                let by_depth = stiffness * (1.0 + share);
+                let by_touch = -elastic * share / touch.speed;
+                let by_depth = stiffness * (1.0 + share) + by_touch * touch.by_depth;
+                let by_rate = elastic * xi / touch.speed + by_touch * touch.by_rate;
                 Normal { force: elastic * (1.0 + share), by_depth, by_rate, elastic }
             }
             HertzModel::Jankowski if rate > 0.0 => {
@@ -272,12 +308,18 @@ impl Link for ImpactHertz {
         trial: &mut [f64],
         out: &mut Response<'_>,
     ) {
-        let depth = -(at.d[0] + self.opening);
-        let known = Approach::load(committed).speed.max(-at.v0[0]);
-        let now = self.normal(depth, -at.v[0], known);
-        let start = self.normal(-(at.d0[0] + self.opening), -at.v0[0], known);
-        let speed = if depth > 0.0 { known.max(-at.v[0]) } else { 0.0 };
-        Approach { speed }.store(trial);
+        let (depth, depth0) = (-(at.d[0] + self.opening), -(at.d0[0] + self.opening));
+        let known = Touch::known(Approach::load(committed).speed);
+        let touch = if depth <= 0.0 {
+            Touch::known(0.0)
+        } else if depth0 > 0.0 {
+            known
+        } else {
+            Touch::within([depth0, -at.v0[0]], [depth, -at.v[0]])
+        };
+        let now = self.normal(depth, -at.v[0], touch);
+        let start = self.normal(depth0, -at.v0[0], known);
+        Approach { speed: touch.speed }.store(trial);
         (out.f[0], out.k[0], out.c[0]) = (-now.force, now.by_depth, now.by_rate);
         out.energy.stored = now.elastic * depth.max(0.0) / (self.exponent + 1.0);
         let (before, after) = (start.elastic - start.force, now.elastic - now.force);

@@ -156,6 +156,21 @@ impl Table {
             .fold(samples, |a, t| a.max(self.at(t, Side::Before)[0].abs()))
     }
 
+    /// Largest |value| up to a time.
+    pub(crate) fn peak_until(&self, end: f64) -> f64 {
+        if end >= self.end() {
+            return self.peak();
+        }
+        let before = self.times.partition_point(|t| *t <= end);
+        let samples = self.values[..before].iter().fold(0.0_f64, |a, y| a.max(y.abs()));
+        let turns = if self.curvatures.is_empty() { 0..0 } else { 0..before };
+        turns
+            .flat_map(|i| self.turning_points(i))
+            .filter(|t| *t < end)
+            .chain([end])
+            .fold(samples, |a, t| a.max(self.at(t, Side::Before)[0].abs()))
+    }
+
     /// Samples at which the table bends: those of a spline, and of straight lines those that do not lie on the line
     /// through the two before.
     #[must_use]
@@ -346,6 +361,9 @@ mod tests {
     fn the_peak_of_a_spline_lies_between_samples() {
         let table = sine(5); // no sample at π/2
         assert!((table.peak() - 1.0).abs() < 5e-3 && table.peak() > table.values()[2]);
+        assert_eq!(table.peak_until(100.0), table.peak());
+        assert_eq!(table.peak_until(0.7), table.at(0.7, Side::Before)[0]);
+        assert_eq!(table.peak_until(1.7), table.peak());
     }
 
     #[test]

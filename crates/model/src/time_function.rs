@@ -133,6 +133,15 @@ impl Harmonic {
         [self.amplitude * sin, self.amplitude * w * cos, -self.amplitude * w * w * sin]
     }
 
+    /// As far as it comes up to a time.
+    fn until(&self, end: f64) -> Self {
+        if end <= self.start {
+            return Self { amplitude: 0.0, ..*self };
+        }
+        let cycles = (end.min(self.end()) - self.start) * self.frequency;
+        Self { cycles: cycles.is_finite().then_some(cycles), ..*self }
+    }
+
     fn peak(&self, phase: f64) -> f64 {
         let from = self.phase + phase;
         let to = from + TAU * self.cycles.unwrap_or(1.0);
@@ -223,6 +232,28 @@ impl TimeFunction {
             Self::Sine(h) => h.peak(0.0),
             Self::Cosine(h) => h.peak(PI / 2.0),
             Self::Table(table) => table.peak(),
+        }
+    }
+
+    /// Largest |value| from 0 up to a time (s).
+    #[must_use]
+    pub fn peak_until(&self, end: f64) -> f64 {
+        let at = |t: f64| self.value(t.min(end), Side::Before).abs();
+        match self {
+            Self::Constant(_) => self.peak(),
+            Self::Step { start, .. } | Self::HalfSine { start, .. } if *start >= end => 0.0,
+            Self::Step { .. } => self.peak(),
+            Self::Ramp { start, rise, .. } => at(start + rise),
+            Self::HalfSine { start, duration, .. } => at(start + 0.5 * duration),
+            Self::Sine(h) => h.until(end).peak(0.0),
+            Self::Cosine(h) => h.until(end).peak(PI / 2.0),
+            Self::Ricker { frequency, center, .. } => {
+                // Crest and troughs, at x² = 3/2.
+                let away = 1.5_f64.sqrt() / (PI * frequency);
+                let turns = [center - away, *center, center + away];
+                turns.iter().fold(at(0.0).max(at(end)), |most, t| most.max(at(t.max(0.0))))
+            }
+            Self::Table(table) => table.peak_until(end),
         }
     }
 
@@ -369,6 +400,20 @@ mod tests {
             let met = (0..=20_000).map(|i| f.value(f64::from(i) * 1e-4, Side::Before).abs());
             let met = met.fold(0.0, f64::max);
             assert!((f.peak() - met).abs() < 1e-5 * met, "{f:?}: {} {met}", f.peak());
+        }
+    }
+
+    #[test]
+    fn the_peak_up_to_a_time_is_the_largest_value_met_by_then() {
+        let short = Harmonic { cycles: Some(0.1), phase: 0.0, ..pulse() };
+        for f in analytic().into_iter().chain([TimeFunction::Sine(short)]) {
+            for end in [0.05, 0.21, 0.4, 0.77, 1.3, 2.0] {
+                let met = (0..=20_000).map(|i| f.value(f64::from(i) * 5e-5 * end, Side::Before));
+                let met = met.fold(0.0, |a: f64, x| a.max(x.abs()));
+                let peak = f.peak_until(end);
+                // Samples miss the start of what jumps.
+                assert!((peak - met).abs() <= 1e-4 * f.peak(), "{f:?} {end}: {peak} {met}");
+            }
         }
     }
 }

@@ -13,6 +13,8 @@
 //! The error of the steps is what a [companion](crate::companion) at a looser tolerance is away; to link forces it adds
 //! what the link equations may leave.
 //!
+//! What both leave out is of second order: an estimate e of an output of range s is said as e (1 + min(1, 100 e/s)).
+//!
 //! References: residual-based estimation of reduced models, \[Antoulas 2005, ch. 11\]; two bases of one sequence as
 //! estimator, \[Bai & Su 2005\].
 
@@ -30,6 +32,10 @@ use trilith_system::LinkSet;
 
 /// What runs straight moves links that answer, to first order only.
 const ANSWERED: f64 = 1.25;
+
+/// Both estimates are of first order. What they leave out grows with the square of the error: one of this share of the
+/// range may be twice as large as it looks.
+const SECOND_ORDER: f64 = 0.01;
 
 /// How far an output may be off, in its unit.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
@@ -139,14 +145,21 @@ impl<'a> Certificate<'a> {
     /// The errors, by what a companion has found.
     pub(crate) fn errors(&self, companion: Option<&Samples<'_>>) -> Vec<OutputError> {
         let apart = companion.map(|c| self.samples.apart(c));
+        let doubted = |e: f64, i: usize| {
+            let size = SECOND_ORDER * self.size(i);
+            // Not a number stays none.
+            if size > 0.0 { e * (1.0 + (e / size).clamp(0.0, 1.0)) } else { e }
+        };
         let step = |i: usize| {
             let apart = apart.as_ref().map_or(f64::NAN, |apart| apart[i]);
             let left = self.left[i].map_or(0.0, |(kind, share)| share * self.forces[kind]);
             let straight = self.defect.as_ref().map_or(0.0, |defect| ANSWERED * defect.most[i]);
-            larger(SAFE * apart, straight) + UNSEEN * self.size(i) + left
+            doubted(larger(SAFE * apart, straight), i) + UNSEEN * self.size(i) + left
         };
         let reduction = self.reduction.iter().enumerate();
-        reduction.map(|(i, e)| OutputError { reduction: *e, step: step(i) }).collect()
+        let error =
+            |(i, e): (usize, &f64)| OutputError { reduction: doubted(*e, i), step: step(i) };
+        reduction.map(error).collect()
     }
 
     /// The largest value of an output less the smallest, 0 among them.

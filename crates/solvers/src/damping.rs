@@ -7,8 +7,9 @@
 //! K is the stiffness of the structure without dummies. Motion that the modes of the basis do not hold is damped
 //! in proportion to its stiffness, with ratios b ω/2 that go on from the fastest mode's, so that nothing
 //! rings undamped in direct integration; b is as large as it may be without taking damping from a mode. In the
-//! modes themselves the two terms in b cancel, and static shapes of places without mass, which are not among
-//! them, are damped by b. A basis that holds all modes there are leaves nothing beyond: b = 0.
+//! modes themselves the two terms in b cancel. On a basis there is no b: static shapes of places without mass are no
+//! modes and ring in no way, and what damped them by b would change with the number of vectors. A basis that
+//! holds all modes there are leaves nothing beyond: b = 0.
 //!
 //! Reference: \[Chopra 2012, sec. 11.4\], \[Chopra & McKenna 2016\].
 

@@ -99,7 +99,7 @@ pub(crate) fn run(
     let largest = from.as_ref().map(|end| end.largest.clone()).unwrap_or_default();
     let set_out = |stepper: &mut dyn Stepper| match from.clone() {
         Some(end) => resume(end, stepper),
-        None => start(model, system, &initial, &loads, stepper, dt),
+        None => start(model, system, &initial, &loads, stepper, [dt, analysis.duration]),
     };
     let (state, pace, ledger, first) = set_out(stepper.as_mut())?;
     let mut moving = Moving { state: Box::new(state), pace, ledger };

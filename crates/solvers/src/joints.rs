@@ -264,7 +264,8 @@ pub(crate) fn rates(
             massless.expand(share, &all, &mut tried);
             let next = look(&tried);
             if largest(&next.0) < largest(&left) {
-                (left, size, c) = next;
+                // In equilibrium nothing of the forces is left to measure by: the largest on the way.
+                (left, size, c) = (next.0, size.max(next.1), next.2);
                 std::mem::swap(&mut at, &mut tried);
                 break;
             }

@@ -127,7 +127,6 @@ impl Space {
                 }
             }
         }
-        let beyond = modal.map_or(0.0, |modal| modal.beyond);
         // What couples static shapes with each other is rounding, and what they have with modes where nothing ties them.
         for r in 0..statics {
             let i = modes + r;
@@ -135,11 +134,8 @@ impl Space {
             for j in among..m {
                 (damping[(i, j)], damping[(j, i)]) = (0.0, 0.0);
             }
-            // ψᵀ K ψ without the dummies.
-            let held = |(a, k): (usize, &f64)| k * links[(i, a)] * links[(i, a)];
-            let of_dummies: f64 = dummy_k.iter().enumerate().map(held).sum();
-            let own = (basis.statics.stiffness[r] - of_dummies).max(0.0);
-            damping[(i, i)] = basis.statics.damping[r] + beyond * own;
+            // Modal damping has no share in them, however many modes the basis holds.
+            damping[(i, i)] = basis.statics.damping[r];
         }
         Self {
             mass: diagonal(&[vec![1.0; modes], vec![0.0; statics]].concat()),

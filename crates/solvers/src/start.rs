@@ -90,14 +90,14 @@ impl Initial {
     }
 }
 
-/// The state of a start.
+/// The state of a start of a case with this output step and duration, s.
 pub(crate) fn start(
     model: &Model,
     system: &System,
     initial: &Initial,
     loads: &LoadSet,
     stepper: &mut dyn Stepper,
-    dt: f64,
+    [dt, duration]: [f64; 2],
 ) -> Result<Start, SolveError> {
     let before = initial.links.clone();
     let before = before.unwrap_or_else(|| LinksBefore::rest(model, &system.links));
@@ -110,11 +110,12 @@ pub(crate) fn start(
     let level = potential(&constant_force(stepper.space(), loads), &state);
     let stored: f64 = state.stored.iter().sum();
     // From rest there is nothing to compare with: a hundredth of the velocity that the loads could
-    // give the whole mass in one output step, and that of the motion that sets in.
+    // give the whole mass in one output step, and that of the motion that sets in. Loads that come after
+    // the end of the case give none.
     let push: f64 = loads
         .channels
         .iter()
-        .map(|c| peak(&c.track) * c.force.iter().map(|x| x * x).sum::<f64>().sqrt())
+        .map(|c| peak_until(&c.track, duration) * c.force.iter().map(|x| x * x).sum::<f64>().sqrt())
         .sum();
     let mass = if system.total_mass > 0.0 { system.total_mass } else { 1.0 };
     let n = stepper.space().order();
@@ -161,6 +162,15 @@ fn extent(model: &Model) -> f64 {
     };
     let most = (0..3).map(along).fold(0.0, f64::max);
     if most > 0.0 { most } else { 1.0 }
+}
+
+/// Largest |amplitude| up to a time; 0 of derivatives.
+fn peak_until(track: &Track, end: f64) -> f64 {
+    match track {
+        // What is held from the start and not balanced sets a motion in.
+        Track::Constant | Track::Rate { .. } | Track::Curvature { .. } => 0.0,
+        Track::Value { function, factor } => (factor * function.peak_until(end)).abs(),
+    }
 }
 
 /// Largest |amplitude|; 0 of derivatives.

@@ -5,7 +5,7 @@
 //! whole number of periods looks smooth, in one as in halves. So links are asked inside:
 //!
 //! ```text
-//! A_j = |q − s/ω², (q̇ − ṡ/ω²)/ω|    swing of mode j about what moves it slowly, of energy ½ ω_j² A_j²
+//! A_j = |q − s/ω², (q̇ − ṡ/ω²)/ω|    swing of mode j about what moves it slowly, of energy ½ ω_j² A_j², at either end
 //! δ(t) = f̃(d(t), ḋ(t)) − (f̃₀ + (f̃₁ − f̃₀) t/Δt)      d(t) = B q(t) in closed form
 //! E = ½ Σ_j |∫ (B Φ)ⱼᵀ δ e^{−iω_j t} dt|²             energy of the motion that δ would have added
 //! ```
@@ -85,17 +85,26 @@ impl Vibration {
         self.energy > notable
     }
 
-    /// True where the laws, at either end of the swing about the end of the step, do work on it that is notable.
+    /// True where the laws, at either end of the swing about where either end of the step would be without it, do work on
+    /// it that is notable: what moves slowly may carry a link away within the step.
     fn laws_notice(&mut self, step: &Made<'_>, notable: f64) -> bool {
-        let Made { laws, links, space, to, .. } = step;
+        let Made { laws, links, space, from, to, dt, .. } = step;
         let mut reach = vec![[0.0; 2]; links.len()];
+        // What the swing itself is at both ends of the step.
+        let mut own = [vec![[0.0; 2]; links.len()], vec![[0.0; 2]; links.len()]];
         for (a, flat) in links.active.iter().enumerate() {
             let [d, v] = &mut reach[*flat];
             let row = space.links.row(a).collect::<Vec<_>>();
             for (j, swing) in &self.swing {
-                let by = row[*j].1.abs() * swing;
+                let share = row[*j].1;
+                let by = share.abs() * swing;
                 *d += by;
                 *v += by * self.form.omega[*j];
+                let ends = self.form.swinging(*j, &from.motion, &to.motion, *dt);
+                for (own, [q, p]) in own.iter_mut().zip(ends) {
+                    own[*flat][0] += share * q;
+                    own[*flat][1] += share * p;
+                }
             }
         }
         let noticed = |(law, link): (&dyn Link, &LinkInstance)| {
@@ -104,15 +113,20 @@ impl Vibration {
             if reach.iter().all(|[d, _]| *d == 0.0) {
                 return false;
             }
-            let (d0, v0) = (&to.d[r.clone()], &to.v[r.clone()]);
-            [-1.0, 1.0].into_iter().any(|side| {
-                let d: Vec<f64> = d0.iter().zip(reach).map(|(x, [d, _])| x + side * d).collect();
-                let v: Vec<f64> = v0.iter().zip(reach).map(|(x, [_, v])| x + side * v).collect();
+            let sides = [(*from, 0, -1.0), (*from, 0, 1.0), (*to, 1, -1.0), (*to, 1, 1.0)];
+            sides.into_iter().any(|(state, end, side)| {
+                let (d0, v0) = (&state.d[r.clone()], &state.v[r.clone()]);
+                let there = |x: &[f64], kind: usize| -> Vec<f64> {
+                    let swings = reach.iter().zip(&own[end][r.clone()]);
+                    let moved = x.iter().zip(swings);
+                    moved.map(|(x, (most, own))| x - own[kind] + side * most[kind]).collect()
+                };
+                let (d, v) = (there(d0, 0), there(v0, 1));
                 let at = Kinematics { d: &d, v: &v, d0, v0, dt: 0.0 };
-                self.answer.of(law, &at, &to.history[link.history.clone()]);
+                self.answer.of(law, &at, &state.history[link.history.clone()]);
                 let work = (0..r.len()).map(|i| {
-                    let change = self.answer.f[i] - to.f[r.start + i];
-                    let of_dummy = step.dummy(r.start + i) * side * reach[i][0];
+                    let change = self.answer.f[i] - state.f[r.start + i];
+                    let of_dummy = step.dummy(r.start + i) * (d[i] - d0[i]);
                     (change - of_dummy).abs() * reach[i][0]
                 });
                 work.sum::<f64>() > notable
@@ -130,6 +144,10 @@ impl Vibration {
         let fastest = swinging.map(|(w, _)| w).fold(0.0, f64::max);
         let parts = ((fastest * dt / SHORT).ceil() as usize).clamp(FEWEST, MOST) | 1;
         let inside = self.form.inside(&from.motion, &to.motion, *dt, parts);
+        if inside.is_empty() {
+            // Nobody knows what is inside: shorter steps will show it.
+            return self.energy;
+        }
         let part = dt / parts as f64;
         let (n, active) = (space.order(), space.links.len());
         let mut history = from.history.clone();

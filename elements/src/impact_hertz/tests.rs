@@ -1,9 +1,9 @@
 use super::*;
 use crate::shared::parameters::{numbers, read};
-use crate::shared::paths::rebound;
+use crate::shared::paths::{led, rebound};
 use approx::assert_relative_eq;
-use trilith_element::Value;
 use trilith_element::conformance::Kit;
+use trilith_element::{Driver, Value};
 
 fn law(model: &str, given: &[(&str, f64)]) -> ImpactHertz {
     let mut all = numbers(given);
@@ -63,10 +63,34 @@ fn the_damping_has_the_known_limit_and_neighbours() {
 #[test]
 fn a_contact_at_rest_is_a_spring_and_a_later_push_is_damped() {
     let law = law("Hertzdamp", &[("xi", 0.5)]);
-    let at_rest = law.normal(1e-3, 0.0, 0.0);
+    let at_rest = law.normal(1e-3, 0.0, Touch::known(0.0));
     assert_relative_eq!(at_rest.force, 2e9 * 1e-3_f64.powf(1.5), max_relative = 1e-14);
-    let pushed = law.normal(1e-3, 0.2, 0.0);
-    assert_relative_eq!(pushed.force, 1.5 * at_rest.force, max_relative = 1e-14);
+    // As an impact at the least speed, 1 mm/s.
+    let pushed = law.normal(1e-3, 0.2, Touch::known(0.0));
+    assert_relative_eq!(pushed.force, (1.0 + 0.5 * 200.0) * at_rest.force, max_relative = 1e-14);
+}
+
+#[test]
+fn the_speed_is_that_at_which_the_gap_closes_however_long_the_step() {
+    let law = law("Hertzdamp", &[("xi", 0.5), ("opening", 0.01)]);
+    // d = −½ a t² closes the gap at √(2 g a) and goes on faster.
+    let a: f64 = 2.0;
+    for steps in [1, 2, 7, 50] {
+        let driver = led(&law, 0.2, steps, |t| (-0.5 * a * t * t, -a * t));
+        let (depth, rate, s) = (0.03_f64, 0.4, (2.0 * 0.01 * a).sqrt());
+        let force = 2e9 * depth.powf(1.5) * (1.0 + 0.5 * rate / s);
+        assert_relative_eq!(-driver.f[0], force, max_relative = 1e-12);
+    }
+}
+
+#[test]
+fn a_second_touch_has_a_speed_of_its_own() {
+    let law = law("Hertzdamp", &[("xi", 0.5)]);
+    let mut driver = Driver::starting_at(&law, &[1e-3], &[-0.4]);
+    driver.step(&[-1e-3], &[-0.4], 5e-3);
+    driver.step(&[1e-3], &[0.1], 1e-2);
+    let force = -driver.step(&[-1e-3], &[-0.1], 2e-2)[0];
+    assert_relative_eq!(force, 1.5 * 2e9 * 1e-3_f64.powf(1.5), max_relative = 1e-12);
 }
 
 #[test]

@@ -11,6 +11,9 @@ use trilith_system::System;
 /// Modes shown in pictures.
 const SHAPES: usize = 6;
 
+/// Shares of flexibility that are equal but for this are the same.
+const ROUNDED: f64 = 1e-9;
+
 /// Participation of masses and loads, and the flexibility of every link coordinate that the basis holds;
 /// `dummies` and `shift` are those of K̂.
 pub(super) fn report(
@@ -59,7 +62,11 @@ pub(super) fn report(
         let coordinate = system.links.name(model, *flat);
         adequacy.push(Adequacy { coordinate, share: share(*whole, &phi.row(&rows[*flat])) });
     }
-    adequacy.sort_by(|a, b| a.share.total_cmp(&b.share));
+    // What only rounding tells apart is in the order of the names.
+    let rank = |a: &Adequacy| (a.share / ROUNDED).round();
+    adequacy.sort_by(|a: &Adequacy, b| {
+        rank(a).total_cmp(&rank(b)).then_with(|| a.coordinate.cmp(&b.coordinate))
+    });
     let basis = &bases.structural;
     let phi = &*basis.shapes;
     let mass = |axis: usize| -> Vec<f64> {

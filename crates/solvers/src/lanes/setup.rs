@@ -171,7 +171,8 @@ pub fn prepare(
     let side = link_side(model, system, &analysis.solution, &loads, order, true);
     let mut stepper = LinkStepper::new(Modal::new(modes), side)?;
     let dt = analysis.dt;
-    let (state, _, _, _) = start(model, system, &initial, &loads, &mut stepper, dt)?;
+    let times = [dt, analysis.duration];
+    let (state, _, _, _) = start(model, system, &initial, &loads, &mut stepper, times)?;
     let space = stepper.space();
 
     let m = space.order();

@@ -41,16 +41,30 @@ impl ClosedForm {
         s
     }
 
-    /// Amplitude with which a mode swings about what the loads move slowly, in a step of this length; as if no other mode
-    /// damped it.
+    /// Amplitude with which a mode swings about what the loads move slowly, in a step of this length, at the end where it is
+    /// larger; as if no other mode damped it.
     #[inline]
     pub(crate) fn swing(&self, j: usize, from: &[f64], to: &[f64], length: f64) -> f64 {
+        let w2 = self.structure.omega2[j];
+        let [start, end] = self.swinging(j, from, to, length).map(|[q, v]| q * q + v * v / w2);
+        start.max(end).sqrt()
+    }
+
+    /// Displacement and velocity of that swing at both ends of the step.
+    #[inline]
+    pub(crate) fn swinging(
+        &self,
+        j: usize,
+        from: &[f64],
+        to: &[f64],
+        length: f64,
+    ) -> [[f64; 2]; 2] {
         let n = self.structure.omega2.len();
         let w2 = self.structure.omega2[j];
         let slow = |x: &[f64]| x[j] + (x[2 * n + j] + self.structure.rates[j] * x[n + j]) / w2;
         let (start, end) = (slow(from), slow(to));
-        let (q, v) = (from[j] - start, from[n + j] - (end - start) / length);
-        (q * q + v * v / w2).sqrt()
+        let rate = (end - start) / length;
+        [[from[j] - start, from[n + j] - rate], [to[j] - end, to[n + j] - rate]]
     }
 
     /// Leads a motion over a part as long as those that [`inside`](Self::inside) looked at last, under what drives it at

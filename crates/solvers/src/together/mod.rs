@@ -167,7 +167,8 @@ fn march<O: Observer>(
         let order = modes.space.order();
         let side = link_side(model, system, &analysis.solution, loads, order, watched);
         let mut stepper = LinkStepper::new(Modal::new(modes), side)?;
-        let (state, pace, ledger, _) = start(model, system, initial, loads, &mut stepper, dt)?;
+        let times = [dt, analysis.duration];
+        let (state, pace, ledger, _) = start(model, system, initial, loads, &mut stepper, times)?;
         let (modal, side) = stepper.into_parts();
         modes = modal.into_modes();
         let mut viewer = Viewer::new(model, system, loads, &modes.space, watcher);

@@ -46,6 +46,23 @@ impl Piece {
     }
 }
 
+impl Piece {
+    /// How far what is known at the stages alone goes on before the first stage of the piece behind, where it is
+    /// elsewhere by then: no node has it. Largest share of `sizes`.
+    #[must_use]
+    pub fn lost(&self, next: &Self, sizes: &[f64]) -> f64 {
+        let s = 1.0 + NODES[1] * next.h / self.h;
+        let mut most = 0.0_f64;
+        for ((old, new), size) in self.values.iter().zip(&next.values).zip(sizes) {
+            if new[0].is_nan() {
+                let led = between(old, s);
+                most = most.max((led - old[3]).abs().min((led - new[1]).abs()) / size);
+            }
+        }
+        most
+    }
+}
+
 /// What a march leaves in its probes.
 #[derive(Clone, Debug, Default)]
 pub struct Record {

@@ -20,7 +20,7 @@ mod stages;
 mod step;
 
 use super::problem::Problem;
-use course::Record;
+use course::{Piece, Record};
 use nalgebra::DVector;
 use step::{Point, Solved, Stepper};
 
@@ -111,7 +111,8 @@ pub struct Between {
 
 /// Where loads begin or bend, forces are known at no time before the first stage: their polynomial is led on to the
 /// start, which may be the largest or least value around, and no other time says that. The first step is held to what
-/// is asked between the ends of steps down to this share of the window.
+/// is asked between the ends of steps down to this share of the window, and so is a step in which a link turns to
+/// another branch: what its force did just before is the largest value, where it jumps.
 const FIRST: f64 = 1.0 / 64.0;
 
 /// Links without unknowns of their own remember nothing of the way that no stage has seen: it counts by this share.
@@ -185,7 +186,8 @@ pub fn march(
                 from + length * at as f64 / (1_u64 << deep) as f64,
                 length / (1_u64 << level) as f64,
             );
-            let (tried, first) = it.try_step(t, h, &at_point, whole.take(), at == 0);
+            let before = record.pieces.last().filter(|_| at > 0);
+            let (tried, first) = it.try_step(t, h, &at_point, whole.take(), before);
             let rise = match tried {
                 Some(tried) if tried.error <= it.tolerance => {
                     let [first, second] = tried.halves;
@@ -236,14 +238,14 @@ impl March<'_> {
         up(&mut self.scale.d, &(b * &s.u));
     }
 
-    /// The step, and else its first half where there is one.
+    /// The step, and else its first half where there is one; `before`: none where a segment starts.
     fn try_step(
         &mut self,
         t: f64,
         h: f64,
         from: &Point,
         whole: Option<Solved>,
-        first_of_all: bool,
+        before: Option<&Piece>,
     ) -> (Option<Tried>, Option<Solved>) {
         let (scale, half) = (&self.scale, 0.5 * h);
         let Some(whole) = whole.or_else(|| self.steps.step(t, h, from, scale, None)) else {
@@ -263,14 +265,20 @@ impl March<'_> {
             let [own, none] = self.steps.unseen(t, half, from, step, self.scale.d.as_slice());
             error = error.max(own).max(none * OF_NONE);
         }
-        let least = if first_of_all { FIRST } else { 1.0 };
+        let turned = [first.turned(from), second.turned(&first.end)];
+        let bent = before.is_none() || turned.contains(&true);
+        let least = if bent { FIRST } else { 1.0 };
         if let Some(it) = self.between.filter(|it| h > least * it.window) {
             let pieces = [
                 self.steps.piece(t, half, from, &first),
                 self.steps.piece(t + half, half, &first.end, &second),
             ];
-            let apart = self.steps.piece(t, h, from, &whole).apart(&pieces, &it.sizes);
-            error = error.max(apart / it.share * self.tolerance);
+            let mut off = self.steps.piece(t, h, from, &whole).apart(&pieces, &it.sizes);
+            let ahead = [before, Some(&pieces[0])];
+            for ((before, piece), _) in ahead.iter().zip(&pieces).zip(turned).filter(|x| x.1) {
+                off = off.max(before.map_or(0.0, |before| before.lost(piece, &it.sizes)));
+            }
+            error = error.max(off / it.share * self.tolerance);
         }
         (Some(Tried { error, halves: [first, second], end }), None)
     }

@@ -48,6 +48,14 @@ pub struct Solved {
     pub end: Point,
 }
 
+impl Solved {
+    /// True where a link is on another branch at the first stage than just before, or at the end than there.
+    pub fn turned(&self, from: &Point) -> bool {
+        let before = !from.branches.is_empty() && from.branches != self.first;
+        before || self.first != self.end.branches
+    }
+}
+
 /// Makes steps.
 pub struct Stepper<'a> {
     p: &'a Problem,
