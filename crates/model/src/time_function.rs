@@ -412,7 +412,7 @@ mod tests {
                 let met = met.fold(0.0, |a: f64, x| a.max(x.abs()));
                 let peak = f.peak_until(end);
                 // Samples miss the start of what jumps.
-                assert!((peak - met).abs() <= 1e-4 * f.peak(), "{f:?} {end}: {peak} {met}");
+                assert!((peak - met).abs() <= 1e-3 * f.peak(), "{f:?} {end}: {peak} {met}");
             }
         }
     }

@@ -218,7 +218,7 @@ impl Stepper for FullNewton<'_> {
     fn missed(&mut self, from: &State, to: &State, dt: f64, _: f64) -> f64 {
         let links = &self.system.links;
         let laws = links.laws(self.model);
-        Turning::default().missed(&laws, from, to, &to.v, &self.softness(dt), dt)
+        Turning::default().missed(&laws, links, from, to, &to.v, &self.softness(dt), dt)
     }
 
     fn rounding(&self, state: &State) -> f64 {

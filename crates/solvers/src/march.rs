@@ -116,6 +116,8 @@ struct Trial {
     loads: StepLoads,
     /// Energy of the impulses that the halves have missed, J.
     missed: f64,
+    /// Largest link forces that they have wrong because links turned inside them.
+    turned: ForceScale,
 }
 
 impl Trial {
@@ -279,9 +281,12 @@ impl<'a> March<'a> {
 
     /// The error of the step on trial.
     fn measure(&mut self, state: &State, pace: &Pace, tolerance: f64) -> Measured {
-        let Trial { whole, second, energies: [_, e1, e2], missed, .. } = &self.trial;
+        let Trial { whole, second, energies: [_, e1, e2], missed, turned, .. } = &self.trial;
         let energy = pace.reference.max(e2.kinetic);
-        let apart = self.stepper.apart(whole, second);
+        let mut apart = self.stepper.apart(whole, second);
+        for (off, turned) in apart.force.iter_mut().zip(turned) {
+            *off = larger(*off, *turned);
+        }
         let moved = self.stepper.way(second, Some(state));
         let share = (apart.energy.max(*missed) / energy).sqrt();
         let (missing, mut allowed) = closure(state, second, [e1, e2], tolerance, energy);
@@ -305,7 +310,8 @@ impl<'a> March<'a> {
         known: bool,
         notable: f64,
     ) -> Result<(), Failed> {
-        let Trial { whole, first, second, energies: [e0, e1, e2], loads, missed } = &mut self.trial;
+        let Trial { whole, first, second, energies: [e0, e1, e2], loads, missed, turned } =
+            &mut self.trial;
         let mut step = |from: &State, to: &mut State, t0, t1, dt, energy: &mut StepEnergy| {
             self.loads.step(t0, t1, loads);
             self.stepper.step(from, to, loads, dt, energy)
@@ -316,9 +322,12 @@ impl<'a> March<'a> {
         }
         step(state, first, start, middle, 0.5 * size, e1).map_err(failed(false))?;
         *missed = self.stepper.missed(state, first, 0.5 * size, notable);
+        *turned = self.stepper.turned();
         self.loads.step(middle, end, loads);
         self.stepper.step(first, second, loads, 0.5 * size, e2).map_err(failed(true))?;
         *missed += self.stepper.missed(first, second, 0.5 * size, notable);
+        let behind = self.stepper.turned();
+        turned.iter_mut().zip(behind).for_each(|(most, x)| *most = larger(*most, x));
         Ok(())
     }
 

@@ -69,8 +69,12 @@ impl StaticShapes {
         }
         let mut held = massless.project(k);
         let damping = system.damping();
-        let c = massless.project(&system.element_damping);
-        if c.entries().any(|(_, _, v)| v != 0.0) && !unsupported(&held)?.is_empty() {
+        let of_elements = massless.project(&system.element_damping);
+        let is_damped = of_elements.entries().any(|(_, _, v)| v != 0.0);
+        if is_damped && !unsupported(&held)?.is_empty() {
+            // All of C: what turns it diagonal leaves Ψᵀ K Ψ = 1 − σ Ψᵀ C Ψ diagonal as well. Rayleigh's share has no
+            // dummies, so it is no multiple of K.
+            let c = massless.project(&damping);
             let sum = |a: &Sparse| a.diagonal().iter().sum::<f64>();
             let (stiff, viscous) = (sum(&held), sum(&c));
             let rate = if stiff > 0.0 { stiff / viscous } else { 1.0 };

@@ -236,6 +236,12 @@ pub(crate) trait Stepper {
     /// J; vibrations that cannot miss more than `notable` (J) need not be looked at.
     fn missed(&mut self, from: &State, to: &State, dt: f64, notable: f64) -> f64;
 
+    /// Largest link forces that the step looked at last by [`missed`](Self::missed) has wrong at its end, because links
+    /// turned inside it.
+    fn turned(&self) -> ForceScale {
+        [0.0; 2]
+    }
+
     /// What one rounding of the motion does to the energies of the links, J.
     fn rounding(&self, state: &State) -> f64;
 
@@ -389,7 +395,7 @@ impl<P: Propagator> Stepper for LinkStepper<'_, P> {
             rates[*flat] += difference[a];
             softness[*flat] = h[(a, a)];
         }
-        let turned = turning.missed(laws, from, to, rates, softness, dt);
+        let turned = turning.missed(laws, side.links(), from, to, rates, softness, dt);
         let vibration = vibration.as_mut().filter(|_| propagator.compliance().key.average == 0);
         let vibrated = vibration.map_or(0.0, |vibration| {
             let (links, dummies, supports) = (side.links(), side.dummies(), side.supports());
@@ -397,6 +403,10 @@ impl<P: Propagator> Stepper for LinkStepper<'_, P> {
             vibration.missed(&made, notable)
         });
         turned + vibrated
+    }
+
+    fn turned(&self) -> ForceScale {
+        self.turning.behind
     }
 
     fn rounding(&self, state: &State) -> f64 {

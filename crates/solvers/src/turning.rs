@@ -16,9 +16,10 @@
 //! ½ δf²/k of that force on the spring of the link counts as well, as far as the link has come since it turned.
 
 use crate::answer::Answer;
+use crate::kernel::ForceScale;
 use crate::stepper::State;
 use trilith_element::Kinematics;
-use trilith_system::Laws;
+use trilith_system::{Laws, LinkSet};
 
 /// Room for one link.
 #[derive(Default)]
@@ -29,6 +30,8 @@ pub(crate) struct Turning {
     there: Answer,
     after: Answer,
     apart: Vec<f64>,
+    /// Largest force, of translations and of rotations, that the last look found off at the end of a step, N and N·m.
+    pub behind: ForceScale,
 }
 
 impl Turning {
@@ -37,6 +40,7 @@ impl Turning {
     pub(crate) fn missed(
         &mut self,
         laws: &Laws<'_>,
+        links: &LinkSet,
         from: &State,
         to: &State,
         rates: &[f64],
@@ -44,6 +48,7 @@ impl Turning {
         dt: f64,
     ) -> f64 {
         let mut energy = 0.0;
+        self.behind = [0.0; 2];
         for (law, link) in laws.iter().filter(|(law, _)| law.damping_constant().is_none()) {
             let r = link.range.clone();
             let turns = |i: &usize| {
@@ -85,6 +90,8 @@ impl Turning {
                 self.after.of(law, &at, &self.there.history);
                 for (j, flat) in r.clone().enumerate() {
                     let behind = (self.after.f[j] - to.f[flat]).abs();
+                    let most = &mut self.behind[usize::from(links.rotational[flat])];
+                    *most = most.max(behind);
                     let missed = self.apart[j].max(behind) * left;
                     let way = (d1[j] - self.d[j]).abs();
                     let kept = 0.5 * behind * way.min(behind / self.after.k[j * n + j].abs());

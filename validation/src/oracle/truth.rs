@@ -66,6 +66,7 @@ pub fn truth_in_steps(spec: &Spec, work: f64, longest: f64) -> Result<Truth, Str
         start.u = others + q * course.end.u;
         start.z = course.end.z;
     }
+    let uneven = if spec.gravity { of_start(&problem, &start.u) } else { 0.0 };
     let loose = march(&problem, start.clone(), None, Effort { tolerance: LOOSE, work }, None)?;
     let effort = Effort { tolerance: TIGHT, work };
     let between = Between {
@@ -102,12 +103,20 @@ pub fn truth_in_steps(spec: &Spec, work: f64, longest: f64) -> Result<Truth, Str
             off.fold(0.0, f64::max) / scale[i]
         })
         .collect();
-    let rounding = floor.iter().map(|x| OF_FLOOR * x).collect();
+    let of_floor = (uneven / ROUNDING).clamp(OF_FLOOR, 1.0);
+    let rounding = floor.iter().map(|x| of_floor * x).collect();
     Ok(Truth { course, size, scale, around, rounding, moves })
 }
 
 /// Share of the floor of an output that is rounding of the oracle.
-const OF_FLOOR: f64 = 1e-2;
+const OF_FLOOR: f64 = 0.2;
+
+/// Share of the displacements under constant loads that is rounding: that of the terms of their equilibrium, over
+/// the loads. It sets structures in motion that nothing else moves.
+fn of_start(problem: &Problem, u: &nalgebra::DVector<f64>) -> f64 {
+    let (terms, load) = ((problem.a.k.abs() * u.abs()).amax(), problem.constant.amax());
+    if load > 0.0 { f64::EPSILON * terms / load } else { 0.0 }
+}
 
 /// Sizes of the outputs.
 struct Sizes {

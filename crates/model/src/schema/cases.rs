@@ -208,7 +208,12 @@ pub static STATIC: Block = Block {
     fields: &[
         AFTER,
         needed("loads", List(&LOADS), "Loads that are added."),
-        plain("steps", Count(1), "1", "Load steps; halved where they do not converge."),
+        plain(
+            "steps",
+            Count(1),
+            "1",
+            "Load steps at least; halved where they do not converge, and where laws bend inside them.",
+        ),
     ],
 };
 /// Dynamic case.

@@ -10,9 +10,14 @@ pub(crate) struct ClosedForm {
     structure: Structure,
     /// ω of the modes, rad/s.
     pub omega: Vec<f64>,
-    /// The rule of the length used last.
-    rule: Option<(f64, Rule)>,
+    /// Rules by their length, the one used last at the end.
+    rules: Vec<(f64, Rule)>,
 }
+
+/// Values (8 bytes each) in the rules that are kept.
+const KEPT_VALUES: usize = 1 << 22;
+/// Rules kept at least and at most.
+const KEPT: (usize, usize) = (2, 64);
 
 /// Difference between the closed form and a step that was made otherwise, as a share of the motion.
 const OTHERWISE: f64 = 1e-6;
@@ -21,7 +26,7 @@ impl Modes {
     pub(crate) fn closed_form(&self) -> ClosedForm {
         let structure = self.structure.clone();
         let omega = structure.omega2[..structure.modes].iter().map(|w| w.max(0.0).sqrt()).collect();
-        ClosedForm { structure, omega, rule: None }
+        ClosedForm { structure, omega, rules: Vec::new() }
     }
 }
 
@@ -70,7 +75,7 @@ impl ClosedForm {
     /// Leads a motion over a part as long as those that [`inside`](Self::inside) looked at last, under what drives it at
     /// both ends of the part.
     pub(crate) fn go_on(&self, motion: &mut Vec<f64>, [source0, source1]: [&[f64]; 2]) {
-        let Some((_, rule)) = &self.rule else { return };
+        let Some((_, rule)) = self.rules.last() else { return };
         let n = self.structure.omega2.len();
         let mut next = vec![0.0; 3 * n];
         let (q, rest) = next.split_at_mut(n);
@@ -80,6 +85,18 @@ impl ClosedForm {
         rule.apply(2, inputs, v);
         self.structure.acceleration(source1, q, v, a);
         *motion = next;
+    }
+
+    /// The rule of a length, out of those that are kept: the caller puts it back.
+    fn rule(&mut self, length: f64) -> Rule {
+        if let Some(at) = self.rules.iter().position(|(known, _)| *known == length) {
+            return self.rules.remove(at).1;
+        }
+        let n = self.omega.len();
+        let values = if self.structure.damping.is_some() { 12 * n * n } else { 12 * n };
+        let most = (KEPT_VALUES / values.max(1)).clamp(KEPT.0, KEPT.1);
+        self.rules.drain(..(self.rules.len() + 1).saturating_sub(most));
+        Rule::exact(&self.structure, length)
     }
 
     /// The motions at the ends of all but the last of so many equal parts of a step; none where the step was made by
@@ -94,8 +111,7 @@ impl ClosedForm {
         let n = self.structure.omega2.len();
         let part = length / parts as f64;
         let (s0, s1) = (self.source(from), self.source(to));
-        let made = self.rule.take().filter(|(known, _)| *known == part);
-        let (_, rule) = made.unwrap_or_else(|| (part, Rule::exact(&self.structure, part)));
+        let rule = self.rule(part);
         let at = |i: usize| -> Vec<f64> {
             let share = i as f64 / parts as f64;
             s0.iter().zip(&s1).map(|(a, b)| a + share * (b - a)).collect()
@@ -112,7 +128,7 @@ impl ClosedForm {
             self.structure.acceleration(&source1, q, v, a);
             all.push(motion);
         }
-        self.rule = Some((part, rule));
+        self.rules.push((part, rule));
         let end = all.pop().unwrap_or_default();
         // Static shapes that nothing damps have rates of their own making.
         let free = |order: usize, i: &usize| order == 0 || !self.structure.undamped.contains(i);

@@ -59,6 +59,18 @@ impl Law {
         }
     }
 
+    /// What it does before the first stage of a step counts: it remembers it, or its force jumps at touch, so that the
+    /// whole step and its halves would both have that force from the start of the step.
+    #[must_use]
+    pub fn remembers_or_jumps(&self) -> bool {
+        let jumps = match self {
+            Self::Kelvin(i) => i.c > 0.0,
+            Self::Contact(c) => c.c > 0.0,
+            _ => false,
+        };
+        jumps || self.unknowns() > 0
+    }
+
     /// Size of an own unknown for a deformation of 1.
     #[must_use]
     pub fn own_size(&self) -> f64 {

@@ -72,7 +72,7 @@ impl Triple {
             }
         }
         let mut forces = [[Dual::default(); 2]; 4];
-        let mut branch = u32::from(at.d[0].0 <= 0.0);
+        let (mut branch, mut at_rim) = (u32::from(at.d[0].0 <= 0.0), false);
         for i in 0..4 {
             let own = 6 + 2 * i..8 + 2 * i;
             let anchor = At { z: &at.z[own.clone()], w: &at.w[own.clone()], ..*at };
@@ -80,6 +80,7 @@ impl Triple {
             let slips = slip(self.ks, &limit, &anchor, &w[i], &mut forces[i], &mut g[own]);
             let length = (w[i][0] * w[i][0] + w[i][1] * w[i][1]).root();
             let stopped = rims[i] > 0.0 && length.0 > rims[i];
+            at_rim |= stopped;
             for x in 0..2 {
                 forces[i][x] = forces[i][x] + (1.0 / ways[i]) * normal * w[i][x];
                 if stopped {
@@ -89,10 +90,18 @@ impl Triple {
             }
             branch = 4 * branch + 2 * u32::from(stopped) + slips;
         }
+        // Lifted, the parts share further motion as their radii, up to their rims.
+        let lifted = normal.0 == 0.0 && !at_rim;
+        let all: f64 = ways.iter().sum();
         for x in 0..2 {
             f[1 + x] = forces[3][x];
             for i in 0..3 {
-                g[2 * i + x] = (1.0 / self.ks) * (forces[i][x] - forces[3][x]);
+                let own = 2 * i + x;
+                g[own] = if lifted {
+                    at.creep * (at.w[own] - (ways[i] / all) * at.v[1 + x])
+                } else {
+                    (1.0 / self.ks) * (forces[i][x] - forces[3][x])
+                };
             }
         }
         branch

@@ -115,7 +115,7 @@ pub struct Between {
 /// another branch: what its force did just before is the largest value, where it jumps.
 const FIRST: f64 = 1.0 / 64.0;
 
-/// Links without unknowns of their own remember nothing of the way that no stage has seen: it counts by this share.
+/// Links without unknowns of their own whose force does not jump remember nothing of the way that no stage has seen: it counts by this share.
 const OF_NONE: f64 = 1e-3;
 
 struct March<'a> {

@@ -233,7 +233,7 @@ impl<'a> Stepper<'a> {
 
     /// How far links go on before the first stage of a step, where they are on another branch than at the end of the
     /// step before: what they do on the way no stage sees. Largest share of `sizes`, of links with own unknowns
-    /// and of others.
+    /// or a force that jumps, and of others.
     pub fn unseen(&self, t: f64, h: f64, from: &Point, step: &Solved, sizes: &[f64]) -> [f64; 2] {
         let mut unseen = [0.0_f64; 2];
         let p = self.p;
@@ -249,7 +249,7 @@ impl<'a> Stepper<'a> {
             if from.branches[i] == step.first[i] {
                 continue;
             }
-            let most = &mut unseen[usize::from(link.law.unknowns() == 0)];
+            let most = &mut unseen[usize::from(!link.law.remembers_or_jumps())];
             for c in link.first..link.first + link.axes.len() {
                 let way = step.y[0][c] + moved.as_ref().map_or(0.0, |m| m[c]);
                 *most = most.max(way.abs() / sizes[c].max(1e-12));
