@@ -1,6 +1,7 @@
 //! What ends a command early.
 
 use crate::diagnostics;
+use trilith::results::FolderError;
 use trilith::solvers::SolveError;
 use trilith::{Diagnostic, Error, Model};
 
@@ -24,6 +25,18 @@ impl Failure {
     /// A file that cannot be written.
     pub fn unwritable(path: &std::path::Path, error: &std::io::Error) -> Self {
         Self::input(&format!("{} cannot be written: {error}", path.display()), None)
+    }
+
+    /// A folder that results cannot go to.
+    pub fn folder(error: &FolderError) -> Self {
+        let help = match error {
+            FolderError::NotAFolder(_) | FolderError::Input(_) => {
+                Some("`--out DIR` names another folder")
+            }
+            FolderError::Taken(_) => Some("wait for its end, or `--out DIR` names another folder"),
+            _ => None,
+        };
+        Self::input(&error.to_string(), help)
     }
 
     /// A structure or a run that cannot be made, shown in the model file where it has a place there.

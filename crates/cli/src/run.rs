@@ -1,11 +1,12 @@
 //! `trilith run`.
 
-use crate::args::{ReportArguments, RunArguments};
+use crate::args::{ModelArguments, ReportArguments, RunArguments};
 use crate::progress::Progress;
 use crate::text::names_help;
 use crate::{Answer, Failure, case, diagnostics, figure_files, figures, read};
 use std::path::{Path, PathBuf};
 use trilith::model::{Body, Element};
+use trilith::results::{Folder, OF_RUN};
 use trilith::solvers::EndState;
 use trilith::{Analysis, Model, Registry, Run, RunOptions};
 
@@ -19,6 +20,8 @@ pub(crate) fn run(registry: &Registry, args: RunArguments) -> Result<Answer, Fai
     check_links(&model, &args.loops)?;
     figures::check(&model, &args.figure)?;
     figure_files::check(&args.figure_format)?;
+    // Looked at before the analysis: nothing that was computed is lost for want of a place.
+    let folder = if args.no_files { None } else { Some(open(&model, &args)?) };
     let (analysis, run) = {
         let mut bar = Progress::new(&model.cases[case].name);
         let mut show = |share| bar.show(share);
@@ -50,24 +53,13 @@ pub(crate) fn run(registry: &Registry, args: RunArguments) -> Result<Answer, Fai
         eprint!("{}", diagnostics::warning(w));
     }
     let mut text = crate::report::text(&model, &summary);
-    if !args.no_files {
-        let dir = args.out.unwrap_or_else(|| default_folder(&args.model.model));
-        run.write(&model, &dir).map_err(|e| Failure::of(&e, &model))?;
-        text += &format!("files: {}\n", dir.display());
-        if args.no_report {
-            trilith::remove_report(&dir).map_err(|e| Failure::of(&e, &model))?;
-        } else {
-            let data = run.report(&analysis, &args.model.set, &args.loops);
-            let page = trilith::write_report(&dir, &data).map_err(|e| Failure::of(&e, &model))?;
-            text += &format!("report: {}\n", page.display());
-        }
-        for path in figures::write(&analysis, &run, &dir, &args.figure, &args.figure_format)? {
-            text += &format!("figure: {}\n", path.display());
-        }
-        if args.checkpoint_at.is_some() {
-            let path = dir.join("checkpoint.json");
-            write_checkpoint(&path, &run)?;
-            text += &format!("checkpoint: {}\n", path.display());
+    let files = folder.map_or_else(|| Ok(String::new()), |it| write(it, &args, &analysis, &run));
+    match files {
+        Ok(written) => text += &written,
+        // What was found is on the screen all the same.
+        Err(failure) => {
+            eprint!("{}", failure.text);
+            return Ok(Answer { text, status: failure.status });
         }
     }
     let status = if run.result.status.is_good() {
@@ -77,6 +69,45 @@ pub(crate) fn run(registry: &Registry, args: RunArguments) -> Result<Answer, Fai
         1
     };
     Ok(Answer { text, status })
+}
+
+/// Takes the folder of the results.
+fn open(model: &Model, args: &RunArguments) -> Result<Folder, Failure> {
+    let dir = args.out.clone().unwrap_or_else(|| default_folder(&args.model));
+    let mut inputs = model.files.clone();
+    inputs.push(model.source.path.clone());
+    inputs.extend(args.restart.clone());
+    Folder::open(dir, &OF_RUN, &inputs).map_err(|e| Failure::folder(&e))
+}
+
+/// Writes the results; what is there now, as lines.
+fn write(
+    folder: Folder,
+    args: &RunArguments,
+    analysis: &Analysis<'_>,
+    run: &Run,
+) -> Result<String, Failure> {
+    let (model, dir) = (analysis.model(), folder.path());
+    let show = |what: &str, path: &Path| format!("{what}: {}\n", folder.published(path).display());
+    let mut text = show("files", dir);
+    run.write(model, dir).map_err(|e| Failure::of(&e, model))?;
+    if !args.no_report {
+        let data = run.report(analysis, &args.model.set, &args.loops);
+        let page = trilith::write_report(dir, &data).map_err(|e| Failure::of(&e, model))?;
+        text += &show("report", &page);
+    }
+    let figures = figures::write(analysis, run, dir, &args.figure, &args.figure_format);
+    for path in figures.iter().flatten() {
+        text += &show("figure", path);
+    }
+    if args.checkpoint_at.is_some() {
+        let path = dir.join("checkpoint.json");
+        write_checkpoint(&path, run)?;
+        text += &show("checkpoint", &path);
+    }
+    folder.publish().map_err(|e| Failure::folder(&e))?;
+    // A figure that cannot be drawn takes nothing else with it.
+    figures.map(|_| text)
 }
 
 /// `trilith report`: the page again.
@@ -103,9 +134,15 @@ fn check_links(model: &Model, names: &[String]) -> Result<(), Failure> {
     }
 }
 
-/// `out/<name of the model file>`.
-fn default_folder(model: &Path) -> PathBuf {
-    Path::new("out").join(model.file_stem().unwrap_or("model".as_ref()))
+/// `out/<name of the model file>`, and below it what was set.
+fn default_folder(args: &ModelArguments) -> PathBuf {
+    let dir = Path::new("out").join(args.model.file_stem().unwrap_or("model".as_ref()));
+    if args.set.is_empty() {
+        return dir;
+    }
+    let all: Vec<String> = args.set.iter().map(|(name, value)| format!("{name}={value}")).collect();
+    let plain = |c: char| if c.is_alphanumeric() || "-+_.=,".contains(c) { c } else { '_' };
+    dir.join(all.join(",").chars().map(plain).collect::<String>())
 }
 
 fn checkpoint(path: &Path) -> Result<EndState, Failure> {

@@ -58,6 +58,56 @@ fn a_run_prints_its_peaks_and_writes_its_folder() {
 }
 
 #[test]
+fn what_is_in_the_way_of_the_results_is_told_before_the_run() {
+    let folder = folder();
+    let run = |args: &[&str]| {
+        let (status, out, err) = trilith(folder.path(), args);
+        assert_eq!((status, out.as_str()), (2, ""), "{args:?}\n{err}");
+        err
+    };
+    let err = run(&["run", "swing.ron", "--out", "swing.ron"]);
+    assert!(err.contains("swing.ron is a file, no folder") && err.contains("--out DIR"), "{err}");
+    let taken = trilith::results::Folder::open(folder.path().join("out"), &[], &[]).unwrap();
+    let err = run(&["run", "swing.ron", "--out", "out"]);
+    assert!(err.contains("another run is writing to out"), "{err}");
+    drop(taken);
+    assert_eq!(trilith(folder.path(), &["run", "swing.ron", "--out", "out"]).0, 0);
+    // A model of that name, and a record.
+    for (name, text) in [("model.resolved.ron", MODEL), ("spectra.csv", "t [s],a [g]\n0,0\n1,1\n")]
+    {
+        std::fs::write(folder.path().join(name), text).unwrap();
+    }
+    let err = run(&["run", "model.resolved.ron", "--out", "."]);
+    assert!(err.contains("model.resolved.ron is an input, and would be overwritten"), "{err}");
+    let err = run(&["record", "spectra.csv", "--out", "."]);
+    assert!(err.contains("spectra.csv is an input, and would be overwritten"), "{err}");
+    let model = std::fs::read_to_string(folder.path().join("model.resolved.ron")).unwrap();
+    assert_eq!(model, MODEL);
+}
+
+#[test]
+fn runs_with_other_parameters_have_folders_of_their_own() {
+    let folder = folder();
+    let (status, out, err) = trilith(folder.path(), &["run", "swing.ron", "--set", "k=9.87 N/m"]);
+    assert_eq!(status, 0, "{out}{err}");
+    assert!(out.contains("files: out/swing/k=9.87_N_m\n"), "{out}");
+    assert!(folder.path().join("out/swing/k=9.87_N_m/summary.json").is_file());
+    assert!(!folder.path().join("out/swing/summary.json").exists());
+}
+
+#[test]
+fn what_is_rounding_is_shown_as_zero() {
+    let folder = folder();
+    let model =
+        MODEL.replace("outputs: {", "outputs: { \"heave\": Displacement(node: \"top\", dof: Uz), ");
+    std::fs::write(folder.path().join("heave.ron"), model.replace("r2: 1", "r2: 1e9")).unwrap();
+    let (_, out, err) = trilith(folder.path(), &["run", "heave.ron", "--no-files"]);
+    let heave: Vec<&str> =
+        out.lines().find(|l| l.contains("heave")).unwrap().split_whitespace().collect();
+    assert_eq!([heave[2], heave[4], heave[6]], ["0"; 3], "{out}{err}");
+}
+
+#[test]
 fn a_set_parameter_changes_the_period() {
     let folder = folder();
     let args = ["run", "swing.ron", "--set", "k=9.8696 N/m", "--out", "slow"];
@@ -289,7 +339,7 @@ fn a_run_ends_with_a_report_that_its_folder_can_make_again() {
     let folder = folder();
     let (status, out, err) = trilith(folder.path(), &["run", "swing.ron", "--set", "k=30 N/m"]);
     assert_eq!(status, 0, "{out}{err}");
-    let dir = folder.path().join("out/swing");
+    let dir = folder.path().join("out/swing/k=30_N_m");
     let page = std::fs::read_to_string(dir.join("report.html")).unwrap();
     let parts = [
         "A swinging mass",
@@ -312,14 +362,15 @@ fn a_run_ends_with_a_report_that_its_folder_can_make_again() {
         assert!(!page.contains(fetched), "{fetched}");
     }
     std::fs::remove_file(dir.join("report.html")).unwrap();
-    let (status, out, err) = trilith(folder.path(), &["report", "out/swing"]);
+    let (status, out, err) = trilith(folder.path(), &["report", "out/swing/k=30_N_m"]);
     assert_eq!(status, 0, "{out}{err}");
     assert_eq!(std::fs::read_to_string(dir.join("report.html")).unwrap(), page);
     // A report of another run would be left among the new files.
-    let (status, ..) = trilith(folder.path(), &["run", "swing.ron", "--no-report"]);
+    let args = ["run", "swing.ron", "--set", "k=30 N/m", "--no-report"];
+    let (status, ..) = trilith(folder.path(), &args);
     assert_eq!(status, 0);
     assert!(!dir.join("report.html").exists() && !dir.join("report.json").exists());
-    let (status, _, err) = trilith(folder.path(), &["report", "out/swing"]);
+    let (status, _, err) = trilith(folder.path(), &["report", "out/swing/k=30_N_m"]);
     assert!(status == 2 && err.contains("report.json") && err.contains("trilith run"), "{err}");
 }
 

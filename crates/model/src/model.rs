@@ -29,6 +29,8 @@ pub struct Model {
     pub title: String,
     /// Where it came from.
     pub source: Source,
+    /// The other files that were read: records and tables.
+    pub files: Vec<PathBuf>,
     /// Restriction to a plane, if any.
     pub plane: Option<Plane>,
     /// Acceleration of gravity in m/s², acting along −Z.

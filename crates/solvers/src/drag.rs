@@ -17,8 +17,8 @@ use trilith_linalg::{Sparse, StagedLdlt, Triplets};
 use trilith_model::Model;
 use trilith_system::{LoadSet, System};
 
-/// Share of the stiffness of engaged links beside that of the structure: they say how those parts follow that
-/// nothing else holds, and next to nothing of the others, where a gap may be open.
+/// Share of the stiffness of engaged links beside that of a structure that does not stand without them: they say how those
+/// parts follow that nothing else holds, and next to nothing of the others, where a gap may be open.
 const SHARE: f64 = 1e-6;
 /// Share of the mean stiffness that holds what nothing else does.
 const HOLD: f64 = 1e-10;
@@ -56,11 +56,17 @@ fn pseudo_static(
     loads: &LoadSet,
 ) -> Result<Vec<Vec<f64>>, SolveError> {
     let links = &system.links;
-    let springs: Vec<f64> = links.engaged(model).iter().map(|k| SHARE * k).collect();
-    let stiffness = system.stiffness_with(&springs);
-    let factor = match held(&[(1.0, &stiffness)])? {
+    let mut springs = vec![0.0; links.len()];
+    let factor = match held(&[(1.0, &system.stiffness)])? {
         Some(factor) => factor,
-        None => loose(&stiffness)?,
+        None => {
+            springs = links.engaged(model).iter().map(|k| SHARE * k).collect();
+            let stiffness = system.stiffness_with(&springs);
+            match held(&[(1.0, &stiffness)])? {
+                Some(factor) => factor,
+                None => loose(&stiffness)?,
+            }
+        }
     };
     let column = |s: usize| {
         let mut p = vec![0.0; system.order()];

@@ -88,7 +88,7 @@ pub use analysis::{Analysis, Run};
 pub use element::Register;
 pub use error::Error;
 pub use model::{Diagnostic, Model, Registry, SolverKind, read, read_text};
-pub use run_report::{ReportError, rebuild_report, remove_report, write_report};
+pub use run_report::{ReportError, rebuild_report, write_report};
 pub use solvers::RunOptions;
 
 /// A registry with every built-in kind.

@@ -86,20 +86,6 @@ pub fn rebuild_report(dir: impl AsRef<Path>) -> Result<PathBuf, Error> {
     page(dir.as_ref(), &data)
 }
 
-/// Takes the report of an earlier run out of a folder.
-///
-/// # Errors
-/// [`Error::File`] where a file cannot be removed.
-pub fn remove_report(dir: impl AsRef<Path>) -> Result<(), Error> {
-    for name in [DATA, PAGE] {
-        let path = dir.as_ref().join(name);
-        if path.is_file() {
-            std::fs::remove_file(&path).map_err(|cause| FileError { path, cause })?;
-        }
-    }
-    Ok(())
-}
-
 fn page(dir: &Path, data: &RunData) -> Result<PathBuf, Error> {
     let summary: serde_json::Value = read(&dir.join(SUMMARY))?;
     let path = dir.join(PAGE);

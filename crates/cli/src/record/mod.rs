@@ -11,6 +11,7 @@ use std::path::{Path, PathBuf};
 use trilith::record::measure::periods;
 use trilith::record::synthetic::{Compatible, Fit, KanaiTajimi, Target};
 use trilith::record::{Columns, Problem, ReadError, Record};
+use trilith::results::Folder;
 
 /// A component, and the file it comes from.
 struct Item {
@@ -38,9 +39,12 @@ pub(crate) fn record(args: &Arguments) -> Result<Answer, Failure> {
     }
     let mut text = text::text(&items, args, fit);
     if let Some(dir) = &args.out {
-        for path in write(dir, &items, args, target.as_ref())? {
-            text += &format!("{}\n", path.display());
+        let inputs: Vec<PathBuf> = args.files.iter().chain(&args.spectrum).cloned().collect();
+        let folder = Folder::open(dir, &[], &inputs).map_err(|e| Failure::folder(&e))?;
+        for path in write(folder.path(), &items, args, target.as_ref())? {
+            text += &format!("{}\n", folder.published(&path).display());
         }
+        folder.publish().map_err(|e| Failure::folder(&e))?;
     }
     Ok(text.into())
 }
@@ -124,7 +128,6 @@ fn write(
     args: &Arguments,
     target: Option<&Target>,
 ) -> Result<Vec<PathBuf>, Failure> {
-    std::fs::create_dir_all(dir).map_err(|e| Failure::unwritable(dir, &e))?;
     let mut files = vec![
         ("record.html".to_owned(), page::page(items, args, target)),
         ("spectra.csv".to_owned(), spectra(items, args)),

@@ -20,6 +20,8 @@ pub struct Context<'a> {
     pub(crate) registry: &'a Registry,
     pub(crate) units: FileUnits,
     pub(crate) motions: Arc<Motions>,
+    /// Other files that were read.
+    pub(crate) files: RefCell<Vec<PathBuf>>,
     parameters: Parameters,
     errors: RefCell<Vec<Diagnostic>>,
 }
@@ -68,9 +70,17 @@ impl<'a> Context<'a> {
             registry,
             units,
             motions: Arc::default(),
+            files: RefCell::default(),
             parameters,
             errors: RefCell::default(),
         }
+    }
+
+    /// The path of a file that this one names.
+    pub(crate) fn file(&self, name: &str) -> PathBuf {
+        let path = self.folder.join(name);
+        self.files.borrow_mut().push(path.clone());
+        path
     }
 
     /// The file that is read.

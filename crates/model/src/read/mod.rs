@@ -202,6 +202,7 @@ fn sections(c: &mut Context<'_>, root: &Node, overrides: &[(String, String)]) ->
     Some(Model {
         title: title?,
         source: Source::clone(&c.source),
+        files: c.files.borrow().clone(),
         plane,
         gravity: gravity?,
         p_delta: p_delta?,

@@ -37,7 +37,7 @@ pub(super) fn table(c: &Context<'_>, e: &Entry) -> Option<Made> {
     let file = fields.required(c, "file")?;
     let path = file_name(c, file)?;
     let at = &file.span;
-    let (path, skip, times, values) = (c.folder.join(path), skip?, times?, values?);
+    let (path, skip, times, values) = (c.file(&path), skip?, times?, values?);
     let read = || {
         let all = columns(c, &path, skip, at)?;
         let times = numbers(c, &all, &times, &place(&fields, "time", at));
