@@ -68,7 +68,7 @@ pub(crate) struct RunArguments {
     /// Output step in seconds [default: that of the case]
     #[arg(long, value_parser = positive)]
     pub dt: Option<f64>,
-    /// Folder for the results [default: out/<name of the model file>]
+    /// Folder for the results [default: out/<name of the model file>, and below it what `--set` sets]
     #[arg(long, value_name = "DIR")]
     pub out: Option<PathBuf>,
     /// Links whose hysteresis loops the report shows [default: those that dissipate most]
