@@ -25,7 +25,7 @@ pub(crate) fn energies(e: &EnergyTotals) -> [(&'static str, f64); 10] {
 const ROUNDING: f64 = 1e-12;
 
 /// A value of a unit, 0 where it is rounding of the largest of its kind; of one radian.
-fn beside(s: &Summary, unit: &str, x: f64) -> String {
+fn shown(s: &Summary, unit: &str, x: f64) -> String {
     let alike = s.outputs.0.iter().filter(|(_, o)| o.unit == unit).filter_map(|(_, o)| o.peak);
     let own = if unit == "rad" { 1.0 } else { 0.0 };
     let largest = alike.fold(own, |a: f64, p| a.max(p.max.abs()).max(p.min.abs()));
@@ -46,7 +46,7 @@ pub(crate) fn text(model: &Model, s: &Summary) -> String {
     let mut rows = vec![row(["output", "unit", "max", "at s", "min", "at s", "final", "±"])];
     for (name, o) in &s.outputs.0 {
         if let Some(p) = &o.peak {
-            let [a, c, e] = [p.max, p.min, p.last].map(|x| beside(s, &o.unit, x));
+            let [a, c, e] = [p.max, p.min, p.last].map(|x| shown(s, &o.unit, x));
             let [b, d] = [p.t_max, p.t_min].map(number);
             let off = o.error.map(|e| e.total()).filter(|e| e.is_finite());
             let off = off.map_or_else(String::new, |e| significant(e, 2));
@@ -68,9 +68,9 @@ pub(crate) fn text(model: &Model, s: &Summary) -> String {
             c.initial_mode,
             c.mode,
             if c.overturned { ", overturned" } else { "" },
-            beside(s, "m", c.max_uplift),
-            beside(s, "m", c.max_slip),
-            beside(s, "m", c.residual_slip)
+            shown(s, "m", c.max_uplift),
+            shown(s, "m", c.max_slip),
+            shown(s, "m", c.residual_slip)
         );
     }
     let largest = energies(&s.energy).iter().fold(0.0, |a: f64, (_, e)| a.max(e.abs()));

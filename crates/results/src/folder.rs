@@ -5,7 +5,7 @@ use std::fs::{self, File, TryLockError};
 use std::path::{Path, PathBuf};
 
 /// What a run leaves in its folder; a later run without one of them takes it out. The first stands for all: where it is,
-/// the others are of the same run.
+/// the others are of the same run, and where it is not, they are somebody else's.
 pub const OF_RUN: [&str; 10] = [
     "summary.json",
     "peaks.csv",
@@ -119,11 +119,13 @@ impl Folder {
             names.push(entry.file_name().to_string_lossy().into_owned());
         }
         names.iter().try_for_each(|name| self.check(name))?;
-        // What stands for all goes first and comes last.
+        // What stands for all goes before anything is replaced, and comes last.
         let first = self.own.first();
         names.sort_by_key(|name| (Some(name) == first, name.clone()));
-        for name in &self.own {
-            remove(&self.dir.join(name))?;
+        if first.is_some_and(|name| self.dir.join(name).exists()) {
+            for name in self.own.iter().rev() {
+                remove(&self.dir.join(name))?;
+            }
         }
         for name in &names {
             let to = self.dir.join(name);
@@ -200,6 +202,16 @@ mod tests {
         assert!(!dir.join("peaks").exists() && !dir.join("frames").exists());
         assert_eq!(fs::read_to_string(dir.join("summary")).unwrap(), "3");
         assert_eq!(fs::read_to_string(dir.join("notes")).unwrap(), "mine");
+    }
+
+    #[test]
+    fn what_no_run_has_left_stays() {
+        let at = tempfile::tempdir().unwrap();
+        fs::write(at.path().join("spectra.csv"), "of a record").unwrap();
+        let folder = Folder::open(at.path(), &OF_RUN, &[]).unwrap();
+        write(&folder, "summary.json", "1");
+        folder.publish().unwrap();
+        assert!(at.path().join("spectra.csv").exists());
     }
 
     #[test]

@@ -109,7 +109,7 @@ pub fn truth_in_steps(spec: &Spec, work: f64, longest: f64) -> Result<Truth, Str
 }
 
 /// Share of the floor of an output that is rounding of the oracle.
-const OF_FLOOR: f64 = 0.2;
+const OF_FLOOR: f64 = 1e-2;
 
 /// Share of the displacements under constant loads that is rounding: that of the terms of their equilibrium, over
 /// the loads. It sets structures in motion that nothing else moves.
@@ -129,11 +129,7 @@ impl Sizes {
     fn of(spec: &Spec, problem: &Problem, course: &Course) -> Self {
         let ends = (0..spec.outputs.len()).map(|i| course.span(i, 0.0, spec.duration));
         let size: Vec<f64> = ends.map(|(a, b)| a.abs().max(b.abs())).collect();
-        let samples = 400;
-        let at = |j: i32| spec.duration * f64::from(j) / f64::from(samples);
-        let supports = (0..=samples).map(|j| problem.supports(at(j), false)[0].amax());
-        let beside = [extent(spec), supports.fold(0.0, f64::max)];
-        let most = |o| ROUNDING * largest(problem, course, beside, o);
+        let most = |o| ROUNDING * largest(problem, course, extent(spec), o);
         let floor: Vec<f64> = spec.outputs.iter().map(most).collect();
         let scale = (0..size.len())
             .map(|i| size[i].max(SMALL * largest_alike(spec, &size, i)).max(floor[i]).max(1e-12))
@@ -150,27 +146,15 @@ fn largest_alike(spec: &Spec, size: &[f64], i: usize) -> f64 {
 }
 
 /// The largest value that an output could have by the motion of the whole structure: what its rounding is
-/// a share of; `extent` of the structure and `supports`, how far these move, m. Outputs that are 0 by symmetry are
-/// nothing else.
-fn largest(
-    problem: &Problem,
-    course: &Course,
-    [extent, supports]: [f64; 2],
-    output: &Output,
-) -> f64 {
+/// a share of. Outputs that are 0 by symmetry are nothing else.
+fn largest(problem: &Problem, course: &Course, extent: f64, output: &Output) -> f64 {
     let scale = &course.scale;
     // Rotations move what is far away, and come of displacements that differ.
     let both = |turns: bool, of: &dyn Fn(bool) -> f64| {
         let arm = if turns { extent.recip() } else { extent };
         of(turns).max(arm * of(!turns))
     };
-    // Supports that move push what they touch only just by a share of their own motion.
-    let displacement = |turns| {
-        both(turns, &|turns| {
-            let of_supports = if turns { 0.0 } else { supports };
-            scale.displacement(problem, turns).max(of_supports)
-        })
-    };
+    let displacement = |turns| both(turns, &|turns| scale.displacement(problem, turns));
     let of = |member: usize, axis: usize| {
         let link = problem.a.links.iter().find(|l| l.member == member);
         let local = link.and_then(|l| Some(l.first + l.axes.iter().position(|a| *a == axis)?));

@@ -42,7 +42,7 @@ fn compare(found: &mut Findings, solvers: &[SolverKind], count: usize) -> Result
         seed: SEED,
         count,
         solvers: solvers.to_vec(),
-        // The oracle gives up on a quarter of the structures, and takes a tenth of the time.
+        // The oracle gives up on a third of the structures, and takes a tenth of the time.
         work: WORK / 60.0,
         budget: Duration::from_secs(1800),
         aloud: false,

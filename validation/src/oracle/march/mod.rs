@@ -115,12 +115,9 @@ pub struct Between {
 /// another branch: what its force did just before is the largest value, where it jumps.
 const FIRST: f64 = 1.0 / 64.0;
 
-/// Links without unknowns of their own whose force does not jump remember nothing of the way that no stage has seen: it counts by this share.
+/// Links without unknowns of their own whose force does not jump remember nothing of the way that no stage has seen: it
+/// counts by this share.
 const OF_NONE: f64 = 1e-3;
-
-/// The first step, as share of the duration: nothing is known of the forces at the start, and a whole step and its
-/// halves agree that there are none where a link lets go before their first stages.
-const SET_OUT: f64 = 1.0 / (1 << 24) as f64;
 
 struct March<'a> {
     steps: Stepper<'a>,
@@ -171,7 +168,7 @@ pub fn march(
     let mut at_point = it.steps.point(&start);
     let mut end = start;
     let (mut record, mut steps) = (Record::default(), 0_usize);
-    let mut next = p.breaks[p.breaks.len() - 1] * SET_OUT;
+    let mut next = p.breaks[p.breaks.len() - 1] / 1024.0;
     for pair in p.breaks.windows(2) {
         let (from, length) = (pair[0], pair[1] - pair[0]);
         // A step is length / 2^level and starts at a multiple of its own length.
