@@ -23,17 +23,19 @@
 //!
 //! `opening` to `pull` matter with `InContact` only. With `restitution`, which needs the `stiffness` and
 //! α = 1, c = 2 ζ(e) √(k m): see [`NLink`](crate::NLink) for the mass. At v₀ the force is continuous; c v₀^α
-//! is the force that the linear range spans, which should be small against the forces of interest.
+//! is the force that the linear range spans, which should be small against the forces of interest. In contact F takes
+//! hold over the first nanometre of an approach, so that a joint without mass has an equilibrium at the touch.
 //!
 //! Reference: \[Soong & Dargush 1997, ch. 6\]; contact variant \[Wilson 2002, ch. 21\].
 
 use crate::shared::restitution::{IMPACT_MASS, damping_ratio, restitution};
+use crate::shared::touch::hold;
 use serde::Deserialize;
 use trilith_element::dimension::{FORCE, FREQUENCY, LENGTH, MOMENT, NONE, STIFFNESS, VELOCITY};
 use trilith_element::lanes::{LaneAt, LaneForce, LaneForm, LaneLaw, LaneStep, Real};
 use trilith_element::{
-    Axis, Card, Category, Contact, Coordinates, Default, Described, Exercise, Form, Impact,
-    Kinematics, Link, NodeCount, Parameter, ParameterError, Range, Response, Stroke,
+    Axis, Card, Category, Contact, ContactUse, Coordinates, Default, Described, Exercise, Form,
+    Impact, Kinematics, Link, NodeCount, Parameter, ParameterError, Range, Response, Stroke,
 };
 
 /// When a [`Dashpot`] acts.
@@ -228,11 +230,12 @@ impl Dashpot {
             return [0.0; 4];
         }
         let spring = self.stiffness * gap;
-        let f = force + spring;
+        let [share, by_gap] = hold(gap, v);
+        let f = force * share + spring;
         if f > 0.0 && !self.pull {
             return [0.0, 0.0, 0.0, spring];
         }
-        [f, self.stiffness, slope, spring]
+        [f, self.stiffness + force * by_gap, slope * share, spring]
     }
 }
 
@@ -254,9 +257,10 @@ impl<const WHEN: u8> Linear<WHEN> {
         let gap = d + p[2];
         let closed = gap.lt(zero);
         let spring = (k * gap).only(closed);
-        let f = c * v + spring;
+        let (force, [share, by_gap]) = (c * v, hold(gap, v));
+        let f = force * share + spring;
         let acts = if WHEN == PULLS { closed } else { closed & !zero.lt(f) };
-        [f.only(acts), k.only(acts), c.only(acts), spring]
+        [f.only(acts), (k + force * by_gap).only(acts), (c * share).only(acts), spring]
     }
 }
 
@@ -338,6 +342,10 @@ impl Link for Dashpot {
         Some(Box::new(Self { c, restitution: None, impact_mass: None, ..self.clone() }))
     }
 
+    fn contact_use(&self) -> ContactUse {
+        ContactUse::Stop
+    }
+
     fn contacts(&self, at: &Kinematics<'_>, _: &[f64], f: &[f64], out: &mut Vec<Contact>) {
         let gap = at.d[0] + self.opening;
         if self.when == When::InContact && self.stiffness > 0.0 {
@@ -399,6 +407,22 @@ mod tests {
         let with_spring = contact(&[("stiffness", Value::Number(1e6))]);
         assert_eq!(with_spring.total(-0.1, 1.0)[0], 2e4 - 1e5);
         assert_eq!(with_spring.total(-0.01, 1.0)[0], 0.0);
+    }
+
+    #[test]
+    fn a_dashpot_in_contact_takes_hold_without_a_jump() {
+        for exponent in [1.0, 1.5] {
+            let law = contact(&[("exponent", Value::Number(exponent))]);
+            let [f, k, c, _] = law.total(-2.5e-10, -1.0);
+            assert_relative_eq!(f, -0.25 * 2e4, max_relative = 1e-9);
+            assert_relative_eq!(k, 2e4 / 1e-9, max_relative = 1e-9);
+            assert_relative_eq!(c, 0.25 * exponent * 2e4, max_relative = 1e-9);
+            // The same over lanes, where it has such a form.
+            let linear = Linear::<PRESSES>::total(&law.numbers(2e4), -2.5e-10, -1.0);
+            if exponent == 1.0 {
+                assert_eq!(linear, [f, k, c, 0.0]);
+            }
+        }
     }
 
     #[test]

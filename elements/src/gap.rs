@@ -20,8 +20,8 @@ use serde::Deserialize;
 use trilith_element::dimension::{LENGTH, STIFFNESS};
 use trilith_element::lanes::{LaneAt, LaneContact, LaneForce, LaneForm, LaneLaw, LaneStep, Real};
 use trilith_element::{
-    Axis, Card, Category, Contact, Coordinates, Described, Exercise, Kinematics, Link, NodeCount,
-    Parameter, Range, Response, Stroke,
+    Axis, Card, Category, Contact, ContactUse, Coordinates, Described, Exercise, Kinematics, Link,
+    NodeCount, Parameter, Range, Response, Stroke,
 };
 
 /// Compression-only stop with a clearance.
@@ -105,6 +105,10 @@ impl Link for Gap {
 
     fn lanes(&self, _: &[bool]) -> Option<LaneForm> {
         Some(LaneForm::of::<GapLaw>(vec![0], vec![self.k, self.opening]).without_rate())
+    }
+
+    fn contact_use(&self) -> ContactUse {
+        ContactUse::Stop
     }
 
     fn contacts(&self, at: &Kinematics<'_>, _: &[f64], f: &[f64], out: &mut Vec<Contact>) {

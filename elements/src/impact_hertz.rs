@@ -45,14 +45,15 @@
 //! Reference: \[Muthukumar & DesRoches 2006\], \[Jankowski 2005\].
 
 use crate::shared::restitution::{IMPACT_MASS, approach_ratio, restitution};
+use crate::shared::touch::TOUCH;
 use serde::Deserialize;
 use std::borrow::Cow;
 use std::sync::OnceLock;
 use trilith_element::dimension::{FORCE, LENGTH, NONE, VELOCITY};
 use trilith_element::{
-    Axis, Card, Category, Contact, Coordinates, Default, Described, Exercise, Field, Form, History,
-    Impact, Kinematics, Link, NodeCount, Parameter, ParameterError, Range, Response, Stroke,
-    history,
+    Axis, Card, Category, Contact, ContactUse, Coordinates, Default, Described, Exercise, Field,
+    Form, History, Impact, Kinematics, Link, NodeCount, Parameter, ParameterError, Range, Response,
+    Stroke, history,
 };
 
 /// How an [`ImpactHertz`] dissipates.
@@ -101,9 +102,6 @@ history! {
 
 /// Penetration at which the stiffness of the dummies is taken, m.
 const TYPICAL: f64 = 1e-3;
-
-/// Penetration below which the dashpot of `Jankowski` grows linearly, m.
-const TOUCH: f64 = 1e-9;
 
 impl Described for ImpactHertz {
     const CARD: Card = Card {
@@ -343,6 +341,10 @@ impl Link for ImpactHertz {
         let xi = Some(approach_damping(restitution, self.exponent));
         let (restitution, impact_mass, damping) = (None, Some(mass), OnceLock::new());
         Some(Box::new(Self { xi, restitution, impact_mass, damping, ..self.clone() }))
+    }
+
+    fn contact_use(&self) -> ContactUse {
+        ContactUse::Stop
     }
 
     fn contacts(&self, at: &Kinematics<'_>, _: &[f64], f: &[f64], out: &mut Vec<Contact>) {

@@ -28,16 +28,18 @@
 //!
 //! `Contact` with `pull` is OpenSees' ViscoelasticGap; a gap beside a dashpot that never lets go, as
 //! built in SAP2000, is a `Gap` and a `Dashpot`. In `Contact` without `pull` this is a
-//! [`Dashpot`](crate::Dashpot) in contact with a stiffness.
+//! [`Dashpot`](crate::Dashpot) in contact with a stiffness. The dashpot takes hold over the first nanometre of an
+//! approach, so that a joint without mass has an equilibrium at the touch.
 //!
 //! Reference: \[Anagnostopoulos 1988\]; damping on approach only as in \[Jankowski 2005\].
 
 use crate::shared::restitution::{IMPACT_MASS, approach_ratio, damping_ratio, restitution};
+use crate::shared::touch::hold;
 use serde::Deserialize;
 use trilith_element::dimension::{DAMPING, LENGTH, STIFFNESS};
 use trilith_element::{
-    Axis, Card, Category, Contact, Coordinates, Described, Exercise, Impact, Kinematics, Link,
-    NodeCount, Parameter, ParameterError, Range, Response, Stroke,
+    Axis, Card, Category, Contact, ContactUse, Coordinates, Described, Exercise, Impact,
+    Kinematics, Link, NodeCount, Parameter, ParameterError, Range, Response, Stroke,
 };
 
 /// When the dashpot of an [`ImpactKelvin`] acts.
@@ -118,7 +120,8 @@ impl Described for ImpactKelvin {
 impl ImpactKelvin {
     /// Force, its derivatives by d and ḋ, and the force of the spring in it.
     fn total(&self, d: f64, v: f64) -> [f64; 4] {
-        let spring = self.k * (d + self.opening);
+        let gap = d + self.opening;
+        let spring = self.k * gap;
         if spring >= 0.0 {
             return [0.0; 4];
         }
@@ -126,8 +129,12 @@ impl ImpactKelvin {
             Damps::Approach if v >= 0.0 => 0.0,
             _ => self.damping.unwrap_or(0.0),
         };
-        let f = spring + c * v;
-        if f > 0.0 && !self.pull { [0.0, 0.0, 0.0, spring] } else { [f, self.k, c, spring] }
+        let [share, by_gap] = hold(gap, v);
+        let f = spring + c * v * share;
+        if f > 0.0 && !self.pull {
+            return [0.0, 0.0, 0.0, spring];
+        }
+        [f, self.k + c * v * by_gap, c * share, spring]
     }
 }
 
@@ -165,6 +172,10 @@ impl Link for ImpactKelvin {
         };
         let damping = Some(2.0 * ratio * (self.k * mass).sqrt());
         Some(Box::new(Self { damping, restitution: None, impact_mass: None, ..self.clone() }))
+    }
+
+    fn contact_use(&self) -> ContactUse {
+        ContactUse::Stop
     }
 
     fn contacts(&self, at: &Kinematics<'_>, _: &[f64], f: &[f64], out: &mut Vec<Contact>) {
@@ -231,6 +242,17 @@ mod tests {
         let approach = law(&[("damping", 1e6), ("opening", 0.01)], VARIANTS[2]);
         assert_relative_eq!(approach.total(-0.0101, 0.5)[0], -1e4, max_relative = 1e-9);
         assert_relative_eq!(approach.total(-0.0101, -0.5)[0], -5.1e5, max_relative = 1e-9);
+    }
+
+    #[test]
+    fn the_force_has_no_jump_at_the_touch() {
+        for variant in VARIANTS {
+            let law = law(&[("damping", 1e6), ("opening", 0.01)], variant);
+            let [f, k, c, _] = law.total(-0.01 - 2.5e-10, -0.5);
+            assert_relative_eq!(f, -0.025 - 0.25 * 5e5, max_relative = 1e-6);
+            assert_relative_eq!(k, 1e8 + 5e5 / 1e-9, max_relative = 1e-6);
+            assert_relative_eq!(c, 0.25e6, max_relative = 1e-6);
+        }
     }
 
     #[test]

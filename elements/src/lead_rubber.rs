@@ -2,7 +2,7 @@
 //!
 //! ```text
 //!   fᵢ = k_r dᵢ + Q(T) zᵢ,   i = 2, 3        f₁ = k_v d₁
-//!   żᵢ = ωᵢ − zᵢ Σⱼ aⱼ ωⱼ zⱼ,   ω = ḋ/Y      aⱼ = 1 where ḋⱼ zⱼ > 0, else 0
+//!   żᵢ = ωᵢ − zᵢ |z|^(η−2) Σⱼ ωⱼ zⱼ (γ + β sⱼ),   ω = ḋ/Y      sⱼ = sgn(ωⱼ zⱼ) (`Axes`) or sgn(ω·z) (`Direction`)
 //!   Q  = A σ₀ e^(−E T),   A = π a²           T: temperature rise of the core, a = D/2
 //!   ρ c A h Ṫ = Q Y Σᵢ zᵢ (ωᵢ − żᵢ) − ρ c A h g(t) T
 //!   g  = k_s/(a ρ c h) (1/F(τ) + 1.274 (t_s/a) τ^(−1/3)),   τ = α_s t/a²     (F: lead_rubber/cooling.rs)
@@ -23,8 +23,12 @@
 //! | `lead_heat`          | c      | J/(kg K) | > 0   | 130     | specific heat of lead                    |
 //! | `steel_conductivity` | k_s    | W/(m K)  | ≥ 0   | 50      | thermal conductivity of steel            |
 //! | `steel_diffusivity`  | α_s    | m²/s     | > 0   | 1.41e-5 | thermal diffusivity of steel             |
+//! | `coupling`           |        |          |       | Axes    | how unloading is told: `Axes`, `Direction` |
+//! | `beta`               | β      | 1        | > 0   | 0.5     | shape: loading against β + γ, return with γ − β |
+//! | `gamma`              | γ      | 1        | −β … β | 0.5    | shape; at γ = β the return is elastic    |
+//! | `eta`                | η      | 1        | 1 … 20 | 2      | sharpness of yielding                    |
 //!
-//! z is that of [`RubberIsolator`](crate::RubberIsolator), exact on the straight path of a step. The core is
+//! z is that of [`RubberIsolator`](crate::RubberIsolator); OpenSees' *LeadRubberX* has `beta: 0.9, gamma: 0.1`. The core is
 //! heated by what it dissipates (published forms count |z| |ḋ|, which is more by the elastic part of the
 //! motion). t counts from the first heating. In a step: half of the loss to the steel, the heating in
 //! closed form, the other half; second order. A static step is slow and does not heat. The axial spring is
@@ -39,7 +43,7 @@ mod cooling;
 #[cfg(test)]
 mod tests;
 
-use crate::shared::biaxial;
+use crate::shared::bouc_wen_plane::{self, Coupling, PARAMETERS, Shape};
 use cooling::Cooling;
 use serde::Deserialize;
 use std::borrow::Cow;
@@ -47,7 +51,7 @@ use std::f64::consts::PI;
 use trilith_element::dimension::{AREA, DENSITY, FREQUENCY, LENGTH, NONE, STIFFNESS, STRESS};
 use trilith_element::{
     Axis, Card, Category, Coordinates, Described, Dimension, Exercise, Field, History, Kinematics,
-    Link, NodeCount, Parameter, Range, Response, Stroke, history,
+    Link, NodeCount, Parameter, ParameterError, Range, Response, Stroke, history,
 };
 
 /// Lead-rubber bearing with heating of its core.
@@ -80,6 +84,14 @@ pub struct LeadRubber {
     pub steel_conductivity: f64,
     /// Thermal diffusivity of steel α_s, m²/s.
     pub steel_diffusivity: f64,
+    /// How unloading is told.
+    pub coupling: Coupling,
+    /// Shape β.
+    pub beta: f64,
+    /// Shape γ.
+    pub gamma: f64,
+    /// Sharpness of yielding η.
+    pub eta: f64,
 }
 
 history! {
@@ -178,9 +190,14 @@ impl Described for LeadRubber {
                 1.41e-5,
                 "thermal diffusivity of steel",
             ),
+            PARAMETERS[0],
+            PARAMETERS[1],
+            PARAMETERS[2],
+            PARAMETERS[3],
         ],
         law: "fᵢ = k_r dᵢ + Q zᵢ, i = 2, 3;  f₁ = k_v d₁;  Q = π D²/4 σ₀ e^(−E T)\n\
-              żᵢ = ωᵢ − zᵢ Σⱼ aⱼ ωⱼ zⱼ,  ω = ḋ/Y,  aⱼ = 1 where ḋⱼ zⱼ > 0, else 0\n\
+              żᵢ = ωᵢ − zᵢ |z|^(η−2) Σⱼ ωⱼ zⱼ (γ + β sⱼ),  ω = ḋ/Y\n\
+              Axes: sⱼ = sgn(ωⱼ zⱼ);  Direction: sⱼ = sgn(ω·z)\n\
               ρ c A h Ṫ = Q Y Σᵢ zᵢ (ωᵢ − żᵢ) − loss to end plates and shims",
         source: "Kalpakidis & Constantinou 2009; Kumar, Whittaker & Constantinou 2014",
         example: r#""bearing": LeadRubber(nodes: ("ground", "slab"), kr: "1.5 MN/m", lead_diameter: "160 mm", lead_height: "300 mm", yield_displacement: "10 mm", shim_thickness: "60 mm", kv: "1500 MN/m")"#,
@@ -193,9 +210,18 @@ impl Described for LeadRubber {
             ],
         },
     };
+
+    fn check(&self) -> Result<(), ParameterError> {
+        self.shape().check()
+    }
 }
 
 impl LeadRubber {
+    fn shape(&self) -> Shape {
+        let by_direction = self.coupling == Coupling::Direction;
+        Shape { by_direction, beta: self.beta, gamma: self.gamma, eta: self.eta }
+    }
+
     /// Force of the core at a temperature rise.
     fn strength(&self, temperature: f64) -> f64 {
         let area = 0.25 * PI * self.lead_diameter.powi(2);
@@ -264,7 +290,7 @@ impl Link for LeadRubber {
         let old = LeadHistory::load(committed);
         let (y, z0) = (self.yield_displacement, [old.z2, old.z3]);
         let omega = [1, 2].map(|i| (at.d[i] - at.d0[i]) / y);
-        let moved = biaxial::advance(z0, omega, [at.v[1], at.v[2]]);
+        let moved = bouc_wen_plane::advance(&self.shape(), z0, omega, [at.v[1], at.v[2]]);
         let loss = moved.loss[0] + moved.loss[1];
         let (temperature, by_loss, mut heat) = self.warmed(&old, at.dt, loss.x);
         let (before, q) = (self.strength(old.temperature), self.strength(temperature));

@@ -72,6 +72,7 @@ pub use rigid_body::RigidBody;
 pub use rigid_link::RigidLink;
 pub use rocking_body::RockingBody;
 pub use rubber_isolator::{RubberHistory, RubberIsolator};
+pub use shared::bouc_wen_plane::Coupling;
 pub use shared::sliding::SlidingHistory;
 pub use spring::Spring;
 pub use tension_compression_friction::TensionCompressionFriction;

@@ -10,7 +10,8 @@
 //!
 //! | rule        | unloading                       | reloading                                      |
 //! |-------------|---------------------------------|------------------------------------------------|
-//! | `Kinematic` | the curve, doubled (Masing)     | the same; closes on the point it left          |
+//! | `Kinematic` | the lines loaded before, each with its counterpart | the same; closes on the point it left |
+//! | `Iwan`      | springs with sliders, side by side | the same; closes on the point it left       |
 //! | `Isotropic` | K₀ over the range of both sides | goes on where the curve stands for the plastic path so far |
 //! | `Takeda`    | K₀ to zero force                | straight to the largest deformation on that side, then the curve |
 //! | `Pivot`     | towards a pivot at −α f_y       | to β f_y on the line of K₀ (pinching), on to the largest deformation, then the curve |
@@ -24,21 +25,29 @@
 //! | `beta1`, `beta2` | β      | 1      | 0 … 1     | 0.7, β₁ | `Pivot`: pinching towards positive, negative force |
 //! | `axis`           |        |        |           | U1      | local axis                                |
 //!
-//! What a rule needs of the curve: `Kinematic` lines that get no steeper away from the origin; the
-//! others none steeper than K₀ (`Pivot`: than the line to its pivot). The path in a step is straight and each rule
-//! follows it exactly from corner to corner.
+//! `Kinematic` and `Iwan` are the same where both sides of the curve are alike: the path back is the curve doubled
+//! (Masing). Where they differ, the path back of `Kinematic` is that of CSI's programs: parallel to the first line as
+//! far as that was loaded, then to the first line of the other side and as long as that, then the same with the second
+//! lines, and so on, until it meets the curve of the other side. `Iwan` has elements of which each takes the stiffness
+//! of the side it is stretched to.
+//!
+//! What a rule needs of the curve: `Iwan` lines that get no steeper away from the origin; `Kinematic` besides none
+//! steeper than those before it on the other side; the others none steeper than K₀ (`Pivot`: than the line to its
+//! pivot). The path in a step is straight and each rule follows it exactly from corner to corner.
 //!
 //! **Energy.** Stored is what unloading to zero force gives back: ½ k e² of every elastic part
-//! (`Kinematic`, `Isotropic`), f²/(2 Kᵤ) with the slope Kᵤ of unloading (`Takeda`, `Pivot`). The rest of the
+//! (`Kinematic`, `Iwan`, `Isotropic`), f²/(2 Kᵤ) with the slope Kᵤ of unloading (`Takeda`, `Pivot`). The rest of the
 //! work is hysteretic and never falls: ∫ f (1 − Kₜ/Kᵤ) dd, times 1 − f/(2 (f + α f_y)) for `Pivot`, with
 //! the tangent Kₜ ≤ Kᵤ.
 //!
-//! Reference: \[Masing 1926\], \[Iwan 1966\] (`Kinematic`); \[Takeda, Sozen & Nielsen 1970\] with the slope of
+//! Reference: \[Masing 1926\], \[CSI Analysis Reference Manual, multi-linear kinematic plasticity property\]
+//! (`Kinematic`); \[Iwan 1966\]; \[Takeda, Sozen & Nielsen 1970\] with the slope of
 //! unloading kept, as CSI does; \[Dowell, Seible & Wilson 1998\] (`Pivot`, without the softening of
 //! the elastic slopes that CSI calls η).
 
 mod branch;
 mod isotropic;
+mod iwan;
 mod kinematic;
 mod pivot;
 mod reloading;
@@ -59,8 +68,10 @@ use trilith_element::{
 /// What a [`MultilinearPlastic`] does after its first loading.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
 pub enum Rule {
-    /// Masing's: the curve doubled.
+    /// Back along the lines loaded before, each with its counterpart of the other side.
     Kinematic,
+    /// Springs with sliders side by side.
+    Iwan,
     /// The elastic range grows with the plastic path.
     Isotropic,
     /// Reloading towards the largest deformation.
@@ -115,16 +126,16 @@ impl Described for MultilinearPlastic {
     const CARD: Card = Card {
         kind: "MultilinearPlastic",
         category: Category::Link,
-        summary: "Plastic spring along a curve through points: kinematic, isotropic, Takeda or pivot.",
+        summary: "Plastic spring along a curve through points: kinematic, Iwan, isotropic, Takeda or pivot.",
         nodes: NodeCount::GROUND_OR_TWO,
         parameters: &[
             DEFORMATION,
             FORCE,
             Parameter::choice(
                 "rule",
-                &["Kinematic", "Isotropic", "Takeda", "Pivot"],
+                &["Kinematic", "Iwan", "Isotropic", "Takeda", "Pivot"],
                 "Kinematic",
-                "hysteresis",
+                "hysteresis; `Kinematic` is CSI's, also where the sides differ",
             ),
             Parameter::optional(
                 "alpha1",
@@ -157,10 +168,13 @@ impl Described for MultilinearPlastic {
             Parameter::choice("axis", Axis::NAMES, "U1", "local axis"),
         ],
         law: "first loading: the curve through the points\n\
-              Kinematic: the curve doubled (Masing); Isotropic: K₀ over a range that grows with the plastic path\n\
+              Kinematic: back along the lines loaded before, each as far as it was loaded and followed by its counterpart \
+              of the other side (both alike: the curve doubled, Masing)\n\
+              Iwan: f = Σ kⱼ eⱼ + k_end d, the kⱼ of the side eⱼ is on, −dⱼ⁻ ≤ eⱼ ≤ dⱼ⁺ (both alike: the same as Kinematic)\n\
+              Isotropic: K₀ over a range that grows with the plastic path\n\
               Takeda: back with K₀, then straight to the largest deformation on the other side\n\
               Pivot: back towards −α f_y on the line of K₀, then through β f_y on it to the largest deformation",
-        source: "Masing 1926; Iwan 1966; Takeda, Sozen & Nielsen 1970; Dowell, Seible & Wilson 1998",
+        source: "Masing 1926; CSI Analysis Reference Manual (Kinematic); Iwan 1966; Takeda, Sozen & Nielsen 1970; Dowell, Seible & Wilson 1998",
         example: r#""hinge": MultilinearPlastic(nodes: ("a", "b"), axis: R3, deformation: [-0.04, -0.004, 0, 0.004, 0.04], force: ["-360 kN*m", "-300 kN*m", "0 kN*m", "300 kN*m", "360 kN*m"], rule: Takeda)"#,
         exercise: Exercise { frequency: 0.5, strokes: &[Stroke::about(0.0, 0.03)] },
     };
@@ -178,10 +192,14 @@ impl Described for MultilinearPlastic {
                 return wrong("force", "the lines on both sides of (0, 0) must rise");
             }
             match self.rule {
-                Rule::Kinematic => kinematic::check(self.branch(sign))?,
+                Rule::Iwan => self.branch(sign).no_steeper_outwards("`Iwan`")?,
+                Rule::Kinematic => {}
                 Rule::Isotropic | Rule::Takeda => self.branch(sign).no_steeper_than_at_first()?,
                 Rule::Pivot => pivot::Pivot::of(self).check(self.branch(sign))?,
             }
+        }
+        if self.rule == Rule::Kinematic {
+            kinematic::check(self)?;
         }
         let given = [
             ("alpha1", self.alpha1),
@@ -222,7 +240,7 @@ impl Link for MultilinearPlastic {
         let rotational = self.axis.index() > 2;
         let (length, force) = if rotational { ("rad", "N·m") } else { ("m", "N") };
         Cow::Owned(match self.rule {
-            Rule::Kinematic => kinematic::fields(self, length),
+            Rule::Kinematic | Rule::Iwan => iwan::fields(self, length),
             Rule::Isotropic => isotropic::fields(length),
             Rule::Takeda | Rule::Pivot => reloading::fields(length, force),
         })
@@ -255,6 +273,7 @@ impl Link for MultilinearPlastic {
         let step = Step { d0, d, direction };
         let answer = match self.rule {
             Rule::Kinematic => kinematic::respond(self, step, committed, trial),
+            Rule::Iwan => iwan::respond(self, step, committed, trial),
             Rule::Isotropic => isotropic::respond(self, step, committed, trial),
             Rule::Takeda => reloading::respond(self, &takeda::Takeda, step, committed, trial),
             Rule::Pivot => {

@@ -44,6 +44,9 @@
 //! steeply as the spring behind it. The dashpot **`cs`** stretches with the spring: it damps a body that sticks, and
 //! relaxes in cₛ/k_e once it slips; both together stay within μ N.
 //!
+//! The contact dashpot takes hold over the first nanometre of an approach, so that a joint without mass has an
+//! equilibrium at the touch.
+//!
 //! With `restitution` the dashpot is c = 2 ζ(e) √(kₙ m), ζ(e) in closed form without gravity. The mass m
 //! worked out is the share that this contact stops when all contacts of its body strike together (a flat
 //! drop), or, where they cannot (stops on both sides), when it strikes alone.

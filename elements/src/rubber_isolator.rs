@@ -6,6 +6,10 @@
 //!        ⎡ 1 − a₂ z₂²   −a₃ z₂ z₃  ⎤
 //!   A  = ⎣ −a₂ z₂ z₃    1 − a₃ z₃² ⎦                      aᵢ = 1 where ḋᵢ zᵢ > 0, else 0
 //!   f₁ = k_v d₁
+//!
+//!   in general:  żᵢ = ωᵢ − zᵢ |z|^(η−2) Σⱼ ωⱼ zⱼ (γ + β sⱼ),  ωⱼ = kⱼ ḋⱼ/f_yⱼ
+//!   Axes         sⱼ = sgn(ωⱼ zⱼ); the law above with β = γ = ½, η = 2, the defaults
+//!   Direction    sⱼ = sgn(ω·z)
 //! ```
 //!
 //! | parameter          | symbol     | unit | range  | default | meaning                                  |
@@ -14,23 +18,33 @@
 //! | `fy2`, `fy3`       | f_y2, f_y3 | N    | > 0    | –, f_y2 | shear force at which it yields           |
 //! | `ratio2`, `ratio3` | r₂, r₃     | 1    | 0 … 1  | –, r₂   | stiffness after yielding over `k2`, `k3` |
 //! | `kv`               | k_v        | N/m  | ≥ 0    | 0       | axial stiffness, both ways               |
+//! | `coupling`         |            |      |        | Axes    | how unloading is told: `Axes`, `Direction` |
+//! | `beta`             | β          | 1    | > 0    | 0.5     | shape: loading against β + γ, return with γ − β |
+//! | `gamma`            | γ          | 1    | −β … β | 0.5     | shape; at γ = β the return is elastic    |
+//! | `eta`              | η          | 1    | 1 … 20 | 2       | sharpness of yielding                    |
 //!
-//! Along one axis it is a [`Wen`](crate::Wen) with exponent 2. The path in a step is straight, and on it z is
-//! exact (see `biaxial.rs`). With equal parameters the response to straight paths is the same in all directions
-//! of the plane; on curved paths it is nearly so, since unloading is judged axis by axis.
+//! Along one axis it is a [`Wen`](crate::Wen) with exponent η where β = γ = ½. The path in a step is straight, and on
+//! it z is exact for the defaults (see `biaxial.rs`) and integrated otherwise (see `bouc_wen_plane.rs`). With equal
+//! parameters the response to straight paths is the same in all directions of the plane; on curved paths it is
+//! so with `Direction`, and nearly so with `Axes`, since unloading is judged axis by axis. |z| comes to
+//! (β + γ)^(−1/η), and the force at yielding with it.
+//!
+//! `Direction` is the rule of OpenSees' *elastomericBearingBoucWen*, whose η is 1 unless given, with *A* = 1; its
+//! *alpha1* is `ratio2`, its *qd* (1 − `ratio2`) `fy2`. *LeadRubberX* has `Axes` with `beta: 0.9, gamma: 0.1`.
 //!
 //! **Energy.** For each axis as for [`Wen`](crate::Wen): stored ½ r k d² + (1 − r) f_y² z²/(2k), hysteretic
-//! (1 − r) (f_y²/k) ∫ zᵢ² Σⱼ aⱼ ωⱼ zⱼ du ≥ 0; axially ½ k_v d₁².
+//! (1 − r) (f_y²/k) ∫ zᵢ² |z|^(η−2) Σⱼ ωⱼ zⱼ (γ + β sⱼ) du ≥ 0; axially ½ k_v d₁².
 //!
-//! Reference: \[Park, Wen & Ang 1986\]; as in \[CSI Analysis Reference Manual, rubber isolator property\].
+//! Reference: \[Park, Wen & Ang 1986\], \[Casciati 1989\] (`Direction`); as in \[CSI Analysis Reference Manual,
+//! rubber isolator property\].
 
-use crate::shared::biaxial;
+use crate::shared::bouc_wen_plane::{self, Coupling, PARAMETERS, Shape};
 use serde::Deserialize;
 use std::borrow::Cow;
 use trilith_element::dimension::{FORCE, NONE, STIFFNESS};
 use trilith_element::{
     Axis, Card, Category, Coordinates, Described, Exercise, Field, History, Kinematics, Link,
-    NodeCount, Parameter, Range, Response, Stroke, history,
+    NodeCount, Parameter, ParameterError, Range, Response, Stroke, history,
 };
 
 /// Bearing with coupled plastic shear.
@@ -51,6 +65,14 @@ pub struct RubberIsolator {
     pub ratio3: Option<f64>,
     /// Axial stiffness, N/m.
     pub kv: f64,
+    /// How unloading is told.
+    pub coupling: Coupling,
+    /// Shape β.
+    pub beta: f64,
+    /// Shape γ.
+    pub gamma: f64,
+    /// Sharpness of yielding η.
+    pub eta: f64,
 }
 
 history! {
@@ -96,10 +118,16 @@ impl Described for RubberIsolator {
                 0.0,
                 "axial stiffness, both ways",
             ),
+            PARAMETERS[0],
+            PARAMETERS[1],
+            PARAMETERS[2],
+            PARAMETERS[3],
         ],
         law: "fᵢ = rᵢ kᵢ dᵢ + (1 − rᵢ) f_yᵢ zᵢ, i = 2, 3;  f₁ = k_v d₁\n\
-              żᵢ = ωᵢ − zᵢ Σⱼ aⱼ ωⱼ zⱼ,  ωⱼ = kⱼ ḋⱼ/f_yⱼ,  aⱼ = 1 where ḋⱼ zⱼ > 0, else 0",
-        source: "Park, Wen & Ang, Random Vibration of Hysteretic Systems under Bi-directional Ground Motions, 1986",
+              żᵢ = ωᵢ − zᵢ |z|^(η−2) Σⱼ ωⱼ zⱼ (γ + β sⱼ),  ωⱼ = kⱼ ḋⱼ/f_yⱼ\n\
+              Axes: sⱼ = sgn(ωⱼ zⱼ);  Direction: sⱼ = sgn(ω·z)",
+        source: "Park, Wen & Ang, Random Vibration of Hysteretic Systems under Bi-directional Ground Motions, 1986; \
+                 Casciati 1989 for Direction, as in OpenSees' elastomericBearingBoucWen",
         example: r#""bearing": RubberIsolator(nodes: ("ground", "slab"), k2: "10 MN/m", fy2: "100 kN", ratio2: 0.1, kv: "2000 MN/m")"#,
         exercise: Exercise {
             frequency: 0.5,
@@ -110,9 +138,18 @@ impl Described for RubberIsolator {
             ],
         },
     };
+
+    fn check(&self) -> Result<(), ParameterError> {
+        self.shape().check()
+    }
 }
 
 impl RubberIsolator {
+    fn shape(&self) -> Shape {
+        let by_direction = self.coupling == Coupling::Direction;
+        Shape { by_direction, beta: self.beta, gamma: self.gamma, eta: self.eta }
+    }
+
     /// k, f_y and r of U2 and U3.
     fn shear(&self) -> [[f64; 3]; 2] {
         let second = [self.k2, self.fy2, self.ratio2];
@@ -149,7 +186,9 @@ impl Link for RubberIsolator {
         let z0 = RubberHistory::load(committed);
         let shear = self.shear();
         let omega = |i: usize| shear[i][0] / shear[i][1] * (at.d[i + 1] - at.d0[i + 1]);
-        let moved = biaxial::advance([z0.z2, z0.z3], [omega(0), omega(1)], [at.v[1], at.v[2]]);
+        let z0 = [z0.z2, z0.z3];
+        let omega = [omega(0), omega(1)];
+        let moved = bouc_wen_plane::advance(&self.shape(), z0, omega, [at.v[1], at.v[2]]);
         RubberHistory { z2: moved.z[0].x, z3: moved.z[1].x }.store(trial);
         out.f[0] = self.kv * at.d[0];
         out.k[0] = self.kv;
@@ -168,6 +207,9 @@ impl Link for RubberIsolator {
         }
     }
 }
+
+#[cfg(test)]
+mod coupling;
 
 #[cfg(test)]
 mod tests {

@@ -44,8 +44,8 @@ use serde::Deserialize;
 use std::borrow::Cow;
 use trilith_element::dimension::{DAMPING, INVERSE_VELOCITY, LENGTH, NONE, STIFFNESS};
 use trilith_element::{
-    Axis, Card, Category, Contact, Coordinates, Described, Exercise, Field, History, Impact,
-    Kinematics, Link, NodeCount, Parameter, ParameterError, Range, Response, Stroke,
+    Axis, Card, Category, Contact, ContactUse, Coordinates, Described, Exercise, Field, History,
+    Impact, Kinematics, Link, NodeCount, Parameter, ParameterError, Range, Response, Stroke,
 };
 
 /// Sliding bearing with friction in compression and in tension.
@@ -267,6 +267,7 @@ impl TensionCompressionFriction {
             cs: self.cs,
             away: None,
             dish: Dish { radius: self.radius, spherical: false },
+            inclined: false,
             rise: false,
             stop: None,
         }
@@ -298,6 +299,10 @@ impl Link for TensionCompressionFriction {
         out: &mut Response<'_>,
     ) {
         self.bearing().respond(at, &SlidingHistory::load(committed), out).store(trial);
+    }
+
+    fn contact_use(&self) -> ContactUse {
+        ContactUse::Bearing
     }
 
     fn contacts(&self, at: &Kinematics<'_>, history: &[f64], _: &[f64], out: &mut Vec<Contact>) {

@@ -1,5 +1,7 @@
 //! What the end-to-end tests share: models, runs, peaks and histories.
 
+pub mod mutants;
+
 use std::path::{Path, PathBuf};
 use trilith_model::{Analysis, Model, Registry, SolverKind, StepControl};
 use trilith_solvers::{CaseResult, Observer, RunOptions, Sample, run};

@@ -67,6 +67,7 @@ fn told_of_structure(model: &Model, error: &SystemError) -> Told {
         SystemError::Cycle { .. } => "Cycle",
         SystemError::Overdetermined { .. } => "Overdetermined",
         SystemError::Unsupported { .. } => "Unsupported",
+        SystemError::Overflow { .. } => "Overflow",
         _ => "other",
     };
     let start = error.span().map_or(0, |s| s.start);

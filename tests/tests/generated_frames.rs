@@ -191,6 +191,17 @@ fn what_is_no_frame_is_refused_and_any_frame_is_a_model() {
         Frame { mu: 0.0, ..plain.clone() },
         Frame { dt: f64::NAN, ..plain.clone() },
         Frame { bays: [100_000, 100_000], ..plain.clone() },
+        Frame { duration: 1e18, ..plain.clone() },
+        Frame { dt: 1e-12, ..plain.clone() },
+        Frame { duration: f64::MAX, dt: f64::MIN_POSITIVE, ..plain.clone() },
+        Frame { dt: 1000.0, ..plain.clone() },
+        Frame { vectors: Some(usize::MAX), ..plain.clone() },
+        Frame { bay: 1e200, ..plain.clone() },
+        Frame { bay: 1e-200, ..plain.clone() },
+        Frame { storey: 1e10, ..plain.clone() },
+        Frame { density: 1e300, ..plain.clone() },
+        Frame { radius: 1e-300, ..plain.clone() },
+        Frame { slip: 1e-300, ..plain.clone() },
     ] {
         assert!(wrong.check().is_err(), "{wrong:?}");
     }

@@ -1,6 +1,6 @@
 //! Links that are led beyond their elastic range to an initial displacement.
 
-use trilith_model::SolverKind;
+use trilith_model::{Solution, SolverKind, StepControl};
 use trilith_solvers::{RunOptions, Status};
 use trilith_tests::{output, parse, trace, trace_with};
 
@@ -102,4 +102,20 @@ fn work_that_is_spent_ends_a_run() {
         let Status::Spent { t, tried } = result.status else { panic!("{:?}", result.status) };
         assert!(t < 0.1 && tried >= 8, "{t} {tried}");
     }
+}
+
+/// The file may say how much, and no run is without a limit.
+#[test]
+fn a_case_limits_its_substeps() {
+    let text = oscillator("Gap(node: \"a\", axis1: (1, 0, 0), k: 1e6, opening: 0)");
+    let text = text.replace("0.03", "-0.03").replace("dt:", "substep_limit: 8, dt:");
+    let (model, system) = parse(&text, &[]);
+    let (_, result) = trace(&model, &system, SolverKind::Fna);
+    let Status::Spent { tried, .. } = result.status else { panic!("{:?}", result.status) };
+    assert!((8..20).contains(&tried), "{tried}");
+    let plain = Solution::default();
+    assert_eq!(plain.substep_limit(100), 1_000_000);
+    assert_eq!(plain.substep_limit(100_000), 20_000_000);
+    let fixed = Solution { step: StepControl::Fixed { substeps: 50 }, ..plain };
+    assert_eq!(fixed.substep_limit(1_000), 10_000_000);
 }

@@ -315,3 +315,39 @@ fn a_spring_between_links_takes_no_part_in_modes() {
     assert_eq!(omega.len(), 2, "{omega:?}");
     assert!(omega[0] < 1e-6 && (omega[1] - 2.0).abs() < 1e-9, "{omega:?}");
 }
+
+/// A stop with a dashpot on a joint without mass: the touch gives the joint no impulse, it stops and creeps on under
+/// what the springs have left. The numbers are those of c ḃ = k₁ (a − b) − k₂ b − k (b − g) in small steps.
+#[test]
+fn a_joint_without_mass_comes_to_a_damped_stop() {
+    let text = r#"(
+        nodes: { "a": (0, 0, 0), "b": (1, 0, 0), "c": (2, 0, 0) },
+        supports: { "a": (Uy, Uz, Rx, Ry, Rz), "b": (Uy, Uz, Rx, Ry, Rz), "c": Fixed },
+        elements: {
+            "m": Mass(node: "a", mass: 100),
+            "s": Spring(nodes: ("a", "b"), k1: 1e4),
+            "h": Spring(nodes: ("b", "c"), k1: 1e4),
+            "stop": ImpactKelvin(
+                nodes: ("b", "c"), k: 2e4, damping: 500, opening: 0.02, damps: Approach,
+            ),
+        },
+        cases: {
+            "motion": Dynamic(
+                duration: 0.6, dt: 0.01,
+                initial: [(node: "a", dof: Ux, displacement: 0, velocity: 1)],
+            ),
+        },
+        outputs: {
+            "f": LinkForce(link: "stop", axis: U1),
+            "a": Displacement(node: "a", dof: Ux),
+            "b": Displacement(node: "b", dof: Ux),
+        },
+    )"#;
+    let (model, system) = parse(text, &[]);
+    let (t, result) = trace(&model, &system, SolverKind::Fna);
+    assert_eq!(result.status, Status::Converged);
+    assert!((t.last[1] + 0.13869).abs() < 5e-5, "{}", t.last[1]);
+    assert!((t.last[2] + 0.069345).abs() < 2.5e-5, "{}", t.last[2]);
+    assert!((t.peak(0) - 435.99).abs() < 1.0, "{}", t.peak(0));
+    assert!((t.peak(1) - 0.13869).abs() < 5e-5, "{}", t.peak(1));
+}

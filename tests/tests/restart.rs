@@ -112,6 +112,29 @@ fn a_checkpoint_of_another_solver_is_refused() {
 }
 
 #[test]
+fn a_checkpoint_is_refused_by_a_static_case() {
+    let (model, system) = shipped("rigid_block.ron", &[("duration", "0.1".into())]);
+    let (_, end) = trace(&model, &system, SolverKind::Fna);
+    let is_static =
+        |c: &trilith_model::Case| matches!(c.analysis, trilith_model::Analysis::Static(_));
+    let case = model.cases.iter().position(is_static).unwrap();
+    let told = |from: EndState| {
+        let options = RunOptions { case, from: Some(from), ..RunOptions::default() };
+        trilith_solvers::run(&model, &system, options, &mut []).unwrap_err().to_string()
+    };
+    let names = (&model.cases[case].name, &end.end.case);
+    let error = told(end.end.clone());
+    assert!(
+        error.contains(&format!("its case is {}, this run's is {}", names.1, names.0)),
+        "{error}"
+    );
+    // Nor does it take its own end.
+    let options = RunOptions { case, ..RunOptions::default() };
+    let own = trilith_solvers::run(&model, &system, options, &mut []).unwrap();
+    assert!(told(own.end).contains("is static"));
+}
+
+#[test]
 fn a_checkpoint_of_other_parameters_another_step_or_with_damage_is_refused() {
     let (model, system) = shipped("rigid_block.ron", &[("duration", "0.1".into())]);
     let end = || trace(&model, &system, SolverKind::Fna).1.end;

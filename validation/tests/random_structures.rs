@@ -26,7 +26,7 @@ fn random_structures_move_as_their_equations_say() {
 }
 
 /// Structures that were wrong once, and whose fault it was.
-const ONCE_WRONG: [(u64, &str); 43] = [
+const ONCE_WRONG: [(u64, &str); 55] = [
     (7051, "a spring between joints that links hold: a mode that is none"),
     (7404, "the same"),
     (20021, "the same"),
@@ -73,6 +73,18 @@ const ONCE_WRONG: [(u64, &str); 43] = [
     (504_012, "a static path whose laws bend inside its steps"),
     (1_016_312, "a ring spring that turns inside a step, beside a large vibration"),
     (1_017_415, "Rayleigh's damping beside joints that only dashpots hold"),
+    (1_204_748, "links that answer to what the basis lacks, and push what it holds"),
+    (1_221_383, "a wider basis that was hardly wider"),
+    (1_222_260, "what the basis lacks of the start, gone before the first time of comparison"),
+    (1_221_890, "smooth hysteresis inside the steps of a fast mode"),
+    (1_400_541, "a long flight before an impact"),
+    (1_400_636, "a link that another one moves"),
+    (1_404_172, "the oracle's rounding under the root of a dashpot"),
+    (1_500_723, "an output that is nothing but rounding"),
+    (1_015_758, "a dashpot in contact at a joint without mass"),
+    (1_401_994, "the same, at a joint that turns"),
+    (1_208_308, "rounding of the energy on a curve through the origin"),
+    (1_400_320, "rounding of the dummies of open contacts"),
 ];
 
 /// Structures in which direct integration stood still: joints that a series of spring and dashpot holds, joints
@@ -86,6 +98,15 @@ fn direct_integration_gets_through() {
         let verdict = judge(&spec, &truth, SolverKind::Hht);
         assert!(matches!(verdict, Verdict::Passed(_) | Verdict::Told(_)), "{seed}: {verdict:?}");
     }
+}
+
+/// A dashpot of a root less than one half at a joint without mass, where Newton's method goes from side to side.
+#[test]
+fn full_newton_gets_through() {
+    let spec = generate(700_294);
+    let truth = reference(&spec, WORK).unwrap_or_else(|skip| panic!("{skip:?}"));
+    let verdict = judge(&spec, &truth, SolverKind::FullNewton);
+    assert!(matches!(verdict, Verdict::Passed(_) | Verdict::Told(_)), "{verdict:?}");
 }
 
 #[test]

@@ -4,7 +4,7 @@ use crate::args::{CalibrateArguments, Kept};
 use crate::text::{number, percent, row, significant, table};
 use crate::{Answer, Failure, diagnostics, read};
 use trilith::calibrate::{Calibrator, Drop, Horizontal, Swing};
-use trilith::model::Plane;
+use trilith::model::{Plane, visible_line};
 use trilith::{Error, Model, Registry};
 
 /// Rocking that differs by more than this from rigid theory gets a remark.
@@ -13,7 +13,7 @@ const FAR: f64 = 0.02;
 pub(crate) fn calibrate(registry: &Registry, args: &CalibrateArguments) -> Result<Answer, Failure> {
     let model = read(registry, &args.model)?;
     let horizontal = horizontal(&model, args.along.as_deref())?;
-    let head = format!("{}\n\n", model.title);
+    let head = format!("{}\n\n", visible_line(&model.title));
     // The model goes into the calibrator, its text stays for messages.
     let source = model.source.clone();
     let refuse = |e: Error| match e.span() {
@@ -163,8 +163,9 @@ fn rocking(it: &mut Calibrator, args: &CalibrateArguments) -> Result<String, Err
     if let Some(node) = it.dashpot_node() {
         let axis = if it.body().horizontal == Horizontal::X { "cr3" } else { "cr2" };
         out += &format!(
-            "  in the model: \"rocking dashpot\": Spring(node: \"{node}\", {axis}: \"{} N*m*s\")\n  \
+            "  in the model: \"rocking dashpot\": Spring(node: \"{}\", {axis}: \"{} N*m*s\")\n  \
              (right at this uplift; it takes less from smaller ones)\n",
+            visible_line(node),
             significant(dashpot, 5)
         );
     }

@@ -1,7 +1,7 @@
 //! `trilith check`.
 
 use crate::args::ModelArguments;
-use crate::{Answer, Failure, read};
+use crate::{Answer, Failure, long, read};
 use trilith::model::{Analysis as Kind, resolved};
 use trilith::{Analysis, Registry};
 
@@ -13,6 +13,11 @@ pub(crate) fn check(registry: &Registry, args: &ModelArguments) -> Result<Answer
         if model.cases.iter().any(|c| is_static(&c.analysis) != with_mass) {
             let checked = analysis.system().check_supported(&model, with_mass);
             checked.map_err(|e| Failure::of(&e.into(), &model))?;
+        }
+    }
+    for case in &model.cases {
+        if let Some(warning) = long::warning(&model, case, None) {
+            crate::output::tell(&warning);
         }
     }
     Ok(resolved(&model).into())

@@ -2,11 +2,11 @@
 
 use crate::args::CompareArguments;
 use crate::report::{energies, work};
-use crate::text::{number, percent, row, table};
-use crate::{Answer, Failure, case, compare_page, diagnostics, read};
+use crate::text::{number, percent, row, shown, table};
+use crate::{Answer, Failure, case, compare_page, diagnostics, output, read};
 use std::io::IsTerminal;
 use trilith::compare::{Compared, Comparison, Variant};
-use trilith::model::Analysis;
+use trilith::model::{Analysis, visible_line};
 use trilith::results::Peak;
 use trilith::{Model, Registry, SolverKind};
 
@@ -16,10 +16,10 @@ pub(crate) fn compare(registry: &Registry, args: &CompareArguments) -> Result<An
     let variants = variants(&model, case, args)?;
     let result = {
         // Failures are shown in the text of the model, which is on loan.
-        let shown = std::io::stderr().is_terminal();
+        let on_terminal = std::io::stderr().is_terminal();
         let announce = |what: &str| {
-            if shown {
-                eprintln!("running {what}");
+            if on_terminal {
+                output::tell(&format!("running {}\n", visible_line(what)));
             }
         };
         Comparison::new(&mut model, case, announce).run(&variants, !args.no_cause)
@@ -29,14 +29,15 @@ pub(crate) fn compare(registry: &Registry, args: &CompareArguments) -> Result<An
     for c in &all {
         if !c.outcome.good {
             let message = format!("{}: {}", c.variant, c.outcome.summary.message);
-            eprint!("{}", diagnostics::plain(&message, None));
+            output::tell(&diagnostics::plain(&message, None));
             status = 1;
         }
         for w in &c.outcome.summary.warnings {
-            eprint!("{}", diagnostics::warning(&format!("{}: {w}", c.variant)));
+            output::tell(&diagnostics::warning(&format!("{}: {w}", c.variant)));
         }
     }
-    let head = format!("model  {}\ncase   {}\n", model.title, model.cases[case].name);
+    let [title, name] = [&model.title, &model.cases[case].name].map(|text| visible_line(text));
+    let head = format!("model  {title}\ncase   {name}\n");
     let mut text = head + &self::text(&all);
     text += &geometry(&model, &all).map_or(String::new(), |g| format!("\n{g}\n"));
     if let Some(dir) = &args.out {
@@ -45,7 +46,7 @@ pub(crate) fn compare(registry: &Registry, args: &CompareArguments) -> Result<An
         std::fs::create_dir_all(dir)
             .and_then(|()| std::fs::write(&path, page))
             .map_err(|e| Failure::unwritable(&path, &e))?;
-        text += &format!("\npage: {}\n", path.display());
+        text += &format!("\npage: {}\n", shown(&path));
     }
     Ok(Answer { text, status })
 }
@@ -125,7 +126,7 @@ fn text(all: &[Compared]) -> String {
             out += &format!(
                 "  the basis holds {} of the flexibility of {}, the worst link coordinate\n",
                 percent(worst.share),
-                worst.coordinate
+                visible_line(&worst.coordinate)
             );
         }
     }
@@ -133,7 +134,7 @@ fn text(all: &[Compared]) -> String {
         out +=
             &format!("\n{} beside {}\n{}", c.variant, first.variant, table(&differences(c), &[0]));
         if let Some(finding) = &c.finding {
-            out += &format!("  likely cause: {finding}\n");
+            out += &format!("  likely cause: {}\n", visible_line(&finding.to_string()));
         }
     }
     out

@@ -1,15 +1,21 @@
 //! Errors as the reader of a model file wants them: the line, a caret, and what would be right.
 
+use crate::text::shown;
 use annotate_snippets::{AnnotationKind, Group, Level, Patch, Renderer, Snippet};
 use std::io::IsTerminal;
-use std::path::Path;
 use trilith::Diagnostic;
-use trilith::model::{Source, Span};
+use trilith::model::{Source, Span, visible};
 
-/// All errors of a file, and their number.
+/// Errors of a file that are shown; of more, the number is told.
+const SHOWN: usize = 50;
+
+/// The errors of a file, and their number.
 pub(crate) fn all(diagnostics: &[Diagnostic]) -> String {
-    let mut text: String =
-        diagnostics.iter().map(|d| render(&groups(d)) + "\n").collect::<Vec<_>>().join("\n");
+    let shown = diagnostics.iter().take(SHOWN);
+    let mut text: String = shown.map(|d| render(&groups(d)) + "\n").collect::<Vec<_>>().join("\n");
+    if let Some(more) = diagnostics.len().checked_sub(SHOWN).filter(|more| *more > 0) {
+        text += &format!("\n… and {more} more\n");
+    }
     if diagnostics.len() > 1 {
         text += &format!("\n{} errors\n", diagnostics.len());
     }
@@ -21,35 +27,35 @@ pub(crate) fn at(message: &str, span: Span, source: &Source) -> String {
     let snippet = Snippet::source(source.text.as_str())
         .path(shown(&source.path))
         .annotation(AnnotationKind::Primary.span(clamped(&source.text, &span)));
-    render(&[Level::ERROR.primary_title(message).element(snippet)]) + "\n"
+    render(&[Level::ERROR.primary_title(visible(message)).element(snippet)]) + "\n"
 }
 
 /// An error without a place.
 pub(crate) fn plain(message: &str, help: Option<&str>) -> String {
-    let mut group = Group::with_title(Level::ERROR.primary_title(message));
+    let mut group = Group::with_title(Level::ERROR.primary_title(visible(message)));
     if let Some(help) = help {
-        group = group.element(Level::HELP.message(help));
+        group = group.element(Level::HELP.message(visible(help)));
     }
     render(&[group]) + "\n"
 }
 
 /// A warning without a place.
 pub(crate) fn warning(message: &str) -> String {
-    render(&[Group::with_title(Level::WARNING.primary_title(message))]) + "\n"
+    render(&[Group::with_title(Level::WARNING.primary_title(visible(message)))]) + "\n"
 }
 
 fn groups(d: &Diagnostic) -> Vec<Group<'_>> {
     let text = d.source.text.as_str();
-    let title = Level::ERROR.primary_title(d.message.as_str()).id(d.code);
+    let title = Level::ERROR.primary_title(visible(&d.message)).id(d.code);
     let mut group = if text.is_empty() {
         // A file that cannot be read.
         let origin = annotate_snippets::Origin::path(shown(&d.source.path));
         title.element(origin)
     } else {
         let primary = AnnotationKind::Primary.span(clamped(text, &d.span));
-        let primary = if d.label.is_empty() { primary } else { primary.label(d.label.as_str()) };
+        let primary = if d.label.is_empty() { primary } else { primary.label(visible(&d.label)) };
         let related = d.related.iter().map(|(span, label)| {
-            AnnotationKind::Context.span(clamped(text, span)).label(label.as_str())
+            AnnotationKind::Context.span(clamped(text, span)).label(visible(label))
         });
         let snippet = Snippet::source(text).path(shown(&d.source.path));
         title.element(snippet.annotation(primary).annotations(related))
@@ -60,20 +66,16 @@ fn groups(d: &Diagnostic) -> Vec<Group<'_>> {
             let snippet = Snippet::source(text)
                 .path(shown(&d.source.path))
                 .patch(Patch::new(clamped(text, span), replacement.as_str()));
-            let title = Level::HELP.secondary_title(help.unwrap_or("this would be right"));
+            let title = Level::HELP.secondary_title(visible(help.unwrap_or("this would be right")));
             vec![group, title.element(snippet)]
         }
         _ => {
             if let Some(help) = help {
-                group = group.element(Level::HELP.message(help));
+                group = group.element(Level::HELP.message(visible(help)));
             }
             vec![group]
         }
     }
-}
-
-fn shown(path: &Path) -> String {
-    path.display().to_string()
 }
 
 /// The span inside the text, on boundaries of characters.
@@ -92,7 +94,9 @@ fn clamped(text: &str, span: &Span) -> Span {
 fn render(report: &[Group<'_>]) -> String {
     let colour = std::io::stderr().is_terminal() && std::env::var_os("NO_COLOR").is_none();
     let renderer = if colour { Renderer::styled() } else { Renderer::plain() };
-    renderer.render(report)
+    // The renderer shows control characters of ASCII in lines of a file by signs of their own, and lets the others
+    // through; it has no use for these itself.
+    renderer.render(report).replace(|c: char| matches!(c, '\u{80}'..='\u{9f}'), "\u{fffd}")
 }
 
 #[cfg(test)]
@@ -103,6 +107,25 @@ mod tests {
     fn spans_outside_the_text_are_brought_inside() {
         assert_eq!(clamped("aé", &(2..9)), 1..3);
         assert_eq!(clamped("", &(4..6)), 0..0);
+    }
+
+    #[test]
+    fn of_many_errors_the_first_are_shown_and_all_are_counted() {
+        let source = std::sync::Arc::new(Source {
+            path: "a.ron".into(),
+            text: "(\n  nodse: {},\n)".into(),
+            sha256: String::new(),
+        });
+        let errors = |n: usize| {
+            let one = |i: usize| Diagnostic::new("E0103", format!("wrong {i}"), 4..9, &source);
+            all(&(0..n).map(one).collect::<Vec<_>>())
+        };
+        let text = errors(SHOWN);
+        assert!(text.contains("wrong 49") && !text.contains("more"), "{text}");
+        assert!(text.ends_with("\n50 errors\n"), "{text}");
+        let text = errors(5000);
+        assert!(text.contains("wrong 49") && !text.contains("wrong 50"), "{text}");
+        assert!(text.ends_with("\n… and 4950 more\n\n5000 errors\n"), "{text}");
     }
 
     #[test]
@@ -119,6 +142,24 @@ mod tests {
         let text = all(&[d]);
         for part in ["error[E0103]", "a.ron:2:3", "^^^^^ not known", "did you mean", "+   nodes"] {
             assert!(text.contains(part), "{part} in\n{text}");
+        }
+    }
+
+    #[test]
+    fn nothing_in_a_text_reaches_the_terminal_as_a_command() {
+        let source = std::sync::Arc::new(Source {
+            path: "a\u{1b}.ron".into(),
+            text: "(\n  \u{1b}[31m\u{9b}31m nodse: {},\n)".into(),
+            sha256: String::new(),
+        });
+        let d = Diagnostic::new("E0103", "m\u{1b}\u{9b}", 15..20, &source)
+            .label("l\u{1b}\u{9b}")
+            .help("h\u{1b}\u{9b}")
+            .suggestion(15..20, "nodes");
+        let at = at("m\u{1b}\u{9b}", 15..20, &source);
+        let texts = [all(&[d]), at, plain("m\u{1b}", Some("h\u{1b}\u{9b}")), warning("\u{9b}")];
+        for text in texts {
+            assert!(!text.contains(|c: char| c.is_control() && c != '\n'), "{text:?}");
         }
     }
 }

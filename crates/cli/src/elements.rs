@@ -1,7 +1,7 @@
 //! `trilith elements`: the catalogue.
 
 use crate::args::ElementsArguments;
-use crate::text::{names_help, row, table};
+use crate::text::{names_help, row, shown, table};
 use crate::{Answer, Failure};
 use std::path::Path;
 use trilith::Registry;
@@ -40,7 +40,7 @@ fn page(registry: &Registry, path: &Path) -> Result<Answer, Failure> {
         }
     };
     std::fs::write(path, text).map_err(|e| Failure::unwritable(path, &e))?;
-    Ok(format!("catalogue: {}\n", path.display()).into())
+    Ok(format!("catalogue: {}\n", shown(path)).into())
 }
 
 fn list(registry: &Registry) -> String {

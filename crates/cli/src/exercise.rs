@@ -1,13 +1,13 @@
 //! `trilith exercise`: what a link does on its own.
 
 use crate::args::ExerciseArguments;
-use crate::text::{number, percent, row, significant, table};
+use crate::text::{number, percent, row, shown, significant, table};
 use crate::{Answer, Failure, elements};
 use std::path::{Path, PathBuf};
 use trilith::Registry;
 use trilith::element::Stroke;
 use trilith::element::dimension::{LENGTH, NONE};
-use trilith::exercise::{Coordinate, ExerciseError, Motion, Record, Specimen};
+use trilith::exercise::{Coordinate, ExerciseError, History, Motion, Record, Specimen};
 use trilith::model::quantity;
 use trilith::report::Figure;
 
@@ -16,17 +16,60 @@ pub(crate) fn exercise(registry: &Registry, args: ExerciseArguments) -> Result<A
         ExerciseError::UnknownKind(kind) => elements::unknown(registry, &kind),
         other => refuse(&other),
     })?;
-    let motion = motion(&specimen, &args)?;
-    let record = specimen.exercise(&motion).map_err(|e| refuse(&e))?;
-    let mut text = text(&specimen, &motion, &record);
+    let (record, mut text) = match &args.history {
+        Some(path) => follow(&specimen, path)?,
+        None => {
+            let motion = motion(&specimen, &args)?;
+            let record = specimen.exercise(&motion).map_err(|e| refuse(&e))?;
+            let text = text(&specimen, &motion, &record);
+            (record, text)
+        }
+    };
     if !args.no_files {
         let default = || Path::new("out").join(format!("exercise_{}", specimen.card.kind));
         let dir = args.out.unwrap_or_else(default);
         for path in write(&dir, &record)? {
-            text += &format!("{}\n", path.display());
+            text += &format!("{}\n", shown(&path));
         }
     }
     Ok(text.into())
+}
+
+/// Leads the link along a measured history.
+fn follow(specimen: &Specimen, path: &Path) -> Result<(Record, String), Failure> {
+    let bad = |why: String| {
+        let help = "the first line names the columns, such as `t [s],U1 [mm]`; a line of numbers for each sample \
+                    follows, with commas between them";
+        Failure::input(&format!("{}: {why}", path.display()), Some(help))
+    };
+    let file = std::fs::read_to_string(path)
+        .map_err(|e| Failure::input(&format!("{} cannot be read: {e}", path.display()), None))?;
+    let coordinates = specimen.coordinates();
+    let history = History::parse(&file, &coordinates).map_err(|e| bad(e.to_string()))?;
+    let record = specimen.follow(&history).map_err(|e| refuse(&e))?;
+    let mut text = about(specimen);
+    let (first, last) = (history.time[0], history.time[history.time.len() - 1]);
+    text += &format!(
+        "\nled along {}: {} samples from {} s to {} s\n",
+        path.display(),
+        history.time.len(),
+        number(first),
+        number(last)
+    );
+    if !history.unused.is_empty() {
+        text += &format!("  not used: {}\n", history.unused.join(", "));
+    }
+    let heads = ["", "unit", "from", "to", "force min", "force max", "unit"];
+    let mut rows = vec![row(heads)];
+    for (i, c) in record.coordinates.iter().enumerate() {
+        let [(from, to), (low, high)] = record.extremes(i);
+        let (length, force) = units(c);
+        let [from, to, low, high] = [from, to, low, high].map(number);
+        rows.push(row([&c.name, length, &from, &to, &low, &high, force]));
+    }
+    text += &table(&rows, &[0, 6]);
+    text += &energies(&record);
+    Ok((record, text))
 }
 
 fn refuse(error: &ExerciseError) -> Failure {
@@ -112,11 +155,7 @@ fn set(
 }
 
 fn text(specimen: &Specimen, motion: &Motion, record: &Record) -> String {
-    let mut out =
-        format!("{}: {}\n  {}\n", specimen.card.kind, specimen.card.summary, specimen.line);
-    for note in &specimen.notes {
-        out += &format!("  note: {note}\n");
-    }
+    let mut out = about(specimen);
     out += &format!(
         "\nimposed: {} Hz, {}\n",
         motion.frequency,
@@ -145,8 +184,22 @@ fn text(specimen: &Specimen, motion: &Motion, record: &Record) -> String {
         rows.push(row([&c.name, &number(cycle.area), &stiffness, unit, &damping]));
     }
     out += &table(&rows, &[0, 3]);
+    out + &energies(record)
+}
+
+/// The link, and what was assumed.
+fn about(specimen: &Specimen) -> String {
+    let mut out =
+        format!("{}: {}\n  {}\n", specimen.card.kind, specimen.card.summary, specimen.line);
+    for note in &specimen.notes {
+        out += &format!("  note: {note}\n");
+    }
+    out
+}
+
+/// What became of the work, as a table with a line behind it.
+fn energies(record: &Record) -> String {
     let [work, stored, hysteretic, viscous] = record.totals();
-    out += "\nenergy [J]\n";
     let rows = [
         row(["work done on the link", &number(work)]),
         row(["stored", &number(stored)]),
@@ -154,7 +207,7 @@ fn text(specimen: &Specimen, motion: &Motion, record: &Record) -> String {
         row(["viscous", &number(viscous)]),
         row(["balance error", &format!("{} %", significant(100.0 * record.energy_error(), 2))]),
     ];
-    out + &table(&rows, &[0]) + "\n"
+    format!("\nenergy [J]\n{}\n", table(&rows, &[0]))
 }
 
 fn units(c: &Coordinate) -> (&'static str, &'static str) {

@@ -2,7 +2,7 @@
 
 use crate::Failure;
 use crate::figure_files::{self, Format};
-use crate::text::names_help;
+use crate::names;
 use std::path::{Path, PathBuf};
 use trilith::model::Body;
 use trilith::report::{ENERGY, GROUND, SPECTRA, named_figures};
@@ -18,7 +18,7 @@ pub(crate) fn check(model: &Model, names: &[String]) -> Result<(), Failure> {
     match names.iter().find(|n| !known.contains(&n.as_str())) {
         None => Ok(()),
         Some(name) => {
-            let help = names_help(name, "figures", known.into_iter());
+            let help = names::help(name, "figures", "--figure", known.into_iter());
             Err(Failure::input(&format!("there is no figure of \"{name}\""), Some(&help)))
         }
     }

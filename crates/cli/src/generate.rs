@@ -1,6 +1,7 @@
 //! `trilith generate`: models from a few numbers.
 
 use crate::args::{FrameArguments, GenerateArguments, Generated};
+use crate::text::shown;
 use crate::{Answer, Failure};
 use trilith::generate::{Frame, Section};
 
@@ -19,7 +20,7 @@ pub(crate) fn generate(args: GenerateArguments) -> Result<Answer, Failure> {
         frame.nodes(),
         frame.elements(),
         frame.isolators(),
-        path.display()
+        shown(&path)
     );
     Ok(told.into())
 }

@@ -8,13 +8,14 @@
 //! ```
 //!
 //! Results go to stdout, diagnostics and progress to stderr. Exit status: 0 done, 1 the run did not
-//! converge or lost energy, 2 the input is wrong.
+//! converge or lost energy, or what it found could not be printed, 2 the input is wrong.
 
 mod args;
 mod calibrate;
 mod check;
 mod compare;
 mod compare_page;
+mod date;
 mod diagnostics;
 mod elements;
 mod exercise;
@@ -22,7 +23,11 @@ mod failure;
 mod figure_files;
 mod figures;
 mod generate;
+mod long;
+mod made_by;
 mod modes;
+mod names;
+mod output;
 mod progress;
 mod record;
 mod report;
@@ -33,7 +38,6 @@ mod text;
 use args::{Arguments, Command};
 use clap::Parser;
 use failure::Failure;
-use std::io::Write;
 use trilith::{Model, Registry};
 
 /// What a command prints, and the exit status.
@@ -50,7 +54,11 @@ impl From<String> for Answer {
 
 /// Runs the program with the arguments of the process and the kinds of a registry, and ends it.
 pub fn main_with(registry: Registry) -> ! {
-    let answer = match Arguments::parse().command {
+    let arguments = match Arguments::try_parse() {
+        Ok(arguments) => arguments,
+        Err(said) => std::process::exit(output::usage(&said)),
+    };
+    let answer = match arguments.command {
         Command::Run(a) => run::run(&registry, a),
         Command::Check(a) => check::check(&registry, &a),
         Command::Modes(a) => modes::modes(&registry, &a),
@@ -64,14 +72,9 @@ pub fn main_with(registry: Registry) -> ! {
         Command::Record(a) => record::record(&a),
     };
     let status = match answer {
-        Ok(Answer { text, status }) => {
-            // A reader that has gone away (`trilith … | head`) is no error.
-            let mut out = std::io::stdout().lock();
-            let _ = out.write_all(text.as_bytes()).and_then(|()| out.flush());
-            status
-        }
+        Ok(Answer { text, status }) => output::print(&text, status),
         Err(failure) => {
-            let _ = std::io::stderr().lock().write_all(failure.text.as_bytes());
+            output::tell(&failure.text);
             failure.status
         }
     };

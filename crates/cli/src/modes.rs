@@ -4,6 +4,7 @@ use crate::args::ModesArguments;
 use crate::text::{number, percent, row, table};
 use crate::{Answer, Failure, case, read};
 use std::f64::consts::TAU;
+use trilith::model::visible_line;
 use trilith::solvers::BasisReport;
 use trilith::{Analysis, Registry};
 
@@ -12,7 +13,7 @@ pub(crate) fn modes(registry: &Registry, args: &ModesArguments) -> Result<Answer
     let chosen = args.case.as_deref().map(|c| case(&model, Some(c))).transpose()?;
     let report =
         Analysis::new(&model).and_then(|a| a.modes(chosen)).map_err(|e| Failure::of(&e, &model))?;
-    Ok(format!("{}\n\n{}", model.title, text(&report)).into())
+    Ok(format!("{}\n\n{}", visible_line(&model.title), text(&report)).into())
 }
 
 fn text(report: &BasisReport) -> String {

@@ -1,8 +1,10 @@
 //! A bar on the terminal for runs that take a while.
 
+use crate::output;
 use indicatif::{ProgressBar, ProgressStyle};
 use std::io::IsTerminal;
 use std::time::{Duration, Instant};
+use trilith::model::visible_line;
 
 const PATIENCE: Duration = Duration::from_millis(500);
 const PARTS: f64 = 1000.0;
@@ -18,7 +20,7 @@ pub(crate) struct Progress {
 impl Progress {
     pub fn new(name: &str) -> Self {
         let terminal = std::io::stderr().is_terminal();
-        Self { start: Instant::now(), terminal, name: name.to_owned(), bar: None }
+        Self { start: Instant::now(), terminal, name: visible_line(name).into_owned(), bar: None }
     }
 
     /// Shows the finished share.
@@ -50,7 +52,8 @@ impl Drop for Progress {
 /// How often a study that writes to a file, not a terminal, says how far it is.
 const LINE: Duration = Duration::from_secs(30);
 
-/// Progress of many runs: a bar with the time left on a terminal, a line now and then elsewhere.
+/// Progress of many runs: a bar with the time left on a terminal, a line now and then elsewhere. Studies that last say
+/// first how they go on after a stop: the end by a signal leaves no time for that.
 pub(crate) struct Steps {
     start: Instant,
     said: Instant,
@@ -58,26 +61,37 @@ pub(crate) struct Steps {
     first: Option<usize>,
     terminal: bool,
     name: String,
+    /// How it goes on, until that is said.
+    again: Option<String>,
     bar: Option<ProgressBar>,
 }
 
 impl Steps {
-    pub fn new(name: &str) -> Self {
+    /// `again`: how the study goes on after a stop.
+    pub fn new(name: &str, again: String) -> Self {
         let now = Instant::now();
         let terminal = std::io::stderr().is_terminal();
-        Self { start: now, said: now, first: None, terminal, name: name.to_owned(), bar: None }
+        let name = visible_line(name).into_owned();
+        let again = Some(again);
+        Self { start: now, said: now, first: None, terminal, name, again, bar: None }
     }
 
     /// Shows how many are done.
     pub fn show(&mut self, done: usize, total: usize, failed: usize) {
         let first = *self.first.get_or_insert(done.saturating_sub(1));
+        if done < total
+            && self.start.elapsed() > PATIENCE
+            && let Some(again) = self.again.take()
+        {
+            output::tell(&format!("{again}\n"));
+        }
         let failures = if failed > 0 { format!(", {failed} failed") } else { String::new() };
         if !self.terminal {
             if self.said.elapsed() > LINE {
                 self.said = Instant::now();
                 let new = done.saturating_sub(first).max(1) as f64;
                 let left = self.start.elapsed().as_secs_f64() / new * (total - done) as f64;
-                eprintln!("{done} of {total} runs{failures}, {left:.0} s left");
+                output::tell(&format!("{done} of {total} runs{failures}, {left:.0} s left\n"));
             }
             return;
         }

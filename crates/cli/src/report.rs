@@ -2,12 +2,16 @@
 
 use crate::text::{number, percent, row, significant, table};
 use trilith::Model;
+use trilith::model::visible_line;
 use trilith::results::Summary;
 use trilith::solvers::{EnergyTotals, Work};
 
-/// Kinds of energy with their names.
-pub(crate) fn energies(e: &EnergyTotals) -> [(&'static str, f64); 10] {
+/// Kinds of energy with their names; the potential with the sign of its change.
+pub(crate) fn energies(e: &EnergyTotals) -> [(&'static str, f64); 13] {
     [
+        ("at the start: kinetic", e.start.kinetic),
+        ("at the start: strain", e.start.strain),
+        ("at the start: stored in links", e.start.link_stored),
         ("input", e.input),
         ("kinetic", e.kinetic),
         ("strain", e.strain),
@@ -41,7 +45,7 @@ pub(crate) fn text(model: &Model, s: &Summary) -> String {
         ("solver", s.solver),
         ("status", s.status),
     ] {
-        out += &format!("{name:7} {value}\n");
+        out += &format!("{name:7} {}\n", visible_line(value));
     }
     let mut rows = vec![row(["output", "unit", "max", "at s", "min", "at s", "final", "±"])];
     for (name, o) in &s.outputs.0 {
@@ -73,22 +77,84 @@ pub(crate) fn text(model: &Model, s: &Summary) -> String {
             shown(s, "m", c.residual_slip)
         );
     }
-    let largest = energies(&s.energy).iter().fold(0.0, |a: f64, (_, e)| a.max(e.abs()));
-    // A body that starts displaced gets no input but rounding.
-    let driven = s.energy.input > 1e-9 * largest;
-    let share = |e: f64| if driven { percent(e / s.energy.input) } else { "–".into() };
-    let mut rows = vec![row(["energy", "J", "of input"])];
-    for (name, e) in energies(&s.energy) {
-        // Kinds that are nothing but rounding are left out.
-        if e.abs() > ROUNDING * largest || name == "input" {
-            rows.push(row([name, &number(e), &share(e)]));
-        }
-    }
-    out += &format!("\n{}", table(&rows, &[0]));
+    out += &structure(s);
+    out += &format!("\n{}", energy(s));
     // The limit of the model is on this share, not on that of the input at the end.
     let share = percent(s.energy.error_relative);
     out += &format!("  unaccounted for: {share} of what was put in, released or dissipated\n");
     out + &format!("\nwork: {}\n", work(&s.work))
+}
+
+/// What was there and what was put in, and what became of it.
+fn energy(s: &Summary) -> String {
+    let balance = s.energy.balance();
+    // No time passes in a static case: what its loads release is not all taken up.
+    let whole = balance.whole().filter(|_| s.solver != "static");
+    let mut rows = vec![row(["energy", "J", "of start + input"])];
+    for (name, e) in balance.sources.iter().chain(&balance.uses) {
+        // Kinds that are nothing but rounding are left out.
+        let nothing = balance.is_rounding(*e);
+        if !nothing || *name == "input" {
+            let e = if nothing { 0.0 } else { *e };
+            let share = whole.map_or_else(|| "–".into(), |whole| percent(e / whole));
+            rows.push(row([name, &number(e), &share]));
+        }
+    }
+    table(&rows, &[0])
+}
+
+/// What a structure did as a whole: base shear, drift, its bearings and stops.
+fn structure(s: &Summary) -> String {
+    let mut lines = Vec::new();
+    if let Some(b) = &s.base_shear {
+        let largest = b.max[0].max(b.max[1]);
+        let along = ["X", "Y"].into_iter().zip(b.max.into_iter().zip(b.time));
+        let moved = along.filter(|(_, (force, _))| *force > ROUNDING * largest);
+        let parts = moved.map(|(axis, (force, t))| {
+            format!("≤ {} N along {axis} at {} s", number(force), number(t))
+        });
+        lines.push(format!("base shear: {}", parts.collect::<Vec<_>>().join(", ")));
+    }
+    if let Some(d) = &s.drift {
+        lines.push(format!(
+            "drift: ≤ {} m in \"{}\", {} of the {} m between its nodes",
+            number(d.max),
+            d.output,
+            percent(d.ratio),
+            number(d.height)
+        ));
+    }
+    if let Some(b) = &s.bearings {
+        let place =
+            b.farthest.as_ref().map(|name| format!(" in \"{name}\" at {} s", number(b.time)));
+        lines.push(format!(
+            "bearings: travel ≤ {} m{}, {} m at the end; uplift ≤ {} m",
+            shown(s, "m", b.max_travel),
+            place.unwrap_or_default(),
+            shown(s, "m", b.residual_travel),
+            shown(s, "m", b.max_uplift)
+        ));
+    }
+    // A static case hits nothing.
+    if let Some(stops) =
+        s.stops.as_ref().filter(|stops| stops.hardest.is_some() || s.solver != "static")
+    {
+        let hardest = stops.hardest.as_ref().map_or_else(String::new, |name| {
+            let force = number(stops.largest_force);
+            format!("; largest force {force} N in \"{name}\" at {} s", number(stops.time))
+        });
+        lines.push(format!("stops: {}{hardest}", hits(stops.hits)));
+    }
+    if lines.is_empty() { String::new() } else { format!("\n{}\n", lines.join("\n")) }
+}
+
+/// How often stops were hit.
+fn hits(count: usize) -> String {
+    match count {
+        0 => "no hit".into(),
+        1 => "1 hit".into(),
+        n => format!("{n} hits"),
+    }
 }
 
 /// The largest responses of floor spectra.

@@ -2,13 +2,14 @@
 
 use crate::args::{ModelArguments, ReportArguments, RunArguments};
 use crate::progress::Progress;
-use crate::text::names_help;
-use crate::{Answer, Failure, case, diagnostics, figure_files, figures, read};
+use crate::text::shown;
+use crate::{
+    Answer, Failure, case, diagnostics, figure_files, figures, long, made_by, names, output, read,
+};
 use std::path::{Path, PathBuf};
 use trilith::model::{Body, Element};
-use trilith::results::{Folder, OF_RUN};
-use trilith::solvers::EndState;
-use trilith::{Analysis, Model, Registry, Run, RunOptions};
+use trilith::results::{Folder, OF_RUN, Summary};
+use trilith::{Analysis, Checkpoint, Model, Registry, Run, RunOptions};
 
 /// Deformed shapes kept for ParaView.
 const FRAMES: usize = 200;
@@ -17,11 +18,22 @@ pub(crate) fn run(registry: &Registry, args: RunArguments) -> Result<Answer, Fai
     let model = read(registry, &args.model)?;
     let case = case(&model, args.case.as_deref())?;
     let from = args.restart.as_deref().map(checkpoint).transpose()?;
-    check_links(&model, &args.loops)?;
-    figures::check(&model, &args.figure)?;
+    check_stops(&model, case, &args)?;
+    check_links(&model, &names::flat(&args.loops))?;
+    figures::check(&model, &names::flat(&args.figure))?;
     figure_files::check(&args.figure_format)?;
     // Looked at before the analysis: nothing that was computed is lost for want of a place.
-    let folder = if args.no_files { None } else { Some(open(&model, &args)?) };
+    let folder = if args.no_files {
+        None
+    } else {
+        Some((open(&model, &args)?, made_by::Inputs::of_run(&model, &args)?))
+    };
+    let other_build = from.as_ref().and_then(Checkpoint::warning);
+    if !args.no_files
+        && let Some(warning) = long::warning(&model, &model.cases[case], args.dt)
+    {
+        output::tell(&warning);
+    }
     let (analysis, run) = {
         let mut bar = Progress::new(&model.cases[case].name);
         let mut show = |share| bar.show(share);
@@ -33,7 +45,7 @@ pub(crate) fn run(registry: &Registry, args: RunArguments) -> Result<Answer, Fai
             vectors: None,
             substeps: None,
             step_errors: true,
-            from,
+            from: from.map(|checkpoint| checkpoint.state),
             progress: Some(&mut show),
         };
         let mut analysis = Analysis::new(&model).map_err(|e| Failure::of(&e, &model))?;
@@ -45,27 +57,31 @@ pub(crate) fn run(registry: &Registry, args: RunArguments) -> Result<Answer, Fai
                 analysis = analysis.with_loops();
             }
         }
-        let run = analysis.run(options).map_err(|e| Failure::of(&e, &model))?;
+        let mut run = analysis.run(options).map_err(|e| Failure::of(&e, &model))?;
+        run.result.warnings.extend(other_build);
         (analysis, run)
     };
     let summary = run.summary(&model);
     for w in &summary.warnings {
-        eprint!("{}", diagnostics::warning(w));
+        output::tell(&diagnostics::warning(w));
     }
     let mut text = crate::report::text(&model, &summary);
-    let files = folder.map_or_else(|| Ok(String::new()), |it| write(it, &args, &analysis, &run));
+    let files = match folder {
+        Some((folder, inputs)) => write(folder, &inputs, &args, &analysis, &run, &summary),
+        None => Ok(String::new()),
+    };
     match files {
         Ok(written) => text += &written,
         // What was found is on the screen all the same.
         Err(failure) => {
-            eprint!("{}", failure.text);
+            output::tell(&failure.text);
             return Ok(Answer { text, status: failure.status });
         }
     }
     let status = if run.result.status.is_good() {
         0
     } else {
-        eprint!("{}", diagnostics::plain(&run.result.status.text(), None));
+        output::tell(&diagnostics::plain(&run.result.status.text(), None));
         1
     };
     Ok(Answer { text, status })
@@ -83,26 +99,31 @@ fn open(model: &Model, args: &RunArguments) -> Result<Folder, Failure> {
 /// Writes the results; what is there now, as lines.
 fn write(
     folder: Folder,
+    inputs: &made_by::Inputs,
     args: &RunArguments,
     analysis: &Analysis<'_>,
     run: &Run,
+    summary: &Summary,
 ) -> Result<String, Failure> {
     let (model, dir) = (analysis.model(), folder.path());
-    let show = |what: &str, path: &Path| format!("{what}: {}\n", folder.published(path).display());
+    let show = |what: &str, path: &Path| format!("{what}: {}\n", shown(&folder.published(path)));
     let mut text = show("files", dir);
     run.write(model, dir).map_err(|e| Failure::of(&e, model))?;
+    made_by::write_run(dir, inputs, &args.model.set, summary, run.result.end.dt)?;
     if !args.no_report {
-        let data = run.report(analysis, &args.model.set, &args.loops);
+        let data = run.report(analysis, &args.model.set, &names::flat(&args.loops));
         let page = trilith::write_report(dir, &data).map_err(|e| Failure::of(&e, model))?;
         text += &show("report", &page);
     }
-    let figures = figures::write(analysis, run, dir, &args.figure, &args.figure_format);
+    let names = names::flat(&args.figure);
+    let figures = figures::write(analysis, run, dir, &names, &args.figure_format);
     for path in figures.iter().flatten() {
         text += &show("figure", path);
     }
     if args.checkpoint_at.is_some() {
         let path = dir.join("checkpoint.json");
-        write_checkpoint(&path, run)?;
+        let checkpoint = Checkpoint::new(run.result.end.clone());
+        checkpoint.write(&path).map_err(|e| Failure::unwritable(&e.path, &e.cause))?;
         text += &show("checkpoint", &path);
     }
     folder.publish().map_err(|e| Failure::folder(&e))?;
@@ -116,7 +137,20 @@ pub(crate) fn report(args: &ReportArguments) -> Result<Answer, Failure> {
         let help = "`trilith run MODEL --out DIR` writes such a folder";
         Failure::input(&e.to_string(), Some(help))
     })?;
-    Ok(format!("report: {}\n", page.display()).into())
+    Ok(format!("report: {}\n", shown(&page)).into())
+}
+
+/// A run that is to stop on its way must have one.
+fn check_stops(model: &Model, case: usize, args: &RunArguments) -> Result<(), Failure> {
+    let case = &model.cases[case];
+    match (&case.analysis, args.checkpoint_at) {
+        (trilith::model::Analysis::Static(_), Some(_)) => {
+            let help = "leave `--checkpoint-at` out, or name a dynamic case with `--case`";
+            let message = format!("the case {} is static: it has no time to stop at", case.name);
+            Err(Failure::input(&message, Some(help)))
+        }
+        _ => Ok(()),
+    }
 }
 
 /// Names of links that the model must have.
@@ -128,7 +162,8 @@ fn check_links(model: &Model, names: &[String]) -> Result<(), Failure> {
     match names.iter().find(|n| !links().any(|l| l == n.as_str())) {
         None => Ok(()),
         Some(name) => {
-            let help = names_help(name, "links", links().collect::<Vec<_>>().into_iter());
+            let links = links().collect::<Vec<_>>().into_iter();
+            let help = names::help(name, "links", "--loops", links);
             Err(Failure::input(&format!("there is no link \"{name}\""), Some(&help)))
         }
     }
@@ -145,18 +180,7 @@ fn default_folder(args: &ModelArguments) -> PathBuf {
     dir.join(all.join(",").chars().map(plain).collect::<String>())
 }
 
-fn checkpoint(path: &Path) -> Result<EndState, Failure> {
-    let refuse = |why: String| {
-        let message = format!("the checkpoint {} cannot be read: {why}", path.display());
-        Failure::input(&message, Some("`--checkpoint-at T` writes one"))
-    };
-    let text = std::fs::read_to_string(path).map_err(|e| refuse(e.to_string()))?;
-    serde_json::from_str(&text).map_err(|e| refuse(e.to_string()))
-}
-
-fn write_checkpoint(path: &Path, run: &Run) -> Result<(), Failure> {
-    serde_json::to_string(&run.result.end)
-        .map_err(std::io::Error::from)
-        .and_then(|text| std::fs::write(path, text))
-        .map_err(|e| Failure::input(&format!("{} cannot be written: {e}", path.display()), None))
+fn checkpoint(path: &Path) -> Result<Checkpoint, Failure> {
+    Checkpoint::read(path)
+        .map_err(|e| Failure::input(&e.to_string(), Some("`--checkpoint-at T` writes one")))
 }

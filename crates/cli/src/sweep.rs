@@ -2,12 +2,13 @@
 
 use crate::args::SweepArguments;
 use crate::progress::Steps;
-use crate::text::{row, table};
-use crate::{Answer, Failure, figure_files};
+use crate::text::{row, shown, table};
+use crate::{Answer, Failure, figure_files, made_by, output};
 use std::path::Path;
 use std::sync::Mutex;
 use std::time::Instant;
 use trilith::Registry;
+use trilith::model::visible_line;
 use trilith_study::{Results, Study, execute};
 
 /// Failed runs that are told one by one.
@@ -28,9 +29,14 @@ pub(crate) fn sweep(registry: &Registry, args: &SweepArguments) -> Result<Answer
     let folder = args.out.clone().unwrap_or_else(|| Path::new("out").join(stem));
     let cores = std::thread::available_parallelism().map_or(1, std::num::NonZero::get);
     let threads = args.threads.map_or(cores, usize::from);
+    let inputs = made_by::Inputs::of_study(&study)?;
     let start = Instant::now();
     let results = {
-        let bar = Mutex::new(Steps::new(&study.title));
+        let again = format!(
+            "finished runs are kept in {}: stopped at any time, the same command goes on",
+            shown(&folder)
+        );
+        let bar = Mutex::new(Steps::new(&study.title, again));
         let show = |p: trilith_study::Progress| {
             if let Ok(mut bar) = bar.lock() {
                 bar.show(p.done, p.total, p.failed);
@@ -39,11 +45,12 @@ pub(crate) fn sweep(registry: &Registry, args: &SweepArguments) -> Result<Answer
         execute(&study, registry, &folder, threads, &show)
             .map_err(|e| Failure::input(&e.to_string(), Some(e.help())))?
     };
+    made_by::write_study(&folder, &inputs, &args.set, &study)?;
     let mut text = report(&study, &results, start.elapsed().as_secs_f64(), &folder);
     if !args.figure_format.is_empty() {
         for (name, figure) in trilith_study::figures(&study, &results.records) {
             for path in figure_files::write(&folder, &name, &figure, &args.figure_format)? {
-                text += &format!("figure: {}\n", path.display());
+                text += &format!("figure: {}\n", shown(&path));
             }
         }
     }
@@ -51,7 +58,7 @@ pub(crate) fn sweep(registry: &Registry, args: &SweepArguments) -> Result<Answer
     if failed > 0 {
         let help = "they are rows of the table with their status and message";
         let message = format!("{failed} of {} runs failed", results.records.len());
-        eprint!("{}", crate::diagnostics::plain(&message, Some(help)));
+        output::tell(&crate::diagnostics::plain(&message, Some(help)));
     }
     Ok(Answer { text, status: i32::from(failed > 0) })
 }
@@ -60,7 +67,7 @@ pub(crate) fn sweep(registry: &Registry, args: &SweepArguments) -> Result<Answer
 fn plan(study: &Study) -> String {
     let mut out = String::new();
     for (name, value) in [("study", study.title.as_str()), ("model", &study.model_title)] {
-        out += &format!("{name:7} {value}\n");
+        out += &format!("{name:7} {}\n", visible_line(value));
     }
     let mut rows = vec![row(["", "parameter", "values"])];
     if study.plan.rows.len() > 1 {
@@ -82,15 +89,16 @@ fn plan(study: &Study) -> String {
     }
     out += &format!("\n{}", table(&rows, &[0, 1, 2]));
     let columns: Vec<&str> = study.columns.iter().map(|c| c.name.as_str()).collect();
-    out += &format!("\ncolumns: {}\n", columns.join(", "));
+    out += &format!("\ncolumns: {}\n", visible_line(&columns.join(", ")));
     if let Some(stop) = &study.stop {
-        out += &format!("a series ends where: {}\n", stop.text());
+        out += &format!("a series ends where: {}\n", visible_line(&stop.text()));
     }
     out + &format!("runs: {}\n", study.identity.runs)
 }
 
 fn report(study: &Study, results: &Results, seconds: f64, folder: &Path) -> String {
-    let mut out = format!("study   {}\nmodel   {}\n", study.title, study.model_title);
+    let [title, model] = [&study.title, &study.model_title].map(|text| visible_line(text));
+    let mut out = format!("study   {title}\nmodel   {model}\n");
     let mut counts: Vec<(&str, usize)> = Vec::new();
     for r in &results.records {
         match counts.iter_mut().find(|c| c.0 == r.status) {
@@ -105,7 +113,7 @@ fn report(study: &Study, results: &Results, seconds: f64, folder: &Path) -> Stri
     }
     out += &format!("\n{}", table(&rows, &[0]));
     for r in results.records.iter().filter(|r| !r.good).take(TOLD) {
-        out += &format!("  run {}: {}: {}\n", r.run + 1, r.status, r.message);
+        out += &format!("  run {}: {}: {}\n", r.run + 1, r.status, visible_line(&r.message));
     }
     let new = results.records.len().saturating_sub(results.resumed);
     out += &format!("\nnew runs: {new} in {} s", crate::text::significant(seconds, 3));
@@ -120,10 +128,10 @@ fn report(study: &Study, results: &Results, seconds: f64, folder: &Path) -> Stri
     }
     out += "\n";
     for file in &results.files {
-        out += &format!("file: {}\n", file.display());
+        out += &format!("file: {}\n", shown(file));
     }
     if study.histories.is_some() {
-        out += &format!("histories: {}\n", folder.join("runs").display());
+        out += &format!("histories: {}\n", shown(&folder.join("runs")));
     }
     out
 }

@@ -1,5 +1,8 @@
 //! Numbers and tables as text.
 
+use std::path::Path;
+use trilith::model::visible_line;
+
 /// A number with five significant digits.
 pub(crate) fn number(x: f64) -> String {
     significant(x, 5)
@@ -24,15 +27,23 @@ pub(crate) fn percent(x: f64) -> String {
     if x.is_finite() { format!("{:.2} %", 100.0 * x) } else { "–".into() }
 }
 
+/// A path in a line of its own.
+pub(crate) fn shown(path: &Path) -> String {
+    visible_line(&path.display().to_string()).into_owned()
+}
+
 /// Rows of cells, the first one a head; the columns named in `left` are flush left.
 pub(crate) fn table(rows: &[Vec<String>], left: &[usize]) -> String {
+    // Written out before it is measured: the columns line up.
+    let cell = |cell: &String| visible_line(cell).into_owned();
+    let rows: Vec<Vec<String>> = rows.iter().map(|r| r.iter().map(cell).collect()).collect();
     let columns = rows.iter().map(Vec::len).max().unwrap_or(0);
     let width = |c: usize| {
         rows.iter().filter_map(|r| r.get(c)).map(|s| s.chars().count()).max().unwrap_or(0)
     };
     let widths: Vec<usize> = (0..columns).map(width).collect();
     let mut out = String::new();
-    for row in rows {
+    for row in &rows {
         let cells = row.iter().zip(&widths).enumerate().map(|(c, (cell, width))| {
             let space = " ".repeat(width - cell.chars().count());
             if left.contains(&c) { format!("{cell}{space}") } else { format!("{space}{cell}") }
@@ -83,5 +94,11 @@ mod tests {
     fn columns_of_a_table_line_up() {
         let rows = [row(["name", "max"]), row(["µ", "10.5"])];
         assert_eq!(table(&rows, &[0]), "  name   max\n  µ     10.5\n");
+    }
+
+    #[test]
+    fn names_in_a_table_stay_in_their_cells() {
+        let rows = [row(["name", "max"]), row(["a\u{1b}\nb", "1"])];
+        assert_eq!(table(&rows, &[0]), "  name        max\n  a\\u{1b}\\nb    1\n");
     }
 }

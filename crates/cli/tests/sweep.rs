@@ -270,7 +270,7 @@ fn bad_records_of_a_study_are_told_with_both_lines() {
         (5, "count.at2:24: the file ends after 100 of 105 values"),
         (6, "step.at2:4: the time step is stated nowhere"),
         (7, "unit.at2: the unit of the acceleration is stated nowhere"),
-        (8, "number.at2:5: `NaN` is no finite number"),
+        (8, "number.at2:5:13: `NaN` is no finite number"),
         (9, "of 100 values"),
         (10, "binary.at2 is a binary file"),
     ] {

@@ -41,7 +41,7 @@ pub use error::ParameterError;
 pub use frame::{Axis, Dof, Frame, Geometry, Vector3, cross, dot, norm, sub};
 pub use history::{Field, History};
 pub use linear::{ElementMatrices, LinearElement, SquareMatrix};
-pub use link::{Contact, Coordinates, Energy, Impact, Kinematics, Link, Response};
+pub use link::{Contact, ContactUse, Coordinates, Energy, Impact, Kinematics, Link, Response};
 pub use outline::Outline;
 pub use register::{ReadConstraint, ReadLinear, ReadLink, Register};
 pub use values::{Value, Values};

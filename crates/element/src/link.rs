@@ -102,6 +102,18 @@ pub struct Contact {
     pub slipping: bool,
 }
 
+/// What a law with contacts is made for: where it stands in a model decides the rest.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum ContactUse {
+    /// To be stood on: it presses, and friction holds what stands there.
+    #[default]
+    Standing,
+    /// To stop what comes near: it presses and does nothing else.
+    Stop,
+    /// To carry a structure and let it travel, as a friction pendulum does.
+    Bearing,
+}
+
 /// What a contact says about impacts on it, so that its dashpot can be set from a coefficient of
 /// restitution once the mass is known that it stops.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -175,6 +187,11 @@ pub trait Link: Send + Sync + Debug {
         _f: &[f64],
         _out: &mut Vec<Contact>,
     ) {
+    }
+
+    /// What its contacts are made for. Only asked of laws that have contacts.
+    fn contact_use(&self) -> ContactUse {
+        ContactUse::Standing
     }
 
     /// True once a body has fallen over for good; the run ends there. Only asked of laws that have

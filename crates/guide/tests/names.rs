@@ -138,6 +138,8 @@ const OTHERS: &[&str] = &[
     "Name",
     "Kind",
     "error_relative",
+    // of the environment
+    "SOURCE_DATE_EPOCH",
 ];
 
 /// A word in backticks that looks like a name of a model file.

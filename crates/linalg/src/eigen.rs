@@ -6,11 +6,15 @@ use faer::Side;
 /// Eigenvalues (rising) and orthonormal eigenvectors of a dense symmetric matrix.
 ///
 /// # Errors
-/// [`LinalgError::Backend`] where the iteration of the backend fails.
+/// [`LinalgError::NotFinite`] where the matrix has numbers beyond all bounds, [`LinalgError::Backend`] where the
+/// iteration of the backend fails.
 pub fn symmetric_eigen(a: &Dense) -> Result<(Vec<f64>, Dense), LinalgError> {
     let n = a.rows();
     if let Some(found) = of_diagonal(a) {
         return Ok(found);
+    }
+    if let Some(at) = a.values().iter().position(|x| !x.is_finite()) {
+        return Err(LinalgError::NotFinite { equation: at % n });
     }
     // Beyond 128 equations the backend divides and conquers, and compares some differences with an absolute 2⁻⁵²:
     // it is right for matrices of size one only. A power of two rounds nothing.
@@ -209,6 +213,16 @@ mod tests {
                     assert!(left.abs() < 1e-12 * size, "{size:e}: pair {j} leaves {left:e}");
                 }
             }
+        }
+    }
+
+    #[test]
+    fn numbers_beyond_all_bounds_are_an_error() {
+        for wrong in [f64::INFINITY, f64::NEG_INFINITY, f64::NAN] {
+            let a = Dense::from_columns(2, 2, vec![1.0, wrong, wrong, 2.0]);
+            assert_eq!(symmetric_eigen(&a).unwrap_err(), LinalgError::NotFinite { equation: 1 });
+            let a = Dense::from_columns(2, 2, vec![wrong, 0.0, 0.0, 2.0]);
+            assert_eq!(symmetric_eigen(&a).unwrap_err(), LinalgError::NotFinite { equation: 0 });
         }
     }
 

@@ -59,6 +59,14 @@ pub enum LinalgError {
         /// Row of the zero pivot.
         equation: usize,
     },
+    /// A number of the matrix, or one that its factorisation makes, has left the range of numbers.
+    #[error(
+        "numbers beyond all bounds in equation {equation}: a length, a stiffness or a mass is absurdly large beside the others"
+    )]
+    NotFinite {
+        /// Row of the first such number, or of the pivot that it spoils.
+        equation: usize,
+    },
     /// The backend refused for another reason.
     #[error("the factorisation failed: {reason}")]
     Backend {

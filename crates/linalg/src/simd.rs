@@ -1,13 +1,29 @@
-//! The widest vectors that the processor has.
+//! The widest vectors that the processor has, or that it may use.
+//!
+//! Sums are in another order for every width, so the last bits of a result are those of the width.
+//! `TRILITH_VECTORS` caps it: `none`, or `256` (bits); tests run with these as well. The matrix backend chooses its own.
 
 use pulp::{Arch, Scalar, WithSimd};
+use std::sync::OnceLock;
 
 /// Runs a task with them. The task is a type of its own: a closure in its place would not be compiled for them.
 #[inline(always)]
 pub(crate) fn dispatch<T: WithSimd>(task: T) -> T::Output {
-    match Arch::new() {
+    static CHOSEN: OnceLock<Arch> = OnceLock::new();
+    match CHOSEN.get_or_init(chosen) {
         Arch::Scalar => without(task),
         wide => wide.dispatch(task),
+    }
+}
+
+/// The widest that the processor has, and that the environment allows.
+#[cold]
+fn chosen() -> Arch {
+    match std::env::var("TRILITH_VECTORS").as_deref() {
+        Ok("none") => Arch::Scalar,
+        #[cfg(target_arch = "x86_64")]
+        Ok("256") => pulp::x86::V3::try_new().map_or(Arch::Scalar, Arch::V3),
+        _ => Arch::new(),
     }
 }
 

@@ -161,6 +161,13 @@ impl Sparse {
         d
     }
 
+    /// Row of the first stored entry that is infinite or no number.
+    #[must_use]
+    pub fn not_finite(&self) -> Option<usize> {
+        let (_, rows, values) = self.0.csc_data();
+        values.iter().position(|v| !v.is_finite()).map(|at| rows[at])
+    }
+
     /// `y += s · A x`. Lengths: `x` columns, `y` rows.
     pub fn mul_add(&self, s: f64, x: &[f64], y: &mut [f64]) {
         for ((rows, values), x) in self.by_column().zip(x) {
@@ -285,6 +292,17 @@ mod tests {
     #[test]
     fn entries_at_one_place_are_summed() {
         assert_eq!(sample().mul(&[1.0, 1.0, 1.0]), vec![4.5, 2.0]);
+    }
+
+    #[test]
+    fn an_entry_beyond_all_bounds_is_found_by_its_row() {
+        assert_eq!(sample().not_finite(), None);
+        for wrong in [f64::INFINITY, f64::NEG_INFINITY, f64::NAN] {
+            let mut t = Triplets::new(2, 3);
+            t.add(0, 0, 1.0);
+            t.add(1, 2, wrong);
+            assert_eq!(t.build().not_finite(), Some(1));
+        }
     }
 
     #[test]

@@ -55,6 +55,16 @@ pub struct DynamicCase {
     pub solution: Solution,
 }
 
+/// Most output steps of a case: histories of a few outputs then take some gigabytes.
+pub const MOST_OUTPUT_STEPS: usize = 50_000_000;
+
+/// Number of output steps of a case of `duration` (s) at an output step `dt` (s), the last of them cut short where need
+/// be: a whole number, which may be beyond all bounds.
+#[must_use]
+pub fn output_steps(duration: f64, dt: f64) -> f64 {
+    (duration / dt - 1e-9).ceil().max(1.0)
+}
+
 /// One component of the uniform base acceleration.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct BaseMotion {
@@ -116,6 +126,9 @@ pub struct Solution {
     pub link_tolerance: f64,
     /// Largest share of the energy that may be unaccounted for before the run says so.
     pub energy_limit: f64,
+    /// Substeps that may be tried in all before the run ends as it stands; `None`: see
+    /// [`substep_limit`](Self::substep_limit).
+    pub substep_limit: Option<usize>,
     /// Settings of FNA and of other solvers on a Ritz basis.
     pub basis: Basis,
     /// HHT parameter α ∈ [−1/3, 0].
@@ -130,9 +143,29 @@ impl Default for Solution {
             kernel: Kernel::Newton,
             link_tolerance: 1e-9,
             energy_limit: 1e-3,
+            substep_limit: None,
             basis: Basis::default(),
             alpha: 0.0,
         }
+    }
+}
+
+/// Substeps that a run may always try.
+const SUBSTEPS: usize = 1_000_000;
+/// Substeps that it may try for each of its equal ones, or for each output step.
+const SUBSTEPS_EACH: usize = 200;
+
+impl Solution {
+    /// Substeps that a run of so many output steps may try: those stated, else a million, or 200 for each output step
+    /// where that is more.
+    #[must_use]
+    pub fn substep_limit(&self, steps: usize) -> usize {
+        let equal = match self.step {
+            StepControl::Adaptive { .. } => 1,
+            StepControl::Fixed { substeps } => substeps,
+        };
+        let of_steps = steps.saturating_mul(equal).saturating_mul(SUBSTEPS_EACH);
+        self.substep_limit.unwrap_or(of_steps.max(SUBSTEPS))
     }
 }
 

@@ -116,6 +116,10 @@ impl fmt::Display for Diagnostic {
 
 impl std::error::Error for Diagnostic {}
 
+/// Errors for which the names that there are are searched for the one that was meant: with thousands of wrong names
+/// beside thousands of right ones the search would take longer than all else.
+pub(crate) const SEARCHED: usize = 100;
+
 /// The candidate that a misspelt name most likely means.
 #[must_use]
 pub fn closest<'a>(name: &str, candidates: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {

@@ -18,6 +18,7 @@ mod table;
 mod time_function;
 mod tree;
 mod units;
+mod visible;
 
 /// What other RON files than models are read with: values with their places, fields whose names are
 /// checked, quantities, errors.
@@ -41,3 +42,4 @@ pub use resolved::resolved;
 pub use table::{AfterEnd, Interpolation, Table, TableError};
 pub use time_function::{Corner, Harmonic, Side, Stretch, TimeFunction};
 pub use units::STANDARD_GRAVITY;
+pub use visible::{visible, visible_line};

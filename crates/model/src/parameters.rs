@@ -1,6 +1,6 @@
 //! The named parameters of a model file and the `--set` arguments that change them.
 
-use crate::diagnostic::names_help;
+use crate::diagnostic::{SEARCHED, names_help};
 use crate::expression::{Quantity, Scope, evaluate, expression_diagnostic};
 use crate::tree::{Entry, Kind, Node};
 use crate::units::FileUnits;
@@ -66,14 +66,16 @@ impl Parameters {
             if let Some(&i) = all.index.get(name) {
                 all.slots[i].set = Some(value.clone());
             } else {
-                let help = names_help(name, "parameters", all.names());
-                let d = Diagnostic::new(
+                let mut d = Diagnostic::new(
                     "E0119",
                     format!("the model has no parameter `{name}`"),
                     0..name.len(),
                     &argument(name, value),
                 );
-                all.errors.push(d.help(help));
+                if all.suggests() {
+                    d = d.help(names_help(name, "parameters", all.names()));
+                }
+                all.errors.push(d);
             }
         }
         for i in 0..all.slots.len() {
@@ -252,6 +254,10 @@ impl Scope for Parameters {
         self.index.contains_key(name)
     }
 
+    fn suggests(&self) -> bool {
+        self.errors.len() < SEARCHED
+    }
+
     fn value(&mut self, name: &str) -> Result<Quantity, Option<(&'static str, String)>> {
         let Some(&i) = self.index.get(name) else { return Err(None) };
         if self.stack.len() >= CHAIN && matches!(self.slots[i].state, State::Open) {
@@ -280,17 +286,25 @@ impl Scope for Parameters {
 }
 
 /// A scope over parameters that are all evaluated.
-pub(crate) struct Evaluated<'a>(pub &'a Parameters);
+pub(crate) struct Evaluated<'a> {
+    pub parameters: &'a Parameters,
+    /// True where a wrong name is answered with the names that there are.
+    pub suggests: bool,
+}
 
 impl Scope for Evaluated<'_> {
     fn names(&self) -> Vec<&str> {
-        self.0.names()
+        self.parameters.names()
     }
     fn has(&self, name: &str) -> bool {
-        self.0.has(name)
+        self.parameters.has(name)
+    }
+    fn suggests(&self) -> bool {
+        self.suggests
     }
     fn value(&mut self, name: &str) -> Result<Quantity, Option<(&'static str, String)>> {
-        let slot = self.0.index.get(name).and_then(|&i| self.0.slots.get(i));
+        let Parameters { slots, index, .. } = self.parameters;
+        let slot = index.get(name).and_then(|&i| slots.get(i));
         match slot.map(|s| &s.state) {
             Some(State::Number(q)) => Ok(*q),
             Some(State::Text(_)) => {

@@ -1,6 +1,29 @@
 //! What is wrong with the file of a record, on which line, and what would be right.
 
+use crate::finite::{LONGEST_STEP, MOST_SAMPLES, NotFinite, SHORTEST_STEP};
 use std::fmt;
+
+/// Characters of the longest text of a file that is quoted.
+const LONGEST: usize = 16;
+
+/// A text of a file as an error shows it: a short one in quotes, with control characters escaped; of a long one
+/// its length, since it may be anything.
+pub(crate) fn quoted(text: &str) -> String {
+    let count = text.chars().count();
+    if count > LONGEST {
+        return format!("a text of {count} characters");
+    }
+    let mut shown = String::from("`");
+    for c in text.chars() {
+        if c.is_control() {
+            shown.extend(c.escape_default());
+        } else {
+            shown.push(c);
+        }
+    }
+    shown.push('`');
+    shown
+}
 
 /// Why a file gives no record.
 #[derive(Clone, Debug, PartialEq)]
@@ -9,6 +32,8 @@ pub struct ReadError {
     pub file: String,
     /// The line, from 1, where one is to blame.
     pub line: Option<usize>,
+    /// The character of the line, from 1, where one cell of it is to blame.
+    pub column: Option<usize>,
     /// What is wrong.
     pub problem: Problem,
 }
@@ -23,9 +48,12 @@ impl ReadError {
 
 impl fmt::Display for ReadError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self.line {
-            Some(line) => write!(f, "{}:{line}: {}", self.file, self.problem),
-            None => write!(f, "{}{}{}", self.file, self.problem.joint(), self.problem),
+        match (self.line, self.column) {
+            (Some(line), Some(column)) => {
+                write!(f, "{}:{line}:{column}: {}", self.file, self.problem)
+            }
+            (Some(line), None) => write!(f, "{}:{line}: {}", self.file, self.problem),
+            (None, _) => write!(f, "{}{}{}", self.file, self.problem.joint(), self.problem),
         }
     }
 }
@@ -55,7 +83,7 @@ pub enum Problem {
     #[error("has no {0}")]
     Missing(&'static str),
     /// A part of the header is no number.
-    #[error("`{text}` is no {what}")]
+    #[error("{} is no {what}", quoted(.text))]
     Header {
         /// What stands there.
         text: String,
@@ -65,8 +93,12 @@ pub enum Problem {
     /// The time step is stated nowhere.
     #[error("the time step is stated nowhere")]
     NoStep,
-    /// A time step that is none.
-    #[error("a time step of {0} s: must be above 0")]
+    /// A time step that is none, or beyond all use.
+    #[error(
+        "a time step of {0:?} s: must be between {min:e} s and {max:e} s",
+        min = SHORTEST_STEP,
+        max = LONGEST_STEP
+    )]
     BadStep(f64),
     /// File and user state different steps.
     #[error("the file has a time step of {file} s, {given} s was given")]
@@ -101,7 +133,7 @@ pub enum Problem {
     #[error("the unit of the acceleration is stated nowhere")]
     NoUnit,
     /// A unit that is not known.
-    #[error("`{0}` is no unit of acceleration that is known here")]
+    #[error("{} is no unit of acceleration that is known here", quoted(.0))]
     UnknownUnit(String),
     /// Digitiser counts without a scale.
     #[error("the values are counts of the recorder")]
@@ -115,8 +147,20 @@ pub enum Problem {
         given: f64,
     },
     /// Not a number.
-    #[error("`{0}` is no finite number")]
+    #[error("{} is no finite number", quoted(.0))]
     NotANumber(String),
+    /// A number with a comma in it.
+    #[error("{} has a comma within a number", quoted(.0))]
+    DecimalComma(String),
+    /// A motion that overflows.
+    #[error(transparent)]
+    NotFinite(#[from] NotFinite),
+    /// More samples than a motion may have.
+    #[error("there are more than {most} samples, the most of a motion", most = MOST_SAMPLES)]
+    TooLong,
+    /// More cells than a file of columns may have.
+    #[error("there are more than {0} cells, the most of a file of columns")]
+    TooManyCells(usize),
     /// Fewer values than stated.
     #[error("the file ends after {found} of {stated} values")]
     Truncated {
@@ -236,6 +280,11 @@ impl Problem {
             Self::Truncated { .. } | Self::TooMany { .. } => {
                 "the file may be cut off or changed: fetch it again".into()
             }
+            Self::DecimalComma(_) => {
+                "numbers have a decimal point and no commas: `0.005`, not `0,005`".into()
+            }
+            Self::TooLong => "cut the record to its strong part, or take a longer time step".into(),
+            Self::NotFinite(_) => "look at the values, their unit and the time step".into(),
             Self::Peak { .. } => {
                 "unit or values are not what the header says: fetch the file again".into()
             }
@@ -246,5 +295,17 @@ impl Problem {
             Self::NoHeaderRow(_) => "give the position of the column, from 0".into(),
             _ => return None,
         })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn only_short_texts_are_quoted_and_without_control_characters() {
+        assert_eq!(quoted("0.05x"), "`0.05x`");
+        assert_eq!(quoted("a\u{1b}[1m"), "`a\\u{1b}[1m`");
+        assert_eq!(quoted("root:x:0:0:root:/root:/bin/sh"), "a text of 29 characters");
     }
 }

@@ -14,7 +14,10 @@
 //! assert!((measure::peak(&records[0].acceleration) - 0.2 * 9.80665).abs() < 1e-12);
 //! ```
 
+mod cell;
 mod error;
+pub mod file;
+mod finite;
 mod format;
 pub mod measure;
 pub mod process;
@@ -23,7 +26,9 @@ mod record;
 pub mod synthetic;
 mod unit;
 
+pub use cell::cell;
 pub use error::{Problem, ReadError};
+pub use finite::{MOST_SAMPLES, NotFinite};
 pub use format::Format;
 pub use read::{Column, Columns, Component, ReadOptions, parse, read, select};
 pub use record::{Direction, Record};

@@ -122,10 +122,10 @@ impl Record {
         let told = lines.into_iter().filter(|(_, text)| !text.is_empty());
         // Writing to a String cannot fail.
         for (key, text) in told {
-            let _ = writeln!(out, "# {key} {}", text.replace(['\n', '\r'], " "));
+            let _ = writeln!(out, "# {key} {}", comment(text));
         }
         for note in &self.notes {
-            let _ = writeln!(out, "# {note}");
+            let _ = writeln!(out, "# {}", comment(note));
         }
         let _ = writeln!(out, "# dt = {:?} s\nt [s],a [m/s^2]", self.dt);
         for (t, a) in self.times().zip(&self.acceleration) {
@@ -140,6 +140,14 @@ impl Record {
     }
 }
 
+/// A text in a line of comment. A spreadsheet does not know comments: behind a comma there it begins a cell.
+fn comment(text: &str) -> String {
+    let text = text.replace(['\n', '\r'], " ");
+    let mut parts = text.split(',');
+    let first = parts.next().unwrap_or_default().to_owned();
+    parts.fold(first, |line, part| line + "," + &crate::cell(part))
+}
+
 #[cfg(test)]
 mod tests {
     use super::Direction::{Azimuth, Unknown, Vertical};
@@ -152,6 +160,15 @@ mod tests {
         r.component = "90".into();
         let back = crate::parse(r.to_csv().as_bytes(), "a.csv", &Default::default()).unwrap();
         assert_eq!((back[0].dt, &back[0].acceleration), (r.dt, &r.acceleration));
+    }
+
+    #[test]
+    fn comments_are_no_formulas_in_a_spreadsheet() {
+        let mut r = Record::new(vec![0.0, 1.0], 0.5);
+        r.event = "Town, 1999,=1+1".into();
+        r.notes.push("a\nb".into());
+        let text = r.to_csv();
+        assert!(text.starts_with("# event Town, 1999,'=1+1\n# a b\n# dt"), "{text}");
     }
 
     #[test]

@@ -164,11 +164,11 @@ fn files_that_are_too_long_tell_so() {
 #[test]
 fn numbers_that_are_none_have_their_line() {
     let text = file("peer.at2").replacen(" 0.0000000E+00", "           NaN", 1);
-    assert!(told(&text, "a.at2").starts_with("a.at2:5: `NaN` is no finite number"));
+    assert!(told(&text, "a.at2").starts_with("a.at2:5:13: `NaN` is no finite number"));
     let text = file("esm.asc").replace("\n0.000000\n", "\n******\n");
     assert!(told(&text, "a.asc").contains("`******` is no finite number"));
     let text = file("columns.csv").replace("0.05,", "0.05,x");
-    assert!(told(&text, "a.csv").starts_with("a.csv:8: `x"));
+    assert!(told(&text, "a.csv").starts_with("a.csv:8:6: `x"));
 }
 
 #[test]

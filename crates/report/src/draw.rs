@@ -6,6 +6,7 @@ use plotters::coord::Shift;
 use plotters::prelude::*;
 use plotters::style::Color as _;
 use plotters::style::text_anchor::{HPos, Pos, VPos};
+use trilith_model::visible;
 
 const FONT: &str = "sans-serif";
 const GRID: RGBColor = RGBColor(225, 225, 225);
@@ -41,7 +42,10 @@ pub(crate) fn svg(figure: &Figure) -> String {
         debug_assert!(drawn.is_ok(), "{drawn:?}");
     }
     let title = format!("<title>{}</title>", escaped(&figure.title));
-    out.replacen("<svg ", "<svg role=\"img\" ", 1).replacen(">\n", &format!(">\n{title}\n"), 1)
+    let svg =
+        out.replacen("<svg ", "<svg role=\"img\" ", 1).replacen(">\n", &format!(">\n{title}\n"), 1);
+    // XML has no place for control characters.
+    visible(&svg).into_owned()
 }
 
 /// Several figures side by side in one SVG.

@@ -22,6 +22,6 @@ pub use page::{Block, Page, Section};
 pub use png::{PngError, png_is_built_in};
 pub use run::{
     Collect, ENERGY, FaceMark, Family, Frames, GROUND, Ground, History, LineKind, LineMark,
-    LinkMark, Loop, Mode, NodeMark, Numbers, Picture, RunData, SPECTRA, Shown, SpectrumChart,
-    SpectrumCurve, named_figures, run_page, short,
+    LinkMark, Loop, Mode, NodeMark, Numbers, Picture, RunData, RunIdentity, SPECTRA, Shown,
+    SpectrumChart, SpectrumCurve, named_figures, run_page, short,
 };

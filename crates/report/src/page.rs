@@ -2,6 +2,7 @@
 
 use crate::Figure;
 use maud::{DOCTYPE, Markup, PreEscaped, html};
+use trilith_model::visible;
 
 pub(crate) const STYLE: &str = "
 :root { color-scheme: light; }
@@ -178,10 +179,11 @@ impl Page {
         self
     }
 
-    /// The page as one HTML document: no script, no font and no picture from elsewhere.
+    /// The page as one HTML document: no script, no font and no picture from elsewhere. Control characters of texts are
+    /// written out.
     #[must_use]
     pub fn html(&self) -> String {
-        html! {
+        let page = html! {
             (DOCTYPE)
             html lang="en" {
                 head {
@@ -210,6 +212,7 @@ impl Page {
                 }
             }
         }
-        .into_string()
+        .into_string();
+        visible(&page).into_owned()
     }
 }

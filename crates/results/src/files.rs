@@ -16,6 +16,7 @@ use trilith_model::Model;
 /// | `spectra.csv` | floor spectra, where the model asks for any |
 /// | `model.resolved.ron` | the model in SI with every default |
 /// | `report.json`, `report.html` | beside these, what the report of a run is made from, and its page (`trilith_report`) |
+/// | `made_by.json` | beside these, of the program: its build, the command line, the files read, the date |
 /// | `model.pvd`, `frames/*.vtu` | deformed shapes, where the recorder kept any |
 #[derive(Clone, Copy, Debug)]
 pub struct Files<'a> {

@@ -6,8 +6,9 @@ use std::path::{Path, PathBuf};
 
 /// What a run leaves in its folder; a later run without one of them takes it out. The first stands for all: where it is,
 /// the others are of the same run, and where it is not, they are somebody else's.
-pub const OF_RUN: [&str; 10] = [
+pub const OF_RUN: [&str; 11] = [
     "summary.json",
+    "made_by.json",
     "peaks.csv",
     "histories.csv",
     "histories.npz",

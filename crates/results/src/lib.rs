@@ -7,6 +7,8 @@
 //! derivative of an output is known they are those of the cubic Hermite polynomial between substeps.
 
 mod csv;
+mod digest;
+mod drift;
 mod envelope;
 mod error;
 mod files;
@@ -16,6 +18,7 @@ mod ground;
 mod loops;
 mod npz;
 mod peaks;
+mod quiet;
 mod recorder;
 mod spacing;
 mod spectra;
@@ -24,6 +27,8 @@ mod summary;
 mod tests;
 mod vtk;
 
+pub use digest::{sha256, sha256_of_json};
+pub use drift::DriftSummary;
 pub use envelope::Envelope;
 pub use error::FileError;
 pub use files::Files;
@@ -34,5 +39,5 @@ pub use loops::{LoopPoint, Loops};
 pub use npz::npy;
 pub use recorder::{ENERGIES, Recorder};
 pub use spectra::{FloorSpectrum, SpectrumPeak, spectrum_warnings};
-pub use summary::{BasisSummary, ModelSummary, Named, OutputSummary, Summary};
+pub use summary::{BasisSummary, ModelSummary, Named, OutputSummary, ParameterSummary, Summary};
 pub use trilith_solvers::Peak;

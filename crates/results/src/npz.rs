@@ -1,5 +1,6 @@
 //! `histories.npz` for NumPy: float64 arrays `t`, one per output, `energy_…`.
 
+use crate::quiet::Quiet;
 use crate::recorder::ENERGIES;
 use crate::{FileError, Recorder};
 use std::collections::BTreeSet;
@@ -30,7 +31,8 @@ pub fn npy(values: &[f64]) -> Vec<u8> {
 /// Writes all histories.
 pub(crate) fn write(path: &Path, model: &Model, record: &Recorder) -> Result<(), FileError> {
     let file = File::create(path).map_err(FileError::at(path))?;
-    let mut zip = zip::ZipWriter::new(BufWriter::new(file));
+    // An archive that is dropped unfinished is ended by the crate, which tells errors on stderr.
+    let mut zip = zip::ZipWriter::new(Quiet::new(BufWriter::new(file)));
     let energies = ENERGIES.map(|e| format!("energy_{e}"));
     let fixed = std::iter::once("t").chain(energies.iter().map(String::as_str));
     let names = unique(fixed, model.outputs.iter().map(|o| o.name.as_str()));

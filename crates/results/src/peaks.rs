@@ -2,6 +2,7 @@
 
 use crate::{FileError, Named, OutputSummary};
 use std::path::Path;
+use trilith_record::cell;
 
 /// Writes the extremes of all outputs, in the order of the model, in SI. Numbers read back to the same bits; those of
 /// an output that was not recorded are left out.
@@ -15,7 +16,7 @@ pub(crate) fn write(path: &Path, outputs: &Named<OutputSummary>) -> Result<(), F
             Some(p) => [p.max, p.t_max, p.min, p.t_min, p.last].map(|x| format!("{x:?}")),
             None => Default::default(),
         };
-        let row = [name.clone(), o.unit.clone()].into_iter().chain(numbers);
+        let row = [name, &o.unit].map(|text| cell(text).into_owned()).into_iter().chain(numbers);
         file.write_record(row).map_err(fail)?;
     }
     file.flush().map_err(FileError::at(path))

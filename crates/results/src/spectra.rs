@@ -8,6 +8,7 @@ use crate::{FileError, Named, Recorder};
 use serde::Serialize;
 use std::path::Path;
 use trilith_model::Model;
+use trilith_record::cell;
 use trilith_record::measure::{Spectrum, peak, spectrum};
 
 /// The response spectra of one place, for several damping ratios.
@@ -120,10 +121,12 @@ pub(crate) fn write(path: &Path, all: &Named<FloorSpectrum>) -> Result<(), FileE
     ];
     file.write_record(head).map_err(fail)?;
     for (name, floor) in &all.0 {
+        let name = cell(name);
         for s in &floor.spectra {
             for (period, r) in s.periods.iter().zip(&s.responses) {
                 let numbers = [s.damping, *period, 1.0 / period, r.sa, r.psa, r.sd];
-                let row = std::iter::once(name.clone()).chain(numbers.map(|x| format!("{x:?}")));
+                let row =
+                    std::iter::once(name.to_string()).chain(numbers.map(|x| format!("{x:?}")));
                 file.write_record(row).map_err(fail)?;
             }
         }

@@ -1,10 +1,12 @@
 //! `summary.json`: the keys scripts rely on.
 
-use crate::{FloorSpectrum, Peak, Recorder};
+use crate::{DriftSummary, FloorSpectrum, Peak, Recorder};
 use serde::{Serialize, Serializer};
-use trilith_model::Model;
+use serde_json::Value;
+use trilith_model::{Model, Parameter, ParameterValue};
 use trilith_solvers::{
-    Adequacy, BasisReport, CaseResult, ContactSummary, EnergyTotals, LinkEnergy, OutputError, Work,
+    Adequacy, BaseShearSummary, BasisReport, BearingSummary, CaseResult, ContactSummary,
+    EnergyTotals, LinkEnergy, OutputError, StopSummary, Work,
 };
 
 /// Results of one case, as `summary.json` has them. Numbers are in SI; one that is not finite is
@@ -13,8 +15,15 @@ use trilith_solvers::{
 pub struct Summary {
     /// Version of the program.
     pub version: &'static str,
+    /// Build of the program: a digest of the sources it is made from.
+    pub build: &'static str,
+    /// SHA-256 of all else that stands here but `work`, hexadecimal ([`Summary::digest`]): the same for a repetition
+    /// of the run, another for any other run, or where a value has been altered.
+    pub run_sha256: String,
     /// The model.
     pub model: ModelSummary,
+    /// Parameters of the model with the values they had.
+    pub parameters: Named<ParameterSummary>,
     /// Name of the case.
     pub case: String,
     /// Name of the solver.
@@ -31,8 +40,16 @@ pub struct Summary {
     pub energy: EnergyTotals,
     /// Energies of every link at the end, by its name, J.
     pub link_energy: Named<LinkEnergy>,
-    /// How the contacts behaved; `null` for a model without contacts.
+    /// How the bodies that stand on contacts behaved; `null` for a model without such a body.
     pub contact: Option<ContactSummary>,
+    /// How often and how hard stops were hit; `null` for a model without stops.
+    pub stops: Option<StopSummary>,
+    /// How far bearings travelled; `null` for a model without bearings.
+    pub bearings: Option<BearingSummary>,
+    /// The largest base shear of a structure whose base is shaken; else `null`.
+    pub base_shear: Option<BaseShearSummary>,
+    /// The largest drift among the outputs; `null` where none is one, or a body stands free.
+    pub drift: Option<DriftSummary>,
     /// The basis; `null` for a solver on all DOFs.
     pub basis: Option<BasisSummary>,
     /// Floor spectra by name: their peaks. `spectra.csv` has the curves.
@@ -48,6 +65,24 @@ pub struct ModelSummary {
     pub title: String,
     /// SHA-256 of the model file, hexadecimal.
     pub sha256: String,
+}
+
+/// The value of a parameter.
+#[derive(Clone, Debug, Serialize)]
+#[serde(untagged)]
+pub enum ParameterSummary {
+    /// A number.
+    Number {
+        /// Value in SI.
+        value: f64,
+        /// SI unit; `1` for a pure number.
+        unit: String,
+    },
+    /// A text, such as the name of a record.
+    Text {
+        /// The text.
+        value: String,
+    },
 }
 
 /// One output.
@@ -99,9 +134,11 @@ impl<T: Serialize> Serialize for Named<T> {
 }
 
 impl Summary {
-    /// Puts together what a run left.
+    /// Puts together what a run left, but for what only further observers saw (stops, bearings, base shear), and not
+    /// [sealed](Self::sealed); `build` is that of the program.
     #[must_use]
     pub fn new(
+        build: &'static str,
         model: &Model,
         result: &CaseResult,
         record: &Recorder,
@@ -115,9 +152,15 @@ impl Summary {
         let link = |(element, energy): &(usize, LinkEnergy)| {
             model.elements.get(*element).map(|e| (e.name.clone(), *energy))
         };
+        // A body that stands free leans: its places have no storey between them.
+        let drift =
+            if contact.is_none() { crate::drift::largest(model, record.peaks()) } else { None };
         Self {
             version: env!("CARGO_PKG_VERSION"),
+            build,
+            run_sha256: String::new(),
             model: ModelSummary { title: model.title.clone(), sha256: model.source.sha256.clone() },
+            parameters: Named(model.parameters.iter().map(ParameterSummary::of).collect()),
             case: result.case.clone(),
             solver: result.solver,
             status: result.status.word(),
@@ -127,10 +170,39 @@ impl Summary {
             energy: result.energy,
             link_energy: Named(result.link_energy.iter().filter_map(link).collect()),
             contact,
+            stops: None,
+            bearings: None,
+            base_shear: None,
+            drift,
             basis: result.basis.as_ref().map(BasisSummary::new),
             spectra: Named(crate::spectra::all(model, record)),
             warnings: result.warnings.clone(),
         }
+    }
+
+    /// The same with `run_sha256`: where nothing is missing any more.
+    #[must_use]
+    pub fn sealed(mut self) -> Self {
+        // As it will be read from the file. Names and numbers: nothing that JSON does not have.
+        let text = serde_json::to_string(&self).unwrap_or_default();
+        self.run_sha256 = Self::digest(&serde_json::from_str::<Value>(&text).unwrap_or_default());
+        self
+    }
+
+    /// What `run_sha256` must be in a `summary.json` with these values, hexadecimal.
+    #[must_use]
+    pub fn digest(summary: &Value) -> String {
+        crate::sha256_of_json(summary, &["run_sha256", "work"])
+    }
+}
+
+impl ParameterSummary {
+    fn of(parameter: &Parameter) -> (String, Self) {
+        let value = match &parameter.value {
+            ParameterValue::Number(x, d) => Self::Number { value: *x, unit: d.unit() },
+            ParameterValue::Text(text) => Self::Text { value: text.clone() },
+        };
+        (parameter.name.clone(), value)
     }
 }
 

@@ -54,6 +54,7 @@ fn shown<T: Observer>(mut recorder: T) -> T {
             overturned: None,
             deformation: &[t],
             force: &[2.0 * t],
+            base_shear: [f64::NAN; 2],
             shape: &Lifted(t),
         };
         recorder.sample(&sample);
@@ -68,7 +69,10 @@ fn summary(model: &Model, record: &Recorder) -> Summary {
     // A result cannot be made up outside the solvers: its parts are.
     Summary {
         version: "0",
+        build: "b",
+        run_sha256: "00".into(),
         model: crate::ModelSummary { title: model.title.clone(), sha256: "00".into() },
+        parameters: crate::Named(vec![]),
         case: "shake".into(),
         solver: "fna",
         status: "converged",
@@ -89,6 +93,10 @@ fn summary(model: &Model, record: &Recorder) -> Summary {
         energy: EnergyTotals::default(),
         link_energy: crate::Named(vec![("foot".into(), Default::default())]),
         contact: None,
+        stops: None,
+        bearings: None,
+        base_shear: None,
+        drift: None,
         basis: None,
         spectra: crate::Named(crate::spectra::all(model, record)),
         warnings: vec![],
@@ -128,14 +136,16 @@ fn the_summary_has_the_documented_keys() {
         assert!(names.iter().all(|n| keys.contains(*n)), "{names:?} in {keys:?}");
     };
     has(&json, &["model", "case", "solver", "status", "work", "outputs", "energy", "contact"]);
-    has(&json, &["message", "warnings", "basis", "link_energy", "version"]);
+    has(&json, &["message", "warnings", "basis", "link_energy", "version", "build"]);
+    has(&json, &["run_sha256", "parameters"]);
     has(&json["model"], &["title", "sha256"]);
     has(&json["work"], &["steps", "substeps", "iterations", "rejected", "factorizations"]);
     has(&json["work"], &["wall_s", "setup_cpu_s", "march_cpu_s", "peak_rss_mb"]);
     has(&json["outputs"], &["up", "a, b"]);
     has(&json["outputs"]["up"], &["unit", "max", "t_max", "min", "t_min", "final"]);
     has(&json["energy"], &ENERGIES[..9]);
-    has(&json["energy"], &["error_relative"]);
+    has(&json["energy"], &["error_relative", "start"]);
+    has(&json["energy"]["start"], &["kinetic", "strain", "link_stored"]);
     has(&json["link_energy"]["foot"], &["stored", "hysteretic", "viscous"]);
     assert!(json["contact"].is_null());
 }
@@ -157,6 +167,24 @@ fn the_csv_reads_back_to_the_same_numbers() {
         assert_eq!(row[..4], [record.time()[i], column(0), column(1), record.energy()[0][i]]);
     }
     assert_eq!(rows.len(), 11);
+}
+
+/// Names that a spreadsheet would take for formulas.
+#[test]
+fn names_in_csv_files_are_no_formulas() {
+    let text = TEXT.replace("\"up\":", "\"=up\":").replace("\"a, b\":", "\"-a, b\":");
+    let mut registry = Registry::new();
+    trilith_elements::register(&mut registry);
+    let model = read_text(&text, "x.ron", &registry, &[]).unwrap_or_else(|e| panic!("{e:?}"));
+    let (record, folder) = (record(&model), tempfile::tempdir().unwrap());
+    Files { model: &model, record: &record, summary: &summary(&model, &record) }
+        .write(folder.path())
+        .unwrap();
+    let read = |name: &str| std::fs::read_to_string(folder.path().join(name)).unwrap();
+    assert!(read("histories.csv").starts_with("t [s],'=up [m],\"'-a, b [m/s]\",energy"));
+    let peaks = read("peaks.csv");
+    let begins: Vec<&str> = peaks.lines().skip(1).map(|l| &l[..4]).collect();
+    assert_eq!(begins, ["'=up", "\"'-a"], "{peaks}");
 }
 
 #[test]

@@ -1,6 +1,6 @@
 //! The wider structure beside a run, in a thread of its own.
 //!
-//! It moves under the link forces of the run and gives nothing back, so the run tells it of its steps, many at a time,
+//! It moves under the link forces of the run, and what these would answer to it, and gives nothing back, so the run tells it of its steps, many at a time,
 //! and asks at the end what it has found. On two processors the run waits for nothing.
 
 use crate::shadow::Shadow;
@@ -13,7 +13,7 @@ const AHEAD: usize = 64;
 
 /// What happens in a run.
 enum Event {
-    /// A step ends at this time, s; its pseudo-forces are among those of its batch.
+    /// A step ends at this time, s; what its links say is among the values of its batch.
     Step(f64),
     /// The loads jump at this time, s.
     Jump(f64),
@@ -25,14 +25,16 @@ enum Event {
 #[derive(Default)]
 struct Batch {
     events: Vec<Event>,
-    /// Pseudo-forces of the steps, one after the other.
-    pseudo: Vec<f64>,
+    /// Pseudo-forces of the steps, and where links answer what they answer by, one after the other.
+    links: Vec<f64>,
 }
 
 /// The end that the run holds.
 pub(crate) struct Teller {
     batch: Batch,
     to: SyncSender<Batch>,
+    /// True where the shadow asks what links answer.
+    answers: bool,
 }
 
 /// The end that the shadow holds.
@@ -44,13 +46,20 @@ pub(crate) struct Listener<'a> {
 /// Both ends.
 pub(crate) fn aside(shadow: Shadow<'_>) -> (Teller, Listener<'_>) {
     let (to, from) = sync_channel(AHEAD);
-    (Teller { batch: Batch::default(), to }, Listener { shadow, from })
+    let answers = shadow.answers();
+    (Teller { batch: Batch::default(), to, answers }, Listener { shadow, from })
 }
 
 impl Teller {
     /// A step was accepted.
-    pub(crate) fn step(&mut self, t: f64, pseudo: &[f64]) {
-        self.batch.pseudo.extend_from_slice(pseudo);
+    pub(crate) fn step(&mut self, t: f64, state: &State) {
+        let links = &mut self.batch.links;
+        links.extend_from_slice(&state.pseudo);
+        if self.answers {
+            for part in [&state.d, &state.v, &state.tangents.k, &state.tangents.c] {
+                links.extend_from_slice(part);
+            }
+        }
         self.tell(Event::Step(t));
     }
 
@@ -87,14 +96,14 @@ impl Listener<'_> {
     /// Follows the run to its end: the largest difference of every output.
     pub(crate) fn follow(mut self, outputs: usize) -> Vec<f64> {
         let mut errors = vec![0.0; outputs];
-        for Batch { events, pseudo } in self.from {
-            let mut rest = &pseudo[..];
+        for Batch { events, links } in self.from {
+            let mut rest = &links[..];
             for event in events {
                 match event {
                     Event::Step(t) => {
-                        let (pseudo, others) = rest.split_at(self.shadow.links());
+                        let (links, others) = rest.split_at(self.shadow.told());
                         rest = others;
-                        self.shadow.follow(t, pseudo);
+                        self.shadow.follow(t, links);
                     }
                     Event::Jump(t) => self.shadow.jump(t),
                     Event::Outputs(values, state) => {

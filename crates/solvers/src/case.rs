@@ -1,6 +1,7 @@
 //! Cases: static ones, dynamic ones, and chains of them.
 
 use crate::Peak;
+use crate::base_shear::BaseShearSummary;
 use crate::basis::Demands;
 use crate::clock::{Clock, peak_rss_mb};
 use crate::contact_mode::ContactMemory;
@@ -10,7 +11,8 @@ use crate::kernel::Remembered;
 use crate::ledger::Ledger;
 use crate::march::Pace;
 use crate::observe::{BasisReport, CaseResult, EnergyTotals, LinkEnergy, Observer, Status, Work};
-use crate::start::Initial;
+use crate::plausible;
+use crate::start::{Initial, check_static};
 use crate::statics::{self, Equilibrium};
 use crate::stepper::{LinksBefore, State};
 use crate::view::show_static;
@@ -89,6 +91,9 @@ pub struct SoFar {
     pub peaks: Vec<Peak>,
     /// What the contacts had done.
     pub contact: Option<ContactMemory>,
+    /// The largest base shear until then; none where nobody looked.
+    #[serde(default)]
+    pub base_shear: Option<BaseShearSummary>,
     /// Since when, s: 0 for all of the case.
     pub since: f64,
 }
@@ -113,26 +118,32 @@ pub fn run(
     options: RunOptions<'_>,
     observers: &mut [&mut dyn Observer],
 ) -> Result<CaseResult, SolveError> {
-    let mut result = chain(model, system, options, observers)?;
+    let before = match options.from {
+        None => before(model, system, &model.cases[options.case], options.solver)?,
+        Some(_) => None,
+    };
+    let mut result = one(model, system, before, options, observers)?;
+    // Only here: a look at the memory of the process costs more than a small static case.
     result.work.peak_rss_mb = peak_rss_mb();
     Ok(result)
 }
 
-/// [`run`] as a case that is continued needs it: without a look at the memory of the process, which costs more than
-/// a small static case.
-fn chain(
+/// Runs one case from the end of the case before it.
+fn one(
     model: &Model,
     system: &System,
+    before: Option<EndState>,
     options: RunOptions<'_>,
     observers: &mut [&mut dyn Observer],
 ) -> Result<CaseResult, SolveError> {
     let case = &model.cases[options.case];
-    let before = match options.from {
-        None => before(model, system, case, options.solver)?,
-        Some(_) => None,
-    };
     match &case.analysis {
-        Analysis::Static(analysis) => run_static(model, system, case, analysis, before, observers),
+        Analysis::Static(analysis) => {
+            if let Some(end) = &options.from {
+                check_static(model, case, end)?;
+            }
+            run_static(model, system, case, analysis, before, observers)
+        }
         Analysis::Dynamic(analysis) => {
             let setup = Setup { model, system, case, analysis, before };
             dynamic::run(setup, options, observers)
@@ -140,19 +151,37 @@ fn chain(
     }
 }
 
-/// The end of the case that a case continues.
+/// The end of the case that a case continues. Cases that continue each other are run from the first to the last, one
+/// after the other: a chain of thousands needs no more room on the stack than one case.
 pub(crate) fn before(
     model: &Model,
     system: &System,
     case: &Case,
     solver: Option<SolverKind>,
 ) -> Result<Option<EndState>, SolveError> {
-    let Some(earlier) = case.after else { return Ok(None) };
+    let earlier: Vec<usize> =
+        std::iter::successors(case.after, |case| model.cases[*case].after).collect();
+    let mut end = None;
+    for case in earlier.into_iter().rev() {
+        end = Some(end_of(model, system, case, end, solver)?);
+    }
+    Ok(end)
+}
+
+/// The end of a case that another one continues, from the end of the case before it.
+fn end_of(
+    model: &Model,
+    system: &System,
+    case: usize,
+    before: Option<EndState>,
+    solver: Option<SolverKind>,
+) -> Result<EndState, SolveError> {
     let mut vectors = None;
     let mut round = 0;
     let result = loop {
-        let options = RunOptions { case: earlier, solver, vectors, ..RunOptions::default() };
-        let result = chain(model, system, options, &mut [])?;
+        let options = RunOptions { case, solver, vectors, ..RunOptions::default() };
+        // A case whose basis is too small starts again from there.
+        let result = one(model, system, before.clone(), options, &mut [])?;
         match result.enlarged(model, round) {
             Some(n) => vectors = Some(n),
             None => break result,
@@ -167,7 +196,7 @@ pub(crate) fn before(
         let reason = result.status.text();
         return Err(SolveError::Predecessor { case: result.case, reason });
     }
-    Ok(Some(result.end))
+    Ok(result.end)
 }
 
 /// Modes of the structure without links in the basis that a case would use, with participation and the
@@ -180,6 +209,9 @@ pub fn modes(
     system: &System,
     case: Option<usize>,
 ) -> Result<BasisReport, SolveError> {
+    if system.idle {
+        return Err(SolveError::NoMass);
+    }
     let dynamic = |c: &Case| match &c.analysis {
         Analysis::Dynamic(d) => Some((**d).clone()),
         Analysis::Static(_) => None,
@@ -287,7 +319,7 @@ fn run_static(
             .map(|(l, s)| (l.element, LinkEnergy { stored: *s, ..LinkEnergy::default() }))
             .collect(),
         basis: None,
-        warnings: Vec::new(),
+        warnings: plausible::of_static(model, system, &state, &u),
         errors: Vec::new(),
         end: EndState {
             model: model.source.sha256.clone(),

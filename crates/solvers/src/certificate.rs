@@ -7,8 +7,9 @@
 //!
 //! The run's own link forces and loads drive the linear structure once more on a wider basis, which holds the next
 //! vectors of the same sequence. What that moves beyond the run is what the run's basis has no room for: the response
-//! to the residual of the full equations, dynamics included, to first order in the link forces. Link forces answer by
-//! their present tangents. A complete basis leaves nothing.
+//! to the residual of the full equations, dynamics included. Link forces answer by their present tangents; where links
+//! are few the wider structure moves under what they answer, which without it no output feels that only another link
+//! moves. A complete basis leaves nothing.
 //!
 //! The error of the steps is what a [companion](crate::companion) at a looser tolerance is away; to link forces it adds
 //! what the link equations may leave.
@@ -37,6 +38,12 @@ const ANSWERED: f64 = 1.25;
 /// range may be twice as large as it looks.
 const SECOND_ORDER: f64 = 0.01;
 
+/// Share of the largest of its kind that is rounding of an output.
+const ROUNDING: f64 = 1e-12;
+
+/// Steps before the first time of comparison whose ends the shadow is asked about as well.
+const SETTING_OUT: usize = 500;
+
 /// How far an output may be off, in its unit.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
 pub struct OutputError {
@@ -60,6 +67,8 @@ pub(crate) struct Certificate<'a> {
     defect: Option<Defect<'a>>,
     samples: Samples<'a>,
     reduction: Vec<f64>,
+    /// Steps before the first time of comparison that it was asked about.
+    asked: usize,
     /// What the link equations may leave in the outputs that are link forces: kind of force, and share of the largest.
     left: Vec<Option<(usize, f64)>>,
     /// Largest link forces so far.
@@ -92,6 +101,7 @@ impl<'a> Certificate<'a> {
             defect,
             samples,
             reduction: vec![0.0; count],
+            asked: 0,
             left: model.outputs.iter().map(left).collect(),
             forces: [0.0; 2],
             range: vec![[0.0; 2]; count],
@@ -111,13 +121,15 @@ impl<'a> Certificate<'a> {
     /// Takes note of an accepted step in a piece.
     pub(crate) fn follow(&mut self, piece: Piece, t: f64, state: &State) {
         if let Some(shadow) = &mut self.shadow {
-            shadow.step(t, &state.pseudo);
+            shadow.step(t, state);
         }
         if let Some(defect) = &mut self.defect {
             defect.follow(t, state);
         }
         self.forces = state.scale;
-        let Some(values) = self.samples.take(piece, t, state) else { return };
+        let Some(values) = self.samples.take(piece, t, state) else {
+            return self.set_out(t, state);
+        };
         for ([least, most], x) in self.range.iter_mut().zip(values) {
             (*least, *most) = (least.min(*x), most.max(*x));
         }
@@ -126,6 +138,17 @@ impl<'a> Certificate<'a> {
         }
         if let Some(defect) = &mut self.defect {
             defect.compare(values, state);
+        }
+    }
+
+    /// What the basis lacks of the start sets in at once, and may be gone before the first time of comparison.
+    fn set_out(&mut self, t: f64, state: &State) {
+        if self.samples.times.is_empty()
+            && self.asked < SETTING_OUT
+            && let Some(shadow) = &mut self.shadow
+        {
+            self.asked += 1;
+            shadow.outputs(&self.samples.now(t, state), state);
         }
     }
 
@@ -143,7 +166,11 @@ impl<'a> Certificate<'a> {
     }
 
     /// The errors, by what a companion has found.
-    pub(crate) fn errors(&self, companion: Option<&Samples<'_>>) -> Vec<OutputError> {
+    pub(crate) fn errors(
+        &self,
+        model: &Model,
+        companion: Option<&Samples<'_>>,
+    ) -> Vec<OutputError> {
         let apart = companion.map(|c| self.samples.apart(c));
         let doubted = |e: f64, i: usize| {
             let size = SECOND_ORDER * self.size(i);
@@ -154,7 +181,8 @@ impl<'a> Certificate<'a> {
             let apart = apart.as_ref().map_or(f64::NAN, |apart| apart[i]);
             let left = self.left[i].map_or(0.0, |(kind, share)| share * self.forces[kind]);
             let straight = self.defect.as_ref().map_or(0.0, |defect| ANSWERED * defect.most[i]);
-            doubted(larger(SAFE * apart, straight), i) + UNSEEN * self.size(i) + left
+            let unseen = UNSEEN * self.size(i) + ROUNDING * self.largest_alike(model, i);
+            doubted(larger(SAFE * apart, straight), i) + unseen + left
         };
         let reduction = self.reduction.iter().enumerate();
         let error =
@@ -167,16 +195,23 @@ impl<'a> Certificate<'a> {
         self.range[i][1] - self.range[i][0]
     }
 
+    /// The largest value of the outputs that have the unit of this one; of angles one radian at least.
+    fn largest_alike(&self, model: &Model, i: usize) -> f64 {
+        let unit = &model.outputs[i].unit;
+        let alike = model.outputs.iter().zip(&self.range).filter(|(o, _)| o.unit == *unit);
+        let largest = alike.map(|(_, [low, high])| high.max(-low));
+        largest.fold(if unit == "rad" { 1.0 } else { 0.0 }, f64::max)
+    }
+
     /// The largest error of reduction as a share of the range of its output, among those of one kind that are not
     /// small: index of the output and share.
     pub(crate) fn worst(&self, model: &Model) -> Option<(usize, f64)> {
-        let size = |i: usize| self.size(i);
         let all = 0..self.reduction.len();
         let share = |i: usize| {
             // What hardly moves is measured by the largest of its kind.
             let alike = |j: &usize| model.outputs[*j].unit == model.outputs[i].unit;
-            let largest = all.clone().filter(alike).map(size).fold(0.0, f64::max);
-            let scale = size(i).max(0.1 * largest);
+            let largest = all.clone().filter(alike).map(|j| self.size(j)).fold(0.0, f64::max);
+            let scale = self.size(i).max(0.1 * largest);
             if scale > 0.0 { self.reduction[i] / scale } else { 0.0 }
         };
         all.clone().map(|i| (i, share(i))).max_by(|a, b| a.1.total_cmp(&b.1))

@@ -4,21 +4,27 @@
 //! its normal force vanishes, and that is not sliding of the body. It *rocks* when some of its contacts
 //! are open while others are closed, and *flies* when all are open. The initial mode is what it does
 //! from rest to the first impact or slip reversal.
+//!
+//! Contacts that no body stands on are stops, which are hit, or bearings, which travel: see the summaries of these.
 
+use crate::bearings::{BearingSummary, Bearings};
+use crate::contact_role::{Role, Roles};
 use crate::observe::{Observer, Sample};
+use crate::stepper::State;
+use crate::stops::{StopSummary, Stops};
 use serde::{Deserialize, Serialize};
 use trilith_element::{Contact, Kinematics, Link};
 use trilith_model::Model;
 use trilith_system::{LinkInstance, System};
 
-/// Response mode and extremes of all contacts of a model.
+/// Response mode and extremes of the contacts that bodies stand on.
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]
 pub struct ContactSummary {
     /// Mode in which the body leaves rest.
     pub initial_mode: &'static str,
     /// Mode over the whole run.
     pub mode: &'static str,
-    /// Largest gap of any contact, m; 0 where none opened.
+    /// Largest uplift: how high any point of contact was above what it touches, m; 0 where none left it.
     pub max_uplift: f64,
     /// Largest tangential distance of any contact from where it started, m.
     pub max_slip: f64,
@@ -43,6 +49,20 @@ pub(crate) fn are_contacts(model: &Model, system: &System) -> Vec<bool> {
     system.links.laws(model).iter().map(is_contact).collect()
 }
 
+/// What every contact does in a state, with the index of its element.
+pub(crate) fn contacts(model: &Model, system: &System, state: &State) -> Vec<(usize, Contact)> {
+    let (links, mut all, mut own) = (&system.links, Vec::new(), Vec::new());
+    for link in &links.links {
+        let Some(law) = links.law(model, link) else { continue };
+        let r = link.range.clone();
+        let (d, v) = (&state.d[r.clone()], &state.v[r.clone()]);
+        let at = Kinematics { d, v, d0: d, v0: v, dt: 0.0 };
+        law.contacts(&at, &state.history[link.history.clone()], &state.f[r], &mut own);
+        all.extend(own.drain(..).map(|c| (link.element, c)));
+    }
+    all
+}
+
 /// Elements of contacts on what nothing else holds against gravity.
 pub(crate) fn falling(model: &Model, system: &System) -> Vec<usize> {
     let links = &system.links;
@@ -53,11 +73,6 @@ pub(crate) fn falling(model: &Model, system: &System) -> Vec<usize> {
     let falling = system.on_falling_parts(model, |i| !contacts[i]);
     let all = links.links.iter().zip(contacts.iter().zip(falling));
     all.filter(|(_, (contact, falls))| **contact && *falls).map(|(l, _)| l.element).collect()
-}
-
-/// True where a contact carries something at the start, or something falls onto one.
-pub(crate) fn stands(contacts: &[(usize, Contact)], falling: &[usize]) -> bool {
-    contacts.iter().any(|(element, c)| c.normal > 0.0 || falling.contains(element))
 }
 
 /// What has been seen.
@@ -105,22 +120,28 @@ pub struct ContactMemory {
     max_slip: f64,
     residual_slip: f64,
     overturned: bool,
+    #[serde(default)]
+    stops: Stops,
+    #[serde(default)]
+    bearings: Bearings,
 }
 
-/// Observer that classifies the response.
+/// Observer that classifies the response of bodies on contacts, counts the hits of stops, and measures the travel of
+/// bearings.
 #[derive(Debug, Default)]
 pub struct ContactMode {
     so_far: ContactMemory,
     before: Vec<Contact>,
-    /// Elements of contacts on what nothing else holds against gravity.
-    falling: Vec<usize>,
+    roles: Roles,
+    /// The role of every contact of a sample, from the first one on.
+    each: Vec<Role>,
 }
 
 impl ContactMode {
     /// Nothing seen yet.
     #[must_use]
     pub fn new(model: &Model, system: &System) -> Self {
-        Self { falling: falling(model, system), ..Self::default() }
+        Self { roles: Roles::new(model, system), ..Self::default() }
     }
 
     /// Goes on from what an earlier part of the case left.
@@ -136,7 +157,19 @@ impl ContactMode {
         self.so_far.clone()
     }
 
-    /// The summary; `None` for a model that no contact carries at the start, unless it falls onto one.
+    /// What the stops saw; `None` for a model without stops.
+    #[must_use]
+    pub fn stops(&self) -> Option<StopSummary> {
+        self.so_far.stops.summary(|element| self.roles.name(element))
+    }
+
+    /// What the bearings saw; `None` for a model without bearings.
+    #[must_use]
+    pub fn bearings(&self) -> Option<BearingSummary> {
+        self.so_far.bearings.summary(|element| self.roles.name(element))
+    }
+
+    /// The summary; `None` for a model without a body that stands on contacts at the start, or falls onto them.
     #[must_use]
     pub fn summary(&self) -> Option<ContactSummary> {
         let seen = &self.so_far;
@@ -206,8 +239,23 @@ impl ContactMode {
 
 impl Observer for ContactMode {
     fn sample(&mut self, sample: &Sample<'_>) {
-        let now: Vec<Contact> = sample.contacts.iter().map(|(_, c)| *c).collect();
-        if !*self.so_far.stands.get_or_insert_with(|| stands(sample.contacts, &self.falling)) {
+        if sample.contacts.is_empty() {
+            return;
+        }
+        let Self { so_far, roles, each, .. } = self;
+        let stands = *so_far.stands.get_or_insert_with(|| roles.stand(sample.contacts));
+        if each.is_empty() {
+            *each = roles.each(sample.contacts, stands);
+        }
+        let each = &*each;
+        let of = |role: Role| {
+            let all = sample.contacts.iter().zip(each);
+            all.filter(move |(_, own)| **own == role).map(|(contact, _)| *contact)
+        };
+        so_far.stops.enter(sample.t, of(Role::Stop));
+        so_far.bearings.enter(sample.t, of(Role::Bearing));
+        let now: Vec<Contact> = of(Role::Foot).map(|(_, c)| c).collect();
+        if now.is_empty() {
             return;
         }
         if self.so_far.start.is_empty() {

@@ -82,6 +82,11 @@ impl ModalDamping {
     }
 }
 
+/// True where damping is stated for modes.
+pub(crate) fn is_modal(damping: &Damping) -> bool {
+    matches!(damping, Damping::Modal { .. } | Damping::ModalTable { .. })
+}
+
 /// The damping of the structure, where the model states modal damping.
 pub(crate) fn modal_damping(model: &Model, system: &System, bases: &Bases) -> Option<ModalDamping> {
     let modes = &bases.structural;

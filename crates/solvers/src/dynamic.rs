@@ -16,6 +16,7 @@ use crate::ledger::Ledger;
 use crate::march::{March, Pace, Stop};
 use crate::observe::{CaseResult, Observer, Status, Work};
 use crate::output_step::{Moment, Moving, at_least, output_step};
+use crate::plausible;
 use crate::samples::Samples;
 use crate::shadow::Shadow;
 use crate::space::Space;
@@ -23,7 +24,9 @@ use crate::start::{Initial, check, constant_force, resume, start};
 use crate::stepper::{State, Stepper};
 use crate::timeline::Timeline;
 use crate::view::{Viewer, looks_at_rates};
-use trilith_model::{Analysis, Case, DynamicCase, Model, SolverKind, StepControl};
+use trilith_model::{
+    Analysis, Case, DynamicCase, MOST_OUTPUT_STEPS, Model, SolverKind, StepControl, output_steps,
+};
 use trilith_system::System;
 
 /// A dynamic case and what it starts from.
@@ -58,6 +61,11 @@ pub(crate) fn run(
     let solution = &analysis.solution;
     let kind = options.solver.unwrap_or(solution.solver);
     let dt = options.dt.unwrap_or(analysis.dt);
+    let steps = output_steps(analysis.duration, dt);
+    if steps > MOST_OUTPUT_STEPS as f64 {
+        let (case, span) = (case.name.clone(), case.span.clone());
+        return Err(SolveError::TooManySteps { case, steps, dt, span });
+    }
     if let Some(end) = &options.from {
         check(model, system, case, kind, dt, end)?;
     }
@@ -136,7 +144,7 @@ pub(crate) fn run(
     let setup_cpu = clock.cpu();
     let constant_force = constant_force(stepper.space(), &loads);
     let mut march = March::new(stepper.as_mut(), &loads, solution.step);
-    march.budget = substeps.unwrap_or(usize::MAX);
+    march.budget = substeps.unwrap_or_else(|| solution.substep_limit(last.saturating_sub(first)));
     let companion = match solution.step {
         StepControl::Adaptive { tolerance } if step_errors && judged => {
             Some(Companion::new(equations, &timeline, tolerance, steps.clone(), march.budget))
@@ -198,7 +206,7 @@ pub(crate) fn run(
     }
     let Moving { state, pace, ledger } = moving;
     viewer.end(&state, &ledger);
-    let largest = viewer.largest();
+    let (largest, pressed) = (viewer.largest(), viewer.pressed());
     let counts = march.counts;
     if let Some(Stop::Fatal(e)) = stop {
         return Err(e);
@@ -253,7 +261,7 @@ pub(crate) fn run(
         Some(Stop::Fatal(_)) | None => {}
     }
     if let Some(certificate) = &certificate {
-        result.errors = certificate.errors(beside.as_ref());
+        result.errors = certificate.errors(model, beside.as_ref());
         let allowed = solution.basis.tolerance;
         if let Some((output, share)) = certificate.worst(model).filter(|(_, e)| *e > allowed)
             && result.status.is_good()
@@ -262,8 +270,11 @@ pub(crate) fn run(
             result.status = Status::Inadequate { output, share, allowed };
         }
     }
+    let case = (case, analysis);
+    warnings.extend(plausible::of_dynamic((model, system), case, &loads, pressed, &result));
     result.end.vectors = vectors;
-    result.basis = bases.as_ref().filter(|_| reduced).map(|b| b.report.clone());
+    // Where nothing is free, there are no modes to speak of.
+    result.basis = bases.as_ref().filter(|_| reduced && !system.idle).map(|b| b.report.clone());
     result.warnings = warnings;
     Ok(result)
 }

@@ -1,7 +1,7 @@
 //! The equations of a dynamic case: basis, damping, and the solver that steps them.
 
 use crate::basis::{self, Bases, Demands};
-use crate::damping::{ModalDamping, modal_damping};
+use crate::damping::{ModalDamping, is_modal, modal_damping};
 use crate::error::SolveError;
 use crate::followers::Followers;
 use crate::full_newton::FullNewton;
@@ -12,7 +12,7 @@ use crate::modal::{Modal, Modes};
 use crate::space::Space;
 use crate::start::Initial;
 use crate::stepper::{LinkStepper, Stepper};
-use trilith_model::{Damping, DynamicCase, Model, Solution, SolverKind};
+use trilith_model::{DynamicCase, Model, Solution, SolverKind};
 use trilith_system::{LoadSet, System, Track};
 
 /// What a motion obeys.
@@ -119,8 +119,7 @@ pub(crate) fn bases(
     initial: &Initial,
     wider: bool,
 ) -> Result<Option<Bases>, SolveError> {
-    let modal = matches!(model.damping, Damping::Modal { .. } | Damping::ModalTable { .. });
-    if !modal && !is_reduced(kind) {
+    if !is_modal(&model.damping) && !is_reduced(kind) {
         system.check_supported(model, true)?;
         return Ok(None);
     }

@@ -1,5 +1,6 @@
 //! What can stop a run before or while it goes on.
 
+use crate::imbalance::imbalance;
 use trilith_linalg::LinalgError;
 use trilith_model::Span;
 use trilith_system::SystemError;
@@ -29,7 +30,8 @@ pub enum SolveError {
     NoMass,
     /// A static case found no equilibrium.
     #[error(
-        "static case \"{case}\": no equilibrium beyond {percent:.1} % of its loads: {worst} is off by {residual:.3e} N or N·m"
+        "static case \"{case}\": no equilibrium beyond {percent:.1} % of its loads: {}",
+        imbalance(.worst, *.residual, " N or N·m")
     )]
     StaticNotConverged {
         /// Name of the case.
@@ -79,7 +81,8 @@ pub enum SolveError {
     },
     /// Joints without mass found no equilibrium with their links beside initial displacements.
     #[error(
-        "the initial displacements leave joints without mass out of balance with their links beyond {percent:.1} % of the way: {worst} is off by {residual:.3e} N or N·m; give these joints a mass, or a spring beside the links"
+        "the initial displacements leave joints without mass out of balance with their links beyond {percent:.1} % of the way: {}; give these joints a mass, or a spring beside the links",
+        imbalance(.worst, *.residual, " N or N·m")
     )]
     JointNotHeld {
         /// Share of the displacements that was reached.
@@ -103,6 +106,21 @@ pub enum SolveError {
         /// Where the file defines the node.
         span: Span,
     },
+    /// An output step so short that there are more of them than can be kept.
+    #[error(
+        "case \"{case}\" has {steps:.3e} output steps of {dt} s: at most {most} are kept; give a longer output step, by `dt` of the case or `--dt`",
+        most = trilith_model::MOST_OUTPUT_STEPS
+    )]
+    TooManySteps {
+        /// Name of the case.
+        case: String,
+        /// Output steps asked for, a whole number.
+        steps: f64,
+        /// Output step, s.
+        dt: f64,
+        /// Where the file defines the case.
+        span: Span,
+    },
     /// A state that belongs to another model, case or solver.
     #[error("the checkpoint does not fit: {reason}")]
     Checkpoint {
@@ -121,6 +139,7 @@ impl SolveError {
             | Self::JointNotHeld { span, .. }
             | Self::InitialNotFree { span, .. }
             | Self::Buckles { span, .. }
+            | Self::TooManySteps { span, .. }
             | Self::AxialForces { span, .. } => Some(span.clone()),
             _ => None,
         }

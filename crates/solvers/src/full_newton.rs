@@ -6,7 +6,7 @@ use crate::apart::{Apart, Way, apart, way};
 use crate::error::SolveError;
 use crate::followers::{Followers, JUMPED, accelerate_at_once, acceleration};
 use crate::hht::newmark;
-use crate::kernel::Remembered;
+use crate::kernel::{Remembered, Search};
 use crate::propagator::{Forces, Motion, StepWork, kinetic_and_strain};
 use crate::space::Space;
 use crate::stepper::{LinksBefore, State, StepEnergy, StepFailure, Stepper, energy_rounding};
@@ -17,7 +17,7 @@ use trilith_linalg::{Ldlt, SparseLu, Triplets};
 use trilith_model::Model;
 use trilith_system::{LoadSet, StepLoads, System, Tangents};
 
-const ITERATIONS: usize = 30;
+const ITERATIONS: usize = 60;
 const TOLERANCE: f64 = 1e-9;
 
 /// Full Newton on all free DOFs.
@@ -106,7 +106,7 @@ impl FullNewton<'_> {
             .unwrap_or(0);
         let worst = (0..self.system.links.len())
             .find(|i| self.system.links.rows[*i].iter().any(|(j, _)| *j == at))
-            .unwrap_or(0);
+            .unwrap_or(usize::MAX);
         StepFailure::NoEquilibrium {
             worst,
             residual: residual.get(at).map_or(f64::NAN, |r| r.abs()),
@@ -137,7 +137,8 @@ impl Stepper for FullNewton<'_> {
         energy.links.resize(self.system.links.links.len(), Energy::default());
         let laws = self.system.links.laws(self.model);
         let mut residual = vec![f64::NAN; n];
-        for _ in 0..ITERATIONS {
+        let mut search = Search::default();
+        for iteration in 0..ITERATIONS {
             self.iterations += 1;
             for i in 0..n {
                 to.motion[i] = u0[i] + dt * v0[i] + dt * dt * ((0.5 - beta) * a0[i] + beta * a[i]);
@@ -167,6 +168,13 @@ impl Stepper for FullNewton<'_> {
                 self.book(from, to, loads, (&load0, &load1), dt, energy);
                 return Ok(());
             }
+            // A force like |v|^α with α < ½ throws Newton's method past zero in the shortest of steps.
+            if let Some(back) = search.shortens(iteration, largest(&residual)) {
+                for (x, step) in a.iter_mut().zip(&search.step) {
+                    *x -= back * step;
+                }
+                continue;
+            }
             self.factorizations += 1;
             let lu = SparseLu::new(&self.tangent(&tangents, dt)).map_err(SolveError::from)?;
             let mut change = residual.clone();
@@ -174,6 +182,7 @@ impl Stepper for FullNewton<'_> {
             if change.iter().any(|x| !x.is_finite()) {
                 break;
             }
+            search.goes(&change);
             for (x, y) in a.iter_mut().zip(change) {
                 *x += y;
             }

@@ -4,7 +4,7 @@
 //! moved it. What can be wrong is the links: the work that the time rule hands them against what the
 //! laws say they stored and dissipated. That difference is the error of the ledger.
 
-use crate::observe::{EnergyTotals, LinkEnergy};
+use crate::observe::{EnergyTotals, LinkEnergy, StartEnergy};
 use crate::stepper::{State, StepEnergy};
 use crate::vector::larger;
 use serde::{Deserialize, Serialize};
@@ -20,9 +20,6 @@ const SHARE_OF_STANDING: f64 = 1e-6;
 pub(crate) struct Ledger {
     pub totals: EnergyTotals,
     pub links: Vec<LinkEnergy>,
-    kinetic0: f64,
-    strain0: f64,
-    stored0: f64,
     potential0: f64,
     external: f64,
     support: f64,
@@ -46,19 +43,11 @@ impl Ledger {
             .iter()
             .map(|s| LinkEnergy { stored: *s, ..LinkEnergy::default() })
             .collect();
-        let mut ledger = Self {
-            links,
-            kinetic0: kinetic,
-            strain0: strain,
-            stored0: state.stored.iter().sum(),
-            potential0: potential,
-            noise,
-            ..Self::default()
-        };
-        ledger.totals.kinetic = kinetic;
-        ledger.totals.input = kinetic;
-        ledger.largest = kinetic;
-        ledger
+        let start = StartEnergy { kinetic, strain, link_stored: state.stored.iter().sum() };
+        let StartEnergy { link_stored, .. } = start;
+        let totals =
+            EnergyTotals { start, kinetic, strain, link_stored, ..EnergyTotals::default() };
+        Self { totals, links, potential0: potential, largest: kinetic, noise, ..Self::default() }
     }
 
     /// Books that hold only totals, of a state that nothing led to.
@@ -83,23 +72,27 @@ impl Ledger {
         self.external += step.work.external;
         self.support += step.support;
         t.kinetic = step.kinetic;
-        t.strain = step.strain - self.strain0;
+        t.strain = step.strain;
+        t.link_stored = stored;
         t.potential = potential - self.potential0;
         t.modal_damping += step.work.damping;
         t.algorithmic += step.work.algorithmic;
-        t.link_stored = stored - self.stored0;
         // The external work holds that of constant loads, which is minus the change of the potential.
-        t.input = self.kinetic0 + self.external + t.potential + self.support;
+        t.input = self.external + t.potential + self.support;
+        // What stands in springs may be far more than what moves: it enters the balance by its change.
+        let strained = t.strain - t.start.strain;
+        let charged = t.link_stored - t.start.link_stored;
+        let driven = t.start.kinetic + t.input;
         let out = t.kinetic
-            + t.strain
+            + strained
             + t.potential
             + t.modal_damping
             + t.algorithmic
-            + t.link_stored
+            + charged
             + t.link_hysteretic
             + t.link_viscous;
-        t.error = t.input - out;
-        for size in [t.input, t.kinetic, t.potential, t.strain, t.link_stored] {
+        t.error = driven - out;
+        for size in [driven, t.kinetic, t.potential, strained, charged] {
             self.largest = larger(self.largest, size.abs());
         }
         // A pulse may put in far more than it leaves; what counts is what stayed, or was turned to heat.
@@ -108,10 +101,10 @@ impl Ledger {
         let standing = step.strain.abs() + stored.abs() + potential.abs();
         let shares = [SHARE_OF_LARGEST * self.largest, SHARE_OF_STANDING * standing];
         let [moved, stood] = shares;
-        let size = [t.input, t.kinetic, t.potential, heat, moved, stood, self.noise]
+        let size = [driven, t.kinetic, t.potential, heat, moved, stood, self.noise]
             .into_iter()
             .fold(0.0, |size: f64, x| larger(size, x.abs()));
         t.error_relative = if size > 0.0 { t.error.abs() / size } else { 0.0 };
-        t.kinetic + t.strain.abs() + t.link_stored.abs()
+        t.kinetic + strained.abs() + charged.abs()
     }
 }

@@ -10,13 +10,17 @@
 mod answer;
 mod apart;
 mod aside;
+mod balance;
+mod base_shear;
 mod basis;
+mod bearings;
 mod case;
 mod certificate;
 mod clock;
 mod companion;
 mod condensation;
 mod contact_mode;
+mod contact_role;
 mod damping;
 mod defect;
 mod drag;
@@ -26,6 +30,7 @@ mod error;
 mod followers;
 mod full_newton;
 mod hht;
+mod imbalance;
 mod inside;
 mod joints;
 mod kernel;
@@ -41,6 +46,7 @@ mod output_step;
 mod outputs;
 mod p_delta;
 mod peak;
+mod plausible;
 mod products;
 mod propagator;
 mod samples;
@@ -52,6 +58,7 @@ mod span;
 mod start;
 mod statics;
 mod stepper;
+mod stops;
 mod timeline;
 mod together;
 mod turning;
@@ -59,15 +66,19 @@ mod vector;
 mod vibration;
 mod view;
 
+pub use balance::EnergyBalance;
+pub use base_shear::{BaseShear, BaseShearSummary};
+pub use bearings::BearingSummary;
 pub use case::{EndState, RunOptions, SoFar, modes, run};
 pub use certificate::OutputError;
 pub use contact_mode::{ContactMemory, ContactMode, ContactSummary};
 pub use error::SolveError;
 pub use observe::{
     Adequacy, BasisReport, CaseResult, EnergyTotals, LinkEnergy, ModeShape, Observer, Sample,
-    Shape, Status, Work,
+    Shape, StartEnergy, Status, Work,
 };
 pub use p_delta::assemble;
 pub use peak::Peak;
 pub use stepper::State;
+pub use stops::StopSummary;
 pub use together::{Member, run_together};

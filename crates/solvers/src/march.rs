@@ -80,6 +80,7 @@ pub(crate) struct Counts {
 pub(crate) enum Stop {
     NoEquilibrium {
         t: f64,
+        /// The flat link coordinate farthest from equilibrium; beyond the last one where it is the structure.
         worst: usize,
         residual: f64,
     },
@@ -237,7 +238,9 @@ impl<'a> March<'a> {
                     let measured = self.measure(state, pace, tolerance);
                     let error = measured.most();
                     if !error.is_finite() {
-                        return Err(Stop::NoEquilibrium { t: start, worst: 0, residual: error });
+                        // No link is to blame.
+                        let worst = usize::MAX;
+                        return Err(Stop::NoEquilibrium { t: start, worst, residual: error });
                     }
                     if error > tolerance && level < ACCURACY_DEPTH {
                         self.counts.rejected += 1;

@@ -163,14 +163,14 @@ impl StaticShapes {
     /// Puts those that damping ties to the modes first, and finds what reads the coordinates of all; `dummies`: those
     /// in `k`, flat.
     pub(crate) fn beside(
-        self,
+        &self,
         system: &System,
         k: &Sparse,
         dummies: &[f64],
         modes: &Shapes,
     ) -> Self {
         if self.len() == 0 {
-            return self;
+            return self.clone();
         }
         let damping = system.damping();
         let own = (0..modes.len()).map(|j| {

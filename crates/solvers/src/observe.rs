@@ -1,6 +1,7 @@
 //! What a run shows while it goes on, and what it leaves.
 
 use crate::certificate::OutputError;
+use crate::imbalance::imbalance;
 use serde::Serialize;
 use trilith_element::{Contact, Vector3};
 use trilith_model::{Analysis, Model};
@@ -25,6 +26,8 @@ pub struct Sample<'a> {
     pub deformation: &'a [f64],
     /// Their forces in the same order, N or N·m.
     pub force: &'a [f64],
+    /// Horizontal force on supports and ground along X and Y, N; not numbers where no observer wants it.
+    pub base_shear: [f64; 2],
     /// Displacements of the structure on request.
     pub shape: &'a dyn Shape,
 }
@@ -59,34 +62,57 @@ pub trait Observer {
     fn wants_rates(&self) -> bool {
         true
     }
+
+    /// True where it looks at the base shear of a sample.
+    fn wants_base_shear(&self) -> bool {
+        false
+    }
 }
 
-/// Energies since the start of the case, J. Stored kinds are changes since the start, kinetic is absolute.
+/// Energies of a case, J: what was there at its start, what came since then, and where it is now.
+///
+/// `start` (its sum) + `input` = `kinetic` + `strain` + `potential` + `link_stored` + `modal_damping` +
+/// `link_hysteretic` + `link_viscous` + `algorithmic` + `error`; [`balance`](Self::balance) tells it in words. A
+/// static case, which no time passes in, has neither input nor error.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, serde::Deserialize)]
 pub struct EnergyTotals {
-    /// Work of base motion and varying forces, and kinetic energy at the start.
+    /// What was there at the start of the case.
+    pub start: StartEnergy,
+    /// Work of base motion, moving supports and varying forces since the start.
     pub input: f64,
     /// ½ u̇ᵀ M u̇ (relative velocities).
     pub kinetic: f64,
-    /// Change of ½ uᵀ K u.
+    /// ½ uᵀ K u.
     pub strain: f64,
-    /// Change of the potential of constant loads (gravity).
+    /// Potential of constant loads (gravity): its change since the start, since it has no zero of its own; in a
+    /// static case since there was no load.
     pub potential: f64,
-    /// Work of structural damping.
+    /// Work of structural damping since the start.
     pub modal_damping: f64,
-    /// Change of the energy stored in links.
+    /// Stored in links.
     pub link_stored: f64,
-    /// Heat of friction and yielding in links.
+    /// Heat of friction and yielding in links since the start.
     pub link_hysteretic: f64,
-    /// Heat of rate-dependent link forces.
+    /// Heat of rate-dependent link forces since the start.
     pub link_viscous: f64,
-    /// Energy removed by the time rule (HHT with α < 0).
+    /// Energy removed by the time rule (HHT with α < 0) since the start.
     pub algorithmic: f64,
-    /// What is not accounted for: input − everything else.
+    /// What is not accounted for: start + input − everything else.
     pub error: f64,
-    /// |error| over the largest of input, kinetic energy, potential and heat, and a hundredth of the
-    /// largest energy so far.
+    /// |error| over the largest of input (with the kinetic energy at the start), kinetic energy, potential and heat,
+    /// and a hundredth of the largest energy so far.
     pub error_relative: f64,
+}
+
+/// Energies at the start of a case, J; nothing in a static case.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, serde::Deserialize)]
+pub struct StartEnergy {
+    /// ½ u̇ᵀ M u̇ (relative velocities).
+    pub kinetic: f64,
+    /// ½ uᵀ K u.
+    pub strain: f64,
+    /// Stored in links.
+    pub link_stored: f64,
 }
 
 /// Energies of one link since the start of the case, J.
@@ -142,9 +168,9 @@ pub enum Status {
     NotConverged {
         /// Time of the last accepted state, s.
         t: f64,
-        /// The link coordinate that is farthest from equilibrium.
+        /// The link coordinate that is farthest from equilibrium, or `the structure` where it is none of a link.
         worst: String,
-        /// Its force residual, N or N·m.
+        /// Its force residual, N or N·m; not a number where the values are none.
         residual: f64,
     },
     /// Stopped: the work that the run was given is spent.
@@ -203,10 +229,11 @@ impl Status {
                 100.0 * limit
             ),
             Self::NotConverged { t, worst, residual } => format!(
-                "no equilibrium at t = {t:.6} s with the smallest step: {worst} is off by {residual:.3e}"
+                "no equilibrium at t = {t:.6} s with the smallest step: {}",
+                imbalance(worst, *residual, "")
             ),
             Self::Spent { t, tried } => format!(
-                "stopped at t = {t:.6} s after {tried} tried substeps, which is all that it was given"
+                "stopped at t = {t:.6} s after {tried} tried substeps, which is all that it was given (`substep_limit`)"
             ),
             Self::Inadequate { output, share, allowed } => format!(
                 "the basis is too small: output \"{output}\" may be off by {:.2} % of its range (allowed {:.2} %): use more vectors",

@@ -67,11 +67,17 @@ impl<'a> Samples<'a> {
                 return None;
             }
         }
-        let mut values = vec![0.0; self.count];
-        self.outputs.at((t, Side::Before), state, self.loads).values(&mut values);
+        let values = self.now(t, state);
         self.times.push(t);
         self.values.push(values);
         self.values.last().map(Vec::as_slice)
+    }
+
+    /// The outputs at the end of a step, whenever that is.
+    pub(crate) fn now(&self, t: f64, state: &State) -> Vec<f64> {
+        let mut values = vec![0.0; self.count];
+        self.outputs.at((t, Side::Before), state, self.loads).values(&mut values);
+        values
     }
 
     /// The largest difference of every output from another run at the times that both have come to; not a number

@@ -1,6 +1,11 @@
 //! The linear structure on a wider basis, driven by the loads and link forces of a run.
 //!
-//! What it moves beyond the run is what the basis of the run has no room for (see `certificate`).
+//! What it moves beyond the run is what the basis of the run has no room for (see `certificate`). Links answer it:
+//!
+//! ```text
+//! f̃₂ = f̃ + δ,   δ = K e + C ė,   e = d₂ − d        K, C: tangents of the run, less dummies
+//! (I + K G + C H) δ = K e* + C ė*                   *: under the forces of the run at the end of the step
+//! ```
 
 use crate::modal::{Modes, Sources};
 use crate::output_step::jump;
@@ -8,13 +13,16 @@ use crate::outputs::Outputs;
 use crate::propagator::{Motion, StepKey};
 use crate::space::Space;
 use crate::stepper::State;
+use trilith_linalg::{Dense, DenseLu};
 use trilith_model::{Model, Side};
-use trilith_system::{LinkBlocks, LoadSet, StepLoads, System};
+use trilith_system::{LinkBlocks, LoadSet, StepLoads, System, Tangents};
 
 /// Step sizes that differ by less than this share are one.
 const SAME: f64 = 1e-9;
 /// The next vectors of a sequence do not hold all that is left.
 const BEYOND: f64 = 2.0;
+/// Active link coordinates up to which the links answer: their equations are dense.
+const ANSWERING: usize = 48;
 /// The wider structure beside a run.
 pub(crate) struct Shadow<'a> {
     system: &'a System,
@@ -34,6 +42,9 @@ pub(crate) struct Shadow<'a> {
     state: State,
     values: Vec<f64>,
     own: Vec<f64>,
+    /// Tangents told last, and the largest stiffness of the active link coordinates so far.
+    tangents: Tangents,
+    stiffest: Vec<f64>,
 }
 
 impl<'a> Shadow<'a> {
@@ -70,13 +81,21 @@ impl<'a> Shadow<'a> {
             state: state.clone(),
             values: vec![0.0; model.outputs.len()],
             own: vec![0.0; space.links.len()],
+            tangents: state.tangents.clone(),
+            stiffest: state.stiffest.clone(),
             modes,
         }
     }
 
-    /// Number of pseudo-forces.
-    pub(crate) fn links(&self) -> usize {
-        self.pseudo.len()
+    /// True where it asks what links answer.
+    pub(crate) fn answers(&self) -> bool {
+        self.pseudo.len() <= ANSWERING
+    }
+
+    /// Number of values that a step is told by: pseudo-forces, and where links answer, deformations, rates and tangents.
+    pub(crate) fn told(&self) -> usize {
+        let answers = 2 * self.system.links.len() + self.tangents.k.len() + self.tangents.c.len();
+        self.pseudo.len() + if self.answers() { answers } else { 0 }
     }
 
     /// The loads jump at a time.
@@ -86,9 +105,14 @@ impl<'a> Shadow<'a> {
         }
     }
 
-    /// Follows the run over an accepted step to a time, s, at whose end it has these pseudo-forces.
-    pub(crate) fn follow(&mut self, t: f64, to: &[f64]) {
-        let Self { modes, sources, motion, next, pseudo, load, loads, amplitudes, .. } = self;
+    /// Follows the run over an accepted step to a time, s, of whose end this is told.
+    pub(crate) fn follow(&mut self, t: f64, told: &[f64]) {
+        let answers = self.answers();
+        let Self { system, modes, sources, motion, next, pseudo, load, loads, amplitudes, .. } =
+            self;
+        let (to, told) = told.split_at(pseudo.len());
+        let (d, told) = told.split_at(if answers { system.links.len() } else { 0 });
+        let (v, told) = told.split_at(d.len());
         let length = t - self.t;
         let known = self.sizes.iter().copied().find(|s| (s - length).abs() <= SAME * length);
         let dt = known.unwrap_or_else(|| {
@@ -101,18 +125,58 @@ impl<'a> Shadow<'a> {
         let [load0, load1] = load;
         space.force_into(&amplitudes.start, load0);
         space.force_into(&amplitudes.end, load1);
-        modes.prepare(StepKey { dt, average: 0 });
+        let mut key = StepKey { dt, average: 0 };
+        if answers {
+            let (k, c) = told.split_at(self.tangents.k.len());
+            self.tangents.k.copy_from_slice(k);
+            self.tangents.c.copy_from_slice(c);
+            let now = system.links.stiffness(&self.tangents);
+            self.stiffest.iter_mut().zip(now).for_each(|(most, k)| *most = most.max(k));
+            // What answers to itself has the limit of every link.
+            let mut now = system.links.stiffness(&self.tangents);
+            key = modes.choose(dt, &mut now, &self.stiffest);
+        }
+        modes.prepare(key);
+        let mut end = to.to_vec();
+        let all_loads = *loads;
         let loads = [&load0[..], &load1[..]];
         if let Some(spread) = sources.renew_spread(pseudo) {
             modes.space.links.spread_into(pseudo, spread);
         }
         modes.predict(sources, motion, &loads, next);
-        if let Some(spread) = sources.renew_spread(to) {
-            modes.space.links.spread_into(to, spread);
+        if answers {
+            let mut support = [vec![0.0; d.len()], vec![0.0; d.len()]];
+            let [of_d, of_v] = &mut support;
+            all_loads.support_deformation(&amplitudes.end, of_d, of_v);
+            let change: Vec<f64> = to.iter().zip(&*pseudo).map(|(x, x0)| x - x0).collect();
+            let beyond = |motion: &[f64], run: &[f64], support: &[f64], compliance: &Dense| {
+                let mut own = vec![0.0; change.len()];
+                modes.space.links.deform(motion, &mut own);
+                for (x, i) in own.iter_mut().zip(&system.links.active) {
+                    *x -= run[*i] - support[*i];
+                }
+                compliance.mul_add(-1.0, &change, &mut own);
+                own
+            };
+            let n = modes.space.order();
+            let compliance = modes.compliance();
+            let e = beyond(&next[..n], d, &support[0], &compliance.g);
+            let rate = beyond(&next[n..2 * n], v, &support[1], &compliance.h);
+            let more = answer(
+                system,
+                &modes.space,
+                &self.tangents,
+                [&e, &rate],
+                [&compliance.g, &compliance.h],
+            );
+            end.iter_mut().zip(&more).for_each(|(x, more)| *x += more);
+        }
+        if let Some(spread) = sources.renew_spread(&end) {
+            modes.space.links.spread_into(&end, spread);
         }
         modes.complete(sources, motion, &loads, next);
         std::mem::swap(motion, next);
-        pseudo.copy_from_slice(to);
+        pseudo.copy_from_slice(&end);
         self.t = t;
     }
 
@@ -142,4 +206,45 @@ impl<'a> Shadow<'a> {
             }
         }
     }
+}
+
+/// Pseudo-forces δ = K e + C ė that links answer by their tangents to what they are deformed beyond the run, of which
+/// this much is there before they do.
+fn answer(
+    system: &System,
+    space: &Space,
+    tangents: &Tangents,
+    [e, rate]: [&[f64]; 2],
+    [g, h]: [&Dense; 2],
+) -> Vec<f64> {
+    let links = &system.links;
+    let count = links.active.len();
+    let (mut k, mut c) = (Dense::zeros(count, count), Dense::zeros(count, count));
+    let place = |i: usize| links.active.binary_search(&i).ok();
+    for link in &links.links {
+        let n = link.range.len();
+        for (i, a) in link.range.clone().enumerate().filter_map(|(i, x)| Some((i, place(x)?))) {
+            for (j, b) in link.range.clone().enumerate().filter_map(|(j, x)| Some((j, place(x)?))) {
+                let at = link.block.start + i * n + j;
+                k[(a, b)] = tangents.k[at];
+                c[(a, b)] = tangents.c[at];
+            }
+        }
+    }
+    for (a, dummy) in space.dummy_k.iter().enumerate() {
+        k[(a, a)] -= dummy;
+    }
+    let mut force = vec![0.0; count];
+    k.mul_add(1.0, e, &mut force);
+    c.mul_add(1.0, rate, &mut force);
+    let (mut all, of_rates) = (k.times(g), c.times(h));
+    for j in 0..count {
+        all.column_mut(j).iter_mut().zip(of_rates.column(j)).for_each(|(x, y)| *x += y);
+        all[(j, j)] += 1.0;
+    }
+    DenseLu::new(&all).solve(&mut force);
+    if force.iter().any(|x| !x.is_finite()) {
+        force.fill(0.0);
+    }
+    force
 }

@@ -190,6 +190,39 @@ fn dummy_energy(system: &System, space: &Space, state: &State) -> f64 {
     d.iter().zip(&space.dummy_k).map(|(d, k)| 0.5 * k * d * d).sum()
 }
 
+/// Refuses a checkpoint of another model, case or solver, or of other parameters.
+fn check_run(model: &Model, case: &Case, solver: &str, end: &EndState) -> Result<(), SolveError> {
+    for (what, here, there) in [
+        ("model", &*model.source.sha256, &end.model),
+        ("case", &*case.name, &end.case),
+        ("solver", solver, &end.solver),
+    ] {
+        if here != there {
+            return differs(what, there, here);
+        }
+    }
+    for (a, b) in parameters(model).iter().zip(&end.parameters) {
+        if a != b {
+            return differs(&format!("parameter `{}`", b.0), &b.1, &a.1);
+        }
+    }
+    Ok(())
+}
+
+fn differs(what: &str, there: &str, here: &str) -> Result<(), SolveError> {
+    refuse(format!("its {what} is {there}, this run's is {here}"))
+}
+
+fn refuse(reason: String) -> Result<(), SolveError> {
+    Err(SolveError::Checkpoint { reason })
+}
+
+/// Refuses any checkpoint for a static case.
+pub(crate) fn check_static(model: &Model, case: &Case, end: &EndState) -> Result<(), SolveError> {
+    check_run(model, case, "static", end)?;
+    refuse(format!("its case {} is static: there is no time to go on from", case.name))
+}
+
 /// Refuses a checkpoint of another model, other parameters, another case, solver or output step, and one
 /// that was damaged.
 pub(crate) fn check(
@@ -200,25 +233,7 @@ pub(crate) fn check(
     dt: f64,
     end: &EndState,
 ) -> Result<(), SolveError> {
-    let refuse = |reason: String| Err(SolveError::Checkpoint { reason });
-    let differs = |what: &str, there: &str, here: &str| {
-        refuse(format!("its {what} is {there}, this run's is {here}"))
-    };
-    for (what, here, there) in [
-        ("model", &model.source.sha256, &end.model),
-        ("case", &case.name, &end.case),
-        ("solver", &kind.name().to_owned(), &end.solver),
-    ] {
-        if here != there {
-            return differs(what, there, here);
-        }
-    }
-    let here = parameters(model);
-    for (a, b) in here.iter().zip(&end.parameters) {
-        if a != b {
-            return differs(&format!("parameter `{}`", b.0), &b.1, &a.1);
-        }
-    }
+    check_run(model, case, kind.name(), end)?;
     if dt != end.dt {
         return differs("output step", &format!("{} s", end.dt), &format!("{dt} s"));
     }
@@ -228,7 +243,7 @@ pub(crate) fn check(
     let active = active.iter().all(|x| x.len() == links.active.len());
     let tangents = [&state.tangents.k, &state.tangents.c];
     let blocks = end.memory.iter().flat_map(|m| [&m.k, &m.c]).chain(tangents);
-    let whole = here.len() == end.parameters.len()
+    let whole = model.parameters.len() == end.parameters.len()
         && flat
         && active
         && end.load.len() == system.order()

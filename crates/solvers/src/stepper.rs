@@ -275,11 +275,12 @@ pub(crate) trait Stepper {
 }
 
 /// What one rounding of the motion does to the energies of the links, J: deformations are differences of
-/// displacements that may be far larger, and forces act through them.
+/// displacements that may be far larger, and forces act through them. The force of a dummy does so as well: an open
+/// contact far out has none, and all that its dummy takes is given back as a pseudo-force.
 pub(crate) fn energy_rounding(space: &Space, active: &[usize], state: &State) -> f64 {
     let parts = active.iter().enumerate().map(|(a, flat)| {
         let size: f64 = space.links.row(a).map(|(j, c)| (c * state.motion[j]).abs()).sum();
-        state.f[*flat].abs() * size
+        (state.f[*flat].abs() + state.pseudo[a].abs()) * size
     });
     f64::EPSILON * parts.sum::<f64>()
 }

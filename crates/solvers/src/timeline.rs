@@ -59,7 +59,7 @@ const HALVINGS: i32 = 20;
 impl Timeline {
     /// `substeps`: steps that are made of a piece at least.
     pub(crate) fn new(dt: f64, duration: f64, loads: &LoadSet, substeps: usize) -> Self {
-        let steps = ((duration / dt) - 1e-9).ceil().max(1.0) as usize;
+        let steps = trilith_model::output_steps(duration, dt) as usize;
         let mut stretches = loads.stretches();
         stretches.iter_mut().for_each(|s| s.step *= substeps.max(1) as f64);
         stretches.retain(|s| s.step < dt);

@@ -1,11 +1,13 @@
 //! Shows accepted states to the observers.
 
+use crate::base_shear;
 use crate::contact_mode::are_contacts;
 use crate::inside::{Inside, Moment};
 use crate::ledger::Ledger;
 use crate::modal::ClosedForm;
 use crate::observe::{EnergyTotals, Observer, Sample, Shape};
 use crate::outputs::Outputs;
+use crate::plausible::Pressed;
 use crate::shapes::{Shapes, expand};
 use crate::space::Space;
 use crate::stepper::State;
@@ -80,6 +82,12 @@ pub(crate) struct Viewer<'a, 'b> {
     bodies: Vec<(&'a dyn Link, &'a LinkInstance)>,
     contacts: Vec<(usize, Contact)>,
     own: Vec<Contact>,
+    /// The contact that was pressed in deepest so far.
+    pressed: Pressed,
+    /// Makes the base shear, where an observer looks at it.
+    shear: Option<base_shear::Rows>,
+    /// The base shear of the state last shown, N.
+    base_shear: [f64; 2],
     /// Time, the side of it, and output step last shown.
     last: (f64, Side, Option<usize>),
     observers: &'a mut [&'b mut dyn Observer],
@@ -128,6 +136,7 @@ impl<'a, 'b> Viewer<'a, 'b> {
         observers: &'a mut [&'b mut dyn Observer],
     ) -> Self {
         let count = model.outputs.len();
+        let sheared = observers.iter().any(|o| o.wants_base_shear());
         let Seen { touching, bodies } = Seen::new(model, system);
         Self {
             system,
@@ -143,6 +152,9 @@ impl<'a, 'b> Viewer<'a, 'b> {
             bodies,
             contacts: Vec::new(),
             own: Vec::new(),
+            pressed: Pressed::default(),
+            shear: sheared.then(|| base_shear::Rows::new(system, space)),
+            base_shear: [f64::NAN; 2],
             last: (0.0, Side::After, None),
             observers,
         }
@@ -163,6 +175,11 @@ impl<'a, 'b> Viewer<'a, 'b> {
     /// The largest values so far, where looks inside steps hang on them.
     pub(crate) fn largest(&self) -> Vec<f64> {
         self.inside.as_ref().map(|i| i.largest.clone()).unwrap_or_default()
+    }
+
+    /// The contact that was pressed in deepest so far, as far as somebody watches.
+    pub(crate) fn pressed(&self) -> Pressed {
+        self.pressed
     }
 
     /// Tells that the run starts, with at most so many output steps to come.
@@ -201,6 +218,11 @@ impl<'a, 'b> Viewer<'a, 'b> {
         }
         self.tell_inside(t, &state.motion);
         self.touch(state);
+        if let Some(shear) = &self.shear {
+            let count = self.system.reduction.prescribed.len();
+            let supports = shear.supported.then(|| self.loads.prescribed(t, side, count));
+            self.base_shear = shear.at(self.coordinates.order, state, supports.as_ref());
+        }
         self.last = (t, side, step);
         self.tell(state, ledger, |o, sample| o.sample(sample));
     }
@@ -278,6 +300,7 @@ impl<'a, 'b> Viewer<'a, 'b> {
                 overturned,
                 deformation: &state.d,
                 force: &state.f,
+                base_shear: self.base_shear,
                 shape: &shape,
             };
             how(&mut **observer, &sample);
@@ -304,6 +327,7 @@ impl<'a, 'b> Viewer<'a, 'b> {
             law.contacts(&standing(link, state), history, f, &mut self.own);
             self.contacts.extend(self.own.drain(..).map(|c| (link.element, c)));
         }
+        self.pressed.see(&self.contacts);
     }
 }
 

@@ -64,6 +64,9 @@ impl StudyError {
 pub struct Identity {
     /// Version of the program.
     pub version: String,
+    /// Its build; empty in journals from before builds were told apart.
+    #[serde(default)]
+    pub build: String,
     /// SHA-256 of what is run and kept.
     pub study: String,
     /// SHA-256 of the model file.
@@ -83,11 +86,16 @@ impl Identity {
             (self.study != found.study || self.runs != found.runs, "the runs of the study"),
             (self.motions != found.motions, "a ground motion"),
             (self.version != found.version, "the version of the program"),
+            (self.build != found.build, "the build of the program"),
         ];
         changed.extend(parts.into_iter().filter(|(differs, _)| *differs).map(|(_, what)| what));
         // A change of the model changes its time functions, too, as a rule.
         if changed.first() == Some(&"the model") {
             changed.retain(|what| *what != "a ground motion");
+        }
+        // Another version is another build.
+        if self.version != found.version {
+            changed.retain(|what| *what != "the build of the program");
         }
         if changed.is_empty() {
             return Ok(());

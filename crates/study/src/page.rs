@@ -33,7 +33,7 @@ pub(crate) fn page(study: &Study, records: &[Record], left_out: usize) -> String
     if failed > 0 {
         page = page.section(failures(study, records));
     }
-    if let Ok(text) = std::fs::read_to_string(&study.path) {
+    if let Ok(text) = trilith::record::file::read_text(&study.path) {
         page = page.section(Section::new("file", "The study").block(Block::code(text)));
     }
     page.html()

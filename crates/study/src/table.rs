@@ -12,6 +12,7 @@ use parquet::schema::types::Type;
 use std::io::Write;
 use std::path::Path;
 use std::sync::Arc;
+use trilith::record::cell;
 
 /// A table.
 #[derive(Clone, Debug, PartialEq)]
@@ -68,7 +69,7 @@ impl Values {
         match self {
             Self::Counts(v) => v[row].map_or_else(String::new, |x| x.to_string()),
             Self::Numbers(v) => v[row].map_or_else(String::new, |x| format!("{x:?}")),
-            Self::Texts(v) => v[row].clone().unwrap_or_default(),
+            Self::Texts(v) => cell(v[row].as_deref().unwrap_or_default()).into_owned(),
             Self::Flags(v) => v[row].map_or_else(String::new, |x| x.to_string()),
         }
     }
@@ -129,7 +130,8 @@ impl Table {
         self.columns.first().map_or(0, |c| c.values.len())
     }
 
-    /// Writes it as CSV, units behind the names in brackets. Numbers read back to the same bits.
+    /// Writes it as CSV, units behind the names in brackets. Numbers read back to the same bits; texts that a
+    /// spreadsheet would take for a formula have an apostrophe in front.
     ///
     /// # Errors
     /// [`StudyError::File`].
@@ -137,8 +139,8 @@ impl Table {
         replaced(path, |file| {
             let mut csv = csv::Writer::from_writer(file);
             csv.write_record(self.columns.iter().map(|c| match c.unit.as_str() {
-                "" | "1" => c.name.clone(),
-                unit => format!("{} [{unit}]", c.name),
+                "" | "1" => cell(&c.name).into_owned(),
+                unit => cell(&format!("{} [{unit}]", c.name)).into_owned(),
             }))?;
             for row in 0..self.rows() {
                 csv.write_record(self.columns.iter().map(|c| c.values.text(row)))?;
@@ -284,5 +286,24 @@ mod tests {
         let expected =
             "run,slide [m],mode,overturned\n1,0.30000000000000004,,true\n2,,\"slide, rock\",\n";
         assert_eq!(text, expected);
+    }
+
+    #[test]
+    fn texts_that_look_like_formulas_are_texts_in_a_spreadsheet() {
+        let data =
+            |name: &str, unit: &str, values| Data { name: name.into(), unit: unit.into(), values };
+        let texts = ["=1+1", "-1.5", "@a"].map(|t| Some(t.to_owned()));
+        let table = Table {
+            title: "T".into(),
+            columns: vec![
+                data("+x", "m", Values::Numbers(vec![Some(-1.5), Some(2.0), None])),
+                data("=y", "", Values::Texts(texts.to_vec())),
+            ],
+        };
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("t.csv");
+        table.write_csv(&path).unwrap();
+        let text = std::fs::read_to_string(path).unwrap();
+        assert_eq!(text, "'+x [m],'=y\n-1.5,'=1+1\n2.0,-1.5\n,'@a\n");
     }
 }

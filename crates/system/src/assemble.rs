@@ -37,6 +37,9 @@ pub struct System {
     pub total_mass: f64,
     /// Axial force of every element that K was made with, N, tension positive; zeros without P-Δ.
     pub tension: Vec<f64>,
+    /// True where every direction is fixed or prescribed: links are led, and nothing answers. The one equation is an
+    /// oscillator of 1 kg and 1 N/m at rest, which nothing acts on and nothing follows.
+    pub idle: bool,
 }
 
 impl System {
@@ -57,13 +60,18 @@ impl System {
         let mut used = vec![false; count];
         let full = full_entries(model, &tension, &mut used)?;
         mark_used(model, &mut used);
-        let reduction = Reduction::new(model, &mut used)?;
-        if reduction.order() == 0 {
-            return Err(SystemError::Empty);
+        let mut reduction = Reduction::new(model, &mut used)?;
+        let idle = reduction.order() == 0;
+        if idle {
+            if reduction.prescribed.is_empty() {
+                return Err(SystemError::Empty);
+            }
+            reduction.add_idle();
         }
         let (inertia, total_mass) = inertia(&full.mass, &reduction);
         let [k, m, c, b] = [full.stiffness, full.mass, full.damping, full.inertance]
             .map(|entries| reduce(&entries, &reduction));
+        let [k, m] = if idle { [k, m].map(of_idle) } else { [k, m] };
         let m = if b.free.stored() + b.support.stored() == 0 {
             m
         } else {
@@ -72,6 +80,9 @@ impl System {
                 support: Sparse::combine(&[(1.0, &m.support), (1.0, &b.support)]),
             }
         };
+        for (what, sum) in [("the stiffness", &k), ("the mass", &m), ("the damping", &c)] {
+            within_bounds(what, sum, model, &reduction)?;
+        }
         let rayleigh = match model.damping {
             Damping::Rayleigh { mass, stiffness } => [mass, stiffness],
             _ => [0.0; 2],
@@ -92,6 +103,7 @@ impl System {
             inertia,
             total_mass,
             tension,
+            idle,
             reduction,
         };
         crate::massless::give_dummies(&mut system, model)?;
@@ -287,6 +299,13 @@ struct Split {
     support: Sparse,
 }
 
+/// Stiffness or mass of the equation of a system in which nothing is free.
+fn of_idle(block: Split) -> Split {
+    let mut one = Triplets::new(1, 1);
+    one.add(0, 0, 1.0);
+    Split { free: one.build(), ..block }
+}
+
 /// Tᵀ A T, rows of the free DOFs.
 fn reduce(full: &Triplets, reduction: &Reduction) -> Split {
     let order = reduction.order();
@@ -303,6 +322,20 @@ fn reduce(full: &Triplets, reduction: &Reduction) -> Split {
         }
     }
     Split { free: free.build(), support: support.build() }
+}
+
+/// Refuses sums that have overflowed: no factorisation could say where they come from.
+fn within_bounds(
+    what: &'static str,
+    sum: &Split,
+    model: &Model,
+    reduction: &Reduction,
+) -> Result<(), SystemError> {
+    let Some(row) = sum.free.not_finite().or(sum.support.not_finite()) else { return Ok(()) };
+    let full = reduction.free[row];
+    let node = &model.nodes[full / 6];
+    let direction = Dof::ALL[full % 6].name();
+    Err(SystemError::Overflow { what, node: node.name.clone(), direction, span: node.span.clone() })
 }
 
 /// Tᵀ M r of unit translations, and the mass along Z.

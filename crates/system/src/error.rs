@@ -45,8 +45,24 @@ pub enum SystemError {
         /// Where the file defines the first node.
         span: Span,
     },
-    /// Nothing is left to be solved for.
-    #[error("the model has no free direction that an element or a link acts on")]
+    /// A sum of the structure's matrices has left the range of numbers.
+    #[error(
+        "{what} of node \"{node}\" {direction} is beyond all bounds: a length, a stiffness or a mass of what acts there is absurdly large"
+    )]
+    Overflow {
+        /// `the stiffness`, `the mass` or `the damping`.
+        what: &'static str,
+        /// Name of the node.
+        node: String,
+        /// Direction.
+        direction: &'static str,
+        /// Where the file defines the node.
+        span: Span,
+    },
+    /// Nothing is left to be solved for, and nothing is led.
+    #[error(
+        "the model has no free direction that an element or a link acts on, and no case moves a support"
+    )]
     Empty,
     /// The backend failed.
     #[error(transparent)]
@@ -61,6 +77,7 @@ impl SystemError {
             Self::Element { span, .. }
             | Self::Cycle { span, .. }
             | Self::Overdetermined { span, .. }
+            | Self::Overflow { span, .. }
             | Self::Unsupported { span, .. } => Some(span.clone()),
             _ => None,
         }

@@ -7,7 +7,7 @@
 
 use crate::{LinkSet, SystemError};
 use std::sync::Arc;
-use trilith_element::Impact;
+use trilith_element::{Impact, Link};
 use trilith_linalg::{Dense, Ldlt, Sparse, symmetric_eigen};
 use trilith_model::Model;
 
@@ -41,22 +41,43 @@ pub(crate) fn settle(links: &mut LinkSet, model: &Model, mass: &Sparse) -> Resul
     }
     for contact in masses(links, model, mass)? {
         let Some(restitution) = contact.impact.restitution else { continue };
-        let link = &links.links[contact.link];
-        let mass = contact.mass();
-        let law = links.law(model, link).filter(|_| mass > 0.0);
-        let Some(settled) = law.and_then(|l| l.restituting(restitution, mass)) else {
-            let e = &model.elements[link.element];
-            let reason = "`restitution` needs the mass that strikes, and this contact sits on a part \
-                          without mass of its own: give `impact_mass`, or the dashpot itself";
-            return Err(SystemError::Element {
-                element: e.name.clone(),
-                reason: reason.into(),
-                span: e.span.clone(),
-            });
-        };
-        links.links[contact.link].settled = Some(Arc::from(settled));
+        let settled = restituted(links, model, contact.link, restitution, contact.mass())?;
+        links.links[contact.link].settled = Some(settled);
+    }
+    // No mass of the structure strikes a contact that supports alone lead: it needs one of its own.
+    for i in 0..links.links.len() {
+        let link = &links.links[i];
+        let Some(impact) = links.law(model, link).and_then(|l| l.impact()) else { continue };
+        let at = link.range.start + impact.coordinate;
+        let led = links.rows[at].is_empty() && !links.support_rows[at].is_empty();
+        let Some(restitution) = impact.restitution.filter(|_| led) else { continue };
+        let settled = restituted(links, model, i, restitution, impact.mass.unwrap_or(0.0))?;
+        links.links[i].settled = Some(settled);
     }
     Ok(())
+}
+
+/// The law of a link (by its index) with the dashpot that a mass (kg) makes of its restitution.
+fn restituted(
+    links: &LinkSet,
+    model: &Model,
+    link: usize,
+    restitution: f64,
+    mass: f64,
+) -> Result<Arc<dyn Link>, SystemError> {
+    let link = &links.links[link];
+    let law = links.law(model, link).filter(|_| mass > 0.0);
+    let Some(settled) = law.and_then(|l| l.restituting(restitution, mass)) else {
+        let e = &model.elements[link.element];
+        let reason = "`restitution` needs the mass that strikes, and this contact sits on a part \
+                      without mass of its own: give `impact_mass`, or the dashpot itself";
+        return Err(SystemError::Element {
+            element: e.name.clone(),
+            reason: reason.into(),
+            span: e.span.clone(),
+        });
+    };
+    Ok(Arc::from(settled))
 }
 
 pub(crate) fn masses(

@@ -391,11 +391,11 @@ impl LinkSet {
         self.diagonal.iter().map(|at| tangents.k[*at])
     }
 
-    /// Name of a flat coordinate, such as `"foot" U1`.
+    /// Name of a flat coordinate, such as `"foot" U1`; `the structure` where there is none of that number.
     #[must_use]
     pub fn name(&self, model: &Model, flat: usize) -> String {
         let Some(link) = self.links.iter().find(|l| l.range.contains(&flat)) else {
-            return "?".into();
+            return "the structure".into();
         };
         let local = flat - link.range.start;
         let axis = match self.law(model, link).map(Link::coordinates) {

@@ -102,6 +102,14 @@ impl Reduction {
         Self { offsets, terms, free, prescribed }
     }
 
+    /// Counts a direction as free that nothing acts on, where every other is fixed or prescribed: solvers step at least
+    /// one equation. No DOF follows it.
+    pub(crate) fn add_idle(&mut self) {
+        self.free.push(0);
+        // Prescribed ones are counted behind the free ones.
+        self.terms.iter_mut().for_each(|(i, _)| *i += 1);
+    }
+
     /// Number of free DOFs.
     #[must_use]
     pub fn order(&self) -> usize {

@@ -2,10 +2,11 @@
 
 use crate::Error;
 use std::path::{Path, PathBuf};
-use trilith_model::Model;
+use trilith_model::{Analysis as CaseAnalysis, Model};
 use trilith_results::{Files, Peak, Recorder, Summary};
 use trilith_solvers::{
-    BasisReport, CaseResult, ContactMode, ContactSummary, Observer, RunOptions, SoFar,
+    BaseShear, BaseShearSummary, BasisReport, BearingSummary, CaseResult, ContactMode,
+    ContactSummary, Observer, RunOptions, SoFar, StopSummary,
 };
 use trilith_system::System;
 
@@ -150,6 +151,7 @@ impl<'m> Analysis<'m> {
             record = record.without_histories();
         }
         let mut contact = ContactMode::new(self.model, &self.system);
+        let mut shear = self.shakes(options.case).then(BaseShear::default);
         let (mut since, mut warnings) = (0.0, Vec::new());
         if let Some(from) = &options.from {
             let before = from.seen.clone();
@@ -157,6 +159,7 @@ impl<'m> Analysis<'m> {
             if before.peaks.len() == self.model.outputs.len() {
                 record = record.after(before.peaks);
                 contact = contact.after(before.contact.unwrap_or_default());
+                shear = shear.map(|_| BaseShear::after(before.base_shear.unwrap_or_default()));
             } else {
                 since = from.time;
             }
@@ -173,6 +176,9 @@ impl<'m> Analysis<'m> {
             }
         }
         let mut all: Vec<&mut dyn Observer> = vec![&mut record, &mut contact];
+        if let Some(shear) = &mut shear {
+            all.push(shear);
+        }
         for observer in observers {
             all.push(*observer);
         }
@@ -182,11 +188,22 @@ impl<'m> Analysis<'m> {
         let peaks = record.peaks();
         if peaks.iter().all(Peak::is_finite) {
             let (peaks, contact) = (peaks.to_vec(), Some(contact.memory()));
-            result.end.seen = SoFar { peaks, contact, since };
+            let base_shear = shear.as_ref().map(BaseShear::summary);
+            result.end.seen = SoFar { peaks, contact, base_shear, since };
         }
+        let (stops, bearings) = (contact.stops(), contact.bearings());
         let contact = contact.summary();
+        // A body that is free has no base.
+        let base_shear =
+            shear.map(|s| s.summary()).filter(|s| contact.is_none() && s.max != [0.0; 2]);
         let names = self.model.outputs.iter().map(|o| o.name.clone()).collect();
-        Ok(Run { result, record, contact, names })
+        Ok(Run { result, record, contact, stops, bearings, base_shear, names })
+    }
+
+    /// True for a case that shakes the base.
+    fn shakes(&self, case: usize) -> bool {
+        let analysis = self.model.cases.get(case).map(|c| &c.analysis);
+        matches!(analysis, Some(CaseAnalysis::Dynamic(d)) if !d.base.is_empty())
     }
 
     /// Modes and basis of a case (the last dynamic one where none is given).
@@ -205,8 +222,14 @@ pub struct Run {
     pub result: CaseResult,
     /// Histories, peaks and deformed shapes.
     pub record: Recorder,
-    /// How the contacts behaved, for models with contacts.
+    /// How the bodies that stand on contacts behaved, for models with such bodies.
     pub contact: Option<ContactSummary>,
+    /// How often and how hard stops were hit, for models with stops.
+    pub stops: Option<StopSummary>,
+    /// How far bearings travelled, for models with bearings.
+    pub bearings: Option<BearingSummary>,
+    /// The largest base shear, for structures whose base is shaken.
+    pub base_shear: Option<BaseShearSummary>,
     names: Vec<String>,
 }
 
@@ -237,7 +260,14 @@ impl Run {
     /// `summary.json` as a value. `model` is the model that ran.
     #[must_use]
     pub fn summary(&self, model: &Model) -> Summary {
-        Summary::new(model, &self.result, &self.record, self.contact.clone())
+        let contact = self.contact.clone();
+        Summary {
+            stops: self.stops.clone(),
+            bearings: self.bearings.clone(),
+            base_shear: self.base_shear.clone(),
+            ..Summary::new(crate::BUILD, model, &self.result, &self.record, contact)
+        }
+        .sealed()
     }
 
     /// Writes summary, histories, resolved model and deformed shapes into a folder and returns the

@@ -28,6 +28,7 @@
 //!
 //! - [`read`] turns a model file into a [`Model`], or into all its errors at once.
 //! - [`run`] runs a case as the file says; [`Analysis`] runs several, with options.
+//! - [`Checkpoint`] keeps where a run stopped in a file, for `from` of a later one's [`RunOptions`].
 //! - [`write_report`] makes the page of a run, [`rebuild_report`] makes it again from its folder.
 //! - [`compare`] solves a case in several ways and finds why the results differ.
 //! - [`exercise`] shows what a link does on its own, [`catalogue`] what kinds there are.
@@ -42,13 +43,16 @@
 mod analysis;
 pub mod calibrate;
 pub mod catalogue;
+mod checkpoint;
 pub mod compare;
 mod error;
 pub mod exercise;
 pub mod generate;
+mod report_check;
 mod run_report;
 pub mod sweep;
 pub mod theory;
+mod version;
 
 /// The contract that elements, constraints and links fulfil.
 pub mod element {
@@ -85,11 +89,13 @@ pub mod report {
 }
 
 pub use analysis::{Analysis, Run};
+pub use checkpoint::{Checkpoint, CheckpointError};
 pub use element::Register;
 pub use error::Error;
 pub use model::{Diagnostic, Model, Registry, SolverKind, read, read_text};
 pub use run_report::{ReportError, rebuild_report, write_report};
 pub use solvers::RunOptions;
+pub use version::{BUILD, LONG_VERSION, VERSION};
 
 /// A registry with every built-in kind.
 #[must_use]

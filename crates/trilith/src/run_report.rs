@@ -1,6 +1,8 @@
 //! The report in the folder of a run.
 
-use crate::{Analysis, Error, Run};
+use crate::{Analysis, Error, Run, report_check};
+use serde::de::DeserializeOwned;
+use serde_json::Value;
 use std::path::{Path, PathBuf};
 use trilith_report::{Collect, RunData, run_page};
 use trilith_results::FileError;
@@ -10,7 +12,7 @@ const MODES: usize = 1000;
 /// What the page is made from, beside `summary.json`.
 const DATA: &str = "report.json";
 const PAGE: &str = "report.html";
-const SUMMARY: &str = "summary.json";
+pub(crate) const SUMMARY: &str = "summary.json";
 
 /// A folder whose report cannot be made again.
 #[derive(Debug, thiserror::Error)]
@@ -22,6 +24,52 @@ pub enum ReportError {
         path: PathBuf,
         /// Why.
         cause: std::io::Error,
+    },
+    /// A file that lacks something.
+    #[error("{} is incomplete: it has no {}", .path.display(), .missing.join(", "))]
+    Incomplete {
+        /// The file.
+        path: PathBuf,
+        /// Keys that are not there.
+        missing: Vec<&'static str>,
+    },
+    /// Data of another program.
+    #[error("{} has format {found}, this program reads format {known}", .path.display())]
+    OtherFormat {
+        /// The file.
+        path: PathBuf,
+        /// Its format.
+        found: u32,
+        /// The format that is read here.
+        known: u32,
+    },
+    /// Files of two runs in one folder.
+    #[error(
+        "summary.json and report.json in {} are of two runs: the {what} of the first is {summary}, of the second {data}",
+        .folder.display()
+    )]
+    TwoRuns {
+        /// The folder.
+        folder: PathBuf,
+        /// What differs.
+        what: &'static str,
+        /// What `summary.json` says.
+        summary: String,
+        /// What `report.json` says.
+        data: String,
+    },
+    /// A summary in which something was changed after it was written.
+    #[error(
+        "{} is not as it was written: its `run_sha256` is {stated}, that of its content {found}",
+        .path.display()
+    )]
+    Altered {
+        /// The file.
+        path: PathBuf,
+        /// The sum that it states.
+        stated: String,
+        /// The sum that its content has.
+        found: String,
     },
     /// A file that is not what `trilith run` writes.
     #[error("{} is not what this program writes: {cause}", .path.display())]
@@ -74,22 +122,33 @@ pub fn write_report(dir: impl AsRef<Path>, data: &RunData) -> Result<PathBuf, Er
     let text = serde_json::to_string(data)
         .map_err(|e| FileError { path: path.clone(), cause: e.into() })?;
     write(&path, &text)?;
-    page(dir.as_ref(), data)
+    page(dir.as_ref(), &summary(dir.as_ref())?, data)
 }
 
-/// Makes `report.html` again from the files in the folder of a run.
+/// Makes `report.html` again from the files in the folder of a run. They may come from another build of the program
+/// that writes the same format.
 ///
 /// # Errors
-/// [`Error::Report`] where these are not there, [`Error::File`] where the page cannot be written.
+/// [`Error::Report`] where these are not there, not whole, not as they were written or not of one run;
+/// [`Error::File`] where the page cannot be written.
 pub fn rebuild_report(dir: impl AsRef<Path>) -> Result<PathBuf, Error> {
-    let data: RunData = read(&dir.as_ref().join(DATA))?;
-    page(dir.as_ref(), &data)
+    let dir = dir.as_ref();
+    let (path, text) = text(dir.join(DATA))?;
+    report_check::format(&path, parsed(&path, &text)?)?;
+    let data: RunData = parsed(&path, &text)?;
+    let summary = summary(dir)?;
+    report_check::one_run(dir, &summary, &data)?;
+    page(dir, &summary, &data)
 }
 
-fn page(dir: &Path, data: &RunData) -> Result<PathBuf, Error> {
-    let summary: serde_json::Value = read(&dir.join(SUMMARY))?;
+fn summary(dir: &Path) -> Result<Value, ReportError> {
+    let (path, text) = text(dir.join(SUMMARY))?;
+    parsed(&path, &text)
+}
+
+fn page(dir: &Path, summary: &Value, data: &RunData) -> Result<PathBuf, Error> {
     let path = dir.join(PAGE);
-    write(&path, &run_page(&summary, data))?;
+    write(&path, &run_page(summary, data))?;
     Ok(path)
 }
 
@@ -98,9 +157,14 @@ fn write(path: &Path, text: &str) -> Result<(), Error> {
     Ok(std::fs::write(&path, text).map_err(|cause| FileError { path, cause })?)
 }
 
-fn read<T: serde::de::DeserializeOwned>(path: &Path) -> Result<T, ReportError> {
-    let text = std::fs::read_to_string(path)
-        .map_err(|cause| ReportError::Unreadable { path: path.to_owned(), cause })?;
-    serde_json::from_str(&text)
+fn text(path: PathBuf) -> Result<(PathBuf, String), ReportError> {
+    match trilith_record::file::read_text(&path) {
+        Ok(text) => Ok((path, text)),
+        Err(cause) => Err(ReportError::Unreadable { path, cause }),
+    }
+}
+
+fn parsed<T: DeserializeOwned>(path: &Path, text: &str) -> Result<T, ReportError> {
+    serde_json::from_str(text)
         .map_err(|cause| ReportError::Foreign { path: path.to_owned(), cause })
 }

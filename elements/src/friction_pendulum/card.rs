@@ -1,6 +1,7 @@
 //! Card and checks of the [`FrictionPendulum`].
 
 use super::{FrictionModel, FrictionPendulum, Surface};
+use crate::shared::sliding::Dish;
 use trilith_element::dimension::{AREA, DAMPING, FORCE, INVERSE_VELOCITY, LENGTH, NONE, STIFFNESS};
 use trilith_element::{
     Card, Category, Default, Described, Dimension, Exercise, Form, NodeCount, Parameter,
@@ -21,6 +22,9 @@ const fn factor(
     let form = Form::Power { base: FORCE, over: FORCE, exponent };
     Parameter::new(name, symbol, form, Default::Absent, meaning).within(Range::NonNegative)
 }
+
+/// Largest coefficient of an `inclined` bearing: well below the one with which its steepest slope locks.
+const ROUGHEST: f64 = 0.3;
 
 /// 1/Pa.
 const INVERSE_STRESS: Dimension = Dimension { mass: -1.0, length: 1.0, time: 2.0 };
@@ -83,6 +87,11 @@ impl Described for FrictionPendulum {
                 "restoring force of small slopes, or exact",
             ),
             Parameter::flag("rise", false, "moving out lifts the load"),
+            Parameter::flag(
+                "inclined",
+                false,
+                "friction lies in the surface, of the force normal to it; exact with `Spherical` and `rise`",
+            ),
             Parameter::choice(
                 "friction_model",
                 &["Coulomb", "Velocity", "VelocityForce", "VelocityPressure"],
@@ -181,6 +190,8 @@ impl Described for FrictionPendulum {
               fₜ = τ + N ∇h(u) + kₛₜ (|u| − D)⁺ u/|u|\n\
               Shallow: ∇h = u/R;  Spherical: ∇h = u/√(R² − u²)\n\
               with `rise`: g = d₁ − h(u)\n\
+              with `inclined`: S τ in place of τ, |τ| ≤ μ P, P = N √(1 + |∇h|²) + ∇h·τ, S = I + ∇h ∇hᵀ/(1 + √(1 + |∇h|²));\n\
+              u̇ in τ is S u̇: speeds, stretch and slip along the surface\n\
               Velocity: μ = μ_fast − (μ_fast − μ_slow) e^(−r x), slip rate x = |ȧ| (|u̇| where μ falls with it)\n\
               until it has slipped by s₀: more, from `mu_static` on, as an `NLink`\n\
               VelocityForce: μ_slow, μ_fast = a N^(n−1) ≤ μ_max, r = r₀ + r₁ N + r₂ N²\n\
@@ -225,6 +236,14 @@ impl Described for FrictionPendulum {
                 let message = "a flat bearing does not rise: give a `radius`, or leave `rise` out";
                 return Err(ParameterError::inconsistent("rise", message));
             }
+            if self.inclined {
+                let message =
+                    "a flat bearing has no slope: give a `radius`, or leave `inclined` out";
+                return Err(ParameterError::inconsistent("inclined", message));
+            }
+        }
+        if self.inclined {
+            self.check_that_nothing_locks()?;
         }
         match self.stop {
             Some(stop) if self.surface == Surface::Spherical && stop >= self.radius => {
@@ -240,6 +259,32 @@ impl Described for FrictionPendulum {
 }
 
 impl FrictionPendulum {
+    /// Refuses coefficients with which a slope may hold a slider under any force.
+    fn check_that_nothing_locks(&self) -> Result<(), ParameterError> {
+        let by_force = self.friction_model == FrictionModel::VelocityForce;
+        let coefficients = [
+            ("mu", self.mu),
+            ("mu_slow", self.mu_slow),
+            ("mu_fast", self.mu_fast),
+            ("mu_static", self.mu_static),
+            ("mu_max", by_force.then_some(self.mu_max)),
+        ];
+        for (name, value) in coefficients {
+            if let Some(mu) = value
+                && mu > ROUGHEST
+            {
+                let message = format!(
+                    "`inclined` takes coefficients of at most {ROUGHEST}, not {mu}: from {:.3} on the slope of {:.2} at \
+                     0.95 of the radius would hold the slider under any force",
+                    1.0 / Dish::steepest(),
+                    Dish::steepest()
+                );
+                return Err(ParameterError::inconsistent(name, message));
+            }
+        }
+        Ok(())
+    }
+
     fn check_friction(&self) -> Result<(), ParameterError> {
         use FrictionModel::{Coulomb, Velocity, VelocityForce, VelocityPressure};
         let model = self.friction_model;

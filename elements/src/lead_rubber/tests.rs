@@ -37,6 +37,16 @@ fn conforms_cold_and_hot() {
 }
 
 #[test]
+fn conforms_with_the_numbers_of_leadrubberx_and_by_direction() {
+    let by_axes = law(true, &[("beta", 0.9), ("gamma", 0.1)]);
+    let by_direction = LeadRubber { coupling: Coupling::Direction, eta: 1.5, ..law(true, &[]) };
+    for law in [by_axes, by_direction] {
+        Kit::new(&[1e-3, 0.02, 0.014], 0.5).assert(&law);
+        Kit::new(&[1e-3, 0.2, 0.14], 0.5).assert(&law);
+    }
+}
+
+#[test]
 fn without_heating_it_is_a_rubber_isolator() {
     let q = 1e7 * PI * 0.08 * 0.08;
     let (k, fy) = (1.5e6 + q / 0.01, q + 1.5e6 * 0.01);

@@ -56,6 +56,28 @@ impl Branch<'_> {
         }
     }
 
+    /// Refuses a line that is steeper than the one before it, for the rule of this name.
+    pub(super) fn no_steeper_outwards(self, rule: &str) -> Result<(), ParameterError> {
+        let steeper = |i: &usize| self.slope(*i) > self.slope(i - 1) + 1e-9 * self.slope(0);
+        match (1..self.lines()).find(steeper) {
+            Some(i) => {
+                Err(self.too_steep(i, &format!("the one before it, which {rule} cannot have")))
+            }
+            None => Ok(()),
+        }
+    }
+
+    /// The point before line `i`, that before the last line where there are fewer.
+    pub(super) fn corner_before(self, i: usize) -> (f64, f64) {
+        self.point(i.min(self.lines() - 1))
+    }
+
+    /// The outer end of line `i`, as the file gives it.
+    pub(super) fn outer_end(self, i: usize) -> (f64, f64) {
+        let (d, f) = self.point(i + 1);
+        (self.sign * d, self.sign * f)
+    }
+
     /// The refusal of line `i`.
     pub(super) fn too_steep(self, i: usize, than: &str) -> ParameterError {
         let (d, f) = self.point(i);

@@ -1,49 +1,52 @@
-//! The kinematic rule: elastic springs with sliders, side by side.
-//!
-//! Every corner of the curve is an element: a spring with the change of slope there, and a slider that lets go
-//! at the deformation of the corner. What is left of the slope at the end of the curve is a spring
-//! alone. Loaded for the first time they give the curve; after a reversal each has to go through its
-//! whole range, so the path is the curve doubled, and a closed cycle returns to where it began.
+//! The kinematic rule: the lines of the curve one after the other, each with its counterpart of the other sign.
 //!
 //! ```text
-//!   f = Σⱼ g(eⱼ) + k_end d,   g(e) = kⱼ⁺ e upwards, kⱼ⁻ e downwards,   −dⱼ⁻ ≤ eⱼ ≤ dⱼ⁺
+//!   d = Σⱼ xⱼ,   f = Σⱼ kⱼ xⱼ,   kⱼ = kⱼ⁺ where xⱼ > 0, kⱼ⁻ where xⱼ < 0,   −lⱼ⁻ ≤ xⱼ ≤ lⱼ⁺
 //! ```
 //!
-//! Where the sides differ, the j-th corners belong together: unloading has the slopes of the side it leaves
-//! for as long as its elements are stretched, then those of the other side. A side with fewer corners
-//! has elements that carry nothing on it.
+//! The j-th line from the origin has the slope kⱼ and the length lⱼ, the last goes on. Of the lines that have not come
+//! to their end on the side of the motion, the first moves. So a path back from the curve has, from the first line
+//! on, a part parallel to the line loaded before and as long as that was loaded, then one parallel to its counterpart
+//! and as long as that; after the last it is on the curve of the other side. A closed cycle returns to where it
+//! began, and where both sides are alike the path is the curve doubled.
+//!
+//! The last lines of both sides belong together, the others from the origin on; a side with fewer lines has
+//! none of length in between. History are the sums eⱼ = x₁ + … + xⱼ, which follow d between the j-th corners.
+//!
+//! **Energy.** Stored: ½ Σⱼ kⱼ (eⱼ² − eⱼ₋₁²). What line m makes heat of while it moves by dx towards a side of the curve whose
+//! (m − 1)-th corner is (D, F): (F − kₘ D) |dx|. None is negative where no line is steeper than
+//! one before it, of either side; steeper ones would give energy in a cycle, and are refused.
 
 use super::branch::Branch;
-use super::{Answer, MultilinearPlastic, Step};
-use trilith_element::{Field, ParameterError};
+use super::{Answer, MultilinearPlastic, Step, iwan};
+use trilith_element::ParameterError;
 
-/// Lines must get no steeper away from the origin.
-pub(super) fn check(branch: Branch<'_>) -> Result<(), ParameterError> {
-    let steeper = |i: &usize| branch.slope(*i) > branch.slope(i - 1) + 1e-9 * branch.slope(0);
-    match (1..branch.lines()).find(steeper) {
-        Some(i) => Err(branch.too_steep(i, "the one before it, which `Kinematic` cannot have")),
-        None => Ok(()),
+/// The place of line `i` among the lines of both sides.
+fn place(side: Branch<'_>, i: usize, corners: usize) -> usize {
+    if i + 1 == side.lines() { corners } else { i }
+}
+
+/// Lines must get no steeper away from the origin, and none steeper than those of the other side before it.
+pub(super) fn check(law: &MultilinearPlastic) -> Result<(), ParameterError> {
+    let corners = iwan::corners(law);
+    for sign in [1.0, -1.0] {
+        let (side, other) = (law.branch(sign), law.branch(-sign));
+        side.no_steeper_outwards("`Kinematic`")?;
+        for i in 0..side.lines() {
+            let before = |o: &usize| place(other, *o, corners) < place(side, i, corners);
+            let softer = |o: &usize| other.slope(*o) < side.slope(i) * (1.0 - 1e-9);
+            if let Some(o) = (0..other.lines()).filter(before).find(softer) {
+                let ((d, f), (x, g)) = (side.outer_end(i), other.outer_end(o));
+                let message = format!(
+                    "the line towards ({d}, {f}) is steeper than the one towards ({x}, {g}), which `Kinematic` goes \
+                     through before it on the way back: it would give energy in a cycle. Make it softer, or choose \
+                     `rule: Iwan`"
+                );
+                return Err(ParameterError::inconsistent("force", message));
+            }
+        }
     }
-}
-
-/// Number of corners.
-fn corners(law: &MultilinearPlastic) -> usize {
-    law.branch(1.0).lines().max(law.branch(-1.0).lines()) - 1
-}
-
-/// The stretch of every element.
-pub(super) fn fields(law: &MultilinearPlastic, length: &'static str) -> Vec<Field> {
-    let field = |j| Field { name: format!("stretch{}", j + 1).into(), unit: length };
-    (0..corners(law)).map(field).collect()
-}
-
-/// Stiffness and range of element `j` on a side.
-fn element(side: Branch<'_>, j: usize) -> (f64, f64) {
-    if j + 1 < side.lines() {
-        ((side.slope(j) - side.slope(j + 1)).max(0.0), side.point(j + 1).0)
-    } else {
-        (0.0, 0.0)
-    }
+    Ok(())
 }
 
 pub(super) fn respond(
@@ -53,23 +56,42 @@ pub(super) fn respond(
     trial: &mut [f64],
 ) -> Answer {
     let [up, down] = [law.branch(1.0), law.branch(-1.0)];
-    let upwards = |x: f64| x > 0.0 || (x == 0.0 && step.direction >= 0.0);
-    let end = if upwards(step.d) { up } else { down };
-    let k = end.slope(usize::MAX);
-    let mut out = Answer { f: k * step.d, k, stored: 0.5 * k * step.d * step.d, heat: 0.0 };
-    for (j, (old, new)) in committed.iter().zip(trial).enumerate() {
-        let stretch = old + (step.d - step.d0);
-        let e = stretch.clamp(-element(down, j).1, element(up, j).1);
-        let k = element(if upwards(e) { up } else { down }, j).0;
-        let slides = (stretch - e) * step.direction > 0.0 || {
-            let limit = if step.direction > 0.0 { element(up, j).1 } else { -element(down, j).1 };
-            step.direction != 0.0 && e == limit
-        };
-        out.f += k * e;
-        out.k += if slides { 0.0 } else { k };
-        out.stored += 0.5 * k * e * e;
-        out.heat += k * e * (stretch - e);
-        *new = e;
+    let ahead = if step.direction < 0.0 { down } else { up };
+    let slope = |x: f64, j: usize| {
+        let upwards = x > 0.0 || (x == 0.0 && step.direction >= 0.0);
+        if upwards { up.slope(j) } else { down.slope(j) }
+    };
+    let corners = committed.len();
+    let mut out = Answer::default();
+    // Sums up to the line before, at the start and at the end of the step, and what is left of the motion after it.
+    let (mut before0, mut before, mut left) = (0.0, 0.0, step.d - step.d0);
+    let mut moves = true;
+    for j in 0..=corners {
+        let (mut e0, mut e, mut beyond, mut ended) = (step.d0, step.d, 0.0, false);
+        if j < corners {
+            let (low, high) = (-iwan::corner(down, j), iwan::corner(up, j));
+            let stretch = committed[j] + (step.d - step.d0);
+            e0 = committed[j];
+            e = stretch.clamp(low, high);
+            beyond = stretch - e;
+            let end = if step.direction > 0.0 { high } else { low };
+            ended = step.direction != 0.0 && e == end;
+            trial[j] = e;
+        }
+        let (x0, x) = (e0 - before0, e - before);
+        let k = slope(x, j);
+        out.f += k * x;
+        out.stored += 0.5 * k * x * (e + before);
+        if moves && !ended {
+            out.k = k;
+            moves = false;
+        }
+        let moved = (left - beyond).abs();
+        if moved > 0.0 {
+            let (d, f) = ahead.corner_before(j);
+            out.heat += f * moved - d * (k * x - slope(x0, j) * x0).abs();
+        }
+        (before0, before, left) = (e0, e, beyond);
     }
     out
 }

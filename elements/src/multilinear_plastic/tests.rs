@@ -46,11 +46,11 @@ fn law(points: Points, rule: &str) -> MultilinearPlastic {
 
 fn all() -> Vec<MultilinearPlastic> {
     let mut all = Vec::new();
-    for rule in ["Kinematic", "Isotropic", "Takeda", "Pivot"] {
+    for rule in ["Kinematic", "Iwan", "Isotropic", "Takeda", "Pivot"] {
         for points in [BILINEAR, PERFECT, SEVERAL, UNLIKE] {
             all.push(law(points, rule));
         }
-        if rule != "Kinematic" {
+        if !matches!(rule, "Kinematic" | "Iwan") {
             all.push(law(FALLING, rule));
         }
     }
@@ -116,7 +116,7 @@ fn unloading_returns_what_is_stored() {
             }
             let back = work - driver.work;
             // In parallel elements some are stretched the other way by then.
-            let kept = if law.rule == Rule::Kinematic {
+            let kept = if matches!(law.rule, Rule::Kinematic | Rule::Iwan) {
                 driver.energy.stored + driver.heat()
             } else {
                 0.0
@@ -160,15 +160,81 @@ fn kinematic_doubles_the_curve_and_closes_its_cycles() {
 
 /// Up: 10 to 1, then 2. Down: 5 to −2, then 1. Range of the element: 1 above, 2 below.
 #[test]
-fn kinematic_takes_each_side_in_turn() {
+fn iwan_takes_each_side_in_turn() {
     let points: Points = (&[-4.0, -2.0, 0.0, 1.0, 3.0], &[-12.0, -10.0, 0.0, 10.0, 14.0]);
-    let law = law(points, "Kinematic");
+    let law = law(points, "Iwan");
     // From (3, 14) back by 1 with slope 10, by 2 with slope 2 + 4 = 6 (the end spring still being above
     // zero), then with 2 down to zero and with 1 below.
     let forces = through(&mut Driver::new(&law), &[3.0, 2.0, 1.0, 0.0, -1.0]);
     for (f, expected) in forces.iter().zip([14.0, 4.0, -2.0, -8.0, -9.0]) {
         assert_relative_eq!(*f, expected, epsilon = 1e-12);
     }
+}
+
+/// The curve and the path of CSI's verification problem 6-009, in and kip: 25, 5 and 1 up; 40, 2 and 0.5 down.
+const KINEMATIC: Points =
+    (&[-16.0, -6.0, -1.0, 0.0, 2.0, 6.0, 16.0], &[-55.0, -50.0, -40.0, 0.0, 50.0, 70.0, 80.0]);
+
+#[test]
+fn kinematic_goes_back_along_the_lines_it_loaded_and_their_counterparts() {
+    let law = law(KINEMATIC, "Kinematic");
+    // Back by 2 with 25 and by 1 with 40, by 4 with 5 and by 5 with 2, by the 6 that were loaded with 1: on the curve.
+    let mut driver = Driver::new(&law);
+    let forces = through(&mut driver, &[12.0, 10.0, 9.0, 5.0, 0.0, -6.0, -12.0]);
+    for (f, expected) in forces.iter().zip([76.0, 26.0, -14.0, -34.0, -44.0, -50.0, -53.0]) {
+        assert_relative_eq!(*f, expected, epsilon = 1e-12);
+    }
+    // Up again: by 1 with 40, by 2 with 25, by 5 with 2, by 4 with 5, by the 6 with 0.5: on the curve.
+    let forces = through(&mut driver, &[-11.0, -9.0, -4.0, 0.0, 6.0, 12.0]);
+    for (f, expected) in forces.iter().zip([-13.0, 37.0, 47.0, 67.0, 70.0, 76.0]) {
+        assert_relative_eq!(*f, expected, epsilon = 1e-12);
+    }
+    // An inner cycle leaves no trace.
+    through(&mut driver, &[8.0, 11.0, 3.0, 12.0]);
+    assert_relative_eq!(driver.f[0], 76.0, epsilon = 1e-12);
+}
+
+#[test]
+fn kinematic_does_the_work_of_its_cycle_as_heat() {
+    let law = law(KINEMATIC, "Kinematic");
+    Kit::new(&[1.0], 1.0).rate_independent().assert(&law);
+    Kit::new(&[10.0], 1.0).rate_independent().assert(&law);
+    let mut driver = Driver::new(&law);
+    let corners = [12.0, 10.0, 9.0, 5.0, 0.0, -6.0, -12.0, -11.0, -9.0, -4.0, 0.0, 6.0, 12.0];
+    through(&mut driver, &corners[..1]);
+    let (work, heat, stored) = (driver.work, driver.heat(), driver.energy.stored);
+    through(&mut driver, &corners[1..]);
+    // Straight between its corners, so the trapezoidal rule is exact.
+    assert_relative_eq!(driver.work - work, driver.heat() - heat, max_relative = 1e-12);
+    assert_relative_eq!(driver.energy.stored, stored, max_relative = 1e-12);
+    assert!(driver.heat() - heat > 1500.0, "{}", driver.heat() - heat);
+}
+
+#[test]
+fn kinematic_and_iwan_are_one_where_both_sides_are_alike() {
+    for points in [BILINEAR, PERFECT, SEVERAL] {
+        let (one, two) = (law(points, "Kinematic"), law(points, "Iwan"));
+        let (mut one, mut two) = (Driver::new(&one), Driver::new(&two));
+        for d in [5.0, -3.0, 2.0, 1.2, 2.5, -7.0, -6.5, -6.8, 7.5, 7.2, 0.3, 0.9, -1.0] {
+            assert_relative_eq!(one.to(&[d])[0], two.to(&[d])[0], epsilon = 1e-12);
+            assert_relative_eq!(one.k[0], two.k[0], epsilon = 1e-12);
+            assert_relative_eq!(one.energy.stored, two.energy.stored, epsilon = 1e-11);
+            assert_relative_eq!(one.heat(), two.heat(), epsilon = 1e-11);
+        }
+    }
+}
+
+/// 10, then 2 up; 51, then 50 down: around a cycle to ±1 there would come out more than went in.
+#[test]
+fn kinematic_refuses_sides_that_would_give_energy() {
+    let points: Points = (&[-2.0, -1.0, 0.0, 1.0, 2.0], &[-101.0, -51.0, 0.0, 10.0, 12.0]);
+    let error = given(points, "Kinematic", &[]).unwrap_err();
+    assert_eq!(error.parameter(), Some("force"));
+    let text = error.to_string();
+    assert!(text.contains("(-2, -101)") && text.contains("(1, 10)"), "{text}");
+    assert!(text.contains("`rule: Iwan`"), "{text}");
+    let iwan = law(points, "Iwan");
+    Kit::new(&[1.5], 1.0).rate_independent().assert(&iwan);
 }
 
 #[test]
@@ -227,12 +293,13 @@ fn refuses_what_a_rule_cannot_follow() {
         given(points, rule, more).unwrap_err().parameter().unwrap_or_default().to_owned()
     };
     let stiffening: Points = (&[-1.0, 0.0, 1.0, 2.0], &[-1.0, 0.0, 1.0, 4.0]);
-    for rule in ["Kinematic", "Isotropic", "Takeda", "Pivot"] {
+    for rule in ["Kinematic", "Iwan", "Isotropic", "Takeda", "Pivot"] {
         assert_eq!(name(stiffening, rule, &[]), "force");
         assert_eq!(name((&[0.0, 1.0, 2.0], &[0.0, 1.0, 1.5]), rule, &[]), "deformation");
         assert_eq!(name((&[-1.0, 1.0, 2.0], &[-1.0, 1.0, 1.5]), rule, &[]), "deformation");
         assert_eq!(name((&[-1.0, 0.0, 1.0, 2.0], &[0.0, 0.0, 1.0, 1.0]), rule, &[]), "force");
     }
     assert_eq!(name(FALLING, "Kinematic", &[]), "force");
+    assert_eq!(name(FALLING, "Iwan", &[]), "force");
     assert_eq!(name(BILINEAR, "Takeda", &[("beta2", 0.5)]), "beta2");
 }

@@ -4,6 +4,7 @@
 
 use super::{NLinkHistory, NLinkRubbing};
 use crate::shared::sliding::{Cone, Rubbed, Rubbing, Worn};
+use crate::shared::touch::hold;
 use trilith_element::History;
 use trilith_element::lanes::{LaneAt, LaneContact, LaneForce, LaneLaw, LaneStep, Real};
 
@@ -102,15 +103,17 @@ impl<const T: usize, const FLAGS: u8> NLinkContact<T, FLAGS> {
             let (cone, cone_d) = (spring, -kn);
             return Pressed { open, spring, f, f_d: kn, f_v: zero, cone, cone_d, cone_v: zero };
         }
-        let c = it.damping.only(closed);
+        let (dashpot, [share, by_gap]) = (it.damping * rate, hold(gap, rate));
+        let c = (it.damping * share).only(closed);
+        let k = (it.kn + dashpot * by_gap).only(closed);
         // Zeros are kept from the sign that a subtraction of nothing would give them.
-        let f = (it.damping * rate - it.kn * p).only(closed);
+        let f = (dashpot * share - it.kn * p).only(closed);
         if FLAGS & PULL != 0 {
             return Pressed {
                 open,
                 spring,
                 f,
-                f_d: kn,
+                f_d: k,
                 f_v: c,
                 cone: spring,
                 cone_d: -kn,
@@ -118,7 +121,7 @@ impl<const T: usize, const FLAGS: u8> NLinkContact<T, FLAGS> {
             };
         }
         let holds = !zero.lt(f);
-        let (f, f_d, f_v) = (f.only(holds), kn.only(holds), c.only(holds));
+        let (f, f_d, f_v) = (f.only(holds), k.only(holds), c.only(holds));
         Pressed { open, spring, f, f_d, f_v, cone: -f, cone_d: -f_d, cone_v: -f_v }
     }
 

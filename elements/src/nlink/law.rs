@@ -7,7 +7,8 @@ use crate::shared::sliding::{Axial, Normal};
 use std::borrow::Cow;
 use trilith_element::lanes::{LaneAt, LaneForce, LaneForm, LaneLaw, LaneStep};
 use trilith_element::{
-    Axis, Contact, Coordinates, Field, History, Impact, Kinematics, Link, Response, history,
+    Axis, Contact, ContactUse, Coordinates, Field, History, Impact, Kinematics, Link, Response,
+    history,
 };
 
 history! {
@@ -230,6 +231,11 @@ impl Link for NLink {
     fn restituting(&self, restitution: f64, mass: f64) -> Option<Box<dyn Link>> {
         let damping = 2.0 * damping_ratio(restitution, self.pull) * (self.kn * mass).sqrt();
         Some(Box::new(Self { damping, restitution: None, impact_mass: None, ..self.clone() }))
+    }
+
+    fn contact_use(&self) -> ContactUse {
+        // A pendulum surface is no floor that a body rocks on.
+        if self.radius > 0.0 { ContactUse::Bearing } else { ContactUse::Standing }
     }
 
     fn contacts(&self, at: &Kinematics<'_>, history: &[f64], f: &[f64], out: &mut Vec<Contact>) {

@@ -26,6 +26,8 @@ history! {
         /// Horizontal part of the body's vertical axis, a vector of length 1: along X and Y.
         lean1: "1",
         lean2: "1",
+        /// How high the highest point of the base is above the unloaded ground; below zero: pressed into it.
+        uplift: "m",
     }
 }
 
@@ -37,8 +39,8 @@ impl Attitude {
         Turn::new([self.w, self.x, self.y, self.z], by)
     }
 
-    /// Where the body is after a turn.
-    fn after(theta: &[f64], turn: &Turn) -> Self {
+    /// Where the body is after a turn, with the uplift of its base.
+    fn after(theta: &[f64], turn: &Turn, uplift: f64) -> Self {
         let [w, x, y, z] = turn.quaternion;
         // The angle by its sine where its cosine is flat.
         let axis = turn.matrix.column(2);
@@ -54,6 +56,7 @@ impl Attitude {
             tilt,
             lean1: axis[0],
             lean2: axis[1],
+            uplift,
         }
     }
 }
@@ -74,6 +77,14 @@ impl RockingBody {
     fn rim(&self) -> Option<Rim<'_>> {
         let (radius, depth) = (self.rim_radius?, self.rim_depth?);
         Some(Rim { body: self, radius, depth })
+    }
+
+    /// How high the highest point of the base is above the unloaded ground, m.
+    fn uplift(&self, d: &[f64], turn: &Turn) -> f64 {
+        match self.rim() {
+            Some(rim) => rim.uplift(d, turn),
+            None => points::uplift(self, d, turn),
+        }
     }
 
     /// Ω × J Ω and its derivative by Ω.
@@ -99,7 +110,9 @@ impl Link for RockingBody {
     }
 
     fn at_rest(&self, at: &mut [f64]) {
-        Attitude { w: 1.0, ..Attitude::default() }.store(at);
+        let upright = Attitude { w: 1.0, ..Attitude::default() };
+        let uplift = self.uplift(&[0.0; 6], &upright.turn(&[0.0; 3]));
+        Attitude { uplift, ..upright }.store(at);
         match self.rim() {
             Some(rim) => rim.at_rest(&mut at[ATTITUDE..]),
             None => points::at_rest(self, &mut at[ATTITUDE..]),
@@ -162,7 +175,7 @@ impl Link for RockingBody {
             }
         }
         *out.energy = base.energy;
-        Attitude::after(&at.d[3..6], &turn).store(trial);
+        Attitude::after(&at.d[3..6], &turn, self.uplift(at.d, &turn)).store(trial);
     }
 
     fn contacts(&self, at: &Kinematics<'_>, history: &[f64], _: &[f64], out: &mut Vec<Contact>) {

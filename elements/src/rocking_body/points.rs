@@ -126,6 +126,14 @@ pub(super) fn respond(
     out
 }
 
+/// How high the highest base point is above the ground that it stands on or hangs over, m.
+pub(super) fn uplift(body: &RockingBody, d: &[f64], turn: &Turn) -> f64 {
+    let gap = |point: &[f64; 3]| {
+        d[2] + turn.shift(Vector3::from(*point)).z + body.contact(*point).opening
+    };
+    body.base.iter().map(gap).fold(f64::NEG_INFINITY, f64::max)
+}
+
 pub(super) fn contacts(
     body: &RockingBody,
     at: &Kinematics<'_>,

@@ -357,6 +357,14 @@ impl Rim<'_> {
         (traction, torsion, slip, heat.max(0.0))
     }
 
+    /// How high the highest point of the rim is above the ground, m.
+    pub fn uplift(&self, d: &[f64], turn: &Turn) -> f64 {
+        let [_, x, y, _] = turn.quaternion;
+        let sunk = 2.0 * (x * x + y * y);
+        let tilt = turn.matrix[(2, 0)].hypot(turn.matrix[(2, 1)]);
+        d[2] + self.depth * sunk + self.radius * tilt
+    }
+
     /// What the lowest point of the rim does, which carries the body, and the highest, which lifts off.
     pub fn contacts(
         &self,

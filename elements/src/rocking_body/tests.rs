@@ -127,6 +127,34 @@ fn conforms_on_a_rim() {
     Kit::new(&all, 0.5).assert(&cask(&[&friction[..], &arc].concat()).unwrap());
 }
 
+#[test]
+fn its_uplift_is_the_largest_gap_of_its_contacts() {
+    let raised = [[-0.5, 0.0, -1.0], [0.5, 0.0, -0.9]];
+    let laws =
+        [body(&TABLE, &[inertia()]).unwrap(), body(&raised, &[]).unwrap(), cask(&[]).unwrap()];
+    for law in laws {
+        let index = law.history().iter().position(|field| field.name == "uplift").unwrap();
+        for (z, x, y) in [(0.0, 0.0, 0.0), (-0.01, 0.0, 0.02), (0.05, 0.1, -0.2), (0.4, 0.0, 0.0)] {
+            let mut history = vec![0.0; law.history().len()];
+            law.at_rest(&mut history);
+            let mut trial = history.clone();
+            let (d, v) = ([0.02, 0.01, z, x, y, 0.0], [0.0; 6]);
+            let (mut f, mut k, mut c) = ([0.0; 6], [0.0; 36], [0.0; 36]);
+            let mut energy = Energy::default();
+            let mut out = Response { f: &mut f, k: &mut k, c: &mut c, energy: &mut energy };
+            let at = Kinematics { d: &d, v: &v, d0: &d, v0: &v, dt: 0.0 };
+            law.respond(&at, &history, &mut trial, &mut out);
+            let mut contacts = Vec::new();
+            law.contacts(&at, &trial, &f, &mut contacts);
+            let highest = contacts.iter().map(|c| c.gap).fold(f64::NEG_INFINITY, f64::max);
+            assert_relative_eq!(trial[index], highest, epsilon = 1e-12);
+            if [z, x, y] == [0.0; 3] {
+                assert_relative_eq!(history[index], highest, epsilon = 1e-12);
+            }
+        }
+    }
+}
+
 /// Many base points on the circle share its stiffness: their sum is the rim's integral.
 #[test]
 fn a_rim_is_a_circle_of_points() {

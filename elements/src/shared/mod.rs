@@ -1,6 +1,7 @@
 //! What several kinds share: pieces of laws, of matrices and of reading.
 
 pub(crate) mod biaxial;
+pub(crate) mod bouc_wen_plane;
 pub(crate) mod dense;
 pub(crate) mod dual;
 pub(crate) mod multilinear;
@@ -11,3 +12,4 @@ pub(crate) mod relaxation;
 pub(crate) mod restitution;
 pub(crate) mod series;
 pub(crate) mod sliding;
+pub(crate) mod touch;

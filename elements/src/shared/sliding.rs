@@ -4,6 +4,7 @@
 mod axial;
 mod bearing;
 mod coefficient;
+mod incline;
 mod rub;
 mod slip;
 mod stick;

@@ -5,7 +5,9 @@ use super::series::{SURFACES, Series, Speed, Surface, solve};
 use crate::shared::sliding::{Axial, Coefficient, Normal, Stop, engaged, share_before};
 use nalgebra::{Vector2, Vector3};
 use std::borrow::Cow;
-use trilith_element::{Axis, Contact, Coordinates, Field, Impact, Kinematics, Link, Response};
+use trilith_element::{
+    Axis, Contact, ContactUse, Coordinates, Field, Impact, Kinematics, Link, Response,
+};
 
 /// Variables of the whole bearing: slip path, closed, number of sliding surfaces, restoring work.
 const WHOLE: [(&str, &str); 4] =
@@ -192,6 +194,10 @@ impl Link for TriplePendulum {
         for (i, next) in next.iter().enumerate() {
             store(next, trial, i);
         }
+    }
+
+    fn contact_use(&self) -> ContactUse {
+        ContactUse::Bearing
     }
 
     fn contacts(&self, at: &Kinematics<'_>, history: &[f64], _: &[f64], out: &mut Vec<Contact>) {

@@ -24,7 +24,7 @@ const CYCLE: &str = r#"(
     functions: { "motion": Sine(amplitude: "0.1 m", frequency: "2 Hz") },
     cases: {
         "cycle": Dynamic(
-            duration: "0.5 s", dt: "0.5 ms",
+            duration: "0.5 s", dt: "0.5 ms", substep_limit: 10000000,
             supports: [(node: "p", dof: Ux, displacement: "motion")],
         ),
     },

@@ -2,7 +2,7 @@
 
 use super::march::{Between, Course, Effort, Scale, State, march};
 use super::problem::Problem;
-use super::spec::{Output, Spec};
+use super::spec::{Kind, Law, Output, Spec};
 use std::f64::consts::TAU;
 
 /// The answer.
@@ -104,7 +104,13 @@ pub fn truth_in_steps(spec: &Spec, work: f64, longest: f64) -> Result<Truth, Str
         })
         .collect();
     let of_floor = (uneven / ROUNDING).clamp(OF_FLOOR, 1.0);
-    let rounding = floor.iter().map(|x| of_floor * x).collect();
+    let rounding = (0..size.len())
+        .map(|i| {
+            let noise = noise(spec, &problem, &course, &spec.outputs[i]);
+            // What is no more than that is nothing else.
+            if size[i] <= noise { noise } else { of_floor * floor[i] }
+        })
+        .collect();
     Ok(Truth { course, size, scale, around, rounding, moves })
 }
 
@@ -132,7 +138,14 @@ impl Sizes {
         let most = |o| ROUNDING * largest(problem, course, extent(spec), o);
         let floor: Vec<f64> = spec.outputs.iter().map(most).collect();
         let scale = (0..size.len())
-            .map(|i| size[i].max(SMALL * largest_alike(spec, &size, i)).max(floor[i]).max(1e-12))
+            .map(|i| {
+                let noise = noise(spec, problem, course, &spec.outputs[i]);
+                size[i]
+                    .max(SMALL * largest_alike(spec, &size, i))
+                    .max(floor[i])
+                    .max(noise)
+                    .max(1e-12)
+            })
             .collect();
         Self { size, scale, floor }
     }
@@ -174,6 +187,19 @@ fn largest(problem: &Problem, course: &Course, extent: f64, output: &Output) -> 
         Output::LinkDeformation(e, a) => of(e, a).0,
         Output::Acceleration(..) | Output::End(..) => 0.0,
     }
+}
+
+/// What a dashpot makes of the rounding of its speed, N or N·m: the root of a small number is no small one.
+fn noise(spec: &Spec, problem: &Problem, course: &Course, output: &Output) -> f64 {
+    let Output::LinkForce(e, axis) = *output else { return 0.0 };
+    let (c, exponent) = match spec.members[e].kind {
+        Kind::Link(Law::Dashpot(c, a) | Law::Maxwell(_, c, a), _) if a < 1.0 => (c, a),
+        _ => return 0.0,
+    };
+    let turns = axis > 2;
+    let speed = course.scale.velocity(problem, turns);
+    let speed = speed.max(problem.omega * course.scale.displacement(problem, turns));
+    c * (OF_FLOOR * ROUNDING * speed).powf(exponent)
 }
 
 /// Largest distance of a node from the first, m; 1 m for a point.

@@ -89,7 +89,7 @@ const MARKS: [&str; 2] = ["<!-- cargo benchmark -->\n", "<!-- end of cargo bench
 /// A sentence where the file cannot be read or written, or has no such block.
 pub fn update(file: &Path, results: &Results) -> Result<(), String> {
     let wrong = |e: std::io::Error| format!("{}: {e}", file.display());
-    let text = std::fs::read_to_string(file).map_err(wrong)?;
+    let text = trilith::record::file::read_text(file).map_err(wrong)?;
     let new = replaced(&text, &results.markdown())
         .ok_or_else(|| format!("{} has no block {}", file.display(), MARKS[0].trim()))?;
     std::fs::write(file, new).map_err(wrong)

@@ -3,6 +3,7 @@
 mod values;
 
 use crate::figure_files::Format;
+use crate::names::{self, Names};
 use clap::{Args, Parser, Subcommand};
 use std::path::PathBuf;
 use trilith::SolverKind;
@@ -14,7 +15,13 @@ use values::{
 
 /// Small finite-element models with nonlinear links: fast nonlinear analysis and direct integration.
 #[derive(Parser)]
-#[command(name = "trilith", version, max_term_width = 100, arg_required_else_help = true)]
+#[command(
+    name = "trilith",
+    version,
+    long_version = trilith::LONG_VERSION,
+    max_term_width = 100,
+    arg_required_else_help = true
+)]
 pub(crate) struct Arguments {
     #[command(subcommand)]
     pub command: Command,
@@ -71,13 +78,14 @@ pub(crate) struct RunArguments {
     /// Folder for the results [default: out/<name of the model file>, and below it what `--set` sets]
     #[arg(long, value_name = "DIR")]
     pub out: Option<PathBuf>,
-    /// Links whose hysteresis loops the report shows [default: those that dissipate most]
-    #[arg(long, value_name = "LINK,LINK", value_delimiter = ',')]
-    pub loops: Vec<String>,
+    /// Links whose hysteresis loops the report shows; the option may come several times, and double quotes hold a
+    /// name with a comma together, such as `'"stop, left"'` [default: those that dissipate most]
+    #[arg(long, value_name = "LINK,LINK", value_parser = names::list)]
+    pub loops: Vec<Names>,
     /// Write figures into the folder: of outputs and links by name, `energy`, `ground` (motion and its spectrum),
-    /// `spectra` (of floors)
-    #[arg(long, value_name = "NAME,NAME", value_delimiter = ',')]
-    pub figure: Vec<String>,
+    /// `spectra` (of floors); several times, and names with commas, as for `--loops`
+    #[arg(long, value_name = "NAME,NAME", value_parser = names::list)]
+    pub figure: Vec<Names>,
     /// What these figures are written as, such as `svg,png`
     #[arg(
         long,
@@ -145,6 +153,10 @@ pub(crate) struct ExerciseArguments {
     /// How many cycles, growing evenly
     #[arg(long, default_value_t = 3, value_parser = clap::value_parser!(u16).range(1..=1000))]
     pub cycles: u16,
+    /// Lead it along a measured history instead: comma-separated values whose first line names the columns, `t` and
+    /// coordinates, with units, such as `t [s],U1 [mm]`
+    #[arg(long, value_name = "FILE", conflicts_with_all = ["amplitude", "mean", "frequency", "cycles"])]
+    pub history: Option<PathBuf>,
     /// Folder for `loop.svg` and `path.csv` [default: out/exercise_<kind>]
     #[arg(long, value_name = "DIR")]
     pub out: Option<PathBuf>,

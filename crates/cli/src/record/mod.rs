@@ -6,11 +6,12 @@ mod text;
 
 pub(crate) use arguments::Arguments;
 
+use crate::text::shown;
 use crate::{Answer, Failure};
 use std::path::{Path, PathBuf};
-use trilith::record::measure::periods;
+use trilith::record::measure::{periods, spectrum};
 use trilith::record::synthetic::{Compatible, Fit, KanaiTajimi, Target};
-use trilith::record::{Columns, Problem, ReadError, Record};
+use trilith::record::{Columns, Problem, ReadError, Record, cell};
 use trilith::results::Folder;
 
 /// A component, and the file it comes from.
@@ -37,12 +38,12 @@ pub(crate) fn record(args: &Arguments) -> Result<Answer, Failure> {
             Failure::input(&format!("{}, {}: {e}", item.file, item.record.component), None)
         })?;
     }
-    let mut text = text::text(&items, args, fit);
+    let mut text = text::text(&items, args, fit)?;
     if let Some(dir) = &args.out {
         let inputs: Vec<PathBuf> = args.files.iter().chain(&args.spectrum).cloned().collect();
         let folder = Folder::open(dir, &[], &inputs).map_err(|e| Failure::folder(&e))?;
         for path in write(folder.path(), &items, args, target.as_ref())? {
-            text += &format!("{}\n", folder.published(&path).display());
+            text += &format!("{}\n", shown(&folder.published(&path)));
         }
         folder.publish().map_err(|e| Failure::folder(&e))?;
     }
@@ -57,6 +58,26 @@ fn refuse(error: &ReadError) -> Failure {
         _ => error.help(),
     };
     Failure::input(&error.to_string(), help.as_deref())
+}
+
+/// The pseudo-accelerations of a component, m/s².
+fn psa(item: &Item, periods: &[f64], damping: f64) -> Result<Vec<f64>, Failure> {
+    let r = &item.record;
+    let all = spectrum(&r.acceleration, r.dt, periods, damping).psa();
+    finite(item, periods, &all)?;
+    Ok(all)
+}
+
+/// Holds the ordinates of a spectrum to be finite.
+fn finite(item: &Item, periods: &[f64], all: &[f64]) -> Result<(), Failure> {
+    let Some((t, _)) = periods.iter().zip(all).find(|(_, a)| !a.is_finite()) else {
+        return Ok(());
+    };
+    let message = format!(
+        "{}, {}: the pseudo-acceleration at a period of {t:?} s is not finite",
+        item.file, item.record.component
+    );
+    Err(Failure::input(&message, Some("look at the values, their unit and the time step")))
 }
 
 fn read(file: &Path, args: &Arguments) -> Result<Vec<Item>, Failure> {
@@ -128,9 +149,11 @@ fn write(
     args: &Arguments,
     target: Option<&Target>,
 ) -> Result<Vec<PathBuf>, Failure> {
+    // First, since it finds what is not finite.
+    let table = spectra(items, args)?;
     let mut files = vec![
         ("record.html".to_owned(), page::page(items, args, target)),
-        ("spectra.csv".to_owned(), spectra(items, args)),
+        ("spectra.csv".to_owned(), table),
     ];
     let mut taken: Vec<String> = Vec::new();
     for item in items {
@@ -159,13 +182,15 @@ fn write(
 }
 
 /// Spectra as lines of a table.
-fn spectra(items: &[Item], args: &Arguments) -> String {
+fn spectra(items: &[Item], args: &Arguments) -> Result<String, Failure> {
     let mut out =
         String::from("file,component,damping,period [s],sd [m],psv [m/s],psa [m/s^2],sa [m/s^2]\n");
-    let quoted = |s: &str| format!("\"{}\"", s.replace('"', "'"));
-    for Item { file, record: r } in items {
+    let quoted = |s: &str| format!("\"{}\"", cell(s).replace('"', "'"));
+    for item in items {
+        let Item { file, record: r } = item;
         for z in &args.damping {
-            let s = trilith::record::measure::spectrum(&r.acceleration, r.dt, &drawn(), *z);
+            let s = spectrum(&r.acceleration, r.dt, &drawn(), *z);
+            finite(item, &s.periods, &s.psa())?;
             for (t, x) in s.periods.iter().zip(&s.responses) {
                 out += &format!(
                     "{},{},{z:?},{t:?},{:?},{:?},{:?},{:?}\n",
@@ -179,5 +204,5 @@ fn spectra(items: &[Item], args: &Arguments) -> String {
             }
         }
     }
-    out
+    Ok(out)
 }

@@ -1,9 +1,11 @@
 //! What `trilith record` prints.
 
-use super::{Arguments, Item, pair};
+use super::{Arguments, Item, pair, psa};
+use crate::Failure;
 use crate::text::{percent, row, significant, table};
+use trilith::model::visible_line;
 use trilith::record::measure::{
-    arias, cav, displacement, peak, rotated, significant_duration, spectrum, velocity,
+    arias, cav, displacement, peak, rotated, significant_duration, velocity,
 };
 use trilith::record::synthetic::Fit;
 use trilith::record::{Record, STANDARD_GRAVITY};
@@ -53,12 +55,12 @@ pub(super) fn name(items: &[Item], i: usize) -> String {
     }
 }
 
-pub(super) fn text(items: &[Item], args: &Arguments, fit: Option<Fit>) -> String {
+pub(super) fn text(items: &[Item], args: &Arguments, fit: Option<Fit>) -> Result<String, Failure> {
     let mut out = String::new();
     for item in items {
-        out += &format!("{}\n", about(item));
+        out += &format!("{}\n", visible_line(&about(item)));
         for note in &item.record.notes {
-            out += &format!("  {note}\n");
+            out += &format!("  {}\n", visible_line(note));
         }
     }
     if let Some(fit) = fit {
@@ -81,10 +83,8 @@ pub(super) fn text(items: &[Item], args: &Arguments, fit: Option<Fit>) -> String
         out += &format!("\npseudo-acceleration [g] at {} damping\n", percent(*z));
         let mut head = row(["period [s]"]);
         head.extend((0..items.len()).map(|i| name(items, i)));
-        let mut columns: Vec<Vec<f64>> = items
-            .iter()
-            .map(|i| spectrum(&i.record.acceleration, i.record.dt, &args.periods, *z).psa())
-            .collect();
+        let mut columns: Vec<Vec<f64>> =
+            items.iter().map(|i| psa(i, &args.periods, *z)).collect::<Result<_, _>>()?;
         if let Some([x, y]) = pair(items) {
             let r = rotated(&x.acceleration, &y.acceleration, x.dt, &args.periods, *z);
             head.extend(row(["RotD50", "RotD100", "geom. mean"]));
@@ -100,5 +100,5 @@ pub(super) fn text(items: &[Item], args: &Arguments, fit: Option<Fit>) -> String
         }
         out += &table(&rows, &[]);
     }
-    out
+    Ok(out)
 }

@@ -1,5 +1,6 @@
 //! Sparse LDLᵀ of a symmetric matrix, and the search for equations without stiffness.
 
+mod failure;
 mod ordering;
 mod packing;
 mod staged;
@@ -8,6 +9,7 @@ mod together;
 
 pub use staged::{StagedLdlt, StagedPlan};
 
+use self::failure::{all_finite, refused};
 use crate::{LinalgError, Sparse, Triplets};
 use faer::dyn_stack::{MemBuffer, MemStack};
 use faer::linalg::cholesky::ldlt::factor::{LdltError, LdltRegularization};
@@ -43,7 +45,7 @@ impl Ldlt {
     /// Factorises `a` (symmetric; the lower triangle is read).
     ///
     /// # Errors
-    /// [`LinalgError::Singular`] at an exactly zero pivot.
+    /// [`LinalgError::Singular`] at an exactly zero pivot, [`LinalgError::NotFinite`] where numbers overflow.
     pub fn new(a: &Sparse) -> Result<Self, LinalgError> {
         Self::regularised(a, LdltRegularization::default())
     }
@@ -76,6 +78,7 @@ impl Ldlt {
         a: &Sparse,
         regularization: LdltRegularization<'_, f64>,
     ) -> Result<Self, LinalgError> {
+        all_finite(a)?;
         let (offsets, rows, values) = a.0.csc_data();
         let pattern =
             SymbolicSparseColMatRef::new_checked(a.rows(), a.columns(), offsets, None, rows);
@@ -91,7 +94,7 @@ impl Ldlt {
             .or(symbolic.solve_in_place_scratch::<f64>(BLOCK, Par::Seq));
         let mut work = MemBuffer::try_new(scratch).map_err(backend)?;
         let mut l = vec![0.0; symbolic.len_val()];
-        symbolic
+        let made = symbolic
             .factorize_numeric_ldlt(
                 &mut l,
                 SparseColMatRef::new(pattern, values),
@@ -101,9 +104,16 @@ impl Ldlt {
                 MemStack::new(&mut work),
                 Default::default(),
             )
-            .map_err(|LdltError::ZeroPivot { index }| LinalgError::Singular {
-                equation: symbolic.perm().map_or(index, |p| p.arrays().0[index]),
-            })?;
+            .map(|_| ())
+            .map_err(|LdltError::ZeroPivot { index }| index);
+        if let Err(index) = made {
+            let forward = symbolic.perm().map(|p| p.arrays().0);
+            let equation = |place: usize| match forward {
+                Some(forward) => forward.get(place).copied(),
+                None => Some(place),
+            };
+            return Err(refused(&symbolic, &l, index, equation));
+        }
         Ok(Self { symbolic, values: l, work })
     }
 
@@ -127,9 +137,18 @@ impl Ldlt {
 
     /// Shows equation and value of every pivot.
     pub fn pivots(&self, mut visit: impl FnMut(usize, f64)) {
-        let SymbolicCholeskyRaw::Supernodal(symbolic) = self.symbolic.raw() else { return };
-        let l = supernodal::SupernodalLdltRef::new(symbolic, &self.values);
         let forward = self.symbolic.perm().map(|p| p.arrays().0);
+        let symbolic = match self.symbolic.raw() {
+            SymbolicCholeskyRaw::Supernodal(symbolic) => symbolic,
+            // Of a matrix without couplings: each column begins with its pivot.
+            SymbolicCholeskyRaw::Simplicial(symbolic) => {
+                for (place, start) in symbolic.col_ptr().iter().take(symbolic.ncols()).enumerate() {
+                    visit(forward.map_or(place, |f| f[place]), self.values[*start]);
+                }
+                return;
+            }
+        };
+        let l = supernodal::SupernodalLdltRef::new(symbolic, &self.values);
         for k in 0..symbolic.n_supernodes() {
             let node = l.supernode(k);
             for j in 0..node.val().ncols() {
@@ -158,7 +177,7 @@ impl Ldlt {
 /// independent mechanism. The matrix is scaled to unit diagonal first.
 ///
 /// # Errors
-/// Where the factorisation fails altogether.
+/// [`LinalgError::NotFinite`] where the matrix has numbers beyond all bounds; or where the backend refuses.
 pub fn unsupported(a: &Sparse) -> Result<Vec<usize>, LinalgError> {
     const HUGE: f64 = 1e30;
     let diagonal = a.diagonal();
@@ -213,5 +232,62 @@ mod tests {
         assert!((x[49] - 50.0).abs() < 1e-9 && (x[99] - 100.0).abs() < 1e-9);
         assert!(unsupported(&k).unwrap().is_empty());
         assert_eq!(unsupported(&chain(50, false)).unwrap().len(), 1);
+    }
+
+    fn diagonal(values: &[f64]) -> Sparse {
+        let mut t = Triplets::new(values.len(), values.len());
+        values.iter().enumerate().for_each(|(i, v)| t.add(i, i, *v));
+        t.build()
+    }
+
+    #[test]
+    fn the_pivots_of_a_matrix_without_couplings_are_its_diagonal() {
+        let values = [3.0, -1.0, 2.0, -5.0];
+        let factor = Ldlt::new(&diagonal(&values)).unwrap();
+        let mut found = [0.0; 4];
+        factor.pivots(|equation, pivot| found[equation] = pivot);
+        assert_eq!(found, values);
+        assert_eq!(factor.negative_pivots(), 2);
+    }
+
+    #[test]
+    fn a_zero_pivot_of_a_matrix_without_couplings_is_named() {
+        for equation in 0..3 {
+            let mut values = [1.0, 2.0, 3.0];
+            values[equation] = 0.0;
+            let error = Ldlt::new(&diagonal(&values)).unwrap_err();
+            assert_eq!(error, LinalgError::Singular { equation });
+        }
+    }
+
+    #[test]
+    fn numbers_beyond_all_bounds_are_an_error() {
+        for wrong in [f64::INFINITY, f64::NEG_INFINITY, f64::NAN] {
+            for equation in 0..3 {
+                let mut values = [1.0, 2.0, 3.0];
+                values[equation] = wrong;
+                let (a, expected) = (diagonal(&values), LinalgError::NotFinite { equation });
+                assert_eq!(unsupported(&a).unwrap_err(), expected);
+                assert_eq!(Ldlt::new(&a).unwrap_err(), expected);
+                assert_eq!(Ldlt::with_rigid_zeros(&a).unwrap_err(), expected);
+            }
+        }
+    }
+
+    /// All entries are finite; 1e200²/1e-200 is not.
+    #[test]
+    fn a_factorisation_that_overflows_is_an_error() {
+        let mut t = Triplets::new(2, 2);
+        for (i, j, v) in [(0, 0, 1e-200), (1, 0, 1e200), (0, 1, 1e200), (1, 1, 1.0)] {
+            t.add(i, j, v);
+        }
+        let a = t.build();
+        let is_overflow = |e: &LinalgError| matches!(e, LinalgError::NotFinite { .. });
+        assert!(Ldlt::new(&a).is_err_and(|e| is_overflow(&e)));
+        assert!(StagedLdlt::alone(&[(1.0, &a)]).is_err_and(|e| is_overflow(&e)));
+        // The sum of two finite matrices.
+        let large = diagonal(&[1.0, 1e308]);
+        let error = StagedLdlt::alone(&[(1.0, &large), (1.0, &large)]).unwrap_err();
+        assert_eq!(error, LinalgError::NotFinite { equation: 1 });
     }
 }

@@ -16,6 +16,7 @@
 //! made once, holds all that does not depend on values.
 
 use super::backend;
+use super::failure::refused;
 use super::ordering::{self, Pattern};
 use super::packing::Unpacked;
 use super::substitution::{Node, Panels};
@@ -180,7 +181,7 @@ impl StagedLdlt {
     /// Factorises Σ factor · matrix; the matrices must be those of the plan.
     ///
     /// # Errors
-    /// [`LinalgError::Singular`] at an exactly zero pivot.
+    /// [`LinalgError::Singular`] at an exactly zero pivot, [`LinalgError::NotFinite`] where numbers overflow.
     pub fn new(plan: &Arc<StagedPlan>, parts: &[(f64, &Sparse)]) -> Result<Self, LinalgError> {
         let (n, pattern) = (plan.pattern.order(), &plan.pattern);
         let mut sum = Vec::with_capacity(pattern.rows.len());
@@ -199,13 +200,16 @@ impl StagedLdlt {
                 part.column(j).0.iter().for_each(|i| column[*i] = 0.0);
             }
         }
+        if let Some(at) = sum.iter().position(|v| !v.is_finite()) {
+            return Err(LinalgError::NotFinite { equation: pattern.rows[at] });
+        }
         let symbolic = &plan.symbolic;
         let scratch = symbolic.factorize_numeric_ldlt_scratch::<f64>(Par::Seq, Default::default());
         let mut work = MemBuffer::try_new(scratch).map_err(backend)?;
         let mut values = vec![0.0; symbolic.len_val()];
         let pattern =
             SymbolicSparseColMatRef::new_checked(n, n, &pattern.offsets, None, &pattern.rows);
-        symbolic
+        let made = symbolic
             .factorize_numeric_ldlt(
                 &mut values,
                 SparseColMatRef::new(pattern, &sum),
@@ -215,9 +219,12 @@ impl StagedLdlt {
                 MemStack::new(&mut work),
                 Default::default(),
             )
-            .map_err(|LdltError::ZeroPivot { index }| LinalgError::Singular {
-                equation: plan.equations.get(index).map_or(index, |i| *i as usize),
-            })?;
+            .map(|_| ())
+            .map_err(|LdltError::ZeroPivot { index }| index);
+        if let Err(index) = made {
+            let equation = |place: usize| plan.equations.get(place).map(|i| *i as usize);
+            return Err(refused(symbolic, &values, index, equation));
+        }
         // Both forms of the factor are enough beside each other.
         drop((sum, work));
         let groups = [&plan.front, &plan.tail];

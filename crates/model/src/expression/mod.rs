@@ -64,6 +64,10 @@ pub trait Scope {
     fn names(&self) -> Vec<&str>;
     /// True where there is a parameter of that name.
     fn has(&self, name: &str) -> bool;
+    /// True where a wrong name is to be answered with the near one, for which all names are searched.
+    fn suggests(&self) -> bool {
+        true
+    }
     /// Value of a parameter that there is, or code and message of why it has none; `Err(None)`
     /// where its own error has been told.
     ///
@@ -319,11 +323,14 @@ impl<'a> Parser<'a> {
         if name == "pi" {
             return Ok(Quantity::bare(std::f64::consts::PI));
         }
-        let mut help = names_help(name, "parameters", self.scope.names());
-        if units::find(name).is_some() {
-            help = format!("a unit stands directly after a number: `1 {name}`");
-        }
-        fail("E0110", format!("there is no parameter `{name}`"), Some(help), span)
+        let help = match units::find(name) {
+            Some(_) => Some(format!("a unit stands directly after a number: `1 {name}`")),
+            None if self.scope.suggests() => {
+                Some(names_help(name, "parameters", self.scope.names()))
+            }
+            None => None,
+        };
+        fail("E0110", format!("there is no parameter `{name}`"), help, span)
     }
 
     fn call(&mut self, name: &str, span: Span) -> Parsed<Quantity> {

@@ -1,7 +1,7 @@
 //! What every part of the reader needs: parameters, units, and a place for errors.
 
 use super::motions::Motions;
-use crate::diagnostic::{closest, names_help};
+use crate::diagnostic::{SEARCHED, closest, names_help};
 use crate::expression::{Quantity, evaluate, expression_diagnostic};
 use crate::parameters::{Evaluated, Parameters};
 use crate::schema::{Block, Group};
@@ -107,6 +107,12 @@ impl<'a> Context<'a> {
         let mut told = std::collections::HashSet::new();
         errors.retain(|d| told.insert((d.source.path.clone(), d.span.clone(), d.message.clone())));
         errors
+    }
+
+    /// True while a wrong name is answered with the names that there may be many of: up to the hundredth error.
+    #[must_use]
+    pub fn suggests(&self) -> bool {
+        self.errors.borrow().len() < SEARCHED
     }
 
     /// Takes an error.
@@ -226,15 +232,18 @@ impl<'a> Context<'a> {
                 self.report(self.diagnostic("E0112", message, node.span.clone()));
                 None
             }
-            Kind::Text(text) => match evaluate(text, &mut Evaluated(&self.parameters)) {
-                Ok(q) => Some(q),
-                Err(error) => {
-                    if let Some(e) = error {
-                        self.report(expression_diagnostic(e, &self.source, node, text));
+            Kind::Text(text) => {
+                let (parameters, suggests) = (&self.parameters, self.suggests());
+                match evaluate(text, &mut Evaluated { parameters, suggests }) {
+                    Ok(q) => Some(q),
+                    Err(error) => {
+                        if let Some(e) = error {
+                            self.report(expression_diagnostic(e, &self.source, node, text));
+                        }
+                        None
                     }
-                    None
                 }
-            },
+            }
             _ => self.wrong(node, "a number, or an expression in quotes,"),
         }
     }
@@ -289,11 +298,20 @@ impl<'a> Context<'a> {
 
     /// A whole number of at least `least`.
     pub fn count(&self, node: &Node, name: &str, least: usize) -> Option<usize> {
+        self.count_up_to(node, name, least, 1_000_000_000)
+    }
+
+    /// A whole number of at least `least` and at most `most`.
+    pub fn count_up_to(&self, node: &Node, name: &str, least: usize, most: usize) -> Option<usize> {
         let value = self.number(node, trilith_element::dimension::NONE)?;
-        if value >= least as f64 && value <= 1e9 && value.fract() == 0.0 {
+        if value >= least as f64 && value <= most as f64 && value.fract() == 0.0 {
             return Some(value as usize);
         }
-        let message = format!("`{name}` = {value}: must be a whole number, {least} or more");
+        let bound = match value > most as f64 {
+            true => format!("at most {most}"),
+            false => format!("{least} or more"),
+        };
+        let message = format!("`{name}` = {value}: must be a whole number, {bound}");
         self.report(self.diagnostic("E0112", message, node.span.clone()));
         None
     }

@@ -6,7 +6,8 @@ use super::{loads, solution};
 use crate::schema;
 use crate::tree::{Kind, Node};
 use crate::{
-    AfterEnd, BaseMotion, DynamicCase, ForceHistory, Initial, Interpolation, SupportMotion,
+    AfterEnd, BaseMotion, DynamicCase, ForceHistory, Initial, Interpolation, MOST_OUTPUT_STEPS,
+    SupportMotion, output_steps,
 };
 use trilith_element::dimension::{ACCELERATION, FREQUENCY, LENGTH, NONE, TIME, VELOCITY};
 use trilith_element::{Dimension, Dof, Range};
@@ -30,6 +31,9 @@ pub(super) fn dynamic(
         let message = format!("`dt` = {dt} s is longer than the case: must be ≤ {duration} s");
         c.report(c.diagnostic("E0112", message, node.span.clone()));
     }
+    if let (Some(duration), Some(dt), Some(node)) = (duration, dt, fields.get("dt")) {
+        check_steps(c, duration, dt, node);
+    }
     let r = Reading { c, about, duration };
     let constant =
         fields.get("constant").map_or(Some(Vec::new()), |n| loads::list(c, n, about.loads));
@@ -48,6 +52,22 @@ pub(super) fn dynamic(
         initial: initial?,
         solution: solution?,
     })
+}
+
+/// Refuses more output steps than can be kept.
+fn check_steps(c: &Context<'_>, duration: f64, dt: f64, node: &Node) {
+    let steps = output_steps(duration, dt);
+    if steps <= MOST_OUTPUT_STEPS as f64 {
+        return;
+    }
+    let message = format!(
+        "`dt` = {dt} s makes {steps:.3e} output steps of a case of {duration} s: at most {MOST_OUTPUT_STEPS} are kept"
+    );
+    let least = duration / MOST_OUTPUT_STEPS as f64;
+    let help = format!(
+        "`dt` must be at least {least} s, or `duration` shorter; `dt` is the step of the results, the solver takes shorter ones where it needs them"
+    );
+    c.report(c.diagnostic("E0112", message, node.span.clone()).label("too short").help(help));
 }
 
 impl Reading<'_, '_> {

@@ -11,7 +11,7 @@ use crate::{Body, Element, LinkOptions, Span};
 use std::cell::RefCell;
 use std::collections::VecDeque;
 use std::sync::Arc;
-use trilith_element::dimension::{LENGTH, MOMENT, NONE, STIFFNESS};
+use trilith_element::dimension::{MOMENT, NONE, STIFFNESS};
 use trilith_element::{
     Card, Category, Coordinates, Frame, Link, NodeCount, ParameterError, Range, Values, Vector3,
 };
@@ -253,7 +253,7 @@ impl Reading<'_, '_> {
             return None;
         }
         let shear_at = match given.get("shear_at") {
-            Some(node) => c.number(node, LENGTH),
+            Some(node) => c.lever(node, "shear_at"),
             None => Some(0.0),
         };
         let effective_stiffness = match given.get("effective_stiffness") {

@@ -13,6 +13,7 @@ mod motions;
 mod names;
 mod nodes;
 mod outputs;
+mod reach;
 mod record;
 mod solution;
 mod spectra;
@@ -51,9 +52,9 @@ pub fn read(
 /// The text of a file; `what` it is stands in the error.
 ///
 /// # Errors
-/// E0100 where it cannot be read.
+/// E0100 where it cannot be read, is no regular file, or is larger than [`trilith_record::file::MOST_BYTES`].
 pub fn open(path: &Path, what: &str) -> Result<String, Vec<Diagnostic>> {
-    std::fs::read_to_string(path).map_err(|error| {
+    trilith_record::file::read_text(path).map_err(|error| {
         let source = Arc::new(Source { path: path.to_owned(), ..Source::default() });
         let message = format!("the {what} file cannot be read: {error}");
         vec![Diagnostic::new("E0100", message, 0..0, &source)]

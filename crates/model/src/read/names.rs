@@ -44,11 +44,15 @@ impl<'n> Names<'n> {
         if let Some(i) = self.position(name) {
             return Some(i);
         }
-        let all = self.names.iter().map(|(n, _)| *n);
         let mut d = c
             .diagnostic("E0106", format!("there is no {} `{name}`", self.one), node.span.clone())
-            .label("not defined")
-            .help(names_help(name, self.many, all.clone()));
+            .label("not defined");
+        if !c.suggests() {
+            c.report(d);
+            return None;
+        }
+        let all = self.names.iter().map(|(n, _)| *n);
+        d = d.help(names_help(name, self.many, all.clone()));
         if let Some(near) = closest(name, all) {
             let quoted = matches!(node.kind, Kind::Text(_));
             let near_text = if quoted { format!("\"{near}\"") } else { near.to_owned() };

@@ -6,11 +6,10 @@ use crate::schema;
 use crate::tree::{Entry, Kind};
 use crate::{Node, Support};
 use trilith_element::Dof;
-use trilith_element::dimension::LENGTH;
 
 pub(super) fn nodes(c: &Context<'_>, entries: &[Entry]) -> Vec<Option<Node>> {
     let one = |e: &Entry| {
-        let position = c.vector(&e.value, &format!("node {}", e.key), LENGTH)?;
+        let position = c.place(&e.value, &format!("node {}", e.key))?;
         Some(Node { name: e.key.clone(), position, span: e.key_span.clone() })
     };
     entries.iter().map(one).collect()

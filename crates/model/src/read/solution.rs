@@ -24,6 +24,9 @@ pub(super) fn solution(c: &Context<'_>, fields: &Fields<'_>) -> Option<Solution>
         |name: &str, plain: f64| fields.get(name).map_or(Some(plain), |n| tolerance(c, n, name));
     let link_tolerance = share("link_tolerance", plain.link_tolerance);
     let energy_limit = share("energy_limit", plain.energy_limit);
+    let substep_limit = fields
+        .get("substep_limit")
+        .map_or(Some(None), |n| c.count(n, "substep_limit", 1).map(Some));
     let basis = fields.get("basis").map_or(Some(plain.basis), |n| basis(c, n));
     let alpha = fields.get("alpha").map_or(Some(plain.alpha), |n| alpha(c, n));
     Some(Solution {
@@ -32,6 +35,7 @@ pub(super) fn solution(c: &Context<'_>, fields: &Fields<'_>) -> Option<Solution>
         kernel: kernel?,
         link_tolerance: link_tolerance?,
         energy_limit: energy_limit?,
+        substep_limit: substep_limit?,
         basis: basis?,
         alpha: alpha?,
     })

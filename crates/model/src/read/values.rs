@@ -173,7 +173,12 @@ fn points(c: &Context<'_>, node: &Node, p: &Parameter) -> Option<Value> {
         return c
             .wrong(node, &format!("a list of positions for `{}`, such as [(1, 0, 0)]", p.name));
     }
-    let read: Vec<_> = items.iter().map(|n| numbers(c, n, p, LENGTH, Some(3))).collect();
+    let point = |n: &Node| {
+        let point = numbers(c, n, p, LENGTH, Some(3))?;
+        let near: Vec<_> = n.items().into_iter().map(|item| c.lever(item, p.name)).collect();
+        near.iter().all(Option::is_some).then_some(point)
+    };
+    let read: Vec<_> = items.into_iter().map(point).collect();
     read.into_iter().collect::<Option<Vec<_>>>().map(Value::List)
 }
 

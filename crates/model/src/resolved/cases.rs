@@ -94,9 +94,10 @@ fn solution(s: &Solution) -> String {
         BasisKind::Eigen => format!("Eigen({fields})"),
         BasisKind::Complete => "Complete".into(),
     };
+    let limit = s.substep_limit.map_or(String::new(), |n| format!("substep_limit: {n}, "));
     format!(
         "solver: {solver}, step: {step}, kernel: {kernel}, link_tolerance: {:?}, energy_limit: {:?}, \
-         basis: {basis}, alpha: {:?}",
+         {limit}basis: {basis}, alpha: {:?}",
         s.link_tolerance, s.energy_limit, s.alpha
     )
 }

@@ -259,6 +259,12 @@ pub static DYNAMIC: Block = Block {
             "1e-3",
             "Share of the energy that may be unaccounted for before the run says so.",
         ),
+        absent(
+            "substep_limit",
+            Count(1),
+            "1 000 000, or 200 for each output step",
+            "Substeps that may be tried in all; a run that needs more ends there with what it has.",
+        ),
         plain("basis", One(&BASES), "Ritz", "Basis of `Fna` and `RitzHht`."),
         plain(
             "alpha",

@@ -126,7 +126,7 @@ pub(crate) fn parse(text: &str) -> Result<Node, TreeError> {
         let end = (byte_of(body, e.span.end.line, e.span.end.col) + lead).max(at);
         TreeError {
             code: "E0101",
-            message: e.code.to_string(),
+            message: told(&e.code),
             span: at..end.max(next_char(text, at)),
             related: None,
         }
@@ -135,6 +135,17 @@ pub(crate) fn parse(text: &str) -> Result<Node, TreeError> {
     match lists.remove(&start) {
         Some(list) => Ok(list),
         None => build(text, &mut lists, shape, start..end, ""),
+    }
+}
+
+/// What is wrong with a text. Of brackets within brackets `ron` speaks to programmers, about its own settings.
+fn told(error: &ron::Error) -> String {
+    match error {
+        ron::Error::ExceededRecursionLimit => {
+            "the brackets are nested too deeply here: no value of a file lies in more than a few"
+                .into()
+        }
+        other => other.to_string(),
     }
 }
 
@@ -209,7 +220,7 @@ fn child(text: &str, lists: &mut Lists, raw: &RawValue) -> Result<Node, TreeErro
         None => RawValue::from_ron(raw.get_ron()).map(|r| r.trim().get_ron()).map_err(|e| {
             let start = offset(text, raw.get_ron()).unwrap_or(0);
             let span = start..start + raw.get_ron().len();
-            TreeError { code: "E0101", message: e.code.to_string(), span, related: None }
+            TreeError { code: "E0101", message: told(&e.code), span, related: None }
         })?,
     };
     let start = offset(text, part).unwrap_or(0);
@@ -219,7 +230,7 @@ fn child(text: &str, lists: &mut Lists, raw: &RawValue) -> Result<Node, TreeErro
     let span = start..start + part.len();
     let shape = options().from_str::<Shape<'_>>(part).map_err(|e| TreeError {
         code: "E0101",
-        message: e.code.to_string(),
+        message: told(&e.code),
         span: span.clone(),
         related: None,
     })?;

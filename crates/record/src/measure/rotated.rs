@@ -4,7 +4,7 @@
 //! The peak in direction θ is the largest |x cos θ + y sin θ|, θ = 0°, 1° … 179°. It lies on the convex hull of
 //! the points (x, y), so that only its corners are looked at.
 
-use super::Oscillator;
+use super::{Oscillator, steps_per_sample};
 
 /// Percentiles over all directions.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -52,7 +52,7 @@ pub fn rotated(x: &[f64], y: &[f64], dt: f64, periods: &[f64], damping: f64) -> 
                 return rotated_peak(&x[..n], &y[..n]);
             }
             let o = Oscillator { period, damping };
-            let (parts, tail) = ((64.0 * dt / period).ceil().max(1.0) as usize, period);
+            let (parts, tail) = (steps_per_sample(dt, period), period);
             let [u, v] =
                 [x, y].map(|a| o.displacement(&finer(&a[..n], dt, parts, tail), dt / parts as f64));
             let w2 = o.omega().powi(2);

@@ -175,12 +175,17 @@ fn series(w: f64, z: f64, h: f64) -> [[f64; 2]; 2] {
     [[left[0], right[0]], [left[1], right[1]]]
 }
 
+/// Steps of the recurrence that a step of the record is divided into for an oscillator of a period.
+pub(crate) fn steps_per_sample(dt: f64, period: f64) -> usize {
+    (STEPS_PER_PERIOD * dt / period).ceil().clamp(1.0, 4096.0) as usize
+}
+
 /// Peaks of up to [`LANES`] oscillators.
 fn peaks(acceleration: &[f64], dt: f64, group: &[Oscillator]) -> Vec<Response> {
     let ground = super::peak(acceleration);
     let shortest =
         group.iter().map(|o| o.period).filter(|t| *t > 0.0).fold(f64::INFINITY, f64::min);
-    let parts = (STEPS_PER_PERIOD * dt / shortest).ceil().clamp(1.0, 4096.0) as usize;
+    let parts = steps_per_sample(dt, shortest);
     let h = dt / parts as f64;
     // Lanes that are not used hold a copy of the first.
     let lane = |i: usize| group.get(i).filter(|o| o.period > 0.0);

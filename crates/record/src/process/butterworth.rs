@@ -4,6 +4,7 @@
 //! and band-pass follow by s → s/ω_c, ω_c/s, (s² + ω₁ω₂)/(s(ω₂ − ω₁)), and z from s = (2/Δt)(z − 1)/(z + 1) with the
 //! corners at (2/Δt) tan(πfΔt). A band-pass has twice the order.
 
+use crate::MOST_SAMPLES;
 use realfft::num_complex::Complex;
 use std::f64::consts::PI;
 
@@ -62,6 +63,17 @@ pub enum FilterError {
         highpass: f64,
         /// Hz.
         lowpass: f64,
+    },
+    /// More zeros than a motion may have samples.
+    #[error(
+        "a corner at {corner} Hz needs {samples} samples with its zeros: a motion has at most {most}",
+        most = MOST_SAMPLES
+    )]
+    Padding {
+        /// Hz.
+        corner: f64,
+        /// Samples of the record with the zeros around it.
+        samples: f64,
     },
     /// Order out of range.
     #[error("order {0}: must be 1 to 10")]
@@ -161,7 +173,14 @@ pub fn filter(a: &[f64], dt: f64, filter: &Filter) -> Result<Vec<f64>, FilterErr
     let sections = filter.sections(dt)?;
     let pad = match (filter.padding, filter.highpass) {
         (Padding::None, _) | (_, None) => 0,
-        (_, Some(f)) => ((1.5 * filter.order as f64 / f / dt).ceil() as usize).min(10_000_000),
+        (_, Some(f)) => {
+            let zeros = (1.5 * filter.order as f64 / f / dt).ceil();
+            let samples = a.len() as f64 + if filter.causal { zeros } else { 2.0 * zeros };
+            if samples > MOST_SAMPLES as f64 {
+                return Err(FilterError::Padding { corner: f, samples });
+            }
+            zeros as usize
+        }
     };
     let before = if filter.causal { 0 } else { pad };
     let mut y = vec![0.0; before];

@@ -10,7 +10,7 @@ pub use butterworth::{Filter, FilterError, Padding, filter};
 pub use resample::{Resampling, resample};
 pub use shape::{scaled, scaled_to, taper, trim};
 
-use crate::Record;
+use crate::{MOST_SAMPLES, NotFinite, Record};
 
 /// What is to be done with a record, in this order: trimming, baseline, taper, filter, resampling, scaling to a
 /// peak, scaling by a factor.
@@ -54,7 +54,8 @@ pub enum ProcessError {
     Filter(#[from] FilterError),
     /// A step that is none.
     #[error(
-        "a new time step of {0} s: must be above 0, shorter than the record, and make fewer than ten million samples"
+        "a new time step of {0} s: must be above 0, shorter than the record, and make fewer than {most} samples",
+        most = MOST_SAMPLES
     )]
     Step(f64),
     /// Nothing to scale.
@@ -68,6 +69,12 @@ pub enum ProcessError {
         /// Samples of the record.
         samples: usize,
     },
+    /// The result overflows.
+    #[error("{0} after the processing")]
+    NotFinite(#[from] NotFinite),
+    /// A result that is too long.
+    #[error("{0} samples after the processing: a motion has at most {most}", most = MOST_SAMPLES)]
+    TooLong(usize),
 }
 
 impl Processing {
@@ -106,6 +113,32 @@ impl Processing {
             r.acceleration = scaled(&r.acceleration, factor);
             r.notes.push(format!("scaled by {factor}"));
         }
+        if r.acceleration.len() > MOST_SAMPLES {
+            return Err(ProcessError::TooLong(r.acceleration.len()));
+        }
+        r.check_finite()?;
         Ok(r)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_overflows_is_named() {
+        let record = Record::new(vec![0.0, 1.0, -1.0, 0.0], 0.01);
+        let told = |p: Processing| p.apply(&record).unwrap_err().to_string();
+        let text = told(Processing { scale: Some(1e300), ..Processing::default() });
+        assert_eq!(text, "the Arias intensity is not finite after the processing");
+        let filter = Filter {
+            highpass: Some(1e-9),
+            lowpass: None,
+            order: 4,
+            causal: false,
+            padding: Padding::Keep,
+        };
+        let text = told(Processing { filter: Some(filter), ..Processing::default() });
+        assert!(text.contains("samples with its zeros: a motion has at most 2000000"), "{text}");
     }
 }

@@ -1,6 +1,7 @@
 //! Another time step.
 
 use super::ProcessError;
+use crate::MOST_SAMPLES;
 use std::f64::consts::PI;
 
 /// How values between samples come about.
@@ -17,11 +18,11 @@ pub enum Resampling {
 /// Samples at 0, `to`, 2 `to` … up to the end of the record.
 ///
 /// # Errors
-/// [`ProcessError::Step`] for a step that is not above 0, longer than the record, or that makes ten million samples.
+/// [`ProcessError::Step`] for a step that is not above 0, longer than the record, or that makes [`MOST_SAMPLES`] samples.
 pub fn resample(a: &[f64], dt: f64, to: f64, how: Resampling) -> Result<Vec<f64>, ProcessError> {
     let duration = a.len().saturating_sub(1) as f64 * dt;
     let samples = duration / to * (1.0 + 1e-9);
-    if !(to > 0.0 && to.is_finite() && (1.0..1e7).contains(&samples)) {
+    if !(to > 0.0 && to.is_finite() && (1.0..MOST_SAMPLES as f64).contains(&samples)) {
         return Err(ProcessError::Step(to));
     }
     let times = (0..=samples.floor() as usize).map(|i| i as f64 * to / dt);

@@ -4,7 +4,8 @@
 //! (older: `n dt NPTS, DT`); then the values in rows. The Peknold version of El Centro 1940 says `n points at
 //! equal spacing of dt sec` instead. Lines of stars around the data are passed over.
 
-use super::text::{Text, first_number};
+use super::number::words;
+use super::text::Text;
 use super::{ReadOptions, step, unit};
 use crate::error::{Problem, ReadError};
 use crate::{Direction, Record, acceleration_unit};
@@ -20,9 +21,9 @@ pub(super) fn read(text: &Text<'_>, options: &ReadOptions) -> Result<Vec<Record>
         first += 1;
     }
     let over = |l: &str| l.trim_start().starts_with("***");
-    let (values, after) = text.numbers(first, count, None, over)?;
+    let (values, after) = text.numbers(line, first, count, None, over)?;
     let rest = text.lines[after..].iter().take_while(|l| !over(l)).filter(|l| numeric(l));
-    let more: usize = rest.map(|l| l.split_whitespace().count()).sum();
+    let more: usize = rest.map(|l| words(l).len()).sum();
     if more > 0 {
         let problem = Problem::TooMany { stated: count, found: count + more };
         return Err(text.fail(Some(line), problem));
@@ -34,9 +35,8 @@ pub(super) fn read(text: &Text<'_>, options: &ReadOptions) -> Result<Vec<Record>
 
 /// A line of numbers, or of what stands in the place of one.
 fn numeric(line: &str) -> bool {
-    line.split_whitespace().next().is_some_and(|w| {
-        super::text::number(w).is_some() || (w.starts_with(['-', '+', '.']) && w.len() > 1)
-    })
+    super::text::numeric(line)
+        || words(line).first().is_some_and(|w| w.starts_with(['-', '+', '.']) && w.len() > 1)
 }
 
 /// The line with count and step, and both.
@@ -44,45 +44,57 @@ fn layout(text: &Text<'_>) -> Result<(usize, usize, f64), ReadError> {
     const HEAD: usize = 15;
     if let Some(line) = text.find(0, "npts").filter(|i| *i < HEAD) {
         let content = text.lines[line];
-        let upper = content.to_uppercase();
-        let word = |s: &str| {
-            let s = s.trim_start_matches([' ', '=', ':']);
-            s.split([',', ' ']).next().unwrap_or_default().to_owned()
-        };
+        let upper = content.to_ascii_uppercase();
         let named = upper
             .find("NPTS")
-            .map(|i| &upper[i + 4..])
-            .filter(|r| r.trim_start().starts_with(['=', ':']));
+            .map(|i| i + 4)
+            .filter(|i| upper[*i..].trim_start().starts_with(['=', ':']));
         let (count, dt) = match named {
-            Some(rest) => {
-                let Some(at) = rest.find("DT") else {
+            Some(at) => {
+                let Some(dt) = upper[at..].find("DT") else {
                     return Err(text.fail(Some(line), Problem::NoStep));
                 };
-                (word(rest), word(&rest[at + 2..]))
+                (value(&content[at..]), value(&content[at + dt + 2..]))
             }
             // `4164    0.0100    NPTS, DT`
             None => {
-                let mut words = content.split([' ', ',', '\t']).filter(|w| !w.is_empty());
-                let count = words.next().unwrap_or_default().to_owned();
-                (count, words.next().unwrap_or_default().to_owned())
+                let all = words(content);
+                let word = |i: usize| all.get(i).copied().unwrap_or_default();
+                (word(0), word(1))
             }
         };
         let count = text.count(line, count.trim_end_matches('.'), "number of values")?;
-        if dt.is_empty() || dt.starts_with("SEC") {
+        if dt.is_empty() || dt.to_ascii_uppercase().starts_with("SEC") {
             return Err(text.fail(Some(line), Problem::NoStep));
         }
-        let digits: String =
-            dt.chars().take_while(|c| !c.is_ascii_alphabetic() || *c == 'E').collect();
-        let dt = text.header(line, digits.trim_end_matches(['S', 'E']), "time step")?;
+        let letter = |c: char| c.is_ascii_alphabetic() && !matches!(c, 'e' | 'E' | 'd' | 'D');
+        let digits = &dt[..dt.find(letter).unwrap_or(dt.len())];
+        let dt = text.header(line, digits.trim_end_matches(['e', 'E', 'd', 'D']), "time step")?;
         return Ok((line, count, dt));
     }
     if let Some(line) = text.find(0, "points at equal spacing of").filter(|i| *i < HEAD) {
         let missing = || text.fail(Some(line), Problem::NoStep);
-        let (count, rest) = first_number(text.lines[line]).ok_or_else(missing)?;
-        let (dt, _) = first_number(rest).ok_or_else(missing)?;
+        let (count, rest) = text.first_number(line, text.lines[line])?.ok_or_else(missing)?;
+        let (dt, _) = text.first_number(line, rest)?.ok_or_else(missing)?;
+        if count < 0.0 || count.fract() != 0.0 {
+            let problem = Problem::Header { text: count.to_string(), what: "number of values" };
+            return Err(text.fail(Some(line), problem));
+        }
         return Ok((line, count as usize, dt));
     }
     Err(text.fail(None, Problem::Missing("line `NPTS= …, DT= … SEC` in its header")))
+}
+
+/// What stands behind a key: `= 4164, …`. A comma with a digit behind it does not end it.
+fn value(rest: &str) -> &str {
+    let rest = rest.trim_start_matches([' ', '\t', '=', ':']);
+    let ends = |(i, c): &(usize, char)| match *c {
+        ' ' | '\t' => true,
+        ',' => !rest[i + 1..].starts_with(|c: char| c.is_ascii_digit()),
+        _ => false,
+    };
+    let end = rest.char_indices().find(ends).map_or(rest.len(), |(i, _)| i);
+    &rest[..end]
 }
 
 /// The unit of the header, and the line that states it.

@@ -1,11 +1,12 @@
 //! Columns of numbers: CSV, or separated by semicolons, tabs or blanks; `#`, `%` and `!` begin comments.
 
-use super::text::Text;
-use super::text::{first_number, last_digit};
-use super::{ReadOptions, step, unit};
+use super::cells::{Row, Separator, rows};
+use super::number::{decimal_comma, first_number, like_number, number};
+use super::text::{Text, last_digit};
+use super::{ReadOptions, of_file, step, unit};
 use crate::error::{Problem, ReadError};
 use crate::unit::time_unit;
-use crate::{Direction, Record, acceleration_unit};
+use crate::{Direction, MOST_SAMPLES, Record, acceleration_unit};
 use std::path::Path;
 
 /// A column by position (from 0) or by its name in the header row.
@@ -22,62 +23,66 @@ pub enum Column {
 pub struct Columns {
     file: String,
     header: Option<Vec<String>>,
-    /// Line in the file (from 1), and its cells.
-    rows: Vec<(usize, Vec<String>)>,
+    separator: Separator,
+    rows: Vec<Row>,
 }
 
 impl Columns {
     /// Reads a file and leaves out the first `skip` rows that are no comments.
     ///
     /// # Errors
-    /// [`ReadError`] for a file that cannot be read, is empty, packed or binary, or whose quotes do not close.
+    /// [`ReadError`] for a file that cannot be read, is empty, packed or binary, has more than [`MOST_SAMPLES`]
+    /// rows, or whose quotes do not close, and for commas that are decimal ones between commas that part cells.
     pub fn read(path: impl AsRef<Path>, skip: usize) -> Result<Self, ReadError> {
         let file = path.as_ref().display().to_string();
-        match std::fs::read(&path) {
+        match crate::file::read(path) {
             Ok(bytes) => Self::parse(&bytes, file, skip),
-            Err(e) => {
-                Err(ReadError { file, line: None, problem: Problem::Unreadable(e.to_string()) })
-            }
+            Err(e) => Err(of_file(file, Problem::Unreadable(e.to_string()))),
         }
     }
 
     fn parse(bytes: &[u8], file: String, skip: usize) -> Result<Self, ReadError> {
-        let fail = |problem| ReadError { file: file.clone(), line: None, problem };
+        let fail = |problem| of_file(file.clone(), problem);
         let text = super::text::decode(bytes).map_err(fail)?;
-        let mut rows = match separator(&text) {
-            Some(separator) => {
-                let mut rows = Vec::new();
-                let mut reader = csv::ReaderBuilder::new()
-                    .has_headers(false)
-                    .flexible(true)
-                    .comment(Some(b'#'))
-                    .delimiter(separator)
-                    .trim(csv::Trim::All)
-                    .from_reader(text.as_bytes());
-                for row in reader.records() {
-                    let row = row.map_err(|e| fail(Problem::NoCsv(e.to_string())))?;
-                    let line = row.position().map_or(0, csv::Position::line) as usize;
-                    rows.push((line, row.iter().map(str::to_owned).collect::<Vec<_>>()));
-                }
-                rows.retain(|(_, r)| !r[0].starts_with(['%', '!']));
-                rows
-            }
-            None => text
-                .lines()
-                .enumerate()
-                .filter(|(_, l)| !l.trim().is_empty() && !comment(l))
-                .map(|(i, l)| (i + 1, l.split_whitespace().map(str::to_owned).collect()))
-                .collect(),
-        };
+        let (separator, mut rows) = rows(&text).map_err(fail)?;
         rows.drain(..skip.min(rows.len()));
         // Rows without any number before the first with one: the last of them names the columns.
-        let word = |r: &Vec<String>| r.iter().all(|x| x.parse::<f64>().is_err());
-        let words = rows.iter().take_while(|(_, r)| word(r)).count();
+        let word = |r: &Row| !r.cells.iter().any(|x| like_number(x));
+        let words = rows.iter().take_while(|r| word(r)).count();
         let words = if words == rows.len() { words.min(1) } else { words };
-        let mut names = rows.drain(..words).map(|(_, r)| r).collect::<Vec<_>>();
-        let width = rows.first().map_or(0, |(_, r)| r.len());
+        let mut names = rows.drain(..words).map(|r| r.cells).collect::<Vec<_>>();
+        let width = rows.first().map_or(0, |r| r.cells.len());
         let header = names.pop().map(|n| joined_units(n, width));
-        Ok(Self { file, header, rows })
+        if rows.len() > MOST_SAMPLES {
+            return Err(fail(Problem::TooLong));
+        }
+        let columns = Self { file, header, separator, rows };
+        columns.check_commas()?;
+        Ok(columns)
+    }
+
+    /// Commas may part cells or stand for decimal points, not both.
+    fn check_commas(&self) -> Result<(), ReadError> {
+        if self.separator != Separator::Between(b',') {
+            return Ok(());
+        }
+        let names = self.header.as_ref().map(Vec::len);
+        let shown = |row: &Row| decimal_comma(&row.cells, names).map(|k| self.comma_at(row, k));
+        self.rows.iter().find_map(shown).map_or(Ok(()), Err)
+    }
+
+    /// A comma behind a cell (from 0) that is a decimal one.
+    fn comma_at(&self, row: &Row, k: usize) -> ReadError {
+        let problem = Problem::DecimalComma(
+            row.cells[k..].iter().take(2).cloned().collect::<Vec<_>>().join(","),
+        );
+        self.fail_at(row, k, problem)
+    }
+
+    /// An error at a cell (from 0) of a row.
+    fn fail_at(&self, row: &Row, k: usize, problem: Problem) -> ReadError {
+        let column = row.columns.get(k).copied();
+        ReadError { file: self.file.clone(), line: Some(row.line), column, problem }
     }
 
     /// Number of rows of numbers.
@@ -98,19 +103,13 @@ impl Columns {
     /// [`ReadError`] where there is no such column, a row is too short, or a cell is no finite number.
     pub fn numbers(&self, column: &Column) -> Result<Vec<f64>, ReadError> {
         let k = self.position(column)?;
-        let number = |(line, row): &(usize, Vec<String>)| {
-            let cell = row.get(k).ok_or(Problem::ShortRow { column: k, cells: row.len() });
-            cell.and_then(|cell| match cell.parse::<f64>() {
-                Ok(x) if x.is_finite() => Ok(x),
-                _ => Err(Problem::NotANumber(cell.clone())),
-            })
-            .map_err(|problem| ReadError {
-                file: self.file.clone(),
-                line: Some(*line),
-                problem,
-            })
-        };
-        self.rows.iter().map(number).collect()
+        self.rows.iter().map(|row| self.cell_number(row, k)).collect()
+    }
+
+    fn cell_number(&self, row: &Row, k: usize) -> Result<f64, ReadError> {
+        let cells = row.cells.len();
+        let cell = row.cells.get(k).ok_or(Problem::ShortRow { column: k, cells });
+        cell.and_then(|cell| number(cell)).map_err(|problem| self.fail_at(row, k, problem))
     }
 
     /// The unit of acceleration in brackets behind the name of a column, m/s².
@@ -122,44 +121,36 @@ impl Columns {
     /// The place of a row (from 0), `file:line`.
     #[must_use]
     pub fn place(&self, row: usize) -> String {
-        format!("{}:{}", self.file, self.rows.get(row).map_or(0, |(line, _)| *line))
+        format!("{}:{}", self.file, self.rows.get(row).map_or(0, |r| r.line))
     }
 
     fn position(&self, column: &Column) -> Result<usize, ReadError> {
-        let fail = |problem| Err(ReadError { file: self.file.clone(), line: None, problem });
+        let fail = |problem| Err(of_file(self.file.clone(), problem));
         match (column, &self.header) {
             (Column::Position(k), _) => Ok(*k),
             (Column::Header(name), Some(header)) => {
                 let exact = header.iter().position(|h| h == name);
                 match exact.or_else(|| header.iter().position(|h| split_unit(h).0 == name)) {
                     Some(k) => Ok(k),
-                    None => {
-                        fail(Problem::UnknownColumn { name: name.clone(), all: header.clone() })
-                    }
+                    None => fail(Problem::UnknownColumn { name: name.clone(), all: self.names() }),
                 }
             }
             (Column::Header(name), None) => fail(Problem::NoHeaderRow(name.clone())),
         }
     }
 
-    fn cell(&self, row: usize, column: usize) -> &str {
-        self.rows.get(row).and_then(|(_, r)| r.get(column)).map_or("", String::as_str)
+    /// The names of the columns; none of a file without any number, which is not one of columns.
+    fn names(&self) -> Vec<String> {
+        let has_number = |r: &Row| r.cells.iter().any(|cell| number(cell).is_ok());
+        if !self.rows.iter().any(has_number) {
+            return Vec::new();
+        }
+        self.header.clone().unwrap_or_default()
     }
-}
 
-fn comment(line: &str) -> bool {
-    line.trim_start().starts_with(['#', '%', '!'])
-}
-
-/// What stands between the cells of the first row that is no comment; `None`: blanks.
-fn separator(text: &str) -> Option<u8> {
-    let rows = || text.lines().filter(|l| !l.trim().is_empty() && !comment(l));
-    // The row of numbers tells more than one of words.
-    let numbers = rows()
-        .take(60)
-        .find(|l| l.trim_start().starts_with(|c: char| c.is_ascii_digit() || "+-.".contains(c)));
-    let row = numbers.or_else(|| rows().next())?;
-    [b',', b';', b'\t'].into_iter().find(|s| row.contains(*s as char))
+    fn cell(&self, row: usize, column: usize) -> &str {
+        self.rows.get(row).and_then(|r| r.cells.get(column)).map_or("", String::as_str)
+    }
 }
 
 /// `t [s] a [g]` split at blanks: units go to the names before them.
@@ -199,14 +190,14 @@ pub(super) fn read(
     }
     let (said_unit, unit_line) = statement(text, &["units", "unit"], |rest| {
         let word = rest.split([',', ';']).next().unwrap_or_default();
-        acceleration_unit(word).or_else(|| acceleration_unit(word.split(' ').next()?))
-    });
+        Ok(acceleration_unit(word).or_else(|| acceleration_unit(word.split(' ').next()?)))
+    })?;
     let (said_step, step_line) = statement(text, &["dt", "time step", "delta t"], |rest| {
-        let (x, unit) = first_number(rest)?;
+        let Some((x, unit)) = first_number(rest)? else { return Ok(None) };
         let unit = unit.trim_start().split([' ', ',', ';', ')']).next().unwrap_or_default();
-        Some(x * time_unit(unit).unwrap_or(1.0))
-    });
-    let width = columns.rows.iter().map(|(_, r)| r.len()).max().unwrap_or(1);
+        Ok(Some(x * time_unit(unit).unwrap_or(1.0)))
+    })?;
+    let width = columns.rows.iter().map(|r| r.cells.len()).max().unwrap_or(1);
     let header = columns.header.clone().unwrap_or_default();
     let unit_of = |k: usize| -> Result<f64, ReadError> {
         let named = match header.get(k).and_then(|h| split_unit(h).1) {
@@ -239,16 +230,16 @@ pub(super) fn read(
     let falls = times.windows(2).any(|w| w[1] < w[0]);
     let untimed = said_step.is_some() || options.dt.is_some();
     if !rises && falls && untimed && columns.header.is_none() {
-        // Values row after row, as in old catalogues.
+        // Values row after row, as in old catalogues. Pairs of digits may as well be numbers with decimal
+        // commas, one in a row.
+        let whole = |r: &Row| r.cells.len() == 2 && decimal_comma(&r.cells, Some(1)).is_some();
+        if columns.separator == Separator::Between(b',') && columns.rows.iter().all(whole) {
+            return Err(columns.comma_at(&columns.rows[0], 0));
+        }
         let mut values = Vec::new();
-        for (line, row) in &columns.rows {
-            for cell in row {
-                match cell.parse::<f64>() {
-                    Ok(x) if x.is_finite() => values.push(x),
-                    _ => {
-                        return Err(text.fail(Some(line - 1), Problem::NotANumber(cell.clone())));
-                    }
-                }
+        for row in &columns.rows {
+            for k in 0..row.cells.len() {
+                values.push(columns.cell_number(row, k)?);
             }
         }
         let dt = step(text, step_line, said_step, options.dt)?;
@@ -273,8 +264,8 @@ pub(super) fn read(
 fn statement(
     text: &Text<'_>,
     keys: &[&str],
-    value: impl Fn(&str) -> Option<f64>,
-) -> (Option<f64>, Option<usize>) {
+    value: impl Fn(&str) -> Result<Option<f64>, Problem>,
+) -> Result<(Option<f64>, Option<usize>), ReadError> {
     for (i, line) in text.lines.iter().enumerate().take(60) {
         if line.trim_start().starts_with(|c: char| c.is_ascii_digit()) {
             break;
@@ -284,12 +275,13 @@ fn statement(
             let Some(at) = lower.find(key) else { continue };
             let rest = lower[at + key.len()..].trim_start();
             let Some(rest) = rest.strip_prefix([':', '=']) else { continue };
-            if let Some(x) = value(rest.trim()) {
-                return (Some(x), Some(i));
+            let said = value(rest.trim()).map_err(|problem| text.fail(Some(i), problem))?;
+            if let Some(x) = said {
+                return Ok((Some(x), Some(i)));
             }
         }
     }
-    (None, None)
+    Ok((None, None))
 }
 
 /// The step of evenly spaced times; how far one may be off follows from the digits it is written with.
@@ -303,7 +295,7 @@ fn even_step(
     if n < 2 {
         return Err(text.fail(None, Problem::TooShort(n)));
     }
-    let line = |i: usize| columns.rows.get(i).map(|(line, _)| line - 1);
+    let line = |i: usize| columns.rows.get(i).map(|r| r.line - 1);
     if let Some(i) = (1..n).find(|&i| times[i] <= times[i - 1]) {
         let problem = Problem::Order { time: times[i], before: times[i - 1] };
         return Err(text.fail(line(i), problem));

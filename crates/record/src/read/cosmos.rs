@@ -8,7 +8,7 @@
 //! Used: integer header 2 (physical parameter: 1 acceleration), 3 (unit code: 2 g, 4 cm/s², 50 counts) and
 //! 54 (azimuth: 400, 401 up, down), real header 34 (time step, s) and 64 (peak). Unknown values are −999.
 
-use super::text::{Text, fields, first_number, width};
+use super::text::{Text, fields, numeric, width};
 use super::{ReadOptions, check_peak, step, unit};
 use crate::error::{Problem, ReadError};
 use crate::{Direction, Record, STANDARD_GRAVITY, acceleration_unit};
@@ -55,7 +55,12 @@ fn channel(
     }
     let count = text.count(data, line.split_whitespace().next().unwrap_or_default(), "count")?;
     let known = |values: &[f64], n: usize| values.get(n - 1).copied().filter(|x| *x != UNKNOWN);
-    let dt = step(text, Some(data), known(&real, 34).or(spacing(&lower)), options.dt)?;
+    // `…, dt=.01 sec` of some files.
+    let spacing = match lower.split_once("dt=") {
+        Some((_, rest)) => text.first_number(data, rest)?.map(|(x, _)| x),
+        None => None,
+    };
+    let dt = step(text, Some(data), known(&real, 34).or(spacing), options.dt)?;
     let stated = match known(&integer, 3).map(|x| x as i64) {
         Some(2) => Some(STANDARD_GRAVITY),
         Some(4) => Some(0.01),
@@ -66,22 +71,10 @@ fn channel(
     };
     let unit = unit(text, Some(data), stated, options.unit)?;
     let ends = |l: &str| l.to_lowercase().starts_with("end-of-data");
-    let (values, after) = text.numbers(data + 1, count, width(line), ends)?;
+    let (values, after) = text.numbers(data, data + 1, count, width(line), ends)?;
     let end = text.lines[after..].iter().position(|l| !l.trim().is_empty()).map(|i| after + i);
     let end = match end {
         Some(i) if ends(text.lines[i].trim_start()) => i + 1,
-        Some(i)
-            if super::text::number(text.lines[i].split_whitespace().next().unwrap_or("x"))
-                .is_some() =>
-        {
-            let more: usize = text.lines[i..]
-                .iter()
-                .take_while(|l| !ends(l))
-                .map(|l| l.split_whitespace().count())
-                .sum();
-            let problem = Problem::TooMany { stated: count, found: count + more };
-            return Err(text.fail(Some(data), problem));
-        }
         _ => after,
     };
     let mut record = Record::new(values.into_iter().map(|a| a * unit).collect(), dt);
@@ -106,11 +99,6 @@ fn is_data(line: &str) -> bool {
         && line.split_whitespace().next().is_some_and(|w| w.parse::<usize>().is_ok())
 }
 
-/// `…, dt=.01 sec` of some files.
-fn spacing(lower: &str) -> Option<f64> {
-    lower.split_once("dt=").and_then(|(_, r)| first_number(r)).map(|(x, _)| x)
-}
-
 /// Values behind a line that says how many, and the line behind them.
 fn header(text: &Text<'_>, line: usize) -> Result<(Vec<f64>, usize), ReadError> {
     let content = text.lines[line];
@@ -133,7 +121,17 @@ fn header(text: &Text<'_>, line: usize) -> Result<(Vec<f64>, usize), ReadError> 
         }
         at += 1;
     }
+    let more = text.lines[at..].iter().take_while(|l| numeric(l) && !is_statement(l));
+    let found = values.len() + more.map(|l| fields(l, width).len()).sum::<usize>();
+    if found > count {
+        return Err(text.fail(Some(line), Problem::TooMany { stated: count, found }));
+    }
     Ok((values, at))
+}
+
+/// A line that begins with a number and says what follows: `100 Real-header values follow …`.
+fn is_statement(line: &str) -> bool {
+    line.contains(|c: char| c.is_ascii_alphabetic() && !"eEdD".contains(c))
 }
 
 /// Station, event and component of the lines of text.

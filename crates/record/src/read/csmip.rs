@@ -6,7 +6,7 @@
 //! pts/sec in units of g . Format: (8f9.6)`; volume 2 has velocity and displacement behind it;
 //! `/&  ---  End of data for channel 1  ---`.
 
-use super::text::{Text, first_number, last_digit, width};
+use super::text::{Text, last_digit, width};
 use super::{ReadOptions, check_peak, step, unit};
 use crate::error::{Problem, ReadError};
 use crate::{Direction, Record, acceleration_unit};
@@ -57,7 +57,10 @@ fn channel(
     let line = lower(data);
     let count = line.split_whitespace().next().unwrap_or_default();
     let count = text.count(data, count, "number of values")?;
-    let spacing = line.split_once(" at ").and_then(|(_, rest)| first_number(rest));
+    let spacing = match line.split_once(" at ") {
+        Some((_, rest)) => text.first_number(data, rest)?,
+        None => None,
+    };
     let dt = spacing.map(|(x, rest)| {
         if rest.trim_start().starts_with("pts/sec") || rest.trim_start().starts_with("samples/sec")
         {
@@ -74,7 +77,7 @@ fn channel(
     };
     // Some files of volume 2 leave the format out; the fields are ten wide.
     let width = width(&line).or(Some(10));
-    let (values, after) = text.numbers(data + 1, count, width, ends)?;
+    let (values, after) = text.numbers(data, data + 1, count, width, ends)?;
     if let Some(next) = text.lines.get(after).filter(|l| after < end && !ends(l)) {
         let found = count + next.split_whitespace().count();
         return Err(text.fail(Some(data), Problem::TooMany { stated: count, found }));
@@ -82,11 +85,11 @@ fn channel(
     let mut record = Record::new(values.into_iter().map(|a| a * unit).collect(), dt);
     if let Some(peak) = (start..data).find(|i| lower(*i).contains("peak acceleration")) {
         let content = lower(peak);
-        if let Some((value, rest)) = content.split_once('=').and_then(|(_, r)| first_number(r)) {
+        let stated = content.split_once('=').map_or("", |(_, rest)| rest);
+        if let Some((value, rest)) = text.first_number(peak, stated)? {
             let of = rest.split(" at").next().unwrap_or_default();
             let one = acceleration_unit(of).unwrap_or(unit);
-            let digits = content.split_once('=').map_or("", |(_, r)| r.trim());
-            let digits = digits.split_whitespace().next().unwrap_or_default();
+            let digits = stated.split_whitespace().next().unwrap_or_default();
             let stated = value * one;
             check_peak(text, Some(peak), stated, one * last_digit(digits), &record.acceleration)?;
             record.stated_peak = Some(stated.abs());

@@ -6,7 +6,7 @@
 
 use super::text::{Text, last_digit};
 use super::{ReadOptions, check_peak, step, unit};
-use crate::error::{Problem, ReadError};
+use crate::error::{Problem, ReadError, quoted};
 use crate::{Direction, Record, acceleration_unit};
 
 pub(super) fn read(text: &Text<'_>, options: &ReadOptions) -> Result<Vec<Record>, ReadError> {
@@ -21,10 +21,10 @@ pub(super) fn read(text: &Text<'_>, options: &ReadOptions) -> Result<Vec<Record>
     if let Some((i, kind)) =
         field("DATA_TYPE").filter(|(_, k)| !k.eq_ignore_ascii_case("ACCELERATION"))
     {
-        return Err(text.fail(Some(i), Problem::NotAcceleration(kind.to_lowercase())));
+        return Err(text.fail(Some(i), Problem::NotAcceleration(quoted(&kind.to_lowercase()))));
     }
-    let count = match field("NDATA") {
-        Some((i, n)) => text.count(i, n, "number of values")?,
+    let (count_line, count) = match field("NDATA") {
+        Some((i, n)) => (i, text.count(i, n, "number of values")?),
         None => return Err(text.fail(None, Problem::Missing("line `NDATA`"))),
     };
     let (step_line, stated) = match field("SAMPLING_INTERVAL_S") {
@@ -40,7 +40,7 @@ pub(super) fn read(text: &Text<'_>, options: &ReadOptions) -> Result<Vec<Record>
         None => (None, None),
     };
     let unit = unit(text, unit_line, stated, options.unit)?;
-    let (values, after) = text.numbers(head, count, None, |_| false)?;
+    let (values, after) = text.numbers(count_line, head, count, None, |_| false)?;
     let more = text.lines[after..].iter().filter(|l| !l.trim().is_empty()).count();
     if more > 0 {
         let problem = Problem::TooMany { stated: count, found: count + more };

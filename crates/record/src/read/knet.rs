@@ -6,10 +6,11 @@
 //! the header. KiK-net gives the direction as a number: 1–3 in the borehole, 4–6 at the surface (N–S, E–W,
 //! up).
 
-use super::text::{Text, last_digit, number};
+use super::number::number;
+use super::text::{Text, last_digit};
 use super::{ReadOptions, check_peak, step, unit};
 use crate::error::{Problem, ReadError};
-use crate::{Direction, Record};
+use crate::{Direction, MOST_SAMPLES, Record};
 
 pub(super) fn read(text: &Text<'_>, options: &ReadOptions) -> Result<Vec<Record>, ReadError> {
     let field = |key: &str| {
@@ -39,10 +40,10 @@ pub(super) fn read(text: &Text<'_>, options: &ReadOptions) -> Result<Vec<Record>
     let mut counts = Vec::new();
     for (i, line) in text.lines.iter().enumerate().skip(memo + 1) {
         for word in line.split_whitespace() {
-            match number(word).filter(|x| x.is_finite()) {
-                Some(x) => counts.push(x),
-                None => return Err(text.fail(Some(i), Problem::NotANumber(word.into()))),
-            }
+            counts.push(number(word).map_err(|problem| text.fail_at(i, word, problem))?);
+        }
+        if counts.len() > MOST_SAMPLES {
+            return Err(text.fail(Some(i), Problem::TooLong));
         }
     }
     // The duration is given in whole seconds; a record may hold a part of a second more.
@@ -85,7 +86,7 @@ pub(super) fn read(text: &Text<'_>, options: &ReadOptions) -> Result<Vec<Record>
 /// `2000(gal)/8388608` in gal per count.
 fn factor(text: &str) -> Option<f64> {
     let (gal, counts) = text.split_once('/')?;
-    let gal: f64 = gal.to_lowercase().trim_end_matches("(gal)").trim().parse().ok()?;
-    let counts: f64 = counts.trim().parse().ok()?;
+    let gal = number(gal.to_lowercase().trim_end_matches("(gal)").trim()).ok()?;
+    let counts = number(counts.trim()).ok()?;
     Some(gal / counts).filter(|x| x.is_finite() && *x > 0.0)
 }

@@ -1,17 +1,20 @@
 //! Reading the file of a record.
 
 mod at2;
+mod cells;
 mod columns;
 mod cosmos;
 mod csmip;
 mod esm;
 mod knet;
+mod number;
 mod text;
 
 pub use columns::{Column, Columns};
 
 use crate::error::{Problem, ReadError};
-use crate::{Format, Record};
+use crate::finite::{LONGEST_STEP, MOST_SAMPLES, SHORTEST_STEP, history};
+use crate::{Format, NotFinite, Record};
 use std::path::Path;
 use text::Text;
 
@@ -40,13 +43,14 @@ pub enum Component {
 /// # Errors
 /// [`ReadError`] with the line: a file that cannot be read, is empty, packed or binary; a format that is
 /// not known; a header without count, step or unit; counts that differ from the header; numbers that are
-/// none; uneven steps; a peak that the data do not have.
+/// none, or have a comma within; uneven steps; a peak that the data do not have; more than [`MOST_SAMPLES`]
+/// samples; values whose integrals are not finite.
 pub fn read(path: impl AsRef<Path>, options: &ReadOptions) -> Result<Vec<Record>, ReadError> {
     let path = path.as_ref();
     let file = path.display().to_string();
-    match std::fs::read(path) {
+    match crate::file::read(path) {
         Ok(bytes) => parse(&bytes, path, options),
-        Err(e) => Err(ReadError { file, line: None, problem: Problem::Unreadable(e.to_string()) }),
+        Err(e) => Err(of_file(file, Problem::Unreadable(e.to_string()))),
     }
 }
 
@@ -62,8 +66,8 @@ pub fn parse(
 ) -> Result<Vec<Record>, ReadError> {
     let path = path.as_ref();
     let file = path.display().to_string();
-    let fail = |problem| ReadError { file: file.clone(), line: None, problem };
-    if let Some(dt) = options.dt.filter(|dt| !(dt.is_finite() && *dt > 0.0)) {
+    let fail = |problem| of_file(file.clone(), problem);
+    if let Some(dt) = options.dt.filter(|dt| !is_step(*dt)) {
         return Err(fail(Problem::BadStep(dt)));
     }
     let content = text::decode(bytes).map_err(fail)?;
@@ -85,8 +89,17 @@ pub fn parse(
         if r.acceleration.len() < 2 {
             return Err(fail(Problem::TooShort(r.acceleration.len())));
         }
+        if r.acceleration.len() > MOST_SAMPLES {
+            return Err(fail(Problem::TooLong));
+        }
+        r.check_finite().map_err(|e| fail(e.into()))?;
     }
     Ok(records)
+}
+
+/// An error of a file as a whole.
+fn of_file(file: String, problem: Problem) -> ReadError {
+    ReadError { file, line: None, column: None, problem }
 }
 
 /// The one component that is asked for, or the only one.
@@ -99,8 +112,7 @@ pub fn select(
     path: impl AsRef<Path>,
 ) -> Result<Record, ReadError> {
     let names: Vec<String> = records.iter().map(|r| r.component.clone()).collect();
-    let fail =
-        |problem| ReadError { file: path.as_ref().display().to_string(), line: None, problem };
+    let fail = |problem| of_file(path.as_ref().display().to_string(), problem);
     let unknown = |name: String| fail(Problem::UnknownComponent { name, all: names.clone() });
     let at = match component {
         None if records.len() == 1 => 0,
@@ -154,10 +166,14 @@ fn step(
         (Some(a), _) | (None, Some(a)) => a,
         (None, None) => return Err(text.fail(line, Problem::NoStep)),
     };
-    if !(dt.is_finite() && dt > 0.0) {
+    if !is_step(dt) {
         return Err(text.fail(line, Problem::BadStep(dt)));
     }
     Ok(dt)
+}
+
+fn is_step(dt: f64) -> bool {
+    (SHORTEST_STEP..=LONGEST_STEP).contains(&dt)
 }
 
 /// Holds the data to the peak of the header: 2 %, or what the digits of the header leave open.
@@ -168,6 +184,9 @@ fn check_peak(
     digit: f64,
     acceleration: &[f64],
 ) -> Result<(), ReadError> {
+    history("acceleration", acceleration).map_err(|e| text.fail(line, e.into()))?;
+    history("peak in the header", &[stated])
+        .map_err(|e| text.fail(line, Problem::NotFinite(NotFinite { sample: None, ..e })))?;
     let (stated, found) = (stated.abs(), crate::measure::peak(acceleration));
     if (stated - found).abs() <= (0.02 * stated).max(1.01 * digit) {
         return Ok(());

@@ -1,5 +1,7 @@
 //! Lines, words and fixed columns of a text.
 
+use super::number::{first_number, like_number, number, words};
+use crate::MOST_SAMPLES;
 use crate::error::{Problem, ReadError};
 use std::borrow::Cow;
 
@@ -36,7 +38,13 @@ pub(super) fn decode(bytes: &[u8]) -> Result<Cow<'_, str>, Problem> {
 impl Text<'_> {
     /// An error at a line (index from 0).
     pub fn fail(&self, line: Option<usize>, problem: Problem) -> ReadError {
-        ReadError { file: self.file.clone(), line: line.map(|i| i + 1), problem }
+        ReadError { file: self.file.clone(), line: line.map(|i| i + 1), column: None, problem }
+    }
+
+    /// An error at a cell of a line (index from 0).
+    pub fn fail_at(&self, line: usize, cell: &str, problem: Problem) -> ReadError {
+        let column = self.lines.get(line).and_then(|l| column(l, cell));
+        ReadError { column, ..self.fail(Some(line), problem) }
     }
 
     /// Index of the first line at or behind `from` that holds the words, whatever their case.
@@ -48,28 +56,47 @@ impl Text<'_> {
 
     /// A number of the header.
     pub fn header(&self, line: usize, text: &str, what: &'static str) -> Result<f64, ReadError> {
-        number(text.trim()).ok_or_else(|| {
-            self.fail(Some(line), Problem::Header { text: text.trim().to_owned(), what })
+        let text = text.trim();
+        number(text).map_err(|problem| {
+            let problem = match problem {
+                Problem::NotANumber(text) => Problem::Header { text, what },
+                other => other,
+            };
+            self.fail_at(line, text, problem)
         })
+    }
+
+    /// The first number of a part of a line, and what stands behind it.
+    pub fn first_number<'r>(
+        &self,
+        line: usize,
+        part: &'r str,
+    ) -> Result<Option<(f64, &'r str)>, ReadError> {
+        first_number(part).map_err(|problem| self.fail(Some(line), problem))
     }
 
     /// A count of the header.
     pub fn count(&self, line: usize, text: &str, what: &'static str) -> Result<usize, ReadError> {
-        text.trim().parse().map_err(|_| {
-            self.fail(Some(line), Problem::Header { text: text.trim().to_owned(), what })
-        })
+        let text = text.trim();
+        text.parse()
+            .map_err(|_| self.fail_at(line, text, Problem::Header { text: text.to_owned(), what }))
     }
 
-    /// `count` numbers from line `from` on, and the index of the line behind them. A line that `ends` says
-    /// so of ends the block.
+    /// `count` numbers from line `from` on, no fewer and no more, and the index of the line behind them. Line
+    /// `stated` says how many. A line that `ends` says so of ends the block, and so does one of words behind
+    /// the last number.
     pub fn numbers(
         &self,
+        stated: usize,
         from: usize,
         count: usize,
         width: Option<usize>,
         ends: impl Fn(&str) -> bool,
     ) -> Result<(Vec<f64>, usize), ReadError> {
-        let mut all = Vec::with_capacity(count.min(10_000_000));
+        if count > MOST_SAMPLES {
+            return Err(self.fail(Some(stated), Problem::TooLong));
+        }
+        let mut all = Vec::with_capacity(count);
         let mut at = from;
         while all.len() < count {
             let Some(line) = self.lines.get(at).filter(|l| !ends(l)) else {
@@ -77,32 +104,51 @@ impl Text<'_> {
                 return Err(self.fail(Some(at.saturating_sub(1)), problem));
             };
             for cell in cells(line, width) {
-                let Some(x) = number(cell).filter(|x| x.is_finite()) else {
-                    return Err(self.fail(Some(at), Problem::NotANumber(cell.to_owned())));
-                };
-                all.push(x);
+                all.push(number(cell).map_err(|problem| self.fail_at(at, cell, problem))?);
             }
             at += 1;
         }
-        if all.len() > count {
-            let problem = Problem::TooMany { stated: count, found: all.len() };
-            return Err(self.fail(Some(at - 1), problem));
+        // What is too much is counted to its end.
+        let mut found = all.len();
+        while let Some(line) = self.lines.get(at).filter(|l| !ends(l)) {
+            let cells = cells(line, width);
+            // Fields that touch each other are no words.
+            if cells.first().is_some_and(|cell| !like_number(cell)) {
+                break;
+            }
+            found += cells.len();
+            at += 1;
+        }
+        if found > count {
+            let problem = Problem::TooMany { stated: count, found };
+            return Err(self.fail(Some(stated), problem));
         }
         Ok((all, at))
     }
 }
 
+/// True for a line that begins with a number, or with what is one but for its commas.
+pub(super) fn numeric(line: &str) -> bool {
+    words(line).first().is_some_and(|w| like_number(w))
+}
+
+/// Where a cell of a line begins, in characters from 1; `None` for a text that is no part of the line.
+fn column(line: &str, cell: &str) -> Option<usize> {
+    let at = (cell.as_ptr() as usize).checked_sub(line.as_ptr() as usize)?;
+    line.get(at..at.checked_add(cell.len())?)?;
+    line.get(..at).map(|before| before.chars().count() + 1)
+}
+
 /// The cells of a line: fields of a width where they fit, words otherwise. Fields of a fixed width may touch
 /// each other.
 fn cells(line: &str, width: Option<usize>) -> Vec<&str> {
-    let words = || line.split([' ', '\t', ',', '\r']).filter(|w| !w.is_empty()).collect();
-    let Some(width) = width.filter(|_| line.is_ascii()) else { return words() };
-    let line = line.trim_end();
-    let fields: Vec<&str> = (0..line.len().div_ceil(width))
-        .map(|i| line[i * width..((i + 1) * width).min(line.len())].trim())
+    let Some(width) = width.filter(|_| line.is_ascii()) else { return words(line) };
+    let whole = line.trim_end();
+    let fields: Vec<&str> = (0..whole.len().div_ceil(width))
+        .map(|i| whole[i * width..((i + 1) * width).min(whole.len())].trim())
         .filter(|f| !f.is_empty())
         .collect();
-    if fields.iter().all(|f| number(f).is_some()) { fields } else { words() }
+    if fields.iter().all(|f| number(f).is_ok()) { fields } else { words(line) }
 }
 
 /// Fields of a fixed width, empty ones included.
@@ -114,31 +160,6 @@ pub(super) fn fields(line: &str, width: usize) -> Vec<&str> {
     (0..line.len().div_ceil(width))
         .map(|i| line[i * width..((i + 1) * width).min(line.len())].trim())
         .collect()
-}
-
-/// A number as Fortran and others write it: `1.0D-3` too.
-pub(super) fn number(text: &str) -> Option<f64> {
-    text.parse().ok().or_else(|| text.replace(['d', 'D'], "e").parse().ok())
-}
-
-/// The first number at or behind a place of a text, with a point before or within it: ` .005 sec`.
-pub(super) fn first_number(text: &str) -> Option<(f64, &str)> {
-    let start = text.find(|c: char| c.is_ascii_digit() || c == '-' || c == '.')?;
-    let rest = &text[start..];
-    let end = rest
-        .char_indices()
-        .find(|(i, c)| {
-            let exponent = matches!(c, 'e' | 'E')
-                && rest[i + 1..].starts_with(|c: char| c.is_ascii_digit() || c == '-' || c == '+');
-            let sign = (*c == '-' || *c == '+') && (*i == 0 || rest[..*i].ends_with(['e', 'E']));
-            !(c.is_ascii_digit() || *c == '.' || exponent || sign)
-        })
-        .map_or(rest.len(), |(i, _)| i);
-    // A full stop behind the number is none of it.
-    match rest[..end].parse() {
-        Ok(x) => Some((x, &rest[end..])),
-        Err(_) => rest[..end].trim_end_matches('.').parse().ok().map(|x| (x, &rest[end..])),
-    }
 }
 
 /// Width of the fields in a Fortran format such as `(8F10.5)`, `(10I8)`, `(1F15.6E)`.
@@ -166,15 +187,15 @@ mod tests {
         assert_eq!(cells("  -.123456 -1.234567", Some(10)), ["-.123456", "-1.234567"]);
         assert_eq!(cells("-12.123456-11.234567", Some(10)), ["-12.123456", "-11.234567"]);
         assert_eq!(cells("1 2 3", Some(10)), ["1", "2", "3"]);
-        assert_eq!(cells(" 1,2", None), ["1", "2"]);
+        assert_eq!(cells(" 1.,2.", None), ["1.", "2."]);
+        assert_eq!(cells("   0,12345   0,23456", Some(10)), ["0,12345", "0,23456"]);
     }
 
     #[test]
-    fn numbers_are_found_in_sentences() {
-        assert_eq!(first_number("at  .005 sec, in").map(|x| x.0), Some(0.005));
-        assert_eq!(first_number("= -267.957 CM").map(|x| x.0), Some(-267.957));
-        assert_eq!(first_number("1.2E-03x").map(|x| x.0), Some(1.2e-3));
-        assert_eq!(first_number("none"), None);
+    fn a_cell_has_its_column() {
+        let line = " µ  0.5 x";
+        assert_eq!(column(line, &line[5..8]), Some(5));
+        assert_eq!(column(line, "elsewhere"), None);
     }
 
     #[test]

@@ -6,15 +6,19 @@
 //! oscillator at the time of its peak to each wavelet \[Lilhanand & Tseng 1988; Al Atik & Abrahamson 2010\], with
 //! the off-diagonal terms times 0.7 \[Hancock et al. 2006\]. The best motion met is kept.
 
-use super::{KanaiTajimi, SyntheticError, positive};
+use super::{KanaiTajimi, SyntheticError, positive, samples};
 use crate::Record;
-use crate::measure::{Oscillator, inverse, periods, spectrum, transform};
+use crate::measure::{Oscillator, inverse, periods, spectrum, steps_per_sample, transform};
 use crate::process::{Baseline, correct};
 
 /// Rounds on Fourier amplitudes and on wavelets.
 const ROUNDS: [usize; 2] = [12, 24];
 /// Periods that are met, beside the points of the target.
 const PERIODS: usize = 60;
+/// Most steps of oscillators that a round may take. What stands beside them in a round, the wavelets and their
+/// responses, is worth [`WAVELETS`] steps for each sample.
+const STEPS: f64 = 2e7;
+const WAVELETS: f64 = 150.0;
 /// It is done when no period is off by more.
 const ENOUGH: f64 = 0.02;
 
@@ -88,9 +92,11 @@ impl Compatible {
     /// Makes the motion and says how well it meets the target. It starts and ends at rest.
     ///
     /// # Errors
-    /// [`SyntheticError`] for numbers outside their range.
+    /// [`SyntheticError`] for numbers outside their range, for more samples than can be brought to the spectrum in a
+    /// minute or so, and for motions that are not finite.
     pub fn make(&self) -> Result<(Record, Fit), SyntheticError> {
         self.target.check()?;
+        self.check_work()?;
         let mut record = self.start.make()?;
         let task = Task::new(&self.target, record.dt);
         let mut a = std::mem::take(&mut record.acceleration);
@@ -126,7 +132,21 @@ impl Compatible {
             self.target.points.len(),
             100.0 * self.target.damping
         );
+        record.check_finite()?;
         Ok((record, best.0))
+    }
+
+    /// Holds the steps of a round to [`STEPS`]: those of an oscillator are a 64th of its period, or the samples.
+    fn check_work(&self) -> Result<(), SyntheticError> {
+        let dt = self.start.dt;
+        let samples = samples(self.start.duration, dt)?;
+        let periods = self.target.periods();
+        let steps: f64 = periods.iter().map(|t| steps_per_sample(dt, *t) as f64).sum();
+        let most = (STEPS / (steps + WAVELETS)) as usize;
+        if samples > most {
+            return Err(SyntheticError::TooMuch { samples, most, shortest: periods[0], dt });
+        }
+        Ok(())
     }
 }
 
@@ -336,6 +356,21 @@ mod tests {
         let make = || Compatible { target: code(0.05), start: start.clone() }.make().unwrap().0;
         let bits = |r: Record| r.acceleration.into_iter().map(f64::to_bits).collect::<Vec<_>>();
         assert_eq!(bits(make()), bits(make()));
+    }
+
+    #[test]
+    fn motions_that_would_take_too_long_are_refused_at_once() {
+        let made = |duration: f64, first: f64| {
+            let start = KanaiTajimi { duration, ..KanaiTajimi::default() };
+            let points = vec![(first, 1.0), (3.0, 1.0)];
+            Compatible { target: Target { points, damping: 0.05 }, start }.make().unwrap_err()
+        };
+        assert_eq!(made(1e5, 0.05), SyntheticError::TooLong(10_000_001.0));
+        for (duration, first) in [(1e4, 0.05), (50.0, 1e-3)] {
+            let error = made(duration, first);
+            let SyntheticError::TooMuch { samples, most, .. } = error else { panic!("{error}") };
+            assert!(most < samples, "{error}");
+        }
     }
 
     #[test]

@@ -9,6 +9,7 @@
 use super::normal::Normal;
 use super::{Envelope, SyntheticError, positive, samples};
 use crate::Record;
+use crate::finite::history;
 use crate::measure::{inverse, transform};
 use crate::process::{Baseline, correct, scaled_to};
 use realfft::num_complex::Complex;
@@ -100,7 +101,7 @@ impl KanaiTajimi {
     /// The motion under its envelope, brought to end at rest, scaled to its peak.
     ///
     /// # Errors
-    /// [`SyntheticError`] for numbers outside their range.
+    /// [`SyntheticError`] for numbers outside their range, and for motions that are zero or not finite.
     pub fn make(&self) -> Result<Record, SyntheticError> {
         positive("peak", self.peak)?;
         self.envelope.check(self.duration)?;
@@ -108,15 +109,17 @@ impl KanaiTajimi {
         for (i, x) in a.iter_mut().enumerate() {
             *x *= self.envelope.at(i as f64 * self.dt, self.duration);
         }
-        // It has four samples or more and is not zero, so neither can fail.
+        // It has four samples or more, so it cannot fail.
         let _ = correct(&mut a, self.dt, Baseline::Rest);
-        let a = scaled_to(&a, self.peak).unwrap_or(a);
+        history("filtered noise", &a)?;
+        let a = scaled_to(&a, self.peak).map_err(|_| SyntheticError::Zero)?;
         let mut record = Record::new(a, self.dt);
         record.component = format!("synthetic, seed {}", self.seed);
         record.event = format!(
             "Kanai–Tajimi {} Hz, {} damping, Clough–Penzien {} Hz",
             self.frequency, self.damping, self.highpass
         );
+        record.check_finite()?;
         Ok(record)
     }
 }
@@ -166,6 +169,18 @@ mod tests {
         assert_eq!(bits(&r), bits(&k.make().unwrap()));
         assert_ne!(bits(&r), bits(&KanaiTajimi { seed: 43, ..k.clone() }.make().unwrap()));
         assert!(KanaiTajimi { damping: 0.0, ..k.clone() }.make().is_err());
+        let long = KanaiTajimi { duration: 1e5, ..k.clone() }.make();
+        assert_eq!(long.unwrap_err(), SyntheticError::TooLong(10_000_001.0));
         assert!(KanaiTajimi { dt: 1e-9, ..k }.make().is_err());
+    }
+
+    #[test]
+    fn motions_that_overflow_or_vanish_are_refused() {
+        let k = KanaiTajimi::default();
+        let told = |k: KanaiTajimi| k.make().unwrap_err().to_string();
+        let text = told(KanaiTajimi { peak: 1e308, ..k.clone() });
+        assert!(text.ends_with("is not finite") || text.contains("not finite, first at"), "{text}");
+        let text = told(KanaiTajimi { highpass: 1e200, ..k });
+        assert!(text.contains("zero throughout") || text.contains("not finite"), "{text}");
     }
 }

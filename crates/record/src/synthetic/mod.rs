@@ -12,6 +12,8 @@ pub use compatible::{Compatible, Fit, Target};
 pub use envelope::Envelope;
 pub use kanai_tajimi::KanaiTajimi;
 
+use crate::{MOST_SAMPLES, NotFinite};
+
 /// Why no motion can be made.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
@@ -27,8 +29,28 @@ pub enum SyntheticError {
         range: &'static str,
     },
     /// Too long.
-    #[error("{0} samples are more than the ten million that are made at most")]
+    #[error("{0} samples: a motion has at most {most}", most = MOST_SAMPLES)]
     TooLong(f64),
+    /// Too long to meet a spectrum.
+    #[error(
+        "{samples} samples: a motion that meets a spectrum from a period of {shortest} s on has at most {most} at a step of {dt} s"
+    )]
+    TooMuch {
+        /// Samples of the motion.
+        samples: usize,
+        /// Most samples at this step and these periods.
+        most: usize,
+        /// Shortest period of the spectrum, s.
+        shortest: f64,
+        /// Time step, s.
+        dt: f64,
+    },
+    /// The parameters leave nothing of the noise.
+    #[error("the motion is zero throughout: its frequencies leave nothing of the noise")]
+    Zero,
+    /// The motion overflows.
+    #[error(transparent)]
+    NotFinite(#[from] NotFinite),
     /// Too few points.
     #[error("a target spectrum needs at least two points, this one has {0}")]
     Points(usize),
@@ -55,7 +77,7 @@ fn samples(duration: f64, dt: f64) -> Result<usize, SyntheticError> {
     positive("duration", duration)?;
     positive("dt", dt)?;
     let n = (duration / dt).round() + 1.0;
-    if n > 1e7 {
+    if n > MOST_SAMPLES as f64 {
         return Err(SyntheticError::TooLong(n));
     }
     if n < 4.0 {

@@ -1,11 +1,12 @@
 //! From model and record to what the page shows.
 
-use super::data::{FORMAT, Frames, Mode, Numbers, RunData};
+use super::data::{Frames, Mode, Numbers, RunData, RunIdentity};
+use super::figures::SUPPLY;
 use super::picture::Sketch;
 use super::{choice, loops, reduce, settings, shaking};
 use trilith_model::Model;
 use trilith_results::{ENERGIES, Frame, Recorder, Summary, ground_motions};
-use trilith_solvers::BasisReport;
+use trilith_solvers::{BasisReport, StartEnergy};
 
 /// Steps of a displacement, of the largest.
 const STEPS: f64 = 3e4;
@@ -53,7 +54,8 @@ impl Collect<'_> {
         let motions = ground_motions(self.model, self.case, self.dt.unwrap_or(0.0));
         let free = self.modes.map_or(0, |m| m.omega.iter().filter(|omega| **omega <= 0.0).count());
         RunData {
-            format: FORMAT,
+            format: RunData::FORMAT,
+            run: RunIdentity::of(self.summary),
             file: file.map_or(String::new(), |f| f.to_string_lossy().into_owned()),
             parameters: settings::parameters(self.model),
             overrides: self.overrides.to_vec(),
@@ -104,8 +106,16 @@ impl Collect<'_> {
         let t = self.record.time();
         let columns = ENERGIES.iter().zip(self.record.energy());
         let whole = columns.filter(|(_, e)| e.len() == t.len() && e.len() > 1);
-        let mut all: Vec<_> =
-            whole.map(|(name, e)| reduce::history((*name).to_owned(), "J", t, e)).collect();
+        let one = |name: &str, e: &[f64]| reduce::history(name.to_owned(), "J", t, e);
+        let mut all: Vec<_> = whole.map(|(name, e)| one(name, e)).collect();
+        // What all others make together.
+        let StartEnergy { kinetic, strain, link_stored } = self.summary.energy.start;
+        let start = kinetic + strain + link_stored;
+        let input = ENERGIES.iter().zip(self.record.energy()).find(|(name, _)| **name == "input");
+        if let Some((_, input)) = input.filter(|(_, e)| e.len() == t.len() && e.len() > 1) {
+            let sum: Vec<f64> = input.iter().map(|e| start + e).collect();
+            all.push(one(SUPPLY, &sum));
+        }
         // One unit for all, so that they can be stacked.
         let largest = all.iter().flat_map(|h| h.y.values()).fold(0.0_f64, |a, x| a.max(x.abs()));
         let one = super::units::shown("J", largest);

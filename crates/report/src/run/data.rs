@@ -1,6 +1,7 @@
 //! What the page of a run shows, as it lies in the folder of the run.
 
 use serde::{Deserialize, Serialize};
+use trilith_results::Summary;
 
 /// `report.json`: what the page of a run shows beside `summary.json`, thinned to what can be seen.
 ///
@@ -10,6 +11,8 @@ use serde::{Deserialize, Serialize};
 pub struct RunData {
     /// Version of this format.
     pub format: u32,
+    /// Which run it is of.
+    pub run: RunIdentity,
     /// Name of the model file.
     pub file: String,
     /// Parameters of the model with the values they had.
@@ -35,7 +38,7 @@ pub struct RunData {
     /// Floor spectra, a chart for each damping.
     #[serde(default)]
     pub floor_spectra: Vec<SpectrumChart>,
-    /// Energies over time, with the names of `histories.csv`.
+    /// Energies over time, with the names of `histories.csv`, and `supply`: start and input.
     pub energies: Vec<History>,
     /// Hysteresis loops of links.
     pub loops: Vec<Loop>,
@@ -47,8 +50,43 @@ pub struct RunData {
     pub notes: Vec<String>,
 }
 
-/// The format written here.
-pub(crate) const FORMAT: u32 = 2;
+impl RunData {
+    /// The format that is written and read here.
+    pub const FORMAT: u32 = 3;
+}
+
+/// What tells a run from others, as its `summary.json` has it.
+#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct RunIdentity {
+    /// Version of the program.
+    pub version: String,
+    /// Build of the program.
+    pub build: String,
+    /// SHA-256 of the model file.
+    pub model: String,
+    /// Name of the case.
+    pub case: String,
+    /// Name of the solver.
+    pub solver: String,
+    /// SHA-256 of the summary without its work.
+    pub run_sha256: String,
+}
+
+impl RunIdentity {
+    /// That of a summary.
+    #[must_use]
+    pub fn of(summary: &Summary) -> Self {
+        Self {
+            version: summary.version.to_owned(),
+            build: summary.build.to_owned(),
+            model: summary.model.sha256.clone(),
+            case: summary.case.clone(),
+            solver: summary.solver.to_owned(),
+            run_sha256: summary.run_sha256.clone(),
+        }
+    }
+}
 
 /// Numbers as whole multiples of a step, which makes short files.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]

@@ -15,6 +15,9 @@ pub(crate) const KINDS: [(&str, &str, Color); 8] = [
     ("link_viscous", "viscous in links", Color(204, 121, 167)),
     ("algorithmic", "time rule", Color(230, 159, 0)),
 ];
+/// What was there at the start and the input, in the data: the sum of all kinds, up to the error.
+pub(crate) const SUPPLY: &str = "supply";
+
 /// Kinds smaller than this share of the largest energy are left out of figures.
 const SHARE: f64 = 1e-4;
 
@@ -129,10 +132,10 @@ pub(crate) fn energy_curves(data: &RunData) -> Figure {
     figure
 }
 
-/// The energies stacked, negative ones downwards, and the input as a line over them.
+/// The energies stacked, negative ones downwards, and what was there at the start and the input as a line over them.
 pub(crate) fn energy_stack(data: &RunData) -> Figure {
     let unit = data.energies.first().map_or("J", |h| h.shown.unit.as_str());
-    let title = "Where the input is";
+    let title = "Where the energy is";
     let mut figure = Figure::new(title, "time [s]", format!("energy [{unit}]")).sized(480, 360);
     let times = common(data);
     let (mut up, mut down) = (vec![0.0; times.len()], vec![0.0; times.len()]);
@@ -152,8 +155,10 @@ pub(crate) fn energy_stack(data: &RunData) -> Figure {
         let back = times.iter().copied().zip(low).rev();
         figure = figure.colored(words, Stroke::Area, color, there.chain(back));
     }
-    if let Some(input) = energy(data, "input") {
-        figure = figure.colored("input", Stroke::Line, Color::INK, input.points());
+    // Folders of earlier runs have no sum.
+    let supply = energy(data, SUPPLY).map(|h| ("start + input", h));
+    if let Some((words, h)) = supply.or_else(|| Some(("input", energy(data, "input")?))) {
+        figure = figure.colored(words, Stroke::Line, Color::INK, h.points());
     }
     figure
 }

@@ -5,6 +5,7 @@ mod collect;
 mod data;
 mod drawing;
 mod figures;
+mod legible;
 mod loops;
 mod page;
 mod picture;
@@ -19,7 +20,7 @@ pub use units::short;
 pub use collect::Collect;
 pub use data::{
     FaceMark, Family, Frames, Ground, History, LineKind, LineMark, LinkMark, Loop, Mode, NodeMark,
-    Numbers, Picture, RunData, Shown, SpectrumChart, SpectrumCurve,
+    Numbers, Picture, RunData, RunIdentity, Shown, SpectrumChart, SpectrumCurve,
 };
 pub use figures::{ENERGY, GROUND, SPECTRA, named_figures};
 pub use page::run_page;

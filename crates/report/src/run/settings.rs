@@ -68,6 +68,9 @@ fn dynamic(d: &DynamicCase, solver: &str, dt: Option<f64>, say: &mut impl FnMut(
     );
     say("tolerance of link forces", short(s.link_tolerance, 3));
     say("limit of energy unaccounted for", percent(s.energy_limit));
+    if let Some(limit) = s.substep_limit {
+        say("substeps at most", limit.to_string());
+    }
     let reduced = [SolverKind::Fna, SolverKind::RitzHht].iter().any(|k| k.name() == solver);
     if reduced {
         let kind = match s.basis.kind {

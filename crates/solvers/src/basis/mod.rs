@@ -19,6 +19,7 @@ mod ritz;
 mod solvable;
 
 use crate::condensation::Condensation;
+use crate::damping::is_modal;
 use crate::error::SolveError;
 use crate::massless::StaticShapes;
 use crate::observe::BasisReport;
@@ -148,62 +149,82 @@ pub(crate) fn build(
     let exact = hat.flexibility(system, loads, known.or((!adequacy).then(Vec::new)));
     let Solvable { dummies: held, shift, factor, .. } = hat;
     drop(factor);
-    let mut bases = in_both_forms(system, span, loads)?;
+    let forms = Forms::new(system, loads)?;
+    let mut bases = forms.of(system, span, true)?;
     if let Some(wider) = wider {
-        bases.wider = Some(Box::new(in_both_forms(system, wider, loads)?));
+        // Of the wider one nobody asks for modes of the structure alone but modal damping.
+        bases.wider = Some(Box::new(forms.of(system, wider, is_modal(&model.damping))?));
     }
     bases.report = report(model, system, &bases, loads, &held, shift, &exact);
     Ok(bases)
 }
 
-/// A span as modes with and without the user's dummies.
-fn in_both_forms(
-    system: &System,
-    span: Shapes,
-    loads: &[(String, Vec<f64>)],
-) -> Result<Bases, SolveError> {
-    let dummies = &system.links.effective;
-    let report = BasisReport::default();
-    if dummies.iter().all(|k| *k == 0.0) {
-        let both = Arc::new(modes_in(system, span, &system.stiffness, dummies, loads)?);
-        return Ok(Bases { structural: Arc::clone(&both), stepping: both, wider: None, report });
-    }
-    let none = vec![0.0; dummies.len()];
-    let structural = Arc::new(modes_in(system, span.clone(), &system.stiffness, &none, loads)?);
-    let with = system.stiffness_with(dummies);
-    let stepping = Arc::new(modes_in(system, span, &with, dummies, loads)?);
-    Ok(Bases { structural, stepping, wider: None, report })
+/// A stiffness whose modes a span is turned into, and the static shapes for it.
+struct Form {
+    stiffness: Sparse,
+    dummies: Vec<f64>,
+    statics: StaticShapes,
 }
 
-/// Turns a span of M-orthonormal vectors into modes of `k`, which has these dummies, with the static shapes beside
-/// them.
-fn modes_in(
-    system: &System,
-    span: Shapes,
-    k: &Sparse,
-    dummies: &[f64],
-    loads: &[(String, Vec<f64>)],
-) -> Result<RitzBasis, SolveError> {
-    let statics = StaticShapes::new(system, k, loads)?;
-    let span = statics.out_of(k, span);
-    let (mut omega2, vectors) = graded_modes(span, k)?;
-    // Most modes need no closer look.
-    let sums = k.row_sums();
-    let sums = vectors.rows().gather(&sums);
-    for (j, w) in omega2.iter_mut().enumerate() {
-        let bound: f64 = vectors.kept(j).iter().zip(&*sums).map(|(x, s)| x * x * s).sum();
-        if w.abs() > DOUBT * ROUNDING * bound {
-            continue;
-        }
-        let x = vectors.column(j);
-        let terms: f64 = k.entries().map(|(i, l, a)| (a * x[i] * x[l]).abs()).sum();
-        if w.abs() <= ROUNDING * terms {
-            *w = 0.0;
-        }
+impl Form {
+    fn new(
+        system: &System,
+        dummies: Vec<f64>,
+        loads: &[(String, Vec<f64>)],
+    ) -> Result<Self, SolveError> {
+        let stiffness = system.stiffness_with(&dummies);
+        let statics = StaticShapes::new(system, &stiffness, loads)?;
+        Ok(Self { stiffness, dummies, statics })
     }
-    let statics = statics.beside(system, k, dummies, &vectors);
-    let shapes = Arc::new(vectors.beside(&statics.psi));
-    Ok(RitzBasis { shapes, omega2, statics })
+
+    /// Turns a span of M-orthonormal vectors into modes, with the static shapes beside them.
+    fn modes_in(&self, system: &System, span: Shapes) -> Result<RitzBasis, SolveError> {
+        let Self { stiffness: k, dummies, statics } = self;
+        let span = statics.out_of(k, span);
+        let (mut omega2, vectors) = graded_modes(span, k)?;
+        // Most modes need no closer look.
+        let sums = k.row_sums();
+        let sums = vectors.rows().gather(&sums);
+        for (j, w) in omega2.iter_mut().enumerate() {
+            let bound: f64 = vectors.kept(j).iter().zip(&*sums).map(|(x, s)| x * x * s).sum();
+            if w.abs() > DOUBT * ROUNDING * bound {
+                continue;
+            }
+            let x = vectors.column(j);
+            let terms: f64 = k.entries().map(|(i, l, a)| (a * x[i] * x[l]).abs()).sum();
+            if w.abs() <= ROUNDING * terms {
+                *w = 0.0;
+            }
+        }
+        let statics = statics.beside(system, k, dummies, &vectors);
+        let shapes = Arc::new(vectors.beside(&statics.psi));
+        Ok(RitzBasis { shapes, omega2, statics })
+    }
+}
+
+/// The structure with the user's dummies, and without where there are any.
+struct Forms {
+    stepping: Form,
+    structural: Option<Form>,
+}
+
+impl Forms {
+    fn new(system: &System, loads: &[(String, Vec<f64>)]) -> Result<Self, SolveError> {
+        let dummies = &system.links.effective;
+        let alone = dummies.iter().all(|k| *k == 0.0);
+        let structural = || Form::new(system, vec![0.0; dummies.len()], loads);
+        let structural = if alone { None } else { Some(structural()?) };
+        Ok(Self { stepping: Form::new(system, dummies.clone(), loads)?, structural })
+    }
+
+    /// A span in them; one without dummies where it is wanted, else both are the same.
+    fn of(&self, system: &System, span: Shapes, structural: bool) -> Result<Bases, SolveError> {
+        let alone = self.structural.as_ref().filter(|_| structural);
+        let alone = alone.map(|form| form.modes_in(system, span.clone())).transpose()?;
+        let stepping = Arc::new(self.stepping.modes_in(system, span)?);
+        let structural = alone.map_or_else(|| Arc::clone(&stepping), Arc::new);
+        Ok(Bases { structural, stepping, wider: None, report: BasisReport::default() })
+    }
 }
 
 /// Modes in a span of M-orthonormal vectors, rising. An eigenvalue is found no better than the rounding of

@@ -15,7 +15,7 @@ use trilith_system::System;
 
 /// One vector in so many is added to make the wider basis, and so many at least.
 const WIDER: usize = 4;
-const AT_LEAST: usize = 8;
+const AT_LEAST: usize = 16;
 
 /// A span, one that holds more, and the flexibility of the links where it has been found on the way.
 pub(super) struct Enriched {
@@ -125,8 +125,8 @@ pub(super) fn enriched(
         recurse(&mut span, &rows, hat, &statics, of_links, count + more, Speed::OfModes);
         // Only what is here is seen as missing.
         fast.go_on(&mut span, &rows, hat, &statics, count + more);
-        if span.len() == count && count + system.massless.len() < system.order() {
-            // Damping that couples modes and links that do may move what loads do not.
+        if span.len() < count + more && span.len() + system.massless.len() < system.order() {
+            // Dampers that couple modes and links that do may move what neither loads nor links alone do.
             span.take(lowest(count + more)?, Origin::Anywhere, Speed::Any);
         }
     }

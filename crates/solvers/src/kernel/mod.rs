@@ -27,7 +27,7 @@ use crate::vector::{add, largest, sized_residual};
 use factors::{Equations, Factor, Factors};
 pub(crate) use layout::Layout;
 use layout::Unknowns;
-use search::Search;
+pub(crate) use search::Search;
 use trilith_element::Kinematics;
 use trilith_linalg::Dense;
 use trilith_model::{Kernel, Model, Solution};

@@ -10,7 +10,7 @@ const ENOUGH: f64 = 0.9;
 /// Line search of a Newton iteration that does not settle: a force like |v|^α with α < ½ throws Newton's
 /// method to the other side of zero, farther than it came from.
 #[derive(Default)]
-pub(super) struct Search {
+pub(crate) struct Search {
     /// The last correction.
     pub step: Vec<f64>,
     /// Part of it that is taken back next.

@@ -3,7 +3,7 @@
 use super::LaneOutcome;
 use super::setup::LaneSetup;
 use super::state::State;
-use crate::observe::{EnergyTotals, LinkEnergy};
+use crate::observe::{EnergyTotals, LinkEnergy, StartEnergy};
 use trilith_element::lanes::{Arithmetic, Real};
 
 /// Where all energy has left again, the error is measured against this share of the largest, and never
@@ -21,24 +21,31 @@ impl<R: Real, const M: usize, const L: usize, const N: usize> State<R, M, L, N> 
         let of = |x: R| with.lane(x, lane);
         let heat = |kind: usize| -> f64 { self.heat.iter().map(|x| of(x[kind])).sum() };
         let potential = of(self.potential) - setup.potential;
+        let start = StartEnergy {
+            kinetic: setup.kinetic,
+            strain: setup.strain,
+            link_stored: setup.stored.iter().sum(),
+        };
         let mut energy = EnergyTotals {
-            input: setup.kinetic + of(self.external) + potential,
+            start,
+            input: of(self.external) + potential,
             kinetic: of(self.kinetic),
-            strain: of(self.strain) - setup.strain,
+            strain: of(self.strain),
             potential,
             modal_damping: of(self.damping),
-            link_stored: of(self.stored) - setup.stored.iter().sum::<f64>(),
+            link_stored: of(self.stored),
             link_hysteretic: heat(0),
             link_viscous: heat(1),
             ..EnergyTotals::default()
         };
         let e = &energy;
         let heat = e.modal_damping + e.link_hysteretic + e.link_viscous;
-        let out = e.kinetic + e.strain + e.potential + e.link_stored + heat;
-        let error = e.input - out;
+        let driven = start.kinetic + e.input;
+        let (strained, charged) = (e.strain - start.strain, e.link_stored - start.link_stored);
+        let error = driven - (e.kinetic + strained + e.potential + charged + heat);
         let standing = of(self.strain).abs() + of(self.stored).abs() + of(self.potential).abs();
         let shares = [SHARE_OF_LARGEST * of(self.largest), SHARE_OF_STANDING * standing];
-        let size = [e.input, e.kinetic, e.potential, heat]
+        let size = [driven, e.kinetic, e.potential, heat]
             .into_iter()
             .chain(shares)
             .fold(0.0, |a: f64, b| a.max(b.abs()));

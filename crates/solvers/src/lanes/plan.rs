@@ -59,7 +59,7 @@ pub(super) struct Plan<R, const M: usize, const L: usize, const N: usize> {
     pub outputs: Outputs<R, M>,
     /// Residual of the link forces that counts as none, as share of the largest force so far.
     pub tolerance: R,
-    /// Indices of the links that are contacts.
+    /// Indices of the links that a body may stand on.
     pub feet: Vec<usize>,
     /// Rates matter to the laws, accelerations to an output.
     pub rate: bool,
@@ -161,7 +161,7 @@ impl<R: Real, const M: usize, const L: usize, const N: usize> Plan<R, M, L, N> {
                 .iter()
                 .any(|o| matches!(o, Output::Motion { order: 1 | 2, .. })),
             outputs: Outputs::new(with, setups, &places),
-            feet: (0..one.forms.len()).filter(|l| one.forms[*l].law.is_contact).collect(),
+            feet: one.shape.feet.clone(),
             places,
         }
     }

@@ -3,7 +3,8 @@
 use super::rule::stiffness_ratio;
 use super::tables::{Grid, Table, Tables, split};
 use crate::case::before;
-use crate::contact_mode::{falling, stands};
+use crate::contact_mode::contacts;
+use crate::contact_role::{Role, Roles};
 use crate::dynamic::held_load;
 use crate::equations::{bases, link_side, modes};
 use crate::error::SolveError;
@@ -17,8 +18,8 @@ use crate::stepper::{LinkStepper, State, Stepper};
 use crate::timeline::Timeline;
 use std::any::TypeId;
 use std::sync::Arc;
+use trilith_element::Contact;
 use trilith_element::lanes::LaneForm;
-use trilith_element::{Contact, Kinematics};
 use trilith_linalg::{Dense, Sparse, symmetric_eigen};
 use trilith_model::{
     Analysis, DynamicCase, Kernel, Model, Quantity, Side, SolverKind, StepControl,
@@ -32,6 +33,8 @@ pub(super) struct Shape {
     pub links: Vec<(TypeId, Vec<usize>, usize)>,
     pub channels: Vec<(u8, bool)>,
     pub outputs: Vec<u8>,
+    /// Indices of the links that a body may stand on.
+    pub feet: Vec<usize>,
     pub grid: Grid,
 }
 
@@ -234,13 +237,28 @@ pub fn prepare(
     now.rates(&values, &mut rates);
     let (kinetic, strain) = kinetic_and_strain(space, &state.motion);
     let pick = |of: &[f64]| flat.iter().map(|i| of[*i]).collect::<Vec<f64>>();
+    let roles = Roles::new(model, system);
     let seen = contacts(model, system, &state);
+    let stands = roles.stand(&seen);
+    let mine = roles.each(&seen, true);
+    // What is no foot has no part in the response mode.
+    let standing: Vec<(usize, Contact)> =
+        seen.into_iter().zip(mine).filter(|(_, r)| *r == Role::Foot).map(|(c, _)| c).collect();
+    let is_foot = |i: &usize| {
+        let element = links.links[*i].element;
+        forms[*i].law.is_contact && standing.iter().any(|(own, _)| *own == element)
+    };
+    let feet: Vec<usize> = (0..forms.len()).filter(is_foot).collect();
+    if feet.len() != standing.len() {
+        return Ok(Err("a body on contacts that have no form for lanes"));
+    }
     let State { motion, d, v, f, history, stored, scale, .. } = &state;
     let shape = Shape {
         modes: m,
         links: forms.iter().map(|f| (f.law.id, f.coordinates.clone(), f.law.coordinates)).collect(),
         channels: loads.channels.iter().map(|c| (kind(&c.track), c.conservative)).collect(),
         outputs: outputs.iter().map(Output::kind).collect(),
+        feet,
         grid,
     };
     Ok(Ok(LaneSetup {
@@ -278,8 +296,8 @@ pub fn prepare(
         kinetic,
         strain,
         potential: potential(&constant_force(space, &loads), &state),
-        stands: stands(&seen, &falling(model, system)),
-        contacts: seen.into_iter().map(|(_, c)| c).collect(),
+        stands,
+        contacts: standing.into_iter().map(|(_, c)| c).collect(),
         values,
         rates,
         energy_limit: analysis.solution.energy_limit,
@@ -335,20 +353,6 @@ fn turned(turn: &Dense, x: &[f64]) -> Vec<f64> {
     let mut y = vec![0.0; x.len()];
     turn.transpose_mul_add(1.0, x, &mut y);
     y
-}
-
-/// What every contact does in a state, with the index of its element.
-fn contacts(model: &Model, system: &System, state: &State) -> Vec<(usize, Contact)> {
-    let (links, mut all, mut own) = (&system.links, Vec::new(), Vec::new());
-    for link in &links.links {
-        let Some(law) = links.law(model, link) else { continue };
-        let r = link.range.clone();
-        let (d, v) = (&state.d[r.clone()], &state.v[r.clone()]);
-        let at = Kinematics { d, v, d0: d, v0: v, dt: 0.0 };
-        law.contacts(&at, &state.history[link.history.clone()], &state.f[r], &mut own);
-        all.extend(own.drain(..).map(|c| (link.element, c)));
-    }
-    all
 }
 
 fn kind(track: &Track) -> u8 {

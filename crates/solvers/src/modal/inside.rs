@@ -72,6 +72,17 @@ impl ClosedForm {
         [[from[j] - start, from[n + j] - rate], [to[j] - end, to[n + j] - rate]]
     }
 
+    /// How far a force of one unit moves a coordinate with these shares of the motion in a step of this length, at most.
+    pub(crate) fn yields(&self, row: impl Iterator<Item = (usize, f64)>, length: f64) -> f64 {
+        let Structure { modes, omega2, .. } = &self.structure;
+        let share = |(j, b): (usize, f64)| {
+            let soft = omega2[j].max(0.0).recip();
+            b * b * if j < *modes { soft.min(length * length / 6.0) } else { soft }
+        };
+        // What takes no part in the motion may be as soft as it likes.
+        row.filter(|(_, b)| *b != 0.0).map(share).sum()
+    }
+
     /// Leads a motion over a part as long as those that [`inside`](Self::inside) looked at last, under what drives it at
     /// both ends of the part.
     pub(crate) fn go_on(&self, motion: &mut Vec<f64>, [source0, source1]: [&[f64]; 2]) {

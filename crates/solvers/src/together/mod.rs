@@ -16,6 +16,7 @@ use crate::equations::{bases, link_side, modes};
 use crate::error::SolveError;
 use crate::modal::{LONGEST, Modal, Modes};
 use crate::observe::{CaseResult, Observer, Work};
+use crate::plausible;
 use crate::propagator::StepKey;
 use crate::start::{Initial, start};
 use crate::stepper::LinkStepper;
@@ -211,6 +212,7 @@ fn march<O: Observer>(
         };
         let Member { model, system } = entrant.member;
         let memory = course.side.kernel.memory();
+        let (loads, pressed) = (course.loads, course.viewer.pressed());
         let arrival = Arrival {
             timeline: &course.timeline,
             made: course.made,
@@ -224,6 +226,8 @@ fn march<O: Observer>(
         };
         let (case, kind) = (entrant.case, SolverKind::Fna);
         let mut result = arrival.result(model, system, case, kind, &modes.space, memory, work);
+        let of = (case, entrant.analysis);
+        result.warnings = plausible::of_dynamic((model, system), of, loads, pressed, &result);
         result.basis = Some(bases.report.clone());
         Some(result)
     };

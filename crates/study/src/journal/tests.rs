@@ -4,6 +4,7 @@ use std::io::Cursor;
 fn identity() -> Identity {
     Identity {
         version: "1".into(),
+        build: "b".into(),
         study: "s".into(),
         model: "m".into(),
         motions: "r".into(),
@@ -79,6 +80,12 @@ fn the_journal_of_another_study_and_other_files_are_refused() {
     let other = Identity { model: "x".into(), runs: 8, ..identity() };
     let error = Journal::open(&path, &other).unwrap_err().to_string();
     assert!(error.contains("the model"), "{error}");
+    let rebuilt = Identity { build: "c".into(), ..identity() };
+    let error = Journal::open(&path, &rebuilt).unwrap_err().to_string();
+    assert!(error.contains("the build of the program changed"), "{error}");
+    let newer = Identity { version: "2".into(), ..rebuilt };
+    let error = Journal::open(&path, &newer).unwrap_err().to_string();
+    assert!(error.contains("the version of the program changed"), "{error}");
     std::fs::write(&path, "a,b\n1,2\n").unwrap();
     assert!(matches!(Journal::open(&path, &identity()), Err(StudyError::NoJournal { .. })));
 }

@@ -7,8 +7,8 @@ use trilith::element::Dimension;
 use trilith::model::Span;
 use trilith::model::file::{Context, Entry, Kind, Node};
 
-/// Most values of one axis.
-const MOST: usize = 1_000_000;
+/// Most values of one axis, samples and members of an ensemble: all are made before the first run.
+pub(super) const MOST: usize = 1_000_000;
 
 /// Entries of a map; what is none is reported.
 pub(super) fn map<'n>(c: &Context<'_>, node: &'n Node, what: &str) -> Option<&'n [Entry]> {

@@ -49,7 +49,8 @@ pub(super) fn identity(
         }
     }
     Some(Identity {
-        version: env!("CARGO_PKG_VERSION").to_owned(),
+        version: trilith::VERSION.to_owned(),
+        build: trilith::BUILD.to_owned(),
         study,
         model: String::new(),
         motions: hexadecimal(motions.finalize()),

@@ -102,7 +102,7 @@ fn whole(
     // Without a model nothing else can be checked.
     let model_node = top.required(c, "model");
     let model_path: PathBuf = folder.join(c.text(model_node?, "model")?);
-    let text = match std::fs::read_to_string(&model_path) {
+    let text = match trilith::record::file::read_text(&model_path) {
         Ok(text) => text,
         Err(error) => {
             let message = format!("the model {} cannot be read: {error}", model_path.display());

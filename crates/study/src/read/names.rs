@@ -80,13 +80,12 @@ pub(super) fn unknown(
     all: &[&str],
 ) {
     let message = format!("there is no {one} `{name}`");
-    let mut d = c.diagnostic("E0106", message, node.span.clone()).help(names_help(
-        name,
-        many,
-        all.iter().copied(),
-    ));
-    if let Some(near) = closest(name, all.iter().copied()) {
-        d = d.suggestion(node.span.clone(), format!("\"{near}\""));
+    let mut d = c.diagnostic("E0106", message, node.span.clone());
+    if c.suggests() {
+        d = d.help(names_help(name, many, all.iter().copied()));
+        if let Some(near) = closest(name, all.iter().copied()) {
+            d = d.suggestion(node.span.clone(), format!("\"{near}\""));
+        }
     }
     c.report(d);
 }

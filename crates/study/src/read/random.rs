@@ -1,6 +1,6 @@
 //! Random samples and ensembles.
 
-use super::axes::map;
+use super::axes::{MOST, map};
 use super::setting::Settings;
 use crate::number::written;
 use crate::{Distribution, Ensemble, Samples, draw, schema};
@@ -18,7 +18,7 @@ pub(super) fn samples(
     let kind = c.one_of(node, "kind of samples", &schema::SAMPLES)?;
     let latin = kind.name == "LatinHypercube";
     let fields = c.block(node, "`samples`", kind)?;
-    let count = fields.required(c, "count").and_then(|n| c.count(n, "count", 1));
+    let count = fields.required(c, "count").and_then(|n| c.count_up_to(n, "count", 1, MOST));
     let of = fields.required(c, "of")?;
     let entries = map(c, of, "of")?;
     if entries.is_empty() {
@@ -114,7 +114,7 @@ pub(super) fn ensemble(
     settings: &mut Settings,
 ) -> Option<Ensemble> {
     let fields = c.block(node, "`ensemble`", schema::ENSEMBLE.blocks[0])?;
-    let members = fields.required(c, "members").and_then(|n| c.count(n, "members", 2));
+    let members = fields.required(c, "members").and_then(|n| c.count_up_to(n, "members", 2, MOST));
     let of = fields.required(c, "of")?;
     let entries = map(c, of, "of")?;
     if entries.is_empty() {

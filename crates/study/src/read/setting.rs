@@ -129,10 +129,12 @@ impl Settings {
                 None => {
                     let names = model.parameters.iter().map(|p| p.name.as_str());
                     let message = format!("the model has no parameter `{}`", s.name);
-                    let help = names_help(&s.name, "parameters", names.clone());
-                    let mut d = c.diagnostic("E0119", message, at.clone()).help(help);
-                    if let Some(near) = closest(&s.name, names) {
-                        d = d.suggestion(at, near);
+                    let mut d = c.diagnostic("E0119", message, at.clone());
+                    if c.suggests() {
+                        d = d.help(names_help(&s.name, "parameters", names.clone()));
+                        if let Some(near) = closest(&s.name, names) {
+                            d = d.suggestion(at, near);
+                        }
                     }
                     c.report(d);
                 }

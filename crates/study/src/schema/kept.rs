@@ -69,7 +69,8 @@ pub static ENERGY: Block = Block {
 pub static ENERGY_ERROR: Block =
     bare("EnergyError", "Energy that is unaccounted for over the largest energy of the run.");
 /// Largest uplift.
-pub static UPLIFT: Block = bare("Uplift", "Largest uplift of a contact, m.");
+pub static UPLIFT: Block =
+    bare("Uplift", "Largest uplift: how high any point of contact was above what it touches, m.");
 /// Largest slip.
 pub static SLIP: Block = bare("Slip", "Largest slip of a contact, m.");
 /// Slip at the end.

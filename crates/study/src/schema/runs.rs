@@ -94,7 +94,7 @@ pub static DISTRIBUTIONS: Group = Group {
 };
 
 const DRAWN: &[Field] = &[
-    needed("count", Count(1), "Number of samples."),
+    needed("count", Count(1), "Number of samples, a million at most."),
     needed("of", Map(&DISTRIBUTIONS), "Parameters that are drawn, and how; independent."),
 ];
 /// Random samples.
@@ -126,7 +126,11 @@ pub static ENSEMBLE: Group = Group {
         meaning: "The first member is the nominal case; the parameters of the others are off by random factors.",
         example: r#"(members: 3, of: { "mu": 0.01 })"#,
         fields: &[
-            needed("members", Count(2), "Runs of a point, the nominal one included."),
+            needed(
+                "members",
+                Count(2),
+                "Runs of a point, the nominal one included; a million at most.",
+            ),
             needed(
                 "of",
                 Words("a map from parameters to dispersions, above 0"),

@@ -21,7 +21,7 @@ const MOMENT: &[(f64, &str)] = &[(1e6, "MN·m"), (1e3, "kN·m"), (1.0, "N·m")];
 
 impl Record {
     /// A diagram of force against deformation for every coordinate that moves: the last cycle dark, the
-    /// way to it light.
+    /// way to it light; all of a measured history dark.
     #[must_use]
     pub fn figures(&self) -> Vec<Figure> {
         (0..self.coordinates.len()).filter(|i| self.moves(*i)).map(|i| self.figure(i)).collect()

@@ -12,17 +12,19 @@
 //! ```
 //!
 //! The parameters are those of the example on the card of the kind, the motion is that of its
-//! [`Exercise`](crate::element::Exercise); both can be changed.
+//! [`Exercise`](crate::element::Exercise); both can be changed. A measured [`History`] takes the place of the motion.
 
 mod draw;
 mod error;
 mod example;
+mod history;
 mod motion;
 mod record;
 mod specimen;
 mod table;
 
 pub use error::ExerciseError;
+pub use history::{History, HistoryError};
 pub use motion::Motion;
 pub use record::{LastCycle, Record};
 pub use specimen::{Coordinate, Specimen};

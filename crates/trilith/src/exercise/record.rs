@@ -1,11 +1,13 @@
 //! What a law did along a motion.
 
-use super::{Coordinate, ExerciseError, Motion};
+use super::{Coordinate, ExerciseError, History, Motion};
 use crate::element::{Driver, Field, Link};
 use std::f64::consts::TAU;
 
-/// Steps of a cycle.
+/// Steps of a cycle, and of a measured history at least.
 const STEPS: usize = 2000;
+/// Steps between two samples of a measured history at least.
+const PARTS: usize = 4;
 
 /// The last closed cycle of a coordinate.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -43,7 +45,7 @@ pub struct Record {
     pub history: Vec<Vec<f64>>,
     /// Sum of the absolute work of the steps, J.
     turned_over: f64,
-    /// First step of the last cycle.
+    /// First step of the last cycle; the first of all along a measured history.
     pub(super) last: usize,
 }
 
@@ -53,23 +55,10 @@ impl Record {
         coordinates: Vec<Coordinate>,
         motion: &Motion,
     ) -> Result<Self, ExerciseError> {
-        let n = coordinates.len();
-        let fields = law.history().into_owned();
         let steps = (motion.periods() * STEPS as f64).round() as usize;
         let dt = motion.duration() / steps as f64;
-        let mut it = Self {
-            coordinates,
-            time: Vec::with_capacity(steps + 1),
-            deformation: vec![Vec::with_capacity(steps + 1); n],
-            rate: vec![Vec::with_capacity(steps + 1); n],
-            force: vec![Vec::with_capacity(steps + 1); n],
-            work: Vec::with_capacity(steps + 1),
-            energy: Default::default(),
-            history: vec![Vec::with_capacity(steps + 1); fields.len()],
-            fields,
-            turned_over: 0.0,
-            last: steps - STEPS,
-        };
+        let mut it = Self::of_steps(steps, law, coordinates);
+        it.last = steps - STEPS;
         let (d, v) = motion.at(0.0);
         let mut driver = Driver::starting_at(law, &d, &v);
         it.push(0.0, &driver)?;
@@ -81,6 +70,53 @@ impl Record {
         }
         it.turned_over = driver.turned_over;
         Ok(it)
+    }
+
+    /// Along a measured history, in equal parts between its samples. It has no last cycle.
+    pub(super) fn along(
+        law: &dyn Link,
+        coordinates: Vec<Coordinate>,
+        history: &History,
+    ) -> Result<Self, ExerciseError> {
+        let gaps = history.len() - 1;
+        let parts = STEPS.div_ceil(gaps).max(PARTS);
+        let mut it = Self::of_steps(gaps * parts, law, coordinates);
+        let (d, v) = history.between(0, 0.0);
+        let mut driver = Driver::starting_at(law, &d, &v);
+        it.push(history.time[0], &driver)?;
+        for sample in 0..gaps {
+            let (start, end) = (history.time[sample], history.time[sample + 1]);
+            let dt = (end - start) / parts as f64;
+            for part in 1..=parts {
+                let share = part as f64 / parts as f64;
+                let (d, v) = history.between(sample, share);
+                driver.step(&d, &v, dt);
+                let time = if part == parts { end } else { start + part as f64 * dt };
+                it.push(time, &driver)?;
+            }
+        }
+        it.turned_over = driver.turned_over;
+        Ok(it)
+    }
+
+    /// Nothing yet, with room for so many steps.
+    fn of_steps(steps: usize, law: &dyn Link, coordinates: Vec<Coordinate>) -> Self {
+        let n = coordinates.len();
+        let fields = law.history().into_owned();
+        let list = || Vec::with_capacity(steps + 1);
+        Self {
+            coordinates,
+            time: list(),
+            deformation: vec![list(); n],
+            rate: vec![list(); n],
+            force: vec![list(); n],
+            work: list(),
+            energy: Default::default(),
+            history: vec![list(); fields.len()],
+            fields,
+            turned_over: 0.0,
+            last: 0,
+        }
     }
 
     /// Takes down where a law is.

@@ -1,7 +1,7 @@
 //! A law as the example of its card has it, and the motion that shows it.
 
 use super::example::Entry;
-use super::{ExerciseError, Motion, Record};
+use super::{ExerciseError, History, Motion, Record};
 use crate::element::{Card, Category, Coordinates, Dof, Link, Values};
 use crate::model::{Body, Registry};
 use std::sync::Arc;
@@ -140,6 +140,23 @@ impl Specimen {
             });
         }
         Record::new(self.law.as_ref(), coordinates, motion)
+    }
+
+    /// Leads the law along a measured history with a column for each of its coordinates. What happened before the
+    /// first sample is not known: there the law is as it would be had nothing yielded or slipped.
+    ///
+    /// # Errors
+    /// [`ExerciseError::NotFinite`], and [`ExerciseError::NoStrokes`] for another number of columns.
+    pub fn follow(&self, history: &History) -> Result<Record, ExerciseError> {
+        let coordinates = self.coordinates();
+        if history.deformation.len() != coordinates.len() {
+            return Err(ExerciseError::NoStrokes {
+                kind: self.card.kind,
+                strokes: history.deformation.len(),
+                coordinates: coordinates.into_iter().map(|c| c.name).collect(),
+            });
+        }
+        Record::along(self.law.as_ref(), coordinates, history)
     }
 }
 

@@ -5,6 +5,13 @@ use super::FrameError;
 /// Largest frame that is made.
 pub(super) const MOST_NODES: usize = 2_000_000;
 
+/// Longest motion that is made: its file then has about a hundred megabytes.
+pub(super) const MOST_STEPS: usize = 1_000_000;
+/// Largest length (m) and largest mass, force and coefficient of a dashpot (SI) of a frame: products of those of one
+/// frame are numbers.
+const MOST_LENGTH: f64 = 1e9;
+const MOST: f64 = 1e60;
+
 /// A rectangular section, m.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Section {
@@ -184,8 +191,64 @@ impl Frame {
             ("duration", self.duration),
             ("link tolerance", self.link_tolerance.unwrap_or(1.0)),
         ];
-        match numbers.into_iter().find(|(_, x)| *x <= 0.0 || !x.is_finite()) {
-            Some((name, value)) => Err(FrameError::NotPositive { name, value }),
+        if let Some((name, value)) = numbers.into_iter().find(|(_, x)| *x <= 0.0 || !x.is_finite())
+        {
+            return Err(FrameError::NotPositive { name, value });
+        }
+        self.check_motion()?;
+        self.check_vectors()?;
+        self.check_sizes()
+    }
+
+    /// Refuses motions of no step, and of more than a file can hold.
+    fn check_motion(&self) -> Result<(), FrameError> {
+        let steps = self.duration / self.dt;
+        if steps > MOST_STEPS as f64 {
+            return Err(FrameError::TooLong { steps });
+        }
+        if steps < 1.0 - 1e-9 {
+            return Err(FrameError::NoStep { dt: self.dt, duration: self.duration });
+        }
+        Ok(())
+    }
+
+    fn check_vectors(&self) -> Result<(), FrameError> {
+        let (nodes, directions) = (self.nodes(), 6 * self.nodes());
+        match self.vectors {
+            Some(vectors) if vectors > directions => {
+                Err(FrameError::Vectors { vectors, nodes, directions })
+            }
+            _ => Ok(()),
+        }
+    }
+
+    /// Refuses numbers that are absurd together, such as widths whose square overflows.
+    fn check_sizes(&self) -> Result<(), FrameError> {
+        let [x, y] = self.bays.map(|n| n as f64 * self.bay);
+        let height = self.storeys as f64 * self.storey;
+        let weights = [self.weight(0, 0), self.weight(1, 0), self.weight(1, 1)];
+        let of = |s: &Section| s.width.max(s.depth);
+        let side = of(&self.column).max(of(&self.beam)).max(of(&self.base_beam));
+        let smallest = weights.into_iter().fold(f64::INFINITY, f64::min);
+        let sizes = [
+            ("the length along X", x, MOST_LENGTH, "m"),
+            ("the length along Y", y, MOST_LENGTH, "m"),
+            ("the height", height, MOST_LENGTH, "m"),
+            ("the largest side of a section", side, MOST_LENGTH, "m"),
+            ("Young's modulus", self.young, MOST, "N/m²"),
+            ("the mass of the frame", self.mass(), MOST, "kg"),
+            ("the weight on an isolator", smallest, MOST, "N"),
+            ("the stiffness of a pendulum", self.weight(1, 1) / self.radius, MOST, "N/m"),
+            ("the stiffness of a bearing", self.mu * self.weight(1, 1) / self.slip, MOST, "N/m"),
+            ("the vertical stiffness of an isolator", self.weight(1, 1) / self.sag, MOST, "N/m"),
+            ("the coefficient of a damper", self.damper(), MOST, "N·s/m"),
+        ];
+        // Not a number is outside as well.
+        let wrong = |(_, x, most, _): &(&str, f64, f64, &str)| !(*x > 0.0 && *x <= *most);
+        match sizes.into_iter().find(wrong) {
+            Some((what, value, most, unit)) => {
+                Err(FrameError::OutOfReach { what, value, most, unit })
+            }
             None => Ok(()),
         }
     }

@@ -5,6 +5,10 @@
 //!   f = −kₙ p + c ġ                   closed, `pull`: the dashpot may hold the contact down; N = kₙ p
 //!   f = min(0, −kₙ p + c ġ)           closed, otherwise: never pulls; N = −f
 //! ```
+//!
+//! The dashpot takes hold over the first nanometre of an approach; see [`touch`](crate::shared::touch).
+
+use crate::shared::touch::hold;
 
 /// Spring and dashpot of a contact.
 #[derive(Clone, Copy, Debug)]
@@ -40,17 +44,19 @@ impl Axial {
         if p < 0.0 {
             return Normal::default();
         }
-        let (kn, c) = (self.kn, self.damping);
+        let (kn, dashpot) = (self.kn, self.damping * rate);
+        let [share, by_gap] = hold(gap, rate);
+        let (f_d, f_v) = (kn + dashpot * by_gap, self.damping * share);
         let spring = kn * p;
-        let f = c * rate - spring;
+        let f = dashpot * share - spring;
         if self.pull {
             let (cone, cone_d) = (spring, -kn);
-            return Normal { closed: true, spring, f, f_d: kn, f_v: c, cone, cone_d, cone_v: 0.0 };
+            return Normal { closed: true, spring, f, f_d, f_v, cone, cone_d, cone_v: 0.0 };
         }
         if f > 0.0 {
             return Normal { closed: true, spring, ..Normal::default() };
         }
-        Normal { closed: true, spring, f, f_d: kn, f_v: c, cone: -f, cone_d: -kn, cone_v: -c }
+        Normal { closed: true, spring, f, f_d, f_v, cone: -f, cone_d: -f_d, cone_v: -f_v }
     }
 }
 

@@ -8,12 +8,16 @@
 //!   fₜ = τ + S ∇h(u) + stop(u)            S = N in compression, −N in tension; with `rise` S = −F
 //! ```
 //!
+//! `inclined` friction lies in the surface and follows the force normal to it; see `incline.rs`. The history is told by
+//! lengths along the surface then: the anchor lies off u by the stretch.
+//!
 //! With `rise` normal force and restoring force come from one potential; without it (small
 //! displacements) the restoring force has none where N changes, and its work is history.
 
 use super::coefficient::BreakAway;
+use super::incline::{Climb, Incline};
 use super::{Axial, Coefficient, Dish, Normal, Rubbing, Stop, Worn, radial_return, share_before};
-use nalgebra::{Matrix2, Matrix3, Vector2, Vector3};
+use nalgebra::{Matrix2, Matrix2x3, Matrix3, Vector2, Vector3};
 use trilith_element::{Contact, Kinematics, Response, history};
 
 history! {
@@ -61,6 +65,8 @@ pub(crate) struct Bearing {
     pub(crate) away: Option<BreakAway>,
     pub(crate) dish: Dish,
     pub(crate) rise: bool,
+    /// Friction lies in the surface, of the force normal to it.
+    pub(crate) inclined: bool,
     pub(crate) stop: Option<Stop>,
 }
 
@@ -73,14 +79,25 @@ struct Gap {
 }
 
 /// Friction force at the end of a step, its derivatives, and what it remembers.
-struct Rubs {
+pub(super) struct Rubs {
     slips: bool,
-    tau: Vector2<f64>,
-    by_stretch: Matrix2<f64>,
-    by_way: Matrix2<f64>,
-    by_speed: Matrix2<f64>,
-    by_normal: Vector2<f64>,
+    pub(super) tau: Vector2<f64>,
+    pub(super) by_stretch: Matrix2<f64>,
+    pub(super) by_way: Matrix2<f64>,
+    pub(super) by_speed: Matrix2<f64>,
+    pub(super) by_normal: Vector2<f64>,
     worn: Worn<f64, 2>,
+}
+
+/// Motion of a closed side along its surface.
+struct Motion {
+    /// Stretch if nothing slips.
+    stretch: Vector2<f64>,
+    /// Way of the step.
+    way: Vector2<f64>,
+    /// Speed at its end.
+    speed: Vector2<f64>,
+    dt: f64,
 }
 
 impl Rubs {
@@ -158,20 +175,19 @@ impl Bearing {
         self.dish.height(u).slope * (pressed.side * pressed.normal.cone)
     }
 
-    /// Friction of a closed side: a stretch if nothing slips, the motion and speed, and the normal force.
+    /// Friction of a closed side under a normal force.
     fn rub(
         &self,
         friction: &Coefficient,
-        stretch: Vector2<f64>,
-        way: Vector2<f64>,
-        at: &Kinematics<'_>,
-        (normal, was): (f64, &SlidingHistory),
+        motion: &Motion,
+        normal: f64,
+        was: &SlidingHistory,
     ) -> Rubs {
         if let Coefficient::Constant { mu } = *friction
             && self.cs == 0.0
             && self.away.is_none()
         {
-            let it = radial_return(self.ks, stretch, mu * normal);
+            let it = radial_return(self.ks, motion.stretch, mu * normal);
             return Rubs {
                 slips: it.slips,
                 tau: it.tau,
@@ -185,10 +201,10 @@ impl Bearing {
         let rubbing = Rubbing {
             spring: self.ks,
             dashpot: self.cs,
-            stretch: stretch.into(),
-            way: way.into(),
-            speed: [at.v[1], at.v[2]],
-            dt: at.dt,
+            stretch: motion.stretch.into(),
+            way: motion.way.into(),
+            speed: motion.speed.into(),
+            dt: motion.dt,
             was: Worn {
                 rate: was.slip_rate,
                 since: was.unstuck,
@@ -234,7 +250,10 @@ impl Bearing {
             add(&mut k, height.curvature * -n.f);
         }
 
-        // Friction.
+        // Friction; on an incline places are told by lengths along the surface, from the start of the step.
+        let vt = tangential(at.v);
+        let climb = self.inclined.then(|| Climb::new(&self.dish, u0, u1, vt));
+        let reached = climb.map_or(u1, |climb| u0 + climb.way);
         let old = Vector2::new(was.anchor2, was.anchor3);
         let (stretched0, damped0) = if before.side == 0.0 {
             (Vector2::zeros(), Vector2::zeros())
@@ -243,37 +262,57 @@ impl Bearing {
         };
         let tau0 = stretched0 * self.ks + damped0;
         let (mut touch, mut end, mut tau1) =
-            (if before.side == 0.0 { u0 } else { old }, u1, Vector2::zeros());
+            (if before.side == 0.0 { u0 } else { old }, reached, Vector2::zeros());
         let (mut slips, mut worn) = (false, FRESH);
         if now.side != 0.0 {
             let cleared = self.clearance(now.side, gap0.x);
+            let reached_by_u = climb.map_or_else(Matrix2::identity, |climb| climb.way_by_place);
+            let mut stretch_by_d = Matrix2x3::<f64>::zeros();
+            for i in 0..2 {
+                for j in 0..2 {
+                    stretch_by_d[(i, 1 + j)] = reached_by_u[(i, j)];
+                }
+            }
             // The anchor moves with the end of the step where contact begins within it.
-            let mut anchor_by_d = nalgebra::Matrix2x3::zeros();
             if cleared > 0.0 {
                 let clearance = self.clearance(now.side, gap.x);
                 let (share, by_gap) = share_before(cleared, clearance);
-                touch = u0 + (u1 - u0) * share;
-                anchor_by_d = (u1 - u0) * (gap.by_d * (by_gap * now.side)).transpose();
-                anchor_by_d[(0, 1)] += share;
-                anchor_by_d[(1, 2)] += share;
+                touch = u0 + (reached - u0) * share;
+                stretch_by_d = stretch_by_d * (1.0 - share)
+                    - (reached - u0) * (gap.by_d * (by_gap * now.side)).transpose();
             }
-            let it = self.rub(&now.friction, u1 - touch, u1 - u0, at, (n.cone, was));
+            let motion = Motion {
+                stretch: reached - touch,
+                way: reached - u0,
+                speed: climb.map_or(vt, |climb| climb.speed),
+                dt: at.dt,
+            };
+            let under = |normal: f64| self.rub(&now.friction, &motion, normal, was);
+            let it = match &climb {
+                Some(climb) => climb.end.press(n.cone, under),
+                None => under(n.cone),
+            };
             (tau1, slips, worn) = (it.tau, it.slips, it.worn);
-            end = if slips { u1 - (tau1 - it.damped()) / self.ks } else { touch };
-            let mut stretch_by_d = -anchor_by_d;
-            stretch_by_d[(0, 1)] += 1.0;
-            stretch_by_d[(1, 2)] += 1.0;
+            end = if slips { reached - (tau1 - it.damped()) / self.ks } else { touch };
             let cone_by_d = gap.by_d * n.cone_d + gap.rate_by_d * n.cone_v;
-            let mut rows = it.by_stretch * stretch_by_d + it.by_normal * cone_by_d.transpose();
-            let mut rates = it.by_normal * gap.by_d.transpose() * n.cone_v;
-            for i in 0..2 {
-                for j in 0..2 {
-                    rows[(i, 1 + j)] += it.by_way[(i, j)];
-                    rates[(i, 1 + j)] += it.by_speed[(i, j)];
+            let cone_by_v = gap.by_d * n.cone_v;
+            let (shear, rows, rates) = if let Some(climb) = &climb {
+                let (rows, rates) =
+                    climb.tangents(&it, &stretch_by_d, n.cone, &cone_by_d, &cone_by_v);
+                (climb.end.along(tau1), rows, rates)
+            } else {
+                let mut rows = it.by_stretch * stretch_by_d + it.by_normal * cone_by_d.transpose();
+                let mut rates = it.by_normal * cone_by_v.transpose();
+                for i in 0..2 {
+                    for j in 0..2 {
+                        rows[(i, 1 + j)] += it.by_way[(i, j)];
+                        rates[(i, 1 + j)] += it.by_speed[(i, j)];
+                    }
                 }
-            }
+                (tau1, rows, rates)
+            };
             for i in 0..2 {
-                f[1 + i] += tau1[i];
+                f[1 + i] += shear[i];
                 for j in 0..3 {
                     k[(1 + i, j)] += rows[(i, j)];
                     c[(1 + i, j)] += rates[(i, j)];
@@ -323,15 +362,16 @@ impl Bearing {
         out.energy.hysteretic = heat.max(0.0);
         let along_gap = Kinematics { d: &[], v: &[gap.rate], d0: &[], v0: &[gap0.rate], dt: at.dt };
         let damped = |p: &Pressed| p.normal.f + p.side * p.normal.spring;
-        let stretching = 0.5 * (damped0 + damped1).dot(&(u1 - end - stretched0));
+        let stretching = 0.5 * (damped0 + damped1).dot(&(reached - end - stretched0));
         out.energy.viscous =
             along_gap.viscous_work(0, damped(&before), damped(&now)) + stretching.max(0.0);
         write(out, &f, &k, &c);
 
         let path = if now.side == 0.0 { 0.0 } else { (end - touch).norm() };
+        let anchor = if self.inclined { end + (u1 - reached) } else { end };
         SlidingHistory {
-            anchor2: end.x,
-            anchor3: end.y,
+            anchor2: anchor.x,
+            anchor3: anchor.y,
             slip: was.slip + path,
             side: now.side,
             slipping: f64::from(u8::from(slips && n.cone > 0.0)),
@@ -351,9 +391,18 @@ impl Bearing {
             Some(_) => compression.min(self.clearance(-1.0, gap.x)),
             None => compression,
         };
+        let load = self.pressed(&gap).normal.cone;
+        let normal = if self.inclined && load > 0.0 {
+            let (u, h) = (tangential(at.d), history);
+            let stretch = u - Vector2::new(h.anchor2, h.anchor3);
+            let tau = stretch * self.ks + Vector2::new(h.damped2, h.damped3);
+            Incline::at(&self.dish, u).normal(load, tau)
+        } else {
+            load
+        };
         Contact {
             gap: clearance,
-            normal: self.pressed(&gap).normal.cone,
+            normal,
             position: [at.d[1], at.d[2]],
             slipping: history.slipping > 0.0,
         }

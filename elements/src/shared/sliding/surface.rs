@@ -57,6 +57,26 @@ impl Dish {
     }
 }
 
+impl Dish {
+    /// The largest slope of a normal to the surface, that of a sphere at 0.95 R.
+    pub(crate) fn steepest() -> f64 {
+        STEEPEST / (1.0 - STEEPEST * STEEPEST).sqrt()
+    }
+
+    /// Gradient and curvature by which the normal leans; farther out than at [`steepest`](Self::steepest) it leans no
+    /// more.
+    pub(crate) fn lean(&self, u: Vector2<f64>) -> (Vector2<f64>, Matrix2<f64>) {
+        let height = self.height(u);
+        let (slope, most) = (height.slope.norm(), Self::steepest());
+        if slope <= most {
+            return (height.slope, height.curvature);
+        }
+        let along = height.slope / slope;
+        let across = Matrix2::identity() - along * along.transpose();
+        (along * most, across * (most / u.norm()))
+    }
+}
+
 /// An elastic rim.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Stop {

@@ -44,11 +44,16 @@ type Term = (&'static str, fn(&EnergyTotals) -> f64);
 const TERMS: [Term; 6] = [
     ("input", |e| e.input),
     ("kinetic", |e| e.kinetic),
-    ("potential", |e| e.strain + e.potential + e.link_stored),
+    ("potential", stored),
     ("NLlink (friction)", |e| e.link_hysteretic),
     ("Ndamp (dashpots)", dashpots),
     ("error", |e| e.error),
 ];
+
+/// Since the start.
+fn stored(e: &EnergyTotals) -> f64 {
+    e.strain - e.start.strain + e.potential + e.link_stored - e.start.link_stored
+}
 
 fn dashpots(e: &EnergyTotals) -> f64 {
     e.link_viscous + e.modal_damping

@@ -66,13 +66,12 @@ fn term(
     let Some(index) = reading.before.iter().position(|(n, _)| n == text) else {
         let all = reading.before.iter().map(|(n, _)| n.as_str());
         let message = format!("there is no output `{text}` before this one");
-        let mut d = c.diagnostic("E0106", message, name.span.clone()).help(names_help(
-            text,
-            "outputs before it",
-            all.clone(),
-        ));
-        if let Some(near) = closest(text, all) {
-            d = d.suggestion(name.span.clone(), format!("\"{near}\""));
+        let mut d = c.diagnostic("E0106", message, name.span.clone());
+        if c.suggests() {
+            d = d.help(names_help(text, "outputs before it", all.clone()));
+            if let Some(near) = closest(text, all) {
+                d = d.suggestion(name.span.clone(), format!("\"{near}\""));
+            }
         }
         c.report(d);
         return None;

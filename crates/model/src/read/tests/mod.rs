@@ -1,5 +1,6 @@
 //! Reading whole models with two made-up kinds.
 
+mod bounds;
 mod damaged;
 mod kinds;
 mod refusals;

@@ -120,7 +120,7 @@ fn a_record_is_read_beside_the_model_file() {
     assert!(long[0].message.contains("ends at 1 s, the case at 20 s"), "{}", shown(&long));
     std::fs::write(folder.join("x.csv"), "time,acc\n0,0\n0.5,much\n").unwrap();
     let cell = read(&text).expect_err("a cell without number");
-    assert!(cell[0].message.contains("x.csv:3: `much`"), "{}", shown(&cell));
+    assert!(cell[0].message.contains("x.csv:3:5: `much`"), "{}", shown(&cell));
     std::fs::remove_dir_all(&folder).unwrap();
 }
 

@@ -5,6 +5,7 @@ use crate::run::units::{number, percent, shown};
 use crate::run::{RunData, figures};
 use maud::{Markup, html};
 use serde_json::Value;
+use trilith_solvers::{EnergyTotals, StartEnergy};
 
 /// Names, words and colours of the energies that can be seen, for the script.
 fn kinds(data: &RunData) -> String {
@@ -17,20 +18,51 @@ fn kinds(data: &RunData) -> String {
     serde_json::to_string(&all).unwrap_or_default()
 }
 
-pub(super) fn energy(summary: &Value, data: &RunData) -> Markup {
+/// The energies of a summary; one that is missing is none, as before there were those at the start.
+fn totals(summary: &Value) -> EnergyTotals {
     let e = &summary["energy"];
-    let input = value(&e["input"]);
-    let largest =
-        e.as_object().into_iter().flatten().fold(0.0_f64, |a, (k, x)| {
-            if k == "error_relative" { a } else { a.max(value(x).abs()) }
-        });
-    let rows = [("input", "input")]
-        .into_iter()
-        .chain(figures::KINDS.iter().map(|(k, w, _)| (*k, *w)))
-        .chain([("error", "unaccounted for")]);
-    let rows: Vec<_> =
-        rows.filter(|(k, _)| *k == "input" || value(&e[*k]).abs() > 1e-9 * largest).collect();
-    let s = shown("J", largest);
+    let of = |from: &Value, key: &str| from.get(key).map_or(0.0, value);
+    let start = &e["start"];
+    EnergyTotals {
+        start: StartEnergy {
+            kinetic: of(start, "kinetic"),
+            strain: of(start, "strain"),
+            link_stored: of(start, "link_stored"),
+        },
+        input: of(e, "input"),
+        kinetic: of(e, "kinetic"),
+        strain: of(e, "strain"),
+        potential: of(e, "potential"),
+        modal_damping: of(e, "modal_damping"),
+        link_stored: of(e, "link_stored"),
+        link_hysteretic: of(e, "link_hysteretic"),
+        link_viscous: of(e, "link_viscous"),
+        algorithmic: of(e, "algorithmic"),
+        error: of(e, "error"),
+        error_relative: of(e, "error_relative"),
+    }
+}
+
+/// What was there and was put in, and what became of it.
+fn balance(summary: &Value) -> Markup {
+    let balance = totals(summary).balance();
+    let whole = balance.whole();
+    let s = shown("J", balance.largest());
+    let all = balance.sources.iter().chain(&balance.uses);
+    let rows: Vec<_> = all
+        .map(|(words, e)| (*words, if balance.is_rounding(*e) { 0.0 } else { *e }))
+        .filter(|(words, e)| *words == "input" || *e != 0.0)
+        .collect();
+    html! { table {
+        thead { tr { th { "at the end" } th { (s.unit) } th { "of start + input" } } }
+        tbody { @for (words, e) in &rows { tr {
+            td { (words) } td.num { (number(e * s.factor)) }
+            td.num { @if let Some(whole) = whole { (percent(e / whole)) } @else { "–" } }
+        } } }
+    } }
+}
+
+pub(super) fn energy(summary: &Value, data: &RunData) -> Markup {
     let (links, kinds) = (links(summary), kinds(data));
     // Of two kinds one may be nothing but rounding beside the other.
     let in_link = |x: f64, of: f64| if x.abs() < 1e-9 * of.abs() { 0.0 } else { x };
@@ -40,16 +72,10 @@ pub(super) fn energy(summary: &Value, data: &RunData) -> Markup {
             (figure("energy curves", &figures::energy_curves(data),
                 "Friction and yielding is the energy of the links (NLlink), viscous that of their dashpots (Ndamp).", Some(&kinds)))
             (figure("energy stack", &figures::energy_stack(data),
-                "Stored and dissipated energies on top of each other; together they are the input. Changes that are negative go downwards.", Some(&kinds)))
+                "Stored and dissipated energies on top of each other; together they are what was there at the start and the input. What is negative goes downwards, such as a potential that was released.", Some(&kinds)))
         }
         div.two {
-            div { table {
-                thead { tr { th { "at the end" } th { (s.unit) } th { "of input" } } }
-                tbody { @for (k, words) in &rows { tr {
-                    td { (words) } td.num { (number(value(&e[*k]) * s.factor)) }
-                    td.num { @if input > 1e-9 * largest { (percent(value(&e[*k]) / input)) } @else { "–" } }
-                } } }
-            } }
+            div { (balance(summary)) }
             @if !links.is_empty() { div { table {
                 thead { tr { th { "link" } th { "friction, yielding [" (in_links.unit) "]" } th { "viscous [" (in_links.unit) "]" } } }
                 tbody { @for (name, h, v) in &links { tr { td { (name) } td.num { (number(in_link(*h, h + v) * in_links.factor)) } td.num { (number(in_link(*v, h + v) * in_links.factor)) } } } }
@@ -69,4 +95,34 @@ fn links(summary: &Value) -> Vec<(String, f64, f64)> {
     all.sort_by(|a, b| (b.1 + b.2).total_cmp(&(a.1 + a.2)));
     all.truncate(COUNT);
     all
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use serde_json::json;
+
+    #[test]
+    fn the_table_of_a_displaced_start_shows_what_was_there() {
+        let energy = json!({
+            "start": { "kinetic": 0.0, "strain": 75.0, "link_stored": 0.0 },
+            "input": 5.0, "kinetic": 60.0, "strain": 4.0, "modal_damping": 16.0, "error": 0.0,
+        });
+        let html = balance(&json!({ "energy": energy })).into_string();
+        for part in [
+            "<td>at the start: strain</td><td class=\"num\">75.00</td><td class=\"num\">93.75 %</td>",
+            "<td>input</td><td class=\"num\">5.000</td><td class=\"num\">6.25 %</td>",
+            "<td>kinetic</td><td class=\"num\">60.00</td><td class=\"num\">75.00 %</td>",
+            "of start + input",
+        ] {
+            assert!(html.contains(part), "{part} in\n{html}");
+        }
+        assert!(!html.contains("potential"), "{html}");
+    }
+
+    #[test]
+    fn a_summary_without_energies_has_a_table_all_the_same() {
+        let html = balance(&json!({})).into_string();
+        assert!(html.contains("<td>input</td>") && html.contains("–"), "{html}");
+    }
 }

@@ -10,7 +10,7 @@ mod rounding;
 mod settings;
 mod shaking;
 
-use super::{Frames, Numbers, RunData, script};
+use super::{Frames, Numbers, RunData, legible, script};
 use crate::Figure;
 use crate::page::STYLE;
 use base64::prelude::{BASE64_STANDARD, Engine as _};
@@ -36,6 +36,9 @@ const SECTIONS: [(&str, &str); 9] = [
 /// them move. `summary` is `summary.json`; a key that is missing leaves its place empty.
 #[must_use]
 pub fn run_page(summary: &Value, data: &RunData) -> String {
+    let summary = &legible::summary(summary);
+    let data = legible::data(data);
+    let data: &RunData = &data;
     let title = summary["model"]["title"].as_str().filter(|t| !t.is_empty()).unwrap_or(&data.file);
     let there = |id: &str| match id {
         "motion" => !data.picture.points.is_empty(),

@@ -44,6 +44,7 @@ pub(super) fn settings(summary: &Value, data: &RunData) -> Markup {
     }
     let files = [
         ("program".to_owned(), format!("trilith {}", text(&summary["version"]))),
+        ("build of it".into(), text(&summary["build"])),
         ("model file".into(), data.file.clone()),
         ("SHA-256 of it".into(), text(&summary["model"]["sha256"])),
     ];

@@ -51,7 +51,10 @@ const plots = {
       const error = line("error", "unaccounted for", "#aa003c", [5, 3]);
       new Chart(host, { ...options, title: "Energies over time", series: [input, ...kinds, error] });
     } else {
-      new Chart(host, { ...options, title: "Where the input is", series: [...stacked(kinds), input] });
+      // Folders of earlier runs have no sum.
+      const known = data.energies.some((e) => e.name === "supply");
+      const supply = known ? line("supply", "start + input", "#1e1e1e") : input;
+      new Chart(host, { ...options, title: "Where the energy is", series: [...stacked(kinds), supply] });
     }
   },
 

@@ -1,0 +1,71 @@
+//! Texts of a run as a page may show them.
+
+use super::{Frames, Numbers, RunData};
+use serde_json::Value;
+use std::borrow::Cow;
+use trilith_model::visible;
+
+/// The summary with the control characters of its texts and names written out.
+pub(crate) fn summary(summary: &Value) -> Value {
+    legible(summary.clone())
+}
+
+/// The data of a run in the same way: the names in both stay alike.
+pub(crate) fn data(data: &RunData) -> Cow<'_, RunData> {
+    // Without the deformed shapes, which are long and hold no texts.
+    let frames = Frames { u: Numbers { n: Vec::new(), ..data.frames.u }, ..data.frames.clone() };
+    let Ok(value) = serde_json::to_value(RunData { frames, ..data.clone() }) else {
+        return Cow::Borrowed(data);
+    };
+    let shown = legible(value.clone());
+    if shown == value {
+        return Cow::Borrowed(data);
+    }
+    match serde_json::from_value::<RunData>(shown) {
+        Ok(mut shown) => {
+            shown.frames.u = data.frames.u.clone();
+            Cow::Owned(shown)
+        }
+        // A number that JSON does not have: the page could not read it, either.
+        Err(_) => Cow::Borrowed(data),
+    }
+}
+
+fn legible(value: Value) -> Value {
+    match value {
+        Value::String(text) => Value::String(visible(&text).into_owned()),
+        Value::Array(items) => Value::Array(items.into_iter().map(legible).collect()),
+        Value::Object(entries) => {
+            let entry =
+                |(key, value): (String, Value)| (visible(&key).into_owned(), legible(value));
+            Value::Object(entries.into_iter().map(entry).collect())
+        }
+        other => other,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn names_are_written_out_and_what_needs_nothing_stays() {
+        let plain = RunData { outputs: vec!["a, b".into()], ..RunData::default() };
+        assert!(matches!(data(&plain), Cow::Borrowed(_)));
+        let odd = RunData { outputs: vec!["a\u{1b}\u{9b}b".into()], ..RunData::default() };
+        assert_eq!(data(&odd).outputs, ["a\\u{1b}\\u{9b}b"]);
+        let of_run = serde_json::json!({"outputs": {"a\u{1b}": {"unit": "m", "max": 0.1}}});
+        assert_eq!(summary(&of_run)["outputs"]["a\\u{1b}"]["max"], 0.1);
+    }
+
+    #[test]
+    fn a_page_of_a_run_holds_no_control_characters() {
+        let name = "a\u{1b}]0;x\u{7}\u{9b}31m";
+        let odd = RunData { file: name.into(), notes: vec![name.into()], ..RunData::default() };
+        let of_run =
+            serde_json::json!({"model": {"title": name}, "case": name, "warnings": [name]});
+        let page = crate::run_page(&of_run, &odd);
+        let obeyed = |c: char| c.is_control() && !matches!(c, '\n' | '\t');
+        assert!(!page.contains(obeyed) && page.contains("a\\u{1b}]0;x\\u{7}"), "{page}");
+    }
+}

@@ -1,0 +1,179 @@
+//! What a run says about a model that is hardly meant so: bodies without weight, contacts without stiffness, parts
+//! that have left. All of it begins with `check the model`.
+
+use crate::contact_mode::{contacts, falling};
+use crate::observe::{CaseResult, Status};
+use crate::stepper::State;
+use trilith_element::{Contact, Dof, Kinematics, Vector3};
+use trilith_model::{Case, DynamicCase, Model, Side};
+use trilith_system::{LoadSet, System};
+
+/// Share of the size of a model by which a contact may be pressed in without a word.
+const PRESSED: f64 = 0.05;
+
+/// Names that a sentence holds.
+const NAMES: usize = 3;
+
+/// The contact that was pressed in deepest.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct Pressed {
+    /// Index of its element, where there was one.
+    element: Option<usize>,
+    /// By how much, m.
+    depth: f64,
+}
+
+impl Pressed {
+    /// Looks at contacts, each with the index of its element.
+    pub(crate) fn see(&mut self, contacts: &[(usize, Contact)]) {
+        for (element, contact) in contacts {
+            if contact.normal > 0.0 && -contact.gap > self.depth {
+                *self = Self { element: Some(*element), depth: -contact.gap };
+            }
+        }
+    }
+}
+
+/// What there is to say of a dynamic case from its result; `pressed`: what was seen on the way.
+pub(crate) fn of_dynamic(
+    (model, system): (&Model, &System),
+    (case, analysis): (&Case, &DynamicCase),
+    loads: &LoadSet,
+    pressed: Pressed,
+    result: &CaseResult,
+) -> Vec<String> {
+    let end = &result.end;
+    let count = system.reduction.prescribed.len();
+    let [supports, _, _] = loads.prescribed(end.time, Side::Before, count);
+    // One that fell over is far from its place, and the status says why.
+    let fallen = matches!(result.status, Status::Overturned { .. });
+    let free = (!fallen).then_some(&end.displacement[..]);
+    let weight = weightless(model, system, case, analysis, &end.load);
+    let place = of_state(model, system, &end.state, pressed, free, &supports);
+    weight.into_iter().chain(place).collect()
+}
+
+/// What there is to say of a static case.
+pub(crate) fn of_static(model: &Model, system: &System, state: &State, u: &[f64]) -> Vec<String> {
+    let supports = vec![0.0; system.reduction.prescribed.len()];
+    let said = of_state(model, system, state, Pressed::default(), Some(u), &supports);
+    said.into_iter().collect()
+}
+
+/// Of the place where a case ends: contacts, and the displacements of the free DOFs where these count.
+fn of_state(
+    model: &Model,
+    system: &System,
+    state: &State,
+    mut pressed: Pressed,
+    free: Option<&[f64]>,
+    supports: &[f64],
+) -> Option<String> {
+    let size = size(model, system)?;
+    pressed.see(&contacts(model, system, state));
+    if let Some(element) = pressed.element.filter(|_| pressed.depth > PRESSED * size) {
+        // What stands on it has moved as far for that.
+        return Some(format!(
+            "check the model: the contact \"{}\" was pressed in by {} m, {} % of the size of the model ({} m; {} % are \
+             taken without a word): it is too soft for what it carries",
+            model.elements[element].name,
+            rounded(pressed.depth),
+            rounded(100.0 * pressed.depth / size),
+            rounded(size),
+            100.0 * PRESSED
+        ));
+    }
+    let (node, moved) = farthest(model, system, free?, supports)?;
+    let carried = supports.iter().fold(0.0, |most: f64, u| most.max(u.abs()));
+    (moved > size + carried).then(|| {
+        format!(
+            "check the model: at the end node \"{}\" is {} m away from its place, {} % of the size of the model ({} m)",
+            model.nodes[node].name,
+            rounded(moved),
+            rounded(100.0 * moved / size),
+            rounded(size)
+        )
+    })
+}
+
+/// Says where ground motion or forces act on a body that only contacts could carry and that nothing presses onto
+/// them.
+fn weightless(
+    model: &Model,
+    system: &System,
+    case: &Case,
+    analysis: &DynamicCase,
+    constant: &[f64],
+) -> Option<String> {
+    if analysis.base.is_empty() && analysis.forces.is_empty() {
+        return None;
+    }
+    let down = Dof::Uz.index();
+    let free = &system.reduction.free;
+    let held = constant.iter().zip(free).any(|(p, full)| *p != 0.0 && full % 6 == down);
+    // A weight may come as a force that varies.
+    let forced = analysis.forces.iter().any(|history| {
+        let forces = &model.patterns[history.pattern].forces;
+        forces.iter().any(|f| f.dof.index() == down && f.value * history.factor < 0.0)
+    });
+    if held || forced {
+        return None;
+    }
+    let elements = falling(model, system);
+    if elements.is_empty() {
+        return None;
+    }
+    let name = |i: &usize| format!("\"{}\"", model.elements[*i].name);
+    let names: Vec<String> = elements.iter().take(NAMES).map(name).collect();
+    let more = if elements.len() > NAMES { ", …" } else { "" };
+    Some(format!(
+        "check the model: nothing but contacts ({}{more}) carries a part of it, and in case \"{}\" its {} kg have no \
+         weight: `after` a static case with `loads: [Gravity]`, or `constant: [Gravity]`, gives it",
+        names.join(", "),
+        case.name,
+        rounded(system.total_mass)
+    ))
+}
+
+/// The node that is farthest from its place, and how far, m; displacements of the free and of the prescribed DOFs.
+fn farthest(
+    model: &Model,
+    system: &System,
+    free: &[f64],
+    supports: &[f64],
+) -> Option<(usize, f64)> {
+    let along = |full: usize| -> f64 {
+        let terms = system.reduction.expand(full).iter();
+        terms.map(|(j, c)| c * free.get(*j).unwrap_or_else(|| &supports[j - free.len()])).sum()
+    };
+    let moved = |node: usize| (0..3).map(|axis| along(6 * node + axis).powi(2)).sum::<f64>().sqrt();
+    (0..model.nodes.len()).map(|node| (node, moved(node))).max_by(|a, b| a.1.total_cmp(&b.1))
+}
+
+/// Largest extent of nodes and outlines of bodies along an axis, m; `None` for a point, which has no size.
+fn size(model: &Model, system: &System) -> Option<f64> {
+    let mut points: Vec<Vector3> = model.nodes.iter().map(|node| node.position).collect();
+    let history = system.links.at_rest(model);
+    let laws = system.links.laws(model);
+    for (law, link) in laws.iter() {
+        let rest = vec![0.0; link.range.len()];
+        let at = Kinematics { d: &rest, v: &rest, d0: &rest, v0: &rest, dt: 0.0 };
+        let Some(outline) = law.outline(&at, &history[link.history.clone()]) else { continue };
+        let Some(node) = model.elements[link.element].nodes.first() else { continue };
+        let place = model.nodes[*node].position;
+        points.extend(outline.points.iter().map(|p| [0, 1, 2].map(|i| place[i] + p[i])));
+    }
+    let along = |axis: usize| {
+        let whole = (f64::INFINITY, f64::NEG_INFINITY);
+        let all = points.iter().map(|p| p[axis]);
+        let (low, high) = all.fold(whole, |(low, high), x| (x.min(low), x.max(high)));
+        high - low
+    };
+    let most = (0..3).map(along).fold(0.0, f64::max);
+    (most > 0.0).then_some(most)
+}
+
+/// With three significant digits.
+fn rounded(x: f64) -> f64 {
+    format!("{x:.2e}").parse().unwrap_or(x)
+}

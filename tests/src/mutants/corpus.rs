@@ -1,0 +1,105 @@
+//! Files that are right.
+
+use super::rng::Rng;
+use super::target::Target;
+use crate::{parse, root};
+use std::path::Path;
+use trilith::RunOptions;
+use trilith_solvers::run;
+
+/// Quantities as users write them.
+const QUANTITIES: [&str; 8] = [
+    "5.1 in",
+    "2*0.3 m",
+    "(1 + 2)*3 kN/m",
+    "-4e6 N*s/m",
+    "1 t",
+    "pi*(20 mm)^2/4",
+    "sqrt(2)*9.81 m/s^2",
+    "min(1, 2, 3)",
+];
+
+/// A mass that slides to rest, small enough to be read thousands of times a second.
+const SMALL: &str = r#"(
+    parameters: { "mu": 0.5, "k": "1e8 N/m" },
+    nodes: { "a": (0, 0, 0), "b": (1, 0, 0) },
+    supports: { "a": (Uy, Rx, Ry, Rz), "b": Fixed },
+    elements: {
+        "m": Mass(node: "a", mass: "1 t"),
+        "s": Spring(nodes: ("a", "b"), k1: "k/1000"),
+        "f": NLink(node: "a", kn: "k", ks: "k", mu: "mu"),
+    },
+    damping: Rayleigh(mass: 0.1, stiffness: 0.001),
+    functions: { "p": Points(points: [(0, "0 m/s^2"), (0.1, "1 m/s^2"), (0.2, "0 m/s^2")], after_end: Zero) },
+    cases: {
+        "gravity": Static(loads: [Gravity]),
+        "motion": Dynamic(after: "gravity", duration: 0.3, dt: 0.01, base: [(direction: X, function: "p")]),
+    },
+    outputs: { "u": Displacement(node: "a", dof: Ux) },
+)"#;
+
+/// A file and what reads it.
+#[derive(Clone, Debug)]
+pub struct File {
+    /// What reads it.
+    pub target: Target,
+    /// Its bytes.
+    pub bytes: Vec<u8>,
+}
+
+/// What mutants are made of.
+#[derive(Clone, Debug)]
+pub struct Corpus(Vec<File>);
+
+impl Corpus {
+    /// The shipped models, studies and records, a checkpoint and quantities.
+    ///
+    /// # Panics
+    /// Where one of them is missing.
+    #[must_use]
+    pub fn shipped() -> Self {
+        let mut files = Vec::new();
+        let mut take = |target: Target, folder: &str, ending: &str| {
+            let folder = root().join(folder);
+            let listed = std::fs::read_dir(&folder).expect("a shipped folder");
+            let mut paths: Vec<_> = listed.flatten().map(|entry| entry.path()).collect();
+            // Folders list their files in any order.
+            paths.sort();
+            for path in paths.iter().filter(|path| ends(path, ending)) {
+                let bytes = std::fs::read(path).expect("a shipped file");
+                files.push(File { target, bytes });
+            }
+        };
+        take(Target::Model, "models", ".ron");
+        take(Target::Study, "models/studies", ".ron");
+        take(Target::Record, "crates/record/tests/files", "");
+        take(Target::Record, "models/records", "_1.csv");
+        let small = || File { target: Target::Model, bytes: SMALL.into() };
+        files.extend([small(), small(), small(), small()]);
+        let (model, system) = parse(SMALL, &[]);
+        let options = RunOptions { case: 1, ..RunOptions::default() };
+        let result = run(&model, &system, options, &mut []).expect("a run");
+        let bytes = serde_json::to_vec(&result.end).expect("a checkpoint");
+        files.push(File { target: Target::Checkpoint, bytes });
+        let quantity =
+            |text: &&str| File { target: Target::Quantity, bytes: text.as_bytes().into() };
+        files.extend(QUANTITIES.iter().map(quantity));
+        Self(files)
+    }
+
+    /// Any of them.
+    pub(super) fn any(&self, rng: &mut Rng) -> &File {
+        rng.pick(&self.0)
+    }
+
+    /// One that is read by the same.
+    pub(super) fn alike(&self, file: &File, rng: &mut Rng) -> &File {
+        let alike: Vec<&File> = self.0.iter().filter(|f| f.target == file.target).collect();
+        alike[rng.below(alike.len())]
+    }
+}
+
+fn ends(path: &Path, ending: &str) -> bool {
+    let name = path.file_name().map(|name| name.to_string_lossy().into_owned());
+    path.is_file() && name.is_some_and(|name| name.ends_with(ending) && name != "README.md")
+}

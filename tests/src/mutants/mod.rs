@@ -1,0 +1,78 @@
+//! What the readers make of files that somebody or something has spoiled.
+//!
+//! Every file of a corpus (models, studies, records, checkpoints, quantities) is cut, doubled, spliced and sown with
+//! numbers that hurt; what comes of it is read and checked as `trilith check` does. A reader may refuse, with a reason.
+//! It must not panic, take longer than [`SLOW`], or let through what is not a number.
+//!
+//! Reference: mutation of a corpus as in \[Miller, Fredriksen & So 1990\].
+
+mod corpus;
+mod mutate;
+mod rng;
+mod target;
+
+pub use corpus::Corpus;
+use rng::Rng;
+use std::cell::RefCell;
+use std::panic::{AssertUnwindSafe, catch_unwind, set_hook, take_hook};
+use std::time::{Duration, Instant};
+pub use target::Target;
+
+/// How long a check may take.
+pub const SLOW: Duration = Duration::from_secs(2);
+/// Longer files than this many bytes are cut: [`SLOW`] is promised for shorter ones.
+const LONGEST: usize = 100_000;
+
+/// What is wrong with a reader.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Fault {
+    /// It broke off: message and place.
+    Panicked(String),
+    /// It took this long, s.
+    Slow(f64),
+    /// It let through what is not a number: where.
+    NotANumber(&'static str),
+}
+
+/// A spoiled file.
+#[derive(Clone, Debug)]
+pub struct Mutant {
+    /// What reads it.
+    pub target: Target,
+    /// Its bytes.
+    pub bytes: Vec<u8>,
+}
+
+/// The mutant of a seed.
+#[must_use]
+pub fn mutant(corpus: &Corpus, seed: u64) -> Mutant {
+    let mut rng = Rng::new(seed);
+    let file = corpus.any(&mut rng);
+    let other = corpus.alike(file, &mut rng);
+    let mut bytes = mutate::mutate(&file.bytes, &other.bytes, &mut rng);
+    bytes.truncate(LONGEST);
+    Mutant { target: file.target, bytes }
+}
+
+thread_local! {
+    static SAID: RefCell<String> = const { RefCell::new(String::new()) };
+}
+
+/// Reads a mutant; true where it is let through.
+///
+/// # Errors
+/// What is wrong with the reader.
+pub fn read(it: &Mutant) -> Result<bool, Fault> {
+    let start = Instant::now();
+    let before = take_hook();
+    set_hook(Box::new(|info| SAID.with(|said| *said.borrow_mut() = info.to_string())));
+    let answer = catch_unwind(AssertUnwindSafe(|| it.target.read(&it.bytes)));
+    set_hook(before);
+    let took = start.elapsed();
+    match answer {
+        Err(_) => Err(Fault::Panicked(SAID.with(RefCell::take))),
+        Ok(Err(place)) => Err(Fault::NotANumber(place)),
+        Ok(Ok(_)) if took > SLOW => Err(Fault::Slow(took.as_secs_f64())),
+        Ok(Ok(through)) => Ok(through),
+    }
+}
