@@ -90,7 +90,7 @@ fn change(bytes: &mut Vec<u8>, other: &[u8], rng: &mut Rng) {
         4 => insert(bytes, at, &other[range(other.len(), rng)]),
         5 => bytes.truncate(at),
         6 => {
-            let sign = *rng.pick(&[b'(', b'[', b'{', b'-', b'\n']);
+            let sign = *rng.pick(b"([{-\n");
             insert(bytes, at, &vec![sign; rng.below(DEEP)]);
         }
         7 => {
