@@ -151,7 +151,7 @@ pub enum Body {
     /// Eliminates DOFs.
     Constraint(Box<dyn Constraint>),
     /// A nonlinear link.
-    Link(Box<dyn Link>, LinkOptions),
+    Link(Arc<dyn Link>, LinkOptions),
 }
 
 /// What every link may say beside its law.
@@ -162,6 +162,9 @@ pub struct LinkOptions {
     pub effective_stiffness: Option<Vec<f64>>,
     /// Where the shear deformation is measured, as distance from node j, m.
     pub shear_at: f64,
+    /// Shares of the moment of the axial force over the shear (P-Δ) at the first and the second node; the ground counts
+    /// as the first. What is left is a couple of shears between nodes apart. `None`: no such moment.
+    pub p_delta_at: Option<[f64; 2]>,
 }
 
 /// Damping of the structure, links and dashpots apart.

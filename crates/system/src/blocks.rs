@@ -108,6 +108,7 @@ mod tests {
                 range,
                 block: block..block + n * n,
                 history: 0..0,
+                tilts: 0,
                 settled: None,
             };
             (coordinate, block) = (coordinate + n, block + n * n);

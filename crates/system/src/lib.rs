@@ -10,6 +10,7 @@ mod elastic;
 mod error;
 mod falling;
 mod impact;
+mod leaning;
 mod links;
 mod loads;
 mod massless;

@@ -10,10 +10,11 @@ use std::sync::Arc;
 use trilith_element::{
     Coordinates, Dof, Energy, Kinematics, Link, Response, Vector3, cross, norm, sub,
 };
-use trilith_model::{Body, Model};
+use trilith_model::{Body, Element, LinkOptions, Model};
 
 use crate::batch::{Pack, packs};
 use crate::dampers::Damper;
+use crate::leaning::{Leaning, TILTS};
 use crate::{Reduction, SystemError};
 
 /// One link in the flat arrays.
@@ -27,6 +28,8 @@ pub struct LinkInstance {
     pub block: Range<usize>,
     /// Its variables in the history arrays.
     pub history: Range<usize>,
+    /// How many of them, at the end, are tilts that the model's law does not know.
+    pub tilts: usize,
     /// The law that runs in place of the model's, where the assembly had to complete it.
     pub settled: Option<Arc<dyn Link>>,
 }
@@ -69,7 +72,10 @@ pub struct LinkSet {
 /// DOFs that the links act on: translations always, rotations where a law deforms them.
 pub(crate) fn mark_used(model: &Model, used: &mut [bool]) {
     for e in &model.elements {
-        let Body::Link(law, _) = &e.body else { continue };
+        let Body::Link(law, options) = &e.body else { continue };
+        for axis in &e.frame.0[1..] {
+            tilt_row(e, options, axis).into_iter().for_each(|(full, _)| used[full] = true);
+        }
         match law.coordinates() {
             Coordinates::Local(axes) => {
                 for axis in axes {
@@ -232,7 +238,6 @@ impl LinkSet {
         for (element, e) in model.elements.iter().enumerate() {
             let Body::Link(law, options) = &e.body else { continue };
             let coordinates = law.coordinates();
-            let n = coordinates.len();
             if let Coordinates::Nodal { nodes } = coordinates
                 && nodes != e.nodes.len()
             {
@@ -246,6 +251,16 @@ impl LinkSet {
             for terms in full_rows(model, element, &coordinates, options.shear_at) {
                 set.push_row(reduction, &terms);
             }
+            let settled = match options.p_delta_at {
+                Some(shares) => Some(leaning(model, element, law, shares)?),
+                None => None,
+            };
+            if settled.is_some() {
+                for axis in &e.frame.0[1..] {
+                    set.push_row(reduction, &tilt_row(e, options, axis));
+                }
+            }
+            let n = set.rows.len() - start;
             match coordinates {
                 Coordinates::Local(axes) => {
                     set.rotational.extend(axes.iter().map(|a| a.index() > 2));
@@ -254,17 +269,17 @@ impl LinkSet {
                     set.rotational.extend((0..6 * nodes).map(|i| i % 6 > 2));
                 }
             }
-            match &options.effective_stiffness {
-                Some(values) => set.effective.extend(values),
-                None => set.effective.resize(start + n, 0.0),
-            }
+            set.rotational.resize(start + n, true);
+            set.effective.extend(options.effective_stiffness.iter().flatten());
+            set.effective.resize(start + n, 0.0);
             let fields = law.history().len();
             set.links.push(LinkInstance {
                 element,
                 range: start..start + n,
                 block: set.block_len..set.block_len + n * n,
                 history: set.history_len..set.history_len + fields,
-                settled: None,
+                tilts: if settled.is_some() { TILTS.len() } else { 0 },
+                settled,
             });
             set.block_len += n * n;
             set.history_len += fields;
@@ -375,7 +390,8 @@ impl LinkSet {
         let engaged = self.engaged(model);
         let mut viscous = vec![false; self.len()];
         for (_, link) in self.laws(model).iter().filter(|(law, _)| law.damps()) {
-            link.range.clone().for_each(|flat| viscous[flat] = engaged[flat] == 0.0);
+            let own = link.range.start..link.range.end - link.tilts;
+            own.for_each(|flat| viscous[flat] = engaged[flat] == 0.0);
         }
         viscous
     }
@@ -403,6 +419,45 @@ impl LinkSet {
             _ => format!("node {} {}", local / 6 + 1, Dof::ALL[local % 6].name()),
         };
         format!("\"{}\" {axis}", model.elements[link.element].name)
+    }
+}
+
+/// Nodes whose rotation tilts a link, with their shares.
+fn tilting(e: &Element, options: &LinkOptions) -> impl Iterator<Item = (usize, f64)> {
+    // The ground, which does not tilt, is the first end of a link with one node.
+    let ends: &[usize] = &e.nodes;
+    let shares = options.p_delta_at.unwrap_or_default();
+    let of_ends = &shares[shares.len().saturating_sub(ends.len())..];
+    ends.iter().copied().zip(of_ends.to_vec()).filter(|(_, share)| *share != 0.0)
+}
+
+/// The row of B of the tilt of a link about a local axis.
+fn tilt_row(e: &Element, options: &LinkOptions, axis: &Vector3) -> Vec<(usize, f64)> {
+    let turned = |(n, share): (usize, f64)| {
+        let along = axis.iter().enumerate().filter(|(_, x)| x.abs() > 1e-12);
+        along.map(move |(k, x)| (6 * n + 3 + k, share * x))
+    };
+    tilting(e, options).flat_map(turned).collect()
+}
+
+/// The law of an element whose axial force follows its shear.
+fn leaning(
+    model: &Model,
+    element: usize,
+    law: &Arc<dyn Link>,
+    shares: [f64; 2],
+) -> Result<Arc<dyn Link>, SystemError> {
+    let e = &model.elements[element];
+    let length = match e.nodes[..] {
+        [i, j] => norm(sub(model.nodes[j].position, model.nodes[i].position)),
+        _ => 0.0,
+    };
+    match Leaning::new(Arc::clone(law), shares, length) {
+        Ok(law) => Ok(Arc::new(law)),
+        Err(reason) => {
+            let (element, span) = (e.name.clone(), e.span.clone());
+            Err(SystemError::Element { element, reason, span })
+        }
     }
 }
 

@@ -113,7 +113,9 @@ impl Reading<'_, '_> {
         let body = match reader {
             Reader::Linear(read) => read(&values).map(Body::Linear),
             Reader::Constraint(read) => read(&values).map(Body::Constraint),
-            Reader::Link(read) => read(&values).map(|l| Body::Link(l, LinkOptions::default())),
+            Reader::Link(read) => {
+                read(&values).map(|l| Body::Link(Arc::from(l), LinkOptions::default()))
+            }
         };
         let body = match body {
             Ok(Body::Link(law, _)) => {
@@ -260,7 +262,34 @@ impl Reading<'_, '_> {
             Some(node) => self.effective_stiffness(node, &coordinates).map(Some),
             None => Some(None),
         };
-        Some(LinkOptions { effective_stiffness: effective_stiffness?, shear_at: shear_at? })
+        let p_delta_at = match given.get("p_delta_at") {
+            Some(node) => self.p_delta_at(node).map(Some),
+            None => Some(None),
+        };
+        Some(LinkOptions {
+            effective_stiffness: effective_stiffness?,
+            shear_at: shear_at?,
+            p_delta_at: p_delta_at?,
+        })
+    }
+
+    /// Two shares, not more than 1 in sum.
+    fn p_delta_at(&self, node: &Node) -> Option<[f64; 2]> {
+        let c = self.c;
+        let items = node.items();
+        let [i, j] = items[..] else {
+            return c.wrong(node, "two shares `(first node, second node)`");
+        };
+        let share = |item| c.ranged(item, "p_delta_at", NONE, Range::Within(0.0, 1.0));
+        let (i, j) = (share(i), share(j));
+        let shares = [i?, j?];
+        let sum: f64 = shares.iter().sum();
+        if sum > 1.0 + 1e-9 {
+            let message = format!("`p_delta_at`: the shares are {sum} in sum, must be at most 1");
+            c.report(c.diagnostic("E0112", message, node.span.clone()));
+            return None;
+        }
+        Some(shares)
     }
 
     /// One number for all coordinates, or a list with one for each.

@@ -139,6 +139,9 @@ fn element(model: &Model, e: &crate::Element) -> String {
     }
     if let Body::Link(_, options) = &e.body {
         fields.push(format!("shear_at: {:?}", options.shear_at));
+        if let Some([i, j]) = options.p_delta_at {
+            fields.push(format!("p_delta_at: ({i:?}, {j:?})"));
+        }
         if let Some(k) = &options.effective_stiffness {
             let k: Vec<String> = k.iter().map(|x| format!("{x:?}")).collect();
             fields.push(format!("effective_stiffness: [{}]", k.join(", ")));

@@ -242,6 +242,12 @@ pub static LINK: Block = Block {
             "0; the basis is made with a thousandth of the stiffness of the closed link",
             "Stiffness that stands for the link in the linear structure (K effective of FNA). The link equations take it out again.",
         ),
+        absent(
+            "p_delta_at",
+            Words("two shares from 0 to 1, `(first node, second node)`, at most 1 in sum"),
+            "no such moment",
+            "Where the moment of the axial force over the shear of the link acts (P-Δ): its share at either end, the ground as the first for one node; the rest is a couple of shears, for which the nodes must be apart. `(1, 0)` for a bearing whose dish lies below. For laws with U1 and U2 or U3. With `p_delta` or without.",
+        ),
         plain(
             "shear_at",
             Number(d::LENGTH, trilith_element::Range::Any),

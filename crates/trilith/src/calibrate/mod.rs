@@ -37,6 +37,7 @@ pub use error::CalibrationError;
 pub use rocking::{Rocking, Swing};
 
 use crate::{Analysis, Error, Model, RunOptions, SolverKind};
+use std::sync::Arc;
 use trilith_element::{Dof, Link};
 use trilith_model as model;
 use trilith_solvers::{Observer, Sample, Status};
@@ -167,6 +168,6 @@ fn law(model: &Model, element: usize) -> Option<&dyn Link> {
 
 fn set_law(model: &mut Model, element: usize, new: Option<Box<dyn Link>>) {
     if let (model::Body::Link(law, _), Some(new)) = (&mut model.elements[element].body, new) {
-        *law = new;
+        *law = Arc::from(new);
     }
 }

@@ -27,7 +27,7 @@ pub const CATEGORIES: [(Category, &str); 3] = [
 
 /// What every link takes beside its parameters.
 pub const EVERY_LINK: &str =
-    "Every link also takes `axis1`, `axis2`, `shear_at` and `effective_stiffness`.";
+    "Every link also takes `axis1`, `axis2`, `shear_at`, `p_delta_at` and `effective_stiffness`.";
 
 /// Heads of a table of [`parameter`] rows.
 pub const HEADS: [&str; 6] = ["name", "symbol", "unit", "range", "default", "meaning"];

@@ -26,7 +26,7 @@ pub struct Specimen {
     /// Its card.
     pub card: &'static Card,
     /// Its law.
-    pub law: Box<dyn Link>,
+    pub law: Arc<dyn Link>,
     /// Its parameters in SI.
     pub values: Values,
     /// It as a line of a model file.
@@ -161,7 +161,7 @@ impl Specimen {
 }
 
 /// The law with the dashpot that its restitution asks for: there is no structure to take a mass from.
-fn settled(law: Box<dyn Link>, notes: &mut Vec<String>) -> Box<dyn Link> {
+fn settled(law: Arc<dyn Link>, notes: &mut Vec<String>) -> Arc<dyn Link> {
     let Some(impact) = law.impact() else { return law };
     let Some(restitution) = impact.restitution else { return law };
     let mass = impact.mass.unwrap_or(STRIKING);
@@ -172,5 +172,5 @@ fn settled(law: Box<dyn Link>, notes: &mut Vec<String>) -> Box<dyn Link> {
             mass / 1000.0
         ));
     }
-    complete
+    Arc::from(complete)
 }
