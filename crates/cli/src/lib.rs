@@ -8,7 +8,7 @@
 //! ```
 //!
 //! Results go to stdout, diagnostics and progress to stderr. Exit status: 0 done, 1 the run did not
-//! converge or lost energy, or what it found could not be printed, 2 the input is wrong.
+//! converge or lost energy, or what it found could not be printed, 2 the input is wrong, 130 it was interrupted.
 
 mod args;
 mod calibrate;
@@ -23,6 +23,7 @@ mod failure;
 mod figure_files;
 mod figures;
 mod generate;
+mod interrupt;
 mod long;
 mod made_by;
 mod modes;

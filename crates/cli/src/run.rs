@@ -1,6 +1,7 @@
 //! `trilith run`.
 
 use crate::args::{ModelArguments, ReportArguments, RunArguments};
+use crate::interrupt::{Ear, INTERRUPTED};
 use crate::progress::Progress;
 use crate::text::shown;
 use crate::{
@@ -9,6 +10,7 @@ use crate::{
 use std::path::{Path, PathBuf};
 use trilith::model::{Body, Element};
 use trilith::results::{Folder, OF_RUN, Summary};
+use trilith::solvers::Status;
 use trilith::{Analysis, Checkpoint, Model, Registry, Run, RunOptions};
 
 /// Deformed shapes kept for ParaView.
@@ -37,6 +39,7 @@ pub(crate) fn run(registry: &Registry, args: RunArguments) -> Result<Answer, Fai
     let (analysis, run) = {
         let mut bar = Progress::new(&model.cases[case].name);
         let mut show = |share| bar.show(share);
+        let ear = Ear::open("the run ends at the next output step, and what there is will be kept");
         let options = RunOptions {
             case,
             solver: args.solver,
@@ -47,6 +50,7 @@ pub(crate) fn run(registry: &Registry, args: RunArguments) -> Result<Answer, Fai
             step_errors: true,
             from: from.map(|checkpoint| checkpoint.state),
             progress: Some(&mut show),
+            interrupt: Some(ear.flag()),
         };
         let mut analysis = Analysis::new(&model).map_err(|e| Failure::of(&e, &model))?;
         if args.no_files {
@@ -78,11 +82,12 @@ pub(crate) fn run(registry: &Registry, args: RunArguments) -> Result<Answer, Fai
             return Ok(Answer { text, status: failure.status });
         }
     }
-    let status = if run.result.status.is_good() {
-        0
-    } else {
-        output::tell(&diagnostics::plain(&run.result.status.text(), None));
-        1
+    let status = match &run.result.status {
+        status if status.is_good() => 0,
+        status => {
+            output::tell(&diagnostics::plain(&status.text(), None));
+            if matches!(status, Status::Interrupted { .. }) { INTERRUPTED } else { 1 }
+        }
     };
     Ok(Answer { text, status })
 }
@@ -120,11 +125,15 @@ fn write(
     for path in figures.iter().flatten() {
         text += &show("figure", path);
     }
-    if args.checkpoint_at.is_some() {
+    let interrupted = matches!(run.result.status, Status::Interrupted { .. });
+    if args.checkpoint_at.is_some() || interrupted {
         let path = dir.join("checkpoint.json");
         let checkpoint = Checkpoint::new(run.result.end.clone());
         checkpoint.write(&path).map_err(|e| Failure::unwritable(&e.path, &e.cause))?;
         text += &show("checkpoint", &path);
+        if interrupted {
+            text += "the same command with `--restart` and this checkpoint goes on (with `--out` for another folder)\n";
+        }
     }
     folder.publish().map_err(|e| Failure::folder(&e))?;
     // A figure that cannot be drawn takes nothing else with it.

@@ -1,6 +1,7 @@
 //! `trilith sweep`.
 
 use crate::args::SweepArguments;
+use crate::interrupt::{Ear, INTERRUPTED};
 use crate::progress::Steps;
 use crate::text::{row, shown, table};
 use crate::{Answer, Failure, figure_files, made_by, output};
@@ -9,7 +10,7 @@ use std::sync::Mutex;
 use std::time::Instant;
 use trilith::Registry;
 use trilith::model::visible_line;
-use trilith_study::{Results, Study, execute};
+use trilith_study::{Results, Study, StudyError, execute};
 
 /// Failed runs that are told one by one.
 const TOLD: usize = 5;
@@ -42,8 +43,14 @@ pub(crate) fn sweep(registry: &Registry, args: &SweepArguments) -> Result<Answer
                 bar.show(p.done, p.total, p.failed);
             }
         };
-        execute(&study, registry, &folder, threads, &show)
-            .map_err(|e| Failure::input(&e.to_string(), Some(e.help())))?
+        let ear = Ear::open("the study ends, and its finished runs are kept");
+        execute(&study, registry, &folder, threads, &show, ear.flag()).map_err(|e| {
+            let failure = Failure::input(&e.to_string(), Some(e.help()));
+            match e {
+                StudyError::Interrupted { .. } => Failure { status: INTERRUPTED, ..failure },
+                _ => failure,
+            }
+        })?
     };
     made_by::write_study(&folder, &inputs, &args.set, &study)?;
     let mut text = report(&study, &results, start.elapsed().as_secs_f64(), &folder);

@@ -17,6 +17,7 @@ use crate::statics::{self, Equilibrium};
 use crate::stepper::{LinksBefore, State};
 use crate::view::show_static;
 use serde::{Deserialize, Serialize};
+use std::sync::atomic::AtomicBool;
 use trilith_model::{Analysis, Case, Load, Model, ParameterValue, SolverKind, StaticCase};
 use trilith_system::System;
 
@@ -42,6 +43,8 @@ pub struct RunOptions<'a> {
     pub from: Option<EndState>,
     /// Told the finished share of the run, 0 … 1.
     pub progress: Option<&'a mut dyn FnMut(f64)>,
+    /// Stop at the next output time once this is true; a case that is continued is not begun then.
+    pub interrupt: Option<&'a AtomicBool>,
 }
 
 /// The state at the end of a run: what the next case continues, or a checkpoint.
@@ -119,7 +122,9 @@ pub fn run(
     observers: &mut [&mut dyn Observer],
 ) -> Result<CaseResult, SolveError> {
     let before = match options.from {
-        None => before(model, system, &model.cases[options.case], options.solver)?,
+        None => {
+            before(model, system, &model.cases[options.case], options.solver, options.interrupt)?
+        }
         Some(_) => None,
     };
     let mut result = one(model, system, before, options, observers)?;
@@ -158,12 +163,13 @@ pub(crate) fn before(
     system: &System,
     case: &Case,
     solver: Option<SolverKind>,
+    interrupt: Option<&AtomicBool>,
 ) -> Result<Option<EndState>, SolveError> {
     let earlier: Vec<usize> =
         std::iter::successors(case.after, |case| model.cases[*case].after).collect();
     let mut end = None;
     for case in earlier.into_iter().rev() {
-        end = Some(end_of(model, system, case, end, solver)?);
+        end = Some(end_of(model, system, case, end, solver, interrupt)?);
     }
     Ok(end)
 }
@@ -175,11 +181,12 @@ fn end_of(
     case: usize,
     before: Option<EndState>,
     solver: Option<SolverKind>,
+    interrupt: Option<&AtomicBool>,
 ) -> Result<EndState, SolveError> {
     let mut vectors = None;
     let mut round = 0;
     let result = loop {
-        let options = RunOptions { case, solver, vectors, ..RunOptions::default() };
+        let options = RunOptions { case, solver, vectors, interrupt, ..RunOptions::default() };
         // A case whose basis is too small starts again from there.
         let result = one(model, system, before.clone(), options, &mut [])?;
         match result.enlarged(model, round) {
@@ -190,6 +197,7 @@ fn end_of(
     };
     if let Status::NotConverged { .. }
     | Status::Spent { .. }
+    | Status::Interrupted { .. }
     | Status::Overturned { .. }
     | Status::Inadequate { .. } = result.status
     {

@@ -23,6 +23,7 @@ use crate::aside::Teller;
 use crate::companion::{SAFE, UNSEEN};
 use crate::defect::Defect;
 use crate::kernel::ForceScale;
+use crate::kicks::Kicks;
 use crate::samples::Samples;
 use crate::stepper::State;
 use crate::timeline::Piece;
@@ -65,6 +66,7 @@ impl OutputError {
 pub(crate) struct Certificate<'a> {
     shadow: Option<Teller>,
     defect: Option<Defect<'a>>,
+    kicks: Option<Kicks>,
     samples: Samples<'a>,
     reduction: Vec<f64>,
     /// Steps before the first time of comparison that it was asked about.
@@ -85,6 +87,7 @@ impl<'a> Certificate<'a> {
         samples: Samples<'a>,
         shadow: Option<Teller>,
         defect: Option<Defect<'a>>,
+        kicks: Option<Kicks>,
         link_tolerance: f64,
     ) -> Self {
         let left = |output: &Output| match output.quantity {
@@ -99,6 +102,7 @@ impl<'a> Certificate<'a> {
         Self {
             shadow,
             defect,
+            kicks,
             samples,
             reduction: vec![0.0; count],
             asked: 0,
@@ -113,6 +117,9 @@ impl<'a> Certificate<'a> {
         if let Some(defect) = &mut self.defect {
             defect.note(t, state);
         }
+        if let Some(kicks) = &mut self.kicks {
+            kicks.jump(t, state);
+        }
         if let Some(shadow) = &mut self.shadow {
             shadow.jump(t);
         }
@@ -125,6 +132,9 @@ impl<'a> Certificate<'a> {
         }
         if let Some(defect) = &mut self.defect {
             defect.follow(t, state);
+        }
+        if let Some(kicks) = &mut self.kicks {
+            kicks.follow(t, state);
         }
         self.forces = state.scale;
         let Some(values) = self.samples.take(piece, t, state) else {
@@ -177,12 +187,14 @@ impl<'a> Certificate<'a> {
             // Not a number stays none.
             if size > 0.0 { e * (1.0 + (e / size).clamp(0.0, 1.0)) } else { e }
         };
+        let kicked: Option<Vec<f64>> = self.kicks.as_ref().map(|kicks| kicks.errors().collect());
         let step = |i: usize| {
             let apart = apart.as_ref().map_or(f64::NAN, |apart| apart[i]);
             let left = self.left[i].map_or(0.0, |(kind, share)| share * self.forces[kind]);
             let straight = self.defect.as_ref().map_or(0.0, |defect| ANSWERED * defect.most[i]);
             let unseen = UNSEEN * self.size(i) + ROUNDING * self.largest_alike(model, i);
-            doubted(larger(SAFE * apart, straight), i) + unseen + left
+            let kicked = kicked.as_ref().map_or(0.0, |kicked| kicked[i]);
+            doubted(larger(SAFE * apart, straight), i) + kicked + unseen + left
         };
         let reduction = self.reduction.iter().enumerate();
         let error =

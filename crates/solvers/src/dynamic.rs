@@ -12,10 +12,12 @@ use crate::drag::follow_supports;
 use crate::equations::{Equations, bases, is_reduced, modes};
 use crate::error::SolveError;
 use crate::kernel::Remembered;
+use crate::kicks::Kicks;
 use crate::ledger::Ledger;
 use crate::march::{March, Pace, Stop};
 use crate::observe::{CaseResult, Observer, Status, Work};
 use crate::output_step::{Moment, Moving, at_least, output_step};
+use crate::outputs::Outputs;
 use crate::plausible;
 use crate::samples::Samples;
 use crate::shadow::Shadow;
@@ -24,6 +26,7 @@ use crate::start::{Initial, check, constant_force, resume, start};
 use crate::stepper::{State, Stepper};
 use crate::timeline::Timeline;
 use crate::view::{Viewer, looks_at_rates};
+use std::sync::atomic::Ordering;
 use trilith_model::{
     Analysis, Case, DynamicCase, MOST_OUTPUT_STEPS, Model, SolverKind, StepControl, output_steps,
 };
@@ -103,7 +106,8 @@ pub(crate) fn run(
         Some(end) => (end.displacement.clone(), end.velocity.clone()),
         None => (initial.displacement.clone(), initial.velocity.clone()),
     };
-    let RunOptions { from, until, substeps, step_errors, mut progress, vectors, .. } = options;
+    let RunOptions { from, until, substeps, step_errors, mut progress, vectors, interrupt, .. } =
+        options;
     let largest = from.as_ref().map(|end| end.largest.clone()).unwrap_or_default();
     let set_out = |stepper: &mut dyn Stepper| match from.clone() {
         Some(end) => resume(end, stepper),
@@ -137,7 +141,14 @@ pub(crate) fn run(
             let modes = modes(model, system, &loads, bases);
             Defect::new(model, system, &loads, modes, timeline.time(first), &moving.state)
         });
-        Certificate::new(model, &system.links, samples, shadow, defect, solution.link_tolerance)
+        let kicks = stepper.closed_form().filter(|_| step_errors).and_then(|form| {
+            let (space, at) = (stepper.space(), (timeline.time(first), &*moving.state));
+            let outputs = Outputs::new(model, system, space);
+            Kicks::new(&outputs, space, &form.omega, timeline.dt, at)
+        });
+        let links = &system.links;
+        let tolerance = solution.link_tolerance;
+        Certificate::new(model, links, samples, shadow, defect, kicks, tolerance)
     });
     viewer.start(last.saturating_sub(first));
     viewer.show(timeline.time(first), Some(first), &moving.state, &moving.ledger);
@@ -151,7 +162,7 @@ pub(crate) fn run(
         }
         _ => None,
     };
-    let (mut stop, mut fallen) = (None, None);
+    let (mut stop, mut fallen, mut interrupted) = (None, None, false);
     let mut made = first;
     let outputs = model.outputs.len();
     let (beside, reduction) = std::thread::scope(|scope| {
@@ -184,7 +195,8 @@ pub(crate) fn run(
                     tell((*made - first) as f64 / (last - first) as f64);
                 }
                 fallen = viewer.overturned(state);
-                if fallen.is_some() {
+                interrupted = *made < last && interrupt.is_some_and(|i| i.load(Ordering::Relaxed));
+                if fallen.is_some() || interrupted {
                     break;
                 }
             }
@@ -257,6 +269,9 @@ pub(crate) fn run(
         }
         Some(Stop::Spent { t }) => {
             result.status = Status::Spent { t, tried: counts.substeps + counts.rejected };
+        }
+        None if interrupted && result.status.is_good() && fallen.is_none() => {
+            result.status = Status::Interrupted { t: result.end.time };
         }
         Some(Stop::Fatal(_)) | None => {}
     }

@@ -34,6 +34,7 @@ mod imbalance;
 mod inside;
 mod joints;
 mod kernel;
+mod kicks;
 pub mod lanes;
 mod ledger;
 mod link_map;

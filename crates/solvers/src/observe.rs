@@ -180,6 +180,11 @@ pub enum Status {
         /// Substeps tried.
         tried: usize,
     },
+    /// Stopped from outside, at an output time: all until then is as it would have been.
+    Interrupted {
+        /// That time, s.
+        t: f64,
+    },
     /// To the end, but the basis does not hold the motion well enough.
     Inadequate {
         /// The output that is farthest off.
@@ -213,6 +218,7 @@ impl Status {
             Self::EnergyError { .. } => "energy error",
             Self::NotConverged { .. } => "not converged",
             Self::Spent { .. } => "spent",
+            Self::Interrupted { .. } => "interrupted",
             Self::Overturned { .. } => "overturned",
             Self::Inadequate { .. } => "inadequate",
         }
@@ -235,6 +241,7 @@ impl Status {
             Self::Spent { t, tried } => format!(
                 "stopped at t = {t:.6} s after {tried} tried substeps, which is all that it was given (`substep_limit`)"
             ),
+            Self::Interrupted { t } => format!("interrupted at t = {t:.6} s"),
             Self::Inadequate { output, share, allowed } => format!(
                 "the basis is too small: output \"{output}\" may be off by {:.2} % of its range (allowed {:.2} %): use more vectors",
                 100.0 * share,

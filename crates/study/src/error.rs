@@ -21,6 +21,16 @@ pub enum StudyError {
         /// The folder.
         folder: PathBuf,
     },
+    /// Somebody wanted an end.
+    #[error("interrupted: {done} of {total} runs are kept in {}", .folder.display())]
+    Interrupted {
+        /// Runs that are done.
+        done: usize,
+        /// All runs.
+        total: usize,
+        /// The folder.
+        folder: PathBuf,
+    },
     /// The folder has runs of something else.
     #[error("{} has runs of another study: {} changed since", .folder.display(), .changed.join(", "))]
     OtherStudy {
@@ -51,6 +61,9 @@ impl StudyError {
                 "make room and start the same study again: it goes on where it was"
             }
             Self::File { .. } => "every finished run is kept; the same study started again goes on",
+            Self::Interrupted { .. } => {
+                "the same command goes on, and writes the tables at its end"
+            }
             Self::Locked { .. } => "wait for it, or give another folder with `--out`",
             Self::OtherStudy { .. } | Self::NoJournal { .. } => {
                 "give another folder with `--out`, or remove this one"

@@ -57,6 +57,7 @@ struct Shared<'a> {
     found: Mutex<Vec<Record>>,
     error: Mutex<Option<StudyError>>,
     stop: AtomicBool,
+    interrupt: &'a AtomicBool,
     next: AtomicUsize,
     done: AtomicUsize,
     failed: AtomicUsize,
@@ -66,15 +67,18 @@ struct Shared<'a> {
 
 /// Runs a study into a folder, or goes on with it, and writes its tables and its page.
 ///
+/// Once `interrupt` is true, no run is begun, and those under way are given up.
+///
 /// # Errors
-/// [`StudyError`] where the folder cannot be written or belongs to something else. Runs that fail are no
-/// error: they are rows of the table.
+/// [`StudyError`] where the folder cannot be written or belongs to something else, or where it was interrupted. Runs that
+/// fail are no error: they are rows of the table.
 pub fn execute(
     study: &Study,
     registry: &Registry,
     folder: &Path,
     threads: usize,
     progress: &(dyn Fn(Progress) + Sync),
+    interrupt: &AtomicBool,
 ) -> Result<Results, StudyError> {
     std::fs::create_dir_all(folder).map_err(StudyError::at(folder))?;
     // The system lets go of the lock when the process ends, however it ends.
@@ -100,6 +104,7 @@ pub fn execute(
         found: Mutex::new(Vec::new()),
         error: Mutex::new(None),
         stop: AtomicBool::new(false),
+        interrupt,
         next: AtomicUsize::new(0),
         done: AtomicUsize::new(0),
         failed: AtomicUsize::new(0),
@@ -119,6 +124,10 @@ pub fn execute(
     if let Ok(mut journal) = shared.journal.lock() {
         journal.sync()?;
     }
+    if interrupt.load(Ordering::Relaxed) {
+        let done = shared.done.into_inner();
+        return Err(StudyError::Interrupted { done, total, folder: folder.to_owned() });
+    }
     let mut records = shared.found.into_inner().unwrap_or_default();
     records.sort_by_key(|r| r.run);
     let left_out = total - records.len();
@@ -129,7 +138,7 @@ pub fn execute(
 impl Shared<'_> {
     fn work(&self, chains: usize) {
         let length = self.study.plan.chain_length();
-        while !self.stop.load(Ordering::Relaxed) {
+        while !self.stops() {
             let chain = self.next.fetch_add(1, Ordering::Relaxed);
             if chain >= chains {
                 break;
@@ -143,16 +152,24 @@ impl Shared<'_> {
         }
     }
 
+    fn stops(&self) -> bool {
+        [&self.stop, self.interrupt].iter().any(|flag| flag.load(Ordering::Relaxed))
+    }
+
     /// Runs one after the other until the limit.
     fn chain(&self, first: usize, length: usize) -> Result<(), StudyError> {
         for run in first..first + length {
-            if self.stop.load(Ordering::Relaxed) {
+            if self.stops() {
                 return Ok(());
             }
             let record = match self.kept.get(&run) {
                 Some(record) => record.clone(),
                 None => {
-                    let record = self.study.run(self.registry, run, self.folder)?;
+                    let record = self.study.run(self.registry, run, self.folder, self.interrupt)?;
+                    if self.interrupt.load(Ordering::Relaxed) {
+                        // It may have been cut short.
+                        return Ok(());
+                    }
                     if let Ok(mut journal) = self.journal.lock() {
                         journal.write(&record)?;
                     }
@@ -182,9 +199,16 @@ impl Shared<'_> {
 
 impl Study {
     /// Makes one run, by its number. Whatever goes wrong in it is told in the record.
-    fn run(&self, registry: &Registry, run: usize, folder: &Path) -> Result<Record, StudyError> {
+    fn run(
+        &self,
+        registry: &Registry,
+        run: usize,
+        folder: &Path,
+        interrupt: &AtomicBool,
+    ) -> Result<Record, StudyError> {
         let place = self.plan.place(run);
-        let made = catch_unwind(AssertUnwindSafe(|| self.make(registry, run, &place, folder)));
+        let made =
+            catch_unwind(AssertUnwindSafe(|| self.make(registry, run, &place, folder, interrupt)));
         made.unwrap_or_else(|panic| {
             let text = panic.downcast_ref::<String>().cloned();
             let text = text.or_else(|| panic.downcast_ref::<&str>().map(|s| (*s).to_owned()));
@@ -199,6 +223,7 @@ impl Study {
         run: usize,
         place: &Place,
         folder: &Path,
+        interrupt: &AtomicBool,
     ) -> Result<Record, StudyError> {
         let set = self.plan.nominal(place);
         let model = match self.model(registry, place) {
@@ -209,8 +234,12 @@ impl Study {
         let histories = self.histories.is_some();
         let made = Analysis::new(&model).and_then(|a| {
             let a = if histories { a } else { a.without_histories() };
-            let options =
-                RunOptions { case: self.case, solver: self.solver, ..RunOptions::default() };
+            let options = RunOptions {
+                case: self.case,
+                solver: self.solver,
+                interrupt: Some(interrupt),
+                ..RunOptions::default()
+            };
             a.observed(options, &mut [&mut watch])
         });
         let record = match made {

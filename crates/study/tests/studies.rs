@@ -2,7 +2,7 @@
 
 use std::path::Path;
 use std::sync::Mutex;
-use std::sync::atomic::{AtomicUsize, Ordering};
+use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use trilith::model::Diagnostic;
 use trilith_study::{Results, Study, StudyError, execute};
 
@@ -47,7 +47,7 @@ fn read(folder: &Path, body: &str) -> Result<Study, Vec<Diagnostic>> {
 }
 
 fn run(study: &Study, out: &Path, threads: usize) -> Result<Results, StudyError> {
-    execute(study, &trilith::registry(), out, threads, &|_| {})
+    execute(study, &trilith::registry(), out, threads, &|_| {}, &AtomicBool::new(false))
 }
 
 fn bytes(out: &Path, name: &str) -> Vec<u8> {
@@ -204,12 +204,13 @@ fn two_at_once_and_folders_of_others_are_refused() {
     let study = read(folder.path(), GRID).unwrap();
     let second = Mutex::new(None);
     let first_call = AtomicUsize::new(0);
-    execute(&study, &trilith::registry(), &out, 1, &|_| {
+    let on_first = |_| {
         if first_call.fetch_add(1, Ordering::Relaxed) == 0 {
             *second.lock().unwrap() = Some(run(&study, &out, 1).unwrap_err());
         }
-    })
-    .unwrap();
+    };
+    let never = AtomicBool::new(false);
+    execute(&study, &trilith::registry(), &out, 1, &on_first, &never).unwrap();
     assert!(matches!(second.into_inner().unwrap(), Some(StudyError::Locked { .. })));
     // Figures may change, runs may not.
     let figures = format!("{GRID} figures: [Points(x: \"a\", y: \"slide\")]");
@@ -327,4 +328,19 @@ fn all_errors_of_a_study_are_told_at_once() {
     let none =
         Study::read_text("(model: \"none.ron\")", "s.ron", &trilith::registry(), &[]).unwrap_err();
     assert!(none[0].message.contains("none.ron cannot be read"));
+}
+
+/// Runs that are finished are kept and not made again.
+#[test]
+fn an_interrupted_study_goes_on() {
+    let folder = folder();
+    let out = folder.path().join("out");
+    let study = read(folder.path(), GRID).unwrap();
+    let stop = AtomicBool::new(false);
+    let at_the_fifth = |p: trilith_study::Progress| stop.store(p.done >= 5, Ordering::Relaxed);
+    let error = execute(&study, &trilith::registry(), &out, 1, &at_the_fifth, &stop).unwrap_err();
+    let StudyError::Interrupted { done, total, .. } = error else { panic!("{error}") };
+    assert_eq!((done, total), (5, 24));
+    let results = run(&study, &out, 1).unwrap();
+    assert_eq!((results.resumed, results.records.len()), (5, 24));
 }

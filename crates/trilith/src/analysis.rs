@@ -102,6 +102,7 @@ impl<'m> Analysis<'m> {
             step_errors,
             from,
             mut progress,
+            interrupt,
         } = options;
         // A run goes on with the basis it was made with.
         let before = from.as_ref().and_then(|end| end.vectors);
@@ -121,6 +122,7 @@ impl<'m> Analysis<'m> {
                 step_errors,
                 from: from.clone(),
                 progress,
+                interrupt,
             };
             let mut run = self.once(options, observers)?;
             let more = run.result.enlarged(self.model, round).filter(|_| from.is_none());
@@ -128,6 +130,12 @@ impl<'m> Analysis<'m> {
                 if let Some(n) = vectors.filter(|_| round > 0) {
                     run.result.warnings.push(format!(
                         "the basis was enlarged to {n} vectors: with fewer, outputs were off by more than its `tolerance`"
+                    ));
+                }
+                if let Some(from) = from.filter(|_| !run.result.errors.is_empty()) {
+                    run.result.warnings.push(format!(
+                        "how far the outputs may be off (±) is told of the part from t = {:.6} s on, peaks of all of it",
+                        from.time
                     ));
                 }
                 return Ok(run);

@@ -161,7 +161,7 @@ pub fn prepare(
         return Ok(Err(reason));
     }
     let case = &model.cases[case];
-    let before = before(model, system, case, None)?;
+    let before = before(model, system, case, None, None)?;
     let constant = held_load(model, system, analysis, before.as_ref());
     let loads = system.dynamic_loads(model, analysis, constant);
     let initial = Initial::new(model, system, analysis, before.as_ref())?;

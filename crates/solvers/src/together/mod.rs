@@ -101,7 +101,7 @@ fn entrant(member: Member<'_>, case: usize) -> Result<Option<Entrant<'_>>, Solve
     if !matches!(analysis.solution.step, StepControl::Fixed { .. }) {
         return Ok(None);
     }
-    let before = before(model, system, case, Some(SolverKind::Fna))?;
+    let before = before(model, system, case, Some(SolverKind::Fna), None)?;
     let constant = held_load(model, system, analysis, before.as_ref());
     let loads = system.dynamic_loads(model, analysis, constant.clone());
     let initial = Initial::new(model, system, analysis, before.as_ref())?;
