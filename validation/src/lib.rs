@@ -65,7 +65,8 @@ impl Item {
 pub fn all() -> Vec<Item> {
     let studies = studies::all().into_iter().map(Item::Study);
     let cases = cases::all().into_iter().map(|c| Item::Case(Box::new(c)));
-    studies.chain(cases).chain(cases::with_record()).collect()
+    let others = studies::with_programs().into_iter();
+    studies.chain(others).chain(cases).chain(cases::with_record()).collect()
 }
 
 /// Runs several items at a time and returns what they found in the order of the items. `done` is

@@ -78,6 +78,7 @@ const ONCE_WRONG: [(u64, &str); 55] = [
     (1_222_260, "what the basis lacks of the start, gone before the first time of comparison"),
     (1_221_890, "smooth hysteresis inside the steps of a fast mode"),
     (1_400_541, "a long flight before an impact"),
+    (2_028_550, "a light node that swings thirteen times in a step"),
     (1_400_636, "a link that another one moves"),
     (1_404_172, "the oracle's rounding under the root of a dashpot"),
     (1_500_723, "an output that is nothing but rounding"),

@@ -63,6 +63,13 @@ impl Dual {
         Self(r, if r > 0.0 { 0.5 * self.1 / r } else { 0.0 })
     }
 
+    /// Sine and cosine.
+    #[must_use]
+    pub fn sin_cos(self) -> (Self, Self) {
+        let (sin, cos) = self.0.sin_cos();
+        (Self(sin, cos * self.1), Self(cos, -sin * self.1))
+    }
+
     /// e to it.
     #[must_use]
     pub fn exp(self) -> Self {

@@ -6,17 +6,21 @@ pub struct Rng {
     state: u64,
     /// Structures may have links of all kinds. Those of smaller seeds are what they were.
     pub all_kinds: bool,
+    /// Bodies may turn by finite angles.
+    pub rocking: bool,
 }
 
 /// From this seed on.
 const ALL_KINDS: u64 = 1_000_000;
+/// The same.
+const ROCKING: u64 = 3_000_000;
 
 impl Rng {
     /// A stream of its own for every seed.
     #[must_use]
     pub fn new(seed: u64) -> Self {
         let state = seed.wrapping_mul(0xD134_2543_DE82_EF95) ^ 0x5851_F42D_4C95_7F2D;
-        let mut it = Self { state, all_kinds: seed >= ALL_KINDS };
+        let mut it = Self { state, all_kinds: seed >= ALL_KINDS, rocking: seed >= ROCKING };
         it.next();
         it
     }

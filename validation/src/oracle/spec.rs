@@ -149,6 +149,8 @@ pub enum Law {
     Triple(Triple),
     /// Bearing with smooth plastic shear.
     Shear(Shear),
+    /// Rigid body on points, in finite rotation about Y.
+    Rocking(Rocking),
 }
 
 /// Pounding with a spring and a dashpot.
@@ -310,6 +312,15 @@ pub struct Contact {
     pub ks: f64,
 }
 
+/// A rigid body in XZ that stands on points, its node at the centre.
+#[derive(Clone, Debug)]
+pub struct Rocking {
+    /// Points along X and Z from the centre.
+    pub points: Vec<[f64; 2]>,
+    /// What each point does where it meets the ground; the clearance is that of the lowest.
+    pub contact: Contact,
+}
+
 /// Damping of the structure.
 #[derive(Clone, Copy, Debug, Default)]
 pub enum Damping {
@@ -394,6 +405,8 @@ impl Law {
             Self::Pendulum(_) | Self::Tension(_) | Self::Triple(_) => vec![0, 1, 2],
             Self::Shear(s) if s.axial > 0.0 => vec![0, 1, 2],
             Self::Shear(_) => vec![1, 2],
+            // Along Z, along X, about Y.
+            Self::Rocking(_) => vec![0, 1, 5],
             Self::Contact(_) => vec![0],
             Self::Linear(..) => vec![0, 1],
             Self::Elastomeric(..) => vec![1, 2],

@@ -6,6 +6,7 @@ mod calibration;
 mod convergence;
 mod frames;
 mod numerical_damping;
+mod opensees;
 mod overturning;
 mod random;
 mod runs;
@@ -13,7 +14,7 @@ mod seed;
 mod sensitivity;
 mod structures;
 
-use crate::Study;
+use crate::{Item, Study};
 pub use random::RANDOM_FNA;
 
 /// All studies.
@@ -32,4 +33,10 @@ pub fn all() -> Vec<Study> {
         &random::STUDIES,
     ]
     .concat()
+}
+
+/// Studies that need another program, or what is missing.
+#[must_use]
+pub fn with_programs() -> Vec<Item> {
+    vec![opensees::item()]
 }

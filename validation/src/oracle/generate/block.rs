@@ -2,7 +2,7 @@
 
 use super::links::{FREE, along, axial, between, node, sliding, tension};
 use crate::oracle::rng::{Rng, figures};
-use crate::oracle::spec::{Contact, Kind, Law, Spec};
+use crate::oracle::spec::{Contact, Kind, Law, Rocking, Spec};
 
 /// A body in XZ that stands by gravity and friction.
 pub fn block(rng: &mut Rng) -> Spec {
@@ -43,6 +43,9 @@ pub fn block(rng: &mut Rng) -> Spec {
     }
     let (w, h) = (rng.log(0.5, 2.0), rng.log(0.3, 2.0));
     let centre = node(&mut spec, [0.0, 0.0, figures(0.5 * h)], FREE);
+    if rng.rocking && rng.chance(0.5) {
+        return rocking(spec, centre, [w, h], mass, contact, rng);
+    }
     let left = node(&mut spec, [figures(-0.5 * w), 0.0, 0.0], FREE);
     let right = node(&mut spec, [figures(0.5 * w), 0.0, 0.0], FREE);
     let inertia = figures(mass * (w * w + h * h) / 12.0);
@@ -60,5 +63,27 @@ pub fn block(rng: &mut Rng) -> Spec {
     for n in [left, right] {
         spec.members.push(between(&[n], Kind::Link(law.clone(), 0)));
     }
+    spec
+}
+
+/// The same as one link at its centre, which turns as far as it likes; some fall onto their sides.
+fn rocking(
+    mut spec: Spec,
+    centre: usize,
+    [w, h]: [f64; 2],
+    mass: f64,
+    contact: Contact,
+    rng: &mut Rng,
+) -> Spec {
+    let inertia = figures(mass * (w * w + h * h) / 12.0);
+    spec.members.push(between(&[centre], Kind::Mass(mass, [0.0, inertia, 0.0])));
+    let (x, z) = (figures(0.5 * w), figures(0.5 * h));
+    let mut points = vec![[-x, -z], [x, -z]];
+    if rng.chance(0.3) {
+        points.extend([[-x, z], [x, z]]);
+    }
+    // Its friction has one coefficient.
+    let contact = Contact { fast: contact.slow, rate: 0.0, ..contact };
+    spec.members.push(between(&[centre], Kind::Link(Law::Rocking(Rocking { points, contact }), 0)));
     spec
 }

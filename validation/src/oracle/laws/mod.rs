@@ -12,10 +12,11 @@ mod hysteresis;
 mod impact;
 mod pendulum;
 mod ring;
+mod rocking;
 mod sliding;
 
 use super::number::Dual;
-use super::spec::{Contact, Law};
+use super::spec::{Contact, Law, Rocking};
 use hysteresis::straight;
 
 /// What a law is asked about.
@@ -56,6 +57,7 @@ impl Law {
             Self::Degrading(_) => 2,
             Self::Branches(_, k, _) => k.len(),
             Self::Triple(_) => 14,
+            Self::Rocking(r) => r.unknowns(),
         }
     }
 
@@ -65,7 +67,7 @@ impl Law {
     pub fn remembers_or_jumps(&self) -> bool {
         let jumps = match self {
             Self::Kelvin(i) => i.c > 0.0,
-            Self::Contact(c) => c.c > 0.0,
+            Self::Contact(c) | Self::Rocking(Rocking { contact: c, .. }) => c.c > 0.0,
             _ => false,
         };
         jumps || self.unknowns() > 0
@@ -105,6 +107,7 @@ impl Law {
             Self::Branches(beside, k, _) => vec![beside + 0.1 * k.iter().sum::<f64>()],
             Self::Tension(t) => vec![0.1 * t.stiff[0], 0.1 * t.ks, 0.1 * t.ks],
             Self::Triple(t) => vec![0.1 * t.kn, 0.1 * t.ks, 0.1 * t.ks],
+            Self::Rocking(r) => r.stiffness(),
             Self::Shear(s) => {
                 let first = if s.axial > 0.0 { Some(s.axial) } else { None };
                 let across = |i: usize| s.elastic[i] + s.strength[i] / s.yields[i];
@@ -226,6 +229,7 @@ impl Law {
             Self::Degrading(b) => branch = b.answer(at, &mut f[0], g),
             Self::Tension(t) => branch = t.answer(at, f, g),
             Self::Triple(t) => branch = t.answer(at, f, g),
+            Self::Rocking(r) => branch = r.answer(at, f, g),
             Self::Shear(s) => branch = s.answer(at, f, g),
             Self::Branches(beside, stiff, time) => {
                 // z: elongations of the springs.

@@ -144,6 +144,22 @@ pub(super) fn law(law: &Law, axis: &str, rotation: bool) -> (&'static str, Strin
             }
             ("TriplePendulum", all)
         }
+        Law::Rocking(r) => {
+            let points: Vec<String> =
+                r.points.iter().map(|[x, z]| format!("({x:?}, 0.0, {z:?})")).collect();
+            let c = &r.contact;
+            // It may turn over and over: the oracle knows of no end.
+            let all = format!(
+                "base: [{}], kn: {:?}, damping: {:?}, pull: {}, mu: {:?}, ks: {:?}, overturned: 1000",
+                points.join(", "),
+                c.kn,
+                c.c,
+                c.pull,
+                c.slow,
+                c.ks
+            );
+            ("RockingBody", all)
+        }
         Law::Shear(s) => {
             if let Some(diameter) = s.lead {
                 let section = std::f64::consts::PI * diameter * diameter / 4.0;

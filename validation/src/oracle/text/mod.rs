@@ -2,7 +2,7 @@
 
 mod law;
 
-use super::spec::{AXES, Basis, DOFS, Damping, Function, Kind, Output, Spec};
+use super::spec::{AXES, Basis, DOFS, Damping, Function, Kind, Law, Output, Spec};
 use law::law;
 use std::fmt::Write as _;
 
@@ -95,9 +95,11 @@ pub fn text(spec: &Spec) -> String {
                 Output::End(e, end, d) => {
                     format!("ElementForce(element: \"e{e}\", end: {end}, dof: {})", DOFS[*d])
                 }
-                Output::LinkForce(e, a) => format!("LinkForce(link: \"e{e}\", axis: {})", AXES[*a]),
+                Output::LinkForce(e, a) => {
+                    format!("LinkForce(link: \"e{e}\", {})", coordinate(spec, *e, *a))
+                }
                 Output::LinkDeformation(e, a) => {
-                    format!("LinkDeformation(link: \"e{e}\", axis: {})", AXES[*a])
+                    format!("LinkDeformation(link: \"e{e}\", {})", coordinate(spec, *e, *a))
                 }
             };
             format!("\"o{i}\": {what}")
@@ -105,6 +107,21 @@ pub fn text(spec: &Spec) -> String {
     ));
     s.push_str(")\n");
     s
+}
+
+/// A local axis of a link; a body in finite rotation has the directions of its node instead.
+fn coordinate(spec: &Spec, element: usize, axis: usize) -> String {
+    match spec.members[element].kind {
+        Kind::Link(Law::Rocking(_), _) => {
+            let place = match axis {
+                0 => 2,
+                1 => 0,
+                _ => 4,
+            };
+            format!("coordinate: {place}")
+        }
+        _ => format!("axis: {}", AXES[axis]),
+    }
 }
 
 fn block(name: &str, items: impl Iterator<Item = String>) -> String {

@@ -1,0 +1,113 @@
+//! Springs that yield or bend.
+
+use super::pair::{Agree, Ours, Pair, command, link, material};
+use super::paths::Wave::{Growing, Ramp};
+use serde_json::{Value, json};
+
+/// A plastic spring along these points, m and N.
+fn plastic(rule: &str, deformation: &str, force: &str) -> Vec<Ours> {
+    let set = [("axis", "U1"), ("rule", rule), ("deformation", deformation), ("force", force)];
+    vec![link("MultilinearPlastic", &set)]
+}
+
+/// Stiffness and yield force of springs of two lines.
+const E: f64 = 1e8;
+const FY: f64 = 3e5;
+
+/// A spring that yields, with another slope behind, 1 m of it.
+fn two_lines(rule: &str, slope: f64) -> Vec<Ours> {
+    let end = FY + slope;
+    plastic(rule, "-1.003, -0.003, 0, 0.003, 1.003", &format!("{}, -3e5, 0, 3e5, {end}", -end))
+}
+
+/// Points of five lines, m and N; the last three are those of three lines.
+const POINTS: [(f64, f64); 5] =
+    [(0.001, 1.2e5), (0.002, 2.2e5), (0.003, 3e5), (0.008, 4e5), (0.028, 5e5)];
+
+/// A kinematic spring through these points and their counterparts.
+fn through(points: &[(f64, f64)]) -> Vec<Ours> {
+    let back = points.iter().rev().map(|(d, f)| (-d, -f));
+    let all: Vec<_> = back.chain([(0.0, 0.0)]).chain(points.iter().copied()).collect();
+    let list = |of: fn(&(f64, f64)) -> f64| {
+        all.iter().map(|p| of(p).to_string()).collect::<Vec<_>>().join(", ")
+    };
+    plastic("Kinematic", &list(|p| p.0), &list(|p| p.1))
+}
+
+fn yielding() -> Vec<Pair> {
+    // Slope behind yield of a plastic modulus.
+    let behind = E * 4e6 / (E + 4e6);
+    let two = [
+        ("ElasticPP", "ElasticPP", &[E, FY / E][..], "Kinematic", 0.0),
+        ("Steel01", "Steel01", &[FY, E, 0.02], "Kinematic", 0.02 * E),
+        ("Hardening, kinematic", "Hardening", &[E, FY, 0.0, 4e6], "Kinematic", behind),
+        ("Hardening, isotropic", "Hardening", &[E, FY, 4e6, 0.0], "Isotropic", behind),
+        ("MultiLinear of two lines", "MultiLinear", &[FY / E, FY, 0.013, 5e5], "Kinematic", 2e7),
+    ];
+    let mut all = Vec::new();
+    for (name, kind, numbers, rule, slope) in two {
+        all.extend(Pair::twice(name, &[material(kind, numbers)], &two_lines(rule, slope), 0.02));
+    }
+    for (lines, points) in [("three", &POINTS[2..]), ("five", &POINTS[..])] {
+        let theirs: Vec<f64> = points.iter().flat_map(|(d, f)| [*d, *f]).collect();
+        let (theirs, ours) = (vec![material("MultiLinear", &theirs)], through(points));
+        let name = format!("MultiLinear of {lines} lines");
+        let first = format!("{name}, first loading");
+        all.push(Pair::material(&first, theirs.clone(), ours.clone(), Ramp(0.025)));
+        all.extend(Pair::twice(&name, &theirs, &ours, 0.02));
+    }
+    all
+}
+
+fn elastic() -> [Pair; 2] {
+    let mut theirs = command("uniaxialMaterial", "ElasticMultiLinear", &[1], &[0.0]);
+    theirs.push(json!("-strain"));
+    theirs.extend([-0.05, -0.02, 0.0, 0.01, 0.04].map(|x| json!(x)));
+    theirs.push(json!("-stress"));
+    theirs.extend([-4e5, -6e4, 0.0, 6e4, 3e5].map(|x| json!(x)));
+    let set =
+        [("deformation", "-0.05, -0.02, 0, 0.01, 0.04"), ("force", "-4e5, -6e4, 0, 6e4, 3e5")];
+    let ours = [link("MultilinearElastic", &set)];
+    Pair::twice("ElasticMultiLinear", &[theirs.into()], &ours, 0.06)
+}
+
+fn side_by_side() -> [Pair; 2] {
+    let part = |kind: &str, tag: u8, numbers: &[f64]| {
+        Value::from(command("uniaxialMaterial", kind, &[tag], numbers))
+    };
+    let parts = [
+        part("Steel01", 2, &[FY, E, 0.02]),
+        part("ENT", 3, &[2e7]),
+        part("Viscous", 4, &[5e4, 1.0]),
+        json!(["uniaxialMaterial", "Parallel", 1, 2, 3, 4]),
+    ];
+    let mut ours = two_lines("Kinematic", 0.02 * E);
+    ours.push(link("Gap", &[("k", "2e7"), ("opening", "0")]));
+    ours.push(link("Dashpot", &[("c", "5e4")]));
+    Pair::twice("Parallel of three", &parts, &ours, 0.02)
+}
+
+fn flag() -> Pair {
+    let theirs = material("SelfCentering", &[5e7, 5e6, 3e5, 0.6]);
+    // The same branch of loading, and one of return that meets theirs within the motion.
+    let set = [
+        ("k", "5e7"),
+        ("k1", "5e6"),
+        ("k2", "2.6e6"),
+        ("u0", "0.054"),
+        ("us", "none"),
+        ("axis", "U1"),
+    ];
+    let ours = vec![link("FrictionSpring", &set)];
+    let why = "the branches are parallel there and run to one point here";
+    Pair::material("SelfCentering, growing cycles", vec![theirs], ours, Growing(0.04, 1.0))
+        .agreeing(Agree::Near(0.12, why))
+}
+
+pub(super) fn pairs() -> Vec<Pair> {
+    let mut all = yielding();
+    all.extend(elastic());
+    all.extend(side_by_side());
+    all.push(flag());
+    all
+}
