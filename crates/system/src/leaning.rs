@@ -13,11 +13,14 @@
 //! Reference: moments of P over the shear of a link as in \[CSI Analysis Reference, ch. Link/Support: P-delta\], where
 //! P θ is left out.
 
+use crate::SystemError;
 use std::borrow::Cow;
 use std::sync::Arc;
 use trilith_element::{
     Axis, Contact, ContactUse, Coordinates, Energy, Field, Impact, Kinematics, Link, Response,
+    norm, sub,
 };
+use trilith_model::Model;
 
 /// Most coordinates of a law along local axes.
 const MOST: usize = 6;
@@ -44,11 +47,31 @@ struct Row {
 }
 
 impl Leaning {
+    /// The law of an element whose axial force follows its shear.
+    pub(crate) fn of(
+        model: &Model,
+        element: usize,
+        law: &Arc<dyn Link>,
+        shares: [f64; 2],
+    ) -> Result<Arc<dyn Link>, SystemError> {
+        let e = &model.elements[element];
+        let length = match e.nodes[..] {
+            [i, j] => norm(sub(model.nodes[j].position, model.nodes[i].position)),
+            _ => 0.0,
+        };
+        let refused = |reason| {
+            let (element, span) = (e.name.clone(), e.span.clone());
+            SystemError::Element { element, reason, span }
+        };
+        let law = Self::new(Arc::clone(law), shares, length).map_err(refused)?;
+        Ok(Arc::new(law))
+    }
+
     /// Of a law between ends with these shares, over a distance (m) between its nodes.
     ///
     /// # Errors
     /// What the law or the shares lack.
-    pub(crate) fn new(law: Arc<dyn Link>, shares: [f64; 2], length: f64) -> Result<Self, String> {
+    fn new(law: Arc<dyn Link>, shares: [f64; 2], length: f64) -> Result<Self, String> {
         let Coordinates::Local(axes) = law.coordinates() else {
             return Err(
                 "`p_delta_at` is for laws along local axes: this one does its own kinematics"

@@ -11,6 +11,7 @@ mod error;
 mod falling;
 mod impact;
 mod leaning;
+mod link_rows;
 mod links;
 mod loads;
 mod massless;

@@ -7,14 +7,13 @@
 use serde::{Deserialize, Serialize};
 use std::ops::Range;
 use std::sync::Arc;
-use trilith_element::{
-    Coordinates, Dof, Energy, Kinematics, Link, Response, Vector3, cross, norm, sub,
-};
-use trilith_model::{Body, Element, LinkOptions, Model};
+use trilith_element::{Coordinates, Dof, Energy, Kinematics, Link, Response};
+use trilith_model::{Body, Model};
 
 use crate::batch::{Pack, packs};
 use crate::dampers::Damper;
 use crate::leaning::{Leaning, TILTS};
+use crate::link_rows::{full_rows, tilt_row};
 use crate::{Reduction, SystemError};
 
 /// One link in the flat arrays.
@@ -252,7 +251,7 @@ impl LinkSet {
                 set.push_row(reduction, &terms);
             }
             let settled = match options.p_delta_at {
-                Some(shares) => Some(leaning(model, element, law, shares)?),
+                Some(shares) => Some(Leaning::of(model, element, law, shares)?),
                 None => None,
             };
             if settled.is_some() {
@@ -420,103 +419,4 @@ impl LinkSet {
         };
         format!("\"{}\" {axis}", model.elements[link.element].name)
     }
-}
-
-/// Nodes whose rotation tilts a link, with their shares.
-fn tilting(e: &Element, options: &LinkOptions) -> impl Iterator<Item = (usize, f64)> {
-    // The ground, which does not tilt, is the first end of a link with one node.
-    let ends: &[usize] = &e.nodes;
-    let shares = options.p_delta_at.unwrap_or_default();
-    let of_ends = &shares[shares.len().saturating_sub(ends.len())..];
-    ends.iter().copied().zip(of_ends.to_vec()).filter(|(_, share)| *share != 0.0)
-}
-
-/// The row of B of the tilt of a link about a local axis.
-fn tilt_row(e: &Element, options: &LinkOptions, axis: &Vector3) -> Vec<(usize, f64)> {
-    let turned = |(n, share): (usize, f64)| {
-        let along = axis.iter().enumerate().filter(|(_, x)| x.abs() > 1e-12);
-        along.map(move |(k, x)| (6 * n + 3 + k, share * x))
-    };
-    tilting(e, options).flat_map(turned).collect()
-}
-
-/// The law of an element whose axial force follows its shear.
-fn leaning(
-    model: &Model,
-    element: usize,
-    law: &Arc<dyn Link>,
-    shares: [f64; 2],
-) -> Result<Arc<dyn Link>, SystemError> {
-    let e = &model.elements[element];
-    let length = match e.nodes[..] {
-        [i, j] => norm(sub(model.nodes[j].position, model.nodes[i].position)),
-        _ => 0.0,
-    };
-    match Leaning::new(Arc::clone(law), shares, length) {
-        Ok(law) => Ok(Arc::new(law)),
-        Err(reason) => {
-            let (element, span) = (e.name.clone(), e.span.clone());
-            Err(SystemError::Element { element, reason, span })
-        }
-    }
-}
-
-/// Rows of B over full DOFs. A link between nodes apart stands between rigid arms of both to the place of its
-/// shear, so that its forces are in equilibrium along whatever axes it has. Rotations that the structure neither
-/// uses nor prescribes are held: the reduction expands them to nothing.
-fn full_rows(
-    model: &Model,
-    element: usize,
-    coordinates: &Coordinates,
-    shear_at: f64,
-) -> Vec<Vec<(usize, f64)>> {
-    let e = &model.elements[element];
-    let axes = match coordinates {
-        Coordinates::Nodal { .. } => {
-            return e
-                .nodes
-                .iter()
-                .flat_map(|n| (0..6).map(move |k| vec![(6 * n + k, 1.0)]))
-                .collect();
-        }
-        Coordinates::Local(axes) => axes,
-    };
-    let frame = &e.frame.0;
-    let (j, i) = match e.nodes[..] {
-        [i, j] => (j, Some(i)),
-        _ => (e.nodes[0], None),
-    };
-    // From both nodes to the place of the link, which is on the line between them.
-    let arms = i.map_or([[0.0; 3]; 2], |i| {
-        let line = sub(model.nodes[j].position, model.nodes[i].position);
-        let length = norm(line);
-        let share = if length > 0.0 { shear_at / length } else { 0.0 };
-        [line.map(|x| (1.0 - share) * x), line.map(|x| -share * x)]
-    });
-    axes.iter()
-        .map(|axis| {
-            let a = axis.index();
-            let mut terms = Vec::new();
-            let mut add = |node: usize, axis: Vector3, offset: usize, c: f64| {
-                terms.extend(
-                    axis.iter()
-                        .enumerate()
-                        .filter(|(_, x)| x.abs() > 1e-12)
-                        .map(|(k, x)| (6 * node + offset + k, c * x)),
-                );
-            };
-            let (offset, along) = (3 * (a / 3), frame[a % 3]);
-            add(j, along, offset, 1.0);
-            if let Some(i) = i {
-                add(i, along, offset, -1.0);
-                if a < 3 {
-                    // e · (θ × r) = θ · (r × e).
-                    add(j, cross(arms[1], along), 3, 1.0);
-                    add(i, cross(arms[0], along), 3, -1.0);
-                }
-            }
-            terms.retain(|(_, c)| *c != 0.0);
-            terms
-        })
-        .collect()
 }
