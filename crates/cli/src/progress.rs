@@ -53,7 +53,7 @@ impl Drop for Progress {
 const LINE: Duration = Duration::from_secs(30);
 
 /// Progress of many runs: a bar with the time left on a terminal, a line now and then elsewhere. Studies that last say
-/// first how they go on after a stop: the end by a signal leaves no time for that.
+/// first how they go on after a stop: an end by force leaves no time for that.
 pub(crate) struct Steps {
     start: Instant,
     said: Instant,
