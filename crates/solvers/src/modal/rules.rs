@@ -302,35 +302,43 @@ impl Coupled<'_> {
     }
 
     /// exp of the augmented system: exact for sources linear in the step.
+    ///
+    /// Its states are measured so that each is a displacement: ∫q/Δt, q, q̇/w and s/w² with w = ω, no less than 1/Δt. As
+    /// they are, one fast mode makes a matrix of size ω²Δt, and what a power series of that rounds away sets the
+    /// structure in motion that stands still.
     fn exact(&self, dt: f64) -> Blocks {
         let (n, m) = (self.size(), self.modes);
-        let c = n - m;
-        // States: ∫q and ∫y, q and y, q̇, s, ṡ·dt.
+        let w: Vec<f64> = self.omega2[..m].iter().map(|x| x.sqrt().max(dt.recip())).collect();
+        // What a unit of each input is, and of each row.
+        let of_rate = |j: usize| w[j];
+        let of_source = |j: usize| if j < m { w[j] * w[j] } else { self.omega2[j] };
+        // States: ∫q and ∫y, q and y, q̇, s, ṡ·Δt.
         let (position, rate, source) = (n, 2 * n, 2 * n + m);
         let size = source + 2 * n;
         let mut a = Dense::zeros(size, size);
         for i in 0..n {
-            a[(i, position + i)] = dt;
+            a[(i, position + i)] = 1.0;
             a[(source + i, source + n + i)] = 1.0;
         }
         // Rates of y, as rows over (y, q̇, s).
         for y in m..n {
-            let per = dt / self.own(y, dt);
-            a[(position + y, position + y)] = -self.omega2[y] * per;
-            a[(position + y, source + y)] = per;
+            let x = self.omega2[y] * dt / self.own(y, dt);
+            a[(position + y, position + y)] = -x;
+            a[(position + y, source + y)] = x;
             for j in 0..m {
-                a[(position + y, rate + j)] = -self.damping[(y, j)] * per;
+                a[(position + y, rate + j)] =
+                    -self.damping[(y, j)] * of_rate(j) * dt / self.own(y, dt);
             }
         }
         for i in 0..m {
-            a[(position + i, rate + i)] = dt;
-            a[(rate + i, position + i)] = -self.omega2[i] * dt;
-            a[(rate + i, source + i)] = dt;
+            a[(position + i, rate + i)] = w[i] * dt;
+            a[(rate + i, position + i)] = -self.omega2[i] / w[i] * dt;
+            a[(rate + i, source + i)] = w[i] * dt;
             for j in 0..m {
-                a[(rate + i, rate + j)] = -self.damping[(i, j)] * dt;
+                a[(rate + i, rate + j)] = -self.damping[(i, j)] * (w[j] / w[i]) * dt;
             }
-            for y in m..m + c {
-                let tie = self.damping[(i, y)];
+            for y in m..n {
+                let tie = self.damping[(i, y)] / w[i];
                 if tie == 0.0 {
                     continue;
                 }
@@ -342,23 +350,41 @@ impl Coupled<'_> {
             }
         }
         let e = expm(&a);
-        let block = |row: usize, rows: usize, column: usize, columns: usize| {
+        let block = |row: usize, of_row: &dyn Fn(usize) -> f64, rows: usize, column: usize| {
+            let per_column = |j: usize| match column {
+                c if c == rate => of_rate(j).recip(),
+                c if c >= source => of_source(j).recip(),
+                _ => 1.0,
+            };
             let mut b = Dense::zeros(n, n);
-            for j in 0..columns {
+            for j in 0..if column == rate { m } else { n } {
                 for i in 0..rows {
-                    b[(i, j)] = e[(row + i, column + j)];
+                    b[(i, j)] = e[(row + i, column + j)] * (of_row(i) * per_column(j));
                 }
             }
             b
         };
-        let [sum, q, mut v] = [(0, n), (position, n), (rate, m)].map(|(row, rows)| {
-            let end = block(row, rows, source + n, n);
-            let mut start = block(row, rows, source, n);
-            for (x, y) in start.values_mut().iter_mut().zip(end.values()) {
-                *x -= y;
+        let row = |row: usize, of_row: &dyn Fn(usize) -> f64, rows: usize, rest: f64| {
+            let of_position = block(row, of_row, rows, position);
+            let end = block(row, of_row, rows, source + n);
+            let mut start = block(row, of_row, rows, source);
+            for j in 0..n {
+                // What stands under a constant source goes on standing, to the last digit.
+                if self.omega2[j] > 0.0 && (j >= m || w[j] > dt.recip()) {
+                    let per = of_source(j).recip();
+                    for i in 0..rows {
+                        let stood = if i == j { rest } else { 0.0 };
+                        start[(i, j)] = (stood - of_position[(i, j)]) * per;
+                    }
+                }
+                for i in 0..rows {
+                    start[(i, j)] -= end[(i, j)];
+                }
             }
-            [block(row, rows, position, n), block(row, rows, rate, m), start, end]
-        });
+            [of_position, block(row, of_row, rows, rate), start, end]
+        };
+        let (sum, q) = (row(0, &|_| dt, n, dt), row(position, &|_| 1.0, n, 1.0));
+        let mut v = row(rate, &of_rate, m, 0.0);
         self.end_rates(dt, &q, &mut v);
         [sum, q, v]
     }
@@ -450,6 +476,49 @@ mod tests {
         };
         let (coarse, fine) = (error(20), error(40));
         assert!(coarse < 1e-3 && (coarse / fine - 4.0).abs() < 0.3, "{coarse} {fine}");
+    }
+
+    /// Modes that damping could couple but does not, a slow one and one of 6 kHz, beside the closed form of each.
+    #[test]
+    fn a_fast_mode_beside_a_slow_one_is_as_exact_as_alone() {
+        let (omega2, rates, dt) = ([40.0_f64, 1.5e9], [0.3, 150.0], 0.1);
+        let damping = Dense::from_columns(2, 2, vec![rates[0], 0.0, 0.0, rates[1]]);
+        let together = Coupled { modes: 2, omega2: &omega2, damping }.exact(dt);
+        for i in 0..2 {
+            let alone = single_mode::exact(omega2[i], rates[i], dt);
+            let w = omega2[i].sqrt();
+            for ((row, blocks), of_row) in alone.iter().zip(&together).zip([w, 1.0, w.recip()]) {
+                let of_column = [1.0, w, w * w, w * w];
+                for ((x, block), of_column) in row.iter().zip(blocks).zip(of_column) {
+                    let off = (block[(i, i)] - x).abs() * of_row * of_column;
+                    assert!(off < 1e-10, "mode {i}: {} {x} {off}", block[(i, i)]);
+                }
+            }
+        }
+    }
+
+    /// What stands under a constant load does not move, however fast the fastest mode is.
+    #[test]
+    fn what_stands_goes_on_standing() {
+        let omega2 = [40.0, 1.5e9, 3e4];
+        let damping =
+            Dense::from_columns(3, 3, vec![0.3, 5.0, 2.0, 5.0, 150.0, 30.0, 2.0, 30.0, 900.0]);
+        let [_, q, v] = Coupled { modes: 2, omega2: &omega2, damping }.exact(0.1);
+        let s = [0.2, 700.0, 11.0];
+        for i in 0..3 {
+            let sum = |b: &[Dense; 4]| -> f64 {
+                (0..3)
+                    .map(|j| b[0][(i, j)] * s[j] / omega2[j] + (b[2][(i, j)] + b[3][(i, j)]) * s[j])
+                    .sum()
+            };
+            let stands = s[i] / omega2[i];
+            assert!(
+                (sum(&q) - stands).abs() < 1e-12 * stands.max(5e-3),
+                "{i}: {} {stands}",
+                sum(&q)
+            );
+            assert!(sum(&v).abs() < 1e-13, "{i}: {}", sum(&v));
+        }
     }
 
     #[test]
