@@ -180,8 +180,13 @@ impl<'a> Certificate<'a> {
         &self,
         model: &Model,
         companion: Option<&Samples<'_>>,
+        duration: f64,
     ) -> Vec<OutputError> {
         let apart = companion.map(|c| self.samples.apart(c));
+        let count = model.outputs.len();
+        let jumps = companion
+            .map(|c| self.samples.touches.apart(&c.touches, SAFE, duration, count))
+            .unwrap_or_else(|| vec![0.0; count]);
         let doubted = |e: f64, i: usize| {
             let size = SECOND_ORDER * self.size(i);
             // Not a number stays none.
@@ -194,7 +199,8 @@ impl<'a> Certificate<'a> {
             let straight = self.defect.as_ref().map_or(0.0, |defect| ANSWERED * defect.most[i]);
             let unseen = UNSEEN * self.size(i) + ROUNDING * self.largest_alike(model, i);
             let kicked = kicked.as_ref().map_or(0.0, |kicked| kicked[i]);
-            doubted(larger(SAFE * apart, straight), i) + kicked + unseen + left
+            let stepped = doubted(larger(SAFE * apart, straight), i);
+            stepped + jumps[i] + kicked + unseen + left
         };
         let reduction = self.reduction.iter().enumerate();
         let error =

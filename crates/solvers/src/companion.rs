@@ -76,10 +76,11 @@ impl<'a> Companion<'a> {
         let Equations { model, system, loads, .. } = self.equations;
         let mut stepper = self.equations.stepper()?;
         let (state, pace, ledger, _) = set_out(stepper.as_mut())?;
-        let mut moving = Moving { state: Box::new(state), pace, ledger };
         let steps = self.steps.clone();
+        let (space, timeline) = (stepper.space(), self.timeline);
         let mut samples =
-            Samples::new(model, system, loads, stepper.space(), self.timeline, steps.clone());
+            Samples::new(model, system, loads, space, timeline, steps.clone(), &state);
+        let mut moving = Moving { state: Box::new(state), pace, ledger };
         let constant = constant_force(stepper.space(), loads);
         let control = StepControl::Adaptive { tolerance: self.tolerance };
         let mut march = March::new(stepper.as_mut(), loads, control);

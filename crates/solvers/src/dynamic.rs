@@ -133,8 +133,8 @@ pub(crate) fn run(
     let judged = !model.outputs.is_empty() && (step_errors || shadow.is_some());
     let steps = first..last;
     let mut certificate = judged.then(|| {
-        let samples =
-            Samples::new(model, system, &loads, stepper.space(), &timeline, steps.clone());
+        let (space, state) = (stepper.space(), &moving.state);
+        let samples = Samples::new(model, system, &loads, space, &timeline, steps.clone(), state);
         let few = Defect::is_worth(&timeline, steps.clone());
         let exact = bases.as_ref().filter(|_| step_errors && kind == SolverKind::Fna && few);
         let defect = exact.map(|bases| {
@@ -276,7 +276,7 @@ pub(crate) fn run(
         Some(Stop::Fatal(_)) | None => {}
     }
     if let Some(certificate) = &certificate {
-        result.errors = certificate.errors(model, beside.as_ref());
+        result.errors = certificate.errors(model, beside.as_ref(), analysis.duration);
         let allowed = solution.basis.tolerance;
         if let Some((output, share)) = certificate.worst(model).filter(|(_, e)| *e > allowed)
             && result.status.is_good()

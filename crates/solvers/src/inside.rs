@@ -53,7 +53,8 @@ impl Inside {
     }
 
     pub(crate) fn new(form: ClosedForm, outputs: &Outputs, largest: Vec<f64>) -> Self {
-        let shares = outputs.shares(form.omega.len());
+        let mut shares = outputs.shares(form.omega.len());
+        shares.iter_mut().flatten().flatten().for_each(|share| *share = share.abs());
         let fastest = form.omega.iter().copied().fold(0.0, f64::max);
         let count = shares.len() + 1;
         let largest = if largest.len() == count { largest } else { vec![0.0; count] };

@@ -55,7 +55,7 @@ impl Kicks {
         let shares: Vec<Vec<f64>> = outputs
             .shares(omega.len())
             .into_iter()
-            .map(|[_, velocity, _]| fast.iter().map(|j| velocity[*j]).collect())
+            .map(|[_, velocity, _]| fast.iter().map(|j| velocity[*j].abs()).collect())
             .collect();
         if shares.iter().flatten().all(|share| *share == 0.0) {
             return None;

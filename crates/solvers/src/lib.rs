@@ -62,6 +62,7 @@ mod stepper;
 mod stops;
 mod timeline;
 mod together;
+mod touches;
 mod turning;
 mod vector;
 mod vibration;

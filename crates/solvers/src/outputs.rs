@@ -225,13 +225,13 @@ impl Outputs {
         }
     }
 
-    /// How much each output takes from each of so many modes, by displacement, velocity and acceleration.
+    /// What each output takes from each of so many modes, by displacement, velocity and acceleration.
     pub(crate) fn shares(&self, modes: usize) -> Vec<[Vec<f64>; 3]> {
         let of = |(row, stretch): (&Row, &Vec<(usize, f64)>)| {
             let mut shares = [(); 3].map(|()| vec![0.0; modes]);
             let mut add = |order: usize, terms: &[(usize, f64)]| {
                 for (j, c) in terms.iter().filter(|(j, _)| *j < modes) {
-                    shares[order][*j] += c.abs();
+                    shares[order][*j] += c;
                 }
             };
             match row {

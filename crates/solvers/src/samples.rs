@@ -8,6 +8,7 @@ use crate::outputs::Outputs;
 use crate::space::Space;
 use crate::stepper::State;
 use crate::timeline::{Piece, Timeline};
+use crate::touches::Touches;
 use std::ops::Range;
 use trilith_model::{Model, Side};
 use trilith_system::{LoadSet, System};
@@ -27,10 +28,12 @@ pub(crate) struct Samples<'a> {
     ended: usize,
     pub times: Vec<f64>,
     pub values: Vec<Vec<f64>>,
+    /// What happens between them.
+    pub touches: Touches,
 }
 
 impl<'a> Samples<'a> {
-    /// None yet, of a run over these output steps.
+    /// None yet, of a run over these output steps from a state.
     pub(crate) fn new(
         model: &Model,
         system: &System,
@@ -38,11 +41,16 @@ impl<'a> Samples<'a> {
         space: &Space,
         timeline: &Timeline,
         steps: Range<usize>,
+        state: &State,
     ) -> Self {
+        let from = (timeline.time(steps.start), state);
+        let outputs = Outputs::new(model, system, space);
+        let touches = Touches::new(model, system, &outputs, space, from);
         let pieces: usize = steps.map(|step| timeline.pieces(step).count()).sum();
         let pieces = pieces.max(1);
         Self {
-            outputs: Outputs::new(model, system, space),
+            outputs,
+            touches,
             count: model.outputs.len(),
             loads,
             parts: TIMES.div_ceil(pieces).next_power_of_two(),
@@ -55,6 +63,7 @@ impl<'a> Samples<'a> {
 
     /// Takes the outputs at the end of a step in a piece, if that is a time of comparison.
     pub(crate) fn take(&mut self, piece: Piece, t: f64, state: &State) -> Option<&[f64]> {
+        self.touches.follow(t, state);
         if t == piece.end {
             self.ended += 1;
             if !self.ended.is_multiple_of(self.stride) {
@@ -68,6 +77,7 @@ impl<'a> Samples<'a> {
             }
         }
         let values = self.now(t, state);
+        self.touches.keep();
         self.times.push(t);
         self.values.push(values);
         self.values.last().map(Vec::as_slice)

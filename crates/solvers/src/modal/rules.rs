@@ -303,15 +303,17 @@ impl Coupled<'_> {
 
     /// exp of the augmented system: exact for sources linear in the step.
     ///
-    /// Its states are measured so that each is a displacement: ∫q/Δt, q, q̇/w and s/w² with w = ω, no less than 1/Δt. As
-    /// they are, one fast mode makes a matrix of size ω²Δt, and what a power series of that rounds away sets the
-    /// structure in motion that stands still.
+    /// Its states are measured so that each is a displacement: ∫q/Δt, q, q̇/√κ, s/κ with κ = ω², no less than 1/Δt²; of a
+    /// first-order unknown no less than G/Δt. As they are, one fast mode makes a matrix of size ω²Δt, and what a power
+    /// series of that rounds away sets the structure in motion that stands still.
     fn exact(&self, dt: f64) -> Blocks {
         let (n, m) = (self.size(), self.modes);
-        let w: Vec<f64> = self.omega2[..m].iter().map(|x| x.sqrt().max(dt.recip())).collect();
-        // What a unit of each input is, and of each row.
-        let of_rate = |j: usize| w[j];
-        let of_source = |j: usize| if j < m { w[j] * w[j] } else { self.omega2[j] };
+        let of_source = |j: usize| {
+            let least = if j < m { (dt * dt).recip() } else { self.own(j, dt) / dt };
+            self.omega2[j].max(least)
+        };
+        let of_rate = |j: usize| of_source(j).sqrt();
+        let w: Vec<f64> = (0..m).map(of_rate).collect();
         // States: ∫q and ∫y, q and y, q̇, s, ṡ·Δt.
         let (position, rate, source) = (n, 2 * n, 2 * n + m);
         let size = source + 2 * n;
@@ -322,12 +324,11 @@ impl Coupled<'_> {
         }
         // Rates of y, as rows over (y, q̇, s).
         for y in m..n {
-            let x = self.omega2[y] * dt / self.own(y, dt);
-            a[(position + y, position + y)] = -x;
-            a[(position + y, source + y)] = x;
+            let per = dt / self.own(y, dt);
+            a[(position + y, position + y)] = -self.omega2[y] * per;
+            a[(position + y, source + y)] = of_source(y) * per;
             for j in 0..m {
-                a[(position + y, rate + j)] =
-                    -self.damping[(y, j)] * of_rate(j) * dt / self.own(y, dt);
+                a[(position + y, rate + j)] = -self.damping[(y, j)] * w[j] * per;
             }
         }
         for i in 0..m {
@@ -370,8 +371,8 @@ impl Coupled<'_> {
             let mut start = block(row, of_row, rows, source);
             for j in 0..n {
                 // What stands under a constant source goes on standing, to the last digit.
-                if self.omega2[j] > 0.0 && (j >= m || w[j] > dt.recip()) {
-                    let per = of_source(j).recip();
+                if of_source(j) == self.omega2[j] {
+                    let per = self.omega2[j].recip();
                     for i in 0..rows {
                         let stood = if i == j { rest } else { 0.0 };
                         start[(i, j)] = (stood - of_position[(i, j)]) * per;
