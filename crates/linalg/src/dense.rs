@@ -1,9 +1,9 @@
-//! Dense matrices in column-major order, and dense LU.
+//! Dense matrices in column-major order, dense LU and dense Cholesky.
 
 use crate::gemv;
 use faer::linalg::matmul::matmul;
-use faer::linalg::solvers::{PartialPivLu, Solve};
-use faer::{Accum, MatMut, MatRef, Par};
+use faer::linalg::solvers::{Llt, PartialPivLu, Solve};
+use faer::{Accum, MatMut, MatRef, Par, Side};
 
 /// A dense matrix, column by column.
 #[derive(Clone, Debug, PartialEq)]
@@ -202,9 +202,41 @@ impl DenseLu {
     }
 }
 
+/// A factorised dense symmetric matrix that is positive.
+#[derive(Clone, Debug)]
+pub struct DenseCholesky(Llt<f64>);
+
+impl DenseCholesky {
+    /// Factorises the matrix whose lower triangle this is; none where a pivot is no more than this share of its entry on
+    /// the diagonal.
+    #[must_use]
+    pub fn new(a: &Dense, share: f64) -> Option<Self> {
+        let factor = Llt::new(a.as_ref(), Side::Lower).ok()?;
+        let l = factor.L();
+        let is_held = |i: usize| l[(i, i)] * l[(i, i)] > share * a[(i, i)];
+        (0..a.columns()).all(is_held).then_some(Self(factor))
+    }
+
+    /// Solves in place.
+    pub fn solve(&self, x: &mut [f64]) {
+        let n = x.len();
+        self.0.solve_in_place(MatMut::from_column_major_slice_mut(x, n, 1));
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn a_positive_system_is_solved_and_a_singular_one_is_none() {
+        let a = |last: f64| Dense::from_columns(2, 2, vec![4.0, 2.0, f64::NAN, last]);
+        let mut x = vec![8.0, 10.0];
+        DenseCholesky::new(&a(3.0), 1e-11).unwrap().solve(&mut x);
+        assert!((x[0] - 0.5).abs() < 1e-14 && (x[1] - 3.0).abs() < 1e-14, "{x:?}");
+        assert!(DenseCholesky::new(&a(1.0 + 1e-12), 1e-11).is_none());
+        assert!(DenseCholesky::new(&a(0.5), 1e-11).is_none());
+    }
 
     #[test]
     fn an_unsymmetric_system_is_solved() {

@@ -172,28 +172,32 @@ impl Table {
     }
 
     /// Samples at which the table bends: those of a spline, and of straight lines those that do not lie on the line
-    /// through the two before.
+    /// through the two before. Without those of which `is_known` says that a step ends there anyhow.
     #[must_use]
-    pub fn corners(&self) -> Vec<Corner> {
+    pub fn corners(&self, is_known: impl Fn(&Corner) -> bool) -> Vec<Corner> {
         let (t, y) = (&self.times, &self.values);
-        let corner = |i: usize| {
-            let (left, right) = (t[i] - t[i - 1], t[i + 1] - t[i]);
-            Corner { t: t[i], reach: left.min(right) }
+        let corner = |around: &[f64]| {
+            let reach = (around[1] - around[0]).min(around[2] - around[1]);
+            Corner { t: around[1], reach }
         };
-        let inner = 1..t.len() - 1;
+        let all = t.windows(3).map(corner);
         if !self.curvatures.is_empty() {
-            return inner.map(corner).collect();
+            return all.filter(|c| !is_known(c)).collect();
         }
-        let allowed = STRAIGHT * self.peak();
         let mut corners = Vec::new();
-        // Start of the line that goes on, and its slope.
-        let line = |i: usize| (t[i], y[i], (y[i + 1] - y[i]) / (t[i + 1] - t[i]));
-        let mut on = line(0);
-        for i in inner {
-            let (t0, y0, slope) = on;
-            if (y[i + 1] - (y0 + slope * (t[i + 1] - t0))).abs() > allowed {
-                corners.push(corner(i));
-                on = line(i);
+        // Sample from which on a line goes on, its slope, and how far the next may be beside it: once somebody asks.
+        let (mut from, mut slope, mut allowed) = (0, None, None);
+        for (i, corner) in (1..).zip(all) {
+            if is_known(&corner) {
+                (from, slope) = (i, None);
+                continue;
+            }
+            let of = |i: usize| (y[i + 1] - y[i]) / (t[i + 1] - t[i]);
+            let slope_now = *slope.get_or_insert_with(|| of(from));
+            let off = (y[i + 1] - (y[from] + slope_now * (t[i + 1] - t[from]))).abs();
+            if off > *allowed.get_or_insert_with(|| STRAIGHT * self.peak()) {
+                corners.push(corner);
+                (from, slope) = (i, None);
             }
         }
         corners
@@ -388,7 +392,7 @@ mod tests {
         let table = |interpolation| {
             Table::new(times.clone(), values.clone(), interpolation, AfterEnd::Zero).unwrap()
         };
-        let at = |table: Table| table.corners().iter().map(|c| c.t).collect::<Vec<_>>();
+        let at = |table: Table| table.corners(|_| false).iter().map(|c| c.t).collect::<Vec<_>>();
         assert_eq!(at(table(Interpolation::Linear)), [times[3], times[4], times[5]]);
         assert_eq!(at(table(Interpolation::Cubic)), times[1..7]);
         // A bend that no sample shows against its neighbours is not lost.
@@ -396,7 +400,7 @@ mod tests {
         let fine: Vec<f64> = (0..=n).map(|i| f64::from(i) / f64::from(n)).collect();
         let arch: Vec<f64> = fine.iter().map(|t| t * (1.0 - t)).collect();
         let arch = Table::new(fine, arch, Interpolation::Linear, AfterEnd::Zero).unwrap();
-        let kept = arch.corners();
+        let kept = arch.corners(|_| false);
         assert!(kept.len() > 1000, "{}", kept.len());
     }
 

@@ -190,13 +190,6 @@ impl TimeFunction {
         times
     }
 
-    /// Samples of a table at which it bends, in order; none of other functions. Its value is continuous there, so
-    /// a step must end there, but nothing jumps.
-    #[must_use]
-    pub fn corners(&self) -> Vec<Corner> {
-        self.table().map(Table::corners).unwrap_or_default()
-    }
-
     /// Where straight lines need short steps to follow the function, and how short; none where any step will do
     /// that ends at the breaks and the corners.
     ///

@@ -13,12 +13,14 @@
 //! on nodes without mass. σ is 0 where springs hold all directions; a joint that only dashpots hold needs σ > 0.
 //! What links alone hold has their dummies in K.
 
-use crate::basis::held;
+use crate::basis::{PIVOT, held};
 use crate::condensation::Condensation;
 use crate::error::SolveError;
 use crate::shapes::Shapes;
 use crate::vector::{dot, largest};
-use trilith_linalg::{Dense, Ldlt, Sparse, StagedLdlt, symmetric_eigen, unsupported};
+use trilith_linalg::{
+    Dense, DenseCholesky, Ldlt, Sparse, StagedLdlt, symmetric_eigen, unsupported,
+};
 use trilith_system::{Massless, System};
 
 /// Shapes that are combinations of others up to this share are left out.
@@ -225,29 +227,60 @@ impl StaticShapes {
 /// to block until they are far too stiff.
 pub(crate) struct Following<'a> {
     massless: &'a Massless,
-    stiffness: &'a [(f64, &'a Sparse)],
-    factor: StagedLdlt,
+    /// K N.
+    images: Sparse,
+    /// Of Nᵀ K N.
+    factor: Factor,
+}
+
+/// Directions up to which a dense factor is the faster one.
+const FEW: usize = 64;
+
+enum Factor {
+    Dense(DenseCholesky),
+    Sparse(StagedLdlt),
+}
+
+impl Factor {
+    /// Of a symmetric matrix; none where one of its pivots is rounding.
+    fn new(a: &Sparse) -> Result<Option<Self>, SolveError> {
+        let n = a.rows();
+        if n > FEW {
+            return Ok(held(&[(1.0, a)])?.map(Self::Sparse));
+        }
+        let mut all = Dense::zeros(n, n);
+        a.entries().for_each(|(i, j, x)| all[(i, j)] = x);
+        Ok(DenseCholesky::new(&all, PIVOT).map(Self::Dense))
+    }
+
+    fn solve(&self, y: &mut [f64]) {
+        match self {
+            Self::Dense(factor) => factor.solve(y),
+            Self::Sparse(factor) => factor.solve(y),
+        }
+    }
 }
 
 impl<'a> Following<'a> {
     /// For a stiffness as a sum. None where this has nothing to do: rows that are not kept follow anyhow.
     pub(crate) fn new(
         system: &'a System,
-        stiffness: &'a [(f64, &'a Sparse)],
+        stiffness: &[(f64, &Sparse)],
         rows: &Condensation,
     ) -> Result<Option<Self>, SolveError> {
         let massless = &system.massless;
         if massless.len() <= rows.order() - rows.kept() {
             return Ok(None);
         }
-        let factor = held(&[(1.0, &massless.project(&Sparse::combine(stiffness)))])?;
-        Ok(factor.map(|factor| Self { massless, stiffness, factor }))
+        let stiffness = Sparse::combine(stiffness);
+        let factor = Factor::new(&massless.project(&stiffness))?;
+        let images = massless.images(&stiffness);
+        Ok(factor.map(|factor| Self { massless, images, factor }))
     }
 
     pub(crate) fn settle(&self, u: &mut [f64]) {
-        let mut p = vec![0.0; u.len()];
-        self.stiffness.iter().for_each(|(s, part)| part.mul_add(*s, u, &mut p));
-        let mut y = self.massless.load(&p);
+        let mut y = vec![0.0; self.massless.len()];
+        self.images.transpose_mul_add(1.0, u, &mut y);
         self.factor.solve(&mut y);
         self.massless.expand(-1.0, &y, u);
     }

@@ -66,7 +66,8 @@ impl Timeline {
         let jumps = loads.breaks(duration);
         let (cut, pieces) = (Vec::new(), Vec::new());
         let mut timeline = Self { dt, steps, duration, jumps, cut, pieces, stretches };
-        timeline.cut(&loads.corners(duration));
+        let corners = loads.corners(duration, |corner| timeline.ends_at(corner));
+        timeline.cut(&corners);
         timeline.join_lengths();
         timeline
     }
@@ -130,12 +131,27 @@ impl Timeline {
     /// Parts of a piece that are short enough for curved loads: a power of two, so that their matrices are those of
     /// a step that is halved.
     fn count(&self, piece: &Piece) -> usize {
+        if self.stretches.is_empty() {
+            return 1;
+        }
         let near = self.near();
         let meets = |s: &&Stretch| s.from < piece.end - near && s.to > piece.start + near;
         let shortest = self.stretches.iter().filter(meets).map(|s| s.step);
         let longest = shortest.fold(f64::INFINITY, f64::min);
         let halvings = (piece.length / longest * (1.0 - NEAR)).log2().ceil();
         1 << (halvings.max(0.0) as i32).min(HALVINGS)
+    }
+
+    /// True where an output step ends at a corner, as far as that is seen at a glance.
+    fn ends_at(&self, corner: &Corner) -> bool {
+        let nearest = (corner.t / self.dt + 0.5) as i64;
+        let off = (corner.t - nearest as f64 * self.dt).abs();
+        self.jumps.is_empty() && off <= self.reach(corner)
+    }
+
+    /// How far from a corner a piece may end.
+    fn reach(&self, corner: &Corner) -> f64 {
+        MOVED * corner.reach.min(self.dt)
     }
 
     /// Enters what is inside output steps: jumps and corners.
@@ -153,7 +169,7 @@ impl Timeline {
             }
         };
         self.jumps.iter().for_each(|t| enter(*t, self.near()));
-        corners.iter().for_each(|c| enter(c.t, MOVED * c.reach.min(self.dt)));
+        corners.iter().for_each(|c| enter(c.t, self.reach(c)));
         inside.sort_by(|(_, a), (_, b)| a.t.total_cmp(&b.t));
         for group in inside.chunk_by(|(a, _), (b, _)| a == b) {
             let step = group[0].0;

@@ -122,6 +122,19 @@ impl Massless {
         t.build()
     }
 
+    /// A N.
+    #[must_use]
+    pub fn images(&self, a: &Sparse) -> Sparse {
+        let mut t = Triplets::new(a.rows(), self.len());
+        for (k, direction) in self.directions.iter().enumerate() {
+            for (j, x) in direction {
+                let (rows, values) = a.column(*j);
+                rows.iter().zip(values).for_each(|(i, v)| t.add(*i, k, v * x));
+            }
+        }
+        t.build()
+    }
+
     /// Nᵀ p.
     #[must_use]
     pub fn load(&self, p: &[f64]) -> Vec<f64> {

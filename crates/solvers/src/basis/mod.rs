@@ -27,7 +27,7 @@ use crate::shapes::Shapes;
 use crate::start::Initial;
 use report::report;
 use ritz::{Enriched, enriched};
-pub(crate) use solvable::held;
+pub(crate) use solvable::{PIVOT, held};
 use solvable::{Solvable, solvable};
 use std::sync::Arc;
 use trilith_linalg::{Sparse, all_modes, symmetric_eigen};

@@ -7,7 +7,7 @@ use trilith_model::Model;
 use trilith_system::System;
 
 /// A pivot below this share of its diagonal is rounding: nothing holds the equation.
-const HELD: f64 = 1e-11;
+pub(crate) const PIVOT: f64 = 1e-11;
 /// Right-hand sides solved together.
 pub(super) const BLOCK: usize = 16;
 /// Automatic dummies as a share of the engaged stiffness of a link.
@@ -133,6 +133,6 @@ pub(crate) fn held(parts: &[(f64, &Sparse)]) -> Result<Option<StagedLdlt>, Solve
         other => other?,
     };
     let mut all = true;
-    factor.pivots(|equation, pivot| all &= pivot > HELD * diagonal[equation]);
+    factor.pivots(|equation, pivot| all &= pivot > PIVOT * diagonal[equation]);
     Ok(all.then_some(factor))
 }
