@@ -39,6 +39,13 @@ const ANSWERED: f64 = 1.25;
 /// range may be twice as large as it looks.
 const SECOND_ORDER: f64 = 0.01;
 
+/// An error of the steps above this share of the range is worth a warning: what an output may be, and what it may be off
+/// by, are of one size. The estimate is some times the error, mostly.
+const MUCH: f64 = 0.5;
+
+/// A range below this share of the largest of its kind is no motion.
+const STILL: f64 = 1e-9;
+
 /// Share of the largest of its kind that is rounding of an output.
 const ROUNDING: f64 = 1e-12;
 
@@ -221,16 +228,34 @@ impl<'a> Certificate<'a> {
         largest.fold(if unit == "rad" { 1.0 } else { 0.0 }, f64::max)
     }
 
-    /// The largest error of reduction as a share of the range of its output, among those of one kind that are not
-    /// small: index of the output and share.
+    /// The largest error of reduction as a share of the range of its output: index of the output and share.
     pub(crate) fn worst(&self, model: &Model) -> Option<(usize, f64)> {
+        self.largest_share(model, |i| self.reduction[i])
+    }
+
+    /// What to say where outputs may be off by much because of the steps, by these errors.
+    pub(crate) fn doubt(&self, model: &Model, errors: &[OutputError]) -> Option<String> {
+        let moves = |i: usize| self.size(i) > STILL * self.largest_alike(model, i);
+        let step = |i: usize| if moves(i) { errors[i].step } else { 0.0 };
+        let (output, share) = self.largest_share(model, step)?;
+        (share > MUCH).then(|| {
+            format!(
+                "the steps are coarse for output `{}`, which may be off by {:.0} % of its range: a smaller tolerance, `step: Adaptive(tolerance: …)`, makes them finer",
+                model.outputs[output].name,
+                (100.0 * share).min(100.0)
+            )
+        })
+    }
+
+    /// The largest of errors as a share of the range of its output, among those of one kind that are not small.
+    fn largest_share(&self, model: &Model, error: impl Fn(usize) -> f64) -> Option<(usize, f64)> {
         let all = 0..self.reduction.len();
         let share = |i: usize| {
             // What hardly moves is measured by the largest of its kind.
             let alike = |j: &usize| model.outputs[*j].unit == model.outputs[i].unit;
             let largest = all.clone().filter(alike).map(|j| self.size(j)).fold(0.0, f64::max);
             let scale = self.size(i).max(0.1 * largest);
-            if scale > 0.0 { self.reduction[i] / scale } else { 0.0 }
+            if scale > 0.0 { error(i) / scale } else { 0.0 }
         };
         all.clone().map(|i| (i, share(i))).max_by(|a, b| a.1.total_cmp(&b.1))
     }

@@ -277,6 +277,7 @@ pub(crate) fn run(
     }
     if let Some(certificate) = &certificate {
         result.errors = certificate.errors(model, beside.as_ref(), analysis.duration);
+        warnings.extend(certificate.doubt(model, &result.errors));
         let allowed = solution.basis.tolerance;
         if let Some((output, share)) = certificate.worst(model).filter(|(_, e)| *e > allowed)
             && result.status.is_good()

@@ -386,13 +386,15 @@ impl Modes {
         for i in self.structure.undamped.iter().copied() {
             let jumped = now.sources[i] - self.structure.omega2[i] * from[i];
             now.lost += 0.5 * jumped * (to[i] - from[i]);
-            if !now.damped[i] && now.linked[i] && from[2 * n + i] == JUMPED {
+            let is_new = from[2 * n + i] == JUMPED;
+            if !now.damped[i] && now.linked[i] && is_new {
                 // Where links carry a share, only all of them say how far it jumped.
                 to[n + i] = from[n + i];
             } else if !now.damped[i] {
                 to[n + i] -= jumped / self.structure.omega2[i] * per_dt;
             }
-            to[2 * n + i] = (to[n + i] - from[n + i]) * per_dt;
+            // From the rate before a jump, or that of the start, to this one nothing accelerates.
+            to[2 * n + i] = if is_new { 0.0 } else { (to[n + i] - from[n + i]) * per_dt };
         }
     }
 

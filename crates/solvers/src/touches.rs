@@ -23,9 +23,10 @@ const MOST: usize = 10_000;
 /// A link coordinate sets in or ends.
 struct Touch {
     t: f64,
-    /// How fast it is deformed, m/s or rad/s.
-    rate: f64,
-    /// By how much its force changes in the step.
+    /// Length of the step in which it does, s.
+    length: f64,
+    /// By how much it is deformed in that step, and by how much its force changes.
+    way: f64,
     jump: f64,
 }
 
@@ -90,8 +91,8 @@ impl Touches {
             let [f, d] = [state.f[of.flat], state.d[of.flat]];
             let [f0, d0] = std::mem::replace(&mut of.last, [f, d]);
             if (f == 0.0) != (f0 == 0.0) && of.touches.len() < MOST {
-                let (rate, jump) = ((d - d0).abs() / length, (f - f0).abs());
-                of.touches.push(Touch { t, rate, jump });
+                let (way, jump) = ((d - d0).abs(), (f - f0).abs());
+                of.touches.push(Touch { t, length, way, jump });
             }
         }
     }
@@ -122,9 +123,12 @@ impl Touches {
                     }
                     common.next();
                 }
-                if safe * apart > MOMENT * duration * touch.rate {
+                // In lengths of the step, in which a force may also grow without a jump.
+                let unsure = safe * apart / touch.way;
+                if unsure * touch.length > MOMENT * duration {
+                    let jump = touch.jump * unsure.min(1.0);
                     for (output, share) in &own.shares {
-                        most[*output] = most[*output].max(share * touch.jump);
+                        most[*output] = most[*output].max(share * jump);
                     }
                 }
             }
