@@ -90,6 +90,7 @@ const ONCE_WRONG: [(u64, &str); 59] = [
         3_018_573,
         "the moment of a soft touch after three others, and the force that a stop jumps to",
     ),
+    (3_252_960, "rates at the start of what has no mass"),
     (3_056_670, "rounding of the exponential of coupled modes, which set in motion what stood"),
 ];
 

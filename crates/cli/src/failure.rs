@@ -1,6 +1,7 @@
 //! What ends a command early.
 
 use crate::diagnostics;
+use crate::interrupt::INTERRUPTED;
 use trilith::results::FolderError;
 use trilith::solvers::SolveError;
 use trilith::{Diagnostic, Error, Model};
@@ -47,6 +48,7 @@ impl Failure {
                 | SolveError::JointNotHeld { .. }
                 | SolveError::Predecessor { .. },
             ) => 1,
+            Error::Solve(SolveError::Interrupted { .. }) => INTERRUPTED,
             _ => 2,
         };
         let text = match error.span() {

@@ -108,3 +108,33 @@ fn an_interrupted_study_says_how_it_goes_on() {
     assert_eq!(output.status.code(), Some(130), "{said}");
     assert!(said.contains("of 400 runs are kept in s") && said.contains("goes on"), "{said}");
 }
+
+/// Of the case that the command is for there is nothing yet.
+#[test]
+fn an_interrupt_in_the_case_before_says_so() {
+    let folder = tempfile::tempdir().unwrap();
+    let text = r#"(
+        nodes: { "a": (0.0, 0.0, 0.0) },
+        supports: { "a": (Uy, Uz, Rx, Ry, Rz) },
+        elements: {
+            "spring": Spring(node: "a", k1: 1000.0),
+            "mass": Mass(node: "a", mass: 1.0),
+            "stop": Gap(node: "a", k: 1e5, opening: 0.001),
+        },
+        functions: { "shake": Sine(amplitude: "1 m/s^2", frequency: 3.0) },
+        cases: {
+            "first": Dynamic(duration: 90000.0, dt: 0.01, base: [(direction: X, function: "shake")]),
+            "second": Dynamic(after: "first", duration: 1.0, dt: 0.01),
+        },
+        outputs: { "u": Displacement(node: "a", dof: Ux) },
+    )"#;
+    std::fs::write(folder.path().join("two.ron"), text).unwrap();
+    let child = trilith(&["run", "two.ron", "--no-report", "--out", "a"], folder.path());
+    let child = { child }.spawn().unwrap();
+    wait_for(|| std::fs::read_dir(folder.path()).unwrap().count() > 1);
+    std::thread::sleep(Duration::from_millis(1000));
+    let output = signalled(child, "-INT");
+    let said = String::from_utf8_lossy(&output.stderr).into_owned();
+    assert_eq!(output.status.code(), Some(130), "{said}");
+    assert!(said.contains("of case \"first\", which is continued"), "{said}");
+}

@@ -195,9 +195,11 @@ fn end_of(
         }
         round += 1;
     };
+    if let Status::Interrupted { t } = result.status {
+        return Err(SolveError::Interrupted { case: result.case, t });
+    }
     if let Status::NotConverged { .. }
     | Status::Spent { .. }
-    | Status::Interrupted { .. }
     | Status::Overturned { .. }
     | Status::Inadequate { .. } = result.status
     {

@@ -79,6 +79,16 @@ pub enum SolveError {
         /// Its status.
         reason: String,
     },
+    /// Somebody asked for the end in a case that another one continues: of that one nothing is kept.
+    #[error(
+        "interrupted at t = {t} s of case \"{case}\", which is continued: there is nothing of the case after it; `--case \"{case}\"` runs it alone, and keeps what there is of it"
+    )]
+    Interrupted {
+        /// Name of the case.
+        case: String,
+        /// How far it came, s.
+        t: f64,
+    },
     /// Joints without mass found no equilibrium with their links beside initial displacements.
     #[error(
         "the initial displacements leave joints without mass out of balance with their links beyond {percent:.1} % of the way: {}; give these joints a mass, or a spring beside the links",

@@ -13,10 +13,10 @@ pub enum Verdict {
     Passed(f64),
     /// It said that it does not solve this, and why.
     Refused(String),
-    /// Off, but it warned.
-    Warned(f64, String),
     /// Off, and it said how far; the largest error.
     Told(f64),
+    /// Off by more than it said, but it warned.
+    Warned(f64, String),
     /// Off, and it said nothing, but only in what is small beside others of its kind: output, error, time.
     Small(usize, f64, f64),
     /// Off, and it said nothing: output, error, time.
@@ -152,10 +152,10 @@ fn verdict(spec: &Spec, found: &Truth, shown: &Shown, pairs: &[Pair]) -> Verdict
     }
     if off <= allowed(spec) {
         Verdict::Passed(off)
-    } else if let Some(warning) = shown.warnings.first() {
-        Verdict::Warned(off, warning.clone())
     } else if pairs.iter().all(|p| p.off <= allowed(spec) || p.holds()) {
         Verdict::Told(off)
+    } else if let Some(warning) = shown.warnings.first() {
+        Verdict::Warned(off, warning.clone())
     } else if off * found.scale[output] <= allowed(spec) * SMALL * found.around[output]
         && error_beside(spec, found, &shown.time, &shown.values)
     {
