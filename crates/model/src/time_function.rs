@@ -173,7 +173,7 @@ impl TimeFunction {
     }
 
     /// Times (s, sorted) at which the value, the slope or what defines the function may jump; a step must end
-    /// there. Of tables the start and the end: between them there are [corners](Self::corners).
+    /// there. Of tables the start and the end: between them there are [corners](Table::corners).
     #[must_use]
     pub fn breaks(&self) -> Vec<f64> {
         let mut times = match self {
