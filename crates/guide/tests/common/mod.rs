@@ -131,9 +131,8 @@ pub fn value(summary: &serde_json::Value, key: &str) -> Result<f64, String> {
     found.map(|x| sign * factor * x).ok_or_else(|| format!("the summary has no number `{path}`"))
 }
 
-/// Share of a number that other widths of vectors may change: steps are chosen by comparison, and one that is taken or
-/// not by its last digit moves results by a part of what they say they are off (4e-4 where this was seen).
-const ROUNDED: f64 = 1e-4;
+/// Share of a number that other widths of vectors may change: steps are chosen by comparison, a few round another way.
+const ROUNDED: f64 = 1e-5;
 
 /// True where a number as it is shown is that value, within one unit of its last digit; `≈`: within 5 %;
 /// `0`: nothing but rounding.
@@ -149,6 +148,7 @@ pub fn shows(shown: &str, value: f64) -> bool {
     let (digits, power) = shown.split_once(['e', 'E']).unwrap_or((&shown, "0"));
     let decimals = digits.split_once('.').map_or(0, |(_, d)| d.len());
     let last = 10f64.powi(power.parse::<i32>().unwrap_or(0) - decimals as i32);
+    // What rounding decides is far below the tolerance of a run (1e-4), but not always below the sixth digit.
     (number - value).abs() <= (last * (1.0 + 1e-9)).max(ROUNDED * value.abs())
 }
 
