@@ -43,6 +43,9 @@ const SECOND_ORDER: f64 = 0.01;
 /// by, are of one size. The estimate is some times the error, mostly.
 const MUCH: f64 = 0.5;
 
+/// An error of the steps above this share of the range is looked at twice: it may have come out small by chance.
+const LOOKED_AT_TWICE: f64 = 0.01;
+
 /// A range below this share of the largest of its kind is no motion.
 const STILL: f64 = 1e-9;
 
@@ -182,18 +185,21 @@ impl<'a> Certificate<'a> {
         }
     }
 
-    /// The errors, by what a companion has found.
+    /// The errors, by what companions have found: where there are two, what is further away counts.
     pub(crate) fn errors(
         &self,
         model: &Model,
-        companion: Option<&Samples<'_>>,
+        companions: &[Samples<'_>],
         duration: f64,
     ) -> Vec<OutputError> {
-        let apart = companion.map(|c| self.samples.apart(c));
         let count = model.outputs.len();
-        let jumps = companion
-            .map(|c| self.samples.touches.apart(&c.touches, SAFE, duration, count))
-            .unwrap_or_else(|| vec![0.0; count]);
+        let further =
+            |a: Vec<f64>, b: Vec<f64>| a.into_iter().zip(b).map(|(a, b)| larger(a, b)).collect();
+        let largest = |all: Vec<Vec<f64>>| all.into_iter().reduce(further);
+        let apart = largest(companions.iter().map(|c| self.samples.apart(c)).collect());
+        let jump = |c: &Samples<'_>| self.samples.touches.apart(&c.touches, SAFE, duration, count);
+        let jumps = largest(companions.iter().map(jump).collect());
+        let jumps = jumps.unwrap_or_else(|| vec![0.0; count]);
         let doubted = |e: f64, i: usize| {
             let size = SECOND_ORDER * self.size(i);
             // Not a number stays none.
@@ -233,11 +239,20 @@ impl<'a> Certificate<'a> {
         self.largest_share(model, |i| self.reduction[i])
     }
 
+    /// True where a second companion is worth its time, by these errors.
+    pub(crate) fn is_unsure(&self, model: &Model, errors: &[OutputError]) -> bool {
+        self.worst_step(model, errors).is_some_and(|(_, share)| share > LOOKED_AT_TWICE)
+    }
+
+    /// The largest of the errors of the steps as a share of the range of its output, among outputs that move.
+    fn worst_step(&self, model: &Model, errors: &[OutputError]) -> Option<(usize, f64)> {
+        let moves = |i: usize| self.size(i) > STILL * self.largest_alike(model, i);
+        self.largest_share(model, |i| if moves(i) { errors[i].step } else { 0.0 })
+    }
+
     /// What to say where outputs may be off by much because of the steps, by these errors.
     pub(crate) fn doubt(&self, model: &Model, errors: &[OutputError]) -> Option<String> {
-        let moves = |i: usize| self.size(i) > STILL * self.largest_alike(model, i);
-        let step = |i: usize| if moves(i) { errors[i].step } else { 0.0 };
-        let (output, share) = self.largest_share(model, step)?;
+        let (output, share) = self.worst_step(model, errors)?;
         (share > MUCH).then(|| {
             format!(
                 "the steps are coarse for output `{}`, which may be off by {:.0} % of its range: a smaller tolerance, `step: Adaptive(tolerance: …)`, makes them finer",

@@ -7,8 +7,12 @@
 //! A run makes every step whole and in halves, and keeps the halves. Its companion is the same motion beside it, which
 //! keeps the whole ones, at twice the tolerance: steps that are at least twice as long everywhere. What this moves in
 //! an output is more than what the steps of the run themselves do, as long as shorter steps give a smaller error;
-//! where they do so slowly it is about as much, and a half more is on the safe side. The last term is what neither of both sees. It takes a thread of its own: a run on two processors waits for
-//! nothing.
+//! where they do so slowly it is about as much, and a half more is on the safe side. The last term is what neither of both
+//! sees. It takes a thread of its own: a run on two processors waits for nothing.
+//!
+//! Where impacts part motions that begin side by side, how far two runs are apart is a matter of chance, and one of them
+//! may end up near the other while both are far from the truth. Where outputs are apart by much, a second companion at
+//! 3 τ goes the way once more, and the one that is further away counts.
 //!
 //! Reference: global error by a second integration in steps of another length \[Hairer, Nørsett & Wanner 1993, II.4;
 //! Shampine & Watts 1976\].
@@ -28,6 +32,8 @@ use trilith_model::StepControl;
 
 /// Its tolerance over that of the run.
 const LOOSER: f64 = 2.0;
+/// The tolerance of a second one over that of the run.
+const SECOND: f64 = 3.0;
 /// The error of the steps over what the companion is away.
 pub(crate) const SAFE: f64 = 1.5;
 /// What neither of two runs sees, as share of the size of an output.
@@ -60,6 +66,18 @@ impl<'a> Companion<'a> {
             last: AtomicUsize::new(steps.end),
             steps,
             budget,
+        }
+    }
+
+    /// A second one, beside a run that has ended.
+    pub(crate) fn second(&self) -> Self {
+        Self {
+            equations: self.equations,
+            timeline: self.timeline,
+            tolerance: SECOND / LOOSER * self.tolerance,
+            steps: self.steps.clone(),
+            last: AtomicUsize::new(self.last.load(Ordering::Relaxed)),
+            budget: self.budget,
         }
     }
 

@@ -216,6 +216,18 @@ pub(crate) fn run(
     if let (Some(certificate), Some(reduction)) = (&mut certificate, reduction) {
         certificate.reduce(reduction);
     }
+    let mut beside: Vec<Samples> = beside.into_iter().collect();
+    let mut errors = certificate.as_ref().map(|c| c.errors(model, &beside, analysis.duration));
+    if let (Some(certificate), Some(errors), Some(companion)) = (&certificate, &mut errors, &companion)
+        && !interrupted
+        && certificate.is_unsure(model, errors)
+        && let Ok(second) = companion.second().march(&set_out)
+        // One that has broken off says nothing.
+        && beside.iter().all(|first| second.reach(first))
+    {
+        beside.push(second);
+        *errors = certificate.errors(model, &beside, analysis.duration);
+    }
     let Moving { state, pace, ledger } = moving;
     viewer.end(&state, &ledger);
     let (largest, pressed) = (viewer.largest(), viewer.pressed());
@@ -275,8 +287,8 @@ pub(crate) fn run(
         }
         Some(Stop::Fatal(_)) | None => {}
     }
-    if let Some(certificate) = &certificate {
-        result.errors = certificate.errors(model, beside.as_ref(), analysis.duration);
+    if let (Some(certificate), Some(errors)) = (&certificate, errors) {
+        result.errors = errors;
         warnings.extend(certificate.doubt(model, &result.errors));
         let allowed = solution.basis.tolerance;
         if let Some((output, share)) = certificate.worst(model).filter(|(_, e)| *e > allowed)

@@ -108,7 +108,12 @@ impl<'a> Samples<'a> {
                 }
             }
         }
-        let whole = common > 0 && other.times.last() >= self.times.last();
+        let whole = common > 0 && other.reach(self);
         if whole { apart } else { vec![f64::NAN; self.count] }
+    }
+
+    /// True where it has come as far as another run.
+    pub(crate) fn reach(&self, other: &Self) -> bool {
+        self.times.last() >= other.times.last()
     }
 }
