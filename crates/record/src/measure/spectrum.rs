@@ -7,9 +7,10 @@
 //!
 //! A and B are exact \[Nigam & Jennings 1969\]; here they come from the exponential of the step in closed form. Where
 //! a step is longer than a 64th of the period it is divided, which changes no sample and meets peaks between
-//! samples within 0.12 %. After the end of the record the oscillator swings on for one period.
+//! samples within 0.12 %. After the end of the record the oscillator swings on by itself; what that reaches is known in
+//! closed form.
 
-use std::f64::consts::TAU;
+use std::f64::consts::{PI, TAU};
 
 /// Oscillators that are advanced side by side.
 const LANES: usize = 8;
@@ -220,9 +221,16 @@ fn peaks(acceleration: &[f64], dt: f64, group: &[Oscillator]) -> Vec<Response> {
             go(p[0] + slope * k as f64, p[0] + slope * (k + 1) as f64);
         }
     }
-    let longest = group.iter().map(|o| o.period).fold(0.0, f64::max);
-    for _ in 0..((longest / h).ceil() as usize).min(10_000_000) {
-        go(0.0, 0.0);
+    for (i, o) in group.iter().enumerate().filter(|(_, o)| o.period > 0.0) {
+        // What swings on: u̇ = v, v̇ = −ω² u − 2ζω v, and the same for v and for 2ζω v + ω² u = −v̇.
+        let (w, rate) = (o.omega(), o.damping * o.omega());
+        let slope = |u: f64, v: f64| -w * w * u - 2.0 * rate * v;
+        let (u, v) = (u[i], v[i]);
+        let (a, jerk) = (slope(u, v), slope(v, slope(u, v)));
+        let swing = (rate, w * (1.0 - o.damping * o.damping).sqrt());
+        sd[i] = sd[i].max(largest_free(swing, u, v));
+        sv[i] = sv[i].max(largest_free(swing, v, a));
+        sa[i] = sa[i].max(largest_free(swing, a, jerk));
     }
     let one = |(i, o): (usize, &Oscillator)| {
         if o.period <= 0.0 {
@@ -234,10 +242,22 @@ fn peaks(acceleration: &[f64], dt: f64, group: &[Oscillator]) -> Vec<Response> {
     group.iter().enumerate().map(one).collect()
 }
 
+/// The largest |x| of x = e^(−rate t) (x₀ cos w t + (ẋ₀ + rate x₀)/w sin w t) from t = 0 on: it is largest at once or where
+/// it first stands still, and decays from swing to swing.
+fn largest_free((rate, w): (f64, f64), x: f64, slope: f64) -> f64 {
+    let sine = (slope + rate * x) / w;
+    // ẋ = e^(−rate t) (ẋ₀ cos w t − (w x₀ + rate (ẋ₀ + rate x₀)/w) sin w t)
+    let mut turn = slope.atan2(w * x + rate * sine);
+    if turn < 0.0 {
+        turn += PI;
+    }
+    let (s, c) = turn.sin_cos();
+    x.abs().max(((-rate * turn / w).exp() * (x * c + sine * s)).abs())
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
-    use std::f64::consts::PI;
 
     fn wave(n: usize) -> Vec<f64> {
         (0..n)
@@ -290,6 +310,34 @@ mod tests {
             let r = spectrum(&pulse, dt, &[td / ratio], 0.0).responses[0];
             assert!((r.psa / exact - 1.0).abs() < 1e-3, "{ratio}: {} {exact}", r.psa);
         }
+    }
+
+    /// After a record that ends while everything moves, against many looks at the closed form of the displacement.
+    #[test]
+    fn what_swings_on_after_the_end_is_exact() {
+        let dt = 0.01;
+        for (samples, period, z) in
+            [(7, 1.3, 0.0), (13, 0.9, 0.03), (31, 2.0, 0.3), (47, 7.0, 0.8), (9, 30.0, 0.05)]
+        {
+            let (record, after) = (wave(samples), (2.0 * period / dt) as usize);
+            let o = Oscillator { period, damping: z };
+            let w = o.omega();
+            let (mut u, mut v, mut most) = (0.0, 0.0, [0.0_f64; 3]);
+            let mut go = |h: f64, g0: f64, g1: f64| {
+                (u, v) = o.step(h).advance(u, v, g0, g1);
+                let a = w * w * u + 2.0 * z * w * v;
+                most = [most[0].max(u.abs()), most[1].max(v.abs()), most[2].max(a.abs())];
+            };
+            record.windows(2).for_each(|p| go(dt, p[0], p[1]));
+            (0..50 * after).for_each(|_| go(dt / 50.0, 0.0, 0.0));
+            let r = spectrum(&record, dt, &[period], z).responses[0];
+            for (found, wanted) in [r.sd, r.sv, r.sa].into_iter().zip(most) {
+                assert!((found / wanted - 1.0).abs() < 1e-6, "{period} {z}: {found} {wanted}");
+            }
+        }
+        // However long that takes.
+        let r = spectrum(&wave(300), dt, &[0.02, 1e12], 0.05).responses[1];
+        assert!(r.sd.is_finite() && r.sd > 0.0, "{r:?}");
     }
 
     /// Against Runge's fourth-order rule with a hundred steps to each of the record's.
