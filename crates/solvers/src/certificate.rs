@@ -14,7 +14,7 @@
 //! The error of the steps is what a [companion](crate::companion) at a looser tolerance is away; to link forces it adds
 //! what the link equations may leave.
 //!
-//! What both leave out is of second order: an estimate e of an output of range s is said as e (1 + min(1, 100 e/s)).
+//! What both leave out is of second order: an estimate e of an output of range s is said as e (1 + 3/2 min(1, 100 e/s)).
 //!
 //! References: residual-based estimation of reduced models, \[Antoulas 2005, ch. 11\]; two bases of one sequence as
 //! estimator, \[Bai & Su 2005\].
@@ -35,9 +35,10 @@ use trilith_system::LinkSet;
 /// What runs straight moves links that answer, to first order only.
 const ANSWERED: f64 = 1.25;
 
-/// Both estimates are of first order. What they leave out grows with the square of the error: one of this share of the
-/// range may be twice as large as it looks.
+/// Both estimates are of first order. What they leave out grows with the square of the error: from this share of the
+/// range on it may be so many times the estimate.
 const SECOND_ORDER: f64 = 0.01;
+const LEFT_OUT: f64 = 1.5;
 
 /// An error of the steps above this share of the range is worth a warning: what an output may be, and what it may be off
 /// by, are of one size. The estimate is some times the error, mostly.
@@ -203,7 +204,7 @@ impl<'a> Certificate<'a> {
         let doubted = |e: f64, i: usize| {
             let size = SECOND_ORDER * self.size(i);
             // Not a number stays none.
-            if size > 0.0 { e * (1.0 + (e / size).clamp(0.0, 1.0)) } else { e }
+            if size > 0.0 { e * (1.0 + LEFT_OUT * (e / size).clamp(0.0, 1.0)) } else { e }
         };
         let kicked: Option<Vec<f64>> = self.kicks.as_ref().map(|kicks| kicks.errors().collect());
         let step = |i: usize| {

@@ -1,14 +1,14 @@
 //! What the steps make of the errors of a run.
 //!
 //! ```text
-//! e_o = 3/2 max over time |o(h, 2 τ) − o(h/2, τ)| + size/50000          τ: tolerance of the run
+//! e_o = 5/4 max over time |o(h, 2 τ) − o(h/2, τ)| + size/50000          τ: tolerance of the run
 //! ```
 //!
 //! A run makes every step whole and in halves, and keeps the halves. Its companion is the same motion beside it, which
 //! keeps the whole ones, at twice the tolerance: steps that are at least twice as long everywhere. What this moves in
 //! an output is more than what the steps of the run themselves do, as long as shorter steps give a smaller error;
-//! where they do so slowly it is about as much, and a half more is on the safe side. The last term is what neither of both
-//! sees. It takes a thread of its own: a run on two processors waits for nothing.
+//! where they do so slowly it is about as much, and a quarter more is on the safe side. The last term is what neither of
+//! both sees. It takes a thread of its own: a run on two processors waits for nothing.
 //!
 //! Where impacts part motions that begin side by side, how far two runs are apart is a matter of chance, and one of them
 //! may end up near the other while both are far from the truth. Where outputs are apart by much, a second companion at
@@ -35,7 +35,7 @@ const LOOSER: f64 = 2.0;
 /// The tolerance of a second one over that of the run.
 const SECOND: f64 = 3.0;
 /// The error of the steps over what the companion is away.
-pub(crate) const SAFE: f64 = 1.5;
+pub(crate) const SAFE: f64 = 1.25;
 /// What neither of two runs sees, as share of the size of an output.
 pub(crate) const UNSEEN: f64 = 2e-5;
 
