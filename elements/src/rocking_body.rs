@@ -1,4 +1,4 @@
-//! RockingBody: a rigid body that stands on the ground by its base points, in finite rotation.
+//! RockingBody: a rigid body that stands on the ground or on a node by its base points, in finite rotation.
 //!
 //! ```text
 //!        n ↖                 x(t)  = u(t) + R(t) rᵢ          where base point i is
@@ -23,12 +23,17 @@
 //! | `inertia`     | J      | kg·m² | ≥ 0   | –       | moments of inertia about the body's axes X, Y, Z; required where it can rock in space |
 //! | `overturned`  |        | rad   | > 0   | π/2     | tilt at which the body counts as overturned        |
 //!
-//! The node is the **centre of gravity**; its `Mass` holds mass and moments of inertia, without eccentricity.
+//! The (last) node is the **centre of gravity**; its `Mass` holds mass and moments of inertia, without eccentricity.
 //! Its translations are those of the body. Its rotations are the integrals of the angular velocity Ω in
 //! the axes of the body; for motion in a plane that is the angle itself, however large. With them the
 //! equations of motion, m ü = ΣF and J Ω̇ + Ω × J Ω = ΣM, keep a constant mass matrix, and gravity stays a
 //! constant force: everything that changes with the geometry is in this law. So the restoring moment
 //! falls with the tilt and the body overturns, under every solver, FNA included.
+//!
+//! With **two nodes**, `nodes: [support, body]`, it stands on the first: a floor, a pad, a shaking table, or another body's
+//! centre of gravity. The plane through the lowest base points then moves and turns with that node, as a rigid body and
+//! finitely, and has no edge (see `BodyContact` for a face with edges); forces act on both nodes at one place, see
+//! `two_bodies.rs` in `shared/`.
 //!
 //! The ground is the horizontal plane through the lowest base points. Points above it are contacts as
 //! well: with all corners of a block it falls onto its side. The run ends when the tilt of the body's
@@ -50,9 +55,7 @@
 mod drilling;
 mod law;
 mod outline;
-mod points;
 mod rim;
-mod rotation;
 #[cfg(test)]
 mod tests;
 
@@ -92,14 +95,17 @@ pub struct RockingBody {
     pub inertia: Option<Vector3>,
     /// Tilt at which the body counts as overturned, rad.
     pub overturned: f64,
+    /// From the node that it stands on to its centre of gravity, at rest, m; none: it stands on the ground.
+    #[serde(skip)]
+    pub above: Option<Vector3>,
 }
 
 impl Described for RockingBody {
     const CARD: Card = Card {
         kind: "RockingBody",
         category: Category::Link,
-        summary: "Rigid body standing on base points or a rim, in finite rotation: slides, rocks, rolls, overturns.",
-        nodes: NodeCount::exactly(1),
+        summary: "Rigid body standing on the ground or a node by base points or a rim, in finite rotation: slides, rocks, rolls, overturns.",
+        nodes: NodeCount::GROUND_OR_TWO,
         parameters: &[
             Parameter::new(
                 "base",
@@ -169,6 +175,7 @@ impl Described for RockingBody {
               drilling of a rim: at most μ N m ρ, mρ: mean distance of what presses from its centre; a tilted rim presses on an arc: m = 3/8 ψ꜀, ψ꜀ = (3π N/(k_a ρ sin tilt))^⅓, which goes to 0 as k_a grows\n\
               fᵢ as NLink: gap kₙ with dashpot c, friction μ with pre-slip stiffness kₛ\n\
               F = Σ fᵢ (global axes), M = Σ rᵢ × Rᵀ fᵢ + Ω × J Ω (axes of the body)\n\
+              two nodes: the same law of the body as the first node, its support, sees it; −F and its moment on the support\n\
               overturned where the body's vertical axis tilts by `overturned`",
         source: "Euler's equations with exact rotations, Simo & Vu-Quoc 1988; Housner, Bull. Seism. Soc. Am. 53, 1963",
         example: r#""cask": RockingBody(node: "cg", base: [("-0.5 m", 0, "-1 m"), ("0.5 m", 0, "-1 m")], kn: "1e9 N/m", ks: "1e9 N/m", mu: 0.5)"#,

@@ -1,7 +1,7 @@
 //! Links: local nonlinear laws.
 
 use crate::lanes::LaneForm;
-use crate::{Axis, Field, Outline};
+use crate::{Axis, Field, Geometry, Outline, ParameterError};
 use std::borrow::Cow;
 use std::fmt::Debug;
 
@@ -140,8 +140,23 @@ pub struct Impact {
 /// - With `d = d0`, `v = v0`, `dt = 0` it gives the force that acts right after the start of the step.
 /// - Over a step, work = change of `stored` + `hysteretic` + `viscous`, up to the error of the step.
 pub trait Link: Send + Sync + Debug {
+    /// Takes note of where its nodes are; asked once, before all else, of every law of a model. Laws that do their own
+    /// kinematics between nodes need it.
+    ///
+    /// # Errors
+    /// Where it cannot be in such a place.
+    fn place(&mut self, _at: &Geometry<'_>) -> Result<(), ParameterError> {
+        Ok(())
+    }
+
     /// The coordinates it works on; constant.
     fn coordinates(&self) -> Coordinates;
+
+    /// Which of its nodes is a body in finite rotation that this law moves: its rotations are integrals of the angular
+    /// velocity in the axes of the body, and nothing else may take them for small ones.
+    fn turning_node(&self) -> Option<usize> {
+        None
+    }
 
     /// The history variables; constant. Length `h` of the history slices.
     fn history(&self) -> Cow<'static, [Field]> {

@@ -1,26 +1,21 @@
 //! The law of the [`RockingBody`]: attitude, gyroscopic moment, and the contact of its base.
 
 use super::rim::Rim;
-use super::rotation::Turn;
-use super::{RockingBody, outline, points};
+use super::{RockingBody, outline};
+use crate::shared::plane_contact::{self, Foot, GROUND};
+use crate::shared::rotation::{Turn, Turned};
+use crate::shared::two_bodies::{self, Turns, View};
+use crate::shared::wrench::{Wrench, add_gyroscopic};
 use nalgebra::{Matrix3, SMatrix, Vector3};
 use std::borrow::Cow;
 use trilith_element::{
-    Contact, Coordinates, Energy, Field, History, Kinematics, Link, Outline, Response, history,
+    Contact, Coordinates, Field, Geometry, History, Kinematics, Link, Outline, ParameterError,
+    Response, history, sub,
 };
 
 history! {
-    /// Attitude of the body.
-    struct Attitude {
-        /// Rotations of the node that the quaternion belongs to.
-        turned1: "rad",
-        turned2: "rad",
-        turned3: "rad",
-        /// Quaternion of the rotation from the axes of the body to global ones.
-        w: "1",
-        x: "1",
-        y: "1",
-        z: "1",
+    /// How the body stands.
+    struct Posture {
         /// Angle between the body's vertical axis and the vertical.
         tilt: "rad",
         /// Horizontal part of the body's vertical axis, a vector of length 1: along X and Y.
@@ -31,46 +26,18 @@ history! {
     }
 }
 
-impl Attitude {
-    /// The rotation at the node's rotations `theta`.
-    fn turn(&self, theta: &[f64]) -> Turn {
-        let by =
-            Vector3::new(theta[0] - self.turned1, theta[1] - self.turned2, theta[2] - self.turned3);
-        Turn::new([self.w, self.x, self.y, self.z], by)
-    }
-
-    /// Where the body is after a turn, with the uplift of its base.
-    fn after(theta: &[f64], turn: &Turn, uplift: f64) -> Self {
-        let [w, x, y, z] = turn.quaternion;
+impl Posture {
+    fn after(turn: &Turn, uplift: f64) -> Self {
         // The angle by its sine where its cosine is flat.
         let axis = turn.matrix.column(2);
         let tilt = axis[0].hypot(axis[1]).atan2(axis[2]);
-        Self {
-            turned1: theta[0],
-            turned2: theta[1],
-            turned3: theta[2],
-            w,
-            x,
-            y,
-            z,
-            tilt,
-            lean1: axis[0],
-            lean2: axis[1],
-            uplift,
-        }
+        Self { tilt, lean1: axis[0], lean2: axis[1], uplift }
     }
 }
 
-const ATTITUDE: usize = Attitude::FIELDS.len();
-
-/// Force and moment on the node with their tangents by d and ḋ, and energies.
-#[derive(Default)]
-pub(super) struct Wrench {
-    pub f: [f64; 6],
-    pub k: SMatrix<f64, 6, 6>,
-    pub c: SMatrix<f64, 6, 6>,
-    pub energy: Energy,
-}
+/// The history in its order: how the body has turned, its posture, its base, and how what it stands on has turned.
+const TURNED: usize = Turned::FIELDS.len();
+const BASE: usize = TURNED + Posture::FIELDS.len();
 
 impl RockingBody {
     /// The rim, for a body with a circular base.
@@ -79,43 +46,109 @@ impl RockingBody {
         Some(Rim { body: self, radius, depth })
     }
 
-    /// How high the highest point of the base is above the unloaded ground, m.
+    /// The base points.
+    fn feet(&self) -> impl Iterator<Item = Foot> {
+        self.base.iter().map(|r| Foot {
+            r: Vector3::from(*r),
+            contact: self.contact(*r),
+            edge: None,
+        })
+    }
+
+    /// How high the highest point of the base is above what it stands on, unloaded, m.
     fn uplift(&self, d: &[f64], turn: &Turn) -> f64 {
         match self.rim() {
             Some(rim) => rim.uplift(d, turn),
-            None => points::uplift(self, d, turn),
+            None => plane_contact::uplift(&GROUND, self.feet(), d, turn),
         }
     }
 
-    /// Ω × J Ω and its derivative by Ω.
-    fn gyroscopic(&self, spin: Vector3<f64>) -> (Vector3<f64>, Matrix3<f64>) {
-        let inertia = Matrix3::from_diagonal(&Vector3::from(self.inertia.unwrap_or_default()));
-        let momentum = inertia * spin;
-        (spin.cross(&momentum), spin.cross_matrix() * inertia - momentum.cross_matrix())
+    /// What the base does to the body as it moves over what it stands on.
+    fn stand(
+        &self,
+        at: &Kinematics<'_>,
+        turns: (&Turn, &Turn),
+        committed: &[f64],
+        trial: &mut [f64],
+    ) -> Wrench {
+        match self.rim() {
+            Some(rim) => rim.respond(at, turns, committed, trial),
+            None => {
+                plane_contact::respond(&GROUND, self.feet(), at, turns, committed, trial, false)
+            }
+        }
+    }
+
+    /// How both nodes have turned, for a body that stands on another.
+    pub(super) fn both(&self, history: &[f64]) -> Option<(Vector3<f64>, [Turned; 2])> {
+        let offset = self.above?;
+        let support = Turned::load(&history[history.len() - TURNED..]);
+        Some((Vector3::from(offset), [support, Turned::load(history)]))
+    }
+
+    /// First coordinate of the body.
+    fn first(&self) -> usize {
+        if self.above.is_some() { 6 } else { 0 }
+    }
+
+    /// The body as what it stands on sees it.
+    fn seen<T>(
+        &self,
+        at: &Kinematics<'_>,
+        history: &[f64],
+        look: impl FnOnce(&Kinematics<'_>, &Turn) -> T,
+    ) -> T {
+        let Some((offset, turned)) = self.both(history) else {
+            return look(at, &Turned::load(history).turn(&at.d[3..6]));
+        };
+        let turns = [turned[0].turn(&at.d[3..6]), turned[1].turn(&at.d[9..12])];
+        let view = View::<0>::new(offset, turns.each_ref(), at.d, at.v, None);
+        let [d, v] = view.values();
+        look(&Kinematics { d: &d, v: &v, d0: &d, v0: &v, dt: at.dt }, &view.turn)
     }
 }
 
 impl Link for RockingBody {
+    fn place(&mut self, at: &Geometry<'_>) -> Result<(), ParameterError> {
+        if let [support, body] = at.nodes {
+            self.above = Some(sub(*body, *support));
+        }
+        Ok(())
+    }
+
     fn coordinates(&self) -> Coordinates {
-        Coordinates::Nodal { nodes: 1 }
+        Coordinates::Nodal { nodes: if self.above.is_some() { 2 } else { 1 } }
+    }
+
+    fn turning_node(&self) -> Option<usize> {
+        Some(usize::from(self.above.is_some()))
     }
 
     fn history(&self) -> Cow<'static, [Field]> {
-        let mut fields = Attitude::FIELDS.to_vec();
+        let mut fields = [Turned::FIELDS, Posture::FIELDS].concat();
         fields.extend(match self.rim() {
             Some(_) => Rim::fields(),
-            None => points::fields(self.base.len()),
+            None => plane_contact::fields(self.base.len(), false),
         });
+        if self.above.is_some() {
+            let of = |f: &Field| Field { name: format!("support_{}", f.name).into(), unit: f.unit };
+            fields.extend(Turned::FIELDS.iter().map(of));
+        }
         fields.into()
     }
 
     fn at_rest(&self, at: &mut [f64]) {
-        let upright = Attitude { w: 1.0, ..Attitude::default() };
+        let upright = Turned::upright();
+        upright.store(at);
+        if self.above.is_some() {
+            let end = at.len() - TURNED;
+            upright.store(&mut at[end..]);
+        }
         let uplift = self.uplift(&[0.0; 6], &upright.turn(&[0.0; 3]));
-        Attitude { uplift, ..upright }.store(at);
+        Posture { uplift, ..Posture::default() }.store(&mut at[TURNED..]);
         match self.rim() {
-            Some(rim) => rim.at_rest(&mut at[ATTITUDE..]),
-            None => points::at_rest(self, &mut at[ATTITUDE..]),
+            Some(rim) => rim.at_rest(&mut at[BASE..]),
+            None => plane_contact::at_rest(self.feet(), false, &mut at[BASE..]),
         }
     }
 
@@ -139,9 +172,14 @@ impl Link for RockingBody {
         for point in self.base.iter().filter(|r| r[2] <= self.lowest()) {
             sum += stand(Vector3::from(*point));
         }
-        for i in 0..6 {
-            for j in 0..6 {
-                k[6 * i + j] = 0.5 * (sum[(i, j)] + sum[(j, i)]);
+        match self.above {
+            Some(offset) => two_bodies::stiffness(Vector3::from(offset), &sum, k),
+            None => {
+                for i in 0..6 {
+                    for j in 0..6 {
+                        k[6 * i + j] = 0.5 * (sum[(i, j)] + sum[(j, i)]);
+                    }
+                }
             }
         }
     }
@@ -153,51 +191,56 @@ impl Link for RockingBody {
         trial: &mut [f64],
         out: &mut Response<'_>,
     ) {
-        let was = Attitude::load(committed);
-        let (start, turn) = (was.turn(&at.d0[3..6]), was.turn(&at.d[3..6]));
-        let (from, to) = (&committed[ATTITUDE..], &mut trial[ATTITUDE..]);
-        let base = match self.rim() {
-            Some(rim) => rim.respond(at, (&start, &turn), from, to),
-            None => points::respond(self, at, (&start, &turn), from, to),
-        };
-        let (moment, by_spin) = self.gyroscopic(Vector3::new(at.v[3], at.v[4], at.v[5]));
-        out.f.copy_from_slice(&base.f);
-        for i in 0..6 {
-            for j in 0..6 {
-                out.k[6 * i + j] = base.k[(i, j)];
-                out.c[6 * i + j] = base.c[(i, j)];
-            }
+        let base = BASE..committed.len() - if self.above.is_some() { TURNED } else { 0 };
+        let first = self.first();
+        let theta = &at.d[first + 3..first + 6];
+        let (turn, uplift);
+        if let Some((offset, was)) = self.both(committed) {
+            let turns = Turns::new(&was, at);
+            let mut high = 0.0;
+            let law = |seen: &Kinematics<'_>, between: (&Turn, &Turn)| {
+                high = self.uplift(seen.d, between.1);
+                self.stand(seen, between, &committed[base.clone()], &mut trial[base.clone()])
+            };
+            two_bodies::respond(offset, &turns, at, law, out);
+            let [support, own] = turns.end;
+            Turned::after(&at.d[3..6], &support).store(&mut trial[base.end..]);
+            (turn, uplift) = (own, high);
+        } else {
+            let was = Turned::load(committed);
+            let (start, end) = (was.turn(&at.d0[3..6]), was.turn(theta));
+            self.stand(at, (&start, &end), &committed[base.clone()], &mut trial[base.clone()])
+                .write(out);
+            uplift = self.uplift(at.d, &end);
+            turn = end;
         }
-        for i in 0..3 {
-            out.f[3 + i] += moment[i];
-            for j in 0..3 {
-                out.c[6 * (3 + i) + 3 + j] += by_spin[(i, j)];
-            }
-        }
-        *out.energy = base.energy;
-        Attitude::after(&at.d[3..6], &turn, self.uplift(at.d, &turn)).store(trial);
+        let inertia = self.inertia.unwrap_or_default();
+        add_gyroscopic(inertia, &at.v[first + 3..first + 6], first + 3, out);
+        Turned::after(theta, &turn).store(trial);
+        Posture::after(&turn, uplift).store(&mut trial[TURNED..]);
     }
 
     fn contacts(&self, at: &Kinematics<'_>, history: &[f64], _: &[f64], out: &mut Vec<Contact>) {
-        let turn = Attitude::load(history).turn(&at.d[3..6]);
-        let own = &history[ATTITUDE..];
-        match self.rim() {
-            Some(rim) => rim.contacts(at, &turn, own, out),
-            None => points::contacts(self, at, &turn, own, out),
-        }
+        let base = &history[BASE..];
+        self.seen(at, history, |at, turn| match self.rim() {
+            Some(rim) => rim.contacts(at, turn, base, out),
+            None => plane_contact::contacts(&GROUND, self.feet(), at, turn, base, false, out),
+        });
     }
 
     fn outline(&self, at: &Kinematics<'_>, history: &[f64]) -> Option<Outline> {
-        let turn = Attitude::load(history).turn(&at.d[3..6]);
+        let d = &at.d[self.first()..];
+        let turn = Turned::load(history).turn(&d[3..6]);
+        let above = self.above.unwrap_or_default();
         let mut body = outline::upright(self);
         for point in &mut body.points {
             let moved = Vector3::from(*point) + turn.shift(Vector3::from(*point));
-            *point = [0, 1, 2].map(|i| at.d[i] + moved[i]);
+            *point = [0, 1, 2].map(|i| above[i] + d[i] + moved[i]);
         }
         Some(body)
     }
 
     fn overturned(&self, _: &Kinematics<'_>, history: &[f64]) -> bool {
-        Attitude::load(history).tilt >= self.overturned
+        Posture::load(&history[TURNED..]).tilt >= self.overturned
     }
 }

@@ -16,9 +16,9 @@
 
 use super::RockingBody;
 use super::drilling;
-use super::law::Wrench;
-use super::rotation::Turn;
-use crate::shared::dual::Dual;
+use crate::shared::dual::{Dual, cross, dot, times, transposed_times};
+use crate::shared::rotation::Turn;
+use crate::shared::wrench::Wrench;
 use std::f64::consts::PI;
 use trilith_element::{Contact, Field, History, Kinematics, history};
 
@@ -42,14 +42,6 @@ history! {
 type Number = Dual<12>;
 type V3 = [Number; 3];
 
-fn dot(a: &V3, b: &V3) -> Number {
-    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
-}
-
-fn cross(a: &V3, b: &V3) -> V3 {
-    [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
-}
-
 /// The body at one moment.
 struct Motion {
     u: V3,
@@ -63,32 +55,16 @@ struct Motion {
 
 impl Motion {
     fn new(turn: &Turn, d: &[f64], v: &[f64]) -> Self {
-        let variable = |x: &[f64], at: usize| [0, 1, 2].map(|i| Dual::variable(x[i], at + i));
-        let changes: Vec<_> = (0..3)
-            .map(|k| turn.matrix * turn.jacobian.column(k).into_owned().cross_matrix())
-            .collect();
-        let r: [V3; 3] = std::array::from_fn(|i| {
-            std::array::from_fn(|j| {
-                let mut x = Number::constant(turn.matrix[(i, j)]);
-                for (k, change) in changes.iter().enumerate() {
-                    x.by[3 + k] = change[(i, j)];
-                }
-                x
-            })
-        });
+        let r: [V3; 3] = turn.dual(3);
         let [_, x, y, _] = turn.quaternion;
         let sunk = r[2][2].map(2.0 * (x * x + y * y), -1.0);
-        Self { u: variable(d, 0), r, sunk, rate: variable(&v[..3], 6), spin: variable(&v[3..], 9) }
-    }
-
-    /// R x.
-    fn turned(&self, x: &V3) -> V3 {
-        [0, 1, 2].map(|i| dot(&self.r[i], x))
-    }
-
-    /// Rᵀ x.
-    fn back(&self, x: &V3) -> V3 {
-        [0, 1, 2].map(|j| self.r[0][j] * x[0] + self.r[1][j] * x[1] + self.r[2][j] * x[2])
+        Self {
+            u: Number::variables(d, 0),
+            r,
+            sunk,
+            rate: Number::variables(&v[..3], 6),
+            spin: Number::variables(&v[3..], 9),
+        }
     }
 }
 
@@ -273,7 +249,7 @@ impl Rim<'_> {
             _ => ([Number::constant(0.0); 2], Number::constant(0.0), [0.0; 2], 0.0),
         };
         let sideways = [traction[0], traction[1], Number::constant(0.0)];
-        let arm = cross(&p.centre, &now.back(&sideways));
+        let arm = cross(&p.centre, &transposed_times(&now.r, &sideways));
         let springs = cross(&p.q, &w);
         let moment: V3 = std::array::from_fn(|i| springs[i] + arm[i] + torsion * w[i]);
         let force = [traction[0], traction[1], p.lift];
@@ -324,7 +300,7 @@ impl Rim<'_> {
             std::array::from_fn(|i| (start[i] + p.centre[i]) * 0.5)
         };
         let (u0, r0) = (plain(&before.u), before.r.each_ref().map(plain));
-        let to = now.turned(&middle);
+        let to = times(&now.r, &middle);
         let from: V3 = std::array::from_fn(|i| dot(&r0[i], &middle));
         let way: [Number; 2] = std::array::from_fn(|i| now.u[i] - u0[i] + to[i] - from[i]);
         let (w0, w1) = (plain(&before.r[2]), now.r[2]);

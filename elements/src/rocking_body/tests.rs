@@ -311,3 +311,128 @@ fn is_drawn_where_it_is() {
     let cask = at(&cask(&[]).unwrap(), [0.0; 6]);
     assert!(cask.points.iter().all(|p| p[2].abs() == cask.points[0][2].abs()));
 }
+
+/// The body at a place above a node that it stands on.
+fn on_a_node(mut law: RockingBody, above: Vector3) -> RockingBody {
+    let nodes = [[1.0, 2.0, 3.0], [1.0 + above[0], 2.0 + above[1], 3.0 + above[2]]];
+    let frame = trilith_element::Frame::of_nodes(&nodes, None, None).unwrap();
+    law.place(&trilith_element::Geometry { nodes: &nodes, frame, tension: 0.0 }).unwrap();
+    law
+}
+
+const ABOVE: Vector3 = [0.2, -0.1, 1.3];
+
+/// On plane feet and on a rim, with friction, with and without dashpots.
+fn on_nodes() -> Vec<RockingBody> {
+    let friction = [number("mu", 0.4), number("ks", 0.7 * KN)];
+    let dashpots = [number("damping", 2e3), ("pull", Value::Flag(true)), inertia()];
+    let all = [&friction[..], &dashpots].concat();
+    [
+        body(&TABLE, &[&friction[..], &[inertia()]].concat()),
+        body(&TABLE, &all),
+        cask(&friction),
+        cask(&all[..4]),
+    ]
+    .map(|law| on_a_node(law.unwrap(), ABOVE))
+    .to_vec()
+}
+
+#[test]
+fn conforms_on_another_body() {
+    let small = [0.05, 0.05, 0.05, 0.2, 0.2, 0.2];
+    let all = [small, small].concat();
+    for law in on_nodes() {
+        assert_eq!(law.coordinates().len(), 12);
+        Kit::new(&all, 0.5).assert(&law);
+    }
+}
+
+/// A random motion of both nodes; what the law says at its end.
+fn led(law: &RockingBody, motion: &[[f64; 12]]) -> ([f64; 12], Vec<f64>) {
+    let mut driver = Driver::new(law);
+    let mut f = [0.0; 12];
+    for d in motion {
+        f.copy_from_slice(driver.to(d));
+    }
+    (f, driver.history.clone())
+}
+
+fn waves(seed: f64) -> Vec<[f64; 12]> {
+    let at = |k: usize| {
+        let t = 0.07 * k as f64;
+        std::array::from_fn(|i| {
+            let size = if i % 6 < 3 { 0.02 } else { 0.3 };
+            let x = size * (t * (1.0 + 0.3 * i as f64) + seed * i as f64).sin();
+            // Pressed, mostly.
+            if i == 8 { x - 0.02 } else { x - size * (seed * i as f64).sin() }
+        })
+    };
+    (1..40).map(at).collect()
+}
+
+/// Forces cancel, and so do their moments about any point.
+#[test]
+fn two_bodies_keep_their_momentum() {
+    for law in on_nodes() {
+        let plain = RockingBody { inertia: None, ..law };
+        for seed in [0.3, 1.1, 2.4] {
+            let motion = waves(seed);
+            let (f, history) = led(&plain, &motion);
+            let (offset, turned) = plain.both(&history).unwrap();
+            let end = motion.last().unwrap();
+            let turns = [turned[0].turn(&end[3..6]), turned[1].turn(&end[9..12])];
+            let vector = |x: &[f64]| nalgebra::Vector3::new(x[0], x[1], x[2]);
+            let (f1, f2) = (vector(&f[..3]), vector(&f[6..9]));
+            let (m1, m2) = (turns[0].matrix * vector(&f[3..6]), turns[1].matrix * vector(&f[9..]));
+            let lever = offset + vector(&end[6..9]) - vector(&end[..3]);
+            let size = f2.norm();
+            assert!(size > 1e3, "{seed}: {f:?}");
+            assert_relative_eq!(f1, -f2, epsilon = 1e-12 * size);
+            let moment = m1 + m2 + lever.cross(&f2);
+            assert!(moment.norm() < 1e-11 * size, "{seed}: {moment}");
+        }
+    }
+}
+
+/// Seen from a node that moves and turns, the body does what it does on the ground: its forces come along.
+#[test]
+fn on_a_node_it_is_the_body_on_the_ground_as_that_node_sees_it() {
+    use nalgebra::{UnitQuaternion, Vector3};
+    let friction = [number("mu", 0.4), number("ks", 0.7 * KN)];
+    let table = [&friction[..], &[inertia()]].concat();
+    for law in [body(&TABLE, &table).unwrap(), cask(&friction).unwrap()] {
+        let law = RockingBody { inertia: None, ..law };
+        let two = on_a_node(law.clone(), ABOVE);
+        let (mut ground, mut moving) = (Driver::new(&law), Driver::new(&two));
+        // Turns of the body on the ground, and of both nodes, with their integrals.
+        let mut alone = UnitQuaternion::identity();
+        let mut both = [UnitQuaternion::<f64>::identity(); 2];
+        let (mut before, mut d) = ([0.0; 6], [0.0; 12]);
+        for (k, full) in waves(0.7).iter().enumerate() {
+            let own: [f64; 6] = full[6..].try_into().unwrap();
+            let on_ground = ground.to(&own).to_vec();
+            let t = (k + 1) as f64;
+            let by: [f64; 3] = std::array::from_fn(|i| own[3 + i] - before[3 + i]);
+            alone *= UnitQuaternion::from_scaled_axis(Vector3::from(by));
+            before = own;
+            let carried = UnitQuaternion::from_scaled_axis(0.05 * t * Vector3::new(0.5, -0.3, 0.8));
+            let way = Vector3::new(0.3, -0.1, 0.2) * (0.1 * t).sin();
+            for (i, q) in [carried, carried * alone].into_iter().enumerate() {
+                let by = (both[i].inverse() * q).scaled_axis();
+                (0..3).for_each(|j| d[6 * i + 3 + j] += by[j]);
+                both[i] = q;
+            }
+            let offset = Vector3::from(ABOVE);
+            let place = way + carried * (offset + Vector3::new(own[0], own[1], own[2])) - offset;
+            d[..3].copy_from_slice(way.as_slice());
+            d[6..9].copy_from_slice(place.as_slice());
+            let f = moving.to(&d).to_vec();
+            let wanted = carried * Vector3::new(on_ground[0], on_ground[1], on_ground[2]);
+            let size = wanted.norm().max(1.0);
+            for i in 0..3 {
+                assert_relative_eq!(f[6 + i], wanted[i], epsilon = 1e-8 * size);
+                assert_relative_eq!(f[9 + i], on_ground[3 + i], epsilon = 1e-8 * size);
+            }
+        }
+    }
+}

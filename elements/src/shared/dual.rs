@@ -14,11 +14,18 @@ impl<const N: usize> Dual<N> {
         Self { x, by: [0.0; N] }
     }
 
-    /// The variable `i`.
+    /// The variable `i`; a constant where there are none.
     pub(crate) fn variable(x: f64, i: usize) -> Self {
         let mut by = [0.0; N];
-        by[i] = 1.0;
+        if N > 0 {
+            by[i] = 1.0;
+        }
         Self { x, by }
+    }
+
+    /// Three variables from `i` on.
+    pub(crate) fn variables(x: &[f64], i: usize) -> Dual3<N> {
+        [0, 1, 2].map(|k| Self::variable(x[k], i + k))
     }
 
     /// A function of it with this value and derivative.
@@ -44,6 +51,29 @@ impl<const N: usize> Dual<N> {
         let root = self.x.sqrt();
         self.map(root, 0.5 / root)
     }
+}
+
+/// A vector of them.
+pub(crate) type Dual3<const N: usize> = [Dual<N>; 3];
+
+/// `a · b`.
+pub(crate) fn dot<const N: usize>(a: &Dual3<N>, b: &Dual3<N>) -> Dual<N> {
+    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
+}
+
+/// `a × b`.
+pub(crate) fn cross<const N: usize>(a: &Dual3<N>, b: &Dual3<N>) -> Dual3<N> {
+    [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
+}
+
+/// `A x`, A row by row.
+pub(crate) fn times<const N: usize>(a: &[Dual3<N>; 3], x: &Dual3<N>) -> Dual3<N> {
+    [0, 1, 2].map(|i| dot(&a[i], x))
+}
+
+/// `Aᵀ x`, A row by row.
+pub(crate) fn transposed_times<const N: usize>(a: &[Dual3<N>; 3], x: &Dual3<N>) -> Dual3<N> {
+    [0, 1, 2].map(|j| a[0][j] * x[0] + a[1][j] * x[1] + a[2][j] * x[2])
 }
 
 impl<const N: usize> Add for Dual<N> {

@@ -8,8 +8,12 @@ pub(crate) mod multilinear;
 pub(crate) mod parameters;
 #[cfg(test)]
 pub(crate) mod paths;
+pub(crate) mod plane_contact;
 pub(crate) mod relaxation;
 pub(crate) mod restitution;
+pub(crate) mod rotation;
 pub(crate) mod series;
 pub(crate) mod sliding;
 pub(crate) mod touch;
+pub(crate) mod two_bodies;
+pub(crate) mod wrench;

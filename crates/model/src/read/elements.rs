@@ -13,7 +13,8 @@ use std::collections::VecDeque;
 use std::sync::Arc;
 use trilith_element::dimension::{MOMENT, NONE, STIFFNESS};
 use trilith_element::{
-    Card, Category, Coordinates, Frame, Link, NodeCount, ParameterError, Range, Values, Vector3,
+    Card, Category, Coordinates, Frame, Geometry, Link, NodeCount, ParameterError, Range, Values,
+    Vector3,
 };
 
 struct Reading<'c, 'n> {
@@ -101,7 +102,8 @@ impl Reading<'_, '_> {
         let positions: Option<Vec<Vector3>> =
             nodes.iter().map(|&i| self.nodes[i].as_ref().map(|n| n.position)).collect();
         let (axis1, axis2) = (axis1?, axis2?);
-        let frame = match Frame::of_nodes(&positions?, axis1, axis2) {
+        let positions = positions?;
+        let frame = match Frame::of_nodes(&positions, axis1, axis2) {
             Ok(frame) => Some(frame),
             Err(error) => {
                 let place = given.get("axis2").or(given.get("axis1"));
@@ -110,12 +112,15 @@ impl Reading<'_, '_> {
                 None
             }
         };
+        let frame = frame?;
+        let place = Geometry { nodes: &positions, frame, tension: 0.0 };
         let body = match reader {
             Reader::Linear(read) => read(&values).map(Body::Linear),
             Reader::Constraint(read) => read(&values).map(Body::Constraint),
-            Reader::Link(read) => {
-                read(&values).map(|l| Body::Link(Arc::from(l), LinkOptions::default()))
-            }
+            Reader::Link(read) => read(&values).and_then(|mut law| {
+                law.place(&place)?;
+                Ok(Body::Link(Arc::from(law), LinkOptions::default()))
+            }),
         };
         let body = match body {
             Ok(Body::Link(law, _)) => {
@@ -129,7 +134,7 @@ impl Reading<'_, '_> {
             name: e.key.clone(),
             kind: card.kind,
             nodes,
-            frame: frame?,
+            frame,
             body,
             span: e.key_span.clone(),
             values: self.shared_values(values),

@@ -1,15 +1,52 @@
 //! Finite rotations.
 
+use super::dual::{Dual, Dual3};
 use nalgebra::{Matrix3, Quaternion, UnitQuaternion, Vector3};
+use trilith_element::history;
 
 /// A rotation that goes on from one that is known, R = R₀ exp(φ), and what small changes of φ do to it.
-pub(super) struct Turn {
+pub(crate) struct Turn {
     /// R, from the axes of the body to global axes.
     pub matrix: Matrix3<f64>,
     /// The right Jacobian Jᵣ(φ): δR = R \[Jᵣ δφ\]×.
     pub jacobian: Matrix3<f64>,
     /// R as quaternion (w, x, y, z).
     pub quaternion: [f64; 4],
+}
+
+history! {
+    /// The rotation of a node that turns finitely, at the end of a step.
+    pub(crate) struct Turned {
+        /// Rotations of the node that the quaternion belongs to.
+        turned1: "rad",
+        turned2: "rad",
+        turned3: "rad",
+        /// Quaternion of the rotation from the axes of the body to global ones.
+        w: "1",
+        x: "1",
+        y: "1",
+        z: "1",
+    }
+}
+
+impl Turned {
+    /// Not turned yet.
+    pub fn upright() -> Self {
+        Self { w: 1.0, ..Self::default() }
+    }
+
+    /// The rotation at the node's rotations `theta`.
+    pub fn turn(&self, theta: &[f64]) -> Turn {
+        let by =
+            Vector3::new(theta[0] - self.turned1, theta[1] - self.turned2, theta[2] - self.turned3);
+        Turn::new([self.w, self.x, self.y, self.z], by)
+    }
+
+    /// The node after a turn to its rotations `theta`.
+    pub fn after(theta: &[f64], turn: &Turn) -> Self {
+        let [w, x, y, z] = turn.quaternion;
+        Self { turned1: theta[0], turned2: theta[1], turned3: theta[2], w, x, y, z }
+    }
 }
 
 impl Turn {
@@ -29,10 +66,64 @@ impl Turn {
     /// R r − r, from the quaternion: a stiff contact would see the rounding of the difference.
     pub fn shift(&self, r: Vector3<f64>) -> Vector3<f64> {
         let [w, x, y, z] = self.quaternion;
-        let axis = Vector3::new(x, y, z);
-        let across = axis.cross(&r);
-        2.0 * (w * across + axis.cross(&across))
+        shift(w, Vector3::new(x, y, z), r)
     }
+
+    /// Rᵀ r − r.
+    pub fn shift_back(&self, r: Vector3<f64>) -> Vector3<f64> {
+        let [w, x, y, z] = self.quaternion;
+        shift(w, -Vector3::new(x, y, z), r)
+    }
+
+    /// R₁ᵀ R₂ of two rotations, as one that goes on from `start`, and its φ; none: as one to start from.
+    pub fn between(first: &Self, second: &Self, start: Option<&Self>) -> (Self, Vector3<f64>) {
+        let unit =
+            |[w, x, y, z]: [f64; 4]| UnitQuaternion::new_unchecked(Quaternion::new(w, x, y, z));
+        let all = unit(first.quaternion).inverse() * unit(second.quaternion);
+        let from = |start: &Self| logarithm(&(unit(start.quaternion).inverse() * all));
+        let by = start.map_or_else(Vector3::zeros, from);
+        let q = all.quaternion();
+        let turn = Self {
+            matrix: first.matrix.transpose() * second.matrix,
+            jacobian: right_jacobian(by),
+            quaternion: [q.w, q.i, q.j, q.k],
+        };
+        (turn, by)
+    }
+
+    /// R, row by row, with its derivatives by φ, which are the variables from `first` on, if there are any.
+    pub fn dual<const N: usize>(&self, first: usize) -> [Dual3<N>; 3] {
+        let mut all = [[Dual::constant(0.0); 3]; 3];
+        for k in 0..3 {
+            let change = self.matrix * self.jacobian.column(k).into_owned().cross_matrix();
+            for (i, row) in all.iter_mut().enumerate() {
+                for (j, x) in row.iter_mut().enumerate() {
+                    x.x = self.matrix[(i, j)];
+                    if N > 0 {
+                        x.by[first + k] = change[(i, j)];
+                    }
+                }
+            }
+        }
+        all
+    }
+}
+
+/// R r − r by the parts of the quaternion of R.
+fn shift(w: f64, axis: Vector3<f64>, r: Vector3<f64>) -> Vector3<f64> {
+    let across = axis.cross(&r);
+    2.0 * (w * across + axis.cross(&across))
+}
+
+/// φ of exp(φ), at most half a turn.
+fn logarithm(q: &UnitQuaternion<f64>) -> Vector3<f64> {
+    let (w, axis) = (q.quaternion().w, q.quaternion().vector().into_owned());
+    let sine = axis.norm();
+    if sine == 0.0 {
+        return Vector3::zeros();
+    }
+    let (w, axis) = if w < 0.0 { (-w, -axis) } else { (w, axis) };
+    axis * (2.0 * sine.atan2(w) / sine)
 }
 
 /// exp(φ/2), of every angle that a number can hold: nalgebra takes the identity below 4e-16, and a stiff contact at
@@ -108,6 +199,26 @@ mod tests {
         assert_relative_eq!(large.shift(r), large.matrix * r - r, max_relative = 1e-14);
         let tiny = turn(1e-13).shift(r);
         assert_relative_eq!(tiny[0], 3e-13, max_relative = 1e-12);
+    }
+
+    #[test]
+    fn what_is_between_two_turns_leads_from_one_to_the_other() {
+        let of = |q, by: [f64; 3]| Turn::new(q, Vector3::from(by));
+        let rest = [1.0, 0.0, 0.0, 0.0];
+        let (first, start) = (of(rest, [0.4, -0.2, 1.1]), of(rest, [-0.7, 0.3, 0.2]));
+        for by in [[0.2, 0.5, -0.1], [1e-9, 0.0, 2e-9], [0.0; 3], [2.0, -1.0, 1.5]] {
+            let second = of(start.quaternion, by);
+            let (from, zero) = Turn::between(&first, &start, None);
+            let (to, found) = Turn::between(&first, &second, Some(&from));
+            // The same turn in the axes of the second body, whoever looks at it.
+            assert_relative_eq!(found, Vector3::from(by), epsilon = 1e-15, max_relative = 1e-14);
+            assert_relative_eq!(first.matrix * to.matrix, second.matrix, epsilon = 1e-14);
+            let again = Turn::new(from.quaternion, found);
+            assert_relative_eq!(again.matrix, to.matrix, epsilon = 1e-14);
+            assert_eq!(zero, Vector3::zeros());
+            let r = Vector3::new(1.0, 2.0, -0.5);
+            assert_relative_eq!(to.shift_back(r), to.matrix.transpose() * r - r, epsilon = 1e-14);
+        }
     }
 
     #[test]

@@ -1,0 +1,206 @@
+//! Points of a body on a plane: an `NLink` under each.
+
+use super::rotation::Turn;
+use super::wrench::Wrench;
+use crate::{NLink, NLinkHistory};
+use nalgebra::{Matrix3, Vector3};
+use trilith_element::{Contact, Energy, Field, History, Kinematics, Link, Response};
+
+const CONTACT: usize = NLinkHistory::FIELDS.len();
+
+/// A plane: its normal, out of it, and two axes in it as rows.
+pub(crate) struct Plane(pub Matrix3<f64>);
+
+/// The ground: Z, X, Y, as a link on the ground has them.
+pub(crate) const GROUND: Plane = Plane(Matrix3::new(0.0, 0.0, 1.0, 1.0, 0.0, 0.0, 0.0, 1.0, 0.0));
+
+/// A point of the body and the contact under it.
+pub(crate) struct Foot {
+    /// From the node, in the axes of the body.
+    pub r: Vector3<f64>,
+    pub contact: NLink,
+    /// Where the plane ends; none: nowhere. All feet of a body are alike in this.
+    pub edge: Option<Edge>,
+}
+
+/// A plane that ends is a rectangle about its middle.
+#[derive(Clone, Copy)]
+pub(crate) struct Edge {
+    /// Half widths along the axes in the plane, m.
+    pub half: [f64; 2],
+    /// Where the point is at rest, from the middle, m.
+    pub from: [f64; 2],
+}
+
+impl Edge {
+    /// True where a point that has moved by `d` is over the rectangle.
+    fn holds(&self, d: &[f64; 3]) -> bool {
+        (0..2).all(|i| (self.from[i] + d[1 + i]).abs() <= self.half[i])
+    }
+}
+
+impl Foot {
+    /// True where a point that has moved by `d` is behind the plane and has come there past the edge: nothing holds it
+    /// until it has been in front again.
+    fn is_past(&self, d: &[f64; 3], was: bool) -> bool {
+        let Some(edge) = self.edge else { return false };
+        d[0] + self.contact.opening < 0.0 && (was || !edge.holds(d))
+    }
+
+    /// The same motion in front of the plane.
+    fn lifted(&self, d: [f64; 3], past: bool) -> [f64; 3] {
+        if past { [1.0 - self.contact.opening, d[1], d[2]] } else { d }
+    }
+}
+
+/// How a point at `r` moves with the node.
+struct Lever {
+    /// Displacement and velocity of the point in the axes of the plane.
+    d: [f64; 3],
+    v: [f64; 3],
+    /// ∂v/∂Ω = −R \[r\]×; its transpose carries a force to a moment.
+    arm: Matrix3<f64>,
+}
+
+impl Lever {
+    fn new(plane: &Plane, r: Vector3<f64>, turn: &Turn, d: &[f64], v: &[f64]) -> Self {
+        let arm = -turn.matrix * r.cross_matrix();
+        let spin = Vector3::new(v[3], v[4], v[5]);
+        let way = Vector3::new(d[0], d[1], d[2]) + turn.shift(r);
+        let rate = Vector3::new(v[0], v[1], v[2]) + arm * spin;
+        Self { d: (plane.0 * way).into(), v: (plane.0 * rate).into(), arm }
+    }
+}
+
+/// Variables of one point.
+fn own(edged: bool) -> usize {
+    CONTACT + usize::from(edged)
+}
+
+/// History of so many points; with an edge they remember whether they went past it.
+pub(crate) fn fields(count: usize, edged: bool) -> Vec<Field> {
+    let past = Field::new("past", "1");
+    let all: Vec<Field> =
+        NLinkHistory::FIELDS.iter().cloned().chain(edged.then_some(past)).collect();
+    let of = |point: usize| {
+        all.iter().map(move |f| Field { name: format!("{}_{point}", f.name).into(), unit: f.unit })
+    };
+    (1..=count).flat_map(of).collect()
+}
+
+pub(crate) fn at_rest(feet: impl Iterator<Item = Foot>, edged: bool, at: &mut [f64]) {
+    for (foot, own) in feet.zip(at.chunks_mut(own(edged))) {
+        foot.contact.at_rest(own);
+    }
+}
+
+/// Forces, tangents and energies over a step.
+pub(crate) fn respond(
+    plane: &Plane,
+    feet: impl Iterator<Item = Foot>,
+    at: &Kinematics<'_>,
+    (start, turn): (&Turn, &Turn),
+    committed: &[f64],
+    trial: &mut [f64],
+    edged: bool,
+) -> Wrench {
+    let spin = Vector3::new(at.v[3], at.v[4], at.v[5]);
+    let mut out = Wrench::default();
+    let histories = committed.chunks(own(edged)).zip(trial.chunks_mut(own(edged)));
+    for (foot, (committed, trial)) in feet.zip(histories) {
+        let r = foot.r;
+        let before = Lever::new(plane, r, start, at.d0, at.v0);
+        let now = Lever::new(plane, r, turn, at.d, at.v);
+        let was = edged && committed[CONTACT] != 0.0;
+        let past = foot.is_past(&now.d, was);
+        let (mut f, mut k, mut c) = ([0.0; 3], [0.0; 9], [0.0; 9]);
+        let mut energy = Energy::default();
+        foot.contact.respond(
+            &Kinematics {
+                d: &foot.lifted(now.d, past),
+                v: &now.v,
+                d0: &foot.lifted(before.d, was),
+                v0: &before.v,
+                dt: at.dt,
+            },
+            committed,
+            trial,
+            &mut Response { f: &mut f, k: &mut k, c: &mut c, energy: &mut energy },
+        );
+        if edged {
+            trial[CONTACT] = f64::from(u8::from(past));
+        }
+        if past && !was {
+            // What the spring held is lost where it slips over the edge.
+            let pressed = (-before.d[0] - foot.contact.opening).max(0.0);
+            energy.hysteretic += 0.5 * foot.contact.kn * pressed * pressed;
+        }
+        out.count(&energy);
+
+        let axes = plane.0.transpose();
+        let f = axes * Vector3::from(f);
+        let k = axes * Matrix3::from_row_slice(&k) * plane.0;
+        let c = axes * Matrix3::from_row_slice(&c) * plane.0;
+        let down = now.arm.transpose();
+        let moment = down * f;
+        for i in 0..3 {
+            out.f[i] += f[i];
+            out.f[3 + i] += moment[i];
+        }
+        // ∂d/∂φ, ∂v/∂φ, and the force that turns against the body's axes.
+        let by_turn = now.arm * turn.jacobian;
+        let speed_by_turn = -turn.matrix * spin.cross(&r).cross_matrix() * turn.jacobian;
+        let turning =
+            r.cross_matrix() * (turn.matrix.transpose() * f).cross_matrix() * turn.jacobian;
+        let force_by_turn = k * by_turn + c * speed_by_turn;
+        Wrench::add(&mut out.k, 0, 0, &k);
+        Wrench::add(&mut out.k, 0, 1, &force_by_turn);
+        Wrench::add(&mut out.k, 1, 0, &(down * k));
+        Wrench::add(&mut out.k, 1, 1, &(down * force_by_turn + turning));
+        Wrench::add(&mut out.c, 0, 0, &c);
+        Wrench::add(&mut out.c, 0, 1, &(c * now.arm));
+        Wrench::add(&mut out.c, 1, 0, &(down * c));
+        Wrench::add(&mut out.c, 1, 1, &(down * c * now.arm));
+    }
+    out
+}
+
+/// How far the highest point is from the plane that it stands on or hangs over, m.
+pub(crate) fn uplift(
+    plane: &Plane,
+    feet: impl Iterator<Item = Foot>,
+    d: &[f64],
+    turn: &Turn,
+) -> f64 {
+    let gap = |foot: Foot| {
+        let moved = Vector3::new(d[0], d[1], d[2]) + turn.shift(foot.r);
+        (plane.0 * moved)[0] + foot.contact.opening
+    };
+    feet.map(gap).fold(f64::NEG_INFINITY, f64::max)
+}
+
+/// What each point does; `history`: the trial of the answer.
+pub(crate) fn contacts(
+    plane: &Plane,
+    feet: impl Iterator<Item = Foot>,
+    at: &Kinematics<'_>,
+    turn: &Turn,
+    history: &[f64],
+    edged: bool,
+    out: &mut Vec<Contact>,
+) {
+    for (foot, history) in feet.zip(history.chunks(own(edged))) {
+        let now = Lever::new(plane, foot.r, turn, at.d, at.v);
+        let d = foot.lifted(now.d, edged && history[CONTACT] != 0.0);
+        let at = Kinematics { d: &d, v: &now.v, d0: &d, v0: &now.v, dt: 0.0 };
+        let (mut f, mut k, mut c) = ([0.0; 3], [0.0; 9], [0.0; 9]);
+        let (mut energy, mut trial) = (Energy::default(), [0.0; CONTACT]);
+        foot.contact.respond(
+            &at,
+            history,
+            &mut trial,
+            &mut Response { f: &mut f, k: &mut k, c: &mut c, energy: &mut energy },
+        );
+        foot.contact.contacts(&at, history, &f, out);
+    }
+}
