@@ -5,7 +5,7 @@
 //!
 //! | linear elements | constraints | links |
 //! |---|---|---|
-//! | [`Beam`], [`Inerter`], [`Mass`], [`Spring`], [`Truss`] | [`Diaphragm`], [`EqualDof`], [`RigidBody`], [`RigidLink`] | contacts: [`NLink`], [`Gap`], [`Hook`], [`ImpactHertz`], [`ImpactKelvin`], [`RockingBody`] |
+//! | [`Beam`], [`Inerter`], [`Mass`], [`Spring`], [`Truss`] | [`Diaphragm`], [`EqualDof`], [`RigidBody`], [`RigidLink`] | contacts: [`NLink`], [`Gap`], [`Hook`], [`ImpactHertz`], [`ImpactKelvin`], [`RockingBody`], [`BodyContact`] |
 //! | | | dampers: [`BilinearDamper`], [`Dashpot`], [`FrequencyIndependentViscoelastic`], [`FrictionSpring`], [`MaxwellDamper`] |
 //! | | | isolators: [`ElastomericBearing`], [`FrictionPendulum`], [`LeadRubber`], [`RubberIsolator`], [`TensionCompressionFriction`], [`TriplePendulum`] |
 //! | | | springs: [`BoucWen`], [`LinearLink`], [`MultilinearElastic`], [`MultilinearPlastic`], [`Wen`] |
@@ -16,6 +16,7 @@ mod shared;
 
 mod beam;
 mod bilinear_damper;
+mod body_contact;
 mod bouc_wen;
 mod dashpot;
 mod diaphragm;
@@ -48,6 +49,7 @@ mod wen;
 
 pub use beam::{Beam, MassMatrix};
 pub use bilinear_damper::BilinearDamper;
+pub use body_contact::BodyContact;
 pub use bouc_wen::{BoucWen, BoucWenHistory};
 pub use dashpot::{Dashpot, When};
 pub use diaphragm::{Diaphragm, Normal};
@@ -94,6 +96,7 @@ pub fn register(to: &mut impl Register) {
     to.constraint::<RigidBody>();
     to.constraint::<RigidLink>();
     to.link::<BilinearDamper>();
+    to.link::<BodyContact>();
     to.link::<BoucWen>();
     to.link::<Dashpot>();
     to.link::<ElastomericBearing>();

@@ -6,7 +6,7 @@ use crate::shared::plane_contact::{self, Foot, GROUND};
 use crate::shared::rotation::{Turn, Turned};
 use crate::shared::two_bodies::{self, Turns, View};
 use crate::shared::wrench::{Wrench, add_gyroscopic};
-use nalgebra::{Matrix3, SMatrix, Vector3};
+use nalgebra::{SMatrix, Vector3};
 use std::borrow::Cow;
 use trilith_element::{
     Contact, Coordinates, Field, Geometry, History, Kinematics, Link, Outline, ParameterError,
@@ -155,13 +155,7 @@ impl Link for RockingBody {
     fn engaged_stiffness(&self, k: &mut [f64]) {
         let mut sum = SMatrix::<f64, 6, 6>::zeros();
         let shear = if self.mu > 0.0 { self.ks.unwrap_or(0.0) } else { 0.0 };
-        let contact = Matrix3::from_diagonal(&Vector3::new(shear, shear, self.kn));
-        let stand = |r: Vector3<f64>| {
-            let mut map = SMatrix::<f64, 3, 6>::zeros();
-            map.fixed_view_mut::<3, 3>(0, 0).fill_with_identity();
-            map.fixed_view_mut::<3, 3>(0, 3).copy_from(&-r.cross_matrix());
-            map.transpose() * contact * map
-        };
+        let stand = |r| plane_contact::stiffness(&GROUND, r, self.kn, shear);
         if let Some(rim) = self.rim() {
             sum += stand(Vector3::new(0.0, 0.0, -rim.depth));
             let square = rim.radius * rim.radius;

@@ -3,7 +3,7 @@
 use super::rotation::Turn;
 use super::wrench::Wrench;
 use crate::{NLink, NLinkHistory};
-use nalgebra::{Matrix3, Vector3};
+use nalgebra::{Matrix3, SMatrix, Vector3};
 use trilith_element::{Contact, Energy, Field, History, Kinematics, Link, Response};
 
 const CONTACT: usize = NLinkHistory::FIELDS.len();
@@ -163,6 +163,15 @@ pub(crate) fn respond(
         Wrench::add(&mut out.c, 1, 1, &(down * c * now.arm));
     }
     out
+}
+
+/// Stiffness of a body at rest by one closed contact at `r`: `kn` along the normal, `shear` across.
+pub(crate) fn stiffness(plane: &Plane, r: Vector3<f64>, kn: f64, shear: f64) -> SMatrix<f64, 6, 6> {
+    let own = Matrix3::from_diagonal(&Vector3::new(kn, shear, shear));
+    let mut map = SMatrix::<f64, 3, 6>::zeros();
+    map.fixed_view_mut::<3, 3>(0, 0).fill_with_identity();
+    map.fixed_view_mut::<3, 3>(0, 3).copy_from(&-r.cross_matrix());
+    map.transpose() * (plane.0.transpose() * own * plane.0) * map
 }
 
 /// How far the highest point is from the plane that it stands on or hangs over, m.
