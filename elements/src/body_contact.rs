@@ -39,6 +39,9 @@
 //! between the axes moves the touch by r₂ (1 − cos ϑ) at most. Friction follows the way of the material that is there:
 //! one rolls on the other without slip. For what touches at the height of the first give a second link, nodes exchanged.
 //!
+//! The history variable `gap` is the smallest distance of all points or heights from what they touch: its smallest
+//! value over a run is the closest approach.
+//!
 //! Reference: relative motion of rigid bodies, \[Goldstein, Classical Mechanics, ch. 4\]; contact as in
 //! [`NLink`].
 

@@ -15,6 +15,9 @@ pub(crate) fn check(registry: &Registry, args: &ModelArguments) -> Result<Answer
             checked.map_err(|e| Failure::of(&e.into(), &model))?;
         }
     }
+    for warning in trilith::solvers::warnings(&model).map_err(|e| Failure::of(&e.into(), &model))? {
+        crate::output::tell(&warning);
+    }
     for case in &model.cases {
         if let Some(warning) = long::warning(&model, case, None) {
             crate::output::tell(&warning);

@@ -102,12 +102,12 @@ impl Roles {
     }
 }
 
-/// True where the normal of a contact is not level. A law on the displacements of its nodes stands on the ground.
+/// True where the normal of a contact is not level; a law on the displacements of its nodes tells by what it is for.
 fn presses_upright(law: &dyn Link, element: &Element) -> bool {
     match law.coordinates() {
         Coordinates::Local(axes) => {
             axes.first().is_some_and(|axis| element.frame.0[axis.index() % 3][2].abs() > LEVEL)
         }
-        Coordinates::Nodal { .. } => true,
+        Coordinates::Nodal { .. } => law.contact_use() == ContactUse::Standing,
     }
 }

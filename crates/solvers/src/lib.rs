@@ -81,6 +81,7 @@ pub use observe::{
 };
 pub use p_delta::assemble;
 pub use peak::Peak;
+pub use plausible::of_model as warnings;
 pub use stepper::State;
 pub use stops::StopSummary;
 pub use together::{Member, run_together};

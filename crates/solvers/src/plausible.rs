@@ -2,11 +2,12 @@
 //! that have left. All of it begins with `check the model`.
 
 use crate::contact_mode::{contacts, falling};
+use crate::error::SolveError;
 use crate::observe::{CaseResult, Status};
 use crate::stepper::State;
 use trilith_element::{Contact, Dof, Kinematics, Vector3};
 use trilith_model::{Case, DynamicCase, Model, Side};
-use trilith_system::{LoadSet, System};
+use trilith_system::{LoadSet, SmallTurn, System, small_turns};
 
 /// Share of the size of a model by which a contact may be pressed in without a word.
 const PRESSED: f64 = 0.05;
@@ -34,6 +35,22 @@ impl Pressed {
     }
 }
 
+/// What there is to say of a model before any case: who takes the rotations of a body in finite rotation for small ones.
+///
+/// # Errors
+/// As an assembly has them.
+pub fn of_model(model: &Model) -> Result<Vec<String>, SolveError> {
+    let say = |SmallTurn { element, body }: SmallTurn| {
+        let [element, body] = [element, body].map(|i| &model.elements[i]);
+        format!(
+            "check the model: {} \"{}\" takes the rotations of the body of \"{}\" for small ones, which are finite: it is \
+             wrong by the square of the tilt",
+            element.kind, element.name, body.name
+        )
+    };
+    Ok(small_turns(model)?.into_iter().map(say).collect())
+}
+
 /// What there is to say of a dynamic case from its result; `pressed`: what was seen on the way.
 pub(crate) fn of_dynamic(
     (model, system): (&Model, &System),
@@ -50,7 +67,8 @@ pub(crate) fn of_dynamic(
     let free = (!fallen).then_some(&end.displacement[..]);
     let weight = weightless(model, system, case, analysis, &end.load);
     let place = of_state(model, system, &end.state, pressed, free, &supports);
-    weight.into_iter().chain(place).collect()
+    let turns = of_model(model).unwrap_or_default();
+    weight.into_iter().chain(place).chain(turns).collect()
 }
 
 /// What there is to say of a static case.

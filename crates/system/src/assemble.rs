@@ -237,7 +237,7 @@ impl System {
     }
 }
 
-fn element_matrices(
+pub(crate) fn element_matrices(
     model: &Model,
     e: &Element,
     tension: f64,

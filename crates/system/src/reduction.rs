@@ -5,6 +5,7 @@
 //! passes the support on to the DOFs it is tied to. No mass is lost, because M is reduced with the same T.
 
 use crate::SystemError;
+use crate::finite_turns::{refuse_lever, turning_nodes};
 use std::collections::BTreeMap;
 use trilith_model::{Body, Model};
 
@@ -44,6 +45,12 @@ impl Reduction {
             }
         }
         let fixed = fixed_dofs(model, count);
+        let turning = turning_nodes(model)?;
+        for row in rows.iter().filter(|_| !turning.is_empty()) {
+            let dofs = row.terms.iter().filter(|(_, c)| *c != 0.0).map(|(full, _)| *full);
+            let dofs = dofs.chain([row.dependent]);
+            refuse_lever(model, &turning, row.element, dofs, |full| fixed[full])?;
+        }
         let mut dependent: BTreeMap<usize, Vec<(usize, f64)>> = BTreeMap::new();
         for row in &rows {
             let own = [(row.dependent, 1.0)];

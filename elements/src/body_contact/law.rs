@@ -10,12 +10,21 @@ use nalgebra::{SMatrix, Vector3};
 use std::borrow::Cow;
 use trilith_element::{
     Contact, ContactUse, Coordinates, Field, Geometry, History, Kinematics, Link, ParameterError,
-    Response,
+    Response, history,
 };
 
+history! {
+    /// How near the bodies are.
+    struct Near {
+        /// Smallest gap of all points or heights; below zero: pressed in, or beside a face and behind it.
+        gap: "m",
+    }
+}
+
+/// The history in its order: how near both are, how they have turned, what each point or height remembers.
 const TURNED: usize = Turned::FIELDS.len();
-/// How both have turned comes first.
-const TOUCH: usize = 2 * TURNED;
+const FIRST: usize = Near::FIELDS.len();
+const TOUCH: usize = FIRST + 2 * TURNED;
 /// A face whose normal is as steep as this is stood on.
 const STEEP: f64 = 0.5;
 
@@ -30,7 +39,16 @@ impl BodyContact {
     }
 
     fn both(history: &[f64]) -> [Turned; 2] {
-        [Turned::load(history), Turned::load(&history[TURNED..])]
+        [0, 1].map(|i| Turned::load(&history[FIRST + i * TURNED..]))
+    }
+
+    /// The smallest gap of all points or heights, m.
+    fn gap(&self, at: &Kinematics<'_>, turn: &Turn) -> f64 {
+        let smallest = |gaps: &mut dyn Iterator<Item = f64>| gaps.fold(f64::INFINITY, f64::min);
+        match self.round() {
+            Some(round) => smallest(&mut round.gaps(at, turn)),
+            None => smallest(&mut plane_contact::gaps(&self.plane(), self.feet(), at.d, turn)),
+        }
     }
 
     /// What touches, as the first body sees the second.
@@ -65,7 +83,8 @@ impl Link for BodyContact {
             let name = move |f: &Field| format!("{which}_{}", f.name);
             Turned::FIELDS.iter().map(move |f| Field { name: name(f).into(), unit: f.unit })
         };
-        let mut fields: Vec<Field> = turned("first").chain(turned("second")).collect();
+        let near = Near::FIELDS.iter().cloned();
+        let mut fields: Vec<Field> = near.chain(turned("first")).chain(turned("second")).collect();
         fields.extend(match self.round() {
             Some(round) => round.fields(),
             None => plane_contact::fields(self.points.len(), self.edged()),
@@ -74,8 +93,11 @@ impl Link for BodyContact {
     }
 
     fn at_rest(&self, at: &mut [f64]) {
-        Turned::upright().store(at);
-        Turned::upright().store(&mut at[TURNED..]);
+        let upright = Turned::upright();
+        (0..2).for_each(|i| upright.store(&mut at[FIRST + i * TURNED..]));
+        let zero = [0.0; 6];
+        let still = Kinematics { d: &zero, v: &zero, d0: &zero, v0: &zero, dt: 0.0 };
+        Near { gap: self.gap(&still, &upright.turn(&[0.0; 3])) }.store(at);
         match self.round() {
             Some(round) => round.at_rest(&mut at[TOUCH..]),
             None => plane_contact::at_rest(self.feet(), self.edged(), &mut at[TOUCH..]),
@@ -102,13 +124,16 @@ impl Link for BodyContact {
         out: &mut Response<'_>,
     ) {
         let turns = Turns::new(&Self::both(committed), at);
+        let mut gap = 0.0;
         let touch = |seen: &Kinematics<'_>, between: (&Turn, &Turn)| {
+            gap = self.gap(seen, between.1);
             self.touch(seen, between, &committed[TOUCH..], &mut trial[TOUCH..])
         };
         two_bodies::respond(Vector3::from(self.offset), &turns, at, touch, out);
+        Near { gap }.store(trial);
         for (i, turn) in turns.end.iter().enumerate() {
             let theta = &at.d[6 * i + 3..6 * i + 6];
-            Turned::after(theta, turn).store(&mut trial[TURNED * i..]);
+            Turned::after(theta, turn).store(&mut trial[FIRST + i * TURNED..]);
         }
     }
 

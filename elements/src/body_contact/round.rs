@@ -99,6 +99,11 @@ impl Round<'_> {
         at.chunks_mut(OWN).for_each(|own| self.of.contact(0.0).at_rest(own));
     }
 
+    /// The gap at each height, m.
+    pub fn gaps(&self, at: &Kinematics<'_>, turn: &Turn) -> impl Iterator<Item = f64> {
+        self.of.heights.iter().map(|height| self.touch(*height, turn, at.d, at.v).gap.x)
+    }
+
     /// Stiffness of the second body at rest where it touches at all heights.
     pub fn stiffness(&self, shear: f64) -> SMatrix<f64, 6, 6> {
         let [x, y, _] = self.of.offset;

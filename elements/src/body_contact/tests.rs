@@ -91,7 +91,7 @@ fn both_bodies_together_keep_their_momentum() {
             motion.iter().for_each(|d| f.copy_from_slice(driver.to(d)));
             let end = motion.last().unwrap();
             let turned = |i: usize| {
-                let own = &driver.history[i * crate::shared::rotation::Turned::FIELDS.len()..];
+                let own = &driver.history[1 + i * crate::shared::rotation::Turned::FIELDS.len()..];
                 crate::shared::rotation::Turned::load(own).turn(&end[6 * i + 3..6 * i + 6]).matrix
             };
             let vector = |x: &[f64]| V::new(x[0], x[1], x[2]);
@@ -246,6 +246,7 @@ fn round_bodies_feel_the_distance_of_their_axes() {
         let f = driver.to(&d).to_vec();
         let gap = 0.9 + 0.6 * f64::sin(theta) - 0.8;
         assert_relative_eq!(f[6], KN * gap.min(0.0), epsilon = 1e-6);
+        assert_relative_eq!(driver.history[0], gap, epsilon = 1e-12);
         // Moment about Y of a force along −X at 0.6 cos ϑ above the node.
         assert_relative_eq!(f[10], 0.6 * f64::cos(theta) * f[6], epsilon = 1e-6);
     }

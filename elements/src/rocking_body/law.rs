@@ -59,7 +59,9 @@ impl RockingBody {
     fn uplift(&self, d: &[f64], turn: &Turn) -> f64 {
         match self.rim() {
             Some(rim) => rim.uplift(d, turn),
-            None => plane_contact::uplift(&GROUND, self.feet(), d, turn),
+            None => {
+                plane_contact::gaps(&GROUND, self.feet(), d, turn).fold(f64::NEG_INFINITY, f64::max)
+            }
         }
     }
 

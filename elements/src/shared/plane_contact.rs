@@ -174,18 +174,17 @@ pub(crate) fn stiffness(plane: &Plane, r: Vector3<f64>, kn: f64, shear: f64) -> 
     map.transpose() * (plane.0.transpose() * own * plane.0) * map
 }
 
-/// How far the highest point is from the plane that it stands on or hangs over, m.
-pub(crate) fn uplift(
+/// How far each point is from the plane that it stands on or hangs over, unloaded, m.
+pub(crate) fn gaps(
     plane: &Plane,
     feet: impl Iterator<Item = Foot>,
     d: &[f64],
     turn: &Turn,
-) -> f64 {
-    let gap = |foot: Foot| {
+) -> impl Iterator<Item = f64> {
+    feet.map(|foot| {
         let moved = Vector3::new(d[0], d[1], d[2]) + turn.shift(foot.r);
         (plane.0 * moved)[0] + foot.contact.opening
-    };
-    feet.map(gap).fold(f64::NEG_INFINITY, f64::max)
+    })
 }
 
 /// What each point does; `history`: the trial of the answer.
