@@ -175,7 +175,7 @@ impl Described for BodyContact {
               forces as NLink: gap kₙ with dashpot c, friction μ with pre-slip stiffness kₛ\n\
               F₂ = R₁ f, M₂ = m (axes of the second); F₁ = −R₁ f, M₁ = −s × f − R m (axes of the first)",
         source: "relative motion of rigid bodies, Goldstein, Classical Mechanics, ch. 4",
-        example: r#""casks": BodyContact(nodes: ("cask 1", "cask 2"), radii: ("0.45 m", "0.45 m"), heights: ("-0.8 m", "0.8 m"), kn: "1e8 N/m", ks: "1e8 N/m", mu: 0.2)"#,
+        example: r#""casks": BodyContact(nodes: ("cask 1", "cask 2"), radii: ("0.49 m", "0.49 m"), heights: ("-0.8 m", "0.8 m"), kn: "1e8 N/m", ks: "1e8 N/m", mu: 0.2)"#,
         exercise: Exercise {
             frequency: 0.5,
             strokes: &[
@@ -185,7 +185,7 @@ impl Described for BodyContact {
                 Stroke::about(0.0, 0.0),
                 Stroke::about(0.0, 0.0),
                 Stroke::about(0.0, 0.0),
-                Stroke::about(-0.099, 0.003),
+                Stroke::about(-0.022, 0.004),
                 Stroke::about(0.0, 1e-3),
                 Stroke::about(0.0, 0.0),
                 Stroke::about(0.0, 0.0),

@@ -9,7 +9,8 @@ use proptest::test_runner::{Config, RngAlgorithm, TestCaseError, TestRng, TestRu
 use trilith::exercise::Specimen;
 use trilith_element::conformance::Kit;
 use trilith_element::{
-    Card, Form, Link, Parameter, ReadConstraint, ReadLinear, ReadLink, Register, Value, Values,
+    Card, Form, Frame, Geometry, Link, Parameter, ParameterError, ReadConstraint, ReadLinear,
+    ReadLink, Register, Value, Values,
 };
 
 /// Laws that may give energy, each with the reason why that is right.
@@ -85,7 +86,7 @@ fn settled(law: Box<dyn Link>) -> Box<dyn Link> {
 fn examine(
     card: &Card,
     read: ReadLink,
-    example: &Values,
+    (example, nodes): (&Values, usize),
     numbers: &[f64],
     seed: u64,
 ) -> Result<(), TestCaseError> {
@@ -93,7 +94,13 @@ fn examine(
     let values = values.map(|((n, v), x)| (n.clone(), drawn(card.parameter(n), v, *x))).collect();
     let values = Values(values);
     // Parameters that exclude each other are no law.
-    let law = read(&values).map_err(|e| TestCaseError::reject(e.to_string()))?;
+    let no_law = |e: ParameterError| TestCaseError::reject(e.to_string());
+    let mut law = read(&values).map_err(no_law)?;
+    // As far apart as in an exercise.
+    let places = [[0.0; 3], [1.0, 0.0, 0.0]];
+    let nodes = &places[..nodes];
+    let frame = Frame::of_nodes(nodes, None, None).map_err(no_law)?;
+    law.place(&Geometry { nodes, frame, tension: 0.0 }).map_err(no_law)?;
     let law = settled(law);
     if law.coordinates().len() != card.exercise.strokes.len() {
         return Err(TestCaseError::reject("the exercise is for other coordinates"));
@@ -114,8 +121,8 @@ fn every_link_keeps_its_contract_on_random_paths_with_random_parameters() {
     let started = std::time::Instant::now();
     let mut wrong = Vec::new();
     for (card, read) in links.0 {
-        let example = match Specimen::new(&registry, card.kind, &[]) {
-            Ok(specimen) => specimen.values,
+        let (nodes, example) = match Specimen::new(&registry, card.kind, &[]) {
+            Ok(specimen) => (specimen.nodes().len(), specimen.values),
             Err(error) => {
                 wrong.push(format!("the example of {}: {error}", card.kind));
                 continue;
@@ -131,8 +138,8 @@ fn every_link_keeps_its_contract_on_random_paths_with_random_parameters() {
         let random = TestRng::from_seed(RngAlgorithm::ChaCha, &[7; 32]);
         let mut runner = TestRunner::new_with_rng(config, random);
         let case = (proptest::collection::vec(-1.0..1.0, NUMBERS), proptest::num::u64::ANY);
-        let result =
-            runner.run(&case, |(numbers, seed)| examine(card, read, &example, &numbers, seed));
+        let result = runner
+            .run(&case, |(numbers, seed)| examine(card, read, (&example, nodes), &numbers, seed));
         let since = started.elapsed().as_secs_f64();
         eprintln!("{}: {} paths, {since:.1} s since the start", card.kind, SETS as usize * PATHS);
         if let Err(error) = result {

@@ -197,19 +197,22 @@ fn model(animals: &[Animal], tolerance: f64) -> String {
     for (i, a) in animals.iter().enumerate() {
         let turn = TAU * i as f64 / animals.len() as f64;
         let floor = 1 + i % FLOORS;
-        let at = format!(
-            "({:e}, {:e}, {:e})",
-            2.0 * turn.cos(),
-            2.0 * turn.sin(),
-            STOREY * floor as f64
-        );
+        // Bodies stand as far apart as in an exercise.
+        let at = |along: usize| {
+            format!(
+                "({:e}, {:e}, {:e})",
+                2.0 * turn.cos() + along as f64,
+                2.0 * turn.sin(),
+                STOREY * floor as f64
+            )
+        };
         put(elements, a.entry.clone());
         for node in &a.ground {
-            put(nodes, format!("\"{node}\": {at}"));
+            put(nodes, format!("\"{node}\": {}", at(0)));
             put(supports, format!("\"{node}\": Fixed"));
         }
-        for node in a.nodes() {
-            put(nodes, format!("\"{node}\": {at}"));
+        for (along, node) in a.nodes().into_iter().enumerate() {
+            put(nodes, format!("\"{node}\": {}", at(along)));
             let m = a.six(node, |p| p.mass);
             let fixed: Vec<_> =
                 Dof::ALL.iter().filter(|d| m[d.index()] == 0.0).map(|d| d.name()).collect();
