@@ -3,7 +3,8 @@
 //! They follow loads and links at once, and Newmark's rule would let the rates of one step ring for ever in the next
 //! ones: κ q = s leaves q̇ to `q̇₁ = 2 Δq/Δt − q̇₀`. Theirs are the mean ones of a step and half a step of the
 //! acceleration before, as FNA's are: of second order, and errors die out. Where a load has jumped at the start of a
-//! step, they are those before.
+//! step, they are those before. Where one bends, the rate jumps, and the acceleration before says nothing of the step:
+//! it goes on no further than the mean rate says it does, and not against it.
 
 use crate::space::Space;
 use std::collections::BTreeMap;
@@ -17,6 +18,20 @@ pub(crate) const JUMPED: f64 = f64::MIN_POSITIVE;
 #[inline]
 pub(crate) fn acceleration(a: f64) -> f64 {
     if a == JUMPED { 0.0 } else { a }
+}
+
+/// The rate at the end of a step from that at its start and the mean one; `more`: what the acceleration before would
+/// add in half a step.
+#[inline]
+pub(crate) fn rate_at_end(start: f64, mean: f64, more: f64) -> f64 {
+    let so_far = mean - start;
+    if more * so_far <= 0.0 {
+        mean
+    } else if more.abs() < so_far.abs() {
+        mean + more
+    } else {
+        mean + so_far
+    }
 }
 
 /// Accelerations after a change of the load that alone would make the others.
@@ -57,7 +72,7 @@ impl Followers {
             let rate = along(&from[n..2 * n]);
             let mean = (along(&to[..n]) - along(&from[..n])) / dt;
             let acceleration = along(&from[2 * n..]);
-            let new = if jumped { rate } else { mean + 0.5 * dt * acceleration };
+            let new = if jumped { rate } else { rate_at_end(rate, mean, 0.5 * dt * acceleration) };
             let of_new = if jumped { 0.0 } else { (new - rate) / dt };
             let more = [new - along(&to[n..2 * n]), of_new - along(&to[2 * n..])];
             for (i, c) in direction {

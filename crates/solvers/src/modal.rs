@@ -24,7 +24,7 @@ mod inside;
 mod rules;
 
 use crate::error::SolveError;
-use crate::followers::{JUMPED, accelerate_at_once, acceleration};
+use crate::followers::{JUMPED, accelerate_at_once, acceleration, rate_at_end};
 use crate::link_map::LinkMap;
 use crate::propagator::{Compliance, Forces, Motion, Propagator, StepKey, StepWork, Wanted};
 use crate::space::Space;
@@ -353,7 +353,7 @@ impl Modes {
         let step = self.start(from, loads);
         if let Some(modes) = rule.own() {
             modes.predict(&step, &mut now.sources, to);
-            return self.go_on(from, to);
+            return self.go_on(now, from, to);
         }
         let [source0, source1, spread] = now.parts();
         less(loads[0], spread, source0);
@@ -363,25 +363,34 @@ impl Modes {
         let inputs = [&from[..n], &from[n..2 * n], source0, source1];
         rule.apply(1, inputs, q);
         rule.apply(2, inputs, &mut rest[..n]);
-        self.go_on(from, to);
+        self.go_on(now, from, to);
     }
 
     /// Rates of undamped static shapes: the mean rate of the step, and half a step of the acceleration before, which
     /// makes them right at second order; errors in them die out by 1/√2 a step, whatever the link.
     #[inline]
-    fn go_on(&self, from: &Motion, to: &mut Motion) {
+    fn go_on(&self, now: &Sources, from: &Motion, to: &mut Motion) {
         let n = self.space.order();
         for i in self.structure.undamped.iter().copied() {
-            to[n + i] += 0.5 * self.steps[self.now.0].dt * acceleration(from[2 * n + i]);
+            let more = 0.5 * self.steps[self.now.0].dt * acceleration(from[2 * n + i]);
+            // Links that look at the rate need it now, others as it is at last.
+            to[n + i] = if now.damped[i] {
+                rate_at_end(from[n + i], to[n + i], more)
+            } else {
+                to[n + i] + more
+            };
         }
     }
 
     /// Their accelerations, and what a load that jumps does to them at once: that is no rate, and nothing takes the
     /// work that it does beyond what their springs hold then, ½ (s₀ − κ q₀) (q₁ − q₀).
+    ///
+    /// Where a load bends, the rate jumps, and the acceleration before says nothing of the step: it goes on no
+    /// further than the mean rate of the step says it does, and not against it.
     #[inline]
     fn settle_on(&self, now: &mut Sources, from: &Motion, to: &mut Motion) {
         let n = self.space.order();
-        let per_dt = self.steps[self.now.0].per_dt;
+        let (dt, per_dt) = (self.steps[self.now.0].dt, self.steps[self.now.0].per_dt);
         now.lost = 0.0;
         for i in self.structure.undamped.iter().copied() {
             let jumped = now.sources[i] - self.structure.omega2[i] * from[i];
@@ -391,7 +400,9 @@ impl Modes {
                 // Where links carry a share, only all of them say how far it jumped.
                 to[n + i] = from[n + i];
             } else if !now.damped[i] {
-                to[n + i] -= jumped / self.structure.omega2[i] * per_dt;
+                let predicted = 0.5 * dt * acceleration(from[2 * n + i]);
+                let mean = to[n + i] - jumped / self.structure.omega2[i] * per_dt - predicted;
+                to[n + i] = rate_at_end(from[n + i], mean, predicted);
             }
             // From the rate before a jump, or that of the start, to this one nothing accelerates.
             to[2 * n + i] = if is_new { 0.0 } else { (to[n + i] - from[n + i]) * per_dt };

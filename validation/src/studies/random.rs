@@ -50,7 +50,7 @@ fn compare(found: &mut Findings, solvers: &[SolverKind], count: usize) -> Result
     };
     let all = campaign.run();
     found.text(format!(
-        "Chains, frames, long beams and blocks of springs, beams, bodies, masses, joints without mass and links of all 22 kinds, under \
+        "Chains, frames, long beams and blocks of springs, beams, bodies, masses, joints without mass and links of 22 kinds, under \
          ground motion, forces, moved supports and initial values, with all kinds of damping and output steps from \
          0.1 to 100 times the good one: {} structures, of which the oracle solved {} within its work.",
         all.structures,
