@@ -200,8 +200,8 @@ fn viscous_rows(model: &Model, system: &System) -> Vec<Vec<f64>> {
 const ITERATIONS: usize = 40;
 const LEFT: f64 = 1e-10;
 
-/// Rates of what has no mass and is held by dashpots, elements or links: Nᵀ (K u + C v + Bᵀ f(d, v)) = 0. Others stay
-/// as they are, and so do all where no such rates are found.
+/// Rates of what has no mass. What dashpots hold, of elements or links, moves so that Nᵀ (K u + C v + Bᵀ f(d, v)) = 0, and
+/// stays as it is where no such rates are found; the rest goes along as its springs and the tangents of its links say.
 pub(crate) fn rates(
     model: &Model,
     system: &System,
@@ -210,6 +210,9 @@ pub(crate) fn rates(
     v: &mut [f64],
 ) -> Result<(), SolveError> {
     let (massless, links) = (&system.massless, &system.links);
+    if massless.is_empty() {
+        return Ok(());
+    }
     let mut held: Vec<bool> =
         massless.project(&system.element_damping).diagonal().iter().map(|c| *c != 0.0).collect();
     let rows = viscous_rows(model, system);
@@ -217,12 +220,21 @@ pub(crate) fn rates(
         held.iter_mut().zip(row).for_each(|(held, c)| *held |= *c != 0.0);
     }
     let own: Vec<usize> = (0..held.len()).filter(|i| held[*i]).collect();
-    if own.is_empty() {
-        return Ok(());
-    }
     let supports = vec![0.0; system.reduction.prescribed.len()];
     let mut d = vec![0.0; links.len()];
     links.deform(u, &supports, &mut d);
+    // Of links that answer the way they are; of others what the structure gives them.
+    let go_along = |k: &[f64], v: &mut Vec<f64>| -> Result<(), SolveError> {
+        let mut stiff = links.effective.clone();
+        for (flat, place) in links.active.iter().zip(&links.diagonal) {
+            if k[*place] > 0.0 {
+                stiff[*flat] = k[*place];
+            }
+        }
+        let force = system.stiffness_with(&stiff).mul(v);
+        Followers::new(system, &stiff, &rows)?.answer(-1.0, &force, v);
+        Ok(())
+    };
     let mut rest = system.stiffness.mul(u);
     rest.iter_mut().for_each(|x| *x = -*x);
     let damping = system.damping();
@@ -236,21 +248,19 @@ pub(crate) fn rates(
         let force = massless.load(&left).iter().map(|x| x.abs()).fold(0.0, f64::max);
         links.spread(-1.0, &state.f, &mut left);
         let left: Vec<f64> = own.iter().map(|i| massless.load(&left)[*i]).collect();
-        (left, force.max(largest(&state.f)), state.tangents.c)
+        (left, force.max(largest(&state.f)), state.tangents)
     };
     let (mut at, mut tried) = (v.to_vec(), v.to_vec());
-    let (mut left, mut size, mut c) = look(&at);
+    let (mut left, mut size, mut tangents) = look(&at);
     for _ in 0..ITERATIONS {
         if largest(&left) <= LEFT * size {
+            go_along(&tangents.k, &mut at)?;
             v.copy_from_slice(&at);
-            // What dashpots tie goes on together as its springs say.
-            let force = system.stiffness_with(&links.effective).mul(v);
-            Followers::new(system, &links.effective, &rows)?.answer(-1.0, &force, v);
             return Ok(());
         }
         let mut of_links = vec![0.0; links.len()];
         for (flat, place) in links.active.iter().zip(&links.diagonal) {
-            of_links[*flat] = c[*place];
+            of_links[*flat] = tangents.c[*place];
         }
         let sum = Sparse::combine(&[(1.0, &damping), (1.0, &system.springs(&of_links))]);
         let block = massless.project(&sum).block(&own, &own);
@@ -265,7 +275,7 @@ pub(crate) fn rates(
             let next = look(&tried);
             if largest(&next.0) < largest(&left) {
                 // In equilibrium nothing of the forces is left to measure by: the largest on the way.
-                (left, size, c) = (next.0, size.max(next.1), next.2);
+                (left, size, tangents) = (next.0, size.max(next.1), next.2);
                 std::mem::swap(&mut at, &mut tried);
                 break;
             }

@@ -115,6 +115,9 @@ pub struct Between {
 /// another branch: what its force did just before is the largest value, where it jumps.
 const FIRST: f64 = 1.0 / 64.0;
 
+/// First steps in the whole of a problem: a damped stop that begins pressed in may let go within a millionth of it.
+const FIRST_OF_ALL: f64 = 1_048_576.0;
+
 /// Links without unknowns of their own whose force does not jump remember nothing of the way that no stage has seen: it
 /// counts by this share.
 const OF_NONE: f64 = 1e-3;
@@ -168,7 +171,8 @@ pub fn march(
     let mut at_point = it.steps.point(&start);
     let mut end = start;
     let (mut record, mut steps) = (Record::default(), 0_usize);
-    let mut next = p.breaks[p.breaks.len() - 1] / 1024.0;
+    // Short: what is over within the first step is seen by none of its stages.
+    let mut next = p.breaks[p.breaks.len() - 1] / FIRST_OF_ALL;
     for pair in p.breaks.windows(2) {
         let (from, length) = (pair[0], pair[1] - pair[0]);
         // A step is length / 2^level and starts at a multiple of its own length.
