@@ -71,8 +71,8 @@ fn model(place: &str, block: &str) -> Option<String> {
     }
     Some(format!(
         r#"(
-        nodes: {{ "base": (0, 0, 0), "m": (0, 0, 1) }},
-        supports: {{ "base": Fixed }},
+        nodes: {{ "base": (0, 0, 0), "m": (0, 0, 1), "beside": (4, 0, 0) }},
+        supports: {{ "base": Fixed, "beside": Fixed }},
         elements: {{
             "spring": Spring(nodes: ("base", "m"), k1: 1, k2: 1, k3: 1, r1: 1, r2: 1, r3: 1),
             "mass": Mass(node: "m", mass: 1),

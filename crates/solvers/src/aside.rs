@@ -56,7 +56,8 @@ impl Teller {
         let links = &mut self.batch.links;
         links.extend_from_slice(&state.pseudo);
         if self.answers {
-            for part in [&state.d, &state.v, &state.tangents.k, &state.tangents.c] {
+            let State { d, v, f, tangents, .. } = state;
+            for part in [d, v, f, &tangents.k, &tangents.c] {
                 links.extend_from_slice(part);
             }
         }

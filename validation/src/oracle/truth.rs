@@ -74,7 +74,8 @@ pub fn truth_in_steps(spec: &Spec, work: f64, longest: f64) -> Result<Truth, Str
         share: BETWEEN,
         window: 0.25 * WINDOW * spec.duration,
     };
-    let course = march(&problem, start, Some(loose.scale.clone()), effort, Some(&between))?;
+    let known = Some(loose.scale.clone());
+    let course = march(&problem, start.clone(), known, effort, Some(&between))?;
     let Sizes { size, scale, floor } = Sizes::of(spec, &problem, &course);
     if size.iter().any(|x| !x.is_finite()) {
         return Err("its values are not finite".into());
@@ -104,11 +105,14 @@ pub fn truth_in_steps(spec: &Spec, work: f64, longest: f64) -> Result<Truth, Str
         })
         .collect();
     let of_floor = (uneven / ROUNDING).clamp(OF_FLOOR, 1.0);
+    let tiny = (0..size.len()).any(|i| size[i] < floor[i]);
+    let drifts = if tiny { drifts(spec, &problem, start, &course, effort) } else { None };
+    let drift = |i: usize| drifts.as_ref().map_or(0.0, |drifts: &Vec<f64>| drifts[i].min(floor[i]));
     let rounding = (0..size.len())
         .map(|i| {
             let noise = noise(spec, &problem, &course, &spec.outputs[i]);
             // What is no more than that is nothing else.
-            if size[i] <= noise { noise } else { of_floor * floor[i] }
+            if size[i] <= noise { noise } else { (of_floor * floor[i]).max(drift(i)) }
         })
         .collect();
     Ok(Truth { course, size, scale, around, rounding, moves })
@@ -122,6 +126,24 @@ const OF_FLOOR: f64 = 1e-2;
 fn of_start(problem: &Problem, u: &nalgebra::DVector<f64>) -> f64 {
     let (terms, load) = ((problem.a.k.abs() * u.abs()).amax(), problem.constant.amax());
     if load > 0.0 { f64::EPSILON * terms / load } else { 0.0 }
+}
+
+/// How far the outputs drift where the structure stays under the constant loads that it is in equilibrium with: the
+/// rounding of its modes beside each other, which lets loads push where they have no share.
+fn drifts(
+    spec: &Spec,
+    problem: &Problem,
+    start: State,
+    course: &Course,
+    effort: Effort,
+) -> Option<Vec<f64>> {
+    if !spec.gravity || !spec.moved.is_empty() || !spec.initial.is_empty() {
+        return None;
+    }
+    let still = Problem { channels: Vec::new(), ..problem.clone() };
+    let stays = march(&still, start, Some(course.scale.clone()), effort, None).ok()?;
+    let ends = (0..spec.outputs.len()).map(|i| stays.span(i, 0.0, spec.duration));
+    Some(ends.map(|(low, high)| high - low).collect())
 }
 
 /// Sizes of the outputs.

@@ -115,8 +115,10 @@ pub struct Between {
 /// another branch: what its force did just before is the largest value, where it jumps.
 const FIRST: f64 = 1.0 / 64.0;
 
-/// First steps in the whole of a problem: a damped stop that begins pressed in may let go within a millionth of it.
-const FIRST_OF_ALL: f64 = 1_048_576.0;
+/// First steps in the whole of a problem. A damped stop that begins pressed in may let go within a millionth of it; but
+/// where nobody knows yet how large motions get, all that happens within that is large.
+const FIRST_OF_ALL: f64 = 1024.0;
+const FIRST_WHERE_KNOWN: f64 = 1_048_576.0;
 
 /// Links without unknowns of their own whose force does not jump remember nothing of the way that no stage has seen: it
 /// counts by this share.
@@ -155,6 +157,7 @@ pub fn march(
 ) -> Result<Course, String> {
     let (n, l, nz) = (p.a.k.nrows(), p.a.b.nrows(), p.unknowns());
     let none = |n| DVector::zeros(n);
+    let first_of_all = if known.is_some() { FIRST_WHERE_KNOWN } else { FIRST_OF_ALL };
     let scale = known.unwrap_or(Scale { u: none(n), v: none(n), z: none(nz), d: none(l) });
     let heavy = (0..n).map(|i| p.a.m[(i, i)] > 0.0).collect();
     let own = p.a.links.iter().flat_map(|l| vec![l.law.own_size(); l.law.unknowns()]);
@@ -172,7 +175,7 @@ pub fn march(
     let mut end = start;
     let (mut record, mut steps) = (Record::default(), 0_usize);
     // Short: what is over within the first step is seen by none of its stages.
-    let mut next = p.breaks[p.breaks.len() - 1] / FIRST_OF_ALL;
+    let mut next = p.breaks[p.breaks.len() - 1] / first_of_all;
     for pair in p.breaks.windows(2) {
         let (from, length) = (pair[0], pair[1] - pair[0]);
         // A step is length / 2^level and starts at a multiple of its own length.

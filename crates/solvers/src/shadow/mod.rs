@@ -3,10 +3,15 @@
 //! What it moves beyond the run is what the basis of the run has no room for (see `certificate`). Links answer it:
 //!
 //! ```text
-//! f̃₂ = f̃ + δ,   δ = K e + C ė,   e = d₂ − d        K, C: tangents of the run, less dummies
-//! (I + K G + C H) δ = K e* + C ė*                   *: under the forces of the run at the end of the step
+//! f̃₂ = f̃ + δ,   δ = a + K e + C ė,   e = d₂ − d     K, C: tangents of the run, less dummies
+//! (I + K G + C H) δ = a + K e* + C ė*               *: under the forces of the run at the end of the step
 //! ```
+//!
+//! Links with a memory have tangents of their own, and a ≠ 0 is what theirs differs by (see `memory`).
 
+mod memory;
+
+use self::memory::Memory;
 use crate::modal::{Modes, Sources};
 use crate::output_step::jump;
 use crate::outputs::Outputs;
@@ -40,6 +45,7 @@ pub(crate) struct Shadow<'a> {
     outputs: Outputs,
     blocks: LinkBlocks,
     state: State,
+    memory: Memory<'a>,
     values: Vec<f64>,
     own: Vec<f64>,
     /// Tangents told last, and the largest stiffness of the active link coordinates so far.
@@ -78,6 +84,7 @@ impl<'a> Shadow<'a> {
             amplitudes: StepLoads::default(),
             outputs,
             blocks,
+            memory: Memory::new(model, &system.links, state),
             state: state.clone(),
             values: vec![0.0; model.outputs.len()],
             own: vec![0.0; space.links.len()],
@@ -92,9 +99,10 @@ impl<'a> Shadow<'a> {
         self.pseudo.len() <= ANSWERING
     }
 
-    /// Number of values that a step is told by: pseudo-forces, and where links answer, deformations, rates and tangents.
+    /// Number of values that a step is told by: pseudo-forces, and where links answer, deformations, rates, forces and
+    /// tangents.
     pub(crate) fn told(&self) -> usize {
-        let answers = 2 * self.system.links.len() + self.tangents.k.len() + self.tangents.c.len();
+        let answers = 3 * self.system.links.len() + self.tangents.k.len() + self.tangents.c.len();
         self.pseudo.len() + if self.answers() { answers } else { 0 }
     }
 
@@ -113,6 +121,7 @@ impl<'a> Shadow<'a> {
         let (to, told) = told.split_at(pseudo.len());
         let (d, told) = told.split_at(if answers { system.links.len() } else { 0 });
         let (v, told) = told.split_at(d.len());
+        let (f, told) = told.split_at(d.len());
         let length = t - self.t;
         let known = self.sizes.iter().copied().find(|s| (s - length).abs() <= SAME * length);
         let dt = known.unwrap_or_else(|| {
@@ -144,10 +153,13 @@ impl<'a> Shadow<'a> {
             modes.space.links.spread_into(pseudo, spread);
         }
         modes.predict(sources, motion, &loads, next);
+        let mut support = [vec![0.0; d.len()], vec![0.0; d.len()]];
         if answers {
-            let mut support = [vec![0.0; d.len()], vec![0.0; d.len()]];
             let [of_d, of_v] = &mut support;
             all_loads.support_deformation(&amplitudes.end, of_d, of_v);
+            let mut own = f.to_vec();
+            self.memory.linear([d, v], dt, &mut self.tangents, &mut own);
+            let apart: Vec<f64> = system.links.active.iter().map(|i| own[*i] - f[*i]).collect();
             let change: Vec<f64> = to.iter().zip(&*pseudo).map(|(x, x0)| x - x0).collect();
             let beyond = |motion: &[f64], run: &[f64], support: &[f64], compliance: &Dense| {
                 let mut own = vec![0.0; change.len()];
@@ -166,6 +178,7 @@ impl<'a> Shadow<'a> {
                 system,
                 &modes.space,
                 &self.tangents,
+                apart,
                 [&e, &rate],
                 [&compliance.g, &compliance.h],
             );
@@ -176,6 +189,15 @@ impl<'a> Shadow<'a> {
         }
         modes.complete(sources, motion, &loads, next);
         std::mem::swap(motion, next);
+        if answers {
+            let n = modes.space.order();
+            let mut own = vec![0.0; system.links.active.len()];
+            for (motion, flat) in [&motion[..n], &motion[n..2 * n]].into_iter().zip(&mut support) {
+                modes.space.links.deform(motion, &mut own);
+                system.links.active.iter().zip(&own).for_each(|(i, x)| flat[*i] += x);
+            }
+            self.memory.go_on([d, v], support, dt);
+        }
         pseudo.copy_from_slice(&end);
         self.t = t;
     }
@@ -196,6 +218,9 @@ impl<'a> Shadow<'a> {
         let [d, v] = support;
         self.blocks.add_change(&state.tangents.k, [&state.d, &d], &mut self.state.f);
         self.blocks.add_change(&state.tangents.c, [&state.v, &v], &mut self.state.f);
+        if self.answers() {
+            self.memory.put(&mut self.state.f);
+        }
         (self.state.d, self.state.v) = (d, v);
         self.state.motion.clone_from(&self.motion);
         self.outputs.at((self.t, Side::Before), &self.state, self.loads).values(&mut self.values);
@@ -208,12 +233,13 @@ impl<'a> Shadow<'a> {
     }
 }
 
-/// Pseudo-forces δ = K e + C ė that links answer by their tangents to what they are deformed beyond the run, of which
-/// this much is there before they do.
+/// Pseudo-forces δ = a + K e + C ė that links answer to what they are deformed beyond the run, of which this much is
+/// there before they do.
 fn answer(
     system: &System,
     space: &Space,
     tangents: &Tangents,
+    mut force: Vec<f64>,
     [e, rate]: [&[f64]; 2],
     [g, h]: [&Dense; 2],
 ) -> Vec<f64> {
@@ -234,7 +260,6 @@ fn answer(
     for (a, dummy) in space.dummy_k.iter().enumerate() {
         k[(a, a)] -= dummy;
     }
-    let mut force = vec![0.0; count];
     k.mul_add(1.0, e, &mut force);
     c.mul_add(1.0, rate, &mut force);
     let (mut all, of_rates) = (k.times(g), c.times(h));
