@@ -349,7 +349,9 @@ impl State {
     /// The start of a problem from rest, or thrown there.
     #[must_use]
     pub fn start(p: &Problem) -> Self {
-        let d = &p.a.b * &p.u0;
+        // Supports may be away at the start already: a Ricker wavelet has no beginning.
+        let [moved, _] = p.supports(p.breaks[0], true);
+        let d = &p.a.b * &p.u0 + &p.a.b_s * moved;
         let at = |first: usize, count: usize| d.as_slice()[first..first + count].to_vec();
         let links = p.a.links.iter();
         let z: Vec<f64> = links.flat_map(|l| l.law.thrown(&at(l.first, l.axes.len()))).collect();
