@@ -31,21 +31,28 @@ pub(crate) struct Stops {
 }
 
 impl Stops {
-    /// What the stops do at a time, each with the index of its element; always the same ones.
+    /// What the contacts of stops do at a time, each with the index of its element; always the same ones, those of one
+    /// element behind each other, which are one stop.
     pub(crate) fn enter(&mut self, t: f64, now: impl Iterator<Item = (usize, Contact)>) {
-        for (i, (element, c)) in now.enumerate() {
+        let mut now = now.peekable();
+        let mut i = 0;
+        while let Some((element, Contact { mut gap, mut normal, .. })) = now.next() {
+            while let Some((_, beside)) = now.next_if(|(other, _)| *other == element) {
+                (gap, normal) = (gap.min(beside.gap), normal + beside.normal);
+            }
             if i == self.open.len() {
                 self.open.push(false);
             }
-            if c.gap > 0.0 {
+            if gap > 0.0 {
                 self.open[i] = true;
-            } else if self.open[i] && c.normal > 0.0 {
+            } else if self.open[i] && normal > 0.0 {
                 self.open[i] = false;
                 self.hits += 1;
             }
-            if c.normal > self.largest {
-                (self.largest, self.time, self.hardest) = (c.normal, t, Some(element));
+            if normal > self.largest {
+                (self.largest, self.time, self.hardest) = (normal, t, Some(element));
             }
+            i += 1;
         }
     }
 
@@ -86,5 +93,16 @@ mod tests {
         let StopSummary { stops, hits, largest_force, time, hardest } = summary;
         assert_eq!((stops, hits, largest_force, time), (2, 1, 9.0, 1.0));
         assert_eq!(hardest.as_deref(), Some("e3"));
+    }
+
+    #[test]
+    fn contacts_of_one_element_are_one_stop() {
+        let mut stops = Stops::default();
+        for (i, [a, b]) in [[1.0, 1.0], [-0.1, 0.2], [-0.2, -0.1]].into_iter().enumerate() {
+            let of = |gap: f64| Contact { gap, normal: (-10.0 * gap).max(0.0), ..Contact::default() };
+            stops.enter(i as f64, [(3, of(a)), (3, of(b))].into_iter());
+        }
+        let summary = stops.summary(|element| Some(format!("e{element}"))).unwrap();
+        assert_eq!((summary.stops, summary.hits, summary.largest_force), (1, 1, 3.0));
     }
 }
