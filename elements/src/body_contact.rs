@@ -250,7 +250,7 @@ impl BodyContact {
     }
 
     /// From the middle of the face to a point of the second body at rest, m.
-    fn from_face(&self, point: Vector3) -> Vector3 {
+    fn seen_from_face(&self, point: Vector3) -> Vector3 {
         let face = self.face.unwrap_or_default();
         [0, 1, 2].map(|i| self.offset[i] + point[i] - face[i])
     }
@@ -259,7 +259,7 @@ impl BodyContact {
     fn feet(&self) -> impl Iterator<Item = Foot> {
         let frame = self.frame();
         self.points.iter().map(move |r| {
-            let [opening, x, y] = frame.to_local(self.from_face(*r));
+            let [opening, x, y] = frame.to_local(self.seen_from_face(*r));
             let edge = self.extent.map(|half| Edge { half, from: [x, y] });
             Foot { r: (*r).into(), contact: self.contact(opening), edge }
         })
@@ -293,9 +293,9 @@ impl BodyContact {
         }
         let n = self.frame().0[0];
         for (i, point) in self.points.iter().enumerate() {
-            let depth = -dot(n, self.from_face(*point));
+            let depth = -dot(n, self.seen_from_face(*point));
             let beside = self.extent.is_some_and(|half| {
-                let [_, x, y] = self.frame().to_local(self.from_face(*point));
+                let [_, x, y] = self.frame().to_local(self.seen_from_face(*point));
                 x.abs() > half[0] || y.abs() > half[1]
             });
             let lengths = [self.offset, *point, self.face.unwrap_or_default()].concat();

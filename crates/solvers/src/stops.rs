@@ -99,7 +99,8 @@ mod tests {
     fn contacts_of_one_element_are_one_stop() {
         let mut stops = Stops::default();
         for (i, [a, b]) in [[1.0, 1.0], [-0.1, 0.2], [-0.2, -0.1]].into_iter().enumerate() {
-            let of = |gap: f64| Contact { gap, normal: (-10.0 * gap).max(0.0), ..Contact::default() };
+            let of =
+                |gap: f64| Contact { gap, normal: (-10.0 * gap).max(0.0), ..Contact::default() };
             stops.enter(i as f64, [(3, of(a)), (3, of(b))].into_iter());
         }
         let summary = stops.summary(|element| Some(format!("e{element}"))).unwrap();

@@ -264,9 +264,9 @@ fn refuses_what_touches_nothing() {
     let (radii, heights) = (numbers("radii", &[0.5, 0.5]), numbers("heights", &[0.0]));
     let far = [0.0, 0.0, 1.0];
     assert_eq!(parameter(&[], far), "points");
-    assert_eq!(parameter(&[point.clone()], far), "face");
-    assert_eq!(parameter(&[radii.clone()], far), "heights");
-    assert_eq!(parameter(&[heights.clone()], far), "heights");
+    assert_eq!(parameter(std::slice::from_ref(&point), far), "face");
+    assert_eq!(parameter(std::slice::from_ref(&radii), far), "heights");
+    assert_eq!(parameter(std::slice::from_ref(&heights), far), "heights");
     assert_eq!(parameter(&[radii.clone(), heights.clone(), face.clone()], far), "points");
     let flat = numbers("normal", &[0.0; 3]);
     assert_eq!(parameter(&[point.clone(), face.clone(), flat], far), "normal");
