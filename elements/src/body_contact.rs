@@ -281,12 +281,14 @@ impl BodyContact {
         // What is rounding of sums of such lengths.
         let rounding = |lengths: &[f64]| 1e-12 * lengths.iter().map(|x| x.abs()).sum::<f64>();
         let wrong = |name, message: String| Err(ParameterError::inconsistent(name, message));
+        let shown = |length: f64| (1e12 * length).round() / 1e12;
         if let Some([r1, r2]) = self.radii {
             let apart = self.offset[0].hypot(self.offset[1]);
             if apart < r1 + r2 - rounding(&[r1, r2, apart]) || apart == 0.0 {
                 let message = format!(
-                    "the axes of the bodies are {apart} m apart and their `radii` add up to {} m: they begin inside each other",
-                    r1 + r2
+                    "the axes of the bodies are {} m apart and their `radii` add up to {} m: they begin inside each other",
+                    shown(apart),
+                    shown(r1 + r2)
                 );
                 return wrong("radii", message);
             }
@@ -301,8 +303,9 @@ impl BodyContact {
             let lengths = [self.offset, *point, self.face.unwrap_or_default()].concat();
             if depth > rounding(&lengths) && !beside {
                 let message = format!(
-                    "point {} begins {depth} m behind the face: points are given from the second node, the face from the first",
-                    i + 1
+                    "point {} begins {} m behind the face: points are given from the second node, the face from the first",
+                    i + 1,
+                    shown(depth)
                 );
                 return wrong("points", message);
             }
