@@ -220,6 +220,10 @@ pub(crate) fn rates(
         held.iter_mut().zip(row).for_each(|(held, c)| *held |= *c != 0.0);
     }
     let own: Vec<usize> = (0..held.len()).filter(|i| held[*i]).collect();
+    // At rest there is nothing to go along with.
+    if own.is_empty() && v.iter().all(|v| *v == 0.0) {
+        return Ok(());
+    }
     let supports = vec![0.0; system.reduction.prescribed.len()];
     let mut d = vec![0.0; links.len()];
     links.deform(u, &supports, &mut d);
