@@ -47,7 +47,6 @@ pub(crate) struct Shadow<'a> {
     state: State,
     memory: Memory<'a>,
     values: Vec<f64>,
-    own: Vec<f64>,
     /// Tangents told last, and the largest stiffness of the active link coordinates so far.
     tangents: Tangents,
     stiffest: Vec<f64>,
@@ -87,7 +86,6 @@ impl<'a> Shadow<'a> {
             memory: Memory::new(model, &system.links, state),
             state: state.clone(),
             values: vec![0.0; model.outputs.len()],
-            own: vec![0.0; space.links.len()],
             tangents: state.tangents.clone(),
             stiffest: state.stiffest.clone(),
             modes,
@@ -190,12 +188,7 @@ impl<'a> Shadow<'a> {
         modes.complete(sources, motion, &loads, next);
         std::mem::swap(motion, next);
         if answers {
-            let n = modes.space.order();
-            let mut own = vec![0.0; system.links.active.len()];
-            for (motion, flat) in [&motion[..n], &motion[n..2 * n]].into_iter().zip(&mut support) {
-                modes.space.links.deform(motion, &mut own);
-                system.links.active.iter().zip(&own).for_each(|(i, x)| flat[*i] += x);
-            }
+            add_deformations(&modes.space, system, motion, &mut support);
             self.memory.go_on([d, v], support, dt);
         }
         pseudo.copy_from_slice(&end);
@@ -204,17 +197,13 @@ impl<'a> Shadow<'a> {
 
     /// Compares the outputs of the run at this moment with its own; `errors` grow to the differences.
     pub(crate) fn compare(&mut self, values: &[f64], state: &State, errors: &mut [f64]) {
-        let Self { system, own, modes, .. } = self;
+        let Self { system, modes, .. } = self;
         let links = &system.links;
-        let n = modes.space.order();
         self.state.clone_from(state);
         let mut support = [vec![0.0; links.len()], vec![0.0; links.len()]];
         let [d, v] = &mut support;
         self.loads.support_deformation(&self.amplitudes.end, d, v);
-        for (motion, flat) in [(&self.motion[..n], d), (&self.motion[n..2 * n], v)] {
-            modes.space.links.deform(motion, own);
-            links.active.iter().zip(&*own).for_each(|(i, x)| flat[*i] += x);
-        }
+        add_deformations(&modes.space, system, &self.motion, &mut support);
         let [d, v] = support;
         self.blocks.add_change(&state.tangents.k, [&state.d, &d], &mut self.state.f);
         self.blocks.add_change(&state.tangents.c, [&state.v, &v], &mut self.state.f);
@@ -230,6 +219,15 @@ impl<'a> Shadow<'a> {
                 *error = off;
             }
         }
+    }
+}
+
+/// Adds what a motion makes of link deformations and of their rates, flat.
+fn add_deformations(space: &Space, system: &System, motion: &Motion, flat: &mut [Vec<f64>; 2]) {
+    let mut own = vec![0.0; space.links.len()];
+    for (motion, flat) in motion.chunks(space.order().max(1)).zip(flat) {
+        space.links.deform(motion, &mut own);
+        system.links.active.iter().zip(&own).for_each(|(i, x)| flat[*i] += x);
     }
 }
 
