@@ -1,4 +1,4 @@
-//! Dense matrices in column-major order, dense LU and dense Cholesky.
+//! Dense matrices in column-major order, dense LU and dense inverses.
 
 use crate::gemv;
 use faer::linalg::matmul::matmul;
@@ -202,26 +202,20 @@ impl DenseLu {
     }
 }
 
-/// A factorised dense symmetric matrix that is positive.
-#[derive(Clone, Debug)]
-pub struct DenseCholesky(Llt<f64>);
-
-impl DenseCholesky {
-    /// Factorises the matrix whose lower triangle this is; none where a pivot is no more than this share of its entry on
-    /// the diagonal.
-    #[must_use]
-    pub fn new(a: &Dense, share: f64) -> Option<Self> {
-        let factor = Llt::new(a.as_ref(), Side::Lower).ok()?;
-        let l = factor.L();
-        let is_held = |i: usize| l[(i, i)] * l[(i, i)] > share * a[(i, i)];
-        (0..a.columns()).all(is_held).then_some(Self(factor))
+/// The inverse of a positive definite matrix whose lower triangle this is; none where a pivot of its Cholesky factor is
+/// no more than this share of its entry on the diagonal. For many products with a small matrix: each is cheaper than
+/// a substitution.
+#[must_use]
+pub fn positive_inverse(a: &Dense, share: f64) -> Option<Dense> {
+    let factor = Llt::new(a.as_ref(), Side::Lower).ok()?;
+    let (l, n) = (factor.L(), a.columns());
+    if (0..n).any(|i| l[(i, i)] * l[(i, i)] <= share * a[(i, i)]) {
+        return None;
     }
-
-    /// Solves in place.
-    pub fn solve(&self, x: &mut [f64]) {
-        let n = x.len();
-        self.0.solve_in_place(MatMut::from_column_major_slice_mut(x, n, 1));
-    }
+    let mut inverse = Dense::zeros(n, n);
+    (0..n).for_each(|i| inverse[(i, i)] = 1.0);
+    factor.solve_in_place(inverse.as_mut());
+    Some(inverse)
 }
 
 #[cfg(test)]
@@ -229,13 +223,14 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_positive_system_is_solved_and_a_singular_one_is_none() {
+    fn a_positive_matrix_is_inverted_and_a_singular_one_is_none() {
         let a = |last: f64| Dense::from_columns(2, 2, vec![4.0, 2.0, f64::NAN, last]);
-        let mut x = vec![8.0, 10.0];
-        DenseCholesky::new(&a(3.0), 1e-11).unwrap().solve(&mut x);
-        assert!((x[0] - 0.5).abs() < 1e-14 && (x[1] - 3.0).abs() < 1e-14, "{x:?}");
-        assert!(DenseCholesky::new(&a(1.0 + 1e-12), 1e-11).is_none());
-        assert!(DenseCholesky::new(&a(0.5), 1e-11).is_none());
+        let inverse = positive_inverse(&a(3.0), 1e-11).unwrap();
+        for (found, expected) in inverse.values().iter().zip([0.375, -0.25, -0.25, 0.5]) {
+            assert!((found - expected).abs() < 1e-14, "{inverse:?}");
+        }
+        assert!(positive_inverse(&a(1.0 + 1e-12), 1e-11).is_none());
+        assert!(positive_inverse(&a(0.5), 1e-11).is_none());
     }
 
     #[test]

@@ -31,7 +31,7 @@ mod sparse;
 mod tall;
 mod vector;
 
-pub use dense::{Dense, DenseCholesky, DenseLu};
+pub use dense::{Dense, DenseLu, positive_inverse};
 pub use eigen::{all_modes, symmetric_eigen};
 pub use expm::{expm, expm_small};
 pub use extrapolation::{ORDERS, extrapolate};

@@ -54,6 +54,9 @@ const STRAIGHT: f64 = 1e-9;
 /// Share of a segment within which a time is guessed to be that of a sample.
 const LEAN: f64 = 1e-6;
 
+/// Share of a distance between samples, or of a step, that is rounding.
+const ROUNDED: f64 = 1e-9;
+
 /// Samples of a function of time; zero before the first one.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Table {
@@ -63,6 +66,8 @@ pub struct Table {
     curvatures: Vec<f64>,
     /// Mean number of segments in a second.
     per_time: f64,
+    /// True where all are as long, but for rounding.
+    is_even: bool,
     after_end: AfterEnd,
 }
 
@@ -98,7 +103,9 @@ impl Table {
         };
         let last = times.len() - 1;
         let per_time = last as f64 / (times[last] - times[0]);
-        Ok(Self { times, values, curvatures, per_time, after_end })
+        let off = |(i, t): (usize, &f64)| ((t - times[0]) * per_time - i as f64).abs();
+        let is_even = times.iter().enumerate().map(off).all(|off| off <= ROUNDED);
+        Ok(Self { times, values, curvatures, per_time, is_even, after_end })
     }
 
     /// Times of the samples, s.
@@ -171,10 +178,19 @@ impl Table {
             .fold(samples, |a, t| a.max(self.at(t, Side::Before)[0].abs()))
     }
 
-    /// Samples at which the table bends: those of a spline, and of straight lines those that do not lie on the line
-    /// through the two before. Without those of which `is_known` says that a step ends there anyhow.
+    /// True where all samples lie on multiples of a time (s), but for rounding.
     #[must_use]
-    pub fn corners(&self, is_known: impl Fn(&Corner) -> bool) -> Vec<Corner> {
+    pub fn lies_on(&self, dt: f64) -> bool {
+        let off = |x: f64| (x - x.round()).abs();
+        let steps = (self.per_time * dt).recip();
+        let is_multiple = steps > 0.5 && off(steps) * self.times.len() as f64 <= ROUNDED;
+        self.is_even && is_multiple && off(self.start() / dt) <= ROUNDED
+    }
+
+    /// Samples at which the table bends: those of a spline, and of straight lines those that do not lie on the line
+    /// through the two before.
+    #[must_use]
+    pub fn corners(&self) -> Vec<Corner> {
         let (t, y) = (&self.times, &self.values);
         let corner = |around: &[f64]| {
             let reach = (around[1] - around[0]).min(around[2] - around[1]);
@@ -182,22 +198,18 @@ impl Table {
         };
         let all = t.windows(3).map(corner);
         if !self.curvatures.is_empty() {
-            return all.filter(|c| !is_known(c)).collect();
+            return all.collect();
         }
+        let slope = |i: usize| (y[i + 1] - y[i]) / (t[i + 1] - t[i]);
+        let allowed = STRAIGHT * self.peak();
+        // Sample from which on a line goes on, and its slope.
+        let mut line = (0, slope(0));
         let mut corners = Vec::new();
-        // Sample from which on a line goes on, its slope, and how far the next may be beside it: once somebody asks.
-        let (mut from, mut slope, mut allowed) = (0, None, None);
         for (i, corner) in (1..).zip(all) {
-            if is_known(&corner) {
-                (from, slope) = (i, None);
-                continue;
-            }
-            let of = |i: usize| (y[i + 1] - y[i]) / (t[i + 1] - t[i]);
-            let slope_now = *slope.get_or_insert_with(|| of(from));
-            let off = (y[i + 1] - (y[from] + slope_now * (t[i + 1] - t[from]))).abs();
-            if off > *allowed.get_or_insert_with(|| STRAIGHT * self.peak()) {
+            let (from, rise) = line;
+            if (y[i + 1] - (y[from] + rise * (t[i + 1] - t[from]))).abs() > allowed {
                 corners.push(corner);
-                (from, slope) = (i, None);
+                line = (i, slope(i));
             }
         }
         corners
@@ -392,7 +404,7 @@ mod tests {
         let table = |interpolation| {
             Table::new(times.clone(), values.clone(), interpolation, AfterEnd::Zero).unwrap()
         };
-        let at = |table: Table| table.corners(|_| false).iter().map(|c| c.t).collect::<Vec<_>>();
+        let at = |table: Table| table.corners().iter().map(|c| c.t).collect::<Vec<_>>();
         assert_eq!(at(table(Interpolation::Linear)), [times[3], times[4], times[5]]);
         assert_eq!(at(table(Interpolation::Cubic)), times[1..7]);
         // A bend that no sample shows against its neighbours is not lost.
@@ -400,8 +412,25 @@ mod tests {
         let fine: Vec<f64> = (0..=n).map(|i| f64::from(i) / f64::from(n)).collect();
         let arch: Vec<f64> = fine.iter().map(|t| t * (1.0 - t)).collect();
         let arch = Table::new(fine, arch, Interpolation::Linear, AfterEnd::Zero).unwrap();
-        let kept = arch.corners(|_| false);
+        let kept = arch.corners();
         assert!(kept.len() > 1000, "{}", kept.len());
+    }
+
+    #[test]
+    fn samples_lie_on_steps_that_are_fractions_of_their_distance() {
+        let from = |start: f64, spacing: f64, late: f64| {
+            let time = |i: i32| start + spacing * f64::from(i) + if i == 7 { late } else { 0.0 };
+            let times: Vec<f64> = (0..4000).map(time).collect();
+            Table::new(times, vec![1.0; 4000], Interpolation::Linear, AfterEnd::Zero).unwrap()
+        };
+        for dt in [0.02, 0.01, 0.005, 0.02 / 3.0] {
+            assert!(from(0.0, 0.02, 0.0).lies_on(dt) && from(3.0 * dt, 0.02, 0.0).lies_on(dt));
+            assert!(!from(0.0, 0.02, 1e-6).lies_on(dt) && !from(0.4 * dt, 0.02, 0.0).lies_on(dt));
+        }
+        // What is off by little is off by a step after some thousands.
+        for dt in [0.04, 0.013, 0.02 * 1.0001, 0.02 * 3999.0 / 4000.0] {
+            assert!(!from(0.0, 0.02, 0.0).lies_on(dt));
+        }
     }
 
     #[test]

@@ -210,7 +210,7 @@ impl TimeFunction {
             Self::Constant(_) | Self::Step { .. } | Self::Ramp { .. } => return None,
         };
         let step = TAU / (STEPS_OF_A_PERIOD * bend);
-        (self.peak() > 0.0 && step.is_finite()).then_some(Stretch { from, to, step })
+        (step.is_finite() && self.peak() > 0.0).then_some(Stretch { from, to, step })
     }
 
     /// Largest |value| over all times.

@@ -19,7 +19,7 @@ use crate::error::SolveError;
 use crate::shapes::Shapes;
 use crate::vector::{dot, largest};
 use trilith_linalg::{
-    Dense, DenseCholesky, Ldlt, Sparse, StagedLdlt, symmetric_eigen, unsupported,
+    Dense, Ldlt, Product, Sparse, StagedLdlt, positive_inverse, symmetric_eigen, unsupported,
 };
 use trilith_system::{Massless, System};
 
@@ -233,11 +233,11 @@ pub(crate) struct Following<'a> {
     factor: Factor,
 }
 
-/// Directions up to which a dense factor is the faster one.
+/// Directions up to which products with a dense inverse are faster than sparse substitutions.
 const FEW: usize = 64;
 
 enum Factor {
-    Dense(DenseCholesky),
+    Inverse(Product),
     Sparse(StagedLdlt),
 }
 
@@ -250,39 +250,44 @@ impl Factor {
         }
         let mut all = Dense::zeros(n, n);
         a.entries().for_each(|(i, j, x)| all[(i, j)] = x);
-        Ok(DenseCholesky::new(&all, PIVOT).map(Self::Dense))
+        Ok(positive_inverse(&all, PIVOT).map(|inverse| Self::Inverse(Product::new(inverse))))
     }
 
-    fn solve(&self, y: &mut [f64]) {
+    fn solve(&self, mut p: Vec<f64>) -> Vec<f64> {
         match self {
-            Self::Dense(factor) => factor.solve(y),
-            Self::Sparse(factor) => factor.solve(y),
+            Self::Inverse(inverse) => {
+                let mut y = vec![0.0; p.len()];
+                inverse.times(&p, &mut y);
+                y
+            }
+            Self::Sparse(factor) => {
+                factor.solve(&mut p);
+                p
+            }
         }
     }
 }
 
 impl<'a> Following<'a> {
-    /// For a stiffness as a sum. None where this has nothing to do: rows that are not kept follow anyhow.
+    /// For a stiffness. None where this has nothing to do: rows that are not kept follow anyhow.
     pub(crate) fn new(
         system: &'a System,
-        stiffness: &[(f64, &Sparse)],
+        stiffness: &Sparse,
         rows: &Condensation,
     ) -> Result<Option<Self>, SolveError> {
         let massless = &system.massless;
         if massless.len() <= rows.order() - rows.kept() {
             return Ok(None);
         }
-        let stiffness = Sparse::combine(stiffness);
-        let factor = Factor::new(&massless.project(&stiffness))?;
-        let images = massless.images(&stiffness);
+        let factor = Factor::new(&massless.project(stiffness))?;
+        let images = massless.images(stiffness);
         Ok(factor.map(|factor| Self { massless, images, factor }))
     }
 
     pub(crate) fn settle(&self, u: &mut [f64]) {
-        let mut y = vec![0.0; self.massless.len()];
-        self.images.transpose_mul_add(1.0, u, &mut y);
-        self.factor.solve(&mut y);
-        self.massless.expand(-1.0, &y, u);
+        let mut p = vec![0.0; self.massless.len()];
+        self.images.transpose_mul_add(1.0, u, &mut p);
+        self.massless.expand(-1.0, &self.factor.solve(p), u);
     }
 }
 

@@ -35,12 +35,16 @@ impl Piece {
         if share == 1.0 { self.end } else { self.start + self.length * share }
     }
 
+    /// One of equal parts of it.
+    pub(crate) fn part(&self, i: usize, count: usize) -> Self {
+        let length = self.length / count as f64;
+        let time = |i: usize| if i == count { self.end } else { self.start + length * i as f64 };
+        Self { start: time(i), end: time(i + 1), length }
+    }
+
     /// Equal parts of it.
     pub(crate) fn parts(self, count: usize) -> impl Iterator<Item = Self> {
-        let length = self.length / count as f64;
-        let time =
-            move |i: usize| if i == count { self.end } else { self.start + length * i as f64 };
-        (0..count).map(move |i| Self { start: time(i), end: time(i + 1), length })
+        (0..count).map(move |i| self.part(i, count))
     }
 }
 
@@ -66,8 +70,7 @@ impl Timeline {
         let jumps = loads.breaks(duration);
         let (cut, pieces) = (Vec::new(), Vec::new());
         let mut timeline = Self { dt, steps, duration, jumps, cut, pieces, stretches };
-        let corners = loads.corners(duration, |corner| timeline.ends_at(corner));
-        timeline.cut(&corners);
+        timeline.cut(&loads.corners(duration, dt));
         timeline.join_lengths();
         timeline
     }
@@ -105,23 +108,21 @@ impl Timeline {
     }
 
     /// The pieces of an output step.
-    pub(crate) fn pieces(&self, step: usize) -> impl Iterator<Item = Piece> + '_ {
-        let whole = self.cut.is_empty().then(|| self.whole(step));
-        let (whole, found) = match whole {
-            Some(whole) => (Some(whole), &[][..]),
-            None => match self.cut.binary_search_by_key(&step, |(step, _)| *step) {
-                Ok(at) => {
-                    let first = at.checked_sub(1).map_or(0, |before| self.cut[before].1);
-                    (None, &self.pieces[first..self.cut[at].1])
-                }
-                Err(_) => (Some(self.whole(step)), &[][..]),
-            },
-        };
-        let all = whole.into_iter().chain(found.iter().copied());
-        all.flat_map(|piece| piece.parts(self.count(&piece)))
+    #[inline]
+    pub(crate) fn pieces(&self, step: usize) -> Pieces<'_> {
+        let now = self.whole(step);
+        match self.cut.binary_search_by_key(&step, |(step, _)| *step) {
+            Ok(at) => {
+                let first = at.checked_sub(1).map_or(0, |before| self.cut[before].1);
+                let rest = &self.pieces[first..self.cut[at].1];
+                Pieces { timeline: self, now, made: 0, of: 0, rest }
+            }
+            Err(_) => Pieces { timeline: self, now, made: 0, of: self.count(&now), rest: &[] },
+        }
     }
 
     /// An output step in one; the last may be shorter, one that is not has the length of the others to the bit.
+    #[inline]
     fn whole(&self, step: usize) -> Piece {
         let (start, end) = (self.time(step), self.time(step + 1));
         let as_others = (end - start - self.dt).abs() <= self.near();
@@ -140,13 +141,6 @@ impl Timeline {
         let longest = shortest.fold(f64::INFINITY, f64::min);
         let halvings = (piece.length / longest * (1.0 - NEAR)).log2().ceil();
         1 << (halvings.max(0.0) as i32).min(HALVINGS)
-    }
-
-    /// True where an output step ends at a corner, as far as that is seen at a glance.
-    fn ends_at(&self, corner: &Corner) -> bool {
-        let nearest = (corner.t / self.dt + 0.5) as i64;
-        let off = (corner.t - nearest as f64 * self.dt).abs();
-        self.jumps.is_empty() && off <= self.reach(corner)
     }
 
     /// How far from a corner a piece may end.
@@ -193,7 +187,11 @@ impl Timeline {
     }
 
     /// The jump at a time.
+    #[inline]
     fn jump_near(&self, t: f64) -> Option<f64> {
+        if self.jumps.is_empty() {
+            return None;
+        }
         let near = self.near();
         let at = self.jumps.partition_point(|x| *x < t - near);
         self.jumps.get(at).copied().filter(|x| *x <= t + near)
@@ -202,6 +200,31 @@ impl Timeline {
     /// Jumps closer than this are one.
     fn near(&self) -> f64 {
         NEAR * self.dt
+    }
+}
+
+/// The pieces of an output step, each in as many equal parts as curved loads ask for.
+pub(crate) struct Pieces<'a> {
+    timeline: &'a Timeline,
+    now: Piece,
+    /// Parts of it, those that were given and all.
+    made: usize,
+    of: usize,
+    rest: &'a [Piece],
+}
+
+impl Iterator for Pieces<'_> {
+    type Item = Piece;
+
+    #[inline]
+    fn next(&mut self) -> Option<Piece> {
+        if self.made == self.of {
+            let (next, rest) = self.rest.split_first()?;
+            (self.now, self.rest) = (*next, rest);
+            (self.made, self.of) = (0, self.timeline.count(next));
+        }
+        self.made += 1;
+        Some(self.now.part(self.made - 1, self.of))
     }
 }
 

@@ -279,10 +279,10 @@ impl LoadSet {
     }
 
     /// Corners of tables strictly inside (0, end), rising: amplitudes of loads bend there, and rates of moving
-    /// supports may. Its value is continuous there, so a step must end there, but nothing jumps. Without those of which
-    /// `is_known` says that a step ends there anyhow.
+    /// supports may. Its value is continuous there, so a step must end there, but nothing jumps. Those of tables whose
+    /// samples all lie on output steps of `dt` (s) are left out: steps end there anyhow.
     #[must_use]
-    pub fn corners(&self, end: f64, is_known: impl Fn(&Corner) -> bool) -> Vec<Corner> {
+    pub fn corners(&self, end: f64, dt: f64) -> Vec<Corner> {
         let mut tables: Vec<&Table> = Vec::new();
         let mut corners = Vec::new();
         for (function, factor) in self.functions() {
@@ -292,7 +292,9 @@ impl LoadSet {
                 continue;
             }
             tables.push(table);
-            corners.extend(table.corners(&is_known));
+            if !table.lies_on(dt) {
+                corners.extend(table.corners());
+            }
         }
         corners.retain(|c| c.t > 0.0 && c.t < end);
         corners.sort_by(|a, b| a.t.total_cmp(&b.t));

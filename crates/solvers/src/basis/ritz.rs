@@ -48,8 +48,9 @@ pub(super) fn enriched(
     let rows = Condensation::new(system, loads)?;
     // What follows without mass is beside the modes: in vectors it would look like modes that are far too fast, and
     // come with what is taken out of others.
-    let statics = StaticShapes::new(system, &Sparse::combine(&parts), loads)?;
-    let following = Following::new(system, &parts, &rows)?;
+    let stiffness = Sparse::combine(&parts);
+    let statics = StaticShapes::new(system, &stiffness, loads)?;
+    let following = Following::new(system, &stiffness, &rows)?;
     let mut span = Span::new(&rows, &system.mass, &parts, following, total + more);
     let own = |u: &Vec<f64>| rows.gather(u).into_owned();
     let mut block: Vec<Vec<f64>> = Vec::new();
@@ -64,8 +65,8 @@ pub(super) fn enriched(
     };
     let mut starts: Vec<Vec<f64>> = demands.starts.iter().map(start).collect();
     let lowest = |count: usize| -> Result<Vec<Vec<f64>>, SolveError> {
-        let (k, count) = (Sparse::combine(&hat.parts(system)), count.min(system.order()));
-        let (_, vectors) = lowest_modes(&k, &system.mass, count, 0.0)?;
+        let count = count.min(system.order());
+        let (_, vectors) = lowest_modes(&stiffness, &system.mass, count, 0.0)?;
         Ok((0..vectors.columns()).map(|j| own(&vectors.column(j).to_vec())).collect())
     };
     if settings.kind == BasisKind::Eigen {

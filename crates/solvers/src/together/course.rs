@@ -131,8 +131,7 @@ impl<'a, 'b> Course<'a, 'b> {
 
     /// Takes up one part of so many of a piece of the output step.
     pub(super) fn begin(&mut self, space: &Space, piece: usize, part: usize, of: usize) {
-        let part = self.pieces[piece].parts(of).nth(part);
-        let (t0, t1) = part.map_or((self.at, self.at), |part| (part.start, part.end));
+        let Piece { start: t0, end: t1, .. } = self.pieces[piece].part(part, of);
         self.loads.step(t0, t1, &mut self.step_loads);
         self.side.begin(space, &self.state, &mut self.next, &self.step_loads, &mut self.energy);
         self.settled = false;
