@@ -24,7 +24,7 @@ pub(crate) fn sweep(registry: &Registry, args: &SweepArguments) -> Result<Answer
         return Err(Failure::input("the study has no figures to write", Some(help)));
     }
     if args.dry_run {
-        return Ok(plan(&study).into());
+        return Ok(plan(&study, registry).into());
     }
     let stem = args.study.file_stem().unwrap_or("study".as_ref());
     let folder = args.out.clone().unwrap_or_else(|| Path::new("out").join(stem));
@@ -71,7 +71,7 @@ pub(crate) fn sweep(registry: &Registry, args: &SweepArguments) -> Result<Answer
 }
 
 /// What would be run.
-fn plan(study: &Study) -> String {
+fn plan(study: &Study, registry: &Registry) -> String {
     let mut out = String::new();
     for (name, value) in [("study", study.title.as_str()), ("model", &study.model_title)] {
         out += &format!("{name:7} {}\n", visible_line(value));
@@ -100,7 +100,15 @@ fn plan(study: &Study) -> String {
     if let Some(stop) = &study.stop {
         out += &format!("a series ends where: {}\n", visible_line(&stop.text()));
     }
-    out + &format!("runs: {}\n", study.identity.runs)
+    let how = study.alone(registry).map_or_else(|| SIDE_BY_SIDE.into(), |why| one_by_one(&why));
+    out + &format!("runs: {}, {how}\n", study.identity.runs)
+}
+
+/// Said of runs that share cores.
+const SIDE_BY_SIDE: &str = "side by side in vector lanes";
+
+fn one_by_one(why: &str) -> String {
+    format!("one by one ({})", visible_line(why))
 }
 
 fn report(study: &Study, results: &Results, seconds: f64, folder: &Path) -> String {
@@ -126,6 +134,12 @@ fn report(study: &Study, results: &Results, seconds: f64, folder: &Path) -> Stri
     out += &format!("\nnew runs: {new} in {} s", crate::text::significant(seconds, 3));
     if new > 0 {
         out += &format!(", {} a second", crate::text::significant(new as f64 / seconds, 3));
+    }
+    match &results.alone {
+        Some(why) if new > 0 => out += &format!(", {}", one_by_one(why)),
+        None if results.beside == new && new > 0 => out += &format!(", {SIDE_BY_SIDE}"),
+        None if new > 0 => out += &format!(", {} of them {SIDE_BY_SIDE}", results.beside),
+        _ => {}
     }
     if results.resumed > 0 {
         out += &format!("; {} were on disk", results.resumed);

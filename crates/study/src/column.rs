@@ -1,11 +1,10 @@
 //! Columns: what a study keeps of a run.
 
-use trilith::Run;
 use trilith::element::Dimension;
 use trilith::model::file::{Quantity, Scope, evaluate};
 use trilith::model::{Model, ParameterValue};
-use trilith::results::ENERGIES;
-use trilith::solvers::{EnergyTotals, Observer, Sample};
+use trilith::results::{ENERGIES, Peak};
+use trilith::solvers::{ContactSummary, EnergyTotals, Observer, Sample, Status};
 
 /// A number that a study keeps of every run.
 #[derive(Clone, Debug, PartialEq)]
@@ -49,6 +48,22 @@ pub enum Measure {
     ResidualSlip,
     /// An expression in parameters of the model and columns before it.
     Expression(String),
+}
+
+impl Measure {
+    /// True where peaks do not tell it.
+    pub(crate) fn is_over_time(&self) -> bool {
+        matches!(self, Self::Rms(_) | Self::Duration(..))
+    }
+}
+
+/// What a run left, as far as columns ask.
+pub(crate) struct Left<'a> {
+    pub status: &'a Status,
+    /// Of the outputs, in the order of the model.
+    pub peaks: &'a [Peak],
+    pub energy: &'a EnergyTotals,
+    pub contact: Option<&'a ContactSummary>,
 }
 
 /// Follows what peaks do not tell.
@@ -132,12 +147,12 @@ fn time_above(a: f64, b: f64) -> f64 {
 pub(crate) fn values(
     columns: &[Column],
     model: &Model,
-    run: &Run,
+    left: &Left<'_>,
     watch: &Watch,
 ) -> Vec<Option<f64>> {
     let mut found: Vec<Option<f64>> = Vec::with_capacity(columns.len());
     let mut integrals = watch.rows.iter();
-    let peak = |i: usize| run.record.peaks().get(i);
+    let peak = |i: usize| left.peaks.get(i);
     for (k, column) in columns.iter().enumerate() {
         let value = match &column.measure {
             Measure::Peak(i) => peak(*i).map(|p| p.max.abs().max(p.min.abs())),
@@ -148,11 +163,11 @@ pub(crate) fn values(
             }
             Measure::Final(i) => peak(*i).map(|p| p.last),
             Measure::Rms(_) | Measure::Duration(..) => integrals.next().map(Integral::value),
-            Measure::Energy(i) => Some(energy(&run.result.energy, *i)),
-            Measure::EnergyError => Some(run.result.energy.error_relative),
-            Measure::Uplift => run.contact.as_ref().map(|c| c.max_uplift),
-            Measure::Slip => run.contact.as_ref().map(|c| c.max_slip),
-            Measure::ResidualSlip => run.contact.as_ref().map(|c| c.residual_slip),
+            Measure::Energy(i) => Some(energy(left.energy, *i)),
+            Measure::EnergyError => Some(left.energy.error_relative),
+            Measure::Uplift => left.contact.map(|c| c.max_uplift),
+            Measure::Slip => left.contact.map(|c| c.max_slip),
+            Measure::ResidualSlip => left.contact.map(|c| c.residual_slip),
             Measure::Expression(text) => {
                 let known = columns[..k].iter().zip(&found);
                 let mut scope = Known::of(model);

@@ -1,17 +1,15 @@
 //! Running a study: all cores, one run a task, every finished run on disk at once.
 
-use crate::column::{self, Watch};
 use crate::journal::Journal;
-use crate::{Cell, Place, Record, Study, StudyError};
+use crate::{Record, Study, StudyError};
 use std::collections::BTreeMap;
 use std::fs::OpenOptions;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::{Path, PathBuf};
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
-use trilith::model::file::{NoNames, evaluate};
-use trilith::model::{Model, ParameterValue};
-use trilith::{Analysis, Registry, Run, RunOptions};
+use trilith::Registry;
+use trilith::sweep::Lanes;
 
 /// How far a study is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -37,6 +35,10 @@ pub struct Results {
     pub left_out: usize,
     /// Files written.
     pub files: Vec<PathBuf>,
+    /// New runs that went side by side, several to a core.
+    pub beside: usize,
+    /// Why none did, where the study does not fit.
+    pub alone: Option<String>,
 }
 
 impl Results {
@@ -52,6 +54,11 @@ struct Shared<'a> {
     study: &'a Study,
     registry: &'a Registry,
     folder: &'a Path,
+    /// None where runs go one by one.
+    lanes: Option<Lanes>,
+    /// Chains that a thread takes at once.
+    width: usize,
+    beside: AtomicUsize,
     kept: BTreeMap<usize, Record>,
     journal: Mutex<Journal>,
     found: Mutex<Vec<Record>>,
@@ -94,11 +101,21 @@ pub fn execute(
     }
     let (journal, kept) = Journal::open(&folder.join("runs.journal"), &study.identity)?;
     let total = study.identity.runs;
+    let chains = total / study.plan.chain_length();
+    let (lanes, alone) = match study.alone(registry) {
+        None => (Some(Lanes::new()), None),
+        reason => (None, reason),
+    };
+    // Where there are few, all threads have some.
+    let width = lanes.as_ref().map_or(1, |l| l.width().min(chains.div_ceil(threads.max(1))).max(1));
     let (resumed, torn) = (kept.records.len(), kept.torn);
     let shared = Shared {
         study,
         registry,
         folder,
+        lanes,
+        width,
+        beside: AtomicUsize::new(0),
         kept: kept.records,
         journal: Mutex::new(journal),
         found: Mutex::new(Vec::new()),
@@ -111,9 +128,8 @@ pub fn execute(
         total,
         progress,
     };
-    let chains = total / study.plan.chain_length();
     std::thread::scope(|scope| {
-        for _ in 1..threads.min(chains).max(1) {
+        for _ in 1..threads.min(chains.div_ceil(width)).max(1) {
             scope.spawn(|| shared.work(chains));
         }
         shared.work(chains);
@@ -132,18 +148,20 @@ pub fn execute(
     records.sort_by_key(|r| r.run);
     let left_out = total - records.len();
     let files = crate::files::write(study, &records, left_out, folder)?;
-    Ok(Results { records, resumed, torn, left_out, files })
+    let beside = shared.beside.into_inner();
+    Ok(Results { records, resumed, torn, left_out, files, beside, alone })
 }
 
 impl Shared<'_> {
     fn work(&self, chains: usize) {
         let length = self.study.plan.chain_length();
         while !self.stops() {
-            let chain = self.next.fetch_add(1, Ordering::Relaxed);
-            if chain >= chains {
+            let first = self.next.fetch_add(self.width, Ordering::Relaxed);
+            if first >= chains {
                 break;
             }
-            if let Err(error) = self.chain(chain * length, length) {
+            let own = first..chains.min(first + self.width);
+            if let Err(error) = self.chains(own.map(|chain| chain * length).collect(), length) {
                 self.stop.store(true, Ordering::Relaxed);
                 if let Ok(mut first) = self.error.lock() {
                     first.get_or_insert(error);
@@ -156,37 +174,59 @@ impl Shared<'_> {
         [&self.stop, self.interrupt].iter().any(|flag| flag.load(Ordering::Relaxed))
     }
 
-    /// Runs one after the other until the limit.
-    fn chain(&self, first: usize, length: usize) -> Result<(), StudyError> {
-        for run in first..first + length {
-            if self.stops() {
+    /// Runs chains beside each other, each until its limit; `firsts`: their first runs.
+    fn chains(&self, mut firsts: Vec<usize>, length: usize) -> Result<(), StudyError> {
+        for step in 0..length {
+            if self.stops() || firsts.is_empty() {
                 return Ok(());
             }
-            let record = match self.kept.get(&run) {
-                Some(record) => record.clone(),
-                None => {
-                    let record = self.study.run(self.registry, run, self.folder, self.interrupt)?;
-                    if self.interrupt.load(Ordering::Relaxed) {
-                        // It may have been cut short.
-                        return Ok(());
-                    }
-                    if let Ok(mut journal) = self.journal.lock() {
-                        journal.write(&record)?;
-                    }
-                    record
+            let runs: Vec<usize> = firsts.iter().map(|first| first + step).collect();
+            let new: Vec<usize> =
+                runs.iter().copied().filter(|run| !self.kept.contains_key(run)).collect();
+            let made = self.make(&new)?;
+            if self.interrupt.load(Ordering::Relaxed) {
+                // They may have been cut short.
+                return Ok(());
+            }
+            if let Ok(mut journal) = self.journal.lock() {
+                made.iter().try_for_each(|record| journal.write(record))?;
+            }
+            let mut made = made.into_iter();
+            let mut going = Vec::with_capacity(firsts.len());
+            for (first, run) in firsts.into_iter().zip(runs) {
+                let Some(record) = self.kept.get(&run).cloned().or_else(|| made.next()) else {
+                    continue;
+                };
+                let study = self.study;
+                let over = study.stop.as_ref().is_some_and(|c| c.holds(&study.columns, &record));
+                self.count(if over { length - step } else { 1 }, !record.good);
+                if let Ok(mut found) = self.found.lock() {
+                    found.push(record);
                 }
-            };
-            let study = self.study;
-            let over = study.stop.as_ref().is_some_and(|c| c.holds(&study.columns, &record));
-            self.count(if over { first + length - run } else { 1 }, !record.good);
-            if let Ok(mut found) = self.found.lock() {
-                found.push(record);
+                if !over {
+                    going.push(first);
+                }
             }
-            if over {
-                break;
-            }
+            firsts = going;
         }
         Ok(())
+    }
+
+    /// Makes runs, side by side where they fit.
+    fn make(&self, runs: &[usize]) -> Result<Vec<Record>, StudyError> {
+        let (study, registry) = (self.study, self.registry);
+        let beside = self.lanes.as_ref().map(|lanes| {
+            // Where a law panics, the run that it is in tells so when it goes alone.
+            catch_unwind(AssertUnwindSafe(|| study.beside(registry, lanes, runs)))
+        });
+        let beside = beside.and_then(Result::ok).unwrap_or_default();
+        self.beside.fetch_add(beside.len(), Ordering::Relaxed);
+        let mut beside = beside.into_iter().peekable();
+        let one = |run: &usize| match beside.next_if(|record| record.run == *run) {
+            Some(record) => Ok(record),
+            None => study.run(registry, *run, self.folder, self.interrupt),
+        };
+        runs.iter().map(one).collect()
     }
 
     fn count(&self, runs: usize, failed: bool) {
@@ -194,156 +234,5 @@ impl Shared<'_> {
         let failed =
             self.failed.fetch_add(usize::from(failed), Ordering::Relaxed) + usize::from(failed);
         (self.progress)(Progress { done, total: self.total, failed });
-    }
-}
-
-impl Study {
-    /// Makes one run, by its number. Whatever goes wrong in it is told in the record.
-    fn run(
-        &self,
-        registry: &Registry,
-        run: usize,
-        folder: &Path,
-        interrupt: &AtomicBool,
-    ) -> Result<Record, StudyError> {
-        let place = self.plan.place(run);
-        let made =
-            catch_unwind(AssertUnwindSafe(|| self.make(registry, run, &place, folder, interrupt)));
-        made.unwrap_or_else(|panic| {
-            let text = panic.downcast_ref::<String>().cloned();
-            let text = text.or_else(|| panic.downcast_ref::<&str>().map(|s| (*s).to_owned()));
-            let message = text.unwrap_or_else(|| "the program gave up".into());
-            Ok(self.failed(run, &self.plan.nominal(&place), "panic", &message))
-        })
-    }
-
-    fn make(
-        &self,
-        registry: &Registry,
-        run: usize,
-        place: &Place,
-        folder: &Path,
-        interrupt: &AtomicBool,
-    ) -> Result<Record, StudyError> {
-        let set = self.plan.nominal(place);
-        let model = match self.model(registry, place) {
-            Ok(model) => model,
-            Err(message) => return Ok(self.failed(run, &set, "model error", &message)),
-        };
-        let mut watch = Watch::new(&self.columns);
-        let histories = self.histories.is_some();
-        let made = Analysis::new(&model).and_then(|a| {
-            let a = if histories { a } else { a.without_histories() };
-            let options = RunOptions {
-                case: self.case,
-                solver: self.solver,
-                interrupt: Some(interrupt),
-                ..RunOptions::default()
-            };
-            a.observed(options, &mut [&mut watch])
-        });
-        let record = match made {
-            Ok(made) => {
-                let record = self.record(run, &model, &made, &watch);
-                if self.histories.as_ref().is_some_and(|c| c.holds(&self.columns, &record)) {
-                    let own = folder.join("runs").join(format!("{:06}", run + 1));
-                    let fail = |e: trilith::Error| {
-                        let cause = std::io::Error::other(e.to_string());
-                        StudyError::File { path: own.clone(), cause }
-                    };
-                    made.write(&model, &own).map_err(fail)?;
-                }
-                record
-            }
-            Err(e) => Record {
-                parameters: self.cells(&model),
-                ..self.failed(run, &set, "error", &e.to_string())
-            },
-        };
-        Ok(record)
-    }
-
-    /// The model of a run.
-    fn model(&self, registry: &Registry, place: &Place) -> Result<Model, String> {
-        let read = |set: &[(String, String)]| {
-            self.text
-                .read(registry, set)
-                .map_err(|errors| errors.first().map_or_else(String::new, |d| d.message.clone()))
-        };
-        let mut set = self.plan.nominal(place);
-        let model = read(&set)?;
-        let mut factors = self.plan.factors(place.member).peekable();
-        if factors.peek().is_none() {
-            return Ok(model);
-        }
-        for (name, factor) in factors {
-            let parameter = model.parameters.iter().find(|p| p.name == name);
-            if let Some(ParameterValue::Number(x, dimension)) = parameter.map(|p| &p.value) {
-                set.retain(|(n, _)| n != name);
-                set.push((name.to_owned(), crate::number::written(x * factor, *dimension)));
-            }
-        }
-        read(&set)
-    }
-
-    fn record(&self, run: usize, model: &Model, made: &Run, watch: &Watch) -> Record {
-        let status = &made.result.status;
-        let contact = made.contact.as_ref();
-        let good = status.is_good();
-        let values = if good {
-            column::values(&self.columns, model, made, watch)
-        } else {
-            vec![None; self.columns.len()]
-        };
-        let told = matches!(status, trilith::solvers::Status::Converged);
-        Record {
-            run,
-            status: status.word().to_owned(),
-            good,
-            message: if told { String::new() } else { status.text() },
-            overturned: contact.is_some_and(|c| c.overturned),
-            initial_mode: contact.filter(|_| good).map(|c| c.initial_mode.to_owned()),
-            mode: contact.filter(|_| good).map(|c| c.mode.to_owned()),
-            parameters: self.cells(model),
-            values,
-        }
-    }
-
-    fn cells(&self, model: &Model) -> Vec<Cell> {
-        let one = |name: &String| match model.parameters.iter().find(|p| p.name == *name) {
-            Some(p) => match &p.value {
-                ParameterValue::Number(x, _) => Cell::Number(*x),
-                ParameterValue::Text(t) => Cell::Text(t.clone()),
-            },
-            None => Cell::Nothing,
-        };
-        self.varied.iter().map(one).collect()
-    }
-
-    /// A run that came to no result. The values asked for are told as far as they are numbers by themselves.
-    fn failed(&self, run: usize, set: &[(String, String)], status: &str, message: &str) -> Record {
-        let cell = |name: &String| {
-            let Some((_, text)) = set.iter().rev().find(|(n, _)| n == name) else {
-                return Cell::Nothing;
-            };
-            if self.is_text(name) {
-                return Cell::Text(text.clone());
-            }
-            match evaluate(text, &mut NoNames) {
-                Ok(q) => Cell::Number(q.value),
-                Err(_) => Cell::Nothing,
-            }
-        };
-        Record {
-            run,
-            status: status.to_owned(),
-            good: false,
-            message: message.to_owned(),
-            overturned: false,
-            initial_mode: None,
-            mode: None,
-            parameters: self.varied.iter().map(cell).collect(),
-            values: vec![None; self.columns.len()],
-        }
     }
 }

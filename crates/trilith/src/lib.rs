@@ -48,6 +48,7 @@ pub mod compare;
 mod error;
 pub mod exercise;
 pub mod generate;
+mod lanes;
 mod report_check;
 mod run_report;
 pub mod sweep;

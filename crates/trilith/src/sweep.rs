@@ -40,8 +40,10 @@ use std::sync::Mutex;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use trilith_model::{Diagnostic, Model, ModelText, StepControl};
 use trilith_results::{Named, Peak};
-use trilith_solvers::lanes::{self, LaneOutcome, LaneSetup, Tables};
+use trilith_solvers::lanes::width;
 use trilith_solvers::{ContactSummary, EnergyTotals, LinkEnergy, Status};
+
+pub use crate::lanes::{Alone, Lanes};
 
 /// Values of parameters, by name, as `--set` takes them.
 pub type Combination = Vec<(String, String)>;
@@ -59,12 +61,12 @@ pub enum SweepError {
 }
 
 /// How an outcome was computed.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Engine {
     /// Side by side with others, at fixed steps.
     Lanes,
     /// On the ordinary engine: the model or the case does not fit, for this reason.
-    Ordinary(&'static str),
+    Ordinary(String),
     /// On the ordinary engine with adaptive steps, after its lane found no equilibrium in however short a
     /// step.
     Rerun,
@@ -106,13 +108,6 @@ pub struct Sweep {
 /// Most combinations that a thread takes at a time, in widths of the lanes.
 const MOST: usize = 4;
 
-/// One combination on its way.
-enum Stage {
-    Lane(Box<(Model, LaneSetup)>),
-    Done(Box<Result<Outcome, SweepError>>),
-    Gone,
-}
-
 impl Sweep {
     /// Of a model text; `path` as in [`read_text`](crate::read_text).
     #[must_use]
@@ -125,7 +120,7 @@ impl Sweep {
             case: None,
             substeps: None,
             threads,
-            width: lanes::width(),
+            width: width(),
         }
     }
 
@@ -156,7 +151,7 @@ impl Sweep {
     /// the same bits.
     #[must_use]
     pub fn width(mut self, width: usize) -> Self {
-        self.width = width.clamp(1, lanes::width());
+        self.width = width.clamp(1, self::width());
         self
     }
 
@@ -170,7 +165,7 @@ impl Sweep {
                 return combinations.iter().map(|_| failed()).collect();
             }
         };
-        let tables = Tables::new();
+        let lanes = Lanes::new().at_most(self.width);
         let all = combinations.len();
         let threads = self.threads.min(all.div_ceil(self.width)).max(1);
         let after = |start: usize| start + share(all - start, self.width, threads);
@@ -179,7 +174,7 @@ impl Sweep {
         let work = || {
             let take = |start| (start < all).then(|| after(start));
             while let Ok(start) = next.fetch_update(Ordering::Relaxed, Ordering::Relaxed, take) {
-                let outcomes = self.portion(&parsed, &combinations[start..after(start)], &tables);
+                let outcomes = self.portion(&parsed, &combinations[start..after(start)], &lanes);
                 if let Ok(mut done) = done.lock() {
                     done.push((start, outcomes));
                 }
@@ -200,46 +195,25 @@ impl Sweep {
         &self,
         parsed: &ModelText,
         combinations: &[Combination],
-        tables: &Tables,
+        lanes: &Lanes,
     ) -> Vec<Result<Outcome, SweepError>> {
-        let mut stages: Vec<Stage> =
-            combinations.iter().map(|c| self.prepare(parsed, c, tables)).collect();
-        loop {
-            let mut group: Vec<usize> = Vec::new();
-            for (i, stage) in stages.iter().enumerate() {
-                let Stage::Lane(own) = stage else { continue };
-                let fits = group.first().is_none_or(|g| match &stages[*g] {
-                    Stage::Lane(first) => first.1.fits(&own.1),
-                    _ => false,
-                });
-                if fits && group.len() < self.width {
-                    group.push(i);
+        let models: Vec<Result<(Model, usize), SweepError>> =
+            combinations.iter().map(|c| self.model(parsed, c)).collect();
+        let cases = models.iter().filter_map(|m| m.as_ref().ok());
+        let cases: Vec<(&Model, usize)> = cases.map(|(model, case)| (model, *case)).collect();
+        let mut found = lanes.run(&cases, self.substeps).into_iter();
+        let one = |read: Result<(Model, usize), SweepError>| {
+            let (model, case) = read?;
+            match found.next() {
+                Some(Ok(outcome)) => Ok(outcome),
+                Some(Err(Alone::Failed(e))) => Err(e.into()),
+                Some(Err(Alone::Unfit(reason))) => {
+                    self.ordinary(model, case, self.substeps, Engine::Ordinary(reason))
                 }
+                Some(Err(Alone::Lost)) | None => self.ordinary(model, case, None, Engine::Rerun),
             }
-            if group.is_empty() {
-                break;
-            }
-            let setups: Vec<&LaneSetup> = group
-                .iter()
-                .filter_map(|i| match &stages[*i] {
-                    Stage::Lane(own) => Some(&own.1),
-                    _ => None,
-                })
-                .collect();
-            let found = lanes::march(&setups);
-            for (i, outcome) in group.into_iter().zip(found) {
-                let waiting = std::mem::replace(&mut stages[i], Stage::Gone);
-                if let Stage::Lane(own) = waiting {
-                    let (model, setup) = *own;
-                    stages[i] = Stage::Done(Box::new(self.finish(model, &setup, outcome)));
-                }
-            }
-        }
-        let done = stages.into_iter().filter_map(|stage| match stage {
-            Stage::Done(outcome) => Some(*outcome),
-            _ => None,
-        });
-        done.collect()
+        };
+        models.into_iter().map(one).collect()
     }
 
     fn index(&self, model: &Model) -> Result<usize, Error> {
@@ -249,43 +223,24 @@ impl Sweep {
         }
     }
 
-    fn prepare(&self, parsed: &ModelText, combination: &Combination, tables: &Tables) -> Stage {
-        let done = |outcome| Stage::Done(Box::new(outcome));
-        let model = match parsed.read(&self.registry, combination) {
-            Ok(model) => model,
-            Err(errors) => return done(Err(SweepError::Model(errors))),
-        };
-        match self.try_lane(&model, tables) {
-            Ok(Ok(setup)) => Stage::Lane(Box::new((model, setup))),
-            Ok(Err(reason)) => done(self.ordinary(model, self.substeps, Engine::Ordinary(reason))),
-            Err(e) => done(Err(e.into())),
-        }
-    }
-
-    fn try_lane(
+    fn model(
         &self,
-        model: &Model,
-        tables: &Tables,
-    ) -> Result<Result<LaneSetup, &'static str>, Error> {
-        let case = self.index(model)?;
-        let trilith_model::Analysis::Dynamic(analysis) = &model.cases[case].analysis else {
-            return Ok(Err("a static case"));
-        };
-        let Some(substeps) = self.substeps.or_else(|| lanes::fixed_substeps(analysis)) else {
-            return Ok(Err("adaptive steps"));
-        };
-        let system = trilith_solvers::assemble(model)?;
-        Ok(lanes::prepare(model, &system, case, substeps, tables)?)
+        parsed: &ModelText,
+        combination: &Combination,
+    ) -> Result<(Model, usize), SweepError> {
+        let model = parsed.read(&self.registry, combination).map_err(SweepError::Model)?;
+        let case = self.index(&model)?;
+        Ok((model, case))
     }
 
     /// Runs a model on the ordinary engine.
     fn ordinary(
         &self,
         mut model: Model,
+        case: usize,
         substeps: Option<usize>,
         engine: Engine,
     ) -> Result<Outcome, SweepError> {
-        let case = self.index(&model)?;
         if let trilith_model::Analysis::Dynamic(analysis) = &mut model.cases[case].analysis {
             if let Some(substeps) = substeps {
                 analysis.solution.step = StepControl::Fixed { substeps };
@@ -310,34 +265,6 @@ impl Sweep {
             iterations: result.work.iterations,
         })
     }
-
-    fn finish(
-        &self,
-        model: Model,
-        setup: &LaneSetup,
-        lane: LaneOutcome,
-    ) -> Result<Outcome, SweepError> {
-        if lane.lost.is_some() {
-            return self.ordinary(model, None, Engine::Rerun);
-        }
-        let names = model.outputs.iter().map(|o| o.name.clone());
-        let share = lane.energy.error_relative;
-        let status = if share > setup.energy_limit {
-            Status::EnergyError { share, limit: setup.energy_limit }
-        } else {
-            Status::Converged
-        };
-        Ok(Outcome {
-            engine: Engine::Lanes,
-            status,
-            outputs: Named(names.zip(lane.outputs).collect()),
-            energy: lane.energy,
-            link_energy: named(&model, &lane.link_energy),
-            contact: lane.contact,
-            steps: lane.steps,
-            iterations: lane.iterations,
-        })
-    }
 }
 
 /// How many of the combinations that are left a thread takes: whole widths, and fewer towards the end, so that no
@@ -347,7 +274,7 @@ fn share(left: usize, width: usize, threads: usize) -> usize {
     (widths.clamp(1, MOST) * width).min(left)
 }
 
-fn named(model: &Model, links: &[(usize, LinkEnergy)]) -> Named<LinkEnergy> {
+pub(crate) fn named(model: &Model, links: &[(usize, LinkEnergy)]) -> Named<LinkEnergy> {
     let one = |(element, energy): &(usize, LinkEnergy)| {
         model.elements.get(*element).map(|e| (e.name.clone(), *energy))
     };

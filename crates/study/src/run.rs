@@ -1,0 +1,201 @@
+//! The runs of a study: one by itself, or several side by side.
+
+use crate::column::{self, Left, Watch};
+use crate::{Cell, Place, Record, Study, StudyError};
+use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::path::Path;
+use std::sync::atomic::AtomicBool;
+use trilith::model::file::{NoNames, evaluate};
+use trilith::model::{Model, ParameterValue};
+use trilith::results::Peak;
+use trilith::sweep::{Alone, Lanes, Outcome};
+use trilith::{Analysis, Registry, RunOptions, SolverKind};
+
+impl Study {
+    /// Why its runs go one by one; none where they go side by side.
+    #[must_use]
+    pub fn alone(&self, registry: &Registry) -> Option<String> {
+        if self.histories.is_some() {
+            return Some("histories are kept".into());
+        }
+        if let Some(column) = self.columns.iter().find(|c| c.measure.is_over_time()) {
+            return Some(format!("column \"{}\" is taken over time", column.name));
+        }
+        if self.solver.is_some_and(|solver| solver != SolverKind::Fna) {
+            return Some("another solver than fna".into());
+        }
+        // What the first run says, all say that differ in numbers alone; the others are asked by themselves.
+        let model = self.model(registry, &self.plan.place(0)).ok()?;
+        Lanes::new().check(&model, self.case).ok()?.err()
+    }
+
+    /// Makes those of the runs that go side by side, in their order.
+    pub(crate) fn beside(&self, registry: &Registry, lanes: &Lanes, runs: &[usize]) -> Vec<Record> {
+        let read = |run: &usize| Some((*run, self.model(registry, &self.plan.place(*run)).ok()?));
+        let models: Vec<(usize, Model)> = runs.iter().filter_map(read).collect();
+        let cases: Vec<(&Model, usize)> = models.iter().map(|(_, m)| (m, self.case)).collect();
+        let found = lanes.run(&cases, None);
+        let record = |((run, model), found): (&(usize, Model), Result<Outcome, Alone>)| {
+            let Outcome { status, outputs, energy, contact, .. } = found.ok()?;
+            let peaks: Vec<Peak> = outputs.0.iter().map(|(_, peak)| *peak).collect();
+            let left =
+                Left { status: &status, peaks: &peaks, energy: &energy, contact: contact.as_ref() };
+            Some(self.record(*run, model, &left, &Watch::new(&[])))
+        };
+        models.iter().zip(found).filter_map(record).collect()
+    }
+
+    /// Makes one run, by its number. Whatever goes wrong in it is told in the record.
+    pub(crate) fn run(
+        &self,
+        registry: &Registry,
+        run: usize,
+        folder: &Path,
+        interrupt: &AtomicBool,
+    ) -> Result<Record, StudyError> {
+        let place = self.plan.place(run);
+        let made =
+            catch_unwind(AssertUnwindSafe(|| self.make(registry, run, &place, folder, interrupt)));
+        made.unwrap_or_else(|panic| {
+            let text = panic.downcast_ref::<String>().cloned();
+            let text = text.or_else(|| panic.downcast_ref::<&str>().map(|s| (*s).to_owned()));
+            let message = text.unwrap_or_else(|| "the program gave up".into());
+            Ok(self.failed(run, &self.plan.nominal(&place), "panic", &message))
+        })
+    }
+
+    fn make(
+        &self,
+        registry: &Registry,
+        run: usize,
+        place: &Place,
+        folder: &Path,
+        interrupt: &AtomicBool,
+    ) -> Result<Record, StudyError> {
+        let set = self.plan.nominal(place);
+        let model = match self.model(registry, place) {
+            Ok(model) => model,
+            Err(message) => return Ok(self.failed(run, &set, "model error", &message)),
+        };
+        let mut watch = Watch::new(&self.columns);
+        let histories = self.histories.is_some();
+        let made = Analysis::new(&model).and_then(|a| {
+            let a = if histories { a } else { a.without_histories() };
+            let options = RunOptions {
+                case: self.case,
+                solver: self.solver,
+                interrupt: Some(interrupt),
+                ..RunOptions::default()
+            };
+            a.observed(options, &mut [&mut watch])
+        });
+        let record = match made {
+            Ok(made) => {
+                let left = Left {
+                    status: &made.result.status,
+                    peaks: made.record.peaks(),
+                    energy: &made.result.energy,
+                    contact: made.contact.as_ref(),
+                };
+                let record = self.record(run, &model, &left, &watch);
+                if self.histories.as_ref().is_some_and(|c| c.holds(&self.columns, &record)) {
+                    let own = folder.join("runs").join(format!("{:06}", run + 1));
+                    let fail = |e: trilith::Error| {
+                        let cause = std::io::Error::other(e.to_string());
+                        StudyError::File { path: own.clone(), cause }
+                    };
+                    made.write(&model, &own).map_err(fail)?;
+                }
+                record
+            }
+            Err(e) => Record {
+                parameters: self.cells(&model),
+                ..self.failed(run, &set, "error", &e.to_string())
+            },
+        };
+        Ok(record)
+    }
+
+    /// The model of a run.
+    fn model(&self, registry: &Registry, place: &Place) -> Result<Model, String> {
+        let read = |set: &[(String, String)]| {
+            self.text
+                .read(registry, set)
+                .map_err(|errors| errors.first().map_or_else(String::new, |d| d.message.clone()))
+        };
+        let mut set = self.plan.nominal(place);
+        let model = read(&set)?;
+        let mut factors = self.plan.factors(place.member).peekable();
+        if factors.peek().is_none() {
+            return Ok(model);
+        }
+        for (name, factor) in factors {
+            let parameter = model.parameters.iter().find(|p| p.name == name);
+            if let Some(ParameterValue::Number(x, dimension)) = parameter.map(|p| &p.value) {
+                set.retain(|(n, _)| n != name);
+                set.push((name.to_owned(), crate::number::written(x * factor, *dimension)));
+            }
+        }
+        read(&set)
+    }
+
+    fn record(&self, run: usize, model: &Model, left: &Left<'_>, watch: &Watch) -> Record {
+        let &Left { status, contact, .. } = left;
+        let good = status.is_good();
+        let values = if good {
+            column::values(&self.columns, model, left, watch)
+        } else {
+            vec![None; self.columns.len()]
+        };
+        let told = matches!(status, trilith::solvers::Status::Converged);
+        Record {
+            run,
+            status: status.word().to_owned(),
+            good,
+            message: if told { String::new() } else { status.text() },
+            overturned: contact.is_some_and(|c| c.overturned),
+            initial_mode: contact.filter(|_| good).map(|c| c.initial_mode.to_owned()),
+            mode: contact.filter(|_| good).map(|c| c.mode.to_owned()),
+            parameters: self.cells(model),
+            values,
+        }
+    }
+
+    fn cells(&self, model: &Model) -> Vec<Cell> {
+        let one = |name: &String| match model.parameters.iter().find(|p| p.name == *name) {
+            Some(p) => match &p.value {
+                ParameterValue::Number(x, _) => Cell::Number(*x),
+                ParameterValue::Text(t) => Cell::Text(t.clone()),
+            },
+            None => Cell::Nothing,
+        };
+        self.varied.iter().map(one).collect()
+    }
+
+    /// A run that came to no result. The values asked for are told as far as they are numbers by themselves.
+    fn failed(&self, run: usize, set: &[(String, String)], status: &str, message: &str) -> Record {
+        let cell = |name: &String| {
+            let Some((_, text)) = set.iter().rev().find(|(n, _)| n == name) else {
+                return Cell::Nothing;
+            };
+            if self.is_text(name) {
+                return Cell::Text(text.clone());
+            }
+            match evaluate(text, &mut NoNames) {
+                Ok(q) => Cell::Number(q.value),
+                Err(_) => Cell::Nothing,
+            }
+        };
+        Record {
+            run,
+            status: status.to_owned(),
+            good: false,
+            message: message.to_owned(),
+            overturned: false,
+            initial_mode: None,
+            mode: None,
+            parameters: self.varied.iter().map(cell).collect(),
+            values: vec![None; self.columns.len()],
+        }
+    }
+}

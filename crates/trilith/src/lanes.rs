@@ -1,0 +1,133 @@
+//! Small models side by side, several to a core.
+
+use crate::sweep::{Engine, Outcome, named};
+use crate::{Analysis, Error};
+use trilith_model::Model;
+use trilith_results::Named;
+use trilith_solvers::Status;
+use trilith_solvers::lanes::{self, LaneOutcome, LaneSetup, Tables};
+
+/// Why a model does not go side by side with others.
+#[derive(Debug)]
+pub enum Alone {
+    /// It does not fit, for this reason.
+    Unfit(String),
+    /// Its lane found no equilibrium in however short a step.
+    Lost,
+    /// It cannot be run at all.
+    Failed(Error),
+}
+
+/// Runs models side by side where they fit (see [`solvers::lanes`](crate::solvers::lanes)). What their loads have in
+/// common is made once.
+#[derive(Debug)]
+pub struct Lanes {
+    tables: Tables,
+    width: usize,
+}
+
+impl Default for Lanes {
+    fn default() -> Self {
+        Self::new()
+    }
+}
+
+impl Lanes {
+    /// As many side by side as the machine's registers hold.
+    #[must_use]
+    pub fn new() -> Self {
+        Self { tables: Tables::new(), width: lanes::width() }
+    }
+
+    /// So many side by side at most: 1 runs each alone, with the same bits.
+    #[must_use]
+    pub fn at_most(self, width: usize) -> Self {
+        Self { width: width.clamp(1, lanes::width()), ..self }
+    }
+
+    /// How many go side by side at most.
+    #[must_use]
+    pub fn width(&self) -> usize {
+        self.width
+    }
+
+    /// Whether a case of a model fits; the reason where it does not.
+    ///
+    /// # Errors
+    /// Where the case cannot be run at all.
+    pub fn check(&self, model: &Model, case: usize) -> Result<Result<(), String>, Error> {
+        Ok(self.prepare(model, case, None)?.map(drop))
+    }
+
+    /// Runs a case of each model. `substeps`: fixed steps, so many to an output step, whatever the models say.
+    #[must_use]
+    pub fn run(
+        &self,
+        cases: &[(&Model, usize)],
+        substeps: Option<usize>,
+    ) -> Vec<Result<Outcome, Alone>> {
+        let setups = cases.iter().map(|(model, case)| match self.prepare(model, *case, substeps) {
+            Ok(fit) => fit.map_err(Alone::Unfit),
+            Err(e) => Err(Alone::Failed(e)),
+        });
+        let setups: Vec<Result<LaneSetup, Alone>> = setups.collect();
+        let mut waiting: Vec<usize> = (0..setups.len()).filter(|i| setups[*i].is_ok()).collect();
+        let mut found: Vec<Option<LaneOutcome>> = cases.iter().map(|_| None).collect();
+        while let Some(Ok(first)) = waiting.first().map(|i| &setups[*i]) {
+            let fits = |i: &usize| setups[*i].as_ref().is_ok_and(|own| first.fits(own));
+            let (mut group, mut rest): (Vec<usize>, Vec<usize>) =
+                waiting.into_iter().partition(fits);
+            rest.extend(group.split_off(group.len().min(self.width)));
+            rest.sort_unstable();
+            let own: Vec<&LaneSetup> =
+                group.iter().filter_map(|i| setups[*i].as_ref().ok()).collect();
+            group.into_iter().zip(lanes::march(&own)).for_each(|(i, o)| found[i] = Some(o));
+            waiting = rest;
+        }
+        let all = cases.iter().zip(setups).zip(found);
+        let one = |(((model, _), setup), lane): ((&(&Model, usize), _), Option<_>)| {
+            let setup: LaneSetup = setup?;
+            lane.ok_or(Alone::Lost).and_then(|lane| outcome(model, &setup, lane))
+        };
+        all.map(one).collect()
+    }
+
+    fn prepare(
+        &self,
+        model: &Model,
+        case: usize,
+        substeps: Option<usize>,
+    ) -> Result<Result<LaneSetup, String>, Error> {
+        let trilith_model::Analysis::Dynamic(analysis) = &model.cases[case].analysis else {
+            return Ok(Err("a static case".into()));
+        };
+        let Some(substeps) = substeps.or_else(|| lanes::fixed_substeps(analysis)) else {
+            return Ok(Err("adaptive steps".into()));
+        };
+        let made = Analysis::new(model)?;
+        Ok(lanes::prepare(model, made.system(), case, substeps, &self.tables)?)
+    }
+}
+
+fn outcome(model: &Model, setup: &LaneSetup, lane: LaneOutcome) -> Result<Outcome, Alone> {
+    if lane.lost.is_some() {
+        return Err(Alone::Lost);
+    }
+    let names = model.outputs.iter().map(|o| o.name.clone());
+    let share = lane.energy.error_relative;
+    let status = if share > setup.energy_limit {
+        Status::EnergyError { share, limit: setup.energy_limit }
+    } else {
+        Status::Converged
+    };
+    Ok(Outcome {
+        engine: Engine::Lanes,
+        status,
+        outputs: Named(names.zip(lane.outputs).collect()),
+        energy: lane.energy,
+        link_energy: named(model, &lane.link_energy),
+        contact: lane.contact,
+        steps: lane.steps,
+        iterations: lane.iterations,
+    })
+}
