@@ -290,6 +290,10 @@ pub(crate) fn run(
     if let (Some(certificate), Some(errors)) = (&certificate, errors) {
         result.errors = errors;
         warnings.extend(certificate.doubt(model, &result.errors));
+        let unknown = result.errors.iter().any(|e| e.step.is_nan());
+        if companion.is_some() && unknown && result.status.is_good() {
+            warnings.push(UNKNOWN.into());
+        }
         let allowed = solution.basis.tolerance;
         if let Some((output, share)) = certificate.worst(model).filter(|(_, e)| *e > allowed)
             && result.status.is_good()
@@ -306,6 +310,9 @@ pub(crate) fn run(
     result.warnings = warnings;
     Ok(result)
 }
+
+/// Said where the companion of a run has found no end.
+const UNKNOWN: &str = "how far the steps are off is not known: the same run at twice the tolerance, which is made beside it to learn that, came to no end; another `tolerance` of the steps, or a shorter `dt`, may help";
 
 /// Where a run ended, and what it carries there.
 pub(crate) struct Arrival<'a> {

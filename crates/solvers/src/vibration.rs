@@ -142,10 +142,14 @@ impl Vibration {
         let swinging = self.swing.iter().map(|(j, swing)| (self.form.omega[*j], swing));
         let swinging = swinging.filter(|(w, x)| 0.5 * (w * *x).powi(2) > FEW * self.energy);
         let fastest = swinging.map(|(w, _)| w).fold(0.0, f64::max);
-        let parts = ((fastest * dt / SHORT).ceil() as usize).clamp(FEWEST, MOST) | 1;
+        let parts = ((fastest * dt / SHORT).ceil() as usize).max(FEWEST) | 1;
+        if parts > MOST {
+            // A touch may lie between the looks: shorter steps will show it.
+            return self.energy;
+        }
         let inside = self.form.inside(&from.motion, &to.motion, *dt, parts);
         if inside.is_empty() {
-            // Nobody knows what is inside: shorter steps will show it.
+            // Nobody knows what is inside.
             return self.energy;
         }
         let part = dt / parts as f64;

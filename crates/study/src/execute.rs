@@ -183,14 +183,7 @@ impl Shared<'_> {
             let runs: Vec<usize> = firsts.iter().map(|first| first + step).collect();
             let new: Vec<usize> =
                 runs.iter().copied().filter(|run| !self.kept.contains_key(run)).collect();
-            let made = self.make(&new)?;
-            if self.interrupt.load(Ordering::Relaxed) {
-                // They may have been cut short.
-                return Ok(());
-            }
-            if let Ok(mut journal) = self.journal.lock() {
-                made.iter().try_for_each(|record| journal.write(record))?;
-            }
+            let Some(made) = self.make(&new)? else { return Ok(()) };
             let mut made = made.into_iter();
             let mut going = Vec::with_capacity(firsts.len());
             for (first, run) in firsts.into_iter().zip(runs) {
@@ -212,21 +205,36 @@ impl Shared<'_> {
         Ok(())
     }
 
-    /// Makes runs, side by side where they fit.
-    fn make(&self, runs: &[usize]) -> Result<Vec<Record>, StudyError> {
+    /// Makes runs, side by side where they fit; each is on disk as soon as it is done. None where that was interrupted.
+    fn make(&self, runs: &[usize]) -> Result<Option<Vec<Record>>, StudyError> {
         let (study, registry) = (self.study, self.registry);
         let beside = self.lanes.as_ref().map(|lanes| {
             // Where a law panics, the run that it is in tells so when it goes alone.
             catch_unwind(AssertUnwindSafe(|| study.beside(registry, lanes, runs)))
         });
         let beside = beside.and_then(Result::ok).unwrap_or_default();
+        beside.iter().try_for_each(|record| self.write(record))?;
         self.beside.fetch_add(beside.len(), Ordering::Relaxed);
         let mut beside = beside.into_iter().peekable();
-        let one = |run: &usize| match beside.next_if(|record| record.run == *run) {
-            Some(record) => Ok(record),
-            None => study.run(registry, *run, self.folder, self.interrupt),
-        };
-        runs.iter().map(one).collect()
+        let mut made = Vec::with_capacity(runs.len());
+        for run in runs {
+            if let Some(record) = beside.next_if(|record| record.run == *run) {
+                made.push(record);
+                continue;
+            }
+            let record = study.run(registry, *run, self.folder, self.interrupt)?;
+            if self.interrupt.load(Ordering::Relaxed) {
+                // It may have been cut short.
+                return Ok(None);
+            }
+            self.write(&record)?;
+            made.push(record);
+        }
+        Ok(Some(made))
+    }
+
+    fn write(&self, record: &Record) -> Result<(), StudyError> {
+        self.journal.lock().map_or(Ok(()), |mut journal| journal.write(record))
     }
 
     fn count(&self, runs: usize, failed: bool) {
