@@ -39,7 +39,12 @@ fn set(values: &[(&str, &str)]) -> Combination {
 }
 
 fn sweep(text: &str) -> Sweep {
-    Sweep::new(text, "model.ron", trilith::registry()).case("shake").fixed_steps(1)
+    adaptive(text).fixed_steps(1)
+}
+
+/// With the steps of the case, which are adaptive.
+fn adaptive(text: &str) -> Sweep {
+    Sweep::new(text, "model.ron", trilith::registry()).case("shake")
 }
 
 fn outcomes(sweep: &Sweep, combinations: &[Combination]) -> Vec<Outcome> {
@@ -55,11 +60,12 @@ fn read(text: &str, combination: &Combination) -> Model {
     trilith::read_text(text, "model.ron", &trilith::registry(), combination).expect("a model")
 }
 
-fn ordinary(text: &str, combination: &Combination) -> trilith::Run {
+/// The ordinary engine, by steps of a kind or those of the case.
+fn ordinary(text: &str, combination: &Combination, step: Option<StepControl>) -> trilith::Run {
     let mut model = read(text, combination);
     let case = model.case("shake").expect("a case");
-    if let Analysis::Dynamic(dynamic) = &mut model.cases[case].analysis {
-        dynamic.solution.step = StepControl::Fixed { substeps: 1 };
+    if let (Analysis::Dynamic(dynamic), Some(step)) = (&mut model.cases[case].analysis, step) {
+        dynamic.solution.step = step;
     }
     let analysis = trilith::Analysis::new(&model).expect("a structure");
     analysis.run(RunOptions { case, ..RunOptions::default() }).expect("a run")
@@ -149,12 +155,16 @@ fn all_instructions_with_fma_give_the_same_bits() {
         ("table", TABLE, amplitudes.clone()),
         ("stops", STOPS, amplitudes),
     ] {
-        agree(name, text, &chosen);
+        for control in [StepControl::Fixed { substeps: 1 }, ADAPTIVE] {
+            agree(name, text, &chosen, control);
+        }
     }
 }
 
+const ADAPTIVE: StepControl = StepControl::Adaptive { tolerance: 1e-4 };
+
 /// All instructions give the same bits, and in all combinations something happens.
-fn agree(name: &str, text: &str, chosen: &[Combination]) {
+fn agree(name: &str, text: &str, chosen: &[Combination], control: StepControl) {
     let tables = Tables::default();
     let setups: Vec<LaneSetup> = chosen
         .iter()
@@ -162,7 +172,7 @@ fn agree(name: &str, text: &str, chosen: &[Combination]) {
             let model = read(text, combination);
             let system = assemble(&model).expect("a structure");
             let case = model.case("shake").expect("a case");
-            prepare(&model, &system, case, 1, &tables).expect("a start").expect("a lane")
+            prepare(&model, &system, case, control, &tables).expect("a start").expect("a lane")
         })
         .collect();
     let setups: Vec<&LaneSetup> = setups.iter().collect();
@@ -183,65 +193,116 @@ fn agree(name: &str, text: &str, chosen: &[Combination]) {
     }
 }
 
-#[track_caller]
-fn near(a: f64, b: f64, size: f64, what: &str) {
-    assert!((a - b).abs() <= 1e-9 * size, "{what}: {a} {b}");
-}
-
-/// Both iterate to a tolerance so fine that what is left of the residual cannot be seen.
+/// Both iterate to a tolerance so fine that what is left of the residual cannot be seen. With adaptive steps both make
+/// the same ones, but for very few: where a link is at rest in a direction, rounding decides whether it turns there.
 #[test]
 fn lanes_give_what_the_ordinary_engine_gives() {
     let foot = &FOOT.replace(r#"dt: "1 ms""#, r#"dt: "1 ms", link_tolerance: 1e-12"#);
-    let all = combinations();
-    for (lane, values) in outcomes(&sweep(foot), &all).iter().zip(&all) {
-        assert_eq!(lane.engine, Engine::Lanes, "{values:?}");
-        let run = ordinary(foot, values);
-        for name in ["slide", "speed", "press", "stretch", "acceleration"] {
-            let (a, b) = (lane.outputs.get(name).expect("an output"), run.peak(name).expect("one"));
-            let what = format!("{name} of {values:?}");
-            let size = b.magnitude();
-            near(a.max, b.max, size, &what);
-            near(a.min, b.min, size, &what);
-            near(a.last, b.last, size, &what);
-            if size > 0.0 && b.max > 1e-9 * size {
-                assert!((a.t_max - b.t_max).abs() < 1e-6, "{what}: {a:?} {b:?}");
-            }
+    // Long steps: some are halved more than once, and loads end inside of some.
+    let long = foot.replace(r#"dt: "1 ms""#, r#"dt: "4 ms""#);
+    let long = &long.replace(r#"r3: "1 MN*m""#, r#"r3: "10 kN*m""#);
+    let fixed = Some(StepControl::Fixed { substeps: 1 });
+    for (text, sweep, step) in
+        [(foot, sweep(foot), fixed), (foot, adaptive(foot), None), (long, adaptive(long), None)]
+    {
+        let all = combinations();
+        let mut others = 0;
+        for (lane, values) in outcomes(&sweep, &all).iter().zip(&all) {
+            assert_eq!(lane.engine, Engine::Lanes, "{values:?}");
+            let run = ordinary(text, values, step);
+            let is_same = lane.steps == run.result.work.substeps;
+            let share = match (is_same, step) {
+                (_, Some(_)) => 1e-9,
+                (true, None) => 1e-7,
+                // What steps of the tolerance leave.
+                (false, None) => 1e-2,
+            };
+            others += usize::from(!is_same);
+            same(lane, &run, values, share);
         }
-        let (a, b) = (&lane.energy, &run.result.energy);
-        for (x, y, what) in [
-            (a.input, b.input, "input"),
-            (a.kinetic, b.kinetic, "kinetic"),
-            (a.strain, b.strain, "strain"),
-            (a.potential, b.potential, "potential"),
-            (a.modal_damping, b.modal_damping, "damping"),
-            (a.link_stored, b.link_stored, "stored"),
-            (a.link_hysteretic, b.link_hysteretic, "hysteretic"),
-            (a.link_viscous, b.link_viscous, "viscous"),
-            (a.error, b.error, "error"),
-        ] {
-            near(x, y, b.input.abs().max(1.0), &format!("{what} of {values:?}"));
-        }
-        near(a.error_relative, b.error_relative, 1.0, "share");
-        let (a, b) = (lane.contact.as_ref().expect("feet"), run.contact.as_ref().expect("feet"));
-        assert_eq!((a.initial_mode, a.mode), (b.initial_mode, b.mode));
-        near(a.max_slip, b.max_slip, 1.0, "slip");
-        near(a.max_uplift, b.max_uplift, 1.0, "uplift");
-        assert_eq!(lane.steps, run.result.work.substeps);
+        let allowed = if step.is_some() { 0 } else { 2 };
+        assert!(others <= allowed, "{others} of {} have made other steps", all.len());
     }
+}
+
+/// Feet that rock, and feet in space whose friction hangs on the rate: where links turn inside steps, the errors of the
+/// steps hang on it.
+#[test]
+fn adaptive_lanes_make_the_steps_of_the_ordinary_engine() {
+    let fine = |text: &str| text.replace(r#"dt: "1 ms""#, r#"dt: "2 ms", link_tolerance: 1e-12"#);
+    let (block, table) = (&fine(BLOCK), &fine(TABLE));
+    let cv = ("cv", "20 kN*s/m");
+    for (text, values) in [
+        (block, set(&[("mu", "0.2"), ("a", "0.6"), ("duration", "1 s"), cv])),
+        (block, set(&[("mu", "0.6"), ("a", "0.8"), ("duration", "0.4 s"), cv])),
+        (table, set(&[("a", "4 m/s^2")])),
+    ] {
+        let found = outcomes(&adaptive(text), std::slice::from_ref(&values));
+        assert_eq!(found[0].engine, Engine::Lanes, "{values:?}");
+        let run = ordinary(text, &values, None);
+        assert!(run.result.work.rejected > 10, "{values:?}: {:?}", run.result.work);
+        assert_eq!(found[0].steps, run.result.work.substeps, "{values:?}");
+        for (name, lane) in &found[0].outputs.0 {
+            let peak = run.peak(name).expect("one");
+            let what = format!("{name} of {values:?}");
+            assert!((lane.max - peak.max).abs() <= 1e-6 * peak.magnitude(), "{what}");
+            assert!((lane.min - peak.min).abs() <= 1e-6 * peak.magnitude(), "{what}");
+        }
+    }
+}
+
+/// Everything in an outcome.
+#[track_caller]
+fn same(lane: &Outcome, run: &trilith::Run, values: &Combination, share: f64) {
+    let near = |a: f64, b: f64, size: f64, what: &str| {
+        assert!((a - b).abs() <= share * size, "{what}: {a} {b}");
+    };
+    for name in ["slide", "speed", "press", "stretch", "acceleration"] {
+        let (a, b) = (lane.outputs.get(name).expect("an output"), run.peak(name).expect("one"));
+        let what = format!("{name} of {values:?}");
+        let size = b.magnitude();
+        near(a.max, b.max, size, &what);
+        near(a.min, b.min, size, &what);
+        near(a.last, b.last, size, &what);
+        if share < 1e-6 && size > 0.0 && b.max > 1e-9 * size {
+            assert!((a.t_max - b.t_max).abs() < 1e-6, "{what}: {a:?} {b:?}");
+        }
+    }
+    let (a, b) = (&lane.energy, &run.result.energy);
+    for (x, y, what) in [
+        (a.input, b.input, "input"),
+        (a.kinetic, b.kinetic, "kinetic"),
+        (a.strain, b.strain, "strain"),
+        (a.potential, b.potential, "potential"),
+        (a.modal_damping, b.modal_damping, "damping"),
+        (a.link_stored, b.link_stored, "stored"),
+        (a.link_hysteretic, b.link_hysteretic, "hysteretic"),
+        (a.link_viscous, b.link_viscous, "viscous"),
+        (a.error, b.error, "error"),
+    ] {
+        near(x, y, b.input.abs().max(1.0), &format!("{what} of {values:?}"));
+    }
+    near(a.error_relative, b.error_relative, 1.0, "share");
+    let (a, b) = (lane.contact.as_ref().expect("feet"), run.contact.as_ref().expect("feet"));
+    assert_eq!((a.initial_mode, a.mode), (b.initial_mode, b.mode));
+    near(a.max_slip, b.max_slip, 1.0, "slip");
+    near(a.max_uplift, b.max_uplift, 1.0, "uplift");
 }
 
 #[test]
 fn an_outcome_does_not_depend_on_neighbours_or_threads() {
     let all = combinations();
-    let lanes = text(&outcomes(&sweep(FOOT).threads(1), &all));
-    assert_eq!(lanes, text(&outcomes(&sweep(FOOT).threads(1).width(1), &all)), "alone");
-    assert_eq!(lanes, text(&outcomes(&sweep(FOOT).threads(1).width(5), &all)), "in fives");
-    assert_eq!(lanes, text(&outcomes(&sweep(FOOT).threads(3), &all)), "by three threads");
-    let mut backwards: Vec<Combination> = all.clone();
-    backwards.reverse();
-    let mut found = outcomes(&sweep(FOOT), &backwards);
-    found.reverse();
-    assert_eq!(lanes, text(&found), "backwards");
+    for sweep in [sweep, adaptive] {
+        let lanes = text(&outcomes(&sweep(FOOT).threads(1), &all));
+        assert_eq!(lanes, text(&outcomes(&sweep(FOOT).threads(1).width(1), &all)), "alone");
+        assert_eq!(lanes, text(&outcomes(&sweep(FOOT).threads(1).width(5), &all)), "in fives");
+        assert_eq!(lanes, text(&outcomes(&sweep(FOOT).threads(3), &all)), "by three threads");
+        let mut backwards: Vec<Combination> = all.clone();
+        backwards.reverse();
+        let mut found = outcomes(&sweep(FOOT), &backwards);
+        found.reverse();
+        assert_eq!(lanes, text(&found), "backwards");
+    }
 }
 
 #[test]
@@ -262,10 +323,8 @@ fn what_does_not_fit_runs_on_the_ordinary_engine_and_says_why() {
     assert!(reason(&stiff).contains("too long"), "{}", reason(&stiff));
     let hht = FOOT.replace(r#"dt: "1 ms""#, r#"dt: "1 ms", solver: Hht"#);
     assert!(reason(&hht).contains("fna"), "{}", reason(&hht));
-    let adaptive = Sweep::new(FOOT, "model.ron", trilith::registry()).case("shake");
-    let found = outcomes(&adaptive, &one);
-    assert_eq!(found[0].engine, Engine::Ordinary("adaptive steps".into()));
-    let run = trilith::run(&read(FOOT, &one[0]), "shake").expect("a run");
+    let found = outcomes(&adaptive(&turning), &one);
+    let run = trilith::run(&read(&turning, &one[0]), "shake").expect("a run");
     assert_eq!(found[0].energy, run.result.energy);
 }
 

@@ -41,18 +41,18 @@ use trilith_system::{LoadSet, StepLoads};
 /// Halvings of an output step at most.
 pub(crate) const DEPTH: u32 = 30;
 /// Halvings for the sake of accuracy at most; then the step is accepted and counted.
-const ACCURACY_DEPTH: u32 = 26;
+pub(crate) const ACCURACY_DEPTH: u32 = 26;
 /// Share of the dissipation of a step that its energy balance may miss; a third of the usual limit of a
 /// whole run.
-const CLOSURE: f64 = 3e-4;
+pub(crate) const CLOSURE: f64 = 3e-4;
 /// Operations whose rounding may add up in the link energies of a step.
-const ROUNDING: f64 = 16.0;
+pub(crate) const ROUNDING: f64 = 16.0;
 /// A step is doubled where its error is below this share of the tolerance, ...
 const GROW_BELOW: f64 = 0.08;
 /// ... and that of its displacements, which grows by the way as well, below this share.
 const GROW_BELOW_ON_WAY: f64 = 0.16;
 /// A step counts as going this share of the largest displacement so far at least.
-const LEAST_WAY: f64 = 0.01;
+pub(crate) const LEAST_WAY: f64 = 0.01;
 
 /// What the march carries from step to step beside the state.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
@@ -142,10 +142,12 @@ impl Measured {
     fn most(&self) -> f64 {
         larger(self.error, self.on_way)
     }
+}
 
-    fn may_grow(&self, tolerance: f64) -> bool {
-        self.error < GROW_BELOW * tolerance && self.on_way < GROW_BELOW_ON_WAY * tolerance
-    }
+/// Whether the step behind one with these errors may be twice as long.
+#[inline]
+pub(crate) fn may_grow(error: f64, on_way: f64, tolerance: f64) -> bool {
+    error < GROW_BELOW * tolerance && on_way < GROW_BELOW_ON_WAY * tolerance
 }
 
 /// How far the energies of the links in a step are from closing, and what is allowed: a share of what
@@ -264,7 +266,7 @@ impl<'a> March<'a> {
                     std::mem::swap(state, last);
                     at += ticks;
                     pace.level = level;
-                    if measured.may_grow(tolerance) && level > 0 {
+                    if may_grow(measured.error, measured.on_way, tolerance) && level > 0 {
                         pace.level = level - 1;
                     }
                 }

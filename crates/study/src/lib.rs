@@ -3,7 +3,7 @@
 //! A study is a RON file that names a model and says which parameters take which values: grids, lists, random
 //! draws, records × scales, ensembles about every point. [`Study::read`] checks it, [`execute()`] runs it. Every
 //! finished run is on disk at once; a study that was killed goes on where it was and ends with the same table
-//! to the bit, whatever the number of threads. Small models with fixed steps go side by side in vector lanes.
+//! to the bit, whatever the number of threads. Small models go side by side in vector lanes.
 //!
 //! | file | what |
 //! |---|---|

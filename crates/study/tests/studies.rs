@@ -179,22 +179,28 @@ fn with_fixed_steps(folder: &Path) {
 }
 
 #[test]
-fn small_models_with_fixed_steps_go_side_by_side_and_give_the_same_numbers() {
+fn small_models_go_side_by_side_and_give_the_same_numbers() {
     let folder = folder();
-    let adaptive = read(folder.path(), GRID).unwrap();
+    // Adaptive steps are cut for the fast rotation in lanes, so that they are others.
+    side_by_side(&folder.path().join("adaptive"), 1e-3);
     with_fixed_steps(folder.path());
+    side_by_side(&folder.path().join("fixed"), 1e-6);
+}
+
+/// Runs a study side by side and one by one; `share`: how far they may be apart.
+fn side_by_side(out: &Path, share: f64) {
+    let folder = out.parent().unwrap();
     let body = r#"
         axes: { "mu": [0.1, 0.2, 0.3], "a": Range(from: "1 m/s^2", to: "8 m/s^2", count: 8) },
         stop: (along: "a", when: Above("slide", "30 mm")),
         columns: { "slide": Peak("slide"), "t": TimeOfPeak("slide"), "end": Final("slide"),
             "slip": Slip, "heat": Energy("link_hysteretic"), "lost": EnergyError,"#;
-    let beside = read(folder.path(), &format!("{body} }}")).unwrap();
-    let alone = read(folder.path(), &format!("{body} \"rms\": Rms(\"slide\") }}")).unwrap();
+    let beside = read(folder, &format!("{body} }}")).unwrap();
+    let alone = read(folder, &format!("{body} \"rms\": Rms(\"slide\") }}")).unwrap();
     let registry = trilith::registry();
     assert_eq!(beside.alone(&registry), None);
     assert!(alone.alone(&registry).unwrap().contains("\"rms\""));
-    assert!(adaptive.alone(&registry).is_some());
-    let [at, there] = ["beside", "alone"].map(|name| folder.path().join(name));
+    let [at, there] = ["beside", "alone"].map(|name| out.join(name));
     let (found, expected) = (run(&beside, &at, 2).unwrap(), run(&alone, &there, 2).unwrap());
     assert_eq!((found.beside, expected.beside), (found.records.len(), 0));
     assert!(found.left_out > 0 && found.left_out == expected.left_out);
@@ -203,11 +209,12 @@ fn small_models_with_fixed_steps_go_side_by_side_and_give_the_same_numbers() {
         assert_eq!(own.initial_mode, other.initial_mode);
         for ((x, y), column) in own.values.iter().zip(&other.values).zip(&beside.columns) {
             let (x, y) = (x.unwrap(), y.unwrap());
-            assert!((x - y).abs() <= 1e-6 * y.abs() + 1e-9, "{} {x} {y}", column.name);
+            let least = if column.name == "lost" { share } else { 1e-9 };
+            assert!((x - y).abs() <= share * y.abs() + least, "{} {x} {y}", column.name);
         }
     }
     // Whoever the neighbours are, and whatever was on disk.
-    let again = folder.path().join("again");
+    let again = out.join("again");
     std::fs::create_dir(&again).unwrap();
     let journal = bytes(&at, "runs.journal");
     std::fs::write(again.join("runs.journal"), &journal[..journal.len() / 3]).unwrap();

@@ -2,7 +2,7 @@
 
 use crate::sweep::{Engine, Outcome, named};
 use crate::{Analysis, Error};
-use trilith_model::Model;
+use trilith_model::{Model, StepControl};
 use trilith_results::Named;
 use trilith_solvers::Status;
 use trilith_solvers::lanes::{self, LaneOutcome, LaneSetup, Tables};
@@ -101,11 +101,10 @@ impl Lanes {
         let trilith_model::Analysis::Dynamic(analysis) = &model.cases[case].analysis else {
             return Ok(Err("a static case".into()));
         };
-        let Some(substeps) = substeps.or_else(|| lanes::fixed_substeps(analysis)) else {
-            return Ok(Err("adaptive steps".into()));
-        };
+        let fixed = substeps.map(|substeps| StepControl::Fixed { substeps });
+        let control = fixed.unwrap_or(analysis.solution.step);
         let made = Analysis::new(model)?;
-        Ok(lanes::prepare(model, made.system(), case, substeps, &self.tables)?)
+        Ok(lanes::prepare(model, made.system(), case, control, &self.tables)?)
     }
 }
 

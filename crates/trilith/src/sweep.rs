@@ -1,7 +1,7 @@
 //! Sweeps: one model with many values of its parameters.
 //!
 //! Analyses of a small model go side by side, several to a core, where the model fits (see
-//! [`solvers::lanes`](crate::solvers::lanes)): solver `fna`, fixed steps, links that have a form for lanes.
+//! [`solvers::lanes`](crate::solvers::lanes)): solver `fna`, links that have a form for lanes.
 //! All others run one by one on the ordinary engine; the outcome is of the same kind and says how it came.
 //!
 //! ```
@@ -63,12 +63,12 @@ pub enum SweepError {
 /// How an outcome was computed.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Engine {
-    /// Side by side with others, at fixed steps.
+    /// Side by side with others.
     Lanes,
     /// On the ordinary engine: the model or the case does not fit, for this reason.
     Ordinary(String),
-    /// On the ordinary engine with adaptive steps, after its lane found no equilibrium in however short a
-    /// step.
+    /// On the ordinary engine with adaptive steps, after its lane found no equilibrium, or none within the tolerance, in
+    /// however short a step.
     Rerun,
 }
 
@@ -131,8 +131,7 @@ impl Sweep {
         self
     }
 
-    /// Fixed steps, so many to an output step, whatever the model says. Without it the steps of the
-    /// model, which must be fixed ones for analyses to go side by side.
+    /// Fixed steps, so many to an output step, whatever the model says.
     #[must_use]
     pub fn fixed_steps(mut self, substeps: usize) -> Self {
         self.substeps = Some(substeps.max(1));

@@ -3,7 +3,7 @@
 use super::plan::Plan;
 use super::setup::LaneSetup;
 use super::small::Aligned;
-use crate::single_mode::{self, Mode};
+use crate::single_mode::Mode;
 use trilith_element::lanes::{Arithmetic, Real};
 
 /// Coefficients of a step size.
@@ -20,55 +20,70 @@ pub(super) struct Rule<R, const M: usize, const L: usize> {
 }
 
 impl<R: Real, const M: usize, const L: usize> Rule<R, M, L> {
-    /// Of the usual step, or of a length for each analysis.
+    /// Of a step size of each analysis, and what its modes make of it.
+    #[inline(always)]
     pub fn new<A: Arithmetic<Real = R>, const N: usize>(
         with: A,
-        setups: &[&LaneSetup],
         plan: &Plan<R, M, L, N>,
-        lengths: Option<&[f64]>,
+        sizes: &[(f64, &[Mode])],
     ) -> Self {
         let zero = with.splat(0.0);
-        let grid = setups[0].shape.grid;
-        let part = grid.dt / grid.substeps as f64;
-        let rules: Vec<Vec<Mode>> = setups
-            .iter()
-            .enumerate()
-            .map(|(i, s)| match lengths {
-                None => s.rule.clone(),
-                Some(t) => s
-                    .omega2
-                    .iter()
-                    .zip(&s.damping)
-                    .map(|(w, c)| single_mode::exact(*w, *c, t[i]))
-                    .collect(),
-            })
-            .collect();
-        let last = setups.len() - 1;
+        let last = sizes.len() - 1;
         let mut c = [[[zero; M]; 4]; 3];
         for (row, c) in c.iter_mut().enumerate() {
             for (column, c) in c.iter_mut().enumerate() {
-                for (j, c) in c.iter_mut().enumerate().take(setups[0].shape.modes) {
-                    *c = with.gather(|i| rules[i.min(last)][j][row][column]);
+                for (j, c) in c.iter_mut().enumerate().take(sizes[0].1.len()) {
+                    *c = with.gather(|i| sizes[i.min(last)].1[j][row][column]);
                 }
             }
         }
-        let compliance = |row: usize| -> [[R; L]; L] {
-            let mut g = [[zero; L]; L];
-            for a in 0..L {
-                for b in 0..L {
-                    for j in 0..M {
-                        g[b][a] = g[b][a] - plan.b[a][j] * c[row][3][j] * plan.b[b][j];
-                    }
-                }
-            }
-            g
-        };
-        let dt = match lengths {
-            None => with.splat(part),
-            Some(t) => with.gather(|i| t[i.min(last)]),
-        };
+        let dt = with.gather(|i| sizes[i.min(last)].0);
         let (per_dt, third) = (with.splat(1.0) / dt, dt * with.splat(1.0 / 3.0));
-        let [g, h] = [1, 2].map(|row| Aligned(compliance(row)));
+        let (g, h) = (compliance(plan, &c, 1), compliance(plan, &c, 2));
         Self { dt, per_dt, third, c: Aligned(c), g, h }
     }
+
+    /// Of the usual step.
+    pub fn usual<A: Arithmetic<Real = R>, const N: usize>(
+        with: A,
+        setups: &[&LaneSetup],
+        plan: &Plan<R, M, L, N>,
+    ) -> Self {
+        let size = |s: &&'_ LaneSetup| s.shape.grid.step();
+        let sizes: Vec<(f64, &[Mode])> = setups.iter().map(|s| (size(s), &s.rule[..])).collect();
+        Self::new(with, plan, &sizes)
+    }
+
+    /// Of a length for each analysis.
+    pub fn of_lengths<A: Arithmetic<Real = R>, const N: usize>(
+        with: A,
+        setups: &[&LaneSetup],
+        plan: &Plan<R, M, L, N>,
+        lengths: impl Fn(usize) -> f64,
+    ) -> Self {
+        let modes: Vec<Vec<Mode>> =
+            setups.iter().enumerate().map(|(i, s)| s.modes_of(lengths(i))).collect();
+        let sizes: Vec<(f64, &[Mode])> =
+            modes.iter().enumerate().map(|(i, modes)| (lengths(i), &modes[..])).collect();
+        Self::new(with, plan, &sizes)
+    }
+}
+
+/// What coordinates do under forces at others, by a row of the coefficients: minus that, column by column.
+#[inline(always)]
+fn compliance<R: Real, const M: usize, const L: usize, const N: usize>(
+    plan: &Plan<R, M, L, N>,
+    c: &[[[R; M]; 4]; 3],
+    row: usize,
+) -> Aligned<[[R; L]; L]> {
+    let zero = plan.b[0][0].of(0.0);
+    let mut g = Aligned([[zero; L]; L]);
+    for a in 0..L {
+        for b in 0..L {
+            for j in 0..M {
+                g[b][a] = g[b][a] - plan.b[a][j] * c[row][3][j] * plan.b[b][j];
+            }
+        }
+    }
+    g
 }

@@ -176,6 +176,7 @@ impl<R: Real> Feet<R> {
     }
 
     /// Takes the other where the mask says no.
+    #[inline(always)]
     pub(super) fn keep(&mut self, mask: R::Mask, other: &Self) {
         let one = |x: &mut R, y: &R| *x = R::select(mask, *x, *y);
         for (x, y) in self.feet.iter_mut().zip(&other.feet) {

@@ -1,7 +1,8 @@
 //! Loads over a step.
 
+use super::grid::Piece;
 use super::plan::{Plan, Source, Varying, pick};
-use super::setup::{LaneSetup, Piece};
+use super::setup::LaneSetup;
 use super::small::Aligned;
 use trilith_element::lanes::{Arithmetic, Real};
 use trilith_model::Side;

@@ -1,6 +1,7 @@
 //! The march in lanes: the only loop over time of a sweep.
 
 use super::LaneOutcome;
+use super::adaptive::Adaptive;
 use super::coefficients::Rule;
 use super::newton::{Found, foresee, settle};
 use super::pieces::{cut_step, in_halves};
@@ -106,14 +107,25 @@ fn sized<A: Arithmetic>(with: A, setups: &[&LaneSetup]) -> Vec<LaneOutcome> {
     let coordinates = n * shape.links.len();
     let small = shape.modes <= 3;
     match (n, coordinates) {
-        (1, ..=2) if small => with.run(Lanes::<3, 2, 1> { setups }),
-        (1, _) => with.run(Lanes::<12, 12, 1> { setups }),
+        (1, ..=2) if small => of_size::<A, 3, 2, 1>(with, setups),
+        (1, _) => of_size::<A, 12, 12, 1>(with, setups),
         // Alone four modes are one register.
-        (2, ..=4) if small && A::WIDTH == 1 => with.run(Lanes::<4, 4, 2> { setups }),
-        (2, ..=4) if small => with.run(Lanes::<3, 4, 2> { setups }),
-        (2, _) => with.run(Lanes::<12, 12, 2> { setups }),
-        (_, ..=6) if small => with.run(Lanes::<3, 6, 3> { setups }),
-        _ => with.run(Lanes::<12, 12, 3> { setups }),
+        (2, ..=4) if small && A::WIDTH == 1 => of_size::<A, 4, 4, 2>(with, setups),
+        (2, ..=4) if small => of_size::<A, 3, 4, 2>(with, setups),
+        (2, _) => of_size::<A, 12, 12, 2>(with, setups),
+        (_, ..=6) if small => of_size::<A, 3, 6, 3>(with, setups),
+        _ => of_size::<A, 12, 12, 3>(with, setups),
+    }
+}
+
+fn of_size<A: Arithmetic, const M: usize, const L: usize, const N: usize>(
+    with: A,
+    setups: &[&LaneSetup],
+) -> Vec<LaneOutcome> {
+    if setups[0].shape.is_adaptive {
+        with.run(Adaptive::<M, L, N> { setups })
+    } else {
+        with.run(Lanes::<M, L, N> { setups })
     }
 }
 
@@ -130,8 +142,8 @@ impl<A: Arithmetic, const M: usize, const L: usize, const N: usize> Task<A> for 
         let mut state = State::new(with, self.setups, &plan);
         let shape = &self.setups[0].shape;
         let parts = shape.grid.substeps;
-        let part = shape.grid.dt / parts as f64;
-        let usual = Rule::new(with, self.setups, &plan, None);
+        let part = shape.grid.step();
+        let usual = Rule::usual(with, self.setups, &plan);
         let mut loads = plan.no_loads(with);
         let mut found = Found::new(with.splat(0.0));
         let mut passed = Passed::new(with.splat(0.0));
@@ -161,7 +173,7 @@ impl<A: Arithmetic, const M: usize, const L: usize, const N: usize> Task<A> for 
                     let [step, i] = [step, i].map(|n| n.cast_signed() as f64);
                     let t = step * shape.grid.dt + part * i;
                     let alive = state.alive;
-                    settle(with, &plan, &usual, alive, &mut state, &mut found);
+                    settle(with, &plan, &usual, (alive, true), &mut state, &mut found);
                     if found.d[0].any(found.wrong) {
                         let step = (&usual, &loads, t);
                         in_halves(with, self.setups, &plan, step, &found, &mut state);

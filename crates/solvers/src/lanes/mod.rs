@@ -1,7 +1,7 @@
 //! Sweeps: one small model with many values of its parameters, several analyses side by side.
 //!
 //! ```text
-//! registers hold one number of each of eight analyses; all go through the same fixed steps
+//! registers hold one number of each of eight analyses; all make a step at once
 //! q, q̇:  the exact recurrences of FNA, with coefficients of each analysis
 //! f = law(d* − G f, v* − H f):  Newton in the link coordinates; who has converged is held by a mask
 //! ```
@@ -9,15 +9,22 @@
 //! An analysis that goes alone fills the registers with what it has of a kind itself: modes, link coordinates, links of
 //! one law, outputs.
 //!
-//! Every analysis gives the same bits whoever its neighbours are, and alone. One that finds no
-//! equilibrium in a step makes that in halves, as the ordinary engine does with fixed steps; where that does
-//! not help it is given up and says so: the caller runs it on the ordinary engine.
+//! With fixed steps all are at the same time (`march`); one that finds no equilibrium in a step makes that in halves
+//! (`pieces`). With adaptive steps each has a time and a length of its own (`adaptive`, `way`), and its errors are those
+//! of the ordinary engine (`error`, `turning`); output steps are halved beforehand where modes or links are too fast for
+//! them. Who finds no equilibrium in however short a step, or an error that no step is short enough for, is given up and
+//! says so: the caller runs it on the ordinary engine.
 //!
-//! A model fits where it is solved by `fna` with fixed steps and Newton's method, all its links have a form
-//! for lanes, its modes are not coupled by damping, and no support moves a link.
+//! Every analysis gives the same bits whoever its neighbours are, and alone.
+//!
+//! A model fits where it is solved by `fna` with Newton's method, all its links have a form for lanes, its modes are
+//! not coupled by damping, and no support moves a link.
 
+mod adaptive;
 mod coefficients;
 mod contact;
+mod error;
+mod grid;
 mod laws;
 mod loads;
 mod march;
@@ -34,9 +41,11 @@ mod small;
 mod state;
 mod step;
 mod tables;
+mod turning;
+mod way;
 
 pub use march::{Instructions, march, march_by};
-pub use setup::{LaneSetup, fixed_substeps, prepare};
+pub use setup::{LaneSetup, prepare};
 pub use tables::Tables;
 
 use crate::contact_mode::ContactSummary;

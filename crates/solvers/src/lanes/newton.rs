@@ -76,7 +76,8 @@ impl<R: Real, const M: usize, const L: usize> Found<R, M, L> {
     }
 }
 
-/// Where the step leads with the forces held, and the first guess of their change.
+/// Where the step leads with the forces held, and the first guess of their change: what the tangents found last answer,
+/// in a step of this length.
 #[inline(always)]
 pub(super) fn foresee<R: Real, const M: usize, const L: usize, const N: usize>(
     plan: &Plan<R, M, L, N>,
@@ -85,7 +86,55 @@ pub(super) fn foresee<R: Real, const M: usize, const L: usize, const N: usize>(
     state: &State<R, M, L, N>,
     found: &mut Found<R, M, L>,
 ) {
-    // Modes with the forces held.
+    hold(plan, rule, loads, state, found);
+    *found.change = times(&state.answer, &less(&found.held, &state.d));
+    if plan.rate {
+        let of_rates = times(&state.answer_to_rate, &less(&found.rates_held, &state.v));
+        *found.change = more(&found.change, &of_rates);
+    }
+    found.follow(plan, rule, state);
+}
+
+/// The same where steps have other lengths than those before: the tangents at the start of the step are made to answer.
+#[inline(always)]
+pub(super) fn foresee_by_tangents<R: Real, const M: usize, const L: usize, const N: usize>(
+    plan: &Plan<R, M, L, N>,
+    rule: &Rule<R, M, L>,
+    loads: &Loads<R, M>,
+    state: &State<R, M, L, N>,
+    found: &mut Found<R, M, L>,
+) {
+    hold(plan, rule, loads, state, found);
+    let moved = less(&found.held, &state.d);
+    let faster = if plan.rate { less(&found.rates_held, &state.v) } else { moved };
+    for a in 0..L {
+        let first = a / N * N;
+        let mut sum = state.k[a][0] * moved[first];
+        for i in 1..N {
+            sum = state.k[a][i].mul_add(moved[first + i], sum);
+        }
+        if plan.rate {
+            for i in 0..N {
+                sum = state.c[a][i].mul_add(faster[first + i], sum);
+            }
+        }
+        found.change[a] = sum;
+    }
+    let mut j = jacobian(plan, rule, state);
+    factor(&mut j);
+    solve(&j, &mut found.change);
+    found.follow(plan, rule, state);
+}
+
+/// The motion of the modes with the forces held at those of the start.
+#[inline(always)]
+fn hold<R: Real, const M: usize, const L: usize, const N: usize>(
+    plan: &Plan<R, M, L, N>,
+    rule: &Rule<R, M, L>,
+    loads: &Loads<R, M>,
+    state: &State<R, M, L, N>,
+    found: &mut Found<R, M, L>,
+) {
     let start = less(&loads.start, &state.push);
     let end = less(&loads.end, &state.push);
     let inputs = [&state.q, &state.p, &start, &end];
@@ -94,24 +143,48 @@ pub(super) fn foresee<R: Real, const M: usize, const L: usize, const N: usize>(
     *found.q = combine(q, inputs);
     *found.p = combine(p, inputs);
     *found.held = plan.deform(&found.q);
-    // What the tangents found last answer.
-    *found.change = times(&state.answer, &less(&found.held, &state.d));
     if plan.rate {
         *found.rates_held = plan.deform(&found.p);
-        let of_rates = times(&state.answer_to_rate, &less(&found.rates_held, &state.v));
-        *found.change = more(&found.change, &of_rates);
     }
-    found.follow(plan, rule, state);
 }
 
-/// Looks for the equilibrium of the analyses in a mask, from what is foreseen. Of the state it changes the tangents and
-/// what follows from them, and what the laws say of a step that ends where they were asked last.
+/// J = I + k G + c H.
+#[inline(always)]
+fn jacobian<R: Real, const M: usize, const L: usize, const N: usize>(
+    plan: &Plan<R, M, L, N>,
+    rule: &Rule<R, M, L>,
+    state: &State<R, M, L, N>,
+) -> [[R; L]; L] {
+    let (zero, one) = (rule.dt.of(0.0), rule.dt.of(1.0));
+    let mut j = [[zero; L]; L];
+    for a in 0..L {
+        let first = a / N * N;
+        j[a][a] = one;
+        for i in 0..N {
+            let k = -state.k[a][i];
+            for b in 0..L {
+                j[a][b] = k.mul_add(rule.g[b][first + i], j[a][b]);
+            }
+            if plan.rate {
+                let c = -state.c[a][i];
+                for b in 0..L {
+                    j[a][b] = c.mul_add(rule.h[b][first + i], j[a][b]);
+                }
+            }
+        }
+    }
+    j
+}
+
+/// Looks for the equilibrium of the analyses in a mask, from what is foreseen. Of the state it changes the tangents,
+/// and what follows from them where it is `kept` for the next step; and what the laws say of a step that ends where
+/// they were asked last.
 #[inline(always)]
 pub(super) fn settle<A: Arithmetic, const M: usize, const L: usize, const N: usize>(
     with: A,
     plan: &Plan<A::Real, M, L, N>,
     rule: &Rule<A::Real, M, L>,
-    who: <A::Real as Real>::Mask,
+    (who, kept): (<A::Real as Real>::Mask, bool),
     state: &mut State<A::Real, M, L, N>,
     found: &mut Found<A::Real, M, L>,
 ) {
@@ -150,26 +223,11 @@ pub(super) fn settle<A: Arithmetic, const M: usize, const L: usize, const N: usi
         if !zero.any(wrong) {
             break;
         }
-        // J = I + k G + c H.
-        let mut j = [[zero; L]; L];
-        for a in 0..L {
-            let first = a / N * N;
-            j[a][a] = one;
-            for i in 0..N {
-                let k = -state.k[a][i];
-                for b in 0..L {
-                    j[a][b] = k.mul_add(rule.g[b][first + i], j[a][b]);
-                }
-                if plan.rate {
-                    let c = -state.c[a][i];
-                    for b in 0..L {
-                        j[a][b] = c.mul_add(rule.h[b][first + i], j[a][b]);
-                    }
-                }
-            }
-        }
+        let mut j = jacobian(plan, rule, state);
         factor(&mut j);
-        state.keep_answers(&j, wrong, plan.rate);
+        if kept {
+            state.keep_answers(&j, wrong, plan.rate);
+        }
         solve(&j, &mut residual);
         // Who goes in circles between two regimes takes shorter ways.
         let part = with.splat(PARTS[(iteration / PATIENCE).min(PARTS.len() - 1)]);

@@ -134,6 +134,7 @@ impl<R: Real, const M: usize> Outputs<R, M> {
 
 impl<R: Real> Extremes<R> {
     /// Takes the other where the mask says no.
+    #[inline(always)]
     pub fn keep(&mut self, mask: R::Mask, other: &Self) {
         self.alone.iter_mut().zip(&other.alone).for_each(|(x, y)| x.keep(mask, y));
         self.together.iter_mut().zip(&other.together).for_each(|(x, y)| x.keep(mask, y));

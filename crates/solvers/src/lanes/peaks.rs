@@ -111,6 +111,7 @@ impl<R: Real, const K: usize> Peaks<R, K> {
     }
 
     /// Takes the other where the mask says no.
+    #[inline(always)]
     pub(super) fn keep(&mut self, mask: R::Mask, other: &Self) {
         for (x, y) in [
             (&mut self.y, &other.y),

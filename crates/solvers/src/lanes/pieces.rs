@@ -2,15 +2,15 @@
 //! ordinary engine does with fixed steps. Every analysis goes its own way, whoever its neighbours are.
 
 use super::coefficients::Rule;
+use super::grid::Piece;
 use super::loads::Loads;
 use super::newton::{Found, foresee, settle};
 use super::plan::Plan;
-use super::setup::{LaneSetup, Piece};
+use super::setup::LaneSetup;
 use super::show::show;
 use super::small::Aligned;
 use super::state::{State, forget, keep};
 use super::step::{Passed, acceleration, account, take};
-use super::tables::Grid;
 use crate::march::DEPTH;
 use trilith_element::lanes::{Arithmetic, Real, Task};
 
@@ -69,16 +69,6 @@ impl Walk {
     }
 }
 
-/// The steps of an output step that nothing cuts.
-fn usual(grid: Grid, step: usize) -> Vec<Piece> {
-    let length = grid.dt / grid.substeps as f64;
-    let one = |i: usize| {
-        let start = step as f64 * grid.dt + length * i as f64;
-        Piece { start, end: start + length, length, jump: false }
-    };
-    (0..grid.substeps).map(one).collect()
-}
-
 /// A step that loads of some analyses cut.
 #[inline(never)]
 pub(super) fn cut_step<A: Arithmetic, const M: usize, const L: usize, const N: usize>(
@@ -88,10 +78,11 @@ pub(super) fn cut_step<A: Arithmetic, const M: usize, const L: usize, const N: u
     step: usize,
     state: &mut State<A::Real, M, L, N>,
 ) {
+    let grid = setups[0].shape.grid;
     let walks = setups.iter().map(|s| {
         let pieces = match s.cut.iter().find(|c| c.0 == step) {
             Some((_, pieces)) => pieces.clone(),
-            None => usual(s.shape.grid, step),
+            None => (0..grid.substeps).map(|i| grid.usual(step, i)).collect(),
         };
         Walk::new(pieces, 0)
     });
@@ -113,7 +104,7 @@ pub(super) fn in_halves<A: Arithmetic, const M: usize, const L: usize, const N: 
     let begin = with.splat(t);
     with.run(End { plan, rule, loads, t: begin, found, before: &before, state });
     let grid = setups[0].shape.grid;
-    let length = grid.dt / grid.substeps as f64;
+    let length = grid.step();
     let walks = (0..setups.len()).map(|i| {
         let failed = with.lane(with.splat(1.0).only(wrong), i) == 1.0;
         let whole = Piece { start: t, end: t + length, length, jump: false };
@@ -141,8 +132,7 @@ fn walk<A: Arithmetic, const M: usize, const L: usize, const N: usize>(
         // Who has nothing left takes any step, and forgets it.
         let any = Piece { start: 0.0, end: grid.dt, length: grid.dt, jump: false };
         let now: Vec<Piece> = next.iter().map(|p| p.unwrap_or(any)).collect();
-        let lengths: Vec<f64> = now.iter().map(|p| p.length).collect();
-        let rule = Rule::new(with, setups, plan, Some(&lengths));
+        let rule = Rule::of_lengths(with, setups, plan, |i| now[i].length);
         let loads = plan.loads_of_pieces(with, setups, &now);
         let t = with.gather(|i| now[i.min(last)].start);
         if plan.accelerations && now.iter().any(|p| p.jump) {
@@ -216,7 +206,7 @@ impl<A: Arithmetic, const M: usize, const L: usize, const N: usize> Task<A>
         let Self { plan, rule, loads, t, who, before, state } = self;
         let mut found = Found::new(with.splat(0.0));
         foresee(plan, rule, loads, state, &mut found);
-        settle(with, plan, rule, who, state, &mut found);
+        settle(with, plan, rule, (who, true), state, &mut found);
         let wrong = found.wrong;
         let mut passed = Passed::new(with.splat(0.0));
         take(plan, rule, (loads, t), &found, state, &mut passed);

@@ -1,19 +1,21 @@
 //! What one analysis brings to a sweep: made by the ordinary assembly, basis and start.
 
+use super::grid::{Grid, Piece, common_parts, cuts};
 use super::rule::stiffness_ratio;
-use super::tables::{Grid, Table, Tables, split};
+use super::tables::{Table, Tables, split};
 use crate::case::before;
 use crate::contact_mode::contacts;
 use crate::contact_role::{Role, Roles};
 use crate::dynamic::held_load;
 use crate::equations::{bases, link_side, modes};
 use crate::error::SolveError;
+use crate::march::Pace;
 use crate::modal::{LONGEST, Modal};
 use crate::outputs::{Outputs, Row};
 use crate::propagator::kinetic_and_strain;
 use crate::single_mode::{self, Mode};
 use crate::space::Space;
-use crate::start::{Initial, constant_force, peak, potential, start};
+use crate::start::{Initial, constant_force, potential, start};
 use crate::stepper::{LinkStepper, State, Stepper};
 use crate::timeline::Timeline;
 use std::any::TypeId;
@@ -24,7 +26,7 @@ use trilith_linalg::{Dense, Sparse, symmetric_eigen};
 use trilith_model::{
     Analysis, DynamicCase, Kernel, Model, Quantity, Side, SolverKind, StepControl,
 };
-use trilith_system::{Channel, LoadSet, System, Track};
+use trilith_system::{System, Track};
 
 /// What must be equal for analyses to go side by side.
 #[derive(Clone, Debug, PartialEq)]
@@ -36,6 +38,7 @@ pub(super) struct Shape {
     /// Indices of the links that a body may stand on.
     pub feet: Vec<usize>,
     pub grid: Grid,
+    pub is_adaptive: bool,
 }
 
 /// One output over modal coordinates and lane coordinates.
@@ -69,14 +72,13 @@ impl Output {
     }
 }
 
-/// A piece of an output step, as a step starts on it.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Piece {
-    pub start: f64,
-    pub end: f64,
-    pub length: f64,
-    /// A load jumps at its start.
-    pub jump: bool,
+/// How the control of the steps starts.
+#[derive(Clone, Debug)]
+pub(super) struct Adaptive {
+    pub tolerance: f64,
+    pub pace: Pace,
+    /// Substeps that may be tried.
+    pub budget: usize,
 }
 
 /// One analysis, ready to go in a lane.
@@ -120,12 +122,19 @@ pub struct LaneSetup {
     pub(super) stands: bool,
     pub(super) values: Vec<f64>,
     pub(super) rates: Vec<f64>,
+    /// Where steps are adaptive.
+    pub(super) adaptive: Option<Adaptive>,
     /// Largest share of the energy that may be unaccounted for.
     pub energy_limit: f64,
     pub(super) tolerance: f64,
 }
 
 impl LaneSetup {
+    /// Coefficients of a step of this length, s.
+    pub(super) fn modes_of(&self, length: f64) -> Vec<Mode> {
+        modes_of(&self.omega2, &self.damping, length)
+    }
+
     /// True where both can go side by side.
     #[must_use]
     pub fn fits(&self, other: &Self) -> bool {
@@ -133,14 +142,18 @@ impl LaneSetup {
     }
 }
 
-/// Longest ω Δt of a mode: a quarter of its period, in which a cubic misses its crest by a hundredth.
+/// Longest ω Δt of a mode: a quarter of its period, in which a cubic misses its crest by a hundredth. Halves of such
+/// steps show how it swings.
 const FASTEST: f64 = std::f64::consts::FRAC_PI_2;
+
+/// An output step is cut in so many halves at most where steps are adaptive and longer ones are too long for modes or
+/// links.
+const HALVINGS: usize = 4;
 
 /// Modes, link coordinates and coordinates of one link at most.
 pub(super) const MOST: (usize, usize, usize) = (12, 12, 3);
 
-/// Prepares a case for a lane, with so many fixed substeps an output step; `Err` with the reason where it
-/// does not fit.
+/// Prepares a case for a lane, with these steps; `Err` with the reason where it does not fit.
 ///
 /// # Errors
 /// [`SolveError`] where the case cannot be run at all.
@@ -148,7 +161,7 @@ pub fn prepare(
     model: &Model,
     system: &System,
     case: usize,
-    substeps: usize,
+    control: StepControl,
     tables: &Tables,
 ) -> Result<Result<LaneSetup, String>, SolveError> {
     let Analysis::Dynamic(analysis) = &model.cases[case].analysis else {
@@ -181,7 +194,7 @@ pub fn prepare(
     let mut stepper = LinkStepper::new(Modal::new(modes), side)?;
     let dt = analysis.dt;
     let times = [dt, analysis.duration];
-    let (state, _, _, _) = start(model, system, &initial, &loads, &mut stepper, times)?;
+    let (state, pace, _, _) = start(model, system, &initial, &loads, &mut stepper, times)?;
     let space = stepper.space();
 
     let m = space.order();
@@ -220,21 +233,37 @@ pub fn prepare(
         space.links.row(a).for_each(|(j, c)| row[j] += c);
         *row = turned(&turn, row);
     }
-    let timeline = Timeline::new(dt, analysis.duration, &loads, substeps);
-    let parts = common_parts(&timeline);
-    let grid = Grid { dt, steps: timeline.steps, substeps: substeps * parts };
-    let step = dt / grid.substeps as f64;
-    let rule: Vec<Mode> =
-        omega2.iter().zip(&own).map(|(w, c)| single_mode::exact(*w, *c, step)).collect();
-    // Extremes between steps are those of cubics.
-    if omega2.iter().any(|w| w.max(0.0).sqrt() * step > FASTEST) {
-        return Ok(Err("modes too fast for the steps".into()));
-    }
     let engaged = links.engaged(model);
     let engaged: Vec<f64> = flat.iter().map(|i| engaged[*i]).collect();
-    if stiffness_ratio(&rows, &rule, &engaged) > LONGEST {
-        return Ok(Err("steps too long for the exact rule at the stiffest link".into()));
+    let too_long = |step: f64| -> Option<&'static str> {
+        let rule = modes_of(&omega2, &own, step);
+        if omega2.iter().any(|w| w.max(0.0).sqrt() * step > FASTEST) {
+            return Some("modes too fast for the steps");
+        }
+        let beyond = stiffness_ratio(&rows, &rule, &engaged) > LONGEST;
+        beyond.then_some("steps too long for the exact rule at the stiffest link")
+    };
+    let on = |substeps: usize| {
+        let timeline = Timeline::new(dt, analysis.duration, &loads, substeps);
+        let parts = common_parts(&timeline);
+        let grid = Grid { dt, steps: timeline.steps, substeps: substeps * parts };
+        (timeline, parts, grid)
+    };
+    let (mut substeps, halvings) = match control {
+        StepControl::Fixed { substeps } => (substeps, 0),
+        StepControl::Adaptive { .. } => (1, HALVINGS),
+    };
+    for _ in 0..halvings {
+        if too_long(dt / substeps as f64).is_some() {
+            substeps *= 2;
+        }
     }
+    let (timeline, parts, grid) = on(substeps);
+    let longest = if halvings == 0 { grid.step() } else { dt / substeps as f64 };
+    if let Some(reason) = too_long(longest) {
+        return Ok(Err(reason.into()));
+    }
+    let rule = modes_of(&omega2, &own, grid.step());
     let first = usize::from(loads.channels.iter().any(|c| matches!(c.track, Track::Constant)));
     let base: Vec<usize> = analysis.base.iter().map(|b| b.direction.index()).collect();
     let outputs = outputs(model, system, space, &flat, (loads.channels.len(), first, &base), &turn);
@@ -268,6 +297,14 @@ pub fn prepare(
         outputs: outputs.iter().map(Output::kind).collect(),
         feet,
         grid,
+        is_adaptive: matches!(control, StepControl::Adaptive { .. }),
+    };
+    let adaptive = match control {
+        StepControl::Fixed { .. } => None,
+        StepControl::Adaptive { tolerance } => {
+            let budget = analysis.solution.substep_limit(timeline.steps);
+            Some(Adaptive { tolerance, pace, budget })
+        }
     };
     Ok(Ok(LaneSetup {
         shape,
@@ -308,10 +345,15 @@ pub fn prepare(
         contacts: standing.into_iter().map(|(_, c)| c).collect(),
         values,
         rates,
+        adaptive,
         energy_limit: analysis.solution.energy_limit,
         tolerance: analysis.solution.link_tolerance,
         omega2,
     }))
+}
+
+fn modes_of(omega2: &[f64], damping: &[f64], step: f64) -> Vec<Mode> {
+    omega2.iter().zip(damping).map(|(w, c)| single_mode::exact(*w, *c, step)).collect()
 }
 
 /// Damping between modes that counts as none, as share of the largest.
@@ -391,85 +433,6 @@ fn unsuited(system: &System, analysis: &DynamicCase) -> Option<&'static str> {
         return Some("a model without links");
     }
     None
-}
-
-/// Substeps of the case's own fixed steps.
-#[must_use]
-pub fn fixed_substeps(analysis: &DynamicCase) -> Option<usize> {
-    match analysis.solution.step {
-        StepControl::Fixed { substeps } => Some(substeps),
-        StepControl::Adaptive { .. } => None,
-    }
-}
-
-/// Parts of an output step are not made shorter than this for the sake of all of them.
-const MOST_PARTS: usize = 64;
-/// The grid follows what cuts one output step in so many.
-const USUAL: usize = 16;
-/// A change of a load below this share of its peak is no jump.
-const JUMPS: f64 = 1e-9;
-
-/// The equal parts of an output step that hold its pieces, unless they would be too many.
-fn parts(timeline: &Timeline, step: usize) -> Option<usize> {
-    let shares: Vec<f64> = timeline.pieces(step).map(|p| p.length / timeline.dt).collect();
-    if (shares.iter().sum::<f64>() - 1.0).abs() > 1e-9 {
-        return None;
-    }
-    let whole = |x: f64| (x - x.round()).abs() < 1e-9 * x;
-    (1..=MOST_PARTS).find(|n| shares.iter().all(|x| whole(x * *n as f64)))
-}
-
-/// Equal parts of every output step, such that few are cut otherwise: 1, unless loads cut many.
-fn common_parts(timeline: &Timeline) -> usize {
-    let mut found = [0_usize; MOST_PARTS + 1];
-    for step in timeline.cut_steps() {
-        parts(timeline, step).into_iter().for_each(|n| found[n] += 1);
-    }
-    let usual = |n: &usize| found[*n] * USUAL >= timeline.steps;
-    let common = |a: usize, b: usize| a / divisor(a, b) * b;
-    let all = (2..=MOST_PARTS).filter(usual).fold(1, common);
-    if all <= MOST_PARTS { all } else { 1 }
-}
-
-/// The greatest common divisor.
-fn divisor(a: usize, b: usize) -> usize {
-    if b == 0 { a } else { divisor(b, a % b) }
-}
-
-/// The output steps that are not so many whole parts, or between which a load jumps, with their steps.
-fn cuts(
-    timeline: &Timeline,
-    loads: &LoadSet,
-    substeps: usize,
-    common: usize,
-) -> Vec<(usize, Vec<Piece>)> {
-    let jumps = |t: f64| {
-        let jump = |c: &Channel| {
-            let change = c.track.at(t, Side::After) - c.track.at(t, Side::Before);
-            change.abs() > JUMPS * peak(&c.track)
-        };
-        t > 0.0 && timeline.is_jump(t) && loads.channels.iter().any(jump)
-    };
-    let steps = timeline.cut_steps();
-    let of_step = |step: usize| -> Vec<Piece> {
-        let pieces = timeline.pieces(step).flat_map(|piece| {
-            let jump = jumps(piece.start);
-            let parts = piece.parts(substeps).enumerate();
-            parts.map(move |(i, p)| Piece {
-                start: p.start,
-                end: p.end,
-                length: p.length,
-                jump: jump && i == 0,
-            })
-        });
-        pieces.collect()
-    };
-    let is_cut = |step: usize| {
-        let (start, end) = (timeline.time(step), timeline.time(step + 1));
-        let as_usual = parts(timeline, step).is_some_and(|n| common.is_multiple_of(n));
-        !as_usual || jumps(start) || jumps(end)
-    };
-    steps.into_iter().filter(|step| is_cut(*step)).map(|step| (step, of_step(step))).collect()
 }
 
 /// The outputs; `channels` are their number, the first that is base motion, and the directions of those.

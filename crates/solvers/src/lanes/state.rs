@@ -6,7 +6,7 @@ use super::plan::{Plan, pick};
 use super::setup::LaneSetup;
 use super::small::Aligned;
 use trilith_element::Contact;
-use trilith_element::lanes::{Arithmetic, LaneStep, Real};
+use trilith_element::lanes::{Arithmetic, LaneStep, Real, Task};
 
 /// Everything that changes.
 #[derive(Clone)]
@@ -125,7 +125,28 @@ impl<R: Real, const M: usize, const L: usize, const N: usize> State<R, M, L, N> 
     }
 }
 
+impl<R: Real, const M: usize, const L: usize, const N: usize> State<R, M, L, N> {
+    /// The motion and the links of another state; what is counted and what was seen is left.
+    #[inline(always)]
+    pub fn follow(&mut self, from: &Self) {
+        (self.q, self.p, self.push, self.a) = (from.q, from.p, from.push, from.a);
+        (self.d, self.v, self.f, self.k, self.c) = (from.d, from.v, from.f, from.k, from.c);
+        (self.scale, self.alive) = (from.scale, from.alive);
+        self.history.copy_from_slice(&from.history);
+        self.amplitudes.copy_from_slice(&from.amplitudes);
+        self.steps.copy_from_slice(&from.steps);
+    }
+
+    /// The energy in motion: kinetic, and what springs and links hold more or less than at the start.
+    #[inline(always)]
+    pub fn in_motion(&self) -> R {
+        let (strained, charged) = (self.strain - self.strain0, self.stored - self.stored0);
+        self.kinetic + strained.abs() + charged.abs()
+    }
+}
+
 /// Takes the other state where a mask says no. Who is alive and how often the laws were asked is left.
+#[inline(always)]
 pub(super) fn keep<R: Real, const M: usize, const L: usize, const N: usize>(
     mask: R::Mask,
     to: &mut State<R, M, L, N>,
@@ -140,6 +161,8 @@ pub(super) fn keep<R: Real, const M: usize, const L: usize, const N: usize>(
     all(&mut *to.v, &*from.v);
     all(&mut *to.f, &*from.f);
     all(&mut *to.push, &*from.push);
+    all(to.k.as_flattened_mut(), from.k.as_flattened());
+    all(to.c.as_flattened_mut(), from.c.as_flattened());
     all(to.answer.as_flattened_mut(), from.answer.as_flattened());
     all(to.answer_to_rate.as_flattened_mut(), from.answer_to_rate.as_flattened());
     all(&mut to.history, &from.history);
@@ -162,6 +185,24 @@ pub(super) fn keep<R: Real, const M: usize, const L: usize, const N: usize>(
     }
     to.peaks.keep(mask, &from.peaks);
     to.feet.keep(mask, &from.feet);
+}
+
+/// What [`keep`] does, as a task.
+pub(super) struct Keep<'a, R: Real, const M: usize, const L: usize, const N: usize> {
+    pub mask: R::Mask,
+    pub to: &'a mut State<R, M, L, N>,
+    pub from: &'a State<R, M, L, N>,
+}
+
+impl<A: Arithmetic, const M: usize, const L: usize, const N: usize> Task<A>
+    for Keep<'_, A::Real, M, L, N>
+{
+    type Output = ();
+
+    #[inline(always)]
+    fn run(self, _: A) {
+        keep(self.mask, self.to, self.from);
+    }
 }
 
 /// The next first guess expects no answer where a mask says so: after a failure the tangents may be no numbers.

@@ -24,6 +24,16 @@ impl<R: Real, const M: usize> Passed<R, M> {
     pub fn new(zero: R) -> Self {
         Self { t: zero, of_modes: Aligned([[zero; M]; 4]) }
     }
+
+    /// Work that the links took.
+    #[inline(always)]
+    pub fn of_links(&self) -> R {
+        let mut sum = self.t.of(0.0);
+        for work in self.of_modes[1] {
+            sum = sum + work;
+        }
+        sum
+    }
 }
 
 /// Takes the end of a step that began at `t`: what the next step starts from.

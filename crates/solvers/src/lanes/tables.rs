@@ -1,17 +1,10 @@
 //! Amplitudes of loads at the steps of a case: made once for all analyses whose loads differ by a factor.
 
+use super::grid::Grid;
 use std::collections::VecDeque;
 use std::sync::{Arc, Mutex, PoisonError, Weak};
 use trilith_model::{Harmonic, Side, TimeFunction};
 use trilith_system::Track;
-
-/// The steps of a case.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Grid {
-    pub dt: f64,
-    pub steps: usize,
-    pub substeps: usize,
-}
 
 /// Amplitude of a load at the start and at the end of every step.
 pub(super) type Table = Vec<[f64; 2]>;
@@ -94,7 +87,7 @@ fn same(a: &Track, b: &Track) -> bool {
 }
 
 fn fill(track: &Track, grid: Grid) -> Table {
-    let part = grid.dt / grid.substeps as f64;
+    let part = grid.step();
     let mut table = Vec::with_capacity(grid.steps * grid.substeps);
     for step in 0..grid.steps {
         for i in 0..grid.substeps {
