@@ -51,8 +51,11 @@ pub(crate) fn output_step(
     moving: &mut Moving,
     tell: &mut Tell<'_>,
 ) -> Result<(), Stop> {
-    let Moving { state, pace, ledger } = moving;
+    if let Some(piece) = timeline.plain(step) {
+        return segment(march, piece, constant, moving, tell);
+    }
     for piece in timeline.pieces(step) {
+        let Moving { state, ledger, .. } = &mut *moving;
         let t0 = piece.start;
         if t0 > 0.0 && timeline.is_jump(t0) {
             march.cut();
@@ -61,12 +64,25 @@ pub(crate) fn output_step(
                 tell(Moment::Jump, t0, state, ledger);
             }
         }
-        let mut accept = |t: f64, s: &State, e: &StepEnergy| -> f64 {
-            let energy = ledger.enter(e, potential(constant, s));
-            tell(Moment::Substep(piece), t, s, ledger);
-            energy
-        };
-        march.segment(state, pace, piece, &mut accept)?;
+        segment(march, piece, constant, moving, tell)?;
     }
     Ok(())
+}
+
+/// A piece of an output step.
+#[inline]
+fn segment(
+    march: &mut March<'_>,
+    piece: Piece,
+    constant: &[f64],
+    moving: &mut Moving,
+    tell: &mut Tell<'_>,
+) -> Result<(), Stop> {
+    let Moving { state, pace, ledger } = moving;
+    let mut accept = |t: f64, s: &State, e: &StepEnergy| -> f64 {
+        let energy = ledger.enter(e, potential(constant, s));
+        tell(Moment::Substep(piece), t, s, ledger);
+        energy
+    };
+    march.segment(state, pace, piece, &mut accept)
 }

@@ -19,6 +19,9 @@ pub(crate) struct Timeline {
     pieces: Vec<Piece>,
     /// Where loads are curved, and the longest pieces there.
     stretches: Vec<Stretch>,
+    /// A bit for every output step that is one piece as long as the others, without a jump at its ends: most are, and
+    /// nothing has to be looked for there.
+    plain: Vec<u64>,
 }
 
 /// A piece of an output step; its length is that of other steps to the bit where it is a whole one or a fraction.
@@ -68,16 +71,36 @@ impl Timeline {
         stretches.iter_mut().for_each(|s| s.step *= substeps.max(1) as f64);
         stretches.retain(|s| s.step < dt);
         let jumps = loads.breaks(duration);
-        let (cut, pieces) = (Vec::new(), Vec::new());
-        let mut timeline = Self { dt, steps, duration, jumps, cut, pieces, stretches };
+        let (cut, pieces, plain) = (Vec::new(), Vec::new(), Vec::new());
+        let mut timeline = Self { dt, steps, duration, jumps, cut, pieces, stretches, plain };
         timeline.cut(&loads.corners(duration, dt));
         timeline.join_lengths();
+        let mut plain = vec![u64::MAX; steps.div_ceil(64)];
+        timeline.cut_steps().into_iter().for_each(|step| plain[step / 64] &= !(1 << (step % 64)));
+        timeline.plain = plain;
         timeline
     }
 
+    #[inline]
+    fn is_plain(&self, step: usize) -> bool {
+        self.plain.get(step / 64).is_some_and(|bits| bits >> (step % 64) & 1 == 1)
+    }
+
+    /// An output step that is one piece as long as the others, without a jump at its ends.
+    #[inline]
+    pub(crate) fn plain(&self, step: usize) -> Option<Piece> {
+        let piece = || Piece { start: self.time(step), end: self.time(step + 1), length: self.dt };
+        self.is_plain(step).then(piece)
+    }
+
     /// Time of an output step: that of a jump, to the bit, where one is there.
+    #[inline]
     pub(crate) fn time(&self, step: usize) -> f64 {
         let t = (step as f64 * self.dt).min(self.duration);
+        // A jump at an output time is at an end of two steps.
+        if self.is_plain(step) || (step > 0 && self.is_plain(step - 1)) {
+            return t;
+        }
         self.jump_near(t).unwrap_or(t)
     }
 
