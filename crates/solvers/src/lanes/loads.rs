@@ -4,6 +4,7 @@ use super::grid::Piece;
 use super::plan::{Plan, Source, Varying, pick};
 use super::setup::LaneSetup;
 use super::small::Aligned;
+use super::way::Way;
 use trilith_element::lanes::{Arithmetic, Real};
 use trilith_model::Side;
 
@@ -105,4 +106,53 @@ fn amplitude<A: Arithmetic>(
         let (t, side) = at(piece);
         track.at(t, side) * size
     })
+}
+
+/// Loads at the start, in the middle and at the end of the steps.
+pub(super) struct Points<R, const M: usize> {
+    pub whole: Loads<R, M>,
+    pub halves: [Loads<R, M>; 2],
+    /// Amplitudes at the start, where an output asks for accelerations.
+    pub start: Vec<R>,
+}
+
+impl<R: Real, const M: usize> Points<R, M> {
+    pub fn new<A: Arithmetic<Real = R>, const L: usize, const N: usize>(
+        with: A,
+        plan: &Plan<R, M, L, N>,
+    ) -> Self {
+        let none = || plan.no_loads(with);
+        Self { whole: none(), halves: [none(), none()], start: none().amplitudes }
+    }
+
+    #[inline(always)]
+    pub fn gather<A: Arithmetic<Real = R>, const L: usize, const N: usize>(
+        &mut self,
+        with: A,
+        plan: &Plan<R, M, L, N>,
+        ways: &[Way<'_>],
+    ) {
+        let last = ways.len() - 1;
+        let mut points = [plan.steady; 3];
+        for varying in &plan.varying {
+            let channel = varying.channel;
+            let of = |k: usize| with.gather(|i| ways[i.min(last)].amplitudes[channel][k]);
+            let (start, middle, end) = (of(0), of(1), of(2));
+            for j in 0..M {
+                let force = varying.force[j];
+                points[0][j] = start.mul_add(force, points[0][j]);
+                points[1][j] = middle.mul_add(force, points[1][j]);
+                points[2][j] = end.mul_add(force, points[2][j]);
+            }
+            if plan.accelerations {
+                self.start[channel] = start;
+                self.halves[0].amplitudes[channel] = middle;
+                self.halves[1].amplitudes[channel] = end;
+            }
+        }
+        let [start, middle, end] = points;
+        (self.whole.start, self.whole.end) = (start, end);
+        (self.halves[0].start, self.halves[0].end) = (start, middle);
+        (self.halves[1].start, self.halves[1].end) = (middle, end);
+    }
 }

@@ -37,10 +37,12 @@ mod plan;
 mod rule;
 mod setup;
 mod show;
+mod sizes;
 mod small;
 mod state;
 mod step;
 mod tables;
+mod trial;
 mod turning;
 mod way;
 

@@ -1,0 +1,240 @@
+//! A step on trial: whole and in two halves.
+
+use super::coefficients::Rule;
+use super::error::{Norms, Tried};
+use super::loads::{Loads, Points};
+use super::newton::{Found, foresee_by_tangents, settle};
+use super::plan::Plan;
+use super::show::show;
+use super::small::Aligned;
+use super::state::{Keep, State};
+use super::step::{Passed, acceleration, account, take};
+use super::turning::{Asked, Turned, turned};
+use trilith_element::lanes::{Arithmetic, Real, Task};
+
+/// A step on trial.
+pub(super) struct Trial<R: Real, const M: usize, const L: usize, const N: usize> {
+    whole: State<R, M, L, N>,
+    halves: [State<R, M, L, N>; 2],
+    /// What was before halves were accepted by some.
+    before: State<R, M, L, N>,
+    found: Found<R, M, L>,
+    passed: [Passed<R, M>; 3],
+    asked: Asked<R>,
+    /// Energy of the impulses that the halves have missed, and link forces that they have wrong.
+    missed: R,
+    turned: [R; 2],
+}
+
+impl<R: Real, const M: usize, const L: usize, const N: usize> Trial<R, M, L, N> {
+    pub fn new<A: Arithmetic<Real = R>>(
+        with: A,
+        plan: &Plan<R, M, L, N>,
+        at: &State<R, M, L, N>,
+    ) -> Self {
+        let zero = with.splat(0.0);
+        Self {
+            whole: at.clone(),
+            halves: [at.clone(), at.clone()],
+            before: at.clone(),
+            found: Found::new(zero),
+            passed: [0; 3].map(|_| Passed::new(zero)),
+            asked: Asked::new(plan, zero),
+            missed: zero,
+            turned: [zero; 2],
+        }
+    }
+
+    /// Makes whole and halves for the analyses in `who`; gives back who of them has found no equilibrium.
+    #[inline(always)]
+    pub fn make<A: Arithmetic<Real = R>>(
+        &mut self,
+        with: A,
+        plan: &Plan<R, M, L, N>,
+        [rule, half]: &[Rule<R, M, L>; 2],
+        loads: &Points<R, M>,
+        (who, [start, middle]): (R::Mask, [R; 2]),
+        at: &State<R, M, L, N>,
+    ) -> R::Mask {
+        let Self { whole, halves: [first, second], found, passed, asked, .. } = self;
+        let [p0, p1, p2] = passed;
+        let (of_whole, [of_first, of_second]) = (&loads.whole, &loads.halves);
+        let (w0, _) = with.run(Make {
+            plan,
+            rule,
+            loads: of_whole,
+            t: start,
+            who,
+            from: at,
+            to: whole,
+            found,
+            passed: p0,
+            asked: None,
+        });
+        let (w1, before) = with.run(Make {
+            plan,
+            rule: half,
+            loads: of_first,
+            t: start,
+            who,
+            from: at,
+            to: first,
+            found,
+            passed: p1,
+            asked: Some(asked),
+        });
+        let (w2, behind) = with.run(Make {
+            plan,
+            rule: half,
+            loads: of_second,
+            t: middle,
+            who,
+            from: first,
+            to: second,
+            found,
+            passed: p2,
+            asked: Some(asked),
+        });
+        let wrong = w0 | w1 | w2;
+        self.missed = before.energy + behind.energy;
+        for kind in 0..2 {
+            self.turned[kind] = before.behind[kind].max(behind.behind[kind]);
+        }
+        wrong
+    }
+
+    #[inline(always)]
+    pub fn tried(&self) -> Tried<'_, R, M, L, N> {
+        let Self { whole, halves, passed: [_, first, second], missed, turned, .. } = self;
+        let work = first.of_links() + second.of_links();
+        Tried { whole, halves, work, missed: *missed, turned: *turned }
+    }
+
+    /// The halves of the analyses in `ok` are kept; `all`: of all that there are.
+    #[inline(always)]
+    pub fn accept<A: Arithmetic<Real = R>>(
+        &mut self,
+        with: A,
+        plan: &Plan<R, M, L, N>,
+        half: &Rule<R, M, L>,
+        (ok, all): (R::Mask, bool),
+        at: &mut State<R, M, L, N>,
+        norms: &mut Norms<R>,
+    ) {
+        let Self { halves, before, passed: [_, first, second], .. } = self;
+        let zero = with.splat(0.0);
+        if !all {
+            with.run(Keep { mask: zero.lt(zero), to: before, from: at });
+        }
+        for (made, passed) in halves.iter().zip([first, second]) {
+            with.run(Enter { plan, rule: half, made, passed, at });
+            norms.see(ok, at.in_motion());
+        }
+        norms.reach(plan, ok, at);
+        if !all {
+            with.run(Keep { mask: ok, to: at, from: before });
+        }
+    }
+
+    /// Looks at what outputs are where loads have jumped, of the analyses in a mask, at their times.
+    pub fn look_behind<A: Arithmetic<Real = R>>(
+        &mut self,
+        with: A,
+        plan: &Plan<R, M, L, N>,
+        loads: &Points<R, M>,
+        (jumps, t): (R::Mask, R),
+        at: &mut State<R, M, L, N>,
+    ) {
+        let (zero, before) = (with.splat(0.0), &mut self.before);
+        with.run(Keep { mask: zero.lt(zero), to: before, from: at });
+        at.amplitudes.copy_from_slice(&loads.start);
+        with.run(Behind { plan, load: &loads.whole.start, t, at });
+        with.run(Keep { mask: jumps, to: at, from: before });
+    }
+
+    /// Evaluations of the link laws.
+    pub fn iterations(&self) -> R {
+        let [first, second] = &self.halves;
+        self.whole.iterations + first.iterations + second.iterations
+    }
+}
+
+/// One step into `to`, as a task; gives back who has found no equilibrium, and what a half has missed.
+struct Make<'a, R: Real, const M: usize, const L: usize, const N: usize> {
+    plan: &'a Plan<R, M, L, N>,
+    rule: &'a Rule<R, M, L>,
+    loads: &'a Loads<R, M>,
+    /// Where it begins, s, and for whom.
+    t: R,
+    who: R::Mask,
+    from: &'a State<R, M, L, N>,
+    to: &'a mut State<R, M, L, N>,
+    found: &'a mut Found<R, M, L>,
+    passed: &'a mut Passed<R, M>,
+    /// Of a half.
+    asked: Option<&'a mut Asked<R>>,
+}
+
+impl<A: Arithmetic, const M: usize, const L: usize, const N: usize> Task<A>
+    for Make<'_, A::Real, M, L, N>
+{
+    type Output = (<A::Real as Real>::Mask, Turned<A::Real>);
+
+    #[inline(always)]
+    fn run(self, with: A) -> Self::Output {
+        let Self { plan, rule, loads, t, who, from, to, found, passed, asked } = self;
+        to.follow(from);
+        foresee_by_tangents(plan, rule, loads, to, found);
+        settle(with, plan, rule, (who, false), to, found);
+        take(plan, rule, (loads, t), found, to, passed);
+        let turned = match asked {
+            Some(asked) => turned(with, plan, rule, asked, who, (from, to)),
+            None => Turned::nothing(with.splat(0.0)),
+        };
+        (found.wrong, turned)
+    }
+}
+
+/// A step that is kept, as a task.
+struct Enter<'a, R: Real, const M: usize, const L: usize, const N: usize> {
+    plan: &'a Plan<R, M, L, N>,
+    rule: &'a Rule<R, M, L>,
+    made: &'a State<R, M, L, N>,
+    passed: &'a Passed<R, M>,
+    at: &'a mut State<R, M, L, N>,
+}
+
+impl<A: Arithmetic, const M: usize, const L: usize, const N: usize> Task<A>
+    for Enter<'_, A::Real, M, L, N>
+{
+    type Output = ();
+
+    #[inline(always)]
+    fn run(self, with: A) {
+        let Self { plan, rule, made, passed, at } = self;
+        at.follow(made);
+        account(with, plan, rule, passed, at);
+    }
+}
+
+/// What outputs are where loads have jumped, of the analyses in `who`, as a task.
+struct Behind<'a, R: Real, const M: usize, const L: usize, const N: usize> {
+    plan: &'a Plan<R, M, L, N>,
+    load: &'a Aligned<[R; M]>,
+    t: R,
+    at: &'a mut State<R, M, L, N>,
+}
+
+impl<A: Arithmetic, const M: usize, const L: usize, const N: usize> Task<A>
+    for Behind<'_, A::Real, M, L, N>
+{
+    type Output = ();
+
+    #[inline(always)]
+    fn run(self, with: A) {
+        let Self { plan, load, t, at } = self;
+        let zero = with.splat(0.0);
+        acceleration(plan, load, at);
+        show(with, plan, (t, zero, zero), at);
+    }
+}
