@@ -199,7 +199,7 @@ fn a_study_that_is_told_to_end_goes_on_with_the_same_command() {
     let study = r#"(
     model: "swing.ron",
     axes: { "long": Range(from: "4 s", to: "5 s", count: 3000) },
-    columns: { "sway": Peak("sway") },
+    columns: { "sway": Rms("sway") }, // which is taken over time: the runs go one by one, and last
 )"#;
     std::fs::write(here.join("study.ron"), study).unwrap();
     let args = ["sweep", "study.ron", "--threads", "1"];

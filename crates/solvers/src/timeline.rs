@@ -354,6 +354,18 @@ mod tests {
         for two in pieces.windows(2) {
             assert_eq!(two[0].end, two[1].start);
         }
+        // What needs no search says what a search does.
+        for step in 0..timeline.steps {
+            let t = (step as f64 * timeline.dt).min(timeline.duration);
+            assert_eq!(timeline.time(step), timeline.jump_near(t).unwrap_or(t));
+            if let Some(plain) = timeline.plain(step) {
+                assert_eq!(timeline.pieces(step).collect::<Vec<_>>(), [plain]);
+                assert!(!timeline.is_jump(plain.start) && !timeline.is_jump(plain.end));
+            }
+        }
+        let plain = (0..timeline.steps).filter(|step| timeline.plain(*step).is_some()).count();
+        let cut = timeline.cut_steps().len();
+        assert_eq!(plain + cut, timeline.steps);
         for p in &pieces {
             assert!((p.end - p.start - p.length).abs() < 1e-8 * timeline.dt, "{p:?}");
         }

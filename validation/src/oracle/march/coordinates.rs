@@ -9,7 +9,7 @@
 //! are taken as links. A direction that only links hold has no stiffness of its own: it gets one, which is
 //! taken out again as the force of one more link. [Bathe 1996, ch. 9 to 11]
 
-use super::super::modes::{eigen, split};
+use super::super::modes::split;
 use super::super::problem::{Probe, Problem};
 use super::super::spec::Damping;
 use nalgebra::{Cholesky, DMatrix, DVector, SymmetricEigen};
@@ -244,9 +244,9 @@ fn modes(p: &Problem, heavy: &DMatrix<f64>, all: &mut Shapes) -> Result<(), Stri
         base -= light * tie;
     }
     let inner = base.tr_mul(&(k * &base));
-    let (values, vectors) = eigen(&((&inner + inner.transpose()) * 0.5));
-    let shapes = base * vectors;
-    let omega: Vec<f64> = values.iter().map(|x| x.max(0.0).sqrt()).collect();
+    let eigen = SymmetricEigen::new((&inner + inner.transpose()) * 0.5);
+    let shapes = base * eigen.eigenvectors;
+    let omega: Vec<f64> = eigen.eigenvalues.iter().map(|x| x.max(0.0).sqrt()).collect();
     let top = omega.iter().copied().fold(0.0, f64::max);
     for (j, w) in omega.iter().enumerate() {
         let damping = match p.damping {
