@@ -243,7 +243,7 @@ fn adaptive_lanes_make_the_steps_of_the_ordinary_engine() {
         let run = ordinary(text, &values, None);
         assert!(run.result.work.rejected > 10, "{values:?}: {:?}", run.result.work);
         let (steps, substeps) = (found[0].steps, run.result.work.substeps);
-        assert!(steps.abs_diff(substeps) <= substeps / 50, "{values:?}: {steps} {substeps}");
+        assert!(steps.abs_diff(substeps) <= 4 + substeps / 500, "{values:?}: {steps} {substeps}");
         let share = if steps == substeps { 1e-6 } else { 1e-2 };
         for (name, lane) in &found[0].outputs.0 {
             let peak = run.peak(name).expect("one");
