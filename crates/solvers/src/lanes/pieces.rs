@@ -161,13 +161,13 @@ fn walk<A: Arithmetic, const M: usize, const L: usize, const N: usize>(
 }
 
 /// What outputs are where loads have jumped, of the analyses in `who`, as a task.
-struct Behind<'a, R: Real, const M: usize, const L: usize, const N: usize> {
-    plan: &'a Plan<R, M, L, N>,
-    load: &'a Aligned<[R; M]>,
-    t: R,
-    who: R::Mask,
-    before: &'a State<R, M, L, N>,
-    state: &'a mut State<R, M, L, N>,
+pub(super) struct Behind<'a, R: Real, const M: usize, const L: usize, const N: usize> {
+    pub plan: &'a Plan<R, M, L, N>,
+    pub load: &'a Aligned<[R; M]>,
+    pub t: R,
+    pub who: R::Mask,
+    pub before: &'a State<R, M, L, N>,
+    pub state: &'a mut State<R, M, L, N>,
 }
 
 impl<A: Arithmetic, const M: usize, const L: usize, const N: usize> Task<A>

@@ -4,11 +4,10 @@ use super::coefficients::Rule;
 use super::error::{Norms, Tried};
 use super::loads::{Loads, Points};
 use super::newton::{Found, foresee_by_tangents, settle};
+use super::pieces::Behind;
 use super::plan::Plan;
-use super::show::show;
-use super::small::Aligned;
 use super::state::{Keep, State};
-use super::step::{Passed, acceleration, account, take};
+use super::step::{Passed, account, take};
 use super::turning::{Asked, Turned, turned};
 use trilith_element::lanes::{Arithmetic, Real, Task};
 
@@ -148,8 +147,8 @@ impl<R: Real, const M: usize, const L: usize, const N: usize> Trial<R, M, L, N> 
         let (zero, before) = (with.splat(0.0), &mut self.before);
         with.run(Keep { mask: zero.lt(zero), to: before, from: at });
         at.amplitudes.copy_from_slice(&loads.start);
-        with.run(Behind { plan, load: &loads.whole.start, t, at });
-        with.run(Keep { mask: jumps, to: at, from: before });
+        let load = &loads.whole.start;
+        with.run(Behind { plan, load, t, who: jumps, before, state: at });
     }
 
     /// Evaluations of the link laws.
@@ -214,27 +213,5 @@ impl<A: Arithmetic, const M: usize, const L: usize, const N: usize> Task<A>
         let Self { plan, rule, made, passed, at } = self;
         at.follow(made);
         account(with, plan, rule, passed, at);
-    }
-}
-
-/// What outputs are where loads have jumped, of the analyses in `who`, as a task.
-struct Behind<'a, R: Real, const M: usize, const L: usize, const N: usize> {
-    plan: &'a Plan<R, M, L, N>,
-    load: &'a Aligned<[R; M]>,
-    t: R,
-    at: &'a mut State<R, M, L, N>,
-}
-
-impl<A: Arithmetic, const M: usize, const L: usize, const N: usize> Task<A>
-    for Behind<'_, A::Real, M, L, N>
-{
-    type Output = ();
-
-    #[inline(always)]
-    fn run(self, with: A) {
-        let Self { plan, load, t, at } = self;
-        let zero = with.splat(0.0);
-        acceleration(plan, load, at);
-        show(with, plan, (t, zero, zero), at);
     }
 }
