@@ -49,8 +49,8 @@ impl<R: Real, const M: usize, const L: usize> Rule<R, M, L> {
         setups: &[&LaneSetup],
         plan: &Plan<R, M, L, N>,
     ) -> Self {
-        let size = |s: &&'_ LaneSetup| s.shape.grid.step();
-        let sizes: Vec<(f64, &[Mode])> = setups.iter().map(|s| (size(s), &s.rule[..])).collect();
+        let sizes: Vec<(f64, &[Mode])> =
+            setups.iter().map(|s| (s.shape.grid.step(), &s.rule[..])).collect();
         Self::new(with, plan, &sizes)
     }
 

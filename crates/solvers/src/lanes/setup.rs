@@ -243,12 +243,6 @@ pub fn prepare(
         let beyond = stiffness_ratio(&rows, &rule, &engaged) > LONGEST;
         beyond.then_some("steps too long for the exact rule at the stiffest link")
     };
-    let on = |substeps: usize| {
-        let timeline = Timeline::new(dt, analysis.duration, &loads, substeps);
-        let parts = common_parts(&timeline);
-        let grid = Grid { dt, steps: timeline.steps, substeps: substeps * parts };
-        (timeline, parts, grid)
-    };
     let (mut substeps, halvings) = match control {
         StepControl::Fixed { substeps } => (substeps, 0),
         StepControl::Adaptive { .. } => (1, HALVINGS),
@@ -258,7 +252,9 @@ pub fn prepare(
             substeps *= 2;
         }
     }
-    let (timeline, parts, grid) = on(substeps);
+    let timeline = Timeline::new(dt, analysis.duration, &loads, substeps);
+    let parts = common_parts(&timeline);
+    let grid = Grid { dt, steps: timeline.steps, substeps: substeps * parts };
     let longest = if halvings == 0 { grid.step() } else { dt / substeps as f64 };
     if let Some(reason) = too_long(longest) {
         return Ok(Err(reason.into()));
