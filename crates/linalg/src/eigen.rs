@@ -5,16 +5,67 @@ use faer::Side;
 
 /// Eigenvalues (rising) and orthonormal eigenvectors of a dense symmetric matrix.
 ///
+/// Parts that no entry joins are solved apart: as one they would be mixed by rounding, more so the closer their
+/// eigenvalues are, and what loads one would move the other.
+///
 /// # Errors
 /// [`LinalgError::NotFinite`] where the matrix has numbers beyond all bounds, [`LinalgError::Backend`] where the
 /// iteration of the backend fails.
 pub fn symmetric_eigen(a: &Dense) -> Result<(Vec<f64>, Dense), LinalgError> {
     let n = a.rows();
-    if let Some(found) = of_diagonal(a) {
-        return Ok(found);
-    }
     if let Some(at) = a.values().iter().position(|x| !x.is_finite()) {
         return Err(LinalgError::NotFinite { equation: at % n });
+    }
+    let parts = parts(a);
+    if let [_] = parts[..] {
+        return of_one_part(a);
+    }
+    let mut pairs = Vec::with_capacity(n);
+    for part in &parts {
+        let m = part.len();
+        let own = part.iter().flat_map(|j| part.iter().map(|i| a[(*i, *j)])).collect();
+        let own = Dense::from_columns(m, m, own);
+        let (values, vectors) = of_one_part(&own)?;
+        pairs.extend(values.into_iter().enumerate().map(|(j, value)| {
+            let mut vector = vec![0.0; n];
+            part.iter().zip(vectors.column(j)).for_each(|(i, x)| vector[*i] = *x);
+            (value, vector)
+        }));
+    }
+    pairs.sort_by(|a, b| a.0.total_cmp(&b.0));
+    let (values, vectors): (Vec<f64>, Vec<Vec<f64>>) = pairs.into_iter().unzip();
+    Ok((values, Dense::from_columns(n, n, vectors.concat())))
+}
+
+/// Equations that entries join, by their first ones.
+fn parts(a: &Dense) -> Vec<Vec<usize>> {
+    let mut open: Vec<usize> = (0..a.rows()).collect();
+    let mut parts = Vec::new();
+    while let Some(first) = open.first().copied() {
+        open.remove(0);
+        let (mut part, mut next) = (vec![first], 0);
+        while let Some(i) = part.get(next).copied().filter(|_| !open.is_empty()) {
+            let column = a.column(i);
+            open.retain(|j| {
+                let joined = column[*j] != 0.0 || a[(i, *j)] != 0.0;
+                if joined {
+                    part.push(*j);
+                }
+                !joined
+            });
+            next += 1;
+        }
+        part.sort_unstable();
+        parts.push(part);
+    }
+    parts
+}
+
+/// The same of a matrix whose equations hang together.
+fn of_one_part(a: &Dense) -> Result<(Vec<f64>, Dense), LinalgError> {
+    let n = a.rows();
+    if n == 1 {
+        return Ok((vec![a[(0, 0)]], Dense::from_columns(1, 1, vec![1.0])));
     }
     // Beyond 128 equations the backend divides and conquers, and compares some differences with an absolute 2⁻⁵²:
     // it is right for matrices of size one only. A power of two rounds nothing.
@@ -58,20 +109,6 @@ fn residual(a: &Dense, values: &[f64], vectors: &Dense) -> f64 {
         left.iter_mut().zip(a.column(j)).for_each(|(left, a)| *left += a * x);
     }
     (left.iter().map(|x| x * x).sum::<f64>() / n as f64).sqrt()
-}
-
-/// The same of a matrix that is diagonal already.
-fn of_diagonal(a: &Dense) -> Option<(Vec<f64>, Dense)> {
-    let n = a.rows();
-    let apart = |j: usize| (0..n).all(|i| i == j || a[(i, j)] == 0.0);
-    if !(0..n).all(|j| apart(j) && a[(j, j)].is_finite()) {
-        return None;
-    }
-    let mut order: Vec<usize> = (0..n).collect();
-    order.sort_by(|i, j| a[(*i, *i)].total_cmp(&a[(*j, *j)]));
-    let mut vectors = Dense::zeros(n, n);
-    order.iter().enumerate().for_each(|(j, i)| vectors[(*i, j)] = 1.0);
-    Some((order.iter().map(|i| a[(*i, *i)]).collect(), vectors))
 }
 
 /// A mass below this share of what its own equations weigh is rounding: the direction has none.
@@ -189,6 +226,29 @@ mod tests {
         assert_eq!(vectors.values(), [0.0, 1.0, 0.0, 0.0, 0.0, 1.0, 1.0, 0.0, 0.0]);
         let (values, _) = symmetric_eigen(&a(1.0)).unwrap();
         assert!((values[1] - 0.5 * (2.5 - 6.25f64.sqrt())).abs() < 1e-14, "{values:?}");
+    }
+
+    /// Two chains of one frequency, whose equations take turns.
+    #[test]
+    fn what_does_not_hang_together_is_not_mixed() {
+        let n = 12;
+        let mut a = Dense::zeros(2 * n, 2 * n);
+        for (i, part) in (0..n).flat_map(|i| [(i, 0), (i, 1)]) {
+            a[(2 * i + part, 2 * i + part)] = 2.0;
+            if i > 0 {
+                a[(2 * i + part, 2 * i + part - 2)] = -1.0;
+                a[(2 * i + part - 2, 2 * i + part)] = -1.0;
+            }
+        }
+        let (values, vectors) = symmetric_eigen(&a).unwrap();
+        assert!(values.is_sorted());
+        for j in 0..2 * n {
+            let of = |part: usize| vectors.column(j).iter().skip(part).step_by(2);
+            let in_none = |part| of(part).all(|x| *x == 0.0);
+            assert!(in_none(0) != in_none(1), "vector {j}");
+            let exact = 2.0 - 2.0 * (std::f64::consts::PI * (j / 2 + 1) as f64 / 13.0).cos();
+            assert!((values[j] - exact).abs() < 1e-14, "{j}: {} for {exact}", values[j]);
+        }
     }
 
     /// Stiffnesses over masses are of any size; the backend takes another way beyond 128 equations.

@@ -9,7 +9,7 @@ use std::time::Duration;
 use trilith::SolverKind;
 use trilith_validation::oracle::campaign::{Campaign, say};
 use trilith_validation::oracle::generate::generate;
-use trilith_validation::oracle::judge::{Pair, WORK, judge_and_compare, reference};
+use trilith_validation::oracle::judge::{Pair, WORK, judge_and_compare, reference_of_a_part};
 use trilith_validation::oracle::spec::Spec;
 use trilith_validation::oracle::subject::{Ended, run};
 use trilith_validation::oracle::text::text;
@@ -95,8 +95,9 @@ fn main() -> ExitCode {
     if wanted.show || wanted.trace.is_some() {
         let mut spec = generate(wanted.campaign.seed);
         spec.tolerance = wanted.tolerance.or(spec.tolerance);
+        let truth = reference_of_a_part(&mut spec, wanted.campaign.work);
         print!("{}", text(&spec));
-        match reference(&spec, wanted.campaign.work) {
+        match truth {
             Ok(truth) => {
                 println!(
                     "// size {:?}\n// scale {:?}\n// moves {:?}, {} steps",

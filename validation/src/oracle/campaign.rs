@@ -3,6 +3,7 @@
 use super::generate::generate;
 use super::judge::{
     NO_ERROR, Pair, Skip, Verdict, WORK, class, judge, judge_and_compare, reference,
+    reference_of_a_part,
 };
 use super::shrink::shrink;
 use super::spec::Spec;
@@ -22,8 +23,8 @@ pub struct Campaign {
     pub count: usize,
     /// Solvers.
     pub solvers: Vec<SolverKind>,
-    /// Multiplications that the oracle may make for a pass over a structure. A tenth of [`WORK`] loses a structure in
-    /// twelve and takes a fifth of the time.
+    /// Multiplications that the oracle may make for a pass over a structure; where these are too few, the first part
+    /// of its time is compared.
     pub work: f64,
     /// No structure is begun after this.
     pub budget: Duration,
@@ -38,6 +39,8 @@ pub struct Found {
     pub seed: u64,
     /// Family of the structure.
     pub family: &'static str,
+    /// Duration and output step of what was compared, s.
+    pub time: [f64; 2],
     /// Solver.
     pub solver: SolverKind,
     /// Verdict.
@@ -94,9 +97,9 @@ impl Campaign {
 
     fn one(&self, seed: u64, own: &mut Result) {
         own.structures += 1;
-        let spec = generate(seed);
+        let mut spec = generate(seed);
         let clock = Instant::now();
-        let truth = reference(&spec, self.work);
+        let truth = reference_of_a_part(&mut spec, self.work);
         let took = clock.elapsed().as_secs_f64();
         own.seconds[0] += took;
         if self.aloud {
@@ -115,7 +118,8 @@ impl Campaign {
                 let (name, said) = (solver.name(), say(&spec, &verdict));
                 eprintln!("{seed} {} {name} {took:.2} s: {said}", spec.family);
             }
-            own.runs.push(Found { seed, family: spec.family, solver: *solver, verdict, pairs });
+            let (family, time) = (spec.family, [spec.duration, spec.dt]);
+            own.runs.push(Found { seed, family, time, solver: *solver, verdict, pairs });
         }
         own.seconds[1] += clock.elapsed().as_secs_f64();
     }
@@ -132,7 +136,7 @@ impl Result {
     /// Structures for which the oracle had no answer.
     #[must_use]
     pub fn without_oracle(&self) -> usize {
-        self.skipped.iter().filter(|(_, s)| matches!(s, Skip::NoOracle(_))).count()
+        self.skipped.iter().filter(|(_, s)| !matches!(s, Skip::IllPosed)).count()
     }
 
     /// Lines that count.
@@ -174,6 +178,7 @@ impl Result {
         for (seed, skip) in &self.skipped {
             let reason = match skip {
                 Skip::NoOracle(m) => format!("no oracle: {}", class(m)),
+                Skip::TooMuchWork(_) => "too much work".into(),
                 Skip::IllPosed => "ill-posed".into(),
             };
             reasons.entry(reason).or_default().push(*seed);
@@ -237,7 +242,8 @@ impl Result {
     pub fn write(&self, folder: &Path, trials: usize, limit: usize) -> std::io::Result<()> {
         std::fs::create_dir_all(folder)?;
         for f in self.failures().into_iter().take(limit) {
-            let spec = generate(f.seed);
+            let mut spec = generate(f.seed);
+            [spec.duration, spec.dt] = f.time;
             let name = format!("{}-{}", f.seed, f.solver.name());
             let head = format!(
                 "// seed {}, {}, {}: {}\n",

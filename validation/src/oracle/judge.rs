@@ -1,5 +1,6 @@
 //! The verdict on a run.
 
+use super::march::Halt;
 use super::spec::Spec;
 use super::subject::{Ended, Shown, run};
 use super::text::text;
@@ -30,6 +31,8 @@ pub enum Verdict {
 pub enum Skip {
     /// The oracle found no answer.
     NoOracle(String),
+    /// It can answer for the time up to this with the work that it may do, s.
+    TooMuchWork(f64),
     /// Its answer depends on the tolerance.
     IllPosed,
 }
@@ -52,7 +55,10 @@ pub const WORK: f64 = 6e9;
 /// # Errors
 /// Why it is not.
 pub fn reference(spec: &Spec, work: f64) -> Result<Truth, Skip> {
-    let found = truth(spec, work).map_err(Skip::NoOracle)?;
+    let found = truth(spec, work).map_err(|halt| match halt {
+        Halt::Spent(_, at) => Skip::TooMuchWork(at),
+        Halt::Stuck(reason) => Skip::NoOracle(reason),
+    })?;
     let limit = 0.25 * allowed(spec);
     if found.moves.iter().any(|m| m.is_nan() || *m > limit) {
         Err(Skip::IllPosed)
@@ -60,6 +66,23 @@ pub fn reference(spec: &Spec, work: f64) -> Result<Truth, Skip> {
         Ok(found)
     }
 }
+
+/// As [`reference`]; what is too much work is cut short, and the answer is that of the description that is left.
+///
+/// # Errors
+/// Why there is none.
+pub fn reference_of_a_part(spec: &mut Spec, work: f64) -> Result<Truth, Skip> {
+    let least = SHORTEST * spec.duration;
+    loop {
+        match reference(spec, work) {
+            Err(Skip::TooMuchWork(at)) if at >= least => spec.end_at(0.9 * at),
+            answer => return answer,
+        }
+    }
+}
+
+/// Nothing is cut to less than this share of its duration.
+const SHORTEST: f64 = 0.02;
 
 /// Largest error of a run over all outputs and samples: output, share, time.
 #[must_use]

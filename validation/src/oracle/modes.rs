@@ -35,11 +35,11 @@ pub fn split(m: &DMatrix<f64>) -> (DMatrix<f64>, DMatrix<f64>) {
     if heavy.is_empty() || full {
         with.extend(heavy.iter().map(|i| at(*i, size[*i].recip())));
     } else {
-        let eigen = SymmetricEigen::new(unit);
-        for (j, value) in eigen.eigenvalues.iter().enumerate() {
+        let (values, vectors) = eigen(&unit);
+        for (j, value) in values.iter().enumerate() {
             let mut v = DVector::zeros(n);
             for (i, at) in heavy.iter().enumerate() {
-                v[*at] = eigen.eigenvectors[(i, j)] / size[*at];
+                v[*at] = vectors[(i, j)] / size[*at];
             }
             if *value > 1e-11 { &mut with } else { &mut without }.push(v);
         }
@@ -49,6 +49,37 @@ pub fn split(m: &DMatrix<f64>) -> (DMatrix<f64>, DMatrix<f64>) {
         if x.is_empty() { DMatrix::zeros(n, 0) } else { DMatrix::from_columns(&x) }
     };
     (all(with), all(without))
+}
+
+/// Eigenvalues and vectors of a symmetric matrix, part by part where parts of it do not hang together: solved as one
+/// they would be mixed by rounding, and what moves one would move the others.
+pub fn eigen(a: &DMatrix<f64>) -> (DVector<f64>, DMatrix<f64>) {
+    let n = a.nrows();
+    let (mut values, mut vectors) = (DVector::zeros(n), DMatrix::zeros(n, n));
+    let mut free: Vec<usize> = (0..n).collect();
+    let mut made = 0;
+    while let Some(first) = free.pop() {
+        let mut part = vec![first];
+        let mut next = 0;
+        while let Some(i) = part.get(next).copied() {
+            let hangs = |j: &usize| a[(i, *j)] != 0.0 || a[(*j, i)] != 0.0;
+            let (tied, rest): (Vec<usize>, Vec<usize>) = free.into_iter().partition(hangs);
+            part.extend(tied);
+            free = rest;
+            next += 1;
+        }
+        part.sort_unstable();
+        let own = DMatrix::from_fn(part.len(), part.len(), |i, j| a[(part[i], part[j])]);
+        let own = SymmetricEigen::new(own);
+        for j in 0..part.len() {
+            values[made] = own.eigenvalues[j];
+            for (i, at) in part.iter().enumerate() {
+                vectors[(*at, made)] = own.eigenvectors[(i, j)];
+            }
+            made += 1;
+        }
+    }
+    (values, vectors)
 }
 
 /// The modes of M and K.
@@ -65,10 +96,10 @@ pub fn modes(m: &DMatrix<f64>, k: &DMatrix<f64>) -> Modes {
             .collect();
         let unit =
             DMatrix::from_fn(own.nrows(), own.nrows(), |i, j| scale[i] * own[(i, j)] * scale[j]);
-        let eigen = SymmetricEigen::new(unit);
-        for (j, value) in eigen.eigenvalues.iter().enumerate() {
+        let (values, vectors) = eigen(&unit);
+        for (j, value) in values.iter().enumerate() {
             if *value > 1e-10 {
-                let shape = eigen.eigenvectors.column(j);
+                let shape = vectors.column(j);
                 let y = DVector::from_fn(shape.len(), |i, _| scale[i] * shape[i]);
                 let push = tie.transpose() * y;
                 stiff -= &push * push.transpose() / *value;
@@ -83,14 +114,13 @@ pub fn modes(m: &DMatrix<f64>, k: &DMatrix<f64>) -> Modes {
     let half = l.solve_lower_triangular(&stiff).unwrap_or_else(|| stiff.clone());
     let inner = l.solve_lower_triangular(&half.transpose()).unwrap_or(half);
     let inner = (&inner + inner.transpose()) * 0.5;
-    let eigen = SymmetricEigen::new(inner);
-    let shapes =
-        l.transpose().solve_upper_triangular(&eigen.eigenvectors).unwrap_or(eigen.eigenvectors);
+    let (values, vectors) = eigen(&inner);
+    let shapes = l.transpose().solve_upper_triangular(&vectors).unwrap_or(vectors);
     let shapes = p * shapes;
     let image = m * &shapes;
-    let mut order: Vec<usize> = (0..eigen.eigenvalues.len()).collect();
-    order.sort_by(|a, b| eigen.eigenvalues[*a].total_cmp(&eigen.eigenvalues[*b]));
-    let omega = order.iter().map(|i| eigen.eigenvalues[*i].max(0.0).sqrt()).collect();
+    let mut order: Vec<usize> = (0..values.len()).collect();
+    order.sort_by(|a, b| values[*a].total_cmp(&values[*b]));
+    let omega = order.iter().map(|i| values[*i].max(0.0).sqrt()).collect();
     Modes { omega, image: image.select_columns(&order), shapes: shapes.select_columns(&order) }
 }
 

@@ -47,6 +47,17 @@ pub struct Spec {
     pub outputs: Vec<Output>,
 }
 
+impl Spec {
+    /// Ends at this time, s, or with the last output step before it.
+    pub fn end_at(&mut self, t: f64) {
+        let steps = (t / self.dt).floor();
+        if steps < 1.0 {
+            self.dt = t;
+        }
+        self.duration = self.dt * steps.max(1.0);
+    }
+}
+
 /// A member and the nodes it stands at.
 #[derive(Clone, Debug)]
 pub struct Member {

@@ -162,3 +162,31 @@ fn few_structures_are_without_an_answer() {
         .count();
     assert!(without <= 1, "{without}");
 }
+
+/// What is too much work is answered for as long as the work lasts, as it would be for all of the time.
+#[test]
+fn a_first_part_is_answered_as_the_whole() {
+    use super::generate::generate;
+    use super::judge::reference_of_a_part;
+    let mut cut = 0;
+    for seed in 1..=12 {
+        let whole = generate(seed);
+        let mut part = whole.clone();
+        let Ok(it) = reference_of_a_part(&mut part, 4e6) else { continue };
+        if part.duration == whole.duration {
+            continue;
+        }
+        cut += 1;
+        assert!(part.duration >= 0.02 * whole.duration && part.duration < whole.duration);
+        let all = truth(&whole, 1e9).unwrap();
+        for i in 0..whole.outputs.len() {
+            // Times may be off by a share of the duration.
+            let width = 2e-4 * whole.duration;
+            let t = 0.5 * part.duration;
+            let (low, high) = all.course.span(i, t - width, t + width);
+            let off = super::truth::outside(it.course.at(i, t), low, high) / all.scale[i];
+            assert!(off < 1e-3, "{seed}: output {i} is off by {off:e} at {t}");
+        }
+    }
+    assert!(cut >= 2, "{cut}");
+}

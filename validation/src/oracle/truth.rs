@@ -1,6 +1,6 @@
 //! The answer of the oracle, and how sure it is of it.
 
-use super::march::{Between, Course, Effort, Scale, State, march};
+use super::march::{Between, Course, Effort, Halt, Scale, State, march};
 use super::problem::Problem;
 use super::spec::{Kind, Law, Output, Spec};
 use std::f64::consts::TAU;
@@ -26,6 +26,8 @@ pub struct Truth {
 /// Tolerances of the two passes.
 const LOOSE: f64 = 1e-5;
 const TIGHT: f64 = 1e-7;
+/// What a pass at the tight one takes for one at the loose one, or a little more.
+const TIGHT_OVER_LOOSE: f64 = 5.0;
 /// Share of its size that an output may be off between the ends of steps, at the tight one, as far as can be told.
 const BETWEEN: f64 = 1e-4;
 /// Outputs below this share of the largest of their kind are compared on that share.
@@ -37,7 +39,7 @@ const ROUNDING: f64 = 1e-7;
 ///
 /// # Errors
 /// Why there is no answer.
-pub fn truth(spec: &Spec, work: f64) -> Result<Truth, String> {
+pub fn truth(spec: &Spec, work: f64) -> Result<Truth, Halt> {
     // Open links are not asked for their error, but what they record follows the supports.
     let shortest = spec.moved.iter().map(|m| m.2.period()).fold(f64::INFINITY, f64::min);
     truth_in_steps(spec, work, shortest / 32.0)
@@ -47,7 +49,7 @@ pub fn truth(spec: &Spec, work: f64) -> Result<Truth, String> {
 ///
 /// # Errors
 /// Why there is no answer.
-pub fn truth_in_steps(spec: &Spec, work: f64, longest: f64) -> Result<Truth, String> {
+pub fn truth_in_steps(spec: &Spec, work: f64, longest: f64) -> Result<Truth, Halt> {
     let mut problem = Problem::new(spec, 10.0 * TAU / spec.duration)?;
     problem.cut(longest);
     let mut start = State::start(&problem);
@@ -55,19 +57,23 @@ pub fn truth_in_steps(spec: &Spec, work: f64, longest: f64) -> Result<Truth, Str
         let before = problem.before();
         let effort = Effort { tolerance: 1e-7, work };
         let course = march(&before, State::start(&before), None, effort, None)
-            .map_err(|e| format!("statics: {e}"))?;
+            .map_err(|halt| format!("statics: {halt}"))?;
         start = State { v: start.v, ..course.end };
     } else if let Some((joints, q, others)) = problem.led() {
         let effort = Effort { tolerance: 1e-7, work };
         // What no link holds either has no place of its own.
         let scale = Scale::of(&joints, others.amax());
         let course = march(&joints, State::start(&joints), Some(scale), effort, None)
-            .map_err(|e| format!("joints at the start: {e}"))?;
+            .map_err(|halt| format!("joints at the start: {halt}"))?;
         start.u = others + q * course.end.u;
         start.z = course.end.z;
     }
     let uneven = if spec.gravity { of_start(&problem, &start.u) } else { 0.0 };
-    let loose = march(&problem, start.clone(), None, Effort { tolerance: LOOSE, work }, None)?;
+    let loose = march(&problem, start.clone(), None, Effort { tolerance: LOOSE, work }, None)
+        .map_err(|halt| match halt {
+            Halt::Spent(steps, at) => Halt::Spent(steps, at / TIGHT_OVER_LOOSE),
+            stuck @ Halt::Stuck(_) => stuck,
+        })?;
     let effort = Effort { tolerance: TIGHT, work };
     let between = Between {
         sizes: Sizes::of(spec, &problem, &loose).scale,
@@ -78,7 +84,7 @@ pub fn truth_in_steps(spec: &Spec, work: f64, longest: f64) -> Result<Truth, Str
     let course = march(&problem, start.clone(), known, effort, Some(&between))?;
     let Sizes { size, scale, floor } = Sizes::of(spec, &problem, &course);
     if size.iter().any(|x| !x.is_finite()) {
-        return Err("its values are not finite".into());
+        return Err(Halt::Stuck("its values are not finite".into()));
     }
     let alike = |i: usize| largest_alike(spec, &size, i);
     let around = (0..size.len())

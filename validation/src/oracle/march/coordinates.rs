@@ -9,10 +9,10 @@
 //! are taken as links. A direction that only links hold has no stiffness of its own: it gets one, which is
 //! taken out again as the force of one more link. [Bathe 1996, ch. 9 to 11]
 
-use super::super::modes::split;
+use super::super::modes::{eigen, split};
 use super::super::problem::{Probe, Problem};
 use super::super::spec::Damping;
-use nalgebra::{Cholesky, DMatrix, DVector, SymmetricEigen};
+use nalgebra::{Cholesky, DMatrix, DVector};
 
 /// The coordinates and all that is said in them.
 pub struct Coordinates {
@@ -184,16 +184,16 @@ fn massless(k: &DMatrix<f64>, light: &DMatrix<f64>) -> Vec<Massless> {
             return columns.row_iter().map(|x| Massless::Held(x.transpose())).collect();
         }
     }
-    let eigen = SymmetricEigen::new(unit);
+    let (values, vectors) = eigen(&unit);
     let shape = |(j, value): (usize, &f64)| {
-        let column = &base * eigen.eigenvectors.column(j);
+        let column = &base * vectors.column(j);
         if *value > NOTHING {
             Massless::Held(column / value.sqrt())
         } else {
             Massless::Loose(column)
         }
     };
-    eigen.eigenvalues.iter().enumerate().map(shape).collect()
+    values.iter().enumerate().map(shape).collect()
 }
 
 /// Shapes without stiffness, square to each other by the stiffness that links have and of unit one: shapes
@@ -218,12 +218,12 @@ fn held_by_links(p: &Problem, loose: &[DVector<f64>]) -> Result<Vec<DVector<f64>
     for (mut column, x) in shapes.column_iter_mut().zip(own.iter()) {
         column /= x.sqrt();
     }
-    let eigen = SymmetricEigen::new(held(&shapes));
+    let (values, vectors) = eigen(&held(&shapes));
     let one = |(j, value): (usize, &f64)| {
-        let column = &shapes * eigen.eigenvectors.column(j);
+        let column = &shapes * vectors.column(j);
         column / value.max(f64::EPSILON).sqrt()
     };
-    Ok(eigen.eigenvalues.iter().enumerate().map(one).collect())
+    Ok(values.iter().enumerate().map(one).collect())
 }
 
 /// Natural modes, square to the massless shapes by stiffness.
@@ -244,9 +244,10 @@ fn modes(p: &Problem, heavy: &DMatrix<f64>, all: &mut Shapes) -> Result<(), Stri
         base -= light * tie;
     }
     let inner = base.tr_mul(&(k * &base));
-    let eigen = SymmetricEigen::new((&inner + inner.transpose()) * 0.5);
-    let shapes = base * eigen.eigenvectors;
-    let omega: Vec<f64> = eigen.eigenvalues.iter().map(|x| x.max(0.0).sqrt()).collect();
+    let inner = (&inner + inner.transpose()) * 0.5;
+    let (values, vectors) = eigen(&inner);
+    let shapes = base * vectors;
+    let omega: Vec<f64> = values.iter().map(|x| x.max(0.0).sqrt()).collect();
     let top = omega.iter().copied().fold(0.0, f64::max);
     for (j, w) in omega.iter().enumerate() {
         let damping = match p.damping {

@@ -144,6 +144,30 @@ struct Tried {
     end: State,
 }
 
+/// Why a march does not come to its end.
+#[derive(Clone, Debug)]
+pub enum Halt {
+    /// Its work is spent: how many steps were tried, how far it came, s.
+    Spent(usize, f64),
+    /// It cannot go on.
+    Stuck(String),
+}
+
+impl From<String> for Halt {
+    fn from(reason: String) -> Self {
+        Self::Stuck(reason)
+    }
+}
+
+impl std::fmt::Display for Halt {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        match self {
+            Self::Spent(steps, _) => write!(f, "{steps} steps were too much work"),
+            Self::Stuck(reason) => f.write_str(reason),
+        }
+    }
+}
+
 /// Marches from a state over all of the problem.
 ///
 /// # Errors
@@ -154,7 +178,7 @@ pub fn march(
     known: Option<Scale>,
     effort: Effort,
     between: Option<&Between>,
-) -> Result<Course, String> {
+) -> Result<Course, Halt> {
     let (n, l, nz) = (p.a.k.nrows(), p.a.b.nrows(), p.unknowns());
     let none = |n| DVector::zeros(n);
     let first_of_all = if known.is_some() { FIRST_WHERE_KNOWN } else { FIRST_OF_ALL };
@@ -186,14 +210,12 @@ pub fn march(
         let mut whole = None;
         while at < 1 << deep {
             steps += 1;
+            let t = from + length * at as f64 / (1_u64 << deep) as f64;
             if it.steps.work > effort.work {
-                return Err(format!("{steps} steps were too much work"));
+                return Err(Halt::Spent(steps, t));
             }
             let unit = 1_u64 << (deep - level);
-            let (t, h) = (
-                from + length * at as f64 / (1_u64 << deep) as f64,
-                length / (1_u64 << level) as f64,
-            );
+            let h = length / (1_u64 << level) as f64;
             let before = record.pieces.last().filter(|_| at > 0);
             let (tried, first) = it.try_step(t, h, &at_point, whole.take(), before);
             let rise = match tried {
@@ -228,7 +250,7 @@ pub fn march(
             };
             level += rise;
             if level >= deep {
-                return Err(format!("no step is short enough at t = {t:e}"));
+                return Err(Halt::Stuck(format!("no step is short enough at t = {t:e}")));
             }
         }
     }
