@@ -150,6 +150,7 @@ fn sliding() -> Vec<Pair> {
         let velocity = led(&name, &theirs, &link("FrictionPendulum", &speed), 0.05, LOADED);
         all.extend(velocity.map(|p| p.agreeing(Agree::Near(limit, why))));
     }
+    all.extend(by_force_and_pressure(varying));
     // The stiffness before slip holds that of the pendulum, N/R, there.
     let round = slider(&[
         ("ks", "99333333.3333333"),
@@ -165,6 +166,56 @@ fn sliding() -> Vec<Pair> {
         all.extend(
             led(&name, &theirs, &round, amplitude, LOADED)
                 .map(|p| p.agreeing(Agree::Near(limit, why))),
+        );
+    }
+    all
+}
+
+/// Coefficients that the normal force changes as well: N goes from 0.5 MN to 1.5 MN and back.
+fn by_force_and_pressure(axial: Wave) -> Vec<Pair> {
+    let model =
+        |name: &str, numbers: &[f64]| vec![command("frictionModel", name, &[1], numbers).into()];
+    let set = |name: &'static str, more: &[(&'static str, &'static str)]| {
+        let plain = [("kn", "1e9"), ("ks", "1e9"), ("radius", "none"), ("friction_model", name)];
+        let none = [("mu_slow", "none"), ("mu_fast", "none"), ("rate", "none")];
+        let set: Vec<_> = plain.into_iter().chain(none).chain(more.iter().copied()).collect();
+        link("FrictionPendulum", &set)
+    };
+    // 0.025 and 0.05 at 1 MN.
+    let power = [0.397, 0.8, 1.255, 0.7667, 20.0, 5e-6, 1e-12, 3.0];
+    let by_force = [
+        ("a_slow", "0.397"),
+        ("n_slow", "0.8"),
+        ("a_fast", "1.255"),
+        ("n_fast", "0.7667"),
+        ("rate_0", "20"),
+        ("rate_1", "5e-6"),
+        ("rate_2", "1e-12"),
+    ];
+    let tanh = [0.03, 0.09, 0.1, 0.05, 8e-8, 20.0];
+    let by_pressure = [
+        ("mu_slow", "0.03"),
+        ("mu_fast", "0.09"),
+        ("area", "0.1"),
+        ("delta_mu", "0.05"),
+        ("pressure_rate", "8e-8"),
+        ("rate", "20"),
+    ];
+    let why = "friction by the speed of the bearing there, of the slip here";
+    let mut all = Vec::new();
+    for (theirs, numbers, ours) in [
+        ("VelNormalFrcDep", &power[..], set("VelocityForce", &by_force)),
+        ("VelPressureDep", &tanh[..], set("VelocityPressure", &by_pressure)),
+    ] {
+        let bearing = element("flatSliderBearing", model(theirs, numbers), &[1e9]);
+        let name = format!("flatSliderBearing, {theirs}, N varies");
+        let pairs = led(&name, &bearing, &ours, 0.05, axial);
+        // The speed passes zero along one axis, and never on the path that crosses itself.
+        all.extend(
+            pairs
+                .into_iter()
+                .zip([0.15, 0.1, 0.015])
+                .map(|(p, limit)| p.agreeing(Agree::Near(limit, why))),
         );
     }
     all
