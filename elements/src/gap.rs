@@ -61,7 +61,7 @@ impl LaneLaw for GapLaw {
     const COORDINATES: usize = 1;
     const HISTORY: usize = 0;
     const PARAMETERS: usize = 2;
-    const IS_CONTACT: bool = true;
+    const CONTACTS: usize = 1;
 
     #[inline(always)]
     fn force<R: Real>(at: &LaneAt<'_, R>, out: &mut LaneForce<'_, R>) {
@@ -73,13 +73,16 @@ impl LaneLaw for GapLaw {
     }
 
     #[inline(always)]
-    fn commit<R: Real>(at: &LaneAt<'_, R>, f: &[R], _: &mut [R]) -> LaneStep<R> {
+    fn commit<R: Real>(at: &LaneAt<'_, R>, _: &[R], _: &mut [R]) -> LaneStep<R> {
         let (k, gap) = (at.parameters[0], at.d[0] + at.parameters[1]);
-        let zero = k.of(0.0);
-        let stored = (k.of(0.5) * k * gap * gap).only(gap.lt(zero));
-        let normal = (-f[0]).max(zero);
-        let contact = LaneContact { gap, normal, position: [zero; 2], slipping: zero };
-        LaneStep { contact, ..LaneStep::elastic(stored) }
+        LaneStep::elastic((k.of(0.5) * k * gap * gap).only(gap.lt(k.of(0.0))))
+    }
+
+    #[inline(always)]
+    fn contacts<R: Real>(at: &LaneAt<'_, R>, f: &[R], out: &mut [LaneContact<R>]) -> R {
+        let zero = f[0].of(0.0);
+        out[0] = LaneContact::smooth(at.d[0] + at.parameters[1], (-f[0]).max(zero));
+        zero
     }
 }
 

@@ -177,6 +177,21 @@ impl<const T: usize, const FLAGS: u8> NLinkContact<T, FLAGS> {
         Worn { rate: own[0], since: own[1], damped }
     }
 
+    /// The friction coefficient after a step.
+    #[inline(always)]
+    fn coefficient<R: Real>(it: &Of<R>, at: &LaneAt<'_, R>, now: &Pressed<R>) -> R {
+        if FLAGS & VARIED == 0 {
+            return it.mu;
+        }
+        let Varied { slow, fast, rate, away, over, .. } = it.varied;
+        let (zero, one, two) = (slow.of(0.0), slow.of(1.0), slow.of(2.0));
+        let worn = Self::worn(at);
+        let mu = fast - (fast - slow) * (-rate * worn.rate).map(f64::exp);
+        let over = over.max(two * away * now.cone / it.ke);
+        let left = (one - worn.since / over).max(zero);
+        mu + (away * left).only(zero.lt(away))
+    }
+
     /// The friction of a contact that is closed at the end, with the anchor of the step.
     #[inline(always)]
     fn rubbed<R: Real>(
@@ -258,7 +273,7 @@ impl<const T: usize, const FLAGS: u8> LaneLaw for NLinkContact<T, FLAGS> {
     const HISTORY: usize = NLinkHistory::FIELDS.len()
         + if FLAGS & VARIED == 0 { 0 } else { NLinkRubbing::FIELDS.len() };
     const PARAMETERS: usize = PARAMETERS[if FLAGS & VARIED == 0 { 0 } else { 1 }];
-    const IS_CONTACT: bool = true;
+    const CONTACTS: usize = 1;
 
     #[inline(always)]
     fn force<R: Real>(at: &LaneAt<'_, R>, out: &mut LaneForce<'_, R>) {
@@ -347,13 +362,13 @@ impl<const T: usize, const FLAGS: u8> LaneLaw for NLinkContact<T, FLAGS> {
         for i in 0..T {
             xi[i] = d1[i] - a[i];
         }
-        let (limit, sticks) = match &rubbed {
-            Some(rubbed) => (rubbed.limit, rubbed.sticks),
+        let sticks = match &rubbed {
+            Some(rubbed) => rubbed.sticks,
             None => {
                 let limit = it.mu * now.cone;
                 let length =
                     if T == 1 { xi[0].abs() } else { (xi[0] * xi[0] + xi[1] * xi[1]).sqrt() };
-                (limit, (it.ke * length).le(limit) & zero.lt(limit))
+                (it.ke * length).le(limit) & zero.lt(limit)
             }
         };
         let kr0 = Self::restoring(&it, before.spring).only(was);
@@ -413,19 +428,33 @@ impl<const T: usize, const FLAGS: u8> LaneLaw for NLinkContact<T, FLAGS> {
             }
             viscous = viscous + (half * damped).max(zero);
         }
-        let size = Self::length(tau);
-        let most = limit * it.kn.of(1.0 - 1e-9);
-        let slips = zero.lt(now.cone) & zero.lt(it.ke) & most.le(size);
         LaneStep {
             stored: half * now.spring * now.spring * by_kn + restoring + half * sum * by_ke,
             hysteretic: (half * friction).max(zero),
             viscous,
-            contact: LaneContact {
-                gap: at.d[0] + it.opening,
-                normal: now.cone,
-                position: [d1[0], if T == 1 { zero } else { d1[T - 1] }],
-                slipping: it.kn.of(1.0).only(slips),
-            },
         }
+    }
+
+    #[inline(always)]
+    fn contacts<R: Real>(at: &LaneAt<'_, R>, f: &[R], out: &mut [LaneContact<R>]) -> R {
+        let it = Of::read(at.parameters);
+        let zero = it.kn.of(0.0);
+        let now = Self::pressed(&it, at.d[0] + it.opening, at.v[0]);
+        let d: [R; T] = Self::tangential(at.d);
+        let kr = Self::restoring(&it, now.spring).only(!now.open);
+        let mut tau = [zero; T];
+        for i in 0..T {
+            tau[i] = if FLAGS & RESTORING == 0 { f[1 + i] } else { f[1 + i] - kr * d[i] };
+        }
+        // The force at the limit was scaled onto it: equal up to rounding.
+        let most = Self::coefficient(&it, at, &now) * now.cone * it.kn.of(1.0 - 1e-9);
+        let slips = zero.lt(now.cone) & zero.lt(it.ke) & most.le(Self::length(tau));
+        out[0] = LaneContact {
+            gap: at.d[0] + it.opening,
+            normal: now.cone,
+            position: [d[0], if T == 1 { zero } else { d[T - 1] }],
+            slipping: it.kn.of(1.0).only(slips),
+        };
+        zero
     }
 }

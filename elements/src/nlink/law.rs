@@ -1,11 +1,10 @@
 //! The law of the [`NLink`].
 
 use super::NLink;
-use super::contact::{NLinkContact, PULL, RESTORING, UNDAMPED, VARIED};
+use super::contact::{NLinkContact, PARAMETERS, PULL, RESTORING, UNDAMPED, VARIED};
 use crate::shared::restitution::damping_ratio;
-use crate::shared::sliding::{Axial, Normal};
 use std::borrow::Cow;
-use trilith_element::lanes::{LaneAt, LaneForce, LaneForm, LaneLaw, LaneStep};
+use trilith_element::lanes::{LaneAt, LaneContact, LaneForce, LaneForm, LaneLaw, LaneStep};
 use trilith_element::{
     Axis, Contact, ContactUse, Coordinates, Field, History, Impact, Kinematics, Link, Response,
     history,
@@ -42,11 +41,6 @@ history! {
 }
 
 impl NLink {
-    fn normal(&self, d1: f64, v1: f64) -> Normal {
-        let axial = Axial { kn: self.kn, damping: self.damping, pull: self.pull };
-        axial.normal(d1 + self.opening, v1)
-    }
-
     /// True for friction that looks at the slip or has a dashpot.
     fn is_varied(&self) -> bool {
         self.mu_slow.is_some() || self.mu_static.is_some() || self.cs > 0.0
@@ -58,27 +52,9 @@ impl NLink {
         [self.mu_slow.unwrap_or(mu), self.mu_fast.unwrap_or(mu)]
     }
 
-    /// The friction coefficient at a moment.
-    fn coefficient(&self, normal: f64, history: &[f64]) -> f64 {
-        if !self.is_varied() {
-            return self.mu.unwrap_or(0.0);
-        }
-        let worn = NLinkRubbing::load(&history[NLinkHistory::FIELDS.len()..]);
-        let [slow, fast] = self.graded();
-        let mu = fast - (fast - slow) * (-self.rate.unwrap_or(0.0) * worn.slip_rate).exp();
-        let more = self.mu_static.map_or(0.0, |mu| mu - slow);
-        let over = self.static_slip.max(2.0 * more * normal / self.elastic());
-        if more > 0.0 { mu + more * (1.0 - worn.unstuck / over).max(0.0) } else { mu }
-    }
-
     /// Stiffness of the elastic–plastic branch, N/m; 0 without friction.
     fn elastic(&self) -> f64 {
         if self.has_friction() { self.ks.unwrap_or(0.0) - self.k_post } else { 0.0 }
-    }
-
-    /// Restoring stiffness at a spring force, N/m.
-    fn restoring(&self, spring: f64) -> f64 {
-        self.k_post + if self.radius > 0.0 { spring / self.radius } else { 0.0 }
     }
 }
 
@@ -95,9 +71,9 @@ impl NLink {
         part(self.pull, PULL) | parts
     }
 
-    /// The parameters of the contact.
-    fn numbers(&self) -> Vec<f64> {
-        let mut all = vec![
+    /// The parameters of the contact; what is not for its flags is left out.
+    fn numbers(&self) -> ([f64; PARAMETERS[1]], usize) {
+        let plain = [
             self.kn,
             self.opening,
             self.damping,
@@ -108,12 +84,16 @@ impl NLink {
             self.kn.recip(),
             if self.elastic() > 0.0 { self.elastic().recip() } else { 0.0 },
         ];
-        if self.is_varied() {
-            let [slow, fast] = self.graded();
-            let away = self.mu_static.map_or(0.0, |mu| mu - slow);
-            all.extend([slow, fast, self.rate.unwrap_or(0.0), away, self.static_slip, self.cs]);
+        let mut all = [0.0; PARAMETERS[1]];
+        all[..PARAMETERS[0]].copy_from_slice(&plain);
+        if !self.is_varied() {
+            return (all, PARAMETERS[0]);
         }
-        all
+        let [slow, fast] = self.graded();
+        let away = self.mu_static.map_or(0.0, |mu| mu - slow);
+        let varied = [slow, fast, self.rate.unwrap_or(0.0), away, self.static_slip, self.cs];
+        all[PARAMETERS[0]..].copy_from_slice(&varied);
+        (all, PARAMETERS[1])
     }
 }
 
@@ -173,8 +153,9 @@ impl Link for NLink {
         out: &mut Response<'_>,
     ) {
         let n = at.d.len();
+        let (numbers, count) = self.numbers();
         let asked = LaneAt {
-            parameters: &self.numbers(),
+            parameters: &numbers[..count],
             d: &at.d[..3],
             v: &at.v[..3],
             d0: &at.d0[..3],
@@ -185,8 +166,7 @@ impl Link for NLink {
         let (mut k, mut c) = ([0.0; 9], [0.0; 9]);
         let mut force = LaneForce { f: &mut out.f[..3], k: &mut k, c: &mut c };
         let step: LaneStep<f64> = with_flags!(self.flags(), 2, Law => {
-            Law::force(&asked, &mut force);
-            Law::commit(&asked, force.f, trial)
+            Law::respond(&asked, &mut force, trial)
         });
         for i in 0..3 {
             out.k[i * n..i * n + 3].copy_from_slice(&k[3 * i..3 * i + 3]);
@@ -209,7 +189,8 @@ impl Link for NLink {
         if self.rotational().next().is_some() {
             return None;
         }
-        let numbers = self.numbers();
+        let (numbers, count) = self.numbers();
+        let numbers = numbers[..count].to_vec();
         let form = if active[2] {
             with_flags!(self.flags(), 2, Law => LaneForm::of::<Law>(vec![0, 1, 2], numbers))
         } else {
@@ -239,16 +220,10 @@ impl Link for NLink {
     }
 
     fn contacts(&self, at: &Kinematics<'_>, history: &[f64], f: &[f64], out: &mut Vec<Contact>) {
-        let now = self.normal(at.d[0], at.v[0]);
-        let restoring = if now.closed { self.restoring(now.spring) } else { 0.0 };
-        let tau = (f[1] - restoring * at.d[1]).hypot(f[2] - restoring * at.d[2]);
-        let limit = self.coefficient(now.cone, history) * now.cone;
-        out.push(Contact {
-            gap: at.d[0] + self.opening,
-            normal: now.cone,
-            position: [at.d[1], at.d[2]],
-            // The force at the limit was scaled onto it: equal up to rounding.
-            slipping: now.cone > 0.0 && self.elastic() > 0.0 && tau >= limit * (1.0 - 1e-9),
-        });
+        let (numbers, count) = self.numbers();
+        let asked = LaneAt { parameters: &numbers[..count], ..LaneAt::new(at, history, &[]) };
+        let mut own = [LaneContact::smooth(0.0, 0.0)];
+        with_flags!(self.flags(), 2, Law => Law::contacts(&asked, f, &mut own));
+        out.extend(own.map(Contact::from));
     }
 }

@@ -4,6 +4,7 @@ pub(crate) mod biaxial;
 pub(crate) mod bouc_wen_plane;
 pub(crate) mod dense;
 pub(crate) mod dual;
+pub(crate) mod lever;
 pub(crate) mod multilinear;
 pub(crate) mod parameters;
 #[cfg(test)]
@@ -14,6 +15,7 @@ pub(crate) mod restitution;
 pub(crate) mod rotation;
 pub(crate) mod series;
 pub(crate) mod sliding;
+pub(crate) mod spatial;
 pub(crate) mod touch;
 pub(crate) mod two_bodies;
 pub(crate) mod wrench;

@@ -1,6 +1,8 @@
 //! Points of a body on a plane: an `NLink` under each.
 
-use super::rotation::Turn;
+use super::lever::{Carried, Lever};
+use super::rotation::{Turn, rows};
+use super::spatial::{Rotation, V3};
 use super::wrench::Wrench;
 use crate::{NLink, NLinkHistory};
 use nalgebra::{Matrix3, SMatrix, Vector3};
@@ -53,25 +55,6 @@ impl Foot {
     }
 }
 
-/// How a point at `r` moves with the node.
-struct Lever {
-    /// Displacement and velocity of the point in the axes of the plane.
-    d: [f64; 3],
-    v: [f64; 3],
-    /// ∂v/∂Ω = −R \[r\]×; its transpose carries a force to a moment.
-    arm: Matrix3<f64>,
-}
-
-impl Lever {
-    fn new(plane: &Plane, r: Vector3<f64>, turn: &Turn, d: &[f64], v: &[f64]) -> Self {
-        let arm = -turn.matrix * r.cross_matrix();
-        let spin = Vector3::new(v[3], v[4], v[5]);
-        let way = Vector3::new(d[0], d[1], d[2]) + turn.shift(r);
-        let rate = Vector3::new(v[0], v[1], v[2]) + arm * spin;
-        Self { d: (plane.0 * way).into(), v: (plane.0 * rate).into(), arm }
-    }
-}
-
 /// Variables of one point.
 fn own(edged: bool) -> usize {
     CONTACT + usize::from(edged)
@@ -104,23 +87,24 @@ pub(crate) fn respond(
     trial: &mut [f64],
     edged: bool,
 ) -> Wrench {
-    let spin = Vector3::new(at.v[3], at.v[4], at.v[5]);
+    let (before, now) = (Stand::new(start, at.d0, at.v0), Stand::new(turn, at.d, at.v));
     let mut out = Wrench::default();
+    let mut all = Carried::nothing(0.0);
     let histories = committed.chunks(own(edged)).zip(trial.chunks_mut(own(edged)));
     for (foot, (committed, trial)) in feet.zip(histories) {
-        let r = foot.r;
-        let before = Lever::new(plane, r, start, at.d0, at.v0);
-        let now = Lever::new(plane, r, turn, at.d, at.v);
+        let lever = now.lever(foot.r);
+        let (d0, v0) = plane.seen(&before.lever(foot.r));
+        let (d, v) = plane.seen(&lever);
         let was = edged && committed[CONTACT] != 0.0;
-        let past = foot.is_past(&now.d, was);
+        let past = foot.is_past(&d, was);
         let (mut f, mut k, mut c) = ([0.0; 3], [0.0; 9], [0.0; 9]);
         let mut energy = Energy::default();
         foot.contact.respond(
             &Kinematics {
-                d: &foot.lifted(now.d, past),
-                v: &now.v,
-                d0: &foot.lifted(before.d, was),
-                v0: &before.v,
+                d: &foot.lifted(d, past),
+                v: &v,
+                d0: &foot.lifted(d0, was),
+                v0: &v0,
                 dt: at.dt,
             },
             committed,
@@ -132,37 +116,48 @@ pub(crate) fn respond(
         }
         if past && !was {
             // What the spring held is lost where it slips over the edge.
-            let pressed = (-before.d[0] - foot.contact.opening).max(0.0);
+            let pressed = (-d0[0] - foot.contact.opening).max(0.0);
             energy.hysteretic += 0.5 * foot.contact.kn * pressed * pressed;
         }
         out.count(&energy);
 
         let axes = plane.0.transpose();
-        let f = axes * Vector3::from(f);
-        let k = axes * Matrix3::from_row_slice(&k) * plane.0;
-        let c = axes * Matrix3::from_row_slice(&c) * plane.0;
-        let down = now.arm.transpose();
-        let moment = down * f;
-        for i in 0..3 {
-            out.f[i] += f[i];
-            out.f[3 + i] += moment[i];
-        }
-        // ∂d/∂φ, ∂v/∂φ, and the force that turns against the body's axes.
-        let by_turn = now.arm * turn.jacobian;
-        let speed_by_turn = -turn.matrix * spin.cross(&r).cross_matrix() * turn.jacobian;
-        let turning =
-            r.cross_matrix() * (turn.matrix.transpose() * f).cross_matrix() * turn.jacobian;
-        let force_by_turn = k * by_turn + c * speed_by_turn;
-        Wrench::add(&mut out.k, 0, 0, &k);
-        Wrench::add(&mut out.k, 0, 1, &force_by_turn);
-        Wrench::add(&mut out.k, 1, 0, &(down * k));
-        Wrench::add(&mut out.k, 1, 1, &(down * force_by_turn + turning));
-        Wrench::add(&mut out.c, 0, 0, &c);
-        Wrench::add(&mut out.c, 0, 1, &(c * now.arm));
-        Wrench::add(&mut out.c, 1, 0, &(down * c));
-        Wrench::add(&mut out.c, 1, 1, &(down * c * now.arm));
+        let block = |m: &[f64; 9]| rows(&(axes * Matrix3::from_row_slice(m) * plane.0));
+        let f = (axes * Vector3::from(f)).into();
+        all.add((&now.turn, &now.spin), &lever, (&f, &block(&k), &block(&c)));
     }
+    all.finish(&rows(&turn.jacobian));
+    out.f = all.f;
+    out.k = SMatrix::from_fn(|i, j| all.k[i][j]);
+    out.c = SMatrix::from_fn(|i, j| all.c[i][j]);
     out
+}
+
+/// How a node stands and moves.
+struct Stand {
+    turn: Rotation<f64>,
+    d: V3<f64>,
+    v: V3<f64>,
+    spin: V3<f64>,
+}
+
+impl Stand {
+    fn new(turn: &Turn, d: &[f64], v: &[f64]) -> Self {
+        let three = |x: &[f64]| [x[0], x[1], x[2]];
+        Self { turn: turn.rotation(), d: three(d), v: three(v), spin: three(&v[3..]) }
+    }
+
+    fn lever(&self, r: Vector3<f64>) -> Lever<f64> {
+        Lever::new(&r.into(), &self.turn, [&self.d, &self.v, &self.spin])
+    }
+}
+
+impl Plane {
+    /// Displacement and velocity of a point in its axes.
+    fn seen(&self, lever: &Lever<f64>) -> ([f64; 3], [f64; 3]) {
+        let own = |x: V3<f64>| (self.0 * Vector3::from(x)).into();
+        (own(lever.way), own(lever.rate))
+    }
 }
 
 /// Stiffness of a body at rest by one closed contact at `r`: `kn` along the normal, `shear` across.
@@ -197,10 +192,11 @@ pub(crate) fn contacts(
     edged: bool,
     out: &mut Vec<Contact>,
 ) {
+    let now = Stand::new(turn, at.d, at.v);
     for (foot, history) in feet.zip(history.chunks(own(edged))) {
-        let now = Lever::new(plane, foot.r, turn, at.d, at.v);
-        let d = foot.lifted(now.d, edged && history[CONTACT] != 0.0);
-        let at = Kinematics { d: &d, v: &now.v, d0: &d, v0: &now.v, dt: 0.0 };
+        let (d, v) = plane.seen(&now.lever(foot.r));
+        let d = foot.lifted(d, edged && history[CONTACT] != 0.0);
+        let at = Kinematics { d: &d, v: &v, d0: &d, v0: &v, dt: 0.0 };
         let (mut f, mut k, mut c) = ([0.0; 3], [0.0; 9], [0.0; 9]);
         let (mut energy, mut trial) = (Energy::default(), [0.0; CONTACT]);
         foot.contact.respond(

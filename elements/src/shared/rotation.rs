@@ -1,6 +1,7 @@
 //! Finite rotations.
 
 use super::dual::{Dual, Dual3};
+use super::spatial::{self, M3, Rotation, right_jacobian};
 use nalgebra::{Matrix3, Quaternion, UnitQuaternion, Vector3};
 use trilith_element::history;
 
@@ -52,27 +53,25 @@ impl Turned {
 impl Turn {
     /// From the quaternion (w, x, y, z) of R₀ by the rotation vector φ in the axes of the body.
     pub fn new(start: [f64; 4], by: Vector3<f64>) -> Self {
-        let [w, x, y, z] = start;
-        let start = UnitQuaternion::from_quaternion(Quaternion::new(w, x, y, z));
-        let all = start * small_or_large(by);
-        let q = all.quaternion();
-        Self {
-            matrix: all.to_rotation_matrix().into_inner(),
-            jacobian: right_jacobian(by),
-            quaternion: [q.w, q.i, q.j, q.k],
-        }
+        let by = by.into();
+        let Rotation { matrix, quaternion } = Rotation::new(&start, &by);
+        Self { matrix: of_rows(&matrix), jacobian: of_rows(&right_jacobian(&by)), quaternion }
     }
 
-    /// R r − r, from the quaternion: a stiff contact would see the rounding of the difference.
+    /// Without its Jacobian.
+    pub fn rotation(&self) -> Rotation<f64> {
+        Rotation { matrix: rows(&self.matrix), quaternion: self.quaternion }
+    }
+
+    /// R r − r.
     pub fn shift(&self, r: Vector3<f64>) -> Vector3<f64> {
-        let [w, x, y, z] = self.quaternion;
-        shift(w, Vector3::new(x, y, z), r)
+        spatial::shift(&self.quaternion, &r.into()).into()
     }
 
     /// Rᵀ r − r.
     pub fn shift_back(&self, r: Vector3<f64>) -> Vector3<f64> {
         let [w, x, y, z] = self.quaternion;
-        shift(w, -Vector3::new(x, y, z), r)
+        spatial::shift(&[w, -x, -y, -z], &r.into()).into()
     }
 
     /// R₁ᵀ R₂ of two rotations, as one that goes on from `start`, and its φ; none: as one to start from.
@@ -85,7 +84,7 @@ impl Turn {
         let q = all.quaternion();
         let turn = Self {
             matrix: first.matrix.transpose() * second.matrix,
-            jacobian: right_jacobian(by),
+            jacobian: of_rows(&right_jacobian(&by.into())),
             quaternion: [q.w, q.i, q.j, q.k],
         };
         (turn, by)
@@ -109,12 +108,6 @@ impl Turn {
     }
 }
 
-/// R r − r by the parts of the quaternion of R.
-fn shift(w: f64, axis: Vector3<f64>, r: Vector3<f64>) -> Vector3<f64> {
-    let across = axis.cross(&r);
-    2.0 * (w * across + axis.cross(&across))
-}
-
 /// φ of exp(φ), at most half a turn.
 fn logarithm(q: &UnitQuaternion<f64>) -> Vector3<f64> {
     let (w, axis) = (q.quaternion().w, q.quaternion().vector().into_owned());
@@ -126,27 +119,14 @@ fn logarithm(q: &UnitQuaternion<f64>) -> Vector3<f64> {
     axis * (2.0 * sine.atan2(w) / sine)
 }
 
-/// exp(φ/2), of every angle that a number can hold: nalgebra takes the identity below 4e-16, and a stiff contact at
-/// rest feels less than that.
-fn small_or_large(by: Vector3<f64>) -> UnitQuaternion<f64> {
-    let half = 0.5 * by;
-    let angle = half.norm();
-    let share = if angle < 1e-4 { 1.0 - angle * angle / 6.0 } else { angle.sin() / angle };
-    UnitQuaternion::new_unchecked(Quaternion::from_parts(angle.cos(), share * half))
+/// A matrix of its rows.
+pub(crate) fn of_rows(m: &M3<f64>) -> Matrix3<f64> {
+    Matrix3::from_fn(|i, j| m[i][j])
 }
 
-/// I − (1 − cos φ)/φ² \[φ\]× + (φ − sin φ)/φ³ \[φ\]×².
-fn right_jacobian(by: Vector3<f64>) -> Matrix3<f64> {
-    let angle = by.norm();
-    // The series where the quotients lose their digits.
-    let (first, second) = if angle < 1e-2 {
-        let s = angle * angle;
-        (0.5 - s / 24.0 + s * s / 720.0, 1.0 / 6.0 - s / 120.0 + s * s / 5040.0)
-    } else {
-        ((1.0 - angle.cos()) / angle.powi(2), (angle - angle.sin()) / angle.powi(3))
-    };
-    let cross = by.cross_matrix();
-    Matrix3::identity() - cross * first + cross * cross * second
+/// The rows of a matrix.
+pub(crate) fn rows(m: &Matrix3<f64>) -> M3<f64> {
+    std::array::from_fn(|i| std::array::from_fn(|j| m[(i, j)]))
 }
 
 #[cfg(test)]
@@ -187,7 +167,8 @@ mod tests {
         for angle in [1.9e-4, 2.1e-4, 0.3, 3.0] {
             let by = angle * Vector3::new(0.6, 0.0, 0.8);
             let known = UnitQuaternion::from_scaled_axis(by);
-            assert!((small_or_large(by).coords - known.coords).norm() < 1e-15);
+            let [w, x, y, z] = Turn::new([1.0, 0.0, 0.0, 0.0], by).quaternion;
+            assert!((Quaternion::new(w, x, y, z).coords - known.coords).norm() < 1e-15);
         }
     }
 

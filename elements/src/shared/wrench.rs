@@ -14,12 +14,6 @@ pub(crate) struct Wrench {
 }
 
 impl Wrench {
-    /// Adds a block to a tangent: 0 is the force or the displacement, 1 the moment or the turn.
-    pub fn add(to: &mut SMatrix<f64, 6, 6>, i: usize, j: usize, block: &Matrix3<f64>) {
-        let mut view = to.fixed_view_mut::<3, 3>(3 * i, 3 * j);
-        view += block;
-    }
-
     /// Adds energies.
     pub fn count(&mut self, energy: &Energy) {
         self.energy.stored += energy.stored;

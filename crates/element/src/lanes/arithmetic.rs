@@ -3,7 +3,7 @@
 use super::law::{ErasedLaw, LaneLinks};
 #[cfg(target_arch = "x86_64")]
 use super::{Fused, Wide};
-use super::{LaneStep, Real};
+use super::{LaneContact, LaneStep, Real};
 #[cfg(target_arch = "x86_64")]
 use pulp::x86::{V3, V4};
 
@@ -75,6 +75,15 @@ pub trait Arithmetic: Copy + Send + Sync {
         links: &mut LaneLinks<'_, Self::Real>,
         out: &mut [LaneStep<Self::Real>],
     );
+
+    /// What the contacts of links of one law do after a step, and which of them have overturned (1, else 0).
+    fn contacts(
+        self,
+        law: &ErasedLaw,
+        links: &LaneLinks<'_, Self::Real>,
+        out: &mut [LaneContact<Self::Real>],
+        fallen: &mut [Self::Real],
+    );
 }
 
 /// One analysis at a time, on any machine.
@@ -130,6 +139,16 @@ impl Arithmetic for Portable {
     #[inline(always)]
     fn respond(self, law: &ErasedLaw, links: &mut LaneLinks<'_, f64>, out: &mut [LaneStep<f64>]) {
         (law.portable.respond)(links, out);
+    }
+    #[inline(always)]
+    fn contacts(
+        self,
+        law: &ErasedLaw,
+        links: &LaneLinks<'_, f64>,
+        out: &mut [LaneContact<f64>],
+        fallen: &mut [f64],
+    ) {
+        (law.portable.contacts)(links, out, fallen);
     }
 }
 
@@ -218,6 +237,16 @@ impl Arithmetic for FusedOne {
     ) {
         (law.fused.respond)(self, links, out);
     }
+    #[inline(always)]
+    fn contacts(
+        self,
+        law: &ErasedLaw,
+        links: &LaneLinks<'_, Fused>,
+        out: &mut [LaneContact<Fused>],
+        fallen: &mut [Fused],
+    ) {
+        (law.fused.contacts)(self, links, out, fallen);
+    }
 }
 
 /// Eight analyses at a time, in the registers that a token of [`pulp`] stands for.
@@ -295,6 +324,16 @@ macro_rules! eight_lanes {
                 out: &mut [LaneStep<Self::Real>],
             ) {
                 (law.$entries.respond)(self, links, out);
+            }
+            #[inline(always)]
+            fn contacts(
+                self,
+                law: &ErasedLaw,
+                links: &LaneLinks<'_, Self::Real>,
+                out: &mut [LaneContact<Self::Real>],
+                fallen: &mut [Self::Real],
+            ) {
+                (law.$entries.contacts)(self, links, out, fallen);
             }
         }
     };

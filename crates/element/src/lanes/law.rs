@@ -5,7 +5,7 @@ use super::Real;
 use super::side_by_side::RespondTogether;
 #[cfg(target_arch = "x86_64")]
 use super::{Arithmetic, Avx2Lanes, Avx512Lanes, FusedOne, Task};
-use crate::Kinematics;
+use crate::{Contact, Kinematics};
 use std::any::TypeId;
 use std::fmt;
 
@@ -73,7 +73,24 @@ pub struct LaneContact<R> {
     pub slipping: R,
 }
 
-/// What a step did: energies as [`Energy`](crate::Energy), and the contact for laws that are one.
+impl<R: Real> LaneContact<R> {
+    /// Of a contact that has no friction.
+    #[inline(always)]
+    #[must_use]
+    pub fn smooth(gap: R, normal: R) -> Self {
+        let zero = gap.of(0.0);
+        Self { gap, normal, position: [zero; 2], slipping: zero }
+    }
+}
+
+impl From<LaneContact<f64>> for Contact {
+    fn from(it: LaneContact<f64>) -> Self {
+        let LaneContact { gap, normal, position, slipping } = it;
+        Self { gap, normal, position, slipping: slipping > 0.0 }
+    }
+}
+
+/// What a step did: energies as [`Energy`](crate::Energy).
 #[derive(Clone, Copy, Debug)]
 pub struct LaneStep<R> {
     /// Recoverable energy at the end of the step, J.
@@ -82,23 +99,20 @@ pub struct LaneStep<R> {
     pub hysteretic: R,
     /// Heat of rate-dependent forces in the step, J.
     pub viscous: R,
-    /// The contact; looked at where [`LaneLaw::IS_CONTACT`].
-    pub contact: LaneContact<R>,
 }
 
 impl<R: Real> LaneStep<R> {
-    /// Of an elastic law that is no contact.
+    /// Of an elastic law.
     #[inline(always)]
     #[must_use]
     pub fn elastic(stored: R) -> Self {
         let zero = stored.of(0.0);
-        let contact = LaneContact { gap: zero, normal: zero, position: [zero; 2], slipping: zero };
-        Self { stored, hysteretic: zero, viscous: zero, contact }
+        Self { stored, hysteretic: zero, viscous: zero }
     }
 }
 
-/// A law over lanes. Same contract as [`Link`](crate::Link), in two parts: the iteration of a step asks
-/// for forces only. Both functions must be `#[inline(always)]`.
+/// A law over lanes. Same contract as [`Link`](crate::Link), in parts: the iteration of a step asks
+/// for forces only. All functions must be `#[inline(always)]`.
 pub trait LaneLaw: 'static {
     /// Number of coordinates n.
     const COORDINATES: usize;
@@ -106,14 +120,34 @@ pub trait LaneLaw: 'static {
     const HISTORY: usize;
     /// Number of parameters.
     const PARAMETERS: usize;
-    /// True for a contact.
-    const IS_CONTACT: bool = false;
+    /// Number of contacts, those of the link.
+    const CONTACTS: usize = 0;
+    /// True where it may end a run: a body that overturns.
+    const FALLS: bool = false;
 
     /// Force and tangents.
     fn force<R: Real>(at: &LaneAt<'_, R>, out: &mut LaneForce<'_, R>);
 
     /// History and energies after a step that has found `f`; writes the whole trial history.
     fn commit<R: Real>(at: &LaneAt<'_, R>, f: &[R], trial: &mut [R]) -> LaneStep<R>;
+
+    /// Both at once, for laws to which that is less than one after the other.
+    #[inline(always)]
+    fn respond<R: Real>(
+        at: &LaneAt<'_, R>,
+        out: &mut LaneForce<'_, R>,
+        trial: &mut [R],
+    ) -> LaneStep<R> {
+        Self::force(at, out);
+        Self::commit(at, out.f, trial)
+    }
+
+    /// What its contacts do after a step, where the history is that of its end and the start of the step is not looked
+    /// at; 1 where the body on them has overturned, else 0.
+    #[inline(always)]
+    fn contacts<R: Real>(at: &LaneAt<'_, R>, _: &[R], _: &mut [LaneContact<R>]) -> R {
+        at.dt.of(0.0)
+    }
 }
 
 /// A link in the form for lanes. Analyses whose links have the same law run together.
@@ -208,9 +242,15 @@ impl<'a, R: Real> LaneLinks<'a, R> {
     /// Force and commit.
     #[inline(always)]
     pub(super) fn respond<L: LaneLaw>(&mut self, i: usize) -> LaneStep<R> {
+        let (n, h) = (L::COORDINATES, L::HISTORY);
         let at = self.question::<L>(i);
-        self.force::<L>(i, &at);
-        self.commit::<L>(i, &at)
+        let block = i * n * n..(i + 1) * n * n;
+        let mut out = LaneForce {
+            f: &mut self.f[i * n..(i + 1) * n],
+            k: &mut self.k[block.clone()],
+            c: &mut self.c[block],
+        };
+        L::respond(&at, &mut out, &mut self.trial[i * h..(i + 1) * h])
     }
 
     #[inline(always)]
@@ -243,24 +283,46 @@ fn respond_all<L: LaneLaw, R: Real>(links: &mut LaneLinks<'_, R>, steps: &mut [L
     }
 }
 
+#[inline(always)]
+fn contacts_all<L: LaneLaw, R: Real>(
+    links: &LaneLinks<'_, R>,
+    out: &mut [LaneContact<R>],
+    fallen: &mut [R],
+) {
+    let (n, c) = (L::COORDINATES, L::CONTACTS);
+    for (i, fallen) in fallen.iter_mut().enumerate() {
+        let at = links.question::<L>(i);
+        *fallen = L::contacts(&at, &links.f[i * n..(i + 1) * n], &mut out[i * c..(i + 1) * c]);
+    }
+}
+
 type ForceOf<R> = fn(&mut LaneLinks<'_, R>);
+type ContactsOf<R> = fn(&LaneLinks<'_, R>, &mut [LaneContact<R>], &mut [R]);
 type CommitOf<R> = fn(&mut LaneLinks<'_, R>, &mut [LaneStep<R>]);
 #[cfg(target_arch = "x86_64")]
 type ForceBy<A> = fn(A, &mut LaneLinks<'_, <A as Arithmetic>::Real>);
 #[cfg(target_arch = "x86_64")]
 type CommitBy<A> =
     fn(A, &mut LaneLinks<'_, <A as Arithmetic>::Real>, &mut [LaneStep<<A as Arithmetic>::Real>]);
+#[cfg(target_arch = "x86_64")]
+type ContactsBy<A> = fn(
+    A,
+    &LaneLinks<'_, <A as Arithmetic>::Real>,
+    &mut [LaneContact<<A as Arithmetic>::Real>],
+    &mut [<A as Arithmetic>::Real],
+);
 
-/// A law on one arithmetic: its forces, the end of a step, and both at once.
+/// A law on one arithmetic: its forces, the end of a step, both at once, and its contacts.
 #[derive(Clone, Copy)]
-pub(super) struct Entries<F, C> {
+pub(super) struct Entries<F, C, T> {
     pub force: F,
     pub commit: C,
     pub respond: C,
+    pub contacts: T,
 }
 
 #[cfg(target_arch = "x86_64")]
-type EntriesBy<A> = Entries<ForceBy<A>, CommitBy<A>>;
+type EntriesBy<A> = Entries<ForceBy<A>, CommitBy<A>, ContactsBy<A>>;
 
 /// A law over lanes without its type: entries for every [`Arithmetic`].
 #[derive(Clone, Copy)]
@@ -273,9 +335,11 @@ pub struct ErasedLaw {
     pub history: usize,
     /// Number of parameters.
     pub parameters: usize,
-    /// True for a contact.
-    pub is_contact: bool,
-    pub(super) portable: Entries<ForceOf<f64>, CommitOf<f64>>,
+    /// Number of contacts.
+    pub contacts: usize,
+    /// True where it may end a run.
+    pub falls: bool,
+    pub(super) portable: Entries<ForceOf<f64>, CommitOf<f64>, ContactsOf<f64>>,
     #[cfg(target_arch = "x86_64")]
     pub(super) fused: EntriesBy<FusedOne>,
     #[cfg(target_arch = "x86_64")]
@@ -335,12 +399,32 @@ impl<A: Arithmetic, L: LaneLaw> Task<A> for RespondTask<'_, '_, L, A::Real> {
 }
 
 #[cfg(target_arch = "x86_64")]
+struct ContactsTask<'a, 'b, L, R>(
+    &'a LaneLinks<'b, R>,
+    &'a mut [LaneContact<R>],
+    &'a mut [R],
+    std::marker::PhantomData<L>,
+);
+
+#[cfg(target_arch = "x86_64")]
+impl<A: Arithmetic, L: LaneLaw> Task<A> for ContactsTask<'_, '_, L, A::Real> {
+    type Output = ();
+    #[inline(always)]
+    fn run(self, _: A) {
+        contacts_all::<L, A::Real>(self.0, self.1, self.2);
+    }
+}
+
+#[cfg(target_arch = "x86_64")]
 fn entries_by<A: Arithmetic, L: LaneLaw>() -> EntriesBy<A> {
     use std::marker::PhantomData;
     Entries {
         force: |with, links| with.run(ForceTask::<L, _>(links, PhantomData)),
         commit: |with, links, out| with.run(CommitTask::<L, _>(links, out, PhantomData)),
         respond: |with, links, out| with.run(RespondTask::<L, _>(links, out, PhantomData)),
+        contacts: |with, links, out, fallen| {
+            with.run(ContactsTask::<L, _>(links, out, fallen, PhantomData));
+        },
     }
 }
 
@@ -353,11 +437,13 @@ impl ErasedLaw {
             coordinates: L::COORDINATES,
             history: L::HISTORY,
             parameters: L::PARAMETERS,
-            is_contact: L::IS_CONTACT,
+            contacts: L::CONTACTS,
+            falls: L::FALLS,
             portable: Entries {
                 force: |links| force_all::<L, f64>(links),
                 commit: |links, out| commit_all::<L, f64>(links, out),
                 respond: |links, out| respond_all::<L, f64>(links, out),
+                contacts: |links, out, fallen| contacts_all::<L, f64>(links, out, fallen),
             },
             #[cfg(target_arch = "x86_64")]
             fused: Entries {

@@ -1,7 +1,7 @@
 //! Links of one analysis side by side: a law looks at two or four of them at once, each in a lane of one register.
 //! Every link gets the bits that it gets alone.
 
-use super::{Fused, FusedOne, LaneAt, LaneContact, LaneForce, LaneLaw, LaneLinks, LaneStep};
+use super::{Fused, FusedOne, LaneAt, LaneForce, LaneLaw, LaneLinks, LaneStep};
 use super::{Task, Wide};
 use pulp::f64x4;
 use pulp::x86::V3;
@@ -93,9 +93,8 @@ fn respond_group<L: LaneLaw, const G: usize>(
     let (mut f, mut k, mut c) =
         ([zero; COORDINATES], [zero; COORDINATES * COORDINATES], [zero; COORDINATES * COORDINATES]);
     let mut force = LaneForce { f: &mut f[..n], k: &mut k[..n * n], c: &mut c[..n * n] };
-    L::force(&at, &mut force);
     let mut trial = [zero; NUMBERS];
-    let step = L::commit(&at, &f[..n], &mut trial[..h]);
+    let step = L::respond(&at, &mut force, &mut trial[..h]);
     group.write(links.f, n, &f);
     group.write(links.k, n * n, &k);
     group.write(links.c, n * n, &c);
@@ -106,12 +105,6 @@ fn respond_group<L: LaneLaw, const G: usize>(
             stored: of(step.stored),
             hysteretic: of(step.hysteretic),
             viscous: of(step.viscous),
-            contact: LaneContact {
-                gap: of(step.contact.gap),
-                normal: of(step.contact.normal),
-                position: [of(step.contact.position[0]), of(step.contact.position[1])],
-                slipping: of(step.contact.slipping),
-            },
         };
     }
 }

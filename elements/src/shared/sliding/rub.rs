@@ -42,7 +42,6 @@ pub(crate) struct Rubbing<R, const T: usize> {
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Rubbed<R: Real, const T: usize> {
     pub(crate) sticks: R::Mask,
-    pub(crate) limit: R,
     pub(crate) tau: [R; T],
     /// Slip of the step, along the friction force.
     pub(crate) slip: [R; T],
@@ -112,7 +111,6 @@ impl<R: Real, const T: usize> Rubbing<R, T> {
 
         let mut out = Rubbed {
             sticks,
-            limit,
             tau: [zero; T],
             slip: [zero; T],
             worn: Worn {
