@@ -67,6 +67,7 @@ mod motion;
 #[cfg(test)]
 mod tests;
 
+pub(crate) use contact::{NLinkContact, PULL};
 pub use law::{NLinkHistory, NLinkRubbing};
 
 use crate::shared::restitution::{IMPACT_MASS, restitution};

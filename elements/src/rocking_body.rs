@@ -53,6 +53,7 @@
 //! Reference: Euler's equations with exact rotations \[Simo & Vu-Quoc 1988\]; rocking \[Housner 1963\].
 
 mod drilling;
+mod lanes;
 mod law;
 mod outline;
 mod rim;

@@ -116,6 +116,9 @@ fn outcome(model: &Model, setup: &LaneSetup, lane: LaneOutcome) -> Result<Outcom
     let share = lane.energy.error_relative;
     let status = if share > setup.energy_limit {
         Status::EnergyError { share, limit: setup.energy_limit }
+    } else if let Some((t, body)) = lane.overturned {
+        let body = model.elements.get(body).map(|e| e.name.clone()).unwrap_or_default();
+        Status::Overturned { t, body }
     } else {
         Status::Converged
     };

@@ -9,7 +9,7 @@ use trilith_element::History;
 use trilith_element::lanes::{LaneAt, LaneContact, LaneForce, LaneLaw, LaneStep, Real};
 
 /// The dashpot may pull while closed.
-pub(super) const PULL: u8 = 1;
+pub(crate) const PULL: u8 = 1;
 /// There is a post-slip spring or a pendulum.
 pub(super) const RESTORING: u8 = 2;
 /// Friction looks at the slip: at its rate, or for its break-away, or there is a dashpot beside its spring. It
@@ -19,7 +19,7 @@ pub(super) const VARIED: u8 = 4;
 pub(super) const UNDAMPED: u8 = 8;
 
 /// The law without the rotational springs.
-pub(super) struct NLinkContact<const T: usize, const FLAGS: u8>;
+pub(crate) struct NLinkContact<const T: usize, const FLAGS: u8>;
 
 /// Parameters in the order of their slice.
 #[derive(Clone, Copy)]

@@ -72,7 +72,7 @@ impl NLink {
     }
 
     /// The parameters of the contact; what is not for its flags is left out.
-    fn numbers(&self) -> ([f64; PARAMETERS[1]], usize) {
+    pub(crate) fn numbers(&self) -> ([f64; PARAMETERS[1]], usize) {
         let plain = [
             self.kn,
             self.opening,

@@ -8,6 +8,7 @@ use crate::shared::two_bodies::{self, Turns, View};
 use crate::shared::wrench::{Wrench, add_gyroscopic};
 use nalgebra::{SMatrix, Vector3};
 use std::borrow::Cow;
+use trilith_element::lanes::LaneForm;
 use trilith_element::{
     Contact, Coordinates, Field, Geometry, History, Kinematics, Link, Outline, ParameterError,
     Response, history, sub,
@@ -15,7 +16,7 @@ use trilith_element::{
 
 history! {
     /// How the body stands.
-    struct Posture {
+    pub(super) struct Posture {
         /// Angle between the body's vertical axis and the vertical.
         tilt: "rad",
         /// Horizontal part of the body's vertical axis, a vector of length 1: along X and Y.
@@ -36,8 +37,8 @@ impl Posture {
 }
 
 /// The history in its order: how the body has turned, its posture, its base, and how what it stands on has turned.
-const TURNED: usize = Turned::FIELDS.len();
-const BASE: usize = TURNED + Posture::FIELDS.len();
+pub(super) const TURNED: usize = Turned::FIELDS.len();
+pub(super) const BASE: usize = TURNED + Posture::FIELDS.len();
 
 impl RockingBody {
     /// The rim, for a body with a circular base.
@@ -214,6 +215,10 @@ impl Link for RockingBody {
         add_gyroscopic(inertia, &at.v[first + 3..first + 6], first + 3, out);
         Turned::after(theta, &turn).store(trial);
         Posture::after(&turn, uplift).store(&mut trial[TURNED..]);
+    }
+
+    fn lanes(&self, active: &[bool]) -> Option<LaneForm> {
+        self.form(active)
     }
 
     fn contacts(&self, at: &Kinematics<'_>, history: &[f64], _: &[f64], out: &mut Vec<Contact>) {

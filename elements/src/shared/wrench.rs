@@ -1,6 +1,8 @@
 //! What a law does to one body.
 
-use nalgebra::{Matrix3, SMatrix, Vector3};
+use super::spatial::{M3, V3, cross, cross_matrix};
+use nalgebra::SMatrix;
+use trilith_element::lanes::Real;
 use trilith_element::{Energy, Response};
 
 /// Force (global axes) and moment (axes of the body) on a node with their tangents by its displacement, turn, velocity
@@ -34,7 +36,27 @@ impl Wrench {
     }
 }
 
-/// Ω × J Ω of a body with moments of inertia J at a spin Ω, added to what a law answers for its rotations, which are the
+/// Ω × J Ω of a body with moments of inertia J at a spin Ω, and its derivative by Ω.
+#[inline(always)]
+pub(crate) fn gyroscopic<R: Real>(inertia: &V3<R>, spin: &V3<R>) -> (V3<R>, M3<R>) {
+    let mut momentum = *spin;
+    let mut by_spin = cross_matrix(spin);
+    for j in 0..3 {
+        momentum[j] = inertia[j] * spin[j];
+        for row in &mut by_spin {
+            row[j] = row[j] * inertia[j];
+        }
+    }
+    let own = cross_matrix(&momentum);
+    for i in 0..3 {
+        for j in 0..3 {
+            by_spin[i][j] = by_spin[i][j] - own[i][j];
+        }
+    }
+    (cross(spin, &momentum), by_spin)
+}
+
+/// The same added to what a law answers for its rotations, which are the
 /// coordinates from `first` on of `n`.
 pub(crate) fn add_gyroscopic(
     inertia: [f64; 3],
@@ -42,16 +64,12 @@ pub(crate) fn add_gyroscopic(
     first: usize,
     out: &mut Response<'_>,
 ) {
-    let inertia = Matrix3::from_diagonal(&Vector3::from(inertia));
-    let spin = Vector3::new(spin[0], spin[1], spin[2]);
-    let momentum = inertia * spin;
-    let moment = spin.cross(&momentum);
-    let by_spin = spin.cross_matrix() * inertia - momentum.cross_matrix();
+    let (moment, by_spin) = gyroscopic(&inertia, &[spin[0], spin[1], spin[2]]);
     let n = out.f.len();
     for i in 0..3 {
         out.f[first + i] += moment[i];
         for j in 0..3 {
-            out.c[n * (first + i) + first + j] += by_spin[(i, j)];
+            out.c[n * (first + i) + first + j] += by_spin[i][j];
         }
     }
 }

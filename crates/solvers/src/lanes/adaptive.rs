@@ -62,6 +62,7 @@ impl<A: Arithmetic, const M: usize, const L: usize, const N: usize> Task<A>
             let error = norms.measure(with, &plan, &at, &trial.tried());
             let error = Errors::new(with, wrong, &error);
             let mut accepted = [false; MOST];
+            let steps: [usize; MOST] = std::array::from_fn(|i| ways.get(i).map_or(0, |w| w.step));
             for (i, way) in ways.iter_mut().enumerate() {
                 if let Some(next) = &next[i] {
                     accepted[i] = error.decide(i, next.start, way);
@@ -72,12 +73,30 @@ impl<A: Arithmetic, const M: usize, const L: usize, const N: usize> Task<A>
                 let ok = mask(with, |i| accepted[i]);
                 trial.accept(with, &plan, &rules[1], (ok, all), &mut at, &mut norms);
             }
+            if plan.falls {
+                // Looked at where an output step ends.
+                for (i, way) in ways.iter_mut().enumerate().filter(|(i, _)| accepted[*i]) {
+                    let fell = |x: &A::Real| with.lane(*x, i) == 1.0;
+                    let link = at.fallen.iter().position(fell);
+                    if let Some(link) = link.filter(|_| way.step > steps[i]) {
+                        way.fall(link);
+                    }
+                }
+            }
         }
         let lost = |i: usize| ways.get(i).and_then(|way| way.lost);
         at.alive = mask(with, |i| lost(i).is_none());
         at.lost = with.gather(|i| lost(i).unwrap_or(0.0));
         at.iterations = trial.iterations();
-        (0..setups.len()).map(|i| at.outcome(with, setups[i], i)).collect()
+        let outcome = |(i, way): (usize, &Way<'_>)| {
+            let mut outcome = at.outcome(with, setups[i], i);
+            if let Some((t, link)) = way.fallen {
+                outcome.overturned = Some((t, setups[i].elements[link]));
+                outcome.contact.iter_mut().for_each(|c| c.overturned = true);
+            }
+            outcome
+        };
+        ways.iter().enumerate().map(outcome).collect()
     }
 }
 

@@ -2,7 +2,7 @@
 
 use crate::contact_mode::{ContactSummary, Seen};
 use trilith_element::Contact;
-use trilith_element::lanes::{Arithmetic, LaneContact, LaneStep, Real};
+use trilith_element::lanes::{Arithmetic, LaneContact, Real};
 
 /// √(x² + y²); y is zero in a plane.
 #[inline(always)]
@@ -94,16 +94,16 @@ impl<R: Real> Feet<R> {
         }
     }
 
-    /// After a step of all links; `which` of them are contacts.
+    /// After a step; `which` of the contacts are feet.
     #[inline(always)]
-    pub(super) fn enter(&mut self, steps: &[LaneStep<R>], which: &[usize]) {
+    pub(super) fn enter(&mut self, contacts: &[LaneContact<R>], which: &[usize]) {
         let Some(first) = self.feet.first() else { return };
         let (zero, one) = (first.gap.of(0.0), first.gap.of(1.0));
         let never = one.lt(zero);
         let (mut impact, mut some, mut sticks) = (never, never, never);
         let (mut highest, mut lowest) = (first.gap.of(f64::MIN), first.gap.of(f64::MAX));
-        for (foot, link) in self.feet.iter().zip(which) {
-            let now = &steps[*link].contact;
+        for (foot, at) in self.feet.iter().zip(which) {
+            let now = &contacts[*at];
             let loaded = loaded(now);
             impact = impact | (zero.lt(foot.gap) & now.gap.le(zero));
             some = some | loaded;
@@ -113,7 +113,7 @@ impl<R: Real> Feet<R> {
         }
         let moved = some & !sticks;
         if zero.any(moved) {
-            let (slid, reversal) = self.slide(steps, which, moved);
+            let (slid, reversal) = self.slide(contacts, which, moved);
             self.fresh = self.fresh.only(!(impact | reversal));
             self.whole.slid = self.whole.slid + slid;
             self.initial.slid = self.initial.slid + slid.only(zero.lt(self.fresh));
@@ -134,8 +134,8 @@ impl<R: Real> Feet<R> {
             self.max_uplift = self.max_uplift.max(highest);
         }
         let mut slip = zero;
-        for (foot, link) in self.feet.iter_mut().zip(which) {
-            let now = &steps[*link].contact;
+        for (foot, at) in self.feet.iter_mut().zip(which) {
+            let now = &contacts[*at];
             let far = length(self.plane, |k| now.position[k] - foot.start[k]);
             foot.slip = R::mix(zero.lt(now.normal), far, foot.slip);
             slip = slip.max(foot.slip);
@@ -148,13 +148,18 @@ impl<R: Real> Feet<R> {
 
     /// How far a mask has slid, in the mean of the loaded contacts, and where it has turned back.
     #[inline(always)]
-    fn slide(&mut self, steps: &[LaneStep<R>], which: &[usize], moved: R::Mask) -> (R, R::Mask) {
+    fn slide(
+        &mut self,
+        contacts: &[LaneContact<R>],
+        which: &[usize],
+        moved: R::Mask,
+    ) -> (R, R::Mask) {
         let zero = self.fresh.of(0.0);
         let one = self.fresh.of(1.0);
         let axes = if self.plane { 1 } else { 2 };
         let (mut mean, mut count) = ([zero; 2], zero);
-        for (foot, link) in self.feet.iter().zip(which) {
-            let now = &steps[*link].contact;
+        for (foot, at) in self.feet.iter().zip(which) {
+            let now = &contacts[*at];
             let loaded = loaded(now);
             for k in 0..axes {
                 mean[k] = mean[k] + (now.position[k] - foot.position[k]).only(loaded);

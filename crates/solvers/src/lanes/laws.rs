@@ -43,9 +43,11 @@ pub(super) fn look<A: Arithmetic, const M: usize, const L: usize, const N: usize
         let (h, p) = (run.history, run.parameters);
         let whole = n == N;
         // A narrow link: its blocks are spread afterwards.
-        let mut narrow = Narrow::new(dt, whole);
+        let mut narrow = Narrow::<_, N>::new(dt, whole);
         let blocks = match &mut narrow {
-            Some(own) => (&mut own.k[..n * n], &mut own.c[..n * n]),
+            Some(own) => {
+                (&mut own.k.as_flattened_mut()[..n * n], &mut own.c.as_flattened_mut()[..n * n])
+            }
             None => (k[r.clone()].as_flattened_mut(), c[r.clone()].as_flattened_mut()),
         };
         let mut links = LaneLinks {
@@ -65,10 +67,11 @@ pub(super) fn look<A: Arithmetic, const M: usize, const L: usize, const N: usize
         with.respond(law, &mut links, own);
         steps = rest;
         if let Some(own) = &narrow {
+            let blocks = (own.k.as_flattened(), own.c.as_flattened());
             for i in 0..n {
                 for j in 0..n {
-                    k[run.first + i][j] = own.k[i * n + j];
-                    c[run.first + i][j] = own.c[i * n + j];
+                    k[run.first + i][j] = blocks.0[i * n + j];
+                    c[run.first + i][j] = blocks.1[i * n + j];
                 }
             }
         }
@@ -76,14 +79,45 @@ pub(super) fn look<A: Arithmetic, const M: usize, const L: usize, const N: usize
 }
 
 /// Blocks of a link with fewer coordinates than the widest.
-struct Narrow<R> {
-    k: [R; 4],
-    c: [R; 4],
+struct Narrow<R, const N: usize> {
+    k: [[R; N]; N],
+    c: [[R; N]; N],
 }
 
-impl<R: Real> Narrow<R> {
+impl<R: Real, const N: usize> Narrow<R, N> {
     #[inline(always)]
     fn new(zero: R, whole: bool) -> Option<Self> {
-        if whole { None } else { Some(Self { k: [zero; 4], c: [zero; 4] }) }
+        if whole { None } else { Some(Self { k: [[zero; N]; N], c: [[zero; N]; N] }) }
+    }
+}
+
+/// Asks what the contacts do where the state is.
+#[inline(always)]
+pub(super) fn contacts<A: Arithmetic, const M: usize, const L: usize, const N: usize>(
+    with: A,
+    plan: &Plan<A::Real, M, L, N>,
+    state: &mut State<A::Real, M, L, N>,
+) {
+    let State { d, v, f, history, contacts, fallen, .. } = state;
+    for run in plan.runs.iter().filter(|run| run.law.contacts > 0) {
+        let (law, count) = (&run.law, run.count);
+        let r = run.first..run.first + count * law.coordinates;
+        let (h, p) = (run.history, run.parameters);
+        let (d, v) = (&d[r.clone()], &v[r.clone()]);
+        let links = LaneLinks {
+            parameters: &plan.parameters[p..p + count * law.parameters],
+            d,
+            v,
+            d0: d,
+            v0: v,
+            dt: with.splat(0.0),
+            history: &history[h..h + count * law.history],
+            trial: &mut [],
+            f: &mut f[r],
+            k: &mut [],
+            c: &mut [],
+        };
+        let own = &mut contacts[run.contact..][..count * law.contacts];
+        with.contacts(law, &links, own, &mut fallen[run.link..][..count]);
     }
 }

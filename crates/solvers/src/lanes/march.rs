@@ -114,7 +114,9 @@ fn sized<A: Arithmetic>(with: A, setups: &[&LaneSetup]) -> Vec<LaneOutcome> {
         (2, ..=4) if small => of_size::<A, 3, 4, 2>(with, setups),
         (2, _) => of_size::<A, 12, 12, 2>(with, setups),
         (_, ..=6) if small => of_size::<A, 3, 6, 3>(with, setups),
-        _ => of_size::<A, 12, 12, 3>(with, setups),
+        (3, _) => of_size::<A, 12, 12, 3>(with, setups),
+        // One body in space, which goes with adaptive steps alone.
+        _ => with.run(Adaptive::<6, 6, 6> { setups }),
     }
 }
 

@@ -18,7 +18,7 @@
 //! Every analysis gives the same bits whoever its neighbours are, and alone.
 //!
 //! A model fits where it is solved by `fna` with Newton's method, all its links have a form for lanes, its modes are
-//! not coupled by damping, and no support moves a link.
+//! not coupled by damping, and no support moves a link. A body that may overturn needs adaptive steps.
 
 mod adaptive;
 mod coefficients;
@@ -64,6 +64,8 @@ pub fn width() -> usize {
 pub struct LaneOutcome {
     /// Time at which it found no equilibrium and was given up, s; what follows is rubbish then.
     pub lost: Option<f64>,
+    /// Time at which it ended because a body has overturned, s, and the index of its element.
+    pub overturned: Option<(f64, usize)>,
     /// Steps.
     pub steps: usize,
     /// Evaluations of the link laws.

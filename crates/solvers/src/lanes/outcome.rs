@@ -62,6 +62,7 @@ impl<R: Real, const M: usize, const L: usize, const N: usize> State<R, M, L, N> 
         LaneOutcome {
             lost,
             steps: of(self.count) as usize,
+            overturned: None,
             iterations: of(self.iterations) as usize,
             outputs: self.peaks.of_lane(with, lane),
             energy,

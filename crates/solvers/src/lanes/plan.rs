@@ -15,6 +15,9 @@ pub(super) struct Run {
     pub count: usize,
     pub history: usize,
     pub parameters: usize,
+    /// Its first link, and its first contact.
+    pub link: usize,
+    pub contact: usize,
 }
 
 /// How a channel that varies gets its amplitudes.
@@ -59,8 +62,11 @@ pub(super) struct Plan<R, const M: usize, const L: usize, const N: usize> {
     pub outputs: Outputs<R, M>,
     /// Residual of the link forces that counts as none, as share of the largest force so far.
     pub tolerance: R,
-    /// Indices of the links that a body may stand on.
+    /// Number of contacts, and indices of those that a body may stand on.
+    pub contacts: usize,
     pub feet: Vec<usize>,
+    /// A body may overturn.
+    pub falls: bool,
     /// Rates matter to the laws, accelerations to an output.
     pub rate: bool,
     pub accelerations: bool,
@@ -87,7 +93,7 @@ impl<R: Real, const M: usize, const L: usize, const N: usize> Plan<R, M, L, N> {
         };
         let mut places = Vec::new();
         let mut runs: Vec<Run> = Vec::new();
-        let (mut history, mut parameters) = (0, Vec::new());
+        let (mut history, mut contact, mut parameters) = (0, 0, Vec::new());
         for (l, form) in one.forms.iter().enumerate() {
             let (first, law) = (l * N, form.law);
             places.extend((0..law.coordinates).map(|i| first + i));
@@ -95,10 +101,12 @@ impl<R: Real, const M: usize, const L: usize, const N: usize> Plan<R, M, L, N> {
             match runs.last_mut().filter(joins) {
                 Some(run) => run.count += 1,
                 None => {
-                    runs.push(Run { law, first, count: 1, history, parameters: parameters.len() })
+                    let parameters = parameters.len();
+                    runs.push(Run { law, first, count: 1, history, parameters, link: l, contact });
                 }
             }
             history += law.history;
+            contact += law.contacts;
             parameters.extend((0..law.parameters).map(|i| get(&|s| s.forms[l].parameters[i])));
         }
         let mut b = Aligned([[zero; M]; L]);
@@ -161,7 +169,9 @@ impl<R: Real, const M: usize, const L: usize, const N: usize> Plan<R, M, L, N> {
                 .iter()
                 .any(|o| matches!(o, Output::Motion { order: 1 | 2, .. })),
             outputs: Outputs::new(with, setups, &places),
+            contacts: contact,
             feet: one.shape.feet.clone(),
+            falls: one.forms.iter().any(|f| f.law.falls),
             places,
         }
     }

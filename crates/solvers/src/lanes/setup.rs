@@ -35,7 +35,7 @@ pub(super) struct Shape {
     pub links: Vec<(TypeId, Vec<usize>, usize)>,
     pub channels: Vec<(u8, bool)>,
     pub outputs: Vec<u8>,
-    /// Indices of the links that a body may stand on.
+    /// Indices of the contacts that a body may stand on.
     pub feet: Vec<usize>,
     pub grid: Grid,
     pub is_adaptive: bool,
@@ -152,6 +152,8 @@ const HALVINGS: usize = 4;
 
 /// Modes, link coordinates and coordinates of one link at most.
 pub(super) const MOST: (usize, usize, usize) = (12, 12, 3);
+/// Modes and coordinates of a body in space, which is the only link then.
+const BODY: usize = 6;
 
 /// Prepares a case for a lane, with these steps; `Err` with the reason where it does not fit.
 ///
@@ -224,8 +226,12 @@ pub fn prepare(
         forms.push(form);
     }
     let widest = forms.iter().map(|f| f.law.coordinates).max().unwrap_or(1);
-    if m > MOST.0 || forms.len() * widest > MOST.1 || widest > MOST.2 {
+    let is_body = widest > MOST.2 && widest <= BODY && m <= BODY && forms.len() == 1;
+    if !is_body && (m > MOST.0 || forms.len() * widest > MOST.1 || widest > MOST.2) {
         return Ok(Err("too many modes or link coordinates".into()));
+    }
+    if forms.iter().any(|f| f.law.falls) && matches!(control, StepControl::Fixed { .. }) {
+        return Ok(Err("fixed steps of a body that may overturn".into()));
     }
     let mut rows = vec![vec![0.0; m]; flat.len()];
     for (row, i) in rows.iter_mut().zip(&flat) {
@@ -275,15 +281,19 @@ pub fn prepare(
     let stands = roles.stand(&seen);
     let mine = roles.each(&seen, true);
     // What is no foot has no part in the response mode.
-    let standing: Vec<(usize, Contact)> =
-        seen.into_iter().zip(mine).filter(|(_, r)| *r == Role::Foot).map(|(c, _)| c).collect();
-    let is_foot = |i: &usize| {
-        let element = links.links[*i].element;
-        forms[*i].law.is_contact && standing.iter().any(|(own, _)| *own == element)
-    };
-    let feet: Vec<usize> = (0..forms.len()).filter(is_foot).collect();
-    if feet.len() != standing.len() {
-        return Ok(Err("a body on contacts that have no form for lanes".into()));
+    let (mut feet, mut standing) = (Vec::new(), Vec::new());
+    for (at, (element, contact)) in seen.iter().enumerate() {
+        if mine[at] != Role::Foot {
+            continue;
+        }
+        let before = seen[..at].iter().filter(|(own, _)| own == element).count();
+        let Some(link) = links.links.iter().position(|l| l.element == *element) else { continue };
+        if before >= forms[link].law.contacts {
+            return Ok(Err("a body on contacts that have no form for lanes".into()));
+        }
+        let first: usize = forms[..link].iter().map(|f| f.law.contacts).sum();
+        feet.push(first + before);
+        standing.push(*contact);
     }
     let State { motion, d, v, f, history, stored, scale, .. } = &state;
     let shape = Shape {
@@ -338,7 +348,7 @@ pub fn prepare(
         strain,
         potential: potential(&constant_force(space, &loads), &state),
         stands,
-        contacts: standing.into_iter().map(|(_, c)| c).collect(),
+        contacts: standing,
         values,
         rates,
         adaptive,

@@ -6,7 +6,7 @@ use super::plan::{Plan, pick};
 use super::setup::LaneSetup;
 use super::small::Aligned;
 use trilith_element::Contact;
-use trilith_element::lanes::{Arithmetic, LaneStep, Real, Task};
+use trilith_element::lanes::{Arithmetic, LaneContact, LaneStep, Real, Task};
 
 /// Everything that changes.
 #[derive(Clone)]
@@ -36,6 +36,9 @@ pub(super) struct State<R: Real, const M: usize, const L: usize, const N: usize>
     pub alive: R::Mask,
     pub lost: R,
     pub steps: Vec<LaneStep<R>>,
+    /// What the contacts do, and which links have overturned (1, else 0), after the step that was accounted for last.
+    pub contacts: Vec<LaneContact<R>>,
+    pub fallen: Vec<R>,
     /// Heat of each link: hysteretic, viscous.
     pub heat: Vec<[R; 2]>,
     pub external: R,
@@ -100,6 +103,8 @@ impl<R: Real, const M: usize, const L: usize, const N: usize> State<R, M, L, N> 
             alive: zero.le(with.splat(1.0)),
             lost: zero,
             steps: stored.iter().map(|s| LaneStep::elastic(*s)).collect(),
+            contacts: vec![LaneContact::smooth(zero, zero); plan.contacts],
+            fallen: vec![zero; links],
             heat: vec![[zero; 2]; links],
             external: zero,
             damping: zero,

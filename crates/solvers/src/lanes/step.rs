@@ -3,6 +3,7 @@
 //! The next step waits for the former only, so that the processor may account for one while it waits for the other.
 
 use super::coefficients::Rule;
+use super::laws::contacts;
 use super::loads::Loads;
 use super::newton::Found;
 use super::plan::Plan;
@@ -145,5 +146,8 @@ pub(super) fn account<A: Arithmetic, const M: usize, const L: usize, const N: us
     state.largest = largest;
     state.count = state.count + with.splat(1.0);
     show(with, plan, (passed.t, rule.dt, rule.third), state);
-    state.feet.enter(&state.steps, &plan.feet);
+    if plan.falls || !plan.feet.is_empty() {
+        contacts(with, plan, state);
+        state.feet.enter(&state.contacts, &plan.feet);
+    }
 }

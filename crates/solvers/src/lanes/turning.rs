@@ -45,9 +45,9 @@ struct Place<R, const N: usize> {
 }
 
 /// What a law says there: force, and stiffness and damping in rows of its own length.
-struct Answer<R> {
-    f: [R; 3],
-    k: [R; 9],
+struct Answer<R, const N: usize> {
+    f: [R; N],
+    k: [[R; N]; N],
 }
 
 /// What the step from one state to another, of the analyses in `who`, has missed.
@@ -172,7 +172,7 @@ impl<A: Arithmetic, const M: usize, const L: usize, const N: usize> Task<A>
             out.behind[kind] = out.behind[kind].max(behind);
             let missed = apart.max(behind) * left;
             let way = (d1[j] - there.d[j]).abs();
-            let stiff = at_end.k[j * n + j].abs().max(tiny);
+            let stiff = at_end.k.as_flattened()[j * n + j].abs().max(tiny);
             let kept = half * behind * way.min(behind / stiff);
             let softness = -rule.h[a][a];
             let energy = (missed * missed * softness * rule.per_dt).max(kept);
@@ -190,11 +190,11 @@ fn ask<A: Arithmetic, const N: usize>(
     dt: A::Real,
     (history, trial): (&[A::Real], &mut [A::Real]),
     step: &mut [LaneStep<A::Real>; 1],
-) -> Answer<A::Real> {
+) -> Answer<A::Real, N> {
     let zero = with.splat(0.0);
     let n = run.law.coordinates;
-    let mut answer = Answer { f: [zero; 3], k: [zero; 9] };
-    let mut c = [zero; 9];
+    let mut answer = Answer { f: [zero; N], k: [[zero; N]; N] };
+    let mut c = [[zero; N]; N];
     let mut links = LaneLinks {
         parameters,
         d: &to.d[..n],
@@ -205,8 +205,8 @@ fn ask<A: Arithmetic, const N: usize>(
         history,
         trial,
         f: &mut answer.f[..n],
-        k: &mut answer.k[..n * n],
-        c: &mut c[..n * n],
+        k: &mut answer.k.as_flattened_mut()[..n * n],
+        c: &mut c.as_flattened_mut()[..n * n],
     };
     with.respond(&run.law, &mut links, step);
     answer

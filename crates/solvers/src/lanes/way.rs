@@ -25,7 +25,7 @@ pub(super) struct Way<'a> {
     /// Its place in the tables of loads, where it is a step of the grid.
     place: Option<usize>,
     /// Output step; pieces of it that were taken up; entry of `cut` that comes next.
-    step: usize,
+    pub step: usize,
     taken: usize,
     cut: usize,
     at: u32,
@@ -38,6 +38,8 @@ pub(super) struct Way<'a> {
     seen: bool,
     /// Time at which it was given up, s.
     pub lost: Option<f64>,
+    /// Where a body has overturned: time, s, and index of its link.
+    pub fallen: Option<(f64, usize)>,
 }
 
 impl<'a> Way<'a> {
@@ -55,6 +57,7 @@ impl<'a> Way<'a> {
             amplitudes: vec![[1.0; 3]; setup.tracks.len()],
             seen: false,
             lost: None,
+            fallen: None,
         };
         way.take_up();
         way
@@ -151,6 +154,12 @@ impl<'a> Way<'a> {
             self.give_up(t);
         }
         self.level += 1;
+    }
+
+    /// Ends with the output step before, where the body of a link has overturned.
+    pub fn fall(&mut self, link: usize) {
+        let t = self.step as f64 * self.setup.shape.grid.dt;
+        (self.piece, self.fallen) = (None, Some((t, link)));
     }
 
     /// Goes no further than `t`.
