@@ -5,6 +5,7 @@ use super::plan::pick;
 use super::setup::{LaneSetup, Output};
 use crate::peak::Peak;
 use trilith_element::lanes::{Arithmetic, Real};
+use trilith_model::Combine;
 
 /// Where an output comes from.
 pub(super) enum Row<R, const M: usize> {
@@ -16,11 +17,69 @@ pub(super) enum Row<R, const M: usize> {
     Force { at: usize, factor: R },
     History { at: usize },
     Zero,
+    Combination(Combination<R>),
+}
+
+/// An output that is put together from others.
+pub(super) struct Combination<R> {
+    how: Combine,
+    constant: R,
+    /// Which ones, and their factors.
+    terms: Vec<(Place, R)>,
+    /// All of them have a rate.
+    rated: bool,
+}
+
+impl<R, const M: usize> Row<R, M> {
+    /// True for what has a rate.
+    fn is_rated(&self) -> bool {
+        match self {
+            Self::Displacement { .. } | Self::Velocity { .. } | Self::Deformation { .. } => true,
+            Self::Combination(it) => it.rated && matches!(it.how, Combine::Sum | Combine::Norm),
+            _ => false,
+        }
+    }
+}
+
+impl<R: Real> Combination<R> {
+    /// Its value, and its rate where it has one; `now`: those of an output.
+    #[inline(always)]
+    pub fn of(&self, now: impl Fn(&Place) -> [R; 2]) -> (R, Option<[R; 1]>) {
+        let zero = self.constant.of(0.0);
+        let parts = || self.terms.iter().map(|(place, factor)| now(place).map(|x| *factor * x));
+        let (mut y, mut rate) = (self.constant, zero);
+        match self.how {
+            Combine::Sum => {
+                for part in parts() {
+                    (y, rate) = (y + part[0], rate + part[1]);
+                }
+            }
+            Combine::Norm => {
+                let mut square = zero;
+                for [x, v] in parts() {
+                    (square, rate) = (square + x * x, rate + x * v);
+                }
+                y = square.sqrt();
+                // A norm that is zero has a corner there.
+                rate = (rate / y.max(zero.of(f64::MIN_POSITIVE))).only(zero.lt(y));
+            }
+            Combine::Largest => {
+                y = zero.of(f64::NEG_INFINITY);
+                parts().for_each(|part| y = y.max(part[0]));
+            }
+            Combine::Smallest => {
+                y = zero.of(f64::INFINITY);
+                parts().for_each(|part| y = y.min(part[0]));
+            }
+        }
+        let rated = self.rated && matches!(self.how, Combine::Sum | Combine::Norm);
+        (y, rated.then_some([rate]))
+    }
 }
 
 /// Which extremes are those of an output.
 #[derive(Clone, Copy)]
-enum Place {
+pub(super) enum Place {
     Alone(usize),
     /// The group, and the output in it.
     Together(usize, usize),
@@ -61,7 +120,8 @@ impl<R: Real, const M: usize> Outputs<R, M> {
             all[..modes].copy_from_slice(&rows(of, modes));
             all
         };
-        let row = |o: usize| match &one.outputs[o] {
+        let mut rated: Vec<bool> = Vec::new();
+        let row = |o: usize, before: &[Place], rated: &[bool]| match &one.outputs[o] {
             Output::Motion { order, base, .. } => {
                 let own = modal(&|s| s.outputs[o].own().to_vec());
                 match order {
@@ -85,11 +145,25 @@ impl<R: Real, const M: usize> Outputs<R, M> {
             }
             Output::History { at } => Row::History { at: *at },
             Output::Zero => Row::Zero,
+            Output::Combination { how, terms, .. } => {
+                let term = |k: usize| {
+                    let (output, _) = terms[k];
+                    (before[output], get(&|s| s.outputs[o].terms()[k].1))
+                };
+                Row::Combination(Combination {
+                    how: *how,
+                    constant: get(&|s| s.outputs[o].factor()),
+                    terms: (0..terms.len()).map(term).collect(),
+                    rated: terms.iter().all(|(output, _)| rated[*output]),
+                })
+            }
         };
         let mut own = Self { alone: Vec::new(), together: Vec::new(), places: Vec::new() };
         let mut free = TOGETHER;
         for o in 0..one.outputs.len() {
-            match row(o) {
+            let row = row(o, &own.places, &rated);
+            rated.push(row.is_rated());
+            match row {
                 Row::Displacement { own: modes } if A::WIDTH == 1 => {
                     if free == TOGETHER {
                         own.together.push([[zero; TOGETHER]; M]);
@@ -118,7 +192,8 @@ impl<R: Real, const M: usize> Outputs<R, M> {
         let mut together = vec![([zero; TOGETHER], [zero; TOGETHER]); self.together.len()];
         for (o, place) in self.places.iter().enumerate() {
             let y = pick(with, setups, |s| s.values[o]);
-            let rate = pick(with, setups, |s| s.rates[o]);
+            // Where there is none it is not a number.
+            let rate = pick(with, setups, |s| if s.rates[o].is_nan() { 0.0 } else { s.rates[o] });
             match *place {
                 Place::Alone(i) => alone[i] = ([y], [rate]),
                 Place::Together(i, k) => (together[i].0[k], together[i].1[k]) = (y, rate),
@@ -170,7 +245,15 @@ impl Output {
     fn factor(&self) -> f64 {
         match self {
             Self::Deformation { factor, .. } | Self::Force { factor, .. } => *factor,
+            Self::Combination { constant, .. } => *constant,
             _ => 0.0,
+        }
+    }
+
+    fn terms(&self) -> &[(usize, f64)] {
+        match self {
+            Self::Combination { terms, .. } => terms,
+            _ => &[],
         }
     }
 }

@@ -24,6 +24,12 @@ impl<R: Real, const K: usize> Peaks<R, K> {
         Self { y, rate, max: y, t_max: zero, min: y, t_min: zero }
     }
 
+    /// The value of one of them, and its rate where it has one.
+    #[inline(always)]
+    pub(super) fn now(&self, k: usize) -> [R; 2] {
+        [self.y[k], self.rate[k]]
+    }
+
     /// The next moment. The polynomial between two moments lies in the hull of its Bézier points: only
     /// where these pass an extreme is it looked at.
     #[inline(always)]
@@ -67,10 +73,11 @@ impl<R: Real, const K: usize> Peaks<R, K> {
     ) {
         for i in 0..K {
             let y = y[i];
+            let inside = self.max[i].max(y).lt(high[i]) | low[i].lt(self.min[i].min(y));
             if let Some(rate) = rate
-                && y.any(self.max[i].max(y).lt(high[i]) | low[i].lt(self.min[i].min(y)))
+                && y.any(inside)
             {
-                self.look_inside(with, i, (t0, t1), (y, rate[i]));
+                self.look_inside(with, (i, inside), (t0, t1), (y, rate[i]));
             }
             let (up, down) = (self.max[i].lt(y), y.lt(self.min[i]));
             self.max[i] = self.max[i].max(y);
@@ -84,17 +91,19 @@ impl<R: Real, const K: usize> Peaks<R, K> {
     fn look_inside<A: Arithmetic<Real = R>>(
         &mut self,
         with: A,
-        k: usize,
+        (k, who): (usize, R::Mask),
         (t0, t1): (R, R),
         (y, rate): (R, R),
     ) {
         let of = |x: R| -> [f64; 8] {
             std::array::from_fn(|i| if i < A::WIDTH { with.lane(x, i) } else { 0.0 })
         };
+        let who = of(y.of(1.0).only(who));
         let (t0, t1, y0, y1) = (of(t0), of(t1), of(self.y[k]), of(y));
         let (r0, r1) = (of(self.rate[k]), of(rate));
         let mut to = [self.max[k], self.t_max[k], self.min[k], self.t_min[k]].map(of);
-        for i in 0..A::WIDTH {
+        // Others would find their own rounding where a neighbour has an extreme.
+        for i in (0..A::WIDTH).filter(|i| who[*i] == 1.0) {
             let inner = inner_extremes((t0[i], y0[i], r0[i]), (t1[i], y1[i], r1[i]));
             for (t, value) in inner.into_iter().flatten() {
                 if value > to[0][i] {

@@ -24,7 +24,7 @@ use trilith_element::Contact;
 use trilith_element::lanes::LaneForm;
 use trilith_linalg::{Dense, Sparse, symmetric_eigen};
 use trilith_model::{
-    Analysis, DynamicCase, Kernel, Model, Quantity, Side, SolverKind, StepControl,
+    Analysis, Combine, DynamicCase, Kernel, Model, Quantity, Side, SolverKind, StepControl,
 };
 use trilith_system::{System, Track};
 
@@ -34,7 +34,7 @@ pub(super) struct Shape {
     pub modes: usize,
     pub links: Vec<(TypeId, Vec<usize>, usize)>,
     pub channels: Vec<(u8, bool)>,
-    pub outputs: Vec<u8>,
+    pub outputs: Vec<(u8, Vec<usize>)>,
     /// Indices of the contacts that a body may stand on.
     pub feet: Vec<usize>,
     pub grid: Grid,
@@ -57,17 +57,23 @@ pub(super) enum Output {
     History { at: usize },
     /// Of a coordinate that nothing deforms.
     Zero,
+    /// Of outputs before, each times its factor.
+    Combination { how: Combine, constant: f64, terms: Vec<(usize, f64)> },
 }
 
 impl Output {
-    fn kind(&self) -> u8 {
+    /// What it is, and of what.
+    fn kind(&self) -> (u8, Vec<usize>) {
         match self {
-            Self::Motion { order, .. } => *order as u8,
-            Self::Element { .. } => 3,
-            Self::Deformation { at, .. } => 10 + 4 * *at as u8,
-            Self::Force { at, .. } => 11 + 4 * *at as u8,
-            Self::History { at } => 12 + 4 * *at as u8,
-            Self::Zero => 4,
+            Self::Motion { order, .. } => (0, vec![*order]),
+            Self::Element { .. } => (1, Vec::new()),
+            Self::Deformation { at, .. } => (2, vec![*at]),
+            Self::Force { at, .. } => (3, vec![*at]),
+            Self::History { at } => (4, vec![*at]),
+            Self::Zero => (5, Vec::new()),
+            Self::Combination { how, terms, .. } => {
+                (6 + *how as u8, terms.iter().map(|t| t.0).collect())
+            }
         }
     }
 }
@@ -169,9 +175,6 @@ pub fn prepare(
     let Analysis::Dynamic(analysis) = &model.cases[case].analysis else {
         return Ok(Err("a static case".into()));
     };
-    if model.outputs.iter().any(|o| matches!(o.quantity, Quantity::Combination { .. })) {
-        return Ok(Err("an output put together from others".into()));
-    }
     if let Some(reason) = unsuited(system, analysis) {
         return Ok(Err(reason.into()));
     }
@@ -478,8 +481,9 @@ fn outputs(
                 at(*flat).map_or(Output::Zero, |at| Output::Force { at, factor: *factor })
             }
             Row::History { at } => Output::History { at: *at },
-            // `prepare` sends such models to the ordinary engine.
-            Row::Combination { .. } => Output::Zero,
+            Row::Combination { how, constant, terms } => {
+                Output::Combination { how: *how, constant: *constant, terms: terms.clone() }
+            }
             Row::Element { stiffness, damping } => {
                 Output::Element { stiffness: dense(&stiffness.0), damping: dense(&damping.0) }
             }

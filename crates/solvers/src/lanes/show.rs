@@ -1,6 +1,6 @@
 //! Outputs after a step.
 
-use super::outputs::Row;
+use super::outputs::{Extremes, Place, Row};
 use super::peaks::TOGETHER;
 use super::plan::Plan;
 use super::small::dot;
@@ -20,7 +20,9 @@ pub(super) fn show<A: Arithmetic, const M: usize, const L: usize, const N: usize
         let (y, rate) = (displacements(rows, &state.q), displacements(rows, &state.p));
         peaks.advance(with, step, y, Some(rate));
     }
-    for (row, peak) in plan.outputs.alone.iter().zip(&mut state.peaks.alone) {
+    let Extremes { alone, together, .. } = &mut state.peaks;
+    for (i, row) in plan.outputs.alone.iter().enumerate() {
+        let (before, own) = alone.split_at_mut(i);
         let (y, rate) = match row {
             Row::Displacement { own } => {
                 (dot(zero, own, &*state.q), Some([dot(zero, own, &*state.p)]))
@@ -39,8 +41,12 @@ pub(super) fn show<A: Arithmetic, const M: usize, const L: usize, const N: usize
             Row::Force { at, factor } => (*factor * state.f[*at], None),
             Row::History { at } => (state.history[*at], None),
             Row::Zero => (zero, None),
+            Row::Combination(it) => it.of(|place| match *place {
+                Place::Alone(i) => before[i].now(0),
+                Place::Together(i, k) => together[i].now(k),
+            }),
         };
-        peak.advance(with, step, [y], rate);
+        own[0].advance(with, step, [y], rate);
     }
 }
 
