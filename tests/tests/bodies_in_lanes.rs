@@ -116,7 +116,10 @@ fn bodies_move_and_fall_as_on_the_ordinary_engine() {
                 (b.initial_mode, b.mode, b.overturned),
                 "{values:?}"
             );
-            assert!((a.max_uplift - b.max_uplift).abs() < 1e-2 * b.max_uplift + least, "{values:?}");
+            assert!(
+                (a.max_uplift - b.max_uplift).abs() < 1e-2 * b.max_uplift + least,
+                "{values:?}"
+            );
             assert!(lane.energy.error_relative < 1e-2, "{:?}", lane.energy);
         }
     }
