@@ -1,7 +1,7 @@
 //! `trilith calibrate`: dashpots from coefficients of restitution.
 
 use crate::args::{CalibrateArguments, Kept};
-use crate::text::{number, percent, row, significant, table};
+use crate::text::{exact, number, percent, row, significant, table};
 use crate::{Answer, Failure, diagnostics, read};
 use trilith::calibrate::{Calibrator, Drop, Horizontal, Swing};
 use trilith::model::{Plane, visible_line};
@@ -99,7 +99,7 @@ fn vertical(it: &mut Calibrator, args: &CalibrateArguments) -> Result<String, Er
     let tuned = it.tune_drop(e, args.height);
     let dashpots = it.set_restitution(e)?;
     let drop = it.drop(args.height)?;
-    out += &format!("  wanted restitution             {e}\n");
+    out += &format!("  wanted restitution             {}\n", exact(e));
     out += &format!("  dashpots in closed form        {}\n", list(&dashpots));
     out += &format!("  restitution of a drop          {}\n", measured(&drop));
     match tuned {
@@ -110,7 +110,8 @@ fn vertical(it: &mut Calibrator, args: &CalibrateArguments) -> Result<String, Er
         Err(e) => out += &format!("  tuned to this drop: {e}\n"),
     }
     out += &format!(
-        "  in the model: `restitution: {e}` in place of the dashpot, for the closed form\n"
+        "  in the model: `restitution: {}` in place of the dashpot, for the closed form\n",
+        exact(e)
     );
     Ok(out)
 }

@@ -2,18 +2,23 @@
 
 use crate::args::CompareArguments;
 use crate::report::{energies, work};
-use crate::text::{number, percent, row, shown, table};
-use crate::{Answer, Failure, case, compare_page, diagnostics, output, read};
+use crate::text::{number, percent, row, table};
+use crate::{Answer, Failure, case, compare_page, diagnostics, output, place, read};
 use std::io::IsTerminal;
+use std::path::Path;
 use trilith::compare::{Compared, Comparison, Variant};
 use trilith::model::{Analysis, visible_line};
-use trilith::results::Peak;
+use trilith::results::{Folder, Peak, Writer};
 use trilith::{Model, Registry, SolverKind};
+
+const PAGE: &str = "compare.html";
 
 pub(crate) fn compare(registry: &Registry, args: &CompareArguments) -> Result<Answer, Failure> {
     let mut model = read(registry, &args.model)?;
     let case = case(&model, args.case.as_deref())?;
     let variants = variants(&model, case, args)?;
+    // Looked at before the runs: nothing that was computed is lost for want of a place.
+    let folder = args.out.as_ref().map(|dir| open(dir, &model)).transpose()?;
     let result = {
         // Failures are shown in the text of the model, which is on loan.
         let on_terminal = std::io::stderr().is_terminal();
@@ -40,15 +45,21 @@ pub(crate) fn compare(registry: &Registry, args: &CompareArguments) -> Result<An
     let head = format!("model  {title}\ncase   {name}\n");
     let mut text = head + &self::text(&all);
     text += &geometry(&model, &all).map_or(String::new(), |g| format!("\n{g}\n"));
-    if let Some(dir) = &args.out {
-        let path = dir.join("compare.html");
+    if let Some(folder) = folder {
         let page = compare_page::page(&model, &model.cases[case].name, &all);
-        std::fs::create_dir_all(dir)
-            .and_then(|()| std::fs::write(&path, page))
-            .map_err(|e| Failure::unwritable(&path, &e))?;
-        text += &format!("\npage: {}\n", shown(&path));
+        for path in place::write(folder, &[(PAGE.into(), page)])? {
+            text += &format!("\npage: {path}\n");
+        }
     }
     Ok(Answer { text, status })
+}
+
+/// Takes the folder of the page.
+fn open(dir: &Path, model: &Model) -> Result<Folder, Failure> {
+    let mut inputs = model.files.clone();
+    inputs.push(model.source.path.clone());
+    let writer = Writer { name: "compare", own: &[PAGE], writes: vec![PAGE.into()], inputs };
+    place::open(dir, writer)
 }
 
 /// Every combination of what the command line lists, the first in each list before the others.

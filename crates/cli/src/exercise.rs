@@ -1,21 +1,26 @@
 //! `trilith exercise`: what a link does on its own.
 
 use crate::args::ExerciseArguments;
-use crate::text::{number, percent, row, shown, significant, table};
-use crate::{Answer, Failure, elements};
-use std::path::{Path, PathBuf};
+use crate::text::{exact, number, percent, row, significant, table};
+use crate::{Answer, Failure, elements, place};
+use std::path::Path;
 use trilith::Registry;
 use trilith::element::Stroke;
 use trilith::element::dimension::{LENGTH, NONE};
 use trilith::exercise::{Coordinate, ExerciseError, History, Motion, Record, Specimen};
 use trilith::model::quantity;
 use trilith::report::Figure;
+use trilith::results::{Folder, Writer};
+
+/// The path that the link was led along, and what it looks like.
+const FILES: [&str; 2] = ["path.csv", "loop.svg"];
 
 pub(crate) fn exercise(registry: &Registry, args: ExerciseArguments) -> Result<Answer, Failure> {
     let specimen = Specimen::new(registry, &args.kind, &args.set).map_err(|e| match e {
         ExerciseError::UnknownKind(kind) => elements::unknown(registry, &kind),
         other => refuse(&other),
     })?;
+    let folder = open(&specimen, &args)?;
     let (record, mut text) = match &args.history {
         Some(path) => follow(&specimen, path)?,
         None => {
@@ -25,14 +30,27 @@ pub(crate) fn exercise(registry: &Registry, args: ExerciseArguments) -> Result<A
             (record, text)
         }
     };
-    if !args.no_files {
-        let default = || Path::new("out").join(format!("exercise_{}", specimen.card.kind));
-        let dir = args.out.unwrap_or_else(default);
-        for path in write(&dir, &record)? {
-            text += &format!("{}\n", shown(&path));
+    if let Some(folder) = folder {
+        for path in place::write(folder, &files(&record))? {
+            text += &format!("{path}\n");
         }
     }
     Ok(text.into())
+}
+
+/// Takes the folder of the files, where there are to be any.
+fn open(specimen: &Specimen, args: &ExerciseArguments) -> Result<Option<Folder>, Failure> {
+    if args.no_files {
+        return Ok(None);
+    }
+    let default = || Path::new("out").join(format!("exercise_{}", specimen.card.kind));
+    let writer = Writer {
+        name: "exercise",
+        own: &FILES,
+        writes: FILES.map(str::to_owned).to_vec(),
+        inputs: args.history.iter().cloned().collect(),
+    };
+    place::open(&args.out.clone().unwrap_or_else(default), writer).map(Some)
 }
 
 /// Leads the link along a measured history.
@@ -42,7 +60,7 @@ fn follow(specimen: &Specimen, path: &Path) -> Result<(Record, String), Failure>
                     follows, with commas between them";
         Failure::input(&format!("{}: {why}", path.display()), Some(help))
     };
-    let file = std::fs::read_to_string(path)
+    let file = trilith::record::file::read_text(path)
         .map_err(|e| Failure::input(&format!("{} cannot be read: {e}", path.display()), None))?;
     let coordinates = specimen.coordinates();
     let history = History::parse(&file, &coordinates).map_err(|e| bad(e.to_string()))?;
@@ -158,7 +176,7 @@ fn text(specimen: &Specimen, motion: &Motion, record: &Record) -> String {
     let mut out = about(specimen);
     out += &format!(
         "\nimposed: {} Hz, {}\n",
-        motion.frequency,
+        exact(motion.frequency),
         if motion.cycles == 1 {
             "1 cycle".into()
         } else {
@@ -214,18 +232,10 @@ fn units(c: &Coordinate) -> (&'static str, &'static str) {
     if c.rotation { ("rad", "N·m") } else { ("m", "N") }
 }
 
-fn write(dir: &Path, record: &Record) -> Result<Vec<PathBuf>, Failure> {
-    std::fs::create_dir_all(dir).map_err(|e| Failure::unwritable(dir, &e))?;
+/// Names and contents.
+fn files(record: &Record) -> Vec<(String, String)> {
     let figures = record.figures();
-    let mut files = vec![("path.csv", record.csv())];
-    if !figures.is_empty() {
-        files.push(("loop.svg", Figure::sheet(&figures)));
-    }
-    let mut written = Vec::new();
-    for (name, text) in files {
-        let path = dir.join(name);
-        std::fs::write(&path, text).map_err(|e| Failure::unwritable(&path, &e))?;
-        written.push(path);
-    }
-    Ok(written)
+    let sheet = (!figures.is_empty()).then(|| Figure::sheet(&figures));
+    let all = FILES.into_iter().zip([Some(record.csv()), sheet]);
+    all.filter_map(|(name, content)| Some((name.to_owned(), content?))).collect()
 }

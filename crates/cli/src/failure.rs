@@ -34,6 +34,9 @@ impl Failure {
             FolderError::NotAFolder(_) | FolderError::Input(_) => {
                 Some("`--out DIR` names another folder")
             }
+            FolderError::InTheWay { .. } => {
+                Some("move it elsewhere, or `--out DIR` names another folder")
+            }
             FolderError::Taken(_) => Some("wait for its end, or `--out DIR` names another folder"),
             _ => None,
         };

@@ -15,6 +15,16 @@ pub(crate) enum Format {
     Png,
 }
 
+impl Format {
+    /// The ending of its files.
+    pub fn ending(self) -> &'static str {
+        match self {
+            Self::Svg => "svg",
+            Self::Png => "png",
+        }
+    }
+}
+
 /// Refuses PNG before anything runs where this build has none.
 pub(crate) fn check(formats: &[Format]) -> Result<(), Failure> {
     match formats.contains(&Format::Png) && !png_is_built_in() {
@@ -31,14 +41,14 @@ pub(crate) fn write(
     formats: &[Format],
 ) -> Result<Vec<PathBuf>, Failure> {
     // The same format twice is written once.
-    let all = [(Format::Svg, "svg"), (Format::Png, "png")];
+    let all = [Format::Svg, Format::Png];
     let mut written = Vec::new();
-    for (format, ending) in all.into_iter().filter(|(f, _)| formats.contains(f)) {
+    for format in all.into_iter().filter(|f| formats.contains(f)) {
         let bytes = match format {
             Format::Svg => figure.svg().into_bytes(),
             Format::Png => figure.png().map_err(|e| failure(&e))?,
         };
-        let path = dir.join(format!("{name}.{ending}"));
+        let path = dir.join(format!("{name}.{}", format.ending()));
         std::fs::write(&path, bytes).map_err(|e| Failure::unwritable(&path, &e))?;
         written.push(path);
     }

@@ -29,10 +29,12 @@ mod made_by;
 mod modes;
 mod names;
 mod output;
+mod place;
 mod progress;
 mod record;
 mod report;
 mod run;
+mod study_folder;
 mod sweep;
 mod text;
 

@@ -3,18 +3,20 @@
 use crate::args::{ModelArguments, ReportArguments, RunArguments};
 use crate::interrupt::{Ear, INTERRUPTED};
 use crate::progress::Progress;
-use crate::text::shown;
+use crate::text::{exact, shown};
 use crate::{
-    Answer, Failure, case, diagnostics, figure_files, figures, long, made_by, names, output, read,
+    Answer, Failure, case, diagnostics, figure_files, figures, long, made_by, names, output, place,
+    read,
 };
 use std::path::{Path, PathBuf};
 use trilith::model::{Body, Element};
-use trilith::results::{Folder, OF_RUN, Summary};
+use trilith::results::{Folder, OF_RUN, Summary, Writer};
 use trilith::solvers::Status;
 use trilith::{Analysis, Checkpoint, Model, Registry, Run, RunOptions};
 
 /// Deformed shapes kept for ParaView.
 const FRAMES: usize = 200;
+const CHECKPOINT: &str = "checkpoint.json";
 
 pub(crate) fn run(registry: &Registry, args: RunArguments) -> Result<Answer, Failure> {
     let model = read(registry, &args.model)?;
@@ -28,7 +30,7 @@ pub(crate) fn run(registry: &Registry, args: RunArguments) -> Result<Answer, Fai
     let folder = if args.no_files {
         None
     } else {
-        Some((open(&model, &args)?, made_by::Inputs::of_run(&model, &args)?))
+        Some((open(&model, case, &args, from.as_ref())?, made_by::Inputs::of_run(&model, &args)?))
     };
     let other_build = from.as_ref().and_then(Checkpoint::warning);
     if !args.no_files
@@ -93,12 +95,29 @@ pub(crate) fn run(registry: &Registry, args: RunArguments) -> Result<Answer, Fai
 }
 
 /// Takes the folder of the results.
-fn open(model: &Model, args: &RunArguments) -> Result<Folder, Failure> {
-    let dir = args.out.clone().unwrap_or_else(|| default_folder(&args.model));
+fn open(
+    model: &Model,
+    case: usize,
+    args: &RunArguments,
+    from: Option<&Checkpoint>,
+) -> Result<Folder, Failure> {
+    let dir = args.out.clone().unwrap_or_else(|| default_folder(args, from));
     let mut inputs = model.files.clone();
     inputs.push(model.source.path.clone());
     inputs.extend(args.restart.clone());
-    Folder::open(dir, &OF_RUN, &inputs).map_err(|e| Failure::folder(&e))
+    let written = |name: &&str| match *name {
+        "spectra.csv" => !model.spectra.is_empty(),
+        "report.json" | "report.html" => !args.no_report,
+        _ => true,
+    };
+    let mut writes: Vec<String> = OF_RUN.into_iter().filter(written).map(str::to_owned).collect();
+    writes.extend(figures::files(model, &names::flat(&args.figure), &args.figure_format));
+    // Where the case has a time to stop at: an interrupt asks for no leave.
+    if let trilith::model::Analysis::Dynamic(_) = &model.cases[case].analysis {
+        writes.push(CHECKPOINT.into());
+    }
+    let writer = Writer { name: "run", own: &OF_RUN, writes, inputs };
+    place::open(&dir, writer)
 }
 
 /// Writes the results; what is there now, as lines.
@@ -127,12 +146,13 @@ fn write(
     }
     let interrupted = matches!(run.result.status, Status::Interrupted { .. });
     if args.checkpoint_at.is_some() || interrupted {
-        let path = dir.join("checkpoint.json");
+        let path = dir.join(CHECKPOINT);
         let checkpoint = Checkpoint::new(run.result.end.clone());
         checkpoint.write(&path).map_err(|e| Failure::unwritable(&e.path, &e.cause))?;
         text += &show("checkpoint", &path);
         if interrupted {
-            text += "the same command with `--restart` and this checkpoint goes on (with `--out` for another folder)\n";
+            text += "the same command with `--restart` and this checkpoint goes on";
+            text += if args.out.is_some() { " (with `--out` for another folder)\n" } else { "\n" };
         }
     }
     folder.publish().map_err(|e| Failure::folder(&e))?;
@@ -178,13 +198,23 @@ fn check_links(model: &Model, names: &[String]) -> Result<(), Failure> {
     }
 }
 
-/// `out/<name of the model file>`, and below it what was set.
-fn default_folder(args: &ModelArguments) -> PathBuf {
-    let dir = Path::new("out").join(args.model.file_stem().unwrap_or("model".as_ref()));
-    if args.set.is_empty() {
+/// `out/<name of the model file>`, and below it what was set: of all that changes the answer, each has its own.
+fn default_folder(args: &RunArguments, from: Option<&Checkpoint>) -> PathBuf {
+    let ModelArguments { model, set } = &args.model;
+    let dir = Path::new("out").join(model.file_stem().unwrap_or("model".as_ref()));
+    let options = [
+        ("case", args.case.clone()),
+        ("solver", args.solver.map(|solver| solver.name().to_owned())),
+        ("dt", args.dt.map(exact)),
+        ("checkpoint-at", args.checkpoint_at.map(exact)),
+        ("restart", from.map(|checkpoint| exact(checkpoint.state.time))),
+    ];
+    let mut all: Vec<String> = set.iter().map(|(name, value)| format!("{name}={value}")).collect();
+    let given = |(name, value): (&str, Option<String>)| value.map(|v| format!("{name}={v}"));
+    all.extend(options.into_iter().filter_map(given));
+    if all.is_empty() {
         return dir;
     }
-    let all: Vec<String> = args.set.iter().map(|(name, value)| format!("{name}={value}")).collect();
     let plain = |c: char| if c.is_alphanumeric() || "-+_.=,".contains(c) { c } else { '_' };
     dir.join(all.join(",").chars().map(plain).collect::<String>())
 }

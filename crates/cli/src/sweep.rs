@@ -4,7 +4,7 @@ use crate::args::SweepArguments;
 use crate::interrupt::{Ear, INTERRUPTED};
 use crate::progress::Steps;
 use crate::text::{row, shown, table};
-use crate::{Answer, Failure, figure_files, made_by, output};
+use crate::{Answer, Failure, figure_files, made_by, output, study_folder};
 use std::path::Path;
 use std::sync::Mutex;
 use std::time::Instant;
@@ -28,6 +28,7 @@ pub(crate) fn sweep(registry: &Registry, args: &SweepArguments) -> Result<Answer
     }
     let stem = args.study.file_stem().unwrap_or("study".as_ref());
     let folder = args.out.clone().unwrap_or_else(|| Path::new("out").join(stem));
+    study_folder::look(&study, &folder, &args.figure_format)?;
     let cores = std::thread::available_parallelism().map_or(1, std::num::NonZero::get);
     let threads = args.threads.map_or(cores, usize::from);
     let inputs = made_by::Inputs::of_study(&study)?;

@@ -22,6 +22,14 @@ pub(crate) fn significant(x: f64, digits: usize) -> String {
     format!("{x:.decimals$}")
 }
 
+/// A number with all its digits, in powers of ten where it is very large or small.
+pub(crate) fn exact(x: f64) -> String {
+    match x.abs() {
+        size if size == 0.0 || (1e-5..1e7).contains(&size) => x.to_string(),
+        _ => format!("{x:e}"),
+    }
+}
+
 /// A share in percent.
 pub(crate) fn percent(x: f64) -> String {
     if x.is_finite() { format!("{:.2} %", 100.0 * x) } else { "–".into() }
@@ -87,6 +95,14 @@ mod tests {
         let cases = [(0.0, "0"), (12.3456789, "12.346"), (0.00123456, "0.0012346")];
         for (x, text) in cases.into_iter().chain([(-123456.7, "-123457"), (1.5e-9, "1.5000e-9")]) {
             assert_eq!(number(x), text);
+        }
+    }
+
+    #[test]
+    fn all_digits_are_no_more_than_there_are() {
+        let cases = [(0.0, "0"), (0.02, "0.02"), (1.0, "1"), (1e-300, "1e-300")];
+        for (x, text) in cases.into_iter().chain([(-1.25e300, "-1.25e300"), (1e6, "1000000")]) {
+            assert_eq!(exact(x), text);
         }
     }
 

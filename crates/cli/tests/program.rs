@@ -2,6 +2,7 @@
 
 use assert_cmd::Command;
 use std::path::Path;
+use trilith::results::{Folder, Writer};
 
 const MODEL: &str = r#"(
     title: "A swinging mass",
@@ -67,7 +68,7 @@ fn what_is_in_the_way_of_the_results_is_told_before_the_run() {
     };
     let err = run(&["run", "swing.ron", "--out", "swing.ron"]);
     assert!(err.contains("swing.ron is a file, no folder") && err.contains("--out DIR"), "{err}");
-    let taken = trilith::results::Folder::open(folder.path().join("out"), &[], &[]).unwrap();
+    let taken = Folder::open(folder.path().join("out"), Writer::default()).unwrap();
     let err = run(&["run", "swing.ron", "--out", "out"]);
     assert!(err.contains("another run is writing to out"), "{err}");
     drop(taken);

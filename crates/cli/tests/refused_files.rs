@@ -67,6 +67,7 @@ fn pipes_and_devices_are_refused_by_every_command_that_reads() {
         &["run", "/dev/zero"],
         &["sweep", "/dev/zero"],
         &["record", "--synthetic", "1", "--spectrum", "/dev/zero", "--unit", "g"],
+        &["exercise", "Hook", "--history", "/dev/zero"],
     ] {
         said(args, device);
     }
@@ -74,8 +75,10 @@ fn pipes_and_devices_are_refused_by_every_command_that_reads() {
     said(&["sweep", "study.ron"], device);
     let made = Command::new("mkfifo").arg(folder.path().join("pipe")).status();
     if made.is_ok_and(|s| s.success()) {
+        let pipe = "it is a pipe, not a regular file";
         for command in ["record", "check", "run", "sweep"] {
-            said(&[command, "pipe"], "it is a pipe, not a regular file");
+            said(&[command, "pipe"], pipe);
         }
+        said(&["exercise", "Hook", "--history", "pipe"], pipe);
     }
 }

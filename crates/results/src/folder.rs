@@ -1,11 +1,18 @@
-//! A folder of results of which nothing is seen before all of it is there.
+//! A folder of results of which nothing is seen before all of it is there, and in which nothing is lost that somebody
+//! else has put there.
+
+mod made;
+mod place;
+#[cfg(test)]
+mod tests;
 
 use crate::FileError;
+use place::Place;
 use std::fs::{self, File, TryLockError};
 use std::path::{Path, PathBuf};
 
 /// What a run leaves in its folder; a later run without one of them takes it out. The first stands for all: where it is,
-/// the others are of the same run, and where it is not, they are somebody else's.
+/// the others are of the same run.
 pub const OF_RUN: [&str; 11] = [
     "summary.json",
     "made_by.json",
@@ -36,38 +43,54 @@ pub enum FolderError {
     /// A file that is read.
     #[error("{} is an input, and would be overwritten", .0.display())]
     Input(PathBuf),
+    /// Something that is not of the same writer.
+    #[error("{} is in the way: no earlier `trilith {by}` has made it", .path.display())]
+    InTheWay {
+        /// What is there.
+        path: PathBuf,
+        /// Whose results would replace it.
+        by: &'static str,
+    },
     /// A file or folder that cannot be written.
     #[error(transparent)]
     File(#[from] FileError),
+}
+
+/// Who writes into a folder, and what.
+#[derive(Clone, Debug, Default)]
+pub struct Writer {
+    /// The command. A folder keeps in mind which files are whose, and nobody replaces those of others.
+    pub name: &'static str,
+    /// Names of which it takes out what it has made before; the one that stands for all first.
+    pub own: &'static [&'static str],
+    /// Names that it will write, as far as they are known beforehand.
+    pub writes: Vec<String>,
+    /// Files that nothing may overwrite.
+    pub inputs: Vec<PathBuf>,
 }
 
 /// A folder that is held by this run until it is dropped. Files are written to a [place](Self::path) inside it that
 /// nobody else looks at, and [published](Self::publish) together; an end before that leaves what was there before.
 #[derive(Debug)]
 pub struct Folder {
-    dir: PathBuf,
+    place: Place,
     staging: PathBuf,
-    own: Vec<String>,
-    inputs: Vec<PathBuf>,
     /// Held until the end.
     _lock: File,
 }
 
 impl Folder {
-    /// Takes a folder, which is made where it does not exist. `own`: names that publishing replaces or takes out, the
-    /// one that stands for all first. `inputs`: files that nothing may overwrite.
+    /// Takes a folder, which is made where it does not exist.
     ///
     /// # Errors
     /// What is in the way, before anything is written.
-    pub fn open(
-        dir: impl AsRef<Path>,
-        own: &[&str],
-        inputs: &[PathBuf],
-    ) -> Result<Self, FolderError> {
+    pub fn open(dir: impl AsRef<Path>, writer: Writer) -> Result<Self, FolderError> {
         let dir = dir.as_ref().to_owned();
         if dir.exists() && !dir.is_dir() {
             return Err(FolderError::NotAFolder(dir));
         }
+        let mut place = Place::new(dir.clone(), writer);
+        place.look()?;
         fs::create_dir_all(&dir).map_err(FileError::at(&dir))?;
         let path = dir.join(LOCK);
         let lock = File::options().create(true).append(true).open(&path);
@@ -80,16 +103,15 @@ impl Folder {
             }
             _ => {}
         }
+        // Somebody may have ended in the meantime.
+        place.read();
         let staging = dir.join(STAGING);
         // Of a run that was killed.
         if staging.exists() {
             fs::remove_dir_all(&staging).map_err(FileError::at(&staging))?;
         }
         fs::create_dir(&staging).map_err(FileError::at(&staging))?;
-        let own = own.iter().map(|name| (*name).to_owned()).collect();
-        let it = Self { dir, staging, own, inputs: inputs.to_vec(), _lock: lock };
-        it.own.iter().try_for_each(|name| it.check(name))?;
-        Ok(it)
+        Ok(Self { place, staging, _lock: lock })
     }
 
     /// Where to write.
@@ -102,8 +124,8 @@ impl Folder {
     #[must_use]
     pub fn published(&self, written: &Path) -> PathBuf {
         match written.strip_prefix(&self.staging) {
-            Ok(inside) if inside.as_os_str().is_empty() => self.dir.clone(),
-            Ok(inside) => self.dir.join(inside),
+            Ok(inside) if inside.as_os_str().is_empty() => self.place.dir.clone(),
+            Ok(inside) => self.place.dir.join(inside),
             Err(_) => written.to_owned(),
         }
     }
@@ -111,44 +133,41 @@ impl Folder {
     /// Puts all that was written in its place.
     ///
     /// # Errors
-    /// An input that would be overwritten, before anything is replaced; a file that cannot be replaced.
-    pub fn publish(self) -> Result<(), FolderError> {
-        let mut names = Vec::new();
-        let all = fs::read_dir(&self.staging).map_err(FileError::at(&self.staging))?;
-        for entry in all {
-            let entry = entry.map_err(FileError::at(&self.staging))?;
-            names.push(entry.file_name().to_string_lossy().into_owned());
-        }
-        names.iter().try_for_each(|name| self.check(name))?;
+    /// What is in the way, before anything is replaced; a file that cannot be replaced.
+    pub fn publish(mut self) -> Result<(), FolderError> {
+        let mut new = Vec::new();
+        files(&self.staging, "", &mut new)?;
+        new.iter().try_for_each(|name| self.place.free(name))?;
+        let first = self.place.writer.own.first().copied();
+        let mut old = self.place.outdated();
+        // Known before it is there: wherever this stops, the next run finds nothing of nobody.
+        self.place.made.add(self.place.writer.name, &new);
+        self.place.made.write(&self.staging)?;
         // What stands for all goes before anything is replaced, and comes last.
-        let first = self.own.first();
-        names.sort_by_key(|name| (Some(name) == first, name.clone()));
-        if first.is_some_and(|name| self.dir.join(name).exists()) {
-            for name in self.own.iter().rev() {
-                remove(&self.dir.join(name))?;
-            }
+        old.sort_by_key(|name| Some(name.as_str()) != first);
+        for name in &old {
+            remove(&self.place.dir.join(name))?;
         }
-        for name in &names {
-            let to = self.dir.join(name);
-            if to.is_dir() {
-                remove(&to)?;
+        new.sort_by_key(|name| (Some(name.as_str()) == first, name.clone()));
+        for name in &new {
+            let to = self.place.dir.join(name);
+            if let Some(above) = to.parent() {
+                fs::create_dir_all(above).map_err(FileError::at(above))?;
             }
             fs::rename(self.staging.join(name), &to).map_err(FileError::at(&to))?;
         }
-        Ok(())
-    }
-
-    /// A name in the folder is no input.
-    fn check(&self, name: &str) -> Result<(), FolderError> {
-        let there = self.dir.join(name);
-        let same = |input: &&PathBuf| {
-            let both = (fs::canonicalize(input), fs::canonicalize(&there));
-            matches!(both, (Ok(a), Ok(b)) if a == b)
-        };
-        match self.inputs.iter().find(same) {
-            Some(input) => Err(FolderError::Input(input.clone())),
-            None => Ok(()),
+        old.retain(|name| !new.contains(name));
+        if old.is_empty() {
+            return Ok(());
         }
+        for above in old.iter().filter_map(|name| Path::new(name).parent()) {
+            if above != Path::new("") {
+                // One that holds something else stays.
+                let _ = fs::remove_dir(self.place.dir.join(above));
+            }
+        }
+        self.place.made.forget(&old);
+        Ok(self.place.made.write(&self.staging)?)
     }
 }
 
@@ -159,84 +178,23 @@ impl Drop for Folder {
     }
 }
 
-fn remove(path: &Path) -> Result<(), FileError> {
-    let done = if path.is_dir() { fs::remove_dir_all(path) } else { fs::remove_file(path) };
-    match done {
-        Err(e) if e.kind() != std::io::ErrorKind::NotFound => Err(FileError::at(path)(e)),
-        _ => Ok(()),
+/// The files in a folder and in those below it, `/` between the names.
+fn files(dir: &Path, above: &str, found: &mut Vec<String>) -> Result<(), FileError> {
+    for entry in fs::read_dir(dir).map_err(FileError::at(dir))? {
+        let entry = entry.map_err(FileError::at(dir))?;
+        let name = format!("{above}{}", entry.file_name().to_string_lossy());
+        if entry.path().is_dir() {
+            files(&entry.path(), &format!("{name}/"), found)?;
+        } else {
+            found.push(name);
+        }
     }
+    Ok(())
 }
 
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    fn write(folder: &Folder, name: &str, text: &str) {
-        fs::write(folder.path().join(name), text).unwrap();
-    }
-
-    #[test]
-    fn results_are_seen_together_and_replace_those_before() {
-        let at = tempfile::tempdir().unwrap();
-        let dir = at.path().join("a/b");
-        let own = ["summary", "peaks", "frames"];
-        let folder = Folder::open(&dir, &own, &[]).unwrap();
-        write(&folder, "peaks", "1");
-        write(&folder, "summary", "1");
-        fs::create_dir(folder.path().join("frames")).unwrap();
-        write(&folder, "frames/0", "1");
-        assert!(!dir.join("peaks").exists());
-        assert_eq!(folder.published(&folder.path().join("peaks")), dir.join("peaks"));
-        folder.publish().unwrap();
-        fs::write(dir.join("notes"), "mine").unwrap();
-        assert_eq!(fs::read_to_string(dir.join("frames/0")).unwrap(), "1");
-
-        // One that ends early changes nothing.
-        let folder = Folder::open(&dir, &own, &[]).unwrap();
-        write(&folder, "peaks", "2");
-        drop(folder);
-        assert_eq!(fs::read_to_string(dir.join("peaks")).unwrap(), "1");
-
-        let folder = Folder::open(&dir, &own, &[]).unwrap();
-        write(&folder, "summary", "3");
-        folder.publish().unwrap();
-        assert!(!dir.join("peaks").exists() && !dir.join("frames").exists());
-        assert_eq!(fs::read_to_string(dir.join("summary")).unwrap(), "3");
-        assert_eq!(fs::read_to_string(dir.join("notes")).unwrap(), "mine");
-    }
-
-    #[test]
-    fn what_no_run_has_left_stays() {
-        let at = tempfile::tempdir().unwrap();
-        fs::write(at.path().join("spectra.csv"), "of a record").unwrap();
-        let folder = Folder::open(at.path(), &OF_RUN, &[]).unwrap();
-        write(&folder, "summary.json", "1");
-        folder.publish().unwrap();
-        assert!(at.path().join("spectra.csv").exists());
-    }
-
-    #[test]
-    fn a_folder_has_one_writer() {
-        let at = tempfile::tempdir().unwrap();
-        let first = Folder::open(at.path(), &[], &[]).unwrap();
-        assert!(matches!(Folder::open(at.path(), &[], &[]), Err(FolderError::Taken(_))));
-        drop(first);
-        assert!(Folder::open(at.path(), &[], &[]).is_ok());
-    }
-
-    #[test]
-    fn what_is_in_the_way_is_told_before_anything_is_written() {
-        let at = tempfile::tempdir().unwrap();
-        let file = at.path().join("peaks.csv");
-        fs::write(&file, "t,a").unwrap();
-        assert!(matches!(Folder::open(&file, &[], &[]), Err(FolderError::NotAFolder(_))));
-        let inputs = [at.path().join("./peaks.csv")];
-        let taken = Folder::open(at.path(), &OF_RUN, &inputs);
-        assert!(matches!(taken, Err(FolderError::Input(_))));
-        // A name that is known at the end only.
-        let folder = Folder::open(at.path(), &[], &inputs).unwrap();
-        write(&folder, "peaks.csv", "");
-        assert!(matches!(folder.publish(), Err(FolderError::Input(_))));
-        assert_eq!(fs::read_to_string(&file).unwrap(), "t,a");
+fn remove(path: &Path) -> Result<(), FileError> {
+    match fs::remove_file(path) {
+        Err(e) if e.kind() != std::io::ErrorKind::NotFound => Err(FileError::at(path)(e)),
+        _ => Ok(()),
     }
 }

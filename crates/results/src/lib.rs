@@ -32,7 +32,7 @@ pub use drift::DriftSummary;
 pub use envelope::Envelope;
 pub use error::FileError;
 pub use files::Files;
-pub use folder::{Folder, FolderError, OF_RUN};
+pub use folder::{Folder, FolderError, OF_RUN, Writer};
 pub use frames::{Frame, Frames};
 pub use ground::{GroundMotion, ground_motions};
 pub use loops::{LoopPoint, Loops};

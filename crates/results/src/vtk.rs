@@ -6,17 +6,20 @@ use std::fmt::Write;
 use std::path::Path;
 use trilith_model::{Body, Model};
 
+/// The folder of the frames.
+pub(crate) const FRAMES: &str = "frames";
+
 const LINE: u8 = 3;
 const VERTEX: u8 = 1;
 
 /// Writes `model.pvd` and the frames beside it; nothing where there are no frames.
 pub(crate) fn write(dir: &Path, model: &Model, frames: &Frames) -> Result<bool, FileError> {
-    let folder = dir.join("frames");
+    let folder = dir.join(FRAMES);
     // Frames of a former run with more of them would be left among the new ones.
     if folder.is_dir() {
         for old in std::fs::read_dir(&folder).map_err(FileError::at(&folder))?.flatten() {
             let path = old.path();
-            if path.extension().is_some_and(|e| e == "vtu") {
+            if path.file_name().and_then(|name| name.to_str()).is_some_and(is_frame) {
                 std::fs::remove_file(&path).map_err(FileError::at(&path))?;
             }
         }
@@ -30,18 +33,28 @@ pub(crate) fn write(dir: &Path, model: &Model, frames: &Frames) -> Result<bool, 
         "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"0.1\" byte_order=\"LittleEndian\">\n<Collection>\n",
     );
     for (i, frame) in frames.iter().enumerate() {
-        let name = format!("{i:04}.vtu");
+        let name = frame_name(i);
         let path = folder.join(&name);
         std::fs::write(&path, text(&mesh, frame)).map_err(FileError::at(&path))?;
         line(
             &mut index,
-            format_args!("<DataSet timestep=\"{}\" file=\"frames/{name}\"/>", frame.t),
+            format_args!("<DataSet timestep=\"{}\" file=\"{FRAMES}/{name}\"/>", frame.t),
         );
     }
     index.push_str("</Collection>\n</VTKFile>\n");
     let path = dir.join("model.pvd");
     std::fs::write(&path, index).map_err(FileError::at(&path))?;
     Ok(true)
+}
+
+fn frame_name(i: usize) -> String {
+    format!("{i:04}.vtu")
+}
+
+/// True of a name that a frame may have.
+pub(crate) fn is_frame(name: &str) -> bool {
+    let number = name.strip_suffix(".vtu").and_then(|digits| digits.parse().ok());
+    number.is_some_and(|i| frame_name(i) == name)
 }
 
 /// Everything of a `.vtu` file that does not change in time: points and cells.

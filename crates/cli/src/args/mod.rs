@@ -75,7 +75,8 @@ pub(crate) struct RunArguments {
     /// Output step in seconds [default: that of the case]
     #[arg(long, value_parser = positive)]
     pub dt: Option<f64>,
-    /// Folder for the results [default: out/<name of the model file>, and below it what `--set` sets]
+    /// Folder for the results [default: out/<name of the model file>, and below it what was set, such as
+    /// mu=0.4,solver=hht: by `--set`, `--case`, `--solver`, `--dt`, `--checkpoint-at` and `--restart`]
     #[arg(long, value_name = "DIR")]
     pub out: Option<PathBuf>,
     /// Links whose hysteresis loops the report shows; the option may come several times, and double quotes hold a

@@ -6,13 +6,12 @@ mod text;
 
 pub(crate) use arguments::Arguments;
 
-use crate::text::shown;
-use crate::{Answer, Failure};
-use std::path::{Path, PathBuf};
+use crate::{Answer, Failure, place};
+use std::path::Path;
 use trilith::record::measure::{periods, spectrum};
 use trilith::record::synthetic::{Compatible, Fit, KanaiTajimi, Target};
 use trilith::record::{Columns, Problem, ReadError, Record, cell};
-use trilith::results::Folder;
+use trilith::results::Writer;
 
 /// A component, and the file it comes from.
 struct Item {
@@ -40,12 +39,16 @@ pub(crate) fn record(args: &Arguments) -> Result<Answer, Failure> {
     }
     let mut text = text::text(&items, args, fit)?;
     if let Some(dir) = &args.out {
-        let inputs: Vec<PathBuf> = args.files.iter().chain(&args.spectrum).cloned().collect();
-        let folder = Folder::open(dir, &[], &inputs).map_err(|e| Failure::folder(&e))?;
-        for path in write(folder.path(), &items, args, target.as_ref())? {
-            text += &format!("{}\n", shown(&folder.published(&path)));
+        let files = files(&items, args, target.as_ref())?;
+        let writer = Writer {
+            name: "record",
+            own: &[],
+            writes: files.iter().map(|(name, _)| name.clone()).collect(),
+            inputs: args.files.iter().chain(&args.spectrum).cloned().collect(),
+        };
+        for path in place::write(place::open(dir, writer)?, &files)? {
+            text += &format!("{path}\n");
         }
-        folder.publish().map_err(|e| Failure::folder(&e))?;
     }
     Ok(text.into())
 }
@@ -143,12 +146,12 @@ fn pair(items: &[Item]) -> Option<[&Record; 2]> {
     }
 }
 
-fn write(
-    dir: &Path,
+/// What goes into the folder: names and contents.
+fn files(
     items: &[Item],
     args: &Arguments,
     target: Option<&Target>,
-) -> Result<Vec<PathBuf>, Failure> {
+) -> Result<Vec<(String, String)>, Failure> {
     // First, since it finds what is not finite.
     let table = spectra(items, args)?;
     let mut files = vec![
@@ -172,13 +175,7 @@ fn write(
         taken.push(name.clone());
         files.push((format!("{name}.csv"), item.record.to_csv()));
     }
-    let mut written = Vec::new();
-    for (name, content) in files {
-        let path = dir.join(name);
-        std::fs::write(&path, content).map_err(|e| Failure::unwritable(&path, &e))?;
-        written.push(path);
-    }
-    Ok(written)
+    Ok(files)
 }
 
 /// Spectra as lines of a table.
