@@ -92,6 +92,27 @@ fn what_supports_carry_along_may_go_as_far_as_they() {
     assert!(said(&of, SolverKind::Fna).is_empty());
 }
 
+/// One mass at one node: no size tells what is far.
+#[test]
+fn what_leaves_the_world_is_told_where_a_model_has_no_size() {
+    let text = r#"(
+        parameters: { "a": 1e100 },
+        nodes: { "m": (0, 0, 0) },
+        supports: { "m": (Uy, Uz, Rx, Ry, Rz) },
+        elements: {
+            "mass": Mass(node: "m", mass: 2),
+            "spring": Spring(node: "m", k1: 200),
+            "gap": Gap(node: "m", k: 1e5, opening: 0.1),
+        },
+        functions: { "sine": Sine(amplitude: "a", frequency: 1.3) },
+        cases: { "shake": Dynamic(duration: 1, dt: 0.01, base: [(direction: X, function: "sine")]) },
+        outputs: { "u": Displacement(node: "m", dof: Ux) },
+    )"#;
+    says(&parse(text, &[]), &["at the end node \"m\" is", "m away from its place"]);
+    // A mass that falls for a minute goes eighteen kilometres.
+    assert!(said(&parse(text, &[("a", "1e3".into())]), SolverKind::Fna).is_empty());
+}
+
 #[test]
 fn nothing_is_said_of_the_models_that_ship() {
     let mut seen = 0;

@@ -27,7 +27,7 @@ pub mod file {
     pub use crate::expression::{
         ExpressionError, NoNames, Quantity, Scope, evaluate, expression_diagnostic,
     };
-    pub use crate::read::{Context, Fields, open, parse};
+    pub use crate::read::{Context, Fields, open, parse, resembles_model};
     pub use crate::tree::{Entry, Kind, Node};
 }
 

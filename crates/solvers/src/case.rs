@@ -304,7 +304,7 @@ fn run_static(
         potential,
         ..EnergyTotals::default()
     };
-    show_static(model, system, &state, energy, observers);
+    let noticed = show_static(model, system, &state, energy, observers);
     let cpu = clock.cpu();
     Ok(CaseResult {
         case: case.name.clone(),
@@ -329,7 +329,7 @@ fn run_static(
             .map(|(l, s)| (l.element, LinkEnergy { stored: *s, ..LinkEnergy::default() }))
             .collect(),
         basis: None,
-        warnings: plausible::of_static(model, system, &state, &u),
+        warnings: plausible::of_static(model, system, &state, noticed, &u),
         errors: Vec::new(),
         end: EndState {
             model: model.source.sha256.clone(),

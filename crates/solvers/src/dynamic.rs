@@ -230,7 +230,7 @@ pub(crate) fn run(
     }
     let Moving { state, pace, ledger } = moving;
     viewer.end(&state, &ledger);
-    let (largest, pressed) = (viewer.largest(), viewer.pressed());
+    let (largest, noticed) = (viewer.largest(), viewer.noticed());
     let counts = march.counts;
     if let Some(Stop::Fatal(e)) = stop {
         return Err(e);
@@ -303,7 +303,7 @@ pub(crate) fn run(
         }
     }
     let case = (case, analysis);
-    warnings.extend(plausible::of_dynamic((model, system), case, &loads, pressed, &result));
+    warnings.extend(plausible::of_dynamic((model, system), case, &loads, noticed, &result));
     result.end.vectors = vectors;
     // Where nothing is free, there are no modes to speak of.
     result.basis = bases.as_ref().filter(|_| reduced && !system.idle).map(|b| b.report.clone());

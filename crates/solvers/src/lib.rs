@@ -45,6 +45,7 @@ mod modal;
 mod observe;
 mod output_step;
 mod outputs;
+mod overlap;
 mod p_delta;
 mod peak;
 mod plausible;
@@ -81,7 +82,7 @@ pub use observe::{
 };
 pub use p_delta::assemble;
 pub use peak::Peak;
-pub use plausible::of_model as warnings;
+pub use plausible::{of_model as warnings, of_outputs as warnings_of_outputs};
 pub use stepper::State;
 pub use stops::StopSummary;
 pub use together::{Member, run_together};

@@ -1,19 +1,36 @@
 //! What a run says about a model that is hardly meant so: bodies without weight, contacts without stiffness, parts
 //! that have left. All of it begins with `check the model`.
 
+mod of_outputs;
+
+pub use of_outputs::of_outputs;
+
 use crate::contact_mode::{contacts, falling};
 use crate::error::SolveError;
 use crate::observe::{CaseResult, Status};
+use crate::overlap;
 use crate::stepper::State;
-use trilith_element::{Contact, Dof, Kinematics, Vector3};
+use trilith_element::{Contact, Dof, Vector3};
 use trilith_model::{Case, DynamicCase, Model, Side};
 use trilith_system::{LoadSet, SmallTurn, System, small_turns};
 
 /// Share of the size of a model by which a contact may be pressed in without a word.
 const PRESSED: f64 = 0.05;
 
+/// How far a part may go without a word where a model has no size, m: farther than across a continent.
+const FAR: f64 = 1e6;
+
 /// Names that a sentence holds.
 const NAMES: usize = 3;
+
+/// What was noticed on the way through a case.
+#[derive(Debug, Default)]
+pub(crate) struct Noticed {
+    /// The contact that was pressed in deepest.
+    pub pressed: Pressed,
+    /// What there is to say of bodies that were in each other.
+    pub overlaps: Vec<String>,
+}
 
 /// The contact that was pressed in deepest.
 #[derive(Clone, Copy, Debug, Default)]
@@ -35,11 +52,19 @@ impl Pressed {
     }
 }
 
-/// What there is to say of a model before any case: who takes the rotations of a body in finite rotation for small ones.
+/// What there is to say of a model before any case: who takes the rotations of a body in finite rotation for small ones,
+/// and bodies that are in each other.
 ///
 /// # Errors
 /// As an assembly has them.
 pub fn of_model(model: &Model) -> Result<Vec<String>, SolveError> {
+    let mut all = turns(model)?;
+    all.extend(overlap::at_rest(model));
+    Ok(all)
+}
+
+/// Who takes the rotations of a body in finite rotation for small ones.
+fn turns(model: &Model) -> Result<Vec<String>, SolveError> {
     let say = |SmallTurn { element, body }: SmallTurn| {
         let [element, body] = [element, body].map(|i| &model.elements[i]);
         format!(
@@ -51,12 +76,12 @@ pub fn of_model(model: &Model) -> Result<Vec<String>, SolveError> {
     Ok(small_turns(model)?.into_iter().map(say).collect())
 }
 
-/// What there is to say of a dynamic case from its result; `pressed`: what was seen on the way.
+/// What there is to say of a dynamic case from its result and from what was noticed on the way.
 pub(crate) fn of_dynamic(
     (model, system): (&Model, &System),
     (case, analysis): (&Case, &DynamicCase),
     loads: &LoadSet,
-    pressed: Pressed,
+    noticed: Noticed,
     result: &CaseResult,
 ) -> Vec<String> {
     let end = &result.end;
@@ -66,16 +91,23 @@ pub(crate) fn of_dynamic(
     let fallen = matches!(result.status, Status::Overturned { .. });
     let free = (!fallen).then_some(&end.displacement[..]);
     let weight = weightless(model, system, case, analysis, &end.load);
+    let Noticed { pressed, overlaps } = noticed;
     let place = of_state(model, system, &end.state, pressed, free, &supports);
-    let turns = of_model(model).unwrap_or_default();
-    weight.into_iter().chain(place).chain(turns).collect()
+    let turns = turns(model).unwrap_or_default();
+    weight.into_iter().chain(place).chain(overlaps).chain(turns).collect()
 }
 
 /// What there is to say of a static case.
-pub(crate) fn of_static(model: &Model, system: &System, state: &State, u: &[f64]) -> Vec<String> {
+pub(crate) fn of_static(
+    model: &Model,
+    system: &System,
+    state: &State,
+    noticed: Noticed,
+    u: &[f64],
+) -> Vec<String> {
     let supports = vec![0.0; system.reduction.prescribed.len()];
-    let said = of_state(model, system, state, Pressed::default(), Some(u), &supports);
-    said.into_iter().collect()
+    let said = of_state(model, system, state, noticed.pressed, Some(u), &supports);
+    said.into_iter().chain(noticed.overlaps).collect()
 }
 
 /// Of the place where a case ends: contacts, and the displacements of the free DOFs where these count.
@@ -87,8 +119,11 @@ fn of_state(
     free: Option<&[f64]>,
     supports: &[f64],
 ) -> Option<String> {
-    let size = size(model, system)?;
     pressed.see(&contacts(model, system, state));
+    let Some(size) = size(model) else {
+        let (node, moved) = farthest(model, system, free?, supports)?;
+        return (moved > FAR).then(|| away(model, node, moved));
+    };
     if let Some(element) = pressed.element.filter(|_| pressed.depth > PRESSED * size) {
         // What stands on it has moved as far for that.
         return Some(format!(
@@ -103,15 +138,27 @@ fn of_state(
     }
     let (node, moved) = farthest(model, system, free?, supports)?;
     let carried = supports.iter().fold(0.0, |most: f64, u| most.max(u.abs()));
-    (moved > size + carried).then(|| {
-        format!(
-            "check the model: at the end node \"{}\" is {} m away from its place, {} % of the size of the model ({} m)",
-            model.nodes[node].name,
-            rounded(moved),
-            rounded(100.0 * moved / size),
-            rounded(size)
-        )
-    })
+    (moved > size + carried).then(|| beyond(model, node, moved, size))
+}
+
+/// Says that a node is farther away than the model is large.
+fn beyond(model: &Model, node: usize, moved: f64, size: f64) -> String {
+    let [share, size] = [100.0 * moved / size, size].map(rounded);
+    away(model, node, moved) + &format!(", {share} % of the size of the model ({size} m)")
+}
+
+/// Says that a node has left.
+fn away(model: &Model, node: usize, moved: f64) -> String {
+    let name = &model.nodes[node].name;
+    format!(
+        "check the model: at the end node \"{name}\" is {} m away from its place",
+        rounded(moved)
+    )
+}
+
+/// Whether ground motion or forces act in a case.
+fn drives(analysis: &DynamicCase) -> bool {
+    !analysis.base.is_empty() || !analysis.forces.is_empty()
 }
 
 /// Says where ground motion or forces act on a body that only contacts could carry and that nothing presses onto
@@ -123,7 +170,7 @@ fn weightless(
     analysis: &DynamicCase,
     constant: &[f64],
 ) -> Option<String> {
-    if analysis.base.is_empty() && analysis.forces.is_empty() {
+    if !drives(analysis) {
         return None;
     }
     let down = Dof::Uz.index();
@@ -169,15 +216,11 @@ fn farthest(
 }
 
 /// Largest extent of nodes and outlines of bodies along an axis, m; `None` for a point, which has no size.
-fn size(model: &Model, system: &System) -> Option<f64> {
+fn size(model: &Model) -> Option<f64> {
     let mut points: Vec<Vector3> = model.nodes.iter().map(|node| node.position).collect();
-    let history = system.links.at_rest(model);
-    let laws = system.links.laws(model);
-    for (law, link) in laws.iter() {
-        let rest = vec![0.0; link.range.len()];
-        let at = Kinematics { d: &rest, v: &rest, d0: &rest, v0: &rest, dt: 0.0 };
-        let Some(outline) = law.outline(&at, &history[link.history.clone()]) else { continue };
-        let Some(node) = model.elements[link.element].nodes.first() else { continue };
+    for (element, law) in overlap::links(model) {
+        let Some(outline) = overlap::still(law) else { continue };
+        let Some(node) = model.elements[element].nodes.first() else { continue };
         let place = model.nodes[*node].position;
         points.extend(outline.points.iter().map(|p| [0, 1, 2].map(|i| place[i] + p[i])));
     }
@@ -192,6 +235,6 @@ fn size(model: &Model, system: &System) -> Option<f64> {
 }
 
 /// With three significant digits.
-fn rounded(x: f64) -> f64 {
+pub(crate) fn rounded(x: f64) -> f64 {
     format!("{x:.2e}").parse().unwrap_or(x)
 }

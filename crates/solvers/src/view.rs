@@ -7,12 +7,13 @@ use crate::ledger::Ledger;
 use crate::modal::ClosedForm;
 use crate::observe::{EnergyTotals, Observer, Sample, Shape};
 use crate::outputs::Outputs;
-use crate::plausible::Pressed;
+use crate::overlap::{Overlaps, Place};
+use crate::plausible::{self, Noticed, Pressed};
 use crate::shapes::{Shapes, expand};
 use crate::space::Space;
 use crate::stepper::State;
 use std::sync::Arc;
-use trilith_element::{Contact, Kinematics, Link, Vector3};
+use trilith_element::{Contact, Kinematics, Link, Outline, Vector3};
 use trilith_model::{Model, Output, Quantity, Side};
 use trilith_system::{LinkInstance, LoadSet, System};
 
@@ -84,6 +85,8 @@ pub(crate) struct Viewer<'a, 'b> {
     own: Vec<Contact>,
     /// The contact that was pressed in deepest so far.
     pressed: Pressed,
+    /// Bodies that are or were in each other.
+    overlaps: Overlaps<'a>,
     /// Makes the base shear, where an observer looks at it.
     shear: Option<base_shear::Rows>,
     /// The base shear of the state last shown, N.
@@ -138,7 +141,9 @@ impl<'a, 'b> Viewer<'a, 'b> {
         let count = model.outputs.len();
         let sheared = observers.iter().any(|o| o.wants_base_shear());
         let Seen { touching, bodies } = Seen::new(model, system);
+        let outlined: Vec<_> = bodies.iter().map(|(law, link)| (link.element, *law)).collect();
         Self {
+            overlaps: Overlaps::new(model, &outlined),
             system,
             loads,
             coordinates: Coordinates { order: space.order(), shape: space.shape.clone() },
@@ -177,9 +182,13 @@ impl<'a, 'b> Viewer<'a, 'b> {
         self.inside.as_ref().map(|i| i.largest.clone()).unwrap_or_default()
     }
 
-    /// The contact that was pressed in deepest so far, as far as somebody watches.
-    pub(crate) fn pressed(&self) -> Pressed {
-        self.pressed
+    /// What was noticed of contacts and bodies so far, as far as somebody watches.
+    pub(crate) fn noticed(&self) -> Noticed {
+        let told = self.overlaps.told(|t| match t {
+            0.0 => "at the start".into(),
+            t => format!("at t = {} s", plausible::rounded(t)),
+        });
+        Noticed { pressed: self.pressed, overlaps: told }
     }
 
     /// Tells that the run starts, with at most so many output steps to come.
@@ -218,6 +227,10 @@ impl<'a, 'b> Viewer<'a, 'b> {
         }
         self.tell_inside(t, &state.motion);
         self.touch(state);
+        if step.is_some() {
+            let place = Standing { bodies: &self.bodies, state };
+            self.overlaps.see(t, &place, &self.contacts);
+        }
         if let Some(shear) = &self.shear {
             let count = self.system.reduction.prescribed.len();
             let supports = shear.supported.then(|| self.loads.prescribed(t, side, count));
@@ -331,6 +344,23 @@ impl<'a, 'b> Viewer<'a, 'b> {
     }
 }
 
+/// Bodies as they stand.
+struct Standing<'a> {
+    bodies: &'a [(&'a dyn Link, &'a LinkInstance)],
+    state: &'a State,
+}
+
+impl Place for Standing<'_> {
+    fn deformation(&self, body: usize) -> Option<&[f64]> {
+        self.bodies.get(body).map(|(_, link)| &self.state.d[link.range.clone()])
+    }
+
+    fn outline(&self, body: usize) -> Option<Outline> {
+        let (law, link) = self.bodies.get(body)?;
+        law.outline(&standing(link, self.state), &self.state.history[link.history.clone()])
+    }
+}
+
 /// A link as it stands, no step made.
 fn standing<'a>(link: &LinkInstance, state: &'a State) -> Kinematics<'a> {
     let (d, v) = (&state.d[link.range.clone()], &state.v[link.range.clone()]);
@@ -344,7 +374,7 @@ pub(crate) fn show_static(
     state: &State,
     energy: EnergyTotals,
     observers: &mut [&mut dyn Observer],
-) {
+) -> Noticed {
     let loads = LoadSet::default();
     let space = Space::physical(system, &loads, &vec![0.0; system.links.len()], None);
     let mut viewer = Viewer::new(model, system, &loads, &space, observers);
@@ -352,4 +382,5 @@ pub(crate) fn show_static(
     viewer.start(0);
     viewer.show(0.0, Some(0), state, &ledger);
     viewer.end(state, &ledger);
+    viewer.noticed()
 }

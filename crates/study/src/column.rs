@@ -64,6 +64,7 @@ pub(crate) struct Left<'a> {
     pub peaks: &'a [Peak],
     pub energy: &'a EnergyTotals,
     pub contact: Option<&'a ContactSummary>,
+    pub warnings: &'a [String],
 }
 
 /// Follows what peaks do not tell.

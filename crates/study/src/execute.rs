@@ -47,6 +47,12 @@ impl Results {
     pub fn failed(&self) -> usize {
         self.records.iter().filter(|r| !r.good).count()
     }
+
+    /// Runs that warned of something.
+    #[must_use]
+    pub fn warned(&self) -> usize {
+        self.records.iter().filter(|r| !r.warnings.is_empty()).count()
+    }
 }
 
 /// What the workers share.

@@ -28,6 +28,9 @@ pub struct Record {
     /// What failed in a sentence; empty for a good run.
     #[serde(default, skip_serializing_if = "String::is_empty")]
     pub message: String,
+    /// What the run warned of.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub warnings: Vec<String>,
     /// True where a body has fallen over.
     pub overturned: bool,
     /// Mode in which the body leaves rest.
@@ -38,6 +41,16 @@ pub struct Record {
     pub parameters: Vec<Cell>,
     /// Values of the columns, SI.
     pub values: Vec<Option<f64>>,
+}
+
+impl Record {
+    /// What failed and what the run warned of, as a table has it.
+    #[must_use]
+    pub fn told(&self) -> String {
+        let failed = Some(self.message.as_str()).filter(|m| !m.is_empty());
+        let all = failed.into_iter().chain(self.warnings.iter().map(String::as_str));
+        all.collect::<Vec<_>>().join("; ")
+    }
 }
 
 /// A value in a table.

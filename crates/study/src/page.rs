@@ -12,13 +12,18 @@ const ROWS: usize = 40;
 pub(crate) fn page(study: &Study, records: &[Record], left_out: usize) -> String {
     let title = if study.title.is_empty() { "Study" } else { &study.title };
     let failed = records.iter().filter(|r| !r.good).count();
+    let warned = records.iter().filter(|r| !r.warnings.is_empty()).count();
+    let told = match warned {
+        0 => String::new(),
+        n => format!(" {n} of them warned of something."),
+    };
     let out = match left_out {
         0 => String::new(),
         n => format!(" {n} more lie beyond the first run of their series that met the limit."),
     };
     let mut page = Page::new(title)
         .lead(Block::text(format!(
-            "{} runs of `{}` ({}), {failed} of them failed.{out}",
+            "{} runs of `{}` ({}), {failed} of them failed.{told}{out}",
             records.len(),
             plain(&study.model_path).display(),
             study.model_title
@@ -31,7 +36,12 @@ pub(crate) fn page(study: &Study, records: &[Record], left_out: usize) -> String
         page = page.section(statistics::section(study, records));
     }
     if failed > 0 {
-        page = page.section(failures(study, records));
+        let bad = records.iter().filter(|r| !r.good);
+        page = page.section(Section::new("failed", "Runs that failed").block(list(study, bad)));
+    }
+    if warned > 0 {
+        let all = records.iter().filter(|r| !r.warnings.is_empty());
+        page = page.section(warnings(records).block(list(study, all)));
     }
     if let Ok(text) = trilith::record::file::read_text(&study.path) {
         page = page.section(Section::new("file", "The study").block(Block::code(text)));
@@ -72,7 +82,24 @@ fn outcomes(records: &[Record]) -> Block {
     }
 }
 
-fn failures(study: &Study, records: &[Record]) -> Section {
+/// What was warned of, each with the number of runs; numbers that differ make no other warning.
+fn warnings(records: &[Record]) -> Section {
+    let mut counts: Vec<(String, &str, usize)> = Vec::new();
+    for text in records.iter().flat_map(|r| &r.warnings) {
+        let kind: String = text.chars().filter(|c| !"0123456789.-+e".contains(*c)).collect();
+        match counts.iter_mut().find(|c| c.0 == kind) {
+            Some(c) => c.2 += 1,
+            None => counts.push((kind, text, 1)),
+        }
+    }
+    let rows = counts.iter().take(ROWS).map(|(_, text, n)| vec![n.to_string(), (*text).to_owned()]);
+    let head = ["runs", "warning, or the first of several that differ in numbers"];
+    let table = Block::Table { head: head.map(str::to_owned).to_vec(), rows: rows.collect() };
+    Section::new("warnings", "Runs that warned of something").block(table)
+}
+
+/// Runs with their parameters, status and what they told.
+fn list<'a>(study: &Study, records: impl Iterator<Item = &'a Record>) -> Block {
     let mut head = vec!["run".to_owned()];
     head.extend(study.varied.iter().cloned());
     head.extend(["status".to_owned(), "message".to_owned()]);
@@ -81,14 +108,13 @@ fn failures(study: &Study, records: &[Record]) -> Section {
         crate::Cell::Text(t) => t.clone(),
         crate::Cell::Nothing => "–".into(),
     };
-    let bad = records.iter().filter(|r| !r.good);
-    let rows = bad.take(ROWS).map(|r| {
+    let rows = records.take(ROWS).map(|r| {
         let mut cells = vec![(r.run + 1).to_string()];
         cells.extend(r.parameters.iter().map(cell));
-        cells.extend([r.status.clone(), r.message.clone()]);
+        cells.extend([r.status.clone(), r.told()]);
         cells
     });
-    Section::new("failed", "Runs that failed").block(Block::Table { head, rows: rows.collect() })
+    Block::Table { head, rows: rows.collect() }
 }
 
 #[cfg(test)]

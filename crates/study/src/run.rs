@@ -38,8 +38,16 @@ impl Study {
         let record = |((run, model), found): (&(usize, Model), Result<Outcome, Alone>)| {
             let Outcome { status, outputs, energy, contact, .. } = found.ok()?;
             let peaks: Vec<Peak> = outputs.0.iter().map(|(_, peak)| *peak).collect();
-            let left =
-                Left { status: &status, peaks: &peaks, energy: &energy, contact: contact.as_ref() };
+            let ended = (&status, &*peaks);
+            let warnings = trilith::solvers::warnings_of_outputs(model, self.case, ended);
+            let left = Left {
+                status: &status,
+                peaks: &peaks,
+                energy: &energy,
+                contact: contact.as_ref(),
+                // A model that has run can be assembled.
+                warnings: &warnings.unwrap_or_default(),
+            };
             Some(self.record(*run, model, &left, &Watch::new(&[])))
         };
         models.iter().zip(found).filter_map(record).collect()
@@ -96,6 +104,7 @@ impl Study {
                     peaks: made.record.peaks(),
                     energy: &made.result.energy,
                     contact: made.contact.as_ref(),
+                    warnings: &made.result.warnings,
                 };
                 let record = self.record(run, &model, &left, &watch);
                 if self.histories.as_ref().is_some_and(|c| c.holds(&self.columns, &record)) {
@@ -153,6 +162,7 @@ impl Study {
             status: status.word().to_owned(),
             good,
             message: if told { String::new() } else { status.text() },
+            warnings: left.warnings.to_vec(),
             overturned: contact.is_some_and(|c| c.overturned),
             initial_mode: contact.filter(|_| good).map(|c| c.initial_mode.to_owned()),
             mode: contact.filter(|_| good).map(|c| c.mode.to_owned()),
@@ -191,6 +201,7 @@ impl Study {
             status: status.to_owned(),
             good: false,
             message: message.to_owned(),
+            warnings: Vec::new(),
             overturned: false,
             initial_mode: None,
             mode: None,

@@ -121,7 +121,7 @@ impl Table {
         let fallen = |r: &Record| r.good.then_some(r.overturned);
         add("overturned", "", Values::Flags(records.iter().map(fallen).collect()));
         add("status", "", texts(&|r| Some(r.status.clone())));
-        let told = |r: &Record| (!r.message.is_empty()).then(|| r.message.clone());
+        let told = |r: &Record| Some(r.told()).filter(|text| !text.is_empty());
         add("message", "", texts(&told));
         Self { title: study.title.clone(), columns }
     }

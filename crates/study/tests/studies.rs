@@ -413,6 +413,68 @@ fn all_errors_of_a_study_are_told_at_once() {
     assert!(none[0].message.contains("none.ron cannot be read"));
 }
 
+/// A file that is no model keeps what it holds for itself; one with an error in it is shown where it is.
+#[test]
+fn what_a_file_that_is_no_model_holds_is_not_told() {
+    let folder = folder();
+    for text in ["root:x:0:0:secret\n", "(secret: 1)", "# secret\n(nodes: {})", "secret"] {
+        std::fs::write(folder.path().join("mass.ron"), text).unwrap();
+        let errors = read(folder.path(), GRID).unwrap_err();
+        let [e] = errors.as_slice() else { panic!("{errors:?}") };
+        assert!(e.message.ends_with("mass.ron is no model: it has no `nodes`"), "{e}");
+        assert!(!e.source.text.contains("secret") && e.source.path.ends_with("study.ron"), "{e}");
+        let all = format!("{e:?}");
+        assert!(!all.contains("secret"), "{all}");
+    }
+    std::fs::write(folder.path().join("mass.ron"), MODEL.replace("plane: XZ", "plain: XZ"))
+        .unwrap();
+    let errors = read(folder.path(), GRID).unwrap_err();
+    assert!(errors[0].source.path.ends_with("mass.ron"), "{errors:?}");
+}
+
+/// What a run would say of its model stands in the table and is counted on the page, side by side and one by one.
+#[test]
+fn warnings_of_runs_reach_the_study() {
+    let folder = folder();
+    let path = folder.path().join("mass.ron");
+    std::fs::write(&path, MODEL.replace("after: \"gravity\", ", "")).unwrap();
+    let told = |body: &str, out: &str| {
+        let study = read(folder.path(), body).unwrap();
+        let results = run(&study, &folder.path().join(out), 1).unwrap();
+        let out = folder.path().join(out);
+        let [table, page] = ["table.csv", "study.html"].map(|n| bytes(&out, n));
+        let text = |b: Vec<u8>| String::from_utf8(b).unwrap();
+        (results, text(table), text(page))
+    };
+    let beside = r#"axes: { "a": ["1 m/s^2", "2 m/s^2"] },"#;
+    let alone = r#"axes: { "a": ["1 m/s^2", "2 m/s^2"] }, columns: { "rms": Rms("slide") },"#;
+    for (body, lanes) in [(beside, 2), (alone, 0)] {
+        let (results, table, page) = told(body, &format!("weightless {lanes}"));
+        assert_eq!((results.beside, results.failed(), results.warned()), (lanes, 0, 2));
+        for text in [&table, &page] {
+            assert!(text.matches("1000 kg have no weight").count() >= 2, "{text}");
+        }
+        assert!(page.contains("2 of them warned of something"), "{page}");
+    }
+    std::fs::write(&path, MODEL).unwrap();
+    let (results, table, page) = told(beside, "heavy");
+    assert!(results.warned() == 0 && !table.contains("check") && !page.contains("warned"));
+}
+
+/// Contacts that are far too soft, side by side: what stands on them has sunk by more than it is large.
+#[test]
+fn a_body_that_sinks_in_is_told_of_runs_side_by_side() {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("../..");
+    let text = "(model: \"../rigid_block.ron\", axes: { \"kn\": [500, 5e8] }, set: { \"duration\": \"0.5 s\" })";
+    let study =
+        Study::read_text(text, root.join("models/studies/kn.ron"), &trilith::registry(), &[]);
+    let folder = tempfile::tempdir().unwrap();
+    let results = run(&study.unwrap(), &folder.path().join("out"), 1).unwrap();
+    assert_eq!((results.beside, results.warned()), (2, 1));
+    let [one] = &results.records[0].warnings[..] else { panic!("{:?}", results.records[0]) };
+    assert!(one.contains("98.1 m away from its place, 4910 % of the size"), "{one}");
+}
+
 /// Runs that are finished are kept and not made again.
 #[test]
 fn an_interrupted_study_goes_on() {

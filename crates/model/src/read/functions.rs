@@ -1,9 +1,9 @@
 //! Time functions.
 
-use super::accelerogram::synthetic;
 use super::context::{Context, Fields};
 use super::names::Names;
 use super::record::record;
+use super::synthetic::{synthetic, too_much};
 use super::tables::{points, table};
 use crate::schema::{self, Block};
 use crate::tree::{Entry, Kind};
@@ -19,6 +19,9 @@ pub(super) fn functions(
     entries: &[Entry],
     names: &Names<'_>,
 ) -> Vec<Option<Function>> {
+    if too_much(c, entries) {
+        return entries.iter().map(|_| None).collect();
+    }
     let mut made: Vec<Option<Made>> = Vec::new();
     let mut scaled: Vec<(usize, usize, f64, Option<Dimension>)> = Vec::new();
     for (i, e) in entries.iter().enumerate() {

@@ -6,9 +6,10 @@
 //! oscillator at the time of its peak to each wavelet \[Lilhanand & Tseng 1988; Al Atik & Abrahamson 2010\], with
 //! the off-diagonal terms times 0.7 \[Hancock et al. 2006\]. The best motion met is kept.
 
+use super::wavelet::{Peak, Wavelet, answers};
 use super::{KanaiTajimi, SyntheticError, positive, samples};
 use crate::Record;
-use crate::measure::{Oscillator, inverse, periods, spectrum, steps_per_sample, transform};
+use crate::measure::{inverse, periods, pseudo_accelerations, steps_per_sample, transform};
 use crate::process::{Baseline, correct};
 
 /// Rounds on Fourier amplitudes and on wavelets.
@@ -92,8 +93,8 @@ impl Compatible {
     /// Makes the motion and says how well it meets the target. It starts and ends at rest.
     ///
     /// # Errors
-    /// [`SyntheticError`] for numbers outside their range, for more samples than can be brought to the spectrum in a
-    /// minute or so, and for motions that are not finite.
+    /// [`SyntheticError`] for numbers outside their range, for more samples than can be brought to the spectrum in
+    /// seconds, and for motions that are not finite.
     pub fn make(&self) -> Result<(Record, Fit), SyntheticError> {
         self.target.check()?;
         self.check_work()?;
@@ -136,15 +137,30 @@ impl Compatible {
         Ok((record, best.0))
     }
 
-    /// Holds the steps of a round to [`STEPS`]: those of an oscillator are a 64th of its period, or the samples.
+    /// What it takes to make it, over the most that a single motion may take.
+    ///
+    /// # Errors
+    /// [`SyntheticError`] for targets and lengths that are none.
+    pub fn work(&self) -> Result<f64, SyntheticError> {
+        self.target.check()?;
+        let samples = samples(self.start.duration, self.start.dt)?;
+        Ok(samples as f64 * self.steps() / STEPS)
+    }
+
+    /// Steps of a round for each sample: those of an oscillator are a 64th of its period, or the samples.
+    fn steps(&self) -> f64 {
+        let parts = |t: &f64| steps_per_sample(self.start.dt, *t) as f64;
+        self.target.periods().iter().map(parts).sum::<f64>() + WAVELETS
+    }
+
+    /// Holds the steps of a round to [`STEPS`].
     fn check_work(&self) -> Result<(), SyntheticError> {
-        let dt = self.start.dt;
-        let samples = samples(self.start.duration, dt)?;
-        let periods = self.target.periods();
-        let steps: f64 = periods.iter().map(|t| steps_per_sample(dt, *t) as f64).sum();
-        let most = (STEPS / (steps + WAVELETS)) as usize;
+        let KanaiTajimi { duration, dt, .. } = self.start;
+        let samples = samples(duration, dt)?;
+        let most = (STEPS / self.steps()) as usize;
         if samples > most {
-            return Err(SyntheticError::TooMuch { samples, most, shortest: periods[0], dt });
+            let shortest = self.target.periods()[0];
+            return Err(SyntheticError::TooMuch { samples, most, shortest, dt });
         }
         Ok(())
     }
@@ -165,7 +181,7 @@ impl Task {
     }
 
     fn responses(&self, a: &[f64]) -> Vec<f64> {
-        spectrum(a, self.dt, &self.periods, self.damping).psa()
+        pseudo_accelerations(a, self.dt, &self.periods, self.damping)
     }
 
     fn fit(&self, responses: &[f64]) -> Fit {
@@ -205,22 +221,15 @@ impl Task {
 
     /// Adds the wavelets that take the differences away.
     fn wavelets(&self, a: &mut [f64]) {
-        let n = a.len();
-        let all: Vec<Peak> =
-            self.periods.iter().map(|&period| Peak::of(a, self.dt, period, self.damping)).collect();
-        let m = all.len();
-        let shapes: Vec<Vec<f64>> = all.iter().map(|p| p.wavelet(n, self.dt)).collect();
-        let mut c = vec![vec![0.0; m]; m];
-        for (i, p) in all.iter().enumerate() {
-            let s = p.oscillator.step(self.dt);
-            for (j, shape) in shapes.iter().enumerate() {
-                let (mut u, mut v) = (0.0, 0.0);
-                for w in shape[..=p.at].windows(2) {
-                    (u, v) = s.advance(u, v, w[0], w[1]);
-                }
+        let all = Peak::all(a, self.dt, &self.periods, self.damping);
+        let shapes: Vec<Wavelet> = all.iter().map(|p| p.wavelet(a.len(), self.dt)).collect();
+        let mut c = answers(&all, &shapes, self.dt);
+        for (i, (row, p)) in c.iter_mut().zip(&all).enumerate() {
+            let w2 = p.oscillator.omega().powi(2);
+            for (j, x) in row.iter_mut().enumerate() {
                 // As a share of what is wanted, so that all rows have one size.
                 let factor = if i == j { 1.0 } else { 0.7 };
-                c[i][j] = factor * u * p.oscillator.omega().powi(2) / self.wanted[i];
+                *x = factor * *x * w2 / self.wanted[i];
             }
         }
         let differences = all
@@ -229,48 +238,8 @@ impl Task {
             .map(|(p, w)| p.value.signum() * (1.0 - p.value.abs() / w))
             .collect();
         for (b, shape) in solve(c, differences).iter().zip(&shapes) {
-            a.iter_mut().zip(shape).for_each(|(a, s)| *a += 0.7 * b * s);
+            shape.of(a).for_each(|(a, s)| *a += 0.7 * b * s);
         }
-    }
-}
-
-/// The peak of an oscillator.
-struct Peak {
-    oscillator: Oscillator,
-    /// Sample.
-    at: usize,
-    /// Pseudo-acceleration there, with its sign.
-    value: f64,
-}
-
-impl Peak {
-    fn of(a: &[f64], dt: f64, period: f64, damping: f64) -> Self {
-        let oscillator = Oscillator { period, damping };
-        let u = oscillator.displacement(a, dt);
-        let w2 = oscillator.omega().powi(2);
-        let (at, value) = u
-            .iter()
-            .enumerate()
-            .fold((1, 0.0_f64), |m, (i, x)| if x.abs() > m.1.abs() { (i, *x) } else { m });
-        // Between samples a short period swings further than at them.
-        let r = spectrum(a, dt, &[period], damping).responses[0].psa;
-        Self { oscillator, at: at.max(1), value: r.copysign(value * w2) }
-    }
-
-    /// A cosine under a Gaussian to which the oscillator responds most at the time of its peak.
-    fn wavelet(&self, n: usize, dt: f64) -> Vec<f64> {
-        let z = self.oscillator.damping;
-        let q = (1.0 - z * z).sqrt();
-        let w = self.oscillator.omega() * q;
-        let shift = (q / z).atan() / w;
-        let width = 1.178 * self.oscillator.period.powf(0.93);
-        let center = self.at as f64 * dt - shift;
-        (0..n)
-            .map(|i| {
-                let t = i as f64 * dt - center;
-                (w * t).cos() * (-(t / width).powi(2)).exp()
-            })
-            .collect()
     }
 }
 
@@ -306,7 +275,7 @@ fn solve(mut c: Vec<Vec<f64>>, mut b: Vec<f64>) -> Vec<f64> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::measure::{displacement, velocity};
+    use crate::measure::{displacement, spectrum, velocity};
 
     /// The shape of EN 1998-1, type 1, ground C, 0.3 g.
     fn code(damping: f64) -> Target {

@@ -7,6 +7,7 @@ mod compatible;
 mod envelope;
 mod kanai_tajimi;
 mod normal;
+mod wavelet;
 
 pub use compatible::{Compatible, Fit, Target};
 pub use envelope::Envelope;

@@ -212,7 +212,7 @@ fn march<O: Observer>(
         };
         let Member { model, system } = entrant.member;
         let memory = course.side.kernel.memory();
-        let (loads, pressed) = (course.loads, course.viewer.pressed());
+        let (loads, noticed) = (course.loads, course.viewer.noticed());
         let arrival = Arrival {
             timeline: &course.timeline,
             made: course.made,
@@ -227,7 +227,7 @@ fn march<O: Observer>(
         let (case, kind) = (entrant.case, SolverKind::Fna);
         let mut result = arrival.result(model, system, case, kind, &modes.space, memory, work);
         let of = (case, entrant.analysis);
-        result.warnings = plausible::of_dynamic((model, system), of, loads, pressed, &result);
+        result.warnings = plausible::of_dynamic((model, system), of, loads, noticed, &result);
         result.basis = Some(bases.report.clone());
         Some(result)
     };

@@ -18,6 +18,7 @@ fn record(run: usize) -> Record {
         status: "converged".into(),
         good: true,
         message: String::new(),
+        warnings: vec!["a word".into()],
         overturned: false,
         initial_mode: Some("slide".into()),
         mode: None,

@@ -12,7 +12,7 @@ use crate::{Condition, Plan, Study, schema};
 use names::Names;
 use setting::Settings;
 use std::path::{Path, PathBuf};
-use trilith::model::file::{Context, Kind, Node, open, parse};
+use trilith::model::file::{Context, Kind, Node, open, parse, resembles_model};
 use trilith::model::{Analysis, Diagnostic, Model, ModelText, ParameterValue};
 use trilith::{Registry, SolverKind};
 
@@ -111,6 +111,13 @@ fn whole(
             return None;
         }
     };
+    if !resembles_model(&text) {
+        let message = format!("{} is no model: it has no `nodes`", model_path.display());
+        let help =
+            "the path counts from the folder of the study; `trilith check` says more of a model";
+        c.report(c.diagnostic("E0105", message, model_node?.span.clone()).help(help));
+        return None;
+    }
     let parsed = match ModelText::new(&text, &model_path) {
         Ok(parsed) => parsed,
         Err(errors) => {

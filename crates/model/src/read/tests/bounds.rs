@@ -90,3 +90,22 @@ fn brackets_within_brackets_are_told_in_words_of_the_file() {
         }
     }
 }
+
+#[test]
+fn motions_that_meet_spectra_are_bounded_together_before_one_is_made() {
+    let one = |i: usize, seed: usize, duration: &str| {
+        format!(
+            "\"f{i}\": Synthetic(seed: {seed}, duration: \"{duration}\", spectrum: [(0.03, 3), (0.3, 8), (4, 1)])"
+        )
+    };
+    let functions = |all: Vec<String>| small(&format!("functions: {{ {} }}", all.join(", ")));
+    let text = functions((0..40).map(|i| one(i, i, "200 s")).collect());
+    let start = std::time::Instant::now();
+    let all = errors(&text);
+    let [e] = all.as_slice() else { panic!("{}", shown(&all)) };
+    assert!(e.code == "E0112" && e.message.contains("the motions of this file"), "{}", shown(&all));
+    assert!(start.elapsed().as_secs_f64() < 1.0);
+    // One and the same, and many short ones, are no such thing.
+    model(&functions((0..40).map(|i| one(i, 1, "200 s")).collect()));
+    model(&functions((0..20).map(|i| one(i, i, "2 s")).collect()));
+}
