@@ -10,18 +10,6 @@ pub(crate) fn exact(omega2: f64, damping: f64, dt: f64) -> Mode {
     if omega2 == 0.0 { free(damping, dt) } else { by_exponential(omega2, damping, dt) }
 }
 
-/// By average acceleration: q̇₁ = q̇₀ + Δt (q̈₀ + q̈₁)/2, q₁ = q₀ + Δt (q̇₀ + q̇₁)/2, ∫q = Δt (q₀ + q₁)/2.
-pub(crate) fn average(omega2: f64, damping: f64, dt: f64) -> Mode {
-    let half = 0.5 * dt;
-    let own = half * damping + half * half * omega2;
-    let rate = [-dt * omega2, 1.0 - own, half, half].map(|x| x / (1.0 + own));
-    let mut way = rate.map(|x| half * x);
-    (way[0], way[1]) = (way[0] + 1.0, way[1] + half);
-    let mut sum = way.map(|x| half * x);
-    sum[0] += half;
-    [sum, way, rate]
-}
-
 /// Of a mode without stiffness.
 fn free(damping: f64, dt: f64) -> Mode {
     let [p0, p1, p2, p3, p4] = phi(-damping * dt);
@@ -67,26 +55,6 @@ fn by_exponential(omega2: f64, damping: f64, dt: f64) -> Mode {
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    /// Energy that the load puts in over a step, ∫ s q̇ dt by parts, is that which the oscillator has won.
-    #[test]
-    fn average_acceleration_keeps_the_energy() {
-        let (omega2, dt) = (4e6, 1e-2);
-        let [sum, way, rate] = average(omega2, 0.0, dt);
-        let from = [0.3, -7.0, 2e5, -9e5];
-        let of = |row: [f64; 4]| row.iter().zip(from).map(|(c, x)| c * x).sum::<f64>();
-        let (mean, q, p) = (of(sum) / dt, of(way), of(rate));
-        let energy = |q: f64, p: f64| 0.5 * (p * p + omega2 * q * q);
-        let won = energy(q, p) - energy(from[0], from[1]);
-        let work = from[3] * (q - mean) + from[2] * (mean - from[0]);
-        assert!((won - work).abs() < 1e-9 * work.abs(), "{won} {work}");
-        // Short steps under a constant load are exact.
-        let rows = [exact(omega2, 30.0, 1e-6), average(omega2, 30.0, 1e-6)];
-        let held = rows.map(|[_, q, p]| [q, p].map(|x| [x[0], x[1], x[2] + x[3]]));
-        for (x, y) in held[0].as_flattened().iter().zip(held[1].as_flattened()) {
-            assert!((x - y).abs() <= 1e-5 * x.abs(), "{x} {y}");
-        }
-    }
 
     #[test]
     fn the_rule_of_a_free_mode_is_that_of_the_exponential() {

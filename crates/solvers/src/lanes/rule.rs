@@ -1,23 +1,6 @@
-//! The links of a lane on all its modes, and which rule these go by.
+//! The links of a lane on all its modes.
 
-use super::setup::LaneSetup;
-use crate::modal::{FREE, LONGEST};
-use crate::single_mode::{self, Mode};
-
-/// Modes that hang on links too stiff for the exact rule go by average acceleration in a step of this length, s: as on
-/// the ordinary engine, where that is decided anew in every step.
-pub(super) fn average_where_held(modes: &mut [Mode], setup: &LaneSetup, length: f64) {
-    if stiffness_ratio(&setup.rows, modes, &setup.engaged) <= LONGEST {
-        return;
-    }
-    for (j, mode) in modes.iter_mut().enumerate() {
-        let links = setup.rows.iter().zip(&setup.engaged);
-        let held: f64 = links.map(|(row, k)| k * row[j] * row[j]).sum();
-        if held * length * length / 6.0 > FREE {
-            *mode = single_mode::average(setup.omega2[j], setup.damping[j], length);
-        }
-    }
-}
+use crate::single_mode::Mode;
 
 /// Spectral radius of G k: the exact rule is stable below 2.
 pub(super) fn stiffness_ratio(rows: &[Vec<f64>], modes: &[Mode], engaged: &[f64]) -> f64 {

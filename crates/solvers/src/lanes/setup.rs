@@ -1,7 +1,7 @@
 //! What one analysis brings to a sweep: made by the ordinary assembly, basis and start.
 
 use super::grid::{Grid, Piece, common_parts, cuts};
-use super::rule::{average_where_held, stiffness_ratio};
+use super::rule::stiffness_ratio;
 use super::tables::{Table, Tables, split};
 use crate::case::before;
 use crate::contact_mode::contacts;
@@ -97,8 +97,6 @@ pub struct LaneSetup {
     pub(super) damping: Vec<f64>,
     /// B of the lane coordinates over the modes.
     pub(super) rows: Vec<Vec<f64>>,
-    /// Stiffness of each of them while engaged.
-    pub(super) engaged: Vec<f64>,
     pub(super) rotational: Vec<bool>,
     pub(super) forms: Vec<LaneForm>,
     /// Index of the element of each link.
@@ -140,11 +138,7 @@ pub struct LaneSetup {
 impl LaneSetup {
     /// Coefficients of a step of this length, s.
     pub(super) fn modes_of(&self, length: f64) -> Vec<Mode> {
-        let mut modes = modes_of(&self.omega2, &self.damping, length);
-        if self.adaptive.is_some() {
-            average_where_held(&mut modes, self, length);
-        }
-        modes
+        modes_of(&self.omega2, &self.damping, length)
     }
 
     /// True where both can go side by side.
@@ -158,7 +152,8 @@ impl LaneSetup {
 /// steps show how it swings.
 const FASTEST: f64 = std::f64::consts::FRAC_PI_2;
 
-/// An output step is cut in so many halves at most where steps are adaptive and longer ones are too long for modes.
+/// An output step is cut in so many halves at most where steps are adaptive and longer ones are too long for modes or
+/// links.
 const HALVINGS: usize = 4;
 
 /// Modes, link coordinates and coordinates of one link at most.
@@ -254,9 +249,7 @@ pub fn prepare(
         if omega2.iter().any(|w| w.max(0.0).sqrt() * step > FASTEST) {
             return Some("modes too fast for the steps");
         }
-        // Adaptive steps go on by average acceleration.
-        let is_fixed = matches!(control, StepControl::Fixed { .. });
-        let beyond = is_fixed && stiffness_ratio(&rows, &rule, &engaged) > LONGEST;
+        let beyond = stiffness_ratio(&rows, &rule, &engaged) > LONGEST;
         beyond.then_some("steps too long for the exact rule at the stiffest link")
     };
     let (mut substeps, halvings) = match control {
@@ -327,7 +320,6 @@ pub fn prepare(
         rule,
         damping: own,
         rows,
-        engaged,
         rotational: flat.iter().map(|i| links.rotational[*i]).collect(),
         forms,
         elements: links.links.iter().map(|l| l.element).collect(),
