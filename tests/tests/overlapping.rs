@@ -78,7 +78,7 @@ fn bodies_that_are_in_each_other_from_the_start_are_told_before_a_run_as_well() 
     assert!(before.len() == 1 && before[0].contains("where the model places them"), "{before:?}");
     let all = said(&text);
     // Half a metre, less what the corners of an outline leave of a circle.
-    let deep = |text: &str| text.contains("0.498 m deep") || text.contains("0.498 m deep");
+    let deep = |text: &str| text.contains("0.498 m deep") || text.contains("0.5 m deep");
     assert!(all.len() == 1 && deep(&all[0]), "{all:?}");
     // The static case by itself.
     let mut watch = Trace::default();

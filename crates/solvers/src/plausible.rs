@@ -122,7 +122,7 @@ fn of_state(
     pressed.see(&contacts(model, system, state));
     let Some(size) = size(model) else {
         let (node, moved) = farthest(model, system, free?, supports)?;
-        return (moved > f64::INFINITY).then(|| away(model, node, moved));
+        return (moved > FAR).then(|| away(model, node, moved));
     };
     if let Some(element) = pressed.element.filter(|_| pressed.depth > PRESSED * size) {
         // What stands on it has moved as far for that.

@@ -162,7 +162,7 @@ impl Study {
             status: status.word().to_owned(),
             good,
             message: if told { String::new() } else { status.text() },
-            warnings: left.warnings.iter().take(0).cloned().collect(),
+            warnings: left.warnings.to_vec(),
             overturned: contact.is_some_and(|c| c.overturned),
             initial_mode: contact.filter(|_| good).map(|c| c.initial_mode.to_owned()),
             mode: contact.filter(|_| good).map(|c| c.mode.to_owned()),

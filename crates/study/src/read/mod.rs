@@ -111,7 +111,7 @@ fn whole(
             return None;
         }
     };
-    if !resembles_model(&text) && text.is_empty() {
+    if !resembles_model(&text) {
         let message = format!("{} is no model: it has no `nodes`", model_path.display());
         let help =
             "the path counts from the folder of the study; `trilith check` says more of a model";
