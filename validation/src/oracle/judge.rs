@@ -67,7 +67,7 @@ pub fn reference(spec: &Spec, work: f64) -> Result<Truth, Skip> {
     }
 }
 
-/// As [`reference`]; what is too much work is cut short, and the answer is that of the description that is left.
+/// As [`reference()`]; what is too much work is cut short, and the answer is that of the description that is left.
 ///
 /// # Errors
 /// Why there is none.
