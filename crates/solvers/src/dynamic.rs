@@ -229,6 +229,9 @@ pub(crate) fn run(
         *errors = certificate.errors(model, &beside, analysis.duration);
     }
     let Moving { state, pace, ledger } = moving;
+    if matches!(solution.step, StepControl::Adaptive { .. }) && pace.is_lost() && ledger.moves() {
+        warnings.push(LOST.into());
+    }
     viewer.end(&state, &ledger);
     let (largest, noticed) = (viewer.largest(), viewer.noticed());
     let counts = march.counts;
@@ -313,6 +316,9 @@ pub(crate) fn run(
 
 /// Said where the companion of a run has found no end.
 const UNKNOWN: &str = "how far the steps are off is not known: the same run at twice the tolerance, which is made beside it to learn that, came to no end; another `tolerance` of the steps, or a shorter `dt`, may help";
+
+/// Said where all motion is small beside what stands in springs.
+const LOST: &str = "all motion is below a thousandth of what loads before it have done, and steps follow it no better than a motion of that size: a smaller tolerance, `step: Adaptive(tolerance: …)`, makes them finer";
 
 /// Where a run ended, and what it carries there.
 pub(crate) struct Arrival<'a> {

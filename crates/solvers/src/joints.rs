@@ -96,7 +96,7 @@ pub(crate) fn lead(
     image.mul_add(1.0, &pseudo.collect::<Vec<f64>>(), &mut from);
     // What hardly anything holds goes far with little force.
     let path = Path { engaged, image, from, by, tolerance: 1e-5 * STAY };
-    let Equilibrium { mut u, mut state, .. } =
+    let Equilibrium { mut u, state, .. } =
         along(model, system, start, &path, STEPS).map_err(|e| {
             let link = links.links.iter().find(|link| link.range.contains(&e.worst));
             SolveError::JointNotHeld {
@@ -107,9 +107,7 @@ pub(crate) fn lead(
             }
         })?;
     stay(system, &path.engaged, &held, &state, to, &mut u)?;
-    for _ in 0..POLISH {
-        polish(model, system, &held, &mut u, &mut state)?;
-    }
+    let state = polish(model, system, &held, &LinksBefore::of(&state), &mut u)?;
     Ok(Some((u, LinksBefore::of(&state))))
 }
 
@@ -145,30 +143,54 @@ fn stay(
     Ok(())
 }
 
-/// Steps of Newton's method behind the path: they take out what the springs that let joints stay have left.
-const POLISH: usize = 2;
+/// Most steps of Newton's method behind the path: they take out what the springs that let joints stay have left. Links
+/// that slip tell the stiffness with which they would go back, so that it takes more than two.
+const POLISH: usize = 40;
 
-/// One of them; what nothing holds stays.
+/// What a step leaves at most of what was left before it, for another one to be made.
+const WORTH: f64 = 0.8;
+
+/// These steps, as long as they leave less; what nothing holds stays. Links go from where they were at the end of the
+/// path straight to where they are in the end: what the steps pass on the way they would remember.
 fn polish(
     model: &Model,
     system: &System,
     held: &[Vec<f64>],
-    u: &mut [f64],
-    state: &mut State,
-) -> Result<(), SolveError> {
-    let links = &system.links;
-    let mut tangents = vec![0.0; links.len()];
-    for (flat, k) in links.active.iter().zip(links.stiffness(&state.tangents)) {
-        tangents[*flat] = k.max(0.0);
-    }
-    let mut left = system.stiffness.mul(u);
-    links.spread(1.0, &state.f, &mut left);
-    Followers::new(system, &tangents, held)?.answer(-1.0, &left, u);
+    path: &LinksBefore,
+    u: &mut Vec<f64>,
+) -> Result<State, SolveError> {
+    let (massless, links) = (&system.massless, &system.links);
     let supports = vec![0.0; system.reduction.prescribed.len()];
-    let mut d = vec![0.0; links.len()];
-    links.deform(u, &supports, &mut d);
-    *state = State::of_links(model, links, &LinksBefore::of(state), d, vec![0.0; links.len()]);
-    Ok(())
+    let own = massless.undamped(&massless.project(&system.element_damping), held)?;
+    // The links there, what is left of all forces, and of those on what follows the largest.
+    let look = |u: &[f64]| {
+        let mut d = vec![0.0; links.len()];
+        links.deform(u, &supports, &mut d);
+        let state = State::of_links(model, links, path, d, vec![0.0; links.len()]);
+        let mut left = system.stiffness.mul(u);
+        links.spread(1.0, &state.f, &mut left);
+        let most = largest(&own.load(&left));
+        (state, left, most)
+    };
+    let (mut state, mut left, mut most) = look(u);
+    for _ in 0..POLISH {
+        let mut tangents = vec![0.0; links.len()];
+        for (flat, k) in links.active.iter().zip(links.stiffness(&state.tangents)) {
+            tangents[*flat] = k.max(0.0);
+        }
+        let mut tried = u.clone();
+        Followers::new(system, &tangents, held)?.answer(-1.0, &left, &mut tried);
+        let next = look(&tried);
+        let worth = next.2 < WORTH * most;
+        if next.2 < most {
+            *u = tried;
+            (state, left, most) = next;
+        }
+        if !worth {
+            break;
+        }
+    }
+    Ok(state)
 }
 
 /// Link coordinates with a force of their rate at rest, or of nothing but their rate, flat.

@@ -50,6 +50,12 @@ impl Ledger {
         Self { totals, links, potential0: potential, largest: kinetic, noise, ..Self::default() }
     }
 
+    /// True where loads have done work, or released any, beyond rounding.
+    pub(crate) fn moves(&self) -> bool {
+        let balance = self.totals.balance();
+        [self.totals.input, self.totals.potential].iter().any(|e| !balance.is_rounding(*e))
+    }
+
     /// Books that hold only totals, of a state that nothing led to.
     pub(crate) fn of(totals: EnergyTotals) -> Self {
         Self { totals, ..Self::default() }

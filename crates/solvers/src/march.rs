@@ -61,10 +61,19 @@ pub(crate) struct Pace {
     pub level: u32,
     /// Largest energy of the motion so far, J.
     pub reference: f64,
+    /// That of them which counts although nothing moves, as it is rounding of what stands in springs at the start, J.
+    pub standing: f64,
     /// Largest displacements so far.
     pub reached: Way,
     /// Forces that count beside the loads: of translations and of rotations, N and N·m.
     pub push: ForceScale,
+}
+
+impl Pace {
+    /// True where no more has moved than counts for nothing beside what stands in springs.
+    pub(crate) fn is_lost(&self) -> bool {
+        self.standing > 0.0 && self.reference <= self.standing
+    }
 }
 
 /// Counts.

@@ -136,7 +136,7 @@ pub(crate) fn start(
     // Dummies that stand far out leave more.
     let rounding = energy.max(ROUNDING * (strain.abs() + stored.abs()));
     let ledger = Ledger::new(&state, kinetic, own, level, rounding);
-    Ok((state, Pace { level: 0, reference, reached, push }, ledger, 0))
+    Ok((state, Pace { level: 0, reference, standing, reached, push }, ledger, 0))
 }
 
 /// What rounding of deformations makes of the forces of engaged links, N and N·m, and of their energy, J.

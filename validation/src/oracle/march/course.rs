@@ -63,6 +63,21 @@ impl Piece {
     }
 }
 
+impl Piece {
+    /// How far what is known at the stages alone, led back to the start of the piece behind, is from where it was at
+    /// the end of this one. Largest share of `sizes`.
+    #[must_use]
+    pub fn jump(&self, next: &Self, sizes: &[f64]) -> f64 {
+        let mut most = 0.0_f64;
+        for ((old, new), size) in self.values.iter().zip(&next.values).zip(sizes) {
+            if new[0].is_nan() {
+                most = most.max((between(new, 0.0) - old[3]).abs() / size);
+            }
+        }
+        most
+    }
+}
+
 /// What a march leaves in its probes.
 #[derive(Clone, Debug, Default)]
 pub struct Record {

@@ -115,6 +115,9 @@ pub struct Between {
 /// another branch: what its force did just before is the largest value, where it jumps.
 const FIRST: f64 = 1.0 / 64.0;
 
+/// Share of its size that an output may jump by where a link turns to another branch, in steps that are no window.
+const JUMP: f64 = 1e-3;
+
 /// First steps in the whole of a problem. A damped stop that begins pressed in may let go within a millionth of it; but
 /// where nobody knows yet how large motions get, all that happens within that is large.
 const FIRST_OF_ALL: f64 = 1024.0;
@@ -216,7 +219,7 @@ pub fn march(
             }
             let unit = 1_u64 << (deep - level);
             let h = length / (1_u64 << level) as f64;
-            let before = record.pieces.last().filter(|_| at > 0);
+            let before = record.pieces.last().map(|piece| (piece, at > 0));
             let (tried, first) = it.try_step(t, h, &at_point, whole.take(), before);
             let rise = match tried {
                 Some(tried) if tried.error <= it.tolerance => {
@@ -268,14 +271,14 @@ impl March<'_> {
         up(&mut self.scale.d, &(b * &s.u));
     }
 
-    /// The step, and else its first half where there is one; `before`: none where a segment starts.
+    /// The step, and else its first half where there is one; `before`: the last one, and whether loads go on from it.
     fn try_step(
         &mut self,
         t: f64,
         h: f64,
         from: &Point,
         whole: Option<Solved>,
-        before: Option<&Piece>,
+        before: Option<(&Piece, bool)>,
     ) -> (Option<Tried>, Option<Solved>) {
         let (scale, half) = (&self.scale, 0.5 * h);
         let Some(whole) = whole.or_else(|| self.steps.step(t, h, from, scale, None)) else {
@@ -296,7 +299,8 @@ impl March<'_> {
             error = error.max(own).max(none * OF_NONE);
         }
         let turned = [first.turned(from), second.turned(&first.end)];
-        let bent = before.is_none() || turned.contains(&true);
+        let goes_on = before.filter(|(_, goes_on)| *goes_on).map(|(piece, _)| piece);
+        let bent = goes_on.is_none() || turned.contains(&true);
         let least = if bent { FIRST } else { 1.0 };
         if let Some(it) = self.between.filter(|it| h > least * it.window) {
             let pieces = [
@@ -304,11 +308,20 @@ impl March<'_> {
                 self.steps.piece(t + half, half, &first.end, &second),
             ];
             let mut off = self.steps.piece(t, h, from, &whole).apart(&pieces, &it.sizes);
-            let ahead = [before, Some(&pieces[0])];
+            let ahead = [goes_on, Some(&pieces[0])];
             for ((before, piece), _) in ahead.iter().zip(&pieces).zip(turned).filter(|x| x.1) {
                 off = off.max(before.map_or(0.0, |before| before.lost(piece, &it.sizes)));
             }
             error = error.max(off / it.share * self.tolerance);
+            // A link may have come all the way to its new branch before the first stage: its force goes there in no
+            // time where it is led back, and is wrong all the while.
+            if half > it.window {
+                let ahead = [before.map(|(piece, _)| piece), Some(&pieces[0])];
+                for ((before, piece), _) in ahead.iter().zip(&pieces).zip(turned).filter(|x| x.1) {
+                    let jump = before.map_or(0.0, |before| before.jump(piece, &it.sizes));
+                    error = error.max(jump / JUMP * self.tolerance);
+                }
+            }
         }
         (Some(Tried { error, halves: [first, second], end }), None)
     }
