@@ -122,8 +122,13 @@ fn text(all: &[Compared]) -> String {
     let names = || all.iter().map(|c| c.variant.to_string());
     let mut rows = vec![std::iter::once("energy [J]".to_owned()).chain(names()).collect()];
     for (i, (name, _)) in energies(&first.outcome.summary.energy).iter().enumerate() {
-        let values: Vec<f64> =
-            all.iter().map(|c| energies(&c.outcome.summary.energy)[i].1).collect();
+        let shown = |c: &Compared| {
+            let energy = &c.outcome.summary.energy;
+            let e = energies(energy)[i].1;
+            // Rounding of the largest says nothing.
+            if energy.balance().is_rounding(e) { 0.0 } else { e }
+        };
+        let values: Vec<f64> = all.iter().map(shown).collect();
         if values.iter().any(|e| *e != 0.0) {
             let cells = values.into_iter().map(number);
             rows.push(std::iter::once((*name).to_owned()).chain(cells).collect());

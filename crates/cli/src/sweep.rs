@@ -62,6 +62,14 @@ pub(crate) fn sweep(registry: &Registry, args: &SweepArguments) -> Result<Answer
             }
         }
     }
+    let warned = results.warned();
+    if warned > 0 {
+        let message = format!(
+            "{warned} of {} runs warned of something: the column `message` of the table says of what",
+            results.records.len()
+        );
+        output::tell(&crate::diagnostics::warning(&message));
+    }
     let failed = results.failed();
     if failed > 0 {
         let help = "they are rows of the table with their status and message";

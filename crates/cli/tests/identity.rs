@@ -164,8 +164,11 @@ fn a_report_is_made_of_files_that_belong_together_alone() {
         ("{}", &*data, &["summary.json is incomplete: it has no version, build"]),
         ("[", &*data, &["summary.json is not what this program writes"]),
         (&*summary, "{}", &["report.json is incomplete: it has no format"]),
-        (&*summary, "{\"format\": 2}", &["report.json has format 2, this program reads format 3"]),
-        (&*summary, "{\"format\": 3}", &["report.json is not what", "missing field"]),
+        (&*summary, "{\"format\": 2}", &["report.json has format 2, this program reads format 4"]),
+        (&*summary, "{\"format\": 4}", &["report.json is incomplete: it has no sha256"]),
+        (&*summary, &data.replacen("\"n\":[", "\"n\":[1", 1), &["report.json is not as it was"]),
+        (&*summary, &data.replacen("\"sha256\":\"", "\"sha256\":\"0", 1), &["its `sha256` is 0"]),
+        (&*summary, &data[..data.len() / 2], &["report.json is not what this program writes"]),
     ] {
         let err = told(summary, data);
         for part in parts.iter().chain(&["trilith run"]) {

@@ -58,14 +58,16 @@ pub enum ReportError {
         /// What `report.json` says.
         data: String,
     },
-    /// A summary in which something was changed after it was written.
+    /// A file in which something was changed after it was written.
     #[error(
-        "{} is not as it was written: its `run_sha256` is {stated}, that of its content {found}",
+        "{} is not as it was written: its `{key}` is {stated}, that of its content {found}",
         .path.display()
     )]
     Altered {
         /// The file.
         path: PathBuf,
+        /// Where it states its sum.
+        key: &'static str,
         /// The sum that it states.
         stated: String,
         /// The sum that its content has.
@@ -121,7 +123,7 @@ pub fn write_report(dir: impl AsRef<Path>, data: &RunData) -> Result<PathBuf, Er
     let path = dir.as_ref().join(DATA);
     let text = serde_json::to_string(data)
         .map_err(|e| FileError { path: path.clone(), cause: e.into() })?;
-    write(&path, &text)?;
+    write(&path, &report_check::sealed(&text))?;
     page(dir.as_ref(), &summary(dir.as_ref())?, data)
 }
 
@@ -135,7 +137,7 @@ pub fn rebuild_report(dir: impl AsRef<Path>) -> Result<PathBuf, Error> {
     let dir = dir.as_ref();
     let (path, text) = text(dir.join(DATA))?;
     report_check::format(&path, parsed(&path, &text)?)?;
-    let data: RunData = parsed(&path, &text)?;
+    let data: RunData = parsed(&path, &report_check::unsealed(&path, &text)?)?;
     let summary = summary(dir)?;
     report_check::one_run(dir, &summary, &data)?;
     page(dir, &summary, &data)

@@ -52,7 +52,7 @@ pub struct RunData {
 
 impl RunData {
     /// The format that is written and read here.
-    pub const FORMAT: u32 = 3;
+    pub const FORMAT: u32 = 4;
 }
 
 /// What tells a run from others, as its `summary.json` has it.
