@@ -1,11 +1,13 @@
 //! `trilith compare`: one case in several ways, and why the results differ.
 
 use crate::args::CompareArguments;
+use crate::interrupt::{Ear, INTERRUPTED};
 use crate::report::{energies, work};
 use crate::text::{number, percent, row, table};
 use crate::{Answer, Failure, case, compare_page, diagnostics, output, place, read};
 use std::io::IsTerminal;
 use std::path::Path;
+use std::sync::atomic::Ordering;
 use trilith::compare::{Compared, Comparison, Variant};
 use trilith::model::{Analysis, visible_line};
 use trilith::results::{Folder, Peak, Writer};
@@ -19,7 +21,7 @@ pub(crate) fn compare(registry: &Registry, args: &CompareArguments) -> Result<An
     let variants = variants(&model, case, args)?;
     // Looked at before the runs: nothing that was computed is lost for want of a place.
     let folder = args.out.as_ref().map(|dir| open(dir, &model)).transpose()?;
-    let result = {
+    let (result, interrupted) = {
         // Failures are shown in the text of the model, which is on loan.
         let on_terminal = std::io::stderr().is_terminal();
         let announce = |what: &str| {
@@ -27,15 +29,29 @@ pub(crate) fn compare(registry: &Registry, args: &CompareArguments) -> Result<An
                 output::tell(&format!("running {}\n", visible_line(what)));
             }
         };
-        Comparison::new(&mut model, case, announce).run(&variants, !args.no_cause)
+        let ear = Ear::open("the comparison ends, and what its finished runs found is shown");
+        let mut comparison = Comparison::new(&mut model, case, announce).until(ear.flag());
+        (comparison.run(&variants, !args.no_cause), ear.flag().load(Ordering::Relaxed))
     };
     let all = result.map_err(|e| Failure::of(&e, &model))?;
     let mut status = 0;
+    if interrupted {
+        let (done, wanted) = (all.len(), variants.len());
+        let message = match done {
+            0 => format!("interrupted before the first of {wanted} runs came to its end"),
+            _ => format!("interrupted: {done} of {wanted} runs came to their end"),
+        };
+        output::tell(&diagnostics::plain(&message, None));
+        if done == 0 {
+            return Ok(Answer { text: String::new(), status: INTERRUPTED });
+        }
+        status = INTERRUPTED;
+    }
     for c in &all {
         if !c.outcome.good {
             let message = format!("{}: {}", c.variant, c.outcome.summary.message);
             output::tell(&diagnostics::plain(&message, None));
-            status = 1;
+            status = status.max(1);
         }
         for w in &c.outcome.summary.warnings {
             output::tell(&diagnostics::warning(&format!("{}: {w}", c.variant)));

@@ -2,6 +2,7 @@
 
 use crate::text::shown;
 use annotate_snippets::{AnnotationKind, Group, Level, Patch, Renderer, Snippet};
+use std::borrow::Cow;
 use std::io::IsTerminal;
 use trilith::Diagnostic;
 use trilith::model::{Source, Span, visible};
@@ -27,35 +28,35 @@ pub(crate) fn at(message: &str, span: Span, source: &Source) -> String {
     let snippet = Snippet::source(source.text.as_str())
         .path(shown(&source.path))
         .annotation(AnnotationKind::Primary.span(clamped(&source.text, &span)));
-    render(&[Level::ERROR.primary_title(visible(message)).element(snippet)]) + "\n"
+    render(&[Level::ERROR.primary_title(legible(message)).element(snippet)]) + "\n"
 }
 
 /// An error without a place.
 pub(crate) fn plain(message: &str, help: Option<&str>) -> String {
-    let mut group = Group::with_title(Level::ERROR.primary_title(visible(message)));
+    let mut group = Group::with_title(Level::ERROR.primary_title(legible(message)));
     if let Some(help) = help {
-        group = group.element(Level::HELP.message(visible(help)));
+        group = group.element(Level::HELP.message(legible(help)));
     }
     render(&[group]) + "\n"
 }
 
 /// A warning without a place.
 pub(crate) fn warning(message: &str) -> String {
-    render(&[Group::with_title(Level::WARNING.primary_title(visible(message)))]) + "\n"
+    render(&[Group::with_title(Level::WARNING.primary_title(legible(message)))]) + "\n"
 }
 
 fn groups(d: &Diagnostic) -> Vec<Group<'_>> {
     let text = d.source.text.as_str();
-    let title = Level::ERROR.primary_title(visible(&d.message)).id(d.code);
+    let title = Level::ERROR.primary_title(legible(&d.message)).id(d.code);
     let mut group = if text.is_empty() {
         // A file that cannot be read.
         let origin = annotate_snippets::Origin::path(shown(&d.source.path));
         title.element(origin)
     } else {
         let primary = AnnotationKind::Primary.span(clamped(text, &d.span));
-        let primary = if d.label.is_empty() { primary } else { primary.label(visible(&d.label)) };
+        let primary = if d.label.is_empty() { primary } else { primary.label(legible(&d.label)) };
         let related = d.related.iter().map(|(span, label)| {
-            AnnotationKind::Context.span(clamped(text, span)).label(visible(label))
+            AnnotationKind::Context.span(clamped(text, span)).label(legible(label))
         });
         let snippet = Snippet::source(text).path(shown(&d.source.path));
         title.element(snippet.annotation(primary).annotations(related))
@@ -66,16 +67,49 @@ fn groups(d: &Diagnostic) -> Vec<Group<'_>> {
             let snippet = Snippet::source(text)
                 .path(shown(&d.source.path))
                 .patch(Patch::new(clamped(text, span), replacement.as_str()));
-            let title = Level::HELP.secondary_title(visible(help.unwrap_or("this would be right")));
+            let title = Level::HELP.secondary_title(legible(help.unwrap_or("this would be right")));
             vec![group, title.element(snippet)]
         }
         _ => {
             if let Some(help) = help {
-                group = group.element(Level::HELP.message(visible(help)));
+                group = group.element(Level::HELP.message(legible(help)));
             }
             vec![group]
         }
     }
+}
+
+/// Digits of a number from which on it is shown in powers of ten.
+const LONG: usize = 22;
+
+/// A text as a terminal may show it, without numbers of hundreds of digits.
+fn legible(text: &str) -> Cow<'_, str> {
+    let text = visible(text);
+    let part_of_number = |c: char| c.is_ascii_digit() || c == '.';
+    if !text.split(|c| !part_of_number(c)).any(|part| part.len() >= LONG) {
+        return text;
+    }
+    let mut out = String::with_capacity(text.len());
+    let mut rest = &*text;
+    while let Some(start) = rest.find(part_of_number) {
+        let (before, from) = rest.split_at(start);
+        let end = from.find(|c| !part_of_number(c)).unwrap_or(from.len());
+        let (number, behind) = from.split_at(end);
+        // Of a name, an expression or a power of ten it is a part.
+        let alone = !before.ends_with(|c: char| c.is_alphanumeric() || c == '_')
+            && !behind.starts_with(|c: char| c.is_alphanumeric() || c == '_');
+        out += before;
+        match number.trim_end_matches('.').parse::<f64>() {
+            Ok(x) if alone && number.len() >= LONG => {
+                out += &format!("{x:e}");
+                out += if number.ends_with('.') { "." } else { "" };
+            }
+            _ => out += number,
+        }
+        rest = behind;
+    }
+    out += rest;
+    Cow::Owned(out)
 }
 
 /// The span inside the text, on boundaries of characters.
@@ -102,6 +136,15 @@ fn render(report: &[Group<'_>]) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn numbers_of_hundreds_of_digits_are_shown_in_powers_of_ten() {
+        let (huge, tiny) = (1e300, 2.5e-30);
+        let told = legible(&format!("a stiffness of {huge} N/m, {tiny} m; -{huge}.")).into_owned();
+        assert_eq!(told, "a stiffness of 1e300 N/m, 2.5e-30 m; -1e300.");
+        let hash = "the SHA-256 1234567890123456789012345678901234567890ab, 1.25 m at 3.";
+        assert_eq!(legible(hash), hash);
+    }
 
     #[test]
     fn spans_outside_the_text_are_brought_inside() {

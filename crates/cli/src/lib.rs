@@ -37,6 +37,7 @@ mod run;
 mod study_folder;
 mod sweep;
 mod text;
+mod vectors;
 
 use args::{Arguments, Command};
 use clap::Parser;
@@ -61,7 +62,7 @@ pub fn main_with(registry: Registry) -> ! {
         Ok(arguments) => arguments,
         Err(said) => std::process::exit(output::usage(&said)),
     };
-    let answer = match arguments.command {
+    let answer = vectors::check().and_then(|()| match arguments.command {
         Command::Run(a) => run::run(&registry, a),
         Command::Check(a) => check::check(&registry, &a),
         Command::Modes(a) => modes::modes(&registry, &a),
@@ -73,7 +74,7 @@ pub fn main_with(registry: Registry) -> ! {
         Command::Generate(a) => generate::generate(a),
         Command::Calibrate(a) => calibrate::calibrate(&registry, &a),
         Command::Record(a) => record::record(&a),
-    };
+    });
     let status = match answer {
         Ok(Answer { text, status }) => output::print(&text, status),
         Err(failure) => {

@@ -139,7 +139,7 @@ fn write(
         version: VERSION,
         build: BUILD,
         machine: [std::env::consts::ARCH, std::env::consts::OS],
-        vectors: std::env::var_os("TRILITH_VECTORS").map(|v| v.to_string_lossy().into_owned()),
+        vectors: crate::vectors::asked(),
         date: &inputs.date,
         command: command(),
         files: &inputs.files,

@@ -232,6 +232,12 @@ fn the_folder_of_a_run_says_what_made_it() {
     let (status, out, err) = done(wrong);
     assert_eq!((status, out.as_str()), (2, ""), "{err}");
     assert!(err.contains("SOURCE_DATE_EPOCH is `yesterday`") && err.contains("seconds"), "{err}");
+
+    let mut wrong = command(here, &args);
+    wrong.env("TRILITH_VECTORS", "128");
+    let (status, out, err) = done(wrong);
+    assert_eq!((status, out.as_str()), (2, ""), "{err}");
+    assert!(err.contains("TRILITH_VECTORS is `128`") && err.contains("`none`"), "{err}");
 }
 
 #[test]

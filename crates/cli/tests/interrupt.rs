@@ -138,3 +138,19 @@ fn an_interrupt_in_the_case_before_says_so() {
     assert_eq!(output.status.code(), Some(130), "{said}");
     assert!(said.contains("of case \"first\", which is continued"), "{said}");
 }
+
+#[test]
+fn an_interrupted_comparison_shows_the_runs_that_are_done() {
+    let folder = tempfile::tempdir().unwrap();
+    let block = block();
+    // The second step makes minutes of a run of a second.
+    let arguments = ["compare", &block, "--no-cause", "--dts", "0.01,0.00001", "--set"];
+    let child = trilith(&[&arguments[..], &["duration=200 s"]].concat(), folder.path()).spawn();
+    std::thread::sleep(Duration::from_secs(3));
+    let output = signalled(child.unwrap(), "-TERM");
+    let (said, found) =
+        (String::from_utf8_lossy(&output.stderr), String::from_utf8_lossy(&output.stdout));
+    assert_eq!(output.status.code(), Some(130), "{said}{found}");
+    assert!(said.contains("interrupted: 1 of 2 runs came to their end"), "{said}");
+    assert!(found.contains("peaks") && found.contains("(converged)"), "{found}");
+}

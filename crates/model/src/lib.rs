@@ -18,7 +18,6 @@ mod table;
 mod time_function;
 mod tree;
 mod units;
-mod visible;
 
 /// What other RON files than models are read with: values with their places, fields whose names are
 /// checked, quantities, errors.
@@ -41,5 +40,5 @@ pub use registry::Registry;
 pub use resolved::resolved;
 pub use table::{AfterEnd, Interpolation, Table, TableError};
 pub use time_function::{Corner, Harmonic, Side, Stretch, TimeFunction};
+pub use trilith_record::{visible, visible_line};
 pub use units::STANDARD_GRAVITY;
-pub use visible::{visible, visible_line};

@@ -1,9 +1,11 @@
 //! Texts in tables that a spreadsheet may open.
 
+use crate::visible;
 use std::borrow::Cow;
 
 /// A text for a cell of a CSV file. What a spreadsheet would take for a formula (it begins with `=`, `+`, `-` or `@`,
-/// with a tab or the end of a line) gets an apostrophe in front, which says that it is a text; numbers stay numbers.
+/// with a tab or the end of a line) gets an apostrophe in front, which says that it is a text; numbers stay numbers. What
+/// a terminal would obey is written out, as [`visible`] does.
 /// Quotes around cells with commas are left to who writes the file.
 ///
 /// ```
@@ -16,9 +18,9 @@ pub fn cell(text: &str) -> Cow<'_, str> {
     const SIGNS: [char; 11] =
         ['=', '+', '-', '@', '\t', '\r', '\n', '\u{ff1d}', '\u{ff0b}', '\u{ff0d}', '\u{ff20}'];
     if text.starts_with(SIGNS) && text.parse::<f64>().is_err() {
-        return Cow::Owned(format!("'{text}"));
+        return Cow::Owned(format!("'{}", visible(text)));
     }
-    Cow::Borrowed(text)
+    visible(text)
 }
 
 #[cfg(test)]
@@ -28,10 +30,16 @@ mod tests {
     #[test]
     fn what_begins_as_a_formula_is_marked_as_a_text() {
         for text in
-            ["=cmd|'/c calc'!A1", "+a [m]", "-a", "@SUM(1)", "\t=1", "\r=1", "＝1", "+2 [m]"]
+            ["=cmd|'/c calc'!A1", "+a [m]", "-a", "@SUM(1)", "\t=1", "\n=1", "＝1", "+2 [m]"]
         {
             assert_eq!(cell(text), format!("'{text}"));
         }
+        assert_eq!(cell("\r=1\u{1b}[2J"), "'\\r=1\\u{1b}[2J");
+    }
+
+    #[test]
+    fn what_a_terminal_would_obey_is_written_out() {
+        assert_eq!(cell("a\u{1b}]0;x\u{7}"), "a\\u{1b}]0;x\\u{7}");
     }
 
     #[test]

@@ -25,6 +25,7 @@ mod read;
 mod record;
 pub mod synthetic;
 mod unit;
+mod visible;
 
 pub use cell::cell;
 pub use error::{Problem, ReadError};
@@ -33,3 +34,4 @@ pub use format::Format;
 pub use read::{Column, Columns, Component, ReadOptions, parse, read, select};
 pub use record::{Direction, Record};
 pub use unit::{STANDARD_GRAVITY, acceleration_unit};
+pub use visible::{visible, visible_line};

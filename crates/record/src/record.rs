@@ -145,7 +145,7 @@ fn comment(text: &str) -> String {
     let text = text.replace(['\n', '\r'], " ");
     let mut parts = text.split(',');
     let first = parts.next().unwrap_or_default().to_owned();
-    parts.fold(first, |line, part| line + "," + &crate::cell(part))
+    parts.fold(crate::visible(&first).into_owned(), |line, part| line + "," + &crate::cell(part))
 }
 
 #[cfg(test)]
@@ -167,8 +167,10 @@ mod tests {
         let mut r = Record::new(vec![0.0, 1.0], 0.5);
         r.event = "Town, 1999,=1+1".into();
         r.notes.push("a\nb".into());
+        r.notes.push("\u{1b}[2Jc, \u{7}".into());
         let text = r.to_csv();
-        assert!(text.starts_with("# event Town, 1999,'=1+1\n# a b\n# dt"), "{text}");
+        let start = "# event Town, 1999,'=1+1\n# a b\n# \\u{1b}[2Jc, \\u{7}\n# dt";
+        assert!(text.starts_with(start), "{text}");
     }
 
     #[test]

@@ -35,6 +35,9 @@ pub enum Error {
     /// A file cannot be written.
     #[error(transparent)]
     File(#[from] FileError),
+    /// Somebody wanted an end.
+    #[error("interrupted")]
+    Interrupted,
 }
 
 impl Error {

@@ -14,6 +14,7 @@ pub use setup::Variant;
 use crate::{Analysis, Error};
 use setup::Setup;
 use std::rc::Rc;
+use std::sync::atomic::{AtomicBool, Ordering};
 use trilith_model::Model;
 use trilith_results::Summary;
 use trilith_solvers::RunOptions;
@@ -55,29 +56,45 @@ pub struct Comparison<'m> {
     done: Vec<(Setup, Rc<Outcome>)>,
     /// Told what is about to run.
     announce: Box<dyn FnMut(&str) + 'm>,
+    /// True once an end is wanted.
+    interrupt: Option<&'m AtomicBool>,
 }
 
 impl<'m> Comparison<'m> {
     /// For a dynamic case, by its index. `announce` is told what is about to run.
     pub fn new(model: &'m mut Model, case: usize, announce: impl FnMut(&str) + 'm) -> Self {
-        Self { model, case, done: Vec::new(), announce: Box::new(announce) }
+        Self { model, case, done: Vec::new(), announce: Box::new(announce), interrupt: None }
     }
 
-    /// Runs the variants; with `experiments` also what tells the causes of their differences from the first.
+    /// Once this is true, the run under way is given up and no other begun.
+    #[must_use]
+    pub fn until(mut self, interrupt: &'m AtomicBool) -> Self {
+        self.interrupt = Some(interrupt);
+        self
+    }
+
+    /// Runs the variants; with `experiments` also what tells the causes of their differences from the first. Where that
+    /// was interrupted, those that came to their end.
     ///
     /// # Errors
     /// [`Error::Solve`] where one of the variants cannot be run.
     pub fn run(&mut self, variants: &[Variant], experiments: bool) -> Result<Vec<Compared>, Error> {
         let mut all: Vec<Compared> = Vec::new();
         for variant in variants {
-            let outcome = self.outcome(&Setup::of(variant))?;
+            let outcome = match self.outcome(&Setup::of(variant)) {
+                Err(Error::Interrupted) => break,
+                outcome => outcome?,
+            };
             let (mut differences, mut finding) = (Vec::new(), None);
             if let Some(first) = all.first() {
                 let names = self.model.outputs.iter().map(|o| o.name.as_str());
                 differences = measure::differences(names, &first.outcome, &outcome);
                 if experiments {
                     let pair = [Setup::of(&first.variant), Setup::of(variant)];
-                    finding = cause::find(self, pair, &differences)?;
+                    finding = match cause::find(self, pair, &differences) {
+                        Err(Error::Interrupted) => None,
+                        finding => finding?,
+                    };
                 }
             }
             all.push(Compared { variant: variant.clone(), outcome, differences, finding });
@@ -92,19 +109,27 @@ impl<'m> Comparison<'m> {
         }
         (self.announce)(&setup.to_string());
         let before = setup.apply(self.model, self.case);
-        let run = solve(self.model, self.case, setup);
+        let run = solve(self.model, self.case, setup, self.interrupt);
         before.restore(self.model, self.case);
         let outcome = Rc::new(run?);
+        if self.interrupt.is_some_and(|wanted| wanted.load(Ordering::Relaxed)) {
+            return Err(Error::Interrupted);
+        }
         self.done.push((setup.clone(), Rc::clone(&outcome)));
         Ok(outcome)
     }
 }
 
-fn solve(model: &Model, case: usize, setup: &Setup) -> Result<Outcome, Error> {
+fn solve(
+    model: &Model,
+    case: usize,
+    setup: &Setup,
+    interrupt: Option<&AtomicBool>,
+) -> Result<Outcome, Error> {
     const FRAMES: usize = 100;
     let analysis = Analysis::new(model)?.with_frames(FRAMES);
     let (solver, dt) = (Some(setup.variant.solver), setup.variant.dt);
-    let run = analysis.run(RunOptions { case, solver, dt, ..RunOptions::default() })?;
+    let run = analysis.run(RunOptions { case, solver, dt, interrupt, ..RunOptions::default() })?;
     let turned =
         |u: &[f32]| u.chunks(6).flat_map(|n| &n[3..5]).fold(0.0_f32, |a, x| a.max(x.abs()));
     let rotation = run.record.frames().iter().map(|f| turned(&f.displacements));

@@ -6,7 +6,7 @@ use std::borrow::Cow;
 /// follows, are written as a model file writes them (`\u{1b}`). Ends of lines and tabs stay.
 ///
 /// ```
-/// assert_eq!(trilith_model::visible("a\u{1b}[31m\nb"), "a\\u{1b}[31m\nb");
+/// assert_eq!(trilith_record::visible("a\u{1b}[31m\nb"), "a\\u{1b}[31m\nb");
 /// ```
 #[must_use]
 pub fn visible(text: &str) -> Cow<'_, str> {
@@ -16,7 +16,7 @@ pub fn visible(text: &str) -> Cow<'_, str> {
 /// The same for a text that has to stay within its line, such as a name: ends of lines and tabs are written, too.
 ///
 /// ```
-/// assert_eq!(trilith_model::visible_line("a\nb"), "a\\nb");
+/// assert_eq!(trilith_record::visible_line("a\nb"), "a\\nb");
 /// ```
 #[must_use]
 pub fn visible_line(text: &str) -> Cow<'_, str> {
