@@ -1,6 +1,6 @@
-//! Cases so long that the size of their results is told before they are made.
+//! Cases so long that the size of their results is told before they are made, or that no memory has room for them.
 
-use crate::diagnostics;
+use crate::{Failure, diagnostics};
 use trilith::Model;
 use trilith::model::{Analysis, Case, MOST_OUTPUT_STEPS, output_steps};
 use trilith::results::ENERGIES;
@@ -12,15 +12,20 @@ const BINARY: f64 = 8.0;
 /// Bytes of a number in `histories.csv`, about.
 const TEXT: f64 = 20.0;
 
+/// Output steps of a case at an output step `dt` (s; none: its own), and the numbers that a run keeps of them.
+fn numbers(model: &Model, case: &Case, dt: Option<f64>) -> Option<[f64; 2]> {
+    let Analysis::Dynamic(analysis) = &case.analysis else { return None };
+    let steps = output_steps(analysis.duration, dt.unwrap_or(analysis.dt));
+    Some([steps, steps * (1 + model.outputs.len() + ENERGIES.len()) as f64])
+}
+
 /// A warning about the histories of a long case at an output step `dt` (s; none: its own). Of more steps than there may
 /// be, an error tells.
 pub(crate) fn warning(model: &Model, case: &Case, dt: Option<f64>) -> Option<String> {
-    let Analysis::Dynamic(analysis) = &case.analysis else { return None };
-    let steps = output_steps(analysis.duration, dt.unwrap_or(analysis.dt));
+    let [steps, numbers] = numbers(model, case, dt)?;
     if !(LONG..=MOST_OUTPUT_STEPS as f64).contains(&steps) {
         return None;
     }
-    let numbers = steps * (1 + model.outputs.len() + ENERGIES.len()) as f64;
     let message = format!(
         "case \"{}\" has {steps} output steps: a run keeps about {} of histories in memory and writes about {}; a longer `dt` keeps fewer, `--no-files` none",
         case.name,
@@ -28,6 +33,47 @@ pub(crate) fn warning(model: &Model, case: &Case, dt: Option<f64>) -> Option<Str
         size((BINARY + TEXT) * numbers),
     );
     Some(diagnostics::warning(&message))
+}
+
+/// Refuses a run whose histories would not find room in the memory that is free: it would be ended from outside, and
+/// nothing be left of it. `until`: where it stops, s; none: at its end.
+pub(crate) fn refuse(
+    model: &Model,
+    case: &Case,
+    dt: Option<f64>,
+    until: Option<f64>,
+) -> Result<(), Failure> {
+    let Analysis::Dynamic(analysis) = &case.analysis else { return Ok(()) };
+    let (Some([steps, numbers]), Some(free)) = (numbers(model, case, dt), free_memory()) else {
+        return Ok(());
+    };
+    let share = until.map_or(1.0, |t| (t / analysis.duration).clamp(0.0, 1.0));
+    fits(&case.name, share * steps, BINARY * share * numbers, free)
+}
+
+fn fits(case: &str, steps: f64, bytes: f64, free: f64) -> Result<(), Failure> {
+    if steps > MOST_OUTPUT_STEPS as f64 || bytes <= free {
+        return Ok(());
+    }
+    let message = format!(
+        "case \"{case}\" has {steps} output steps, whose histories take {} of memory; {} are free",
+        size(bytes),
+        size(free)
+    );
+    let help = "a longer `dt` or fewer outputs take less, `--no-files` takes none";
+    Err(Failure::input(&message, Some(help)))
+}
+
+/// Memory that may be had without swapping, bytes, where the system says so.
+fn free_memory() -> Option<f64> {
+    available(&std::fs::read_to_string("/proc/meminfo").ok()?)
+}
+
+/// What `/proc/meminfo` says of it.
+fn available(text: &str) -> Option<f64> {
+    let line = text.lines().find_map(|line| line.strip_prefix("MemAvailable:"))?;
+    let kibibytes: f64 = line.trim().strip_suffix("kB")?.trim().parse().ok()?;
+    Some(1024.0 * kibibytes)
 }
 
 fn size(bytes: f64) -> String {
@@ -63,5 +109,17 @@ mod tests {
         assert_eq!(warned("10000", Some(1.0)), None);
         // Beyond what a run makes at all.
         assert_eq!(warned("10000", Some(1e-5)), None);
+    }
+
+    #[test]
+    fn what_no_memory_has_room_for_is_refused() {
+        let free = available("MemTotal:  32 kB\nMemAvailable:    2000000 kB\n").unwrap();
+        assert_eq!(free, 2.048e9);
+        assert!(fits("c", 2e7, 2e9, free).is_ok());
+        let told = fits("c", 4.9e7, 121e9, free).unwrap_err().text;
+        for part in ["49000000 output steps", "121.0 GB of memory; 2.0 GB are free", "`dt`"] {
+            assert!(told.contains(part), "{part} in {told}");
+        }
+        assert_eq!(available("MemTotal: 1 kB"), None);
     }
 }
