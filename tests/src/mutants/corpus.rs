@@ -5,7 +5,6 @@ use super::target::Target;
 use crate::{parse, root};
 use std::path::Path;
 use trilith::RunOptions;
-use trilith_solvers::run;
 
 /// Quantities as users write them.
 const QUANTITIES: [&str; 8] = [
@@ -18,6 +17,10 @@ const QUANTITIES: [&str; 8] = [
     "sqrt(2)*9.81 m/s^2",
     "min(1, 2, 3)",
 ];
+
+/// A history with a unit, a comment and a column that nobody asked for.
+const HISTORY: &str =
+    "# measured\nt [s],U1 [mm],load [kN]\n0,0,0\n0.5,1.5,20\n1,-1.5e0,-20\n1.5,0,0\n";
 
 /// A mass that slides to rest, small enough to be read thousands of times a second.
 const SMALL: &str = r#"(
@@ -74,13 +77,19 @@ impl Corpus {
         take(Target::Study, "models/studies", ".ron");
         take(Target::Record, "crates/record/tests/files", "");
         take(Target::Record, "models/records", "_1.csv");
-        let small = || File { target: Target::Model, bytes: SMALL.into() };
-        files.extend([small(), small(), small(), small()]);
-        let (model, system) = parse(SMALL, &[]);
+        let small = |target| File { target, bytes: SMALL.into() };
+        files.extend(
+            [Target::Model, Target::Model, Target::Run, Target::Run, Target::Run].map(small),
+        );
+        let (model, _) = parse(SMALL, &[]);
+        let analysis = trilith::Analysis::new(&model).expect("a structure").with_loops();
         let options = RunOptions { case: 1, ..RunOptions::default() };
-        let result = run(&model, &system, options, &mut []).expect("a run");
-        let bytes = serde_json::to_vec(&result.end).expect("a checkpoint");
+        let run = analysis.run(options).expect("a run");
+        let bytes = serde_json::to_vec(&run.result.end).expect("a checkpoint");
         files.push(File { target: Target::Checkpoint, bytes });
+        let bytes = serde_json::to_vec(&run.report(&analysis, &[], &[])).expect("a report");
+        files.push(File { target: Target::Report, bytes });
+        files.push(File { target: Target::History, bytes: HISTORY.into() });
         let quantity =
             |text: &&str| File { target: Target::Quantity, bytes: text.as_bytes().into() };
         files.extend(QUANTITIES.iter().map(quantity));

@@ -1,8 +1,9 @@
 //! What the readers make of files that somebody or something has spoiled.
 //!
-//! Every file of a corpus (models, studies, records, checkpoints, quantities) is cut, doubled, spliced and sown with
-//! numbers that hurt; what comes of it is read and checked as `trilith check` does. A reader may refuse, with a reason.
-//! It must not panic, take longer than [`SLOW`], or let through what is not a number.
+//! Every file of a corpus (models, studies, records, checkpoints, reports, histories, quantities) is cut, doubled,
+//! spliced and sown with numbers that hurt; what comes of it is read and checked as `trilith check` does, and a small
+//! model is run within a budget of work. A reader may refuse, with a reason. It must not panic, take longer than
+//! [`SLOW`], or let through what is not a number.
 //!
 //! Reference: mutation of a corpus as in \[Miller, Fredriksen & So 1990\].
 
