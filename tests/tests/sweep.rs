@@ -415,3 +415,32 @@ fn the_tolerance_of_the_case_holds_in_lanes() {
     };
     assert!(iterations(&coarse) < iterations(FOOT));
 }
+
+/// A stop that gives by more than the model is large, and a node that leaves, without an output that shows it: lanes
+/// warn of nothing, so that such runs are made alone.
+#[test]
+fn what_ends_as_no_model_is_meant_to_is_run_alone_and_told() {
+    let text = r#"(
+        parameters: { "k": 1e5, "push": 1 },
+        nodes: { "a": (0, 0, 0), "b": (1, 0, 0) },
+        supports: { "a": (Uy, Uz, Rx, Ry, Rz), "b": Fixed },
+        elements: {
+            "mass": Mass(node: "a", mass: 1),
+            "stop": Gap(nodes: ("a", "b"), k: "k", opening: 0.01),
+        },
+        functions: { "on": Step(amplitude: 1, start: 0, end: 9) },
+        loads: { "push": [(node: "a", dof: Ux, force: "push")] },
+        cases: { "shake": Dynamic(duration: 1, dt: 0.001, forces: [(load: "push", function: "on")]) },
+        outputs: { "force": LinkForce(link: "stop", axis: U1) },
+    )"#;
+    let sets =
+        [("1e5", "1"), ("10", "1"), ("1e5", "-10")].map(|(k, p)| set(&[("k", k), ("push", p)]));
+    let all = outcomes(&adaptive(text), &sets);
+    assert_eq!((&all[0].engine, all[0].warnings.len()), (&Engine::Lanes, 0));
+    for (odd, told) in
+        [(&all[1], "\"stop\" was pressed in by"), (&all[2], "node \"a\" is 5 m away")]
+    {
+        assert!(matches!(odd.engine, Engine::Ordinary(_)), "{:?}", odd.engine);
+        assert!(odd.warnings.iter().any(|w| w.contains(told)), "{:?}", odd.warnings);
+    }
+}

@@ -15,10 +15,10 @@ use trilith_model::{Case, DynamicCase, Model, Side};
 use trilith_system::{LoadSet, SmallTurn, System, small_turns};
 
 /// Share of the size of a model by which a contact may be pressed in without a word.
-const PRESSED: f64 = 0.05;
+pub(crate) const PRESSED: f64 = 0.05;
 
 /// How far a part may go without a word where a model has no size, m: farther than across a continent.
-const FAR: f64 = 1e6;
+pub(crate) const FAR: f64 = 1e6;
 
 /// Names that a sentence holds.
 const NAMES: usize = 3;
@@ -216,7 +216,7 @@ fn farthest(
 }
 
 /// Largest extent of nodes and outlines of bodies along an axis, m; `None` for a point, which has no size.
-fn size(model: &Model) -> Option<f64> {
+pub(crate) fn size(model: &Model) -> Option<f64> {
     let mut points: Vec<Vector3> = model.nodes.iter().map(|node| node.position).collect();
     for (element, law) in overlap::links(model) {
         let Some(outline) = overlap::still(law) else { continue };

@@ -36,17 +36,14 @@ impl Study {
         let cases: Vec<(&Model, usize)> = models.iter().map(|(_, m)| (m, self.case)).collect();
         let found = lanes.run(&cases, None);
         let record = |((run, model), found): (&(usize, Model), Result<Outcome, Alone>)| {
-            let Outcome { status, outputs, energy, contact, .. } = found.ok()?;
+            let Outcome { status, outputs, energy, contact, warnings, .. } = found.ok()?;
             let peaks: Vec<Peak> = outputs.0.iter().map(|(_, peak)| *peak).collect();
-            let ended = (&status, &*peaks);
-            let warnings = trilith::solvers::warnings_of_outputs(model, self.case, ended);
             let left = Left {
                 status: &status,
                 peaks: &peaks,
                 energy: &energy,
                 contact: contact.as_ref(),
-                // A model that has run can be assembled.
-                warnings: &warnings.unwrap_or_default(),
+                warnings: &warnings,
             };
             Some(self.record(*run, model, &left, &Watch::new(&[])))
         };

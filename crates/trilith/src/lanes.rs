@@ -4,8 +4,8 @@ use crate::sweep::{Engine, Outcome, named};
 use crate::{Analysis, Error};
 use trilith_model::{Model, StepControl};
 use trilith_results::Named;
-use trilith_solvers::Status;
 use trilith_solvers::lanes::{self, LaneOutcome, LaneSetup, Tables};
+use trilith_solvers::{Status, warnings_of_outputs};
 
 /// Why a model does not go side by side with others.
 #[derive(Debug)]
@@ -14,6 +14,8 @@ pub enum Alone {
     Unfit(String),
     /// Its lane found no equilibrium in however short a step.
     Lost,
+    /// It ended as no model is meant to: the ordinary engine has something to say of it.
+    Odd,
     /// It cannot be run at all.
     Failed(Error),
 }
@@ -85,9 +87,9 @@ impl Lanes {
             waiting = rest;
         }
         let all = cases.iter().zip(setups).zip(found);
-        let one = |(((model, _), setup), lane): ((&(&Model, usize), _), Option<_>)| {
+        let one = |(((model, case), setup), lane): ((&(&Model, usize), _), Option<_>)| {
             let setup: LaneSetup = setup?;
-            lane.ok_or(Alone::Lost).and_then(|lane| outcome(model, &setup, lane))
+            lane.ok_or(Alone::Lost).and_then(|lane| outcome(model, *case, &setup, lane))
         };
         all.map(one).collect()
     }
@@ -108,9 +110,17 @@ impl Lanes {
     }
 }
 
-fn outcome(model: &Model, setup: &LaneSetup, lane: LaneOutcome) -> Result<Outcome, Alone> {
+fn outcome(
+    model: &Model,
+    case: usize,
+    setup: &LaneSetup,
+    lane: LaneOutcome,
+) -> Result<Outcome, Alone> {
     if lane.lost.is_some() {
         return Err(Alone::Lost);
+    }
+    if lane.noticed {
+        return Err(Alone::Odd);
     }
     let names = model.outputs.iter().map(|o| o.name.clone());
     let share = lane.energy.error_relative;
@@ -122,8 +132,11 @@ fn outcome(model: &Model, setup: &LaneSetup, lane: LaneOutcome) -> Result<Outcom
     } else {
         Status::Converged
     };
+    // A model that has run can be assembled.
+    let warnings = warnings_of_outputs(model, case, (&status, &lane.outputs)).unwrap_or_default();
     Ok(Outcome {
         engine: Engine::Lanes,
+        warnings,
         status,
         outputs: Named(names.zip(lane.outputs).collect()),
         energy: lane.energy,

@@ -77,6 +77,8 @@ pub enum Engine {
 pub struct Outcome {
     /// How it was computed.
     pub engine: Engine,
+    /// What there is to say of it.
+    pub warnings: Vec<String>,
     /// How it ended.
     pub status: Status,
     /// Extremes and final values of the outputs, by name, SI.
@@ -209,6 +211,10 @@ impl Sweep {
                 Some(Err(Alone::Unfit(reason))) => {
                     self.ordinary(model, case, self.substeps, Engine::Ordinary(reason))
                 }
+                Some(Err(Alone::Odd)) => {
+                    let reason = "it ends as no model is meant to, which its warnings say";
+                    self.ordinary(model, case, self.substeps, Engine::Ordinary(reason.into()))
+                }
                 Some(Err(Alone::Lost)) | None => self.ordinary(model, case, None, Engine::Rerun),
             }
         };
@@ -255,6 +261,7 @@ impl Sweep {
         let result = &run.result;
         Ok(Outcome {
             engine,
+            warnings: result.warnings.clone(),
             status: result.status.clone(),
             outputs: Named(model.outputs.iter().enumerate().filter_map(output).collect()),
             energy: result.energy,

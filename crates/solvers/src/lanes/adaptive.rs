@@ -89,9 +89,9 @@ impl<A: Arithmetic, const M: usize, const L: usize, const N: usize> Task<A>
         at.lost = with.gather(|i| lost(i).unwrap_or(0.0));
         at.iterations = trial.iterations();
         let outcome = |(i, way): (usize, &Way<'_>)| {
-            let mut outcome = at.outcome(with, setups[i], i);
-            if let Some((t, link)) = way.fallen {
-                outcome.overturned = Some((t, setups[i].elements[link]));
+            let fallen = way.fallen.map(|(t, link)| (t, setups[i].elements[link]));
+            let mut outcome = at.outcome(with, setups[i], i, fallen);
+            if fallen.is_some() {
                 outcome.contact.iter_mut().for_each(|c| c.overturned = true);
             }
             outcome

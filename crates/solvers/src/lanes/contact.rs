@@ -50,6 +50,8 @@ pub(super) struct Feet<R: Real> {
     /// 1 while the initial mode goes on.
     fresh: R,
     play: R,
+    /// How deep the deepest contact was pressed in, m.
+    depth: R,
     max_uplift: R,
     max_slip: R,
     residual: R,
@@ -86,6 +88,7 @@ impl<R: Real> Feet<R> {
             whole: seen,
             fresh: with.splat(1.0),
             play: with.gather(play),
+            depth: with.gather(play),
             max_uplift: with.gather(uplift),
             max_slip: zero,
             residual: zero,
@@ -111,6 +114,7 @@ impl<R: Real> Feet<R> {
             highest = highest.max(now.gap);
             lowest = lowest.min(now.gap);
         }
+        self.depth = self.depth.max(-lowest);
         let moved = some & !sticks;
         if zero.any(moved) {
             let (slid, reversal) = self.slide(contacts, which, moved);
@@ -144,6 +148,20 @@ impl<R: Real> Feet<R> {
         }
         self.max_slip = self.max_slip.max(slip);
         self.residual = slip;
+    }
+
+    /// Looks how deep contacts that are no feet are pressed in.
+    #[inline(always)]
+    pub(super) fn press(&mut self, contacts: &[LaneContact<R>], others: &[usize]) {
+        for at in others {
+            let now = &contacts[*at];
+            self.depth = self.depth.max((-now.gap).only(loaded(now)));
+        }
+    }
+
+    /// How deep the deepest contact of a lane was pressed in, m.
+    pub(super) fn depth<A: Arithmetic<Real = R>>(&self, with: A, lane: usize) -> f64 {
+        with.lane(self.depth, lane)
     }
 
     /// How far a mask has slid, in the mean of the loaded contacts, and where it has turned back.
@@ -199,6 +217,7 @@ impl<R: Real> Feet<R> {
             one(x, y);
         }
         one(&mut self.fresh, &other.fresh);
+        one(&mut self.depth, &other.depth);
         one(&mut self.max_uplift, &other.max_uplift);
         one(&mut self.max_slip, &other.max_slip);
         one(&mut self.residual, &other.residual);

@@ -197,7 +197,7 @@ impl<A: Arithmetic, const M: usize, const L: usize, const N: usize> Task<A> for 
             let (plan, rule, passed) = (&plan, &usual, &passed);
             with.run(Account { plan, rule, passed, state: &mut state });
         }
-        (0..self.setups.len()).map(|i| state.outcome(with, self.setups[i], i)).collect()
+        (0..self.setups.len()).map(|i| state.outcome(with, self.setups[i], i, None)).collect()
     }
 }
 

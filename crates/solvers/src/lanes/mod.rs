@@ -13,7 +13,7 @@
 //! (`pieces`). With adaptive steps each has a time and a length of its own (`adaptive`, `way`), and its errors are those
 //! of the ordinary engine (`error`, `turning`); output steps are halved beforehand where modes or links are too fast for
 //! them. Who finds no equilibrium in however short a step, or an error that no step is short enough for, is given up and
-//! says so: the caller runs it on the ordinary engine.
+//! says so: the caller runs it on the ordinary engine. So does who ends as no model is meant to (`watch`): lanes warn of nothing.
 //!
 //! Every analysis gives the same bits whoever its neighbours are, and alone.
 //!
@@ -44,6 +44,7 @@ mod step;
 mod tables;
 mod trial;
 mod turning;
+mod watch;
 mod way;
 
 pub use march::{Instructions, march, march_by};
@@ -78,4 +79,6 @@ pub struct LaneOutcome {
     pub link_energy: Vec<(usize, LinkEnergy)>,
     /// How the contacts behaved.
     pub contact: Option<ContactSummary>,
+    /// True where the ordinary engine warns: a node has left, a contact was pressed in too deep.
+    pub noticed: bool,
 }

@@ -17,6 +17,7 @@ impl<R: Real, const M: usize, const L: usize, const N: usize> State<R, M, L, N> 
         with: A,
         setup: &LaneSetup,
         lane: usize,
+        overturned: Option<(f64, usize)>,
     ) -> LaneOutcome {
         let of = |x: R| with.lane(x, lane);
         let heat = |kind: usize| -> f64 { self.heat.iter().map(|x| of(x[kind])).sum() };
@@ -59,10 +60,13 @@ impl<R: Real, const M: usize, const L: usize, const N: usize> State<R, M, L, N> 
             (true, false) => Some(grid.steps as f64 * grid.dt),
             (false, _) => Some(of(self.lost)),
         };
+        // One that fell over is far from its place, and says why.
+        let motion: Vec<f64> = self.q.iter().take(setup.shape.modes).map(|q| of(*q)).collect();
+        let motion = if overturned.is_some() { &[][..] } else { &motion };
         LaneOutcome {
             lost,
             steps: of(self.count) as usize,
-            overturned: None,
+            overturned,
             iterations: of(self.iterations) as usize,
             outputs: self.peaks.of_lane(with, lane),
             energy,
@@ -80,6 +84,7 @@ impl<R: Real, const M: usize, const L: usize, const N: usize> State<R, M, L, N> 
                 })
                 .collect(),
             contact: self.feet.of_lane(with, lane),
+            noticed: setup.watch.notices(motion, self.feet.depth(with, lane)),
         }
     }
 }

@@ -65,6 +65,8 @@ pub(super) struct Plan<R, const M: usize, const L: usize, const N: usize> {
     /// Number of contacts, and indices of those that a body may stand on.
     pub contacts: usize,
     pub feet: Vec<usize>,
+    /// Indices of all other contacts.
+    pub others: Vec<usize>,
     /// A body may overturn.
     pub falls: bool,
     /// Rates matter to the laws, accelerations to an output.
@@ -171,6 +173,7 @@ impl<R: Real, const M: usize, const L: usize, const N: usize> Plan<R, M, L, N> {
             outputs: Outputs::new(with, setups, &places),
             contacts: contact,
             feet: one.shape.feet.clone(),
+            others: (0..contact).filter(|i| !one.shape.feet.contains(i)).collect(),
             falls: one.forms.iter().any(|f| f.law.falls),
             places,
         }

@@ -3,6 +3,7 @@
 use super::grid::{Grid, Piece, common_parts, cuts};
 use super::rule::stiffness_ratio;
 use super::tables::{Table, Tables, split};
+use super::watch::Watch;
 use crate::case::before;
 use crate::contact_mode::contacts;
 use crate::contact_role::{Role, Roles};
@@ -123,6 +124,7 @@ pub struct LaneSetup {
     pub(super) kinetic: f64,
     pub(super) strain: f64,
     pub(super) potential: f64,
+    pub(super) watch: Watch,
     pub(super) contacts: Vec<Contact>,
     /// True where something stands on them, or falls onto them.
     pub(super) stands: bool,
@@ -350,6 +352,7 @@ pub fn prepare(
         kinetic,
         strain,
         potential: potential(&constant_force(space, &loads), &state),
+        watch: Watch::new(model, system, space, &turn),
         stands,
         contacts: standing,
         values,
@@ -408,7 +411,7 @@ fn uncoupled(omega2: &[f64], damping: &Sparse) -> Result<Option<(Vec<f64>, Dense
 }
 
 /// Tᵀ x.
-fn turned(turn: &Dense, x: &[f64]) -> Vec<f64> {
+pub(super) fn turned(turn: &Dense, x: &[f64]) -> Vec<f64> {
     let mut y = vec![0.0; x.len()];
     turn.transpose_mul_add(1.0, x, &mut y);
     y

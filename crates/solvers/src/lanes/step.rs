@@ -146,8 +146,9 @@ pub(super) fn account<A: Arithmetic, const M: usize, const L: usize, const N: us
     state.largest = largest;
     state.count = state.count + with.splat(1.0);
     show(with, plan, (passed.t, rule.dt, rule.third), state);
-    if plan.falls || !plan.feet.is_empty() {
+    if plan.falls || plan.contacts > 0 {
         contacts(with, plan, state);
         state.feet.enter(&state.contacts, &plan.feet);
+        state.feet.press(&state.contacts, &plan.others);
     }
 }
