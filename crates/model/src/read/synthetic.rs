@@ -10,6 +10,7 @@ use crate::tree::{Entry, Node};
 use std::collections::HashSet;
 use trilith_element::dimension::{ACCELERATION, FREQUENCY, NONE, TIME};
 use trilith_element::{Dimension, Range};
+use trilith_record::MOST_SAMPLES;
 use trilith_record::synthetic::{Compatible, Envelope, KanaiTajimi, Target};
 
 /// A synthetic motion as the file wants it.
@@ -28,8 +29,10 @@ impl Synthetic {
     }
 }
 
-/// The motions of a file that meet a spectrum may take as long as so many of the longest: some seconds.
+/// The motions of a file may take as long as so many of the longest that meets a spectrum: some seconds.
 const MOST_WORK: f64 = 5.0;
+/// What the longest takes that meets none.
+const PLAIN: f64 = 0.25;
 
 /// Refuses the motions of a file that would take too long to make, before one is made; true where it does.
 pub(super) fn too_much(c: &Context<'_>, entries: &[Entry]) -> bool {
@@ -39,15 +42,19 @@ pub(super) fn too_much(c: &Context<'_>, entries: &[Entry]) -> bool {
     for e in entries.iter().filter(|e| e.value.name() == Some(schema::SYNTHETIC.name)) {
         let Some(motion) = described(c, e) else { continue };
         let new = seen.insert(motion.key());
-        let Synthetic { start, target: Some(target), .. } = motion else { continue };
+        let Synthetic { start, target, .. } = motion;
         // What a single one has of errors is told where it is made.
-        let own = Compatible { target, start }.work().unwrap_or_default();
+        let own = match target {
+            Some(target) => Compatible { target, start }.work().unwrap_or_default(),
+            None => PLAIN * start.duration / start.dt / MOST_SAMPLES as f64,
+        };
         work += if new && own <= 1.0 { own } else { 0.0 };
         if work > MOST_WORK {
             let message = format!(
-                "with {} the motions of this file that meet a spectrum are too much: together they may take as long \
-                 as {MOST_WORK} of the longest",
-                what(e)
+                "with {} the motions of this file are too much: together they may take as long as {MOST_WORK} of the \
+                 longest that meets a spectrum, or as {} of the longest that meets none",
+                what(e),
+                MOST_WORK / PLAIN
             );
             let help = "fewer or shorter ones, or a longer `dt`; `trilith record --synthetic` makes them once, for \
                         `Record`";
