@@ -33,7 +33,7 @@ fn element(kind: &str, before: Vec<Value>, numbers: &[f64]) -> Vec<Value> {
 }
 
 /// Along one axis, along a spiral, along a figure that crosses itself.
-fn motions(amplitude: f64) -> [(&'static str, [Wave; 2]); 3] {
+pub(super) fn motions(amplitude: f64) -> [(&'static str, [Wave; 2]); 3] {
     let a = amplitude;
     [
         ("one axis", [Irregular(a), Held(0.0)]),

@@ -1,7 +1,9 @@
 //! Contacts and dampers.
 
-use super::pair::{Agree, Ours, Pair, link, material};
-use super::paths::Wave::Irregular;
+use super::bearings::motions;
+use super::pair::{Agree, Ours, Pair, command, link, material};
+use super::paths::Wave::{About, Held, Irregular};
+use serde_json::json;
 
 /// A material of OpenSees in two motions.
 fn twice(name: &str, (kind, numbers): (&str, &[f64]), ours: &[Ours], amplitude: f64) -> [Pair; 2] {
@@ -52,6 +54,38 @@ fn contacts() -> Vec<Pair> {
     all
 }
 
+/// Less than the smallest friction, 0.3 · 0.5 MN, stretches `ks`, m.
+const STUCK: f64 = 1e-3;
+
+/// Contacts with friction that are closed and stick: the normal force stays, or comes and goes in part. Where they
+/// slip, the friction there falls to nothing and builds up anew.
+fn with_friction() -> Vec<Pair> {
+    let set = [("kn", "1e9"), ("ks", "1e8"), ("mu", "0.3")];
+    let ours = link("NLink", &set);
+    let (space, plane) = ("zeroLengthContact3D", "zeroLengthContact2D");
+    let (numbers, cohesion) = ([1e9, 1e8, 0.3], 0.0);
+    // The constrained node, which is the moved one, comes first.
+    let mut theirs = command("element", space, &[1, 2, 1], &numbers);
+    theirs.extend([json!(cohesion), json!(3)]);
+    let theirs = [theirs.into()];
+    let mut all = Vec::new();
+    for (normal, axial) in [("", Held(-1e-3)), (", N varies", About(-1e-3, 5e-4, 1.3))] {
+        for (motion, [a, b]) in motions(STUCK) {
+            let name = format!("{space} that sticks{normal}, {motion}");
+            let pair = Pair::bearing(&name, theirs.to_vec(), ours.clone(), [axial, a, b]);
+            all.push(Pair { directions: vec![3, 1, 2], freedoms: 3, ..pair });
+        }
+        let mut theirs = command("element", plane, &[1, 2, 1], &numbers);
+        theirs.extend([json!("-normal"), json!(0.0), json!(1.0)]);
+        let name = format!("{plane} that sticks{normal}");
+        let waves = [axial, Irregular(STUCK), Held(0.0)];
+        let pair = Pair::bearing(&name, vec![theirs.into()], ours.clone(), waves);
+        let waves = pair.waves[..2].to_vec();
+        all.push(Pair { waves, directions: vec![2, 1], freedoms: 2, ..pair });
+    }
+    all
+}
+
 /// With what the steps of a damper in series leave: a quarter with half the step.
 fn stepped(pair: Pair) -> Pair {
     pair.agreeing(Agree::Stepped("steps of second order there, of 1 ms"))
@@ -76,6 +110,11 @@ fn viscous() -> Vec<Pair> {
     let ours = link("MaxwellDamper", &[("k", "1e7"), ("c", "1e6"), ("exponent", "1")]);
     let theirs: (&str, &[f64]) = ("Maxwell", &[1e7, 1e6, 1.0, 1.0]);
     all.extend(twice("Maxwell, α = 1", theirs, &[ours], 0.05).map(stepped));
+    // Linear whatever α is: C/L^α is what α does.
+    let c = (1e6 / 2_f64.sqrt()).to_string();
+    let ours = link("MaxwellDamper", &[("k", "1e7"), ("c", &c), ("exponent", "1")]);
+    let theirs: (&str, &[f64]) = ("Maxwell", &[1e7, 1e6, 0.5, 2.0]);
+    all.extend(twice("Maxwell, α = 0.5, L = 2 m", theirs, &[ours], 0.05).map(stepped));
     for p in [0.0, 0.2] {
         let cy = (p * 1e6).to_string();
         let ours =
@@ -89,6 +128,7 @@ fn viscous() -> Vec<Pair> {
 
 pub(super) fn pairs() -> Vec<Pair> {
     let mut all = contacts();
+    all.extend(with_friction());
     all.extend(viscous());
     all
 }

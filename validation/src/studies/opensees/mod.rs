@@ -8,6 +8,7 @@ mod pair;
 mod paths;
 mod smooth;
 mod springs;
+mod structures;
 mod theirs;
 
 use crate::case::{Kind, Tolerance};
@@ -16,6 +17,7 @@ use oscillators::{Oscillator, oscillators};
 use pair::{Agree, KEPT, Pair};
 use paths::{DURATION, sampled};
 use serde_json::{Value, json};
+use structures::{Structure, structures};
 use trilith_report::{Color, Figure, Stroke};
 
 const STUDY: Study = Study {
@@ -73,6 +75,8 @@ fn compared(found: &mut Findings) -> Result<(), String> {
     let alone = oscillators();
     let mut tasks: Vec<Value> = pairs.iter().flat_map(tasks_of).collect();
     tasks.extend(alone.iter().map(Oscillator::task));
+    let whole = structures();
+    tasks.extend(whole.iter().map(Structure::task));
     let mut theirs = theirs::values(&tasks)?.into_iter();
     let mut rows = Vec::new();
     let mut loops = Vec::new();
@@ -90,9 +94,14 @@ fn compared(found: &mut Findings) -> Result<(), String> {
         let difference = both.map(|(ours, theirs)| difference(&ours, &theirs, first));
         rows.push(Compared { name: pair.name.clone(), agree: pair.agree, difference });
     }
-    for (it, theirs) in alone.iter().zip(theirs) {
+    for (it, theirs) in alone.iter().zip(theirs.by_ref()) {
         let both = both(it.displacements(), theirs);
         let difference = both.map(|(ours, theirs)| difference(&ours, &theirs, 0));
+        rows.push(Compared { name: it.name.into(), agree: it.agree, difference });
+    }
+    for (it, theirs) in whole.iter().zip(theirs) {
+        let both = both(it.displacements(), theirs);
+        let difference = both.map(|(ours, theirs)| apart(&ours, &theirs));
         rows.push(Compared { name: it.name.into(), agree: it.agree, difference });
     }
     told(found, &rows);
@@ -118,7 +127,8 @@ fn tasks_of(pair: &Pair) -> Vec<Value> {
 fn task(pair: &Pair, steps: usize) -> Value {
     let (d, v) = sampled(&pair.waves, steps);
     json!({
-        "what": "forces", "commands": pair.commands, "directions": pair.directions, "d": d, "v": v,
+        "what": "forces", "commands": pair.commands, "directions": pair.directions,
+        "freedoms": pair.freedoms, "d": d, "v": v,
         "dt": DURATION / steps as f64, "every": steps / KEPT,
     })
 }
@@ -153,12 +163,19 @@ fn difference(ours: &Rows, theirs: &Rows, first: usize) -> f64 {
     super::runs::largest(apart)
 }
 
+/// The same for each entry by itself: the largest of all.
+fn apart(ours: &Rows, theirs: &Rows) -> f64 {
+    let width = theirs.first().map_or(0, Vec::len);
+    let only = |rows: &Rows, i: usize| rows.iter().map(|row| vec![row[i]]).collect();
+    super::runs::largest((0..width).map(|i| difference(&only(ours, i), &only(theirs, i), 0)))
+}
+
 /// Text, table, comparisons and the figure of all differences.
 fn told(found: &mut Findings, rows: &[Compared]) {
     found.text(
         "The same motion is imposed on a material or bearing of OpenSees and on the links that the guide names for \
          it, with the same steps, and the forces are compared at 3000 times (elements that are no links: the \
-         motion of a mass on them). The difference is the largest over all times, as share of the largest force. \
+         motion of a mass on them; structures: the displacements of nodes, each by its own largest). The difference is the largest over all times, as share of the largest force. \
          Where OpenSees integrates a law with an error in proportion to its step, two steps tell what it tends \
          to. Where laws differ, the limit says how far they are apart in this motion and the table says why.",
     );
@@ -184,7 +201,7 @@ fn told(found: &mut Findings, rows: &[Compared]) {
     let figure = Figure::new("All differences", "row of the table", "difference / peak")
         .log_y()
         .whole_x()
-        .series("same law", Stroke::Rings, points(|a| matches!(a, Agree::Equal)))
+        .series("same law", Stroke::Rings, points(|a| matches!(a, Agree::Same | Agree::Equal)))
         .series(
             "same law, steps of OpenSees",
             Stroke::Squares,

@@ -9,6 +9,8 @@ pub(super) type Ours = (&'static str, Vec<(&'static str, String)>);
 /// How well both must agree.
 #[derive(Clone, Copy, Debug)]
 pub(super) enum Agree {
+    /// The same equations in the same steps: rounding.
+    Same,
     /// The same law, without a step in it.
     Equal,
     /// The same law, of which something depends on the step in OpenSees: what.
@@ -21,6 +23,7 @@ impl Agree {
     /// Largest difference as share of the largest force.
     pub fn limit(self) -> f64 {
         match self {
+            Self::Same => 1e-11,
             Self::Equal => 1e-6,
             Self::Stepped(_) => 1e-4,
             Self::Near(limit, _) => limit,
@@ -30,7 +33,7 @@ impl Agree {
     /// For the table.
     pub fn words(self) -> String {
         match self {
-            Self::Equal => "equal".into(),
+            Self::Same | Self::Equal => "equal".into(),
             Self::Stepped(what) => format!("equal; {what}"),
             Self::Near(_, what) => format!("near: {what}"),
         }
@@ -49,6 +52,8 @@ pub(super) struct Pair {
     pub waves: Vec<Wave>,
     /// Global directions of OpenSees for these coordinates.
     pub directions: Vec<u8>,
+    /// Directions that a node of OpenSees has.
+    pub freedoms: u8,
     /// Steps.
     pub steps: usize,
     /// OpenSees has an error in proportion to its step: with twice as many steps as well, what it tends to is told.
@@ -73,6 +78,7 @@ impl Pair {
             ours,
             waves,
             directions,
+            freedoms: 6,
             steps,
             extrapolated: false,
             agree: Agree::Equal,
@@ -96,6 +102,7 @@ impl Pair {
             ours: vec![ours],
             waves: waves.to_vec(),
             directions: vec![1, 2, 3],
+            freedoms: 6,
             steps: KEPT,
             extrapolated: false,
             agree: Agree::Equal,

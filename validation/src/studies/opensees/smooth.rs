@@ -1,7 +1,8 @@
 //! Smooth hysteresis.
 
-use super::pair::{Pair, material};
+use super::pair::{Pair, command, material};
 use super::paths::Wave::{self, Growing, Irregular};
+use serde_json::{Value, json};
 
 /// Parameters as OpenSees has them; the losses are per joule there.
 #[derive(Clone, Copy)]
@@ -22,6 +23,24 @@ impl Numbers {
     fn pair(self, name: &str, wave: Wave) -> Pair {
         let Self { alpha, n, gamma, beta, a0, losses: [a, nu, eta] } = self;
         let theirs = material("BoucWen", &[alpha, K, n, gamma, beta, a0, a, nu, eta]);
+        self.beside(theirs, &format!("BoucWen, {name}"), wave)
+    }
+
+    /// Beside the material that can pinch, whose pinching is nought.
+    fn unpinched(self, name: &str, wave: Wave) -> Pair {
+        let Self { alpha, n, gamma, beta, a0, .. } = self;
+        // Its own iterations end below what the comparison sees.
+        let (q, zetas, p, shi, delta_shi, lambda, tolerance) =
+            (0.1, 0.0, 1.0, 0.5, 0.1, 0.5, 1e-12);
+        let numbers =
+            [alpha, K, n, gamma, beta, a0, q, zetas, p, shi, delta_shi, lambda, tolerance];
+        let mut theirs = command("uniaxialMaterial", "BWBN", &[1], &numbers);
+        theirs.push(json!(100));
+        self.beside(theirs.into(), &format!("BWBN, zetas = 0, {name}"), wave)
+    }
+
+    fn beside(self, theirs: Value, name: &str, wave: Wave) -> Pair {
+        let Self { alpha, n, gamma, beta, a0, losses: [a, nu, eta] } = self;
         let joules = (1.0 - alpha) * K;
         let set = [
             ("axis", "U1".to_owned()),
@@ -36,8 +55,7 @@ impl Numbers {
             ("delta_nu", (nu * joules).to_string()),
             ("delta_eta", (eta * joules).to_string()),
         ];
-        let name = format!("BoucWen, {name}");
-        Pair::material(&name, vec![theirs], vec![("BoucWen", set.to_vec())], wave).implicit()
+        Pair::material(name, vec![theirs], vec![("BoucWen", set.to_vec())], wave).implicit()
     }
 }
 
@@ -55,5 +73,7 @@ pub(super) fn pairs() -> Vec<Pair> {
         weaker.pair("loss of strength, growing cycles", growing),
         softer.pair("loss of stiffness, growing cycles", growing),
         all.pair("all losses, A₀ = 1.2, irregular", irregular),
+        plain.unpinched("n = 1, growing cycles", growing),
+        sharp.unpinched("n = 2, irregular", irregular),
     ]
 }

@@ -26,12 +26,17 @@ const POINTS: [(f64, f64); 5] =
 
 /// A kinematic spring through these points and their counterparts.
 fn through(points: &[(f64, f64)]) -> Vec<Ours> {
+    along("Kinematic", points)
+}
+
+/// A plastic spring through these points and their counterparts.
+fn along(rule: &str, points: &[(f64, f64)]) -> Vec<Ours> {
     let back = points.iter().rev().map(|(d, f)| (-d, -f));
     let all: Vec<_> = back.chain([(0.0, 0.0)]).chain(points.iter().copied()).collect();
     let list = |of: fn(&(f64, f64)) -> f64| {
         all.iter().map(|p| of(p).to_string()).collect::<Vec<_>>().join(", ")
     };
-    plastic("Kinematic", &list(|p| p.0), &list(|p| p.1))
+    plastic(rule, &list(|p| p.0), &list(|p| p.1))
 }
 
 fn yielding() -> Vec<Pair> {
@@ -57,6 +62,43 @@ fn yielding() -> Vec<Pair> {
         all.extend(Pair::twice(&name, &theirs, &ours, 0.02));
     }
     all
+}
+
+/// Laws of reinforced concrete: along the envelope, before anything turns back.
+fn envelopes() -> Vec<Pair> {
+    let [first, second, third, fourth] = [(0.003, 3e5), (0.008, 4e5), (0.018, 4.5e5), (0.028, 5e5)];
+    let both = |points: &[(f64, f64)]| -> Vec<f64> {
+        let side = |sign: f64| points.iter().flat_map(move |(d, f)| [sign * f, sign * d]);
+        side(1.0).chain(side(-1.0)).collect()
+    };
+    // Pinching and damage, which turn up on the way back only.
+    let mut hysteretic = both(&[first, second, fourth]);
+    hysteretic.extend([0.6, 0.3, 0.01, 0.02, 0.4]);
+    let mut pinching = both(&[first, second, third, fourth]);
+    pinching.extend([0.5, 0.25, 0.05, 0.5, 0.25, 0.05]);
+    pinching.extend([0.3, 0.2, 0.3, 0.2, 0.9].repeat(3));
+    pinching.push(10.0);
+    let mut pinching = command("uniaxialMaterial", "Pinching4", &[1], &pinching);
+    pinching.push(json!("energy"));
+    let mut all = Vec::new();
+    for (name, theirs, rule) in [
+        ("Hysteretic", material("Hysteretic", &hysteretic), "Takeda"),
+        ("Pinching4", pinching.into(), "Pivot"),
+    ] {
+        let ours = along(rule, &[first, second, fourth]);
+        for (side, end) in [("pulled", 0.025), ("pressed", -0.025)] {
+            let name = format!("{name}, first loading, {side}");
+            all.push(Pair::material(&name, vec![theirs.clone()], ours.clone(), Ramp(end)));
+        }
+    }
+    all
+}
+
+/// Elastic, with another stiffness against compression.
+fn two_sided() -> [Pair; 2] {
+    let theirs = material("Elastic", &[E, 0.0, 0.4 * E]);
+    let set = [("deformation", "-0.05, 0, 0.05"), ("force", "-2e6, 0, 5e6")];
+    Pair::twice("Elastic with Eneg", &[theirs], &[link("MultilinearElastic", &set)], 0.02)
 }
 
 fn elastic() -> [Pair; 2] {
@@ -106,6 +148,8 @@ fn flag() -> Pair {
 
 pub(super) fn pairs() -> Vec<Pair> {
     let mut all = yielding();
+    all.extend(envelopes());
+    all.extend(two_sided());
     all.extend(elastic());
     all.extend(side_by_side());
     all.push(flag());
