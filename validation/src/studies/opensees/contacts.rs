@@ -2,8 +2,8 @@
 
 use super::bearings::motions;
 use super::pair::{Agree, Ours, Pair, command, link, material};
-use super::paths::Wave::{About, Held, Irregular};
-use serde_json::json;
+use super::paths::Wave::{self, About, Held, Irregular};
+use serde_json::{Value, json};
 
 /// A material of OpenSees in two motions.
 fn twice(name: &str, (kind, numbers): (&str, &[f64]), ours: &[Ours], amplitude: f64) -> [Pair; 2] {
@@ -54,34 +54,35 @@ fn contacts() -> Vec<Pair> {
     all
 }
 
-/// Less than the smallest friction, 0.3 · 0.5 MN, stretches `ks`, m.
-const STUCK: f64 = 1e-3;
+/// Less than stretches `ks` to the friction, 0.3 · 1 MN, m.
+const STUCK: f64 = 2e-3;
 
-/// Contacts with friction that are closed and stick: the normal force stays, or comes and goes in part. Where they
-/// slip, the friction there falls to nothing and builds up anew.
+/// Contacts with friction: one that closes and opens, and ones that stay closed and stick. Where they slip, the
+/// friction there falls to nothing and builds up anew.
 fn with_friction() -> Vec<Pair> {
-    let set = [("kn", "1e9"), ("ks", "1e8"), ("mu", "0.3")];
-    let ours = link("NLink", &set);
-    let (space, plane) = ("zeroLengthContact3D", "zeroLengthContact2D");
-    let (numbers, cohesion) = ([1e9, 1e8, 0.3], 0.0);
+    let ours = link("NLink", &[("kn", "1e9"), ("ks", "1e8"), ("mu", "0.3")]);
+    let (numbers, cohesion, normal) = ([1e9, 1e8, 0.3], 0.0, 3);
     // The constrained node, which is the moved one, comes first.
-    let mut theirs = command("element", space, &[1, 2, 1], &numbers);
-    theirs.extend([json!(cohesion), json!(3)]);
-    let theirs = [theirs.into()];
-    let mut all = Vec::new();
-    for (normal, axial) in [("", Held(-1e-3)), (", N varies", About(-1e-3, 5e-4, 1.3))] {
-        for (motion, [a, b]) in motions(STUCK) {
-            let name = format!("{space} that sticks{normal}, {motion}");
-            let pair = Pair::bearing(&name, theirs.to_vec(), ours.clone(), [axial, a, b]);
-            all.push(Pair { directions: vec![3, 1, 2], freedoms: 3, ..pair });
-        }
-        let mut theirs = command("element", plane, &[1, 2, 1], &numbers);
-        theirs.extend([json!("-normal"), json!(0.0), json!(1.0)]);
-        let name = format!("{plane} that sticks{normal}");
-        let waves = [axial, Irregular(STUCK), Held(0.0)];
-        let pair = Pair::bearing(&name, vec![theirs.into()], ours.clone(), waves);
-        let waves = pair.waves[..2].to_vec();
-        all.push(Pair { waves, directions: vec![2, 1], freedoms: 2, ..pair });
+    let mut space = command("element", "zeroLengthContact3D", &[1, 2, 1], &numbers);
+    space.extend([json!(cohesion), json!(normal)]);
+    let mut plane = command("element", "zeroLengthContact2D", &[1, 2, 1], &numbers);
+    plane.extend([json!("-normal"), json!(0.0), json!(1.0)]);
+    let led = |name: &str, theirs: &[Value], waves: &[Wave], directions: &[u8], freedoms| {
+        let three = [Held(0.0); 3];
+        let pair = Pair::bearing(name, theirs.to_vec(), ours.clone(), three);
+        Pair { waves: waves.to_vec(), directions: directions.to_vec(), freedoms, ..pair }
+    };
+    let (space, plane) = ([space.into()], [plane.into()]);
+    let pressed = Held(-1e-3);
+    let both = [pressed, Irregular(STUCK)];
+    let mut all = vec![
+        led("zeroLengthContact3D, normal force", &space, &[About(-5e-4, 1e-3, 1.3)], &[3], 3),
+        led("zeroLengthContact2D, normal force", &plane, &[About(-5e-4, 1e-3, 1.3)], &[2], 2),
+        led("zeroLengthContact2D that sticks", &plane, &both, &[2, 1], 2),
+    ];
+    for (motion, [a, b]) in motions(STUCK) {
+        let name = format!("zeroLengthContact3D that sticks, {motion}");
+        all.push(led(&name, &space, &[pressed, a, b], &[3, 1, 2], 3));
     }
     all
 }

@@ -2,6 +2,8 @@
 
 mod bearings;
 mod contacts;
+mod frames;
+mod leaning;
 mod oscillators;
 mod ours;
 mod pair;
@@ -17,7 +19,7 @@ use oscillators::{Oscillator, oscillators};
 use pair::{Agree, KEPT, Pair};
 use paths::{DURATION, sampled};
 use serde_json::{Value, json};
-use structures::{Structure, structures};
+use structures::Structure;
 use trilith_report::{Color, Figure, Stroke};
 
 const STUDY: Study = Study {
@@ -75,7 +77,8 @@ fn compared(found: &mut Findings) -> Result<(), String> {
     let alone = oscillators();
     let mut tasks: Vec<Value> = pairs.iter().flat_map(tasks_of).collect();
     tasks.extend(alone.iter().map(Oscillator::task));
-    let whole = structures();
+    let whole =
+        [frames::structures(), leaning::structures()].into_iter().flatten().collect::<Vec<_>>();
     tasks.extend(whole.iter().map(Structure::task));
     let mut theirs = theirs::values(&tasks)?.into_iter();
     let mut rows = Vec::new();
@@ -165,7 +168,7 @@ fn difference(ours: &Rows, theirs: &Rows, first: usize) -> f64 {
 
 /// The same for each entry by itself: the largest of all.
 fn apart(ours: &Rows, theirs: &Rows) -> f64 {
-    let width = theirs.first().map_or(0, Vec::len);
+    let Some(width) = theirs.first().map(Vec::len) else { return f64::NAN };
     let only = |rows: &Rows, i: usize| rows.iter().map(|row| vec![row[i]]).collect();
     super::runs::largest((0..width).map(|i| difference(&only(ours, i), &only(theirs, i), 0)))
 }

@@ -11,30 +11,30 @@ pub(super) struct Structure {
     /// What it is.
     pub name: &'static str,
     /// Nodes, the first having the tag 1 and the name "1".
-    nodes: Vec<Node>,
+    pub nodes: Vec<Node>,
     /// Nodes that Trilith has besides.
-    own: Vec<Node>,
+    pub own: Vec<Node>,
     /// Commands of OpenSees for its elements.
-    theirs: Vec<Value>,
+    pub theirs: Vec<Value>,
     /// Entries of `elements`.
-    ours: String,
+    pub ours: String,
     /// Commands for what damps it, after the loads.
-    damping: Vec<Value>,
+    pub damping: Vec<Value>,
     /// Other sections of the model: its damping, its P-Δ.
-    more: &'static str,
+    pub more: &'static str,
     /// A force that has come to rest before it moves: node, direction, N.
-    weight: Option<(usize, usize, f64)>,
-    moved: Moved,
+    pub weight: Option<(usize, usize, f64)>,
+    pub moved: Moved,
     /// Node and direction of displacements that are compared, each as share of its own largest.
-    watched: Vec<(usize, usize)>,
+    pub watched: Vec<(usize, usize)>,
     /// Of the method of Hilber, Hughes and Taylor as Trilith has it.
-    alpha: f64,
+    pub alpha: f64,
     /// How well both must agree.
     pub agree: Agree,
 }
 
 /// What moves a structure, in time a Ricker wavelet.
-enum Moved {
+pub(super) enum Moved {
     /// A force: node, components in N.
     Pushed(usize, [f64; 3]),
     /// Displacements of supports: node, direction, m.
@@ -42,14 +42,13 @@ enum Moved {
     /// The ground, along X and Y, m/s².
     Shaken([f64; 2]),
 }
-use Moved::{Led, Pushed, Shaken};
 
 /// A point, what is fixed there, and its mass.
 #[derive(Clone, Copy)]
-struct Node {
-    at: [f64; 3],
-    fixed: [bool; 6],
-    mass: f64,
+pub(super) struct Node {
+    pub at: [f64; 3],
+    pub fixed: [bool; 6],
+    pub mass: f64,
 }
 
 /// s.
@@ -62,7 +61,7 @@ const KEPT: usize = 1000;
 const FREQUENCY: f64 = 4.0;
 const CENTER: f64 = 0.5;
 const NAMES: [&str; 6] = ["Ux", "Uy", "Uz", "Rx", "Ry", "Rz"];
-/// Radius of gyration of masses, m².
+/// Square of the radius of gyration of masses, m².
 const GYRATION: f64 = 0.09;
 
 /// The wavelet, its rate and the rate of that.
@@ -78,16 +77,16 @@ fn wavelet(t: f64) -> [f64; 3] {
 }
 
 impl Node {
-    fn free(at: [f64; 3], mass: f64) -> Self {
+    pub fn free(at: [f64; 3], mass: f64) -> Self {
         Self { at, fixed: [false; 6], mass }
     }
 
-    fn clamped(at: [f64; 3]) -> Self {
+    pub fn clamped(at: [f64; 3]) -> Self {
         Self { at, fixed: [true; 6], mass: 0.0 }
     }
 
     /// Free in these directions only.
-    fn only(at: [f64; 3], mass: f64, free: &[usize]) -> Self {
+    pub fn only(at: [f64; 3], mass: f64, free: &[usize]) -> Self {
         let mut fixed = [true; 6];
         free.iter().for_each(|i| fixed[i - 1] = false);
         Self { at, fixed, mass }
@@ -96,7 +95,7 @@ impl Node {
 
 impl Structure {
     /// Pushed askew at a node, and its motion compared in all directions there.
-    fn new(name: &'static str, nodes: Vec<Node>, theirs: Vec<Value>, ours: &str) -> Self {
+    pub fn new(name: &'static str, nodes: Vec<Node>, theirs: Vec<Value>, ours: &str) -> Self {
         Self {
             name,
             nodes,
@@ -106,7 +105,7 @@ impl Structure {
             damping: Vec::new(),
             more: "",
             weight: None,
-            moved: Pushed(2, [3e4, 2e4, 1e4]),
+            moved: Moved::Pushed(2, [3e4, 2e4, 1e4]),
             watched: (1..=6).map(|i| (2, i)).collect(),
             alpha: 0.0,
             agree: Agree::Same,
@@ -301,400 +300,4 @@ impl Moved {
             }
         }
     }
-}
-
-/// Columns of a portal and the beam on them, of nodes 1 to 4.
-fn portal() -> Vec<Node> {
-    vec![
-        Node::clamped([0.0; 3]),
-        Node::free([0.0, 0.0, 3.0], 2000.0),
-        Node::free([4.0, 0.0, 3.0], 3000.0),
-        Node::clamped([4.0, 0.0, 0.0]),
-    ]
-}
-
-/// An elastic member of OpenSees along Z or X, with local axes as Trilith chooses them.
-fn member(tag: u8, nodes: [u8; 2], upright: bool, offsets: Option<[f64; 6]>) -> Vec<Value> {
-    let [i, j] = nodes;
-    let across = if upright { [0.0, 1.0, 0.0] } else { [0.0, -1.0, 0.0] };
-    let mut axes = vec![json!("geomTransf"), json!("Linear"), json!(tag)];
-    axes.extend(across.map(|x| json!(x)));
-    if let Some(offsets) = offsets {
-        axes.push(json!("-jntOffset"));
-        axes.extend(offsets.map(|x| json!(x)));
-    }
-    let beam = json!(["elasticBeamColumn", tag, i, j, 0.01, 200e9, 80e9, 2e-4, 5e-5, 1e-4, tag]);
-    let mut element = vec![json!("element")];
-    element.extend(beam.as_array().into_iter().flatten().cloned());
-    vec![axes.into(), element.into()]
-}
-
-/// The same in Trilith, with what it has of its own.
-fn beam(name: &str, [i, j]: [&str; 2], own: &str) -> String {
-    format!(
-        r#""{name}": Beam(nodes: ("{i}", "{j}"), young: 200e9, shear_modulus: 80e9, area: 0.01, i2: 5e-5, i3: 1e-4, torsion: 2e-4, {own}), "#
-    )
-}
-
-/// Both columns and the beam, which takes these options as well.
-fn members(options: &[Value]) -> Vec<Value> {
-    let mut all = member(1, [1, 2], true, None);
-    all.extend(member(2, [4, 3], true, None));
-    all.extend(member(3, [2, 3], false, None));
-    if let Some(Value::Array(last)) = all.last_mut() {
-        last.extend(options.iter().cloned());
-    }
-    all
-}
-
-fn beams(own: &str) -> String {
-    [beam("a", ["1", "2"], ""), beam("b", ["4", "3"], ""), beam("c", ["2", "3"], own)].concat()
-}
-
-fn frames() -> Vec<Structure> {
-    let frame = |name, options: &[Value], own: &str| {
-        Structure::new(name, portal(), members(options), &beams(own))
-    };
-    let one = [json!("-releasez"), json!(1)];
-    let more = [json!("-releasez"), json!(3), json!("-releasey"), json!(2)];
-    let mut with_shear = members(&[]);
-    for command in &mut with_shear {
-        let Value::Array(words) = command else { continue };
-        if words[1] == "elasticBeamColumn" {
-            let head = [json!("element"), json!("ElasticTimoshenkoBeam")];
-            let nodes = words[2..5].to_vec();
-            let numbers = [200e9, 80e9, 0.01, 2e-4, 5e-5, 1e-4, 6e-3, 4e-3].map(|x| json!(x));
-            let axes = words[words.len() - 1].clone();
-            *words = [&head[..], &nodes, &numbers, &[axes]].concat();
-        }
-    }
-    let own = "shear_area_2: 6e-3, shear_area_3: 4e-3";
-    let shear =
-        [beam("a", ["1", "2"], own), beam("b", ["4", "3"], own), beam("c", ["2", "3"], own)];
-    // Rigid lengths along the columns, of other sizes at both ends.
-    let along = Some([0.0, 0.0, 0.2, 0.0, 0.0, -0.35]);
-    let mut offset = member(1, [1, 2], true, along);
-    offset.extend(member(2, [4, 3], true, along));
-    offset.extend(member(3, [2, 3], false, Some([0.15, 0.0, 0.0, -0.3, 0.0, 0.0])));
-    let rigid = "offset_i: 0.2, offset_j: 0.35";
-    let columns = [beam("a", ["1", "2"], rigid), beam("b", ["4", "3"], rigid)].concat();
-    let offset_beams = columns + &beam("c", ["2", "3"], "offset_i: 0.15, offset_j: 0.3");
-    // A beam above the nodes of its columns.
-    let mut across = member(1, [1, 2], true, None);
-    across.extend(member(2, [4, 3], true, None));
-    across.extend(member(3, [2, 3], false, Some([0.1, 0.2, 0.3, -0.1, 0.2, 0.3])));
-    let arms = r#""e": RigidLink(nodes: ("2", "5")), "f": RigidLink(nodes: ("3", "6")), "#;
-    let above = [beam("a", ["1", "2"], ""), beam("b", ["4", "3"], "")].concat();
-    let above = above + &beam("c", ["5", "6"], "") + arms;
-    let above = Structure {
-        own: [[0.1, 0.2, 3.3], [3.9, 0.2, 3.3]].map(|at| Node::free(at, 0.0)).into(),
-        ..Structure::new("-jntOffset across", portal(), across, &above)
-    };
-    let hht = Structure { alpha: -0.1, ..frame("HHT 0.9, a portal", &[], "") };
-    let shaken = frame("UniformExcitation, a portal", &[], "");
-    vec![
-        frame("elasticBeamColumn, a portal", &[], ""),
-        Structure::new("ElasticTimoshenkoBeam, a portal", portal(), with_shear, &shear.concat()),
-        frame("-releasez 1", &one, "release_i: (R3)"),
-        frame("-releasez 3 -releasey 2", &more, "release_i: (R3), release_j: (R2, R3)"),
-        Structure::new("-jntOffset along the axis", portal(), offset, &offset_beams),
-        above,
-        hht,
-        Structure { moved: Shaken([2.0, -1.5]), ..shaken },
-        Structure {
-            moved: Led(vec![(1, 1, 0.01), (4, 1, -0.006), (4, 3, 0.004), (1, 2, 0.002)]),
-            ..frame("MultipleSupport, a portal", &[], "")
-        },
-    ]
-}
-
-/// Damping of structures.
-fn damped() -> Vec<Structure> {
-    let frame = |name| Structure::new(name, portal(), members(&[]), &beams(""));
-    let rayleigh = r#"damping: Rayleigh(mass: 0.8, stiffness: 1e-3),"#;
-    let c = json!(["rayleigh", 0.8, 0.0, 1e-3, 0.0]);
-    let modes = vec![json!(["eigen", "-fullGenLapack", 12]), json!(["modalDamping", 0.04])];
-    let moved = vec![(1, 1, 0.01), (4, 1, -0.006), (4, 3, 0.004), (1, 2, 0.002)];
-    // Three bars that hold a mass.
-    let feet = [[2.0, 0.0, 0.0], [-1.0, 1.5, 0.0], [-1.0, -1.5, 0.0]];
-    let tripod = || -> Vec<Node> {
-        let mut nodes =
-            vec![Node::clamped([0.0; 3]), Node::only([0.0, 0.0, 2.0], 2000.0, &[1, 2, 3])];
-        nodes.extend(feet.map(Node::clamped));
-        nodes
-    };
-    let bars = |option: u8| -> Vec<Value> {
-        let mut all = vec![json!(["uniaxialMaterial", "Elastic", 1, 2e8])];
-        for foot in 3..6_u8 {
-            all.push(json!(["element", "truss", foot, foot, 2, 0.01, 1, "-doRayleigh", option]));
-        }
-        all
-    };
-    let trusses: String = (3..6)
-        .map(|foot| format!(r#""{foot}": Truss(nodes: ("{foot}", "2"), young: 2e8, area: 0.01), "#))
-        .collect();
-    let links: String = feet
-        .iter()
-        .enumerate()
-        .map(|(i, foot)| {
-            let length = foot.iter().zip([0.0, 0.0, 2.0]).map(|(a, b)| (a - b) * (a - b)).sum::<f64>().sqrt();
-            let (name, k) = (i + 3, 2e6 / length);
-            let nothing = ["[0, 0, 0, 0, 0, 0]"; 5].join(", ");
-            format!(
-                r#""{name}": LinearLink(nodes: ("{name}", "2"), stiffness: [[{k}, 0, 0, 0, 0, 0], {nothing}]), "#
-            )
-        })
-        .collect();
-    let watched = || (1..=3).map(|i| (2, i)).collect();
-    let truss = |name, option, ours: &str| Structure {
-        damping: vec![c.clone()],
-        more: rayleigh,
-        watched: watched(),
-        ..Structure::new(name, tripod(), bars(option), ours)
-    };
-    vec![
-        Structure {
-            damping: vec![c.clone()],
-            more: rayleigh,
-            ..frame("rayleigh with betaKinit, a portal")
-        },
-        // The share of the mass acts on absolute velocities there, on those against the supports here.
-        Structure {
-            damping: vec![json!(["rayleigh", 0.0, 0.0, 1e-3, 0.0])],
-            more: "damping: Rayleigh(stiffness: 1e-3),",
-            moved: Led(moved),
-            ..frame("rayleigh with betaKinit alone, MultipleSupport")
-        },
-        Structure {
-            damping: modes,
-            more: "damping: Modal(ratio: 0.04),",
-            ..frame("modalDamping, a portal")
-        },
-        truss("truss -doRayleigh 1, three bars", 1, &trusses),
-        truss("truss -doRayleigh 0 and LinearLink, three bars", 0, &links),
-    ]
-}
-
-/// Nodes that follow others.
-fn constrained() -> Vec<Structure> {
-    let post = || {
-        vec![
-            Node::clamped([0.0; 3]),
-            Node::free([0.0, 0.0, 3.0], 2000.0),
-            Node::free([0.8, 0.5, 3.4], 1500.0),
-        ]
-    };
-    let one = |last: Value| {
-        let mut all = member(1, [1, 2], true, None);
-        all.push(last);
-        all
-    };
-    let column = beam("a", ["1", "2"], "");
-    let arm = column.clone() + r#""arm": RigidLink(nodes: ("2", "3"))"#;
-    // Translations only: a post of its own holds the second node against turning.
-    let mut hinged = post();
-    hinged.push(Node::clamped([0.8, 0.5, 0.4]));
-    let mut theirs = one(json!(["rigidLink", "bar", 2, 3]));
-    theirs.extend(member(2, [4, 3], true, None));
-    let bar = column.clone()
-        + &beam("b", ["4", "3"], "")
-        + r#""bar": EqualDof(nodes: ("2", "3"), dofs: (Ux, Uy, Uz))"#;
-    let watched = || (2..=3).flat_map(|n| (1..=6).map(move |i| (n, i))).collect();
-    // Nothing turns about the posts.
-    let bar = Structure {
-        watched: (2..=3).flat_map(|n| (1..=5).map(move |i| (n, i))).collect(),
-        ..Structure::new("rigidLink bar", hinged, theirs, &bar)
-    };
-    // A floor on four columns, led by a node that nothing else holds.
-    let corners = [[-2.0, -1.0], [2.0, -1.0], [2.0, 1.5], [-2.0, 1.5]];
-    let mut floor = vec![Node::clamped([0.0; 3]), Node::only([0.3, 0.2, 3.0], 4000.0, &[1, 2, 6])];
-    floor.extend(corners.map(|[x, y]| Node::free([x, y, 3.0], 500.0)));
-    floor.extend(corners.map(|[x, y]| Node::clamped([x, y, 0.0])));
-    let mut theirs: Vec<Value> = (3..7).flat_map(|i| member(i, [i + 4, i], true, None)).collect();
-    theirs.push(json!(["rigidDiaphragm", 3, 2, 3, 4, 5, 6]));
-    let mut ours: String = (3..7)
-        .map(|i: u8| beam(&format!("{i}"), [&format!("{}", i + 4), &format!("{i}")], ""))
-        .collect();
-    ours += r#""floor": Diaphragm(nodes: ("2", "3", "4", "5", "6"))"#;
-    let mut of_floor: Vec<_> = [1, 2, 6].map(|i| (2, i)).into();
-    of_floor.extend((1..=6).map(|i| (4, i)));
-    let diaphragm = Structure {
-        watched: of_floor,
-        moved: Pushed(4, [3e4, 2e4, 1e4]),
-        ..Structure::new("rigidDiaphragm, four columns", floor, theirs, &ours)
-    };
-    let mut equal = member(1, [1, 2], true, None);
-    equal.extend(member(2, [4, 3], true, None));
-    equal.push(json!(["equalDOF", 2, 3, 1, 2]));
-    let two = [beam("a", ["1", "2"], ""), beam("b", ["4", "3"], "")].concat()
-        + r#""tie": EqualDof(nodes: ("2", "3"), dofs: (Ux, Uy))"#;
-    vec![
-        Structure {
-            watched: watched(),
-            ..Structure::new(
-                "rigidLink beam",
-                post(),
-                one(json!(["rigidLink", "beam", 2, 3])),
-                &arm,
-            )
-        },
-        bar,
-        diaphragm,
-        Structure {
-            watched: vec![(2, 1), (2, 2), (2, 3), (2, 4), (2, 5), (3, 1), (3, 2), (3, 4), (3, 5)],
-            ..Structure::new("equalDOF", portal(), equal, &two)
-        },
-    ]
-}
-
-/// Stiffness of a long link along and about its axes, N/m and N·m.
-const LONG: [f64; 6] = [5e7, 2e6, 3e6, 4e5, 6e5, 8e5];
-/// Its length, m.
-const LENGTH: f64 = 0.8;
-
-/// A long link in both programs, with these options each.
-fn long(options: &[Value], own: &str) -> (Vec<Value>, String) {
-    let material = |(i, k)| json!(["uniaxialMaterial", "Elastic", i, k]);
-    let mut theirs: Vec<Value> = (1..=6).zip(LONG).map(material).collect();
-    let mut element = vec![json!("element"), json!("twoNodeLink"), json!(1), json!(1), json!(2)];
-    for option in ["-mat", "-dir"] {
-        element.push(json!(option));
-        element.extend((1..=6).map(|i| json!(i)));
-    }
-    element.push(json!("-orient"));
-    element.extend([0.0, 0.0, 1.0, 1.0, 0.0, 0.0].map(|x| json!(x)));
-    element.extend(options.iter().cloned());
-    theirs.push(element.into());
-    let row = |(i, k): (usize, &f64)| {
-        let mut row = [0.0; 6];
-        row[i] = *k;
-        format!("{row:?}")
-    };
-    let rows: Vec<String> = LONG.iter().enumerate().map(row).collect();
-    let ours = format!(
-        r#""link": LinearLink(nodes: ("1", "2"), axis1: (0, 0, 1), axis2: (1, 0, 0), {own} stiffness: [{}])"#,
-        rows.join(", ")
-    );
-    (theirs, ours)
-}
-
-/// An option of a long link, with numbers.
-fn option(name: &str, numbers: &[f64]) -> Vec<Value> {
-    [json!(name)].into_iter().chain(numbers.iter().map(|x| json!(x))).collect()
-}
-
-/// Links with a length of their own: where their shear acts, and the axial force.
-fn leaning() -> Vec<Structure> {
-    let top = [0.0, 0.0, LENGTH];
-    let mut all = Vec::new();
-    // Nothing turns about the axis, nor about the others where the shear has no arm.
-    for (name, options, own, turns) in [
-        ("twoNodeLink, shear in the middle", vec![], "shear_at: 0.4,", true),
-        ("-shearDist 0.25", option("-shearDist", &[0.25, 0.25]), "shear_at: 0.6,", true),
-        ("-shearDist 1", option("-shearDist", &[1.0, 1.0]), "", false),
-    ] {
-        let (theirs, ours) = long(&options, own);
-        let nodes = vec![Node::clamped([0.0; 3]), Node::free(top, 2000.0)];
-        let watched = (1..=if turns { 5 } else { 3 }).map(|i| (2, i)).collect();
-        all.push(Structure { watched, ..Structure::new(name, nodes, theirs, &ours) });
-    }
-    // Small motions: the axial force of the weight stays as it is, and links do not shorten.
-    let weight = Some((2, 3, -3e5));
-    let (theirs, ours) = long(&option("-pDelta", &[0.0; 4]), "p_delta_at: (0, 0), shear_at: 0.4,");
-    let nodes = vec![Node::clamped([0.0; 3]), Node::only(top, 2000.0, &[1, 2, 3])];
-    all.push(Structure {
-        weight,
-        moved: Pushed(2, [30.0, 20.0, 0.0]),
-        watched: vec![(2, 1), (2, 2)],
-        agree: Agree::Equal,
-        ..Structure::new("-pDelta 0 0, a couple of shears", nodes, theirs, &ours)
-    });
-    // An end that turns and is led sideways, where the shear has no arm and the push of an end that tilts
-    // moves nothing.
-    let shares = option("-pDelta", &[0.4, 0.6, 0.4, 0.6]);
-    for (name, end, arm, own) in [
-        ("-pDelta 0.4 0.6, the first end turns", 1, [0.0; 2], "shear_at: 0.8,"),
-        ("-pDelta 0.4 0.6, the second end turns", 2, [1.0; 2], ""),
-    ] {
-        let options = [shares.clone(), option("-shearDist", &arm)].concat();
-        let (theirs, ours) = long(&options, &format!("p_delta_at: (0.4, 0.6), {own}"));
-        let nodes = if end == 1 {
-            vec![Node::only([0.0; 3], 2000.0, &[4, 5]), Node::only(top, 2000.0, &[3])]
-        } else {
-            vec![Node::clamped([0.0; 3]), Node::only(top, 2000.0, &[3, 4, 5])]
-        };
-        all.push(Structure {
-            weight,
-            moved: Led(vec![(end, 1, 1e-4), (end, 2, -6e-5)]),
-            watched: vec![(end, 4), (end, 5)],
-            agree: Agree::Equal,
-            ..Structure::new(name, nodes, theirs, &ours)
-        });
-    }
-    all.push(column());
-    all
-}
-
-/// Parts of a column.
-const PARTS: u8 = 16;
-
-/// A slender column of some parts under nearly half of what it can carry.
-fn column() -> Structure {
-    let height = 6.0;
-    let mut nodes = vec![Node::clamped([0.0; 3])];
-    let (mut theirs, mut ours) = (Vec::new(), String::new());
-    for part in 1..=PARTS {
-        nodes.push(Node::free([0.0, 0.0, height * f64::from(part) / f64::from(PARTS)], 100.0));
-        let mut one = member(part, [part, part + 1], true, None);
-        if let Some(Value::Array(axes)) = one.first_mut() {
-            axes[1] = json!("PDelta");
-        }
-        theirs.extend(one);
-        let [i, j] = [part, part + 1].map(|n| n.to_string());
-        ours += &beam(&i, [&i, &j], "");
-    }
-    let top = usize::from(PARTS) + 1;
-    // Half as many parts are apart by 0.031, and the error of a chord is of second order.
-    let why = "P acts on the chord of each part there, on its bent axis as well here";
-    Structure {
-        weight: Some((top, 3, -3e5)),
-        moved: Pushed(top, [300.0, 200.0, 0.0]),
-        more: r#"p_delta: "weight","#,
-        watched: vec![(top, 1), (top, 2)],
-        agree: Agree::Near(0.008, why),
-        ..Structure::new("geomTransf PDelta, a column", nodes, theirs, &ours)
-    }
-}
-
-/// A spring that yields and one that does not, one behind the other, under a mass.
-fn series() -> Structure {
-    let theirs = vec![
-        json!(["uniaxialMaterial", "Steel01", 2, 2e4, 4e6, 0.05]),
-        json!(["uniaxialMaterial", "Elastic", 3, 2e6]),
-        json!(["uniaxialMaterial", "Series", 1, 2, 3]),
-        json!(["element", "zeroLength", 1, 1, 2, "-mat", 1, "-dir", 1]),
-    ];
-    let ours = r#"
-        "yields": MultilinearPlastic(nodes: ("1", "3"), axis: U1, axis1: (1, 0, 0), rule: Kinematic,
-            deformation: [-1.005, -0.005, 0, 0.005, 1.005], force: [-2.2e5, -2e4, 0, 2e4, 2.2e5]),
-        "does not": LinearLink(nodes: ("3", "2"), axis1: (1, 0, 0), stiffness: [
-            [2e6, 0, 0, 0, 0, 0], [0, 0, 0, 0, 0, 0], [0, 0, 0, 0, 0, 0],
-            [0, 0, 0, 0, 0, 0], [0, 0, 0, 0, 0, 0], [0, 0, 0, 0, 0, 0]]),
-    "#;
-    let nodes = vec![Node::clamped([0.0; 3]), Node::only([0.0; 3], 2000.0, &[1])];
-    Structure {
-        own: vec![Node::only([0.0; 3], 0.0, &[1])],
-        watched: vec![(2, 1)],
-        agree: Agree::Equal,
-        ..Structure::new("Series of two, a mass on them", nodes, theirs, ours)
-    }
-}
-
-pub(super) fn structures() -> Vec<Structure> {
-    let mut all = frames();
-    all.extend(damped());
-    all.extend(constrained());
-    all.extend(leaning());
-    all.push(series());
-    all
 }
