@@ -8,9 +8,9 @@ const TERMS: i32 = 18;
 /// So many terms that change nothing in turn, and no later one will.
 const LAST: usize = 2;
 
-/// Halvings that bring a norm to 1/2 at most.
+/// Halvings that bring a norm to 1/2 at most; none bring one that overflows, whose exponential is no number either.
 fn squarings(norm: f64) -> i32 {
-    if norm > 0.5 { (norm / 0.5).log2().ceil() as i32 } else { 0 }
+    if norm > 0.5 && norm.is_finite() { norm.log2().ceil() as i32 + 1 } else { 0 }
 }
 
 /// [`expm`] of a small matrix, row by row, without a place on the heap.
@@ -90,6 +90,16 @@ mod tests {
         let e = expm(&Dense::from_columns(2, 2, vec![0.0, angle, -angle, 0.0]));
         assert!((e[(0, 0)] - f64::cos(angle)).abs() < 1e-13);
         assert!((e[(1, 0)] - f64::sin(angle)).abs() < 1e-13);
+    }
+
+    /// Two thousand million squarings of it were made once.
+    #[test]
+    fn what_overflows_has_an_end() {
+        assert!(expm_small([[f64::INFINITY, 0.0], [0.0, 1.0]])[0][0].is_nan());
+        let e = expm(&Dense::from_columns(2, 2, vec![-f64::INFINITY, 0.0, 0.0, 1.0]));
+        assert!(!e[(0, 0)].is_finite());
+        // The largest that does not: to nothing.
+        assert_eq!(expm_small([[-1e308]]), [[0.0]]);
     }
 
     #[test]

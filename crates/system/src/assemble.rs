@@ -87,6 +87,14 @@ impl System {
             Damping::Rayleigh { mass, stiffness } => [mass, stiffness],
             _ => [0.0; 2],
         };
+        if rayleigh != [0.0; 2] {
+            let sum = |c: &Sparse, m: &Sparse, k: &Sparse| {
+                Sparse::combine(&[(1.0, c), (rayleigh[0], m), (rayleigh[1], k)])
+            };
+            let free = sum(&c.free, &m.free, &k.free);
+            let support = sum(&c.support, &m.support, &k.support);
+            within_bounds("the damping", &Split { free, support }, model, &reduction)?;
+        }
         let damping_support = Sparse::combine(&[(1.0, &c.support), (rayleigh[1], &k.support)]);
         let mut links = LinkSet::new(model, &reduction)?;
         crate::impact::settle(&mut links, model, &m.free)?;

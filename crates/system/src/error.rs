@@ -47,7 +47,7 @@ pub enum SystemError {
     },
     /// A sum of the structure's matrices has left the range of numbers.
     #[error(
-        "{what} of node \"{node}\" {direction} is beyond all bounds: a length, a stiffness or a mass of what acts there is absurdly large"
+        "{what} of node \"{node}\" {direction} is beyond all bounds: a length, a stiffness, a mass or the damping of what acts there is absurdly large"
     )]
     Overflow {
         /// `the stiffness`, `the mass` or `the damping`.
