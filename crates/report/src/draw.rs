@@ -73,14 +73,17 @@ fn position(axis: &Axis, value: f64) -> f64 {
     if axis.log { value.log10() } else { value }
 }
 
+/// Largest magnitude that has a place on an axis: those of two such ends, and some room, are no overflow.
+const FARTHEST: f64 = 1e300;
+
 fn drawable(figure: &Figure, point: (f64, f64)) -> Option<(f64, f64)> {
     let at = (position(&figure.x, point.0), position(&figure.y, point.1));
-    (at.0.is_finite() && at.1.is_finite()).then_some(at)
+    (at.0.abs() <= FARTHEST && at.1.abs() <= FARTHEST).then_some(at)
 }
 
 /// The ends of an axis, in positions.
 fn ends(axis: &Axis, values: impl Iterator<Item = f64>) -> (f64, f64) {
-    if let Some((a, b)) = axis.range {
+    if let Some((a, b)) = axis.range.filter(|(a, b)| (b - a).is_finite()) {
         return (position(axis, a), position(axis, b));
     }
     let (low, high) =

@@ -141,7 +141,8 @@ fn shape(out: &mut String, picture: &Picture, at: &[(f64, f64)], px: Place<'_>, 
         let corners: Vec<String> = face
             .corners
             .iter()
-            .map(|c| px(at[*c]))
+            .filter_map(|c| at.get(*c))
+            .map(|p| px(*p))
             .map(|(x, y)| format!("{x:.1},{y:.1}"))
             .collect();
         let style = match ghost {
@@ -157,7 +158,8 @@ fn shape(out: &mut String, picture: &Picture, at: &[(f64, f64)], px: Place<'_>, 
     for what in [LineKind::Member, LineKind::Tie, LineKind::Edge] {
         let mut d = String::new();
         for line in picture.lines.iter().filter(|l| l.what == what) {
-            let ((x1, y1), (x2, y2)) = (px(at[line.ends[0]]), px(at[line.ends[1]]));
+            let [Some(from), Some(to)] = line.ends.map(|end| at.get(end)) else { continue };
+            let ((x1, y1), (x2, y2)) = (px(*from), px(*to));
             if dense {
                 let [x1, y1, x2, y2] = [x1, y1, x2, y2].map(|x| x.round() as i64);
                 let _ = write!(d, "M{x1} {y1}l{} {}", x2 - x1, y2 - y1);
@@ -181,7 +183,8 @@ fn shape(out: &mut String, picture: &Picture, at: &[(f64, f64)], px: Place<'_>, 
 /// Links, supports, nodes and names.
 fn marks(out: &mut String, picture: &Picture, at: &[(f64, f64)], px: Place<'_>, names: bool) {
     for link in picture.links.iter().filter(|l| !l.body) {
-        let ends: Vec<(f64, f64)> = link.ends.iter().map(|e| px(at[*e])).collect();
+        let ends: Vec<(f64, f64)> =
+            link.ends.iter().filter_map(|e| at.get(*e)).map(|p| px(*p)).collect();
         let n = ends.len().max(1) as f64;
         let (x, y) =
             (ends.iter().map(|p| p.0).sum::<f64>() / n, ends.iter().map(|p| p.1).sum::<f64>() / n);
@@ -197,7 +200,7 @@ fn marks(out: &mut String, picture: &Picture, at: &[(f64, f64)], px: Place<'_>, 
     let write = names && picture.nodes.len() <= NAMES;
     let mut taken: Vec<[f64; 4]> = Vec::new();
     for node in &picture.nodes {
-        let (x, y) = px(at[node.at]);
+        let Some((x, y)) = at.get(node.at).map(|p| px(*p)) else { continue };
         if !node.fixed.is_empty() {
             let _ = writeln!(
                 out,
