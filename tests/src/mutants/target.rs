@@ -60,8 +60,7 @@ impl Target {
             Self::Checkpoint => Ok(serde_json::from_slice::<EndState>(bytes).is_ok()),
             Self::Report => {
                 let Ok(data) = serde_json::from_slice::<RunData>(bytes) else { return Ok(false) };
-                run_page(&Value::Null, &data);
-                Ok(true)
+                Ok(!run_page(&Value::Null, &data).is_empty())
             }
             Self::History => {
                 let u1 = Coordinate { name: "U1".into(), rotation: false };
