@@ -36,18 +36,19 @@ pub(crate) fn warning(model: &Model, case: &Case, dt: Option<f64>) -> Option<Str
 }
 
 /// Refuses a run whose histories would not find room in the memory that is free: it would be ended from outside, and
-/// nothing be left of it. `until`: where it stops, s; none: at its end.
+/// nothing be left of it. `from`, `until`: where it goes on and where it stops, s; none: at its start, at its end.
 pub(crate) fn refuse(
     model: &Model,
     case: &Case,
     dt: Option<f64>,
-    until: Option<f64>,
+    [from, until]: [Option<f64>; 2],
 ) -> Result<(), Failure> {
     let Analysis::Dynamic(analysis) = &case.analysis else { return Ok(()) };
     let (Some([steps, numbers]), Some(free)) = (numbers(model, case, dt), free_memory()) else {
         return Ok(());
     };
-    let share = until.map_or(1.0, |t| (t / analysis.duration).clamp(0.0, 1.0));
+    let time = until.unwrap_or(analysis.duration) - from.unwrap_or(0.0);
+    let share = (time / analysis.duration).clamp(0.0, 1.0);
     fits(&case.name, share * steps, BINARY * share * numbers, free)
 }
 

@@ -27,7 +27,8 @@ pub(crate) fn run(registry: &Registry, args: RunArguments) -> Result<Answer, Fai
     figures::check(&model, &names::flat(&args.figure))?;
     figure_files::check(&args.figure_format)?;
     if !args.no_files {
-        long::refuse(&model, &model.cases[case], args.dt, args.checkpoint_at)?;
+        let from = from.as_ref().map(|checkpoint| checkpoint.state.time);
+        long::refuse(&model, &model.cases[case], args.dt, [from, args.checkpoint_at])?;
     }
     // Looked at before the analysis: nothing that was computed is lost for want of a place.
     let folder = if args.no_files {

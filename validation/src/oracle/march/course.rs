@@ -61,9 +61,7 @@ impl Piece {
         }
         most
     }
-}
 
-impl Piece {
     /// How far what is known at the stages alone, led back to the start of the piece behind, is from where it was at
     /// the end of this one. Largest share of `sizes`.
     #[must_use]
