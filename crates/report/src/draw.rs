@@ -83,7 +83,7 @@ fn drawable(figure: &Figure, point: (f64, f64)) -> Option<(f64, f64)> {
 
 /// The ends of an axis, in positions.
 fn ends(axis: &Axis, values: impl Iterator<Item = f64>) -> (f64, f64) {
-    if let Some((a, b)) = axis.range.filter(|(a, b)| (b - a).is_finite()) {
+    if let Some((a, b)) = axis.range.filter(|(a, b)| (b - a).is_normal()) {
         return (position(axis, a), position(axis, b));
     }
     let (low, high) =
@@ -96,7 +96,8 @@ fn ends(axis: &Axis, values: impl Iterator<Item = f64>) -> (f64, f64) {
     }
     let size = low.abs().max(high.abs());
     let room = match high - low {
-        _ if size == 0.0 => 0.5,
+        // An axis needs a length that can be told from none.
+        _ if !(0.1 * size).is_normal() => 0.5,
         // A constant: without digits that are only noise.
         span if span < CONSTANT * size => 0.1 * size,
         span => 0.05 * span,
@@ -125,7 +126,7 @@ fn tick(axis: &Axis, at: f64, span: f64) -> String {
     }
     // One power of a thousand for the whole axis, so that its numbers can be compared.
     let power = 3 * (span.abs().log10() / 3.0).floor() as i32;
-    let digits = (power - decade).max(0) as usize;
+    let digits = (power - decade).clamp(0, 17) as usize; // a double has no more
     format!("{:.digits$}e{power}", at / 10f64.powi(power))
 }
 

@@ -9,7 +9,7 @@ fn figure() -> Figure {
 #[test]
 fn data_of_every_kind_can_be_drawn() {
     let nan = f64::NAN;
-    let sets: [&[(f64, f64)]; 8] = [
+    let sets: [&[(f64, f64)]; 9] = [
         &[],
         &[(1.0, 2.0)],
         &[(0.0, 3.0), (1.0, 3.0), (2.0, 3.0)],
@@ -18,6 +18,7 @@ fn data_of_every_kind_can_be_drawn() {
         &[(-1.0, 1e-300), (1e300, -1e300)],
         &[(1e-9, 1e-12), (2e-9, 3e-12)],
         &[(0.0, -1e308), (1.0, 1e308)],
+        &[(5e-324, 0.0), (1e-323, 5e-324)],
     ];
     for points in sets {
         for stroke in
