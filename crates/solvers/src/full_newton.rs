@@ -169,9 +169,10 @@ impl Stepper for FullNewton<'_> {
                 return Ok(());
             }
             // A force like |v|^α with α < ½ throws Newton's method past zero in the shortest of steps.
-            if let Some(back) = search.shortens(iteration, largest(&residual)) {
+            let moves = |step: &[f64], way: &mut Vec<f64>| step.clone_into(way);
+            if let Some(more) = search.goes_on(iteration, &residual, largest(&residual), moves) {
                 for (x, step) in a.iter_mut().zip(&search.step) {
-                    *x -= back * step;
+                    *x += more * step;
                 }
                 continue;
             }
@@ -182,6 +183,7 @@ impl Stepper for FullNewton<'_> {
             if change.iter().any(|x| !x.is_finite()) {
                 break;
             }
+            search.before(&residual);
             search.goes(&change);
             for (x, y) in a.iter_mut().zip(change) {
                 *x += y;

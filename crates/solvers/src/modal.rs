@@ -37,7 +37,7 @@ use trilith_linalg::{Dense, ModalStep, Panel, Product, StepSums, work_of_linear}
 /// rule is 2 (ω²Δt²/6), and well before it the rule is no better any more.
 pub(crate) const LONGEST: f64 = 0.5;
 /// A mode whose own share of G·k is below this stays with the exact rule.
-const FREE: f64 = 1e-3;
+pub(crate) const FREE: f64 = 1e-3;
 
 /// Values (8 bytes each) in the matrices of step sizes that are kept, and sizes at most.
 const KEPT_VALUES: usize = 1 << 25;

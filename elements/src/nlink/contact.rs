@@ -128,7 +128,7 @@ impl<const T: usize, const FLAGS: u8> NLinkContact<T, FLAGS> {
     /// Length of a tangential vector.
     #[inline(always)]
     fn length<R: Real>(x: [R; T]) -> R {
-        if T == 1 { x[0].abs() } else { x[0].map2(x[1], f64::hypot) }
+        if T == 1 { x[0].abs() } else { x[0].hypot(x[1]) }
     }
 
     #[inline(always)]

@@ -7,7 +7,7 @@ use super::law::{BASE, TURNED};
 use crate::NLinkHistory;
 use crate::nlink::{NLinkContact, PULL};
 use crate::shared::lever::{Carried, Lever};
-use crate::shared::spatial::{M3, Rotation, V3, right_jacobian};
+use crate::shared::spatial::{M3, Rotation, V3, angle, right_jacobian};
 use crate::shared::wrench::gyroscopic;
 use trilith_element::History;
 use trilith_element::lanes::{LaneAt, LaneContact, LaneForce, LaneForm, LaneLaw, LaneStep, Real};
@@ -104,7 +104,8 @@ impl<const N: usize, const POINTS: usize, const FLAGS: u8> Standing<N, POINTS, F
         for i in 0..POINTS {
             let (r, numbers) = Self::point(at.parameters, i);
             let (start, end) = (before.lever(&r), now.lever(&r));
-            let [d0, v0, d, v] = [start.way, start.rate, end.way, end.rate].map(|x| seen(&x));
+            let (d0, v0) = (seen(&start.way), seen(&start.rate));
+            let (d, v) = (seen(&end.way), seen(&end.rate));
             let history = Self::history(at.history, i);
             let asked =
                 LaneAt { parameters: &numbers, d: &d, v: &v, d0: &d0, v0: &v0, dt: at.dt, history };
@@ -121,7 +122,8 @@ impl<const N: usize, const POINTS: usize, const FLAGS: u8> Standing<N, POINTS, F
                     uplift = uplift.max(d[0] + numbers[1]);
                 }
             }
-            let (f, k, c) = (AXES.map(|a| f[a]), Self::block(&k), Self::block(&c));
+            let [x, y, z] = AXES;
+            let (f, k, c) = ([f[x], f[y], f[z]], Self::block(&k), Self::block(&c));
             all.add((&now.turn, &now.spin), &end, (&f, &k, &c));
         }
         all.finish(&right_jacobian(&now.by));
@@ -148,8 +150,7 @@ impl<const N: usize, const POINTS: usize, const FLAGS: u8> Standing<N, POINTS, F
             trial[3..TURNED].copy_from_slice(&now.turn.quaternion);
             let m = &now.turn.matrix;
             let axis = [m[0][2], m[1][2], m[2][2]];
-            let across = axis[0].mul_add(axis[0], axis[1] * axis[1]).sqrt();
-            let tilt = across.map2(axis[2], f64::atan2);
+            let tilt = angle(axis[2], axis[0].hypot(axis[1]));
             trial[TURNED..BASE].copy_from_slice(&[tilt, axis[0], axis[1], uplift]);
         }
         sum

@@ -19,7 +19,7 @@ impl<R: Real> Lever<R> {
     /// By displacement and velocity, turn and spin of the node.
     #[inline(always)]
     pub fn new(r: &V3<R>, turn: &Rotation<R>, [d, v, spin]: [&V3<R>; 3]) -> Self {
-        let arm = product(&turn.matrix, &cross_matrix(&r.map(|x| -x)));
+        let arm = product(&turn.matrix, &cross_matrix(&[-r[0], -r[1], -r[2]]));
         let (way, rate) = (sum(d, &turn.shift(r)), sum(v, &times(&arm, spin)));
         Self { r: *r, way, rate, arm }
     }
@@ -55,7 +55,7 @@ impl<R: Real> Carried<R> {
             self.f[3 + i] = self.f[3 + i] + moment[i];
         }
         // ∂v/∂φ, and the force that turns against the body's axes.
-        let swing = cross(spin, r).map(|x| -x);
+        let swing = cross(r, spin);
         let speed = product(&turn.matrix, &cross_matrix(&swing));
         let own = transposed_times(&turn.matrix, f);
         let turning = product(&cross_matrix(r), &cross_matrix(&own));

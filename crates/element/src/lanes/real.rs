@@ -81,6 +81,16 @@ pub trait Real:
         Self::select(mask, yes, no) + yes.of(0.0)
     }
 
+    /// √(x² + y²), where no square may be too large or too small for a number.
+    #[inline(always)]
+    #[must_use]
+    fn hypot(self, o: Self) -> Self {
+        let (x, y) = (self.abs(), o.abs());
+        let (most, least) = (x.max(y), x.min(y));
+        let share = (least / most).only(self.of(0.0).lt(most));
+        most * share.mul_add(share, self.of(1.0)).sqrt()
+    }
+
     /// The number where yes, zero where no.
     #[inline(always)]
     #[must_use]

@@ -6,7 +6,7 @@ use super::{Converged, ForceScale, Layout, LinkKernel, NoEquilibrium, ROUNDING_F
 /// be millions of times any force there is.
 const PSEUDO_SHARE: f64 = 1e-5;
 /// Two units in the last place.
-const DIGIT: f64 = 2.0 * f64::EPSILON;
+pub(crate) const DIGIT: f64 = 2.0 * f64::EPSILON;
 
 impl LinkKernel<'_> {
     /// Largest residual over its tolerance, and where.

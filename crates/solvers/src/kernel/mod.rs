@@ -27,7 +27,8 @@ use crate::vector::{add, largest, sized_residual};
 use factors::{Equations, Factor, Factors};
 pub(crate) use layout::Layout;
 use layout::Unknowns;
-pub(crate) use search::Search;
+pub(crate) use measure::DIGIT;
+pub(crate) use search::{CROSSES, ENOUGH, SEARCH_FROM, Search, TRIED};
 use trilith_element::Kinematics;
 use trilith_linalg::Dense;
 use trilith_model::{Kernel, Model, Solution};
@@ -77,11 +78,11 @@ pub(crate) type ForceScale = [f64; 2];
 
 /// A force that depends steeply on a rate which is a difference of larger ones is known no better than
 /// this many tolerances; up to there it counts as found once the correction has [`SETTLED`].
-const ROUNDING: f64 = 1e3;
+pub(crate) const ROUNDING: f64 = 1e3;
 /// A correction below this share of the tolerance changes nothing any more.
-const SETTLED: f64 = 1e-4;
+pub(crate) const SETTLED: f64 = 1e-4;
 /// Iterations before the first look at what rounding leaves.
-const ROUNDING_FROM: usize = 2;
+pub(crate) const ROUNDING_FROM: usize = 2;
 const NEWTON_ITERATIONS: usize = 60;
 const FIXED_POINT_ITERATIONS: usize = 200;
 /// From this many active coordinates on, a factor is kept while it still contracts well.
@@ -271,9 +272,15 @@ impl<'a> LinkKernel<'a> {
             return Ok(false);
         }
         let before = self.sizes[0];
-        if let Some(back) = self.search.shortens(self.iteration - 1, before) {
+        let moves = |step: &[f64], way: &mut Vec<f64>| {
+            way.clear();
+            way.resize(step.len(), 0.0);
+            affine.g.mul_add(1.0, step, way);
+        };
+        let Self { search, residual, iteration, .. } = self;
+        if let Some(more) = search.goes_on(*iteration - 1, residual, before, moves) {
             for (x, step) in self.residual.iter_mut().zip(&self.search.step) {
-                *x = -back * step;
+                *x = more * step;
             }
             self.take();
             return Ok(false);
@@ -289,6 +296,7 @@ impl<'a> LinkKernel<'a> {
             let goes = self.go(affine, out.laws.tangents, slow);
             return if goes { Ok(false) } else { Err(self.farthest()) };
         }
+        self.search.before(&self.residual);
         self.correct(affine, out.laws.tangents, slow);
         let Self { followed, unknowns, correction, residual, search, .. } = self;
         let step = if *followed { unknowns.pseudo_of(correction) } else { residual };

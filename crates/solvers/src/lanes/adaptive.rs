@@ -26,7 +26,7 @@ pub(super) struct Adaptive<'a, const M: usize, const L: usize, const N: usize> {
 }
 
 /// Lanes at most.
-const MOST: usize = 8;
+pub(super) const MOST: usize = 8;
 
 impl<A: Arithmetic, const M: usize, const L: usize, const N: usize> Task<A>
     for Adaptive<'_, M, L, N>
@@ -40,7 +40,7 @@ impl<A: Arithmetic, const M: usize, const L: usize, const N: usize> Task<A>
         let mut at = State::new(with, setups, &plan);
         let mut trial = Trial::new(with, &plan, &at);
         let mut norms = Norms::new(with, setups);
-        let mut sizes = Sizes::new(setups);
+        let mut sizes = Sizes::new(with, setups);
         let mut loads = Points::new(with, &plan);
         let mut ways: Vec<Way<'_>> = setups.iter().map(|s| Way::new(s)).collect();
         loop {

@@ -7,6 +7,7 @@ use crate::single_mode::Mode;
 use trilith_element::lanes::{Arithmetic, Real};
 
 /// Coefficients of a step size.
+#[derive(Clone, Copy)]
 pub(super) struct Rule<R, const M: usize, const L: usize> {
     pub dt: R,
     pub per_dt: R,
@@ -27,20 +28,32 @@ impl<R: Real, const M: usize, const L: usize> Rule<R, M, L> {
         plan: &Plan<R, M, L, N>,
         sizes: &[(f64, &[Mode])],
     ) -> Self {
-        let zero = with.splat(0.0);
         let last = sizes.len() - 1;
-        let mut c = [[[zero; M]; 4]; 3];
-        for (row, c) in c.iter_mut().enumerate() {
+        let mut rule = Self::nothing(with.splat(0.0));
+        for (row, c) in rule.c.iter_mut().enumerate() {
             for (column, c) in c.iter_mut().enumerate() {
                 for (j, c) in c.iter_mut().enumerate().take(sizes[0].1.len()) {
                     *c = with.gather(|i| sizes[i.min(last)].1[j][row][column]);
                 }
             }
         }
-        let dt = with.gather(|i| sizes[i.min(last)].0);
-        let (per_dt, third) = (with.splat(1.0) / dt, dt * with.splat(1.0 / 3.0));
-        let (g, h) = (compliance(plan, &c, 1), compliance(plan, &c, 2));
-        Self { dt, per_dt, third, c: Aligned(c), g, h }
+        rule.of_length(plan, with.gather(|i| sizes[i.min(last)].0));
+        rule
+    }
+
+    /// Of no step yet.
+    pub fn nothing(zero: R) -> Self {
+        let none = Aligned([[zero; L]; L]);
+        let c = Aligned([[[zero; M]; 4]; 3]);
+        Self { dt: zero, per_dt: zero, third: zero, c, g: none, h: none }
+    }
+
+    /// What follows from a length, and the coefficients that belong to it.
+    #[inline(always)]
+    pub fn of_length<const N: usize>(&mut self, plan: &Plan<R, M, L, N>, dt: R) {
+        (self.dt, self.per_dt, self.third) = (dt, dt.of(1.0) / dt, dt * dt.of(1.0 / 3.0));
+        compliance(plan, &self.c, 1, &mut self.g);
+        compliance(plan, &self.c, 2, &mut self.h);
     }
 
     /// Of the usual step.
@@ -75,15 +88,15 @@ fn compliance<R: Real, const M: usize, const L: usize, const N: usize>(
     plan: &Plan<R, M, L, N>,
     c: &[[[R; M]; 4]; 3],
     row: usize,
-) -> Aligned<[[R; L]; L]> {
-    let zero = plan.b[0][0].of(0.0);
-    let mut g = Aligned([[zero; L]; L]);
-    for a in 0..L {
-        for b in 0..L {
+    g: &mut [[R; L]; L],
+) {
+    for b in 0..L {
+        for a in 0..L {
+            let mut sum = plan.b[0][0].of(0.0);
             for j in 0..M {
-                g[b][a] = g[b][a] - plan.b[a][j] * c[row][3][j] * plan.b[b][j];
+                sum = sum - plan.b[a][j] * c[row][3][j] * plan.b[b][j];
             }
+            g[b][a] = sum;
         }
     }
-    g
 }

@@ -35,6 +35,8 @@ mod peaks;
 mod pieces;
 mod plan;
 mod rule;
+mod rules;
+mod search;
 mod setup;
 mod show;
 mod sizes;

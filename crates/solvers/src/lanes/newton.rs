@@ -9,14 +9,13 @@ use super::coefficients::Rule;
 use super::laws::look;
 use super::loads::Loads;
 use super::plan::Plan;
+use super::search::Search;
 use super::small::{Aligned, combine, factor, less, more, solve, times};
 use super::state::State;
+use crate::kernel::{DIGIT, ROUNDING, ROUNDING_FROM, SETTLED};
 use trilith_element::lanes::{Arithmetic, Real};
 
 const ITERATIONS: usize = 60;
-/// Share of Newton's correction that is made, one after the other for so many iterations each.
-const PARTS: [f64; 4] = [1.0, 0.5, 1.0, 0.25];
-const PATIENCE: usize = 8;
 
 /// The end of a step; written by [`foresee`] and [`settle`] in place, as nothing of it should be copied in every step.
 pub(super) struct Found<R: Real, const M: usize, const L: usize> {
@@ -148,6 +147,67 @@ fn hold<R: Real, const M: usize, const L: usize, const N: usize>(
     }
 }
 
+impl<R: Real, const M: usize, const L: usize, const N: usize> Plan<R, M, L, N> {
+    /// What may be left of each force, of the largest so far.
+    #[inline(always)]
+    fn allowed(&self, scale: &[R; 2]) -> [R; L] {
+        let mut allowed = [scale[0] * self.tolerance; L];
+        if self.turns {
+            let of_moments = scale[1] * self.tolerance;
+            for a in (0..L).filter(|a| self.rotational[*a]) {
+                allowed[a] = of_moments;
+            }
+        }
+        allowed
+    }
+
+    /// And what the last digits of deformations and rates make of it: a stiff contact under a body that has gone far.
+    #[inline(always)]
+    fn allow_rounding(
+        &self,
+        state: &State<R, M, L, N>,
+        found: &Found<R, M, L>,
+        allowed: &mut [R; L],
+    ) {
+        for a in 0..L {
+            let first = a / N * N;
+            let mut sum = (state.k[a][0] * found.d[first]).abs();
+            for i in 1..N {
+                sum = sum + (state.k[a][i] * found.d[first + i]).abs();
+            }
+            if self.rate {
+                for i in 0..N {
+                    sum = sum + (state.c[a][i] * found.v[first + i]).abs();
+                }
+            }
+            allowed[a] = allowed[a].max(sum.of(DIGIT) * sum);
+        }
+    }
+}
+
+/// True where none of some forces is larger than what may be left of it.
+#[inline(always)]
+fn within<R: Real, const L: usize>(forces: &[R; L], allowed: &[R; L]) -> R::Mask {
+    let mut fine = forces[0].abs().le(allowed[0]);
+    for a in 1..L {
+        fine = fine & forces[a].abs().le(allowed[a]);
+    }
+    fine
+}
+
+/// The largest of some forces over what may be left of them.
+#[inline(always)]
+fn over<R: Real, const L: usize>(forces: &[R; L], allowed: &[R; L]) -> R {
+    let zero = forces[0].of(0.0);
+    let mut most = zero;
+    for a in 0..L {
+        // Nothing is as much as is allowed of nothing.
+        let share = (forces[a].abs() / allowed[a]).only(!forces[a].abs().le(zero));
+        most = share.max(most);
+    }
+    most
+}
+
 /// J = I + k G + c H.
 #[inline(always)]
 fn jacobian<R: Real, const M: usize, const L: usize, const N: usize>(
@@ -191,48 +251,53 @@ pub(super) fn settle<A: Arithmetic, const M: usize, const L: usize, const N: usi
     let zero = with.splat(0.0);
     let one = with.splat(1.0);
     let mut wrong = state.alive & who;
+    let mut search = Search::new(zero);
     for iteration in 0..ITERATIONS {
         look(with, plan, rule.dt, (&found.d, &found.v), state, &mut found.forces);
         state.iterations = state.iterations + one.only(wrong);
-        let mut residual = [zero; L];
-        for a in 0..L {
-            residual[a] = found.forces[a] - found.f[a];
-        }
-        let mut fine = zero.le(one);
+        let residual = less(&found.forces, &found.f);
         let mut scale = state.scale;
-        if plan.turns {
-            for a in 0..L {
-                let kind = usize::from(plan.rotational[a]);
-                scale[kind] = scale[kind].max(found.forces[a].abs());
-            }
-            for a in 0..L {
-                let allowed = scale[usize::from(plan.rotational[a])] * plan.tolerance;
-                fine = fine & residual[a].abs().le(allowed);
-            }
-        } else {
-            for force in *found.forces {
-                scale[0] = scale[0].max(force.abs());
-            }
-            let allowed = scale[0] * plan.tolerance;
-            for x in residual {
-                fine = fine & x.abs().le(allowed);
-            }
+        for a in 0..L {
+            let kind = usize::from(plan.turns && plan.rotational[a]);
+            scale[kind] = scale[kind].max(found.forces[a].abs());
         }
         found.scale = scale;
-        wrong = wrong & !fine;
+        let mut allowed = plan.allowed(&scale);
+        wrong = wrong & !within(&residual, &allowed);
+        if iteration >= ROUNDING_FROM && zero.any(wrong) {
+            plan.allow_rounding(state, found, &mut allowed);
+            wrong = wrong & !within(&residual, &allowed);
+        }
         if !zero.any(wrong) {
             break;
         }
-        let mut j = jacobian(plan, rule, state);
-        factor(&mut j);
-        if kept {
-            state.keep_answers(&j, wrong, plan.rate);
-        }
-        solve(&j, &mut residual);
-        // Who goes in circles between two regimes takes shorter ways.
-        let part = with.splat(PARTS[(iteration / PATIENCE).min(PARTS.len() - 1)]);
+        let size = over(&residual, &allowed);
+        let (more, searching) = search.goes_on(rule, iteration, (&residual, size), wrong);
         for a in 0..L {
-            found.change[a] = found.change[a] + (part * residual[a]).only(wrong);
+            found.change[a] = found.change[a] + (more * search.step()[a]).only(searching);
+        }
+        let mut goes = wrong & !searching;
+        if zero.any(goes) {
+            let mut j = jacobian(plan, rule, state);
+            factor(&mut j);
+            if kept {
+                state.keep_answers(&j, goes, plan.rate);
+            }
+            let mut step = residual;
+            solve(&j, &mut step);
+            if iteration > 0 {
+                // What is left is rounding: the correction changes nothing any more.
+                let is_little = over(&step, &allowed).le(with.splat(SETTLED));
+                let settled = goes & size.le(with.splat(ROUNDING)) & is_little;
+                (goes, wrong) = (goes & !settled, wrong & !settled);
+                if !zero.any(wrong) {
+                    break;
+                }
+            }
+            search.goes(goes, &step, (&residual, size));
+            for a in 0..L {
+                found.change[a] = found.change[a] + step[a].only(goes);
+            }
         }
         found.follow(plan, rule, state);
     }

@@ -118,6 +118,11 @@ pub struct LaneSetup {
     pub(super) d: Vec<f64>,
     pub(super) v: Vec<f64>,
     pub(super) f: Vec<f64>,
+    /// Stiffness of each coordinate, and the largest so far.
+    pub(super) stiffness: Vec<f64>,
+    pub(super) stiffest: Vec<f64>,
+    /// Stiffness where the links are engaged.
+    pub(super) engaged: Vec<f64>,
     pub(super) history: Vec<f64>,
     pub(super) stored: Vec<f64>,
     pub(super) scale: [f64; 2],
@@ -143,6 +148,11 @@ impl LaneSetup {
         modes_of(&self.omega2, &self.damping, length)
     }
 
+    /// Largest eigenvalue of G k of the engaged links in a step of which this are the modes.
+    pub(super) fn stiffness_ratio(&self, modes: &[Mode]) -> f64 {
+        stiffness_ratio(&self.rows, modes, &self.engaged)
+    }
+
     /// True where both can go side by side.
     #[must_use]
     pub fn fits(&self, other: &Self) -> bool {
@@ -154,8 +164,7 @@ impl LaneSetup {
 /// steps show how it swings.
 const FASTEST: f64 = std::f64::consts::FRAC_PI_2;
 
-/// An output step is cut in so many halves at most where steps are adaptive and longer ones are too long for modes or
-/// links.
+/// An output step is cut in so many halves at most where steps are adaptive and longer ones are too long for modes.
 const HALVINGS: usize = 4;
 
 /// Modes, link coordinates and coordinates of one link at most.
@@ -247,11 +256,13 @@ pub fn prepare(
     let engaged = links.engaged(model);
     let engaged: Vec<f64> = flat.iter().map(|i| engaged[*i]).collect();
     let too_long = |step: f64| -> Option<&'static str> {
-        let rule = modes_of(&omega2, &own, step);
         if omega2.iter().any(|w| w.max(0.0).sqrt() * step > FASTEST) {
             return Some("modes too fast for the steps");
         }
-        let beyond = stiffness_ratio(&rows, &rule, &engaged) > LONGEST;
+        // With adaptive steps average acceleration stands in for it.
+        let is_fixed = matches!(control, StepControl::Fixed { .. });
+        let rule = modes_of(&omega2, &own, step);
+        let beyond = is_fixed && stiffness_ratio(&rows, &rule, &engaged) > LONGEST;
         beyond.then_some("steps too long for the exact rule at the stiffest link")
     };
     let (mut substeps, halvings) = match control {
@@ -300,7 +311,11 @@ pub fn prepare(
         feet.push(first + before);
         standing.push(*contact);
     }
-    let State { motion, d, v, f, history, stored, scale, .. } = &state;
+    let State { motion, d, v, f, history, stored, scale, tangents, stiffest, .. } = &state;
+    let of_active = |of: &dyn Fn(usize) -> f64| -> Vec<f64> {
+        let place = |i: &usize| links.active.iter().position(|x| x == i);
+        flat.iter().map(|i| place(i).map_or(0.0, of)).collect()
+    };
     let shape = Shape {
         modes: m,
         links: forms.iter().map(|f| (f.law.id, f.coordinates.clone(), f.law.coordinates)).collect(),
@@ -346,6 +361,9 @@ pub fn prepare(
         d: pick(d),
         v: pick(v),
         f: pick(f),
+        stiffness: of_active(&|a| tangents.k[links.diagonal[a]]),
+        stiffest: of_active(&|a| stiffest[a]),
+        engaged,
         history: history.clone(),
         stored: stored.clone(),
         scale: *scale,

@@ -1,15 +1,16 @@
 //! Coefficients where every analysis makes steps of its own length.
 
-use super::coefficients::Rule;
 use super::plan::Plan;
+use super::rules::Rules;
 use super::setup::LaneSetup;
 use super::way::Next;
 use crate::single_mode::Mode;
 use trilith_element::lanes::{Arithmetic, Real};
 
 /// The rules of the whole steps and of the halves.
-pub(super) struct Sizes<R, const M: usize, const L: usize> {
-    rules: Option<[Rule<R, M, L>; 2]>,
+pub(super) struct Sizes<R: Real, const M: usize, const L: usize> {
+    rules: [Rules<R, M, L>; 2],
+    /// Length of the whole step of each analysis, s.
     lengths: Vec<f64>,
     /// What was made so far of each analysis.
     known: Vec<Known>,
@@ -19,9 +20,10 @@ pub(super) struct Sizes<R, const M: usize, const L: usize> {
 const KEPT: usize = 128;
 
 impl<R: Real, const M: usize, const L: usize> Sizes<R, M, L> {
-    pub fn new(setups: &[&LaneSetup]) -> Self {
-        let lengths = setups.iter().map(|s| s.shape.grid.step()).collect();
-        Self { rules: None, lengths, known: vec![Known::default(); setups.len()] }
+    pub fn new<A: Arithmetic<Real = R>>(with: A, setups: &[&LaneSetup]) -> Self {
+        let rules = [Rules::new(with.splat(0.0)), Rules::new(with.splat(0.0))];
+        let lengths = vec![f64::NAN; setups.len()];
+        Self { rules, lengths, known: vec![Known::default(); setups.len()] }
     }
 
     /// Rules for what comes next; those who have nothing to do go on with what they had.
@@ -32,40 +34,48 @@ impl<R: Real, const M: usize, const L: usize> Sizes<R, M, L> {
         setups: &[&LaneSetup],
         plan: &Plan<R, M, L, N>,
         next: &[Option<Next>],
-    ) -> &[Rule<R, M, L>; 2] {
+    ) -> &mut [Rules<R, M, L>; 2] {
         let Self { rules, lengths, known } = self;
         let mut same = true;
-        for (length, next) in lengths.iter_mut().zip(next) {
-            if let Some(next) = next {
-                same &= *length == next.length;
-                *length = next.length;
+        for i in 0..lengths.len() {
+            let Some(next) = &next[i] else { continue };
+            if lengths[i] != next.length {
+                (lengths[i], same) = (next.length, false);
+                known[i].add(next.length, setups[i]);
+                // Lanes without an analysis repeat the last.
+                let until = if i + 1 == lengths.len() { A::WIDTH } else { i + 1 };
+                for (rules, share) in rules.iter_mut().zip([1.0, 0.5]) {
+                    if let Some(size) = known[i].of(share * next.length) {
+                        rules.set(i..until, size);
+                    }
+                }
             }
         }
         if !same {
-            rules.take();
+            rules[0].renew(with, plan);
+            rules[1].renew(with, plan);
         }
-        rules.get_or_insert_with(|| {
-            for ((length, known), setup) in lengths.iter().zip(&mut *known).zip(setups) {
-                known.add(*length, setup);
-            }
-            let sizes = |share: f64| -> Vec<(f64, &[Mode])> {
-                let sizes = lengths.iter().zip(&*known);
-                sizes.map(|(x, known)| (share * x, known.of(share * x))).collect()
-            };
-            [Rule::new(with, plan, &sizes(1.0)), Rule::new(with, plan, &sizes(0.5))]
-        })
+        rules
     }
 }
 
-/// Coefficients of the lengths that an analysis has had.
+/// A step size of an analysis: coefficients of its modes, and the largest eigenvalue of G k of its engaged links.
+#[derive(Clone)]
+pub(super) struct Size {
+    pub length: f64,
+    pub modes: Vec<Mode>,
+    pub ratio: f64,
+}
+
+/// The step sizes that an analysis has had.
 #[derive(Clone, Default)]
-struct Known(Vec<(f64, Vec<Mode>)>);
+struct Known(Vec<Size>);
 
 impl Known {
     /// Makes those of a length and of its half, where they are not there.
     #[inline]
     fn add(&mut self, length: f64, setup: &LaneSetup) {
-        if self.of(length).is_empty() || self.of(0.5 * length).is_empty() {
+        if self.of(length).is_none() || self.of(0.5 * length).is_none() {
             self.make(length, setup);
         }
     }
@@ -77,15 +87,17 @@ impl Known {
             self.0.clear();
         }
         for length in [length, 0.5 * length] {
-            if self.of(length).is_empty() {
-                self.0.push((length, setup.modes_of(length)));
+            if self.of(length).is_none() {
+                let modes = setup.modes_of(length);
+                let ratio = setup.stiffness_ratio(&modes);
+                self.0.push(Size { length, modes, ratio });
             }
         }
     }
 
-    /// Of a length that was made; nothing of others.
+    /// That of a length, where it was made.
     #[inline]
-    fn of(&self, length: f64) -> &[Mode] {
-        self.0.iter().find(|(x, _)| *x == length).map_or(&[], |(_, modes)| modes)
+    fn of(&self, length: f64) -> Option<&Size> {
+        self.0.iter().find(|size| size.length == length)
     }
 }

@@ -23,6 +23,8 @@ pub(super) struct State<R: Real, const M: usize, const L: usize, const N: usize>
     /// coordinate.
     pub k: Aligned<[[R; N]; L]>,
     pub c: Aligned<[[R; N]; L]>,
+    /// Largest stiffness of each coordinate so far, where steps are adaptive.
+    pub stiffest: Aligned<[R; L]>,
     /// Bᵀ f.
     pub push: Aligned<[R; M]>,
     /// What the forces answer to deformations, and to rates, that the modes would have with forces held: (I + k G
@@ -79,6 +81,11 @@ impl<R: Real, const M: usize, const L: usize, const N: usize> State<R, M, L, N> 
             x
         };
         let f = flat(&|s, i| s.f[i]);
+        let stiffness = flat(&|s, i| s.stiffness[i]);
+        let mut k = Aligned([[zero; N]; L]);
+        for (a, (row, own)) in k.iter_mut().zip(stiffness).enumerate() {
+            row[a % N] = own;
+        }
         let history: Vec<R> = (0..one.history.len()).map(|i| get(&|s| s.history[i])).collect();
         let links = one.forms.len();
         let stored: Vec<R> = (0..links).map(|l| get(&|s| s.stored[l])).collect();
@@ -93,7 +100,8 @@ impl<R: Real, const M: usize, const L: usize, const N: usize> State<R, M, L, N> 
             v: Aligned(flat(&|s, i| s.v[i])),
             push: Aligned(plan.push(&f)),
             f: Aligned(f),
-            k: Aligned([[zero; N]; L]),
+            k,
+            stiffest: Aligned(flat(&|s, i| s.stiffest[i])),
             c: Aligned([[zero; N]; L]),
             answer: Aligned([[zero; L]; L]),
             answer_to_rate: Aligned([[zero; L]; L]),
@@ -136,10 +144,18 @@ impl<R: Real, const M: usize, const L: usize, const N: usize> State<R, M, L, N> 
     pub fn follow(&mut self, from: &Self) {
         (self.q, self.p, self.push, self.a) = (from.q, from.p, from.push, from.a);
         (self.d, self.v, self.f, self.k, self.c) = (from.d, from.v, from.f, from.k, from.c);
-        (self.scale, self.alive) = (from.scale, from.alive);
+        (self.stiffest, self.scale, self.alive) = (from.stiffest, from.scale, from.alive);
         self.history.copy_from_slice(&from.history);
         self.amplitudes.copy_from_slice(&from.amplitudes);
         self.steps.copy_from_slice(&from.steps);
+    }
+
+    /// Takes note of the stiffness at the end of a step.
+    #[inline(always)]
+    pub fn stiffen(&mut self) {
+        for a in 0..L {
+            self.stiffest[a] = self.stiffest[a].max(self.k[a][a % N]);
+        }
     }
 
     /// The energy in motion: kinetic, and what springs and links hold more or less than at the start.
@@ -166,6 +182,7 @@ pub(super) fn keep<R: Real, const M: usize, const L: usize, const N: usize>(
     all(&mut *to.v, &*from.v);
     all(&mut *to.f, &*from.f);
     all(&mut *to.push, &*from.push);
+    all(&mut *to.stiffest, &*from.stiffest);
     all(to.k.as_flattened_mut(), from.k.as_flattened());
     all(to.c.as_flattened_mut(), from.c.as_flattened());
     all(to.answer.as_flattened_mut(), from.answer.as_flattened());

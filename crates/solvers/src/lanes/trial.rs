@@ -6,6 +6,7 @@ use super::loads::{Loads, Points};
 use super::newton::{Found, foresee_by_tangents, settle};
 use super::pieces::Behind;
 use super::plan::Plan;
+use super::rules::Rules;
 use super::state::{Keep, State};
 use super::step::{Passed, account, take};
 use super::turning::{Asked, Turned, turned};
@@ -50,7 +51,7 @@ impl<R: Real, const M: usize, const L: usize, const N: usize> Trial<R, M, L, N> 
         &mut self,
         with: A,
         plan: &Plan<R, M, L, N>,
-        [rule, half]: &[Rule<R, M, L>; 2],
+        [rules, of_halves]: &mut [Rules<R, M, L>; 2],
         loads: &Points<R, M>,
         (who, [start, middle]): (R::Mask, [R; 2]),
         at: &State<R, M, L, N>,
@@ -60,7 +61,7 @@ impl<R: Real, const M: usize, const L: usize, const N: usize> Trial<R, M, L, N> 
         let (of_whole, [of_first, of_second]) = (&loads.whole, &loads.halves);
         let (w0, _) = with.run(Make {
             plan,
-            rule,
+            rules,
             loads: of_whole,
             t: start,
             who,
@@ -72,7 +73,7 @@ impl<R: Real, const M: usize, const L: usize, const N: usize> Trial<R, M, L, N> 
         });
         let (w1, before) = with.run(Make {
             plan,
-            rule: half,
+            rules: of_halves,
             loads: of_first,
             t: start,
             who,
@@ -84,7 +85,7 @@ impl<R: Real, const M: usize, const L: usize, const N: usize> Trial<R, M, L, N> 
         });
         let (w2, behind) = with.run(Make {
             plan,
-            rule: half,
+            rules: of_halves,
             loads: of_second,
             t: middle,
             who,
@@ -115,7 +116,7 @@ impl<R: Real, const M: usize, const L: usize, const N: usize> Trial<R, M, L, N> 
         &mut self,
         with: A,
         plan: &Plan<R, M, L, N>,
-        half: &Rule<R, M, L>,
+        half: &Rules<R, M, L>,
         (ok, all): (R::Mask, bool),
         at: &mut State<R, M, L, N>,
         norms: &mut Norms<R>,
@@ -126,7 +127,7 @@ impl<R: Real, const M: usize, const L: usize, const N: usize> Trial<R, M, L, N> 
             with.run(Keep { mask: zero.lt(zero), to: before, from: at });
         }
         for (made, passed) in halves.iter().zip([first, second]) {
-            with.run(Enter { plan, rule: half, made, passed, at });
+            with.run(Enter { plan, rule: half.exact(), made, passed, at });
             norms.see(ok, at.in_motion());
         }
         norms.reach(plan, ok, at);
@@ -161,7 +162,7 @@ impl<R: Real, const M: usize, const L: usize, const N: usize> Trial<R, M, L, N> 
 /// One step into `to`, as a task; gives back who has found no equilibrium, and what a half has missed.
 struct Make<'a, R: Real, const M: usize, const L: usize, const N: usize> {
     plan: &'a Plan<R, M, L, N>,
-    rule: &'a Rule<R, M, L>,
+    rules: &'a mut Rules<R, M, L>,
     loads: &'a Loads<R, M>,
     /// Where it begins, s, and for whom.
     t: R,
@@ -181,11 +182,13 @@ impl<A: Arithmetic, const M: usize, const L: usize, const N: usize> Task<A>
 
     #[inline(always)]
     fn run(self, with: A) -> Self::Output {
-        let Self { plan, rule, loads, t, who, from, to, found, passed, asked } = self;
+        let Self { plan, rules, loads, t, who, from, to, found, passed, asked } = self;
+        let rule = rules.choose(plan, from);
         to.follow(from);
         foresee_by_tangents(plan, rule, loads, to, found);
         settle(with, plan, rule, (who, false), to, found);
         take(plan, rule, (loads, t), found, to, passed);
+        to.stiffen();
         let turned = match asked {
             Some(asked) => turned(with, plan, rule, asked, who, (from, to)),
             None => Turned::nothing(with.splat(0.0)),
