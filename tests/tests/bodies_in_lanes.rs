@@ -126,6 +126,34 @@ fn bodies_move_and_fall_as_on_the_ordinary_engine() {
     assert!(fell >= 4, "{fell}");
 }
 
+/// Feet a hundred times stiffer, which hold in long steps by average acceleration, stick in a small part of a step
+/// where they turn, and far from home have forces that are mostly rounding.
+#[test]
+fn stiff_feet_take_no_more_steps_and_looks_than_on_the_ordinary_engine() {
+    let stiff = BLOCK
+        .replace("4e10 N/m", "1.6e12 N/m")
+        .replace("1e10 N/m", "4e12 N/m")
+        .replace("8e7 N*s/m", "5e8 N*s/m");
+    assert_ne!(stiff, BLOCK);
+    let all = ["0.3", "0.5", "0.7"].map(|ah| set(&[("ah", ah), ("mu", "20"), ("duration", "2 s")]));
+    for (lane, values) in outcomes(&sweep(&stiff), &all).iter().zip(&all) {
+        assert_eq!(lane.engine, Engine::Lanes, "{values:?}");
+        let run = ordinary(&stiff, values);
+        let work = &run.result.work;
+        assert_eq!(lane.status, run.result.status, "{values:?}");
+        assert!(
+            lane.steps < work.substeps + work.substeps / 4,
+            "{values:?} {} {work:?}",
+            lane.steps
+        );
+        assert!(lane.iterations < 2 * work.iterations, "{values:?} {} {work:?}", lane.iterations);
+        // Newton's method goes to and fro over no step.
+        assert!(work.iterations < 8 * work.substeps, "{values:?} {work:?}");
+        let (a, b) = (lane.outputs.get("tilt").expect("one"), run.peak("tilt").expect("one"));
+        assert!((a.max - b.max).abs() <= 1e-2 * b.max, "{values:?}: {a:?} {b:?}");
+    }
+}
+
 #[test]
 fn a_body_does_not_depend_on_its_neighbours() {
     for text in [BLOCK, CABINET] {

@@ -393,7 +393,7 @@ fn a_step_without_equilibrium_is_halved_in_its_lane() {
     let mut all = Vec::new();
     for mu in ["0.3", "0.5", "0.7"] {
         for a in ["0.5", "0.7", "0.8", "0.9", "1.0"] {
-            let more = [("c", "0 N*s/m"), ("cv", "20 kN*s/m"), ("duration", "5 s")];
+            let more = [("c", "0 N*s/m"), ("cv", "20 MN*s/m"), ("duration", "5 s")];
             all.push(set(&[&[("mu", mu), ("a", a)][..], &more].concat()));
         }
     }
@@ -416,8 +416,8 @@ fn the_tolerance_of_the_case_holds_in_lanes() {
     assert!(iterations(&coarse) < iterations(FOOT));
 }
 
-/// A stop that gives by more than the model is large, and a node that leaves, without an output that shows it: lanes
-/// warn of nothing, so that such runs are made alone.
+/// A stop that gives by more than the model is large, a node that leaves, without an output that shows it, and motion
+/// that is lost beside a weight: lanes warn of nothing, so that such runs are made alone.
 #[test]
 fn what_ends_as_no_model_is_meant_to_is_run_alone_and_told() {
     let text = r#"(
@@ -437,9 +437,12 @@ fn what_ends_as_no_model_is_meant_to_is_run_alone_and_told() {
         [("1e5", "1"), ("10", "1"), ("1e5", "-10")].map(|(k, p)| set(&[("k", k), ("push", p)]));
     let all = outcomes(&adaptive(text), &sets);
     assert_eq!((&all[0].engine, all[0].warnings.len()), (&Engine::Lanes, 0));
-    for (odd, told) in
-        [(&all[1], "\"stop\" was pressed in by"), (&all[2], "node \"a\" is 5 m away")]
-    {
+    let gentle = outcomes(&adaptive(FOOT), &[set(&[("a", "1e-4 m/s^2")])]);
+    for (odd, told) in [
+        (&all[1], "\"stop\" was pressed in by"),
+        (&all[2], "node \"a\" is 5 m away"),
+        (&gentle[0], "all motion is below a thousandth"),
+    ] {
         assert!(matches!(odd.engine, Engine::Ordinary(_)), "{:?}", odd.engine);
         assert!(odd.warnings.iter().any(|w| w.contains(told)), "{:?}", odd.warnings);
     }

@@ -12,6 +12,12 @@ pub struct EnergyBalance {
 }
 
 impl EnergyTotals {
+    /// True where loads have done work, or released any, beyond rounding.
+    pub(crate) fn moves(&self) -> bool {
+        let balance = self.balance();
+        [self.input, self.potential].iter().any(|e| !balance.is_rounding(*e))
+    }
+
     /// The balance. The potential of constant loads, which has no zero of its own, counts from the lower of start and
     /// end: what went down is a source, what went up a use.
     #[must_use]

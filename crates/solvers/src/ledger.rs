@@ -52,8 +52,7 @@ impl Ledger {
 
     /// True where loads have done work, or released any, beyond rounding.
     pub(crate) fn moves(&self) -> bool {
-        let balance = self.totals.balance();
-        [self.totals.input, self.totals.potential].iter().any(|e| !balance.is_rounding(*e))
+        self.totals.moves()
     }
 
     /// Books that hold only totals, of a state that nothing led to.

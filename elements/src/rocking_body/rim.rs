@@ -38,61 +38,64 @@ history! {
     }
 }
 
-/// By u, φ, u̇ and Ω.
-type Number = Dual<12>;
-type V3 = [Number; 3];
+/// Variables: u, φ, u̇ and Ω.
+const ALL: usize = 12;
+type Number = Dual<ALL>;
+type V3<const N: usize = ALL> = [Dual<N>; 3];
 
-/// The body at one moment.
-struct Motion {
-    u: V3,
+/// The body at one moment, with the derivatives by all variables or none.
+struct Motion<const N: usize> {
+    u: V3<N>,
     /// R, row by row.
-    r: [V3; 3],
+    r: [V3<N>; 3],
     /// 1 − w₃ with all its digits.
-    sunk: Number,
-    rate: V3,
-    spin: V3,
+    sunk: Dual<N>,
+    rate: V3<N>,
+    spin: V3<N>,
 }
 
-impl Motion {
+impl<const N: usize> Motion<N> {
     fn new(turn: &Turn, d: &[f64], v: &[f64]) -> Self {
-        let r: [V3; 3] = turn.dual(3);
+        let r: [V3<N>; 3] = turn.dual(3);
         let [_, x, y, _] = turn.quaternion;
         let sunk = r[2][2].map(2.0 * (x * x + y * y), -1.0);
         Self {
-            u: Number::variables(d, 0),
+            u: Dual::variables(d, 0),
             r,
             sunk,
-            rate: Number::variables(&v[..3], 6),
-            spin: Number::variables(&v[3..], 9),
+            rate: Dual::variables(&v[..3], 6),
+            spin: Dual::variables(&v[3..], 9),
         }
     }
 }
 
 /// The arc that is pressed.
-struct Arc {
+struct Arc<const N: usize> {
+    /// How deep its plane is pressed in at the middle of the rim, and the square of the sine of the tilt.
+    depth: Dual<N>,
+    square: Dual<N>,
     /// Half of its angle, and sine and cosine of it.
-    half: Number,
-    sine: Number,
-    cosine: Number,
+    half: Dual<N>,
+    sine: Dual<N>,
+    cosine: Dual<N>,
     /// Direction from the centre to the lowest point in the axes of the body; none for the whole rim.
-    low: Option<[Number; 2]>,
+    low: Option<[Dual<N>; 2]>,
 }
 
 /// What the rim does at one moment.
-struct Pressed {
+struct Pressed<const N: usize> {
     /// Energy of the springs, J.
     energy: f64,
     /// Normal force of the springs.
-    normal: Number,
+    normal: Dual<N>,
     /// Height of the lowest point, negative while pressed.
     gap: f64,
     /// −N of springs and dashpots, and the force conjugate to w.
-    lift: Number,
-    q: V3,
+    lift: Dual<N>,
+    q: V3<N>,
     /// Centre of pressure in the axes of the body.
-    centre: V3,
-    /// Mean distance of what presses from its centre, over the radius.
-    arm: Number,
+    centre: V3<N>,
+    arc: Arc<N>,
     /// Power of the dashpots, W.
     power: f64,
 }
@@ -106,7 +109,7 @@ pub(super) struct Rim<'a> {
 
 impl Rim<'_> {
     /// Forces of springs and dashpots; none while open.
-    fn pressed(&self, m: &Motion) -> Result<Pressed, f64> {
+    fn pressed<const N: usize>(&self, m: &Motion<N>) -> Result<Pressed<N>, f64> {
         let (rho, h) = (self.radius, self.depth);
         let per_angle = self.body.kn / (2.0 * PI);
         let w = m.r[2];
@@ -119,12 +122,14 @@ impl Rim<'_> {
         let (normal, g, energy, arc);
         if a.x >= b {
             normal = a * self.body.kn;
-            g = Number::constant(0.5 * self.body.kn * rho * rho);
+            g = Dual::constant(0.5 * self.body.kn * rho * rho);
             energy = 0.5 * self.body.kn * (a.x * a.x + 0.5 * b * b);
             arc = Arc {
-                half: Number::constant(PI),
-                sine: Number::constant(0.0),
-                cosine: Number::constant(-1.0),
+                depth: a,
+                square,
+                half: Dual::constant(PI),
+                sine: Dual::constant(0.0),
+                cosine: Dual::constant(-1.0),
                 low: None,
             };
         } else {
@@ -144,13 +149,14 @@ impl Rim<'_> {
             g = by_b * (rho * rho) / b;
             energy = 0.5 * (a.x * normal.x + b.x * by_b.x);
             arc = Arc {
+                depth: a,
+                square,
                 half: cosine.map(psi, slope),
                 sine: cosine.map(sine, cosine.x * slope),
                 cosine,
                 low: Some([-(w[0] / tilt), -(w[1] / tilt)]),
             };
         }
-        let arm = self.arm(&normal, &a, &square, &arc);
         let (damped, q2, power) = self.dashpots(m, &w, &arc);
         let total = normal + damped;
         Ok(Pressed {
@@ -159,16 +165,16 @@ impl Rim<'_> {
             gap: -(a.x + b),
             lift: -total,
             q: [g * w[0] + q2[0], g * w[1] + q2[1], total * h],
-            centre: [-(w[0] * g / normal), -(w[1] * g / normal), Number::constant(-h)],
-            arm,
+            centre: [-(w[0] * g / normal), -(w[1] * g / normal), Dual::constant(-h)],
+            arc,
             power,
         })
     }
 
     /// Mean distance of what presses from its centre, over the radius.
-    fn arm(&self, normal: &Number, a: &Number, square: &Number, arc: &Arc) -> Number {
+    fn arm(&self, Pressed { normal, arc, .. }: &Pressed<ALL>) -> Number {
         let circle = |a: Number| {
-            let flat = *square * (self.radius * self.radius) / (a * a);
+            let flat = arc.square * (self.radius * self.radius) / (a * a);
             let (m, slope) = drilling::of_circle(flat.x);
             flat.map(m, slope)
         };
@@ -177,20 +183,35 @@ impl Rim<'_> {
             half.map(m, slope)
         };
         let Some(stiffness) = self.body.arc_stiffness else {
-            return if arc.low.is_some() { piece(arc.half) } else { circle(*a) };
+            return if arc.low.is_some() { piece(arc.half) } else { circle(arc.depth) };
         };
         // As deep as it would be pressed in.
         let depth = *normal * stiffness.recip();
-        if depth.x * depth.x >= square.x * self.radius * self.radius {
+        if depth.x * depth.x >= arc.square.x * self.radius * self.radius {
             return circle(depth);
         }
-        let share = depth * PI / (square.sqrt() * self.radius);
+        let share = depth * PI / (arc.square.sqrt() * self.radius);
         let (half, slope) = drilling::arc(share.x);
         piece(share.map(half, slope))
     }
 
+    /// No more than that, at once.
+    fn least_arm(&self, Pressed { normal, arc, .. }: &Pressed<ALL>) -> f64 {
+        let Some(stiffness) = self.body.arc_stiffness else {
+            return drilling::least_of_arc(arc.half.x);
+        };
+        let share = normal.x * PI / (stiffness * arc.square.x.sqrt() * self.radius);
+        // A half angle in which a rim of this stiffness carries less: sin ψ − ψ cos ψ ≤ ψ³/3.
+        drilling::least_of_arc((3.0 * share).cbrt().min(PI))
+    }
+
     /// Normal force of the dashpots, their force conjugate to (w₁, w₂), and their power.
-    fn dashpots(&self, m: &Motion, w: &V3, arc: &Arc) -> (Number, [Number; 2], f64) {
+    fn dashpots<const N: usize>(
+        &self,
+        m: &Motion<N>,
+        w: &V3<N>,
+        arc: &Arc<N>,
+    ) -> (Dual<N>, [Dual<N>; 2], f64) {
         let c = self.body.damping / (2.0 * PI);
         let turning = cross(w, &m.spin);
         let sinking = turning[2] * self.depth - m.rate[2];
@@ -201,7 +222,7 @@ impl Rim<'_> {
             return (normal, q, power.x);
         };
         let across = [-low[1], low[0]];
-        let along = |e: &[Number; 2]| -(turning[0] * e[0] + turning[1] * e[1]) * self.radius;
+        let along = |e: &[Dual<N>; 2]| -(turning[0] * e[0] + turning[1] * e[1]) * self.radius;
         let (first, second) = (along(&low), along(&across));
         let product = arc.sine * arc.cosine;
         let (even, odd) = (arc.half + product, arc.half - product);
@@ -230,8 +251,8 @@ impl Rim<'_> {
         trial: &mut [f64],
     ) -> Wrench {
         let was = RimHistory::load(committed);
-        let before = Motion::new(start, at.d0, at.v0);
-        let now = Motion::new(turn, at.d, at.v);
+        let before = Motion::<0>::new(start, at.d0, at.v0);
+        let now = Motion::<ALL>::new(turn, at.d, at.v);
         let first = self.pressed(&before).ok();
         let Ok(p) = self.pressed(&now) else {
             // What the friction held goes where the contact opens.
@@ -288,13 +309,13 @@ impl Rim<'_> {
     fn friction(
         &self,
         was: &RimHistory,
-        (before, first): (&Motion, &Pressed),
-        (now, p): (&Motion, &Pressed),
+        (before, first): (&Motion<0>, &Pressed<0>),
+        (now, p): (&Motion<ALL>, &Pressed<ALL>),
         at: &Kinematics<'_>,
     ) -> ([Number; 2], Number, [f64; 2], f64) {
         let ks = self.body.ks.unwrap_or(0.0);
         let kt = ks * self.radius * self.radius;
-        let plain = |x: &V3| x.map(|x| Number::constant(x.x));
+        let plain = |x: &V3<0>| x.map(|x| Number::constant(x.x));
         let middle: V3 = {
             let start = plain(&first.centre);
             std::array::from_fn(|i| (start[i] + p.centre[i]) * 0.5)
@@ -319,10 +340,12 @@ impl Rim<'_> {
             let length = (traction[0] * traction[0] + traction[1] * traction[1]).sqrt();
             traction = traction.map(|t| t / length * limit);
         }
-        let most = limit * p.arm * self.radius;
         let mut torsion = turn * kt + was.torsion;
-        if torsion.x.abs() > most.x {
-            torsion = if torsion.x > 0.0 { most } else { -most };
+        if torsion.x.abs() > limit.x * self.least_arm(p) * self.radius {
+            let most = limit * self.arm(p) * self.radius;
+            if torsion.x.abs() > most.x {
+                torsion = if torsion.x > 0.0 { most } else { -most };
+            }
         }
         let slip = [0, 1].map(|i| way[i].x - (traction[i].x - old[i]) / ks);
         let spin = turn.x - (torsion.x - was.torsion) / kt;
@@ -350,7 +373,7 @@ impl Rim<'_> {
         out: &mut Vec<Contact>,
     ) {
         let it = RimHistory::load(history);
-        let motion = Motion::new(turn, at.d, at.v);
+        let motion = Motion::<0>::new(turn, at.d, at.v);
         let position = [it.slip1, it.slip2];
         let low = match self.pressed(&motion) {
             Err(gap) => Contact { gap, position, ..Contact::default() },

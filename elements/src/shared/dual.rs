@@ -10,6 +10,7 @@ pub(crate) struct Dual<const N: usize = 2> {
 }
 
 impl<const N: usize> Dual<N> {
+    #[inline]
     pub(crate) const fn constant(x: f64) -> Self {
         Self { x, by: [0.0; N] }
     }
@@ -29,13 +30,23 @@ impl<const N: usize> Dual<N> {
     }
 
     /// A function of it with this value and derivative.
-    pub(crate) fn map(self, x: f64, slope: f64) -> Self {
-        Self { x, by: self.by.map(|d| slope * d) }
+    #[inline]
+    pub(crate) fn map(mut self, x: f64, slope: f64) -> Self {
+        self.x = x;
+        for by in &mut self.by {
+            *by *= slope;
+        }
+        self
     }
 
     /// A function of it and another with this value and these derivatives.
-    pub(crate) fn with(self, o: Self, x: f64, slope: f64, other: f64) -> Self {
-        Self { x, by: std::array::from_fn(|i| slope * self.by[i] + other * o.by[i]) }
+    #[inline]
+    pub(crate) fn with(mut self, o: Self, x: f64, slope: f64, other: f64) -> Self {
+        self.x = x;
+        for i in 0..N {
+            self.by[i] = slope * self.by[i] + other * o.by[i];
+        }
+        self
     }
 
     pub(crate) fn exp_m1(self) -> Self {
@@ -68,37 +79,54 @@ pub(crate) fn cross<const N: usize>(a: &Dual3<N>, b: &Dual3<N>) -> Dual3<N> {
 
 /// `A x`, A row by row.
 pub(crate) fn times<const N: usize>(a: &[Dual3<N>; 3], x: &Dual3<N>) -> Dual3<N> {
-    [0, 1, 2].map(|i| dot(&a[i], x))
+    [dot(&a[0], x), dot(&a[1], x), dot(&a[2], x)]
 }
 
 /// `Aᵀ x`, A row by row.
 pub(crate) fn transposed_times<const N: usize>(a: &[Dual3<N>; 3], x: &Dual3<N>) -> Dual3<N> {
-    [0, 1, 2].map(|j| a[0][j] * x[0] + a[1][j] * x[1] + a[2][j] * x[2])
+    let row = |j: usize| a[0][j] * x[0] + a[1][j] * x[1] + a[2][j] * x[2];
+    [row(0), row(1), row(2)]
 }
 
 impl<const N: usize> Add for Dual<N> {
     type Output = Self;
-    fn add(self, o: Self) -> Self {
-        self.with(o, self.x + o.x, 1.0, 1.0)
+    #[inline]
+    fn add(mut self, o: Self) -> Self {
+        self.x += o.x;
+        for i in 0..N {
+            self.by[i] += o.by[i];
+        }
+        self
     }
 }
 
 impl<const N: usize> Neg for Dual<N> {
     type Output = Self;
-    fn neg(self) -> Self {
-        self * -1.0
+    #[inline]
+    fn neg(mut self) -> Self {
+        self.x = -self.x;
+        for by in &mut self.by {
+            *by = -*by;
+        }
+        self
     }
 }
 
 impl<const N: usize> Sub for Dual<N> {
     type Output = Self;
-    fn sub(self, o: Self) -> Self {
-        self + -o
+    #[inline]
+    fn sub(mut self, o: Self) -> Self {
+        self.x -= o.x;
+        for i in 0..N {
+            self.by[i] -= o.by[i];
+        }
+        self
     }
 }
 
 impl<const N: usize> Mul for Dual<N> {
     type Output = Self;
+    #[inline]
     fn mul(self, o: Self) -> Self {
         self.with(o, self.x * o.x, o.x, self.x)
     }
@@ -106,6 +134,7 @@ impl<const N: usize> Mul for Dual<N> {
 
 impl<const N: usize> Mul<f64> for Dual<N> {
     type Output = Self;
+    #[inline]
     fn mul(self, o: f64) -> Self {
         self.map(self.x * o, o)
     }

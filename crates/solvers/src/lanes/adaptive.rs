@@ -91,6 +91,8 @@ impl<A: Arithmetic, const M: usize, const L: usize, const N: usize> Task<A>
         let outcome = |(i, way): (usize, &Way<'_>)| {
             let fallen = way.fallen.map(|(t, link)| (t, setups[i].elements[link]));
             let mut outcome = at.outcome(with, setups[i], i, fallen);
+            let moves = outcome.energy.moves();
+            outcome.noticed |= moves && norms.is_lost(with, setups[i], i);
             if fallen.is_some() {
                 outcome.contact.iter_mut().for_each(|c| c.overturned = true);
             }

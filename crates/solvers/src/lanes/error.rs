@@ -4,7 +4,7 @@
 use super::plan::{Plan, pick};
 use super::setup::{Adaptive, LaneSetup};
 use super::state::State;
-use crate::march::{CLOSURE, LEAST_WAY, ROUNDING};
+use crate::march::{CLOSURE, LEAST_WAY, Pace, ROUNDING};
 use trilith_element::lanes::{Arithmetic, Real};
 
 /// What steps are measured against.
@@ -123,6 +123,17 @@ impl<R: Real> Norms<R> {
     #[inline(always)]
     pub fn see(&mut self, ok: R::Mask, energy: R) {
         self.reference = R::select(ok, self.reference.max(energy), self.reference);
+    }
+
+    /// True where all motion of an analysis counts for nothing beside what stands in springs.
+    pub fn is_lost<A: Arithmetic<Real = R>>(
+        &self,
+        with: A,
+        setup: &LaneSetup,
+        lane: usize,
+    ) -> bool {
+        let reference = with.lane(self.reference, lane);
+        setup.adaptive.as_ref().is_some_and(|a| Pace { reference, ..a.pace.clone() }.is_lost())
     }
 
     /// How far the motion is behind a step, of the analyses in `ok`.

@@ -81,6 +81,7 @@ pub struct LaneOutcome {
     pub link_energy: Vec<(usize, LinkEnergy)>,
     /// How the contacts behaved.
     pub contact: Option<ContactSummary>,
-    /// True where the ordinary engine warns: a node has left, a contact was pressed in too deep.
+    /// True where the ordinary engine warns: a node has left, a contact was pressed in too deep, or all motion counts
+    /// for nothing beside what stands in springs.
     pub noticed: bool,
 }
