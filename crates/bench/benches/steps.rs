@@ -7,6 +7,7 @@ use trilith::element::{Energy, Kinematics, Link, Response};
 use trilith::model::Body;
 use trilith::{Analysis, RunOptions, SolverKind};
 use trilith_bench::{Gauge, Subject, Task, find};
+use trilith_linalg::{Dense, DenseLu, solve_few};
 
 /// A link led around a circle that slides all the time.
 fn law(c: &mut Criterion, name: &str, link: &dyn Link) {
@@ -103,5 +104,34 @@ fn steps(c: &mut Criterion) {
     step(c, "HHT step of P1e2", SolverKind::Hht);
 }
 
-criterion_group!(all, laws, steps);
+/// A system of few unknowns, eliminated at once and by the library.
+fn systems(c: &mut Criterion) {
+    for n in [3, 6, 16] {
+        let mut seed = 1_u64;
+        let mut next = || {
+            seed = seed
+                .wrapping_mul(6_364_136_223_846_793_005)
+                .wrapping_add(1_442_695_040_888_963_407);
+            (seed >> 11) as f64 / (1_u64 << 52) as f64 - 1.0
+        };
+        let mut numbers = || Dense::from_columns(n, n, (0..n * n).map(|_| next()).collect());
+        let (a, b) = (numbers(), numbers());
+        c.bench_function(&format!("{n} unknowns, solve_few"), |bench| {
+            bench.iter(|| {
+                let (mut a, mut b) = (black_box(&a).clone(), b.clone());
+                solve_few(&mut a, &mut b);
+                b
+            });
+        });
+        c.bench_function(&format!("{n} unknowns, faer"), |bench| {
+            bench.iter(|| {
+                let mut b = b.clone();
+                DenseLu::new(black_box(&a)).solve_columns(&mut b);
+                b
+            });
+        });
+    }
+}
+
+criterion_group!(all, laws, systems, steps);
 criterion_main!(all);

@@ -29,16 +29,21 @@ impl Panel {
     /// More rows are no few: longer columns are better read from end to end, as [`Dense`] does it.
     pub const MOST_ROWS: usize = 128;
 
+    /// Zero matrix.
+    #[must_use]
+    pub fn zeros(rows: usize, columns: usize) -> Self {
+        let stride = rows.next_multiple_of(GRAIN);
+        Self { rows, columns, stride, values: Aligned::zeros(stride * columns) }
+    }
+
     /// The same matrix.
     #[must_use]
     pub fn new(of: &Dense) -> Self {
-        let (rows, columns) = (of.rows(), of.columns());
-        let stride = rows.next_multiple_of(GRAIN);
-        let mut values = Aligned::zeros(stride * columns);
-        for j in 0..columns {
-            values[j * stride..][..rows].copy_from_slice(of.column(j));
+        let mut same = Self::zeros(of.rows(), of.columns());
+        for j in 0..of.columns() {
+            same.column_mut(j).copy_from_slice(of.column(j));
         }
-        Self { rows, columns, stride, values }
+        same
     }
 
     /// The same matrix, unless it has too many rows.
@@ -63,6 +68,11 @@ impl Panel {
     #[must_use]
     pub fn column(&self, j: usize) -> &[f64] {
         &self.values[j * self.stride..][..self.rows]
+    }
+
+    /// One column, to be changed.
+    pub fn column_mut(&mut self, j: usize) -> &mut [f64] {
+        &mut self.values[j * self.stride..][..self.rows]
     }
 
     /// `y = A x`.

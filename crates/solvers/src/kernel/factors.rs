@@ -4,7 +4,7 @@ use super::Layout;
 use super::layout::Unknowns;
 use crate::propagator::StepKey;
 use serde::{Deserialize, Serialize};
-use trilith_linalg::{Dense, DenseLu, Panel, Product};
+use trilith_linalg::{Dense, DenseLu, Panel, Product, solve_few};
 use trilith_system::Tangents;
 
 /// Row sum of (k − k_e) G + c H below which a coordinate needs no equation: what one iteration without it
@@ -17,6 +17,8 @@ const WEAK_FROM: usize = 48;
 const HOLD: f64 = 1e-12;
 /// Up to this many coordinates one product gives corrections and what follows from them.
 const FEW: usize = 64;
+/// Up to so many equations are eliminated at once.
+const ELIMINATED: usize = 16;
 /// Rules whose factors are kept.
 const KEPT: usize = 6;
 
@@ -39,16 +41,21 @@ pub(super) struct Equations<'a> {
     pub key: StepKey,
 }
 
+/// From the residual of all active coordinates to
+enum Correct {
+    /// the corrections of all, and how deformations and looked-at rates follow, for few;
+    All(Panel),
+    /// the corrections of those that have an equation.
+    Own(Product),
+}
+
 /// From residuals to Newton corrections.
 pub(super) struct Factor {
     key: StepKey,
     pub tangents: Tangents,
     /// Active coordinates with a row of tangents that counts.
     equations: Vec<usize>,
-    /// From the residual of all active coordinates to the corrections of these.
-    correct: Product,
-    /// From it to the corrections of all, and how deformations and looked-at rates follow; for few.
-    all: Option<Panel>,
+    correct: Correct,
     /// True where all of that is finite: no equations are singular.
     sound: bool,
 }
@@ -115,32 +122,28 @@ impl Factors {
 
 impl Factor {
     fn new(of: Equations<'_>, tangents: Tangents) -> Self {
-        let Equations { layout: Layout { links, place, dummy_k, rated, .. }, g, h, key } = of;
+        let Equations { layout: Layout { links, place, owner, dummy_k, rated, .. }, g, h, key } =
+            of;
         let n = links.active.len();
-        // Rows of k − k_e and c per active coordinate: (other active, stiffness, damping).
-        let mut rows: Vec<Vec<(usize, f64, f64)>> = vec![Vec::new(); n];
-        for link in &links.links {
-            let size = link.range.len();
-            for i in 0..size {
-                let Some(a) = place[link.range.start + i] else { continue };
-                for j in 0..size {
-                    let Some(b) = place[link.range.start + j] else { continue };
-                    let at = link.block.start + i * size + j;
-                    let own = f64::from(u8::from(i == j));
-                    let k = tangents.k[at] - own * dummy_k[a];
-                    let c = tangents.c[at];
-                    if k != 0.0 || c != 0.0 {
-                        rows[a].push((b, k, c));
-                    }
-                }
-            }
-        }
+        // A row of k − k_e and c of an active coordinate: (other active, stiffness, damping).
+        let row = |a: usize| {
+            let link = &links.links[owner[a]];
+            let (first, size) = (link.range.start, link.range.len());
+            let at = link.block.start + (links.active[a] - first) * size;
+            let (k, c) = (&tangents.k[at..at + size], &tangents.c[at..at + size]);
+            (0..size).filter_map(move |j| {
+                let b = place[first + j]?;
+                let own = if a == b { dummy_k[a] } else { 0.0 };
+                let (k, c) = (k[j] - own, c[j]);
+                (k != 0.0 || c != 0.0).then_some((b, k, c))
+            })
+        };
         // Where a link is weak against the structure, f̃ ← law − k_e d converges as well as Newton's method.
         let weak = if n < WEAK_FROM { 0.0 } else { WEAK };
         let sum = |m: &Dense, b: usize| m.column(b).iter().map(|x| x.abs()).sum::<f64>();
         let strong = |a: &usize| {
-            let terms = rows[*a].iter();
-            terms.map(|(b, k, c)| k.abs() * sum(g, *b) + c.abs() * sum(h, *b)).sum::<f64>() > weak
+            let terms = row(*a).map(|(b, k, c)| k.abs() * sum(g, b) + c.abs() * sum(h, b));
+            terms.sum::<f64>() > weak
         };
         let equations: Vec<usize> = (0..n).filter(strong).collect();
         let mut chosen = vec![usize::MAX; n];
@@ -153,8 +156,8 @@ impl Factor {
         let mut line = vec![0.0; n];
         for (e, a) in equations.iter().enumerate() {
             line.fill(0.0);
-            for (b, k, c) in &rows[*a] {
-                for (x, (g, h)) in line.iter_mut().zip(g.column(*b).iter().zip(h.column(*b))) {
+            for (b, k, c) in row(*a) {
+                for (x, (g, h)) in line.iter_mut().zip(g.column(b).iter().zip(h.column(b))) {
                     *x += k * g + c * h;
                 }
             }
@@ -167,11 +170,18 @@ impl Factor {
             }
             correct[(e, *a)] = 1.0;
         }
-        DenseLu::new(&j).solve_columns(&mut correct);
-        let all = (n <= FEW).then(|| with_what_follows(&equations, &correct, rated, [g, h]));
+        if equations.len() <= ELIMINATED {
+            solve_few(&mut j, &mut correct);
+        } else {
+            DenseLu::new(&j).solve_columns(&mut correct);
+        }
         let sound = correct.values().iter().all(|x| x.is_finite());
-        let (correct, all) = (Product::new(correct), all.as_ref().map(Panel::new));
-        Self { key, tangents, equations, correct, all, sound }
+        let correct = if n <= FEW {
+            Correct::All(with_what_follows(&equations, &correct, rated, [g, h]))
+        } else {
+            Correct::Own(Product::new(correct))
+        };
+        Self { key, tangents, equations, correct, sound }
     }
 
     /// False where the equations are singular.
@@ -183,21 +193,26 @@ impl Factor {
     /// it; false where they are too many for that, and nothing has moved.
     #[inline]
     pub fn go(&self, residual: &[f64], row: &mut [f64]) -> bool {
-        self.all.as_ref().map(|all| all.add_times(residual, row)).is_some()
+        let Correct::All(all) = &self.correct else { return false };
+        all.add_times(residual, row);
+        true
     }
 
     /// Replaces the residuals of the active coordinates by the corrections; those without an equation stay.
     /// True where the residuals stay and the corrections stand in `space`, with the changes of deformations and of
     /// looked-at rates, as in a row of [`Unknowns`].
     pub fn correct(&self, residual: &mut [f64], space: &mut Vec<f64>) -> bool {
-        if let Some(all) = &self.all {
-            space.clear();
-            space.resize(all.filled(), 0.0);
-            all.add_times(residual, space);
-            return true;
-        }
+        let own = match &self.correct {
+            Correct::Own(own) => own,
+            Correct::All(all) => {
+                space.clear();
+                space.resize(all.filled(), 0.0);
+                all.add_times(residual, space);
+                return true;
+            }
+        };
         space.resize(self.equations.len(), 0.0);
-        self.correct.times(residual, space);
+        own.times(residual, space);
         for (a, value) in self.equations.iter().zip(space) {
             residual[*a] = *value;
         }
@@ -211,22 +226,20 @@ fn with_what_follows(
     correct: &Dense,
     rated: &[usize],
     [g, h]: [&Dense; 2],
-) -> Dense {
+) -> Panel {
     let n = correct.columns();
-    let mut whole = Dense::zeros(n, n);
-    (0..n).for_each(|a| whole[(a, a)] = 1.0);
-    for (e, a) in equations.iter().enumerate() {
-        (0..n).for_each(|b| whole[(*a, b)] = correct[(e, b)]);
-    }
-    let (d, v) = (g.times(&whole), h.times(&whole));
     let pseudo = Unknowns::place_of_pseudo(n, rated.len());
-    let mut all = Dense::zeros(pseudo + n, n);
+    let mut all = Panel::zeros(pseudo + n, n);
     for j in 0..n {
         let (follows, own) = all.column_mut(j).split_at_mut(pseudo);
-        own.copy_from_slice(whole.column(j));
-        let rates = rated.iter().map(|a| v[(*a, j)]);
-        let changes = d.column(j).iter().copied().chain(rates);
-        follows.iter_mut().zip(changes).for_each(|(x, y)| *x = -y);
+        own[j] = 1.0;
+        for (a, x) in equations.iter().zip(correct.column(j)) {
+            own[*a] = *x;
+        }
+        let (d, v) = follows.split_at_mut(n);
+        g.mul_add(-1.0, own, d);
+        // The compliances are symmetric.
+        v.iter_mut().zip(rated).for_each(|(v, a)| *v = -h.column_dot(*a, own));
     }
     all
 }
