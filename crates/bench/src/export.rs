@@ -15,7 +15,7 @@ use trilith::system::System;
 /// A sentence where the model holds something that has no place in it.
 pub fn export(subject: &Subject) -> Result<Json, String> {
     let model = &subject.model;
-    let system = System::new(model).map_err(|e| e.to_string())?;
+    let system = System::without_axial_forces(model).map_err(|e| e.to_string())?;
     if !model.supports.is_empty() || system.order() != 6 * model.nodes.len() {
         return Err("a frame with supports or constraints cannot be handed over".into());
     }

@@ -20,7 +20,7 @@ const ROUNDS: usize = 30;
 /// [`SolveError::Buckles`] where the compression is beyond what the structure can carry; errors of the
 /// static case.
 pub fn assemble(model: &Model) -> Result<System, SolveError> {
-    let mut system = System::new(model)?;
+    let mut system = System::without_axial_forces(model)?;
     let Some(case) = model.p_delta else { return Ok(system) };
     let mut change = f64::INFINITY;
     for _ in 0..ROUNDS {

@@ -43,18 +43,18 @@ pub struct System {
 }
 
 impl System {
-    /// Assembles.
+    /// Assembles without geometric stiffness, whatever the model says of P-Δ: `trilith_solvers::assemble` heeds it.
     ///
     /// # Errors
     /// [`SystemError`] where elements, constraints or supports do not fit together.
-    pub fn new(model: &Model) -> Result<Self, SystemError> {
+    pub fn without_axial_forces(model: &Model) -> Result<Self, SystemError> {
         Self::with_tension(model, vec![0.0; model.elements.len()])
     }
 
     /// Assembles with the geometric stiffness of an axial force (N, tension positive) in every element.
     ///
     /// # Errors
-    /// As [`new`](Self::new).
+    /// As [`without_axial_forces`](Self::without_axial_forces).
     pub fn with_tension(model: &Model, tension: Vec<f64>) -> Result<Self, SystemError> {
         let count = 6 * model.nodes.len();
         let mut used = vec![false; count];
