@@ -251,15 +251,22 @@ pub(super) fn settle<A: Arithmetic, const M: usize, const L: usize, const N: usi
     let zero = with.splat(0.0);
     let one = with.splat(1.0);
     let mut wrong = state.alive & who;
-    let mut search = Search::new(zero);
+    // Mostly one look is enough.
+    let mut search = None;
     for iteration in 0..ITERATIONS {
         look(with, plan, rule.dt, (&found.d, &found.v), state, &mut found.forces);
         state.iterations = state.iterations + one.only(wrong);
         let residual = less(&found.forces, &found.f);
         let mut scale = state.scale;
-        for a in 0..L {
-            let kind = usize::from(plan.turns && plan.rotational[a]);
-            scale[kind] = scale[kind].max(found.forces[a].abs());
+        if plan.turns {
+            for a in 0..L {
+                let kind = usize::from(plan.rotational[a]);
+                scale[kind] = scale[kind].max(found.forces[a].abs());
+            }
+        } else {
+            for force in *found.forces {
+                scale[0] = scale[0].max(force.abs());
+            }
         }
         found.scale = scale;
         let mut allowed = plan.allowed(&scale);
@@ -272,6 +279,10 @@ pub(super) fn settle<A: Arithmetic, const M: usize, const L: usize, const N: usi
             break;
         }
         let size = over(&residual, &allowed);
+        if search.is_none() {
+            search = Some(Search::new(zero));
+        }
+        let Some(search) = &mut search else { break };
         let (more, searching) = search.goes_on(rule, iteration, (&residual, size), wrong);
         for a in 0..L {
             found.change[a] = found.change[a] + (more * search.step()[a]).only(searching);
