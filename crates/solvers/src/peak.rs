@@ -56,6 +56,9 @@ impl Peak {
     }
 }
 
+/// An extreme that is nearer to an end than this share of the step is that end, but for rounding.
+const AT_END: f64 = 1e-9;
+
 /// Time and value of the extremes, strictly inside, of the cubic Hermite polynomial between two moments
 /// of (time, value, rate); none where a rate is not a number.
 pub(crate) fn inner_extremes(
@@ -74,7 +77,7 @@ pub(crate) fn inner_extremes(
     }
     let q = -(c2 + discriminant.sqrt().copysign(c2));
     [m0 / q, q / (3.0 * c3)].map(|s| {
-        let inside = s > 0.0 && s < 1.0;
+        let inside = s > AT_END && s < 1.0 - AT_END;
         inside.then_some((t0 + s * h, y0 + s * (m0 + s * (c2 + s * c3))))
     })
 }
@@ -82,6 +85,14 @@ pub(crate) fn inner_extremes(
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    /// What starts to fall from zero by rounding is largest at its start, and not 1e-20 s behind it.
+    #[test]
+    fn an_extreme_beside_an_end_is_that_end() {
+        let mut peak = Peak::new(0.0, 0.0);
+        peak.advance((0.0, 0.0, 1e-17), (1e-3, -1e-6, -2e-3));
+        assert_eq!((peak.max, peak.t_max), (0.0, 0.0));
+    }
 
     #[test]
     fn the_peak_of_a_parabola_between_two_moments_is_exact() {

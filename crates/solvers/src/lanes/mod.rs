@@ -34,7 +34,6 @@ mod outputs;
 mod peaks;
 mod pieces;
 mod plan;
-mod rule;
 mod rules;
 mod search;
 mod setup;
@@ -46,6 +45,7 @@ mod step;
 mod tables;
 mod trial;
 mod turning;
+mod uncoupled;
 mod watch;
 mod way;
 

@@ -1,6 +1,6 @@
 //! Where a lane ends as no model is meant to: the ordinary engine then has something to say of it.
 
-use super::setup::turned;
+use super::uncoupled::turned;
 use crate::plausible::{FAR, PRESSED, size};
 use crate::space::Space;
 use trilith_linalg::Dense;
