@@ -55,6 +55,7 @@
 mod drilling;
 mod lanes;
 mod law;
+mod moment;
 mod outline;
 mod rim;
 #[cfg(test)]

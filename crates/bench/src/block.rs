@@ -9,7 +9,7 @@ use std::time::Instant;
 use trilith::sweep::{Combination, Engine, Outcome, Sweep, SweepError};
 
 /// 1 m × 2 m, 4 t, shaken for 10 s.
-const BLOCK: &str = r#"(
+pub(crate) const BLOCK: &str = r#"(
     plane: XZ, gravity: "9.81 m/s^2",
     parameters: { "mu": 0.4, "a": 0.3 },
     nodes: { "cg": (0, 0, 1), "left": (-0.5, 0, 0), "right": (0.5, 0, 0) },

@@ -12,6 +12,7 @@
 mod block;
 pub mod child;
 pub mod clock;
+mod command;
 mod endurance;
 mod export;
 pub mod fit;
@@ -26,6 +27,7 @@ mod table;
 mod threads;
 
 pub use block::{BlockPair, BlockSweep, block_beside, block_ratios, sweep_block};
+pub use command::{Commands, Ran, Swept, commands, program};
 pub use endurance::{Endurance, Moment, endure};
 pub use export::export;
 pub use gauge::Gauge;

@@ -7,7 +7,8 @@ use trilith::SolverKind;
 use trilith_bench::report::{self, Results};
 use trilith_bench::{
     BlockSweep, Effort, Endurance, Measurement, Programs, SIZES, Size, Subject, Task, WHOLE,
-    block_beside, child, endure, export, find, grow, measure, side_by_side, sweep_block,
+    block_beside, child, commands, endure, export, find, grow, measure, program, side_by_side,
+    sweep_block,
 };
 
 /// Measures what runs of Trilith cost: a frame on isolators in six sizes, growth, long runs, other
@@ -56,7 +57,7 @@ struct Suite {
     /// Run the smallest frame for an hour of motion as well
     #[arg(long)]
     hour: bool,
-    /// Sweep a rigid block through many parameters as well
+    /// Sweep a rigid block through many parameters as well, by the library and by the program
     #[arg(long)]
     sweep: bool,
     /// A Python with OpenSeesPy: runs both programs in turn, nothing else
@@ -174,6 +175,8 @@ fn suite(suite: &Suite) -> Result<bool, String> {
         ([], _) => SIZES[..4].iter().collect(),
         (chosen, _) => chosen.to_vec(),
     };
+    // Asked for at once, before anything is measured.
+    let trilith = if suite.sweep || suite.all { Some(program(&own)?) } else { None };
     let mut results = Results::default();
     if let Some(python) = &suite.peers {
         for size in sizes {
@@ -209,8 +212,12 @@ fn suite(suite: &Suite) -> Result<bool, String> {
             eprintln!("a sweep …");
             results.sweep = Some(child::json::<BlockSweep>(&own, &["block".to_owned()])?);
         }
-        finish(&folder, &results)?;
     }
+    if let Some(trilith) = trilith {
+        eprintln!("the program …");
+        results.commands = Some(commands(&trilith, &folder)?);
+    }
+    finish(&folder, &results)?;
     if let Some(file) = &suite.update {
         report::update(file, &results)?;
     }

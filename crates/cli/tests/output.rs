@@ -199,7 +199,8 @@ fn a_study_that_is_told_to_end_goes_on_with_the_same_command() {
     let study = r#"(
     model: "swing.ron",
     axes: { "long": Range(from: "4 s", to: "5 s", count: 3000) },
-    columns: { "sway": Rms("sway") }, // which is taken over time: the runs go one by one, and last
+    columns: { "sway": Peak("sway") },
+    histories: Above("sway", "1 km"), // which none is: the runs go one by one, and last
 )"#;
     std::fs::write(here.join("study.ron"), study).unwrap();
     let args = ["sweep", "study.ron", "--threads", "1"];

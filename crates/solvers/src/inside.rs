@@ -21,6 +21,8 @@ const ROUNDING: f64 = 1e-9;
 /// Lengths of steps that differ by less than this share are one, and lengths that are kept at most.
 const SAME: f64 = 1e-9;
 const KEPT: usize = 16;
+/// How much further than a swing its bound is set, as a factor of squares.
+const ROOM: f64 = 1.5;
 /// Looks inside a step at most, as a power of two.
 const MOST: u32 = 10;
 
@@ -34,9 +36,38 @@ pub(crate) struct Inside {
     shares: Vec<[Vec<f64>; 3]>,
     /// Swing of each mode in the step looked at last, and what outputs miss of it in steps of some lengths.
     swing: Vec<f64>,
-    missed: Vec<(f64, Vec<[Vec<f64>; 2]>)>,
+    missed: Vec<Missed>,
     /// Largest value of each output so far, and after them the largest motion.
     pub largest: Vec<f64>,
+}
+
+/// What outputs miss in steps of one length.
+struct Missed {
+    length: f64,
+    /// What every output misses of a unit of the swing of each mode: by cubics, and in accelerations.
+    shares: Vec<[Vec<f64>; 2]>,
+    /// Squares that no mode's swing has exceeded so far, and what outputs miss of those: most steps are told by it.
+    bounds: Vec<f64>,
+    most: Vec<[f64; 2]>,
+}
+
+impl Missed {
+    /// Takes note of the square of a mode's swing; true where it exceeds what is known.
+    #[inline]
+    fn exceeds(&mut self, mode: usize, square: f64) -> bool {
+        let new = !(square <= self.bounds[mode]);
+        if new {
+            self.bounds[mode] = ROOM * square;
+        }
+        new
+    }
+
+    /// What outputs miss of swings within the bounds.
+    fn bound(&mut self) {
+        let swings: Vec<f64> = self.bounds.iter().map(|square| square.sqrt()).collect();
+        self.most.clear();
+        self.most.extend(self.shares.iter().map(|of| [0, 1].map(|i| dot(&of[i], &swings))));
+    }
 }
 
 /// A moment inside a step: share of it, and values and rates that the motion gives the outputs.
@@ -77,15 +108,33 @@ impl Inside {
     /// Parts into which a step must be divided for a look at the outputs, 1 where its ends will do; and whether
     /// cubics are good between these.
     fn parts(&mut self, to: &[f64], length: f64, values: &[f64]) -> (usize, bool) {
+        let at = self.missed_of(length);
+        let Self { form, missed, .. } = self;
+        let (own, mut grows) = (&mut missed[at], false);
+        for (j, w) in form.omega.iter().enumerate() {
+            if w * length > SHORT {
+                grows |= own.exceeds(j, form.swing_square(j, &self.from, to, length));
+            }
+        }
+        if grows {
+            own.bound();
+        }
+        let few = |(([cubic, sampled], most), y): ((&[f64; 2], &f64), &f64)| {
+            let most = most.max(y.abs()) * (1.0 - ROUNDING);
+            *cubic <= CUBIC * most && *sampled <= SAMPLED * most
+        };
+        if own.most.iter().zip(&self.largest).zip(values).all(few) {
+            return (1, true);
+        }
         let nothing = ROUNDING * self.largest.last().copied().unwrap_or(0.0);
         self.swing.clear();
         for (j, w) in self.form.omega.iter().enumerate() {
             let fast = *w * length > SHORT;
-            let swing = if fast { self.form.swing(j, &self.from, to, length) } else { 0.0 };
+            let swing =
+                if fast { self.form.swing_square(j, &self.from, to, length).sqrt() } else { 0.0 };
             self.swing.push(if swing > nothing { swing } else { 0.0 });
         }
-        let at = self.missed_of(length);
-        if self.enough(&self.missed[at].1, values) {
+        if self.enough(&self.missed[at].shares, values) {
             return (1, true);
         }
         let enough = |i: &u32| self.enough(&self.missed_in(length / f64::from(1_u32 << i)), values);
@@ -120,14 +169,16 @@ impl Inside {
 
     /// Where it is kept for steps of this length.
     fn missed_of(&mut self, length: f64) -> usize {
-        let same = |(known, _): &(f64, _)| (known - length).abs() <= SAME * length;
+        let same = |known: &Missed| (known.length - length).abs() <= SAME * length;
         if let Some(at) = self.missed.iter().position(same) {
             return at;
         }
         if self.missed.len() >= KEPT {
             self.missed.remove(0);
         }
-        self.missed.push((length, self.missed_in(length)));
+        let (shares, bounds) = (self.missed_in(length), vec![0.0; self.form.omega.len()]);
+        let most = vec![[0.0; 2]; shares.len()];
+        self.missed.push(Missed { length, shares, bounds, most });
         self.missed.len() - 1
     }
 

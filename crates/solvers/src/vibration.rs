@@ -78,7 +78,7 @@ impl Vibration {
         self.energy = 0.0;
         self.swing.clear();
         for (j, w) in self.form.omega.iter().enumerate().filter(|(_, w)| **w * dt > SHORT) {
-            let swing = self.form.swing(j, &from.motion, &to.motion, *dt);
+            let swing = self.form.swing_square(j, &from.motion, &to.motion, *dt).sqrt();
             self.energy += 0.5 * (w * swing).powi(2);
             self.swing.push((j, swing));
         }

@@ -4,6 +4,7 @@ use trilith::element::Dimension;
 use trilith::model::file::{Quantity, Scope, evaluate};
 use trilith::model::{Model, ParameterValue};
 use trilith::results::{ENERGIES, Peak};
+use trilith::solvers::lanes::Integral;
 use trilith::solvers::{ContactSummary, EnergyTotals, Observer, Sample, Status};
 
 /// A number that a study keeps of every run.
@@ -50,11 +51,14 @@ pub enum Measure {
     Expression(String),
 }
 
-impl Measure {
-    /// True where peaks do not tell it.
-    pub(crate) fn is_over_time(&self) -> bool {
-        matches!(self, Self::Rms(_) | Self::Duration(..))
-    }
+/// Outputs that columns take over time: how long above a value, or as root of the mean square.
+pub(crate) fn over_time(columns: &[Column]) -> Vec<(usize, Option<f64>)> {
+    let of = |c: &Column| match c.measure {
+        Measure::Rms(output) => Some((output, None)),
+        Measure::Duration(output, above) => Some((output, Some(above))),
+        _ => None,
+    };
+    columns.iter().filter_map(of).collect()
 }
 
 /// What a run left, as far as columns ask.
@@ -64,43 +68,43 @@ pub(crate) struct Left<'a> {
     pub peaks: &'a [Peak],
     pub energy: &'a EnergyTotals,
     pub contact: Option<&'a ContactSummary>,
+    /// Of what columns take [over time](over_time).
+    pub integrals: &'a [f64],
     pub warnings: &'a [String],
 }
 
-/// Follows what peaks do not tell.
+/// Follows what columns take over time.
 #[derive(Debug)]
 pub(crate) struct Watch {
-    rows: Vec<Integral>,
-}
-
-#[derive(Debug)]
-struct Integral {
-    output: usize,
-    /// None: mean square; otherwise time above.
-    above: Option<f64>,
-    before: Option<(f64, f64)>,
-    start: f64,
-    sum: f64,
+    rows: Vec<(usize, Option<f64>)>,
+    /// From the first moment on, with the time of the last.
+    integrals: Vec<Integral<f64>>,
+    last: f64,
 }
 
 impl Watch {
     pub fn new(columns: &[Column]) -> Self {
-        let row = |output, above| Integral { output, above, before: None, start: 0.0, sum: 0.0 };
-        let rows = columns.iter().filter_map(|c| match c.measure {
-            Measure::Rms(output) => Some(row(output, None)),
-            Measure::Duration(output, above) => Some(row(output, Some(above))),
-            _ => None,
-        });
-        Self { rows: rows.collect() }
+        Self { rows: over_time(columns), integrals: Vec::new(), last: 0.0 }
+    }
+
+    pub fn values(&self) -> Vec<f64> {
+        self.integrals.iter().map(Integral::value).collect()
     }
 }
 
 impl Observer for Watch {
     fn sample(&mut self, sample: &Sample<'_>) {
-        for row in &mut self.rows {
-            let Some(y) = sample.values.get(row.output) else { continue };
-            row.add(sample.t, *y);
+        let now = |output: usize| sample.values.get(output).copied().unwrap_or(f64::NAN);
+        if self.integrals.is_empty() {
+            let first =
+                |(output, above): &(usize, Option<f64>)| Integral::new(now(*output), *above);
+            self.integrals = self.rows.iter().map(first).collect();
+        } else {
+            for (integral, (output, _)) in self.integrals.iter_mut().zip(&self.rows) {
+                integral.advance(sample.t - self.last, now(*output));
+            }
         }
+        self.last = sample.t;
     }
 
     fn wants_rates(&self) -> bool {
@@ -108,51 +112,10 @@ impl Observer for Watch {
     }
 }
 
-impl Integral {
-    /// Straight lines between the moments.
-    fn add(&mut self, t: f64, y: f64) {
-        match self.before {
-            None => self.start = t,
-            Some((t0, y0)) => {
-                let share = match self.above {
-                    None => (y0 * y0 + y0 * y + y * y) / 3.0,
-                    Some(limit) => time_above(y0 - limit, y - limit),
-                };
-                self.sum += (t - t0) * share;
-            }
-        }
-        self.before = Some((t, y));
-    }
-
-    fn value(&self) -> f64 {
-        match (self.above, self.before) {
-            (Some(_), _) => self.sum,
-            (None, Some((t, _))) if t > self.start => (self.sum / (t - self.start)).sqrt(),
-            (None, Some((_, y))) => y.abs(),
-            (None, None) => f64::NAN,
-        }
-    }
-}
-
-/// Share of a straight line from `a` to `b` that is above 0.
-fn time_above(a: f64, b: f64) -> f64 {
-    match (a > 0.0, b > 0.0) {
-        (true, true) => 1.0,
-        (false, false) => 0.0,
-        (true, false) => a / (a - b),
-        (false, true) => b / (b - a),
-    }
-}
-
 /// Values of all columns of a run; none where there is no number.
-pub(crate) fn values(
-    columns: &[Column],
-    model: &Model,
-    left: &Left<'_>,
-    watch: &Watch,
-) -> Vec<Option<f64>> {
+pub(crate) fn values(columns: &[Column], model: &Model, left: &Left<'_>) -> Vec<Option<f64>> {
     let mut found: Vec<Option<f64>> = Vec::with_capacity(columns.len());
-    let mut integrals = watch.rows.iter();
+    let mut integrals = left.integrals.iter().copied();
     let peak = |i: usize| left.peaks.get(i);
     for (k, column) in columns.iter().enumerate() {
         let value = match &column.measure {
@@ -163,7 +126,7 @@ pub(crate) fn values(
                 peak(*i).map(|p| if p.max.abs() >= p.min.abs() { p.t_max } else { p.t_min })
             }
             Measure::Final(i) => peak(*i).map(|p| p.last),
-            Measure::Rms(_) | Measure::Duration(..) => integrals.next().map(Integral::value),
+            Measure::Rms(_) | Measure::Duration(..) => integrals.next(),
             Measure::Energy(i) => Some(energy(left.energy, *i)),
             Measure::EnergyError => Some(left.energy.error_relative),
             Measure::Uplift => left.contact.map(|c| c.max_uplift),
@@ -234,25 +197,5 @@ impl Scope for Known {
     }
     fn value(&mut self, name: &str) -> Result<Quantity, Option<(&'static str, String)>> {
         self.find(name).ok_or(None)
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    fn integral(above: Option<f64>, points: &[(f64, f64)]) -> f64 {
-        let mut row = Integral { output: 0, above, before: None, start: 0.0, sum: 0.0 };
-        points.iter().for_each(|(t, y)| row.add(*t, *y));
-        row.value()
-    }
-
-    #[test]
-    fn rms_and_durations_of_a_saw_are_exact() {
-        let saw = [(1.0, 0.0), (2.0, 2.0), (4.0, -2.0)];
-        assert!((integral(None, &saw) - (4.0 / 3.0f64).sqrt()).abs() < 1e-15);
-        assert!((integral(Some(1.0), &saw) - 1.0).abs() < 1e-15);
-        assert_eq!(integral(Some(2.0), &saw), 0.0);
-        assert_eq!(integral(Some(-3.0), &saw), 3.0);
     }
 }

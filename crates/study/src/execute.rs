@@ -1,5 +1,6 @@
 //! Running a study: all cores, one run a task, every finished run on disk at once.
 
+use crate::column::over_time;
 use crate::journal::Journal;
 use crate::{Record, Study, StudyError};
 use std::collections::BTreeMap;
@@ -109,7 +110,7 @@ pub fn execute(
     let total = study.identity.runs;
     let chains = total / study.plan.chain_length();
     let (lanes, alone) = match study.alone(registry) {
-        None => (Some(Lanes::new()), None),
+        None => (Some(Lanes::new().over_time(over_time(&study.columns))), None),
         reason => (None, reason),
     };
     // Where there are few, all threads have some.

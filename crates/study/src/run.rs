@@ -18,9 +18,6 @@ impl Study {
         if self.histories.is_some() {
             return Some("histories are kept".into());
         }
-        if let Some(column) = self.columns.iter().find(|c| c.measure.is_over_time()) {
-            return Some(format!("column \"{}\" is taken over time", column.name));
-        }
         if self.solver.is_some_and(|solver| solver != SolverKind::Fna) {
             return Some("another solver than fna".into());
         }
@@ -36,16 +33,18 @@ impl Study {
         let cases: Vec<(&Model, usize)> = models.iter().map(|(_, m)| (m, self.case)).collect();
         let found = lanes.run(&cases, None);
         let record = |((run, model), found): (&(usize, Model), Result<Outcome, Alone>)| {
-            let Outcome { status, outputs, energy, contact, warnings, .. } = found.ok()?;
+            let Outcome { status, outputs, integrals, energy, contact, warnings, .. } =
+                found.ok()?;
             let peaks: Vec<Peak> = outputs.0.iter().map(|(_, peak)| *peak).collect();
             let left = Left {
                 status: &status,
                 peaks: &peaks,
                 energy: &energy,
                 contact: contact.as_ref(),
+                integrals: &integrals,
                 warnings: &warnings,
             };
-            Some(self.record(*run, model, &left, &Watch::new(&[])))
+            Some(self.record(*run, model, &left))
         };
         models.iter().zip(found).filter_map(record).collect()
     }
@@ -101,9 +100,10 @@ impl Study {
                     peaks: made.record.peaks(),
                     energy: &made.result.energy,
                     contact: made.contact.as_ref(),
+                    integrals: &watch.values(),
                     warnings: &made.result.warnings,
                 };
-                let record = self.record(run, &model, &left, &watch);
+                let record = self.record(run, &model, &left);
                 if self.histories.as_ref().is_some_and(|c| c.holds(&self.columns, &record)) {
                     let own = folder.join("runs").join(format!("{:06}", run + 1));
                     let fail = |e: trilith::Error| {
@@ -145,11 +145,11 @@ impl Study {
         read(&set)
     }
 
-    fn record(&self, run: usize, model: &Model, left: &Left<'_>, watch: &Watch) -> Record {
+    fn record(&self, run: usize, model: &Model, left: &Left<'_>) -> Record {
         let &Left { status, contact, .. } = left;
         let good = status.is_good();
         let values = if good {
-            column::values(&self.columns, model, left, watch)
+            column::values(&self.columns, model, left)
         } else {
             vec![None; self.columns.len()]
         };

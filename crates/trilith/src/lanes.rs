@@ -26,6 +26,7 @@ pub enum Alone {
 pub struct Lanes {
     tables: Tables,
     width: usize,
+    integrals: Vec<(usize, Option<f64>)>,
 }
 
 impl Default for Lanes {
@@ -38,13 +39,20 @@ impl Lanes {
     /// As many side by side as the machine's registers hold.
     #[must_use]
     pub fn new() -> Self {
-        Self { tables: Tables::new(), width: lanes::width() }
+        Self { tables: Tables::new(), width: lanes::width(), integrals: Vec::new() }
     }
 
     /// So many side by side at most: 1 runs each alone, with the same bits.
     #[must_use]
     pub fn at_most(self, width: usize) -> Self {
         Self { width: width.clamp(1, lanes::width()), ..self }
+    }
+
+    /// Outputs, by their index in the model, of which the time above a value is wanted, or, where there is none, the root
+    /// of the mean square.
+    #[must_use]
+    pub fn over_time(self, outputs: Vec<(usize, Option<f64>)>) -> Self {
+        Self { integrals: outputs, ..self }
     }
 
     /// How many go side by side at most.
@@ -69,7 +77,7 @@ impl Lanes {
         substeps: Option<usize>,
     ) -> Vec<Result<Outcome, Alone>> {
         let setups = cases.iter().map(|(model, case)| match self.prepare(model, *case, substeps) {
-            Ok(fit) => fit.map_err(Alone::Unfit),
+            Ok(fit) => fit.map(|s| s.take_over_time(&self.integrals)).map_err(Alone::Unfit),
             Err(e) => Err(Alone::Failed(e)),
         });
         let setups: Vec<Result<LaneSetup, Alone>> = setups.collect();
@@ -138,6 +146,7 @@ fn outcome(
         engine: Engine::Lanes,
         warnings,
         status,
+        integrals: lane.integrals,
         outputs: Named(names.zip(lane.outputs).collect()),
         energy: lane.energy,
         link_energy: named(model, &lane.link_energy),

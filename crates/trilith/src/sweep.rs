@@ -83,6 +83,8 @@ pub struct Outcome {
     pub status: Status,
     /// Extremes and final values of the outputs, by name, SI.
     pub outputs: Named<Peak>,
+    /// What [`Lanes`](Lanes::over_time) were told to take over time.
+    pub integrals: Vec<f64>,
     /// Energies at the end, J.
     pub energy: EnergyTotals,
     /// Energies of every link at the end, by its name, J.
@@ -260,6 +262,7 @@ impl Sweep {
         };
         let result = &run.result;
         Ok(Outcome {
+            integrals: Vec::new(),
             engine,
             warnings: result.warnings.clone(),
             status: result.status.clone(),

@@ -172,9 +172,7 @@ impl Link for NLink {
             out.k[i * n..i * n + 3].copy_from_slice(&k[3 * i..3 * i + 3]);
             out.c[i * n..i * n + 3].copy_from_slice(&c[3 * i..3 * i + 3]);
         }
-        out.energy.stored = step.stored;
-        out.energy.hysteretic = step.hysteretic;
-        out.energy.viscous = step.viscous;
+        *out.energy = step.into();
 
         // Rotational springs.
         for (i, (_, r)) in self.rotational().enumerate() {

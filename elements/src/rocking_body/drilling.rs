@@ -37,10 +37,10 @@ fn integral<const N: usize>(end: f64, f: impl Fn(f64) -> [f64; N]) -> [f64; N] {
 }
 
 /// m of an arc of half angle ψ꜀ ≤ π, and its derivative by ψ꜀.
-pub(super) fn of_arc(half: f64) -> (f64, f64) {
+pub(super) fn of_arc(half: f64) -> [f64; 2] {
     // A short arc is straight, its pressure a parabola.
     if half < 1e-6 {
-        return (0.375 * half, 0.375);
+        return [0.375 * half, 0.375];
     }
     let weight = |psi: f64| 2.0 * (0.5 * (half + psi)).sin() * (0.5 * (half - psi)).sin();
     // 1 − cos ψ, which keeps its digits.
@@ -58,19 +58,17 @@ pub(super) fn of_arc(half: f64) -> (f64, f64) {
     let by_all = grow * half;
     let depth_by = (grow * plain - depth * by_all) / all;
     let m = arms / all;
-    (m, (grow * distances + by_depth * depth_by - m * by_all) / all)
+    [m, (grow * distances + by_depth * depth_by - m * by_all) / all]
 }
 
-/// A bound below m of an arc of half angle ψ꜀, and of the whole rim at π: m/ψ꜀ falls from 3/8 to 13/(16 π).
-pub(super) fn least_of_arc(half: f64) -> f64 {
-    0.25 * half
-}
+/// Times ψ꜀ a bound below m of an arc of half angle ψ꜀, and of the whole rim at π: m/ψ꜀ falls from 3/8 to 13/(16 π).
+pub(super) const LEAST: f64 = 0.25;
 
 /// m of a rim that is pressed all around, and its derivative by u².
-pub(super) fn of_circle(square: f64) -> (f64, f64) {
+pub(super) fn of_circle(square: f64) -> [f64; 2] {
     let u = square.max(0.0).sqrt();
     if u < 1e-4 {
-        return (1.0 - 0.1875 * square, -0.1875);
+        return [1.0 - 0.1875 * square, -0.1875];
     }
     let [arms, slopes] = integral(PI, |psi| {
         let cosine = psi.cos();
@@ -78,11 +76,11 @@ pub(super) fn of_circle(square: f64) -> (f64, f64) {
         let weight = 1.0 + u * cosine;
         [weight * d, cosine * d + weight * (0.25 * u - 0.5 * cosine) / d]
     });
-    (arms / PI, slopes / PI / (2.0 * u))
+    [arms / PI, slopes / PI / (2.0 * u)]
 }
 
 /// Half angle ψ꜀ of the arc where sin ψ꜀ − ψ꜀ cos ψ꜀ = y ≤ π, and its derivative by y.
-pub(super) fn arc(y: f64) -> (f64, f64) {
+pub(super) fn arc(y: f64) -> [f64; 2] {
     let (mut low, mut high) = (0.0, PI);
     let mut psi = (3.0 * y).cbrt().min(PI);
     for _ in 0..100 {
@@ -107,7 +105,7 @@ pub(super) fn arc(y: f64) -> (f64, f64) {
         }
     }
     // Where the arc begins or closes its angle has no slope.
-    (psi, 1.0 / (psi * psi.sin()).max(1e-6))
+    [psi, 1.0 / (psi * psi.sin()).max(1e-6)]
 }
 
 #[cfg(test)]
@@ -129,20 +127,20 @@ mod tests {
     fn the_arm_is_that_of_what_presses() {
         for half in [0.05, 0.3, 1.0, 2.0, 3.0, PI] {
             let sum = by_points(|cosine| (cosine - half.cos()).max(0.0));
-            assert_relative_eq!(of_arc(half).0, sum, max_relative = 2e-5);
+            assert_relative_eq!(of_arc(half)[0], sum, max_relative = 2e-5);
         }
         for u in [0.0_f64, 1e-5, 0.3, 1.0] {
             let sum = by_points(|cosine| 1.0 + u * cosine);
-            assert_relative_eq!(of_circle(u * u).0, sum, max_relative = 1e-5);
+            assert_relative_eq!(of_circle(u * u)[0], sum, max_relative = 1e-5);
         }
-        assert_relative_eq!(of_arc(1e-3).0, 0.375e-3, max_relative = 1e-5);
+        assert_relative_eq!(of_arc(1e-3)[0], 0.375e-3, max_relative = 1e-5);
         for i in 1..=1000 {
             let half = f64::from(i) * PI / 1000.0;
-            assert!(least_of_arc(half) <= of_arc(half).0, "{half}");
-            assert!(least_of_arc(PI) <= of_circle(f64::from(i) / 1000.0).0);
+            assert!(LEAST * half <= of_arc(half)[0], "{half}");
+            assert!(LEAST * PI <= of_circle(f64::from(i) / 1000.0)[0]);
         }
-        assert_relative_eq!(of_arc(PI).0, of_circle(1.0).0, max_relative = 1e-6);
-        assert_relative_eq!(of_circle(1e-6).0, 1.0 - 0.1875e-6, max_relative = 1e-12);
+        assert_relative_eq!(of_arc(PI)[0], of_circle(1.0)[0], max_relative = 1e-6);
+        assert_relative_eq!(of_circle(1e-6)[0], 1.0 - 0.1875e-6, max_relative = 1e-12);
     }
 
     #[test]
@@ -152,16 +150,16 @@ mod tests {
             (f(x + h) - f(x - h)) / (2.0 * h)
         };
         for half in [1e-3, 0.3, 1.0, 2.5] {
-            assert_relative_eq!(of_arc(half).1, by(&|x| of_arc(x).0, half), max_relative = 1e-4);
+            assert_relative_eq!(of_arc(half)[1], by(&|x| of_arc(x)[0], half), max_relative = 1e-4);
         }
         for square in [1e-4, 0.1, 0.9] {
-            let slope = by(&|x| of_circle(x).0, square);
-            assert_relative_eq!(of_circle(square).1, slope, max_relative = 1e-5);
+            let slope = by(&|x| of_circle(x)[0], square);
+            assert_relative_eq!(of_circle(square)[1], slope, max_relative = 1e-5);
         }
         for psi in [1e-3, 0.2, 1.0, 2.0, 3.0] {
             let y = f64::sin(psi) - psi * psi.cos();
-            assert_relative_eq!(arc(y).0, psi, max_relative = 1e-6);
-            assert_relative_eq!(arc(y).1, by(&|y| arc(y).0, y), max_relative = 1e-5);
+            assert_relative_eq!(arc(y)[0], psi, max_relative = 1e-6);
+            assert_relative_eq!(arc(y)[1], by(&|y| arc(y)[0], y), max_relative = 1e-5);
         }
     }
 }

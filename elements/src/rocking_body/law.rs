@@ -1,6 +1,7 @@
 //! The law of the [`RockingBody`]: attitude, gyroscopic moment, and the contact of its base.
 
-use super::rim::Rim;
+use super::moment::{Moment, posture};
+use super::rim::{Rim, RimHistory};
 use super::{RockingBody, outline};
 use crate::shared::plane_contact::{self, Foot, GROUND};
 use crate::shared::rotation::{Turn, Turned};
@@ -29,10 +30,8 @@ history! {
 
 impl Posture {
     fn after(turn: &Turn, uplift: f64) -> Self {
-        // The angle by its sine where its cosine is flat.
-        let axis = turn.matrix.column(2);
-        let tilt = axis[0].hypot(axis[1]).atan2(axis[2]);
-        Self { tilt, lean1: axis[0], lean2: axis[1], uplift }
+        let [tilt, lean1, lean2, uplift] = posture(&turn.rotation(), uplift);
+        Self { tilt, lean1, lean2, uplift }
     }
 }
 
@@ -42,9 +41,11 @@ pub(super) const BASE: usize = TURNED + Posture::FIELDS.len();
 
 impl RockingBody {
     /// The rim, for a body with a circular base.
-    fn rim(&self) -> Option<Rim<'_>> {
+    pub(super) fn rim(&self) -> Option<Rim> {
+        let Self { kn, damping, mu, arc_stiffness, .. } = *self;
         let (radius, depth) = (self.rim_radius?, self.rim_depth?);
-        Some(Rim { body: self, radius, depth })
+        let ks = self.ks.unwrap_or_default();
+        Some(Rim { radius, depth, kn, damping, mu, ks, arc_stiffness })
     }
 
     /// The base points.
@@ -59,7 +60,7 @@ impl RockingBody {
     /// How high the highest point of the base is above what it stands on, unloaded, m.
     fn uplift(&self, d: &[f64], turn: &Turn) -> f64 {
         match self.rim() {
-            Some(rim) => rim.uplift(d, turn),
+            Some(rim) => rim.uplift(&[d[0], d[1], d[2]], &turn.rotation()),
             None => {
                 plane_contact::gaps(&GROUND, self.feet(), d, turn).fold(f64::NEG_INFINITY, f64::max)
             }
@@ -75,7 +76,12 @@ impl RockingBody {
         trial: &mut [f64],
     ) -> Wrench {
         match self.rim() {
-            Some(rim) => rim.respond(at, turns, committed, trial),
+            Some(rim) => {
+                let before = Moment::of(turns.0, at.d0, at.v0);
+                let now = Moment::of(turns.1, at.d, at.v);
+                let (base, step) = rim.respond((&before, &now), at.dt, committed, Some(trial));
+                Wrench::new(&base, step.into())
+            }
             None => {
                 plane_contact::respond(&GROUND, self.feet(), at, turns, committed, trial, false)
             }
@@ -130,7 +136,7 @@ impl Link for RockingBody {
     fn history(&self) -> Cow<'static, [Field]> {
         let mut fields = [Turned::FIELDS, Posture::FIELDS].concat();
         fields.extend(match self.rim() {
-            Some(_) => Rim::fields(),
+            Some(_) => RimHistory::FIELDS.to_vec(),
             None => plane_contact::fields(self.base.len(), false),
         });
         if self.above.is_some() {
@@ -150,7 +156,7 @@ impl Link for RockingBody {
         let uplift = self.uplift(&[0.0; 6], &upright.turn(&[0.0; 3]));
         Posture { uplift, ..Posture::default() }.store(&mut at[TURNED..]);
         match self.rim() {
-            Some(rim) => rim.at_rest(&mut at[BASE..]),
+            Some(_) => RimHistory::closed().store(&mut at[BASE..]),
             None => plane_contact::at_rest(self.feet(), false, &mut at[BASE..]),
         }
     }
@@ -224,7 +230,9 @@ impl Link for RockingBody {
     fn contacts(&self, at: &Kinematics<'_>, history: &[f64], _: &[f64], out: &mut Vec<Contact>) {
         let base = &history[BASE..];
         self.seen(at, history, |at, turn| match self.rim() {
-            Some(rim) => rim.contacts(at, turn, base, out),
+            Some(rim) => {
+                out.extend(rim.contacts(&Moment::of(turn, at.d, at.v), base).map(Contact::from));
+            }
             None => plane_contact::contacts(&GROUND, self.feet(), at, turn, base, false, out),
         });
     }

@@ -29,7 +29,7 @@ struct Piece {
     beta: Dual,
 }
 
-const ZERO: Dual = Dual::constant(0.0);
+const ZERO: Dual = Dual { x: 0.0, by: [0.0; 2] };
 
 impl Piece {
     fn new(omega: [Dual; 2], z: [Dual; 2]) -> Self {

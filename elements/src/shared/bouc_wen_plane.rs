@@ -57,7 +57,7 @@ pub(crate) const PARAMETERS: [Parameter; 4] = [
     Parameter::number("eta", "η", NONE, Range::Within(1.0, 20.0), 2.0, "sharpness of yielding"),
 ];
 
-const ZERO: Dual = Dual::constant(0.0);
+const ZERO: Dual = Dual { x: 0.0, by: [0.0; 2] };
 
 /// Numbers of the law: −β < γ ≤ β, η ≥ 1.
 #[derive(Clone, Copy, Debug)]

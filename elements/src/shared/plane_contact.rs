@@ -127,10 +127,7 @@ pub(crate) fn respond(
         all.add((&now.turn, &now.spin), &lever, (&f, &block(&k), &block(&c)));
     }
     all.finish(&rows(&turn.jacobian));
-    out.f = all.f;
-    out.k = SMatrix::from_fn(|i, j| all.k[i][j]);
-    out.c = SMatrix::from_fn(|i, j| all.c[i][j]);
-    out
+    Wrench::new(&all, out.energy)
 }
 
 /// How a node stands and moves.

@@ -1,6 +1,6 @@
 //! Finite rotations.
 
-use super::dual::{Dual, Dual3};
+use super::dual::{self, Dual3};
 use super::spatial::{self, M3, Rotation, right_jacobian};
 use nalgebra::{Matrix3, Quaternion, UnitQuaternion, Vector3};
 use trilith_element::history;
@@ -92,19 +92,7 @@ impl Turn {
 
     /// R, row by row, with its derivatives by φ, which are the variables from `first` on, if there are any.
     pub fn dual<const N: usize>(&self, first: usize) -> [Dual3<N>; 3] {
-        let mut all = [[Dual::constant(0.0); 3]; 3];
-        for k in 0..3 {
-            let change = self.matrix * self.jacobian.column(k).into_owned().cross_matrix();
-            for (i, row) in all.iter_mut().enumerate() {
-                for (j, x) in row.iter_mut().enumerate() {
-                    x.x = self.matrix[(i, j)];
-                    if N > 0 {
-                        x.by[first + k] = change[(i, j)];
-                    }
-                }
-            }
-        }
-        all
+        dual::rotation(&rows(&self.matrix), &rows(&self.jacobian), first)
     }
 }
 

@@ -1,5 +1,6 @@
 //! What a law does to one body.
 
+use super::lever::Carried;
 use super::spatial::{M3, V3, cross, cross_matrix};
 use nalgebra::SMatrix;
 use trilith_element::lanes::Real;
@@ -16,6 +17,12 @@ pub(crate) struct Wrench {
 }
 
 impl Wrench {
+    /// What is carried to the node, and energies.
+    pub fn new(it: &Carried<f64>, energy: Energy) -> Self {
+        let of = |m: &[[f64; 6]; 6]| SMatrix::from_fn(|i, j| m[i][j]);
+        Self { f: it.f, k: of(&it.k), c: of(&it.c), energy }
+    }
+
     /// Adds energies.
     pub fn count(&mut self, energy: &Energy) {
         self.energy.stored += energy.stored;

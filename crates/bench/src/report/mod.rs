@@ -3,7 +3,7 @@
 mod page;
 mod tables;
 
-use crate::{BlockPair, BlockSweep, Endurance, Growth, Measurement, SideBySide, find};
+use crate::{BlockPair, BlockSweep, Commands, Endurance, Growth, Measurement, SideBySide, find};
 use serde::Serialize;
 use std::path::{Path, PathBuf};
 
@@ -20,7 +20,9 @@ pub struct Results {
     pub peers: Vec<SideBySide>,
     /// The sweep of a block.
     pub sweep: Option<BlockSweep>,
-    /// The same beside other programs.
+    /// The program from the command line.
+    pub commands: Option<Commands>,
+    /// The sweep beside other programs.
     pub blocks: Vec<BlockPair>,
 }
 

@@ -56,6 +56,13 @@ impl Results {
             }
             parts.push(("Sweeps", note, tables));
         }
+        if self.commands.is_some() {
+            let note = "The program, started anew each time: CPU time of the whole process on one thread, with reading, \
+                        set-up and all files; the fastest of several. Sweeps: the block above, 20 s at 1 ms. Runs: FNA, \
+                        with everything that a run records; a step: of the march."
+                .into();
+            parts.push(("From the command line", note, self.commanded()));
+        }
         parts
     }
 

@@ -210,6 +210,20 @@ impl Results {
         t
     }
 
+    pub(super) fn commanded(&self) -> Vec<Table> {
+        let Some(all) = &self.commands else { return Vec::new() };
+        let mut sweeps = Table::new(["trilith sweep, steps", "analyses", "analyses /s"]);
+        for s in &all.sweeps {
+            sweeps.row([s.steps.clone(), s.analyses.to_string(), short(s.each_s.recip())]);
+        }
+        let mut runs = Table::new(["trilith run", "steps", "a step µs", "whole run s"]);
+        for r in &all.runs {
+            let (step, whole) = (short(1e6 * r.step_s), short(r.whole_s));
+            runs.row([r.size.clone(), r.steps.to_string(), step, whole]);
+        }
+        vec![sweeps, runs]
+    }
+
     pub(super) fn swept_beside(&self) -> Table {
         let mut t = Table::new(["an analysis takes longer in", "than alone", "than in lanes"]);
         for (name, alone, lanes) in block_ratios(&self.blocks) {

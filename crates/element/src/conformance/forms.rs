@@ -198,8 +198,13 @@ impl Look<'_> {
                 c: &mut c,
             };
             let mut step = LaneStep::elastic(zero);
-            with.force(law, &mut links);
-            with.commit(law, &mut links, std::slice::from_mut(&mut step));
+            let end = std::slice::from_mut(&mut step);
+            if law.in_parts {
+                with.force(law, &mut links);
+                with.commit(law, &mut links, end);
+            } else {
+                with.respond(law, &mut links, end);
+            }
             for (lane, case) in cases.iter().enumerate() {
                 let one = |x: &A::Real| with.lane(*x, lane);
                 let all = |x: &[A::Real]| x.iter().map(one).collect();

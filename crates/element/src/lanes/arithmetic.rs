@@ -58,9 +58,15 @@ pub trait Arithmetic: Copy + Send + Sync {
     fn join_pairs(self, x: [Self::Real; 2]) -> [f64; 16];
 
     /// Forces and tangents of links of one law.
+    ///
+    /// # Panics
+    /// Where the law does not answer [in parts](ErasedLaw::in_parts).
     fn force(self, law: &ErasedLaw, links: &mut LaneLinks<'_, Self::Real>);
 
     /// History and energies of links of one law after a step.
+    ///
+    /// # Panics
+    /// As [`force`](Self::force).
     fn commit(
         self,
         law: &ErasedLaw,

@@ -5,7 +5,7 @@ use super::Real;
 use super::side_by_side::RespondTogether;
 #[cfg(target_arch = "x86_64")]
 use super::{Arithmetic, Avx2Lanes, Avx512Lanes, FusedOne, Task};
-use crate::{Contact, Kinematics};
+use crate::{Contact, Energy, Kinematics};
 use std::any::TypeId;
 use std::fmt;
 
@@ -111,6 +111,13 @@ impl<R: Real> LaneStep<R> {
     }
 }
 
+impl From<LaneStep<f64>> for Energy {
+    fn from(it: LaneStep<f64>) -> Self {
+        let LaneStep { stored, hysteretic, viscous } = it;
+        Self { stored, hysteretic, viscous }
+    }
+}
+
 /// A law over lanes. Same contract as [`Link`](crate::Link), in parts: the iteration of a step asks
 /// for forces only. All functions must be `#[inline(always)]`.
 pub trait LaneLaw: 'static {
@@ -124,6 +131,9 @@ pub trait LaneLaw: 'static {
     const CONTACTS: usize = 0;
     /// True where it may end a run: a body that overturns.
     const FALLS: bool = false;
+    /// False for a large law whose forces cost as much as all of its answer: it is always asked for
+    /// [`respond`](Self::respond), and compiled for that alone.
+    const IN_PARTS: bool = true;
 
     /// Force and tangents.
     fn force<R: Real>(at: &LaneAt<'_, R>, out: &mut LaneForce<'_, R>);
@@ -260,6 +270,9 @@ impl<'a, R: Real> LaneLinks<'a, R> {
     }
 }
 
+/// What a caller has missed.
+const AT_ONCE: &str = "this law over lanes answers at once, not in parts";
+
 #[inline(always)]
 fn force_all<L: LaneLaw, R: Real>(links: &mut LaneLinks<'_, R>) {
     for i in 0..links.d.len() / L::COORDINATES {
@@ -339,6 +352,8 @@ pub struct ErasedLaw {
     pub contacts: usize,
     /// True where it may end a run.
     pub falls: bool,
+    /// True where forces and the end of a step may be asked for one after the other.
+    pub in_parts: bool,
     pub(super) portable: Entries<ForceOf<f64>, CommitOf<f64>, ContactsOf<f64>>,
     #[cfg(target_arch = "x86_64")]
     pub(super) fused: EntriesBy<FusedOne>,
@@ -419,8 +434,14 @@ impl<A: Arithmetic, L: LaneLaw> Task<A> for ContactsTask<'_, '_, L, A::Real> {
 fn entries_by<A: Arithmetic, L: LaneLaw>() -> EntriesBy<A> {
     use std::marker::PhantomData;
     Entries {
-        force: |with, links| with.run(ForceTask::<L, _>(links, PhantomData)),
-        commit: |with, links, out| with.run(CommitTask::<L, _>(links, out, PhantomData)),
+        force: |with, links| {
+            assert!(const { L::IN_PARTS }, "{AT_ONCE}");
+            with.run(ForceTask::<L, _>(links, PhantomData));
+        },
+        commit: |with, links, out| {
+            assert!(const { L::IN_PARTS }, "{AT_ONCE}");
+            with.run(CommitTask::<L, _>(links, out, PhantomData));
+        },
         respond: |with, links, out| with.run(RespondTask::<L, _>(links, out, PhantomData)),
         contacts: |with, links, out, fallen| {
             with.run(ContactsTask::<L, _>(links, out, fallen, PhantomData));
@@ -439,9 +460,16 @@ impl ErasedLaw {
             parameters: L::PARAMETERS,
             contacts: L::CONTACTS,
             falls: L::FALLS,
+            in_parts: L::IN_PARTS,
             portable: Entries {
-                force: |links| force_all::<L, f64>(links),
-                commit: |links, out| commit_all::<L, f64>(links, out),
+                force: |links| {
+                    assert!(const { L::IN_PARTS }, "{AT_ONCE}");
+                    force_all::<L, f64>(links);
+                },
+                commit: |links, out| {
+                    assert!(const { L::IN_PARTS }, "{AT_ONCE}");
+                    commit_all::<L, f64>(links, out);
+                },
                 respond: |links, out| respond_all::<L, f64>(links, out),
                 contacts: |links, out, fallen| contacts_all::<L, f64>(links, out, fallen),
             },

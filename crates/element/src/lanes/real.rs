@@ -59,6 +59,10 @@ pub trait Real:
     #[must_use]
     fn map2(self, o: Self, f: impl Fn(f64, f64) -> f64) -> Self;
 
+    /// Two functions of one number that are found together.
+    #[must_use]
+    fn map_pair(self, f: impl Fn(f64) -> [f64; 2]) -> [Self; 2];
+
     /// The larger; the second where they cannot be compared.
     #[inline(always)]
     #[must_use]
@@ -141,5 +145,9 @@ impl Real for f64 {
     #[inline(always)]
     fn map2(self, o: Self, f: impl Fn(f64, f64) -> f64) -> Self {
         f(self, o)
+    }
+    #[inline(always)]
+    fn map_pair(self, f: impl Fn(f64) -> [f64; 2]) -> [Self; 2] {
+        f(self)
     }
 }

@@ -136,6 +136,11 @@ impl Real for Fused {
     fn map2(self, o: Self, f: impl Fn(f64, f64) -> f64) -> Self {
         Self(f(self.0, o.0))
     }
+    #[inline(always)]
+    fn map_pair(self, f: impl Fn(f64) -> [f64; 2]) -> [Self; 2] {
+        let [a, b] = f(self.0);
+        [Self(a), Self(b)]
+    }
 }
 
 impl<S: Simd, const K: usize> Wide<S, K> {
@@ -274,5 +279,13 @@ impl<S: Simd, const K: usize> Real for Wide<S, K> {
     fn map2(self, o: Self, f: impl Fn(f64, f64) -> f64) -> Self {
         let (a, b) = (self.lanes(), o.lanes());
         Self::from_lanes(self.simd, std::array::from_fn(|i| f(a[i], b[i])))
+    }
+    #[inline(always)]
+    fn map_pair(self, f: impl Fn(f64) -> [f64; 2]) -> [Self; 2] {
+        let (mut a, mut b) = ([0.0; 8], [0.0; 8]);
+        for (i, x) in self.lanes().into_iter().enumerate() {
+            [a[i], b[i]] = f(x);
+        }
+        [Self::from_lanes(self.simd, a), Self::from_lanes(self.simd, b)]
     }
 }

@@ -107,6 +107,8 @@ fn sized<A: Arithmetic>(with: A, setups: &[&LaneSetup]) -> Vec<LaneOutcome> {
     let coordinates = n * shape.links.len();
     let small = shape.modes <= 3;
     match (n, coordinates) {
+        // One body with all its coordinates, which goes with adaptive steps alone.
+        (4.., _) => with.run(Adaptive::<6, 6, 6> { setups }),
         (1, ..=2) if small => of_size::<A, 3, 2, 1>(with, setups),
         (1, _) => of_size::<A, 12, 12, 1>(with, setups),
         // Alone four modes are one register.
@@ -114,9 +116,7 @@ fn sized<A: Arithmetic>(with: A, setups: &[&LaneSetup]) -> Vec<LaneOutcome> {
         (2, ..=4) if small => of_size::<A, 3, 4, 2>(with, setups),
         (2, _) => of_size::<A, 12, 12, 2>(with, setups),
         (_, ..=6) if small => of_size::<A, 3, 6, 3>(with, setups),
-        (3, _) => of_size::<A, 12, 12, 3>(with, setups),
-        // One body in space, which goes with adaptive steps alone.
-        _ => with.run(Adaptive::<6, 6, 6> { setups }),
+        _ => of_size::<A, 12, 12, 3>(with, setups),
     }
 }
 

@@ -25,6 +25,7 @@ mod coefficients;
 mod contact;
 mod error;
 mod grid;
+mod integral;
 mod laws;
 mod loads;
 mod march;
@@ -49,6 +50,7 @@ mod uncoupled;
 mod watch;
 mod way;
 
+pub use integral::Integral;
 pub use march::{Instructions, march, march_by};
 pub use setup::{LaneSetup, prepare};
 pub use tables::Tables;
@@ -75,6 +77,8 @@ pub struct LaneOutcome {
     pub iterations: usize,
     /// Extremes of the outputs, in the order of the model.
     pub outputs: Vec<crate::Peak>,
+    /// What was to be [taken over time](LaneSetup::take_over_time).
+    pub integrals: Vec<f64>,
     /// Energies at the end.
     pub energy: EnergyTotals,
     /// Energies of each link at the end: (index of the element, energies).

@@ -69,6 +69,7 @@ impl<R: Real, const M: usize, const L: usize, const N: usize> State<R, M, L, N> 
             overturned,
             iterations: of(self.iterations) as usize,
             outputs: self.peaks.of_lane(with, lane),
+            integrals: self.peaks.integrals.iter().map(|(_, it)| of(it.value())).collect(),
             energy,
             link_energy: setup
                 .elements

@@ -1,5 +1,6 @@
 //! Outputs of a march: where they come from, and their extremes.
 
+use super::integral::Integral;
 use super::peaks::{Peaks, TOGETHER};
 use super::plan::pick;
 use super::setup::{LaneSetup, Output};
@@ -101,6 +102,8 @@ pub(super) struct Extremes<R> {
     pub alone: Vec<Peaks<R, 1>>,
     pub together: Vec<Peaks<R, TOGETHER>>,
     places: Vec<Place>,
+    /// What is taken over time, and of which output.
+    pub integrals: Vec<(Place, Integral<R>)>,
 }
 
 impl<R: Real, const M: usize> Outputs<R, M> {
@@ -199,7 +202,11 @@ impl<R: Real, const M: usize> Outputs<R, M> {
                 Place::Together(i, k) => (together[i].0[k], together[i].1[k]) = (y, rate),
             }
         }
+        let integral = |(o, above): &(usize, Option<f64>)| {
+            (self.places[*o], Integral::new(pick(with, setups, |s| s.values[*o]), *above))
+        };
         Extremes {
+            integrals: setups[0].shape.integrals.iter().map(integral).collect(),
             alone: alone.into_iter().map(|(y, rate)| Peaks::new(y, rate)).collect(),
             together: together.into_iter().map(|(y, rate)| Peaks::new(y, rate)).collect(),
             places: self.places.clone(),
@@ -213,6 +220,21 @@ impl<R: Real> Extremes<R> {
     pub fn keep(&mut self, mask: R::Mask, other: &Self) {
         self.alone.iter_mut().zip(&other.alone).for_each(|(x, y)| x.keep(mask, y));
         self.together.iter_mut().zip(&other.together).for_each(|(x, y)| x.keep(mask, y));
+        for ((_, x), (_, y)) in self.integrals.iter_mut().zip(&other.integrals) {
+            x.keep(mask, y);
+        }
+    }
+
+    /// What is taken over time goes on over a step.
+    #[inline(always)]
+    pub fn integrate(&mut self, dt: R) {
+        for (place, integral) in &mut self.integrals {
+            let [y, _] = match *place {
+                Place::Alone(i) => self.alone[i].now(0),
+                Place::Together(i, k) => self.together[i].now(k),
+            };
+            integral.advance(dt, y);
+        }
     }
 
     /// Of a lane, in the order of the model.

@@ -37,6 +37,8 @@ pub(super) struct Shape {
     pub links: Vec<(TypeId, Vec<usize>, usize)>,
     pub channels: Vec<(u8, bool)>,
     pub outputs: Vec<(u8, Vec<usize>)>,
+    /// Outputs that are taken over time: how long above a value, or as mean square.
+    pub integrals: Vec<(usize, Option<f64>)>,
     /// Indices of the contacts that a body may stand on.
     pub feet: Vec<usize>,
     pub grid: Grid,
@@ -152,6 +154,14 @@ impl LaneSetup {
     /// Largest eigenvalue of G k of the engaged links in a step of which this are the modes.
     pub(super) fn stiffness_ratio(&self, modes: &[Mode]) -> f64 {
         stiffness_ratio(&self.rows, modes, &self.engaged)
+    }
+
+    /// Outputs, by their index in the model, of which the time above a value is wanted, or, where there is none, the
+    /// root of the mean square.
+    #[must_use]
+    pub fn take_over_time(mut self, outputs: &[(usize, Option<f64>)]) -> Self {
+        self.shape.integrals = outputs.to_vec();
+        self
     }
 
     /// True where both can go side by side.
@@ -322,6 +332,7 @@ pub fn prepare(
         links: forms.iter().map(|f| (f.law.id, f.coordinates.clone(), f.law.coordinates)).collect(),
         channels: loads.channels.iter().map(|c| (kind(&c.track), c.conservative)).collect(),
         outputs: outputs.iter().map(Output::kind).collect(),
+        integrals: Vec::new(),
         feet,
         grid,
         is_adaptive: matches!(control, StepControl::Adaptive { .. }),

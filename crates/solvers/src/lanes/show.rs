@@ -48,6 +48,7 @@ pub(super) fn show<A: Arithmetic, const M: usize, const L: usize, const N: usize
         };
         own[0].advance(with, step, [y], rate);
     }
+    state.peaks.integrate(step.1);
 }
 
 /// What several outputs take from all modes.

@@ -46,13 +46,13 @@ impl ClosedForm {
         s
     }
 
-    /// Amplitude with which a mode swings about what the loads move slowly, in a step of this length, at the end where it is
-    /// larger; as if no other mode damped it.
+    /// Square of the amplitude with which a mode swings about what the loads move slowly, in a step of this length, at the
+    /// end where it is larger; as if no other mode damped it.
     #[inline]
-    pub(crate) fn swing(&self, j: usize, from: &[f64], to: &[f64], length: f64) -> f64 {
+    pub(crate) fn swing_square(&self, j: usize, from: &[f64], to: &[f64], length: f64) -> f64 {
         let w2 = self.structure.omega2[j];
         let [start, end] = self.swinging(j, from, to, length).map(|[q, v]| q * q + v * v / w2);
-        start.max(end).sqrt()
+        start.max(end)
     }
 
     /// Displacement and velocity of that swing at both ends of the step.

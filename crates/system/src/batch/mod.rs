@@ -90,7 +90,7 @@ fn packs_of<A: Arithmetic + Debug + 'static>(
             let n = link.range.len();
             let form = law.lanes(&vec![true; n])?;
             let whole = form.coordinates.iter().copied().eq(0..n);
-            let short = n <= MOST.0 && form.law.history <= MOST.1;
+            let short = n <= MOST.0 && form.law.history <= MOST.1 && form.law.in_parts;
             (whole && short && form.law.history == link.history.len()).then_some(form)
         })
         .collect();

@@ -1,0 +1,91 @@
+//! A body on a rim over [`Real`], for sweeps in lanes: the law of `rim.rs`, which is written over it.
+
+use super::{OWN, SPACE, answer, moment, store};
+use crate::rocking_body::law::{BASE, TURNED};
+use crate::rocking_body::rim::{Rim, RimHistory};
+use trilith_element::History;
+use trilith_element::lanes::{LaneAt, LaneContact, LaneForce, LaneForm, LaneLaw, LaneStep, Real};
+
+/// Parameters of a rim, after those of every body.
+const RIM: usize = 7;
+
+/// A body of six coordinates on a rim.
+struct Rolling;
+
+impl Rolling {
+    #[inline(always)]
+    fn rim<R: Real>(parameters: &[R]) -> Rim<R> {
+        let [radius, depth, kn, damping, mu, ks, arc_stiffness] = parameters[OWN..] else {
+            unreachable!("parameters of a rim")
+        };
+        Rim { radius, depth, kn, damping, mu, ks, arc_stiffness: Some(arc_stiffness) }
+    }
+
+    /// Forces and tangents; with a trial history the end of the step as well.
+    #[inline(always)]
+    fn roll<R: Real>(
+        at: &LaneAt<'_, R>,
+        out: &mut LaneForce<'_, R>,
+        trial: Option<&mut [R]>,
+    ) -> LaneStep<R> {
+        let before = moment::<6, R>(at.history, at.d0, at.v0);
+        let now = moment::<6, R>(at.history, at.d, at.v);
+        let rim = Self::rim(at.parameters);
+        let history = &at.history[BASE..];
+        let (base, step) = match trial {
+            None => rim.respond((&before, &now), at.dt, history, None),
+            Some(trial) => {
+                let (own, base) = trial.split_at_mut(BASE);
+                store(&now, rim.uplift(&now.d, &now.turn), own);
+                rim.respond((&before, &now), at.dt, history, Some(base))
+            }
+        };
+        answer::<6, R>(base, at.parameters, &now.spin, out);
+        step
+    }
+}
+
+impl LaneLaw for Rolling {
+    const COORDINATES: usize = 6;
+    const HISTORY: usize = BASE + RimHistory::FIELDS.len();
+    const PARAMETERS: usize = OWN + RIM;
+    const CONTACTS: usize = 2;
+    const FALLS: bool = true;
+    const IN_PARTS: bool = false;
+
+    #[inline(always)]
+    fn force<R: Real>(at: &LaneAt<'_, R>, out: &mut LaneForce<'_, R>) {
+        Self::roll(at, out, None);
+    }
+
+    #[inline(always)]
+    fn commit<R: Real>(at: &LaneAt<'_, R>, _: &[R], trial: &mut [R]) -> LaneStep<R> {
+        let zero = at.dt.of(0.0);
+        let (mut f, mut k, mut c) = ([zero; 6], [zero; 36], [zero; 36]);
+        Self::roll(at, &mut LaneForce { f: &mut f, k: &mut k, c: &mut c }, Some(trial))
+    }
+
+    #[inline(always)]
+    fn respond<R: Real>(
+        at: &LaneAt<'_, R>,
+        out: &mut LaneForce<'_, R>,
+        trial: &mut [R],
+    ) -> LaneStep<R> {
+        Self::roll(at, out, Some(trial))
+    }
+
+    #[inline(always)]
+    fn contacts<R: Real>(at: &LaneAt<'_, R>, _: &[R], out: &mut [LaneContact<R>]) -> R {
+        let now = moment::<6, R>(at.history, at.d, at.v);
+        let contacts = Self::rim(at.parameters).contacts(&now, &at.history[BASE..]);
+        out.copy_from_slice(&contacts);
+        at.dt.of(1.0).only(at.parameters[0].le(at.history[TURNED]))
+    }
+}
+
+/// A body on a rim, with the parameters of every body.
+pub(super) fn form(rim: &Rim<f64>, mut parameters: Vec<f64>) -> LaneForm {
+    let arc = rim.arc_stiffness.unwrap_or(rim.kn);
+    parameters.extend([rim.radius, rim.depth, rim.kn, rim.damping, rim.mu, rim.ks, arc]);
+    LaneForm::of::<Rolling>(SPACE.to_vec(), parameters)
+}
