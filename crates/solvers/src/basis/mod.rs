@@ -14,21 +14,27 @@
 //!
 //! Reference: \[Wilson 2002, ch. 14 and 18\].
 
+mod condensation;
+mod damping;
+mod drag;
+mod massless;
 mod report;
 mod ritz;
+mod shapes;
 mod solvable;
+mod span;
 
-use crate::condensation::Condensation;
-use crate::damping::is_modal;
+pub(crate) use damping::{LowRank, ModalDamping, is_modal, modal_damping};
+pub(crate) use drag::follow_supports;
+pub use report::{Adequacy, BasisReport, ModeShape};
+pub(crate) use shapes::{Shapes, expand};
+
 use crate::error::SolveError;
-use crate::massless::StaticShapes;
-use crate::observe::BasisReport;
-use crate::shapes::Shapes;
-use crate::start::Initial;
+use condensation::Condensation;
+use massless::StaticShapes;
 use report::report;
 use ritz::{Enriched, enriched};
-pub(crate) use solvable::{PIVOT, held};
-use solvable::{Solvable, solvable};
+use solvable::{PIVOT, Solvable, held, solvable};
 use std::sync::Arc;
 use trilith_linalg::{Sparse, all_modes, symmetric_eigen};
 use trilith_model::{Basis, BasisKind, Model};
@@ -88,15 +94,14 @@ pub(crate) struct Demands {
 }
 
 impl Demands {
-    /// Of loads and a start. The force that a displacement at the start asks for is a load as well: it moves what
+    /// Of loads, and of a displacement beyond equilibrium and a velocity at the start. The force that a displacement at the start asks for is a load as well: it moves what
     /// dashpots hold.
     pub(crate) fn new(
         system: &System,
         mut loads: Vec<(String, Vec<f64>)>,
-        initial: &Initial,
+        [displacement, velocity]: [&Vec<f64>; 2],
     ) -> Self {
         let moves = |u: &&Vec<f64>| u.iter().any(|x| *x != 0.0);
-        let Initial { beyond_equilibrium: displacement, velocity, .. } = initial;
         if moves(&displacement) && !system.massless.is_empty() {
             let force = system.stiffness_with(&system.links.effective).mul(displacement);
             loads.push(("initial displacement".into(), force));

@@ -2,8 +2,8 @@
 
 use super::solvable::Flexibility;
 use super::{Bases, RitzBasis};
-use crate::observe::{Adequacy, BasisReport, ModeShape};
 use crate::vector::dot;
+use serde::Serialize;
 use trilith_linalg::{Dense, DenseLu};
 use trilith_model::Model;
 use trilith_system::System;
@@ -106,4 +106,42 @@ fn shapes(model: &Model, system: &System, basis: &RitzBasis) -> Vec<ModeShape> {
         ModeShape { mode, displacements: full.map(|i| at(i) as f32).collect() }
     };
     bends.map(|(mode, _)| shape(mode)).collect()
+}
+
+/// How well a basis holds the flexibility of a link coordinate.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Adequacy {
+    /// Name, such as `"foot" U1`.
+    pub coordinate: String,
+    /// Share of the exact flexibility, 0 … 1.
+    pub share: f64,
+}
+
+/// The basis of a reduced solver.
+#[derive(Clone, Debug, Default, PartialEq, Serialize)]
+pub struct BasisReport {
+    /// Number of vectors with mass: modes.
+    pub vectors: usize,
+    /// Number of static shapes of places without mass, beside the modes.
+    pub static_shapes: usize,
+    /// Circular frequencies of the structure without links, rad/s, rising.
+    pub omega: Vec<f64>,
+    /// Share of the mass along X, Y, Z that each vector carries.
+    pub mass_participation: Vec<[f64; 3]>,
+    /// Static participation of each load direction, by name: share of the static response held.
+    pub static_participation: Vec<(String, f64)>,
+    /// Worst coordinates first.
+    pub adequacy: Vec<Adequacy>,
+    /// The lowest modes that deform the structure, for pictures.
+    #[serde(skip)]
+    pub shapes: Vec<ModeShape>,
+}
+
+/// What a mode looks like.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct ModeShape {
+    /// Which mode it is: an index into [`BasisReport::omega`].
+    pub mode: usize,
+    /// Six displacements of every node, node after node; of any size.
+    pub displacements: Vec<f32>,
 }

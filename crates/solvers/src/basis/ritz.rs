@@ -1,12 +1,12 @@
 //! The recursion of Ritz vectors: loads, starts, links, and what comes next of each.
 
 use super::Demands;
+use super::condensation::Condensation;
+use super::massless::{Following, StaticShapes};
+use super::shapes::Shapes;
 use super::solvable::{BLOCK, Solvable};
-use crate::condensation::Condensation;
+use super::span::{Origin, Span, Speed};
 use crate::error::SolveError;
-use crate::massless::{Following, StaticShapes};
-use crate::shapes::Shapes;
-use crate::span::{Origin, Span, Speed};
 use crate::vector::dot;
 use std::sync::Arc;
 use trilith_linalg::{Dense, Sparse, lowest_modes};

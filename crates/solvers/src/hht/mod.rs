@@ -15,24 +15,22 @@
 //!
 //! Reference: \[Hilber, Hughes, Taylor 1977\].
 
+mod full_newton;
+mod newmark;
 mod step;
 #[cfg(test)]
 mod tests;
 
 use crate::error::SolveError;
-use crate::followers::{Followers, acceleration};
-use crate::products::Products;
-use crate::propagator::{Compliance, Forces, Motion, Propagator, StepKey, StepWork, Wanted};
-use crate::space::Space;
+use crate::kernel::{Compliance, StepKey, Wanted};
+use crate::step::{Forces, Motion, Propagator, StepWork};
+use crate::structure::{Followers, Products, Space, acceleration};
+pub(crate) use full_newton::FullNewton;
+use newmark::{mass_acceleration, newmark};
 use std::collections::BTreeMap;
 use std::sync::Arc;
 use step::Step;
 use trilith_linalg::StagedPlan;
-
-/// γ and β of an α.
-pub(crate) fn newmark(alpha: f64) -> (f64, f64) {
-    (0.5 - alpha, 0.25 * (1.0 - alpha) * (1.0 - alpha))
-}
 
 /// Values (8 bytes each) in the factors of step sizes that are kept.
 const KEPT_VALUES: usize = 1 << 25;
@@ -176,7 +174,7 @@ impl Propagator for Hht {
     }
 
     fn acceleration(&mut self, force: &[f64]) -> Result<Vec<f64>, SolveError> {
-        crate::full_newton::mass_acceleration(&self.space, force.to_vec())
+        mass_acceleration(&self.space, force.to_vec())
     }
 
     fn predict(&mut self, from: &Motion, forces: &Forces<'_>, to: &mut Motion, wanted: Wanted<'_>) {

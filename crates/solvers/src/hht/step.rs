@@ -6,10 +6,11 @@
 //! A⁻¹ r = A₀⁻¹ r − X N⁻¹ Xᵀ r        X = A₀⁻¹ U        N = R⁻¹/s + Uᵀ X
 //! ```
 
-use super::newmark;
+use super::newmark::newmark;
+use crate::basis::LowRank;
 use crate::error::SolveError;
-use crate::propagator::{Compliance, StepKey};
-use crate::space::{LowRank, Space};
+use crate::kernel::{Compliance, StepKey};
+use crate::structure::Space;
 use std::sync::Arc;
 use trilith_linalg::{Dense, DenseLu, StagedLdlt, StagedPlan};
 

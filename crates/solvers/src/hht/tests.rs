@@ -1,9 +1,11 @@
 //! A step against the equations of the method, written with full matrices.
 
-use super::{Hht, newmark};
-use crate::link_map::LinkMap;
-use crate::propagator::{Forces, Propagator, StepKey, Wanted};
-use crate::space::{LowRank, Space};
+use super::Hht;
+use super::newmark::newmark;
+use crate::basis::LowRank;
+use crate::kernel::{StepKey, Wanted};
+use crate::step::{Forces, Propagator};
+use crate::structure::{LinkMap, Space};
 use trilith_linalg::{Dense, DenseLu, Product, Sparse, Triplets};
 
 const N: usize = 24;

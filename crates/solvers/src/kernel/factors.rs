@@ -1,8 +1,8 @@
 //! The kept factors of the link equations, one for each rule of a step.
 
 use super::Layout;
+use super::affine::StepKey;
 use super::layout::Unknowns;
-use crate::propagator::StepKey;
 use serde::{Deserialize, Serialize};
 use trilith_linalg::{Dense, DenseLu, Panel, Product, solve_few};
 use trilith_system::Tangents;

@@ -12,6 +12,8 @@
 //! `FixedPoint` is Wilson's constant-stiffness iteration, f̃ ← law − k_e d; it converges only
 //! while |k − k_e| G < 1. Neither touches a matrix of the structure.
 
+mod affine;
+mod answer;
 mod factors;
 mod foresee;
 mod layout;
@@ -19,10 +21,11 @@ mod measure;
 mod search;
 mod unforeseen;
 
+pub(crate) use affine::{Affine, Committed, Compliance, Converged, StepKey, Wanted};
+pub(crate) use answer::Answer;
 pub(crate) use factors::Remembered;
 pub(crate) use unforeseen::Unforeseen;
 
-use crate::propagator::{StepKey, Wanted};
 use crate::vector::{add, largest, sized_residual};
 use factors::{Equations, Factor, Factors};
 pub(crate) use layout::Layout;
@@ -32,39 +35,7 @@ pub(crate) use search::{CROSSES, ENOUGH, SEARCH_FROM, Search, TRIED};
 use trilith_element::Kinematics;
 use trilith_linalg::Dense;
 use trilith_model::{Kernel, Model, Solution};
-use trilith_system::{Answers, LinkBlocks, LinkSet, StepLaws, Tangents};
-
-/// What the linear step gives the kernel.
-pub(crate) struct Affine<'a> {
-    /// Deformation and rate that supports add, flat, where they move.
-    pub support: Option<[&'a [f64]; 2]>,
-    /// Compliances, active × active, symmetric.
-    pub g: &'a Dense,
-    pub h: &'a Dense,
-    /// Identity of the compliances: a factor made with others is not used again.
-    pub key: StepKey,
-}
-
-/// The committed side of a step, flat.
-pub(crate) struct Committed<'a> {
-    pub d: &'a [f64],
-    pub v: &'a [f64],
-    pub f: &'a [f64],
-    pub history: &'a [f64],
-    pub tangents: &'a Tangents,
-    pub unforeseen: &'a Unforeseen,
-    pub dt: f64,
-}
-
-/// Where the converged values go, flat; `pseudo` is f̃ of the active coordinates. Rates that no law looks at stay as they
-/// are.
-pub(crate) struct Converged<'a> {
-    pub d: &'a mut [f64],
-    pub v: &'a mut [f64],
-    pub laws: Answers<'a>,
-    pub pseudo: &'a mut [f64],
-    pub unforeseen: &'a mut Unforeseen,
-}
+use trilith_system::{LinkBlocks, LinkSet, StepLaws, Tangents};
 
 /// No equilibrium: the worst flat coordinate and its residual.
 #[derive(Clone, Copy, Debug, PartialEq)]

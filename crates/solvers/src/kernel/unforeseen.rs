@@ -11,7 +11,7 @@
 //!
 //! and nothing where none would have: after a link has changed its regime.
 
-use crate::propagator::StepKey;
+use super::affine::StepKey;
 use crate::vector::add;
 use serde::{Deserialize, Serialize};
 use trilith_linalg::{ORDERS, Panel, extrapolate};

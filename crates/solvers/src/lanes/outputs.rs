@@ -3,7 +3,7 @@
 use super::peaks::{Peaks, TOGETHER};
 use super::plan::pick;
 use super::setup::{LaneSetup, Output};
-use crate::peak::Peak;
+use crate::record::Peak;
 use trilith_element::lanes::{Arithmetic, Real};
 use trilith_model::Combine;
 

@@ -1,15 +1,10 @@
 //! One motion among several.
 
-use crate::ledger::Ledger;
-use crate::link_side::LinkSide;
-use crate::march::Pace;
-use crate::modal::{Modes, Sources};
-use crate::output_step::jump;
-use crate::space::Space;
-use crate::start::potential;
-use crate::stepper::{State, StepEnergy};
-use crate::timeline::{Piece, Timeline};
-use crate::view::Viewer;
+use crate::fna::{Modes, Sources};
+use crate::march::{Pace, Piece, Timeline, jump, potential};
+use crate::record::{Ledger, Viewer};
+use crate::step::{LinkSide, State, StepEnergy};
+use crate::structure::Space;
 use trilith_system::{LoadSet, StepLoads};
 
 /// One motion, its link side, its books and who watches it.
@@ -54,7 +49,7 @@ impl<'a, 'b> Course<'a, 'b> {
         let layout = side.kernel.layout();
         let sources = Sources::new(space, &layout.rated, &layout.damped);
         Self {
-            constant: crate::start::constant_force(space, loads),
+            constant: crate::march::constant_force(space, loads),
             sources,
             side,
             loads,

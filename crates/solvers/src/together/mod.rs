@@ -7,21 +7,18 @@
 
 mod course;
 
-use crate::case::{RunOptions, before, run};
-use crate::clock::{Clock, peak_rss_mb};
-use crate::damping::modal_damping;
-use crate::drag::follow_supports;
-use crate::dynamic::{Arrival, held_load};
-use crate::equations::{bases, link_side, modes};
+use crate::basis::{follow_supports, modal_damping};
+use crate::checks;
 use crate::error::SolveError;
-use crate::modal::{LONGEST, Modal, Modes};
-use crate::observe::{CaseResult, Observer, Work};
-use crate::plausible;
-use crate::propagator::StepKey;
-use crate::start::{Initial, start};
-use crate::stepper::LinkStepper;
-use crate::timeline::Timeline;
-use crate::view::{Viewer, looks_at_rates};
+use crate::fna::{LONGEST, Modal, Modes};
+use crate::kernel::StepKey;
+use crate::march::Timeline;
+use crate::record::{Observer, Viewer, looks_at_rates};
+use crate::run::{
+    Arrival, CaseResult, Clock, Initial, RunOptions, Work, bases, before, fna_modes, held_load,
+    link_side, peak_rss_mb, run, start,
+};
+use crate::step::LinkStepper;
 use course::Course;
 use trilith_model::{Analysis, Case, DynamicCase, Model, SolverKind, StepControl};
 use trilith_system::{LoadSet, System};
@@ -153,7 +150,7 @@ fn march<O: Observer>(
         follow_supports(model, system, damping.as_ref(), true, &mut loads)?;
         dragged.push(loads);
     }
-    let mut modes = modes(model, system, &dragged[0], &bases);
+    let mut modes = fna_modes(model, system, &dragged[0], &bases);
     let dt = analysis.dt;
     // Stiff links choose their rule step by step, each motion its own.
     if modes.ratio(dt / substeps as f64) > LONGEST {
@@ -227,7 +224,7 @@ fn march<O: Observer>(
         let (case, kind) = (entrant.case, SolverKind::Fna);
         let mut result = arrival.result(model, system, case, kind, &modes.space, memory, work);
         let of = (case, entrant.analysis);
-        result.warnings = plausible::of_dynamic((model, system), of, loads, noticed, &result);
+        result.warnings = checks::of_dynamic((model, system), of, loads, noticed, &result.place());
         result.basis = Some(bases.report.clone());
         Some(result)
     };

@@ -1,0 +1,273 @@
+//! The linear structure on a wider basis, driven by the loads and link forces of a run.
+//!
+//! What it moves beyond the run is what the basis of the run has no room for (see `certificate`). Links answer it:
+//!
+//! ```text
+//! f̃₂ = f̃ + δ,   δ = a + K e + C ė,   e = d₂ − d     K, C: tangents of the run, less dummies
+//! (I + K G + C H) δ = a + K e* + C ė*               *: under the forces of the run at the end of the step
+//! ```
+//!
+//! Links with a memory have tangents of their own, and a ≠ 0 is what theirs differs by (see `memory`).
+
+mod memory;
+
+use self::memory::Memory;
+use crate::fna::{Modes, Sources};
+use crate::kernel::StepKey;
+use crate::march::jump;
+use crate::record::Outputs;
+use crate::step::{Motion, State};
+use crate::structure::Space;
+use trilith_linalg::{Dense, DenseLu};
+use trilith_model::{Model, Side};
+use trilith_system::{LinkBlocks, LoadSet, StepLoads, System, Tangents};
+
+/// Step sizes that differ by less than this share are one.
+const SAME: f64 = 1e-9;
+/// The next vectors of a sequence do not hold all that is left.
+const BEYOND: f64 = 2.0;
+/// Active link coordinates up to which the links answer: their equations are dense.
+const ANSWERING: usize = 48;
+/// The wider structure beside a run.
+pub(crate) struct Shadow<'a> {
+    system: &'a System,
+    loads: &'a LoadSet,
+    modes: Modes,
+    sources: Sources,
+    motion: Motion,
+    next: Motion,
+    pseudo: Vec<f64>,
+    load: [Vec<f64>; 2],
+    /// Time it has come to, s, and step sizes so far.
+    t: f64,
+    sizes: Vec<f64>,
+    amplitudes: StepLoads,
+    outputs: Outputs,
+    blocks: LinkBlocks,
+    state: State,
+    memory: Memory<'a>,
+    values: Vec<f64>,
+    /// Tangents told last, and the largest stiffness of the active link coordinates so far.
+    tangents: Tangents,
+    stiffest: Vec<f64>,
+}
+
+impl<'a> Shadow<'a> {
+    /// Beside a run that starts from this state, whose displacements and velocities of the free DOFs are `u` and `v`.
+    pub(crate) fn new(
+        model: &'a Model,
+        system: &'a System,
+        loads: &'a LoadSet,
+        modes: Modes,
+        (u, v): (&[f64], &[f64]),
+        t: f64,
+        state: &State,
+    ) -> Self {
+        let space = &modes.space;
+        let n = space.order();
+        let mut motion = [space.coordinates(system, u), space.coordinates(system, v)].concat();
+        motion.resize(3 * n, 0.0);
+        let outputs = Outputs::new(model, system, space);
+        let laws = system.links.laws(model);
+        let blocks = LinkBlocks::of(laws.iter().map(|(_, link)| link));
+        Self {
+            system,
+            loads,
+            sources: Sources::new(space, &[], &[]),
+            next: motion.clone(),
+            motion,
+            pseudo: state.pseudo.clone(),
+            load: [vec![0.0; n], vec![0.0; n]],
+            t,
+            sizes: Vec::new(),
+            amplitudes: StepLoads::default(),
+            outputs,
+            blocks,
+            memory: Memory::new(model, &system.links, state),
+            state: state.clone(),
+            values: vec![0.0; model.outputs.len()],
+            tangents: state.tangents.clone(),
+            stiffest: state.stiffest.clone(),
+            modes,
+        }
+    }
+
+    /// True where it asks what links answer.
+    pub(crate) fn answers(&self) -> bool {
+        self.pseudo.len() <= ANSWERING
+    }
+
+    /// Number of values that a step is told by: pseudo-forces, and where links answer, deformations, rates, forces and
+    /// tangents.
+    pub(crate) fn told(&self) -> usize {
+        let answers = 3 * self.system.links.len() + self.tangents.k.len() + self.tangents.c.len();
+        self.pseudo.len() + if self.answers() { answers } else { 0 }
+    }
+
+    /// The loads jump at a time.
+    pub(crate) fn jump(&mut self, t: f64) {
+        if let Some(change) = jump(self.loads, t) {
+            self.modes.jump(&mut self.motion, &change);
+        }
+    }
+
+    /// Follows the run over an accepted step to a time, s, of whose end this is told.
+    pub(crate) fn follow(&mut self, t: f64, told: &[f64]) {
+        let answers = self.answers();
+        let Self { system, modes, sources, motion, next, pseudo, load, loads, amplitudes, .. } =
+            self;
+        let (to, told) = told.split_at(pseudo.len());
+        let (d, told) = told.split_at(if answers { system.links.len() } else { 0 });
+        let (v, told) = told.split_at(d.len());
+        let (f, told) = told.split_at(d.len());
+        let length = t - self.t;
+        let known = self.sizes.iter().copied().find(|s| (s - length).abs() <= SAME * length);
+        let dt = known.unwrap_or_else(|| {
+            self.sizes.push(length);
+            length
+        });
+        amplitudes.cut();
+        loads.step(self.t, t, amplitudes);
+        let space: &Space = &modes.space;
+        let [load0, load1] = load;
+        space.force_into(&amplitudes.start, load0);
+        space.force_into(&amplitudes.end, load1);
+        let mut key = StepKey { dt, average: 0 };
+        if answers {
+            let (k, c) = told.split_at(self.tangents.k.len());
+            self.tangents.k.copy_from_slice(k);
+            self.tangents.c.copy_from_slice(c);
+            let now = system.links.stiffness(&self.tangents);
+            self.stiffest.iter_mut().zip(now).for_each(|(most, k)| *most = most.max(k));
+            // What answers to itself has the limit of every link.
+            let mut now = system.links.stiffness(&self.tangents);
+            key = modes.choose(dt, &mut now, &self.stiffest);
+        }
+        modes.prepare(key);
+        let mut end = to.to_vec();
+        let all_loads = *loads;
+        let loads = [&load0[..], &load1[..]];
+        if let Some(spread) = sources.renew_spread(pseudo) {
+            modes.space.links.spread_into(pseudo, spread);
+        }
+        modes.predict(sources, motion, &loads, next);
+        let mut support = [vec![0.0; d.len()], vec![0.0; d.len()]];
+        if answers {
+            let [of_d, of_v] = &mut support;
+            all_loads.support_deformation(&amplitudes.end, of_d, of_v);
+            let mut own = f.to_vec();
+            self.memory.linear([d, v], dt, &mut self.tangents, &mut own);
+            let apart: Vec<f64> = system.links.active.iter().map(|i| own[*i] - f[*i]).collect();
+            let change: Vec<f64> = to.iter().zip(&*pseudo).map(|(x, x0)| x - x0).collect();
+            let beyond = |motion: &[f64], run: &[f64], support: &[f64], compliance: &Dense| {
+                let mut own = vec![0.0; change.len()];
+                modes.space.links.deform(motion, &mut own);
+                for (x, i) in own.iter_mut().zip(&system.links.active) {
+                    *x -= run[*i] - support[*i];
+                }
+                compliance.mul_add(-1.0, &change, &mut own);
+                own
+            };
+            let n = modes.space.order();
+            let compliance = modes.compliance();
+            let e = beyond(&next[..n], d, &support[0], &compliance.g);
+            let rate = beyond(&next[n..2 * n], v, &support[1], &compliance.h);
+            let more = answer(
+                system,
+                &modes.space,
+                &self.tangents,
+                apart,
+                [&e, &rate],
+                [&compliance.g, &compliance.h],
+            );
+            end.iter_mut().zip(&more).for_each(|(x, more)| *x += more);
+        }
+        if let Some(spread) = sources.renew_spread(&end) {
+            modes.space.links.spread_into(&end, spread);
+        }
+        modes.complete(sources, motion, &loads, next);
+        std::mem::swap(motion, next);
+        if answers {
+            add_deformations(&modes.space, system, motion, &mut support);
+            self.memory.go_on([d, v], support, dt);
+        }
+        pseudo.copy_from_slice(&end);
+        self.t = t;
+    }
+
+    /// Compares the outputs of the run at this moment with its own; `errors` grow to the differences.
+    pub(crate) fn compare(&mut self, values: &[f64], state: &State, errors: &mut [f64]) {
+        let Self { system, modes, .. } = self;
+        let links = &system.links;
+        self.state.clone_from(state);
+        let mut support = [vec![0.0; links.len()], vec![0.0; links.len()]];
+        let [d, v] = &mut support;
+        self.loads.support_deformation(&self.amplitudes.end, d, v);
+        add_deformations(&modes.space, system, &self.motion, &mut support);
+        let [d, v] = support;
+        self.blocks.add_change(&state.tangents.k, [&state.d, &d], &mut self.state.f);
+        self.blocks.add_change(&state.tangents.c, [&state.v, &v], &mut self.state.f);
+        if self.answers() {
+            self.memory.put(&mut self.state.f);
+        }
+        (self.state.d, self.state.v) = (d, v);
+        self.state.motion.clone_from(&self.motion);
+        self.outputs.at((self.t, Side::Before), &self.state, self.loads).values(&mut self.values);
+        for (error, (a, b)) in errors.iter_mut().zip(self.values.iter().zip(values)) {
+            let off = BEYOND * (a - b).abs();
+            if off > *error {
+                *error = off;
+            }
+        }
+    }
+}
+
+/// Adds what a motion makes of link deformations and of their rates, flat.
+fn add_deformations(space: &Space, system: &System, motion: &Motion, flat: &mut [Vec<f64>; 2]) {
+    let mut own = vec![0.0; space.links.len()];
+    for (motion, flat) in motion.chunks(space.order().max(1)).zip(flat) {
+        space.links.deform(motion, &mut own);
+        system.links.active.iter().zip(&own).for_each(|(i, x)| flat[*i] += x);
+    }
+}
+
+/// Pseudo-forces δ = a + K e + C ė that links answer to what they are deformed beyond the run, of which this much is
+/// there before they do.
+fn answer(
+    system: &System,
+    space: &Space,
+    tangents: &Tangents,
+    mut force: Vec<f64>,
+    [e, rate]: [&[f64]; 2],
+    [g, h]: [&Dense; 2],
+) -> Vec<f64> {
+    let links = &system.links;
+    let count = links.active.len();
+    let (mut k, mut c) = (Dense::zeros(count, count), Dense::zeros(count, count));
+    let place = |i: usize| links.active.binary_search(&i).ok();
+    for link in &links.links {
+        let n = link.range.len();
+        for (i, a) in link.range.clone().enumerate().filter_map(|(i, x)| Some((i, place(x)?))) {
+            for (j, b) in link.range.clone().enumerate().filter_map(|(j, x)| Some((j, place(x)?))) {
+                let at = link.block.start + i * n + j;
+                k[(a, b)] = tangents.k[at];
+                c[(a, b)] = tangents.c[at];
+            }
+        }
+    }
+    for (a, dummy) in space.dummy_k.iter().enumerate() {
+        k[(a, a)] -= dummy;
+    }
+    k.mul_add(1.0, e, &mut force);
+    c.mul_add(1.0, rate, &mut force);
+    let (mut all, of_rates) = (k.times(g), c.times(h));
+    for j in 0..count {
+        all.column_mut(j).iter_mut().zip(of_rates.column(j)).for_each(|(x, y)| *x += y);
+        all[(j, j)] += 1.0;
+    }
+    DenseLu::new(&all).solve(&mut force);
+    if force.iter().any(|x| !x.is_finite()) {
+        force.fill(0.0);
+    }
+    force
+}

@@ -1,0 +1,14 @@
+//! The linear structure in the coordinates of a solver: all free DOFs, or those of a basis.
+//!
+//! Matrices, link map B, load columns, and how directions without mass follow in direct integration.
+//! May use `basis`.
+
+mod followers;
+mod link_map;
+mod products;
+mod space;
+
+pub(crate) use followers::{Followers, JUMPED, accelerate_at_once, acceleration, rate_at_end};
+pub(crate) use link_map::LinkMap;
+pub(crate) use products::Products;
+pub(crate) use space::Space;
