@@ -26,13 +26,11 @@ mod samples;
 mod shadow;
 mod touches;
 
-pub(crate) use aside::aside;
+pub(crate) use aside::{Listener, Teller, aside};
 pub(crate) use defect::Defect;
 pub(crate) use kicks::Kicks;
 pub(crate) use samples::Samples;
 pub(crate) use shadow::Shadow;
-
-use aside::Teller;
 
 use crate::kernel::ForceScale;
 use crate::march::Piece;

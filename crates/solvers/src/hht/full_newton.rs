@@ -6,10 +6,10 @@ use super::newmark::{mass_acceleration, newmark};
 use crate::error::SolveError;
 use crate::kernel::{Remembered, Search};
 use crate::step::{
-    Apart, Forces, LinksBefore, Motion, State, StepEnergy, StepFailure, StepWork, Stepper, Turning,
-    Way, apart, energy_rounding, kinetic_and_strain, way,
+    Apart, Forces, LinksBefore, State, StepEnergy, StepFailure, StepWork, Stepper, Turning, Way,
+    apart, energy_rounding, kinetic_and_strain, way,
 };
-use crate::structure::{Followers, Space, accelerate_at_once, acceleration};
+use crate::structure::{Followers, Motion, Space, accelerate_at_once, acceleration};
 use crate::vector::largest;
 use trilith_element::{Energy, Kinematics};
 use trilith_linalg::{SparseLu, Triplets};

@@ -23,8 +23,8 @@ mod tests;
 
 use crate::error::SolveError;
 use crate::kernel::{Compliance, StepKey, Wanted};
-use crate::step::{Forces, Motion, Propagator, StepWork};
-use crate::structure::{Followers, Products, Space, acceleration};
+use crate::step::{Forces, Propagator, StepWork};
+use crate::structure::{Followers, Motion, Products, Space, acceleration};
 pub(crate) use full_newton::FullNewton;
 use newmark::{mass_acceleration, newmark};
 use std::collections::BTreeMap;

@@ -1,6 +1,6 @@
 //! The motion of modes inside a step of the exact rule.
 
-use super::recurrence::{Rule, Structure};
+use super::recurrence::{Recurrence, Structure};
 use trilith_linalg::add_products;
 
 /// The closed form of FNA over a step, taken from the motions at its ends alone: with loads and link forces linear
@@ -9,13 +9,13 @@ pub(crate) struct ClosedForm {
     structure: Structure,
     /// ω of the modes, rad/s.
     pub omega: Vec<f64>,
-    /// Rules by their length, the one used last at the end.
-    rules: Vec<(f64, Rule)>,
+    /// Recurrences by their length, the one used last at the end.
+    recurrences: Vec<(f64, Recurrence)>,
 }
 
-/// Values (8 bytes each) in the rules that are kept.
+/// Values (8 bytes each) in the recurrences that are kept.
 const KEPT_VALUES: usize = 1 << 22;
-/// Rules kept at least and at most.
+/// Recurrences kept at least and at most.
 const KEPT: (usize, usize) = (2, 64);
 
 /// Difference between the closed form and a step that was made otherwise, as a share of the motion.
@@ -26,7 +26,7 @@ impl ClosedForm {
     pub(crate) fn new(structure: &Structure) -> Self {
         let structure = structure.clone();
         let omega = structure.omega2[..structure.modes].iter().map(|w| w.max(0.0).sqrt()).collect();
-        Self { structure, omega, rules: Vec::new() }
+        Self { structure, omega, recurrences: Vec::new() }
     }
 
     /// What drives the modes and the static shapes: s = q̈ + D q̇ + Ω² q, without q̈ in these.
@@ -84,28 +84,28 @@ impl ClosedForm {
     /// Leads a motion over a part as long as those that [`inside`](Self::inside) looked at last, under what drives it at
     /// both ends of the part.
     pub(crate) fn go_on(&self, motion: &mut Vec<f64>, [source0, source1]: [&[f64]; 2]) {
-        let Some((_, rule)) = self.rules.last() else { return };
+        let Some((_, recurrence)) = self.recurrences.last() else { return };
         let n = self.structure.omega2.len();
         let mut next = vec![0.0; 3 * n];
         let (q, rest) = next.split_at_mut(n);
         let (v, a) = rest.split_at_mut(n);
         let inputs = [&motion[..n], &motion[n..2 * n], source0, source1];
-        rule.apply(1, inputs, q);
-        rule.apply(2, inputs, v);
+        recurrence.apply(1, inputs, q);
+        recurrence.apply(2, inputs, v);
         self.structure.acceleration(source1, q, v, a);
         *motion = next;
     }
 
-    /// The rule of a length, out of those that are kept: the caller puts it back.
-    fn rule(&mut self, length: f64) -> Rule {
-        if let Some(at) = self.rules.iter().position(|(known, _)| *known == length) {
-            return self.rules.remove(at).1;
+    /// The recurrence of a length, out of those that are kept: the caller puts it back.
+    fn recurrence(&mut self, length: f64) -> Recurrence {
+        if let Some(at) = self.recurrences.iter().position(|(known, _)| *known == length) {
+            return self.recurrences.remove(at).1;
         }
         let n = self.omega.len();
         let values = if self.structure.damping.is_some() { 12 * n * n } else { 12 * n };
         let most = (KEPT_VALUES / values.max(1)).clamp(KEPT.0, KEPT.1);
-        self.rules.drain(..(self.rules.len() + 1).saturating_sub(most));
-        Rule::exact(&self.structure, length)
+        self.recurrences.drain(..(self.recurrences.len() + 1).saturating_sub(most));
+        Recurrence::exact(&self.structure, length)
     }
 
     /// The motions at the ends of all but the last of so many equal parts of a step; none where the step was made by
@@ -120,7 +120,7 @@ impl ClosedForm {
         let n = self.structure.omega2.len();
         let part = length / parts as f64;
         let (s0, s1) = (self.source(from), self.source(to));
-        let rule = self.rule(part);
+        let recurrence = self.recurrence(part);
         let at = |i: usize| -> Vec<f64> {
             let share = i as f64 / parts as f64;
             s0.iter().zip(&s1).map(|(a, b)| a + share * (b - a)).collect()
@@ -132,12 +132,12 @@ impl ClosedForm {
             let (q, rest) = motion.split_at_mut(n);
             let (v, a) = rest.split_at_mut(n);
             let inputs = [&before[..n], &before[n..2 * n], &source0[..], &source1[..]];
-            rule.apply(1, inputs, q);
-            rule.apply(2, inputs, v);
+            recurrence.apply(1, inputs, q);
+            recurrence.apply(2, inputs, v);
             self.structure.acceleration(&source1, q, v, a);
             all.push(motion);
         }
-        self.rules.push((part, rule));
+        self.recurrences.push((part, recurrence));
         let end = all.pop().unwrap_or_default();
         // Static shapes that nothing damps have rates of their own making.
         let free = |order: usize, i: &usize| order == 0 || !self.structure.undamped.contains(i);

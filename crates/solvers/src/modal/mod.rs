@@ -8,5 +8,5 @@ mod recurrence;
 pub(crate) mod single_mode;
 
 pub(crate) use closed_form::ClosedForm;
-pub(crate) use recurrence::{Rule, Structure, bit};
+pub(crate) use recurrence::{Recurrence, Structure, bit};
 pub(crate) use single_mode::Mode;

@@ -72,7 +72,7 @@ impl Structure {
 }
 
 /// Coefficients of one step size: rows ∫q, q, q̇; columns q₀, q̇₀, s₀, s₁.
-pub(crate) struct Rule {
+pub(crate) struct Recurrence {
     /// Of modes that damping couples; these come first.
     coupled: Option<Box<[[Dense; 4]; 3]>>,
     /// Of all that move on their own.
@@ -81,7 +81,7 @@ pub(crate) struct Rule {
     modes: Option<OwnModes>,
 }
 
-impl Rule {
+impl Recurrence {
     /// Exact for loads linear in the step.
     pub(crate) fn exact(structure: &Structure, dt: f64) -> Self {
         Self::new(structure, dt, |_| false)

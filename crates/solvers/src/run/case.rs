@@ -2,8 +2,9 @@
 
 use super::checkpoint::{check_static, parameters};
 use super::clock::{Clock, peak_rss_mb};
-use super::dynamic::{self, Setup};
+use super::dynamic;
 use super::end_state::{EndState, Initial};
+use super::prepared::Setup;
 use super::result::{CaseResult, Status, Work};
 use crate::basis::{BasisReport, Demands};
 use crate::checks;

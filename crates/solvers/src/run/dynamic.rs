@@ -1,41 +1,21 @@
-//! A dynamic case: start state, basis, solver, output steps.
+//! A dynamic case: prepare it, march through it with what runs beside it, judge what it leaves.
 
-use super::case::{RunOptions, constant_load};
-use super::checkpoint::{check, parameters};
+use super::arrival::Arrival;
+use super::case::RunOptions;
 use super::clock::Clock;
 use super::companion::Companion;
-use super::end_state::{EndState, Initial, SoFar};
-use super::equations::{Equations, bases, fna_modes, is_reduced};
+use super::equations::is_reduced;
+use super::marching::{Beside, Course, Ended, Watch, march_beside, output_errors};
+use super::prepared::{Prepared, Setup};
 use super::result::{CaseResult, Status, Work};
-use super::start::{resume, start};
-use crate::basis::{Bases, follow_supports, modal_damping};
-use crate::certificate::{Certificate, Defect, Kicks, Samples, Shadow, aside};
+use crate::certificate::{Certificate, OutputError};
 use crate::checks;
 use crate::error::SolveError;
-use crate::kernel::Remembered;
-use crate::march::{
-    March, Moment, Moving, Pace, Stop, Timeline, at_least, constant_force, output_step,
-};
-use crate::record::{Ledger, Observer, Outputs, Viewer, looks_at_rates};
-use crate::step::{State, Stepper};
-use crate::structure::Space;
-use std::sync::atomic::Ordering;
-use trilith_model::{
-    Analysis, Case, DynamicCase, MOST_OUTPUT_STEPS, Model, SolverKind, StepControl, output_steps,
-};
+use crate::march::{Counts, March, Moving, Pace, Stop, Timeline, constant_force};
+use crate::record::{Ledger, Observer, Viewer, looks_at_rates};
+use crate::step::Stepper;
+use trilith_model::{Model, StepControl};
 use trilith_system::System;
-
-/// A dynamic case and what it starts from.
-pub(crate) struct Setup<'a> {
-    pub model: &'a Model,
-    pub system: &'a System,
-    pub case: &'a Case,
-    pub analysis: &'a DynamicCase,
-    pub before: Option<EndState>,
-}
-
-/// Share of the static response to a load that a basis must hold without a warning.
-const LOADS_HELD: f64 = 0.95;
 
 /// Runs the case.
 pub(crate) fn run(
@@ -44,192 +24,172 @@ pub(crate) fn run(
     observers: &mut [&mut dyn Observer],
 ) -> Result<CaseResult, SolveError> {
     let clock = Clock::start();
-    let Setup { model, system, case, analysis, before } = setup;
-    let mut widened;
-    let analysis = match options.vectors {
-        None => analysis,
-        Some(vectors) => {
-            widened = analysis.clone();
-            widened.solution.basis.vectors = Some(vectors);
-            &widened
-        }
-    };
+    let prepared = Prepared::new(setup, &options)?;
+    let Prepared { model, system, analysis, loads, .. } = &prepared;
     let solution = &analysis.solution;
-    let kind = options.solver.unwrap_or(solution.solver);
-    let dt = options.dt.unwrap_or(analysis.dt);
-    let steps = output_steps(analysis.duration, dt);
-    if steps > MOST_OUTPUT_STEPS as f64 {
-        let (case, span) = (case.name.clone(), case.span.clone());
-        return Err(SolveError::TooManySteps { case, steps, dt, span });
-    }
-    if let Some(end) = &options.from {
-        check(model, system, case, kind, dt, end)?;
-    }
-    let constant = match &options.from {
-        Some(end) => end.load.clone(),
-        None => held_load(model, system, analysis, before.as_ref()),
-    };
-    let mut loads = system.dynamic_loads(model, analysis, constant.clone());
-    let reduced = is_reduced(kind);
-    let initial = match &options.from {
-        Some(end) => end.initial.clone(),
-        None => Initial::new(model, system, analysis, before.as_ref())?,
-    };
-    let judged = reduced && solution.basis.tolerance < 1.0 && !model.outputs.is_empty();
-    let bases = bases(model, system, analysis, kind, &loads, &initial, judged)?;
-    let damping = bases.as_ref().and_then(|b| modal_damping(model, system, b));
-    follow_supports(model, system, damping.as_ref(), reduced, &mut loads)?;
-    let equations = Equations {
-        model,
-        system,
-        solution,
-        kind,
-        loads: &loads,
-        bases: bases.as_ref(),
-        damping: damping.as_ref(),
-        watched: looks_at_rates(model, system, observers.iter().any(|o| o.wants_rates())),
-    };
+    let wants_rates = observers.iter().any(|o| o.wants_rates());
+    let equations = prepared.equations(looks_at_rates(model, system, wants_rates));
     let mut stepper = equations.stepper()?;
-    let timeline = Timeline::new(dt, analysis.duration, &loads, at_least(solution.step));
-    let mut warnings = Vec::new();
-    if let (Some(b), true) = (&bases, reduced) {
-        adequacy_warning(b, solution.basis.adequacy, &mut warnings);
-    }
-    let moves_at = match &options.from {
-        Some(end) => (end.displacement.clone(), end.velocity.clone()),
-        None => (initial.displacement.clone(), initial.velocity.clone()),
-    };
-    let RunOptions { from, until, substeps, step_errors, mut progress, vectors, interrupt, .. } =
+    let timeline = prepared.timeline();
+    let warnings = prepared.adequacy_warnings();
+    let RunOptions { from, until, substeps, step_errors, progress, vectors, interrupt, .. } =
         options;
-    let largest = from.as_ref().map(|end| end.largest.clone()).unwrap_or_default();
-    let set_out = |stepper: &mut dyn Stepper| match from.clone() {
-        Some(end) => resume(end, stepper),
-        None => start(model, system, &initial, &loads, stepper, [dt, analysis.duration]),
-    };
+    let set_out = |stepper: &mut dyn Stepper| prepared.set_out(from.as_ref(), stepper);
     let (state, pace, ledger, first) = set_out(stepper.as_mut())?;
     let mut moving = Moving { state: Box::new(state), pace, ledger };
-    let mut viewer = Viewer::new(model, system, &loads, stepper.space(), observers);
-    viewer.look_inside(stepper.closed_form(), dt, largest);
-    let wider = bases.as_ref().and_then(|b| b.wider.as_deref());
-    let shadow = wider.map(|wider| {
-        let modes = fna_modes(model, system, &loads, wider);
-        let at = (&*moves_at.0, &*moves_at.1);
-        let t = timeline.time(first);
-        aside(Shadow::new(model, system, &loads, modes, at, t, &moving.state))
-    });
-    let (shadow, listener) = shadow.unzip();
-    let last = match until {
-        Some(t) => ((t / dt) - 1e-9).ceil().max(0.0) as usize,
-        None => timeline.steps,
-    }
-    .min(timeline.steps);
+    let steps = first..last_step(until, &timeline);
+    let mut viewer = Viewer::new(model, system, loads, stepper.space(), observers);
+    let largest = from.as_ref().map(|end| end.largest.clone()).unwrap_or_default();
+    viewer.look_inside(stepper.closed_form(), timeline.dt, largest);
+    let wider = prepared.wider(from.as_ref(), timeline.time(first), &moving.state);
+    let (shadow, listener) = wider.unzip();
     let judged = !model.outputs.is_empty() && (step_errors || shadow.is_some());
-    let steps = first..last;
     let mut certificate = judged.then(|| {
-        let (space, state) = (stepper.space(), &moving.state);
-        let samples = Samples::new(model, system, &loads, space, &timeline, steps.clone(), state);
-        let few = Defect::is_worth(&timeline, steps.clone());
-        let exact = bases.as_ref().filter(|_| step_errors && kind == SolverKind::Fna && few);
-        let defect = exact.map(|bases| {
-            let modes = fna_modes(model, system, &loads, bases);
-            Defect::new(model, system, &loads, modes, timeline.time(first), &moving.state)
-        });
-        let kicks = stepper.closed_form().filter(|_| step_errors).and_then(|form| {
-            let (space, at) = (stepper.space(), (timeline.time(first), &*moving.state));
-            let outputs = Outputs::new(model, system, space);
-            Kicks::new(&outputs, space, &form.omega, timeline.dt, at)
-        });
-        let links = &system.links;
-        let tolerance = solution.link_tolerance;
-        Certificate::new(model, links, samples, shadow, defect, kicks, tolerance)
+        let (stepper, state) = (stepper.as_ref(), &moving.state);
+        prepared.certificate(stepper, &timeline, steps.clone(), state, shadow, step_errors)
     });
-    viewer.start(last.saturating_sub(first));
+    viewer.start(steps.len());
     viewer.show(timeline.time(first), Some(first), &moving.state, &moving.ledger);
     let setup_cpu = clock.cpu();
-    let constant_force = constant_force(stepper.space(), &loads);
-    let mut march = March::new(stepper.as_mut(), &loads, solution.step);
-    march.budget = substeps.unwrap_or_else(|| solution.substep_limit(last.saturating_sub(first)));
+    let constant = constant_force(stepper.space(), loads);
+    let mut march = March::new(stepper.as_mut(), loads, solution.step);
+    march.budget = substeps.unwrap_or_else(|| solution.substep_limit(steps.len()));
     let companion = match solution.step {
         StepControl::Adaptive { tolerance } if step_errors && judged => {
             Some(Companion::new(equations, &timeline, tolerance, steps.clone(), march.budget))
         }
         _ => None,
     };
-    let (mut stop, mut fallen, mut interrupted) = (None, None, false);
-    let mut made = first;
-    let outputs = model.outputs.len();
-    let (beside, reduction) = std::thread::scope(|scope| {
-        let beside = companion.as_ref().map(|companion| scope.spawn(|| companion.march(&set_out)));
-        let shadow = listener.map(|listener| scope.spawn(move || listener.follow(outputs)));
-        let mut way = |made: &mut usize| -> Result<(), Stop> {
-            for step in steps.clone() {
-                let end = timeline.time(step + 1) - 1e-12 * dt;
-                let mut tell = |moment: Moment, t: f64, s: &State, l: &Ledger| match moment {
-                    Moment::Jump => {
-                        if let Some(certificate) = &mut certificate {
-                            certificate.jump(t, s);
-                        }
-                        viewer.show_behind(t, s, l);
-                    }
-                    Moment::Substep(piece) => {
-                        if let Some(certificate) = &mut certificate {
-                            certificate.follow(piece, t, s);
-                        }
-                        if t < end {
-                            viewer.show(t, None, s, l);
-                        }
-                    }
-                };
-                output_step(&timeline, step, &mut march, &constant_force, &mut moving, &mut tell)?;
-                *made = step + 1;
-                let Moving { state, ledger, .. } = &moving;
-                viewer.show(timeline.time(*made), Some(*made), state, ledger);
-                if let Some(tell) = progress.as_deref_mut() {
-                    tell((*made - first) as f64 / (last - first) as f64);
-                }
-                fallen = viewer.overturned(state);
-                interrupted = *made < last && interrupt.is_some_and(|i| i.load(Ordering::Relaxed));
-                if fallen.is_some() || interrupted {
-                    break;
-                }
-            }
-            Ok(())
-        };
-        stop = way(&mut made).err();
-        if let Some(companion) = &companion {
-            companion.end(made);
-        }
-        if let Some(certificate) = &mut certificate {
-            certificate.end();
-        }
-        // Where the companion finds no start, the run finds none either.
-        let beside = beside.and_then(|thread| thread.join().ok()).and_then(Result::ok);
-        (beside, shadow.map(|thread| thread.join().ok()))
+    let watch =
+        Watch { viewer: &mut viewer, certificate: certificate.as_mut(), progress, interrupt };
+    let course = Course { timeline: &timeline, steps, constant: &constant };
+    let beside = Beside { companion: companion.as_ref(), listener, outputs: model.outputs.len() };
+    let (ended, found) = march_beside(course, &mut march, &mut moving, watch, beside, &set_out);
+    let errors = certificate.as_ref().map(|certificate| {
+        let companion = companion.as_ref().filter(|_| !ended.interrupted);
+        output_errors(certificate, companion, found, model, analysis.duration, &set_out)
     });
-    if let (Some(certificate), Some(reduction)) = (&mut certificate, reduction) {
-        certificate.reduce(reduction);
+    viewer.end(&moving.state, &moving.ledger);
+    let marched = Marched { first, counts: march.counts, moving, setup_cpu, clock };
+    let certified = certificate.as_ref().zip(errors);
+    let leaves = Leaves { prepared: &prepared, timeline: &timeline, viewer: &viewer, certified };
+    let compared = companion.is_some();
+    let mut result = leaves.result(ended, marched, stepper.as_ref(), compared, warnings)?;
+    result.end.vectors = vectors;
+    Ok(result)
+}
+
+/// A march that has ended, and what it has cost.
+struct Marched {
+    /// The output step that it started from.
+    first: usize,
+    counts: Counts,
+    moving: Moving,
+    clock: Clock,
+    /// CPU time until the first step, s.
+    setup_cpu: f64,
+}
+
+impl Marched {
+    fn work(&self, made: usize, stepper: &dyn Stepper) -> Work {
+        let Self { first, counts, clock, setup_cpu, .. } = self;
+        let (iterations, factorizations) = stepper.work();
+        Work {
+            steps: made - first,
+            substeps: counts.substeps,
+            iterations,
+            rejected: counts.rejected,
+            factorizations,
+            forced: counts.forced,
+            wall_s: clock.wall(),
+            setup_cpu_s: *setup_cpu,
+            march_cpu_s: clock.cpu() - setup_cpu,
+            ..Work::default()
+        }
     }
-    let mut beside: Vec<Samples> = beside.into_iter().collect();
-    let mut errors = certificate.as_ref().map(|c| c.errors(model, &beside, analysis.duration));
-    if let (Some(certificate), Some(errors), Some(companion)) = (&certificate, &mut errors, &companion)
-        && !interrupted
-        && certificate.is_unsure(model, errors)
-        && let Ok(second) = companion.second().march(&set_out)
-        // One that has broken off says nothing.
-        && beside.iter().all(|first| second.reach(first))
-    {
-        beside.push(second);
-        *errors = certificate.errors(model, &beside, analysis.duration);
+}
+
+/// What a result is made of beside the march.
+struct Leaves<'r, 'a, 'b, 'c> {
+    prepared: &'r Prepared<'a>,
+    timeline: &'r Timeline,
+    viewer: &'r Viewer<'b, 'c>,
+    /// What followed the errors of the outputs, and these.
+    certified: Option<(&'r Certificate<'r>, Vec<OutputError>)>,
+}
+
+impl Leaves<'_, '_, '_, '_> {
+    /// The result of a march; `compared`: whether a companion went beside it.
+    fn result(
+        self,
+        ended: Ended,
+        marched: Marched,
+        stepper: &dyn Stepper,
+        compared: bool,
+        mut warnings: Vec<String>,
+    ) -> Result<CaseResult, SolveError> {
+        let Self { prepared, timeline, viewer, certified } = self;
+        let Prepared {
+            model, system, case, analysis, kind, loads, constant, initial, bases, ..
+        } = prepared;
+        if let Some(Stop::Fatal(e)) = ended.stop {
+            return Err(e);
+        }
+        let counts = marched.counts;
+        let work = marched.work(ended.made, stepper);
+        let Moving { state, pace, ledger } = marched.moving;
+        let solution = &analysis.solution;
+        warnings.extend(march_warnings(solution.step, &pace, &ledger, counts, stepper));
+        let arrival = Arrival {
+            timeline,
+            made: ended.made,
+            state: *state,
+            pace,
+            ledger,
+            constant: constant.clone(),
+            initial: initial.clone(),
+            fallen: ended.fallen,
+            largest: viewer.largest(),
+        };
+        let (space, memory) = (stepper.space(), stepper.memory());
+        let mut result = arrival.result(model, system, case, *kind, space, memory, work);
+        note_stop(&mut result, &ended, counts, model, system);
+        if let Some((certificate, errors)) = certified {
+            result.errors = errors;
+            let allowed = solution.basis.tolerance;
+            warnings.extend(judge(&mut result, certificate, model, compared, allowed));
+        }
+        let (of, noticed) = ((*case, &**analysis), viewer.noticed());
+        let place = &result.place();
+        warnings.extend(checks::of_dynamic((model, system), of, loads, noticed, place));
+        // Where nothing is free, there are no modes to speak of.
+        let basis = bases.as_ref().filter(|_| is_reduced(*kind) && !system.idle);
+        result.basis = basis.map(|b| b.report.clone());
+        result.warnings = warnings;
+        Ok(result)
     }
-    let Moving { state, pace, ledger } = moving;
-    if matches!(solution.step, StepControl::Adaptive { .. }) && pace.is_lost() && ledger.moves() {
+}
+
+/// The output step at which a run ends that goes on to a time, s.
+fn last_step(until: Option<f64>, timeline: &Timeline) -> usize {
+    let last = match until {
+        Some(t) => ((t / timeline.dt) - 1e-9).ceil().max(0.0) as usize,
+        None => timeline.steps,
+    };
+    last.min(timeline.steps)
+}
+
+/// What the user should know of the steps.
+fn march_warnings(
+    control: StepControl,
+    pace: &Pace,
+    ledger: &Ledger,
+    counts: Counts,
+    stepper: &dyn Stepper,
+) -> Vec<String> {
+    let mut warnings = Vec::new();
+    if matches!(control, StepControl::Adaptive { .. }) && pace.is_lost() && ledger.moves() {
         warnings.push(LOST.into());
-    }
-    viewer.end(&state, &ledger);
-    let (largest, noticed) = (viewer.largest(), viewer.noticed());
-    let counts = march.counts;
-    if let Some(Stop::Fatal(e)) = stop {
-        return Err(e);
     }
     if counts.forced > 0 {
         warnings.push(format!(
@@ -237,74 +197,59 @@ pub(crate) fn run(
             counts.forced
         ));
     }
-    if let (StepControl::Fixed { .. }, Some(ratio)) = (solution.step, stepper.beyond_exact()) {
+    if let (StepControl::Fixed { .. }, Some(ratio)) = (control, stepper.beyond_exact()) {
         warnings.push(format!(
             "fixed steps were too long for the exact rule at the stiffest link (ω Δt = {:.2}; limit of stability 3.46): they were made by average acceleration, and nothing watched their error; `step: Adaptive(…)` does",
             (6.0 * ratio).sqrt()
         ));
     }
-    let (iterations, factorizations) = stepper.work();
-    let work = Work {
-        steps: made - first,
-        substeps: counts.substeps,
-        iterations,
-        rejected: counts.rejected,
-        factorizations,
-        forced: counts.forced,
-        wall_s: clock.wall(),
-        setup_cpu_s: setup_cpu,
-        march_cpu_s: clock.cpu() - setup_cpu,
-        ..Work::default()
-    };
-    let state = *state;
-    let arrival = Arrival {
-        timeline: &timeline,
-        made,
-        state,
-        pace,
-        ledger,
-        constant,
-        initial,
-        fallen,
-        largest,
-    };
-    let mut result =
-        arrival.result(model, system, case, kind, stepper.space(), stepper.memory(), work);
-    match stop {
+    warnings
+}
+
+/// The status of a run that has not come to its end.
+fn note_stop(
+    result: &mut CaseResult,
+    ended: &Ended,
+    counts: Counts,
+    model: &Model,
+    system: &System,
+) {
+    match &ended.stop {
         Some(Stop::NoEquilibrium { t, worst, residual }) => {
-            let worst = system.links.name(model, worst);
-            result.status = Status::NotConverged { t, worst, residual };
+            let worst = system.links.name(model, *worst);
+            result.status = Status::NotConverged { t: *t, worst, residual: *residual };
         }
         Some(Stop::Spent { t }) => {
-            result.status = Status::Spent { t, tried: counts.substeps + counts.rejected };
+            result.status = Status::Spent { t: *t, tried: counts.substeps + counts.rejected };
         }
-        None if interrupted && result.status.is_good() && fallen.is_none() => {
+        None if ended.interrupted && result.status.is_good() && ended.fallen.is_none() => {
             result.status = Status::Interrupted { t: result.end.time };
         }
         Some(Stop::Fatal(_)) | None => {}
     }
-    if let (Some(certificate), Some(errors)) = (&certificate, errors) {
-        result.errors = errors;
-        warnings.extend(certificate.doubt(model, &result.errors));
-        let unknown = result.errors.iter().any(|e| e.step.is_nan());
-        if companion.is_some() && unknown && result.status.is_good() {
-            warnings.push(UNKNOWN.into());
-        }
-        let allowed = solution.basis.tolerance;
-        if let Some((output, share)) = certificate.worst(model).filter(|(_, e)| *e > allowed)
-            && result.status.is_good()
-        {
-            let output = model.outputs[output].name.clone();
-            result.status = Status::Inadequate { output, share, allowed };
-        }
+}
+
+/// What the errors of the outputs say of a run: warnings, and its status where the basis does not hold the motion as well
+/// as `allowed`; `compared`: whether a companion went beside it.
+fn judge(
+    result: &mut CaseResult,
+    certificate: &Certificate<'_>,
+    model: &Model,
+    compared: bool,
+    allowed: f64,
+) -> Vec<String> {
+    let mut warnings: Vec<String> = certificate.doubt(model, &result.errors).into_iter().collect();
+    let unknown = result.errors.iter().any(|e| e.step.is_nan());
+    if compared && unknown && result.status.is_good() {
+        warnings.push(UNKNOWN.into());
     }
-    let case = (case, analysis);
-    warnings.extend(checks::of_dynamic((model, system), case, &loads, noticed, &result.place()));
-    result.end.vectors = vectors;
-    // Where nothing is free, there are no modes to speak of.
-    result.basis = bases.as_ref().filter(|_| reduced && !system.idle).map(|b| b.report.clone());
-    result.warnings = warnings;
-    Ok(result)
+    if let Some((output, share)) = certificate.worst(model).filter(|(_, e)| *e > allowed)
+        && result.status.is_good()
+    {
+        let output = model.outputs[output].name.clone();
+        result.status = Status::Inadequate { output, share, allowed };
+    }
+    warnings
 }
 
 /// Said where the companion of a run has found no end.
@@ -312,125 +257,3 @@ const UNKNOWN: &str = "how far the steps are off is not known: the same run at t
 
 /// Said where all motion is small beside what stands in springs.
 const LOST: &str = "all motion is below a thousandth of what loads before it have done, and steps follow it no better than a motion of that size: a smaller tolerance, `step: Adaptive(tolerance: …)`, makes them finer";
-
-/// Where a run ended, and what it carries there.
-pub(crate) struct Arrival<'a> {
-    pub timeline: &'a Timeline,
-    /// Output steps made since the start of the case.
-    pub made: usize,
-    pub state: State,
-    pub pace: Pace,
-    pub ledger: Ledger,
-    /// Constant loads on the free DOFs.
-    pub constant: Vec<f64>,
-    /// What it started from.
-    pub initial: Initial,
-    /// Index of the element of a body that has fallen over.
-    pub fallen: Option<usize>,
-    /// Largest values of the outputs, where looks inside steps hang on them.
-    pub largest: Vec<f64>,
-}
-
-impl Arrival<'_> {
-    /// What the run leaves; basis and warnings still missing.
-    pub(crate) fn result(
-        self,
-        model: &Model,
-        system: &System,
-        case: &Case,
-        kind: SolverKind,
-        space: &Space,
-        memory: Vec<Remembered>,
-        work: Work,
-    ) -> CaseResult {
-        let Self { timeline, made, state, pace, ledger, constant, initial, fallen, largest } = self;
-        // Where the links were led from, nobody asks at the end.
-        let initial = Initial { links: None, ..initial };
-        let share = ledger.totals.error_relative;
-        let limit = match &case.analysis {
-            Analysis::Dynamic(analysis) => analysis.solution.energy_limit,
-            Analysis::Static(_) => f64::INFINITY,
-        };
-        let status = if share > limit {
-            Status::EnergyError { share, limit }
-        } else {
-            fallen.map_or(Status::Converged, |element| Status::Overturned {
-                t: timeline.time(made),
-                body: model.elements[element].name.clone(),
-            })
-        };
-        let n = space.order();
-        let totals = ledger.totals;
-        let links = system.links.links.iter().zip(&ledger.links);
-        let link_energy = links.map(|(l, e)| (l.element, *e)).collect();
-        let end = EndState {
-            model: model.source.sha256.clone(),
-            case: case.name.clone(),
-            solver: kind.name().into(),
-            parameters: parameters(model),
-            dt: timeline.dt,
-            time: timeline.time(made),
-            step: made,
-            displacement: space.expand(&state.motion[..n]),
-            velocity: space.expand(&state.motion[n..2 * n]),
-            load: constant,
-            initial,
-            vectors: None,
-            pace,
-            memory,
-            ledger,
-            state,
-            largest,
-            seen: SoFar::default(),
-        };
-        CaseResult {
-            case: case.name.clone(),
-            solver: kind.name(),
-            status,
-            work,
-            energy: totals,
-            link_energy,
-            basis: None,
-            warnings: Vec::new(),
-            errors: Vec::new(),
-            end,
-        }
-    }
-}
-
-/// Constant loads on the free DOFs: the case's own and those of the case before.
-pub(crate) fn held_load(
-    model: &Model,
-    system: &System,
-    analysis: &DynamicCase,
-    before: Option<&EndState>,
-) -> Vec<f64> {
-    let mut constant = constant_load(model, system, &analysis.constant);
-    if let Some(end) = before {
-        constant.iter_mut().zip(&end.load).for_each(|(x, y)| *x += y);
-    }
-    constant
-}
-
-fn adequacy_warning(bases: &Bases, wanted: f64, warnings: &mut Vec<String>) {
-    let poor: Vec<_> = bases.report.adequacy.iter().filter(|a| a.share < wanted).collect();
-    if let Some(worst) = poor.first() {
-        warnings.push(format!(
-            "the basis of {} vectors holds only {:.1} % of the flexibility at {} (wanted {:.1} %; {} coordinates below): use more vectors",
-            bases.report.vectors,
-            100.0 * worst.share,
-            worst.coordinate,
-            100.0 * wanted,
-            poor.len()
-        ));
-    }
-    // Where no basis was asked for that holds the links, loads are the user's business as well.
-    let loads = bases.report.static_participation.iter().filter(|_| wanted > 0.0);
-    for (name, share) in loads.filter(|(_, share)| *share < LOADS_HELD) {
-        warnings.push(format!(
-            "the basis of {} vectors holds only {:.1} % of the static response to {name}: displacements near that load are too small",
-            bases.report.vectors,
-            100.0 * share
-        ));
-    }
-}

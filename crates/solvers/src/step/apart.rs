@@ -6,10 +6,9 @@
 //! deformation   max |Δd|        force   max |Δf|               translations and rotations apart
 //! ```
 
-use super::propagator::Motion;
 use super::state::State;
 use crate::kernel::ForceScale;
-use crate::structure::Space;
+use crate::structure::{Motion, Space};
 use crate::vector::larger;
 use serde::{Deserialize, Serialize};
 use trilith_system::LinkSet;

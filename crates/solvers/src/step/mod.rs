@@ -13,7 +13,7 @@ mod vibration;
 
 pub(crate) use apart::{Apart, Way, apart, way};
 pub(crate) use link_side::LinkSide;
-pub(crate) use propagator::{Forces, Motion, Propagator, StepWork, kinetic_and_strain};
+pub(crate) use propagator::{Forces, Propagator, StepWork, kinetic_and_strain};
 pub use state::State;
 pub(crate) use state::{LinksBefore, StepEnergy, StepFailure, untouched};
 pub(crate) use stepper::{LinkStepper, Stepper, energy_rounding};

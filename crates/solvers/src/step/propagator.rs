@@ -3,10 +3,7 @@
 use crate::error::SolveError;
 use crate::kernel::{Compliance, StepKey, Wanted};
 use crate::modal::ClosedForm;
-use crate::structure::Space;
-
-/// Displacements, velocities and accelerations in the coordinates of a solver, one after the other.
-pub(crate) type Motion = Vec<f64>;
+use crate::structure::{Motion, Space};
 
 /// Work over one step, J.
 #[derive(Clone, Copy, Debug, Default)]

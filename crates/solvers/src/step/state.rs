@@ -1,8 +1,9 @@
 //! The state of a motion, and what one step makes of it.
 
-use super::{Motion, StepWork};
+use super::StepWork;
 use crate::error::SolveError;
 use crate::kernel::{ForceScale, NoEquilibrium, Unforeseen};
+use crate::structure::Motion;
 use crate::vector::{larger, largest};
 use serde::{Deserialize, Serialize};
 use trilith_element::{Energy, Kinematics};

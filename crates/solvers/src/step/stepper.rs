@@ -2,14 +2,14 @@
 
 use super::apart::{Apart, Way, apart, way};
 use super::link_side::LinkSide;
-use super::propagator::{Motion, Propagator};
+use super::propagator::Propagator;
 use super::state::{LinksBefore, State, StepEnergy, StepFailure};
 use super::turning::Turning;
 use super::vibration::{Made, Vibration};
 use crate::error::SolveError;
 use crate::kernel::{ForceScale, Remembered};
 use crate::modal::ClosedForm;
-use crate::structure::{Space, accelerate_at_once};
+use crate::structure::{Motion, Space, accelerate_at_once};
 use trilith_system::{Laws, StepLoads};
 
 /// One rule for a step.

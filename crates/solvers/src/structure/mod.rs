@@ -12,3 +12,6 @@ pub(crate) use followers::{Followers, JUMPED, accelerate_at_once, acceleration, 
 pub(crate) use link_map::LinkMap;
 pub(crate) use products::Products;
 pub(crate) use space::Space;
+
+/// Displacements, velocities and accelerations in the coordinates of a solver, one after the other.
+pub(crate) type Motion = Vec<f64>;

@@ -6,8 +6,8 @@
 //!
 //! so Rayleigh damping costs no pass of its own; C′, of dashpots, has few entries.
 
+use super::Motion;
 use super::space::Space;
-use crate::step::Motion;
 use trilith_linalg::SymmetricOperator;
 
 /// M, K and the damping beyond Rayleigh's.

@@ -1,6 +1,6 @@
 //! One motion among several.
 
-use crate::fna::{Modes, Sources};
+use crate::fna::{ModalLoads, Modes};
 use crate::march::{Pace, Piece, Timeline, jump, potential};
 use crate::record::{Ledger, Viewer};
 use crate::step::{LinkSide, State, StepEnergy};
@@ -26,7 +26,7 @@ pub(crate) struct Course<'a, 'b> {
     pub left: bool,
     /// Index of the element of a body that has fallen over; the course ends there.
     pub fallen: Option<usize>,
-    sources: Sources,
+    sources: ModalLoads,
     next: State,
     energy: StepEnergy,
     step_loads: StepLoads,
@@ -47,7 +47,7 @@ impl<'a, 'b> Course<'a, 'b> {
         viewer: Viewer<'a, 'b>,
     ) -> Self {
         let layout = side.kernel.layout();
-        let sources = Sources::new(space, &layout.rated, &layout.damped);
+        let sources = ModalLoads::new(space, &layout.rated, &layout.damped);
         Self {
             constant: crate::march::constant_force(space, loads),
             sources,

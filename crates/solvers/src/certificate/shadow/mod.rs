@@ -12,12 +12,12 @@
 mod memory;
 
 use self::memory::Memory;
-use crate::fna::{Modes, Sources};
+use crate::fna::{ModalLoads, Modes};
 use crate::kernel::StepKey;
 use crate::march::jump;
 use crate::record::Outputs;
-use crate::step::{Motion, State};
-use crate::structure::Space;
+use crate::step::State;
+use crate::structure::{Motion, Space};
 use trilith_linalg::{Dense, DenseLu};
 use trilith_model::{Model, Side};
 use trilith_system::{LinkBlocks, LoadSet, StepLoads, System, Tangents};
@@ -33,7 +33,7 @@ pub(crate) struct Shadow<'a> {
     system: &'a System,
     loads: &'a LoadSet,
     modes: Modes,
-    sources: Sources,
+    sources: ModalLoads,
     motion: Motion,
     next: Motion,
     pseudo: Vec<f64>,
@@ -73,7 +73,7 @@ impl<'a> Shadow<'a> {
         Self {
             system,
             loads,
-            sources: Sources::new(space, &[], &[]),
+            sources: ModalLoads::new(space, &[], &[]),
             next: motion.clone(),
             motion,
             pseudo: state.pseudo.clone(),
