@@ -4,6 +4,7 @@
 //! May use `structure`, for the mark of an acceleration that has jumped; it knows no links.
 
 mod closed_form;
+mod coupled;
 mod recurrence;
 pub(crate) mod single_mode;
 

@@ -12,6 +12,7 @@ mod ledger;
 mod observer;
 mod outputs;
 pub(crate) mod peak;
+mod rows;
 mod view;
 
 pub use balance::EnergyBalance;
@@ -21,6 +22,7 @@ pub use contact_mode::{ContactMemory, ContactMode, ContactSummary};
 pub use energy::{EnergyTotals, LinkEnergy, StartEnergy};
 pub(crate) use ledger::Ledger;
 pub use observer::{Observer, Sample, Shape};
-pub(crate) use outputs::{Outputs, Row};
+pub(crate) use outputs::Outputs;
 pub use peak::Peak;
+pub(crate) use rows::Row;
 pub(crate) use view::{Viewer, looks_at_rates, show_static};

@@ -1,46 +1,12 @@
 //! The recorded quantities of a model, as rows over the coordinates of a solver.
 
+use super::rows::{Maker, Row};
 use crate::step::State;
 use crate::structure::Space;
 use std::ops::Range;
 use trilith_linalg::{Dense, Product};
-use trilith_model::{Combine, Model, NodalTerm, Quantity, Side};
+use trilith_model::{Combine, Model, Side};
 use trilith_system::{LoadSet, System};
-
-/// One output, ready to be evaluated.
-pub(crate) enum Row {
-    /// Σ on displacements (0), velocities (1) or accelerations (2).
-    Nodal {
-        order: usize,
-        own: Vec<(usize, f64)>,
-        support: Vec<(usize, f64)>,
-        base: [f64; 3],
-    },
-    Deformation {
-        flat: usize,
-        factor: f64,
-    },
-    Force {
-        flat: usize,
-        factor: f64,
-    },
-    History {
-        at: usize,
-    },
-    Element {
-        stiffness: Split,
-        damping: Split,
-    },
-    /// Of the rows before.
-    Combination {
-        how: Combine,
-        constant: f64,
-        terms: Vec<(usize, f64)>,
-    },
-}
-
-/// Terms (index, factor) on the coordinates of the solver and on prescribed displacements.
-pub(crate) type Split = (Vec<(usize, f64)>, Vec<(usize, f64)>);
 
 /// Full nodal rows of one order, one after the other.
 struct Run {
@@ -135,67 +101,9 @@ fn sum(row: &[(usize, f64)], x: &[f64]) -> f64 {
 
 impl Outputs {
     pub(crate) fn new(model: &Model, system: &System, space: &Space) -> Self {
-        let split = |terms: &[(usize, f64)]| -> Split {
-            let n = system.order();
-            let free: Vec<_> = terms.iter().filter(|(i, _)| *i < n).copied().collect();
-            let support: Vec<_> =
-                terms.iter().filter(|(i, _)| *i >= n).map(|(i, c)| (i - n, *c)).collect();
-            (space.row(&free), support)
-        };
-        let nodal = |terms: &[NodalTerm], order: usize, absolute: bool| {
-            let mut full = Vec::new();
-            let mut base = [0.0; 3];
-            for t in terms {
-                let expanded = system.reduction.expand(6 * t.node + t.dof.index());
-                full.extend(expanded.iter().map(|(i, c)| (*i, t.factor * c)));
-                if absolute && !t.dof.is_rotation() {
-                    base[t.dof.index()] += t.factor;
-                }
-            }
-            let (own, support) = split(&full);
-            Row::Nodal { order, own, support, base }
-        };
-        let link = |element: usize| system.links.links.iter().find(|l| l.element == element);
-        let rows = model
-            .outputs
-            .iter()
-            .map(|output| match &output.quantity {
-                Quantity::Displacement(terms) => nodal(terms, 0, false),
-                Quantity::Velocity(terms) => nodal(terms, 1, false),
-                Quantity::Acceleration { terms, absolute } => nodal(terms, 2, *absolute),
-                Quantity::LinkDeformation { element, coordinate, factor } => Row::Deformation {
-                    flat: link(*element).map_or(0, |l| l.range.start + coordinate),
-                    factor: *factor,
-                },
-                Quantity::LinkForce { element, coordinate, factor } => Row::Force {
-                    flat: link(*element).map_or(0, |l| l.range.start + coordinate),
-                    factor: *factor,
-                },
-                Quantity::LinkHistory { element, field } => {
-                    Row::History { at: link(*element).map_or(0, |l| l.history.start + field) }
-                }
-                Quantity::Combination { how, constant, terms } => {
-                    Row::Combination { how: *how, constant: *constant, terms: terms.clone() }
-                }
-                Quantity::ElementForce { element, end, dof, factor } => {
-                    let row = system.end_force(model, *element, *end, *dof);
-                    let scaled = |r: &[(usize, f64)]| -> Vec<(usize, f64)> {
-                        r.iter().map(|(i, c)| (*i, factor * c)).collect()
-                    };
-                    Row::Element {
-                        stiffness: split(&scaled(&row.stiffness)),
-                        damping: split(&scaled(&row.damping)),
-                    }
-                }
-            })
-            .collect::<Vec<_>>();
-        let supported = rows.iter().any(|row| match row {
-            Row::Nodal { support, .. } => !support.is_empty(),
-            Row::Element { stiffness, damping } => {
-                !(stiffness.1.is_empty() && damping.1.is_empty())
-            }
-            _ => false,
-        });
+        let maker = Maker { model, system, space };
+        let rows: Vec<Row> = model.outputs.iter().map(|o| maker.row(&o.quantity)).collect();
+        let supported = rows.iter().any(Row::is_supported);
         let absolute =
             rows.iter().any(|r| matches!(r, Row::Nodal { base, .. } if *base != [0.0; 3]));
         let prescribed = system.reduction.prescribed.len();
@@ -204,14 +112,7 @@ impl Outputs {
         let deformations = Deformations::of(&rows);
         let is_other = |i: &usize| !in_run(i) && !matches!(rows[*i], Row::Deformation { .. });
         let others = (0..rows.len()).filter(is_other).collect();
-        let active = |flat: usize| system.links.active.iter().position(|i| *i == flat);
-        let stretch = |row: &Row| match row {
-            Row::Deformation { flat, factor } => active(*flat).map_or_else(Vec::new, |a| {
-                space.links.row(a).map(|(j, c)| (j, factor * c)).collect()
-            }),
-            _ => Vec::new(),
-        };
-        let stretch = rows.iter().map(stretch).collect();
+        let stretch = rows.iter().map(|row| maker.stretch(row)).collect();
         Self {
             rows,
             runs,

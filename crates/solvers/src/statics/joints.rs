@@ -23,7 +23,7 @@ const STAY: f64 = 1e-8;
 const BACK: f64 = 1e-6;
 
 /// The directions that follow, among those without mass, and their stiffness.
-struct Followers {
+pub(super) struct Followers {
     own: Massless,
     factor: Ldlt,
 }
@@ -31,7 +31,11 @@ struct Followers {
 impl Followers {
     /// `links`: stiffness of the link coordinates, flat; `held`: rows over the directions without mass, on which links
     /// act as dashpots do.
-    fn new(system: &System, links: &[f64], held: &[Vec<f64>]) -> Result<Self, SolveError> {
+    pub(super) fn new(
+        system: &System,
+        links: &[f64],
+        held: &[Vec<f64>],
+    ) -> Result<Self, SolveError> {
         let massless = &system.massless;
         let own = massless.undamped(&massless.project(&system.element_damping), held)?;
         let k = own.project(&system.stiffness_with(links));
@@ -42,7 +46,7 @@ impl Followers {
     }
 
     /// What forces on the free DOFs make of them, times `s`: `to += s · N A⁻¹ Nᵀ p`.
-    fn answer(&mut self, s: f64, p: &[f64], to: &mut [f64]) {
+    pub(super) fn answer(&mut self, s: f64, p: &[f64], to: &mut [f64]) {
         let mut y = self.own.load(p);
         self.factor.solve(&mut y);
         self.own.expand(s, &y, to);
@@ -204,7 +208,7 @@ fn viscous(model: &Model, system: &System) -> Vec<bool> {
 }
 
 /// Rows of these over the directions without mass on which they act.
-fn viscous_rows(model: &Model, system: &System) -> Vec<Vec<f64>> {
+pub(super) fn viscous_rows(model: &Model, system: &System) -> Vec<Vec<f64>> {
     let (massless, links) = (&system.massless, &system.links);
     let viscous = viscous(model, system);
     let acting = links.active.iter().filter(|flat| viscous[**flat]);
@@ -215,100 +219,4 @@ fn viscous_rows(model: &Model, system: &System) -> Vec<Vec<f64>> {
         largest(own) > 1e-9 * most
     };
     rows.filter(counts).map(|(own, _)| own).collect()
-}
-
-/// Most iterations for the rates of what dashpots hold, and the share of the forces that they may leave.
-const ITERATIONS: usize = 40;
-const LEFT: f64 = 1e-10;
-
-/// Rates of what has no mass. What dashpots hold, of elements or links, moves so that Nᵀ (K u + C v + Bᵀ f(d, v)) = 0, and
-/// stays as it is where no such rates are found; the rest goes along as its springs and the tangents of its links say.
-pub(crate) fn rates(
-    model: &Model,
-    system: &System,
-    before: &LinksBefore,
-    u: &[f64],
-    v: &mut [f64],
-) -> Result<(), SolveError> {
-    let (massless, links) = (&system.massless, &system.links);
-    if massless.is_empty() {
-        return Ok(());
-    }
-    let mut held: Vec<bool> =
-        massless.project(&system.element_damping).diagonal().iter().map(|c| *c != 0.0).collect();
-    let rows = viscous_rows(model, system);
-    for row in &rows {
-        held.iter_mut().zip(row).for_each(|(held, c)| *held |= *c != 0.0);
-    }
-    let own: Vec<usize> = (0..held.len()).filter(|i| held[*i]).collect();
-    // At rest there is nothing to go along with.
-    if own.is_empty() && v.iter().all(|v| *v == 0.0) {
-        return Ok(());
-    }
-    let supports = vec![0.0; system.reduction.prescribed.len()];
-    let mut d = vec![0.0; links.len()];
-    links.deform(u, &supports, &mut d);
-    // Of links that answer the way they are; of others what the structure gives them.
-    let go_along = |k: &[f64], v: &mut Vec<f64>| -> Result<(), SolveError> {
-        let mut stiff = links.effective.clone();
-        for (flat, place) in links.active.iter().zip(&links.diagonal) {
-            if k[*place] > 0.0 {
-                stiff[*flat] = k[*place];
-            }
-        }
-        let force = system.stiffness_with(&stiff).mul(v);
-        Followers::new(system, &stiff, &rows)?.answer(-1.0, &force, v);
-        Ok(())
-    };
-    let mut rest = system.stiffness.mul(u);
-    rest.iter_mut().for_each(|x| *x = -*x);
-    let damping = system.damping();
-    // What is left, and the stiffness against rates.
-    let look = |v: &[f64]| {
-        let mut rate = vec![0.0; links.len()];
-        links.deform(v, &supports, &mut rate);
-        let state = State::of_links(model, links, before, d.clone(), rate);
-        let mut left = rest.clone();
-        damping.mul_add(-1.0, v, &mut left);
-        let force = massless.load(&left).iter().map(|x| x.abs()).fold(0.0, f64::max);
-        links.spread(-1.0, &state.f, &mut left);
-        let left: Vec<f64> = own.iter().map(|i| massless.load(&left)[*i]).collect();
-        (left, force.max(largest(&state.f)), state.tangents)
-    };
-    let (mut at, mut tried) = (v.to_vec(), v.to_vec());
-    let (mut left, mut size, mut tangents) = look(&at);
-    for _ in 0..ITERATIONS {
-        if largest(&left) <= LEFT * size {
-            go_along(&tangents.k, &mut at)?;
-            v.copy_from_slice(&at);
-            return Ok(());
-        }
-        let mut of_links = vec![0.0; links.len()];
-        for (flat, place) in links.active.iter().zip(&links.diagonal) {
-            of_links[*flat] = tangents.c[*place];
-        }
-        let sum = Sparse::combine(&[(1.0, &damping), (1.0, &system.springs(&of_links))]);
-        let block = massless.project(&sum).block(&own, &own);
-        let mut step = left.clone();
-        Ldlt::with_rigid_zeros(&block)?.solve(&mut step);
-        let mut share = 1.0;
-        loop {
-            tried.copy_from_slice(&at);
-            let mut all = vec![0.0; massless.len()];
-            own.iter().zip(&step).for_each(|(i, y)| all[*i] = *y);
-            massless.expand(share, &all, &mut tried);
-            let next = look(&tried);
-            if largest(&next.0) < largest(&left) {
-                // In equilibrium nothing of the forces is left to measure by: the largest on the way.
-                (left, size, tangents) = (next.0, size.max(next.1), next.2);
-                std::mem::swap(&mut at, &mut tried);
-                break;
-            }
-            share *= 0.5;
-            if share < 1e-6 {
-                return Ok(());
-            }
-        }
-    }
-    Ok(())
 }

@@ -17,8 +17,10 @@
 //! ```
 
 mod joints;
+mod rates;
 
-pub(crate) use joints::{follow, lead, rates};
+pub(crate) use joints::{follow, lead};
+pub(crate) use rates::rates;
 
 use crate::error::SolveError;
 use crate::kernel::{

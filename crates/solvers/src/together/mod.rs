@@ -7,7 +7,7 @@
 
 mod course;
 
-use crate::basis::{follow_supports, modal_damping};
+use crate::basis::{BasisReport, ModalDamping, follow_supports, modal_damping};
 use crate::checks;
 use crate::error::SolveError;
 use crate::fna::{LONGEST, Modal, Modes};
@@ -142,15 +142,8 @@ fn march<O: Observer>(
     else {
         return Ok(none());
     };
-    // What the supports drag along is known with the modes.
-    let damping = modal_damping(model, system, &bases);
-    let mut dragged = Vec::new();
-    for Entrant { member: Member { model, system }, loads, .. } in group {
-        let mut loads = loads.clone();
-        follow_supports(model, system, damping.as_ref(), true, &mut loads)?;
-        dragged.push(loads);
-    }
-    let mut modes = fna_modes(model, system, &dragged[0], &bases);
+    let all_loads = with_supports(group, modal_damping(model, system, &bases).as_ref())?;
+    let mut modes = fna_modes(model, system, &all_loads[0], &bases);
     let dt = analysis.dt;
     // Stiff links choose their rule step by step, each motion its own.
     if modes.ratio(dt / substeps as f64) > LONGEST {
@@ -159,76 +152,120 @@ fn march<O: Observer>(
     let mut watchers: Vec<[&mut dyn Observer; 1]> =
         observers.iter_mut().map(|o| [o as &mut dyn Observer]).collect();
     let mut courses = Vec::new();
-    for ((entrant, loads), watcher) in group.iter().zip(&dragged).zip(&mut watchers) {
-        let Entrant { member: Member { model, system }, initial, analysis, .. } = entrant;
-        let watched = looks_at_rates(model, system, watcher.iter().any(|o| o.wants_rates()));
-        let order = modes.space.order();
-        let side = link_side(model, system, &analysis.solution, loads, order, watched);
-        let mut stepper = LinkStepper::new(Modal::new(modes), side)?;
-        let times = [dt, analysis.duration];
-        let (state, pace, ledger, _) = start(model, system, initial, loads, &mut stepper, times)?;
-        let (modal, side) = stepper.into_parts();
-        modes = modal.into_modes();
-        let mut viewer = Viewer::new(model, system, loads, &modes.space, watcher);
-        viewer.look_inside(Some(modes.closed_form()), dt, Vec::new());
-        let timeline = Timeline::new(dt, analysis.duration, loads, substeps);
-        let mut course =
-            Course::new(&modes.space, side, loads, timeline, (state, pace, ledger), viewer);
-        course.show_start();
+    for ((entrant, loads), watcher) in group.iter().zip(&all_loads).zip(&mut watchers) {
+        let course;
+        (course, modes) = set_out(entrant, loads, modes, watcher, substeps)?;
         courses.push(course);
     }
     let setup_cpu = clock.cpu();
+    march_all(&mut modes, &mut courses, substeps);
+    courses.iter_mut().filter(|c| !c.left).for_each(Course::show_end);
+    let share = (courses.len() as f64).recip();
+    let cpu = [share * setup_cpu, share * (clock.cpu() - setup_cpu)];
+    let result = |(course, entrant): (Course<'_, '_>, &&Entrant<'_>)| {
+        let report = bases.report.clone();
+        (!course.left).then(|| result(course, entrant, &modes, report, clock.wall(), cpu))
+    };
+    Ok(courses.into_iter().zip(group).map(result).collect())
+}
+
+/// The loads of each member, with the damping of what follows its moving supports, which is known with the modes.
+fn with_supports(
+    group: &[&Entrant<'_>],
+    damping: Option<&ModalDamping>,
+) -> Result<Vec<LoadSet>, SolveError> {
+    let mut all = Vec::new();
+    for Entrant { member: Member { model, system }, loads, .. } in group {
+        let mut loads = loads.clone();
+        follow_supports(model, system, damping, true, &mut loads)?;
+        all.push(loads);
+    }
+    Ok(all)
+}
+
+/// The start of one motion, and the modes again, which it shares with the others.
+fn set_out<'a, 'b>(
+    entrant: &Entrant<'a>,
+    loads: &'a LoadSet,
+    modes: Modes,
+    watcher: &'a mut [&'b mut dyn Observer; 1],
+    substeps: usize,
+) -> Result<(Course<'a, 'b>, Modes), SolveError> {
+    let Entrant { member: Member { model, system }, initial, analysis, .. } = entrant;
+    let DynamicCase { dt, duration, .. } = **analysis;
+    let watched = looks_at_rates(model, system, watcher.iter().any(|o| o.wants_rates()));
+    let order = modes.space.order();
+    let side = link_side(model, system, &analysis.solution, loads, order, watched);
+    let mut stepper = LinkStepper::new(Modal::new(modes), side)?;
+    let (state, pace, ledger, _) =
+        start(model, system, initial, loads, &mut stepper, [dt, duration])?;
+    let (modal, side) = stepper.into_parts();
+    let modes = modal.into_modes();
+    let mut viewer = Viewer::new(model, system, loads, &modes.space, watcher);
+    viewer.look_inside(Some(modes.closed_form()), dt, Vec::new());
+    let timeline = Timeline::new(dt, duration, loads, substeps);
+    let mut course =
+        Course::new(&modes.space, side, loads, timeline, (state, pace, ledger), viewer);
+    course.show_start();
+    Ok((course, modes))
+}
+
+/// All courses to their ends, output step after output step.
+fn march_all(modes: &mut Modes, courses: &mut [Course<'_, '_>], substeps: usize) {
     while courses.iter().any(Course::is_on_the_way) {
-        let lengths = common(&courses);
+        let lengths = common(courses);
         courses.iter_mut().filter(|c| c.is_on_the_way()).for_each(|c| c.set_out(&lengths));
         for (piece, length) in lengths.into_iter().enumerate() {
             let going = courses.iter_mut().filter(|c| c.is_on_the_way());
-            going.for_each(|c| c.set_off(piece, &modes));
+            going.for_each(|c| c.set_off(piece, modes));
             let part = length / substeps as f64;
             for index in 0..substeps {
-                step(&mut modes, &mut courses, piece, (index, substeps), part);
+                step(modes, courses, piece, (index, substeps), part);
             }
         }
         courses.iter_mut().filter(|c| c.is_on_the_way()).for_each(|c| c.arrive());
     }
-    courses.iter_mut().filter(|c| !c.left).for_each(Course::show_end);
-    let share = (courses.len() as f64).recip();
-    let result = |(course, entrant): (Course<'_, '_>, &&Entrant<'_>)| {
-        if course.left {
-            return None;
-        }
-        let work = Work {
-            steps: course.made,
-            substeps: course.substeps,
-            iterations: course.side.kernel.iterations(),
-            wall_s: clock.wall(),
-            setup_cpu_s: share * setup_cpu,
-            march_cpu_s: share * (clock.cpu() - setup_cpu),
-            peak_rss_mb: peak_rss_mb(),
-            ..Work::default()
-        };
-        let Member { model, system } = entrant.member;
-        let memory = course.side.kernel.memory();
-        let (loads, noticed) = (course.loads, course.viewer.noticed());
-        let arrival = Arrival {
-            timeline: &course.timeline,
-            made: course.made,
-            state: course.state,
-            pace: course.pace,
-            ledger: course.ledger,
-            constant: entrant.constant.clone(),
-            initial: entrant.initial.clone(),
-            fallen: course.fallen,
-            largest: course.viewer.largest(),
-        };
-        let (case, kind) = (entrant.case, SolverKind::Fna);
-        let mut result = arrival.result(model, system, case, kind, &modes.space, memory, work);
-        let of = (case, entrant.analysis);
-        result.warnings = checks::of_dynamic((model, system), of, loads, noticed, &result.place());
-        result.basis = Some(bases.report.clone());
-        Some(result)
+}
+
+/// What a course has come to; `cpu`: its share of the CPU time before the first step and from there on, s.
+fn result(
+    course: Course<'_, '_>,
+    entrant: &Entrant<'_>,
+    modes: &Modes,
+    report: BasisReport,
+    wall: f64,
+    [setup_cpu, march_cpu]: [f64; 2],
+) -> CaseResult {
+    let work = Work {
+        steps: course.made,
+        substeps: course.substeps,
+        iterations: course.side.kernel.iterations(),
+        wall_s: wall,
+        setup_cpu_s: setup_cpu,
+        march_cpu_s: march_cpu,
+        peak_rss_mb: peak_rss_mb(),
+        ..Work::default()
     };
-    Ok(courses.into_iter().zip(group).map(result).collect())
+    let Member { model, system } = entrant.member;
+    let memory = course.side.kernel.memory();
+    let (loads, noticed) = (course.loads, course.viewer.noticed());
+    let arrival = Arrival {
+        timeline: &course.timeline,
+        made: course.made,
+        state: course.state,
+        pace: course.pace,
+        ledger: course.ledger,
+        constant: entrant.constant.clone(),
+        initial: entrant.initial.clone(),
+        fallen: course.fallen,
+        largest: course.viewer.largest(),
+    };
+    let (case, kind) = (entrant.case, SolverKind::Fna);
+    let mut result = arrival.result(model, system, case, kind, &modes.space, memory, work);
+    let of = (case, entrant.analysis);
+    result.warnings = checks::of_dynamic((model, system), of, loads, noticed, &result.place());
+    result.basis = Some(report);
+    result
 }
 
 /// Lengths of the pieces of the next output step that most of the courses on the way have in common, the first of

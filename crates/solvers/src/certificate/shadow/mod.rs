@@ -52,6 +52,36 @@ pub(crate) struct Shadow<'a> {
     stiffest: Vec<f64>,
 }
 
+/// What is told of the end of a step of the run: pseudo-forces of the active link coordinates; deformations, rates, forces
+/// and tangents, flat, where links answer, else nothing.
+struct Told<'a> {
+    pseudo: &'a [f64],
+    d: &'a [f64],
+    v: &'a [f64],
+    f: &'a [f64],
+    k: &'a [f64],
+    c: &'a [f64],
+}
+
+impl<'a> Told<'a> {
+    /// One after the other, as they were told.
+    fn of(
+        told: &'a [f64],
+        active: usize,
+        answers: bool,
+        system: &System,
+        tangents: &Tangents,
+    ) -> Self {
+        let flat = if answers { system.links.len() } else { 0 };
+        let (pseudo, rest) = told.split_at(active);
+        let (d, rest) = rest.split_at(flat);
+        let (v, rest) = rest.split_at(flat);
+        let (f, rest) = rest.split_at(flat);
+        let (k, c) = rest.split_at(if answers { tangents.k.len() } else { 0 });
+        Self { pseudo, d, v, f, k, c }
+    }
+}
+
 impl<'a> Shadow<'a> {
     /// Beside a run that starts from this state, whose displacements and velocities of the free DOFs are `u` and `v`.
     pub(crate) fn new(
@@ -114,85 +144,88 @@ impl<'a> Shadow<'a> {
     /// Follows the run over an accepted step to a time, s, of whose end this is told.
     pub(crate) fn follow(&mut self, t: f64, told: &[f64]) {
         let answers = self.answers();
-        let Self { system, modes, sources, motion, next, pseudo, load, loads, amplitudes, .. } =
-            self;
-        let (to, told) = told.split_at(pseudo.len());
-        let (d, told) = told.split_at(if answers { system.links.len() } else { 0 });
-        let (v, told) = told.split_at(d.len());
-        let (f, told) = told.split_at(d.len());
-        let length = t - self.t;
-        let known = self.sizes.iter().copied().find(|s| (s - length).abs() <= SAME * length);
-        let dt = known.unwrap_or_else(|| {
-            self.sizes.push(length);
-            length
-        });
-        amplitudes.cut();
-        loads.step(self.t, t, amplitudes);
-        let space: &Space = &modes.space;
-        let [load0, load1] = load;
-        space.force_into(&amplitudes.start, load0);
-        space.force_into(&amplitudes.end, load1);
-        let mut key = StepKey { dt, average: 0 };
-        if answers {
-            let (k, c) = told.split_at(self.tangents.k.len());
-            self.tangents.k.copy_from_slice(k);
-            self.tangents.c.copy_from_slice(c);
-            let now = system.links.stiffness(&self.tangents);
-            self.stiffest.iter_mut().zip(now).for_each(|(most, k)| *most = most.max(k));
-            // What answers to itself has the limit of every link.
-            let mut now = system.links.stiffness(&self.tangents);
-            key = modes.choose(dt, &mut now, &self.stiffest);
+        let run = Told::of(told, self.pseudo.len(), answers, self.system, &self.tangents);
+        let dt = self.size(t - self.t);
+        self.amplitudes.cut();
+        self.loads.step(self.t, t, &mut self.amplitudes);
+        let [load0, load1] = &mut self.load;
+        self.modes.space.force_into(&self.amplitudes.start, load0);
+        self.modes.space.force_into(&self.amplitudes.end, load1);
+        let key = match answers {
+            true => self.take_tangents(&run, dt),
+            false => StepKey { dt, average: 0 },
+        };
+        self.modes.prepare(key);
+        let loads = [&self.load[0][..], &self.load[1][..]];
+        if let Some(spread) = self.sources.renew_spread(&self.pseudo) {
+            self.modes.space.links.spread_into(&self.pseudo, spread);
         }
-        modes.prepare(key);
-        let mut end = to.to_vec();
-        let all_loads = *loads;
-        let loads = [&load0[..], &load1[..]];
-        if let Some(spread) = sources.renew_spread(pseudo) {
-            modes.space.links.spread_into(pseudo, spread);
-        }
-        modes.predict(sources, motion, &loads, next);
-        let mut support = [vec![0.0; d.len()], vec![0.0; d.len()]];
+        self.modes.predict(&mut self.sources, &self.motion, &loads, &mut self.next);
+        let mut support = [vec![0.0; run.d.len()], vec![0.0; run.d.len()]];
+        let mut end = run.pseudo.to_vec();
         if answers {
-            let [of_d, of_v] = &mut support;
-            all_loads.support_deformation(&amplitudes.end, of_d, of_v);
-            let mut own = f.to_vec();
-            self.memory.linear([d, v], dt, &mut self.tangents, &mut own);
-            let apart: Vec<f64> = system.links.active.iter().map(|i| own[*i] - f[*i]).collect();
-            let change: Vec<f64> = to.iter().zip(&*pseudo).map(|(x, x0)| x - x0).collect();
-            let beyond = |motion: &[f64], run: &[f64], support: &[f64], compliance: &Dense| {
-                let mut own = vec![0.0; change.len()];
-                modes.space.links.deform(motion, &mut own);
-                for (x, i) in own.iter_mut().zip(&system.links.active) {
-                    *x -= run[*i] - support[*i];
-                }
-                compliance.mul_add(-1.0, &change, &mut own);
-                own
-            };
-            let n = modes.space.order();
-            let compliance = modes.compliance();
-            let e = beyond(&next[..n], d, &support[0], &compliance.g);
-            let rate = beyond(&next[n..2 * n], v, &support[1], &compliance.h);
-            let more = answer(
-                system,
-                &modes.space,
-                &self.tangents,
-                apart,
-                [&e, &rate],
-                [&compliance.g, &compliance.h],
-            );
+            let more = self.answer(&run, &mut support, dt);
             end.iter_mut().zip(&more).for_each(|(x, more)| *x += more);
         }
-        if let Some(spread) = sources.renew_spread(&end) {
-            modes.space.links.spread_into(&end, spread);
+        let loads = [&self.load[0][..], &self.load[1][..]];
+        if let Some(spread) = self.sources.renew_spread(&end) {
+            self.modes.space.links.spread_into(&end, spread);
         }
-        modes.complete(sources, motion, &loads, next);
-        std::mem::swap(motion, next);
+        self.modes.complete(&mut self.sources, &self.motion, &loads, &mut self.next);
+        std::mem::swap(&mut self.motion, &mut self.next);
         if answers {
-            add_deformations(&modes.space, system, motion, &mut support);
-            self.memory.go_on([d, v], support, dt);
+            add_deformations(&self.modes.space, self.system, &self.motion, &mut support);
+            self.memory.go_on([run.d, run.v], support, dt);
         }
-        pseudo.copy_from_slice(&end);
+        self.pseudo.copy_from_slice(&end);
         self.t = t;
+    }
+
+    /// A step size, which is one of those before where it differs from it by rounding.
+    fn size(&mut self, length: f64) -> f64 {
+        let known = self.sizes.iter().copied().find(|s| (s - length).abs() <= SAME * length);
+        known.unwrap_or_else(|| {
+            self.sizes.push(length);
+            length
+        })
+    }
+
+    /// Takes the tangents of the run, by which links answer, and chooses the rule of the step: what answers to itself has
+    /// the limit of every link.
+    fn take_tangents(&mut self, run: &Told<'_>, dt: f64) -> StepKey {
+        self.tangents.k.copy_from_slice(run.k);
+        self.tangents.c.copy_from_slice(run.c);
+        let links = &self.system.links;
+        let now = links.stiffness(&self.tangents);
+        self.stiffest.iter_mut().zip(now).for_each(|(most, k)| *most = most.max(k));
+        self.modes.choose(dt, &mut links.stiffness(&self.tangents), &self.stiffest)
+    }
+
+    /// The pseudo-forces that links answer to what the predicted motion deforms them beyond the run; `support` becomes
+    /// what supports give deformations and rates.
+    fn answer(&mut self, run: &Told<'_>, support: &mut [Vec<f64>; 2], dt: f64) -> Vec<f64> {
+        let Self { system, loads, modes, amplitudes, memory, tangents, pseudo, next, .. } = self;
+        let [of_d, of_v] = &mut *support;
+        loads.support_deformation(&amplitudes.end, of_d, of_v);
+        let mut own = run.f.to_vec();
+        memory.linear([run.d, run.v], dt, tangents, &mut own);
+        let apart: Vec<f64> = system.links.active.iter().map(|i| own[*i] - run.f[*i]).collect();
+        let change: Vec<f64> = run.pseudo.iter().zip(&*pseudo).map(|(x, x0)| x - x0).collect();
+        let beyond = |motion: &[f64], run: &[f64], support: &[f64], compliance: &Dense| {
+            let mut own = vec![0.0; change.len()];
+            modes.space.links.deform(motion, &mut own);
+            for (x, i) in own.iter_mut().zip(&system.links.active) {
+                *x -= run[*i] - support[*i];
+            }
+            compliance.mul_add(-1.0, &change, &mut own);
+            own
+        };
+        let n = modes.space.order();
+        let compliance = modes.compliance();
+        let e = beyond(&next[..n], run.d, &support[0], &compliance.g);
+        let rate = beyond(&next[n..2 * n], run.v, &support[1], &compliance.h);
+        let matrices = [&compliance.g, &compliance.h];
+        answer(system, &modes.space, tangents, apart, [&e, &rate], matrices)
     }
 
     /// Compares the outputs of the run at this moment with its own; `errors` grow to the differences.
