@@ -18,6 +18,7 @@ mod condensation;
 mod damping;
 mod drag;
 mod massless;
+mod recursion;
 mod report;
 mod ritz;
 mod shapes;

@@ -62,3 +62,12 @@ pub(crate) struct Converged<'a> {
     pub pseudo: &'a mut [f64],
     pub unforeseen: &'a mut Unforeseen,
 }
+
+/// Where the iteration of the link equations starts.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Guess {
+    /// At the pseudo-forces with which the step was predicted.
+    Unchanged,
+    /// Where the tangents at the start of the step put them, and what such guesses lacked in the steps before.
+    Tangents,
+}

@@ -9,7 +9,7 @@ impl LinkKernel<'_> {
     /// [unforeseen](super::Unforeseen): where every law goes on along its tangents, that is the equilibrium.
     /// False where nothing is foreseen; else deformations and rates must follow the [`change`](Self::change).
     #[inline]
-    pub(crate) fn foresee(
+    pub(crate) fn predict(
         &mut self,
         affine: &Affine<'_>,
         from: &Committed<'_>,

@@ -21,7 +21,7 @@ mod measure;
 mod search;
 mod unforeseen;
 
-pub(crate) use affine::{Affine, Committed, Compliance, Converged, StepKey, Wanted};
+pub(crate) use affine::{Affine, Committed, Compliance, Converged, Guess, StepKey, Wanted};
 pub(crate) use answer::Answer;
 pub(crate) use factors::Remembered;
 pub(crate) use unforeseen::Unforeseen;
@@ -174,6 +174,33 @@ impl<'a> LinkKernel<'a> {
         }
     }
 
+    /// Solves the link equations of a step at what was [wanted](Self::wanted), predicted with these pseudo-forces:
+    /// f̃ = law(d* − G f̃, v* − H f̃) − k_e d. The rates of coordinates whose law does not look at them are left to the
+    /// caller.
+    ///
+    /// Motions in lock step, whose products with G are made together, make the same calls one by one:
+    /// [`begin`](Self::begin), [`predict`](Self::predict), then [`advance`](Self::advance) until it is true, with what
+    /// [`change`](Self::change) says in between.
+    #[inline]
+    pub(crate) fn solve(
+        &mut self,
+        affine: &Affine<'_>,
+        pseudo: &[f64],
+        guess: Guess,
+        from: &Committed<'_>,
+        scale: &ForceScale,
+        out: &mut Converged<'_>,
+    ) -> Result<(), NoEquilibrium> {
+        self.begin(pseudo, from);
+        if guess == Guess::Tangents && self.predict(affine, from, out) {
+            self.follow(affine);
+        }
+        while !self.advance(affine, from, scale, out)? {
+            self.follow(affine);
+        }
+        Ok(())
+    }
+
     /// Takes up the link equations of a step at what was [wanted](Self::wanted), from these pseudo-forces, at which that
     /// was predicted.
     #[inline]
@@ -185,25 +212,9 @@ impl<'a> LinkKernel<'a> {
         self.laws.start(&Kinematics { d, v, d0: d, v0: v, dt: from.dt }, from.history);
     }
 
-    /// Iterates until the links are in equilibrium. The rates of coordinates whose law does not look at them are left
-    /// to the caller.
-    #[inline]
-    pub(crate) fn settle(
-        &mut self,
-        affine: &Affine<'_>,
-        from: &Committed<'_>,
-        scale: &ForceScale,
-        out: &mut Converged<'_>,
-    ) -> Result<(), NoEquilibrium> {
-        while !self.advance(affine, from, scale, out)? {
-            self.follow(affine);
-        }
-        Ok(())
-    }
-
     /// Lets deformations and rates follow the last change of f̃.
     #[inline]
-    pub(crate) fn follow(&mut self, affine: &Affine<'_>) {
+    fn follow(&mut self, affine: &Affine<'_>) {
         if let Some((change, d)) = self.change(affine.h) {
             affine.g.mul_add(-1.0, change, d);
         }

@@ -24,7 +24,7 @@ pub(crate) use rates::rates;
 
 use crate::error::SolveError;
 use crate::kernel::{
-    Affine, Committed, Converged, LinkKernel, NoEquilibrium, StepKey, Unforeseen, Wanted,
+    Affine, Committed, Converged, Guess, LinkKernel, NoEquilibrium, StepKey, Unforeseen, Wanted,
 };
 use crate::step::State;
 use trilith_element::Energy;
@@ -246,8 +246,7 @@ impl<'a> Walk<'a> {
             unforeseen: &mut Unforeseen::default(),
         };
         let affine = Affine { support: None, g, h: none, key: StepKey::default() };
-        kernel.begin(pseudo, &committed);
-        kernel.settle(&affine, &committed, &state.scale, &mut out)?;
+        kernel.solve(&affine, pseudo, Guess::Unchanged, &committed, &state.scale, &mut out)?;
         trial.settle(links, &energy, kernel.largest_force());
         Ok(Place { state: trial, pseudo: attempt })
     }

@@ -2,7 +2,7 @@
 
 use super::propagator::Forces;
 use super::state::{LinksBefore, State, StepEnergy, StepFailure};
-use crate::kernel::{Affine, Committed, Compliance, Converged, Layout, LinkKernel, Wanted};
+use crate::kernel::{Affine, Committed, Compliance, Converged, Guess, Layout, LinkKernel, Wanted};
 use crate::structure::Space;
 use trilith_element::Energy;
 use trilith_model::Model;
@@ -151,11 +151,9 @@ impl<'a> LinkSide<'a> {
         let support = self.moving.then_some([&support1[..], &support_rate[..]]);
         let affine = affine(compliance, support);
         let (start, out) = (&committed(from, dt), &mut converged(to, &mut energy.links));
-        kernel.begin(&from.pseudo, start);
-        if kernel.foresee(&affine, start, out) {
-            kernel.follow(&affine);
-        }
-        kernel.settle(&affine, start, &from.scale, out).map_err(StepFailure::from)
+        kernel
+            .solve(&affine, &from.pseudo, Guess::Tangents, start, &from.scale, out)
+            .map_err(StepFailure::from)
     }
 
     /// Takes up the link equations at the predicted d and v, with the pseudo-forces that the tangents at the
@@ -172,7 +170,7 @@ impl<'a> LinkSide<'a> {
         let affine = affine(compliance, support);
         let start = &committed(from, dt);
         kernel.begin(&from.pseudo, start);
-        kernel.foresee(&affine, start, &mut converged(to, &mut []))
+        kernel.predict(&affine, start, &mut converged(to, &mut []))
     }
 
     /// One iteration of the link equations; false where deformations must follow, as [`LinkKernel::change`] says.
