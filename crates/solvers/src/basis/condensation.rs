@@ -1,4 +1,4 @@
-//! Static condensation of places without mass, loads and links.
+//! Static condensation of massless DOFs, loads and links.
 //!
 //! ```text
 //!   M_s = 0,  p_s = 0,  B_s = 0:      K_ss u_s + K_sm u_m = 0
@@ -32,7 +32,7 @@ pub(crate) struct Condensation {
 #[derive(Debug)]
 struct Rest {
     /// Rising.
-    places: Vec<usize>,
+    dofs: Vec<usize>,
     /// K_sm.
     coupling: Sparse,
     /// Of K_ss.
@@ -52,7 +52,7 @@ impl Condensation {
             return Ok(Self::none(order));
         }
         let mut follows = vec![false; order];
-        places(system, k).into_iter().for_each(|i| follows[i] = true);
+        massless_dofs(system, k).into_iter().for_each(|i| follows[i] = true);
         // What a dashpot acts on moves in its own time.
         follows.iter_mut().zip(system.element_damping.diagonal()).for_each(|(f, c)| *f &= c == 0.0);
         for (_, p) in loads {
@@ -64,17 +64,17 @@ impl Condensation {
 
     fn of(k: &Sparse, follows: &[bool]) -> Result<Self, SolveError> {
         let order = follows.len();
-        let (places, kept): (Vec<usize>, _) = (0..order).partition(|i| follows[*i]);
-        if places.is_empty() {
+        let (dofs, kept): (Vec<usize>, _) = (0..order).partition(|i| follows[*i]);
+        if dofs.is_empty() {
             return Ok(Self::none(order));
         }
-        let factor = match StagedLdlt::alone(&[(1.0, &k.block(&places, &places))]) {
+        let factor = match StagedLdlt::alone(&[(1.0, &k.block(&dofs, &dofs))]) {
             // What nothing holds by itself does not follow.
             Err(LinalgError::Singular { .. }) => return Ok(Self::none(order)),
             other => other?,
         };
-        let coupling = k.block(&places, &kept);
-        Ok(Self { order, kept, rest: Some(Rest { places, coupling, factor }) })
+        let coupling = k.block(&dofs, &kept);
+        Ok(Self { order, kept, rest: Some(Rest { dofs, coupling, factor }) })
     }
 
     /// Number of free DOFs.
@@ -121,8 +121,8 @@ impl Condensation {
 
     /// Vectors over the free DOFs, one after the other, of their rows that are kept.
     pub(crate) fn complete(&self, kept: &[f64]) -> Vec<f64> {
-        let Some(Rest { places, coupling, factor }) = &self.rest else { return kept.to_vec() };
-        let (m, s) = (self.kept.len(), places.len());
+        let Some(Rest { dofs, coupling, factor }) = &self.rest else { return kept.to_vec() };
+        let (m, s) = (self.kept.len(), dofs.len());
         let count = kept.len() / m.max(1);
         let mut others = vec![0.0; s * count];
         for (x, y) in kept.chunks(m).zip(others.chunks_mut(s)) {
@@ -132,7 +132,7 @@ impl Condensation {
         let mut all = vec![0.0; self.order * count];
         for ((u, x), y) in all.chunks_mut(self.order).zip(kept.chunks(m)).zip(others.chunks(s)) {
             self.scatter(x, u);
-            places.iter().zip(y).for_each(|(i, y)| u[*i] = *y);
+            dofs.iter().zip(y).for_each(|(i, y)| u[*i] = *y);
         }
         all
     }
@@ -140,15 +140,15 @@ impl Condensation {
     /// Loads on the free DOFs, one after the other, as loads on the rows that are kept, with the same work on every
     /// vector.
     pub(crate) fn condense<'a>(&self, loads: &'a [f64]) -> Cow<'a, [f64]> {
-        let Some(Rest { places, coupling, factor }) = &self.rest else {
+        let Some(Rest { dofs, coupling, factor }) = &self.rest else {
             return Cow::Borrowed(loads);
         };
         let each = || loads.chunks(self.order);
         let mut kept: Vec<f64> = each().flat_map(|p| self.kept.iter().map(|i| p[*i])).collect();
-        let mut others: Vec<f64> = each().flat_map(|p| places.iter().map(|i| p[*i])).collect();
+        let mut others: Vec<f64> = each().flat_map(|p| dofs.iter().map(|i| p[*i])).collect();
         if others.iter().any(|p| *p != 0.0) {
             factor.solve(&mut others);
-            for (p, y) in kept.chunks_mut(self.kept.len()).zip(others.chunks(places.len())) {
+            for (p, y) in kept.chunks_mut(self.kept.len()).zip(others.chunks(dofs.len())) {
                 coupling.transpose_mul_add(-1.0, y, p);
             }
         }
@@ -172,7 +172,7 @@ impl Condensation {
 }
 
 /// Free DOFs with a stiffness and without mass.
-pub(crate) fn places(system: &System, k: &Sparse) -> Vec<usize> {
+pub(crate) fn massless_dofs(system: &System, k: &Sparse) -> Vec<usize> {
     // A zero on the diagonal of M, which is semi-definite, is a row of zeros.
     let (stiff, heavy) = (k.diagonal(), system.mass.diagonal());
     (0..system.order()).filter(|i| stiff[*i] > 0.0 && heavy[*i] == 0.0).collect()
@@ -187,7 +187,7 @@ mod tests {
         ((i * 7919) % 1009) as f64 / 1009.0 - 0.5
     }
 
-    /// A chain on the ground; of every five places the second, the fourth and the fifth follow.
+    /// A chain on the ground; of every five dofs the second, the fourth and the fifth follow.
     fn chain(n: usize) -> (Sparse, Condensation) {
         let mut t = Triplets::new(n, n);
         for i in 0..n {

@@ -4,10 +4,10 @@
 //!   C = M Φ diag(2 ζ ω − b ω²) Φᵀ M + b K        ΦᵀCΦ = diag(2 ζ ω)        b = min 2 ζ/ω
 //! ```
 //!
-//! K is the stiffness of the structure without dummies. Motion that the modes of the basis do not hold is damped
+//! K is the stiffness of the structure without effective stiffnesses. Motion that the modes of the basis do not hold is damped
 //! in proportion to its stiffness, with ratios b ω/2 that go on from the fastest mode's, so that nothing
 //! rings undamped in direct integration; b is as large as it may be without taking damping from a mode. In the
-//! modes themselves the two terms in b cancel. On a basis there is no b: static shapes of places without mass are no
+//! modes themselves the two terms in b cancel. On a basis there is no b: static shapes of massless DOFs are no
 //! modes and ring in no way, and what damped them by b would change with the number of vectors. A basis that
 //! holds all modes there are leaves nothing beyond: b = 0.
 //!

@@ -1,9 +1,9 @@
 //! The load-dependent recursion: K̂ xᵢ₊₁ = M xᵢ, block after block.
 
+use super::attachment::AttachmentVectors;
 use super::condensation::Condensation;
-use super::massless::StaticShapes;
+use super::orthonormal::{FrequencyCut, Origin, OrthonormalBasis};
 use super::solvable::{BLOCK, Solvable};
-use super::span::{Origin, Span, Speed};
 use crate::vector::dot;
 use trilith_system::System;
 
@@ -14,7 +14,7 @@ pub(super) type OfLink<'a> = dyn Fn(usize, &[f64]) -> Vec<f64> + 'a;
 pub(super) fn beyond(
     system: &System,
     hat: &Solvable,
-    span: &mut Span<'_>,
+    span: &mut OrthonormalBasis<'_>,
     beside: &OfLink<'_>,
     count: usize,
 ) -> Vec<Vec<f64>> {
@@ -28,7 +28,11 @@ pub(super) fn beyond(
             if let Some(link) = links.next()
                 && span.len() < count
             {
-                images.extend(span.take(vec![beside(*link, x)], Origin::Anywhere, Speed::OfModes));
+                images.extend(span.take(
+                    vec![beside(*link, x)],
+                    Origin::Anywhere,
+                    FrequencyCut::Modes,
+                ));
             }
         });
     }
@@ -47,30 +51,30 @@ impl Fast {
     /// Takes them, and what follows from them, until `count` vectors are there.
     pub(super) fn go_on(
         &mut self,
-        span: &mut Span<'_>,
+        span: &mut OrthonormalBasis<'_>,
         rows: &Condensation,
         hat: &Solvable,
-        statics: &StaticShapes,
+        statics: &AttachmentVectors,
         count: usize,
     ) {
         let room = count.saturating_sub(span.len()).min(self.left.len());
         let taken = self.left.drain(..room).collect();
-        self.block.extend(span.take(taken, Origin::Anywhere, Speed::Any));
+        self.block.extend(span.take(taken, Origin::Anywhere, FrequencyCut::None));
         let block = std::mem::take(&mut self.block);
-        self.block = recurse(span, rows, hat, statics, block, count, Speed::Any);
+        self.block = recurse(span, rows, hat, statics, block, count, FrequencyCut::None);
     }
 }
 
 /// The load-dependent recursion from right-hand sides until `count` vectors are there or nothing new comes; returns
 /// those it would go on with.
 pub(super) fn recurse(
-    span: &mut Span<'_>,
+    span: &mut OrthonormalBasis<'_>,
     rows: &Condensation,
     hat: &Solvable,
-    statics: &StaticShapes,
+    statics: &AttachmentVectors,
     mut block: Vec<Vec<f64>>,
     count: usize,
-    speed: Speed,
+    cut: FrequencyCut,
 ) -> Vec<Vec<f64>> {
     let order = rows.order();
     while span.len() < count && !block.is_empty() {
@@ -89,7 +93,7 @@ pub(super) fn recurse(
             let solved = x.chunks(order).map(|x| rows.gather(x).into_owned()).collect();
             drop(x);
             // Where the loads have shown all they can, what is left of a vector is rounding.
-            next.extend(span.take(solved, Origin::Recursion, speed));
+            next.extend(span.take(solved, Origin::Recursion, cut));
             block = rest;
         }
         block.extend(next);

@@ -15,17 +15,17 @@ const SHAPES: usize = 6;
 const ROUNDED: f64 = 1e-9;
 
 /// Participation of masses and loads, and the flexibility of every link coordinate that the basis holds;
-/// `dummies` and `shift` are those of K̂.
+/// `effective` and `shift` are those of K̂.
 pub(super) fn report(
     model: &Model,
     system: &System,
     bases: &Bases,
     loads: &[(String, Vec<f64>)],
-    dummies: &[f64],
+    effective: &[f64],
     shift: f64,
     exact: &Flexibility,
 ) -> BasisReport {
-    // With the dummies, which hold what links alone do.
+    // With the effective stiffnesses, which hold what links alone do.
     let basis = &bases.stepping;
     let m = basis.modes();
     let phi = &*basis.shapes;
@@ -38,12 +38,12 @@ pub(super) fn report(
         reduced[(j, j)] = basis.omega2.get(j).map_or_else(of_static, |w| w + shift);
     }
     let there = &system.links.effective;
-    let more = dummies.iter().zip(there).map(|(all, there)| all - there);
-    for (row, dummy) in rows.iter().zip(more).filter(|(_, k)| *k != 0.0) {
+    let more = effective.iter().zip(there).map(|(all, there)| all - there);
+    for (row, effective_k) in rows.iter().zip(more).filter(|(_, k)| *k != 0.0) {
         let q = phi.row(row);
         for (j, b) in q.iter().enumerate() {
             for (a, sum) in q.iter().zip(reduced.column_mut(j)) {
-                *sum += dummy * a * b;
+                *sum += effective_k * a * b;
             }
         }
     }
@@ -122,7 +122,7 @@ pub struct Adequacy {
 pub struct BasisReport {
     /// Number of vectors with mass: modes.
     pub vectors: usize,
-    /// Number of static shapes of places without mass, beside the modes.
+    /// Number of static shapes of massless DOFs, beside the modes.
     pub static_shapes: usize,
     /// Circular frequencies of the structure without links, rad/s, rising.
     pub omega: Vec<f64>,

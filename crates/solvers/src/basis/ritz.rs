@@ -1,12 +1,12 @@
 //! The recursion of Ritz vectors: loads, starts, links, and what comes next of each.
 
 use super::Demands;
+use super::attachment::{AttachmentVectors, Following};
 use super::condensation::Condensation;
-use super::massless::{Following, StaticShapes};
+use super::orthonormal::{FrequencyCut, Origin, OrthonormalBasis};
 use super::recursion::{Fast, beyond, recurse};
 use super::shapes::Shapes;
 use super::solvable::Solvable;
-use super::span::{Origin, Span, Speed};
 use crate::error::SolveError;
 use crate::vector::dot;
 use std::sync::Arc;
@@ -38,9 +38,10 @@ pub(super) fn enriched(
     // What follows without mass is beside the modes: in vectors it would look like modes that are far too fast, and
     // come with what is taken out of others.
     let stiffness = Sparse::combine(&parts);
-    let statics = StaticShapes::new(system, &stiffness, &demands.loads)?;
+    let statics = AttachmentVectors::new(system, &stiffness, &demands.loads)?;
     let following = Following::new(system, &stiffness, &rows)?;
-    let span = Span::new(&rows, &system.mass, &parts, following, sizes.total + sizes.more);
+    let span =
+        OrthonormalBasis::new(&rows, &system.mass, &parts, following, sizes.total + sizes.more);
     let fast = Fast { left: Vec::new(), block: Vec::new() };
     let mut growing =
         Growing { system, rows: &rows, hat, statics: &statics, stiffness: &stiffness, span, fast };
@@ -97,10 +98,10 @@ struct Growing<'a> {
     system: &'a System,
     rows: &'a Condensation,
     hat: &'a Solvable,
-    statics: &'a StaticShapes,
+    statics: &'a AttachmentVectors,
     /// K̂.
     stiffness: &'a Sparse,
-    span: Span<'a>,
+    span: OrthonormalBasis<'a>,
     fast: Fast,
 }
 
@@ -127,7 +128,15 @@ impl Growing<'_> {
     }
 
     fn recurse(&mut self, block: Vec<Vec<f64>>, count: usize) -> Vec<Vec<f64>> {
-        recurse(&mut self.span, self.rows, self.hat, self.statics, block, count, Speed::OfModes)
+        recurse(
+            &mut self.span,
+            self.rows,
+            self.hat,
+            self.statics,
+            block,
+            count,
+            FrequencyCut::Modes,
+        )
     }
 
     /// Takes what was left out as too fast until `count` vectors are there.
@@ -156,11 +165,11 @@ impl Growing<'_> {
         if settings.kind == BasisKind::Eigen {
             let mut own = self.lowest(sizes.ground + sizes.more)?;
             modes = own.split_off(sizes.ground.min(own.len()));
-            self.span.take(own, Origin::Anywhere, Speed::Any);
+            self.span.take(own, Origin::Anywhere, FrequencyCut::None);
         } else {
             starts.truncate(sizes.ground);
             let starts = std::mem::take(&mut starts);
-            block.extend(self.span.take(starts, Origin::Anywhere, Speed::OfModes));
+            block.extend(self.span.take(starts, Origin::Anywhere, FrequencyCut::Modes));
             block = self.recurse(block, sizes.ground);
         }
         // A chain ends where its next vector is too fast; what loads and starts set in motion does not.
@@ -181,7 +190,7 @@ impl Growing<'_> {
             known.push(flexibility);
             if span.len() < sizes.total && is_taken(i) {
                 let own = beside(system, rows, statics, links[i], x);
-                span.take(vec![own], Origin::Anywhere, Speed::OfModes);
+                span.take(vec![own], Origin::Anywhere, FrequencyCut::Modes);
             }
         });
         (settings.adequacy > 0.0).then_some(known)
@@ -207,17 +216,17 @@ impl Growing<'_> {
         if settings.kind == BasisKind::Eigen {
             // No few modes more hold what all that are left answer to slow loads.
             starts.truncate(more / 2);
-            block.extend(self.span.take(starts, Origin::Anywhere, Speed::OfModes));
+            block.extend(self.span.take(starts, Origin::Anywhere, FrequencyCut::Modes));
             block = self.recurse(block, count + more / 2);
             self.fast.left.extend(self.span.left_out());
         }
         modes.truncate(all.saturating_sub(self.span.len()));
-        self.span.take(modes, Origin::Anywhere, Speed::Any);
+        self.span.take(modes, Origin::Anywhere, FrequencyCut::None);
         // Links that were not taken are the first to lack something; where loads have shown all they can, links
         // and what they set in motion are all that is left.
         let untaken = self.system.links.active.len() - sizes.of_links;
         let mut of_links = self.more_links(count + untaken.min(more / 2));
-        // Those of links are static shapes of places with next to no mass.
+        // Those of links are static shapes of DOFs with next to no mass.
         drop(self.span.left_out());
         self.recurse(block, all);
         self.fast.left.extend(self.span.left_out());
@@ -230,7 +239,7 @@ impl Growing<'_> {
         {
             // Dampers that couple modes and links that do may move what neither loads nor links alone do.
             let lowest = self.lowest(all)?;
-            self.span.take(lowest, Origin::Anywhere, Speed::Any);
+            self.span.take(lowest, Origin::Anywhere, FrequencyCut::None);
         }
         Ok(())
     }
@@ -240,7 +249,7 @@ impl Growing<'_> {
 fn beside(
     system: &System,
     rows: &Condensation,
-    statics: &StaticShapes,
+    statics: &AttachmentVectors,
     link: usize,
     x: &[f64],
 ) -> Vec<f64> {

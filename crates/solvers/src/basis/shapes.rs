@@ -94,7 +94,7 @@ impl Shapes {
         self.reduced(a, count, |p, image| image.copy_from_slice(&self.rows.condense(p)))
     }
 
-    /// The same for the stiffness, with or without dummies: no force is left on what follows.
+    /// The same for the stiffness, with or without effective stiffnesses: no force is left on what follows.
     pub(crate) fn stiffness(&self, k: &Sparse, count: usize) -> Dense {
         let order = self.rows.order();
         self.reduced(k, count, |p, image| {

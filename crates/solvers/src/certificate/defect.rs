@@ -24,7 +24,7 @@
 //! Reference: defect as an estimate of the global error \[Zadunaisky 1976; Shampine 2005\].
 
 use crate::fna::Modes;
-use crate::kernel::Answer;
+use crate::kernel::LawResponse;
 use crate::march::Timeline;
 use crate::modal::ClosedForm;
 use crate::record::Outputs;
@@ -44,8 +44,8 @@ const MOST: usize = 32;
 /// Looks into all steps of a run, at least; more where modes and links are few: so many, times their number.
 const LOOKS: usize = 1_000;
 const OF_ALL: usize = 64_000;
-/// Pieces of the timeline up to which a run is looked at.
-const PIECES: usize = 500;
+/// Segments of the timeline up to which a run is looked at.
+const SEGMENTS: usize = 500;
 /// Stiffness of a link, times how far the structure yields to it in a step, up to which its history goes on beside that
 /// of the run: a force that is off moves the link less than it is off itself.
 const YIELDS: f64 = 1.0;
@@ -79,10 +79,10 @@ pub(crate) struct Defect<'a> {
 impl<'a> Defect<'a> {
     /// True where output steps are few: many are short for what moves there, and a companion sees the rest.
     pub(crate) fn is_worth(timeline: &Timeline, mut steps: Range<usize>) -> bool {
-        let mut pieces = 0;
+        let mut segments = 0;
         steps.all(|step| {
-            pieces += timeline.pieces(step).count();
-            pieces <= PIECES
+            segments += timeline.pieces(step).count();
+            segments <= SEGMENTS
         })
     }
 
@@ -158,7 +158,9 @@ impl<'a> Defect<'a> {
                 self.form.go_on(&mut self.error, [&before, &source]);
             }
             let (to, from) = ((&*state.d, &*state.v), (&*self.from.d, &*self.from.v));
-            self.ask(to, from, length, &mut history, &mut missed, |i| state.f[i] + self.behind[i]);
+            self.evaluate(to, from, length, &mut history, &mut missed, |i| {
+                state.f[i] + self.behind[i]
+            });
             self.keep(history, &missed, length, state);
             return self.note(t, state);
         }
@@ -180,13 +182,20 @@ impl<'a> Defect<'a> {
                 v[*flat] += of_rates[a];
             }
             missed.fill(0.0);
-            self.ask((&d, &v), (&d0, &v0), length / parts as f64, &mut history, &mut missed, |i| {
-                let linear = |x: &[f64], y: &[f64]| x[i] + share * (y[i] - x[i]);
-                let way = d[i] - linear(&self.from.d, &state.d);
-                let run = linear(&self.from.f, &state.f) + self.system.links.effective[i] * way;
-                // From the start of the step on, only what is new drives e.
-                run + self.behind[i]
-            });
+            self.evaluate(
+                (&d, &v),
+                (&d0, &v0),
+                length / parts as f64,
+                &mut history,
+                &mut missed,
+                |i| {
+                    let linear = |x: &[f64], y: &[f64]| x[i] + share * (y[i] - x[i]);
+                    let way = d[i] - linear(&self.from.d, &state.d);
+                    let run = linear(&self.from.f, &state.f) + self.system.links.effective[i] * way;
+                    // From the start of the step on, only what is new drives e.
+                    run + self.behind[i]
+                },
+            );
             links.spread_into(&missed, &mut spread);
             let curved = now.end.iter().zip(ends.start.iter().zip(&ends.end));
             let curved: Vec<f64> = curved.map(|(x, (a, b))| x - (a + share * (b - a))).collect();
@@ -224,16 +233,16 @@ impl<'a> Defect<'a> {
     }
 
     /// The forces of the links beyond those that are told of each flat coordinate, active ones; their history goes on.
-    fn ask(
+    fn evaluate(
         &self,
         (d, v): (&[f64], &[f64]),
         (d0, v0): (&[f64], &[f64]),
         dt: f64,
         history: &mut [f64],
         missed: &mut [f64],
-        told: impl Fn(usize) -> f64,
+        known: impl Fn(usize) -> f64,
     ) {
-        let mut answer = Answer::default();
+        let mut answer = LawResponse::default();
         for (law, link) in self.laws.iter() {
             let r = link.range.clone();
             let at = Kinematics {
@@ -248,7 +257,7 @@ impl<'a> Defect<'a> {
             own.copy_from_slice(&answer.history);
             for (i, f) in r.zip(&answer.f) {
                 if let Ok(a) = self.system.links.active.binary_search(&i) {
-                    missed[a] = f - told(i);
+                    missed[a] = f - known(i);
                 }
             }
         }

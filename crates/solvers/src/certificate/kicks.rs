@@ -11,7 +11,7 @@
 
 use crate::record::Outputs;
 use crate::step::State;
-use crate::structure::Space;
+use crate::structure::ReducedSystem;
 
 /// ω Δt from which on a mode swings within a step: half a period.
 const WITHIN: f64 = std::f64::consts::PI;
@@ -46,7 +46,7 @@ impl Kicks {
     /// fast mode.
     pub(crate) fn new(
         outputs: &Outputs,
-        space: &Space,
+        space: &ReducedSystem,
         omega: &[f64],
         dt: f64,
         (t, state): (f64, &State),

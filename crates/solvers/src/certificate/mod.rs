@@ -1,4 +1,7 @@
-//! How far the outputs of a reduced run are off, estimated while it runs.
+//! How far the outputs of a run are off, estimated while it runs.
+//!
+//! Reduction by a wider basis beside the run; steps by comparison with a second run, and by what is between their ends.
+//! May use `fna` for motions of its own, `record` for outputs, `march`, `step` and what these use.
 //!
 //! ```text
 //! span Φ₂ ⊃ span Φ:    M ü + C u̇ + K u = p − Bᵀ f   on Φ₂, driven by the link forces f of the run
@@ -19,21 +22,21 @@
 //! References: residual-based estimation of reduced models, \[Antoulas 2005, ch. 11\]; two bases of one sequence as
 //! estimator, \[Bai & Su 2005\].
 
-mod aside;
+mod beside;
 mod defect;
 mod kicks;
 mod samples;
 mod shadow;
 mod touches;
 
-pub(crate) use aside::{Listener, Teller, aside};
+pub(crate) use beside::{Listener, Reporter, beside};
 pub(crate) use defect::Defect;
 pub(crate) use kicks::Kicks;
 pub(crate) use samples::Samples;
 pub(crate) use shadow::Shadow;
 
 use crate::kernel::ForceScale;
-use crate::march::Piece;
+use crate::march::Segment;
 use crate::step::State;
 use crate::vector::larger;
 use serde::Serialize;
@@ -88,7 +91,7 @@ impl OutputError {
 
 /// What a run knows of the errors of its outputs.
 pub(crate) struct Certificate<'a> {
-    shadow: Option<Teller>,
+    shadow: Option<Reporter>,
     defect: Option<Defect<'a>>,
     kicks: Option<Kicks>,
     samples: Samples<'a>,
@@ -109,7 +112,7 @@ impl<'a> Certificate<'a> {
         model: &Model,
         links: &LinkSet,
         samples: Samples<'a>,
-        shadow: Option<Teller>,
+        shadow: Option<Reporter>,
         defect: Option<Defect<'a>>,
         kicks: Option<Kicks>,
         link_tolerance: f64,
@@ -149,8 +152,8 @@ impl<'a> Certificate<'a> {
         }
     }
 
-    /// Takes note of an accepted step in a piece.
-    pub(crate) fn follow(&mut self, piece: Piece, t: f64, state: &State) {
+    /// Takes note of an accepted step in a segment.
+    pub(crate) fn follow(&mut self, segment: Segment, t: f64, state: &State) {
         if let Some(shadow) = &mut self.shadow {
             shadow.step(t, state);
         }
@@ -161,7 +164,7 @@ impl<'a> Certificate<'a> {
             kicks.follow(t, state);
         }
         self.forces = state.scale;
-        let Some(values) = self.samples.take(piece, t, state) else {
+        let Some(values) = self.samples.take(segment, t, state) else {
             return self.set_out(t, state);
         };
         for ([least, most], x) in self.range.iter_mut().zip(values) {

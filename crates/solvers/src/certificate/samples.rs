@@ -1,14 +1,14 @@
 //! Outputs of a run at times that a second run of the same motion comes to as well.
 //!
-//! Every run ends a step at the end of every piece of the timeline, and steps lie on halvings of the piece. Times of
-//! comparison are ends of pieces, of which some are left out where there are many, and halvings of pieces where there
+//! Every run ends a step at the end of every segment of the timeline, and steps lie on halvings of the segment. Times of
+//! comparison are ends of segments, of which some are left out where there are many, and halvings of segments where there
 //! are few: a run that is finer or coarser than these has fewer.
 
 use super::touches::Touches;
-use crate::march::{Piece, Timeline};
+use crate::march::{Segment, Timeline};
 use crate::record::Outputs;
 use crate::step::State;
-use crate::structure::Space;
+use crate::structure::ReducedSystem;
 use std::ops::Range;
 use trilith_model::{Model, Side};
 use trilith_system::{LoadSet, System};
@@ -21,9 +21,9 @@ pub(crate) struct Samples<'a> {
     outputs: Outputs,
     count: usize,
     loads: &'a LoadSet,
-    /// Equal parts of a piece.
+    /// Equal parts of a segment.
     parts: usize,
-    /// Pieces from one time to the next.
+    /// Segments from one time to the next.
     stride: usize,
     ended: usize,
     pub times: Vec<f64>,
@@ -38,7 +38,7 @@ impl<'a> Samples<'a> {
         model: &Model,
         system: &System,
         loads: &'a LoadSet,
-        space: &Space,
+        space: &ReducedSystem,
         timeline: &Timeline,
         steps: Range<usize>,
         state: &State,
@@ -46,33 +46,33 @@ impl<'a> Samples<'a> {
         let from = (timeline.time(steps.start), state);
         let outputs = Outputs::new(model, system, space);
         let touches = Touches::new(model, system, &outputs, space, from);
-        let pieces: usize = steps.map(|step| timeline.pieces(step).count()).sum();
-        let pieces = pieces.max(1);
+        let segments: usize = steps.map(|step| timeline.pieces(step).count()).sum();
+        let segments = segments.max(1);
         Self {
             outputs,
             touches,
             count: model.outputs.len(),
             loads,
-            parts: TIMES.div_ceil(pieces).next_power_of_two(),
-            stride: pieces.div_ceil(2 * TIMES),
+            parts: TIMES.div_ceil(segments).next_power_of_two(),
+            stride: segments.div_ceil(2 * TIMES),
             ended: 0,
             times: Vec::new(),
             values: Vec::new(),
         }
     }
 
-    /// Takes the outputs at the end of a step in a piece, if that is a time of comparison.
-    pub(crate) fn take(&mut self, piece: Piece, t: f64, state: &State) -> Option<&[f64]> {
+    /// Takes the outputs at the end of a step in a segment, if that is a time of comparison.
+    pub(crate) fn take(&mut self, segment: Segment, t: f64, state: &State) -> Option<&[f64]> {
         self.touches.follow(t, state);
-        if t == piece.end {
+        if t == segment.end {
             self.ended += 1;
             if !self.ended.is_multiple_of(self.stride) {
                 return None;
             }
         } else {
             let parts = self.parts as f64;
-            let near = ((t - piece.start) / piece.length * parts).round();
-            if t != piece.time(near / parts) {
+            let near = ((t - segment.start) / segment.length * parts).round();
+            if t != segment.time(near / parts) {
                 return None;
             }
         }

@@ -11,7 +11,7 @@
 
 use crate::record::Outputs;
 use crate::step::State;
-use crate::structure::Space;
+use crate::structure::ReducedSystem;
 use trilith_model::{Model, Quantity};
 use trilith_system::System;
 
@@ -54,7 +54,7 @@ impl Touches {
         model: &Model,
         system: &System,
         outputs: &Outputs,
-        space: &Space,
+        space: &ReducedSystem,
         (t, state): (f64, &State),
     ) -> Self {
         // Only modes are accelerated as the forces on them say.

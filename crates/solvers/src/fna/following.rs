@@ -14,7 +14,7 @@ impl Modes {
     /// Rates of undamped static shapes at the end of a predicted step: the mean rate of the step, and half a step of the acceleration before, which
     /// makes them right at second order; errors in them die out by 1/√2 a step, whatever the link.
     #[inline]
-    pub(super) fn go_on(&self, now: &ModalLoads, from: &Motion, to: &mut Motion) {
+    pub(super) fn predict_following(&self, now: &ModalLoads, from: &Motion, to: &mut Motion) {
         let n = self.space.order();
         for i in self.structure.undamped.iter().copied() {
             let more = 0.5 * self.size_now().dt * acceleration(from[2 * n + i]);
@@ -33,7 +33,7 @@ impl Modes {
     /// Where a load bends, the rate jumps, and the acceleration before says nothing of the step: it goes on no
     /// further than the mean rate of the step says it does, and not against it.
     #[inline]
-    pub(super) fn settle_on(&self, now: &mut ModalLoads, from: &Motion, to: &mut Motion) {
+    pub(super) fn complete_following(&self, now: &mut ModalLoads, from: &Motion, to: &mut Motion) {
         let n = self.space.order();
         let Step { dt, per_dt, .. } = *self.size_now();
         now.lost = 0.0;

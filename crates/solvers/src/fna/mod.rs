@@ -1,4 +1,7 @@
-//! FNA: modal equations solved exactly for loads that are linear in the step.
+//! FNA: the propagator that solves modal equations exactly for loads that are linear in the step.
+//!
+//! Step operators and compliances by the length of the step, modal loads, static shapes that follow.
+//! May use `step` for the contract, `kernel`, `modal` and `structure`.
 //!
 //! ```text
 //! q̈ + D q̇ + Ω² q = s(t),      s(t) = Φᵀ p(t) − (B Φ)ᵀ f̃(t) linear in the step
@@ -6,7 +9,7 @@
 //! ```
 //!
 //! Modes without coupling by damping have a recurrence of their own; otherwise (dashpots of the
-//! structure, modal damping beside dummies) one exponential of the whole space is taken. Both are exact,
+//! structure, modal damping beside effective stiffnesses) one exponential of the whole space is taken. Both are exact,
 //! also for ω = 0 and beyond critical damping. Static shapes follow the loads (see `following`).
 //!
 //! **Stiff links.** With link forces linear in the step the exact rule is the linear-acceleration method
@@ -31,7 +34,7 @@ use crate::error::SolveError;
 use crate::kernel::{Compliance, StepKey, Wanted};
 use crate::modal::ClosedForm;
 use crate::step::{Forces, Propagator, StepWork};
-use crate::structure::{Motion, Space};
+use crate::structure::{Motion, ReducedSystem};
 
 /// Steps with a larger G·k of the stiffest link are made by average acceleration; the limit of the exact
 /// rule is 2 (ω²Δt²/6), and well before it the rule is no better any more.
@@ -62,7 +65,7 @@ impl Modal {
 }
 
 impl Propagator for Modal {
-    fn space(&self) -> &Space {
+    fn space(&self) -> &ReducedSystem {
         &self.modes.space
     }
 
@@ -70,8 +73,8 @@ impl Propagator for Modal {
         0
     }
 
-    fn look_at_rates(&mut self, rated: &[usize], damped: &[usize]) -> Result<(), SolveError> {
-        self.now = ModalLoads::new(&self.modes.space, rated, damped);
+    fn set_rates(&mut self, rate_dependent: &[usize], damped: &[usize]) -> Result<(), SolveError> {
+        self.now = ModalLoads::new(&self.modes.space, rate_dependent, damped);
         Ok(())
     }
 

@@ -1,6 +1,6 @@
 //! Modal loads of one motion on its way through a step.
 
-use crate::structure::{LinkMap, Space};
+use crate::structure::{LinkMap, ReducedSystem};
 use crate::vector::equal;
 use trilith_linalg::{Dense, Panel, Product, StepSums};
 
@@ -20,17 +20,17 @@ pub(crate) struct ModalLoads {
     pub(super) damped: Vec<bool>,
     pub(super) linked: Vec<bool>,
     /// The link coordinates whose rates laws look at, and their rows of B Φ where these are few.
-    rated: Vec<usize>,
+    rate_dependent: Vec<usize>,
     rows: Option<Product>,
 }
 
 impl ModalLoads {
-    /// `rated`: the link coordinates whose rates laws look at, `damped`: those whose forces depend on them.
-    pub(crate) fn new(space: &Space, rated: &[usize], damped: &[usize]) -> Self {
-        let few = rated.len() <= Panel::MOST_ROWS;
+    /// `rate_dependent`: the link coordinates whose rates laws look at, `damped`: those whose forces depend on them.
+    pub(crate) fn new(space: &ReducedSystem, rate_dependent: &[usize], damped: &[usize]) -> Self {
+        let few = rate_dependent.len() <= Panel::MOST_ROWS;
         let rows = few.then(|| {
-            let mut rows = Dense::zeros(rated.len(), space.order());
-            for (i, a) in rated.iter().enumerate() {
+            let mut rows = Dense::zeros(rate_dependent.len(), space.order());
+            for (i, a) in rate_dependent.iter().enumerate() {
                 space.links.row(*a).for_each(|(j, c)| rows[(i, j)] = c);
             }
             Product::new(rows)
@@ -50,7 +50,7 @@ impl ModalLoads {
             integral: vec![0.0; space.order()],
             sums: StepSums::default(),
             lost: 0.0,
-            rated: rated.to_vec(),
+            rate_dependent: rate_dependent.to_vec(),
             rows,
         }
     }
@@ -60,7 +60,7 @@ impl ModalLoads {
     pub(crate) fn rates(&self, links: &LinkMap, v: &[f64], rates: &mut [f64]) {
         match &self.rows {
             Some(rows) => rows.times(v, rates),
-            None => links.deform_some(v, &self.rated, rates),
+            None => links.deform_some(v, &self.rate_dependent, rates),
         }
     }
 

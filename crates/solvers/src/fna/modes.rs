@@ -4,7 +4,7 @@ use super::{LONGEST, ModalLoads};
 use crate::kernel::{Compliance, StepKey};
 use crate::modal::{ClosedForm, Recurrence, Structure, bit};
 use crate::step::StepWork;
-use crate::structure::{Motion, Space, accelerate_at_once};
+use crate::structure::{Motion, ReducedSystem, accelerate_at_once};
 use trilith_linalg::{Dense, ModalStep, StepSums, work_of_linear};
 
 /// Values (8 bytes each) in the matrices of step sizes that are kept, and sizes at most.
@@ -32,7 +32,7 @@ struct StepOperator {
 
 /// The structure on a basis, and its operators for every step size: the same for all motions of it.
 pub(crate) struct Modes {
-    pub space: Space,
+    pub space: ReducedSystem,
     pub(super) structure: Structure,
     /// Stiffness of the engaged links.
     engaged: Vec<f64>,
@@ -47,7 +47,7 @@ pub(crate) struct Modes {
 
 impl Modes {
     /// `engaged` is the stiffness of the active link coordinates where they are engaged, N/m or N·m.
-    pub(crate) fn new(space: Space, engaged: Vec<f64>) -> Self {
+    pub(crate) fn new(space: ReducedSystem, engaged: Vec<f64>) -> Self {
         let m = space.order();
         let mut damping = Dense::zeros(m, m);
         let mut coupled = false;
@@ -228,7 +228,7 @@ impl Modes {
         let step = self.start(from, loads);
         if let Some(modes) = recurrence.own() {
             modes.predict(&step, &mut now.sources, to);
-            return self.go_on(now, from, to);
+            return self.predict_following(now, from, to);
         }
         let [source0, source1, spread] = now.parts();
         less(loads[0], spread, source0);
@@ -238,7 +238,7 @@ impl Modes {
         let inputs = [&from[..n], &from[n..2 * n], source0, source1];
         recurrence.apply(1, inputs, q);
         recurrence.apply(2, inputs, &mut rest[..n]);
-        self.go_on(now, from, to);
+        self.predict_following(now, from, to);
     }
 
     /// What was predicted, with the pseudo-forces spread last at the end instead.
@@ -254,7 +254,7 @@ impl Modes {
         let step = self.start(from, loads);
         if let Some(modes) = recurrence.own() {
             modes.complete(&step, &mut now.sources, to, &mut now.sums);
-            return self.settle_on(now, from, to);
+            return self.complete_following(now, from, to);
         }
         let n = self.space.order();
         let mut integral = std::mem::take(&mut now.integral);
@@ -276,7 +276,7 @@ impl Modes {
         let ((k0, e0), (k1, e1)) = (self.energy(from), self.energy(to));
         now.sums = StepSums { external, all, kinetic: [k0, k1], strain: [e0, e1] };
         now.integral = integral;
-        self.settle_on(now, from, to);
+        self.complete_following(now, from, to);
     }
 
     /// Work done over the step completed last.

@@ -6,10 +6,10 @@ use super::newmark::{mass_acceleration, newmark};
 use crate::error::SolveError;
 use crate::kernel::{Remembered, Search};
 use crate::step::{
-    Apart, Forces, LinksBefore, State, StepEnergy, StepFailure, StepWork, Stepper, Turning, Way,
-    apart, energy_rounding, kinetic_and_strain, way,
+    Difference, DisplacementNorms, Forces, LinksBefore, State, StepEnergy, StepFailure, StepWork,
+    Stepper, Turning, difference_of, displacement_norms, energy_rounding, kinetic_and_strain,
 };
-use crate::structure::{Followers, Motion, Space, accelerate_at_once, acceleration};
+use crate::structure::{Followers, Motion, ReducedSystem, accelerate_at_once, acceleration};
 use crate::vector::largest;
 use trilith_element::{Energy, Kinematics};
 use trilith_linalg::{SparseLu, Triplets};
@@ -24,7 +24,7 @@ pub(crate) struct FullNewton<'a> {
     pub model: &'a Model,
     pub system: &'a System,
     pub loads: &'a LoadSet,
-    pub space: Space,
+    pub space: ReducedSystem,
     pub alpha: f64,
     pub followers: Followers,
     pub iterations: usize,
@@ -160,10 +160,10 @@ impl Stepper for FullNewton<'_> {
             let force = largest(&to.f).max(from.scale[0]).max(from.scale[1]);
             let size = largest(&inertia).max(largest(&load1)).max(force);
             if largest(&residual) <= TOLERANCE * size {
-                self.followers.settle(&from.motion, &mut to.motion, dt);
+                self.followers.complete(&from.motion, &mut to.motion, dt);
                 to.tangents = tangents;
                 let force = largest(&to.f);
-                to.settle(&self.system.links, &energy.links, force);
+                to.record_converged(&self.system.links, &energy.links, force);
                 self.book(from, to, loads, (&load0, &load1), dt, energy);
                 return Ok(());
             }
@@ -216,13 +216,13 @@ impl Stepper for FullNewton<'_> {
         Ok(())
     }
 
-    fn apart(&mut self, a: &State, b: &State) -> Apart {
+    fn difference(&mut self, a: &State, b: &State) -> Difference {
         let of_structure = |x: &[f64]| kinetic_and_strain(&self.space, x);
-        apart(&self.space, &self.system.links, of_structure, a, b, &mut Vec::new())
+        difference_of(&self.space, &self.system.links, of_structure, a, b, &mut Vec::new())
     }
 
-    fn way(&mut self, a: &State, b: Option<&State>) -> Way {
-        way(&self.space, &self.system.links, a, b, &mut Vec::new())
+    fn displacement_norms(&mut self, a: &State, b: Option<&State>) -> DisplacementNorms {
+        displacement_norms(&self.space, &self.system.links, a, b, &mut Vec::new())
     }
 
     fn missed(&mut self, from: &State, to: &State, dt: f64, _: f64) -> f64 {
@@ -235,7 +235,7 @@ impl Stepper for FullNewton<'_> {
         energy_rounding(&self.space, &self.system.links.active, state)
     }
 
-    fn space(&self) -> &Space {
+    fn space(&self) -> &ReducedSystem {
         &self.space
     }
 
@@ -282,7 +282,7 @@ impl FullNewton<'_> {
 /// Work by the trapezoidal rule, with which average acceleration balances exactly; what another α
 /// leaves is the work of the time rule.
 fn average_work(
-    space: &Space,
+    space: &ReducedSystem,
     dt: f64,
     from: &Motion,
     to: &Motion,

@@ -1,4 +1,7 @@
-//! HHT-α on any space: one factorisation per step size, one solve a step, links by their compliance.
+//! HHT-α on all DOFs or on a basis, and the textbook integrator by full Newton iteration.
+//!
+//! One factorisation per step size, one solve a step, links by their compliance; or the tangent in every iteration.
+//! May use `step` for the contracts, `kernel` and `structure`; `basis` for the low-rank form of modal damping.
 //!
 //! ```text
 //! M aₙ₊₁ = (1+α) sₙ₊₁ − α sₙ            s = p − C v − K u − Bᵀ f̃
@@ -24,7 +27,7 @@ mod tests;
 use crate::error::SolveError;
 use crate::kernel::{Compliance, StepKey, Wanted};
 use crate::step::{Forces, Propagator, StepWork};
-use crate::structure::{Followers, Motion, Products, Space, acceleration};
+use crate::structure::{Followers, Motion, Products, ReducedSystem, acceleration};
 pub(crate) use full_newton::FullNewton;
 use newmark::{mass_acceleration, newmark};
 use std::collections::BTreeMap;
@@ -59,7 +62,7 @@ struct Work {
 
 /// Direct integration.
 pub(crate) struct Hht {
-    space: Space,
+    space: ReducedSystem,
     products: Products,
     alpha: f64,
     /// The same for all step sizes.
@@ -73,7 +76,7 @@ pub(crate) struct Hht {
 }
 
 impl Hht {
-    pub(crate) fn new(space: Space, alpha: f64) -> Self {
+    pub(crate) fn new(space: ReducedSystem, alpha: f64) -> Self {
         let products = Products::new(&space);
         Self {
             followers: Followers::default(),
@@ -140,7 +143,7 @@ impl Hht {
 }
 
 impl Propagator for Hht {
-    fn space(&self) -> &Space {
+    fn space(&self) -> &ReducedSystem {
         &self.space
     }
 
@@ -168,7 +171,7 @@ impl Propagator for Hht {
         &self.steps[&self.now].compliance
     }
 
-    fn look_at_rates(&mut self, _rated: &[usize], damped: &[usize]) -> Result<(), SolveError> {
+    fn set_rates(&mut self, _rated: &[usize], damped: &[usize]) -> Result<(), SolveError> {
         self.followers = Followers::new(&self.space, damped)?;
         Ok(())
     }
@@ -246,7 +249,7 @@ impl Propagator for Hht {
             to_v[i] += gamma * dt * work.tail_a[p];
         }
         self.space.links.deform(to_u, wanted.d);
-        self.space.links.deform_some(to_v, wanted.rated, wanted.v);
+        self.space.links.deform_some(to_v, wanted.rate_dependent, wanted.v);
     }
 
     fn correct(&mut self, from: &Motion, forces: &Forces<'_>, to: &mut Motion) {
@@ -293,7 +296,7 @@ impl Propagator for Hht {
             *u += by_u * *a;
             *v += by_v * *a;
         }
-        self.followers.settle(from, to, step.dt);
+        self.followers.complete(from, to, step.dt);
     }
 
     /// By the trapezoidal rule, with which average acceleration balances exactly; what another α leaves is

@@ -1,7 +1,7 @@
 //! The constants of HHT-α, and accelerations at the start of a motion.
 
 use crate::error::SolveError;
-use crate::structure::{JUMPED, Space};
+use crate::structure::{JUMPED, ReducedSystem};
 use trilith_linalg::Ldlt;
 
 /// γ and β of an α.
@@ -11,7 +11,7 @@ pub(super) fn newmark(alpha: f64) -> (f64, f64) {
 
 /// M⁻¹ p where there is mass, zero elsewhere.
 pub(super) fn mass_acceleration(
-    space: &Space,
+    space: &ReducedSystem,
     mut force: Vec<f64>,
 ) -> Result<Vec<f64>, SolveError> {
     for (p, m) in force.iter_mut().zip(space.mass.diagonal()) {
@@ -28,7 +28,7 @@ pub(super) fn mass_acceleration(
 }
 
 /// M⁻¹ of a force on what has mass.
-fn accelerate(space: &Space, mut force: Vec<f64>) -> Result<Vec<f64>, SolveError> {
+fn accelerate(space: &ReducedSystem, mut force: Vec<f64>) -> Result<Vec<f64>, SolveError> {
     if space.mass.entries().all(|(i, j, m)| i == j || m == 0.0) {
         for (p, m) in force.iter_mut().zip(space.mass.diagonal()).filter(|(_, m)| *m > 0.0) {
             *p /= m;

@@ -1,6 +1,6 @@
 //! What a step gives the link kernel, and what it takes from it.
 
-use super::Unforeseen;
+use super::Extrapolation;
 use serde::{Deserialize, Serialize};
 use trilith_linalg::Dense;
 use trilith_system::{Answers, Tangents};
@@ -24,11 +24,11 @@ pub(crate) struct StepKey {
 }
 
 /// What the link equations ask of a prediction: deformations of the active coordinates, and the rates of those that
-/// are `rated`, one after the other: laws look at them.
+/// are `rate_dependent`, one after the other: laws look at them.
 pub(crate) struct Wanted<'a> {
     pub d: &'a mut [f64],
     pub v: &'a mut [f64],
-    pub rated: &'a [usize],
+    pub rate_dependent: &'a [usize],
 }
 
 /// What the linear step gives the kernel.
@@ -49,7 +49,7 @@ pub(crate) struct Committed<'a> {
     pub f: &'a [f64],
     pub history: &'a [f64],
     pub tangents: &'a Tangents,
-    pub unforeseen: &'a Unforeseen,
+    pub extrapolation: &'a Extrapolation,
     pub dt: f64,
 }
 
@@ -60,7 +60,7 @@ pub(crate) struct Converged<'a> {
     pub v: &'a mut [f64],
     pub laws: Answers<'a>,
     pub pseudo: &'a mut [f64],
-    pub unforeseen: &'a mut Unforeseen,
+    pub extrapolation: &'a mut Extrapolation,
 }
 
 /// Where the iteration of the link equations starts.

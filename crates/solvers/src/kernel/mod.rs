@@ -1,5 +1,8 @@
 //! The link kernel: forces of all links at the end of a step.
 //!
+//! Newton's method on the link equations, its predictor, kept factors, line search, and the measure of equilibrium.
+//! May use no other room: it knows no structure but compliances G and H.
+//!
 //! Every linear step is affine in the pseudo-forces f̃ = f − k_e d at its end:
 //!
 //! ```text
@@ -8,23 +11,24 @@
 //!
 //! `Newton` solves `R(f̃) = law(d, ḋ) − k_e d − f̃ = 0` with the full tangents of the laws,
 //! `J = I + (k − k_e) G + c H`; coordinates whose row of tangents is zero or weak need no equation. It starts
-//! from what the tangents at the start of the step foresee, and what such guesses lacked in the steps before.
+//! from a predictor: the tangents at the start of the step, and the residual that such predictions left in the steps
+//! before, extrapolated.
 //! `FixedPoint` is Wilson's constant-stiffness iteration, f̃ ← law − k_e d; it converges only
 //! while |k − k_e| G < 1. Neither touches a matrix of the structure.
 
 mod affine;
-mod answer;
+mod extrapolation;
 mod factors;
-mod foresee;
+mod law_response;
 mod layout;
 mod measure;
+mod predictor;
 mod search;
-mod unforeseen;
 
 pub(crate) use affine::{Affine, Committed, Compliance, Converged, Guess, StepKey, Wanted};
-pub(crate) use answer::Answer;
+pub(crate) use extrapolation::Extrapolation;
 pub(crate) use factors::Remembered;
-pub(crate) use unforeseen::Unforeseen;
+pub(crate) use law_response::LawResponse;
 
 use crate::vector::{add, largest, sized_residual};
 use factors::{Equations, Factor, Factors};
@@ -71,7 +75,7 @@ pub(crate) struct LinkKernel<'a> {
     unknowns: Unknowns,
     /// Blocks of all links but dashpots, and of those whose laws look at rates.
     blocks: LinkBlocks,
-    rated_blocks: LinkBlocks,
+    rate_blocks: LinkBlocks,
     /// Forces that follow from deformations and rates along the tangents, flat.
     pull: Vec<f64>,
     /// True where all coordinates are active and no support moves: the own deformations and rates are those of all
@@ -82,7 +86,7 @@ pub(crate) struct LinkKernel<'a> {
     sizes: [f64; 3],
     /// What a factor gives.
     correction: Vec<f64>,
-    /// True where the first guess of this step holds what the steps before left unforeseen.
+    /// True where the predictor of this step holds the extrapolated residual of the steps before.
     expected: bool,
     /// True where deformations and rates have followed the last change of f̃ already.
     followed: bool,
@@ -99,22 +103,22 @@ impl<'a> LinkKernel<'a> {
         model: &'a Model,
         links: &'a LinkSet,
         solution: &Solution,
-        dummy_k: Vec<f64>,
+        effective_k: Vec<f64>,
     ) -> Self {
         let laws = links.laws(model);
         let stiff = laws.iter().filter(|(law, _)| law.damping_constant().is_none());
         let blocks = LinkBlocks::of(stiff.map(|(_, link)| link));
         let rate_dependent = laws.iter().filter(|(law, _)| law.uses_rates());
-        let rated_blocks = LinkBlocks::of(rate_dependent.map(|(_, link)| link));
-        let layout = Layout::new(links, &laws, dummy_k);
+        let rate_blocks = LinkBlocks::of(rate_dependent.map(|(_, link)| link));
+        let layout = Layout::new(links, &laws, effective_k);
         let n = links.active.len();
         Self {
             kind: solution.kernel,
             tolerance: solution.link_tolerance,
-            unknowns: Unknowns::new(n, layout.rated.len()),
+            unknowns: Unknowns::new(n, layout.rate_dependent.len()),
             layout,
             blocks,
-            rated_blocks,
+            rate_blocks,
             pull: Vec::new(),
             laws: StepLaws::new(laws),
             plain: false,
@@ -145,7 +149,7 @@ impl<'a> LinkKernel<'a> {
     /// at the start value of f̃.
     pub(crate) fn wanted(&mut self) -> Wanted<'_> {
         let [d, v, _] = self.unknowns.parts();
-        Wanted { d, v, rated: &self.layout.rated }
+        Wanted { d, v, rate_dependent: &self.layout.rate_dependent }
     }
 
     /// Which coordinates there are.
@@ -168,9 +172,9 @@ impl<'a> LinkKernel<'a> {
 
     /// Pseudo-force of forces that act at a deformation; `support` is what moving supports have in it.
     pub(crate) fn pseudo(&self, f: &[f64], d: &[f64], support: &[f64], to: &mut [f64]) {
-        let Layout { links, dummy_k, .. } = &self.layout;
+        let Layout { links, effective_k, .. } = &self.layout;
         for (a, flat) in links.active.iter().enumerate() {
-            to[a] = f[*flat] - dummy_k[a] * (d[*flat] - support[*flat]);
+            to[a] = f[*flat] - effective_k[a] * (d[*flat] - support[*flat]);
         }
     }
 
@@ -232,7 +236,7 @@ impl<'a> LinkKernel<'a> {
         self.iterations += 1;
         self.evaluate(affine, from, out);
         if self.iteration == 0 && self.kind == Kernel::Newton {
-            out.unforeseen.note(from.unforeseen, affine.key, &self.residual, self.expected);
+            out.extrapolation.note(from.extrapolation, affine.key, &self.residual, self.expected);
         }
         let (size, worst) = self.measure(out, scale);
         if size <= 1.0 {
@@ -324,7 +328,7 @@ impl<'a> LinkKernel<'a> {
             h.mul_add(-1.0, residual, v);
         } else {
             // The compliances are symmetric.
-            for (v, a) in v.iter_mut().zip(&layout.rated) {
+            for (v, a) in v.iter_mut().zip(&layout.rate_dependent) {
                 *v -= h.column_dot(*a, residual);
             }
         }
@@ -338,7 +342,7 @@ impl<'a> LinkKernel<'a> {
         if !self.plain {
             return self.deform_all(affine, out);
         }
-        for (a, v) in self.layout.rated.iter().zip(self.unknowns.v()) {
+        for (a, v) in self.layout.rate_dependent.iter().zip(self.unknowns.v()) {
             out.v[*a] = *v;
         }
     }
@@ -359,7 +363,7 @@ impl<'a> LinkKernel<'a> {
         for (flat, d) in links.active.iter().zip(self.unknowns.d()) {
             out.d[*flat] += d;
         }
-        for (a, v) in self.layout.rated.iter().zip(self.unknowns.v()) {
+        for (a, v) in self.layout.rate_dependent.iter().zip(self.unknowns.v()) {
             out.v[links.active[*a]] += v;
         }
     }
@@ -373,7 +377,7 @@ impl<'a> LinkKernel<'a> {
         self.laws.respond(&at, last, from.history, &mut out.laws);
         let Self { layout, unknowns, residual: r, correction, sizes, .. } = self;
         let of_active = active(layout, out.laws.f, correction);
-        sized_residual(of_active, &layout.dummy_k, unknowns.d(), unknowns.pseudo(), r, sizes);
+        sized_residual(of_active, &layout.effective_k, unknowns.d(), unknowns.pseudo(), r, sizes);
         if !layout.complete {
             sizes[1] = largest(out.laws.f);
         }

@@ -4,7 +4,7 @@
 use super::plan::{Plan, pick};
 use super::setup::{Adaptive, LaneSetup};
 use super::state::State;
-use crate::march::{CLOSURE, LEAST_WAY, Pace, ROUNDING};
+use crate::march::{CLOSURE, LEAST_WAY, ROUNDING, StepControlState as Pace};
 use trilith_element::lanes::{Arithmetic, Real};
 
 /// What steps are measured against.

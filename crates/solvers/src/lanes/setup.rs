@@ -8,13 +8,15 @@ use super::watch::Watch;
 use crate::contacts::{Role, Roles, contacts};
 use crate::error::SolveError;
 use crate::fna::{LONGEST, Modal};
-use crate::march::{Pace, Timeline, constant_force, potential};
+use crate::march::{StepControlState as Pace, Timeline, constant_force, potential};
 use crate::modal::Mode;
 use crate::modal::single_mode::{self};
 use crate::record::{Outputs, Row};
-use crate::run::{Initial, bases, before, fna_modes as modes, held_load, link_side, start};
+use crate::run::{
+    Initial, bases, before, fna_modes as modes, held_load, link_equations as link_side, start,
+};
 use crate::step::{LinkStepper, State, Stepper, kinetic_and_strain};
-use crate::structure::Space;
+use crate::structure::ReducedSystem as Space;
 use std::any::TypeId;
 use std::sync::Arc;
 use trilith_element::Contact;

@@ -2,7 +2,7 @@
 
 use super::uncoupled::turned;
 use crate::checks::{FAR, PRESSED, size};
-use crate::structure::Space;
+use crate::structure::ReducedSystem as Space;
 use trilith_linalg::Dense;
 use trilith_model::Model;
 use trilith_system::System;

@@ -1,5 +1,8 @@
 //! The march: the only loop over time. It knows no solver.
 //!
+//! Output steps cut where loads bend or jump, substeps by their error, and the energy that each enters in the ledger.
+//! May use `step` and `record`.
+//!
 //! An output step is cut into substeps of `S/2ᵏ`. With adaptive control a substep is made once whole and
 //! once in two halves. What the two are apart, and what neither of them has seen, is its error:
 //!
@@ -34,11 +37,11 @@ mod timeline;
 pub(crate) use output_step::{
     Moment, Moving, at_least, constant_force, jump, output_step, potential,
 };
-pub(crate) use timeline::{Piece, Timeline};
+pub(crate) use timeline::{Segment, Timeline};
 
 use crate::error::SolveError;
 use crate::kernel::ForceScale;
-use crate::step::{State, StepEnergy, StepFailure, Stepper, Way};
+use crate::step::{DisplacementNorms, State, StepEnergy, StepFailure, Stepper};
 use crate::vector::larger;
 use serde::{Deserialize, Serialize};
 use trilith_model::StepControl;
@@ -62,7 +65,7 @@ pub(crate) const LEAST_WAY: f64 = 0.01;
 
 /// What the march carries from step to step beside the state.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
-pub(crate) struct Pace {
+pub(crate) struct StepControlState {
     /// Current number of halvings.
     pub level: u32,
     /// Largest energy of the motion so far, J.
@@ -70,12 +73,12 @@ pub(crate) struct Pace {
     /// That of them which counts although nothing moves, as it is rounding of what stands in springs at the start, J.
     pub standing: f64,
     /// Largest displacements so far.
-    pub reached: Way,
+    pub reached: DisplacementNorms,
     /// Forces that count beside the loads: of translations and of rotations, N and N·m.
     pub push: ForceScale,
 }
 
-impl Pace {
+impl StepControlState {
     /// True where no more has moved than counts for nothing beside what stands in springs.
     pub(crate) fn is_lost(&self) -> bool {
         self.standing > 0.0 && self.reference <= self.standing
@@ -150,19 +153,19 @@ struct Measured {
     /// Of energies and forces.
     error: f64,
     /// Of displacements, for the way that the step went.
-    on_way: f64,
+    per_distance: f64,
 }
 
 impl Measured {
     fn most(&self) -> f64 {
-        larger(self.error, self.on_way)
+        larger(self.error, self.per_distance)
     }
 }
 
 /// Whether the step behind one with these errors may be twice as long.
 #[inline]
-pub(crate) fn may_grow(error: f64, on_way: f64, tolerance: f64) -> bool {
-    error < GROW_BELOW * tolerance && on_way < GROW_BELOW_ON_WAY * tolerance
+pub(crate) fn may_grow(error: f64, per_distance: f64, tolerance: f64) -> bool {
+    error < GROW_BELOW * tolerance && per_distance < GROW_BELOW_ON_WAY * tolerance
 }
 
 /// How far the energies of the links in a step are from closing, and what is allowed: a share of what
@@ -202,21 +205,21 @@ impl<'a> March<'a> {
         self.trial.loads.cut();
     }
 
-    /// Over a piece of an output step; `accept` sees every substep and returns the energy it knows of.
+    /// Over a segment of an output step; `accept` sees every substep and returns the energy it knows of.
     pub(crate) fn segment(
         &mut self,
         state: &mut Box<State>,
-        pace: &mut Pace,
-        piece: Piece,
+        control: &mut StepControlState,
+        segment: Segment,
         accept: &mut Accepted<'_>,
     ) -> Result<(), Stop> {
         match self.control {
             StepControl::Adaptive { tolerance } => {
-                self.adaptive(state, pace, piece, tolerance, accept)
+                self.adaptive(state, control, segment, tolerance, accept)
             }
-            StepControl::Fixed { substeps: 1 } => self.fixed(state, piece, accept),
+            StepControl::Fixed { substeps: 1 } => self.fixed(state, segment, accept),
             StepControl::Fixed { substeps } => {
-                for part in piece.parts(substeps) {
+                for part in segment.parts(substeps) {
                     self.fixed(state, part, accept)?;
                 }
                 Ok(())
@@ -227,8 +230,8 @@ impl<'a> March<'a> {
     fn adaptive(
         &mut self,
         state: &mut Box<State>,
-        pace: &mut Pace,
-        piece: Piece,
+        control: &mut StepControlState,
+        segment: Segment,
         tolerance: f64,
         accept: &mut Accepted<'_>,
     ) -> Result<(), Stop> {
@@ -236,23 +239,23 @@ impl<'a> March<'a> {
         let mut at: u32 = 0;
         // The number of halvings whose whole step is there already.
         let mut known: Option<u32> = None;
-        let time = |ticks: u32| piece.time(f64::from(ticks) / f64::from(full));
+        let time = |ticks: u32| segment.time(f64::from(ticks) / f64::from(full));
         while at < full {
-            let mut level = pace.level;
+            let mut level = control.level;
             while !at.is_multiple_of(full >> level) {
                 level += 1;
             }
             let ticks = full >> level;
-            let size = piece.length / f64::from(1u32 << level);
+            let size = segment.length / f64::from(1u32 << level);
             let (start, middle, end) = (time(at), time(at + ticks / 2), time(at + ticks));
             self.spend(start)?;
             let times = [start, middle, end];
-            let notable = tolerance * tolerance * pace.reference;
+            let notable = tolerance * tolerance * control.reference;
             let attempt = self.attempt(state, times, size, known == Some(level), notable);
             known = None;
             match attempt {
                 Ok(()) => {
-                    let measured = self.measure(state, pace, tolerance);
+                    let measured = self.measure(state, control, tolerance);
                     let error = measured.most();
                     if !error.is_finite() {
                         // No link is to blame.
@@ -263,7 +266,7 @@ impl<'a> March<'a> {
                         self.counts.rejected += 1;
                         known = Some(level + 1);
                         self.trial.first_is_whole();
-                        pace.level = level + 1;
+                        control.level = level + 1;
                         continue;
                     }
                     self.counts.forced += usize::from(error > tolerance);
@@ -274,15 +277,15 @@ impl<'a> March<'a> {
                     self.counts.substeps += kept.len();
                     for (t, s, e) in kept {
                         let seen = accept(*t, s, e);
-                        pace.reference = pace.reference.max(seen);
+                        control.reference = control.reference.max(seen);
                     }
                     let last = if self.whole { whole } else { second };
-                    pace.reached.reach(&self.stepper.way(last, None));
+                    control.reached.reach(&self.stepper.displacement_norms(last, None));
                     std::mem::swap(state, last);
                     at += ticks;
-                    pace.level = level;
-                    if may_grow(measured.error, measured.on_way, tolerance) && level > 0 {
-                        pace.level = level - 1;
+                    control.level = level;
+                    if may_grow(measured.error, measured.per_distance, tolerance) && level > 0 {
+                        control.level = level - 1;
                     }
                 }
                 Err(Failed { failure, first }) => {
@@ -292,7 +295,7 @@ impl<'a> March<'a> {
                     }
                     self.counts.rejected += 1;
                     self.give_up(failure, level, start)?;
-                    pace.level = level + 1;
+                    control.level = level + 1;
                 }
             }
         }
@@ -300,25 +303,28 @@ impl<'a> March<'a> {
     }
 
     /// The error of the step on trial.
-    fn measure(&mut self, state: &State, pace: &Pace, tolerance: f64) -> Measured {
+    fn measure(&mut self, state: &State, control: &StepControlState, tolerance: f64) -> Measured {
         let Trial { whole, second, energies: [_, e1, e2], missed, turned, .. } = &self.trial;
-        let energy = pace.reference.max(e2.kinetic);
-        let mut apart = self.stepper.apart(whole, second);
+        let energy = control.reference.max(e2.kinetic);
+        let mut apart = self.stepper.difference(whole, second);
         for (off, turned) in apart.force.iter_mut().zip(turned) {
             *off = larger(*off, *turned);
         }
-        let moved = self.stepper.way(second, Some(state));
+        let moved = self.stepper.displacement_norms(second, Some(state));
         let share = (apart.energy.max(*missed) / energy).sqrt();
         let (missing, mut allowed) = closure(state, second, [e1, e2], tolerance, energy);
         if missing > allowed {
             // No step is short enough to bring it below what rounding leaves.
             allowed += ROUNDING * self.stepper.rounding(second);
         }
-        let force = apart.share_of_force(&pace.push);
+        let force = apart.share_of_force(&control.push);
         let of_links = larger(tolerance * missing / allowed, force * force);
         // What is not a number stays so.
         let error = if share.is_nan() { share } else { larger(share, of_links) };
-        Measured { error, on_way: apart.way.over(&moved, LEAST_WAY, &pace.reached) }
+        Measured {
+            error,
+            per_distance: apart.displacement.over(&moved, LEAST_WAY, &control.reached),
+        }
     }
 
     /// One step in one and in two halves; `known`: the one is there already; `notable`: see [`Stepper::missed`].
@@ -354,18 +360,18 @@ impl<'a> March<'a> {
     fn fixed(
         &mut self,
         state: &mut Box<State>,
-        piece: Piece,
+        segment: Segment,
         accept: &mut Accepted<'_>,
     ) -> Result<(), Stop> {
         let full: u32 = 1 << DEPTH;
         let (mut at, mut level) = (0u32, 0u32);
         let share = |ticks: u32| f64::from(ticks) / f64::from(full);
-        let time = |ticks: u32| piece.time(share(ticks));
+        let time = |ticks: u32| segment.time(share(ticks));
         while at < full {
             self.spend(time(at))?;
             let ticks = full >> level;
             // A power of two: no rounding.
-            let size = piece.length * share(ticks);
+            let size = segment.length * share(ticks);
             let Trial { whole, energies: [energy, ..], loads, .. } = &mut self.trial;
             self.loads.step(time(at), time(at + ticks), loads);
             match self.stepper.step(state, whole, loads, size, energy) {

@@ -1,10 +1,10 @@
-//! One output step: its pieces, with loads that jump between them.
+//! One output step: its segments, with loads that jump between them.
 
-use super::timeline::{Piece, Timeline};
-use super::{March, Pace, Stop};
+use super::timeline::{Segment, Timeline};
+use super::{March, StepControlState, Stop};
 use crate::record::Ledger;
 use crate::step::{State, StepEnergy};
-use crate::structure::Space;
+use crate::structure::ReducedSystem;
 use crate::vector::dot;
 use trilith_model::{Side, StepControl};
 use trilith_system::{Channel, LoadSet};
@@ -12,7 +12,7 @@ use trilith_system::{Channel, LoadSet};
 /// What changes during a run.
 pub(crate) struct Moving {
     pub state: Box<State>,
-    pub pace: Pace,
+    pub control: StepControlState,
     pub ledger: Ledger,
 }
 
@@ -21,14 +21,14 @@ pub(crate) struct Moving {
 pub(crate) enum Moment {
     /// Behind a jump of the loads.
     Jump,
-    /// The end of a substep in a piece of the output step.
-    Substep(Piece),
+    /// The end of a substep in a segment of the output step.
+    Substep(Segment),
 }
 
 /// Told of the moments of a run, their times and states.
-pub(crate) type Tell<'a> = dyn FnMut(Moment, f64, &State, &Ledger) + 'a;
+pub(crate) type Report<'a> = dyn FnMut(Moment, f64, &State, &Ledger) + 'a;
 
-/// Steps that are made of a piece of the timeline at least.
+/// Steps that are made of a segment of the timeline at least.
 pub(crate) fn at_least(step: StepControl) -> usize {
     match step {
         StepControl::Fixed { substeps } => substeps,
@@ -50,46 +50,46 @@ pub(crate) fn output_step(
     march: &mut March<'_>,
     constant: &[f64],
     moving: &mut Moving,
-    tell: &mut Tell<'_>,
+    report: &mut Report<'_>,
 ) -> Result<(), Stop> {
-    if let Some(piece) = timeline.plain(step) {
-        return segment(march, piece, constant, moving, tell);
+    if let Some(segment) = timeline.plain(step) {
+        return march_segment(march, segment, constant, moving, report);
     }
-    for piece in timeline.pieces(step) {
+    for segment in timeline.pieces(step) {
         let Moving { state, ledger, .. } = &mut *moving;
-        let t0 = piece.start;
+        let t0 = segment.start;
         if t0 > 0.0 && timeline.is_jump(t0) {
             march.cut();
             if let Some(change) = jump(march.loads, t0) {
                 march.stepper.jump(state, &change).map_err(Stop::Fatal)?;
-                tell(Moment::Jump, t0, state, ledger);
+                report(Moment::Jump, t0, state, ledger);
             }
         }
-        segment(march, piece, constant, moving, tell)?;
+        march_segment(march, segment, constant, moving, report)?;
     }
     Ok(())
 }
 
-/// A piece of an output step.
+/// A segment of an output step.
 #[inline]
-fn segment(
+fn march_segment(
     march: &mut March<'_>,
-    piece: Piece,
+    segment: Segment,
     constant: &[f64],
     moving: &mut Moving,
-    tell: &mut Tell<'_>,
+    report: &mut Report<'_>,
 ) -> Result<(), Stop> {
-    let Moving { state, pace, ledger } = moving;
+    let Moving { state, control, ledger } = moving;
     let mut accept = |t: f64, s: &State, e: &StepEnergy| -> f64 {
         let energy = ledger.enter(e, potential(constant, s));
-        tell(Moment::Substep(piece), t, s, ledger);
+        report(Moment::Substep(segment), t, s, ledger);
         energy
     };
-    march.segment(state, pace, piece, &mut accept)
+    march.segment(state, control, segment, &mut accept)
 }
 
 /// Σ of constant loads in the coordinates of the solver; empty where there are none.
-pub(crate) fn constant_force(space: &Space, loads: &LoadSet) -> Vec<f64> {
+pub(crate) fn constant_force(space: &ReducedSystem, loads: &LoadSet) -> Vec<f64> {
     if !loads.channels.iter().any(|c| c.conservative) {
         return Vec::new();
     }

@@ -1,38 +1,38 @@
-//! Output times, and the pieces of output steps between which loads bend or jump.
+//! Output times, and the segments of output steps between which loads bend or jump.
 //!
 //! Between the ends of a step a load runs straight, so no step goes across a sample of a table or the edge of a
 //! pulse, and none is longer than what follows a sine. The matrices of a step are kept by its length, to the bit:
-//! pieces lie on fractions of the output step wherever the samples do.
+//! segments lie on fractions of the output step wherever the samples do.
 
 use trilith_model::{Corner, Stretch};
 use trilith_system::LoadSet;
 
-/// Output times and, between them, the pieces that end where a load bends or jumps.
+/// Output times and, between them, the segments that end where a load bends or jumps.
 pub(crate) struct Timeline {
     pub dt: f64,
     pub steps: usize,
     pub duration: f64,
     /// Where a load may jump, rising.
     jumps: Vec<f64>,
-    /// Output steps that are cut, rising, and where their pieces end among all of these.
+    /// Output steps that are cut, rising, and where their segments end among all of these.
     cut: Vec<(usize, usize)>,
-    pieces: Vec<Piece>,
-    /// Where loads are curved, and the longest pieces there.
+    segments: Vec<Segment>,
+    /// Where loads are curved, and the longest segments there.
     stretches: Vec<Stretch>,
-    /// A bit for every output step that is one piece as long as the others, without a jump at its ends: most are, and
+    /// A bit for every output step that is one segment as long as the others, without a jump at its ends: most are, and
     /// nothing has to be looked for there.
     plain: Vec<u64>,
 }
 
-/// A piece of an output step; its length is that of other steps to the bit where it is a whole one or a fraction.
+/// A segment of an output step; its length is that of other steps to the bit where it is a whole one or a fraction.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct Piece {
+pub(crate) struct Segment {
     pub start: f64,
     pub end: f64,
     pub length: f64,
 }
 
-impl Piece {
+impl Segment {
     /// Time at a share of it; the end to the bit.
     pub(crate) fn time(&self, share: f64) -> f64 {
         if share == 1.0 { self.end } else { self.start + self.length * share }
@@ -53,26 +53,26 @@ impl Piece {
 
 /// Jumps closer than this share of the output step are one, and lengths closer than it are the same.
 const NEAR: f64 = 1e-9;
-/// A piece may end this share of the distance to the next sample away from a corner of a table, where steps are made of
+/// A segment may end this share of the distance to the next sample away from a corner of a table, where steps are made of
 /// what the load is then: the corner is inside a step, whose error shows it. Times in files are rounded.
 const MOVED: f64 = 1e-4;
 /// Share of a part of the output step up to which such a place is meant, and not met by chance.
 const MEANT: f64 = 5e-4;
 /// Samples are looked for on fractions of the output step down to this.
 const FRACTIONS: usize = 128;
-/// Halvings of a piece at most, for the sake of curved loads.
+/// Halvings of a segment at most, for the sake of curved loads.
 const HALVINGS: i32 = 20;
 
 impl Timeline {
-    /// `substeps`: steps that are made of a piece at least.
+    /// `substeps`: steps that are made of a segment at least.
     pub(crate) fn new(dt: f64, duration: f64, loads: &LoadSet, substeps: usize) -> Self {
         let steps = trilith_model::output_steps(duration, dt) as usize;
         let mut stretches = loads.stretches();
         stretches.iter_mut().for_each(|s| s.step *= substeps.max(1) as f64);
         stretches.retain(|s| s.step < dt);
         let jumps = loads.breaks(duration);
-        let (cut, pieces, plain) = (Vec::new(), Vec::new(), Vec::new());
-        let mut timeline = Self { dt, steps, duration, jumps, cut, pieces, stretches, plain };
+        let (cut, segments, plain) = (Vec::new(), Vec::new(), Vec::new());
+        let mut timeline = Self { dt, steps, duration, jumps, cut, segments, stretches, plain };
         timeline.cut(&loads.corners(duration, dt));
         timeline.join_lengths();
         let mut plain = vec![u64::MAX; steps.div_ceil(64)];
@@ -86,11 +86,12 @@ impl Timeline {
         self.plain.get(step / 64).is_some_and(|bits| bits >> (step % 64) & 1 == 1)
     }
 
-    /// An output step that is one piece as long as the others, without a jump at its ends.
+    /// An output step that is one segment as long as the others, without a jump at its ends.
     #[inline]
-    pub(crate) fn plain(&self, step: usize) -> Option<Piece> {
-        let piece = || Piece { start: self.time(step), end: self.time(step + 1), length: self.dt };
-        self.is_plain(step).then(piece)
+    pub(crate) fn plain(&self, step: usize) -> Option<Segment> {
+        let segment =
+            || Segment { start: self.time(step), end: self.time(step + 1), length: self.dt };
+        self.is_plain(step).then(segment)
     }
 
     /// Time of an output step: that of a jump, to the bit, where one is there.
@@ -109,7 +110,7 @@ impl Timeline {
         self.jump_near(t).is_some()
     }
 
-    /// Output steps that may be something else than one piece as long as the others, or have a jump at their ends;
+    /// Output steps that may be something else than one segment as long as the others, or have a jump at their ends;
     /// rising.
     pub(crate) fn cut_steps(&self) -> Vec<usize> {
         let around = |t: f64| {
@@ -130,43 +131,43 @@ impl Timeline {
         steps
     }
 
-    /// The pieces of an output step.
+    /// The segments of an output step.
     #[inline]
-    pub(crate) fn pieces(&self, step: usize) -> Pieces<'_> {
+    pub(crate) fn pieces(&self, step: usize) -> Segments<'_> {
         let now = self.whole(step);
         match self.cut.binary_search_by_key(&step, |(step, _)| *step) {
             Ok(at) => {
                 let first = at.checked_sub(1).map_or(0, |before| self.cut[before].1);
-                let rest = &self.pieces[first..self.cut[at].1];
-                Pieces { timeline: self, now, made: 0, of: 0, rest }
+                let rest = &self.segments[first..self.cut[at].1];
+                Segments { timeline: self, now, made: 0, of: 0, rest }
             }
-            Err(_) => Pieces { timeline: self, now, made: 0, of: self.count(&now), rest: &[] },
+            Err(_) => Segments { timeline: self, now, made: 0, of: self.count(&now), rest: &[] },
         }
     }
 
     /// An output step in one; the last may be shorter, one that is not has the length of the others to the bit.
     #[inline]
-    fn whole(&self, step: usize) -> Piece {
+    fn whole(&self, step: usize) -> Segment {
         let (start, end) = (self.time(step), self.time(step + 1));
         let as_others = (end - start - self.dt).abs() <= self.near();
-        Piece { start, end, length: if as_others { self.dt } else { end - start } }
+        Segment { start, end, length: if as_others { self.dt } else { end - start } }
     }
 
-    /// Parts of a piece that are short enough for curved loads: a power of two, so that their matrices are those of
+    /// Parts of a segment that are short enough for curved loads: a power of two, so that their matrices are those of
     /// a step that is halved.
-    fn count(&self, piece: &Piece) -> usize {
+    fn count(&self, segment: &Segment) -> usize {
         if self.stretches.is_empty() {
             return 1;
         }
         let near = self.near();
-        let meets = |s: &&Stretch| s.from < piece.end - near && s.to > piece.start + near;
+        let meets = |s: &&Stretch| s.from < segment.end - near && s.to > segment.start + near;
         let shortest = self.stretches.iter().filter(meets).map(|s| s.step);
         let longest = shortest.fold(f64::INFINITY, f64::min);
-        let halvings = (piece.length / longest * (1.0 - NEAR)).log2().ceil();
+        let halvings = (segment.length / longest * (1.0 - NEAR)).log2().ceil();
         1 << (halvings.max(0.0) as i32).min(HALVINGS)
     }
 
-    /// How far from a corner a piece may end.
+    /// How far from a corner a segment may end.
     fn reach(&self, corner: &Corner) -> f64 {
         MOVED * corner.reach.min(self.dt)
     }
@@ -191,21 +192,21 @@ impl Timeline {
         for group in inside.chunk_by(|(a, _), (b, _)| a == b) {
             let step = group[0].0;
             let cuts = apart(group.iter().map(|(_, cut)| *cut));
-            let pieces = divide(self.whole(step), &cuts, self.dt);
-            self.pieces.extend(pieces);
-            self.cut.push((step, self.pieces.len()));
+            let segments = divide(self.whole(step), &cuts, self.dt);
+            self.segments.extend(segments);
+            self.cut.push((step, self.segments.len()));
         }
     }
 
     /// Lengths that differ by rounding become one.
     fn join_lengths(&mut self) {
-        let mut lengths: Vec<f64> = self.pieces.iter().map(|p| p.length).collect();
+        let mut lengths: Vec<f64> = self.segments.iter().map(|p| p.length).collect();
         lengths.sort_by(f64::total_cmp);
         // The smallest of those that are close to each other stands for them.
         lengths.dedup_by(|next, kept| *next - *kept <= NEAR * *kept);
-        for piece in &mut self.pieces {
-            let at = lengths.partition_point(|x| *x <= piece.length);
-            piece.length = lengths[at.saturating_sub(1)];
+        for segment in &mut self.segments {
+            let at = lengths.partition_point(|x| *x <= segment.length);
+            segment.length = lengths[at.saturating_sub(1)];
         }
     }
 
@@ -226,21 +227,21 @@ impl Timeline {
     }
 }
 
-/// The pieces of an output step, each in as many equal parts as curved loads ask for.
-pub(crate) struct Pieces<'a> {
+/// The segments of an output step, each in as many equal parts as curved loads ask for.
+pub(crate) struct Segments<'a> {
     timeline: &'a Timeline,
-    now: Piece,
+    now: Segment,
     /// Parts of it, those that were given and all.
     made: usize,
     of: usize,
-    rest: &'a [Piece],
+    rest: &'a [Segment],
 }
 
-impl Iterator for Pieces<'_> {
-    type Item = Piece;
+impl Iterator for Segments<'_> {
+    type Item = Segment;
 
     #[inline]
-    fn next(&mut self) -> Option<Piece> {
+    fn next(&mut self) -> Option<Segment> {
         if self.made == self.of {
             let (next, rest) = self.rest.split_first()?;
             (self.now, self.rest) = (*next, rest);
@@ -251,7 +252,7 @@ impl Iterator for Pieces<'_> {
     }
 }
 
-/// A time inside an output step at which a piece ends, and how far it may be moved.
+/// A time inside an output step at which a segment ends, and how far it may be moved.
 #[derive(Clone, Copy)]
 struct Cut {
     t: f64,
@@ -271,12 +272,12 @@ fn apart(all: impl Iterator<Item = Cut>) -> Vec<Cut> {
     kept
 }
 
-/// An output step in pieces.
-fn divide(whole: Piece, cuts: &[Cut], dt: f64) -> Vec<Piece> {
+/// An output step in segments.
+fn divide(whole: Segment, cuts: &[Cut], dt: f64) -> Vec<Segment> {
     let ends = cuts.iter().map(|cut| cut.t).chain([whole.end]);
     let starts = [whole.start].into_iter().chain(cuts.iter().map(|cut| cut.t));
-    let piece = |(start, end): (f64, f64)| Piece { start, end, length: end - start };
-    let mut pieces: Vec<Piece> = starts.zip(ends).map(piece).collect();
+    let segment = |(start, end): (f64, f64)| Segment { start, end, length: end - start };
+    let mut segments: Vec<Segment> = starts.zip(ends).map(segment).collect();
     let fractions = || (2..=FRACTIONS).find_map(|n| Some((n, places(whole, cuts, n)?)));
     if whole.length == dt
         && let Some((parts, places)) = fractions()
@@ -290,17 +291,18 @@ fn divide(whole: Piece, cuts: &[Cut], dt: f64) -> Vec<Piece> {
         let ends = cuts.iter().zip(&places).map(|(cut, to)| moved(cut, *to));
         let ends: Vec<f64> = ends.chain([whole.end]).collect();
         let (mut from, mut start) = (0, whole.start);
-        for ((piece, to), end) in pieces.iter_mut().zip(places.into_iter().chain([parts])).zip(ends)
+        for ((segment, to), end) in
+            segments.iter_mut().zip(places.into_iter().chain([parts])).zip(ends)
         {
-            *piece = Piece { start, end, length: dt * ((to - from) as f64 / parts as f64) };
+            *segment = Segment { start, end, length: dt * ((to - from) as f64 / parts as f64) };
             (from, start) = (to, end);
         }
     }
-    pieces
+    segments
 }
 
 /// The fractions of the output step on which all cuts are.
-fn places(whole: Piece, cuts: &[Cut], parts: usize) -> Option<Vec<usize>> {
+fn places(whole: Segment, cuts: &[Cut], parts: usize) -> Option<Vec<usize>> {
     let part = whole.length / parts as f64;
     let mut places = Vec::with_capacity(cuts.len());
     for cut in cuts {
@@ -347,11 +349,11 @@ mod tests {
         TimeFunction::Sine(Harmonic { amplitude: 1.0, frequency, cycles, start, phase: 0.0 })
     }
 
-    fn all(timeline: &Timeline) -> Vec<Piece> {
-        let pieces: Vec<Piece> = (0..timeline.steps)
+    fn all(timeline: &Timeline) -> Vec<Segment> {
+        let segments: Vec<Segment> = (0..timeline.steps)
             .flat_map(|step| timeline.pieces(step).collect::<Vec<_>>())
             .collect();
-        for two in pieces.windows(2) {
+        for two in segments.windows(2) {
             assert_eq!(two[0].end, two[1].start);
         }
         // What needs no search says what a search does.
@@ -366,14 +368,14 @@ mod tests {
         let plain = (0..timeline.steps).filter(|step| timeline.plain(*step).is_some()).count();
         let cut = timeline.cut_steps().len();
         assert_eq!(plain + cut, timeline.steps);
-        for p in &pieces {
+        for p in &segments {
             assert!((p.end - p.start - p.length).abs() < 1e-8 * timeline.dt, "{p:?}");
         }
-        pieces
+        segments
     }
 
-    fn lengths(pieces: &[Piece]) -> Vec<u64> {
-        let mut lengths: Vec<u64> = pieces.iter().map(|p| p.length.to_bits()).collect();
+    fn lengths(segments: &[Segment]) -> Vec<u64> {
+        let mut lengths: Vec<u64> = segments.iter().map(|p| p.length.to_bits()).collect();
         lengths.sort_unstable();
         lengths.dedup();
         lengths
@@ -384,9 +386,9 @@ mod tests {
         for spacing in [0.01, 0.02, 0.05] {
             let record = table((0..2000).map(|i| f64::from(i) * spacing));
             let timeline = Timeline::new(0.01, 20.0, &loads(vec![record]), 1);
-            let pieces = all(&timeline);
-            assert_eq!(pieces.len(), 2000);
-            assert_eq!(lengths(&pieces), [0.01_f64.to_bits()]);
+            let segments = all(&timeline);
+            assert_eq!(segments.len(), 2000);
+            assert_eq!(lengths(&segments), [0.01_f64.to_bits()]);
         }
     }
 
@@ -399,11 +401,11 @@ mod tests {
             let times = (0..=4000).map(|i| format!("{:.7}", f64::from(i) * spacing));
             let times: Vec<f64> = times.map(|t| t.parse().unwrap()).collect();
             let timeline = Timeline::new(dt, 10.0, &loads(vec![table(times.iter().copied())]), 1);
-            let pieces = all(&timeline);
-            let found = lengths(&pieces);
+            let segments = all(&timeline);
+            let found = lengths(&segments);
             assert!(found.len() <= count, "{spacing} {dt}: {}", found.len());
-            // No piece goes across a sample.
-            for p in &pieces {
+            // No segment goes across a sample.
+            for p in &segments {
                 let inside = |t: &&f64| **t > p.start + 2e-3 * dt && **t < p.end - 2e-3 * dt;
                 assert_eq!(times.iter().find(inside), None, "{p:?}");
             }
@@ -414,8 +416,8 @@ mod tests {
     fn lengths_that_differ_by_rounding_are_one() {
         let record = table((0..3000).map(|i| f64::from(i) * 0.004_73));
         let timeline = Timeline::new(0.02, 10.0, &loads(vec![record]), 1);
-        let pieces = all(&timeline);
-        let whole = pieces.iter().filter(|p| (p.length - 0.004_73).abs() < 1e-9).copied();
+        let segments = all(&timeline);
+        let whole = segments.iter().filter(|p| (p.length - 0.004_73).abs() < 1e-9).copied();
         assert_eq!(lengths(&whole.collect::<Vec<_>>()).len(), 1);
     }
 
@@ -423,8 +425,8 @@ mod tests {
     fn a_pulse_is_followed_whatever_the_output_step() {
         for substeps in [1, 3] {
             let timeline = Timeline::new(0.15, 1.5, &loads(vec![sine(5.0, 0.33, 1.0)]), substeps);
-            let pieces = all(&timeline);
-            for p in &pieces {
+            let segments = all(&timeline);
+            for p in &segments {
                 let during = p.start < 0.53 - 1e-9 && p.end > 0.33 + 1e-9;
                 let longest = 0.2 / 16.0 * substeps as f64;
                 assert!(!during || p.length <= longest * (1.0 + 1e-9), "{p:?}");
@@ -432,7 +434,7 @@ mod tests {
                 assert!(during || halvings == halvings.round() || p.length > 0.02, "{p:?}");
             }
             for edge in [0.33, 0.33 + 1.0 / 5.0] {
-                assert!(pieces.iter().any(|p| p.end == edge) && timeline.is_jump(edge));
+                assert!(segments.iter().any(|p| p.end == edge) && timeline.is_jump(edge));
             }
         }
     }
@@ -462,8 +464,8 @@ mod tests {
         let record = table((0..100).map(|i| f64::from(i) * 0.05));
         let step = TimeFunction::Step { amplitude: 1.0, start: 0.550_001, end: None };
         let timeline = Timeline::new(0.1, 1.0, &loads(vec![record, step]), 1);
-        let pieces = all(&timeline);
-        assert!(pieces.iter().any(|p| p.end == 0.550_001));
-        assert!(pieces.iter().all(|p| p.length > 0.01));
+        let segments = all(&timeline);
+        assert!(segments.iter().any(|p| p.end == 0.550_001));
+        assert!(segments.iter().all(|p| p.length > 0.01));
     }
 }

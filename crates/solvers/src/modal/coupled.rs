@@ -18,7 +18,7 @@ pub(super) struct Coupled<'a> {
 /// Rows ∫q, q, q̇; columns q₀, q̇₀, s₀, s₁.
 pub(super) type Blocks = [[Dense; 4]; 3];
 
-/// A first-order unknown that settles in less than this share of a step is taken as one that does in so much: what
+/// A first-order unknown that decays in less than this share of a step is taken as one that does in so much: what
 /// it has to do is done at once.
 const AT_ONCE: f64 = 1e-7;
 

@@ -1,6 +1,6 @@
 //! Coefficients of modal steps.
 //!
-//! Shapes of directions without mass follow the loads, c q̇ + κ q = s: exactly where the structure damps
+//! Shapes of massless directions follow the loads, c q̇ + κ q = s: exactly where the structure damps
 //! them, at the mean rate of the step where it does not. Those that dashpots tie to the modes are unknowns of first
 //! order of one system with them:
 //!
@@ -44,7 +44,7 @@ impl Structure {
         a[self.modes..].fill(0.0);
     }
 
-    /// Accelerations of the modes that a force on the structure at rest causes: a dashpot on a direction without mass
+    /// Accelerations of the modes that a force on the structure at rest causes: a dashpot on a massless direction
     /// takes its share at once.
     pub(crate) fn free_acceleration(&self, force: &[f64]) -> Vec<f64> {
         let mut a = force.to_vec();

@@ -10,7 +10,7 @@
 
 use super::observer::{Observer, Sample};
 use crate::step::State;
-use crate::structure::Space;
+use crate::structure::ReducedSystem;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 use trilith_linalg::Sparse;
@@ -57,7 +57,7 @@ pub(crate) struct Rows {
 }
 
 impl Rows {
-    pub(crate) fn new(system: &System, space: &Space) -> Self {
+    pub(crate) fn new(system: &System, space: &ReducedSystem) -> Self {
         let rows = [0, 1].map(|axis| row(system, space, axis));
         let moved = |row: &Row| !(row.stiffness.1.is_empty() && row.damping.1.is_empty());
         let supported = rows.iter().any(moved);
@@ -86,7 +86,7 @@ fn sum(terms: &[(usize, f64)], x: &[f64]) -> f64 {
     terms.iter().map(|(i, c)| c * x[*i]).sum()
 }
 
-fn row(system: &System, space: &Space, axis: usize) -> Row {
+fn row(system: &System, space: &ReducedSystem, axis: usize) -> Row {
     let moves = |i: usize| system.reduction.free[i] % 6 == axis;
     let of_rows = |a: &Sparse, factor: f64| -> Vec<(usize, f64)> {
         let own = a.entries().filter(|(i, _, x)| moves(*i) && *x != 0.0);

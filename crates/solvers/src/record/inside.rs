@@ -133,7 +133,7 @@ impl Inside {
 
     /// Moments inside the step that ends with this motion and these values of the outputs; and whether the cubics
     /// between them, and between the ends where there are none, can be trusted.
-    pub(crate) fn look(
+    pub(crate) fn evaluate(
         &mut self,
         outputs: &Outputs,
         to: &[f64],

@@ -25,4 +25,4 @@ pub use observer::{Observer, Sample, Shape};
 pub(crate) use outputs::Outputs;
 pub use peak::Peak;
 pub(crate) use rows::Row;
-pub(crate) use view::{Viewer, looks_at_rates, show_static};
+pub(crate) use view::{Viewer, needs_rates, show_static};

@@ -2,7 +2,7 @@
 
 use super::rows::{Maker, Row};
 use crate::step::State;
-use crate::structure::Space;
+use crate::structure::ReducedSystem;
 use std::ops::Range;
 use trilith_linalg::{Dense, Product};
 use trilith_model::{Combine, Model, Side};
@@ -100,7 +100,7 @@ fn sum(row: &[(usize, f64)], x: &[f64]) -> f64 {
 }
 
 impl Outputs {
-    pub(crate) fn new(model: &Model, system: &System, space: &Space) -> Self {
+    pub(crate) fn new(model: &Model, system: &System, space: &ReducedSystem) -> Self {
         let maker = Maker { model, system, space };
         let rows: Vec<Row> = model.outputs.iter().map(|o| maker.row(&o.quantity)).collect();
         let supported = rows.iter().any(Row::is_supported);

@@ -1,6 +1,6 @@
 //! Recorded quantities as rows over the coordinates of a solver.
 
-use crate::structure::Space;
+use crate::structure::ReducedSystem;
 use trilith_model::{Combine, Model, NodalTerm, Quantity};
 use trilith_system::{LinkInstance, System};
 
@@ -56,7 +56,7 @@ impl Row {
 pub(super) struct Maker<'a> {
     pub model: &'a Model,
     pub system: &'a System,
-    pub space: &'a Space,
+    pub space: &'a ReducedSystem,
 }
 
 impl Maker<'_> {

@@ -11,7 +11,7 @@ use crate::checks::{Noticed, Overlaps, Place, Pressed, rounded};
 use crate::contacts::are_contacts;
 use crate::modal::ClosedForm;
 use crate::step::State;
-use crate::structure::Space;
+use crate::structure::ReducedSystem;
 use std::sync::Arc;
 use trilith_element::{Contact, Kinematics, Link, Outline, Vector3};
 use trilith_model::{Model, Output, Quantity, Side};
@@ -123,7 +123,7 @@ impl<'a> Seen<'a> {
 
 /// True where something beside the laws may look at rates of deformation; `wanted`: whether an observer wants those
 /// of outputs.
-pub(crate) fn looks_at_rates(model: &Model, system: &System, wanted: bool) -> bool {
+pub(crate) fn needs_rates(model: &Model, system: &System, wanted: bool) -> bool {
     let of_links = |o: &Output| matches!(o.quantity, Quantity::LinkDeformation { .. });
     let Seen { touching, bodies } = Seen::new(model, system);
     let outputs = wanted && model.outputs.iter().any(of_links);
@@ -135,7 +135,7 @@ impl<'a, 'b> Viewer<'a, 'b> {
         model: &'a Model,
         system: &'a System,
         loads: &'a LoadSet,
-        space: &Space,
+        space: &ReducedSystem,
         observers: &'a mut [&'b mut dyn Observer],
     ) -> Self {
         let count = model.outputs.len();
@@ -200,15 +200,15 @@ impl<'a, 'b> Viewer<'a, 'b> {
     pub(crate) fn show(&mut self, t: f64, step: Option<usize>, state: &State, ledger: &Ledger) {
         // Before a case there is nothing: what it starts from is what the loads make of it.
         let side = if t > 0.0 { Side::Before } else { Side::After };
-        self.look((t, side), step, state, ledger);
+        self.evaluate((t, side), step, state, ledger);
     }
 
     /// Shows a state just behind a time at which loads have jumped.
     pub(crate) fn show_behind(&mut self, t: f64, state: &State, ledger: &Ledger) {
-        self.look((t, Side::After), None, state, ledger);
+        self.evaluate((t, Side::After), None, state, ledger);
     }
 
-    fn look(
+    fn evaluate(
         &mut self,
         (t, side): (f64, Side),
         step: Option<usize>,
@@ -225,7 +225,7 @@ impl<'a, 'b> Viewer<'a, 'b> {
         if self.rated {
             now.rates(&self.values, &mut self.rates);
         }
-        self.tell_inside(t, &state.motion);
+        self.report_inside(t, &state.motion);
         self.touch(state);
         if step.is_some() {
             let place = Standing { bodies: &self.bodies, state };
@@ -237,23 +237,23 @@ impl<'a, 'b> Viewer<'a, 'b> {
             self.base_shear = shear.at(self.coordinates.order, state, supports.as_ref());
         }
         self.last = (t, side, step);
-        self.tell(state, ledger, |o, sample| o.sample(sample));
+        self.report(state, ledger, |o, sample| o.sample(sample));
     }
 
     /// Tells that the run ends, with the state that was shown last.
     pub(crate) fn end(&mut self, state: &State, ledger: &Ledger) {
-        self.tell(state, ledger, |o, sample| o.end(sample));
+        self.report(state, ledger, |o, sample| o.end(sample));
     }
 
     /// Hands what the outputs are inside the step that ends at `t` to the observers.
-    fn tell_inside(&mut self, t: f64, to: &[f64]) {
+    fn report_inside(&mut self, t: f64, to: &[f64]) {
         let Self { inside: Some(inside), outputs, values, rates, before, last, observers, .. } =
             self
         else {
             return;
         };
         let length = t - last.0;
-        let (moments, trusted) = inside.look(outputs, to, length, values);
+        let (moments, trusted) = inside.evaluate(outputs, to, length, values);
         if !moments.is_empty() {
             // What the motion does not give runs straight.
             let parts = |motion: &[f64]| {
@@ -286,7 +286,7 @@ impl<'a, 'b> Viewer<'a, 'b> {
 
     /// Hands the values of the state shown last to the observers.
     #[inline]
-    fn tell(
+    fn report(
         &mut self,
         state: &State,
         ledger: &Ledger,
@@ -376,7 +376,7 @@ pub(crate) fn show_static(
     observers: &mut [&mut dyn Observer],
 ) -> Noticed {
     let loads = LoadSet::default();
-    let space = Space::physical(system, &loads, &vec![0.0; system.links.len()], None);
+    let space = ReducedSystem::physical(system, &loads, &vec![0.0; system.links.len()], None);
     let mut viewer = Viewer::new(model, system, &loads, &space, observers);
     let ledger = Ledger::of(energy);
     viewer.start(0);

@@ -4,10 +4,10 @@ use super::checkpoint::parameters;
 use super::end_state::{EndState, Initial, SoFar};
 use super::result::{CaseResult, Status, Work};
 use crate::kernel::Remembered;
-use crate::march::{Pace, Timeline};
+use crate::march::{StepControlState, Timeline};
 use crate::record::Ledger;
 use crate::step::State;
-use crate::structure::Space;
+use crate::structure::ReducedSystem;
 use trilith_model::{Analysis, Case, Model, SolverKind};
 use trilith_system::System;
 
@@ -17,7 +17,7 @@ pub(crate) struct Arrival<'a> {
     /// Output steps made since the start of the case.
     pub made: usize,
     pub state: State,
-    pub pace: Pace,
+    pub control: StepControlState,
     pub ledger: Ledger,
     /// Constant loads on the free DOFs.
     pub constant: Vec<f64>,
@@ -37,11 +37,12 @@ impl Arrival<'_> {
         system: &System,
         case: &Case,
         kind: SolverKind,
-        space: &Space,
+        space: &ReducedSystem,
         memory: Vec<Remembered>,
         work: Work,
     ) -> CaseResult {
-        let Self { timeline, made, state, pace, ledger, constant, initial, fallen, largest } = self;
+        let Self { timeline, made, state, control, ledger, constant, initial, fallen, largest } =
+            self;
         // Where the links were led from, nobody asks at the end.
         let initial = Initial { links: None, ..initial };
         let share = ledger.totals.error_relative;
@@ -74,7 +75,7 @@ impl Arrival<'_> {
             load: constant,
             initial,
             vectors: None,
-            pace,
+            control,
             memory,
             ledger,
             state,

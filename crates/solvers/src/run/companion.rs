@@ -87,12 +87,12 @@ impl<'a> Companion<'a> {
     ) -> Result<Samples<'a>, SolveError> {
         let Equations { model, system, loads, .. } = self.equations;
         let mut stepper = self.equations.stepper()?;
-        let (state, pace, ledger, _) = set_out(stepper.as_mut())?;
+        let (state, control, ledger, _) = set_out(stepper.as_mut())?;
         let steps = self.steps.clone();
         let (space, timeline) = (stepper.space(), self.timeline);
         let mut samples =
             Samples::new(model, system, loads, space, timeline, steps.clone(), &state);
-        let mut moving = Moving { state: Box::new(state), pace, ledger };
+        let mut moving = Moving { state: Box::new(state), control, ledger };
         let constant = constant_force(stepper.space(), loads);
         let control = StepControl::Adaptive { tolerance: self.tolerance };
         let mut march = March::new(stepper.as_mut(), loads, control);
@@ -102,13 +102,13 @@ impl<'a> Companion<'a> {
             if step >= self.last.load(Ordering::Relaxed) {
                 break;
             }
-            let mut tell = |moment: Moment, t: f64, s: &State, _: &Ledger| {
-                if let Moment::Substep(piece) = moment {
-                    samples.take(piece, t, s);
+            let mut report = |moment: Moment, t: f64, s: &State, _: &Ledger| {
+                if let Moment::Substep(segment) = moment {
+                    samples.take(segment, t, s);
                 }
             };
             let (line, moving) = (self.timeline, &mut moving);
-            if output_step(line, step, &mut march, &constant, moving, &mut tell).is_err() {
+            if output_step(line, step, &mut march, &constant, moving, &mut report).is_err() {
                 break;
             }
         }

@@ -11,8 +11,8 @@ use super::result::{CaseResult, Status, Work};
 use crate::certificate::{Certificate, OutputError};
 use crate::checks;
 use crate::error::SolveError;
-use crate::march::{Counts, March, Moving, Pace, Stop, Timeline, constant_force};
-use crate::record::{Ledger, Observer, Viewer, looks_at_rates};
+use crate::march::{Counts, March, Moving, StepControlState, Stop, Timeline, constant_force};
+use crate::record::{Ledger, Observer, Viewer, needs_rates};
 use crate::step::Stepper;
 use trilith_model::{Model, StepControl};
 use trilith_system::System;
@@ -28,15 +28,15 @@ pub(crate) fn run(
     let Prepared { model, system, analysis, loads, .. } = &prepared;
     let solution = &analysis.solution;
     let wants_rates = observers.iter().any(|o| o.wants_rates());
-    let equations = prepared.equations(looks_at_rates(model, system, wants_rates));
+    let equations = prepared.equations(needs_rates(model, system, wants_rates));
     let mut stepper = equations.stepper()?;
     let timeline = prepared.timeline();
     let warnings = prepared.adequacy_warnings();
     let RunOptions { from, until, substeps, step_errors, progress, vectors, interrupt, .. } =
         options;
     let set_out = |stepper: &mut dyn Stepper| prepared.set_out(from.as_ref(), stepper);
-    let (state, pace, ledger, first) = set_out(stepper.as_mut())?;
-    let mut moving = Moving { state: Box::new(state), pace, ledger };
+    let (state, control, ledger, first) = set_out(stepper.as_mut())?;
+    let mut moving = Moving { state: Box::new(state), control, ledger };
     let steps = first..last_step(until, &timeline);
     let mut viewer = Viewer::new(model, system, loads, stepper.space(), observers);
     let largest = from.as_ref().map(|end| end.largest.clone()).unwrap_or_default();
@@ -137,14 +137,14 @@ impl Leaves<'_, '_, '_, '_> {
         }
         let counts = marched.counts;
         let work = marched.work(ended.made, stepper);
-        let Moving { state, pace, ledger } = marched.moving;
+        let Moving { state, control, ledger } = marched.moving;
         let solution = &analysis.solution;
-        warnings.extend(march_warnings(solution.step, &pace, &ledger, counts, stepper));
+        warnings.extend(march_warnings(solution.step, &control, &ledger, counts, stepper));
         let arrival = Arrival {
             timeline,
             made: ended.made,
             state: *state,
-            pace,
+            control,
             ledger,
             constant: constant.clone(),
             initial: initial.clone(),
@@ -181,14 +181,14 @@ fn last_step(until: Option<f64>, timeline: &Timeline) -> usize {
 
 /// What the user should know of the steps.
 fn march_warnings(
-    control: StepControl,
-    pace: &Pace,
+    step: StepControl,
+    control: &StepControlState,
     ledger: &Ledger,
     counts: Counts,
     stepper: &dyn Stepper,
 ) -> Vec<String> {
     let mut warnings = Vec::new();
-    if matches!(control, StepControl::Adaptive { .. }) && pace.is_lost() && ledger.moves() {
+    if matches!(step, StepControl::Adaptive { .. }) && control.is_lost() && ledger.moves() {
         warnings.push(LOST.into());
     }
     if counts.forced > 0 {
@@ -197,7 +197,7 @@ fn march_warnings(
             counts.forced
         ));
     }
-    if let (StepControl::Fixed { .. }, Some(ratio)) = (control, stepper.beyond_exact()) {
+    if let (StepControl::Fixed { .. }, Some(ratio)) = (step, stepper.beyond_exact()) {
         warnings.push(format!(
             "fixed steps were too long for the exact rule at the stiffest link (ω Δt = {:.2}; limit of stability 3.46): they were made by average acceleration, and nothing watched their error; `step: Adaptive(…)` does",
             (6.0 * ratio).sqrt()

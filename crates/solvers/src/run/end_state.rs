@@ -1,7 +1,7 @@
 //! The state at the end of a run, from which the next case or a restart goes on.
 
 use crate::kernel::Remembered;
-use crate::march::Pace;
+use crate::march::StepControlState;
 use crate::record::{BaseShearSummary, ContactMemory, Ledger, Peak};
 use crate::step::{LinksBefore, State};
 use serde::{Deserialize, Serialize};
@@ -35,7 +35,8 @@ pub struct EndState {
     pub vectors: Option<usize>,
     /// What the case started from, which its basis is made for.
     pub(crate) initial: Initial,
-    pub(crate) pace: Pace,
+    #[serde(rename = "pace")]
+    pub(crate) control: StepControlState,
     pub(crate) memory: Vec<Remembered>,
     pub(crate) ledger: Ledger,
     /// Largest values of the outputs so far, where the looks inside long steps hang on them.

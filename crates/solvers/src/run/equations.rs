@@ -6,8 +6,8 @@ use crate::error::SolveError;
 use crate::fna::{Modal, Modes};
 use crate::hht::{FullNewton, Hht};
 use crate::kernel::LinkKernel;
-use crate::step::{LinkSide, LinkStepper, Stepper};
-use crate::structure::{Followers, Space};
+use crate::step::{LinkEquations, LinkStepper, Stepper};
+use crate::structure::{Followers, ReducedSystem};
 use trilith_model::{DynamicCase, Model, Solution, SolverKind};
 use trilith_system::{LoadSet, System, Track};
 
@@ -21,7 +21,7 @@ pub(crate) struct Equations<'a> {
     pub loads: &'a LoadSet,
     pub bases: Option<&'a Bases>,
     pub damping: Option<&'a ModalDamping>,
-    /// Whether somebody looks at rates, as [`looks_at_rates`](crate::record::looks_at_rates) says.
+    /// Whether somebody looks at rates, as [`needs_rates`](crate::record::needs_rates) says.
     pub watched: bool,
 }
 
@@ -35,7 +35,7 @@ impl<'a> Equations<'a> {
         let none = vec![0.0; system.links.len()];
         let effective =
             if kind == SolverKind::FullNewton { &none } else { &system.links.effective };
-        let side = |order: usize| link_side(model, system, solution, loads, order, watched);
+        let side = |order: usize| link_equations(model, system, solution, loads, order, watched);
         Ok(match (kind, bases) {
             (SolverKind::Fna, Some(b)) => {
                 let modes = fna_modes(model, system, loads, b);
@@ -43,13 +43,13 @@ impl<'a> Equations<'a> {
                 Box::new(LinkStepper::new(Modal::new(modes), side)?)
             }
             (SolverKind::RitzHht, Some(b)) => {
-                let space = Space::reduced(system, loads, effective, damping, &b.stepping);
+                let space = ReducedSystem::reduced(system, loads, effective, damping, &b.stepping);
                 let side = side(space.order());
                 Box::new(LinkStepper::new(Hht::new(space, solution.alpha), side)?)
             }
             (SolverKind::FullNewton, _) => {
-                let space = Space::physical(system, loads, effective, damping.cloned());
-                let side = &link_side(model, system, solution, loads, 0, watched);
+                let space = ReducedSystem::physical(system, loads, effective, damping.cloned());
+                let side = &link_equations(model, system, solution, loads, 0, watched);
                 let damped = &side.kernel.layout().damped;
                 Box::new(FullNewton {
                     model,
@@ -63,7 +63,7 @@ impl<'a> Equations<'a> {
                 })
             }
             _ => {
-                let space = Space::physical(system, loads, effective, damping.cloned());
+                let space = ReducedSystem::physical(system, loads, effective, damping.cloned());
                 let side = side(space.order());
                 Box::new(LinkStepper::new(Hht::new(space, solution.alpha), side)?)
             }
@@ -138,21 +138,21 @@ pub(crate) fn fna_modes(model: &Model, system: &System, loads: &LoadSet, bases: 
     let engaged = links.active.iter().map(|i| engaged[*i]).collect();
     let damping = modal_damping(model, system, bases);
     let stepping = &bases.stepping;
-    let space = Space::reduced(system, loads, &links.effective, damping.as_ref(), stepping);
+    let space = ReducedSystem::reduced(system, loads, &links.effective, damping.as_ref(), stepping);
     Modes::new(space, engaged)
 }
 
-/// The link side of a motion with this many coordinates; `watched` as [`looks_at_rates`] says.
-pub(crate) fn link_side<'a>(
+/// The link side of a motion with this many coordinates; `watched` as [`needs_rates`] says.
+pub(crate) fn link_equations<'a>(
     model: &'a Model,
     system: &'a System,
     solution: &Solution,
     loads: &'a LoadSet,
     order: usize,
     watched: bool,
-) -> LinkSide<'a> {
+) -> LinkEquations<'a> {
     let links = &system.links;
-    let dummies = links.active.iter().map(|i| links.effective[*i]).collect();
-    let kernel = LinkKernel::new(model, links, solution, dummies);
-    LinkSide::new(model, system, loads, kernel, order, watched)
+    let effective = links.active.iter().map(|i| links.effective[*i]).collect();
+    let kernel = LinkKernel::new(model, links, solution, effective);
+    LinkEquations::new(model, system, loads, kernel, order, watched)
 }

@@ -60,31 +60,31 @@ fn march_through(
     let mut ended = Ended { stop: None, fallen: None, interrupted: false, made: first };
     for step in steps.clone() {
         let end = timeline.time(step + 1) - 1e-12 * timeline.dt;
-        let mut tell = |moment: Moment, t: f64, s: &State, l: &Ledger| match moment {
+        let mut report = |moment: Moment, t: f64, s: &State, l: &Ledger| match moment {
             Moment::Jump => {
                 if let Some(certificate) = certificate {
                     certificate.jump(t, s);
                 }
                 viewer.show_behind(t, s, l);
             }
-            Moment::Substep(piece) => {
+            Moment::Substep(segment) => {
                 if let Some(certificate) = certificate {
-                    certificate.follow(piece, t, s);
+                    certificate.follow(segment, t, s);
                 }
                 if t < end {
                     viewer.show(t, None, s, l);
                 }
             }
         };
-        if let Err(stop) = output_step(timeline, step, march, constant, moving, &mut tell) {
+        if let Err(stop) = output_step(timeline, step, march, constant, moving, &mut report) {
             ended.stop = Some(stop);
             break;
         }
         ended.made = step + 1;
         let Moving { state, ledger, .. } = &*moving;
         viewer.show(timeline.time(ended.made), Some(ended.made), state, ledger);
-        if let Some(tell) = progress.as_deref_mut() {
-            tell((ended.made - first) as f64 / (last - first) as f64);
+        if let Some(report) = progress.as_deref_mut() {
+            report((ended.made - first) as f64 / (last - first) as f64);
         }
         ended.fallen = viewer.overturned(state);
         ended.interrupted =

@@ -24,7 +24,7 @@ pub use case::{RunOptions, modes, run};
 pub(crate) use clock::{Clock, peak_rss_mb};
 pub(crate) use end_state::Initial;
 pub use end_state::{EndState, SoFar};
-pub(crate) use equations::{bases, fna_modes, link_side};
+pub(crate) use equations::{bases, fna_modes, link_equations};
 pub use p_delta::assemble;
 pub(crate) use prepared::held_load;
 pub use result::{CaseResult, Status, Work};

@@ -10,7 +10,7 @@ use trilith_model::Model;
 use trilith_system::System;
 
 /// Change of the axial forces, relative to the largest, at which they are taken as found.
-const SETTLED: f64 = 1e-9;
+const CONVERGED: f64 = 1e-9;
 const ROUNDS: usize = 30;
 
 /// Assembles a model, with P-Δ where it says so.
@@ -31,7 +31,7 @@ pub fn assemble(model: &Model) -> Result<System, SolveError> {
         let largest = tension.iter().fold(0.0_f64, |a, x| a.max(x.abs()));
         let moved =
             tension.iter().zip(&system.tension).fold(0.0_f64, |a, (x, y)| a.max((x - y).abs()));
-        if moved <= SETTLED * largest {
+        if moved <= CONVERGED * largest {
             return Ok(system);
         }
         change = moved / largest;

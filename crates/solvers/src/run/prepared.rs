@@ -6,7 +6,7 @@ use super::end_state::{EndState, Initial};
 use super::equations::{Equations, bases, fna_modes, is_reduced};
 use super::start::{Start, resume, start};
 use crate::basis::{Bases, ModalDamping, follow_supports, modal_damping};
-use crate::certificate::{Certificate, Defect, Kicks, Listener, Samples, Shadow, Teller, aside};
+use crate::certificate::{Certificate, Defect, Kicks, Listener, Reporter, Samples, Shadow, beside};
 use crate::error::SolveError;
 use crate::march::{Timeline, at_least};
 use crate::record::Outputs;
@@ -127,14 +127,14 @@ impl<'a> Prepared<'a> {
         from: Option<&EndState>,
         t: f64,
         state: &State,
-    ) -> Option<(Teller, Listener<'_>)> {
+    ) -> Option<(Reporter, Listener<'_>)> {
         let wider = self.bases.as_ref().and_then(|b| b.wider.as_deref())?;
         let at = match from {
             Some(end) => (&*end.displacement, &*end.velocity),
             None => (&*self.initial.displacement, &*self.initial.velocity),
         };
         let modes = fna_modes(self.model, self.system, &self.loads, wider);
-        Some(aside(Shadow::new(self.model, self.system, &self.loads, modes, at, t, state)))
+        Some(beside(Shadow::new(self.model, self.system, &self.loads, modes, at, t, state)))
     }
 
     /// What follows the errors of the outputs of a run over output steps from a state.
@@ -144,7 +144,7 @@ impl<'a> Prepared<'a> {
         timeline: &Timeline,
         steps: Range<usize>,
         state: &State,
-        shadow: Option<Teller>,
+        shadow: Option<Reporter>,
         step_errors: bool,
     ) -> Certificate<'s> {
         let Self { model, system, loads, kind, .. } = self;

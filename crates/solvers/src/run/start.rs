@@ -2,18 +2,18 @@
 
 use super::end_state::{EndState, Initial};
 use crate::error::SolveError;
-use crate::march::{Pace, constant_force, potential};
+use crate::march::{StepControlState, constant_force, potential};
 use crate::record::Ledger;
 use crate::statics;
-use crate::step::{LinksBefore, State, Stepper, Way, kinetic_and_strain, untouched};
-use crate::structure::Space;
+use crate::step::{DisplacementNorms, LinksBefore, State, Stepper, kinetic_and_strain, untouched};
+use crate::structure::ReducedSystem;
 use trilith_model::{DynamicCase, Model, Side};
 use trilith_system::{LoadSet, System, Track};
 
 /// Share of the energy that stands in springs at the start which counts as motion: rounding moves as much.
 const RESTS: f64 = 1e-6;
 
-/// Energies below this share of what stands in springs, those of dummies among them, are rounding.
+/// Energies below this share of what stands in springs, those of effective stiffnesses among them, are rounding.
 const ROUNDING: f64 = 1e-12;
 
 /// Deformations below this share of the largest at the start are rounding.
@@ -22,8 +22,8 @@ const NOISE: f64 = 1e-10;
 /// Forces of links below this share of the loads are not looked at from near.
 const FORCE: f64 = 1e-3;
 
-/// State, pace, ledger, and the output step it belongs to.
-pub(crate) type Start = (State, Pace, Ledger, usize);
+/// State, control, ledger, and the output step it belongs to.
+pub(crate) type Start = (State, StepControlState, Ledger, usize);
 
 impl Initial {
     /// From rest or from the end of the case before, with initial values in their place; what has no mass and no
@@ -90,7 +90,7 @@ pub(crate) fn start(
         loads.channels.iter().map(|c| c.track.at(0.0, Side::After)).collect();
     let state = stepper.start(u, v, &before, &amplitudes)?;
     let (kinetic, strain) = kinetic_and_strain(stepper.space(), &state.motion);
-    let own = strain - dummy_energy(system, stepper.space(), &state);
+    let own = strain - effective_energy(system, stepper.space(), &state);
     let level = potential(&constant_force(stepper.space(), loads), &state);
     let stored: f64 = state.stored.iter().sum();
     // From rest there is nothing to compare with: a hundredth of the velocity that the loads could
@@ -111,20 +111,21 @@ pub(crate) fn start(
     // As far as that goes in an output step; rotations by the size of the model.
     let far = (2.0 * reference).sqrt() * dt;
     let translation = far / mass.sqrt();
-    let mut reached = Way { motion: far, deformation: [translation, translation / extent(model)] };
-    reached.reach(&stepper.way(&state, None));
+    let mut reached =
+        DisplacementNorms { motion: far, deformation: [translation, translation / extent(model)] };
+    reached.reach(&stepper.displacement_norms(&state, None));
     let least = FORCE * push;
     let (forces, energy) = noise(model, system, &reached);
     let push = [least.max(forces[0]), (least * extent(model)).max(forces[1])];
     let reference = reference.max(energy);
-    // Dummies that stand far out leave more.
+    // Effective stiffnesses that stand far out leave more.
     let rounding = energy.max(ROUNDING * (strain.abs() + stored.abs()));
     let ledger = Ledger::new(&state, kinetic, own, level, rounding);
-    Ok((state, Pace { level: 0, reference, standing, reached, push }, ledger, 0))
+    Ok((state, StepControlState { level: 0, reference, standing, reached, push }, ledger, 0))
 }
 
 /// What rounding of deformations makes of the forces of engaged links, N and N·m, and of their energy, J.
-fn noise(model: &Model, system: &System, reached: &Way) -> ([f64; 2], f64) {
+fn noise(model: &Model, system: &System, reached: &DisplacementNorms) -> ([f64; 2], f64) {
     let links = &system.links;
     let mut stiffest = [0.0_f64; 2];
     for (k, rotational) in links.engaged(model).into_iter().zip(&links.rotational) {
@@ -167,11 +168,11 @@ pub(crate) fn peak(track: &Track) -> f64 {
     }
 }
 
-fn dummy_energy(system: &System, space: &Space, state: &State) -> f64 {
+fn effective_energy(system: &System, space: &ReducedSystem, state: &State) -> f64 {
     let n = space.order();
     let mut d = vec![0.0; system.links.active.len()];
     space.links.deform(&state.motion[..n], &mut d);
-    d.iter().zip(&space.dummy_k).map(|(d, k)| 0.5 * k * d * d).sum()
+    d.iter().zip(&space.effective_k).map(|(d, k)| 0.5 * k * d * d).sum()
 }
 
 /// Takes up a checkpoint that was checked.
@@ -186,5 +187,5 @@ pub(crate) fn resume(mut end: EndState, stepper: &mut dyn Stepper) -> Result<Sta
         });
     }
     stepper.recall(end.memory, end.time, &mut end.state)?;
-    Ok((end.state, end.pace, end.ledger, end.step))
+    Ok((end.state, end.control, end.ledger, end.step))
 }

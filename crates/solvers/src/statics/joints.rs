@@ -29,7 +29,7 @@ pub(super) struct Followers {
 }
 
 impl Followers {
-    /// `links`: stiffness of the link coordinates, flat; `held`: rows over the directions without mass, on which links
+    /// `links`: stiffness of the link coordinates, flat; `held`: rows over the massless directions, on which links
     /// act as dashpots do.
     pub(super) fn new(
         system: &System,
@@ -53,7 +53,7 @@ impl Followers {
     }
 }
 
-/// Makes a displacement (or velocity) follow as the structure with its dummies says.
+/// Makes a displacement (or velocity) follow as the structure with its effective stiffnesses says.
 pub(crate) fn follow(system: &System, u: &mut [f64]) -> Result<(), SolveError> {
     if system.massless.is_empty() || u.iter().all(|x| *x == 0.0) {
         return Ok(());
@@ -166,7 +166,7 @@ fn polish(
     let supports = vec![0.0; system.reduction.prescribed.len()];
     let own = massless.undamped(&massless.project(&system.element_damping), held)?;
     // The links there, what is left of all forces, and of those on what follows the largest.
-    let look = |u: &[f64]| {
+    let evaluate = |u: &[f64]| {
         let mut d = vec![0.0; links.len()];
         links.deform(u, &supports, &mut d);
         let state = State::of_links(model, links, path, d, vec![0.0; links.len()]);
@@ -175,7 +175,7 @@ fn polish(
         let most = largest(&own.load(&left));
         (state, left, most)
     };
-    let (mut state, mut left, mut most) = look(u);
+    let (mut state, mut left, mut most) = evaluate(u);
     for _ in 0..POLISH {
         let mut tangents = vec![0.0; links.len()];
         for (flat, k) in links.active.iter().zip(links.stiffness(&state.tangents)) {
@@ -183,7 +183,7 @@ fn polish(
         }
         let mut tried = u.clone();
         Followers::new(system, &tangents, held)?.answer(-1.0, &left, &mut tried);
-        let next = look(&tried);
+        let next = evaluate(&tried);
         let worth = next.2 < WORTH * most;
         if next.2 < most {
             *u = tried;
@@ -207,7 +207,7 @@ fn viscous(model: &Model, system: &System) -> Vec<bool> {
     viscous
 }
 
-/// Rows of these over the directions without mass on which they act.
+/// Rows of these over the massless directions on which they act.
 pub(super) fn viscous_rows(model: &Model, system: &System) -> Vec<Vec<f64>> {
     let (massless, links) = (&system.massless, &system.links);
     let viscous = viscous(model, system);

@@ -1,10 +1,13 @@
-//! Nonlinear static analysis by the link kernel.
+//! Nonlinear static analysis by the link kernel, and initial values of massless directions.
+//!
+//! Equilibrium along a path of growing loads or displacements, and rates in balance with dashpots.
+//! May use `kernel` and `step`.
 //!
 //! ```text
 //! K̂ = K + Bᵀ k_e B      d = B K̂⁻¹ p − G f̃,  G = B K̂⁻¹ Bᵀ      f̃ = f − k_e d
 //! ```
 //!
-//! with the stiffness of the engaged links as dummies, so that a structure that stands is a linear solve.
+//! with the stiffness of the engaged links as effective stiffnesses, so that a structure that stands is a linear solve.
 //! The load grows in steps, halved where the links find no equilibrium, and where the whole step and its halves do not
 //! end alike: laws whose force turns on the way, and links that engage on it, are followed. The halves are kept. Link
 //! history is carried on.
@@ -24,7 +27,7 @@ pub(crate) use rates::rates;
 
 use crate::error::SolveError;
 use crate::kernel::{
-    Affine, Committed, Converged, Guess, LinkKernel, NoEquilibrium, StepKey, Unforeseen, Wanted,
+    Affine, Committed, Converged, Extrapolation, Guess, LinkKernel, NoEquilibrium, StepKey, Wanted,
 };
 use crate::step::State;
 use trilith_element::Energy;
@@ -158,7 +161,7 @@ pub(crate) fn along(
     Ok(Equilibrium { u, state: here.state, iterations, steps: made, rejected })
 }
 
-/// A place on a path: the links, and their forces beyond those of the dummies.
+/// A place on a path: the links, and their forces beyond those of the effective stiffnesses.
 struct Place {
     state: State,
     pseudo: Vec<f64>,
@@ -192,10 +195,10 @@ impl<'a> Walk<'a> {
             let d = deform(image.column(j));
             g.column_mut(j).copy_from_slice(&d);
         }
-        let dummy = links.active.iter().map(|i| engaged[*i]).collect();
+        let effective_k = links.active.iter().map(|i| engaged[*i]).collect();
         Self {
             links,
-            kernel: LinkKernel::new(model, links, &solution, dummy),
+            kernel: LinkKernel::new(model, links, &solution, effective_k),
             g,
             none: Dense::zeros(active, active),
             before: deform(from),
@@ -230,7 +233,7 @@ impl<'a> Walk<'a> {
             f: &state.f,
             history: &state.history,
             tangents: &state.tangents,
-            unforeseen: &Unforeseen::default(),
+            extrapolation: &Extrapolation::default(),
             dt: 0.0,
         };
         let mut out = Converged {
@@ -243,11 +246,11 @@ impl<'a> Walk<'a> {
                 energy: &mut energy,
             },
             pseudo: &mut attempt,
-            unforeseen: &mut Unforeseen::default(),
+            extrapolation: &mut Extrapolation::default(),
         };
         let affine = Affine { support: None, g, h: none, key: StepKey::default() };
         kernel.solve(&affine, pseudo, Guess::Unchanged, &committed, &state.scale, &mut out)?;
-        trial.settle(links, &energy, kernel.largest_force());
+        trial.record_converged(links, &energy, kernel.largest_force());
         Ok(Place { state: trial, pseudo: attempt })
     }
 }
@@ -266,13 +269,13 @@ fn apart(links: &LinkSet, a: &State, b: &State) -> f64 {
     let mut off = [[0.0_f64; 2]; 2];
     for i in 0..links.len() {
         let kind = usize::from(links.rotational[i]);
-        let mut look = |of: usize, x: f64, y: f64| {
+        let mut compare = |of: usize, x: f64, y: f64| {
             most[of][kind] = most[of][kind].max(x.abs()).max(y.abs());
             off[of][kind] = off[of][kind].max((x - y).abs());
         };
-        look(0, a.f[i], b.f[i]);
+        compare(0, a.f[i], b.f[i]);
         if a.f[i] != 0.0 && b.f[i] != 0.0 {
-            look(1, a.d[i], b.d[i]);
+            compare(1, a.d[i], b.d[i]);
         }
     }
     let shares = off.iter().flatten().zip(most.iter().flatten());

@@ -1,4 +1,4 @@
-//! Initial rates of directions without mass, by those of the directions with mass.
+//! Initial rates of massless directions, by those of the directions with mass.
 
 use super::joints::{Followers, viscous_rows};
 use crate::error::SolveError;
@@ -47,7 +47,7 @@ pub(crate) fn rates(
     Ok(())
 }
 
-/// The balance of directions without mass that dashpots hold, over their rates.
+/// The balance of massless directions that dashpots hold, over their rates.
 struct RateBalance<'a> {
     model: &'a Model,
     system: &'a System,
@@ -56,7 +56,7 @@ struct RateBalance<'a> {
     d: Vec<f64>,
     rest: Vec<f64>,
     damping: Sparse,
-    /// Rows of what is viscous in links, over the directions without mass.
+    /// Rows of what is viscous in links, over the massless directions.
     rows: Vec<Vec<f64>>,
     /// The directions that dashpots hold.
     own: Vec<usize>,

@@ -3,16 +3,16 @@
 //! The state, the contract of propagators, links and loads of a step, and what its error is measured by.
 //! May use `kernel`, `structure`, and `modal` for the motion inside a step.
 
-mod apart;
-mod link_side;
+mod difference;
+mod link_equations;
 mod propagator;
 mod state;
 mod stepper;
 mod turning;
 mod vibration;
 
-pub(crate) use apart::{Apart, Way, apart, way};
-pub(crate) use link_side::LinkSide;
+pub(crate) use difference::{Difference, DisplacementNorms, difference_of, displacement_norms};
+pub(crate) use link_equations::LinkEquations;
 pub(crate) use propagator::{Forces, Propagator, StepWork, kinetic_and_strain};
 pub use state::State;
 pub(crate) use state::{LinksBefore, StepEnergy, StepFailure, untouched};

@@ -3,7 +3,7 @@
 use crate::error::SolveError;
 use crate::kernel::{Compliance, StepKey, Wanted};
 use crate::modal::ClosedForm;
-use crate::structure::{Motion, Space};
+use crate::structure::{Motion, ReducedSystem};
 
 /// Work over one step, J.
 #[derive(Clone, Copy, Debug, Default)]
@@ -18,7 +18,7 @@ pub(crate) struct StepWork {
     pub algorithmic: f64,
     /// Kinetic energy at the end.
     pub kinetic: f64,
-    /// Strain energy at the end, dummies included.
+    /// Strain energy at the end, effective stiffnesses included.
     pub strain: f64,
 }
 
@@ -32,14 +32,14 @@ pub(crate) struct Forces<'a> {
 /// One rule for time, on one space.
 pub(crate) trait Propagator {
     /// The space it moves in.
-    fn space(&self) -> &Space;
+    fn space(&self) -> &ReducedSystem;
 
     /// Number of factorisations of structure matrices so far.
     fn factorizations(&self) -> usize;
 
     /// Says of which link coordinates laws look at rates, those of every [prediction](Self::predict) to come, and
     /// which ones they damp.
-    fn look_at_rates(&mut self, _rated: &[usize], _damped: &[usize]) -> Result<(), SolveError> {
+    fn set_rates(&mut self, _rated: &[usize], _damped: &[usize]) -> Result<(), SolveError> {
         Ok(())
     }
 
@@ -84,14 +84,14 @@ pub(crate) trait Propagator {
     /// Work done over the step completed last.
     fn work(&mut self, from: &Motion, to: &Motion, forces: &Forces<'_>) -> StepWork;
 
-    /// ½ vᵀ M v and ½ uᵀ K u (with dummies) of a motion.
+    /// ½ vᵀ M v and ½ uᵀ K u (with effective stiffnesses) of a motion.
     fn energy(&self, motion: &[f64]) -> (f64, f64) {
         kinetic_and_strain(self.space(), motion)
     }
 }
 
-/// ½ vᵀ M v and ½ uᵀ K u (with dummies).
-pub(crate) fn kinetic_and_strain(space: &Space, x: &[f64]) -> (f64, f64) {
+/// ½ vᵀ M v and ½ uᵀ K u (with effective stiffnesses).
+pub(crate) fn kinetic_and_strain(space: &ReducedSystem, x: &[f64]) -> (f64, f64) {
     let n = space.order();
     let (u, v) = (&x[..n], &x[n..2 * n]);
     (0.5 * space.mass.bilinear(v, v), 0.5 * space.stiffness.bilinear(u, u))

@@ -2,7 +2,7 @@
 
 use super::StepWork;
 use crate::error::SolveError;
-use crate::kernel::{ForceScale, NoEquilibrium, Unforeseen};
+use crate::kernel::{Extrapolation, ForceScale, NoEquilibrium};
 use crate::structure::Motion;
 use crate::vector::{larger, largest};
 use serde::{Deserialize, Serialize};
@@ -33,7 +33,8 @@ pub struct State {
     /// Tangents of the laws.
     pub(crate) tangents: Tangents,
     /// What the guesses of the last steps left.
-    pub(crate) unforeseen: Unforeseen,
+    #[serde(rename = "unforeseen")]
+    pub(crate) extrapolation: Extrapolation,
     /// The largest stiffness of the active link coordinates so far, N/m or N·m.
     pub(crate) stiffest: Vec<f64>,
 }
@@ -116,7 +117,7 @@ impl State {
             scale: [0.0; 2],
             stored: vec![0.0; links.links.len()],
             tangents: links.tangents(),
-            unforeseen: Unforeseen::default(),
+            extrapolation: Extrapolation::default(),
             stiffest: vec![0.0; links.active.len()],
             d,
             v,
@@ -131,7 +132,7 @@ impl State {
             &mut energy,
         );
         let force = largest(&state.f);
-        state.settle(links, &energy, force);
+        state.record_converged(links, &energy, force);
         state
     }
 
@@ -149,7 +150,7 @@ impl State {
     /// Takes note of the forces, the largest of which is given, the stored energies and the stiffness of a converged
     /// step.
     #[inline]
-    pub(crate) fn settle(&mut self, links: &LinkSet, energy: &[Energy], force: f64) {
+    pub(crate) fn record_converged(&mut self, links: &LinkSet, energy: &[Energy], force: f64) {
         for (most, at) in self.stiffest.iter_mut().zip(&links.diagonal) {
             *most = larger(*most, self.tangents.k[*at]);
         }
@@ -171,7 +172,7 @@ impl State {
 #[derive(Clone, Debug, Default)]
 pub(crate) struct StepEnergy {
     pub work: StepWork,
-    /// Work that the links took, dummies put right.
+    /// Work that the links took, effective stiffnesses put right.
     pub link_work: f64,
     /// Work of moving supports on the links.
     pub support: f64,

@@ -1,7 +1,7 @@
 //! One step of a solver: linear propagator and link kernel together.
 
-use super::apart::{Apart, Way, apart, way};
-use super::link_side::LinkSide;
+use super::difference::{Difference, DisplacementNorms, difference_of, displacement_norms};
+use super::link_equations::LinkEquations;
 use super::propagator::Propagator;
 use super::state::{LinksBefore, State, StepEnergy, StepFailure};
 use super::turning::Turning;
@@ -9,7 +9,7 @@ use super::vibration::{Made, Vibration};
 use crate::error::SolveError;
 use crate::kernel::{ForceScale, Remembered};
 use crate::modal::ClosedForm;
-use crate::structure::{Motion, Space, accelerate_at_once};
+use crate::structure::{Motion, ReducedSystem, accelerate_at_once};
 use trilith_system::{Laws, StepLoads};
 
 /// One rule for a step.
@@ -41,10 +41,10 @@ pub(crate) trait Stepper {
     fn jump(&mut self, state: &mut State, change: &[f64]) -> Result<(), SolveError>;
 
     /// How far two states are apart.
-    fn apart(&mut self, a: &State, b: &State) -> Apart;
+    fn difference(&mut self, a: &State, b: &State) -> Difference;
 
     /// The displacements of a state, or how far they are from those of another.
-    fn way(&mut self, a: &State, b: Option<&State>) -> Way;
+    fn displacement_norms(&mut self, a: &State, b: Option<&State>) -> DisplacementNorms;
 
     /// Energy of the impulses that the step of length `dt` made last has missed where links turned or vibrated inside,
     /// J; vibrations that cannot miss more than `notable` (J) need not be looked at.
@@ -60,7 +60,7 @@ pub(crate) trait Stepper {
     fn rounding(&self, state: &State) -> f64;
 
     /// The space of the motion.
-    fn space(&self) -> &Space;
+    fn space(&self) -> &ReducedSystem;
 
     /// Iterations and factorisations so far.
     fn work(&self) -> (usize, usize);
@@ -89,9 +89,9 @@ pub(crate) trait Stepper {
 }
 
 /// What one rounding of the motion does to the energies of the links, J: deformations are differences of
-/// displacements that may be far larger, and forces act through them. The force of a dummy does so as well: an open
-/// contact far out has none, and all that its dummy takes is given back as a pseudo-force.
-pub(crate) fn energy_rounding(space: &Space, active: &[usize], state: &State) -> f64 {
+/// displacements that may be far larger, and forces act through them. The force of an effective stiffness does so as well: an open
+/// contact far out has none, and all that its effective stiffness takes is given back as a pseudo-force.
+pub(crate) fn energy_rounding(space: &ReducedSystem, active: &[usize], state: &State) -> f64 {
     let parts = active.iter().enumerate().map(|(a, flat)| {
         let size: f64 = space.links.row(a).map(|(j, c)| (c * state.motion[j]).abs()).sum();
         (state.f[*flat].abs() + state.pseudo[a].abs()) * size
@@ -102,7 +102,7 @@ pub(crate) fn energy_rounding(space: &Space, active: &[usize], state: &State) ->
 /// Any propagator with the link kernel.
 pub(crate) struct LinkStepper<'a, P> {
     propagator: P,
-    side: LinkSide<'a>,
+    side: LinkEquations<'a>,
     laws: Laws<'a>,
     turning: Turning,
     vibration: Option<Vibration>,
@@ -113,9 +113,9 @@ pub(crate) struct LinkStepper<'a, P> {
 }
 
 impl<'a, P: Propagator> LinkStepper<'a, P> {
-    pub(crate) fn new(mut propagator: P, side: LinkSide<'a>) -> Result<Self, SolveError> {
+    pub(crate) fn new(mut propagator: P, side: LinkEquations<'a>) -> Result<Self, SolveError> {
         let layout = side.kernel.layout();
-        propagator.look_at_rates(&layout.rated, &layout.damped)?;
+        propagator.set_rates(&layout.rate_dependent, &layout.damped)?;
         let n = side.links().len();
         Ok(Self {
             laws: side.laws(),
@@ -129,7 +129,7 @@ impl<'a, P: Propagator> LinkStepper<'a, P> {
         })
     }
 
-    pub(crate) fn into_parts(self) -> (P, LinkSide<'a>) {
+    pub(crate) fn into_parts(self) -> (P, LinkEquations<'a>) {
         (self.propagator, self.side)
     }
 }
@@ -158,7 +158,7 @@ impl<P: Propagator> Stepper for LinkStepper<'_, P> {
             let n = space.order();
             space.links.deform(&to.motion[n..2 * n], rates);
         }
-        side.settle(to, energy);
+        side.finish(to, energy);
         let forces = side.forces(&from.pseudo, &to.pseudo);
         energy.work = self.propagator.work(&from.motion, &to.motion, &forces);
         let of_motion = (energy.work.kinetic, energy.work.strain);
@@ -188,14 +188,14 @@ impl<P: Propagator> Stepper for LinkStepper<'_, P> {
         Ok(())
     }
 
-    fn apart(&mut self, a: &State, b: &State) -> Apart {
+    fn difference(&mut self, a: &State, b: &State) -> Difference {
         let Self { propagator, side, difference, .. } = self;
         let of_structure = |x: &[f64]| propagator.energy(x);
-        apart(propagator.space(), side.links(), of_structure, a, b, difference)
+        difference_of(propagator.space(), side.links(), of_structure, a, b, difference)
     }
 
-    fn way(&mut self, a: &State, b: Option<&State>) -> Way {
-        way(self.propagator.space(), self.side.links(), a, b, &mut self.difference)
+    fn displacement_norms(&mut self, a: &State, b: Option<&State>) -> DisplacementNorms {
+        displacement_norms(self.propagator.space(), self.side.links(), a, b, &mut self.difference)
     }
 
     fn missed(&mut self, from: &State, to: &State, dt: f64, notable: f64) -> f64 {
@@ -213,8 +213,8 @@ impl<P: Propagator> Stepper for LinkStepper<'_, P> {
         let turned = turning.missed(laws, side.links(), from, to, rates, softness, dt);
         let vibration = vibration.as_mut().filter(|_| propagator.compliance().key.average == 0);
         let vibrated = vibration.map_or(0.0, |vibration| {
-            let (links, dummies, supports) = (side.links(), side.dummies(), side.supports());
-            let made = Made { laws, links, space, dummies, supports, from, to, dt };
+            let (links, effective, supports) = (side.links(), side.effective(), side.supports());
+            let made = Made { laws, links, space, effective, supports, from, to, dt };
             vibration.missed(&made, notable)
         });
         turned + vibrated
@@ -228,7 +228,7 @@ impl<P: Propagator> Stepper for LinkStepper<'_, P> {
         energy_rounding(self.propagator.space(), &self.side.links().active, state)
     }
 
-    fn space(&self) -> &Space {
+    fn space(&self) -> &ReducedSystem {
         self.propagator.space()
     }
 

@@ -16,7 +16,7 @@
 //! ½ δf²/k of that force on the spring of the link counts as well, as far as the link has come since it turned.
 
 use super::state::State;
-use crate::kernel::{Answer, ForceScale};
+use crate::kernel::{ForceScale, LawResponse};
 use trilith_element::Kinematics;
 use trilith_system::{Laws, LinkSet};
 
@@ -26,8 +26,8 @@ pub(crate) struct Turning {
     d: Vec<f64>,
     v: Vec<f64>,
     v0: Vec<f64>,
-    there: Answer,
-    after: Answer,
+    there: LawResponse,
+    after: LawResponse,
     apart: Vec<f64>,
     /// Largest force, of translations and of rotations, that the last look found off at the end of a step, N and N·m.
     pub behind: ForceScale,
@@ -77,12 +77,12 @@ impl Turning {
                     (&to.tangents.k[link.block.clone()], &to.tangents.c[link.block.clone()]);
                 self.apart.clear();
                 for (row, f) in self.there.f.iter().enumerate() {
-                    let mut told = to.f[r.start + row];
+                    let mut expected = to.f[r.start + row];
                     for j in 0..n {
-                        told += k1[row * n + j] * (self.d[j] - d1[j]);
-                        told += c1[row * n + j] * (self.v[j] - rates[r.start + j]);
+                        expected += k1[row * n + j] * (self.d[j] - d1[j]);
+                        expected += c1[row * n + j] * (self.v[j] - rates[r.start + j]);
                     }
-                    self.apart.push((f - told).abs());
+                    self.apart.push((f - expected).abs());
                 }
                 let (d0, v0) = (&self.d[..], &self.v[..]);
                 let at = Kinematics { d: d1, v: &rates[r.clone()], d0, v0, dt: left };

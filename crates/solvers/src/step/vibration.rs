@@ -14,9 +14,9 @@
 //! the ends of that swing; the integral.
 
 use super::state::State;
-use crate::kernel::Answer;
+use crate::kernel::LawResponse;
 use crate::modal::ClosedForm;
-use crate::structure::Space;
+use crate::structure::ReducedSystem;
 use trilith_element::{Kinematics, Link};
 use trilith_system::{Laws, LinkInstance, LinkSet};
 
@@ -34,9 +34,9 @@ const RESOLVED: f64 = 2.0;
 pub(crate) struct Made<'a> {
     pub laws: &'a Laws<'a>,
     pub links: &'a LinkSet,
-    pub space: &'a Space,
-    /// Flat link coordinates with dummies, and their stiffness.
-    pub dummies: &'a [(usize, f64)],
+    pub space: &'a ReducedSystem,
+    /// Flat link coordinates with an effective stiffness, and that.
+    pub effective: &'a [(usize, f64)],
     /// Deformations that moving supports give the links at both ends, flat.
     pub supports: Option<[&'a [f64]; 2]>,
     pub from: &'a State,
@@ -52,13 +52,13 @@ pub(crate) struct Vibration {
     /// (mode, swing) of those that swing too fast, and their energy, J.
     swing: Vec<(usize, f64)>,
     energy: f64,
-    answer: Answer,
+    answer: LawResponse,
 }
 
 impl Vibration {
     pub(crate) fn new(form: ClosedForm) -> Self {
         let fastest = form.omega.iter().copied().fold(0.0, f64::max);
-        Self { form, fastest, swing: Vec::new(), energy: 0.0, answer: Answer::default() }
+        Self { form, fastest, swing: Vec::new(), energy: 0.0, answer: LawResponse::default() }
     }
 
     /// Energy of what the link forces of a step miss inside it, J; nothing where that cannot be more than `notable`.
@@ -126,8 +126,8 @@ impl Vibration {
                 self.answer.of(law, &at, &state.history[link.history.clone()]);
                 let work = (0..r.len()).map(|i| {
                     let change = self.answer.f[i] - state.f[r.start + i];
-                    let of_dummy = step.dummy(r.start + i) * (d[i] - d0[i]);
-                    (change - of_dummy).abs() * reach[i][0]
+                    let of_effective = step.effective_k(r.start + i) * (d[i] - d0[i]);
+                    (change - of_effective).abs() * reach[i][0]
                 });
                 work.sum::<f64>() > notable
             })
@@ -185,7 +185,7 @@ impl Vibration {
                     let way = d[i] - (from.d[i] + share * (to.d[i] - from.d[i]));
                     let linear = from.f[i] + share * (to.f[i] - from.f[i]);
                     if let Ok(a) = links.active.binary_search(&i) {
-                        missed[a] = f - linear - step.dummy(i) * way;
+                        missed[a] = f - linear - step.effective_k(i) * way;
                     }
                 }
             }
@@ -206,9 +206,9 @@ impl Vibration {
 }
 
 impl Made<'_> {
-    /// Stiffness of the dummy of a flat link coordinate.
-    fn dummy(&self, flat: usize) -> f64 {
-        self.dummies.iter().find(|(i, _)| *i == flat).map_or(0.0, |(_, k)| *k)
+    /// Effective stiffness of a flat link coordinate.
+    fn effective_k(&self, flat: usize) -> f64 {
+        self.effective.iter().find(|(i, _)| *i == flat).map_or(0.0, |(_, k)| *k)
     }
 
     /// What moving supports give the links after a share of the step.

@@ -6,12 +6,12 @@
 //! step, they are those before. Where one bends, the rate jumps, and the acceleration before says nothing of the step:
 //! it goes on no further than the mean rate says it does, and not against it.
 
-use super::space::Space;
+use super::reduced_system::ReducedSystem;
 use std::collections::BTreeMap;
 use trilith_linalg::{LinalgError, Sparse, Triplets};
 use trilith_system::Massless;
 
-/// The acceleration of a coordinate without mass where its load has just jumped: too little to be one.
+/// The acceleration of a massless coordinate where its load has just jumped: too little to be one.
 pub(crate) const JUMPED: f64 = f64::MIN_POSITIVE;
 
 /// An acceleration as a number, which the mark of a jump is none of.
@@ -48,9 +48,9 @@ pub(crate) struct Followers(Vec<Vec<(usize, f64)>>);
 impl Followers {
     /// Those of a space; `damped`: active link coordinates of laws whose forces depend on rates. A dashpot between two
     /// that hang together takes their difference out alone.
-    pub(crate) fn new(space: &Space, damped: &[usize]) -> Result<Self, LinalgError> {
-        // Where no dummies are, the stiffness holds every such direction, and Rayleigh's share of it damps it.
-        if space.rayleigh[1] != 0.0 && space.dummy_k.iter().all(|k| *k == 0.0) {
+    pub(crate) fn new(space: &ReducedSystem, damped: &[usize]) -> Result<Self, LinalgError> {
+        // Where no effective stiffnesses are, the stiffness holds every such direction, and Rayleigh's share of it damps it.
+        if space.rayleigh[1] != 0.0 && space.effective_k.iter().all(|k| *k == 0.0) {
             return Ok(Self::default());
         }
         let massless = Massless::new(&space.mass)?;
@@ -64,7 +64,7 @@ impl Followers {
     }
 
     /// Their rates and accelerations at the end of a step.
-    pub(crate) fn settle(&self, from: &[f64], to: &mut [f64], dt: f64) {
+    pub(crate) fn complete(&self, from: &[f64], to: &mut [f64], dt: f64) {
         let n = from.len() / 3;
         for direction in &self.0 {
             let along = |x: &[f64]| -> f64 { direction.iter().map(|(i, c)| c * x[*i]).sum() };
@@ -83,8 +83,8 @@ impl Followers {
     }
 }
 
-/// Damping of directions without mass, Rayleigh's included.
-fn damping(space: &Space, massless: &Massless) -> Sparse {
+/// Damping of massless directions, Rayleigh's included.
+fn damping(space: &ReducedSystem, massless: &Massless) -> Sparse {
     let rest = massless.project(&space.damping);
     let of_stiffness = space.rayleigh[1];
     if of_stiffness == 0.0 {
@@ -92,7 +92,7 @@ fn damping(space: &Space, massless: &Massless) -> Sparse {
     }
     let k = massless.project(&space.stiffness);
     let sum = Sparse::combine(&[(1.0, &rest), (of_stiffness, &k)]);
-    // What is left where dummies cancel is rounding.
+    // What is left where effective stiffnesses cancel is rounding.
     let (own, rest, k) = (sum.diagonal(), rest.diagonal(), k.diagonal());
     let damps = |i: usize| own[i] > 1e-12 * (rest[i].abs() + of_stiffness * k[i]);
     let mut kept = Triplets::new(own.len(), own.len());

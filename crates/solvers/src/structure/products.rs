@@ -7,7 +7,7 @@
 //! so Rayleigh damping costs no pass of its own; C′, of dashpots, has few entries.
 
 use super::Motion;
-use super::space::Space;
+use super::reduced_system::ReducedSystem;
 use trilith_linalg::SymmetricOperator;
 
 /// M, K and the damping beyond Rayleigh's.
@@ -28,7 +28,7 @@ pub(crate) struct Energies {
 }
 
 impl Products {
-    pub(crate) fn new(space: &Space) -> Self {
+    pub(crate) fn new(space: &ReducedSystem) -> Self {
         Self {
             mass: SymmetricOperator::new(&space.mass),
             stiffness: SymmetricOperator::new(&space.stiffness),
@@ -40,7 +40,7 @@ impl Products {
     /// `p −= K u + C v`. Workspace: `rank` for modal damping, `sum` of the order of the space.
     pub(crate) fn resist(
         &self,
-        space: &Space,
+        space: &ReducedSystem,
         u: &[f64],
         v: &[f64],
         rank: &mut [f64],
@@ -69,7 +69,7 @@ impl Products {
     /// Energies of two motions, and the power of damping at the velocity `v`.
     pub(crate) fn energies(
         &self,
-        space: &Space,
+        space: &ReducedSystem,
         [from, to]: [&Motion; 2],
         v: &[f64],
         rank: &mut [f64],

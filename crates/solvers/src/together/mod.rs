@@ -1,5 +1,8 @@
 //! Several motions of one structure in lock step: FNA with fixed steps.
 //!
+//! Each motion iterates on its own; products with link maps and compliances are made for all at once.
+//! May use `run` and all that it uses.
+//!
 //! Link maps and compliances are large matrices, and one motion uses each number of them once. Several
 //! motions (records, scales, link laws of other strength) that share the structure share the reading: matrix
 //! times matrix in place of matrix times vector. Every motion is iterated on its own and comes out as it
@@ -13,10 +16,10 @@ use crate::error::SolveError;
 use crate::fna::{LONGEST, Modal, Modes};
 use crate::kernel::StepKey;
 use crate::march::Timeline;
-use crate::record::{Observer, Viewer, looks_at_rates};
+use crate::record::{Observer, Viewer, needs_rates};
 use crate::run::{
     Arrival, CaseResult, Clock, Initial, RunOptions, Work, bases, before, fna_modes, held_load,
-    link_side, peak_rss_mb, run, start,
+    link_equations, peak_rss_mb, run, start,
 };
 use crate::step::LinkStepper;
 use course::Course;
@@ -193,11 +196,11 @@ fn set_out<'a, 'b>(
 ) -> Result<(Course<'a, 'b>, Modes), SolveError> {
     let Entrant { member: Member { model, system }, initial, analysis, .. } = entrant;
     let DynamicCase { dt, duration, .. } = **analysis;
-    let watched = looks_at_rates(model, system, watcher.iter().any(|o| o.wants_rates()));
+    let watched = needs_rates(model, system, watcher.iter().any(|o| o.wants_rates()));
     let order = modes.space.order();
-    let side = link_side(model, system, &analysis.solution, loads, order, watched);
+    let side = link_equations(model, system, &analysis.solution, loads, order, watched);
     let mut stepper = LinkStepper::new(Modal::new(modes), side)?;
-    let (state, pace, ledger, _) =
+    let (state, control, ledger, _) =
         start(model, system, initial, loads, &mut stepper, [dt, duration])?;
     let (modal, side) = stepper.into_parts();
     let modes = modal.into_modes();
@@ -205,7 +208,7 @@ fn set_out<'a, 'b>(
     viewer.look_inside(Some(modes.closed_form()), dt, Vec::new());
     let timeline = Timeline::new(dt, duration, loads, substeps);
     let mut course =
-        Course::new(&modes.space, side, loads, timeline, (state, pace, ledger), viewer);
+        Course::new(&modes.space, side, loads, timeline, (state, control, ledger), viewer);
     course.show_start();
     Ok((course, modes))
 }
@@ -215,12 +218,12 @@ fn march_all(modes: &mut Modes, courses: &mut [Course<'_, '_>], substeps: usize)
     while courses.iter().any(Course::is_on_the_way) {
         let lengths = common(courses);
         courses.iter_mut().filter(|c| c.is_on_the_way()).for_each(|c| c.set_out(&lengths));
-        for (piece, length) in lengths.into_iter().enumerate() {
+        for (segment, length) in lengths.into_iter().enumerate() {
             let going = courses.iter_mut().filter(|c| c.is_on_the_way());
-            going.for_each(|c| c.set_off(piece, modes));
+            going.for_each(|c| c.set_off(segment, modes));
             let part = length / substeps as f64;
             for index in 0..substeps {
-                step(modes, courses, piece, (index, substeps), part);
+                step(modes, courses, segment, (index, substeps), part);
             }
         }
         courses.iter_mut().filter(|c| c.is_on_the_way()).for_each(|c| c.arrive());
@@ -253,7 +256,7 @@ fn result(
         timeline: &course.timeline,
         made: course.made,
         state: course.state,
-        pace: course.pace,
+        control: course.control,
         ledger: course.ledger,
         constant: entrant.constant.clone(),
         initial: entrant.initial.clone(),
@@ -268,7 +271,7 @@ fn result(
     result
 }
 
-/// Lengths of the pieces of the next output step that most of the courses on the way have in common, the first of
+/// Lengths of the segments of the next output step that most of the courses on the way have in common, the first of
 /// them where several are as many.
 fn common(courses: &[Course<'_, '_>]) -> Vec<f64> {
     let going = courses.iter().filter(|c| c.is_on_the_way());
@@ -277,12 +280,12 @@ fn common(courses: &[Course<'_, '_>]) -> Vec<f64> {
     all.iter().rev().max_by_key(|lengths| count(lengths)).cloned().unwrap_or_default()
 }
 
-/// One step of all courses that are on the way: a part of so many of a piece of their output step, over `dt`.
+/// One step of all courses that are on the way: a part of so many of a segment of their output step, over `dt`.
 /// A course whose links find no equilibrium leaves the others.
 fn step(
     modes: &mut Modes,
     courses: &mut [Course<'_, '_>],
-    piece: usize,
+    segment: usize,
     (part, of): (usize, usize),
     dt: f64,
 ) {
@@ -290,7 +293,7 @@ fn step(
     let modes = &*modes;
     let mut going: Vec<&mut Course<'_, '_>> =
         courses.iter_mut().filter(|c| c.is_on_the_way()).collect();
-    going.iter_mut().for_each(|c| c.begin(&modes.space, piece, part, of));
+    going.iter_mut().for_each(|c| c.begin(&modes.space, segment, part, of));
     let mut pairs: Vec<_> = going.iter_mut().filter_map(|c| c.spread_start()).collect();
     modes.space.links.spread_each(&mut pairs);
     going.iter_mut().for_each(|c| c.predict(modes));
@@ -304,8 +307,8 @@ fn step(
     }
     modes.compliance().g.mul_add_each(-1.0, &mut moved);
     loop {
-        going.iter_mut().filter(|c| !c.is_settled()).for_each(|c| c.iterate(modes, dt));
-        let is_open = |c: &Course<'_, '_>| c.is_on_the_way() && !c.is_settled();
+        going.iter_mut().filter(|c| !c.is_converged()).for_each(|c| c.iterate(modes, dt));
+        let is_open = |c: &Course<'_, '_>| c.is_on_the_way() && !c.is_converged();
         if !going.iter().any(|c| is_open(c)) {
             break;
         }

@@ -8,7 +8,7 @@
 //! f₂ = f(d + e₀, ḋ + ė₀; own history) + K (e − e₀) + C (ė − ė₀)
 //! ```
 
-use crate::kernel::Answer;
+use crate::kernel::LawResponse;
 use crate::step::State;
 use trilith_element::Kinematics;
 use trilith_model::Model;
@@ -23,7 +23,7 @@ pub(super) struct Memory<'a> {
     beyond: [Vec<f64>; 2],
     /// Forces there; those of other links are of no use.
     f: Vec<f64>,
-    answer: Answer,
+    answer: LawResponse,
 }
 
 impl<'a> Memory<'a> {
@@ -36,7 +36,7 @@ impl<'a> Memory<'a> {
             at: [state.d.clone(), state.v.clone()],
             beyond: [none(), none()],
             f: state.f.clone(),
-            answer: Answer::default(),
+            answer: LawResponse::default(),
         }
     }
 

@@ -3,7 +3,7 @@
 //! What it moves beyond the run is what the basis of the run has no room for (see `certificate`). Links answer it:
 //!
 //! ```text
-//! f̃₂ = f̃ + δ,   δ = a + K e + C ė,   e = d₂ − d     K, C: tangents of the run, less dummies
+//! f̃₂ = f̃ + δ,   δ = a + K e + C ė,   e = d₂ − d     K, C: tangents of the run, less effective stiffnesses
 //! (I + K G + C H) δ = a + K e* + C ė*               *: under the forces of the run at the end of the step
 //! ```
 //!
@@ -17,7 +17,7 @@ use crate::kernel::StepKey;
 use crate::march::jump;
 use crate::record::Outputs;
 use crate::step::State;
-use crate::structure::{Motion, Space};
+use crate::structure::{Motion, ReducedSystem};
 use trilith_linalg::{Dense, DenseLu};
 use trilith_model::{Model, Side};
 use trilith_system::{LinkBlocks, LoadSet, StepLoads, System, Tangents};
@@ -33,7 +33,7 @@ pub(crate) struct Shadow<'a> {
     system: &'a System,
     loads: &'a LoadSet,
     modes: Modes,
-    sources: ModalLoads,
+    modal_loads: ModalLoads,
     motion: Motion,
     next: Motion,
     pseudo: Vec<f64>,
@@ -54,7 +54,7 @@ pub(crate) struct Shadow<'a> {
 
 /// What is told of the end of a step of the run: pseudo-forces of the active link coordinates; deformations, rates, forces
 /// and tangents, flat, where links answer, else nothing.
-struct Told<'a> {
+struct Report<'a> {
     pseudo: &'a [f64],
     d: &'a [f64],
     v: &'a [f64],
@@ -63,17 +63,17 @@ struct Told<'a> {
     c: &'a [f64],
 }
 
-impl<'a> Told<'a> {
+impl<'a> Report<'a> {
     /// One after the other, as they were told.
     fn of(
-        told: &'a [f64],
+        report: &'a [f64],
         active: usize,
         answers: bool,
         system: &System,
         tangents: &Tangents,
     ) -> Self {
         let flat = if answers { system.links.len() } else { 0 };
-        let (pseudo, rest) = told.split_at(active);
+        let (pseudo, rest) = report.split_at(active);
         let (d, rest) = rest.split_at(flat);
         let (v, rest) = rest.split_at(flat);
         let (f, rest) = rest.split_at(flat);
@@ -103,7 +103,7 @@ impl<'a> Shadow<'a> {
         Self {
             system,
             loads,
-            sources: ModalLoads::new(space, &[], &[]),
+            modal_loads: ModalLoads::new(space, &[], &[]),
             next: motion.clone(),
             motion,
             pseudo: state.pseudo.clone(),
@@ -129,7 +129,7 @@ impl<'a> Shadow<'a> {
 
     /// Number of values that a step is told by: pseudo-forces, and where links answer, deformations, rates, forces and
     /// tangents.
-    pub(crate) fn told(&self) -> usize {
+    pub(crate) fn report_len(&self) -> usize {
         let answers = 3 * self.system.links.len() + self.tangents.k.len() + self.tangents.c.len();
         self.pseudo.len() + if self.answers() { answers } else { 0 }
     }
@@ -142,9 +142,9 @@ impl<'a> Shadow<'a> {
     }
 
     /// Follows the run over an accepted step to a time, s, of whose end this is told.
-    pub(crate) fn follow(&mut self, t: f64, told: &[f64]) {
+    pub(crate) fn follow(&mut self, t: f64, report: &[f64]) {
         let answers = self.answers();
-        let run = Told::of(told, self.pseudo.len(), answers, self.system, &self.tangents);
+        let run = Report::of(report, self.pseudo.len(), answers, self.system, &self.tangents);
         let dt = self.size(t - self.t);
         self.amplitudes.cut();
         self.loads.step(self.t, t, &mut self.amplitudes);
@@ -157,10 +157,10 @@ impl<'a> Shadow<'a> {
         };
         self.modes.prepare(key);
         let loads = [&self.load[0][..], &self.load[1][..]];
-        if let Some(spread) = self.sources.renew_spread(&self.pseudo) {
+        if let Some(spread) = self.modal_loads.renew_spread(&self.pseudo) {
             self.modes.space.links.spread_into(&self.pseudo, spread);
         }
-        self.modes.predict(&mut self.sources, &self.motion, &loads, &mut self.next);
+        self.modes.predict(&mut self.modal_loads, &self.motion, &loads, &mut self.next);
         let mut support = [vec![0.0; run.d.len()], vec![0.0; run.d.len()]];
         let mut end = run.pseudo.to_vec();
         if answers {
@@ -168,10 +168,10 @@ impl<'a> Shadow<'a> {
             end.iter_mut().zip(&more).for_each(|(x, more)| *x += more);
         }
         let loads = [&self.load[0][..], &self.load[1][..]];
-        if let Some(spread) = self.sources.renew_spread(&end) {
+        if let Some(spread) = self.modal_loads.renew_spread(&end) {
             self.modes.space.links.spread_into(&end, spread);
         }
-        self.modes.complete(&mut self.sources, &self.motion, &loads, &mut self.next);
+        self.modes.complete(&mut self.modal_loads, &self.motion, &loads, &mut self.next);
         std::mem::swap(&mut self.motion, &mut self.next);
         if answers {
             add_deformations(&self.modes.space, self.system, &self.motion, &mut support);
@@ -192,7 +192,7 @@ impl<'a> Shadow<'a> {
 
     /// Takes the tangents of the run, by which links answer, and chooses the rule of the step: what answers to itself has
     /// the limit of every link.
-    fn take_tangents(&mut self, run: &Told<'_>, dt: f64) -> StepKey {
+    fn take_tangents(&mut self, run: &Report<'_>, dt: f64) -> StepKey {
         self.tangents.k.copy_from_slice(run.k);
         self.tangents.c.copy_from_slice(run.c);
         let links = &self.system.links;
@@ -203,7 +203,7 @@ impl<'a> Shadow<'a> {
 
     /// The pseudo-forces that links answer to what the predicted motion deforms them beyond the run; `support` becomes
     /// what supports give deformations and rates.
-    fn answer(&mut self, run: &Told<'_>, support: &mut [Vec<f64>; 2], dt: f64) -> Vec<f64> {
+    fn answer(&mut self, run: &Report<'_>, support: &mut [Vec<f64>; 2], dt: f64) -> Vec<f64> {
         let Self { system, loads, modes, amplitudes, memory, tangents, pseudo, next, .. } = self;
         let [of_d, of_v] = &mut *support;
         loads.support_deformation(&amplitudes.end, of_d, of_v);
@@ -256,7 +256,12 @@ impl<'a> Shadow<'a> {
 }
 
 /// Adds what a motion makes of link deformations and of their rates, flat.
-fn add_deformations(space: &Space, system: &System, motion: &Motion, flat: &mut [Vec<f64>; 2]) {
+fn add_deformations(
+    space: &ReducedSystem,
+    system: &System,
+    motion: &Motion,
+    flat: &mut [Vec<f64>; 2],
+) {
     let mut own = vec![0.0; space.links.len()];
     for (motion, flat) in motion.chunks(space.order().max(1)).zip(flat) {
         space.links.deform(motion, &mut own);
@@ -268,7 +273,7 @@ fn add_deformations(space: &Space, system: &System, motion: &Motion, flat: &mut 
 /// there before they do.
 fn answer(
     system: &System,
-    space: &Space,
+    space: &ReducedSystem,
     tangents: &Tangents,
     mut force: Vec<f64>,
     [e, rate]: [&[f64]; 2],
@@ -288,8 +293,8 @@ fn answer(
             }
         }
     }
-    for (a, dummy) in space.dummy_k.iter().enumerate() {
-        k[(a, a)] -= dummy;
+    for (a, effective_k) in space.effective_k.iter().enumerate() {
+        k[(a, a)] -= effective_k;
     }
     k.mul_add(1.0, e, &mut force);
     c.mul_add(1.0, rate, &mut force);

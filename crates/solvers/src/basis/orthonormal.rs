@@ -1,19 +1,19 @@
 //! M-orthonormal vectors under construction.
 
+use super::attachment::Following;
 use super::condensation::Condensation;
-use super::massless::Following;
 use crate::vector::dot;
 use trilith_linalg::{Columns, Dense, Sparse};
 
 /// Share of its M-norm that a new vector must keep to be more than rounding. It may be small: on soft
-/// dummies every static shape is mostly a rigid motion, which the vectors before it hold already.
+/// effective stiffnesses every static shape is mostly a rigid motion, which the vectors before it hold already.
 const KEEP: f64 = 1e-8;
-/// A static shape of a place with next to no mass is not a mode: faster than this (rad/s) it would only
+/// A static shape of a DOF with next to no mass is not a mode: faster than this (rad/s) it would only
 /// spoil the digits of the slow ones.
 const FASTEST: f64 = 1e6;
 /// Where a vector keeps this share of its norm when its shares in others are taken out, what is left is
 /// orthogonal to the others to rounding. \[Daniel, Gragg, Kaufman & Stewart 1976\]
-const SETTLED: f64 = 0.5;
+const ORTHOGONAL: f64 = 0.5;
 
 /// Where new vectors come from.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -27,14 +27,14 @@ pub(crate) enum Origin {
 
 /// How fast new vectors may be.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Speed {
+pub(crate) enum FrequencyCut {
     /// As fast as modes of interest.
-    OfModes,
-    Any,
+    Modes,
+    None,
 }
 
 /// M-orthonormal vectors, block after block.
-pub(crate) struct Span<'a> {
+pub(crate) struct OrthonormalBasis<'a> {
     rows: &'a Condensation,
     /// Of the rows that are kept.
     mass: Sparse,
@@ -42,7 +42,7 @@ pub(crate) struct Span<'a> {
     /// from them takes from the strain energy.
     stiffness: &'a [(f64, &'a Sparse)],
     sums: Vec<f64>,
-    /// What puts directions without mass in their place.
+    /// What puts massless directions in their place.
     following: Option<Following<'a>>,
     columns: Columns,
     /// First vectors of the two blocks before, and of this one.
@@ -51,7 +51,7 @@ pub(crate) struct Span<'a> {
     left_out: Vec<Vec<f64>>,
 }
 
-impl<'a> Span<'a> {
+impl<'a> OrthonormalBasis<'a> {
     /// None yet, with room for so many; the stiffness as a sum.
     pub(crate) fn new(
         rows: &'a Condensation,
@@ -102,7 +102,7 @@ impl<'a> Span<'a> {
         &mut self,
         mut x: Vec<Vec<f64>>,
         origin: Origin,
-        speed: Speed,
+        cut: FrequencyCut,
     ) -> Vec<Vec<f64>> {
         let size = |x: &[f64]| x.iter().fold(0.0f64, |a, b| a.max(b.abs()));
         x.retain(|x| x.iter().all(|v| v.is_finite()) && size(x) > 0.0);
@@ -119,7 +119,7 @@ impl<'a> Span<'a> {
             self.columns.take_out(0, &mut x, &images);
             let earlier = norms;
             (images, norms) = self.norms(&x);
-            let lost = |i: usize| norms[i] < SETTLED * earlier[i] && norms[i] > KEEP * before[i];
+            let lost = |i: usize| norms[i] < ORTHOGONAL * earlier[i] && norms[i] > KEEP * before[i];
             if !(0..x.len()).any(lost) {
                 break;
             }
@@ -128,7 +128,7 @@ impl<'a> Span<'a> {
         let mut kept = Vec::with_capacity(x.len());
         for ((x, norm), before) in x.into_iter().zip(norms).zip(before) {
             if before > 0.0 && norm > KEEP * before {
-                kept.extend(self.keep(x, norm, before, start, speed));
+                kept.extend(self.keep(x, norm, before, start, cut));
             }
         }
         kept
@@ -141,7 +141,7 @@ impl<'a> Span<'a> {
         norm: f64,
         before: f64,
         start: usize,
-        speed: Speed,
+        cut: FrequencyCut,
     ) -> Option<Vec<f64>> {
         let (mut x, mut norm, mut first) = (vec![x], norm, start);
         let mut images = vec![self.mass.mul(&x[0])];
@@ -154,7 +154,7 @@ impl<'a> Span<'a> {
             if !left {
                 return None;
             }
-            if norm >= SETTLED * earlier {
+            if norm >= ORTHOGONAL * earlier {
                 break;
             }
             // What was lost has brought shares in all others back to light.
@@ -164,10 +164,10 @@ impl<'a> Span<'a> {
         x.iter_mut().for_each(|v| *v /= norm);
         if let Some(following) = &self.following {
             let mut all = self.rows.complete(&x);
-            following.settle(&mut all);
+            following.place(&mut all);
             x = self.rows.gather(&all).into_owned();
         }
-        if speed == Speed::OfModes && self.is_too_fast(&x) {
+        if cut == FrequencyCut::Modes && self.is_too_fast(&x) {
             self.left_out.push(x);
             return None;
         }
@@ -206,8 +206,8 @@ mod tests {
             base.iter().enumerate().map(|(i, x)| x + 1e-6 * number(31 * i + c)).collect()
         };
         let all = Condensation::none(n);
-        let mut span = Span::new(&all, &mass, &[], None, 8);
-        let mut take = |x| span.take(x, Origin::Anywhere, Speed::Any).len();
+        let mut span = OrthonormalBasis::new(&all, &mass, &[], None, 8);
+        let mut take = |x| span.take(x, Origin::Anywhere, FrequencyCut::None).len();
         let sizes = [
             take(vec![base.clone()]),
             take(vec![near(1), near(2), base.clone()]),
@@ -238,15 +238,15 @@ mod tests {
         let more = matrix([1.0, 1e12, 2.9e12, 0.0, 0.0], 0.0);
         let stiffness = [(1.0, &k), (1.0, &more)];
         let all = Condensation::none(5);
-        let mut span = Span::new(&all, &mass, &stiffness, None, 5);
+        let mut span = OrthonormalBasis::new(&all, &mass, &stiffness, None, 5);
         let mut kept =
-            |x: [f64; 5], speed| span.take(vec![x.to_vec()], Origin::Anywhere, speed).len() == 1;
+            |x: [f64; 5], cut| span.take(vec![x.to_vec()], Origin::Anywhere, cut).len() == 1;
         let unit = |i: usize| std::array::from_fn(|j| if i == j { 3.0 } else { 0.0 });
         // ω² of 1e11, 3e12 and 3.9e12/4.
-        assert_eq!([0, 1, 2].map(|i| kept(unit(i), Speed::OfModes)), [true, false, true]);
-        assert!(kept(unit(1), Speed::Any));
+        assert_eq!([0, 1, 2].map(|i| kept(unit(i), FrequencyCut::Modes)), [true, false, true]);
+        assert!(kept(unit(1), FrequencyCut::None));
         // Two that move with each other, and against each other: in the bound that is the same.
-        assert!(kept([0.0, 0.0, 0.0, 1.0, 1.0], Speed::OfModes));
-        assert!(!kept([0.0, 0.0, 0.0, 1.0, -1.0], Speed::OfModes));
+        assert!(kept([0.0, 0.0, 0.0, 1.0, 1.0], FrequencyCut::Modes));
+        assert!(!kept([0.0, 0.0, 0.0, 1.0, -1.0], FrequencyCut::Modes));
     }
 }

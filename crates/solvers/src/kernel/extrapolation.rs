@@ -1,15 +1,15 @@
-//! What the first guess of a step left over in the steps before: it comes again, a little changed.
+//! The residual that predictors of steps leave: it comes again, a little changed.
 //!
-//! The guess goes along the tangents at the start of the step; what it misses is of second order, such as the
-//! turn of a sliding friction force, and changes smoothly from step to step. The next step therefore expects what the
-//! polynomial through the last steps goes on to, by backward differences ∇ of as many orders p as would have
-//! brought the last step nearest:
+//! The predictor goes along the tangents at the start of the step; what it misses is of second order, such as the
+//! turn of a sliding friction force, and changes smoothly from step to step. For the next step it is extrapolated by
+//! the polynomial through the last steps, by backward differences ∇ of as many orders p as would have brought the last
+//! step nearest:
 //!
 //! ```text
 //! e(n+1) ≈ e(n) + ∇e(n) + … + ∇ᵖ⁻¹e(n),      which misses by ∇ᵖe(n+1)
 //! ```
 //!
-//! and nothing where none would have: after a link has changed its regime.
+//! and by nothing where no order would have: after a link has changed its regime.
 
 use super::affine::StepKey;
 use crate::vector::add;
@@ -21,7 +21,7 @@ const WORTH: f64 = 0.5;
 
 /// Residuals of the active link coordinates that the forces along the tangents left.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
-pub(crate) struct Unforeseen {
+pub(crate) struct Extrapolation {
     /// The steps that they are about.
     key: StepKey,
     /// What each order expects of the next step, order by order; of so many coordinates each that they fill whole
@@ -33,14 +33,14 @@ pub(crate) struct Unforeseen {
     order: usize,
 }
 
-impl Unforeseen {
+impl Extrapolation {
     /// Adds what the next step expects; false where it expects nothing.
     pub fn expect(&self, key: StepKey, residual: &mut [f64]) -> bool {
-        let hope = self.hope(residual.len()).filter(|_| self.key == key);
-        hope.map(|hope| add(residual, hope)).is_some()
+        let extrapolated = self.extrapolated(residual.len()).filter(|_| self.key == key);
+        extrapolated.map(|extrapolated| add(residual, extrapolated)).is_some()
     }
 
-    fn hope(&self, n: usize) -> Option<&[f64]> {
+    fn extrapolated(&self, n: usize) -> Option<&[f64]> {
         let filled = n.next_multiple_of(Panel::GRAIN);
         let start = self.order.checked_sub(1)? * filled;
         self.expected.get(start..start + n)
@@ -54,10 +54,10 @@ impl Unforeseen {
         (self.key, self.known, self.order) = (key, 1, 0);
         self.expected.resize(ORDERS * filled, 0.0);
         let last = &mut self.expected[..n];
-        match from.hope(n).filter(|_| expected) {
-            Some(hope) => {
+        match from.extrapolated(n).filter(|_| expected) {
+            Some(extrapolated) => {
                 for i in 0..n {
-                    last[i] = residual[i] + hope[i];
+                    last[i] = residual[i] + extrapolated[i];
                 }
             }
             None => last.copy_from_slice(residual),
@@ -87,13 +87,13 @@ mod tests {
     const KEY: StepKey = StepKey { dt: 0.01, average: 0 };
 
     /// Leads it through steps that leave these remainders; gives back what each guess left of them.
-    fn lead(remainders: &[f64]) -> (Unforeseen, Vec<f64>) {
-        let mut known = Unforeseen::default();
+    fn lead(remainders: &[f64]) -> (Extrapolation, Vec<f64>) {
+        let mut known = Extrapolation::default();
         let left = remainders.iter().map(|e| {
-            let mut hope = [0.0];
-            let expected = known.expect(KEY, &mut hope);
-            let left = e - hope[0];
-            let mut next = Unforeseen::default();
+            let mut extrapolated = [0.0];
+            let expected = known.expect(KEY, &mut extrapolated);
+            let left = e - extrapolated[0];
+            let mut next = Extrapolation::default();
             next.note(&known, KEY, &[left], expected);
             known = next;
             left
@@ -114,17 +114,17 @@ mod tests {
 
     #[test]
     fn the_order_is_that_which_would_have_missed_least() {
-        // What alternates is worse foreseen by every higher order.
+        // What alternates is extrapolated worse by every higher order.
         let (known, left) = lead(&[1.0, 1.1, 1.0, 1.1, 1.0, 1.1]);
         assert!(left[2..].iter().all(|x| (x.abs() - 0.1).abs() < 1e-14), "{left:?}");
         assert_eq!(known.order, 1);
-        assert_eq!(known.hope(1), Some(&[1.1][..]));
+        assert_eq!(known.extrapolated(1), Some(&[1.1][..]));
     }
 
     #[test]
     fn a_sudden_remainder_is_not() {
         let (_, left) = lead(&[0.1, 0.1, 0.1, 9.0, 0.1, 0.1, 0.1, 0.1]);
-        // 9 was unforeseen; after it nothing is expected until two steps agree again.
+        // 9 came suddenly; after it nothing is extrapolated until two steps agree again.
         let sizes: Vec<f64> = left.iter().map(|x| (x * 1e9).round() / 1e9).collect();
         assert_eq!(sizes[3..6], [8.9, 0.1, 0.1]);
         assert!(sizes[6..].iter().all(|x| x.abs() < 1e-9), "{left:?}");
@@ -133,8 +133,10 @@ mod tests {
     #[test]
     fn steps_of_another_length_start_anew() {
         let (known, _) = lead(&[1.0, 1.0, 1.0]);
-        let mut hope = [0.0];
-        assert!(known.expect(KEY, &mut hope) && hope == [1.0]);
-        assert!(!known.expect(StepKey { dt: 0.005, ..KEY }, &mut hope) && hope == [1.0]);
+        let mut extrapolated = [0.0];
+        assert!(known.expect(KEY, &mut extrapolated) && extrapolated == [1.0]);
+        assert!(
+            !known.expect(StepKey { dt: 0.005, ..KEY }, &mut extrapolated) && extrapolated == [1.0]
+        );
     }
 }

@@ -8,21 +8,21 @@
 
 use super::state::State;
 use crate::kernel::ForceScale;
-use crate::structure::{Motion, Space};
+use crate::structure::{Motion, ReducedSystem};
 use crate::vector::larger;
 use serde::{Deserialize, Serialize};
 use trilith_system::LinkSet;
 
 /// Displacements, or differences of such.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
-pub(crate) struct Way {
+pub(crate) struct DisplacementNorms {
     /// √(uᵀ M u), kg^½ m.
     pub motion: f64,
     /// Largest deformation of the links: of translations and of rotations, m and rad.
     pub deformation: [f64; 2],
 }
 
-impl Way {
+impl DisplacementNorms {
     fn parts(&self) -> [f64; 3] {
         let [translation, rotation] = self.deformation;
         [self.motion, translation, rotation]
@@ -48,24 +48,24 @@ impl Way {
 
 /// What two states differ in.
 #[derive(Clone, Copy, Debug, Default)]
-pub(crate) struct Apart {
+pub(crate) struct Difference {
     /// Squared energy norm, the springs of the links included, J.
     pub energy: f64,
     /// Displacements.
-    pub way: Way,
+    pub displacement: DisplacementNorms,
     /// Largest difference of link forces, and the largest forces so far.
     pub force: ForceScale,
     pub forces: ForceScale,
 }
 
 /// The displacements of a state, or how far they are from those of another.
-pub(crate) fn way(
-    space: &Space,
+pub(crate) fn displacement_norms(
+    space: &ReducedSystem,
     links: &LinkSet,
     a: &State,
     b: Option<&State>,
     difference: &mut Motion,
-) -> Way {
+) -> DisplacementNorms {
     let n = space.order();
     difference.clear();
     match b {
@@ -78,19 +78,19 @@ pub(crate) fn way(
         let of = &mut deformation[usize::from(*rotational)];
         *of = larger(*of, (a.d[i] - b.map_or(0.0, |b| b.d[i])).abs());
     }
-    Way { motion, deformation }
+    DisplacementNorms { motion, deformation }
 }
 
 /// How far two states are apart; `energy` of a motion by the structure.
-pub(crate) fn apart(
-    space: &Space,
+pub(crate) fn difference_of(
+    space: &ReducedSystem,
     links: &LinkSet,
     energy: impl Fn(&[f64]) -> (f64, f64),
     a: &State,
     b: &State,
     difference: &mut Motion,
-) -> Apart {
-    let way = way(space, links, a, Some(b), difference);
+) -> Difference {
+    let displacement = displacement_norms(space, links, a, Some(b), difference);
     difference.clear();
     difference.extend(a.motion.iter().zip(&b.motion).map(|(x, y)| x - y));
     let (kinetic, strain) = energy(difference);
@@ -105,10 +105,10 @@ pub(crate) fn apart(
     let energy = kinetic.abs() + strain.abs() + 0.5 * of_links;
     // The largest forces so far hold those of this step.
     let forces = [0, 1].map(|kind| larger(a.scale[kind], b.scale[kind]));
-    Apart { energy, way, force, forces }
+    Difference { energy, displacement, force, forces }
 }
 
-impl Apart {
+impl Difference {
     /// Largest difference of link forces over the largest force of the kind so far, which counts as so much at least.
     pub(crate) fn share_of_force(&self, least: &ForceScale) -> f64 {
         let kinds = (0..2).filter(|kind| self.force[*kind] > 0.0);

@@ -3,13 +3,13 @@
 use super::propagator::Forces;
 use super::state::{LinksBefore, State, StepEnergy, StepFailure};
 use crate::kernel::{Affine, Committed, Compliance, Converged, Guess, Layout, LinkKernel, Wanted};
-use crate::structure::Space;
+use crate::structure::ReducedSystem;
 use trilith_element::Energy;
 use trilith_model::Model;
 use trilith_system::{Answers, Channel, Laws, LinkSet, LoadSet, StepLoads, System};
 
 /// What one motion needs beside the propagator, kept so that a step allocates nothing.
-pub(crate) struct LinkSide<'a> {
+pub(crate) struct LinkEquations<'a> {
     model: &'a Model,
     system: &'a System,
     loads: &'a LoadSet,
@@ -24,15 +24,15 @@ pub(crate) struct LinkSide<'a> {
     support_rate: Vec<f64>,
     /// Rates of the active coordinates at the end, where laws left some open.
     rates: Vec<f64>,
-    /// Flat coordinates with dummies, and their stiffness.
-    dummies: Vec<(usize, f64)>,
+    /// Flat coordinates with an effective stiffness, and that.
+    effective: Vec<(usize, f64)>,
     /// True where supports move links.
     moving: bool,
     /// True where outputs or the view of contacts may look at rates that no law looks at.
     watched: bool,
 }
 
-impl<'a> LinkSide<'a> {
+impl<'a> LinkEquations<'a> {
     /// `order`: number of coordinates of the solver; `watched`: whether somebody may look at rates that no law looks
     /// at.
     pub(crate) fn new(
@@ -44,9 +44,9 @@ impl<'a> LinkSide<'a> {
         watched: bool,
     ) -> Self {
         let (flat, active) = (system.links.len(), system.links.active.len());
-        let Layout { links, dummy_k, .. } = kernel.layout();
-        let dummies = links.active.iter().copied().zip(dummy_k.iter().copied());
-        let dummies = dummies.filter(|(_, k)| *k != 0.0).collect();
+        let Layout { links, effective_k, .. } = kernel.layout();
+        let effective = links.active.iter().copied().zip(effective_k.iter().copied());
+        let effective = effective.filter(|(_, k)| *k != 0.0).collect();
         let moves = |c: &Channel| !c.deformation.is_empty() || !c.rate.is_empty();
         Self {
             model,
@@ -60,7 +60,7 @@ impl<'a> LinkSide<'a> {
             support1: vec![0.0; flat],
             support_rate: vec![0.0; flat],
             rates: vec![0.0; active],
-            dummies,
+            effective,
             moving: loads.channels.iter().any(moves),
             watched,
         }
@@ -85,16 +85,16 @@ impl<'a> LinkSide<'a> {
         self.moving.then_some([&self.support0, &self.support1])
     }
 
-    /// Flat link coordinates with dummies, and their stiffness.
-    pub(crate) fn dummies(&self) -> &[(usize, f64)] {
-        &self.dummies
+    /// Flat link coordinates with an effective stiffness, and that.
+    pub(crate) fn effective(&self) -> &[(usize, f64)] {
+        &self.effective
     }
 
     /// Loads of a step, and a place for its end.
     #[inline]
     pub(crate) fn begin(
         &mut self,
-        space: &Space,
+        space: &ReducedSystem,
         from: &State,
         to: &mut State,
         loads: &StepLoads,
@@ -157,7 +157,7 @@ impl<'a> LinkSide<'a> {
     }
 
     /// Takes up the link equations at the predicted d and v, with the pseudo-forces that the tangents at the
-    /// start of the step foresee: true where deformations must follow them.
+    /// start of the step predict: true where deformations must follow them.
     pub(crate) fn take_up(
         &mut self,
         compliance: &Compliance,
@@ -193,11 +193,12 @@ impl<'a> LinkSide<'a> {
     /// somebody looks at them; else those stay zero.
     #[inline]
     pub(crate) fn open_rates(&mut self) -> Option<&mut [f64]> {
-        (self.watched && !self.kernel.layout().unrated.is_empty()).then_some(&mut self.rates)
+        (self.watched && !self.kernel.layout().rate_independent.is_empty())
+            .then_some(&mut self.rates)
     }
 
     /// Rates of a state that was made while nobody looked at them; `t` is its time, s.
-    pub(crate) fn recall_rates(&mut self, space: &Space, t: f64, state: &mut State) {
+    pub(crate) fn recall_rates(&mut self, space: &ReducedSystem, t: f64, state: &mut State) {
         let Some(rates) = self.open_rates() else { return };
         let n = space.order();
         space.links.deform(&state.motion[n..2 * n], rates);
@@ -205,26 +206,26 @@ impl<'a> LinkSide<'a> {
         self.loads.step(t, t, &mut now);
         self.support_rate.fill(0.0);
         self.loads.support_deformation(&now.end, &mut self.support0, &mut self.support_rate);
-        for (a, flat) in &self.kernel.layout().unrated {
+        for (a, flat) in &self.kernel.layout().rate_independent {
             state.v[*flat] = self.support_rate[*flat] + self.rates[*a];
         }
     }
 
     /// Takes note of a converged step whose motion is complete.
     #[inline]
-    pub(crate) fn settle(&mut self, to: &mut State, energy: &StepEnergy) {
+    pub(crate) fn finish(&mut self, to: &mut State, energy: &StepEnergy) {
         if self.watched && self.kernel.layout().complete && !self.moving {
-            self.kernel.layout().rated.iter().for_each(|a| self.rates[*a] = to.v[*a]);
+            self.kernel.layout().rate_dependent.iter().for_each(|a| self.rates[*a] = to.v[*a]);
             to.v.copy_from_slice(&self.rates);
         } else if self.watched {
-            for (a, flat) in &self.kernel.layout().unrated {
+            for (a, flat) in &self.kernel.layout().rate_independent {
                 to.v[*flat] = self.support_rate[*flat] + self.rates[*a];
             }
         }
-        to.settle(&self.system.links, &energy.links, self.kernel.largest_force());
+        to.record_converged(&self.system.links, &energy.links, self.kernel.largest_force());
     }
 
-    /// Enters a step, taking the dummies out of the books: what they store belongs to the links.
+    /// Enters a step, taking the effective stiffnesses out of the books: what they store belongs to the links.
     #[inline]
     pub(crate) fn book(
         &self,
@@ -236,7 +237,7 @@ impl<'a> LinkSide<'a> {
         let (support0, support1) = (&self.support0, &self.support1);
         (energy.kinetic, energy.strain) = (kinetic, strain);
         energy.link_work = energy.work.links;
-        for (flat, k) in &self.dummies {
+        for (flat, k) in &self.effective {
             let (d0, d1) = (from.d[*flat] - support0[*flat], to.d[*flat] - support1[*flat]);
             energy.strain -= 0.5 * k * d1 * d1;
             energy.link_work += 0.5 * k * (d1 * d1 - d0 * d0);
@@ -253,7 +254,7 @@ impl<'a> LinkSide<'a> {
     /// causes them.
     pub(crate) fn start(
         &self,
-        space: &Space,
+        space: &ReducedSystem,
         u: &[f64],
         v: &[f64],
         before: &LinksBefore,
@@ -284,13 +285,13 @@ impl<'a> LinkSide<'a> {
 }
 
 fn committed(from: &State, dt: f64) -> Committed<'_> {
-    let State { d, v, f, history, tangents, unforeseen, .. } = from;
-    Committed { d, v, f, history, tangents, unforeseen, dt }
+    let State { d, v, f, history, tangents, extrapolation, .. } = from;
+    Committed { d, v, f, history, tangents, extrapolation, dt }
 }
 
 fn converged<'a>(to: &'a mut State, energy: &'a mut [Energy]) -> Converged<'a> {
-    let State { d, v, f, history, tangents, pseudo, unforeseen, .. } = to;
-    Converged { d, v, laws: Answers { history, f, tangents, energy }, pseudo, unforeseen }
+    let State { d, v, f, history, tangents, pseudo, extrapolation, .. } = to;
+    Converged { d, v, laws: Answers { history, f, tangents, energy }, pseudo, extrapolation }
 }
 
 fn affine<'a>(compliance: &'a Compliance, support: Option<[&'a [f64]; 2]>) -> Affine<'a> {

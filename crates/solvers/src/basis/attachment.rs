@@ -1,4 +1,4 @@
-//! Shapes of directions without mass, which no mode can hold.
+//! Shapes of massless directions, which no mode can hold.
 //!
 //! ```text
 //!   N spans M n = 0:   Nᵀ (K u + C u̇) = Nᵀ (p − Bᵀ f),     C = R c Rᵀ of dashpots on them, + Rayleigh's
@@ -11,7 +11,7 @@
 //! force in few directions of its own; A⁻¹ of these spans all of it, for any σ, so beside the modes the shapes make
 //! the response exact: at joints between springs and dampers, where dashpots tie them to the modes, and under loads
 //! on nodes without mass. σ is 0 where springs hold all directions; a joint that only dashpots hold needs σ > 0.
-//! What links alone hold has their dummies in K.
+//! What links alone hold has their effective stiffnesses in K.
 
 use super::condensation::Condensation;
 use super::shapes::Shapes;
@@ -36,7 +36,7 @@ const HELD: f64 = 1e-6;
 
 /// The shapes Ψ for a stiffness.
 #[derive(Clone, Debug)]
-pub(crate) struct StaticShapes {
+pub(crate) struct AttachmentVectors {
     /// Order × number; those that dashpots tie to the modes come first.
     pub psi: Dense,
     /// How many these are.
@@ -49,7 +49,7 @@ pub(crate) struct StaticShapes {
     pub readers: Dense,
 }
 
-impl StaticShapes {
+impl AttachmentVectors {
     /// The shapes for a stiffness under loads on the free DOFs; couplings with modes are not known yet.
     pub(crate) fn new(
         system: &System,
@@ -68,7 +68,7 @@ impl StaticShapes {
         let is_damped = of_elements.entries().any(|(_, _, v)| v != 0.0);
         if is_damped && !unsupported(&held)?.is_empty() {
             // All of C: what turns it diagonal leaves Ψᵀ K Ψ = 1 − σ Ψᵀ C Ψ diagonal as well. Rayleigh's share has no
-            // dummies, so it is no multiple of K.
+            // effective stiffnesses, so it is no multiple of K.
             let c = massless.project(&damping);
             let sum = |a: &Sparse| a.diagonal().iter().sum::<f64>();
             let (stiff, viscous) = (sum(&held), sum(&c));
@@ -155,13 +155,13 @@ impl StaticShapes {
         }
     }
 
-    /// Puts those that damping ties to the modes first, and finds what reads the coordinates of all; `dummies`: those
+    /// Puts those that damping ties to the modes first, and finds what reads the coordinates of all; `effective`: those
     /// in `k`, flat.
     pub(crate) fn beside(
         &self,
         system: &System,
         k: &Sparse,
-        dummies: &[f64],
+        effective: &[f64],
         modes: &Shapes,
     ) -> Self {
         if self.len() == 0 {
@@ -173,11 +173,11 @@ impl StaticShapes {
             damping.bilinear(&mode, &mode).max(0.0)
         });
         let own: Vec<f64> = own.collect();
-        // Shapes without mass, square to the modes by stiffness: dashpots tie them, and the dummies that Rayleigh's
+        // Shapes without mass, square to the modes by stiffness: dashpots tie them, and the effective stiffnesses that Rayleigh's
         // share of the stiffness does not have.
         let ties = Sparse::combine(&[
             (1.0, &system.element_damping),
-            (-system.rayleigh[1], &system.springs(dummies)),
+            (-system.rayleigh[1], &system.springs(effective)),
         ]);
         let coupling = |r: usize| modes.load(&ties.mul(self.psi.column(r)));
         let is_free = |r: &usize| {
@@ -215,7 +215,7 @@ impl StaticShapes {
     }
 }
 
-/// Puts directions without mass where what has mass puts them: u − N (Nᵀ K N)⁻¹ Nᵀ K u. Products with M do not see
+/// Puts massless directions where what has mass puts them: u − N (Nᵀ K N)⁻¹ Nᵀ K u. Products with M do not see
 /// their rounding, which comes into the next vectors with the shares in these that are taken out, and grows from block
 /// to block until they are far too stiff.
 pub(crate) struct Following<'a> {
@@ -277,14 +277,14 @@ impl<'a> Following<'a> {
         Ok(factor.map(|factor| Self { massless, images, factor }))
     }
 
-    pub(crate) fn settle(&self, u: &mut [f64]) {
+    pub(crate) fn place(&self, u: &mut [f64]) {
         let mut p = vec![0.0; self.massless.len()];
         self.images.transpose_mul_add(1.0, u, &mut p);
         self.massless.expand(-1.0, &self.factor.solve(p), u);
     }
 }
 
-/// Loads, link rows and dashpots on directions without mass, those that are not zero.
+/// Loads, link rows and dashpots on massless directions, those that are not zero.
 fn pushes(system: &System, loads: &[(String, Vec<f64>)]) -> Vec<Vec<f64>> {
     let massless = &system.massless;
     if massless.is_empty() {

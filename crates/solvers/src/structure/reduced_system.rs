@@ -8,19 +8,19 @@ use trilith_system::{LoadSet, System};
 
 /// Matrices, link maps and loads in the coordinates of a solver.
 #[derive(Debug)]
-pub(crate) struct Space {
+pub(crate) struct ReducedSystem {
     pub mass: Sparse,
     /// C beyond Rayleigh's.
     pub damping: Sparse,
     /// Shares of M and of K in C beside it, 1/s and s; modal damping has one of K beyond its modes.
     pub rayleigh: [f64; 2],
-    /// Stiffness with the dummies.
+    /// Stiffness with the effective stiffnesses.
     pub stiffness: Sparse,
     pub modal: Option<LowRank>,
     /// B of the active coordinates.
     pub links: LinkMap,
-    /// Dummies of the active coordinates.
-    pub dummy_k: Vec<f64>,
+    /// Effective stiffnesses of the active coordinates.
+    pub effective_k: Vec<f64>,
     /// A column of forces for each load channel.
     pub forces: Product,
     /// Free DOFs = shape · coordinates; `None` where they are the coordinates.
@@ -32,9 +32,9 @@ pub(crate) struct Space {
     pub tied: usize,
 }
 
-impl Space {
-    /// All free DOFs; `effective` holds the dummies of the flat link coordinates. Damping acts on the
-    /// structure without dummies, so C needs no correction for them.
+impl ReducedSystem {
+    /// All free DOFs; `effective` holds the effective stiffnesses of the flat link coordinates. Damping acts on the
+    /// structure without effective stiffnesses, so C needs no correction for them.
     pub(crate) fn physical(
         system: &System,
         loads: &LoadSet,
@@ -42,7 +42,7 @@ impl Space {
         modal: Option<ModalDamping>,
     ) -> Self {
         let links = &system.links;
-        let dummy: Vec<f64> = links.active.iter().map(|i| effective[*i]).collect();
+        let effective_k: Vec<f64> = links.active.iter().map(|i| effective[*i]).collect();
         let stiffness = system.stiffness_with(effective);
         let [of_mass, mut of_stiffness] = system.rayleigh;
         of_stiffness += modal.as_ref().map_or(0.0, |modal| modal.beyond);
@@ -64,7 +64,7 @@ impl Space {
             stiffness,
             modal: modal.map(ModalDamping::less_beyond),
             links: LinkMap::Sparse(links.active.iter().map(|i| links.rows[*i].clone()).collect()),
-            dummy_k: dummy,
+            effective_k: effective_k,
             forces: Product::new(forces),
             shape: None,
             readers: Dense::zeros(n, 0),
@@ -72,7 +72,7 @@ impl Space {
         }
     }
 
-    /// The span of a basis, whose vectors are M-orthonormal modes of `K + dummies`, and of its static
+    /// The span of a basis, whose vectors are M-orthonormal modes of `K + effective stiffnesses`, and of its static
     /// shapes.
     pub(crate) fn reduced(
         system: &System,
@@ -93,9 +93,9 @@ impl Space {
         for (a, flat) in active.iter().enumerate() {
             links.column_mut(a).copy_from_slice(&phi.row(&system.links.rows[*flat]));
         }
-        let dummy_k: Vec<f64> = active.iter().map(|i| effective[*i]).collect();
+        let effective_k: Vec<f64> = active.iter().map(|i| effective[*i]).collect();
         let omega2 = [&basis.omega2[..], &basis.statics.stiffness[..]].concat();
-        let mut damping = if dummy_k.iter().all(|k| *k == 0.0) {
+        let mut damping = if effective_k.iter().all(|k| *k == 0.0) {
             // The part of M and K is known: both are diagonal here.
             let mut damping = phi.congruence(&system.element_damping, m);
             let [of_mass, of_stiffness] = system.rayleigh;
@@ -135,7 +135,7 @@ impl Space {
             stiffness: diagonal(&omega2),
             modal: None,
             links: LinkMap::full(links),
-            dummy_k,
+            effective_k,
             forces: Product::new(forces),
             shape: Some(Arc::clone(&basis.shapes)),
             readers: basis.statics.readers.clone(),

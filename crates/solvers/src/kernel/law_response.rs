@@ -4,14 +4,14 @@ use trilith_element::{Energy, Kinematics, Link, Response};
 
 /// Forces, tangents and history of one link, kept so that a question allocates nothing.
 #[derive(Default)]
-pub(crate) struct Answer {
+pub(crate) struct LawResponse {
     pub f: Vec<f64>,
     pub k: Vec<f64>,
     pub c: Vec<f64>,
     pub history: Vec<f64>,
 }
 
-impl Answer {
+impl LawResponse {
     /// Asks a law at a motion, from a committed history.
     pub(crate) fn of(&mut self, law: &dyn Link, at: &Kinematics<'_>, committed: &[f64]) {
         let n = at.d.len();

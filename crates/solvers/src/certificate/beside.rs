@@ -30,7 +30,7 @@ struct Batch {
 }
 
 /// The end that the run holds.
-pub(crate) struct Teller {
+pub(crate) struct Reporter {
     batch: Batch,
     to: SyncSender<Batch>,
     /// True where the shadow asks what links answer.
@@ -44,13 +44,13 @@ pub(crate) struct Listener<'a> {
 }
 
 /// Both ends.
-pub(crate) fn aside(shadow: Shadow<'_>) -> (Teller, Listener<'_>) {
+pub(crate) fn beside(shadow: Shadow<'_>) -> (Reporter, Listener<'_>) {
     let (to, from) = sync_channel(AHEAD);
     let answers = shadow.answers();
-    (Teller { batch: Batch::default(), to, answers }, Listener { shadow, from })
+    (Reporter { batch: Batch::default(), to, answers }, Listener { shadow, from })
 }
 
-impl Teller {
+impl Reporter {
     /// A step was accepted.
     pub(crate) fn step(&mut self, t: f64, state: &State) {
         let links = &mut self.batch.links;
@@ -61,20 +61,20 @@ impl Teller {
                 links.extend_from_slice(part);
             }
         }
-        self.tell(Event::Step(t));
+        self.report(Event::Step(t));
     }
 
     /// The loads jump.
     pub(crate) fn jump(&mut self, t: f64) {
-        self.tell(Event::Jump(t));
+        self.report(Event::Jump(t));
     }
 
     /// The outputs of the run are to be compared at the step told last.
     pub(crate) fn outputs(&mut self, values: &[f64], state: &State) {
-        self.tell(Event::Outputs(values.to_vec(), Box::new(state.clone())));
+        self.report(Event::Outputs(values.to_vec(), Box::new(state.clone())));
     }
 
-    fn tell(&mut self, event: Event) {
+    fn report(&mut self, event: Event) {
         self.batch.events.push(event);
         if self.batch.events.len() >= AT_A_TIME {
             self.send();
@@ -87,7 +87,7 @@ impl Teller {
     }
 }
 
-impl Drop for Teller {
+impl Drop for Reporter {
     fn drop(&mut self) {
         self.send();
     }
@@ -102,7 +102,7 @@ impl Listener<'_> {
             for event in events {
                 match event {
                     Event::Step(t) => {
-                        let (links, others) = rest.split_at(self.shadow.told());
+                        let (links, others) = rest.split_at(self.shadow.report_len());
                         rest = others;
                         self.shadow.follow(t, links);
                     }
