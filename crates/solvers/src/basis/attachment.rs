@@ -218,7 +218,7 @@ impl AttachmentVectors {
 /// Puts massless directions where what has mass puts them: u − N (Nᵀ K N)⁻¹ Nᵀ K u. Products with M do not see
 /// their rounding, which comes into the next vectors with the shares in these that are taken out, and grows from block
 /// to block until they are far too stiff.
-pub(crate) struct Following<'a> {
+pub(super) struct Following<'a> {
     massless: &'a Massless,
     /// K N.
     images: Sparse,

@@ -172,7 +172,7 @@ impl Condensation {
 }
 
 /// Free DOFs with a stiffness and without mass.
-pub(crate) fn massless_dofs(system: &System, k: &Sparse) -> Vec<usize> {
+pub(super) fn massless_dofs(system: &System, k: &Sparse) -> Vec<usize> {
     // A zero on the diagonal of M, which is semi-definite, is a row of zeros.
     let (stiff, heavy) = (k.diagonal(), system.mass.diagonal());
     (0..system.order()).filter(|i| stiff[*i] > 0.0 && heavy[*i] == 0.0).collect()

@@ -17,7 +17,7 @@ const ORTHOGONAL: f64 = 0.5;
 
 /// Where new vectors come from.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Origin {
+pub(super) enum Origin {
     /// K̂⁻¹M of the block before: K̂⁻¹M is symmetric in the product of M, so only the two blocks before
     /// have more than rounding in common with them.
     Recursion,
@@ -27,14 +27,14 @@ pub(crate) enum Origin {
 
 /// How fast new vectors may be.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum FrequencyCut {
+pub(super) enum FrequencyCut {
     /// As fast as modes of interest.
     Modes,
     None,
 }
 
 /// M-orthonormal vectors, block after block.
-pub(crate) struct OrthonormalBasis<'a> {
+pub(super) struct OrthonormalBasis<'a> {
     rows: &'a Condensation,
     /// Of the rows that are kept.
     mass: Sparse,

@@ -7,7 +7,7 @@ use trilith_model::Model;
 use trilith_system::System;
 
 /// A pivot below this share of its diagonal is rounding: nothing holds the equation.
-pub(crate) const PIVOT: f64 = 1e-11;
+pub(super) const PIVOT: f64 = 1e-11;
 /// Right-hand sides solved together.
 pub(super) const BLOCK: usize = 16;
 /// Automatic effective stiffnesses as a share of the engaged stiffness of a link.
@@ -120,7 +120,7 @@ pub(super) fn solvable(model: &Model, system: &System) -> Result<Solvable, Solve
 
 /// The factor of a sum, where no pivot is rounding. Scaling to a unit diagonal would divide each pivot by its
 /// diagonal entry, so this is the test of [`unsupported`] without a second factorisation.
-pub(crate) fn held(parts: &[(f64, &Sparse)]) -> Result<Option<StagedLdlt>, SolveError> {
+pub(super) fn held(parts: &[(f64, &Sparse)]) -> Result<Option<StagedLdlt>, SolveError> {
     let mut diagonal = vec![0.0; parts.first().map_or(0, |(_, a)| a.rows())];
     for (factor, part) in parts {
         diagonal.iter_mut().zip(part.diagonal()).for_each(|(sum, d)| *sum += factor * d);

@@ -26,7 +26,7 @@ pub(crate) enum Moment {
 }
 
 /// Told of the moments of a run, their times and states.
-pub(crate) type Report<'a> = dyn FnMut(Moment, f64, &State, &Ledger) + 'a;
+pub(super) type Report<'a> = dyn FnMut(Moment, f64, &State, &Ledger) + 'a;
 
 /// Steps that are made of a segment of the timeline at least.
 pub(crate) fn at_least(step: StepControl) -> usize {

@@ -50,7 +50,7 @@ impl Columns {
 }
 
 /// The base shear along X and Y as rows over states.
-pub(crate) struct Rows {
+pub(super) struct Rows {
     rows: [Row; 2],
     /// True where moving supports have a share.
     pub(crate) supported: bool,

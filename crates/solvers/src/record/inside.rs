@@ -25,7 +25,7 @@ const KEPT: usize = 16;
 const MOST: u32 = 10;
 
 /// Looks at outputs inside the steps of FNA.
-pub(crate) struct Inside {
+pub(super) struct Inside {
     form: ClosedForm,
     fastest: f64,
     /// The motion shown last.
@@ -40,7 +40,7 @@ pub(crate) struct Inside {
 }
 
 /// A moment inside a step: share of it, and values and rates that the motion gives the outputs.
-pub(crate) struct Moment {
+pub(super) struct Moment {
     pub share: f64,
     pub values: Vec<f64>,
     pub rates: Vec<f64>,

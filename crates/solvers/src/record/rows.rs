@@ -37,7 +37,7 @@ pub(crate) enum Row {
 }
 
 /// Terms (index, factor) on the coordinates of the solver and on prescribed displacements.
-pub(crate) type Split = (Vec<(usize, f64)>, Vec<(usize, f64)>);
+pub(super) type Split = (Vec<(usize, f64)>, Vec<(usize, f64)>);
 
 impl Row {
     /// True where it asks for moving supports.

@@ -185,7 +185,7 @@ pub fn modes(
 }
 
 /// Sum of loads on the free DOFs.
-pub(crate) fn constant_load(model: &Model, system: &System, loads: &[Load]) -> Vec<f64> {
+pub(super) fn constant_load(model: &Model, system: &System, loads: &[Load]) -> Vec<f64> {
     let mut p = vec![0.0; system.order()];
     for load in loads {
         for (x, y) in p.iter_mut().zip(system.load_vector(model, load)) {

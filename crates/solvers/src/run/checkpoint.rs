@@ -6,7 +6,7 @@ use trilith_model::{Case, Model, ParameterValue, SolverKind};
 use trilith_system::System;
 
 /// Parameters of a model as a checkpoint holds them; numbers read back to the bit.
-pub(crate) fn parameters(model: &Model) -> Vec<(String, String)> {
+pub(super) fn parameters(model: &Model) -> Vec<(String, String)> {
     let text = |v: &ParameterValue| match v {
         ParameterValue::Number(x, _) => format!("{x:e}"),
         ParameterValue::Text(t) => t.clone(),
@@ -42,14 +42,14 @@ fn refuse(reason: String) -> Result<(), SolveError> {
 }
 
 /// Refuses any checkpoint for a static case.
-pub(crate) fn check_static(model: &Model, case: &Case, end: &EndState) -> Result<(), SolveError> {
+pub(super) fn check_static(model: &Model, case: &Case, end: &EndState) -> Result<(), SolveError> {
     check_run(model, case, "static", end)?;
     refuse(format!("its case {} is static: there is no time to go on from", case.name))
 }
 
 /// Refuses a checkpoint of another model, other parameters, another case, solver or output step, and one
 /// that was damaged.
-pub(crate) fn check(
+pub(super) fn check(
     model: &Model,
     system: &System,
     case: &Case,

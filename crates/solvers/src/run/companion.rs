@@ -34,7 +34,7 @@ const LOOSER: f64 = 2.0;
 const SECOND: f64 = 3.0;
 
 /// The same motion at a looser tolerance.
-pub(crate) struct Companion<'a> {
+pub(super) struct Companion<'a> {
     equations: Equations<'a>,
     timeline: &'a Timeline,
     tolerance: f64,

@@ -13,7 +13,7 @@ use trilith_system::{LoadSet, System, Track};
 
 /// What a motion obeys.
 #[derive(Clone, Copy)]
-pub(crate) struct Equations<'a> {
+pub(super) struct Equations<'a> {
     pub model: &'a Model,
     pub system: &'a System,
     pub solution: &'a Solution,
@@ -72,7 +72,7 @@ impl<'a> Equations<'a> {
 }
 
 /// Load directions that a basis must hold: name and vector on the free DOFs.
-pub(crate) fn basis_loads(
+pub(super) fn basis_loads(
     model: &Model,
     analysis: &DynamicCase,
     loads: &LoadSet,
@@ -101,7 +101,7 @@ pub(crate) fn basis_loads(
 }
 
 /// Whether a solver works on a basis.
-pub(crate) fn is_reduced(kind: SolverKind) -> bool {
+pub(super) fn is_reduced(kind: SolverKind) -> bool {
     matches!(kind, SolverKind::Fna | SolverKind::RitzHht)
 }
 

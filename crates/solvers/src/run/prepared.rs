@@ -17,7 +17,7 @@ use trilith_model::{Case, DynamicCase, MOST_OUTPUT_STEPS, Model, SolverKind, out
 use trilith_system::{LoadSet, System};
 
 /// A dynamic case and what it starts from.
-pub(crate) struct Setup<'a> {
+pub(super) struct Setup<'a> {
     pub model: &'a Model,
     pub system: &'a System,
     pub case: &'a Case,
@@ -29,7 +29,7 @@ pub(crate) struct Setup<'a> {
 const LOADS_HELD: f64 = 0.95;
 
 /// A case that is ready to be stepped.
-pub(crate) struct Prepared<'a> {
+pub(super) struct Prepared<'a> {
     pub model: &'a Model,
     pub system: &'a System,
     pub case: &'a Case,

@@ -23,7 +23,7 @@ const NOISE: f64 = 1e-10;
 const FORCE: f64 = 1e-3;
 
 /// State, control, ledger, and the output step it belongs to.
-pub(crate) type Start = (State, StepControlState, Ledger, usize);
+pub(super) type Start = (State, StepControlState, Ledger, usize);
 
 impl Initial {
     /// From rest or from the end of the case before, with initial values in their place; what has no mass and no
@@ -176,7 +176,7 @@ fn effective_energy(system: &System, space: &ReducedSystem, state: &State) -> f6
 }
 
 /// Takes up a checkpoint that was checked.
-pub(crate) fn resume(mut end: EndState, stepper: &mut dyn Stepper) -> Result<Start, SolveError> {
+pub(super) fn resume(mut end: EndState, stepper: &mut dyn Stepper) -> Result<Start, SolveError> {
     if end.state.motion.len() != 3 * stepper.space().order() {
         return Err(SolveError::Checkpoint {
             reason: format!(

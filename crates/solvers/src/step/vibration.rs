@@ -31,7 +31,7 @@ const FEW: f64 = 1e-3;
 const RESOLVED: f64 = 2.0;
 
 /// A step that was made.
-pub(crate) struct Made<'a> {
+pub(super) struct Made<'a> {
     pub laws: &'a Laws<'a>,
     pub links: &'a LinkSet,
     pub space: &'a ReducedSystem,
@@ -46,7 +46,7 @@ pub(crate) struct Made<'a> {
 }
 
 /// Looks at links inside the steps of FNA.
-pub(crate) struct Vibration {
+pub(super) struct Vibration {
     form: ClosedForm,
     fastest: f64,
     /// (mode, swing) of those that swing too fast, and their energy, J.

@@ -8,7 +8,7 @@ use crate::structure::ReducedSystem;
 use trilith_system::{LoadSet, StepLoads};
 
 /// One motion, its link side, its books and who watches it.
-pub(crate) struct Course<'a, 'b> {
+pub(super) struct Course<'a, 'b> {
     pub side: LinkEquations<'a>,
     pub loads: &'a LoadSet,
     pub timeline: Timeline,

@@ -157,7 +157,7 @@ impl<'a> Overlaps<'a> {
 }
 
 /// What is in each other where the model has it, before anything moves.
-pub(crate) fn at_rest(model: &Model) -> Vec<String> {
+pub(super) fn at_rest(model: &Model) -> Vec<String> {
     let outlined = links(model).filter(|(_, law)| still(*law).is_some());
     let laws: Vec<(usize, &dyn Link)> = outlined.collect();
     let mut overlaps = Overlaps::new(model, &laws);
@@ -186,7 +186,7 @@ impl Place for Rest<'_> {
 }
 
 /// The links of a model, each with the index of its element.
-pub(crate) fn links(model: &Model) -> impl Iterator<Item = (usize, &dyn Link)> {
+pub(super) fn links(model: &Model) -> impl Iterator<Item = (usize, &dyn Link)> {
     model.elements.iter().enumerate().filter_map(|(i, e)| match &e.body {
         Body::Link(law, _) => Some((i, &**law)),
         _ => None,
@@ -205,7 +205,7 @@ fn unmoved(zero: &[f64]) -> Kinematics<'_> {
 }
 
 /// The outline of a law before anything has happened.
-pub(crate) fn still(law: &dyn Link) -> Option<Outline> {
+pub(super) fn still(law: &dyn Link) -> Option<Outline> {
     let (zero, history) = rest(law);
     law.outline(&unmoved(&zero), &history)
 }
