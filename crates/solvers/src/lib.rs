@@ -1,11 +1,37 @@
 //! Solvers of Trilith: one march over time, interchangeable propagators, one link kernel.
 //!
-//! | solver | space | rule for time |
+//! | solver | coordinates | rule for time |
 //! |---|---|---|
 //! | `fna` | Ritz vectors | exact for loads linear in the step |
 //! | `hht` | all DOFs | HHT-α, one factorisation a step size |
 //! | `ritz-hht` | Ritz vectors | HHT-α |
 //! | `full-newton` | all DOFs | HHT-α, tangent factorised in every iteration |
+//!
+//! The code lies in rooms; each uses rooms above it in this table alone, by what their `mod.rs` lets out. A test of the
+//! workspace reads the table and holds this.
+//!
+//! | room | what is computed there |
+//! |---|---|
+//! | `vector` | sums over vectors |
+//! | `error` | what stops a run before it begins |
+//! | `basis` | Ritz vectors, modes, attachment vectors of massless DOFs, modal damping |
+//! | `structure` | the linear structure in the coordinates of a solver, link map B |
+//! | `kernel` | link forces: f̃ = law(d* − G f̃, v* − H f̃) − k_e d |
+//! | `modal` | modal equations over a step, and the motion inside it |
+//! | `step` | state, propagator contract, one step with its energies and the measures of its error |
+//! | `contacts` | which links are contacts, and what these are to the model |
+//! | `checks` | what is said of a model that is hardly meant so |
+//! | `record` | outputs, energy ledger, extremes, observers |
+//! | `march` | output steps, substeps, error control |
+//! | `fna` | the propagator of FNA |
+//! | `hht` | HHT-α, and full Newton iteration |
+//! | `certificate` | how far outputs are off, estimated beside a run |
+//! | `statics` | equilibrium along a path, initial values of massless directions |
+//! | `run` | cases from start to end, checkpoints, results |
+//! | `together` | several motions of one structure in lock step |
+//! | `lanes` | many analyses side by side, a lane of a vector register each |
+//!
+//! The page on architecture in the guide (`crates/guide/src/architecture.md`) leads through a run and through a step.
 
 mod basis;
 mod certificate;
