@@ -120,7 +120,7 @@ fn is_complete(system: &System, modes: usize) -> bool {
     modes + system.massless.len() >= system.order()
 }
 
-/// C += U diag(rate) Uᵀ: modal damping, see [`damping`](crate::damping).
+/// C += U diag(rate) Uᵀ: modal damping with what it has beyond its modes taken out.
 #[derive(Clone, Debug)]
 pub(crate) struct LowRank {
     pub u: Dense,

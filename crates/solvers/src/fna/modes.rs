@@ -152,7 +152,8 @@ impl Modes {
         self.steps[size].ratio
     }
 
-    /// B Φ (coefficient of s₁ in the given row) Φᵀ Bᵀ of the first coordinates.
+    /// B Φ diag(a) Φᵀ Bᵀ of the first coordinates, a: the coefficient of s₁ in a row of the recurrence. G is that of the
+    /// displacements, H that of the velocities.
     fn compliance_of(&self, recurrence: &Recurrence, row: usize, coordinates: usize) -> Dense {
         let l = self.space.links.len();
         let mut b = Dense::zeros(self.space.order(), l);
@@ -215,7 +216,7 @@ impl Modes {
         ModalStep { from, p: loads, per_dt }
     }
 
-    /// The motion at the end of a step under the pseudo-forces spread last, at both ends.
+    /// The motion at the end of a step under the pseudo-forces spread last, at both ends: s = Φᵀ p − (B Φ)ᵀ f̃₀.
     #[inline]
     pub(crate) fn predict(
         &self,
@@ -241,7 +242,8 @@ impl Modes {
         self.predict_following(now, from, to);
     }
 
-    /// What was predicted, with the pseudo-forces spread last at the end instead.
+    /// What was predicted, with the pseudo-forces spread last at the end instead: s₁ = Φᵀ p₁ − (B Φ)ᵀ f̃₁. Accelerations, and
+    /// the work ∫ s q̇ dt = s₁ q₁ − s₀ q₀ − ṡ ∫q dt.
     #[inline]
     pub(crate) fn complete(
         &self,

@@ -1,4 +1,9 @@
 //! The kept factors of the link equations, one for each rule of a step.
+//!
+//! ```text
+//! J = I + (k − k_e) G + c H        over the active coordinates with tangents that count; the others: Δf̃ = r
+//! C = J⁻¹ (1, −J_rest)             from residuals to corrections; −G C and −H C: how d and ḋ follow
+//! ```
 
 use super::Layout;
 use super::affine::StepKey;

@@ -233,11 +233,13 @@ impl<'a> LinkKernel<'a> {
         scale: &ForceScale,
         out: &mut Converged<'_>,
     ) -> Result<bool, NoEquilibrium> {
+        // r = law(d, ḋ) − k_e d − f̃, and what of it the next predictors may expect.
         self.iterations += 1;
         self.evaluate(affine, from, out);
         if self.iteration == 0 && self.kind == Kernel::Newton {
             out.extrapolation.note(from.extrapolation, affine.key, &self.residual, self.expected);
         }
+        // Converged: |r| ≤ tolerance · largest force.
         let (size, worst) = self.measure(out, scale);
         if size <= 1.0 {
             self.end(from, out);
@@ -253,10 +255,12 @@ impl<'a> LinkKernel<'a> {
             return Err(worst);
         }
         self.followed = false;
+        // Wilson's iteration: f̃ ← f̃ + r = law − k_e d.
         if self.kind == Kernel::FixedPoint {
             self.take();
             return Ok(false);
         }
+        // Line search: another part of the last correction, where it has brought no less residual.
         let before = self.sizes[0];
         let moves = |step: &[f64], way: &mut Vec<f64>| {
             way.clear();
@@ -271,14 +275,15 @@ impl<'a> LinkKernel<'a> {
             self.take();
             return Ok(false);
         }
+        // Newton: J Δf̃ = r, with a new factor of J where the kept one contracts badly.
         let slow = size > CONTRACTS * self.size_before;
         self.size_before = size;
         if self.iteration == 1 {
-            // Nobody looks at the tangents of the first look but who makes a factor.
+            // The tangents of the first evaluation serve a new factor alone.
             if slow || !self.keeps(affine.key) {
                 self.laws.tangents(out.laws.tangents);
             }
-            // Nobody asks how far the first correction goes.
+            // The first correction is made in full.
             let goes = self.go(affine, out.laws.tangents, slow);
             return if goes { Ok(false) } else { Err(self.farthest()) };
         }
@@ -286,6 +291,7 @@ impl<'a> LinkKernel<'a> {
         self.correct(affine, out.laws.tangents, slow);
         let Self { followed, unknowns, correction, residual, search, .. } = self;
         let step = if *followed { unknowns.pseudo_of(correction) } else { residual };
+        // Converged as well: what is left is rounding of a steep law, and the correction changes nothing.
         if size <= ROUNDING && size * largest(step) <= SETTLED * before {
             self.end(from, out);
             return Ok(true);
@@ -315,8 +321,8 @@ impl<'a> LinkKernel<'a> {
         }
     }
 
-    /// The last change of f̃, and the deformations of the active coordinates, which must follow it by
-    /// −G times it; none where they have done so already. The rates that laws look at have followed.
+    /// The last change of f̃, and the deformations of the active coordinates, which must follow it by Δd = −G Δf̃; none where
+    /// they have done so already. The rates of rate-dependent laws have followed: Δḋ = −H Δf̃.
     #[inline]
     pub(crate) fn change(&mut self, h: &Dense) -> Option<(&[f64], &mut [f64])> {
         if self.followed {
@@ -335,7 +341,7 @@ impl<'a> LinkKernel<'a> {
         Some((residual, d))
     }
 
-    /// Deformations and rates of all coordinates.
+    /// Deformations and rates of all coordinates: those of the active ones and, where supports move, what these add.
     #[inline(always)]
     fn deform(&mut self, affine: &Affine<'_>, out: &mut Converged<'_>) {
         self.plain = self.layout.complete && affine.support.is_none();
@@ -368,7 +374,7 @@ impl<'a> LinkKernel<'a> {
         }
     }
 
-    /// Laws and residual at the present deformations.
+    /// Laws and residual r = law(d, ḋ) − k_e d − f̃ at the present deformations.
     fn evaluate(&mut self, affine: &Affine<'_>, from: &Committed<'_>, out: &mut Converged<'_>) {
         self.deform(affine, out);
         let (d, v) = (choose(self.plain, &self.unknowns, out.d), &*out.v);
@@ -403,7 +409,7 @@ impl<'a> LinkKernel<'a> {
         Parts { factor, residual, correction, unknowns }
     }
 
-    /// From the residual to the Newton correction of f̃.
+    /// From the residual to the Newton correction of f̃: Δf̃ = J⁻¹ r.
     fn correct(&mut self, affine: &Affine<'_>, tangents: &Tangents, slow: bool) {
         let Parts { factor, residual, correction, .. } = self.factor(affine, tangents, slow);
         self.followed = factor.correct(residual, correction);

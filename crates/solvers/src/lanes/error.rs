@@ -1,5 +1,5 @@
 //! How far a step made whole and in two halves is apart, lane by lane: the norms of the ordinary
-//! [`march`](crate::march) and of [`apart`](crate::step::apart).
+//! [`march`](crate::march) and of [`Difference`](crate::step::Difference).
 
 use super::plan::{Plan, pick};
 use super::setup::{Adaptive, LaneSetup};

@@ -1,4 +1,8 @@
-//! Coefficients of modal steps.
+//! The recurrence of modal equations over a step of a length.
+//!
+//! ```text
+//! (∫q, q, q̇)₁ = R (q₀, q̇₀, s₀, s₁)        s linear in the step, or average acceleration of some modes
+//! ```
 //!
 //! Shapes of massless directions follow the loads, c q̇ + κ q = s: exactly where the structure damps
 //! them, at the mean rate of the step where it does not. Those that dashpots tie to the modes are unknowns of first
@@ -96,6 +100,7 @@ impl Recurrence {
 
     fn new(structure: &Structure, dt: f64, is_average: impl Fn(usize) -> bool) -> Self {
         let modes = structure.modes;
+        // Modes that damping couples, and what dashpots tie to them: full blocks.
         let coupled = structure.damping.as_ref().map(|all| {
             let both = modes + structure.tied;
             let mut damping = Dense::zeros(both, both);
@@ -105,6 +110,7 @@ impl Recurrence {
             let system = Coupled { modes, omega2: &structure.omega2[..both], damping };
             Box::new(if is_average(0) { system.average(dt) } else { system.exact(dt) })
         });
+        // All others on their own: q̈ + 2ζω q̇ + ω² q = s, or c q̇ + κ q = s of a static shape.
         let mut own: [[Vec<f64>; 4]; 3] = Default::default();
         let first = if coupled.is_some() { modes + structure.tied } else { 0 };
         for i in first..structure.omega2.len() {
@@ -135,7 +141,7 @@ impl Recurrence {
         self.modes.as_ref()
     }
 
-    /// Σ over the four inputs of one row.
+    /// One row of R times (q₀, q̇₀, s₀, s₁): ∫q, q or q̇ at the end.
     pub(crate) fn apply(&self, row: usize, inputs: [&[f64]; 4], y: &mut [f64]) {
         let [a, b, c, d] = &self.own[row];
         let n = a.len();
@@ -150,7 +156,7 @@ impl Recurrence {
         combine([a, b, c, d], inputs, &mut y[first..]);
     }
 
-    /// What a source at the end of the step alone does.
+    /// What s₁ alone does to one row.
     pub(crate) fn answer(&self, row: usize, s: &[f64], y: &mut [f64]) {
         y.fill(0.0);
         self.add_answer(row, s, y);

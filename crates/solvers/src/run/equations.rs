@@ -142,7 +142,7 @@ pub(crate) fn fna_modes(model: &Model, system: &System, loads: &LoadSet, bases: 
     Modes::new(space, engaged)
 }
 
-/// The link side of a motion with this many coordinates; `watched` as [`needs_rates`] says.
+/// The link equations of a motion with this many coordinates; `watched` as [`needs_rates`](crate::record::needs_rates) says.
 pub(crate) fn link_equations<'a>(
     model: &'a Model,
     system: &'a System,

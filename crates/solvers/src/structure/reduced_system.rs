@@ -64,7 +64,7 @@ impl ReducedSystem {
             stiffness,
             modal: modal.map(ModalDamping::less_beyond),
             links: LinkMap::Sparse(links.active.iter().map(|i| links.rows[*i].clone()).collect()),
-            effective_k: effective_k,
+            effective_k,
             forces: Product::new(forces),
             shape: None,
             readers: Dense::zeros(n, 0),
