@@ -1,13 +1,13 @@
 //! The wider structure beside a run, in a thread of its own.
 //!
-//! It moves under the link forces of the run, and what these would answer to it, and gives nothing back, so the run tells it of its steps, many at a time,
-//! and asks at the end what it has found. On two processors the run waits for nothing.
+//! It moves under the link forces of the run, and what these would answer to it, and gives nothing back, so the run reports its steps to it, many at a time,
+//! and reads at the end what it has found. On two processors the run waits for nothing.
 
 use super::shadow::Shadow;
 use crate::step::State;
 use std::sync::mpsc::{Receiver, SyncSender, sync_channel};
 
-/// Steps that are told at a time, and how often more are told before the shadow has come to them.
+/// Steps that are reported at a time, and how often more are reported before the shadow has come to them.
 const AT_A_TIME: usize = 64;
 const AHEAD: usize = 64;
 
@@ -33,7 +33,7 @@ struct Batch {
 pub(crate) struct Reporter {
     batch: Batch,
     to: SyncSender<Batch>,
-    /// True where the shadow asks what links answer.
+    /// True where links answer in the shadow.
     answers: bool,
 }
 
@@ -69,7 +69,7 @@ impl Reporter {
         self.report(Event::Jump(t));
     }
 
-    /// The outputs of the run are to be compared at the step told last.
+    /// The outputs of the run are to be compared at the step reported last.
     pub(crate) fn outputs(&mut self, values: &[f64], state: &State) {
         self.report(Event::Outputs(values.to_vec(), Box::new(state.clone())));
     }
@@ -82,7 +82,7 @@ impl Reporter {
     }
 
     fn send(&mut self) {
-        // Nobody listens any more where the shadow has broken off: that is seen when it is asked.
+        // Nobody listens any more where the shadow has broken off: that is seen at the end.
         let _ = self.to.send(std::mem::take(&mut self.batch));
     }
 }

@@ -9,7 +9,7 @@
 //! ```
 //!
 //! A run and its companion that are both too coarse for a mode agree by chance, or because neither sees what is between
-//! the ends of its steps. δ is looked at between them, as often as the modes ask for.
+//! the ends of its steps. δ is evaluated between them, as often as the modes need.
 //!
 //! A law with a memory ends a step elsewhere where it is led along the motion inside than where the run leads it, by the
 //! ends alone. That stays: its history goes on beside the run, and what its force is away from that of the run at the
@@ -17,8 +17,8 @@
 //! to it, and e knows no links. Where a link is so stiff that it turns the motion within a step, the motion inside says
 //! nothing of its path, and its history is that of the run.
 //!
-//! In a flight, where no link answers, δ is what the loads bend between the ends of a step: a parabola, of which one look
-//! says all, so that the looks of a run last for long flights. An error of 10⁻⁴ of the velocity that is there at the
+//! In a flight, where no link answers, δ is what the loads bend between the ends of a step: a parabola, of which one evaluation
+//! says all, so that the evaluations of a run last for long flights. An error of 10⁻⁴ of the velocity that is there at the
 //! start of one decides when the flight ends.
 //!
 //! Reference: defect as an estimate of the global error \[Zadunaisky 1976; Shampine 2005\].
@@ -36,15 +36,15 @@ use trilith_system::{Laws, LinkBlocks, LoadSet, StepLoads, System};
 
 /// ω Δt of a part up to which a chord of δ is good.
 const SHORT: f64 = 0.78;
-/// Looks into a step, at least and at most.
+/// Evaluations in a step, at least and at most.
 const FEWEST: usize = 4;
 /// The least where no link answers.
 const FEWEST_IN_FLIGHT: usize = 2;
 const MOST: usize = 32;
-/// Looks into all steps of a run, at least; more where modes and links are few: so many, times their number.
+/// Evaluations in all steps of a run, at least; more where modes and links are few: so many, times their number.
 const LOOKS: usize = 1_000;
 const OF_ALL: usize = 64_000;
-/// Segments of the timeline up to which a run is looked at.
+/// Segments of the timeline up to which a run is evaluated between its ends.
 const SEGMENTS: usize = 500;
 /// Stiffness of a link, times how far the structure yields to it in a step, up to which its history goes on beside that
 /// of the run: a force that is off moves the link less than it is off itself.
@@ -232,7 +232,7 @@ impl<'a> Defect<'a> {
         }
     }
 
-    /// The forces of the links beyond those that are told of each flat coordinate, active ones; their history goes on.
+    /// The forces of the links beyond known ones of each flat coordinate, active ones; their history goes on.
     fn evaluate(
         &self,
         (d, v): (&[f64], &[f64]),

@@ -69,7 +69,7 @@ const STILL: f64 = 1e-9;
 /// Share of the largest of its kind that is rounding of an output.
 const ROUNDING: f64 = 1e-12;
 
-/// Steps before the first time of comparison whose ends the shadow is asked about as well.
+/// Steps before the first time of comparison whose ends are compared as well.
 const SETTING_OUT: usize = 500;
 
 /// How far an output may be off, in its unit.
@@ -96,7 +96,7 @@ pub(crate) struct Certificate<'a> {
     kicks: Option<Kicks>,
     samples: Samples<'a>,
     reduction: Vec<f64>,
-    /// Steps before the first time of comparison that it was asked about.
+    /// Steps before the first time of comparison that were compared.
     asked: usize,
     /// What the link equations may leave in the outputs that are link forces: kind of force, and share of the largest.
     left: Vec<Option<(usize, f64)>>,

@@ -18,7 +18,7 @@ impl Modes {
         let n = self.space.order();
         for i in self.structure.undamped.iter().copied() {
             let more = 0.5 * self.size_now().dt * acceleration(from[2 * n + i]);
-            // Links that look at the rate need it now, others as it is at last.
+            // Laws that depend on the rate need it now, others as it is at last.
             to[n + i] = if now.damped[i] {
                 rate_at_end(from[n + i], to[n + i], more)
             } else {

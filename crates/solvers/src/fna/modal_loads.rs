@@ -19,13 +19,13 @@ pub(crate) struct ModalLoads {
     /// True of what laws damp, and of what any link acts on.
     pub(super) damped: Vec<bool>,
     pub(super) linked: Vec<bool>,
-    /// The link coordinates whose rates laws look at, and their rows of B Φ where these are few.
+    /// The link coordinates whose rates laws depend on, and their rows of B Φ where these are few.
     rate_dependent: Vec<usize>,
     rows: Option<Product>,
 }
 
 impl ModalLoads {
-    /// `rate_dependent`: the link coordinates whose rates laws look at, `damped`: those whose forces depend on them.
+    /// `rate_dependent`: the link coordinates whose rates laws depend on, `damped`: those whose forces depend on them.
     pub(crate) fn new(space: &ReducedSystem, rate_dependent: &[usize], damped: &[usize]) -> Self {
         let few = rate_dependent.len() <= Panel::MOST_ROWS;
         let rows = few.then(|| {
@@ -55,7 +55,7 @@ impl ModalLoads {
         }
     }
 
-    /// Rates that laws look at, of velocities of the modes.
+    /// Rates that laws depend on, of velocities of the modes.
     #[inline]
     pub(crate) fn rates(&self, links: &LinkMap, v: &[f64], rates: &mut [f64]) {
         match &self.rows {

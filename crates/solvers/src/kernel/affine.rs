@@ -23,8 +23,8 @@ pub(crate) struct StepKey {
     pub average: u64,
 }
 
-/// What the link equations ask of a prediction: deformations of the active coordinates, and the rates of those that
-/// are `rate_dependent`, one after the other: laws look at them.
+/// What the link equations need of a prediction: deformations of the active coordinates, and the rates of those that
+/// are `rate_dependent`, one after the other: laws depend on them.
 pub(crate) struct Wanted<'a> {
     pub d: &'a mut [f64],
     pub v: &'a mut [f64],
@@ -53,7 +53,7 @@ pub(crate) struct Committed<'a> {
     pub dt: f64,
 }
 
-/// Where the converged values go, flat; `pseudo` is f̃ of the active coordinates. Rates that no law looks at stay as they
+/// Where the converged values go, flat; `pseudo` is f̃ of the active coordinates. Rates that no law depends on stay as they
 /// are.
 pub(crate) struct Converged<'a> {
     pub d: &'a mut [f64],

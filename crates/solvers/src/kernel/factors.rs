@@ -48,7 +48,7 @@ pub(super) struct Equations<'a> {
 
 /// From the residual of all active coordinates to
 enum Correct {
-    /// the corrections of all, and how deformations and looked-at rates follow, for few;
+    /// the corrections of all, and how deformations and these rates follow, for few;
     All(Panel),
     /// the corrections of those that have an equation.
     Own(Product),
@@ -209,7 +209,7 @@ impl Factor {
 
     /// Replaces the residuals of the active coordinates by the corrections; those without an equation stay.
     /// True where the residuals stay and the corrections stand in `space`, with the changes of deformations and of
-    /// looked-at rates, as in a row of [`Unknowns`].
+    /// these rates, as in a row of [`Unknowns`].
     pub fn correct(&self, residual: &mut [f64], space: &mut Vec<f64>) -> bool {
         let own = match &self.correct {
             Correct::Own(own) => own,
@@ -229,7 +229,7 @@ impl Factor {
     }
 }
 
-/// −G C, the rows of −H C that are looked at, and C of all coordinates, as they lie in a row of [`Unknowns`].
+/// −G C, the rows of −H C that laws depend on, and C of all coordinates, as they lie in a row of [`Unknowns`].
 fn with_what_follows(
     equations: &[usize],
     correct: &Dense,

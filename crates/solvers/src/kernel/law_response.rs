@@ -1,8 +1,8 @@
-//! What a law answers when it is asked beside the march.
+//! The response of one law, evaluated beside the march.
 
 use trilith_element::{Energy, Kinematics, Link, Response};
 
-/// Forces, tangents and history of one link, kept so that a question allocates nothing.
+/// Forces, tangents and history of one link, kept so that an evaluation allocates nothing.
 #[derive(Default)]
 pub(crate) struct LawResponse {
     pub f: Vec<f64>,
@@ -12,7 +12,7 @@ pub(crate) struct LawResponse {
 }
 
 impl LawResponse {
-    /// Asks a law at a motion, from a committed history.
+    /// Evaluates a law at a motion, from a committed history.
     pub(crate) fn of(&mut self, law: &dyn Link, at: &Kinematics<'_>, committed: &[f64]) {
         let n = at.d.len();
         let Self { f, k, c, history } = self;

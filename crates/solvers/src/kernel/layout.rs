@@ -9,11 +9,11 @@ pub(crate) struct Layout<'a> {
     pub links: &'a LinkSet,
     /// Effective stiffness of the active coordinates.
     pub effective_k: Vec<f64>,
-    /// Active coordinates of laws that look at rates.
+    /// Active coordinates of rate-dependent laws.
     pub rate_dependent: Vec<usize>,
     /// Active coordinates of laws that a rate alone can hold.
     pub damped: Vec<usize>,
-    /// Active and flat index of those whose laws look at no rates: the [kernel](super::LinkKernel) leaves their rates
+    /// Active and flat index of those whose laws do not depend on rates: the [kernel](super::LinkKernel) leaves their rates
     /// to its caller.
     pub rate_independent: Vec<(usize, usize)>,
     /// Active index of each flat coordinate; none of the fixed ones.
@@ -61,12 +61,12 @@ impl<'a> Layout<'a> {
     }
 }
 
-/// What the link equations move, in one row: deformations of the active coordinates, the rates that laws look at, and
+/// What the link equations move, in one row: deformations of the active coordinates, the rates that laws depend on, and
 /// f̃. A factor of few coordinates moves all of it in one product.
 pub(super) struct Unknowns {
     /// Number of active coordinates.
     n: usize,
-    /// Number of rates that laws look at.
+    /// Number of rates that laws depend on.
     rate_dependent: usize,
     /// The row, with zeros behind it that fill up whole vectors.
     row: Vec<f64>,
@@ -83,7 +83,7 @@ impl Unknowns {
         n + rate_dependent
     }
 
-    /// Deformations, looked-at rates and f̃.
+    /// Deformations, these rates and f̃.
     pub fn parts(&mut self) -> [&mut [f64]; 3] {
         let Self { n, rate_dependent, .. } = *self;
         let (moves, pseudo) = self.row.split_at_mut(Self::place_of_pseudo(n, rate_dependent));
@@ -105,7 +105,7 @@ impl Unknowns {
         &self.row[..self.n]
     }
 
-    /// Rates that laws look at.
+    /// Rates that laws depend on.
     pub fn v(&self) -> &[f64] {
         &self.row[self.n..][..self.rate_dependent]
     }

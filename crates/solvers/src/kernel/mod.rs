@@ -56,7 +56,7 @@ pub(crate) type ForceScale = [f64; 2];
 pub(crate) const ROUNDING: f64 = 1e3;
 /// A correction below this share of the tolerance changes nothing any more.
 pub(crate) const SETTLED: f64 = 1e-4;
-/// Iterations before the first look at what rounding leaves.
+/// Iterations before the first comparison with what rounding leaves.
 pub(crate) const ROUNDING_FROM: usize = 2;
 const NEWTON_ITERATIONS: usize = 60;
 const FIXED_POINT_ITERATIONS: usize = 200;
@@ -73,7 +73,7 @@ pub(crate) struct LinkKernel<'a> {
     laws: StepLaws<'a>,
     layout: Layout<'a>,
     unknowns: Unknowns,
-    /// Blocks of all links but dashpots, and of those whose laws look at rates.
+    /// Blocks of all links but dashpots, and of those whose laws depend on rates.
     blocks: LinkBlocks,
     rate_blocks: LinkBlocks,
     /// Forces that follow from deformations and rates along the tangents, flat.
@@ -179,7 +179,7 @@ impl<'a> LinkKernel<'a> {
     }
 
     /// Solves the link equations of a step at what was [wanted](Self::wanted), predicted with these pseudo-forces:
-    /// f̃ = law(d* − G f̃, v* − H f̃) − k_e d. The rates of coordinates whose law does not look at them are left to the
+    /// f̃ = law(d* − G f̃, v* − H f̃) − k_e d. The rates of coordinates whose law does not depend on them are left to the
     /// caller.
     ///
     /// Motions in lock step, whose products with G are made together, make the same calls one by one:
@@ -301,7 +301,7 @@ impl<'a> LinkKernel<'a> {
         Ok(false)
     }
 
-    /// The laws end the step where they were asked last.
+    /// The laws end the step where they were evaluated last.
     #[inline]
     fn end(&mut self, from: &Committed<'_>, out: &mut Converged<'_>) {
         if self.plain {

@@ -187,7 +187,7 @@ fn closure(
     (missing.abs(), CLOSURE * dissipated.abs() + 10.0 * tolerance * tolerance * energy)
 }
 
-/// What is told about every accepted substep: end time, state, energies.
+/// What is reported of every accepted substep: end time, state, energies.
 pub(crate) type Accepted<'a> = dyn FnMut(f64, &State, &StepEnergy) -> f64 + 'a;
 
 impl<'a> March<'a> {

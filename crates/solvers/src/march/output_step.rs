@@ -16,7 +16,7 @@ pub(crate) struct Moving {
     pub ledger: Ledger,
 }
 
-/// Which moment of a run is told of.
+/// Which moment of a run is reported.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum Moment {
     /// Behind a jump of the loads.
@@ -25,7 +25,7 @@ pub(crate) enum Moment {
     Substep(Segment),
 }
 
-/// Told of the moments of a run, their times and states.
+/// Receives the moments of a run, their times and states.
 pub(super) type Report<'a> = dyn FnMut(Moment, f64, &State, &Ledger) + 'a;
 
 /// Steps that are made of a segment of the timeline at least.

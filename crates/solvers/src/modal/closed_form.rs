@@ -81,7 +81,7 @@ impl ClosedForm {
         row.filter(|(_, b)| *b != 0.0).map(share).sum()
     }
 
-    /// Leads a motion over a part as long as those that [`inside`](Self::inside) looked at last, under what drives it at
+    /// Leads a motion over a part as long as those that [`inside`](Self::inside) evaluated last, under what drives it at
     /// both ends of the part.
     pub(crate) fn go_on(&self, motion: &mut Vec<f64>, [source0, source1]: [&[f64]; 2]) {
         let Some((_, recurrence)) = self.recurrences.last() else { return };

@@ -2,8 +2,8 @@
 //!
 //! Extremes between two moments are those of the cubic through values and rates. That is good for a swing while
 //! the step is short beside its period, (ω Δt)⁴/384 of its amplitude; beyond a period it is nonsense. FNA has no
-//! other reason to shorten its steps where nothing but the structure moves, so outputs are looked at inside a step
-//! as often as the modes ask for that swing visibly there. The motion is known in closed form: no step is
+//! other reason to shorten its steps where nothing but the structure moves, so outputs are evaluated inside a step
+//! as often as the modes need that swing visibly there. The motion is known in closed form: no step is
 //! made for it.
 
 use super::outputs::Outputs;
@@ -21,10 +21,10 @@ const ROUNDING: f64 = 1e-9;
 /// Lengths of steps that differ by less than this share are one, and lengths that are kept at most.
 const SAME: f64 = 1e-9;
 const KEPT: usize = 16;
-/// Looks inside a step at most, as a power of two.
+/// Evaluations inside a step at most, as a power of two.
 const MOST: u32 = 10;
 
-/// Looks at outputs inside the steps of FNA.
+/// Evaluates outputs inside the steps of FNA.
 pub(super) struct Inside {
     form: ClosedForm,
     fastest: f64,
@@ -32,7 +32,7 @@ pub(super) struct Inside {
     from: Vec<f64>,
     /// What outputs take from each mode, by displacement, velocity and acceleration.
     shares: Vec<[Vec<f64>; 3]>,
-    /// Swing of each mode in the step looked at last, and what outputs miss of it in steps of some lengths.
+    /// Swing of each mode in the step evaluated last, and what outputs miss of it in steps of some lengths.
     swing: Vec<f64>,
     missed: Vec<(f64, Vec<[Vec<f64>; 2]>)>,
     /// Largest value of each output so far, and after them the largest motion.
@@ -74,7 +74,7 @@ impl Inside {
         }
     }
 
-    /// Parts into which a step must be divided for a look at the outputs, 1 where its ends will do; and whether
+    /// Parts into which a step must be divided for an evaluation of the outputs, 1 where its ends will do; and whether
     /// cubics are good between these.
     fn parts(&mut self, to: &[f64], length: f64, values: &[f64]) -> (usize, bool) {
         let nothing = ROUNDING * self.largest.last().copied().unwrap_or(0.0);

@@ -90,7 +90,7 @@ pub(crate) struct Outputs {
     stretch: Vec<Vec<(usize, f64)>>,
     prescribed: usize,
     order: usize,
-    /// True where an output asks for moving supports, or for the acceleration of the base.
+    /// True where an output needs moving supports, or for the acceleration of the base.
     supported: bool,
     absolute: bool,
 }
@@ -211,7 +211,7 @@ pub(crate) struct Now<'a> {
     state: &'a State,
     /// Displacements, velocities and accelerations.
     motion: [&'a [f64]; 3],
-    /// Those of supports that outputs ask for; mostly none, which then take no room.
+    /// Those of supports that outputs need; mostly none, which then take no room.
     support: Option<Box<[Vec<f64>; 3]>>,
     /// Acceleration of the base.
     base: [f64; 3],

@@ -40,7 +40,7 @@ pub(crate) enum Row {
 pub(super) type Split = (Vec<(usize, f64)>, Vec<(usize, f64)>);
 
 impl Row {
-    /// True where it asks for moving supports.
+    /// True where it needs moving supports.
     pub(super) fn is_supported(&self) -> bool {
         match self {
             Self::Nodal { support, .. } => !support.is_empty(),

@@ -73,7 +73,7 @@ pub(crate) struct Viewer<'a, 'b> {
     rates: Vec<f64>,
     /// Those shown before.
     before: (Vec<f64>, Vec<f64>),
-    /// True where an observer looks at them.
+    /// True where an observer needs them.
     rated: bool,
     /// Looks inside steps, where they may be long beside what swings.
     inside: Option<Inside>,
@@ -87,7 +87,7 @@ pub(crate) struct Viewer<'a, 'b> {
     pressed: Pressed,
     /// Bodies that are or were in each other.
     overlaps: Overlaps<'a>,
-    /// Makes the base shear, where an observer looks at it.
+    /// Makes the base shear, where an observer needs it.
     shear: Option<base_shear::Rows>,
     /// The base shear of the state last shown, N.
     base_shear: [f64; 2],
@@ -96,7 +96,7 @@ pub(crate) struct Viewer<'a, 'b> {
     observers: &'a mut [&'b mut dyn Observer],
 }
 
-/// Links that are looked at beside the outputs.
+/// Links that are shown beside the outputs.
 struct Seen<'a> {
     /// Those with contacts.
     touching: Vec<(&'a dyn Link, &'a LinkInstance)>,
@@ -121,7 +121,7 @@ impl<'a> Seen<'a> {
     }
 }
 
-/// True where something beside the laws may look at rates of deformation; `wanted`: whether an observer wants those
+/// True where something beside the laws may need rates of deformation; `wanted`: whether an observer wants those
 /// of outputs.
 pub(crate) fn needs_rates(model: &Model, system: &System, wanted: bool) -> bool {
     let of_links = |o: &Output| matches!(o.quantity, Quantity::LinkDeformation { .. });

@@ -36,7 +36,7 @@ pub struct RunOptions<'a> {
     pub step_errors: bool,
     /// Continue the case from where an earlier run stopped.
     pub from: Option<EndState>,
-    /// Told the finished share of the run, 0 … 1.
+    /// Receives the finished share of the run, 0 … 1.
     pub progress: Option<&'a mut dyn FnMut(f64)>,
     /// Stop at the next output time once this is true; a case that is continued is not begun then.
     pub interrupt: Option<&'a AtomicBool>,

@@ -21,7 +21,7 @@ pub(super) struct Equations<'a> {
     pub loads: &'a LoadSet,
     pub bases: Option<&'a Bases>,
     pub damping: Option<&'a ModalDamping>,
-    /// Whether somebody looks at rates, as [`needs_rates`](crate::record::needs_rates) says.
+    /// Whether somebody needs rates, as [`needs_rates`](crate::record::needs_rates) says.
     pub watched: bool,
 }
 

@@ -23,7 +23,7 @@ pub(super) struct Course<'a> {
 pub(super) struct Watch<'w, 'a, 'b, 'c, 'p> {
     pub viewer: &'w mut Viewer<'a, 'b>,
     pub certificate: Option<&'w mut Certificate<'c>>,
-    /// Told the finished share of the run.
+    /// Receives the finished share of the run.
     pub progress: Option<&'p mut dyn FnMut(f64)>,
     pub interrupt: Option<&'p AtomicBool>,
 }

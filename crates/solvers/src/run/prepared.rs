@@ -87,7 +87,7 @@ impl<'a> Prepared<'a> {
         })
     }
 
-    /// What its motion obeys; `watched`: whether somebody looks at rates.
+    /// What its motion obeys; `watched`: whether somebody needs rates.
     pub(super) fn equations(&self, watched: bool) -> Equations<'_> {
         Equations {
             model: self.model,

@@ -28,13 +28,13 @@ pub(crate) struct LinkEquations<'a> {
     effective: Vec<(usize, f64)>,
     /// True where supports move links.
     moving: bool,
-    /// True where outputs or the view of contacts may look at rates that no law looks at.
+    /// True where outputs or the view of contacts may need rates that no law depends on.
     watched: bool,
 }
 
 impl<'a> LinkEquations<'a> {
-    /// `order`: number of coordinates of the solver; `watched`: whether somebody may look at rates that no law looks
-    /// at.
+    /// `order`: number of coordinates of the solver; `watched`: whether somebody may need rates that no law depends
+    /// on.
     pub(crate) fn new(
         model: &'a Model,
         system: &'a System,
@@ -190,14 +190,14 @@ impl<'a> LinkEquations<'a> {
     }
 
     /// Where the rates of the active coordinates go once the motion is complete, if the laws left some open and
-    /// somebody looks at them; else those stay zero.
+    /// somebody needs them; else those stay zero.
     #[inline]
     pub(crate) fn open_rates(&mut self) -> Option<&mut [f64]> {
         (self.watched && !self.kernel.layout().rate_independent.is_empty())
             .then_some(&mut self.rates)
     }
 
-    /// Rates of a state that was made while nobody looked at them; `t` is its time, s.
+    /// Rates of a state that was made while nobody needed them; `t` is its time, s.
     pub(crate) fn recall_rates(&mut self, space: &ReducedSystem, t: f64, state: &mut State) {
         let Some(rates) = self.open_rates() else { return };
         let n = space.order();

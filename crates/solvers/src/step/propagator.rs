@@ -37,7 +37,7 @@ pub(crate) trait Propagator {
     /// Number of factorisations of structure matrices so far.
     fn factorizations(&self) -> usize;
 
-    /// Says of which link coordinates laws look at rates, those of every [prediction](Self::predict) to come, and
+    /// Says of which link coordinates laws depend on rates, those of every [prediction](Self::predict) to come, and
     /// which ones they damp.
     fn set_rates(&mut self, _rated: &[usize], _damped: &[usize]) -> Result<(), SolveError> {
         Ok(())

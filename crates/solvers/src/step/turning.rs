@@ -1,15 +1,15 @@
-//! Where the motion of a link turns inside a step: its law is asked there.
+//! Where the motion of a link turns inside a step: its law is evaluated there.
 //!
 //! A law sees the ends of a step. A friction contact that comes to rest and slips back within one has moved
 //! forward on the whole, and its law tells the force of slip forward; two halves say the same where it turns in the
-//! second. So a step at whose end a deformation runs against the way it made is looked at again:
+//! second. So a step at whose end a deformation runs against the way it made is evaluated again:
 //!
 //! ```text
 //! d(s) = d₀ + v₀ s + (v₁ − v₀) s²/(2 Δt)      v₀ = 2 (d₁ − d₀)/Δt − v₁      it turns at s = Δt − τ
 //! τ = Δt |v₁| / (|v₀| + |v₁|)
 //! ```
 //!
-//! The law is led from the start to the turning point and from there to the end. What its forces are away from
+//! The law goes from the start to the turning point and from there to the end. What its forces are away from
 //! those of the step, at the end or, beyond the tangents of the end, at the turning point, has acted for τ. That
 //! impulse p = δf τ is an error of the velocity; its energy is ½ p²/m, with the mass 1/m = 2 Hᵢᵢ/Δt that the step
 //! itself shows there. Beyond the step, a force that is off at its end stays so until the link slips again: the energy
@@ -29,7 +29,7 @@ pub(crate) struct Turning {
     there: LawResponse,
     after: LawResponse,
     apart: Vec<f64>,
-    /// Largest force, of translations and of rotations, that the last look found off at the end of a step, N and N·m.
+    /// Largest force, of translations and of rotations, that the last evaluation found off at the end of a step, N and N·m.
     pub behind: ForceScale,
 }
 

@@ -1,8 +1,8 @@
 //! What vibrations do to links inside the steps of FNA.
 //!
-//! A step is as long as it likes for the structure: modes are exact. Links are asked at its ends only. Where a mode
+//! A step is as long as it likes for the structure: modes are exact. Links are evaluated at its ends only. Where a mode
 //! swings faster than the steps, link forces that follow it are anybody's guess between them, and a step of about a
-//! whole number of periods looks smooth, in one as in halves. So links are asked inside:
+//! whole number of periods looks smooth, in one as in halves. So links are evaluated inside:
 //!
 //! ```text
 //! A_j = |q − s/ω², (q̇ − ṡ/ω²)/ω|    swing of mode j about what moves it slowly, of energy ½ ω_j² A_j², at either end
@@ -22,7 +22,7 @@ use trilith_system::{Laws, LinkInstance, LinkSet};
 
 /// ω Δt up to which the ends of a step show how a mode swings.
 const SHORT: f64 = 0.78;
-/// Looks inside a step, at least and at most; an odd number, which no period divides.
+/// Evaluations inside a step, at least and at most; an odd number, which no period divides.
 const FEWEST: usize = 5;
 const MOST: usize = 31;
 /// Share of the energy of all that swings below which a mode need not be followed.
@@ -45,7 +45,7 @@ pub(super) struct Made<'a> {
     pub dt: f64,
 }
 
-/// Looks at links inside the steps of FNA.
+/// Evaluates links inside the steps of FNA.
 pub(super) struct Vibration {
     form: ClosedForm,
     fastest: f64,

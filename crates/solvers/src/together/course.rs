@@ -155,7 +155,7 @@ impl<'a, 'b> Course<'a, 'b> {
         );
     }
 
-    /// Displacements as predicted, and where those of the links go; rates that laws look at are put in place.
+    /// Displacements as predicted, and where those of the links go; rates that laws depend on are put in place.
     pub(super) fn predicted(&mut self, modes: &Modes) -> (&[f64], &mut [f64]) {
         let m = modes.space.order();
         let (displacement, rest) = self.next.motion.split_at(m);

@@ -47,12 +47,12 @@ pub(crate) struct Shadow<'a> {
     state: State,
     memory: Memory<'a>,
     values: Vec<f64>,
-    /// Tangents told last, and the largest stiffness of the active link coordinates so far.
+    /// Tangents reported last, and the largest stiffness of the active link coordinates so far.
     tangents: Tangents,
     stiffest: Vec<f64>,
 }
 
-/// What is told of the end of a step of the run: pseudo-forces of the active link coordinates; deformations, rates, forces
+/// What is reported of the end of a step of the run: pseudo-forces of the active link coordinates; deformations, rates, forces
 /// and tangents, flat, where links answer, else nothing.
 struct Report<'a> {
     pseudo: &'a [f64],
@@ -64,7 +64,7 @@ struct Report<'a> {
 }
 
 impl<'a> Report<'a> {
-    /// One after the other, as they were told.
+    /// One after the other, as they were reported.
     fn of(
         report: &'a [f64],
         active: usize,
@@ -122,12 +122,12 @@ impl<'a> Shadow<'a> {
         }
     }
 
-    /// True where it asks what links answer.
+    /// True where links answer in it.
     pub(crate) fn answers(&self) -> bool {
         self.pseudo.len() <= ANSWERING
     }
 
-    /// Number of values that a step is told by: pseudo-forces, and where links answer, deformations, rates, forces and
+    /// Number of values that a step is reported by: pseudo-forces, and where links answer, deformations, rates, forces and
     /// tangents.
     pub(crate) fn report_len(&self) -> usize {
         let answers = 3 * self.system.links.len() + self.tangents.k.len() + self.tangents.c.len();
@@ -141,7 +141,7 @@ impl<'a> Shadow<'a> {
         }
     }
 
-    /// Follows the run over an accepted step to a time, s, of whose end this is told.
+    /// Follows the run over an accepted step to a time, s, of whose end this is the report.
     pub(crate) fn follow(&mut self, t: f64, report: &[f64]) {
         let answers = self.answers();
         let run = Report::of(report, self.pseudo.len(), answers, self.system, &self.tangents);
