@@ -161,6 +161,61 @@ fn every_crate_of_the_tree_is_a_member() {
     }
 }
 
+/// Names in the first column of the table of rooms in the documentation of a crate.
+fn rooms(documentation: &str) -> Vec<&str> {
+    let lines = documentation.lines().skip_while(|l| !l.starts_with("//! | room |"));
+    let rows = lines.skip(2).take_while(|l| l.starts_with("//! |"));
+    rows.filter_map(|l| l.split('`').nth(1)).collect()
+}
+
+/// Files of Rust in a folder and below.
+fn sources(folder: &Path) -> Vec<PathBuf> {
+    let mut found = Vec::new();
+    for entry in std::fs::read_dir(folder).unwrap() {
+        let path = entry.unwrap().path();
+        if path.is_dir() {
+            found.extend(sources(&path));
+        } else if path.extension().is_some_and(|e| e == "rs") {
+            found.push(path);
+        }
+    }
+    found
+}
+
+/// Names that a source takes from the root of its crate, comments aside.
+fn taken_from_root(source: &str) -> Vec<String> {
+    let code = source.lines().filter(|l| !l.trim_start().starts_with("//"));
+    let paths = code.flat_map(|l| l.split("crate::").skip(1));
+    let letters = |c: char| c.is_ascii_alphanumeric() || c == '_';
+    paths.map(|rest| rest.chars().take_while(|c| letters(*c)).collect()).collect()
+}
+
+#[test]
+fn rooms_of_the_solvers_depend_one_way() {
+    let source = root().join("crates/solvers/src");
+    let documentation = text("crates/solvers/src/lib.rs");
+    let rooms = rooms(&documentation);
+    assert!(rooms.len() > 10, "{rooms:?}");
+    for path in sources(&source) {
+        let inside = path.strip_prefix(&source).unwrap();
+        let first = inside.iter().next().unwrap().to_string_lossy();
+        let own = first.trim_end_matches(".rs");
+        if own == "lib" {
+            continue;
+        }
+        let place = |name: &str| rooms.iter().position(|room| *room == name);
+        let here = place(own).unwrap_or_else(|| panic!("{own} is not in the table of rooms"));
+        for name in taken_from_root(&std::fs::read_to_string(&path).unwrap()) {
+            // Types and functions that the crate offers are in no room.
+            if name.starts_with(char::is_uppercase) {
+                continue;
+            }
+            let there = place(&name).unwrap_or_else(|| panic!("{}: {name}?", inside.display()));
+            assert!(there <= here, "{}: {own} must not use {name}", inside.display());
+        }
+    }
+}
+
 /// Paths of a tree drawn by indentation or with `├──`, comments after two blanks.
 fn tree(lines: &[&str]) -> Vec<PathBuf> {
     let mut stack: Vec<(usize, PathBuf)> = Vec::new();

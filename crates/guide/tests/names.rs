@@ -4,6 +4,7 @@ mod common;
 
 use common::{book, root, trilith_in};
 use std::collections::BTreeSet;
+use std::path::Path;
 use trilith::model::schema::{self, Takes};
 
 fn help(arguments: &[&str]) -> String {
@@ -174,4 +175,59 @@ fn every_kind_and_field_is_there() {
         }
     }
     assert!(wrong.is_empty(), "no such kind or field:\n{}", wrong.join("\n"));
+}
+
+/// Rust sources in a folder and below.
+fn sources(folder: &Path) -> Vec<String> {
+    let mut all = Vec::new();
+    for entry in std::fs::read_dir(folder).unwrap() {
+        let path = entry.unwrap().path();
+        if path.is_dir() {
+            all.extend(sources(&path));
+        } else if path.extension().is_some_and(|e| e == "rs") {
+            all.push(std::fs::read_to_string(path).unwrap());
+        }
+    }
+    all
+}
+
+/// True where a source defines an item of this name.
+fn defines(source: &str, name: &str) -> bool {
+    ["struct", "enum", "trait", "fn", "type", "const", "mod"].iter().any(|kind| {
+        source.match_indices(&format!("{kind} {name}")).any(|(at, found)| {
+            let next = source[at + found.len()..].chars().next();
+            !next.is_some_and(|c| c.is_ascii_alphanumeric() || c == '_')
+        })
+    })
+}
+
+#[test]
+fn every_name_and_path_of_the_architecture_is_in_the_code() {
+    let book = book();
+    let page = book.iter().find(|p| p.name == "architecture.md").expect("a page on the code");
+    let (mut names, mut paths, mut wrong) = (0, 0, Vec::new());
+    for word in &page.words {
+        if let Some((place, name)) = word.split_once("::") {
+            let room = root().join("crates/solvers/src").join(place);
+            let package = root().join("crates").join(place).join("src");
+            let file = room.with_extension("rs");
+            let texts = match (room.is_dir(), file.is_file()) {
+                (true, _) => sources(&room),
+                (_, true) => vec![std::fs::read_to_string(file).unwrap()],
+                _ if package.is_dir() => sources(&package),
+                _ => Vec::new(),
+            };
+            if place != "room" && !texts.iter().any(|text| defines(text, name)) {
+                wrong.push(word.clone());
+            }
+            names += 1;
+        } else if word.contains('/') {
+            if !word.ends_with("/room") && !root().join(word).exists() {
+                wrong.push(word.clone());
+            }
+            paths += 1;
+        }
+    }
+    assert!(wrong.is_empty(), "not in the code: {wrong:?}");
+    assert!(names > 30 && paths > 15, "only {names} names and {paths} paths");
 }

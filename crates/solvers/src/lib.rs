@@ -1,88 +1,69 @@
 //! Solvers of Trilith: one march over time, interchangeable propagators, one link kernel.
 //!
-//! | solver | space | rule for time |
+//! | solver | coordinates | rule for time |
 //! |---|---|---|
 //! | `fna` | Ritz vectors | exact for loads linear in the step |
 //! | `hht` | all DOFs | HHT-α, one factorisation a step size |
 //! | `ritz-hht` | Ritz vectors | HHT-α |
 //! | `full-newton` | all DOFs | HHT-α, tangent factorised in every iteration |
+//!
+//! The code lies in rooms; each uses rooms above it in this table alone, by what their `mod.rs` lets out. A test of the
+//! workspace reads the table and holds this.
+//!
+//! | room | what is computed there |
+//! |---|---|
+//! | `vector` | sums over vectors |
+//! | `error` | what stops a run before it begins |
+//! | `basis` | Ritz vectors, modes, attachment vectors of massless DOFs, modal damping |
+//! | `structure` | the linear structure in the coordinates of a solver, link map B |
+//! | `kernel` | link forces: f̃ = law(d* − G f̃, v* − H f̃) − k_e d |
+//! | `modal` | modal equations over a step, and the motion inside it |
+//! | `step` | state, propagator contract, one step with its energies and the measures of its error |
+//! | `contacts` | which links are contacts, and what these are to the model |
+//! | `checks` | what is said of a model that is hardly meant so |
+//! | `record` | outputs, energy ledger, extremes, observers |
+//! | `march` | output steps, substeps, error control |
+//! | `fna` | the propagator of FNA |
+//! | `hht` | HHT-α, and full Newton iteration |
+//! | `certificate` | how far outputs are off, estimated beside a run |
+//! | `statics` | equilibrium along a path, initial values of massless directions |
+//! | `run` | cases from start to end, checkpoints, results |
+//! | `together` | several motions of one structure in lock step |
+//! | `lanes` | many analyses side by side, a lane of a vector register each |
+//!
+//! The page on architecture in the guide (`crates/guide/src/architecture.md`) leads through a run and through a step.
 
-mod answer;
-mod apart;
-mod aside;
-mod balance;
-mod base_shear;
 mod basis;
-mod bearings;
-mod case;
 mod certificate;
-mod clock;
-mod companion;
-mod condensation;
-mod contact_mode;
-mod contact_role;
-mod damping;
-mod defect;
-mod drag;
-mod dynamic;
-mod equations;
+mod checks;
+mod contacts;
 mod error;
-mod followers;
-mod full_newton;
+mod fna;
 mod hht;
-mod imbalance;
-mod inside;
-mod joints;
 mod kernel;
-mod kicks;
 pub mod lanes;
-mod ledger;
-mod link_map;
-mod link_side;
 mod march;
-mod massless;
 mod modal;
-mod observe;
-mod output_step;
-mod outputs;
-mod overlap;
-mod p_delta;
-mod peak;
-mod plausible;
-mod products;
-mod propagator;
-mod samples;
-mod shadow;
-mod shapes;
-mod single_mode;
-mod space;
-mod span;
-mod start;
+mod record;
+mod run;
 mod statics;
-mod stepper;
-mod stops;
-mod timeline;
+mod step;
+mod structure;
 mod together;
-mod touches;
-mod turning;
 mod vector;
-mod vibration;
-mod view;
 
-pub use balance::EnergyBalance;
-pub use base_shear::{BaseShear, BaseShearSummary};
-pub use bearings::BearingSummary;
-pub use case::{EndState, RunOptions, SoFar, modes, run};
+pub use basis::{Adequacy, BasisReport, ModeShape};
 pub use certificate::OutputError;
-pub use contact_mode::{ContactMemory, ContactMode, ContactSummary};
+pub use checks::of_model as warnings;
+pub use contacts::{BearingSummary, StopSummary};
 pub use error::SolveError;
-pub use observe::{
-    Adequacy, BasisReport, CaseResult, EnergyTotals, LinkEnergy, ModeShape, Observer, Sample,
-    Shape, StartEnergy, Status, Work,
+pub use record::{
+    BaseShear, BaseShearSummary, ContactMemory, ContactMode, ContactSummary, EnergyBalance,
+    EnergyTotals, LinkEnergy, Observer, Peak, Sample, Shape, StartEnergy,
 };
-pub use p_delta::assemble;
-pub use peak::Peak;
-pub use plausible::{of_model as warnings, of_outputs as warnings_of_outputs};
-pub use stepper::State;
-pub use stops::StopSummary;
+pub use run::{
+    CaseResult, EndState, RunOptions, SoFar, Status, Work, assemble, modes,
+    of_outputs as warnings_of_outputs, run,
+};
+pub use step::State;
 pub use together::{Member, run_together};

@@ -1,4 +1,7 @@
-//! The basis of FNA: load-dependent Ritz vectors, or eigenvectors, with a check of adequacy.
+//! The reduced basis: Ritz vectors or eigenvectors, attachment vectors of massless DOFs, and modal damping.
+//!
+//! Vectors and modes in their span, what they hold of masses, loads and links, and the damping that acts on them.
+//! May use no other room: it knows the assembled system alone.
 //!
 //! ```text
 //! K̂ x₁ = p        K̂ xᵢ₊₁ = M xᵢ, each M-orthonormalised twice        (p: every load direction)
@@ -7,28 +10,35 @@
 //!
 //! The ground recursion carries the structure, one static vector for each link coordinate carries the
 //! local flexibility; what carries next to no mass of its own is no mode, but a static shape beside the
-//! modes (see `massless`). K̂ holds small dummies
+//! modes (see `attachment`). K̂ holds small effective stiffnesses
 //! of the links (and a mass shift where the structure can move freely), so that it is regular; the span
-//! is then turned into modes of the structure itself, without the automatic dummies, so these never
+//! is then turned into modes of the structure itself, without the automatic effective stiffnesses, so these never
 //! enter the dynamics. ω = 0 is an ordinary mode.
 //!
 //! Reference: \[Wilson 2002, ch. 14 and 18\].
 
+mod attachment;
+mod condensation;
+mod damping;
+mod drag;
+mod orthonormal;
+mod recursion;
 mod report;
 mod ritz;
+mod shapes;
 mod solvable;
 
-use crate::condensation::Condensation;
-use crate::damping::is_modal;
+pub(crate) use damping::{LowRank, ModalDamping, is_modal, modal_damping};
+pub(crate) use drag::follow_supports;
+pub use report::{Adequacy, BasisReport, ModeShape};
+pub(crate) use shapes::{Shapes, expand};
+
 use crate::error::SolveError;
-use crate::massless::StaticShapes;
-use crate::observe::BasisReport;
-use crate::shapes::Shapes;
-use crate::start::Initial;
+use attachment::AttachmentVectors;
+use condensation::Condensation;
 use report::report;
 use ritz::{Enriched, enriched};
-pub(crate) use solvable::{PIVOT, held};
-use solvable::{Solvable, solvable};
+use solvable::{PIVOT, Solvable, held, solvable};
 use std::sync::Arc;
 use trilith_linalg::{Sparse, all_modes, symmetric_eigen};
 use trilith_model::{Basis, BasisKind, Model};
@@ -46,11 +56,11 @@ const DOUBT: f64 = 1e4;
 /// M-orthonormal modes in the span of a basis.
 #[derive(Clone, Debug)]
 pub(crate) struct RitzBasis {
-    /// The modes, and after them shapes of directions without mass.
+    /// The modes, and after them shapes of massless directions.
     pub shapes: Arc<Shapes>,
     pub omega2: Vec<f64>,
     /// The latter.
-    pub statics: StaticShapes,
+    pub statics: AttachmentVectors,
 }
 
 impl RitzBasis {
@@ -67,7 +77,7 @@ impl RitzBasis {
 
 /// A basis in two forms of one span.
 pub(crate) struct Bases {
-    /// Modes of the structure with the user's dummies: the coordinates of FNA.
+    /// Modes of the structure with the user's effective stiffnesses: the coordinates of FNA.
     pub stepping: Arc<RitzBasis>,
     /// Modes of the structure alone: what modal damping acts on.
     pub structural: Arc<RitzBasis>,
@@ -88,15 +98,14 @@ pub(crate) struct Demands {
 }
 
 impl Demands {
-    /// Of loads and a start. The force that a displacement at the start asks for is a load as well: it moves what
+    /// Of loads, and of a displacement beyond equilibrium and a velocity at the start. The force that a displacement at the start asks for is a load as well: it moves what
     /// dashpots hold.
     pub(crate) fn new(
         system: &System,
         mut loads: Vec<(String, Vec<f64>)>,
-        initial: &Initial,
+        [displacement, velocity]: [&Vec<f64>; 2],
     ) -> Self {
         let moves = |u: &&Vec<f64>| u.iter().any(|x| *x != 0.0);
-        let Initial { beyond_equilibrium: displacement, velocity, .. } = initial;
         if moves(&displacement) && !system.massless.is_empty() {
             let force = system.stiffness_with(&system.links.effective).mul(displacement);
             loads.push(("initial displacement".into(), force));
@@ -147,7 +156,7 @@ pub(crate) fn build(
     }
     // The factor is not needed any longer, and weighs as much as many vectors.
     let exact = hat.flexibility(system, loads, known.or((!adequacy).then(Vec::new)));
-    let Solvable { dummies: held, shift, factor, .. } = hat;
+    let Solvable { effective: held, shift, factor, .. } = hat;
     drop(factor);
     let forms = Forms::new(system, loads)?;
     let mut bases = forms.of(system, span, true)?;
@@ -162,24 +171,24 @@ pub(crate) fn build(
 /// A stiffness whose modes a span is turned into, and the static shapes for it.
 struct Form {
     stiffness: Sparse,
-    dummies: Vec<f64>,
-    statics: StaticShapes,
+    effective: Vec<f64>,
+    statics: AttachmentVectors,
 }
 
 impl Form {
     fn new(
         system: &System,
-        dummies: Vec<f64>,
+        effective: Vec<f64>,
         loads: &[(String, Vec<f64>)],
     ) -> Result<Self, SolveError> {
-        let stiffness = system.stiffness_with(&dummies);
-        let statics = StaticShapes::new(system, &stiffness, loads)?;
-        Ok(Self { stiffness, dummies, statics })
+        let stiffness = system.stiffness_with(&effective);
+        let statics = AttachmentVectors::new(system, &stiffness, loads)?;
+        Ok(Self { stiffness, effective, statics })
     }
 
     /// Turns a span of M-orthonormal vectors into modes, with the static shapes beside them.
     fn modes_in(&self, system: &System, span: Shapes) -> Result<RitzBasis, SolveError> {
-        let Self { stiffness: k, dummies, statics } = self;
+        let Self { stiffness: k, effective, statics } = self;
         let span = statics.out_of(k, span);
         let (mut omega2, vectors) = graded_modes(span, k)?;
         // Most modes need no closer look.
@@ -196,13 +205,13 @@ impl Form {
                 *w = 0.0;
             }
         }
-        let statics = statics.beside(system, k, dummies, &vectors);
+        let statics = statics.beside(system, k, effective, &vectors);
         let shapes = Arc::new(vectors.beside(&statics.psi));
         Ok(RitzBasis { shapes, omega2, statics })
     }
 }
 
-/// The structure with the user's dummies, and without where there are any.
+/// The structure with the user's effective stiffnesses, and without where there are any.
 struct Forms {
     stepping: Form,
     structural: Option<Form>,
@@ -210,14 +219,14 @@ struct Forms {
 
 impl Forms {
     fn new(system: &System, loads: &[(String, Vec<f64>)]) -> Result<Self, SolveError> {
-        let dummies = &system.links.effective;
-        let alone = dummies.iter().all(|k| *k == 0.0);
-        let structural = || Form::new(system, vec![0.0; dummies.len()], loads);
+        let effective = &system.links.effective;
+        let alone = effective.iter().all(|k| *k == 0.0);
+        let structural = || Form::new(system, vec![0.0; effective.len()], loads);
         let structural = if alone { None } else { Some(structural()?) };
-        Ok(Self { stepping: Form::new(system, dummies.clone(), loads)?, structural })
+        Ok(Self { stepping: Form::new(system, effective.clone(), loads)?, structural })
     }
 
-    /// A span in them; one without dummies where it is wanted, else both are the same.
+    /// A span in them; one without effective stiffnesses where it is wanted, else both are the same.
     fn of(&self, system: &System, span: Shapes, structural: bool) -> Result<Bases, SolveError> {
         let alone = self.structural.as_ref().filter(|_| structural);
         let alone = alone.map(|form| form.modes_in(system, span.clone())).transpose()?;

@@ -2,8 +2,8 @@
 
 use super::solvable::Flexibility;
 use super::{Bases, RitzBasis};
-use crate::observe::{Adequacy, BasisReport, ModeShape};
 use crate::vector::dot;
+use serde::Serialize;
 use trilith_linalg::{Dense, DenseLu};
 use trilith_model::Model;
 use trilith_system::System;
@@ -15,17 +15,17 @@ const SHAPES: usize = 6;
 const ROUNDED: f64 = 1e-9;
 
 /// Participation of masses and loads, and the flexibility of every link coordinate that the basis holds;
-/// `dummies` and `shift` are those of K̂.
+/// `effective` and `shift` are those of K̂.
 pub(super) fn report(
     model: &Model,
     system: &System,
     bases: &Bases,
     loads: &[(String, Vec<f64>)],
-    dummies: &[f64],
+    effective: &[f64],
     shift: f64,
     exact: &Flexibility,
 ) -> BasisReport {
-    // With the dummies, which hold what links alone do.
+    // With the effective stiffnesses, which hold what links alone do.
     let basis = &bases.stepping;
     let m = basis.modes();
     let phi = &*basis.shapes;
@@ -38,12 +38,12 @@ pub(super) fn report(
         reduced[(j, j)] = basis.omega2.get(j).map_or_else(of_static, |w| w + shift);
     }
     let there = &system.links.effective;
-    let more = dummies.iter().zip(there).map(|(all, there)| all - there);
-    for (row, dummy) in rows.iter().zip(more).filter(|(_, k)| *k != 0.0) {
+    let more = effective.iter().zip(there).map(|(all, there)| all - there);
+    for (row, effective_k) in rows.iter().zip(more).filter(|(_, k)| *k != 0.0) {
         let q = phi.row(row);
         for (j, b) in q.iter().enumerate() {
             for (a, sum) in q.iter().zip(reduced.column_mut(j)) {
-                *sum += dummy * a * b;
+                *sum += effective_k * a * b;
             }
         }
     }
@@ -106,4 +106,42 @@ fn shapes(model: &Model, system: &System, basis: &RitzBasis) -> Vec<ModeShape> {
         ModeShape { mode, displacements: full.map(|i| at(i) as f32).collect() }
     };
     bends.map(|(mode, _)| shape(mode)).collect()
+}
+
+/// How well a basis holds the flexibility of a link coordinate.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Adequacy {
+    /// Name, such as `"foot" U1`.
+    pub coordinate: String,
+    /// Share of the exact flexibility, 0 … 1.
+    pub share: f64,
+}
+
+/// The basis of a reduced solver.
+#[derive(Clone, Debug, Default, PartialEq, Serialize)]
+pub struct BasisReport {
+    /// Number of vectors with mass: modes.
+    pub vectors: usize,
+    /// Number of static shapes of massless DOFs, beside the modes.
+    pub static_shapes: usize,
+    /// Circular frequencies of the structure without links, rad/s, rising.
+    pub omega: Vec<f64>,
+    /// Share of the mass along X, Y, Z that each vector carries.
+    pub mass_participation: Vec<[f64; 3]>,
+    /// Static participation of each load direction, by name: share of the static response held.
+    pub static_participation: Vec<(String, f64)>,
+    /// Worst coordinates first.
+    pub adequacy: Vec<Adequacy>,
+    /// The lowest modes that deform the structure, for pictures.
+    #[serde(skip)]
+    pub shapes: Vec<ModeShape>,
+}
+
+/// What a mode looks like.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct ModeShape {
+    /// Which mode it is: an index into [`BasisReport::omega`].
+    pub mode: usize,
+    /// Six displacements of every node, node after node; of any size.
+    pub displacements: Vec<f32>,
 }

@@ -1,12 +1,13 @@
 //! The recursion of Ritz vectors: loads, starts, links, and what comes next of each.
 
 use super::Demands;
-use super::solvable::{BLOCK, Solvable};
-use crate::condensation::Condensation;
+use super::attachment::{AttachmentVectors, Following};
+use super::condensation::Condensation;
+use super::orthonormal::{FrequencyCut, Origin, OrthonormalBasis};
+use super::recursion::{Fast, beyond, recurse};
+use super::shapes::Shapes;
+use super::solvable::Solvable;
 use crate::error::SolveError;
-use crate::massless::{Following, StaticShapes};
-use crate::shapes::Shapes;
-use crate::span::{Origin, Span, Speed};
 use crate::vector::dot;
 use std::sync::Arc;
 use trilith_linalg::{Dense, Sparse, lowest_modes};
@@ -24,209 +25,247 @@ pub(super) struct Enriched {
     pub(super) known: Option<Vec<f64>>,
 }
 
+/// The span of a run: as many vectors as are asked for, and behind them those of a wider one where it is wanted.
 pub(super) fn enriched(
     system: &System,
     settings: &Basis,
     demands: &Demands,
     hat: &Solvable,
 ) -> Result<Enriched, SolveError> {
-    let loads = &*demands.loads;
-    // Who asks for no flexibility of the links gets no vectors for them.
-    let links: &[usize] = if settings.adequacy > 0.0 { &system.links.active } else { &[] };
-    let automatic = 20 * demands.count().max(2);
-    // Links and what drives the structure share what there is: neither takes from the half of the other.
-    let (ground, of_links) = match settings.vectors {
-        None => (automatic, links.len()),
-        Some(n) => {
-            let of_links = links.len().min(n / 2);
-            (n - of_links, of_links)
-        }
-    };
-    let total = ground + of_links;
-    let more = if demands.wider { total.div_ceil(WIDER).max(AT_LEAST) } else { 0 };
+    let sizes = Sizes::new(system, settings, demands);
     let parts = hat.parts(system);
-    let rows = Condensation::new(system, loads)?;
+    let rows = Condensation::new(system, &demands.loads)?;
     // What follows without mass is beside the modes: in vectors it would look like modes that are far too fast, and
     // come with what is taken out of others.
     let stiffness = Sparse::combine(&parts);
-    let statics = StaticShapes::new(system, &stiffness, loads)?;
+    let statics = AttachmentVectors::new(system, &stiffness, &demands.loads)?;
     let following = Following::new(system, &stiffness, &rows)?;
-    let mut span = Span::new(&rows, &system.mass, &parts, following, total + more);
-    let own = |u: &Vec<f64>| rows.gather(u).into_owned();
-    let mut block: Vec<Vec<f64>> = Vec::new();
-    let mut modes: Vec<Vec<f64>> = Vec::new();
-    block.extend(loads.iter().map(|(_, p)| own(p)));
-    // What the run starts from must be there itself; masses in motion go on as loads.
-    let start = |u: &Vec<f64>| {
-        let (mut u, mut p) = (u.clone(), vec![0.0; u.len()]);
-        parts.iter().for_each(|(factor, part)| part.mul_add(*factor, &u, &mut p));
-        statics.out_of_answer(|psi| dot(psi, &p), &mut u);
-        own(&u)
-    };
-    let mut starts: Vec<Vec<f64>> = demands.starts.iter().map(start).collect();
-    let lowest = |count: usize| -> Result<Vec<Vec<f64>>, SolveError> {
-        let count = count.min(system.order());
-        let (_, vectors) = lowest_modes(&stiffness, &system.mass, count, 0.0)?;
-        Ok((0..vectors.columns()).map(|j| own(&vectors.column(j).to_vec())).collect())
-    };
-    if settings.kind == BasisKind::Eigen {
-        modes = lowest(ground + more)?;
-        let beyond = modes.split_off(ground.min(modes.len()));
-        span.take(std::mem::replace(&mut modes, beyond), Origin::Anywhere, Speed::Any);
-    } else {
-        starts.truncate(ground);
-        let starts = std::mem::take(&mut starts);
-        block.extend(span.take(starts, Origin::Anywhere, Speed::OfModes));
-        block = recurse(&mut span, &rows, hat, &statics, block, ground, Speed::OfModes);
-    }
-    // A chain ends where its next vector is too fast; what loads and starts set in motion does not.
-    let mut fast = Fast { left: span.left_out(), block: Vec::new() };
-    let mut known = Vec::with_capacity(links.len());
-    // Where there is no room for all, those taken are spread over all.
-    let is_taken = |i: usize| (i + 1) * of_links / links.len() > i * of_links / links.len();
-    let row = |i: usize| &system.links.rows[i];
-    let beside = |i: usize, x: &[f64]| {
-        let mut x = x.to_vec();
-        statics.out_of_answer(|psi| row(i).iter().map(|(j, c)| c * psi[*j]).sum(), &mut x);
-        rows.gather(&x).into_owned()
-    };
-    hat.static_shapes(system, links, |x, flexibility| {
-        let i = known.len();
-        known.push(flexibility);
-        if span.len() < total && is_taken(i) {
-            span.take(vec![beside(links[i], x)], Origin::Anywhere, Speed::OfModes);
-        }
-    });
-    let known = (settings.adequacy > 0.0).then_some(known);
+    let span =
+        OrthonormalBasis::new(&rows, &system.mass, &parts, following, sizes.total + sizes.more);
+    let fast = Fast { left: Vec::new(), block: Vec::new() };
+    let mut growing =
+        Growing { system, rows: &rows, hat, statics: &statics, stiffness: &stiffness, span, fast };
+    let left = growing.of_loads(settings, demands, &parts, &sizes)?;
+    let known = growing.of_links(settings, &sizes);
     if settings.vectors.is_some() {
         // So many were asked for, by the user or by an error that fewer made.
-        fast.go_on(&mut span, &rows, hat, &statics, total);
+        growing.go_on_fast(sizes.total);
     }
-    let count = span.len();
-    if more > 0 {
+    let count = growing.span.len();
+    if sizes.more > 0 {
+        growing.wider(settings, left, count, &sizes)?;
+    }
+    let all = growing.span.into_dense();
+    Ok(enriched_of(rows, all, count, known))
+}
+
+/// How many vectors there are to be.
+struct Sizes {
+    /// Of loads and starts, and of links.
+    ground: usize,
+    of_links: usize,
+    /// Both.
+    total: usize,
+    /// Those that make the span wider.
+    more: usize,
+}
+
+impl Sizes {
+    fn new(system: &System, settings: &Basis, demands: &Demands) -> Self {
+        let links = links(system, settings).len();
+        let automatic = 20 * demands.count().max(2);
+        // Links and what drives the structure share what there is: neither takes from the half of the other.
+        let (ground, of_links) = match settings.vectors {
+            None => (automatic, links),
+            Some(n) => {
+                let of_links = links.min(n / 2);
+                (n - of_links, of_links)
+            }
+        };
+        let total = ground + of_links;
+        let more = if demands.wider { total.div_ceil(WIDER).max(AT_LEAST) } else { 0 };
+        Self { ground, of_links, total, more }
+    }
+}
+
+/// The link coordinates that get vectors: who asks for no flexibility of the links gets none for them.
+fn links<'a>(system: &'a System, settings: &Basis) -> &'a [usize] {
+    if settings.adequacy > 0.0 { &system.links.active } else { &[] }
+}
+
+/// A span under construction.
+struct Growing<'a> {
+    system: &'a System,
+    rows: &'a Condensation,
+    hat: &'a Solvable,
+    statics: &'a AttachmentVectors,
+    /// K̂.
+    stiffness: &'a Sparse,
+    span: OrthonormalBasis<'a>,
+    fast: Fast,
+}
+
+/// What loads and starts have left for a wider span.
+struct Left {
+    /// Right-hand sides with which the recursion goes on.
+    block: Vec<Vec<f64>>,
+    /// Modes and starts that were not taken.
+    modes: Vec<Vec<f64>>,
+    starts: Vec<Vec<f64>>,
+}
+
+impl Growing<'_> {
+    /// The rows of a vector that are kept.
+    fn own(&self, u: &[f64]) -> Vec<f64> {
+        self.rows.gather(u).into_owned()
+    }
+
+    /// The lowest modes.
+    fn lowest(&self, count: usize) -> Result<Vec<Vec<f64>>, SolveError> {
+        let count = count.min(self.system.order());
+        let (_, vectors) = lowest_modes(self.stiffness, &self.system.mass, count, 0.0)?;
+        Ok((0..vectors.columns()).map(|j| self.own(vectors.column(j))).collect())
+    }
+
+    fn recurse(&mut self, block: Vec<Vec<f64>>, count: usize) -> Vec<Vec<f64>> {
+        recurse(
+            &mut self.span,
+            self.rows,
+            self.hat,
+            self.statics,
+            block,
+            count,
+            FrequencyCut::Modes,
+        )
+    }
+
+    /// Takes what was left out as too fast until `count` vectors are there.
+    fn go_on_fast(&mut self, count: usize) {
+        self.fast.go_on(&mut self.span, self.rows, self.hat, self.statics, count);
+    }
+
+    /// Eigenvectors, or what loads and starts set in motion.
+    fn of_loads(
+        &mut self,
+        settings: &Basis,
+        demands: &Demands,
+        parts: &[(f64, &Sparse)],
+        sizes: &Sizes,
+    ) -> Result<Left, SolveError> {
+        let mut block: Vec<Vec<f64>> = demands.loads.iter().map(|(_, p)| self.own(p)).collect();
+        // What the run starts from must be there itself; masses in motion go on as loads.
+        let start = |u: &Vec<f64>| {
+            let (mut u, mut p) = (u.clone(), vec![0.0; u.len()]);
+            parts.iter().for_each(|(factor, part)| part.mul_add(*factor, &u, &mut p));
+            self.statics.out_of_answer(|psi| dot(psi, &p), &mut u);
+            self.own(&u)
+        };
+        let mut starts: Vec<Vec<f64>> = demands.starts.iter().map(start).collect();
+        let mut modes = Vec::new();
+        if settings.kind == BasisKind::Eigen {
+            let mut own = self.lowest(sizes.ground + sizes.more)?;
+            modes = own.split_off(sizes.ground.min(own.len()));
+            self.span.take(own, Origin::Anywhere, FrequencyCut::None);
+        } else {
+            starts.truncate(sizes.ground);
+            let starts = std::mem::take(&mut starts);
+            block.extend(self.span.take(starts, Origin::Anywhere, FrequencyCut::Modes));
+            block = self.recurse(block, sizes.ground);
+        }
+        // A chain ends where its next vector is too fast; what loads and starts set in motion does not.
+        self.fast.left = self.span.left_out();
+        Ok(Left { block, modes, starts })
+    }
+
+    /// One static vector for each link coordinate, as far as there is room; the flexibility of each where somebody asks.
+    fn of_links(&mut self, settings: &Basis, sizes: &Sizes) -> Option<Vec<f64>> {
+        let Self { system, rows, hat, statics, span, .. } = self;
+        let links = links(system, settings);
+        let mut known = Vec::with_capacity(links.len());
+        // Where there is no room for all, those taken are spread over all.
+        let of_links = sizes.of_links;
+        let is_taken = |i: usize| (i + 1) * of_links / links.len() > i * of_links / links.len();
+        hat.static_shapes(system, links, |x, flexibility| {
+            let i = known.len();
+            known.push(flexibility);
+            if span.len() < sizes.total && is_taken(i) {
+                let own = beside(system, rows, statics, links[i], x);
+                span.take(vec![own], Origin::Anywhere, FrequencyCut::Modes);
+            }
+        });
+        (settings.adequacy > 0.0).then_some(known)
+    }
+
+    /// Static shapes of links until `count` vectors are there; returns their images under M.
+    fn more_links(&mut self, count: usize) -> Vec<Vec<f64>> {
+        let Self { system, rows, hat, statics, span, .. } = self;
+        let beside = |i: usize, x: &[f64]| beside(system, rows, statics, i, x);
+        beyond(system, hat, span, &beside, count)
+    }
+
+    /// The next vectors of the same sequence, behind the `count` that are there.
+    fn wider(
+        &mut self,
+        settings: &Basis,
+        left: Left,
+        count: usize,
+        sizes: &Sizes,
+    ) -> Result<(), SolveError> {
+        let Left { mut block, mut modes, mut starts } = left;
+        let (more, all) = (sizes.more, count + sizes.more);
         if settings.kind == BasisKind::Eigen {
             // No few modes more hold what all that are left answer to slow loads.
             starts.truncate(more / 2);
-            block.extend(span.take(starts, Origin::Anywhere, Speed::OfModes));
-            block =
-                recurse(&mut span, &rows, hat, &statics, block, count + more / 2, Speed::OfModes);
-            fast.left.extend(span.left_out());
+            block.extend(self.span.take(starts, Origin::Anywhere, FrequencyCut::Modes));
+            block = self.recurse(block, count + more / 2);
+            self.fast.left.extend(self.span.left_out());
         }
-        modes.truncate((count + more).saturating_sub(span.len()));
-        span.take(modes, Origin::Anywhere, Speed::Any);
+        modes.truncate(all.saturating_sub(self.span.len()));
+        self.span.take(modes, Origin::Anywhere, FrequencyCut::None);
         // Links that were not taken are the first to lack something; where loads have shown all they can, links
         // and what they set in motion are all that is left.
-        let untaken = system.links.active.len() - of_links;
-        let mut of_links = beyond(system, hat, &mut span, &beside, count + untaken.min(more / 2));
-        // Those of links are static shapes of places with next to no mass.
-        drop(span.left_out());
-        recurse(&mut span, &rows, hat, &statics, block, count + more, Speed::OfModes);
-        fast.left.extend(span.left_out());
-        of_links.extend(beyond(system, hat, &mut span, &beside, count + more));
-        recurse(&mut span, &rows, hat, &statics, of_links, count + more, Speed::OfModes);
+        let untaken = self.system.links.active.len() - sizes.of_links;
+        let mut of_links = self.more_links(count + untaken.min(more / 2));
+        // Those of links are static shapes of DOFs with next to no mass.
+        drop(self.span.left_out());
+        self.recurse(block, all);
+        self.fast.left.extend(self.span.left_out());
+        of_links.extend(self.more_links(all));
+        self.recurse(of_links, all);
         // Only what is here is seen as missing.
-        fast.go_on(&mut span, &rows, hat, &statics, count + more);
-        if span.len() < count + more && span.len() + system.massless.len() < system.order() {
+        self.go_on_fast(all);
+        if self.span.len() < all
+            && self.span.len() + self.system.massless.len() < self.system.order()
+        {
             // Dampers that couple modes and links that do may move what neither loads nor links alone do.
-            span.take(lowest(count + more)?, Origin::Anywhere, Speed::Any);
+            let lowest = self.lowest(all)?;
+            self.span.take(lowest, Origin::Anywhere, FrequencyCut::None);
         }
+        Ok(())
     }
-    let all = span.into_dense();
+}
+
+/// The static shape of a link coordinate without what static shapes beside the modes hold of it; the rows that are kept.
+fn beside(
+    system: &System,
+    rows: &Condensation,
+    statics: &AttachmentVectors,
+    link: usize,
+    x: &[f64],
+) -> Vec<f64> {
+    let row = &system.links.rows[link];
+    let mut x = x.to_vec();
+    statics.out_of_answer(|psi| row.iter().map(|(j, c)| c * psi[*j]).sum(), &mut x);
+    rows.gather(&x).into_owned()
+}
+
+/// The first `count` of all vectors, and all of them where they are more.
+fn enriched_of(rows: Condensation, all: Dense, count: usize, known: Option<Vec<f64>>) -> Enriched {
     let rows = Arc::new(rows);
     if all.columns() == count {
-        return Ok(Enriched { span: Shapes::new(rows, all), wider: None, known });
+        return Enriched { span: Shapes::new(rows, all), wider: None, known };
     }
     let first = all.values()[..count * all.rows()].to_vec();
     let first = Shapes::new(Arc::clone(&rows), Dense::from_columns(all.rows(), count, first));
-    Ok(Enriched { span: first, wider: Some(Shapes::new(rows, all)), known })
-}
-
-/// Of a link coordinate and its static shape, what goes into the span.
-type OfLink<'a> = dyn Fn(usize, &[f64]) -> Vec<f64> + 'a;
-
-/// Takes static shapes of links until `count` vectors are there, and returns their images under M.
-fn beyond(
-    system: &System,
-    hat: &Solvable,
-    span: &mut Span<'_>,
-    beside: &OfLink<'_>,
-    count: usize,
-) -> Vec<Vec<f64>> {
-    let mut images = Vec::new();
-    for block in system.links.active.chunks(BLOCK) {
-        if span.len() >= count {
-            break;
-        }
-        let mut links = block.iter();
-        hat.static_shapes(system, block, |x, _| {
-            if let Some(link) = links.next()
-                && span.len() < count
-            {
-                images.extend(span.take(vec![beside(*link, x)], Origin::Anywhere, Speed::OfModes));
-            }
-        });
-    }
-    images
-}
-
-/// What a recursion was about to go on with, but that is too fast for modes of interest.
-struct Fast {
-    /// Vectors that were left out.
-    left: Vec<Vec<f64>>,
-    /// Right-hand sides of what follows from those taken in the end.
-    block: Vec<Vec<f64>>,
-}
-
-impl Fast {
-    /// Takes them, and what follows from them, until `count` vectors are there.
-    fn go_on(
-        &mut self,
-        span: &mut Span<'_>,
-        rows: &Condensation,
-        hat: &Solvable,
-        statics: &StaticShapes,
-        count: usize,
-    ) {
-        let room = count.saturating_sub(span.len()).min(self.left.len());
-        let taken = self.left.drain(..room).collect();
-        self.block.extend(span.take(taken, Origin::Anywhere, Speed::Any));
-        let block = std::mem::take(&mut self.block);
-        self.block = recurse(span, rows, hat, statics, block, count, Speed::Any);
-    }
-}
-
-/// The load-dependent recursion from right-hand sides until `count` vectors are there or nothing new comes; returns
-/// those it would go on with.
-fn recurse(
-    span: &mut Span<'_>,
-    rows: &Condensation,
-    hat: &Solvable,
-    statics: &StaticShapes,
-    mut block: Vec<Vec<f64>>,
-    count: usize,
-    speed: Speed,
-) -> Vec<Vec<f64>> {
-    let order = rows.order();
-    while span.len() < count && !block.is_empty() {
-        let mut next = Vec::new();
-        span.next_block();
-        while !block.is_empty() && span.len() < count {
-            let rest = block.split_off(block.len().min(count - span.len()).min(BLOCK));
-            let mut x = vec![0.0; order * block.len()];
-            x.chunks_mut(order).zip(&block).for_each(|(x, p)| rows.scatter(p, x));
-            drop(block);
-            let p = if statics.len() > 0 { x.clone() } else { Vec::new() };
-            hat.factor.solve(&mut x);
-            for (p, x) in p.chunks(order).zip(x.chunks_mut(order)) {
-                statics.out_of_answer(|psi| dot(psi, p), x);
-            }
-            let solved = x.chunks(order).map(|x| rows.gather(x).into_owned()).collect();
-            drop(x);
-            // Where the loads have shown all they can, what is left of a vector is rounding.
-            next.extend(span.take(solved, Origin::Recursion, speed));
-            block = rest;
-        }
-        block.extend(next);
-    }
-    block
+    Enriched { span: first, wider: Some(Shapes::new(rows, all)), known }
 }

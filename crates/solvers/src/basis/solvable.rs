@@ -7,20 +7,20 @@ use trilith_model::Model;
 use trilith_system::System;
 
 /// A pivot below this share of its diagonal is rounding: nothing holds the equation.
-pub(crate) const PIVOT: f64 = 1e-11;
+pub(super) const PIVOT: f64 = 1e-11;
 /// Right-hand sides solved together.
 pub(super) const BLOCK: usize = 16;
-/// Automatic dummies as a share of the engaged stiffness of a link.
+/// Automatic effective stiffnesses as a share of the engaged stiffness of a link.
 const DUMMY_SHARE: f64 = 1e-3;
 
-/// K̂ = K + Bᵀ diag(dummies) B + shift M + rate C and its factor.
+/// K̂ = K + Bᵀ diag(effective stiffnesses) B + shift M + rate C and its factor.
 pub(super) struct Solvable {
-    pub(super) dummies: Vec<f64>,
-    /// Bᵀ diag(dummies) B.
+    pub(super) effective: Vec<f64>,
+    /// Bᵀ diag(effective stiffnesses) B.
     pub(super) springs: Sparse,
     /// Of the mass where the structure can move freely, 1/s².
     pub(super) shift: f64,
-    /// Of the dashpots where they alone hold a direction without mass, 1/s.
+    /// Of the dashpots where they alone hold a massless direction, 1/s.
     pub(super) rate: f64,
     pub(super) factor: StagedLdlt,
 }
@@ -90,14 +90,14 @@ pub(super) fn solvable(model: &Model, system: &System) -> Result<Solvable, Solve
     let links = &system.links;
     let engaged = links.engaged(model);
     let pairs = || engaged.iter().zip(&links.effective);
-    let dummies: Vec<f64> =
+    let effective: Vec<f64> =
         pairs().map(|(e, user)| if *user > 0.0 { *user } else { DUMMY_SHARE * e }).collect();
-    let springs = system.springs(&dummies);
+    let springs = system.springs(&effective);
     let held_by = [(1.0, &system.stiffness), (1.0, &springs)];
-    // What dummies hold, the links hold when engaged, unless the user's stand where they never do.
+    // What effective stiffnesses hold, the links hold when engaged, unless the user's stand where they never do.
     let as_links = pairs().all(|(e, user)| *user <= 0.0 || *e > 0.0);
     if as_links && let Some(factor) = held(&held_by)? {
-        return Ok(Solvable { dummies, springs, shift: 0.0, rate: 0.0, factor });
+        return Ok(Solvable { effective, springs, shift: 0.0, rate: 0.0, factor });
     }
     system.check_supported(model, true)?;
     let k = Sparse::combine(&held_by);
@@ -115,12 +115,12 @@ pub(super) fn solvable(model: &Model, system: &System) -> Result<Solvable, Solve
     }
     let parts = [(1.0, &k), (shift, &system.mass), (rate, &system.element_damping)];
     let factor = StagedLdlt::alone(&parts)?;
-    Ok(Solvable { dummies, springs, shift, rate, factor })
+    Ok(Solvable { effective, springs, shift, rate, factor })
 }
 
 /// The factor of a sum, where no pivot is rounding. Scaling to a unit diagonal would divide each pivot by its
 /// diagonal entry, so this is the test of [`unsupported`] without a second factorisation.
-pub(crate) fn held(parts: &[(f64, &Sparse)]) -> Result<Option<StagedLdlt>, SolveError> {
+pub(super) fn held(parts: &[(f64, &Sparse)]) -> Result<Option<StagedLdlt>, SolveError> {
     let mut diagonal = vec![0.0; parts.first().map_or(0, |(_, a)| a.rows())];
     for (factor, part) in parts {
         diagonal.iter_mut().zip(part.diagonal()).for_each(|(sum, d)| *sum += factor * d);

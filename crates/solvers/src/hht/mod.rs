@@ -1,4 +1,7 @@
-//! HHT-α on any space: one factorisation per step size, one solve a step, links by their compliance.
+//! HHT-α on all DOFs or on a basis, and the textbook integrator by full Newton iteration.
+//!
+//! One factorisation per step size, one solve a step, links by their compliance; or the tangent in every iteration.
+//! May use `step` for the contracts, `kernel` and `structure`; `basis` for the low-rank form of modal damping.
 //!
 //! ```text
 //! M aₙ₊₁ = (1+α) sₙ₊₁ − α sₙ            s = p − C v − K u − Bᵀ f̃
@@ -15,24 +18,22 @@
 //!
 //! Reference: \[Hilber, Hughes, Taylor 1977\].
 
+mod full_newton;
+mod newmark;
 mod step;
 #[cfg(test)]
 mod tests;
 
 use crate::error::SolveError;
-use crate::followers::{Followers, acceleration};
-use crate::products::Products;
-use crate::propagator::{Compliance, Forces, Motion, Propagator, StepKey, StepWork, Wanted};
-use crate::space::Space;
+use crate::kernel::{Compliance, StepKey, Wanted};
+use crate::step::{Forces, Propagator, StepWork};
+use crate::structure::{Followers, Motion, Products, ReducedSystem, acceleration};
+pub(crate) use full_newton::FullNewton;
+use newmark::{mass_acceleration, newmark};
 use std::collections::BTreeMap;
 use std::sync::Arc;
 use step::Step;
 use trilith_linalg::StagedPlan;
-
-/// γ and β of an α.
-pub(crate) fn newmark(alpha: f64) -> (f64, f64) {
-    (0.5 - alpha, 0.25 * (1.0 - alpha) * (1.0 - alpha))
-}
 
 /// Values (8 bytes each) in the factors of step sizes that are kept.
 const KEPT_VALUES: usize = 1 << 25;
@@ -61,7 +62,7 @@ struct Work {
 
 /// Direct integration.
 pub(crate) struct Hht {
-    space: Space,
+    space: ReducedSystem,
     products: Products,
     alpha: f64,
     /// The same for all step sizes.
@@ -75,7 +76,7 @@ pub(crate) struct Hht {
 }
 
 impl Hht {
-    pub(crate) fn new(space: Space, alpha: f64) -> Self {
+    pub(crate) fn new(space: ReducedSystem, alpha: f64) -> Self {
         let products = Products::new(&space);
         Self {
             followers: Followers::default(),
@@ -142,7 +143,7 @@ impl Hht {
 }
 
 impl Propagator for Hht {
-    fn space(&self) -> &Space {
+    fn space(&self) -> &ReducedSystem {
         &self.space
     }
 
@@ -170,13 +171,13 @@ impl Propagator for Hht {
         &self.steps[&self.now].compliance
     }
 
-    fn look_at_rates(&mut self, _rated: &[usize], damped: &[usize]) -> Result<(), SolveError> {
+    fn set_rates(&mut self, _rated: &[usize], damped: &[usize]) -> Result<(), SolveError> {
         self.followers = Followers::new(&self.space, damped)?;
         Ok(())
     }
 
     fn acceleration(&mut self, force: &[f64]) -> Result<Vec<f64>, SolveError> {
-        crate::full_newton::mass_acceleration(&self.space, force.to_vec())
+        mass_acceleration(&self.space, force.to_vec())
     }
 
     fn predict(&mut self, from: &Motion, forces: &Forces<'_>, to: &mut Motion, wanted: Wanted<'_>) {
@@ -248,7 +249,7 @@ impl Propagator for Hht {
             to_v[i] += gamma * dt * work.tail_a[p];
         }
         self.space.links.deform(to_u, wanted.d);
-        self.space.links.deform_some(to_v, wanted.rated, wanted.v);
+        self.space.links.deform_some(to_v, wanted.rate_dependent, wanted.v);
     }
 
     fn correct(&mut self, from: &Motion, forces: &Forces<'_>, to: &mut Motion) {
@@ -295,7 +296,7 @@ impl Propagator for Hht {
             *u += by_u * *a;
             *v += by_v * *a;
         }
-        self.followers.settle(from, to, step.dt);
+        self.followers.complete(from, to, step.dt);
     }
 
     /// By the trapezoidal rule, with which average acceleration balances exactly; what another α leaves is

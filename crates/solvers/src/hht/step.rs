@@ -6,10 +6,11 @@
 //! A⁻¹ r = A₀⁻¹ r − X N⁻¹ Xᵀ r        X = A₀⁻¹ U        N = R⁻¹/s + Uᵀ X
 //! ```
 
-use super::newmark;
+use super::newmark::newmark;
+use crate::basis::LowRank;
 use crate::error::SolveError;
-use crate::propagator::{Compliance, StepKey};
-use crate::space::{LowRank, Space};
+use crate::kernel::{Compliance, StepKey};
+use crate::structure::ReducedSystem;
 use std::sync::Arc;
 use trilith_linalg::{Dense, DenseLu, StagedLdlt, StagedPlan};
 
@@ -25,7 +26,7 @@ pub(super) struct Step {
 
 impl Step {
     pub(super) fn new(
-        s: &Space,
+        s: &ReducedSystem,
         plan: &Arc<StagedPlan>,
         alpha: f64,
         dt: f64,
@@ -64,7 +65,7 @@ pub(super) struct Woodbury {
 }
 
 /// B A₀⁻¹ Bᵀ from the end of the factor: Zᵀ D⁻¹ Z with Z = T⁻¹ Bᵀ.
-fn tail_compliance(s: &Space, factor: &StagedLdlt, panel: &mut [f64]) -> Dense {
+fn tail_compliance(s: &ReducedSystem, factor: &StagedLdlt, panel: &mut [f64]) -> Dense {
     let tail = &factor.plan().equations()[factor.plan().split()..];
     let mut place = vec![usize::MAX; s.order()];
     tail.iter().enumerate().for_each(|(p, i)| place[*i as usize] = p);
@@ -107,7 +108,7 @@ impl Woodbury {
     }
 
     /// g −= B X inner⁻¹ (B X)ᵀ.
-    fn soften(&self, s: &Space, g: &mut Dense) {
+    fn soften(&self, s: &ReducedSystem, g: &mut Dense) {
         let mut image = Dense::zeros(s.links.len(), self.x.columns());
         for k in 0..self.x.columns() {
             s.links.deform(self.x.column(k), image.column_mut(k));

@@ -1,9 +1,11 @@
 //! A step against the equations of the method, written with full matrices.
 
-use super::{Hht, newmark};
-use crate::link_map::LinkMap;
-use crate::propagator::{Forces, Propagator, StepKey, Wanted};
-use crate::space::{LowRank, Space};
+use super::Hht;
+use super::newmark::newmark;
+use crate::basis::LowRank;
+use crate::kernel::{StepKey, Wanted};
+use crate::step::{Forces, Propagator};
+use crate::structure::{LinkMap, ReducedSystem};
 use trilith_linalg::{Dense, DenseLu, Product, Sparse, Triplets};
 
 const N: usize = 24;
@@ -19,7 +21,7 @@ fn some(n: usize, seed: u64) -> Vec<f64> {
 }
 
 /// Springs between every place and others; each third place has no mass.
-fn space(modal: bool, links: LinkMap) -> Space {
+fn space(modal: bool, links: LinkMap) -> ReducedSystem {
     let (mut mass, mut stiffness) = (Triplets::new(N, N), Triplets::new(N, N));
     let mut rest = Triplets::new(N, N);
     for i in 0..N {
@@ -39,13 +41,13 @@ fn space(modal: bool, links: LinkMap) -> Space {
     let (mass, stiffness) = (mass.build(), stiffness.build());
     let rayleigh = [0.3, 0.01];
     let low_rank = LowRank { u: Dense::from_columns(N, 2, some(2 * N, 3)), rate: vec![4.0, 9.0] };
-    Space {
+    ReducedSystem {
         mass,
         damping: rest.build(),
         rayleigh,
         stiffness,
         modal: modal.then_some(low_rank),
-        dummy_k: vec![0.0; links.len()],
+        effective_k: vec![0.0; links.len()],
         links,
         forces: Product::new(Dense::zeros(N, 0)),
         shape: None,
@@ -129,7 +131,7 @@ fn follows(alpha: f64, modal: bool, links: LinkMap) {
         let (mut d, mut velocity, mut to) = (vec![0.0; l], vec![0.0; l], vec![f64::NAN; 3 * N]);
         let before = Forces { loads: [&load0, &load1], pseudo0: &pseudo0, pseudo1: &guess };
         let all: Vec<usize> = (0..l).collect();
-        let wanted = Wanted { d: &mut d, v: &mut velocity, rated: &all };
+        let wanted = Wanted { d: &mut d, v: &mut velocity, rate_dependent: &all };
         hht.predict(&from, &before, &mut to, wanted);
         let compliance = hht.compliance();
         compliance.g.mul_add(-1.0, &change, &mut d);

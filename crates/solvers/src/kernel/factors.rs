@@ -1,8 +1,13 @@
 //! The kept factors of the link equations, one for each rule of a step.
+//!
+//! ```text
+//! J = I + (k − k_e) G + c H        over the active coordinates with tangents that count; the others: Δf̃ = r
+//! C = J⁻¹ (1, −J_rest)             from residuals to corrections; −G C and −H C: how d and ḋ follow
+//! ```
 
 use super::Layout;
+use super::affine::StepKey;
 use super::layout::Unknowns;
-use crate::propagator::StepKey;
 use serde::{Deserialize, Serialize};
 use trilith_linalg::{Dense, DenseLu, Panel, Product, solve_few};
 use trilith_system::Tangents;
@@ -12,7 +17,7 @@ use trilith_system::Tangents;
 const WEAK: f64 = 0.02;
 /// Fewer coordinates than this all get an equation if they have tangents: an iteration costs more than it.
 const WEAK_FROM: usize = 48;
-/// Added to J's diagonal: a direction that nothing holds but its dummy, such as that of an open contact
+/// Added to J's diagonal: a direction that nothing holds but its effective stiffness, such as that of an open contact
 /// under a weight, is singular in a static analysis; held by this, it goes far until something stops it.
 const HOLD: f64 = 1e-12;
 /// Up to this many coordinates one product gives corrections and what follows from them.
@@ -43,7 +48,7 @@ pub(super) struct Equations<'a> {
 
 /// From the residual of all active coordinates to
 enum Correct {
-    /// the corrections of all, and how deformations and looked-at rates follow, for few;
+    /// the corrections of all, and how deformations and these rates follow, for few;
     All(Panel),
     /// the corrections of those that have an equation.
     Own(Product),
@@ -122,8 +127,12 @@ impl Factors {
 
 impl Factor {
     fn new(of: Equations<'_>, tangents: Tangents) -> Self {
-        let Equations { layout: Layout { links, place, owner, dummy_k, rated, .. }, g, h, key } =
-            of;
+        let Equations {
+            layout: Layout { links, place, owner, effective_k, rate_dependent, .. },
+            g,
+            h,
+            key,
+        } = of;
         let n = links.active.len();
         // A row of k − k_e and c of an active coordinate: (other active, stiffness, damping).
         let row = |a: usize| {
@@ -133,7 +142,7 @@ impl Factor {
             let (k, c) = (&tangents.k[at..at + size], &tangents.c[at..at + size]);
             (0..size).filter_map(move |j| {
                 let b = place[first + j]?;
-                let own = if a == b { dummy_k[a] } else { 0.0 };
+                let own = if a == b { effective_k[a] } else { 0.0 };
                 let (k, c) = (k[j] - own, c[j]);
                 (k != 0.0 || c != 0.0).then_some((b, k, c))
             })
@@ -177,7 +186,7 @@ impl Factor {
         }
         let sound = correct.values().iter().all(|x| x.is_finite());
         let correct = if n <= FEW {
-            Correct::All(with_what_follows(&equations, &correct, rated, [g, h]))
+            Correct::All(with_what_follows(&equations, &correct, rate_dependent, [g, h]))
         } else {
             Correct::Own(Product::new(correct))
         };
@@ -200,7 +209,7 @@ impl Factor {
 
     /// Replaces the residuals of the active coordinates by the corrections; those without an equation stay.
     /// True where the residuals stay and the corrections stand in `space`, with the changes of deformations and of
-    /// looked-at rates, as in a row of [`Unknowns`].
+    /// these rates, as in a row of [`Unknowns`].
     pub fn correct(&self, residual: &mut [f64], space: &mut Vec<f64>) -> bool {
         let own = match &self.correct {
             Correct::Own(own) => own,
@@ -220,15 +229,15 @@ impl Factor {
     }
 }
 
-/// −G C, the rows of −H C that are looked at, and C of all coordinates, as they lie in a row of [`Unknowns`].
+/// −G C, the rows of −H C that laws depend on, and C of all coordinates, as they lie in a row of [`Unknowns`].
 fn with_what_follows(
     equations: &[usize],
     correct: &Dense,
-    rated: &[usize],
+    rate_dependent: &[usize],
     [g, h]: [&Dense; 2],
 ) -> Panel {
     let n = correct.columns();
-    let pseudo = Unknowns::place_of_pseudo(n, rated.len());
+    let pseudo = Unknowns::place_of_pseudo(n, rate_dependent.len());
     let mut all = Panel::zeros(pseudo + n, n);
     for j in 0..n {
         let (follows, own) = all.column_mut(j).split_at_mut(pseudo);
@@ -239,7 +248,7 @@ fn with_what_follows(
         let (d, v) = follows.split_at_mut(n);
         g.mul_add(-1.0, own, d);
         // The compliances are symmetric.
-        v.iter_mut().zip(rated).for_each(|(v, a)| *v = -h.column_dot(*a, own));
+        v.iter_mut().zip(rate_dependent).for_each(|(v, a)| *v = -h.column_dot(*a, own));
     }
     all
 }

@@ -7,15 +7,15 @@ use trilith_system::{Laws, LinkSet};
 /// The active link coordinates of a model, and what is known of each.
 pub(crate) struct Layout<'a> {
     pub links: &'a LinkSet,
-    /// Dummy stiffness of the active coordinates.
-    pub dummy_k: Vec<f64>,
-    /// Active coordinates of laws that look at rates.
-    pub rated: Vec<usize>,
+    /// Effective stiffness of the active coordinates.
+    pub effective_k: Vec<f64>,
+    /// Active coordinates of rate-dependent laws.
+    pub rate_dependent: Vec<usize>,
     /// Active coordinates of laws that a rate alone can hold.
     pub damped: Vec<usize>,
-    /// Active and flat index of those whose laws look at no rates: the [kernel](super::LinkKernel) leaves their rates
+    /// Active and flat index of those whose laws do not depend on rates: the [kernel](super::LinkKernel) leaves their rates
     /// to its caller.
-    pub unrated: Vec<(usize, usize)>,
+    pub rate_independent: Vec<(usize, usize)>,
     /// Active index of each flat coordinate; none of the fixed ones.
     pub place: Vec<Option<usize>>,
     /// Index of the link of each active coordinate.
@@ -25,22 +25,22 @@ pub(crate) struct Layout<'a> {
 }
 
 impl<'a> Layout<'a> {
-    /// `dummy_k`: of the active coordinates.
-    pub fn new(links: &'a LinkSet, laws: &Laws<'a>, dummy_k: Vec<f64>) -> Self {
+    /// `effective_k`: of the active coordinates.
+    pub fn new(links: &'a LinkSet, laws: &Laws<'a>, effective_k: Vec<f64>) -> Self {
         let n = links.active.len();
         let mut place = vec![None; links.len()];
         for (a, flat) in links.active.iter().enumerate() {
             place[*flat] = Some(a);
         }
         let (mut owner, mut damped) = (vec![0; n], Vec::new());
-        let (mut rated, mut unrated) = (Vec::new(), Vec::new());
+        let (mut rate_dependent, mut rate_independent) = (Vec::new(), Vec::new());
         for (l, (law, link)) in laws.iter().enumerate() {
             for a in link.range.clone().filter_map(|flat| place[flat]) {
                 owner[a] = l;
                 if law.uses_rates() {
-                    rated.push(a)
+                    rate_dependent.push(a)
                 } else {
-                    unrated.push((a, links.active[a]))
+                    rate_independent.push((a, links.active[a]))
                 }
                 if law.damps() {
                     damped.push(a);
@@ -48,43 +48,52 @@ impl<'a> Layout<'a> {
             }
         }
         let complete = n == links.len();
-        Self { links, dummy_k, rated, unrated, damped, place, owner, complete }
+        Self {
+            links,
+            effective_k,
+            rate_dependent,
+            rate_independent,
+            damped,
+            place,
+            owner,
+            complete,
+        }
     }
 }
 
-/// What the link equations move, in one row: deformations of the active coordinates, the rates that laws look at, and
+/// What the link equations move, in one row: deformations of the active coordinates, the rates that laws depend on, and
 /// f̃. A factor of few coordinates moves all of it in one product.
 pub(super) struct Unknowns {
     /// Number of active coordinates.
     n: usize,
-    /// Number of rates that laws look at.
-    rated: usize,
+    /// Number of rates that laws depend on.
+    rate_dependent: usize,
     /// The row, with zeros behind it that fill up whole vectors.
     row: Vec<f64>,
 }
 
 impl Unknowns {
-    pub fn new(n: usize, rated: usize) -> Self {
-        let filled = (2 * n + rated).next_multiple_of(Panel::GRAIN);
-        Self { n, rated, row: vec![0.0; filled] }
+    pub fn new(n: usize, rate_dependent: usize) -> Self {
+        let filled = (2 * n + rate_dependent).next_multiple_of(Panel::GRAIN);
+        Self { n, rate_dependent, row: vec![0.0; filled] }
     }
 
     /// Where f̃ begins in a row of so many coordinates and rates.
-    pub fn place_of_pseudo(n: usize, rated: usize) -> usize {
-        n + rated
+    pub fn place_of_pseudo(n: usize, rate_dependent: usize) -> usize {
+        n + rate_dependent
     }
 
-    /// Deformations, looked-at rates and f̃.
+    /// Deformations, these rates and f̃.
     pub fn parts(&mut self) -> [&mut [f64]; 3] {
-        let Self { n, rated, .. } = *self;
-        let (moves, pseudo) = self.row.split_at_mut(Self::place_of_pseudo(n, rated));
+        let Self { n, rate_dependent, .. } = *self;
+        let (moves, pseudo) = self.row.split_at_mut(Self::place_of_pseudo(n, rate_dependent));
         let (d, v) = moves.split_at_mut(n);
-        [d, &mut v[..rated], &mut pseudo[..n]]
+        [d, &mut v[..rate_dependent], &mut pseudo[..n]]
     }
 
     /// f̃ in a row.
     pub fn pseudo_of<'r>(&self, row: &'r [f64]) -> &'r [f64] {
-        &row[Self::place_of_pseudo(self.n, self.rated)..][..self.n]
+        &row[Self::place_of_pseudo(self.n, self.rate_dependent)..][..self.n]
     }
 
     pub fn pseudo(&self) -> &[f64] {
@@ -96,9 +105,9 @@ impl Unknowns {
         &self.row[..self.n]
     }
 
-    /// Rates that laws look at.
+    /// Rates that laws depend on.
     pub fn v(&self) -> &[f64] {
-        &self.row[self.n..][..self.rated]
+        &self.row[self.n..][..self.rate_dependent]
     }
 
     /// The whole row, as a product moves it.

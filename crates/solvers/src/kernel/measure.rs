@@ -2,7 +2,7 @@
 
 use super::{Converged, ForceScale, Layout, LinkKernel, NoEquilibrium, ROUNDING_FROM, choose};
 
-/// A pseudo-force counts as a force only by its rounding: with stiff dummies on a sliding contact it may
+/// A pseudo-force counts as a force only by its rounding: with large effective stiffnesses on a sliding contact it may
 /// be millions of times any force there is.
 const PSEUDO_SHARE: f64 = 1e-5;
 /// Two units in the last place.

@@ -1,5 +1,8 @@
 //! The link kernel: forces of all links at the end of a step.
 //!
+//! Newton's method on the link equations, its predictor, kept factors, line search, and the measure of equilibrium.
+//! May use no other room: it knows no structure but compliances G and H.
+//!
 //! Every linear step is affine in the pseudo-forces f̃ = f − k_e d at its end:
 //!
 //! ```text
@@ -8,21 +11,25 @@
 //!
 //! `Newton` solves `R(f̃) = law(d, ḋ) − k_e d − f̃ = 0` with the full tangents of the laws,
 //! `J = I + (k − k_e) G + c H`; coordinates whose row of tangents is zero or weak need no equation. It starts
-//! from what the tangents at the start of the step foresee, and what such guesses lacked in the steps before.
+//! from a predictor: the tangents at the start of the step, and the residual that such predictions left in the steps
+//! before, extrapolated.
 //! `FixedPoint` is Wilson's constant-stiffness iteration, f̃ ← law − k_e d; it converges only
 //! while |k − k_e| G < 1. Neither touches a matrix of the structure.
 
+mod affine;
+mod extrapolation;
 mod factors;
-mod foresee;
+mod law_response;
 mod layout;
 mod measure;
+mod predictor;
 mod search;
-mod unforeseen;
 
+pub(crate) use affine::{Affine, Committed, Compliance, Converged, Guess, StepKey, Wanted};
+pub(crate) use extrapolation::Extrapolation;
 pub(crate) use factors::Remembered;
-pub(crate) use unforeseen::Unforeseen;
+pub(crate) use law_response::LawResponse;
 
-use crate::propagator::{StepKey, Wanted};
 use crate::vector::{add, largest, sized_residual};
 use factors::{Equations, Factor, Factors};
 pub(crate) use layout::Layout;
@@ -32,39 +39,7 @@ pub(crate) use search::{CROSSES, ENOUGH, SEARCH_FROM, Search, TRIED};
 use trilith_element::Kinematics;
 use trilith_linalg::Dense;
 use trilith_model::{Kernel, Model, Solution};
-use trilith_system::{Answers, LinkBlocks, LinkSet, StepLaws, Tangents};
-
-/// What the linear step gives the kernel.
-pub(crate) struct Affine<'a> {
-    /// Deformation and rate that supports add, flat, where they move.
-    pub support: Option<[&'a [f64]; 2]>,
-    /// Compliances, active × active, symmetric.
-    pub g: &'a Dense,
-    pub h: &'a Dense,
-    /// Identity of the compliances: a factor made with others is not used again.
-    pub key: StepKey,
-}
-
-/// The committed side of a step, flat.
-pub(crate) struct Committed<'a> {
-    pub d: &'a [f64],
-    pub v: &'a [f64],
-    pub f: &'a [f64],
-    pub history: &'a [f64],
-    pub tangents: &'a Tangents,
-    pub unforeseen: &'a Unforeseen,
-    pub dt: f64,
-}
-
-/// Where the converged values go, flat; `pseudo` is f̃ of the active coordinates. Rates that no law looks at stay as they
-/// are.
-pub(crate) struct Converged<'a> {
-    pub d: &'a mut [f64],
-    pub v: &'a mut [f64],
-    pub laws: Answers<'a>,
-    pub pseudo: &'a mut [f64],
-    pub unforeseen: &'a mut Unforeseen,
-}
+use trilith_system::{LinkBlocks, LinkSet, StepLaws, Tangents};
 
 /// No equilibrium: the worst flat coordinate and its residual.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -81,7 +56,7 @@ pub(crate) type ForceScale = [f64; 2];
 pub(crate) const ROUNDING: f64 = 1e3;
 /// A correction below this share of the tolerance changes nothing any more.
 pub(crate) const SETTLED: f64 = 1e-4;
-/// Iterations before the first look at what rounding leaves.
+/// Iterations before the first comparison with what rounding leaves.
 pub(crate) const ROUNDING_FROM: usize = 2;
 const NEWTON_ITERATIONS: usize = 60;
 const FIXED_POINT_ITERATIONS: usize = 200;
@@ -98,9 +73,9 @@ pub(crate) struct LinkKernel<'a> {
     laws: StepLaws<'a>,
     layout: Layout<'a>,
     unknowns: Unknowns,
-    /// Blocks of all links but dashpots, and of those whose laws look at rates.
+    /// Blocks of all links but dashpots, and of those whose laws depend on rates.
     blocks: LinkBlocks,
-    rated_blocks: LinkBlocks,
+    rate_blocks: LinkBlocks,
     /// Forces that follow from deformations and rates along the tangents, flat.
     pull: Vec<f64>,
     /// True where all coordinates are active and no support moves: the own deformations and rates are those of all
@@ -111,7 +86,7 @@ pub(crate) struct LinkKernel<'a> {
     sizes: [f64; 3],
     /// What a factor gives.
     correction: Vec<f64>,
-    /// True where the first guess of this step holds what the steps before left unforeseen.
+    /// True where the predictor of this step holds the extrapolated residual of the steps before.
     expected: bool,
     /// True where deformations and rates have followed the last change of f̃ already.
     followed: bool,
@@ -128,22 +103,22 @@ impl<'a> LinkKernel<'a> {
         model: &'a Model,
         links: &'a LinkSet,
         solution: &Solution,
-        dummy_k: Vec<f64>,
+        effective_k: Vec<f64>,
     ) -> Self {
         let laws = links.laws(model);
         let stiff = laws.iter().filter(|(law, _)| law.damping_constant().is_none());
         let blocks = LinkBlocks::of(stiff.map(|(_, link)| link));
         let rate_dependent = laws.iter().filter(|(law, _)| law.uses_rates());
-        let rated_blocks = LinkBlocks::of(rate_dependent.map(|(_, link)| link));
-        let layout = Layout::new(links, &laws, dummy_k);
+        let rate_blocks = LinkBlocks::of(rate_dependent.map(|(_, link)| link));
+        let layout = Layout::new(links, &laws, effective_k);
         let n = links.active.len();
         Self {
             kind: solution.kernel,
             tolerance: solution.link_tolerance,
-            unknowns: Unknowns::new(n, layout.rated.len()),
+            unknowns: Unknowns::new(n, layout.rate_dependent.len()),
             layout,
             blocks,
-            rated_blocks,
+            rate_blocks,
             pull: Vec::new(),
             laws: StepLaws::new(laws),
             plain: false,
@@ -174,7 +149,7 @@ impl<'a> LinkKernel<'a> {
     /// at the start value of f̃.
     pub(crate) fn wanted(&mut self) -> Wanted<'_> {
         let [d, v, _] = self.unknowns.parts();
-        Wanted { d, v, rated: &self.layout.rated }
+        Wanted { d, v, rate_dependent: &self.layout.rate_dependent }
     }
 
     /// Which coordinates there are.
@@ -197,10 +172,37 @@ impl<'a> LinkKernel<'a> {
 
     /// Pseudo-force of forces that act at a deformation; `support` is what moving supports have in it.
     pub(crate) fn pseudo(&self, f: &[f64], d: &[f64], support: &[f64], to: &mut [f64]) {
-        let Layout { links, dummy_k, .. } = &self.layout;
+        let Layout { links, effective_k, .. } = &self.layout;
         for (a, flat) in links.active.iter().enumerate() {
-            to[a] = f[*flat] - dummy_k[a] * (d[*flat] - support[*flat]);
+            to[a] = f[*flat] - effective_k[a] * (d[*flat] - support[*flat]);
         }
+    }
+
+    /// Solves the link equations of a step at what was [wanted](Self::wanted), predicted with these pseudo-forces:
+    /// f̃ = law(d* − G f̃, v* − H f̃) − k_e d. The rates of coordinates whose law does not depend on them are left to the
+    /// caller.
+    ///
+    /// Motions in lock step, whose products with G are made together, make the same calls one by one:
+    /// [`begin`](Self::begin), [`predict`](Self::predict), then [`advance`](Self::advance) until it is true, with what
+    /// [`change`](Self::change) says in between.
+    #[inline]
+    pub(crate) fn solve(
+        &mut self,
+        affine: &Affine<'_>,
+        pseudo: &[f64],
+        guess: Guess,
+        from: &Committed<'_>,
+        scale: &ForceScale,
+        out: &mut Converged<'_>,
+    ) -> Result<(), NoEquilibrium> {
+        self.begin(pseudo, from);
+        if guess == Guess::Tangents && self.predict(affine, from, out) {
+            self.follow(affine);
+        }
+        while !self.advance(affine, from, scale, out)? {
+            self.follow(affine);
+        }
+        Ok(())
     }
 
     /// Takes up the link equations of a step at what was [wanted](Self::wanted), from these pseudo-forces, at which that
@@ -214,25 +216,9 @@ impl<'a> LinkKernel<'a> {
         self.laws.start(&Kinematics { d, v, d0: d, v0: v, dt: from.dt }, from.history);
     }
 
-    /// Iterates until the links are in equilibrium. The rates of coordinates whose law does not look at them are left
-    /// to the caller.
-    #[inline]
-    pub(crate) fn settle(
-        &mut self,
-        affine: &Affine<'_>,
-        from: &Committed<'_>,
-        scale: &ForceScale,
-        out: &mut Converged<'_>,
-    ) -> Result<(), NoEquilibrium> {
-        while !self.advance(affine, from, scale, out)? {
-            self.follow(affine);
-        }
-        Ok(())
-    }
-
     /// Lets deformations and rates follow the last change of f̃.
     #[inline]
-    pub(crate) fn follow(&mut self, affine: &Affine<'_>) {
+    fn follow(&mut self, affine: &Affine<'_>) {
         if let Some((change, d)) = self.change(affine.h) {
             affine.g.mul_add(-1.0, change, d);
         }
@@ -247,11 +233,13 @@ impl<'a> LinkKernel<'a> {
         scale: &ForceScale,
         out: &mut Converged<'_>,
     ) -> Result<bool, NoEquilibrium> {
+        // r = law(d, ḋ) − k_e d − f̃, and what of it the next predictors may expect.
         self.iterations += 1;
         self.evaluate(affine, from, out);
         if self.iteration == 0 && self.kind == Kernel::Newton {
-            out.unforeseen.note(from.unforeseen, affine.key, &self.residual, self.expected);
+            out.extrapolation.note(from.extrapolation, affine.key, &self.residual, self.expected);
         }
+        // Converged: |r| ≤ tolerance · largest force.
         let (size, worst) = self.measure(out, scale);
         if size <= 1.0 {
             self.end(from, out);
@@ -267,10 +255,12 @@ impl<'a> LinkKernel<'a> {
             return Err(worst);
         }
         self.followed = false;
+        // Wilson's iteration: f̃ ← f̃ + r = law − k_e d.
         if self.kind == Kernel::FixedPoint {
             self.take();
             return Ok(false);
         }
+        // Line search: another part of the last correction, where it has brought no less residual.
         let before = self.sizes[0];
         let moves = |step: &[f64], way: &mut Vec<f64>| {
             way.clear();
@@ -285,14 +275,15 @@ impl<'a> LinkKernel<'a> {
             self.take();
             return Ok(false);
         }
+        // Newton: J Δf̃ = r, with a new factor of J where the kept one contracts badly.
         let slow = size > CONTRACTS * self.size_before;
         self.size_before = size;
         if self.iteration == 1 {
-            // Nobody looks at the tangents of the first look but who makes a factor.
+            // The tangents of the first evaluation serve a new factor alone.
             if slow || !self.keeps(affine.key) {
                 self.laws.tangents(out.laws.tangents);
             }
-            // Nobody asks how far the first correction goes.
+            // The first correction is made in full.
             let goes = self.go(affine, out.laws.tangents, slow);
             return if goes { Ok(false) } else { Err(self.farthest()) };
         }
@@ -300,6 +291,7 @@ impl<'a> LinkKernel<'a> {
         self.correct(affine, out.laws.tangents, slow);
         let Self { followed, unknowns, correction, residual, search, .. } = self;
         let step = if *followed { unknowns.pseudo_of(correction) } else { residual };
+        // Converged as well: what is left is rounding of a steep law, and the correction changes nothing.
         if size <= ROUNDING && size * largest(step) <= SETTLED * before {
             self.end(from, out);
             return Ok(true);
@@ -309,7 +301,7 @@ impl<'a> LinkKernel<'a> {
         Ok(false)
     }
 
-    /// The laws end the step where they were asked last.
+    /// The laws end the step where they were evaluated last.
     #[inline]
     fn end(&mut self, from: &Committed<'_>, out: &mut Converged<'_>) {
         if self.plain {
@@ -329,8 +321,8 @@ impl<'a> LinkKernel<'a> {
         }
     }
 
-    /// The last change of f̃, and the deformations of the active coordinates, which must follow it by
-    /// −G times it; none where they have done so already. The rates that laws look at have followed.
+    /// The last change of f̃, and the deformations of the active coordinates, which must follow it by Δd = −G Δf̃; none where
+    /// they have done so already. The rates of rate-dependent laws have followed: Δḋ = −H Δf̃.
     #[inline]
     pub(crate) fn change(&mut self, h: &Dense) -> Option<(&[f64], &mut [f64])> {
         if self.followed {
@@ -342,21 +334,21 @@ impl<'a> LinkKernel<'a> {
             h.mul_add(-1.0, residual, v);
         } else {
             // The compliances are symmetric.
-            for (v, a) in v.iter_mut().zip(&layout.rated) {
+            for (v, a) in v.iter_mut().zip(&layout.rate_dependent) {
                 *v -= h.column_dot(*a, residual);
             }
         }
         Some((residual, d))
     }
 
-    /// Deformations and rates of all coordinates.
+    /// Deformations and rates of all coordinates: those of the active ones and, where supports move, what these add.
     #[inline(always)]
     fn deform(&mut self, affine: &Affine<'_>, out: &mut Converged<'_>) {
         self.plain = self.layout.complete && affine.support.is_none();
         if !self.plain {
             return self.deform_all(affine, out);
         }
-        for (a, v) in self.layout.rated.iter().zip(self.unknowns.v()) {
+        for (a, v) in self.layout.rate_dependent.iter().zip(self.unknowns.v()) {
             out.v[*a] = *v;
         }
     }
@@ -377,12 +369,12 @@ impl<'a> LinkKernel<'a> {
         for (flat, d) in links.active.iter().zip(self.unknowns.d()) {
             out.d[*flat] += d;
         }
-        for (a, v) in self.layout.rated.iter().zip(self.unknowns.v()) {
+        for (a, v) in self.layout.rate_dependent.iter().zip(self.unknowns.v()) {
             out.v[links.active[*a]] += v;
         }
     }
 
-    /// Laws and residual at the present deformations.
+    /// Laws and residual r = law(d, ḋ) − k_e d − f̃ at the present deformations.
     fn evaluate(&mut self, affine: &Affine<'_>, from: &Committed<'_>, out: &mut Converged<'_>) {
         self.deform(affine, out);
         let (d, v) = (choose(self.plain, &self.unknowns, out.d), &*out.v);
@@ -391,7 +383,7 @@ impl<'a> LinkKernel<'a> {
         self.laws.respond(&at, last, from.history, &mut out.laws);
         let Self { layout, unknowns, residual: r, correction, sizes, .. } = self;
         let of_active = active(layout, out.laws.f, correction);
-        sized_residual(of_active, &layout.dummy_k, unknowns.d(), unknowns.pseudo(), r, sizes);
+        sized_residual(of_active, &layout.effective_k, unknowns.d(), unknowns.pseudo(), r, sizes);
         if !layout.complete {
             sizes[1] = largest(out.laws.f);
         }
@@ -417,7 +409,7 @@ impl<'a> LinkKernel<'a> {
         Parts { factor, residual, correction, unknowns }
     }
 
-    /// From the residual to the Newton correction of f̃.
+    /// From the residual to the Newton correction of f̃: Δf̃ = J⁻¹ r.
     fn correct(&mut self, affine: &Affine<'_>, tangents: &Tangents, slow: bool) {
         let Parts { factor, residual, correction, .. } = self.factor(affine, tangents, slow);
         self.followed = factor.correct(residual, correction);

@@ -18,7 +18,7 @@ pub(crate) const ENOUGH: f64 = 0.9;
 /// Where g is less than this share of what either side has, a law changes over.
 pub(crate) const CROSSES: f64 = 0.5;
 
-/// Line search of a Newton iteration that does not settle.
+/// Line search of a Newton iteration that does not converge.
 #[derive(Default)]
 pub(crate) struct Search {
     /// The last correction, the residual before it, and what it moves.

@@ -3,7 +3,7 @@
 use super::plan::Plan;
 use super::setup::LaneSetup;
 use super::small::Aligned;
-use crate::single_mode::Mode;
+use crate::modal::Mode;
 use trilith_element::lanes::{Arithmetic, Real};
 
 /// Coefficients of a step size.

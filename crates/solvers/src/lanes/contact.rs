@@ -1,6 +1,6 @@
 //! The response mode of bodies on contacts, in lanes; see [`ContactMode`](crate::ContactMode).
 
-use crate::contact_mode::{ContactSummary, Seen};
+use crate::record::{ContactSummary, Seen};
 use trilith_element::Contact;
 use trilith_element::lanes::{Arithmetic, LaneContact, Real};
 

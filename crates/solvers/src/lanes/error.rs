@@ -1,10 +1,10 @@
 //! How far a step made whole and in two halves is apart, lane by lane: the norms of the ordinary
-//! [`march`](crate::march) and of [`apart`](crate::apart).
+//! [`march`](crate::march) and of [`Difference`](crate::step::Difference).
 
 use super::plan::{Plan, pick};
 use super::setup::{Adaptive, LaneSetup};
 use super::state::State;
-use crate::march::{CLOSURE, LEAST_WAY, Pace, ROUNDING};
+use crate::march::{CLOSURE, LEAST_WAY, ROUNDING, StepControlState as Pace};
 use trilith_element::lanes::{Arithmetic, Real};
 
 /// What steps are measured against.

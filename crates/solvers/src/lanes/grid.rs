@@ -1,7 +1,7 @@
 //! The steps of a case: a grid of equal ones, and the output steps that loads cut otherwise.
 
-use crate::start::peak;
-use crate::timeline::Timeline;
+use crate::march::Timeline;
+use crate::run::peak;
 use trilith_model::Side;
 use trilith_system::{Channel, LoadSet};
 

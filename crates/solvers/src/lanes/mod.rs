@@ -55,8 +55,7 @@ pub use march::{Instructions, march, march_by};
 pub use setup::{LaneSetup, prepare};
 pub use tables::Tables;
 
-use crate::contact_mode::ContactSummary;
-use crate::observe::{EnergyTotals, LinkEnergy};
+use crate::record::{ContactSummary, EnergyTotals, LinkEnergy};
 
 /// Analyses that go side by side.
 #[must_use]

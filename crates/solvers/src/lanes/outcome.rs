@@ -3,7 +3,7 @@
 use super::LaneOutcome;
 use super::setup::LaneSetup;
 use super::state::State;
-use crate::observe::{EnergyTotals, LinkEnergy, StartEnergy};
+use crate::record::{EnergyTotals, LinkEnergy, StartEnergy};
 use trilith_element::lanes::{Arithmetic, Real};
 
 /// Where all energy has left again, the error is measured against this share of the largest, and never

@@ -4,7 +4,7 @@ use super::integral::Integral;
 use super::peaks::{Peaks, TOGETHER};
 use super::plan::pick;
 use super::setup::{LaneSetup, Output};
-use crate::peak::Peak;
+use crate::record::Peak;
 use trilith_element::lanes::{Arithmetic, Real};
 use trilith_model::Combine;
 

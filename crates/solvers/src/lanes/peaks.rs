@@ -1,6 +1,6 @@
 //! Extremes of outputs, between the steps as well.
 
-use crate::peak::{self, inner_extremes};
+use crate::record::peak::{self, inner_extremes};
 use trilith_element::lanes::{Arithmetic, Real};
 
 /// So many outputs are looked at together, where an analysis goes alone.

@@ -12,8 +12,8 @@ use super::coefficients::Rule;
 use super::plan::Plan;
 use super::sizes::Size;
 use super::state::State;
-use crate::modal::{FREE, LONGEST};
-use crate::single_mode::Mode;
+use crate::fna::{FREE, LONGEST};
+use crate::modal::Mode;
 use std::ops::Range;
 use trilith_element::lanes::{Arithmetic, Real, Task};
 

@@ -4,7 +4,7 @@ use super::plan::Plan;
 use super::rules::Rules;
 use super::setup::LaneSetup;
 use super::way::Next;
-use crate::single_mode::Mode;
+use crate::modal::Mode;
 use trilith_element::lanes::{Arithmetic, Real};
 
 /// The rules of the whole steps and of the halves.

@@ -1,4 +1,4 @@
-//! Where the motion of a link turns inside a step, lane by lane: see the ordinary [`turning`](crate::turning).
+//! Where the motion of a link turns inside a step, lane by lane: see the ordinary [`turning`](crate::step).
 
 use super::coefficients::Rule;
 use super::plan::{Plan, Run};

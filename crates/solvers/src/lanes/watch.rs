@@ -1,8 +1,8 @@
 //! Where a lane ends as no model is meant to: the ordinary engine then has something to say of it.
 
 use super::uncoupled::turned;
-use crate::plausible::{FAR, PRESSED, size};
-use crate::space::Space;
+use crate::checks::{FAR, PRESSED, size};
+use crate::structure::ReducedSystem as Space;
 use trilith_linalg::Dense;
 use trilith_model::Model;
 use trilith_system::System;

@@ -1,24 +1,19 @@
 //! One motion among several.
 
-use crate::ledger::Ledger;
-use crate::link_side::LinkSide;
-use crate::march::Pace;
-use crate::modal::{Modes, Sources};
-use crate::output_step::jump;
-use crate::space::Space;
-use crate::start::potential;
-use crate::stepper::{State, StepEnergy};
-use crate::timeline::{Piece, Timeline};
-use crate::view::Viewer;
+use crate::fna::{ModalLoads, Modes};
+use crate::march::{Segment, StepControlState, Timeline, jump, potential};
+use crate::record::{Ledger, Viewer};
+use crate::step::{LinkEquations, State, StepEnergy};
+use crate::structure::ReducedSystem;
 use trilith_system::{LoadSet, StepLoads};
 
 /// One motion, its link side, its books and who watches it.
-pub(crate) struct Course<'a, 'b> {
-    pub side: LinkSide<'a>,
+pub(super) struct Course<'a, 'b> {
+    pub side: LinkEquations<'a>,
     pub loads: &'a LoadSet,
     pub timeline: Timeline,
     pub state: State,
-    pub pace: Pace,
+    pub control: StepControlState,
     pub ledger: Ledger,
     pub viewer: Viewer<'a, 'b>,
     /// Forces of constant loads in the coordinates of the modes.
@@ -31,36 +26,36 @@ pub(crate) struct Course<'a, 'b> {
     pub left: bool,
     /// Index of the element of a body that has fallen over; the course ends there.
     pub fallen: Option<usize>,
-    sources: Sources,
+    modal_loads: ModalLoads,
     next: State,
     energy: StepEnergy,
     step_loads: StepLoads,
-    settled: bool,
-    /// Pieces of the output step under way.
-    pieces: Vec<Piece>,
+    converged: bool,
+    /// Segments of the output step under way.
+    segments: Vec<Segment>,
     /// End of the step under way, s.
     at: f64,
 }
 
 impl<'a, 'b> Course<'a, 'b> {
     pub(crate) fn new(
-        space: &Space,
-        side: LinkSide<'a>,
+        space: &ReducedSystem,
+        side: LinkEquations<'a>,
         loads: &'a LoadSet,
         timeline: Timeline,
-        (state, pace, ledger): (State, Pace, Ledger),
+        (state, control, ledger): (State, StepControlState, Ledger),
         viewer: Viewer<'a, 'b>,
     ) -> Self {
         let layout = side.kernel.layout();
-        let sources = Sources::new(space, &layout.rated, &layout.damped);
+        let modal_loads = ModalLoads::new(space, &layout.rate_dependent, &layout.damped);
         Self {
-            constant: crate::start::constant_force(space, loads),
-            sources,
+            constant: crate::march::constant_force(space, loads),
+            modal_loads,
             side,
             loads,
             timeline,
             state,
-            pace,
+            control,
             ledger,
             viewer,
             made: 0,
@@ -70,8 +65,8 @@ impl<'a, 'b> Course<'a, 'b> {
             next: State::default(),
             energy: StepEnergy::default(),
             step_loads: StepLoads::default(),
-            settled: false,
-            pieces: Vec::new(),
+            converged: false,
+            segments: Vec::new(),
             at: 0.0,
         }
     }
@@ -81,8 +76,8 @@ impl<'a, 'b> Course<'a, 'b> {
         !self.left && self.fallen.is_none() && self.made < self.timeline.steps
     }
 
-    pub(super) fn is_settled(&self) -> bool {
-        self.settled
+    pub(super) fn is_converged(&self) -> bool {
+        self.converged
     }
 
     /// Shows the state it starts from.
@@ -96,22 +91,22 @@ impl<'a, 'b> Course<'a, 'b> {
         self.viewer.end(&self.state, &self.ledger);
     }
 
-    /// Lengths of the pieces of the output step under way.
+    /// Lengths of the segments of the output step under way.
     pub(super) fn lengths(&self) -> Vec<f64> {
-        self.timeline.pieces(self.made).map(|piece| piece.length).collect()
+        self.timeline.pieces(self.made).map(|segment| segment.length).collect()
     }
 
     /// An output step starts. One that loads cut otherwise than that of the others leaves them.
     pub(super) fn set_out(&mut self, lengths: &[f64]) {
-        self.pieces.clear();
-        self.pieces.extend(self.timeline.pieces(self.made));
-        let same = self.pieces.iter().map(|piece| &piece.length).eq(lengths);
+        self.segments.clear();
+        self.segments.extend(self.timeline.pieces(self.made));
+        let same = self.segments.iter().map(|segment| &segment.length).eq(lengths);
         self.left = !same;
     }
 
-    /// A piece of the output step starts: a load may jump there.
-    pub(crate) fn set_off(&mut self, piece: usize, modes: &Modes) {
-        let start = self.pieces[piece].start;
+    /// A segment of the output step starts: a load may jump there.
+    pub(crate) fn set_off(&mut self, segment: usize, modes: &Modes) {
+        let start = self.segments[segment].start;
         if start > 0.0 && self.timeline.is_jump(start) {
             self.step_loads.cut();
             if let Some(change) = jump(self.loads, start) {
@@ -129,42 +124,47 @@ impl<'a, 'b> Course<'a, 'b> {
         self.fallen = self.viewer.overturned(&self.state);
     }
 
-    /// Takes up one part of so many of a piece of the output step.
-    pub(super) fn begin(&mut self, space: &Space, piece: usize, part: usize, of: usize) {
-        let Piece { start: t0, end: t1, .. } = self.pieces[piece].part(part, of);
+    /// Takes up one part of so many of a segment of the output step.
+    pub(super) fn begin(&mut self, space: &ReducedSystem, segment: usize, part: usize, of: usize) {
+        let Segment { start: t0, end: t1, .. } = self.segments[segment].part(part, of);
         self.loads.step(t0, t1, &mut self.step_loads);
         self.side.begin(space, &self.state, &mut self.next, &self.step_loads, &mut self.energy);
-        self.settled = false;
+        self.converged = false;
         self.at = t1;
     }
 
     /// Pseudo-forces to be spread, and where.
     pub(super) fn spread_start(&mut self) -> Option<(&[f64], &mut [f64])> {
         let pseudo = &self.state.pseudo[..];
-        self.sources.renew_spread(pseudo).map(|to| (pseudo, to))
+        self.modal_loads.renew_spread(pseudo).map(|to| (pseudo, to))
     }
 
     /// The same at the end of the step.
     pub(super) fn spread_end(&mut self) -> Option<(&[f64], &mut [f64])> {
         let pseudo = &self.next.pseudo[..];
-        self.sources.renew_spread(pseudo).map(|to| (pseudo, to))
+        self.modal_loads.renew_spread(pseudo).map(|to| (pseudo, to))
     }
 
     pub(super) fn predict(&mut self, modes: &Modes) {
         let forces = self.side.forces(&self.state.pseudo, &self.next.pseudo);
-        modes.predict(&mut self.sources, &self.state.motion, &forces.loads, &mut self.next.motion);
+        modes.predict(
+            &mut self.modal_loads,
+            &self.state.motion,
+            &forces.loads,
+            &mut self.next.motion,
+        );
     }
 
-    /// Displacements as predicted, and where those of the links go; rates that laws look at are put in place.
+    /// Displacements as predicted, and where those of the links go; rates that laws depend on are put in place.
     pub(super) fn predicted(&mut self, modes: &Modes) -> (&[f64], &mut [f64]) {
         let m = modes.space.order();
         let (displacement, rest) = self.next.motion.split_at(m);
         let wanted = self.side.kernel.wanted();
-        self.sources.rates(&modes.space.links, &rest[..m], wanted.v);
+        self.modal_loads.rates(&modes.space.links, &rest[..m], wanted.v);
         (displacement, wanted.d)
     }
 
-    /// True where deformations must follow what is foreseen.
+    /// True where deformations must follow what is predicted.
     pub(super) fn take_up(&mut self, modes: &Modes, dt: f64) -> bool {
         self.side.take_up(modes.compliance(), &self.state, &mut self.next, dt)
     }
@@ -172,8 +172,8 @@ impl<'a, 'b> Course<'a, 'b> {
     pub(super) fn iterate(&mut self, modes: &Modes, dt: f64) {
         let (from, to) = (&self.state, &mut self.next);
         match self.side.iterate(modes.compliance(), from, to, dt, &mut self.energy) {
-            Ok(settled) => self.settled = settled,
-            Err(_) => (self.left, self.settled) = (true, true),
+            Ok(converged) => self.converged = converged,
+            Err(_) => (self.left, self.converged) = (true, true),
         }
     }
 
@@ -185,7 +185,12 @@ impl<'a, 'b> Course<'a, 'b> {
 
     pub(super) fn correct(&mut self, modes: &Modes) {
         let forces = self.side.forces(&self.state.pseudo, &self.next.pseudo);
-        modes.complete(&mut self.sources, &self.state.motion, &forces.loads, &mut self.next.motion);
+        modes.complete(
+            &mut self.modal_loads,
+            &self.state.motion,
+            &forces.loads,
+            &mut self.next.motion,
+        );
     }
 
     /// Velocities, and where those of the links go, if the laws left some open.
@@ -197,9 +202,9 @@ impl<'a, 'b> Course<'a, 'b> {
 
     /// Closes the books of a step and makes its end the start of the next.
     pub(super) fn accept(&mut self, modes: &Modes) {
-        let Self { side, state, next, energy, sources, .. } = self;
-        side.settle(next, energy);
-        energy.work = modes.work(sources);
+        let Self { side, state, next, energy, modal_loads, .. } = self;
+        side.finish(next, energy);
+        energy.work = modes.work(modal_loads);
         let of_motion = (energy.work.kinetic, energy.work.strain);
         side.book(state, next, of_motion, energy);
         self.ledger.enter(&self.energy, potential(&self.constant, &self.next));

@@ -1,5 +1,8 @@
 //! Several motions of one structure in lock step: FNA with fixed steps.
 //!
+//! Each motion iterates on its own; products with link maps and compliances are made for all at once.
+//! May use `run` and all that it uses.
+//!
 //! Link maps and compliances are large matrices, and one motion uses each number of them once. Several
 //! motions (records, scales, link laws of other strength) that share the structure share the reading: matrix
 //! times matrix in place of matrix times vector. Every motion is iterated on its own and comes out as it
@@ -7,21 +10,18 @@
 
 mod course;
 
-use crate::case::{RunOptions, before, run};
-use crate::clock::{Clock, peak_rss_mb};
-use crate::damping::modal_damping;
-use crate::drag::follow_supports;
-use crate::dynamic::{Arrival, held_load};
-use crate::equations::{bases, link_side, modes};
+use crate::basis::{BasisReport, ModalDamping, follow_supports, modal_damping};
+use crate::checks;
 use crate::error::SolveError;
-use crate::modal::{LONGEST, Modal, Modes};
-use crate::observe::{CaseResult, Observer, Work};
-use crate::plausible;
-use crate::propagator::StepKey;
-use crate::start::{Initial, start};
-use crate::stepper::LinkStepper;
-use crate::timeline::Timeline;
-use crate::view::{Viewer, looks_at_rates};
+use crate::fna::{LONGEST, Modal, Modes};
+use crate::kernel::StepKey;
+use crate::march::Timeline;
+use crate::record::{Observer, Viewer, needs_rates};
+use crate::run::{
+    Arrival, CaseResult, Clock, Initial, RunOptions, Work, bases, before, fna_modes, held_load,
+    link_equations, peak_rss_mb, run, start,
+};
+use crate::step::LinkStepper;
 use course::Course;
 use trilith_model::{Analysis, Case, DynamicCase, Model, SolverKind, StepControl};
 use trilith_system::{LoadSet, System};
@@ -145,15 +145,8 @@ fn march<O: Observer>(
     else {
         return Ok(none());
     };
-    // What the supports drag along is known with the modes.
-    let damping = modal_damping(model, system, &bases);
-    let mut dragged = Vec::new();
-    for Entrant { member: Member { model, system }, loads, .. } in group {
-        let mut loads = loads.clone();
-        follow_supports(model, system, damping.as_ref(), true, &mut loads)?;
-        dragged.push(loads);
-    }
-    let mut modes = modes(model, system, &dragged[0], &bases);
+    let all_loads = with_supports(group, modal_damping(model, system, &bases).as_ref())?;
+    let mut modes = fna_modes(model, system, &all_loads[0], &bases);
     let dt = analysis.dt;
     // Stiff links choose their rule step by step, each motion its own.
     if modes.ratio(dt / substeps as f64) > LONGEST {
@@ -162,79 +155,123 @@ fn march<O: Observer>(
     let mut watchers: Vec<[&mut dyn Observer; 1]> =
         observers.iter_mut().map(|o| [o as &mut dyn Observer]).collect();
     let mut courses = Vec::new();
-    for ((entrant, loads), watcher) in group.iter().zip(&dragged).zip(&mut watchers) {
-        let Entrant { member: Member { model, system }, initial, analysis, .. } = entrant;
-        let watched = looks_at_rates(model, system, watcher.iter().any(|o| o.wants_rates()));
-        let order = modes.space.order();
-        let side = link_side(model, system, &analysis.solution, loads, order, watched);
-        let mut stepper = LinkStepper::new(Modal::new(modes), side)?;
-        let times = [dt, analysis.duration];
-        let (state, pace, ledger, _) = start(model, system, initial, loads, &mut stepper, times)?;
-        let (modal, side) = stepper.into_parts();
-        modes = modal.into_modes();
-        let mut viewer = Viewer::new(model, system, loads, &modes.space, watcher);
-        viewer.look_inside(Some(modes.closed_form()), dt, Vec::new());
-        let timeline = Timeline::new(dt, analysis.duration, loads, substeps);
-        let mut course =
-            Course::new(&modes.space, side, loads, timeline, (state, pace, ledger), viewer);
-        course.show_start();
+    for ((entrant, loads), watcher) in group.iter().zip(&all_loads).zip(&mut watchers) {
+        let course;
+        (course, modes) = set_out(entrant, loads, modes, watcher, substeps)?;
         courses.push(course);
     }
     let setup_cpu = clock.cpu();
-    while courses.iter().any(Course::is_on_the_way) {
-        let lengths = common(&courses);
-        courses.iter_mut().filter(|c| c.is_on_the_way()).for_each(|c| c.set_out(&lengths));
-        for (piece, length) in lengths.into_iter().enumerate() {
-            let going = courses.iter_mut().filter(|c| c.is_on_the_way());
-            going.for_each(|c| c.set_off(piece, &modes));
-            let part = length / substeps as f64;
-            for index in 0..substeps {
-                step(&mut modes, &mut courses, piece, (index, substeps), part);
-            }
-        }
-        courses.iter_mut().filter(|c| c.is_on_the_way()).for_each(|c| c.arrive());
-    }
+    march_all(&mut modes, &mut courses, substeps);
     courses.iter_mut().filter(|c| !c.left).for_each(Course::show_end);
     let share = (courses.len() as f64).recip();
+    let cpu = [share * setup_cpu, share * (clock.cpu() - setup_cpu)];
     let result = |(course, entrant): (Course<'_, '_>, &&Entrant<'_>)| {
-        if course.left {
-            return None;
-        }
-        let work = Work {
-            steps: course.made,
-            substeps: course.substeps,
-            iterations: course.side.kernel.iterations(),
-            wall_s: clock.wall(),
-            setup_cpu_s: share * setup_cpu,
-            march_cpu_s: share * (clock.cpu() - setup_cpu),
-            peak_rss_mb: peak_rss_mb(),
-            ..Work::default()
-        };
-        let Member { model, system } = entrant.member;
-        let memory = course.side.kernel.memory();
-        let (loads, noticed) = (course.loads, course.viewer.noticed());
-        let arrival = Arrival {
-            timeline: &course.timeline,
-            made: course.made,
-            state: course.state,
-            pace: course.pace,
-            ledger: course.ledger,
-            constant: entrant.constant.clone(),
-            initial: entrant.initial.clone(),
-            fallen: course.fallen,
-            largest: course.viewer.largest(),
-        };
-        let (case, kind) = (entrant.case, SolverKind::Fna);
-        let mut result = arrival.result(model, system, case, kind, &modes.space, memory, work);
-        let of = (case, entrant.analysis);
-        result.warnings = plausible::of_dynamic((model, system), of, loads, noticed, &result);
-        result.basis = Some(bases.report.clone());
-        Some(result)
+        let report = bases.report.clone();
+        (!course.left).then(|| result(course, entrant, &modes, report, clock.wall(), cpu))
     };
     Ok(courses.into_iter().zip(group).map(result).collect())
 }
 
-/// Lengths of the pieces of the next output step that most of the courses on the way have in common, the first of
+/// The loads of each member, with the damping of what follows its moving supports, which is known with the modes.
+fn with_supports(
+    group: &[&Entrant<'_>],
+    damping: Option<&ModalDamping>,
+) -> Result<Vec<LoadSet>, SolveError> {
+    let mut all = Vec::new();
+    for Entrant { member: Member { model, system }, loads, .. } in group {
+        let mut loads = loads.clone();
+        follow_supports(model, system, damping, true, &mut loads)?;
+        all.push(loads);
+    }
+    Ok(all)
+}
+
+/// The start of one motion, and the modes again, which it shares with the others.
+fn set_out<'a, 'b>(
+    entrant: &Entrant<'a>,
+    loads: &'a LoadSet,
+    modes: Modes,
+    watcher: &'a mut [&'b mut dyn Observer; 1],
+    substeps: usize,
+) -> Result<(Course<'a, 'b>, Modes), SolveError> {
+    let Entrant { member: Member { model, system }, initial, analysis, .. } = entrant;
+    let DynamicCase { dt, duration, .. } = **analysis;
+    let watched = needs_rates(model, system, watcher.iter().any(|o| o.wants_rates()));
+    let order = modes.space.order();
+    let side = link_equations(model, system, &analysis.solution, loads, order, watched);
+    let mut stepper = LinkStepper::new(Modal::new(modes), side)?;
+    let (state, control, ledger, _) =
+        start(model, system, initial, loads, &mut stepper, [dt, duration])?;
+    let (modal, side) = stepper.into_parts();
+    let modes = modal.into_modes();
+    let mut viewer = Viewer::new(model, system, loads, &modes.space, watcher);
+    viewer.look_inside(Some(modes.closed_form()), dt, Vec::new());
+    let timeline = Timeline::new(dt, duration, loads, substeps);
+    let mut course =
+        Course::new(&modes.space, side, loads, timeline, (state, control, ledger), viewer);
+    course.show_start();
+    Ok((course, modes))
+}
+
+/// All courses to their ends, output step after output step.
+fn march_all(modes: &mut Modes, courses: &mut [Course<'_, '_>], substeps: usize) {
+    while courses.iter().any(Course::is_on_the_way) {
+        let lengths = common(courses);
+        courses.iter_mut().filter(|c| c.is_on_the_way()).for_each(|c| c.set_out(&lengths));
+        for (segment, length) in lengths.into_iter().enumerate() {
+            let going = courses.iter_mut().filter(|c| c.is_on_the_way());
+            going.for_each(|c| c.set_off(segment, modes));
+            let part = length / substeps as f64;
+            for index in 0..substeps {
+                step(modes, courses, segment, (index, substeps), part);
+            }
+        }
+        courses.iter_mut().filter(|c| c.is_on_the_way()).for_each(|c| c.arrive());
+    }
+}
+
+/// What a course has come to; `cpu`: its share of the CPU time before the first step and from there on, s.
+fn result(
+    course: Course<'_, '_>,
+    entrant: &Entrant<'_>,
+    modes: &Modes,
+    report: BasisReport,
+    wall: f64,
+    [setup_cpu, march_cpu]: [f64; 2],
+) -> CaseResult {
+    let work = Work {
+        steps: course.made,
+        substeps: course.substeps,
+        iterations: course.side.kernel.iterations(),
+        wall_s: wall,
+        setup_cpu_s: setup_cpu,
+        march_cpu_s: march_cpu,
+        peak_rss_mb: peak_rss_mb(),
+        ..Work::default()
+    };
+    let Member { model, system } = entrant.member;
+    let memory = course.side.kernel.memory();
+    let (loads, noticed) = (course.loads, course.viewer.noticed());
+    let arrival = Arrival {
+        timeline: &course.timeline,
+        made: course.made,
+        state: course.state,
+        control: course.control,
+        ledger: course.ledger,
+        constant: entrant.constant.clone(),
+        initial: entrant.initial.clone(),
+        fallen: course.fallen,
+        largest: course.viewer.largest(),
+    };
+    let (case, kind) = (entrant.case, SolverKind::Fna);
+    let mut result = arrival.result(model, system, case, kind, &modes.space, memory, work);
+    let of = (case, entrant.analysis);
+    result.warnings = checks::of_dynamic((model, system), of, loads, noticed, &result.place());
+    result.basis = Some(report);
+    result
+}
+
+/// Lengths of the segments of the next output step that most of the courses on the way have in common, the first of
 /// them where several are as many.
 fn common(courses: &[Course<'_, '_>]) -> Vec<f64> {
     let going = courses.iter().filter(|c| c.is_on_the_way());
@@ -243,12 +280,12 @@ fn common(courses: &[Course<'_, '_>]) -> Vec<f64> {
     all.iter().rev().max_by_key(|lengths| count(lengths)).cloned().unwrap_or_default()
 }
 
-/// One step of all courses that are on the way: a part of so many of a piece of their output step, over `dt`.
+/// One step of all courses that are on the way: a part of so many of a segment of their output step, over `dt`.
 /// A course whose links find no equilibrium leaves the others.
 fn step(
     modes: &mut Modes,
     courses: &mut [Course<'_, '_>],
-    piece: usize,
+    segment: usize,
     (part, of): (usize, usize),
     dt: f64,
 ) {
@@ -256,7 +293,7 @@ fn step(
     let modes = &*modes;
     let mut going: Vec<&mut Course<'_, '_>> =
         courses.iter_mut().filter(|c| c.is_on_the_way()).collect();
-    going.iter_mut().for_each(|c| c.begin(&modes.space, piece, part, of));
+    going.iter_mut().for_each(|c| c.begin(&modes.space, segment, part, of));
     let mut pairs: Vec<_> = going.iter_mut().filter_map(|c| c.spread_start()).collect();
     modes.space.links.spread_each(&mut pairs);
     going.iter_mut().for_each(|c| c.predict(modes));
@@ -270,8 +307,8 @@ fn step(
     }
     modes.compliance().g.mul_add_each(-1.0, &mut moved);
     loop {
-        going.iter_mut().filter(|c| !c.is_settled()).for_each(|c| c.iterate(modes, dt));
-        let is_open = |c: &Course<'_, '_>| c.is_on_the_way() && !c.is_settled();
+        going.iter_mut().filter(|c| !c.is_converged()).for_each(|c| c.iterate(modes, dt));
+        let is_open = |c: &Course<'_, '_>| c.is_on_the_way() && !c.is_converged();
         if !going.iter().any(|c| is_open(c)) {
             break;
         }

@@ -1,0 +1,28 @@
+//! The response of one law, evaluated beside the march.
+
+use trilith_element::{Energy, Kinematics, Link, Response};
+
+/// Forces, tangents and history of one link, kept so that an evaluation allocates nothing.
+#[derive(Default)]
+pub(crate) struct LawResponse {
+    pub f: Vec<f64>,
+    pub k: Vec<f64>,
+    pub c: Vec<f64>,
+    pub history: Vec<f64>,
+}
+
+impl LawResponse {
+    /// Evaluates a law at a motion, from a committed history.
+    pub(crate) fn of(&mut self, law: &dyn Link, at: &Kinematics<'_>, committed: &[f64]) {
+        let n = at.d.len();
+        let Self { f, k, c, history } = self;
+        for (x, n) in [(&mut *f, n), (&mut *k, n * n), (&mut *c, n * n)] {
+            x.clear();
+            x.resize(n, 0.0);
+        }
+        history.clear();
+        history.extend_from_slice(committed);
+        let out = &mut Response { f, k, c, energy: &mut Energy::default() };
+        law.respond(at, committed, history, out);
+    }
+}
