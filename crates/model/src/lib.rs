@@ -6,10 +6,13 @@
 
 mod analysis;
 mod diagnostic;
+mod expand;
 mod expression;
+mod include;
 mod model;
 mod output;
 mod parameters;
+mod places;
 mod read;
 mod registry;
 mod resolved;
@@ -35,6 +38,7 @@ pub use diagnostic::{Diagnostic, line_column};
 pub use expression::quantity;
 pub use model::*;
 pub use output::*;
+pub use places::{Place, Places};
 pub use read::{ModelText, read, read_text};
 pub use registry::Registry;
 pub use resolved::resolved;

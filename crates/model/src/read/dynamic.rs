@@ -174,7 +174,7 @@ impl Reading<'_, '_> {
         let found = own.unwrap_or(NONE) * factor_dimension;
         if own.is_none() && !factor.measured {
             // Plain numbers are in the file's units of what is wanted.
-            return Some((index, factor.value * c.units.scale(wanted)));
+            return Some((index, factor.value * c.units_at(node).scale(wanted)));
         }
         if found.matches(wanted) {
             return Some((index, factor.value));

@@ -25,15 +25,16 @@ mod values;
 #[cfg(test)]
 mod tests;
 
+use crate::expand::{expand, has_templates};
+use crate::include::{self, Whole};
 use crate::schema;
-use crate::tree::{self, Node};
+use crate::tree::{self, Kind, Node};
 use crate::units::{FileUnits, STANDARD_GRAVITY};
 use crate::{Diagnostic, Model, Plane, Registry, Source};
 pub use context::{Context, Fields};
 pub use likeness::resembles_model;
 pub(crate) use motion::nodal_dimension;
 use names::Names;
-use sha2::{Digest, Sha256};
 use std::path::Path;
 use std::sync::Arc;
 use trilith_element::dimension as d;
@@ -82,8 +83,7 @@ pub fn read_text(
 /// # Errors
 /// What is wrong with the text itself.
 pub fn parse(text: &str, path: impl AsRef<Path>) -> Result<(Arc<Source>, Node), Vec<Diagnostic>> {
-    let digest = Sha256::digest(text.as_bytes());
-    let sha256 = digest.iter().map(|b| format!("{b:02x}")).collect();
+    let sha256 = crate::model::sha256(text.as_bytes());
     let path = path.as_ref().to_owned();
     let source = Arc::new(Source { path, text: text.to_owned(), sha256 });
     let root = tree::parse(text).map_err(|e| {
@@ -96,12 +96,13 @@ pub fn parse(text: &str, path: impl AsRef<Path>) -> Result<(Arc<Source>, Node), 
     Ok((source, root))
 }
 
-/// A model file whose text has been understood, to be read with many values of its parameters. Motions are
-/// read from their files, or made, once: what changes on disk afterwards is not seen.
+/// A model file whose text has been understood, with those that it includes, to be read with many values of its
+/// parameters. Motions are read from their files, or made, once: what changes on disk afterwards is not seen.
 #[derive(Clone, Debug)]
 pub struct ModelText {
-    source: Arc<Source>,
-    root: Node,
+    whole: Whole,
+    /// Names of the sections that have something to expand.
+    templates: Vec<String>,
     motions: Arc<motions::Motions>,
 }
 
@@ -109,10 +110,25 @@ impl ModelText {
     /// Takes a text apart. Files it names are looked for in the folder of `path`.
     ///
     /// # Errors
-    /// What is wrong with the text itself.
+    /// What is wrong with the text itself, or with a file that it includes.
     pub fn new(text: &str, path: impl AsRef<Path>) -> Result<Self, Vec<Diagnostic>> {
         let (source, root) = parse(text, path)?;
-        Ok(Self { source, root, motions: Arc::default() })
+        let whole = include::whole(&source, root)?;
+        let templates = match &whole.root.kind {
+            Kind::Fields(_, entries) => {
+                let all = entries.iter().filter(|e| {
+                    !schema::AS_IT_STANDS.contains(&e.key.as_str()) && has_templates(&e.value)
+                });
+                all.map(|e| e.key.clone()).collect()
+            }
+            _ => Vec::new(),
+        };
+        Ok(Self { whole, templates, motions: Arc::default() })
+    }
+
+    /// The model file and those that it includes.
+    pub fn sources(&self) -> impl Iterator<Item = &Source> {
+        self.whole.places.files().map(|source| &**source)
     }
 
     /// The model with these values of its parameters.
@@ -124,7 +140,7 @@ impl ModelText {
         registry: &Registry,
         overrides: &[(String, String)],
     ) -> Result<Model, Vec<Diagnostic>> {
-        let source = &self.source;
+        let source = self.whole.places.main();
         if let Some(kind) = registry.duplicates().first() {
             let message = format!("two kinds are registered under the name `{kind}`");
             let help = "give one of them another name";
@@ -133,12 +149,13 @@ impl ModelText {
         let folder = source.path.parent().unwrap_or(Path::new("")).to_owned();
         let mut context = Context::new(Arc::clone(source), folder, registry);
         context.motions = Arc::clone(&self.motions);
-        let model = sections(&mut context, &self.root, overrides);
+        context.set_places(self.whole.places.clone());
+        let model = sections(&mut context, &self.whole, &self.templates, overrides);
         let errors = context.into_errors();
         match model {
             Some(model) if errors.is_empty() => Ok(model),
             _ if errors.is_empty() => {
-                let span = self.root.span.clone();
+                let span = self.whole.root.span.clone();
                 Err(vec![Diagnostic::new("E0105", "this is no model", span, source)])
             }
             _ => Err(errors),
@@ -146,13 +163,22 @@ impl ModelText {
     }
 }
 
-fn sections(c: &mut Context<'_>, root: &Node, overrides: &[(String, String)]) -> Option<Model> {
-    let top = c.block(root, "the model", schema::MODEL.blocks[0])?;
-    if let Some(node) = top.get("units") {
-        c.units = file_units(c, node).unwrap_or_default();
+fn sections(
+    c: &mut Context<'_>,
+    whole: &Whole,
+    templates: &[String],
+    overrides: &[(String, String)],
+) -> Option<Model> {
+    let top = c.block(&whole.root, "the model", schema::MODEL.blocks[0])?;
+    let own = top.get("units").map(|node| (0, node));
+    for (file, node) in own.into_iter().chain(whole.units.iter().map(|(i, n)| (*i, n))) {
+        let units = file_units(c, node).unwrap_or_default();
+        c.set_units(file, units);
     }
     let declared = c.section(&top, "parameters", false);
     c.set_parameters(declared, overrides);
+    let expanded = expand(c, &top, templates)?;
+    let top = top.with(&expanded);
     let c = &*c;
 
     let plane = top.get("plane").and_then(|node| {
@@ -206,6 +232,7 @@ fn sections(c: &mut Context<'_>, root: &Node, overrides: &[(String, String)]) ->
     Some(Model {
         title: title?,
         source: Source::clone(&c.source),
+        places: c.places.clone(),
         files: c.files.borrow().clone(),
         plane,
         gravity: gravity?,

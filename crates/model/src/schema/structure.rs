@@ -21,6 +21,12 @@ pub static MODEL: Group = Group {
         meaning: "The sections of a model, in any order.",
         example: r#"(nodes: { "m": (0, 0, 0) }, elements: { "k": Spring(node: "m", k1: "1 kN/m"), "mass": Mass(node: "m", mass: "1 t") }, supports: { "m": (Ux, Uy, Rx, Ry, Rz) }, cases: { "own weight": Static(loads: [Gravity]) })"#,
         fields: &[
+            absent(
+                "include",
+                Words("a list of files in quotes, see *Other files*"),
+                "none",
+                "Files with sections of the model. What they hold stands before what the model has itself.",
+            ),
             plain("title", Text, r#""""#, "Shown above results."),
             absent("units", One(&UNITS), "SI", "What bare numbers are measured in."),
             absent(
@@ -92,6 +98,45 @@ pub static MODEL: Group = Group {
                 "Recorded quantities; their peaks are in the summary, their histories in files.",
             ),
             absent("spectra", Map(&SPECTRA), "none", "Floor spectra."),
+        ],
+    }],
+};
+
+/// Sections that an included file may hold, beside `units` of its own bare numbers and `include`.
+pub const INCLUDED: [&str; 11] = [
+    "parameters",
+    "nodes",
+    "supports",
+    "properties",
+    "elements",
+    "groups",
+    "functions",
+    "loads",
+    "cases",
+    "outputs",
+    "spectra",
+];
+/// Sections in which nothing is repeated, and braces stand for themselves.
+pub const AS_IT_STANDS: [&str; 3] = ["include", "units", "parameters"];
+
+/// Repetition.
+pub static REPETITION: Group = Group {
+    name: "repetition",
+    meaning: "As the value of an entry of a map it makes many entries, as an item of a list many items.",
+    blocks: &[&Block {
+        name: "For",
+        meaning: "Repeats `of` for all values of its indices, the last index running fastest. Any other name among the \
+                  fields is an index; it takes `\"0 to 4\"` (both ends included, with expressions such as `\"1 to storeys\"`), \
+                  a list of values, or a map from what stands in names to values.",
+        example: r#"For(i: "1 to 4", axis: [U2, U3], when: "i != 2", of: LinkForce(link: "isolator {i}", axis: "{axis}"))"#,
+        fields: &[
+            needed("of", Words("anything that may stand in its place"), "What is repeated."),
+            absent(
+                "when",
+                Words("a condition in quotes: comparisons `== != < <= > >=`, `and`, `or`, `not`"),
+                "always",
+                "Which repetitions are made.",
+            ),
         ],
     }],
 };

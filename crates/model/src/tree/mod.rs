@@ -104,6 +104,22 @@ impl Node {
         }
     }
 
+    /// Moves all spans.
+    pub(crate) fn shift(&mut self, by: usize) {
+        let moved = |span: &Span| span.start + by..span.end + by;
+        self.span = moved(&self.span);
+        match &mut self.kind {
+            Kind::List(_, items) => items.iter_mut().for_each(|n| n.shift(by)),
+            Kind::Fields(_, entries) | Kind::Map(entries) => {
+                for e in entries {
+                    e.key_span = moved(&e.key_span);
+                    e.value.shift(by);
+                }
+            }
+            Kind::Number(_) | Kind::Flag(_) | Kind::Text(_) | Kind::Name(_) => {}
+        }
+    }
+
     /// True for a list without a name.
     #[must_use]
     pub fn is_list(&self) -> bool {

@@ -4,6 +4,7 @@ mod bounds;
 mod damaged;
 mod kinds;
 mod refusals;
+mod repetition;
 mod whole;
 
 use crate::{Diagnostic, Model, read_text};

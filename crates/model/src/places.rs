@@ -1,0 +1,289 @@
+//! Where the spans of a model lead: the model file, files that it includes, entries that a repetition makes.
+//!
+//! A span counts bytes of the model file. Past the end of that text lie, one after the other, the texts of the files
+//! that it includes, and behind these each repetition as often as it is repeated. So a span alone tells the file, the
+//! place in it and the indices.
+
+use crate::expression::{Quantity, diagnostic_within};
+use crate::{Diagnostic, Source, Span, line_column};
+use std::collections::HashMap;
+use std::sync::Arc;
+
+/// Where spans lead.
+#[derive(Clone, Debug)]
+pub struct Places {
+    /// Where each file starts, rising; the first is the model file.
+    files: Vec<(usize, Arc<Source>)>,
+    /// Rising by their starts.
+    loops: Vec<Loop>,
+    /// The first place that is free.
+    end: usize,
+}
+
+/// A text that is repeated over one index.
+#[derive(Clone, Debug)]
+struct Loop {
+    start: usize,
+    /// Length of the text, and where it stands: in a file or in another repetition.
+    length: usize,
+    of: usize,
+    index: Arc<str>,
+    values: Values,
+}
+
+/// What an index runs through.
+#[derive(Clone, Debug)]
+pub(crate) enum Values {
+    /// Whole numbers from the first on.
+    Whole { first: i64, count: usize },
+    /// As the file lists them.
+    Listed(Arc<[Listed]>),
+}
+
+/// A listed value: what stands for it in names, and its number if it has one.
+#[derive(Clone, Debug)]
+pub(crate) struct Listed {
+    pub name: String,
+    pub number: Option<Quantity>,
+}
+
+/// Where a span leads.
+#[derive(Clone, Debug)]
+pub struct Place {
+    /// The file.
+    pub source: Arc<Source>,
+    /// Bytes of its text.
+    pub span: Span,
+    /// Names and values of the indices of the repetitions around it, the outermost first.
+    pub indices: Vec<(String, String)>,
+}
+
+impl Place {
+    /// Such as `i = 3, k = 0`; empty outside of repetitions.
+    #[must_use]
+    pub fn indices(&self) -> String {
+        let one = |(name, value): &(String, String)| format!("{name} = {value}");
+        self.indices.iter().map(one).collect::<Vec<_>>().join(", ")
+    }
+}
+
+impl Values {
+    pub fn count(&self) -> usize {
+        match self {
+            Self::Whole { count, .. } => *count,
+            Self::Listed(all) => all.len(),
+        }
+    }
+
+    /// What stands for the n-th in names.
+    pub fn name(&self, n: usize) -> String {
+        match self {
+            Self::Whole { first, .. } => (first + n as i64).to_string(),
+            Self::Listed(all) => all[n].name.clone(),
+        }
+    }
+
+    fn number(&self, n: usize) -> Option<Quantity> {
+        match self {
+            Self::Whole { first, .. } => Some(Quantity::bare((first + n as i64) as f64)),
+            Self::Listed(all) => all[n].number,
+        }
+    }
+}
+
+impl Places {
+    /// Those of a file.
+    pub(crate) fn new(source: Arc<Source>) -> Self {
+        let mut all = Self { files: Vec::new(), loops: Vec::new(), end: 0 };
+        all.file(source);
+        all
+    }
+
+    /// Adds a file; where it starts.
+    pub(crate) fn file(&mut self, source: Arc<Source>) -> usize {
+        let start = self.end;
+        self.end += source.text.len() + 1;
+        self.files.push((start, source));
+        start
+    }
+
+    /// The files: the model file first.
+    pub(crate) fn files(&self) -> impl Iterator<Item = &Arc<Source>> {
+        self.files.iter().map(|(_, source)| source)
+    }
+
+    /// The file of a place where that is not the model file.
+    pub(crate) fn included(&self, at: usize) -> Option<&Source> {
+        let number = self.file_of(at);
+        (number > 0).then(|| &*self.files[number].1)
+    }
+
+    /// The file of a place, by its number.
+    pub(crate) fn file_of(&self, mut at: usize) -> usize {
+        while let Some((of, n)) = self.around(at) {
+            at = of.of + (at - of.start) - n * of.length;
+        }
+        self.files.partition_point(|(start, _)| *start <= at).saturating_sub(1)
+    }
+
+    /// Adds a text that stands at `of` and is repeated over an index; where it starts and how long it is each time.
+    /// None where there is no room.
+    pub(crate) fn repeat(
+        &mut self,
+        of: Span,
+        index: &Arc<str>,
+        values: &Values,
+    ) -> Option<(usize, usize)> {
+        let (start, length) = (self.end, of.len() + 1);
+        self.end = start.checked_add(length.checked_mul(values.count())?)?;
+        let (index, values) = (Arc::clone(index), values.clone());
+        self.loops.push(Loop { start, length, of: of.start, index, values });
+        Some((start, length))
+    }
+
+    /// The innermost repetition around a place, and its how-manieth time that is.
+    fn around(&self, at: usize) -> Option<(&Loop, usize)> {
+        if at < self.loops.first()?.start {
+            return None;
+        }
+        let last = self.loops.last().filter(|l| l.start <= at);
+        let found = match last {
+            Some(last) => last,
+            None => &self.loops[self.loops.partition_point(|l| l.start <= at).checked_sub(1)?],
+        };
+        Some((found, (at - found.start) / found.length))
+    }
+
+    /// The repetition of an index around a place.
+    fn index(&self, mut at: usize, name: &str) -> Option<(&Values, usize)> {
+        while let Some((of, n)) = self.around(at) {
+            if *of.index == *name {
+                return Some((&of.values, n.min(of.values.count().checked_sub(1)?)));
+            }
+            at = of.of + (at - of.start) - n * of.length;
+        }
+        None
+    }
+
+    /// What stands in names for an index at a place; none where it has none of that name.
+    pub(crate) fn index_name(&self, at: usize, name: &str) -> Option<String> {
+        self.index(at, name).map(|(values, n)| values.name(n))
+    }
+
+    /// The number of an index at a place, or its name where it is no number; none where there is no such index.
+    pub(crate) fn index_number(&self, at: usize, name: &str) -> Option<Result<Quantity, String>> {
+        let (values, n) = self.index(at, name)?;
+        Some(values.number(n).ok_or_else(|| values.name(n)))
+    }
+
+    /// Names of the indices around a place, the innermost first.
+    pub(crate) fn indices(&self, mut at: usize) -> Vec<&str> {
+        let mut all = Vec::new();
+        while let Some((of, n)) = self.around(at) {
+            all.push(&*of.index);
+            at = of.of + (at - of.start) - n * of.length;
+        }
+        all
+    }
+
+    /// Where a span leads.
+    ///
+    /// # Panics
+    /// Never for a span of the model that these places belong to, or of any other model with a file.
+    #[must_use]
+    pub fn find(&self, span: &Span) -> Place {
+        let mut at = span.start;
+        let mut indices = Vec::new();
+        while let Some((of, n)) = self.around(at) {
+            let n = n.min(of.values.count().saturating_sub(1));
+            indices.push((of.index.to_string(), of.values.name(n)));
+            at = of.of + (at - of.start) - n * of.length;
+        }
+        indices.reverse();
+        let (start, source) = &self.files[self.file_of(at)];
+        let start = at - start;
+        Place { source: Arc::clone(source), span: start..start + span.len(), indices }
+    }
+
+    /// An error of an expression in the text of a value, where it stands in that text.
+    pub(crate) fn expression(
+        &self,
+        error: crate::expression::ExpressionError,
+        span: &Span,
+        text: &str,
+    ) -> Diagnostic {
+        let place = self.find(span);
+        let whole = place.source.text.get(place.span).unwrap_or_default();
+        diagnostic_within(error, self.main(), span, whole, text)
+    }
+
+    /// Errors as they are told: where they stand in the files, with the indices of repetitions. Of those that a text
+    /// has again and again the first is told, with their number.
+    pub(crate) fn told(&self, mut errors: Vec<Diagnostic>) -> Vec<Diagnostic> {
+        errors.sort_by_key(|d| (!self.is_own(d), d.span.start));
+        let mut found: Vec<(usize, Diagnostic, String, usize)> = Vec::with_capacity(errors.len());
+        let mut first = HashMap::new();
+        for d in errors {
+            if !self.is_own(&d) {
+                found.push((usize::MAX, d, String::new(), 0));
+                continue;
+            }
+            let (file, place) = (self.file_of(d.span.start), self.find(&d.span));
+            let repeated = !place.indices.is_empty();
+            let key = (file, place.span.clone(), d.code);
+            if let Some(i) = first.get(&key).copied().filter(|_| repeated) {
+                let (.., more): &mut (_, _, _, usize) = &mut found[i];
+                *more += 1;
+                continue;
+            }
+            first.insert(key, found.len());
+            let indices = place.indices();
+            found.push((file, self.placed(d, place), indices, 0));
+        }
+        found.sort_by_key(|(file, d, ..)| (*file, d.span.start));
+        let one = |(_, mut d, indices, more): (usize, Diagnostic, String, usize)| {
+            match (indices.as_str(), more) {
+                ("", _) => {}
+                (with, 0) => d.message += &format!(", with {with}"),
+                (with, more) => d.message += &format!(", with {with} and {more} times more"),
+            }
+            d
+        };
+        found.into_iter().map(one).collect()
+    }
+
+    fn is_own(&self, d: &Diagnostic) -> bool {
+        Arc::ptr_eq(&d.source, self.main())
+    }
+
+    /// An error at its place.
+    fn placed(&self, d: Diagnostic, place: Place) -> Diagnostic {
+        let mut help = d.help;
+        let mut related = Vec::with_capacity(d.related.len());
+        for (span, mut label) in d.related {
+            let there = self.find(&span);
+            if !there.indices.is_empty() {
+                label += &format!(", with {}", there.indices());
+            }
+            if Arc::ptr_eq(&there.source, &place.source) {
+                related.push((there.span, label));
+            } else {
+                let (line, column) = line_column(&there.source.text, there.span.start);
+                let other = format!("{label}: {}:{line}:{column}", there.source.path.display());
+                help = Some(help.map_or(other.clone(), |help| format!("{help}; {other}")));
+            }
+        }
+        // What an expression has put into a text is not right for all of its values.
+        let suggestion = d.suggestion.and_then(|(span, text)| {
+            let there = self.find(&span);
+            let as_it_stands = there.source.text.get(there.span.clone())?;
+            (!as_it_stands.contains('{')).then_some((there.span, text))
+        });
+        Diagnostic { source: place.source, span: place.span, help, related, suggestion, ..d }
+    }
+
+    /// The model file.
+    pub(crate) fn main(&self) -> &Arc<Source> {
+        &self.files[0].1
+    }
+}
