@@ -255,6 +255,13 @@ impl Model {
         self.places.files().skip(1).map(|source| &**source)
     }
 
+    /// All files that it was read from: the model file, those that it includes, records and tables.
+    #[must_use]
+    pub fn inputs(&self) -> Vec<PathBuf> {
+        let own = self.places.files().map(|source| source.path.clone());
+        own.chain(self.files.iter().cloned()).collect()
+    }
+
     /// What tells its text from that of another model: SHA-256 of the model file, hexadecimal; where it includes files,
     /// of the list of the sums of all.
     #[must_use]

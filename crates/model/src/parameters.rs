@@ -304,7 +304,7 @@ impl Scope for Evaluated<'_> {
         all
     }
     fn has(&self, name: &str) -> bool {
-        self.parameters.has(name) || self.places.index_number(self.at, name).is_some()
+        self.parameters.has(name) || self.places.index(self.at, name).is_some()
     }
     fn suggests(&self) -> bool {
         self.suggests
@@ -313,15 +313,18 @@ impl Scope for Evaluated<'_> {
         let told = |message| Err(Some(("E0111", message)));
         let Parameters { slots, index, .. } = self.parameters;
         let slot = index.get(name).and_then(|&i| slots.get(i));
-        match (slot.map(|s| &s.state), self.places.index_number(self.at, name)) {
+        match (slot.map(|s| &s.state), self.places.index(self.at, name)) {
             (Some(State::Number(q)), _) => Ok(*q),
-            (None, Some(Ok(q))) => Ok(q),
             (Some(State::Text(_)), _) => {
                 told(format!("parameter `{name}` is a text, not a number"))
             }
-            (None, Some(Err(text))) => {
-                told(format!("the index `{name}` is the text \"{text}\", not a number"))
-            }
+            (None, Some(value)) => match value.number() {
+                Some(q) => Ok(q),
+                None => {
+                    let text = value.name();
+                    told(format!("the index `{name}` is the text \"{text}\", not a number"))
+                }
+            },
             _ => Err(None),
         }
     }

@@ -36,15 +36,16 @@ struct Loop {
 pub(crate) enum Values {
     /// Whole numbers from the first on.
     Whole { first: i64, count: usize },
-    /// As the file lists them.
-    Listed(Arc<[Listed]>),
+    /// As the file lists them, with names of the further values that each of them has.
+    Listed(Arc<[Listed]>, Arc<[String]>),
 }
 
-/// A listed value: what stands for it in names, and its number if it has one.
+/// A listed value: what stands for it in names, its number if it has one, and further values.
 #[derive(Clone, Debug)]
 pub(crate) struct Listed {
     pub name: String,
     pub number: Option<Quantity>,
+    pub more: Vec<Listed>,
 }
 
 /// Where a span leads.
@@ -71,7 +72,7 @@ impl Values {
     pub fn count(&self) -> usize {
         match self {
             Self::Whole { count, .. } => *count,
-            Self::Listed(all) => all.len(),
+            Self::Listed(all, _) => all.len(),
         }
     }
 
@@ -79,14 +80,49 @@ impl Values {
     pub fn name(&self, n: usize) -> String {
         match self {
             Self::Whole { first, .. } => (first + n as i64).to_string(),
-            Self::Listed(all) => all[n].name.clone(),
+            Self::Listed(all, _) => all[n].name.clone(),
+        }
+    }
+}
+
+/// The value that an index has at a place.
+pub(crate) enum Value<'p> {
+    Whole(i64),
+    Listed(&'p Listed),
+}
+
+impl Value<'_> {
+    /// What stands for it in names.
+    pub fn name(&self) -> String {
+        match self {
+            Self::Whole(i) => i.to_string(),
+            Self::Listed(it) => it.name.clone(),
         }
     }
 
-    fn number(&self, n: usize) -> Option<Quantity> {
+    /// Its number; none where it is a name alone.
+    pub fn number(&self) -> Option<Quantity> {
         match self {
-            Self::Whole { first, .. } => Some(Quantity::bare((first + n as i64) as f64)),
-            Self::Listed(all) => all[n].number,
+            Self::Whole(i) => Some(Quantity::bare(*i as f64)),
+            Self::Listed(it) => it.number,
+        }
+    }
+}
+
+impl Loop {
+    /// The n-th value of the index, or of a further name that its values have.
+    fn value(&self, n: usize, name: &str) -> Option<Value<'_>> {
+        let own = *self.index == *name;
+        match &self.values {
+            Values::Whole { first, count } if own && n < *count => {
+                Some(Value::Whole(first + n as i64))
+            }
+            Values::Listed(all, _) if own => all.get(n).map(Value::Listed),
+            Values::Listed(all, names) => {
+                let column = names.iter().position(|other| other == name)?;
+                all.get(n)?.more.get(column).map(Value::Listed)
+            }
+            Values::Whole { .. } => None,
         }
     }
 }
@@ -154,26 +190,15 @@ impl Places {
         Some((found, (at - found.start) / found.length))
     }
 
-    /// The repetition of an index around a place.
-    fn index(&self, mut at: usize, name: &str) -> Option<(&Values, usize)> {
+    /// The value of an index at a place; none where there is no such index.
+    pub(crate) fn index(&self, mut at: usize, name: &str) -> Option<Value<'_>> {
         while let Some((of, n)) = self.around(at) {
-            if *of.index == *name {
-                return Some((&of.values, n.min(of.values.count().checked_sub(1)?)));
+            if let Some(value) = of.value(n, name) {
+                return Some(value);
             }
             at = of.of + (at - of.start) - n * of.length;
         }
         None
-    }
-
-    /// What stands in names for an index at a place; none where it has none of that name.
-    pub(crate) fn index_name(&self, at: usize, name: &str) -> Option<String> {
-        self.index(at, name).map(|(values, n)| values.name(n))
-    }
-
-    /// The number of an index at a place, or its name where it is no number; none where there is no such index.
-    pub(crate) fn index_number(&self, at: usize, name: &str) -> Option<Result<Quantity, String>> {
-        let (values, n) = self.index(at, name)?;
-        Some(values.number(n).ok_or_else(|| values.name(n)))
     }
 
     /// Names of the indices around a place, the innermost first.
@@ -181,6 +206,9 @@ impl Places {
         let mut all = Vec::new();
         while let Some((of, n)) = self.around(at) {
             all.push(&*of.index);
+            if let Values::Listed(_, names) = &of.values {
+                all.extend(names.iter().map(String::as_str));
+            }
             at = of.of + (at - of.start) - n * of.length;
         }
         all

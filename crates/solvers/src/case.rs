@@ -332,7 +332,7 @@ fn run_static(
         warnings: plausible::of_static(model, system, &state, noticed, &u),
         errors: Vec::new(),
         end: EndState {
-            model: model.source.sha256.clone(),
+            model: model.sha256(),
             case: case.name.clone(),
             solver: "static".into(),
             parameters: parameters(model),

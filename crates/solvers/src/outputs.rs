@@ -20,9 +20,9 @@ pub(crate) enum Row {
         flat: usize,
         factor: f64,
     },
+    /// Σ on forces of links.
     Force {
-        flat: usize,
-        factor: f64,
+        terms: Vec<(usize, f64)>,
     },
     History {
         at: usize,
@@ -167,9 +167,14 @@ impl Outputs {
                     flat: link(*element).map_or(0, |l| l.range.start + coordinate),
                     factor: *factor,
                 },
-                Quantity::LinkForce { element, coordinate, factor } => Row::Force {
-                    flat: link(*element).map_or(0, |l| l.range.start + coordinate),
-                    factor: *factor,
+                Quantity::LinkForce(terms) => Row::Force {
+                    terms: terms
+                        .iter()
+                        .map(|t| {
+                            let at = link(t.element).map_or(0, |l| l.range.start + t.coordinate);
+                            (at, t.factor)
+                        })
+                        .collect(),
                 },
                 Quantity::LinkHistory { element, field } => {
                     Row::History { at: link(*element).map_or(0, |l| l.history.start + field) }
@@ -177,15 +182,14 @@ impl Outputs {
                 Quantity::Combination { how, constant, terms } => {
                     Row::Combination { how: *how, constant: *constant, terms: terms.clone() }
                 }
-                Quantity::ElementForce { element, end, dof, factor } => {
-                    let row = system.end_force(model, *element, *end, *dof);
-                    let scaled = |r: &[(usize, f64)]| -> Vec<(usize, f64)> {
-                        r.iter().map(|(i, c)| (*i, factor * c)).collect()
-                    };
-                    Row::Element {
-                        stiffness: split(&scaled(&row.stiffness)),
-                        damping: split(&scaled(&row.damping)),
+                Quantity::ElementForce { elements, end, dof, factor } => {
+                    let (mut stiffness, mut damping) = (Vec::new(), Vec::new());
+                    for element in elements {
+                        let row = system.end_force(model, *element, *end, *dof);
+                        stiffness.extend(row.stiffness.iter().map(|(i, c)| (*i, factor * c)));
+                        damping.extend(row.damping.iter().map(|(i, c)| (*i, factor * c)));
                     }
+                    Row::Element { stiffness: split(&stiffness), damping: split(&damping) }
                 }
             })
             .collect::<Vec<_>>();
@@ -338,7 +342,10 @@ impl Now<'_> {
                 }
                 // Among those above.
                 Row::Deformation { .. } => continue,
-                Row::Force { flat, factor } => factor * state.f[*flat],
+                Row::Force { terms } => {
+                    let parts = terms.iter().map(|(flat, factor)| factor * state.f[*flat]);
+                    parts.reduce(|sum, part| sum + part).unwrap_or_default()
+                }
                 Row::History { at } => state.history[*at],
                 Row::Combination { how, constant, terms } => {
                     combined(*how, *constant, terms, values)

@@ -193,7 +193,7 @@ fn dummy_energy(system: &System, space: &Space, state: &State) -> f64 {
 /// Refuses a checkpoint of another model, case or solver, or of other parameters.
 fn check_run(model: &Model, case: &Case, solver: &str, end: &EndState) -> Result<(), SolveError> {
     for (what, here, there) in [
-        ("model", &*model.source.sha256, &end.model),
+        ("model", &*model.sha256(), &end.model),
         ("case", &*case.name, &end.case),
         ("solver", solver, &end.solver),
     ] {

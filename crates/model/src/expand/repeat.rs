@@ -13,11 +13,11 @@ const MOST_INDICES: usize = 8;
 /// Largest value of an index.
 const LARGEST: f64 = 1e15;
 const FORMS: &str = "write `\"0 to 4\"` (both ends included), a list such as `[\"a\", \"b\"]`, or a map such as \
-                     `{\"a\": \"0 m\", \"b\": \"6 m\"}`";
+                     `{\"a\": \"0 m\", \"b\": \"6 m\"}` or `{\"a\": (x: \"0 m\", y: 0)}`";
 
 /// A repetition whose fields are known.
 pub(super) struct Repetition<'n> {
-    indices: Vec<(Arc<str>, &'n Node)>,
+    indices: Vec<(Arc<str>, &'n Entry)>,
     when: Option<(&'n Node, &'n str)>,
     /// What is repeated.
     pub of: &'n Node,
@@ -54,7 +54,7 @@ impl Expander<'_, '_> {
                 }
                 (name, _) => {
                     self.check_name(e, here)?;
-                    indices.push((Arc::from(name), &e.value));
+                    indices.push((Arc::from(name), e));
                 }
             }
         }
@@ -119,14 +119,16 @@ impl Expander<'_, '_> {
         here: Here,
         each: &mut dyn FnMut(&mut Self, Here) -> Expanded<()>,
     ) -> Expanded<()> {
-        let Some((name, range)) = of.indices.get(depth) else {
+        let Some((name, e)) = of.indices.get(depth) else {
             return match of.when {
                 Some((node, when)) if !self.holds(when, &here.span(&node.span))? => Ok(()),
                 _ => each(self, here),
             };
         };
-        let values = self.range(name, range, here)?;
-        let at = here.span(&range.span);
+        // Values of the index before may have brought further names.
+        self.check_name(e, here)?;
+        let values = self.range(e, here)?;
+        let at = here.span(&e.value.span);
         // Before any of it is made.
         self.spend_entries(values.count(), &at)?;
         let Some((start, length)) = self.places.repeat(here.span(text), name, &values) else {
@@ -140,17 +142,33 @@ impl Expander<'_, '_> {
     }
 
     /// What an index runs through.
-    fn range(&mut self, name: &str, node: &Node, here: Here) -> Expanded<Values> {
+    fn range(&mut self, index: &Entry, here: Here) -> Expanded<Values> {
+        let (name, node) = (&index.key, &index.value);
         let span = here.span(&node.span);
+        let mut names: Vec<String> = Vec::new();
         let listed: Vec<Listed> = match &node.kind {
             Kind::Text(text) => return self.whole(name, text, &span),
             Kind::List(None, items) => {
                 items.iter().map(|n| self.listed(name, n, here)).collect::<Expanded<_>>()?
             }
             Kind::Map(entries) => {
+                if let Some(Entry {
+                    value: Node { kind: Kind::Fields(None, fields), .. }, ..
+                }) = entries.first()
+                {
+                    for e in fields {
+                        self.check_name(e, here)?;
+                        if e.key == *name {
+                            let message = format!("`{name}` is the index itself");
+                            let at = here.span(&e.key_span);
+                            return self.refuse("E0105", message, "choose another name", at);
+                        }
+                    }
+                    names = fields.iter().map(|e| e.key.clone()).collect();
+                }
                 let one = |e: &Entry| {
                     let key = self.fill(&e.key, &here.span(&e.key_span))?;
-                    Ok(Listed { name: key, ..self.listed(name, &e.value, here)? })
+                    self.row(name, key, &e.value, &names, here)
                 };
                 entries.iter().map(one).collect::<Expanded<_>>()?
             }
@@ -164,7 +182,38 @@ impl Expander<'_, '_> {
             let message = format!("the index `{name}` runs through nothing");
             return self.refuse("E0104", message, FORMS, span);
         }
-        Ok(Values::Listed(listed.into()))
+        Ok(Values::Listed(listed.into(), names.into()))
+    }
+
+    /// A value with a name of its own, or several with the same names as those of the first.
+    fn row(
+        &mut self,
+        index: &str,
+        key: String,
+        value: &Node,
+        names: &[String],
+        here: Here,
+    ) -> Expanded<Listed> {
+        let Kind::Fields(None, fields) = &value.kind else {
+            if names.is_empty() {
+                return Ok(Listed { name: key, ..self.listed(index, value, here)? });
+            }
+            return self.uneven(&key, names, value, here);
+        };
+        if !fields.iter().map(|e| &e.key).eq(names) {
+            return self.uneven(&key, names, value, here);
+        }
+        let more = fields.iter().map(|e| self.listed(&e.key, &e.value, here));
+        Ok(Listed { name: key, number: None, more: more.collect::<Expanded<_>>()? })
+    }
+
+    fn uneven<T>(&mut self, key: &str, names: &[String], value: &Node, here: Here) -> Expanded<T> {
+        let message = format!("`{key}` has other names than the first of these values");
+        let help = match names.is_empty() {
+            true => "give a number or a text, as the first does".to_owned(),
+            false => format!("all have ({}), in this order", names.join(", ")),
+        };
+        self.refuse("E0105", message, &help, here.span(&value.span))
     }
 
     /// An item of a list: a number, a quantity, or a name.
@@ -173,14 +222,14 @@ impl Expander<'_, '_> {
         match &node.kind {
             Kind::Number(x) if x.is_finite() => {
                 let number = Some(crate::expression::Quantity::bare(*x));
-                Ok(Listed { name: x.to_string(), number })
+                Ok(Listed { name: x.to_string(), number, more: Vec::new() })
             }
-            Kind::Name(name) => Ok(Listed { name: name.clone(), number: None }),
+            Kind::Name(name) => Ok(Listed { name: name.clone(), number: None, more: Vec::new() }),
             Kind::Text(text) => {
                 let name = self.fill(text, &span)?;
                 // What is no expression is a name.
                 let number = evaluate(&name, &mut self.scope(span.start)).ok();
-                Ok(Listed { name, number })
+                Ok(Listed { name, number, more: Vec::new() })
             }
             _ => {
                 let message = format!("the index `{index}` takes {} as a value", node.describe());

@@ -46,8 +46,8 @@ impl Expander<'_, '_> {
     fn put(&mut self, text: &str, part: Span, span: &Span, out: &mut String) -> Expanded<()> {
         let inside = &text[part.clone()];
         let name = inside.trim();
-        if let Some(value) = self.places.index_name(span.start, name) {
-            out.push_str(&value);
+        if let Some(value) = self.places.index(span.start, name) {
+            out.push_str(&value.name());
             return Ok(());
         }
         if let Some(value) = self.c.parameters().text(name) {

@@ -7,6 +7,7 @@ mod damping;
 mod dynamic;
 mod elements;
 mod functions;
+mod groups;
 mod likeness;
 mod loads;
 mod motion;
@@ -198,8 +199,11 @@ fn sections(
     let function_entries = c.section(&top, "functions", false);
     let load_entries = c.section(&top, "loads", false);
     let case_entries = c.section(&top, "cases", true);
-    let node_names = Names::new("node", "nodes", node_entries);
+    let node_names = Names::new(names::NODE, "nodes", node_entries);
     let element_names = Names::new("element", "elements", element_entries);
+    let group_entries = c.section(&top, "groups", false);
+    let groups = groups::groups(c, group_entries, &node_names, &element_names);
+    let (node_names, element_names) = (node_names.with(&groups), element_names.with(&groups));
     let function_names = Names::new("function", "functions", function_entries);
     let load_names = Names::new("load", "loads", load_entries);
 

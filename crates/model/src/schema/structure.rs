@@ -67,6 +67,14 @@ pub static MODEL: Group = Group {
                 Words("a map from names to `Kind(…)`"),
                 "Elements, constraints and links: see *Fields of all elements* and *Kinds*.",
             ),
+            absent(
+                "groups",
+                Words(
+                    "a map from names to lists of names, or of patterns such as `\"floor 1 *\"`; `Nodes([…])` or `Elements([…])` where both have these names",
+                ),
+                "none",
+                "Nodes or elements that one name stands for: in `supports`, in `nodes` of elements and constraints, and as `node` of loads, initial values and support motions for each of them; as `link` or `element` of a force for their sum.",
+            ),
             plain(
                 "damping",
                 One(&DAMPING),
@@ -119,6 +127,9 @@ pub const INCLUDED: [&str; 11] = [
 /// Sections in which nothing is repeated, and braces stand for themselves.
 pub const AS_IT_STANDS: [&str; 3] = ["include", "units", "parameters"];
 
+/// What a group may be of.
+pub static GROUP_KINDS: [&str; 2] = ["Nodes", "Elements"];
+
 /// Repetition.
 pub static REPETITION: Group = Group {
     name: "repetition",
@@ -128,7 +139,7 @@ pub static REPETITION: Group = Group {
         meaning: "Repeats `of` for all values of its indices, the last index running fastest. Any other name among the \
                   fields is an index; it takes `\"0 to 4\"` (both ends included, with expressions such as `\"1 to storeys\"`), \
                   a list of values, or a map from what stands in names to values.",
-        example: r#"For(i: "1 to 4", axis: [U2, U3], when: "i != 2", of: LinkForce(link: "isolator {i}", axis: "{axis}"))"#,
+        example: r#"For(i: "1 to 4", d: [Ux, Uy], when: "i != 2", of: Displacement(node: "m", dof: "{d}", factor: "2*i"))"#,
         fields: &[
             needed("of", Words("anything that may stand in its place"), "What is repeated."),
             absent(

@@ -2,6 +2,8 @@
 
 mod bounds;
 mod damaged;
+mod grouped;
+mod included;
 mod kinds;
 mod refusals;
 mod repetition;

@@ -100,6 +100,43 @@ fn indices_run_through_lists_maps_and_ranges_of_indices_before() {
 }
 
 #[test]
+fn values_of_an_index_may_have_several_names() {
+    let of = |rows: &str| {
+        nodes(&format!(r#""{{c}}{{k}}": For(k: "1 to 2", c: {{ {rows} }}, of: ("x", "k*y", 0))"#))
+    };
+    let m = model(&of(r#""p": (x: 1, y: "2 m"), "q": (x: "k", y: 0)"#));
+    assert_eq!(node_names(&m), ["p1", "q1", "p2", "q2", "a", "b"]);
+    assert_eq!((m.nodes[2].position, m.nodes[3].position), ([1.0, 4.0, 0.0], [2.0, 0.0, 0.0]));
+    let named = nodes(
+        r#""{u}-{v}": For(w: { "uv": (u: "a", v: b), "vw": (u: "v", v: "w") }, of: (0, 0, 0))"#,
+    );
+    assert_eq!(node_names(&model(&named)), ["a-b", "v-w", "a", "b"]);
+    refused(
+        &of(r#""p": (x: 1, y: 2), "q": (x: 1)"#),
+        "E0105",
+        "`q` has other names than the first of these values all have (x, y)",
+        "(x: 1)",
+    );
+    refused(&of(r#""p": (x: 1, y: 2), "q": 3"#), "E0105", "`q` has other names", "3");
+    refused(
+        &of(r#""p": 3, "q": (x: 1)"#),
+        "E0105",
+        "give a number or a text, as the first does",
+        "(x: 1)",
+    );
+    refused(&of(r#""p": (x: 1, m: 2)"#), "E0105", "it is a unit of m", "m");
+    refused(&of(r#""p": (x: 1, c: 2)"#), "E0105", "`c` is the index itself", "c");
+    let later = of(r#""p": (x: 1, y: 2)"#).replace("y: 2) },", r#"y: 2) }, y: "1 to 2","#);
+    refused(&later, "E0105", "an index of the repetition around this one", "y");
+    refused(
+        &of(r#""p": (x: 1, k: 2)"#),
+        "E0105",
+        "an index of the repetition around this one",
+        "k",
+    );
+}
+
+#[test]
 fn conditions_choose_among_the_repetitions() {
     let chosen = |when: &str| {
         let of = format!(
