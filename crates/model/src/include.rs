@@ -4,9 +4,9 @@ use crate::diagnostic::names_help;
 use crate::places::Places;
 use crate::read::parse;
 use crate::schema;
-use crate::tree::{Entry, Kind, Node};
+use crate::tree::{Entry, Kind, Node, twice};
 use crate::{Diagnostic, Source, Span};
-use std::collections::{HashMap, HashSet};
+use std::collections::HashSet;
 use std::path::{Component, Path, PathBuf};
 use std::sync::Arc;
 
@@ -235,14 +235,11 @@ impl Including {
     }
 
     fn check_twice(&mut self, entries: &[Entry]) {
-        let mut first: HashMap<&str, &Span> = HashMap::with_capacity(entries.len());
-        for e in entries {
-            if let Some(before) = first.insert(&e.key, &e.key_span) {
-                let message = format!("`{}` is given twice", e.key);
-                let d = Diagnostic::new("E0102", message, e.key_span.clone(), self.places.main());
-                let d = d.related(before.clone(), "first given here").help("keep one of the two");
-                self.errors.push(d);
-            }
+        for (e, before) in twice(entries) {
+            let message = format!("`{}` is given twice", e.key);
+            let d = Diagnostic::new("E0102", message, e.key_span.clone(), self.places.main());
+            let d = d.related(before.clone(), "first given here").help("keep one of the two");
+            self.errors.push(d);
         }
     }
 }

@@ -13,9 +13,8 @@ use crate::expression::ExpressionError;
 use crate::parameters::Evaluated;
 use crate::places::Places;
 use crate::read::{Context, Fields};
-use crate::tree::{Entry, Kind, Node};
+use crate::tree::{Entry, Kind, Node, twice};
 use repeat::Repetition;
-use std::collections::HashMap;
 
 /// Most entries that the repetitions of a model make.
 pub(crate) const MOST_ENTRIES: usize = 1_000_000;
@@ -216,9 +215,7 @@ impl Expander<'_, '_> {
 
     /// Reports names that come twice.
     fn check_twice(&mut self, entries: &[Entry]) {
-        let mut first: HashMap<&str, &Span> = HashMap::with_capacity(entries.len());
-        for e in entries {
-            let Some(before) = first.insert(&e.key, &e.key_span) else { continue };
+        for (e, before) in twice(entries) {
             self.good = false;
             let mut d = self
                 .c

@@ -21,6 +21,7 @@ mod solution;
 mod spectra;
 mod synthetic;
 mod tables;
+mod units;
 mod values;
 
 #[cfg(test)]
@@ -30,7 +31,7 @@ use crate::expand::{expand, has_templates};
 use crate::include::{self, Whole};
 use crate::schema;
 use crate::tree::{self, Kind, Node};
-use crate::units::{FileUnits, STANDARD_GRAVITY};
+use crate::units::STANDARD_GRAVITY;
 use crate::{Diagnostic, Model, Plane, Registry, Source};
 pub use context::{Context, Fields};
 pub use likeness::resembles_model;
@@ -173,7 +174,7 @@ fn sections(
     let top = c.block(&whole.root, "the model", schema::MODEL.blocks[0])?;
     let own = top.get("units").map(|node| (0, node));
     for (file, node) in own.into_iter().chain(whole.units.iter().map(|(i, n)| (*i, n))) {
-        let units = file_units(c, node).unwrap_or_default();
+        let units = units::file_units(c, node).unwrap_or_default();
         c.set_units(file, units);
     }
     let declared = c.section(&top, "parameters", false);
@@ -259,46 +260,4 @@ fn without_gaps<T>(read: Vec<Option<T>>) -> Vec<T> {
     let mut all = Vec::with_capacity(read.len());
     all.extend(read.into_iter().flatten());
     all
-}
-
-/// `units: (length: "in", force: "kip", time: "s")`; mass may stand in place of force.
-fn file_units(c: &Context<'_>, node: &Node) -> Option<FileUnits> {
-    let fields = c.block(node, "`units`", schema::UNITS.blocks[0])?;
-    let one = |key: &'static str, dimension| match fields.get(key) {
-        None => Some(1.0),
-        Some(node) => base_unit(c, node, key, dimension),
-    };
-    if let (Some(force), Some(mass)) = (fields.get("force"), fields.get("mass")) {
-        c.report(
-            c.diagnostic("E0105", "`units` names both a force and a mass", mass.span.clone())
-                .related(force.span.clone(), "the force")
-                .help("keep one of the two; the other follows from length and time"),
-        );
-        return None;
-    }
-    let (length, time) = (one("length", d::LENGTH)?, one("time", d::TIME)?);
-    let mass = match fields.get("force") {
-        Some(node) => base_unit(c, node, "force", d::FORCE)? * time * time / length,
-        None => one("mass", d::MASS)?,
-    };
-    Some(FileUnits { length, mass, time })
-}
-
-fn base_unit(
-    c: &Context<'_>,
-    node: &Node,
-    what: &str,
-    dimension: trilith_element::Dimension,
-) -> Option<f64> {
-    let name = c.text(node, what)?;
-    let fitting = || crate::units::UNITS.iter().filter(|u| u.dimension.matches(dimension));
-    if let Some(unit) = fitting().find(|u| u.name == name) {
-        return Some(unit.factor);
-    }
-    let all: Vec<&str> = fitting().map(|u| u.name).collect();
-    c.report(
-        c.diagnostic("E0109", format!("`{name}` is no unit of {what}"), node.span.clone())
-            .help(format!("one of {}", all.join(", "))),
-    );
-    None
 }

@@ -52,6 +52,12 @@ pub struct Entry {
     pub value: Node,
 }
 
+/// Entries whose key has come before, each with the place where it did.
+pub(crate) fn twice(entries: &[Entry]) -> Vec<(&Entry, &Span)> {
+    let mut first: HashMap<&str, &Span> = HashMap::with_capacity(entries.len());
+    entries.iter().filter_map(|e| Some((e, first.insert(&e.key, &e.key_span)?))).collect()
+}
+
 /// An error of the text itself.
 #[derive(Debug)]
 pub(crate) struct TreeError {

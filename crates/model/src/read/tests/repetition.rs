@@ -114,7 +114,7 @@ fn values_of_an_index_may_have_several_names() {
     refused(
         &of(r#""p": (x: 1, y: 2), "q": (x: 1)"#),
         "E0105",
-        "`q` has other names than the first of these values all have (x, y)",
+        "`q` has other names than the first of these values, with k = 1 all have (x, y)",
         "(x: 1)",
     );
     refused(&of(r#""p": (x: 1, y: 2), "q": 3"#), "E0105", "`q` has other names", "3");
