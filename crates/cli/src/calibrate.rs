@@ -15,9 +15,11 @@ pub(crate) fn calibrate(registry: &Registry, args: &CalibrateArguments) -> Resul
     let horizontal = horizontal(&model, args.along.as_deref())?;
     let head = format!("{}\n\n", visible_line(&model.title));
     // The model goes into the calibrator, its text stays for messages.
-    let source = model.source.clone();
+    let places = model.places.clone();
     let refuse = |e: Error| match e.span() {
-        Some(span) => Failure { text: diagnostics::at(&e.to_string(), span, &source), status: 2 },
+        Some(span) => {
+            Failure { text: diagnostics::at(&e.to_string(), &places.find(&span)), status: 2 }
+        }
         None => Failure::input(&e.to_string(), None),
     };
     let mut it = Calibrator::new(model, horizontal).map_err(refuse)?;

@@ -72,8 +72,7 @@ pub(crate) fn compare(registry: &Registry, args: &CompareArguments) -> Result<An
 
 /// Takes the folder of the page.
 fn open(dir: &Path, model: &Model) -> Result<Folder, Failure> {
-    let mut inputs = model.files.clone();
-    inputs.push(model.source.path.clone());
+    let inputs = model.inputs();
     let writer = Writer { name: "compare", own: &[PAGE], writes: vec![PAGE.into()], inputs };
     place::open(dir, writer)
 }

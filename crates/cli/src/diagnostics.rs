@@ -5,7 +5,7 @@ use annotate_snippets::{AnnotationKind, Group, Level, Patch, Renderer, Snippet};
 use std::borrow::Cow;
 use std::io::IsTerminal;
 use trilith::Diagnostic;
-use trilith::model::{Source, Span, visible};
+use trilith::model::{Place, Span, visible};
 
 /// Errors of a file that are shown; of more, the number is told.
 const SHOWN: usize = 50;
@@ -24,10 +24,14 @@ pub(crate) fn all(diagnostics: &[Diagnostic]) -> String {
 }
 
 /// An error that has a place in a model file.
-pub(crate) fn at(message: &str, span: Span, source: &Source) -> String {
-    let snippet = Snippet::source(source.text.as_str())
-        .path(shown(&source.path))
-        .annotation(AnnotationKind::Primary.span(clamped(&source.text, &span)));
+pub(crate) fn at(message: &str, place: &Place) -> String {
+    let source = &place.source;
+    let primary = AnnotationKind::Primary.span(clamped(&source.text, &place.span));
+    let indices = place.indices();
+    let label = format!("with {indices}");
+    let primary = if indices.is_empty() { primary } else { primary.label(legible(&label)) };
+    let snippet =
+        Snippet::source(source.text.as_str()).path(shown(&source.path)).annotation(primary);
     render(&[Level::ERROR.primary_title(legible(message)).element(snippet)]) + "\n"
 }
 

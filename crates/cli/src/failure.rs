@@ -55,7 +55,7 @@ impl Failure {
             _ => 2,
         };
         let text = match error.span() {
-            Some(span) => diagnostics::at(&error.to_string(), span, &model.source),
+            Some(span) => diagnostics::at(&error.to_string(), &model.places.find(&span)),
             None => diagnostics::plain(&error.to_string(), None),
         };
         Self { text, status }

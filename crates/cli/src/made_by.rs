@@ -6,6 +6,7 @@ use crate::args::RunArguments;
 use crate::date::date;
 use serde::Serialize;
 use std::path::Path;
+use trilith::model::Source;
 use trilith::results::{Named, ParameterSummary, Summary, sha256};
 use trilith::{BUILD, Model, VERSION};
 use trilith_study::{Identity, Study};
@@ -21,7 +22,7 @@ pub(crate) struct Inputs {
 /// A file that was read.
 #[derive(Serialize)]
 struct Input {
-    /// `model`, `data` (records and tables), `checkpoint` or `study`.
+    /// `model`, `include` (what the model includes), `data` (records and tables), `checkpoint` or `study`.
     what: &'static str,
     /// Its path as it was asked for.
     file: String,
@@ -37,16 +38,21 @@ impl Input {
         Ok(Self { what, file: path.display().to_string(), sha256: sha256(&bytes) })
     }
 
-    fn known(what: &'static str, path: &Path, sha256: &str) -> Self {
-        Self { what, file: path.display().to_string(), sha256: sha256.to_owned() }
+    /// A model file and those that it includes.
+    fn texts<'s>(sources: impl Iterator<Item = &'s Source>) -> Vec<Self> {
+        let one = |(i, s): (usize, &Source)| Self {
+            what: if i == 0 { "model" } else { "include" },
+            file: s.path.display().to_string(),
+            sha256: s.sha256.clone(),
+        };
+        sources.enumerate().map(one).collect()
     }
 }
 
 impl Inputs {
     /// Of a run.
     pub fn of_run(model: &Model, args: &RunArguments) -> Result<Self, Failure> {
-        let source = &model.source;
-        let mut files = vec![Input::known("model", &source.path, &source.sha256)];
+        let mut files = Input::texts(std::iter::once(&model.source).chain(model.included()));
         for (i, path) in model.files.iter().enumerate() {
             if !model.files[..i].contains(path) {
                 files.push(Input::read("data", path)?);
@@ -60,8 +66,9 @@ impl Inputs {
 
     /// Of a study. The motions of its runs are in its identity.
     pub fn of_study(study: &Study) -> Result<Self, Failure> {
-        let model = Input::known("model", &study.model_path, &study.identity.model);
-        Ok(Self { date: date()?, files: vec![Input::read("study", &study.path)?, model] })
+        let mut files = vec![Input::read("study", &study.path)?];
+        files.extend(Input::texts(study.sources()));
+        Ok(Self { date: date()?, files })
     }
 }
 

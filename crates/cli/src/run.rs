@@ -106,8 +106,7 @@ fn open(
     from: Option<&Checkpoint>,
 ) -> Result<Folder, Failure> {
     let dir = args.out.clone().unwrap_or_else(|| default_folder(args, from));
-    let mut inputs = model.files.clone();
-    inputs.push(model.source.path.clone());
+    let mut inputs = model.inputs();
     inputs.extend(args.restart.clone());
     let written = |name: &&str| match *name {
         "spectra.csv" => !model.spectra.is_empty(),

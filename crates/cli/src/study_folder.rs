@@ -16,7 +16,8 @@ pub(crate) fn look(study: &Study, folder: &Path, formats: &[Format]) -> Result<(
             let both = (fs::canonicalize(input), fs::canonicalize(&path));
             matches!(both, (Ok(a), Ok(b)) if a == b)
         };
-        if let Some(input) = [&study.path, &study.model_path].into_iter().find(same) {
+        let models = study.sources().map(|source| &source.path);
+        if let Some(input) = std::iter::once(&study.path).chain(models).find(same) {
             return Err(Failure::folder(&FolderError::Input(input.clone())));
         }
         if !of_study && fs::symlink_metadata(&path).is_ok() {

@@ -279,6 +279,54 @@ fn a_study_of_another_build_does_not_go_on() {
     }
 }
 
+/// What a model includes is hashed with it: for the folder of a run, a restart and a study.
+#[test]
+fn what_a_model_includes_is_a_part_of_it() {
+    let folder = folder();
+    let here = folder.path();
+    let parts = r#"(parameters: { "k": "40 N/m" }, loads: {})"#;
+    let own = MODEL.replace(r#""k": "40 N/m", "#, "");
+    let model = own.replace("plane: XZ,", r#"plane: XZ, include: ["parts.ron"],"#);
+    std::fs::write(here.join("mast.ron"), &model).unwrap();
+    std::fs::write(here.join("parts.ron"), parts).unwrap();
+    std::fs::write(here.join("study.ron"), r#"(model: "mast.ron", axes: { "k": [30, 40] })"#)
+        .unwrap();
+    let run = ["run", "mast.ron", "--out", "one", "--checkpoint-at", "0.5"];
+    good(here, &run);
+    good(here, &["sweep", "study.ron"]);
+    for (made, before) in [("one/made_by.json", 0), ("out/study/made_by.json", 1)] {
+        let made = json(&here.join(made));
+        for (i, (what, file)) in
+            [("model", "mast.ron"), ("include", "parts.ron")].iter().enumerate()
+        {
+            let input = &made["files"][before + i];
+            assert_eq!((&input["what"], &input["file"]), (&(*what).into(), &(*file).into()));
+            assert_eq!(input["sha256"], sha256(&here.join(file)));
+        }
+    }
+    let hash = |run: &str| json(&here.join(run).join("summary.json"))["model"]["sha256"].clone();
+    let before = hash("one");
+    assert_ne!(before, sha256(&here.join("mast.ron")));
+    // An input is never overwritten.
+    let err = refused(here, &["run", "mast.ron", "--out", "parts.ron"]);
+    assert!(err.contains("parts.ron"), "{err}");
+
+    // A comment is enough: what it says is nobody's business.
+    std::fs::write(here.join("parts.ron"), format!("// changed\n{parts}")).unwrap();
+    let err =
+        refused(here, &["run", "mast.ron", "--out", "two", "--restart", "one/checkpoint.json"]);
+    assert!(err.contains("its model is"), "{err}");
+    let err = refused(here, &["sweep", "study.ron"]);
+    assert!(err.contains("the model changed since"), "{err}");
+    good(here, &["run", "mast.ron", "--out", "two"]);
+    assert_ne!(hash("two"), before);
+
+    // An error is shown in the file that it is in.
+    std::fs::write(here.join("parts.ron"), parts.replace("N/m", "n/m")).unwrap();
+    let err = refused(here, &["check", "mast.ron"]);
+    assert!(err.contains("parts.ron:1:23") && err.contains(r#""40 n/m""#), "{err}");
+}
+
 /// CRC-32 of a line of the journal.
 fn crc32(bytes: &[u8]) -> u32 {
     let step = |crc: u32, byte: &u8| {

@@ -12,6 +12,9 @@ pub fn reference() -> String {
         group(&mut out, g, "in");
         if g.name == "model" {
             beside(&mut out);
+            out.push_str(FILES);
+            group(&mut out, &schema::REPETITION, "in");
+            out.push_str(TEXTS);
         }
     }
     kinds(&mut out);
@@ -52,6 +55,26 @@ block with a name, `[…]` or `(…)` a list, `{ \"name\": … }` a map. Every n
 have `+ - * / ^`, parentheses, the parameters of the file, and the functions listed under *Units*. Numbers
 are checked for dimension. Unknown names are refused with a suggestion, all errors of a file at once.
 `trilith check MODEL` prints a model with every default filled in.
+";
+
+const FILES: &str = "
+## Other files
+
+`include: [\"sections.ron\"]` takes sections from other files, each a block such as `(properties: { … })`. A file may hold
+`parameters`, `nodes`, `supports`, `properties`, `elements`, `groups`, `functions`, `loads`, `cases`, `outputs` and
+`spectra`, `units` of its own bare numbers (SI where it has none), and `include`. Its entries stand before those of the
+model, in the order of the list; a name that comes twice is refused. A path counts from the file that it stands in, that
+of a record as well, and an included file lies in the folder of the model or below. Two files may include the same one; it
+is there once.
+";
+
+const TEXTS: &str = "
+An index stands for its value in expressions, as in `\"k * 3.2 m\"`, and in braces in texts and names, as in
+`\"n{i}.{k+1}\"`. Braces hold expressions in indices and parameters that give whole numbers, or an index or a text
+parameter alone, whose value is put in as it stands; they are filled in in all texts of a model but `parameters`, `units`
+and `include`. `{{` and `}}` stand for braces. An index has no name of a parameter, of a unit, or of an index around it.
+`\"2 to 1\"` makes nothing. Values of a map may have several names each, as in `c: { \"a\": (x: 0, y: 5), \"b\": (x: 6, y: 5) }`:
+`{c}` is then `a` or `b`, and `x` and `y` are indices like `c`. A model repeats at most a million times.
 ";
 
 fn group(out: &mut String, g: &Group, within: &str) {

@@ -87,6 +87,7 @@ fn schema_names() -> BTreeSet<String> {
     let groups = schema::groups().into_iter().chain(trilith_study::schema::groups());
     let blocks = groups.flat_map(|g| g.blocks.iter().copied());
     let beside = [&schema::PLACE, &schema::ELEMENT, &schema::LINK, &schema::FORCE];
+    let beside = beside.into_iter().chain(schema::REPETITION.blocks.iter().copied());
     for b in blocks.chain(beside) {
         add(&[b.name]);
         add(&b.names());
@@ -97,6 +98,7 @@ fn schema_names() -> BTreeSet<String> {
         }
     }
     add(&schema::SUPPORTS);
+    add(&schema::GROUP_KINDS);
     add(schema::expression_functions());
     add(&["Parameter", "true", "false"]);
     for (unit, ..) in schema::units() {

@@ -50,6 +50,7 @@ fn model(place: &str, block: &str) -> Option<String> {
                 format!("spectra: {{ \"s\": (node: \"m\", dof: Ux, frequencies: {block}) }},");
         }
         "terms" => section = format!("outputs: {{ \"o\": Displacement(terms: [{block}]) }},"),
+        "repetition" => section = format!("outputs: {{ \"o {{i}} {{d}}\": {block} }},"),
         "elements" => {}
         "forces-of-a-load" => section = format!("loads: {{ \"p\": [{block}] }},"),
         "loads-of-a-case" => case.push_str(&format!(", constant: [{block}]")),

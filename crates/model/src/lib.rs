@@ -1,15 +1,19 @@
 //! RON model files: schema, quantities with units, parameters, diagnostics, registry, time functions.
 //!
 //! [`read`] turns a file into a [`Model`] in SI with every reference resolved to an index, or into
-//! all [`Diagnostic`]s of the file at once. [`resolved`] writes a model as a file in which every
+//! all [`Diagnostic`]s of the file at once. Sections of other files that it includes come in first, repetitions are
+//! expanded before anything is read, and [`Places`] leads spans back to where they came from. [`resolved`] writes a model as a file in which every
 //! default is filled in and every expression evaluated.
 
 mod analysis;
 mod diagnostic;
+mod expand;
 mod expression;
+mod include;
 mod model;
 mod output;
 mod parameters;
+mod places;
 mod read;
 mod registry;
 mod resolved;
@@ -35,6 +39,7 @@ pub use diagnostic::{Diagnostic, line_column};
 pub use expression::quantity;
 pub use model::*;
 pub use output::*;
+pub use places::{Place, Places};
 pub use read::{ModelText, read, read_text};
 pub use registry::Registry;
 pub use resolved::resolved;

@@ -1,6 +1,7 @@
 //! The model after reading: plain data in SI, everything resolved to indices and checked.
 
-use crate::{Case, FloorSpectrum, Output, TimeFunction};
+use crate::{Case, FloorSpectrum, Output, Places, TimeFunction};
+use sha2::{Digest, Sha256};
 use std::ops::Range;
 use std::path::PathBuf;
 use std::sync::Arc;
@@ -8,7 +9,7 @@ use trilith_element::{
     Axis, Constraint, Dimension, Dof, Frame, LinearElement, Link, Values, Vector3,
 };
 
-/// A byte range of the model file.
+/// A byte range of the model file, or what [`Places`] leads back to one.
 pub type Span = Range<usize>;
 
 /// The text a model was read from.
@@ -29,6 +30,8 @@ pub struct Model {
     pub title: String,
     /// Where it came from.
     pub source: Source,
+    /// Where the spans of its parts lead, in that file and in those that it includes.
+    pub places: Places,
     /// The other files that were read: records and tables.
     pub files: Vec<PathBuf>,
     /// Restriction to a plane, if any.
@@ -241,7 +244,38 @@ pub enum Load {
     },
 }
 
+/// SHA-256, hexadecimal.
+pub(crate) fn sha256(bytes: &[u8]) -> String {
+    Sha256::digest(bytes).iter().map(|b| format!("{b:02x}")).collect()
+}
+
 impl Model {
+    /// The files that the model file includes.
+    pub fn included(&self) -> impl Iterator<Item = &Source> {
+        self.places.files().skip(1).map(|source| &**source)
+    }
+
+    /// All files that it was read from: the model file, those that it includes, records and tables.
+    #[must_use]
+    pub fn inputs(&self) -> Vec<PathBuf> {
+        let own = self.places.files().map(|source| source.path.clone());
+        own.chain(self.files.iter().cloned()).collect()
+    }
+
+    /// What tells its text from that of another model: SHA-256 of the model file, hexadecimal; where it includes files,
+    /// of the list of the sums of all.
+    #[must_use]
+    pub fn sha256(&self) -> String {
+        let mut all = self.places.files().map(|source| source.sha256.as_str());
+        match (all.next(), all.next()) {
+            (Some(only), None) => only.to_owned(),
+            _ => {
+                let sums: Vec<&str> = self.places.files().map(|s| s.sha256.as_str()).collect();
+                sha256(sums.join("\n").as_bytes())
+            }
+        }
+    }
+
     /// Index of a case by name.
     #[must_use]
     pub fn case(&self, name: &str) -> Option<usize> {

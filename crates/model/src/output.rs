@@ -36,15 +36,8 @@ pub enum Quantity {
         /// Factor.
         factor: f64,
     },
-    /// factor · force of a link.
-    LinkForce {
-        /// Index of the element.
-        element: usize,
-        /// Coordinate of the law.
-        coordinate: usize,
-        /// Factor.
-        factor: f64,
-    },
+    /// Σ factor · force of a link.
+    LinkForce(Vec<LinkTerm>),
     /// A history variable of a link.
     LinkHistory {
         /// Index of the element.
@@ -52,11 +45,11 @@ pub enum Quantity {
         /// Index of the variable.
         field: usize,
     },
-    /// factor · global end force that a linear element exerts on one of its nodes' DOFs (K u + C u̇ of the element).
+    /// factor · Σ global end force that linear elements exert on one of their nodes' DOFs (K u + C u̇ of the element).
     ElementForce {
-        /// Index of the element.
-        element: usize,
-        /// Index into its nodes.
+        /// Indices of the elements.
+        elements: Vec<usize>,
+        /// Index into their nodes.
         end: usize,
         /// Direction.
         dof: Dof,
@@ -101,6 +94,17 @@ pub struct NodalTerm {
     pub node: usize,
     /// Direction.
     pub dof: Dof,
+    /// Factor.
+    pub factor: f64,
+}
+
+/// One term of a force of links.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct LinkTerm {
+    /// Index of the element.
+    pub element: usize,
+    /// Coordinate of the law.
+    pub coordinate: usize,
     /// Factor.
     pub factor: f64,
 }

@@ -1,7 +1,8 @@
 //! The named parameters of a model file and the `--set` arguments that change them.
 
 use crate::diagnostic::{SEARCHED, names_help};
-use crate::expression::{Quantity, Scope, evaluate, expression_diagnostic};
+use crate::expression::{Quantity, Scope, evaluate};
+use crate::places::Places;
 use crate::tree::{Entry, Kind, Node};
 use crate::units::FileUnits;
 use crate::{Diagnostic, Parameter, ParameterValue, Source};
@@ -17,7 +18,7 @@ pub(crate) struct Parameters {
     slots: Vec<Slot>,
     index: HashMap<String, usize>,
     units: FileUnits,
-    source: Arc<Source>,
+    places: Places,
     stack: Vec<usize>,
     errors: Vec<Diagnostic>,
 }
@@ -45,7 +46,7 @@ impl Parameters {
         entries: &[Entry],
         overrides: &[(String, String)],
         units: FileUnits,
-        source: &Arc<Source>,
+        places: &Places,
     ) -> (Self, Vec<Diagnostic>) {
         let slots: Vec<Slot> = entries
             .iter()
@@ -57,8 +58,8 @@ impl Parameters {
             })
             .collect();
         let index = slots.iter().enumerate().map(|(i, s)| (s.name.clone(), i)).collect();
-        let source = Arc::clone(source);
-        let mut all = Self { slots, index, units, source, stack: Vec::new(), errors: Vec::new() };
+        let places = places.clone();
+        let mut all = Self { slots, index, units, places, stack: Vec::new(), errors: Vec::new() };
         for entry in entries {
             all.check_name(entry);
         }
@@ -126,7 +127,8 @@ impl Parameters {
             let message = format!("`{}` cannot name a parameter", entry.key);
             let help = "letters, digits and `_`, beginning with a letter, and not `pi`";
             let span = entry.key_span.clone();
-            self.errors.push(Diagnostic::new("E0105", message, span, &self.source).help(help));
+            self.errors
+                .push(Diagnostic::new("E0105", message, span, self.places.main()).help(help));
         }
     }
 
@@ -150,7 +152,7 @@ impl Parameters {
             "`2*{name}` and `2 {name}` would differ: choose another name, or give a value in {dimension}"
         );
         let span = entry.key_span.clone();
-        self.errors.push(Diagnostic::new("E0105", message, span, &self.source).help(help));
+        self.errors.push(Diagnostic::new("E0105", message, span, self.places.main()).help(help));
     }
 
     fn resolve(&mut self, i: usize) {
@@ -177,7 +179,7 @@ impl Parameters {
                 Ok(q) => State::Number(q),
                 Err(error) => {
                     if let Some(e) = error {
-                        let d = expression_diagnostic(e, &self.source, &node, text);
+                        let d = self.places.expression(e, &node.span, text);
                         self.errors.push(d);
                     }
                     State::Failed
@@ -195,7 +197,7 @@ impl Parameters {
         let name = &self.slots[i].name;
         let message = format!("parameter `{name}` is {}: must be a finite number", node.describe());
         let help = "write a number, an expression in quotes, or `Text(\"…\")` for a file name";
-        let d = Diagnostic::new("E0105", message, node.span.clone(), &self.source).help(help);
+        let d = Diagnostic::new("E0105", message, node.span.clone(), self.places.main()).help(help);
         self.errors.push(d);
         State::Failed
     }
@@ -288,28 +290,41 @@ impl Scope for Parameters {
 /// A scope over parameters that are all evaluated.
 pub(crate) struct Evaluated<'a> {
     pub parameters: &'a Parameters,
+    /// Where indices are looked for, and the place that the expression stands at.
+    pub places: &'a Places,
+    pub at: usize,
     /// True where a wrong name is answered with the names that there are.
     pub suggests: bool,
 }
 
 impl Scope for Evaluated<'_> {
     fn names(&self) -> Vec<&str> {
-        self.parameters.names()
+        let mut all = self.parameters.names();
+        all.extend(self.places.indices(self.at));
+        all
     }
     fn has(&self, name: &str) -> bool {
-        self.parameters.has(name)
+        self.parameters.has(name) || self.places.index(self.at, name).is_some()
     }
     fn suggests(&self) -> bool {
         self.suggests
     }
     fn value(&mut self, name: &str) -> Result<Quantity, Option<(&'static str, String)>> {
+        let told = |message| Err(Some(("E0111", message)));
         let Parameters { slots, index, .. } = self.parameters;
         let slot = index.get(name).and_then(|&i| slots.get(i));
-        match slot.map(|s| &s.state) {
-            Some(State::Number(q)) => Ok(*q),
-            Some(State::Text(_)) => {
-                Err(Some(("E0111", format!("parameter `{name}` is a text, not a number"))))
+        match (slot.map(|s| &s.state), self.places.index(self.at, name)) {
+            (Some(State::Number(q)), _) => Ok(*q),
+            (Some(State::Text(_)), _) => {
+                told(format!("parameter `{name}` is a text, not a number"))
             }
+            (None, Some(value)) => match value.number() {
+                Some(q) => Ok(q),
+                None => {
+                    let text = value.name();
+                    told(format!("the index `{name}` is the text \"{text}\", not a number"))
+                }
+            },
             _ => Err(None),
         }
     }

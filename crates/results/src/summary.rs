@@ -63,7 +63,7 @@ pub struct Summary {
 pub struct ModelSummary {
     /// Title.
     pub title: String,
-    /// SHA-256 of the model file, hexadecimal.
+    /// SHA-256 of the model file, hexadecimal; where it includes others, of the list of the sums of all.
     pub sha256: String,
 }
 
@@ -159,7 +159,7 @@ impl Summary {
             version: env!("CARGO_PKG_VERSION"),
             build,
             run_sha256: String::new(),
-            model: ModelSummary { title: model.title.clone(), sha256: model.source.sha256.clone() },
+            model: ModelSummary { title: model.title.clone(), sha256: model.sha256() },
             parameters: Named(model.parameters.iter().map(ParameterSummary::of).collect()),
             case: result.case.clone(),
             solver: result.solver,

@@ -82,7 +82,7 @@ pub struct Identity {
     pub build: String,
     /// SHA-256 of what is run and kept.
     pub study: String,
-    /// SHA-256 of the model file.
+    /// SHA-256 of the model file; where it includes others, of the list of the sums of all.
     pub model: String,
     /// SHA-256 of the time functions of the model, records included.
     pub motions: String,

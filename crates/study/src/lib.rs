@@ -29,6 +29,7 @@ mod plan;
 mod read;
 mod run;
 pub mod schema;
+mod shape;
 mod statistics;
 mod study;
 mod table;

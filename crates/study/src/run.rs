@@ -125,9 +125,14 @@ impl Study {
     /// The model of a run.
     fn model(&self, registry: &Registry, place: &Place) -> Result<Model, String> {
         let read = |set: &[(String, String)]| {
-            self.text
+            let model = self
+                .text
                 .read(registry, set)
-                .map_err(|errors| errors.first().map_or_else(String::new, |d| d.message.clone()))
+                .map_err(|errors| errors.first().map_or_else(String::new, |d| d.message.clone()))?;
+            match self.shape.misfit(&model) {
+                None => Ok(model),
+                Some(message) => Err(message),
+            }
         };
         let mut set = self.plan.nominal(place);
         let model = read(&set)?;

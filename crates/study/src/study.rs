@@ -1,10 +1,11 @@
 //! A study, checked and ready to run.
 
+use crate::shape::Shape;
 use crate::{Column, Condition, Drawing, Identity, Plan};
 use std::path::PathBuf;
 use trilith::SolverKind;
 use trilith::element::Dimension;
-use trilith::model::ModelText;
+use trilith::model::{ModelText, Source};
 
 /// A study, checked and ready to run.
 #[derive(Debug)]
@@ -38,6 +39,8 @@ pub struct Study {
     /// Parameters that differ between runs, in the order of the table.
     pub varied: Vec<String>,
     pub(crate) text: ModelText,
+    /// What the models of all runs have alike.
+    pub(crate) shape: Shape,
     pub(crate) case: usize,
     pub(crate) solver: Option<SolverKind>,
     /// Dimension of each varied parameter; none for a text.
@@ -45,6 +48,11 @@ pub struct Study {
 }
 
 impl Study {
+    /// The model file and those that it includes.
+    pub fn sources(&self) -> impl Iterator<Item = &Source> {
+        self.text.sources()
+    }
+
     /// True where a varied parameter is a text.
     #[must_use]
     pub fn is_text(&self, name: &str) -> bool {

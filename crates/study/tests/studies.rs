@@ -422,6 +422,26 @@ fn all_errors_of_a_study_are_told_at_once() {
     assert!(none[0].message.contains("none.ron cannot be read"));
 }
 
+/// Repetition may make other outputs for another value: what a study keeps of every run must be there in every run.
+#[test]
+fn outputs_that_hang_on_a_varied_parameter_are_refused() {
+    let folder = folder();
+    let path = folder.path().join("mass.ron");
+    let with = |of: &str| {
+        let model = MODEL.replace("outputs: {", &format!("outputs: {{ \"copy {{i}}\": {of},"));
+        std::fs::write(&path, model.replace("parameters: {", "parameters: { \"copies\": 1,")).unwrap();
+        read(folder.path(), r#"axes: { "copies": [1, 2] }"#)
+    };
+    let slide = |range: &str| {
+        format!("For(i: \"1 to {range}\", of: LinkForce(link: \"foot\", axis: U1))")
+    };
+    let errors = with(&slide("copies")).unwrap_err();
+    let [e] = errors.as_slice() else { panic!("{errors:?}") };
+    assert!(e.message.contains("other outputs than in the first run"), "{e}");
+    assert_eq!(&e.source.text[e.span.clone()], "2");
+    assert!(with(&slide("2")).is_ok());
+}
+
 /// A file that is no model keeps what it holds for itself; one with an error in it is shown where it is.
 #[test]
 fn what_a_file_that_is_no_model_holds_is_not_told() {

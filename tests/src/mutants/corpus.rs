@@ -41,6 +41,28 @@ const SMALL: &str = r#"(
     outputs: { "u": Displacement(node: "a", dof: Ux) },
 )"#;
 
+/// The same in many ways: repeated, in groups, with sections of another file.
+const MANY: &str = r#"(
+    include: ["sections/steel.ron"],
+    parameters: { "n": 2, "k": "1e8 N/m", "mu": 0.5 },
+    nodes: { "{c}{i}": For(i: "0 to n", c: { "a": (y: 0), "b": (y: "1 m") }, of: ("i*1 m", "y", 0)) },
+    supports: { "far": (Uz, Rx, Ry, Rz), "{c}{n}": For(c: ["a", "b"], of: Fixed) },
+    elements: {
+        "m{c}{i}": For(i: "0 to n - 1", c: [a, b], of: Mass(node: "{c}{i}", mass: "(i + 1)*1 t")),
+        "s{c}{i}": For(i: "1 to n", c: [a, b], of: Beam(nodes: ("{c}{i-1}", "{c}{i}"), use: "IPE 300")),
+        "f{c}": For(c: [a, b], of: NLink(node: "{c}0", kn: "k", ks: "k", mu: "mu")),
+        "tie": EqualDof(nodes: ("a1", "pair"), dofs: [Ux]),
+    },
+    groups: { "far": Nodes(["a0", For(i: "0 to n - 1", when: "i > 0 and n != i", of: "b{i}")]), "f": ["f*"], "pair": ["b1"] },
+    functions: { "p{i}": For(i: "1 to 2", of: Sine(amplitude: "i*1 m/s^2", frequency: "i*5 Hz", cycles: 1)) },
+    loads: { "push": [(node: "far", dof: Ux, force: "1 kN"), For(i: "0 to 1", of: (node: "a{i}", dof: Uy, force: "i*1 kN"))] },
+    cases: {
+        "gravity": Static(loads: [Gravity]),
+        "motion": Dynamic(after: "gravity", duration: 0.1, dt: 0.01, base: [(direction: X, function: "p1")]),
+    },
+    outputs: { "f": LinkForce(link: "f", axis: U1), "u{i}": For(i: "0 to 1", of: Displacement(node: "b{i}", dof: Ux)) },
+)"#;
+
 /// A file and what reads it.
 #[derive(Clone, Debug)]
 pub struct File {
@@ -78,6 +100,8 @@ impl Corpus {
         take(Target::Record, "crates/record/tests/files", "");
         take(Target::Record, "models/records", "_1.csv");
         let small = |target| File { target, bytes: SMALL.into() };
+        let many = |target| File { target, bytes: MANY.into() };
+        files.extend([Target::Model, Target::Model, Target::Run].map(many));
         files.extend(
             [Target::Model, Target::Model, Target::Run, Target::Run, Target::Run].map(small),
         );

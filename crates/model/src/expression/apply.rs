@@ -24,6 +24,11 @@ pub(super) fn common(all: &[Quantity], span: Span, how: &str) -> Parsed<Dimensio
     }
 }
 
+/// Refuses two values that cannot be compared.
+pub(crate) fn compared(a: Quantity, b: Quantity, span: Span) -> Parsed<()> {
+    common(&[a, b], span, "compared").map(|_| ())
+}
+
 fn describe(q: Quantity) -> String {
     if q.dimension.is_none() {
         "a pure number".into()

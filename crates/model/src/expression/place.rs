@@ -5,15 +5,6 @@ use crate::tree::Node;
 use crate::{Diagnostic, Source, Span};
 use std::sync::Arc;
 
-/// Span of the text inside the quotes of a text node.
-fn inner_span(source: &str, node: &Node, text: &str) -> Span {
-    let whole = source.get(node.span.clone()).unwrap_or_default();
-    match whole.find(text) {
-        Some(at) if !text.is_empty() => node.span.start + at..node.span.start + at + text.len(),
-        _ => node.span.clone(),
-    }
-}
-
 /// An error of an expression in quotes as a diagnostic of the file.
 #[must_use]
 pub fn expression_diagnostic(
@@ -22,12 +13,25 @@ pub fn expression_diagnostic(
     node: &Node,
     text: &str,
 ) -> Diagnostic {
-    let inner = inner_span(&source.text, node, text);
-    // Escapes shift the characters of a text; the error then stands at the whole text.
-    let span = if inner.len() == text.len() {
-        inner.start + error.span.start.min(text.len())..inner.start + error.span.end.min(text.len())
-    } else {
-        node.span.clone()
+    let whole = source.text.get(node.span.clone()).unwrap_or_default();
+    diagnostic_within(error, source, &node.span, whole, text)
+}
+
+/// The same of a text that stands at a span and reads `whole` there, quotes included.
+pub(crate) fn diagnostic_within(
+    error: ExpressionError,
+    source: &Arc<Source>,
+    at: &Span,
+    whole: &str,
+    text: &str,
+) -> Diagnostic {
+    // Escapes and indices shift the characters of a text; the error then stands at the whole text.
+    let span = match whole.find(text) {
+        Some(quote) if !text.is_empty() => {
+            let start = at.start + quote;
+            start + error.span.start.min(text.len())..start + error.span.end.min(text.len())
+        }
+        _ => at.clone(),
     };
     let mut d = Diagnostic::new(error.code, error.message, span, source);
     d.help = error.help;

@@ -2,8 +2,9 @@
 
 use super::motions::Motions;
 use crate::diagnostic::{SEARCHED, closest, names_help};
-use crate::expression::{Quantity, evaluate, expression_diagnostic};
+use crate::expression::{Quantity, evaluate};
 use crate::parameters::{Evaluated, Parameters};
+use crate::places::Places;
 use crate::schema::{Block, Group};
 use crate::tree::{Entry, Kind, Node};
 use crate::units::FileUnits;
@@ -18,7 +19,9 @@ pub struct Context<'a> {
     pub(crate) source: Arc<Source>,
     pub(crate) folder: PathBuf,
     pub(crate) registry: &'a Registry,
-    pub(crate) units: FileUnits,
+    pub(crate) places: Places,
+    /// Of each file.
+    units: Vec<FileUnits>,
     pub(crate) motions: Arc<Motions>,
     /// Other files that were read.
     pub(crate) files: RefCell<Vec<PathBuf>>,
@@ -31,13 +34,21 @@ pub struct Fields<'n> {
     what: String,
     span: Span,
     entries: &'n [Entry],
+    /// What takes the place of some of them.
+    instead: &'n [Entry],
 }
 
 impl<'n> Fields<'n> {
     /// The value of a field.
     #[must_use]
     pub fn get(&self, key: &str) -> Option<&'n Node> {
-        self.entries.iter().find(|e| e.key == key).map(|e| &e.value)
+        let mut all = self.instead.iter().chain(self.entries);
+        all.find(|e| e.key == key).map(|e| &e.value)
+    }
+
+    /// The same with other values of some fields.
+    pub(crate) fn with(self, instead: &'n [Entry]) -> Self {
+        Self { instead, ..self }
     }
 
     /// The value of a field; that it is missing is reported.
@@ -62,13 +73,14 @@ impl<'a> Context<'a> {
     /// For a file whose files are looked for in a folder.
     #[must_use]
     pub fn new(source: Arc<Source>, folder: PathBuf, registry: &'a Registry) -> Self {
-        let units = FileUnits::default();
-        let (parameters, _) = Parameters::new(&[], &[], units, &source);
+        let (units, places) = (FileUnits::default(), Places::new(Arc::clone(&source)));
+        let (parameters, _) = Parameters::new(&[], &[], units, &places);
         Self {
             source,
             folder,
             registry,
-            units,
+            places,
+            units: vec![units],
             motions: Arc::default(),
             files: RefCell::default(),
             parameters,
@@ -76,11 +88,35 @@ impl<'a> Context<'a> {
         }
     }
 
-    /// The path of a file that this one names.
-    pub(crate) fn file(&self, name: &str) -> PathBuf {
-        let path = self.folder.join(name);
+    /// The path of a file that a value names: it counts from the folder of the file in which the name stands.
+    pub(crate) fn file(&self, name: &str, at: &Node) -> PathBuf {
+        let included = match at.kind {
+            Kind::Text(_) => self.places.included(at.span.start),
+            _ => None,
+        };
+        let folder = included.and_then(|source| source.path.parent()).unwrap_or(&self.folder);
+        let path = folder.join(name);
         self.files.borrow_mut().push(path.clone());
         path
+    }
+
+    /// What bare numbers of the file of a value are measured in.
+    pub(crate) fn units_at(&self, node: &Node) -> FileUnits {
+        match self.units[..] {
+            [units] => units,
+            _ => self.units[self.places.file_of(node.span.start)],
+        }
+    }
+
+    /// Takes the places of all files of a model, whose bare numbers are in SI for the time being.
+    pub(crate) fn set_places(&mut self, places: Places) {
+        self.units = vec![FileUnits::default(); places.files().count()];
+        self.places = places;
+    }
+
+    /// Sets the units of a file.
+    pub(crate) fn set_units(&mut self, file: usize, units: FileUnits) {
+        self.units[file] = units;
     }
 
     /// The file that is read.
@@ -90,7 +126,8 @@ impl<'a> Context<'a> {
     }
 
     pub(crate) fn set_parameters(&mut self, entries: &[Entry], overrides: &[(String, String)]) {
-        let (all, errors) = Parameters::new(entries, overrides, self.units, &self.source);
+        let units = self.units[0];
+        let (all, errors) = Parameters::new(entries, overrides, units, &self.places);
         self.parameters = all;
         self.errors.borrow_mut().extend(errors);
     }
@@ -103,10 +140,9 @@ impl<'a> Context<'a> {
     #[must_use]
     pub fn into_errors(self) -> Vec<Diagnostic> {
         let mut errors = self.errors.into_inner();
-        errors.sort_by_key(|d| (d.source.path != self.source.path, d.span.start));
         let mut told = std::collections::HashSet::new();
         errors.retain(|d| told.insert((d.source.path.clone(), d.span.clone(), d.message.clone())));
-        errors
+        self.places.told(errors)
     }
 
     /// True while a wrong name is answered with the names that there may be many of: up to the hundredth error.
@@ -184,7 +220,7 @@ impl<'a> Context<'a> {
             }
             self.report(d);
         }
-        Some(Fields { what: what.to_owned(), span: node.name_span(), entries })
+        Some(Fields { what: what.to_owned(), span: node.name_span(), entries, instead: &[] })
     }
 
     /// Which of these names a value has, as `Name`, `Name(…)` or a text.
@@ -233,12 +269,13 @@ impl<'a> Context<'a> {
                 None
             }
             Kind::Text(text) => {
-                let (parameters, suggests) = (&self.parameters, self.suggests());
-                match evaluate(text, &mut Evaluated { parameters, suggests }) {
+                let (parameters, places, at) = (&self.parameters, &self.places, node.span.start);
+                let suggests = self.suggests();
+                match evaluate(text, &mut Evaluated { parameters, places, at, suggests }) {
                     Ok(q) => Some(q),
                     Err(error) => {
                         if let Some(e) = error {
-                            self.report(expression_diagnostic(e, &self.source, node, text));
+                            self.report(self.places.expression(e, &node.span, text));
                         }
                         None
                     }
@@ -256,7 +293,7 @@ impl<'a> Context<'a> {
     /// A quantity as a number of this dimension, in SI.
     pub fn in_dimension(&self, node: &Node, q: Quantity, dimension: Dimension) -> Option<f64> {
         if !q.measured {
-            return Some(q.value * self.units.scale(dimension));
+            return Some(q.value * self.units_at(node).scale(dimension));
         }
         if q.dimension.matches(dimension) {
             return Some(q.value);

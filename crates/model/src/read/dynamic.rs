@@ -2,6 +2,7 @@
 
 use super::cases::Surroundings;
 use super::context::{Context, Fields};
+use super::groups::several;
 use super::{loads, solution};
 use crate::schema;
 use crate::tree::{Kind, Node};
@@ -9,6 +10,7 @@ use crate::{
     AfterEnd, BaseMotion, DynamicCase, ForceHistory, Initial, Interpolation, MOST_OUTPUT_STEPS,
     SupportMotion, output_steps,
 };
+use std::collections::HashSet;
 use trilith_element::dimension::{ACCELERATION, FREQUENCY, LENGTH, NONE, TIME, VELOCITY};
 use trilith_element::{Dimension, Dof, Range};
 
@@ -71,40 +73,42 @@ fn check_steps(c: &Context<'_>, duration: f64, dt: f64, node: &Node) {
 }
 
 impl Reading<'_, '_> {
-    fn list<T>(
+    fn list<T, L: IntoIterator<Item = T>>(
         &self,
         fields: &Fields<'_>,
         key: &str,
-        one: fn(&Self, &Node) -> Option<T>,
+        one: fn(&Self, &Node) -> Option<L>,
     ) -> Option<Vec<T>> {
         let Some(node) = fields.get(key) else { return Some(Vec::new()) };
         let all: Vec<_> = node.items().into_iter().map(|n| one(self, n)).collect();
-        all.into_iter().collect()
+        let all: Vec<L> = all.into_iter().collect::<Option<_>>()?;
+        Some(all.into_iter().flatten().collect())
     }
 
-    fn base(&self, node: &Node) -> Option<BaseMotion> {
+    fn base(&self, node: &Node) -> Option<[BaseMotion; 1]> {
         let c = self.c;
         let fields = c.block(node, "a base motion", schema::BASE_MOTION.blocks[0])?;
         let direction = fields
             .required(c, "direction")
             .and_then(|n| c.choice(n, "direction", &schema::BASE_DIRECTIONS));
         let (function, factor) = self.function(&fields, ACCELERATION)?;
-        Some(BaseMotion { direction: Dof::ALL[direction? % 3], function, factor })
+        Some([BaseMotion { direction: Dof::ALL[direction? % 3], function, factor }])
     }
 
-    fn force(&self, node: &Node) -> Option<ForceHistory> {
+    fn force(&self, node: &Node) -> Option<[ForceHistory; 1]> {
         let c = self.c;
         let fields = c.block(node, "a force history", schema::FORCE_HISTORY.blocks[0])?;
         let pattern = fields.required(c, "load").and_then(|n| self.about.loads.refer(c, n));
         let (function, factor) = self.function(&fields, NONE)?;
-        Some(ForceHistory { pattern: pattern?, function, factor })
+        Some([ForceHistory { pattern: pattern?, function, factor }])
     }
 
-    fn support(&self, item: &Node) -> Option<SupportMotion> {
+    /// Of a node, or of each of several.
+    fn support(&self, item: &Node) -> Option<Vec<SupportMotion>> {
         let c = self.c;
         let fields = c.block(item, "a support motion", schema::SUPPORT_MOTION.blocks[0])?;
-        let (node, dof) = self.place(&fields);
-        let (node, dof) = (node?, dof?);
+        let (nodes, dof) = self.place(&fields);
+        let (nodes, dof) = (nodes?, dof?);
         let wanted = if dof.is_rotation() { NONE } else { LENGTH };
         let (function, factor) = self.history(&fields, "displacement", wanted)?;
         let at = fields.get("displacement").map_or(item.span.clone(), |n| n.span.clone());
@@ -119,22 +123,26 @@ impl Reading<'_, '_> {
             c.report(d.help(format!("write `interpolation: Cubic` in function `{name}`")));
             return None;
         }
-        let fixed = |s: &&crate::Support| s.node == node && s.fixed[dof.index()];
-        if !self.about.supports.iter().flatten().any(|s| fixed(&s)) {
-            let name = self.about.nodes.name(node);
+        let supports = self.about.supports.iter().flatten();
+        let fixed: HashSet<usize> =
+            supports.filter(|s| s.fixed[dof.index()]).map(|s| s.node).collect();
+        if let Some(node) = nodes.iter().find(|node| !fixed.contains(node)) {
+            let name = self.about.nodes.name(*node);
             let message = format!("{} of node `{name}` is not fixed by a support", dof.name());
             let d = c.diagnostic("E0116", message, item.span.clone());
             let help = format!("add {} to `\"{name}\"` in `supports`", dof.name());
             c.report(d.help(help));
             return None;
         }
-        Some(SupportMotion { node, dof, function, factor })
+        let one = |node| SupportMotion { node, dof, function, factor };
+        Some(nodes.into_iter().map(one).collect())
     }
 
-    fn initial(&self, item: &Node) -> Option<Initial> {
+    /// Of a node, or of each of several.
+    fn initial(&self, item: &Node) -> Option<Vec<Initial>> {
         let c = self.c;
         let fields = c.block(item, "an initial value", schema::INITIAL.blocks[0])?;
-        let (node, dof) = self.place(&fields);
+        let (nodes, dof) = self.place(&fields);
         let dof = dof?;
         let (length, speed) =
             if dof.is_rotation() { (NONE, FREQUENCY) } else { (LENGTH, VELOCITY) };
@@ -146,13 +154,15 @@ impl Reading<'_, '_> {
             c.report(d.help("give `displacement`, `velocity` or both"));
             return None;
         }
-        Some(Initial { node: node?, dof, displacement, velocity })
+        let one = |node| Initial { node, dof, displacement, velocity };
+        Some(nodes?.into_iter().map(one).collect())
     }
 
-    fn place(&self, fields: &Fields<'_>) -> (Option<usize>, Option<Dof>) {
+    fn place(&self, fields: &Fields<'_>) -> (Option<Vec<usize>>, Option<Dof>) {
         let c = self.c;
-        let node = fields.required(c, "node").and_then(|n| self.about.nodes.refer(c, n));
-        (node, fields.required(c, "dof").and_then(|n| c.dof(n)))
+        let all = fields.required(c, "node").and_then(|n| several(c, n, self.about.nodes));
+        let nodes = all.map(|all| all.into_iter().map(|(node, _)| node).collect());
+        (nodes, fields.required(c, "dof").and_then(|n| c.dof(n)))
     }
 
     fn function(&self, fields: &Fields<'_>, wanted: Dimension) -> Option<(usize, f64)> {
@@ -174,7 +184,7 @@ impl Reading<'_, '_> {
         let found = own.unwrap_or(NONE) * factor_dimension;
         if own.is_none() && !factor.measured {
             // Plain numbers are in the file's units of what is wanted.
-            return Some((index, factor.value * c.units.scale(wanted)));
+            return Some((index, factor.value * c.units_at(node).scale(wanted)));
         }
         if found.matches(wanted) {
             return Some((index, factor.value));

@@ -210,30 +210,38 @@ impl Reading<'_, '_> {
             (None, Some(one)) => vec![one],
             (None, None) => return fields.required(c, "nodes").and(None),
         };
+        // A group in a list stands for its members, the only node is one.
+        let of_list = fields.get("nodes").is_some();
+        let mut found: Vec<(&Node, Option<usize>)> = Vec::with_capacity(items.len());
+        for item in items {
+            match self.names.group(item).filter(|_| of_list) {
+                Some((members, true)) => found.extend(members.iter().map(|i| (item, Some(*i)))),
+                _ => found.push((item, self.names.refer(c, item))),
+            }
+        }
         let NodeCount { min, max } = card.nodes;
-        if !(min..=max).contains(&items.len()) {
+        if !(min..=max).contains(&found.len()) {
             let wanted = match (min, max) {
                 (a, b) if a == b => format!("{a}"),
                 (a, usize::MAX) => format!("{a} or more"),
                 (a, b) => format!("{a} to {b}"),
             };
-            let message = format!("{what} has {} nodes: {} takes {wanted}", items.len(), card.kind);
+            let message = format!("{what} has {} nodes: {} takes {wanted}", found.len(), card.kind);
             let place = fields.get("nodes").or(fields.get("node"));
             let span = place.map_or(at.clone(), |n| n.span.clone());
             c.report(c.diagnostic("E0115", message, span));
             return None;
         }
-        let found: Vec<_> = items.iter().map(|n| self.names.refer(c, n)).collect();
-        let found: Vec<usize> = found.into_iter().collect::<Option<_>>()?;
-        for (k, i) in found.iter().enumerate() {
-            if let Some(before) = found[..k].iter().position(|j| j == i) {
-                let message = format!("{what} has the node `{}` twice", self.names.name(*i));
-                let d = c.diagnostic("E0115", message, items[k].span.clone());
-                c.report(d.related(items[before].span.clone(), "first given here"));
-                return None;
-            }
+        let all: Vec<usize> = found.iter().map(|(_, i)| *i).collect::<Option<_>>()?;
+        let mut sorted: Vec<usize> = (0..all.len()).collect();
+        sorted.sort_by_key(|k| (all[*k], *k));
+        if let Some(twice) = sorted.windows(2).find(|two| all[two[0]] == all[two[1]]) {
+            let [before, again] = [0, 1].map(|k| found[twice[k]].0.span.clone());
+            let message = format!("{what} has the node `{}` twice", self.names.name(all[twice[0]]));
+            c.report(c.diagnostic("E0115", message, again).related(before, "first given here"));
+            return None;
         }
-        Some(found)
+        Some(all)
     }
 
     fn link_options(

@@ -1,6 +1,7 @@
 //! Whether a text is meant as a model at all.
 
-/// True for a text that is meant as a model, right or wrong: in parentheses, and with `nodes` somewhere. What a file
+/// True for a text that is meant as a model, right or wrong: in parentheses, and with `nodes` somewhere, or with
+/// `include`, which may bring them. What a file
 /// that another one names holds beside is nobody's business: its lines are not shown in errors.
 #[must_use]
 pub fn resembles_model(text: &str) -> bool {
@@ -13,7 +14,7 @@ pub fn resembles_model(text: &str) -> bool {
         } else if let Some(attribute) = rest.strip_prefix("#![") {
             attribute.split_once(']')
         } else {
-            return rest.starts_with('(') && rest.contains("nodes");
+            return rest.starts_with('(') && (rest.contains("nodes") || rest.contains("include:"));
         };
         let Some((_, after)) = after else { return false };
         rest = after.trim_start();
@@ -28,6 +29,7 @@ mod tests {
     fn models_are_told_from_other_texts() {
         for text in [
             "(nodes: {})",
+            "(include: [\"a.ron\"])",
             "\u{feff}// a\n\n/* ( */ #![enable(unwrap_newtypes)]\n(title: \"t\", nodes: { oops",
         ] {
             assert!(resembles_model(text), "{text}");

@@ -1,6 +1,7 @@
 //! Load patterns and the lists of loads that cases apply.
 
 use super::context::Context;
+use super::groups::several;
 use super::names::Names;
 use crate::schema;
 use crate::tree::{Entry, Kind, Node};
@@ -15,21 +16,22 @@ pub(super) fn patterns(
     let one = |e: &Entry| {
         let items = e.value.items();
         let forces: Vec<_> = items.iter().map(|n| force(c, n, nodes, &e.key)).collect();
-        if forces.is_empty() {
+        if items.is_empty() {
             let d =
                 c.diagnostic("E0104", format!("load `{}` is empty", e.key), e.value.span.clone());
             c.report(d.help("write `[(node: \"…\", dof: Uz, force: …)]`"));
         }
         let forces = forces.into_iter().collect::<Option<Vec<_>>>()?;
-        Some(Pattern { name: e.key.clone(), forces })
+        Some(Pattern { name: e.key.clone(), forces: forces.concat() })
     };
     entries.iter().map(one).collect()
 }
 
-fn force(c: &Context<'_>, item: &Node, nodes: &Names<'_>, load: &str) -> Option<NodalForce> {
+/// A force at a node, or at each of several.
+fn force(c: &Context<'_>, item: &Node, nodes: &Names<'_>, load: &str) -> Option<Vec<NodalForce>> {
     let what = format!("load `{load}`");
     let fields = c.block(item, &what, &schema::FORCE)?;
-    let node = fields.required(c, "node").and_then(|n| nodes.refer(c, n));
+    let at = fields.required(c, "node").and_then(|n| several(c, n, nodes));
     let dof = fields.required(c, "dof").and_then(|n| c.dof(n))?;
     let (key, other, dimension) =
         if dof.is_rotation() { ("moment", "force", MOMENT) } else { ("force", "moment", FORCE) };
@@ -39,7 +41,7 @@ fn force(c: &Context<'_>, item: &Node, nodes: &Names<'_>, load: &str) -> Option<
         return None;
     }
     let value = c.number(fields.required(c, key)?, dimension)?;
-    Some(NodalForce { node: node?, dof, value })
+    Some(at?.into_iter().map(|(node, _)| NodalForce { node, dof, value }).collect())
 }
 
 /// `[Gravity, Gravity(factor: 1), (load: "name", factor: 1)]`.

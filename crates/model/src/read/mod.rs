@@ -7,6 +7,7 @@ mod damping;
 mod dynamic;
 mod elements;
 mod functions;
+mod groups;
 mod likeness;
 mod loads;
 mod motion;
@@ -20,20 +21,22 @@ mod solution;
 mod spectra;
 mod synthetic;
 mod tables;
+mod units;
 mod values;
 
 #[cfg(test)]
 mod tests;
 
+use crate::expand::{expand, has_templates};
+use crate::include::{self, Whole};
 use crate::schema;
-use crate::tree::{self, Node};
-use crate::units::{FileUnits, STANDARD_GRAVITY};
+use crate::tree::{self, Kind, Node};
+use crate::units::STANDARD_GRAVITY;
 use crate::{Diagnostic, Model, Plane, Registry, Source};
 pub use context::{Context, Fields};
 pub use likeness::resembles_model;
 pub(crate) use motion::nodal_dimension;
 use names::Names;
-use sha2::{Digest, Sha256};
 use std::path::Path;
 use std::sync::Arc;
 use trilith_element::dimension as d;
@@ -82,8 +85,7 @@ pub fn read_text(
 /// # Errors
 /// What is wrong with the text itself.
 pub fn parse(text: &str, path: impl AsRef<Path>) -> Result<(Arc<Source>, Node), Vec<Diagnostic>> {
-    let digest = Sha256::digest(text.as_bytes());
-    let sha256 = digest.iter().map(|b| format!("{b:02x}")).collect();
+    let sha256 = crate::model::sha256(text.as_bytes());
     let path = path.as_ref().to_owned();
     let source = Arc::new(Source { path, text: text.to_owned(), sha256 });
     let root = tree::parse(text).map_err(|e| {
@@ -96,12 +98,13 @@ pub fn parse(text: &str, path: impl AsRef<Path>) -> Result<(Arc<Source>, Node), 
     Ok((source, root))
 }
 
-/// A model file whose text has been understood, to be read with many values of its parameters. Motions are
-/// read from their files, or made, once: what changes on disk afterwards is not seen.
+/// A model file whose text has been understood, with those that it includes, to be read with many values of its
+/// parameters. Motions are read from their files, or made, once: what changes on disk afterwards is not seen.
 #[derive(Clone, Debug)]
 pub struct ModelText {
-    source: Arc<Source>,
-    root: Node,
+    whole: Whole,
+    /// Names of the sections that have something to expand.
+    templates: Vec<String>,
     motions: Arc<motions::Motions>,
 }
 
@@ -109,10 +112,25 @@ impl ModelText {
     /// Takes a text apart. Files it names are looked for in the folder of `path`.
     ///
     /// # Errors
-    /// What is wrong with the text itself.
+    /// What is wrong with the text itself, or with a file that it includes.
     pub fn new(text: &str, path: impl AsRef<Path>) -> Result<Self, Vec<Diagnostic>> {
         let (source, root) = parse(text, path)?;
-        Ok(Self { source, root, motions: Arc::default() })
+        let whole = include::whole(&source, root)?;
+        let templates = match &whole.root.kind {
+            Kind::Fields(_, entries) => {
+                let all = entries.iter().filter(|e| {
+                    !schema::AS_IT_STANDS.contains(&e.key.as_str()) && has_templates(&e.value)
+                });
+                all.map(|e| e.key.clone()).collect()
+            }
+            _ => Vec::new(),
+        };
+        Ok(Self { whole, templates, motions: Arc::default() })
+    }
+
+    /// The model file and those that it includes.
+    pub fn sources(&self) -> impl Iterator<Item = &Source> {
+        self.whole.places.files().map(|source| &**source)
     }
 
     /// The model with these values of its parameters.
@@ -124,7 +142,7 @@ impl ModelText {
         registry: &Registry,
         overrides: &[(String, String)],
     ) -> Result<Model, Vec<Diagnostic>> {
-        let source = &self.source;
+        let source = self.whole.places.main();
         if let Some(kind) = registry.duplicates().first() {
             let message = format!("two kinds are registered under the name `{kind}`");
             let help = "give one of them another name";
@@ -133,12 +151,13 @@ impl ModelText {
         let folder = source.path.parent().unwrap_or(Path::new("")).to_owned();
         let mut context = Context::new(Arc::clone(source), folder, registry);
         context.motions = Arc::clone(&self.motions);
-        let model = sections(&mut context, &self.root, overrides);
+        context.set_places(self.whole.places.clone());
+        let model = sections(&mut context, &self.whole, &self.templates, overrides);
         let errors = context.into_errors();
         match model {
             Some(model) if errors.is_empty() => Ok(model),
             _ if errors.is_empty() => {
-                let span = self.root.span.clone();
+                let span = self.whole.root.span.clone();
                 Err(vec![Diagnostic::new("E0105", "this is no model", span, source)])
             }
             _ => Err(errors),
@@ -146,13 +165,22 @@ impl ModelText {
     }
 }
 
-fn sections(c: &mut Context<'_>, root: &Node, overrides: &[(String, String)]) -> Option<Model> {
-    let top = c.block(root, "the model", schema::MODEL.blocks[0])?;
-    if let Some(node) = top.get("units") {
-        c.units = file_units(c, node).unwrap_or_default();
+fn sections(
+    c: &mut Context<'_>,
+    whole: &Whole,
+    templates: &[String],
+    overrides: &[(String, String)],
+) -> Option<Model> {
+    let top = c.block(&whole.root, "the model", schema::MODEL.blocks[0])?;
+    let own = top.get("units").map(|node| (0, node));
+    for (file, node) in own.into_iter().chain(whole.units.iter().map(|(i, n)| (*i, n))) {
+        let units = units::file_units(c, node).unwrap_or_default();
+        c.set_units(file, units);
     }
     let declared = c.section(&top, "parameters", false);
     c.set_parameters(declared, overrides);
+    let expanded = expand(c, &top, templates)?;
+    let top = top.with(&expanded);
     let c = &*c;
 
     let plane = top.get("plane").and_then(|node| {
@@ -172,8 +200,11 @@ fn sections(c: &mut Context<'_>, root: &Node, overrides: &[(String, String)]) ->
     let function_entries = c.section(&top, "functions", false);
     let load_entries = c.section(&top, "loads", false);
     let case_entries = c.section(&top, "cases", true);
-    let node_names = Names::new("node", "nodes", node_entries);
+    let node_names = Names::new(names::NODE, "nodes", node_entries);
     let element_names = Names::new("element", "elements", element_entries);
+    let group_entries = c.section(&top, "groups", false);
+    let groups = groups::groups(c, group_entries, &node_names, &element_names);
+    let (node_names, element_names) = (node_names.with(&groups), element_names.with(&groups));
     let function_names = Names::new("function", "functions", function_entries);
     let load_names = Names::new("load", "loads", load_entries);
 
@@ -206,6 +237,7 @@ fn sections(c: &mut Context<'_>, root: &Node, overrides: &[(String, String)]) ->
     Some(Model {
         title: title?,
         source: Source::clone(&c.source),
+        places: c.places.clone(),
         files: c.files.borrow().clone(),
         plane,
         gravity: gravity?,
@@ -228,46 +260,4 @@ fn without_gaps<T>(read: Vec<Option<T>>) -> Vec<T> {
     let mut all = Vec::with_capacity(read.len());
     all.extend(read.into_iter().flatten());
     all
-}
-
-/// `units: (length: "in", force: "kip", time: "s")`; mass may stand in place of force.
-fn file_units(c: &Context<'_>, node: &Node) -> Option<FileUnits> {
-    let fields = c.block(node, "`units`", schema::UNITS.blocks[0])?;
-    let one = |key: &'static str, dimension| match fields.get(key) {
-        None => Some(1.0),
-        Some(node) => base_unit(c, node, key, dimension),
-    };
-    if let (Some(force), Some(mass)) = (fields.get("force"), fields.get("mass")) {
-        c.report(
-            c.diagnostic("E0105", "`units` names both a force and a mass", mass.span.clone())
-                .related(force.span.clone(), "the force")
-                .help("keep one of the two; the other follows from length and time"),
-        );
-        return None;
-    }
-    let (length, time) = (one("length", d::LENGTH)?, one("time", d::TIME)?);
-    let mass = match fields.get("force") {
-        Some(node) => base_unit(c, node, "force", d::FORCE)? * time * time / length,
-        None => one("mass", d::MASS)?,
-    };
-    Some(FileUnits { length, mass, time })
-}
-
-fn base_unit(
-    c: &Context<'_>,
-    node: &Node,
-    what: &str,
-    dimension: trilith_element::Dimension,
-) -> Option<f64> {
-    let name = c.text(node, what)?;
-    let fitting = || crate::units::UNITS.iter().filter(|u| u.dimension.matches(dimension));
-    if let Some(unit) = fitting().find(|u| u.name == name) {
-        return Some(unit.factor);
-    }
-    let all: Vec<&str> = fitting().map(|u| u.name).collect();
-    c.report(
-        c.diagnostic("E0109", format!("`{name}` is no unit of {what}"), node.span.clone())
-            .help(format!("one of {}", all.join(", "))),
-    );
-    None
 }

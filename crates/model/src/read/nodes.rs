@@ -4,7 +4,8 @@ use super::context::Context;
 use super::names::Names;
 use crate::schema;
 use crate::tree::{Entry, Kind};
-use crate::{Node, Support};
+use crate::{Node, Span, Support};
+use std::collections::HashMap;
 use trilith_element::Dof;
 
 pub(super) fn nodes(c: &Context<'_>, entries: &[Entry]) -> Vec<Option<Node>> {
@@ -15,15 +16,15 @@ pub(super) fn nodes(c: &Context<'_>, entries: &[Entry]) -> Vec<Option<Node>> {
     entries.iter().map(one).collect()
 }
 
-/// `Fixed`, `Pinned`, one direction, or a list of directions.
+/// `Fixed`, `Pinned`, one direction, or a list of directions, of a node or of each of a group.
 pub(super) fn supports(
     c: &Context<'_>,
     entries: &[Entry],
     nodes: &Names<'_>,
 ) -> Vec<Option<Support>> {
-    let one = |e: &Entry| {
+    let one = |e: &Entry| -> Vec<Option<Support>> {
         let name = crate::tree::Node { span: e.key_span.clone(), kind: Kind::Name(e.key.clone()) };
-        let node = nodes.refer(c, &name);
+        let on = nodes.refer_to_all(c, &name);
         let mut fixed = [false; 6];
         match e.value.name() {
             Some("Fixed") => fixed = [true; 6],
@@ -51,7 +52,17 @@ pub(super) fn supports(
                 }
             }
         }
-        Some(Support { node: node?, fixed, span: e.key_span.clone() })
+        let Some(on) = on else { return vec![None] };
+        on.into_iter().map(|node| Some(Support { node, fixed, span: e.key_span.clone() })).collect()
     };
-    entries.iter().map(one).collect()
+    let all: Vec<Option<Support>> = entries.iter().flat_map(one).collect();
+    let mut first: HashMap<usize, &Span> = HashMap::with_capacity(all.len());
+    for s in all.iter().flatten() {
+        if let Some(before) = first.insert(s.node, &s.span) {
+            let message = format!("node `{}` has two supports", nodes.name(s.node));
+            let d = c.diagnostic("E0116", message, s.span.clone());
+            c.report(d.related(before.clone(), "the first").help("put them into one"));
+        }
+    }
+    all
 }

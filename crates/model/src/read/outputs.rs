@@ -1,6 +1,7 @@
 //! What is recorded.
 
 mod combination;
+mod forces;
 
 use super::context::{Context, Fields};
 use super::names::Names;
@@ -8,9 +9,8 @@ use crate::diagnostic::names_help;
 use crate::expression::Quantity as Number;
 use crate::schema::{self, Block};
 use crate::tree::{Entry, Kind, Node};
-use crate::{Body, Element, NodalTerm, Output, Quantity};
-use trilith_element::dimension::{FORCE, LENGTH, MOMENT, NONE};
-use trilith_element::{Axis, Coordinates, Dimension, Dof, Link};
+use crate::{Element, NodalTerm, Output, Quantity};
+use trilith_element::Dimension;
 
 use super::motion::{nodal_dimension, unit};
 
@@ -109,7 +109,10 @@ impl Reading<'_, '_> {
         target: Option<Dimension>,
     ) -> Option<(NodalTerm, Dimension)> {
         let c = self.c;
-        let node = fields.required(c, "node").and_then(|n| self.nodes.refer(c, n));
+        let node = fields.required(c, "node").and_then(|n| {
+            self.check_single(n, self.nodes)?;
+            self.nodes.refer(c, n)
+        });
         let dof = fields.required(c, "dof").and_then(|n| c.dof(n))?;
         let motion = nodal_dimension(order, dof.is_rotation());
         let factor = match (fields.get("factor"), target) {
@@ -140,102 +143,6 @@ impl Reading<'_, '_> {
         fields.get("factor").map_or(Some(Number::bare(1.0)), |n| self.c.quantity(n))
     }
 
-    /// The element that a field names, where it is a link.
-    fn law(&self, fields: &Fields<'_>) -> Option<(usize, &dyn Link)> {
-        let c = self.c;
-        let node = fields.required(c, "link")?;
-        let index = self.names.refer(c, node)?;
-        let element = self.elements[index].as_ref()?;
-        match &element.body {
-            Body::Link(law, _) => Some((index, law.as_ref())),
-            _ => {
-                let message = format!("`{}` ({}) is no link", element.name, element.kind);
-                let d = c.diagnostic("E0106", message, node.span.clone());
-                c.report(d.help("name a link, or record `ElementForce`"));
-                None
-            }
-        }
-    }
-
-    fn link(
-        &self,
-        node: &Node,
-        what: &str,
-        kind: &Block,
-        force: bool,
-    ) -> Option<(Quantity, String)> {
-        let c = self.c;
-        let fields = c.block(node, what, kind)?;
-        let (found, factor) = (self.law(&fields), self.factor(&fields));
-        let (element, law) = found?;
-        let coordinates = law.coordinates();
-        let (coordinate, rotation) = match (fields.get("axis"), fields.get("coordinate")) {
-            (None, Some(n)) => {
-                let k = c.count(n, "coordinate", 0)?;
-                if k >= coordinates.len() {
-                    let last = coordinates.len().saturating_sub(1);
-                    let message = format!("`coordinate` = {k}: must be between 0 and {last}");
-                    c.report(c.diagnostic("E0112", message, n.span.clone()));
-                    return None;
-                }
-                let rotation = match &coordinates {
-                    Coordinates::Local(axes) => axes[k].index() > 2,
-                    Coordinates::Nodal { .. } => k % 6 > 2,
-                };
-                (k, rotation)
-            }
-            (Some(_), Some(n)) => {
-                let message = format!("{what} has `axis` and `coordinate`");
-                c.report(
-                    c.diagnostic("E0102", message, n.span.clone()).help("keep one of the two"),
-                );
-                return None;
-            }
-            (axis, None) => {
-                self.axis(axis.or_else(|| fields.required(c, "axis"))?, &coordinates)?
-            }
-        };
-        let factor = factor?;
-        let own = match (force, rotation) {
-            (true, false) => FORCE,
-            (true, true) => MOMENT,
-            (false, false) => LENGTH,
-            (false, true) => NONE,
-        };
-        let unit = unit(own * factor.dimension, !force && rotation && factor.dimension.is_none());
-        let factor = factor.value;
-        let quantity = if force {
-            Quantity::LinkForce { element, coordinate, factor }
-        } else {
-            Quantity::LinkDeformation { element, coordinate, factor }
-        };
-        Some((quantity, unit))
-    }
-
-    /// Coordinate of a local axis, and whether it is a rotation.
-    fn axis(&self, node: &Node, coordinates: &Coordinates) -> Option<(usize, bool)> {
-        let c = self.c;
-        let axis = Axis::ALL[c.choice(node, "axis", Axis::NAMES)?];
-        let (message, help) = match coordinates {
-            Coordinates::Local(axes) => {
-                if let Some(k) = axes.iter().position(|a| *a == axis) {
-                    return Some((k, axis.index() > 2));
-                }
-                let names: Vec<&str> = axes.iter().map(|a| a.name()).collect();
-                (
-                    format!("the link has no axis {}", axis.name()),
-                    format!("it has {}", names.join(", ")),
-                )
-            }
-            Coordinates::Nodal { .. } => (
-                "the law of this link works on the displacements of its nodes, not on axes".into(),
-                format!("write `coordinate: 0` to `coordinate: {}`", coordinates.len() - 1),
-            ),
-        };
-        c.report(c.diagnostic("E0106", message, node.span.clone()).help(help));
-        None
-    }
-
     fn history(&self, node: &Node, what: &str, kind: &Block) -> Option<(Quantity, String)> {
         let c = self.c;
         let fields = c.block(node, what, kind)?;
@@ -254,33 +161,5 @@ impl Reading<'_, '_> {
         let help = names_help(name, "history variables", names);
         c.report(c.diagnostic("E0106", message, variable.span.clone()).help(help));
         None
-    }
-
-    fn element_force(&self, node: &Node, what: &str, kind: &Block) -> Option<(Quantity, String)> {
-        let c = self.c;
-        let fields = c.block(node, what, kind)?;
-        let name = fields.required(c, "element");
-        let element = name.and_then(|n| self.names.refer(c, n));
-        let dof: Option<Dof> = fields.required(c, "dof").and_then(|n| c.dof(n));
-        let end = fields.required(c, "end").and_then(|n| Some((c.count(n, "end", 0)?, n)));
-        let factor = self.factor(&fields);
-        let (element, dof, factor) = (element?, dof?, factor?);
-        let (end, end_node) = end?;
-        let found = self.elements[element].as_ref()?;
-        if !matches!(found.body, Body::Linear(_)) {
-            let message = format!("`{}` ({}) is no linear element", found.name, found.kind);
-            let d = c.diagnostic("E0106", message, name?.span.clone());
-            c.report(d.help("record `LinkForce` of a link; constraints have no recorded force"));
-            return None;
-        }
-        if end >= found.nodes.len() {
-            let last = found.nodes.len() - 1;
-            let message = format!("`end` = {end}: must be between 0 and {last}");
-            c.report(c.diagnostic("E0112", message, end_node.span.clone()));
-            return None;
-        }
-        let own = if dof.is_rotation() { MOMENT } else { FORCE };
-        let unit = unit(own * factor.dimension, false);
-        Some((Quantity::ElementForce { element, end, dof, factor: factor.value }, unit))
     }
 }

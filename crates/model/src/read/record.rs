@@ -82,7 +82,7 @@ pub(super) fn record(c: &Context<'_>, e: &Entry) -> Option<Made> {
         Some(n) => component(c, n).map(Some),
     };
     let file = fields.required(c, "file")?;
-    let path = c.file(&file_name(c, file)?);
+    let path = c.file(&file_name(c, file)?, file);
     let (component, options) = (component?, options?);
     // The factor differs from run to run and comes last.
     let mut processing = processing?;

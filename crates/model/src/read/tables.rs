@@ -37,7 +37,7 @@ pub(super) fn table(c: &Context<'_>, e: &Entry) -> Option<Made> {
     let file = fields.required(c, "file")?;
     let path = file_name(c, file)?;
     let at = &file.span;
-    let (path, skip, times, values) = (c.file(&path), skip?, times?, values?);
+    let (path, skip, times, values) = (c.file(&path, file), skip?, times?, values?);
     let read = || {
         let all = columns(c, &path, skip, at)?;
         let times = numbers(c, &all, &times, &place(&fields, "time", at));
@@ -54,7 +54,7 @@ pub(super) fn table(c: &Context<'_>, e: &Entry) -> Option<Made> {
             dimension = Some(dimension.unwrap_or(NONE) * q.dimension);
         }
     }
-    let seconds = c.units.scale(TIME);
+    let seconds = c.units_at(&e.value).scale(TIME);
     let times = times.iter().map(|t| t * seconds).collect();
     let (interpolation, after_end) = style?;
     match Table::new(times, values, interpolation, after_end) {

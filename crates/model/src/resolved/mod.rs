@@ -88,6 +88,8 @@ fn text(s: &str) -> String {
     for c in s.chars() {
         match c {
             '"' | '\\' => out.extend(['\\', c]),
+            // Braces of a text would be filled in when it is read.
+            '{' | '}' => out.extend([c, c]),
             '\n' => out.push_str("\\n"),
             '\r' => out.push_str("\\r"),
             '\t' => out.push_str("\\t"),

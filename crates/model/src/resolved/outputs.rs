@@ -3,7 +3,7 @@
 use super::{factor, text};
 use crate::read::nodal_dimension;
 use crate::units;
-use crate::{Body, Combine, Model, NodalTerm, Output, Quantity};
+use crate::{Body, Combine, LinkTerm, Model, NodalTerm, Output, Quantity};
 use trilith_element::dimension::{FORCE, LENGTH, MOMENT, NONE};
 use trilith_element::{Coordinates, Dimension};
 
@@ -19,11 +19,16 @@ pub(super) fn output(model: &Model, o: &Output) -> String {
         };
         format!("terms: [{}]", terms.iter().map(one).collect::<Vec<_>>().join(", "))
     };
-    let link = |element: usize, coordinate: usize, by: f64, force: bool| {
+    let names = |all: &mut dyn Iterator<Item = usize>| {
+        let all: Vec<String> = all.map(|i| text(&model.elements[i].name)).collect();
+        if let [one] = &all[..] { one.clone() } else { format!("[{}]", all.join(", ")) }
+    };
+    let link = |all: &[LinkTerm], force: bool| {
+        let LinkTerm { element, coordinate, factor: by } = all[0];
         let (place, rotation) = place(model, element, coordinate);
         let own = own(force, rotation);
-        let name = text(&model.elements[element].name);
-        format!("link: {name}, {place}, factor: {}", factor(by, total / own))
+        let names = names(&mut all.iter().map(|t| t.element));
+        format!("link: {names}, {place}, factor: {}", factor(by, total / own))
     };
     match &o.quantity {
         Quantity::Displacement(all) => format!("Displacement({})", terms(all, 0)),
@@ -32,11 +37,11 @@ pub(super) fn output(model: &Model, o: &Output) -> String {
             format!("Acceleration({}, absolute: {absolute})", terms(all, 2))
         }
         Quantity::LinkDeformation { element, coordinate, factor } => {
-            format!("LinkDeformation({})", link(*element, *coordinate, *factor, false))
+            let (element, coordinate, factor) = (*element, *coordinate, *factor);
+            let term = LinkTerm { element, coordinate, factor };
+            format!("LinkDeformation({})", link(&[term], false))
         }
-        Quantity::LinkForce { element, coordinate, factor } => {
-            format!("LinkForce({})", link(*element, *coordinate, *factor, true))
-        }
+        Quantity::LinkForce(terms) => format!("LinkForce({})", link(terms, true)),
         Quantity::LinkHistory { element, field } => {
             let e = &model.elements[*element];
             let variable = match &e.body {
@@ -46,9 +51,9 @@ pub(super) fn output(model: &Model, o: &Output) -> String {
             .unwrap_or_default();
             format!("LinkHistory(link: {}, variable: {})", text(&e.name), text(&variable))
         }
-        Quantity::ElementForce { element, end, dof, factor: by } => {
+        Quantity::ElementForce { elements, end, dof, factor: by } => {
             let own = own(true, dof.is_rotation());
-            let name = text(&model.elements[*element].name);
+            let name = names(&mut elements.iter().copied());
             let by = factor(*by, total / own);
             format!("ElementForce(element: {name}, end: {end}, dof: {}, factor: {by})", dof.name())
         }

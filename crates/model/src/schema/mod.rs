@@ -5,6 +5,7 @@
 
 mod cases;
 mod functions;
+mod many;
 mod outputs;
 mod records;
 mod structure;
@@ -18,6 +19,7 @@ pub use functions::{
     AFTER_END, CONSTANT, COSINE, FUNCTIONS, HALF_SINE, INTERPOLATIONS, POINTS, RAMP, RICKER,
     SCALED, SINE, STEP, TABLE,
 };
+pub use many::{AS_IT_STANDS, GROUP_KINDS, INCLUDED, REPETITION};
 pub use outputs::{
     ACCELERATION, DISPLACEMENT, ELEMENT_FORCE, LARGEST, LINK_DEFORMATION, LINK_FORCE, LINK_HISTORY,
     NORM, OUTPUTS, PARTS, SMALLEST, SUM, TERM, VELOCITY,

@@ -21,6 +21,12 @@ pub static MODEL: Group = Group {
         meaning: "The sections of a model, in any order.",
         example: r#"(nodes: { "m": (0, 0, 0) }, elements: { "k": Spring(node: "m", k1: "1 kN/m"), "mass": Mass(node: "m", mass: "1 t") }, supports: { "m": (Ux, Uy, Rx, Ry, Rz) }, cases: { "own weight": Static(loads: [Gravity]) })"#,
         fields: &[
+            absent(
+                "include",
+                Words("a list of files in quotes, see *Other files*"),
+                "none",
+                "Files with sections of the model. What they hold stands before what the model has itself.",
+            ),
             plain("title", Text, r#""""#, "Shown above results."),
             absent("units", One(&UNITS), "SI", "What bare numbers are measured in."),
             absent(
@@ -60,6 +66,14 @@ pub static MODEL: Group = Group {
                 "elements",
                 Words("a map from names to `Kind(…)`"),
                 "Elements, constraints and links: see *Fields of all elements* and *Kinds*.",
+            ),
+            absent(
+                "groups",
+                Words(
+                    "a map from names to lists of names, or of patterns such as `\"floor 1 *\"`; `Nodes([…])` or `Elements([…])` where both have these names",
+                ),
+                "none",
+                "Nodes or elements that one name stands for: in `supports`, in `nodes` of elements and constraints, and as `node` of loads, initial values and support motions for each of them; as `link` or `element` of a force for their sum.",
             ),
             plain(
                 "damping",

@@ -52,6 +52,12 @@ pub struct Entry {
     pub value: Node,
 }
 
+/// Entries whose key has come before, each with the place where it did.
+pub(crate) fn twice(entries: &[Entry]) -> Vec<(&Entry, &Span)> {
+    let mut first: HashMap<&str, &Span> = HashMap::with_capacity(entries.len());
+    entries.iter().filter_map(|e| Some((e, first.insert(&e.key, &e.key_span)?))).collect()
+}
+
 /// An error of the text itself.
 #[derive(Debug)]
 pub(crate) struct TreeError {
@@ -101,6 +107,22 @@ impl Node {
             Kind::List(None, items) => items.iter().collect(),
             Kind::Fields(None, entries) if entries.is_empty() => Vec::new(),
             _ => vec![self],
+        }
+    }
+
+    /// Moves all spans.
+    pub(crate) fn shift(&mut self, by: usize) {
+        let moved = |span: &Span| span.start + by..span.end + by;
+        self.span = moved(&self.span);
+        match &mut self.kind {
+            Kind::List(_, items) => items.iter_mut().for_each(|n| n.shift(by)),
+            Kind::Fields(_, entries) | Kind::Map(entries) => {
+                for e in entries {
+                    e.key_span = moved(&e.key_span);
+                    e.value.shift(by);
+                }
+            }
+            Kind::Number(_) | Kind::Flag(_) | Kind::Text(_) | Kind::Name(_) => {}
         }
     }
 

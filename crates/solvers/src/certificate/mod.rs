@@ -117,11 +117,13 @@ impl<'a> Certificate<'a> {
         kicks: Option<Kicks>,
         link_tolerance: f64,
     ) -> Self {
-        let left = |output: &Output| match output.quantity {
-            Quantity::LinkForce { element, coordinate, factor } => {
-                let link = links.links.iter().find(|link| link.element == element)?;
-                let kind = usize::from(links.rotational[link.range.start + coordinate]);
-                Some((kind, link_tolerance * factor.abs()))
+        let left = |output: &Output| match &output.quantity {
+            Quantity::LinkForce(terms) => {
+                let first = terms.first()?;
+                let link = links.links.iter().find(|link| link.element == first.element)?;
+                let kind = usize::from(links.rotational[link.range.start + first.coordinate]);
+                let factors: f64 = terms.iter().map(|t| t.factor.abs()).sum();
+                Some((kind, link_tolerance * factors))
             }
             _ => None,
         };

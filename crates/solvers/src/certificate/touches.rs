@@ -12,7 +12,7 @@
 use crate::record::Outputs;
 use crate::step::State;
 use crate::structure::ReducedSystem;
-use trilith_model::{Model, Quantity};
+use trilith_model::{LinkTerm, Model, Quantity};
 use trilith_system::System;
 
 /// Share of the duration by which the moment of a jump may be off without a word.
@@ -62,10 +62,12 @@ impl Touches {
         let modes = if reduced { space.order() - space.readers.columns() } else { 0 };
         let of_modes = outputs.shares(modes);
         let owner = |element: usize| system.links.links.iter().find(|l| l.element == element);
-        let share = |a: usize, flat: usize, output: usize| match model.outputs[output].quantity {
-            Quantity::LinkForce { element, coordinate, factor } => {
-                let own = owner(element).is_some_and(|l| l.range.start + coordinate == flat);
-                if own { factor } else { 0.0 }
+        let share = |a: usize, flat: usize, output: usize| match &model.outputs[output].quantity {
+            Quantity::LinkForce(terms) => {
+                let own = |t: &&LinkTerm| {
+                    owner(t.element).is_some_and(|l| l.range.start + t.coordinate == flat)
+                };
+                terms.iter().filter(own).map(|t| t.factor).sum()
             }
             Quantity::Acceleration { .. } => {
                 let row = space.links.row(a).filter(|(j, _)| *j < modes);

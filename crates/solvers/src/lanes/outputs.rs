@@ -15,7 +15,7 @@ pub(super) enum Row<R, const M: usize> {
     Acceleration { own: [R; M], base: Vec<R> },
     Element { stiffness: [R; M], damping: [R; M] },
     Deformation { at: usize, factor: R },
-    Force { at: usize, factor: R },
+    Force { first: (usize, R), more: Vec<(usize, R)> },
     History { at: usize },
     Zero,
     Combination(Combination<R>),
@@ -143,8 +143,9 @@ impl<R: Real, const M: usize> Outputs<R, M> {
             Output::Deformation { at, .. } => {
                 Row::Deformation { at: places[*at], factor: get(&|s| s.outputs[o].factor()) }
             }
-            Output::Force { at, .. } => {
-                Row::Force { at: places[*at], factor: get(&|s| s.outputs[o].factor()) }
+            Output::Force { terms } => {
+                let term = |k: usize| (places[terms[k].0], get(&|s| s.outputs[o].terms()[k].1));
+                Row::Force { first: term(0), more: (1..terms.len()).map(term).collect() }
             }
             Output::History { at } => Row::History { at: *at },
             Output::Zero => Row::Zero,
@@ -266,7 +267,7 @@ impl Output {
 
     fn factor(&self) -> f64 {
         match self {
-            Self::Deformation { factor, .. } | Self::Force { factor, .. } => *factor,
+            Self::Deformation { factor, .. } => *factor,
             Self::Combination { constant, .. } => *constant,
             _ => 0.0,
         }
@@ -274,7 +275,7 @@ impl Output {
 
     fn terms(&self) -> &[(usize, f64)] {
         match self {
-            Self::Combination { terms, .. } => terms,
+            Self::Combination { terms, .. } | Self::Force { terms } => terms,
             _ => &[],
         }
     }

@@ -52,8 +52,8 @@ pub(super) enum Output {
     Element { stiffness: Vec<f64>, damping: Vec<f64> },
     /// Deformation of a lane coordinate.
     Deformation { at: usize, factor: f64 },
-    /// Force of a lane coordinate.
-    Force { at: usize, factor: f64 },
+    /// Σ on forces of lane coordinates.
+    Force { terms: Vec<(usize, f64)> },
     /// History.
     History { at: usize },
     /// Of a coordinate that nothing deforms.
@@ -69,7 +69,7 @@ impl Output {
             Self::Motion { order, .. } => (0, vec![*order]),
             Self::Element { .. } => (1, Vec::new()),
             Self::Deformation { at, .. } => (2, vec![*at]),
-            Self::Force { at, .. } => (3, vec![*at]),
+            Self::Force { terms } => (3, terms.iter().map(|t| t.0).collect()),
             Self::History { at } => (4, vec![*at]),
             Self::Zero => (5, Vec::new()),
             Self::Combination { how, terms, .. } => {
@@ -458,8 +458,12 @@ fn outputs(
             Row::Deformation { flat, factor } => {
                 at(*flat).map_or(Output::Zero, |at| Output::Deformation { at, factor: *factor })
             }
-            Row::Force { flat, factor } => {
-                at(*flat).map_or(Output::Zero, |at| Output::Force { at, factor: *factor })
+            Row::Force { terms } => {
+                let terms = terms.iter().filter_map(|(flat, factor)| Some((at(*flat)?, *factor)));
+                match terms.collect::<Vec<_>>() {
+                    none if none.is_empty() => Output::Zero,
+                    terms => Output::Force { terms },
+                }
             }
             Row::History { at } => Output::History { at: *at },
             Row::Combination { how, constant, terms } => {

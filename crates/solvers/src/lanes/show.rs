@@ -38,7 +38,11 @@ pub(super) fn show<A: Arithmetic, const M: usize, const L: usize, const N: usize
                 let v = if plan.rate { state.v[*at] } else { dot(zero, &plan.b[*at], &*state.p) };
                 (*factor * state.d[*at], Some([*factor * v]))
             }
-            Row::Force { at, factor } => (*factor * state.f[*at], None),
+            Row::Force { first: (at, factor), more } => {
+                let mut y = *factor * state.f[*at];
+                more.iter().for_each(|(at, factor)| y = y + *factor * state.f[*at]);
+                (y, None)
+            }
             Row::History { at } => (state.history[*at], None),
             Row::Zero => (zero, None),
             Row::Combination(it) => it.of(|place| match *place {

@@ -239,7 +239,10 @@ impl Now<'_> {
                 }
                 // Among those above.
                 Row::Deformation { .. } => continue,
-                Row::Force { flat, factor } => factor * state.f[*flat],
+                Row::Force { terms } => {
+                    let parts = terms.iter().map(|(flat, factor)| factor * state.f[*flat]);
+                    parts.reduce(|sum, part| sum + part).unwrap_or_default()
+                }
                 Row::History { at } => state.history[*at],
                 Row::Combination { how, constant, terms } => {
                     combined(*how, *constant, terms, values)

@@ -1,7 +1,7 @@
 //! Recorded quantities as rows over the coordinates of a solver.
 
 use crate::structure::ReducedSystem;
-use trilith_model::{Combine, Model, NodalTerm, Quantity};
+use trilith_model::{Combine, LinkTerm, Model, NodalTerm, Quantity};
 use trilith_system::{LinkInstance, System};
 
 /// One output, ready to be evaluated.
@@ -17,9 +17,9 @@ pub(crate) enum Row {
         flat: usize,
         factor: f64,
     },
+    /// Σ on forces of links.
     Force {
-        flat: usize,
-        factor: f64,
+        terms: Vec<(usize, f64)>,
     },
     History {
         at: usize,
@@ -68,8 +68,9 @@ impl Maker<'_> {
             Quantity::LinkDeformation { element, coordinate, factor } => {
                 Row::Deformation { flat: self.flat(*element, *coordinate), factor: *factor }
             }
-            Quantity::LinkForce { element, coordinate, factor } => {
-                Row::Force { flat: self.flat(*element, *coordinate), factor: *factor }
+            Quantity::LinkForce(terms) => {
+                let term = |t: &LinkTerm| (self.flat(t.element, t.coordinate), t.factor);
+                Row::Force { terms: terms.iter().map(term).collect() }
             }
             Quantity::LinkHistory { element, field } => {
                 Row::History { at: self.link(*element).map_or(0, |l| l.history.start + field) }
@@ -77,15 +78,14 @@ impl Maker<'_> {
             Quantity::Combination { how, constant, terms } => {
                 Row::Combination { how: *how, constant: *constant, terms: terms.clone() }
             }
-            Quantity::ElementForce { element, end, dof, factor } => {
-                let row = self.system.end_force(self.model, *element, *end, *dof);
-                let scaled = |r: &[(usize, f64)]| -> Vec<(usize, f64)> {
-                    r.iter().map(|(i, c)| (*i, factor * c)).collect()
-                };
-                Row::Element {
-                    stiffness: self.split(&scaled(&row.stiffness)),
-                    damping: self.split(&scaled(&row.damping)),
+            Quantity::ElementForce { elements, end, dof, factor } => {
+                let (mut stiffness, mut damping) = (Vec::new(), Vec::new());
+                for element in elements {
+                    let row = self.system.end_force(self.model, *element, *end, *dof);
+                    stiffness.extend(row.stiffness.iter().map(|(i, c)| (*i, factor * c)));
+                    damping.extend(row.damping.iter().map(|(i, c)| (*i, factor * c)));
                 }
+                Row::Element { stiffness: self.split(&stiffness), damping: self.split(&damping) }
             }
         }
     }

@@ -63,7 +63,7 @@ impl Arrival<'_> {
         let links = system.links.links.iter().zip(&ledger.links);
         let link_energy = links.map(|(l, e)| (l.element, *e)).collect();
         let end = EndState {
-            model: model.source.sha256.clone(),
+            model: model.sha256(),
             case: case.name.clone(),
             solver: kind.name().into(),
             parameters: parameters(model),

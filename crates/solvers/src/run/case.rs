@@ -257,7 +257,7 @@ fn run_static(
         warnings: checks::of_static(model, system, &state, noticed, &u),
         errors: Vec::new(),
         end: EndState {
-            model: model.source.sha256.clone(),
+            model: model.sha256(),
             case: case.name.clone(),
             solver: "static".into(),
             parameters: parameters(model),

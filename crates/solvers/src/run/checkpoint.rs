@@ -17,7 +17,7 @@ pub(super) fn parameters(model: &Model) -> Vec<(String, String)> {
 /// Refuses a checkpoint of another model, case or solver, or of other parameters.
 fn check_run(model: &Model, case: &Case, solver: &str, end: &EndState) -> Result<(), SolveError> {
     for (what, here, there) in [
-        ("model", &*model.source.sha256, &end.model),
+        ("model", &*model.sha256(), &end.model),
         ("case", &*case.name, &end.case),
         ("solver", solver, &end.solver),
     ] {

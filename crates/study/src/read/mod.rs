@@ -8,6 +8,7 @@ mod names;
 mod random;
 mod setting;
 
+use crate::shape::Shape;
 use crate::{Condition, Plan, Study, schema};
 use names::Names;
 use setting::Settings;
@@ -126,7 +127,8 @@ fn whole(
         }
     };
     let model = first_model(c, &parsed, &plan, registry, &settings, foreign)?;
-    settings.check_all(c, &parsed, &plan, registry, foreign);
+    let shape = Shape::of(&model);
+    settings.check_all(c, (&parsed, &shape), &plan, registry, foreign);
     settings.check_perturbed(c, &model);
 
     let case = match top.get("case") {
@@ -167,6 +169,7 @@ fn whole(
     let how = (case?, solver?);
     let identity =
         identity::identity(&parsed, &plan, registry, &settings.first(&plan), how, &columns, &stop)?;
+    let sum = model.sha256();
     Some(Study {
         title: title?,
         path: path.to_owned(),
@@ -179,10 +182,11 @@ fn whole(
         over: over?,
         sensitive_above: sensitive?,
         figures: figures?,
-        identity: crate::Identity { runs: runs?, model: model.source.sha256, ..identity },
+        identity: crate::Identity { runs: runs?, model: sum, ..identity },
         plan,
         varied,
         text: parsed,
+        shape,
         case: case?,
         solver: solver?,
         kinds,

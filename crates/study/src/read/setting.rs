@@ -1,5 +1,6 @@
 //! Where in the study each value of a parameter stands, so that what the model says about it is told there.
 
+use crate::shape::Shape;
 use crate::{Place, Plan};
 use std::collections::{HashMap, HashSet};
 use trilith::Registry;
@@ -157,7 +158,7 @@ impl Settings {
     pub fn check_all(
         &self,
         c: &Context<'_>,
-        parsed: &ModelText,
+        (parsed, shape): (&ModelText, &Shape),
         plan: &Plan,
         registry: &Registry,
         foreign: &mut Vec<Diagnostic>,
@@ -173,8 +174,15 @@ impl Settings {
                 }
                 _ => continue,
             }
-            if let Err(errors) = parsed.read(registry, &set) {
-                self.tell(c, errors, Some(i), foreign);
+            match parsed.read(registry, &set) {
+                Err(errors) => self.tell(c, errors, Some(i), foreign),
+                Ok(model) => {
+                    if let Some(message) = shape.misfit(&model) {
+                        let help = "a study keeps the same of every run: the cases and outputs of the model must \
+                                    not hang on a parameter that it varies";
+                        c.report(c.diagnostic("E0118", message, s.span.clone()).help(help));
+                    }
+                }
             }
         }
     }

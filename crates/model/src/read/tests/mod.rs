@@ -2,8 +2,11 @@
 
 mod bounds;
 mod damaged;
+mod grouped;
+mod included;
 mod kinds;
 mod refusals;
+mod repetition;
 mod whole;
 
 use crate::{Diagnostic, Model, read_text};
