@@ -13,6 +13,9 @@
 //! TABLE:  "JOINT COORDINATES"
 //!    Joint=1   CoordSys=GLOBAL   CoordType=Cartesian   XorR=0   Y=0   Z=0
 //!
+//! TABLE:  "JOINT SPRING ASSIGNMENTS 1 - UNCOUPLED"
+//!    Joint=1   CoordSys=GLOBAL   U1=100   U2=100   U3=100   R1=5   R2=5   R3=5
+//!
 //! END TABLE DATA
 //! "#;
 //! let import = sap2000::import(text.as_bytes(), &Options::default()).expect("a model");

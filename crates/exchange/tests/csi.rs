@@ -80,7 +80,7 @@ fn losses_of_files_are_those_that_they_have() {
         ("1-022", 4, "does not lie beside the model"),
         ("1-026a", 4, "frames stay elastic"),
         ("1-027", 1, "type StagedConst"),
-        ("1-029c", 2, "under displacement control"),
+        ("1-029c", 1, "under displacement control"),
         ("6-002", 3, "falls ends at zero force"),
         ("6-012", 1, "type LinSteady"),
         ("7-001", 7, "cables are not read"),

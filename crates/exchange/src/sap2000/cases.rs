@@ -9,6 +9,8 @@ use super::sums::combinations;
 use crate::ron::Ron;
 use std::collections::{HashMap, HashSet};
 
+/// What geometry static cases follow.
+const GEOMETRY: &str = "CASE - STATIC 4 - NONLINEAR PARAMETERS: GeoNonLin";
 /// Where cases stand.
 pub const DEFINED: &str = "LOAD CASE DEFINITIONS";
 
@@ -43,7 +45,7 @@ pub fn cases<'a>(
     if let Some(only) = only {
         all = chain(&all, only);
     }
-    let geometric = geometric(cx, &all);
+    let (geometric, bent) = geometric(cx, &all);
     let mut out = Cases::default();
     let mut dampings: Vec<(&str, Damping)> = Vec::new();
     let mut written: HashSet<&str> = HashSet::new();
@@ -81,6 +83,10 @@ pub fn cases<'a>(
         linear_is_linear(cx, case, nonlinear_links, &geometric);
         written.insert(case.name);
         cx.draft.cases.push((case.name.into(), block));
+    }
+    for (name, kind) in bent.into_iter().filter(|(name, _)| written.contains(name)) {
+        let what = format!("{kind} of a static case: it is written without");
+        cx.report.lose(GEOMETRY, &what, name);
     }
     cx.draft.p_delta = geometric.filter(|name| written.contains(name.as_str()));
     settle_damping(cx, dampings, &mut out);
@@ -143,9 +149,12 @@ fn chain<'a>(all: &[Case<'a>], only: &str) -> Vec<Case<'a>> {
         .collect()
 }
 
-/// The static case with P-Δ whose stiffness linear cases take, where it is one.
-fn geometric<'a>(cx: &mut Context<'a>, all: &[Case<'a>]) -> Option<String> {
-    let mut found = None;
+/// The static case with P-Δ whose stiffness linear cases take, where it is one, and cases whose geometry is lost.
+fn geometric<'a>(
+    cx: &mut Context<'a>,
+    all: &[Case<'a>],
+) -> (Option<String>, Vec<(&'a str, &'a str)>) {
+    let (mut found, mut lost) = (None, Vec::new());
     let named: HashSet<&str> = all.iter().map(|c| c.name).collect();
     for row in cx.db.rows("CASE - STATIC 4 - NONLINEAR PARAMETERS") {
         let (name, kind) = (row.need("Case"), row.text("GeoNonLin").unwrap_or("None"));
@@ -153,16 +162,20 @@ fn geometric<'a>(cx: &mut Context<'a>, all: &[Case<'a>]) -> Option<String> {
             continue;
         }
         let followed = all.iter().any(|c| c.initial == Some(name) && !nonlinear(c.kind));
-        if kind == "P-Delta" && followed && found.is_none() {
-            found = Some(name.to_owned());
-            let what = "its axial forces stiffen frames in all cases (`p_delta`)";
-            cx.report.otherwise("CASE - STATIC 4: GeoNonLin", what, name);
-        } else {
-            let what = format!("{kind} of a static case: it is written without");
-            cx.report.lose("CASE - STATIC 4: GeoNonLin", &what, name);
+        if kind != "P-Delta" || !followed || found.is_some() {
+            lost.push((name, kind));
+            continue;
+        }
+        found = Some(name.to_owned());
+        let what = "its axial forces stiffen frames in all cases (`p_delta`)";
+        cx.report.otherwise(GEOMETRY, what, name);
+        let warm = cx.db.rows("FRAME LOADS - TEMPERATURE").next().is_some();
+        if warm || !cx.ground.is_empty() {
+            let what = "axial forces by warmth and moved supports are not among those that stiffen";
+            cx.report.lose(GEOMETRY, what, name);
         }
     }
-    found
+    (found, lost)
 }
 
 /// Names what a linear case has otherwise here.
@@ -259,7 +272,7 @@ fn statics<'a>(cx: &mut Context<'a>, case: &Case<'a>, before: Before<'_>) -> Opt
 fn settle_damping(cx: &mut Context<'_>, dampings: Vec<(&str, Damping)>, out: &mut Cases) {
     let Some((last, chosen)) = dampings.last().cloned() else { return };
     for (name, damping) in &dampings {
-        if *damping != chosen {
+        if (&damping.ron, &damping.overrides) != (&chosen.ron, &chosen.overrides) {
             let what = format!(
                 "damping of its own: the model has that of {last} (`--case` takes another)"
             );

@@ -3,7 +3,8 @@
 use super::context::Context;
 use super::database::Entry;
 use crate::ron::Ron;
-use std::collections::HashMap;
+use std::cell::RefCell;
+use std::collections::{HashMap, HashSet};
 
 /// What a beam takes from its section and material, modifiers included; in the units of the file.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -43,6 +44,9 @@ pub type Reach = ([f64; 2], [Section; 2], [f64; 2]);
 pub struct Sections<'a> {
     rows: HashMap<&'a str, Entry<'a>>,
     materials: HashMap<&'a str, Entry<'a>>,
+    /// What else is said of materials; rows that were looked at.
+    more: Vec<Entry<'a>>,
+    seen: RefCell<HashSet<String>>,
     stretches: HashMap<&'a str, Vec<Stretch<'a>>>,
 }
 
@@ -51,7 +55,11 @@ const TABLE: &str = "FRAME SECTION PROPERTIES 01 - GENERAL";
 impl<'a> Sections<'a> {
     pub fn new(cx: &mut Context<'a>) -> Self {
         let by = |table: &str, key: &'static str| {
-            cx.db.rows(table).map(|row| (row.need(key), row)).collect::<HashMap<_, _>>()
+            let mut first: HashMap<&'a str, Entry<'a>> = HashMap::new();
+            for row in cx.db.rows(table) {
+                first.entry(row.need(key)).or_insert(row);
+            }
+            first
         };
         let rows = by(TABLE, "SectionName");
         let materials = by("MATERIAL PROPERTIES 02 - BASIC MECHANICAL PROPERTIES", "Material");
@@ -73,7 +81,10 @@ impl<'a> Sections<'a> {
             let name = row.need("SectionName");
             stretches.entry(name).or_default().push(Stretch { start, end, length, powers });
         }
-        Self { rows, materials, stretches }
+        let tables =
+            ["MATERIAL PROPERTIES 01 - GENERAL", "MATERIAL PROPERTIES 06 - DAMPING PARAMETERS"];
+        let more = tables.iter().flat_map(|table| cx.db.rows(table)).collect();
+        Self { rows, materials, more, seen: RefCell::default(), stretches }
     }
 
     /// The section of that name, in its own material or another.
@@ -84,8 +95,9 @@ impl<'a> Sections<'a> {
         material: Option<&str>,
     ) -> Option<Section> {
         let row = *self.rows.get(name)?;
-        let of = row.text("Material");
-        let material = material.or(of).and_then(|m| self.materials.get(m).copied());
+        let named = material.or(row.text("Material"));
+        let material = named.and_then(|m| self.materials.get(m).copied());
+        self.look(cx, named.unwrap_or_default());
         let Some(material) = material else {
             row.wrong("the material of this section is not in the file", "");
             return None;
@@ -123,6 +135,25 @@ impl<'a> Sections<'a> {
             weight: material.or_zero("UnitWeight") * area * factor("WMod"),
             size: [row.or_zero("t3"), row.or_zero("t2")],
         })
+    }
+
+    /// Names what a material has beyond a constant stiffness, once.
+    fn look(&self, cx: &mut Context<'a>, material: &str) {
+        if !self.seen.borrow_mut().insert(material.into()) {
+            return;
+        }
+        for row in self.more.iter().filter(|row| row.need("Material") == material) {
+            if row.yes("TempDepend") {
+                let what = "properties that change with temperature are those of the first row";
+                cx.report.lose("MATERIAL PROPERTIES 01 - GENERAL: TempDepend", what, material);
+            }
+            if ["ModalRatio", "VisMass", "VisStiff", "HysMass", "HysStiff"].map(|k| row.or_zero(k))
+                != [0.0; 5]
+            {
+                let what = "damping of a material: damping is that of the model";
+                cx.report.lose("MATERIAL PROPERTIES 06 - DAMPING PARAMETERS", what, material);
+            }
+        }
     }
 
     /// True where there is a section of that name.
