@@ -4,6 +4,9 @@
 //! displacement at a place by a unit displacement of an end is the force at that end by a unit load at the place.
 //! Released directions are condensed. Reference: Przemieniecki, Theory of Matrix Structural Analysis, 1968, §5.6.
 
+#[cfg(test)]
+mod tests;
+
 use super::geometry::{Axes, Vector, to_global};
 use super::section::Section;
 
