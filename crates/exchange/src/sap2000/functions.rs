@@ -24,6 +24,8 @@ enum Shape {
 /// Functions by name, and what is written of them.
 pub struct Functions<'a> {
     shapes: HashMap<&'a str, Shape>,
+    /// Why a record is not there, and its file.
+    missing: HashMap<&'a str, (&'static str, &'a str)>,
     /// Files beside the model: names and contents.
     pub files: Vec<(String, String)>,
     stem: String,
@@ -32,6 +34,7 @@ pub struct Functions<'a> {
 /// Reads functions; records lie in the folder, `stem` is the beginning of the names of files that are written.
 pub fn functions<'a>(cx: &mut Context<'a>, folder: Option<&Path>, stem: &str) -> Functions<'a> {
     let mut shapes: HashMap<&str, Shape> = HashMap::new();
+    let mut missing = HashMap::new();
     let db = cx.db;
     for row in db.rows("FUNCTION - TIME HISTORY - USER") {
         let point = [row.need_number("Time"), row.need_number("Value")];
@@ -55,11 +58,12 @@ pub fn functions<'a>(cx: &mut Context<'a>, folder: Option<&Path>, stem: &str) ->
         }
     }
     for row in db.rows(FILE) {
-        if let Some(points) = record(cx, row, folder) {
-            shapes.insert(row.need("Name"), Shape::Points(points));
+        match record(row, folder) {
+            Ok(points) => _ = shapes.insert(row.need("Name"), Shape::Points(points)),
+            Err(why) => _ = missing.insert(row.need("Name"), (why, row.need("FileName"))),
         }
     }
-    Functions { shapes, files: Vec::new(), stem: stem.into() }
+    Functions { shapes, missing, files: Vec::new(), stem: stem.into() }
 }
 
 fn positive(row: Entry<'_>, key: &str) -> f64 {
@@ -71,35 +75,28 @@ fn positive(row: Entry<'_>, key: &str) -> f64 {
     x
 }
 
-/// A record from its file; none, with a note, where that is missing or not understood.
-fn record(cx: &mut Context<'_>, row: Entry<'_>, folder: Option<&Path>) -> Option<Vec<[f64; 2]>> {
-    let (name, path) = (row.need("Name"), row.need("FileName"));
+/// A record from its file, or why there is none.
+fn record(row: Entry<'_>, folder: Option<&Path>) -> Result<Vec<[f64; 2]>, &'static str> {
     let header = row.or_zero("HeaderLines").max(0.0) as usize;
     let prefix = row.or_zero("PrefixChars").max(0.0) as usize;
     let per_line = row.or_zero("PtsPerLine").max(0.0) as usize;
     let (kind, interval) = (row.text("DataType"), row.number("Interval"));
-    let mut lose = |what: &str| cx.report.lose(FILE, what, &format!("{name}: {path}"));
     if row.text("FormatType").is_some_and(|f| f != "Free") {
-        lose("a file with columns of fixed width");
-        return None;
+        return Err("a file with columns of fixed width");
     }
-    let Some(bytes) = folder.and_then(|folder| find(folder, path)) else {
-        lose("the file of a function does not lie beside the model");
-        return None;
-    };
+    let bytes = folder.and_then(|folder| find(folder, row.need("FileName")));
+    let bytes = bytes.ok_or("the file of a function does not lie beside the model")?;
     let text = String::from_utf8_lossy(&bytes);
     let mut values = Vec::new();
     for line in text.lines().skip(header) {
         let rest: String = line.chars().skip(prefix).collect();
         let cells = rest.split(|c: char| c.is_whitespace() || c == ',').filter(|c| !c.is_empty());
-        let most = if kind == Some("Time and Value") { 2 * per_line } else { per_line };
+        let most =
+            if kind == Some("Time and Value") { per_line.saturating_mul(2) } else { per_line };
         for cell in cells.take(if most == 0 { usize::MAX } else { most }) {
             match cell.parse::<f64>() {
                 Ok(x) if x.is_finite() && values.len() < MOST => values.push(x),
-                _ => {
-                    lose("the file of a function holds something else than numbers, or too many");
-                    return None;
-                }
+                _ => return Err("the file of a function holds no numbers, or too many"),
             }
         }
     }
@@ -111,10 +108,9 @@ fn record(cx: &mut Context<'_>, row: Entry<'_>, folder: Option<&Path>) -> Option
         _ => Vec::new(),
     };
     if points.len() < 2 || points.windows(2).any(|w| w[1][0] <= w[0][0]) {
-        lose("the file of a function has no rising times");
-        return None;
+        return Err("the file of a function has no rising times");
     }
-    Some(points)
+    Ok(points)
 }
 
 /// A file beside the model, whatever its folder was and however its letters are written.
@@ -137,6 +133,9 @@ impl Functions<'_> {
         if stretch <= 0.0 || late < 0.0 {
             row.wrong("a time factor that is not above zero, or an arrival before zero", "");
             return None;
+        }
+        if let Some((why, file)) = self.missing.get(name) {
+            cx.report.lose(FILE, why, &format!("{name}: {file}"));
         }
         let shape = self.shapes.get(name)?.clone();
         let mut told = name.to_owned();
