@@ -1,6 +1,7 @@
 //! Load cases.
 
 use super::context::Context;
+use super::control;
 use super::damping::Damping;
 use super::database::Entry;
 use super::functions::Functions;
@@ -9,6 +10,8 @@ use super::sums::combinations;
 use crate::ron::Ron;
 use std::collections::{HashMap, HashSet};
 
+/// How loads of nonlinear statics are applied.
+const APPLIED: &str = "CASE - STATIC 2 - NONLINEAR LOAD APPLICATION";
 /// What geometry static cases follow.
 const GEOMETRY: &str = "CASE - STATIC 4 - NONLINEAR PARAMETERS: GeoNonLin";
 /// Where cases stand.
@@ -46,6 +49,7 @@ pub fn cases<'a>(
         all = chain(&all, only);
     }
     let (geometric, bent) = geometric(cx, &all);
+    let mut control = control::whole(cx, &all);
     let mut out = Cases::default();
     let mut dampings: Vec<(&str, Damping)> = Vec::new();
     let mut written: HashSet<&str> = HashSet::new();
@@ -62,6 +66,15 @@ pub fn cases<'a>(
         let carried = after.and_then(|a| ends.get(a)).cloned().unwrap_or_default();
         let before = Before { after, carried };
         let block = match case.kind {
+            "NonStatic" if control::is_controlled(cx, case.name) => {
+                let control = control.as_mut();
+                let block = control.and_then(|c| control::imposed(cx, c, case, &before));
+                if block.is_none() {
+                    let what = "a case under displacement control is not written";
+                    cx.report.lose(APPLIED, what, case.name);
+                }
+                block
+            }
             "LinStatic" | "NonStatic" => statics(cx, case, before),
             "LinModHist" | "NonModHist" | "LinDirHist" | "NonDirHist" => {
                 let mut left = Vec::new();
@@ -238,12 +251,7 @@ pub fn is_empty(cx: &Context<'_>, pattern: &str) -> bool {
 }
 
 fn statics<'a>(cx: &mut Context<'a>, case: &Case<'a>, before: Before<'_>) -> Option<Ron> {
-    for row in of(cx, "CASE - STATIC 2 - NONLINEAR LOAD APPLICATION", case.name) {
-        if row.text("LoadApp").is_some_and(|a| a != "Full Load") {
-            let what = "a case under displacement control is not written";
-            cx.report.lose("CASE - STATIC 2 - NONLINEAR LOAD APPLICATION", what, case.name);
-            return None;
-        }
+    for row in of(cx, APPLIED, case.name) {
         if let Some(node) = row.text("MonitorJt").and_then(|j| cx.joints.get(j).copied()) {
             cx.watch(node);
         }

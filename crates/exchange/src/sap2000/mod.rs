@@ -5,6 +5,7 @@ mod bearings;
 mod cases;
 mod constraints;
 mod context;
+mod control;
 mod damping;
 mod database;
 mod entry;
