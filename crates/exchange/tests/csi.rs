@@ -195,14 +195,15 @@ fn dampers_in_three_storeys_move_as_their_exact_solution() {
     let Some(import) = example("6-006", Some("NLDHIST1")) else { return };
     assert_eq!(import.report.losses(), 0, "{}", import.report.text());
     for (a, b) in periods(&import).iter().zip([0.43752, 0.13481]) {
-        close(*a, b, 1e-4, "period");
+        close(*a, b, 1e-3, "period");
     }
     let storeys = model(&import);
     for solver in [SolverKind::Fna, SolverKind::Hht] {
         let run = run(&storeys, "NLDHIST1", Some(solver));
+        // The exact solution has its extremes at the times of output.
         let extreme = |name: &str| {
-            let peak = run.peak(name).unwrap();
-            if peak.max > -peak.min { peak.max } else { peak.min }
+            let history = run.history(name).unwrap().iter().copied();
+            history.max_by(|a, b| a.abs().total_cmp(&b.abs())).unwrap()
         };
         let cm = 0.01;
         for (name, expected) in [
