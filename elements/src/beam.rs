@@ -6,7 +6,7 @@
 //!
 //!   bending in plane 1–2:  E I₃,  Φ = 12 E I₃ / (G A₂ L²)
 //!   bending in plane 1–3:  E I₂,  Φ = 12 E I₂ / (G A₃ L²)        Φ = 0 without shear areas
-//!   axial E A / L,  torsion G J / L
+//!   axial E A / L,  torsion G J / L       L without rigid offsets; for these two with them where `offsets_stiffen: Bending`
 //!   P-Δ: geometric stiffness of the axial force N (tension +), cubic shapes of the plane that bends
 //! ```
 //!
@@ -26,6 +26,7 @@
 //! | `mass_matrix`            |        |       |       | Lumped  | `Lumped` or `Consistent`                     |
 //! | `release_i`, `release_j` |        |       |       | none    | released local directions U1 … R3 at an end  |
 //! | `offset_i`, `offset_j`   |        | m     | ≥ 0   | 0       | rigid lengths along the axis at the ends     |
+//! | `offsets_stiffen`        |        |       |       | All     | `All`, or `Bending` (with shear) alone       |
 //!
 //! Shear deformation counts where shear areas or a coefficient are given (5/6 for a rectangle). A missing
 //! `i2`, `i3` or `torsion` means no stiffness there, which suits a plane model. Rectangle:
@@ -62,6 +63,15 @@ pub enum MassMatrix {
     Lumped,
     /// From the shape functions of the stiffness.
     Consistent,
+}
+
+/// What rigid ends stiffen.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
+pub enum Stiffened {
+    /// The flexible part alone stretches and twists.
+    All,
+    /// Stretch and twist go over the whole length, as in CSI's programs.
+    Bending,
 }
 
 /// Two-node beam.
@@ -108,6 +118,8 @@ pub struct Beam {
     pub offset_i: f64,
     /// Rigid length at j, m.
     pub offset_j: f64,
+    /// What these lengths stiffen.
+    pub offsets_stiffen: Stiffened,
 }
 
 const fn maybe(
@@ -179,6 +191,12 @@ impl Described for Beam {
             releases("release_j", "local directions released at end j"),
             zero("offset_i", "", LENGTH, "rigid length along the axis at i"),
             zero("offset_j", "", LENGTH, "rigid length along the axis at j"),
+            Parameter::choice(
+                "offsets_stiffen",
+                &["All", "Bending"],
+                "All",
+                "what rigid lengths stiffen: `Bending` leaves stretch and twist to the whole length",
+            ),
         ],
         law: "bending in 1–2: E I₃, Φ = 12 E I₃/(G A₂ L²); bending in 1–3: E I₂, Φ = 12 E I₂/(G A₃ L²)\n\
               axial E A/L, torsion G J/L; Φ = 0 without shear areas\n\

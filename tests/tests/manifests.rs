@@ -101,6 +101,7 @@ fn dependencies_point_one_way() {
             &["trilith-element", "trilith-model", "trilith-solvers", "trilith-results"],
         ),
         ("trilith-study", &["trilith"]),
+        ("trilith-exchange", &["trilith-model"]),
         ("trilith-bench", &["trilith", "trilith-linalg", "trilith-report"]),
         ("trilith-guide", &["trilith", "trilith-cli", "trilith-study"]),
         ("trilith-thirdparty-example", &["trilith-element", "trilith", "trilith-cli"]),

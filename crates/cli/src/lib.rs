@@ -23,6 +23,7 @@ mod failure;
 mod figure_files;
 mod figures;
 mod generate;
+mod import;
 mod interrupt;
 mod long;
 mod made_by;
@@ -72,6 +73,7 @@ pub fn main_with(registry: Registry) -> ! {
         Command::Compare(a) => compare::compare(&registry, &a),
         Command::Sweep(a) => sweep::sweep(&registry, &a),
         Command::Generate(a) => generate::generate(a),
+        Command::Import(a) => import::import(&a),
         Command::Calibrate(a) => calibrate::calibrate(&registry, &a),
         Command::Record(a) => record::record(&a),
     });

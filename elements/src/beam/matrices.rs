@@ -1,6 +1,6 @@
 //! Stiffness and mass of the [`Beam`] in local axes.
 
-use super::{Beam, MassMatrix, Section};
+use super::{Beam, MassMatrix, Section, Stiffened};
 use nalgebra::DMatrix;
 use trilith_element::{Axis, ParameterError};
 
@@ -65,10 +65,14 @@ impl Beam {
         let (ei2, ei3) = (self.young * s.i2, self.young * s.i3);
         let (phi12, phi13) = (ratio(ei3, area2), ratio(ei2, area3));
         let rod = [1.0, -1.0, -1.0, 1.0];
+        let along = match self.offsets_stiffen {
+            Stiffened::All => l,
+            Stiffened::Bending => whole,
+        };
 
         let mut k = DMatrix::zeros(12, 12);
-        add(&mut k, &[0, 6], &[1.0; 2], &rod.map(|x| x * self.young * s.area / l));
-        add(&mut k, &[3, 9], &[1.0; 2], &rod.map(|x| x * g * s.torsion / l));
+        add(&mut k, &[0, 6], &[1.0; 2], &rod.map(|x| x * self.young * s.area / along));
+        add(&mut k, &[3, 9], &[1.0; 2], &rod.map(|x| x * g * s.torsion / along));
         in_plane(&mut k, IN_12, &bending(ei3, phi12, l));
         in_plane(&mut k, IN_13, &bending(ei2, phi13, l));
         for (plane, ei) in [(IN_12, ei3), (IN_13, ei2)] {

@@ -116,6 +116,17 @@ fn rigid_offsets_shorten_the_flexible_length_and_keep_the_arm() {
 }
 
 #[test]
+fn rigid_offsets_that_stiffen_bending_alone_leave_stretch_to_the_whole_length() {
+    let ends = [("offset_i", Value::Number(0.5)), ("offset_j", Value::Number(0.7))];
+    let all = beam(&ends);
+    let bending = beam(&[&ends[..], &[("offsets_stiffen", text("Bending"))]].concat());
+    assert_relative_eq!(tip(&all, Dof::Ux), (L - 1.2) / (E * A), max_relative = 1e-11);
+    assert_relative_eq!(tip(&bending, Dof::Ux), L / (E * A), max_relative = 1e-11);
+    assert_relative_eq!(tip(&bending, Dof::Uz), tip(&all, Dof::Uz), max_relative = 1e-11);
+    assert!(tip(&bending, Dof::Rx) > 1.3 * tip(&all, Dof::Rx));
+}
+
+#[test]
 fn rigid_motions_cost_nothing_and_weigh_the_whole_mass() {
     let o = Value::Number(0.4);
     let cases: [&[(&str, Value)]; 4] = [

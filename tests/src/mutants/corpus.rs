@@ -77,7 +77,7 @@ pub struct File {
 pub struct Corpus(Vec<File>);
 
 impl Corpus {
-    /// The shipped models, studies and records, a checkpoint and quantities.
+    /// The shipped models, studies, records and text models of SAP2000, a checkpoint and quantities.
     ///
     /// # Panics
     /// Where one of them is missing.
@@ -99,6 +99,7 @@ impl Corpus {
         take(Target::Study, "models/studies", ".ron");
         take(Target::Record, "crates/record/tests/files", "");
         take(Target::Record, "models/records", "_1.csv");
+        take(Target::Import, "crates/exchange/tests/files", ".s2k");
         let small = |target| File { target, bytes: SMALL.into() };
         let many = |target| File { target, bytes: MANY.into() };
         files.extend([Target::Model, Target::Model, Target::Run].map(many));

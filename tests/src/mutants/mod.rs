@@ -1,6 +1,6 @@
 //! What the readers make of files that somebody or something has spoiled.
 //!
-//! Every file of a corpus (models, studies, records, checkpoints, reports, histories, quantities) is cut, doubled,
+//! Every file of a corpus (models, studies, records, text models of SAP2000, checkpoints, reports, histories, quantities) is cut, doubled,
 //! spliced and sown with numbers that hurt; what comes of it is read and checked as `trilith check` does, and a small
 //! model is run within a budget of work. A reader may refuse, with a reason. It must not panic, take longer than
 //! [`SLOW`], or let through what is not a number.

@@ -8,6 +8,7 @@ use trilith::model::{Analysis, Model, quantity};
 use trilith::record::{ReadOptions, parse};
 use trilith::report::{RunData, run_page};
 use trilith_element::dimension::LENGTH;
+use trilith_exchange::{Options, sap2000};
 use trilith_model::read_text;
 use trilith_solvers::{EndState, assemble};
 use trilith_study::Study;
@@ -23,6 +24,8 @@ pub enum Target {
     Study,
     /// Of an acceleration record.
     Record,
+    /// Of a text model of SAP2000, and of the model that comes of it.
+    Import,
     /// Of a checkpoint, behind its checksum.
     Checkpoint,
     /// Of the data of a report, behind their checksum, with the page of them.
@@ -57,6 +60,10 @@ impl Target {
                 let mut values = records.iter().flat_map(|r| &r.acceleration);
                 if values.any(|a| !a.is_finite()) { Err("an acceleration") } else { Ok(true) }
             }
+            Self::Import => match sap2000::import(bytes, &Options::default()) {
+                Ok(import) => Ok(model(&import.draft.to_ron())?.is_some()),
+                Err(_) => Ok(false),
+            },
             Self::Checkpoint => Ok(serde_json::from_slice::<EndState>(bytes).is_ok()),
             Self::Report => {
                 let Ok(data) = serde_json::from_slice::<RunData>(bytes) else { return Ok(false) };

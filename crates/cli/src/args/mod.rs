@@ -47,6 +47,8 @@ pub(crate) enum Command {
     Sweep(SweepArguments),
     /// Make a model file from a few numbers
     Generate(GenerateArguments),
+    /// Make a model file of a text model of SAP2000, with a report of every loss
+    Import(ImportArguments),
     /// Find contact and rotational dashpots from coefficients of restitution
     Calibrate(CalibrateArguments),
     /// Intensities and spectra of ground motion records; synthetic motions
@@ -240,6 +242,19 @@ pub(crate) struct CalibrateArguments {
     /// Horizontal direction of the plane of motion: X or Y [default: that of a plane model, or X]
     #[arg(long, value_parser = ["X", "Y"], ignore_case = true)]
     pub along: Option<String>,
+}
+
+#[derive(Args)]
+pub(crate) struct ImportArguments {
+    /// Text model of SAP2000 (`.s2k` or `.$2k`)
+    pub file: PathBuf,
+    /// Model file to write; the report of losses goes beside it as `<name>.import.txt`, records as CSV files
+    /// [default: no files, the model is printed]
+    #[arg(long, value_name = "FILE")]
+    pub out: Option<PathBuf>,
+    /// Write one case with those that it continues, and give the model its damping
+    #[arg(long)]
+    pub case: Option<String>,
 }
 
 #[derive(Args)]

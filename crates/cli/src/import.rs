@@ -1,0 +1,80 @@
+//! `trilith import`: models of other programs.
+
+use crate::args::ImportArguments;
+use crate::diagnostics;
+use crate::text::shown;
+use crate::{Answer, Failure};
+use std::fs::{create_dir_all, write};
+use std::path::Path;
+use trilith_exchange::{Options, sap2000};
+
+/// Exit status where something that changes results was lost.
+const LOST: i32 = 1;
+
+/// Longest file that is read, in bytes.
+const LONGEST: u64 = 500_000_000;
+
+pub(crate) fn import(args: &ImportArguments) -> Result<Answer, Failure> {
+    let bytes = content(&args.file)?;
+    let stem = |path: &Path| path.file_stem().map(|s| s.to_string_lossy().into_owned());
+    let options = Options {
+        path: args.file.clone(),
+        folder: args
+            .file
+            .parent()
+            .map(|p| if p.as_os_str().is_empty() { ".".into() } else { p.into() }),
+        stem: args.out.as_deref().and_then(stem).unwrap_or_else(|| "model".into()),
+        case: args.case.clone(),
+    };
+    let import = sap2000::import(&bytes, &options).map_err(|e| Failure::diagnostics(&e.0))?;
+    let losses = import.report.losses();
+    let status = if losses == 0 { 0 } else { LOST };
+    let report = import.report.text();
+    let warned = || {
+        if losses > 0 {
+            let message = format!("{losses} losses change results; the report names them");
+            crate::output::tell(&diagnostics::warning(&message));
+        }
+    };
+    if !import.is_model() {
+        crate::output::tell(&report);
+        let message = format!("{} has no element that can be written", shown(&args.file));
+        return Err(Failure::input(&message, Some("the report above names what was lost")));
+    }
+    let Some(out) = &args.out else {
+        crate::output::tell(&report);
+        warned();
+        return Ok(Answer { text: import.draft.to_ron(), status });
+    };
+    let folder = out.parent().filter(|p| !p.as_os_str().is_empty()).unwrap_or(Path::new("."));
+    create_dir_all(folder).map_err(|e| Failure::unwritable(folder, &e))?;
+    let beside = format!("{}.import.txt", options.stem);
+    let mut files =
+        vec![(out.clone(), import.draft.to_ron()), (folder.join(beside), report.clone())];
+    files.extend(import.files.into_iter().map(|(name, text)| (folder.join(name), text)));
+    if let Some((path, _)) = files.iter().find(|(path, _)| same(path, &args.file)) {
+        let message = format!("{} is what is read", shown(path));
+        return Err(Failure::input(&message, Some("`--out FILE` names another file")));
+    }
+    for (path, text) in &files {
+        write(path, text).map_err(|e| Failure::unwritable(path, &e))?;
+    }
+    warned();
+    let written: String = files.iter().map(|(path, _)| format!("{}\n", shown(path))).collect();
+    Ok(Answer { text: format!("{report}\n{written}"), status })
+}
+
+fn content(path: &Path) -> Result<Vec<u8>, Failure> {
+    let unreadable =
+        |why: &str| Failure::input(&format!("{} cannot be read: {why}", shown(path)), None);
+    let size = std::fs::metadata(path).map_err(|e| unreadable(&e.to_string()))?.len();
+    if size > LONGEST {
+        return Err(unreadable("it is longer than 500 MB"));
+    }
+    std::fs::read(path).map_err(|e| unreadable(&e.to_string()))
+}
+
+/// True where two paths lead to one file.
+fn same(a: &Path, b: &Path) -> bool {
+    matches!((a.canonicalize(), b.canonicalize()), (Ok(a), Ok(b)) if a == b)
+}
