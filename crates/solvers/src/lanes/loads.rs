@@ -38,12 +38,12 @@ impl<R: Real, const M: usize, const L: usize, const N: usize> Plan<R, M, L, N> {
         for Varying { channel, source, force } in &self.varying {
             let (start, end) = match source {
                 Source::Shared(table, size) => {
-                    let [x, y] = table[at];
+                    let [x, y] = table.ends[at];
                     (with.splat(x) * *size, with.splat(y) * *size)
                 }
                 Source::Own => {
                     let of = |s: &LaneSetup, k: usize| match &s.tables[*channel] {
-                        Some((table, size)) => table[at][k] * size,
+                        Some((table, size)) => table.ends[at][k] * size,
                         None => 1.0,
                     };
                     (pick(with, setups, |s| of(s, 0)), pick(with, setups, |s| of(s, 1)))

@@ -324,6 +324,7 @@ pub fn prepare(
         let place = |i: &usize| links.active.iter().position(|x| x == i);
         flat.iter().map(|i| place(i).map_or(0.0, of)).collect()
     };
+    let is_adaptive = matches!(control, StepControl::Adaptive { .. });
     let shape = Shape {
         modes: m,
         links: forms.iter().map(|f| (f.law.id, f.coordinates.clone(), f.law.coordinates)).collect(),
@@ -332,7 +333,7 @@ pub fn prepare(
         integrals: Vec::new(),
         feet,
         grid,
-        is_adaptive: matches!(control, StepControl::Adaptive { .. }),
+        is_adaptive,
     };
     let adaptive = match control {
         StepControl::Fixed { .. } => None,
@@ -359,7 +360,7 @@ pub fn prepare(
             .iter()
             .map(|c| match c.track {
                 Track::Constant => None,
-                _ => Some(tables.of(&c.track, grid)),
+                _ => Some(tables.of(&c.track, grid, is_adaptive)),
             })
             .collect(),
         cut: cuts(&timeline, &loads, substeps, parts),

@@ -150,6 +150,17 @@ impl<R: Real, const M: usize, const L: usize, const N: usize> State<R, M, L, N> 
         self.steps.copy_from_slice(&from.steps);
     }
 
+    /// The same of the analyses in a mask.
+    #[inline(always)]
+    pub fn follow_where(&mut self, mask: R::Mask, from: &Self) {
+        take_motion(mask, from, self);
+        take_all(mask, &from.amplitudes, &mut self.amplitudes);
+        for (to, from) in self.steps.iter_mut().zip(&from.steps) {
+            to.stored = R::select(mask, from.stored, to.stored);
+            (to.hysteretic, to.viscous) = (from.hysteretic, from.viscous);
+        }
+    }
+
     /// Takes note of the stiffness at the end of a step.
     #[inline(always)]
     pub fn stiffen(&mut self) {
@@ -166,34 +177,42 @@ impl<R: Real, const M: usize, const L: usize, const N: usize> State<R, M, L, N> 
     }
 }
 
-/// Takes the other state where a mask says no. Who is alive and how often the laws were asked is left.
+/// Where a mask says yes `to` becomes `from`.
 #[inline(always)]
-pub(super) fn keep<R: Real, const M: usize, const L: usize, const N: usize>(
+fn take_all<R: Real>(mask: R::Mask, from: &[R], to: &mut [R]) {
+    to.iter_mut().zip(from).for_each(|(to, from)| *to = R::select(mask, *from, *to));
+}
+
+/// The motion and the links.
+#[inline(always)]
+fn take_motion<R: Real, const M: usize, const L: usize, const N: usize>(
     mask: R::Mask,
-    to: &mut State<R, M, L, N>,
     from: &State<R, M, L, N>,
+    to: &mut State<R, M, L, N>,
 ) {
-    let one = |x: &mut R, y: &R| *x = R::select(mask, *x, *y);
-    let all = |x: &mut [R], y: &[R]| x.iter_mut().zip(y).for_each(|(x, y)| one(x, y));
-    all(&mut *to.q, &*from.q);
-    all(&mut *to.p, &*from.p);
-    all(&mut *to.a, &*from.a);
-    all(&mut *to.d, &*from.d);
-    all(&mut *to.v, &*from.v);
-    all(&mut *to.f, &*from.f);
-    all(&mut *to.push, &*from.push);
-    all(&mut *to.stiffest, &*from.stiffest);
-    all(to.k.as_flattened_mut(), from.k.as_flattened());
-    all(to.c.as_flattened_mut(), from.c.as_flattened());
-    all(to.answer.as_flattened_mut(), from.answer.as_flattened());
-    all(to.answer_to_rate.as_flattened_mut(), from.answer_to_rate.as_flattened());
-    all(&mut to.history, &from.history);
-    all(&mut to.scale, &from.scale);
-    all(to.heat.as_flattened_mut(), from.heat.as_flattened());
-    for (x, y) in to.steps.iter_mut().zip(&from.steps) {
-        one(&mut x.stored, &y.stored);
-    }
-    for (x, y) in [
+    take_all(mask, &*from.q, &mut *to.q);
+    take_all(mask, &*from.p, &mut *to.p);
+    take_all(mask, &*from.a, &mut *to.a);
+    take_all(mask, &*from.d, &mut *to.d);
+    take_all(mask, &*from.v, &mut *to.v);
+    take_all(mask, &*from.f, &mut *to.f);
+    take_all(mask, &*from.push, &mut *to.push);
+    take_all(mask, &*from.stiffest, &mut *to.stiffest);
+    take_all(mask, from.k.as_flattened(), to.k.as_flattened_mut());
+    take_all(mask, from.c.as_flattened(), to.c.as_flattened_mut());
+    take_all(mask, &from.history, &mut to.history);
+    take_all(mask, &from.scale, &mut to.scale);
+}
+
+/// What is counted and what was seen.
+#[inline(always)]
+fn take_counts<R: Real, const M: usize, const L: usize, const N: usize>(
+    mask: R::Mask,
+    from: &State<R, M, L, N>,
+    to: &mut State<R, M, L, N>,
+) {
+    take_all(mask, from.heat.as_flattened(), to.heat.as_flattened_mut());
+    for (to, from) in [
         (&mut to.external, &from.external),
         (&mut to.damping, &from.damping),
         (&mut to.kinetic, &from.kinetic),
@@ -203,10 +222,26 @@ pub(super) fn keep<R: Real, const M: usize, const L: usize, const N: usize>(
         (&mut to.largest, &from.largest),
         (&mut to.count, &from.count),
     ] {
-        one(x, y);
+        *to = R::select(mask, *from, *to);
     }
-    to.peaks.keep(mask, &from.peaks);
-    to.feet.keep(mask, &from.feet);
+    to.peaks.keep(!mask, &from.peaks);
+    to.feet.keep(!mask, &from.feet);
+}
+
+/// Takes the other state where a mask says no. Who is alive and how often the laws were asked is left.
+#[inline(always)]
+pub(super) fn keep<R: Real, const M: usize, const L: usize, const N: usize>(
+    mask: R::Mask,
+    to: &mut State<R, M, L, N>,
+    from: &State<R, M, L, N>,
+) {
+    take_motion(!mask, from, to);
+    take_all(!mask, from.answer.as_flattened(), to.answer.as_flattened_mut());
+    take_all(!mask, from.answer_to_rate.as_flattened(), to.answer_to_rate.as_flattened_mut());
+    for (to, from) in to.steps.iter_mut().zip(&from.steps) {
+        to.stored = R::select(mask, to.stored, from.stored);
+    }
+    take_counts(!mask, from, to);
 }
 
 /// What [`keep`] does, as a task.
@@ -224,6 +259,24 @@ impl<A: Arithmetic, const M: usize, const L: usize, const N: usize> Task<A>
     #[inline(always)]
     fn run(self, _: A) {
         keep(self.mask, self.to, self.from);
+    }
+}
+
+/// Takes what another state has counted and seen where a mask says yes, as a task.
+pub(super) struct TakeCounts<'a, R: Real, const M: usize, const L: usize, const N: usize> {
+    pub mask: R::Mask,
+    pub from: &'a State<R, M, L, N>,
+    pub to: &'a mut State<R, M, L, N>,
+}
+
+impl<A: Arithmetic, const M: usize, const L: usize, const N: usize> Task<A>
+    for TakeCounts<'_, A::Real, M, L, N>
+{
+    type Output = ();
+
+    #[inline(always)]
+    fn run(self, _: A) {
+        take_counts(self.mask, self.from, self.to);
     }
 }
 

@@ -1,17 +1,38 @@
 //! Amplitudes of loads at the steps of a case: made once for all analyses whose loads differ by a factor.
 
-use super::grid::Grid;
+use super::grid::{Grid, Piece};
 use std::collections::VecDeque;
 use std::sync::{Arc, Mutex, PoisonError, Weak};
 use trilith_model::{Harmonic, Side, TimeFunction};
 use trilith_system::Track;
 
-/// Amplitude of a load at the start and at the end of every step.
-pub(super) type Table = Vec<[f64; 2]>;
+/// Parts of a step, a power of two, at whose ends amplitudes are known where steps are adaptive.
+const PARTS: u32 = 8;
+/// Steps of which they are known at most.
+const MOST: usize = 1 << 16;
+
+/// Amplitude of a load at the steps of a grid.
+#[derive(Debug)]
+pub(super) struct Table {
+    /// At the start and at the end of every step.
+    pub ends: Vec<[f64; 2]>,
+    /// Between its [`PARTS`] parts, where steps are adaptive.
+    inner: Vec<[f64; PARTS as usize - 1]>,
+}
+
+impl Table {
+    /// Within a step, at a share `at` of `of` (a power of two); none where it is not known.
+    pub fn inside(&self, step: usize, at: u32, of: u32) -> Option<f64> {
+        let part = of / PARTS;
+        let inner = self.inner.get(step).filter(|_| at.is_multiple_of(part))?;
+        inner.get((at / part) as usize - 1).copied()
+    }
+}
 
 #[derive(Debug)]
 struct Entry {
     grid: Grid,
+    inside: bool,
     track: Track,
     table: Weak<Table>,
 }
@@ -86,16 +107,19 @@ fn same(a: &Track, b: &Track) -> bool {
     }
 }
 
-fn fill(track: &Track, grid: Grid) -> Table {
-    let part = grid.step();
-    let mut table = Vec::with_capacity(grid.steps * grid.substeps);
+fn fill(track: &Track, grid: Grid, inside: bool) -> Table {
+    let (mut ends, mut inner) = (Vec::with_capacity(grid.steps * grid.substeps), Vec::new());
     for step in 0..grid.steps {
         for i in 0..grid.substeps {
-            let t = step as f64 * grid.dt + part * i as f64;
-            table.push([track.at(t, Side::After), track.at(t + part, Side::Before)]);
+            let Piece { start, end, length, .. } = grid.usual(step, i);
+            ends.push([track.at(start, Side::After), track.at(end, Side::Before)]);
+            let at = |part: usize| start + length * ((part + 1) as f64 / f64::from(PARTS));
+            if inside {
+                inner.push(std::array::from_fn(|part| track.at(at(part), Side::Before)));
+            }
         }
     }
-    table
+    Table { ends, inner }
 }
 
 impl Tables {
@@ -105,19 +129,21 @@ impl Tables {
         Self::default()
     }
 
-    /// The table of a track of unit amplitude, and its amplitude.
-    pub(super) fn of(&self, track: &Track, grid: Grid) -> (Arc<Table>, f64) {
+    /// The table of a track of unit amplitude, and its amplitude. `inside`: where steps are adaptive.
+    pub(super) fn of(&self, track: &Track, grid: Grid, inside: bool) -> (Arc<Table>, f64) {
         let (track, size) = split(track);
+        let inside = inside && grid.steps * grid.substeps <= MOST;
         let mut store = self.0.lock().unwrap_or_else(PoisonError::into_inner);
         store.entries.retain(|e| e.table.strong_count() > 0);
-        let found = store.entries.iter().filter(|e| e.grid == grid && same(&e.track, &track));
+        let fits = |e: &&Entry| (e.grid, e.inside) == (grid, inside) && same(&e.track, &track);
+        let found = store.entries.iter().filter(fits);
         if let Some(table) = { found }.find_map(|e| e.table.upgrade()) {
             return (table, size);
         }
         drop(store);
-        let table = Arc::new(fill(&track, grid));
+        let table = Arc::new(fill(&track, grid, inside));
         let mut store = self.0.lock().unwrap_or_else(PoisonError::into_inner);
-        store.entries.push(Entry { grid, track, table: Arc::downgrade(&table) });
+        store.entries.push(Entry { grid, inside, track, table: Arc::downgrade(&table) });
         store.kept.push_back(Arc::clone(&table));
         if store.kept.len() > KEPT {
             store.kept.pop_front();

@@ -7,7 +7,7 @@ use super::newton::{Found, foresee_by_tangents, settle};
 use super::pieces::Behind;
 use super::plan::Plan;
 use super::rules::Rules;
-use super::state::{Keep, State};
+use super::state::{Keep, State, TakeCounts};
 use super::step::{Passed, account, take};
 use super::turning::{Asked, Turned, turned};
 use trilith_element::lanes::{Arithmetic, Real, Task};
@@ -124,15 +124,16 @@ impl<R: Real, const M: usize, const L: usize, const N: usize> Trial<R, M, L, N> 
         let Self { halves, before, passed: [_, first, second], .. } = self;
         let zero = with.splat(0.0);
         if !all {
-            with.run(Keep { mask: zero.lt(zero), to: before, from: at });
+            with.run(TakeCounts { mask: zero.le(zero), from: at, to: before });
         }
+        let some = (!all).then_some(ok);
         for (made, passed) in halves.iter().zip([first, second]) {
-            with.run(Enter { plan, rule: half.exact(), made, passed, at });
+            with.run(Enter { plan, rule: half.exact(), some, made, passed, at });
             norms.see(ok, at.in_motion());
         }
         norms.reach(plan, ok, at);
         if !all {
-            with.run(Keep { mask: ok, to: at, from: before });
+            with.run(TakeCounts { mask: !ok, from: before, to: at });
         }
     }
 
@@ -197,10 +198,11 @@ impl<A: Arithmetic, const M: usize, const L: usize, const N: usize> Task<A>
     }
 }
 
-/// A step that is kept, as a task.
+/// A step that is kept, as a task: by some analyses, or by all.
 struct Enter<'a, R: Real, const M: usize, const L: usize, const N: usize> {
     plan: &'a Plan<R, M, L, N>,
     rule: &'a Rule<R, M, L>,
+    some: Option<R::Mask>,
     made: &'a State<R, M, L, N>,
     passed: &'a Passed<R, M>,
     at: &'a mut State<R, M, L, N>,
@@ -213,8 +215,11 @@ impl<A: Arithmetic, const M: usize, const L: usize, const N: usize> Task<A>
 
     #[inline(always)]
     fn run(self, with: A) {
-        let Self { plan, rule, made, passed, at } = self;
-        at.follow(made);
+        let Self { plan, rule, some, made, passed, at } = self;
+        match some {
+            Some(ok) => at.follow_where(ok, made),
+            None => at.follow(made),
+        }
         account(with, plan, rule, passed, at);
     }
 }

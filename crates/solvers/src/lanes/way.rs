@@ -113,19 +113,25 @@ impl<'a> Way<'a> {
         };
         let [start, middle, end] = [self.at, self.at + ticks / 2, self.at + ticks].map(time);
         let (is_first, is_last) = (self.at == 0, self.at + ticks == FULL);
-        let Self { setup, place, amplitudes, .. } = self;
+        let Self { setup, place, amplitudes, at: first, .. } = self;
+        let first = *first;
         let tables = setup.tables.iter().zip(&setup.tracks);
         for ((table, (track, size)), amplitude) in tables.zip(amplitudes) {
             let Some((table, _)) = table else { continue };
-            let known = place.map(|place| table[place]);
+            let known = place.map(|place| table.ends[place]);
             let at = |t: f64, side: Side| track.at(t, side) * size;
+            let inside = |tick: u32, t: f64| {
+                let known = place.and_then(|place| table.inside(place, tick, FULL));
+                known.map_or_else(|| at(t, Side::Before), |x| x * size)
+            };
             if is_first {
                 amplitude[0] = known.map_or_else(|| at(start, Side::After), |[x, _]| x * size);
             }
-            amplitude[1] = at(middle, Side::Before);
+            amplitude[1] = inside(first + ticks / 2, middle);
             amplitude[2] = match known {
                 Some([_, x]) if is_last => x * size,
-                _ => at(end, Side::Before),
+                _ if is_last => at(end, Side::Before),
+                _ => inside(first + ticks, end),
             };
         }
         let jump = piece.jump && is_first && !self.seen;
