@@ -169,6 +169,7 @@ fn whole(
     let how = (case?, solver?);
     let identity =
         identity::identity(&parsed, &plan, registry, &settings.first(&plan), how, &columns, &stop)?;
+    let sum = model.sha256();
     Some(Study {
         title: title?,
         path: path.to_owned(),
@@ -181,7 +182,7 @@ fn whole(
         over: over?,
         sensitive_above: sensitive?,
         figures: figures?,
-        identity: crate::Identity { runs: runs?, model: model.sha256(), ..identity },
+        identity: crate::Identity { runs: runs?, model: sum, ..identity },
         plan,
         varied,
         text: parsed,
