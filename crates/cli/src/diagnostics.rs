@@ -140,6 +140,7 @@ fn render(report: &[Group<'_>]) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use trilith::model::Source;
 
     #[test]
     fn numbers_of_hundreds_of_digits_are_shown_in_powers_of_ten() {

@@ -141,6 +141,10 @@ const OTHERS: &[&str] = &[
     "Name",
     "Kind",
     "error_relative",
+    // between comparisons
+    "and",
+    "or",
+    "not",
     // of the environment
     "SOURCE_DATE_EPOCH",
 ];

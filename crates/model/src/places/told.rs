@@ -15,30 +15,41 @@ impl Places {
     }
 
     /// Errors as they are told: where they stand in the files, with the indices of repetitions. Of those that a text
-    /// has again and again the first is told, with their number.
+    /// has again and again the first are told, with how often they come.
     pub(crate) fn told(&self, mut errors: Vec<Diagnostic>) -> Vec<Diagnostic> {
         errors.sort_by_key(|d| (!self.is_own(d), d.span.start));
-        let mut found: Vec<(usize, Diagnostic, String, usize)> = Vec::with_capacity(errors.len());
+        let mut found: Vec<Told> = Vec::with_capacity(errors.len());
         let mut first = HashMap::new();
         for d in errors {
             if !self.is_own(&d) {
-                found.push((usize::MAX, d, String::new(), 0));
+                found.push(Told {
+                    file: usize::MAX,
+                    d,
+                    indices: String::new(),
+                    at: [0; 2],
+                    more: 0,
+                });
                 continue;
             }
-            let (file, place) = (self.file_of(d.span.start), self.find(&d.span));
-            let repeated = !place.indices.is_empty();
+            let (at, file, place) = (d.span.start, self.file_of(d.span.start), self.find(&d.span));
             let key = (file, place.span.clone(), d.code);
-            if let Some(i) = first.get(&key).copied().filter(|_| repeated) {
-                let (.., more): &mut (_, _, _, usize) = &mut found[i];
-                *more += 1;
-                continue;
+            let before = first.get(&key).map(|i: &usize| &mut found[*i]);
+            // What else is wrong the first time is told as well.
+            match before.filter(|before| before.at[0] != at) {
+                Some(before) => {
+                    before.more += usize::from(before.at[1] != at);
+                    before.at[1] = at;
+                }
+                None => {
+                    first.entry(key).or_insert(found.len());
+                    let indices = place.indices();
+                    let d = self.placed(d, place);
+                    found.push(Told { file, d, indices, at: [at; 2], more: 0 });
+                }
             }
-            first.insert(key, found.len());
-            let indices = place.indices();
-            found.push((file, self.placed(d, place), indices, 0));
         }
-        found.sort_by_key(|(file, d, ..)| (*file, d.span.start));
-        let one = |(_, mut d, indices, more): (usize, Diagnostic, String, usize)| {
+        found.sort_by_key(|told| (told.file, told.d.span.start));
+        let one = |Told { mut d, indices, more, .. }: Told| {
             match (indices.as_str(), more) {
                 ("", _) => {}
                 (with, 0) => d.message += &format!(", with {with}"),
@@ -78,4 +89,13 @@ impl Places {
         });
         Diagnostic { source: place.source, span: place.span, help, related, suggestion, ..d }
     }
+}
+
+/// An error, its file and indices, how many further repetitions have it, and where the first and the last of them lie.
+struct Told {
+    file: usize,
+    d: Diagnostic,
+    indices: String,
+    at: [usize; 2],
+    more: usize,
 }
