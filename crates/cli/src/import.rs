@@ -46,12 +46,13 @@ pub(crate) fn import(args: &ImportArguments) -> Result<Answer, Failure> {
         warned();
         return Ok(Answer { text: import.draft.to_ron(), status });
     };
-    let folder = out.parent().filter(|p| !p.as_os_str().is_empty()).unwrap_or(Path::new("."));
-    create_dir_all(folder).map_err(|e| Failure::unwritable(folder, &e))?;
-    let beside = format!("{}.import.txt", options.stem);
-    let mut files =
-        vec![(out.clone(), import.draft.to_ron()), (folder.join(beside), report.clone())];
-    files.extend(import.files.into_iter().map(|(name, text)| (folder.join(name), text)));
+    if let Some(folder) = out.parent() {
+        create_dir_all(folder).map_err(|e| Failure::unwritable(folder, &e))?;
+    }
+    let beside = |name: &str| out.with_file_name(name);
+    let mut files = vec![(out.clone(), import.draft.to_ron())];
+    files.push((beside(&format!("{}.import.txt", options.stem)), report.clone()));
+    files.extend(import.files.into_iter().map(|(name, text)| (beside(&name), text)));
     if let Some((path, _)) = files.iter().find(|(path, _)| same(path, &args.file)) {
         let message = format!("{} is what is read", shown(path));
         return Err(Failure::input(&message, Some("`--out FILE` names another file")));
