@@ -204,7 +204,8 @@ mod tests {
             .label("l\u{1b}\u{9b}")
             .help("h\u{1b}\u{9b}")
             .suggestion(15..20, "nodes");
-        let at = at("m\u{1b}\u{9b}", 15..20, &source);
+        let indices = vec![("i".to_owned(), "\u{1b}\u{9b}".to_owned())];
+        let at = at("m\u{1b}\u{9b}", &Place { source, span: 15..20, indices });
         let texts = [all(&[d]), at, plain("m\u{1b}", Some("h\u{1b}\u{9b}")), warning("\u{9b}")];
         for text in texts {
             assert!(!text.contains(|c: char| c.is_control() && c != '\n'), "{text:?}");
