@@ -142,6 +142,8 @@ pub fn quoted(text: &str) -> String {
     for c in text.chars() {
         match c {
             '"' | '\\' => out.extend(['\\', c]),
+            // Braces of a text would be filled in when it is read.
+            '{' | '}' => out.extend([c, c]),
             c if c.is_control() => out.extend(c.escape_unicode()),
             c => out.push(c),
         }
@@ -162,5 +164,6 @@ mod tests {
         let list = Ron::List(vec![Ron::vector(&[0.0, -1.5, 1e-7]), Ron::words(&["Ux"])]);
         assert_eq!(list.to_string(), "[(0, -1.5, 1e-7), [Ux]]");
         assert_eq!(quoted("a\nb"), "\"a\\u{a}b\"");
+        assert_eq!(quoted("{i}"), "\"{{i}}\"");
     }
 }
