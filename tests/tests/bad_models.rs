@@ -149,9 +149,12 @@ fn a_suggestion_put_in_place_repairs_the_model() {
     for path in files() {
         let text = std::fs::read_to_string(&path).unwrap();
         let Err(all) = read(&path, &registry(), &[]) else { continue };
-        let [Diagnostic { suggestion: Some((span, instead)), .. }] = all.as_slice() else {
+        let [Diagnostic { suggestion: Some((span, instead)), source, .. }] = all.as_slice() else {
             continue;
         };
+        if source.path != path {
+            continue;
+        }
         let mut better = text.clone();
         better.replace_range(span.clone(), instead);
         let again = read_text(&better, &path, &registry(), &[]);

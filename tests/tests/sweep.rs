@@ -176,7 +176,7 @@ fn agree(name: &str, text: &str, chosen: &[Combination], control: StepControl) {
         })
         .collect();
     let setups: Vec<&LaneSetup> = setups.iter().collect();
-    let all = Instructions::ALL.map(|i| (i, march_by(i, &setups)));
+    let all = Instructions::ALL.map(|i| (i, march_by(i, &setups, 8)));
     for (instructions, found) in &all {
         assert_eq!(found.is_some(), instructions.are_available(), "{name}: {instructions:?}");
         for outcome in found.iter().flatten() {

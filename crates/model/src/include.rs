@@ -119,7 +119,10 @@ impl Including {
                         the file that includes it";
             return self.refuse("E0120", message, help, at);
         };
-        let shown = self.folder.join(&path);
+        let shown = match self.folder == Path::new(".") {
+            true => path.clone(),
+            false => self.folder.join(&path),
+        };
         let cannot = |error: std::io::Error| format!("{} cannot be read: {error}", shown.display());
         let canonical = match shown.canonicalize() {
             Ok(canonical) if canonical.starts_with(&self.canonical) => canonical,

@@ -9,8 +9,14 @@ use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::{Path, PathBuf};
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
+use std::time::{Duration, Instant};
 use trilith::Registry;
 use trilith::sweep::Lanes;
+
+/// Shares of runs that take less than this grow.
+const SOON: Duration = Duration::from_millis(200);
+/// Widths of the lanes in a share at most.
+const SHARES: usize = 8;
 
 /// How far a study is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -162,17 +168,24 @@ pub fn execute(
 impl Shared<'_> {
     fn work(&self, chains: usize) {
         let length = self.study.plan.chain_length();
+        let mut share = self.width;
         while !self.stops() {
-            let first = self.next.fetch_add(self.width, Ordering::Relaxed);
+            let start = Instant::now();
+            let first = self.next.fetch_add(share, Ordering::Relaxed);
             if first >= chains {
                 break;
             }
-            let own = first..chains.min(first + self.width);
+            let own = first..chains.min(first + share);
             if let Err(error) = self.chains(own.map(|chain| chain * length).collect(), length) {
                 self.stop.store(true, Ordering::Relaxed);
                 if let Ok(mut first) = self.error.lock() {
                     first.get_or_insert(error);
                 }
+            }
+            // A lane that has come to its end takes the next run of the share: the more there are, the fewer lanes are idle,
+            // but the longer nothing of it is on disk.
+            if self.lanes.is_some() && start.elapsed() < SOON && share < SHARES * self.width {
+                share *= 2;
             }
         }
     }

@@ -85,13 +85,13 @@ impl Lanes {
         let mut found: Vec<Option<LaneOutcome>> = cases.iter().map(|_| None).collect();
         while let Some(Ok(first)) = waiting.first().map(|i| &setups[*i]) {
             let fits = |i: &usize| setups[*i].as_ref().is_ok_and(|own| first.fits(own));
-            let (mut group, mut rest): (Vec<usize>, Vec<usize>) =
-                waiting.into_iter().partition(fits);
-            rest.extend(group.split_off(group.len().min(self.width)));
-            rest.sort_unstable();
+            let (group, rest): (Vec<usize>, Vec<usize>) = waiting.into_iter().partition(fits);
             let own: Vec<&LaneSetup> =
                 group.iter().filter_map(|i| setups[*i].as_ref().ok()).collect();
-            group.into_iter().zip(lanes::march(&own)).for_each(|(i, o)| found[i] = Some(o));
+            group
+                .into_iter()
+                .zip(lanes::march(&own, self.width))
+                .for_each(|(i, o)| found[i] = Some(o));
             waiting = rest;
         }
         let all = cases.iter().zip(setups).zip(found);

@@ -213,9 +213,12 @@ impl<'a> Context<'a> {
         };
         for e in entries.iter().filter(|e| !allowed.contains(&e.key.as_str())) {
             let message = format!("{what} has no field `{}`", e.key);
-            let help = names_help(&e.key, "fields", allowed.iter().copied());
+            // What is there already is not meant.
+            let given = |name: &&str| entries.iter().any(|e| e.key == *name);
+            let allowed = || allowed.iter().copied().filter(|name| !given(name));
+            let help = names_help(&e.key, "fields", allowed());
             let mut d = self.diagnostic("E0103", message, e.key_span.clone()).help(help);
-            if let Some(near) = closest(&e.key, allowed.iter().copied()) {
+            if let Some(near) = closest(&e.key, allowed()) {
                 d = d.suggestion(e.key_span.clone(), near);
             }
             self.report(d);

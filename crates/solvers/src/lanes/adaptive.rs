@@ -14,15 +14,17 @@ use super::loads::Points;
 use super::plan::Plan;
 use super::setup::LaneSetup;
 use super::sizes::Sizes;
-use super::state::State;
+use super::state::{Keep, State};
 use super::trial::Trial;
 use super::way::{Next, Way};
 use crate::march::{ACCURACY_DEPTH, may_grow};
 use trilith_element::lanes::{Arithmetic, Real, Task};
 
-/// A march with adaptive steps, as a task.
+/// A march with adaptive steps, as a task: so many analyses go side by side, and where one has come to its end the next
+/// takes its lane.
 pub(super) struct Adaptive<'a, const M: usize, const L: usize, const N: usize> {
     pub setups: &'a [&'a LaneSetup],
+    pub beside: usize,
 }
 
 /// Lanes at most.
@@ -35,21 +37,46 @@ impl<A: Arithmetic, const M: usize, const L: usize, const N: usize> Task<A>
 
     #[inline(always)]
     fn run(self, with: A) -> Vec<LaneOutcome> {
-        let setups = self.setups;
-        let plan = Plan::<A::Real, M, L, N>::new(with, setups);
-        let mut at = State::new(with, setups, &plan);
+        let mut seats = Seats::new(self.setups, self.beside.min(A::WIDTH));
+        let mut plan = Plan::<A::Real, M, L, N>::new(with, &seats.own);
+        let mut at = State::new(with, &seats.own, &plan);
         let mut trial = Trial::new(with, &plan, &at);
-        let mut norms = Norms::new(with, setups);
-        let mut sizes = Sizes::new(with, setups);
+        let mut norms = Norms::new(with, &seats.own);
+        let mut sizes = Sizes::new(with, &seats.own);
         let mut loads = Points::new(with, &plan);
-        let mut ways: Vec<Way<'_>> = setups.iter().map(|s| Way::new(s)).collect();
+        let mut ways: Vec<Way<'_>> = seats.own.iter().map(|s| Way::new(s)).collect();
         loop {
             let mut next = [None; MOST];
             next.iter_mut().zip(&mut ways).for_each(|(next, way)| *next = way.next());
-            if next.iter().all(Option::is_none) {
-                break;
+            if (0..ways.len()).any(|i| next[i].is_none() && !seats.is_empty(i)) {
+                let mut fresh = [false; MOST];
+                for i in (0..ways.len()).filter(|i| next[*i].is_none()) {
+                    if !seats.is_empty(i) {
+                        let outcome = left(with, &mut at, &norms, (&ways[i], &seats), i);
+                        seats.leave(i, outcome, with.lane(trial.iterations(), i));
+                        fresh[i] = !seats.is_empty(i);
+                    }
+                }
+                if fresh.contains(&true) {
+                    plan = Plan::new(with, &seats.own);
+                    let who = mask(with, |i| fresh[i]);
+                    let before = std::mem::replace(&mut at, State::new(with, &seats.own, &plan));
+                    with.run(Keep { mask: who, to: &mut at, from: &before });
+                    norms.take(who, &Norms::new(with, &seats.own));
+                    for i in (0..ways.len()).filter(|i| fresh[*i]) {
+                        sizes.forget(i);
+                        ways[i] = Way::new(seats.own[i]);
+                        next[i] = ways[i].next();
+                    }
+                }
             }
-            let rules = sizes.choose(with, setups, &plan, &next);
+            if next.iter().all(Option::is_none) {
+                if seats.are_empty() {
+                    break;
+                }
+                continue;
+            }
+            let rules = sizes.choose(with, &seats.own, &plan, &next);
             loads.gather(with, &plan, &ways);
             let time = |of: fn(&Next) -> f64| with.gather(|i| next[i].as_ref().map_or(0.0, of));
             let starts = [time(|n| n.start), time(|n| n.middle)];
@@ -84,22 +111,78 @@ impl<A: Arithmetic, const M: usize, const L: usize, const N: usize> Task<A>
                 }
             }
         }
-        let lost = |i: usize| ways.get(i).and_then(|way| way.lost);
-        at.alive = mask(with, |i| lost(i).is_none());
-        at.lost = with.gather(|i| lost(i).unwrap_or(0.0));
-        at.iterations = trial.iterations();
-        let outcome = |(i, way): (usize, &Way<'_>)| {
-            let fallen = way.fallen.map(|(t, link)| (t, setups[i].elements[link]));
-            let mut outcome = at.outcome(with, setups[i], i, fallen);
-            let moves = outcome.energy.moves();
-            outcome.noticed |= moves && norms.is_lost(with, setups[i], i);
-            if fallen.is_some() {
-                outcome.contact.iter_mut().for_each(|c| c.overturned = true);
-            }
-            outcome
-        };
-        ways.iter().enumerate().map(outcome).collect()
+        seats.found.into_iter().flatten().collect()
     }
+}
+
+/// Which analysis goes in which lane.
+struct Seats<'a> {
+    setups: &'a [&'a LaneSetup],
+    /// That of each lane, the last one where none is left.
+    own: Vec<&'a LaneSetup>,
+    /// Its index; none where it has come to its end and none is left.
+    at: Vec<Option<usize>>,
+    /// Iterations that the lane had made before.
+    before: Vec<f64>,
+    next: usize,
+    found: Vec<Option<LaneOutcome>>,
+}
+
+impl<'a> Seats<'a> {
+    fn new(setups: &'a [&'a LaneSetup], lanes: usize) -> Self {
+        let lanes = lanes.min(setups.len());
+        Self {
+            setups,
+            own: setups[..lanes].to_vec(),
+            at: (0..lanes).map(Some).collect(),
+            before: vec![0.0; lanes],
+            next: lanes,
+            found: setups.iter().map(|_| None).collect(),
+        }
+    }
+
+    fn is_empty(&self, lane: usize) -> bool {
+        self.at[lane].is_none()
+    }
+
+    fn are_empty(&self) -> bool {
+        self.at.iter().all(Option::is_none)
+    }
+
+    /// The analysis of a lane has come to its end, after so many iterations in it; the next takes the lane, if there is one.
+    fn leave(&mut self, lane: usize, mut outcome: LaneOutcome, iterations: f64) {
+        outcome.iterations = (iterations - self.before[lane]) as usize;
+        self.before[lane] = iterations;
+        if let Some(found) = self.at[lane].take().and_then(|i| self.found.get_mut(i)) {
+            *found = Some(outcome);
+        }
+        if let Some(next) = self.setups.get(self.next) {
+            (self.own[lane], self.at[lane]) = (next, Some(self.next));
+            self.next += 1;
+        }
+    }
+}
+
+/// What the analysis of a lane has left at its end.
+fn left<A: Arithmetic, const M: usize, const L: usize, const N: usize>(
+    with: A,
+    at: &mut State<A::Real, M, L, N>,
+    norms: &Norms<A::Real>,
+    (way, seats): (&Way<'_>, &Seats<'_>),
+    i: usize,
+) -> LaneOutcome {
+    let setup = seats.own[i];
+    at.alive = mask(with, |lane| lane != i || way.lost.is_none());
+    at.lost = with.splat(way.lost.unwrap_or(0.0));
+    let fallen = way.fallen.map(|(t, link)| (t, setup.elements[link]));
+    let mut outcome = at.outcome(with, setup, i, fallen);
+    at.alive = mask(with, |_| true);
+    let moves = outcome.energy.moves();
+    outcome.noticed |= moves && norms.is_lost(with, setup, i);
+    if fallen.is_some() {
+        outcome.contact.iter_mut().for_each(|c| c.overturned = true);
+    }
+    outcome
 }
 
 /// Lanes of which something holds.

@@ -43,6 +43,22 @@ impl<R: Real> Norms<R> {
         }
     }
 
+    /// Those of others where a mask says so.
+    pub fn take(&mut self, mask: R::Mask, from: &Self) {
+        for (to, from) in [
+            (&mut self.tolerance, &from.tolerance),
+            (&mut self.reference, &from.reference),
+            (&mut self.motion, &from.motion),
+        ] {
+            *to = R::select(mask, *from, *to);
+        }
+        for kind in 0..2 {
+            let (own, other) = (self.deformation[kind], from.deformation[kind]);
+            self.deformation[kind] = R::select(mask, other, own);
+            self.push[kind] = R::select(mask, from.push[kind], self.push[kind]);
+        }
+    }
+
     /// Error of energies and forces, and of displacements for the way that the step went.
     #[inline(always)]
     pub fn measure<A: Arithmetic<Real = R>, const M: usize, const L: usize, const N: usize>(

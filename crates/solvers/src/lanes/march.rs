@@ -66,15 +66,15 @@ pub(super) fn width() -> usize {
 /// Fewer than this go one by one.
 const WORTH_LANES: usize = 3;
 
-/// Runs analyses that fit each other, [`width`](super::width) at most.
+/// Runs analyses that fit each other, `beside` of them at a time at most.
 ///
 /// # Panics
-/// Where there are none, too many, or they do not fit.
+/// Where there are none, or they do not fit.
 #[must_use]
-pub fn march(setups: &[&LaneSetup]) -> Vec<LaneOutcome> {
+pub fn march(setups: &[&LaneSetup], beside: usize) -> Vec<LaneOutcome> {
     let best = Instructions::best();
-    let few = best.width() > 1 && setups.len() < WORTH_LANES;
-    let found = march_by(if few { Instructions::Fma } else { best }, setups);
+    let few = best.width() > 1 && setups.len().min(beside) < WORTH_LANES;
+    let found = march_by(if few { Instructions::Fma } else { best }, setups, beside);
     found.expect("instructions that the machine has")
 }
 
@@ -83,51 +83,57 @@ pub fn march(setups: &[&LaneSetup]) -> Vec<LaneOutcome> {
 /// # Panics
 /// As [`march`].
 #[must_use]
-pub fn march_by(instructions: Instructions, setups: &[&LaneSetup]) -> Option<Vec<LaneOutcome>> {
-    assert!(!setups.is_empty() && setups.len() <= 8, "one to eight analyses");
+pub fn march_by(
+    instructions: Instructions,
+    setups: &[&LaneSetup],
+    beside: usize,
+) -> Option<Vec<LaneOutcome>> {
+    assert!(!setups.is_empty() && beside > 0, "one analysis at least");
     assert!(setups.iter().all(|s| s.fits(setups[0])), "analyses that fit each other");
     fn one_by_one<A: Arithmetic>(with: A, setups: &[&LaneSetup]) -> Vec<LaneOutcome> {
-        setups.iter().flat_map(|s| sized(with, &[*s])).collect()
+        setups.iter().flat_map(|s| sized(with, &[*s], 1)).collect()
     }
     #[cfg(target_arch = "x86_64")]
     return match instructions {
         Instructions::Portable => Some(one_by_one(Portable, setups)),
         Instructions::Fma => FusedOne::available().map(|with| one_by_one(with, setups)),
-        Instructions::Avx2 => Avx2Lanes::available().map(|with| sized(with, setups)),
-        Instructions::Avx512 => Avx512Lanes::available().map(|with| sized(with, setups)),
+        Instructions::Avx2 => Avx2Lanes::available().map(|with| sized(with, setups, beside)),
+        Instructions::Avx512 => Avx512Lanes::available().map(|with| sized(with, setups, beside)),
     };
     #[cfg(not(target_arch = "x86_64"))]
     (instructions == Instructions::Portable).then(|| one_by_one(Portable, setups))
 }
 
 /// Chooses the sizes that the loops are compiled for: modes, link coordinates, coordinates of a link.
-fn sized<A: Arithmetic>(with: A, setups: &[&LaneSetup]) -> Vec<LaneOutcome> {
+fn sized<A: Arithmetic>(with: A, setups: &[&LaneSetup], beside: usize) -> Vec<LaneOutcome> {
     let shape = &setups[0].shape;
     let n = shape.links.iter().map(|l| l.2).max().unwrap_or(1);
     let coordinates = n * shape.links.len();
     let small = shape.modes <= 3;
     match (n, coordinates) {
         // One body with all its coordinates, which goes with adaptive steps alone.
-        (4.., _) => with.run(Adaptive::<6, 6, 6> { setups }),
-        (1, ..=2) if small => of_size::<A, 3, 2, 1>(with, setups),
-        (1, _) => of_size::<A, 12, 12, 1>(with, setups),
+        (4.., _) => with.run(Adaptive::<6, 6, 6> { setups, beside }),
+        (1, ..=2) if small => of_size::<A, 3, 2, 1>(with, setups, beside),
+        (1, _) => of_size::<A, 12, 12, 1>(with, setups, beside),
         // Alone four modes are one register.
-        (2, ..=4) if small && A::WIDTH == 1 => of_size::<A, 4, 4, 2>(with, setups),
-        (2, ..=4) if small => of_size::<A, 3, 4, 2>(with, setups),
-        (2, _) => of_size::<A, 12, 12, 2>(with, setups),
-        (_, ..=6) if small => of_size::<A, 3, 6, 3>(with, setups),
-        _ => of_size::<A, 12, 12, 3>(with, setups),
+        (2, ..=4) if small && A::WIDTH == 1 => of_size::<A, 4, 4, 2>(with, setups, beside),
+        (2, ..=4) if small => of_size::<A, 3, 4, 2>(with, setups, beside),
+        (2, _) => of_size::<A, 12, 12, 2>(with, setups, beside),
+        (_, ..=6) if small => of_size::<A, 3, 6, 3>(with, setups, beside),
+        _ => of_size::<A, 12, 12, 3>(with, setups, beside),
     }
 }
 
 fn of_size<A: Arithmetic, const M: usize, const L: usize, const N: usize>(
     with: A,
     setups: &[&LaneSetup],
+    beside: usize,
 ) -> Vec<LaneOutcome> {
     if setups[0].shape.is_adaptive {
-        with.run(Adaptive::<M, L, N> { setups })
+        with.run(Adaptive::<M, L, N> { setups, beside })
     } else {
-        with.run(Lanes::<M, L, N> { setups })
+        let groups = setups.chunks(beside.min(A::WIDTH));
+        groups.flat_map(|setups| with.run(Lanes::<M, L, N> { setups })).collect()
     }
 }
 

@@ -26,6 +26,11 @@ impl<R: Real, const M: usize, const L: usize> Sizes<R, M, L> {
         Self { rules, lengths, known: vec![Known::default(); setups.len()] }
     }
 
+    /// Another analysis goes in this lane.
+    pub fn forget(&mut self, lane: usize) {
+        (self.lengths[lane], self.known[lane]) = (f64::NAN, Known::default());
+    }
+
     /// Rules for what comes next; those who have nothing to do go on with what they had.
     #[inline(always)]
     pub fn choose<A: Arithmetic<Real = R>, const N: usize>(
