@@ -55,11 +55,12 @@ impl Missed {
     /// Takes note of the square of a mode's swing; true where it exceeds what is known.
     #[inline]
     fn exceeds(&mut self, mode: usize, square: f64) -> bool {
-        let new = !(square <= self.bounds[mode]);
-        if new {
+        // What is no number is not within.
+        let within = square <= self.bounds[mode];
+        if !within {
             self.bounds[mode] = ROOM * square;
         }
-        new
+        !within
     }
 
     /// What outputs miss of swings within the bounds.
