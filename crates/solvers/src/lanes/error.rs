@@ -4,7 +4,7 @@
 use super::plan::{Plan, pick};
 use super::setup::{Adaptive, LaneSetup};
 use super::state::State;
-use crate::march::{CLOSURE, LEAST_WAY, ROUNDING, StepControlState as Pace};
+use crate::march::{CLOSURE, LEAST_WAY, ROUNDING, StepControlState};
 use trilith_element::lanes::{Arithmetic, Real};
 
 /// What steps are measured against.
@@ -36,10 +36,10 @@ impl<R: Real> Norms<R> {
         };
         Self {
             tolerance: of(&|a| a.tolerance),
-            reference: of(&|a| a.pace.reference),
-            motion: of(&|a| a.pace.reached.motion),
-            deformation: [0, 1].map(|kind| of(&|a| a.pace.reached.deformation[kind])),
-            push: [0, 1].map(|kind| of(&|a| a.pace.push[kind])),
+            reference: of(&|a| a.control.reference),
+            motion: of(&|a| a.control.reached.motion),
+            deformation: [0, 1].map(|kind| of(&|a| a.control.reached.deformation[kind])),
+            push: [0, 1].map(|kind| of(&|a| a.control.push[kind])),
         }
     }
 
@@ -149,7 +149,10 @@ impl<R: Real> Norms<R> {
         lane: usize,
     ) -> bool {
         let reference = with.lane(self.reference, lane);
-        setup.adaptive.as_ref().is_some_and(|a| Pace { reference, ..a.pace.clone() }.is_lost())
+        setup
+            .adaptive
+            .as_ref()
+            .is_some_and(|a| StepControlState { reference, ..a.control.clone() }.is_lost())
     }
 
     /// How far the motion is behind a step, of the analyses in `ok`.

@@ -8,15 +8,13 @@ use super::watch::Watch;
 use crate::contacts::{Role, Roles, contacts};
 use crate::error::SolveError;
 use crate::fna::{LONGEST, Modal};
-use crate::march::{StepControlState as Pace, Timeline, constant_force, potential};
+use crate::march::{StepControlState, Timeline, constant_force, potential};
 use crate::modal::Mode;
 use crate::modal::single_mode::{self};
 use crate::record::{Outputs, Row};
-use crate::run::{
-    Initial, bases, before, fna_modes as modes, held_load, link_equations as link_side, start,
-};
+use crate::run::{Initial, bases, before, fna_modes, held_load, link_equations, start};
 use crate::step::{LinkStepper, State, Stepper, kinetic_and_strain};
-use crate::structure::ReducedSystem as Space;
+use crate::structure::ReducedSystem;
 use std::any::TypeId;
 use std::sync::Arc;
 use trilith_element::Contact;
@@ -83,7 +81,7 @@ impl Output {
 #[derive(Clone, Debug)]
 pub(super) struct Adaptive {
     pub tolerance: f64,
-    pub pace: Pace,
+    pub control: StepControlState,
     /// Substeps that may be tried.
     pub budget: usize,
 }
@@ -212,13 +210,13 @@ pub fn prepare(
             "a basis that leaves something out, so that its error must be watched".into()
         ));
     }
-    let modes = modes(model, system, &loads, &bases);
+    let modes = fna_modes(model, system, &loads, &bases);
     let order = modes.space.order();
-    let side = link_side(model, system, &analysis.solution, &loads, order, true);
+    let side = link_equations(model, system, &analysis.solution, &loads, order, true);
     let mut stepper = LinkStepper::new(Modal::new(modes), side)?;
     let dt = analysis.dt;
     let times = [dt, analysis.duration];
-    let (state, pace, _, _) = start(model, system, &initial, &loads, &mut stepper, times)?;
+    let (state, step_control, _, _) = start(model, system, &initial, &loads, &mut stepper, times)?;
     let space = stepper.space();
 
     let m = space.order();
@@ -339,7 +337,7 @@ pub fn prepare(
         StepControl::Fixed { .. } => None,
         StepControl::Adaptive { tolerance } => {
             let budget = analysis.solution.substep_limit(timeline.steps);
-            Some(Adaptive { tolerance, pace, budget })
+            Some(Adaptive { tolerance, control: step_control, budget })
         }
     };
     Ok(Ok(LaneSetup {
@@ -430,7 +428,7 @@ fn unsuited(system: &System, analysis: &DynamicCase) -> Option<&'static str> {
 fn outputs(
     model: &Model,
     system: &System,
-    space: &Space,
+    space: &ReducedSystem,
     flat: &[usize],
     (channels, first, directions): (usize, usize, &[usize]),
     turn: &Dense,

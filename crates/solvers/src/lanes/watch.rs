@@ -2,7 +2,7 @@
 
 use super::uncoupled::turned;
 use crate::checks::{FAR, PRESSED, size};
-use crate::structure::ReducedSystem as Space;
+use crate::structure::ReducedSystem;
 use trilith_linalg::Dense;
 use trilith_model::Model;
 use trilith_system::System;
@@ -18,7 +18,7 @@ pub(super) struct Watch {
 
 impl Watch {
     /// `turn`: modes of the space over those of the lane.
-    pub fn new(model: &Model, system: &System, space: &Space, turn: &Dense) -> Self {
+    pub fn new(model: &Model, system: &System, space: &ReducedSystem, turn: &Dense) -> Self {
         let order = system.order();
         let along = |full: usize| {
             let free = system.reduction.expand(full).iter().filter(|(j, _)| *j < order);

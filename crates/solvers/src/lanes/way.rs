@@ -52,7 +52,7 @@ impl<'a> Way<'a> {
             taken: 0,
             cut: 0,
             at: 0,
-            level: setup.adaptive.as_ref().map_or(0, |a| a.pace.level),
+            level: setup.adaptive.as_ref().map_or(0, |a| a.control.level),
             tried: 0,
             amplitudes: vec![[1.0; 3]; setup.tracks.len()],
             seen: false,
