@@ -429,12 +429,12 @@ fn outputs_that_hang_on_a_varied_parameter_are_refused() {
     let path = folder.path().join("mass.ron");
     let with = |of: &str| {
         let model = MODEL.replace("outputs: {", &format!("outputs: {{ \"copy {{i}}\": {of},"));
-        std::fs::write(&path, model.replace("parameters: {", "parameters: { \"copies\": 1,")).unwrap();
+        std::fs::write(&path, model.replace("parameters: {", "parameters: { \"copies\": 1,"))
+            .unwrap();
         read(folder.path(), r#"axes: { "copies": [1, 2] }"#)
     };
-    let slide = |range: &str| {
-        format!("For(i: \"1 to {range}\", of: LinkForce(link: \"foot\", axis: U1))")
-    };
+    let slide =
+        |range: &str| format!("For(i: \"1 to {range}\", of: LinkForce(link: \"foot\", axis: U1))");
     let errors = with(&slide("copies")).unwrap_err();
     let [e] = errors.as_slice() else { panic!("{errors:?}") };
     assert!(e.message.contains("other outputs than in the first run"), "{e}");
