@@ -1,6 +1,6 @@
 //! Recorded quantities.
 
-use trilith_element::Dof;
+use trilith_element::{Dof, Vector3};
 
 /// A recorded quantity.
 #[derive(Clone, Debug, PartialEq)]
@@ -51,6 +51,29 @@ pub enum Quantity {
         elements: Vec<usize>,
         /// Index into their nodes.
         end: usize,
+        /// Direction.
+        dof: Dof,
+        /// Factor.
+        factor: f64,
+    },
+    /// Horizontal force that the structure passes to its supports and to the ground.
+    BaseShear {
+        /// Ux or Uy.
+        direction: Dof,
+    },
+    /// Moment about a point of what the structure passes to its supports and to the ground; positive as of a force
+    /// along the direction above that point.
+    Overturning {
+        /// Ux or Uy.
+        direction: Dof,
+        /// The point, m.
+        about: Vector3,
+    },
+    /// factor · Σ force of supports on the structure along one direction that they fix: K u + C u̇ of the elements there
+    /// and the forces of links. What acts on these directions themselves is not in it.
+    Reaction {
+        /// Indices of the nodes.
+        nodes: Vec<usize>,
         /// Direction.
         dof: Dof,
         /// Factor.

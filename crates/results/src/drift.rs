@@ -8,9 +8,10 @@ use trilith_model::{Model, NodalTerm, Quantity};
 /// The output with the largest drift, by its share of the height between its two nodes.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct DriftSummary {
-    /// Name of the output: the difference of a horizontal displacement of two nodes at different heights.
+    /// Name of the output: the difference of a horizontal displacement of two nodes at different heights, or a
+    /// share of it.
     pub output: String,
-    /// Its largest absolute value, m.
+    /// The largest difference, m.
     pub max: f64,
     /// Height between its nodes, m.
     pub height: f64,
@@ -24,7 +25,9 @@ pub(crate) fn largest(model: &Model, peaks: &[Peak]) -> Option<DriftSummary> {
     let drifts = outputs.filter_map(|(output, peak)| {
         let Quantity::Displacement(terms) = &output.quantity else { return None };
         let height = height(model, terms)?;
-        let max = peak.max.abs().max(peak.min.abs());
+        // One that is taken over the height is a ratio already.
+        let share = terms[0].factor.abs();
+        let max = peak.max.abs().max(peak.min.abs()) / share;
         let ratio = max / height;
         ratio.is_finite().then(|| DriftSummary { output: output.name.clone(), max, height, ratio })
     });
@@ -35,7 +38,7 @@ pub(crate) fn largest(model: &Model, peaks: &[Peak]) -> Option<DriftSummary> {
 fn height(model: &Model, terms: &[NodalTerm]) -> Option<f64> {
     let [a, b] = terms else { return None };
     let across = a.dof == b.dof && matches!(a.dof, Dof::Ux | Dof::Uy);
-    let opposite = a.factor.abs() == 1.0 && a.factor == -b.factor;
+    let opposite = a.factor == -b.factor;
     let up = |t: &NodalTerm| Some(model.nodes.get(t.node)?.position[2]);
     let height = (up(a)? - up(b)?).abs();
     (across && opposite && height > 0.0).then_some(height)

@@ -1,6 +1,6 @@
 //! Assembly of a model into reduced matrices.
 
-use crate::elastic::{EndForceRow, end_force_row};
+use crate::elastic::{EndForceRow, ReactionRow, end_force_row};
 use crate::links::mark_used;
 use crate::{ImpactMass, LinkSet, Massless, Reduction, SystemError};
 use trilith_element::{Dof, ElementMatrices, Geometry};
@@ -237,6 +237,22 @@ impl System {
             Some(m) => end_force_row(&m, &model.elements[element].nodes, end, dof, &self.reduction),
             None => EndForceRow::default(),
         }
+    }
+
+    /// What a support gives the structure at a direction that it fixes.
+    #[must_use]
+    pub fn reaction(&self, model: &Model, node: usize, dof: Dof) -> ReactionRow {
+        let mut row = ReactionRow::default();
+        for (element, e) in model.elements.iter().enumerate() {
+            for end in (0..e.nodes.len()).filter(|end| e.nodes[*end] == node) {
+                let own = self.end_force(model, element, end, dof);
+                let of_stiffness = own.stiffness.iter().map(|(j, k)| (*j, self.rayleigh[1] * k));
+                row.damping.extend(own.damping.iter().copied().chain(of_stiffness));
+                row.stiffness.extend(own.stiffness);
+            }
+        }
+        row.links = self.links.forces_on(model, node, dof);
+        row
     }
 
     /// Matrices of an element, made once more: kept, they would outweigh everything else.

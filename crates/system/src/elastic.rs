@@ -12,6 +12,17 @@ pub struct EndForceRow {
     pub damping: Vec<(usize, f64)>,
 }
 
+/// The force of a support as a linear combination: `Σ stiffness · u + Σ damping · u̇ + Σ links · f`.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct ReactionRow {
+    /// (reduced index, N/m …).
+    pub stiffness: Vec<(usize, f64)>,
+    /// (reduced index, N·s/m …); with the share of K in Rayleigh damping.
+    pub damping: Vec<(usize, f64)>,
+    /// (flat index of a link coordinate, share of its force).
+    pub links: Vec<(usize, f64)>,
+}
+
 pub(crate) fn end_force_row(
     matrices: &ElementMatrices,
     nodes: &[usize],

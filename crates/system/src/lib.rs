@@ -21,7 +21,7 @@ mod reduction;
 
 pub use assemble::System;
 pub use blocks::LinkBlocks;
-pub use elastic::EndForceRow;
+pub use elastic::{EndForceRow, ReactionRow};
 pub use error::SystemError;
 pub use finite_turns::{SmallTurn, small_turns};
 pub use impact::ImpactMass;

@@ -1,7 +1,7 @@
 //! Rows of B of a link over the full DOFs.
 
 use trilith_element::{Coordinates, Vector3, cross, norm, sub};
-use trilith_model::{Element, LinkOptions, Model};
+use trilith_model::{Body, Element, LinkOptions, Model};
 
 /// The row of the tilt of a link about a local axis: the rotations of its nodes by their shares of P-Δ.
 pub(crate) fn tilt_row(e: &Element, options: &LinkOptions, axis: &Vector3) -> Vec<(usize, f64)> {
@@ -14,6 +14,17 @@ pub(crate) fn tilt_row(e: &Element, options: &LinkOptions, axis: &Vector3) -> Ve
         along.map(move |(k, x)| (at + k, share * x)).filter(|(_, c)| *c != 0.0)
     };
     e.nodes.iter().zip(shares).flat_map(turned).collect()
+}
+
+/// Rows of B of an element over full DOFs, those of its tilts under P-Δ behind the others; none where it is no link.
+pub(crate) fn all_rows(model: &Model, element: usize) -> Vec<Vec<(usize, f64)>> {
+    let e = &model.elements[element];
+    let Body::Link(law, options) = &e.body else { return Vec::new() };
+    let mut rows = full_rows(model, element, &law.coordinates(), options.shear_at);
+    if options.p_delta_at.is_some() {
+        rows.extend(e.frame.0[1..].iter().map(|axis| tilt_row(e, options, axis)));
+    }
+    rows
 }
 
 /// Rows of B over full DOFs. A link between nodes apart stands between rigid arms of both to the place of its

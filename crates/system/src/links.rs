@@ -13,7 +13,7 @@ use trilith_model::{Body, Model};
 use crate::batch::{Pack, packs};
 use crate::dampers::Damper;
 use crate::leaning::{Leaning, TILTS};
-use crate::link_rows::{full_rows, tilt_row};
+use crate::link_rows::{all_rows, tilt_row};
 use crate::{Reduction, SystemError};
 
 /// One link in the flat arrays.
@@ -247,18 +247,13 @@ impl LinkSet {
                 });
             }
             let start = set.rows.len();
-            for terms in full_rows(model, element, &coordinates, options.shear_at) {
+            for terms in all_rows(model, element) {
                 set.push_row(reduction, &terms);
             }
             let settled = match options.p_delta_at {
                 Some(shares) => Some(Leaning::of(model, element, law, shares)?),
                 None => None,
             };
-            if settled.is_some() {
-                for axis in &e.frame.0[1..] {
-                    set.push_row(reduction, &tilt_row(e, options, axis));
-                }
-            }
             let n = set.rows.len() - start;
             match coordinates {
                 Coordinates::Local(axes) => {
@@ -307,6 +302,22 @@ impl LinkSet {
         let (free, support) = kept.partition::<Vec<_>, _>(|(j, _)| *j < order);
         self.rows.push(free);
         self.support_rows.push(support.into_iter().map(|(j, c)| (j - order, c)).collect());
+    }
+
+    /// What links exert against the displacement of a node's DOF, fixed or not: (flat index, share of its force).
+    #[must_use]
+    pub fn forces_on(&self, model: &Model, node: usize, dof: Dof) -> Vec<(usize, f64)> {
+        let full = 6 * node + dof.index();
+        let at = self.links.iter().filter(|l| model.elements[l.element].nodes.contains(&node));
+        at.flat_map(|link| {
+            let rows = all_rows(model, link.element).into_iter().zip(link.range.clone());
+            rows.filter_map(|(row, flat)| {
+                let share: f64 = row.iter().filter(|(i, _)| *i == full).map(|(_, c)| c).sum();
+                (share != 0.0).then_some((flat, share))
+            })
+            .collect::<Vec<_>>()
+        })
+        .collect()
     }
 
     /// Number of flat coordinates.

@@ -225,13 +225,15 @@ fn sections(
     let cases = cases::cases(c, case_entries, &about);
     let p_delta =
         top.get("p_delta").map_or(Some(None), |n| cases::p_delta(c, n, case_entries, &cases));
-    let mut outputs = outputs::outputs(
-        c,
-        c.section(&top, "outputs", false),
-        &node_names,
-        &element_names,
-        &elements,
-    );
+    let structure = outputs::Structure {
+        nodes: &node_names,
+        names: &element_names,
+        places: &nodes,
+        supports: &supports,
+        elements: &elements,
+        patterns: &patterns,
+    };
+    let mut outputs = outputs::outputs(c, c.section(&top, "outputs", false), &structure);
     let spectrum_entries = c.section(&top, "spectra", false);
     let spectra = spectra::spectra(c, spectrum_entries, &node_names, &mut outputs);
     Some(Model {

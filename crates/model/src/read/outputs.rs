@@ -2,6 +2,7 @@
 
 mod combination;
 mod forces;
+mod whole;
 
 use super::context::{Context, Fields};
 use super::names::Names;
@@ -9,16 +10,27 @@ use crate::diagnostic::names_help;
 use crate::expression::Quantity as Number;
 use crate::schema::{self, Block};
 use crate::tree::{Entry, Kind, Node};
-use crate::{Element, NodalTerm, Output, Quantity};
+use crate::{Element, NodalTerm, Output, Pattern, Quantity, Support};
 use trilith_element::Dimension;
 
 use super::motion::{nodal_dimension, unit};
+
+/// What outputs refer to.
+pub(super) struct Structure<'c, 'n> {
+    pub nodes: &'c Names<'n>,
+    pub names: &'c Names<'n>,
+    pub places: &'c [Option<crate::Node>],
+    pub supports: &'c [Option<Support>],
+    pub elements: &'c [Option<Element>],
+    pub patterns: &'c [Option<Pattern>],
+}
 
 struct Reading<'c, 'n> {
     c: &'c Context<'c>,
     nodes: &'c Names<'n>,
     names: &'c Names<'n>,
     elements: &'c [Option<Element>],
+    of: &'c Structure<'c, 'n>,
     /// Names and units of the outputs before.
     before: Vec<(String, Option<String>)>,
 }
@@ -26,11 +38,10 @@ struct Reading<'c, 'n> {
 pub(super) fn outputs(
     c: &Context<'_>,
     entries: &[Entry],
-    nodes: &Names<'_>,
-    names: &Names<'_>,
-    elements: &[Option<Element>],
+    of: &Structure<'_, '_>,
 ) -> Vec<Option<Output>> {
-    let mut reading = Reading { c, nodes, names, elements, before: Vec::new() };
+    let Structure { nodes, names, elements, .. } = *of;
+    let mut reading = Reading { c, nodes, names, elements, of, before: Vec::new() };
     let mut all = Vec::with_capacity(entries.len());
     for e in entries {
         let found = reading.output(e);
@@ -52,6 +63,10 @@ impl Reading<'_, '_> {
             "LinkDeformation" => self.link(&e.value, &what, kind, false),
             "LinkHistory" => self.history(&e.value, &what, kind),
             "ElementForce" => self.element_force(&e.value, &what, kind),
+            "BaseShear" => self.base_shear(&e.value, &what, kind),
+            "Overturning" => self.overturning(&e.value, &what, kind),
+            "StoreyDrift" => self.storey_drift(&e.value, &what, kind),
+            "Reaction" => self.reaction(&e.value, &what, kind),
             _ => combination::combination(self, &e.value, &what, kind),
         }
     }

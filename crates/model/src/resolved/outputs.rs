@@ -1,7 +1,8 @@
 //! Outputs of a resolved model.
 
-use super::{factor, text};
+use super::{factor, text, vector};
 use crate::read::nodal_dimension;
+use crate::schema::BASE_DIRECTIONS;
 use crate::units;
 use crate::{Body, Combine, LinkTerm, Model, NodalTerm, Output, Quantity};
 use trilith_element::dimension::{FORCE, LENGTH, MOMENT, NONE};
@@ -56,6 +57,19 @@ pub(super) fn output(model: &Model, o: &Output) -> String {
             let name = names(&mut elements.iter().copied());
             let by = factor(*by, total / own);
             format!("ElementForce(element: {name}, end: {end}, dof: {}, factor: {by})", dof.name())
+        }
+        Quantity::BaseShear { direction } => {
+            format!("BaseShear(direction: {})", BASE_DIRECTIONS[direction.index()])
+        }
+        Quantity::Overturning { direction, about } => {
+            let (direction, about) = (BASE_DIRECTIONS[direction.index()], vector(*about));
+            format!("Overturning(direction: {direction}, about: {about})")
+        }
+        Quantity::Reaction { nodes, dof, factor: by } => {
+            let by = factor(*by, total / own(true, dof.is_rotation()));
+            let all = nodes.iter().map(|i| text(&model.nodes[*i].name));
+            let all = all.collect::<Vec<_>>().join(", ");
+            format!("Reaction(node: [{all}], dof: {}, factor: {by})", dof.name())
         }
         Quantity::Combination { how, constant, terms } => {
             let one = |(i, by): &(usize, f64)| {

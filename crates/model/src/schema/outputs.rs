@@ -5,6 +5,10 @@ use super::{Block, DIRECTIONS, Field, Group, absent, needed, plain};
 
 /// Local axes of a link.
 static AXES: [&str; 6] = ["U1", "U2", "U3", "R1", "R2", "R3"];
+/// Directions of what acts sideways.
+pub static SIDEWAYS: [&str; 2] = ["X", "Y"];
+/// Motions along these.
+pub static ACROSS: [&str; 2] = ["Ux", "Uy"];
 const FACTOR: Field = plain("factor", Quantity, "1", "Factor, with or without unit.");
 const ONE: Field = absent("node", Name("node"), "`terms`", "The node.");
 const DIRECTION: Field = absent("dof", Choice(&DIRECTIONS), "`terms`", "Direction.");
@@ -106,6 +110,51 @@ pub static ELEMENT_FORCE: Block = Block {
         FACTOR,
     ],
 };
+/// Horizontal force on supports and ground.
+pub static BASE_SHEAR: Block = Block {
+    name: "BaseShear",
+    meaning: "Horizontal force that the structure passes to its supports and to the ground.",
+    example: "BaseShear(direction: X)",
+    fields: &[needed("direction", Choice(&SIDEWAYS), "Direction.")],
+};
+/// Overturning moment.
+pub static OVERTURNING: Block = Block {
+    name: "Overturning",
+    meaning: "Moment about a point of what the structure passes to its supports and to the ground; positive as of a \
+              force along `direction` above that point. Weights take part.",
+    example: r#"Overturning(direction: X, about: "0 m")"#,
+    fields: &[
+        needed("direction", Choice(&SIDEWAYS), "Direction in which it overturns."),
+        needed(
+            "about",
+            Words("a point (x, y, z), or a height"),
+            "The point; a height is that of a point at x = y = 0.",
+        ),
+    ],
+};
+/// Storey drift.
+pub static STOREY_DRIFT: Block = Block {
+    name: "StoreyDrift",
+    meaning: "Displacement of a node against one below it, over the height between them.",
+    example: r#"StoreyDrift(of: ["base", "m"], dof: Ux)"#,
+    fields: &[
+        needed("of", Words("two nodes, the lower one first"), "The nodes."),
+        needed("dof", Choice(&ACROSS), "Direction."),
+    ],
+};
+/// Force of supports.
+pub static REACTION: Block = Block {
+    name: "Reaction",
+    meaning: "Force or moment of supports on the structure, in sum: of the elements and links at a direction that they \
+              fix. Weight, inertia and damping by the mass of that direction itself go past the structure and are not \
+              in it.",
+    example: r#"Reaction(node: "base", dof: Uz)"#,
+    fields: &[
+        needed("node", Name("node"), "The node, a group of nodes or a list of nodes."),
+        needed("dof", Choice(&DIRECTIONS), "Direction, along which supports fix all of them."),
+        FACTOR,
+    ],
+};
 /// A part of a combination.
 pub static PARTS: Group = Group {
     name: "parts",
@@ -161,6 +210,10 @@ pub static OUTPUTS: Group = Group {
         &LINK_DEFORMATION,
         &LINK_HISTORY,
         &ELEMENT_FORCE,
+        &BASE_SHEAR,
+        &OVERTURNING,
+        &STOREY_DRIFT,
+        &REACTION,
         &SUM,
         &NORM,
         &LARGEST,

@@ -40,7 +40,7 @@ use crate::march::Segment;
 use crate::step::State;
 use crate::vector::larger;
 use serde::Serialize;
-use trilith_model::{Model, Output, Quantity};
+use trilith_model::Model;
 use trilith_system::LinkSet;
 
 /// The error of the steps over what the companion is away.
@@ -98,8 +98,8 @@ pub(crate) struct Certificate<'a> {
     reduction: Vec<f64>,
     /// Steps before the first time of comparison that were compared.
     asked: usize,
-    /// What the link equations may leave in the outputs that are link forces: kind of force, and share of the largest.
-    left: Vec<Option<(usize, f64)>>,
+    /// What the link equations may leave in the outputs that link forces are part of: shares of the largest ones.
+    left: Vec<ForceScale>,
     /// Largest link forces so far.
     forces: ForceScale,
     /// Smallest and largest value of each output so far.
@@ -117,17 +117,15 @@ impl<'a> Certificate<'a> {
         kicks: Option<Kicks>,
         link_tolerance: f64,
     ) -> Self {
-        let left = |output: &Output| match &output.quantity {
-            Quantity::LinkForce(terms) => {
-                let first = terms.first()?;
-                let link = links.links.iter().find(|link| link.element == first.element)?;
-                let kind = usize::from(links.rotational[link.range.start + first.coordinate]);
-                let factors: f64 = terms.iter().map(|t| t.factor.abs()).sum();
-                Some((kind, link_tolerance * factors))
-            }
-            _ => None,
-        };
         let count = model.outputs.len();
+        let left = |output: usize| {
+            let mut shares = [0.0; 2];
+            for (flat, factor) in samples.link_forces(output) {
+                shares[usize::from(links.rotational[*flat])] += link_tolerance * factor.abs();
+            }
+            shares
+        };
+        let left = (0..count).map(left).collect();
         Self {
             shadow,
             defect,
@@ -135,7 +133,7 @@ impl<'a> Certificate<'a> {
             samples,
             reduction: vec![0.0; count],
             asked: 0,
-            left: model.outputs.iter().map(left).collect(),
+            left,
             forces: [0.0; 2],
             range: vec![[0.0; 2]; count],
         }
@@ -227,7 +225,7 @@ impl<'a> Certificate<'a> {
         let kicked: Option<Vec<f64>> = self.kicks.as_ref().map(|kicks| kicks.errors().collect());
         let step = |i: usize| {
             let apart = apart.as_ref().map_or(f64::NAN, |apart| apart[i]);
-            let left = self.left[i].map_or(0.0, |(kind, share)| share * self.forces[kind]);
+            let left: f64 = self.left[i].iter().zip(&self.forces).map(|(share, f)| share * f).sum();
             let straight = self.defect.as_ref().map_or(0.0, |defect| ANSWERED * defect.most[i]);
             let unseen = UNSEEN * self.size(i) + ROUNDING * self.largest_alike(model, i);
             let kicked = kicked.as_ref().map_or(0.0, |kicked| kicked[i]);

@@ -61,6 +61,11 @@ impl<'a> Samples<'a> {
         }
     }
 
+    /// The link forces that an output is a sum of, by flat coordinate.
+    pub(super) fn link_forces(&self, output: usize) -> &[(usize, f64)] {
+        self.outputs.rows[output].link_forces()
+    }
+
     /// Takes the outputs at the end of a step in a segment, if that is a time of comparison.
     pub(crate) fn take(&mut self, segment: Segment, t: f64, state: &State) -> Option<&[f64]> {
         self.touches.follow(t, state);

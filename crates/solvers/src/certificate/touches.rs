@@ -12,7 +12,7 @@
 use crate::record::Outputs;
 use crate::step::State;
 use crate::structure::ReducedSystem;
-use trilith_model::{LinkTerm, Model, Quantity};
+use trilith_model::{Model, Quantity};
 use trilith_system::System;
 
 /// Share of the duration by which the moment of a jump may be off without a word.
@@ -61,19 +61,17 @@ impl Touches {
         let reduced = space.shape.is_some();
         let modes = if reduced { space.order() - space.readers.columns() } else { 0 };
         let of_modes = outputs.shares(modes);
-        let owner = |element: usize| system.links.links.iter().find(|l| l.element == element);
-        let share = |a: usize, flat: usize, output: usize| match &model.outputs[output].quantity {
-            Quantity::LinkForce(terms) => {
-                let own = |t: &&LinkTerm| {
-                    owner(t.element).is_some_and(|l| l.range.start + t.coordinate == flat)
-                };
-                terms.iter().filter(own).map(|t| t.factor).sum()
+        let share = |a: usize, flat: usize, output: usize| -> f64 {
+            match &model.outputs[output].quantity {
+                Quantity::Acceleration { .. } => {
+                    let row = space.links.row(a).filter(|(j, _)| *j < modes);
+                    row.map(|(j, share)| share * of_modes[output][2][j]).sum()
+                }
+                _ => {
+                    let own = outputs.rows[output].link_forces().iter();
+                    own.filter(|(i, _)| *i == flat).map(|(_, factor)| factor).sum()
+                }
             }
-            Quantity::Acceleration { .. } => {
-                let row = space.links.row(a).filter(|(j, _)| *j < modes);
-                row.map(|(j, share)| share * of_modes[output][2][j]).sum()
-            }
-            _ => 0.0,
         };
         let coordinate = |(a, flat): (usize, &usize)| {
             let shares = (0..model.outputs.len()).map(|o| (o, share(a, *flat, o).abs()));

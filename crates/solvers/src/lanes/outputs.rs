@@ -13,7 +13,7 @@ pub(super) enum Row<R, const M: usize> {
     Displacement { own: [R; M] },
     Velocity { own: [R; M] },
     Acceleration { own: [R; M], base: Vec<R> },
-    Element { stiffness: [R; M], damping: [R; M] },
+    Internal { stiffness: [R; M], damping: [R; M], links: Vec<(usize, R)> },
     Deformation { at: usize, factor: R },
     Force { first: (usize, R), more: Vec<(usize, R)> },
     History { at: usize },
@@ -136,10 +136,14 @@ impl<R: Real, const M: usize> Outputs<R, M> {
                     },
                 }
             }
-            Output::Element { .. } => Row::Element {
-                stiffness: modal(&|s| s.outputs[o].own().to_vec()),
-                damping: modal(&|s| s.outputs[o].base().to_vec()),
-            },
+            Output::Internal { links, .. } => {
+                let term = |k: usize| (places[links[k].0], get(&|s| s.outputs[o].terms()[k].1));
+                Row::Internal {
+                    stiffness: modal(&|s| s.outputs[o].own().to_vec()),
+                    damping: modal(&|s| s.outputs[o].base().to_vec()),
+                    links: (0..links.len()).map(term).collect(),
+                }
+            }
             Output::Deformation { at, .. } => {
                 Row::Deformation { at: places[*at], factor: get(&|s| s.outputs[o].factor()) }
             }
@@ -252,7 +256,7 @@ impl Output {
     fn own(&self) -> &[f64] {
         match self {
             Self::Motion { own, .. } => own,
-            Self::Element { stiffness, .. } => stiffness,
+            Self::Internal { stiffness, .. } => stiffness,
             _ => &[],
         }
     }
@@ -260,7 +264,7 @@ impl Output {
     fn base(&self) -> &[f64] {
         match self {
             Self::Motion { base, .. } => base,
-            Self::Element { damping, .. } => damping,
+            Self::Internal { damping, .. } => damping,
             _ => &[],
         }
     }
@@ -275,7 +279,9 @@ impl Output {
 
     fn terms(&self) -> &[(usize, f64)] {
         match self {
-            Self::Combination { terms, .. } | Self::Force { terms } => terms,
+            Self::Combination { terms, .. }
+            | Self::Force { terms }
+            | Self::Internal { links: terms, .. } => terms,
             _ => &[],
         }
     }

@@ -11,7 +11,7 @@ use crate::fna::{LONGEST, Modal};
 use crate::march::{StepControlState, Timeline, constant_force, potential};
 use crate::modal::Mode;
 use crate::modal::single_mode::{self};
-use crate::record::{Outputs, Row};
+use crate::record::{Internal, Outputs, Row};
 use crate::run::{Initial, bases, before, fna_modes, held_load, link_equations, start};
 use crate::step::{LinkStepper, State, Stepper, kinetic_and_strain};
 use crate::structure::ReducedSystem;
@@ -46,8 +46,8 @@ pub(super) enum Output {
     /// On displacements (0), velocities (1) or accelerations (2), and on the loads of each channel (base
     /// acceleration).
     Motion { order: usize, own: Vec<f64>, base: Vec<f64> },
-    /// On displacements and velocities.
-    Element { stiffness: Vec<f64>, damping: Vec<f64> },
+    /// On displacements and velocities, and Σ on forces of lane coordinates.
+    Internal { stiffness: Vec<f64>, damping: Vec<f64>, links: Vec<(usize, f64)> },
     /// Deformation of a lane coordinate.
     Deformation { at: usize, factor: f64 },
     /// Σ on forces of lane coordinates.
@@ -65,7 +65,7 @@ impl Output {
     fn kind(&self) -> (u8, Vec<usize>) {
         match self {
             Self::Motion { order, .. } => (0, vec![*order]),
-            Self::Element { .. } => (1, Vec::new()),
+            Self::Internal { links, .. } => (1, links.iter().map(|t| t.0).collect()),
             Self::Deformation { at, .. } => (2, vec![*at]),
             Self::Force { terms } => (3, terms.iter().map(|t| t.0).collect()),
             Self::History { at } => (4, vec![*at]),
@@ -440,6 +440,9 @@ fn outputs(
         turned(turn, &full)
     };
     let at = |i: usize| flat.iter().position(|x| *x == i);
+    let of_lanes = |terms: &[(usize, f64)]| -> Vec<(usize, f64)> {
+        terms.iter().filter_map(|(flat, factor)| Some((at(*flat)?, *factor))).collect()
+    };
     let rows = Outputs::new(model, system, space).rows;
     rows.iter()
         .zip(&model.outputs)
@@ -457,20 +460,19 @@ fn outputs(
             Row::Deformation { flat, factor } => {
                 at(*flat).map_or(Output::Zero, |at| Output::Deformation { at, factor: *factor })
             }
-            Row::Force { terms } => {
-                let terms = terms.iter().filter_map(|(flat, factor)| Some((at(*flat)?, *factor)));
-                match terms.collect::<Vec<_>>() {
-                    none if none.is_empty() => Output::Zero,
-                    terms => Output::Force { terms },
-                }
-            }
+            Row::Force { terms } => match of_lanes(terms) {
+                none if none.is_empty() => Output::Zero,
+                terms => Output::Force { terms },
+            },
             Row::History { at } => Output::History { at: *at },
             Row::Combination { how, constant, terms } => {
                 Output::Combination { how: *how, constant: *constant, terms: terms.clone() }
             }
-            Row::Element { stiffness, damping } => {
-                Output::Element { stiffness: dense(&stiffness.0), damping: dense(&damping.0) }
-            }
+            Row::Internal(Internal { stiffness, damping, links }) => Output::Internal {
+                stiffness: dense(&stiffness.0),
+                damping: dense(&damping.0),
+                links: of_lanes(links),
+            },
         })
         .collect()
 }

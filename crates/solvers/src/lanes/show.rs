@@ -31,8 +31,10 @@ pub(super) fn show<A: Arithmetic, const M: usize, const L: usize, const N: usize
             Row::Acceleration { own, base } => {
                 (dot(zero, own, &*state.a) + dot(zero, base, &state.amplitudes), None)
             }
-            Row::Element { stiffness, damping } => {
-                (dot(zero, stiffness, &*state.q) + dot(zero, damping, &*state.p), None)
+            Row::Internal { stiffness, damping, links } => {
+                let mut y = dot(zero, stiffness, &*state.q) + dot(zero, damping, &*state.p);
+                links.iter().for_each(|(at, share)| y = y + *share * state.f[*at]);
+                (y, None)
             }
             Row::Deformation { at, factor } => {
                 let v = if plan.rate { state.v[*at] } else { dot(zero, &plan.b[*at], &*state.p) };

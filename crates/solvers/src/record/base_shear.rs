@@ -4,11 +4,15 @@
 //!   V = tᵀ (K u + C u̇ + Bᵀ f)      t: everything that is free, moved by one unit along X or Y
 //! ```
 //!
+//! The overturning moment is the same with everything turned about a point. Constraints must let it turn as a rigid body;
+//! where they do not, such as `EqualDof` of nodes at different heights, what they pass on is in it.
+//!
 //! What acts between two places that are free drops out; what is left are the elements and links that stand on
 //! supports or the ground, whatever leads to them. C is that of the elements and the share of K in Rayleigh damping.
 //! Modal damping and its share of M act on the structure from outside, not through its supports, and are not in it.
 
 use super::observer::{Observer, Sample};
+use super::rows::Internal;
 use crate::step::State;
 use crate::structure::ReducedSystem;
 use serde::{Deserialize, Serialize};
@@ -18,17 +22,6 @@ use trilith_system::System;
 
 /// A term below this share of what it is the sum of is rounding.
 const ROUNDING: f64 = 1e-12;
-
-/// Terms over the coordinates of a solver, and over the moving supports.
-type Terms = (Vec<(usize, f64)>, Vec<(usize, f64)>);
-
-/// The base shear along one axis as a row over a state.
-struct Row {
-    stiffness: Terms,
-    damping: Terms,
-    /// Over the forces of links.
-    links: Vec<(usize, f64)>,
-}
 
 /// What is left of a sum of columns, where more than rounding is.
 #[derive(Default)]
@@ -51,16 +44,16 @@ impl Columns {
 
 /// The base shear along X and Y as rows over states.
 pub(super) struct Rows {
-    rows: [Row; 2],
+    rows: [Internal; 2],
     /// True where moving supports have a share.
     pub(crate) supported: bool,
 }
 
 impl Rows {
     pub(crate) fn new(system: &System, space: &ReducedSystem) -> Self {
-        let rows = [0, 1].map(|axis| row(system, space, axis));
-        let moved = |row: &Row| !(row.stiffness.1.is_empty() && row.damping.1.is_empty());
-        let supported = rows.iter().any(moved);
+        let unit = |axis: usize| move |full: usize| f64::from(u8::from(full % 6 == axis));
+        let rows = [0, 1].map(|axis| row(system, space, unit(axis)));
+        let supported = rows.iter().any(Internal::is_supported);
         Self { rows, supported }
     }
 
@@ -71,39 +64,29 @@ impl Rows {
         state: &State,
         supports: Option<&[Vec<f64>; 3]>,
     ) -> [f64; 2] {
-        let (u, v) = (&state.motion[..order], &state.motion[order..2 * order]);
-        self.rows.each_ref().map(|row| {
-            let mut force = sum(&row.stiffness.0, u) + sum(&row.damping.0, v);
-            if let Some([u, v, _]) = supports {
-                force += sum(&row.stiffness.1, u) + sum(&row.damping.1, v);
-            }
-            force + sum(&row.links, &state.f)
-        })
+        let motion = [&state.motion[..order], &state.motion[order..2 * order]];
+        self.rows.each_ref().map(|row| row.at(motion, supports, &state.f))
     }
 }
 
-fn sum(terms: &[(usize, f64)], x: &[f64]) -> f64 {
-    terms.iter().map(|(i, c)| c * x[*i]).sum()
-}
-
-fn row(system: &System, space: &ReducedSystem, axis: usize) -> Row {
-    let moves = |i: usize| system.reduction.free[i] % 6 == axis;
-    let of_rows = |a: &Sparse, factor: f64| -> Vec<(usize, f64)> {
-        let own = a.entries().filter(|(i, _, x)| moves(*i) && *x != 0.0);
-        own.map(|(_, j, x)| (j, factor * x)).collect()
-    };
+/// tᵀ (K u + C u̇ + Bᵀ f); t: by how much each of the full DOFs is moved.
+pub(super) fn row(system: &System, space: &ReducedSystem, t: impl Fn(usize) -> f64) -> Internal {
+    let moved: Vec<f64> = system.reduction.free.iter().map(|full| t(*full)).collect();
     let terms = |parts: &[(&Sparse, f64)]| {
         let mut columns = Columns::default();
-        parts.iter().for_each(|(a, factor)| columns.add(of_rows(a, *factor).into_iter()));
+        for (a, factor) in parts {
+            let own = a.entries().filter(|(i, _, x)| moved[*i] != 0.0 && *x != 0.0);
+            columns.add(own.map(|(i, j, x)| (j, factor * moved[i] * x)));
+        }
         columns.terms()
     };
     let of_stiffness = system.rayleigh[1];
     let links = system.links.rows.iter().enumerate().filter_map(|(flat, row)| {
-        let own = || row.iter().filter(|(i, _)| moves(*i)).map(|(_, c)| *c);
+        let own = || row.iter().map(|(i, c)| moved[*i] * c);
         let (sum, size) = (own().sum::<f64>(), own().map(f64::abs).sum::<f64>());
         (sum.abs() > ROUNDING * size).then_some((flat, sum))
     });
-    Row {
+    Internal {
         stiffness: (
             space.row(&terms(&[(&system.stiffness, 1.0)])),
             terms(&[(&system.stiffness_support, 1.0)]),

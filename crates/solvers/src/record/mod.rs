@@ -24,5 +24,5 @@ pub(crate) use ledger::Ledger;
 pub use observer::{Observer, Sample, Shape};
 pub(crate) use outputs::Outputs;
 pub use peak::Peak;
-pub(crate) use rows::Row;
+pub(crate) use rows::{Internal, Row};
 pub(crate) use view::{Viewer, needs_rates, show_static};

@@ -1,6 +1,6 @@
 //! The recorded quantities of a model, as rows over the coordinates of a solver.
 
-use super::rows::{Maker, Row};
+use super::rows::{Internal, Maker, Row, sum};
 use crate::step::State;
 use crate::structure::ReducedSystem;
 use std::ops::Range;
@@ -95,10 +95,6 @@ pub(crate) struct Outputs {
     absolute: bool,
 }
 
-fn sum(row: &[(usize, f64)], x: &[f64]) -> f64 {
-    row.iter().map(|(i, c)| c * x[*i]).sum()
-}
-
 impl Outputs {
     pub(crate) fn new(model: &Model, system: &System, space: &ReducedSystem) -> Self {
         let maker = Maker { model, system, space };
@@ -138,7 +134,7 @@ impl Outputs {
             match row {
                 Row::Nodal { order, own, .. } => add(*order, own),
                 Row::Deformation { .. } => add(0, stretch),
-                Row::Element { stiffness, damping } => {
+                Row::Internal(Internal { stiffness, damping, .. }) => {
                     add(0, &stiffness.0);
                     add(1, &damping.0);
                 }
@@ -160,7 +156,7 @@ impl Outputs {
                     (sum(own, motion[*order]), rate)
                 }
                 Row::Deformation { .. } => (sum(stretch, motion[0]), sum(stretch, motion[1])),
-                Row::Element { stiffness, damping } => {
+                Row::Internal(Internal { stiffness, damping, .. }) => {
                     (sum(&stiffness.0, motion[0]) + sum(&damping.0, motion[1]), f64::NAN)
                 }
                 Row::Force { .. } | Row::History { .. } | Row::Combination { .. } => {
@@ -247,11 +243,8 @@ impl Now<'_> {
                 Row::Combination { how, constant, terms } => {
                     combined(*how, *constant, terms, values)
                 }
-                Row::Element { stiffness, damping } => {
-                    sum(&stiffness.0, motion[0])
-                        + self.of_support(&stiffness.1, 0)
-                        + sum(&damping.0, motion[1])
-                        + self.of_support(&damping.1, 1)
+                Row::Internal(force) => {
+                    force.at([motion[0], motion[1]], self.support.as_deref(), &state.f)
                 }
             };
         }

@@ -1,6 +1,8 @@
 //! Recorded quantities as rows over the coordinates of a solver.
 
+use super::base_shear;
 use crate::structure::ReducedSystem;
+use trilith_element::{Dof, Vector3, sub};
 use trilith_model::{Combine, LinkTerm, Model, NodalTerm, Quantity};
 use trilith_system::{LinkInstance, System};
 
@@ -24,10 +26,8 @@ pub(crate) enum Row {
     History {
         at: usize,
     },
-    Element {
-        stiffness: Split,
-        damping: Split,
-    },
+    /// Of elements, and Σ on forces of links.
+    Internal(Internal),
     /// Of the rows before.
     Combination {
         how: Combine,
@@ -37,18 +37,71 @@ pub(crate) enum Row {
 }
 
 /// Terms (index, factor) on the coordinates of the solver and on prescribed displacements.
-pub(super) type Split = (Vec<(usize, f64)>, Vec<(usize, f64)>);
+pub(crate) type Split = (Vec<(usize, f64)>, Vec<(usize, f64)>);
+
+/// A force inside the structure.
+#[derive(Default)]
+pub(crate) struct Internal {
+    pub(crate) stiffness: Split,
+    pub(crate) damping: Split,
+    /// (flat index, share).
+    pub(crate) links: Vec<(usize, f64)>,
+}
+
+impl Internal {
+    /// True where moving supports have a share.
+    pub(super) fn is_supported(&self) -> bool {
+        !(self.stiffness.1.is_empty() && self.damping.1.is_empty())
+    }
+
+    /// At displacements and velocities of the structure, of moving supports, and forces of links.
+    pub(super) fn at(
+        &self,
+        motion: [&[f64]; 2],
+        supports: Option<&[Vec<f64>; 3]>,
+        f: &[f64],
+    ) -> f64 {
+        let [u, v] = motion;
+        let mut force = sum(&self.stiffness.0, u) + sum(&self.damping.0, v);
+        if let Some([u, v, _]) = supports {
+            force += sum(&self.stiffness.1, u) + sum(&self.damping.1, v);
+        }
+        force + sum(&self.links, f)
+    }
+}
+
+pub(super) fn sum(row: &[(usize, f64)], x: &[f64]) -> f64 {
+    row.iter().map(|(i, c)| c * x[*i]).sum()
+}
 
 impl Row {
+    /// The forces of links that it is a sum of, by flat coordinate.
+    pub(crate) fn link_forces(&self) -> &[(usize, f64)] {
+        match self {
+            Self::Force { terms } | Self::Internal(Internal { links: terms, .. }) => terms,
+            _ => &[],
+        }
+    }
+
     /// True where it needs moving supports.
     pub(super) fn is_supported(&self) -> bool {
         match self {
             Self::Nodal { support, .. } => !support.is_empty(),
-            Self::Element { stiffness, damping } => {
-                !(stiffness.1.is_empty() && damping.1.is_empty())
-            }
+            Self::Internal(force) => force.is_supported(),
             _ => false,
         }
+    }
+}
+
+/// Motion of a place at an arm from the point about which all turns by one unit as it overturns along X or Y.
+fn overturned(direction: Dof, arm: Vector3, dof: Dof) -> f64 {
+    let (along, turns) = if direction == Dof::Ux { (0, Dof::Ry) } else { (1, Dof::Rx) };
+    let sign = if turns == Dof::Ry { 1.0 } else { -1.0 };
+    match dof {
+        Dof::Uz => -arm[along],
+        _ if dof == direction => arm[2],
+        _ if dof == turns => sign,
+        _ => 0.0,
     }
 }
 
@@ -85,9 +138,41 @@ impl Maker<'_> {
                     stiffness.extend(row.stiffness.iter().map(|(i, c)| (*i, factor * c)));
                     damping.extend(row.damping.iter().map(|(i, c)| (*i, factor * c)));
                 }
-                Row::Element { stiffness: self.split(&stiffness), damping: self.split(&damping) }
+                self.internal(&stiffness, &damping, Vec::new())
+            }
+            Quantity::BaseShear { direction } => {
+                let unit = |full: usize| f64::from(u8::from(full % 6 == direction.index()));
+                Row::Internal(base_shear::row(self.system, self.space, unit))
+            }
+            Quantity::Overturning { direction, about } => {
+                let turned = |full: usize| {
+                    let place = self.model.nodes[full / 6].position;
+                    overturned(*direction, sub(place, *about), Dof::ALL[full % 6])
+                };
+                Row::Internal(base_shear::row(self.system, self.space, turned))
+            }
+            Quantity::Reaction { nodes, dof, factor } => {
+                let (mut stiffness, mut damping, mut links) = (Vec::new(), Vec::new(), Vec::new());
+                let by = |(i, c): (usize, f64)| (i, factor * c);
+                for node in nodes {
+                    let row = self.system.reaction(self.model, *node, *dof);
+                    stiffness.extend(row.stiffness.into_iter().map(by));
+                    damping.extend(row.damping.into_iter().map(by));
+                    links.extend(row.links.into_iter().map(by));
+                }
+                self.internal(&stiffness, &damping, links)
             }
         }
+    }
+
+    fn internal(
+        &self,
+        stiffness: &[(usize, f64)],
+        damping: &[(usize, f64)],
+        links: Vec<(usize, f64)>,
+    ) -> Row {
+        let [stiffness, damping] = [stiffness, damping].map(|terms| self.split(terms));
+        Row::Internal(Internal { stiffness, damping, links })
     }
 
     fn nodal(&self, terms: &[NodalTerm], order: usize, absolute: bool) -> Row {
