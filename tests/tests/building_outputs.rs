@@ -31,6 +31,9 @@ const MAST: &str = r#"(
     },
 )"#;
 
+/// A value by its name.
+type Named<'a> = &'a dyn Fn(&str) -> f64;
+
 #[test]
 fn a_mast_stands_as_statics_say() {
     let (model, system) = parse(MAST, &[]);
@@ -105,7 +108,7 @@ fn a_building_on_bearings_balances_under_all_solvers() {
     for solver in [SolverKind::Fna, SolverKind::Hht, SolverKind::RitzHht, SolverKind::FullNewton] {
         let (seen, _) = trace(&model, &system, solver);
         let at = |name: &str| output(&model, name);
-        let worst = |difference: &dyn Fn(&dyn Fn(&str) -> f64) -> f64| {
+        let worst = |difference: &dyn Fn(Named<'_>) -> f64| {
             let all = seen.history.iter().map(|values| difference(&|name| values[at(name)]).abs());
             all.fold(0.0, f64::max)
         };

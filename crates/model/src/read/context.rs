@@ -213,12 +213,14 @@ impl<'a> Context<'a> {
         };
         for e in entries.iter().filter(|e| !allowed.contains(&e.key.as_str())) {
             let message = format!("{what} has no field `{}`", e.key);
-            // What is there already is not meant.
-            let given = |name: &&str| entries.iter().any(|e| e.key == *name);
-            let allowed = || allowed.iter().copied().filter(|name| !given(name));
-            let help = names_help(&e.key, "fields", allowed());
+            // What is there already is hardly meant, unless nothing else is near.
+            let given = |name: &str| entries.iter().any(|e| e.key == name);
+            let free: Vec<&str> = allowed.iter().copied().filter(|name| !given(name)).collect();
+            let likely =
+                if closest(&e.key, free.iter().copied()).is_some() { &free[..] } else { allowed };
+            let help = names_help(&e.key, "fields", likely.iter().copied());
             let mut d = self.diagnostic("E0103", message, e.key_span.clone()).help(help);
-            if let Some(near) = closest(&e.key, allowed()) {
+            if let Some(near) = closest(&e.key, likely.iter().copied()) {
                 d = d.suggestion(e.key_span.clone(), near);
             }
             self.report(d);
