@@ -102,43 +102,41 @@ fn write(folder: &Path, name: &str, text: &str) -> Result<(), String> {
     std::fs::write(&path, text).map_err(|e| format!("{}: {e}", path.display()))
 }
 
-/// CPU time of the program with these words, s: what it needs least.
-fn time(program: &Path, folder: &Path, words: &[&str]) -> Result<f64, String> {
-    let mut times = Vec::new();
-    for _ in 0..TIMES {
-        let out = folder.join("out");
-        if out.exists() {
-            std::fs::remove_dir_all(&out).map_err(|e| format!("{}: {e}", out.display()))?;
-        }
-        let before = children_cpu();
-        let mut command = Command::new(program);
-        command.args(words).args(["--out", "out"]).current_dir(folder).stdin(Stdio::null());
-        let done = command
-            .env("RAYON_NUM_THREADS", "1")
-            .output()
-            .map_err(|e| format!("trilith cannot be started: {e}"))?;
-        if !done.status.success() {
-            let complaint = String::from_utf8_lossy(&done.stderr);
-            return Err(format!("trilith {} failed: {}", words.join(" "), complaint.trim()));
-        }
-        times.push(children_cpu() - before);
+/// CPU time of the program with these words, s.
+fn once(program: &Path, folder: &Path, words: &[&str]) -> Result<f64, String> {
+    let out = folder.join("out");
+    if out.exists() {
+        std::fs::remove_dir_all(&out).map_err(|e| format!("{}: {e}", out.display()))?;
     }
-    Ok(least(&times))
+    let before = children_cpu();
+    let mut command = Command::new(program);
+    command.args(words).args(["--out", "out"]).current_dir(folder).stdin(Stdio::null());
+    let done = command
+        .env("RAYON_NUM_THREADS", "1")
+        .output()
+        .map_err(|e| format!("trilith cannot be started: {e}"))?;
+    if !done.status.success() {
+        let complaint = String::from_utf8_lossy(&done.stderr);
+        return Err(format!("trilith {} failed: {}", words.join(" "), complaint.trim()));
+    }
+    Ok(children_cpu() - before)
 }
 
 fn swept(program: &Path, folder: &Path, (steps, model): (&str, &str)) -> Result<Swept, String> {
     write(folder, "block.ron", model)?;
     write(folder, "study.ron", &study())?;
-    let all = time(program, folder, &["sweep", "study.ron", "--threads", "1"])?;
+    let words = ["sweep", "study.ron", "--threads", "1"];
+    let times: Vec<f64> =
+        (0..TIMES).map(|_| once(program, folder, &words)).collect::<Result<_, _>>()?;
     let analyses = SIDE * SIDE;
-    Ok(Swept { steps: steps.to_owned(), analyses, each_s: all / analyses as f64 })
+    Ok(Swept { steps: steps.to_owned(), analyses, each_s: least(&times) / analyses as f64 })
 }
 
 fn ran(program: &Path, folder: &Path, size: &Size) -> Result<Ran, String> {
     write(folder, "frame.ron", &size.frame().to_ron())?;
     let (mut whole, mut step, mut steps) = (Vec::new(), Vec::new(), 0);
     for _ in 0..TIMES {
-        whole.push(time(program, folder, &["run", "frame.ron"])?);
+        whole.push(once(program, folder, &["run", "frame.ron"])?);
         let summary = folder.join("out").join("summary.json");
         let text = std::fs::read_to_string(&summary).map_err(|e| e.to_string())?;
         let of = |key: &str| {
