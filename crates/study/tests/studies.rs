@@ -1,58 +1,12 @@
 //! Studies from their text to their table.
 
+mod common;
+
+use common::{ALONE, MODEL, bytes, folder, read, run};
 use std::path::Path;
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
-use trilith::model::Diagnostic;
-use trilith_study::{Results, Study, StudyError, execute};
-
-/// A mass that slides on friction under one sine; `k` a spring that holds it, `f` makes the model fail.
-const MODEL: &str = r#"(
-    title: "Sliding mass",
-    plane: XZ, gravity: "9.81 m/s^2",
-    parameters: {
-        "mu": 0.3, "a": "1 m/s^2", "k": "0 N/m", "record": Text("quiet.csv"), "mass": "1 t",
-        "limit": 0.5,
-    },
-    nodes: { "cg": (0, 0, 0) },
-    elements: {
-        "mass": Mass(node: "cg", mass: "mass", inertia: (0, 1, 0)),
-        "upright": Spring(node: "cg", k1: "k", r3: "1 MN*m"),
-        "foot": NLink(node: "cg", kn: "10 MN/m", ks: "10 MN/m", mu: "mu", damping: "10 kN*s/m"),
-    },
-    functions: {
-        "pulse": Sine(amplitude: "a", frequency: "2 Hz", cycles: 1),
-        "more": Table(file: Parameter("record"), after_end: Zero, scale: "1 m/s^2"),
-    },
-    cases: {
-        "gravity": Static(loads: [Gravity]),
-        "shake": Dynamic(after: "gravity", duration: "0.6 s", dt: "10 ms",
-            base: [(direction: X, function: "pulse"), (direction: X, function: "more")],
-            energy_limit: "limit"),
-    },
-    outputs: { "slide": Displacement(node: "cg", dof: Ux) },
-)"#;
-
-fn folder() -> tempfile::TempDir {
-    let folder = tempfile::tempdir().unwrap();
-    std::fs::write(folder.path().join("mass.ron"), MODEL).unwrap();
-    std::fs::write(folder.path().join("quiet.csv"), "0,0\n1,0\n").unwrap();
-    std::fs::write(folder.path().join("loud.csv"), "0,2\n0.2,2\n0.21,0\n1,0\n").unwrap();
-    folder
-}
-
-fn read(folder: &Path, body: &str) -> Result<Study, Vec<Diagnostic>> {
-    let text = format!("(model: \"mass.ron\", {body})");
-    Study::read_text(&text, folder.join("study.ron"), &trilith::registry(), &[])
-}
-
-fn run(study: &Study, out: &Path, threads: usize) -> Result<Results, StudyError> {
-    execute(study, &trilith::registry(), out, threads, &|_| {}, &AtomicBool::new(false))
-}
-
-fn bytes(out: &Path, name: &str) -> Vec<u8> {
-    std::fs::read(out.join(name)).unwrap()
-}
+use trilith_study::{Study, StudyError, execute};
 
 const GRID: &str = r#"
     axes: { "a": Range(from: "1 m/s^2", to: "8 m/s^2", count: 8), "mu": [0.1, 0.3, "3*0.2"] },
@@ -169,98 +123,6 @@ fn a_series_ends_at_its_limit_and_ensembles_keep_their_members() {
     for name in ["table.csv", "statistics.csv", "study.html"] {
         assert_eq!(bytes(&again, name), bytes(&out, name), "{name}");
     }
-}
-
-/// The model with fixed steps, whose runs go side by side.
-fn with_fixed_steps(folder: &Path) {
-    let fixed = "energy_limit: \"limit\", step: Fixed(substeps: 20)";
-    let text = MODEL.replace("energy_limit: \"limit\"", fixed);
-    std::fs::write(folder.join("mass.ron"), text).unwrap();
-}
-
-#[test]
-fn small_models_go_side_by_side_and_give_the_same_numbers() {
-    let folder = folder();
-    // Adaptive steps are cut for the fast rotation in lanes, so that they are others.
-    side_by_side(&folder.path().join("adaptive"), 1e-3);
-    with_fixed_steps(folder.path());
-    side_by_side(&folder.path().join("fixed"), 1e-6);
-}
-
-/// What sends the runs of a study one by one: histories, which no run is worth.
-const ALONE: &str = r#"histories: Above("slide", "100 m"),"#;
-
-/// Runs a study side by side and one by one; `share`: how far they may be apart.
-fn side_by_side(out: &Path, share: f64) {
-    let folder = out.parent().unwrap();
-    let body = r#"
-        axes: { "mu": [0.1, 0.2, 0.3], "a": Range(from: "1 m/s^2", to: "8 m/s^2", count: 8) },
-        stop: (along: "a", when: Above("slide", "30 mm")),
-        columns: { "slide": Peak("slide"), "t": TimeOfPeak("slide"), "end": Final("slide"),
-            "slip": Slip, "heat": Energy("link_hysteretic"), "lost": EnergyError,
-            "rms": Rms("slide"), "long": Duration(output: "slide", above: "5 mm") },"#;
-    let beside = read(folder, body).unwrap();
-    let alone = read(folder, &format!("{body} {ALONE}")).unwrap();
-    let registry = trilith::registry();
-    assert_eq!(beside.alone(&registry), None);
-    assert!(alone.alone(&registry).unwrap().contains("histories"));
-    let [at, there] = ["beside", "alone"].map(|name| out.join(name));
-    let (found, expected) = (run(&beside, &at, 2).unwrap(), run(&alone, &there, 2).unwrap());
-    assert_eq!((found.beside, expected.beside), (found.records.len(), 0));
-    assert!(found.left_out > 0 && found.left_out == expected.left_out);
-    for (own, other) in found.records.iter().zip(&expected.records) {
-        assert_eq!((own.run, &own.status, &own.mode), (other.run, &other.status, &other.mode));
-        assert_eq!(own.initial_mode, other.initial_mode);
-        for ((x, y), column) in own.values.iter().zip(&other.values).zip(&beside.columns) {
-            let (x, y) = (x.unwrap(), y.unwrap());
-            // Straight lines between other moments cross a value elsewhere, by a small share of an output step of 10 ms.
-            let least = match &*column.name {
-                "lost" => share,
-                "long" => 0.2 * share,
-                _ => 1e-9,
-            };
-            assert!((x - y).abs() <= share * y.abs() + least, "{} {x} {y}", column.name);
-        }
-    }
-    // Whoever the neighbours are, and whatever was on disk.
-    let again = out.join("again");
-    std::fs::create_dir(&again).unwrap();
-    let journal = bytes(&at, "runs.journal");
-    std::fs::write(again.join("runs.journal"), &journal[..journal.len() / 3]).unwrap();
-    assert!(run(&beside, &again, 1).unwrap().resumed > 0);
-    assert_eq!(bytes(&again, "table.csv"), bytes(&at, "table.csv"));
-}
-
-#[test]
-fn what_fails_beside_others_says_so_as_alone() {
-    let folder = folder();
-    with_fixed_steps(folder.path());
-    let body = r#"points: [
-        { "mu": 0.3, "limit": 0.5, "mass": "1 t" }, { "mu": 0.2, "limit": 1e-300, "mass": "1 t" },
-        { "mu": 0.1, "limit": 0.5, "mass": "0 t" },
-    ], columns: { "slide": Peak("slide") },"#;
-    let made = |more: &str| {
-        let study = read(folder.path(), &format!("{body} {more}")).unwrap();
-        run(&study, &folder.path().join(format!("out{}", more.len())), 1).unwrap()
-    };
-    let (beside, alone) = (made(""), made(ALONE));
-    // One without mass does not fit, and goes by itself.
-    assert_eq!((beside.beside, alone.beside), (2, 0));
-    assert_eq!((beside.failed(), beside.records.len()), (1, 3));
-    for (own, other) in beside.records.iter().zip(&alone.records) {
-        assert_eq!((&own.status, own.good), (&other.status, other.good));
-        // But for the digits of the share.
-        let words = |text: &str| text.split_once('%').map(|(_, rest)| rest.to_owned());
-        assert_eq!(words(&own.message), words(&other.message));
-        assert_eq!(own.message.is_empty(), own.good);
-    }
-    // Friction below zero is refused, among others that run.
-    let random =
-        r#"seed: 2, samples: Random(count: 12, of: { "mu": Normal(mean: 0.1, deviation: 0.2) })"#;
-    let study = read(folder.path(), random).unwrap();
-    let results = run(&study, &folder.path().join("random"), 2).unwrap();
-    let refused = results.records.iter().filter(|r| r.status == "model error").count();
-    assert!(refused > 0 && results.beside == 12 - refused, "{refused} {}", results.beside);
 }
 
 #[test]
