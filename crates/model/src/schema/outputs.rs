@@ -121,7 +121,8 @@ pub static BASE_SHEAR: Block = Block {
 pub static OVERTURNING: Block = Block {
     name: "Overturning",
     meaning: "Moment about a point of what the structure passes to its supports and to the ground; positive as of a \
-              force along `direction` above that point. Weights take part.",
+              force along `direction` above that point. Weights take part, and so does what an `EqualDof` passes on \
+              between nodes at different heights.",
     example: r#"Overturning(direction: X, about: "0 m")"#,
     fields: &[
         needed("direction", Choice(&SIDEWAYS), "Direction in which it overturns."),

@@ -1,7 +1,8 @@
 //! The wider structure beside a run, in a thread of its own.
 //!
-//! It moves under the link forces of the run, and what these would answer to it, and gives nothing back, so the run reports its steps to it, many at a time,
-//! and reads at the end what it has found. On two processors the run waits for nothing.
+//! It moves under the link forces of the run, and what these would answer to it, and gives nothing back, so the run
+//! reports its steps to it, many at a time, and reads at the end what it has found. On two processors the run waits for
+//! nothing.
 
 use super::shadow::Shadow;
 use crate::step::State;
