@@ -22,6 +22,8 @@ pub trait Arithmetic: Copy + Send + Sync {
     type Real: Real;
     /// Number of lanes.
     const WIDTH: usize;
+    /// True where hardly a machine computes with it: one size of compiled code is enough then.
+    const IS_RARE: bool = false;
 
     /// Runs a task with all instructions that the machine has.
     fn run<T: Task<Self>>(self, task: T) -> T::Output;
@@ -99,8 +101,11 @@ pub struct Portable;
 impl Arithmetic for Portable {
     type Real = f64;
     const WIDTH: usize = 1;
+    // Processors of this kind have had FMA since 2013.
+    const IS_RARE: bool = cfg!(target_arch = "x86_64");
 
-    #[inline(always)]
+    // A call, as with vectors.
+    #[inline(never)]
     fn run<T: Task<Self>>(self, task: T) -> T::Output {
         task.run(self)
     }
@@ -136,15 +141,15 @@ impl Arithmetic for Portable {
     }
     #[inline(always)]
     fn force(self, law: &ErasedLaw, links: &mut LaneLinks<'_, f64>) {
-        (law.portable.force)(links);
+        (law.portable.force)(self, links);
     }
     #[inline(always)]
     fn commit(self, law: &ErasedLaw, links: &mut LaneLinks<'_, f64>, out: &mut [LaneStep<f64>]) {
-        (law.portable.commit)(links, out);
+        (law.portable.commit)(self, links, out);
     }
     #[inline(always)]
     fn respond(self, law: &ErasedLaw, links: &mut LaneLinks<'_, f64>, out: &mut [LaneStep<f64>]) {
-        (law.portable.respond)(links, out);
+        (law.portable.respond)(self, links, out);
     }
     #[inline(always)]
     fn contacts(
@@ -154,7 +159,7 @@ impl Arithmetic for Portable {
         out: &mut [LaneContact<f64>],
         fallen: &mut [f64],
     ) {
-        (law.portable.contacts)(links, out, fallen);
+        (law.portable.contacts)(self, links, out, fallen);
     }
 }
 

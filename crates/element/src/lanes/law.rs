@@ -1,13 +1,14 @@
 //! Laws over lanes, and how a sweep calls them.
 
-use super::Real;
 #[cfg(target_arch = "x86_64")]
-use super::side_by_side::RespondTogether;
+use super::side_by_side::respond_together;
+use super::{Arithmetic, Portable, Real, Task};
 #[cfg(target_arch = "x86_64")]
-use super::{Arithmetic, Avx2Lanes, Avx512Lanes, FusedOne, Task};
+use super::{Avx2Lanes, Avx512Lanes, Fused, FusedOne};
 use crate::{Contact, Energy, Kinematics};
 use std::any::TypeId;
 use std::fmt;
+use std::marker::PhantomData;
 
 /// What a law is asked about, as [`Kinematics`](crate::Kinematics) and the committed history, with the
 /// parameters of the link.
@@ -273,51 +274,9 @@ impl<'a, R: Real> LaneLinks<'a, R> {
 /// What a caller has missed.
 const AT_ONCE: &str = "this law over lanes answers at once, not in parts";
 
-#[inline(always)]
-fn force_all<L: LaneLaw, R: Real>(links: &mut LaneLinks<'_, R>) {
-    for i in 0..links.d.len() / L::COORDINATES {
-        let at = links.question::<L>(i);
-        links.force::<L>(i, &at);
-    }
-}
-
-#[inline(always)]
-fn commit_all<L: LaneLaw, R: Real>(links: &mut LaneLinks<'_, R>, steps: &mut [LaneStep<R>]) {
-    for (i, step) in steps.iter_mut().enumerate() {
-        let at = links.question::<L>(i);
-        *step = links.commit::<L>(i, &at);
-    }
-}
-
-#[inline(always)]
-fn respond_all<L: LaneLaw, R: Real>(links: &mut LaneLinks<'_, R>, steps: &mut [LaneStep<R>]) {
-    for (i, step) in steps.iter_mut().enumerate() {
-        *step = links.respond::<L>(i);
-    }
-}
-
-#[inline(always)]
-fn contacts_all<L: LaneLaw, R: Real>(
-    links: &LaneLinks<'_, R>,
-    out: &mut [LaneContact<R>],
-    fallen: &mut [R],
-) {
-    let (n, c) = (L::COORDINATES, L::CONTACTS);
-    for (i, fallen) in fallen.iter_mut().enumerate() {
-        let at = links.question::<L>(i);
-        *fallen = L::contacts(&at, &links.f[i * n..(i + 1) * n], &mut out[i * c..(i + 1) * c]);
-    }
-}
-
-type ForceOf<R> = fn(&mut LaneLinks<'_, R>);
-type ContactsOf<R> = fn(&LaneLinks<'_, R>, &mut [LaneContact<R>], &mut [R]);
-type CommitOf<R> = fn(&mut LaneLinks<'_, R>, &mut [LaneStep<R>]);
-#[cfg(target_arch = "x86_64")]
 type ForceBy<A> = fn(A, &mut LaneLinks<'_, <A as Arithmetic>::Real>);
-#[cfg(target_arch = "x86_64")]
 type CommitBy<A> =
     fn(A, &mut LaneLinks<'_, <A as Arithmetic>::Real>, &mut [LaneStep<<A as Arithmetic>::Real>]);
-#[cfg(target_arch = "x86_64")]
 type ContactsBy<A> = fn(
     A,
     &LaneLinks<'_, <A as Arithmetic>::Real>,
@@ -334,7 +293,6 @@ pub(super) struct Entries<F, C, T> {
     pub contacts: T,
 }
 
-#[cfg(target_arch = "x86_64")]
 type EntriesBy<A> = Entries<ForceBy<A>, CommitBy<A>, ContactsBy<A>>;
 
 /// A law over lanes without its type: entries for every [`Arithmetic`].
@@ -354,7 +312,7 @@ pub struct ErasedLaw {
     pub falls: bool,
     /// True where forces and the end of a step may be asked for one after the other.
     pub in_parts: bool,
-    pub(super) portable: Entries<ForceOf<f64>, CommitOf<f64>, ContactsOf<f64>>,
+    pub(super) portable: EntriesBy<Portable>,
     #[cfg(target_arch = "x86_64")]
     pub(super) fused: EntriesBy<FusedOne>,
     #[cfg(target_arch = "x86_64")]
@@ -369,82 +327,105 @@ impl fmt::Debug for ErasedLaw {
     }
 }
 
-#[cfg(target_arch = "x86_64")]
-struct ForceTask<'a, 'b, L, R>(&'a mut LaneLinks<'b, R>, std::marker::PhantomData<L>);
+// One link to a task: a law inside a loop takes several times as long to compile. Only what lanes ask in every step is
+// worth that: a call for each link takes 3 % of a sweep.
 
-#[cfg(target_arch = "x86_64")]
+struct ForceTask<'a, 'b, L, R>(&'a mut LaneLinks<'b, R>, usize, PhantomData<L>);
+
 impl<A: Arithmetic, L: LaneLaw> Task<A> for ForceTask<'_, '_, L, A::Real> {
     type Output = ();
     #[inline(always)]
     fn run(self, _: A) {
-        force_all::<L, A::Real>(self.0);
+        let at = self.0.question::<L>(self.1);
+        self.0.force::<L>(self.1, &at);
     }
 }
 
-#[cfg(target_arch = "x86_64")]
-struct CommitTask<'a, 'b, L, R>(
-    &'a mut LaneLinks<'b, R>,
-    &'a mut [LaneStep<R>],
-    std::marker::PhantomData<L>,
-);
+struct CommitTask<'a, 'b, L, R>(&'a mut LaneLinks<'b, R>, usize, PhantomData<L>);
 
-#[cfg(target_arch = "x86_64")]
 impl<A: Arithmetic, L: LaneLaw> Task<A> for CommitTask<'_, '_, L, A::Real> {
-    type Output = ();
+    type Output = LaneStep<A::Real>;
     #[inline(always)]
-    fn run(self, _: A) {
-        commit_all::<L, A::Real>(self.0, self.1);
+    fn run(self, _: A) -> LaneStep<A::Real> {
+        let at = self.0.question::<L>(self.1);
+        self.0.commit::<L>(self.1, &at)
     }
 }
 
 #[cfg(target_arch = "x86_64")]
-struct RespondTask<'a, 'b, L, R>(
-    &'a mut LaneLinks<'b, R>,
-    &'a mut [LaneStep<R>],
-    std::marker::PhantomData<L>,
+pub(super) struct RespondTask<'a, 'b, L>(
+    pub &'a mut LaneLinks<'b, Fused>,
+    pub usize,
+    pub PhantomData<L>,
 );
 
 #[cfg(target_arch = "x86_64")]
-impl<A: Arithmetic, L: LaneLaw> Task<A> for RespondTask<'_, '_, L, A::Real> {
-    type Output = ();
+impl<L: LaneLaw> Task<FusedOne> for RespondTask<'_, '_, L> {
+    type Output = LaneStep<Fused>;
     #[inline(always)]
-    fn run(self, _: A) {
-        respond_all::<L, A::Real>(self.0, self.1);
+    fn run(self, _: FusedOne) -> LaneStep<Fused> {
+        self.0.respond::<L>(self.1)
     }
 }
 
-#[cfg(target_arch = "x86_64")]
+struct RespondAll<'a, 'b, L, R>(&'a mut LaneLinks<'b, R>, &'a mut [LaneStep<R>], PhantomData<L>);
+
+impl<A: Arithmetic, L: LaneLaw> Task<A> for RespondAll<'_, '_, L, A::Real> {
+    type Output = ();
+    #[inline(always)]
+    fn run(self, _: A) {
+        let Self(links, steps, _) = self;
+        for (i, step) in steps.iter_mut().enumerate() {
+            *step = links.respond::<L>(i);
+        }
+    }
+}
+
 struct ContactsTask<'a, 'b, L, R>(
     &'a LaneLinks<'b, R>,
+    usize,
     &'a mut [LaneContact<R>],
-    &'a mut [R],
-    std::marker::PhantomData<L>,
+    PhantomData<L>,
 );
 
-#[cfg(target_arch = "x86_64")]
 impl<A: Arithmetic, L: LaneLaw> Task<A> for ContactsTask<'_, '_, L, A::Real> {
-    type Output = ();
+    type Output = A::Real;
     #[inline(always)]
-    fn run(self, _: A) {
-        contacts_all::<L, A::Real>(self.0, self.1, self.2);
+    fn run(self, _: A) -> A::Real {
+        let Self(links, i, out, _) = self;
+        let (n, c) = (L::COORDINATES, L::CONTACTS);
+        let at = links.question::<L>(i);
+        L::contacts(&at, &links.f[i * n..(i + 1) * n], &mut out[i * c..(i + 1) * c])
     }
 }
 
-#[cfg(target_arch = "x86_64")]
-fn entries_by<A: Arithmetic, L: LaneLaw>() -> EntriesBy<A> {
-    use std::marker::PhantomData;
+fn respond_all<A: Arithmetic, L: LaneLaw>(
+    with: A,
+    links: &mut LaneLinks<'_, A::Real>,
+    out: &mut [LaneStep<A::Real>],
+) {
+    with.run(RespondAll::<L, _>(links, out, PhantomData));
+}
+
+fn entries_by<A: Arithmetic, L: LaneLaw>(respond: CommitBy<A>) -> EntriesBy<A> {
     Entries {
         force: |with, links| {
             assert!(const { L::IN_PARTS }, "{AT_ONCE}");
-            with.run(ForceTask::<L, _>(links, PhantomData));
+            for i in 0..links.d.len() / L::COORDINATES {
+                with.run(ForceTask::<L, _>(links, i, PhantomData));
+            }
         },
         commit: |with, links, out| {
             assert!(const { L::IN_PARTS }, "{AT_ONCE}");
-            with.run(CommitTask::<L, _>(links, out, PhantomData));
+            for (i, step) in out.iter_mut().enumerate() {
+                *step = with.run(CommitTask::<L, _>(links, i, PhantomData));
+            }
         },
-        respond: |with, links, out| with.run(RespondTask::<L, _>(links, out, PhantomData)),
+        respond,
         contacts: |with, links, out, fallen| {
-            with.run(ContactsTask::<L, _>(links, out, fallen, PhantomData));
+            for (i, fallen) in fallen.iter_mut().enumerate() {
+                *fallen = with.run(ContactsTask::<L, _>(links, i, out, PhantomData));
+            }
         },
     }
 }
@@ -461,27 +442,13 @@ impl ErasedLaw {
             contacts: L::CONTACTS,
             falls: L::FALLS,
             in_parts: L::IN_PARTS,
-            portable: Entries {
-                force: |links| {
-                    assert!(const { L::IN_PARTS }, "{AT_ONCE}");
-                    force_all::<L, f64>(links);
-                },
-                commit: |links, out| {
-                    assert!(const { L::IN_PARTS }, "{AT_ONCE}");
-                    commit_all::<L, f64>(links, out);
-                },
-                respond: |links, out| respond_all::<L, f64>(links, out),
-                contacts: |links, out, fallen| contacts_all::<L, f64>(links, out, fallen),
-            },
+            portable: entries_by::<Portable, L>(respond_all::<Portable, L>),
             #[cfg(target_arch = "x86_64")]
-            fused: Entries {
-                respond: |with, links, out| with.run(RespondTogether::<L>::new(links, out)),
-                ..entries_by::<FusedOne, L>()
-            },
+            fused: entries_by::<FusedOne, L>(respond_together::<L>),
             #[cfg(target_arch = "x86_64")]
-            avx2: entries_by::<Avx2Lanes, L>(),
+            avx2: entries_by::<Avx2Lanes, L>(respond_all::<Avx2Lanes, L>),
             #[cfg(target_arch = "x86_64")]
-            avx512: entries_by::<Avx512Lanes, L>(),
+            avx512: entries_by::<Avx512Lanes, L>(respond_all::<Avx512Lanes, L>),
         }
     }
 }

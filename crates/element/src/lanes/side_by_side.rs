@@ -1,13 +1,14 @@
-//! Links of one analysis side by side: a law looks at two or four of them at once, each in a lane of one register.
+//! Links of one analysis side by side: a law looks at up to four of them at once, each in a lane of one register.
 //! Every link gets the bits that it gets alone.
 
-use super::{Fused, FusedOne, LaneAt, LaneForce, LaneLaw, LaneLinks, LaneStep};
+use super::law::RespondTask;
+use super::{Arithmetic, Fused, FusedOne, LaneAt, LaneForce, LaneLaw, LaneLinks, LaneStep};
 use super::{Task, Wide};
 use pulp::f64x4;
 use pulp::x86::V3;
 use std::marker::PhantomData;
 
-/// Four links, or two twice.
+/// Four links.
 type Four = Wide<V3, 1>;
 
 /// Most coordinates, history variables and parameters of a link that goes with others.
@@ -20,103 +21,86 @@ const fn fit<L: LaneLaw>() -> bool {
 }
 
 /// Forces, tangents and the end of a step for links of a law, as many side by side as there are.
-pub(super) struct RespondTogether<'a, 'b, L> {
+pub(super) fn respond_together<L: LaneLaw>(
+    with: FusedOne,
+    links: &mut LaneLinks<'_, Fused>,
+    steps: &mut [LaneStep<Fused>],
+) {
+    let mut first = 0;
+    if const { fit::<L>() } {
+        while steps.len() - first >= 2 {
+            let count = (steps.len() - first).min(4);
+            let steps = &mut steps[first..first + count];
+            with.run(RespondGroup::<L> { links, first, steps, law: PhantomData });
+            first += count;
+        }
+    }
+    for i in first..steps.len() {
+        steps[i] = with.run(RespondTask::<L>(links, i, PhantomData));
+    }
+}
+
+/// Two to four links from `first` on; a task for each group, as a law inside a loop takes several times as long to compile.
+struct RespondGroup<'a, 'b, L> {
     links: &'a mut LaneLinks<'b, Fused>,
+    first: usize,
     steps: &'a mut [LaneStep<Fused>],
     law: PhantomData<L>,
 }
 
-impl<'a, 'b, L: LaneLaw> RespondTogether<'a, 'b, L> {
-    pub(super) fn new(
-        links: &'a mut LaneLinks<'b, Fused>,
-        steps: &'a mut [LaneStep<Fused>],
-    ) -> Self {
-        Self { links, steps, law: PhantomData }
-    }
-}
-
-impl<L: LaneLaw> Task<FusedOne> for RespondTogether<'_, '_, L> {
+impl<L: LaneLaw> Task<FusedOne> for RespondGroup<'_, '_, L> {
     type Output = ();
 
     #[inline(always)]
     fn run(self, with: FusedOne) {
-        let Self { links, steps, .. } = self;
-        let mut first = 0;
-        if const { fit::<L>() } {
-            // The usual ones stand for themselves: where a group is all there is, bounds cost next to nothing.
-            match steps.len() {
-                2 => return respond_group::<L, 2>(with.0, links, 0, steps),
-                4 => return respond_group::<L, 4>(with.0, links, 0, steps),
-                _ => {}
-            }
-            while steps.len() - first >= 4 {
-                respond_group::<L, 4>(with.0, links, first, steps);
-                first += 4;
-            }
-            if steps.len() - first >= 2 {
-                respond_group::<L, 2>(with.0, links, first, steps);
-                first += 2;
-            }
-        }
-        for i in first..steps.len() {
-            steps[i] = links.respond::<L>(i);
-        }
-    }
-}
-
-/// The links `first` … `first + G`.
-#[inline(always)]
-fn respond_group<L: LaneLaw, const G: usize>(
-    simd: V3,
-    links: &mut LaneLinks<'_, Fused>,
-    first: usize,
-    steps: &mut [LaneStep<Fused>],
-) {
-    let (n, h, p) = (L::COORDINATES, L::HISTORY, L::PARAMETERS);
-    let group = Group::<G> { simd, first };
-    let zero = group.splat(Fused(0.0));
-    let parameters = group.read::<NUMBERS>(links.parameters, p);
-    let history = group.read::<NUMBERS>(links.history, h);
-    let d = group.read::<COORDINATES>(links.d, n);
-    let v = group.read::<COORDINATES>(links.v, n);
-    let d0 = group.read::<COORDINATES>(links.d0, n);
-    let v0 = group.read::<COORDINATES>(links.v0, n);
-    let at = LaneAt {
-        parameters: &parameters[..p],
-        d: &d[..n],
-        v: &v[..n],
-        d0: &d0[..n],
-        v0: &v0[..n],
-        dt: group.splat(links.dt),
-        history: &history[..h],
-    };
-    let (mut f, mut k, mut c) =
-        ([zero; COORDINATES], [zero; COORDINATES * COORDINATES], [zero; COORDINATES * COORDINATES]);
-    let mut force = LaneForce { f: &mut f[..n], k: &mut k[..n * n], c: &mut c[..n * n] };
-    let mut trial = [zero; NUMBERS];
-    let step = L::respond(&at, &mut force, &mut trial[..h]);
-    group.write(links.f, n, &f);
-    group.write(links.k, n * n, &k);
-    group.write(links.c, n * n, &c);
-    group.write(links.trial, h, &trial);
-    for (lane, to) in steps[first..][..G].iter_mut().enumerate() {
-        let of = |x: Four| lane_of(x, lane);
-        *to = LaneStep {
-            stored: of(step.stored),
-            hysteretic: of(step.hysteretic),
-            viscous: of(step.viscous),
+        let Self { links, first, steps, .. } = self;
+        let (n, h, p) = (L::COORDINATES, L::HISTORY, L::PARAMETERS);
+        let group = Group { simd: with.0, first, count: steps.len() };
+        let zero = group.splat(Fused(0.0));
+        let parameters = group.read::<NUMBERS>(links.parameters, p);
+        let history = group.read::<NUMBERS>(links.history, h);
+        let d = group.read::<COORDINATES>(links.d, n);
+        let v = group.read::<COORDINATES>(links.v, n);
+        let d0 = group.read::<COORDINATES>(links.d0, n);
+        let v0 = group.read::<COORDINATES>(links.v0, n);
+        let at = LaneAt {
+            parameters: &parameters[..p],
+            d: &d[..n],
+            v: &v[..n],
+            d0: &d0[..n],
+            v0: &v0[..n],
+            dt: group.splat(links.dt),
+            history: &history[..h],
         };
+        let mut f = [zero; COORDINATES];
+        let [mut k, mut c] = [[zero; COORDINATES * COORDINATES]; 2];
+        let mut force = LaneForce { f: &mut f[..n], k: &mut k[..n * n], c: &mut c[..n * n] };
+        let mut trial = [zero; NUMBERS];
+        let step = L::respond(&at, &mut force, &mut trial[..h]);
+        group.write(links.f, n, &f);
+        group.write(links.k, n * n, &k);
+        group.write(links.c, n * n, &c);
+        group.write(links.trial, h, &trial);
+        for (lane, to) in steps.iter_mut().enumerate() {
+            let of = |x: Four| lane_of(x, lane);
+            *to = LaneStep {
+                stored: of(step.stored),
+                hysteretic: of(step.hysteretic),
+                viscous: of(step.viscous),
+            };
+        }
     }
 }
 
-/// `G` links from `first` on.
+/// So many links from `first` on; where there are fewer than four, the last goes in the lanes that are left.
 #[derive(Clone, Copy)]
-struct Group<const G: usize> {
+struct Group {
     simd: V3,
     first: usize,
+    count: usize,
 }
 
-impl<const G: usize> Group<G> {
+impl Group {
     #[inline(always)]
     fn splat(self, x: Fused) -> Four {
         Wide::splat(self.simd, x.0)
@@ -125,10 +109,12 @@ impl<const G: usize> Group<G> {
     /// The numbers of the links, `count` to each and not more than `N`.
     #[inline(always)]
     fn read<const N: usize>(self, from: &[Fused], count: usize) -> [Four; N] {
-        let from = &from[self.first * count..][..G * count];
+        let from = &from[self.first * count..][..self.count * count];
+        let links: [&[Fused]; 4] =
+            std::array::from_fn(|lane| &from[lane.min(self.count - 1) * count..][..count]);
         let mut to = [self.splat(Fused(0.0)); N];
         for i in 0..count {
-            let of = |lane: usize| from[lane % G * count + i].0;
+            let of = |lane: usize| links[lane][i].0;
             to[i] = Wide::of_registers(self.simd, [f64x4(of(0), of(1), of(2), of(3))]);
         }
         to
@@ -136,8 +122,8 @@ impl<const G: usize> Group<G> {
 
     #[inline(always)]
     fn write(self, to: &mut [Fused], count: usize, from: &[Four]) {
-        let to = &mut to[self.first * count..][..G * count];
-        for lane in 0..G {
+        let to = &mut to[self.first * count..][..self.count * count];
+        for lane in 0..self.count {
             for i in 0..count {
                 to[lane * count + i] = lane_of(from[i], lane);
             }

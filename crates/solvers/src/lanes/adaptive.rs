@@ -61,7 +61,7 @@ impl<A: Arithmetic, const M: usize, const L: usize, const N: usize> Task<A>
                     plan = Plan::new(with, &seats.own);
                     let who = mask(with, |i| fresh[i]);
                     let before = std::mem::replace(&mut at, State::new(with, &seats.own, &plan));
-                    with.run(Keep { mask: who, to: &mut at, from: &before });
+                    with.run(Keep { plan: &plan, mask: who, to: &mut at, from: &before });
                     norms.take(who, &Norms::new(with, &seats.own));
                     for i in (0..ways.len()).filter(|i| fresh[*i]) {
                         sizes.forget(i);

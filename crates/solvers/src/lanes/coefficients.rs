@@ -22,7 +22,7 @@ pub(super) struct Rule<R, const M: usize, const L: usize> {
 
 impl<R: Real, const M: usize, const L: usize> Rule<R, M, L> {
     /// Of a step size of each analysis, and what its modes make of it.
-    #[inline(always)]
+    #[inline(never)]
     pub fn new<A: Arithmetic<Real = R>, const N: usize>(
         with: A,
         plan: &Plan<R, M, L, N>,
@@ -52,8 +52,8 @@ impl<R: Real, const M: usize, const L: usize> Rule<R, M, L> {
     #[inline(always)]
     pub fn of_length<const N: usize>(&mut self, plan: &Plan<R, M, L, N>, dt: R) {
         (self.dt, self.per_dt, self.third) = (dt, dt.of(1.0) / dt, dt * dt.of(1.0 / 3.0));
-        compliance(plan, &self.c, 1, &mut self.g);
-        compliance(plan, &self.c, 2, &mut self.h);
+        compliance(plan, &self.c, (1, true), &mut self.g);
+        compliance(plan, &self.c, (2, plan.rate), &mut self.h);
     }
 
     /// Of the usual step.
@@ -82,21 +82,34 @@ impl<R: Real, const M: usize, const L: usize> Rule<R, M, L> {
     }
 }
 
-/// What coordinates do under forces at others, by a row of the coefficients: minus that, column by column.
+/// What coordinates do under forces at others, by a row of the coefficients: minus that, which is symmetric; of all, or
+/// each under its own alone.
 #[inline(always)]
 fn compliance<R: Real, const M: usize, const L: usize, const N: usize>(
     plan: &Plan<R, M, L, N>,
     c: &[[[R; M]; 4]; 3],
-    row: usize,
+    (row, of_all): (usize, bool),
     g: &mut [[R; L]; L],
 ) {
-    for b in 0..L {
-        for a in 0..L {
-            let mut sum = plan.b[0][0].of(0.0);
-            for j in 0..M {
-                sum = sum - plan.b[a][j] * c[row][3][j] * plan.b[b][j];
+    let zero = plan.b[0][0].of(0.0);
+    for a in 0..L {
+        let mut load = [zero; M];
+        for j in 0..M {
+            load[j] = -(plan.b[a][j] * c[row][3][j]);
+        }
+        let under = |b: usize| {
+            let mut sum = load[0] * plan.b[b][0];
+            for j in 1..M {
+                sum = load[j].mul_add(plan.b[b][j], sum);
             }
-            g[b][a] = sum;
+            sum
+        };
+        g[a][a] = under(a);
+        if of_all {
+            for b in a + 1..L {
+                g[a][b] = under(b);
+                g[b][a] = g[a][b];
+            }
         }
     }
 }

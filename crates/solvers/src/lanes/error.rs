@@ -32,7 +32,7 @@ pub(super) struct Tried<'a, R: Real, const M: usize, const L: usize, const N: us
 impl<R: Real> Norms<R> {
     pub fn new<A: Arithmetic<Real = R>>(with: A, setups: &[&LaneSetup]) -> Self {
         let of = |of: &dyn Fn(&Adaptive) -> f64| {
-            pick(with, setups, |s| s.adaptive.as_ref().map_or(1.0, of))
+            pick(with, setups, &|s| s.adaptive.as_ref().map_or(1.0, of))
         };
         Self {
             tolerance: of(&|a| a.tolerance),

@@ -1,7 +1,7 @@
 //! Loads over a step.
 
 use super::grid::Piece;
-use super::plan::{Plan, Source, Varying, pick};
+use super::plan::{Plan, Source, Varying};
 use super::setup::LaneSetup;
 use super::small::Aligned;
 use super::way::Way;
@@ -46,7 +46,9 @@ impl<R: Real, const M: usize, const L: usize, const N: usize> Plan<R, M, L, N> {
                         Some((table, size)) => table.ends[at][k] * size,
                         None => 1.0,
                     };
-                    (pick(with, setups, |s| of(s, 0)), pick(with, setups, |s| of(s, 1)))
+                    let last = setups.len() - 1;
+                    let lanes = |k: usize| with.gather(|i| of(setups[i.min(last)], k));
+                    (lanes(0), lanes(1))
                 }
             };
             if self.accelerations {

@@ -109,18 +109,28 @@ fn sized<A: Arithmetic>(with: A, setups: &[&LaneSetup], beside: usize) -> Vec<La
     let shape = &setups[0].shape;
     let n = shape.links.iter().map(|l| l.2).max().unwrap_or(1);
     let coordinates = n * shape.links.len();
-    let small = shape.modes <= 3;
-    match (n, coordinates) {
+    // Branches on constants alone: what an arithmetic never takes is not compiled for it.
+    if const { !A::IS_RARE } {
+        match (shape.modes, n, coordinates) {
+            (..=3, 1, ..=2) => return of_size::<A, 3, 2, 1>(with, setups, beside),
+            (..=3, 2, ..=4) => {
+                // Alone four modes are one register.
+                if const { A::WIDTH == 1 } {
+                    return of_size::<A, 4, 4, 2>(with, setups, beside);
+                } else {
+                    return of_size::<A, 3, 4, 2>(with, setups, beside);
+                }
+            }
+            (..=3, 3, ..=6) => return of_size::<A, 3, 6, 3>(with, setups, beside),
+            _ => {}
+        }
+    }
+    match n {
         // One body with all its coordinates, which goes with adaptive steps alone.
-        (4.., _) => with.run(Adaptive::<6, 6, 6> { setups, beside }),
-        (1, ..=2) if small => of_size::<A, 3, 2, 1>(with, setups, beside),
-        (1, _) => of_size::<A, 12, 12, 1>(with, setups, beside),
-        // Alone four modes are one register.
-        (2, ..=4) if small && A::WIDTH == 1 => of_size::<A, 4, 4, 2>(with, setups, beside),
-        (2, ..=4) if small => of_size::<A, 3, 4, 2>(with, setups, beside),
-        (2, _) => of_size::<A, 12, 12, 2>(with, setups, beside),
-        (_, ..=6) if small => of_size::<A, 3, 6, 3>(with, setups, beside),
-        _ => of_size::<A, 12, 12, 3>(with, setups, beside),
+        4.. => with.run(Adaptive::<6, 6, 6> { setups, beside }),
+        3 => of_size::<A, 12, 12, 3>(with, setups, beside),
+        2 => of_size::<A, 12, 12, 2>(with, setups, beside),
+        _ => of_size::<A, 12, 12, 1>(with, setups, beside),
     }
 }
 

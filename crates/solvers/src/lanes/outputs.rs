@@ -199,16 +199,16 @@ impl<R: Real, const M: usize> Outputs<R, M> {
         let mut alone = vec![([zero; 1], [zero; 1]); self.alone.len()];
         let mut together = vec![([zero; TOGETHER], [zero; TOGETHER]); self.together.len()];
         for (o, place) in self.places.iter().enumerate() {
-            let y = pick(with, setups, |s| s.values[o]);
+            let y = pick(with, setups, &|s| s.values[o]);
             // Where there is none it is not a number.
-            let rate = pick(with, setups, |s| if s.rates[o].is_nan() { 0.0 } else { s.rates[o] });
+            let rate = pick(with, setups, &|s| if s.rates[o].is_nan() { 0.0 } else { s.rates[o] });
             match *place {
                 Place::Alone(i) => alone[i] = ([y], [rate]),
                 Place::Together(i, k) => (together[i].0[k], together[i].1[k]) = (y, rate),
             }
         }
         let integral = |(o, above): &(usize, Option<f64>)| {
-            (self.places[*o], Integral::new(pick(with, setups, |s| s.values[*o]), *above))
+            (self.places[*o], Integral::new(pick(with, setups, &|s| s.values[*o]), *above))
         };
         Extremes {
             integrals: setups[0].shape.integrals.iter().map(integral).collect(),

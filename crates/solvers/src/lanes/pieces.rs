@@ -4,13 +4,14 @@
 use super::coefficients::Rule;
 use super::grid::Piece;
 use super::loads::Loads;
-use super::newton::{Found, foresee, settle};
+use super::newton::Found;
 use super::plan::Plan;
 use super::setup::LaneSetup;
 use super::show::show;
 use super::small::Aligned;
-use super::state::{State, forget, keep};
+use super::state::{State, TakeCounts, forget, keep, take_answers};
 use super::step::{Passed, acceleration, account, take};
+use super::trial::{By, Enter, Make};
 use crate::march::DEPTH;
 use trilith_element::lanes::{Arithmetic, Real, Task};
 
@@ -123,6 +124,8 @@ fn walk<A: Arithmetic, const M: usize, const L: usize, const N: usize>(
     let grid = setups[0].shape.grid;
     let last = walks.len() - 1;
     let zero = with.splat(0.0);
+    let (mut made, mut before) = (state.clone(), state.clone());
+    let (mut found, mut passed) = (Found::new(zero), Passed::new(zero));
     loop {
         let next: Vec<Option<Piece>> = walks.iter().map(Walk::next).collect();
         if next.iter().all(Option::is_none) {
@@ -136,16 +139,23 @@ fn walk<A: Arithmetic, const M: usize, const L: usize, const N: usize>(
         let loads = plan.loads_of_pieces(with, setups, &now);
         let t = with.gather(|i| now[i.min(last)].start);
         if plan.accelerations && now.iter().any(|p| p.jump) {
-            let before = state.clone();
+            before.clone_from(state);
             let jumps = with.gather(|i| f64::from(u8::from(now[i.min(last)].jump)));
             let who = zero.lt(jumps);
             state.amplitudes = plan.amplitudes_behind(with, setups, &now);
             with.run(Behind { plan, load: &loads.start, t, who, before: &before, state });
         }
-        let before = state.clone();
-        let who = zero.lt(goes);
-        let (rule, loads) = (&rule, &loads);
-        let wrong = with.run(Substep { plan, rule, loads, t, who, before: &before, state });
+        let (who, from) = (zero.lt(goes), &*state);
+        let (by, loads, asked) = (By::Given(&rule), &loads, None);
+        let (to, found, passed) = (&mut made, &mut found, &mut passed);
+        let (wrong, _) = with.run(Make { plan, by, loads, t, who, from, to, found, passed, asked });
+        let ok = who & !wrong;
+        with.run(TakeCounts { mask: zero.le(zero), from: state, to: &mut before });
+        with.run(Enter { plan, rule: &rule, some: Some(ok), made: &made, passed, at: state });
+        with.run(TakeCounts { mask: !ok, from: &before, to: state });
+        take_answers(ok, &made, state);
+        forget(wrong, state);
+        state.iterations = made.iterations;
         let failed = with.splat(1.0).only(wrong);
         let mut lost = vec![false; walks.len()];
         for (i, walk) in walks.iter_mut().enumerate().filter(|(i, _)| next[*i].is_some()) {
@@ -181,39 +191,7 @@ impl<A: Arithmetic, const M: usize, const L: usize, const N: usize> Task<A>
         let zero = with.splat(0.0);
         acceleration(plan, load, state);
         show(with, plan, (t, zero, zero), state);
-        keep(who, state, before);
-    }
-}
-
-/// A substep of the analyses in `who`, as a task; gives back who found no equilibrium and is where it was.
-struct Substep<'a, R: Real, const M: usize, const L: usize, const N: usize> {
-    plan: &'a Plan<R, M, L, N>,
-    rule: &'a Rule<R, M, L>,
-    loads: &'a Loads<R, M>,
-    t: R,
-    who: R::Mask,
-    before: &'a State<R, M, L, N>,
-    state: &'a mut State<R, M, L, N>,
-}
-
-impl<A: Arithmetic, const M: usize, const L: usize, const N: usize> Task<A>
-    for Substep<'_, A::Real, M, L, N>
-{
-    type Output = <A::Real as Real>::Mask;
-
-    #[inline(always)]
-    fn run(self, with: A) -> <A::Real as Real>::Mask {
-        let Self { plan, rule, loads, t, who, before, state } = self;
-        let mut found = Found::new(with.splat(0.0));
-        foresee(plan, rule, loads, state, &mut found);
-        settle(with, plan, rule, (who, true), state, &mut found);
-        let wrong = found.wrong;
-        let mut passed = Passed::new(with.splat(0.0));
-        take(plan, rule, (loads, t), &found, state, &mut passed);
-        account(with, plan, rule, &passed, state);
-        keep(who & !wrong, state, before);
-        forget(wrong, state);
-        wrong
+        keep(who, state, before, plan);
     }
 }
 
@@ -240,7 +218,7 @@ impl<A: Arithmetic, const M: usize, const L: usize, const N: usize> Task<A>
         let mut passed = Passed::new(with.splat(0.0));
         take(plan, rule, (loads, t), found, state, &mut passed);
         account(with, plan, rule, &passed, state);
-        keep(!wrong, state, before);
+        keep(!wrong, state, before, plan);
         forget(wrong, state);
     }
 }

@@ -74,14 +74,45 @@ pub(super) struct Plan<R, const M: usize, const L: usize, const N: usize> {
     pub accelerations: bool,
 }
 
-/// Picks a number of each lane; lanes without an analysis repeat the last.
+/// Picks a number of each lane; lanes without an analysis repeat the last. For what is made once: not compiled anew for
+/// each of the many numbers that a setup has.
+#[inline(never)]
 pub(super) fn pick<A: Arithmetic>(
     with: A,
     setups: &[&LaneSetup],
-    of: impl Fn(&LaneSetup) -> f64,
+    of: &dyn Fn(&LaneSetup) -> f64,
 ) -> A::Real {
     let last = setups.len() - 1;
     with.gather(|i| of(setups[i.min(last)]))
+}
+
+/// The same of every mode; nothing where there are fewer than there is room for.
+#[inline(never)]
+pub(super) fn mode_wise<A: Arithmetic, const M: usize>(
+    with: A,
+    setups: &[&LaneSetup],
+    of: &dyn Fn(&LaneSetup, usize) -> f64,
+) -> Aligned<[A::Real; M]> {
+    let mut all = Aligned([with.splat(0.0); M]);
+    for (j, x) in all.iter_mut().enumerate().take(setups[0].shape.modes) {
+        *x = pick(with, setups, &|s| of(s, j));
+    }
+    all
+}
+
+/// The same of every link coordinate, which has its place.
+#[inline(never)]
+pub(super) fn coordinate_wise<A: Arithmetic, const L: usize>(
+    with: A,
+    setups: &[&LaneSetup],
+    places: &[usize],
+    of: &dyn Fn(&LaneSetup, usize) -> f64,
+) -> Aligned<[A::Real; L]> {
+    let mut all = Aligned([with.splat(0.0); L]);
+    for (i, place) in places.iter().enumerate() {
+        all[*place] = pick(with, setups, &|s| of(s, i));
+    }
+    all
 }
 
 impl<R: Real, const M: usize, const L: usize, const N: usize> Plan<R, M, L, N> {
@@ -90,9 +121,7 @@ impl<R: Real, const M: usize, const L: usize, const N: usize> Plan<R, M, L, N> {
         let zero = with.splat(0.0);
         let get = |of: &dyn Fn(&LaneSetup) -> f64| pick(with, setups, of);
         let modes = one.shape.modes;
-        let mode_wise = |of: &dyn Fn(&LaneSetup, usize) -> f64| -> Aligned<[R; M]> {
-            Aligned(std::array::from_fn(|j| if j < modes { get(&|s| of(s, j)) } else { zero }))
-        };
+        let mode_wise = |of: &dyn Fn(&LaneSetup, usize) -> f64| mode_wise::<A, M>(with, setups, of);
         let mut places = Vec::new();
         let mut runs: Vec<Run> = Vec::new();
         let (mut history, mut contact, mut parameters) = (0, 0, Vec::new());

@@ -2,7 +2,7 @@
 
 use super::contact::Feet;
 use super::outputs::Extremes;
-use super::plan::{Plan, pick};
+use super::plan::{Plan, coordinate_wise, mode_wise, pick};
 use super::setup::LaneSetup;
 use super::small::Aligned;
 use trilith_element::Contact;
@@ -69,21 +69,14 @@ impl<R: Real, const M: usize, const L: usize, const N: usize> State<R, M, L, N> 
         let one = setups[0];
         let zero = with.splat(0.0);
         let get = |of: &dyn Fn(&LaneSetup) -> f64| pick(with, setups, of);
-        let modes = one.shape.modes;
-        let mode_wise = |of: &dyn Fn(&LaneSetup, usize) -> f64| -> [R; M] {
-            std::array::from_fn(|j| if j < modes { get(&|s| of(s, j)) } else { zero })
-        };
-        let flat = |of: &dyn Fn(&LaneSetup, usize) -> f64| -> [R; L] {
-            let mut x = [zero; L];
-            for (i, place) in plan.places.iter().enumerate() {
-                x[*place] = get(&|s| of(s, i));
-            }
-            x
+        let mode_wise = |of: &dyn Fn(&LaneSetup, usize) -> f64| mode_wise::<A, M>(with, setups, of);
+        let flat = |of: &dyn Fn(&LaneSetup, usize) -> f64| {
+            coordinate_wise::<A, L>(with, setups, &plan.places, of)
         };
         let f = flat(&|s, i| s.f[i]);
         let stiffness = flat(&|s, i| s.stiffness[i]);
         let mut k = Aligned([[zero; N]; L]);
-        for (a, (row, own)) in k.iter_mut().zip(stiffness).enumerate() {
+        for (a, (row, own)) in k.iter_mut().zip(*stiffness).enumerate() {
             row[a % N] = own;
         }
         let history: Vec<R> = (0..one.history.len()).map(|i| get(&|s| s.history[i])).collect();
@@ -92,16 +85,16 @@ impl<R: Real, const M: usize, const L: usize, const N: usize> State<R, M, L, N> 
         let feet: Vec<&[Contact]> = setups.iter().map(|s| &s.contacts[..]).collect();
         let kinetic = get(&|s| s.kinetic);
         Self {
-            q: Aligned(mode_wise(&|s, j| s.q[j])),
-            p: Aligned(mode_wise(&|s, j| s.p[j])),
-            a: Aligned(mode_wise(&|s, j| s.a[j])),
+            q: mode_wise(&|s, j| s.q[j]),
+            p: mode_wise(&|s, j| s.p[j]),
+            a: mode_wise(&|s, j| s.a[j]),
             amplitudes: vec![zero; one.forces.len()],
-            d: Aligned(flat(&|s, i| s.d[i])),
-            v: Aligned(flat(&|s, i| s.v[i])),
+            d: flat(&|s, i| s.d[i]),
+            v: flat(&|s, i| s.v[i]),
             push: Aligned(plan.push(&f)),
-            f: Aligned(f),
+            f,
             k,
-            stiffest: Aligned(flat(&|s, i| s.stiffest[i])),
+            stiffest: flat(&|s, i| s.stiffest[i]),
             c: Aligned([[zero; N]; L]),
             answer: Aligned([[zero; L]; L]),
             answer_to_rate: Aligned([[zero; L]; L]),
@@ -139,22 +132,43 @@ impl<R: Real, const M: usize, const L: usize, const N: usize> State<R, M, L, N> 
 }
 
 impl<R: Real, const M: usize, const L: usize, const N: usize> State<R, M, L, N> {
+    /// Where another state is, as the start of a step into this one: what the step itself writes, tangents and energies of
+    /// the links among it, is left.
+    #[inline(always)]
+    pub fn start_from(&mut self, from: &Self, plan: &Plan<R, M, L, N>) {
+        self.q = from.q;
+        self.p = from.p;
+        self.push = from.push;
+        self.d = from.d;
+        self.f = from.f;
+        self.scale = from.scale;
+        self.alive = from.alive;
+        self.stiffest = from.stiffest;
+        if plan.rate {
+            self.v = from.v;
+        }
+        copy(&from.history, &mut self.history);
+    }
+
     /// The motion and the links of another state; what is counted and what was seen is left.
     #[inline(always)]
-    pub fn follow(&mut self, from: &Self) {
-        (self.q, self.p, self.push, self.a) = (from.q, from.p, from.push, from.a);
-        (self.d, self.v, self.f, self.k, self.c) = (from.d, from.v, from.f, from.k, from.c);
-        (self.stiffest, self.scale, self.alive) = (from.stiffest, from.scale, from.alive);
-        self.history.copy_from_slice(&from.history);
-        self.amplitudes.copy_from_slice(&from.amplitudes);
-        self.steps.copy_from_slice(&from.steps);
+    pub fn follow(&mut self, from: &Self, plan: &Plan<R, M, L, N>) {
+        self.start_from(from, plan);
+        self.k = from.k;
+        if plan.rate {
+            self.c = from.c;
+        }
+        if plan.accelerations {
+            self.a = from.a;
+            copy(&from.amplitudes, &mut self.amplitudes);
+        }
+        self.steps.iter_mut().zip(&from.steps).for_each(|(to, from)| *to = *from);
     }
 
     /// The same of the analyses in a mask.
     #[inline(always)]
-    pub fn follow_where(&mut self, mask: R::Mask, from: &Self) {
-        take_motion(mask, from, self);
-        take_all(mask, &from.amplitudes, &mut self.amplitudes);
+    pub fn follow_where(&mut self, mask: R::Mask, from: &Self, plan: &Plan<R, M, L, N>) {
+        take_motion(mask, from, self, plan);
         for (to, from) in self.steps.iter_mut().zip(&from.steps) {
             to.stored = R::select(mask, from.stored, to.stored);
             (to.hysteretic, to.viscous) = (from.hysteretic, from.viscous);
@@ -177,6 +191,12 @@ impl<R: Real, const M: usize, const L: usize, const N: usize> State<R, M, L, N> 
     }
 }
 
+/// A few numbers, for which a call would cost more than they do.
+#[inline(always)]
+fn copy<R: Real>(from: &[R], to: &mut [R]) {
+    to.iter_mut().zip(from).for_each(|(to, from)| *to = *from);
+}
+
 /// Where a mask says yes `to` becomes `from`.
 #[inline(always)]
 fn take_all<R: Real>(mask: R::Mask, from: &[R], to: &mut [R]) {
@@ -189,17 +209,23 @@ fn take_motion<R: Real, const M: usize, const L: usize, const N: usize>(
     mask: R::Mask,
     from: &State<R, M, L, N>,
     to: &mut State<R, M, L, N>,
+    plan: &Plan<R, M, L, N>,
 ) {
     take_all(mask, &*from.q, &mut *to.q);
     take_all(mask, &*from.p, &mut *to.p);
-    take_all(mask, &*from.a, &mut *to.a);
     take_all(mask, &*from.d, &mut *to.d);
-    take_all(mask, &*from.v, &mut *to.v);
     take_all(mask, &*from.f, &mut *to.f);
     take_all(mask, &*from.push, &mut *to.push);
     take_all(mask, &*from.stiffest, &mut *to.stiffest);
     take_all(mask, from.k.as_flattened(), to.k.as_flattened_mut());
-    take_all(mask, from.c.as_flattened(), to.c.as_flattened_mut());
+    if plan.rate {
+        take_all(mask, &*from.v, &mut *to.v);
+        take_all(mask, from.c.as_flattened(), to.c.as_flattened_mut());
+    }
+    if plan.accelerations {
+        take_all(mask, &*from.a, &mut *to.a);
+        take_all(mask, &from.amplitudes, &mut to.amplitudes);
+    }
     take_all(mask, &from.history, &mut to.history);
     take_all(mask, &from.scale, &mut to.scale);
 }
@@ -234,10 +260,10 @@ pub(super) fn keep<R: Real, const M: usize, const L: usize, const N: usize>(
     mask: R::Mask,
     to: &mut State<R, M, L, N>,
     from: &State<R, M, L, N>,
+    plan: &Plan<R, M, L, N>,
 ) {
-    take_motion(!mask, from, to);
-    take_all(!mask, from.answer.as_flattened(), to.answer.as_flattened_mut());
-    take_all(!mask, from.answer_to_rate.as_flattened(), to.answer_to_rate.as_flattened_mut());
+    take_motion(!mask, from, to, plan);
+    take_answers(!mask, from, to);
     for (to, from) in to.steps.iter_mut().zip(&from.steps) {
         to.stored = R::select(mask, to.stored, from.stored);
     }
@@ -246,6 +272,7 @@ pub(super) fn keep<R: Real, const M: usize, const L: usize, const N: usize>(
 
 /// What [`keep`] does, as a task.
 pub(super) struct Keep<'a, R: Real, const M: usize, const L: usize, const N: usize> {
+    pub plan: &'a Plan<R, M, L, N>,
     pub mask: R::Mask,
     pub to: &'a mut State<R, M, L, N>,
     pub from: &'a State<R, M, L, N>,
@@ -258,7 +285,7 @@ impl<A: Arithmetic, const M: usize, const L: usize, const N: usize> Task<A>
 
     #[inline(always)]
     fn run(self, _: A) {
-        keep(self.mask, self.to, self.from);
+        keep(self.mask, self.to, self.from, self.plan);
     }
 }
 
@@ -289,4 +316,15 @@ pub(super) fn forget<R: Real, const M: usize, const L: usize, const N: usize>(
     for x in answers.into_iter().flat_map(|b| b.as_flattened_mut()) {
         *x = R::select(mask, x.of(0.0), *x);
     }
+}
+
+/// Takes the answers of the tangents of another state where a mask says so.
+#[inline(always)]
+pub(super) fn take_answers<R: Real, const M: usize, const L: usize, const N: usize>(
+    mask: R::Mask,
+    from: &State<R, M, L, N>,
+    to: &mut State<R, M, L, N>,
+) {
+    take_all(mask, from.answer.as_flattened(), to.answer.as_flattened_mut());
+    take_all(mask, from.answer_to_rate.as_flattened(), to.answer_to_rate.as_flattened_mut());
 }

@@ -69,7 +69,9 @@ pub(super) fn take<R: Real, const M: usize, const L: usize, const N: usize>(
         state.amplitudes.copy_from_slice(&loads.amplitudes);
     }
     std::mem::swap(&mut state.history, &mut state.trial);
-    (state.d, state.f, state.scale) = (found.d, found.f, found.scale);
+    state.d = found.d;
+    state.f = found.f;
+    state.scale = found.scale;
     if plan.rate {
         state.v = found.v;
     }

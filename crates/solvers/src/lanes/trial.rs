@@ -3,7 +3,7 @@
 use super::coefficients::Rule;
 use super::error::{Norms, Tried};
 use super::loads::{Loads, Points};
-use super::newton::{Found, foresee_by_tangents, settle};
+use super::newton::{Found, foresee, foresee_by_tangents, settle};
 use super::pieces::Behind;
 use super::plan::Plan;
 use super::rules::Rules;
@@ -61,7 +61,7 @@ impl<R: Real, const M: usize, const L: usize, const N: usize> Trial<R, M, L, N> 
         let (of_whole, [of_first, of_second]) = (&loads.whole, &loads.halves);
         let (w0, _) = with.run(Make {
             plan,
-            rules,
+            by: By::Links(rules),
             loads: of_whole,
             t: start,
             who,
@@ -73,7 +73,7 @@ impl<R: Real, const M: usize, const L: usize, const N: usize> Trial<R, M, L, N> 
         });
         let (w1, before) = with.run(Make {
             plan,
-            rules: of_halves,
+            by: By::Links(of_halves),
             loads: of_first,
             t: start,
             who,
@@ -85,7 +85,7 @@ impl<R: Real, const M: usize, const L: usize, const N: usize> Trial<R, M, L, N> 
         });
         let (w2, behind) = with.run(Make {
             plan,
-            rules: of_halves,
+            by: By::Links(of_halves),
             loads: of_second,
             t: middle,
             who,
@@ -147,7 +147,7 @@ impl<R: Real, const M: usize, const L: usize, const N: usize> Trial<R, M, L, N> 
         at: &mut State<R, M, L, N>,
     ) {
         let (zero, before) = (with.splat(0.0), &mut self.before);
-        with.run(Keep { mask: zero.lt(zero), to: before, from: at });
+        with.run(Keep { plan, mask: zero.lt(zero), to: before, from: at });
         at.amplitudes.copy_from_slice(&loads.start);
         let load = &loads.whole.start;
         with.run(Behind { plan, load, t, who: jumps, before, state: at });
@@ -160,20 +160,27 @@ impl<R: Real, const M: usize, const L: usize, const N: usize> Trial<R, M, L, N> 
     }
 }
 
+/// What a step goes by: the rule that its links ask for, where all steps have other lengths; or a given one, as in usual
+/// steps, where the answers of the tangents are kept for the next.
+pub(super) enum By<'a, R: Real, const M: usize, const L: usize> {
+    Links(&'a mut Rules<R, M, L>),
+    Given(&'a Rule<R, M, L>),
+}
+
 /// One step into `to`, as a task; gives back who has found no equilibrium, and what a half has missed.
-struct Make<'a, R: Real, const M: usize, const L: usize, const N: usize> {
-    plan: &'a Plan<R, M, L, N>,
-    rules: &'a mut Rules<R, M, L>,
-    loads: &'a Loads<R, M>,
+pub(super) struct Make<'a, R: Real, const M: usize, const L: usize, const N: usize> {
+    pub plan: &'a Plan<R, M, L, N>,
+    pub by: By<'a, R, M, L>,
+    pub loads: &'a Loads<R, M>,
     /// Where it begins, s, and for whom.
-    t: R,
-    who: R::Mask,
-    from: &'a State<R, M, L, N>,
-    to: &'a mut State<R, M, L, N>,
-    found: &'a mut Found<R, M, L>,
-    passed: &'a mut Passed<R, M>,
+    pub t: R,
+    pub who: R::Mask,
+    pub from: &'a State<R, M, L, N>,
+    pub to: &'a mut State<R, M, L, N>,
+    pub found: &'a mut Found<R, M, L>,
+    pub passed: &'a mut Passed<R, M>,
     /// Of a half.
-    asked: Option<&'a mut Asked<R>>,
+    pub asked: Option<&'a mut Asked<R>>,
 }
 
 impl<A: Arithmetic, const M: usize, const L: usize, const N: usize> Task<A>
@@ -183,11 +190,20 @@ impl<A: Arithmetic, const M: usize, const L: usize, const N: usize> Task<A>
 
     #[inline(always)]
     fn run(self, with: A) -> Self::Output {
-        let Self { plan, rules, loads, t, who, from, to, found, passed, asked } = self;
-        let rule = rules.choose(plan, from);
-        to.follow(from);
-        foresee_by_tangents(plan, rule, loads, to, found);
-        settle(with, plan, rule, (who, false), to, found);
+        let Self { plan, by, loads, t, who, from, to, found, passed, asked } = self;
+        to.start_from(from, plan);
+        let (rule, kept) = match by {
+            By::Links(rules) => (rules.choose(plan, from), false),
+            By::Given(rule) => (rule, true),
+        };
+        if kept {
+            to.answer = from.answer;
+            to.answer_to_rate = from.answer_to_rate;
+            foresee(plan, rule, loads, from, found);
+        } else {
+            foresee_by_tangents(plan, rule, loads, from, found);
+        }
+        settle(with, plan, rule, (who, kept), to, found);
         take(plan, rule, (loads, t), found, to, passed);
         to.stiffen();
         let turned = match asked {
@@ -199,13 +215,13 @@ impl<A: Arithmetic, const M: usize, const L: usize, const N: usize> Task<A>
 }
 
 /// A step that is kept, as a task: by some analyses, or by all.
-struct Enter<'a, R: Real, const M: usize, const L: usize, const N: usize> {
-    plan: &'a Plan<R, M, L, N>,
-    rule: &'a Rule<R, M, L>,
-    some: Option<R::Mask>,
-    made: &'a State<R, M, L, N>,
-    passed: &'a Passed<R, M>,
-    at: &'a mut State<R, M, L, N>,
+pub(super) struct Enter<'a, R: Real, const M: usize, const L: usize, const N: usize> {
+    pub plan: &'a Plan<R, M, L, N>,
+    pub rule: &'a Rule<R, M, L>,
+    pub some: Option<R::Mask>,
+    pub made: &'a State<R, M, L, N>,
+    pub passed: &'a Passed<R, M>,
+    pub at: &'a mut State<R, M, L, N>,
 }
 
 impl<A: Arithmetic, const M: usize, const L: usize, const N: usize> Task<A>
@@ -217,8 +233,8 @@ impl<A: Arithmetic, const M: usize, const L: usize, const N: usize> Task<A>
     fn run(self, with: A) {
         let Self { plan, rule, some, made, passed, at } = self;
         match some {
-            Some(ok) => at.follow_where(ok, made),
-            None => at.follow(made),
+            Some(ok) => at.follow_where(ok, made, plan),
+            None => at.follow(made, plan),
         }
         account(with, plan, rule, passed, at);
     }
