@@ -5,6 +5,7 @@ use crate::report::work;
 use crate::text::{number, row};
 use trilith::Model;
 use trilith::compare::Compared;
+use trilith::model::Output;
 use trilith::report::{Block, Figure, Page, Section};
 
 /// One self-contained page.
@@ -33,25 +34,80 @@ pub(crate) fn page(model: &Model, case: &str, all: &[Compared]) -> String {
         apart = apart.block(block(differences(c)));
     }
     page = page.section(apart);
-    let figures: Vec<Figure> = model
-        .outputs
-        .iter()
-        .enumerate()
-        .map(|(i, o)| {
-            let label = format!("{} [{}]", o.name, o.unit);
-            let figure = Figure::new(o.name.clone(), "time [s]", label).sized(620, 340);
-            all.iter().fold(figure, |f, c| {
-                let points =
-                    c.outcome.time.iter().copied().zip(c.outcome.histories[i].iter().copied());
-                f.line(c.variant.to_string(), points)
-            })
-        })
-        .collect();
-    page.section(Section::new("histories", "Histories").block(figures)).html()
+    let scale = Block::Scales("one scale for all outputs of a unit".into());
+    let (over, apart) = figures(model, all);
+    page.section(Section::new("histories", "Histories").block(over))
+        .section(Section::new("over-time", "Differences over time").block(scale).block(apart))
+        .html()
+}
+
+/// The histories over each other, and what they differ from the first by.
+fn figures(model: &Model, all: &[Compared]) -> (Vec<Figure>, Vec<Figure>) {
+    let size = |i: usize| {
+        let values = all.iter().flat_map(|c| &c.outcome.histories[i]);
+        values.filter(|y| y.is_finite()).fold(0.0_f64, |a, y| a.max(y.abs()))
+    };
+    let outputs = || model.outputs.iter().enumerate();
+    let largest = |unit: &str| {
+        outputs().filter(|(_, o)| o.unit == unit).map(|(i, _)| size(i)).fold(0.0, f64::max)
+    };
+    // Nothing but rounding beside its like is a line at zero.
+    let noise = |i: usize, unit: &str| size(i) < 1e-9 * largest(unit);
+    let of = |c: &Compared, i: usize, unit: &str| -> Vec<(f64, f64)> {
+        let factor = if noise(i, unit) { 0.0 } else { 1.0 };
+        let o = &c.outcome;
+        o.time.iter().copied().zip(o.histories[i].iter().map(|y| factor * y)).collect()
+    };
+    let empty =
+        |name: String, label: String| Figure::new(name, "time [s]", label).sized(620, 340).timed();
+    let over = |(i, o): (usize, &Output)| {
+        let figure = empty(o.name.clone(), format!("{} [{}]", o.name, o.unit));
+        all.iter().fold(figure, |f, c| f.line(c.variant.to_string(), of(c, i, &o.unit))).peaks()
+    };
+    let apart = |(i, o): (usize, &Output)| {
+        let first = of(&all[0], i, &o.unit);
+        let figure = empty(
+            o.name.clone(),
+            format!("{} less that of {} [{}]", o.name, all[0].variant, o.unit),
+        );
+        let less = |c: &Compared| {
+            let points = of(c, i, &o.unit).into_iter();
+            points.map(|(t, y)| (t, y - at(&first, t))).collect::<Vec<_>>()
+        };
+        all[1..]
+            .iter()
+            .fold(figure, |f, c| f.line(c.variant.to_string(), less(c)))
+            .scaled(o.unit.clone())
+    };
+    (outputs().map(over).collect(), outputs().map(apart).collect())
+}
+
+/// Value at a time, linear between points at rising times; not a number outside.
+fn at(points: &[(f64, f64)], t: f64) -> f64 {
+    let i = points.partition_point(|p| p.0 < t);
+    match (points.get(i.wrapping_sub(1)), points.get(i)) {
+        (_, Some(b)) if b.0 == t => b.1,
+        (Some(a), Some(b)) => a.1 + (b.1 - a.1) * (t - a.0) / (b.0 - a.0),
+        _ => f64::NAN,
+    }
 }
 
 /// Rows, the first of which is the head.
 fn block(mut rows: Vec<Vec<String>>) -> Block {
     let head = rows.remove(0);
     Block::Table { head, rows }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::at;
+
+    #[test]
+    fn values_are_linear_between_points_and_none_outside() {
+        let line = [(0.0, 1.0), (1.0, 3.0), (1.5, 3.0)];
+        for (t, y) in [(0.0, 1.0), (0.25, 1.5), (1.0, 3.0), (1.5, 3.0)] {
+            assert_eq!(at(&line, t), y);
+        }
+        assert!(at(&line, -0.1).is_nan() && at(&line, 1.6).is_nan());
+    }
 }

@@ -41,7 +41,7 @@ fn every_figure_of_the_paper_is_redrawn_by_one_command() {
         let dir = folder.path().join(after("--out"));
         for name in after("--figure").split(',') {
             let svg = std::fs::read_to_string(dir.join(format!("{name}.svg"))).unwrap();
-            assert!(svg.starts_with("<svg") && svg.contains("polyline"), "{command:?} {name}");
+            assert!(svg.starts_with("<svg") && svg.contains("<path"), "{command:?} {name}");
         }
         let text = std::fs::read_to_string(dir.join("summary.json")).unwrap();
         let s: serde_json::Value = serde_json::from_str(&text).unwrap();

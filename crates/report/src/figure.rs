@@ -37,6 +37,8 @@ pub struct Color(pub u8, pub u8, pub u8);
 impl Color {
     /// For references: what the rest is compared with.
     pub const INK: Self = Self(30, 30, 30);
+    /// For what stands behind the rest: single runs beneath their median.
+    pub const CONTEXT: Self = Self(168, 180, 192);
     /// Distinct for readers with any colour vision (Okabe and Ito 2008), in order of use.
     pub const PALETTE: [Self; 6] = [
         Self(0, 114, 178),
@@ -59,6 +61,10 @@ pub struct Series {
     pub stroke: Stroke,
     /// Their colour.
     pub color: Color,
+    /// What each point stands for, as rows of the [entries](crate::Page::entries) of the page; empty: nothing.
+    pub entries: Vec<usize>,
+    /// The moment of each point of a path, s; empty where there is none.
+    pub times: Vec<f64>,
 }
 
 /// A diagram of y over x.
@@ -76,9 +82,14 @@ pub struct Figure {
     pub caption: String,
     /// Width and height in pixels.
     pub size: (u32, u32),
-    /// All lines are equally thick. Otherwise the lower of two is thicker, so that it shows beside an upper one that
-    /// runs over it.
-    pub even: bool,
+    /// A unit is as long on both axes: of paths in a plane.
+    pub equal: bool,
+    /// Figures of a page with the same name here have one horizontal axis: zoomed and read together. Empty: alone.
+    pub shared: String,
+    /// Figures of a page with the same name here have one vertical scale while the reader wants it. Empty: none.
+    pub scale: String,
+    /// Points that are marked with their value, and the series that each lies on.
+    pub peaks: Vec<(usize, (f64, f64))>,
 }
 
 impl Figure {
@@ -92,7 +103,10 @@ impl Figure {
             series: Vec::new(),
             caption: String::new(),
             size: (640, 360),
-            even: false,
+            equal: false,
+            shared: String::new(),
+            scale: String::new(),
+            peaks: Vec::new(),
         }
     }
 
@@ -119,7 +133,72 @@ impl Figure {
         points: impl IntoIterator<Item = (f64, f64)>,
     ) -> Self {
         let points = points.into_iter().collect();
-        self.series.push(Series { name: name.into(), points, stroke, color });
+        let (entries, times) = (Vec::new(), Vec::new());
+        self.series.push(Series { name: name.into(), points, stroke, color, entries, times });
+        self
+    }
+
+    /// Says what the points of the last series stand for: rows of the [entries](crate::Page::entries) of the page.
+    #[must_use]
+    pub fn standing_for(mut self, rows: impl IntoIterator<Item = usize>) -> Self {
+        if let Some(last) = self.series.last_mut() {
+            last.entries = rows.into_iter().collect();
+        }
+        self
+    }
+
+    /// Says when the points of the last series were passed, s.
+    #[must_use]
+    pub fn at_times(mut self, times: impl IntoIterator<Item = f64>) -> Self {
+        if let Some(last) = self.series.last_mut() {
+            last.times = times.into_iter().collect();
+        }
+        self
+    }
+
+    /// Marks a point of the last series with its value.
+    #[must_use]
+    pub fn peak(mut self, at: (f64, f64)) -> Self {
+        self.peaks.push((self.series.len().saturating_sub(1), at));
+        self
+    }
+
+    /// Marks the largest magnitude of every line.
+    #[must_use]
+    pub fn peaks(mut self) -> Self {
+        for (i, series) in self.series.iter().enumerate().filter(|(_, s)| s.stroke == Stroke::Line)
+        {
+            let all = series.points.iter().filter(|p| p.0.is_finite() && p.1.is_finite());
+            let most = all.copied().reduce(|a, b| if b.1.abs() > a.1.abs() { b } else { a });
+            self.peaks.extend(most.filter(|p| p.1 != 0.0).map(|p| (i, p)));
+        }
+        self
+    }
+
+    /// Over the time of the page: zoomed and read together with all others that are.
+    #[must_use]
+    pub fn timed(self) -> Self {
+        self.shared("time")
+    }
+
+    /// With one horizontal axis for all figures of the page with this name; see [`Figure::shared`].
+    #[must_use]
+    pub fn shared(mut self, name: impl Into<String>) -> Self {
+        self.shared = name.into();
+        self
+    }
+
+    /// With one vertical scale for all figures of the page with this name; see [`Figure::scale`].
+    #[must_use]
+    pub fn scaled(mut self, name: impl Into<String>) -> Self {
+        self.scale = name.into();
+        self
+    }
+
+    /// Makes a unit as long on both axes.
+    #[must_use]
+    pub fn equal(mut self) -> Self {
+        self.equal = true;
         self
     }
 
@@ -187,13 +266,6 @@ impl Figure {
     pub fn ranges(mut self, x: (f64, f64), y: (f64, f64)) -> Self {
         self.x.range = Some(x);
         self.y.range = Some(y);
-        self
-    }
-
-    /// Makes all lines equally thick: of curves that are not meant to run over each other.
-    #[must_use]
-    pub fn even(mut self) -> Self {
-        self.even = true;
         self
     }
 

@@ -1,4 +1,5 @@
-//! Figures as SVG and pages as one self-contained HTML file, without scripts and without network.
+//! Figures as SVG and pages as one self-contained HTML file, without network. What is drawn is drawn once: still, for paper
+//! and for readers without scripts, and as data from which the script of the page draws the same to be zoomed and asked.
 //!
 //! ```
 //! use trilith_report::{Block, Figure, Page, Section};
@@ -10,18 +11,21 @@
 //! assert!(html.contains("<svg") && !html.contains("http://localhost"));
 //! ```
 
+mod chart;
 mod draw;
+mod entries;
 mod figure;
 mod page;
 mod png;
 mod run;
 mod thin;
 
+pub use entries::{Entries, Entry};
 pub use figure::{Axis, Color, Figure, Series, Stroke};
 pub use page::{Block, Page, Section};
 pub use png::{PngError, png_is_built_in};
 pub use run::{
-    Collect, ENERGY, FaceMark, Family, Frames, GROUND, Ground, History, LineKind, LineMark,
-    LinkMark, Loop, Mode, NodeMark, Numbers, Picture, RunData, RunIdentity, SPECTRA, Shown,
-    SpectrumChart, SpectrumCurve, named_figures, run_page, short,
+    Answer, Collect, ENERGY, FaceMark, Family, Frames, GROUND, Ground, History, LineKind, LineMark,
+    LinkMark, Loop, Mode, NodeMark, Numbers, Orbit, Picture, Profile, ProfileCurve, RunData,
+    RunIdentity, SPECTRA, Shown, SpectrumChart, SpectrumCurve, named_figures, run_page, short,
 };

@@ -1,35 +1,10 @@
 //! A page: title, contents, sections of text, tables and figures.
 
-use crate::Figure;
+use crate::{Entries, Figure, chart};
 use maud::{DOCTYPE, Markup, PreEscaped, html};
 use trilith_model::visible;
 
-pub(crate) const STYLE: &str = "
-:root { color-scheme: light; }
-body { font: 15px/1.5 system-ui, sans-serif; color: #222; background: #fff; max-width: 1180px;
-  margin: 0 auto; padding: 1.5rem; }
-h1 { font-size: 1.7rem; margin: 0 0 .5rem; } h2 { font-size: 1.2rem; margin: 2.2rem 0 .4rem; }
-nav ol { columns: 3 18rem; column-gap: 1.5rem; font-size: .85rem; padding: 0; list-style: none; }
-nav li { break-inside: avoid; overflow-wrap: anywhere; padding-left: 1rem; text-indent: -1rem; }
-nav a { color: #24527a; text-decoration: none; } nav a:hover { text-decoration: underline; }
-.figures { display: flex; flex-wrap: wrap; gap: 1rem; }
-figure { margin: 0; flex: 1 1 460px; max-width: 640px; border: 1px solid #ddd; border-radius: 6px;
-  padding: .4rem; }
-figure svg { width: 100%; height: auto; display: block; }
-figcaption { font-size: .85rem; color: #444; padding: .2rem .5rem; }
-table { border-collapse: collapse; font-size: .82rem; margin: .6rem 0; }
-td, th { padding: .2rem .6rem; border-bottom: 1px solid #e4e4e4; text-align: left;
-  font-variant-numeric: tabular-nums; }
-th { background: #f4f4f4; } .wide { overflow-x: auto; }
-pre { background: #f6f7f8; border: 1px solid #e4e6e8; border-radius: 6px; padding: .6rem .8rem;
-  font: .85rem/1.45 ui-monospace, 'DejaVu Sans Mono', monospace; overflow-x: auto; margin: .6rem 0; }
-code { font: .92em ui-monospace, 'DejaVu Sans Mono', monospace; }
-nav li.group { padding: .5rem 0 .1rem; text-indent: 0; font-weight: 600; break-after: avoid; }
-.pass { color: #14692a; } .fail { color: #b3151b; font-weight: 700; }
-.note { color: #555; font-size: .9rem; }
-@media print { body { max-width: none; padding: 0; } section, figure, tr { break-inside: avoid; }
-  section { break-inside: auto; } nav { display: none; } }
-";
+pub(crate) const STYLE: &str = include_str!("page.css");
 
 /// A part of a section.
 #[derive(Clone, Debug)]
@@ -49,6 +24,8 @@ pub enum Block {
     },
     /// Figures side by side.
     Figures(Vec<Figure>),
+    /// A box to tick: whether figures with a common [scale](Figure::scale) have it; seen where any have.
+    Scales(String),
 }
 
 impl Block {
@@ -67,7 +44,7 @@ impl Block {
         Self::Code(text.into())
     }
 
-    fn markup(&self) -> Markup {
+    fn markup(&self, fine: f64) -> Markup {
         html! {
             @match self {
                 Self::Text(text) => p { (words(text)) },
@@ -79,14 +56,14 @@ impl Block {
                         td class=[verdict(cell)] { (words(cell)) }
                     } } } }
                 } },
-                Self::Figures(all) => div.figures { @for f in all {
-                    figure {
-                        (PreEscaped(f.svg()))
-                        @if !f.caption.is_empty() { figcaption { (f.caption) } }
-                    }
-                } },
+                Self::Figures(all) => div.figures { @for f in all { (chart::figure(f, fine)) } },
+                Self::Scales(words) => label.scales { input type="checkbox" checked data-scales=""; " " (words) },
             }
         }
+    }
+
+    fn figures(&self) -> &[Figure] {
+        if let Self::Figures(all) = self { all } else { &[] }
     }
 }
 
@@ -157,12 +134,13 @@ pub struct Page {
     title: String,
     lead: Vec<Block>,
     sections: Vec<Section>,
+    entries: Option<Entries>,
 }
 
 impl Page {
     /// An empty page.
     pub fn new(title: impl Into<String>) -> Self {
-        Self { title: title.into(), lead: Vec::new(), sections: Vec::new() }
+        Self { title: title.into(), lead: Vec::new(), sections: Vec::new(), entries: None }
     }
 
     /// Adds a part before the contents.
@@ -179,10 +157,21 @@ impl Page {
         self
     }
 
-    /// The page as one HTML document: no script, no font and no picture from elsewhere. Control characters of texts are
+    /// Says what points of figures stand for: [`Figure::standing_for`] names rows of this.
+    #[must_use]
+    pub fn entries(mut self, entries: Entries) -> Self {
+        self.entries = Some(entries);
+        self
+    }
+
+    /// The page as one HTML document: no script, no font and no picture from elsewhere. Figures can be read, zoomed and
+    /// switched where scripts run, and are still pictures elsewhere and on paper. Control characters of texts are
     /// written out.
     #[must_use]
     pub fn html(&self) -> String {
+        let all = || self.lead.iter().chain(self.sections.iter().flat_map(|s| &s.blocks));
+        let points: usize = all().flat_map(Block::figures).map(chart::size).sum();
+        let fine = chart::fine(points);
         let page = html! {
             (DOCTYPE)
             html lang="en" {
@@ -191,10 +180,11 @@ impl Page {
                     meta name="viewport" content="width=device-width, initial-scale=1";
                     title { (self.title) }
                     style { (PreEscaped(STYLE)) }
+                    link rel="icon" href="data:,";
                 }
                 body {
                     h1 { (self.title) }
-                    @for block in &self.lead { (block.markup()) }
+                    @for block in &self.lead { (block.markup(fine)) }
                     @if self.sections.len() > 1 {
                         nav { ol { @for (i, s) in self.sections.iter().enumerate() {
                             @if !s.group.is_empty() && (i == 0 || self.sections[i - 1].group != s.group) {
@@ -206,9 +196,11 @@ impl Page {
                     @for s in &self.sections {
                         section id=(s.id) {
                             h2 { (s.title) }
-                            @for block in &s.blocks { (block.markup()) }
+                            @for block in &s.blocks { (block.markup(fine)) }
                         }
                     }
+                    @if let Some(entries) = &self.entries { (chart::json("", Some("entries"), &entries.data())) }
+                    @if points > 0 { (chart::script(&[])) }
                 }
             }
         }

@@ -1,5 +1,6 @@
 //! `study.html`.
 
+mod runs;
 mod statistics;
 
 use crate::{Record, Study, figure};
@@ -29,6 +30,12 @@ pub(crate) fn page(study: &Study, records: &[Record], left_out: usize) -> String
             study.model_title
         )))
         .lead(outcomes(records));
+    if !study.figures.is_empty() {
+        page = page.entries(runs::entries(study, records)).lead(Block::note(
+            "Point at a run in a figure for its parameters and results; click it to keep them, with the folder of its \
+             histories or the command that makes it again.",
+        ));
+    }
     for number in 0..study.figures.len() {
         page = page.section(figure::section(study, records, number));
     }

@@ -42,6 +42,8 @@ pub struct Study {
     /// What the models of all runs have alike.
     pub(crate) shape: Shape,
     pub(crate) case: usize,
+    /// Its name, where the study says it.
+    pub(crate) case_named: Option<String>,
     pub(crate) solver: Option<SolverKind>,
     /// Dimension of each varied parameter; none for a text.
     pub(crate) kinds: Vec<Option<Dimension>>,

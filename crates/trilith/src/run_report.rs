@@ -12,6 +12,8 @@ const MODES: usize = 1000;
 /// What the page is made from, beside `summary.json`.
 const DATA: &str = "report.json";
 const PAGE: &str = "report.html";
+/// What made the folder, where the program wrote it.
+const MADE: &str = "made_by.json";
 pub(crate) const SUMMARY: &str = "summary.json";
 
 /// A folder whose report cannot be made again.
@@ -107,6 +109,7 @@ impl Run {
             dt: Some(self.result.end.dt).filter(|dt| *dt > 0.0),
             record: &self.record,
             summary: &self.summary(model),
+            weight: analysis.system().total_mass * model.gravity.abs(),
             modes: self.result.basis.as_ref().or(found.as_ref()),
             overrides,
             loops,
@@ -150,7 +153,10 @@ fn summary(dir: &Path) -> Result<Value, ReportError> {
 
 fn page(dir: &Path, summary: &Value, data: &RunData) -> Result<PathBuf, Error> {
     let path = dir.join(PAGE);
-    write(&path, &run_page(summary, data))?;
+    // Made by hand in a program there may be none.
+    let made = trilith_record::file::read_text(dir.join(MADE)).ok();
+    let made = made.and_then(|text| serde_json::from_str(&text).ok()).unwrap_or(Value::Null);
+    write(&path, &run_page(summary, data, &made))?;
     Ok(path)
 }
 

@@ -67,7 +67,7 @@ impl Target {
             Self::Checkpoint => Ok(serde_json::from_slice::<EndState>(bytes).is_ok()),
             Self::Report => {
                 let Ok(data) = serde_json::from_slice::<RunData>(bytes) else { return Ok(false) };
-                Ok(!run_page(&Value::Null, &data).is_empty())
+                Ok(!run_page(&Value::Null, &data, &Value::Null).is_empty())
             }
             Self::History => {
                 let u1 = Coordinate { name: "U1".into(), rotation: false };

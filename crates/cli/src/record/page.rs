@@ -29,6 +29,9 @@ pub(super) fn page(items: &[Item], args: &Arguments, target: Option<&Target>) ->
             .block(Block::Table { head: columns, rows: rows.collect() }),
     );
     page = page.section(spectra(items, args, target));
+    if items.len() > 1 {
+        page = page.lead(Block::Scales("one scale for all components".into()));
+    }
     for (i, item) in items.iter().enumerate() {
         let title = format!("Component {}", name(items, i));
         page = page.section(histories(&format!("component-{i}"), &title, &item.record));
@@ -113,14 +116,21 @@ fn histories(id: &str, title: &str, r: &Record) -> Section {
         r.times().zip(values).map(|(t, y)| (t, y / unit)).collect()
     };
     let figure = |title: &str, label: &str, points: Vec<(f64, f64)>| {
-        Figure::new(title, "time [s]", label).line("", points).sized(640, 260)
+        // Components beside each other.
+        let figure = Figure::new(title, "time [s]", label).line("", points);
+        figure.timed().scaled(label).peaks().sized(640, 280)
     };
     let a = &r.acceleration;
     let figures = vec![
         figure("Acceleration", "a [g]", over(a, STANDARD_GRAVITY)),
         figure("Velocity", "v [m/s]", over(&velocity(a, r.dt), 1.0)),
         figure("Displacement", "u [m]", over(&displacement(a, r.dt), 1.0)),
-        figure("Husid curve", "share of the Arias intensity", over(&husid(a, r.dt), 1.0)),
+        {
+            let mut husid =
+                figure("Husid curve", "share of the Arias intensity", over(&husid(a, r.dt), 1.0));
+            husid.peaks.clear();
+            husid
+        },
     ];
     Section::new(id, title).block(figures)
 }

@@ -3,7 +3,7 @@
 use super::data::{Frames, Mode, Numbers, RunData, RunIdentity};
 use super::figures::SUPPLY;
 use super::picture::Sketch;
-use super::{choice, loops, reduce, settings, shaking};
+use super::{answers, choice, loops, places, reduce, settings, shaking};
 use trilith_model::Model;
 use trilith_results::{ENERGIES, Frame, Recorder, Summary, ground_motions};
 use trilith_solvers::{BasisReport, StartEnergy};
@@ -26,6 +26,8 @@ pub struct Collect<'a> {
     pub record: &'a Recorder,
     /// The summary.
     pub summary: &'a Summary,
+    /// Weight of all masses that can move, N; 0 where it is not known.
+    pub weight: f64,
     /// Modes of the structure, where they are known.
     pub modes: Option<&'a BasisReport>,
     /// Parameters given on the command line.
@@ -52,6 +54,7 @@ impl Collect<'_> {
             ));
         }
         let motions = ground_motions(self.model, self.case, self.dt.unwrap_or(0.0));
+        let ground = shaking::ground(&motions);
         let free = self.modes.map_or(0, |m| m.omega.iter().filter(|omega| **omega <= 0.0).count());
         RunData {
             format: RunData::FORMAT,
@@ -59,11 +62,17 @@ impl Collect<'_> {
             file: file.map_or(String::new(), |f| f.to_string_lossy().into_owned()),
             parameters: settings::parameters(self.model),
             overrides: self.overrides.to_vec(),
+            answers: answers::answers(self.model, self.summary, self.modes, self.weight),
             settings: settings::of_case(self.model, self.case, self.summary.solver, self.dt),
             picture: sketch.picture,
             frames,
             outputs: self.model.outputs.iter().map(|o| o.name.clone()).collect(),
-            ground: shaking::ground(&motions),
+            profiles: match self.summary.contact {
+                None => places::profiles(self.model, self.summary, &ground),
+                Some(_) => Vec::new(),
+            },
+            orbits: places::orbits(self.model, self.record),
+            ground,
             ground_spectra: shaking::ground_spectra(&motions),
             histories: self.histories(&shown),
             floor_spectra: shaking::floor_spectra(self.summary),
@@ -97,7 +106,8 @@ impl Collect<'_> {
             .filter(|(i, _)| shown[*i])
             .filter_map(|(i, o)| {
                 let y = self.record.history(i).filter(|y| y.len() == t.len() && y.len() > 1)?;
-                Some(reduce::history(o.name.clone(), &o.unit, t, y))
+                let kind = places::kind(self.model, o);
+                Some(super::History { kind, ..reduce::history(o.name.clone(), &o.unit, t, y) })
             })
             .collect()
     }

@@ -19,6 +19,8 @@ pub struct RunData {
     pub parameters: Vec<(String, String)>,
     /// Parameters given on the command line.
     pub overrides: Vec<(String, String)>,
+    /// What is asked first of such a model, and what the run answers.
+    pub answers: Vec<Answer>,
     /// How the case was solved: what, and its value.
     pub settings: Vec<(String, String)>,
     /// The model as points and lines.
@@ -35,6 +37,10 @@ pub struct RunData {
     pub ground_spectra: Vec<SpectrumChart>,
     /// Outputs over time.
     pub histories: Vec<History>,
+    /// Extremes over the height of a structure.
+    pub profiles: Vec<Profile>,
+    /// Paths of places in plan.
+    pub orbits: Vec<Orbit>,
     /// Floor spectra, a chart for each damping.
     #[serde(default)]
     pub floor_spectra: Vec<SpectrumChart>,
@@ -52,7 +58,7 @@ pub struct RunData {
 
 impl RunData {
     /// The format that is written and read here.
-    pub const FORMAT: u32 = 4;
+    pub const FORMAT: u32 = 5;
 }
 
 /// What tells a run from others, as its `summary.json` has it.
@@ -126,11 +132,74 @@ pub struct Shown {
 pub struct History {
     /// Name.
     pub name: String,
+    /// What it is, whatever the place: histories of one kind compare. Empty: alone.
+    #[serde(default)]
+    pub kind: String,
     /// Unit in figures.
     pub shown: Shown,
     /// Times, s.
     pub t: Numbers,
     /// Values.
+    pub y: Numbers,
+}
+
+/// An answer to a question that is asked of such a model.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Answer {
+    /// The question.
+    pub words: String,
+    /// The value in SI, where there is no text.
+    pub value: f64,
+    /// SI unit.
+    pub unit: String,
+    /// An answer in words; empty: a value.
+    pub text: String,
+    /// When it was so, s.
+    pub t: Option<f64>,
+    /// How far it may be off by the certificate of the run; none: nobody knows.
+    pub error: Option<f64>,
+    /// Where it was, or what share it is.
+    pub note: String,
+}
+
+/// Extremes of one quantity over the height of a structure.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Profile {
+    /// `displacement`, `drift` (a share of the height) or `acceleration`.
+    pub quantity: String,
+    /// Unit in figures.
+    pub shown: Shown,
+    /// A curve for each direction and place in plan.
+    pub curves: Vec<ProfileCurve>,
+}
+
+/// Largest magnitudes above one place in plan, rising.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct ProfileCurve {
+    /// `X` or `Y`.
+    pub direction: String,
+    /// The place in plan, m.
+    pub place: [f64; 2],
+    /// From these heights, m …
+    pub from: Vec<f64>,
+    /// … to these.
+    pub to: Vec<f64>,
+    /// Largest magnitudes.
+    pub value: Vec<f64>,
+}
+
+/// A path in plan: one output against another.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Orbit {
+    /// Names of both outputs.
+    pub names: [String; 2],
+    /// Unit in figures.
+    pub shown: Shown,
+    /// Times, s.
+    pub t: Numbers,
+    /// The first.
+    pub x: Numbers,
+    /// The second.
     pub y: Numbers,
 }
 

@@ -1,7 +1,7 @@
 //! Figures of a run, still: for paper and for readers without scripts.
 
-use super::data::{History, Loop, RunData, SpectrumChart};
-use super::units::labelled;
+use super::data::{Ground, History, Loop, Orbit, Profile, RunData, SpectrumChart};
+use super::units::{labelled, short};
 use crate::{Color, Figure, Stroke};
 
 /// (name in the data, name for readers, colour), in the order in which they are stacked.
@@ -10,7 +10,7 @@ pub(crate) const KINDS: [(&str, &str, Color); 8] = [
     ("strain", "strain", Color(0, 114, 178)),
     ("potential", "potential", Color(150, 150, 150)),
     ("link_stored", "stored in links", Color(0, 158, 115)),
-    ("modal_damping", "structural damping", Color(240, 228, 66)),
+    ("modal_damping", "structural damping", Color(102, 90, 160)),
     ("link_hysteretic", "friction and yielding", Color(213, 94, 0)),
     ("link_viscous", "viscous in links", Color(204, 121, 167)),
     ("algorithmic", "time rule", Color(230, 159, 0)),
@@ -43,13 +43,22 @@ pub(crate) fn seen(data: &RunData) -> Vec<(&History, &'static str, Color)> {
 /// An output over time.
 pub(crate) fn history(h: &History) -> Figure {
     let label = labelled(&h.name, &h.shown);
-    Figure::new(h.name.clone(), "time [s]", label).line("", h.points()).sized(440, 210)
+    Figure::new(h.name.clone(), "time [s]", label)
+        .line("", h.points())
+        .timed()
+        .peaks()
+        .sized(440, 240)
+}
+
+/// An acceleration of the base.
+pub(crate) fn ground(g: &Ground) -> Figure {
+    history(&g.history).scaled("ground")
 }
 
 /// Response spectra.
 pub(crate) fn spectra(chart: &SpectrumChart) -> Figure {
     let label = format!("{} [{}]", chart.quantity, chart.shown.unit);
-    let figure = Figure::new(chart.title.clone(), "period [s]", label).log_x().even();
+    let figure = Figure::new(chart.title.clone(), "period [s]", label).log_x();
     let lone = chart.curves.len() == 1;
     let curves = chart.curves.iter();
     curves
@@ -61,13 +70,65 @@ pub(crate) fn spectra(chart: &SpectrumChart) -> Figure {
         .sized(480, 300)
 }
 
+/// A path in plan.
+pub(crate) fn orbit(o: &Orbit) -> Figure {
+    let factor = o.shown.factor;
+    let points = o.x.values().zip(o.y.values()).map(move |(x, y)| (x * factor, y * factor));
+    let [x, y] = &o.names;
+    Figure::new(format!("{x} and {y}"), labelled(x, &o.shown), labelled(y, &o.shown))
+        .line("", points)
+        .at_times(o.t.values())
+        .equal()
+        .sized(360, 340)
+}
+
+/// Extremes over the height.
+pub(crate) fn profile(p: &Profile) -> Figure {
+    let title = match p.quantity.as_str() {
+        "drift" => "Storey drift",
+        "acceleration" => "Floor acceleration",
+        _ => "Displacement",
+    };
+    let what = if p.quantity == "drift" { "drift over height" } else { p.quantity.as_str() };
+    let figure = Figure::new(title, labelled(what, &p.shown), "height [m]").sized(360, 340);
+    let several =
+        |direction: &str| p.curves.iter().filter(|c| c.direction == direction).count() > 1;
+    let figure = p.curves.iter().fold(figure, |f, c| {
+        let name = match several(&c.direction) {
+            true => {
+                format!("{} at {}, {}", c.direction, short(c.place[0], 4), short(c.place[1], 4))
+            }
+            false => c.direction.clone(),
+        };
+        let steps = c.from.iter().zip(&c.to).zip(&c.value);
+        let mut points: Vec<(f64, f64)> = Vec::new();
+        for ((from, to), value) in steps {
+            let x = value * p.shown.factor;
+            points.push((x, *from));
+            if to > from {
+                points.push((x, *to));
+            }
+        }
+        f.line(name, points)
+    });
+    // What is compared begins at nothing.
+    let most =
+        p.curves.iter().flat_map(|c| &c.value).fold(0.0, |a: f64, v| a.max(*v)) * p.shown.factor;
+    let heights = || p.curves.iter().flat_map(|c| c.from.iter().chain(&c.to)).copied();
+    let (low, high) =
+        heights().fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), z| (a.min(z), b.max(z)));
+    let room = 0.04 * (high - low);
+    figure.ranges((0.0, 1.06 * most), (low - room, high + room))
+}
+
 /// A hysteresis loop.
 pub(crate) fn link_loop(l: &Loop) -> Figure {
     let [x, y] = ["deformation", "force"];
     let title = format!("{} {}", l.link, l.coordinate);
     Figure::new(title, format!("{x} [{}]", l.shown[0].unit), format!("{y} [{}]", l.shown[1].unit))
         .line("", l.points())
-        .sized(300, 250)
+        .at_times(l.t.values())
+        .sized(320, 270)
 }
 
 /// The figures that a name stands for: an output, `energy`, `ground`, `spectra`, or a link with a loop for each
@@ -117,8 +178,9 @@ pub const SPECTRA: &str = "spectra";
 /// The energies as curves, as in plots of input, link, damper, kinetic and potential energy and error.
 pub(crate) fn energy_curves(data: &RunData) -> Figure {
     let unit = data.energies.first().map_or("J", |h| h.shown.unit.as_str());
-    let mut figure =
-        Figure::new("Energies over time", "time [s]", format!("energy [{unit}]")).sized(480, 360);
+    let mut figure = Figure::new("Energies over time", "time [s]", format!("energy [{unit}]"))
+        .timed()
+        .sized(480, 380);
     if let Some(input) = energy(data, "input") {
         figure = figure.colored("input", Stroke::Line, Color::INK, input.points());
     }
@@ -136,7 +198,8 @@ pub(crate) fn energy_curves(data: &RunData) -> Figure {
 pub(crate) fn energy_stack(data: &RunData) -> Figure {
     let unit = data.energies.first().map_or("J", |h| h.shown.unit.as_str());
     let title = "Where the energy is";
-    let mut figure = Figure::new(title, "time [s]", format!("energy [{unit}]")).sized(480, 360);
+    let mut figure =
+        Figure::new(title, "time [s]", format!("energy [{unit}]")).timed().sized(480, 380);
     let times = common(data);
     let (mut up, mut down) = (vec![0.0; times.len()], vec![0.0; times.len()]);
     for (h, words, color) in seen(data) {

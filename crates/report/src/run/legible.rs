@@ -1,9 +1,9 @@
 //! Texts of a run as a page may show them.
 
 use super::{Frames, Numbers, RunData};
+use crate::chart::legible;
 use serde_json::Value;
 use std::borrow::Cow;
-use trilith_model::visible;
 
 /// The summary with the control characters of its texts and names written out.
 pub(crate) fn summary(summary: &Value) -> Value {
@@ -31,19 +31,6 @@ pub(crate) fn data(data: &RunData) -> Cow<'_, RunData> {
     }
 }
 
-fn legible(value: Value) -> Value {
-    match value {
-        Value::String(text) => Value::String(visible(&text).into_owned()),
-        Value::Array(items) => Value::Array(items.into_iter().map(legible).collect()),
-        Value::Object(entries) => {
-            let entry =
-                |(key, value): (String, Value)| (visible(&key).into_owned(), legible(value));
-            Value::Object(entries.into_iter().map(entry).collect())
-        }
-        other => other,
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -64,7 +51,7 @@ mod tests {
         let odd = RunData { file: name.into(), notes: vec![name.into()], ..RunData::default() };
         let of_run =
             serde_json::json!({"model": {"title": name}, "case": name, "warnings": [name]});
-        let page = crate::run_page(&of_run, &odd);
+        let page = crate::run_page(&of_run, &odd, &Value::Null);
         let obeyed = |c: char| c.is_control() && !matches!(c, '\n' | '\t');
         assert!(!page.contains(obeyed) && page.contains("a\\u{1b}]0;x\\u{7}"), "{page}");
     }

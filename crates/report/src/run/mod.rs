@@ -1,5 +1,6 @@
 //! The report of a run: its data as a file of its own, and the page made from it.
 
+mod answers;
 mod choice;
 mod collect;
 mod data;
@@ -9,6 +10,7 @@ mod legible;
 mod loops;
 mod page;
 mod picture;
+mod places;
 mod reduce;
 mod script;
 mod settings;
@@ -19,8 +21,9 @@ pub use units::short;
 
 pub use collect::Collect;
 pub use data::{
-    FaceMark, Family, Frames, Ground, History, LineKind, LineMark, LinkMark, Loop, Mode, NodeMark,
-    Numbers, Picture, RunData, RunIdentity, Shown, SpectrumChart, SpectrumCurve,
+    Answer, FaceMark, Family, Frames, Ground, History, LineKind, LineMark, LinkMark, Loop, Mode,
+    NodeMark, Numbers, Orbit, Picture, Profile, ProfileCurve, RunData, RunIdentity, Shown,
+    SpectrumChart, SpectrumCurve,
 };
 pub use figures::{ENERGY, GROUND, SPECTRA, named_figures};
 pub use page::run_page;

@@ -17,6 +17,7 @@ pub(crate) fn history(name: String, unit: &str, t: &[f64], y: &[f64]) -> History
     let kept = extremes(y);
     History {
         name,
+        kind: String::new(),
         shown: shown(unit, largest),
         t: steps(t, &kept),
         y: Numbers::new(kept.iter().map(|i| y[*i]), VALUE),

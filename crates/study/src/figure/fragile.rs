@@ -81,11 +81,18 @@ pub(super) fn ida(study: &Study, records: &[Record], demand: &str, intensity: &s
         line
     });
     let top = curves.iter().flatten().fold(0.0f64, |a, p| a.max(p.1));
+    let one = |(row, r): (usize, &Record)| {
+        let im = r.number(&study.varied, &study.columns, intensity)?;
+        Some(((value(r).filter(|_| r.good && !r.overturned)?, im), row))
+    };
+    let (runs, rows): (Vec<_>, Vec<_>) = records.iter().enumerate().filter_map(one).unzip();
     let mut figure =
         Figure::new("Incremental dynamic analysis", study.label(demand), study.label(intensity))
-            .colored("single motions", Stroke::Line, Color(190, 200, 210), drawn)
+            .colored("single motions", Stroke::Line, Color::CONTEXT, drawn)
+            .colored("runs", Stroke::Rings, Color::CONTEXT, runs)
+            .standing_for(rows)
             .ranges((0.0, right), (0.0, 1.03 * top));
-    for (name, p) in [("16 %", 0.16), ("median", 0.5), ("84 %", 0.84)] {
+    for (name, p) in [("median", 0.5), ("16 %", 0.16), ("84 %", 0.84)] {
         let at = |k: usize| {
             let x = right * k as f64 / 200.0;
             let mut reached: Vec<f64> = curves.iter().map(|c| first(c, x)).collect();

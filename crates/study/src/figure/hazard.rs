@@ -44,16 +44,18 @@ pub(super) fn draw(
     let all = stripes(study, records, demand, intensity);
     let largest = all.iter().flat_map(|s| &s.demands).filter(|d| d.is_finite());
     let right = largest.fold(0.0f64, |a, d| a.max(*d));
-    let points = all.iter().flat_map(|s| s.demands.iter().map(|d| (s.intensity, *d)));
-    let mut over = Figure::new(
-        "Demand over intensity",
-        study.label(intensity),
-        study.label(demand),
-    )
-    .colored("runs", Stroke::Rings, Color(170, 180, 190), points.filter(|p| p.1.is_finite()));
+    let number = |r: &Record, name| r.number(&study.varied, &study.columns, name);
+    let one = |(row, r): (usize, &Record)| {
+        Some(((number(r, intensity)?, number(r, demand).filter(|_| r.good && !r.overturned)?), row))
+    };
+    let (points, rows): (Vec<_>, Vec<_>) = records.iter().enumerate().filter_map(one).unzip();
+    let mut over =
+        Figure::new("Demand over intensity", study.label(intensity), study.label(demand))
+            .colored("runs", Stroke::Rings, Color::CONTEXT, points)
+            .standing_for(rows);
     for (name, of) in [
-        ("16 %", (|s: &Spread| s.low) as fn(&Spread) -> f64),
-        ("median", |s| s.median),
+        ("median", (|s: &Spread| s.median) as fn(&Spread) -> f64),
+        ("16 %", |s| s.low),
         ("84 %", |s| s.high),
     ] {
         let points = all.iter().filter_map(|s| Some((s.intensity, of(&Spread::of(&s.demands)?))));

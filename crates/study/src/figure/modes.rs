@@ -5,7 +5,7 @@ use trilith::report::{Color, Figure, Stroke};
 use trilith::theory;
 
 const MODES: [(&str, Color); 5] = [
-    ("rest", Color(200, 200, 200)),
+    ("rest", Color::CONTEXT),
     ("slide", Color::PALETTE[0]),
     ("rock", Color::PALETTE[1]),
     ("slide-rock", Color::PALETTE[2]),
@@ -31,11 +31,13 @@ pub(super) fn draw(
     let (mut right, mut top) = (0.0f64, 0.0f64);
     let (mut judged, mut differ, mut crosses) = (0, 0, Vec::new());
     let mut points = MODES.map(|_| Vec::new());
-    for r in records {
+    let mut rows = MODES.map(|_| Vec::new());
+    for (row, r) in records.iter().enumerate() {
         let (Some((mu, a)), Some(mode)) = (place(r), r.initial_mode.as_deref()) else { continue };
         (right, top) = (right.max(mu), top.max(a));
         if let Some(i) = MODES.iter().position(|m| m.0 == mode) {
             points[i].push((mu, a));
+            rows[i].push(row);
         }
         let same = mode == theory::initial_mode(a, mu, slenderness);
         let sides = [1.0 - BAND, 1.0, 1.0 + BAND];
@@ -49,9 +51,9 @@ pub(super) fn draw(
             crosses.push((mu, a));
         }
     }
-    for ((name, color), points) in MODES.into_iter().zip(points) {
+    for (((name, color), points), rows) in MODES.into_iter().zip(points).zip(rows) {
         if !points.is_empty() {
-            figure = figure.colored(name, Stroke::Squares, color, points);
+            figure = figure.colored(name, Stroke::Squares, color, points).standing_for(rows);
         }
     }
     let (right, top) = (1.02 * right, 1.02 * top);

@@ -18,11 +18,19 @@ pub(super) fn spread(study: &Study, records: &[Record], x: &str, y: &str) -> Vec
     let (mut nominal, mut flagged, mut singles) = (Vec::new(), Vec::new(), Vec::new());
     let counted = study.counted(records);
     let mut shares = vec![Vec::new(); counted.len()];
+    let mut rows = Vec::new();
     for (i, group) in groups.iter().enumerate() {
         let Some(first) = group.records.first() else { continue };
         let Some(place) = at(i, first) else { continue };
         let value = |r: &Record| r.number(&study.varied, &study.columns, y);
-        singles.extend(group.records.iter().filter_map(|r| Some((place, value(r)?))));
+        for r in &group.records {
+            // Records stand in the order of their runs.
+            let row = records.binary_search_by_key(&r.run, |x| x.run);
+            if let (Some(v), Ok(row)) = (value(r), row) {
+                singles.push((place, v));
+                rows.push(row);
+            }
+        }
         if study.plan.place(first.run).member == 0
             && let Some(v) = value(first)
         {
@@ -46,7 +54,8 @@ pub(super) fn spread(study: &Study, records: &[Record], x: &str, y: &str) -> Vec
     [&mut low, &mut median, &mut high].into_iter().for_each(sort);
     let (title, label) = (format!("{} of the points", y.replace('_', " ")), study.label(x));
     let mut figure = Figure::new(title, label.clone(), study.label(y))
-        .colored("runs", Stroke::Rings, Color(185, 195, 205), singles)
+        .colored("runs", Stroke::Rings, Color::CONTEXT, singles)
+        .standing_for(rows)
         .line("median", median)
         .colored("16 % and 84 %", Stroke::Dashes, Color::PALETTE[0], low)
         .colored("", Stroke::Dashes, Color::PALETTE[0], high);
@@ -103,23 +112,24 @@ pub(super) fn points(
 ) -> Figure {
     let title = format!("{} over {}", y.replace('_', " "), x.replace('_', " "));
     let mut figure = Figure::new(title, study.label(x), study.label(y));
-    let mut groups: Vec<(String, Vec<(f64, f64)>)> = Vec::new();
-    for r in records {
+    let mut groups: Vec<(String, Vec<((f64, f64), usize)>)> = Vec::new();
+    for (row, r) in records.iter().enumerate() {
         let number = |name| r.number(&study.varied, &study.columns, name);
         let (Some(a), Some(b)) = (number(x), number(y)) else { continue };
         let name = by.map_or_else(String::new, |by| value_text(study, r, by));
         let last = COLORS - 1;
         match groups.iter().position(|g| g.0 == name) {
-            Some(i) => groups[i].1.push((a, b)),
-            None if groups.len() < COLORS => groups.push((name, vec![(a, b)])),
+            Some(i) => groups[i].1.push(((a, b), row)),
+            None if groups.len() < COLORS => groups.push((name, vec![((a, b), row)])),
             None => {
                 groups[last].0 = "others".to_owned();
-                groups[last].1.push((a, b));
+                groups[last].1.push(((a, b), row));
             }
         }
     }
     for (name, points) in groups {
-        figure = figure.series(name, Stroke::Rings, points);
+        let (points, rows): (Vec<_>, Vec<_>) = points.into_iter().unzip();
+        figure = figure.series(name, Stroke::Rings, points).standing_for(rows);
     }
     figure
 }

@@ -188,6 +188,7 @@ fn whole(
         text: parsed,
         shape,
         case: case?,
+        case_named: top.get("case").and_then(|_| Some(model.cases.get(case?)?.name.clone())),
         solver: solver?,
         kinds,
     })

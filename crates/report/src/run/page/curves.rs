@@ -1,32 +1,103 @@
-//! Time histories and hysteresis loops.
+//! Time histories, orbits, profiles over the height, hysteresis loops.
 
 use super::figure;
 use super::rounding::Outputs;
+use super::value;
+use crate::run::data::{History, Loop};
 use crate::run::{RunData, figures};
 use maud::{Markup, html};
 use serde_json::Value;
 
+/// So many histories of one kind stand together under a head.
+const KIND: usize = 3;
+/// A peak to the other side is marked too, where it is this share of the larger one.
+const OTHER: f64 = 0.3;
+
 pub(super) fn histories(summary: &Value, data: &RunData) -> Markup {
     let outputs = Outputs::of(summary);
-    let caption = |name: &str| match outputs.is_rounding(name) {
-        true => "Nothing but rounding.",
-        false => "",
-    };
+    let count = |kind: &str| data.histories.iter().filter(|h| h.kind == kind).count();
+    let together = |h: &History| !h.kind.is_empty() && count(&h.kind) >= KIND;
+    let mut kinds: Vec<&str> = Vec::new();
+    for h in data.histories.iter().filter(|h| together(h)) {
+        if !kinds.contains(&h.kind.as_str()) {
+            kinds.push(&h.kind);
+        }
+    }
+    let draw = |h: &History| history(&outputs, summary, h);
+    let alone = || data.histories.iter().filter(|h| !together(h));
     html! {
         p.note.live {
-            "Drag to zoom in time, double-click to see all; arrow keys move the time of all figures and of the model."
+            "Drag or pinch to zoom in time, double-click to see all; arrow keys move the time of all figures and of the model. "
+            "Names beneath a figure switch its curves."
         }
-        div.figures.board { @for (i, h) in data.histories.iter().enumerate() {
-            (figure(&format!("history {i}"), &figures::history(h), caption(&h.name), None))
-        } }
+        label.scales { input type="checkbox" checked data-scales="kind "; " one scale for all of a kind" }
+        @if alone().next().is_some() { div.figures.board { @for h in alone() { (draw(h)) } } }
+        @for kind in kinds {
+            h3 { (kind) }
+            div.figures.board.small { @for h in data.histories.iter().filter(|h| h.kind == kind) { (draw(h)) } }
+        }
+    }
+}
+
+/// A history with its peaks, which are those of all substeps; nothing but rounding is a line at zero.
+fn history(outputs: &Outputs<'_>, summary: &Value, h: &History) -> Markup {
+    if outputs.is_rounding(&h.name) {
+        let mut flat = figures::history(h);
+        flat.peaks.clear();
+        flat.series.iter_mut().flat_map(|s| &mut s.points).for_each(|p| p.1 = 0.0);
+        return figure(flat, "Nothing but rounding.");
+    }
+    let mut drawn = figures::history(h);
+    let o = &summary["outputs"][&h.name];
+    let of = |x: &str, t: &str| (value(&o[t]), value(&o[x]) * h.shown.factor);
+    let (max, min) = (of("max", "t_max"), of("min", "t_min"));
+    if max.1.is_finite() && min.1.is_finite() {
+        let (most, other) = if max.1.abs() >= min.1.abs() { (max, min) } else { (min, max) };
+        let across = most.1 * other.1 < 0.0 && other.1.abs() > OTHER * most.1.abs();
+        drawn.peaks =
+            std::iter::once(most).chain(across.then_some(other)).map(|p| (0, p)).collect();
+    }
+    if !h.kind.is_empty() {
+        drawn = drawn.scaled(format!("kind {}", h.kind));
+    }
+    figure(drawn, "")
+}
+
+pub(super) fn plan(data: &RunData) -> Markup {
+    html! {
+        p.note { "Two directions of one place against each other, a unit as long on both axes; the dot is the time of the model." }
+        div.figures.board.loops { @for o in &data.orbits { (figure(figures::orbit(o), "")) } }
+    }
+}
+
+pub(super) fn profiles(data: &RunData) -> Markup {
+    html! {
+        p.note { "Largest magnitudes over the height, whenever they were." }
+        div.figures.board.loops { @for p in &data.profiles { (figure(figures::profile(p), "")) } }
     }
 }
 
 pub(super) fn loops(data: &RunData) -> Markup {
+    let key = |l: &Loop| (l.kind.clone(), l.coordinate.clone());
+    let mut kinds: Vec<(String, String)> = Vec::new();
+    for l in &data.loops {
+        if !kinds.contains(&key(l)) {
+            kinds.push(key(l));
+        }
+    }
+    // Coordinates of a kind behind each other.
+    let first = |kind: &str| data.loops.iter().position(|l| l.kind == kind);
+    kinds.sort_by_key(|k| first(&k.0));
     html! {
         p.note { "Force over deformation; U1, U2 … are the local axes of the link, U1 along it." }
-        div.figures.board.loops { @for (i, l) in data.loops.iter().enumerate() {
-            (figure(&format!("loop {i}"), &figures::link_loop(l), &format!("{} ({})", l.link, l.kind), None))
-        } }
+        label.scales { input type="checkbox" checked data-scales="loop "; " one scale of force for all of a kind" }
+        @for (kind, coordinate) in kinds {
+            h3 { (kind) " " (coordinate) }
+            div.figures.board.loops {
+                @for l in data.loops.iter().filter(|l| l.kind == kind && l.coordinate == coordinate) {
+                    (figure(figures::link_loop(l).scaled(format!("loop {kind} {coordinate}")), ""))
+                }
+            }
+        }
     }
 }

@@ -7,17 +7,6 @@ use maud::{Markup, html};
 use serde_json::Value;
 use trilith_solvers::{EnergyTotals, StartEnergy};
 
-/// Names, words and colours of the energies that can be seen, for the script.
-fn kinds(data: &RunData) -> String {
-    let all: Vec<[String; 3]> = figures::seen(data)
-        .into_iter()
-        .map(|(h, words, c)| {
-            [h.name.clone(), words.to_owned(), format!("#{:02x}{:02x}{:02x}", c.0, c.1, c.2)]
-        })
-        .collect();
-    serde_json::to_string(&all).unwrap_or_default()
-}
-
 /// The energies of a summary; one that is missing is none, as before there were those at the start.
 fn totals(summary: &Value) -> EnergyTotals {
     let e = &summary["energy"];
@@ -63,16 +52,16 @@ fn balance(summary: &Value) -> Markup {
 }
 
 pub(super) fn energy(summary: &Value, data: &RunData) -> Markup {
-    let (links, kinds) = (links(summary), kinds(data));
+    let links = links(summary);
     // Of two kinds one may be nothing but rounding beside the other.
     let in_link = |x: f64, of: f64| if x.abs() < 1e-9 * of.abs() { 0.0 } else { x };
     let in_links = shown("J", links.first().map_or(0.0, |(_, h, v)| h + v));
     html! {
         div.figures.board {
-            (figure("energy curves", &figures::energy_curves(data),
-                "Friction and yielding is the energy of the links (NLlink), viscous that of their dashpots (Ndamp).", Some(&kinds)))
-            (figure("energy stack", &figures::energy_stack(data),
-                "Stored and dissipated energies on top of each other; together they are what was there at the start and the input. What is negative goes downwards, such as a potential that was released.", Some(&kinds)))
+            (figure(figures::energy_curves(data),
+                "Friction and yielding is the energy of the links (NLlink), viscous that of their dashpots (Ndamp)."))
+            (figure(figures::energy_stack(data),
+                "Stored and dissipated energies on top of each other; together they are what was there at the start and the input. What is negative goes downwards, such as a potential that was released."))
         }
         div.two {
             div { (balance(summary)) }

@@ -2,86 +2,90 @@
 
 use super::rounding::is_rounding;
 use super::{text, value};
-use crate::run::RunData;
-use crate::run::units::{number, percent, shown};
+use crate::run::units::{percent, short, shown};
+use crate::run::{Answer, RunData};
 use maud::{Markup, html};
 use serde_json::Value;
 
-/// A value beside the largest of its like.
-fn measured(x: f64, unit: &str, largest: f64) -> String {
-    if is_rounding(x.abs(), unit, largest) {
-        return format!("0 {unit}");
+/// A value and its error in the unit that suits the value, beside the largest of its unit.
+fn measured(a: &Answer, largest: f64) -> (String, String) {
+    if !a.text.is_empty() {
+        return (a.text.clone(), String::new());
     }
-    let s = shown(unit, x.abs());
-    format!("{} {}", number(x * s.factor), s.unit)
+    if is_rounding(a.value.abs(), &a.unit, largest) {
+        let unit = shown(&a.unit, 0.0).unit;
+        return (format!("0 {unit}").trim_end().to_owned(), String::new());
+    }
+    let degrees = 180.0 / std::f64::consts::PI;
+    let s = match a.unit.as_str() {
+        // Of tilts one thinks in degrees.
+        "rad" => crate::run::Shown { unit: "°".into(), factor: degrees },
+        "m/s^2" => {
+            crate::run::Shown { unit: "g".into(), factor: 1.0 / trilith_model::STANDARD_GRAVITY }
+        }
+        "1" => crate::run::Shown { unit: "%".into(), factor: 100.0 },
+        unit => shown(unit, a.value.abs()),
+    };
+    let error = a.error.map_or(String::new(), |e| format!("± {}", short(e * s.factor, 2)));
+    (format!("{} {}", short(a.value * s.factor, 4), s.unit), error)
 }
 
-pub(super) fn facts(summary: &Value) -> Markup {
+fn card(a: &Answer, largest: f64) -> Markup {
+    let (value, error) = measured(a, largest);
+    let at = a.t.filter(|_| !value.starts_with("0 ")).map(|t| format!("at {} s", short(t, 4)));
+    let notes: Vec<&str> = [a.note.as_str(), at.as_deref().unwrap_or("")]
+        .into_iter()
+        .filter(|n| !n.is_empty())
+        .collect();
+    html! {
+        div.fact {
+            span { (a.words) }
+            b { (value) @if !error.is_empty() { " " small title="how far it may be off: certificate of the run" { (error) } } }
+            @if !notes.is_empty() { span { (notes.join(", ")) } }
+        }
+    }
+}
+
+/// The head of the page: what was asked, then how the run went.
+pub(super) fn facts(summary: &Value, data: &RunData) -> Markup {
     let status = text(&summary["status"]);
     let good = ["converged", "overturned"].contains(&status.as_str());
     let class = if good { "fact good" } else { "fact bad" };
-    let contact = summary.get("contact").filter(|c| c.is_object());
-    let length = |c: &Value, key: &str| {
-        let all = ["max_uplift", "max_slip", "residual_slip"].map(|k| value(&c[k]).abs());
-        measured(value(&c[key]), "m", all.into_iter().fold(0.0, f64::max))
+    let largest = |unit: &str| {
+        let same = data.answers.iter().filter(|a| a.unit == unit);
+        same.fold(0.0_f64, |m, a| m.max(a.value.abs()))
     };
     let fact = |words: &str, what: String| html! { div.fact { span { (words) } b { (what) } } };
     html! {
+        @if !data.answers.is_empty() {
+            div.facts.answers { @for a in &data.answers { (card(a, largest(&a.unit))) } }
+        }
         div.facts {
             div class=(class) { span { "status" } b { (status) } }
             (fact("case", text(&summary["case"])))
             (fact("solver", text(&summary["solver"])))
-            @if let Some(c) = contact {
-                (fact("leaves rest by", text(&c["initial_mode"])))
-                (fact("response mode", text(&c["mode"])))
-                (fact("largest uplift", length(c, "max_uplift")))
-                (fact("largest slip", length(c, "max_slip")))
-                (fact("slip at the end", length(c, "residual_slip")))
-            }
-            @for (words, what) in structure(summary) { (fact(words, what)) }
             (fact("energy unaccounted for", percent(value(&summary["energy"]["error_relative"]))))
+            @if let Some((worst, of)) = certificate(summary) {
+                div.fact {
+                    span { "certificate: largest error of an output" }
+                    b { (short(100.0 * worst, 2)) " %" } span { "of its range, " (of) }
+                }
+            }
         }
     }
 }
 
-/// What a structure did as a whole: base shear, drift, its bearings and stops, as words and values.
-fn structure(summary: &Value) -> Vec<(&'static str, String)> {
-    let there = |key: &str| summary.get(key).filter(|v| v.is_object());
-    let mut all = Vec::new();
-    if let Some(shear) = there("base_shear") {
-        let max = [0, 1].map(|axis| value(&shear["max"][axis]));
-        let largest = max[0].max(max[1]);
-        let words = ["largest base shear X", "largest base shear Y"];
-        let moved = words.into_iter().zip(max).filter(|(_, v)| !is_rounding(*v, "N", largest));
-        all.extend(moved.map(|(words, v)| (words, measured(v, "N", largest))));
-    }
-    if let Some(drift) = there("drift") {
-        let max = value(&drift["max"]);
-        let share = percent(value(&drift["ratio"]));
-        let of = text(&drift["output"]);
-        all.push((
-            "largest drift",
-            format!("{} ({share} of the height), {of}", measured(max, "m", max)),
-        ));
-    }
-    if let Some(bearings) = there("bearings") {
-        let keys = ["max_travel", "residual_travel", "max_uplift"];
-        let [travel, end, uplift] = keys.map(|key| value(&bearings[key]));
-        let largest = travel.max(uplift);
-        all.push(("largest travel of bearings", measured(travel, "m", largest)));
-        all.push(("travel at the end", measured(end, "m", largest)));
-        if uplift > 0.0 {
-            all.push(("uplift of bearings", measured(uplift, "m", largest)));
-        }
-    }
-    if let Some(stops) = there("stops") {
-        let force = value(&stops["largest_force"]);
-        all.push(("hits of stops", stops["hits"].to_string()));
-        if force > 0.0 {
-            all.push(("largest force of a stop", measured(force, "N", force)));
-        }
-    }
-    all
+/// The largest error of an output as a share of its range, and its name; none where nothing is certified.
+fn certificate(summary: &Value) -> Option<(f64, String)> {
+    let outputs = super::rounding::Outputs::of(summary);
+    let all = summary["outputs"].as_object()?.iter();
+    let share = |(name, o): (&String, &Value)| {
+        let error = value(&o["error"]["reduction"]) + value(&o["error"]["step"]);
+        let range = value(&o["max"]) - value(&o["min"]);
+        let there = range > 0.0 && !outputs.is_rounding(name);
+        Some((error / range, name.clone())).filter(|(e, _)| there && e.is_finite())
+    };
+    all.filter_map(share).max_by(|a, b| a.0.total_cmp(&b.0))
 }
 
 pub(super) fn warnings(summary: &Value, data: &RunData) -> Markup {
@@ -96,5 +100,30 @@ pub(super) fn warnings(summary: &Value, data: &RunData) -> Markup {
             div.warnings role="note" { b { "What to know" } ul { @for w in &all { li { (w) } } } }
         }
         @for note in &data.notes { p.note { (note) } }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn an_answer_has_its_error_in_its_unit_and_noise_is_zero() {
+        let a = Answer {
+            words: "largest drift".into(),
+            value: 0.0123,
+            unit: "m".into(),
+            error: Some(1.25e-4),
+            ..Answer::default()
+        };
+        assert_eq!(measured(&a, 0.0123), ("12.3 mm".into(), "± 0.13".into()));
+        let tilt =
+            Answer { value: 0.1, unit: "rad".into(), error: Some(1e-3), ..Answer::default() };
+        assert_eq!(measured(&tilt, 0.1), ("5.73 °".into(), "± 0.057".into()));
+        let noise =
+            Answer { value: 3e-15, unit: "m".into(), error: Some(1e-9), ..Answer::default() };
+        assert_eq!(measured(&noise, 0.2), ("0 m".into(), String::new()));
+        let words = Answer { text: "slide-rock".into(), ..Answer::default() };
+        assert_eq!(measured(&words, 0.0).0, "slide-rock");
     }
 }

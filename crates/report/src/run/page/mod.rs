@@ -11,20 +11,22 @@ mod settings;
 mod shaking;
 
 use super::{Frames, Numbers, RunData, legible, script};
-use crate::Figure;
 use crate::page::STYLE;
+use crate::{Figure, chart};
 use base64::prelude::{BASE64_STANDARD, Engine as _};
 use maud::{DOCTYPE, Markup, PreEscaped, html};
-use serde_json::Value;
+use serde_json::{Value, json};
 
 const RUN_STYLE: &str = include_str!("../run.css");
 
 /// Links to the sections.
-const SECTIONS: [(&str, &str); 9] = [
+const SECTIONS: [(&str, &str); 11] = [
     ("motion", "Model and motion"),
     ("peaks", "Peaks"),
     ("ground", "Ground motion"),
     ("histories", "Time histories"),
+    ("profiles", "Over the height"),
+    ("plan", "Paths in plan"),
     ("floors", "Floor spectra"),
     ("energy", "Energy"),
     ("loops", "Hysteresis loops"),
@@ -33,10 +35,11 @@ const SECTIONS: [(&str, &str); 9] = [
 ];
 
 /// The page of a run as one HTML document without network: still figures, and a script of ours that makes
-/// them move. `summary` is `summary.json`; a key that is missing leaves its place empty.
+/// them move. `summary` is `summary.json`, `made` is `made_by.json`, null where there is none; a key that is missing
+/// leaves its place empty.
 #[must_use]
-pub fn run_page(summary: &Value, data: &RunData) -> String {
-    let summary = &legible::summary(summary);
+pub fn run_page(summary: &Value, data: &RunData, made: &Value) -> String {
+    let (summary, made) = (&legible::summary(summary), &legible::summary(made));
     let data = legible::data(data);
     let data: &RunData = &data;
     let title = summary["model"]["title"].as_str().filter(|t| !t.is_empty()).unwrap_or(&data.file);
@@ -45,6 +48,8 @@ pub fn run_page(summary: &Value, data: &RunData) -> String {
         "peaks" => !data.outputs.is_empty(),
         "ground" => !data.ground.is_empty(),
         "floors" => !data.floor_spectra.is_empty(),
+        "profiles" => !data.profiles.is_empty(),
+        "plan" => !data.orbits.is_empty(),
         "histories" => !data.histories.is_empty(),
         "energy" => !data.energies.is_empty(),
         "loops" => !data.loops.is_empty(),
@@ -56,6 +61,8 @@ pub fn run_page(summary: &Value, data: &RunData) -> String {
         "peaks" => peaks::peaks(summary, data),
         "ground" => shaking::ground(data),
         "floors" => shaking::floors(summary, data),
+        "profiles" => curves::profiles(data),
+        "plan" => curves::plan(data),
         "histories" => curves::histories(summary, data),
         "energy" => energy::energy(summary, data),
         "loops" => curves::loops(data),
@@ -75,25 +82,24 @@ pub fn run_page(summary: &Value, data: &RunData) -> String {
             }
             body {
                 h1 { (title) }
-                (facts::facts(summary))
+                (facts::facts(summary, data))
                 (facts::warnings(summary, data))
                 nav { ol { @for (id, head) in &shown { li { a href={ "#" (id) } { (head) } } } } }
                 @for (id, head) in &shown { section id=(id) { h2 { (head) } (body(id)) } }
-                script type="application/json" id="data" { (PreEscaped(embedded(data))) }
+                footer id="made" { (settings::made(summary, data, made)) }
+                (chart::json("", Some("data"), &embedded(data)))
                 script type="text/plain" id="shapes" { (PreEscaped(shapes(data))) }
-                script { (PreEscaped(script::text())) }
+                (chart::script(&script::PARTS))
             }
         }
     }
     .into_string()
 }
 
-/// The data as JSON that cannot end its element, without the deformed shapes.
-fn embedded(data: &RunData) -> String {
+/// What the script draws beside the figures: the model, the times of its deformed shapes, the modes.
+fn embedded(data: &RunData) -> Value {
     let frames = Frames { u: Numbers { n: Vec::new(), ..data.frames.u }, ..data.frames.clone() };
-    let rest = RunData { frames, ..data.clone() };
-    // Numbers, texts and lists: nothing that JSON does not have.
-    serde_json::to_string(&rest).unwrap_or_default().replace('<', "\\u003c")
+    json!({ "picture": data.picture, "frames": frames, "modes": data.modes })
 }
 
 /// The deformed shapes, which are most of the page of a large model: two bytes a number, the low one first, in
@@ -118,13 +124,8 @@ fn value(value: &Value) -> f64 {
     value.as_f64().unwrap_or(f64::NAN)
 }
 
-/// A figure that the script replaces by a live one.
-fn figure(id: &str, still: &Figure, caption: &str, kinds: Option<&str>) -> Markup {
-    html! {
-        figure {
-            div.still { (PreEscaped(still.svg())) }
-            div.plot.live data-plot=(id) data-kinds=[kinds] {}
-            @if !caption.is_empty() { figcaption { (caption) } }
-        }
-    }
+/// A figure with a sentence beneath.
+fn figure(figure: Figure, caption: &str) -> Markup {
+    // The histories of a run are short already.
+    chart::figure(&figure.caption(caption), 0.0)
 }

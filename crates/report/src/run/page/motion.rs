@@ -31,6 +31,11 @@ pub(super) fn motion(data: &RunData) -> Markup {
             div.tip hidden {}
         }
         div.controls.live #player data-scale=(peak.map_or(1.0, |p| p.1)) {}
+        div.controls.live #finder {}
+        p.note.live {
+            @if data.picture.plane.is_none() { "Drag turns the model, with Shift it moves it" } @else { "Drag moves the model" }
+            "; wheel (after a click) or two fingers bring it closer; double-click resets. Point at a part for its name."
+        }
         (key(data))
         @if data.frames.t.len() > 1 {
             p.note { "Displacements are relative to the base. Deformed shapes at " (data.frames.t.len()) " times." }

@@ -42,21 +42,60 @@ pub(super) fn settings(summary: &Value, data: &RunData) -> Markup {
             work.push(("basis: flexibility held, worst link coordinate".into(), held));
         }
     }
-    let files = [
-        ("program".to_owned(), format!("trilith {}", text(&summary["version"]))),
-        ("build of it".into(), text(&summary["build"])),
-        ("model file".into(), data.file.clone()),
-        ("SHA-256 of it".into(), text(&summary["model"]["sha256"])),
-    ];
     html! {
         div.two {
-            div { (pairs("input", &files)) (pairs("solution", &data.settings)) }
+            div { (pairs("solution", &data.settings)) }
             div {
                 (pairs("work", &work))
                 @if !data.overrides.is_empty() { (pairs("set on the command line", &data.overrides)) }
                 @if !data.parameters.is_empty() { (pairs("parameter", &data.parameters)) }
             }
         }
+    }
+}
+
+/// The foot of the page: what made it, when, from which files.
+pub(super) fn made(summary: &Value, data: &RunData, made: &Value) -> Markup {
+    let mut all = vec![
+        ("program".to_owned(), format!("trilith {}", text(&summary["version"]))),
+        ("build of it".into(), text(&summary["build"])),
+    ];
+    let mut say = |what: &str, value: &Value| {
+        all.extend(value.as_str().map(|text| (what.to_owned(), text.to_owned())));
+    };
+    say("date", &made["date"]);
+    let words =
+        |list: &Value| -> Vec<String> { list.as_array().into_iter().flatten().map(text).collect() };
+    let command = words(&made["command"]).iter().map(|w| quoted(w)).collect::<Vec<_>>().join(" ");
+    say("command", &Value::from(Some(command).filter(|c| !c.is_empty())));
+    let machine = words(&made["machine"]).join(" ");
+    say("machine", &Value::from(Some(machine).filter(|m| !m.is_empty())));
+    if !data.parameters.is_empty() {
+        let list: Vec<String> = data.parameters.iter().map(|(n, v)| format!("{n} = {v}")).collect();
+        all.push(("parameters".into(), list.join("; ")));
+    }
+    all.push(("SHA-256 of the results".into(), text(&summary["run_sha256"])));
+    let mut files: Vec<(String, String)> = Vec::new();
+    for f in made["files"].as_array().into_iter().flatten() {
+        files.push((format!("{} {}", text(&f["what"]), text(&f["file"])), text(&f["sha256"])));
+    }
+    if files.is_empty() {
+        files.push((format!("model {}", data.file), text(&summary["model"]["sha256"])));
+    }
+    html! {
+        h2 { "What made this page" }
+        (pairs("made by", &all))
+        (pairs("SHA-256 of what was read", &files))
+    }
+}
+
+/// A word of a command line as a shell takes it.
+fn quoted(word: &str) -> String {
+    let plain = |c: char| c.is_alphanumeric() || "-_=./,:+%@".contains(c);
+    if !word.is_empty() && word.chars().all(plain) {
+        word.to_owned()
+    } else {
+        format!("'{}'", word.replace('\'', "'\\''"))
     }
 }
 

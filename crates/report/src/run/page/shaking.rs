@@ -19,12 +19,11 @@ pub(super) fn ground(data: &RunData) -> Markup {
     html! {
         p.note { "The acceleration of the base that loads the model, positive along the axis, over the whole case." }
         div.figures.board {
-            @for (i, g) in data.ground.iter().enumerate() {
-                (figure(&format!("ground {i}"), &figures::history(&g.history), &peak(g), None))
+            @for g in &data.ground {
+                (figure(figures::ground(g), &peak(g)))
             }
-            @for (i, s) in data.ground_spectra.iter().enumerate() {
-                (figure(&format!("spectra ground {i}"), &figures::spectra(s).sized(440, 210),
-                    "Pseudo-acceleration of oscillators on the ground.", None))
+            @for s in &data.ground_spectra {
+                (figure(figures::spectra(s).sized(440, 240), "Pseudo-acceleration of oscillators on the ground."))
             }
         }
     }
@@ -44,9 +43,7 @@ pub(super) fn floors(summary: &Value, data: &RunData) -> Markup {
             "Largest absolute acceleration of oscillators on each place, from its acceleration at the output times. "
             "All curves are in " code { "spectra.csv" } "."
         }
-        div.figures.board { @for (i, s) in data.floor_spectra.iter().enumerate() {
-            (figure(&format!("spectra floor {i}"), &figures::spectra(s), "", None))
-        } }
+        div.figures.board { @for s in &data.floor_spectra { (figure(figures::spectra(s).scaled("floors"), "")) } }
         div.wide { table {
             thead { tr {
                 th { "place" } th { "damping" } th { "largest [g]" } th { "period [s]" } th { "frequency [Hz]" } th { "rigid [g]" }

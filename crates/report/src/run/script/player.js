@@ -1,5 +1,8 @@
 // The deformed shapes in time: play, scrub, speed, scale, ways of looking.
 
+/** The moment that figures and model show. */
+const clock = group("time");
+
 /** Displacements of all points at all times, as multiples of a step: two bytes each, the low one first. */
 function shapes() {
   const text = atob(document.getElementById("shapes").textContent);
@@ -33,7 +36,7 @@ function player(canvas, controls, tip) {
   let factor = wanted, playing = false, speed = 1, last = 0;
   const still = new Float64Array(3 * POINTS);
   const stage = new Stage(canvas, 440,
-    () => (frames.t.length ? displaced(clock.t ?? 0, factor) : still),
+    () => (frames.t.length ? displaced(clock.at ?? 0, factor) : still),
     () => factor * most);
   const select = (label, values, chosen, write, change) => {
     const box = make("select", {}, ...values.map((v) => make("option", { value: String(v), selected: v === chosen }, write(v))));
@@ -51,9 +54,9 @@ function player(canvas, controls, tip) {
     const read = make("output", {}, "0 s");
     const advance = (now) => {
       if (!playing) return;
-      const t = (clock.t ?? 0) + speed * Math.min((now - last) / 1000, 0.2);
+      const t = (clock.at ?? 0) + speed * Math.min((now - last) / 1000, 0.2);
       last = now;
-      clock.set(t > end ? 0 : t);
+      clock.read(t > end ? 0 : t);
       requestAnimationFrame(advance);
     };
     const toggle = () => {
@@ -66,11 +69,11 @@ function player(canvas, controls, tip) {
     canvas.addEventListener("keydown", (e) => {
       const step = { ArrowLeft: -0.005, ArrowRight: 0.005 }[e.key];
       if (e.key === " ") toggle();
-      else if (step) clock.set(Math.min(Math.max((clock.t ?? 0) + step * end, 0), end));
+      else if (step) clock.read(Math.min(Math.max((clock.at ?? 0) + step * end, 0), end));
       else return;
       e.preventDefault();
     });
-    scrub.addEventListener("input", () => clock.set((end * scrub.value) / 1000));
+    scrub.addEventListener("input", () => clock.read((end * scrub.value) / 1000));
     clock.listeners.push((t) => {
       scrub.value = String(Math.round((1000 * t) / end));
       read.textContent = `${t.toFixed(3)} s`;
@@ -83,27 +86,23 @@ function player(canvas, controls, tip) {
       select("displacements", factors, wanted, (v) => `× ${v}`, (v) => { factor = Number(v); stage.draw(); }));
   }
   if (!picture.plane) {
-    const words = { space: "space (drag to turn)", XZ: "X–Z", YZ: "Y–Z", XY: "X–Y" };
+    const words = { space: "space", XZ: "X–Z", YZ: "Y–Z", XY: "X–Y" };
     controls.append(select("view", Object.keys(words), "space", (v) => words[v], (v) => { stage.view = v; stage.draw(); }));
   }
   stage.names = picture.nodes.length <= 40;
   controls.append(tick("names", stage.names, (on) => { stage.names = on; }));
   if (moves) controls.append(tick("at rest", stage.ghost, (on) => { stage.ghost = on; }));
-  canvas.addEventListener("pointermove", (e) => {
-    const r = canvas.getBoundingClientRect();
-    const p = [e.clientX - r.left, e.clientY - r.top];
-    tip.textContent = stage.near(p);
-    tip.hidden = !tip.textContent;
-    tip.style.left = `${Math.min(p[0] + 14, r.width - tip.offsetWidth)}px`;
-    tip.style.top = `${p[1] + 10}px`;
-  });
-  canvas.addEventListener("pointerleave", () => { tip.hidden = true; });
+  turn(stage, tip);
+  finder(stage, document.getElementById("finder"));
   stage.draw();
 }
 
+/** Whole multiples of a step as numbers. */
+const multiples = (numbers) => Float64Array.from(numbers.n, (n) => n * numbers.step);
+
 /** A mode shape that swings while the pointer is over it. */
 function mode(canvas) {
-  const shape = unpack(data.modes[canvas.dataset.mode].u);
+  const shape = multiples(data.modes[canvas.dataset.mode].u);
   let most = 0;
   for (let i = 0; i < shape.length; i += 3) most = Math.max(most, Math.hypot(shape[i], shape[i + 1], shape[i + 2]));
   const sides = [0, 1, 2].map((i) => extremes(picture.points.map((p) => p[i]))).map(([a, b]) => b - a);

@@ -1,0 +1,76 @@
+//! A figure on a page: the still drawing, and the same as data for the script that takes its place.
+
+use crate::Figure;
+use crate::draw::drawing;
+use maud::{Markup, PreEscaped, html};
+use serde_json::Value;
+use trilith_model::visible;
+
+/// The script of all pages, in the order in which its parts build on each other.
+pub(crate) const BEFORE: [&str; 4] = [
+    include_str!("base.js"),
+    include_str!("axes.js"),
+    include_str!("chart.js"),
+    include_str!("handle.js"),
+];
+/// What starts it, behind the scripts of a single page.
+pub(crate) const START: &str = include_str!("start.js");
+
+/// Points of all lines of a page up to which every one is told.
+const WHOLE: usize = 60_000;
+/// Of more, lines may leave their points by so many pixels of the still figure; of many more by the second.
+const FINE: [f64; 2] = [0.03, 0.1];
+
+/// One script in strict mode that leaves nothing behind in the page.
+pub(crate) fn script(parts: &[&str]) -> Markup {
+    let text: Vec<&str> = BEFORE.iter().chain(parts).copied().chain([START]).collect();
+    let text = text.join("\n");
+    html! { script { (PreEscaped(format!("(() => {{\n\"use strict\";\n{text}}})();\n"))) } }
+}
+
+/// How closely the script is told the lines of a page with so many points.
+pub(crate) fn fine(points: usize) -> f64 {
+    match points {
+        0..=WHOLE => 0.0,
+        n if n <= 8 * WHOLE => FINE[0],
+        _ => FINE[1],
+    }
+}
+
+/// Points of a figure.
+pub(crate) fn size(figure: &Figure) -> usize {
+    figure.series.iter().map(|s| s.points.len()).sum()
+}
+
+/// The figure, still and as data.
+pub(crate) fn figure(figure: &Figure, fine: f64) -> Markup {
+    html! {
+        figure {
+            (PreEscaped(figure.svg()))
+            (json("drawing", None, &drawing(figure, fine)))
+            @if !figure.caption.is_empty() { figcaption { (figure.caption) } }
+        }
+    }
+}
+
+/// Data in an element that they cannot end; control characters of texts are written out.
+pub(crate) fn json(class: &str, id: Option<&str>, value: &Value) -> Markup {
+    // Numbers, texts and lists: nothing that JSON does not have.
+    let text = serde_json::to_string(&legible(value.clone())).unwrap_or_default();
+    let text = text.replace('<', "\\u003c");
+    html! { script type="application/json" class=[(!class.is_empty()).then_some(class)] id=[id] { (PreEscaped(text)) } }
+}
+
+/// The same with the control characters of its texts and names written out.
+pub(crate) fn legible(value: Value) -> Value {
+    match value {
+        Value::String(text) => Value::String(visible(&text).into_owned()),
+        Value::Array(items) => Value::Array(items.into_iter().map(legible).collect()),
+        Value::Object(entries) => {
+            let entry =
+                |(key, value): (String, Value)| (visible(&key).into_owned(), legible(value));
+            Value::Object(entries.into_iter().map(entry).collect())
+        }
+        other => other,
+    }
+}

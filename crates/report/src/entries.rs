@@ -1,0 +1,71 @@
+//! What points of figures stand for: rows that the reader of a page can ask.
+
+use serde_json::{Value, json};
+
+/// Rows that points of figures stand for, such as the runs of a study.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Entries {
+    /// What a row is called, such as `run`.
+    pub name: String,
+    /// How the commands of all rows begin.
+    pub command: String,
+    /// Names and units of its cells.
+    pub head: Vec<(String, String)>,
+    /// The rows.
+    pub rows: Vec<Entry>,
+}
+
+/// A row.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Entry {
+    /// Its cells; an empty one is not shown.
+    pub cells: Vec<String>,
+    /// Folders and file beneath the page that hold more of it, one name after the other; empty: none.
+    pub place: Vec<String>,
+    /// How the command that makes it goes on; empty: none.
+    pub command: String,
+}
+
+impl Entries {
+    pub(crate) fn data(&self) -> Value {
+        let of = |what: &dyn Fn(&Entry) -> Value| -> Value { self.rows.iter().map(what).collect() };
+        let mut out =
+            json!({ "name": self.name, "head": self.head, "rows": of(&|r| json!(r.cells)) });
+        if self.rows.iter().any(|r| !r.place.is_empty()) {
+            out["links"] = of(&|r| json!(address(&r.place)));
+        }
+        if self.rows.iter().any(|r| !r.command.is_empty()) {
+            out["command"] = json!(self.command);
+            out["commands"] = of(&|r| json!(r.command));
+        }
+        out
+    }
+}
+
+/// Names of folders as an address relative to the page. Whatever they hold, it stays beneath it.
+fn address(place: &[String]) -> String {
+    let plain = |b: u8| b.is_ascii_alphanumeric() || b"-_.~".contains(&b);
+    let byte = |b: u8| if plain(b) { char::from(b).to_string() } else { format!("%{b:02X}") };
+    let name = |name: &String| match name.as_str() {
+        "" | "." | ".." => String::new(),
+        name => name.bytes().map(byte).collect(),
+    };
+    place.iter().map(name).filter(|n| !n.is_empty()).collect::<Vec<_>>().join("/")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn an_address_is_a_place_beneath_the_page_whatever_its_names() {
+        let of =
+            |names: &[&str]| address(&names.iter().map(|n| (*n).to_owned()).collect::<Vec<_>>());
+        assert_eq!(
+            of(&["runs", "mu=0.2,a=1 g", "report.html"]),
+            "runs/mu%3D0.2%2Ca%3D1%20g/report.html"
+        );
+        assert_eq!(of(&["javascript:alert(1)"]), "javascript%3Aalert%281%29");
+        assert_eq!(of(&["..", "/etc", "\"><script>"]), "%2Fetc/%22%3E%3Cscript%3E");
+    }
+}

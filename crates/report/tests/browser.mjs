@@ -1,0 +1,181 @@
+// Opens pages in headless Chromium as readers do: wide and narrow, light, dark and printed. Fails on whatever the console
+// says, on requests to anywhere, on pages wider than the screen, and on charts that did not come alive.
+//
+//     node crates/report/tests/browser.mjs [--out FOLDER] PAGE.html…
+//
+// --out: pictures of every page there. Where no Chromium is found (CHROMIUM names one) it says so and ends well.
+
+import { spawn } from "node:child_process";
+import { accessSync, constants, mkdirSync, mkdtempSync, rmSync, statSync, writeFileSync } from "node:fs";
+import { tmpdir } from "node:os";
+import { basename, dirname, join, resolve } from "node:path";
+import { pathToFileURL } from "node:url";
+
+const VIEWS = [
+  { name: "1280-light", width: 1280, height: 900, scheme: "light" },
+  { name: "1280-dark", width: 1280, height: 900, scheme: "dark" },
+  { name: "390-light", width: 390, height: 844, scheme: "light", touch: true },
+  { name: "390-dark", width: 390, height: 844, scheme: "dark", touch: true },
+];
+/** Pages may weigh so much, bytes. */
+const HEAVIEST = Number(process.env.HEAVIEST ?? 3e6);
+/** Pictures are so tall at most, px. */
+const TALLEST = Number(process.env.TALLEST ?? 16000);
+
+const args = process.argv.slice(2);
+const at = args.indexOf("--out");
+const out = at < 0 ? null : args.splice(at, 2)[1];
+const chromium = [process.env.CHROMIUM, "/usr/bin/chromium", "/usr/bin/chromium-browser", "/usr/bin/google-chrome"]
+  .filter(Boolean).find((path) => { try { accessSync(path, constants.X_OK); return true; } catch { return false; } });
+if (!chromium) {
+  console.log("not run: no Chromium found (CHROMIUM names one)");
+  process.exit(0);
+}
+if (out) mkdirSync(out, { recursive: true });
+
+// The browser speaks its protocol over two pipes: messages of JSON, each ended by a zero.
+const home = mkdtempSync(join(tmpdir(), "pages-"));
+const browser = spawn(chromium, [
+  "--headless", "--no-sandbox", "--disable-gpu", "--disable-quic", "--no-first-run", "--hide-scrollbars",
+  "--disable-background-networking", "--disable-component-update", "--disable-sync", "--remote-debugging-pipe",
+  `--user-data-dir=${home}`, "about:blank",
+], { stdio: ["ignore", "ignore", "ignore", "pipe", "pipe"] });
+const waiting = new Map(), listeners = new Set();
+let count = 0, rest = "";
+browser.stdio[4].on("data", (chunk) => {
+  const parts = (rest + chunk).split("\0");
+  rest = parts.pop();
+  for (const part of parts) {
+    const message = JSON.parse(part);
+    if (message.id) {
+      const { done, fail } = waiting.get(message.id);
+      waiting.delete(message.id);
+      if (message.error) fail(new Error(message.error.message)); else done(message.result);
+    } else for (const tell of listeners) tell(message);
+  }
+});
+const send = (method, params = {}, sessionId) => new Promise((done, fail) => {
+  waiting.set(++count, { done, fail });
+  browser.stdio[3].write(`${JSON.stringify({ id: count, method, params, sessionId })}\0`);
+});
+const pause = (ms) => new Promise((done) => setTimeout(done, ms));
+
+/** Scrolls through the page so that everything is drawn, and says what is amiss. */
+const LOOK = `(async () => {
+  const wait = (ms) => new Promise((done) => setTimeout(done, ms));
+  for (let y = 0; y < document.body.scrollHeight; y += 700) { scrollTo(0, y); await wait(25); }
+  scrollTo(0, 0);
+  await wait(60);
+  const said = [], root = document.documentElement;
+  const drawings = document.querySelectorAll("script.drawing"), ready = root.dataset.ready === "true";
+  if (drawings.length && !ready) said.push("the script did not come to its end");
+  const dead = [...document.querySelectorAll(".chart")].filter((c) => c.offsetParent && !c.querySelector(".view > svg > path"));
+  if (dead.length) said.push(dead.length + " charts are empty, the first: " + dead[0].textContent.slice(0, 60));
+  if (root.scrollWidth > innerWidth + 1) {
+    const wide = [...document.body.querySelectorAll("*")].find((e) => e.getBoundingClientRect().right > innerWidth + 1 && !e.closest(".wide, pre, svg"));
+    said.push("wider than the screen: " + root.scrollWidth + " px, " + (wide ? wide.tagName + "." + wide.className : ""));
+  }
+  for (const chart of document.querySelectorAll(".chart")) {
+    if (!chart.offsetParent) continue;
+    const few = ["x", "y"].filter((axis) => {
+      const n = chart.querySelectorAll('[data-tick="' + axis + '"]').length;
+      return n > 0 && n < 3;
+    });
+    if (few.length) said.push("fewer than three ticks along " + few + ": " + chart.textContent.slice(0, 60));
+  }
+  return { said, height: document.body.scrollHeight };
+})()`;
+/** Points at, drags over and resets the first charts. */
+const USE = `(async () => {
+  const wait = (ms) => new Promise((done) => setTimeout(done, ms));
+  const said = [];
+  for (const view of [...document.querySelectorAll(".view")].slice(0, 6)) {
+    view.scrollIntoView({ block: "center" });
+    await wait(80);
+    const svg = view.querySelector("svg"), r = svg.getBoundingClientRect();
+    const go = (type, x, y, more = {}) => svg.dispatchEvent(new PointerEvent(type, {
+      clientX: r.left + x * r.width, clientY: r.top + y * r.height, pointerId: 1, pointerType: "mouse", bubbles: true, button: 0, ...more }));
+    svg.setPointerCapture = () => {};
+    let told = false;
+    for (const x of [0.3, 0.5, 0.7]) for (const y of [0.2, 0.4, 0.6, 0.8]) { go("pointermove", x, y); told ||= !view.querySelector(".tip").hidden; }
+    if (!told) said.push("tells nothing: " + view.parentElement.textContent.slice(0, 50));
+    const before = svg.innerHTML;
+    go("pointerdown", 0.4, 0.2); go("pointermove", 0.6, 0.5); go("pointerup", 0.6, 0.5);
+    await wait(30);
+    const reset = view.querySelector(".reset");
+    if (reset.hidden || svg.innerHTML === before) said.push("does not zoom: " + view.parentElement.textContent.slice(0, 50));
+    svg.dispatchEvent(new MouseEvent("dblclick"));
+    await wait(30);
+    svg.dispatchEvent(new PointerEvent("pointerleave"));
+    if (!reset.hidden) said.push("does not reset: " + view.parentElement.textContent.slice(0, 50));
+  }
+  scrollTo(0, 0);
+  return said;
+})()`;
+
+let bad = 0;
+const told = new Set();
+const complain = (page, view, what) => {
+  bad++;
+  const line = `${page} ${view}: ${what}`;
+  if (!told.has(line)) console.log(line);
+  told.add(line);
+};
+
+async function look(path) {
+  const name = join(basename(dirname(resolve(path))), basename(path)).replace(/[^\w.-]+/g, "_").replace(/\.html$/, "");
+  const weight = statSync(path).size;
+  if (weight > HEAVIEST) complain(name, "", `weighs ${(weight / 1e6).toFixed(2)} MB`);
+  const { targetId } = await send("Target.createTarget", { url: "about:blank" });
+  const { sessionId } = await send("Target.attachToTarget", { targetId, flatten: true });
+  const on = (method, params) => send(method, params, sessionId);
+  let view = "";
+  const hear = ({ method, params, sessionId: of }) => {
+    if (of !== sessionId) return;
+    if (method === "Runtime.consoleAPICalled") complain(name, view, `console: ${params.args.map((a) => a.value ?? a.description).join(" ")}`);
+    if (method === "Runtime.exceptionThrown") complain(name, view, `exception: ${params.exceptionDetails.exception?.description ?? params.exceptionDetails.text}`);
+    if (method === "Log.entryAdded") complain(name, view, `log: ${params.entry.text}`);
+    if (method === "Network.requestWillBeSent" && !/^(file|data):/.test(params.request.url)) complain(name, view, `asks for ${params.request.url}`);
+  };
+  listeners.add(hear);
+  for (const domain of ["Page", "Runtime", "Log", "Network"]) await on(`${domain}.enable`);
+  const value = async (expression) => {
+    const { result, exceptionDetails } = await on("Runtime.evaluate", { expression, awaitPromise: true, returnByValue: true });
+    if (exceptionDetails) complain(name, view, `exception: ${exceptionDetails.exception?.description ?? exceptionDetails.text}`);
+    return result.value;
+  };
+  for (const { name: of, width, height, scheme, touch } of VIEWS) {
+    view = of;
+    await on("Emulation.setDeviceMetricsOverride", { width, height, deviceScaleFactor: 1, mobile: Boolean(touch) });
+    await on("Emulation.setEmulatedMedia", { media: "screen", features: [{ name: "prefers-color-scheme", value: scheme }] });
+    await on("Page.navigate", { url: pathToFileURL(resolve(path)).href });
+    for (let i = 0; i < 200; i++) {
+      if (await value("document.readyState") === "complete") break;
+      await pause(25);
+    }
+    const seen = await value(LOOK);
+    for (const what of seen?.said ?? []) complain(name, view, what);
+    if (view === "1280-light") for (const what of await value(USE)) complain(name, view, what);
+    if (!out) continue;
+    const clip = { x: 0, y: 0, width, height: Math.min(seen.height, TALLEST), scale: 1 };
+    const { data } = await on("Page.captureScreenshot", { format: "png", captureBeyondViewport: true, clip });
+    writeFileSync(join(out, `${name}-${view}.png`), Buffer.from(data, "base64"));
+  }
+  view = "print";
+  await on("Emulation.setEmulatedMedia", { media: "", features: [] });
+  const { data } = await on("Page.printToPDF", { preferCSSPageSize: true, printBackground: true });
+  if (out) writeFileSync(join(out, `${name}.pdf`), Buffer.from(data, "base64"));
+  listeners.delete(hear);
+  await send("Target.closeTarget", { targetId });
+  console.log(`${name}: ${(weight / 1e6).toFixed(2)} MB`);
+}
+
+try {
+  for (const path of args) await look(path);
+} finally {
+  browser.kill();
+  await new Promise((done) => { browser.on("exit", done); setTimeout(done, 3000); });
+  rmSync(home, { recursive: true, force: true, maxRetries: 20, retryDelay: 100 });
+}
+console.log(bad ? `${bad} faults in ${args.length} pages` : `${args.length} pages, no fault`);
+process.exit(bad ? 1 : 0);

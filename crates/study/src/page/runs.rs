@@ -1,0 +1,84 @@
+//! The runs behind the points of the figures: what each was, where its histories are, or the command that makes it.
+
+use super::plain;
+use crate::number::written;
+use crate::{Cell, Record, Study};
+use trilith::report::{Entries, Entry, short};
+
+/// More runs than this are not told one by one.
+const RUNS: usize = 10_000;
+/// Digits of the values that are told.
+const DIGITS: usize = 5;
+
+pub(super) fn entries(study: &Study, records: &[Record]) -> Entries {
+    let named = |name: &String| {
+        let unit = study.unit(name);
+        (name.clone(), if unit == "1" { String::new() } else { unit })
+    };
+    let mut head: Vec<(String, String)> = study.varied.iter().map(named).collect();
+    head.extend(study.columns.iter().map(|c| named(&c.name)));
+    head.extend(
+        ["status", "leaves rest by", "message"].map(|what| (what.to_owned(), String::new())),
+    );
+    let model = plain(&study.model_path);
+    let mut command = format!("trilith run {}", quoted(&model.to_string_lossy()));
+    if let Some(case) = &study.case_named {
+        command += &format!(" --case {}", quoted(case));
+    }
+    if let Some(solver) = study.solver {
+        command += &format!(" --solver {}", solver.name());
+    }
+    let rows = records.iter().take(RUNS).map(|r| Entry {
+        cells: cells(r),
+        place: kept(study, r),
+        command: settings(study, r),
+    });
+    Entries { name: "run".into(), command, head, rows: rows.collect() }
+}
+
+fn cells(r: &Record) -> Vec<String> {
+    let parameter = |c: &Cell| match c {
+        Cell::Number(x) => short(*x, DIGITS),
+        Cell::Text(text) => text.clone(),
+        Cell::Nothing => String::new(),
+    };
+    let value = |v: &Option<f64>| v.map_or(String::new(), |x| short(x, DIGITS));
+    let mut all: Vec<String> = r.parameters.iter().map(parameter).collect();
+    all.extend(r.values.iter().map(value));
+    all.push(r.status.clone());
+    all.push(r.initial_mode.clone().unwrap_or_default());
+    all.push(r.told());
+    all
+}
+
+/// Where the histories of a run are, beneath the page.
+fn kept(study: &Study, r: &Record) -> Vec<String> {
+    let kept = r.good && study.histories.as_ref().is_some_and(|c| c.holds(&study.columns, r));
+    if kept { vec!["runs".into(), format!("{:06}", r.run + 1)] } else { Vec::new() }
+}
+
+/// What a run sets, as `trilith run` takes it.
+fn settings(study: &Study, r: &Record) -> String {
+    let place = study.plan.place(r.run);
+    let mut set = study.plan.nominal(&place);
+    // Members of an ensemble have the values they came to.
+    for (name, _) in study.plan.factors(place.member) {
+        let Some(i) = study.varied.iter().position(|n| n == name) else { continue };
+        if let (Some(Cell::Number(x)), Some(dimension)) = (r.parameters.get(i), study.kinds[i]) {
+            set.retain(|(n, _)| n != name);
+            set.push((name.to_owned(), written(*x, dimension)));
+        }
+    }
+    let one =
+        |(name, value): &(String, String)| format!("--set {}", quoted(&format!("{name}={value}")));
+    set.iter().map(one).collect::<Vec<_>>().join(" ")
+}
+
+/// A word of a command line as a shell takes it.
+fn quoted(word: &str) -> String {
+    let plain = |c: char| c.is_alphanumeric() || "-_=./,:+%@".contains(c);
+    match !word.is_empty() && word.chars().all(plain) {
+        true => word.to_owned(),
+        false => format!("'{}'", word.replace('\'', "'\\''")),
+    }
+}
