@@ -110,4 +110,65 @@ fn a_building_has_base_shear_and_drift_instead_of_a_response_mode() {
         assert!(page.contains(part), "{part}");
     }
     assert!(!page.contains("response mode"));
+    // The head of the page has the numbers of the summary, and the certificate of the run.
+    let read = |name: &str| -> serde_json::Value {
+        let text = std::fs::read_to_string(folder.path().join("out/building").join(name)).unwrap();
+        serde_json::from_str(&text).unwrap()
+    };
+    let (summary, data) = (read("summary.json"), read("report.json"));
+    let answer = |words: &str| {
+        let all = data["answers"].as_array().unwrap();
+        all.iter().find(|a| a["words"] == words).unwrap_or_else(|| panic!("{words} in {all:?}"))
+    };
+    let shear = summary["base_shear"]["max"][0].as_f64().unwrap();
+    assert!(close(&answer("base shear X")["value"], Some(shear)));
+    let share = format!("{:.1} % of the weight", 100.0 * shear / (40e3 * 9.80665));
+    assert_eq!(answer("base shear X")["note"], share);
+    let error = &summary["outputs"]["drift"]["error"];
+    let sum = error["reduction"].as_f64().unwrap() + error["step"].as_f64().unwrap();
+    assert!(close(&answer("largest drift")["error"], Some(sum)));
+    let travel = summary["bearings"]["max_travel"].as_f64().unwrap();
+    let period = std::f64::consts::TAU * (40e3 * travel / shear).sqrt();
+    assert!(close(&answer("period at the largest travel")["value"], Some(period)));
+    assert_eq!(answer("hits of stops")["text"], summary["stops"]["hits"].to_string());
+}
+
+/// The same number, or none in both places.
+fn close(found: &serde_json::Value, wanted: Option<f64>) -> bool {
+    match (found.as_f64(), wanted) {
+        (Some(a), Some(b)) => (a - b).abs() <= 1e-9 * b.abs(),
+        (a, b) => a == b,
+    }
+}
+
+#[test]
+fn a_cask_tells_tilt_margin_and_approach_first() {
+    let folder = tempfile::tempdir().unwrap();
+    let model =
+        std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("../../models/storage_cask.ron");
+    let args = ["run", model.to_str().unwrap(), "--set", "duration=4 s", "--out", "cask"];
+    let (status, out, err) = trilith(folder.path(), &args);
+    assert_eq!(status, 0, "{out}{err}");
+    let read = |name: &str| -> serde_json::Value {
+        let text = std::fs::read_to_string(folder.path().join("cask").join(name)).unwrap();
+        serde_json::from_str(&text).unwrap()
+    };
+    let (summary, data) = (read("summary.json"), read("report.json"));
+    for (words, output, extreme) in [
+        ("largest tilt", "tilt", "max"),
+        ("margin to overturning", "margin", "min"),
+        ("closest approach", "approach", "min"),
+        ("largest uplift", "uplift", "max"),
+    ] {
+        let all = data["answers"].as_array().unwrap();
+        let a = all.iter().find(|a| a["words"] == words).unwrap_or_else(|| panic!("{words}"));
+        let o = &summary["outputs"][output];
+        assert!(close(&a["value"], o[extreme].as_f64()), "{words}");
+        assert_eq!(a["note"], output);
+        let error = &o["error"];
+        let sum = error["reduction"].as_f64().zip(error["step"].as_f64()).map(|(a, b)| a + b);
+        assert!(close(&a["error"], sum), "{words}");
+    }
+    let page = std::fs::read_to_string(folder.path().join("cask/report.html")).unwrap();
+    assert!(page.contains("leaves rest by") && page.contains("margin to overturning"));
 }

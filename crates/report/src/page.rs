@@ -1,5 +1,6 @@
 //! A page: title, contents, sections of text, tables and figures.
 
+use crate::chart::Scales;
 use crate::{Entries, Figure, chart};
 use maud::{DOCTYPE, Markup, PreEscaped, html};
 use trilith_model::visible;
@@ -44,7 +45,7 @@ impl Block {
         Self::Code(text.into())
     }
 
-    fn markup(&self, fine: f64) -> Markup {
+    fn markup(&self, fine: f64, scales: &Scales) -> Markup {
         html! {
             @match self {
                 Self::Text(text) => p { (words(text)) },
@@ -56,7 +57,7 @@ impl Block {
                         td class=[verdict(cell)] { (words(cell)) }
                     } } } }
                 } },
-                Self::Figures(all) => div.figures { @for f in all { (chart::figure(f, fine)) } },
+                Self::Figures(all) => div.figures { @for f in all { (chart::figure(f, fine, scales)) } },
                 Self::Scales(words) => label.scales { input type="checkbox" checked data-scales=""; " " (words) },
             }
         }
@@ -172,6 +173,7 @@ impl Page {
         let all = || self.lead.iter().chain(self.sections.iter().flat_map(|s| &s.blocks));
         let points: usize = all().flat_map(Block::figures).map(chart::size).sum();
         let fine = chart::fine(points);
+        let scales = &Scales::of(all().flat_map(Block::figures));
         let page = html! {
             (DOCTYPE)
             html lang="en" {
@@ -184,7 +186,7 @@ impl Page {
                 }
                 body {
                     h1 { (self.title) }
-                    @for block in &self.lead { (block.markup(fine)) }
+                    @for block in &self.lead { (block.markup(fine, scales)) }
                     @if self.sections.len() > 1 {
                         nav { ol { @for (i, s) in self.sections.iter().enumerate() {
                             @if !s.group.is_empty() && (i == 0 || self.sections[i - 1].group != s.group) {
@@ -196,7 +198,7 @@ impl Page {
                     @for s in &self.sections {
                         section id=(s.id) {
                             h2 { (s.title) }
-                            @for block in &s.blocks { (block.markup(fine)) }
+                            @for block in &s.blocks { (block.markup(fine, scales)) }
                         }
                     }
                     @if let Some(entries) = &self.entries { (chart::json("", Some("entries"), &entries.data())) }

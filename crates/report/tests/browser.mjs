@@ -19,8 +19,8 @@ const VIEWS = [
 ];
 /** Pages may weigh so much, bytes. */
 const HEAVIEST = Number(process.env.HEAVIEST ?? 3e6);
-/** Pictures are so tall at most, px. */
-const TALLEST = Number(process.env.TALLEST ?? 16000);
+/** Pictures are so tall at most, px: of long pages there are several. */
+const TALLEST = 2000;
 
 const args = process.argv.slice(2);
 const at = args.indexOf("--out");
@@ -63,9 +63,13 @@ const pause = (ms) => new Promise((done) => setTimeout(done, ms));
 /** Scrolls through the page so that everything is drawn, and says what is amiss. */
 const LOOK = `(async () => {
   const wait = (ms) => new Promise((done) => setTimeout(done, ms));
-  for (let y = 0; y < document.body.scrollHeight; y += 700) { scrollTo(0, y); await wait(25); }
+  for (let y = 0; y < document.body.scrollHeight; y += 700) {
+    scrollTo(0, y);
+    // Observers report with the next pictures.
+    for (let i = 0; i < 3; i++) await new Promise(requestAnimationFrame);
+  }
   scrollTo(0, 0);
-  await wait(60);
+  await wait(100);
   const said = [], root = document.documentElement;
   const drawings = document.querySelectorAll("script.drawing"), ready = root.dataset.ready === "true";
   if (drawings.length && !ready) said.push("the script did not come to its end");
@@ -157,9 +161,11 @@ async function look(path) {
     for (const what of seen?.said ?? []) complain(name, view, what);
     if (view === "1280-light") for (const what of await value(USE)) complain(name, view, what);
     if (!out) continue;
-    const clip = { x: 0, y: 0, width, height: Math.min(seen.height, TALLEST), scale: 1 };
-    const { data } = await on("Page.captureScreenshot", { format: "png", captureBeyondViewport: true, clip });
-    writeFileSync(join(out, `${name}-${view}.png`), Buffer.from(data, "base64"));
+    for (let y = 0, i = 1; y < seen.height; y += TALLEST, i++) {
+      const clip = { x: 0, y, width, height: Math.min(seen.height - y, TALLEST), scale: 1 };
+      const { data } = await on("Page.captureScreenshot", { format: "png", captureBeyondViewport: true, clip });
+      writeFileSync(join(out, `${name}-${view}-${String(i).padStart(2, "0")}.png`), Buffer.from(data, "base64"));
+    }
   }
   view = "print";
   await on("Emulation.setEmulatedMedia", { media: "", features: [] });

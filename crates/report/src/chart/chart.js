@@ -122,6 +122,11 @@ class Chart {
     if (y.range && !this.group.range) return { x: along, y: y.range };
     const common = this.drawing.scale && scale(this.drawing.scale).on ? [...scale(this.drawing.scale).charts] : [this];
     const up = ends(y, extremes(common.flatMap((c) => c.reach(along))));
+    if (!y.log && common.some((c) => c.drawing.peaks)) {
+      // Values stand above what they mark.
+      const room = 0.06 * (up[1] - up[0]);
+      [up[0], up[1]] = [up[0] - room, up[1] + room];
+    }
     return this.drawing.equal ? square(along, up, w, h) : { x: along, y: up };
   }
 

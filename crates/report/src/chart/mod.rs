@@ -4,6 +4,7 @@ use crate::Figure;
 use crate::draw::drawing;
 use maud::{Markup, PreEscaped, html};
 use serde_json::Value;
+use std::collections::BTreeMap;
 use trilith_model::visible;
 
 /// The script of all pages, in the order in which its parts build on each other.
@@ -42,11 +43,41 @@ pub(crate) fn size(figure: &Figure) -> usize {
     figure.series.iter().map(|s| s.points.len()).sum()
 }
 
+/// Ends of the vertical axes that still figures share, by the names of their scales.
+#[derive(Debug, Default)]
+pub(crate) struct Scales(BTreeMap<String, (f64, f64)>);
+
+impl Scales {
+    pub(crate) fn of<'a>(figures: impl Iterator<Item = &'a Figure>) -> Self {
+        let mut all: BTreeMap<String, (f64, f64)> = BTreeMap::new();
+        for figure in figures.filter(|f| !f.scale.is_empty() && !f.y.log && f.y.range.is_none()) {
+            let ends =
+                all.entry(figure.scale.clone()).or_insert((f64::INFINITY, f64::NEG_INFINITY));
+            let points = figure.series.iter().flat_map(|s| &s.points).map(|p| p.1);
+            points.filter(|y| y.is_finite()).for_each(|y| *ends = (ends.0.min(y), ends.1.max(y)));
+        }
+        Self(all)
+    }
+
+    /// The still figure, in its scale.
+    fn svg(&self, figure: &Figure) -> String {
+        match self.0.get(&figure.scale).filter(|e| e.0 < e.1) {
+            None => figure.svg(),
+            Some((low, high)) => {
+                let room = 0.08 * (high - low);
+                let mut figure = figure.clone();
+                figure.y.range = Some((low - room, high + room));
+                figure.svg()
+            }
+        }
+    }
+}
+
 /// The figure, still and as data.
-pub(crate) fn figure(figure: &Figure, fine: f64) -> Markup {
+pub(crate) fn figure(figure: &Figure, fine: f64, scales: &Scales) -> Markup {
     html! {
         figure {
-            (PreEscaped(figure.svg()))
+            (PreEscaped(scales.svg(figure)))
             (json("drawing", None, &drawing(figure, fine)))
             @if !figure.caption.is_empty() { figcaption { (figure.caption) } }
         }

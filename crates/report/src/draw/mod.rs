@@ -24,6 +24,8 @@ const LEGEND_LINE: f64 = 18.0;
 const SAMPLE: f64 = 28.0;
 /// Pixels a letter takes, about.
 const LETTER: f64 = 6.6;
+/// Room for the values of peaks, share of the axis.
+const PEAK: f64 = 0.06;
 /// Opacity of areas.
 const OPACITY: f64 = 0.85;
 /// Room above and beneath the diagram, px, and on its right.
@@ -91,6 +93,11 @@ impl<'a> Frame<'a> {
             ends(&figure.x, all().filter_map(place).map(|p| p.0)),
             ends(&figure.y, all().filter_map(place).map(|p| p.1)),
         );
+        if !figure.peaks.is_empty() && figure.y.range.is_none() && !figure.y.log {
+            // Values stand above what they mark.
+            let room = PEAK * (y.1 - y.0);
+            y = (y.0 - room, y.1 + room);
+        }
         let (top, bottom, right) = EDGE;
         let h = (height - top - bottom - LEGEND_LINE * legend.len() as f64).max(40.0);
         let along_y = ticks(&figure.y, y, (h / 34.0) as usize);

@@ -1,39 +1,47 @@
 //! What an engineer asks of a run first, and how far each answer may be off.
 
 use super::data::Answer;
-use super::places::{drift, is_margin, variable};
+use super::places::{drift, is_margin, isolation, variable};
 use trilith_element::Dof;
 use trilith_model::{Combine, Model, Output, Quantity};
-use trilith_results::Summary;
+use trilith_results::{OutputSummary, Recorder, Summary};
 use trilith_solvers::BasisReport;
 
 /// A mode with less of the mass than this is not the first of a direction.
 const MASS: f64 = 0.1;
 
 /// The answers: of a body that stands free slide, uplift, tilt, margin, closest approach; of a structure period, base
-/// shear, travel of bearings, drift, floor acceleration; of both what struck. `weight`: that of the masses, N.
-pub(crate) fn answers(
-    model: &Model,
-    summary: &Summary,
-    modes: Option<&BasisReport>,
-    weight: f64,
-) -> Vec<Answer> {
-    let seen = Seen { model, summary, weight };
+/// shear, travel of bearings, drift, floor acceleration; of both what struck.
+pub(crate) fn answers(seen: &Seen<'_>) -> Vec<Answer> {
     let mut all = Vec::new();
-    if summary.contact.is_some() {
+    if seen.summary.contact.is_some() {
         seen.body(&mut all);
     } else {
-        seen.periods(&mut all, modes);
-        seen.structure(&mut all);
+        let travel = seen.travel();
+        seen.periods(&mut all, travel.as_ref());
+        seen.structure(&mut all, travel);
     }
     seen.blows(&mut all);
     all
 }
 
-struct Seen<'a> {
-    model: &'a Model,
-    summary: &'a Summary,
-    weight: f64,
+/// What is known of a run.
+pub(crate) struct Seen<'a> {
+    pub model: &'a Model,
+    pub summary: &'a Summary,
+    pub record: &'a Recorder,
+    /// Modes of the structure, where they are known.
+    pub modes: Option<&'a BasisReport>,
+    /// Weight of the masses, N.
+    pub weight: f64,
+}
+
+/// How far what carries a structure has moved sideways.
+struct Travel {
+    largest: f64,
+    t: f64,
+    last: f64,
+    link: String,
 }
 
 /// An extreme of an output.
@@ -102,11 +110,31 @@ impl Seen<'_> {
         all.extend(self.extreme("closest approach", Of::Least, apart));
     }
 
-    fn periods(&self, all: &mut Vec<Answer>, modes: Option<&BasisReport>) {
+    /// The travel of bearings, or of other links along which a structure moves over the ground.
+    fn travel(&self) -> Option<Travel> {
+        if let Some(b) = &self.summary.bearings {
+            let link = b.farthest.clone().unwrap_or_default();
+            return Some(Travel {
+                largest: b.max_travel,
+                t: b.time,
+                last: b.residual_travel,
+                link,
+            });
+        }
+        self.summary.base_shear.as_ref()?;
+        let all =
+            self.record.loops().links().filter_map(|(e, _)| isolation(self.model, self.record, e));
+        let most = all.max_by(|a, b| a.1.total_cmp(&b.1))?;
+        let (element, largest, t, last) = most;
+        let link = self.model.elements[element].name.clone();
+        (largest > 0.0).then_some(Travel { largest, t, last, link })
+    }
+
+    fn periods(&self, all: &mut Vec<Answer>, travel: Option<&Travel>) {
         // Bearings carry a structure that floats without them: its period is that of the travel it makes.
-        if let (Some(b), Some(v)) = (&self.summary.bearings, &self.summary.base_shear) {
+        if let (Some(travel), Some(v)) = (travel, &self.summary.base_shear) {
             let shear = v.max[0].max(v.max[1]);
-            let stiffness = shear / b.max_travel;
+            let stiffness = shear / travel.largest;
             if self.weight > 0.0 && stiffness.is_normal() {
                 let mass = self.weight / self.model.gravity;
                 let period = std::f64::consts::TAU * (mass / stiffness).sqrt();
@@ -115,7 +143,7 @@ impl Seen<'_> {
             }
             return;
         }
-        let Some(modes) = modes else { return };
+        let Some(modes) = self.modes else { return };
         for (k, axis) in ["X", "Y"].into_iter().enumerate() {
             let carries = |(_, p): &(&f64, &[f64; 3])| p[k] > MASS;
             let first = modes
@@ -131,7 +159,7 @@ impl Seen<'_> {
         }
     }
 
-    fn structure(&self, all: &mut Vec<Answer>) {
+    fn structure(&self, all: &mut Vec<Answer>, travel: Option<Travel>) {
         let s = self.summary;
         if let Some(shear) = &s.base_shear {
             for (k, dof) in [Dof::Ux, Dof::Uy].into_iter().enumerate() {
@@ -158,20 +186,14 @@ impl Seen<'_> {
                 });
             }
         }
-        if let Some(b) = &s.bearings {
-            let note = b.farthest.clone().unwrap_or_default();
-            let error = b.farthest.as_deref().and_then(|link| self.travel_error(link));
-            let t = Some(b.time);
-            all.push(Answer {
-                t,
-                note,
-                error,
-                ..answer("largest travel of bearings", b.max_travel, "m")
-            });
-            all.push(answer("travel at the end", b.residual_travel, "m"));
-            if b.max_uplift > 0.0 {
-                all.push(answer("uplift of bearings", b.max_uplift, "m"));
-            }
+        if let Some(Travel { largest, t, last, link }) = travel {
+            let error = self.twin(largest, t, "m").or_else(|| self.travel_error(&link));
+            let found = answer("largest travel of bearings", largest, "m");
+            all.push(Answer { t: Some(t), note: link, error, ..found });
+            all.push(answer("travel at the end", last, "m"));
+        }
+        if let Some(b) = s.bearings.as_ref().filter(|b| b.max_uplift > 0.0) {
+            all.push(answer("uplift of bearings", b.max_uplift, "m"));
         }
         if let Some(d) = &s.drift {
             let of = self.model.outputs.iter().find(|o| o.name == d.output);
@@ -188,6 +210,17 @@ impl Seen<'_> {
         let shaken =
             |o: &Output| matches!(&o.quantity, Quantity::Acceleration { absolute: true, .. });
         all.extend(self.extreme("largest floor acceleration", Of::Size, shaken));
+    }
+
+    /// How far an output may be off that has the same extreme at the same time: it is the same thing.
+    fn twin(&self, value: f64, t: f64, unit: &str) -> Option<f64> {
+        let near =
+            |x: f64, at: f64| (x.abs() - value).abs() <= 1e-4 * value && (at - t).abs() <= 1e-6;
+        let all = self.summary.outputs.0.iter().map(|(_, o)| o).filter(|o| o.unit == unit);
+        let same = |o: &&OutputSummary| {
+            o.peak.as_ref().is_some_and(|p| near(p.max, p.t_max) || near(p.min, p.t_min))
+        };
+        all.filter(same).filter_map(|o| o.error).map(|e| e.total()).find(|e| e.is_finite())
     }
 
     /// How far the travel of a bearing may be off: that of its deformations among the outputs.

@@ -4,6 +4,7 @@ use super::data::{Frames, Mode, Numbers, RunData, RunIdentity};
 use super::figures::SUPPLY;
 use super::picture::Sketch;
 use super::{answers, choice, loops, places, reduce, settings, shaking};
+use std::collections::BTreeMap;
 use trilith_model::Model;
 use trilith_results::{ENERGIES, Frame, Recorder, Summary, ground_motions};
 use trilith_solvers::{BasisReport, StartEnergy};
@@ -62,7 +63,13 @@ impl Collect<'_> {
             file: file.map_or(String::new(), |f| f.to_string_lossy().into_owned()),
             parameters: settings::parameters(self.model),
             overrides: self.overrides.to_vec(),
-            answers: answers::answers(self.model, self.summary, self.modes, self.weight),
+            answers: answers::answers(&answers::Seen {
+                model: self.model,
+                summary: self.summary,
+                record: self.record,
+                modes: self.modes,
+                weight: self.weight,
+            }),
             settings: settings::of_case(self.model, self.case, self.summary.solver, self.dt),
             picture: sketch.picture,
             frames,
@@ -102,14 +109,29 @@ impl Collect<'_> {
     fn histories(&self, shown: &[bool]) -> Vec<super::History> {
         let t = self.record.time();
         let outputs = self.model.outputs.iter().enumerate();
-        outputs
+        let mut all: Vec<super::History> = outputs
             .filter(|(i, _)| shown[*i])
             .filter_map(|(i, o)| {
                 let y = self.record.history(i).filter(|y| y.len() == t.len() && y.len() > 1)?;
                 let kind = places::kind(self.model, o);
                 Some(super::History { kind, ..reduce::history(o.name.clone(), &o.unit, t, y) })
             })
-            .collect()
+            .collect();
+        // One unit for all of a kind, so that they can be compared.
+        let size = |h: &super::History| h.y.values().fold(0.0_f64, |a, y| a.max(y.abs()));
+        let mut largest: BTreeMap<String, (f64, super::Shown)> = BTreeMap::new();
+        for h in all.iter().filter(|h| !h.kind.is_empty()) {
+            let best = largest.entry(h.kind.clone()).or_insert((-1.0, h.shown.clone()));
+            if size(h) > best.0 {
+                *best = (size(h), h.shown.clone());
+            }
+        }
+        for h in &mut all {
+            if let Some((_, shown)) = largest.get(&h.kind) {
+                h.shown = shown.clone();
+            }
+        }
+        all
     }
 
     fn energies(&self) -> Vec<super::History> {

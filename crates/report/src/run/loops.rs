@@ -1,6 +1,6 @@
 //! Which hysteresis loops are shown.
 
-use super::data::Loop;
+use super::data::{Loop, Numbers};
 use super::reduce::{numbers, times};
 use super::units::shown;
 use crate::thin::kept;
@@ -39,7 +39,22 @@ pub(crate) fn chosen(
         links.retain(|l| named.iter().any(|n| n == name(l.0)));
         links.sort_by_key(|l| named.iter().position(|n| n == name(l.0)));
     }
-    links.into_iter().flat_map(|(e, n)| of_link(model, record, e, n, !named.is_empty())).collect()
+    let all = links.into_iter().flat_map(|(e, n)| of_link(model, record, e, n, !named.is_empty()));
+    let mut all: Vec<Loop> = all.collect();
+    // Loops of one coordinate of one kind have the units of the largest.
+    let size = |n: &Numbers| n.values().fold(0.0_f64, |a, x| a.max(x.abs()));
+    for i in 0..all.len() {
+        let same = |l: &&Loop| (&l.kind, &l.coordinate) == (&all[i].kind, &all[i].coordinate);
+        let by = |of: fn(&Loop) -> &Numbers| {
+            let most = |a: &&Loop, b: &&Loop| size(of(a)).total_cmp(&size(of(b)));
+            all.iter().filter(same).max_by(most)
+        };
+        let units = (by(|l| &l.d), by(|l| &l.f));
+        if let (Some(d), Some(f)) = units {
+            all[i].shown = [d.shown[0].clone(), f.shown[1].clone()];
+        }
+    }
+    all
 }
 
 /// Size of ∫ f dd: what the force of a coordinate took.

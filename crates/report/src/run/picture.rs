@@ -239,6 +239,15 @@ fn title(e: &Element) -> String {
     format!("{} ({})", e.name, e.kind)
 }
 
+/// The family of a link as it lies at rest.
+pub(crate) fn family_at_rest(law: &dyn Link) -> Family {
+    let mut at = vec![0.0; law.history().len()];
+    law.at_rest(&mut at);
+    let still = vec![0.0; law.coordinates().len()];
+    let rest = Kinematics { d: &still, v: &still, d0: &still, v0: &still, dt: 0.0 };
+    family(law, &rest, &at)
+}
+
 /// The family by what the law does, so that it holds for kinds of any crate.
 fn family(law: &dyn Link, at: &Kinematics<'_>, history: &[f64]) -> Family {
     let n = law.coordinates().len();

@@ -1,6 +1,7 @@
 //! Outputs that belong together: of one kind at several places, over the height, along both directions of one place.
 
-use super::data::{Orbit, Profile, ProfileCurve};
+use super::data::{Family, Orbit, Profile, ProfileCurve};
+use super::picture::family_at_rest;
 use super::reduce::{numbers, times};
 use super::units::shown;
 use crate::thin::kept;
@@ -269,6 +270,36 @@ pub(crate) fn orbits(model: &Model, record: &Recorder) -> Vec<Orbit> {
         }
     }
     all
+}
+
+/// How far a link that carries a structure on the ground has moved sideways: element, largest distance, its time, and
+/// the distance at the end; none for other links.
+pub(crate) fn isolation(
+    model: &Model,
+    record: &Recorder,
+    element: usize,
+) -> Option<(usize, f64, f64, f64)> {
+    let e = model.elements.get(element).filter(|e| e.nodes.len() == 1)?;
+    let Body::Link(law, _) = &e.body else { return None };
+    let Coordinates::Local(axes) = law.coordinates() else { return None };
+    let carries = e.frame.0[0][2].abs() > 0.9 && axes.iter().any(|a| a.name() == "U1");
+    let holds = [Family::Hysteretic, Family::Spring].contains(&family_at_rest(law.as_ref()));
+    let across: Vec<usize> =
+        (0..axes.len()).filter(|k| ["U2", "U3"].contains(&axes[*k].name())).collect();
+    if !carries || !holds || across.is_empty() {
+        return None;
+    }
+    let mut way: Vec<(f64, f64)> = Vec::new();
+    for k in across {
+        for (i, p) in record.loops().coordinate(element, k).enumerate() {
+            match way.get_mut(i) {
+                Some(at) => at.1 += p.d * p.d,
+                None => way.push((p.t, p.d * p.d)),
+            }
+        }
+    }
+    let most = way.iter().copied().max_by(|a, b| a.1.total_cmp(&b.1))?;
+    Some((element, most.1.sqrt(), most.0, way.last()?.1.sqrt()))
 }
 
 /// True for 1 − tilt/limit: what is left until a body overturns.

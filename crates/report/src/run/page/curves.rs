@@ -1,8 +1,9 @@
 //! Time histories, orbits, profiles over the height, hysteresis loops.
 
-use super::figure;
 use super::rounding::Outputs;
 use super::value;
+use super::{figure, figures as drawn};
+use crate::Figure;
 use crate::run::data::{History, Loop};
 use crate::run::{RunData, figures};
 use maud::{Markup, html};
@@ -24,6 +25,8 @@ pub(super) fn histories(summary: &Value, data: &RunData) -> Markup {
         }
     }
     let draw = |h: &History| history(&outputs, summary, h);
+    let of =
+        |kind: &str| data.histories.iter().filter(|h| h.kind == kind).map(draw).collect::<Vec<_>>();
     let alone = || data.histories.iter().filter(|h| !together(h));
     html! {
         p.note.live {
@@ -31,21 +34,21 @@ pub(super) fn histories(summary: &Value, data: &RunData) -> Markup {
             "Names beneath a figure switch its curves."
         }
         label.scales { input type="checkbox" checked data-scales="kind "; " one scale for all of a kind" }
-        @if alone().next().is_some() { div.figures.board { @for h in alone() { (draw(h)) } } }
+        @if alone().next().is_some() { div.figures.board { (drawn(&alone().map(draw).collect::<Vec<_>>())) } }
         @for kind in kinds {
             h3 { (kind) }
-            div.figures.board.small { @for h in data.histories.iter().filter(|h| h.kind == kind) { (draw(h)) } }
+            div.figures.board.small { (drawn(&of(kind))) }
         }
     }
 }
 
 /// A history with its peaks, which are those of all substeps; nothing but rounding is a line at zero.
-fn history(outputs: &Outputs<'_>, summary: &Value, h: &History) -> Markup {
+fn history(outputs: &Outputs<'_>, summary: &Value, h: &History) -> Figure {
     if outputs.is_rounding(&h.name) {
         let mut flat = figures::history(h);
         flat.peaks.clear();
         flat.series.iter_mut().flat_map(|s| &mut s.points).for_each(|p| p.1 = 0.0);
-        return figure(flat, "Nothing but rounding.");
+        return flat.caption("Nothing but rounding.");
     }
     let mut drawn = figures::history(h);
     let o = &summary["outputs"][&h.name];
@@ -60,7 +63,7 @@ fn history(outputs: &Outputs<'_>, summary: &Value, h: &History) -> Markup {
     if !h.kind.is_empty() {
         drawn = drawn.scaled(format!("kind {}", h.kind));
     }
-    figure(drawn, "")
+    drawn
 }
 
 pub(super) fn plan(data: &RunData) -> Markup {
@@ -88,16 +91,17 @@ pub(super) fn loops(data: &RunData) -> Markup {
     // Coordinates of a kind behind each other.
     let first = |kind: &str| data.loops.iter().position(|l| l.kind == kind);
     kinds.sort_by_key(|k| first(&k.0));
+    let of = |kind: &str, coordinate: &str| {
+        let scale = format!("loop {kind} {coordinate}");
+        let these = data.loops.iter().filter(|l| l.kind == kind && l.coordinate == coordinate);
+        these.map(|l| figures::link_loop(l).scaled(scale.clone())).collect::<Vec<_>>()
+    };
     html! {
         p.note { "Force over deformation; U1, U2 … are the local axes of the link, U1 along it." }
         label.scales { input type="checkbox" checked data-scales="loop "; " one scale of force for all of a kind" }
         @for (kind, coordinate) in kinds {
             h3 { (kind) " " (coordinate) }
-            div.figures.board.loops {
-                @for l in data.loops.iter().filter(|l| l.kind == kind && l.coordinate == coordinate) {
-                    (figure(figures::link_loop(l).scaled(format!("loop {kind} {coordinate}")), ""))
-                }
-            }
+            div.figures.board.loops { (drawn(&of(&kind, &coordinate))) }
         }
     }
 }

@@ -20,7 +20,7 @@ fn measured(a: &Answer, largest: f64) -> (String, String) {
     let s = match a.unit.as_str() {
         // Of tilts one thinks in degrees.
         "rad" => crate::run::Shown { unit: "°".into(), factor: degrees },
-        "m/s^2" => {
+        "m/s^2" | "m/s²" => {
             crate::run::Shown { unit: "g".into(), factor: 1.0 / trilith_model::STANDARD_GRAVITY }
         }
         "1" => crate::run::Shown { unit: "%".into(), factor: 100.0 },

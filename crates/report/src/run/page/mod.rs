@@ -11,6 +11,7 @@ mod settings;
 mod shaking;
 
 use super::{Frames, Numbers, RunData, legible, script};
+use crate::chart::Scales;
 use crate::page::STYLE;
 use crate::{Figure, chart};
 use base64::prelude::{BASE64_STANDARD, Engine as _};
@@ -127,5 +128,11 @@ fn value(value: &Value) -> f64 {
 /// A figure with a sentence beneath.
 fn figure(figure: Figure, caption: &str) -> Markup {
     // The histories of a run are short already.
-    chart::figure(&figure.caption(caption), 0.0)
+    chart::figure(&figure.caption(caption), 0.0, &Scales::default())
+}
+
+/// Figures that may have one scale.
+fn figures(all: &[Figure]) -> Markup {
+    let scales = Scales::of(all.iter());
+    html! { @for f in all { (chart::figure(f, 0.0, &scales)) } }
 }

@@ -4,7 +4,7 @@ use super::rounding::{Outputs, size, unit};
 use super::value;
 use crate::run::RunData;
 use crate::run::choice::{FIRST, chosen};
-use crate::run::units::{number, shown};
+use crate::run::units::{number, short, shown};
 use maud::{Markup, html};
 use serde_json::Value;
 
@@ -40,11 +40,7 @@ fn row(name: &str, o: &Value, nothing: bool) -> Markup {
 
 /// An error needs no more digits than these.
 fn two_digits(x: f64) -> String {
-    if x == 0.0 {
-        return "0".into();
-    }
-    let scale = 10f64.powi(1 - x.abs().log10().floor() as i32);
-    number((x * scale).round() / scale)
+    short(x, 2)
 }
 
 fn table<'a>(

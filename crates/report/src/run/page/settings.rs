@@ -45,11 +45,7 @@ pub(super) fn settings(summary: &Value, data: &RunData) -> Markup {
     html! {
         div.two {
             div { (pairs("solution", &data.settings)) }
-            div {
-                (pairs("work", &work))
-                @if !data.overrides.is_empty() { (pairs("set on the command line", &data.overrides)) }
-                @if !data.parameters.is_empty() { (pairs("parameter", &data.parameters)) }
-            }
+            div { (pairs("work", &work)) }
         }
     }
 }
@@ -70,10 +66,6 @@ pub(super) fn made(summary: &Value, data: &RunData, made: &Value) -> Markup {
     say("command", &Value::from(Some(command).filter(|c| !c.is_empty())));
     let machine = words(&made["machine"]).join(" ");
     say("machine", &Value::from(Some(machine).filter(|m| !m.is_empty())));
-    if !data.parameters.is_empty() {
-        let list: Vec<String> = data.parameters.iter().map(|(n, v)| format!("{n} = {v}")).collect();
-        all.push(("parameters".into(), list.join("; ")));
-    }
     all.push(("SHA-256 of the results".into(), text(&summary["run_sha256"])));
     let mut files: Vec<(String, String)> = Vec::new();
     for f in made["files"].as_array().into_iter().flatten() {
@@ -84,8 +76,13 @@ pub(super) fn made(summary: &Value, data: &RunData, made: &Value) -> Markup {
     }
     html! {
         h2 { "What made this page" }
-        (pairs("made by", &all))
-        (pairs("SHA-256 of what was read", &files))
+        div.two {
+            div { (pairs("made by", &all)) (pairs("SHA-256 of what was read", &files)) }
+            div {
+                @if !data.overrides.is_empty() { (pairs("set on the command line", &data.overrides)) }
+                @if !data.parameters.is_empty() { (pairs("parameter", &data.parameters)) }
+            }
+        }
     }
 }
 

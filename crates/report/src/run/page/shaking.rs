@@ -1,6 +1,6 @@
 //! The motion of the ground and the spectra of the floors.
 
-use super::{figure, value};
+use super::{figure, figures as drawn, value};
 use crate::run::units::{number, short};
 use crate::run::{RunData, figures};
 use maud::{Markup, html};
@@ -19,9 +19,7 @@ pub(super) fn ground(data: &RunData) -> Markup {
     html! {
         p.note { "The acceleration of the base that loads the model, positive along the axis, over the whole case." }
         div.figures.board {
-            @for g in &data.ground {
-                (figure(figures::ground(g), &peak(g)))
-            }
+            (drawn(&data.ground.iter().map(|g| figures::ground(g).caption(peak(g))).collect::<Vec<_>>()))
             @for s in &data.ground_spectra {
                 (figure(figures::spectra(s).sized(440, 240), "Pseudo-acceleration of oscillators on the ground."))
             }
@@ -43,7 +41,9 @@ pub(super) fn floors(summary: &Value, data: &RunData) -> Markup {
             "Largest absolute acceleration of oscillators on each place, from its acceleration at the output times. "
             "All curves are in " code { "spectra.csv" } "."
         }
-        div.figures.board { @for s in &data.floor_spectra { (figure(figures::spectra(s).scaled("floors"), "")) } }
+        div.figures.board {
+            (drawn(&data.floor_spectra.iter().map(|s| figures::spectra(s).scaled("floors")).collect::<Vec<_>>()))
+        }
         div.wide { table {
             thead { tr {
                 th { "place" } th { "damping" } th { "largest [g]" } th { "period [s]" } th { "frequency [Hz]" } th { "rigid [g]" }
