@@ -6,7 +6,7 @@ use crate::text::{number, row};
 use trilith::Model;
 use trilith::compare::Compared;
 use trilith::model::Output;
-use trilith::report::{Block, Figure, Page, Section};
+use trilith::report::{Block, Figure, Page, Section, Shown};
 
 /// One self-contained page.
 pub(crate) fn page(model: &Model, case: &str, all: &[Compared]) -> String {
@@ -53,31 +53,39 @@ fn figures(model: &Model, all: &[Compared]) -> (Vec<Figure>, Vec<Figure>) {
     };
     // Nothing but rounding beside its like is a line at zero.
     let noise = |i: usize, unit: &str| size(i) < 1e-9 * largest(unit);
-    let of = |c: &Compared, i: usize, unit: &str| -> Vec<(f64, f64)> {
-        let factor = if noise(i, unit) { 0.0 } else { 1.0 };
+    let of = |c: &Compared, i: usize, unit: &str, factor: f64| -> Vec<(f64, f64)> {
+        let factor = if noise(i, unit) { 0.0 } else { factor };
         let o = &c.outcome;
         o.time.iter().copied().zip(o.histories[i].iter().map(|y| factor * y)).collect()
     };
-    let empty =
-        |name: String, label: String| Figure::new(name, "time [s]", label).sized(620, 340).timed();
+    let less = |c: &Compared, i: usize, unit: &str| -> Vec<(f64, f64)> {
+        let first = of(&all[0], i, unit, 1.0);
+        of(c, i, unit, 1.0).into_iter().map(|(t, y)| (t, y - at(&first, t))).collect()
+    };
+    let figure =
+        |name: &str, label: String| Figure::new(name, "time [s]", label).sized(620, 340).timed();
     let over = |(i, o): (usize, &Output)| {
-        let figure = empty(o.name.clone(), format!("{} [{}]", o.name, o.unit));
-        all.iter().fold(figure, |f, c| f.line(c.variant.to_string(), of(c, i, &o.unit))).peaks()
+        let shown = Shown::fitting(&o.unit, size(i));
+        let empty = figure(&o.name, shown.labelled(&o.name));
+        all.iter()
+            .fold(empty, |f, c| f.line(c.variant.to_string(), of(c, i, &o.unit, shown.factor)))
+            .peaks()
+    };
+    // Differences of one unit have one scale.
+    let apart_by = |unit: &str| {
+        let these = outputs().filter(|(_, o)| o.unit == unit);
+        let all = these
+            .flat_map(|(i, _)| all[1..].iter().flat_map(|c| less(c, i, unit)).collect::<Vec<_>>());
+        all.map(|p| p.1).filter(|y| y.is_finite()).fold(0.0_f64, |a, y| a.max(y.abs()))
     };
     let apart = |(i, o): (usize, &Output)| {
-        let first = of(&all[0], i, &o.unit);
-        let figure = empty(
-            o.name.clone(),
-            format!("{} less that of {} [{}]", o.name, all[0].variant, o.unit),
-        );
-        let less = |c: &Compared| {
-            let points = of(c, i, &o.unit).into_iter();
-            points.map(|(t, y)| (t, y - at(&first, t))).collect::<Vec<_>>()
+        let shown = Shown::fitting(&o.unit, apart_by(&o.unit));
+        let label = shown.labelled(&format!("less {}", all[0].variant));
+        let one = |f: Figure, c: &Compared| {
+            let points = less(c, i, &o.unit).into_iter().map(|(t, y)| (t, shown.factor * y));
+            f.line(c.variant.to_string(), points)
         };
-        all[1..]
-            .iter()
-            .fold(figure, |f, c| f.line(c.variant.to_string(), less(c)))
-            .scaled(o.unit.clone())
+        all[1..].iter().fold(figure(&o.name, label), one).scaled(o.unit.clone())
     };
     (outputs().map(over).collect(), outputs().map(apart).collect())
 }

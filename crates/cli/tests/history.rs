@@ -146,7 +146,7 @@ fn a_cask_tells_tilt_margin_and_approach_first() {
     let folder = tempfile::tempdir().unwrap();
     let model =
         std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("../../models/storage_cask.ron");
-    let args = ["run", model.to_str().unwrap(), "--set", "duration=4 s", "--out", "cask"];
+    let args = ["run", model.to_str().unwrap(), "--set", "duration=3 s", "--out", "cask"];
     let (status, out, err) = trilith(folder.path(), &args);
     assert_eq!(status, 0, "{out}{err}");
     let read = |name: &str| -> serde_json::Value {

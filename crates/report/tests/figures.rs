@@ -54,7 +54,10 @@ fn text_is_escaped_and_the_page_is_one_file() {
     for (at, _) in html.match_indices("http") {
         assert!(html[at..].starts_with("http://www.w3.org/"), "{}", &html[at..at + 40]);
     }
-    assert!(!html.contains("<script") && !html.contains("<link") && !html.contains("<img"));
+    assert!(!html.contains("<script src") && !html.contains("<img"));
+    assert!(
+        html.contains("<link rel=\"icon\" href=\"data:,\">") && html.matches("<link").count() == 1
+    );
 }
 
 #[test]

@@ -21,7 +21,7 @@ for study in models/studies/*.ron; do
 done
 make compare models/pounding_frames.ron --no-cause --out "$folder/compare/pounding_frames"
 make compare models/rigid_block.ron --no-cause --out "$folder/compare/rigid_block"
-make record models/records/synthetic_1.csv --damping 0.02,0.05 --out "$folder/record/synthetic_1"
+make record models/records/synthetic_1.csv --unit g --damping 0.02,0.05 --out "$folder/record/synthetic_1"
 make elements --page "$folder/catalogue.html"
 for page in target/validation/report.html target/benchmark/report.html; do
   if [ -e "$page" ]; then cp "$page" "$folder/$(basename "$(dirname "$page")").html"; fi

@@ -111,6 +111,9 @@ class Chart {
         if (s.y[k] > high) high = s.y[k];
       }
     }
+    for (const [i, x, y] of this.drawing.peaks ?? []) {
+      if (this.series[i].on && x >= from && x <= to) [low, high] = [Math.min(low, y), Math.max(high, y)];
+    }
     return [low, high];
   }
 
@@ -139,7 +142,7 @@ class Chart {
     const h = height - EDGE.top - EDGE.bottom;
     let range = this.ranges(width - 70, h);
     const axisY = () => ticks(this.drawing.y, range.y, Math.floor(h / 34));
-    const left = 24 + 6.8 * Math.max(2, ...axisY().map((t) => t[1].length));
+    const left = 26 + 7.6 * Math.max(2, ...axisY().map((t) => t[1].length));
     const w = width - left - EDGE.right;
     if (this.drawing.equal) range = this.ranges(w, h);
     Object.assign(this, { range, place: { left, w, h, width, height } });

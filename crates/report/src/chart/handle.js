@@ -61,7 +61,10 @@ function handle(chart) {
       const { x, y } = boxed(chart, here, p);
       if (Math.abs(here[0] - p[0]) > 5) chart.zoom({ x: [x[0], x[1]].map(chart.fromX), y: [y[1], y[0]].map(chart.fromY) });
       else chart.cursor();
-    } else if (!moved) { chart.pinned = false; chart.pinned = point(chart, p, true); }
+    } else if (!moved) {
+      chart.pinned = false;
+      chart.pinned = point(chart, p, true);
+    }
   };
   area.addEventListener("pointerup", end);
   area.addEventListener("pointercancel", end);
@@ -110,13 +113,23 @@ function lasso(chart, a, b) {
 /** Tells what is at a pixel; true where it stays until the next click. */
 function point(chart, p, press) {
   const near = nearest(chart, p, press ? 26 : 14);
+  // What is pressed stays, with all there is to do with it.
+  const kept = Boolean(press && near?.s.entries);
+  chart.tip.classList.toggle("kept", kept);
   if (near) {
     tell(chart, near.p, mark(chart, near));
-    return press && near.s.entries !== undefined;
+    return kept;
   }
   const lines = chart.shown().filter((s) => (s.rising || s.area) && s.x.length);
   const inside = chart.inside(...p);
-  if (!inside || !lines.length) { chart.tip.hidden = true; if (chart.drawing.shared && !inside) return false; chart.cursor(); return false; }
+  chart.cursor();
+  if (!inside) { chart.tip.hidden = true; return false; }
+  if (!lines.length) {
+    // Beside a path the place itself.
+    const row = (label, v) => { const [name, unit] = parted(label); return [null, name, number(v), unit]; };
+    tell(chart, p, [table([row(chart.drawing.x.label, chart.fromX(p[0])), row(chart.drawing.y.label, chart.fromY(p[1]))])]);
+    return false;
+  }
   const [from, to] = extremes(...lines.map((s) => s.x));
   const x = Math.min(Math.max(chart.fromX(p[0]), from), to);
   if (chart.drawing.shared) chart.group.read(x);

@@ -24,6 +24,8 @@ const LEGEND_LINE: f64 = 18.0;
 const SAMPLE: f64 = 28.0;
 /// Pixels a letter takes, about.
 const LETTER: f64 = 6.6;
+/// Pixels a digit beside an axis takes.
+const DIGIT: f64 = 7.4;
 /// Room for the values of peaks, share of the axis.
 const PEAK: f64 = 0.06;
 /// Opacity of areas.
@@ -87,7 +89,8 @@ impl<'a> Frame<'a> {
     fn new(figure: &'a Figure) -> Self {
         let legend = legend(figure);
         let (width, height) = (f64::from(figure.size.0), f64::from(figure.size.1));
-        let all = || figure.series.iter().flat_map(|s| &s.points);
+        let peaks = || figure.peaks.iter().map(|(_, p)| p);
+        let all = || figure.series.iter().flat_map(|s| &s.points).chain(peaks());
         let place = |p: &(f64, f64)| Some((position(&figure.x, p.0)?, position(&figure.y, p.1)?));
         let (mut x, mut y) = (
             ends(&figure.x, all().filter_map(place).map(|p| p.0)),
@@ -102,7 +105,7 @@ impl<'a> Frame<'a> {
         let h = (height - top - bottom - LEGEND_LINE * legend.len() as f64).max(40.0);
         let along_y = ticks(&figure.y, y, (h / 34.0) as usize);
         let longest = along_y.iter().map(|t| t.1.chars().count()).max().unwrap_or(1);
-        let left = 30.0 + LETTER * longest.max(2) as f64;
+        let left = 30.0 + DIGIT * longest.max(2) as f64;
         let w = (width - left - right).max(60.0);
         if figure.equal {
             (x, y) = square(x, y, w, h);

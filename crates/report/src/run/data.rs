@@ -127,6 +127,20 @@ pub struct Shown {
     pub factor: f64,
 }
 
+impl Shown {
+    /// The unit in which values of up to this size (SI) are easy to read.
+    #[must_use]
+    pub fn fitting(unit: &str, size: f64) -> Self {
+        super::units::shown(unit, size)
+    }
+
+    /// A quantity and this unit in brackets, for an axis.
+    #[must_use]
+    pub fn labelled(&self, what: &str) -> String {
+        super::units::labelled(what, self)
+    }
+}
+
 /// A quantity over time.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct History {

@@ -113,7 +113,7 @@ mod tests {
             words: "largest drift".into(),
             value: 0.0123,
             unit: "m".into(),
-            error: Some(1.25e-4),
+            error: Some(1.3e-4),
             ..Answer::default()
         };
         assert_eq!(measured(&a, 0.0123), ("12.3 mm".into(), "± 0.13".into()));
