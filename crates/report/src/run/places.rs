@@ -252,7 +252,7 @@ pub(crate) fn orbits(model: &Model, record: &Recorder) -> Vec<Orbit> {
         }
         let most = |v: &[f64]| v.iter().fold(0.0_f64, |a, x| a.max(x.abs()));
         let (wide, tall) = (most(x), most(y));
-        if !(wide.min(tall) > WIDE * wide.max(tall)) {
+        if wide.min(tall) <= WIDE * wide.max(tall) {
             continue;
         }
         let size = wide.max(tall);

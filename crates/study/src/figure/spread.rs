@@ -104,6 +104,9 @@ pub(super) fn spread(study: &Study, records: &[Record], x: &str, y: &str) -> Vec
     figures
 }
 
+/// A point, and the row of its run.
+type Point = ((f64, f64), usize);
+
 pub(super) fn points(
     study: &Study,
     records: &[Record],
@@ -112,7 +115,7 @@ pub(super) fn points(
 ) -> Figure {
     let title = format!("{} over {}", y.replace('_', " "), x.replace('_', " "));
     let mut figure = Figure::new(title, study.label(x), study.label(y));
-    let mut groups: Vec<(String, Vec<((f64, f64), usize)>)> = Vec::new();
+    let mut groups: Vec<(String, Vec<Point>)> = Vec::new();
     for (row, r) in records.iter().enumerate() {
         let number = |name| r.number(&study.varied, &study.columns, name);
         let (Some(a), Some(b)) = (number(x), number(y)) else { continue };
