@@ -4,6 +4,7 @@
 
 mod assemble;
 mod batch;
+mod blame;
 mod blocks;
 mod dampers;
 mod elastic;
@@ -20,6 +21,7 @@ mod parts;
 mod reduction;
 
 pub use assemble::System;
+pub use blame::{Panicked, blaming, catch};
 pub use blocks::LinkBlocks;
 pub use elastic::{EndForceRow, ReactionRow};
 pub use error::SystemError;

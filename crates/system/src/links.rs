@@ -11,6 +11,7 @@ use trilith_element::{Coordinates, Dof, Energy, Kinematics, Link, Response};
 use trilith_model::{Body, Model};
 
 use crate::batch::{Pack, packs};
+use crate::blame::blaming;
 use crate::dampers::Damper;
 use crate::leaning::{Leaning, TILTS};
 use crate::link_rows::{all_rows, tilt_row};
@@ -99,12 +100,24 @@ pub(crate) fn mark_used(model: &Model, used: &mut [bool]) {
 
 /// The laws of all links with their places in the flat arrays.
 #[derive(Clone, Debug)]
-pub struct Laws<'a>(Vec<(&'a dyn Link, &'a LinkInstance)>);
+pub struct Laws<'a> {
+    all: Vec<(&'a dyn Link, &'a LinkInstance)>,
+    /// True for each that looks at rates.
+    rated: Vec<bool>,
+    /// What the others get for rates: no numbers, so that one that looks at them all the same is found out.
+    none: Vec<f64>,
+}
 
 impl<'a> Laws<'a> {
+    fn new(all: Vec<(&'a dyn Link, &'a LinkInstance)>) -> Self {
+        let rated = all.iter().map(|(law, _)| law.uses_rates()).collect();
+        let longest = all.iter().map(|(_, link)| link.range.len()).max().unwrap_or(0);
+        Self { all, rated, none: vec![f64::NAN; longest] }
+    }
+
     /// The laws in model order.
     pub fn iter(&self) -> impl Iterator<Item = (&'a dyn Link, &'a LinkInstance)> + '_ {
-        self.0.iter().copied()
+        self.all.iter().copied()
     }
 
     /// Evaluates all laws at (d, v) from the committed history. Writes forces, tangents, trial history, and
@@ -135,24 +148,21 @@ impl<'a> Laws<'a> {
         tangents: &mut Tangents,
         energy: &mut Energy,
     ) {
-        let (law, link) = self.0[i];
+        let (law, link) = self.all[i];
         let r = link.range.clone();
+        let none = &self.none[..r.len()];
+        let (v, v0) =
+            if self.rated[i] { (&at.v[r.clone()], &at.v0[r.clone()]) } else { (none, none) };
         let (k, c) = (&mut tangents.k[link.block.clone()], &mut tangents.c[link.block.clone()]);
         let f = &mut f[r.clone()];
         [&mut *f, &mut *k, &mut *c].into_iter().for_each(|x| x.fill(0.0));
         *energy = Energy::default();
-        law.respond(
-            &Kinematics {
-                d: &at.d[r.clone()],
-                v: &at.v[r.clone()],
-                d0: &at.d0[r.clone()],
-                v0: &at.v0[r.clone()],
-                dt: at.dt,
-            },
-            &committed[link.history.clone()],
-            &mut trial[link.history.clone()],
-            &mut Response { f, k, c, energy },
-        );
+        let at = Kinematics { d: &at.d[r.clone()], v, d0: &at.d0[r], v0, dt: at.dt };
+        let (committed, trial) =
+            (&committed[link.history.clone()], &mut trial[link.history.clone()]);
+        blaming(link.element, || {
+            law.respond(&at, committed, trial, &mut Response { f, k, c, energy });
+        });
     }
 }
 
@@ -188,10 +198,10 @@ impl<'a> StepLaws<'a> {
             .enumerate()
             .filter_map(|(i, (law, link))| Damper::of(i, law, link))
             .collect();
-        let mut taken = vec![false; laws.0.len()];
+        let mut taken = vec![false; laws.all.len()];
         dampers.iter().for_each(|d| taken[d.link] = true);
-        let rest = (0..laws.0.len()).filter(|i| !taken[*i]).collect();
-        let (packs, alone) = packs(&laws.0, rest);
+        let rest = (0..laws.all.len()).filter(|i| !taken[*i]).collect();
+        let (packs, alone) = packs(&laws.all, rest);
         Self { laws, dampers, packs, alone }
     }
 
@@ -211,7 +221,9 @@ impl<'a> StepLaws<'a> {
         to: &mut Answers<'_>,
     ) {
         self.dampers.iter().for_each(|damper| damper.force(at, to.f));
-        self.packs.iter_mut().for_each(|pack| pack.force(at, last, to));
+        for pack in &mut self.packs {
+            blaming(pack.element(), || pack.force(at, last, to));
+        }
         for i in &self.alone {
             let Answers { history, f, tangents, energy } = to;
             self.laws.respond_one(*i, *at, committed, history, f, tangents, &mut energy[*i]);
@@ -227,7 +239,9 @@ impl<'a> StepLaws<'a> {
     #[inline]
     pub fn end(&mut self, at: &Kinematics<'_>, to: &mut Answers<'_>) {
         self.dampers.iter().for_each(|damper| damper.energy(at, to.energy));
-        self.packs.iter_mut().for_each(|pack| pack.commit(to));
+        for pack in &mut self.packs {
+            blaming(pack.element(), || pack.commit(to));
+        }
     }
 }
 
@@ -362,7 +376,7 @@ impl LinkSet {
     /// The laws that run, looked up once.
     #[must_use]
     pub fn laws<'a>(&'a self, model: &'a Model) -> Laws<'a> {
-        Laws(self.links.iter().filter_map(|l| self.law(model, l).map(|law| (law, l))).collect())
+        Laws::new(self.links.iter().filter_map(|l| self.law(model, l).map(|law| (law, l))).collect())
     }
 
     /// History before anything has happened.

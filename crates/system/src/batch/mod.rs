@@ -21,6 +21,9 @@ const MOST: (usize, usize) = (3, 9);
 
 /// Links of one law that are asked together.
 pub(crate) trait Pack: Debug {
+    /// Index in the model of the first of its elements.
+    fn element(&self) -> usize;
+
     /// Takes up a step from the deformations and rates at its start.
     fn start(&mut self, at: &Kinematics<'_>, committed: &[f64]);
 
@@ -41,8 +44,9 @@ struct Lanes<A: Arithmetic> {
     law: ErasedLaw,
     /// True where the law looks at rates.
     rate: bool,
-    /// Indices of the links.
+    /// Indices of the links, and of the element of the first.
     links: Vec<usize>,
+    element: usize,
     /// Where their deformations, tangents and histories lie.
     coordinates: Places,
     blocks: Places,
@@ -137,14 +141,16 @@ impl<A: Arithmetic + Debug + 'static> Lanes<A> {
             law: first.law,
             rate: first.rate && group.iter().any(|j| laws[*j].0.uses_rates()),
             links: group.to_vec(),
+            element: laws[*group.first()?].1.element,
             coordinates: Places::new(coordinates, order, paired),
             blocks: Places::new(starts(|link| link.block.start), order, false),
             histories: Places::new(starts(|link| link.history.start), order, paired),
             parameters: (0..first.law.parameters).map(parameter).collect(),
             d: vec![zero; n],
-            v: vec![zero; n],
+            // A law that does not look at rates gets no numbers for them.
+            v: vec![with.splat(if first.rate { 0.0 } else { f64::NAN }); n],
             d0: vec![zero; n],
-            v0: vec![zero; n],
+            v0: vec![with.splat(if first.rate { 0.0 } else { f64::NAN }); n],
             dt: zero,
             history: vec![zero; first.law.history],
             trial: vec![zero; first.law.history],
@@ -323,6 +329,10 @@ impl<A: Arithmetic> Lanes<A> {
 }
 
 impl<A: Arithmetic + Debug> Pack for Lanes<A> {
+    fn element(&self) -> usize {
+        self.element
+    }
+
     fn start(&mut self, at: &Kinematics<'_>, committed: &[f64]) {
         self.with.run(Start { pack: self, at, committed });
     }
