@@ -49,6 +49,7 @@ impl Failure {
             Error::Solve(
                 SolveError::StaticNotConverged { .. }
                 | SolveError::JointNotHeld { .. }
+                | SolveError::Law { .. }
                 | SolveError::Predecessor { .. },
             ) => 1,
             Error::Solve(SolveError::Interrupted { .. }) => INTERRUPTED,

@@ -56,7 +56,7 @@ pub use basis::{Adequacy, BasisReport, ModeShape};
 pub use certificate::OutputError;
 pub use checks::of_model as warnings;
 pub use contacts::{BearingSummary, StopSummary};
-pub use error::SolveError;
+pub use error::{LawFault, SolveError};
 pub use record::{
     BaseShear, BaseShearSummary, ContactMemory, ContactMode, ContactSummary, EnergyBalance,
     EnergyTotals, LinkEnergy, Observer, Peak, Sample, Shape, StartEnergy,

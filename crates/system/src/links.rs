@@ -437,11 +437,16 @@ impl LinkSet {
         let Some(link) = self.links.iter().find(|l| l.range.contains(&flat)) else {
             return "the structure".into();
         };
-        let local = flat - link.range.start;
-        let axis = match self.law(model, link).map(Link::coordinates) {
+        let axis = self.coordinate(model, link, flat - link.range.start);
+        format!("\"{}\" {axis}", model.elements[link.element].name)
+    }
+
+    /// Name of a coordinate of a link, counted from its first, such as `U1`.
+    #[must_use]
+    pub fn coordinate(&self, model: &Model, link: &LinkInstance, local: usize) -> String {
+        match self.law(model, link).map(Link::coordinates) {
             Some(Coordinates::Local(axes)) => axes[local].name().to_owned(),
             _ => format!("node {} {}", local / 6 + 1, Dof::ALL[local % 6].name()),
-        };
-        format!("\"{}\" {axis}", model.elements[link.element].name)
+        }
     }
 }

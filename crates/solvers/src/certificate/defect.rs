@@ -253,7 +253,7 @@ impl<'a> Defect<'a> {
                 dt,
             };
             let own = &mut history[link.history.clone()];
-            answer.of(law, &at, own);
+            answer.of((law, link), &at, own);
             own.copy_from_slice(&answer.history);
             for (i, f) in r.zip(&answer.f) {
                 if let Ok(a) = self.system.links.active.binary_search(&i) {

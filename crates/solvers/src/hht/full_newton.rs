@@ -14,7 +14,7 @@ use crate::vector::largest;
 use trilith_element::{Energy, Kinematics};
 use trilith_linalg::{SparseLu, Triplets};
 use trilith_model::Model;
-use trilith_system::{LoadSet, StepLoads, System, Tangents};
+use trilith_system::{LinkSet, LoadSet, StepLoads, System, Tangents};
 
 const ITERATIONS: usize = 60;
 const TOLERANCE: f64 = 1e-9;
@@ -130,6 +130,7 @@ impl Stepper for FullNewton<'_> {
         let (v0, a0) = rest.split_at(n);
         let before = self.imbalance(&load0, u0, v0, &from.f);
         to.clone_from(from);
+        to.history.fill(f64::NAN);
         let a0: Vec<f64> = a0.iter().map(|a| acceleration(*a)).collect();
         let mut a = a0.clone();
         let mut tangents = self.system.links.tangents();
@@ -188,6 +189,8 @@ impl Stepper for FullNewton<'_> {
                 *x += y;
             }
         }
+        // Who looks for the culprit looks at all of its answer.
+        to.tangents = tangents;
         Err(self.worst(&residual))
     }
 
@@ -237,6 +240,10 @@ impl Stepper for FullNewton<'_> {
 
     fn space(&self) -> &ReducedSystem {
         &self.space
+    }
+
+    fn links(&self) -> &LinkSet {
+        &self.system.links
     }
 
     fn work(&self) -> (usize, usize) {

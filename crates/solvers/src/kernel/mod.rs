@@ -288,7 +288,10 @@ impl<'a> LinkKernel<'a> {
             return if goes { Ok(false) } else { Err(self.farthest()) };
         }
         self.search.before(&self.residual);
-        self.correct(affine, out.laws.tangents, slow);
+        if !self.correct(affine, out.laws.tangents, slow) {
+            self.factors.forget(affine.key);
+            return Err(self.farthest());
+        }
         let Self { followed, unknowns, correction, residual, search, .. } = self;
         let step = if *followed { unknowns.pseudo_of(correction) } else { residual };
         // Converged as well: what is left is rounding of a steep law, and the correction changes nothing.
@@ -310,6 +313,13 @@ impl<'a> LinkKernel<'a> {
         out.pseudo.copy_from_slice(self.unknowns.pseudo());
         let at = Kinematics { d: out.d, v: out.v, d0: from.d, v0: from.v, dt: from.dt };
         self.laws.end(&at, &mut out.laws);
+    }
+
+    /// Where the laws were asked last, for who looks for the one that is to blame.
+    pub(crate) fn show(&self, out: &mut Converged<'_>) {
+        if self.plain {
+            out.d.copy_from_slice(self.unknowns.d());
+        }
     }
 
     /// f̃ takes the step, and what follows it already.
@@ -409,10 +419,14 @@ impl<'a> LinkKernel<'a> {
         Parts { factor, residual, correction, unknowns }
     }
 
-    /// From the residual to the Newton correction of f̃: Δf̃ = J⁻¹ r.
-    fn correct(&mut self, affine: &Affine<'_>, tangents: &Tangents, slow: bool) {
+    /// From the residual to the Newton correction of f̃: Δf̃ = J⁻¹ r; false where the equations are singular.
+    fn correct(&mut self, affine: &Affine<'_>, tangents: &Tangents, slow: bool) -> bool {
         let Parts { factor, residual, correction, .. } = self.factor(affine, tangents, slow);
+        if !factor.is_sound() {
+            return false;
+        }
         self.followed = factor.correct(residual, correction);
+        true
     }
 
     /// The same, and f̃ takes it at once; false where the equations are singular.

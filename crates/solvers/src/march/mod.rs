@@ -31,6 +31,7 @@
 //! Reference: error per step and per unit step, scaled norms \[Hairer, Nørsett & Wanner 1993, II.4\];
 //! proportionality of error and tolerance \[Söderlind 2002\].
 
+mod closing;
 mod output_step;
 mod timeline;
 
@@ -41,10 +42,14 @@ pub(crate) use timeline::{Segment, Timeline};
 
 use crate::error::SolveError;
 use crate::kernel::ForceScale;
-use crate::step::{DisplacementNorms, State, StepEnergy, StepFailure, Stepper};
+use crate::step::{
+    Culprit, DisplacementNorms, State, StepEnergy, StepFailure, Stepper, asked_again, is_sound,
+    not_finite,
+};
 use crate::vector::larger;
+use closing::{Closing, Made};
 use serde::{Deserialize, Serialize};
-use trilith_model::StepControl;
+use trilith_model::{Model, StepControl};
 use trilith_system::{LoadSet, StepLoads};
 
 /// Halvings of an output step at most.
@@ -106,6 +111,11 @@ pub(crate) enum Stop {
     Spent {
         t: f64,
     },
+    /// A law breaks its contract from this time on, s.
+    Law {
+        t: f64,
+        culprit: Culprit,
+    },
     Fatal(SolveError),
 }
 
@@ -119,7 +129,12 @@ pub(crate) struct March<'a> {
     pub budget: usize,
     /// Keeps the steps in one where it has made them in halves.
     pub whole: bool,
+    /// Where the step on trial starts, s.
+    pub at: f64,
     trial: Trial,
+    closing: Closing,
+    /// Length of the step accepted last, as it was kept, s.
+    last: f64,
 }
 
 /// States and energies of a step on trial, kept so that a step allocates nothing; a state that is accepted changes
@@ -154,6 +169,8 @@ struct Measured {
     error: f64,
     /// Of displacements, for the way that the step went.
     per_distance: f64,
+    /// True where the energies of the links have not closed.
+    open: bool,
 }
 
 impl Measured {
@@ -196,8 +213,18 @@ impl<'a> March<'a> {
         loads: &'a LoadSet,
         control: StepControl,
     ) -> Self {
-        let (counts, trial) = (Counts::default(), Trial::default());
-        Self { stepper, loads, control, counts, budget: usize::MAX, whole: false, trial }
+        Self {
+            stepper,
+            loads,
+            control,
+            counts: Counts::default(),
+            budget: usize::MAX,
+            whole: false,
+            at: 0.0,
+            trial: Trial::default(),
+            closing: Closing::default(),
+            last: 0.0,
+        }
     }
 
     /// The next segment starts where a load may jump.
@@ -257,6 +284,9 @@ impl<'a> March<'a> {
                 Ok(()) => {
                     let measured = self.measure(state, control, tolerance);
                     let error = measured.most();
+                    if measured.open && error > tolerance {
+                        self.closing.suspect(start, self.stepper.links());
+                    }
                     if !error.is_finite() {
                         // No link is to blame.
                         let worst = usize::MAX;
@@ -270,6 +300,7 @@ impl<'a> March<'a> {
                         continue;
                     }
                     self.counts.forced += usize::from(error > tolerance);
+                    self.watch(state, start)?;
                     let Trial { whole, first, second, energies: [e0, e1, e2], .. } =
                         &mut self.trial;
                     let halves = [(middle, &**first, &*e1), (end, &**second, &*e2)];
@@ -282,6 +313,7 @@ impl<'a> March<'a> {
                     let last = if self.whole { whole } else { second };
                     control.reached.reach(&self.stepper.displacement_norms(last, None));
                     std::mem::swap(state, last);
+                    self.last = if self.whole { size } else { 0.5 * size };
                     at += ticks;
                     control.level = level;
                     if may_grow(measured.error, measured.per_distance, tolerance) && level > 0 {
@@ -324,6 +356,7 @@ impl<'a> March<'a> {
         Measured {
             error,
             per_distance: apart.displacement.over(&moved, LEAST_WAY, &control.reached),
+            open: missing > allowed,
         }
     }
 
@@ -340,7 +373,7 @@ impl<'a> March<'a> {
             &mut self.trial;
         let mut step = |from: &State, to: &mut State, t0, t1, dt, energy: &mut StepEnergy| {
             self.loads.step(t0, t1, loads);
-            self.stepper.step(from, to, loads, dt, energy)
+            sound_step(self.stepper, from, to, loads, dt, energy)
         };
         let failed = |first: bool| move |failure| Failed { failure, first };
         if !known {
@@ -350,7 +383,7 @@ impl<'a> March<'a> {
         *missed = self.stepper.missed(state, first, 0.5 * size, notable);
         *turned = self.stepper.turned();
         self.loads.step(middle, end, loads);
-        self.stepper.step(first, second, loads, 0.5 * size, e2).map_err(failed(true))?;
+        sound_step(self.stepper, first, second, loads, 0.5 * size, e2).map_err(failed(true))?;
         *missed += self.stepper.missed(first, second, 0.5 * size, notable);
         let behind = self.stepper.turned();
         turned.iter_mut().zip(behind).for_each(|(most, x)| *most = larger(*most, x));
@@ -374,11 +407,12 @@ impl<'a> March<'a> {
             let size = segment.length * share(ticks);
             let Trial { whole, energies: [energy, ..], loads, .. } = &mut self.trial;
             self.loads.step(time(at), time(at + ticks), loads);
-            match self.stepper.step(state, whole, loads, size, energy) {
+            match sound_step(self.stepper, state, whole, loads, size, energy) {
                 Ok(()) => {
                     accept(time(at + ticks), whole, energy);
                     self.counts.substeps += 1;
                     std::mem::swap(state, whole);
+                    self.last = size;
                     at += ticks;
                     while level > 0 && at.is_multiple_of(full >> (level - 1)) {
                         level -= 1;
@@ -394,8 +428,50 @@ impl<'a> March<'a> {
         Ok(())
     }
 
+    /// Ends the run where a law does not account for its work, by an accepted step from `t`.
+    #[inline]
+    fn watch(&mut self, state: &State, t: f64) -> Result<(), Stop> {
+        if !self.closing.is_watching() {
+            return Ok(());
+        }
+        let Trial { whole, first, second, energies: [e0, e1, e2], .. } = &self.trial;
+        let made = Made {
+            from: state,
+            whole: (whole, e0),
+            first: (first, e1),
+            second: (second, e2),
+            rounding: ROUNDING * self.stepper.rounding(second),
+        };
+        match self.closing.look(self.stepper.links(), &made) {
+            Some(culprit) => Err(Stop::Law { t, culprit }),
+            None => Ok(()),
+        }
+    }
+
+    /// Asks the laws again what they answered in the step accepted last, which led to a state at `t`.
+    ///
+    /// # Errors
+    /// [`Stop::Law`] where one answers otherwise.
+    pub(crate) fn ask_again(&self, model: &Model, state: &State, t: f64) -> Result<(), Stop> {
+        let Trial { whole, first, second, .. } = &self.trial;
+        let from = match self.control {
+            StepControl::Fixed { .. } => whole,
+            StepControl::Adaptive { .. } if self.whole => second,
+            StepControl::Adaptive { .. } => first,
+        };
+        // No step has been made yet.
+        if from.d.len() != state.d.len() || self.last == 0.0 {
+            return Ok(());
+        }
+        match asked_again(model, self.stepper.links(), from, state, self.last) {
+            Some(culprit) => Err(Stop::Law { t, culprit }),
+            None => Ok(()),
+        }
+    }
+
     /// Ends the run where its work is spent.
-    fn spend(&self, t: f64) -> Result<(), Stop> {
+    fn spend(&mut self, t: f64) -> Result<(), Stop> {
+        self.at = t;
         if self.counts.substeps + self.counts.rejected < self.budget {
             Ok(())
         } else {
@@ -407,11 +483,43 @@ impl<'a> March<'a> {
     fn give_up(&self, failure: StepFailure, level: u32, t: f64) -> Result<(), Stop> {
         match failure {
             StepFailure::Fatal(e) => Err(Stop::Fatal(e)),
-            StepFailure::NoEquilibrium { worst, residual } if level + 2 >= DEPTH => {
-                Err(Stop::NoEquilibrium { t, worst, residual })
+            // A shorter step may lead where the law has an answer.
+            _ if level + 2 < DEPTH => Ok(()),
+            StepFailure::Unsound(culprit) => Err(Stop::Law { t, culprit }),
+            StepFailure::NoEquilibrium { worst, residual } => {
+                let Trial { whole, first, second, .. } = &self.trial;
+                let links = self.stepper.links();
+                // Only forces and tangents are there where a step has failed.
+                let culprit = [whole, first, second]
+                    .into_iter()
+                    .find_map(|state| not_finite(links, state, None));
+                Err(match culprit {
+                    Some(culprit) => Stop::Law { t, culprit },
+                    None => Stop::NoEquilibrium { t, worst, residual },
+                })
             }
-            StepFailure::NoEquilibrium { .. } => Ok(()),
         }
+    }
+}
+
+/// A step in which all laws have answered with numbers.
+#[inline]
+fn sound_step(
+    stepper: &mut dyn Stepper,
+    from: &State,
+    to: &mut State,
+    loads: &StepLoads,
+    dt: f64,
+    energy: &mut StepEnergy,
+) -> Result<(), StepFailure> {
+    stepper.step(from, to, loads, dt, energy)?;
+    if is_sound(to, &energy.links) {
+        return Ok(());
+    }
+    match not_finite(stepper.links(), to, Some(&energy.links)) {
+        Some(culprit) => Err(StepFailure::Unsound(culprit)),
+        // It is not a law: the measures of the step tell.
+        None => Ok(()),
     }
 }
 

@@ -50,7 +50,8 @@ impl Arrival<'_> {
             Analysis::Dynamic(analysis) => analysis.solution.energy_limit,
             Analysis::Static(_) => f64::INFINITY,
         };
-        let status = if share > limit {
+        // A share that is no number is within no limit.
+        let status = if share > limit || share.is_nan() {
             Status::EnergyError { share, limit }
         } else {
             fallen.map_or(Status::Converged, |element| Status::Overturned {

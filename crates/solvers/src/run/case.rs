@@ -11,10 +11,10 @@ use crate::checks;
 use crate::error::SolveError;
 use crate::record::{EnergyTotals, LinkEnergy, Observer, show_static};
 use crate::statics::{self, Equilibrium};
-use crate::step::untouched;
+use crate::step::{Culprit, untouched};
 use std::sync::atomic::AtomicBool;
 use trilith_model::{Analysis, Case, Load, Model, SolverKind, StaticCase};
-use trilith_system::System;
+use trilith_system::{System, catch};
 
 /// What to run.
 #[derive(Default)]
@@ -74,7 +74,7 @@ fn one(
     observers: &mut [&mut dyn Observer],
 ) -> Result<CaseResult, SolveError> {
     let case = &model.cases[options.case];
-    match &case.analysis {
+    let run = || match &case.analysis {
         Analysis::Static(analysis) => {
             if let Some(end) = &options.from {
                 check_static(model, case, end)?;
@@ -85,7 +85,12 @@ fn one(
             let setup = Setup { model, system, case, analysis, before };
             dynamic::run(setup, options, observers)
         }
-    }
+    };
+    // A law that panics in a march ends that alone; here are those that do so before it, or where no time goes on.
+    catch(run).unwrap_or_else(|panicked| {
+        let when = format!("in case \"{}\" where no time goes on", case.name);
+        Err(Culprit::from(panicked).error(model, system, when))
+    })
 }
 
 /// The end of the case that a case continues. Cases that continue each other are run from the first to the last, one
@@ -131,6 +136,7 @@ fn end_of(
         return Err(SolveError::Interrupted { case: result.case, t });
     }
     if let Status::NotConverged { .. }
+    | Status::Law { .. }
     | Status::Spent { .. }
     | Status::Overturned { .. }
     | Status::Inadequate { .. } = result.status
@@ -210,14 +216,21 @@ fn run_static(
         None => (untouched(model, system), vec![0.0; system.order()]),
     };
     let found = statics::equilibrium(model, system, start, &carried, &added, analysis.steps)?;
-    let Equilibrium { u, mut state, iterations, steps, rejected } =
-        found.map_err(|e| SolveError::StaticNotConverged {
+    let Equilibrium { u, mut state, iterations, steps, rejected } = found.map_err(|e| {
+        let percent = 100.0 * e.reached;
+        if let Some(culprit) = e.culprit {
+            let when =
+                format!("beyond {percent:.1} % of the loads of static case \"{}\"", case.name);
+            return culprit.error(model, system, when);
+        }
+        SolveError::StaticNotConverged {
             case: case.name.clone(),
-            percent: 100.0 * e.reached,
+            percent,
             worst: system.links.name(model, e.worst),
             residual: e.residual,
             span: case.span.clone(),
-        })?;
+        }
+    })?;
     let load: Vec<f64> = carried.iter().zip(&added).map(|(a, b)| a + b).collect();
     let zero = vec![0.0; u.len()];
     state.motion = [&u[..], &zero, &zero].concat();

@@ -61,7 +61,7 @@ pub(crate) fn run(
         _ => None,
     };
     let watch =
-        Watch { viewer: &mut viewer, certificate: certificate.as_mut(), progress, interrupt };
+        Watch { model, viewer: &mut viewer, certificate: certificate.as_mut(), progress, interrupt };
     let course = Course { timeline: &timeline, steps, constant: &constant };
     let beside = Beside { companion: companion.as_ref(), listener, outputs: model.outputs.len() };
     let (ended, found) = march_beside(course, &mut march, &mut moving, watch, beside, &set_out);
@@ -221,6 +221,10 @@ fn note_stop(
         }
         Some(Stop::Spent { t }) => {
             result.status = Status::Spent { t: *t, tried: counts.substeps + counts.rejected };
+        }
+        Some(Stop::Law { t, culprit }) => {
+            let (link, fault) = culprit.named(model, system);
+            result.status = Status::Law { t: *t, link, fault };
         }
         None if ended.interrupted && result.status.is_good() && ended.fallen.is_none() => {
             result.status = Status::Interrupted { t: result.end.time };

@@ -10,6 +10,7 @@ use crate::step::{State, Stepper};
 use std::ops::Range;
 use std::sync::atomic::{AtomicBool, Ordering};
 use trilith_model::Model;
+use trilith_system::catch;
 
 /// The output steps of a run.
 pub(super) struct Course<'a> {
@@ -21,6 +22,7 @@ pub(super) struct Course<'a> {
 
 /// What is told of a run while it goes on, and may end it.
 pub(super) struct Watch<'w, 'a, 'b, 'c, 'p> {
+    pub model: &'w Model,
     pub viewer: &'w mut Viewer<'a, 'b>,
     pub certificate: Option<&'w mut Certificate<'c>>,
     /// Receives the finished share of the run.
@@ -47,17 +49,33 @@ pub(super) struct Ended {
     pub made: usize,
 }
 
-/// Marches through the output steps.
+/// Marches through the output steps. A law that panics ends it.
 fn march_through(
     course: &Course<'_>,
     march: &mut March<'_>,
     moving: &mut Moving,
     watch: &mut Watch<'_, '_, '_, '_, '_>,
 ) -> Ended {
-    let Course { timeline, steps, constant } = course;
-    let Watch { viewer, certificate, progress, interrupt } = watch;
-    let (first, last) = (steps.start, steps.end);
+    let first = course.steps.start;
     let mut ended = Ended { stop: None, fallen: None, interrupted: false, made: first };
+    let whole = catch(|| march_on(course, march, moving, watch, &mut ended));
+    if let Err(panicked) = whole {
+        ended.stop = Some(Stop::Law { t: march.at, culprit: panicked.into() });
+    }
+    ended
+}
+
+/// The same, as far as laws answer.
+fn march_on(
+    course: &Course<'_>,
+    march: &mut March<'_>,
+    moving: &mut Moving,
+    watch: &mut Watch<'_, '_, '_, '_, '_>,
+    ended: &mut Ended,
+) {
+    let Course { timeline, steps, constant } = course;
+    let Watch { viewer, certificate, progress, interrupt, model } = watch;
+    let (first, last) = (steps.start, steps.end);
     for step in steps.clone() {
         let end = timeline.time(step + 1) - 1e-12 * timeline.dt;
         let mut report = |moment: Moment, t: f64, s: &State, l: &Ledger| match moment {
@@ -76,12 +94,17 @@ fn march_through(
                 }
             }
         };
-        if let Err(stop) = output_step(timeline, step, march, constant, moving, &mut report) {
+        let made = output_step(timeline, step, march, constant, moving, &mut report);
+        let Moving { state, ledger, .. } = &*moving;
+        let asked = made.and_then(|()| match (step + 1 - first).is_power_of_two() {
+            true => march.ask_again(model, state, timeline.time(step + 1)),
+            false => Ok(()),
+        });
+        if let Err(stop) = asked {
             ended.stop = Some(stop);
             break;
         }
         ended.made = step + 1;
-        let Moving { state, ledger, .. } = &*moving;
         viewer.show(timeline.time(ended.made), Some(ended.made), state, ledger);
         if let Some(report) = progress.as_deref_mut() {
             report((ended.made - first) as f64 / (last - first) as f64);
@@ -93,7 +116,6 @@ fn march_through(
             break;
         }
     }
-    ended
 }
 
 /// The march, and beside it, in threads of their own, its companion and the wider structure. Returns what the companion

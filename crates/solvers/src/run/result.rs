@@ -4,7 +4,7 @@ use super::end_state::EndState;
 use crate::basis::BasisReport;
 use crate::certificate::OutputError;
 use crate::checks::End;
-use crate::error::imbalance;
+use crate::error::{LawFault, imbalance};
 use crate::record::{EnergyTotals, LinkEnergy};
 use serde::Serialize;
 use trilith_model::{Analysis, Model};
@@ -56,6 +56,15 @@ pub enum Status {
         /// Its force residual, N or N·m; not a number where the values are none.
         residual: f64,
     },
+    /// Stopped: the law of a link breaks its contract.
+    Law {
+        /// Time of the last accepted state, s.
+        t: f64,
+        /// Name of the link.
+        link: String,
+        /// What is wrong with its law.
+        fault: LawFault,
+    },
     /// Stopped: the work that the run was given is spent.
     Spent {
         /// Time of the last accepted state, s.
@@ -100,6 +109,7 @@ impl Status {
             Self::Converged => "converged",
             Self::EnergyError { .. } => "energy error",
             Self::NotConverged { .. } => "not converged",
+            Self::Law { .. } => "wrong law",
             Self::Spent { .. } => "spent",
             Self::Interrupted { .. } => "interrupted",
             Self::Overturned { .. } => "overturned",
@@ -121,6 +131,7 @@ impl Status {
                 "no equilibrium at t = {t:.6} s with the smallest step: {}",
                 imbalance(worst, *residual, "")
             ),
+            Self::Law { t, link, fault } => fault.text(link, &format!("at t = {t:.6} s")),
             Self::Spent { t, tried } => format!(
                 "stopped at t = {t:.6} s after {tried} tried substeps, which is all that it was given (`substep_limit`)"
             ),

@@ -5,8 +5,11 @@ use crate::error::SolveError;
 use crate::march::{StepControlState, constant_force, potential};
 use crate::record::Ledger;
 use crate::statics;
-use crate::step::{DisplacementNorms, LinksBefore, State, Stepper, kinetic_and_strain, untouched};
+use crate::step::{
+    DisplacementNorms, LinksBefore, State, Stepper, kinetic_and_strain, not_finite, untouched,
+};
 use crate::structure::ReducedSystem;
+use trilith_element::Energy;
 use trilith_model::{DynamicCase, Model, Side};
 use trilith_system::{LoadSet, System, Track};
 
@@ -89,6 +92,11 @@ pub(crate) fn start(
     let amplitudes: Vec<f64> =
         loads.channels.iter().map(|c| c.track.at(0.0, Side::After)).collect();
     let state = stepper.start(u, v, &before, &amplitudes)?;
+    let energy: Vec<Energy> =
+        state.stored.iter().map(|stored| Energy { stored: *stored, ..Energy::default() }).collect();
+    if let Some(culprit) = not_finite(&system.links, &state, Some(&energy)) {
+        return Err(culprit.error(model, system, "at t = 0 s".into()));
+    }
     let (kinetic, strain) = kinetic_and_strain(stepper.space(), &state.motion);
     let own = strain - effective_energy(system, stepper.space(), &state);
     let level = potential(&constant_force(stepper.space(), loads), &state);

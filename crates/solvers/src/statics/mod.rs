@@ -29,7 +29,7 @@ use crate::error::SolveError;
 use crate::kernel::{
     Affine, Committed, Converged, Extrapolation, Guess, LinkKernel, NoEquilibrium, StepKey, Wanted,
 };
-use crate::step::State;
+use crate::step::{Culprit, State, is_sound, not_finite};
 use trilith_element::Energy;
 use trilith_linalg::{Dense, Ldlt};
 use trilith_model::{Model, Solution};
@@ -57,6 +57,8 @@ pub(crate) struct Unbalanced {
     pub reached: f64,
     pub worst: usize,
     pub residual: f64,
+    /// The law that answers with no finite number, where one does.
+    pub culprit: Option<Culprit>,
 }
 
 /// What links move, and the way of the linear structure with engaged links: `u = from + λ by − image f̃`.
@@ -150,7 +152,8 @@ pub(crate) fn along(
                 rejected += 1;
                 step *= 0.5;
                 if step < SMALLEST {
-                    return Err(Unbalanced { reached, worst, residual });
+                    let culprit = walk.culprit.take();
+                    return Err(Unbalanced { reached, worst, residual, culprit });
                 }
             }
         }
@@ -178,6 +181,8 @@ struct Walk<'a> {
     before: Vec<f64>,
     added: Vec<f64>,
     zero: Vec<f64>,
+    /// The law that had no finite answer in the last step that failed.
+    culprit: Option<Culprit>,
 }
 
 impl<'a> Walk<'a> {
@@ -204,6 +209,7 @@ impl<'a> Walk<'a> {
             before: deform(from),
             added: deform(by),
             zero: vec![0.0; links.len()],
+            culprit: None,
         }
     }
 
@@ -215,7 +221,7 @@ impl<'a> Walk<'a> {
 
     /// From a place straight to a share of the path.
     fn to(&mut self, from: &Place, share: f64) -> Result<Place, NoEquilibrium> {
-        let Self { links, kernel, g, none, before, added, zero } = self;
+        let Self { links, kernel, g, none, before, added, zero, culprit } = self;
         let Place { state, pseudo } = from;
         let Wanted { d, v, .. } = kernel.wanted();
         for (d, (a, b)) in d.iter_mut().zip(before.iter().zip(&*added)) {
@@ -225,6 +231,7 @@ impl<'a> Walk<'a> {
         v.fill(0.0);
         let mut trial = state.clone();
         trial.v.fill(0.0);
+        trial.history.fill(f64::NAN);
         let mut attempt = vec![0.0; pseudo.len()];
         let mut energy = vec![Energy::default(); links.links.len()];
         let committed = Committed {
@@ -249,7 +256,19 @@ impl<'a> Walk<'a> {
             extrapolation: &mut Extrapolation::default(),
         };
         let affine = Affine { support: None, g, h: none, key: StepKey::default() };
-        kernel.solve(&affine, pseudo, Guess::Unchanged, &committed, &state.scale, &mut out)?;
+        let solved =
+            kernel.solve(&affine, pseudo, Guess::Unchanged, &committed, &state.scale, &mut out);
+        if let Err(failed) = solved {
+            kernel.show(&mut out);
+            *culprit = not_finite(links, &trial, None);
+            return Err(failed);
+        }
+        if !is_sound(&trial, &energy) {
+            *culprit = not_finite(links, &trial, Some(&energy));
+            if culprit.is_some() {
+                return Err(NoEquilibrium { worst: usize::MAX, residual: f64::NAN });
+            }
+        }
         trial.record_converged(links, &energy, kernel.largest_force());
         Ok(Place { state: trial, pseudo: attempt })
     }

@@ -113,6 +113,8 @@ impl<'a> LinkEquations<'a> {
             self.loads.support_deformation(&loads.end, &mut self.support1, &mut self.support_rate);
         }
         to.follow(from);
+        // What a law does not write shows.
+        to.history.fill(f64::NAN);
         energy.links.resize(self.system.links.links.len(), Energy::default());
         if loads.start == self.amplitudes {
             std::mem::swap(&mut self.load0, &mut self.load1);
@@ -151,9 +153,10 @@ impl<'a> LinkEquations<'a> {
         let support = self.moving.then_some([&support1[..], &support_rate[..]]);
         let affine = affine(compliance, support);
         let (start, out) = (&committed(from, dt), &mut converged(to, &mut energy.links));
-        kernel
-            .solve(&affine, &from.pseudo, Guess::Tangents, start, &from.scale, out)
-            .map_err(StepFailure::from)
+        kernel.solve(&affine, &from.pseudo, Guess::Tangents, start, &from.scale, out).map_err(|e| {
+            kernel.show(out);
+            StepFailure::from(e)
+        })
     }
 
     /// Takes up the link equations at the predicted d and v, with the pseudo-forces that the tangents at the

@@ -3,6 +3,7 @@
 //! The state, the contract of propagators, links and loads of a step, and what its error is measured by.
 //! May use `kernel`, `structure`, and `modal` for the motion inside a step.
 
+mod culprit;
 mod difference;
 mod link_equations;
 mod propagator;
@@ -11,6 +12,7 @@ mod stepper;
 mod turning;
 mod vibration;
 
+pub(crate) use culprit::{Culprit, Wrong, asked_again, is_sound, not_finite};
 pub(crate) use difference::{Difference, DisplacementNorms, difference_of, displacement_norms};
 pub(crate) use link_equations::LinkEquations;
 pub(crate) use propagator::{Forces, Propagator, StepWork, kinetic_and_strain};

@@ -1,6 +1,7 @@
 //! The state of a motion, and what one step makes of it.
 
 use super::StepWork;
+use super::culprit::Culprit;
 use crate::error::SolveError;
 use crate::kernel::{Extrapolation, ForceScale, NoEquilibrium};
 use crate::structure::Motion;
@@ -113,7 +114,7 @@ impl State {
             motion: Vec::new(),
             f: vec![0.0; links.len()],
             pseudo: vec![0.0; links.active.len()],
-            history: history.clone(),
+            history: vec![f64::NAN; history.len()],
             scale: [0.0; 2],
             stored: vec![0.0; links.links.len()],
             tangents: links.tangents(),
@@ -187,6 +188,8 @@ pub(crate) struct StepEnergy {
 pub(crate) enum StepFailure {
     /// The flat link coordinate farthest from equilibrium, and its residual.
     NoEquilibrium { worst: usize, residual: f64 },
+    /// A law answers with no finite number.
+    Unsound(Culprit),
     /// The linear algebra failed.
     Fatal(SolveError),
 }

@@ -10,7 +10,7 @@ use crate::error::SolveError;
 use crate::kernel::{ForceScale, Remembered};
 use crate::modal::ClosedForm;
 use crate::structure::{Motion, ReducedSystem, accelerate_at_once};
-use trilith_system::{Laws, StepLoads};
+use trilith_system::{Laws, LinkSet, StepLoads};
 
 /// One rule for a step.
 ///
@@ -61,6 +61,9 @@ pub(crate) trait Stepper {
 
     /// The space of the motion.
     fn space(&self) -> &ReducedSystem;
+
+    /// The links, as the laws see them.
+    fn links(&self) -> &LinkSet;
 
     /// Iterations and factorisations so far.
     fn work(&self) -> (usize, usize);
@@ -230,6 +233,10 @@ impl<P: Propagator> Stepper for LinkStepper<'_, P> {
 
     fn space(&self) -> &ReducedSystem {
         self.propagator.space()
+    }
+
+    fn links(&self) -> &LinkSet {
+        self.side.links()
     }
 
     fn work(&self) -> (usize, usize) {

@@ -71,7 +71,7 @@ impl Turning {
                 let committed = &from.history[link.history.clone()];
                 let (d0, d1) = (&from.d[r.clone()], &to.d[r.clone()]);
                 let at = Kinematics { d: &self.d, v: &self.v, d0, v0: &self.v0, dt: s };
-                self.there.of(law, &at, committed);
+                self.there.of((law, link), &at, committed);
                 // At the turning point, beyond what the tangents at the end say.
                 let (k1, c1) =
                     (&to.tangents.k[link.block.clone()], &to.tangents.c[link.block.clone()]);
@@ -86,7 +86,7 @@ impl Turning {
                 }
                 let (d0, v0) = (&self.d[..], &self.v[..]);
                 let at = Kinematics { d: d1, v: &rates[r.clone()], d0, v0, dt: left };
-                self.after.of(law, &at, &self.there.history);
+                self.after.of((law, link), &at, &self.there.history);
                 for (j, flat) in r.clone().enumerate() {
                     let behind = (self.after.f[j] - to.f[flat]).abs();
                     let most = &mut self.behind[usize::from(links.rotational[flat])];

@@ -123,7 +123,7 @@ impl Vibration {
                 };
                 let (d, v) = (there(d0, 0), there(v0, 1));
                 let at = Kinematics { d: &d, v: &v, d0, v0, dt: 0.0 };
-                self.answer.of(law, &at, &state.history[link.history.clone()]);
+                self.answer.of((law, link), &at, &state.history[link.history.clone()]);
                 let work = (0..r.len()).map(|i| {
                     let change = self.answer.f[i] - state.f[r.start + i];
                     let of_effective = step.effective_k(r.start + i) * (d[i] - d0[i]);
@@ -179,7 +179,7 @@ impl Vibration {
                     v0: &v0[r.clone()],
                     dt: part,
                 };
-                self.answer.of(law, &at, &history[link.history.clone()]);
+                self.answer.of((law, link), &at, &history[link.history.clone()]);
                 history[link.history.clone()].copy_from_slice(&self.answer.history);
                 for (i, f) in r.zip(&self.answer.f) {
                     let way = d[i] - (from.d[i] + share * (to.d[i] - from.d[i]));

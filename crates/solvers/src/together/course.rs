@@ -3,7 +3,7 @@
 use crate::fna::{ModalLoads, Modes};
 use crate::march::{Segment, StepControlState, Timeline, jump, potential};
 use crate::record::{Ledger, Viewer};
-use crate::step::{LinkEquations, State, StepEnergy};
+use crate::step::{LinkEquations, State, StepEnergy, is_sound};
 use crate::structure::ReducedSystem;
 use trilith_system::{LoadSet, StepLoads};
 
@@ -204,6 +204,11 @@ impl<'a, 'b> Course<'a, 'b> {
     pub(super) fn accept(&mut self, modes: &Modes) {
         let Self { side, state, next, energy, modal_loads, .. } = self;
         side.finish(next, energy);
+        if !is_sound(next, &energy.links) {
+            // Alone it says which law is to blame.
+            self.left = true;
+            return;
+        }
         energy.work = modes.work(modal_loads);
         let of_motion = (energy.work.kinetic, energy.work.strain);
         side.book(state, next, of_motion, energy);

@@ -52,7 +52,7 @@ impl<'a> Memory<'a> {
             let (d, v) = (sum(d, e), sum(v, rate));
             let (d0, v0) = (&d0[r.clone()], &v0[r.clone()]);
             let end = Kinematics { d: &d, v: &v, d0, v0, dt };
-            answer.of(law, &end, &history[link.history.clone()]);
+            answer.of((law, link), &end, &history[link.history.clone()]);
             for (i, flat) in r.clone().enumerate() {
                 let row = |x: &[f64], e: &[f64]| -> f64 {
                     x[i * n..][..n].iter().zip(&e[r.clone()]).map(|(x, e)| x * e).sum()
@@ -73,7 +73,7 @@ impl<'a> Memory<'a> {
             let (d, v) = (&to[0][r.clone()], &to[1][r.clone()]);
             let end = Kinematics { d, v, d0: &d0[r.clone()], v0: &v0[r.clone()], dt };
             let own = &mut history[link.history.clone()];
-            answer.of(law, &end, own);
+            answer.of((law, link), &end, own);
             own.copy_from_slice(&answer.history);
             f[r].copy_from_slice(&answer.f);
         }

@@ -1,5 +1,9 @@
 //! What can stop a run before or while it goes on.
 
+mod law_fault;
+
+pub use law_fault::LawFault;
+
 use trilith_linalg::LinalgError;
 use trilith_model::Span;
 use trilith_system::SystemError;
@@ -130,6 +134,18 @@ pub enum SolveError {
         /// Where the file defines the case.
         span: Span,
     },
+    /// The law of a link breaks its contract where no time goes on.
+    #[error("{}", fault.text(.link, .when))]
+    Law {
+        /// Name of the link.
+        link: String,
+        /// What is wrong.
+        fault: LawFault,
+        /// When, such as `at the start of case "shake"`.
+        when: String,
+        /// Where the file defines the link.
+        span: Span,
+    },
     /// A state that belongs to another model, case or solver.
     #[error("the checkpoint does not fit: {reason}")]
     Checkpoint {
@@ -146,6 +162,7 @@ impl SolveError {
             Self::System(e) => e.span(),
             Self::StaticNotConverged { span, .. }
             | Self::JointNotHeld { span, .. }
+            | Self::Law { span, .. }
             | Self::InitialNotFree { span, .. }
             | Self::Buckles { span, .. }
             | Self::TooManySteps { span, .. }

@@ -1,0 +1,229 @@
+//! The law that is to blame: whose answer is no finite number, or changes when it is asked again.
+
+use super::state::State;
+use crate::error::{LawFault, SolveError};
+use crate::kernel::ForceScale;
+use trilith_element::{Energy, Kinematics};
+use trilith_model::Model;
+use trilith_system::{LinkInstance, LinkSet, Panicked, System};
+
+/// A part of the answer of a law; coordinates and variables are counted in the link.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Quantity {
+    Force(usize),
+    Stiffness(usize, usize),
+    Damping(usize, usize),
+    History(usize),
+    Stored,
+    Hysteretic,
+    Viscous,
+}
+
+/// What is wrong with a law.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) enum Wrong {
+    NotFinite { quantity: Quantity, value: f64 },
+    Energies { since: f64, work: f64, accounted: f64 },
+    Changes { coordinate: usize, first: f64, again: f64 },
+    Jumps { coordinate: usize, end: f64, start: f64 },
+    Panicked(String),
+}
+
+/// A law with what is wrong with it.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct Culprit {
+    /// Index of the element.
+    pub element: usize,
+    pub wrong: Wrong,
+}
+
+impl From<Panicked> for Culprit {
+    fn from(Panicked { element, message }: Panicked) -> Self {
+        Self { element, wrong: Wrong::Panicked(message) }
+    }
+}
+
+/// Share of the largest force so far by which a law may answer otherwise when it is asked again: forms of it agree up to
+/// rounding.
+const SAME: f64 = 1e-6;
+
+/// True where every answer in a state is a finite number: forces, tangents, history, and the energies of the step that
+/// led there.
+#[inline]
+pub(crate) fn is_sound(state: &State, energy: &[Energy]) -> bool {
+    let State { f, history, tangents, .. } = state;
+    let mut sum = 0.0;
+    for all in [f, history, &tangents.k, &tangents.c] {
+        sum += sum_of(all);
+    }
+    for Energy { stored, hysteretic, viscous } in energy {
+        sum += stored + hysteretic + viscous;
+    }
+    // A sum of finite numbers may be too large to be one.
+    sum.is_finite() || all_are_finite(state, energy)
+}
+
+/// A sum that is a number where all parts are; four parts at a time.
+#[inline(always)]
+fn sum_of(x: &[f64]) -> f64 {
+    let (four, rest) = x.as_chunks::<4>();
+    let mut sums = [0.0; 4];
+    for x in four {
+        for i in 0..4 {
+            sums[i] += x[i];
+        }
+    }
+    let [a, b, c, d] = sums;
+    rest.iter().sum::<f64>() + ((a + b) + (c + d))
+}
+
+#[inline(never)]
+fn all_are_finite(state: &State, energy: &[Energy]) -> bool {
+    let State { f, history, tangents, .. } = state;
+    let arrays = [f, history, &tangents.k, &tangents.c];
+    let energies = energy.iter().flat_map(|e| [e.stored, e.hysteretic, e.viscous]);
+    arrays.into_iter().flatten().copied().chain(energies).all(f64::is_finite)
+}
+
+/// The first link that answers with no finite number although it was asked at one; where no energies are given, history
+/// and energies are not there yet.
+pub(crate) fn not_finite(
+    links: &LinkSet,
+    state: &State,
+    energy: Option<&[Energy]>,
+) -> Option<Culprit> {
+    links.links.iter().enumerate().find_map(|(i, link)| {
+        let asked = |x: &[f64]| x[link.range.clone()].iter().all(|x| x.is_finite());
+        // A state that no step has led to has no room for answers.
+        if state.d.len() != links.len() || !asked(&state.d) || !asked(&state.v) {
+            return None;
+        }
+        let (quantity, value) = first_in(link, state, energy.map(|energy| &energy[i]))?;
+        Some(Culprit { element: link.element, wrong: Wrong::NotFinite { quantity, value } })
+    })
+}
+
+fn first_in(
+    link: &LinkInstance,
+    state: &State,
+    energy: Option<&Energy>,
+) -> Option<(Quantity, f64)> {
+    let n = link.range.len();
+    let bad = |x: &[f64]| -> Option<(usize, f64)> {
+        x.iter().copied().enumerate().find(|(_, x)| !x.is_finite())
+    };
+    let State { f, history, tangents, .. } = state;
+    let square = |of: fn(usize, usize) -> Quantity, x: &[f64]| {
+        bad(&x[link.block.clone()]).map(|(i, x)| (of(i / n, i % n), x))
+    };
+    let of_step = |Energy { stored, hysteretic, viscous }: &Energy| {
+        let energies = [
+            (Quantity::Stored, *stored),
+            (Quantity::Hysteretic, *hysteretic),
+            (Quantity::Viscous, *viscous),
+        ];
+        let history = bad(&history[link.history.clone()]).map(|(i, x)| (Quantity::History(i), x));
+        history.or_else(|| energies.into_iter().find(|(_, x)| !x.is_finite()))
+    };
+    bad(&f[link.range.clone()])
+        .map(|(i, x)| (Quantity::Force(i), x))
+        .or_else(|| square(Quantity::Stiffness, &tangents.k))
+        .or_else(|| square(Quantity::Damping, &tangents.c))
+        .or_else(|| energy.and_then(of_step))
+}
+
+/// Asks all laws again what they answered in a step from one state to another of `dt`, and what they answer right after
+/// the start of the next: the first that differs by more than what forms of a law differ by.
+pub(crate) fn asked_again(
+    model: &Model,
+    links: &LinkSet,
+    from: &State,
+    to: &State,
+    dt: f64,
+) -> Option<Culprit> {
+    let laws = links.laws(model);
+    let (mut f, mut tangents) = (vec![0.0; links.len()], links.tangents());
+    let mut history = vec![f64::NAN; links.history_len];
+    let mut energy = vec![Energy::default(); links.links.len()];
+    let State { d, v, .. } = to;
+    let at = Kinematics { d, v, d0: &from.d, v0: &from.v, dt };
+    laws.respond(at, &from.history, &mut history, &mut f, &mut tangents, &mut energy);
+    let changes = |coordinate, first, again| Wrong::Changes { coordinate, first, again };
+    let changed = other(links, &to.scale, &to.f, &f, changes);
+    changed.or_else(|| {
+        let at = Kinematics { d, v, d0: d, v0: v, dt: 0.0 };
+        laws.respond(at, &to.history, &mut history, &mut f, &mut tangents, &mut energy);
+        let jumps = |coordinate, end, start| Wrong::Jumps { coordinate, end, start };
+        other(links, &to.scale, &to.f, &f, jumps)
+    })
+}
+
+/// The first link whose forces are others than before.
+fn other(
+    links: &LinkSet,
+    scale: &ForceScale,
+    before: &[f64],
+    now: &[f64],
+    wrong: impl Fn(usize, f64, f64) -> Wrong,
+) -> Option<Culprit> {
+    let differ = |i: &usize| {
+        let size = scale[usize::from(links.rotational[*i] && links.turns)];
+        (before[*i] - now[*i]).abs() > SAME * size.max(before[*i].abs())
+    };
+    links.links.iter().find_map(|link| {
+        let i = link.range.clone().find(differ)?;
+        let wrong = wrong(i - link.range.start, before[i], now[i]);
+        Some(Culprit { element: link.element, wrong })
+    })
+}
+
+impl Culprit {
+    /// Name of the link, and what is wrong, in words.
+    pub(crate) fn named(&self, model: &Model, system: &System) -> (String, LawFault) {
+        let Self { element, wrong } = self;
+        let links = &system.links;
+        let link = links.links.iter().find(|link| link.element == *element);
+        let law = link.and_then(|link| links.law(model, link));
+        let axis = |i: &usize| link.map_or_else(String::new, |l| links.coordinate(model, l, *i));
+        let force = |i: &usize| format!("force of {}", axis(i));
+        let tangent = |by: &str, i: &usize, j: &usize| {
+            format!("tangent ∂f/∂{by} of {} by {}", axis(i), axis(j))
+        };
+        let fault = match wrong {
+            Wrong::NotFinite { quantity, value } => LawFault::NotFinite {
+                quantity: match quantity {
+                    Quantity::Force(i) => force(i),
+                    Quantity::Stiffness(i, j) => tangent("d", i, j),
+                    Quantity::Damping(i, j) => tangent("ḋ", i, j),
+                    Quantity::History(i) => {
+                        let fields = law.map(|law| law.history().into_owned()).unwrap_or_default();
+                        let name = fields.get(*i).map(|field| field.name.clone());
+                        format!("history `{}`, if it was written,", name.unwrap_or_default())
+                    }
+                    Quantity::Stored => "stored energy".into(),
+                    Quantity::Hysteretic => "hysteretic energy".into(),
+                    Quantity::Viscous => "viscous energy".into(),
+                },
+                value: *value,
+                without_rates: law.is_some_and(|law| !law.uses_rates()) && value.is_nan(),
+            },
+            Wrong::Energies { since, work, accounted } => {
+                LawFault::Energies { since: *since, work: *work, accounted: *accounted }
+            }
+            Wrong::Changes { coordinate, first, again } => {
+                LawFault::Changes { quantity: force(coordinate), first: *first, again: *again }
+            }
+            Wrong::Jumps { coordinate, end, start } => {
+                LawFault::Jumps { quantity: force(coordinate), end: *end, start: *start }
+            }
+            Wrong::Panicked(message) => LawFault::Panicked { message: message.clone() },
+        };
+        (model.elements[*element].name.clone(), fault)
+    }
+
+    /// An error where no time goes on; `when`: such as `at the start of case "shake"`.
+    pub(crate) fn error(&self, model: &Model, system: &System, when: String) -> SolveError {
+        let (link, fault) = self.named(model, system);
+        SolveError::Law { link, fault, when, span: model.elements[self.element].span.clone() }
+    }
+}
