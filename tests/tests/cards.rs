@@ -1,7 +1,8 @@
 //! The example of every card is a line that a model file can hold.
 
+use trilith_element::conformance::{ConstraintKit, ElementKit};
 use trilith_element::{Card, Category};
-use trilith_model::read_text;
+use trilith_model::{Body, read_text};
 use trilith_system::System;
 use trilith_tests::registry;
 
@@ -62,6 +63,50 @@ fn the_example_of_every_card_is_read_and_assembled() {
     }
     assert!(kinds.contains(&"NLink") && kinds.contains(&"TensionBracing"), "{kinds:?}");
     assert!(registry.duplicates().is_empty());
+}
+
+/// Members between two nodes that are as stiff in two pieces as in one.
+const MEMBERS: [&str; 2] = ["Beam", "Truss"];
+/// Elements with parameters in global axes.
+const GLOBAL: [&str; 1] = ["Mass"];
+/// Constraints that are about directions, wherever their nodes are.
+const DIRECTIONS: [&str; 1] = ["EqualDof"];
+
+#[test]
+fn every_linear_element_and_every_constraint_conforms() {
+    let registry = registry();
+    let mut examined = Vec::new();
+    for card in registry.cards().filter(|card| card.category != Category::Link) {
+        let kind = card.kind;
+        let model = read_text(&around(card), "example.ron", &registry, &[]).expect("an example");
+        let element = &model.elements[0];
+        let nodes: Vec<_> = element.nodes.iter().map(|n| model.nodes[*n].position).collect();
+        let found = match &element.body {
+            Body::Linear(law) => {
+                let mut kit = ElementKit::new(&nodes).axes(element.axes[0], element.axes[1]);
+                if MEMBERS.contains(&kind) {
+                    kit = kit.divisible();
+                }
+                if GLOBAL.contains(&kind) {
+                    kit = kit.in_global_axes();
+                }
+                kit.check(law.as_ref())
+            }
+            Body::Constraint(law) => {
+                let mut kit = ConstraintKit::new(&nodes);
+                if DIRECTIONS.contains(&kind) {
+                    kit = kit.only_translations();
+                }
+                kit.check(law.as_ref())
+            }
+            Body::Link(..) => continue,
+        };
+        assert_eq!(found, Ok(()), "{kind}");
+        examined.push(kind);
+    }
+    for kind in MEMBERS.iter().chain(&GLOBAL).chain(&DIRECTIONS).chain(&["Spring", "RigidBody"]) {
+        assert!(examined.contains(kind), "{kind} in {examined:?}");
+    }
 }
 
 #[test]

@@ -1,4 +1,6 @@
-//! Conformance kit: does a link keep the [contract](crate::Link)?
+//! Conformance kits: does a link keep the [contract](crate::Link)? Is a linear element or a constraint what it says?
+//!
+//! # Links
 //!
 //! The kit leads a law along random smooth paths of deformation (periodic, starting at rest) and checks
 //!
@@ -10,7 +12,7 @@
 //! | restart  | at the start of a step, with dt = 0, the force is that of the end of the last step, and nothing dissipates |
 //! | tangents | `k` and `c` are the central difference quotients of `f`, away from kinks |
 //! | forms    | what the law says over lanes, and as the constant of a dashpot, is what it answers, up to rounding |
-//! | energy   | work = Δ stored + hysteretic + viscous under refinement; the last two never fall (unless [`Kit::active`]) |
+//! | energy   | work = Δ stored + hysteretic + viscous at all times, under refinement; the last two never fall (unless [`Kit::active`]) |
 //! | passive  | nowhere on three cycles has more energy come out than went in (unless [`Kit::active`]) |
 //! | rates    | a law declared [`Kit::rate_independent`] does not see the speed, nor the step on a straight path |
 //!
@@ -32,6 +34,12 @@
 //! assert!(report.tangents > 100);
 //! # Ok::<(), trilith_element::conformance::ConformanceError>(())
 //! ```
+//!
+//! # Linear elements and constraints
+//!
+//! [`ElementKit`] asks for matrices that are finite, symmetric and positive semi-definite, that let rigid bodies move,
+//! that are the same in every place, and, of members, the same in one piece and in two. [`ConstraintKit`] asks for
+//! equations that every motion as a rigid body satisfies.
 
 mod energy;
 mod error;
@@ -39,10 +47,12 @@ mod forms;
 mod path;
 mod probe;
 mod properties;
+mod structure;
 #[cfg(test)]
 mod tests;
 
 pub use error::ConformanceError;
+pub use structure::{ConstraintKit, ElementKit, StructureError};
 
 use crate::{Exercise, Link};
 use path::Path;
@@ -68,7 +78,7 @@ pub struct Report {
     pub tangents: usize,
     /// Tangent columns skipped at kinks.
     pub skipped: usize,
-    /// Largest error of the energy balance over a path, relative to the work done and taken.
+    /// Largest error of the energy balance at any time of a path, relative to the work done and taken.
     pub energy_error: f64,
 }
 
@@ -166,9 +176,9 @@ impl Kit {
             forms::forms(link, path)?;
             properties::tangents(self, link, path, &mut report)?;
         }
-        let typical = energy::typical(self, link, &paths)?;
+        let turnover = energy::turnover(self, link, &paths)?;
         for path in &paths {
-            energy::balance(self, link, path, &mut report, typical)?;
+            energy::balance(self, link, path, &mut report, turnover)?;
             if self.rate_independent {
                 properties::rates(link, path)?;
             }

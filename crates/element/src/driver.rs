@@ -18,9 +18,18 @@ pub struct Answer {
 }
 
 impl Answer {
-    /// Asks a law once.
+    /// Asks a law once. One that does not [use rates](Link::uses_rates) is given NaN for them, as it is in a run.
     #[must_use]
     pub fn of(link: &dyn Link, at: &Kinematics<'_>, committed: &[f64]) -> Self {
+        if link.uses_rates() {
+            return Self::told_rates(link, at, committed);
+        }
+        let none = vec![f64::NAN; at.d.len()];
+        Self::told_rates(link, &Kinematics { v: &none, v0: &none, ..*at }, committed)
+    }
+
+    /// The same with rates, whatever the law says of them.
+    pub(crate) fn told_rates(link: &dyn Link, at: &Kinematics<'_>, committed: &[f64]) -> Self {
         let n = at.d.len();
         let (mut f, mut k, mut c) = (vec![0.0; n], vec![0.0; n * n], vec![0.0; n * n]);
         let (mut energy, mut trial) = (Energy::default(), vec![f64::NAN; committed.len()]);

@@ -17,8 +17,10 @@
 
 mod card;
 mod constraint;
+mod definite;
 mod driver;
 mod error;
+mod fault;
 mod frame;
 mod history;
 mod linear;
@@ -38,6 +40,7 @@ pub use constraint::{Constraint, Equation};
 pub use dimension::Dimension;
 pub use driver::{Answer, Driver};
 pub use error::ParameterError;
+pub use fault::ElementFault;
 pub use frame::{Axis, Dof, Frame, Geometry, Vector3, cross, dot, norm, sub};
 pub use history::{Field, History};
 pub use linear::{ElementMatrices, LinearElement, SquareMatrix};

@@ -54,7 +54,8 @@ impl std::ops::IndexMut<(usize, usize)> for SquareMatrix {
 pub struct ElementMatrices {
     /// Index into the element's nodes, and direction, of each row.
     pub dofs: Vec<(usize, Dof)>,
-    /// Stiffness in N/m, N, N·m; symmetric.
+    /// Stiffness in N/m, N, N·m; symmetric, and positive semi-definite unless the element
+    /// [softens](LinearElement::softens) or carries an axial force.
     pub stiffness: SquareMatrix,
     /// Mass in kg, kg·m, kg·m²; symmetric, positive semi-definite.
     pub mass: SquareMatrix,
@@ -88,4 +89,10 @@ pub trait LinearElement: Send + Sync + Debug {
     /// # Errors
     /// [`ParameterError`] where geometry and parameters do not suit each other.
     fn matrices(&self, at: &Geometry<'_>) -> Result<ElementMatrices, ParameterError>;
+
+    /// True for an element that is meant to take stiffness from the structure, as a spring that buckles does: its own
+    /// need not be positive semi-definite. What all elements hold together must be.
+    fn softens(&self) -> bool {
+        false
+    }
 }

@@ -40,7 +40,7 @@ impl Coordinates {
 pub struct Kinematics<'a> {
     /// Deformation d at the end of the step, in m or rad.
     pub d: &'a [f64],
-    /// Rate ḋ at the end of the step.
+    /// Rate ḋ at the end of the step; NaN for a law that does not [use rates](Link::uses_rates).
     pub v: &'a [f64],
     /// Deformation at the start of the step (where the history was committed).
     pub d0: &'a [f64],
@@ -139,6 +139,10 @@ pub struct Impact {
 /// - `respond` writes every history variable of the trial.
 /// - With `d = d0`, `v = v0`, `dt = 0` it gives the force that acts right after the start of the step.
 /// - Over a step, work = change of `stored` + `hysteretic` + `viscous`, up to the error of the step.
+/// - Every answer to a question in finite numbers is finite.
+///
+/// A run watches this: one that meets an answer that is no finite number, energies that do not close however short the
+/// steps, other answers to the same question, or a panic ends with the name of the link, what is wrong, and when.
 pub trait Link: Send + Sync + Debug {
     /// Takes note of where its nodes are; asked once, before all else, of every law of a model. Laws that do their own
     /// kinematics between nodes need it.
@@ -181,7 +185,7 @@ pub trait Link: Send + Sync + Debug {
     );
 
     /// False for a law whose answer does not look at the rates `v` and `v0`: the solvers then need not find
-    /// them in every iteration.
+    /// them in every iteration, and give it NaN for them.
     fn uses_rates(&self) -> bool {
         true
     }

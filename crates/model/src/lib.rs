@@ -6,6 +6,7 @@
 //! default is filled in and every expression evaluated.
 
 mod analysis;
+mod check;
 mod diagnostic;
 mod expand;
 mod expression;
@@ -35,6 +36,7 @@ pub mod file {
 }
 
 pub use analysis::*;
+pub use check::{ModelError, ModelFault};
 pub use diagnostic::{Diagnostic, line_column};
 pub use expression::quantity;
 pub use model::*;

@@ -1,5 +1,6 @@
 //! Assembly of a model into reduced matrices.
 
+use crate::blame::answered;
 use crate::elastic::{EndForceRow, ReactionRow, end_force_row};
 use crate::links::mark_used;
 use crate::{ImpactMass, LinkSet, Massless, Reduction, SystemError};
@@ -273,13 +274,14 @@ pub(crate) fn element_matrices(
         reason,
         span: e.span.clone(),
     };
-    let m = element
-        .matrices(&Geometry { nodes: &nodes, frame: e.frame, tension })
+    let geometry = Geometry { nodes: &nodes, frame: e.frame, tension };
+    let m = answered(|| element.matrices(&geometry))
+        .map_err(|said| refuse(format!("its matrices panicked: {said}")))?
         .map_err(|x| refuse(x.to_string()))?;
-    let finite = [&m.stiffness, &m.mass, &m.damping, &m.inertance]
-        .iter()
-        .all(|a| a.values().iter().all(|x| x.is_finite()));
-    if finite { Ok(Some(m)) } else { Err(refuse("its matrices are not finite".into())) }
+    // An axial force softens every element.
+    let softens = tension != 0.0 || element.softens();
+    m.check(e.nodes.len(), softens).map_err(|fault| refuse(fault.to_string()))?;
+    Ok(Some(m))
 }
 
 /// Entries over all DOFs.

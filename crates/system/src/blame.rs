@@ -51,8 +51,13 @@ pub fn catch<T>(run: impl FnOnce() -> T) -> Result<T, Panicked> {
     })
 }
 
+/// What an element or a constraint answers, or what its panic said.
+pub(crate) fn answered<T>(ask: impl FnOnce() -> T) -> Result<T, String> {
+    catch_unwind(AssertUnwindSafe(ask)).map_err(|payload| said(&*payload))
+}
+
 /// What a panic said.
-pub(crate) fn said(payload: &(dyn Any + Send)) -> String {
+fn said(payload: &(dyn Any + Send)) -> String {
     let text = payload.downcast_ref::<&str>().copied();
     let text = text.or_else(|| payload.downcast_ref::<String>().map(String::as_str));
     text.unwrap_or("a panic without a message").to_owned()

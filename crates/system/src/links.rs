@@ -11,7 +11,7 @@ use trilith_element::{Coordinates, Dof, Energy, Kinematics, Link, Response};
 use trilith_model::{Body, Model};
 
 use crate::batch::{Pack, packs};
-use crate::blame::blaming;
+use crate::blame::{answered, blaming};
 use crate::dampers::Damper;
 use crate::leaning::{Leaning, TILTS};
 use crate::link_rows::{all_rows, tilt_row};
@@ -250,15 +250,19 @@ impl LinkSet {
         let mut set = Self::default();
         for (element, e) in model.elements.iter().enumerate() {
             let Body::Link(law, options) = &e.body else { continue };
+            let refuse = |reason: String| SystemError::Element {
+                element: e.name.clone(),
+                reason,
+                span: e.span.clone(),
+            };
+            answered(|| law.check_engaged())
+                .map_err(|said| refuse(format!("its engaged stiffness panicked: {said}")))?
+                .map_err(|fault| refuse(fault.to_string()))?;
             let coordinates = law.coordinates();
             if let Coordinates::Nodal { nodes } = coordinates
                 && nodes != e.nodes.len()
             {
-                return Err(SystemError::Element {
-                    element: e.name.clone(),
-                    reason: format!("needs {nodes} nodes, has {}", e.nodes.len()),
-                    span: e.span.clone(),
-                });
+                return Err(refuse(format!("needs {nodes} nodes, has {}", e.nodes.len())));
             }
             let start = set.rows.len();
             for terms in all_rows(model, element) {

@@ -5,6 +5,7 @@
 //! passes the support on to the DOFs it is tied to. No mass is lost, because M is reduced with the same T.
 
 use crate::SystemError;
+use crate::blame::answered;
 use crate::finite_turns::{refuse_lever, turning_nodes};
 use std::collections::BTreeMap;
 use trilith_model::{Body, Model};
@@ -135,11 +136,17 @@ fn constraint_rows(model: &Model) -> Result<Vec<Row>, SystemError> {
     for (element, e) in model.elements.iter().enumerate() {
         let Body::Constraint(constraint) = &e.body else { continue };
         let positions: Vec<_> = e.nodes.iter().map(|n| model.nodes[*n].position).collect();
-        let equations = constraint.equations(&positions).map_err(|x| SystemError::Element {
+        let refuse = |reason: String| SystemError::Element {
             element: e.name.clone(),
-            reason: x.to_string(),
+            reason,
             span: e.span.clone(),
-        })?;
+        };
+        let equations = answered(|| constraint.equations(&positions))
+            .map_err(|said| refuse(format!("its equations panicked: {said}")))?
+            .map_err(|x| refuse(x.to_string()))?;
+        for equation in &equations {
+            equation.check(e.nodes.len()).map_err(|fault| refuse(fault.to_string()))?;
+        }
         let full = |(node, dof): (usize, trilith_element::Dof)| 6 * e.nodes[node] + dof.index();
         rows.extend(equations.iter().map(|q| Row {
             element,

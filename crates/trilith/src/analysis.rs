@@ -24,9 +24,10 @@ impl<'m> Analysis<'m> {
     /// Assembles a model.
     ///
     /// # Errors
-    /// [`Error::Solve`] where its parts do not fit together, or where it buckles under the axial forces
+    /// [`Error::Model`] where it refers to what does not exist, or holds numbers that cannot be; [`Error::Solve`] where its parts do not fit together, or where it buckles under the axial forces
     /// of its P-Δ case.
     pub fn new(model: &'m Model) -> Result<Self, Error> {
+        model.check().map_err(Error::Model)?;
         Ok(Self {
             model,
             system: trilith_solvers::assemble(model)?,

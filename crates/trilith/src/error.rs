@@ -1,6 +1,6 @@
 //! What can go wrong between a model and its results.
 
-use trilith_model::{Model, Span};
+use trilith_model::{Model, ModelError, Span};
 use trilith_results::FileError;
 use trilith_solvers::SolveError;
 use trilith_system::SystemError;
@@ -20,6 +20,10 @@ pub enum Error {
     /// An output that the model does not have.
     #[error("the model has no output \"{0}\"")]
     UnknownOutput(String),
+    /// The model cannot be one: it was made or changed in code, and refers to what does not exist, or holds numbers
+    /// that cannot be.
+    #[error("this is no model:{}", listed(.0))]
+    Model(Vec<ModelError>),
     /// The structure cannot be assembled.
     #[error(transparent)]
     System(#[from] SystemError),
@@ -52,9 +56,15 @@ impl Error {
     #[must_use]
     pub fn span(&self) -> Option<Span> {
         match self {
+            Self::Model(all) => all.iter().map(|e| e.span.clone()).find(|span| !span.is_empty()),
             Self::System(e) => e.span(),
             Self::Solve(e) => e.span(),
             _ => None,
         }
     }
+}
+
+/// One a line.
+fn listed(errors: &[ModelError]) -> String {
+    errors.iter().map(|e| format!("\n  {e}")).collect()
 }

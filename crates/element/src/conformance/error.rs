@@ -156,11 +156,13 @@ pub enum ConformanceError {
     },
     /// Work and energies do not balance.
     #[error(
-        "path {path}: work {work:e} J, but stored + hysteretic + viscous = {accounted:e} J with {steps} steps a cycle"
+        "path {path}: work {work:e} J until t = {time} s, but stored + hysteretic + viscous = {accounted:e} J with {steps} steps a cycle"
     )]
     Balance {
         /// Number of the path.
         path: usize,
+        /// When the two are farthest apart.
+        time: f64,
         /// Work done on the link.
         work: f64,
         /// What it accounts for.

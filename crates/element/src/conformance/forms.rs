@@ -178,6 +178,11 @@ impl Look<'_> {
             };
             let (d, v) = (take(|c| &c.d), take(|c| &c.v));
             let (d0, v0) = (take(|c| &c.d0), take(|c| &c.v0));
+            // Without rates it gets none, as in a run.
+            let (v, v0) = match form.rate {
+                true => (v, v0),
+                false => (vec![with.splat(f64::NAN); n], vec![with.splat(f64::NAN); n]),
+            };
             let parameters: Vec<_> = form.parameters.iter().map(|p| with.splat(*p)).collect();
             let history: Vec<_> =
                 (0..law.history).map(|i| with.gather(|lane| of(lane).history[i])).collect();

@@ -3,6 +3,7 @@
 use super::path::Path;
 use super::probe::{Step, march};
 use super::{ConformanceError as Broken, Kit, Report};
+use crate::definite::{NotDefinite, semi_definite};
 use crate::{Answer, Driver, Kinematics, Link};
 
 /// Steps of a cycle where states are looked at one by one.
@@ -29,46 +30,15 @@ pub(super) fn shape(kit: &Kit, link: &dyn Link) -> Result<(), Broken> {
     }
     let mut a = vec![0.0; n * n];
     link.engaged_stiffness(&mut a);
-    semi_definite(&a, n).map_err(|(row, why)| Broken::EngagedStiffness { row, why })
-}
-
-/// Cholesky of the matrix scaled to a unit diagonal plus a little.
-fn semi_definite(a: &[f64], n: usize) -> Result<(), (usize, &'static str)> {
-    let mut l = vec![0.0; n * n];
-    for i in 0..n {
-        for j in 0..n {
-            let (x, y) = (a[i * n + j], a[j * n + i]);
-            if !x.is_finite() {
-                return Err((i, "a value is not finite"));
-            }
-            if (x - y).abs() > 1e-9 * (x.abs() + y.abs()) {
-                return Err((i, "it is not symmetric"));
-            }
-            if x != 0.0 && (a[i * n + i] <= 0.0 || a[j * n + j] <= 0.0) {
-                return Err((i, "a diagonal value is not positive"));
-            }
-            let size = (a[i * n + i] * a[j * n + j]).sqrt();
-            l[i * n + j] = if size > 0.0 { x / size } else { 0.0 };
-        }
-        l[i * n + i] += 1e-9;
-    }
-    for j in 0..n {
-        for i in j..n {
-            let sum: f64 = (0..j).map(|k| l[i * n + k] * l[j * n + k]).sum();
-            let rest = l[i * n + j] - sum;
-            if i == j && rest < 0.0 {
-                return Err((j, "a pivot is negative"));
-            }
-            l[i * n + j] = if i == j {
-                rest.sqrt()
-            } else if l[j * n + j] > 0.0 {
-                rest / l[j * n + j]
-            } else {
-                0.0
-            };
-        }
-    }
-    Ok(())
+    semi_definite(&a, n, 1e-9).map_err(|fault| {
+        let (row, why) = match fault {
+            NotDefinite::NotFinite { row, .. } => (row, "a value is not finite"),
+            NotDefinite::NotSymmetric { row, .. } => (row, "it is not symmetric"),
+            NotDefinite::Diagonal { row, .. } => (row, "a diagonal value is not positive"),
+            NotDefinite::Pivot { row } => (row, "a pivot is negative"),
+        };
+        Broken::EngagedStiffness { row, why }
+    })
 }
 
 /// Largest absolute force along a path, by coordinate.
@@ -85,22 +55,32 @@ fn peaks(link: &dyn Link, path: &Path) -> Result<Vec<f64>, Broken> {
 pub(super) fn answers(link: &dyn Link, path: &Path) -> Result<(), Broken> {
     let peak = peaks(link, path)?;
     march(link, path, 2, COARSE, |s| {
-        finite(s, path)?;
+        finite(s, path).map_err(|fault| blind(link, s, path).err().unwrap_or(fault))?;
         // A discarded trial somewhere else must leave no trace.
         let elsewhere: Vec<f64> =
             s.at.d.iter().zip(&path.scale).map(|(d, x)| d - 1.7 * x).collect();
         let _ = s.before.ask(&Kinematics { d: &elsewhere, ..s.at });
-        same(&s.before.ask(&s.at), s, path)?;
-        if !link.uses_rates() {
-            let other: Vec<f64> =
-                s.at.v.iter().zip(&path.scale).map(|(v, x)| 3.0 * v + x).collect();
-            let answer = s.before.ask(&Kinematics { v: &other, v0: &other, ..s.at });
-            same(&answer, s, path)
-                .map_err(|_| Broken::UsesRates { path: path.number, time: s.time })?;
-        }
+        same(&s.before.ask(&s.at), s.answer, s, path)?;
+        blind(link, s, path)?;
         restart(link, s, path, &peak)?;
         contact(link, s, path)
     })
+}
+
+/// A law that says that it does not look at rates answers the same whatever they are. A [driver](Driver) gives it none;
+/// `respond` itself is asked here.
+fn blind(link: &dyn Link, s: &Step<'_>, path: &Path) -> Result<(), Broken> {
+    if link.uses_rates() {
+        return Ok(());
+    }
+    let asked = |times: f64, more: f64| {
+        let rates = s.at.v.iter().zip(&path.scale);
+        let rates: Vec<f64> = rates.map(|(v, x)| times * v + more * x).collect();
+        let at = Kinematics { v: &rates, v0: &rates, ..s.at };
+        Answer::told_rates(link, &at, &s.before.history)
+    };
+    same(&asked(3.0, 1.0), &asked(1.0, 0.0), s, path)
+        .map_err(|_| Broken::UsesRates { path: path.number, time: s.time })
 }
 
 /// The parts of an answer by name.
@@ -124,8 +104,8 @@ fn finite(s: &Step<'_>, path: &Path) -> Result<(), Broken> {
     Ok(())
 }
 
-fn same(again: &Answer, s: &Step<'_>, path: &Path) -> Result<(), Broken> {
-    for ((what, one), (_, two)) in parts(s.answer).iter().zip(&parts(again)) {
+fn same(again: &Answer, before: &Answer, s: &Step<'_>, path: &Path) -> Result<(), Broken> {
+    for ((what, one), (_, two)) in parts(before).iter().zip(&parts(again)) {
         for (index, (first, second)) in one.iter().zip(two).enumerate() {
             if first.to_bits() != second.to_bits() {
                 let (first, second, path) = (*first, *second, path.number);

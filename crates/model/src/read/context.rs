@@ -151,6 +151,11 @@ impl<'a> Context<'a> {
         self.errors.borrow().len() < SEARCHED
     }
 
+    /// True while there is no error.
+    pub(crate) fn is_content(&self) -> bool {
+        self.errors.borrow().is_empty()
+    }
+
     /// Takes an error.
     pub fn report(&self, diagnostic: Diagnostic) {
         self.errors.borrow_mut().push(diagnostic);

@@ -2,13 +2,12 @@
 
 use super::context::Context;
 use crate::Damping;
+use crate::check::RATIO;
 use crate::schema;
 use crate::tree::Node;
 use std::f64::consts::TAU;
 use trilith_element::Range;
 use trilith_element::dimension::{FREQUENCY, NONE, TIME};
-
-const RATIO: Range = Range::Within(0.0, 0.999);
 
 pub(super) fn damping(c: &Context<'_>, node: &Node) -> Option<Damping> {
     let what = "`damping`";

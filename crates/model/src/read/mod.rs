@@ -153,6 +153,12 @@ impl ModelText {
         context.motions = Arc::clone(&self.motions);
         context.set_places(self.whole.places.clone());
         let model = sections(&mut context, &self.whole, &self.templates, overrides);
+        // What every model must keep to, this one does unless something was overlooked above.
+        if let (Some(model), true) = (&model, context.is_content()) {
+            for error in model.check().err().into_iter().flatten() {
+                context.report(context.diagnostic("E0112", error.to_string(), error.span));
+            }
+        }
         let errors = context.into_errors();
         match model {
             Some(model) if errors.is_empty() => Ok(model),

@@ -1,14 +1,12 @@
 //! How a dynamic case is solved.
 
 use super::context::{Context, Fields};
+use crate::check::{LEAST_ALPHA, TOLERANCE};
 use crate::schema;
 use crate::tree::Node;
 use crate::{Basis, BasisKind, Kernel, Solution, SolverKind, StepControl};
 use trilith_element::Range;
 use trilith_element::dimension::NONE;
-
-/// A tolerance: above zero, below one.
-const TOLERANCE: Range = Range::Within(f64::MIN_POSITIVE, 1.0 - f64::EPSILON);
 
 pub(super) fn solution(c: &Context<'_>, fields: &Fields<'_>) -> Option<Solution> {
     let plain = Solution::default();
@@ -53,7 +51,7 @@ fn tolerance(c: &Context<'_>, node: &Node, name: &str) -> Option<f64> {
 
 fn alpha(c: &Context<'_>, node: &Node) -> Option<f64> {
     let value = c.number(node, NONE)?;
-    if (-1.0 / 3.0 - 1e-12..=0.0).contains(&value) {
+    if (LEAST_ALPHA..=0.0).contains(&value) {
         return Some(value.max(-1.0 / 3.0));
     }
     let message = format!("`alpha` = {value}: must be between -1/3 and 0");

@@ -10,7 +10,7 @@ use crate::{
 use cases::case;
 use outputs::output;
 use std::fmt::Write;
-use trilith_element::{Dimension, Dof, Value};
+use trilith_element::{Dimension, Dof, Frame, Value, Vector3};
 
 /// The model as a RON text in SI that reads back to the same model.
 ///
@@ -136,7 +136,7 @@ fn element(model: &Model, e: &crate::Element) -> String {
     let nodes: Vec<String> = e.nodes.iter().map(|&i| text(&model.nodes[i].name)).collect();
     let mut fields = vec![format!("nodes: [{}]", nodes.join(", "))];
     fields.extend(e.values.0.iter().map(|(name, v)| format!("{name}: {}", value(v))));
-    for (name, axis) in ["axis1", "axis2"].iter().zip(e.axes) {
+    for (name, axis) in ["axis1", "axis2"].iter().zip(axes(model, e)) {
         fields.extend(axis.map(|a| format!("{name}: {}", vector(a))));
     }
     if let Body::Link(_, options) = &e.body {
@@ -150,6 +150,19 @@ fn element(model: &Model, e: &crate::Element) -> String {
         }
     }
     format!("{}({})", e.kind, fields.join(", "))
+}
+
+/// Directions of local axes as the file gives them; those of the frame where an element made in code has another one.
+fn axes(model: &Model, e: &crate::Element) -> [Option<Vector3>; 2] {
+    let places: Vec<Vector3> = e.nodes.iter().map(|n| model.nodes[*n].position).collect();
+    let alike = |frame: Frame| {
+        let pairs = frame.0.iter().flatten().zip(e.frame.0.iter().flatten());
+        pairs.into_iter().all(|(a, b)| (a - b).abs() < 1e-9)
+    };
+    match Frame::of_nodes(&places, e.axes[0], e.axes[1]) {
+        Ok(frame) if alike(frame) => e.axes,
+        _ => [Some(e.frame.0[0]), Some(e.frame.0[1])],
+    }
 }
 
 fn damping(d: &Damping) -> String {

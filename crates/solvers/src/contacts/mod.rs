@@ -16,7 +16,7 @@ pub(crate) use stops::Stops;
 use crate::step::State;
 use trilith_element::{Contact, Kinematics, Link};
 use trilith_model::Model;
-use trilith_system::{LinkInstance, System};
+use trilith_system::{LinkInstance, System, blaming};
 
 /// For each link: true where it is a contact.
 pub(crate) fn are_contacts(model: &Model, system: &System) -> Vec<bool> {
@@ -27,7 +27,7 @@ pub(crate) fn are_contacts(model: &Model, system: &System) -> Vec<bool> {
         let mut history = vec![0.0; link.history.len()];
         law.at_rest(&mut history);
         seen.clear();
-        law.contacts(&at, &history, &rest, &mut seen);
+        blaming(link.element, || law.contacts(&at, &history, &rest, &mut seen));
         !seen.is_empty()
     };
     system.links.laws(model).iter().map(is_contact).collect()
@@ -41,7 +41,8 @@ pub(crate) fn contacts(model: &Model, system: &System, state: &State) -> Vec<(us
         let r = link.range.clone();
         let (d, v) = (&state.d[r.clone()], &state.v[r.clone()]);
         let at = Kinematics { d, v, d0: d, v0: v, dt: 0.0 };
-        law.contacts(&at, &state.history[link.history.clone()], &state.f[r], &mut own);
+        let history = &state.history[link.history.clone()];
+        blaming(link.element, || law.contacts(&at, history, &state.f[r], &mut own));
         all.extend(own.drain(..).map(|c| (link.element, c)));
     }
     all

@@ -119,6 +119,16 @@ pub enum SolveError {
         /// Where the file defines the node.
         span: Span,
     },
+    /// An output step that is none.
+    #[error("case \"{case}\" cannot have an output step of {dt} s: must be > 0")]
+    OutputStep {
+        /// Name of the case.
+        case: String,
+        /// Output step, s.
+        dt: f64,
+        /// Where the file defines the case.
+        span: Span,
+    },
     /// An output step so short that there are more of them than can be kept.
     #[error(
         "case \"{case}\" has {steps:.3e} output steps of {dt} s: at most {most} are kept; give a longer output step, by `dt` of the case or `--dt`",
@@ -165,6 +175,7 @@ impl SolveError {
             | Self::Law { span, .. }
             | Self::InitialNotFree { span, .. }
             | Self::Buckles { span, .. }
+            | Self::OutputStep { span, .. }
             | Self::TooManySteps { span, .. }
             | Self::AxialForces { span, .. } => Some(span.clone()),
             _ => None,

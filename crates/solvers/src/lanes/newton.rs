@@ -45,7 +45,8 @@ impl<R: Real, const M: usize, const L: usize> Found<R, M, L> {
     pub fn new(zero: R) -> Self {
         Self {
             d: Aligned([zero; L]),
-            v: Aligned([zero; L]),
+            // Laws that do not look at rates get none.
+            v: Aligned([zero.of(f64::NAN); L]),
             f: Aligned([zero; L]),
             forces: Aligned([zero; L]),
             scale: [zero; 2],

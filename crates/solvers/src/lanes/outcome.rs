@@ -53,7 +53,8 @@ impl<R: Real, const M: usize, const L: usize, const N: usize> State<R, M, L, N> 
         energy.error = error;
         energy.error_relative = if size > 0.0 { error.abs() / size } else { 0.0 };
         let alive = of(with.splat(1.0).only(self.alive)) == 1.0;
-        let finite = energy.error_relative.is_finite();
+        let remembers = self.history.iter().all(|x| of(*x).is_finite());
+        let finite = energy.error_relative.is_finite() && remembers;
         let grid = setup.shape.grid;
         let lost = match (alive, finite) {
             (true, true) => None,

@@ -90,7 +90,7 @@ impl<R: Real, const M: usize, const L: usize, const N: usize> State<R, M, L, N> 
             a: mode_wise(&|s, j| s.a[j]),
             amplitudes: vec![zero; one.forces.len()],
             d: flat(&|s, i| s.d[i]),
-            v: flat(&|s, i| s.v[i]),
+            v: flat(&|s, i| if plan.rate { s.v[i] } else { f64::NAN }),
             push: Aligned(plan.push(&f)),
             f,
             k,

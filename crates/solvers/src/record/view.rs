@@ -15,7 +15,7 @@ use crate::structure::ReducedSystem;
 use std::sync::Arc;
 use trilith_element::{Contact, Kinematics, Link, Outline, Vector3};
 use trilith_model::{Model, Output, Quantity, Side};
-use trilith_system::{LinkInstance, LoadSet, System};
+use trilith_system::{LinkInstance, LoadSet, System, blaming};
 
 /// The coordinates of a solver: how many, and what they make of the free DOFs, unless they are these.
 struct Coordinates {
@@ -55,7 +55,7 @@ impl Shape for Figure<'_> {
         for (law, link) in self.bodies {
             let history = &self.state.history[link.history.clone()];
             points.extend(
-                law.outline(&standing(link, self.state), history)
+                blaming(link.element, || law.outline(&standing(link, self.state), history))
                     .into_iter()
                     .flat_map(|o| o.points),
             );
@@ -112,7 +112,7 @@ impl<'a> Seen<'a> {
         let has_outline = |(law, link): &(&dyn Link, &LinkInstance)| {
             let d = &rest[link.range.clone()];
             let at = Kinematics { d, v: d, d0: d, v0: d, dt: 0.0 };
-            law.outline(&at, &history[link.history.clone()]).is_some()
+            blaming(link.element, || law.outline(&at, &history[link.history.clone()])).is_some()
         };
         let bodies = laws.iter().filter(has_outline).collect();
         let contacts = are_contacts(model, system);
@@ -327,7 +327,8 @@ impl<'a, 'b> Viewer<'a, 'b> {
             return None;
         }
         let fallen = |(law, link): &(&dyn Link, &LinkInstance)| {
-            law.overturned(&standing(link, state), &state.history[link.history.clone()])
+            let history = &state.history[link.history.clone()];
+            blaming(link.element, || law.overturned(&standing(link, state), history))
         };
         self.touching.iter().find(|l| fallen(l)).map(|(_, link)| link.element)
     }
@@ -337,7 +338,8 @@ impl<'a, 'b> Viewer<'a, 'b> {
         self.contacts.clear();
         for (law, link) in &self.touching {
             let (history, f) = (&state.history[link.history.clone()], &state.f[link.range.clone()]);
-            law.contacts(&standing(link, state), history, f, &mut self.own);
+            let own = &mut self.own;
+            blaming(link.element, || law.contacts(&standing(link, state), history, f, own));
             self.contacts.extend(self.own.drain(..).map(|c| (link.element, c)));
         }
         self.pressed.see(&self.contacts);
@@ -357,7 +359,8 @@ impl Place for Standing<'_> {
 
     fn outline(&self, body: usize) -> Option<Outline> {
         let (law, link) = self.bodies.get(body)?;
-        law.outline(&standing(link, self.state), &self.state.history[link.history.clone()])
+        let history = &self.state.history[link.history.clone()];
+        blaming(link.element, || law.outline(&standing(link, self.state), history))
     }
 }
 

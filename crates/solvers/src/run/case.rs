@@ -86,9 +86,10 @@ fn one(
             dynamic::run(setup, options, observers)
         }
     };
-    // A law that panics in a march ends that alone; here are those that do so before it, or where no time goes on.
+    // A law that panics in a march ends that alone; here are those that do so before or behind it, or where no time goes
+    // on.
     catch(run).unwrap_or_else(|panicked| {
-        let when = format!("in case \"{}\" where no time goes on", case.name);
+        let when = format!("outside the steps of case \"{}\"", case.name);
         Err(Culprit::from(panicked).error(model, system, when))
     })
 }

@@ -185,6 +185,10 @@ fn with_vectors(analysis: &DynamicCase, vectors: Option<usize>) -> Cow<'_, Dynam
 
 /// Refuses more output steps than can be kept.
 fn check_length(case: &Case, duration: f64, dt: f64) -> Result<(), SolveError> {
+    if !(dt > 0.0 && dt.is_finite()) {
+        let (case, span) = (case.name.clone(), case.span.clone());
+        return Err(SolveError::OutputStep { case, dt, span });
+    }
     let steps = output_steps(duration, dt);
     if steps > MOST_OUTPUT_STEPS as f64 {
         let (case, span) = (case.name.clone(), case.span.clone());
