@@ -58,7 +58,9 @@ impl Kinematics<'_> {
     pub fn viscous_work(&self, i: usize, start: f64, end: f64) -> f64 {
         let (v0, v1) = (self.v0[i], self.v[i]);
         let sum = start * (2.0 * v0 + v1) + end * (v0 + 2.0 * v1);
-        (self.dt * sum / 6.0).max(0.0)
+        let work = self.dt * sum / 6.0;
+        // What is not a number stays so.
+        if work > 0.0 || work.is_nan() { work } else { 0.0 }
     }
 }
 

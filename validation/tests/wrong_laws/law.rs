@@ -5,7 +5,6 @@
 use serde::Deserialize;
 use std::borrow::Cow;
 use std::sync::atomic::{AtomicU64, Ordering};
-use trilith::element::dimension::NONE;
 use trilith::element::lanes::LaneForm;
 use trilith::element::{
     Axis, Card, Category, Coordinates, Described, Exercise, Field, Kinematics, Link, NodeCount,
@@ -110,17 +109,7 @@ impl Described for Wrong {
         category: Category::Link,
         summary: "An elastic–plastic spring beside a dashpot, wrong on purpose.",
         nodes: NodeCount::GROUND_OR_TWO,
-        parameters: &[
-            Parameter::choice("fault", Fault::NAMES, "Nothing", "what is wrong"),
-            Parameter::number(
-                "unused",
-                "",
-                NONE,
-                trilith::element::Range::Any,
-                0.0,
-                "nothing",
-            ),
-        ],
+        parameters: &[Parameter::choice("fault", Fault::NAMES, "Nothing", "what is wrong")],
         law: "f = s + c ḋ",
         source: "wrong on purpose",
         example: r#""w": Wrong(node: "m", fault: Nothing)"#,
@@ -169,8 +158,11 @@ impl Link for Wrong {
             Fault::MemoryOfItsOwn => f64::from_bits(self.memory.load(Ordering::Relaxed)),
             _ => was[0],
         };
-        let d = if self.has(Fault::StepLate) { at.d0[0] } else { at.d[0] };
-        let slips = (K * (d - slip)).abs() > YIELD;
+        let slips = match self.fault {
+            // Rounding of what has just slipped does not count.
+            Fault::StepLate => (K * (at.d0[0] - slip)).abs() > (1.0 + 1e-6) * YIELD,
+            _ => (K * (at.d[0] - slip)).abs() > YIELD,
+        };
         let elastic = K * (at.d[0] - slip);
         let s = if slips { YIELD.copysign(elastic) } else { elastic };
         let next = at.d[0] - s / K;

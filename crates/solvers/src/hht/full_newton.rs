@@ -14,7 +14,7 @@ use crate::vector::largest;
 use trilith_element::{Energy, Kinematics};
 use trilith_linalg::{SparseLu, Triplets};
 use trilith_model::Model;
-use trilith_system::{LinkSet, LoadSet, StepLoads, System, Tangents};
+use trilith_system::{Laws, LinkSet, LoadSet, StepLoads, System, Tangents};
 
 const ITERATIONS: usize = 60;
 const TOLERANCE: f64 = 1e-9;
@@ -244,6 +244,10 @@ impl Stepper for FullNewton<'_> {
 
     fn links(&self) -> &LinkSet {
         &self.system.links
+    }
+
+    fn laws(&self) -> Laws<'_> {
+        self.system.links.laws(self.model)
     }
 
     fn work(&self) -> (usize, usize) {

@@ -43,13 +43,13 @@ pub(crate) use timeline::{Segment, Timeline};
 use crate::error::SolveError;
 use crate::kernel::ForceScale;
 use crate::step::{
-    Culprit, DisplacementNorms, State, StepEnergy, StepFailure, Stepper, asked_again, is_sound,
-    not_finite,
+    Culprit, DisplacementNorms, State, StepEnergy, StepFailure, Stepper, asked_again, asked_twice,
+    is_sound, not_finite,
 };
 use crate::vector::larger;
 use closing::{Closing, Made};
 use serde::{Deserialize, Serialize};
-use trilith_model::{Model, StepControl};
+use trilith_model::StepControl;
 use trilith_system::{LoadSet, StepLoads};
 
 /// Halvings of an output step at most.
@@ -275,7 +275,7 @@ impl<'a> March<'a> {
             let ticks = full >> level;
             let size = segment.length / f64::from(1u32 << level);
             let (start, middle, end) = (time(at), time(at + ticks / 2), time(at + ticks));
-            self.spend(start)?;
+            self.spend(start, state)?;
             let times = [start, middle, end];
             let notable = tolerance * tolerance * control.reference;
             let attempt = self.attempt(state, times, size, known == Some(level), notable);
@@ -326,7 +326,7 @@ impl<'a> March<'a> {
                         self.trial.first_is_whole();
                     }
                     self.counts.rejected += 1;
-                    self.give_up(failure, level, start)?;
+                    self.give_up(failure, level, (start, state))?;
                     control.level = level + 1;
                 }
             }
@@ -401,7 +401,7 @@ impl<'a> March<'a> {
         let share = |ticks: u32| f64::from(ticks) / f64::from(full);
         let time = |ticks: u32| segment.time(share(ticks));
         while at < full {
-            self.spend(time(at))?;
+            self.spend(time(at), state)?;
             let ticks = full >> level;
             // A power of two: no rounding.
             let size = segment.length * share(ticks);
@@ -420,7 +420,7 @@ impl<'a> March<'a> {
                 }
                 Err(failure) => {
                     self.counts.rejected += 1;
-                    self.give_up(failure, level, time(at))?;
+                    self.give_up(failure, level, (time(at), state))?;
                     level += 1;
                 }
             }
@@ -452,7 +452,7 @@ impl<'a> March<'a> {
     ///
     /// # Errors
     /// [`Stop::Law`] where one answers otherwise.
-    pub(crate) fn ask_again(&self, model: &Model, state: &State, t: f64) -> Result<(), Stop> {
+    pub(crate) fn ask_again(&self, state: &State, t: f64) -> Result<(), Stop> {
         let Trial { whole, first, second, .. } = &self.trial;
         let from = match self.control {
             StepControl::Fixed { .. } => whole,
@@ -463,24 +463,32 @@ impl<'a> March<'a> {
         if from.d.len() != state.d.len() || self.last == 0.0 {
             return Ok(());
         }
-        match asked_again(model, self.stepper.links(), from, state, self.last) {
+        let (laws, links) = (self.stepper.laws(), self.stepper.links());
+        match asked_again(&laws, links, from, state, self.last) {
             Some(culprit) => Err(Stop::Law { t, culprit }),
             None => Ok(()),
         }
     }
 
     /// Ends the run where its work is spent.
-    fn spend(&mut self, t: f64) -> Result<(), Stop> {
+    #[inline]
+    fn spend(&mut self, t: f64, state: &State) -> Result<(), Stop> {
         self.at = t;
         if self.counts.substeps + self.counts.rejected < self.budget {
-            Ok(())
-        } else {
-            Err(Stop::Spent { t })
+            return Ok(());
         }
+        // A law that answers otherwise each time spends all there is.
+        let culprit = asked_twice(&self.stepper.laws(), self.stepper.links(), state);
+        Err(culprit.map_or(Stop::Spent { t }, |culprit| Stop::Law { t, culprit }))
     }
 
     /// Ends the run where halving does not help.
-    fn give_up(&self, failure: StepFailure, level: u32, t: f64) -> Result<(), Stop> {
+    fn give_up(
+        &self,
+        failure: StepFailure,
+        level: u32,
+        (t, state): (f64, &State),
+    ) -> Result<(), Stop> {
         match failure {
             StepFailure::Fatal(e) => Err(Stop::Fatal(e)),
             // A shorter step may lead where the law has an answer.
@@ -493,6 +501,8 @@ impl<'a> March<'a> {
                 let culprit = [whole, first, second]
                     .into_iter()
                     .find_map(|state| not_finite(links, state, None));
+                let culprit =
+                    culprit.or_else(|| asked_twice(&self.stepper.laws(), links, state));
                 Err(match culprit {
                     Some(culprit) => Stop::Law { t, culprit },
                     None => Stop::NoEquilibrium { t, worst, residual },

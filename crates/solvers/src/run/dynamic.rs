@@ -61,12 +61,14 @@ pub(crate) fn run(
         _ => None,
     };
     let watch =
-        Watch { model, viewer: &mut viewer, certificate: certificate.as_mut(), progress, interrupt };
+        Watch { viewer: &mut viewer, certificate: certificate.as_mut(), progress, interrupt };
     let course = Course { timeline: &timeline, steps, constant: &constant };
     let beside = Beside { companion: companion.as_ref(), listener, outputs: model.outputs.len() };
     let (ended, found) = march_beside(course, &mut march, &mut moving, watch, beside, &set_out);
     let errors = certificate.as_ref().map(|certificate| {
-        let companion = companion.as_ref().filter(|_| !ended.interrupted);
+        // A law that has ended this run would end that one as well.
+        let broken = matches!(ended.stop, Some(Stop::Law { .. }));
+        let companion = companion.as_ref().filter(|_| !ended.interrupted && !broken);
         output_errors(certificate, companion, found, model, analysis.duration, &set_out)
     });
     viewer.end(&moving.state, &moving.ledger);

@@ -22,7 +22,6 @@ pub(super) struct Course<'a> {
 
 /// What is told of a run while it goes on, and may end it.
 pub(super) struct Watch<'w, 'a, 'b, 'c, 'p> {
-    pub model: &'w Model,
     pub viewer: &'w mut Viewer<'a, 'b>,
     pub certificate: Option<&'w mut Certificate<'c>>,
     /// Receives the finished share of the run.
@@ -74,7 +73,7 @@ fn march_on(
     ended: &mut Ended,
 ) {
     let Course { timeline, steps, constant } = course;
-    let Watch { viewer, certificate, progress, interrupt, model } = watch;
+    let Watch { viewer, certificate, progress, interrupt } = watch;
     let (first, last) = (steps.start, steps.end);
     for step in steps.clone() {
         let end = timeline.time(step + 1) - 1e-12 * timeline.dt;
@@ -97,7 +96,7 @@ fn march_on(
         let made = output_step(timeline, step, march, constant, moving, &mut report);
         let Moving { state, ledger, .. } = &*moving;
         let asked = made.and_then(|()| match (step + 1 - first).is_power_of_two() {
-            true => march.ask_again(model, state, timeline.time(step + 1)),
+            true => march.ask_again(state, timeline.time(step + 1)),
             false => Ok(()),
         });
         if let Err(stop) = asked {

@@ -5,7 +5,7 @@ use crate::error::{LawFault, SolveError};
 use crate::kernel::ForceScale;
 use trilith_element::{Energy, Kinematics};
 use trilith_model::Model;
-use trilith_system::{LinkInstance, LinkSet, Panicked, System};
+use trilith_system::{Laws, LinkInstance, LinkSet, Panicked, System};
 
 /// A part of the answer of a law; coordinates and variables are counted in the link.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -132,30 +132,55 @@ fn first_in(
         .or_else(|| energy.and_then(of_step))
 }
 
+/// Forces of all laws for a question.
+fn forces(laws: &Laws<'_>, links: &LinkSet, at: Kinematics<'_>, history: &[f64]) -> Vec<f64> {
+    let (mut f, mut tangents) = (vec![0.0; links.len()], links.tangents());
+    let mut trial = vec![f64::NAN; links.history_len];
+    let mut energy = vec![Energy::default(); links.links.len()];
+    laws.respond(at, history, &mut trial, &mut f, &mut tangents, &mut energy);
+    f
+}
+
 /// Asks all laws again what they answered in a step from one state to another of `dt`, and what they answer right after
 /// the start of the next: the first that differs by more than what forms of a law differ by.
 pub(crate) fn asked_again(
-    model: &Model,
+    laws: &Laws<'_>,
     links: &LinkSet,
     from: &State,
     to: &State,
     dt: f64,
 ) -> Option<Culprit> {
-    let laws = links.laws(model);
-    let (mut f, mut tangents) = (vec![0.0; links.len()], links.tangents());
-    let mut history = vec![f64::NAN; links.history_len];
-    let mut energy = vec![Energy::default(); links.links.len()];
     let State { d, v, .. } = to;
+    look_away(laws, links, from);
     let at = Kinematics { d, v, d0: &from.d, v0: &from.v, dt };
-    laws.respond(at, &from.history, &mut history, &mut f, &mut tangents, &mut energy);
-    let changes = |coordinate, first, again| Wrong::Changes { coordinate, first, again };
-    let changed = other(links, &to.scale, &to.f, &f, changes);
+    let again = forces(laws, links, at, &from.history);
+    let changed = other(links, &to.scale, &to.f, &again, changes);
     changed.or_else(|| {
         let at = Kinematics { d, v, d0: d, v0: v, dt: 0.0 };
-        laws.respond(at, &to.history, &mut history, &mut f, &mut tangents, &mut energy);
+        let start = forces(laws, links, at, &to.history);
         let jumps = |coordinate, end, start| Wrong::Jumps { coordinate, end, start };
-        other(links, &to.scale, &to.f, &f, jumps)
+        other(links, &to.scale, &to.f, &start, jumps)
     })
+}
+
+/// The first law that answers otherwise when it is asked the same twice, where steps find no equilibrium or no end.
+pub(crate) fn asked_twice(laws: &Laws<'_>, links: &LinkSet, at: &State) -> Option<Culprit> {
+    let State { d, v, history, scale, .. } = at;
+    let ask = || forces(laws, links, Kinematics { d, v, d0: d, v0: v, dt: 0.0 }, history);
+    let once = ask();
+    look_away(laws, links, at);
+    other(links, scale, &once, &ask(), changes)
+}
+
+/// Asks about deformations the other way: a law that remembers what it was asked is another one then.
+fn look_away(laws: &Laws<'_>, links: &LinkSet, at: &State) {
+    let State { d, v, history, .. } = at;
+    let away: Vec<f64> = d.iter().map(|d| -d).collect();
+    forces(laws, links, Kinematics { d: &away, v, d0: d, v0: v, dt: 0.0 }, history);
+}
+
+fn changes(coordinate: usize, first: f64, again: f64) -> Wrong {
+    Wrong::Changes { coordinate, first, again }
 }
 
 /// The first link whose forces are others than before.

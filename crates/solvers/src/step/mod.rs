@@ -12,7 +12,7 @@ mod stepper;
 mod turning;
 mod vibration;
 
-pub(crate) use culprit::{Culprit, Wrong, asked_again, is_sound, not_finite};
+pub(crate) use culprit::{Culprit, Wrong, asked_again, asked_twice, is_sound, not_finite};
 pub(crate) use difference::{Difference, DisplacementNorms, difference_of, displacement_norms};
 pub(crate) use link_equations::LinkEquations;
 pub(crate) use propagator::{Forces, Propagator, StepWork, kinetic_and_strain};

@@ -62,8 +62,9 @@ pub(crate) trait Stepper {
     /// The space of the motion.
     fn space(&self) -> &ReducedSystem;
 
-    /// The links, as the laws see them.
+    /// The links, and their laws.
     fn links(&self) -> &LinkSet;
+    fn laws(&self) -> Laws<'_>;
 
     /// Iterations and factorisations so far.
     fn work(&self) -> (usize, usize);
@@ -237,6 +238,10 @@ impl<P: Propagator> Stepper for LinkStepper<'_, P> {
 
     fn links(&self) -> &LinkSet {
         self.side.links()
+    }
+
+    fn laws(&self) -> Laws<'_> {
+        self.laws.clone()
     }
 
     fn work(&self) -> (usize, usize) {
