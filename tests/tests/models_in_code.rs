@@ -60,8 +60,9 @@ fn a_case_continues_only_one_before_it() {
         let own = if after == 1 { 1 } else { 0 };
         let told = faults(|m| m.cases[own].after = Some(own));
         let name = ["lean", "shake"][own];
-        let wanted =
-            format!("case \"{name}\": it continues case \"{name}\", which does not stand before it");
+        let wanted = format!(
+            "case \"{name}\": it continues case \"{name}\", which does not stand before it"
+        );
         assert_eq!(told, [wanted]);
     }
     assert_eq!(
@@ -72,10 +73,7 @@ fn a_case_continues_only_one_before_it() {
 
 #[test]
 fn times_and_tolerances_are_in_their_ranges() {
-    assert_eq!(
-        faults(|m| shake(m).dt = 0.0),
-        ["case \"shake\": `dt` = 0: must be > 0"]
-    );
+    assert_eq!(faults(|m| shake(m).dt = 0.0), ["case \"shake\": `dt` = 0: must be > 0"]);
     assert_eq!(
         faults(|m| shake(m).duration = f64::NAN),
         ["case \"shake\": `duration` = NaN: must be > 0"]
@@ -116,7 +114,8 @@ fn every_index_leads_somewhere() {
         let mut model = model();
         change(&mut model);
         let errors = model.check().expect_err("an index that leads nowhere");
-        let of_index = |e: &&trilith::model::ModelError| matches!(e.fault, ModelFault::Index { index: 9, .. });
+        let of_index =
+            |e: &&trilith::model::ModelError| matches!(e.fault, ModelFault::Index { index: 9, .. });
         assert_eq!(errors.iter().filter(of_index).count(), errors.len(), "{errors:?}");
         assert!(matches!(Analysis::new(&model), Err(Error::Model(_))));
     }

@@ -6,12 +6,26 @@ const FACTORISED: usize = 256;
 /// What keeps a matrix from being symmetric and positive semi-definite.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum NotDefinite {
-    NotFinite { row: usize, column: usize, value: f64 },
-    NotSymmetric { row: usize, column: usize, value: f64, mirrored: f64 },
+    NotFinite {
+        row: usize,
+        column: usize,
+        value: f64,
+    },
+    NotSymmetric {
+        row: usize,
+        column: usize,
+        value: f64,
+        mirrored: f64,
+    },
     /// A diagonal value that is negative, or zero beside others in its row.
-    Diagonal { row: usize, value: f64 },
+    Diagonal {
+        row: usize,
+        value: f64,
+    },
     /// A combination of the directions up to this one has a negative value.
-    Pivot { row: usize },
+    Pivot {
+        row: usize,
+    },
 }
 
 /// Finite, and symmetric up to rounding: a share of the entry, and less of the largest.

@@ -257,7 +257,9 @@ mod tests {
             "its mass is -2e0 on the diagonal in the direction of node 2 Ux: must be positive, or the whole row zero"
         );
         assert!(told(|m| m.stiffness[(0, 0)] = 9.0).contains("not positive semi-definite"));
-        assert!(told(|m| m.damping[(0, 0)] = f64::NAN).starts_with("its damping is not finite: NaN"));
+        assert!(
+            told(|m| m.damping[(0, 0)] = f64::NAN).starts_with("its damping is not finite: NaN")
+        );
         assert_eq!(told(|m| m.dofs[1].0 = 2), "it lists Ux of its node 3, and it has 2");
         assert_eq!(told(|m| m.dofs[1].0 = 0), "it lists Ux of its node 1 twice");
         let size = told(|m| m.inertance = SquareMatrix::zeros(3));

@@ -380,7 +380,9 @@ impl LinkSet {
     /// The laws that run, looked up once.
     #[must_use]
     pub fn laws<'a>(&'a self, model: &'a Model) -> Laws<'a> {
-        Laws::new(self.links.iter().filter_map(|l| self.law(model, l).map(|law| (law, l))).collect())
+        Laws::new(
+            self.links.iter().filter_map(|l| self.law(model, l).map(|law| (law, l))).collect(),
+        )
     }
 
     /// History before anything has happened.

@@ -106,7 +106,8 @@ fn no_wrong_law_ends_with_a_wrong_number() {
         for (solver, sound) in SOLVERS.into_iter().zip(sound) {
             let End { good, text, number, tried } = run(fault, solver);
             let off = (number / sound - 1.0).abs();
-            let number = if good { format!(", off by {:.2} %", 100.0 * off) } else { String::new() };
+            let number =
+                if good { format!(", off by {:.2} %", 100.0 * off) } else { String::new() };
             println!("    {:<12} {text}{number} ({tried} substeps)", solver.name());
             let when = ["t = ", "case \"shake\"", "element \"w\""];
             let told = text.contains("\"w\"") && when.iter().any(|when| text.contains(when));

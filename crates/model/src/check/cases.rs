@@ -76,7 +76,10 @@ impl Check<'_> {
                 self.unsuitable(part, format!("`dt` = {dt} s makes {steps:.3e} output steps: at most {MOST_OUTPUT_STEPS} are kept"));
             }
             if *dt > duration * (1.0 + 1e-9) {
-                self.unsuitable(part, format!("`dt` = {dt} s is longer than the case, {duration} s"));
+                self.unsuitable(
+                    part,
+                    format!("`dt` = {dt} s is longer than the case, {duration} s"),
+                );
             }
         }
         self.applied(part, constant);
@@ -100,7 +103,10 @@ impl Check<'_> {
             let is_fixed = m.supports.iter().any(|s| s.node == node && s.fixed[dof.index()]);
             if self.node(part, node) && !is_fixed {
                 let (name, dof) = (&m.nodes[node].name, dof.name());
-                self.unsuitable(part, format!("{dof} of node \"{name}\" is moved and not fixed by a support"));
+                self.unsuitable(
+                    part,
+                    format!("{dof} of node \"{name}\" is moved and not fixed by a support"),
+                );
             }
         }
         for value in initial {
@@ -150,7 +156,11 @@ impl Check<'_> {
                 ("end", end.unwrap_or(*start), any),
             ],
             TimeFunction::Ramp { amplitude, start, rise } => {
-                vec![("amplitude", *amplitude, any), ("start", *start, any), ("rise", *rise, positive)]
+                vec![
+                    ("amplitude", *amplitude, any),
+                    ("start", *start, any),
+                    ("rise", *rise, positive),
+                ]
             }
             TimeFunction::HalfSine { amplitude, duration, start } => vec![
                 ("amplitude", *amplitude, any),

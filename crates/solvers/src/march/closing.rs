@@ -110,7 +110,12 @@ impl Closing {
 }
 
 /// The account of a link in a step.
-fn account(links: &LinkSet, i: usize, from: &State, (to, energy): (&State, &StepEnergy)) -> Account {
+fn account(
+    links: &LinkSet,
+    i: usize,
+    from: &State,
+    (to, energy): (&State, &StepEnergy),
+) -> Account {
     let range = links.links[i].range.clone();
     let of = |j: usize| 0.5 * (from.f[j] + to.f[j]) * (to.d[j] - from.d[j]);
     let (mut work, mut size) = (0.0, 0.0_f64);

@@ -1,0 +1,114 @@
+//! What ends a march early: a law that breaks its contract, work that is spent, no equilibrium however short the step.
+
+use super::closing::Made;
+use super::{DEPTH, March, ROUNDING, Stop, Trial};
+use crate::step::{
+    State, StepEnergy, StepFailure, Stepper, asked_again, asked_twice, is_sound, not_finite,
+};
+use trilith_model::StepControl;
+use trilith_system::StepLoads;
+
+impl March<'_> {
+    /// Ends the run where a law does not account for its work, by an accepted step from `t`.
+    #[inline]
+    pub(super) fn watch(&mut self, state: &State, t: f64) -> Result<(), Stop> {
+        if !self.closing.is_watching() {
+            return Ok(());
+        }
+        let Trial { whole, first, second, energies: [e0, e1, e2], .. } = &self.trial;
+        let made = Made {
+            from: state,
+            whole: (whole, e0),
+            first: (first, e1),
+            second: (second, e2),
+            rounding: ROUNDING * self.stepper.rounding(second),
+        };
+        match self.closing.look(self.stepper.links(), &made) {
+            Some(culprit) => Err(Stop::Law { t, culprit }),
+            None => Ok(()),
+        }
+    }
+
+    /// Asks the laws again what they answered in the step accepted last, which led to a state at `t`.
+    ///
+    /// # Errors
+    /// [`Stop::Law`] where one answers otherwise.
+    pub(crate) fn ask_again(&self, state: &State, t: f64) -> Result<(), Stop> {
+        let Trial { whole, first, second, .. } = &self.trial;
+        let from = match self.control {
+            StepControl::Fixed { .. } => whole,
+            StepControl::Adaptive { .. } if self.whole => second,
+            StepControl::Adaptive { .. } => first,
+        };
+        // No step has been made yet.
+        if from.d.len() != state.d.len() || self.last == 0.0 {
+            return Ok(());
+        }
+        let (laws, links) = (self.stepper.laws(), self.stepper.links());
+        match asked_again(&laws, links, from, state, self.last) {
+            Some(culprit) => Err(Stop::Law { t, culprit }),
+            None => Ok(()),
+        }
+    }
+
+    /// Ends the run where its work is spent.
+    #[inline]
+    pub(super) fn spend(&mut self, t: f64, state: &State) -> Result<(), Stop> {
+        self.at = t;
+        if self.counts.substeps + self.counts.rejected < self.budget {
+            return Ok(());
+        }
+        // A law that answers otherwise each time spends all there is.
+        let culprit = asked_twice(&self.stepper.laws(), self.stepper.links(), state);
+        Err(culprit.map_or(Stop::Spent { t }, |culprit| Stop::Law { t, culprit }))
+    }
+
+    /// Ends the run where halving does not help.
+    pub(super) fn give_up(
+        &self,
+        failure: StepFailure,
+        level: u32,
+        (t, state): (f64, &State),
+    ) -> Result<(), Stop> {
+        match failure {
+            StepFailure::Fatal(e) => Err(Stop::Fatal(e)),
+            // A shorter step may lead where the law has an answer.
+            _ if level + 2 < DEPTH => Ok(()),
+            StepFailure::Unsound(culprit) => Err(Stop::Law { t, culprit }),
+            StepFailure::NoEquilibrium { worst, residual } => {
+                let Trial { whole, first, second, .. } = &self.trial;
+                let links = self.stepper.links();
+                // Only forces and tangents are there where a step has failed.
+                let culprit = [whole, first, second]
+                    .into_iter()
+                    .find_map(|state| not_finite(links, state, None));
+                let culprit = culprit.or_else(|| asked_twice(&self.stepper.laws(), links, state));
+                Err(match culprit {
+                    Some(culprit) => Stop::Law { t, culprit },
+                    None => Stop::NoEquilibrium { t, worst, residual },
+                })
+            }
+        }
+    }
+}
+
+/// A step in which all laws have answered with numbers.
+#[inline]
+pub(super) fn sound_step(
+    stepper: &mut dyn Stepper,
+    from: &State,
+    to: &mut State,
+    loads: &StepLoads,
+    dt: f64,
+    energy: &mut StepEnergy,
+) -> Result<(), StepFailure> {
+    stepper.step(from, to, loads, dt, energy)?;
+    if is_sound(to, &energy.links) {
+        return Ok(());
+    }
+    match not_finite(stepper.links(), to, Some(&energy.links)) {
+        Some(culprit) => Err(StepFailure::Unsound(culprit)),
+        // It is not a law: the measures of the step tell.
+        None => Ok(()),
+    }
+}
