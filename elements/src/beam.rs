@@ -23,6 +23,7 @@
 //! | `shear_coefficient`      | κ      | 1     | > 0   | none    | instead: A₂ = A₃ = κ A                       |
 //! | `density`                | ρ      | kg/m³ | ≥ 0   | 0       | mass ρ A per length                          |
 //! | `distributed_mass`       | m̄      | kg/m  | ≥ 0   | 0       | further mass per length                      |
+//! | `expansion`              | α      | 1/K   | > 0   | none    | strain by one kelvin, for warmth             |
 //! | `mass_matrix`            |        |       |       | Lumped  | `Lumped` or `Consistent`                     |
 //! | `release_i`, `release_j` |        |       |       | none    | released local directions U1 … R3 at an end  |
 //! | `offset_i`, `offset_j`   |        | m     | ≥ 0   | 0       | rigid lengths along the axis at the ends     |
@@ -42,6 +43,7 @@
 //! Reference: \[Przemieniecki 1968, §5.6 and §11.3\]; condensation \[Guyan 1965\].
 
 mod matrices;
+mod span;
 #[cfg(test)]
 mod tests;
 
@@ -53,7 +55,7 @@ use trilith_element::dimension::{
 };
 use trilith_element::{
     Axis, Card, Category, Default, Described, Dimension, ElementMatrices, Exercise, Form, Geometry,
-    LinearElement, NodeCount, Parameter, ParameterError, Range,
+    LinearElement, Member, NodeCount, Parameter, ParameterError, Range,
 };
 
 /// How the mass of a beam or truss is spread.
@@ -106,6 +108,8 @@ pub struct Beam {
     pub density: f64,
     /// Further mass per length, kg/m.
     pub distributed_mass: f64,
+    /// Strain by one kelvin α, 1/K.
+    pub expansion: Option<f64>,
     /// How the mass is spread.
     pub mass_matrix: MassMatrix,
     /// Released directions at the flexible end i.
@@ -181,6 +185,7 @@ impl Described for Beam {
             maybe("shear_coefficient", "κ", NONE, "instead of shear areas: A₂ = A₃ = κ A"),
             zero("density", "ρ", DENSITY, "density, for the mass"),
             zero("distributed_mass", "m̄", MASS_PER_LENGTH, "further mass per length"),
+            maybe("expansion", "α", NONE, "strain by one kelvin, for loads of warmth"),
             Parameter::choice(
                 "mass_matrix",
                 &["Lumped", "Consistent"],
@@ -270,6 +275,18 @@ impl Beam {
         }
     }
 
+    /// What the rigid lengths leave of the whole, m.
+    fn flexible(&self, whole: f64) -> Result<f64, ParameterError> {
+        let flexible = whole - self.offset_i - self.offset_j;
+        if flexible > 0.0 {
+            return Ok(flexible);
+        }
+        Err(ParameterError::geometry(format!(
+            "the rigid offsets of {} m leave nothing of a beam of {whole} m",
+            self.offset_i + self.offset_j
+        )))
+    }
+
     fn shear_modulus(&self) -> f64 {
         let by_poisson = || self.poisson.map(|nu| self.young / (2.0 * (1.0 + nu)));
         self.shear_modulus.or_else(by_poisson).unwrap_or(0.0)
@@ -285,16 +302,14 @@ impl Beam {
 impl LinearElement for Beam {
     fn matrices(&self, at: &Geometry<'_>) -> Result<ElementMatrices, ParameterError> {
         let whole = span_along_axis_1(at, "beam")?;
-        let flexible = whole - self.offset_i - self.offset_j;
-        if flexible <= 0.0 {
-            return Err(ParameterError::geometry(format!(
-                "the rigid offsets of {} m leave nothing of a beam of {whole} m",
-                self.offset_i + self.offset_j
-            )));
-        }
+        let flexible = self.flexible(whole)?;
         let (k, m) = self.local(whole, flexible, at.tension)?;
         let none = DMatrix::zeros(12, 12);
         Ok(used(&to_global(&k, &at.frame), &to_global(&m, &at.frame), &none))
+    }
+
+    fn member(&self) -> Option<&dyn Member> {
+        Some(self)
     }
 }
 

@@ -10,6 +10,7 @@
 //! | `area`             | A      | m²    | > 0   | –       | area of the section        |
 //! | `density`          | ρ      | kg/m³ | ≥ 0   | 0       | mass ρ A per length        |
 //! | `distributed_mass` | m̄      | kg/m  | ≥ 0   | 0       | further mass per length    |
+//! | `expansion`        | α      | 1/K   | > 0   | none    | strain by one kelvin       |
 //! | `mass_matrix`      |        |       |       | Lumped  | `Lumped` or `Consistent`   |
 //!
 //! Only translations are used. The mass acts in all three directions: half at each end, or consistent
@@ -21,10 +22,10 @@ use crate::beam::{MassMatrix, span_along_axis_1};
 use crate::shared::dense::used;
 use nalgebra::DMatrix;
 use serde::Deserialize;
-use trilith_element::dimension::{AREA, DENSITY, MASS_PER_LENGTH, STRESS};
+use trilith_element::dimension::{AREA, DENSITY, MASS_PER_LENGTH, NONE, STRESS};
 use trilith_element::{
-    Card, Category, Described, ElementMatrices, Exercise, Geometry, LinearElement, NodeCount,
-    Parameter, ParameterError, Range,
+    Card, Category, Described, ElementMatrices, Exercise, Geometry, LinearElement, Member,
+    NodeCount, Parameter, ParameterError, Range, SpanLoad,
 };
 
 /// Bar with axial force only.
@@ -39,6 +40,8 @@ pub struct Truss {
     pub density: f64,
     /// Further mass per length, kg/m.
     pub distributed_mass: f64,
+    /// Strain by one kelvin α, 1/K.
+    pub expansion: Option<f64>,
     /// How the mass is spread.
     pub mass_matrix: MassMatrix,
 }
@@ -67,6 +70,13 @@ impl Described for Truss {
                 Range::NonNegative,
                 0.0,
                 "further mass per length",
+            ),
+            Parameter::optional(
+                "expansion",
+                "α",
+                NONE,
+                Range::Positive,
+                "strain by one kelvin, for loads of warmth",
             ),
             Parameter::choice(
                 "mass_matrix",
@@ -107,6 +117,47 @@ impl LinearElement for Truss {
             }
         }
         Ok(used(&stiffness, &inertia, &DMatrix::zeros(12, 12)))
+    }
+
+    fn member(&self) -> Option<&dyn Member> {
+        Some(self)
+    }
+}
+
+impl Member for Truss {
+    /// Forces go to the ends by the lever rule, as those of a bar between hinges.
+    fn end_loads(&self, at: &Geometry<'_>, load: &SpanLoad) -> Result<[f64; 12], ParameterError> {
+        let length = span_along_axis_1(at, "truss")?;
+        let mut ends = [0.0; 12];
+        if let SpanLoad::Warmth { rise, gradients } = load {
+            let Some(alpha) = self.expansion else {
+                return Err(ParameterError::inconsistent(
+                    "expansion",
+                    "warmth needs the strain by one kelvin, `expansion`, or a `material`",
+                ));
+            };
+            if *gradients != [0.0; 2] {
+                return Err(ParameterError::geometry(
+                    "a truss does not bend: it takes a `rise`, no gradients",
+                ));
+            }
+            let axial = self.young * self.area * alpha * rise;
+            (ends[0], ends[6]) = (-axial, axial);
+            return Ok(ends);
+        }
+        let mut turns = false;
+        load.over([0.0, f64::INFINITY], |x, q| {
+            let along = (x / length).min(1.0);
+            for i in 0..3 {
+                ends[i] += (1.0 - along) * q[i];
+                ends[i + 6] += along * q[i];
+            }
+            turns |= q[3..].iter().any(|m| *m != 0.0);
+        });
+        if turns {
+            return Err(ParameterError::geometry("a truss takes no moments along its span"));
+        }
+        Ok(ends)
     }
 }
 

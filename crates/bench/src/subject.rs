@@ -115,6 +115,7 @@ fn watch(model: &mut Model) -> Result<(), String> {
                 name: format!("{} {coordinate}", e.name),
                 unit: "m".into(),
                 quantity: Quantity::LinkDeformation { element, coordinate, factor: 1.0 },
+                hidden: false,
             });
         }
     }

@@ -13,7 +13,7 @@ use trilith::{Analysis, Model, Run};
 pub(crate) fn check(model: &Model, names: &[String]) -> Result<(), Failure> {
     let known: Vec<&str> = [ENERGY, GROUND, SPECTRA]
         .into_iter()
-        .chain(model.outputs.iter().map(|o| o.name.as_str()))
+        .chain(model.shown().map(|(_, o)| o.name.as_str()))
         .chain(links(model))
         .collect();
     match names.iter().find(|n| !known.contains(&n.as_str())) {

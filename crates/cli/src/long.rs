@@ -16,7 +16,7 @@ const TEXT: f64 = 20.0;
 fn numbers(model: &Model, case: &Case, dt: Option<f64>) -> Option<[f64; 2]> {
     let Analysis::Dynamic(analysis) = &case.analysis else { return None };
     let steps = output_steps(analysis.duration, dt.unwrap_or(analysis.dt));
-    Some([steps, steps * (1 + model.outputs.len() + ENERGIES.len()) as f64])
+    Some([steps, steps * (1 + model.shown().count() + ENERGIES.len()) as f64])
 }
 
 /// A warning about the histories of a long case at an output step `dt` (s; none: its own). Of more steps than there may

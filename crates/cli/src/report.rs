@@ -62,10 +62,11 @@ pub(crate) fn text(model: &Model, s: &Summary) -> String {
     }
     if rows.len() > 1 {
         out += &format!("\n{}", table(&rows, &[0, 1]));
-    } else if !model.outputs.is_empty() {
+    } else if model.shown().next().is_some() {
         out += "\n  no outputs were recorded in this case\n";
     }
     out += &spectra(s);
+    out += &envelopes(s);
     if let Some(c) = &s.contact {
         out += &format!(
             "\ncontact: {} at first, {} in all{}; uplift ≤ {} m, slip ≤ {} m, {} m at the end\n",
@@ -167,6 +168,24 @@ fn spectra(s: &Summary) -> String {
         }
     }
     if rows.len() > 1 { format!("\n{}", table(&rows, &[0])) } else { String::new() }
+}
+
+/// Extremes of forces along members, where there are any.
+fn envelopes(s: &Summary) -> String {
+    let head =
+        ["envelope", "force", "unit", "max", "in", "at m", "at s", "min", "in", "at m", "at s"];
+    let mut rows = vec![row(head)];
+    for (name, forces) in &s.envelopes.0 {
+        for (force, e) in &forces.0 {
+            let mut cells = row([name, force, e.unit]);
+            for extreme in [&e.max, &e.min] {
+                let [value, at, t] = [extreme.value, extreme.at, extreme.t].map(number);
+                cells.extend([value, extreme.element.clone(), at, t]);
+            }
+            rows.push(cells);
+        }
+    }
+    if rows.len() > 1 { format!("\n{}", table(&rows, &[0, 1, 2, 4, 8])) } else { String::new() }
 }
 
 /// The work in one line.

@@ -110,6 +110,7 @@ fn open(
     inputs.extend(args.restart.clone());
     let written = |name: &&str| match *name {
         "spectra.csv" => !model.spectra.is_empty(),
+        "envelopes.csv" => !model.envelopes.is_empty(),
         "report.json" | "report.html" => !args.no_report,
         _ => true,
     };

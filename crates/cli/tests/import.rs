@@ -23,7 +23,7 @@ fn an_import_writes_the_model_and_its_report_and_the_model_runs() {
     assert!(told.contains("25 read, 0 ignored knowingly, 0 lost"), "{told}");
     let report = std::fs::read_to_string(folder.path().join("new/side.import.txt")).unwrap();
     assert!(told.starts_with(&report), "{told}");
-    let (checked, _) = trilith(&["check", out], 0);
+    let (checked, _) = trilith(&["check", out, "--resolved"], 0);
     assert!(checked.contains("offsets_stiffen"), "{checked}");
     trilith(&["run", out, "--case", "TIP", "--no-files"], 0);
     // Without a file the model is the answer.

@@ -130,10 +130,10 @@ fn a_restart_ends_as_the_run_in_one_piece() {
 #[test]
 fn the_resolved_model_is_itself_a_model() {
     let folder = folder();
-    let (status, first, err) = trilith(folder.path(), &["check", "swing.ron"]);
+    let (status, first, err) = trilith(folder.path(), &["check", "swing.ron", "--resolved"]);
     assert_eq!(status, 0, "{err}");
     std::fs::write(folder.path().join("again.ron"), &first).unwrap();
-    let (status, second, err) = trilith(folder.path(), &["check", "again.ron"]);
+    let (status, second, err) = trilith(folder.path(), &["check", "again.ron", "--resolved"]);
     assert_eq!(status, 0, "{err}");
     let body = |t: &str| t.lines().filter(|l| !l.starts_with("//")).collect::<String>();
     assert_eq!(body(&first), body(&second));

@@ -1,6 +1,6 @@
 //! Linear elements: what adds to K, M and C once.
 
-use crate::{Dof, Geometry, ParameterError};
+use crate::{Dof, Geometry, Member, ParameterError};
 use std::fmt::Debug;
 
 /// A small dense square matrix, row by row.
@@ -94,5 +94,11 @@ pub trait LinearElement: Send + Sync + Debug {
     /// need not be positive semi-definite. What all elements hold together must be.
     fn softens(&self) -> bool {
         false
+    }
+
+    /// The element as a member that loads may act on between its two nodes; `None` where it is none. Its forces in
+    /// local axes are then recorded at any place along it.
+    fn member(&self) -> Option<&dyn Member> {
+        None
     }
 }

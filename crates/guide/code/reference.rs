@@ -54,15 +54,16 @@ block with a name, `[…]` or `(…)` a list, `{ \"name\": … }` a map. Every n
 `units` says), a text with a unit such as `\"4 m\"`, or an expression such as `\"mu * mass * g\"`; expressions
 have `+ - * / ^`, parentheses, the parameters of the file, and the functions listed under *Units*. Numbers
 are checked for dimension. Unknown names are refused with a suggestion, all errors of a file at once.
-`trilith check MODEL` prints a model with every default filled in.
+`trilith check MODEL` prints what a model is in figures, `trilith check MODEL --resolved` the model with every default
+filled in.
 ";
 
 const FILES: &str = "
 ## Other files
 
 `include: [\"sections.ron\"]` takes sections from other files, each a block such as `(properties: { … })`. A file may hold
-`parameters`, `nodes`, `supports`, `properties`, `elements`, `groups`, `functions`, `loads`, `cases`, `outputs` and
-`spectra`, `units` of its own bare numbers (SI where it has none), and `include`. Its entries stand before those of the
+`parameters`, `nodes`, `supports`, `properties`, `elements`, `groups`, `functions`, `loads`, `cases`, `outputs`,
+`spectra` and `envelopes`, `units` of its own bare numbers (SI where it has none), and `include`. Its entries stand before those of the
 model, in the order of the list; a name that comes twice is refused. A path counts from the file that it stands in, that
 of a record as well, and an included file lies in the folder of the model or below. Two files may include the same one; it
 is there once.
@@ -93,7 +94,7 @@ fn beside(out: &mut String) {
         ("Place of an element", &schema::PLACE, "elements"),
         ("Fields of all elements", &schema::ELEMENT, "elements"),
         ("Fields of all links", &schema::LINK, "elements"),
-        ("A force of a load", &schema::FORCE, "forces of a load"),
+        ("Fields of members", &schema::MEMBER, "elements"),
     ] {
         let _ = write!(out, "\n## {name}\n");
         block(out, b, ("in", place));

@@ -20,6 +20,8 @@ fn the_reference_is_that_of_the_schema() {
 
 /// A model in which a block stands at its place.
 fn model(place: &str, block: &str) -> Option<String> {
+    const HERE: &str = "nodes: (\"base\", \"m\")";
+    let mut element = String::new();
     let (mut section, mut case) = (String::new(), r#"duration: "0.1 s", dt: "10 ms""#.to_owned());
     let mut push = |name: &str| case.push_str(&format!(", {name}: {block}"));
     match place {
@@ -52,6 +54,11 @@ fn model(place: &str, block: &str) -> Option<String> {
         "terms" => section = format!("outputs: {{ \"o\": Displacement(terms: [{block}]) }},"),
         "repetition" => section = format!("outputs: {{ \"o {{i}} {{d}}\": {block} }},"),
         "elements" => {}
+        "section" => element = format!("\"e\": Beam({HERE}, section: {block}, material: Steel),"),
+        "material" => {
+            element = format!("\"e\": Beam({HERE}, section: \"IPE 300\", material: {block}),")
+        }
+        "envelopes" => section = format!("envelopes: {{ \"e\": {block} }},"),
         "forces-of-a-load" => section = format!("loads: {{ \"p\": [{block}] }},"),
         "loads-of-a-case" => case.push_str(&format!(", constant: [{block}]")),
         "base" | "forces" | "initial" => case.push_str(&format!(", {place}: [{block}]")),
@@ -61,7 +68,9 @@ fn model(place: &str, block: &str) -> Option<String> {
         _ => return None,
     }
     let last = if place == "cases" { block.to_owned() } else { format!("Dynamic({case})") };
-    let element = if place == "elements" { format!("\"e\": {block},") } else { String::new() };
+    if place == "elements" {
+        element = format!("\"e\": {block},");
+    }
     if !section.contains("functions") {
         section += r#"functions: {
             "shake": Constant("1 m/s^2"), "unit": Constant(1), "sway": Constant("1 mm"),
@@ -77,6 +86,7 @@ fn model(place: &str, block: &str) -> Option<String> {
         elements: {{
             "spring": Spring(nodes: ("base", "m"), k1: 1, k2: 1, k3: 1, r1: 1, r2: 1, r3: 1),
             "mass": Mass(node: "m", mass: 1),
+            "beam": Beam(nodes: ("base", "m"), section: "IPE 300", material: Steel),
             "link": NLink(node: "m", kn: 1, ks: 1, mu: 0.1, opening: 1),
             {element}
         }},
@@ -121,7 +131,7 @@ fn blocks() -> Vec<(String, &'static Block)> {
         ("elements", &schema::PLACE),
         ("elements", &schema::ELEMENT),
         ("elements", &schema::LINK),
-        ("forces-of-a-load", &schema::FORCE),
+        ("elements", &schema::MEMBER),
     ];
     all.chain(beside.map(|(place, b)| (place.to_owned(), b))).collect()
 }

@@ -19,6 +19,7 @@ mod read;
 mod registry;
 mod resolved;
 pub mod schema;
+pub mod sections;
 mod table;
 mod time_function;
 mod tree;

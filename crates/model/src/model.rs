@@ -1,12 +1,12 @@
 //! The model after reading: plain data in SI, everything resolved to indices and checked.
 
-use crate::{Case, FloorSpectrum, Output, Places, TimeFunction};
+use crate::{Analysis, Case, Envelope, FloorSpectrum, Output, Places, TimeFunction};
 use sha2::{Digest, Sha256};
 use std::ops::Range;
 use std::path::PathBuf;
 use std::sync::Arc;
 use trilith_element::{
-    Axis, Constraint, Dimension, Dof, Frame, LinearElement, Link, Values, Vector3,
+    Axis, Constraint, Dimension, Dof, Frame, LinearElement, Link, Member, SpanLoad, Values, Vector3,
 };
 
 /// A byte range of the model file, or what [`Places`] leads back to one.
@@ -60,6 +60,8 @@ pub struct Model {
     pub outputs: Vec<Output>,
     /// Response spectra of recorded accelerations.
     pub spectra: Vec<FloorSpectrum>,
+    /// Envelopes of forces along members.
+    pub envelopes: Vec<Envelope>,
 }
 
 /// A named parameter.
@@ -207,13 +209,24 @@ pub struct Function {
     pub dimension: Option<Dimension>,
 }
 
-/// A named set of nodal forces.
+/// A named set of forces.
 #[derive(Clone, Debug)]
 pub struct Pattern {
     /// Name.
     pub name: String,
-    /// The forces.
+    /// Forces at nodes.
     pub forces: Vec<NodalForce>,
+    /// Loads along members.
+    pub members: Vec<MemberLoad>,
+}
+
+/// A load along a member.
+#[derive(Clone, Debug, PartialEq)]
+pub struct MemberLoad {
+    /// Index of the element.
+    pub element: usize,
+    /// What acts, in its local axes.
+    pub load: SpanLoad,
 }
 
 /// A force or moment at a node.
@@ -273,6 +286,31 @@ impl Model {
                 let sums: Vec<&str> = self.places.files().map(|s| s.sha256.as_str()).collect();
                 sha256(sums.join("\n").as_bytes())
             }
+        }
+    }
+
+    /// The outputs that are written, each with its index.
+    pub fn shown(&self) -> impl Iterator<Item = (usize, &Output)> + Clone {
+        self.outputs.iter().enumerate().filter(|(_, o)| !o.hidden)
+    }
+
+    /// All loads that a case holds at its end: its own constant ones, and those of the cases that it continues.
+    #[must_use]
+    pub fn held_loads(&self, case: &Case) -> Vec<Load> {
+        let chain = std::iter::successors(Some(case), |c| c.after.map(|i| &self.cases[i]));
+        let own = |c: &Case| match &c.analysis {
+            Analysis::Static(s) => s.loads.clone(),
+            Analysis::Dynamic(d) => d.constant.clone(),
+        };
+        chain.flat_map(own).collect()
+    }
+
+    /// An element as a member, where it is one.
+    #[must_use]
+    pub fn member(&self, element: usize) -> Option<&dyn Member> {
+        match &self.elements.get(element)?.body {
+            Body::Linear(e) => e.member(),
+            _ => None,
         }
     }
 

@@ -11,6 +11,8 @@ pub struct Output {
     pub unit: String,
     /// What it is.
     pub quantity: Quantity,
+    /// Other outputs are made from it, and nothing is written of it.
+    pub hidden: bool,
 }
 
 /// What is recorded.
@@ -79,6 +81,18 @@ pub enum Quantity {
         /// Factor.
         factor: f64,
     },
+    /// factor · a force inside a member in its local axes, loads along it included: that of the deformation of the
+    /// member, without dashpots, and without the inertia of a consistent mass between the nodes.
+    MemberForce {
+        /// Index of the element.
+        element: usize,
+        /// Which force.
+        force: MemberForce,
+        /// Where: distance from the first node, m.
+        at: f64,
+        /// Factor.
+        factor: f64,
+    },
     /// Outputs before it, put together.
     Combination {
         /// How.
@@ -88,6 +102,65 @@ pub enum Quantity {
         /// (index of the output, factor).
         terms: Vec<(usize, f64)>,
     },
+}
+
+/// A force inside a member, as on a cut that looks along local 1 (SAP2000's signs).
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum MemberForce {
+    /// Axial force, tension positive.
+    N,
+    /// Shear along local 2.
+    V2,
+    /// Shear along local 3.
+    V3,
+    /// Torsion about local 1.
+    T,
+    /// Moment about local 2; positive where it presses on the side of positive local 3.
+    M2,
+    /// Moment about local 3; positive where it presses on the side of positive local 2.
+    M3,
+}
+
+impl MemberForce {
+    /// All, in order.
+    pub const ALL: [Self; 6] = [Self::N, Self::V2, Self::V3, Self::T, Self::M2, Self::M3];
+    /// Their names.
+    pub const NAMES: [&'static str; 6] = ["N", "V2", "V3", "T", "M2", "M3"];
+
+    /// Name in model files and results.
+    #[must_use]
+    pub const fn name(self) -> &'static str {
+        Self::NAMES[self as usize]
+    }
+
+    /// True for moments.
+    #[must_use]
+    pub const fn is_moment(self) -> bool {
+        matches!(self, Self::T | Self::M2 | Self::M3)
+    }
+}
+
+/// Forces along members, of which the largest and smallest over time are kept.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Envelope {
+    /// Name.
+    pub name: String,
+    /// The members.
+    pub members: Vec<MemberEnvelope>,
+}
+
+/// The envelope of one member: its outputs stand one after the other, the forces of the first station, then those of
+/// the next one.
+#[derive(Clone, Debug, PartialEq)]
+pub struct MemberEnvelope {
+    /// Index of the element.
+    pub element: usize,
+    /// Which forces.
+    pub forces: Vec<MemberForce>,
+    /// Where: distances from the first node, m.
+    pub stations: Vec<f64>,
+    /// Index of its first output.
+    pub first: usize,
 }
 
 /// How outputs are put together, each times its factor.

@@ -23,8 +23,8 @@ const fn unit(name: &'static str, factor: f64, dimension: Dimension) -> Unit {
     Unit { name, factor, dimension }
 }
 
-/// All units. `g` is standard gravity, an acceleration; `Hz` and `rpm` are cycles per time; angles
-/// and `%` are pure numbers.
+/// All units. `g` is standard gravity, an acceleration; `Hz` and `rpm` are cycles per time; angles,
+/// `%` and kelvins are pure numbers.
 pub(crate) const UNITS: &[Unit] = &[
     unit("m", 1.0, d::LENGTH),
     unit("mm", 1e-3, d::LENGTH),
@@ -64,6 +64,7 @@ pub(crate) const UNITS: &[Unit] = &[
     unit("rad", 1.0, d::NONE),
     unit("deg", std::f64::consts::PI / 180.0, d::NONE),
     unit("%", 0.01, d::NONE),
+    unit("K", 1.0, d::NONE),
 ];
 
 /// The unit of that name.

@@ -10,15 +10,16 @@ use trilith_record::cell;
 pub(crate) fn write(path: &Path, model: &Model, record: &Recorder) -> Result<(), FileError> {
     let fail = |e: csv::Error| FileError::at(path)(e);
     let mut file = csv::Writer::from_path(path).map_err(fail)?;
-    let outputs = model.outputs.iter().map(|o| {
+    let outputs = model.shown().map(|(_, o)| {
         let head = format!("{} [{}]", o.name, o.unit);
         cell(&head).into_owned()
     });
     let energies = ENERGIES.iter().map(|e| format!("energy {} [J]", e.replace('_', " ")));
     let header = std::iter::once("t [s]".to_owned()).chain(outputs).chain(energies);
     file.write_record(header).map_err(fail)?;
-    let columns: Vec<&[f64]> = (0..model.outputs.len())
-        .filter_map(|i| record.history(i))
+    let columns: Vec<&[f64]> = model
+        .shown()
+        .filter_map(|(i, _)| record.history(i))
         .chain(record.energy().iter().map(Vec::as_slice))
         .collect();
     for (i, t) in record.time().iter().enumerate() {

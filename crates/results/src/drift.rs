@@ -21,7 +21,7 @@ pub struct DriftSummary {
 
 /// The largest drift among the outputs, whose peaks stand in the order of the model.
 pub(crate) fn largest(model: &Model, peaks: &[Peak]) -> Option<DriftSummary> {
-    let outputs = model.outputs.iter().zip(peaks);
+    let outputs = model.outputs.iter().zip(peaks).filter(|(o, _)| !o.hidden);
     let drifts = outputs.filter_map(|(output, peak)| {
         let Quantity::Displacement(terms) = &output.quantity else { return None };
         let height = height(model, terms)?;

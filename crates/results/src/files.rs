@@ -14,6 +14,7 @@ use trilith_model::Model;
 /// | `peaks.csv` | extremes of all outputs |
 /// | `histories.csv`, `histories.npz` | outputs and energies at the output times |
 /// | `spectra.csv` | floor spectra, where the model asks for any |
+/// | `envelopes.csv` | extremes of forces along members, where the model asks for any |
 /// | `model.resolved.ron` | the model in SI with every default |
 /// | `report.json`, `report.html` | beside these, what the report of a run is made from, and its page (`trilith_report`) |
 /// | `made_by.json` | beside these, of the program: its build, the command line, the files read, the date |
@@ -46,6 +47,9 @@ impl Files<'_> {
         npz::write(&path("histories.npz"), self.model, self.record)?;
         if !self.summary.spectra.0.is_empty() {
             crate::spectra::write(&path("spectra.csv"), &self.summary.spectra)?;
+        }
+        if !self.summary.envelopes.0.is_empty() {
+            crate::envelopes::write(&path("envelopes.csv"), self.model, self.record.peaks())?;
         }
         let resolved = path("model.resolved.ron");
         std::fs::write(&resolved, trilith_model::resolved(self.model))

@@ -13,13 +13,14 @@ use std::path::{Path, PathBuf};
 
 /// What a run leaves in its folder; a later run without one of them takes it out. The first stands for all: where it is,
 /// the others are of the same run.
-pub const OF_RUN: [&str; 11] = [
+pub const OF_RUN: [&str; 12] = [
     "summary.json",
     "made_by.json",
     "peaks.csv",
     "histories.csv",
     "histories.npz",
     "spectra.csv",
+    "envelopes.csv",
     "model.resolved.ron",
     "report.json",
     "report.html",

@@ -35,10 +35,10 @@ pub(crate) fn write(path: &Path, model: &Model, record: &Recorder) -> Result<(),
     let mut zip = zip::ZipWriter::new(Quiet::new(BufWriter::new(file)));
     let energies = ENERGIES.map(|e| format!("energy_{e}"));
     let fixed = std::iter::once("t").chain(energies.iter().map(String::as_str));
-    let names = unique(fixed, model.outputs.iter().map(|o| o.name.as_str()));
+    let names = unique(fixed, model.shown().map(|(_, o)| o.name.as_str()));
     let arrays = std::iter::once(record.time())
         .chain(record.energy().iter().map(Vec::as_slice))
-        .chain((0..model.outputs.len()).filter_map(|i| record.history(i)));
+        .chain(model.shown().filter_map(|(i, _)| record.history(i)));
     for (name, values) in names.iter().zip(arrays) {
         let options = SimpleFileOptions::default().last_modified_time(zip::DateTime::default());
         zip.start_file(format!("{name}.npy"), options).map_err(FileError::at(path))?;

@@ -30,6 +30,8 @@ pub struct Recorder {
     frames: Frames,
     loops: Loops,
     keeps_histories: bool,
+    /// Outputs whose histories are kept.
+    kept: Vec<usize>,
 }
 
 impl Recorder {
@@ -44,6 +46,12 @@ impl Recorder {
             frames: Frames::new(model.nodes.len(), 0),
             loops: Loops::none(),
             keeps_histories: true,
+            // A spectrum is made of the history of its output, hidden or not.
+            kept: (0..model.outputs.len())
+                .filter(|i| {
+                    !model.outputs[*i].hidden || model.spectra.iter().any(|s| s.output == *i)
+                })
+                .collect(),
         }
     }
 
@@ -81,10 +89,11 @@ impl Recorder {
         &self.time
     }
 
-    /// Values of an output, by its index in the model, at the output times.
+    /// Values of an output, by its index in the model, at the output times; none of a hidden one.
     #[must_use]
     pub fn history(&self, output: usize) -> Option<&[f64]> {
-        self.histories.get(output).map(Vec::as_slice)
+        let kept = self.kept.binary_search(&output).is_ok();
+        self.histories.get(output).filter(|_| kept).map(Vec::as_slice)
     }
 
     /// Energies at the output times, J: one list for each of [`ENERGIES`].
@@ -129,8 +138,8 @@ impl Observer for Recorder {
             return;
         }
         self.time.push(s.t);
-        for (history, y) in self.histories.iter_mut().zip(s.values) {
-            history.push(*y);
+        for i in &self.kept {
+            self.histories[*i].push(s.values[*i]);
         }
         for (history, e) in self.energy.iter_mut().zip(energies(s.energy)) {
             history.push(e);

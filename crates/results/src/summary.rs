@@ -1,6 +1,6 @@
 //! `summary.json`: the keys scripts rely on.
 
-use crate::{DriftSummary, FloorSpectrum, Peak, Recorder};
+use crate::{DriftSummary, FloorSpectrum, ForceEnvelope, Peak, Recorder};
 use serde::{Serialize, Serializer};
 use serde_json::Value;
 use trilith_model::{Model, Parameter, ParameterValue};
@@ -54,6 +54,9 @@ pub struct Summary {
     pub basis: Option<BasisSummary>,
     /// Floor spectra by name: their peaks. `spectra.csv` has the curves.
     pub spectra: Named<FloorSpectrum>,
+    /// Forces along members: the extremes of every envelope, by its name and that of the force. `envelopes.csv` has all
+    /// stations.
+    pub envelopes: Named<Named<ForceEnvelope>>,
     /// What the user should know.
     pub warnings: Vec<String>,
 }
@@ -166,7 +169,7 @@ impl Summary {
             status: result.status.word(),
             message: result.status.text(),
             work: result.work,
-            outputs: Named(model.outputs.iter().enumerate().map(output).collect()),
+            outputs: Named(model.shown().map(output).collect()),
             energy: result.energy,
             link_energy: Named(result.link_energy.iter().filter_map(link).collect()),
             contact,
@@ -176,6 +179,7 @@ impl Summary {
             drift,
             basis: result.basis.as_ref().map(BasisSummary::new),
             spectra: Named(crate::spectra::all(model, record)),
+            envelopes: crate::envelopes::extremes(model, record.peaks()),
             warnings: result.warnings.clone(),
         }
     }

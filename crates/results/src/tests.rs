@@ -98,6 +98,7 @@ fn summary(model: &Model, record: &Recorder) -> Summary {
         base_shear: None,
         drift: None,
         basis: None,
+        envelopes: crate::Named(Vec::new()),
         spectra: crate::Named(crate::spectra::all(model, record)),
         warnings: vec![],
     }

@@ -28,6 +28,7 @@
 //! | `certificate` | how far outputs are off, estimated beside a run |
 //! | `statics` | equilibrium along a path, initial values of massless directions |
 //! | `run` | cases from start to end, checkpoints, results |
+//! | `survey` | what a model weighs, what holds it, how it swings at rest |
 //! | `together` | several motions of one structure in lock step |
 //! | `lanes` | many analyses side by side, a lane of a vector register each |
 //!
@@ -49,6 +50,7 @@ mod run;
 mod statics;
 mod step;
 mod structure;
+mod survey;
 mod together;
 mod vector;
 
@@ -66,4 +68,5 @@ pub use run::{
     of_outputs as warnings_of_outputs, run,
 };
 pub use step::State;
+pub use survey::{Freedoms, Periods, Survey, survey};
 pub use together::{Member, run_together};

@@ -6,7 +6,7 @@ use crate::links::mark_used;
 use crate::{ImpactMass, LinkSet, Massless, Reduction, SystemError};
 use trilith_element::{Dof, ElementMatrices, Geometry};
 use trilith_linalg::{Sparse, Triplets, unsupported};
-use trilith_model::{Body, Damping, Element, Model};
+use trilith_model::{Body, Damping, Element, MemberLoad, Model};
 
 /// M ü + C u̇ + K u + Bᵀ f(B u, B u̇) = p(t) on the free DOFs; links are not in K.
 #[derive(Debug)]
@@ -253,7 +253,26 @@ impl System {
             }
         }
         row.links = self.links.forces_on(model, node, dof);
+        let full = 6 * node + dof.index();
+        for (pattern, p) in model.patterns.iter().enumerate() {
+            let all = p.members.iter().flat_map(|load| self.member_load(model, load));
+            let sum: f64 = all.filter(|(i, _)| *i == full).map(|(_, force)| force).sum();
+            if sum != 0.0 {
+                row.loads.push((pattern, -sum));
+            }
+        }
         row
+    }
+
+    /// Axial force of an element that a load along it makes where nothing moves, mean of both ends; N, tension positive.
+    #[must_use]
+    pub fn held_tension(&self, model: &Model, load: &MemberLoad) -> f64 {
+        let axes = model.elements[load.element].frame.0[0];
+        let [i, j] = [0, 1].map(|end| {
+            let ends = self.member_load(model, load);
+            (0..3).map(|k| axes[k] * ends[6 * end + k].1).sum::<f64>()
+        });
+        0.5 * (i - j)
     }
 
     /// Matrices of an element, made once more: kept, they would outweigh everything else.

@@ -12,7 +12,8 @@ pub struct EndForceRow {
     pub damping: Vec<(usize, f64)>,
 }
 
-/// The force of a support as a linear combination: `Σ stiffness · u + Σ damping · u̇ + Σ links · f`.
+/// The force of a support as a linear combination: `Σ stiffness · u + Σ damping · u̇ + Σ links · f`, and what
+/// patterns of loads along members bring straight to it.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct ReactionRow {
     /// (reduced index, N/m …).
@@ -21,6 +22,8 @@ pub struct ReactionRow {
     pub damping: Vec<(usize, f64)>,
     /// (flat index of a link coordinate, share of its force).
     pub links: Vec<(usize, f64)>,
+    /// (index of a load pattern, force of its loads along members), reversed.
+    pub loads: Vec<(usize, f64)>,
 }
 
 pub(crate) fn end_force_row(

@@ -17,8 +17,10 @@ mod link_rows;
 mod links;
 mod loads;
 mod massless;
+mod members;
 mod parts;
 mod reduction;
+mod weight;
 
 pub use assemble::System;
 pub use blame::{Panicked, blaming, catch};
@@ -30,4 +32,6 @@ pub use impact::ImpactMass;
 pub use links::{Answers, Laws, LinkInstance, LinkSet, StepLaws, Tangents};
 pub use loads::{Channel, LoadSet, StepLoads, Track};
 pub use massless::Massless;
+pub use members::MemberRow;
 pub use reduction::Reduction;
+pub use weight::{MassSum, RIGID};

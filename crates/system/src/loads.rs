@@ -89,6 +89,10 @@ pub struct LoadSet {
     pub base: Vec<(BaseMotion, TimeFunction)>,
     /// Prescribed displacement of each prescribed DOF: (prescribed index, function, factor).
     pub supports: Vec<(usize, TimeFunction, f64)>,
+    /// Loads held from the start, which the constant channel is the sum of.
+    pub held: Vec<Load>,
+    /// Patterns that vary: (index, function, factor).
+    pub varying: Vec<(usize, TimeFunction, f64)>,
 }
 
 impl System {
@@ -106,6 +110,15 @@ impl System {
                     for (j, t) in self.reduction.expand(full) {
                         if *j < p.len() {
                             p[*j] += factor * force.value * t;
+                        }
+                    }
+                }
+                for load in &model.patterns[*pattern].members {
+                    for (full, force) in self.member_load(model, load) {
+                        for (j, t) in self.reduction.expand(full) {
+                            if *j < p.len() {
+                                p[*j] += factor * force * t;
+                            }
                         }
                     }
                 }
@@ -139,6 +152,7 @@ impl System {
             let pattern = Load::Pattern { pattern: history.pattern, factor: 1.0 };
             let (f, factor) = (function(history.function), history.factor);
             let force = self.load_vector(model, &pattern);
+            set.varying.push((history.pattern, f.clone(), factor));
             set.channels.push(plain(force, Track::Value { function: f, factor }, false));
         }
         for motion in &case.supports {
@@ -197,6 +211,22 @@ impl LoadSet {
         for (channel, force) in rates.zip(forces) {
             channel.force.iter_mut().zip(force).for_each(|(x, y)| *x += y);
         }
+    }
+
+    /// How many times each of so many patterns acts at t, and behind them the weight.
+    #[must_use]
+    pub fn factors(&self, patterns: usize, t: f64, side: Side) -> Vec<f64> {
+        let mut all = vec![0.0; patterns + 1];
+        for load in &self.held {
+            match load {
+                Load::Gravity { factor } => all[patterns] += factor,
+                Load::Pattern { pattern, factor } => all[*pattern] += factor,
+            }
+        }
+        for (pattern, function, factor) in &self.varying {
+            all[*pattern] += factor * function.value(t, side);
+        }
+        all
     }
 
     /// Amplitudes over a step; what is known from a step that ended at its start is kept.

@@ -6,7 +6,7 @@ use trilith_model::{Analysis as CaseAnalysis, Model};
 use trilith_results::{Files, Peak, Recorder, Summary};
 use trilith_solvers::{
     BaseShear, BaseShearSummary, BasisReport, BearingSummary, CaseResult, ContactMode,
-    ContactSummary, Observer, RunOptions, SoFar, StopSummary,
+    ContactSummary, Observer, RunOptions, SoFar, StopSummary, Survey,
 };
 use trilith_system::System;
 
@@ -213,6 +213,14 @@ impl<'m> Analysis<'m> {
     fn shakes(&self, case: usize) -> bool {
         let analysis = self.model.cases.get(case).map(|c| &c.analysis);
         matches!(analysis, Some(CaseAnalysis::Dynamic(d)) if !d.base.is_empty())
+    }
+
+    /// The model in figures: masses, freedoms, periods at rest, sums of loads.
+    ///
+    /// # Errors
+    /// [`Error::Solve`] where the stiffness has numbers beyond all bounds.
+    pub fn survey(&self) -> Result<Survey, Error> {
+        Ok(trilith_solvers::survey(self.model, &self.system)?)
     }
 
     /// Modes and basis of a case (the last dynamic one where none is given).

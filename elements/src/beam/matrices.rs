@@ -6,8 +6,8 @@ use trilith_element::{Axis, ParameterError};
 
 /// DOFs of one bending plane: deflections and rotations at i and j, and the sign of the rotation
 /// (about local 3 the rotation is w′, about local 2 it is −w′).
-const IN_12: ([usize; 4], f64) = ([1, 5, 7, 11], 1.0);
-const IN_13: ([usize; 4], f64) = ([2, 4, 8, 10], -1.0);
+pub(super) const IN_12: ([usize; 4], f64) = ([1, 5, 7, 11], 1.0);
+pub(super) const IN_13: ([usize; 4], f64) = ([2, 4, 8, 10], -1.0);
 
 fn add(to: &mut DMatrix<f64>, dofs: &[usize], signs: &[f64], values: &[f64]) {
     let n = dofs.len();
@@ -59,11 +59,48 @@ impl Beam {
         tension: f64,
     ) -> Result<(DMatrix<f64>, DMatrix<f64>), ParameterError> {
         let s = self.section();
+        let [phi12, phi13] = self.shear_ratios(&s, l);
+        let mut k = self.stiffness(&s, whole, l, tension);
+        let per_length = self.density * s.area + self.distributed_mass;
+        let mut m = match self.mass_matrix {
+            MassMatrix::Lumped => DMatrix::zeros(12, 12),
+            MassMatrix::Consistent => self.consistent(&s, per_length, l, phi12, phi13),
+        };
+        self.release(&mut k, &mut m, &mut [0.0; 12])?;
+        if self.offset_i != 0.0 || self.offset_j != 0.0 {
+            let arms = self.arms();
+            k = arms.transpose() * k * &arms;
+            m = arms.transpose() * m * &arms;
+        }
+        match self.mass_matrix {
+            MassMatrix::Lumped => {
+                for i in [0, 1, 2, 6, 7, 8] {
+                    m[(i, i)] = 0.5 * per_length * whole;
+                }
+            }
+            MassMatrix::Consistent => {
+                rigid_rod(&mut m, 0, per_length, self.offset_i);
+                rigid_rod(&mut m, 6, per_length, -self.offset_j);
+            }
+        }
+        Ok((k, m))
+    }
+
+    /// Φ in the planes 1–2 and 1–3.
+    pub(super) fn shear_ratios(&self, s: &Section, l: f64) -> [f64; 2] {
         let g = self.shear_modulus();
-        let [area2, area3] = self.shear_areas(&s);
-        let ratio = |ei: f64, area: Option<f64>| area.map_or(0.0, |a| 12.0 * ei / (g * a * l * l));
+        let [area2, area3] = self.shear_areas(s);
+        let ratio = |i: f64, area: Option<f64>| {
+            area.map_or(0.0, |a| 12.0 * (self.young * i) / (g * a * l * l))
+        };
+        [ratio(s.i3, area2), ratio(s.i2, area3)]
+    }
+
+    /// Stiffness in local axes between the flexible ends, nothing released.
+    pub(super) fn stiffness(&self, s: &Section, whole: f64, l: f64, tension: f64) -> DMatrix<f64> {
+        let g = self.shear_modulus();
         let (ei2, ei3) = (self.young * s.i2, self.young * s.i3);
-        let (phi12, phi13) = (ratio(ei3, area2), ratio(ei2, area3));
+        let [phi12, phi13] = self.shear_ratios(s, l);
         let rod = [1.0, -1.0, -1.0, 1.0];
         let along = match self.offsets_stiffen {
             Stiffened::All => l,
@@ -83,30 +120,7 @@ impl Beam {
                 add(&mut k, &[a, b], &[1.0; 2], &rod.map(|x| x * tension / l));
             }
         }
-
-        let per_length = self.density * s.area + self.distributed_mass;
-        let mut m = match self.mass_matrix {
-            MassMatrix::Lumped => DMatrix::zeros(12, 12),
-            MassMatrix::Consistent => self.consistent(&s, per_length, l, phi12, phi13),
-        };
-        self.release(&mut k, &mut m)?;
-        if self.offset_i != 0.0 || self.offset_j != 0.0 {
-            let arms = self.arms();
-            k = arms.transpose() * k * &arms;
-            m = arms.transpose() * m * &arms;
-        }
-        match self.mass_matrix {
-            MassMatrix::Lumped => {
-                for i in [0, 1, 2, 6, 7, 8] {
-                    m[(i, i)] = 0.5 * per_length * whole;
-                }
-            }
-            MassMatrix::Consistent => {
-                rigid_rod(&mut m, 0, per_length, self.offset_i);
-                rigid_rod(&mut m, 6, per_length, -self.offset_j);
-            }
-        }
-        Ok((k, m))
+        k
     }
 
     fn consistent(&self, s: &Section, per_length: f64, l: f64, p12: f64, p13: f64) -> DMatrix<f64> {
@@ -130,8 +144,13 @@ impl Beam {
         m
     }
 
-    /// Condenses the released directions out of both matrices.
-    fn release(&self, k: &mut DMatrix<f64>, m: &mut DMatrix<f64>) -> Result<(), ParameterError> {
+    /// Condenses the released directions out of both matrices and out of forces on the flexible ends.
+    pub(super) fn release(
+        &self,
+        k: &mut DMatrix<f64>,
+        m: &mut DMatrix<f64>,
+        p: &mut [f64; 12],
+    ) -> Result<(), ParameterError> {
         let original = k.diagonal();
         let ends = [("release_i", &self.release_i, 0), ("release_j", &self.release_j, 6)];
         let mut gone = [false; 12];
@@ -149,6 +168,10 @@ impl Beam {
                 for r in 0..12 {
                     t[(s, r)] = if r == s || gone[r] { 0.0 } else { -k[(s, r)] / k[(s, s)] };
                 }
+                let released = p[s];
+                for (r, p) in p.iter_mut().enumerate() {
+                    *p = if r == s { 0.0 } else { *p + t[(s, r)] * released };
+                }
                 *k = t.transpose() * &*k * &t;
                 *m = t.transpose() * &*m * &t;
                 gone[s] = true;
@@ -164,7 +187,7 @@ impl Beam {
     }
 
     /// Displacements of the flexible ends from those of the nodes: u + θ × (± offset along 1).
-    fn arms(&self) -> DMatrix<f64> {
+    pub(super) fn arms(&self) -> DMatrix<f64> {
         let mut t = DMatrix::identity(12, 12);
         for (at, arm) in [(0, self.offset_i), (6, -self.offset_j)] {
             t[(at + 1, at + 5)] = arm;

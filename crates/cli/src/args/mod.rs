@@ -31,8 +31,8 @@ pub(crate) struct Arguments {
 pub(crate) enum Command {
     /// Run a case of a model and write its results
     Run(RunArguments),
-    /// Validate a model and print it with every default filled in
-    Check(ModelArguments),
+    /// Validate a model and print it in figures, or with every default filled in
+    Check(CheckArguments),
     /// Periods, participation and adequacy of the basis
     Modes(ModesArguments),
     /// The kinds of elements, constraints and links, or the card of one
@@ -62,6 +62,15 @@ pub(crate) struct ModelArguments {
     /// Give a parameter of the model another value, such as `mu=0.4` or `kn="2 MN/m"`
     #[arg(long, value_name = "NAME=VALUE", value_parser = assignment)]
     pub set: Vec<(String, String)>,
+}
+
+#[derive(Args)]
+pub(crate) struct CheckArguments {
+    #[command(flatten)]
+    pub model: ModelArguments,
+    /// Print the model instead: in SI, repetitions expanded, every default filled in; it reads back as a model
+    #[arg(long)]
+    pub resolved: bool,
 }
 
 #[derive(Args)]

@@ -39,6 +39,11 @@ pub struct Fields<'n> {
 }
 
 impl<'n> Fields<'n> {
+    /// No fields, where a value stands for all of them.
+    pub(crate) fn none(node: &Node) -> Self {
+        Self { what: node.describe(), span: node.span.clone(), entries: &[], instead: &[] }
+    }
+
     /// The value of a field.
     #[must_use]
     pub fn get(&self, key: &str) -> Option<&'n Node> {

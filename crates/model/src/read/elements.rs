@@ -1,6 +1,7 @@
 //! Elements, constraints and links.
 
 use super::context::{Context, Fields};
+use super::members;
 use super::names::Names;
 use super::values::{Given, values};
 use crate::diagnostic::names_help;
@@ -73,6 +74,9 @@ fn allowed(card: &Card, place: &[&'static str]) -> Vec<&'static str> {
     let mut all: Vec<&str> = place.to_vec();
     all.extend(card.parameters.iter().map(|p| p.name));
     all.extend(schema::ELEMENT.names());
+    if members::is_member(card) {
+        all.extend(schema::MEMBER.names());
+    }
     if card.category == Category::Link {
         all.extend(schema::LINK.names());
     }
@@ -91,7 +95,7 @@ impl Reading<'_, '_> {
             None => Some(&[][..]),
         };
         let nodes = self.members(&fields, card, &what, &at);
-        let given = Given { own: fields.entries(), shared: shared? };
+        let given = self.given(&fields, card, shared?, &what)?;
         let values = values(c, card, &given, &what, &at, self.names);
         let axis = |key: &'static str| match given.get(key) {
             None => Some(None),
@@ -140,6 +144,20 @@ impl Reading<'_, '_> {
             values: self.shared_values(values),
             axes: [axis1, axis2],
         })
+    }
+
+    /// The fields of an element and of the set that it uses, and what sections and materials make of them.
+    fn given<'f>(
+        &self,
+        fields: &Fields<'f>,
+        card: &Card,
+        shared: &'f [Entry],
+        what: &str,
+    ) -> Option<Given<'f>> {
+        let own = fields.entries();
+        let of_own = members::made(self.c, card, own, what);
+        let of_shared = members::made(self.c, card, shared, what);
+        Some(Given { own, shared, made: [of_own?, of_shared?] })
     }
 
     /// The same values, in one place for all elements that have them.

@@ -1,5 +1,6 @@
 //! Load patterns and the lists of loads that cases apply.
 
+use super::along::Members;
 use super::context::Context;
 use super::groups::several;
 use super::names::Names;
@@ -12,25 +13,31 @@ pub(super) fn patterns(
     c: &Context<'_>,
     entries: &[Entry],
     nodes: &Names<'_>,
+    members: &Members<'_, '_>,
 ) -> Vec<Option<Pattern>> {
     let one = |e: &Entry| {
         let items = e.value.items();
-        let forces: Vec<_> = items.iter().map(|n| force(c, n, nodes, &e.key)).collect();
+        let what = format!("load `{}`", e.key);
+        let (along, at): (Vec<&Node>, Vec<&Node>) =
+            items.iter().copied().partition(|n| n.name().is_some());
+        let forces: Vec<_> = at.iter().map(|n| force(c, n, nodes, &what)).collect();
+        let loads: Vec<_> = along.iter().map(|n| members.loads(c, n, &what)).collect();
         if items.is_empty() {
             let d =
                 c.diagnostic("E0104", format!("load `{}` is empty", e.key), e.value.span.clone());
             c.report(d.help("write `[(node: \"…\", dof: Uz, force: …)]`"));
         }
-        let forces = forces.into_iter().collect::<Option<Vec<_>>>()?;
-        Some(Pattern { name: e.key.clone(), forces: forces.concat() })
+        let forces = forces.into_iter().collect::<Option<Vec<_>>>();
+        let loads = loads.into_iter().collect::<Option<Vec<_>>>();
+        let (forces, members) = (forces?.concat(), loads?.concat());
+        Some(Pattern { name: e.key.clone(), forces, members })
     };
     entries.iter().map(one).collect()
 }
 
 /// A force at a node, or at each of several.
-fn force(c: &Context<'_>, item: &Node, nodes: &Names<'_>, load: &str) -> Option<Vec<NodalForce>> {
-    let what = format!("load `{load}`");
-    let fields = c.block(item, &what, &schema::FORCE)?;
+fn force(c: &Context<'_>, item: &Node, nodes: &Names<'_>, what: &str) -> Option<Vec<NodalForce>> {
+    let fields = c.block(item, what, &schema::FORCE)?;
     let at = fields.required(c, "node").and_then(|n| several(c, n, nodes));
     let dof = fields.required(c, "dof").and_then(|n| c.dof(n))?;
     let (key, other, dimension) =

@@ -1,15 +1,18 @@
 //! Reading a model file: RON text in, checked [`Model`] in SI out.
 
 mod accelerogram;
+mod along;
 mod cases;
 mod context;
 mod damping;
 mod dynamic;
 mod elements;
+mod envelopes;
 mod functions;
 mod groups;
 mod likeness;
 mod loads;
+mod members;
 mod motion;
 mod motions;
 mod names;
@@ -220,7 +223,8 @@ fn sections(
     let elements = elements::elements(c, element_entries, properties, &node_names, &nodes);
     let damping = top.get("damping").map_or(Some(crate::Damping::None), |n| damping::damping(c, n));
     let functions = functions::functions(c, function_entries, &function_names);
-    let patterns = loads::patterns(c, load_entries, &node_names);
+    let members = along::Members { names: &element_names, elements: &elements, nodes: &nodes };
+    let patterns = loads::patterns(c, load_entries, &node_names, &members);
     let about = cases::Surroundings {
         nodes: &node_names,
         supports: &supports,
@@ -232,6 +236,7 @@ fn sections(
     let p_delta =
         top.get("p_delta").map_or(Some(None), |n| cases::p_delta(c, n, case_entries, &cases));
     let structure = outputs::Structure {
+        members: &members,
         nodes: &node_names,
         names: &element_names,
         places: &nodes,
@@ -242,6 +247,8 @@ fn sections(
     let mut outputs = outputs::outputs(c, c.section(&top, "outputs", false), &structure);
     let spectrum_entries = c.section(&top, "spectra", false);
     let spectra = spectra::spectra(c, spectrum_entries, &node_names, &mut outputs);
+    let envelope_entries = c.section(&top, "envelopes", false);
+    let envelopes = envelopes::envelopes(c, envelope_entries, &members, plane, &mut outputs);
     Some(Model {
         title: title?,
         source: Source::clone(&c.source),
@@ -260,6 +267,7 @@ fn sections(
         cases: cases.into_iter().flatten().collect(),
         outputs: outputs.into_iter().flatten().collect(),
         spectra: spectra.into_iter().flatten().collect(),
+        envelopes: envelopes.into_iter().flatten().collect(),
     })
 }
 

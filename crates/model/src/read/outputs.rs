@@ -4,6 +4,7 @@ mod combination;
 mod forces;
 mod whole;
 
+use super::along::Members;
 use super::context::{Context, Fields};
 use super::names::Names;
 use crate::diagnostic::names_help;
@@ -23,6 +24,7 @@ pub(super) struct Structure<'c, 'n> {
     pub supports: &'c [Option<Support>],
     pub elements: &'c [Option<Element>],
     pub patterns: &'c [Option<Pattern>],
+    pub members: &'c Members<'c, 'n>,
 }
 
 struct Reading<'c, 'n> {
@@ -46,12 +48,26 @@ pub(super) fn outputs(
     for e in entries {
         let found = reading.output(e);
         reading.before.push((e.key.clone(), found.as_ref().map(|(_, unit)| unit.clone())));
-        all.push(found.map(|(quantity, unit)| Output { name: e.key.clone(), unit, quantity }));
+        let hidden = reading.hidden(&e.value);
+        let name = e.key.clone();
+        all.push(found.zip(hidden).map(|((quantity, unit), hidden)| Output {
+            name,
+            unit,
+            quantity,
+            hidden,
+        }));
     }
     all
 }
 
 impl Reading<'_, '_> {
+    /// Whether an output says that it is hidden; any kind may.
+    fn hidden(&self, node: &Node) -> Option<bool> {
+        let Kind::Fields(_, entries) = &node.kind else { return Some(false) };
+        let said = entries.iter().find(|e| e.key == schema::HIDDEN.name);
+        said.map_or(Some(false), |e| self.c.flag(&e.value, schema::HIDDEN.name))
+    }
+
     fn output(&self, e: &Entry) -> Option<(Quantity, String)> {
         let kind = self.c.one_of(&e.value, "output", &schema::OUTPUTS)?;
         let what = format!("output `{}`", e.key);
@@ -63,6 +79,7 @@ impl Reading<'_, '_> {
             "LinkDeformation" => self.link(&e.value, &what, kind, false),
             "LinkHistory" => self.history(&e.value, &what, kind),
             "ElementForce" => self.element_force(&e.value, &what, kind),
+            "MemberForce" => self.member_force(&e.value, &what, kind),
             "BaseShear" => self.base_shear(&e.value, &what, kind),
             "Overturning" => self.overturning(&e.value, &what, kind),
             "StoreyDrift" => self.storey_drift(&e.value, &what, kind),

@@ -71,7 +71,8 @@ fn one(
         while taken(&name) {
             (name, i) = (format!("{plain} {i}"), i + 1);
         }
-        outputs.push(Some(Output { name, unit: unit(nodal_dimension(2, false), false), quantity }));
+        let unit = unit(nodal_dimension(2, false), false);
+        outputs.push(Some(Output { name, unit, quantity, hidden: false }));
         outputs.len() - 1
     });
     Some(FloorSpectrum { name: e.key.clone(), output, damping: damping?, periods: periods? })

@@ -1,6 +1,7 @@
 //! Parameters of one member, read as its card says.
 
 use super::context::Context;
+use super::members::Made;
 use super::names::Names;
 use crate::tree::{Entry, Node};
 use trilith_element::dimension::{LENGTH, NONE};
@@ -10,11 +11,43 @@ use trilith_element::{Card, Default, Dimension, Form, Parameter, Range, Value, V
 pub(super) struct Given<'n> {
     pub own: &'n [Entry],
     pub shared: &'n [Entry],
+    /// What the section and the material of either give.
+    pub made: [Made; 2],
 }
+
+/// Where a parameter has its value from.
+enum Source<'n> {
+    Field(&'n Node),
+    Made(f64),
+}
+
+/// A parameter that says what another one, of a material or a section, would say as well.
+const INSTEAD: [(&str, &str); 3] = [
+    ("poisson", "shear_modulus"),
+    ("shear_area_2", "shear_coefficient"),
+    ("shear_area_3", "shear_coefficient"),
+];
 
 impl<'n> Given<'n> {
     pub fn get(&self, key: &str) -> Option<&'n Node> {
         self.own.iter().chain(self.shared).find(|e| e.key == key).map(|e| &e.value)
+    }
+
+    /// The value of a parameter: a field comes before a section or a material, and both of the element before those of
+    /// the set that it uses.
+    fn source(&self, key: &str) -> Option<Source<'n>> {
+        let other = INSTEAD.iter().find(|(name, _)| *name == key).map(|(_, other)| *other);
+        for (fields, made) in [(self.own, &self.made[0]), (self.shared, &self.made[1])] {
+            let field = |key: &str| fields.iter().find(|e| e.key == key);
+            if let Some(e) = field(key) {
+                return Some(Source::Field(&e.value));
+            }
+            let given = other.is_some_and(|other| self.get(other).is_some());
+            if let Some((_, x)) = made.iter().find(|(name, _)| *name == key && !given) {
+                return Some(Source::Made(*x));
+            }
+        }
+        None
     }
 }
 
@@ -33,8 +66,9 @@ pub(super) fn values(
     let depends = |p: &Parameter| matches!(p.form, Form::Power { .. } | Form::OfAxis { .. });
     for last in [false, true] {
         for (i, p) in card.parameters.iter().enumerate().filter(|(_, p)| depends(p) == last) {
-            match given.get(p.name) {
-                Some(node) => {
+            match given.source(p.name) {
+                Some(Source::Made(x)) => read[i] = Some(Value::Number(x)),
+                Some(Source::Field(node)) => {
                     let form = settled(card, p, &read);
                     read[i] = value(c, node, &Parameter { form, ..*p }, nodes);
                     good &= read[i].is_some();

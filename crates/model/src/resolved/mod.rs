@@ -1,6 +1,7 @@
 //! A model as a file with every default filled in and every expression evaluated.
 
 mod cases;
+mod loads;
 mod outputs;
 mod spectra;
 
@@ -49,17 +50,16 @@ pub fn resolved(model: &Model) -> String {
         w.line(1, &format!("p_delta: {},", text(&model.cases[case].name)));
     }
     w.map("functions", &model.functions, |f| (f.name.clone(), function(&f.function, f.dimension)));
-    w.map("loads", &model.patterns, |p| {
-        let forces = p.forces.iter().map(|f| {
-            let key = if f.dof.is_rotation() { "moment" } else { "force" };
-            let node = text(&model.nodes[f.node].name);
-            format!("(node: {node}, dof: {}, {key}: {:?})", f.dof.name(), f.value)
-        });
-        (p.name.clone(), format!("[{}]", forces.collect::<Vec<_>>().join(", ")))
-    });
+    w.map("loads", &model.patterns, |p| (p.name.clone(), loads::pattern(model, p)));
     w.map("cases", &model.cases, |c| (c.name.clone(), case(model, c)));
-    w.map("outputs", &model.outputs, |o| (o.name.clone(), output(model, o)));
+    // Envelopes make their own outputs, behind all others.
+    let firsts = model.envelopes.iter().flat_map(|e| &e.members).map(|m| m.first);
+    let own = firsts.min().unwrap_or(model.outputs.len());
+    w.map("outputs", &model.outputs[..own], |o| (o.name.clone(), output(model, o)));
     w.map("spectra", &model.spectra, |s| (s.name.clone(), spectra::spectrum(model, s)));
+    if !model.envelopes.is_empty() {
+        w.map("envelopes", &model.envelopes, |e| (e.name.clone(), outputs::envelope(model, e)));
+    }
     w.line(0, ")");
     w.0
 }

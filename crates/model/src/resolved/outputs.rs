@@ -4,11 +4,21 @@ use super::{factor, text, vector};
 use crate::read::nodal_dimension;
 use crate::schema::BASE_DIRECTIONS;
 use crate::units;
-use crate::{Body, Combine, LinkTerm, Model, NodalTerm, Output, Quantity};
+use crate::{Body, Combine, Envelope, LinkTerm, Model, NodalTerm, Output, Quantity};
 use trilith_element::dimension::{FORCE, LENGTH, MOMENT, NONE};
 use trilith_element::{Coordinates, Dimension};
 
 pub(super) fn output(model: &Model, o: &Output) -> String {
+    let mut text = quantity(model, o);
+    if o.hidden {
+        // Every kind has fields.
+        text.truncate(text.len() - 1);
+        text += ", hidden: true)";
+    }
+    text
+}
+
+fn quantity(model: &Model, o: &Output) -> String {
     // The unit of an output is that of factor times quantity: it tells the unit of the factor.
     let total = units::dimension(&o.unit).unwrap_or(NONE);
     let terms = |terms: &[NodalTerm], order: usize| {
@@ -58,6 +68,14 @@ pub(super) fn output(model: &Model, o: &Output) -> String {
             let by = factor(*by, total / own);
             format!("ElementForce(element: {name}, end: {end}, dof: {}, factor: {by})", dof.name())
         }
+        Quantity::MemberForce { element, force, at, factor: by } => {
+            let by = factor(*by, total / own(true, force.is_moment()));
+            let name = text(&model.elements[*element].name);
+            format!(
+                "MemberForce(element: {name}, force: {}, at: {at:?}, factor: {by})",
+                force.name()
+            )
+        }
         Quantity::BaseShear { direction } => {
             format!("BaseShear(direction: {})", BASE_DIRECTIONS[direction.index()])
         }
@@ -86,6 +104,17 @@ pub(super) fn output(model: &Model, o: &Output) -> String {
             format!("{name}(terms: [{terms}]{constant})")
         }
     }
+}
+
+pub(super) fn envelope(model: &Model, e: &Envelope) -> String {
+    let all = e.members.iter().map(|m| text(&model.elements[m.element].name));
+    let elements = all.collect::<Vec<_>>().join(", ");
+    let Some(first) = e.members.first() else { return "()".into() };
+    // Members of one envelope may lie in the plane differently.
+    let alike = e.members.iter().all(|m| m.forces == first.forces);
+    let names = first.forces.iter().map(|f| f.name()).collect::<Vec<_>>().join(", ");
+    let forces = if alike { format!(", forces: [{names}]") } else { String::new() };
+    format!("(element: [{elements}], stations: {}{forces})", first.stations.len())
 }
 
 fn own(force: bool, rotation: bool) -> Dimension {

@@ -4,7 +4,7 @@ use super::Takes::Words;
 use super::{Block, Group, absent, needed};
 
 /// Sections that an included file may hold, beside `units` of its own bare numbers and `include`.
-pub const INCLUDED: [&str; 11] = [
+pub const INCLUDED: [&str; 12] = [
     "parameters",
     "nodes",
     "supports",
@@ -16,6 +16,7 @@ pub const INCLUDED: [&str; 11] = [
     "cases",
     "outputs",
     "spectra",
+    "envelopes",
 ];
 /// Sections in which nothing is repeated, and braces stand for themselves.
 pub const AS_IT_STANDS: [&str; 3] = ["include", "units", "parameters"];

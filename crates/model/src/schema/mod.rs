@@ -5,7 +5,9 @@
 
 mod cases;
 mod functions;
+mod loads;
 mod many;
+mod members;
 mod outputs;
 mod records;
 mod structure;
@@ -19,18 +21,24 @@ pub use functions::{
     AFTER_END, CONSTANT, COSINE, FUNCTIONS, HALF_SINE, INTERPOLATIONS, POINTS, RAMP, RICKER,
     SCALED, SINE, STEP, TABLE,
 };
+pub(crate) use loads::PER_LENGTH;
+pub use loads::{FORCE, LOADINGS, POINT, TEMPERATURE, TRAPEZOID, UNIFORM};
 pub use many::{AS_IT_STANDS, GROUP_KINDS, INCLUDED, REPETITION};
+pub use members::{
+    ALUMINIUM, BOX, CIRCLE, CONCRETE, I_SHAPE, MATERIALS, MEMBER, PIPE, RECTANGLE, ROLLED,
+    SECTIONS, STEEL,
+};
 pub use outputs::{
-    ACCELERATION, ACROSS, BASE_SHEAR, DISPLACEMENT, ELEMENT_FORCE, LARGEST, LINK_DEFORMATION,
-    LINK_FORCE, LINK_HISTORY, NORM, OUTPUTS, OVERTURNING, PARTS, REACTION, SIDEWAYS, SMALLEST,
-    STOREY_DRIFT, SUM, TERM, VELOCITY,
+    ACCELERATION, ACROSS, BASE_SHEAR, DISPLACEMENT, ELEMENT_FORCE, ENVELOPES, FORCES, HIDDEN,
+    LARGEST, LINK_DEFORMATION, LINK_FORCE, LINK_HISTORY, MEMBER_FORCE, NORM, OUTPUTS, OVERTURNING,
+    PARTS, REACTION, SIDEWAYS, SMALLEST, STOREY_DRIFT, SUM, TERM, VELOCITY,
 };
 pub use records::{
     BASELINE, BUTTERWORTH, ENVELOPE, FILTER, FORMATS, PADDINGS, POLYNOMIAL, RECORD, RESAMPLE,
     SERIES, SPECTRA, SYNTHETIC,
 };
 pub use structure::{
-    DAMPING, ELEMENT, FORCE, LINK, MODAL, MODAL_TABLE, MODEL, NO_DAMPING, PLACE, PLANES, RAYLEIGH,
+    DAMPING, ELEMENT, LINK, MODAL, MODAL_TABLE, MODEL, NO_DAMPING, PLACE, PLANES, RAYLEIGH,
     RAYLEIGH_AT, SUPPORTS, UNITS,
 };
 use trilith_element::{Dimension, Range};
@@ -157,7 +165,9 @@ pub const fn absent(
 /// All groups, in the order in which a reader wants them: the model first, then what its fields hold.
 #[must_use]
 pub fn groups() -> Vec<&'static Group> {
-    groups_of(&MODEL)
+    let mut all = groups_of(&MODEL);
+    all.extend([&SECTIONS, &MATERIALS, &LOADINGS]);
+    all
 }
 
 /// A group and all that its fields hold, and theirs.

@@ -4,12 +4,19 @@ use super::Takes::{Choice, Count, Flag, List, Name, Quantity, Words};
 use super::{Block, DIRECTIONS, Field, Group, absent, needed, plain};
 
 /// Local axes of a link.
-static AXES: [&str; 6] = ["U1", "U2", "U3", "R1", "R2", "R3"];
+pub(super) static AXES: [&str; 6] = ["U1", "U2", "U3", "R1", "R2", "R3"];
 /// Directions of what acts sideways.
 pub static SIDEWAYS: [&str; 2] = ["X", "Y"];
 /// Motions along these.
 pub static ACROSS: [&str; 2] = ["Ux", "Uy"];
 const FACTOR: Field = plain("factor", Quantity, "1", "Factor, with or without unit.");
+/// What any output may say.
+pub const HIDDEN: Field = plain(
+    "hidden",
+    Flag,
+    "false",
+    "Other outputs are made from it, and it is left out of files, report and summary.",
+);
 const ONE: Field = absent("node", Name("node"), "`terms`", "The node.");
 const DIRECTION: Field = absent("dof", Choice(&DIRECTIONS), "`terms`", "Direction.");
 const TERMS: Field = absent(
@@ -48,14 +55,14 @@ pub static DISPLACEMENT: Block = Block {
     name: "Displacement",
     meaning: "Displacement or rotation, relative to the base.",
     example: r#"Displacement(node: "m", dof: Ux)"#,
-    fields: &[ONE, DIRECTION, FACTOR, TERMS],
+    fields: &[ONE, DIRECTION, FACTOR, TERMS, HIDDEN],
 };
 /// Velocity.
 pub static VELOCITY: Block = Block {
     name: "Velocity",
     meaning: "Velocity, relative to the base.",
     example: r#"Velocity(node: "m", dof: Ux)"#,
-    fields: &[ONE, DIRECTION, FACTOR, TERMS],
+    fields: &[ONE, DIRECTION, FACTOR, TERMS, HIDDEN],
 };
 /// Acceleration.
 pub static ACCELERATION: Block = Block {
@@ -68,6 +75,7 @@ pub static ACCELERATION: Block = Block {
         FACTOR,
         TERMS,
         plain("absolute", Flag, "false", "With the acceleration of the base."),
+        HIDDEN,
     ],
 };
 /// Force of a link.
@@ -75,14 +83,14 @@ pub static LINK_FORCE: Block = Block {
     name: "LinkForce",
     meaning: "Force or moment of a link.",
     example: r#"LinkForce(link: "link", axis: U1)"#,
-    fields: &[LINK, AXIS, COORDINATE, FACTOR],
+    fields: &[LINK, AXIS, COORDINATE, FACTOR, HIDDEN],
 };
 /// Deformation of a link.
 pub static LINK_DEFORMATION: Block = Block {
     name: "LinkDeformation",
     meaning: "Deformation of a link.",
     example: r#"LinkDeformation(link: "link", axis: U1)"#,
-    fields: &[LINK, AXIS, COORDINATE, FACTOR],
+    fields: &[LINK, AXIS, COORDINATE, FACTOR, HIDDEN],
 };
 /// History variable of a link.
 pub static LINK_HISTORY: Block = Block {
@@ -96,6 +104,7 @@ pub static LINK_HISTORY: Block = Block {
             Words("a name; a wrong one is answered with those there are"),
             "The variable.",
         ),
+        HIDDEN,
     ],
 };
 /// End force of a linear element.
@@ -108,14 +117,62 @@ pub static ELEMENT_FORCE: Block = Block {
         needed("end", Count(0), "Its node, from 0."),
         needed("dof", Choice(&DIRECTIONS), "Direction."),
         FACTOR,
+        HIDDEN,
     ],
+};
+/// The names of forces inside members.
+pub static FORCES: [&str; 6] = crate::MemberForce::NAMES;
+/// Force inside a member.
+pub static MEMBER_FORCE: Block = Block {
+    name: "MemberForce",
+    meaning: "A force inside a beam or truss in its local axes, with the loads along it: axial force N (tension positive), \
+              shear V2 and V3, torsion T, moments M2 and M3 (positive where they press on the side of positive local 3 and \
+              2). A mass matrix that is `Lumped` brings inertia to the nodes; that of a `Consistent` one between them is \
+              left out.",
+    example: r#"MemberForce(element: "beam", force: M3, at: "50 %")"#,
+    fields: &[
+        needed("element", Name("element"), "The beam or truss."),
+        needed("force", Choice(&FORCES), "Which force."),
+        needed(
+            "at",
+            Words("a distance from the first node, or a share such as `\"50 %\"`"),
+            "Where; at a point load, just before it.",
+        ),
+        FACTOR,
+        HIDDEN,
+    ],
+};
+/// Envelopes along members.
+pub static ENVELOPES: Group = Group {
+    name: "envelopes",
+    meaning: "The largest and smallest forces over time along members: `envelopes.csv` has them station by station, the summary the \
+              extremes of each envelope.",
+    blocks: &[&Block {
+        name: "",
+        meaning: "Forces along a beam or truss, or along each of several.",
+        example: r#"(element: "beam", stations: 5)"#,
+        fields: &[
+            needed(
+                "element",
+                Name("element"),
+                "The member, a group of members or a list of members.",
+            ),
+            plain("stations", Count(2), "11", "How many places, evenly from end to end."),
+            absent(
+                "forces",
+                Words("a list of `N`, `V2`, `V3`, `T`, `M2`, `M3`"),
+                "all; in a plane model those in the plane",
+                "Which forces.",
+            ),
+        ],
+    }],
 };
 /// Horizontal force on supports and ground.
 pub static BASE_SHEAR: Block = Block {
     name: "BaseShear",
     meaning: "Horizontal force that the structure passes to its supports and to the ground.",
     example: "BaseShear(direction: X)",
-    fields: &[needed("direction", Choice(&SIDEWAYS), "Direction.")],
+    fields: &[needed("direction", Choice(&SIDEWAYS), "Direction."), HIDDEN],
 };
 /// Overturning moment.
 pub static OVERTURNING: Block = Block {
@@ -131,6 +188,7 @@ pub static OVERTURNING: Block = Block {
             Words("a point (x, y, z), or a height"),
             "The point; a height is that of a point at x = y = 0.",
         ),
+        HIDDEN,
     ],
 };
 /// Storey drift.
@@ -141,6 +199,7 @@ pub static STOREY_DRIFT: Block = Block {
     fields: &[
         needed("of", Words("two nodes, the lower one first"), "The nodes."),
         needed("dof", Choice(&ACROSS), "Direction."),
+        HIDDEN,
     ],
 };
 /// Force of supports.
@@ -154,6 +213,7 @@ pub static REACTION: Block = Block {
         needed("node", Name("node"), "The node, a group of nodes or a list of nodes."),
         needed("dof", Choice(&DIRECTIONS), "Direction, along which supports fix all of them."),
         FACTOR,
+        HIDDEN,
     ],
 };
 /// A part of a combination.
@@ -176,28 +236,28 @@ pub static SUM: Block = Block {
     name: "Sum",
     meaning: "Sum of other outputs.",
     example: r#"Sum(terms: ["x", "y"])"#,
-    fields: &[PARTS_OF, plain("constant", Quantity, "0", "A number that is added.")],
+    fields: &[PARTS_OF, plain("constant", Quantity, "0", "A number that is added."), HIDDEN],
 };
 /// Root of the sum of squares.
 pub static NORM: Block = Block {
     name: "Norm",
     meaning: "Root of the sum of the squares of other outputs.",
     example: r#"Norm(terms: ["x", "y"])"#,
-    fields: &[PARTS_OF],
+    fields: &[PARTS_OF, HIDDEN],
 };
 /// Largest of outputs.
 pub static LARGEST: Block = Block {
     name: "Largest",
     meaning: "Largest of other outputs.",
     example: r#"Largest(terms: ["x", "y"])"#,
-    fields: &[PARTS_OF],
+    fields: &[PARTS_OF, HIDDEN],
 };
 /// Smallest of outputs.
 pub static SMALLEST: Block = Block {
     name: "Smallest",
     meaning: "Smallest of other outputs.",
     example: r#"Smallest(terms: ["x", "y"])"#,
-    fields: &[PARTS_OF],
+    fields: &[PARTS_OF, HIDDEN],
 };
 /// Outputs.
 pub static OUTPUTS: Group = Group {
@@ -211,6 +271,7 @@ pub static OUTPUTS: Group = Group {
         &LINK_DEFORMATION,
         &LINK_HISTORY,
         &ELEMENT_FORCE,
+        &MEMBER_FORCE,
         &BASE_SHEAR,
         &OVERTURNING,
         &STOREY_DRIFT,

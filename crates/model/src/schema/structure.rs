@@ -1,7 +1,9 @@
 //! The model itself: sections, units, supports, loads, damping, fields of all elements.
 
 use super::Takes::{Choice, Map, Name, Number, One, Text, Words};
-use super::{Block, CASES, FUNCTIONS, Field, Group, OUTPUTS, SPECTRA, absent, needed, plain};
+use super::{
+    Block, CASES, ENVELOPES, FUNCTIONS, Field, Group, OUTPUTS, SPECTRA, absent, needed, plain,
+};
 use trilith_element::Range::{NonNegative, Positive, Within};
 use trilith_element::dimension as d;
 
@@ -90,9 +92,9 @@ pub static MODEL: Group = Group {
             absent("functions", Map(&FUNCTIONS), "none", "Functions of time."),
             absent(
                 "loads",
-                Words("a map from names to lists of forces, see *A force of a load*"),
+                Words("a map from names to lists of *Forces of a load*"),
                 "none",
-                "Patterns of nodal forces.",
+                "Patterns of forces on nodes and along members.",
             ),
             needed(
                 "cases",
@@ -106,6 +108,7 @@ pub static MODEL: Group = Group {
                 "Recorded quantities; their peaks are in the summary, their histories in files.",
             ),
             absent("spectra", Map(&SPECTRA), "none", "Floor spectra."),
+            absent("envelopes", Map(&ENVELOPES), "none", "Envelopes of forces along members."),
         ],
     }],
 };
@@ -175,29 +178,6 @@ pub static DAMPING: Group = Group {
     meaning: "One statement that all solvers realise alike. It acts on the structure, not on links \
               nor on their `effective_stiffness`.",
     blocks: &[&NO_DAMPING, &MODAL, &MODAL_TABLE, &RAYLEIGH, &RAYLEIGH_AT],
-};
-
-/// A force of a load pattern.
-pub static FORCE: Block = Block {
-    name: "",
-    meaning: "One force or moment of a pattern of `loads`.",
-    example: r#"(node: "m", dof: Ux, force: "1 kN")"#,
-    fields: &[
-        needed("node", Name("node"), "Where it acts."),
-        needed("dof", Choice(&super::DIRECTIONS), "Direction."),
-        absent(
-            "force",
-            Number(d::FORCE, trilith_element::Range::Any),
-            "for a rotation",
-            "Force along Ux, Uy or Uz.",
-        ),
-        absent(
-            "moment",
-            Number(d::MOMENT, trilith_element::Range::Any),
-            "for a translation",
-            "Moment about Rx, Ry or Rz.",
-        ),
-    ],
 };
 
 const NODES: Field = absent("nodes", Words("a list of names of nodes"), "`node`", "The nodes.");

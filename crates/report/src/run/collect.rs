@@ -45,7 +45,7 @@ impl Collect<'_> {
         let mut notes: Vec<String> = sketch.note.iter().cloned().collect();
         let file = self.model.source.path.file_name();
         let (frames, modes) = (self.frames(&sketch), self.modes(&sketch));
-        let outputs = self.model.outputs.len();
+        let outputs = self.model.shown().count();
         let shown = self.chosen();
         let count = shown.iter().filter(|s| **s).count();
         if count < outputs {
@@ -73,7 +73,7 @@ impl Collect<'_> {
             settings: settings::of_case(self.model, self.case, self.summary.solver, self.dt),
             picture: sketch.picture,
             frames,
-            outputs: self.model.outputs.iter().map(|o| o.name.clone()).collect(),
+            outputs: self.model.shown().map(|(_, o)| o.name.clone()).collect(),
             profiles: match self.summary.contact {
                 None => places::profiles(self.model, self.summary, &ground),
                 Some(_) => Vec::new(),
@@ -95,9 +95,8 @@ impl Collect<'_> {
     fn chosen(&self) -> Vec<bool> {
         let sizes: Vec<(&str, f64)> = self
             .model
-            .outputs
-            .iter()
-            .map(|o| {
+            .shown()
+            .map(|(_, o)| {
                 let peak = self.summary.outputs.get(&o.name).and_then(|s| s.peak.as_ref());
                 let size = peak.map_or(0.0, |p| p.max.abs().max(p.min.abs()).max(p.last.abs()));
                 (o.unit.as_str(), size)
@@ -108,10 +107,9 @@ impl Collect<'_> {
 
     fn histories(&self, shown: &[bool]) -> Vec<super::History> {
         let t = self.record.time();
-        let outputs = self.model.outputs.iter().enumerate();
+        let outputs = self.model.shown().zip(shown).filter(|(_, shown)| **shown);
         let mut all: Vec<super::History> = outputs
-            .filter(|(i, _)| shown[*i])
-            .filter_map(|(i, o)| {
+            .filter_map(|((i, o), _)| {
                 let y = self.record.history(i).filter(|y| y.len() == t.len() && y.len() > 1)?;
                 let kind = places::kind(self.model, o);
                 Some(super::History { kind, ..reduce::history(o.name.clone(), &o.unit, t, y) })

@@ -183,8 +183,12 @@ pub(crate) fn weightless(
     let held = constant.iter().zip(free).any(|(p, full)| *p != 0.0 && full % 6 == down);
     // A weight may come as a force that varies.
     let forced = analysis.forces.iter().any(|history| {
-        let forces = &model.patterns[history.pattern].forces;
-        forces.iter().any(|f| f.dof.index() == down && f.value * history.factor < 0.0)
+        let pattern = &model.patterns[history.pattern];
+        !pattern.members.is_empty()
+            || pattern
+                .forces
+                .iter()
+                .any(|f| f.dof.index() == down && f.value * history.factor < 0.0)
     });
     if held || forced {
         return None;

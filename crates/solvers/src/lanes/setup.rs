@@ -293,6 +293,9 @@ pub fn prepare(
     let outputs = outputs(model, system, space, &flat, (loads.channels.len(), first, &base), &turn);
     let (mut values, mut rates) = (vec![0.0; outputs.len()], vec![0.0; outputs.len()]);
     let all = Outputs::new(model, system, space);
+    if all.is_loaded() {
+        return Ok(Err("outputs that loads along members have a share in".into()));
+    }
     let now = all.at((0.0, Side::After), &state, &loads);
     now.values(&mut values);
     now.rates(&values, &mut rates);
@@ -468,7 +471,8 @@ fn outputs(
             Row::Combination { how, constant, terms } => {
                 Output::Combination { how: *how, constant: *constant, terms: terms.clone() }
             }
-            Row::Internal(Internal { stiffness, damping, links }) => Output::Internal {
+            // Where loads have a share, a model runs alone.
+            Row::Internal(Internal { stiffness, damping, links, .. }) => Output::Internal {
                 stiffness: dense(&stiffness.0),
                 damping: dense(&damping.0),
                 links: of_lanes(links),

@@ -8,7 +8,7 @@
 //! where they do not, such as `EqualDof` of nodes at different heights, what they pass on is in it.
 //!
 //! What acts between two places that are free drops out; what is left are the elements and links that stand on
-//! supports or the ground, whatever leads to them. C is that of the elements and the share of K in Rayleigh damping.
+//! supports or the ground, whatever leads to them, and what loads along members bring straight to supports. C is that of the elements and the share of K in Rayleigh damping.
 //! Modal damping and its share of M act on the structure from outside, not through its supports, and are not in it.
 
 use super::observer::{Observer, Sample};
@@ -18,6 +18,7 @@ use crate::structure::ReducedSystem;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 use trilith_linalg::Sparse;
+use trilith_model::Model;
 use trilith_system::System;
 
 /// A term below this share of what it is the sum of is rounding.
@@ -47,14 +48,17 @@ pub(super) struct Rows {
     rows: [Internal; 2],
     /// True where moving supports have a share.
     pub(crate) supported: bool,
+    /// True where loads along members have one.
+    pub(crate) loaded: bool,
 }
 
 impl Rows {
-    pub(crate) fn new(system: &System, space: &ReducedSystem) -> Self {
+    pub(crate) fn new(model: &Model, system: &System, space: &ReducedSystem) -> Self {
         let unit = |axis: usize| move |full: usize| f64::from(u8::from(full % 6 == axis));
-        let rows = [0, 1].map(|axis| row(system, space, unit(axis)));
+        let rows = [0, 1].map(|axis| row(model, system, space, unit(axis)));
         let supported = rows.iter().any(Internal::is_supported);
-        Self { rows, supported }
+        let loaded = rows.iter().any(|row| !row.loads.is_empty());
+        Self { rows, supported, loaded }
     }
 
     /// Along X and Y, N. Displacements, velocities and accelerations of moving supports where these have a share.
@@ -63,14 +67,20 @@ impl Rows {
         order: usize,
         state: &State,
         supports: Option<&[Vec<f64>; 3]>,
+        loads: &[f64],
     ) -> [f64; 2] {
         let motion = [&state.motion[..order], &state.motion[order..2 * order]];
-        self.rows.each_ref().map(|row| row.at(motion, supports, &state.f))
+        self.rows.each_ref().map(|row| row.at(motion, supports, &state.f, loads))
     }
 }
 
 /// tᵀ (K u + C u̇ + Bᵀ f); t: by how much each of the full DOFs is moved.
-pub(super) fn row(system: &System, space: &ReducedSystem, t: impl Fn(usize) -> f64) -> Internal {
+pub(super) fn row(
+    model: &Model,
+    system: &System,
+    space: &ReducedSystem,
+    t: impl Fn(usize) -> f64,
+) -> Internal {
     let moved: Vec<f64> = system.reduction.free.iter().map(|full| t(*full)).collect();
     let terms = |parts: &[(&Sparse, f64)]| {
         let mut columns = Columns::default();
@@ -96,6 +106,7 @@ pub(super) fn row(system: &System, space: &ReducedSystem, t: impl Fn(usize) -> f
             terms(&[(&system.damping_support, 1.0)]),
         ),
         links: links.collect(),
+        loads: system.loads_past(model, &t),
     }
 }
 

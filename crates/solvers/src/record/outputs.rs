@@ -93,6 +93,8 @@ pub(crate) struct Outputs {
     /// True where an output needs moving supports, or for the acceleration of the base.
     supported: bool,
     absolute: bool,
+    /// Number of load patterns, where loads along members have a share in an output.
+    loaded: Option<usize>,
 }
 
 impl Outputs {
@@ -102,6 +104,7 @@ impl Outputs {
         let supported = rows.iter().any(Row::is_supported);
         let absolute =
             rows.iter().any(|r| matches!(r, Row::Nodal { base, .. } if *base != [0.0; 3]));
+        let loaded = rows.iter().any(Row::is_loaded).then_some(model.patterns.len());
         let prescribed = system.reduction.prescribed.len();
         let runs = Run::of(&rows, space.order());
         let in_run = |i: &usize| runs.iter().any(|run| run.rows.contains(i));
@@ -119,7 +122,13 @@ impl Outputs {
             order: space.order(),
             supported,
             absolute,
+            loaded,
         }
+    }
+
+    /// True where loads along members have a share in an output.
+    pub(crate) fn is_loaded(&self) -> bool {
+        self.loaded.is_some()
     }
 
     /// What each output takes from each of so many modes, by displacement, velocity and acceleration.
@@ -191,7 +200,8 @@ impl Outputs {
             true => loads.base_acceleration(t, side),
             false => [0.0; 3],
         };
-        Now { outputs: self, state, motion, support, base }
+        let factors = self.loaded.map(|count| loads.factors(count, t, side));
+        Now { outputs: self, state, motion, support, base, factors: factors.unwrap_or_default() }
     }
 
     /// Displacements, velocities and accelerations of supports.
@@ -211,6 +221,8 @@ pub(crate) struct Now<'a> {
     support: Option<Box<[Vec<f64>; 3]>>,
     /// Acceleration of the base.
     base: [f64; 3],
+    /// How many times each load pattern acts, and the weight; none where no output needs them.
+    factors: Vec<f64>,
 }
 
 impl Now<'_> {
@@ -244,7 +256,8 @@ impl Now<'_> {
                     combined(*how, *constant, terms, values)
                 }
                 Row::Internal(force) => {
-                    force.at([motion[0], motion[1]], self.support.as_deref(), &state.f)
+                    let motion = [motion[0], motion[1]];
+                    force.at(motion, self.support.as_deref(), &state.f, &self.factors)
                 }
             };
         }

@@ -46,6 +46,8 @@ pub(crate) struct Internal {
     pub(crate) damping: Split,
     /// (flat index, share).
     pub(crate) links: Vec<(usize, f64)>,
+    /// What loads along members have a share in: (index of a pattern, or behind them the weight; share).
+    pub(crate) loads: Vec<(usize, f64)>,
 }
 
 impl Internal {
@@ -54,19 +56,21 @@ impl Internal {
         !(self.stiffness.1.is_empty() && self.damping.1.is_empty())
     }
 
-    /// At displacements and velocities of the structure, of moving supports, and forces of links.
+    /// At displacements and velocities of the structure, of moving supports, forces of links, and as many times as
+    /// patterns act, where loads have a share.
     pub(super) fn at(
         &self,
         motion: [&[f64]; 2],
         supports: Option<&[Vec<f64>; 3]>,
         f: &[f64],
+        loads: &[f64],
     ) -> f64 {
         let [u, v] = motion;
         let mut force = sum(&self.stiffness.0, u) + sum(&self.damping.0, v);
         if let Some([u, v, _]) = supports {
             force += sum(&self.stiffness.1, u) + sum(&self.damping.1, v);
         }
-        force + sum(&self.links, f)
+        force + sum(&self.links, f) + sum(&self.loads, loads)
     }
 }
 
@@ -81,6 +85,11 @@ impl Row {
             Self::Force { terms } | Self::Internal(Internal { links: terms, .. }) => terms,
             _ => &[],
         }
+    }
+
+    /// True where loads along members have a share in it.
+    pub(crate) fn is_loaded(&self) -> bool {
+        matches!(self, Self::Internal(force) if !force.loads.is_empty())
     }
 
     /// True where it needs moving supports.
@@ -138,29 +147,38 @@ impl Maker<'_> {
                     stiffness.extend(row.stiffness.iter().map(|(i, c)| (*i, factor * c)));
                     damping.extend(row.damping.iter().map(|(i, c)| (*i, factor * c)));
                 }
-                self.internal(&stiffness, &damping, Vec::new())
+                self.internal(&stiffness, &damping, Vec::new(), Vec::new())
             }
             Quantity::BaseShear { direction } => {
                 let unit = |full: usize| f64::from(u8::from(full % 6 == direction.index()));
-                Row::Internal(base_shear::row(self.system, self.space, unit))
+                Row::Internal(base_shear::row(self.model, self.system, self.space, unit))
             }
             Quantity::Overturning { direction, about } => {
                 let turned = |full: usize| {
                     let place = self.model.nodes[full / 6].position;
                     overturned(*direction, sub(place, *about), Dof::ALL[full % 6])
                 };
-                Row::Internal(base_shear::row(self.system, self.space, turned))
+                Row::Internal(base_shear::row(self.model, self.system, self.space, turned))
             }
             Quantity::Reaction { nodes, dof, factor } => {
-                let (mut stiffness, mut damping, mut links) = (Vec::new(), Vec::new(), Vec::new());
+                let (mut stiffness, mut damping) = (Vec::new(), Vec::new());
+                let (mut links, mut loads) = (Vec::new(), Vec::new());
                 let by = |(i, c): (usize, f64)| (i, factor * c);
                 for node in nodes {
                     let row = self.system.reaction(self.model, *node, *dof);
                     stiffness.extend(row.stiffness.into_iter().map(by));
                     damping.extend(row.damping.into_iter().map(by));
                     links.extend(row.links.into_iter().map(by));
+                    loads.extend(row.loads.into_iter().map(by));
                 }
-                self.internal(&stiffness, &damping, links)
+                self.internal(&stiffness, &damping, links, loads)
+            }
+            Quantity::MemberForce { element, force, at, factor } => {
+                let row = self.system.member_force(self.model, *element, *force, *at);
+                let by = |terms: Vec<(usize, f64)>| -> Vec<(usize, f64)> {
+                    terms.into_iter().map(|(i, c)| (i, factor * c)).collect()
+                };
+                self.internal(&by(row.stiffness), &[], Vec::new(), by(row.loads))
             }
         }
     }
@@ -170,9 +188,10 @@ impl Maker<'_> {
         stiffness: &[(usize, f64)],
         damping: &[(usize, f64)],
         links: Vec<(usize, f64)>,
+        loads: Vec<(usize, f64)>,
     ) -> Row {
         let [stiffness, damping] = [stiffness, damping].map(|terms| self.split(terms));
-        Row::Internal(Internal { stiffness, damping, links })
+        Row::Internal(Internal { stiffness, damping, links, loads })
     }
 
     fn nodal(&self, terms: &[NodalTerm], order: usize, absolute: bool) -> Row {

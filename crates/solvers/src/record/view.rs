@@ -14,7 +14,7 @@ use crate::step::State;
 use crate::structure::ReducedSystem;
 use std::sync::Arc;
 use trilith_element::{Contact, Kinematics, Link, Outline, Vector3};
-use trilith_model::{Model, Output, Quantity, Side};
+use trilith_model::{Load, Model, Output, Quantity, Side};
 use trilith_system::{LinkInstance, LoadSet, System, blaming};
 
 /// The coordinates of a solver: how many, and what they make of the free DOFs, unless they are these.
@@ -87,6 +87,8 @@ pub(crate) struct Viewer<'a, 'b> {
     pressed: Pressed,
     /// Bodies that are or were in each other.
     overlaps: Overlaps<'a>,
+    /// Number of load patterns.
+    patterns: usize,
     /// Makes the base shear, where an observer needs it.
     shear: Option<base_shear::Rows>,
     /// The base shear of the state last shown, N.
@@ -158,7 +160,8 @@ impl<'a, 'b> Viewer<'a, 'b> {
             contacts: Vec::new(),
             own: Vec::new(),
             pressed: Pressed::default(),
-            shear: sheared.then(|| base_shear::Rows::new(system, space)),
+            patterns: model.patterns.len(),
+            shear: sheared.then(|| base_shear::Rows::new(model, system, space)),
             base_shear: [f64::NAN; 2],
             last: (0.0, Side::After, None),
             observers,
@@ -234,7 +237,12 @@ impl<'a, 'b> Viewer<'a, 'b> {
         if let Some(shear) = &self.shear {
             let count = self.system.reduction.prescribed.len();
             let supports = shear.supported.then(|| self.loads.prescribed(t, side, count));
-            self.base_shear = shear.at(self.coordinates.order, state, supports.as_ref());
+            let factors = match shear.loaded {
+                true => self.loads.factors(self.patterns, t, side),
+                false => Vec::new(),
+            };
+            let order = self.coordinates.order;
+            self.base_shear = shear.at(order, state, supports.as_ref(), &factors);
         }
         self.last = (t, side, step);
         self.report(state, ledger, |o, sample| o.sample(sample));
@@ -370,15 +378,16 @@ fn standing<'a>(link: &LinkInstance, state: &'a State) -> Kinematics<'a> {
     Kinematics { d, v, d0: d, v0: v, dt: 0.0 }
 }
 
-/// Shows the end of a static case: one sample at t = 0.
+/// Shows the end of a static case that holds these loads: one sample at t = 0.
 pub(crate) fn show_static(
     model: &Model,
     system: &System,
     state: &State,
     energy: EnergyTotals,
+    held: Vec<Load>,
     observers: &mut [&mut dyn Observer],
 ) -> Noticed {
-    let loads = LoadSet::default();
+    let loads = LoadSet { held, ..LoadSet::default() };
     let space = ReducedSystem::physical(system, &loads, &vec![0.0; system.links.len()], None);
     let mut viewer = Viewer::new(model, system, &loads, &space, observers);
     let ledger = Ledger::of(energy);

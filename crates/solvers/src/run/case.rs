@@ -243,7 +243,7 @@ fn run_static(
         potential,
         ..EnergyTotals::default()
     };
-    let noticed = show_static(model, system, &state, energy, observers);
+    let noticed = show_static(model, system, &state, energy, model.held_loads(case), observers);
     let cpu = clock.cpu();
     Ok(CaseResult {
         case: case.name.clone(),

@@ -6,7 +6,7 @@
 use super::case::{RunOptions, run};
 use crate::error::SolveError;
 use trilith_linalg::Ldlt;
-use trilith_model::Model;
+use trilith_model::{Load, Model};
 use trilith_system::System;
 
 /// Change of the axial forces, relative to the largest, at which they are taken as found.
@@ -26,8 +26,14 @@ pub fn assemble(model: &Model) -> Result<System, SolveError> {
     for _ in 0..ROUNDS {
         let result = run(model, &system, RunOptions { case, ..RunOptions::default() }, &mut [])?;
         let u = &result.end.displacement;
-        let tension: Vec<f64> =
+        let mut tension: Vec<f64> =
             (0..model.elements.len()).map(|e| system.axial_force(model, e, u)).collect();
+        for load in model.held_loads(&model.cases[case]) {
+            let Load::Pattern { pattern, factor } = load else { continue };
+            for along in &model.patterns[pattern].members {
+                tension[along.element] += factor * system.held_tension(model, along);
+            }
+        }
         let largest = tension.iter().fold(0.0_f64, |a, x| a.max(x.abs()));
         let moved =
             tension.iter().zip(&system.tension).fold(0.0_f64, |a, (x, y)| a.max((x - y).abs()));

@@ -63,6 +63,7 @@ impl<'a> Prepared<'a> {
             None => held_load(model, system, &analysis, before.as_ref()),
         };
         let mut loads = system.dynamic_loads(model, &analysis, constant.clone());
+        loads.held = model.held_loads(case);
         let reduced = is_reduced(kind);
         let initial = match &options.from {
             Some(end) => end.initial.clone(),

@@ -103,7 +103,8 @@ fn entrant(member: Member<'_>, case: usize) -> Result<Option<Entrant<'_>>, Solve
     }
     let before = before(model, system, case, Some(SolverKind::Fna), None)?;
     let constant = held_load(model, system, analysis, before.as_ref());
-    let loads = system.dynamic_loads(model, analysis, constant.clone());
+    let mut loads = system.dynamic_loads(model, analysis, constant.clone());
+    loads.held = model.held_loads(case);
     let initial = Initial::new(model, system, analysis, before.as_ref())?;
     Ok(Some(Entrant { member, case, analysis, initial, constant, loads }))
 }

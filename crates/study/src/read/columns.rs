@@ -22,7 +22,7 @@ pub(super) fn columns(c: &Context<'_>, node: Option<&Node>, model: &Model) -> Ve
             dimension: dimension(&o.unit),
             measure: Measure::Peak(i),
         };
-        return model.outputs.iter().enumerate().map(peak).collect();
+        return model.shown().map(peak).collect();
     };
     let mut all: Vec<Column> = Vec::new();
     for e in map(c, node, "columns").unwrap_or_default() {

@@ -87,7 +87,7 @@ impl<'m> Comparison<'m> {
             };
             let (mut differences, mut finding) = (Vec::new(), None);
             if let Some(first) = all.first() {
-                let names = self.model.outputs.iter().map(|o| o.name.as_str());
+                let names = self.model.shown().map(|(_, o)| o.name.as_str());
                 differences = measure::differences(names, &first.outcome, &outcome);
                 if experiments {
                     let pair = [Setup::of(&first.variant), Setup::of(variant)];
@@ -135,8 +135,9 @@ fn solve(
     let rotation = run.record.frames().iter().map(|f| turned(&f.displacements));
     Ok(Outcome {
         time: run.time().to_vec(),
-        histories: (0..model.outputs.len())
-            .map(|i| run.record.history(i).unwrap_or_default().to_vec())
+        histories: model
+            .shown()
+            .map(|(i, _)| run.record.history(i).unwrap_or_default().to_vec())
             .collect(),
         summary: run.summary(model),
         good: run.result.status.is_good(),

@@ -1,13 +1,14 @@
 //! Forces and deformations of links, and forces of elements: of one, or of several in sum.
 
+use super::super::along::place;
 use super::super::context::Fields;
 use super::super::groups::several;
 use super::super::motion::unit;
 use super::super::names::Names;
 use super::Reading;
-use crate::schema::Block;
+use crate::schema::{self, Block};
 use crate::tree::Node;
-use crate::{Body, LinkTerm, Quantity, Span};
+use crate::{Body, LinkTerm, MemberForce, Quantity, Span};
 use trilith_element::dimension::{FORCE, LENGTH, MOMENT, NONE};
 use trilith_element::{Axis, Coordinates, Dof, Link};
 
@@ -162,6 +163,32 @@ impl Reading<'_, '_> {
         };
         c.report(c.diagnostic("E0106", message, node.span.clone()).help(help));
         None
+    }
+
+    pub(super) fn member_force(
+        &self,
+        node: &Node,
+        what: &str,
+        kind: &Block,
+    ) -> Option<(Quantity, String)> {
+        let c = self.c;
+        let fields = c.block(node, what, kind)?;
+        let member = fields.required(c, "element").and_then(|n| {
+            self.check_single(n, self.names)?;
+            self.of.members.find(c, self.names.refer(c, n)?, &n.span)
+        });
+        let force = fields
+            .required(c, "force")
+            .and_then(|n| c.choice(n, "force", &schema::FORCES).map(|i| MemberForce::ALL[i]));
+        let at = fields.required(c, "at");
+        let factor = self.factor(&fields);
+        let member = member?;
+        let at = place(c, at?, "at", member.length());
+        let (force, factor, at) = (force?, factor?, at?);
+        let own = if force.is_moment() { MOMENT } else { FORCE };
+        let unit = unit(own * factor.dimension, false);
+        let (element, factor) = (member.index, factor.value);
+        Some((Quantity::MemberForce { element, force, at, factor }, unit))
     }
 
     pub(super) fn element_force(

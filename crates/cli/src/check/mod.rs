@@ -1,12 +1,14 @@
 //! `trilith check`.
 
-use crate::args::ModelArguments;
+mod sheet;
+
+use crate::args::CheckArguments;
 use crate::{Answer, Failure, long, read};
 use trilith::model::{Analysis as Kind, resolved};
 use trilith::{Analysis, Registry};
 
-pub(crate) fn check(registry: &Registry, args: &ModelArguments) -> Result<Answer, Failure> {
-    let model = read(registry, args)?;
+pub(crate) fn check(registry: &Registry, args: &CheckArguments) -> Result<Answer, Failure> {
+    let model = read(registry, &args.model)?;
     let analysis = Analysis::new(&model).map_err(|e| Failure::of(&e, &model))?;
     let is_static = |k: &Kind| matches!(k, Kind::Static(_));
     for with_mass in [false, true] {
@@ -23,5 +25,9 @@ pub(crate) fn check(registry: &Registry, args: &ModelArguments) -> Result<Answer
             crate::output::tell(&warning);
         }
     }
-    Ok(resolved(&model).into())
+    if args.resolved {
+        return Ok(resolved(&model).into());
+    }
+    let survey = analysis.survey().map_err(|e| Failure::of(&e, &model))?;
+    Ok(sheet::text(&model, &survey).into())
 }
