@@ -35,6 +35,7 @@ mod progress;
 mod record;
 mod report;
 mod run;
+mod schema;
 mod study_folder;
 mod sweep;
 mod text;
@@ -67,6 +68,7 @@ pub fn main_with(registry: Registry) -> ! {
         Command::Run(a) => run::run(&registry, a),
         Command::Check(a) => check::check(&registry, &a),
         Command::Modes(a) => modes::modes(&registry, &a),
+        Command::Schema => schema::schema(&registry),
         Command::Elements(a) => elements::elements(&registry, &a),
         Command::Exercise(a) => exercise::exercise(&registry, a),
         Command::Report(a) => run::report(&a),

@@ -13,6 +13,7 @@ pub fn reference() -> String {
         if g.name == "model" {
             beside(&mut out);
             out.push_str(FILES);
+            out.push_str(JSON);
             group(&mut out, &schema::REPETITION, "in");
             out.push_str(TEXTS);
         }
@@ -67,6 +68,15 @@ const FILES: &str = "
 model, in the order of the list; a name that comes twice is refused. A path counts from the file that it stands in, that
 of a record as well, and an included file lies in the folder of the model or below. Two files may include the same one; it
 is there once.
+";
+
+const JSON: &str = "
+## JSON
+
+A file whose name ends in `.json` holds the same in JSON: models, and files that they include. `Kind(field: value)` is
+`{\"Kind\": {\"field\": value}}`, a block without a name an object, a list an array, a map an object; a name that stands alone is a
+text, as in `\"supports\": {\"base\": \"Fixed\"}`. `trilith schema` prints a JSON Schema, with which editors complete names and show what
+they mean; it knows less than the reader, which has the last word.
 ";
 
 const TEXTS: &str = "

@@ -86,7 +86,7 @@ fn schema_names() -> BTreeSet<String> {
     let mut add = |names: &[&str]| all.extend(names.iter().map(|n| (*n).to_owned()));
     let groups = schema::groups().into_iter().chain(trilith_study::schema::groups());
     let blocks = groups.flat_map(|g| g.blocks.iter().copied());
-    let beside = [&schema::PLACE, &schema::ELEMENT, &schema::LINK, &schema::FORCE];
+    let beside = [&schema::PLACE, &schema::ELEMENT, &schema::LINK, &schema::MEMBER];
     let beside = beside.into_iter().chain(schema::REPETITION.blocks.iter().copied());
     for b in blocks.chain(beside) {
         add(&[b.name]);

@@ -32,6 +32,7 @@
 //! - [`write_report`] makes the page of a run, [`rebuild_report`] makes it again from its folder.
 //! - [`compare`] solves a case in several ways and finds why the results differ.
 //! - [`exercise`] shows what a link does on its own, [`catalogue`] what kinds there are.
+//! - [`json_schema`] is the schema of models in JSON.
 //! - [`generate`] makes models from a few numbers.
 //! - [`sweep`] runs a model with many values of its parameters, several analyses side by side.
 //! - [`calibrate`] finds dashpots from coefficients of restitution.
@@ -51,6 +52,7 @@ pub mod generate;
 mod lanes;
 mod report_check;
 mod run_report;
+mod schema;
 pub mod sweep;
 pub mod theory;
 mod version;
@@ -95,6 +97,7 @@ pub use element::Register;
 pub use error::Error;
 pub use model::{Diagnostic, Model, Registry, SolverKind, read, read_text};
 pub use run_report::{ReportError, rebuild_report, write_report};
+pub use schema::json_schema;
 pub use solvers::RunOptions;
 pub use version::{BUILD, LONG_VERSION, VERSION};
 

@@ -35,6 +35,8 @@ pub(crate) enum Command {
     Check(CheckArguments),
     /// Periods, participation and adequacy of the basis
     Modes(ModesArguments),
+    /// The JSON Schema of models in JSON
+    Schema,
     /// The kinds of elements, constraints and links, or the card of one
     Elements(ElementsArguments),
     /// Lead a link through a cyclic deformation and draw its loop

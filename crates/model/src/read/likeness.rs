@@ -1,7 +1,7 @@
 //! Whether a text is meant as a model at all.
 
 /// True for a text that is meant as a model, right or wrong: in parentheses, and with `nodes` somewhere, or with
-/// `include`, which may bring them. What a file
+/// `include`, which may bring them; or in braces, as JSON, with nodes, elements and cases. What a file
 /// that another one names holds beside is nobody's business: its lines are not shown in errors.
 #[must_use]
 pub fn resembles_model(text: &str) -> bool {
@@ -14,7 +14,9 @@ pub fn resembles_model(text: &str) -> bool {
         } else if let Some(attribute) = rest.strip_prefix("#![") {
             attribute.split_once(']')
         } else {
-            return rest.starts_with('(') && (rest.contains("nodes") || rest.contains("include:"));
+            let in_json = ["\"nodes\"", "\"elements\"", "\"cases\""];
+            return rest.starts_with('(') && (rest.contains("nodes") || rest.contains("include:"))
+                || rest.starts_with('{') && in_json.iter().all(|name| rest.contains(name));
         };
         let Some((_, after)) = after else { return false };
         rest = after.trim_start();

@@ -83,7 +83,7 @@ pub fn read_text(
     ModelText::new(text, path)?.read(registry, overrides)
 }
 
-/// Takes a RON text apart.
+/// Takes a RON text apart; a JSON text, where the path ends so.
 ///
 /// # Errors
 /// What is wrong with the text itself.
@@ -91,7 +91,9 @@ pub fn parse(text: &str, path: impl AsRef<Path>) -> Result<(Arc<Source>, Node), 
     let sha256 = crate::model::sha256(text.as_bytes());
     let path = path.as_ref().to_owned();
     let source = Arc::new(Source { path, text: text.to_owned(), sha256 });
-    let root = tree::parse(text).map_err(|e| {
+    let is_json = source.path.extension().is_some_and(|e| e.eq_ignore_ascii_case("json"));
+    let root = if is_json { tree::json::parse(text) } else { tree::parse(text) };
+    let root = root.map_err(|e| {
         let d = Diagnostic::new(e.code, e.message, e.span, &source);
         vec![match e.related {
             Some(first) => d.related(first, "first given here").help("keep one of the two"),

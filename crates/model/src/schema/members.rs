@@ -5,7 +5,8 @@ use super::{Block, Group, absent, needed, plain};
 use trilith_element::Range::{NonNegative, Positive, Within};
 use trilith_element::dimension as d;
 
-const OF_CARD: &str = "the parameters of the card";
+const OF_SECTION: &str = "`area` and what else the card has";
+const OF_MATERIAL: &str = "`young` and what else the card has";
 
 /// What elements take whose card has an area and a modulus.
 pub static MEMBER: Block = Block {
@@ -17,13 +18,13 @@ pub static MEMBER: Block = Block {
         absent(
             "section",
             One(&SECTIONS),
-            OF_CARD,
+            OF_SECTION,
             "The cross-section; a rolled one by its name in quotes, such as `\"HEB 300\"` or `\"W14x90\"`. It gives area, second moments, torsion constant and shear areas, so that shear deformation counts.",
         ),
         absent(
             "material",
             One(&MATERIALS),
-            OF_CARD,
+            OF_MATERIAL,
             "The material, which gives modulus, Poisson's ratio, density (so that the member weighs) and expansion.",
         ),
     ],

@@ -3,6 +3,7 @@
 //! The parsing is done by `ron` alone: a `&RawValue` borrows from the text that is read, so its
 //! address tells where it stands.
 
+pub(crate) mod json;
 mod numeric;
 mod plain;
 mod shape;

@@ -3,6 +3,7 @@
 mod bounds;
 mod damaged;
 mod grouped;
+mod in_json;
 mod included;
 mod kinds;
 mod refusals;
