@@ -4,6 +4,7 @@
 
 mod cases;
 mod error;
+mod members;
 
 pub(crate) use cases::{LEAST_ALPHA, TOLERANCE};
 pub use error::{ModelError, ModelFault};
@@ -31,6 +32,7 @@ impl Model {
         check.loads();
         check.cases();
         check.outputs();
+        check.envelopes();
         if check.errors.is_empty() { Ok(()) } else { Err(check.errors) }
     }
 }
@@ -194,6 +196,7 @@ impl Check<'_> {
                 self.node(&part, force.node);
                 self.number(&part, "force", force.value, Range::Any);
             }
+            self.along(&part, &pattern.members);
         }
     }
 
@@ -251,6 +254,9 @@ impl Check<'_> {
                         }
                     }
                     factor(self, *x);
+                }
+                Quantity::MemberForce { element, at, factor, .. } => {
+                    self.member_force(&part, *element, *at, *factor);
                 }
                 Quantity::BaseShear { direction } | Quantity::Overturning { direction, .. } => {
                     if !matches!(direction, Dof::Ux | Dof::Uy) {
