@@ -27,6 +27,7 @@ mod import;
 mod interrupt;
 mod long;
 mod made_by;
+mod manual;
 mod modes;
 mod names;
 mod output;
@@ -78,6 +79,8 @@ pub fn main_with(registry: Registry) -> ! {
         Command::Import(a) => import::import(&a),
         Command::Calibrate(a) => calibrate::calibrate(&registry, &a),
         Command::Record(a) => record::record(&a),
+        Command::Completions { shell } => manual::completions(shell),
+        Command::Manual { dir } => manual::manual(&dir),
     });
     let status = match answer {
         Ok(Answer { text, status }) => output::print(&text, status),

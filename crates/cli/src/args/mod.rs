@@ -55,6 +55,16 @@ pub(crate) enum Command {
     Calibrate(CalibrateArguments),
     /// Intensities and spectra of ground motion records; synthetic motions
     Record(Box<crate::record::Arguments>),
+    /// Print what lets a shell complete commands and options
+    Completions {
+        /// The shell: bash, elvish, fish, powershell or zsh
+        shell: clap_complete::Shell,
+    },
+    /// Write a man page for each command; pages that are there are replaced
+    Manual {
+        /// Folder for the pages, such as `~/.local/share/man/man1`
+        dir: PathBuf,
+    },
 }
 
 #[derive(Args)]
