@@ -557,3 +557,34 @@ fn sections_and_materials_are_numbers_of_a_card() {
         r#"section: "HEB 300", material: Steel, shear_modulus: "80 GPa", shear_coefficient: 0.5"#;
     assert!(!values(shear).0.iter().any(|(n, _)| n == "poisson" || n == "shear_area_2"));
 }
+
+#[test]
+fn what_is_made_in_code_is_looked_at() {
+    let text = r#"(
+    nodes: { "i": (0, 0, 0), "j": (2, 0, 0) },
+    supports: { "i": Fixed },
+    elements: { "b": Beam(nodes: ("i", "j"), section: "HEB 300", material: Steel), "k": Spring(node: "j", k1: 1) },
+    loads: { "p": [Uniform(element: "b", dof: Uz, force: 1)] },
+    cases: { "c": Static(loads: ["p"]) },
+    outputs: { "m": MemberForce(element: "b", force: M3, at: 1) },
+    envelopes: { "e": (element: "b") },
+)"#;
+    assert!(model(text).check().is_ok());
+    let refused = |spoil: &dyn Fn(&mut Model), words: &str| {
+        let mut model = model(text);
+        spoil(&mut model);
+        let errors = model.check().expect_err(words);
+        assert!(errors.iter().any(|e| e.to_string().contains(words)), "{words}: {errors:?}");
+        assert!(Analysis::new(&model).is_err(), "{words}");
+    };
+    refused(&|m| m.patterns[0].members[0].element = 9, "element");
+    refused(&|m| m.patterns[0].members[0].element = 1, "is no member");
+    refused(
+        &|m| {
+            m.patterns[0].members[0].load =
+                trilith::element::SpanLoad::Point { at: 3.0, load: [1.0; 6] }
+        },
+        "at",
+    );
+    refused(&|m| m.envelopes[0].members[0].first = 9, "output");
+}

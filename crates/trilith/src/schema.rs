@@ -29,10 +29,9 @@ pub fn json_schema(registry: &Registry) -> Value {
         }
         let place = json!({ "type": "array", "minItems": 3, "maxItems": 3 });
         fields.insert("nodes".into(), described(map_of(place), &description(model, "nodes")));
-        for name in ["loads"] {
-            let items = json!({ "type": "array", "items": any([def(&schema::LOADINGS), reference("for")]) });
-            fields.insert(name.into(), described(map_of(items), &description(model, name)));
-        }
+        let force = any([def(&schema::LOADINGS), reference("for")]);
+        let pattern = json!({ "type": "array", "items": force });
+        fields.insert("loads".into(), described(map_of(pattern), &description(model, "loads")));
     }
     root["$schema"] = DIALECT.into();
     root["title"] = "A model of Trilith".into();
