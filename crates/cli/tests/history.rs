@@ -81,6 +81,7 @@ const BUILDING: &str = r#"(
     },
     outputs: {
         "drift": Displacement(terms: [(node: "b", dof: Ux), (node: "a", dof: Ux, factor: -1)]),
+        "push": LinkForce(link: "wall", axis: U2),
     },
 )"#;
 
@@ -130,6 +131,10 @@ fn a_building_has_base_shear_and_drift_instead_of_a_response_mode() {
     let travel = summary["bearings"]["max_travel"].as_f64().unwrap();
     let period = std::f64::consts::TAU * (40e3 * travel / shear).sqrt();
     assert!(close(&answer("period at the largest travel")["value"], Some(period)));
+    // An output that tells the same as an answer tells its error as well.
+    let error = &summary["outputs"]["push"]["error"];
+    let sum = error["reduction"].as_f64().unwrap() + error["step"].as_f64().unwrap();
+    assert!(sum > 0.0 && close(&answer("largest force of a stop")["error"], Some(sum)));
     assert_eq!(answer("hits of stops")["text"], summary["stops"]["hits"].to_string());
 }
 

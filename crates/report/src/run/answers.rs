@@ -171,7 +171,8 @@ impl Seen<'_> {
                 let error = same
                     .filter_map(|o| s.outputs.get(&o.name)?.error)
                     .map(|e| e.total())
-                    .find(|e| e.is_finite());
+                    .find(|e| e.is_finite())
+                    .or_else(|| self.twin(value, shear.time[k], "N"));
                 let share = value / self.weight;
                 let note = match share.is_finite() {
                     true => format!("{:.1} % of the weight", 100.0 * share),
@@ -242,11 +243,9 @@ impl Seen<'_> {
         if stops.largest_force > 0.0 {
             let note = stops.hardest.clone().unwrap_or_default();
             let t = Some(stops.time);
-            all.push(Answer {
-                t,
-                note,
-                ..answer("largest force of a stop", stops.largest_force, "N")
-            });
+            let error = self.twin(stops.largest_force, stops.time, "N");
+            let found = answer("largest force of a stop", stops.largest_force, "N");
+            all.push(Answer { t, note, error, ..found });
         }
     }
 }
