@@ -32,6 +32,7 @@ fn model(fault: Fault) -> String {
             loads: {{ "push": [(node: "m", dof: Uz, force: 1)] }},
             functions: {{ "sine": Sine(amplitude: 600, frequency: 1.5) }},
             cases: {{
+                "press": Static(loads: ["push"]),
                 "shake": Dynamic(
                     duration: 1.5, dt: 0.01, forces: [(load: "push", function: "sine")],
                 ),
@@ -39,6 +40,36 @@ fn model(fault: Fault) -> String {
             outputs: {{ "u": Displacement(node: "m", dof: Uz) }},
         )"#
     )
+}
+
+/// How a static case ended, under a push beyond what the law holds.
+fn press(fault: Fault) -> String {
+    let mut kinds = trilith::registry();
+    kinds.link::<Wrong>();
+    let text = model(fault).replace("force: 1)", "force: 700)").replace(
+        "\"mass\": Mass(node: \"m\", mass: 100),",
+        "\"mass\": Mass(node: \"m\", mass: 100), \"frame\": Spring(node: \"m\", k1: 1e4),",
+    );
+    let model = trilith::read_text(&text, "wrong.ron", &kinds, &[]).expect("a model");
+    match trilith::run(&model, "press") {
+        Ok(run) => run.result.status.text(),
+        Err(e) => e.to_string(),
+    }
+}
+
+#[test]
+fn where_no_time_goes_on_the_name_is_told_as_well() {
+    assert_eq!(press(Fault::Nothing), "converged");
+    for (fault, what) in [
+        (Fault::ForceNan, "force of U1 is NaN"),
+        (Fault::StoredNan, "stored energy is NaN"),
+        (Fault::HistoryNan, "history `slip`, if it was written, is NaN"),
+        (Fault::PanicOfSlip, "panicked"),
+    ] {
+        let text = press(fault);
+        assert!(text.starts_with("the law of \"w\" "), "{fault:?}: {text}");
+        assert!(text.contains(what) && text.contains("case \"press\""), "{fault:?}: {text}");
+    }
 }
 
 /// How a run ended.
@@ -61,6 +92,7 @@ fn run(fault: Fault, solver: SolverKind) -> End {
         Err(e) => return none(e.to_string()),
     };
     let options = RunOptions {
+        case: model.case("shake").expect("a case"),
         solver: Some(solver),
         substeps: Some(MOST),
         step_errors: true,
