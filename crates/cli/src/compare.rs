@@ -130,7 +130,7 @@ fn variants(model: &Model, case: usize, args: &CompareArguments) -> Result<Vec<V
     Ok(all)
 }
 
-fn text(all: &[Compared]) -> String {
+pub(crate) fn text(all: &[Compared]) -> String {
     let first = &all[0];
     let mut out = format!("\npeaks; differences relative to {}\n", first.variant);
     out += &table(&peaks(all), &[0, 1]);

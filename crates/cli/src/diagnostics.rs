@@ -12,8 +12,14 @@ const SHOWN: usize = 50;
 
 /// The errors of a file, and their number.
 pub(crate) fn all(diagnostics: &[Diagnostic]) -> String {
+    all_with(&for_terminal(), diagnostics)
+}
+
+/// The same, rendered otherwise.
+pub(crate) fn all_with(renderer: &Renderer, diagnostics: &[Diagnostic]) -> String {
     let shown = diagnostics.iter().take(SHOWN);
-    let mut text: String = shown.map(|d| render(&groups(d)) + "\n").collect::<Vec<_>>().join("\n");
+    let shown = shown.map(|d| render(renderer, &groups(d)) + "\n");
+    let mut text: String = shown.collect::<Vec<_>>().join("\n");
     if let Some(more) = diagnostics.len().checked_sub(SHOWN).filter(|more| *more > 0) {
         text += &format!("\n… and {more} more\n");
     }
@@ -25,6 +31,11 @@ pub(crate) fn all(diagnostics: &[Diagnostic]) -> String {
 
 /// An error that has a place in a model file.
 pub(crate) fn at(message: &str, place: &Place) -> String {
+    at_with(&for_terminal(), message, place)
+}
+
+/// The same, rendered otherwise.
+pub(crate) fn at_with(renderer: &Renderer, message: &str, place: &Place) -> String {
     let source = &place.source;
     let primary = AnnotationKind::Primary.span(clamped(&source.text, &place.span));
     let indices = place.indices();
@@ -32,21 +43,27 @@ pub(crate) fn at(message: &str, place: &Place) -> String {
     let primary = if indices.is_empty() { primary } else { primary.label(legible(&label)) };
     let snippet =
         Snippet::source(source.text.as_str()).path(shown(&source.path)).annotation(primary);
-    render(&[Level::ERROR.primary_title(legible(message)).element(snippet)]) + "\n"
+    render(renderer, &[Level::ERROR.primary_title(legible(message)).element(snippet)]) + "\n"
 }
 
 /// An error without a place.
 pub(crate) fn plain(message: &str, help: Option<&str>) -> String {
+    plain_with(&for_terminal(), message, help)
+}
+
+/// The same, rendered otherwise.
+pub(crate) fn plain_with(renderer: &Renderer, message: &str, help: Option<&str>) -> String {
     let mut group = Group::with_title(Level::ERROR.primary_title(legible(message)));
     if let Some(help) = help {
         group = group.element(Level::HELP.message(legible(help)));
     }
-    render(&[group]) + "\n"
+    render(renderer, &[group]) + "\n"
 }
 
 /// A warning without a place.
 pub(crate) fn warning(message: &str) -> String {
-    render(&[Group::with_title(Level::WARNING.primary_title(legible(message)))]) + "\n"
+    let group = Group::with_title(Level::WARNING.primary_title(legible(message)));
+    render(&for_terminal(), &[group]) + "\n"
 }
 
 fn groups(d: &Diagnostic) -> Vec<Group<'_>> {
@@ -129,9 +146,13 @@ fn clamped(text: &str, span: &Span) -> Span {
     start..boundary(span.end).max(start)
 }
 
-fn render(report: &[Group<'_>]) -> String {
+/// With colours where a terminal shows them.
+fn for_terminal() -> Renderer {
     let colour = std::io::stderr().is_terminal() && std::env::var_os("NO_COLOR").is_none();
-    let renderer = if colour { Renderer::styled() } else { Renderer::plain() };
+    if colour { Renderer::styled() } else { Renderer::plain() }
+}
+
+fn render(renderer: &Renderer, report: &[Group<'_>]) -> String {
     // The renderer shows control characters of ASCII in lines of a file by signs of their own, and lets the others
     // through; it has no use for these itself.
     renderer.render(report).replace(|c: char| matches!(c, '\u{80}'..='\u{9f}'), "\u{fffd}")

@@ -40,11 +40,13 @@ mod schema;
 mod study_folder;
 mod sweep;
 mod text;
+pub mod told;
 mod vectors;
 
 use args::{Arguments, Command};
 use clap::Parser;
 use failure::Failure;
+use std::ffi::OsString;
 use trilith::{Model, Registry};
 
 /// What a command prints, and the exit status.
@@ -61,7 +63,12 @@ impl From<String> for Answer {
 
 /// Runs the program with the arguments of the process and the kinds of a registry, and ends it.
 pub fn main_with(registry: Registry) -> ! {
-    let arguments = match Arguments::try_parse() {
+    main_of(registry, std::env::args_os())
+}
+
+/// The same with other arguments than those of the process; the first is the name of the program.
+pub fn main_of(registry: Registry, arguments: impl IntoIterator<Item = OsString>) -> ! {
+    let arguments = match Arguments::try_parse_from(arguments) {
         Ok(arguments) => arguments,
         Err(said) => std::process::exit(output::usage(&said)),
     };

@@ -16,7 +16,7 @@ pub(crate) fn modes(registry: &Registry, args: &ModesArguments) -> Result<Answer
     Ok(format!("{}\n\n{}", visible_line(&model.title), text(&report)).into())
 }
 
-fn text(report: &BasisReport) -> String {
+pub(crate) fn text(report: &BasisReport) -> String {
     let mut out = String::from("modes of the structure without links; mass cumulative\n");
     let mut rows = vec![row(["mode", "period [s]", "frequency [Hz]", "X", "Y", "Z"])];
     let mut sum = [0.0; 3];

@@ -77,7 +77,8 @@ impl Values {
 
 impl Table {
     /// The runs of a study: number, place, varied parameters, columns, status.
-    pub(crate) fn of(study: &Study, records: &[Record]) -> Self {
+    #[must_use]
+    pub fn of(study: &Study, records: &[Record]) -> Self {
         let mut columns = Vec::new();
         let mut add = |name: &str, unit: &str, values| {
             columns.push(Data { name: name.to_owned(), unit: unit.to_owned(), values });

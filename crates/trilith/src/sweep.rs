@@ -36,8 +36,8 @@
 
 use crate::{Analysis, Error, Registry, RunOptions};
 use std::path::PathBuf;
-use std::sync::Mutex;
-use std::sync::atomic::{AtomicUsize, Ordering};
+use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
+use std::sync::{Arc, Mutex};
 use trilith_model::{Diagnostic, Model, ModelText, StepControl};
 use trilith_results::{Named, Peak};
 use trilith_solvers::lanes::width;
@@ -107,6 +107,7 @@ pub struct Sweep {
     substeps: Option<usize>,
     threads: usize,
     width: usize,
+    interrupt: Option<Arc<AtomicBool>>,
 }
 
 /// Most combinations that a thread takes at a time, in widths of the lanes.
@@ -125,6 +126,7 @@ impl Sweep {
             substeps: None,
             threads,
             width: width(),
+            interrupt: None,
         }
     }
 
@@ -158,6 +160,18 @@ impl Sweep {
         self
     }
 
+    /// Once this is true, no combination is begun: those that are left have [`Error::Interrupted`] in the place of an
+    /// outcome.
+    #[must_use]
+    pub fn until(mut self, interrupt: Arc<AtomicBool>) -> Self {
+        self.interrupt = Some(interrupt);
+        self
+    }
+
+    fn is_over(&self) -> bool {
+        self.interrupt.as_ref().is_some_and(|wanted| wanted.load(Ordering::Relaxed))
+    }
+
     /// Runs all combinations; outcomes in their order.
     #[must_use]
     pub fn run(&self, combinations: &[Combination]) -> Vec<Result<Outcome, SweepError>> {
@@ -176,7 +190,9 @@ impl Sweep {
         let done = Mutex::new(Vec::new());
         let work = || {
             let take = |start| (start < all).then(|| after(start));
-            while let Ok(start) = next.fetch_update(Ordering::Relaxed, Ordering::Relaxed, take) {
+            while !self.is_over()
+                && let Ok(start) = next.fetch_update(Ordering::Relaxed, Ordering::Relaxed, take)
+            {
                 let outcomes = self.portion(&parsed, &combinations[start..after(start)], &lanes);
                 if let Ok(mut done) = done.lock() {
                     done.push((start, outcomes));
@@ -191,7 +207,10 @@ impl Sweep {
         });
         let mut done = done.into_inner().unwrap_or_default();
         done.sort_by_key(|(start, _)| *start);
-        done.into_iter().flat_map(|(_, outcomes)| outcomes).collect()
+        let mut outcomes: Vec<_> = done.into_iter().flat_map(|(_, outcomes)| outcomes).collect();
+        // Whatever was taken was done, from the first on.
+        outcomes.resize_with(all, || Err(Error::Interrupted.into()));
+        outcomes
     }
 
     fn portion(
@@ -256,7 +275,12 @@ impl Sweep {
                 analysis.solution.step = StepControl::default();
             }
         }
-        let run = Analysis::new(&model)?.run(RunOptions { case, ..RunOptions::default() })?;
+        let interrupt = self.interrupt.as_deref();
+        let options = RunOptions { case, interrupt, ..RunOptions::default() };
+        let run = Analysis::new(&model)?.run(options)?;
+        if self.is_over() && matches!(run.result.status, Status::Interrupted { .. }) {
+            return Err(Error::Interrupted.into());
+        }
         let output = |(i, o): (usize, &trilith_model::Output)| {
             run.record.peaks().get(i).map(|peak| (o.name.clone(), *peak))
         };
@@ -293,6 +317,17 @@ pub(crate) fn named(model: &Model, links: &[(usize, LinkEnergy)]) -> Named<LinkE
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn what_an_interrupt_leaves_says_so() {
+        let stopped = Arc::new(AtomicBool::new(true));
+        let sweep = Sweep::new("()", "a.ron", Registry::new()).threads(2).until(stopped);
+        let outcomes = sweep.run(&vec![Vec::new(); 5]);
+        let interrupted = |o: &Result<Outcome, SweepError>| {
+            matches!(o, Err(SweepError::Run(Error::Interrupted)))
+        };
+        assert!(outcomes.len() == 5 && outcomes.iter().all(interrupted));
+    }
 
     #[test]
     fn shares_are_whole_widths_and_small_at_the_end() {

@@ -1,0 +1,65 @@
+//! What the program says of errors and results, as plain text, for other faces of it: a package for another language
+//! says the same.
+
+use crate::diagnostics;
+use annotate_snippets::Renderer;
+use trilith::compare::Compared;
+use trilith::results::Summary;
+use trilith::solvers::{BasisReport, SolveError};
+use trilith::{Diagnostic, Error, Model};
+
+/// All errors of a model file, each with its line and a caret.
+#[must_use]
+pub fn diagnostics(all: &[Diagnostic]) -> String {
+    diagnostics::all_with(&Renderer::plain(), all)
+}
+
+/// A structure or a run that cannot be made, shown in the model file where it has a place there.
+#[must_use]
+pub fn error(error: &Error, model: &Model) -> String {
+    let renderer = Renderer::plain();
+    match error.span() {
+        Some(span) => {
+            diagnostics::at_with(&renderer, &error.to_string(), &model.places.find(&span))
+        }
+        None => diagnostics::plain_with(&renderer, &error.to_string(), None),
+    }
+}
+
+/// True for an error that no other model file would help against, but other settings or more work might.
+#[must_use]
+pub fn is_of_the_run(error: &Error) -> bool {
+    matches!(
+        error,
+        Error::Solve(
+            SolveError::StaticNotConverged { .. }
+                | SolveError::JointNotHeld { .. }
+                | SolveError::Predecessor { .. }
+                | SolveError::Interrupted { .. }
+        ) | Error::Interrupted
+    )
+}
+
+/// Something wrong outside a model file, and what would be right.
+#[must_use]
+pub fn plain(message: &str, help: Option<&str>) -> String {
+    diagnostics::plain_with(&Renderer::plain(), message, help)
+}
+
+/// What `trilith run` prints.
+#[must_use]
+pub fn run(model: &Model, summary: &Summary) -> String {
+    crate::report::text(model, summary)
+}
+
+/// What `trilith modes` prints below the title.
+#[must_use]
+pub fn modes(report: &BasisReport) -> String {
+    crate::modes::text(report)
+}
+
+/// What `trilith compare` prints below the title; `all` has one or more.
+#[must_use]
+pub fn comparison(all: &[Compared]) -> String {
+    if all.is_empty() { String::new() } else { crate::compare::text(all) }
+}

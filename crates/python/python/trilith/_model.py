@@ -1,0 +1,391 @@
+"""Models."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+from . import _native
+from ._arrays import positive, whole
+from ._errors import ArgumentError, Diagnostic
+
+if TYPE_CHECKING:
+    from os import PathLike
+
+    from ._compare import Comparison
+    from ._modes import Modes
+    from ._native import State
+    from ._result import Result
+    from ._stepper import Stepper
+
+#: Name of a model that was given as a text.
+NAME = "model.ron"
+
+
+class Case(NamedTuple):
+    """An analysis case."""
+
+    #: Its name.
+    name: str
+    #: ``"static"`` or ``"dynamic"``.
+    kind: str
+    #: The case that it continues.
+    after: str | None
+    #: Length and output step of a dynamic case, s.
+    duration: float | None
+    dt: float | None
+    #: Its own solver.
+    solver: str | None
+
+
+class Element(NamedTuple):
+    """An element, a constraint or a link of a model."""
+
+    #: Its name.
+    name: str
+    #: Its kind, such as ``"Beam"``.
+    kind: str
+    #: ``"linear"``, ``"constraint"`` or ``"link"``.
+    category: str
+    #: Names of its nodes.
+    nodes: tuple[str, ...]
+
+
+def written(name: str, value: object) -> str:
+    """The value of a parameter as text: a number in SI with all its digits, or a text as it is."""
+    if isinstance(value, str):
+        return value
+    if isinstance(value, bool):
+        return "1" if value else "0"
+    if hasattr(value, "__fspath__"):
+        return str(value.__fspath__())
+    if hasattr(value, "__index__"):
+        return str(value.__index__())
+    if hasattr(value, "__float__") and getattr(value, "ndim", 0) == 0:
+        return repr(float(value))
+    raise ArgumentError(
+        f"the value of parameter {name!r} must be a number or a text, such as \"5 mm\": it is a {type(value).__name__}"
+    )
+
+
+def settings(parameters: Mapping[str, object]) -> list[tuple[str, str]]:
+    """Values of parameters, as the reader takes them."""
+    return [(name, written(name, value)) for name, value in parameters.items()]
+
+
+def folder_of(folder: str | PathLike[str] | None) -> Path:
+    """The folder that files of a model text are looked for in."""
+    return Path(folder) if folder is not None else Path()
+
+
+class Model:
+    """A model. It never changes: it may be run from several threads at once, and :meth:`with_parameters` makes another.
+
+    Read one by :func:`load` or :func:`loads`, or build it of sections as a model file has them::
+
+        m = tl.Model(
+            plane="XZ",
+            nodes={"top": (0, 0, 1), "base": (0, 0, 0)},
+            supports={"base": "Fixed"},
+            elements={
+                "mass": tl.Mass(node="top", mass="1 t"),
+                "column": tl.Spring(nodes=("base", "top"), k1="1 MN/m", k2="40 kN/m", r2=1, r3=1),
+            },
+            cases={"swing": tl.Dynamic(duration="2 s", dt="5 ms",
+                                       initial=[dict(node="top", dof="Ux", displacement="2 cm")])},
+            outputs={"sway": tl.Displacement(node="top", dof="Ux")},
+        )
+
+    What is built goes through the reader of model files: :attr:`text` is the file, and errors point into it.
+
+    :param folder: where files that the model names are looked for; without it, the current folder.
+    :raises ModelError: with all that is wrong.
+    """
+
+    __slots__ = ("_native",)
+
+    _native: _native.Model
+
+    def __init__(
+        self,
+        *,
+        nodes: Mapping[str, object] | None = None,
+        elements: Mapping[str, object] | None = None,
+        cases: Mapping[str, object] | None = None,
+        title: str | None = None,
+        include: Sequence[str] | None = None,
+        units: Mapping[str, str] | None = None,
+        plane: str | None = None,
+        gravity: float | str | None = None,
+        parameters: Mapping[str, object] | None = None,
+        supports: Mapping[str, object] | None = None,
+        properties: Mapping[str, object] | None = None,
+        groups: Mapping[str, object] | None = None,
+        damping: object | None = None,
+        p_delta: str | None = None,
+        functions: Mapping[str, object] | None = None,
+        loads: Mapping[str, object] | None = None,
+        outputs: Mapping[str, object] | None = None,
+        spectra: Mapping[str, object] | None = None,
+        folder: str | PathLike[str] | None = None,
+        **more: object,
+    ) -> None:
+        from ._ron import model
+
+        text = model(
+            {
+                "title": title,
+                "include": include,
+                "units": units,
+                "plane": plane,
+                "gravity": gravity,
+                "parameters": parameters,
+                "nodes": nodes,
+                "supports": supports,
+                "properties": properties,
+                "elements": elements,
+                "groups": groups,
+                "damping": damping,
+                "p_delta": p_delta,
+                "functions": functions,
+                "loads": loads,
+                "cases": cases,
+                "outputs": outputs,
+                "spectra": spectra,
+                # The reader says what is wrong with it.
+                **more,
+            }
+        )
+        self._native = _native.Model.read(text, folder_of(folder) / NAME, [])
+
+    # -- what it is
+
+    @property
+    def title(self) -> str:
+        """Its title."""
+        return self._native.title
+
+    @property
+    def text(self) -> str:
+        """The text that it was read from."""
+        return self._native.text
+
+    @property
+    def path(self) -> Path:
+        """The file that it was read from, or what errors call it."""
+        return Path(self._native.path)
+
+    @property
+    def sha256(self) -> str:
+        """SHA-256 of its text, as ``summary.json`` has it."""
+        return self._native.sha256
+
+    @property
+    def parameters(self) -> dict[str, float | str]:
+        """Its parameters with their values: numbers in SI, and texts."""
+        found: dict[str, float | str] = {}
+        for name, x, text, _ in self._native.parameters():
+            found[name] = x if x is not None else text or ""
+        return found
+
+    @property
+    def parameter_units(self) -> dict[str, str]:
+        """SI units of the parameters that are numbers; ``"1"`` for a pure number."""
+        return {name: unit for name, x, _, unit in self._native.parameters() if x is not None}
+
+    @property
+    def nodes(self) -> dict[str, tuple[float, float, float]]:
+        """Positions of the nodes, m."""
+        return {name: (x, y, z) for name, (x, y, z) in self._native.nodes()}
+
+    @property
+    def elements(self) -> dict[str, Element]:
+        """Its elements, constraints and links."""
+        all_of = self._native.elements()
+        return {n: Element(n, kind, category, tuple(nodes)) for n, kind, category, nodes in all_of}
+
+    @property
+    def links(self) -> list[str]:
+        """Names of its links."""
+        return [e.name for e in self.elements.values() if e.category == "link"]
+
+    @property
+    def cases(self) -> dict[str, Case]:
+        """Its analysis cases."""
+        found = {}
+        for name, kind, after, dynamic in self._native.cases():
+            duration, dt, solver = dynamic or (None, None, None)
+            found[name] = Case(name, kind, after, duration, dt, solver)
+        return found
+
+    @property
+    def outputs(self) -> dict[str, str]:
+        """Its outputs, with their SI units."""
+        return dict(self._native.outputs())
+
+    def resolved(self) -> str:
+        """The model with every default filled in, every expression evaluated, in SI."""
+        return self._native.resolved()
+
+    def with_parameters(self, parameters: Mapping[str, object] | None = None, /, **more: object) -> Model:
+        """Another model, with these values of its parameters: numbers in SI, or texts such as ``"5 mm"``.
+
+        Files are read again.
+
+        :raises ModelError: for names that are no parameters, and values that do not fit.
+        """
+        changed = {**dict(self._native.set), **dict(settings({**(parameters or {}), **more}))}
+        return made(_native.Model.read(self.text, self.path, list(changed.items())))
+
+    # -- what it does
+
+    def check(self) -> list[Diagnostic]:
+        """What there is to say of it before it runs: the first error of the assembly, or warnings; empty where nothing is."""
+        return [Diagnostic(*one) for one, _ in self._native.check()]
+
+    def modes(self, case: str | None = None) -> Modes:
+        """Modes of the structure without links, and how well the basis of a case (the last dynamic one) holds its links.
+
+        :raises ModelError: where the structure is none.
+        """
+        from ._modes import Modes
+
+        return Modes(*self._native.modes(case))
+
+    def run(
+        self,
+        case: str | None = None,
+        *,
+        solver: str | None = None,
+        dt: float | None = None,
+        until: float | None = None,
+        vectors: int | None = None,
+        errors: bool = True,
+        histories: bool = True,
+        frames: int = 200,
+        start: State | None = None,
+        progress: Callable[[float], object] | None = None,
+    ) -> Result:
+        """Runs a case and those that it continues.
+
+        A run that stops on its way is no error: :attr:`Result.status` says so, and its histories go as far as it came.
+
+        :param case: its name; without it the last case of the model.
+        :param solver: ``"fna"``, ``"hht"``, ``"ritz-hht"`` or ``"full-newton"``; without it that of the case.
+        :param dt: output step, s.
+        :param until: stop at the first output time not before this, s.
+        :param vectors: vectors of the basis.
+        :param errors: find out what the steps make of the errors of the outputs, by a second run beside.
+        :param histories: keep histories, loops and shapes; without them a run needs constant memory, and has peaks only.
+        :param frames: deformed shapes to keep, for the page.
+        :param start: go on from the end of an earlier run of the same case, :attr:`Result.state`.
+        :param progress: called with the finished share, 0 … 1, now and then.
+        :raises ModelError: where the structure is none.
+        :raises RunError: where the run cannot be made.
+        :raises ArgumentError: for a case or solver that there is not.
+        :raises KeyboardInterrupt: upon Ctrl-C, within a tenth of a second.
+        """
+        from ._result import Result
+
+        if frames < 0:
+            raise ArgumentError(f"frames must not be below 0, it is {frames}")
+        run = self._native.run(
+            case,
+            solver,
+            positive("dt", dt),
+            positive("until", until),
+            whole("vectors", vectors),
+            errors,
+            histories,
+            frames,
+            start,
+            progress,
+        )
+        return Result(run)
+
+    def stepper(
+        self, case: str | None = None, *, solver: str | None = None, dt: float | None = None
+    ) -> Stepper:
+        """A dynamic case to be led from output step to output step, with its state to be taken and put back.
+
+        The parameters are those of :meth:`run`.
+        """
+        from ._stepper import Stepper
+
+        return Stepper(self, case, solver, dt)
+
+    def compare(self, solvers: Sequence[str] = (), **settings: Any) -> Comparison:
+        """Solves a case in several ways, and finds why the results differ: see :func:`trilith.compare`."""
+        from ._compare import compare
+
+        return compare(self, solvers, **settings)
+
+    # -- pickles and copies
+
+    def __repr__(self) -> str:
+        elements = self._native.elements()
+        links = sum(1 for e in elements if e[2] == "link")
+        title = self.title or self.path.name
+        return f"<Model {title!r}: {len(self._native.nodes())} nodes, {len(elements)} elements, {links} of them links>"
+
+    def __reduce__(self) -> tuple[Callable[..., Model], tuple[str, str, list[tuple[str, str]]]]:
+        return again, (self.text, str(self.path), self._native.set)
+
+    def __copy__(self) -> Model:
+        return self
+
+    def __deepcopy__(self, memo: object) -> Model:
+        return self
+
+    def _key(self) -> tuple[str, str, tuple[tuple[str, str], ...]]:
+        return self.text, str(self.path), tuple(self._native.set)
+
+    def __eq__(self, other: object) -> bool:
+        return isinstance(other, Model) and self._key() == other._key()
+
+    def __hash__(self) -> int:
+        return hash(self._key())
+
+
+def made(native: _native.Model) -> Model:
+    """A model of what was read."""
+    it = Model.__new__(Model)
+    it._native = native
+    return it
+
+
+def again(text: str, path: str, set_: list[tuple[str, str]]) -> Model:
+    """A model out of a pickle."""
+    return made(_native.Model.read(text, Path(path), set_))
+
+
+def load(path: str | PathLike[str], /, parameters: Mapping[str, object] | None = None, **more: object) -> Model:
+    """Reads a model file.
+
+    :param path: the file.
+    :param parameters: values of parameters that replace those of the file, also by keyword: numbers in SI, or texts such as
+        ``"5 mm"``.
+    :raises ModelError: with all that is wrong, with file, line, column and what would be right.
+    """
+    set_ = settings({**(parameters or {}), **more})
+    return made(_native.Model.load(Path(path), set_))
+
+
+def loads(
+    text: str,
+    /,
+    *,
+    folder: str | PathLike[str] | None = None,
+    parameters: Mapping[str, object] | None = None,
+    **more: object,
+) -> Model:
+    """Reads a model from a text.
+
+    :param text: the text, as a model file has it.
+    :param folder: where files that it names are looked for; without it, the current folder.
+    :param parameters: as in :func:`load`.
+    :raises ModelError: with all that is wrong.
+    """
+    set_ = settings({**(parameters or {}), **more})
+    return made(_native.Model.read(text, folder_of(folder) / NAME, set_))

@@ -1,0 +1,4 @@
+from ._ron import Word
+WORDS = frozenset({"dof"})
+X = Word("X")
+__all__ = ["X"]

@@ -1,0 +1,257 @@
+//! Models: read once, then run as often as one likes.
+
+use crate::compare::{self, Ways};
+use crate::failure::{Failure, Told, placed};
+use crate::run::{self, Run, Settings};
+use crate::state::State;
+use crate::work;
+use pyo3::prelude::*;
+use std::path::PathBuf;
+use std::sync::Arc;
+use trilith::model::{Analysis as Kind, Body, ParameterValue, file, resolved};
+use trilith::{Analysis, SolverKind};
+use trilith_cli::told;
+
+/// A model, with the text that it was read from.
+#[pyclass(frozen, module = "trilith._native")]
+pub(crate) struct Model {
+    pub model: Arc<trilith::Model>,
+    pub text: Arc<str>,
+    pub path: PathBuf,
+    /// Values of parameters that replace those of the text.
+    pub set: Vec<(String, String)>,
+}
+
+/// A case: name, `static` or `dynamic`, the case before, and of a dynamic one duration, output step and solver.
+type CaseFacts = (String, &'static str, Option<String>, Option<(f64, f64, &'static str)>);
+/// An element: name, kind, category, nodes.
+type ElementFacts = (String, &'static str, &'static str, Vec<String>);
+
+#[pymethods]
+impl Model {
+    /// Reads a model file.
+    #[staticmethod]
+    fn load(py: Python<'_>, path: PathBuf, set: Vec<(String, String)>) -> PyResult<Self> {
+        work::run(py, move |_| {
+            let text = file::open(&path, "model").map_err(|e| Failure::diagnostics(&e))?;
+            Self::of(text, path, set)
+        })
+    }
+
+    /// Reads a model text; `path` is its name in errors, and files are looked for in its folder.
+    #[staticmethod]
+    fn read(
+        py: Python<'_>,
+        text: String,
+        path: PathBuf,
+        set: Vec<(String, String)>,
+    ) -> PyResult<Self> {
+        work::run(py, move |_| Self::of(text, path, set))
+    }
+
+    #[getter]
+    fn title(&self) -> &str {
+        &self.model.title
+    }
+
+    #[getter]
+    fn text(&self) -> &str {
+        &self.text
+    }
+
+    #[getter]
+    fn path(&self) -> PathBuf {
+        self.path.clone()
+    }
+
+    #[getter]
+    fn set(&self) -> Vec<(String, String)> {
+        self.set.clone()
+    }
+
+    #[getter]
+    fn sha256(&self) -> String {
+        self.model.sha256()
+    }
+
+    /// Parameters: name, number or text, unit (none for a text).
+    fn parameters(&self) -> Vec<(String, Option<f64>, Option<String>, String)> {
+        let one = |p: &trilith::model::Parameter| match &p.value {
+            ParameterValue::Number(x, d) => (p.name.clone(), Some(*x), None, d.unit()),
+            ParameterValue::Text(t) => (p.name.clone(), None, Some(t.clone()), String::new()),
+        };
+        self.model.parameters.iter().map(one).collect()
+    }
+
+    fn nodes(&self) -> Vec<(String, [f64; 3])> {
+        self.model.nodes.iter().map(|n| (n.name.clone(), n.position)).collect()
+    }
+
+    fn elements(&self) -> Vec<ElementFacts> {
+        let one = |e: &trilith::model::Element| {
+            let category = match e.body {
+                Body::Linear(_) => "linear",
+                Body::Constraint(_) => "constraint",
+                Body::Link(..) => "link",
+            };
+            let nodes = e.nodes.iter().map(|n| self.model.nodes[*n].name.clone()).collect();
+            (e.name.clone(), e.kind, category, nodes)
+        };
+        self.model.elements.iter().map(one).collect()
+    }
+
+    fn cases(&self) -> Vec<CaseFacts> {
+        let one = |c: &trilith::model::Case| {
+            let after = c.after.map(|i| self.model.cases[i].name.clone());
+            let (kind, dynamic) = match &c.analysis {
+                Kind::Static(_) => ("static", None),
+                Kind::Dynamic(d) => {
+                    ("dynamic", Some((d.duration, d.dt, d.solution.solver.name())))
+                }
+            };
+            (c.name.clone(), kind, after, dynamic)
+        };
+        self.model.cases.iter().map(one).collect()
+    }
+
+    /// Outputs: name, unit.
+    fn outputs(&self) -> Vec<(String, String)> {
+        self.model.outputs.iter().map(|o| (o.name.clone(), o.unit.clone())).collect()
+    }
+
+    /// The model with every default filled in, as RON.
+    fn resolved(&self) -> String {
+        resolved(&self.model)
+    }
+
+    /// What there is to say of the model before it runs, the text of the program last.
+    fn check(&self, py: Python<'_>) -> PyResult<Vec<(Told, String)>> {
+        let model = Arc::clone(&self.model);
+        work::run(py, move |_| Ok(check(&model)))
+    }
+
+    /// Modes of a case, as JSON, and as the program tells them; shapes of the lowest ones.
+    fn modes(
+        &self,
+        py: Python<'_>,
+        case: Option<String>,
+    ) -> PyResult<(String, String, Vec<(usize, Vec<f32>)>)> {
+        let model = Arc::clone(&self.model);
+        work::run(py, move |_| {
+            let case = case.map(|name| index(&model, Some(&name))).transpose()?;
+            let report = Analysis::new(&model).and_then(|a| a.modes(case));
+            let report = report.map_err(|e| Failure::of(&e, &model))?;
+            let shapes = report.shapes.iter().map(|s| (s.mode, s.displacements.clone()));
+            Ok((json(&report)?, told::modes(&report), shapes.collect()))
+        })
+    }
+
+    /// Runs a case.
+    #[pyo3(signature = (case, solver, dt, until, vectors, errors, histories, frames, start, progress))]
+    fn run(
+        &self,
+        py: Python<'_>,
+        case: Option<String>,
+        solver: Option<String>,
+        dt: Option<f64>,
+        until: Option<f64>,
+        vectors: Option<usize>,
+        errors: bool,
+        histories: bool,
+        frames: usize,
+        start: Option<Py<State>>,
+        progress: Option<Bound<'_, PyAny>>,
+    ) -> PyResult<Run> {
+        let model = Arc::clone(&self.model);
+        let start = start.map(|state| Arc::clone(&state.get().0));
+        let set = self.set.clone();
+        work::with_progress(py, progress.as_ref(), move |watch| {
+            let case = index(&model, case.as_deref())?;
+            let solver = solver.as_deref().map(kind).transpose()?;
+            let settings =
+                Settings { case, solver, dt, until, vectors, errors, histories, frames, start };
+            run::run(model, set, settings, watch)
+        })
+    }
+
+    /// Runs a case in several ways.
+    #[pyo3(signature = (case, solvers, dts, vectors, dummies, alphas, cause))]
+    fn compare(
+        &self,
+        py: Python<'_>,
+        case: Option<String>,
+        solvers: Vec<String>,
+        dts: Vec<f64>,
+        vectors: Vec<usize>,
+        dummies: Vec<f64>,
+        alphas: Vec<f64>,
+        cause: bool,
+    ) -> PyResult<(String, Vec<compare::Facts>)> {
+        let (text, path, set) = (Arc::clone(&self.text), self.path.clone(), self.set.clone());
+        work::run(py, move |watch| {
+            // The comparison changes the model that it works on.
+            let read = trilith::read_text(&text, path, &trilith::registry(), &set);
+            let mut model = read.map_err(|e| Failure::diagnostics(&e))?;
+            let case = index(&model, case.as_deref())?;
+            let solvers = solvers.iter().map(|s| kind(s)).collect::<Result<Vec<_>, _>>()?;
+            let ways = Ways { solvers, dts, vectors, dummies, alphas, cause };
+            compare::compare(&mut model, case, &ways, watch)
+        })
+    }
+}
+
+impl Model {
+    fn of(text: String, path: PathBuf, set: Vec<(String, String)>) -> Result<Self, Failure> {
+        let model = trilith::read_text(&text, &path, &trilith::registry(), &set)
+            .map_err(|e| Failure::diagnostics(&e))?;
+        Ok(Self { model: Arc::new(model), text: text.into(), path, set })
+    }
+}
+
+/// A value as JSON.
+pub(crate) fn json(value: &impl serde::Serialize) -> Result<String, Failure> {
+    serde_json::to_string(value).map_err(|e| Failure::Internal(e.to_string()))
+}
+
+/// The case of that name, or the last.
+pub(crate) fn index(model: &trilith::Model, name: Option<&str>) -> Result<usize, Failure> {
+    let Some(name) = name else {
+        let last = model.cases.len().checked_sub(1);
+        return last.ok_or_else(|| Failure::argument("the model has no case", None));
+    };
+    let names = model.cases.iter().map(|c| c.name.as_str());
+    model.case(name).ok_or_else(|| Failure::unknown("case", name, "cases", names))
+}
+
+/// The solver of that name.
+pub(crate) fn kind(name: &str) -> Result<SolverKind, Failure> {
+    let names = SolverKind::ALL.iter().map(|s| s.name());
+    let found = SolverKind::ALL.into_iter().find(|s| s.name() == name);
+    found.ok_or_else(|| Failure::unknown("solver", name, "solvers", names))
+}
+
+/// What `trilith check` says: the first error of the assembly, or all warnings.
+fn check(model: &trilith::Model) -> Vec<(Told, String)> {
+    let wrong = |e: trilith::Error| vec![(placed(&e, model), told::error(&e, model))];
+    let analysis = match Analysis::new(model) {
+        Ok(analysis) => analysis,
+        Err(e) => return wrong(e),
+    };
+    let is_static = |k: &Kind| matches!(k, Kind::Static(_));
+    for with_mass in [false, true] {
+        if model.cases.iter().any(|c| is_static(&c.analysis) != with_mass)
+            && let Err(e) = analysis.system().check_supported(model, with_mass)
+        {
+            return wrong(e.into());
+        }
+    }
+    let warning = |message: String| {
+        let file = model.source.path.display().to_string();
+        let text = format!("warning: {message}");
+        (("warning", String::new(), message, String::new(), None, file, 0, 0), text)
+    };
+    match trilith::solvers::warnings(model) {
+        Ok(warnings) => warnings.into_iter().map(warning).collect(),
+        Err(e) => wrong(e.into()),
+    }
+}
