@@ -27,7 +27,10 @@ type Facts = (
     Vec<String>,
 );
 
-/// Leads a link through cycles, or along a history (times, and deformations of some coordinates).
+/// Times, and deformations of some coordinates.
+type Path = (Vec<f64>, Vec<(String, Vec<f64>)>);
+
+/// Leads a link through cycles, or along a history.
 #[pyfunction]
 #[pyo3(signature = (kind, set, amplitude, mean, frequency, cycles, history))]
 pub(crate) fn exercise(
@@ -38,7 +41,7 @@ pub(crate) fn exercise(
     mean: Vec<(String, String)>,
     frequency: Option<f64>,
     cycles: usize,
-    history: Option<(Vec<f64>, Vec<(String, Vec<f64>)>)>,
+    history: Option<Path>,
 ) -> PyResult<Facts> {
     work::run(py, move |_| {
         let registry = trilith::registry();
@@ -163,8 +166,9 @@ fn facts(specimen: &Specimen, record: Record, cycling: bool) -> Facts {
             cycle.map(|c| (c.area, c.stiffness, c.damping))
         })
         .collect();
-    let Record { coordinates, time, deformation, rate, force, work, energy, fields, history, .. } =
-        record;
+    let Record {
+        coordinates, time, deformation, rate, force, work, energy, fields, history, ..
+    } = record;
     let lists = deformation.into_iter().zip(rate).zip(force).zip(last);
     let coordinates = coordinates.into_iter().zip(lists).map(|(c, (((d, v), f), last))| {
         (c.name, c.rotation, Column::new(d), Column::new(v), Column::new(f), last)
@@ -177,7 +181,10 @@ fn facts(specimen: &Specimen, record: Record, cycling: bool) -> Facts {
         Column::new(time),
         coordinates.collect(),
         [work, stored, hysteretic, viscous].map(Column::new),
-        fields.zip(history).map(|((name, unit), values)| (name, unit, Column::new(values))).collect(),
+        fields
+            .zip(history)
+            .map(|((name, unit), values)| (name, unit, Column::new(values)))
+            .collect(),
         error,
         figures,
     )

@@ -6,8 +6,7 @@ use trilith::{Diagnostic, Error, Model};
 use trilith_cli::told;
 
 /// One thing that is said of a model: level, code, message, label, help, file, line and column from 1 (0 for no place).
-pub(crate) type Told =
-    (&'static str, String, String, String, Option<String>, String, usize, usize);
+pub(crate) type Told = (&'static str, String, String, String, Option<String>, String, usize, usize);
 
 /// Why a call gives no result.
 #[derive(Debug)]

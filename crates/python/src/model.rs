@@ -26,6 +26,8 @@ pub(crate) struct Model {
 type CaseFacts = (String, &'static str, Option<String>, Option<(f64, f64, &'static str)>);
 /// An element: name, kind, category, nodes.
 type ElementFacts = (String, &'static str, &'static str, Vec<String>);
+/// Modes as JSON and as the program tells them; of the lowest ones six displacements of every node.
+type ModeFacts = (String, String, Vec<(usize, Vec<f32>)>);
 
 #[pymethods]
 impl Model {
@@ -105,9 +107,7 @@ impl Model {
             let after = c.after.map(|i| self.model.cases[i].name.clone());
             let (kind, dynamic) = match &c.analysis {
                 Kind::Static(_) => ("static", None),
-                Kind::Dynamic(d) => {
-                    ("dynamic", Some((d.duration, d.dt, d.solution.solver.name())))
-                }
+                Kind::Dynamic(d) => ("dynamic", Some((d.duration, d.dt, d.solution.solver.name()))),
             };
             (c.name.clone(), kind, after, dynamic)
         };
@@ -130,12 +130,8 @@ impl Model {
         work::run(py, move |_| Ok(check(&model)))
     }
 
-    /// Modes of a case, as JSON, and as the program tells them; shapes of the lowest ones.
-    fn modes(
-        &self,
-        py: Python<'_>,
-        case: Option<String>,
-    ) -> PyResult<(String, String, Vec<(usize, Vec<f32>)>)> {
+    /// Modes of a case.
+    fn modes(&self, py: Python<'_>, case: Option<String>) -> PyResult<ModeFacts> {
         let model = Arc::clone(&self.model);
         work::run(py, move |_| {
             let case = case.map(|name| index(&model, Some(&name))).transpose()?;

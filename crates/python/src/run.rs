@@ -84,8 +84,7 @@ pub(crate) fn run(
 impl Kept {
     /// What the page shows.
     fn data(&self, loops: &[String]) -> Result<RunData, Failure> {
-        let analysis =
-            Analysis::new(&self.model).map_err(|e| Failure::of(&e, &self.model))?;
+        let analysis = Analysis::new(&self.model).map_err(|e| Failure::of(&e, &self.model))?;
         Ok(self.run.report(&analysis, &self.set, loops))
     }
 }
@@ -123,9 +122,8 @@ impl Run {
 
     /// Energies: name, history.
     fn energies(&self) -> Vec<(&'static str, Column)> {
-        let one = |(i, name): (usize, &&'static str)| {
-            (*name, Column::of(&self.0, Series::Energy(i)))
-        };
+        let one =
+            |(i, name): (usize, &&'static str)| (*name, Column::of(&self.0, Series::Energy(i)));
         ENERGIES.iter().enumerate().map(one).collect()
     }
 
@@ -208,8 +206,7 @@ pub(crate) fn pictures(
 }
 
 fn parsed(summary: &str, data: &str) -> Result<(Value, RunData), Failure> {
-    let wrong = |e: serde_json::Error| {
-        Failure::argument(&format!("this is no data of a run: {e}"), None)
-    };
+    let wrong =
+        |e: serde_json::Error| Failure::argument(&format!("this is no data of a run: {e}"), None);
     Ok((serde_json::from_str(summary).map_err(wrong)?, serde_json::from_str(data).map_err(wrong)?))
 }

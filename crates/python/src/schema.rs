@@ -18,10 +18,10 @@ pub(crate) fn schema() -> Vec<(&'static str, &'static str, Vec<BlockFacts>)> {
     let facts =
         |b: &'static Block| (b.name, b.meaning, b.example, b.fields.iter().map(field).collect());
     let blocks = |all: &'static [&'static Block]| all.iter().map(|b| facts(b)).collect();
-    let mut all: Vec<_> =
-        groups().iter().map(|g| (g.name, g.meaning, blocks(g.blocks))).collect();
+    let mut all: Vec<_> = groups().iter().map(|g| (g.name, g.meaning, blocks(g.blocks))).collect();
     all.push((REPETITION.name, REPETITION.meaning, blocks(REPETITION.blocks)));
-    for (name, block) in [("place", &PLACE), ("element", &ELEMENT), ("link", &LINK), ("force", &FORCE)]
+    for (name, block) in
+        [("place", &PLACE), ("element", &ELEMENT), ("link", &LINK), ("force", &FORCE)]
     {
         all.push((name, block.meaning, vec![facts(block)]));
     }

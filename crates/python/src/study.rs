@@ -12,8 +12,7 @@ use trilith_study::{Data, Progress, Study, StudyError, Table, Values, execute};
 type ColumnFacts = (String, String, Option<Column>, Option<Vec<Option<String>>>);
 
 /// Title, columns, files, runs that were on disk, runs that failed, new runs in lanes, why none went there.
-type Facts =
-    (String, Vec<ColumnFacts>, Vec<PathBuf>, usize, usize, usize, Option<String>);
+type Facts = (String, Vec<ColumnFacts>, Vec<PathBuf>, usize, usize, usize, Option<String>);
 
 /// Runs a study into a folder, or goes on with it.
 #[pyfunction]
@@ -28,8 +27,7 @@ pub(crate) fn study(
 ) -> PyResult<Facts> {
     work::with_progress(py, progress.as_ref(), move |watch| {
         let registry = trilith::registry();
-        let study =
-            Study::read(&path, &registry, &set).map_err(|e| Failure::diagnostics(&e))?;
+        let study = Study::read(&path, &registry, &set).map_err(|e| Failure::diagnostics(&e))?;
         let cores = std::thread::available_parallelism().map_or(1, std::num::NonZero::get);
         let show = |p: Progress| watch.tell(p.done as f64 / p.total.max(1) as f64);
         let threads = threads.unwrap_or(cores);

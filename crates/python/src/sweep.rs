@@ -105,7 +105,8 @@ fn known(model: &trilith::Model, combinations: &[Combination]) -> Result<(), Fai
         };
         let number = matches!(parameter.value, ParameterValue::Number(..));
         if number && ["nan", "inf", "-inf", "NaN"].contains(&value.as_str()) {
-            let message = format!("the value `{value}` of parameter \"{name}\" is no finite number");
+            let message =
+                format!("the value `{value}` of parameter \"{name}\" is no finite number");
             return Err(Failure::argument(&message, None));
         }
     }

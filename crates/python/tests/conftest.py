@@ -14,7 +14,7 @@ MODELS = ROOT / "models"
 #: A mass on a friction contact under a sine: quick, and it slides.
 FOOT = """(
     title: "A foot",
-    plane: XZ, gravity: "1 g", parameters: { "mu": 0.3, "a": "4 m/s^2", "name": "x" },
+    plane: XZ, gravity: "1 g", parameters: { "mu": 0.3, "a": "4 m/s^2" },
     nodes: { "cg": (0, 0, 0) },
     elements: {
         "mass": Mass(node: "cg", mass: "1 t", inertia: (0, 1, 0)),

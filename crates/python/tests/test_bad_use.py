@@ -54,10 +54,10 @@ def test_files_that_are_not_there_or_no_models() -> None:
 @pytest.mark.parametrize(
     ("value", "told"),
     [
-        (float("nan"), "NaN|nan"),
+        (float("nan"), "nan"),
         (float("inf"), "inf"),
         ("1 kg", "kg"),
-        ("1 +", "expression|expected|ends"),
+        ("1 +", "is wanted here"),
     ],
 )
 def test_values_of_parameters_that_are_none(foot: tl.Model, value: object, told: str) -> None:
@@ -166,16 +166,20 @@ def test_ctrl_c_is_answered_at_once(what: str) -> None:
 
 
 def test_an_interrupted_study_goes_on(tmp_path: Path) -> None:
+    (tmp_path / "foot.ron").write_text(FOOT, encoding="utf-8")
+    study = tmp_path / "many.ron"
+    axes = '"mu": Range(from: 0.1, to: 0.3, count: 20), "a": Range(from: 2, to: 6, count: 20)'
+    study.write_text(f'(model: "foot.ron", axes: {{ {axes} }}, columns: {{ "slide": Peak("slide") }})', encoding="utf-8")
     code = (
-        "import signal, sys, threading, trilith as tl\n"
+        "import signal, sys, trilith as tl\n"
         "def stop(share):\n"
         "    if share > 0: signal.raise_signal(signal.SIGINT)\n"
-        f"tl.study({str(MODELS / 'studies/mode_chart.ron')!r}, out={str(tmp_path / 'out')!r}, progress=stop)\n"
+        f"tl.study({str(study)!r}, out={str(tmp_path / 'out')!r}, progress=stop, threads=1)\n"
     )
     done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, timeout=300, check=False)
     assert "KeyboardInterrupt" in done.stderr
-    found = tl.study(MODELS / "studies/mode_chart.ron", out=tmp_path / "out")
-    assert found.resumed > 0 and found.runs == len(found["mode"])
+    found = tl.study(study, out=tmp_path / "out")
+    assert 0 < found.resumed < found.runs == 400 and found.failed == 0
 
 
 def test_threads_do_not_disturb_each_other(foot: tl.Model) -> None:

