@@ -182,12 +182,12 @@ impl Run {
     }
 }
 
-/// The page of a run, from its summary and what [`Run::data`] gave.
+/// The page of a run that no folder keeps, from its summary and what [`Run::data`] gave.
 #[pyfunction]
 pub(crate) fn page(py: Python<'_>, summary: String, data: String) -> PyResult<String> {
     work::run(py, move |_| {
         let (summary, data) = parsed(&summary, &data)?;
-        Ok(run_page(&summary, &data))
+        Ok(run_page(&summary, &data, &Value::Null))
     })
 }
 
