@@ -3,11 +3,11 @@
 //! What a user meets is written in Python (`python/trilith`), with types and documentation; here is what calls the
 //! library and hands over what it found. Three rules hold all through it:
 //!
-//! - Whatever may take long goes through [`work`]: in a thread of its own, without the interpreter's lock, so that Ctrl-C
+//! - Whatever may take long goes through `work`: in a thread of its own, without the interpreter's lock, so that Ctrl-C
 //!   is answered at once and other threads of Python go on. A panic comes out as an exception.
-//! - Results stay where the library left them. A [`column::Column`] shows NumPy a list of numbers in place, by the array
+//! - Results stay where the library left them. A `column::Column` shows NumPy a list of numbers in place, by the array
 //!   interface, which needs no unsafe code here, and NumPy itself is not loaded before the first of them is looked at.
-//! - Errors carry the text of the program, caret included ([`trilith_cli::told`]).
+//! - Errors carry the text of the program, caret included (`trilith_cli::told`).
 
 mod catalogue;
 mod column;

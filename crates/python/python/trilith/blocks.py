@@ -53,6 +53,9 @@ KNET = Word("KNET")
 Keep = Word("Keep")
 Kinematic = Word("Kinematic")
 Lumped = Word("Lumped")
+M2 = Word("M2")
+M3 = Word("M3")
+N = Word("N")
 Newton = Word("Newton")
 Pivot = Word("Pivot")
 R1 = Word("R1")
@@ -65,6 +68,7 @@ Rz = Word("Rz")
 Shallow = Word("Shallow")
 Spherical = Word("Spherical")
 Strip = Word("Strip")
+T = Word("T")
 Takeda = Word("Takeda")
 Tension = Word("Tension")
 U1 = Word("U1")
@@ -73,6 +77,8 @@ U3 = Word("U3")
 Ux = Word("Ux")
 Uy = Word("Uy")
 Uz = Word("Uz")
+V2 = Word("V2")
+V3 = Word("V3")
 VelocityForce = Word("VelocityForce")
 VelocityPressure = Word("VelocityPressure")
 X = Word("X")
@@ -93,6 +99,8 @@ class Acceleration(Block):
     :param terms: Several terms that are added, such as a drift; in place of `node` and `dof`. Default: a single
         term.
     :param absolute: With the acceleration of the base. Default: `false`.
+    :param hidden: Other outputs are made from it, and it is left out of files, report and summary. Default:
+        `false`.
     """
 
     _name = "Acceleration"
@@ -106,6 +114,7 @@ class Acceleration(Block):
         factor: Quantity | None = None,
         terms: Sequence[Any] | None = None,
         absolute: bool | str | None = None,
+        hidden: bool | str | None = None,
     ) -> None:
         super().__init__(
             node=node,
@@ -113,6 +122,7 @@ class Acceleration(Block):
             factor=factor,
             terms=terms,
             absolute=absolute,
+            hidden=hidden,
         )
 
 
@@ -132,6 +142,33 @@ class Adaptive(Block):
     ) -> None:
         super().__init__(
             tolerance=tolerance,
+        )
+
+
+class Aluminium(Block):
+    """Aluminium alloys (EN 1999-1-1, 3.2.5).
+
+    :param young: Young's modulus. Default: `"70 GPa"`.
+    :param poisson: Poisson's ratio. Default: `0.3`.
+    :param density: Density. Default: `"2700 kg/m^3"`.
+    :param expansion: Strain by one kelvin. Default: `2.3e-5`.
+    """
+
+    _name = "Aluminium"
+
+    def __init__(
+        self,
+        *,
+        young: Quantity | None = None,
+        poisson: Quantity | None = None,
+        density: Quantity | None = None,
+        expansion: Quantity | None = None,
+    ) -> None:
+        super().__init__(
+            young=young,
+            poisson=poisson,
+            density=density,
+            expansion=expansion,
         )
 
 
@@ -157,6 +194,8 @@ class BaseShear(Block):
     """Horizontal force that the structure passes to its supports and to the ground.
 
     :param direction: Direction. One of X, Y.
+    :param hidden: Other outputs are made from it, and it is left out of files, report and summary. Default:
+        `false`.
     """
 
     _name = "BaseShear"
@@ -166,9 +205,11 @@ class BaseShear(Block):
         self,
         *,
         direction: Name | None = None,
+        hidden: bool | str | None = None,
     ) -> None:
         super().__init__(
             direction=direction,
+            hidden=hidden,
         )
 
 
@@ -192,6 +233,7 @@ class Beam(Block):
     :param shear_coefficient: instead of shear areas: A₂ = A₃ = κ A (–, > 0, default absent).
     :param density: density, for the mass (kg/m³, ≥ 0, default 0).
     :param distributed_mass: further mass per length (kg/m, ≥ 0, default 0).
+    :param expansion: strain by one kelvin, for loads of warmth (–, > 0, default absent).
     :param mass_matrix: how the mass is spread (Lumped, Consistent, default Lumped). One of Lumped, Consistent.
     :param release_i: local directions released at end i (some of U1, U2, U3, R1, R2, R3, default absent). One of
         U1, U2, U3, R1, R2, R3.
@@ -229,6 +271,7 @@ class Beam(Block):
         shear_coefficient: Quantity | None = None,
         density: Quantity | None = None,
         distributed_mass: Quantity | None = None,
+        expansion: Quantity | None = None,
         mass_matrix: Name | None = None,
         release_i: Sequence[Any] | Name | None = None,
         release_j: Sequence[Any] | Name | None = None,
@@ -256,6 +299,7 @@ class Beam(Block):
             shear_coefficient=shear_coefficient,
             density=density,
             distributed_mass=distributed_mass,
+            expansion=expansion,
             mass_matrix=mass_matrix,
             release_i=release_i,
             release_j=release_j,
@@ -489,6 +533,33 @@ class BoucWen(Block):
         )
 
 
+class Box(Block):
+    """A hollow box with sharp corners.
+
+    :param width: Outer width, along local 3.
+    :param depth: Outer depth, along local 2.
+    :param thickness: Of the walls along the depth.
+    :param flange: Of the walls along the width. Default: `thickness`.
+    """
+
+    _name = "Box"
+
+    def __init__(
+        self,
+        *,
+        width: Quantity | None = None,
+        depth: Quantity | None = None,
+        thickness: Quantity | None = None,
+        flange: Quantity | None = None,
+    ) -> None:
+        super().__init__(
+            width=width,
+            depth=depth,
+            thickness=thickness,
+            flange=flange,
+        )
+
+
 class Butterworth(Block):
     """Butterworth filter; with both corners a band-pass.
 
@@ -521,10 +592,60 @@ class Butterworth(Block):
         )
 
 
+class Circle(Block):
+    """A solid circle.
+
+    :param diameter: Diameter.
+    """
+
+    _name = "Circle"
+
+    def __init__(
+        self,
+        *,
+        diameter: Quantity | None = None,
+    ) -> None:
+        super().__init__(
+            diameter=diameter,
+        )
+
+
 class Complete(Block):
     """All eigenvectors: no reduction."""
 
     _name = "Complete"
+
+
+class Concrete(Block):
+    """Reinforced concrete, uncracked. `Concrete("C30/37")` names the class alone.
+
+    :param class_: Class of EN 1992-1-1, table 3.1: E = 22 GPa (f_cm/10 MPa)^0.3, f_cm = f_ck + 8 MPa. Default:
+        `strength`.
+    :param strength: Cylinder strength f'c instead: E = 4700 MPa √(f'c/MPa) (ACI 318-19, 19.2.2.1). Default:
+        `class`.
+    :param poisson: Poisson's ratio. Default: `0.2`.
+    :param density: Density, with steel. Default: `"2500 kg/m^3"`.
+    :param expansion: Strain by one kelvin. Default: `1e-5`.
+    """
+
+    _name = "Concrete"
+
+    def __init__(
+        self,
+        *,
+        class_: Any | None = None,
+        strength: Quantity | None = None,
+        poisson: Quantity | None = None,
+        density: Quantity | None = None,
+        expansion: Quantity | None = None,
+    ) -> None:
+        super().__init__(
+            strength=strength,
+            poisson=poisson,
+            density=density,
+            expansion=expansion,
+            **{"class": class_},
+        )
 
 
 class Constant(Block):
@@ -699,6 +820,8 @@ class Displacement(Block):
     :param factor: Factor, with or without unit. Default: `1`.
     :param terms: Several terms that are added, such as a drift; in place of `node` and `dof`. Default: a single
         term.
+    :param hidden: Other outputs are made from it, and it is left out of files, report and summary. Default:
+        `false`.
     """
 
     _name = "Displacement"
@@ -711,12 +834,14 @@ class Displacement(Block):
         dof: Name | None = None,
         factor: Quantity | None = None,
         terms: Sequence[Any] | None = None,
+        hidden: bool | str | None = None,
     ) -> None:
         super().__init__(
             node=node,
             dof=dof,
             factor=factor,
             terms=terms,
+            hidden=hidden,
         )
 
 
@@ -878,6 +1003,8 @@ class ElementForce(Block):
     :param end: Its node, from 0.
     :param dof: Direction. One of Ux, Uy, Uz, Rx, Ry, Rz.
     :param factor: Factor, with or without unit. Default: `1`.
+    :param hidden: Other outputs are made from it, and it is left out of files, report and summary. Default:
+        `false`.
     """
 
     _name = "ElementForce"
@@ -890,12 +1017,14 @@ class ElementForce(Block):
         end: int | str | None = None,
         dof: Name | None = None,
         factor: Quantity | None = None,
+        hidden: bool | str | None = None,
     ) -> None:
         super().__init__(
             element=element,
             end=end,
             dof=dof,
             factor=factor,
+            hidden=hidden,
         )
 
 
@@ -1407,6 +1536,36 @@ class Hook(Block):
         )
 
 
+class IShape(Block):
+    """An I section with equal flanges.
+
+    :param depth: Outer depth, along local 2.
+    :param width: Of the flanges, along local 3.
+    :param web: Thickness of the web.
+    :param flange: Thickness of a flange.
+    :param radius: Radius at the roots of the web. Default: `0`.
+    """
+
+    _name = "IShape"
+
+    def __init__(
+        self,
+        *,
+        depth: Quantity | None = None,
+        width: Quantity | None = None,
+        web: Quantity | None = None,
+        flange: Quantity | None = None,
+        radius: Quantity | None = None,
+    ) -> None:
+        super().__init__(
+            depth=depth,
+            width=width,
+            web=web,
+            flange=flange,
+            radius=radius,
+        )
+
+
 class ImpactHertz(Block):
     """Pounding: Hertz spring with nonlinear damping after a clearance. On two nodes, or one and the ground.
 
@@ -1620,6 +1779,8 @@ class Largest(Block):
     """Largest of other outputs.
 
     :param terms: The outputs, each at the same time.
+    :param hidden: Other outputs are made from it, and it is left out of files, report and summary. Default:
+        `false`.
     """
 
     _name = "Largest"
@@ -1628,9 +1789,11 @@ class Largest(Block):
         self,
         *,
         terms: Sequence[Any] | None = None,
+        hidden: bool | str | None = None,
     ) -> None:
         super().__init__(
             terms=terms,
+            hidden=hidden,
         )
 
 
@@ -1810,6 +1973,8 @@ class LinkDeformation(Block):
         Default: `coordinate`.
     :param coordinate: Coordinate of the law, from 0. Default: `axis`.
     :param factor: Factor, with or without unit. Default: `1`.
+    :param hidden: Other outputs are made from it, and it is left out of files, report and summary. Default:
+        `false`.
     """
 
     _name = "LinkDeformation"
@@ -1822,12 +1987,14 @@ class LinkDeformation(Block):
         axis: Name | None = None,
         coordinate: int | str | None = None,
         factor: Quantity | None = None,
+        hidden: bool | str | None = None,
     ) -> None:
         super().__init__(
             link=link,
             axis=axis,
             coordinate=coordinate,
             factor=factor,
+            hidden=hidden,
         )
 
 
@@ -1839,6 +2006,8 @@ class LinkForce(Block):
         Default: `coordinate`.
     :param coordinate: Coordinate of the law, from 0. Default: `axis`.
     :param factor: Factor, with or without unit. Default: `1`.
+    :param hidden: Other outputs are made from it, and it is left out of files, report and summary. Default:
+        `false`.
     """
 
     _name = "LinkForce"
@@ -1851,12 +2020,14 @@ class LinkForce(Block):
         axis: Name | None = None,
         coordinate: int | str | None = None,
         factor: Quantity | None = None,
+        hidden: bool | str | None = None,
     ) -> None:
         super().__init__(
             link=link,
             axis=axis,
             coordinate=coordinate,
             factor=factor,
+            hidden=hidden,
         )
 
 
@@ -1865,6 +2036,8 @@ class LinkHistory(Block):
 
     :param link: The link.
     :param variable: The variable.
+    :param hidden: Other outputs are made from it, and it is left out of files, report and summary. Default:
+        `false`.
     """
 
     _name = "LinkHistory"
@@ -1874,10 +2047,12 @@ class LinkHistory(Block):
         *,
         link: str | None = None,
         variable: Any | None = None,
+        hidden: bool | str | None = None,
     ) -> None:
         super().__init__(
             link=link,
             variable=variable,
+            hidden=hidden,
         )
 
 
@@ -1990,6 +2165,41 @@ class Mean(Block):
     """Its mean."""
 
     _name = "Mean"
+
+
+class MemberForce(Block):
+    """A force inside a beam or truss in its local axes, with the loads along it: axial force N (tension positive),
+    shear V2 and V3, torsion T, moments M2 and M3 (positive where they press on the side of positive local 3 and
+    2). A mass matrix that is `Lumped` brings inertia to the nodes; that of a `Consistent` one between them is
+    left out.
+
+    :param element: The beam or truss.
+    :param force: Which force. One of N, V2, V3, T, M2, M3.
+    :param at: Where; at a point load, just before it.
+    :param factor: Factor, with or without unit. Default: `1`.
+    :param hidden: Other outputs are made from it, and it is left out of files, report and summary. Default:
+        `false`.
+    """
+
+    _name = "MemberForce"
+    _words = frozenset({"force"})
+
+    def __init__(
+        self,
+        *,
+        element: str | None = None,
+        force: Name | None = None,
+        at: Any | None = None,
+        factor: Quantity | None = None,
+        hidden: bool | str | None = None,
+    ) -> None:
+        super().__init__(
+            element=element,
+            force=force,
+            at=at,
+            factor=factor,
+            hidden=hidden,
+        )
 
 
 class Modal(Block):
@@ -2266,6 +2476,8 @@ class Norm(Block):
     """Root of the sum of the squares of other outputs.
 
     :param terms: The outputs, each at the same time.
+    :param hidden: Other outputs are made from it, and it is left out of files, report and summary. Default:
+        `false`.
     """
 
     _name = "Norm"
@@ -2274,9 +2486,11 @@ class Norm(Block):
         self,
         *,
         terms: Sequence[Any] | None = None,
+        hidden: bool | str | None = None,
     ) -> None:
         super().__init__(
             terms=terms,
+            hidden=hidden,
         )
 
 
@@ -2287,6 +2501,8 @@ class Overturning(Block):
 
     :param direction: Direction in which it overturns. One of X, Y.
     :param about: The point; a height is that of a point at x = y = 0.
+    :param hidden: Other outputs are made from it, and it is left out of files, report and summary. Default:
+        `false`.
     """
 
     _name = "Overturning"
@@ -2297,10 +2513,67 @@ class Overturning(Block):
         *,
         direction: Name | None = None,
         about: Any | None = None,
+        hidden: bool | str | None = None,
     ) -> None:
         super().__init__(
             direction=direction,
             about=about,
+            hidden=hidden,
+        )
+
+
+class Pipe(Block):
+    """A round pipe.
+
+    :param diameter: Outer diameter.
+    :param thickness: Of the wall; at most half the diameter.
+    """
+
+    _name = "Pipe"
+
+    def __init__(
+        self,
+        *,
+        diameter: Quantity | None = None,
+        thickness: Quantity | None = None,
+    ) -> None:
+        super().__init__(
+            diameter=diameter,
+            thickness=thickness,
+        )
+
+
+class Point(Block):
+    """A force or moment at a place of a member.
+
+    :param element: The beam or truss, or a group of them: each.
+    :param at: Where.
+    :param dof: Global direction. One of Ux, Uy, Uz, Rx, Ry, Rz. Default: `axis`.
+    :param axis: Local axis instead. One of U1, U2, U3, R1, R2, R3. Default: `dof`.
+    :param force: Force. Default: for a rotation.
+    :param moment: Moment. Default: for a translation.
+    """
+
+    _name = "Point"
+    _words = frozenset({"axis", "dof"})
+
+    def __init__(
+        self,
+        *,
+        element: str | None = None,
+        at: Any | None = None,
+        dof: Name | None = None,
+        axis: Name | None = None,
+        force: Quantity | None = None,
+        moment: Quantity | None = None,
+    ) -> None:
+        super().__init__(
+            element=element,
+            at=at,
+            dof=dof,
+            axis=axis,
+            force=force,
+            moment=moment,
         )
 
 
@@ -2425,6 +2698,8 @@ class Reaction(Block):
     :param node: The node, a group of nodes or a list of nodes.
     :param dof: Direction, along which supports fix all of them. One of Ux, Uy, Uz, Rx, Ry, Rz.
     :param factor: Factor, with or without unit. Default: `1`.
+    :param hidden: Other outputs are made from it, and it is left out of files, report and summary. Default:
+        `false`.
     """
 
     _name = "Reaction"
@@ -2436,11 +2711,13 @@ class Reaction(Block):
         node: str | None = None,
         dof: Name | None = None,
         factor: Quantity | None = None,
+        hidden: bool | str | None = None,
     ) -> None:
         super().__init__(
             node=node,
             dof=dof,
             factor=factor,
+            hidden=hidden,
         )
 
 
@@ -2500,6 +2777,27 @@ class Record(Block):
             scale=scale,
             start=start,
             after_end=after_end,
+        )
+
+
+class Rectangle(Block):
+    """A solid rectangle.
+
+    :param width: Along local 3.
+    :param depth: Along local 2.
+    """
+
+    _name = "Rectangle"
+
+    def __init__(
+        self,
+        *,
+        width: Quantity | None = None,
+        depth: Quantity | None = None,
+    ) -> None:
+        super().__init__(
+            width=width,
+            depth=depth,
         )
 
 
@@ -2837,6 +3135,26 @@ class Scaled(Block):
         )
 
 
+class Section(Block):
+    """A rolled section by its name: European IPE, HEA, HEB and HEM (EN 10365), American W (ASTM A6/A6M). `"HEB 300"`
+    and `Section("HEB 300")` say the same; blanks and capitals do not count. Everything is computed from depth,
+    width, thicknesses and root radius.
+
+    :param name: The name.
+    """
+
+    _name = "Section"
+
+    def __init__(
+        self,
+        *,
+        name: str | None = None,
+    ) -> None:
+        super().__init__(
+            name=name,
+        )
+
+
 class Sine(Block):
     """amplitude · sin(2π frequency (t − start) + phase).
 
@@ -2871,6 +3189,8 @@ class Smallest(Block):
     """Smallest of other outputs.
 
     :param terms: The outputs, each at the same time.
+    :param hidden: Other outputs are made from it, and it is left out of files, report and summary. Default:
+        `false`.
     """
 
     _name = "Smallest"
@@ -2879,9 +3199,11 @@ class Smallest(Block):
         self,
         *,
         terms: Sequence[Any] | None = None,
+        hidden: bool | str | None = None,
     ) -> None:
         super().__init__(
             terms=terms,
+            hidden=hidden,
         )
 
 
@@ -2993,6 +3315,33 @@ class Stationary(Block):
     _name = "Stationary"
 
 
+class Steel(Block):
+    """Structural steel (EN 1993-1-1, 3.2.6). American practice takes `Steel(young: "29000 ksi")`.
+
+    :param young: Young's modulus. Default: `"210 GPa"`.
+    :param poisson: Poisson's ratio. Default: `0.3`.
+    :param density: Density. Default: `"7850 kg/m^3"`.
+    :param expansion: Strain by one kelvin. Default: `1.2e-5`.
+    """
+
+    _name = "Steel"
+
+    def __init__(
+        self,
+        *,
+        young: Quantity | None = None,
+        poisson: Quantity | None = None,
+        density: Quantity | None = None,
+        expansion: Quantity | None = None,
+    ) -> None:
+        super().__init__(
+            young=young,
+            poisson=poisson,
+            density=density,
+            expansion=expansion,
+        )
+
+
 class Step(Block):
     """A value from a time on, or between two times.
 
@@ -3022,6 +3371,8 @@ class StoreyDrift(Block):
 
     :param of: The nodes.
     :param dof: Direction. One of Ux, Uy.
+    :param hidden: Other outputs are made from it, and it is left out of files, report and summary. Default:
+        `false`.
     """
 
     _name = "StoreyDrift"
@@ -3032,10 +3383,12 @@ class StoreyDrift(Block):
         *,
         of: Any | None = None,
         dof: Name | None = None,
+        hidden: bool | str | None = None,
     ) -> None:
         super().__init__(
             of=of,
             dof=dof,
+            hidden=hidden,
         )
 
 
@@ -3044,6 +3397,8 @@ class Sum(Block):
 
     :param terms: The outputs, each at the same time.
     :param constant: A number that is added. Default: `0`.
+    :param hidden: Other outputs are made from it, and it is left out of files, report and summary. Default:
+        `false`.
     """
 
     _name = "Sum"
@@ -3053,10 +3408,12 @@ class Sum(Block):
         *,
         terms: Sequence[Any] | None = None,
         constant: Quantity | None = None,
+        hidden: bool | str | None = None,
     ) -> None:
         super().__init__(
             terms=terms,
             constant=constant,
+            hidden=hidden,
         )
 
 
@@ -3160,6 +3517,33 @@ class Table(Block):
         )
 
 
+class Temperature(Block):
+    """A member that is warmer than it was made, in kelvin. It has an `expansion`, its own or that of its `material`.
+
+    :param element: The beam or truss, or a group of them: each.
+    :param rise: On the axis. Default: `0`.
+    :param gradient_2: By length towards positive local 2. Default: `0`.
+    :param gradient_3: By length towards positive local 3. Default: `0`.
+    """
+
+    _name = "Temperature"
+
+    def __init__(
+        self,
+        *,
+        element: str | None = None,
+        rise: Quantity | None = None,
+        gradient_2: Quantity | None = None,
+        gradient_3: Quantity | None = None,
+    ) -> None:
+        super().__init__(
+            element=element,
+            rise=rise,
+            gradient_2=gradient_2,
+            gradient_3=gradient_3,
+        )
+
+
 class TensionCompressionFriction(Block):
     """Sliding bearing with friction in compression and, of its own, in tension. On two nodes, or one and the ground.
 
@@ -3257,6 +3641,38 @@ class TensionCompressionFriction(Block):
         )
 
 
+class Trapezoid(Block):
+    """A force, or moment, by length that runs straight between points; nothing beyond them.
+
+    :param element: The beam or truss, or a group of them: each.
+    :param dof: Global direction. One of Ux, Uy, Uz, Rx, Ry, Rz. Default: `axis`.
+    :param axis: Local axis instead. One of U1, U2, U3, R1, R2, R3. Default: `dof`.
+    :param points: Places are distances from the first node, or shares such as `"50 %"`.
+    :param projected: By length as seen along `dof`, as snow lies: less on a member that is inclined. Default:
+        `false`.
+    """
+
+    _name = "Trapezoid"
+    _words = frozenset({"axis", "dof"})
+
+    def __init__(
+        self,
+        *,
+        element: str | None = None,
+        dof: Name | None = None,
+        axis: Name | None = None,
+        points: Any | None = None,
+        projected: bool | str | None = None,
+    ) -> None:
+        super().__init__(
+            element=element,
+            dof=dof,
+            axis=axis,
+            points=points,
+            projected=projected,
+        )
+
+
 class TriplePendulum(Block):
     """Sliding bearing with four concave surfaces and their rims. On two nodes, or one and the ground.
 
@@ -3349,6 +3765,7 @@ class Truss(Block):
     :param area: area of the section (m², > 0).
     :param density: density, for the mass (kg/m³, ≥ 0, default 0).
     :param distributed_mass: further mass per length (kg/m, ≥ 0, default 0).
+    :param expansion: strain by one kelvin, for loads of warmth (–, > 0, default absent).
     :param mass_matrix: how the mass is spread (Lumped, Consistent, default Lumped). One of Lumped, Consistent.
     :param axis1: Direction of local axis 1. Default: from the first node to the second; +Z for one node.
     :param axis2: Vector in the plane of local axes 1 and 2. Default: the upward direction square to axis 1; +X
@@ -3368,6 +3785,7 @@ class Truss(Block):
         area: Quantity | None = None,
         density: Quantity | None = None,
         distributed_mass: Quantity | None = None,
+        expansion: Quantity | None = None,
         mass_matrix: Name | None = None,
         axis1: Any | None = None,
         axis2: Any | None = None,
@@ -3380,9 +3798,51 @@ class Truss(Block):
             area=area,
             density=density,
             distributed_mass=distributed_mass,
+            expansion=expansion,
             mass_matrix=mass_matrix,
             axis1=axis1,
             axis2=axis2,
+        )
+
+
+class Uniform(Block):
+    """The same force, or moment, by length.
+
+    :param element: The beam or truss, or a group of them: each.
+    :param dof: Global direction. One of Ux, Uy, Uz, Rx, Ry, Rz. Default: `axis`.
+    :param axis: Local axis instead. One of U1, U2, U3, R1, R2, R3. Default: `dof`.
+    :param force: Force by length of the member. Default: for a rotation.
+    :param moment: Moment by length. Default: for a translation.
+    :param from_: Where it begins. Default: the first node.
+    :param to: Where it ends. Default: the second node.
+    :param projected: By length as seen along `dof`, as snow lies: less on a member that is inclined. Default:
+        `false`.
+    """
+
+    _name = "Uniform"
+    _words = frozenset({"axis", "dof"})
+
+    def __init__(
+        self,
+        *,
+        element: str | None = None,
+        dof: Name | None = None,
+        axis: Name | None = None,
+        force: Quantity | None = None,
+        moment: Quantity | None = None,
+        from_: Any | None = None,
+        to: Any | None = None,
+        projected: bool | str | None = None,
+    ) -> None:
+        super().__init__(
+            element=element,
+            dof=dof,
+            axis=axis,
+            force=force,
+            moment=moment,
+            to=to,
+            projected=projected,
+            **{"from": from_},
         )
 
 
@@ -3394,6 +3854,8 @@ class Velocity(Block):
     :param factor: Factor, with or without unit. Default: `1`.
     :param terms: Several terms that are added, such as a drift; in place of `node` and `dof`. Default: a single
         term.
+    :param hidden: Other outputs are made from it, and it is left out of files, report and summary. Default:
+        `false`.
     """
 
     _name = "Velocity"
@@ -3406,12 +3868,14 @@ class Velocity(Block):
         dof: Name | None = None,
         factor: Quantity | None = None,
         terms: Sequence[Any] | None = None,
+        hidden: bool | str | None = None,
     ) -> None:
         super().__init__(
             node=node,
             dof=dof,
             factor=factor,
             terms=terms,
+            hidden=hidden,
         )
 
 
@@ -3481,6 +3945,7 @@ __all__ = [
     "Acceleration",
     "Adaptive",
     "All",
+    "Aluminium",
     "Always",
     "Approach",
     "Axes",
@@ -3492,12 +3957,15 @@ __all__ = [
     "BodyContact",
     "Both",
     "BoucWen",
+    "Box",
     "Butterworth",
     "COSMOS",
     "CSMIP",
+    "Circle",
     "Columns",
     "Complete",
     "Compression",
+    "Concrete",
     "Consistent",
     "Constant",
     "Contact",
@@ -3530,6 +3998,7 @@ __all__ = [
     "Hht",
     "Hold",
     "Hook",
+    "IShape",
     "ImpactHertz",
     "ImpactKelvin",
     "InContact",
@@ -3549,18 +4018,24 @@ __all__ = [
     "LinkForce",
     "LinkHistory",
     "Lumped",
+    "M2",
+    "M3",
     "Mass",
     "MaxwellDamper",
     "Mean",
+    "MemberForce",
     "Modal",
     "ModalTable",
     "MultilinearElastic",
     "MultilinearPlastic",
+    "N",
     "NLink",
     "Newton",
     "Norm",
     "Overturning",
+    "Pipe",
     "Pivot",
+    "Point",
     "Points",
     "Polynomial",
     "R1",
@@ -3571,6 +4046,7 @@ __all__ = [
     "RayleighAt",
     "Reaction",
     "Record",
+    "Rectangle",
     "Rest",
     "Ricker",
     "RigidBody",
@@ -3584,6 +4060,7 @@ __all__ = [
     "Rz",
     "SaragoniHart",
     "Scaled",
+    "Section",
     "Shallow",
     "Sine",
     "Smallest",
@@ -3591,23 +4068,30 @@ __all__ = [
     "Spring",
     "Static",
     "Stationary",
+    "Steel",
     "Step",
     "StoreyDrift",
     "Strip",
     "Sum",
     "Synthetic",
+    "T",
     "Table",
     "Takeda",
+    "Temperature",
     "Tension",
     "TensionCompressionFriction",
+    "Trapezoid",
     "TriplePendulum",
     "Truss",
     "U1",
     "U2",
     "U3",
+    "Uniform",
     "Ux",
     "Uy",
     "Uz",
+    "V2",
+    "V3",
     "Velocity",
     "VelocityForce",
     "VelocityPressure",
