@@ -118,17 +118,25 @@ impl Check<'_> {
         self.solution(part, solution);
     }
 
+    fn tolerance(&mut self, part: &Part, name: &'static str, value: f64) {
+        if !TOLERANCE.contains(value) {
+            let allowed = "> 0 and < 1".into();
+            self.report(part, ModelFault::Number { name, value, allowed });
+        }
+    }
+
     fn solution(&mut self, part: &Part, solution: &Solution) {
         let Solution { step, link_tolerance, energy_limit, substep_limit, basis, alpha, .. } =
             solution;
         match step {
             StepControl::Adaptive { tolerance } => {
-                self.number(part, "tolerance of the steps", *tolerance, TOLERANCE);
+                self.tolerance(part, "tolerance of the steps", *tolerance);
             }
             StepControl::Fixed { substeps } => self.at_least_one(part, "substeps", *substeps),
         }
-        self.number(part, "link_tolerance", *link_tolerance, TOLERANCE);
-        self.number(part, "energy_limit", *energy_limit, TOLERANCE);
+        self.tolerance(part, "link_tolerance", *link_tolerance);
+        // In code one may let any error pass, to measure it.
+        self.number(part, "energy_limit", *energy_limit, Range::Positive);
         if let Some(limit) = substep_limit {
             self.at_least_one(part, "substep_limit", *limit);
         }

@@ -13,8 +13,9 @@ use crate::step::{Culprit, State, StepEnergy, Wrong};
 use crate::vector::larger;
 use trilith_system::LinkSet;
 
-/// Steps on end.
-const ON_END: usize = 24;
+/// Steps on end. Where a force as steep as that of |v|^0.1 goes through zero, sound laws have dozens of such steps, each
+/// shorter than the one before; a law that is wrong has millions.
+const ON_END: usize = 2000;
 /// Share of its work that a law must leave out to be blamed.
 const SHARE: f64 = 1e-3;
 /// Share of the gap of a whole step that halves leave of it where it does not fall.
