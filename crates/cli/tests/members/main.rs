@@ -1,5 +1,9 @@
 //! Loads along members and the forces inside them: against closed forms, an oracle that integrates the beam, and each other.
 
+mod sections;
+mod shot;
+
+use shot::Shot;
 use trilith::solvers::RunOptions;
 use trilith::{Analysis, Model, Run, SolverKind, read_text, registry};
 
@@ -79,78 +83,6 @@ fn wind_on_a_mast_has_its_closed_form_under_every_solver() {
             near(name, history("base")[j], v, off);
             near(name, history("over")[j], moment, off);
         }
-    }
-}
-
-/// A beam between two ends, integrated: w′ = θ + V/(GA), θ′ = M/(EI) + κ, M′ = −V… by Runge and Kutta's rule of fourth
-/// order, with what holds its ends found by shooting. It knows nothing of shape functions.
-struct Shot {
-    ei: f64,
-    ga: f64,
-    l: f64,
-    /// Force and moment by length, where they are.
-    q: fn(f64) -> f64,
-    /// Curvature where nothing holds it.
-    kappa: f64,
-    /// Points: place, force.
-    points: Vec<(f64, f64)>,
-}
-
-impl Shot {
-    /// (w, θ, M, V) along the beam from a start; V, M: inside, on the face that looks along the beam, turning from w to θ
-    /// by the right hand.
-    fn fly(&self, start: [f64; 4], to: f64) -> [f64; 4] {
-        let slope = |x: f64, [_, turn, m, v]: [f64; 4]| {
-            // w′ = θ + γ, θ′ = M/EI + κ, V′ = −q, M′ = −V
-            [turn + v / self.ga, m / self.ei + self.kappa, -v, -(self.q)(x)]
-        };
-        let mut y = start;
-        let mut x = 0.0;
-        // Loads begin and end at sixteenths of the length.
-        let mut stops: Vec<f64> = (1..=16).map(|i| f64::from(i) / 16.0 * self.l).collect();
-        stops.extend(self.points.iter().map(|p| p.0));
-        stops.push(to);
-        stops.retain(|s| *s <= to);
-        stops.sort_by(f64::total_cmp);
-        stops.dedup();
-        for stop in stops {
-            let n = 40;
-            let h = (stop - x) / f64::from(n);
-            for _ in 0..n {
-                let at = |y: [f64; 4], k: [f64; 4], s: f64| -> [f64; 4] {
-                    std::array::from_fn(|i| y[i] + s * k[i])
-                };
-                // Halves of a step lie inside of it: loads jump between steps.
-                let inside = |x: f64| x.clamp(1e-12 * self.l, self.l * (1.0 - 1e-12));
-                let k1 = slope(inside(x + 1e-9 * h), y);
-                let k2 = slope(inside(x + 0.5 * h), at(y, k1, 0.5 * h));
-                let k3 = slope(inside(x + 0.5 * h), at(y, k2, 0.5 * h));
-                let k4 = slope(inside(x + h - 1e-9 * h), at(y, k3, h));
-                y = std::array::from_fn(|i| {
-                    y[i] + h / 6.0 * (k1[i] + 2.0 * k2[i] + 2.0 * k3[i] + k4[i])
-                });
-                x += h;
-            }
-            x = stop;
-            if stop < to {
-                for (_, force) in self.points.iter().filter(|p| p.0 == stop) {
-                    y[3] -= force;
-                }
-            }
-        }
-        y
-    }
-
-    /// The start of a beam that is clamped at the first end, and at the other clamped or hinged.
-    fn clamped(&self, hinged: bool) -> [f64; 4] {
-        let end = |m: f64, v: f64| {
-            let y = self.fly([0.0, 0.0, m, v], self.l);
-            [y[0], if hinged { y[2] } else { y[1] }]
-        };
-        let (o, a, b) = (end(0.0, 0.0), end(1.0, 0.0), end(0.0, 1.0));
-        let [[a0, a1], [b0, b1]] = [a, b].map(|c| [c[0] - o[0], c[1] - o[1]]);
-        let det = a0 * b1 - b0 * a1;
-        [0.0, 0.0, (-o[0] * b1 + b0 * o[1]) / det, (-a0 * o[1] + a1 * o[0]) / det]
     }
 }
 
@@ -493,69 +425,6 @@ fn envelopes_hold_what_histories_of_their_stations_do() {
     assert_eq!(again.outputs, model.outputs);
     assert_eq!(again.envelopes, model.envelopes);
     assert_eq!(again.patterns[0].members, model.patterns[0].members);
-}
-
-#[test]
-fn sections_and_materials_are_numbers_of_a_card() {
-    let text = |beam: &str| {
-        format!(
-            r#"(
-    nodes: {{ "i": (0, 0, 0), "j": (2, 0, 0) }},
-    supports: {{ "i": Fixed }},
-    parameters: {{ "size": Text("HEB 300"), "class": Text("C30/37") }},
-    properties: {{ "p": Beam(section: "IPE 80", material: Aluminium, i2: "1 cm^4") }},
-    elements: {{ "b": Beam(nodes: ("i", "j"), {beam}) }},
-    cases: {{ "c": Static(loads: [Gravity]) }},
-)"#
-        )
-    };
-    let values = |beam: &str| model(&text(beam)).elements[0].values.clone();
-    let get = |beam: &str, name: &str| -> f64 {
-        let values = values(beam);
-        let found = values.0.iter().find(|(n, _)| n == name).unwrap_or_else(|| panic!("no {name}"));
-        match found.1 {
-            trilith::element::Value::Number(x) => x,
-            ref other => panic!("{other:?}"),
-        }
-    };
-    let same = values(r#"section: "HEB 300", material: Steel"#);
-    for beam in [
-        r#"section: Section("heb300"), material: Steel(young: "210 GPa")"#,
-        r#"section: Section(name: "HE 300 B"), material: "Steel""#,
-        r#"section: "size", material: Steel"#,
-        // What the element says comes before what its set says.
-        r#"use: "p", section: "HEB 300", material: Steel, i2: 8.5628e-5"#,
-    ] {
-        let values = values(beam);
-        for ((name, a), (_, b)) in values.0.iter().zip(&same.0) {
-            if name != "i2" {
-                assert_eq!(a, b, "{beam}: {name}");
-            }
-        }
-    }
-    near("i2 of the set", get(r#"use: "p""#, "i2"), 1e-8, 1e-20);
-    near("density", get(r#"use: "p""#, "density"), 2700.0, 0.0);
-    near(
-        "E_cm",
-        get(r#"section: Circle(diameter: 1), material: Concrete("class")"#, "young"),
-        32.8e9,
-        0.1e9,
-    );
-    let aci =
-        get(r#"section: Circle(diameter: 1), material: Concrete(strength: "4 ksi")"#, "young");
-    near("ACI", aci, 57000.0 * 4000.0_f64.sqrt() * 6894.757, 0.01 * aci);
-    near(
-        "box",
-        get(
-            r#"section: Box(width: 0.2, depth: 0.3, thickness: 0.01), young: 1, poisson: 0"#,
-            "area",
-        ),
-        0.0096,
-        1e-12,
-    );
-    let shear =
-        r#"section: "HEB 300", material: Steel, shear_modulus: "80 GPa", shear_coefficient: 0.5"#;
-    assert!(!values(shear).0.iter().any(|(n, _)| n == "poisson" || n == "shear_area_2"));
 }
 
 #[test]
