@@ -25,6 +25,11 @@ macro_rules! faults {
             pub const ALL: &[Self] = &[$(Self::$name,)*];
             pub const NAMES: &[&str] = &[$(stringify!($name),)*];
 
+            /// True where the law keeps something of its own from call to call.
+            pub fn remembers(self) -> bool {
+                matches!(self, Self::MemoryOfItsOwn | Self::CountsCalls)
+            }
+
             /// In words.
             pub fn what(self) -> &'static str {
                 match self { $(Self::$name => $what,)* }

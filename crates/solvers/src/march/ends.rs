@@ -8,6 +8,10 @@ use crate::step::{
 use trilith_model::StepControl;
 use trilith_system::StepLoads;
 
+/// Steps tried between two questions whether the laws answer the same twice: often enough that a law which remembers
+/// what it was asked is told long before the work is spent, seldom enough to cost nothing.
+pub(super) const ASK_EVERY: usize = 4096;
+
 impl March<'_> {
     /// Ends the run where a law does not account for its work, by an accepted step from `t`.
     #[inline]
@@ -51,16 +55,20 @@ impl March<'_> {
         }
     }
 
-    /// Ends the run where its work is spent.
+    /// Ends the run where its work is spent, or goes into a law that answers otherwise each time.
     #[inline]
     pub(super) fn spend(&mut self, t: f64, state: &State) -> Result<(), Stop> {
         self.at = t;
-        if self.counts.substeps + self.counts.rejected < self.budget {
+        let tried = self.counts.substeps + self.counts.rejected;
+        if tried < self.budget && tried < self.ask_at {
             return Ok(());
         }
-        // A law that answers otherwise each time spends all there is.
-        let culprit = asked_twice(&self.stepper.laws(), self.stepper.links(), state);
-        Err(culprit.map_or(Stop::Spent { t }, |culprit| Stop::Law { t, culprit }))
+        self.ask_at = tried + ASK_EVERY;
+        match asked_twice(&self.stepper.laws(), self.stepper.links(), state) {
+            Some(culprit) => Err(Stop::Law { t, culprit }),
+            None if tried >= self.budget => Err(Stop::Spent { t }),
+            None => Ok(()),
+        }
     }
 
     /// Ends the run where halving does not help.

@@ -134,6 +134,8 @@ pub(crate) struct March<'a> {
     closing: Closing,
     /// Length of the step accepted last, as it was kept, s.
     last: f64,
+    /// Steps tried when the laws are next asked whether they answer the same twice.
+    ask_at: usize,
 }
 
 /// States and energies of a step on trial, kept so that a step allocates nothing; a state that is accepted changes
@@ -223,6 +225,7 @@ impl<'a> March<'a> {
             trial: Trial::default(),
             closing: Closing::default(),
             last: 0.0,
+            ask_at: ends::ASK_EVERY,
         }
     }
 
