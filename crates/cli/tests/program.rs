@@ -447,3 +447,31 @@ fn floor_spectra_of_long_output_steps_are_warned_of() {
         assert!(text.contains(part), "{part} in\n{text}");
     }
 }
+
+/// The building of the guide under the spectrum of a code, by files and by arguments that are wrong.
+#[test]
+fn modes_with_links_and_a_spectrum_tell_what_is_wrong_with_them() {
+    let folder = folder();
+    std::fs::write(folder.path().join("points.csv"), "T [s],Sa [g]\n0,1\n4,1\n").unwrap();
+    let ask = |more: &[&str]| trilith(folder.path(), &[&["modes", "swing.ron"], more].concat());
+    let (status, out, err) = ask(&["--links", "engaged", "--spectrum", "points.csv"]);
+    assert_eq!(status, 0, "{err}");
+    assert!(
+        out.contains("modes with engaged links") && out.contains("peaks under points.csv"),
+        "{out}"
+    );
+    for (more, part) in [
+        (&["--amplitude", "1 cm"][..], "--links"),
+        (&["--links", "secant"], "--amplitude"),
+        (&["--links", "tangent", "--amplitude", "1 cm"], "`--links secant` alone"),
+        (&["--links", "open", "--after", "rest"], "`--after`"),
+        (&["--links", "tangent", "--after", "nothing"], "no case \"nothing\""),
+        (&["--links", "secant", "--amplitude", "1 cm", "--of", "x*"], "no link \"x*\""),
+        (&["--links", "open", "--spectrum", "none.csv"], "none.csv"),
+        (&["--links", "open", "--spectrum", "points.csv", "--along", "x,x"], "at most once"),
+        (&["--links", "open", "--spectrum", "EC8(ground: B)"], "ag"),
+    ] {
+        let (status, out, err) = ask(more);
+        assert!(status == 2 && err.contains(part) && out.is_empty(), "{more:?}: {status} {err}");
+    }
+}

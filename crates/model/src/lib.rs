@@ -32,7 +32,7 @@ pub mod file {
     pub use crate::expression::{
         ExpressionError, NoNames, Quantity, Scope, evaluate, expression_diagnostic,
     };
-    pub use crate::read::{Context, Fields, open, parse, resembles_model};
+    pub use crate::read::{Context, Fields, fits, open, parse, resembles_model};
     pub use crate::tree::{Entry, Kind, Node};
 }
 

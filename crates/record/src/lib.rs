@@ -15,6 +15,7 @@
 //! ```
 
 mod cell;
+pub mod design;
 mod error;
 pub mod file;
 mod finite;

@@ -28,6 +28,7 @@
 //! | `certificate` | how far outputs are off, estimated beside a run |
 //! | `statics` | equilibrium along a path, initial values of massless directions |
 //! | `run` | cases from start to end, checkpoints, results |
+//! | `linearised` | modes with the links made linear, response spectrum analysis |
 //! | `survey` | what a model weighs, what holds it, how it swings at rest |
 //! | `together` | several motions of one structure in lock step |
 //! | `lanes` | many analyses side by side, a lane of a vector register each |
@@ -43,6 +44,7 @@ mod fna;
 mod hht;
 mod kernel;
 pub mod lanes;
+mod linearised;
 mod march;
 mod modal;
 mod record;
@@ -59,6 +61,10 @@ pub use certificate::OutputError;
 pub use checks::of_model as warnings;
 pub use contacts::{BearingSummary, StopSummary};
 pub use error::{LawFault, SolveError};
+pub use linearised::{
+    CombineDirections, CombineModes, LinearModes, Linearised, LinkStiffness, OutputMaximum, Secant,
+    SpectrumRequest, linearised,
+};
 pub use record::{
     BaseShear, BaseShearSummary, ContactMemory, ContactMode, ContactSummary, EnergyBalance,
     EnergyTotals, LinkEnergy, Observer, Peak, Sample, Shape, StartEnergy,

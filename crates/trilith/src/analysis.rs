@@ -6,7 +6,7 @@ use trilith_model::{Analysis as CaseAnalysis, Model};
 use trilith_results::{Files, Peak, Recorder, Summary};
 use trilith_solvers::{
     BaseShear, BaseShearSummary, BasisReport, BearingSummary, CaseResult, ContactMode,
-    ContactSummary, Observer, RunOptions, SoFar, StopSummary, Survey,
+    ContactSummary, Linearised, LinkStiffness, Observer, RunOptions, SoFar, StopSummary, Survey,
 };
 use trilith_system::System;
 
@@ -221,6 +221,19 @@ impl<'m> Analysis<'m> {
     /// [`Error::Solve`] where the stiffness has numbers beyond all bounds.
     pub fn survey(&self) -> Result<Survey, Error> {
         Ok(trilith_solvers::survey(self.model, &self.system)?)
+    }
+
+    /// The structure with its links made linear, at rest or at the end of a case (an index): for modes with links, and
+    /// for response spectra.
+    ///
+    /// # Errors
+    /// [`Error::Solve`] where that case does not come to its end, or a law has no finite stiffness there.
+    pub fn linearised(
+        &self,
+        stiffness: &LinkStiffness,
+        after: Option<usize>,
+    ) -> Result<Linearised<'_>, Error> {
+        Ok(trilith_solvers::linearised(self.model, &self.system, stiffness, after)?)
     }
 
     /// Modes and basis of a case (the last dynamic one where none is given).

@@ -89,11 +89,25 @@ pub(super) fn solver(text: &str) -> Result<SolverKind, String> {
     })
 }
 
+/// Factors along X, Y, Z of `x,y=0.85`.
+pub(super) fn directions(text: &str) -> Result<[f64; 3], String> {
+    let wrong =
+        || "directions are wanted, each at most once, such as `x`, `x,y` or `x,y=0.85`".to_owned();
+    let mut factors = [0.0; 3];
+    for part in text.split(',') {
+        let (name, factor) = part.split_once('=').unwrap_or((part, "1"));
+        let axis = ["x", "y", "z"].iter().position(|n| name.trim().eq_ignore_ascii_case(n));
+        let factor = factor.trim().parse().ok().filter(|x: &f64| x.is_finite() && *x > 0.0);
+        match (axis, factor) {
+            (Some(axis), Some(factor)) if factors[axis] == 0.0 => factors[axis] = factor,
+            _ => return Err(wrong()),
+        }
+    }
+    Ok(factors)
+}
+
 pub(super) fn count(text: &str) -> Result<usize, String> {
-    text.parse()
-        .ok()
-        .filter(|n| *n > 0)
-        .ok_or_else(|| "a number of vectors above 0 is wanted".into())
+    text.parse().ok().filter(|n| *n > 0).ok_or_else(|| "a whole number above 0 is wanted".into())
 }
 
 pub(super) fn factor(text: &str) -> Result<f64, String> {

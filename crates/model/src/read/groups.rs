@@ -173,8 +173,9 @@ fn fits_any(names: &Names<'_>, part: &str) -> bool {
     names.position(part).is_some() || part.contains('*') && names.all().any(|n| fits(part, n))
 }
 
-/// True where a name is a pattern in which `*` stands for anything.
-fn fits(pattern: &str, name: &str) -> bool {
+/// True where a name fits a pattern in which `*` stands for anything.
+#[must_use]
+pub fn fits(pattern: &str, name: &str) -> bool {
     let mut parts = pattern.split('*');
     let first = parts.next().unwrap_or_default();
     let Some(mut rest) = name.strip_prefix(first) else { return false };

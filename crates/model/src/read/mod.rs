@@ -37,6 +37,7 @@ use crate::tree::{self, Kind, Node};
 use crate::units::STANDARD_GRAVITY;
 use crate::{Diagnostic, Model, Plane, Registry, Source};
 pub use context::{Context, Fields};
+pub use groups::fits;
 pub use likeness::resembles_model;
 pub(crate) use motion::nodal_dimension;
 use names::Names;

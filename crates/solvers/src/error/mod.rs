@@ -31,6 +31,31 @@ pub enum SolveError {
     /// No vector of the basis carries mass.
     #[error("no direction that a load or a link acts on carries mass: the model has no dynamics")]
     NoMass,
+    /// A place without mass is unstable with its links as they are linearised.
+    #[error(
+        "with its links so the structure has no modes: where it has no mass it stands on nothing, or on less than nothing; `engaged` links hold it"
+    )]
+    NoModes,
+    /// A law gives no finite stiffness in the state in which it is linearised.
+    #[error("the law of \"{link}\" has no finite stiffness there")]
+    NoStiffness {
+        /// Name of the link.
+        link: String,
+        /// Where the file defines it.
+        span: Span,
+    },
+    /// A response spectrum has no value for a mode.
+    #[error(
+        "the spectrum has no value at the period of mode {mode}, {period:.4} s: it goes from {} to {} s", range[0], range[1]
+    )]
+    OutsideSpectrum {
+        /// Counted from 1.
+        mode: usize,
+        /// Its period, s.
+        period: f64,
+        /// First and last period of the spectrum, s.
+        range: [f64; 2],
+    },
     /// A static case found no equilibrium.
     #[error(
         "static case \"{case}\": no equilibrium beyond {percent:.1} % of its loads: {}",
@@ -173,6 +198,7 @@ impl SolveError {
             Self::StaticNotConverged { span, .. }
             | Self::JointNotHeld { span, .. }
             | Self::Law { span, .. }
+            | Self::NoStiffness { span, .. }
             | Self::InitialNotFree { span, .. }
             | Self::Buckles { span, .. }
             | Self::OutputStep { span, .. }

@@ -298,6 +298,26 @@ fn combined(how: Combine, constant: f64, terms: &[(usize, f64)], values: &[f64])
     }
 }
 
+/// Which outputs have a peak in a mode that follows its displacements: those linear in displacements, forces and absolute
+/// accelerations.
+pub(crate) fn has_modal_peak(outputs: &Outputs) -> Vec<bool> {
+    let mut all: Vec<bool> = Vec::with_capacity(outputs.rows.len());
+    for row in &outputs.rows {
+        all.push(match row {
+            Row::Nodal { order: 0, .. }
+            | Row::Deformation { .. }
+            | Row::Force { .. }
+            | Row::Internal(_) => true,
+            Row::Nodal { order: 2, base, .. } => *base != [0.0; 3],
+            Row::Nodal { .. } | Row::History { .. } => false,
+            Row::Combination { how, terms, .. } => {
+                *how == Combine::Sum && terms.iter().all(|(i, _)| all[*i])
+            }
+        });
+    }
+    all
+}
+
 /// Rate of outputs put together, which have this value.
 fn rate_combined(
     how: Combine,

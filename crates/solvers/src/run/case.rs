@@ -148,6 +148,12 @@ fn end_of(
     Ok(result.end)
 }
 
+/// The end of a case, and of those before it that it continues.
+pub(crate) fn end_at(model: &Model, system: &System, case: usize) -> Result<EndState, SolveError> {
+    let before = before(model, system, &model.cases[case], None, None)?;
+    end_of(model, system, case, before, None, None)
+}
+
 /// Modes of the structure without links in the basis that a case would use, with participation and the
 /// flexibility that the basis holds of every link coordinate. Without a dynamic case, of the last one.
 ///

@@ -19,8 +19,8 @@ mod start;
 mod warnings;
 
 pub(crate) use arrival::Arrival;
-pub(crate) use case::before;
 pub use case::{RunOptions, modes, run};
+pub(crate) use case::{before, end_at};
 pub(crate) use clock::{Clock, peak_rss_mb};
 pub(crate) use end_state::Initial;
 pub use end_state::{EndState, SoFar};

@@ -1,5 +1,8 @@
 //! `trilith modes`.
 
+mod linked;
+mod spectrum;
+
 use crate::args::ModesArguments;
 use crate::text::{number, percent, row, table};
 use crate::{Answer, Failure, case, read};
@@ -11,6 +14,9 @@ use trilith::{Analysis, Registry};
 pub(crate) fn modes(registry: &Registry, args: &ModesArguments) -> Result<Answer, Failure> {
     let model = read(registry, &args.model)?;
     let chosen = args.case.as_deref().map(|c| case(&model, Some(c))).transpose()?;
+    if let Some(links) = args.links {
+        return linked::modes(&model, args, links, chosen);
+    }
     let report =
         Analysis::new(&model).and_then(|a| a.modes(chosen)).map_err(|e| Failure::of(&e, &model))?;
     Ok(format!("{}\n\n{}", visible_line(&model.title), text(&report)).into())
@@ -33,7 +39,7 @@ pub(crate) fn text(report: &BasisReport) -> String {
     if free > 0 && !report.adequacy.is_empty() {
         out += &format!(
             "  {free} of {} modes are free: links hold what moves in them, and count without stiffness here.\n  \
-             For periods at small displacements put a `Spring` of its stiffness in the place of such a link.\n",
+             With them: `--links engaged`, `tangent` or `secant`.\n",
             report.omega.len()
         );
     }
