@@ -106,7 +106,7 @@ impl Linearised<'_> {
                 let flat = link.range.start + local;
                 let d = &self.start.d[link.range.clone()];
                 let history = &self.start.history[link.history.clone()];
-                let [stiffness, damping] =
+                let [stiffness, heat] =
                     cycle((link.element, law), (d, history), local, displacement, period);
                 all.push(Secant {
                     element: link.element,
