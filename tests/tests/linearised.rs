@@ -22,7 +22,8 @@ const PENDULUM: &str = r#"(
         "travel": LinkDeformation(link: "bearing", axis: U2),
         "shear": LinkForce(link: "bearing", axis: U2),
         "base": BaseShear(direction: X),
-        "away": Norm(terms: ["travel", "shear"]),
+        "travel y": LinkDeformation(link: "bearing", axis: U3),
+        "away": Norm(terms: ["travel", "travel y"]),
         "rate": Velocity(node: "m", dof: Ux),
     },
 )"#;
@@ -312,7 +313,7 @@ fn a_run_swings_with_the_period_of_its_modes() {
                 force: [-300, -100, 0, 100, 300]),
         },
         damping: None,
-        cases: { "swing": Dynamic(duration: 20, dt: 0.005, initial: { "m": (displacement: (0.009, 0, 0)) }) },
+        cases: { "swing": Dynamic(duration: 20, dt: 0.005, initial: [(node: "m", dof: Ux, displacement: "9 mm")]) },
         outputs: { "u": Displacement(node: "m", dof: Ux) },
     )"#;
     let (model, system) = parse(text, &[]);

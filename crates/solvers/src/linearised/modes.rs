@@ -44,7 +44,8 @@ impl Linearised<'_> {
         let k = self.stiffness();
         let sum = |d: Vec<f64>| d.iter().map(|x| x.abs()).sum::<f64>();
         let scale = 1e-6 * sum(k.diagonal()) / sum(system.mass.diagonal());
-        let scale = scale.max(f64::MIN_POSITIVE);
+        // Where nothing holds anything, any scale will do.
+        let scale = if scale > 0.0 { scale } else { 1.0 };
         // The shift must lie below all: K − σM is positive definite.
         let is_below = |sigma: &f64| {
             let shifted = Sparse::combine(&[(1.0, &k), (-sigma, &system.mass)]);
