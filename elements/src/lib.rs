@@ -8,7 +8,7 @@
 //! | [`Beam`], [`Inerter`], [`Mass`], [`Spring`], [`Truss`] | [`Diaphragm`], [`EqualDof`], [`RigidBody`], [`RigidLink`] | contacts: [`NLink`], [`Gap`], [`Hook`], [`ImpactHertz`], [`ImpactKelvin`], [`RockingBody`], [`BodyContact`] |
 //! | | | dampers: [`BilinearDamper`], [`Dashpot`], [`FrequencyIndependentViscoelastic`], [`FrictionSpring`], [`MaxwellDamper`] |
 //! | | | isolators: [`ElastomericBearing`], [`FrictionPendulum`], [`LeadRubber`], [`RubberIsolator`], [`TensionCompressionFriction`], [`TriplePendulum`] |
-//! | | | springs: [`BoucWen`], [`LinearLink`], [`MultilinearElastic`], [`MultilinearPlastic`], [`Wen`] |
+//! | | | springs: [`BoucWen`], [`IbarraMedinaKrawinkler`], [`LinearLink`], [`MultilinearElastic`], [`MultilinearPlastic`], [`Wen`] |
 //!
 //! To add one: write its file, then its lines here (`mod`, `pub use`, and one of registration).
 
@@ -27,6 +27,7 @@ mod friction_pendulum;
 mod friction_spring;
 mod gap;
 mod hook;
+mod ibarra_medina_krawinkler;
 mod impact_hertz;
 mod impact_kelvin;
 mod inerter;
@@ -60,6 +61,7 @@ pub use friction_pendulum::{FrictionModel, FrictionPendulum, Surface};
 pub use friction_spring::{Direction, FrictionSpring};
 pub use gap::Gap;
 pub use hook::Hook;
+pub use ibarra_medina_krawinkler::{IbarraMedinaKrawinkler, Reloading};
 pub use impact_hertz::{HertzModel, ImpactHertz};
 pub use impact_kelvin::{Damps, ImpactKelvin};
 pub use inerter::Inerter;
@@ -105,6 +107,7 @@ pub fn register(to: &mut impl Register) {
     to.link::<FrictionSpring>();
     to.link::<Gap>();
     to.link::<Hook>();
+    to.link::<IbarraMedinaKrawinkler>();
     to.link::<ImpactHertz>();
     to.link::<ImpactKelvin>();
     to.link::<LeadRubber>();
