@@ -8,7 +8,7 @@
 //! | [`Beam`], [`Inerter`], [`Mass`], [`Spring`], [`Truss`] | [`Diaphragm`], [`EqualDof`], [`RigidBody`], [`RigidLink`] | contacts: [`NLink`], [`Gap`], [`Hook`], [`ImpactHertz`], [`ImpactKelvin`], [`RockingBody`], [`BodyContact`] |
 //! | | | dampers: [`BilinearDamper`], [`Dashpot`], [`FrequencyIndependentViscoelastic`], [`FrictionSpring`], [`MaxwellDamper`] |
 //! | | | isolators: [`ElastomericBearing`], [`FrictionPendulum`], [`LeadRubber`], [`RubberIsolator`], [`TensionCompressionFriction`], [`TriplePendulum`] |
-//! | | | springs: [`BoucWen`], [`IbarraMedinaKrawinkler`], [`LinearLink`], [`MultilinearElastic`], [`MultilinearPlastic`], [`Wen`] |
+//! | | | springs: [`BoucWen`], [`IbarraMedinaKrawinkler`], [`LinearLink`], [`MultilinearElastic`], [`MultilinearPlastic`], [`PMMHinge`], [`Wen`] |
 //!
 //! To add one: write its file, then its lines here (`mod`, `pub use`, and one of registration).
 
@@ -38,6 +38,7 @@ mod maxwell_damper;
 mod multilinear_elastic;
 mod multilinear_plastic;
 mod nlink;
+mod pmm_hinge;
 mod rigid_body;
 mod rigid_link;
 mod rocking_body;
@@ -72,6 +73,7 @@ pub use maxwell_damper::MaxwellDamper;
 pub use multilinear_elastic::MultilinearElastic;
 pub use multilinear_plastic::{MultilinearPlastic, Rule};
 pub use nlink::{NLink, NLinkHistory, NLinkRubbing};
+pub use pmm_hinge::{PMMHinge, PMMHistory};
 pub use rigid_body::RigidBody;
 pub use rigid_link::RigidLink;
 pub use rocking_body::RockingBody;
@@ -116,6 +118,7 @@ pub fn register(to: &mut impl Register) {
     to.link::<MultilinearElastic>();
     to.link::<MultilinearPlastic>();
     to.link::<NLink>();
+    to.link::<PMMHinge>();
     to.link::<RockingBody>();
     to.link::<RubberIsolator>();
     to.link::<TensionCompressionFriction>();
