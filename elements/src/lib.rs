@@ -8,7 +8,7 @@
 //! | [`Beam`], [`Inerter`], [`Mass`], [`Spring`], [`Truss`] | [`Diaphragm`], [`EqualDof`], [`RigidBody`], [`RigidLink`] | contacts: [`NLink`], [`Gap`], [`Hook`], [`ImpactHertz`], [`ImpactKelvin`], [`RockingBody`], [`BodyContact`] |
 //! | | | dampers: [`BilinearDamper`], [`Dashpot`], [`FrequencyIndependentViscoelastic`], [`FrictionSpring`], [`MaxwellDamper`] |
 //! | | | isolators: [`ElastomericBearing`], [`FrictionPendulum`], [`LeadRubber`], [`RubberIsolator`], [`TensionCompressionFriction`], [`TriplePendulum`] |
-//! | | | springs: [`BoucWen`], [`IbarraMedinaKrawinkler`], [`LinearLink`], [`MultilinearElastic`], [`MultilinearPlastic`], [`PMMHinge`], [`Wen`] |
+//! | | | springs: [`BoucWen`], [`IbarraMedinaKrawinkler`], [`LinearLink`], [`MultilinearElastic`], [`MultilinearPlastic`], [`PMMHinge`], [`SoilSpring`], [`Wen`] |
 //!
 //! To add one: write its file, then its lines here (`mod`, `pub use`, and one of registration).
 
@@ -43,6 +43,7 @@ mod rigid_body;
 mod rigid_link;
 mod rocking_body;
 mod rubber_isolator;
+mod soil_spring;
 mod spring;
 mod tension_compression_friction;
 mod triple_pendulum;
@@ -80,6 +81,7 @@ pub use rocking_body::RockingBody;
 pub use rubber_isolator::{RubberHistory, RubberIsolator};
 pub use shared::bouc_wen_plane::Coupling;
 pub use shared::sliding::SlidingHistory;
+pub use soil_spring::{Backbone, Sides, SoilHistory, SoilSpring};
 pub use spring::Spring;
 pub use tension_compression_friction::TensionCompressionFriction;
 pub use triple_pendulum::TriplePendulum;
@@ -121,6 +123,7 @@ pub fn register(to: &mut impl Register) {
     to.link::<PMMHinge>();
     to.link::<RockingBody>();
     to.link::<RubberIsolator>();
+    to.link::<SoilSpring>();
     to.link::<TensionCompressionFriction>();
     to.link::<TriplePendulum>();
     to.link::<Wen>();
