@@ -9,6 +9,7 @@ mod bouc_wen;
 mod dampers;
 mod elastic;
 mod frames;
+mod hinges_and_soil;
 mod hysteretic;
 mod impact;
 mod inerter;
@@ -45,6 +46,7 @@ pub fn all() -> Vec<Case> {
         bearings::cases(),
         elastic::cases(),
         hysteretic::cases(),
+        hinges_and_soil::cases(),
         bouc_wen::cases(),
         restitution::cases(),
         impact::cases(),

@@ -129,6 +129,88 @@ fn side_by_side() -> [Pair; 2] {
     Pair::twice("Parallel of three", &parts, &ours, 0.02)
 }
 
+/// Capped backbone: capping strength over yield strength, deformations to capping and from there to zero, residual.
+const CAPPED: [f64; 4] = [1.1, 0.02, 0.1, 0.2];
+
+/// What of a spring with a capped backbone wears out.
+#[derive(Clone, Copy, PartialEq)]
+enum Worn {
+    Nothing,
+    Strength,
+    All,
+}
+
+/// Springs with a capped backbone.
+fn capped(form: &str, worn: Worn) -> (Value, Vec<Ours>) {
+    let [capping, plastic, post, residual] = CAPPED;
+    let side = [plastic, post, 10.0, FY, capping, residual];
+    let capacity = |wears: bool| wears.then_some(0.4);
+    let (strength, rest) = (capacity(worn != Worn::Nothing), capacity(worn == Worn::All));
+    let lambdas = [strength, strength, rest, rest];
+    let mut numbers = [&[E][..], &side, &side, &lambdas.map(|x| x.unwrap_or(1e12))].concat();
+    numbers.extend([1.0; 6]);
+    let pinching = form == "Pinching";
+    if pinching {
+        numbers.extend([0.3, 0.4]);
+    }
+    let text = |x: Option<f64>| x.map_or("none".to_owned(), |x| x.to_string());
+    let set = [
+        ("k", E.to_string()),
+        ("fy", FY.to_string()),
+        ("capping", capping.to_string()),
+        ("plastic", plastic.to_string()),
+        ("post_capping", post.to_string()),
+        ("residual", residual.to_string()),
+        ("lambda_s", text(strength)),
+        ("lambda_c", text(strength)),
+        ("lambda_a", text(rest)),
+        ("lambda_k", text(rest)),
+        ("form", form.into()),
+        ("kappa_f", text(pinching.then_some(0.3))),
+        ("kappa_d", text(pinching.then_some(0.4))),
+        ("axis", "U1".into()),
+    ];
+    (material(&format!("IMK{form}"), &numbers), vec![("IbarraMedinaKrawinkler", set.into())])
+}
+
+fn deteriorating() -> Vec<Pair> {
+    let trapezoids = "energies of the trapezoids of its steps there";
+    let reversals = "stiffness falls at reversals there, with the energy here";
+    let mut all = Vec::new();
+    for form in ["PeakOriented", "Pinching"] {
+        let (theirs, ours) = capped(form, Worn::Nothing);
+        let name = format!("IMK{form}, sound, first loading");
+        all.push(Pair::material(&name, vec![theirs.clone()], ours.clone(), Ramp(0.15)));
+        all.extend(Pair::twice(&format!("IMK{form}, sound"), &[theirs], &ours, 0.05));
+        for (what, worn, agree) in [
+            ("strength wears out", Worn::Strength, Agree::Stepped(trapezoids)),
+            ("all wears out", Worn::All, Agree::Near(0.002, reversals)),
+        ] {
+            let (theirs, ours) = capped(form, worn);
+            let name = format!("IMK{form}, {what}");
+            let pairs = Pair::twice(&name, &[theirs], &ours, 0.05);
+            all.extend(pairs.map(|pair| pair.finer(10).agreeing(agree)));
+        }
+    }
+    all
+}
+
+/// Soil behind a wall that comes and goes, in compression only.
+fn soil() -> [Pair; 2] {
+    let theirs = material("HyperbolicGapMaterial", &[2e7, 5e7, 0.7, -1.5e5, -0.002]);
+    let pu = (1.5e5_f64 / 0.7).to_string();
+    let set = [
+        ("k", "2e7"),
+        ("ku", "5e7"),
+        ("pu", pu.as_str()),
+        ("opening", "0.002"),
+        ("sides", "Negative"),
+        ("drag", "0"),
+        ("axis", "U1"),
+    ];
+    Pair::twice("HyperbolicGapMaterial", &[theirs], &[link("SoilSpring", &set)], 0.05)
+}
+
 fn flag() -> Pair {
     let theirs = material("SelfCentering", &[5e7, 5e6, 3e5, 0.6]);
     // The same branch of loading, and one of return that meets theirs within the motion.
@@ -153,5 +235,7 @@ pub(super) fn pairs() -> Vec<Pair> {
     all.extend(elastic());
     all.extend(side_by_side());
     all.push(flag());
+    all.extend(deteriorating());
+    all.extend(soil());
     all
 }
