@@ -5,6 +5,7 @@
 //! | block `ron,file=NAME` | a whole model; commands of the page find it as NAME |
 //! | block `ron,in=GROUP` | a fragment: entries of that section of a model |
 //! | block `ron,study-in=GROUP` | the same of a study |
+//! | block `rust,ignore,from=FILE` | a piece of the source in FILE |
 //! | block `console` | lines `$ trilith …` are run; the lines below must be in what they print, `…` stands for anything |
 //! | `<!-- trilith run …: KEY UNIT -->` | the number before it is that of the summary |
 //! | `<!-- table: run … {1} … ; KEY UNIT ; - -->` | the same for the columns of the table below, `{1}` being the text of the first |

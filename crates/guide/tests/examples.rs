@@ -115,6 +115,27 @@ fn every_measured_number_is_measured_again() {
     assert!(seen > 40, "only {seen} numbers");
 }
 
+/// Pieces of source are in the files that they name, but for how far they are set in.
+#[test]
+fn every_piece_of_source_is_that_of_its_file() {
+    let bare = |text: &str| -> String {
+        let lines = text.lines().map(str::trim).filter(|l| !l.is_empty());
+        lines.map(|l| format!("{l}\n")).collect()
+    };
+    let mut seen = 0;
+    for page in book() {
+        for fence in &page.fences {
+            let Some(file) = fence.attribute("from") else { continue };
+            let source = std::fs::read_to_string(common::root().join(file))
+                .unwrap_or_else(|e| panic!("{}: {file}: {e}", page.name));
+            let there = bare(&source).contains(&bare(&fence.text));
+            assert!(there, "{}: {file} has no\n{}", page.name, fence.text);
+            seen += 1;
+        }
+    }
+    assert!(seen > 2, "only {seen} pieces");
+}
+
 /// Links lead to pages, figures and files that are there.
 #[test]
 fn every_link_leads_somewhere() {
