@@ -36,8 +36,12 @@
 //! ```
 //!
 //! Functions of a law must be `#[inline(always)]` for the wide instructions to reach them.
+//!
+//! The same text gives the derivatives of the law by whatever moves it, exact to rounding: see [`Dual`] and
+//! [`ErasedLaw::derivative`].
 
 mod arithmetic;
+mod dual;
 mod law;
 mod real;
 #[cfg(target_arch = "x86_64")]
@@ -48,7 +52,11 @@ mod wide;
 pub use arithmetic::{Arithmetic, Portable, Task};
 #[cfg(target_arch = "x86_64")]
 pub use arithmetic::{Avx2Lanes, Avx512Lanes, FusedOne};
-pub use law::{ErasedLaw, LaneAt, LaneContact, LaneForce, LaneForm, LaneLaw, LaneLinks, LaneStep};
+pub use dual::Dual;
+pub use law::{
+    DIRECTIONS, Directions, ErasedLaw, LaneAt, LaneContact, LaneForce, LaneForm, LaneLaw,
+    LaneLinks, LaneStep,
+};
 pub use real::Real;
 #[cfg(target_arch = "x86_64")]
 pub use wide::{Fused, Wide, WideMask};

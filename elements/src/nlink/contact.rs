@@ -186,7 +186,7 @@ impl<const T: usize, const FLAGS: u8> NLinkContact<T, FLAGS> {
         let Varied { slow, fast, rate, away, over, .. } = it.varied;
         let (zero, one, two) = (slow.of(0.0), slow.of(1.0), slow.of(2.0));
         let worn = Self::worn(at);
-        let mu = fast - (fast - slow) * (-rate * worn.rate).map(f64::exp);
+        let mu = fast - (fast - slow) * (-rate * worn.rate).exp();
         let over = over.max(two * away * now.cone / it.ke);
         let left = (one - worn.since / over).max(zero);
         mu + (away * left).only(zero.lt(away))

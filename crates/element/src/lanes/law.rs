@@ -2,7 +2,7 @@
 
 #[cfg(target_arch = "x86_64")]
 use super::side_by_side::respond_together;
-use super::{Arithmetic, Portable, Real, Task};
+use super::{Arithmetic, Dual, Portable, Real, Task};
 #[cfg(target_arch = "x86_64")]
 use super::{Avx2Lanes, Avx512Lanes, Fused, FusedOne};
 use crate::{Contact, Energy, Kinematics};
@@ -284,6 +284,14 @@ type ContactsBy<A> = fn(
     &mut [<A as Arithmetic>::Real],
 );
 
+/// A number with its derivatives in some directions at once.
+pub type Directions = Dual<DIRECTIONS>;
+
+/// How many they are.
+pub const DIRECTIONS: usize = 8;
+
+type DerivativeBy = fn(&mut LaneLinks<'_, Directions>, &mut [LaneStep<Directions>]);
+
 /// A law on one arithmetic: its forces, the end of a step, both at once, and its contacts.
 #[derive(Clone, Copy)]
 pub(super) struct Entries<F, C, T> {
@@ -312,6 +320,7 @@ pub struct ErasedLaw {
     pub falls: bool,
     /// True where forces and the end of a step may be asked for one after the other.
     pub in_parts: bool,
+    derivative: DerivativeBy,
     pub(super) portable: EntriesBy<Portable>,
     #[cfg(target_arch = "x86_64")]
     pub(super) fused: EntriesBy<FusedOne>,
@@ -407,6 +416,13 @@ fn respond_all<A: Arithmetic, L: LaneLaw>(
     with.run(RespondAll::<L, _>(links, out, PhantomData));
 }
 
+#[inline(never)]
+fn derivative<L: LaneLaw>(links: &mut LaneLinks<'_, Directions>, out: &mut [LaneStep<Directions>]) {
+    for (i, step) in out.iter_mut().enumerate() {
+        *step = links.respond::<L>(i);
+    }
+}
+
 fn entries_by<A: Arithmetic, L: LaneLaw>(respond: CommitBy<A>) -> EntriesBy<A> {
     Entries {
         force: |with, links| {
@@ -431,6 +447,16 @@ fn entries_by<A: Arithmetic, L: LaneLaw>(respond: CommitBy<A>) -> EntriesBy<A> {
 }
 
 impl ErasedLaw {
+    /// All of the answer of links of one law, and its derivatives in [some directions](Directions) at once, exact to
+    /// rounding: in which ones is said by the derivatives of what the law is asked about.
+    pub fn derivative(
+        &self,
+        links: &mut LaneLinks<'_, Directions>,
+        out: &mut [LaneStep<Directions>],
+    ) {
+        (self.derivative)(links, out);
+    }
+
     /// The entries of a law.
     #[must_use]
     pub fn of<L: LaneLaw>() -> Self {
@@ -442,6 +468,7 @@ impl ErasedLaw {
             contacts: L::CONTACTS,
             falls: L::FALLS,
             in_parts: L::IN_PARTS,
+            derivative: derivative::<L>,
             portable: entries_by::<Portable, L>(respond_all::<Portable, L>),
             #[cfg(target_arch = "x86_64")]
             fused: entries_by::<FusedOne, L>(respond_together::<L>),

@@ -51,6 +51,13 @@ pub trait Real:
     /// True where some lane says yes.
     fn any(self, mask: Self::Mask) -> bool;
 
+    /// eˣ.
+    #[inline(always)]
+    #[must_use]
+    fn exp(self) -> Self {
+        self.map(f64::exp)
+    }
+
     /// A function of one number in every lane: for what registers cannot do, slowly.
     #[must_use]
     fn map(self, f: impl Fn(f64) -> f64) -> Self;

@@ -77,7 +77,7 @@ impl<R: Real> Slide<R> {
         let left = (over - it.since).max(zero);
 
         let from = it.rate.max(zero);
-        let held = less * (-(pace * from)).map(f64::exp);
+        let held = less * (-(pace * from)).exp();
         let at_once = fast - held + fall * left;
         let sticks = it.size.le(at_once) & zero.lt(at_once);
         let slips = !sticks;
@@ -85,7 +85,7 @@ impl<R: Real> Slide<R> {
         // Whether what is left of the break-away goes in this step, and the equation of that branch.
         let rated = zero.lt(it.per_slip) & zero.lt(less);
         let at_end = R::select(rated, (it.rate + it.per_slip * left).max(zero), from);
-        let by_then = fast - less * (-(pace * at_end)).map(f64::exp);
+        let by_then = fast - less * (-(pace * at_end)).exp();
         let within = zero.lt(fall * left) & (it.size - it.stiffness * left).le(by_then);
         let stiffness = it.stiffness - fall.only(within);
         let size = it.size - (fall * left).only(within);
@@ -102,7 +102,7 @@ impl<R: Real> Slide<R> {
             if !zero.any(goes_on) {
                 break;
             }
-            let held = less * (-(pace * rate)).map(f64::exp);
+            let held = less * (-(pace * rate)).exp();
             let rest = size - per_rate * (rate - it.rate) - fast + held;
             let step = rest / (per_rate + pace * held);
             let next = rate + step;
@@ -111,7 +111,7 @@ impl<R: Real> Slide<R> {
             goes_on = further & (rate * it.size.of(1e-15)).lt(step);
         }
 
-        let faded = (-(pace * rate)).map(f64::exp);
+        let faded = (-(pace * rate)).exp();
         let held = less * faded;
         let rubbed = fast - held;
         // With the slip that the branch gives, so that the rest of the break-away follows from it.
