@@ -23,6 +23,7 @@ mod failure;
 mod figure_files;
 mod figures;
 mod generate;
+mod gradient;
 mod import;
 mod interrupt;
 mod long;
@@ -82,6 +83,7 @@ pub fn main_of(registry: Registry, arguments: impl IntoIterator<Item = OsString>
         Command::Report(a) => run::report(&a),
         Command::Compare(a) => compare::compare(&registry, &a),
         Command::Sweep(a) => sweep::sweep(&registry, &a),
+        Command::Gradient(a) => gradient::gradient(&registry, &a),
         Command::Generate(a) => generate::generate(a),
         Command::Import(a) => import::import(&a),
         Command::Calibrate(a) => calibrate::calibrate(&registry, &a),

@@ -29,6 +29,7 @@
 //! | `statics` | equilibrium along a path, initial values of massless directions |
 //! | `run` | cases from start to end, checkpoints, results |
 //! | `linearised` | modes with the links made linear, response spectrum analysis |
+//! | `gradient` | derivatives of outputs by parameters of the model, forward through a march |
 //! | `survey` | what a model weighs, what holds it, how it swings at rest |
 //! | `together` | several motions of one structure in lock step |
 //! | `lanes` | many analyses side by side, a lane of a vector register each |
@@ -41,6 +42,7 @@ mod checks;
 mod contacts;
 mod error;
 mod fna;
+pub mod gradient;
 mod hht;
 mod kernel;
 pub mod lanes;

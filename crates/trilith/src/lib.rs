@@ -35,6 +35,7 @@
 //! - [`json_schema`] is the schema of models in JSON.
 //! - [`generate`] makes models from a few numbers.
 //! - [`sweep`] runs a model with many values of its parameters, several analyses side by side.
+//! - [`mod@gradient`] finds exact derivatives of outputs by parameters.
 //! - [`calibrate`] finds dashpots from coefficients of restitution.
 //! - A link of your own: implement [`element::Link`], offer it with `registry.link::<MyLink>()`.
 //!
@@ -49,6 +50,7 @@ pub mod compare;
 mod error;
 pub mod exercise;
 pub mod generate;
+pub mod gradient;
 mod lanes;
 mod report_check;
 mod run_report;

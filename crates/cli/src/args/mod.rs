@@ -47,6 +47,8 @@ pub(crate) enum Command {
     Compare(CompareArguments),
     /// Run a study: a model with many values of its parameters, on all cores, into one table
     Sweep(SweepArguments),
+    /// Exact derivatives of outputs by parameters of the model
+    Gradient(GradientArguments),
     /// Make a model file from a few numbers
     Generate(GenerateArguments),
     /// Make a model file of a text model of SAP2000, with a report of every loss
@@ -201,6 +203,30 @@ pub(crate) enum Combination {
 pub(crate) enum DirectionRule {
     Srss,
     Thirty,
+}
+
+#[derive(Args)]
+pub(crate) struct GradientArguments {
+    #[command(flatten)]
+    pub model: ModelArguments,
+    /// Case to run [default: the last of the file]
+    #[arg(long)]
+    pub case: Option<String>,
+    /// Solver: hht, or fna and ritz-hht for parameters of links and loads [default: that of the case]
+    #[arg(long, value_parser = solver)]
+    pub solver: Option<SolverKind>,
+    /// Output step in seconds [default: that of the case]
+    #[arg(long, value_parser = positive)]
+    pub dt: Option<f64>,
+    /// Parameters; several times if need be [default: all that are numbers other than zero]
+    #[arg(long, value_name = "NAME,NAME", value_parser = names::list)]
+    pub by: Vec<Names>,
+    /// Outputs; several times if need be, and double quotes hold a name with a comma together [default: all]
+    #[arg(long, value_name = "NAME,NAME", value_parser = names::list)]
+    pub of: Vec<Names>,
+    /// Print JSON
+    #[arg(long)]
+    pub json: bool,
 }
 
 #[derive(Args)]

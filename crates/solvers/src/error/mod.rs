@@ -181,6 +181,12 @@ pub enum SolveError {
         /// Where the file defines the link.
         span: Span,
     },
+    /// Derivatives that cannot be had.
+    #[error("no derivatives: {reason}")]
+    NoGradient {
+        /// Why, and what would give them.
+        reason: String,
+    },
     /// A state that belongs to another model, case or solver.
     #[error("the checkpoint does not fit: {reason}")]
     Checkpoint {

@@ -122,6 +122,10 @@ impl Propagator for Modal {
         self.modes.complete(&mut self.now, from, &forces.loads, to);
     }
 
+    fn is_linear(&self) -> bool {
+        self.modes.structure.undamped.is_empty()
+    }
+
     fn work(&mut self, _: &Motion, _: &Motion, _: &Forces<'_>) -> StepWork {
         self.modes.work(&self.now)
     }

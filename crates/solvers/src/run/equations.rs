@@ -6,14 +6,14 @@ use crate::error::SolveError;
 use crate::fna::{Modal, Modes};
 use crate::hht::{FullNewton, Hht};
 use crate::kernel::LinkKernel;
-use crate::step::{LinkEquations, LinkStepper, Stepper};
+use crate::step::{LinkEquations, LinkStepper, Propagator, Stepper};
 use crate::structure::{Followers, ReducedSystem};
 use trilith_model::{DynamicCase, Model, Solution, SolverKind};
 use trilith_system::{LoadSet, System, Track};
 
 /// What a motion obeys.
 #[derive(Clone, Copy)]
-pub(super) struct Equations<'a> {
+pub(crate) struct Equations<'a> {
     pub model: &'a Model,
     pub system: &'a System,
     pub solution: &'a Solution,
@@ -71,6 +71,25 @@ impl<'a> Equations<'a> {
     }
 }
 
+impl<'a> Equations<'a> {
+    /// The linear step alone; none of a solver that has no such step.
+    pub(crate) fn propagator(&self) -> Option<Box<dyn Propagator + 'a>> {
+        let Self { system, solution, kind, loads, bases, damping, .. } = *self;
+        let effective = &system.links.effective;
+        let hht = |space: ReducedSystem| Box::new(Hht::new(space, solution.alpha));
+        match (kind, bases) {
+            (SolverKind::Fna, Some(b)) => {
+                Some(Box::new(Modal::new(fna_modes(self.model, system, loads, b))))
+            }
+            (SolverKind::RitzHht, Some(b)) => {
+                Some(hht(ReducedSystem::reduced(system, loads, effective, damping, &b.stepping)))
+            }
+            (SolverKind::FullNewton, _) => None,
+            _ => Some(hht(ReducedSystem::physical(system, loads, effective, damping.cloned()))),
+        }
+    }
+}
+
 /// Load directions that a basis must hold: name and vector on the free DOFs.
 pub(super) fn basis_loads(
     model: &Model,
@@ -101,7 +120,7 @@ pub(super) fn basis_loads(
 }
 
 /// Whether a solver works on a basis.
-pub(super) fn is_reduced(kind: SolverKind) -> bool {
+pub(crate) fn is_reduced(kind: SolverKind) -> bool {
     matches!(kind, SolverKind::Fna | SolverKind::RitzHht)
 }
 

@@ -17,7 +17,7 @@ use trilith_model::{Case, DynamicCase, MOST_OUTPUT_STEPS, Model, SolverKind, out
 use trilith_system::{LoadSet, System};
 
 /// A dynamic case and what it starts from.
-pub(super) struct Setup<'a> {
+pub(crate) struct Setup<'a> {
     pub model: &'a Model,
     pub system: &'a System,
     pub case: &'a Case,
@@ -29,7 +29,7 @@ pub(super) struct Setup<'a> {
 const LOADS_HELD: f64 = 0.95;
 
 /// A case that is ready to be stepped.
-pub(super) struct Prepared<'a> {
+pub(crate) struct Prepared<'a> {
     pub model: &'a Model,
     pub system: &'a System,
     pub case: &'a Case,
@@ -48,7 +48,7 @@ pub(super) struct Prepared<'a> {
 
 impl<'a> Prepared<'a> {
     /// Loads, start, basis and damping of a case, from a checkpoint where there is one.
-    pub(super) fn new(setup: Setup<'a>, options: &RunOptions<'_>) -> Result<Self, SolveError> {
+    pub(crate) fn new(setup: Setup<'a>, options: &RunOptions<'_>) -> Result<Self, SolveError> {
         let Setup { model, system, case, analysis, before } = setup;
         let analysis = with_vectors(analysis, options.vectors);
         let solution = &analysis.solution;
@@ -89,7 +89,7 @@ impl<'a> Prepared<'a> {
     }
 
     /// What its motion obeys; `watched`: whether somebody needs rates.
-    pub(super) fn equations(&self, watched: bool) -> Equations<'_> {
+    pub(crate) fn equations(&self, watched: bool) -> Equations<'_> {
         Equations {
             model: self.model,
             system: self.system,
@@ -102,13 +102,18 @@ impl<'a> Prepared<'a> {
         }
     }
 
-    pub(super) fn timeline(&self) -> Timeline {
+    /// Modal damping.
+    pub(crate) fn damping(&self) -> Option<&ModalDamping> {
+        self.damping.as_ref()
+    }
+
+    pub(crate) fn timeline(&self) -> Timeline {
         let DynamicCase { duration, solution, .. } = &*self.analysis;
         Timeline::new(self.dt, *duration, &self.loads, at_least(solution.step))
     }
 
     /// The state that a stepper starts from.
-    pub(super) fn set_out(
+    pub(crate) fn set_out(
         &self,
         from: Option<&EndState>,
         stepper: &mut dyn Stepper,

@@ -26,7 +26,7 @@ const NOISE: f64 = 1e-10;
 const FORCE: f64 = 1e-3;
 
 /// State, control, ledger, and the output step it belongs to.
-pub(super) type Start = (State, StepControlState, Ledger, usize);
+pub(crate) type Start = (State, StepControlState, Ledger, usize);
 
 impl Initial {
     /// From rest or from the end of the case before, with initial values in their place; what has no mass and no

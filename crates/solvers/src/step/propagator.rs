@@ -81,6 +81,11 @@ pub(crate) trait Propagator {
     /// Completes the step predicted last with the pseudo-forces at its end, now known.
     fn correct(&mut self, from: &Motion, forces: &Forces<'_>, to: &mut Motion);
 
+    /// True where the step is linear in motion and forces: nothing follows its load in a way that bends.
+    fn is_linear(&self) -> bool {
+        true
+    }
+
     /// Work done over the step completed last.
     fn work(&mut self, from: &Motion, to: &Motion, forces: &Forces<'_>) -> StepWork;
 

@@ -25,12 +25,32 @@ pub(crate) fn acceleration(a: f64) -> f64 {
 #[inline]
 pub(crate) fn rate_at_end(start: f64, mean: f64, more: f64) -> f64 {
     let so_far = mean - start;
+    match branch_at_end(start, mean, more) {
+        Branch::Mean => mean,
+        Branch::More => mean + more,
+        Branch::Twice => mean + so_far,
+    }
+}
+
+/// How far the mean rate is gone beyond at the end of a step.
+enum Branch {
+    /// Not at all.
+    Mean,
+    /// By what the acceleration before adds.
+    More,
+    /// As far as the rate has come to it.
+    Twice,
+}
+
+#[inline]
+fn branch_at_end(start: f64, mean: f64, more: f64) -> Branch {
+    let so_far = mean - start;
     if more * so_far <= 0.0 {
-        mean
+        Branch::Mean
     } else if more.abs() < so_far.abs() {
-        mean + more
+        Branch::More
     } else {
-        mean + so_far
+        Branch::Twice
     }
 }
 
@@ -78,6 +98,40 @@ impl Followers {
             for (i, c) in direction {
                 to[n + i] += c * more[0];
                 to[2 * n + i] += c * more[1];
+            }
+        }
+    }
+}
+
+impl Followers {
+    /// How their rates and accelerations at the end of a step move, where the ends of the step move so: the derivative of
+    /// [`complete`](Self::complete) along the branch that the step took.
+    pub(crate) fn complete_moves(
+        &self,
+        [from, to]: [&[f64]; 2],
+        moves_from: &[f64],
+        moves_to: &mut [f64],
+        dt: f64,
+    ) {
+        let n = from.len() / 3;
+        for direction in &self.0 {
+            let along = |x: &[f64]| -> f64 { direction.iter().map(|(i, c)| c * x[*i]).sum() };
+            let jumped = direction.iter().any(|(i, _)| from[2 * n + i] == JUMPED);
+            let [rate, moved_rate] = [from, moves_from].map(|x| along(&x[n..2 * n]));
+            let mean = (along(&to[..n]) - along(&from[..n])) / dt;
+            let moved_mean = (along(&moves_to[..n]) - along(&moves_from[..n])) / dt;
+            let [more, moved_more] = [from, moves_from].map(|x| 0.5 * dt * along(&x[2 * n..]));
+            let new = match branch_at_end(rate, mean, more) {
+                _ if jumped => moved_rate,
+                Branch::Mean => moved_mean,
+                Branch::More => moved_mean + moved_more,
+                Branch::Twice => 2.0 * moved_mean - moved_rate,
+            };
+            let of_new = if jumped { 0.0 } else { (new - moved_rate) / dt };
+            let add = [new - along(&moves_to[n..2 * n]), of_new - along(&moves_to[2 * n..])];
+            for (i, c) in direction {
+                moves_to[n + i] += c * add[0];
+                moves_to[2 * n + i] += c * add[1];
             }
         }
     }

@@ -1,0 +1,306 @@
+//! One substep, differentiated by every parameter.
+
+use super::around::Influence;
+use super::bends::{Bend, Bends};
+use super::laws::{LawMoves, Made};
+use crate::error::SolveError;
+use crate::kernel::{Compliance, Layout, Wanted};
+use crate::run::Prepared;
+use crate::step::{Forces, Propagator, State};
+use crate::structure::{Followers, ReducedSystem, acceleration};
+use trilith_linalg::{Dense, DenseLu};
+use trilith_model::{Model, Side, SolverKind};
+use trilith_system::{LinkSet, Tangents};
+
+/// What a run is made of.
+#[derive(Clone, Copy)]
+pub(super) struct Pieces<'p, 'a> {
+    pub prepared: &'p Prepared<'a>,
+    pub space: &'p ReducedSystem,
+    /// Whether somebody needs rates.
+    pub watched: bool,
+}
+
+/// The derivatives of the state, which go with a run.
+pub(super) struct Moves<'a> {
+    links: &'a LinkSet,
+    propagator: Box<dyn Propagator + 'a>,
+    alpha: f64,
+    layout: Layout<'a>,
+    followers: Followers,
+    laws: LawMoves<'a>,
+    influences: &'a [Influence<'a>],
+    bends: Bends,
+    model: &'a Model,
+    /// Output step, s, and values of the parameters.
+    output: f64,
+    values: Vec<f64>,
+    /// The state at the start of the substep, and its time, s.
+    from: State,
+    t: f64,
+    /// Derivatives of it, and place for those at the end.
+    now: Vec<State>,
+    next: Vec<State>,
+    /// Pseudo-loads at the start.
+    loads: Vec<Vec<f64>>,
+    /// True where amplitudes or states have jumped since.
+    stale: bool,
+    work: Work,
+}
+
+/// What a substep needs beside.
+struct Work {
+    ends: Vec<Vec<f64>>,
+    d: Vec<f64>,
+    v: Vec<f64>,
+    own: Vec<f64>,
+}
+
+impl<'a> Moves<'a> {
+    pub(super) fn new(
+        prepared: &'a Prepared<'a>,
+        influences: &'a [Influence<'a>],
+        mut propagator: Box<dyn Propagator + 'a>,
+        state: &State,
+    ) -> Result<Self, SolveError> {
+        let links = &prepared.system.links;
+        let laws = links.laws(prepared.model);
+        let effective = links.active.iter().map(|i| links.effective[*i]).collect();
+        let layout = Layout::new(links, &laws, effective);
+        let followers = match prepared.kind == SolverKind::Fna {
+            true => {
+                propagator.set_rates(&layout.rate_dependent, &layout.damped)?;
+                Followers::default()
+            }
+            // Which way they go is decided by the run: see `complete_moves`.
+            false => Followers::new(propagator.space(), &layout.damped)?,
+        };
+        let now: Vec<State> = influences.iter().map(|i| i.start.clone()).collect();
+        let n = propagator.space().order();
+        Ok(Self {
+            links,
+            alpha: match prepared.kind {
+                SolverKind::Fna => 0.0,
+                _ => prepared.analysis.solution.alpha,
+            },
+            layout,
+            followers,
+            laws: LawMoves::new(prepared.model, links, influences, state),
+            influences,
+            bends: Bends::default(),
+            model: prepared.model,
+            output: prepared.dt,
+            values: influences.iter().map(|i| i.around.of.value).collect(),
+            from: state.clone(),
+            t: 0.0,
+            next: now.clone(),
+            loads: vec![vec![0.0; n]; now.len()],
+            stale: true,
+            work: Work {
+                ends: vec![vec![0.0; n]; now.len()],
+                d: vec![0.0; links.active.len()],
+                v: Vec::new(),
+                own: vec![0.0; links.active.len()],
+            },
+            now,
+            propagator,
+        })
+    }
+
+    /// Derivatives of the state by every parameter.
+    pub(super) fn now(&self) -> &[State] {
+        &self.now
+    }
+
+    /// Links whose laws have bent where substeps ended.
+    pub(super) fn bends(&self) -> Vec<Bend> {
+        self.bends.told(self.model, self.links)
+    }
+
+    /// The time of the state that they are of, s.
+    pub(super) fn time(&self) -> f64 {
+        self.t
+    }
+
+    /// The loads have jumped: to a state in which accelerations follow. `change`: that of the amplitudes.
+    pub(super) fn jump(&mut self, t: f64, change: &[f64], state: &State) -> Result<(), SolveError> {
+        let space = self.propagator.space();
+        let n = space.order();
+        let force = space.force(change);
+        let by = self.propagator.acceleration(&force)?;
+        let flat = self.links.len();
+        for (influence, now) in self.influences.iter().zip(&mut self.now) {
+            let mut force = vec![0.0; n];
+            if let Some(loads) = &influence.loads {
+                let side = |side| loads.at(influence.step, t, side, flat);
+                let ([before, ..], [behind, ..]) = (side(Side::Before), side(Side::After));
+                force
+                    .iter_mut()
+                    .zip(behind.iter().zip(&before))
+                    .for_each(|(p, (a, b))| *p += a - b);
+            }
+            if let Some(structure) = &influence.structure {
+                let by: Vec<f64> = by.iter().map(|a| acceleration(*a)).collect();
+                structure.mass.mul_add(-1.0, &by, &mut force);
+            }
+            let more = self.propagator.acceleration(&force)?;
+            for ((a, more), now) in
+                now.motion[2 * n..].iter_mut().zip(&more).zip(&state.motion[2 * n..])
+            {
+                *a = if *now == crate::structure::JUMPED { 0.0 } else { *a + acceleration(*more) };
+            }
+        }
+        self.from.clone_from(state);
+        self.stale = true;
+        Ok(())
+    }
+
+    /// Pseudo-loads in a state, where amplitudes are those of this side.
+    fn loads_at(
+        influence: &Influence<'_>,
+        links: &LinkSet,
+        t: f64,
+        side: Side,
+        state: &State,
+        p: &mut [f64],
+    ) -> [Vec<f64>; 2] {
+        let mut support = [Vec::new(), Vec::new()];
+        p.fill(0.0);
+        if let Some(loads) = &influence.loads {
+            let [own, d, v] = loads.at(influence.step, t, side, links.len());
+            p.copy_from_slice(&own);
+            support = [d, v];
+        }
+        if let Some(structure) = &influence.structure {
+            let n = p.len();
+            let force = |a: usize| state.f[links.active[a]];
+            structure.resist(&state.motion[..n], &state.motion[n..2 * n], force, p);
+        }
+        support
+    }
+
+    /// A substep of this length was accepted.
+    pub(super) fn step(&mut self, to: &State, t: f64, dt: f64) -> Result<(), SolveError> {
+        let Self {
+            links, propagator, alpha, layout, followers, laws, influences, from, work, ..
+        } = self;
+        let key = propagator.choose(dt, &mut links.stiffness(&from.tangents), &from.stiffest);
+        propagator.prepare(key)?;
+        let n = propagator.space().order();
+        // Loads, and what is known of the deformations at the end.
+        for (j, influence) in influences.iter().enumerate() {
+            if self.stale {
+                Self::loads_at(influence, links, self.t, Side::After, from, &mut self.loads[j]);
+            }
+            let end = &mut work.ends[j];
+            let [d, v] = Self::loads_at(influence, links, t, Side::Before, to, end);
+            let next = &mut self.next[j];
+            for (own, support) in [(&mut next.d, d), (&mut next.v, v)] {
+                if support.is_empty() { own.fill(0.0) } else { own.copy_from_slice(&support) }
+            }
+            if let Some(rows) = influence.structure.as_ref().and_then(|s| s.rows.as_ref()) {
+                for (row, flat) in rows.iter().zip(&links.active) {
+                    next.d[*flat] += row.iter().map(|(i, c)| c * to.motion[*i]).sum::<f64>();
+                    next.v[*flat] += row.iter().map(|(i, c)| c * to.motion[n + i]).sum::<f64>();
+                }
+            }
+        }
+        let made = Made { from, to, dt };
+        laws.along(made, &self.now, &mut self.next, false);
+        let factor = factor(links, layout, propagator.compliance(), &to.tangents);
+        work.v.resize(layout.rate_dependent.len(), 0.0);
+        for (j, influence) in influences.iter().enumerate() {
+            let (now, next) = (&self.now[j], &mut self.next[j]);
+            let mut end = work.ends[j].clone();
+            if let Some(structure) = &influence.structure {
+                let a: Vec<f64> = to.motion[2 * n..].iter().map(|a| acceleration(*a)).collect();
+                structure.mass.mul_add(-1.0 / (1.0 + *alpha), &a, &mut end);
+            }
+            let loads = [&self.loads[j][..], &end[..]];
+            let forces = Forces { loads, pseudo0: &now.pseudo, pseudo1: &now.pseudo };
+            let wanted =
+                Wanted { d: &mut work.d, v: &mut work.v, rate_dependent: &layout.rate_dependent };
+            next.motion.resize(3 * n, 0.0);
+            propagator.predict(&now.motion, &forces, &mut next.motion, wanted);
+            // f̃ at the end.
+            let mut x: Vec<f64> = (links.active.iter().enumerate())
+                .map(|(a, flat)| next.f[*flat] - layout.effective_k[a] * work.d[a] - now.pseudo[a])
+                .collect();
+            let mut rates = vec![0.0; x.len()];
+            layout.rate_dependent.iter().zip(&work.v).for_each(|(a, v)| rates[*a] = *v);
+            let (d, v) = (&work.d, &rates);
+            each_tangent(links, layout, &to.tangents, |a, b, k, c| x[a] += k * d[b] + c * v[b]);
+            factor.solve(&mut x);
+            x.iter_mut().zip(&now.pseudo).for_each(|(x, f)| *x += f);
+            next.pseudo.clone_from(&x);
+            let forces = Forces { loads, pseudo0: &now.pseudo, pseudo1: &next.pseudo };
+            propagator.correct(&now.motion, &forces, &mut next.motion);
+            followers.complete_moves([&from.motion, &to.motion], &now.motion, &mut next.motion, dt);
+            let map = &propagator.space().links;
+            for (order, own) in [(0, &mut next.d), (1, &mut next.v)] {
+                map.deform(&next.motion[order * n..(order + 1) * n], &mut work.own);
+                links.active.iter().zip(&work.own).for_each(|(flat, x)| own[*flat] += x);
+            }
+        }
+        laws.along(made, &self.now, &mut self.next, true);
+        laws.see(to);
+        if Bends::matters(dt, self.output) {
+            let ends = [&self.now[..], &self.next[..]];
+            self.bends.look(self.model, links, (made, t), ends, &self.values);
+        }
+        std::mem::swap(&mut self.now, &mut self.next);
+        std::mem::swap(&mut self.loads, &mut self.work.ends);
+        from.clone_from(to);
+        self.t = t;
+        self.stale = false;
+        Ok(())
+    }
+}
+
+/// All tangents of active coordinates: row, column, by deformation and by rate.
+fn each_tangent(
+    links: &LinkSet,
+    layout: &Layout<'_>,
+    tangents: &Tangents,
+    mut see: impl FnMut(usize, usize, f64, f64),
+) {
+    for link in &links.links {
+        let n = link.range.len();
+        for i in 0..n {
+            let Some(a) = layout.place[link.range.start + i] else { continue };
+            for j in 0..n {
+                let Some(b) = layout.place[link.range.start + j] else { continue };
+                let at = link.block.start + i * n + j;
+                let (k, c) = (tangents.k[at], tangents.c[at]);
+                if k != 0.0 || c != 0.0 {
+                    see(a, b, k, c);
+                }
+            }
+        }
+    }
+}
+
+/// I + (k − k_e) G + c H.
+fn factor(
+    links: &LinkSet,
+    layout: &Layout<'_>,
+    Compliance { g, h, .. }: &Compliance,
+    tangents: &Tangents,
+) -> DenseLu {
+    let n = g.rows();
+    // By rows: G and H are symmetric.
+    let mut rows = Dense::zeros(n, n);
+    for a in 0..n {
+        rows[(a, a)] = 1.0;
+        let k = layout.effective_k[a];
+        if k != 0.0 {
+            let row = rows.column_mut(a).iter_mut().zip(g.column(a));
+            row.for_each(|(x, g)| *x -= k * g);
+        }
+    }
+    each_tangent(links, layout, tangents, |a, b, k, c| {
+        let row = rows.column_mut(a).iter_mut().zip(g.column(b).iter().zip(h.column(b)));
+        row.for_each(|(x, (g, h))| *x += k * g + c * h);
+    });
+    DenseLu::new(&rows.transpose())
+}

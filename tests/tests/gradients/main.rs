@@ -1,0 +1,134 @@
+//! Derivatives of outputs against differences of runs over the same steps.
+
+mod pair;
+
+use std::path::Path;
+use trilith::gradient::around;
+use trilith::model::ModelText;
+use trilith::solvers::assemble;
+use trilith::solvers::gradient::{Around, Gradient, GradientOptions, SMALL, gradient, replay};
+use trilith::{Model, SolverKind};
+
+/// A model with its derivatives.
+struct Case {
+    around: Vec<Around>,
+    options: GradientOptions,
+    found: Gradient,
+}
+
+fn text(text: &str, path: &str) -> ModelText {
+    ModelText::new(text, Path::new(env!("CARGO_MANIFEST_DIR")).join(path)).expect("a text")
+}
+
+impl Case {
+    fn new(text: &ModelText, solver: SolverKind, set: &[(&str, &str)], by: &[&str]) -> Self {
+        let registry = trilith::registry();
+        let set: Vec<_> = set.iter().map(|(n, v)| ((*n).to_owned(), (*v).to_owned())).collect();
+        let model = text.read(&registry, &set).expect("a model");
+        let by: Vec<String> = by.iter().map(|n| (*n).to_owned()).collect();
+        let around = around(text, &registry, &set, &model, &by).expect("models around");
+        let case = model.cases.len() - 1;
+        let options = GradientOptions { case, solver: Some(solver), dt: None };
+        let system = assemble(&model).expect("a structure");
+        let found = gradient(&model, &system, options, &around).expect("derivatives");
+        Self { around, options, found }
+    }
+
+    fn histories(&self, model: &Model) -> Vec<Vec<f64>> {
+        let system = assemble(model).expect("a structure");
+        replay(model, &system, self.options, &self.found).expect("a run").histories
+    }
+
+    /// How far derivatives are off differences over two millionths of the parameter, as share of the largest: by parameter, of each output.
+    fn off(&self) -> Vec<(String, Vec<f64>)> {
+        let of = |(j, around): (usize, &Around)| {
+            let [low, high] = &around.close;
+            let [low, high] = [self.histories(low), self.histories(high)];
+            let h = 2.0 * SMALL * around.of.step;
+            let off = |o: usize| {
+                let given = &self.found.outputs[o].by[j];
+                let quotient = |i: usize| (high[o][i] - low[o][i]) / h;
+                let most = given.iter().fold(0.0_f64, |m, x| m.max(x.abs()));
+                // A parameter that hardly moves an output is told to the rounding of that output.
+                let size =
+                    self.found.outputs[o].history.iter().fold(0.0_f64, |m, x| m.max(x.abs()));
+                let most = most.max(1e-2 * size / around.of.value.abs());
+                let apart = |i: usize| (given[i] - quotient(i)).abs();
+                (0..given.len()).map(apart).fold(0.0, f64::max) / most
+            };
+            (around.of.name.clone(), (0..self.found.outputs.len()).map(off).collect())
+        };
+        self.around.iter().enumerate().map(of).collect()
+    }
+}
+
+/// The isolated frame with links in equilibrium to rounding: differences of runs are no better than that.
+fn frame() -> ModelText {
+    let whole = Path::new(env!("CARGO_MANIFEST_DIR")).join(FRAME);
+    let whole = std::fs::read_to_string(whole).expect("a file");
+    let tight = "dt: \"5 ms\",\n            link_tolerance: 1e-14,";
+    assert!(whole.contains("dt: \"5 ms\","));
+    text(&whole.replace("dt: \"5 ms\",", tight), FRAME)
+}
+
+const FRAME: &str = "../models/isolated_frame.ron";
+
+/// Six outputs by eight parameters, of links, of the structure, of its geometry, of loads.
+#[test]
+fn the_isolated_frame_moves_as_runs_beside_it_do() {
+    let by =
+        ["radius", "mu_slow", "mu_fast", "damper", "brace_damper", "floor_mass", "ax", "storey"];
+    let case = Case::new(&frame(), SolverKind::Hht, &[("duration", "1.6 s")], &by);
+    let outputs = ["base_x", "base_y", "roof_x", "roof_y", "isolator_a_x", "isolator_a_y"];
+    for (name, off) in case.off() {
+        for (output, off) in case.found.outputs.iter().zip(off) {
+            let asked = outputs.contains(&output.name.as_str());
+            assert!(off < if asked { 1e-6 } else { 1e-4 }, "{} by {name}: {off:e}", output.name);
+        }
+    }
+}
+
+/// On the basis of the run, parameters of links and loads.
+#[test]
+fn the_isolated_frame_moves_so_under_fna() {
+    let by = ["radius", "mu_fast", "damper", "ax"];
+    let case = Case::new(&frame(), SolverKind::Fna, &[("duration", "1.2 s")], &by);
+    for (name, off) in case.off() {
+        for (output, off) in case.found.outputs.iter().zip(off) {
+            assert!(off < 1e-5, "{} by {name}: {off:e}", output.name);
+        }
+    }
+}
+
+/// Two like masses that move alike, and a stop between them that is just open, or just closed: by the spring of one alone
+/// there are two derivatives, and that is told.
+#[test]
+fn links_that_are_about_to_change_are_named() {
+    let alike = |opening: &str| {
+        let file = format!(
+            r#"(
+            plane: XZ,
+            parameters: {{ "k": "10 kN/m", "other": "10 kN/m" }},
+            nodes: {{ "g": (0, 0, 0), "a": (1, 0, 0), "b": (2, 0, 0), "w": (3, 0, 0) }},
+            supports: {{ "g": Fixed, "w": Fixed, "a": (Uz, Ry), "b": (Uz, Ry) }},
+            elements: {{
+                "ma": Mass(node: "a", mass: "100 kg"), "mb": Mass(node: "b", mass: "100 kg"),
+                "ka": Spring(nodes: ("g", "a"), k1: "k"), "kb": Spring(nodes: ("b", "w"), k1: "other"),
+                "stop": Gap(nodes: ("a", "b"), k: "1 MN/m", opening: "{opening}"),
+            }},
+            functions: {{ "wave": Sine(amplitude: "1 m/s^2", frequency: 1) }},
+            cases: {{ "shake": Dynamic(
+                duration: 1, dt: 0.01, solver: Hht, step: Fixed(substeps: 1),
+                base: [(direction: X, function: "wave")],
+            ) }},
+            outputs: {{ "a": Displacement(node: "a", dof: Ux) }},
+        )"#
+        );
+        Case::new(&text(&file, "alike.ron"), SolverKind::Hht, &[], &["k", "other"]).found
+    };
+    let found = alike("0 m");
+    assert_eq!(found.bends.len(), 1, "{:?}", found.bends);
+    assert_eq!(found.bends[0].link, "stop");
+    assert!(found.bends[0].count > 90, "{:?}", found.bends);
+    assert_eq!(alike("1 m").bends, []);
+}
