@@ -36,7 +36,13 @@ struct LinkMoves<'a> {
 
 enum Form<'a> {
     /// Over lanes: which of the coordinates, whether rates matter, parameters, and their derivatives.
-    Lanes { law: ErasedLaw, at: Vec<usize>, rate: bool, parameters: Vec<f64>, by: Vec<Vec<f64>> },
+    Lanes {
+        law: Box<ErasedLaw>,
+        at: Vec<usize>,
+        rate: bool,
+        parameters: Vec<f64>,
+        by: Vec<Vec<f64>>,
+    },
     /// Values alone: the law on both sides of each parameter that moves it, and how far apart.
     Values(Vec<Option<([&'a dyn Link; 2], f64)>>),
 }
@@ -116,7 +122,7 @@ impl<'a> LawMoves<'a> {
                         let some = first..(first + DIRECTIONS).min(count);
                         let by = &by[some.clone()];
                         let ends = (&moves[some.clone()], &mut next[some]);
-                        let asked = (law, &at[..], *rate, &parameters[..], by);
+                        let asked = (&**law, &at[..], *rate, &parameters[..], by);
                         by_duals(asked, one.link, made, ends, whole, work);
                     }
                 }
@@ -167,7 +173,7 @@ fn lanes<'a>(
     };
     let by: Option<Vec<Vec<f64>>> = by.iter().map(of).collect();
     Some(Form::Lanes {
-        law: form.law,
+        law: Box::new(form.law),
         at: form.coordinates,
         rate: form.rate && law.uses_rates(),
         parameters: form.parameters,
