@@ -29,7 +29,7 @@
 
 use crate::Error;
 use trilith_element::Dimension;
-use trilith_model::{Diagnostic, Model, ModelText, ParameterValue, Registry, SolverKind};
+use trilith_model::{Analysis, Diagnostic, Model, ModelText, ParameterValue, Registry, SolverKind};
 use trilith_solvers::assemble;
 use trilith_solvers::gradient::{Around, Gradient, GradientOptions, OFFSETS, SMALL, Varied};
 
@@ -45,7 +45,7 @@ pub struct Wanted {
     pub solver: Option<SolverKind>,
     /// Output step in s; `None`: that of the case.
     pub dt: Option<f64>,
-    /// Names of parameters; none: all that are numbers other than zero.
+    /// Names of parameters; none: all that are numbers other than zero and leave the times of the case as they are.
     pub by: Vec<String>,
     /// Values of parameters in place of those of the file.
     pub set: Vec<(String, String)>,
@@ -189,6 +189,17 @@ pub fn numbers(model: &Model) -> Vec<String> {
     model.parameters.iter().filter(|p| number(&p.value)).map(|p| p.name.clone()).collect()
 }
 
+/// True where a case has the same length and output step on both sides of a parameter.
+fn keeps_its_times(around: &Around, case: usize) -> bool {
+    let [low, .., high] = &around.near;
+    match (low.cases.get(case).map(|c| &c.analysis), high.cases.get(case).map(|c| &c.analysis)) {
+        (Some(Analysis::Dynamic(a)), Some(Analysis::Dynamic(b))) => {
+            a.duration == b.duration && a.dt == b.dt
+        }
+        _ => true,
+    }
+}
+
 /// Runs a case and finds the derivatives of all its outputs by parameters.
 ///
 /// # Errors
@@ -200,11 +211,14 @@ pub fn gradient(
 ) -> Result<Gradient, GradientError> {
     let model = text.read(registry, &wanted.set).map_err(GradientError::Model)?;
     let names = if wanted.by.is_empty() { numbers(&model) } else { wanted.by.clone() };
-    let around = around(text, registry, &wanted.set, &model, &names)?;
+    let mut around = around(text, registry, &wanted.set, &model, &names)?;
     let case = match &wanted.case {
         Some(name) => model.case(name).ok_or_else(|| Error::unknown_case(&model, name))?,
         None => model.cases.len().saturating_sub(1),
     };
+    if wanted.by.is_empty() {
+        around.retain(|around| keeps_its_times(around, case));
+    }
     let options = GradientOptions { case, solver: wanted.solver, dt: wanted.dt };
     let system = assemble(&model).map_err(Error::from)?;
     Ok(trilith_solvers::gradient::gradient(&model, &system, options, &around)

@@ -218,7 +218,8 @@ pub(crate) struct GradientArguments {
     /// Output step in seconds [default: that of the case]
     #[arg(long, value_parser = positive)]
     pub dt: Option<f64>,
-    /// Parameters; several times if need be [default: all that are numbers other than zero]
+    /// Parameters; several times if need be [default: all that are numbers other than zero and leave
+    /// the times of the case as they are]
     #[arg(long, value_name = "NAME,NAME", value_parser = names::list)]
     pub by: Vec<Names>,
     /// Outputs; several times if need be, and double quotes hold a name with a comma together [default: all]
