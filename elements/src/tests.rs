@@ -1,7 +1,8 @@
 //! What holds for every kind: the card and the struct tell the same.
 
 use trilith_element::{
-    Card, Constraint, Default, Form, LinearElement, Link, ParameterError, Register, Value, Values,
+    Card, Default, Form, ParameterError, ReadConstraint, ReadFunction, ReadLinear, ReadLink,
+    Register, Value, Values,
 };
 
 /// Every card with a reader that forgets what it read.
@@ -9,16 +10,17 @@ struct Kinds(Vec<(&'static Card, Try)>);
 
 type Try = Box<dyn Fn(&Values) -> Result<(), ParameterError>>;
 
-type Read<T> = fn(&Values) -> Result<Box<T>, ParameterError>;
-
 impl Register for Kinds {
-    fn add_linear(&mut self, card: &'static Card, read: Read<dyn LinearElement>) {
+    fn add_linear(&mut self, card: &'static Card, read: ReadLinear) {
         self.0.push((card, Box::new(move |v| read(v).map(drop))));
     }
-    fn add_constraint(&mut self, card: &'static Card, read: Read<dyn Constraint>) {
+    fn add_constraint(&mut self, card: &'static Card, read: ReadConstraint) {
         self.0.push((card, Box::new(move |v| read(v).map(drop))));
     }
-    fn add_link(&mut self, card: &'static Card, read: Read<dyn Link>) {
+    fn add_link(&mut self, card: &'static Card, read: ReadLink) {
+        self.0.push((card, Box::new(move |v| read(v).map(drop))));
+    }
+    fn add_function(&mut self, card: &'static Card, read: ReadFunction) {
         self.0.push((card, Box::new(move |v| read(v).map(drop))));
     }
 }

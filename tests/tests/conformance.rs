@@ -9,8 +9,8 @@ use proptest::test_runner::{Config, RngAlgorithm, TestCaseError, TestRng, TestRu
 use trilith::exercise::Specimen;
 use trilith_element::conformance::Kit;
 use trilith_element::{
-    Card, Form, Frame, Geometry, Link, Parameter, ParameterError, ReadConstraint, ReadLinear,
-    ReadLink, Register, Value, Values,
+    Card, Form, Frame, Geometry, Link, Parameter, ParameterError, ReadConstraint, ReadFunction,
+    ReadLinear, ReadLink, Register, Value, Values,
 };
 
 /// Laws that may give energy, each with the reason why that is right.
@@ -44,6 +44,7 @@ struct Links(Vec<(&'static Card, ReadLink)>);
 impl Register for Links {
     fn add_linear(&mut self, _: &'static Card, _: ReadLinear) {}
     fn add_constraint(&mut self, _: &'static Card, _: ReadConstraint) {}
+    fn add_function(&mut self, _: &'static Card, _: ReadFunction) {}
     fn add_link(&mut self, card: &'static Card, read: ReadLink) {
         self.0.push((card, read));
     }
@@ -85,7 +86,7 @@ fn settled(law: Box<dyn Link>) -> Box<dyn Link> {
 
 fn examine(
     card: &Card,
-    read: ReadLink,
+    read: &ReadLink,
     (example, nodes): (&Values, usize),
     numbers: &[f64],
     seed: u64,
@@ -139,7 +140,7 @@ fn every_link_keeps_its_contract_on_random_paths_with_random_parameters() {
         let mut runner = TestRunner::new_with_rng(config, random);
         let case = (proptest::collection::vec(-1.0..1.0, NUMBERS), proptest::num::u64::ANY);
         let result = runner
-            .run(&case, |(numbers, seed)| examine(card, read, (&example, nodes), &numbers, seed));
+            .run(&case, |(numbers, seed)| examine(card, &read, (&example, nodes), &numbers, seed));
         let since = started.elapsed().as_secs_f64();
         eprintln!("{}: {} paths, {since:.1} s since the start", card.kind, SETS as usize * PATHS);
         if let Err(error) = result {

@@ -77,6 +77,8 @@ pub enum Category {
     Constraint,
     /// A nonlinear law.
     Link,
+    /// A function of time.
+    Function,
 }
 
 /// How many nodes a kind takes.
@@ -91,6 +93,8 @@ pub struct NodeCount {
 impl NodeCount {
     /// One node and the ground, or two nodes.
     pub const GROUND_OR_TWO: Self = Self { min: 1, max: 2 };
+    /// None: functions of time.
+    pub const NONE: Self = Self::exactly(0);
     /// Exactly `n`.
     #[must_use]
     pub const fn exactly(n: usize) -> Self {

@@ -29,6 +29,7 @@ mod member;
 mod outline;
 mod register;
 mod values;
+mod waveform;
 
 pub mod conformance;
 pub mod dimension;
@@ -48,5 +49,6 @@ pub use linear::{ElementMatrices, LinearElement, SquareMatrix};
 pub use link::{Contact, ContactUse, Coordinates, Energy, Impact, Kinematics, Link, Response};
 pub use member::{Member, SpanLoad};
 pub use outline::Outline;
-pub use register::{ReadConstraint, ReadLinear, ReadLink, Register};
+pub use register::{Read, ReadConstraint, ReadFunction, ReadLinear, ReadLink, Register};
 pub use values::{Value, Values};
+pub use waveform::{Side, Stretch, Waveform};

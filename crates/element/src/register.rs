@@ -1,13 +1,18 @@
 //! How a crate offers its kinds to an application.
 
-use crate::{Card, Constraint, Described, LinearElement, Link, ParameterError, Values};
+use crate::{Card, Constraint, Described, LinearElement, Link, ParameterError, Values, Waveform};
+use std::sync::Arc;
 
+/// Makes something from its parameters; it may hold what it needs for that, such as a table that was read once.
+pub type Read<T> = Arc<dyn Fn(&Values) -> Result<Box<T>, ParameterError> + Send + Sync>;
 /// Makes a linear element from its parameters.
-pub type ReadLinear = fn(&Values) -> Result<Box<dyn LinearElement>, ParameterError>;
+pub type ReadLinear = Read<dyn LinearElement>;
 /// Makes a constraint from its parameters.
-pub type ReadConstraint = fn(&Values) -> Result<Box<dyn Constraint>, ParameterError>;
+pub type ReadConstraint = Read<dyn Constraint>;
 /// Makes a link from its parameters.
-pub type ReadLink = fn(&Values) -> Result<Box<dyn Link>, ParameterError>;
+pub type ReadLink = Read<dyn Link>;
+/// Makes a function of time from its parameters.
+pub type ReadFunction = Read<dyn Waveform>;
 
 /// The face of a registry that a crate of elements sees.
 ///
@@ -23,18 +28,24 @@ pub trait Register {
     fn add_constraint(&mut self, card: &'static Card, read: ReadConstraint);
     /// Takes a link by its reader.
     fn add_link(&mut self, card: &'static Card, read: ReadLink);
+    /// Takes a function of time by its reader.
+    fn add_function(&mut self, card: &'static Card, read: ReadFunction);
 
     /// Offers a linear element.
     fn linear<E: LinearElement + Described + 'static>(&mut self) {
-        self.add_linear(const { &E::CARD }, |v| Ok(Box::new(checked::<E>(v)?)));
+        self.add_linear(const { &E::CARD }, Arc::new(|v| Ok(Box::new(checked::<E>(v)?))));
     }
     /// Offers a constraint.
     fn constraint<E: Constraint + Described + 'static>(&mut self) {
-        self.add_constraint(const { &E::CARD }, |v| Ok(Box::new(checked::<E>(v)?)));
+        self.add_constraint(const { &E::CARD }, Arc::new(|v| Ok(Box::new(checked::<E>(v)?))));
     }
     /// Offers a link.
     fn link<E: Link + Described + 'static>(&mut self) {
-        self.add_link(const { &E::CARD }, |v| Ok(Box::new(checked::<E>(v)?)));
+        self.add_link(const { &E::CARD }, Arc::new(|v| Ok(Box::new(checked::<E>(v)?))));
+    }
+    /// Offers a function of time. Its card takes no nodes.
+    fn function<F: Waveform + Described + 'static>(&mut self) {
+        self.add_function(const { &F::CARD }, Arc::new(|v| Ok(Box::new(checked::<F>(v)?))));
     }
 }
 

@@ -7,6 +7,7 @@
 
 mod analysis;
 mod check;
+mod custom;
 mod diagnostic;
 mod expand;
 mod expression;
@@ -38,6 +39,7 @@ pub mod file {
 
 pub use analysis::*;
 pub use check::{ModelError, ModelFault};
+pub use custom::Custom;
 pub use diagnostic::{Diagnostic, line_column};
 pub use expression::quantity;
 pub use model::*;

@@ -1,17 +1,31 @@
 //! The kinds that an application offers to model files.
 
-use trilith_element::Register;
-use trilith_element::{Card, Constraint, LinearElement, Link, ParameterError, Values};
+use crate::schema;
+use trilith_element::{
+    Card, Category, ReadConstraint, ReadFunction, ReadLinear, ReadLink, Register,
+};
 
 /// How to make a member of a kind.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone)]
 pub(crate) enum Reader {
-    Linear(fn(&Values) -> Result<Box<dyn LinearElement>, ParameterError>),
-    Constraint(fn(&Values) -> Result<Box<dyn Constraint>, ParameterError>),
-    Link(fn(&Values) -> Result<Box<dyn Link>, ParameterError>),
+    Linear(ReadLinear),
+    Constraint(ReadConstraint),
+    Link(ReadLink),
+    Function(ReadFunction),
 }
 
-/// The kinds of elements, constraints and links by name, in the order in which they came.
+impl std::fmt::Debug for Reader {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.write_str(match self {
+            Self::Linear(_) => "Linear",
+            Self::Constraint(_) => "Constraint",
+            Self::Link(_) => "Link",
+            Self::Function(_) => "Function",
+        })
+    }
+}
+
+/// The kinds of elements, constraints, links and functions of time by name, in the order in which they came.
 ///
 /// A name that comes a second time does not replace the first; it is kept in
 /// [`duplicates`](Self::duplicates), and no model is read with such a registry.
@@ -33,24 +47,36 @@ impl Registry {
         self.kinds.iter().map(|(card, _)| *card)
     }
 
+    /// The cards of what may stand in `elements`.
+    pub fn elements(&self) -> impl Iterator<Item = &'static Card> + Clone + '_ {
+        self.cards().filter(|card| card.category != Category::Function)
+    }
+
+    /// The cards of functions of time, beside the built-in ones.
+    pub fn functions(&self) -> impl Iterator<Item = &'static Card> + Clone + '_ {
+        self.cards().filter(|card| card.category == Category::Function)
+    }
+
     /// The card of a kind.
     #[must_use]
     pub fn card(&self, kind: &str) -> Option<&'static Card> {
-        self.find(kind).map(|(card, _)| card)
+        self.cards().find(|card| card.kind == kind)
     }
 
-    /// Names that were registered more than once.
+    /// Names that were registered more than once, or that a built-in function of time has.
     #[must_use]
     pub fn duplicates(&self) -> &[&'static str] {
         &self.duplicates
     }
 
-    pub(crate) fn find(&self, kind: &str) -> Option<(&'static Card, Reader)> {
-        self.kinds.iter().find(|(card, _)| card.kind == kind).copied()
+    pub(crate) fn find(&self, kind: &str) -> Option<(&'static Card, &Reader)> {
+        self.kinds.iter().find(|(card, _)| card.kind == kind).map(|(card, read)| (*card, read))
     }
 
     fn add(&mut self, card: &'static Card, reader: Reader) {
-        if self.card(card.kind).is_some() {
+        let built_in =
+            card.category == Category::Function && schema::FUNCTIONS.names().contains(&card.kind);
+        if built_in || self.card(card.kind).is_some() {
             self.duplicates.push(card.kind);
         } else {
             self.kinds.push((card, reader));
@@ -59,25 +85,16 @@ impl Registry {
 }
 
 impl Register for Registry {
-    fn add_linear(
-        &mut self,
-        card: &'static Card,
-        read: fn(&Values) -> Result<Box<dyn LinearElement>, ParameterError>,
-    ) {
+    fn add_linear(&mut self, card: &'static Card, read: ReadLinear) {
         self.add(card, Reader::Linear(read));
     }
-    fn add_constraint(
-        &mut self,
-        card: &'static Card,
-        read: fn(&Values) -> Result<Box<dyn Constraint>, ParameterError>,
-    ) {
+    fn add_constraint(&mut self, card: &'static Card, read: ReadConstraint) {
         self.add(card, Reader::Constraint(read));
     }
-    fn add_link(
-        &mut self,
-        card: &'static Card,
-        read: fn(&Values) -> Result<Box<dyn Link>, ParameterError>,
-    ) {
+    fn add_link(&mut self, card: &'static Card, read: ReadLink) {
         self.add(card, Reader::Link(read));
+    }
+    fn add_function(&mut self, card: &'static Card, read: ReadFunction) {
+        self.add(card, Reader::Function(read));
     }
 }

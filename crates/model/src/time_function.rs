@@ -2,29 +2,10 @@
 //!
 //! Times in s from the start of the case, frequencies in Hz, phases in rad.
 
-use crate::Table;
+use crate::{Custom, Table};
 use std::f64::consts::{PI, TAU};
 use std::sync::Arc;
-
-/// Which limit to take where a function jumps.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Side {
-    /// Limit from earlier times: the end of a step.
-    Before,
-    /// Limit from later times: the start of a step.
-    After,
-}
-
-impl Side {
-    /// True where `t`, seen from this side, lies behind `edge`.
-    #[must_use]
-    pub fn is_past(self, t: f64, edge: f64) -> bool {
-        match self {
-            Self::Before => t > edge,
-            Self::After => t >= edge,
-        }
-    }
-}
+pub use trilith_element::{Side, Stretch};
 
 /// A bend of a table.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -33,17 +14,6 @@ pub struct Corner {
     pub t: f64,
     /// Time to the nearer of the samples beside it, s.
     pub reach: f64,
-}
-
-/// A time in which a function is curved.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Stretch {
-    /// From, s.
-    pub from: f64,
-    /// To, s; may be infinite.
-    pub to: f64,
-    /// Longest step that follows it, s.
-    pub step: f64,
 }
 
 /// Steps in the period of a sine: straight lines between them miss 1 − cos(π/16) = 1.9 % of its amplitude at most
@@ -99,6 +69,8 @@ pub enum TimeFunction {
     },
     /// Values at given times.
     Table(Arc<Table>),
+    /// What another crate offers.
+    Custom(Custom),
 }
 
 /// A harmonic of a number of cycles.
@@ -183,6 +155,7 @@ impl TimeFunction {
             Self::Sine(h) | Self::Cosine(h) => vec![h.start, h.end()],
             Self::HalfSine { duration, start, .. } => vec![*start, start + duration],
             Self::Table(table) => vec![table.start(), table.end()],
+            Self::Custom(custom) => custom.waveform.breaks(),
         };
         times.retain(|t| t.is_finite());
         times.sort_by(f64::total_cmp);
@@ -207,6 +180,9 @@ impl TimeFunction {
                 (center - reach, center + reach, 6.0_f64.sqrt() * PI * frequency)
             }
             Self::Table(table) => (table.start(), table.end(), table.bend()),
+            Self::Custom(custom) => {
+                return custom.waveform.stretch().filter(|_| self.peak() > 0.0);
+            }
             Self::Constant(_) | Self::Step { .. } | Self::Ramp { .. } => return None,
         };
         let step = TAU / (STEPS_OF_A_PERIOD * bend);
@@ -225,6 +201,7 @@ impl TimeFunction {
             Self::Sine(h) => h.peak(0.0),
             Self::Cosine(h) => h.peak(PI / 2.0),
             Self::Table(table) => table.peak(),
+            Self::Custom(custom) => custom.peak_until(f64::INFINITY),
         }
     }
 
@@ -247,6 +224,7 @@ impl TimeFunction {
                 turns.iter().fold(at(0.0).max(at(end)), |most, t| most.max(at(t.max(0.0))))
             }
             Self::Table(table) => table.peak_until(end),
+            Self::Custom(custom) => custom.peak_until(end),
         }
     }
 
@@ -263,6 +241,7 @@ impl TimeFunction {
             | Self::HalfSine { amplitude, .. }
             | Self::Ricker { amplitude, .. } => *amplitude *= factor,
             Self::Table(table) => *table = Arc::new(table.scaled(factor)),
+            Self::Custom(custom) => custom.amplitude *= factor,
         }
         scaled
     }
@@ -313,6 +292,7 @@ impl TimeFunction {
                 [(1.0 - 2.0 * x * x) * e, w * first * e, w * w * second * e]
             }
             Self::Table(ref table) => table.at(t, side),
+            Self::Custom(ref custom) => custom.at(t, side),
         }
     }
 }

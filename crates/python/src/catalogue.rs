@@ -28,6 +28,7 @@ pub(crate) fn elements() -> Vec<CardFacts> {
             Category::Linear => "linear",
             Category::Constraint => "constraint",
             Category::Link => "link",
+            Category::Function => "function",
         };
         let most = Some(card.nodes.max).filter(|most| *most < usize::MAX);
         (

@@ -5,7 +5,7 @@
 
 use crate::Registry;
 use serde_json::{Map, Value, json};
-use trilith_element::{Card, Category, Form};
+use trilith_element::{Card, Category, Default as CardDefault, Form};
 use trilith_model::schema::{self, Block, Default, Field, Group, Takes};
 
 /// The dialect.
@@ -17,6 +17,11 @@ pub fn json_schema(registry: &Registry) -> Value {
     let mut defs = Map::new();
     for group in schema::groups() {
         defs.insert(key(group), one_of(group));
+    }
+    if let Some(all) =
+        defs.get_mut(&key(&schema::FUNCTIONS)).and_then(|d| d["anyOf"].as_array_mut())
+    {
+        all.extend(registry.functions().map(function));
     }
     defs.insert("for".into(), repetition());
     defs.insert("element".into(), elements(registry));
@@ -171,8 +176,39 @@ fn choice(names: &[&str]) -> Value {
 }
 
 fn elements(registry: &Registry) -> Value {
-    let kinds: Vec<Value> = registry.cards().map(element).collect();
+    let kinds: Vec<Value> = registry.elements().map(element).collect();
     json!({ "anyOf": kinds, "description": "An element, a constraint or a link." })
+}
+
+fn parameters(card: &Card) -> impl Iterator<Item = (String, Value)> {
+    card.parameters.iter().map(|p| {
+        let what = match p.form {
+            Form::Choice(names) => choice(names),
+            Form::Flag => value(Takes::Flag),
+            Form::Number(_) | Form::Power { .. } => number(),
+            Form::Node => json!({ "type": "string" }),
+            _ => json!({}),
+        };
+        (p.name.to_owned(), described(what, p.meaning))
+    })
+}
+
+/// A function of time of another crate.
+fn function(card: &Card) -> Value {
+    let mut fields: Map<String, Value> = parameters(card).collect();
+    fields.insert(
+        "amplitude".into(),
+        described(number(), "Factor; its unit is that of the function."),
+    );
+    let needed = card.parameters.iter().filter(|p| p.default == CardDefault::Required);
+    let needed: Vec<&str> = std::iter::once("amplitude").chain(needed.map(|p| p.name)).collect();
+    let fields = json!({
+        "type": "object",
+        "properties": fields,
+        "required": needed,
+        "additionalProperties": false,
+    });
+    named(card.kind, fields, card.summary)
 }
 
 fn element(card: &Card) -> Value {
@@ -184,16 +220,7 @@ fn element(card: &Card) -> Value {
     if card.category == Category::Linear {
         blocks.push(&schema::MEMBER);
     }
-    for p in card.parameters {
-        let what = match p.form {
-            Form::Choice(names) => choice(names),
-            Form::Flag => value(Takes::Flag),
-            Form::Number(_) | Form::Power { .. } => number(),
-            Form::Node => json!({ "type": "string" }),
-            _ => json!({}),
-        };
-        fields.insert(p.name.to_owned(), described(what, p.meaning));
-    }
+    fields.extend(parameters(card));
     for block in blocks {
         // What has no place for a section says so where it is read.
         fields.extend(block.fields.iter().map(property));

@@ -190,6 +190,7 @@ impl Check<'_> {
                     ("phase", *phase, any),
                 ]
             }
+            TimeFunction::Custom(custom) => vec![("amplitude", custom.amplitude, any)],
         };
         for (name, value, range) in values {
             self.number(part, name, value, range);

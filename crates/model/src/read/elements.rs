@@ -51,13 +51,13 @@ pub(super) fn elements<'n>(
 }
 
 /// The kind that a value names.
-fn kind(c: &Context<'_>, node: &Node) -> Option<(&'static Card, Reader)> {
+fn kind<'c>(c: &'c Context<'_>, node: &Node) -> Option<(&'static Card, &'c Reader)> {
     let Some(name) = node.name() else {
         return c.wrong(node, "a kind with its parameters, `Kind(…)`,");
     };
-    let found = c.registry.find(name);
+    let found = c.registry.find(name).filter(|(_, read)| !matches!(read, Reader::Function(_)));
     if found.is_none() {
-        let kinds: Vec<&str> = c.registry.cards().map(|card| card.kind).collect();
+        let kinds: Vec<&str> = c.registry.elements().map(|card| card.kind).collect();
         let span = node.name_span();
         let mut d = c
             .diagnostic("E0107", format!("there is no kind `{name}`"), span.clone())
@@ -125,6 +125,8 @@ impl Reading<'_, '_> {
                 law.place(&place)?;
                 Ok(Body::Link(Arc::from(law), LinkOptions::default()))
             }),
+            // No kind of elements, as `kind` has said.
+            Reader::Function(_) => return None,
         };
         let body = match body {
             Ok(Body::Link(law, _)) => {

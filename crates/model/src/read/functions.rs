@@ -1,15 +1,18 @@
 //! Time functions.
 
 use super::context::{Context, Fields};
-use super::names::Names;
+use super::names::{NODE, Names};
 use super::record::record;
 use super::synthetic::{synthetic, too_much};
 use super::tables::{points, table};
+use super::values::{Given, values};
+use crate::registry::Reader;
 use crate::schema::{self, Block};
 use crate::tree::{Entry, Kind};
-use crate::{Function, Harmonic, TimeFunction};
+use crate::{Custom, Function, Harmonic, TimeFunction};
+use std::sync::Arc;
 use trilith_element::dimension::{FREQUENCY, NONE, TIME};
-use trilith_element::{Dimension, Range};
+use trilith_element::{Card, Dimension, Range, ReadFunction};
 
 /// A function and the dimension of its values; no dimension for plain numbers.
 pub(super) type Made = (TimeFunction, Option<Dimension>);
@@ -25,7 +28,12 @@ pub(super) fn functions(
     let mut made: Vec<Option<Made>> = Vec::new();
     let mut scaled: Vec<(usize, usize, f64, Option<Dimension>)> = Vec::new();
     for (i, e) in entries.iter().enumerate() {
-        let kind = c.one_of(&e.value, "function", &schema::FUNCTIONS);
+        let offered = e.value.name().and_then(|name| c.registry.find(name));
+        if let Some((card, Reader::Function(read))) = offered {
+            made.push(custom(c, e, card, read));
+            continue;
+        }
+        let kind = built_in(c, e);
         if kind.is_some_and(|k| k.name == schema::SCALED.name) {
             scaled.extend(reference(c, e, names).map(|(of, factor, d)| (i, of, factor, d)));
             made.push(None);
@@ -91,6 +99,43 @@ fn reference(
 
 pub(super) fn what(e: &Entry) -> String {
     format!("function `{}`", e.key)
+}
+
+/// The block that a value names; a name that there is not is answered with those of other crates as well.
+fn built_in(c: &Context<'_>, e: &Entry) -> Option<&'static Block> {
+    let mut names = schema::FUNCTIONS.names();
+    names.extend(c.registry.functions().map(|card| card.kind));
+    // Those of other crates have been looked for, as names.
+    c.choice(&e.value, "function", &names).and_then(|i| schema::FUNCTIONS.blocks.get(i).copied())
+}
+
+/// A function that another crate offers.
+fn custom(c: &Context<'_>, e: &Entry, card: &'static Card, read: &ReadFunction) -> Option<Made> {
+    let what = what(e);
+    let names: Vec<&str> =
+        std::iter::once("amplitude").chain(card.parameters.iter().map(|p| p.name)).collect();
+    let fields = c.fields(&e.value, &what, &names)?;
+    let size = amplitude(c, &fields);
+    let given = Given { own: fields.entries(), shared: &[], made: Default::default() };
+    let at = e.value.name_span();
+    let values = values(c, card, &given, &what, &at, &Names::new(NODE, "nodes", &[]));
+    let ((amplitude, dimension), values) = (size?, values?);
+    let refuse = |message: String, at| {
+        c.report(c.diagnostic("E0114", message, at));
+        None
+    };
+    let waveform = match read(&values) {
+        Ok(waveform) => Arc::from(waveform),
+        Err(error) => {
+            let place = error.parameter().and_then(|name| given.get(name));
+            return refuse(format!("{what}: {error}"), place.map_or(at, |n| n.span.clone()));
+        }
+    };
+    let custom = Custom { amplitude, card, values: Arc::new(values), waveform };
+    match custom.fault() {
+        Some(fault) => refuse(format!("{what}: {} is no function of time: {fault}", card.kind), at),
+        None => Some((TimeFunction::Custom(custom), dimension)),
+    }
 }
 
 fn function(c: &Context<'_>, e: &Entry, kind: &Block) -> Option<Made> {

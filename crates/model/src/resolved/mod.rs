@@ -211,6 +211,11 @@ fn function(f: &TimeFunction, d: Option<Dimension>) -> String {
             "Ricker(amplitude: {}, frequency: {frequency:?}, center: {center:?})",
             amount(*amplitude)
         ),
+        TimeFunction::Custom(custom) => {
+            let mut fields = vec![format!("amplitude: {}", amount(custom.amplitude))];
+            fields.extend(custom.values.0.iter().map(|(name, v)| format!("{name}: {}", value(v))));
+            format!("{}({})", custom.card.kind, fields.join(", "))
+        }
         TimeFunction::Table(table) => {
             let pairs = table.times().iter().zip(table.values());
             let points: Vec<String> =

@@ -3,7 +3,7 @@
 use super::grid::{Grid, Piece};
 use std::collections::VecDeque;
 use std::sync::{Arc, Mutex, PoisonError, Weak};
-use trilith_model::{Harmonic, Side, TimeFunction};
+use trilith_model::{Custom, Harmonic, Side, TimeFunction};
 use trilith_system::Track;
 
 /// Parts of a step, a power of two, at whose ends amplitudes are known where steps are adaptive.
@@ -70,6 +70,7 @@ fn unit(function: &TimeFunction) -> (TimeFunction, f64) {
         F::Ricker { amplitude, frequency, center } => {
             (F::Ricker { amplitude: 1.0, frequency: *frequency, center: *center }, *amplitude)
         }
+        F::Custom(c) => (F::Custom(Custom { amplitude: 1.0, ..c.clone() }), c.amplitude),
         F::Table(_) => (function.clone(), 1.0),
     }
 }

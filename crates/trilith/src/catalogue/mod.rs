@@ -19,10 +19,11 @@ use crate::exercise::Specimen;
 use crate::model::Registry;
 
 /// Categories in the order of the catalogue, with what their members do.
-pub const CATEGORIES: [(Category, &str); 3] = [
+pub const CATEGORIES: [(Category, &str); 4] = [
     (Category::Linear, "linear elements: add to M, C, K"),
     (Category::Constraint, "constraints: eliminate directions"),
     (Category::Link, "links: nonlinear laws"),
+    (Category::Function, "functions of time: loads and motions"),
 ];
 
 /// What every link takes beside its parameters.

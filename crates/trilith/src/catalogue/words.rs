@@ -9,6 +9,7 @@ pub fn category(category: Category) -> &'static str {
         Category::Linear => "linear element",
         Category::Constraint => "constraint",
         Category::Link => "link",
+        Category::Function => "function of time",
     }
 }
 
@@ -62,6 +63,7 @@ fn form(p: &Parameter) -> (String, String) {
 #[must_use]
 pub fn nodes(count: NodeCount) -> String {
     match (count.min, count.max) {
+        (0, 0) => "no node".into(),
         (1, 1) => "1 node".into(),
         (1, 2) => "1 node (to the ground) or 2 nodes".into(),
         (a, b) if a == b => format!("{a} nodes"),

@@ -44,5 +44,6 @@ fn article(category: &Category) -> &'static str {
         Category::Linear => "a linear element",
         Category::Constraint => "a constraint",
         Category::Link => "a link",
+        Category::Function => "a function of time",
     }
 }

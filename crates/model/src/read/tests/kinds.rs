@@ -1,4 +1,4 @@
-//! A linear spring and a sliding link, only to be read.
+//! A linear spring and a sliding link, only to be read, and a function of time.
 
 use crate::Registry;
 use std::borrow::Cow;
@@ -108,9 +108,55 @@ impl Link for Slider {
     fn respond(&self, _: &Kinematics<'_>, _: &[f64], _: &mut [f64], _: &mut Response<'_>) {}
 }
 
+/// y = e^(−(t − start)/time), from the start on.
+#[derive(Debug, serde::Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct Decay {
+    time: f64,
+    start: f64,
+}
+
+impl Described for Decay {
+    const CARD: Card = Card {
+        kind: "Decay",
+        category: Category::Function,
+        summary: "A shock that decays.",
+        nodes: NodeCount::NONE,
+        parameters: &[
+            parameter("time", Form::Number(d::TIME), Range::Positive, Default::Required),
+            parameter("start", Form::Number(d::TIME), Range::Any, Default::Number(0.0)),
+        ],
+        law: "y = e^(−(t − start)/time)",
+        source: "",
+        example: "",
+        exercise: Exercise::NONE,
+    };
+}
+
+impl Waveform for Decay {
+    fn at(&self, t: f64, side: Side) -> [f64; 3] {
+        if !side.is_past(t, self.start) {
+            return [0.0; 3];
+        }
+        let y = (-(t - self.start) / self.time).exp();
+        [y, -y / self.time, y / (self.time * self.time)]
+    }
+    fn breaks(&self) -> Vec<f64> {
+        vec![self.start]
+    }
+    fn stretch(&self) -> Option<Stretch> {
+        let end = self.start + 15.0 * self.time;
+        Some(Stretch::of_curvature(self.start, end, 1.0 / (self.time * self.time)))
+    }
+    fn peak_until(&self, end: f64) -> f64 {
+        if end > self.start { 1.0 } else { 0.0 }
+    }
+}
+
 pub(super) fn registry() -> Registry {
     let mut registry = Registry::new();
     registry.linear::<Spring>();
     registry.link::<Slider>();
+    registry.function::<Decay>();
     registry
 }

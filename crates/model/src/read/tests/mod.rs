@@ -1,4 +1,4 @@
-//! Reading whole models with two made-up kinds.
+//! Reading whole models with made-up kinds.
 
 mod bounds;
 mod damaged;
@@ -8,6 +8,7 @@ mod included;
 mod kinds;
 mod refusals;
 mod repetition;
+mod waveforms;
 mod whole;
 
 use crate::{Diagnostic, Model, read_text};
