@@ -1,14 +1,20 @@
-//! Links in a crate of their own, as a third party would write them.
+//! Links, an element, a constraint and a function of time in a crate of their own, as a third party would write them.
 //!
 //! [`TensionBracing`] has a memory, [`CubicSpring`] has none; each is a file that needs nothing but
-//! `trilith_element`. An application offers them beside the built-in kinds with one line,
-//! `trilith_thirdparty_example::register(&mut registry)`: `src/main.rs` is one.
+//! `trilith_element`, and so are [`TaperedBar`], [`Gearing`] and [`Friedlander`]. An application offers them beside the
+//! built-in kinds with one line, `trilith_thirdparty_example::register(&mut registry)`: `src/main.rs` is one.
 //! The README of the crate leads to a link of your own.
 
 mod cubic_spring;
+mod friedlander;
+mod gearing;
+mod tapered_bar;
 mod tension_bracing;
 
 pub use cubic_spring::CubicSpring;
+pub use friedlander::Friedlander;
+pub use gearing::Gearing;
+pub use tapered_bar::TaperedBar;
 pub use tension_bracing::{TensionBracing, TensionBracingHistory};
 
 use trilith_element::Register;
@@ -17,4 +23,7 @@ use trilith_element::Register;
 pub fn register(to: &mut impl Register) {
     to.link::<TensionBracing>();
     to.link::<CubicSpring>();
+    to.linear::<TaperedBar>();
+    to.constraint::<Gearing>();
+    to.function::<Friedlander>();
 }

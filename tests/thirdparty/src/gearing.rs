@@ -1,0 +1,66 @@
+//! Gearing: a direction of the second node follows one of the first by a ratio.
+//!
+//! ```text
+//!   u₂ = r u₁
+//! ```
+//!
+//! Gears, levers and ropes over pulleys, whose other parts are no part of the model. The shaft of the gears carries what
+//! the two forces lack in equilibrium, so a gearing does not move freely as a rigid body.
+
+use serde::Deserialize;
+use trilith_element::dimension::NONE;
+use trilith_element::{
+    Card, Category, Constraint, Default, Described, Dof, Equation, Exercise, Form, NodeCount,
+    Parameter, ParameterError, Range, Vector3,
+};
+
+const NAMES: &[&str] = &["Ux", "Uy", "Uz", "Rx", "Ry", "Rz"];
+
+/// One direction of two nodes, coupled by a ratio. The fields are the parameters of model files.
+#[derive(Clone, Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Gearing {
+    /// Name of the direction.
+    pub dof: String,
+    /// Motion of the second node over that of the first r.
+    pub ratio: f64,
+}
+
+impl Described for Gearing {
+    const CARD: Card = Card {
+        kind: "Gearing",
+        category: Category::Constraint,
+        summary: "A direction of the second node follows that of the first by a ratio.",
+        nodes: NodeCount::exactly(2),
+        parameters: &[
+            Parameter::new("dof", "", Form::Choice(NAMES), Default::Required, "which direction"),
+            Parameter::required(
+                "ratio",
+                "r",
+                NONE,
+                Range::Any,
+                "motion of the second node over that of the first",
+            ),
+        ],
+        law: "u₂ = r u₁",
+        source: "kinematics of a lever",
+        example: r#""gears": Gearing(nodes: ("motor", "wheel"), dof: Rx, ratio: -0.25)"#,
+        exercise: Exercise::NONE,
+    };
+
+    fn check(&self) -> Result<(), ParameterError> {
+        if self.ratio == 0.0 {
+            let message = "a `ratio` of 0 holds the second node: write a support";
+            return Err(ParameterError::inconsistent("ratio", message));
+        }
+        Ok(())
+    }
+}
+
+impl Constraint for Gearing {
+    fn equations(&self, _: &[Vector3]) -> Result<Vec<Equation>, ParameterError> {
+        let at = NAMES.iter().position(|name| *name == self.dof).unwrap_or(0);
+        let dof = Dof::ALL[at];
+        Ok(vec![Equation { dependent: (1, dof), terms: vec![((0, dof), self.ratio)] }])
+    }
+}

@@ -1,0 +1,205 @@
+//! What this crate offers beside links, by name from model files, against closed forms.
+
+use trilith::element::{Register, Side, Stretch, Waveform};
+use trilith::{Model, Registry, Run};
+
+fn kinds() -> Registry {
+    let mut kinds = trilith::registry();
+    trilith_thirdparty_example::register(&mut kinds);
+    kinds
+}
+
+fn read(text: &str) -> Model {
+    trilith::read_text(text, "doors.ron", &kinds(), &[]).unwrap_or_else(|e| panic!("{e:?}"))
+}
+
+fn run(text: &str, case: &str) -> Run {
+    trilith::run(&read(text), case).expect("a run")
+}
+
+/// The errors of a text, with line and column.
+fn errors(text: &str, kinds: &Registry) -> String {
+    match trilith::read_text(text, "doors.ron", kinds, &[]) {
+        Ok(_) => panic!("this should be refused: {text}"),
+        Err(errors) => format!("{errors:?}"),
+    }
+}
+
+/// A mass of 1 t on a spring of 4π² MN/m, which is hit: T = 31.6 ms.
+fn blast(function: &str, solver: &str) -> String {
+    format!(
+        r#"(
+            nodes: {{ "wall": (0, 0, 0) }},
+            supports: {{ "wall": (Uy, Uz, Rx, Ry, Rz) }},
+            elements: {{
+                "mass": Mass(node: "wall", mass: "1 t"),
+                "spring": Spring(node: "wall", k1: "40 MN/m"),
+            }},
+            functions: {{ "blast": {function} }},
+            loads: {{ "push": [(node: "wall", dof: Ux, force: "1 kN")] }},
+            cases: {{ "hit": Dynamic(
+                duration: "80 ms", dt: "0.1 ms", forces: [(load: "push", function: "blast")], solver: {solver},
+            ) }},
+            outputs: {{ "u": Displacement(node: "wall", dof: Ux) }},
+        )"#
+    )
+}
+
+/// ü + ω² u = p₀ (1 − t/T) e^(−a t) from rest: u = e^(−a t) (P + Q t) − P cos ωt − (Q − a P)/ω sin ωt with
+/// Q = −p₀/(T (ω² + a²)) and P = (p₀ + 2 a Q)/(ω² + a²), a = b/T.
+fn moved(t: f64) -> f64 {
+    let (p0, duration, decay, w2) = (50e3 / 1e3, 20e-3, 1.5, 40e6_f64 / 1e3);
+    let (w, a) = (w2.sqrt(), decay / duration);
+    let d = w2 + a * a;
+    let q = -p0 / (duration * d);
+    let p = (p0 + 2.0 * a * q) / d;
+    (-a * t).exp() * (p + q * t) - p * (w * t).cos() - (q - a * p) / w * (w * t).sin()
+}
+
+const FRIEDLANDER: &str = "Friedlander(amplitude: 50, duration: \"20 ms\", decay: 1.5)";
+
+#[test]
+fn a_wall_answers_to_a_blast_as_the_closed_form_says() {
+    for (solver, tolerance) in [("Fna", 2e-4), ("Hht", 2e-3)] {
+        let run = run(&blast(FRIEDLANDER, solver), "hit");
+        let most = (0..=800).map(|i| moved(1e-4 * f64::from(i)).abs()).fold(0.0, f64::max);
+        for (t, u) in run.time().iter().zip(run.history("u").expect("an output")) {
+            let expected = moved(*t);
+            assert!((u - expected).abs() < tolerance * most, "{solver} at {t} s: {u}, {expected}");
+        }
+        assert!(run.time().len() > 700);
+    }
+}
+
+#[test]
+fn a_blast_is_scaled_written_out_and_read_again() {
+    let twice = format!(
+        "{}, \"twice\": Scaled(function: \"blast\", factor: 2)",
+        FRIEDLANDER.replace("50,", "\"25 kN\",")
+    );
+    let model = read(&blast(&twice, "Fna"));
+    let [once, twice] = [0, 1].map(|i| model.functions[i].function.clone());
+    assert_eq!(twice.value(5e-3, Side::After), 2.0 * once.value(5e-3, Side::After));
+    assert_eq!((once.value(0.0, Side::Before), once.value(0.0, Side::After)), (0.0, 25e3));
+    let again = read(&trilith::model::resolved(&model));
+    assert_eq!(again.functions[1].function, twice);
+    assert_ne!(again.functions[0].function, twice);
+}
+
+#[test]
+fn a_wrong_name_or_field_of_a_foreign_function_is_answered_as_of_a_built_in_one() {
+    let told = |function: &str| errors(&blast(function, "Fna"), &kinds());
+    let name = told(&FRIEDLANDER.replace("Friedlander", "Friedlandr"));
+    assert!(name.contains("there is no function `Friedlandr`"), "{name}");
+    assert!(name.contains("did you mean `Friedlander`"), "{name}");
+    let field = told(&FRIEDLANDER.replace("decay", "decays"));
+    assert!(field.contains("function `blast` has no field `decays`"), "{field}");
+    let unit = told(&FRIEDLANDER.replace("20 ms", "20 mm"));
+    assert!(unit.contains("duration"), "{unit}");
+    let range = told(&FRIEDLANDER.replace("1.5", "0.1"));
+    assert!(range.contains("`decay`"), "{range}");
+    let missing = told("Friedlander(duration: \"1 s\")");
+    assert!(missing.contains("function `blast` has no `amplitude`"), "{missing}");
+    // Nor is it a kind of elements, or an element a function.
+    let element = blast(FRIEDLANDER, "Fna").replace("Mass(", "Friedlander(");
+    assert!(errors(&element, &kinds()).contains("there is no kind `Friedlander`"));
+    assert!(told("Mass(mass: 1)").contains("there is no function `Mass`"));
+}
+
+/// Answers with what a test says; made by a reader that holds it.
+#[derive(Clone, Debug)]
+struct Odd {
+    value: f64,
+    peak: f64,
+    step: f64,
+}
+
+impl Waveform for Odd {
+    fn at(&self, t: f64, _: Side) -> [f64; 3] {
+        [if t > 0.5 { self.value } else { 1.0 }, 0.0, 0.0]
+    }
+    fn breaks(&self) -> Vec<f64> {
+        Vec::new()
+    }
+    fn stretch(&self) -> Option<Stretch> {
+        Some(Stretch { from: 0.0, to: f64::INFINITY, step: self.step })
+    }
+    fn peak_until(&self, _: f64) -> f64 {
+        self.peak
+    }
+}
+
+/// The card of [`Odd`]: that of the blast under another name, without parameters.
+const ODD: trilith::element::Card = trilith::element::Card {
+    kind: "Odd",
+    parameters: &[],
+    ..<trilith_thirdparty_example::Friedlander as trilith::element::Described>::CARD
+};
+
+/// A card with the name of a built-in function.
+const SINE: trilith::element::Card = trilith::element::Card { kind: "Sine", ..ODD };
+
+#[test]
+fn a_function_that_is_none_is_refused_where_it_is_named() {
+    let good = Odd { value: 1.0, peak: 1.0, step: 0.1 };
+    let with = |odd: Odd| {
+        let mut kinds = kinds();
+        kinds.add_function(&ODD, std::sync::Arc::new(move |_| Ok(Box::new(odd.clone()))));
+        kinds
+    };
+    let text = blast("Odd(amplitude: 1)", "Fna");
+    assert!(trilith::read_text(&text, "doors.ron", &with(good.clone()), &[]).is_ok());
+    for (odd, words) in [
+        (Odd { value: f64::NAN, ..good.clone() }, "a value or a derivative is NaN at"),
+        (Odd { value: 2.0, ..good.clone() }, "but `peak_until` is 1 for all times"),
+        (Odd { peak: f64::INFINITY, ..good.clone() }, "`peak_until` is inf"),
+        (Odd { step: 0.0, ..good.clone() }, "`stretch` is from 0 s"),
+    ] {
+        let told = errors(&text, &with(odd));
+        assert!(told.contains(words), "{told}");
+    }
+    let mut sine = trilith::registry();
+    sine.add_function(&SINE, std::sync::Arc::new(move |_| Ok(Box::new(good.clone()))));
+    assert_eq!(sine.duplicates(), ["Sine"]);
+}
+
+/// A bar of 2 m from 10 to 20 cm² under 100 kN: F L ln 2/(E·10 cm²).
+#[test]
+fn a_tapered_bar_gives_way_by_its_logarithmic_mean() {
+    let text = r#"(
+        nodes: { "a": (0, 0, 0), "b": (2, 0, 0) },
+        supports: { "a": (Ux, Uy, Uz, Rx, Ry, Rz), "b": (Uy, Uz, Rx, Ry, Rz) },
+        elements: { "bar": TaperedBar(nodes: ("a", "b"), modulus: "200 GPa", area1: "10 cm^2", area2: "20 cm^2") },
+        loads: { "pull": [(node: "b", dof: Ux, force: "100 kN")] },
+        cases: { "pull": Static(loads: ["pull"]) },
+        outputs: { "u": Displacement(node: "b", dof: Ux) },
+    )"#;
+    let expected = 1e5 * 2.0 * 2.0_f64.ln() / (2e11 * 1e-3);
+    let u = run(text, "pull").peak("u").expect("an output").max;
+    assert!((u - expected).abs() < 1e-9 * expected, "{u} {expected}");
+    let short = text.replace("area2: \"20 cm^2\"", "area2: 0");
+    assert!(errors(&short, &kinds()).contains("`area2`"));
+}
+
+/// Two springs over a gear of 1 : −3 are k₁ + 9 k₂ at the first: F/(k₁ + 9 k₂).
+#[test]
+fn a_gearing_carries_a_spring_over_by_the_square_of_its_ratio() {
+    let text = r#"(
+        nodes: { "a": (0, 0, 0), "b": (1, 0, 0) },
+        supports: { "a": (Ux, Uy, Rx, Ry, Rz), "b": (Ux, Uy, Rx, Ry, Rz) },
+        elements: {
+            "first": Spring(node: "a", k3: "10 kN/m", axis1: (1, 0, 0), axis2: (0, 1, 0)),
+            "second": Spring(node: "b", k3: "2 kN/m", axis1: (1, 0, 0), axis2: (0, 1, 0)),
+            "gears": Gearing(nodes: ("a", "b"), dof: Uz, ratio: -3),
+        },
+        loads: { "push": [(node: "a", dof: Uz, force: "1.4 kN")] },
+        cases: { "push": Static(loads: ["push"]) },
+        outputs: { "a": Displacement(node: "a", dof: Uz), "b": Displacement(node: "b", dof: Uz) },
+    )"#;
+    let run = run(text, "push");
+    let [a, b] = ["a", "b"].map(|name| run.peak(name).expect("an output"));
+    assert!((a.max - 1.4 / 28.0).abs() < 1e-12, "{a:?}");
+    assert!((b.min + 3.0 * 1.4 / 28.0).abs() < 1e-12, "{b:?}");
+    let held = text.replace("ratio: -3", "ratio: 0");
+    assert!(errors(&held, &kinds()).contains("write a support"));
+}
