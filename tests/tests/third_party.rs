@@ -1,7 +1,6 @@
 //! Link laws of another crate, by their names in model files.
 
 use std::path::{Path, PathBuf};
-use trilith_element::Category;
 use trilith_model::{Registry, SolverKind};
 use trilith_tests::{parse, root, trace};
 
