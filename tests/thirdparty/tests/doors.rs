@@ -25,7 +25,7 @@ fn errors(text: &str, kinds: &Registry) -> String {
     }
 }
 
-/// A mass of 1 t on a spring of 4π² MN/m, which is hit: T = 31.6 ms.
+/// A mass of 1 t on a spring of 40 MN/m, which is hit: T = 31.4 ms.
 fn blast(function: &str, solver: &str) -> String {
     format!(
         r#"(
@@ -33,7 +33,7 @@ fn blast(function: &str, solver: &str) -> String {
             supports: {{ "wall": (Uy, Uz, Rx, Ry, Rz) }},
             elements: {{
                 "mass": Mass(node: "wall", mass: "1 t"),
-                "spring": Spring(node: "wall", k1: "40 MN/m"),
+                "spring": Spring(node: "wall", k2: "40 MN/m"),
             }},
             functions: {{ "blast": {function} }},
             loads: {{ "push": [(node: "wall", dof: Ux, force: "1 kN")] }},
@@ -75,12 +75,12 @@ fn a_wall_answers_to_a_blast_as_the_closed_form_says() {
 fn a_blast_is_scaled_written_out_and_read_again() {
     let twice = format!(
         "{}, \"twice\": Scaled(function: \"blast\", factor: 2)",
-        FRIEDLANDER.replace("50,", "\"25 kN\",")
+        FRIEDLANDER.replace("50,", "25,")
     );
     let model = read(&blast(&twice, "Fna"));
     let [once, twice] = [0, 1].map(|i| model.functions[i].function.clone());
     assert_eq!(twice.value(5e-3, Side::After), 2.0 * once.value(5e-3, Side::After));
-    assert_eq!((once.value(0.0, Side::Before), once.value(0.0, Side::After)), (0.0, 25e3));
+    assert_eq!((once.value(0.0, Side::Before), once.value(0.0, Side::After)), (0.0, 25.0));
     let again = read(&trilith::model::resolved(&model));
     assert_eq!(again.functions[1].function, twice);
     assert_ne!(again.functions[0].function, twice);

@@ -83,13 +83,14 @@ pub fn trilith_in(folder: &Path, arguments: &[String]) -> Printed {
     }
 }
 
-/// The words of a command line; double quotes hold blanks together.
+/// The words of a command line; quotes hold blanks together, and in single ones double ones stand for themselves.
 pub fn words(line: &str) -> Vec<String> {
-    let (mut all, mut word, mut quoted) = (Vec::new(), String::new(), false);
+    let (mut all, mut word, mut quoted) = (Vec::new(), String::new(), None);
     for c in line.chars() {
         match c {
-            '"' => quoted = !quoted,
-            c if c.is_whitespace() && !quoted => {
+            '"' | '\'' if quoted == Some(c) => quoted = None,
+            '"' | '\'' if quoted.is_none() => quoted = Some(c),
+            c if c.is_whitespace() && quoted.is_none() => {
                 if !word.is_empty() {
                     all.push(std::mem::take(&mut word));
                 }
@@ -97,7 +98,7 @@ pub fn words(line: &str) -> Vec<String> {
             c => word.push(c),
         }
     }
-    assert!(!quoted, "quotes that do not end: {line}");
+    assert!(quoted.is_none(), "quotes that do not end: {line}");
     if !word.is_empty() {
         all.push(word);
     }

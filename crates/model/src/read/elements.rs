@@ -70,9 +70,12 @@ fn kind<'c>(c: &'c Context<'_>, node: &Node) -> Option<(&'static Card, &'c Reade
     found
 }
 
-fn allowed(card: &Card, place: &[&'static str]) -> Vec<&'static str> {
+pub(super) fn allowed(card: &Card, place: &[&'static str]) -> Vec<&'static str> {
     let mut all: Vec<&str> = place.to_vec();
     all.extend(card.parameters.iter().map(|p| p.name));
+    if card.category == Category::Function {
+        return all;
+    }
     all.extend(schema::ELEMENT.names());
     if members::is_member(card) {
         all.extend(schema::MEMBER.names());

@@ -1,6 +1,7 @@
 //! Time functions.
 
 use super::context::{Context, Fields};
+use super::elements::allowed;
 use super::names::{NODE, Names};
 use super::record::record;
 use super::synthetic::{synthetic, too_much};
@@ -112,9 +113,7 @@ fn built_in(c: &Context<'_>, e: &Entry) -> Option<&'static Block> {
 /// A function that another crate offers.
 fn custom(c: &Context<'_>, e: &Entry, card: &'static Card, read: &ReadFunction) -> Option<Made> {
     let what = what(e);
-    let names: Vec<&str> =
-        std::iter::once("amplitude").chain(card.parameters.iter().map(|p| p.name)).collect();
-    let fields = c.fields(&e.value, &what, &names)?;
+    let fields = c.fields(&e.value, &what, &allowed(card, &["amplitude"]))?;
     let size = amplitude(c, &fields);
     let given = Given { own: fields.entries(), shared: &[], made: Default::default() };
     let at = e.value.name_span();

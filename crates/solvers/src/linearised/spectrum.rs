@@ -18,7 +18,7 @@ use std::f64::consts::TAU;
 use trilith_model::Side;
 use trilith_system::LoadSet;
 
-/// A share of a peak that is rounding.
+/// A share of what an output may be that is rounding.
 const ROUNDING: f64 = 1e-9;
 
 /// How the peaks of modes make one.
@@ -147,8 +147,14 @@ impl Linearised<'_> {
                 let pairs = (0..n * n).map(|at| correlations[at] * each[at / n] * each[at % n]);
                 pairs.sum::<f64>().max(0.0).sqrt()
             });
-            let peak = request.directions.of(along);
-            OutputMaximum { along: along.map(|x| if x < ROUNDING * peak { 0.0 } else { x }), peak }
+            // What it would be if every mode were moved as it can be.
+            let most = moving.iter().map(|(_, _, gamma, peaks)| {
+                let gamma = gamma.iter().fold(0.0f64, |most, g| most.max(g.abs()));
+                (gamma * peaks[output]).powi(2)
+            });
+            let rounding = ROUNDING * most.sum::<f64>().sqrt();
+            let along = along.map(|x| if x <= rounding { 0.0 } else { x });
+            OutputMaximum { along, peak: request.directions.of(along) }
         };
         Ok((0..count).map(|i| has_peak[i].then(|| peak(i))).collect())
     }
