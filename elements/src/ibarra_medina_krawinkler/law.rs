@@ -30,8 +30,6 @@ const PEAK: usize = 16;
 const PEAK_FORCE: usize = 18;
 pub(super) const HISTORY: usize = 20;
 
-/// Share of all energy below which heat of a step is rounding.
-const ROUNDING: f64 = 1e-12;
 /// Most turns of the search for the heat.
 const TURNS: usize = 100;
 
@@ -311,9 +309,7 @@ fn finished<R: Real>(at: &LaneAt<'_, R>, it: &State<R>, trial: &mut [R]) -> Lane
     let area = |x: R| it.way.area(x, it.slopes, &it.backbone);
     let done = h[HEAT] + elastic + (area(it.x) - area(it.top)).only(it.flows);
     let [heat, stiffness] = it.heat(at, done);
-    // What is lost on elastic ways is rounding.
-    let rounding = done.of(ROUNDING) * done.abs();
-    let heat = R::select((h[HEAT] + rounding).lt(heat), heat, h[HEAT]);
+    let heat = heat.max(h[HEAT]);
     trial[SIDE] = it.side;
     trial[TOP] = R::select(it.flows, it.x, it.top);
     trial[STIFFNESS] = stiffness;

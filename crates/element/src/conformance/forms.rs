@@ -6,7 +6,7 @@ use super::probe::march;
 use crate::lanes::{Arithmetic, LaneForm, LaneLinks, LaneStep, Portable};
 #[cfg(target_arch = "x86_64")]
 use crate::lanes::{Avx2Lanes, Avx512Lanes};
-use crate::{Answer, Kinematics, Link};
+use crate::{Answer, Field, Kinematics, Link};
 
 /// Steps of a cycle; not a multiple of the number of lanes.
 const STEPS: usize = 45;
@@ -47,14 +47,14 @@ pub(super) fn forms(link: &dyn Link, path: &Path) -> Result<(), Broken> {
         Ok(())
     })?;
     if let Some(c) = constant {
-        dashpot(c, &cases, path)?;
+        dashpot(link, c, &cases, path)?;
     }
     let Some(form) = lanes else { return Ok(()) };
     let (given, own) = (form.law.history, link.history().len());
     if given != own {
         return Err(Broken::LaneHistory { given, own });
     }
-    let look = Look { form: &form, cases: &cases, path, scales: Scales::of(&cases, path) };
+    let look = Look { form: &form, cases: &cases, path, scales: Scales::of(link, &cases, path) };
     look.compare(Portable)?;
     #[cfg(target_arch = "x86_64")]
     {
@@ -65,8 +65,8 @@ pub(super) fn forms(link: &dyn Link, path: &Path) -> Result<(), Broken> {
 }
 
 /// `f = c ḋ`, all of it heat.
-fn dashpot(c: f64, cases: &[Case], path: &Path) -> Result<(), Broken> {
-    let scales = Scales::of(cases, path);
+fn dashpot(link: &dyn Link, c: f64, cases: &[Case], path: &Path) -> Result<(), Broken> {
+    let scales = Scales::of(link, cases, path);
     for case in cases {
         let at = case.at();
         let heat = at.viscous_work(0, c * at.v0[0], c * at.v[0]);
@@ -91,7 +91,8 @@ struct Parts {
     trial: Vec<f64>,
 }
 
-/// The largest of everything on a path.
+/// The largest of everything on a path. A variable of the history that is a deformation, a force or an energy counts as one:
+/// where it stays at zero, what rounding makes of it is beside these.
 struct Scales {
     f: Vec<f64>,
     k: f64,
@@ -105,19 +106,31 @@ fn energies(answer: &Answer) -> [f64; 3] {
 }
 
 impl Scales {
-    fn of(cases: &[Case], path: &Path) -> Self {
+    fn of(link: &dyn Link, cases: &[Case], path: &Path) -> Self {
         let most = |x: &mut dyn Iterator<Item = f64>| x.fold(0.0, |a: f64, b| a.max(b.abs()));
         let n = path.scale.len();
         let answers = || cases.iter().map(|c| &c.answer);
         let f: Vec<f64> = (0..n).map(|i| most(&mut answers().map(|a| a.f[i]))).collect();
-        let histories = cases.first().map_or(0, |c| c.history.len());
         let work: f64 = f.iter().zip(&path.scale).map(|(f, d)| f * d).sum();
+        let energy = most(&mut answers().flat_map(energies)).max(work);
+        let deformation = most(&mut cases.iter().flat_map(|c| c.d.iter().copied()));
+        let force = most(&mut f.iter().copied());
+        let of_its_kind = |field: &Field| match field.unit {
+            "m" | "rad" => deformation,
+            "N" | "N·m" => force,
+            "J" => energy,
+            _ => 0.0,
+        };
+        let trial = |(i, field): (usize, &Field)| {
+            most(&mut answers().map(|a| a.trial[i])).max(of_its_kind(field))
+        };
+        let trial = link.history().iter().enumerate().map(trial).collect();
         Self {
             f,
             k: most(&mut answers().flat_map(|a| a.k.iter().copied())),
             c: most(&mut answers().flat_map(|a| a.c.iter().copied())),
-            energy: most(&mut answers().flat_map(energies)).max(work),
-            trial: (0..histories).map(|i| most(&mut answers().map(|a| a.trial[i]))).collect(),
+            energy,
+            trial,
         }
     }
 

@@ -45,6 +45,7 @@ FullNewton = Word("FullNewton")
 Hertzdamp = Word("Hertzdamp")
 Hht = Word("Hht")
 Hold = Word("Hold")
+Hyperbolic = Word("Hyperbolic")
 InContact = Word("InContact")
 Isotropic = Word("Isotropic")
 Iwan = Word("Iwan")
@@ -56,8 +57,12 @@ Lumped = Word("Lumped")
 M2 = Word("M2")
 M3 = Word("M3")
 N = Word("N")
+Negative = Word("Negative")
 Newton = Word("Newton")
+PeakOriented = Word("PeakOriented")
+Pinching = Word("Pinching")
 Pivot = Word("Pivot")
+Positive = Word("Positive")
 R1 = Word("R1")
 R2 = Word("R2")
 R3 = Word("R3")
@@ -65,6 +70,7 @@ RitzHht = Word("RitzHht")
 Rx = Word("Rx")
 Ry = Word("Ry")
 Rz = Word("Rz")
+Sand = Word("Sand")
 Shallow = Word("Shallow")
 Spherical = Word("Spherical")
 Strip = Word("Strip")
@@ -1566,6 +1572,130 @@ class IShape(Block):
         )
 
 
+class IbarraMedinaKrawinkler(Block):
+    """Spring of a capped backbone whose strength and stiffness deteriorate with the energy dissipated; peak-oriented
+    or pinching. On two nodes, or one and the ground.
+
+    :param nodes: The nodes. Default: `node`.
+    :param node: The only node: a link or spring between it and the ground. Default: `nodes`.
+    :param use: Parameters from the set; those given beside it come first. Default: none.
+    :param k: elastic stiffness (N/m or N·m, > 0).
+    :param fy: yield strength (N or N·m, > 0).
+    :param capping: capping strength over `fy` (–, between 1 and 100).
+    :param plastic: deformation from yield to capping (m or –, > 0).
+    :param post_capping: deformation from capping to zero force (m or –, > 0).
+    :param residual: residual strength over `fy` (–, between 0 and 1, default 0).
+    :param fy_negative: f_y for d < 0 (as for d > 0) (N or N·m, > 0, default absent).
+    :param capping_negative: c for d < 0, over f_y there (–, between 1 and 100, default absent).
+    :param plastic_negative: δ_p for d < 0 (m or –, > 0, default absent).
+    :param post_capping_negative: δ_pc for d < 0 (m or –, > 0, default absent).
+    :param residual_negative: r for d < 0 (–, between 0 and 1, default absent).
+    :param lambda_s: energy over `fy` that basic strength stands; none: ∞ (m or –, > 0, default absent).
+    :param lambda_c: the same of post-capping strength (m or –, > 0, default absent).
+    :param lambda_a: the same of accelerated reloading (m or –, > 0, default absent).
+    :param lambda_k: the same of the stiffness of unloading (m or –, > 0, default absent).
+    :param c_s: exponent of basic strength (–, between 1 and 2, default 1).
+    :param c_c: exponent of post-capping strength (–, between 1 and 2, default 1).
+    :param c_a: exponent of accelerated reloading (–, between 1 and 2, default 1).
+    :param c_k: exponent of the stiffness of unloading (–, between 1 and 2, default 1).
+    :param rate_positive: share of β for d > 0 (–, between 0 and 1, default 1).
+    :param rate_negative: share of β for d < 0 (–, between 0 and 1, default 1).
+    :param form: reloading (PeakOriented, Pinching, default PeakOriented). One of PeakOriented, Pinching.
+    :param kappa_f: Pinching: slope to the break point over that to the target (–, between 0 and 1, default
+        absent).
+    :param kappa_d: Pinching: share of the permanent deformation left at the break point (–, between 0 and 1,
+        default absent).
+    :param axis: local axis (U1, U2, U3, R1, R2, R3, default U1). One of U1, U2, U3, R1, R2, R3.
+    :param axis1: Direction of local axis 1. Default: from the first node to the second; +Z for one node.
+    :param axis2: Vector in the plane of local axes 1 and 2. Default: the upward direction square to axis 1; +X
+        for a vertical one.
+    :param effective_stiffness: Stiffness that stands for the link in the linear structure (K effective of FNA).
+        The link equations take it out again. Default: 0; the basis is made with a thousandth of the stiffness of
+        the closed link.
+    :param p_delta_at: Where the moment of the axial force over the shear of the link acts (P-Δ): its share at
+        either end, the ground as the first for one node; the rest is a couple of shears, for which the nodes must
+        be apart. `(1, 0)` for a bearing whose dish lies below. For laws with U1 and U2 or U3. With `p_delta` or
+        without. Default: no such moment.
+    :param shear_at: Distance from the second node at which the shear of a link with two nodes acts. Default: `0`.
+    """
+
+    _name = "IbarraMedinaKrawinkler"
+    _words = frozenset({"axis", "form"})
+
+    def __init__(
+        self,
+        *,
+        nodes: Any | None = None,
+        node: str | None = None,
+        use: Any | None = None,
+        k: Quantity | None = None,
+        fy: Quantity | None = None,
+        capping: Quantity | None = None,
+        plastic: Quantity | None = None,
+        post_capping: Quantity | None = None,
+        residual: Quantity | None = None,
+        fy_negative: Quantity | None = None,
+        capping_negative: Quantity | None = None,
+        plastic_negative: Quantity | None = None,
+        post_capping_negative: Quantity | None = None,
+        residual_negative: Quantity | None = None,
+        lambda_s: Quantity | None = None,
+        lambda_c: Quantity | None = None,
+        lambda_a: Quantity | None = None,
+        lambda_k: Quantity | None = None,
+        c_s: Quantity | None = None,
+        c_c: Quantity | None = None,
+        c_a: Quantity | None = None,
+        c_k: Quantity | None = None,
+        rate_positive: Quantity | None = None,
+        rate_negative: Quantity | None = None,
+        form: Name | None = None,
+        kappa_f: Quantity | None = None,
+        kappa_d: Quantity | None = None,
+        axis: Name | None = None,
+        axis1: Any | None = None,
+        axis2: Any | None = None,
+        effective_stiffness: Any | None = None,
+        p_delta_at: Any | None = None,
+        shear_at: Quantity | None = None,
+    ) -> None:
+        super().__init__(
+            nodes=nodes,
+            node=node,
+            use=use,
+            k=k,
+            fy=fy,
+            capping=capping,
+            plastic=plastic,
+            post_capping=post_capping,
+            residual=residual,
+            fy_negative=fy_negative,
+            capping_negative=capping_negative,
+            plastic_negative=plastic_negative,
+            post_capping_negative=post_capping_negative,
+            residual_negative=residual_negative,
+            lambda_s=lambda_s,
+            lambda_c=lambda_c,
+            lambda_a=lambda_a,
+            lambda_k=lambda_k,
+            c_s=c_s,
+            c_c=c_c,
+            c_a=c_a,
+            c_k=c_k,
+            rate_positive=rate_positive,
+            rate_negative=rate_negative,
+            form=form,
+            kappa_f=kappa_f,
+            kappa_d=kappa_d,
+            axis=axis,
+            axis1=axis1,
+            axis2=axis2,
+            effective_stiffness=effective_stiffness,
+            p_delta_at=p_delta_at,
+            shear_at=shear_at,
+        )
+
+
 class ImpactHertz(Block):
     """Pounding: Hertz spring with nonlinear damping after a clearance. On two nodes, or one and the ground.
 
@@ -2522,6 +2652,82 @@ class Overturning(Block):
         )
 
 
+class PMMHinge(Block):
+    """Plastic hinge with interaction of axial force and both moments (P-M2-M3), by return mapping. On two nodes, or
+    one and the ground.
+
+    :param nodes: The nodes. Default: `node`.
+    :param node: The only node: a link or spring between it and the ground. Default: `nodes`.
+    :param use: Parameters from the set; those given beside it come first. Default: none.
+    :param axial: elastic, along U1 (N/m, > 0).
+    :param bending2: elastic, about R2 (N·m, > 0).
+    :param bending3: elastic, about R3 (N·m, > 0).
+    :param py: axial strength without moments (N, > 0).
+    :param mp2: strength about R2 alone (N·m, > 0).
+    :param mp3: strength about R3 alone (N·m, > 0).
+    :param exponent_p: exponent of the axial force (–, between 1.05 and 8, default 2).
+    :param exponent_m2: exponent of the moment about R2 (–, between 1.05 and 8, default 2).
+    :param exponent_m3: exponent of the moment about R3 (–, between 1.05 and 8, default 2).
+    :param ratio: stiffness after yielding over elastic stiffness, below 1 (–, between 0 and 1, default 0).
+    :param axis1: Direction of local axis 1. Default: from the first node to the second; +Z for one node.
+    :param axis2: Vector in the plane of local axes 1 and 2. Default: the upward direction square to axis 1; +X
+        for a vertical one.
+    :param effective_stiffness: Stiffness that stands for the link in the linear structure (K effective of FNA).
+        The link equations take it out again. Default: 0; the basis is made with a thousandth of the stiffness of
+        the closed link.
+    :param p_delta_at: Where the moment of the axial force over the shear of the link acts (P-Δ): its share at
+        either end, the ground as the first for one node; the rest is a couple of shears, for which the nodes must
+        be apart. `(1, 0)` for a bearing whose dish lies below. For laws with U1 and U2 or U3. With `p_delta` or
+        without. Default: no such moment.
+    :param shear_at: Distance from the second node at which the shear of a link with two nodes acts. Default: `0`.
+    """
+
+    _name = "PMMHinge"
+
+    def __init__(
+        self,
+        *,
+        nodes: Any | None = None,
+        node: str | None = None,
+        use: Any | None = None,
+        axial: Quantity | None = None,
+        bending2: Quantity | None = None,
+        bending3: Quantity | None = None,
+        py: Quantity | None = None,
+        mp2: Quantity | None = None,
+        mp3: Quantity | None = None,
+        exponent_p: Quantity | None = None,
+        exponent_m2: Quantity | None = None,
+        exponent_m3: Quantity | None = None,
+        ratio: Quantity | None = None,
+        axis1: Any | None = None,
+        axis2: Any | None = None,
+        effective_stiffness: Any | None = None,
+        p_delta_at: Any | None = None,
+        shear_at: Quantity | None = None,
+    ) -> None:
+        super().__init__(
+            nodes=nodes,
+            node=node,
+            use=use,
+            axial=axial,
+            bending2=bending2,
+            bending3=bending3,
+            py=py,
+            mp2=mp2,
+            mp3=mp3,
+            exponent_p=exponent_p,
+            exponent_m2=exponent_m2,
+            exponent_m3=exponent_m3,
+            ratio=ratio,
+            axis1=axis1,
+            axis2=axis2,
+            effective_stiffness=effective_stiffness,
+            p_delta_at=p_delta_at,
+            shear_at=shear_at,
+        )
+
+
 class Pipe(Block):
     """A round pipe.
 
@@ -3204,6 +3410,82 @@ class Smallest(Block):
         super().__init__(
             terms=terms,
             hidden=hidden,
+        )
+
+
+class SoilSpring(Block):
+    """Soil beside a pile or behind a wall: p–y curve, elastic return, a gap that opens, drag. On two nodes, or one
+    and the ground.
+
+    :param nodes: The nodes. Default: `node`.
+    :param node: The only node: a link or spring between it and the ground. Default: `nodes`.
+    :param use: Parameters from the set; those given beside it come first. Default: none.
+    :param k: stiffness where pressing begins (N/m, > 0).
+    :param pu: ultimate resistance of a side (N, > 0).
+    :param backbone: first pressing: Kondner's hyperbola, or API's hyperbolic tangent for sand (Hyperbolic, Sand,
+        default Hyperbolic). One of Hyperbolic, Sand.
+    :param ku: stiffness back and again, at least `k`; none: `k` (N/m, > 0, default absent).
+    :param opening: clearance before the soil on each side (m, ≥ 0, default 0).
+    :param sides: where soil is: at which deformations it presses (Both, Positive, Negative, default Both). One of
+        Both, Positive, Negative.
+    :param drag: friction along the sides, in the gap as well (N, ≥ 0, default 0).
+    :param drag_stiffness: stiffness before it slips; none: `k` (N/m, > 0, default absent).
+    :param axis: local axis (U1, U2, U3, default U2). One of U1, U2, U3.
+    :param axis1: Direction of local axis 1. Default: from the first node to the second; +Z for one node.
+    :param axis2: Vector in the plane of local axes 1 and 2. Default: the upward direction square to axis 1; +X
+        for a vertical one.
+    :param effective_stiffness: Stiffness that stands for the link in the linear structure (K effective of FNA).
+        The link equations take it out again. Default: 0; the basis is made with a thousandth of the stiffness of
+        the closed link.
+    :param p_delta_at: Where the moment of the axial force over the shear of the link acts (P-Δ): its share at
+        either end, the ground as the first for one node; the rest is a couple of shears, for which the nodes must
+        be apart. `(1, 0)` for a bearing whose dish lies below. For laws with U1 and U2 or U3. With `p_delta` or
+        without. Default: no such moment.
+    :param shear_at: Distance from the second node at which the shear of a link with two nodes acts. Default: `0`.
+    """
+
+    _name = "SoilSpring"
+    _words = frozenset({"axis", "backbone", "sides"})
+
+    def __init__(
+        self,
+        *,
+        nodes: Any | None = None,
+        node: str | None = None,
+        use: Any | None = None,
+        k: Quantity | None = None,
+        pu: Quantity | None = None,
+        backbone: Name | None = None,
+        ku: Quantity | None = None,
+        opening: Quantity | None = None,
+        sides: Name | None = None,
+        drag: Quantity | None = None,
+        drag_stiffness: Quantity | None = None,
+        axis: Name | None = None,
+        axis1: Any | None = None,
+        axis2: Any | None = None,
+        effective_stiffness: Any | None = None,
+        p_delta_at: Any | None = None,
+        shear_at: Quantity | None = None,
+    ) -> None:
+        super().__init__(
+            nodes=nodes,
+            node=node,
+            use=use,
+            k=k,
+            pu=pu,
+            backbone=backbone,
+            ku=ku,
+            opening=opening,
+            sides=sides,
+            drag=drag,
+            drag_stiffness=drag_stiffness,
+            axis=axis,
+            axis1=axis1,
+            axis2=axis2,
+            effective_stiffness=effective_stiffness,
+            p_delta_at=p_delta_at,
+            shear_at=shear_at,
         )
 
 
@@ -3998,7 +4280,9 @@ __all__ = [
     "Hht",
     "Hold",
     "Hook",
+    "Hyperbolic",
     "IShape",
+    "IbarraMedinaKrawinkler",
     "ImpactHertz",
     "ImpactKelvin",
     "InContact",
@@ -4030,14 +4314,19 @@ __all__ = [
     "MultilinearPlastic",
     "N",
     "NLink",
+    "Negative",
     "Newton",
     "Norm",
     "Overturning",
+    "PMMHinge",
+    "PeakOriented",
+    "Pinching",
     "Pipe",
     "Pivot",
     "Point",
     "Points",
     "Polynomial",
+    "Positive",
     "R1",
     "R2",
     "R3",
@@ -4058,12 +4347,14 @@ __all__ = [
     "Rx",
     "Ry",
     "Rz",
+    "Sand",
     "SaragoniHart",
     "Scaled",
     "Section",
     "Shallow",
     "Sine",
     "Smallest",
+    "SoilSpring",
     "Spherical",
     "Spring",
     "Static",
