@@ -3,6 +3,9 @@
 use super::backbone::Backbone;
 use trilith_element::lanes::Real;
 
+/// Share of a deformation or a force that is rounding: before anything has worn out all ways are one line, and none breaks.
+const SAME: f64 = 1e-9;
+
 /// Deformations and forces counted outwards.
 #[derive(Clone, Copy)]
 pub(super) struct Way<R> {
@@ -41,11 +44,13 @@ impl<R: Real> Way<R> {
         let steepest = straight.min(k);
         // The break point of pinching.
         let pinch = (one - kappa_d) * (aim.reach - force / k);
-        let pinched = nought.lt(pinching) & zero.lt(pinch) & pinch.lt(aim.reach);
+        let behind = zero + zero.of(SAME) * (aim.reach.abs() + zero.abs());
+        let pinched = nought.lt(pinching) & behind.lt(pinch) & pinch.lt(aim.reach);
         // The last peak, where the straight way lies below it.
         let [peak, peak_force] = aim.peak;
-        let above = (straight * (peak - zero)).lt(peak_force) & peak_force.lt(force);
-        let through = !pinched & ahead & zero.lt(peak) & peak.lt(aim.reach) & above;
+        let straight_there = straight * (peak - zero);
+        let above = straight_there.lt((one - one.of(SAME)) * peak_force) & peak_force.lt(force);
+        let through = !pinched & ahead & behind.lt(peak) & peak.lt(aim.reach) & above;
         let at = R::select(pinched, pinch, peak);
         let limit = R::select(pinched, kappa_f * steepest * (at - zero), peak_force);
         let broken = pinched | through;
