@@ -7,7 +7,9 @@
 use trilith_element::lanes::Real;
 
 /// Most turns of a search; a few are the rule.
-const TURNS: usize = 60;
+const TURNS: usize = 100;
+/// An upper bound where there is none.
+const ENDLESS: f64 = 1e300;
 /// What stands for nothing, so that logarithms are finite.
 const LEAST: f64 = 1e-200;
 
@@ -88,7 +90,7 @@ impl<R: Real> Projected<R> {
             return Self { x, by, yields };
         }
         let mut lambda = zero;
-        let (mut low, mut high) = (zero, t[0].of(1e300));
+        let (mut low, mut high) = (zero, t[0].of(ENDLESS));
         let mut here = at(lambda);
         let mut phi = surface(&here);
         for _ in 0..TURNS {
@@ -99,7 +101,12 @@ impl<R: Real> Projected<R> {
             high = R::select(outside, high, lambda);
             let next = lambda + step;
             let within = low.le(next) & next.le(high);
-            let next = R::select(within, next, t[0].of(0.5) * (low + high));
+            // λ goes over many powers of ten where an exponent is near 1: halved by its logarithm, or doubled where nothing
+            // bounds it yet.
+            let halved = R::select(zero.lt(low), (low * high).sqrt(), t[0].of(0.5) * (low + high));
+            let free = t[0].of(0.1 * ENDLESS).lt(high);
+            let aside = R::select(free, two * lambda + t[0].of(1e-3), halved);
+            let next = R::select(within, next, aside);
             let open = t[0].of(4e-16).lt((next - lambda).abs() / next.max(t[0].of(LEAST)));
             lambda = R::select(yields, next, lambda);
             here = at(lambda);
