@@ -13,8 +13,8 @@
 //! | `bending3`    | k₃     | N·m/rad | > 0       | –       | elastic stiffness about R3             |
 //! | `py`          | P_y    | N       | > 0       | –       | axial strength without moments         |
 //! | `mp2`, `mp3`  | M_p    | N·m     | > 0       | –       | strength about R2, R3 alone            |
-//! | `exponent_p`  | a      | 1       | 1.05 … 8  | 2       | exponent of the axial force            |
-//! | `exponent_m2`, `exponent_m3` | b, c | 1 | 1.05 … 8 | 2 | exponents of the moments               |
+//! | `exponent_p`  | a      | 1       | 1.2 … 8   | 2       | exponent of the axial force            |
+//! | `exponent_m2`, `exponent_m3` | b, c | 1 | 1.2 … 8  | 2 | exponents of the moments               |
 //! | `ratio`       | r      | 1       | 0 ≤ r < 1 | 0       | stiffness after yielding over elastic  |
 //!
 //! The surface is a superellipsoid: convex with any exponents from 1 on, smooth but for ridges at 1, and made of one
@@ -86,7 +86,7 @@ history! {
 }
 
 const fn exponent(name: &'static str, symbol: &'static str, meaning: &'static str) -> Parameter {
-    Parameter::number(name, symbol, NONE, Range::Within(1.05, 8.0), 2.0, meaning)
+    Parameter::number(name, symbol, NONE, Range::Within(1.2, 8.0), 2.0, meaning)
 }
 
 impl Described for PMMHinge {

@@ -2665,9 +2665,9 @@ class PMMHinge(Block):
     :param py: axial strength without moments (N, > 0).
     :param mp2: strength about R2 alone (N·m, > 0).
     :param mp3: strength about R3 alone (N·m, > 0).
-    :param exponent_p: exponent of the axial force (–, between 1.05 and 8, default 2).
-    :param exponent_m2: exponent of the moment about R2 (–, between 1.05 and 8, default 2).
-    :param exponent_m3: exponent of the moment about R3 (–, between 1.05 and 8, default 2).
+    :param exponent_p: exponent of the axial force (–, between 1.2 and 8, default 2).
+    :param exponent_m2: exponent of the moment about R2 (–, between 1.2 and 8, default 2).
+    :param exponent_m3: exponent of the moment about R3 (–, between 1.2 and 8, default 2).
     :param ratio: stiffness after yielding over elastic stiffness, below 1 (–, between 0 and 1, default 0).
     :param axis1: Direction of local axis 1. Default: from the first node to the second; +Z for one node.
     :param axis2: Vector in the plane of local axes 1 and 2. Default: the upward direction square to axis 1; +X
