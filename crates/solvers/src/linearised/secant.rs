@@ -11,7 +11,7 @@ use super::Linearised;
 use crate::error::SolveError;
 use serde::Serialize;
 use std::f64::consts::TAU;
-use trilith_element::{Axis, Coordinates, Energy, Kinematics, Link, Response};
+use trilith_element::{Axis, Coordinates, Driver, Link};
 use trilith_system::blaming;
 
 /// Steps of a cycle.
@@ -107,7 +107,7 @@ impl Linearised<'_> {
                 let d = &self.start.d[link.range.clone()];
                 let history = &self.start.history[link.history.clone()];
                 let [stiffness, heat] =
-                    cycle((link.element, law), (d, history), local, displacement, period);
+                    blaming(link.element, || cycle(law, (d, history), local, displacement, period));
                 all.push(Secant {
                     element: link.element,
                     coordinate: links.coordinate(self.model, link, local),
@@ -127,46 +127,33 @@ impl Linearised<'_> {
 
 /// Secant stiffness of a coordinate and the work on it in a cycle about where the link is.
 fn cycle(
-    (element, law): (usize, &dyn Link),
+    law: &dyn Link,
     (start, history): (&[f64], &[f64]),
     local: usize,
     amplitude: f64,
     period: f64,
 ) -> [f64; 2] {
-    let n = start.len();
-    let still = vec![if law.uses_rates() { 0.0 } else { f64::NAN }; n];
-    let (mut d0, mut d, mut v0, mut v) =
-        (start.to_vec(), start.to_vec(), still.clone(), still.clone());
-    let (mut was, mut now) = (history.to_vec(), history.to_vec());
-    let (mut f, mut k, mut c) = (vec![0.0; n], vec![0.0; n * n], vec![0.0; n * n]);
-    let (mut work, mut before, mut ends) = (0.0, 0.0, [0.0; 2]);
-    let mut largest = 0.0f64;
+    let (mut d, mut v) = (start.to_vec(), vec![0.0; start.len()]);
+    let mut driver = Driver::starting_at(law, &d, &v);
+    driver.history.copy_from_slice(history);
+    let (mut before, mut ends, mut largest) = (0.0, [0.0; 2], 0.0f64);
     for step in 1..=BEFORE + STEPS {
         let phase = TAU * step as f64 / STEPS as f64;
         d[local] = start[local] + amplitude * phase.sin();
-        if law.uses_rates() {
-            v[local] = amplitude * TAU / period * phase.cos();
+        v[local] = amplitude * TAU / period * phase.cos();
+        driver.step(&d, &v, period / STEPS as f64);
+        let f = driver.f[local];
+        match step {
+            BEFORE => before = driver.work,
+            _ if step == BEFORE + STEPS / 2 => ends[0] = f,
+            _ if step == BEFORE + STEPS => ends[1] = f,
+            _ => {}
         }
-        [&mut f, &mut k, &mut c].into_iter().for_each(|x| x.fill(0.0));
-        let mut energy = Energy::default();
-        let at = Kinematics { d: &d, v: &v, d0: &d0, v0: &v0, dt: period / STEPS as f64 };
-        let mut out = Response { f: &mut f, k: &mut k, c: &mut c, energy: &mut energy };
-        blaming(element, || law.respond(&at, &was, &mut now, &mut out));
         if step > BEFORE {
-            work += 0.5 * (before + f[local]) * (d[local] - d0[local]);
-            largest = largest.max(f[local].abs());
+            largest = largest.max(f.abs());
         }
-        if step == BEFORE + STEPS / 2 {
-            ends[0] = f[local];
-        } else if step == BEFORE + STEPS {
-            ends[1] = f[local];
-        }
-        before = f[local];
-        std::mem::swap(&mut was, &mut now);
-        d0.copy_from_slice(&d);
-        v0.copy_from_slice(&v);
     }
     let between = ends[1] - ends[0];
     let between = if between.abs() <= ROUNDING * largest { 0.0 } else { between };
-    [between / (2.0 * amplitude), work]
+    [between / (2.0 * amplitude), driver.work - before]
 }
