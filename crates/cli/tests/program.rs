@@ -460,6 +460,18 @@ fn modes_with_links_and_a_spectrum_tell_what_is_wrong_with_them() {
         out.contains("modes with engaged links") && out.contains("peaks under points.csv"),
         "{out}"
     );
+    assert!(!out.contains("no stiffness"), "{out}");
+    // Without its spring nothing holds it; along Y it cannot move at all.
+    let free = MODEL.replace(
+        r#""spring": Spring(nodes: ("base", "top"), k1: "1 kN/m", k2: "k", r2: 1, r3: 1),"#,
+        "",
+    );
+    let free = free.replace(r#""base": Fixed"#, r#""base": Fixed, "top": Ry"#);
+    std::fs::write(folder.path().join("free.ron"), free).unwrap();
+    let args = ["modes", "free.ron", "--links", "open", "--spectrum", "points.csv"];
+    let (_, out, err) = trilith(folder.path(), &args);
+    assert!(!out.contains("along Y"), "{out}");
+    assert!(out.contains("of the modes have no stiffness"), "{out}{err}");
     for (more, part) in [
         (&["--amplitude", "1 cm"][..], "--links"),
         (&["--links", "secant"], "--amplitude"),

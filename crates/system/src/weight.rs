@@ -28,6 +28,13 @@ pub struct MassSum {
 pub const RIGID: [&str; 6] = ["X", "Y", "Z", "about X", "about Y", "about Z"];
 
 impl System {
+    /// Mass that a unit acceleration along an axis (0: X, …) moves in the free directions, without inertances, kg.
+    #[must_use]
+    pub fn mass_along(&self, axis: usize) -> f64 {
+        let own = self.reduction.free.iter().zip(&self.inertia[axis]);
+        own.filter(|(full, _)| *full % 6 == axis).map(|(_, m)| m).sum()
+    }
+
     /// Sums up the masses of all elements.
     #[must_use]
     pub fn mass_sum(&self, model: &Model) -> MassSum {

@@ -220,9 +220,16 @@ fn peaks(
     if !without.is_empty() {
         out += &format!("  no peak of modes: {}\n", without.join(", "));
     }
-    for (axis, name) in ["X", "Y", "Z"].iter().enumerate().filter(|(a, _)| args.along[*a] > 0.0) {
+    let loose = modes.omega2.iter().filter(|w| **w <= 0.0).count();
+    if loose > 0 {
+        out += &format!(
+            "  {loose} of the modes have no stiffness, and a spectrum says nothing of them: they are left out of the peaks\n"
+        );
+    }
+    let moved = |axis: &usize| args.along[*axis] > 0.0 && modes.mass[*axis] > 0.0;
+    for (axis, name) in ["X", "Y", "Z"].iter().enumerate().filter(|(axis, _)| moved(axis)) {
         let held: f64 = modes.mass_share.iter().map(|share| share[axis]).sum();
-        if held < ENOUGH {
+        if held < ENOUGH && modes.omega2.len() == args.count {
             out += &format!(
                 "  the modes hold {} of the mass along {name}: take more of them, `--count {}`\n",
                 percent(held),

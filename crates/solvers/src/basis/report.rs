@@ -70,13 +70,7 @@ pub(super) fn report(
     let basis = &bases.structural;
     let phi = &*basis.shapes;
     let mass = |axis: usize| -> Vec<f64> {
-        let total: f64 = {
-            let mut r = vec![0.0; system.order()];
-            for (i, full) in system.reduction.free.iter().enumerate() {
-                r[i] = f64::from(u8::from(full % 6 == axis));
-            }
-            dot(&r, &system.inertia[axis])
-        };
+        let total = system.mass_along(axis);
         let shares = phi.load(&system.inertia[axis]);
         shares[..m].iter().map(|l| if total > 0.0 { l * l / total } else { 0.0 }).collect()
     };

@@ -25,7 +25,9 @@ pub struct LinearModes {
     pub shapes: Dense,
     /// Γ along X, Y, Z, √kg.
     pub participation: Vec<[f64; 3]>,
-    /// Share of the mass along X, Y, Z.
+    /// Mass that may move along X, Y, Z, kg.
+    pub mass: [f64; 3],
+    /// Share of it.
     pub mass_share: Vec<[f64; 3]>,
     /// Damping ratio that the cycles of the links give; 0 without cycles.
     pub damping: Vec<f64>,
@@ -59,19 +61,15 @@ impl Linearised<'_> {
         let participation: Vec<[f64; 3]> = (0..omega2.len())
             .map(|j| [0, 1, 2].map(|axis: usize| dot(shapes.column(j), &system.inertia[axis])))
             .collect();
-        let total = [0, 1, 2].map(|axis| {
-            let along = |full: &usize| f64::from(u8::from(full % 6 == axis));
-            let r: Vec<f64> = system.reduction.free.iter().map(along).collect();
-            dot(&r, &system.inertia[axis])
-        });
+        let mass = [0, 1, 2].map(|axis| system.mass_along(axis));
         let share = |gamma: &[f64; 3]| {
             [0, 1, 2]
-                .map(|a: usize| if total[a] > 0.0 { gamma[a] * gamma[a] / total[a] } else { 0.0 })
+                .map(|a: usize| if mass[a] > 0.0 { gamma[a] * gamma[a] / mass[a] } else { 0.0 })
         };
         let mass_share = participation.iter().map(share).collect();
         let damping =
             (0..omega2.len()).map(|j| self.cycle_damping(shapes.column(j), omega2[j])).collect();
-        Ok(LinearModes { omega2, shapes, participation, mass_share, damping })
+        Ok(LinearModes { omega2, shapes, participation, mass, mass_share, damping })
     }
 
     fn cycle_damping(&self, shape: &[f64], omega2: f64) -> f64 {
