@@ -2,7 +2,7 @@
 
 use trilith_element::{
     Card, Default, Form, ParameterError, ReadConstraint, ReadFunction, ReadLinear, ReadLink,
-    Register, Value, Values,
+    ReadOutput, ReadSolver, Register, Value, Values,
 };
 
 /// Every card with a reader that forgets what it read.
@@ -21,6 +21,12 @@ impl Register for Kinds {
         self.0.push((card, Box::new(move |v| read(v).map(drop))));
     }
     fn add_function(&mut self, card: &'static Card, read: ReadFunction) {
+        self.0.push((card, Box::new(move |v| read(v).map(drop))));
+    }
+    fn add_output(&mut self, card: &'static Card, read: ReadOutput) {
+        self.0.push((card, Box::new(move |v| read(v).map(drop))));
+    }
+    fn add_solver(&mut self, card: &'static Card, read: ReadSolver) {
         self.0.push((card, Box::new(move |v| read(v).map(drop))));
     }
 }

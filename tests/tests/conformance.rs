@@ -10,7 +10,7 @@ use trilith::exercise::Specimen;
 use trilith_element::conformance::Kit;
 use trilith_element::{
     Card, Form, Frame, Geometry, Link, Parameter, ParameterError, ReadConstraint, ReadFunction,
-    ReadLinear, ReadLink, Register, Value, Values,
+    ReadLinear, ReadLink, ReadOutput, ReadSolver, Register, Value, Values,
 };
 
 /// Laws that may give energy, each with the reason why that is right.
@@ -45,6 +45,8 @@ impl Register for Links {
     fn add_linear(&mut self, _: &'static Card, _: ReadLinear) {}
     fn add_constraint(&mut self, _: &'static Card, _: ReadConstraint) {}
     fn add_function(&mut self, _: &'static Card, _: ReadFunction) {}
+    fn add_output(&mut self, _: &'static Card, _: ReadOutput) {}
+    fn add_solver(&mut self, _: &'static Card, _: ReadSolver) {}
     fn add_link(&mut self, card: &'static Card, read: ReadLink) {
         self.0.push((card, read));
     }

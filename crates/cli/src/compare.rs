@@ -4,7 +4,7 @@ use crate::args::CompareArguments;
 use crate::interrupt::{Ear, INTERRUPTED};
 use crate::report::{energies, work};
 use crate::text::{number, percent, row, table};
-use crate::{Answer, Failure, case, compare_page, diagnostics, output, place, read};
+use crate::{Answer, Failure, case, compare_page, diagnostics, output, place, read, solver};
 use std::io::IsTerminal;
 use std::path::Path;
 use std::sync::atomic::Ordering;
@@ -91,7 +91,7 @@ fn variants(model: &Model, case: usize, args: &CompareArguments) -> Result<Vec<V
     let solvers = match &args.solvers[..] {
         [] if lists => vec![dynamic.solution.solver],
         [] => vec![SolverKind::Hht, SolverKind::Fna],
-        given => given.to_vec(),
+        given => given.iter().map(|name| solver(model, case, name)).collect::<Result<_, _>>()?,
     };
     fn options<T: Copy>(list: &[T]) -> Vec<Option<T>> {
         if list.is_empty() { vec![None] } else { list.iter().copied().map(Some).collect() }

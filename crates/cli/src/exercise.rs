@@ -6,6 +6,7 @@ use crate::{Answer, Failure, elements, place};
 use std::path::Path;
 use trilith::Registry;
 use trilith::element::Stroke;
+use trilith::element::conformance::Kit;
 use trilith::element::dimension::{LENGTH, NONE};
 use trilith::exercise::{Coordinate, ExerciseError, History, Motion, Record, Specimen};
 use trilith::model::quantity;
@@ -26,7 +27,10 @@ pub(crate) fn exercise(registry: &Registry, args: ExerciseArguments) -> Result<A
         None => {
             let motion = motion(&specimen, &args)?;
             let record = specimen.exercise(&motion).map_err(|e| refuse(&e))?;
-            let text = text(&specimen, &motion, &record);
+            let mut text = text(&specimen, &motion, &record);
+            if args.speed {
+                text += &speed(&specimen, &motion);
+            }
             (record, text)
         }
     };
@@ -203,6 +207,30 @@ fn text(specimen: &Specimen, motion: &Motion, record: &Record) -> String {
     }
     out += &table(&rows, &[0, 3]);
     out + &energies(record)
+}
+
+/// An analysis in lanes that takes more than this share of the time of one alone gains little.
+const SLOW: f64 = 0.7;
+
+/// How long answers take on this machine.
+fn speed(specimen: &Specimen, motion: &Motion) -> String {
+    let size = |s: &Stroke| if s.amplitude == 0.0 { s.mean } else { s.amplitude }.abs();
+    let amplitudes: Vec<f64> = motion.strokes.iter().map(size).collect();
+    let kit = Kit::new(&amplitudes, motion.frequency);
+    let Some(speed) = kit.lane_speed(specimen.law.as_ref()) else {
+        return "\nspeed: it has no form for lanes: a study runs models with it one by one\n"
+            .into();
+    };
+    let [alone, lane] = [speed.alone, speed.in_lanes].map(|s| significant(1e9 * s, 2));
+    let share = significant(speed.share(), 2);
+    let slow = match speed.share() > SLOW {
+        true => "; that gains little: is a function of its form not inlined?",
+        false => "",
+    };
+    format!(
+        "\nspeed: an answer takes {alone} ns alone, and {lane} ns for each analysis of {} in lanes, {share} of it{slow}\n",
+        speed.width
+    )
 }
 
 /// The link, and what was assumed.

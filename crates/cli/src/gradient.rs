@@ -2,7 +2,7 @@
 
 use crate::args::GradientArguments;
 use crate::text::{names_help, number, row, table};
-use crate::{Answer, Failure, case, diagnostics, names};
+use crate::{Answer, Failure, case, diagnostics, names, solver};
 use serde::Serialize;
 use trilith::gradient::{GradientError, Wanted, gradient as find};
 use trilith::model::{ModelText, ParameterValue, visible_line};
@@ -60,10 +60,12 @@ pub(crate) fn gradient(registry: &Registry, args: &GradientArguments) -> Result<
         .map_err(|e| Failure::diagnostics(&e))?;
     let model = text.read(registry, &args.model.set).map_err(|e| Failure::diagnostics(&e))?;
     let chosen = case(&model, args.case.as_deref())?;
+    let named = args.solver.as_deref().map(|name| solver(&model, chosen, name));
+    let solver = named.transpose()?;
     let outputs = outputs(&model, &names::flat(&args.of))?;
     let wanted = Wanted {
         case: Some(model.cases[chosen].name.clone()),
-        solver: args.solver,
+        solver,
         dt: args.dt,
         by: names::flat(&args.by),
         set: args.model.set.clone(),

@@ -48,7 +48,7 @@ use args::{Arguments, Command};
 use clap::Parser;
 use failure::Failure;
 use std::ffi::OsString;
-use trilith::{Model, Registry};
+use trilith::{Model, Registry, SolverKind};
 
 /// What a command prints, and the exit status.
 struct Answer {
@@ -114,5 +114,13 @@ fn case(model: &Model, name: Option<&str>) -> Result<usize, Failure> {
     model.case(name).ok_or_else(|| {
         let help = text::names_help(name, "cases", model.cases.iter().map(|c| c.name.as_str()));
         Failure::input(&format!("there is no case \"{name}\""), Some(&help))
+    })
+}
+
+/// The solver of that name, built in or of another crate.
+fn solver(model: &Model, case: usize, name: &str) -> Result<SolverKind, Failure> {
+    model.solver(name, case).ok_or_else(|| {
+        let help = text::names_help(name, "solvers", model.solver_names().into_iter());
+        Failure::input(&format!("there is no solver `{name}`"), Some(&help))
     })
 }

@@ -6,7 +6,7 @@ use crate::progress::Progress;
 use crate::text::{exact, shown};
 use crate::{
     Answer, Failure, case, diagnostics, figure_files, figures, long, made_by, names, output, place,
-    read,
+    read, solver,
 };
 use std::path::{Path, PathBuf};
 use trilith::model::{Body, Element};
@@ -21,6 +21,7 @@ const CHECKPOINT: &str = "checkpoint.json";
 pub(crate) fn run(registry: &Registry, args: RunArguments) -> Result<Answer, Failure> {
     let model = read(registry, &args.model)?;
     let case = case(&model, args.case.as_deref())?;
+    let solver = args.solver.as_deref().map(|name| solver(&model, case, name)).transpose()?;
     let from = args.restart.as_deref().map(checkpoint).transpose()?;
     check_stops(&model, case, &args)?;
     check_links(&model, &names::flat(&args.loops))?;
@@ -48,7 +49,7 @@ pub(crate) fn run(registry: &Registry, args: RunArguments) -> Result<Answer, Fai
         let ear = Ear::open("the run ends at the next output step, and what there is will be kept");
         let options = RunOptions {
             case,
-            solver: args.solver,
+            solver,
             dt: args.dt,
             until: args.checkpoint_at,
             vectors: None,
@@ -208,7 +209,7 @@ fn default_folder(args: &RunArguments, from: Option<&Checkpoint>) -> PathBuf {
     let dir = Path::new("out").join(model.file_stem().unwrap_or("model".as_ref()));
     let options = [
         ("case", args.case.clone()),
-        ("solver", args.solver.map(|solver| solver.name().to_owned())),
+        ("solver", args.solver.clone()),
         ("dt", args.dt.map(exact)),
         ("checkpoint-at", args.checkpoint_at.map(exact)),
         ("restart", from.map(|checkpoint| exact(checkpoint.state.time))),

@@ -79,6 +79,10 @@ pub enum Category {
     Link,
     /// A function of time.
     Function,
+    /// A number made of other outputs.
+    Output,
+    /// A rule for time.
+    Solver,
 }
 
 /// How many nodes a kind takes.
@@ -93,7 +97,7 @@ pub struct NodeCount {
 impl NodeCount {
     /// One node and the ground, or two nodes.
     pub const GROUND_OR_TWO: Self = Self { min: 1, max: 2 };
-    /// None: functions of time.
+    /// None: functions of time, outputs, solvers.
     pub const NONE: Self = Self::exactly(0);
     /// Exactly `n`.
     #[must_use]

@@ -35,6 +35,8 @@
 //! # Ok::<(), trilith_element::conformance::ConformanceError>(())
 //! ```
 //!
+//! [`Kit::lane_speed`] measures what a form for lanes gains.
+//!
 //! # Linear elements and constraints
 //!
 //! [`ElementKit`] asks for matrices that are finite, symmetric and positive semi-definite, that let rigid bodies move,
@@ -47,11 +49,13 @@ mod forms;
 mod path;
 mod probe;
 mod properties;
+mod speed;
 mod structure;
 #[cfg(test)]
 mod tests;
 
 pub use error::ConformanceError;
+pub use speed::LaneSpeed;
 pub use structure::{ConstraintKit, ElementKit, StructureError};
 
 use crate::{Exercise, Link};
@@ -168,9 +172,7 @@ impl Kit {
     pub fn check(&self, link: &dyn Link) -> Result<Report, ConformanceError> {
         properties::shape(self, link)?;
         let mut report = Report::default();
-        let path =
-            |number| Path::random(&self.deformation, &self.mean, self.frequency, self.seed, number);
-        let paths: Vec<_> = (0..self.paths).map(path).collect();
+        let paths: Vec<_> = (0..self.paths).map(|number| self.path(number)).collect();
         for path in &paths {
             properties::answers(link, path)?;
             forms::forms(link, path)?;
@@ -189,6 +191,17 @@ impl Kit {
             return Err(ConformanceError::Kinks { skipped: report.skipped, of: seen });
         }
         Ok(report)
+    }
+
+    fn path(&self, number: usize) -> Path {
+        Path::random(&self.deformation, &self.mean, self.frequency, self.seed, number)
+    }
+
+    /// How long the answers of a link take on this machine, alone and over lanes, along the first path; none for a link
+    /// without a form for lanes. To be measured in a release build.
+    #[must_use]
+    pub fn lane_speed(&self, link: &dyn Link) -> Option<LaneSpeed> {
+        speed::lane_speed(link, &self.path(0))
     }
 
     /// [`check`](Self::check) for tests.

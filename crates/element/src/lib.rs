@@ -5,6 +5,9 @@
 //! | beam, truss, spring, mass | [`LinearElement`] | its K, M and C, once |
 //! | rigid body, diaphragm | [`Constraint`] | linear equations between DOFs, which are eliminated |
 //! | gap, friction contact, dashpot | [`Link`] | force and tangents for a deformation, again and again |
+//! | load or motion | [`Waveform`] | what it does in time |
+//! | recorded number | [`DerivedOutput`] | a function of other outputs |
+//! | solver | [`Integrator`] | a linear step of the structure |
 //!
 //! Nothing implements two of them. Every kind describes its parameters in a [`Card`], from which the
 //! model reader takes names, units, ranges and defaults, and the catalogue its pages. A kind is offered
@@ -18,11 +21,13 @@
 mod card;
 mod constraint;
 mod definite;
+mod derived;
 mod driver;
 mod error;
 mod fault;
 mod frame;
 mod history;
+mod integrator;
 mod linear;
 mod link;
 mod member;
@@ -39,16 +44,20 @@ pub use card::{
     Card, Category, Default, Described, Exercise, Form, NodeCount, Parameter, Range, Stroke,
 };
 pub use constraint::{Constraint, Equation};
+pub use derived::DerivedOutput;
 pub use dimension::Dimension;
 pub use driver::{Answer, Driver};
 pub use error::ParameterError;
 pub use fault::ElementFault;
 pub use frame::{Axis, Dof, Frame, Geometry, Vector3, cross, dot, norm, sub};
 pub use history::{Field, History};
+pub use integrator::{Factor, Integrator, LinearStep, LinearStructure, Motion, MotionMut};
 pub use linear::{ElementMatrices, LinearElement, SquareMatrix};
 pub use link::{Contact, ContactUse, Coordinates, Energy, Impact, Kinematics, Link, Response};
 pub use member::{Member, SpanLoad};
 pub use outline::Outline;
-pub use register::{Read, ReadConstraint, ReadFunction, ReadLinear, ReadLink, Register};
+pub use register::{
+    Read, ReadConstraint, ReadFunction, ReadLinear, ReadLink, ReadOutput, ReadSolver, Register,
+};
 pub use values::{Value, Values};
 pub use waveform::{Side, Stretch, Waveform};

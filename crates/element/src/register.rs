@@ -1,6 +1,9 @@
 //! How a crate offers its kinds to an application.
 
-use crate::{Card, Constraint, Described, LinearElement, Link, ParameterError, Values, Waveform};
+use crate::{
+    Card, Constraint, DerivedOutput, Described, Integrator, LinearElement, Link, ParameterError,
+    Values, Waveform,
+};
 use std::sync::Arc;
 
 /// Makes something from its parameters; it may hold what it needs for that, such as a table that was read once.
@@ -13,6 +16,10 @@ pub type ReadConstraint = Read<dyn Constraint>;
 pub type ReadLink = Read<dyn Link>;
 /// Makes a function of time from its parameters.
 pub type ReadFunction = Read<dyn Waveform>;
+/// Makes an output from its parameters.
+pub type ReadOutput = Read<dyn DerivedOutput>;
+/// Makes a rule for time from its parameters.
+pub type ReadSolver = Read<dyn Integrator>;
 
 /// The face of a registry that a crate of elements sees.
 ///
@@ -30,6 +37,10 @@ pub trait Register {
     fn add_link(&mut self, card: &'static Card, read: ReadLink);
     /// Takes a function of time by its reader.
     fn add_function(&mut self, card: &'static Card, read: ReadFunction);
+    /// Takes an output by its reader.
+    fn add_output(&mut self, card: &'static Card, read: ReadOutput);
+    /// Takes a rule for time by its reader.
+    fn add_solver(&mut self, card: &'static Card, read: ReadSolver);
 
     /// Offers a linear element.
     fn linear<E: LinearElement + Described + 'static>(&mut self) {
@@ -46,6 +57,14 @@ pub trait Register {
     /// Offers a function of time. Its card takes no nodes.
     fn function<F: Waveform + Described + 'static>(&mut self) {
         self.add_function(const { &F::CARD }, Arc::new(|v| Ok(Box::new(checked::<F>(v)?))));
+    }
+    /// Offers an output. Its card takes no nodes: what it is made of stands in `of`.
+    fn output<O: DerivedOutput + Described + 'static>(&mut self) {
+        self.add_output(const { &O::CARD }, Arc::new(|v| Ok(Box::new(checked::<O>(v)?))));
+    }
+    /// Offers a rule for time as a solver. Its card takes no nodes.
+    fn solver<I: Integrator + Described + 'static>(&mut self) {
+        self.add_solver(const { &I::CARD }, Arc::new(|v| Ok(Box::new(checked::<I>(v)?))));
     }
 }
 

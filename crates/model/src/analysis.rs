@@ -1,6 +1,6 @@
 //! Analysis cases: what is loaded, how it moves, how it is solved.
 
-use crate::{Load, Span};
+use crate::{Load, SolverKind, Span};
 use trilith_element::Dof;
 
 /// An analysis case.
@@ -166,35 +166,6 @@ impl Solution {
         };
         let of_steps = steps.saturating_mul(equal).saturating_mul(SUBSTEPS_EACH);
         self.substep_limit.unwrap_or(of_steps.max(SUBSTEPS))
-    }
-}
-
-/// The solvers.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum SolverKind {
-    /// Ritz basis, modal recurrences exact for loads linear in the step.
-    Fna,
-    /// All DOFs, HHT-α.
-    Hht,
-    /// Ritz basis, HHT-α.
-    RitzHht,
-    /// All DOFs, HHT-α with the tangent assembled and factorised in every iteration.
-    FullNewton,
-}
-
-impl SolverKind {
-    /// All, in order.
-    pub const ALL: [Self; 4] = [Self::Fna, Self::Hht, Self::RitzHht, Self::FullNewton];
-
-    /// Name on the command line and in results.
-    #[must_use]
-    pub const fn name(self) -> &'static str {
-        match self {
-            Self::Fna => "fna",
-            Self::Hht => "hht",
-            Self::RitzHht => "ritz-hht",
-            Self::FullNewton => "full-newton",
-        }
     }
 }
 

@@ -1,6 +1,6 @@
 //! The model after reading: plain data in SI, everything resolved to indices and checked.
 
-use crate::{Analysis, Case, Envelope, FloorSpectrum, Output, Places, TimeFunction};
+use crate::{Analysis, Case, CustomSolver, Envelope, FloorSpectrum, Output, Places, TimeFunction};
 use sha2::{Digest, Sha256};
 use std::ops::Range;
 use std::path::PathBuf;
@@ -56,6 +56,8 @@ pub struct Model {
     pub patterns: Vec<Pattern>,
     /// Analysis cases, in file order; a case continues only cases before it.
     pub cases: Vec<Case>,
+    /// Solvers of other crates: those that cases name, and those of the registry that need no parameter.
+    pub solvers: Vec<CustomSolver>,
     /// What to record.
     pub outputs: Vec<Output>,
     /// Response spectra of recorded accelerations.

@@ -1,6 +1,7 @@
 //! Recorded quantities.
 
-use trilith_element::{Dof, Vector3};
+use std::sync::Arc;
+use trilith_element::{Card, DerivedOutput, Dof, Values, Vector3};
 
 /// A recorded quantity.
 #[derive(Clone, Debug, PartialEq)]
@@ -102,6 +103,28 @@ pub enum Quantity {
         /// (index of the output, factor).
         terms: Vec<(usize, f64)>,
     },
+    /// A number made of outputs before it, of another crate.
+    Derived(Derived),
+}
+
+/// An output of another crate.
+#[derive(Clone, Debug)]
+pub struct Derived {
+    /// Its card.
+    pub card: &'static Card,
+    /// The parameters it was made from.
+    pub values: Arc<Values>,
+    /// What makes it.
+    pub output: Arc<dyn DerivedOutput>,
+    /// Indices of the outputs it is made of.
+    pub of: Vec<usize>,
+}
+
+/// The same kind of the same outputs, with the same parameters.
+impl PartialEq for Derived {
+    fn eq(&self, other: &Self) -> bool {
+        self.card.kind == other.card.kind && self.values == other.values && self.of == other.of
+    }
 }
 
 /// A force inside a member, as on a cut that looks along local 1 (SAP2000's signs).

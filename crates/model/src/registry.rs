@@ -2,7 +2,8 @@
 
 use crate::schema;
 use trilith_element::{
-    Card, Category, ReadConstraint, ReadFunction, ReadLinear, ReadLink, Register,
+    Card, Category, ReadConstraint, ReadFunction, ReadLinear, ReadLink, ReadOutput, ReadSolver,
+    Register,
 };
 
 /// How to make a member of a kind.
@@ -12,6 +13,8 @@ pub(crate) enum Reader {
     Constraint(ReadConstraint),
     Link(ReadLink),
     Function(ReadFunction),
+    Output(ReadOutput),
+    Solver(ReadSolver),
 }
 
 impl std::fmt::Debug for Reader {
@@ -21,11 +24,14 @@ impl std::fmt::Debug for Reader {
             Self::Constraint(_) => "Constraint",
             Self::Link(_) => "Link",
             Self::Function(_) => "Function",
+            Self::Output(_) => "Output",
+            Self::Solver(_) => "Solver",
         })
     }
 }
 
-/// The kinds of elements, constraints, links and functions of time by name, in the order in which they came.
+/// The kinds of elements, constraints, links, functions of time, outputs and solvers by name, in the order in which they
+/// came.
 ///
 /// A name that comes a second time does not replace the first; it is kept in
 /// [`duplicates`](Self::duplicates), and no model is read with such a registry.
@@ -49,12 +55,23 @@ impl Registry {
 
     /// The cards of what may stand in `elements`.
     pub fn elements(&self) -> impl Iterator<Item = &'static Card> + Clone + '_ {
-        self.cards().filter(|card| card.category != Category::Function)
+        let built = [Category::Linear, Category::Constraint, Category::Link];
+        self.cards().filter(move |card| built.contains(&card.category))
     }
 
     /// The cards of functions of time, beside the built-in ones.
     pub fn functions(&self) -> impl Iterator<Item = &'static Card> + Clone + '_ {
         self.cards().filter(|card| card.category == Category::Function)
+    }
+
+    /// The cards of outputs, beside the built-in ones.
+    pub fn outputs(&self) -> impl Iterator<Item = &'static Card> + Clone + '_ {
+        self.cards().filter(|card| card.category == Category::Output)
+    }
+
+    /// The cards of solvers, beside the built-in ones.
+    pub fn solvers(&self) -> impl Iterator<Item = &'static Card> + Clone + '_ {
+        self.cards().filter(|card| card.category == Category::Solver)
     }
 
     /// The card of a kind.
@@ -63,7 +80,7 @@ impl Registry {
         self.cards().find(|card| card.kind == kind)
     }
 
-    /// Names that were registered more than once, or that a built-in function of time has.
+    /// Names that were registered more than once, or that a built-in function of time, output or solver has.
     #[must_use]
     pub fn duplicates(&self) -> &[&'static str] {
         &self.duplicates
@@ -74,9 +91,13 @@ impl Registry {
     }
 
     fn add(&mut self, card: &'static Card, reader: Reader) {
-        let built_in =
-            card.category == Category::Function && schema::FUNCTIONS.names().contains(&card.kind);
-        if built_in || self.card(card.kind).is_some() {
+        let built_in = match card.category {
+            Category::Function => schema::FUNCTIONS.names(),
+            Category::Output => schema::OUTPUTS.names(),
+            Category::Solver => schema::SOLVERS.to_vec(),
+            _ => Vec::new(),
+        };
+        if built_in.contains(&card.kind) || self.card(card.kind).is_some() {
             self.duplicates.push(card.kind);
         } else {
             self.kinds.push((card, reader));
@@ -96,5 +117,11 @@ impl Register for Registry {
     }
     fn add_function(&mut self, card: &'static Card, read: ReadFunction) {
         self.add(card, Reader::Function(read));
+    }
+    fn add_output(&mut self, card: &'static Card, read: ReadOutput) {
+        self.add(card, Reader::Output(read));
+    }
+    fn add_solver(&mut self, card: &'static Card, read: ReadSolver) {
+        self.add(card, Reader::Solver(read));
     }
 }

@@ -29,6 +29,8 @@ pub(crate) fn elements() -> Vec<CardFacts> {
             Category::Constraint => "constraint",
             Category::Link => "link",
             Category::Function => "function",
+            Category::Output => "output",
+            Category::Solver => "solver",
         };
         let most = Some(card.nodes.max).filter(|most| *most < usize::MAX);
         (

@@ -6,6 +6,7 @@
 //! | `hht` | all DOFs | HHT-α, one factorisation a step size |
 //! | `ritz-hht` | Ritz vectors | HHT-α |
 //! | `full-newton` | all DOFs | HHT-α, tangent factorised in every iteration |
+//! | of other crates | all DOFs or Ritz vectors | their own |
 //!
 //! The code lies in rooms; each uses rooms above it in this table alone, by what their `mod.rs` lets out. A test of the
 //! workspace reads the table and holds this.
@@ -25,6 +26,7 @@
 //! | `march` | output steps, substeps, error control |
 //! | `fna` | the propagator of FNA |
 //! | `hht` | HHT-α, and full Newton iteration |
+//! | `custom` | rules for time of other crates |
 //! | `certificate` | how far outputs are off, estimated beside a run |
 //! | `statics` | equilibrium along a path, initial values of massless directions |
 //! | `run` | cases from start to end, checkpoints, results |
@@ -40,6 +42,7 @@ mod basis;
 mod certificate;
 mod checks;
 mod contacts;
+mod custom;
 mod error;
 mod fna;
 pub mod gradient;

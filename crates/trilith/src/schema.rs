@@ -23,6 +23,13 @@ pub fn json_schema(registry: &Registry) -> Value {
     {
         all.extend(registry.functions().map(function));
     }
+    if let Some(all) = defs.get_mut(&key(&schema::OUTPUTS)).and_then(|d| d["anyOf"].as_array_mut())
+    {
+        all.extend(registry.outputs().map(output));
+    }
+    if let Some(all) = solvers(&mut defs) {
+        all.extend(registry.solvers().map(solver));
+    }
     defs.insert("for".into(), repetition());
     defs.insert("element".into(), elements(registry));
     let model = schema::MODEL.blocks[0];
@@ -193,15 +200,36 @@ fn parameters(card: &Card) -> impl Iterator<Item = (String, Value)> {
     })
 }
 
+/// What a dynamic case takes for its solver.
+fn solvers(defs: &mut Map<String, Value>) -> Option<&mut Vec<Value>> {
+    let cases = defs.get_mut(&key(&schema::CASES))?.get_mut("anyOf")?.as_array_mut()?;
+    let path = "/properties/Dynamic/anyOf/0/properties/solver/anyOf";
+    cases.iter_mut().find_map(|case| case.pointer_mut(path))?.as_array_mut()
+}
+
 /// A function of time of another crate.
 fn function(card: &Card) -> Value {
+    let amplitude = described(number(), "Factor; its unit is that of the function.");
+    custom(card, &[("amplitude".into(), amplitude)], &["amplitude"])
+}
+
+/// An output of another crate.
+fn output(card: &Card) -> Value {
+    let own: Vec<(String, Value)> = schema::DERIVED.iter().map(property).collect();
+    custom(card, &own, &[schema::OF.name])
+}
+
+/// A solver of another crate.
+fn solver(card: &Card) -> Value {
+    custom(card, &[], &[])
+}
+
+/// What another crate offers: fields of its own, some of them needed, and those of its card.
+fn custom(card: &Card, own: &[(String, Value)], needed: &[&str]) -> Value {
     let mut fields: Map<String, Value> = parameters(card).collect();
-    fields.insert(
-        "amplitude".into(),
-        described(number(), "Factor; its unit is that of the function."),
-    );
-    let needed = card.parameters.iter().filter(|p| p.default == CardDefault::Required);
-    let needed: Vec<&str> = std::iter::once("amplitude").chain(needed.map(|p| p.name)).collect();
+    fields.extend(own.iter().cloned());
+    let of_card = card.parameters.iter().filter(|p| p.default == CardDefault::Required);
+    let needed: Vec<&str> = needed.iter().copied().chain(of_card.map(|p| p.name)).collect();
     let fields = json!({
         "type": "object",
         "properties": fields,

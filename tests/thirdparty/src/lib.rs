@@ -1,19 +1,25 @@
-//! Links, an element, a constraint and a function of time in a crate of their own, as a third party would write them.
+//! Links, an element, a constraint, a function of time, an output and a solver in a crate of their own, as a third party
+//! would write them.
 //!
 //! [`TensionBracing`] has a memory, [`CubicSpring`] has none; each is a file that needs nothing but
-//! `trilith_element`, and so are [`TaperedBar`], [`Gearing`] and [`Friedlander`]. An application offers them beside the
+//! `trilith_element`, and so are [`TaperedBar`], [`Gearing`], [`Friedlander`], [`Interaction`] and [`CentralDifference`].
+//! An application offers them beside the
 //! built-in kinds with one line, `trilith_thirdparty_example::register(&mut registry)`: `src/main.rs` is one.
 //! The README of the crate leads to a link of your own.
 
+mod central_difference;
 mod cubic_spring;
 mod friedlander;
 mod gearing;
+mod interaction;
 mod tapered_bar;
 mod tension_bracing;
 
+pub use central_difference::CentralDifference;
 pub use cubic_spring::CubicSpring;
 pub use friedlander::Friedlander;
 pub use gearing::Gearing;
+pub use interaction::Interaction;
 pub use tapered_bar::TaperedBar;
 pub use tension_bracing::{TensionBracing, TensionBracingHistory};
 
@@ -26,4 +32,6 @@ pub fn register(to: &mut impl Register) {
     to.linear::<TaperedBar>();
     to.constraint::<Gearing>();
     to.function::<Friedlander>();
+    to.output::<Interaction>();
+    to.solver::<CentralDifference>();
 }

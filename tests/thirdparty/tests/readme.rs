@@ -35,3 +35,14 @@ fn the_model_of_the_page_runs() {
     let taken = 0.5 * 5e4 * 5e-3 + 5e4 * (lift - 5e-3);
     assert!((0.5e6 * lift * lift + taken - 200.0).abs() < 0.2, "{lift}");
 }
+
+/// The solver that the page shows is the one that is compiled.
+#[test]
+fn the_page_shows_the_solver_that_is_compiled() {
+    let source = include_str!("../src/central_difference.rs");
+    for head in ["impl Integrator for CentralDifference {", "impl LinearStep for Step {"] {
+        let from = source.find(head).expect("an implementation");
+        let end = from + source[from..].find("\n}\n").expect("an end") + 3;
+        assert!(README.contains(&source[from..end]), "{head}");
+    }
+}

@@ -90,7 +90,8 @@ impl Campaign {
                 all.seconds = [0, 1].map(|i| all.seconds[i] + own.seconds[i]);
             }
         });
-        all.runs.sort_by_key(|f| (f.seed, f.solver as usize));
+        let place = |solver| SolverKind::ALL.iter().position(|other| *other == solver);
+        all.runs.sort_by_key(|f| (f.seed, place(f.solver)));
         all.skipped.sort_by_key(|s| s.0);
         all
     }

@@ -6,11 +6,10 @@ use crate::figure_files::Format;
 use crate::names::{self, Names};
 use clap::{Args, Parser, Subcommand};
 use std::path::PathBuf;
-use trilith::SolverKind;
 pub(crate) use values::{Kept, pair};
 use values::{
     acceleration, alpha, assignment, count, directions, factor, frequency, length, positive,
-    rocking, share, solver, stress, whole,
+    rocking, share, stress, whole,
 };
 
 /// Small finite-element models with nonlinear links: fast nonlinear analysis and direct integration.
@@ -95,8 +94,8 @@ pub(crate) struct RunArguments {
     #[arg(long)]
     pub case: Option<String>,
     /// Solver: fna, hht, ritz-hht or full-newton [default: that of the case]
-    #[arg(long, value_parser = solver)]
-    pub solver: Option<SolverKind>,
+    #[arg(long)]
+    pub solver: Option<String>,
     /// Output step in seconds [default: that of the case]
     #[arg(long, value_parser = positive)]
     pub dt: Option<f64>,
@@ -213,8 +212,8 @@ pub(crate) struct GradientArguments {
     #[arg(long)]
     pub case: Option<String>,
     /// Solver: hht, or fna and ritz-hht for parameters of links and loads [default: that of the case]
-    #[arg(long, value_parser = solver)]
-    pub solver: Option<SolverKind>,
+    #[arg(long)]
+    pub solver: Option<String>,
     /// Output step in seconds [default: that of the case]
     #[arg(long, value_parser = positive)]
     pub dt: Option<f64>,
@@ -263,6 +262,9 @@ pub(crate) struct ExerciseArguments {
     /// coordinates, with units, such as `t [s],U1 [mm]`
     #[arg(long, value_name = "FILE", conflicts_with_all = ["amplitude", "mean", "frequency", "cycles"])]
     pub history: Option<PathBuf>,
+    /// Tell how long its answers take on this machine, alone and in the lanes of a study
+    #[arg(long, conflicts_with = "history")]
+    pub speed: bool,
     /// Folder for `loop.svg` and `path.csv` [default: out/exercise_<kind>]
     #[arg(long, value_name = "DIR")]
     pub out: Option<PathBuf>,
@@ -280,8 +282,8 @@ pub(crate) struct CompareArguments {
     pub case: Option<String>,
     /// Solvers; differences are relative to the first variant [default: hht,fna, or that of the case where
     /// another list is given]
-    #[arg(long, value_parser = solver, value_delimiter = ',')]
-    pub solvers: Vec<SolverKind>,
+    #[arg(long, value_delimiter = ',')]
+    pub solvers: Vec<String>,
     /// Output step in seconds [default: that of the case]
     #[arg(long, value_parser = positive)]
     pub dt: Option<f64>,

@@ -1,7 +1,5 @@
 //! Values of arguments, from text.
 
-use trilith::SolverKind;
-
 /// The uplift that a swing should keep.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum Kept {
@@ -82,13 +80,6 @@ pub(super) fn assignment(text: &str) -> Result<(String, String), String> {
     }
 }
 
-pub(super) fn solver(text: &str) -> Result<SolverKind, String> {
-    SolverKind::ALL.into_iter().find(|s| s.name() == text).ok_or_else(|| {
-        let names = SolverKind::ALL.iter().map(|s| s.name());
-        crate::text::names_help(text, "solvers", names)
-    })
-}
-
 /// Factors along X, Y, Z of `x,y=0.85`.
 pub(super) fn directions(text: &str) -> Result<[f64; 3], String> {
     let wrong =
@@ -140,11 +131,5 @@ mod tests {
         assert_eq!(assignment("mu = 0.4"), Ok(("mu".into(), "0.4".into())));
         assert_eq!(assignment("a=b=c"), Ok(("a".into(), "b=c".into())));
         assert!(assignment("mu").is_err() && assignment("=1").is_err());
-    }
-
-    #[test]
-    fn a_misspelt_solver_is_corrected() {
-        assert_eq!(solver("fna"), Ok(SolverKind::Fna));
-        assert_eq!(solver("fnaa"), Err("did you mean `fna`?".into()));
     }
 }

@@ -3,7 +3,7 @@
 use super::ConformanceError as Broken;
 use super::path::Path;
 use super::probe::march;
-use crate::lanes::{Arithmetic, LaneForm, LaneLinks, LaneStep, Portable};
+use crate::lanes::{Arithmetic, LaneForm, LaneLinks, LaneStep, Portable, Real};
 #[cfg(target_arch = "x86_64")]
 use crate::lanes::{Avx2Lanes, Avx512Lanes};
 use crate::{Answer, Field, Kinematics, Link};
@@ -14,19 +14,31 @@ const STEPS: usize = 45;
 const ROUNDING: f64 = 1e-9;
 
 /// One question and what the law answered.
-struct Case {
+pub(super) struct Case {
     time: f64,
     d: Vec<f64>,
     v: Vec<f64>,
     d0: Vec<f64>,
     v0: Vec<f64>,
     dt: f64,
-    history: Vec<f64>,
+    pub(super) history: Vec<f64>,
     answer: Answer,
 }
 
 impl Case {
-    fn at(&self) -> Kinematics<'_> {
+    /// Those along a path.
+    pub(super) fn along(link: &dyn Link, path: &Path) -> Result<Vec<Self>, Broken> {
+        let mut cases = Vec::new();
+        march(link, path, 2, STEPS, |s| {
+            let [d, v, d0, v0] = [s.at.d, s.at.v, s.at.d0, s.at.v0].map(<[f64]>::to_vec);
+            let (history, answer) = (s.before.history.clone(), s.answer.clone());
+            cases.push(Self { time: s.time, d, v, d0, v0, dt: s.at.dt, history, answer });
+            Ok(())
+        })?;
+        Ok(cases)
+    }
+
+    pub(super) fn at(&self) -> Kinematics<'_> {
         let Self { d, v, d0, v0, dt, .. } = self;
         Kinematics { d, v, d0, v0, dt: *dt }
     }
@@ -39,13 +51,7 @@ pub(super) fn forms(link: &dyn Link, path: &Path) -> Result<(), Broken> {
     if constant.is_none() && lanes.is_none() {
         return Ok(());
     }
-    let mut cases = Vec::new();
-    march(link, path, 2, STEPS, |s| {
-        let [d, v, d0, v0] = [s.at.d, s.at.v, s.at.d0, s.at.v0].map(<[f64]>::to_vec);
-        let (history, answer) = (s.before.history.clone(), s.answer.clone());
-        cases.push(Case { time: s.time, d, v, d0, v0, dt: s.at.dt, history, answer });
-        Ok(())
-    })?;
+    let cases = Case::along(link, path)?;
     if let Some(c) = constant {
         dashpot(link, c, &cases, path)?;
     }
@@ -181,58 +187,93 @@ impl Look<'_> {
     /// Asks about a step of the path in every lane.
     fn compare<A: Arithmetic>(&self, with: A) -> Result<(), Broken> {
         let Self { form, cases, path, scales } = self;
-        let (law, at) = (&form.law, &form.coordinates);
-        let n = law.coordinates;
-        let zero = with.splat(0.0);
         for cases in cases.chunks(A::WIDTH) {
-            let of = |lane: usize| &cases[lane.min(cases.len() - 1)];
-            let take = |read: fn(&Case) -> &[f64]| -> Vec<A::Real> {
-                at.iter().map(|i| with.gather(|lane| read(of(lane))[*i])).collect()
-            };
-            let (d, v) = (take(|c| &c.d), take(|c| &c.v));
-            let (d0, v0) = (take(|c| &c.d0), take(|c| &c.v0));
-            // Without rates it gets none, as in a run.
-            let (v, v0) = match form.rate {
-                true => (v, v0),
-                false => (vec![with.splat(f64::NAN); n], vec![with.splat(f64::NAN); n]),
-            };
-            let parameters: Vec<_> = form.parameters.iter().map(|p| with.splat(*p)).collect();
-            let history: Vec<_> =
-                (0..law.history).map(|i| with.gather(|lane| of(lane).history[i])).collect();
-            let (mut f, mut k, mut c) = (vec![zero; n], vec![zero; n * n], vec![zero; n * n]);
-            // What a law leaves unwritten is found.
-            let mut trial = vec![with.splat(f64::NAN); law.history];
-            let mut links = LaneLinks {
-                parameters: &parameters,
-                d: &d,
-                v: &v,
-                d0: &d0,
-                v0: &v0,
-                dt: with.gather(|lane| of(lane).dt),
-                history: &history,
-                trial: &mut trial,
-                f: &mut f,
-                k: &mut k,
-                c: &mut c,
-            };
-            let mut step = LaneStep::elastic(zero);
-            let end = std::slice::from_mut(&mut step);
-            if law.in_parts {
-                with.force(law, &mut links);
-                with.commit(law, &mut links, end);
-            } else {
-                with.respond(law, &mut links, end);
-            }
+            let mut batch = Batch::new(with, form, cases);
+            batch.ask(with, form);
+            let Batch { step, f, k, c, trial, .. } = &batch;
             for (lane, case) in cases.iter().enumerate() {
                 let one = |x: &A::Real| with.lane(*x, lane);
                 let all = |x: &[A::Real]| x.iter().map(one).collect();
                 let energy = [step.stored, step.hysteretic, step.viscous].map(|x| one(&x));
-                let given =
-                    Parts { f: all(&f), k: all(&k), c: all(&c), energy, trial: all(&trial) };
-                scales.agree("lanes", &given, at, case, path)?;
+                let given = Parts { f: all(f), k: all(k), c: all(c), energy, trial: all(trial) };
+                scales.agree("lanes", &given, &form.coordinates, case, path)?;
             }
         }
         Ok(())
+    }
+}
+
+/// A question in every lane, and room for the answers.
+pub(super) struct Batch<R> {
+    parameters: Vec<R>,
+    d: Vec<R>,
+    v: Vec<R>,
+    d0: Vec<R>,
+    v0: Vec<R>,
+    dt: R,
+    history: Vec<R>,
+    trial: Vec<R>,
+    f: Vec<R>,
+    k: Vec<R>,
+    c: Vec<R>,
+    step: LaneStep<R>,
+}
+
+impl<R: Real> Batch<R> {
+    /// The questions of some cases, the last one in the lanes that are left.
+    pub(super) fn new<A: Arithmetic<Real = R>>(with: A, form: &LaneForm, cases: &[Case]) -> Self {
+        let (law, at) = (&form.law, &form.coordinates);
+        let n = law.coordinates;
+        let zero = with.splat(0.0);
+        let of = |lane: usize| &cases[lane.min(cases.len() - 1)];
+        let take = |read: fn(&Case) -> &[f64]| -> Vec<R> {
+            at.iter().map(|i| with.gather(|lane| read(of(lane))[*i])).collect()
+        };
+        // Without rates it gets none, as in a run.
+        let rates = |read: fn(&Case) -> &[f64]| match form.rate {
+            true => take(read),
+            false => vec![with.splat(f64::NAN); n],
+        };
+        Self {
+            parameters: form.parameters.iter().map(|p| with.splat(*p)).collect(),
+            d: take(|c| &c.d),
+            v: rates(|c| &c.v),
+            d0: take(|c| &c.d0),
+            v0: rates(|c| &c.v0),
+            dt: with.gather(|lane| of(lane).dt),
+            history: (0..law.history).map(|i| with.gather(|lane| of(lane).history[i])).collect(),
+            // What a law leaves unwritten is found.
+            trial: vec![with.splat(f64::NAN); law.history],
+            f: vec![zero; n],
+            k: vec![zero; n * n],
+            c: vec![zero; n * n],
+            step: LaneStep::elastic(zero),
+        }
+    }
+
+    /// Asks for all of the answer.
+    pub(super) fn ask<A: Arithmetic<Real = R>>(&mut self, with: A, form: &LaneForm) {
+        let law = &form.law;
+        let mut links = LaneLinks {
+            parameters: &self.parameters,
+            d: &self.d,
+            v: &self.v,
+            d0: &self.d0,
+            v0: &self.v0,
+            dt: self.dt,
+            history: &self.history,
+            trial: &mut self.trial,
+            f: &mut self.f,
+            k: &mut self.k,
+            c: &mut self.c,
+        };
+        let end = std::slice::from_mut(&mut self.step);
+        if law.in_parts {
+            with.force(law, &mut links);
+            with.commit(law, &mut links, end);
+        } else {
+            with.respond(law, &mut links, end);
+        }
     }
 }
 

@@ -277,6 +277,11 @@ impl Check<'_> {
                         factor(self, *x);
                     }
                 }
+                Quantity::Derived(derived) => {
+                    for output in &derived.of {
+                        self.index(&part, "output before it", *output, own);
+                    }
+                }
             }
         }
         for spectrum in &m.spectra {

@@ -8,7 +8,7 @@ use crate::places::Places;
 use crate::schema::{Block, Group};
 use crate::tree::{Entry, Kind, Node};
 use crate::units::FileUnits;
-use crate::{Diagnostic, Registry, Source, Span};
+use crate::{CustomSolver, Diagnostic, Registry, Source, Span};
 use std::cell::RefCell;
 use std::path::PathBuf;
 use std::sync::Arc;
@@ -25,6 +25,8 @@ pub struct Context<'a> {
     pub(crate) motions: Arc<Motions>,
     /// Other files that were read.
     pub(crate) files: RefCell<Vec<PathBuf>>,
+    /// Solvers of other crates that cases have named.
+    pub(crate) solvers: RefCell<Vec<CustomSolver>>,
     parameters: Parameters,
     errors: RefCell<Vec<Diagnostic>>,
 }
@@ -88,6 +90,7 @@ impl<'a> Context<'a> {
             units: vec![units],
             motions: Arc::default(),
             files: RefCell::default(),
+            solvers: RefCell::default(),
             parameters,
             errors: RefCell::default(),
         }

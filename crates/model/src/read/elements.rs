@@ -55,7 +55,8 @@ fn kind<'c>(c: &'c Context<'_>, node: &Node) -> Option<(&'static Card, &'c Reade
     let Some(name) = node.name() else {
         return c.wrong(node, "a kind with its parameters, `Kind(…)`,");
     };
-    let found = c.registry.find(name).filter(|(_, read)| !matches!(read, Reader::Function(_)));
+    let offered = c.registry.find(name);
+    let found = offered.filter(|(card, _)| c.registry.elements().any(|of| of.kind == card.kind));
     if found.is_none() {
         let kinds: Vec<&str> = c.registry.elements().map(|card| card.kind).collect();
         let span = node.name_span();
@@ -73,7 +74,7 @@ fn kind<'c>(c: &'c Context<'_>, node: &Node) -> Option<(&'static Card, &'c Reade
 pub(super) fn allowed(card: &Card, place: &[&'static str]) -> Vec<&'static str> {
     let mut all: Vec<&str> = place.to_vec();
     all.extend(card.parameters.iter().map(|p| p.name));
-    if card.category == Category::Function {
+    if matches!(card.category, Category::Function | Category::Output | Category::Solver) {
         return all;
     }
     all.extend(schema::ELEMENT.names());
@@ -129,7 +130,7 @@ impl Reading<'_, '_> {
                 Ok(Body::Link(Arc::from(law), LinkOptions::default()))
             }),
             // No kind of elements, as `kind` has said.
-            Reader::Function(_) => return None,
+            Reader::Function(_) | Reader::Output(_) | Reader::Solver(_) => return None,
         };
         let body = match body {
             Ok(Body::Link(law, _)) => {

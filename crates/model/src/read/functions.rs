@@ -2,11 +2,10 @@
 
 use super::context::{Context, Fields};
 use super::elements::allowed;
-use super::names::{NODE, Names};
+use super::names::Names;
 use super::record::record;
 use super::synthetic::{synthetic, too_much};
 use super::tables::{points, table};
-use super::values::{Given, values};
 use crate::registry::Reader;
 use crate::schema::{self, Block};
 use crate::tree::{Entry, Kind};
@@ -114,27 +113,18 @@ fn built_in(c: &Context<'_>, e: &Entry) -> Option<&'static Block> {
 fn custom(c: &Context<'_>, e: &Entry, card: &'static Card, read: &ReadFunction) -> Option<Made> {
     let what = what(e);
     let fields = c.fields(&e.value, &what, &allowed(card, &["amplitude"]))?;
-    let size = amplitude(c, &fields);
-    let given = Given { own: fields.entries(), shared: &[], made: Default::default() };
     let at = e.value.name_span();
-    let values = values(c, card, &given, &what, &at, &Names::new(NODE, "nodes", &[]));
-    let ((amplitude, dimension), values) = (size?, values?);
-    let refuse = |message: String, at| {
+    let size = amplitude(c, &fields);
+    let made = super::custom::made(c, &fields, (&what, &at), card, read);
+    let ((amplitude, dimension), (values, waveform)) = (size?, made?);
+    let waveform = Arc::from(waveform);
+    let custom = Custom { amplitude, card, values, waveform };
+    if let Some(fault) = custom.fault() {
+        let message = format!("{what}: {} is no function of time: {fault}", card.kind);
         c.report(c.diagnostic("E0114", message, at));
-        None
-    };
-    let waveform = match read(&values) {
-        Ok(waveform) => Arc::from(waveform),
-        Err(error) => {
-            let place = error.parameter().and_then(|name| given.get(name));
-            return refuse(format!("{what}: {error}"), place.map_or(at, |n| n.span.clone()));
-        }
-    };
-    let custom = Custom { amplitude, card, values: Arc::new(values), waveform };
-    match custom.fault() {
-        Some(fault) => refuse(format!("{what}: {} is no function of time: {fault}", card.kind), at),
-        None => Some((TimeFunction::Custom(custom), dimension)),
+        return None;
     }
+    Some((TimeFunction::Custom(custom), dimension))
 }
 
 fn function(c: &Context<'_>, e: &Entry, kind: &Block) -> Option<Made> {

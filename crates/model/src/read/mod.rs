@@ -4,6 +4,7 @@ mod accelerogram;
 mod along;
 mod cases;
 mod context;
+mod custom;
 mod damping;
 mod dynamic;
 mod elements;
@@ -268,6 +269,7 @@ fn sections(
         functions: functions.into_iter().flatten().collect(),
         patterns: patterns.into_iter().flatten().collect(),
         cases: cases.into_iter().flatten().collect(),
+        solvers: custom::solvers(c),
         outputs: outputs.into_iter().flatten().collect(),
         spectra: spectra.into_iter().flatten().collect(),
         envelopes: envelopes.into_iter().flatten().collect(),

@@ -1,14 +1,16 @@
 //! What is recorded.
 
 mod combination;
+mod derived;
 mod forces;
 mod whole;
 
 use super::along::Members;
 use super::context::{Context, Fields};
 use super::names::Names;
-use crate::diagnostic::names_help;
+use crate::diagnostic::{closest, names_help};
 use crate::expression::Quantity as Number;
+use crate::registry::Reader;
 use crate::schema::{self, Block};
 use crate::tree::{Entry, Kind, Node};
 use crate::{Element, NodalTerm, Output, Pattern, Quantity, Support};
@@ -69,8 +71,16 @@ impl Reading<'_, '_> {
     }
 
     fn output(&self, e: &Entry) -> Option<(Quantity, String)> {
-        let kind = self.c.one_of(&e.value, "output", &schema::OUTPUTS)?;
         let what = format!("output `{}`", e.key);
+        let offered = e.value.name().and_then(|name| self.c.registry.find(name));
+        if let Some((card, Reader::Output(read))) = offered {
+            return derived::derived(self, &e.value, &what, card, read);
+        }
+        let mut names = schema::OUTPUTS.names();
+        names.extend(self.c.registry.outputs().map(|card| card.kind));
+        // Those of other crates have been looked for, as names.
+        let found = self.c.choice(&e.value, "output", &names)?;
+        let kind = *schema::OUTPUTS.blocks.get(found)?;
         match kind.name {
             "Displacement" => self.nodal(&e.value, &what, kind, 0),
             "Velocity" => self.nodal(&e.value, &what, kind, 1),
@@ -86,6 +96,28 @@ impl Reading<'_, '_> {
             "Reaction" => self.reaction(&e.value, &what, kind),
             _ => combination::combination(self, &e.value, &what, kind),
         }
+    }
+
+    /// An output that stands before, by its name.
+    fn output_before(&self, name: &Node) -> Option<usize> {
+        let c = self.c;
+        let Kind::Text(text) = &name.kind else {
+            return c.wrong(name, "the name of an output in quotes");
+        };
+        let found = self.before.iter().position(|(n, _)| n == text);
+        if found.is_none() {
+            let all = self.before.iter().map(|(n, _)| n.as_str());
+            let message = format!("there is no output `{text}` before this one");
+            let mut d = c.diagnostic("E0106", message, name.span.clone());
+            if c.suggests() {
+                d = d.help(names_help(text, "outputs before it", all.clone()));
+                if let Some(near) = closest(text, all) {
+                    d = d.suggestion(name.span.clone(), format!("\"{near}\""));
+                }
+            }
+            c.report(d);
+        }
+        found
     }
 
     fn nodal(

@@ -1,7 +1,10 @@
 //! How a dynamic case is solved.
 
 use super::context::{Context, Fields};
+use super::custom;
+use super::elements::allowed;
 use crate::check::{LEAST_ALPHA, TOLERANCE};
+use crate::registry::Reader;
 use crate::schema;
 use crate::tree::Node;
 use crate::{Basis, BasisKind, Kernel, Solution, SolverKind, StepControl};
@@ -10,9 +13,7 @@ use trilith_element::dimension::NONE;
 
 pub(super) fn solution(c: &Context<'_>, fields: &Fields<'_>) -> Option<Solution> {
     let plain = Solution::default();
-    let solver = fields.get("solver").map_or(Some(plain.solver), |n| {
-        c.choice(n, "solver", &schema::SOLVERS).map(|i| SolverKind::ALL[i])
-    });
+    let solver = fields.get("solver").map_or(Some(plain.solver), |n| solver(c, n));
     let step = fields.get("step").map_or(Some(plain.step), |n| step(c, n));
     let kernel = fields.get("kernel").map_or(Some(plain.kernel), |n| {
         let all = [Kernel::Newton, Kernel::FixedPoint];
@@ -37,6 +38,20 @@ pub(super) fn solution(c: &Context<'_>, fields: &Fields<'_>) -> Option<Solution>
         basis: basis?,
         alpha: alpha?,
     })
+}
+
+/// `Fna`, or the kind of another crate with its fields.
+fn solver(c: &Context<'_>, node: &Node) -> Option<SolverKind> {
+    let offered = node.name().and_then(|name| c.registry.find(name));
+    if let Some((card, Reader::Solver(read))) = offered {
+        let what = format!("solver `{}`", card.kind);
+        let fields = c.fields(node, &what, &allowed(card, &[]))?;
+        return custom::solver(c, &fields, &node.name_span(), card, read);
+    }
+    let mut names = schema::SOLVERS.to_vec();
+    names.extend(c.registry.solvers().map(|card| card.kind));
+    // Those of other crates have been looked for, as names.
+    c.choice(node, "solver", &names).and_then(|i| SolverKind::ALL.get(i).copied())
 }
 
 fn tolerance(c: &Context<'_>, node: &Node, name: &str) -> Option<f64> {

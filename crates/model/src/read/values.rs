@@ -108,7 +108,8 @@ fn dimension_of(form: Form) -> Option<Dimension> {
     }
 }
 
-fn default(p: &Parameter) -> Result<Option<Value>, ()> {
+/// What holds where nothing is given; an error for a parameter that must be given.
+pub(super) fn default(p: &Parameter) -> Result<Option<Value>, ()> {
     Ok(match (p.default, p.form) {
         (Default::Required, _) => return Err(()),
         (Default::Absent, _) => None,

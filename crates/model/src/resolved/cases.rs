@@ -1,6 +1,6 @@
 //! Cases of a resolved model.
 
-use super::{factor, text};
+use super::{custom, factor, text};
 use crate::{
     Analysis, Basis, BasisKind, DynamicCase, Kernel, Load, Model, Solution, SolverKind, StepControl,
 };
@@ -66,16 +66,19 @@ fn dynamic(model: &Model, d: &DynamicCase) -> String {
         d.duration,
         d.dt,
         loads(model, &d.constant),
-        solution(&d.solution)
+        solution(model, &d.solution)
     )
 }
 
-fn solution(s: &Solution) -> String {
+fn solution(model: &Model, s: &Solution) -> String {
     let solver = match s.solver {
-        SolverKind::Fna => "Fna",
-        SolverKind::Hht => "Hht",
-        SolverKind::RitzHht => "RitzHht",
-        SolverKind::FullNewton => "FullNewton",
+        SolverKind::Fna => "Fna".into(),
+        SolverKind::Hht => "Hht".into(),
+        SolverKind::RitzHht => "RitzHht".into(),
+        SolverKind::FullNewton => "FullNewton".into(),
+        SolverKind::Custom { name, at, .. } => {
+            model.solvers.get(at).map_or_else(|| name.into(), |s| custom(s.card, &s.values, &[]))
+        }
     };
     let step = match s.step {
         StepControl::Adaptive { tolerance } => format!("Adaptive(tolerance: {tolerance:?})"),

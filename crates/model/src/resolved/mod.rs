@@ -11,7 +11,7 @@ use crate::{
 use cases::case;
 use outputs::output;
 use std::fmt::Write;
-use trilith_element::{Dimension, Dof, Frame, Value, Vector3};
+use trilith_element::{Card, Dimension, Dof, Frame, Value, Values, Vector3};
 
 /// The model as a RON text in SI that reads back to the same model.
 ///
@@ -211,10 +211,9 @@ fn function(f: &TimeFunction, d: Option<Dimension>) -> String {
             "Ricker(amplitude: {}, frequency: {frequency:?}, center: {center:?})",
             amount(*amplitude)
         ),
-        TimeFunction::Custom(custom) => {
-            let mut fields = vec![format!("amplitude: {}", amount(custom.amplitude))];
-            fields.extend(custom.values.0.iter().map(|(name, v)| format!("{name}: {}", value(v))));
-            format!("{}({})", custom.card.kind, fields.join(", "))
+        TimeFunction::Custom(it) => {
+            let amplitude = format!("amplitude: {}", amount(it.amplitude));
+            custom(it.card, &it.values, &[amplitude])
         }
         TimeFunction::Table(table) => {
             let pairs = table.times().iter().zip(table.values());
@@ -235,4 +234,11 @@ fn function(f: &TimeFunction, d: Option<Dimension>) -> String {
             )
         }
     }
+}
+
+/// What another crate offers, with fields of its own before those of its card.
+fn custom(card: &Card, values: &Values, own: &[String]) -> String {
+    let fields = values.0.iter().map(|(name, v)| format!("{name}: {}", value(v)));
+    let fields: Vec<String> = own.iter().cloned().chain(fields).collect();
+    format!("{}({})", card.kind, fields.join(", "))
 }

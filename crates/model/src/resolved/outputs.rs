@@ -1,6 +1,6 @@
 //! Outputs of a resolved model.
 
-use super::{factor, text, vector};
+use super::{custom, factor, text, vector};
 use crate::read::nodal_dimension;
 use crate::schema::BASE_DIRECTIONS;
 use crate::units;
@@ -102,6 +102,11 @@ fn quantity(model: &Model, o: &Output) -> String {
                 _ => String::new(),
             };
             format!("{name}(terms: [{terms}]{constant})")
+        }
+        Quantity::Derived(derived) => {
+            let of = derived.of.iter().map(|i| text(&model.outputs[*i].name));
+            let of = format!("of: [{}]", of.collect::<Vec<_>>().join(", "));
+            custom(derived.card, &derived.values, &[of])
         }
     }
 }

@@ -216,6 +216,11 @@ pub static REACTION: Block = Block {
         HIDDEN,
     ],
 };
+/// What an output of another crate is made of.
+pub const OF: Field =
+    needed("of", Words("names of outputs that stand before"), "The outputs it is made of.");
+/// The fields of any output of another crate, beside those of its card.
+pub const DERIVED: [Field; 2] = [OF, HIDDEN];
 /// A part of a combination.
 pub static PARTS: Group = Group {
     name: "parts",

@@ -31,13 +31,14 @@ pub(crate) fn of_case(
         say("plane", format!("{plane:?}"));
     }
     say("gravity", format!("{} m/s²", short(model.gravity, 4)));
+    let kind = model.solver(solver, case);
     let Some(case) = model.cases.get(case) else { return out };
     if let Some(before) = case.after.and_then(|c| model.cases.get(c)) {
         say("continues case", before.name.clone());
     }
     match &case.analysis {
         Analysis::Static(s) => say("load steps", s.steps.to_string()),
-        Analysis::Dynamic(d) => dynamic(d, solver, dt, &mut say),
+        Analysis::Dynamic(d) => dynamic(d, kind.unwrap_or(d.solution.solver), dt, &mut say),
     }
     say("structural damping", damping(&model.damping));
     if let Some(p) = model.p_delta.and_then(|c| model.cases.get(c)) {
@@ -46,7 +47,12 @@ pub(crate) fn of_case(
     out
 }
 
-fn dynamic(d: &DynamicCase, solver: &str, dt: Option<f64>, say: &mut impl FnMut(&str, String)) {
+fn dynamic(
+    d: &DynamicCase,
+    solver: SolverKind,
+    dt: Option<f64>,
+    say: &mut impl FnMut(&str, String),
+) {
     let s = &d.solution;
     say("duration", format!("{} s", short(d.duration, 6)));
     say("output step", format!("{} s", short(dt.unwrap_or(d.dt), 4)));
@@ -71,8 +77,7 @@ fn dynamic(d: &DynamicCase, solver: &str, dt: Option<f64>, say: &mut impl FnMut(
     if let Some(limit) = s.substep_limit {
         say("substeps at most", limit.to_string());
     }
-    let reduced = [SolverKind::Fna, SolverKind::RitzHht].iter().any(|k| k.name() == solver);
-    if reduced {
+    if solver.is_reduced() {
         let kind = match s.basis.kind {
             BasisKind::Ritz => "Ritz vectors",
             BasisKind::Eigen => "eigenvectors",
@@ -81,7 +86,7 @@ fn dynamic(d: &DynamicCase, solver: &str, dt: Option<f64>, say: &mut impl FnMut(
         let count = s.basis.vectors.map_or("as many as it takes".into(), |n| n.to_string());
         say("basis asked for", format!("{kind}, {count}, adequacy {}", percent(s.basis.adequacy)));
     }
-    if solver != SolverKind::Fna.name() {
+    if matches!(solver, SolverKind::Hht | SolverKind::RitzHht | SolverKind::FullNewton) {
         say("HHT α", short(s.alpha, 3));
     }
 }

@@ -23,8 +23,8 @@ const NAMES: usize = 3;
 pub(crate) struct Noticed {
     /// The contact that was pressed in deepest.
     pub pressed: Pressed,
-    /// What there is to say of bodies that were in each other.
-    pub overlaps: Vec<String>,
+    /// What there is to say of bodies that were in each other, and of outputs that were no numbers.
+    pub said: Vec<String>,
 }
 
 /// The contact that was pressed in deepest.
@@ -96,10 +96,10 @@ pub(crate) fn of_dynamic(
     // One that fell over is far from its place, and the status says why.
     let free = (!end.fallen).then_some(end.displacement);
     let weight = weightless(model, system, case, analysis, end.load);
-    let Noticed { pressed, overlaps } = noticed;
+    let Noticed { pressed, said } = noticed;
     let place = of_state(model, system, end.state, pressed, free, &supports);
     let turns = turns(model).unwrap_or_default();
-    weight.into_iter().chain(place).chain(overlaps).chain(turns).collect()
+    weight.into_iter().chain(place).chain(said).chain(turns).collect()
 }
 
 /// What there is to say of a static case.
@@ -112,7 +112,7 @@ pub(crate) fn of_static(
 ) -> Vec<String> {
     let supports = vec![0.0; system.reduction.prescribed.len()];
     let said = of_state(model, system, state, noticed.pressed, Some(u), &supports);
-    said.into_iter().chain(noticed.overlaps).collect()
+    said.into_iter().chain(noticed.said).collect()
 }
 
 /// Of the place where a case ends: contacts, and the displacements of the free DOFs where these count.

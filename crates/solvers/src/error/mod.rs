@@ -181,6 +181,14 @@ pub enum SolveError {
         /// Where the file defines the link.
         span: Span,
     },
+    /// The rule for time of another crate cannot step the structure.
+    #[error("solver {kind}: {reason}")]
+    Integrator {
+        /// Its kind.
+        kind: &'static str,
+        /// What it says, or what is wrong with it.
+        reason: String,
+    },
     /// Derivatives that cannot be had.
     #[error("no derivatives: {reason}")]
     NoGradient {

@@ -10,7 +10,7 @@ use super::step::Pieces;
 use crate::basis::LowRank;
 use crate::error::SolveError;
 use crate::record::Outputs;
-use crate::run::{Equations, Prepared, RunOptions, Setup, assemble, before, is_reduced};
+use crate::run::{Equations, Prepared, RunOptions, Setup, assemble, before};
 use crate::step::{LinksBefore, State};
 use crate::structure::{JUMPED, ReducedSystem};
 use trilith_linalg::Sparse;
@@ -244,7 +244,7 @@ impl<'a> Influence<'a> {
         };
         let structure =
             Structure::new(*step, &[0, 1, 2, 3].map(physical)).map_err(|e| refuse(&e))?;
-        let reduced = is_reduced(base.kind);
+        let reduced = base.kind.is_reduced();
         if reduced && structure.is_some() {
             return Err(refuse(&format!(
                 "moves the structure, and so the basis of {}: `--solver hht` gives derivatives by it",

@@ -73,9 +73,13 @@ pub fn gradient(
     let watched = needs_rates(model, system, true);
     let equations = prepared.equations(watched);
     let Some(propagator) = equations.propagator() else {
-        return Err(refused(
-            "full-newton has no linear step to make them with; `--solver hht` has the same equations",
-        ));
+        let reason = match prepared.kind {
+            SolverKind::Custom { name, .. } => format!(
+                "they go through the steps of built-in solvers, not of {name}; give `--solver fna` or `--solver hht`"
+            ),
+            _ => "full-newton has no linear step to make them with; `--solver hht` has the same equations".into(),
+        };
+        return Err(SolveError::NoGradient { reason });
     };
     if !propagator.is_linear() {
         return Err(refused(

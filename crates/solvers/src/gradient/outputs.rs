@@ -1,7 +1,7 @@
 //! Derivatives of outputs: histories, extremes, values at the end.
 
 use super::around::{Influence, weighted};
-use crate::record::{Outputs, Row};
+use crate::record::{Outputs, Row, move_derived};
 use crate::step::State;
 use trilith_model::{Combine, Side};
 use trilith_system::LoadSet;
@@ -152,8 +152,16 @@ impl<'a> Follower<'a> {
                 to.iter_mut().zip(own).for_each(|(to, x)| *to += x);
             }
             for (o, row) in outputs.rows.iter().enumerate() {
-                if let Row::Combination { how, terms, .. } = row {
-                    to[o] = combined(*how, terms, values, to);
+                match row {
+                    Row::Combination { how, terms, .. } => {
+                        to[o] = combined(*how, terms, values, to);
+                    }
+                    // Those without derivatives have none here.
+                    Row::Derived { output, of } => {
+                        let own = move_derived(output.as_ref(), of, values, to);
+                        to[o] = own.unwrap_or(f64::NAN);
+                    }
+                    _ => {}
                 }
             }
         }

@@ -2,14 +2,16 @@
 //! every iteration. The honest baseline for "FNA against direct integration"; same equations as
 //! [`hht`](crate::hht), same energies, other way to the solution.
 
-use super::newmark::{mass_acceleration, newmark};
+use super::newmark::newmark;
 use crate::error::SolveError;
 use crate::kernel::{Remembered, Search};
 use crate::step::{
     Difference, DisplacementNorms, Forces, LinksBefore, State, StepEnergy, StepFailure, StepWork,
     Stepper, Turning, difference_of, displacement_norms, energy_rounding, kinetic_and_strain,
 };
-use crate::structure::{Followers, Motion, ReducedSystem, accelerate_at_once, acceleration};
+use crate::structure::{
+    Followers, Motion, ReducedSystem, accelerate_at_once, acceleration, mass_acceleration,
+};
 use crate::vector::largest;
 use trilith_element::{Energy, Kinematics};
 use trilith_linalg::{SparseLu, Triplets};

@@ -26,10 +26,12 @@ mod tests;
 
 use crate::error::SolveError;
 use crate::kernel::{Compliance, StepKey, Wanted};
-use crate::step::{Forces, Propagator, StepWork};
-use crate::structure::{Followers, Motion, Products, ReducedSystem, acceleration};
+use crate::step::{Forces, Propagator, StepWork, TrapezoidalWork};
+use crate::structure::{
+    Followers, Motion, Products, ReducedSystem, acceleration, mass_acceleration,
+};
 pub(crate) use full_newton::FullNewton;
-use newmark::{mass_acceleration, newmark};
+use newmark::newmark;
 use std::collections::BTreeMap;
 use std::sync::Arc;
 use step::Step;
@@ -73,11 +75,12 @@ pub(crate) struct Hht {
     factorizations: usize,
     followers: Followers,
     work: Work,
+    trapezoidal: TrapezoidalWork,
 }
 
 impl Hht {
     pub(crate) fn new(space: ReducedSystem, alpha: f64) -> Self {
-        let products = Products::new(&space);
+        let (products, trapezoidal) = (Products::new(&space), TrapezoidalWork::new(&space));
         Self {
             followers: Followers::default(),
             space,
@@ -89,6 +92,7 @@ impl Hht {
             clock: 0,
             factorizations: 0,
             work: Work::default(),
+            trapezoidal,
         }
     }
 
@@ -299,27 +303,8 @@ impl Propagator for Hht {
         self.followers.complete(from, to, step.dt);
     }
 
-    /// By the trapezoidal rule, with which average acceleration balances exactly; what another α leaves is
-    /// the work of the time rule.
     fn work(&mut self, from: &Motion, to: &Motion, forces: &Forces<'_>) -> StepWork {
-        let n = self.space.order();
-        let work = &mut self.work;
-        let [load0, load1] = forces.loads;
-        let mut external = 0.0;
-        for i in 0..n {
-            work.u[i] = to[i] - from[i];
-            work.v[i] = 0.5 * (from[n + i] + to[n + i]);
-            external += 0.5 * (load0[i] + load1[i]) * work.u[i];
-        }
-        self.space.links.deform(&work.u, &mut work.moved);
-        let links: f64 = (forces.pseudo0.iter().zip(forces.pseudo1).zip(&work.moved))
-            .map(|((f0, f1), d)| 0.5 * (f0 + f1) * d)
-            .sum();
-        let energies = self.products.energies(&self.space, [from, to], &work.v, &mut work.rank);
-        let [kinetic, strain] = energies.end;
-        let damping = self.steps[&self.now].dt * energies.damping;
-        let gained = (kinetic - energies.start[0]) + (strain - energies.start[1]);
-        let algorithmic = external - links - damping - gained;
-        StepWork { external, links, damping, algorithmic, kinetic, strain }
+        let dt = self.steps[&self.now].dt;
+        self.trapezoidal.of(&self.products, &self.space, [from, to], forces, dt)
     }
 }

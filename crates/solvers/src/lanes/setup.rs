@@ -195,6 +195,9 @@ pub fn prepare(
     if let Some(reason) = unsuited(system, analysis) {
         return Ok(Err(reason.into()));
     }
+    if let Some(o) = model.outputs.iter().find(|o| matches!(o.quantity, Quantity::Derived(_))) {
+        return Ok(Err(format!("output \"{}\" has no form for lanes", o.name)));
+    }
     let case = &model.cases[case];
     let before = before(model, system, case, None, None)?;
     let constant = held_load(model, system, analysis, before.as_ref());
@@ -471,7 +474,8 @@ fn outputs(
             Row::Combination { how, constant, terms } => {
                 Output::Combination { how: *how, constant: *constant, terms: terms.clone() }
             }
-            // Where loads have a share, a model runs alone.
+            // A model with one runs alone, and so does one where loads have a share.
+            Row::Derived { .. } => Output::Zero,
             Row::Internal(Internal { stiffness, damping, links, .. }) => Output::Internal {
                 stiffness: dense(&stiffness.0),
                 damping: dense(&damping.0),

@@ -22,7 +22,7 @@ pub use contact_mode::{ContactMemory, ContactMode, ContactSummary};
 pub use energy::{EnergyTotals, LinkEnergy, StartEnergy};
 pub(crate) use ledger::Ledger;
 pub use observer::{Observer, Sample, Shape};
-pub(crate) use outputs::{Outputs, has_modal_peak};
+pub(crate) use outputs::{Outputs, has_modal_peak, move_derived};
 pub use peak::Peak;
 pub(crate) use rows::{Internal, Row};
 pub(crate) use view::{Viewer, needs_rates, show_static};

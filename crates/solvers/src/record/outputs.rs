@@ -4,6 +4,7 @@ use super::rows::{Internal, Maker, Row, sum};
 use crate::step::State;
 use crate::structure::ReducedSystem;
 use std::ops::Range;
+use trilith_element::DerivedOutput;
 use trilith_linalg::{Dense, Product};
 use trilith_model::{Combine, Model, Side};
 use trilith_system::{LoadSet, System};
@@ -147,7 +148,10 @@ impl Outputs {
                     add(0, &stiffness.0);
                     add(1, &damping.0);
                 }
-                Row::Force { .. } | Row::History { .. } | Row::Combination { .. } => {}
+                Row::Force { .. }
+                | Row::History { .. }
+                | Row::Combination { .. }
+                | Row::Derived { .. } => {}
             }
             shares
         };
@@ -168,9 +172,10 @@ impl Outputs {
                 Row::Internal(Internal { stiffness, damping, .. }) => {
                     (sum(&stiffness.0, motion[0]) + sum(&damping.0, motion[1]), f64::NAN)
                 }
-                Row::Force { .. } | Row::History { .. } | Row::Combination { .. } => {
-                    (0.0, f64::NAN)
-                }
+                Row::Force { .. }
+                | Row::History { .. }
+                | Row::Combination { .. }
+                | Row::Derived { .. } => (0.0, f64::NAN),
             };
         }
     }
@@ -178,9 +183,16 @@ impl Outputs {
     /// Puts those together that are made of others.
     pub(crate) fn combine(&self, values: &mut [f64], rates: &mut [f64]) {
         for (i, row) in self.rows.iter().enumerate() {
-            if let Row::Combination { how, constant, terms } = row {
-                values[i] = combined(*how, *constant, terms, values);
-                rates[i] = rate_combined(*how, terms, values[i], values, rates);
+            match row {
+                Row::Combination { how, constant, terms } => {
+                    values[i] = combined(*how, *constant, terms, values);
+                    rates[i] = rate_combined(*how, terms, values[i], values, rates);
+                }
+                Row::Derived { output, of } => {
+                    values[i] = derived(output.as_ref(), of, values);
+                    rates[i] = rate_derived(output.as_ref(), of, values, rates);
+                }
+                _ => {}
             }
         }
     }
@@ -255,6 +267,7 @@ impl Now<'_> {
                 Row::Combination { how, constant, terms } => {
                     combined(*how, *constant, terms, values)
                 }
+                Row::Derived { output, of } => derived(output.as_ref(), of, values),
                 Row::Internal(force) => {
                     let motion = [motion[0], motion[1]];
                     force.at(motion, self.support.as_deref(), &state.f, &self.factors)
@@ -281,6 +294,7 @@ impl Now<'_> {
                 Row::Combination { how, terms, .. } => {
                     rate_combined(*how, terms, values[i], values, rates)
                 }
+                Row::Derived { output, of } => rate_derived(output.as_ref(), of, values, rates),
                 _ => continue,
             };
         }
@@ -309,7 +323,7 @@ pub(crate) fn has_modal_peak(outputs: &Outputs) -> Vec<bool> {
             | Row::Force { .. }
             | Row::Internal(_) => true,
             Row::Nodal { order: 2, base, .. } => *base != [0.0; 3],
-            Row::Nodal { .. } | Row::History { .. } => false,
+            Row::Nodal { .. } | Row::History { .. } | Row::Derived { .. } => false,
             Row::Combination { how, terms, .. } => {
                 *how == Combine::Sum && terms.iter().all(|(i, _)| all[*i])
             }
@@ -333,4 +347,28 @@ fn rate_combined(
         // Between two of the largest or the smallest a rate would bend what has a corner.
         Combine::Norm | Combine::Largest | Combine::Smallest => f64::NAN,
     }
+}
+
+/// Value of an output of another crate.
+fn derived(output: &dyn DerivedOutput, of: &[usize], values: &[f64]) -> f64 {
+    let of: Vec<f64> = of.iter().map(|i| values[*i]).collect();
+    output.value(&of)
+}
+
+/// Its rate, where it has derivatives and they have rates.
+fn rate_derived(output: &dyn DerivedOutput, of: &[usize], values: &[f64], rates: &[f64]) -> f64 {
+    move_derived(output, of, values, rates).unwrap_or(f64::NAN)
+}
+
+/// How it moves where the outputs it is made of do so; none where it has no derivatives.
+pub(crate) fn move_derived(
+    output: &dyn DerivedOutput,
+    of: &[usize],
+    values: &[f64],
+    moves: &[f64],
+) -> Option<f64> {
+    let at: Vec<f64> = of.iter().map(|i| values[*i]).collect();
+    let mut by = vec![0.0; of.len()];
+    let has = output.derivatives(&at, &mut by);
+    has.then(|| by.iter().zip(of).map(|(by, i)| by * moves[*i]).sum())
 }

@@ -2,7 +2,8 @@
 
 use super::base_shear;
 use crate::structure::ReducedSystem;
-use trilith_element::{Dof, Vector3, sub};
+use std::sync::Arc;
+use trilith_element::{DerivedOutput, Dof, Vector3, sub};
 use trilith_model::{Combine, LinkTerm, Model, NodalTerm, Quantity};
 use trilith_system::{LinkInstance, System};
 
@@ -33,6 +34,11 @@ pub(crate) enum Row {
         how: Combine,
         constant: f64,
         terms: Vec<(usize, f64)>,
+    },
+    /// Of the rows before, by another crate.
+    Derived {
+        output: Arc<dyn DerivedOutput>,
+        of: Vec<usize>,
     },
 }
 
@@ -139,6 +145,9 @@ impl Maker<'_> {
             }
             Quantity::Combination { how, constant, terms } => {
                 Row::Combination { how: *how, constant: *constant, terms: terms.clone() }
+            }
+            Quantity::Derived(derived) => {
+                Row::Derived { output: Arc::clone(&derived.output), of: derived.of.clone() }
             }
             Quantity::ElementForce { elements, end, dof, factor } => {
                 let (mut stiffness, mut damping) = (Vec::new(), Vec::new());

@@ -69,6 +69,8 @@ pub(crate) struct Viewer<'a, 'b> {
     loads: &'a LoadSet,
     coordinates: Coordinates,
     outputs: Outputs,
+    /// Those of other crates: index, name, and when it was first no number.
+    derived: Vec<(usize, &'a str, Option<f64>)>,
     values: Vec<f64>,
     rates: Vec<f64>,
     /// Those shown before.
@@ -132,6 +134,13 @@ pub(crate) fn needs_rates(model: &Model, system: &System, wanted: bool) -> bool 
     outputs || !touching.is_empty() || !bodies.is_empty()
 }
 
+/// The outputs of other crates, of which nothing is known.
+fn derived(model: &Model) -> Vec<(usize, &str, Option<f64>)> {
+    let all = model.outputs.iter().enumerate();
+    let own = all.filter(|(_, o)| matches!(o.quantity, Quantity::Derived(_)));
+    own.map(|(i, o)| (i, o.name.as_str(), None)).collect()
+}
+
 impl<'a, 'b> Viewer<'a, 'b> {
     pub(crate) fn new(
         model: &'a Model,
@@ -150,6 +159,7 @@ impl<'a, 'b> Viewer<'a, 'b> {
             loads,
             coordinates: Coordinates { order: space.order(), shape: space.shape.clone() },
             outputs: Outputs::new(model, system, space),
+            derived: derived(model),
             values: vec![0.0; count],
             rates: vec![f64::NAN; count],
             before: (vec![0.0; count], vec![f64::NAN; count]),
@@ -191,7 +201,11 @@ impl<'a, 'b> Viewer<'a, 'b> {
             0.0 => "at the start".into(),
             t => format!("at t = {} s", rounded(t)),
         });
-        Noticed { pressed: self.pressed, overlaps: told }
+        let lost = self.derived.iter().filter_map(|(_, name, lost)| Some((*name, (*lost)?)));
+        let without_number = lost.map(|(name, t)| {
+            format!("output \"{name}\" is no number at t = {} s: its law answers so", rounded(t))
+        });
+        Noticed { pressed: self.pressed, said: told.into_iter().chain(without_number).collect() }
     }
 
     /// Tells that the run starts, with at most so many output steps to come.
@@ -225,6 +239,11 @@ impl<'a, 'b> Viewer<'a, 'b> {
         std::mem::swap(&mut self.rates, &mut self.before.1);
         let now = self.outputs.at((t, side), state, self.loads);
         now.values(&mut self.values);
+        for (i, _, lost) in &mut self.derived {
+            if lost.is_none() && !self.values[*i].is_finite() {
+                *lost = Some(t);
+            }
+        }
         if self.rated {
             now.rates(&self.values, &mut self.rates);
         }

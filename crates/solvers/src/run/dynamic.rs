@@ -4,7 +4,6 @@ use super::arrival::Arrival;
 use super::case::RunOptions;
 use super::clock::Clock;
 use super::companion::Companion;
-use super::equations::is_reduced;
 use super::marching::{Beside, Course, Ended, Watch, march_beside, output_errors};
 use super::prepared::{Prepared, Setup};
 use super::result::{CaseResult, Status, Work};
@@ -165,7 +164,7 @@ impl Leaves<'_, '_, '_, '_> {
         let place = &result.place();
         warnings.extend(checks::of_dynamic((model, system), of, loads, noticed, place));
         // Where nothing is free, there are no modes to speak of.
-        let basis = bases.as_ref().filter(|_| is_reduced(*kind) && !system.idle);
+        let basis = bases.as_ref().filter(|_| kind.is_reduced() && !system.idle);
         result.basis = basis.map(|b| b.report.clone());
         result.warnings = warnings;
         Ok(result)

@@ -2,6 +2,7 @@
 
 use super::end_state::Initial;
 use crate::basis::{self, Bases, Demands, ModalDamping, is_modal, modal_damping};
+use crate::custom::CustomRule;
 use crate::error::SolveError;
 use crate::fna::{Modal, Modes};
 use crate::hht::{FullNewton, Hht};
@@ -62,7 +63,22 @@ impl<'a> Equations<'a> {
                     factorizations: 0,
                 })
             }
-            _ => {
+            (SolverKind::Custom { name, at, reduced }, _) => {
+                let Some(solver) = model.solvers.get(at) else {
+                    let reason = "the model has no such solver".into();
+                    return Err(SolveError::Integrator { kind: name, reason });
+                };
+                let space = match bases.filter(|_| reduced) {
+                    Some(b) => {
+                        ReducedSystem::reduced(system, loads, effective, damping, &b.stepping)
+                    }
+                    None => ReducedSystem::physical(system, loads, effective, damping.cloned()),
+                };
+                let side = side(space.order());
+                let rule = CustomRule::new(solver, (model, system), space);
+                Box::new(LinkStepper::new(rule, side)?)
+            }
+            (SolverKind::Fna | SolverKind::Hht | SolverKind::RitzHht, _) => {
                 let space = ReducedSystem::physical(system, loads, effective, damping.cloned());
                 let side = side(space.order());
                 Box::new(LinkStepper::new(Hht::new(space, solution.alpha), side)?)
@@ -84,7 +100,7 @@ impl<'a> Equations<'a> {
             (SolverKind::RitzHht, Some(b)) => {
                 Some(hht(ReducedSystem::reduced(system, loads, effective, damping, &b.stepping)))
             }
-            (SolverKind::FullNewton, _) => None,
+            (SolverKind::FullNewton | SolverKind::Custom { .. }, _) => None,
             _ => Some(hht(ReducedSystem::physical(system, loads, effective, damping.cloned()))),
         }
     }
@@ -119,11 +135,6 @@ pub(super) fn basis_loads(
         .collect()
 }
 
-/// Whether a solver works on a basis.
-pub(crate) fn is_reduced(kind: SolverKind) -> bool {
-    matches!(kind, SolverKind::Fna | SolverKind::RitzHht)
-}
-
 /// The bases that a solver or modal damping needs.
 pub(crate) fn bases(
     model: &Model,
@@ -134,19 +145,19 @@ pub(crate) fn bases(
     initial: &Initial,
     wider: bool,
 ) -> Result<Option<Bases>, SolveError> {
-    if !is_modal(&model.damping) && !is_reduced(kind) {
+    if !is_modal(&model.damping) && !kind.is_reduced() {
         system.check_supported(model, true)?;
         return Ok(None);
     }
     let mut demands = Demands::new(system, basis_loads(model, analysis, loads), initial.to_hold());
     demands.wider = wider;
     let mut settings = analysis.solution.basis.clone();
-    if !is_reduced(kind) {
+    if !kind.is_reduced() {
         // Modal damping is the structure's: a basis that the file cuts for FNA is no part of it.
         settings.vectors = None;
     }
     // Who asks for no flexibility of the links needs no report of it.
-    let adequacy = is_reduced(kind) && settings.adequacy > 0.0;
+    let adequacy = kind.is_reduced() && settings.adequacy > 0.0;
     Ok(Some(basis::build(model, system, &settings, &demands, adequacy)?))
 }
 

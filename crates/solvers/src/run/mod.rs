@@ -24,7 +24,7 @@ pub(crate) use case::{before, end_at};
 pub(crate) use clock::{Clock, peak_rss_mb};
 pub(crate) use end_state::Initial;
 pub use end_state::{EndState, SoFar};
-pub(crate) use equations::{Equations, bases, fna_modes, is_reduced, link_equations};
+pub(crate) use equations::{Equations, bases, fna_modes, link_equations};
 pub use p_delta::assemble;
 pub(crate) use prepared::{Prepared, Setup, held_load};
 pub use result::{CaseResult, Status, Work};

@@ -3,7 +3,7 @@
 use super::case::{RunOptions, constant_load};
 use super::checkpoint::check;
 use super::end_state::{EndState, Initial};
-use super::equations::{Equations, bases, fna_modes, is_reduced};
+use super::equations::{Equations, bases, fna_modes};
 use super::start::{Start, resume, start};
 use crate::basis::{Bases, ModalDamping, follow_supports, modal_damping};
 use crate::certificate::{Certificate, Defect, Kicks, Listener, Reporter, Samples, Shadow, beside};
@@ -64,7 +64,7 @@ impl<'a> Prepared<'a> {
         };
         let mut loads = system.dynamic_loads(model, &analysis, constant.clone());
         loads.held = model.held_loads(case);
-        let reduced = is_reduced(kind);
+        let reduced = kind.is_reduced();
         let initial = match &options.from {
             Some(end) => end.initial.clone(),
             None => Initial::new(model, system, &analysis, before.as_ref())?,
@@ -173,7 +173,7 @@ impl<'a> Prepared<'a> {
     /// What the user should know of a basis that is too small.
     pub(super) fn adequacy_warnings(&self) -> Vec<String> {
         let mut warnings = Vec::new();
-        if let (Some(b), true) = (&self.bases, is_reduced(self.kind)) {
+        if let (Some(b), true) = (&self.bases, self.kind.is_reduced()) {
             adequacy_warning(b, self.analysis.solution.basis.adequacy, &mut warnings);
         }
         warnings

@@ -9,6 +9,7 @@ mod link_equations;
 mod propagator;
 mod state;
 mod stepper;
+mod trapezoidal;
 mod turning;
 mod vibration;
 
@@ -19,4 +20,5 @@ pub(crate) use propagator::{Forces, Propagator, StepWork, kinetic_and_strain};
 pub use state::State;
 pub(crate) use state::{LinksBefore, StepEnergy, StepFailure, untouched};
 pub(crate) use stepper::{LinkStepper, Stepper, energy_rounding};
+pub(crate) use trapezoidal::TrapezoidalWork;
 pub(crate) use turning::Turning;

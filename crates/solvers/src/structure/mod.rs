@@ -1,13 +1,15 @@
 //! The linear structure in the coordinates of a solver: all free DOFs, or those of a basis.
 //!
 //! Matrices, link map B, load columns, and how massless directions follow in direct integration.
-//! May use `basis`.
+//! May use `basis` and `error`.
 
+mod acceleration;
 mod followers;
 mod link_map;
 mod products;
 mod reduced_system;
 
+pub(crate) use acceleration::mass_acceleration;
 pub(crate) use followers::{Followers, JUMPED, accelerate_at_once, acceleration, rate_at_end};
 pub(crate) use link_map::LinkMap;
 pub(crate) use products::Products;

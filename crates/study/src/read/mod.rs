@@ -13,9 +13,9 @@ use crate::{Condition, Plan, Study, schema};
 use names::Names;
 use setting::Settings;
 use std::path::{Path, PathBuf};
+use trilith::Registry;
 use trilith::model::file::{Context, Kind, Node, open, parse, resembles_model};
 use trilith::model::{Analysis, Diagnostic, Model, ModelText, ParameterValue};
-use trilith::{Registry, SolverKind};
 
 /// Most runs of a study.
 const MOST: usize = 100_000_000;
@@ -76,9 +76,6 @@ fn whole(
     let top = c.block(root, "the study", schema::STUDY.blocks[0])?;
     let title = top.get("title").map_or(Some(String::new()), |n| c.text(n, "title"));
     let seed = top.get("seed").map_or(Some(1), |n| c.count(n, "seed", 0));
-    let solver = top.get("solver").map_or(Some(None), |n| {
-        c.choice(n, "solver", &schema::SOLVERS).map(|i| Some(SolverKind::ALL[i]))
-    });
 
     let mut settings = Settings::default();
     let mut plan = Plan {
@@ -143,6 +140,10 @@ fn whole(
         let message = "the case of the study is static";
         c.report(c.diagnostic("E0112", message, at).help("name a dynamic case with `case`"));
     }
+    let solver = top.get("solver").map_or(Some(None), |n| {
+        let names = model.solver_names();
+        c.choice(n, "solver", &names).map(|i| model.solver(names[i], case.unwrap_or(0)))
+    });
     let columns = columns::columns(c, top.get("columns"), &model);
     let varied: Vec<String> = plan.varied().into_iter().map(str::to_owned).collect();
     let kind = |name: &String| match model.parameters.iter().find(|p| p.name == *name)?.value {

@@ -19,11 +19,13 @@ use crate::exercise::Specimen;
 use crate::model::Registry;
 
 /// Categories in the order of the catalogue, with what their members do.
-pub const CATEGORIES: [(Category, &str); 4] = [
+pub const CATEGORIES: [(Category, &str); 6] = [
     (Category::Linear, "linear elements: add to M, C, K"),
     (Category::Constraint, "constraints: eliminate directions"),
     (Category::Link, "links: nonlinear laws"),
     (Category::Function, "functions of time: loads and motions"),
+    (Category::Output, "outputs: numbers made of other outputs"),
+    (Category::Solver, "solvers: rules for time"),
 ];
 
 /// What every link takes beside its parameters.

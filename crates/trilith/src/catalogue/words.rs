@@ -10,6 +10,8 @@ pub fn category(category: Category) -> &'static str {
         Category::Constraint => "constraint",
         Category::Link => "link",
         Category::Function => "function of time",
+        Category::Output => "output",
+        Category::Solver => "solver",
     }
 }
 

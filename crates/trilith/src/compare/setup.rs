@@ -38,7 +38,7 @@ impl Variant {
     /// True for a solver on a basis.
     #[must_use]
     pub fn is_reduced(&self) -> bool {
-        matches!(self.solver, SolverKind::Fna | SolverKind::RitzHht)
+        self.solver.is_reduced()
     }
 }
 

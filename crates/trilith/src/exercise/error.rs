@@ -45,5 +45,7 @@ fn article(category: &Category) -> &'static str {
         Category::Constraint => "a constraint",
         Category::Link => "a link",
         Category::Function => "a function of time",
+        Category::Output => "an output",
+        Category::Solver => "a solver",
     }
 }

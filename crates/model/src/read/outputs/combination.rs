@@ -2,7 +2,6 @@
 
 use super::super::motion::unit;
 use super::Reading;
-use crate::diagnostic::{closest, names_help};
 use crate::expression::Quantity as Number;
 use crate::schema::{self, Block};
 use crate::tree::{Kind, Node};
@@ -60,22 +59,7 @@ fn term(
             (fields.required(c, "output")?, fields.get("factor"))
         }
     };
-    let Kind::Text(text) = &name.kind else {
-        return c.wrong(name, "the name of an output in quotes");
-    };
-    let Some(index) = reading.before.iter().position(|(n, _)| n == text) else {
-        let all = reading.before.iter().map(|(n, _)| n.as_str());
-        let message = format!("there is no output `{text}` before this one");
-        let mut d = c.diagnostic("E0106", message, name.span.clone());
-        if c.suggests() {
-            d = d.help(names_help(text, "outputs before it", all.clone()));
-            if let Some(near) = closest(text, all) {
-                d = d.suggestion(name.span.clone(), format!("\"{near}\""));
-            }
-        }
-        c.report(d);
-        return None;
-    };
+    let index = reading.output_before(name)?;
     let own_unit = reading.before[index].1.as_ref()?;
     let own = units::dimension(own_unit).unwrap_or(NONE);
     let factor = match (factor, target) {
