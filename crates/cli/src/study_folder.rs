@@ -5,12 +5,12 @@ use crate::figure_files::Format;
 use std::fs;
 use std::path::{Path, PathBuf};
 use trilith::results::FolderError;
-use trilith_study::Study;
+use trilith_study::{Study, is_study_folder};
 
 /// Refuses a folder in which results would replace an input, or what no study has made. The journal of a study stands
 /// for its results; whose it is, is asked when it is opened.
 pub(crate) fn look(study: &Study, folder: &Path, formats: &[Format]) -> Result<(), Failure> {
-    let of_study = fs::metadata(folder.join("runs.journal")).is_ok_and(|journal| journal.len() > 0);
+    let of_study = is_study_folder(folder);
     for path in written(study, folder, formats) {
         let same = |input: &&PathBuf| {
             let both = (fs::canonicalize(input), fs::canonicalize(&path));

@@ -10,7 +10,7 @@ use std::sync::Mutex;
 use std::time::Instant;
 use trilith::Registry;
 use trilith::model::visible_line;
-use trilith_study::{Results, Study, StudyError, execute};
+use trilith_study::{How, Part, Results, Study, StudyError, execute, is_study_folder, status};
 
 /// Failed runs that are told one by one.
 const TOLD: usize = 5;
@@ -28,6 +28,14 @@ pub(crate) fn sweep(registry: &Registry, args: &SweepArguments) -> Result<Answer
     }
     let stem = args.study.file_stem().unwrap_or("study".as_ref());
     let folder = args.out.clone().unwrap_or_else(|| Path::new("out").join(stem));
+    if args.status {
+        return how_far(&study, &folder);
+    }
+    if args.gather && !is_study_folder(&folder) {
+        let message = format!("there are no runs in {}", shown(&folder));
+        let help = "`--shard I/N` makes them, one part after the other or many at once";
+        return Err(Failure::input(&message, Some(help)));
+    }
     study_folder::look(&study, &folder, &args.figure_format)?;
     let cores = std::thread::available_parallelism().map_or(1, std::num::NonZero::get);
     let threads = args.threads.map_or(cores, usize::from);
@@ -45,7 +53,13 @@ pub(crate) fn sweep(registry: &Registry, args: &SweepArguments) -> Result<Answer
             }
         };
         let ear = Ear::open("the study ends, and its finished runs are kept");
-        execute(&study, registry, &folder, threads, &show, ear.flag()).map_err(|e| {
+        let part = match args.shard {
+            Some(shard) => Part::Shard(shard),
+            None if args.gather => Part::Gather,
+            None => Part::All,
+        };
+        let how = How { threads, part, retry_failed: args.retry_failed };
+        execute(&study, registry, &folder, how, &show, ear.flag()).map_err(|e| {
             let failure = Failure::input(&e.to_string(), Some(e.help()));
             match e {
                 StudyError::Interrupted { .. } => Failure { status: INTERRUPTED, ..failure },
@@ -53,8 +67,16 @@ pub(crate) fn sweep(registry: &Registry, args: &SweepArguments) -> Result<Answer
             }
         })?
     };
-    made_by::write_study(&folder, &inputs, &args.set, &study)?;
     let mut text = report(&study, &results, start.elapsed().as_secs_f64(), &folder);
+    match args.shard {
+        Some(shard) => {
+            text += &format!(
+                "part {shard} is done, in {}; once all are, `--gather` writes the tables\n",
+                shown(&folder)
+            );
+        }
+        None => made_by::write_study(&folder, &inputs, &args.set, &study)?,
+    }
     if !args.figure_format.is_empty() {
         for (name, figure) in trilith_study::figures(&study, &results.records) {
             for path in figure_files::write(&folder, &name, &figure, &args.figure_format)? {
@@ -77,6 +99,31 @@ pub(crate) fn sweep(registry: &Registry, args: &SweepArguments) -> Result<Answer
         output::tell(&crate::diagnostics::plain(&message, Some(help)));
     }
     Ok(Answer { text, status: i32::from(failed > 0) })
+}
+
+/// How far the parts of a study are.
+fn how_far(study: &Study, folder: &Path) -> Result<Answer, Failure> {
+    if !is_study_folder(folder) {
+        return Ok(format!("no part has begun: there are no runs in {}\n", shown(folder)).into());
+    }
+    let found = status(study, folder);
+    let (parts, open) = found.map_err(|e| Failure::input(&e.to_string(), Some(e.help())))?;
+    let mut rows = vec![row(["part", "runs", "of", "failed", "series to go"])];
+    for part in &parts {
+        let name = match part.part {
+            Part::Shard(shard) => shard.to_string(),
+            Part::All | Part::Gather => "whole".into(),
+        };
+        let numbers = [part.done, part.of, part.failed, part.open].map(|n| n.to_string());
+        let [done, of, failed, open] = &numbers;
+        rows.push(row([&name, done, of, failed, open]));
+    }
+    let mut text = table(&rows, &[0]);
+    text += &match open {
+        0 => "\nall runs are there: `--gather` writes the tables\n".to_owned(),
+        n => format!("\n{n} series of runs to go: parts that are not listed have not begun\n"),
+    };
+    Ok(text.into())
 }
 
 /// What would be run.

@@ -284,3 +284,115 @@ fn bad_records_of_a_study_are_told_with_both_lines() {
         "{err}"
     );
 }
+
+/// Runs a part until its journal has some lines, and kills it.
+fn kill_part(here: &Path, part: &str, journal: &Path) {
+    let before = lines(journal);
+    let mut child = command(here, &["--out", "parts", "--threads", "1", "--shard", part])
+        .stdout(Stdio::null())
+        .stderr(Stdio::null())
+        .spawn()
+        .unwrap();
+    let start = Instant::now();
+    while lines(journal) < before + 20 && start.elapsed() < Duration::from_secs(120) {
+        std::thread::sleep(Duration::from_micros(300));
+    }
+    child.kill().unwrap();
+    child.wait().unwrap();
+}
+
+/// Twenty parts in any order, some at the same time, three of them killed and begun again: the tables of one process.
+#[test]
+fn parts_that_run_on_their_own_make_the_same_tables() {
+    let (side, of) = (100, 20);
+    let folder = folder(side);
+    let here = folder.path();
+    let (status, out, err) = sweep(here, &["--out", "parts", "--status"]);
+    assert!(status == 0 && out.contains("no part has begun"), "{out}{err}");
+    let (status, _, err) = sweep(here, &["--out", "parts", "--gather"]);
+    assert!(status == 2 && err.contains("there are no runs in"), "{err}");
+    let journal = |i: usize| here.join(format!("parts/runs.{i}-of-{of}.journal"));
+    for i in [4, 11, 17] {
+        kill_part(here, &format!("{i}/{of}"), &journal(i));
+        let found = lines(&journal(i));
+        assert!(found > 1 && found < side * side / of + 1, "killed too early or too late: {found}");
+    }
+    let (status, out, _) = sweep(here, &["--out", "parts", "--status"]);
+    assert!(status == 0 && out.contains("11/20") && out.contains("series of runs to go"), "{out}");
+    let (status, _, err) = sweep(here, &["--out", "parts", "--gather"]);
+    assert!(
+        status == 2 && err.contains("runs are missing in") && err.contains("--status"),
+        "{err}"
+    );
+    assert!(!here.join("parts/table.csv").exists());
+    // 7 and 20 have no common divisor: all of them, in an order that is none.
+    for two in (0..of).map(|i| 1 + 7 * i % of).collect::<Vec<_>>().chunks(2) {
+        let start = |i: &usize| {
+            let part = format!("{i}/{of}");
+            let mut command =
+                command(here, &["--out", "parts", "--threads", "1", "--shard", &part]);
+            command.stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().unwrap()
+        };
+        for child in two.iter().map(start).collect::<Vec<_>>() {
+            let output = child.wait_with_output().unwrap();
+            let told = String::from_utf8(output.stdout).unwrap();
+            assert!(output.status.success() && told.contains("--gather"), "{told}");
+        }
+    }
+    let (status, out, _) = sweep(here, &["--out", "parts", "--status"]);
+    assert!(status == 0 && out.contains("all runs are there"), "{out}");
+    let (status, out, err) = sweep(here, &["--out", "parts", "--gather"]);
+    assert!(status == 0 && out.contains("new runs: 0"), "{out}{err}");
+    let (status, _, err) = sweep(here, &["--out", "whole", "--threads", "2"]);
+    assert_eq!(status, 0, "{err}");
+    for name in ["table.parquet", "table.csv", "study.html"] {
+        let read = |folder: &str| std::fs::read(here.join(folder).join(name)).unwrap();
+        assert!(read("whole") == read("parts"), "{name} differs");
+    }
+    // No finished run was made again.
+    let all: usize = (1..=of).map(|i| lines(&journal(i)) - 1).sum();
+    assert_eq!(all, side * side);
+    // Other parts of the same study know of all of them.
+    let (status, out, err) = sweep(here, &["--out", "parts", "--shard", "2/3"]);
+    assert!(status == 0 && out.contains("new runs: 0"), "{out}{err}");
+}
+
+#[test]
+fn a_part_that_is_none_is_refused() {
+    let folder = folder(3);
+    let here = folder.path();
+    for wrong in ["0/4", "5/4", "x", "1/0"] {
+        let (status, _, err) = sweep(here, &["--shard", wrong]);
+        assert!(status == 2 && err.contains("such as `3/20`"), "{wrong}: {err}");
+    }
+    let (status, _, err) = sweep(here, &["--shard", "1/4", "--gather"]);
+    assert!(status == 2 && err.contains("cannot be used with"), "{err}");
+    // A part of another study in the same folder.
+    assert_eq!(sweep(here, &["--shard", "1/4"]).0, 0);
+    let (status, _, err) = sweep(here, &["--shard", "2/4", "--set", "mu=0.2"]);
+    assert!(status == 2 && err.contains("runs of another study"), "{err}");
+    // More parts than there are series: some have nothing to do.
+    let (status, out, err) = sweep(here, &["--shard", "20/20"]);
+    assert!(status == 0 && out.contains("part 20/20 is done"), "{out}{err}");
+}
+
+#[test]
+fn runs_that_failed_are_made_once_more() {
+    let folder = folder(3);
+    let here = folder.path();
+    let model = MODEL.replace("energy_limit: 0.5", "energy_limit: \"limit\"");
+    let model = model.replace("\"mu\": 0.3,", "\"mu\": 0.3, \"limit\": 0.5,");
+    std::fs::write(here.join("mass.ron"), model).unwrap();
+    let study = r#"(model: "mass.ron", axes: { "a": [3, 4, 5], "limit": [0.5, 1e-300] })"#;
+    std::fs::write(here.join("study.ron"), study).unwrap();
+    assert_eq!(sweep(here, &[]).0, 1);
+    let read = || std::fs::read_to_string(here.join("out/study/table.csv")).unwrap();
+    let (before, journal) = (read(), here.join("out/study/runs.journal"));
+    assert_eq!(lines(&journal), 1 + 6);
+    let (status, out, _) = sweep(here, &["--status"]);
+    assert!(status == 0 && out.lines().any(|l| l.contains("whole") && l.contains('3')), "{out}");
+    let (status, out, _) = sweep(here, &["--retry-failed"]);
+    assert!(status == 1 && out.contains("new runs: 3"), "{out}");
+    assert_eq!(lines(&journal), 1 + 9);
+    assert_eq!(read(), before);
+}

@@ -6,7 +6,7 @@ use crate::work;
 use pyo3::prelude::*;
 use std::path::PathBuf;
 use trilith_cli::told;
-use trilith_study::{Data, Progress, Study, StudyError, Table, Values, execute};
+use trilith_study::{Data, How, Progress, Study, StudyError, Table, Values, execute};
 
 /// A column of the table: numbers (not a number where there is none), or texts.
 type ColumnFacts = (String, String, Option<Column>, Option<Vec<Option<String>>>);
@@ -30,9 +30,9 @@ pub(crate) fn study(
         let study = Study::read(&path, &registry, &set).map_err(|e| Failure::diagnostics(&e))?;
         let cores = std::thread::available_parallelism().map_or(1, std::num::NonZero::get);
         let show = |p: Progress| watch.tell(p.done as f64 / p.total.max(1) as f64);
-        let threads = threads.unwrap_or(cores);
-        let results = execute(&study, &registry, &folder, threads, &show, &watch.interrupt)
-            .map_err(|e| {
+        let how = How::threads(threads.unwrap_or(cores));
+        let results =
+            execute(&study, &registry, &folder, how, &show, &watch.interrupt).map_err(|e| {
                 let text = told::plain(&e.to_string(), Some(e.help()));
                 match e {
                     StudyError::Interrupted { .. } => Failure::Run(text),

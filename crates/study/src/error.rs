@@ -31,6 +31,16 @@ pub enum StudyError {
         /// The folder.
         folder: PathBuf,
     },
+    /// Runs are to be gathered that nobody has made.
+    #[error("at least {missing} runs are missing in {}, where there are {done}", .folder.display())]
+    Missing {
+        /// Runs that are missing, of each series the first.
+        missing: usize,
+        /// Runs that are there.
+        done: usize,
+        /// The folder.
+        folder: PathBuf,
+    },
     /// The folder has runs of something else.
     #[error("{} has runs of another study: {} changed since", .folder.display(), .changed.join(", "))]
     OtherStudy {
@@ -63,6 +73,9 @@ impl StudyError {
             Self::File { .. } => "every finished run is kept; the same study started again goes on",
             Self::Interrupted { .. } => {
                 "the same command goes on, and writes the tables at its end"
+            }
+            Self::Missing { .. } => {
+                "`--status` says of which parts; without `--gather` the same command makes them here"
             }
             Self::Locked { .. } => "wait for it, or give another folder with `--out`",
             Self::OtherStudy { .. } | Self::NoJournal { .. } => {

@@ -1,10 +1,11 @@
-//! Running a study: all cores, one run a task, every finished run on disk at once.
+//! Running a study, or a part of it: all cores, every finished run on disk at once.
 
 use crate::column::over_time;
-use crate::journal::Journal;
-use crate::{Record, Study, StudyError};
+use crate::journal::{Journal, Kept};
+use crate::shard::journals;
+use crate::{Part, Record, Study, StudyError};
 use std::collections::BTreeMap;
-use std::fs::OpenOptions;
+use std::fs::{File, OpenOptions};
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::{Path, PathBuf};
 use std::sync::Mutex;
@@ -18,7 +19,26 @@ const SOON: Duration = Duration::from_millis(200);
 /// Widths of the lanes in a share at most.
 const SHARES: usize = 8;
 
-/// How far a study is.
+/// How a study is run.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct How {
+    /// Runs at the same time.
+    pub threads: usize,
+    /// Which runs.
+    pub part: Part,
+    /// Make runs that have failed once more.
+    pub retry_failed: bool,
+}
+
+impl How {
+    /// All runs, so many at the same time.
+    #[must_use]
+    pub fn threads(threads: usize) -> Self {
+        Self { threads, part: Part::All, retry_failed: false }
+    }
+}
+
+/// How far a study, or the part of it that is run, is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Progress {
     /// Runs that are done, those of an earlier start and those left out beyond a limit included.
@@ -32,7 +52,7 @@ pub struct Progress {
 /// What a study left.
 #[derive(Debug)]
 pub struct Results {
-    /// The finished runs, in the order of their numbers.
+    /// The finished runs, of the part where one was run, in the order of their numbers.
     pub records: Vec<Record>,
     /// Runs that were on disk already.
     pub resumed: usize,
@@ -69,11 +89,19 @@ struct Shared<'a> {
     folder: &'a Path,
     /// None where runs go one by one.
     lanes: Option<Lanes>,
+    part: Part,
+    /// Chains of this part.
+    chains: usize,
     /// Chains that a thread takes at once.
     width: usize,
     beside: AtomicUsize,
+    /// Runs that were made now.
+    new: AtomicUsize,
     kept: BTreeMap<usize, Record>,
-    journal: Mutex<Journal>,
+    /// None where nothing is run.
+    journal: Option<Mutex<Journal>>,
+    /// Runs that nobody has made.
+    missing: AtomicUsize,
     found: Mutex<Vec<Record>>,
     error: Mutex<Option<StudyError>>,
     stop: AtomicBool,
@@ -85,52 +113,72 @@ struct Shared<'a> {
     progress: &'a (dyn Fn(Progress) + Sync),
 }
 
-/// Runs a study into a folder, or goes on with it, and writes its tables and its page.
+/// Runs a study, or a part of it, into a folder, or goes on with it. Where it is all there, tables and page are written;
+/// what parts of it have made in that folder counts.
 ///
 /// Once `interrupt` is true, no run is begun, and those under way are given up.
 ///
 /// # Errors
-/// [`StudyError`] where the folder cannot be written or belongs to something else, or where it was interrupted. Runs that
-/// fail are no error: they are rows of the table.
+/// [`StudyError`] where the folder cannot be written or belongs to something else, where it was interrupted, or where runs
+/// are missing that are to be gathered. Runs that fail are no error: they are rows of the table.
 pub fn execute(
     study: &Study,
     registry: &Registry,
     folder: &Path,
-    threads: usize,
+    how: How,
     progress: &(dyn Fn(Progress) + Sync),
     interrupt: &AtomicBool,
 ) -> Result<Results, StudyError> {
+    let How { threads, part, retry_failed } = how;
     std::fs::create_dir_all(folder).map_err(StudyError::at(folder))?;
-    // The system lets go of the lock when the process ends, however it ends.
-    let lock_path = folder.join("lock");
-    let lock = OpenOptions::new().write(true).create(true).truncate(false).open(&lock_path);
-    let lock = lock.map_err(StudyError::at(&lock_path))?;
-    match lock.try_lock() {
-        Ok(()) => {}
-        Err(std::fs::TryLockError::WouldBlock) => {
-            return Err(StudyError::Locked { folder: folder.to_owned() });
+    let _lock = lock(&part.lock(folder), folder)?;
+    // What others have made comes first: where that is of another study, nothing is begun beside it.
+    let own = part.journal(folder);
+    let mut others = Vec::new();
+    for (_, path) in journals(folder).map_err(StudyError::at(folder))? {
+        if path != own || part == Part::Gather {
+            others.push(Kept::of(&path, &study.identity)?);
         }
-        Err(std::fs::TryLockError::Error(e)) => return Err(StudyError::at(&lock_path)(e)),
     }
-    let (journal, kept) = Journal::open(&folder.join("runs.journal"), &study.identity)?;
-    let total = study.identity.runs;
-    let chains = total / study.plan.chain_length();
+    let (journal, mut kept) = match part {
+        Part::Gather => (None, Kept::default()),
+        _ => {
+            let (journal, kept) = Journal::open(&own, &study.identity)?;
+            (Some(Mutex::new(journal)), kept)
+        }
+    };
+    // Of a run that several have made a good one counts.
+    for (run, record) in others.into_iter().flat_map(|other| other.records) {
+        if kept.records.get(&run).is_none_or(|known| !known.good) {
+            kept.records.insert(run, record);
+        }
+    }
+    if retry_failed {
+        kept.records.retain(|_, record| record.good);
+    }
+    let length = study.plan.chain_length();
+    let chains = part.chains(study.identity.runs / length);
+    let total = chains * length;
     let (lanes, alone) = match study.alone(registry) {
         None => (Some(Lanes::new().over_time(over_time(&study.columns))), None),
         reason => (None, reason),
     };
     // Where there are few, all threads have some.
     let width = lanes.as_ref().map_or(1, |l| l.width().min(chains.div_ceil(threads.max(1))).max(1));
-    let (resumed, torn) = (kept.records.len(), kept.torn);
+    let torn = kept.torn;
     let shared = Shared {
         study,
         registry,
         folder,
         lanes,
+        part,
+        chains,
         width,
         beside: AtomicUsize::new(0),
+        new: AtomicUsize::new(0),
         kept: kept.records,
-        journal: Mutex::new(journal),
+        journal,
+        missing: AtomicUsize::new(0),
         found: Mutex::new(Vec::new()),
         error: Mutex::new(None),
         stop: AtomicBool::new(false),
@@ -143,14 +191,14 @@ pub fn execute(
     };
     std::thread::scope(|scope| {
         for _ in 1..threads.min(chains.div_ceil(width)).max(1) {
-            scope.spawn(|| shared.work(chains));
+            scope.spawn(|| shared.work());
         }
-        shared.work(chains);
+        shared.work();
     });
     if let Some(error) = shared.error.into_inner().unwrap_or_default() {
         return Err(error);
     }
-    if let Ok(mut journal) = shared.journal.lock() {
+    if let Some(Ok(mut journal)) = shared.journal.as_ref().map(Mutex::lock) {
         journal.sync()?;
     }
     if interrupt.load(Ordering::Relaxed) {
@@ -159,24 +207,48 @@ pub fn execute(
     }
     let mut records = shared.found.into_inner().unwrap_or_default();
     records.sort_by_key(|r| r.run);
+    let missing = shared.missing.into_inner();
+    if missing > 0 {
+        let done = records.len();
+        return Err(StudyError::Missing { missing, done, folder: folder.to_owned() });
+    }
     let left_out = total - records.len();
-    let files = crate::files::write(study, &records, left_out, folder)?;
+    let files = match part {
+        Part::Shard(_) => Vec::new(),
+        Part::All | Part::Gather => crate::files::write(study, &records, left_out, folder)?,
+    };
+    let resumed = records.len() - shared.new.into_inner();
     let beside = shared.beside.into_inner();
     Ok(Results { records, resumed, torn, left_out, files, beside, alone })
 }
 
+/// Keeps other processes out for as long as the file is open: the system lets go of it when the process ends, however it
+/// ends.
+fn lock(path: &Path, folder: &Path) -> Result<File, StudyError> {
+    let lock = OpenOptions::new().write(true).create(true).truncate(false).open(path);
+    let lock = lock.map_err(StudyError::at(path))?;
+    match lock.try_lock() {
+        Ok(()) => Ok(lock),
+        Err(std::fs::TryLockError::WouldBlock) => {
+            Err(StudyError::Locked { folder: folder.to_owned() })
+        }
+        Err(std::fs::TryLockError::Error(e)) => Err(StudyError::at(path)(e)),
+    }
+}
+
 impl Shared<'_> {
-    fn work(&self, chains: usize) {
+    fn work(&self) {
         let length = self.study.plan.chain_length();
         let mut share = self.width;
         while !self.stops() {
             let start = Instant::now();
             let first = self.next.fetch_add(share, Ordering::Relaxed);
-            if first >= chains {
+            if first >= self.chains {
                 break;
             }
-            let own = first..chains.min(first + share);
-            if let Err(error) = self.chains(own.map(|chain| chain * length).collect(), length) {
+            let own = first..self.chains.min(first + share);
+            let firsts = own.map(|i| self.part.chain(i) * length).collect();
+            if let Err(error) = self.chains(firsts, length) {
                 self.stop.store(true, Ordering::Relaxed);
                 if let Ok(mut first) = self.error.lock() {
                     first.get_or_insert(error);
@@ -203,26 +275,46 @@ impl Shared<'_> {
             let runs: Vec<usize> = firsts.iter().map(|first| first + step).collect();
             let new: Vec<usize> =
                 runs.iter().copied().filter(|run| !self.kept.contains_key(run)).collect();
-            let Some(made) = self.make(&new)? else { return Ok(()) };
-            let mut made = made.into_iter();
-            let mut going = Vec::with_capacity(firsts.len());
-            for (first, run) in firsts.into_iter().zip(runs) {
-                let Some(record) = self.kept.get(&run).cloned().or_else(|| made.next()) else {
-                    continue;
-                };
-                let study = self.study;
-                let over = study.stop.as_ref().is_some_and(|c| c.holds(&study.columns, &record));
-                self.count(if over { length - step } else { 1 }, !record.good);
-                if let Ok(mut found) = self.found.lock() {
-                    found.push(record);
-                }
-                if !over {
-                    going.push(first);
-                }
+            if self.journal.is_none() {
+                self.missing.fetch_add(new.len(), Ordering::Relaxed);
+                firsts.retain(|first| !new.contains(&(first + step)));
+                let runs = firsts.iter().map(|first| first + step).collect();
+                firsts = self.take(firsts, runs, Vec::new(), length - step);
+                continue;
             }
-            firsts = going;
+            let Some(made) = self.make(&new)? else { return Ok(()) };
+            self.new.fetch_add(made.len(), Ordering::Relaxed);
+            firsts = self.take(firsts, runs, made, length - step);
         }
         Ok(())
+    }
+
+    /// Takes note of a run of each chain, kept or just made; returns the chains that go on. `left`: runs of a chain that
+    /// are left, this one included.
+    fn take(
+        &self,
+        firsts: Vec<usize>,
+        runs: Vec<usize>,
+        made: Vec<Record>,
+        left: usize,
+    ) -> Vec<usize> {
+        let mut made = made.into_iter();
+        let mut going = Vec::with_capacity(firsts.len());
+        for (first, run) in firsts.into_iter().zip(runs) {
+            let Some(record) = self.kept.get(&run).cloned().or_else(|| made.next()) else {
+                continue;
+            };
+            let study = self.study;
+            let over = study.stop.as_ref().is_some_and(|c| c.holds(&study.columns, &record));
+            self.count(if over { left } else { 1 }, !record.good);
+            if let Ok(mut found) = self.found.lock() {
+                found.push(record);
+            }
+            if !over {
+                going.push(first);
+            }
+        }
+        going
     }
 
     /// Makes runs, side by side where they fit; each is on disk as soon as it is done. None where that was interrupted.
@@ -254,7 +346,10 @@ impl Shared<'_> {
     }
 
     fn write(&self, record: &Record) -> Result<(), StudyError> {
-        self.journal.lock().map_or(Ok(()), |mut journal| journal.write(record))
+        match self.journal.as_ref().map(Mutex::lock) {
+            Some(Ok(mut journal)) => journal.write(record),
+            _ => Ok(()),
+        }
     }
 
     fn count(&self, runs: usize, failed: bool) {

@@ -110,6 +110,57 @@ pub(crate) struct Kept {
     pub torn: usize,
 }
 
+/// What a journal holds on disk.
+struct Read {
+    kept: Kept,
+    /// Bytes up to the end of the last whole line.
+    length: u64,
+    /// True where not even the identity is whole: it was stopped while it began.
+    empty: bool,
+}
+
+/// Reads what a journal holds; refuses one of another study.
+fn read(path: &Path, identity: &Identity) -> Result<Read, StudyError> {
+    let bytes = std::fs::read(path).map_err(StudyError::at(path))?;
+    let mut found = Read { kept: Kept::default(), length: 0, empty: true };
+    let mut at = 0;
+    for part in bytes.split_inclusive(|b| *b == b'\n') {
+        at += part.len() as u64;
+        let json = std::str::from_utf8(part).ok().and_then(content);
+        if found.empty {
+            let Some(json) = json else {
+                // Stopped while the very first line was written: nothing is lost.
+                if bytes.len() == part.len() && !part.ends_with(b"\n") {
+                    break;
+                }
+                return Err(StudyError::NoJournal { path: path.to_owned() });
+            };
+            let own: Identity = serde_json::from_str(json)
+                .map_err(|_| StudyError::NoJournal { path: path.to_owned() })?;
+            identity.same(&own, path)?;
+            found.empty = false;
+            found.length = at;
+            continue;
+        }
+        match json.and_then(|j| serde_json::from_str::<Record>(j).ok()) {
+            // A run that was made again counts as it was made last.
+            Some(record) => {
+                found.kept.records.insert(record.run, record);
+                found.length = at;
+            }
+            None => found.kept.torn += 1,
+        }
+    }
+    Ok(found)
+}
+
+impl Kept {
+    /// What a journal holds that another process may be writing.
+    pub fn of(path: &Path, identity: &Identity) -> Result<Self, StudyError> {
+        read(path, identity).map(|found| found.kept)
+    }
+}
+
 impl Journal {
     /// Opens the journal of a folder, or begins it.
     pub fn open(path: &Path, identity: &Identity) -> Result<(Self, Kept), StudyError> {
@@ -120,42 +171,12 @@ impl Journal {
         if !file.metadata().map_err(&fail)?.is_file() {
             return Err(StudyError::NoJournal { path: path.to_owned() });
         }
-        let bytes = std::fs::read(path).map_err(&fail)?;
-        let mut kept = Kept::default();
-        let mut length = 0;
-        let mut at = 0;
-        let mut first = true;
-        for part in bytes.split_inclusive(|b| *b == b'\n') {
-            at += part.len() as u64;
-            let json = std::str::from_utf8(part).ok().and_then(content);
-            if first {
-                let Some(json) = json else {
-                    // Stopped while the very first line was written: nothing is lost.
-                    if bytes.len() == part.len() && !part.ends_with(b"\n") {
-                        break;
-                    }
-                    return Err(StudyError::NoJournal { path: path.to_owned() });
-                };
-                let found: Identity = serde_json::from_str(json)
-                    .map_err(|_| StudyError::NoJournal { path: path.to_owned() })?;
-                identity.same(&found, path)?;
-                first = false;
-                length = at;
-                continue;
-            }
-            match json.and_then(|j| serde_json::from_str::<Record>(j).ok()) {
-                Some(record) => {
-                    kept.records.entry(record.run).or_insert(record);
-                    length = at;
-                }
-                None => kept.torn += 1,
-            }
-        }
+        let Read { kept, length, empty } = read(path, identity)?;
         let mut journal = Self { file, path: path.to_owned(), length, synced: Instant::now() };
         // A torn line at the end goes, so that the next one begins a line.
         journal.file.cut(length).map_err(&fail)?;
         journal.file.seek(SeekFrom::Start(length)).map_err(&fail)?;
-        if first {
+        if empty {
             journal.write(identity)?;
             journal.file.sync().map_err(&fail)?;
         }

@@ -3,7 +3,7 @@
 //! A study is a RON file that names a model and says which parameters take which values: grids, lists, random
 //! draws, records × scales, ensembles about every point. [`Study::read`] checks it, [`execute()`] runs it. Every
 //! finished run is on disk at once; a study that was killed goes on where it was and ends with the same table
-//! to the bit, whatever the number of threads. Small models go side by side in vector lanes.
+//! to the bit, whatever the number of threads, and of [parts](Shard) that ran on other machines. Small models go side by side in vector lanes.
 //!
 //! | file | what |
 //! |---|---|
@@ -11,6 +11,7 @@
 //! | `statistics.csv` | medians, dispersions and probabilities of each point with several runs |
 //! | `study.html` | figures |
 //! | `runs.journal` | finished runs while the study goes on |
+//! | `runs.I-of-N.journal` | the same of a part that was run on its own |
 //! | `runs/NNNNNN/` | histories of the runs that the study asks for |
 
 mod column;
@@ -30,7 +31,9 @@ mod read;
 mod run;
 pub mod schema;
 mod shape;
+mod shard;
 mod statistics;
+mod status;
 mod study;
 mod table;
 
@@ -38,11 +41,13 @@ pub use column::{Column, Measure};
 pub use condition::Condition;
 pub use distribution::{Distribution, phi, phi_inverse};
 pub use error::{Identity, StudyError};
-pub use execute::{Progress, Results, execute};
+pub use execute::{How, Progress, Results, execute};
 pub use figure::{Drawing, figures};
 pub use fragility::{Band, Capacity, Fragility, FragilityError};
 pub use journal::{Cell, Record};
 pub use plan::{Axis, Ensemble, Place, Plan, Samples};
+pub use shard::{Part, Shard, is_study_folder};
 pub use statistics::{Spread, wilson};
+pub use status::{PartStatus, status};
 pub use study::Study;
 pub use table::{Data, Table, Values};

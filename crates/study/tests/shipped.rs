@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 use std::sync::atomic::AtomicBool;
 use trilith::theory;
-use trilith_study::{Drawing, Study, execute};
+use trilith_study::{Drawing, How, Study, execute};
 
 fn folder() -> PathBuf {
     PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("../../models/studies")
@@ -36,9 +36,15 @@ fn the_mode_chart_agrees_with_the_closed_form() {
     let text = std::fs::read_to_string(&path).unwrap().replace("count: 40", "count: 14");
     let study = Study::read_text(&text, &path, &trilith::registry(), &[]).unwrap();
     let out = tempfile::tempdir().unwrap();
-    let results =
-        execute(&study, &trilith::registry(), out.path(), 2, &|_| {}, &AtomicBool::new(false))
-            .unwrap();
+    let results = execute(
+        &study,
+        &trilith::registry(),
+        out.path(),
+        How::threads(2),
+        &|_| {},
+        &AtomicBool::new(false),
+    )
+    .unwrap();
     assert_eq!((results.records.len(), results.failed()), (196, 0));
     let Drawing::ModeChart { x, y, slenderness } = &study.figures[0] else { panic!("a chart") };
     let mut modes = Vec::new();

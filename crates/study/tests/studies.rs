@@ -6,7 +6,7 @@ use common::{ALONE, MODEL, bytes, folder, read, run};
 use std::path::Path;
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
-use trilith_study::{Study, StudyError, execute};
+use trilith_study::{How, Study, StudyError, execute};
 
 const GRID: &str = r#"
     axes: { "a": Range(from: "1 m/s^2", to: "8 m/s^2", count: 8), "mu": [0.1, 0.3, "3*0.2"] },
@@ -164,7 +164,7 @@ fn two_at_once_and_folders_of_others_are_refused() {
         }
     };
     let never = AtomicBool::new(false);
-    execute(&study, &trilith::registry(), &out, 1, &on_first, &never).unwrap();
+    execute(&study, &trilith::registry(), &out, How::threads(1), &on_first, &never).unwrap();
     assert!(matches!(second.into_inner().unwrap(), Some(StudyError::Locked { .. })));
     // Figures may change, runs may not.
     let figures = format!("{GRID} figures: [Points(x: \"a\", y: \"slide\")]");
@@ -375,7 +375,8 @@ fn an_interrupted_study_goes_on() {
     let study = read(folder.path(), &format!("{GRID} {ALONE}")).unwrap();
     let stop = AtomicBool::new(false);
     let at_the_fifth = |p: trilith_study::Progress| stop.store(p.done >= 5, Ordering::Relaxed);
-    let error = execute(&study, &trilith::registry(), &out, 1, &at_the_fifth, &stop).unwrap_err();
+    let error = execute(&study, &trilith::registry(), &out, How::threads(1), &at_the_fifth, &stop)
+        .unwrap_err();
     let StudyError::Interrupted { done, total, .. } = error else { panic!("{error}") };
     assert_eq!((done, total), (5, 24));
     let results = run(&study, &out, 1).unwrap();

@@ -6,6 +6,7 @@ use crate::figure_files::Format;
 use crate::names::{self, Names};
 use clap::{Args, Parser, Subcommand};
 use std::path::PathBuf;
+use trilith_study::Shard;
 pub(crate) use values::{Kept, pair};
 use values::{
     acceleration, alpha, assignment, count, directions, factor, frequency, length, positive,
@@ -323,8 +324,21 @@ pub(crate) struct SweepArguments {
     /// Write the figures of the study as files beside `study.html`, as `svg`, `png` or `svg,png`
     #[arg(long, value_name = "FORMAT,FORMAT", value_delimiter = ',')]
     pub figure_format: Vec<Format>,
-    /// Check the study and show what would be run
+    /// Run one part of several, such as `3/20`, in a folder that all machines see; parts need nothing of each other,
+    /// in no order
+    #[arg(long, value_name = "I/N", conflicts_with_all = ["gather", "figure_format"])]
+    pub shard: Option<Shard>,
+    /// Write the tables of what the parts have made, and run nothing
     #[arg(long)]
+    pub gather: bool,
+    /// Tell how far the parts are
+    #[arg(long, conflicts_with_all = ["gather", "shard", "retry_failed"])]
+    pub status: bool,
+    /// Run those once more that have failed
+    #[arg(long, conflicts_with = "gather")]
+    pub retry_failed: bool,
+    /// Check the study and show what would be run
+    #[arg(long, conflicts_with_all = ["gather", "shard", "status"])]
     pub dry_run: bool,
 }
 

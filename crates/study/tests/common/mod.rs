@@ -3,7 +3,7 @@
 use std::path::Path;
 use std::sync::atomic::AtomicBool;
 use trilith::model::Diagnostic;
-use trilith_study::{Results, Study, StudyError, execute};
+use trilith_study::{How, Results, Study, StudyError, execute};
 
 /// A mass that slides on friction under one sine; `k` a spring that holds it, `f` makes the model fail.
 pub const MODEL: &str = r#"(
@@ -46,7 +46,8 @@ pub fn read(folder: &Path, body: &str) -> Result<Study, Vec<Diagnostic>> {
 }
 
 pub fn run(study: &Study, out: &Path, threads: usize) -> Result<Results, StudyError> {
-    execute(study, &trilith::registry(), out, threads, &|_| {}, &AtomicBool::new(false))
+    let how = How::threads(threads);
+    execute(study, &trilith::registry(), out, how, &|_| {}, &AtomicBool::new(false))
 }
 
 pub fn bytes(out: &Path, name: &str) -> Vec<u8> {

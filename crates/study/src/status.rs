@@ -1,0 +1,53 @@
+//! How far the parts of a study are.
+
+use crate::journal::Kept;
+use crate::shard::journals;
+use crate::{Part, Study, StudyError};
+use std::collections::BTreeMap;
+use std::path::Path;
+
+/// What a journal in the folder of a study holds.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct PartStatus {
+    /// Whose journal it is: that of the whole, or of a part.
+    pub part: Part,
+    /// Runs that it has.
+    pub done: usize,
+    /// Runs of this part at most; a series may end before.
+    pub of: usize,
+    /// Runs that failed.
+    pub failed: usize,
+    /// Series of the part that are not at their end.
+    pub open: usize,
+}
+
+/// All journals in a folder, and how many series of the whole study are not at their end, whoever has made their runs.
+///
+/// # Errors
+/// [`StudyError`] where the folder cannot be read or holds runs of something else.
+pub fn status(study: &Study, folder: &Path) -> Result<(Vec<PartStatus>, usize), StudyError> {
+    let length = study.plan.chain_length();
+    let chains = study.identity.runs / length;
+    let mut known = BTreeMap::new();
+    let mut all = Vec::new();
+    for (part, path) in journals(folder).map_err(StudyError::at(folder))? {
+        let own = Kept::of(&path, &study.identity)?.records;
+        let failed = own.values().filter(|record| !record.good).count();
+        let own_chains = part.chains(chains);
+        all.push((PartStatus { part, done: own.len(), of: own_chains * length, failed, open: 0 }, own_chains));
+        known.extend(own);
+    }
+    // Series are at their end with their last run, or where the limit of the study holds.
+    let over = |chain: usize| {
+        (chain * length..(chain + 1) * length).all(|run| known.contains_key(&run))
+            || (chain * length..(chain + 1) * length).map_while(|run| known.get(&run)).any(|record| {
+                study.stop.as_ref().is_some_and(|stop| stop.holds(&study.columns, record))
+            })
+    };
+    let open: Vec<bool> = (0..chains).map(|chain| !over(chain)).collect();
+    let parts = all.into_iter().map(|(status, own_chains)| {
+        let of_part = (0..own_chains).filter(|i| open[status.part.chain(*i)]).count();
+        PartStatus { open: of_part, ..status }
+    });
+    Ok((parts.collect(), open.iter().filter(|open| **open).count()))
+}
