@@ -28,6 +28,16 @@ impl Answer {
         Self::told_rates(link, &Kinematics { v: &none, v0: &none, ..*at }, committed)
     }
 
+    /// [Why](Link::refusal) a law has no answer to a question, asked as in [`of`](Self::of).
+    #[must_use]
+    pub fn refusal(link: &dyn Link, at: &Kinematics<'_>, committed: &[f64]) -> Option<String> {
+        if link.uses_rates() {
+            return link.refusal(at, committed);
+        }
+        let none = vec![f64::NAN; at.d.len()];
+        link.refusal(&Kinematics { v: &none, v0: &none, ..*at }, committed)
+    }
+
     /// The same with rates, whatever the law says of them.
     pub(crate) fn told_rates(link: &dyn Link, at: &Kinematics<'_>, committed: &[f64]) -> Self {
         let n = at.d.len();
@@ -142,6 +152,12 @@ impl<'a> Driver<'a> {
     #[must_use]
     pub fn ask(&self, at: &Kinematics<'_>) -> Answer {
         Answer::of(self.link, at, &self.history)
+    }
+
+    /// Why the law has no answer to a question from here, in its own words.
+    #[must_use]
+    pub fn refusal(&self, at: &Kinematics<'_>) -> Option<String> {
+        Answer::refusal(self.link, at, &self.history)
     }
 
     /// Takes a step to deformation `d` (m or rad) and rate `v` in `dt` (s); the force at its end.

@@ -186,6 +186,14 @@ pub trait Link: Send + Sync + Debug {
         out: &mut Response<'_>,
     );
 
+    /// Why the law has no answer there, in words of its own, such as `torn at 12 mm`: for laws that come to a state beyond
+    /// which they hold no more. Such a law answers with a force of NaN there; only then is this asked, with the same
+    /// question. As iterations may ask about states that the motion never comes to, shorter steps are tried first; where
+    /// none helps, the run ends with these words, the name of the link and the time.
+    fn refusal(&self, _at: &Kinematics<'_>, _committed: &[f64]) -> Option<String> {
+        None
+    }
+
     /// False for a law whose answer does not look at the rates `v` and `v0`: the solvers then need not find
     /// them in every iteration, and give it NaN for them.
     fn uses_rates(&self) -> bool {

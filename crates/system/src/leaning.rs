@@ -209,6 +209,10 @@ impl Link for Leaning {
         }
     }
 
+    fn refusal(&self, at: &Kinematics<'_>, committed: &[f64]) -> Option<String> {
+        self.seen(at, |inner| self.law.refusal(inner, committed))
+    }
+
     fn uses_rates(&self) -> bool {
         self.law.uses_rates()
     }

@@ -5,6 +5,7 @@
 //! `cargo test --release -p trilith-validation --test wrong_laws -- --nocapture` prints the table.
 
 mod law;
+mod torn;
 
 use law::{Fault, Wrong};
 use std::panic::{AssertUnwindSafe, catch_unwind};

@@ -38,6 +38,18 @@ pub enum ConformanceError {
         /// Time.
         time: f64,
     },
+    /// The law has no answer, and says why.
+    #[error(
+        "the law has no answer at t = {time} s of path {path}: {why}; give the kit deformations at which it has one"
+    )]
+    Refuses {
+        /// Its own words.
+        why: String,
+        /// Number of the path.
+        path: usize,
+        /// Time.
+        time: f64,
+    },
     /// Equal questions got different answers.
     #[error(
         "{what}[{index}] was {first:e}, and {second:e} when asked again, at t = {time} s of path {path}"

@@ -98,6 +98,9 @@ fn parts(answer: &Answer) -> [(&'static str, Vec<f64>); 5] {
 fn finite(s: &Step<'_>, path: &Path) -> Result<(), Broken> {
     for (what, values) in parts(s.answer) {
         if let Some(index) = values.iter().position(|x| !x.is_finite()) {
+            if let Some(why) = s.before.refusal(&s.at) {
+                return Err(Broken::Refuses { why, path: path.number, time: s.time });
+            }
             return Err(Broken::NotFinite { what, index, path: path.number, time: s.time });
         }
     }

@@ -1,6 +1,6 @@
 //! What a run finds wrong with the law of a link.
 
-/// How the law of a link broke its [contract](trilith_element::Link) in a run. The conformance kit
+/// How the law of a link broke its [contract](trilith_element::Link) in a run, or why it has no answer there. The conformance kit
 /// (`trilith_element::conformance`) finds the same, and more, without a run.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
@@ -13,6 +13,13 @@ pub enum LawFault {
         value: f64,
         /// True where the law says that it does not look at rates, and so is given none.
         without_rates: bool,
+    },
+    /// It has no answer, and says why.
+    Refuses {
+        /// What is no number there, such as `force of U2`.
+        quantity: String,
+        /// Its own words.
+        why: String,
     },
     /// What it stores and turns to heat is not the work that is done on it, however short the steps.
     Energies {
@@ -61,6 +68,9 @@ impl LawFault {
                     ""
                 };
                 format!("{law} gives no finite number {when}: {quantity} is {value}{why}")
+            }
+            Self::Refuses { quantity, why } => {
+                format!("{law} has no answer {when}: {why} ({quantity} is no number there)")
             }
             Self::Energies { since, work, accounted } => {
                 let share = 100.0 * accounted / work;

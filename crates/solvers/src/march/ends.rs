@@ -71,12 +71,13 @@ impl March<'_> {
         }
     }
 
-    /// Ends the run where halving does not help.
+    /// Ends the run where halving the step of this size (s) from a state does not help.
     pub(super) fn give_up(
         &self,
         failure: StepFailure,
         level: u32,
         (t, state): (f64, &State),
+        size: f64,
     ) -> Result<(), Stop> {
         match failure {
             StepFailure::Fatal(e) => Err(Stop::Fatal(e)),
@@ -87,9 +88,14 @@ impl March<'_> {
                 let Trial { whole, first, second, .. } = &self.trial;
                 let links = self.stepper.links();
                 // Only forces and tangents are there where a step has failed.
-                let culprit = [whole, first, second]
+                let tried = [
+                    (state, &**whole, size),
+                    (state, first, 0.5 * size),
+                    (first, second, 0.5 * size),
+                ];
+                let culprit = tried
                     .into_iter()
-                    .find_map(|state| not_finite(links, state, None));
+                    .find_map(|(from, to, dt)| not_finite(links, (from, to), dt, None));
                 let culprit = culprit.or_else(|| asked_twice(&self.stepper.laws(), links, state));
                 Err(match culprit {
                     Some(culprit) => Stop::Law { t, culprit },
@@ -114,7 +120,7 @@ pub(super) fn sound_step(
     if is_sound(to, &energy.links) {
         return Ok(());
     }
-    match not_finite(stepper.links(), to, Some(&energy.links)) {
+    match not_finite(stepper.links(), (from, to), dt, Some(&energy.links)) {
         Some(culprit) => Err(StepFailure::Unsound(culprit)),
         // It is not a law: the measures of the step tell.
         None => Ok(()),

@@ -328,7 +328,7 @@ impl<'a> March<'a> {
                         self.trial.first_is_whole();
                     }
                     self.counts.rejected += 1;
-                    self.give_up(failure, level, (start, state))?;
+                    self.give_up(failure, level, (start, state), size)?;
                     control.level = level + 1;
                 }
             }
@@ -422,7 +422,7 @@ impl<'a> March<'a> {
                 }
                 Err(failure) => {
                     self.counts.rejected += 1;
-                    self.give_up(failure, level, (time(at), state))?;
+                    self.give_up(failure, level, (time(at), state), size)?;
                     level += 1;
                 }
             }

@@ -56,7 +56,7 @@ pub enum Status {
         /// Its force residual, N or N·m; not a number where the values are none.
         residual: f64,
     },
-    /// Stopped: the law of a link breaks its contract.
+    /// Stopped: the law of a link breaks its contract, or has no answer and says why.
     Law {
         /// Time of the last accepted state, s.
         t: f64,
@@ -109,6 +109,7 @@ impl Status {
             Self::Converged => "converged",
             Self::EnergyError { .. } => "energy error",
             Self::NotConverged { .. } => "not converged",
+            Self::Law { fault: LawFault::Refuses { .. }, .. } => "refused",
             Self::Law { .. } => "wrong law",
             Self::Spent { .. } => "spent",
             Self::Interrupted { .. } => "interrupted",

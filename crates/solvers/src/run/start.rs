@@ -94,7 +94,7 @@ pub(crate) fn start(
     let state = stepper.start(u, v, &before, &amplitudes)?;
     let energy: Vec<Energy> =
         state.stored.iter().map(|stored| Energy { stored: *stored, ..Energy::default() }).collect();
-    if let Some(culprit) = not_finite(&system.links, &state, Some(&energy)) {
+    if let Some(culprit) = not_finite(&system.links, (&state, &state), 0.0, Some(&energy)) {
         return Err(culprit.error(model, system, "at t = 0 s".into()));
     }
     let (kinetic, strain) = kinetic_and_strain(stepper.space(), &state.motion);

@@ -260,11 +260,11 @@ impl<'a> Walk<'a> {
             kernel.solve(&affine, pseudo, Guess::Unchanged, &committed, &state.scale, &mut out);
         if let Err(failed) = solved {
             kernel.show(&mut out);
-            *culprit = not_finite(links, &trial, None);
+            *culprit = not_finite(links, (state, &trial), 0.0, None);
             return Err(failed);
         }
         if !is_sound(&trial, &energy) {
-            *culprit = not_finite(links, &trial, Some(&energy));
+            *culprit = not_finite(links, (state, &trial), 0.0, Some(&energy));
             if culprit.is_some() {
                 return Err(NoEquilibrium { worst: usize::MAX, residual: f64::NAN });
             }

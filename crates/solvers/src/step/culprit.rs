@@ -3,9 +3,9 @@
 use super::state::State;
 use crate::error::{LawFault, SolveError};
 use crate::kernel::ForceScale;
-use trilith_element::{Energy, Kinematics};
+use trilith_element::{Answer, Energy, Kinematics, Link};
 use trilith_model::Model;
-use trilith_system::{Laws, LinkInstance, LinkSet, Panicked, System};
+use trilith_system::{Laws, LinkInstance, LinkSet, Panicked, System, blaming, catch};
 
 /// A part of the answer of a law; coordinates and variables are counted in the link.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -22,11 +22,43 @@ pub(crate) enum Quantity {
 /// What is wrong with a law.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) enum Wrong {
-    NotFinite { quantity: Quantity, value: f64 },
+    NotFinite { quantity: Quantity, value: f64, question: Box<Question> },
     Energies { since: f64, work: f64, accounted: f64 },
     Changes { coordinate: usize, first: f64, again: f64 },
     Jumps { coordinate: usize, end: f64, start: f64 },
     Panicked(String),
+}
+
+/// What a law was asked when it had no finite answer.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct Question {
+    d: Vec<f64>,
+    v: Vec<f64>,
+    d0: Vec<f64>,
+    v0: Vec<f64>,
+    committed: Vec<f64>,
+    dt: f64,
+}
+
+impl Question {
+    fn of(link: &LinkInstance, from: &State, to: &State, dt: f64) -> Self {
+        let own = |x: &[f64]| x[link.range.clone()].to_vec();
+        Self {
+            d: own(&to.d),
+            v: own(&to.v),
+            d0: own(&from.d),
+            v0: own(&from.v),
+            committed: from.history[link.history.clone()].to_vec(),
+            dt,
+        }
+    }
+
+    /// What the law says of it; nothing where that panics.
+    fn refusal(&self, element: usize, law: &dyn Link) -> Option<String> {
+        let Self { d, v, d0, v0, committed, dt } = self;
+        let at = Kinematics { d, v, d0, v0, dt: *dt };
+        catch(|| blaming(element, || Answer::refusal(law, &at, committed))).ok().flatten()
+    }
 }
 
 /// A law with what is wrong with it.
@@ -85,11 +117,12 @@ fn all_are_finite(state: &State, energy: &[Energy]) -> bool {
     arrays.into_iter().flatten().copied().chain(energies).all(f64::is_finite)
 }
 
-/// The first link that answers with no finite number although it was asked at one; where no energies are given, history
-/// and energies are not there yet.
+/// The first link that answers with no finite number although it was asked at one, in a step of `dt` from one state to
+/// another; where no energies are given, history and energies are not there yet.
 pub(crate) fn not_finite(
     links: &LinkSet,
-    state: &State,
+    (from, state): (&State, &State),
+    dt: f64,
     energy: Option<&[Energy]>,
 ) -> Option<Culprit> {
     links.links.iter().enumerate().find_map(|(i, link)| {
@@ -99,7 +132,9 @@ pub(crate) fn not_finite(
             return None;
         }
         let (quantity, value) = first_in(link, state, energy.map(|energy| &energy[i]))?;
-        Some(Culprit { element: link.element, wrong: Wrong::NotFinite { quantity, value } })
+        let question = Box::new(Question::of(link, from, state, dt));
+        let wrong = Wrong::NotFinite { quantity, value, question };
+        Some(Culprit { element: link.element, wrong })
     })
 }
 
@@ -215,8 +250,8 @@ impl Culprit {
             format!("tangent ∂f/∂{by} of {} by {}", axis(i), axis(j))
         };
         let fault = match wrong {
-            Wrong::NotFinite { quantity, value } => LawFault::NotFinite {
-                quantity: match quantity {
+            Wrong::NotFinite { quantity, value, question } => {
+                let quantity = match quantity {
                     Quantity::Force(i) => force(i),
                     Quantity::Stiffness(i, j) => tangent("d", i, j),
                     Quantity::Damping(i, j) => tangent("ḋ", i, j),
@@ -228,10 +263,13 @@ impl Culprit {
                     Quantity::Stored => "stored energy".into(),
                     Quantity::Hysteretic => "hysteretic energy".into(),
                     Quantity::Viscous => "viscous energy".into(),
-                },
-                value: *value,
-                without_rates: law.is_some_and(|law| !law.uses_rates()) && value.is_nan(),
-            },
+                };
+                let blind = law.is_some_and(|law| !law.uses_rates()) && value.is_nan();
+                match law.and_then(|law| question.refusal(*element, law)) {
+                    Some(why) => LawFault::Refuses { quantity, why },
+                    None => LawFault::NotFinite { quantity, value: *value, without_rates: blind },
+                }
+            }
             Wrong::Energies { since, work, accounted } => {
                 LawFault::Energies { since: *since, work: *work, accounted: *accounted }
             }

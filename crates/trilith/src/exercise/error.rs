@@ -34,6 +34,14 @@ pub enum ExerciseError {
         /// Coordinates of the law.
         coordinates: Vec<String>,
     },
+    /// The law has no answer, and says why.
+    #[error("the law has no answer at t = {time} s: {why}")]
+    Refuses {
+        /// When, s.
+        time: f64,
+        /// Its own words.
+        why: String,
+    },
     /// The law gives something that is not finite.
     #[error("the law gives a force or energy that is not finite at t = {0} s")]
     NotFinite(f64),

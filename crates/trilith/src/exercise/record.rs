@@ -65,8 +65,7 @@ impl Record {
         for step in 1..=steps {
             let time = step as f64 * dt;
             let (d, v) = motion.at(time);
-            driver.step(&d, &v, dt);
-            it.push(time, &driver)?;
+            it.step(time, &mut driver, &d, &v, dt)?;
         }
         it.turned_over = driver.turned_over;
         Ok(it)
@@ -90,9 +89,8 @@ impl Record {
             for part in 1..=parts {
                 let share = part as f64 / parts as f64;
                 let (d, v) = history.between(sample, share);
-                driver.step(&d, &v, dt);
                 let time = if part == parts { end } else { start + part as f64 * dt };
-                it.push(time, &driver)?;
+                it.step(time, &mut driver, &d, &v, dt)?;
             }
         }
         it.turned_over = driver.turned_over;
@@ -117,6 +115,23 @@ impl Record {
             turned_over: 0.0,
             last: 0,
         }
+    }
+
+    /// Takes a step, and takes it down.
+    fn step(
+        &mut self,
+        time: f64,
+        driver: &mut Driver<'_>,
+        d: &[f64],
+        v: &[f64],
+        dt: f64,
+    ) -> Result<(), ExerciseError> {
+        let before = driver.clone();
+        driver.step(d, v, dt);
+        self.push(time, driver).map_err(|e| match before.refusal(&before.toward(d, v, dt)) {
+            Some(why) => ExerciseError::Refuses { time, why },
+            None => e,
+        })
     }
 
     /// Takes down where a law is.
