@@ -175,6 +175,7 @@ impl Parameters {
         let node = self.slots[i].declared.clone();
         match &node.kind {
             Kind::Number(x) if x.is_finite() => State::Number(Quantity::bare(*x)),
+            Kind::Flag(b) => State::Number(Quantity::bare(f64::from(*b))),
             Kind::Text(text) => match evaluate(text, self) {
                 Ok(q) => State::Number(q),
                 Err(error) => {
@@ -196,7 +197,8 @@ impl Parameters {
     fn no_value(&mut self, i: usize, node: &Node) -> State {
         let name = &self.slots[i].name;
         let message = format!("parameter `{name}` is {}: must be a finite number", node.describe());
-        let help = "write a number, an expression in quotes, or `Text(\"…\")` for a file name";
+        let help = "write a number, `true` or `false`, an expression in quotes, or `Text(\"…\")` for a text: the \
+                    name of a file or of a choice";
         let d = Diagnostic::new("E0105", message, node.span.clone(), self.places.main()).help(help);
         self.errors.push(d);
         State::Failed
@@ -206,6 +208,10 @@ impl Parameters {
         let name = self.slots[i].name.clone();
         let source = argument(&name, text);
         let before = name.len() + 1;
+        // As a model file has it.
+        if let Some(flag) = flag(text).filter(|_| !declared.measured && !self.has(text)) {
+            return State::Number(Quantity::bare(flag));
+        }
         match evaluate(text, self) {
             Err(None) => State::Failed,
             Err(Some(e)) => {
@@ -236,6 +242,15 @@ impl Parameters {
                 State::Failed
             }
         }
+    }
+}
+
+/// 1 for `true`, 0 for `false`.
+fn flag(text: &str) -> Option<f64> {
+    match text {
+        "true" => Some(1.0),
+        "false" => Some(0.0),
+        _ => None,
     }
 }
 

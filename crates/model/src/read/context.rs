@@ -14,6 +14,9 @@ use std::path::PathBuf;
 use std::sync::Arc;
 use trilith_element::{Dimension, Dof, Range};
 
+/// What stands for a text parameter where a text in quotes would be a text.
+pub(crate) const PARAMETER: &str = "Parameter";
+
 /// The reader's surroundings. A method that returns `None` has reported why.
 pub struct Context<'a> {
     pub(crate) source: Arc<Source>,
@@ -241,27 +244,53 @@ impl<'a> Context<'a> {
         Some(Fields { what: what.to_owned(), span: node.name_span(), entries, instead: &[] })
     }
 
-    /// Which of these names a value has, as `Name`, `Name(…)` or a text.
+    /// Which of these names a value has, as `Name`, `Name(…)` or a text, or as the text of a parameter: `"parameter"` or
+    /// `Parameter("parameter")`.
     pub fn choice(&self, node: &Node, what: &str, names: &[&str]) -> Option<usize> {
-        let name = match (&node.kind, node.name()) {
-            (_, Some(name)) => name,
-            (Kind::Text(text), _) if names.contains(&text.as_str()) => text,
-            (Kind::Text(text), _) => self.parameters.text(text).unwrap_or(text),
+        let (name, parameter) = match (&node.kind, node.name()) {
+            (Kind::List(Some(kind), _), _) if kind == PARAMETER => {
+                let parameter = self.text_parameter(node)?;
+                (self.parameters.text(parameter)?, Some(parameter))
+            }
+            (_, Some(name)) => (name, None),
+            (Kind::Text(text), _) if names.contains(&text.as_str()) => (text.as_str(), None),
+            (Kind::Text(text), _) => match self.parameters.text(text) {
+                Some(name) => (name, Some(text.as_str())),
+                None => (text.as_str(), None),
+            },
             _ => return self.wrong(node, &format!("a {what} ({})", names.join(", "))),
         };
         let found = names.iter().position(|n| *n == name);
         if found.is_none() {
             let at = node.name_span();
             let help = names_help(name, "choices", names.iter().copied());
-            let message = format!("there is no {what} `{name}`");
+            let through = parameter.map(|p| format!(", as parameter `{p}` says"));
+            let message = format!("there is no {what} `{name}`{}", through.unwrap_or_default());
             let mut d = self.diagnostic("E0107", message, at.clone()).help(help);
-            if let Some(near) = closest(name, names.iter().copied()) {
+            if parameter.is_some() {
+                // The place to change is where the parameter has its value from.
+            } else if let Some(near) = closest(name, names.iter().copied()) {
                 let quoted = matches!(node.kind, Kind::Text(_));
                 d = d.suggestion(at, if quoted { format!("\"{near}\"") } else { near.into() });
             }
             self.report(d);
         }
         found
+    }
+
+    /// The text parameter that `Parameter("name")` names.
+    pub(crate) fn text_parameter<'n>(&self, node: &'n Node) -> Option<&'n str> {
+        let items = if let Kind::List(_, items) = &node.kind { &items[..] } else { &[] };
+        let [Node { kind: Kind::Text(name), span }] = items else {
+            return self.wrong(node, "a text parameter, `Parameter(\"name\")`,");
+        };
+        if self.parameters.text(name).is_some() {
+            return Some(name);
+        }
+        let message = format!("there is no text parameter `{name}`");
+        let help = names_help(name, "text parameters", self.parameters.text_names());
+        self.report(self.diagnostic("E0110", message, span.clone()).help(help));
+        None
     }
 
     /// A direction.

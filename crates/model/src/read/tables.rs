@@ -1,6 +1,6 @@
 //! Functions given by tables: CSV records and lists of points.
 
-use super::context::{Context, Fields};
+use super::context::{Context, Fields, PARAMETER};
 use super::functions::{Made, what};
 use super::record::{column, columns, numbers};
 use crate::schema;
@@ -87,19 +87,9 @@ pub(super) fn unit(c: &Context<'_>, node: &Node) -> Option<crate::expression::Qu
 pub(super) fn file_name(c: &Context<'_>, node: &Node) -> Option<String> {
     match &node.kind {
         Kind::Text(name) => Some(name.clone()),
-        Kind::List(Some(kind), items) if kind == "Parameter" && items.len() == 1 => {
-            let name = c.text(&items[0], "Parameter")?;
-            if let Some(text) = c.parameters().text(&name) {
-                return Some(text.to_owned());
-            }
-            let message = format!("there is no text parameter `{name}`");
-            let help = crate::diagnostic::names_help(
-                &name,
-                "text parameters",
-                c.parameters().text_names(),
-            );
-            c.report(c.diagnostic("E0110", message, items[0].span.clone()).help(help));
-            None
+        Kind::List(Some(kind), _) if kind == PARAMETER => {
+            let name = c.text_parameter(node)?;
+            c.parameters().text(name).map(str::to_owned)
         }
         _ => c.wrong(node, "a file name in quotes or `Parameter(\"name\")`"),
     }

@@ -45,9 +45,11 @@ pub static MODEL: Group = Group {
             ),
             absent(
                 "parameters",
-                Words("a map from names to numbers, expressions or texts"),
+                Words(
+                    "a map from names to numbers, expressions, `true` or `false`, or `Text(\"…\")`",
+                ),
                 "none",
-                "Names that expressions may use; `--set NAME=VALUE` changes them.",
+                "Names that expressions, choices, flags and texts may use; `--set NAME=VALUE` changes them.",
             ),
             needed("nodes", Words("a map from names to positions `(x, y, z)`, lengths"), "Nodes."),
             absent(
