@@ -54,7 +54,11 @@ fn every_parameter(card: &Card, turn: usize) -> Vec<(String, Value)> {
             Value::List(vec![Value::List(vec![Value::Number(1.0); size]); size])
         }
         Form::Points => Value::List(vec![Value::List(vec![Value::Number(1.0); 3]); 3]),
-        Form::Node => Value::Text("a".into()),
+        Form::Node | Form::Text => Value::Text("a".into()),
+        Form::File => {
+            let (name, text) = ("a.csv".into(), "0, 0\n1, 1\n".into());
+            Value::File(std::sync::Arc::new(trilith_element::FileText { name, text }))
+        }
     };
     card.parameters.iter().map(|p| (p.name.to_owned(), one(p.form))).collect()
 }
@@ -93,6 +97,7 @@ fn kinds_and_their_parameters_have_names_of_their_own_and_admissible_defaults() 
             match (p.default, p.form) {
                 (Default::Number(x), _) => assert!(p.range.contains(x), "{}", p.name),
                 (Default::Choice(c), Form::Choice(names)) => assert!(names.contains(&c)),
+                (Default::Choice(_), Form::Text) => {}
                 (Default::Choice(_), _) => panic!("{}: a choice without names", p.name),
                 _ => {}
             }

@@ -7,7 +7,7 @@
 
 use proptest::test_runner::{Config, RngAlgorithm, TestCaseError, TestRng, TestRunner};
 use trilith::exercise::Specimen;
-use trilith_element::conformance::Kit;
+use trilith_element::conformance::{ConformanceError, Kit};
 use trilith_element::{
     Card, Form, Frame, Geometry, Link, Parameter, ParameterError, ReadConstraint, ReadFunction,
     ReadLinear, ReadLink, ReadOutput, ReadSolver, Register, Value, Values,
@@ -111,8 +111,11 @@ fn examine(
     let size = SPREAD.powf(numbers[NUMBERS - 1]);
     let kit = Kit::of(&card.exercise).scaled(size).seed(seed).paths(PATHS).quick();
     let kit = if ACTIVE.iter().any(|(kind, _)| *kind == card.kind) { kit.active() } else { kit };
-    let told =
-        |e| TestCaseError::fail(format!("{} with {values:?}, motion × {size}: {e}", card.kind));
+    let told = |e| match e {
+        // It says itself that it does not go so far.
+        ConformanceError::Refuses { .. } => TestCaseError::reject(e.to_string()),
+        e => TestCaseError::fail(format!("{} with {values:?}, motion × {size}: {e}", card.kind)),
+    };
     kit.check(law.as_ref()).map(drop).map_err(told)
 }
 

@@ -198,6 +198,18 @@ impl Parameter {
         Self::new(name, "", Form::Choice(choices), Default::Choice(default), meaning)
     }
 
+    /// A text in quotes, with a default.
+    #[must_use]
+    pub const fn text(name: &'static str, default: &'static str, meaning: &'static str) -> Self {
+        Self::new(name, "", Form::Text, Default::Choice(default), meaning)
+    }
+
+    /// A file that the model must name.
+    #[must_use]
+    pub const fn file(name: &'static str, meaning: &'static str) -> Self {
+        Self::new(name, "", Form::File, Default::Required, meaning)
+    }
+
     /// The same with another range.
     #[must_use]
     pub const fn within(mut self, range: Range) -> Self {
@@ -257,6 +269,10 @@ pub enum Form {
     Points,
     /// The name of a node of the model.
     Node,
+    /// A text in quotes.
+    Text,
+    /// A text file, by its path from the folder of the model file; the law gets a [`FileText`](crate::FileText).
+    File,
 }
 
 impl Form {
@@ -333,7 +349,7 @@ pub enum Default {
     Absent,
     /// This number, in SI.
     Number(f64),
-    /// This choice.
+    /// This choice, or this text.
     Choice(&'static str),
     /// This flag.
     Flag(bool),

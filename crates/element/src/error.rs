@@ -24,6 +24,14 @@ pub enum ParameterError {
         /// What is wrong and what would be right.
         message: String,
     },
+    /// A file that a parameter names and that does not hold what it should.
+    #[error("`{name}`: {message}")]
+    File {
+        /// The parameter.
+        name: String,
+        /// What is wrong, with the name of the file and its line.
+        message: String,
+    },
     /// Nodes that the element cannot stand on (coincident, collinear with an axis …).
     #[error("{message}")]
     Geometry {
@@ -43,7 +51,9 @@ impl ParameterError {
     #[must_use]
     pub fn parameter(&self) -> Option<&str> {
         match self {
-            Self::OutOfRange { name, .. } | Self::Inconsistent { name, .. } => Some(name),
+            Self::OutOfRange { name, .. }
+            | Self::Inconsistent { name, .. }
+            | Self::File { name, .. } => Some(name),
             _ => None,
         }
     }

@@ -1,17 +1,22 @@
 //! Parameter values on their way from a model file into a typed law.
 
-use crate::ParameterError;
-use serde::de::value::MapDeserializer;
-use serde::de::{DeserializeOwned, DeserializeSeed, EnumAccess, IntoDeserializer, Visitor};
+use crate::{FileText, ParameterError};
+use serde::de::value::MapAccessDeserializer;
+use serde::de::{
+    DeserializeOwned, DeserializeSeed, EnumAccess, IntoDeserializer, MapAccess, Visitor,
+};
 use serde::forward_to_deserialize_any;
+use std::sync::Arc;
 
 /// One value: a number is already in SI.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Value {
     /// A number in SI.
     Number(f64),
-    /// A name, such as a choice among several.
+    /// A name, such as a choice among several, or a text.
     Text(String),
+    /// A file, with what it holds.
+    File(Arc<FileText>),
     /// Yes or no.
     Flag(bool),
     /// Several values.
@@ -41,10 +46,43 @@ impl Values {
     /// Reads a typed parameter struct.
     ///
     /// # Errors
-    /// [`ParameterError::Form`] where a value has not the type of its field.
+    /// [`ParameterError::Form`] where a value has not the type of its field, [`ParameterError::File`] where a file does not
+    /// hold what its field wants.
     pub fn read<T: DeserializeOwned>(&self) -> Result<T, ParameterError> {
-        let pairs = self.0.iter().map(|(n, v)| (n.as_str(), v.clone()));
-        T::deserialize(MapDeserializer::<_, ParameterError>::new(pairs))
+        T::deserialize(MapAccessDeserializer::new(Pairs { rest: &self.0 }))
+    }
+}
+
+/// Names and values one after the other.
+struct Pairs<'a> {
+    rest: &'a [(String, Value)],
+}
+
+impl<'de> MapAccess<'de> for Pairs<'_> {
+    type Error = ParameterError;
+
+    fn next_key_seed<K: DeserializeSeed<'de>>(
+        &mut self,
+        seed: K,
+    ) -> Result<Option<K::Value>, ParameterError> {
+        let name = self.rest.first().map(|(name, _)| name.as_str());
+        name.map(|name| seed.deserialize(name.into_deserializer())).transpose()
+    }
+
+    fn next_value_seed<V: DeserializeSeed<'de>>(
+        &mut self,
+        seed: V,
+    ) -> Result<V::Value, ParameterError> {
+        let Some(((name, value), rest)) = self.rest.split_first() else {
+            return Err(serde::de::Error::custom("a value without a name"));
+        };
+        self.rest = rest;
+        seed.deserialize(value.clone()).map_err(|error| match value {
+            Value::File(_) => {
+                ParameterError::File { name: name.clone(), message: error.to_string() }
+            }
+            _ => error,
+        })
     }
 }
 
@@ -63,6 +101,7 @@ impl<'de> serde::Deserializer<'de> for Value {
             Self::Number(x) => visitor.visit_f64(x),
             Self::Text(s) => visitor.visit_string(s),
             Self::Flag(b) => visitor.visit_bool(b),
+            Self::File(file) => visitor.visit_map(file.pairs()),
             Self::List(items) => {
                 visitor.visit_seq(serde::de::value::SeqDeserializer::new(items.into_iter()))
             }

@@ -56,6 +56,8 @@ fn facts(p: &Parameter) -> ParameterFacts {
         Form::Matrix { .. } => ("matrix", &[]),
         Form::Points => ("points", &[]),
         Form::Node => ("node", &[]),
+        Form::Text => ("text", &[]),
+        Form::File => ("file", &[]),
     };
     let required = matches!(p.default, Default::Required);
     (parameter(p), form, choices.to_vec(), required)

@@ -110,14 +110,18 @@ impl Identity {
         let parts = [
             (self.model != found.model, "the model"),
             (self.study != found.study || self.runs != found.runs, "the runs of the study"),
-            (self.motions != found.motions, "a ground motion"),
+            (
+                self.motions != found.motions,
+                "a ground motion, or another file that the model names,",
+            ),
             (self.version != found.version, "the version of the program"),
             (self.build != found.build, "the build of the program"),
         ];
         changed.extend(parts.into_iter().filter(|(differs, _)| *differs).map(|(_, what)| what));
         // A change of the model changes its time functions, too, as a rule.
         if changed.first() == Some(&"the model") {
-            changed.retain(|what| *what != "a ground motion");
+            changed
+                .retain(|what| *what != "a ground motion, or another file that the model names,");
         }
         // Another version is another build.
         if self.version != found.version {

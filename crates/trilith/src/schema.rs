@@ -194,6 +194,8 @@ fn parameters(card: &Card) -> impl Iterator<Item = (String, Value)> {
             Form::Flag => value(Takes::Flag),
             Form::Number(_) | Form::Power { .. } => number(),
             Form::Node => json!({ "type": "string" }),
+            // `Parameter("name")` of a text parameter, and `Contents("name", "text")` of a file, are objects.
+            Form::Text | Form::File => json!({ "type": ["string", "object"] }),
             _ => json!({}),
         };
         (p.name.to_owned(), described(what, p.meaning))

@@ -4,6 +4,7 @@
 use std::collections::HashMap;
 use std::fmt;
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
+use trilith_element::FileText;
 use trilith_record::Record;
 
 /// Most samples that are kept of each kind: 128 MB. What has not been asked for longest goes first.
@@ -16,6 +17,8 @@ pub(crate) struct Motions {
     pub records: Shelf<Record>,
     /// Two columns of files: times and values as they stand there.
     pub columns: Shelf<(Vec<f64>, Vec<f64>)>,
+    /// Files that parameters name.
+    pub texts: Shelf<FileText>,
 }
 
 impl fmt::Debug for Motions {
@@ -32,6 +35,12 @@ pub(crate) trait Samples {
 impl Samples for Record {
     fn samples(&self) -> usize {
         self.acceleration.len()
+    }
+}
+
+impl Samples for FileText {
+    fn samples(&self) -> usize {
+        self.text.len() / size_of::<f64>()
     }
 }
 

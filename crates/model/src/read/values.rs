@@ -1,6 +1,7 @@
 //! Parameters of one member, read as its card says.
 
 use super::context::Context;
+use super::files;
 use super::members::Made;
 use super::names::Names;
 use crate::tree::{Entry, Node};
@@ -160,6 +161,8 @@ fn value(c: &Context<'_>, node: &Node, p: &Parameter, nodes: &Names<'_>) -> Opti
         }
         Form::Points => points(c, node, p),
         Form::Node => nodes.refer(c, node).map(|i| Value::Text(nodes.name(i).to_owned())),
+        Form::Text => files::text(c, node, p.name).map(Value::Text),
+        Form::File => files::file(c, node).map(Value::File),
     }
 }
 

@@ -5,6 +5,7 @@ mod loads;
 mod outputs;
 mod spectra;
 
+use crate::read::CONTENTS;
 use crate::{
     AfterEnd, Body, Damping, Harmonic, Interpolation, Model, ParameterValue, Plane, TimeFunction,
 };
@@ -126,6 +127,7 @@ fn value(v: &Value) -> String {
         Value::Number(x) => format!("{x:?}"),
         Value::Text(t) => text(t),
         Value::Flag(b) => b.to_string(),
+        Value::File(file) => format!("{CONTENTS}({}, {})", text(&file.name), text(&file.text)),
         Value::List(items) => {
             format!("[{}]", items.iter().map(value).collect::<Vec<_>>().join(", "))
         }

@@ -2,7 +2,8 @@
 
 use crate::{Column, Condition, Identity, Plan};
 use sha2::{Digest, Sha256};
-use trilith::model::ModelText;
+use trilith::element::{FileText, Value};
+use trilith::model::{Model, ModelText};
 use trilith::{Registry, SolverKind};
 
 /// Most combinations of texts whose time functions are looked at one by one.
@@ -10,6 +11,21 @@ const MOST: usize = 10_000;
 
 fn hexadecimal(digest: impl AsRef<[u8]>) -> String {
     digest.as_ref().iter().map(|b| format!("{b:02x}")).collect()
+}
+
+/// What a model has read from other files: its functions of time, and files that parameters of elements name.
+fn seen_of(model: &Model) -> String {
+    let mut all = format!("{:?}", model.functions);
+    let mut told: Vec<&FileText> = Vec::new();
+    for (_, value) in model.elements.iter().flat_map(|e| &e.values.0) {
+        if let Value::File(file) = value
+            && !told.contains(&&**file)
+        {
+            told.push(file);
+            all += &format!("{file:?}");
+        }
+    }
+    all
 }
 
 /// Figures, events and statistics are left out: they can change without a run.
@@ -26,7 +42,7 @@ pub(super) fn identity(
     // Records are named by texts: every text of every axis and point, one after the other.
     let mut motions = Sha256::new();
     let model = parsed.read(registry, first).ok()?;
-    motions.update(format!("{:?}", model.functions));
+    motions.update(seen_of(&model));
     let is_text = |name: &str| {
         let text = |p: &trilith::model::Parameter| {
             p.name == name && matches!(p.value, trilith::model::ParameterValue::Text(_))
@@ -45,7 +61,7 @@ pub(super) fn identity(
         set.retain(|(n, _)| n != name);
         set.push((name.clone(), value.clone()));
         if let Ok(model) = parsed.read(registry, &set) {
-            motions.update(format!("{:?}", model.functions));
+            motions.update(seen_of(&model));
         }
     }
     Some(Identity {

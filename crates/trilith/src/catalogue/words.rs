@@ -58,6 +58,8 @@ fn form(p: &Parameter) -> (String, String) {
         }
         Form::Points => ("m".into(), "list of (x, y, z)".into()),
         Form::Node => (String::new(), "name of a node".into()),
+        Form::Text => (String::new(), "text".into()),
+        Form::File => (String::new(), "path of a text file".into()),
     }
 }
 
