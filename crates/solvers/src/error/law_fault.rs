@@ -23,8 +23,8 @@ pub enum LawFault {
     },
     /// What it stores and turns to heat is not the work that is done on it, however short the steps.
     Energies {
-        /// From when on this was looked at, s.
-        since: f64,
+        /// From when on this was looked at, s; none where no time goes on.
+        since: Option<f64>,
         /// Work done on it since then, J.
         work: f64,
         /// Change of its stored energy and its heat since then, J.
@@ -79,8 +79,12 @@ impl LawFault {
                 } else {
                     "does not account for its work".into()
                 };
+                let since = match since {
+                    Some(t) => format!("since t = {t:.6} s"),
+                    None => "in the last step".into(),
+                };
                 format!(
-                    "{law} {share} {when}: since t = {since:.6} s it took {work:.4e} J, and what it stored and turned to heat comes to {accounted:.4e} J, however short the steps are"
+                    "{law} {share} {when}: {since} it took {work:.4e} J, and what it stored and turned to heat comes to {accounted:.4e} J, however short the steps are"
                 )
             }
             Self::Changes { quantity, first, again } => format!(
@@ -100,7 +104,7 @@ mod tests {
 
     #[test]
     fn shares_are_told_where_there_are_some() {
-        let fault = |work: f64| LawFault::Energies { since: 0.5, work, accounted: 3.0 };
+        let fault = |work: f64| LawFault::Energies { since: Some(0.5), work, accounted: 3.0 };
         let text = fault(1.5).text("w", "at t = 1 s");
         assert!(
             text.starts_with("the law of \"w\" accounts for 200.0000 % of its work at t = 1 s: "),

@@ -9,7 +9,7 @@
 //! g′ = g. The march halves such steps in vain, millions of times. So once the energies of a step have not closed, the
 //! links are watched, until a step closes: one whose g′ has not fallen below g in so many steps on end is to blame.
 
-use crate::step::{Culprit, State, StepEnergy, Wrong};
+use crate::step::{Account, Culprit, State, StepEnergy, Wrong};
 use crate::vector::larger;
 use trilith_system::LinkSet;
 
@@ -29,27 +29,6 @@ pub(super) struct Made<'a> {
     pub second: (&'a State, &'a StepEnergy),
     /// What rounding may do to its energies, J.
     pub rounding: f64,
-}
-
-/// Work done on a link, and what it says of that, J.
-#[derive(Clone, Copy, Debug, Default)]
-struct Account {
-    work: f64,
-    accounted: f64,
-    /// Sum of the sizes of all parts.
-    size: f64,
-}
-
-impl Account {
-    fn gap(&self) -> f64 {
-        self.work - self.accounted
-    }
-
-    fn add(&mut self, other: &Self) {
-        self.work += other.work;
-        self.accounted += other.accounted;
-        self.size += other.size;
-    }
 }
 
 /// Watches the links while energies do not close.
@@ -83,9 +62,12 @@ impl Closing {
         let mut closes = true;
         let mut worst: Option<(usize, Account)> = None;
         for (i, (on_end, sum)) in self.links.iter_mut().enumerate() {
-            let whole = account(links, i, made.from, made.whole);
-            let mut halves = account(links, i, made.from, made.first);
-            halves.add(&account(links, i, made.first.0, made.second));
+            let of = |from: &State, (to, energy): (&State, &StepEnergy)| {
+                Account::of(&links.links[i], i, from, to, &energy.links[i])
+            };
+            let whole = of(made.from, made.whole);
+            let mut halves = of(made.from, made.first);
+            halves.add(&of(made.first.0, made.second));
             let (before, now) = (whole.gap(), halves.gap());
             let stays = now.abs() > STAYS * before.abs() && now * before > 0.0;
             if !stays || now.abs() <= larger(SHARE * halves.size, made.rounding) {
@@ -105,26 +87,7 @@ impl Closing {
         }
         worst.map(|(i, Account { work, accounted, .. })| Culprit {
             element: links.links[i].element,
-            wrong: Wrong::Energies { since, work, accounted },
+            wrong: Wrong::Energies { since: Some(since), work, accounted },
         })
     }
-}
-
-/// The account of a link in a step.
-fn account(
-    links: &LinkSet,
-    i: usize,
-    from: &State,
-    (to, energy): (&State, &StepEnergy),
-) -> Account {
-    let range = links.links[i].range.clone();
-    let of = |j: usize| 0.5 * (from.f[j] + to.f[j]) * (to.d[j] - from.d[j]);
-    let (mut work, mut size) = (0.0, 0.0_f64);
-    for part in range.map(of) {
-        work += part;
-        size += part.abs();
-    }
-    let heat = energy.links[i].hysteretic + energy.links[i].viscous;
-    let stored = to.stored[i] - from.stored[i];
-    Account { work, accounted: stored + heat, size: size.max(stored.abs()).max(heat.abs()) }
 }

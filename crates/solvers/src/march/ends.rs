@@ -3,7 +3,8 @@
 use super::closing::Made;
 use super::{DEPTH, March, ROUNDING, Stop, Trial};
 use crate::step::{
-    State, StepEnergy, StepFailure, Stepper, asked_again, asked_twice, is_sound, not_finite,
+    State, StepEnergy, StepFailure, Stepper, asked_again, asked_twice, is_sound, leaves_out,
+    not_finite,
 };
 use trilith_model::StepControl;
 use trilith_system::StepLoads;
@@ -50,6 +51,26 @@ impl March<'_> {
         }
         let (laws, links) = (self.stepper.laws(), self.stepper.links());
         match asked_again(&laws, links, from, state, self.last) {
+            Some(culprit) => Err(Stop::Law { t, culprit }),
+            None => Ok(()),
+        }
+    }
+
+    /// Ends a run of fixed steps where a law does not account for its work in the step accepted last, which led to a state
+    /// at `t`. Where steps are as short as they must be, [`watch`](Self::watch) has looked.
+    pub(crate) fn look(&mut self, state: &State, t: f64) -> Result<(), Stop> {
+        let Trial { whole: from, energies: [energy, ..], .. } = &self.trial;
+        let made = from.d.len() == state.d.len() && self.last > 0.0;
+        if matches!(self.control, StepControl::Adaptive { .. }) || !made {
+            return Ok(());
+        }
+        let step = (&**from, state);
+        let suspects = self.suspicion.look(self.stepper.links(), step, &energy.links);
+        if suspects.is_empty() {
+            return Ok(());
+        }
+        let since = Some(t - self.last);
+        match leaves_out(&suspects, &self.stepper.laws(), step, self.last, since) {
             Some(culprit) => Err(Stop::Law { t, culprit }),
             None => Ok(()),
         }

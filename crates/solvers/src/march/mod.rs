@@ -43,7 +43,7 @@ pub(crate) use timeline::{Segment, Timeline};
 
 use crate::error::SolveError;
 use crate::kernel::ForceScale;
-use crate::step::{Culprit, DisplacementNorms, State, StepEnergy, StepFailure, Stepper};
+use crate::step::{Culprit, DisplacementNorms, State, StepEnergy, StepFailure, Stepper, Suspicion};
 use crate::vector::larger;
 use closing::Closing;
 use ends::sound_step;
@@ -132,6 +132,8 @@ pub(crate) struct March<'a> {
     pub at: f64,
     trial: Trial,
     closing: Closing,
+    /// Of steps of a given length.
+    suspicion: Suspicion,
     /// Length of the step accepted last, as it was kept, s.
     last: f64,
     /// Steps tried when the laws are next asked whether they answer the same twice.
@@ -224,6 +226,7 @@ impl<'a> March<'a> {
             at: 0.0,
             trial: Trial::default(),
             closing: Closing::default(),
+            suspicion: Suspicion::default(),
             last: 0.0,
             ask_at: ends::ASK_EVERY,
         }

@@ -95,9 +95,12 @@ fn march_on(
         };
         let made = output_step(timeline, step, march, constant, moving, &mut report);
         let Moving { state, ledger, .. } = &*moving;
-        let asked = made.and_then(|()| match (step + 1 - first).is_power_of_two() {
-            true => march.ask_again(state, timeline.time(step + 1)),
-            false => Ok(()),
+        let asked = made.and_then(|()| {
+            let t = timeline.time(step + 1);
+            if (step + 1 - first).is_power_of_two() {
+                march.ask_again(state, t)?;
+            }
+            march.look(state, t)
         });
         if let Err(stop) = asked {
             ended.stop = Some(stop);

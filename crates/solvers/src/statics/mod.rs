@@ -29,11 +29,11 @@ use crate::error::SolveError;
 use crate::kernel::{
     Affine, Committed, Converged, Extrapolation, Guess, LinkKernel, NoEquilibrium, StepKey, Wanted,
 };
-use crate::step::{Culprit, State, is_sound, not_finite};
+use crate::step::{Culprit, State, Suspicion, is_sound, leaves_out, not_finite};
 use trilith_element::Energy;
 use trilith_linalg::{Dense, Ldlt};
 use trilith_model::{Model, Solution};
-use trilith_system::{Answers, LinkSet, System};
+use trilith_system::{Answers, Laws, LinkSet, System};
 
 const SMALLEST: f64 = 1e-4;
 
@@ -151,7 +151,7 @@ pub(crate) fn along(
             Err(NoEquilibrium { worst, residual }) => {
                 rejected += 1;
                 step *= 0.5;
-                if step < SMALLEST {
+                if step < SMALLEST || walk.blamed {
                     let culprit = walk.culprit.take();
                     return Err(Unbalanced { reached, worst, residual, culprit });
                 }
@@ -181,8 +181,12 @@ struct Walk<'a> {
     before: Vec<f64>,
     added: Vec<f64>,
     zero: Vec<f64>,
-    /// The law that had no finite answer in the last step that failed.
+    laws: Laws<'a>,
+    suspicion: Suspicion,
+    /// The law that had no finite answer in the last step that failed, ...
     culprit: Option<Culprit>,
+    /// ... or that shorter steps do not help, as it does not account for its work.
+    blamed: bool,
 }
 
 impl<'a> Walk<'a> {
@@ -209,7 +213,10 @@ impl<'a> Walk<'a> {
             before: deform(from),
             added: deform(by),
             zero: vec![0.0; links.len()],
+            laws: links.laws(model),
+            suspicion: Suspicion::default(),
             culprit: None,
+            blamed: false,
         }
     }
 
@@ -221,7 +228,7 @@ impl<'a> Walk<'a> {
 
     /// From a place straight to a share of the path.
     fn to(&mut self, from: &Place, share: f64) -> Result<Place, NoEquilibrium> {
-        let Self { links, kernel, g, none, before, added, zero, culprit } = self;
+        let Self { links, kernel, g, none, before, added, zero, .. } = self;
         let Place { state, pseudo } = from;
         let Wanted { d, v, .. } = kernel.wanted();
         for (d, (a, b)) in d.iter_mut().zip(before.iter().zip(&*added)) {
@@ -260,16 +267,23 @@ impl<'a> Walk<'a> {
             kernel.solve(&affine, pseudo, Guess::Unchanged, &committed, &state.scale, &mut out);
         if let Err(failed) = solved {
             kernel.show(&mut out);
-            *culprit = not_finite(links, (state, &trial), 0.0, None);
+            self.culprit = not_finite(links, (state, &trial), 0.0, None);
             return Err(failed);
         }
         if !is_sound(&trial, &energy) {
-            *culprit = not_finite(links, (state, &trial), 0.0, Some(&energy));
-            if culprit.is_some() {
+            self.culprit = not_finite(links, (state, &trial), 0.0, Some(&energy));
+            if self.culprit.is_some() {
                 return Err(NoEquilibrium { worst: usize::MAX, residual: f64::NAN });
             }
         }
         trial.record_converged(links, &energy, kernel.largest_force());
+        let Self { links, laws, suspicion, .. } = self;
+        let suspects = suspicion.look(links, (state, &trial), &energy);
+        let blamed = leaves_out(&suspects, laws, (state, &trial), 0.0, None);
+        if blamed.is_some() {
+            (self.culprit, self.blamed) = (blamed, true);
+            return Err(NoEquilibrium { worst: usize::MAX, residual: f64::NAN });
+        }
         Ok(Place { state: trial, pseudo: attempt })
     }
 }

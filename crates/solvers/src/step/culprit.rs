@@ -23,7 +23,7 @@ pub(crate) enum Quantity {
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) enum Wrong {
     NotFinite { quantity: Quantity, value: f64, question: Box<Question> },
-    Energies { since: f64, work: f64, accounted: f64 },
+    Energies { since: Option<f64>, work: f64, accounted: f64 },
     Changes { coordinate: usize, first: f64, again: f64 },
     Jumps { coordinate: usize, end: f64, start: f64 },
     Panicked(String),

@@ -3,6 +3,7 @@
 //! The state, the contract of propagators, links and loads of a step, and what its error is measured by.
 //! May use `kernel`, `structure`, and `modal` for the motion inside a step.
 
+mod account;
 mod culprit;
 mod difference;
 mod link_equations;
@@ -13,6 +14,7 @@ mod trapezoidal;
 mod turning;
 mod vibration;
 
+pub(crate) use account::{Account, Suspicion, leaves_out};
 pub(crate) use culprit::{Culprit, Wrong, asked_again, asked_twice, is_sound, not_finite};
 pub(crate) use difference::{Difference, DisplacementNorms, difference_of, displacement_norms};
 pub(crate) use link_equations::LinkEquations;
