@@ -16,8 +16,8 @@
 use crate::shared::dense::between;
 use serde::Deserialize;
 use trilith_element::{
-    Card, Category, Constraint, Default, Described, Dof, Equation, Exercise, Form, NodeCount,
-    Outline, Parameter, ParameterError, Vector3,
+    Card, Category, Constraint, Default, Described, Dof, Equation, Exercise, Form, NodalOutline,
+    NodeCount, Parameter, ParameterError, Vector3,
 };
 
 /// Several nodes that move as one rigid body; the law is on top of this page's source file.
@@ -56,8 +56,8 @@ impl Constraint for RigidBody {
         Ok(follow.flat_map(|(s, x)| rigid_equations(s + 1, *lead, *x, true)).collect())
     }
 
-    fn outline(&self, _: &[Vector3]) -> Option<Outline> {
-        (!self.corners.is_empty()).then(|| Outline::face(self.corners.clone()))
+    fn outline(&self, _: &[Vector3]) -> Option<NodalOutline> {
+        (!self.corners.is_empty()).then(|| NodalOutline::default().and_face(0, &self.corners))
     }
 }
 

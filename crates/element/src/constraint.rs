@@ -1,6 +1,6 @@
 //! Constraints: linear equations between DOFs, eliminated and never penalised.
 
-use crate::{Dof, Outline, ParameterError, Vector3};
+use crate::{Dof, NodalOutline, ParameterError, Vector3};
 use std::fmt::Debug;
 
 /// `u[dependent] = Σ coefficient · u[retained]`.
@@ -20,9 +20,9 @@ pub trait Constraint: Send + Sync + Debug {
     /// [`ParameterError::Geometry`] where the nodes do not suit.
     fn equations(&self, nodes: &[Vector3]) -> Result<Vec<Equation>, ParameterError>;
 
-    /// What it looks like in a picture, for constraints that know: points from its first node, with which
-    /// they move as parts of one rigid body. Others are drawn as lines between their nodes.
-    fn outline(&self, _nodes: &[Vector3]) -> Option<Outline> {
+    /// What it looks like in a picture, for constraints that know. Others are drawn as lines between the nodes that lead
+    /// and those that follow.
+    fn outline(&self, _nodes: &[Vector3]) -> Option<NodalOutline> {
         None
     }
 }

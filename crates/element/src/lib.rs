@@ -57,7 +57,7 @@ pub use integrator::{Factor, Integrator, LinearStep, LinearStructure, Motion, Mo
 pub use linear::{ElementMatrices, LinearElement, SquareMatrix};
 pub use link::{Contact, ContactUse, Coordinates, Energy, Impact, Kinematics, Link, Response};
 pub use member::{Member, SpanLoad};
-pub use outline::Outline;
+pub use outline::{NodalOutline, Outline};
 pub use register::{
     Read, ReadConstraint, ReadFunction, ReadLinear, ReadLink, ReadOutput, ReadSolver, Register,
 };

@@ -1,6 +1,6 @@
 //! Linear elements: what adds to K, M and C once.
 
-use crate::{Dof, Geometry, Member, ParameterError};
+use crate::{Dof, Geometry, Member, NodalOutline, ParameterError};
 use std::fmt::Debug;
 
 /// A small dense square matrix, row by row.
@@ -99,6 +99,11 @@ pub trait LinearElement: Send + Sync + Debug {
     /// The element as a member that loads may act on between its two nodes; `None` where it is none. Its forces in
     /// local axes are then recorded at any place along it.
     fn member(&self) -> Option<&dyn Member> {
+        None
+    }
+
+    /// What it looks like in a picture. One between two nodes that does not say is drawn as a line, others not at all.
+    fn outline(&self, _at: &Geometry<'_>) -> Option<NodalOutline> {
         None
     }
 }

@@ -6,7 +6,8 @@ use std::ops::Range;
 use std::path::PathBuf;
 use std::sync::Arc;
 use trilith_element::{
-    Axis, Constraint, Dimension, Dof, Frame, LinearElement, Link, Member, SpanLoad, Values, Vector3,
+    Axis, Constraint, Dimension, Dof, Frame, Geometry, LinearElement, Link, Member, NodalOutline,
+    SpanLoad, Values, Vector3,
 };
 
 /// A byte range of the model file, or what [`Places`] leads back to one.
@@ -262,6 +263,22 @@ pub enum Load {
 /// SHA-256, hexadecimal.
 pub(crate) fn sha256(bytes: &[u8]) -> String {
     Sha256::digest(bytes).iter().map(|b| format!("{b:02x}")).collect()
+}
+
+impl Element {
+    /// What an element or a constraint looks like in pictures, where it says so; `nodes` are those of its model.
+    #[must_use]
+    pub fn outline(&self, nodes: &[Node]) -> Option<NodalOutline> {
+        let places: Vec<Vector3> = self.nodes.iter().map(|n| nodes[*n].position).collect();
+        let outline = match &self.body {
+            Body::Linear(element) => {
+                element.outline(&Geometry { nodes: &places, frame: self.frame, tension: 0.0 })
+            }
+            Body::Constraint(constraint) => constraint.outline(&places),
+            Body::Link(..) => None,
+        };
+        outline?.checked(places.len())
+    }
 }
 
 impl Model {

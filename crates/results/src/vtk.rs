@@ -4,6 +4,7 @@ use crate::{FileError, Frame, Frames};
 use std::collections::BTreeSet;
 use std::fmt::Write;
 use std::path::Path;
+use trilith_element::Vector3;
 use trilith_model::{Body, Model};
 
 /// The folder of the frames.
@@ -60,16 +61,30 @@ pub(crate) fn is_frame(name: &str) -> bool {
 /// Everything of a `.vtu` file that does not change in time: points and cells.
 struct Mesh {
     nodes: usize,
+    /// Points of outlines, behind the nodes: the node that each goes with, and its place from there, m.
+    corners: Vec<(usize, Vector3)>,
     xml: String,
 }
 
 fn mesh(model: &Model) -> Mesh {
-    let lines = lines(model);
+    let mut lines = lines(model);
     let nodes = model.nodes.len();
+    let mut corners: Vec<(usize, Vector3)> = Vec::new();
+    for e in &model.elements {
+        let Some(outline) = e.outline(&model.nodes) else { continue };
+        let first = nodes + corners.len();
+        corners.extend(outline.points.iter().map(|(node, r)| (e.nodes[*node], *r)));
+        let edges = outline.paths.iter().flat_map(|path| path.windows(2));
+        lines.extend(edges.map(|two| (first + two[0], first + two[1])));
+    }
     let mut xml = String::from("<Points>\n");
     array(&mut xml, "Float64", "points", 3, |s| {
         for n in &model.nodes {
             let [x, y, z] = n.position;
+            line(s, format_args!("{x:?} {y:?} {z:?}"));
+        }
+        for (node, r) in &corners {
+            let [x, y, z] = [0, 1, 2].map(|i| model.nodes[*node].position[i] + r[i]);
             line(s, format_args!("{x:?} {y:?} {z:?}"));
         }
     });
@@ -88,16 +103,18 @@ fn mesh(model: &Model) -> Mesh {
     });
     xml.push_str("</Cells>\n");
     let head = format!(
-        "<Piece NumberOfPoints=\"{nodes}\" NumberOfCells=\"{}\">\n{xml}",
+        "<Piece NumberOfPoints=\"{}\" NumberOfCells=\"{}\">\n{xml}",
+        nodes + corners.len(),
         nodes + lines.len()
     );
-    Mesh { nodes, xml: head }
+    Mesh { nodes, corners, xml: head }
 }
 
-/// Pairs of nodes to be drawn as a line: two-node members, and what leads and follows in constraints.
+/// Pairs of nodes to be drawn as a line: two-node members, and what leads and follows in constraints; not of those that
+/// say what they look like.
 fn lines(model: &Model) -> BTreeSet<(usize, usize)> {
     let mut lines = BTreeSet::new();
-    for e in &model.elements {
+    for e in model.elements.iter().filter(|e| e.outline(&model.nodes).is_none()) {
         match &e.body {
             Body::Constraint(constraint) => {
                 let positions: Vec<_> = e.nodes.iter().map(|n| model.nodes[*n].position).collect();
@@ -130,10 +147,26 @@ fn text(mesh: &Mesh, frame: &Frame) -> String {
                     line(s, format_args!("{x:?} {y:?} {z:?}"));
                 }
             }
+            for (node, r) in &mesh.corners {
+                let of = |start: usize| frame.displacements.get(6 * node + start..).map(first);
+                let (Some(u), Some(turn)) = (of(0), of(3)) else { continue };
+                let [x, y, z] = if start == 0 { carried(u, turn, *r) } else { turn };
+                line(s, format_args!("{x:?} {y:?} {z:?}"));
+            }
         });
     }
     xml.push_str("</PointData>\n</Piece>\n</UnstructuredGrid>\n</VTKFile>\n");
     xml
+}
+
+/// Displacement of a point at a distance from a node that moves and turns: u + θ × r.
+fn carried(u: [f32; 3], turn: [f32; 3], r: Vector3) -> [f32; 3] {
+    let [x, y, z] = r.map(|x| x as f32);
+    [
+        u[0] + turn[1] * z - turn[2] * y,
+        u[1] + turn[2] * x - turn[0] * z,
+        u[2] + turn[0] * y - turn[1] * x,
+    ]
 }
 
 fn first(u: &[f32]) -> [f32; 3] {

@@ -10,8 +10,8 @@
 use serde::Deserialize;
 use trilith_element::dimension::NONE;
 use trilith_element::{
-    Card, Category, Constraint, Default, Described, Dof, Equation, Exercise, Form, NodeCount,
-    Parameter, ParameterError, Range, Vector3,
+    Card, Category, Constraint, Default, Described, Dof, Equation, Exercise, Form, NodalOutline,
+    NodeCount, Parameter, ParameterError, Range, Vector3, norm, sub,
 };
 
 const NAMES: &[&str] = &["Ux", "Uy", "Uz", "Rx", "Ry", "Rz"];
@@ -62,5 +62,29 @@ impl Constraint for Gearing {
         let at = NAMES.iter().position(|name| *name == self.dof).unwrap_or(0);
         let dof = Dof::ALL[at];
         Ok(vec![Equation { dependent: (1, dof), terms: vec![((0, dof), self.ratio)] }])
+    }
+
+    /// Two wheels that touch, for rotations about an axis square to the line between their nodes.
+    fn outline(&self, nodes: &[Vector3]) -> Option<NodalOutline> {
+        let [first, second] = nodes else { return None };
+        let axis = NAMES.iter().position(|name| *name == self.dof)?.checked_sub(3)?;
+        let apart = sub(*second, *first);
+        let distance = norm(apart);
+        if distance == 0.0 || apart[axis].abs() > 1e-9 * distance {
+            return None;
+        }
+        // r₁ θ₁ = r₂ |θ₂|.
+        let share = self.ratio.abs() / (1.0 + self.ratio.abs());
+        let wheel = |radius: f64| -> Vec<Vector3> {
+            let corner = |i: u32| {
+                let (sin, cos) = (f64::from(i) * std::f64::consts::TAU / 24.0).sin_cos();
+                let mut at = [0.0; 3];
+                (at[(axis + 1) % 3], at[(axis + 2) % 3]) = (radius * cos, radius * sin);
+                at
+            };
+            (0..24).map(corner).collect()
+        };
+        let wheels = [wheel(share * distance), wheel((1.0 - share) * distance)];
+        Some(NodalOutline::default().and_face(0, &wheels[0]).and_face(1, &wheels[1]))
     }
 }

@@ -11,8 +11,8 @@
 use serde::Deserialize;
 use trilith_element::dimension::{AREA, STRESS};
 use trilith_element::{
-    Card, Category, Described, Dof, ElementMatrices, Exercise, Geometry, LinearElement, NodeCount,
-    Parameter, ParameterError, Range,
+    Card, Category, Described, Dof, ElementMatrices, Exercise, Geometry, LinearElement,
+    NodalOutline, NodeCount, Parameter, ParameterError, Range, Vector3,
 };
 
 /// Bar with axial force only. The fields are the parameters of model files.
@@ -76,6 +76,18 @@ impl LinearElement for TaperedBar {
             }
         }
         Ok(out)
+    }
+
+    /// True to scale, as if its sections were squares.
+    fn outline(&self, at: &Geometry<'_>) -> Option<NodalOutline> {
+        let [_, second, third] = at.frame.0;
+        let square = |area: f64| -> [Vector3; 4] {
+            let half = 0.5 * area.sqrt();
+            [(1.0, 1.0), (-1.0, 1.0), (-1.0, -1.0), (1.0, -1.0)]
+                .map(|(a, b)| [0, 1, 2].map(|i| half * (a * second[i] + b * third[i])))
+        };
+        let ends = [square(self.area1), square(self.area2)];
+        Some(NodalOutline::default().and_prism([0, 1], [&ends[0], &ends[1]]))
     }
 }
 

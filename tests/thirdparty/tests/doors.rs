@@ -203,3 +203,82 @@ fn a_gearing_carries_a_spring_over_by_the_square_of_its_ratio() {
     let held = text.replace("ratio: -3", "ratio: 0");
     assert!(errors(&held, &kinds()).contains("write a support"));
 }
+
+/// A bar that is pulled, and gears whose wheels turn.
+const DRAWN: &str = r#"(
+    nodes: { "a": (0, 0, 0), "b": (2, 0, 0), "motor": (0, 1, 0), "wheel": (0, 1.5, 0) },
+    supports: {
+        "a": Fixed, "b": (Uy, Uz, Rx, Ry, Rz),
+        "motor": (Ux, Uy, Uz, Ry, Rz), "wheel": (Ux, Uy, Uz, Ry, Rz),
+    },
+    elements: {
+        "bar": TaperedBar(nodes: ("a", "b"), modulus: "200 GPa", area1: "16 cm^2", area2: "36 cm^2"),
+        "gears": Gearing(nodes: ("motor", "wheel"), dof: Rx, ratio: -0.25),
+        "mass": Mass(node: "b", mass: "1 t"),
+        "rotor": Mass(node: "wheel", mass: 1, inertia: (1, 1, 1)),
+    },
+    functions: { "on": Constant(value: 1) },
+    loads: { "drive": [(node: "motor", dof: Rx, moment: 0.01), (node: "b", dof: Ux, force: "1 MN")] },
+    cases: { "drive": Dynamic(duration: "1 s", dt: "10 ms", forces: [(load: "drive", function: "on")]) },
+    outputs: { "turn": Displacement(node: "motor", dof: Rx) },
+)"#;
+
+/// Rows of three numbers of an array of a `.vtu` file.
+fn rows(vtu: &str, name: &str) -> Vec<[f64; 3]> {
+    let at = vtu.find(&format!("Name=\"{name}\"")).expect("an array");
+    let lines = vtu[at..].lines().skip(1).take_while(|line| !line.contains('<'));
+    let row = |line: &str| {
+        let all: Vec<f64> = line.split(' ').map(|x| x.parse().expect("a number")).collect();
+        [all[0], all[1], all[2]]
+    };
+    lines.map(row).collect()
+}
+
+#[test]
+fn an_element_and_a_constraint_look_as_they_say() {
+    let folder = std::env::temp_dir().join(format!("trilith-drawn-{}", std::process::id()));
+    std::fs::create_dir_all(&folder).expect("a folder");
+    std::fs::write(folder.join("drawn.ron"), DRAWN).expect("written");
+    let mut command = std::process::Command::new(env!("CARGO_BIN_EXE_trilith-thirdparty-example"));
+    let done = command.current_dir(&folder).args(["run", "drawn.ron", "--out", "out"]).output();
+    let done = done.expect("the program");
+    assert!(done.status.success(), "{}", String::from_utf8_lossy(&done.stderr));
+    let read = |name: &str| std::fs::read_to_string(folder.join("out").join(name)).expect("a file");
+    // Nodes, corners of the bar, two wheels of 24 corners.
+    let last = (0..)
+        .map(|i| format!("frames/{i:04}.vtu"))
+        .take_while(|f| folder.join("out").join(f).exists());
+    let vtu = read(&last.last().expect("frames"));
+    let (points, moved) = (rows(&vtu, "points"), rows(&vtu, "displacement"));
+    assert_eq!((points.len(), moved.len()), (4 + 8 + 48, 4 + 8 + 48));
+    let close = |a: f64, b: f64| (a - b).abs() < 1e-6 * b.abs().max(1e-3);
+    // Squares of 4 cm at one end and 6 cm at the other, which go with their nodes.
+    for (corner, node, half) in [(4, 0, 0.02), (8, 1, 0.03)] {
+        for i in corner..corner + 4 {
+            let [x, y, z] = points[i];
+            assert!(
+                close(x, points[node][0]) && close(y.abs(), half) && close(z.abs(), half),
+                "{:?}",
+                points[i]
+            );
+            assert_eq!(moved[i], moved[node]);
+        }
+    }
+    // Where the wheels touch, both go the same way.
+    let (one, other) = (12, 12 + 24 + 12);
+    assert!((0..3).all(|i| close(points[one][i], [0.0, 1.1, 0.0][i])), "{:?}", points[one]);
+    assert!((0..3).all(|i| close(points[other][i], points[one][i])), "{:?}", points[other]);
+    assert!(
+        close(moved[one][2], moved[other][2]) && moved[one][2].abs() > 1e-4,
+        "{:?}",
+        moved[one]
+    );
+    // The page has the same: faces of both, and no line from node to node.
+    let page = read("report.json");
+    for (what, faces) in [("bar (TaperedBar)", 2), ("gears (Gearing)", 2)] {
+        let found = page.matches(&format!("\"name\":\"{what}\",\"corners\"")).count();
+        assert_eq!(found, faces, "{what}");
+    }
+    assert!(!page.contains("\"name\":\"gears (Gearing)\",\"what\""));
+    let _ = std::fs::remove_dir_all(&folder);
+}

@@ -3,7 +3,7 @@
 use super::data::{FaceMark, Family, LineKind, LineMark, LinkMark, NodeMark, Picture};
 use super::thin_frame::joined;
 use std::collections::{BTreeMap, BTreeSet};
-use trilith_element::{Contact, Dof, Kinematics, Link, Outline, Vector3};
+use trilith_element::{Contact, Dof, Kinematics, Link, NodalOutline, Vector3};
 use trilith_model::{Body, Element, Model, Plane};
 
 /// Nodes drawn one by one; of larger models members that were cut into elements are one line.
@@ -48,7 +48,7 @@ impl Sketch {
         let note = build.members();
         for e in &model.elements {
             match &e.body {
-                Body::Linear(_) => {}
+                Body::Linear(_) => build.shape(e),
                 Body::Constraint(c) => build.constraint(e, c.as_ref()),
                 Body::Link(law, _) => build.link(e, law.as_ref()),
             }
@@ -114,7 +114,9 @@ impl Builder<'_> {
     fn members(&mut self) -> Option<String> {
         let model = self.model;
         let member = |(i, e): (usize, &Element)| match (&e.body, &e.nodes[..]) {
-            (Body::Linear(_), [a, b]) if a != b => Some((i, [*a, *b])),
+            (Body::Linear(_), [a, b]) if a != b && self.outlined(e).is_none() => {
+                Some((i, [*a, *b]))
+            }
             _ => None,
         };
         let mut lines: Vec<_> = model.elements.iter().enumerate().filter_map(member).collect();
@@ -145,9 +147,9 @@ impl Builder<'_> {
         self.picture.lines.push(LineMark { name: title(e), what, ends });
     }
 
-    /// The points of an outline as faces and lines.
-    fn outline(&mut self, e: &Element, outline: &Outline, first: usize) {
-        for path in &outline.paths {
+    /// The points of an outline, which begin at `first`, as faces and lines.
+    fn paths(&mut self, e: &Element, paths: &[Vec<usize>], first: usize) {
+        for path in paths {
             let at: Vec<usize> = path.iter().map(|i| first + i).collect();
             match at.split_last() {
                 Some((end, corners)) if corners.len() > 2 && corners[0] == *end => {
@@ -158,16 +160,28 @@ impl Builder<'_> {
         }
     }
 
-    fn constraint(&mut self, e: &Element, constraint: &dyn trilith_element::Constraint) {
-        let places: Vec<_> = e.nodes.iter().map(|n| self.model.nodes[*n].position).collect();
-        if let (Some(outline), Some(lead)) = (constraint.outline(&places), e.nodes.first()) {
-            let first = self.movers.len();
-            for r in &outline.points {
-                self.add(sum(places[0], *r), Mover::Lever(*lead, *r));
-            }
-            self.outline(e, &outline, first);
-            return;
+    /// What an element or a constraint says that it looks like, in models whose nodes are drawn one by one.
+    fn outlined(&self, e: &Element) -> Option<NodalOutline> {
+        let all = matches!(e.body, Body::Constraint(_)) || self.model.nodes.len() <= NODES;
+        e.outline(&self.model.nodes).filter(|_| all)
+    }
+
+    /// Draws what an element or a constraint says that it looks like.
+    fn shape(&mut self, e: &Element) {
+        let Some(NodalOutline { points, paths }) = self.outlined(e) else { return };
+        let first = self.movers.len();
+        for (node, r) in points {
+            let node = e.nodes[node];
+            self.add(sum(self.model.nodes[node].position, r), Mover::Lever(node, r));
         }
+        self.paths(e, &paths, first);
+    }
+
+    fn constraint(&mut self, e: &Element, constraint: &dyn trilith_element::Constraint) {
+        if self.outlined(e).is_some() {
+            return self.shape(e);
+        }
+        let places: Vec<_> = e.nodes.iter().map(|n| self.model.nodes[*n].position).collect();
         if self.model.nodes.len() > NODES {
             return;
         }
@@ -197,7 +211,7 @@ impl Builder<'_> {
                 self.add(sum(base, *r), Mover::Outline(*lead, self.outlined, *r));
                 self.outlined += 1;
             }
-            self.outline(e, &outline, first);
+            self.paths(e, &outline.paths, first);
         }
         let family = family(law, &rest, &at);
         let (name, kind) = (e.name.clone(), e.kind.to_owned());
