@@ -141,6 +141,17 @@ const OTHERS: &[&str] = &[
     "Name",
     "Kind",
     "error_relative",
+    "refused",
+    // of the contract of laws, and of the example of a third party
+    "refusal",
+    "respond",
+    "uses_rates",
+    "damping_constant",
+    "FileText",
+    "Contents",
+    "MeasuredSpring",
+    "slip",
+    "wrong_laws",
     // between comparisons
     "and",
     "or",
