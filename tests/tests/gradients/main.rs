@@ -60,6 +60,47 @@ impl Case {
         };
         self.around.iter().enumerate().map(of).collect()
     }
+
+    /// The same of the heat of every link, as share of the largest derivative of one.
+    fn heat_off(&self) -> Vec<(String, f64)> {
+        let of = |(j, around): (usize, &Around)| {
+            let [low, high] = [0, 1].map(|side| {
+                let model = &around.close[side];
+                let system = assemble(model).expect("a structure");
+                replay(model, &system, self.options, &self.found).expect("a run").heat
+            });
+            let h = 2.0 * SMALL * around.of.step;
+            let given = |l: usize| self.found.heat[l].by[j];
+            let all = 0..self.found.heat.len();
+            // A parameter that hardly moves the heat is told to the rounding of that heat.
+            let total = self.found.all_heat().0;
+            let most = all.clone().map(|l| given(l).abs()).fold(0.0, f64::max);
+            let most = most.max(1e-2 * total / around.of.value.abs());
+            let apart = |l: usize| (given(l) - (high[l] - low[l]) / h).abs();
+            (around.of.name.clone(), all.map(apart).fold(0.0, f64::max) / most)
+        };
+        self.around.iter().enumerate().map(of).collect()
+    }
+
+    /// Heat is that of a run.
+    fn has_the_heat_of_a_run(&self, model: &Model) {
+        let run = trilith::Analysis::new(model).expect("a structure");
+        let options = trilith::RunOptions {
+            case: self.options.case,
+            solver: self.options.solver,
+            ..trilith::RunOptions::default()
+        };
+        let run = run.run(options).expect("a run").result;
+        assert!(!run.link_energy.is_empty());
+        for (element, energy) in &run.link_energy {
+            let name = &model.elements[*element].name;
+            let own = self.found.heat.iter().find(|h| h.link == *name).expect("the link");
+            let heat = energy.hysteretic + energy.viscous;
+            assert!((own.heat - heat).abs() <= 1e-9 * heat.abs(), "{name}: {} {heat}", own.heat);
+        }
+        let sum = run.energy.link_hysteretic + run.energy.link_viscous;
+        assert!((self.found.all_heat().0 / sum - 1.0).abs() < 1e-9);
+    }
 }
 
 /// The isolated frame with links in equilibrium to rounding: differences of runs are no better than that.
@@ -86,6 +127,11 @@ fn the_isolated_frame_moves_as_runs_beside_it_do() {
             assert!(off < if asked { 1e-6 } else { 1e-4 }, "{} by {name}: {off:e}", output.name);
         }
     }
+    for (name, off) in case.heat_off() {
+        assert!(off < 1e-6, "heat by {name}: {off:e}");
+    }
+    let (registry, set) = (trilith::registry(), [("duration".to_owned(), "1.6 s".to_owned())]);
+    case.has_the_heat_of_a_run(&frame().read(&registry, &set).expect("a model"));
 }
 
 /// On the basis of the run, parameters of links and loads.
@@ -97,6 +143,9 @@ fn the_isolated_frame_moves_so_under_fna() {
         for (output, off) in case.found.outputs.iter().zip(off) {
             assert!(off < 1e-5, "{} by {name}: {off:e}", output.name);
         }
+    }
+    for (name, off) in case.heat_off() {
+        assert!(off < 1e-6, "heat by {name}: {off:e}");
     }
 }
 

@@ -1,16 +1,17 @@
 //! A run with its derivatives.
 
 use super::around::{Around, Assembled, Influence};
-use super::outputs::{Follower, Gradient, OutputGradient};
+use super::outputs::{Follower, Gradient, HeatGradient, OutputGradient};
 use super::replay::Step;
 use super::step::{Moves, Pieces};
 use crate::error::SolveError;
 use crate::march::{March, Moment, Moving, Stop, constant_force, jump, output_step};
-use crate::record::{Ledger, Outputs, needs_rates};
+use crate::record::{Ledger, LinkEnergy, Outputs, needs_rates};
 use crate::run::{Prepared, RunOptions, Setup, before};
 use crate::step::State;
+use std::sync::atomic::{AtomicBool, Ordering};
 use trilith_model::{Analysis, Model, SolverKind, StepControl};
-use trilith_system::System;
+use trilith_system::{LinkInstance, System};
 
 /// What to differentiate.
 #[derive(Clone, Copy, Debug, Default)]
@@ -69,6 +70,20 @@ pub fn gradient(
     options: GradientOptions,
     by: &[Around],
 ) -> Result<Gradient, SolveError> {
+    gradient_until(model, system, options, by, None)
+}
+
+/// The same; a flag ends it at the next output step once it is true.
+///
+/// # Errors
+/// As [`gradient`], and [`SolveError::Interrupted`].
+pub fn gradient_until(
+    model: &Model,
+    system: &System,
+    options: GradientOptions,
+    by: &[Around],
+    interrupt: Option<&AtomicBool>,
+) -> Result<Gradient, SolveError> {
     let prepared = prepare(model, system, options)?;
     let watched = needs_rates(model, system, true);
     let equations = prepared.equations(watched);
@@ -116,6 +131,10 @@ pub fn gradient(
     let mut moving = Moving { state: Box::new(state), control, ledger };
     let mut failed = None;
     for step in 0..timeline.steps {
+        if interrupt.is_some_and(|flag| flag.load(Ordering::Relaxed)) {
+            let (case, t) = (model.cases[options.case].name.clone(), timeline.time(step));
+            return Err(SolveError::Interrupted { case, t });
+        }
         let end = timeline.time(step + 1);
         let mut report = |moment: Moment, t: f64, state: &State, _: &Ledger| {
             let done = match moment {
@@ -148,6 +167,13 @@ pub fn gradient(
         }
     }
     found.bends = moves.bends();
+    let links = moving.ledger.links.iter().zip(moves.heat()).zip(&system.links.links);
+    let heat = |((energy, by), link): ((&LinkEnergy, &Vec<f64>), &LinkInstance)| HeatGradient {
+        link: model.elements[link.element].name.clone(),
+        heat: energy.hysteretic + energy.viscous,
+        by: by.clone(),
+    };
+    found.heat = links.map(heat).collect();
     Ok(found)
 }
 

@@ -24,11 +24,15 @@ pub(super) struct LawMoves<'a> {
     most: [Vec<f64>; 3],
     /// Values of the parameters.
     values: Vec<f64>,
+    /// Derivatives of the heat of every link so far, by each parameter, J over the parameter.
+    heat: Vec<Vec<f64>>,
     work: Work,
 }
 
 /// How one law moves.
 struct LinkMoves<'a> {
+    /// Index among the links.
+    index: usize,
     law: &'a dyn Link,
     link: &'a LinkInstance,
     form: Form<'a>,
@@ -79,6 +83,7 @@ impl<'a> LawMoves<'a> {
         start: &State,
     ) -> Self {
         let moves = |l: usize, law: &'a dyn Link, link: &'a LinkInstance| LinkMoves {
+            index: l,
             law,
             link,
             form: lanes(links, l, law, link, by)
@@ -90,6 +95,7 @@ impl<'a> LawMoves<'a> {
             links: all.collect(),
             most: [vec![0.0; links.len()], vec![0.0; links.len()], vec![0.0; links.history_len]],
             values: by.iter().map(|by| by.around.of.value).collect(),
+            heat: vec![vec![0.0; by.len()]; links.links.len()],
             work: Work::default(),
         };
         it.see(start);
@@ -104,8 +110,13 @@ impl<'a> LawMoves<'a> {
         }
     }
 
+    /// Derivatives of the heat of every link so far, by each parameter.
+    pub(super) fn heat(&self) -> &[Vec<f64>] {
+        &self.heat
+    }
+
     /// Forces at the end of a substep along the moves at its start, those of deformation and rate at its end that are in `next`
-    /// already, and the parameters; with `whole`, the histories as well.
+    /// already, and the parameters; with `whole`, the histories as well, and the heat is entered.
     pub(super) fn along(
         &mut self,
         made: Made<'_>,
@@ -113,25 +124,30 @@ impl<'a> LawMoves<'a> {
         next: &mut [State],
         whole: bool,
     ) {
-        let Self { links, most, values, work } = self;
+        let Self { links, most, values, heat, work } = self;
         for one in links {
+            let heat = &mut heat[one.index];
             match &one.form {
                 Form::Lanes { law, at, rate, parameters, by } => {
                     let count = moves.len();
                     for first in (0..count).step_by(DIRECTIONS) {
                         let some = first..(first + DIRECTIONS).min(count);
                         let by = &by[some.clone()];
-                        let ends = (&moves[some.clone()], &mut next[some]);
+                        let ends = (&moves[some.clone()], &mut next[some.clone()]);
                         let asked = (&**law, &at[..], *rate, &parameters[..], by);
-                        by_duals(asked, one.link, made, ends, whole, work);
+                        let more = by_duals(asked, one.link, made, ends, whole, work);
+                        if whole {
+                            heat[some].iter_mut().zip(more.by).for_each(|(h, x)| *h += x);
+                        }
                     }
                 }
                 Form::Values(sides) => {
                     let all = sides.iter().zip(moves).zip(&mut *next);
-                    for (((sides, moves), next), value) in all.zip(&*values) {
+                    let all = all.zip(&*values).zip(heat);
+                    for ((((sides, moves), next), value), heat) in all {
                         let ends = (moves, next);
                         let least = LEAST * value.abs();
-                        by_values(
+                        let more = by_values(
                             one,
                             sides.as_ref(),
                             made,
@@ -139,6 +155,9 @@ impl<'a> LawMoves<'a> {
                             (most, least),
                             &mut work.response,
                         );
+                        if whole {
+                            *heat += more;
+                        }
                     }
                 }
             }
@@ -212,7 +231,7 @@ fn sides<'a>(l: usize, by: &Influence<'a>) -> Option<([&'a dyn Link; 2], f64)> {
 
 type Asked<'a> = (&'a ErasedLaw, &'a [usize], bool, &'a [f64], &'a [Vec<f64>]);
 
-/// In dual numbers.
+/// In dual numbers. The heat of the substep.
 fn by_duals(
     (law, at, rate, parameters, by): Asked<'_>,
     link: &LinkInstance,
@@ -220,7 +239,7 @@ fn by_duals(
     (moves, next): (&[State], &mut [State]),
     whole: bool,
     work: &mut Work,
-) {
+) -> Directions {
     let flat = |i: &usize| link.range.start + i;
     let dual = |x: f64, by: &dyn Fn(usize) -> f64| {
         let mut it = Dual::constant(x);
@@ -261,7 +280,9 @@ fn by_duals(
     let Work { parameters, d, v, d0, v0, history, trial, f, k, c, .. } = work;
     let dt = Dual::constant(dt);
     let mut links = LaneLinks { parameters, d, v, d0, v0, dt, history, trial, f, k, c };
-    law.derivative(&mut links, &mut [LaneStep::elastic(zero)]);
+    let mut did = [LaneStep::elastic(zero)];
+    law.derivative(&mut links, &mut did);
+    let [did] = did;
     for (j, next) in next.iter_mut().enumerate() {
         next.f[link.range.clone()].fill(0.0);
         for (i, f) in at.iter().zip(&work.f) {
@@ -272,9 +293,10 @@ fn by_duals(
             trial.for_each(|(to, x)| *to = x.by[j]);
         }
     }
+    did.hysteretic + did.viscous
 }
 
-/// By differences.
+/// By differences. The derivative of the heat of the substep.
 fn by_values(
     one: &LinkMoves<'_>,
     sides: Option<&([&dyn Link; 2], f64)>,
@@ -282,7 +304,7 @@ fn by_values(
     (moves, next): (&State, &mut State),
     (most, least): (&[Vec<f64>; 3], f64),
     response: &mut LawResponse,
-) {
+) -> f64 {
     let LinkMoves { law, link, .. } = one;
     let (r, h) = (link.range.clone(), link.history.clone());
     let [most_d, most_v, most_h] = most;
@@ -309,6 +331,7 @@ fn by_values(
     let plus = |x: &[f64], by: &[f64], s: f64| -> Vec<f64> {
         x.iter().zip(by).map(|(x, by)| if *by == 0.0 { *x } else { x + s * by }).collect()
     };
+    let mut heat = 0.0;
     let mut ask = |law: &dyn Link, s: f64, weight: f64| {
         let d = plus(&to.d[r.clone()], &d, s);
         let v = plus(&to.v[r.clone()], &v, s);
@@ -321,6 +344,7 @@ fn by_values(
         f.for_each(|(to, x)| *to += weight * x);
         let trial = next.history[h.clone()].iter_mut().zip(&response.history);
         trial.for_each(|(to, x)| *to += weight * x);
+        heat += weight * (response.energy.hysteretic + response.energy.viscous);
     };
     if most_share > 0.0 {
         let step = (ALONG / most_share).max(least);
@@ -332,4 +356,5 @@ fn by_values(
         ask(*low, 0.0, -1.0 / apart);
         ask(*high, 0.0, 1.0 / apart);
     }
+    heat
 }

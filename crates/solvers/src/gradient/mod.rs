@@ -42,6 +42,6 @@ mod step;
 
 pub use around::{Around, OFFSETS, SMALL, Varied};
 pub use bends::Bend;
-pub use course::{GradientOptions, gradient};
-pub use outputs::{Extreme, Gradient, OutputGradient};
+pub use course::{GradientOptions, gradient, gradient_until};
+pub use outputs::{Extreme, Gradient, HeatGradient, OutputGradient};
 pub use replay::{Replay, replay};

@@ -17,12 +17,37 @@ pub struct Gradient {
     pub time: Vec<f64>,
     /// The outputs, in the order of the model.
     pub outputs: Vec<OutputGradient>,
+    /// What the links have turned into heat until the end, in the order of the model.
+    pub heat: Vec<HeatGradient>,
     /// Substeps that were accepted.
     pub substeps: usize,
     /// Links whose laws bend where substeps of the run have ended: what they do to derivatives is that of one side.
     pub bends: Vec<super::Bend>,
     /// What the steps were, for runs over the same ones.
     pub(super) steps: Vec<super::replay::Step>,
+}
+
+impl Gradient {
+    /// What all links together have turned into heat until the end, J, and its derivatives by each parameter.
+    #[must_use]
+    pub fn all_heat(&self) -> (f64, Vec<f64>) {
+        let mut by = vec![0.0; self.parameters.len()];
+        for link in &self.heat {
+            by.iter_mut().zip(&link.by).for_each(|(sum, x)| *sum += x);
+        }
+        (self.heat.iter().map(|link| link.heat).sum(), by)
+    }
+}
+
+/// What a link has turned into heat until the end of a run.
+#[derive(Clone, Debug, PartialEq)]
+pub struct HeatGradient {
+    /// Name of the link.
+    pub link: String,
+    /// Heat of friction, yielding and rate-dependent forces, J: `link_energy` of the summary, hysteretic and viscous together.
+    pub heat: f64,
+    /// Its derivatives by each parameter.
+    pub by: Vec<f64>,
 }
 
 /// Derivatives of an output.

@@ -25,6 +25,8 @@ pub struct Replay {
     pub histories: Vec<Vec<f64>>,
     /// Of each output, what it has where the other run had its largest and its smallest value.
     pub extremes: Vec<[f64; 2]>,
+    /// What every link has turned into heat until the end, J.
+    pub heat: Vec<f64>,
 }
 
 /// Runs a model over the steps of a run of another one that differs in its parameters: what comes out is as smooth in
@@ -46,7 +48,9 @@ pub fn replay(
     let mut found = Replay {
         histories: vec![Vec::new(); values.len()],
         extremes: vec![[0.0; 2]; values.len()],
+        heat: Vec::new(),
     };
+    let mut heat = vec![0.0; system.links.links.len()];
     let mut see = |t: f64, count: usize, state: &State, whole: bool| {
         outputs.at((t, Side::Before), state, &prepared.loads).values(&mut values);
         for (o, x) in values.iter().enumerate() {
@@ -82,11 +86,14 @@ pub fn replay(
                         "beside the value of a parameter there is no equilibrium at t = {t:.6} s over a step of the run"
                     ),
                 })?;
+                let did = energy.links.iter().map(|e| e.hysteretic + e.viscous);
+                heat.iter_mut().zip(did).for_each(|(h, x)| *h += x);
                 std::mem::swap(&mut state, &mut next);
                 (at, count) = (t, count + 1);
                 see(t, count, &state, output);
             }
         }
     }
+    found.heat = heat;
     Ok(found)
 }

@@ -112,6 +112,11 @@ impl<'a> Moves<'a> {
         &self.now
     }
 
+    /// Derivatives of the heat of every link so far, by each parameter.
+    pub(super) fn heat(&self) -> &[Vec<f64>] {
+        self.laws.heat()
+    }
+
     /// Links whose laws have bent where substeps ended.
     pub(super) fn bends(&self) -> Vec<Bend> {
         self.bends.told(self.model, self.links)

@@ -3,13 +3,14 @@
 use trilith_element::{Energy, Kinematics, Link, Response};
 use trilith_system::{LinkInstance, blaming};
 
-/// Forces, tangents and history of one link, kept so that an evaluation allocates nothing.
+/// Forces, tangents, history and energies of one link, kept so that an evaluation allocates nothing.
 #[derive(Default)]
 pub(crate) struct LawResponse {
     pub f: Vec<f64>,
     pub k: Vec<f64>,
     pub c: Vec<f64>,
     pub history: Vec<f64>,
+    pub energy: Energy,
     /// What a law that does not look at rates gets for them.
     none: Vec<f64>,
 }
@@ -23,7 +24,8 @@ impl LawResponse {
         committed: &[f64],
     ) {
         let n = at.d.len();
-        let Self { f, k, c, history, none } = self;
+        let Self { f, k, c, history, energy, none } = self;
+        *energy = Energy::default();
         for (x, n) in [(&mut *f, n), (&mut *k, n * n), (&mut *c, n * n)] {
             x.clear();
             x.resize(n, 0.0);
@@ -36,7 +38,7 @@ impl LawResponse {
             none.resize(n, f64::NAN);
             (at.v, at.v0) = (&none[..], &none[..]);
         }
-        let out = &mut Response { f, k, c, energy: &mut Energy::default() };
+        let out = &mut Response { f, k, c, energy };
         blaming(link.element, || law.respond(&at, committed, history, out));
     }
 }
