@@ -1,13 +1,14 @@
 //! `trilith gradient`: derivatives of outputs by parameters.
 
 use crate::args::GradientArguments;
+use crate::interrupt::INTERRUPTED;
 use crate::text::{names_help, number, row, table};
 use crate::{Answer, Failure, case, diagnostics, names, solver};
 use serde::Serialize;
 use trilith::gradient::{GradientError, Wanted, gradient as find};
-use trilith::model::{ModelText, ParameterValue, visible_line};
+use trilith::model::{Body, ModelText, ParameterValue, visible_line};
 use trilith::solvers::gradient::{Bend, Extreme, Gradient};
-use trilith::{Model, Registry};
+use trilith::{Error, Model, Registry};
 
 /// What is told of an output.
 const VALUES: [&str; 4] = ["max", "min", "peak", "final"];
@@ -26,7 +27,7 @@ struct Derivative<'a> {
 /// One value of an output with its derivatives.
 #[derive(Serialize)]
 struct Row<'a> {
-    output: &'a str,
+    output: String,
     what: &'static str,
     unit: &'a str,
     value: f64,
@@ -35,8 +36,9 @@ struct Row<'a> {
     by: Vec<Derivative<'a>>,
 }
 
+/// All that is told.
 #[derive(Serialize)]
-struct Told<'a> {
+pub(crate) struct Told<'a> {
     case: &'a str,
     substeps: usize,
     derivatives: Vec<Row<'a>>,
@@ -62,7 +64,7 @@ pub(crate) fn gradient(registry: &Registry, args: &GradientArguments) -> Result<
     let chosen = case(&model, args.case.as_deref())?;
     let named = args.solver.as_deref().map(|name| solver(&model, chosen, name));
     let solver = named.transpose()?;
-    let outputs = outputs(&model, &names::flat(&args.of))?;
+    let asked = asked(&model, &names::flat(&args.of))?;
     let wanted = Wanted {
         case: Some(model.cases[chosen].name.clone()),
         solver,
@@ -71,17 +73,33 @@ pub(crate) fn gradient(registry: &Registry, args: &GradientArguments) -> Result<
         set: args.model.set.clone(),
     };
     let found = find(&text, registry, &wanted).map_err(|e| failure(e, &model))?;
-    let told = Told {
-        case: &model.cases[chosen].name,
-        substeps: found.substeps,
-        bends: bends(&found),
-        derivatives: outputs.iter().flat_map(|o| rows(&model, &found, *o)).collect(),
-    };
+    let told = told(&model, &model.cases[chosen].name, &found, &asked);
     if args.json {
         let text = serde_json::to_string_pretty(&told).unwrap_or_default();
         return Ok((text + "\n").into());
     }
     Ok(page(&model, &told).into())
+}
+
+/// What is told of these.
+pub(crate) fn told<'a>(
+    model: &'a Model,
+    case: &'a str,
+    found: &'a Gradient,
+    asked: &[Asked],
+) -> Told<'a> {
+    Told {
+        case,
+        substeps: found.substeps,
+        bends: bends(found),
+        derivatives: asked
+            .iter()
+            .flat_map(|asked| match asked {
+                Asked::Output(output) => rows(model, found, *output),
+                Asked::Heat(element) => vec![heat(model, found, *element)],
+            })
+            .collect(),
+    }
 }
 
 fn bends(found: &Gradient) -> Vec<Bent<'_>> {
@@ -90,27 +108,57 @@ fn bends(found: &Gradient) -> Vec<Bent<'_>> {
     all.map(|(link, (t, substeps))| Bent { link, t, substeps }).collect()
 }
 
-/// Indices of the outputs of these names; all that are shown where none are given.
-fn outputs(model: &Model, wanted: &[String]) -> Result<Vec<usize>, Failure> {
-    if model.outputs.is_empty() {
-        let help = "give the model `outputs`: there are derivatives of these";
+/// What derivatives are told of.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Asked {
+    /// The output of this index.
+    Output(usize),
+    /// The heat of the link that is the element of this index; of all links together.
+    Heat(Option<usize>),
+}
+
+/// The name of what all links together turn into heat, and the beginning of that of one.
+pub(crate) const HEAT: &str = "heat";
+const HEAT_OF: &str = "heat of ";
+
+/// Outputs and heats of these names; all outputs that are shown where none are given.
+fn asked(model: &Model, wanted: &[String]) -> Result<Vec<Asked>, Failure> {
+    if wanted.is_empty() && model.outputs.is_empty() {
+        let help = "give the model `outputs`: there are derivatives of these, and with `--of heat` of the heat of links";
         return Err(Failure::input("the model has no output", Some(help)));
     }
     if wanted.is_empty() {
-        return Ok(model.shown().map(|(i, _)| i).collect());
+        return Ok(model.shown().map(|(i, _)| Asked::Output(i)).collect());
     }
     let of = |name: &String| {
-        model.outputs.iter().position(|o| o.name == *name).ok_or_else(|| {
-            let all = model.outputs.iter().map(|o| o.name.as_str());
-            let help = names::help(name, "outputs", "--of", all);
-            Failure::input(&format!("there is no output \"{name}\""), Some(&help))
-        })
+        if let Some(output) = model.outputs.iter().position(|o| o.name == *name) {
+            return Ok(Asked::Output(output));
+        }
+        let mut links =
+            model.elements.iter().enumerate().filter(|(_, e)| matches!(e.body, Body::Link(..)));
+        if name == HEAT {
+            return Ok(Asked::Heat(None));
+        }
+        if let Some(link) = name.strip_prefix(HEAT_OF) {
+            if let Some((element, _)) = links.clone().find(|(_, e)| e.name == link) {
+                return Ok(Asked::Heat(Some(element)));
+            }
+            let help = names::help(link, "links", "--of", links.map(|(_, e)| e.name.as_str()));
+            return Err(Failure::input(&format!("there is no link \"{link}\""), Some(&help)));
+        }
+        let all = model.outputs.iter().map(|o| o.name.as_str());
+        let heat = links.next().map(|_| HEAT);
+        let help = names::help(name, "outputs", "--of", all.chain(heat));
+        Err(Failure::input(&format!("there is no output \"{name}\""), Some(&help)))
     };
     wanted.iter().map(of).collect()
 }
 
-fn failure(error: GradientError, model: &Model) -> Failure {
+pub(crate) fn failure(error: GradientError, model: &Model) -> Failure {
     match &error {
+        GradientError::Run(e @ Error::Interrupted) => {
+            Failure { text: diagnostics::plain(&e.to_string(), None), status: INTERRUPTED }
+        }
         GradientError::Run(e) => Failure::of(e, model),
         GradientError::Model(all) => Failure::diagnostics(all),
         GradientError::UnknownParameter { name, .. } => {
@@ -133,7 +181,7 @@ fn rows<'a>(model: &'a Model, found: &'a Gradient, output: usize) -> Vec<Row<'a>
     let end = Extreme { t: found.time.last().copied().unwrap_or(0.0), step: 0, value: last, by };
     let all = [of.max.clone(), of.min.clone(), of.peak(), end];
     let row = |(what, at): (&'static str, Extreme)| Row {
-        output: &model.outputs[output].name,
+        output: model.outputs[output].name.clone(),
         what,
         unit: &model.outputs[output].unit,
         value: at.value,
@@ -141,6 +189,23 @@ fn rows<'a>(model: &'a Model, found: &'a Gradient, output: usize) -> Vec<Row<'a>
         by: (0..found.parameters.len()).map(|j| derivative(model, found, j, &at)).collect(),
     };
     VALUES.into_iter().zip(all).map(row).collect()
+}
+
+/// What a link, or all of them, have turned into heat until the end.
+fn heat<'a>(model: &'a Model, found: &'a Gradient, element: Option<usize>) -> Row<'a> {
+    let name = element.map(|e| &model.elements[e].name);
+    let link = name.and_then(|name| found.heat.iter().find(|h| h.link == *name));
+    let (value, by) = link.map_or_else(|| found.all_heat(), |h| (h.heat, h.by.clone()));
+    let t = found.time.last().copied().unwrap_or(0.0);
+    let at = Extreme { t, step: 0, value, by };
+    Row {
+        output: name.map_or(HEAT.into(), |name| format!("{HEAT_OF}{name}")),
+        what: "final",
+        unit: "J",
+        value,
+        t,
+        by: (0..found.parameters.len()).map(|j| derivative(model, found, j, &at)).collect(),
+    }
 }
 
 fn derivative<'a>(model: &Model, found: &'a Gradient, j: usize, at: &Extreme) -> Derivative<'a> {
@@ -153,7 +218,8 @@ fn derivative<'a>(model: &Model, found: &'a Gradient, j: usize, at: &Extreme) ->
     Derivative { parameter: name, unit: unit.unwrap_or_default(), derivative, elasticity }
 }
 
-fn page(model: &Model, told: &Told<'_>) -> String {
+/// What the program prints.
+pub(crate) fn page(model: &Model, told: &Told<'_>) -> String {
     let mut out = format!("{}\n\n", visible_line(&model.title));
     out += &format!("derivatives of case \"{}\" over its {} substeps\n", told.case, told.substeps);
     let mut rows = vec![row(["output", "", "value", "by", "derivative", "", "% per %"])];
@@ -169,7 +235,7 @@ fn page(model: &Model, told: &Told<'_>) -> String {
             let elasticity = by.elasticity.map_or("–".into(), |e| format!("{e:+.4}"));
             let head = |text: &str| if first { text.to_owned() } else { String::new() };
             rows.push(vec![
-                head(one.output),
+                head(&one.output),
                 head(one.what),
                 head(&value),
                 by.parameter.to_owned(),

@@ -31,6 +31,7 @@ mod made_by;
 mod manual;
 mod modes;
 mod names;
+mod optimize;
 mod output;
 mod place;
 mod progress;
@@ -84,6 +85,7 @@ pub fn main_of(registry: Registry, arguments: impl IntoIterator<Item = OsString>
         Command::Compare(a) => compare::compare(&registry, &a),
         Command::Sweep(a) => sweep::sweep(&registry, &a),
         Command::Gradient(a) => gradient::gradient(&registry, &a),
+        Command::Optimize(a) => optimize::optimize(&registry, &a),
         Command::Generate(a) => generate::generate(a),
         Command::Import(a) => import::import(&a),
         Command::Calibrate(a) => calibrate::calibrate(&registry, &a),

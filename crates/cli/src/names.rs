@@ -43,6 +43,29 @@ pub(crate) fn list(text: &str) -> Result<Names, String> {
     Ok(Names(names))
 }
 
+/// Expressions with commas between them, those in parentheses and in quotes left out.
+pub(crate) fn parts(lists: &[String]) -> Vec<String> {
+    let mut all = Vec::new();
+    for list in lists {
+        let (mut part, mut depth, mut quoted) = (String::new(), 0_usize, false);
+        for c in list.chars() {
+            match c {
+                '"' => quoted = !quoted,
+                '(' if !quoted => depth += 1,
+                ')' if !quoted => depth = depth.saturating_sub(1),
+                ',' if !quoted && depth == 0 => {
+                    all.push(std::mem::take(&mut part));
+                    continue;
+                }
+                _ => {}
+            }
+            part.push(c);
+        }
+        all.push(part);
+    }
+    all
+}
+
 /// What there is instead of a name, and how a name with a comma is given to an option.
 pub(crate) fn help<'a>(
     name: &str,
@@ -76,6 +99,12 @@ mod tests {
         // Within a name quotes are letters as others.
         assert_eq!(read("3\" pipe,b"), ["3\" pipe", "b"]);
         assert_eq!(flat(&[list("a,b").unwrap(), list("c").unwrap()]), ["a", "b", "c"]);
+    }
+
+    #[test]
+    fn commas_within_expressions_stay() {
+        let all = parts(&["max(a, b), \"c, d\"".into(), "e".into()]);
+        assert_eq!(all, ["max(a, b)", " \"c, d\"", "e"]);
     }
 
     #[test]

@@ -4,7 +4,9 @@
 use crate::diagnostics;
 use annotate_snippets::Renderer;
 use trilith::compare::Compared;
+use trilith::optimize::Optimum;
 use trilith::results::Summary;
+use trilith::solvers::gradient::Gradient;
 use trilith::solvers::{BasisReport, SolveError};
 use trilith::{Diagnostic, Error, Model};
 
@@ -62,4 +64,24 @@ pub fn modes(report: &BasisReport) -> String {
 #[must_use]
 pub fn comparison(all: &[Compared]) -> String {
     if all.is_empty() { String::new() } else { crate::compare::text(all) }
+}
+
+/// What `trilith gradient` prints of these outputs.
+#[must_use]
+pub fn gradient(model: &Model, case: &str, found: &Gradient, outputs: &[usize]) -> String {
+    let asked: Vec<_> = outputs.iter().map(|o| crate::gradient::Asked::Output(*o)).collect();
+    crate::gradient::page(model, &crate::gradient::told(model, case, found, &asked))
+}
+
+/// What `trilith optimize` prints, but for the command of the best run, and what it gives as JSON.
+#[must_use]
+pub fn optimum(
+    model: &Model,
+    case: &str,
+    found: &Optimum,
+    most: usize,
+) -> (String, impl serde::Serialize) {
+    let told = crate::optimize::told(&model.title, case, found, "");
+    let page = crate::optimize::page(&told, found, most);
+    (page, serde_json::to_value(told).unwrap_or_default())
 }

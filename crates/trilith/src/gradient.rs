@@ -28,10 +28,12 @@
 //! ```
 
 use crate::Error;
+use std::sync::atomic::AtomicBool;
 use trilith_element::Dimension;
 use trilith_model::{Analysis, Diagnostic, Model, ModelText, ParameterValue, Registry, SolverKind};
-use trilith_solvers::assemble;
+use trilith_solvers::gradient::gradient_until as gradient_until_of;
 use trilith_solvers::gradient::{Around, Gradient, GradientOptions, OFFSETS, SMALL, Varied};
+use trilith_solvers::{SolveError, assemble};
 
 /// Step of differences between models, as share of the value of a parameter.
 const STEP: f64 = 1e-3;
@@ -107,7 +109,7 @@ impl GradientError {
 }
 
 /// The value of a parameter of a model, and its dimension.
-fn value_of(model: &Model, name: &str) -> Result<(f64, Dimension), GradientError> {
+pub(crate) fn value_of(model: &Model, name: &str) -> Result<(f64, Dimension), GradientError> {
     let all = &model.parameters;
     match all.iter().find(|p| p.name == name).map(|p| &p.value) {
         Some(ParameterValue::Number(value, dimension)) => Ok((*value, *dimension)),
@@ -120,7 +122,7 @@ fn value_of(model: &Model, name: &str) -> Result<(f64, Dimension), GradientError
 }
 
 /// A number as an expression of this dimension that is read to the bit.
-fn expression(value: f64, dimension: Dimension) -> String {
+pub(crate) fn expression(value: f64, dimension: Dimension) -> String {
     if dimension.is_none() {
         format!("{value:?}")
     } else {
@@ -209,6 +211,37 @@ pub fn gradient(
     registry: &Registry,
     wanted: &Wanted,
 ) -> Result<Gradient, GradientError> {
+    whole(text, registry, wanted, None).map(|whole| whole.found)
+}
+
+/// The same; a flag ends it at the next output step once it is true.
+///
+/// # Errors
+/// As [`gradient`], and [`Error::Interrupted`].
+pub fn gradient_until(
+    text: &ModelText,
+    registry: &Registry,
+    wanted: &Wanted,
+    interrupt: &AtomicBool,
+) -> Result<Gradient, GradientError> {
+    whole(text, registry, wanted, Some(interrupt)).map(|whole| whole.found)
+}
+
+/// Derivatives, and what they were made of.
+pub(crate) struct Whole {
+    pub model: Model,
+    /// The model around each parameter.
+    pub around: Vec<Around>,
+    pub found: Gradient,
+}
+
+/// As [`gradient`], with the models.
+pub(crate) fn whole(
+    text: &ModelText,
+    registry: &Registry,
+    wanted: &Wanted,
+    interrupt: Option<&AtomicBool>,
+) -> Result<Whole, GradientError> {
     let model = text.read(registry, &wanted.set).map_err(GradientError::Model)?;
     let names = if wanted.by.is_empty() { numbers(&model) } else { wanted.by.clone() };
     let mut around = around(text, registry, &wanted.set, &model, &names)?;
@@ -221,6 +254,11 @@ pub fn gradient(
     }
     let options = GradientOptions { case, solver: wanted.solver, dt: wanted.dt };
     let system = assemble(&model).map_err(Error::from)?;
-    Ok(trilith_solvers::gradient::gradient(&model, &system, options, &around)
-        .map_err(Error::from)?)
+    let found = gradient_until_of(&model, &system, options, &around, interrupt);
+    let found = found.map_err(|e| match e {
+        SolveError::Interrupted { .. } if interrupt.is_some() => Error::Interrupted,
+        e => e.into(),
+    })?;
+    drop(system);
+    Ok(Whole { model, around, found })
 }

@@ -49,6 +49,8 @@ pub(crate) enum Command {
     Sweep(SweepArguments),
     /// Exact derivatives of outputs by parameters of the model
     Gradient(GradientArguments),
+    /// Values of parameters of the model that make a goal smallest, within limits
+    Optimize(OptimizeArguments),
     /// Make a model file from a few numbers
     Generate(GenerateArguments),
     /// Make a model file of a text model of SAP2000, with a report of every loss
@@ -222,9 +224,46 @@ pub(crate) struct GradientArguments {
     /// the times of the case as they are]
     #[arg(long, value_name = "NAME,NAME", value_parser = names::list)]
     pub by: Vec<Names>,
-    /// Outputs; several times if need be, and double quotes hold a name with a comma together [default: all]
+    /// Outputs; several times if need be, and double quotes hold a name with a comma together; `heat` is what all links
+    /// have turned into heat until the end, `"heat of NAME"` what one link has [default: all outputs]
     #[arg(long, value_name = "NAME,NAME", value_parser = names::list)]
     pub of: Vec<Names>,
+    /// Print JSON
+    #[arg(long)]
+    pub json: bool,
+}
+
+#[derive(Args)]
+pub(crate) struct OptimizeArguments {
+    #[command(flatten)]
+    pub model: ModelArguments,
+    /// Case to run [default: the last of the file]
+    #[arg(long)]
+    pub case: Option<String>,
+    /// Solver: hht, or fna and ritz-hht for parameters of links and loads [default: that of the case]
+    #[arg(long, value_parser = solver)]
+    pub solver: Option<SolverKind>,
+    /// Output step in seconds [default: that of the case]
+    #[arg(long, value_parser = positive)]
+    pub dt: Option<f64>,
+    /// Parameters and their bounds, such as `mu=0.02..0.2` or `"c1=10 kN*s/m..2 MN*s/m"`; `c*` stands for all parameters
+    /// whose names begin so, ` log` behind the bounds for steps that are shares of the value; several times if need be
+    #[arg(long, value_name = "NAME=LOW..HIGH", value_delimiter = ',', required = true)]
+    pub by: Vec<trilith::optimize::Variable>,
+    /// What is made smallest: an output, which stands for its largest magnitude, or an expression such as
+    /// `"roof + 0.1*base"`; of several, with commas between them, the largest. `drift*` stands for all outputs whose
+    /// names begin so, `final(slide)` for a value at the end
+    #[arg(long, visible_alias = "minimize", value_name = "GOAL", required = true)]
+    pub minimise: Vec<String>,
+    /// A limit on outputs or parameters, such as `"base_x <= 20 cm"` or `"c1 + c2 <= 3 MN*s/m"`; several times if need be
+    #[arg(long, value_name = "LIMIT")]
+    pub limit: Vec<String>,
+    /// Runs at most
+    #[arg(long, value_name = "N", default_value_t = 50, value_parser = count)]
+    pub max_runs: usize,
+    /// Folder for `optimize.csv` with all runs and `optimize.json` with all that was found [default: no files]
+    #[arg(long, value_name = "DIR")]
+    pub out: Option<PathBuf>,
     /// Print JSON
     #[arg(long)]
     pub json: bool,
