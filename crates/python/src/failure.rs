@@ -78,7 +78,8 @@ impl Failure {
     }
 }
 
-fn diagnostic(d: &Diagnostic) -> Told {
+/// An error of a model file.
+pub(crate) fn diagnostic(d: &Diagnostic) -> Told {
     let file = d.source.path.display().to_string();
     let (line, column) = if d.source.text.is_empty() { (0, 0) } else { (d.line(), d.column()) };
     ("error", d.code.into(), d.message.clone(), d.label.clone(), d.help.clone(), file, line, column)

@@ -16,6 +16,7 @@ mod exercise;
 mod failure;
 mod links;
 mod model;
+mod optimize;
 mod record;
 mod run;
 mod schema;

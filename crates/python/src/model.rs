@@ -2,13 +2,15 @@
 
 use crate::compare::{self, Ways};
 use crate::failure::{Failure, Told, placed};
+use crate::optimize;
 use crate::run::{self, Run, Settings};
 use crate::state::State;
 use crate::work;
 use pyo3::prelude::*;
 use std::path::PathBuf;
 use std::sync::Arc;
-use trilith::model::{Analysis as Kind, Body, ParameterValue, file, resolved};
+use trilith::model::{Analysis as Kind, Body, ModelText, ParameterValue, file, resolved};
+use trilith::optimize::{Variable, Wanted};
 use trilith::{Analysis, SolverKind};
 use trilith_cli::told;
 
@@ -192,6 +194,57 @@ impl Model {
             let solvers = solvers.iter().map(|s| kind(s)).collect::<Result<Vec<_>, _>>()?;
             let ways = Ways { solvers, dts, vectors, dummies, alphas, cause };
             compare::compare(&mut model, case, &ways, watch)
+        })
+    }
+
+    /// Derivatives of outputs by parameters.
+    #[pyo3(signature = (case, solver, dt, by, of))]
+    fn gradient(
+        &self,
+        py: Python<'_>,
+        case: Option<String>,
+        solver: Option<String>,
+        dt: Option<f64>,
+        by: Vec<String>,
+        of: Vec<String>,
+    ) -> PyResult<optimize::GradientFacts> {
+        let (text, path, set) = (Arc::clone(&self.text), self.path.clone(), self.set.clone());
+        let model = Arc::clone(&self.model);
+        work::run(py, move |watch| {
+            let text = ModelText::new(&text, path).map_err(|e| Failure::diagnostics(&e))?;
+            let case = model.cases[index(&model, case.as_deref())?].name.clone();
+            let solver = solver.as_deref().map(kind).transpose()?;
+            let wanted = trilith::gradient::Wanted { case: Some(case), solver, dt, by, set };
+            optimize::gradient(&model, &text, &wanted, &of, watch)
+        })
+    }
+
+    /// Values of parameters that make a goal smallest: parameters as name, bounds, and whether steps are shares of the value.
+    #[pyo3(signature = (case, solver, dt, by, minimise, limits, max_runs, progress))]
+    fn optimize(
+        &self,
+        py: Python<'_>,
+        case: Option<String>,
+        solver: Option<String>,
+        dt: Option<f64>,
+        by: Vec<(String, String, String, bool)>,
+        minimise: Vec<String>,
+        limits: Vec<String>,
+        max_runs: usize,
+        progress: Option<Bound<'_, PyAny>>,
+    ) -> PyResult<optimize::OptimumFacts> {
+        let (text, path, set) = (Arc::clone(&self.text), self.path.clone(), self.set.clone());
+        let model = Arc::clone(&self.model);
+        work::with_progress(py, progress.as_ref(), move |watch| {
+            let text = ModelText::new(&text, path).map_err(|e| Failure::diagnostics(&e))?;
+            let case = model.cases[index(&model, case.as_deref())?].name.clone();
+            let solver = solver.as_deref().map(kind).transpose()?;
+            let variable =
+                |(name, low, high, logarithmic)| Variable { name, low, high, logarithmic };
+            let by = by.into_iter().map(variable).collect();
+            let case = Some(case);
+            let wanted = Wanted { case, solver, dt, set, by, minimise, limits, max_runs };
+            optimize::optimize(&model, &text, &wanted, watch)
         })
     }
 }

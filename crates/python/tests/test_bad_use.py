@@ -132,7 +132,8 @@ from conftest import LONG
 signal.signal(signal.SIGINT, signal.default_int_handler)
 m = tl.loads(LONG)
 call = {"run": lambda: m.run(), "sweep": lambda: tl.sweep(m, {"mu": [0.1 + 1e-3 * i for i in range(64)]}),
-        "compare": lambda: m.compare(["fna", "hht"])}[sys.argv[1]]
+        "compare": lambda: m.compare(["fna", "hht"]), "gradient": lambda: m.gradient(by=["mu"]),
+        "optimize": lambda: m.optimize({"mu": (0.1, 0.5)}, "slide")}[sys.argv[1]]
 sent = []
 
 def soon():
@@ -153,7 +154,7 @@ print(r.status, len(r.t))
 
 
 @pytest.mark.skipif(sys.platform == "win32", reason="signals are another matter there")
-@pytest.mark.parametrize("what", ["run", "sweep", "compare"])
+@pytest.mark.parametrize("what", ["run", "sweep", "compare", "gradient", "optimize"])
 def test_ctrl_c_is_answered_at_once(what: str) -> None:
     command = [sys.executable, "-c", INTERRUPTED, what]
     here = Path(__file__).parent

@@ -36,6 +36,15 @@ if TYPE_CHECKING:
     from ._exercise import Exercise, LastCycle, exercise
     from ._model import Case, Element, Model, load, loads
     from ._modes import Modes
+    from ._optimize import (
+        Bend,
+        Evaluation,
+        Gradient,
+        LimitState,
+        Optimum,
+        OutputGradient,
+        Sensitive,
+    )
     from ._record import GroundMotion, ResponseSpectrum, record, records, synthetic
     from ._result import Link, Loop, Peak, Result
     from ._ron import Block, Word
@@ -51,6 +60,15 @@ _PLACES = {
     "_exercise": ("Exercise", "LastCycle", "exercise"),
     "_model": ("Case", "Element", "Model", "load", "loads"),
     "_modes": ("Modes",),
+    "_optimize": (
+        "Bend",
+        "Evaluation",
+        "Gradient",
+        "LimitState",
+        "Optimum",
+        "OutputGradient",
+        "Sensitive",
+    ),
     "_record": ("GroundMotion", "ResponseSpectrum", "record", "records", "synthetic"),
     "_result": ("Link", "Loop", "Peak", "Result"),
     "_ron": ("Block", "Word"),
@@ -63,6 +81,7 @@ _WHERE = {name: module for module, names in _PLACES.items() for name in names}
 __all__ = [
     "ArgumentError",
     "BUILD",
+    "Bend",
     "Block",
     "Card",
     "CardParameter",
@@ -71,20 +90,26 @@ __all__ = [
     "Diagnostic",
     "Difference",
     "Element",
+    "Evaluation",
     "Exercise",
     "FileError",
+    "Gradient",
     "GroundMotion",
     "InternalError",
     "LastCycle",
+    "LimitState",
     "Link",
     "Loop",
     "Model",
     "ModelError",
     "Modes",
+    "Optimum",
+    "OutputGradient",
     "Peak",
     "ResponseSpectrum",
     "Result",
     "RunError",
+    "Sensitive",
     "State",
     "Stepper",
     "StudyResult",

@@ -16,6 +16,7 @@ if TYPE_CHECKING:
     from ._compare import Comparison
     from ._modes import Modes
     from ._native import State
+    from ._optimize import Gradient, Optimum
     from ._result import Result
     from ._stepper import Stepper
 
@@ -322,6 +323,74 @@ class Model:
         from ._compare import compare
 
         return compare(self, solvers, **settings)
+
+    def gradient(
+        self,
+        by: Sequence[str] = (),
+        of: Sequence[str] = (),
+        *,
+        case: str | None = None,
+        solver: str | None = None,
+        dt: float | None = None,
+    ) -> Gradient:
+        """Runs a dynamic case, and finds exact derivatives of outputs by parameters.
+
+        :param by: names of parameters; without them all that are numbers other than zero and leave the times of the case alone.
+        :param of: names of outputs; without them all.
+        :param case: its name; without it the last case of the model.
+        :param solver: ``"hht"``, or ``"fna"`` and ``"ritz-hht"`` for parameters of links and loads; without it that of the case.
+        :param dt: output step, s.
+        :raises RunError: where a parameter moves what must stay as it is, such as the structure under ``"fna"``.
+        :raises ArgumentError: for names that there are not.
+        """
+        from ._optimize import gradient
+
+        return gradient(self, by, of, case=case, solver=solver, dt=dt)
+
+    def optimize(
+        self,
+        by: Mapping[str, Sequence[object]],
+        minimise: str | Sequence[str],
+        limits: Sequence[str] = (),
+        *,
+        log: Sequence[str] = (),
+        max_runs: int = 50,
+        case: str | None = None,
+        solver: str | None = None,
+        dt: float | None = None,
+        progress: Callable[[float], object] | None = None,
+    ) -> Optimum:
+        """Searches for the values of parameters that make a goal smallest, beginning with those that the model has.
+
+        :param by: parameters with their bounds, numbers in SI or texts: ``{"mu": (0.02, 0.2), "c": ("10 kN*s/m", "1 MN*s/m")}``; the
+            name ``"c*"`` stands for all whose names begin so.
+        :param minimise: an output, which stands for its largest magnitude, or an expression such as ``"roof + 0.1*base"``; of several
+            the largest. ``"drift*"`` stands for all outputs whose names begin so, ``"final(slide)"`` for a value at the end.
+        :param limits: such as ``["base_x <= 20 cm", "c1 + c2 <= 3 MN*s/m"]``.
+        :param log: parameters of ``by`` whose steps are shares of the value, for bounds that are powers of ten apart.
+        :param max_runs: runs at most.
+        :param case: its name; without it the last case of the model.
+        :param solver: as for :meth:`gradient`.
+        :param dt: output step, s.
+        :param progress: called with the share of the runs that are made, 0 … 1.
+        :raises RunError: where there are no derivatives by a parameter.
+        :raises ArgumentError: for a goal, a limit or bounds that are none.
+        :raises KeyboardInterrupt: upon Ctrl-C.
+        """
+        from ._optimize import optimize
+
+        return optimize(
+            self,
+            by,
+            minimise,
+            limits,
+            log=log,
+            max_runs=max_runs,
+            case=case,
+            solver=solver,
+            dt=dt,
+            progress=progress,
+        )
 
     # -- pickles and copies
 

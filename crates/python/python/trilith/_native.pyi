@@ -30,6 +30,16 @@ CompareFacts: TypeAlias = tuple[
     list[tuple[str, float, float, float, float]],
     tuple[str, str] | None,
 ]
+ValueFacts: TypeAlias = tuple[float, float, list[float]]
+GradientFacts: TypeAlias = tuple[
+    str,
+    "Column",
+    list[tuple[str, float, str]],
+    list[tuple[str, str, "Column", list["Column"], list[ValueFacts]]],
+    list[tuple[str, float, list[float]]],
+    list[tuple[str, float, int]],
+    int,
+]
 SweepFacts: TypeAlias = tuple[
     list[str],
     list[bool],
@@ -144,6 +154,27 @@ class Model:
         cause: bool,
         /,
     ) -> tuple[str, list[CompareFacts]]: ...
+    def gradient(
+        self,
+        case: str | None,
+        solver: str | None,
+        dt: float | None,
+        by: list[str],
+        of: list[str],
+        /,
+    ) -> GradientFacts: ...
+    def optimize(
+        self,
+        case: str | None,
+        solver: str | None,
+        dt: float | None,
+        by: list[tuple[str, str, str, bool]],
+        minimise: list[str],
+        limits: list[str],
+        max_runs: int,
+        progress: Callable[[float], object] | None,
+        /,
+    ) -> tuple[str, str]: ...
 
 class Record:
     @staticmethod
