@@ -20,7 +20,7 @@ fn read(function: &str, set: &[(&str, &str)]) -> Result<Model, Vec<Diagnostic>> 
     );
     let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/../crates/record/tests/files/model.ron");
     let set: Vec<_> = set.iter().map(|(n, v)| ((*n).to_owned(), (*v).to_owned())).collect();
-    trilith::read_text(&text, folder, &trilith::registry(), &set)
+    Ok(trilith::read_text(&text, folder, &trilith::registry(), &set)?)
 }
 
 fn function(function: &str, set: &[(&str, &str)]) -> TimeFunction {

@@ -26,7 +26,7 @@
 //! assert_eq!(run.time().len(), run.history("sway").expect("an output").len());
 //! ```
 //!
-//! - [`read`] turns a model file into a [`Model`], or into all its errors at once.
+//! - [`read`] turns a model file into a [`Model`], with [`Values`] of its parameters, or into [`Diagnostics`], all its errors at once.
 //! - [`run`] runs a case as the file says; [`Analysis`] runs several, with options.
 //! - [`Checkpoint`] keeps where a run stopped in a file, for `from` of a later one's [`RunOptions`].
 //! - [`write_report`] makes the page of a run, [`rebuild_report`] makes it again from its folder.
@@ -54,6 +54,7 @@ pub mod generate;
 pub mod gradient;
 mod lanes;
 pub mod optimize;
+mod reading;
 mod report_check;
 mod run_report;
 mod schema;
@@ -99,7 +100,8 @@ pub use analysis::{Analysis, Run};
 pub use checkpoint::{Checkpoint, CheckpointError};
 pub use element::Register;
 pub use error::Error;
-pub use model::{Diagnostic, Model, Registry, SolverKind, read, read_text};
+pub use model::{Diagnostic, Model, Registry, SolverKind};
+pub use reading::{Diagnostics, Value, Values, read, read_text};
 pub use run_report::{ReportError, rebuild_report, write_report};
 pub use schema::json_schema;
 pub use solvers::RunOptions;

@@ -63,7 +63,7 @@ impl Specimen {
         }
         let path = format!("example of {}", card.kind);
         let mut model = crate::read_text(&entry.model(card), path, registry, &[])
-            .map_err(ExerciseError::Parameters)?;
+            .map_err(|errors| ExerciseError::Parameters(errors.into_vec()))?;
         let element = model.elements.pop().ok_or_else(unknown)?;
         let Body::Link(law, _) = element.body else { return Err(unknown()) };
         let mut notes = Vec::new();
