@@ -19,7 +19,7 @@ ISOLATOR = """(
         "damper": Dashpot(node: "m", axis: U2, c: "c"),
     },
     cases: {
-        "rest": Static(loads: []),
+        "rest": Static(loads: [Gravity]),
         "strike": Dynamic(
             duration: "0.3 s", dt: "2 ms", solver: Hht,
             initial: [(node: "m", dof: Ux, velocity: "1 m/s")],
@@ -43,10 +43,10 @@ def test_derivatives_are_those_of_runs_beside(isolator: tl.Model) -> None:
     assert x.peak.value == x.max.value > 0 > x.min.value
     assert x.final.value == x.history[-1] and x.final.by["c"] == x.by["c"][-1]
     for name, value in g.parameters.items():
-        h = 1e-3 * value
+        h = 1e-2 * value
         low, high = (isolator.with_parameters({name: value + s * h}).run()["x"] for s in (-1, 1))
         apart = np.abs(x.by[name] - (high - low) / (2 * h)).max()
-        assert apart < 2e-3 * np.abs(x.by[name]).max()
+        assert apart < 2e-2 * np.abs(x.by[name]).max()
     assert list(g.heat) == ["damper"] and 20 < g.heat["damper"].value < 50 and g.heat["damper"].by["c"] > 0
     assert "x" in str(g) and "by c, k" in repr(g)
     assert g.bends == [] and g.substeps >= 150
@@ -59,7 +59,8 @@ def test_a_dashpot_is_found(isolator: tl.Model) -> None:
     assert abs(o.parameters["c"] / 2000 - 0.265) < 0.01 and o.units == {"c": "N·s/m"}
     assert o.runs[0].parameters == {"c": 300.0} and o.goal < (o.runs[0].goal or 0)
     best = isolator.with_parameters(o.parameters).run(solver="hht").peaks["acceleration"].magnitude
-    assert abs(best / o.goal - 1) < 1e-9
+    # Peaks of a run are looked for between its substeps as well.
+    assert abs(best / o.goal - 1) < 1e-4
     assert o.holds and o.limits == [] and "best: run" in str(o) and "Optimum" in repr(o)
 
 

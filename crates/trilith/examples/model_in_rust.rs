@@ -42,6 +42,7 @@ fn chain(masses: usize) -> Result<Model, Box<dyn Error>> {
     Ok(trilith::read_text(&text, "chain.ron", &registry(), &[])?)
 }
 
+/// Makes the model, runs it, changes it, and runs it again.
 pub fn main() -> Result<(), Box<dyn Error>> {
     let mut model = chain(5)?;
     let top = trilith::run(&model, "shake")?.peak("top")?;

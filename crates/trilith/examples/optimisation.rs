@@ -33,6 +33,7 @@ const MODEL: &str = r#"(
     },
 )"#;
 
+/// Searches, and prints every run.
 pub fn main() -> Result<(), Box<dyn Error>> {
     // A text that is read many times, with other values of its parameters each time.
     let text = ModelText::new(MODEL, "struck.ron").map_err(Diagnostics::from)?;

@@ -34,6 +34,7 @@ impl Observer for OnOneCorner {
     }
 }
 
+/// Runs the block under the eyes of the observer.
 pub fn main() -> Result<(), Box<dyn Error>> {
     let model = trilith::read(MODEL, &registry(), &[])?;
     let output = |name: &str| {

@@ -10,6 +10,7 @@ use trilith::{Values, registry};
 /// A block that stands free, 2 m wide and 4 m high, under a pulse.
 const MODEL: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../../models/rigid_block.ron");
 
+/// Reads, runs, and prints what came of it.
 pub fn main() -> Result<(), Box<dyn Error>> {
     // Everything that is wrong with a model is one error: `?` hands all of it on.
     let values = Values::new().with("mu", 0.2).with("duration", (1.0, "s"));

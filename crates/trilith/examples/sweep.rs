@@ -10,6 +10,7 @@ use trilith::sweep::Sweep;
 
 const MODEL: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../../models/rigid_block.ron");
 
+/// Runs the grid, and prints it as a table.
 pub fn main() -> Result<(), Box<dyn Error>> {
     let friction = [0.2, 0.4, 0.6, 0.8];
     let ground = [0.3, 0.9, 1.5];

@@ -27,6 +27,9 @@ pub(super) struct Made {
     pub limits: Vec<Valued>,
 }
 
+/// What is shown every run with its number from 0.
+pub(super) type OnRun<'a> = &'a mut dyn FnMut(usize, &Evaluation);
+
 /// The runs made so far.
 pub(super) struct Course<'a> {
     pub text: &'a ModelText,
@@ -37,7 +40,7 @@ pub(super) struct Course<'a> {
     pub goal: &'a Goal,
     pub limits: &'a [Limit],
     pub most: usize,
-    pub on_run: &'a mut dyn FnMut(usize, &Evaluation),
+    pub on_run: OnRun<'a>,
     pub interrupt: &'a AtomicBool,
     /// Goal at the start.
     pub size: f64,
@@ -55,7 +58,7 @@ impl<'a> Course<'a> {
         ranges: &'a [Range],
         (goal, limits): (&'a Goal, &'a [Limit]),
         most: usize,
-        (on_run, interrupt): (&'a mut dyn FnMut(usize, &Evaluation), &'a AtomicBool),
+        (on_run, interrupt): (OnRun<'a>, &'a AtomicBool),
     ) -> Self {
         Self {
             text,
