@@ -4,7 +4,7 @@ use crate::args::OptimizeArguments;
 use crate::gradient::failure as of_gradient;
 use crate::interrupt::{Ear, INTERRUPTED};
 use crate::text::{number, row, significant, table};
-use crate::{Answer, Failure, case, diagnostics, names, output, place};
+use crate::{Answer, Failure, case, diagnostics, names, output, place, solver};
 use serde::Serialize;
 use std::io::IsTerminal;
 use std::path::Path;
@@ -27,9 +27,11 @@ pub(crate) fn optimize(registry: &Registry, args: &OptimizeArguments) -> Result<
         .map_err(|e| Failure::diagnostics(&e))?;
     let model = text.read(registry, &args.model.set).map_err(|e| Failure::diagnostics(&e))?;
     let chosen = case(&model, args.case.as_deref())?;
+    let named = args.solver.as_deref().map(|name| solver(&model, chosen, name));
+    let solver = named.transpose()?;
     let wanted = Wanted {
         case: Some(model.cases[chosen].name.clone()),
-        solver: args.solver,
+        solver,
         dt: args.dt,
         set: args.model.set.clone(),
         by: args.by.clone(),
@@ -216,8 +218,8 @@ fn command(args: &OptimizeArguments, found: &Optimum) -> String {
     if let Some(case) = &args.case {
         line += &format!(" --case {}", word(case));
     }
-    if let Some(solver) = args.solver {
-        line += &format!(" --solver {}", solver.name());
+    if let Some(solver) = &args.solver {
+        line += &format!(" --solver {}", word(solver));
     }
     if let Some(dt) = args.dt {
         line += &format!(" --dt {dt}");

@@ -34,15 +34,18 @@ pub fn status(study: &Study, folder: &Path) -> Result<(Vec<PartStatus>, usize), 
         let own = Kept::of(&path, &study.identity)?.records;
         let failed = own.values().filter(|record| !record.good).count();
         let own_chains = part.chains(chains);
-        all.push((PartStatus { part, done: own.len(), of: own_chains * length, failed, open: 0 }, own_chains));
+        all.push((
+            PartStatus { part, done: own.len(), of: own_chains * length, failed, open: 0 },
+            own_chains,
+        ));
         known.extend(own);
     }
     // Series are at their end with their last run, or where the limit of the study holds.
     let over = |chain: usize| {
         (chain * length..(chain + 1) * length).all(|run| known.contains_key(&run))
-            || (chain * length..(chain + 1) * length).map_while(|run| known.get(&run)).any(|record| {
-                study.stop.as_ref().is_some_and(|stop| stop.holds(&study.columns, record))
-            })
+            || (chain * length..(chain + 1) * length).map_while(|run| known.get(&run)).any(
+                |record| study.stop.as_ref().is_some_and(|stop| stop.holds(&study.columns, record)),
+            )
     };
     let open: Vec<bool> = (0..chains).map(|chain| !over(chain)).collect();
     let parts = all.into_iter().map(|(status, own_chains)| {

@@ -241,8 +241,8 @@ pub(crate) struct OptimizeArguments {
     #[arg(long)]
     pub case: Option<String>,
     /// Solver: hht, or fna and ritz-hht for parameters of links and loads [default: that of the case]
-    #[arg(long, value_parser = solver)]
-    pub solver: Option<SolverKind>,
+    #[arg(long)]
+    pub solver: Option<String>,
     /// Output step in seconds [default: that of the case]
     #[arg(long, value_parser = positive)]
     pub dt: Option<f64>,
