@@ -100,7 +100,7 @@ fn schema_names() -> BTreeSet<String> {
     add(&schema::SUPPORTS);
     add(&schema::GROUP_KINDS);
     add(schema::expression_functions());
-    add(&["Parameter", "true", "false"]);
+    add(&["Parameter", "Text", "true", "false"]);
     for (unit, ..) in schema::units() {
         add(&[unit]);
     }
