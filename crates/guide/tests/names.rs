@@ -149,7 +149,6 @@ const OTHERS: &[&str] = &[
     "damping_constant",
     "FileText",
     "Contents",
-    "MeasuredSpring",
     "slip",
     "wrong_laws",
     // between comparisons

@@ -40,7 +40,7 @@ def test_derivatives_are_those_of_runs_beside(isolator: tl.Model) -> None:
     x = g["x"]
     assert x.unit == "m" and x.history.shape == g.t.shape == x.by["k"].shape
     assert not x.by["c"].flags.writeable
-    assert x.peak.value == x.max.value > 0 > x.min.value
+    assert x.peak.value == x.max.value > 0 >= x.min.value
     assert x.final.value == x.history[-1] and x.final.by["c"] == x.by["c"][-1]
     for name, value in g.parameters.items():
         h = 1e-2 * value
@@ -57,7 +57,8 @@ def test_a_dashpot_is_found(isolator: tl.Model) -> None:
     o = isolator.optimize({"c": ("50 N*s/m", 2000)}, "acceleration", progress=told.append)
     assert o.stop in ("smallest", "kink") and len(o.runs) <= 20
     assert abs(o.parameters["c"] / 2000 - 0.265) < 0.01 and o.units == {"c": "N·s/m"}
-    assert o.runs[0].parameters == {"c": 300.0} and o.goal < (o.runs[0].goal or 0)
+    # To rounding: bounds are kept by a change of variables.
+    assert abs(o.runs[0].parameters["c"] - 300.0) < 1e-9 and o.goal < (o.runs[0].goal or 0)
     best = isolator.with_parameters(o.parameters).run(solver="hht").peaks["acceleration"].magnitude
     # Peaks of a run are looked for between its substeps as well.
     assert abs(best / o.goal - 1) < 1e-4

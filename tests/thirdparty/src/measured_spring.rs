@@ -99,7 +99,7 @@ impl Described for MeasuredSpring {
         law: "f = sgn(d) F(|d|),  F straight between the points of the file; beyond the last no answer",
         source: "a test",
         example: r#""mount": MeasuredSpring(node: "a", curve: Contents("pull.csv", "0, 0\n0.02, 8e3\n0.05, 11e3"), specimen: "mount 3")"#,
-        exercise: Exercise { frequency: 1.0, strokes: &[Stroke::about(0.0, 0.03)] },
+        exercise: Exercise { frequency: 1.0, strokes: &[Stroke::about(0.0, 0.015)] },
     };
 }
 

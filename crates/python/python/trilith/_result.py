@@ -271,7 +271,8 @@ class Result(Mapping[str, "Array"]):
 
     @property
     def status(self) -> str:
-        """``"converged"``, or what happened: ``"overturned"``, ``"energy error"``, ``"not converged"``, ``"inadequate"``."""
+        """``"converged"``, or what happened: ``"overturned"``, ``"energy error"``, ``"not converged"``, ``"inadequate"``,
+        ``"wrong law"``, or ``"refused"`` by a law that has no answer."""
         return str(self.summary["status"])
 
     @property
