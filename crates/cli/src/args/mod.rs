@@ -96,7 +96,7 @@ pub(crate) struct RunArguments {
     /// Case to run [default: the last of the file]
     #[arg(long)]
     pub case: Option<String>,
-    /// Solver: fna, hht, ritz-hht or full-newton [default: that of the case]
+    /// Solver: fna, hht, ritz-hht or full-newton, or one of another crate [default: that of the case]
     #[arg(long)]
     pub solver: Option<String>,
     /// Output step in seconds [default: that of the case]

@@ -7,7 +7,6 @@
 //! G = B u(Bᵀ)      H = B v(Bᵀ)      u, v: the end of a step from rest with these forces at its end
 //! ```
 //!
-//! Reference: none; the superposition of linear steps, as [`Compliance`] needs it.
 //! May use `step` for the contracts, `kernel` and `structure`; `basis` for the low-rank form of modal damping.
 
 mod linear;

@@ -203,7 +203,10 @@ impl<'a, 'b> Viewer<'a, 'b> {
         });
         let lost = self.derived.iter().filter_map(|(_, name, lost)| Some((*name, (*lost)?)));
         let without_number = lost.map(|(name, t)| {
-            format!("output \"{name}\" is no number at t = {} s: its law answers so", rounded(t))
+            format!(
+                "output \"{name}\" is no number at t = {} s: what makes it answers so",
+                rounded(t)
+            )
         });
         Noticed { pressed: self.pressed, said: told.into_iter().chain(without_number).collect() }
     }
