@@ -249,6 +249,10 @@ impl Term {
             }
             by.iter_mut().zip(&of.by).for_each(|(by, x)| *by += slope * x);
         }
+        if by.iter().any(|x| x.is_nan()) {
+            let reason = "an output in it tells no derivatives".into();
+            return Err(OptimizeError::Expression { text: self.text.clone(), reason });
+        }
         Ok((Valued { value: quantity.value, by }, quantity))
     }
 }
