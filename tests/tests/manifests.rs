@@ -102,6 +102,8 @@ fn dependencies_point_one_way() {
         ),
         ("trilith-study", &["trilith"]),
         ("trilith-exchange", &["trilith-model"]),
+        ("trilith-diagnostics", &["trilith-model"]),
+        ("trilith-live", &["trilith", "trilith-diagnostics"]),
         ("trilith-bench", &["trilith", "trilith-linalg", "trilith-report"]),
         ("trilith-guide", &["trilith", "trilith-cli", "trilith-study"]),
         ("trilith-python", &["trilith", "trilith-cli", "trilith-study"]),

@@ -44,6 +44,7 @@ mod sweep;
 mod text;
 pub mod told;
 mod vectors;
+mod view;
 
 use args::{Arguments, Command};
 use clap::Parser;
@@ -78,6 +79,7 @@ pub fn main_of(registry: Registry, arguments: impl IntoIterator<Item = OsString>
         Command::Run(a) => run::run(&registry, a),
         Command::Check(a) => check::check(&registry, &a),
         Command::Modes(a) => modes::modes(&registry, &a),
+        Command::View(a) => view::view(&registry, &a),
         Command::Schema => schema::schema(&registry),
         Command::Elements(a) => elements::elements(&registry, &a),
         Command::Exercise(a) => exercise::exercise(&registry, a),

@@ -1,7 +1,7 @@
 //! Numbers and tables as text.
 
-use std::path::Path;
 use trilith::model::visible_line;
+pub(crate) use trilith_diagnostics::shown;
 
 /// A number with five significant digits.
 pub(crate) fn number(x: f64) -> String {
@@ -33,11 +33,6 @@ pub(crate) fn exact(x: f64) -> String {
 /// A share in percent.
 pub(crate) fn percent(x: f64) -> String {
     if x.is_finite() { format!("{:.2} %", 100.0 * x) } else { "–".into() }
-}
-
-/// A path in a line of its own.
-pub(crate) fn shown(path: &Path) -> String {
-    visible_line(&path.display().to_string()).into_owned()
 }
 
 /// Rows of cells, the first one a head; the columns named in `left` are flush left.

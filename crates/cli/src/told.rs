@@ -1,19 +1,18 @@
 //! What the program says of errors and results, as plain text, for other faces of it: a package for another language
 //! says the same.
 
-use crate::diagnostics;
-use annotate_snippets::Renderer;
 use trilith::compare::Compared;
 use trilith::optimize::Optimum;
 use trilith::results::Summary;
 use trilith::solvers::gradient::Gradient;
 use trilith::solvers::{BasisReport, SolveError};
 use trilith::{Diagnostic, Error, Model};
+use trilith_diagnostics::{self as diagnostics, Renderer};
 
 /// All errors of a model file, each with its line and a caret.
 #[must_use]
 pub fn diagnostics(all: &[Diagnostic]) -> String {
-    diagnostics::all_with(&Renderer::plain(), all)
+    diagnostics::all(&Renderer::plain(), all)
 }
 
 /// A structure or a run that cannot be made, shown in the model file where it has a place there.
@@ -21,10 +20,8 @@ pub fn diagnostics(all: &[Diagnostic]) -> String {
 pub fn error(error: &Error, model: &Model) -> String {
     let renderer = Renderer::plain();
     match error.span() {
-        Some(span) => {
-            diagnostics::at_with(&renderer, &error.to_string(), &model.places.find(&span))
-        }
-        None => diagnostics::plain_with(&renderer, &error.to_string(), None),
+        Some(span) => diagnostics::at(&renderer, &error.to_string(), &model.places.find(&span)),
+        None => diagnostics::plain(&renderer, &error.to_string(), None),
     }
 }
 
@@ -45,7 +42,7 @@ pub fn is_of_the_run(error: &Error) -> bool {
 /// Something wrong outside a model file, and what would be right.
 #[must_use]
 pub fn plain(message: &str, help: Option<&str>) -> String {
-    diagnostics::plain_with(&Renderer::plain(), message, help)
+    diagnostics::plain(&Renderer::plain(), message, help)
 }
 
 /// What `trilith run` prints.

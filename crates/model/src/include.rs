@@ -9,6 +9,7 @@ use crate::{Diagnostic, Source, Span};
 use std::collections::HashSet;
 use std::path::{Component, Path, PathBuf};
 use std::sync::Arc;
+use trilith_record::file::canonical;
 
 const FIELD: &str = "include";
 const UNITS: &str = "units";
@@ -45,7 +46,7 @@ pub(crate) fn whole(source: &Arc<Source>, root: Node) -> Result<Whole, Vec<Diagn
     let folder = folder_of(&source.path);
     let mut it = Including {
         // Of a model without a folder every file is refused as missing.
-        canonical: folder.canonicalize().unwrap_or_else(|_| folder.clone()),
+        canonical: canonical(&folder).unwrap_or_else(|_| folder.clone()),
         folder,
         places,
         chain: Vec::new(),
@@ -54,7 +55,7 @@ pub(crate) fn whole(source: &Arc<Source>, root: Node) -> Result<Whole, Vec<Diagn
         units: Vec::new(),
         errors: Vec::new(),
     };
-    if let Ok(path) = source.path.canonicalize() {
+    if let Ok(path) = canonical(&source.path) {
         it.chain.push((path, source.path.clone()));
     }
     it.files(&list.value, Path::new(""));
@@ -124,7 +125,7 @@ impl Including {
             false => self.folder.join(&path),
         };
         let cannot = |error: std::io::Error| format!("{} cannot be read: {error}", shown.display());
-        let canonical = match shown.canonicalize() {
+        let canonical = match canonical(&shown) {
             Ok(canonical) if canonical.starts_with(&self.canonical) => canonical,
             Ok(_) => {
                 let message =

@@ -1,11 +1,19 @@
 //! Reading files that the user names: regular ones only, up to a size.
 //!
 //! A pipe would keep the program waiting and a device would fill the memory; both are refused before they are
-//! opened.
+//! opened. A browser has no files: there they come from `memory`.
 
-use std::fs::{File, FileType};
-use std::io::{Error, ErrorKind, Read, Result};
-use std::path::Path;
+#[cfg(not(all(target_family = "wasm", target_os = "unknown")))]
+#[path = "file/disk.rs"]
+mod source;
+
+#[cfg(any(test, all(target_family = "wasm", target_os = "unknown")))]
+pub mod memory;
+#[cfg(all(target_family = "wasm", target_os = "unknown"))]
+use memory as source;
+
+use std::io::{Error, ErrorKind, Result};
+use std::path::{Path, PathBuf};
 
 /// Size of the largest file that is read, bytes: 256 MiB.
 pub const MOST_BYTES: u64 = 256 << 20;
@@ -36,7 +44,7 @@ impl From<Refusal> for Error {
 /// # Errors
 /// Those of the system, and a [`Refusal`].
 pub fn read(path: impl AsRef<Path>) -> Result<Vec<u8>> {
-    up_to(path.as_ref(), MOST_BYTES)
+    source::read(path.as_ref(), MOST_BYTES)
 }
 
 /// The same as text.
@@ -53,47 +61,12 @@ pub fn read_text(path: impl AsRef<Path>) -> Result<String> {
     })
 }
 
-fn up_to(path: &Path, most: u64) -> Result<Vec<u8>> {
-    // Before it is opened: to open a pipe is to wait for its writer.
-    regular(std::fs::metadata(path)?.file_type())?;
-    let file = File::open(path)?;
-    let about = file.metadata()?;
-    regular(about.file_type())?;
-    let too_large = || Error::from(Refusal::TooLarge { mebibytes: most >> 20 });
-    if about.len() > most {
-        return Err(too_large());
-    }
-    let mut bytes = Vec::with_capacity(usize::try_from(about.len()).unwrap_or(0));
-    // A file may grow, and some say that they are empty.
-    file.take(most + 1).read_to_end(&mut bytes)?;
-    if bytes.len() as u64 > most {
-        return Err(too_large());
-    }
-    Ok(bytes)
-}
-
-fn regular(kind: FileType) -> Result<()> {
-    if kind.is_file() {
-        return Ok(());
-    }
-    Err(Refusal::NotRegular(if kind.is_dir() { "a folder" } else { special(kind) }).into())
-}
-
-#[cfg(unix)]
-fn special(kind: FileType) -> &'static str {
-    use std::os::unix::fs::FileTypeExt;
-    if kind.is_fifo() {
-        "a pipe"
-    } else if kind.is_socket() {
-        "a socket"
-    } else {
-        "a device"
-    }
-}
-
-#[cfg(not(unix))]
-fn special(_: FileType) -> &'static str {
-    "something else"
+/// The one path of a file, links followed.
+///
+/// # Errors
+/// Those of the system.
+pub fn canonical(path: impl AsRef<Path>) -> Result<PathBuf> {
+    source::canonical(path.as_ref())
 }
 
 #[cfg(test)]
@@ -107,8 +80,8 @@ mod tests {
         std::fs::write(&path, "12345").unwrap();
         assert_eq!(read(&path).unwrap(), b"12345");
         assert_eq!(read_text(&path).unwrap(), "12345");
-        assert_eq!(up_to(&path, 5).unwrap(), b"12345");
-        let error = up_to(&path, 4).unwrap_err();
+        assert_eq!(source::read(&path, 5).unwrap(), b"12345");
+        let error = source::read(&path, 4).unwrap_err();
         assert!(error.to_string().contains("the most that is read"), "{error}");
         std::fs::write(&path, b"a\nb\n\xff").unwrap();
         assert_eq!(read_text(&path).unwrap_err().to_string(), "line 3 is no text in UTF-8");
@@ -119,7 +92,7 @@ mod tests {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("large");
         // A hole: it takes no room on the disk.
-        File::create(&path).unwrap().set_len(MOST_BYTES + 1).unwrap();
+        std::fs::File::create(&path).unwrap().set_len(MOST_BYTES + 1).unwrap();
         let error = read(&path).unwrap_err().to_string();
         assert_eq!(error, "it is larger than 256 MiB, the most that is read");
     }

@@ -228,6 +228,10 @@ pub fn gradient_until(
 }
 
 /// Derivatives, and what they were made of.
+#[cfg_attr(
+    not(feature = "optimize"),
+    expect(dead_code, reason = "`optimize` alone asks for the models")
+)]
 pub(crate) struct Whole {
     pub model: Model,
     /// The model around each parameter.

@@ -36,7 +36,7 @@
 //! - [`generate`] makes models from a few numbers.
 //! - [`sweep`] runs a model with many values of its parameters, several analyses side by side.
 //! - [`mod@gradient`] finds exact derivatives of outputs by parameters.
-//! - [`mod@optimize`] finds the values of parameters that make a goal smallest.
+//! - `optimize` (a feature, on by default) finds the values of parameters that make a goal smallest.
 //! - [`calibrate`] finds dashpots from coefficients of restitution.
 //! - A link of your own: implement [`element::Link`], offer it with `registry.link::<MyLink>()`.
 //!
@@ -53,6 +53,7 @@ pub mod exercise;
 pub mod generate;
 pub mod gradient;
 mod lanes;
+#[cfg(feature = "optimize")]
 pub mod optimize;
 mod reading;
 mod report_check;

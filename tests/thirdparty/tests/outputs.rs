@@ -163,3 +163,24 @@ fn an_output_that_is_no_number_is_told() {
     let warnings = run.result.warnings.join("\n");
     assert!(warnings.contains("output \"root\" is no number"), "{warnings}");
 }
+
+#[test]
+fn an_output_that_tells_no_derivatives_is_no_goal() {
+    let mut kinds = kinds();
+    kinds.add_output(&ROOT, std::sync::Arc::new(|_| Ok(Box::new(Root))));
+    let text = column(r#""size": Norm(of: ["M2", "M3"]), "root": Root(of: ["size"]),"#);
+    let text = ModelText::new(&text, "outputs.ron").expect("a text");
+    let search = |goal: &str| {
+        let wanted = trilith::optimize::Wanted {
+            case: Some("shake".into()),
+            solver: Some(trilith::SolverKind::Hht),
+            by: vec!["height=3.9 m..4.1 m".parse().expect("a variable")],
+            minimise: vec![goal.into()],
+            ..Default::default()
+        };
+        trilith::optimize::optimize(&text, &kinds, &wanted).map(|_| ())
+    };
+    let told = search("root").expect_err("no derivatives").to_string();
+    assert!(told.contains("`root` tells no derivatives"), "{told}");
+    search("size").expect("its derivatives are known");
+}

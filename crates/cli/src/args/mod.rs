@@ -1,16 +1,17 @@
 //! Arguments of the program.
 
+mod generate;
 mod values;
 
 use crate::figure_files::Format;
 use crate::names::{self, Names};
 use clap::{Args, Parser, Subcommand};
+pub(crate) use generate::{FrameArguments, GenerateArguments, Generated};
 use std::path::PathBuf;
 use trilith_study::Shard;
 pub(crate) use values::{Kept, pair};
 use values::{
-    acceleration, alpha, assignment, count, directions, factor, frequency, length, positive,
-    rocking, share, stress, whole,
+    alpha, assignment, count, directions, factor, frequency, length, positive, rocking, share,
 };
 
 /// Small finite-element models with nonlinear links: fast nonlinear analysis and direct integration.
@@ -35,6 +36,8 @@ pub(crate) enum Command {
     Check(CheckArguments),
     /// Periods, participation and adequacy of the basis
     Modes(ModesArguments),
+    /// Make a page with the model and the engine in it: values and text are changed there, and it runs again
+    View(ViewArguments),
     /// The JSON Schema of models in JSON
     Schema,
     /// The kinds of elements, constraints and links, or the card of one
@@ -87,6 +90,21 @@ pub(crate) struct CheckArguments {
     /// Print the model instead: in SI, repetitions expanded, every default filled in; it reads back as a model
     #[arg(long)]
     pub resolved: bool,
+}
+
+#[derive(Args)]
+pub(crate) struct ViewArguments {
+    #[command(flatten)]
+    pub model: ModelArguments,
+    /// Case that the page begins with [default: the last of the file]
+    #[arg(long)]
+    pub case: Option<String>,
+    /// Page to write [default: the name of the model with `.html`, in this folder]
+    #[arg(long, value_name = "FILE")]
+    pub out: Option<PathBuf>,
+    /// Engine for pages, a WebAssembly module [default: the one beside the program]
+    #[arg(long, value_name = "FILE")]
+    pub engine: Option<PathBuf>,
 }
 
 #[derive(Args)]
@@ -413,79 +431,6 @@ pub(crate) struct ImportArguments {
     /// Write one case with those that it continues, and give the model its damping
     #[arg(long)]
     pub case: Option<String>,
-}
-
-#[derive(Args)]
-pub(crate) struct GenerateArguments {
-    #[command(subcommand)]
-    pub what: Generated,
-}
-
-#[derive(Subcommand)]
-pub(crate) enum Generated {
-    /// A moment frame on sliding isolators under a synthetic ground motion
-    Frame(FrameArguments),
-}
-
-#[derive(Args)]
-pub(crate) struct FrameArguments {
-    /// Start from a frame of about 1e2 … 1e5 degrees of freedom
-    #[arg(long, value_parser = trilith::generate::Frame::PRESETS)]
-    pub preset: Option<String>,
-    /// Bays along X and Y, such as `5,4`
-    #[arg(long, value_name = "X,Y", value_parser = pair(whole))]
-    pub bays: Option<[usize; 2]>,
-    /// Storeys above the base level
-    #[arg(long)]
-    pub storeys: Option<usize>,
-    /// Elements that every member is cut into
-    #[arg(long)]
-    pub cuts: Option<usize>,
-    /// Width of a bay, such as `6 m`
-    #[arg(long, value_parser = length)]
-    pub bay: Option<f64>,
-    /// Height of a storey
-    #[arg(long, value_parser = length)]
-    pub storey: Option<f64>,
-    /// Width and depth of the columns, such as `60 cm,60 cm`
-    #[arg(long, value_name = "B,H", value_parser = pair(length))]
-    pub column: Option<[f64; 2]>,
-    /// Width and depth of the beams
-    #[arg(long, value_name = "B,H", value_parser = pair(length))]
-    pub beam: Option<[f64; 2]>,
-    /// Width and depth of the beams of the base level
-    #[arg(long, value_name = "B,H", value_parser = pair(length))]
-    pub base_beam: Option<[f64; 2]>,
-    /// Young's modulus, such as `30 GPa`
-    #[arg(long, value_parser = stress)]
-    pub young: Option<f64>,
-    /// Friction coefficient of the isolators
-    #[arg(long)]
-    pub mu: Option<f64>,
-    /// Radius of the pendulums of the isolators
-    #[arg(long, value_parser = length)]
-    pub radius: Option<f64>,
-    /// Deformation at which the isolators slip, such as `1 mm`
-    #[arg(long, value_parser = length)]
-    pub uy: Option<f64>,
-    /// Each of the two dampers as share of critical damping
-    #[arg(long)]
-    pub damper_ratio: Option<f64>,
-    /// Largest ground acceleration along X and Y, such as `0.4 g,0.3 g`
-    #[arg(long, value_name = "X,Y", value_parser = pair(acceleration))]
-    pub peak: Option<[f64; 2]>,
-    /// Step of the motion and of the analysis, in seconds
-    #[arg(long, value_parser = positive)]
-    pub dt: Option<f64>,
-    /// Length of both, in seconds
-    #[arg(long, value_parser = positive)]
-    pub duration: Option<f64>,
-    /// Vectors of the FNA basis, from the ground motion alone [default: of the preset, or what the run chooses]
-    #[arg(long)]
-    pub vectors: Option<usize>,
-    /// Model file to write [default: to the screen]
-    #[arg(long, value_name = "FILE")]
-    pub out: Option<PathBuf>,
 }
 
 #[cfg(test)]

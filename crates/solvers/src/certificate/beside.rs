@@ -5,8 +5,9 @@
 //! nothing.
 
 use super::shadow::Shadow;
+use crate::run::HAS_THREADS;
 use crate::step::State;
-use std::sync::mpsc::{Receiver, SyncSender, sync_channel};
+use std::sync::mpsc::{Receiver, Sender, SyncSender, channel, sync_channel};
 
 /// Steps that are reported at a time, and how often more are reported before the shadow has come to them.
 const AT_A_TIME: usize = 64;
@@ -30,10 +31,18 @@ struct Batch {
     links: Vec<f64>,
 }
 
+/// How reports go from the run to the shadow.
+enum Way {
+    /// To a thread beside the run, which waits where the shadow falls behind.
+    Beside(SyncSender<Batch>),
+    /// All are kept until the run has ended.
+    After(Sender<Batch>),
+}
+
 /// The end that the run holds.
 pub(crate) struct Reporter {
     batch: Batch,
-    to: SyncSender<Batch>,
+    to: Way,
     /// True where links answer in the shadow.
     answers: bool,
 }
@@ -46,7 +55,13 @@ pub(crate) struct Listener<'a> {
 
 /// Both ends.
 pub(crate) fn beside(shadow: Shadow<'_>) -> (Reporter, Listener<'_>) {
-    let (to, from) = sync_channel(AHEAD);
+    let (to, from) = if HAS_THREADS {
+        let (to, from) = sync_channel(AHEAD);
+        (Way::Beside(to), from)
+    } else {
+        let (to, from) = channel();
+        (Way::After(to), from)
+    };
     let answers = shadow.answers();
     (Reporter { batch: Batch::default(), to, answers }, Listener { shadow, from })
 }
@@ -84,7 +99,11 @@ impl Reporter {
 
     fn send(&mut self) {
         // Nobody listens any more where the shadow has broken off: that is seen at the end.
-        let _ = self.to.send(std::mem::take(&mut self.batch));
+        let batch = std::mem::take(&mut self.batch);
+        let _ = match &self.to {
+            Way::Beside(to) => to.send(batch),
+            Way::After(to) => to.send(batch),
+        };
     }
 }
 

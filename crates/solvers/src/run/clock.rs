@@ -1,9 +1,7 @@
 //! CPU time and memory of the process, for the work report.
 
+use super::platform::HAS_CLOCK;
 use std::time::Instant;
-
-/// Asking for the time ends a program in WebAssembly that no system is behind.
-const HAS_CLOCK: bool = cfg!(not(all(target_family = "wasm", target_os = "unknown")));
 
 /// Measures CPU time of this thread where the system tells it, wall-clock time elsewhere.
 #[derive(Clone, Copy, Debug)]

@@ -1,6 +1,7 @@
 //! The march of a dynamic case through its output steps, and what goes on beside it in threads of its own.
 
 use super::companion::Companion;
+use super::platform::HAS_THREADS;
 use super::start::Start;
 use crate::certificate::{Certificate, Listener, OutputError, Samples};
 use crate::error::SolveError;
@@ -131,9 +132,7 @@ pub(super) fn march_beside<'a>(
     set_out: &(impl Fn(&mut dyn Stepper) -> Result<Start, SolveError> + Sync),
 ) -> (Ended, Option<Samples<'a>>) {
     let Beside { companion, listener, outputs } = beside;
-    let (ended, found, reduction) = std::thread::scope(|scope| {
-        let found = companion.map(|companion| scope.spawn(|| companion.march(set_out)));
-        let shadow = listener.map(|listener| scope.spawn(move || listener.follow(outputs)));
+    let mut through = || {
         let ended = march_through(&course, march, moving, &mut watch);
         if let Some(companion) = companion {
             companion.end(ended.made);
@@ -141,10 +140,23 @@ pub(super) fn march_beside<'a>(
         if let Some(certificate) = &mut watch.certificate {
             certificate.end();
         }
-        // Where the companion finds no start, the run finds none either.
-        let found = found.and_then(|thread| thread.join().ok()).and_then(Result::ok);
-        (ended, found, shadow.map(|thread| thread.join().ok()))
-    });
+        ended
+    };
+    let (ended, found, reduction) = if HAS_THREADS {
+        std::thread::scope(|scope| {
+            let found = companion.map(|companion| scope.spawn(|| companion.march(set_out)));
+            let shadow = listener.map(|listener| scope.spawn(move || listener.follow(outputs)));
+            let ended = through();
+            let found = found.and_then(|thread| thread.join().ok());
+            (ended, found, shadow.map(|thread| thread.join().ok()))
+        })
+    } else {
+        let ended = through();
+        let found = companion.map(|companion| companion.march(set_out));
+        (ended, found, listener.map(|listener| Some(listener.follow(outputs))))
+    };
+    // Where the companion finds no start, the run finds none either.
+    let found = found.and_then(Result::ok);
     if let (Some(certificate), Some(reduction)) = (watch.certificate, reduction) {
         certificate.reduce(reduction);
     }

@@ -49,9 +49,11 @@ fn extremes(of: &OutputGradient) -> Vec<Valued> {
     (0..n).filter(is_one).map(valued).collect()
 }
 
-/// What a name of an expression stands for in front of `final`.
+/// What stands in front of the name of an output for its value at the end.
+const END: &str = "final_of_";
+
 fn end_of(output: &str) -> String {
-    format!("final_of_{output}")
+    format!("{END}{output}")
 }
 
 fn dimension(unit: &str) -> Dimension {
@@ -232,10 +234,15 @@ impl Term {
 
     /// Its value and derivatives in a run, and its dimension.
     pub(super) fn of(&self, values: &Values) -> Result<(Valued, Quantity), OptimizeError> {
+        let wrong = |reason: String| OptimizeError::Expression { text: self.text.clone(), reason };
         let (quantity, used) = self.evaluate(values, None)?;
         let mut by: Vec<f64> = Vec::new();
         for name in used {
             let (of, _) = &values.all[&name];
+            if of.by.iter().any(|x| x.is_nan()) {
+                let output = name.strip_prefix(END).unwrap_or(&name);
+                return Err(wrong(format!("`{output}` tells no derivatives")));
+            }
             by.resize(of.by.len(), 0.0);
             if of.by.iter().all(|x| *x == 0.0) {
                 continue;
@@ -250,8 +257,7 @@ impl Term {
             by.iter_mut().zip(&of.by).for_each(|(by, x)| *by += slope * x);
         }
         if by.iter().any(|x| x.is_nan()) {
-            let reason = "an output in it tells no derivatives".into();
-            return Err(OptimizeError::Expression { text: self.text.clone(), reason });
+            return Err(wrong("it has no derivatives at the values of a run".into()));
         }
         Ok((Valued { value: quantity.value, by }, quantity))
     }

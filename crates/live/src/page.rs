@@ -1,0 +1,148 @@
+//! The page: a model with the engine in it, as one file without network.
+
+use base64::Engine;
+use base64::engine::general_purpose::STANDARD;
+use flate2::Compression;
+use flate2::write::GzEncoder;
+use maud::{DOCTYPE, PreEscaped, html};
+use serde_json::json;
+use std::collections::BTreeMap;
+use std::io::{Result, Write};
+
+const STYLE: &str = include_str!("page/live.css");
+const WORKER: &str = include_str!("page/worker.js");
+/// Of the page, in the order in which its parts build on each other.
+const SCRIPT: [&str; 4] = [
+    include_str!("page/engine.js"),
+    include_str!("page/frames.js"),
+    include_str!("page/controls.js"),
+    include_str!("page/start.js"),
+];
+
+/// What a page is made of.
+#[derive(Clone, Debug)]
+pub struct Live<'a> {
+    /// Title of the page.
+    pub title: &'a str,
+    /// Path of the model, as the commands that the page shows name it.
+    pub path: &'a str,
+    /// Text of the model.
+    pub text: &'a str,
+    /// Other files that it reads: text by path.
+    pub files: BTreeMap<String, String>,
+    /// Values of parameters that the page begins with.
+    pub set: &'a [(String, String)],
+    /// Case that the page begins with; the last one where none is named.
+    pub case: Option<&'a str>,
+    /// The library of this crate, compiled for WebAssembly.
+    pub engine: &'a [u8],
+}
+
+/// The page as HTML.
+///
+/// # Errors
+/// None that a memory to write to could give.
+pub fn page(live: &Live<'_>) -> Result<String> {
+    let mut packed = GzEncoder::new(Vec::new(), Compression::best());
+    packed.write_all(live.engine)?;
+    let engine = STANDARD.encode(packed.finish()?);
+    let model = json!({
+        "path": live.path,
+        "text": live.text,
+        "files": live.files,
+        "set": live.set.iter().cloned().collect::<BTreeMap<_, _>>(),
+        "case": live.case,
+        "worker": WORKER,
+    });
+    // Nothing in a text ends the script that it stands in.
+    let model = model.to_string().replace('<', "\\u003c");
+    let page = html! {
+        (DOCTYPE)
+        html lang="en" {
+            head {
+                meta charset="utf-8";
+                meta name="viewport" content="width=device-width, initial-scale=1";
+                title { (live.title) }
+                style { (PreEscaped(STYLE)) }
+            }
+            body {
+                main {
+                    section.side aria-label="Model" {
+                        h1 { (live.title) }
+                        p.choices {
+                            label { "case " select #case {} }
+                            label { "solver " select #solver {} }
+                        }
+                        div #tabs role="tablist" {
+                            button type="button" role="tab" aria-selected="true" aria-controls="values" { "Parameters" }
+                            button type="button" role="tab" aria-selected="false" aria-controls="file" { "File" }
+                        }
+                        div #values role="tabpanel" {}
+                        div #file role="tabpanel" hidden {
+                            label { "file " select #which {} }
+                            textarea #text spellcheck="false" autocapitalize="off" aria-label="Text of the file" {}
+                            p { button type="button" #save { "Save a copy" } }
+                        }
+                        p #state role="status" { "The engine starts." }
+                        pre #told hidden {}
+                        table #peaks hidden {
+                            thead { tr { th { "peak" } th { "here" } th { "against the file" } } }
+                            tbody {}
+                        }
+                        p.note { "The same from the program:" }
+                        pre #command {}
+                        p { button type="button" #back { "Back to the file's values" } }
+                        p.note #version {}
+                        noscript { "This page computes; it needs JavaScript." }
+                    }
+                    div #results {}
+                }
+                script type="application/gzip+base64" #engine { (PreEscaped(engine)) }
+                script type="application/json" #model { (PreEscaped(model)) }
+                script { (PreEscaped(SCRIPT.join("\n"))) }
+            }
+        }
+    };
+    Ok(page.into_string())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::io::Read;
+
+    #[test]
+    fn a_page_carries_model_files_and_engine_and_no_text_ends_a_script() {
+        let hostile = "</script><script>alert(1)</script>";
+        let files = BTreeMap::from([("records/a.csv".to_owned(), hostile.to_owned())]);
+        let engine = b"\0asm and so on".repeat(50);
+        let set = [("mu".to_owned(), hostile.to_owned())];
+        let live = Live {
+            title: hostile,
+            path: "a.ron",
+            text: hostile,
+            files,
+            set: &set,
+            case: None,
+            engine: &engine,
+        };
+        let html = page(&live).unwrap();
+        // Those of the page itself: engine, model, script.
+        assert_eq!(html.matches("</script>").count(), 3);
+        assert!(!html.contains("alert(1)</script>"));
+        assert!(!html.contains("http"));
+        let between = |from: &str| {
+            let start = html.find(from).unwrap() + from.len();
+            let start = start + html[start..].find('>').unwrap() + 1;
+            &html[start..start + html[start..].find("</script>").unwrap()]
+        };
+        let model: serde_json::Value =
+            serde_json::from_str(between(r#"type="application/json""#)).unwrap();
+        assert_eq!(model["text"], hostile);
+        assert_eq!(model["files"]["records/a.csv"], hostile);
+        let packed = STANDARD.decode(between(r#"type="application/gzip+base64""#)).unwrap();
+        let mut unpacked = Vec::new();
+        flate2::read::GzDecoder::new(&packed[..]).read_to_end(&mut unpacked).unwrap();
+        assert_eq!(unpacked, engine);
+    }
+}

@@ -1,0 +1,86 @@
+// Runs follow what is changed: at once without the errors of the steps, and with them when nothing has changed for a while.
+"use strict";
+let timer, patience;
+const QUIET = 700, PATIENCE = 1500;
+
+const seconds = (ms) => (ms < 1000 ? `${Math.round(ms)} ms` : `${(ms / 1000).toFixed(1)} s`);
+
+const shown = (errors, asked) => (answer) => {
+  clearTimeout(patience);
+  document.body.classList.remove("busy");
+  if (answer.told) {
+    tell(answer.told);
+    say("The results are those of before.");
+    return;
+  }
+  tell("");
+  frames.show(answer.page);
+  peaks(answer.peaks);
+  say(errors ? `Run with its errors in ${seconds(answer.ms)}.` : `Run in ${seconds(answer.ms)}; its errors follow.`);
+  document.body.dataset.shown = asked;
+};
+const run = (errors) => {
+  const { path, text, set, case: of, solver } = state;
+  const asked = JSON.stringify([set, of, solver, text.length, errors]);
+  engine.ask(errors ? "errors" : "run", { ask: "run", path, text, set, case: of, solver, errors }, shown(errors, asked));
+};
+function changed() {
+  command();
+  clearTimeout(timer);
+  // What takes long makes way for a new value.
+  const goes = engine.goes();
+  if (goes?.kind === "errors" || (goes?.kind === "run" && goes.ms > PATIENCE)) engine.stop();
+  document.body.classList.add("busy");
+  run(false);
+  clearTimeout(patience);
+  patience = setTimeout(() => say("A long run goes on …"), PATIENCE);
+  timer = setTimeout(run, QUIET, true);
+}
+const look = () => engine.ask("look", { ask: "look", path: state.path, text: state.text, set: {} }, looked);
+
+by("case").addEventListener("change", () => { state.case = by("case").value; changed(); });
+by("solver").addEventListener("change", () => { state.solver = by("solver").value || null; changed(); });
+by("back").addEventListener("click", () => {
+  Object.assign(state, { text: data.text, set: {}, case: data.case, solver: null });
+  Object.assign(data.files, original);
+  by("values").dataset.of = "";
+  edit();
+  engine.files();
+  look();
+  changed();
+});
+for (const tab of document.querySelectorAll("[role=tab]")) tab.addEventListener("click", () => {
+  for (const other of document.querySelectorAll("[role=tab]")) {
+    other.setAttribute("aria-selected", other === tab);
+    by(other.getAttribute("aria-controls")).hidden = other !== tab;
+  }
+});
+
+// The model and the files of its sections can be written in.
+const original = { ...data.files };
+const files = [data.path, ...Object.keys(data.files).filter((path) => path.endsWith(".ron"))];
+options("which", files, data.path);
+by("which").parentElement.hidden = files.length < 2;
+const which = () => by("which").value;
+const edit = () => { by("text").value = which() === data.path ? state.text : data.files[which()]; };
+by("which").addEventListener("change", edit);
+let typing;
+by("text").addEventListener("input", () => {
+  clearTimeout(typing);
+  typing = setTimeout(() => {
+    if (which() === data.path) state.text = by("text").value;
+    else { data.files[which()] = by("text").value; engine.files(); }
+    look();
+    changed();
+  }, 250);
+});
+by("save").addEventListener("click", () => {
+  const link = document.createElement("a");
+  link.href = URL.createObjectURL(new Blob([by("text").value], { type: "text/plain" }));
+  link.download = which().split("/").at(-1);
+  link.click();
+  URL.revokeObjectURL(link.href);
+});
+edit();
+look();
+changed();

@@ -1,0 +1,79 @@
+//! A live page in a real browser, where there are one, Node.js and the engine: its peaks are those of the library.
+
+use serde_json::{Value, json};
+use std::collections::BTreeMap;
+use std::path::{Path, PathBuf};
+use std::process::Command;
+use trilith::RunOptions;
+use trilith_live::{Live, page};
+
+/// Slider of a parameter whose value is x0 5^s: s, and the value as the page rounds it.
+const SLIDER: (f64, &str) = (-0.25, "0.401");
+
+/// The engine where cargo puts it; `TRILITH_ENGINE` names another.
+fn engine() -> Option<Vec<u8>> {
+    let target = PathBuf::from(env!("CARGO_TARGET_TMPDIR")).join("..");
+    let built = target.join("wasm32-unknown-unknown/live/trilith_live.wasm");
+    let path = std::env::var_os("TRILITH_ENGINE").map_or(built, PathBuf::from);
+    std::fs::read(path).ok()
+}
+
+/// Peaks by the library, as the page shows them.
+fn peaks(text: &str, set: &[(&str, &str)]) -> BTreeMap<String, f64> {
+    let set: Vec<_> = set.iter().map(|(n, v)| ((*n).to_owned(), (*v).to_owned())).collect();
+    let text = trilith::model::ModelText::new(text, "rigid_block.ron").unwrap();
+    let model = text.read(&trilith::registry(), &set).unwrap();
+    let case = model.cases.len() - 1;
+    let options = RunOptions { case, ..RunOptions::default() };
+    let run = trilith::Analysis::new(&model).unwrap().run(options).unwrap();
+    let one = |o: &trilith::model::Output| {
+        let peak = run.peak(&o.name).unwrap();
+        (o.name.clone(), if peak.max >= -peak.min { peak.max } else { peak.min })
+    };
+    model.shown().map(|(_, o)| one(o)).filter(|(_, x)| *x != 0.0).collect()
+}
+
+#[test]
+fn a_page_computes_what_the_library_computes_and_tells_what_is_wrong() {
+    let here = Path::new(env!("CARGO_MANIFEST_DIR"));
+    if Command::new("node").arg("--version").output().is_err() {
+        println!("not run: no Node.js found");
+        return;
+    }
+    let Some(engine) = engine() else {
+        println!("not run: the engine for pages is not built");
+        return;
+    };
+    let text = std::fs::read_to_string(here.join("../../models/rigid_block.ron")).unwrap();
+    let live = Live {
+        title: "Rigid block",
+        path: "rigid_block.ron",
+        text: &text,
+        files: BTreeMap::new(),
+        set: &[],
+        case: None,
+        engine: &engine,
+    };
+    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("live");
+    std::fs::create_dir_all(&folder).unwrap();
+    let write = |name: &str, content: String| {
+        let path = folder.join(name);
+        std::fs::write(&path, content).unwrap();
+        path
+    };
+    let expected: Value = json!({
+        "parameter": "mu",
+        "slider": SLIDER.0,
+        "peaks": peaks(&text, &[]),
+        "moved": peaks(&text, &[("mu", SLIDER.1)]),
+        "wrong": ["\"10 t\"", "\"10 m\""],
+    });
+    let html = write("rigid_block.html", page(&live).unwrap());
+    let expected = write("expected.json", expected.to_string());
+    let mut drive = Command::new("node");
+    drive.arg(here.join("tests/live.mjs")).args([&html, &expected]).arg(folder.join("pictures"));
+    let done = drive.output().unwrap();
+    let told = String::from_utf8_lossy(&done.stdout);
+    print!("{told}");
+    assert!(done.status.success(), "{told}{}", String::from_utf8_lossy(&done.stderr));
+}
