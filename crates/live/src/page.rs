@@ -73,6 +73,12 @@ pub fn page(live: &Live<'_>) -> Result<String> {
                             label { "case " select #case {} }
                             label { "solver " select #solver {} }
                         }
+                        p #state role="status" { "The engine starts." }
+                        pre #told hidden {}
+                        table #peaks hidden {
+                            thead { tr { th { "peak" } th { "here" } th { "against the file" } } }
+                            tbody {}
+                        }
                         div #tabs role="tablist" {
                             button type="button" role="tab" aria-selected="true" aria-controls="values" { "Parameters" }
                             button type="button" role="tab" aria-selected="false" aria-controls="file" { "File" }
@@ -82,12 +88,6 @@ pub fn page(live: &Live<'_>) -> Result<String> {
                             label { "file " select #which {} }
                             textarea #text spellcheck="false" autocapitalize="off" aria-label="Text of the file" {}
                             p { button type="button" #save { "Save a copy" } }
-                        }
-                        p #state role="status" { "The engine starts." }
-                        pre #told hidden {}
-                        table #peaks hidden {
-                            thead { tr { th { "peak" } th { "here" } th { "against the file" } } }
-                            tbody {}
                         }
                         p.note { "The same from the program:" }
                         pre #command {}

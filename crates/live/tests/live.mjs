@@ -72,13 +72,13 @@ try {
 
   await size(1280, 900, "light");
   await on("Page.navigate", { url: pathToFileURL(resolve(path)).href });
-  await until("the first run", "document.body.dataset.shown");
+  await until("the first run", "document.body?.dataset.shown");
   await until("its errors", "document.body.dataset.shown.endsWith('true]')");
   await compare("as the file says", wanted.peaks);
   await picture("1280-light");
 
   const slider = `document.querySelector('input[aria-label="${wanted.parameter}, slider"]')`;
-  const before = await value("document.body.dataset.shown");
+  const before = await value("document.body?.dataset.shown");
   await value(`{ const s = ${slider}; s.value = ${wanted.slider}; s.dispatchEvent(new Event("input")); }`);
   await until("the run of the slider", `document.body.dataset.shown !== ${JSON.stringify(before)}`);
   await compare(`${wanted.parameter} moved`, wanted.moved);

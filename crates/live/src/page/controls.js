@@ -34,7 +34,7 @@ const field = (parameter) => {
   name.textContent = parameter.name;
   const input = document.createElement("input");
   input.value = state.set[parameter.name] ?? parameter.text;
-  row.append(name, input);
+  row.append(name);
   const take = (text) => {
     if (text.trim() === parameter.text) delete state.set[parameter.name];
     else state.set[parameter.name] = text.trim();
@@ -61,6 +61,7 @@ const field = (parameter) => {
     input.addEventListener("input", () => { slider.value = at(input.value); });
     row.append(slider);
   }
+  row.append(input);
   input.addEventListener("input", () => take(input.value));
   return row;
 };
