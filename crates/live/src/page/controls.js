@@ -107,7 +107,7 @@ const peaks = (all) => {
   by("peaks").tBodies[0].replaceChildren(...all.map(({ name, unit, value }) => {
     const row = document.createElement("tr");
     const first = state.first?.[name];
-    const change = first ? 100 * (value / first - 1) : NaN;
+    const change = first ? 100 * (Math.abs(value / first) - 1) : NaN;
     const cells = [name, `${Number(value.toPrecision(4))} ${unit}`.trim(),
       Number.isFinite(change) && !plain ? `${change > 0 ? "+" : ""}${change.toFixed(Math.abs(change) < 10 ? 1 : 0)} %` : ""];
     row.append(...cells.map((text) => Object.assign(document.createElement("td"), { textContent: text })));
