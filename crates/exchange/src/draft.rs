@@ -37,6 +37,8 @@ pub struct Draft {
     pub functions: Section,
     /// Patterns: forces and moments of nodes.
     pub loads: Vec<(String, BTreeMap<usize, [f64; 6]>)>,
+    /// Loads along members, by the patterns that they belong to.
+    pub along: BTreeMap<String, Vec<Ron>>,
     /// Cases.
     pub cases: Section,
     /// Outputs.
@@ -65,9 +67,10 @@ impl Draft {
         let value = section.and_then(|s| s.iter().find(|(_, v)| !v.is_finite()));
         let node = self.nodes.iter().find(|(_, at)| at.iter().any(|x| !x.is_finite()));
         let load = self.loads.iter().find(|(_, f)| f.values().flatten().any(|x| !x.is_finite()));
+        let along = self.along.iter().find(|(_, all)| all.iter().any(|b| !b.is_finite()));
         let damping = self.damping.iter().find(|d| !d.is_finite()).map(|_| "damping");
         let name = value.map(|(n, _)| n.as_str()).or(node.map(|(n, _)| n.as_str()));
-        name.or(load.map(|(n, _)| n.as_str())).or(damping)
+        name.or(load.map(|(n, _)| n.as_str())).or(along.map(|(n, _)| n.as_str())).or(damping)
     }
 
     /// The model file.
@@ -96,7 +99,7 @@ impl Draft {
             let _ = writeln!(out, "    p_delta: {},", quoted(case));
         }
         map(&mut out, "functions", self.functions.iter().map(line));
-        map(&mut out, "loads", self.loads.iter().map(|l| (l.0.clone(), self.load(&l.1))));
+        map(&mut out, "loads", self.loads.iter().map(|l| (l.0.clone(), self.load(&l.0, &l.1))));
         map(&mut out, "cases", self.cases.iter().map(line));
         map(&mut out, "outputs", self.outputs.iter().map(line));
         out.push_str(")\n");
@@ -113,7 +116,7 @@ impl Draft {
         Some((self.nodes[node].0.clone(), text))
     }
 
-    fn load(&self, forces: &BTreeMap<usize, [f64; 6]>) -> String {
+    fn load(&self, name: &str, forces: &BTreeMap<usize, [f64; 6]>) -> String {
         let mut lines = String::from("[\n");
         for (node, f) in forces {
             for (i, x) in f.iter().enumerate().filter(|(_, x)| **x != 0.0) {
@@ -121,6 +124,9 @@ impl Draft {
                 let (node, dof, x) = (quoted(&self.nodes[*node].0), DOFS[i], number(*x));
                 let _ = writeln!(lines, "            (node: {node}, dof: {dof}, {what}: {x}),");
             }
+        }
+        for block in self.along.get(name).into_iter().flatten() {
+            let _ = writeln!(lines, "            {block},");
         }
         if lines.len() == 2 {
             return "[]".into();

@@ -2,6 +2,7 @@
 //!
 //! [`sap2000::import`] reads the text models of SAP2000. Every table of a file is read, knowingly ignored, or named as
 //! lost; of the tables that are read every field is used, knowingly ignored, or named where it departs from its default.
+//! [`opensees::import`] runs scripts of OpenSees and does the same for their commands and arguments.
 //!
 //! ```
 //! use trilith_exchange::{Options, sap2000};
@@ -24,12 +25,13 @@
 //! ```
 
 mod draft;
+pub mod opensees;
 mod report;
 pub mod ron;
 pub mod sap2000;
 
 pub use draft::{DOFS, Draft, Section};
-pub use report::{Fate, Note, Report, TableReport};
+pub use report::{Fate, Note, Report, TableReport, Things};
 use std::path::PathBuf;
 use trilith_model::Diagnostic;
 
@@ -44,11 +46,22 @@ pub struct Options {
     pub stem: String,
     /// The only case that is written, with those that it continues.
     pub case: Option<String>,
+    /// Units of length and force of a file that does not say its own; none: m and N.
+    pub units: Option<(String, String)>,
+    /// Most commands that a script may run.
+    pub budget: u64,
 }
 
 impl Default for Options {
     fn default() -> Self {
-        Self { path: "model.s2k".into(), folder: None, stem: "model".into(), case: None }
+        Self {
+            path: "model.s2k".into(),
+            folder: None,
+            stem: "model".into(),
+            case: None,
+            units: None,
+            budget: 2_000_000,
+        }
     }
 }
 

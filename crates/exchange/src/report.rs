@@ -13,7 +13,27 @@ pub enum Fate {
     Lost(String),
 }
 
-/// A table of the file.
+/// What a report counts.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Things {
+    /// Tables and their fields.
+    #[default]
+    Tables,
+    /// Commands and their arguments.
+    Commands,
+}
+
+impl Things {
+    /// Their name, and that of their parts.
+    fn names(self) -> [&'static str; 2] {
+        match self {
+            Self::Tables => ["tables", "fields"],
+            Self::Commands => ["commands", "arguments"],
+        }
+    }
+}
+
+/// A table of the file, or a command of a script.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct TableReport {
     /// Its name.
@@ -45,6 +65,8 @@ const SHOWN: usize = 8;
 pub struct Report {
     /// A line on the file.
     pub file: String,
+    /// What the file is made of.
+    pub things: Things,
     /// What was written, by kind and number.
     pub written: Vec<(String, usize)>,
     /// Tables, in their order.
@@ -92,9 +114,10 @@ impl Report {
         let ignored = by(|f| matches!(f, Fate::Ignored(_))).count();
         let lost = by(|f| matches!(f, Fate::Lost(_))).count();
         let all = self.tables.len();
+        let [things, parts] = self.things.names();
         let _ = writeln!(
             out,
-            "\ntables: {all}; {read} read, {ignored} ignored knowingly, {lost} lost\n"
+            "\n{things}: {all}; {read} read, {ignored} ignored knowingly, {lost} lost\n"
         );
         let rows = by(|f| matches!(f, Fate::Lost(_))).map(|t| {
             let Fate::Lost(what) = &t.fate else { return Vec::new() };
@@ -104,17 +127,17 @@ impl Report {
         section(&mut out, "LOST: this changes results", rows.chain(notes).collect());
         section(&mut out, "said otherwise", self.otherwise.iter().map(line).collect());
         let rows = by(|f| *f == Fate::Read).map(|t| vec![t.name.clone(), t.rows.to_string()]);
-        section(&mut out, "tables read", rows.collect());
+        section(&mut out, &format!("{things} read"), rows.collect());
         section(
             &mut out,
-            "fields left out of tables read",
+            &format!("{parts} left out of {things} read"),
             self.ignored.iter().map(line).collect(),
         );
         let rows = by(|f| matches!(f, Fate::Ignored(_))).map(|t| {
             let Fate::Ignored(why) = &t.fate else { return Vec::new() };
             vec![t.name.clone(), t.rows.to_string(), why.clone()]
         });
-        section(&mut out, "tables ignored knowingly", rows.collect());
+        section(&mut out, &format!("{things} ignored knowingly"), rows.collect());
         while out.ends_with("\n\n") {
             out.pop();
         }
