@@ -442,7 +442,7 @@ impl Recorder<'_> {
 fn sided(all: &[f64]) -> Option<Vec<[f64; 2]>> {
     let up: Vec<[f64; 2]> = all.chunks_exact(2).map(|p| [p[0], p[1]]).collect();
     let rising = up.first().is_some_and(|p| p[0] > 0.0) && up.windows(2).all(|w| w[0][0] < w[1][0]);
-    if !rising || all.len() % 2 != 0 {
+    if !rising || !all.len().is_multiple_of(2) {
         return None;
     }
     let down = up.iter().rev().map(|p| [-p[0], -p[1]]);

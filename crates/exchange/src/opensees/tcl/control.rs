@@ -110,7 +110,7 @@ fn while_loop(i: &mut Interpreter<'_>, w: &[Value]) -> Outcome {
 }
 
 fn foreach(i: &mut Interpreter<'_>, w: &[Value]) -> Outcome {
-    if w.len() < 4 || w.len() % 2 != 0 {
+    if w.len() < 4 || !w.len().is_multiple_of(2) {
         return Err(i.wrong(
             "`foreach` without pairs of names and lists, and a body",
             "foreach name {list} {body}",

@@ -93,7 +93,7 @@ fn source(i: &mut Interpreter<'_>, w: &[Value]) -> Outcome {
         .settings
         .folder
         .as_deref()
-        .map(|f| f.join(&i.sources[0].path.file_name().map(PathBuf::from).unwrap_or_default()));
+        .map(|f| f.join(i.sources[0].path.file_name().map(PathBuf::from).unwrap_or_default()));
     let own = own.and_then(|p| p.canonicalize().ok());
     if i.reading.contains(&path) || own.as_ref() == Some(&path) {
         let message = format!("`{}` is being read already: it reads itself", w[1].str());

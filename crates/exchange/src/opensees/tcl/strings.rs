@@ -195,10 +195,7 @@ fn format(i: &mut Interpreter<'_>, w: &[Value]) -> Outcome {
             n
         };
         let width = digits(&mut chars).unwrap_or(0);
-        let precision = match chars.next_if_eq(&'.') {
-            Some(_) => Some(digits(&mut chars).unwrap_or(0)),
-            None => None,
-        };
+        let precision = chars.next_if_eq(&'.').map(|_| digits(&mut chars).unwrap_or(0));
         while chars.next_if(|c| "lhL".contains(*c)).is_some() {}
         let kind = chars.next();
         let Some(value) = w.get(next) else {

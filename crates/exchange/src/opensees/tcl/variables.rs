@@ -256,7 +256,7 @@ fn upvar(i: &mut Interpreter<'_>, w: &[Value]) -> Outcome {
         None => text.parse::<usize>().ok().filter(|n| *n >= 1).and_then(|n| top.checked_sub(n)),
     };
     let (to, rest) = match w.get(1).and_then(|v| level(v.str())) {
-        Some(to) if w.len() % 2 == 0 => (to, &w[2..]),
+        Some(to) if w.len().is_multiple_of(2) => (to, &w[2..]),
         _ => (top.saturating_sub(1), &w[1..]),
     };
     if top == 0 || rest.len() % 2 != 0 || rest.is_empty() {
