@@ -6,7 +6,10 @@ use crate::text::shown;
 use crate::{Answer, Failure};
 use std::fs::{create_dir_all, write};
 use std::path::Path;
-use trilith_exchange::{Options, sap2000};
+use trilith::Analysis;
+use trilith::solvers::LinkStiffness;
+use trilith_exchange::opensees::Eigenvalues;
+use trilith_exchange::{Import, Options, opensees, sap2000};
 
 /// Exit status where something that changes results was lost.
 const LOST: i32 = 1;
@@ -25,8 +28,10 @@ pub(crate) fn import(args: &ImportArguments) -> Result<Answer, Failure> {
             .map(|p| if p.as_os_str().is_empty() { ".".into() } else { p.into() }),
         stem: args.out.as_deref().and_then(stem).unwrap_or_else(|| "model".into()),
         case: args.case.clone(),
+        units: args.units.clone(),
+        ..Options::default()
     };
-    let import = sap2000::import(&bytes, &options).map_err(|e| Failure::diagnostics(&e.0))?;
+    let import = read(&bytes, &options)?;
     let losses = import.report.losses();
     let status = if losses == 0 { 0 } else { LOST };
     let report = import.report.text();
@@ -63,6 +68,50 @@ pub(crate) fn import(args: &ImportArguments) -> Result<Answer, Failure> {
     warned();
     let written: String = files.iter().map(|(path, _)| format!("{}\n", shown(path))).collect();
     Ok(Answer { text: format!("{report}\n{written}"), status })
+}
+
+/// Reads a file by its ending.
+fn read(bytes: &[u8], options: &Options) -> Result<Import, Failure> {
+    let end = options.path.extension().map(|e| e.to_string_lossy().to_lowercase());
+    let import = match end.as_deref() {
+        Some("tcl") => opensees::import(bytes, options, &Modes),
+        Some("py") => {
+            let message =
+                format!("{} is a script in Python, which is not run", shown(&options.path));
+            return Err(Failure::input(
+                &message,
+                Some("scripts of OpenSees are read in Tcl (`.tcl`)"),
+            ));
+        }
+        _ if options.units.is_some() => {
+            let help = "it says its own; a script of OpenSees (`.tcl`) has none";
+            return Err(Failure::input("`--units` of a text model of SAP2000", Some(help)));
+        }
+        _ => sap2000::import(bytes, options),
+    };
+    import.map_err(|e| Failure::diagnostics(&e.0))
+}
+
+/// Modes that a script asks for, with links by their tangents.
+struct Modes;
+
+impl Eigenvalues for Modes {
+    fn eigenvalues(
+        &self,
+        model: &str,
+        after: Option<&str>,
+        count: usize,
+    ) -> Result<Vec<f64>, String> {
+        let read = trilith::read_text(model, "model.ron", &trilith::registry(), &[]);
+        let model =
+            read.map_err(|all| all.first().map_or_else(String::new, |e| e.message.clone()))?;
+        let after = after.and_then(|name| model.case(name));
+        let analysis = Analysis::new(&model).map_err(|e| e.to_string())?;
+        let linear =
+            analysis.linearised(&LinkStiffness::Tangent, after).map_err(|e| e.to_string())?;
+        let modes = linear.modes(count).map_err(|e| e.to_string())?;
+        Ok(modes.omega2)
+    }
 }
 
 fn content(path: &Path) -> Result<Vec<u8>, Failure> {

@@ -12,6 +12,7 @@ use trilith_study::Shard;
 pub(crate) use values::{Kept, pair};
 use values::{
     alpha, assignment, count, directions, factor, frequency, length, positive, rocking, share,
+    units,
 };
 
 /// Small finite-element models with nonlinear links: fast nonlinear analysis and direct integration.
@@ -422,7 +423,7 @@ pub(crate) struct CalibrateArguments {
 
 #[derive(Args)]
 pub(crate) struct ImportArguments {
-    /// Text model of SAP2000 (`.s2k` or `.$2k`)
+    /// Text model of SAP2000 (`.s2k` or `.$2k`), or script of OpenSees (`.tcl`)
     pub file: PathBuf,
     /// Model file to write; the report of losses goes beside it as `<name>.import.txt`, records as CSV files
     /// [default: no files, the model is printed]
@@ -431,6 +432,9 @@ pub(crate) struct ImportArguments {
     /// Write one case with those that it continues, and give the model its damping
     #[arg(long)]
     pub case: Option<String>,
+    /// Units of length and force of a script, such as `in,kip` [default: m,N]
+    #[arg(long, value_name = "LENGTH,FORCE", value_parser = units)]
+    pub units: Option<(String, String)>,
 }
 
 #[cfg(test)]

@@ -26,6 +26,21 @@ pub(super) fn share(text: &str) -> Result<f64, String> {
     }
 }
 
+/// Units of length and force, with a comma between them.
+pub(super) fn units(text: &str) -> Result<(String, String), String> {
+    const LENGTHS: [&str; 5] = ["m", "cm", "mm", "in", "ft"];
+    const FORCES: [&str; 5] = ["N", "kN", "MN", "lbf", "kip"];
+    match text.split(',').map(str::trim).collect::<Vec<_>>().as_slice() {
+        [length, force] if LENGTHS.contains(length) && FORCES.contains(force) => {
+            Ok(((*length).into(), (*force).into()))
+        }
+        _ => {
+            Err("one of m, cm, mm, in, ft, a comma, and one of N, kN, MN, lbf, kip are wanted"
+                .into())
+        }
+    }
+}
+
 /// Two values with a comma between them.
 pub(crate) fn pair<T>(
     one: fn(&str) -> Result<T, String>,

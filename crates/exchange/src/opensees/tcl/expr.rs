@@ -353,6 +353,9 @@ impl Reader<'_, '_> {
 
     fn word(&mut self) -> Result<Term, Flow> {
         let rest = &self.text[self.at..];
+        if rest.starts_with(super::super::UNKNOWN) {
+            return Err(self.interpreter.no_number(rest));
+        }
         let end = rest.find(|c: char| !c.is_alphanumeric() && c != '_').unwrap_or(rest.len());
         let name = rest[..end].to_owned();
         self.at += end;
