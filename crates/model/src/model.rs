@@ -1,5 +1,6 @@
 //! The model after reading: plain data in SI, everything resolved to indices and checked.
 
+use crate::sections::Shape;
 use crate::{Analysis, Case, CustomSolver, Envelope, FloorSpectrum, Output, Places, TimeFunction};
 use sha2::{Digest, Sha256};
 use std::ops::Range;
@@ -49,6 +50,8 @@ pub struct Model {
     pub supports: Vec<Support>,
     /// Elements, constraints and links, in file order.
     pub elements: Vec<Element>,
+    /// Named groups of nodes and of elements, in file order.
+    pub groups: Vec<Group>,
     /// The damping statement.
     pub damping: Damping,
     /// Time functions, in file order.
@@ -149,6 +152,19 @@ pub struct Element {
     pub values: Arc<Values>,
     /// Directions of local axes 1 and 2 as the file gives them.
     pub axes: [Option<Vector3>; 2],
+    /// What its cross-section looks like, where it has a section that says so; for pictures alone.
+    pub section: Option<Shape>,
+}
+
+/// Nodes or elements that one name stands for.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Group {
+    /// Name.
+    pub name: String,
+    /// True for nodes, false for elements.
+    pub of_nodes: bool,
+    /// Their indices.
+    pub members: Vec<usize>,
 }
 
 /// What a member is.

@@ -7,6 +7,7 @@ use super::values::{Given, values};
 use crate::diagnostic::names_help;
 use crate::registry::Reader;
 use crate::schema;
+use crate::sections::Shape;
 use crate::tree::{Entry, Node};
 use crate::{Body, Element, LinkOptions, Span};
 use std::cell::RefCell;
@@ -87,6 +88,16 @@ pub(super) fn allowed(card: &Card, place: &[&'static str]) -> Vec<&'static str> 
     all
 }
 
+/// What the cross-section of a member looks like: as its own section says, by its sides, or as the set says that it uses.
+fn shape(card: &Card, given: &Given<'_>, values: &Values) -> Option<Shape> {
+    let [own, shared] = &given.made;
+    let sides = || match (values.number("width"), values.number("depth")) {
+        (Some(width), Some(depth)) => Some(Shape::Rectangle { width, depth }),
+        _ => None,
+    };
+    own.shape.or_else(sides).or(shared.shape).filter(|_| members::is_member(card))
+}
+
 impl Reading<'_, '_> {
     fn element(&self, e: &Entry) -> Option<Element> {
         let c = self.c;
@@ -140,6 +151,7 @@ impl Reading<'_, '_> {
             Ok(body) => body,
             Err(error) => return self.refuse(&error, &given, &what, &at),
         };
+        let section = shape(card, &given, &values);
         Some(Element {
             name: e.key.clone(),
             kind: card.kind,
@@ -149,6 +161,7 @@ impl Reading<'_, '_> {
             span: e.key_span.clone(),
             values: self.shared_values(values),
             axes: [axis1, axis2],
+            section,
         })
     }
 

@@ -25,6 +25,15 @@ impl Groups {
         self.0.get(name).map(|g| (g.members.as_slice(), g.of_nodes))
     }
 
+    /// What is left of them in the model, in the order of these entries.
+    pub fn kept(&self, entries: &[Entry]) -> Vec<crate::Group> {
+        let one = |e: &Entry| {
+            let (members, of_nodes) = self.get(&e.key)?;
+            Some(crate::Group { name: e.key.clone(), of_nodes, members: members.to_vec() })
+        };
+        entries.iter().filter_map(one).collect()
+    }
+
     /// Names of the groups of nodes, or of those of elements, in no order.
     pub fn names(&self, of_nodes: bool) -> impl Iterator<Item = &str> {
         let fits = move |(_, g): &(&String, &Group)| g.of_nodes == of_nodes;

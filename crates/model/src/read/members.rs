@@ -3,12 +3,21 @@
 use super::context::{Context, Fields};
 use crate::diagnostic::{closest, names_help};
 use crate::schema::{self, Default, Takes};
-use crate::sections::{self, Section};
+use crate::sections::{self, Section, Shape};
 use crate::tree::{Entry, Kind, Node};
 use trilith_element::{Card, Category};
 
 /// Parameters by name, SI.
-pub(super) type Made = Vec<(&'static str, f64)>;
+type Numbers = Vec<(&'static str, f64)>;
+
+/// What a section and a material give.
+#[derive(Default)]
+pub(super) struct Made {
+    /// Parameters by name, SI.
+    pub numbers: Numbers,
+    /// What the section looks like.
+    pub shape: Option<Shape>,
+}
 
 /// Strengths f_ck of the classes of concrete and of cubes, MPa. \[EN 1992-1-1, table 3.1\]
 const CLASSES: [(u8, u8); 14] = [
@@ -40,9 +49,9 @@ fn find<'n>(entries: &'n [Entry], key: &str) -> Option<&'n Node> {
 
 /// What section and material of these fields give, as far as the card takes it.
 pub(super) fn made(c: &Context<'_>, card: &Card, entries: &[Entry], what: &str) -> Option<Made> {
-    let mut all = Made::new();
+    let (mut all, mut shape) = (Numbers::new(), None);
     if !is_member(card) {
-        return Some(all);
+        return Some(Made::default());
     }
     let mut good = true;
     if let Some(node) = find(entries, "section") {
@@ -53,14 +62,17 @@ pub(super) fn made(c: &Context<'_>, card: &Card, entries: &[Entry], what: &str) 
             good = false;
         }
         match section(c, node) {
-            Some(s) => all.extend([
-                ("area", s.area),
-                ("i2", s.i2),
-                ("i3", s.i3),
-                ("torsion", s.torsion),
-                ("shear_area_2", s.shear_area_2),
-                ("shear_area_3", s.shear_area_3),
-            ]),
+            Some(s) => {
+                shape = Some(s.shape);
+                all.extend([
+                    ("area", s.area),
+                    ("i2", s.i2),
+                    ("i3", s.i3),
+                    ("torsion", s.torsion),
+                    ("shear_area_2", s.shear_area_2),
+                    ("shear_area_3", s.shear_area_3),
+                ]);
+            }
             None => good = false,
         }
     }
@@ -71,7 +83,7 @@ pub(super) fn made(c: &Context<'_>, card: &Card, entries: &[Entry], what: &str) 
         }
     }
     all.retain(|(name, _)| card.parameters.iter().any(|p| p.name == *name));
-    good.then_some(all)
+    good.then_some(Made { numbers: all, shape })
 }
 
 /// A field with its default, in SI.
@@ -189,7 +201,7 @@ fn rolled(c: &Context<'_>, node: &Node) -> Option<Section> {
     None
 }
 
-fn material(c: &Context<'_>, node: &Node) -> Option<Made> {
+fn material(c: &Context<'_>, node: &Node) -> Option<Numbers> {
     if let Some(class) = only(node, &schema::CONCRETE) {
         let young = young_of_class(c, class)?;
         return rest(c, &Fields::none(node), &schema::CONCRETE, young);
@@ -218,7 +230,12 @@ fn material(c: &Context<'_>, node: &Node) -> Option<Made> {
 }
 
 /// The modulus and what else a material gives.
-fn rest(c: &Context<'_>, fields: &Fields<'_>, block: &schema::Block, young: f64) -> Option<Made> {
+fn rest(
+    c: &Context<'_>,
+    fields: &Fields<'_>,
+    block: &schema::Block,
+    young: f64,
+) -> Option<Numbers> {
     let mut made = vec![("young", young)];
     let mut good = true;
     for key in ["poisson", "density", "expansion"] {

@@ -267,6 +267,7 @@ fn sections(
         nodes: without_gaps(nodes),
         supports: supports.into_iter().flatten().collect(),
         elements: without_gaps(elements),
+        groups: groups.kept(group_entries),
         damping: damping?,
         functions: functions.into_iter().flatten().collect(),
         patterns: patterns.into_iter().flatten().collect(),

@@ -44,7 +44,7 @@ impl<'n> Given<'n> {
                 return Some(Source::Field(&e.value));
             }
             let given = other.is_some_and(|other| self.get(other).is_some());
-            if let Some((_, x)) = made.iter().find(|(name, _)| *name == key && !given) {
+            if let Some((_, x)) = made.numbers.iter().find(|(name, _)| *name == key && !given) {
                 return Some(Source::Made(*x));
             }
         }

@@ -9,10 +9,12 @@
 //!
 //! Local 2 is along the depth, local 3 along the width: I₃ is of the strong axis.
 
+mod outline;
 mod shapes;
 #[cfg(test)]
 mod tests;
 
+pub use outline::Shape;
 use shapes::{Fillets, Rolled, i_section};
 pub use shapes::{circle, hollow_box, pipe, rectangle};
 use std::collections::BTreeMap;
@@ -35,6 +37,8 @@ pub struct Section {
     pub shear_area_2: f64,
     /// Effective area for shear along local 3, m².
     pub shear_area_3: f64,
+    /// What it looks like.
+    pub shape: Shape,
 }
 
 /// The names of the series.

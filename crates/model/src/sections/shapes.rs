@@ -16,7 +16,7 @@
 //! America; each series has that of its makers. Shear of solid and round sections: \[Cowper 1966\] with ν = 0; of I sections
 //! and boxes the plates along the shear. Rectangle: Roark.
 
-use super::Section;
+use super::{Section, Shape};
 use std::f64::consts::PI;
 
 /// What the last column of a table says of the root fillets.
@@ -54,6 +54,7 @@ pub(super) fn i_section(rolled: &Rolled) -> Section {
         torsion: twist(rolled.sizes, r, rolled.fillets),
         shear_area_2: h * tw,
         shear_area_3: 5.0 / 3.0 * b * tf,
+        shape: Shape::I { depth: h, width: b, web: tw, flange: tf },
     }
 }
 
@@ -85,7 +86,15 @@ pub fn pipe(diameter: f64, thickness: f64) -> Section {
     let m = (inner / diameter).powi(2);
     let q = (1.0 + m).powi(2);
     let shear = area * 6.0 * q / (7.0 * q + 20.0 * m);
-    Section { area, i2: i, i3: i, torsion: 2.0 * i, shear_area_2: shear, shear_area_3: shear }
+    Section {
+        area,
+        i2: i,
+        i3: i,
+        torsion: 2.0 * i,
+        shear_area_2: shear,
+        shear_area_3: shear,
+        shape: Shape::Round { diameter },
+    }
 }
 
 /// A solid circle, m.
@@ -107,6 +116,7 @@ pub fn rectangle(width: f64, depth: f64) -> Section {
         torsion: a * s.powi(3) * (1.0 / 3.0 - 0.21 * q * (1.0 - q.powi(4) / 12.0)),
         shear_area_2: 5.0 / 6.0 * area,
         shear_area_3: 5.0 / 6.0 * area,
+        shape: Shape::Rectangle { width, depth },
     }
 }
 
@@ -122,5 +132,6 @@ pub fn hollow_box(width: f64, depth: f64, web: f64, flange: f64) -> Section {
         torsion: 4.0 * (bm * hm).powi(2) / (2.0 * hm / web + 2.0 * bm / flange),
         shear_area_2: 2.0 * depth * web,
         shear_area_3: 2.0 * width * flange,
+        shape: Shape::Rectangle { width, depth },
     }
 }

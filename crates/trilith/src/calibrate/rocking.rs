@@ -174,6 +174,7 @@ impl Calibrator {
             span: 0..0,
             values: Values::default().into(),
             axes: [None, None],
+            section: None,
         });
         true
     }
