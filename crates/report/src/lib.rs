@@ -25,7 +25,8 @@ pub use figure::{Axis, Color, Figure, Series, Stroke};
 pub use page::{Block, Page, Section};
 pub use png::{PngError, png_is_built_in};
 pub use run::{
-    Answer, Collect, ENERGY, FaceMark, Family, Frames, GROUND, Ground, History, LineKind, LineMark,
-    LinkMark, Loop, Mode, NodeMark, Numbers, Orbit, Picture, Profile, ProfileCurve, RunData,
-    RunIdentity, SPECTRA, Shown, SpectrumChart, SpectrumCurve, named_figures, run_page, short,
+    Answer, Collect, ENERGY, FaceMark, Family, Frames, GROUND, Ground, GroupMark, History,
+    LineKind, LineMark, LinkMark, Loop, Mode, NodeMark, Numbers, Orbit, Picture, Profile,
+    ProfileCurve, RunData, RunIdentity, SPECTRA, Shown, SpectrumChart, SpectrumCurve, Tint, Tinted,
+    named_figures, run_page, short,
 };

@@ -36,7 +36,7 @@ if (out) mkdirSync(out, { recursive: true });
 // The browser speaks its protocol over two pipes: messages of JSON, each ended by a zero.
 const home = mkdtempSync(join(tmpdir(), "pages-"));
 const browser = spawn(chromium, [
-  "--headless", "--no-sandbox", "--disable-gpu", "--disable-quic", "--no-first-run", "--hide-scrollbars",
+  "--headless", "--no-sandbox", "--use-angle=swiftshader", "--enable-unsafe-swiftshader", "--disable-quic", "--no-first-run", "--hide-scrollbars",
   "--disable-background-networking", "--disable-component-update", "--disable-sync", "--remote-debugging-pipe",
   `--user-data-dir=${home}`, "about:blank",
 ], { stdio: ["ignore", "ignore", "ignore", "pipe", "pipe"] });
@@ -117,6 +117,84 @@ const USE = `(async () => {
   return said;
 })()`;
 
+/** Turns, searches, hides, moves, colours and saves the model. */
+const MODEL = `(async () => {
+  const stage = document.getElementById("stage"), said = [], root = document.documentElement;
+  if (!stage) return said;
+  const wait = () => new Promise(requestAnimationFrame);
+  const seen = async () => { await wait(); return stage.toDataURL(); };
+  if (root.dataset.solid !== "true") said.push("the model is not drawn in three dimensions");
+  stage.scrollIntoView({ block: "center" });
+  const data = JSON.parse(document.getElementById("data").textContent);
+  const player = document.getElementById("player"), finder = document.getElementById("finder");
+  player.querySelector('[data-view="space"]')?.click();
+  const first = await seen();
+  const r = stage.getBoundingClientRect();
+  stage.setPointerCapture = () => {};
+  const go = (type, x, y) => stage.dispatchEvent(new PointerEvent(type, { clientX: r.left + x * r.width, clientY: r.top + y * r.height,
+    pointerId: 1, pointerType: "touch", bubbles: true, buttons: 1 }));
+  const changed = async (from, what) => { const now = await seen(); if (now === from) said.push(what + " leaves the model as it was"); return now; };
+  const same = async (as, what) => { if (await seen() !== as) said.push(what + " does not lead back"); };
+  go("pointerdown", 0.5, 0.5); go("pointermove", 0.6, 0.6); go("pointerup", 0.6, 0.6);
+  await changed(first, "one finger");
+  stage.dispatchEvent(new MouseEvent("dblclick"));
+  await same(first, "a double click");
+  stage.dispatchEvent(new KeyboardEvent("keydown", { key: "ArrowUp", shiftKey: true }));
+  await changed(first, "Shift with an arrow");
+  stage.dispatchEvent(new KeyboardEvent("keydown", { key: "0" }));
+  const type = (text) => { const box = finder.querySelector("input"); box.value = text; box.dispatchEvent(new Event("input")); };
+  const wanted = data.picture.nodes.at(-1).name;
+  type(wanted);
+  if (!/^[1-9]/.test(finder.querySelector("output").textContent)) said.push("does not find " + wanted);
+  await changed(first, "a search");
+  type("no such name anywhere");
+  if (finder.querySelector("output").textContent !== "0 found") said.push("finds what there is not");
+  type("");
+  stage.dispatchEvent(new MouseEvent("dblclick"));
+  await same(first, "the end of a search");
+  const keys = [...finder.querySelectorAll("[aria-pressed]")];
+  for (const key of keys) key.click();
+  if (keys.length) await changed(first, "hiding everything");
+  for (const key of keys) key.click();
+  if (keys.length) await same(first, "showing everything");
+  const scrub = player.querySelector("input[type=range]");
+  if (scrub) {
+    const step = async (to) => { scrub.value = to; scrub.dispatchEvent(new Event("input")); return seen(); };
+    const [early, late] = [await step("300"), await step("800")];
+    if (early === late) said.push("the clock does not move the model");
+    const colours = [...player.querySelectorAll("label")].find((l) => l.textContent.startsWith("colours"))?.querySelector("select");
+    let last = late;
+    for (let i = 1; i < Math.min(colours?.options.length ?? 0, 4); i++) {
+      colours.selectedIndex = i;
+      colours.dispatchEvent(new Event("change"));
+      last = await changed(last, "a colour");
+    }
+    if (colours) { colours.selectedIndex = 0; colours.dispatchEvent(new Event("change")); await same(late, "no colour"); }
+    await step("0");
+  }
+  let saved = "";
+  const click = HTMLAnchorElement.prototype.click;
+  HTMLAnchorElement.prototype.click = function () { saved = this.download + " " + this.href; };
+  finder.querySelector("button:not([aria-pressed])").click();
+  HTMLAnchorElement.prototype.click = click;
+  if (!saved.startsWith("model.png data:image/png;base64,iVBORw0KGgo")) said.push("saves no picture: " + saved.slice(0, 60));
+  return said;
+})()`;
+/** Without WebGL the model is drawn flat. */
+const NO_WEBGL = `{
+  const get = HTMLCanvasElement.prototype.getContext;
+  HTMLCanvasElement.prototype.getContext = function (kind, ...rest) { return kind === "webgl2" ? null : get.call(this, kind, ...rest); };
+}`;
+const FLAT = `(() => {
+  const stage = document.getElementById("stage");
+  if (!stage) return [];
+  const { data } = stage.getContext("2d").getImageData(0, 0, stage.width, stage.height);
+  let blue = 0;
+  for (let i = 0; i < data.length; i += 4) if (data[i + 2] > data[i] + 60) blue++;
+  const said = blue > 50 ? [] : ["without WebGL the model is not drawn"];
+  return document.documentElement.dataset.solid === "false" ? said : [...said, "takes WebGL where there is none"];
+})()`;
+
 let bad = 0;
 const told = new Set();
 const complain = (page, view, what) => {
@@ -159,7 +237,7 @@ async function look(path) {
     }
     const seen = await value(LOOK);
     for (const what of seen?.said ?? []) complain(name, view, what);
-    if (view === "1280-light") for (const what of await value(USE)) complain(name, view, what);
+    if (view === "1280-light") for (const what of [...await value(USE), ...await value(MODEL)]) complain(name, view, what);
     if (!out) continue;
     for (let y = 0, i = 1; y < seen.height; y += TALLEST, i++) {
       const clip = { x: 0, y, width, height: Math.min(seen.height - y, TALLEST), scale: 1 };
@@ -167,6 +245,16 @@ async function look(path) {
       writeFileSync(join(out, `${name}-${view}-${String(i).padStart(2, "0")}.png`), Buffer.from(data, "base64"));
     }
   }
+  view = "flat";
+  const { identifier } = await on("Page.addScriptToEvaluateOnNewDocument", { source: NO_WEBGL });
+  await on("Page.navigate", { url: pathToFileURL(resolve(path)).href });
+  for (let i = 0; i < 200; i++) {
+    if (await value("document.readyState") === "complete") break;
+    await pause(25);
+  }
+  await value("new Promise(requestAnimationFrame)");
+  for (const what of await value(FLAT)) complain(name, view, what);
+  await on("Page.removeScriptToEvaluateOnNewDocument", { identifier });
   view = "print";
   await on("Emulation.setEmulatedMedia", { media: "", features: [] });
   const { data } = await on("Page.printToPDF", { preferCSSPageSize: true, printBackground: true });

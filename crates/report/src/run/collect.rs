@@ -3,7 +3,7 @@
 use super::data::{Frames, Mode, Numbers, RunData, RunIdentity};
 use super::figures::SUPPLY;
 use super::picture::Sketch;
-use super::{answers, choice, loops, places, reduce, settings, shaking};
+use super::{answers, choice, loops, places, reduce, settings, shaking, tints};
 use std::collections::BTreeMap;
 use trilith_model::Model;
 use trilith_results::{ENERGIES, Frame, Recorder, Summary, ground_motions};
@@ -12,7 +12,7 @@ use trilith_solvers::{BasisReport, StartEnergy};
 /// Steps of a displacement, of the largest.
 const STEPS: f64 = 3e4;
 /// Displacements kept at most, over all frames.
-const ROOM: usize = 800_000;
+const ROOM: usize = 380_000;
 
 /// What a run left, to be put together for its report.
 #[derive(Clone, Copy, Debug)]
@@ -56,6 +56,9 @@ impl Collect<'_> {
         }
         let motions = ground_motions(self.model, self.case, self.dt.unwrap_or(0.0));
         let ground = shaking::ground(&motions);
+        let loops = loops::chosen(self.model, self.record, self.summary, self.loops);
+        let with_figure = self.model.shown().zip(&shown).filter(|(_, s)| **s).map(|((i, _), _)| i);
+        let tints = tints::tints(self.model, &sketch.marks, &sketch.picture, with_figure, &loops);
         let free = self.modes.map_or(0, |m| m.omega.iter().filter(|omega| **omega <= 0.0).count());
         RunData {
             format: RunData::FORMAT,
@@ -72,6 +75,7 @@ impl Collect<'_> {
             }),
             settings: settings::of_case(self.model, self.case, self.summary.solver, self.dt),
             picture: sketch.picture,
+            tints,
             frames,
             outputs: self.model.shown().map(|(_, o)| o.name.clone()).collect(),
             profiles: match self.summary.contact {
@@ -84,7 +88,7 @@ impl Collect<'_> {
             histories: self.histories(&shown),
             floor_spectra: shaking::floor_spectra(self.summary),
             energies: self.energies(),
-            loops: loops::chosen(self.model, self.record, self.summary, self.loops),
+            loops,
             modes,
             free_modes: free,
             notes,

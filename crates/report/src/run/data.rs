@@ -25,6 +25,9 @@ pub struct RunData {
     pub settings: Vec<(String, String)>,
     /// The model as points and lines.
     pub picture: Picture,
+    /// What parts of the picture can be coloured by.
+    #[serde(default)]
+    pub tints: Vec<Tint>,
     /// Deformed shapes.
     pub frames: Frames,
     /// Names of the outputs, in the order of the model.
@@ -58,7 +61,7 @@ pub struct RunData {
 
 impl RunData {
     /// The format that is written and read here.
-    pub const FORMAT: u32 = 5;
+    pub const FORMAT: u32 = 6;
 }
 
 /// What tells a run from others, as its `summary.json` has it.
@@ -301,6 +304,12 @@ pub struct Picture {
     pub faces: Vec<FaceMark>,
     /// Links.
     pub links: Vec<LinkMark>,
+    /// Groups of the model.
+    #[serde(default)]
+    pub groups: Vec<GroupMark>,
+    /// Outlines of sections: corners from the axis of a member, m, in global axes.
+    #[serde(default)]
+    pub outlines: Vec<Vec<[f64; 3]>>,
     /// Level of the ground, where the model stands on one, m.
     pub ground: Option<f64>,
 }
@@ -337,6 +346,9 @@ pub struct LineMark {
     pub what: LineKind,
     /// Indices of its points.
     pub ends: [usize; 2],
+    /// Index of the outline of its section, where that is known.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub outline: Option<usize>,
 }
 
 /// A face of a body.
@@ -373,8 +385,48 @@ pub struct LinkMark {
     pub family: Family,
     /// Indices of its points: one for a link on the ground.
     pub ends: Vec<usize>,
+    /// Direction of local axis 1.
+    #[serde(default)]
+    pub axis: [f64; 3],
     /// True where a body is drawn in its place.
     pub body: bool,
+}
+
+/// A group of the model: indices of the marks that belong to it.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct GroupMark {
+    /// Name.
+    pub name: String,
+    /// Among the nodes.
+    pub nodes: Vec<usize>,
+    /// Among the lines.
+    pub lines: Vec<usize>,
+    /// Among the faces.
+    pub faces: Vec<usize>,
+    /// Among the links.
+    pub links: Vec<usize>,
+}
+
+/// A quantity by which parts of the picture can be coloured, at the time that the page shows.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Tint {
+    /// What it is, such as `LeadRubber U2 force`.
+    pub quantity: String,
+    /// Whose values are known.
+    pub of: Vec<Tinted>,
+}
+
+/// Parts of the picture with one value of a [`Tint`].
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Tinted {
+    /// Title of the figure of the page that has the values: a history, or a loop with its times.
+    pub figure: String,
+    /// Indices among the nodes of the picture.
+    pub nodes: Vec<usize>,
+    /// Among its lines.
+    pub lines: Vec<usize>,
+    /// Among its links.
+    pub links: Vec<usize>,
 }
 
 /// Displacements of the points of a picture over time.

@@ -5,6 +5,7 @@ mod choice;
 mod collect;
 mod data;
 mod drawing;
+mod extruded;
 mod figures;
 mod legible;
 mod loops;
@@ -16,14 +17,15 @@ mod script;
 mod settings;
 mod shaking;
 mod thin_frame;
+mod tints;
 mod units;
 pub use units::short;
 
 pub use collect::Collect;
 pub use data::{
-    Answer, FaceMark, Family, Frames, Ground, History, LineKind, LineMark, LinkMark, Loop, Mode,
-    NodeMark, Numbers, Orbit, Picture, Profile, ProfileCurve, RunData, RunIdentity, Shown,
-    SpectrumChart, SpectrumCurve,
+    Answer, FaceMark, Family, Frames, Ground, GroupMark, History, LineKind, LineMark, LinkMark,
+    Loop, Mode, NodeMark, Numbers, Orbit, Picture, Profile, ProfileCurve, RunData, RunIdentity,
+    Shown, SpectrumChart, SpectrumCurve, Tint, Tinted,
 };
 pub use figures::{ENERGY, GROUND, SPECTRA, named_figures};
 pub use page::run_page;

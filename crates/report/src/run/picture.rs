@@ -1,7 +1,9 @@
 //! The model as points, lines, faces and marks.
 
-use super::data::{FaceMark, Family, LineKind, LineMark, LinkMark, NodeMark, Picture};
+use super::data::{FaceMark, Family, GroupMark, LineKind, LineMark, LinkMark, NodeMark, Picture};
+use super::extruded::Outlines;
 use super::thin_frame::joined;
+use super::tints::Marks;
 use std::collections::{BTreeMap, BTreeSet};
 use trilith_element::{Contact, Dof, Kinematics, Link, NodalOutline, Vector3};
 use trilith_model::{Body, Element, Model, Plane};
@@ -29,6 +31,8 @@ pub(crate) struct Sketch {
     pub picture: Picture,
     /// What was left out.
     pub note: Option<String>,
+    /// Which mark stands for which node or element.
+    pub(super) marks: Marks,
     movers: Vec<Mover>,
 }
 
@@ -43,19 +47,33 @@ impl Sketch {
             .to_owned()
         });
         let picture = Picture { plane, ..Picture::default() };
-        let mut build =
-            Builder { model, picture, movers: Vec::new(), points: BTreeMap::new(), outlined: 0 };
+        let mut build = Builder {
+            model,
+            picture,
+            movers: Vec::new(),
+            points: BTreeMap::new(),
+            outlined: 0,
+            marks: Marks::default(),
+            outlines: Outlines::default(),
+        };
         let note = build.members();
-        for e in &model.elements {
+        for (i, e) in model.elements.iter().enumerate() {
+            let faces = build.picture.faces.len();
             match &e.body {
                 Body::Linear(_) => build.shape(e),
                 Body::Constraint(c) => build.constraint(e, c.as_ref()),
-                Body::Link(law, _) => build.link(e, law.as_ref()),
+                Body::Link(law, _) => {
+                    build.marks.links.insert(i, build.picture.links.len());
+                    build.link(e, law.as_ref());
+                }
             }
+            build.marks.faces.insert(i, (faces..build.picture.faces.len()).collect());
         }
         build.nodes();
+        build.groups();
+        build.picture.outlines = std::mem::take(&mut build.outlines.all);
         build.picture.ground = ground(model);
-        Self { picture: build.picture, note, movers: build.movers }
+        Self { picture: build.picture, note, marks: build.marks, movers: build.movers }
     }
 
     /// Displacements of the points (X, Y, Z, point after point) from six of every node and the places of
@@ -92,6 +110,8 @@ struct Builder<'m> {
     points: BTreeMap<usize, usize>,
     /// Points of outlines of links so far.
     outlined: usize,
+    marks: Marks,
+    outlines: Outlines,
 }
 
 impl Builder<'_> {
@@ -138,13 +158,15 @@ impl Builder<'_> {
         for (i, [a, b]) in lines {
             let ends = [self.point(a), self.point(b)];
             let e = &model.elements[i];
+            self.marks.lines.insert(i, self.picture.lines.len());
             self.line(e, LineKind::Member, ends);
         }
         note
     }
 
     fn line(&mut self, e: &Element, what: LineKind, ends: [usize; 2]) {
-        self.picture.lines.push(LineMark { name: title(e), what, ends });
+        let outline = if what == LineKind::Member { self.outlines.of(e) } else { None };
+        self.picture.lines.push(LineMark { name: title(e), what, ends, outline });
     }
 
     /// The points of an outline, which begin at `first`, as faces and lines.
@@ -215,7 +237,7 @@ impl Builder<'_> {
         }
         let family = family(law, &rest, &at);
         let (name, kind) = (e.name.clone(), e.kind.to_owned());
-        self.picture.links.push(LinkMark { name, kind, family, ends, body });
+        self.picture.links.push(LinkMark { name, kind, family, ends, axis: e.frame.0[0], body });
     }
 
     /// Marks of the nodes that are drawn, and of all where there are few.
@@ -242,6 +264,35 @@ impl Builder<'_> {
             fixed: words(node),
         };
         self.picture.nodes = self.points.iter().map(mark).collect();
+        self.marks.nodes = self.points.keys().enumerate().map(|(i, node)| (*node, i)).collect();
+    }
+
+    /// Groups, as far as they are in the picture.
+    fn groups(&mut self) {
+        let Marks { nodes, lines, links, faces } = &self.marks;
+        for group in &self.model.groups {
+            let of = |marks: &BTreeMap<usize, usize>| -> Vec<usize> {
+                group.members.iter().filter_map(|i| marks.get(i).copied()).collect()
+            };
+            let name = group.name.clone();
+            let mark = match group.of_nodes {
+                true => GroupMark { name, nodes: of(nodes), ..GroupMark::default() },
+                false => GroupMark {
+                    name,
+                    nodes: Vec::new(),
+                    lines: of(lines),
+                    faces: group
+                        .members
+                        .iter()
+                        .filter_map(|i| faces.get(i))
+                        .flatten()
+                        .copied()
+                        .collect(),
+                    links: of(links),
+                },
+            };
+            self.picture.groups.push(mark);
+        }
     }
 }
 

@@ -1,9 +1,16 @@
 //! What the script of the page of a run has beside that of all pages, in the order in which its parts build on each
 //! other.
 
-pub(crate) const PARTS: [&str; 5] = [
+pub(crate) const PARTS: [&str; 12] = [
     include_str!("script/model.js"),
+    include_str!("script/stage.js"),
+    include_str!("script/solid/shaders.js"),
+    include_str!("script/solid/meshes.js"),
+    include_str!("script/solid/gl.js"),
+    include_str!("script/solid/solid.js"),
     include_str!("script/turn.js"),
+    include_str!("script/tints.js"),
+    include_str!("script/overlap.js"),
     include_str!("script/player.js"),
     include_str!("script/filter.js"),
     include_str!("script/main.js"),

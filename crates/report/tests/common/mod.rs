@@ -2,8 +2,9 @@
 
 use serde_json::json;
 use trilith_report::{
-    Answer, Block, Entries, Entry, Figure, History, LinkMark, NodeMark, Orbit, Page, Profile,
-    ProfileCurve, RunData, Section, Stroke,
+    Answer, Block, Entries, Entry, FaceMark, Figure, Frames, GroupMark, History, LineKind,
+    LineMark, LinkMark, NodeMark, Orbit, Page, Profile, ProfileCurve, RunData, Section, Stroke,
+    Tint, Tinted,
 };
 
 /// Texts that must stay texts.
@@ -80,11 +81,17 @@ pub fn run() -> String {
         answers: vec![Answer { words: name(0), text: name(1), note: name(4), ..Answer::default() }],
         ..RunData::default()
     };
-    data.picture.points = vec![[0.0; 3], [1.0, 0.0, 1.0]];
+    body(&mut data, &name);
     data.picture.nodes = (0..2).map(|at| NodeMark { name: name(at), at, fixed: name(1) }).collect();
     let family = serde_json::from_value(json!("contact")).unwrap();
-    data.picture.links =
-        vec![LinkMark { name: name(0), kind: name(1), family, ends: vec![0, 1], body: false }];
+    data.picture.links = vec![LinkMark {
+        name: name(0),
+        kind: name(1),
+        family,
+        ends: vec![0, 1],
+        axis: [0.0, 0.0, 1.0],
+        body: false,
+    }];
     data.orbits = vec![Orbit {
         names: [name(0), name(1)],
         shown: shown(),
@@ -113,4 +120,37 @@ pub fn run() -> String {
         "files": [{ "what": name(1), "file": name(0), "sha256": name(4) }],
     });
     trilith_report::run_page(&summary, &data, &made)
+}
+
+/// A member with a section, a tie, a box that stands on the ground, all of them moving, under such names.
+fn body(data: &mut RunData, name: &dyn Fn(usize) -> String) {
+    let corner =
+        |i: usize| [2.0 + [0.0, 1.0, 1.0, 0.0][i % 4], [0.0, 0.0, 1.0, 1.0][i % 4], (i / 4) as f64];
+    let picture = &mut data.picture;
+    picture.points = vec![[0.0; 3], [1.0, 0.0, 1.0]];
+    picture.points.extend((0..8).map(corner));
+    picture.ground = Some(0.0);
+    let named = |i: usize| format!("{} ({})", name(i), name(i + 1));
+    let line = |i: usize, what: LineKind, ends: [usize; 2], outline: Option<usize>| LineMark {
+        name: named(i),
+        what,
+        ends,
+        outline,
+    };
+    picture.lines = vec![
+        line(0, LineKind::Member, [0, 1], Some(0)),
+        line(1, LineKind::Tie, [1, 2], None),
+        line(2, LineKind::Edge, [2, 6], None),
+    ];
+    let face = |corners: [usize; 4]| FaceMark { name: named(2), corners: corners.to_vec() };
+    picture.faces = vec![face([2, 3, 4, 5]), face([6, 7, 8, 9])];
+    picture.outlines =
+        vec![vec![[0.0, -0.1, -0.1], [0.0, 0.1, -0.1], [0.0, 0.1, 0.1], [0.0, -0.1, 0.1]]];
+    picture.groups = vec![GroupMark { name: name(4), lines: vec![0], ..GroupMark::default() }];
+    let tinted = Tinted { figure: name(0), nodes: vec![0], lines: vec![0], links: vec![0] };
+    data.tints = vec![Tint { quantity: name(1), of: vec![tinted] }];
+    let points = data.picture.points.len() as i32;
+    let u: Vec<i32> = (0..9 * points).map(|k| (k / (3 * points)) * (10 + k % 7)).collect();
+    let u = serde_json::from_value(json!({ "step": 0.01, "n": u })).unwrap();
+    data.frames = Frames { t: vec![0.0, 0.2, 0.4], u };
 }

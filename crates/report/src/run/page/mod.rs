@@ -100,7 +100,7 @@ pub fn run_page(summary: &Value, data: &RunData, made: &Value) -> String {
 /// What the script draws beside the figures: the model, the times of its deformed shapes, the modes.
 fn embedded(data: &RunData) -> Value {
     let frames = Frames { u: Numbers { n: Vec::new(), ..data.frames.u }, ..data.frames.clone() };
-    json!({ "picture": data.picture, "frames": frames, "modes": data.modes })
+    json!({ "picture": data.picture, "tints": data.tints, "frames": frames, "modes": data.modes })
 }
 
 /// The deformed shapes, which are most of the page of a large model: two bytes a number, the low one first, in

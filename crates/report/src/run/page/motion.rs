@@ -33,8 +33,8 @@ pub(super) fn motion(data: &RunData) -> Markup {
         div.controls.live #player data-scale=(peak.map_or(1.0, |p| p.1)) {}
         div.controls.live #finder {}
         p.note.live {
-            @if data.picture.plane.is_none() { "Drag turns the model, with Shift it moves it" } @else { "Drag moves the model" }
-            "; wheel (after a click) or two fingers bring it closer; double-click resets. Point at a part for its name."
+            @if data.picture.plane.is_none() { "Drag or one finger turns the model, with Shift it moves it" } @else { "Drag moves the model" }
+            "; wheel (after a click) or two fingers bring it closer; double-click resets. Keys, after a click: Shift and arrows turn, Ctrl and arrows move, + and − come closer and go away, 0 resets. Point at a part for its name."
         }
         (key(data))
         @if data.frames.t.len() > 1 {

@@ -18,8 +18,9 @@ function displaced(t, factor) {
   const gap = frames.t[j] - frames.t[i];
   const share = gap > 0 ? Math.min(Math.max((t - frames.t[i]) / gap, 0), 1) : 0;
   const step = frames.u.step * factor, n = frames.u.n, size = 3 * POINTS;
-  return Float64Array.from({ length: size }, (_, k) =>
-    step * (n[i * size + k] * (1 - share) + n[j * size + k] * share));
+  const out = new Float64Array(size), [a, b, from, to] = [step * (1 - share), step * share, i * size, j * size];
+  for (let k = 0; k < size; k++) out[k] = a * n[from + k] + b * n[to + k];
+  return out;
 }
 
 /** Size of the largest displacement. */
@@ -48,6 +49,13 @@ function player(canvas, controls, tip) {
     box.addEventListener("change", () => { change(box.checked); stage.draw(); });
     return make("label", {}, box, ` ${label}`);
   };
+  stage.scaled = () => { if (stage.tint?.how === 1) stage.tint.most = factor * most; };
+  const warning = make("output", { class: "care" });
+  /** Bodies that pass through each other at this scale do not in truth. */
+  const say = () => {
+    const where = passes(factor);
+    warning.textContent = where ? `At × ${factor} ${where.pair} pass through each other, first at ${number(where.t)} s; × 1 is to scale.` : "";
+  };
   if (moves) {
     const button = make("button", { type: "button" }, "Play");
     const scrub = make("input", { type: "range", min: "0", max: "1000", value: "0", "aria-label": "time" });
@@ -68,6 +76,7 @@ function player(canvas, controls, tip) {
     button.addEventListener("click", toggle);
     canvas.addEventListener("keydown", (e) => {
       const step = { ArrowLeft: -0.005, ArrowRight: 0.005 }[e.key];
+      if (e.shiftKey || e.ctrlKey) return;
       if (e.key === " ") toggle();
       else if (step) clock.read(Math.min(Math.max((clock.at ?? 0) + step * end, 0), end));
       else return;
@@ -83,18 +92,45 @@ function player(canvas, controls, tip) {
     const factors = [...new Set([1, 2, 5, 10, 20, 50, 100, 200, 500, 1000, wanted])].sort((a, b) => a - b);
     controls.append(button, make("span", { class: "scrub" }, scrub, read),
       select("speed", [0.05, 0.1, 0.25, 0.5, 1, 2, 5, 10], speed, (v) => `× ${v}`, (v) => { speed = Number(v); }),
-      select("displacements", factors, wanted, (v) => `× ${v}`, (v) => { factor = Number(v); stage.draw(); }));
+      select("displacements", factors, wanted, (v) => `× ${v}`, (v) => { factor = Number(v); say(); stage.scaled(); stage.draw(); }), warning);
+    say();
   }
-  if (!picture.plane) {
-    const words = { space: "space", XZ: "X–Z", YZ: "Y–Z", XY: "X–Y" };
-    controls.append(select("view", Object.keys(words), "space", (v) => words[v], (v) => { stage.view = v; stage.draw(); }));
-  }
+  controls.append(...views(stage));
+  if (solid) controls.append(...colours(stage, select, moves ? most : 0));
   stage.names = picture.nodes.length <= 40;
   controls.append(tick("names", stage.names, (on) => { stage.names = on; }));
   if (moves) controls.append(tick("at rest", stage.ghost, (on) => { stage.ghost = on; }));
+  if (solid && picture.outlines.length) controls.append(tick("sections", stage.sections, (on) => { stage.sections = on; }));
   turn(stage, tip);
   finder(stage, document.getElementById("finder"));
   stage.draw();
+}
+
+/** Buttons for ways of looking: how it begins, along the axes, and of a plane model in space. */
+function views(stage) {
+  const first = picture.plane ?? "space";
+  const words = picture.plane ? { [first]: "home", ...(solid && { space: "space" }) } : { space: "home", XY: "plan X–Y", XZ: "elevation X–Z", YZ: "elevation Y–Z" };
+  const keys = Object.entries(words).map(([view, text]) => {
+    const key = make("button", { type: "button", "data-view": view, "aria-pressed": String(view === first) }, text);
+    key.addEventListener("click", () => stage.look(view));
+    return key;
+  });
+  stage.looked = (view) => { for (const key of keys) key.setAttribute("aria-pressed", String(key.dataset.view === view)); };
+  return keys.length > 1 ? keys : [];
+}
+
+/** What the model is coloured by. */
+function colours(stage, select, most) {
+  const all = tints(most);
+  if (!all.size) return [];
+  stage.time = () => clock.at ?? 0;
+  const plain = "one each", box = select("colours", [plain, ...all.keys()], plain, (v) => v, (v) => {
+    stage.tint = all.get(v)?.() ?? null;
+    // Points are measured as they are drawn.
+    stage.scaled?.();
+    stage.draw();
+  });
+  return [box];
 }
 
 /** Whole multiples of a step as numbers. */
@@ -108,7 +144,7 @@ function mode(canvas) {
   const sides = [0, 1, 2].map((i) => extremes(picture.points.map((p) => p[i]))).map(([a, b]) => b - a);
   const size = 0.12 * Math.max(...sides);
   let phase = Math.PI / 2, swinging = false;
-  const stage = new Stage(canvas, 220, () => shape.map((u) => (u * size * Math.sin(phase)) / most), () => size);
+  const stage = new Stage(canvas, 220, () => shape.map((u) => (u * size * Math.sin(phase)) / (most || 1)), () => size);
   const swing = () => {
     if (!swinging) { phase = Math.PI / 2; stage.draw(); return; }
     phase += 0.08;

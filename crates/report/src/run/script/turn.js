@@ -1,4 +1,5 @@
-// How a reader moves about the model: drag turns it, Shift or two fingers move it, wheel or pinch bring it closer.
+// How a reader moves about the model: drag turns it, Shift or two fingers move it, wheel or pinch bring it closer; with keys,
+// Shift and arrows turn, Ctrl and arrows move.
 
 function turn(stage, tip) {
   const { canvas } = stage, pointers = new Map();
@@ -20,7 +21,12 @@ function turn(stage, tip) {
     stage.near = next;
     stage.draw();
   };
-  const reset = () => { [stage.near, stage.shift, stage.azimuth, stage.elevation] = [1, [0, 0], 0.52, 0.35]; stage.draw(); };
+  const reset = () => stage.look(stage.view);
+  const around = (right, up) => {
+    stage.azimuth -= right;
+    stage.elevation = Math.min(Math.max(stage.elevation + up, -1.57), 1.57);
+    stage.draw();
+  };
   canvas.addEventListener("pointerdown", (e) => {
     pointers.set(e.pointerId, at(e));
     if (pointers.size === 2) spread = pinch();
@@ -40,9 +46,7 @@ function turn(stage, tip) {
       shift(dx, dy);
       stage.draw();
     } else {
-      stage.azimuth -= dx / 150;
-      stage.elevation = Math.min(Math.max(stage.elevation + dy / 150, -1.57), 1.57);
-      stage.draw();
+      around(dx / 150, dy / 150);
     }
     tip.hidden = true;
   });
@@ -65,6 +69,15 @@ function turn(stage, tip) {
   }, { passive: false });
   canvas.addEventListener("keydown", (e) => {
     const middle = [canvas.clientWidth / 2, stage.height / 2];
+    const [dx, dy] = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, -1], ArrowDown: [0, 1] }[e.key] ?? [0, 0];
+    if ((dx || dy) && (e.shiftKey || (dy && !e.ctrlKey))) {
+      if (stage.view === "space") around(0.1 * dx, 0.1 * dy);
+      e.preventDefault();
+    } else if ((dx || dy) && e.ctrlKey) {
+      shift(30 * dx, 30 * dy);
+      stage.draw();
+      e.preventDefault();
+    }
     const keys = { "+": () => closer(1.25, middle), "-": () => closer(0.8, middle), 0: reset };
     if (e.key in keys) { keys[e.key](); e.preventDefault(); }
   });
@@ -78,16 +91,14 @@ function finder(stage, box) {
     const n = stage.search(search.value);
     found.textContent = search.value.trim() ? `${n} found` : "";
   });
-  const kinds = [...KINDS].map(([kind, count]) => {
-    const key = make("button", { type: "button", "aria-pressed": "true", title: "show or hide" }, `${kind} × ${count}`);
-    key.addEventListener("click", () => {
-      if (!stage.hidden.delete(kind)) stage.hidden.add(kind);
-      key.setAttribute("aria-pressed", String(!stage.hidden.has(kind)));
-      stage.draw();
-    });
-    return key;
-  });
+  const key = (what, words) => {
+    const button = make("button", { type: "button", "aria-pressed": "true", title: "show or hide" }, words);
+    button.addEventListener("click", () => button.setAttribute("aria-pressed", String(stage.toggle(what))));
+    return button;
+  };
+  const kinds = [...KINDS].map(([kind, count]) => key(kind, `${kind} × ${count}`));
+  const groups = GROUPS.map((group) => key(group, `${group.name} (group)`));
   const save = make("button", { type: "button" }, "save picture");
   save.addEventListener("click", () => make("a", { href: stage.canvas.toDataURL(), download: "model.png" }).click());
-  box.append(make("span", {}, search, " ", found), make("span", { class: "legend" }, ...kinds), save);
+  box.append(make("span", {}, search, " ", found), make("span", { class: "legend" }, ...kinds, ...groups), save);
 }

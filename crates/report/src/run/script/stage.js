@@ -1,0 +1,258 @@
+// A place where the model is drawn, in three dimensions where the browser can and flat elsewhere, with names, symbols and axes.
+
+/** All of them. */
+const stages = new Set();
+
+class Stage {
+  /** moved(): displacements of the points, m, as they are to be drawn; largest: bound of their size. */
+  constructor(canvas, height, moved, largest) {
+    Object.assign(this, { canvas, height, moved, largest });
+    this.view = picture.plane ?? "space";
+    [this.azimuth, this.elevation] = [0.52, 0.35];
+    [this.near, this.shift] = [1, [0, 0]];
+    // What is hidden: kinds by name, groups; `looks` counts the changes.
+    [this.hidden, this.away, this.looks] = [new Set(), new Set(), 0];
+    this.wanted = "";
+    this.names = false;
+    this.ghost = !DENSE;
+    // What it is coloured by, at which time; sections: members as solids.
+    [this.tint, this.time, this.sections] = [null, () => 0, true];
+    stages.add(this);
+    new ResizeObserver(() => this.draw()).observe(canvas.parentElement);
+    darkness.addEventListener("change", () => this.draw());
+  }
+
+  shown(mark) { return !this.hidden.has(mark.kind) && !mark.groups?.some((g) => this.away.has(g)); }
+
+  /** Hides or shows a kind (by name) or a group; true where it is shown then. */
+  toggle(what) {
+    const set = typeof what === "string" ? this.hidden : this.away;
+    if (!set.delete(what)) set.add(what);
+    this.looks++;
+    this.draw();
+    return !set.has(what);
+  }
+
+  /** A way of looking, from where it begins. */
+  look(view) {
+    [this.view, this.near, this.shift, this.azimuth, this.elevation] = [view, 1, [0, 0], 0.52, 0.35];
+    this.looked?.(view);
+    this.draw();
+  }
+
+  /** The place on the sheet, how near to the eye. */
+  flat(p) { const [right, up, eye] = this.directions; return [along(p, right), along(p, up), along(p, eye)]; }
+
+  pixel([x, y, z]) {
+    const { width, height, shift, k, middle } = this;
+    return [width / 2 + shift[0] + k * (x - middle[0]), height / 2 + shift[1] - k * (y - middle[1]), z];
+  }
+
+  /** Pixels of all points with displacements, or without. */
+  pixels(u) {
+    return picture.points.map((p, i) => this.pixel(this.flat(u ? [p[0] + u[3 * i], p[1] + u[3 * i + 1], p[2] + u[3 * i + 2]] : p)));
+  }
+
+  /** Pixels of all points as they are drawn, once a drawing. */
+  get at() { return (this.places ??= this.pixels(this.u)); }
+
+  /** How the model at rest fits in. */
+  fit() {
+    this.directions = directions(this.view, this.azimuth, this.elevation);
+    const [right, up] = this.directions, room = this.largest();
+    let [x0, x1, y0, y1] = [Infinity, -Infinity, Infinity, -Infinity];
+    for (const p of picture.points) {
+      const x = along(p, right), y = along(p, up);
+      if (x < x0) x0 = x;
+      if (x > x1) x1 = x;
+      if (y < y0) y0 = y;
+      if (y > y1) y1 = y;
+    }
+    this.k = this.near * Math.min((this.width - 60) / (x1 - x0 + 2 * room || 1), (this.height - 60) / (y1 - y0 + 1.4 * room || 1));
+    this.middle = [(x0 + x1) / 2, (y0 + y1) / 2];
+  }
+
+  draw() {
+    const width = this.canvas.parentElement.clientWidth;
+    if (width < 50) return;
+    const c = sharpen(this.canvas, width, this.height);
+    this.shade = darkness.matches ? SHADES.dark : SHADES.light;
+    this.width = width;
+    [this.u, this.places] = [this.moved(), null];
+    this.fit();
+    c.fillStyle = this.shade.paper;
+    c.fillRect(0, 0, width, this.height);
+    if (solid) {
+      if (this.view !== "space") this.ground(c, (p) => this.pixel(p), width);
+      const [wide, high] = [this.canvas.width, this.canvas.height];
+      solid.draw(this, this.u, [wide, high]);
+      c.drawImage(solid.canvas, 0, solid.canvas.height - high, wide, high, 0, 0, width, this.height);
+    } else {
+      this.ground(c, (p) => this.pixel(p), width);
+      if (this.ghost) this.shape(c, this.pixels(null), true);
+      this.shape(c, this.at, false);
+      this.links(c);
+    }
+    this.marks(c);
+    if (this.view === "space") this.triad(c);
+    this.tint?.legend(c, this);
+  }
+
+  ground(c, pixel, width) {
+    if (picture.ground === null || this.view === "XY") return;
+    const z = picture.ground;
+    const [right, up] = this.directions;
+    if (this.view !== "space") {
+      const y = pixel([0, z * up[2]])[1];
+      stroke(c, [[0, y], [width, y]], this.shade.edge);
+      c.fillStyle = this.shade.ground;
+      c.fillRect(0, y, width, 6);
+      return;
+    }
+    const [xs, ys] = [0, 1].map((i) => {
+      const [low, high] = extremes(picture.points.map((p) => p[i]));
+      const room = 0.1 * (high - low) + 0.05 + this.largest();
+      return [low - room, high + room];
+    });
+    const flat = (x, y) => pixel([x * right[0] + y * right[1], x * up[0] + y * up[1] + z * up[2]]);
+    trace(c, [[xs[0], ys[0]], [xs[1], ys[0]], [xs[1], ys[1]], [xs[0], ys[1]]].map((p) => flat(...p)));
+    c.closePath();
+    c.fillStyle = this.shade.ground;
+    c.fill();
+  }
+
+  shape(c, at, ghost) {
+    const { shade } = this;
+    // What is behind comes first.
+    const depth = (face) => face.corners.reduce((sum, i) => sum + at[i][2], 0) / face.corners.length;
+    const faces = picture.faces.filter((f) => this.shown(f)).map((f) => [depth(f), f]).sort((a, b) => a[0] - b[0]);
+    for (const [, face] of faces) {
+      trace(c, face.corners.map((i) => at[i]));
+      c.closePath();
+      if (!ghost) { c.fillStyle = shade.face; c.fill(); }
+      c.lineWidth = ghost ? 1 : 1.5;
+      c.strokeStyle = ghost ? shade.ghost : shade.blue;
+      c.stroke();
+    }
+    // One path for all lines of a sort: thousands of single ones would not move smoothly.
+    for (const what of ["member", "tie", "edge"]) {
+      c.beginPath();
+      for (const line of picture.lines) {
+        if (line.what !== what || !this.shown(line)) continue;
+        c.moveTo(at[line.ends[0]][0], at[line.ends[0]][1]);
+        c.lineTo(at[line.ends[1]][0], at[line.ends[1]][1]);
+      }
+      c.setLineDash(what === "tie" ? [3, 3] : []);
+      c.strokeStyle = ghost ? shade.ghost : what === "tie" ? shade.tie : shade.blue;
+      c.lineWidth = ghost ? 1 : DENSE ? 0.6 : what === "member" ? 2 : 1;
+      c.stroke();
+    }
+    c.setLineDash([]);
+  }
+
+  /** Symbols of links, supports and nodes. */
+  links(c) {
+    const { shade } = this;
+    for (const link of picture.links) {
+      if (link.body || !this.shown(link)) continue;
+      const ends = link.ends.map((i) => this.at[i]);
+      if (ends.length > 1) { c.setLineDash([5, 2]); stroke(c, ends, shade.link); c.setLineDash([]); }
+      c.save();
+      c.translate(...middleOf(ends));
+      if (DENSE || this.height < 300) c.scale(0.55, 0.55);
+      c.fillStyle = `${shade.paper}b3`;
+      c.strokeStyle = shade.link;
+      c.lineWidth = 1.6;
+      c.fill(SYMBOLS[link.family]);
+      c.stroke(SYMBOLS[link.family]);
+      c.restore();
+    }
+    const small = picture.nodes.length > 300;
+    for (const node of picture.nodes) {
+      if (!this.shown(node)) continue;
+      const [x, y] = this.at[node.at];
+      if (node.fixed) stroke(c, [[x, y], [x - 6, y + 10], [x + 6, y + 10], [x, y]], shade.ink);
+      c.fillStyle = shade.ink;
+      if (!small) c.fillRect(x - 1.5, y - 1.5, 3, 3);
+    }
+  }
+
+  /** Names, and what is looked for. */
+  marks(c) {
+    c.font = FONT;
+    c.textAlign = "left";
+    c.textBaseline = "alphabetic";
+    const taken = [];
+    c.fillStyle = this.shade.ink;
+    if (this.names) for (const node of picture.nodes) if (this.shown(node)) write(c, taken, node.name, ...this.at[node.at]);
+    this.found(c, taken);
+  }
+
+  /** Everything whose name has the wanted text, with its name while there is room. */
+  search(wanted) {
+    this.wanted = wanted.trim().toLowerCase();
+    const has = (name) => this.wanted && name.toLowerCase().includes(this.wanted);
+    const of = (all, ends) => all.filter((m) => has(m.name)).map((m) => [m.name, ends(m)]);
+    this.hits = [
+      ...of(picture.nodes, (n) => [n.at]), ...of(picture.lines, (l) => l.ends),
+      ...of(picture.faces, (f) => f.corners), ...of(picture.links, (l) => l.ends),
+    ];
+    // Into the middle with them.
+    if (this.hits.length && this.width) {
+      const [x, y] = middleOf(this.hits.map(([, ends]) => middleOf(ends.map((i) => this.at[i]))));
+      this.shift = [this.shift[0] + this.width / 2 - x, this.shift[1] + this.height / 2 - y];
+    }
+    this.draw();
+    return new Set(this.hits.map((h) => h[0])).size;
+  }
+
+  found(c, taken) {
+    if (!this.wanted) return;
+    const said = new Set();
+    for (const [name, ends] of this.hits) {
+      const at = ends.map((i) => this.at[i]);
+      stroke(c, at.length > 2 ? [...at, at[0]] : at, this.shade.found, 3);
+      const [x, y] = middleOf(at);
+      c.fillStyle = this.shade.found;
+      c.beginPath();
+      c.arc(x, y, 4, 0, 2 * Math.PI);
+      c.fill();
+      if (said.size < 30 && !said.has(name)) write(c, taken, name, x, y);
+      said.add(name);
+    }
+  }
+
+  triad(c) {
+    const [right, up] = this.directions;
+    const [x, y] = [34, this.height - 34];
+    c.font = FONT;
+    c.textAlign = "center";
+    c.textBaseline = "middle";
+    for (const [i, name] of ["X", "Y", "Z"].entries()) {
+      const [dx, dy] = [24 * right[i], -24 * up[i]];
+      stroke(c, [[x, y], [x + dx, y + dy]], this.shade.ink, 1.4);
+      c.fillStyle = this.shade.ink;
+      c.fillText(name, x + 1.35 * dx, y + 1.35 * dy);
+    }
+  }
+
+  /** What is near a pixel, in words. */
+  nearest(p) {
+    let best = { d: 12, text: "" };
+    const offer = (q, text) => {
+      const d = Math.hypot(q[0] - p[0], q[1] - p[1]);
+      if (d < best.d) best = { d, text };
+    };
+    const middle = (ends) => middleOf(ends.map((i) => this.at[i]));
+    for (const l of picture.lines) if (this.shown(l)) offer(middle(l.ends), l.name);
+    for (const f of picture.faces) if (this.shown(f)) offer(middle(f.corners), f.name);
+    for (const l of picture.links) if (this.shown(l)) offer(middle(l.ends), `${l.name} (${l.kind})`);
+    for (const n of picture.nodes) {
+      if (Math.hypot(this.at[n.at][0] - p[0], this.at[n.at][1] - p[1]) >= best.d) continue;
+      const links = picture.links.filter((l) => l.ends.includes(n.at)).map((l) => `; ${l.name} (${l.kind})`);
+      const held = n.fixed ? `, fixed: ${n.fixed}` : "";
+      offer(this.at[n.at], `node ${n.name}${held}${links.slice(0, 3).join("")}`);
+    }
+    return best.text;
+  }
+}
