@@ -200,7 +200,8 @@ let solid = null;
 (() => {
   const canvas = document.createElement("canvas");
   const begin = () => {
-    const gl = POINTS > 0 && canvas.getContext("webgl2", { antialias: true });
+    // Without a graphics processor a large model moves faster flat.
+    const gl = POINTS > 0 && canvas.getContext("webgl2", { antialias: true, failIfMajorPerformanceCaveat: DENSE });
     const made = gl && !gl.isContextLost() ? new Solid(gl, canvas) : null;
     solid = made && !made.broken ? made : null;
     root.dataset.solid = String(solid !== null);
