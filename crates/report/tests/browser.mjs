@@ -5,11 +5,10 @@
 //
 // --out: pictures of every page there. Where no Chromium is found (CHROMIUM names one) it says so and ends well.
 
-import { spawn } from "node:child_process";
-import { accessSync, constants, mkdirSync, mkdtempSync, rmSync, statSync, writeFileSync } from "node:fs";
-import { tmpdir } from "node:os";
+import { mkdirSync, statSync, writeFileSync } from "node:fs";
 import { basename, dirname, join, resolve } from "node:path";
 import { pathToFileURL } from "node:url";
+import { open, pause } from "./chromium.mjs";
 
 const VIEWS = [
   { name: "1280-light", width: 1280, height: 900, scheme: "light" },
@@ -25,40 +24,11 @@ const TALLEST = 2000;
 const args = process.argv.slice(2);
 const at = args.indexOf("--out");
 const out = at < 0 ? null : args.splice(at, 2)[1];
-const chromium = [process.env.CHROMIUM, "/usr/bin/chromium", "/usr/bin/chromium-browser", "/usr/bin/google-chrome"]
-  .filter(Boolean).find((path) => { try { accessSync(path, constants.X_OK); return true; } catch { return false; } });
-if (!chromium) {
-  console.log("not run: no Chromium found (CHROMIUM names one)");
-  process.exit(0);
-}
+const browser = open();
+if (!browser) process.exit(0);
 if (out) mkdirSync(out, { recursive: true });
 
-// The browser speaks its protocol over two pipes: messages of JSON, each ended by a zero.
-const home = mkdtempSync(join(tmpdir(), "pages-"));
-const browser = spawn(chromium, [
-  "--headless", "--no-sandbox", "--use-angle=swiftshader", "--enable-unsafe-swiftshader", "--disable-quic", "--no-first-run", "--hide-scrollbars",
-  "--disable-background-networking", "--disable-component-update", "--disable-sync", "--remote-debugging-pipe",
-  `--user-data-dir=${home}`, "about:blank",
-], { stdio: ["ignore", "ignore", "ignore", "pipe", "pipe"] });
-const waiting = new Map(), listeners = new Set();
-let count = 0, rest = "";
-browser.stdio[4].on("data", (chunk) => {
-  const parts = (rest + chunk).split("\0");
-  rest = parts.pop();
-  for (const part of parts) {
-    const message = JSON.parse(part);
-    if (message.id) {
-      const { done, fail } = waiting.get(message.id);
-      waiting.delete(message.id);
-      if (message.error) fail(new Error(message.error.message)); else done(message.result);
-    } else for (const tell of listeners) tell(message);
-  }
-});
-const send = (method, params = {}, sessionId) => new Promise((done, fail) => {
-  waiting.set(++count, { done, fail });
-  browser.stdio[3].write(`${JSON.stringify({ id: count, method, params, sessionId })}\0`);
-});
-const pause = (ms) => new Promise((done) => setTimeout(done, ms));
+const { send, listeners } = browser;
 
 /** Scrolls through the page so that everything is drawn, and says what is amiss. */
 const LOOK = `(async () => {
@@ -267,9 +237,7 @@ async function look(path) {
 try {
   for (const path of args) await look(path);
 } finally {
-  browser.kill();
-  await new Promise((done) => { browser.on("exit", done); setTimeout(done, 3000); });
-  rmSync(home, { recursive: true, force: true, maxRetries: 20, retryDelay: 100 });
+  await browser.close();
 }
 console.log(bad ? `${bad} faults in ${args.length} pages` : `${args.length} pages, no fault`);
 process.exit(bad ? 1 : 0);

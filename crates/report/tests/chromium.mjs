@@ -16,7 +16,7 @@ export function open() {
   }
   const home = mkdtempSync(join(tmpdir(), "pages-"));
   const browser = spawn(chromium, [
-    "--headless", "--no-sandbox", "--disable-gpu", "--disable-quic", "--no-first-run", "--hide-scrollbars",
+    "--headless", "--no-sandbox", "--use-angle=swiftshader", "--enable-unsafe-swiftshader", "--disable-quic", "--no-first-run", "--hide-scrollbars",
     "--disable-background-networking", "--disable-component-update", "--disable-sync", "--remote-debugging-pipe",
     `--user-data-dir=${home}`, "about:blank",
   ], { stdio: ["ignore", "ignore", "ignore", "pipe", "pipe"] });
@@ -41,7 +41,10 @@ export function open() {
   const close = async () => {
     browser.kill();
     await new Promise((done) => { browser.on("exit", done); setTimeout(done, 3000); });
-    rmSync(home, { recursive: true, force: true, maxRetries: 20, retryDelay: 100 });
+    // Processes of the browser may still write there; what is left in the end goes with the folder of the system.
+    for (let i = 0; i < 20; i++) {
+      try { return rmSync(home, { recursive: true, force: true }); } catch { await pause(100); }
+    }
   };
   return { send, listeners, close };
 }

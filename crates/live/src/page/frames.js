@@ -1,4 +1,5 @@
-// The page of a run, beside the controls. A new one is written out of sight, takes over where the reader was, and comes forward.
+// The page of a run, beside the controls. A new one is written out of sight, takes over where the reader was, and comes
+// forward; the old one goes with all that its scripts hold.
 "use strict";
 const frames = (() => {
   const holder = document.getElementById("results");
@@ -8,8 +9,7 @@ const frames = (() => {
     holder.append(frame);
     return frame;
   };
-  let [front, back] = [make(), make()];
-  front.className = "front";
+  let front = null;
 
   // Where the reader is: how far down, at which time of the motion, which parts are open.
   const place = (of) => ({
@@ -29,16 +29,17 @@ const frames = (() => {
     if (of.scrollingElement) of.scrollingElement.scrollTop = y;
   };
   const show = (html) => {
-    const was = front.contentDocument.body?.childElementCount ? place(front.contentDocument) : null;
-    const of = back.contentDocument;
+    const was = front && place(front.contentDocument);
+    const next = make();
+    const of = next.contentDocument;
     of.open();
     of.write(html);
     of.close();
     if (was) go(of, was);
-    [front, back] = [back, front];
-    front.className = "front";
-    back.className = "";
+    next.className = "front";
+    front?.remove();
+    front = next;
     if (was) go(of, was);
   };
-  return { show, document: () => front.contentDocument };
+  return { show };
 })();
