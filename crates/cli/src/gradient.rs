@@ -3,10 +3,10 @@
 use crate::args::GradientArguments;
 use crate::interrupt::INTERRUPTED;
 use crate::text::{names_help, number, row, table};
-use crate::{Answer, Failure, case, diagnostics, names, solver};
+use crate::{Answer, Failure, case, diagnostics, model_text, names, solver};
 use serde::Serialize;
 use trilith::gradient::{GradientError, Wanted, gradient as find};
-use trilith::model::{Body, ModelText, ParameterValue, visible_line};
+use trilith::model::{Body, ParameterValue, visible_line};
 use trilith::solvers::gradient::{Bend, Extreme, Gradient};
 use trilith::{Error, Model, Registry};
 
@@ -56,10 +56,7 @@ struct Bent<'a> {
 }
 
 pub(crate) fn gradient(registry: &Registry, args: &GradientArguments) -> Result<Answer, Failure> {
-    let path = &args.model.model;
-    let text = trilith::model::file::open(path, "model")
-        .and_then(|text| ModelText::new(&text, path))
-        .map_err(|e| Failure::diagnostics(&e))?;
+    let text = model_text(&args.model)?;
     let model = text.read(registry, &args.model.set).map_err(|e| Failure::diagnostics(&e))?;
     let chosen = case(&model, args.case.as_deref())?;
     let named = args.solver.as_deref().map(|name| solver(&model, chosen, name));

@@ -31,6 +31,7 @@ mod made_by;
 mod manual;
 mod modes;
 mod names;
+mod new;
 mod optimize;
 mod output;
 mod place;
@@ -50,6 +51,9 @@ use args::{Arguments, Command};
 use clap::Parser;
 use failure::Failure;
 use std::ffi::OsString;
+use std::io::Read;
+use std::path::Path;
+use trilith::model::{ModelText, file};
 use trilith::{Model, Registry, SolverKind};
 
 /// What a command prints, and the exit status.
@@ -79,6 +83,7 @@ pub fn main_of(registry: Registry, arguments: impl IntoIterator<Item = OsString>
         Command::Run(a) => run::run(&registry, a),
         Command::Check(a) => check::check(&registry, &a),
         Command::Modes(a) => modes::modes(&registry, &a),
+        Command::New(a) => new::new(&a),
         Command::View(a) => view::view(&registry, &a),
         Command::Schema => schema::schema(&registry),
         Command::Elements(a) => elements::elements(&registry, &a),
@@ -105,8 +110,31 @@ pub fn main_of(registry: Registry, arguments: impl IntoIterator<Item = OsString>
     std::process::exit(status)
 }
 
+/// A model that comes from standard input.
+const STDIN: &str = "-";
+
+/// What a model from standard input is called; files that it names are looked for in this folder.
+fn path(args: &args::ModelArguments) -> &Path {
+    if args.model == Path::new(STDIN) { Path::new("stdin.ron") } else { &args.model }
+}
+
+/// The text of a model, understood.
+fn model_text(args: &args::ModelArguments) -> Result<ModelText, Failure> {
+    let text = if args.model == Path::new(STDIN) {
+        let most = trilith::record::file::MOST_BYTES;
+        let mut text = String::new();
+        let read = std::io::stdin().take(most + 1).read_to_string(&mut text);
+        let too_long = || std::io::Error::other(format!("it is larger than {} MiB", most >> 20));
+        let read = read.and_then(|n| if n as u64 > most { Err(too_long()) } else { Ok(text) });
+        read.map_err(|e| Failure::input(&format!("standard input gives no model: {e}"), None))?
+    } else {
+        file::open(&args.model, "model").map_err(|e| Failure::diagnostics(&e))?
+    };
+    ModelText::new(&text, path(args)).map_err(|e| Failure::diagnostics(&e))
+}
+
 fn read(registry: &Registry, args: &args::ModelArguments) -> Result<Model, Failure> {
-    trilith::read(&args.model, registry, &args.set).map_err(|e| Failure::diagnostics(&e))
+    model_text(args)?.read(registry, &args.set).map_err(|e| Failure::diagnostics(&e))
 }
 
 /// The case of that name, or the last.

@@ -4,12 +4,12 @@ use crate::args::OptimizeArguments;
 use crate::gradient::failure as of_gradient;
 use crate::interrupt::{Ear, INTERRUPTED};
 use crate::text::{number, row, significant, table};
-use crate::{Answer, Failure, case, diagnostics, names, output, place, solver};
+use crate::{Answer, Failure, case, diagnostics, model_text, names, output, place, solver};
 use serde::Serialize;
 use std::io::IsTerminal;
 use std::path::Path;
 use trilith::Registry;
-use trilith::model::{ModelText, visible_line};
+use trilith::model::visible_line;
 use trilith::optimize::{Evaluation, HOLDS, OptimizeError, Optimum, Stop, Wanted, optimize_with};
 use trilith::results::{Folder, Writer};
 
@@ -21,10 +21,7 @@ const ALL: &str = "optimize.json";
 const NAMED: usize = 3;
 
 pub(crate) fn optimize(registry: &Registry, args: &OptimizeArguments) -> Result<Answer, Failure> {
-    let path = &args.model.model;
-    let text = trilith::model::file::open(path, "model")
-        .and_then(|text| ModelText::new(&text, path))
-        .map_err(|e| Failure::diagnostics(&e))?;
+    let text = model_text(&args.model)?;
     let model = text.read(registry, &args.model.set).map_err(|e| Failure::diagnostics(&e))?;
     let chosen = case(&model, args.case.as_deref())?;
     let named = args.solver.as_deref().map(|name| solver(&model, chosen, name));

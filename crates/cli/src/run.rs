@@ -5,8 +5,8 @@ use crate::interrupt::{Ear, INTERRUPTED};
 use crate::progress::Progress;
 use crate::text::{exact, shown};
 use crate::{
-    Answer, Failure, case, diagnostics, figure_files, figures, long, made_by, names, output, place,
-    read, solver,
+    Answer, Failure, case, diagnostics, figure_files, figures, long, made_by, names, output, path,
+    place, read, solver,
 };
 use std::path::{Path, PathBuf};
 use trilith::model::{Body, Element};
@@ -205,8 +205,8 @@ fn check_links(model: &Model, names: &[String]) -> Result<(), Failure> {
 
 /// `out/<name of the model file>`, and below it what was set: of all that changes the answer, each has its own.
 fn default_folder(args: &RunArguments, from: Option<&Checkpoint>) -> PathBuf {
-    let ModelArguments { model, set } = &args.model;
-    let dir = Path::new("out").join(model.file_stem().unwrap_or("model".as_ref()));
+    let ModelArguments { set, .. } = &args.model;
+    let dir = Path::new("out").join(path(&args.model).file_stem().unwrap_or("model".as_ref()));
     let options = [
         ("case", args.case.clone()),
         ("solver", args.solver.clone()),

@@ -31,6 +31,8 @@ pub(crate) struct Arguments {
 
 #[derive(Subcommand)]
 pub(crate) enum Command {
+    /// Write a model to begin with, or list those there are
+    New(NewArguments),
     /// Run a case of a model and write its results
     Run(RunArguments),
     /// Validate a model and print it in figures, or with every default filled in
@@ -77,11 +79,20 @@ pub(crate) enum Command {
 
 #[derive(Args)]
 pub(crate) struct ModelArguments {
-    /// Model file (RON)
+    /// Model file: RON, or JSON by its ending; `-`: RON from standard input
     pub model: PathBuf,
     /// Give a parameter of the model another value, such as `mu=0.4` or `kn="2 MN/m"`
     #[arg(long, value_name = "NAME=VALUE", value_parser = assignment)]
     pub set: Vec<(String, String)>,
+}
+
+#[derive(Args)]
+pub(crate) struct NewArguments {
+    /// Name of the model [default: all are listed]
+    pub template: Option<String>,
+    /// Model file to write; records that it reads go beside it [default: its name in this folder]
+    #[arg(long, value_name = "FILE", requires = "template")]
+    pub out: Option<PathBuf>,
 }
 
 #[derive(Args)]
