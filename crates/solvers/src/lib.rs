@@ -14,6 +14,7 @@
 //! | room | what is computed there |
 //! |---|---|
 //! | `vector` | sums over vectors |
+//! | `platform` | what a system may be without: threads, a clock |
 //! | `error` | what stops a run before it begins |
 //! | `basis` | Ritz vectors, modes, attachment vectors of massless DOFs, modal damping |
 //! | `structure` | the linear structure in the coordinates of a solver, link map B |
@@ -52,6 +53,7 @@ pub mod lanes;
 mod linearised;
 mod march;
 mod modal;
+mod platform;
 mod record;
 mod run;
 mod statics;

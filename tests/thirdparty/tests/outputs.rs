@@ -168,7 +168,7 @@ fn an_output_that_is_no_number_is_told() {
 fn an_output_that_tells_no_derivatives_is_no_goal() {
     let mut kinds = kinds();
     kinds.add_output(&ROOT, std::sync::Arc::new(|_| Ok(Box::new(Root))));
-    let text = column(r#""size": Norm(of: ["M2", "M3"]), "root": Root(of: ["size"]),"#);
+    let text = column(r#""size": Norm(terms: ["M2", "M3"]), "root": Root(of: ["size"]),"#);
     let text = ModelText::new(&text, "outputs.ron").expect("a text");
     let search = |goal: &str| {
         let wanted = trilith::optimize::Wanted {

@@ -5,7 +5,7 @@
 //! nothing.
 
 use super::shadow::Shadow;
-use crate::run::HAS_THREADS;
+use crate::platform::HAS_THREADS;
 use crate::step::State;
 use std::sync::mpsc::{Receiver, Sender, SyncSender, channel, sync_channel};
 

@@ -1,6 +1,6 @@
 //! CPU time and memory of the process, for the work report.
 
-use super::platform::HAS_CLOCK;
+use crate::platform::HAS_CLOCK;
 use std::time::Instant;
 
 /// Measures CPU time of this thread where the system tells it, wall-clock time elsewhere.

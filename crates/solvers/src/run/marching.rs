@@ -1,10 +1,10 @@
 //! The march of a dynamic case through its output steps, and what goes on beside it in threads of its own.
 
 use super::companion::Companion;
-use super::platform::HAS_THREADS;
 use super::start::Start;
 use crate::certificate::{Certificate, Listener, OutputError, Samples};
 use crate::error::SolveError;
+use crate::platform::HAS_THREADS;
 use crate::march::{March, Moment, Moving, Stop, Timeline, output_step};
 use crate::record::{Ledger, Viewer};
 use crate::step::{State, Stepper};
