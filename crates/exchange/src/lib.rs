@@ -77,6 +77,28 @@ pub struct Import {
 }
 
 impl Import {
+    /// With the head of the report: the file, its program, its units, and what the model has.
+    fn new(
+        draft: Draft,
+        mut report: Report,
+        files: Vec<(String, String)>,
+        options: &Options,
+        program: &str,
+    ) -> Self {
+        let name = options.path.file_name().unwrap_or_default().to_string_lossy();
+        report.file = format!("{name}: {program}, {}, {}", draft.units.1, draft.units.0);
+        let counts = [
+            ("nodes", draft.nodes.len()),
+            ("elements, constraints and links", draft.elements.len()),
+            ("patterns of loads", draft.loads.len()),
+            ("functions", draft.functions.len()),
+            ("cases", draft.cases.len()),
+            ("outputs", draft.outputs.len()),
+        ];
+        report.written = counts.map(|(what, n)| (what.into(), n)).to_vec();
+        Self { draft, report, files }
+    }
+
     /// False where nothing but masses is left: no model that runs.
     #[must_use]
     pub fn is_model(&self) -> bool {

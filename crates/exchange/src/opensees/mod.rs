@@ -124,19 +124,8 @@ fn read(
         recorder.draft.cases.truncate(at + 1);
     }
     let Recorder { draft, mut report, files, .. } = recorder;
-    let name =
-        options.path.file_name().map(|n| n.to_string_lossy().into_owned()).unwrap_or_default();
     report.things = Things::Commands;
-    report.file = format!("{name}: OpenSees, {}, {}", draft.units.1, draft.units.0);
-    report.written = vec![
-        ("nodes".into(), draft.nodes.len()),
-        ("elements, constraints and links".into(), draft.elements.len()),
-        ("patterns of loads".into(), draft.loads.len()),
-        ("functions".into(), draft.functions.len()),
-        ("cases".into(), draft.cases.len()),
-        ("outputs".into(), draft.outputs.len()),
-    ];
-    Ok(Import { draft, report, files })
+    Ok(Import::new(draft, report, files, options, "OpenSees"))
 }
 
 fn finish(recorder: &mut Recorder<'_>, options: &Options) {

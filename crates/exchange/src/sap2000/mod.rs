@@ -74,19 +74,8 @@ pub fn import(bytes: &[u8], options: &Options) -> Result<Import, Refused> {
     if !db.problems().is_empty() {
         return Err(Refused(db.problems()));
     }
-    let Context { draft, mut report, .. } = cx;
-    let name = options.path.file_name().map(|n| n.to_string_lossy().into_owned());
-    let name = name.unwrap_or_default();
-    report.file = format!("{name}: {version}, {}, {}", draft.units.1, draft.units.0);
-    report.written = vec![
-        ("nodes".into(), draft.nodes.len()),
-        ("elements, constraints and links".into(), draft.elements.len()),
-        ("patterns of loads".into(), draft.loads.len()),
-        ("functions".into(), draft.functions.len()),
-        ("cases".into(), draft.cases.len()),
-        ("outputs".into(), draft.outputs.len()),
-    ];
-    Ok(Import { draft, report, files })
+    let Context { draft, report, .. } = cx;
+    Ok(Import::new(draft, report, files, options, &version))
 }
 
 /// The text, and whether it was not UTF-8.
