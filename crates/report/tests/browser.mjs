@@ -159,9 +159,10 @@ const FLAT = `(() => {
   const stage = document.getElementById("stage");
   if (!stage) return [];
   const { data } = stage.getContext("2d").getImageData(0, 0, stage.width, stage.height);
-  let blue = 0;
-  for (let i = 0; i < data.length; i += 4) if (data[i + 2] > data[i] + 60) blue++;
-  const said = blue > 50 ? [] : ["without WebGL the model is not drawn"];
+  // Of members, bodies or links: what is not drawn in a colour is the ground.
+  let coloured = 0;
+  for (let i = 0; i < data.length; i += 4) if (Math.max(...data.slice(i, i + 3)) > Math.min(...data.slice(i, i + 3)) + 60) coloured++;
+  const said = coloured > 50 ? [] : ["without WebGL the model is not drawn"];
   return document.documentElement.dataset.solid === "false" ? said : [...said, "takes WebGL where there is none"];
 })()`;
 
