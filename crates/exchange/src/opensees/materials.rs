@@ -303,15 +303,7 @@ impl Recorder<'_> {
             }
             "ViscousDamper" => {
                 let [k, c, exponent] = a.numbers::<3>("K, Cd, alpha")?;
-                if a.maybe().is_some_and(|gap| gap != 0.0) {
-                    self.lose("the play LGap is not read");
-                }
-                if !a.all().is_empty() {
-                    self.ignore(
-                        "NM RelTol AbsTol MaxHalf",
-                        "how its equation is solved is chosen here",
-                    );
-                }
+                self.rest_of_damper(a);
                 Law::Maxwell { k, c, exponent }
             }
             "Maxwell" => {
@@ -324,15 +316,7 @@ impl Recorder<'_> {
             "BilinearOilDamper" => {
                 let [k, c] = a.numbers::<2>("K, Cd")?;
                 let (fr, p) = (a.maybe().unwrap_or(1.0), a.maybe().unwrap_or(1.0));
-                if a.maybe().is_some_and(|gap| gap != 0.0) {
-                    self.lose("the play LGap is not read");
-                }
-                if !a.all().is_empty() {
-                    self.ignore(
-                        "NM RelTol AbsTol MaxHalf",
-                        "how its equation is solved is chosen here",
-                    );
-                }
+                self.rest_of_damper(a);
                 Law::Oil { k, c, cy: p * c, fl: fr }
             }
             "BoucWen" => {
@@ -390,6 +374,16 @@ impl Recorder<'_> {
             _ => return Ok(None),
         };
         Ok(Some(Material::one(law)))
+    }
+
+    /// Play and settings of its own equation, behind the constants of a damper.
+    fn rest_of_damper(&mut self, a: &mut Args<'_>) {
+        if a.maybe().is_some_and(|gap| gap != 0.0) {
+            self.lose("the play LGap is not read");
+        }
+        if !a.all().is_empty() {
+            self.ignore("NM RelTol AbsTol MaxHalf", "how its equation is solved is chosen here");
+        }
     }
 
     /// The material of a tag at a word; none where it was lost.

@@ -262,7 +262,7 @@ impl<'a> Recorder<'a> {
 }
 
 /// Commands that choose how equations are solved, and others that change no result.
-const CHOICES: [(&str, &str); 19] = [
+const CHOICES: [(&str, &str); 20] = [
     ("constraints", "constraints are eliminated here"),
     ("numberer", "nothing to choose here"),
     ("system", "nothing to choose here"),
@@ -270,6 +270,7 @@ const CHOICES: [(&str, &str); 19] = [
     ("algorithm", "nothing to choose here"),
     ("wipeAnalysis", "the next analysis says its own"),
     ("record", "outputs are recorded at every step"),
+    ("reactions", "reactions are always there"),
     ("print", "what a script prints is left out"),
     ("printModel", "what a script prints is left out"),
     ("printA", "what a script prints is left out"),
@@ -305,7 +306,7 @@ const QUESTIONS: [&str; 16] = [
 ];
 
 /// Commands of OpenSees that carry a model and have no counterpart.
-const LOST: [&str; 29] = [
+const LOST: [&str; 28] = [
     "nDMaterial",
     "patch",
     "layer",
@@ -334,7 +335,6 @@ const LOST: [&str; 29] = [
     "hystereticBackbone",
     "responseSpectrumAnalysis",
     "setNodeDisp",
-    "reactions",
 ];
 
 impl Host for Recorder<'_> {
@@ -369,10 +369,6 @@ impl Host for Recorder<'_> {
         if QUESTIONS.contains(&name) {
             self.counted(Some("results are not there yet when a script is imported"));
             return Reply::Value(Value::new(format!("{} {name}", super::UNKNOWN)));
-        }
-        if name == "reactions" {
-            self.counted(Some("reactions are always there"));
-            return Reply::Value(Value::empty());
         }
         if LOST.contains(&name) {
             self.counted(None);
