@@ -143,5 +143,5 @@ pub fn trace_with(model: &Model, system: &System, options: RunOptions<'_>) -> (T
 /// Where there is none of that name.
 #[must_use]
 pub fn output(model: &Model, name: &str) -> usize {
-    model.outputs.iter().position(|o| o.name == name).unwrap_or_else(|| panic!("output {name}"))
+    model.output(name).unwrap_or_else(|| panic!("output {name}"))
 }

@@ -93,7 +93,7 @@ impl Trace {
     /// The modes of a case (none: the last), without a run.
     pub(crate) fn modes(
         model: &Model,
-        analysis: &Analysis<'_>,
+        analysis: &Analysis<&Model>,
         name: Option<&str>,
     ) -> Result<Self, String> {
         let basis = analysis.modes(Some(index(model, name)?)).map_err(|e| e.to_string())?;
@@ -103,7 +103,7 @@ impl Trace {
     /// Runs a case (none: the last).
     pub(crate) fn of(
         model: &Model,
-        analysis: &Analysis<'_>,
+        analysis: &Analysis<&Model>,
         solver: SolverKind,
         name: Option<&str>,
     ) -> Result<Self, String> {

@@ -4,7 +4,7 @@ use crate::clock::{cpu, median, peak_mb, timed};
 use crate::{Gauge, Peaks, Size, Subject, Task};
 use serde::{Deserialize, Serialize};
 use trilith::solvers::{CaseResult, Observer, Status};
-use trilith::{Analysis, RunOptions, SolverKind};
+use trilith::{Analysis, Model, RunOptions, SolverKind};
 use trilith_linalg::Ldlt;
 
 /// Steps of the whole motion.
@@ -143,7 +143,7 @@ pub fn measure(name: &str, text: &str, task: Task, effort: Effort) -> Result<Mea
 /// Runs once. The clock is read after the first step and after the last one only.
 fn run(
     subject: &Subject,
-    analysis: &Analysis<'_>,
+    analysis: &Analysis<&Model>,
     observers: &mut [&mut dyn Observer],
 ) -> Result<Timed, String> {
     let (mut made, mut after_first, mut after_last) = (0_usize, f64::NAN, f64::NAN);

@@ -65,7 +65,7 @@ fn coordinates(model: &Model, element: &Element) -> Vec<String> {
 
 /// Writes the figures into the folder of a run.
 pub(crate) fn write(
-    analysis: &Analysis<'_>,
+    analysis: &Analysis<&Model>,
     run: &Run,
     dir: &Path,
     names: &[String],

@@ -128,7 +128,7 @@ fn asked(model: &Model, wanted: &[String]) -> Result<Vec<Asked>, Failure> {
         return Ok(model.shown().map(|(i, _)| Asked::Output(i)).collect());
     }
     let of = |name: &String| {
-        if let Some(output) = model.outputs.iter().position(|o| o.name == *name) {
+        if let Some(output) = model.output(name) {
             return Ok(Asked::Output(output));
         }
         let mut links =

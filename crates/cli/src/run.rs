@@ -130,7 +130,7 @@ fn write(
     folder: Folder,
     inputs: &made_by::Inputs,
     args: &RunArguments,
-    analysis: &Analysis<'_>,
+    analysis: &Analysis<&Model>,
     run: &Run,
     summary: &Summary,
 ) -> Result<String, Failure> {

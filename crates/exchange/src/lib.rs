@@ -27,13 +27,13 @@
 mod draft;
 pub mod opensees;
 mod report;
-pub mod ron;
 pub mod sap2000;
 
 pub use draft::{DOFS, Draft, Section};
 pub use report::{Fate, Note, Report, TableReport, Things};
 use std::path::PathBuf;
 use trilith_model::Diagnostic;
+pub use trilith_model::ron_value as ron;
 
 /// What an import is told.
 #[derive(Clone, Debug)]

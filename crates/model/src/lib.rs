@@ -19,6 +19,7 @@ mod places;
 mod read;
 mod registry;
 mod resolved;
+pub mod ron_value;
 pub mod schema;
 pub mod sections;
 mod solver;

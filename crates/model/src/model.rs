@@ -355,6 +355,12 @@ impl Model {
         self.cases.iter().position(|c| c.name == name)
     }
 
+    /// Index of an output by name.
+    #[must_use]
+    pub fn output(&self, name: &str) -> Option<usize> {
+        self.outputs.iter().position(|o| o.name == name)
+    }
+
     /// The local axes that a link coordinate runs along, for names in results.
     #[must_use]
     pub fn coordinate_name(axis: Axis) -> &'static str {

@@ -137,7 +137,7 @@ impl Model {
         let model = Arc::clone(&self.model);
         work::run(py, move |_| {
             let case = case.map(|name| index(&model, Some(&name))).transpose()?;
-            let report = Analysis::new(&model).and_then(|a| a.modes(case));
+            let report = Analysis::new(Arc::clone(&model)).and_then(|a| a.modes(case));
             let report = report.map_err(|e| Failure::of(&e, &model))?;
             let shapes = report.shapes.iter().map(|s| (s.mode, s.displacements.clone()));
             Ok((json(&report)?, told::modes(&report), shapes.collect()))

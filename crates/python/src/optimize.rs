@@ -39,7 +39,7 @@ pub(crate) fn gradient(
     watch: &Watch,
 ) -> Result<GradientFacts, Failure> {
     let index = |name: &String| {
-        let place = model.outputs.iter().position(|o| o.name == *name);
+        let place = model.output(name);
         let all = model.outputs.iter().map(|o| o.name.as_str());
         place.ok_or_else(|| Failure::unknown("output", name, "outputs", all))
     };

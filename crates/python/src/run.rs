@@ -67,7 +67,7 @@ pub(crate) fn run(
         progress: Some(&mut progress),
         interrupt: Some(&watch.interrupt),
     };
-    let mut analysis = Analysis::new(&model).map_err(fail)?;
+    let mut analysis = Analysis::new(Arc::clone(&model)).map_err(fail)?;
     let mut links = LinkHistories::default();
     let run = if histories {
         links = LinkHistories::new(&model);
@@ -84,7 +84,8 @@ pub(crate) fn run(
 impl Kept {
     /// What the page shows.
     fn data(&self, loops: &[String]) -> Result<RunData, Failure> {
-        let analysis = Analysis::new(&self.model).map_err(|e| Failure::of(&e, &self.model))?;
+        let analysis =
+            Analysis::new(Arc::clone(&self.model)).map_err(|e| Failure::of(&e, &self.model))?;
         Ok(self.run.report(&analysis, &self.set, loops))
     }
 }

@@ -6,7 +6,7 @@
 
 use std::error::Error;
 use trilith::solvers::{Observer, Sample};
-use trilith::{Analysis, RunOptions, registry};
+use trilith::{Analysis, registry};
 
 const MODEL: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../../models/rigid_block.ron");
 
@@ -37,16 +37,13 @@ impl Observer for OnOneCorner {
 /// Runs the block under the eyes of the observer.
 pub fn main() -> Result<(), Box<dyn Error>> {
     let model = trilith::read(MODEL, &registry(), &[])?;
-    let output = |name: &str| {
-        model.outputs.iter().position(|o| o.name == name).ok_or(format!("no output {name}"))
-    };
+    let output = |name: &str| model.output(name).ok_or(format!("no output {name}"));
     let uplifts = [output("uplift_left")?, output("uplift_right")?];
     let mut watch = OnOneCorner { uplifts, before: 0.0, time: 0.0 };
 
     // Assembled once, run as often as one likes.
     let analysis = Analysis::new(&model)?;
-    let options = RunOptions { case: model.cases.len() - 1, ..RunOptions::default() };
-    analysis.observed(options, &mut [&mut watch])?;
+    analysis.last_case()?.observer(&mut watch).run()?;
 
     println!("the block stands on one corner for {:.3} s", watch.time);
     Ok(())

@@ -1,6 +1,7 @@
 //! An assembled model and its runs.
 
-use crate::Error;
+use crate::{CaseRun, Error};
+use std::ops::Deref;
 use std::path::{Path, PathBuf};
 use trilith_model::{Analysis as CaseAnalysis, Model};
 use trilith_results::{Files, Peak, Recorder, Summary};
@@ -11,26 +12,50 @@ use trilith_solvers::{
 use trilith_system::System;
 
 /// A model, assembled once, for any number of runs.
+///
+/// It borrows the model (`Analysis::new(&model)`), or shares it: one of an `Arc<Model>` may go wherever it likes.
+///
+/// ```
+/// # let text = r#"(
+/// #     plane: XZ, nodes: { "m": (0, 0, 0) }, supports: { "m": (Uz, Ry) },
+/// #     elements: { "mass": Mass(node: "m", mass: "2 t"), "stop": Gap(node: "m", k: "50 MN/m", axis1: (-1, 0, 0)) },
+/// #     cases: { "push": Dynamic(duration: "0.1 s", dt: "1 ms", initial: [(node: "m", dof: Ux, velocity: "1 m/s")]) },
+/// #     outputs: { "x": Displacement(node: "m", dof: Ux) },
+/// # )"#;
+/// use std::sync::Arc;
+/// use trilith::{Analysis, SolverKind};
+///
+/// let model = Arc::new(trilith::read_text(text, "stop.ron", &trilith::registry(), &[])?);
+/// let analysis = Analysis::new(Arc::clone(&model))?;
+/// let runs = std::thread::spawn(move || {
+///     let fna = analysis.case("push")?.run()?;
+///     let hht = analysis.case("push")?.solver(SolverKind::Hht).dt(5e-4).run()?;
+///     Ok::<_, trilith::Error>([fna, hht])
+/// });
+/// let [fna, hht] = runs.join().expect("a thread")?;
+/// assert!((fna.peak("x")?.max / hht.peak("x")?.max - 1.0).abs() < 1e-3);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 #[derive(Debug)]
-pub struct Analysis<'m> {
-    model: &'m Model,
+pub struct Analysis<M> {
+    model: M,
     system: System,
     frames: usize,
     histories: bool,
     loops: bool,
 }
 
-impl<'m> Analysis<'m> {
+impl<M: Deref<Target = Model>> Analysis<M> {
     /// Assembles a model.
     ///
     /// # Errors
     /// [`Error::Model`] where it refers to what does not exist, or holds numbers that cannot be; [`Error::Solve`] where its parts do not fit together, or where it buckles under the axial forces
     /// of its P-Δ case.
-    pub fn new(model: &'m Model) -> Result<Self, Error> {
+    pub fn new(model: M) -> Result<Self, Error> {
         model.check().map_err(Error::Model)?;
         Ok(Self {
+            system: trilith_solvers::assemble(&model)?,
             model,
-            system: trilith_solvers::assemble(model)?,
             frames: 0,
             histories: true,
             loops: false,
@@ -61,8 +86,27 @@ impl<'m> Analysis<'m> {
 
     /// The model.
     #[must_use]
-    pub fn model(&self) -> &'m Model {
-        self.model
+    pub fn model(&self) -> &Model {
+        &self.model
+    }
+
+    /// The run of a case, to be told how and made.
+    ///
+    /// # Errors
+    /// [`Error::UnknownCase`].
+    pub fn case(&self, name: &str) -> Result<CaseRun<'_, M>, Error> {
+        let case = self.model.case(name).ok_or_else(|| Error::unknown_case(&self.model, name))?;
+        Ok(CaseRun::new(self, case))
+    }
+
+    /// The run of the last case, which is what the program runs where no case is named.
+    ///
+    /// # Errors
+    /// [`Error::UnknownCase`] for a model without cases.
+    pub fn last_case(&self) -> Result<CaseRun<'_, M>, Error> {
+        let last = self.model.cases.len().checked_sub(1);
+        let case = last.ok_or_else(|| Error::unknown_case(&self.model, "the last"))?;
+        Ok(CaseRun::new(self, case))
     }
 
     /// The equations.
@@ -91,7 +135,7 @@ impl<'m> Analysis<'m> {
         observers: &mut [&mut dyn Observer],
     ) -> Result<Run, Error> {
         if options.case >= self.model.cases.len() {
-            return Err(Error::unknown_case(self.model, &format!("#{}", options.case)));
+            return Err(Error::unknown_case(&self.model, &format!("#{}", options.case)));
         }
         let RunOptions {
             case,
@@ -126,7 +170,7 @@ impl<'m> Analysis<'m> {
                 interrupt,
             };
             let mut run = self.once(options, observers)?;
-            let more = run.result.enlarged(self.model, round).filter(|_| from.is_none());
+            let more = run.result.enlarged(&self.model, round).filter(|_| from.is_none());
             let Some(n) = more else {
                 if let Some(n) = vectors.filter(|_| round > 0) {
                     run.result.warnings.push(format!(
@@ -152,14 +196,14 @@ impl<'m> Analysis<'m> {
         options: RunOptions<'_>,
         observers: &mut [&mut dyn Observer],
     ) -> Result<Run, Error> {
-        let mut record = Recorder::new(self.model).with_frames(self.model, self.frames);
+        let mut record = Recorder::new(&self.model).with_frames(&self.model, self.frames);
         if self.loops {
-            record = record.with_loops(self.model);
+            record = record.with_loops(&self.model);
         }
         if !self.histories {
             record = record.without_histories();
         }
-        let mut contact = ContactMode::new(self.model, &self.system);
+        let mut contact = ContactMode::new(&self.model, &self.system);
         let mut shear = self.shakes(options.case).then(BaseShear::default);
         let (mut since, mut warnings) = (0.0, Vec::new());
         if let Some(from) = &options.from {
@@ -191,8 +235,8 @@ impl<'m> Analysis<'m> {
         for observer in observers {
             all.push(*observer);
         }
-        let mut result = trilith_solvers::run(self.model, &self.system, options, &mut all)?;
-        result.warnings.extend(trilith_results::spectrum_warnings(self.model, &record));
+        let mut result = trilith_solvers::run(&self.model, &self.system, options, &mut all)?;
+        result.warnings.extend(trilith_results::spectrum_warnings(&self.model, &record));
         result.warnings.extend(warnings);
         let peaks = record.peaks();
         if peaks.iter().all(Peak::is_finite) {
@@ -220,7 +264,7 @@ impl<'m> Analysis<'m> {
     /// # Errors
     /// [`Error::Solve`] where the stiffness has numbers beyond all bounds.
     pub fn survey(&self) -> Result<Survey, Error> {
-        Ok(trilith_solvers::survey(self.model, &self.system)?)
+        Ok(trilith_solvers::survey(&self.model, &self.system)?)
     }
 
     /// The structure with its links made linear, at rest or at the end of a case (an index): for modes with links, and
@@ -233,7 +277,7 @@ impl<'m> Analysis<'m> {
         stiffness: &LinkStiffness,
         after: Option<usize>,
     ) -> Result<Linearised<'_>, Error> {
-        Ok(trilith_solvers::linearised(self.model, &self.system, stiffness, after)?)
+        Ok(trilith_solvers::linearised(&self.model, &self.system, stiffness, after)?)
     }
 
     /// Modes and basis of a case (the last dynamic one where none is given).
@@ -241,7 +285,7 @@ impl<'m> Analysis<'m> {
     /// # Errors
     /// [`Error::Solve`] where the structure has no modes.
     pub fn modes(&self, case: Option<usize>) -> Result<BasisReport, Error> {
-        Ok(trilith_solvers::modes(self.model, &self.system, case)?)
+        Ok(trilith_solvers::modes(&self.model, &self.system, case)?)
     }
 }
 

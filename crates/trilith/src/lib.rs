@@ -27,7 +27,8 @@
 //! ```
 //!
 //! - [`read`] turns a model file into a [`Model`], with [`Values`] of its parameters, or into [`Diagnostics`], all its errors at once.
-//! - [`run`] runs a case as the file says; [`Analysis`] runs several, with options.
+//! - [`ModelBuilder`] makes a model in code, block by block.
+//! - [`run`] runs a case as the file says; [`Analysis`] runs several, with options: a [`CaseRun`] each.
 //! - [`Checkpoint`] keeps where a run stopped in a file, for `from` of a later one's [`RunOptions`].
 //! - [`write_report`] makes the page of a run, [`rebuild_report`] makes it again from its folder.
 //! - [`compare`] solves a case in several ways and finds why the results differ.
@@ -44,7 +45,9 @@
 //! [`solvers`], [`results`] and [`report`].
 
 mod analysis;
+mod builder;
 pub mod calibrate;
+mod case_run;
 pub mod catalogue;
 mod checkpoint;
 pub mod compare;
@@ -98,6 +101,8 @@ pub mod report {
 }
 
 pub use analysis::{Analysis, Run};
+pub use builder::{ModelBuilder, block, word};
+pub use case_run::CaseRun;
 pub use checkpoint::{Checkpoint, CheckpointError};
 pub use element::Register;
 pub use error::Error;

@@ -3,7 +3,9 @@
 use crate::{Analysis, Error, Run, report_check};
 use serde::de::DeserializeOwned;
 use serde_json::Value;
+use std::ops::Deref;
 use std::path::{Path, PathBuf};
+use trilith_model::Model;
 use trilith_report::{Collect, RunData, run_page};
 use trilith_results::FileError;
 
@@ -89,9 +91,9 @@ impl Run {
     /// What the report of this run shows. `loops` names the links whose hysteresis loops are wanted; none:
     /// those that dissipate most.
     #[must_use]
-    pub fn report(
+    pub fn report<M: Deref<Target = Model>>(
         &self,
-        analysis: &Analysis<'_>,
+        analysis: &Analysis<M>,
         overrides: &[(String, String)],
         loops: &[String],
     ) -> RunData {

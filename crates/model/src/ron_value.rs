@@ -1,4 +1,4 @@
-//! Values of a model file and how they are written.
+//! Values of a model file and how they are written, for programs that make models.
 
 use std::fmt::Write;
 
@@ -84,6 +84,59 @@ impl Ron {
 impl From<f64> for Ron {
     fn from(x: f64) -> Self {
         Self::Number(x)
+    }
+}
+
+impl From<i32> for Ron {
+    /// A whole number, such as how many cycles.
+    fn from(x: i32) -> Self {
+        Self::Number(x.into())
+    }
+}
+
+impl From<(f64, &str)> for Ron {
+    /// A number and its unit.
+    fn from((x, unit): (f64, &str)) -> Self {
+        Self::Text(format!("{} {unit}", number(x)))
+    }
+}
+
+impl From<&str> for Ron {
+    /// A text: a name, or a quantity with its unit.
+    fn from(text: &str) -> Self {
+        Self::text(text)
+    }
+}
+
+impl From<String> for Ron {
+    fn from(text: String) -> Self {
+        Self::Text(text)
+    }
+}
+
+impl From<bool> for Ron {
+    fn from(yes: bool) -> Self {
+        Self::word(if yes { "true" } else { "false" })
+    }
+}
+
+impl<const N: usize> From<[f64; N]> for Ron {
+    /// A place or a direction.
+    fn from(numbers: [f64; N]) -> Self {
+        Self::vector(&numbers)
+    }
+}
+
+impl<const N: usize> From<[&str; N]> for Ron {
+    /// Names, such as the nodes of an element.
+    fn from(names: [&str; N]) -> Self {
+        Self::Tuple(names.into_iter().map(Self::text).collect())
+    }
+}
+
+impl From<Vec<Ron>> for Ron {
+    fn from(all: Vec<Ron>) -> Self {
+        Self::List(all)
     }
 }
 
