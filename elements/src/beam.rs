@@ -149,67 +149,61 @@ const fn releases(name: &'static str, meaning: &'static str) -> Parameter {
 }
 
 impl Described for Beam {
-    const CARD: Card = Card {
-        kind: "Beam",
-        category: Category::Linear,
-        summary: "Two-node beam in space, Euler–Bernoulli or Timoshenko, with releases and rigid offsets.",
-        nodes: NodeCount::exactly(2),
-        parameters: &[
-            Parameter::required("young", "E", STRESS, Range::Positive, "Young's modulus"),
-            maybe("shear_modulus", "G", STRESS, "shear modulus; or give `poisson`"),
-            Parameter::optional(
-                "poisson",
-                "ν",
-                NONE,
-                Range::Within(-0.99, 0.5),
-                "Poisson's ratio, G = E/(2(1 + ν))",
-            ),
-            maybe("area", "A", AREA, "area of the section; or give `width` and `depth`"),
-            maybe(
-                "i2",
-                "I₂",
-                SECOND_MOMENT,
-                "second moment about local 2; none: no stiffness there",
-            ),
-            maybe(
-                "i3",
-                "I₃",
-                SECOND_MOMENT,
-                "second moment about local 3; none: no stiffness there",
-            ),
-            maybe("torsion", "J", SECOND_MOMENT, "torsion constant; none: no stiffness there"),
-            maybe("width", "b", LENGTH, "side of a rectangular section along local 3"),
-            maybe("depth", "h", LENGTH, "side of a rectangular section along local 2"),
-            maybe("shear_area_2", "A₂", AREA, "effective area for shear along local 2"),
-            maybe("shear_area_3", "A₃", AREA, "effective area for shear along local 3"),
-            maybe("shear_coefficient", "κ", NONE, "instead of shear areas: A₂ = A₃ = κ A"),
-            zero("density", "ρ", DENSITY, "density, for the mass"),
-            zero("distributed_mass", "m̄", MASS_PER_LENGTH, "further mass per length"),
-            maybe("expansion", "α", NONE, "strain by one kelvin, for loads of warmth"),
-            Parameter::choice(
-                "mass_matrix",
-                &["Lumped", "Consistent"],
-                "Lumped",
-                "how the mass is spread",
-            ),
-            releases("release_i", "local directions released at end i"),
-            releases("release_j", "local directions released at end j"),
-            zero("offset_i", "", LENGTH, "rigid length along the axis at i"),
-            zero("offset_j", "", LENGTH, "rigid length along the axis at j"),
-            Parameter::choice(
-                "offsets_stiffen",
-                &["All", "Bending"],
-                "All",
-                "what rigid lengths stiffen: `Bending` leaves stretch and twist to the whole length",
-            ),
-        ],
-        law: "bending in 1–2: E I₃, Φ = 12 E I₃/(G A₂ L²); bending in 1–3: E I₂, Φ = 12 E I₂/(G A₃ L²)\n\
+    const CARD: Card = Card::new(
+        "Beam",
+        Category::Linear,
+        "Two-node beam in space, Euler–Bernoulli or Timoshenko, with releases and rigid offsets.",
+    )
+    .nodes(NodeCount::exactly(2))
+    .parameters(&[
+        Parameter::required("young", "E", STRESS, Range::Positive, "Young's modulus"),
+        maybe("shear_modulus", "G", STRESS, "shear modulus; or give `poisson`"),
+        Parameter::optional(
+            "poisson",
+            "ν",
+            NONE,
+            Range::Within(-0.99, 0.5),
+            "Poisson's ratio, G = E/(2(1 + ν))",
+        ),
+        maybe("area", "A", AREA, "area of the section; or give `width` and `depth`"),
+        maybe("i2", "I₂", SECOND_MOMENT, "second moment about local 2; none: no stiffness there"),
+        maybe("i3", "I₃", SECOND_MOMENT, "second moment about local 3; none: no stiffness there"),
+        maybe("torsion", "J", SECOND_MOMENT, "torsion constant; none: no stiffness there"),
+        maybe("width", "b", LENGTH, "side of a rectangular section along local 3"),
+        maybe("depth", "h", LENGTH, "side of a rectangular section along local 2"),
+        maybe("shear_area_2", "A₂", AREA, "effective area for shear along local 2"),
+        maybe("shear_area_3", "A₃", AREA, "effective area for shear along local 3"),
+        maybe("shear_coefficient", "κ", NONE, "instead of shear areas: A₂ = A₃ = κ A"),
+        zero("density", "ρ", DENSITY, "density, for the mass"),
+        zero("distributed_mass", "m̄", MASS_PER_LENGTH, "further mass per length"),
+        maybe("expansion", "α", NONE, "strain by one kelvin, for loads of warmth"),
+        Parameter::choice(
+            "mass_matrix",
+            &["Lumped", "Consistent"],
+            "Lumped",
+            "how the mass is spread",
+        ),
+        releases("release_i", "local directions released at end i"),
+        releases("release_j", "local directions released at end j"),
+        zero("offset_i", "", LENGTH, "rigid length along the axis at i"),
+        zero("offset_j", "", LENGTH, "rigid length along the axis at j"),
+        Parameter::choice(
+            "offsets_stiffen",
+            &["All", "Bending"],
+            "All",
+            "what rigid lengths stiffen: `Bending` leaves stretch and twist to the whole length",
+        ),
+    ])
+    .law(
+        "bending in 1–2: E I₃, Φ = 12 E I₃/(G A₂ L²); bending in 1–3: E I₂, Φ = 12 E I₂/(G A₃ L²)\n\
               axial E A/L, torsion G J/L; Φ = 0 without shear areas\n\
               rectangle: I₂ = h b³/12, I₃ = b h³/12, J = a s³ (1/3 − 0.21 (s/a) (1 − s⁴/(12 a⁴)))",
-        source: "Przemieniecki, Theory of Matrix Structural Analysis, 1968, §5.6 and §11.3",
-        example: r#""column": Beam(nodes: ("a", "b"), young: "210 GPa", area: "50 cm^2", i3: "2000 cm^4")"#,
-        exercise: Exercise::NONE,
-    };
+    )
+    .source("Przemieniecki, Theory of Matrix Structural Analysis, 1968, §5.6 and §11.3")
+    .example(
+        r#""column": Beam(nodes: ("a", "b"), young: "210 GPa", area: "50 cm^2", i3: "2000 cm^4")"#,
+    )
+    .exercise(Exercise::NONE);
 
     fn check(&self) -> Result<(), ParameterError> {
         let wrong = |name: &str, message: &str| Err(ParameterError::inconsistent(name, message));

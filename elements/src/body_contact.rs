@@ -94,12 +94,9 @@ pub struct BodyContact {
 }
 
 impl Described for BodyContact {
-    const CARD: Card = Card {
-        kind: "BodyContact",
-        category: Category::Link,
-        summary: "Contact of two bodies in finite rotation: points on a face, or round bodies side by side.",
-        nodes: NodeCount::exactly(2),
-        parameters: &[
+    const CARD: Card = Card::new("BodyContact", Category::Link, "Contact of two bodies in finite rotation: points on a face, or round bodies side by side.")
+.nodes(NodeCount::exactly(2))
+.parameters(&[
             Parameter::new(
                 "points",
                 "rᵢ",
@@ -168,17 +165,15 @@ impl Described for BodyContact {
                 Range::Positive,
                 "pre-slip stiffness of each point or height; required with friction",
             ),
-        ],
-        law: "s = R₁ᵀ (X + u₂ − u₁), R = R₁ᵀ R₂: the second body as the first sees it\n\
+        ])
+.law("s = R₁ᵀ (X + u₂ − u₁), R = R₁ᵀ R₂: the second body as the first sees it\n\
               points: gapᵢ = n·(s + R rᵢ − a), friction in the face\n\
               round: gap = |(s + R z e₃)₁₂| − r₁ − r₂, friction across and along the axis\n\
               forces as NLink: gap kₙ with dashpot c, friction μ with pre-slip stiffness kₛ\n\
-              F₂ = R₁ f, M₂ = m (axes of the second); F₁ = −R₁ f, M₁ = −s × f − R m (axes of the first)",
-        source: "relative motion of rigid bodies, Goldstein, Classical Mechanics, ch. 4",
-        example: r#""casks": BodyContact(nodes: ("cask 1", "cask 2"), radii: ("0.49 m", "0.49 m"), heights: ("-0.8 m", "0.8 m"), kn: "1e8 N/m", ks: "1e8 N/m", mu: 0.2)"#,
-        exercise: Exercise {
-            frequency: 0.5,
-            strokes: &[
+              F₂ = R₁ f, M₂ = m (axes of the second); F₁ = −R₁ f, M₁ = −s × f − R m (axes of the first)")
+.source("relative motion of rigid bodies, Goldstein, Classical Mechanics, ch. 4")
+.example(r#""casks": BodyContact(nodes: ("cask 1", "cask 2"), radii: ("0.49 m", "0.49 m"), heights: ("-0.8 m", "0.8 m"), kn: "1e8 N/m", ks: "1e8 N/m", mu: 0.2)"#)
+.exercise(Exercise::new(0.5, &[
                 Stroke::about(0.0, 0.0),
                 Stroke::about(0.0, 0.0),
                 Stroke::about(0.0, 0.0),
@@ -191,9 +186,7 @@ impl Described for BodyContact {
                 Stroke::about(0.0, 0.0),
                 Stroke::about(0.0, 1e-4),
                 Stroke::about(0.0, 0.0),
-            ],
-        },
-    };
+            ]));
 
     fn check(&self) -> Result<(), ParameterError> {
         let (name, message) = if self.mu > 0.0 && self.ks.is_none() {

@@ -103,12 +103,9 @@ const fn loss(name: &'static str, symbol: &'static str, meaning: &'static str) -
 }
 
 impl Described for BoucWen {
-    const CARD: Card = Card {
-        kind: "BoucWen",
-        category: Category::Link,
-        summary: "Smooth hysteretic spring that loses strength and stiffness (Bouc, Wen, Baber).",
-        nodes: NodeCount::GROUND_OR_TWO,
-        parameters: &[
+    const CARD: Card = Card::new("BoucWen", Category::Link, "Smooth hysteretic spring that loses strength and stiffness (Bouc, Wen, Baber).")
+.nodes(NodeCount::GROUND_OR_TWO)
+.parameters(&[
             Parameter::new(
                 "k",
                 "k",
@@ -161,14 +158,13 @@ impl Described for BoucWen {
             loss("delta_nu", "δ_ν", "loss of strength with ε"),
             loss("delta_eta", "δ_η", "loss of stiffness with ε"),
             Parameter::choice("axis", Axis::NAMES, "U1", "local axis"),
-        ],
-        law: "f = α k d + (1 − α) k d_y z\n\
+        ])
+.law("f = α k d + (1 − α) k d_y z\n\
               ż = (ḋ/d_y) [A − ν |z|ⁿ (γ + β sgn(ḋ z))]/η\n\
-              A = A₀ − δ_A ε (at least A₀/100), ν = 1 + δ_ν ε, η = 1 + δ_η ε, ε = ∫ z dd/d_y",
-        source: "Baber & Wen, Random Vibration of Hysteretic Degrading Systems, 1981; Erlicher & Point 2004",
-        example: r#""wall": BoucWen(nodes: ("a", "b"), axis: U2, k: "40 MN/m", dy: "5 mm", alpha: 0.05, n: 1.5, beta: 0.8, gamma: 0.2, delta_nu: 0.02, delta_eta: 0.08)"#,
-        exercise: Exercise { frequency: 0.5, strokes: &[Stroke::about(0.0, 0.04)] },
-    };
+              A = A₀ − δ_A ε (at least A₀/100), ν = 1 + δ_ν ε, η = 1 + δ_η ε, ε = ∫ z dd/d_y")
+.source("Baber & Wen, Random Vibration of Hysteretic Degrading Systems, 1981; Erlicher & Point 2004")
+.example(r#""wall": BoucWen(nodes: ("a", "b"), axis: U2, k: "40 MN/m", dy: "5 mm", alpha: 0.05, n: 1.5, beta: 0.8, gamma: 0.2, delta_nu: 0.02, delta_eta: 0.08)"#)
+.exercise(Exercise::new(0.5, &[Stroke::about(0.0, 0.04)]));
 
     fn check(&self) -> Result<(), ParameterError> {
         let Self { beta, gamma, .. } = *self;

@@ -76,67 +76,69 @@ pub struct Dashpot {
 }
 
 impl Described for Dashpot {
-    const CARD: Card = Card {
-        kind: "Dashpot",
-        category: Category::Link,
-        summary: "Dashpot with a power of the rate, acting always or in contact only.",
-        nodes: NodeCount::GROUND_OR_TWO,
-        parameters: &[
-            Parameter::new(
-                "c",
-                "c",
-                Form::Power { base: FORCE, over: VELOCITY, exponent: "exponent" },
-                Default::Absent,
-                "coefficient along U1, U2 or U3",
-            )
-            .within(Range::Positive),
-            Parameter::new(
-                "cr",
-                "c",
-                Form::Power { base: MOMENT, over: FREQUENCY, exponent: "exponent" },
-                Default::Absent,
-                "instead of `c`: coefficient about R1, R2 or R3",
-            )
-            .within(Range::Positive),
-            Parameter::number(
-                "exponent",
-                "α",
-                NONE,
-                Range::Above(0.0, 2.0),
-                1.0,
-                "exponent of the rate",
-            ),
-            Parameter::choice("axis", Axis::NAMES, "U1", "local axis"),
-            Parameter::choice("when", &["Always", "InContact"], "Always", "when it acts"),
-            Parameter::number("opening", "g", LENGTH, Range::Any, 0.0, "clearance of the contact"),
-            Parameter::number(
-                "stiffness",
-                "k",
-                STIFFNESS,
-                Range::NonNegative,
-                0.0,
-                "spring of the contact",
-            ),
-            restitution("instead of `c`, in contact: speed after over speed before an impact"),
-            IMPACT_MASS,
-            Parameter::flag("pull", false, "the total force may pull while closed"),
-            Parameter::number(
-                "linear_below",
-                "v₀",
-                VELOCITY,
-                Range::Positive,
-                1e-6,
-                "rate below which α < 1 is linear (rad/s with `cr`)",
-            ),
-        ],
-        law: "F(v) = c sgn(v) |v|^α; for α < 1 and |v| < v₀: c v₀^(α−1) v\n\
+    const CARD: Card = Card::new(
+        "Dashpot",
+        Category::Link,
+        "Dashpot with a power of the rate, acting always or in contact only.",
+    )
+    .nodes(NodeCount::GROUND_OR_TWO)
+    .parameters(&[
+        Parameter::new(
+            "c",
+            "c",
+            Form::Power { base: FORCE, over: VELOCITY, exponent: "exponent" },
+            Default::Absent,
+            "coefficient along U1, U2 or U3",
+        )
+        .within(Range::Positive),
+        Parameter::new(
+            "cr",
+            "c",
+            Form::Power { base: MOMENT, over: FREQUENCY, exponent: "exponent" },
+            Default::Absent,
+            "instead of `c`: coefficient about R1, R2 or R3",
+        )
+        .within(Range::Positive),
+        Parameter::number(
+            "exponent",
+            "α",
+            NONE,
+            Range::Above(0.0, 2.0),
+            1.0,
+            "exponent of the rate",
+        ),
+        Parameter::choice("axis", Axis::NAMES, "U1", "local axis"),
+        Parameter::choice("when", &["Always", "InContact"], "Always", "when it acts"),
+        Parameter::number("opening", "g", LENGTH, Range::Any, 0.0, "clearance of the contact"),
+        Parameter::number(
+            "stiffness",
+            "k",
+            STIFFNESS,
+            Range::NonNegative,
+            0.0,
+            "spring of the contact",
+        ),
+        restitution("instead of `c`, in contact: speed after over speed before an impact"),
+        IMPACT_MASS,
+        Parameter::flag("pull", false, "the total force may pull while closed"),
+        Parameter::number(
+            "linear_below",
+            "v₀",
+            VELOCITY,
+            Range::Positive,
+            1e-6,
+            "rate below which α < 1 is linear (rad/s with `cr`)",
+        ),
+    ])
+    .law(
+        "F(v) = c sgn(v) |v|^α; for α < 1 and |v| < v₀: c v₀^(α−1) v\n\
               Always:    f = F(ḋ)\n\
               InContact: f = F(ḋ) + k (d + g) where d < −g, else 0; without `pull` at most 0\n\
               with `restitution`: c = 2 ζ(e) √(k m)",
-        source: "Soong & Dargush, Passive Energy Dissipation Systems, 1997, ch. 6; Wilson 2002, ch. 21",
-        example: r#""damper": Dashpot(nodes: ("a", "b"), c: "20 kN*s/m")"#,
-        exercise: Exercise { frequency: 1.0, strokes: &[Stroke::about(0.0, 0.05)] },
-    };
+    )
+    .source("Soong & Dargush, Passive Energy Dissipation Systems, 1997, ch. 6; Wilson 2002, ch. 21")
+    .example(r#""damper": Dashpot(nodes: ("a", "b"), c: "20 kN*s/m")"#)
+    .exercise(Exercise::new(1.0, &[Stroke::about(0.0, 0.05)]));
 
     fn check(&self) -> Result<(), ParameterError> {
         let rotational = self.axis.index() > 2;
@@ -326,12 +328,9 @@ impl Link for Dashpot {
 
     fn impact(&self) -> Option<Impact> {
         let bears = self.when == When::InContact && self.stiffness > 0.0 && self.exponent == 1.0;
-        bears.then(|| Impact {
-            coordinate: 0,
-            stiffness: self.stiffness,
-            damping: self.c.unwrap_or(0.0),
-            restitution: self.restitution,
-            mass: self.impact_mass,
+        bears.then(|| {
+            Impact::new(0, self.stiffness, self.c.unwrap_or(0.0))
+                .restituting(self.restitution, self.impact_mass)
         })
     }
 
@@ -349,7 +348,7 @@ impl Link for Dashpot {
     fn contacts(&self, at: &Kinematics<'_>, _: &[f64], f: &[f64], out: &mut Vec<Contact>) {
         let gap = at.d[0] + self.opening;
         if self.when == When::InContact && self.stiffness > 0.0 {
-            out.push(Contact { gap, normal: (-f[0]).max(0.0), ..Contact::default() });
+            out.push(Contact::new(gap, (-f[0]).max(0.0)));
         }
     }
 }

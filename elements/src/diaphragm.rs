@@ -39,22 +39,22 @@ pub struct Diaphragm {
 }
 
 impl Described for Diaphragm {
-    const CARD: Card = Card {
-        kind: "Diaphragm",
-        category: Category::Constraint,
-        summary: "Floor that is rigid in its plane; the first node leads, the others follow.",
-        nodes: NodeCount::at_least(2),
-        parameters: &[Parameter::choice(
-            "normal",
-            &["X", "Y", "Z"],
-            "Z",
-            "direction normal to the floor",
-        )],
-        law: "normal Z: ux_s = ux_m − θz_m (y_s − y_m), uy_s = uy_m + θz_m (x_s − x_m), θz_s = θz_m",
-        source: "Wilson, Static and Dynamic Analysis of Structures, 2002, ch. 7",
-        example: r#""floor": Diaphragm(nodes: ("centre", "a", "b", "c", "d"))"#,
-        exercise: Exercise::NONE,
-    };
+    const CARD: Card = Card::new(
+        "Diaphragm",
+        Category::Constraint,
+        "Floor that is rigid in its plane; the first node leads, the others follow.",
+    )
+    .nodes(NodeCount::at_least(2))
+    .parameters(&[Parameter::choice(
+        "normal",
+        &["X", "Y", "Z"],
+        "Z",
+        "direction normal to the floor",
+    )])
+    .law("normal Z: ux_s = ux_m − θz_m (y_s − y_m), uy_s = uy_m + θz_m (x_s − x_m), θz_s = θz_m")
+    .source("Wilson, Static and Dynamic Analysis of Structures, 2002, ch. 7")
+    .example(r#""floor": Diaphragm(nodes: ("centre", "a", "b", "c", "d"))"#)
+    .exercise(Exercise::NONE);
 }
 
 impl Constraint for Diaphragm {
@@ -70,9 +70,9 @@ impl Constraint for Diaphragm {
             for (dof, arm) in [(Dof::ALL[a], -r[b]), (Dof::ALL[b], r[a])] {
                 let mut terms = vec![((0, dof), 1.0), ((0, about), arm)];
                 terms.retain(|(_, c)| *c != 0.0);
-                out.push(Equation { dependent: (s + 1, dof), terms });
+                out.push(Equation::new((s + 1, dof), terms));
             }
-            out.push(Equation { dependent: (s + 1, about), terms: vec![((0, about), 1.0)] });
+            out.push(Equation::new((s + 1, about), vec![((0, about), 1.0)]));
         }
         Ok(out)
     }

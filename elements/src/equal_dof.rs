@@ -47,23 +47,23 @@ pub struct EqualDof {
 }
 
 impl Described for EqualDof {
-    const CARD: Card = Card {
-        kind: "EqualDof",
-        category: Category::Constraint,
-        summary: "Chosen DOFs of the other nodes equal those of the first.",
-        nodes: NodeCount::at_least(2),
-        parameters: &[Parameter::new(
-            "dofs",
-            "",
-            Form::Choices(NAMES),
-            Default::Required,
-            "which DOFs",
-        )],
-        law: "u_s[dof] = u_m[dof]",
-        source: "Bathe, Finite Element Procedures, 1996, §4.2.2",
-        example: r#""hinge": EqualDof(nodes: ("a", "b"), dofs: (Ux, Uz))"#,
-        exercise: Exercise::NONE,
-    };
+    const CARD: Card = Card::new(
+        "EqualDof",
+        Category::Constraint,
+        "Chosen DOFs of the other nodes equal those of the first.",
+    )
+    .nodes(NodeCount::at_least(2))
+    .parameters(&[Parameter::new(
+        "dofs",
+        "",
+        Form::Choices(NAMES),
+        Default::Required,
+        "which DOFs",
+    )])
+    .law("u_s[dof] = u_m[dof]")
+    .source("Bathe, Finite Element Procedures, 1996, §4.2.2")
+    .example(r#""hinge": EqualDof(nodes: ("a", "b"), dofs: (Ux, Uz))"#)
+    .exercise(Exercise::NONE);
 
     fn check(&self) -> Result<(), ParameterError> {
         let twice = self.dofs.iter().enumerate().any(|(i, d)| self.dofs[..i].contains(d));
@@ -80,7 +80,7 @@ impl Constraint for EqualDof {
         let each = |s: usize| {
             self.dofs.iter().map(move |name| {
                 let dof = Dof::ALL[*name as usize];
-                Equation { dependent: (s, dof), terms: vec![((0, dof), 1.0)] }
+                Equation::new((s, dof), vec![((0, dof), 1.0)])
             })
         };
         Ok((1..nodes.len()).flat_map(each).collect())

@@ -77,12 +77,9 @@ const fn optional(
 }
 
 impl Described for FrequencyIndependentViscoelastic {
-    const CARD: Card = Card {
-        kind: "FrequencyIndependentViscoelastic",
-        category: Category::Link,
-        summary: "Viscoelastic damper with a near-constant loss factor: springs and Maxwell branches.",
-        nodes: NodeCount::GROUND_OR_TWO,
-        parameters: &[
+    const CARD: Card = Card::new("FrequencyIndependentViscoelastic", Category::Link, "Viscoelastic damper with a near-constant loss factor: springs and Maxwell branches.")
+.nodes(NodeCount::GROUND_OR_TWO)
+.parameters(&[
             optional(
                 "k",
                 "k",
@@ -133,13 +130,12 @@ impl Described for FrequencyIndependentViscoelastic {
                 "instead: relaxation times of the branches",
             ),
             Parameter::choice("axis", Axis::NAMES, "U1", "local axis"),
-        ],
-        law: "f = k∞ d + Σ fᵢ, ḟᵢ = kᵢ ḋ − fᵢ/τᵢ\n\
-              fitted: K' = k (f/f₀)^β, K'' = η K', β = (2/π) atan η, f₀ = √(f_min f_max)",
-        source: "Bland, The Theory of Linear Viscoelasticity, 1960; Bagley & Torvik 1983 (springpot)",
-        example: r#""pad": FrequencyIndependentViscoelastic(nodes: ("a", "b"), k: "5 MN/m", loss_factor: 0.4, f_min: "0.1 Hz", f_max: "10 Hz")"#,
-        exercise: Exercise { frequency: 1.0, strokes: &[Stroke::about(0.0, 0.02)] },
-    };
+        ])
+.law("f = k∞ d + Σ fᵢ, ḟᵢ = kᵢ ḋ − fᵢ/τᵢ\n\
+              fitted: K' = k (f/f₀)^β, K'' = η K', β = (2/π) atan η, f₀ = √(f_min f_max)")
+.source("Bland, The Theory of Linear Viscoelasticity, 1960; Bagley & Torvik 1983 (springpot)")
+.example(r#""pad": FrequencyIndependentViscoelastic(nodes: ("a", "b"), k: "5 MN/m", loss_factor: 0.4, f_min: "0.1 Hz", f_max: "10 Hz")"#)
+.exercise(Exercise::new(1.0, &[Stroke::about(0.0, 0.02)]));
 
     fn check(&self) -> Result<(), ParameterError> {
         let fitted = [
@@ -212,7 +208,7 @@ impl Link for FrequencyIndependentViscoelastic {
 
     fn history(&self) -> Cow<'static, [Field]> {
         let unit = if self.axis.index() > 2 { "N·m" } else { "N" };
-        let field = |i| Field { name: format!("branch{i}").into(), unit };
+        let field = |i| Field::named(format!("branch{i}"), unit);
         (1..=self.branches().branches.len()).map(field).collect()
     }
 

@@ -289,6 +289,6 @@ impl Link for FrictionPendulum {
 
     fn impact(&self) -> Option<Impact> {
         let (stiffness, damping) = (self.kn, self.damping);
-        Some(Impact { coordinate: 0, stiffness, damping, restitution: None, mass: None })
+        Some(Impact::new(0, stiffness, damping))
     }
 }

@@ -37,21 +37,17 @@ pub struct Gap {
 }
 
 impl Described for Gap {
-    const CARD: Card = Card {
-        kind: "Gap",
-        category: Category::Link,
-        summary: "Compression-only stop with a clearance.",
-        nodes: NodeCount::GROUND_OR_TWO,
-        parameters: &[
+    const CARD: Card = Card::new("Gap", Category::Link, "Compression-only stop with a clearance.")
+        .nodes(NodeCount::GROUND_OR_TWO)
+        .parameters(&[
             Parameter::required("k", "k", STIFFNESS, Range::Positive, "stiffness"),
             Parameter::number("opening", "g", LENGTH, Range::Any, 0.0, "clearance at rest"),
             Parameter::choice("axis", &["U1", "U2", "U3"], "U1", "local axis"),
-        ],
-        law: "f = k (d + g) where d + g < 0, else 0",
-        source: "Wilson, Static and Dynamic Analysis of Structures, 2002, ch. 21",
-        example: r#""stop": Gap(nodes: ("a", "b"), k: "200 MN/m", opening: "50 mm")"#,
-        exercise: Exercise { frequency: 1.0, strokes: &[Stroke::about(0.0, 0.075)] },
-    };
+        ])
+        .law("f = k (d + g) where d + g < 0, else 0")
+        .source("Wilson, Static and Dynamic Analysis of Structures, 2002, ch. 21")
+        .example(r#""stop": Gap(nodes: ("a", "b"), k: "200 MN/m", opening: "50 mm")"#)
+        .exercise(Exercise::new(1.0, &[Stroke::about(0.0, 0.075)]));
 }
 
 /// The law over lanes; parameters k, g.
@@ -116,7 +112,7 @@ impl Link for Gap {
 
     fn contacts(&self, at: &Kinematics<'_>, _: &[f64], f: &[f64], out: &mut Vec<Contact>) {
         let gap = at.d[0] + self.opening;
-        out.push(Contact { gap, normal: (-f[0]).max(0.0), ..Contact::default() });
+        out.push(Contact::new(gap, (-f[0]).max(0.0)));
     }
 }
 

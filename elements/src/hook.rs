@@ -37,21 +37,17 @@ pub struct Hook {
 }
 
 impl Described for Hook {
-    const CARD: Card = Card {
-        kind: "Hook",
-        category: Category::Link,
-        summary: "Tension-only cable with a slack.",
-        nodes: NodeCount::GROUND_OR_TWO,
-        parameters: &[
+    const CARD: Card = Card::new("Hook", Category::Link, "Tension-only cable with a slack.")
+        .nodes(NodeCount::GROUND_OR_TWO)
+        .parameters(&[
             Parameter::required("k", "k", STIFFNESS, Range::Positive, "stiffness"),
             Parameter::number("opening", "g", LENGTH, Range::Any, 0.0, "clearance at rest"),
             Parameter::choice("axis", &["U1", "U2", "U3"], "U1", "local axis"),
-        ],
-        law: "f = k (d − g) where d − g > 0, else 0",
-        source: "Wilson, Static and Dynamic Analysis of Structures, 2002, ch. 21",
-        example: r#""cable": Hook(nodes: ("a", "b"), k: "20 MN/m", opening: "5 mm")"#,
-        exercise: Exercise { frequency: 1.0, strokes: &[Stroke::about(0.0, 0.01)] },
-    };
+        ])
+        .law("f = k (d − g) where d − g > 0, else 0")
+        .source("Wilson, Static and Dynamic Analysis of Structures, 2002, ch. 21")
+        .example(r#""cable": Hook(nodes: ("a", "b"), k: "20 MN/m", opening: "5 mm")"#)
+        .exercise(Exercise::new(1.0, &[Stroke::about(0.0, 0.01)]));
 }
 
 /// The law over lanes; parameters k, g.

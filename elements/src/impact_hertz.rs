@@ -104,12 +104,9 @@ history! {
 const TYPICAL: f64 = 1e-3;
 
 impl Described for ImpactHertz {
-    const CARD: Card = Card {
-        kind: "ImpactHertz",
-        category: Category::Link,
-        summary: "Pounding: Hertz spring with nonlinear damping after a clearance.",
-        nodes: NodeCount::GROUND_OR_TWO,
-        parameters: &[
+    const CARD: Card = Card::new("ImpactHertz", Category::Link, "Pounding: Hertz spring with nonlinear damping after a clearance.")
+.nodes(NodeCount::GROUND_OR_TWO)
+.parameters(&[
             Parameter::new(
                 "k",
                 "k",
@@ -151,14 +148,13 @@ impl Described for ImpactHertz {
                 "Hertzdamp: slower approaches damp as this one does",
             ),
             Parameter::choice("axis", &["U1", "U2", "U3"], "U1", "local axis"),
-        ],
-        law: "δ = −(d + g), δ̇ = −ḋ; f = −N where δ > 0, else 0; N ≥ 0\n\
+        ])
+.law("δ = −(d + g), δ̇ = −ḋ; f = −N where δ > 0, else 0; N ≥ 0\n\
               Hertzdamp: N = k δⁿ (1 + ξ δ̇/s), ξ (1 + e) = ln((1 + ξ)/(1 − ξ e)), s: δ̇ at first touch, s_min at least\n\
-              Jankowski: N = k δⁿ + 2 ξ √(m k δⁿ⁻¹) δ̇ where δ̇ > 0, else k δⁿ",
-        source: "Muthukumar & DesRoches 2006; Jankowski 2005; Lankarani & Nikravesh 1990",
-        example: r#""joint": ImpactHertz(nodes: ("a", "b"), k: "2000 MN/m^1.5", restitution: 0.65, opening: "20 mm")"#,
-        exercise: Exercise { frequency: 1.0, strokes: &[Stroke::about(0.0, 0.03)] },
-    };
+              Jankowski: N = k δⁿ + 2 ξ √(m k δⁿ⁻¹) δ̇ where δ̇ > 0, else k δⁿ")
+.source("Muthukumar & DesRoches 2006; Jankowski 2005; Lankarani & Nikravesh 1990")
+.example(r#""joint": ImpactHertz(nodes: ("a", "b"), k: "2000 MN/m^1.5", restitution: 0.65, opening: "20 mm")"#)
+.exercise(Exercise::new(1.0, &[Stroke::about(0.0, 0.03)]));
 
     fn check(&self) -> Result<(), ParameterError> {
         let (name, message) = if self.restitution.is_some() == self.xi.is_some() {
@@ -327,13 +323,7 @@ impl Link for ImpactHertz {
     fn impact(&self) -> Option<Impact> {
         // Only a law that waits for a mass takes part: there is no linear stiffness to speak of.
         let waits = self.model == HertzModel::Jankowski && self.restitution.is_some();
-        waits.then_some(Impact {
-            coordinate: 0,
-            stiffness: self.k,
-            damping: 0.0,
-            restitution: self.restitution,
-            mass: self.impact_mass,
-        })
+        waits.then_some(Impact::new(0, self.k, 0.0).restituting(self.restitution, self.impact_mass))
     }
 
     fn restituting(&self, restitution: f64, mass: f64) -> Option<Box<dyn Link>> {
@@ -349,7 +339,7 @@ impl Link for ImpactHertz {
 
     fn contacts(&self, at: &Kinematics<'_>, _: &[f64], f: &[f64], out: &mut Vec<Contact>) {
         let gap = at.d[0] + self.opening;
-        out.push(Contact { gap, normal: (-f[0]).max(0.0), ..Contact::default() });
+        out.push(Contact::new(gap, (-f[0]).max(0.0)));
     }
 }
 

@@ -74,12 +74,9 @@ pub struct ImpactKelvin {
 }
 
 impl Described for ImpactKelvin {
-    const CARD: Card = Card {
-        kind: "ImpactKelvin",
-        category: Category::Link,
-        summary: "Pounding: spring and dashpot in contact after a clearance.",
-        nodes: NodeCount::GROUND_OR_TWO,
-        parameters: &[
+    const CARD: Card = Card::new("ImpactKelvin", Category::Link, "Pounding: spring and dashpot in contact after a clearance.")
+.nodes(NodeCount::GROUND_OR_TWO)
+.parameters(&[
             Parameter::required("k", "k", STIFFNESS, Range::Positive, "contact stiffness"),
             Parameter::optional("damping", "c", DAMPING, Range::NonNegative, "contact dashpot"),
             restitution("instead of `damping`: speed after over speed before an impact"),
@@ -93,15 +90,14 @@ impl Described for ImpactKelvin {
             ),
             Parameter::flag("pull", false, "the force may pull while closed"),
             Parameter::choice("axis", &["U1", "U2", "U3"], "U1", "local axis"),
-        ],
-        law: "δ = −(d + g), δ̇ = −ḋ\n\
+        ])
+.law("δ = −(d + g), δ̇ = −ḋ\n\
               f = −(k δ + c δ̇) where δ > 0, else 0; without `pull` at most 0\n\
               damps Approach: c acts where δ̇ > 0 only\n\
-              with `restitution`: c = 2 ζ(e) √(k m)",
-        source: "Anagnostopoulos 1988; Jankowski 2005 (approach only)",
-        example: r#""joint": ImpactKelvin(nodes: ("a", "b"), k: "100 MN/m", restitution: 0.6, impact_mass: "50 t", opening: "20 mm")"#,
-        exercise: Exercise { frequency: 1.0, strokes: &[Stroke::about(0.0, 0.03)] },
-    };
+              with `restitution`: c = 2 ζ(e) √(k m)")
+.source("Anagnostopoulos 1988; Jankowski 2005 (approach only)")
+.example(r#""joint": ImpactKelvin(nodes: ("a", "b"), k: "100 MN/m", restitution: 0.6, impact_mass: "50 t", opening: "20 mm")"#)
+.exercise(Exercise::new(1.0, &[Stroke::about(0.0, 0.03)]));
 
     fn check(&self) -> Result<(), ParameterError> {
         let (name, message) = if self.damping.is_some() == self.restitution.is_some() {
@@ -156,13 +152,10 @@ impl Link for ImpactKelvin {
     }
 
     fn impact(&self) -> Option<Impact> {
-        Some(Impact {
-            coordinate: 0,
-            stiffness: self.k,
-            damping: self.damping.unwrap_or(0.0),
-            restitution: self.restitution,
-            mass: self.impact_mass,
-        })
+        Some(
+            Impact::new(0, self.k, self.damping.unwrap_or(0.0))
+                .restituting(self.restitution, self.impact_mass),
+        )
     }
 
     fn restituting(&self, restitution: f64, mass: f64) -> Option<Box<dyn Link>> {
@@ -180,7 +173,7 @@ impl Link for ImpactKelvin {
 
     fn contacts(&self, at: &Kinematics<'_>, _: &[f64], f: &[f64], out: &mut Vec<Contact>) {
         let gap = at.d[0] + self.opening;
-        out.push(Contact { gap, normal: (-f[0]).max(0.0), ..Contact::default() });
+        out.push(Contact::new(gap, (-f[0]).max(0.0)));
     }
 }
 

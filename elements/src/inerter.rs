@@ -36,27 +36,27 @@ pub struct Inerter {
 }
 
 impl Described for Inerter {
-    const CARD: Card = Card {
-        kind: "Inerter",
-        category: Category::Linear,
-        summary: "Force proportional to the relative acceleration of its ends.",
-        nodes: NodeCount::GROUND_OR_TWO,
-        parameters: &[
-            Parameter::new(
-                "b",
-                "b",
-                Form::OfAxis { along: MASS, about: INERTIA, list: false },
-                Default::Required,
-                "inertance",
-            )
-            .within(Range::Positive),
-            Parameter::choice("axis", Axis::NAMES, "U1", "local axis"),
-        ],
-        law: "f = b δ̈; without weight, and without load from a motion of the ground",
-        source: "Smith, Synthesis of mechanical networks: the inerter, 2002",
-        example: r#""inerter": Inerter(nodes: ("a", "b"), b: "20 t")"#,
-        exercise: Exercise::NONE,
-    };
+    const CARD: Card = Card::new(
+        "Inerter",
+        Category::Linear,
+        "Force proportional to the relative acceleration of its ends.",
+    )
+    .nodes(NodeCount::GROUND_OR_TWO)
+    .parameters(&[
+        Parameter::new(
+            "b",
+            "b",
+            Form::OfAxis { along: MASS, about: INERTIA, list: false },
+            Default::Required,
+            "inertance",
+        )
+        .within(Range::Positive),
+        Parameter::choice("axis", Axis::NAMES, "U1", "local axis"),
+    ])
+    .law("f = b δ̈; without weight, and without load from a motion of the ground")
+    .source("Smith, Synthesis of mechanical networks: the inerter, 2002")
+    .example(r#""inerter": Inerter(nodes: ("a", "b"), b: "20 t")"#)
+    .exercise(Exercise::NONE);
 }
 
 impl LinearElement for Inerter {
@@ -87,7 +87,7 @@ mod tests {
     fn matrices(given: &[(&str, Value)], nodes: &[[f64; 3]]) -> ElementMatrices {
         let inerter: Inerter = read(given).unwrap();
         let frame = Frame::of_nodes(nodes, None, None).unwrap();
-        inerter.matrices(&Geometry { nodes, frame, tension: 0.0 }).unwrap()
+        inerter.matrices(&Geometry::new(nodes, frame)).unwrap()
     }
 
     #[test]

@@ -126,12 +126,9 @@ const fn positive(
 }
 
 impl Described for LeadRubber {
-    const CARD: Card = Card {
-        kind: "LeadRubber",
-        category: Category::Link,
-        summary: "Lead-rubber bearing whose core softens as it heats up.",
-        nodes: NodeCount::GROUND_OR_TWO,
-        parameters: &[
+    const CARD: Card = Card::new("LeadRubber", Category::Link, "Lead-rubber bearing whose core softens as it heats up.")
+.nodes(NodeCount::GROUND_OR_TWO)
+.parameters(&[
             Parameter::required(
                 "kr",
                 "k_r",
@@ -194,22 +191,18 @@ impl Described for LeadRubber {
             PARAMETERS[1],
             PARAMETERS[2],
             PARAMETERS[3],
-        ],
-        law: "fᵢ = k_r dᵢ + Q zᵢ, i = 2, 3;  f₁ = k_v d₁;  Q = π D²/4 σ₀ e^(−E T)\n\
+        ])
+.law("fᵢ = k_r dᵢ + Q zᵢ, i = 2, 3;  f₁ = k_v d₁;  Q = π D²/4 σ₀ e^(−E T)\n\
               żᵢ = ωᵢ − zᵢ |z|^(η−2) Σⱼ ωⱼ zⱼ (γ + β sⱼ),  ω = ḋ/Y\n\
               Axes: sⱼ = sgn(ωⱼ zⱼ);  Direction: sⱼ = sgn(ω·z)\n\
-              ρ c A h Ṫ = Q Y Σᵢ zᵢ (ωᵢ − żᵢ) − loss to end plates and shims",
-        source: "Kalpakidis & Constantinou 2009; Kumar, Whittaker & Constantinou 2014",
-        example: r#""bearing": LeadRubber(nodes: ("ground", "slab"), kr: "1.5 MN/m", lead_diameter: "160 mm", lead_height: "300 mm", yield_displacement: "10 mm", shim_thickness: "60 mm", kv: "1500 MN/m")"#,
-        exercise: Exercise {
-            frequency: 0.4,
-            strokes: &[
+              ρ c A h Ṫ = Q Y Σᵢ zᵢ (ωᵢ − żᵢ) − loss to end plates and shims")
+.source("Kalpakidis & Constantinou 2009; Kumar, Whittaker & Constantinou 2014")
+.example(r#""bearing": LeadRubber(nodes: ("ground", "slab"), kr: "1.5 MN/m", lead_diameter: "160 mm", lead_height: "300 mm", yield_displacement: "10 mm", shim_thickness: "60 mm", kv: "1500 MN/m")"#)
+.exercise(Exercise::new(0.4, &[
                 Stroke::about(-0.001, 0.0),
                 Stroke::about(0.0, 0.2),
-                Stroke { mean: 0.0, amplitude: 0.1, phase: 0.25 },
-            ],
-        },
-    };
+                Stroke::about(0.0, 0.1).with_phase(0.25),
+            ]));
 
     fn check(&self) -> Result<(), ParameterError> {
         self.shape().check()

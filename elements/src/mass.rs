@@ -55,51 +55,48 @@ const fn triple(
 }
 
 impl Described for Mass {
-    const CARD: Card = Card {
-        kind: "Mass",
-        category: Category::Linear,
-        summary: "Point mass and rotary inertia at a node.",
-        nodes: NodeCount::exactly(1),
-        parameters: &[
-            Parameter::optional(
-                "mass",
-                "m",
-                MASS,
-                Range::NonNegative,
-                "mass, the same in all directions",
-            ),
-            triple(
-                "masses",
-                "mx, my, mz",
-                MASS,
-                Range::NonNegative,
-                "instead of `mass`: masses along X, Y, Z",
-            ),
-            triple(
-                "inertia",
-                "Ix, Iy, Iz",
-                INERTIA,
-                Range::NonNegative,
-                "moments of inertia about X, Y, Z",
-            ),
-            triple(
-                "products",
-                "Pxy, Pxz, Pyz",
-                INERTIA,
-                Range::Any,
-                "off-diagonal entries of the inertia matrix, Pxy = −∫xy dm",
-            ),
-            Parameter::flag(
-                "inertia_local",
-                false,
-                "inertia is about local 1, 2, 3 instead of X, Y, Z",
-            ),
-        ],
-        law: "M = diag(mx, my, mz)\nJ = [Ix Pxy Pxz; Pxy Iy Pyz; Pxz Pyz Iz]",
-        source: "Newton–Euler equations at small rotations",
-        example: r#""body": Mass(node: "cg", mass: "10 t", inertia: (0, 16667, 0))"#,
-        exercise: Exercise::NONE,
-    };
+    const CARD: Card =
+        Card::new("Mass", Category::Linear, "Point mass and rotary inertia at a node.")
+            .nodes(NodeCount::exactly(1))
+            .parameters(&[
+                Parameter::optional(
+                    "mass",
+                    "m",
+                    MASS,
+                    Range::NonNegative,
+                    "mass, the same in all directions",
+                ),
+                triple(
+                    "masses",
+                    "mx, my, mz",
+                    MASS,
+                    Range::NonNegative,
+                    "instead of `mass`: masses along X, Y, Z",
+                ),
+                triple(
+                    "inertia",
+                    "Ix, Iy, Iz",
+                    INERTIA,
+                    Range::NonNegative,
+                    "moments of inertia about X, Y, Z",
+                ),
+                triple(
+                    "products",
+                    "Pxy, Pxz, Pyz",
+                    INERTIA,
+                    Range::Any,
+                    "off-diagonal entries of the inertia matrix, Pxy = −∫xy dm",
+                ),
+                Parameter::flag(
+                    "inertia_local",
+                    false,
+                    "inertia is about local 1, 2, 3 instead of X, Y, Z",
+                ),
+            ])
+            .law("M = diag(mx, my, mz)\nJ = [Ix Pxy Pxz; Pxy Iy Pyz; Pxz Pyz Iz]")
+            .source("Newton–Euler equations at small rotations")
+            .example(r#""body": Mass(node: "cg", mass: "10 t", inertia: (0, 16667, 0))"#)
+            .exercise(Exercise::NONE);
 
     fn check(&self) -> Result<(), ParameterError> {
         if self.mass.is_some() && self.masses.is_some() {
@@ -158,7 +155,7 @@ mod tests {
     fn matrices(mass: &Mass) -> ElementMatrices {
         let nodes = [[0.0; 3]];
         let frame = Frame::of_nodes(&nodes, None, None).unwrap();
-        mass.matrices(&Geometry { nodes: &nodes, frame, tension: 0.0 }).unwrap()
+        mass.matrices(&Geometry::new(&nodes, frame)).unwrap()
     }
 
     #[test]

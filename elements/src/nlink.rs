@@ -139,12 +139,9 @@ const fn rotational(name: &'static str, symbol: &'static str) -> Parameter {
 }
 
 impl Described for NLink {
-    const CARD: Card = Card {
-        kind: "NLink",
-        category: Category::Link,
-        summary: "Contact: gap with dashpot along local 1, coupled friction along local 2 and 3.",
-        nodes: NodeCount::GROUND_OR_TWO,
-        parameters: &[
+    const CARD: Card = Card::new("NLink", Category::Link, "Contact: gap with dashpot along local 1, coupled friction along local 2 and 3.")
+.nodes(NodeCount::GROUND_OR_TWO)
+.parameters(&[
             Parameter::required("kn", "kₙ", STIFFNESS, Range::Positive, "contact stiffness"),
             Parameter::number(
                 "opening",
@@ -242,8 +239,8 @@ impl Described for NLink {
             rotational("r1", "r₁"),
             rotational("r2", "r₂"),
             rotational("r3", "r₃"),
-        ],
-        law: "p = −(d₁ + g), closed where p ≥ 0\n\
+        ])
+.law("p = −(d₁ + g), closed where p ≥ 0\n\
               f₁ = −kₙ p + c ḋ₁, without `pull` at most 0\n\
               N = kₙ p with `pull`, −f₁ without\n\
               with `restitution`: c = 2 ζ(e) √(kₙ m)\n\
@@ -251,20 +248,16 @@ impl Described for NLink {
               x: slip rate |ȧ| (|ḋₜ| where μ_fast < μ_slow), s: slip since it last stuck\n\
               τ = kₑ (dₜ − a) + cₛ (ḋₜ − ȧ), |τ| ≤ μ N, kₑ = kₛ − k_post (radial return)\n\
               fₜ = τ + k_post dₜ + kₙ p dₜ/R\n\
-              open: f = 0, no memory of the anchor a",
-        source: "Wilson, Static and Dynamic Analysis of Structures, 2002, ch. 18 and 21; \
+              open: f = 0, no memory of the anchor a")
+.source("Wilson, Static and Dynamic Analysis of Structures, 2002, ch. 18 and 21; \
                  Constantinou, Mokha, Reinhorn 1990 for μ(v); \
-                 Rabinowicz 1951 for static friction lost over a slip",
-        example: r#""left": NLink(node: "left", kn: "5e8 N/m", ks: "5e8 N/m", mu: 0.4)"#,
-        exercise: Exercise {
-            frequency: 1.0,
-            strokes: &[
+                 Rabinowicz 1951 for static friction lost over a slip")
+.example(r#""left": NLink(node: "left", kn: "5e8 N/m", ks: "5e8 N/m", mu: 0.4)"#)
+.exercise(Exercise::new(1.0, &[
                 Stroke::about(-1e-3, 0.0),
                 Stroke::about(0.0, 2e-3),
                 Stroke::about(0.0, 0.0),
-            ],
-        },
-    };
+            ]));
 
     fn check(&self) -> Result<(), ParameterError> {
         if self.restitution.is_some() && self.damping != 0.0 {

@@ -30,23 +30,19 @@ pub struct RigidBody {
 }
 
 impl Described for RigidBody {
-    const CARD: Card = Card {
-        kind: "RigidBody",
-        category: Category::Constraint,
-        summary: "Nodes that move as one rigid body; the first leads, the others follow.",
-        nodes: NodeCount::at_least(2),
-        parameters: &[Parameter::new(
+    const CARD: Card = Card::new("RigidBody", Category::Constraint, "Nodes that move as one rigid body; the first leads, the others follow.")
+.nodes(NodeCount::at_least(2))
+.parameters(&[Parameter::new(
             "corners",
             "",
             Form::Points,
             Default::Absent,
             "corners of the body from its first node, in order; only drawn",
-        )],
-        law: "u_s = u_m + θ_m × r\nθ_s = θ_m\nr   = x_s − x_m",
-        source: "Kinematics of a rigid body at small rotations; Bathe, Finite Element Procedures, 1996, §4.2.2",
-        example: r#""block": RigidBody(nodes: ("cg", "left", "right"))"#,
-        exercise: Exercise::NONE,
-    };
+        )])
+.law("u_s = u_m + θ_m × r\nθ_s = θ_m\nr   = x_s − x_m")
+.source("Kinematics of a rigid body at small rotations; Bathe, Finite Element Procedures, 1996, §4.2.2")
+.example(r#""block": RigidBody(nodes: ("cg", "left", "right"))"#)
+.exercise(Exercise::NONE);
 }
 
 impl Constraint for RigidBody {
@@ -77,11 +73,11 @@ pub(crate) fn rigid_equations(
         terms.push(((0, Dof::ALL[3 + j]), r[k]));
         terms.push(((0, Dof::ALL[3 + k]), -r[j]));
         terms.retain(|(_, c)| *c != 0.0);
-        out.push(Equation { dependent: (s, Dof::ALL[i]), terms });
+        out.push(Equation::new((s, Dof::ALL[i]), terms));
     }
     if with_rotations {
         for dof in [Dof::Rx, Dof::Ry, Dof::Rz] {
-            out.push(Equation { dependent: (s, dof), terms: vec![((0, dof), 1.0)] });
+            out.push(Equation::new((s, dof), vec![((0, dof), 1.0)]));
         }
     }
     out

@@ -27,21 +27,17 @@ pub struct RigidLink {
 }
 
 impl Described for RigidLink {
-    const CARD: Card = Card {
-        kind: "RigidLink",
-        category: Category::Constraint,
-        summary: "The second node follows the first as part of the same rigid body.",
-        nodes: NodeCount::exactly(2),
-        parameters: &[Parameter::flag(
+    const CARD: Card = Card::new("RigidLink", Category::Constraint, "The second node follows the first as part of the same rigid body.")
+.nodes(NodeCount::exactly(2))
+.parameters(&[Parameter::flag(
             "translations_only",
             false,
             "the rotations of the second node stay free",
-        )],
-        law: "u_j = u_i + θ_i × (x_j − x_i)\nθ_j = θ_i, unless `translations_only`",
-        source: "Kinematics of a rigid body at small rotations; Bathe, Finite Element Procedures, 1996, §4.2.2",
-        example: r#""arm": RigidLink(nodes: ("column", "corner"))"#,
-        exercise: Exercise::NONE,
-    };
+        )])
+.law("u_j = u_i + θ_i × (x_j − x_i)\nθ_j = θ_i, unless `translations_only`")
+.source("Kinematics of a rigid body at small rotations; Bathe, Finite Element Procedures, 1996, §4.2.2")
+.example(r#""arm": RigidLink(nodes: ("column", "corner"))"#)
+.exercise(Exercise::NONE);
 }
 
 impl Constraint for RigidLink {
@@ -65,6 +61,6 @@ mod tests {
         let some = RigidLink { translations_only: true }.equations(&nodes).unwrap();
         assert_eq!((all.len(), some.len()), (6, 3));
         let terms = vec![((0, Dof::Uz), 1.0), ((0, Dof::Ry), -1.0)];
-        assert_eq!(some[2], Equation { dependent: (1, Dof::Uz), terms });
+        assert_eq!(some[2], Equation::new((1, Dof::Uz), terms));
     }
 }

@@ -103,12 +103,9 @@ pub struct RockingBody {
 }
 
 impl Described for RockingBody {
-    const CARD: Card = Card {
-        kind: "RockingBody",
-        category: Category::Link,
-        summary: "Rigid body standing on the ground or a node by base points or a rim, in finite rotation: slides, rocks, rolls, overturns.",
-        nodes: NodeCount::GROUND_OR_TWO,
-        parameters: &[
+    const CARD: Card = Card::new("RockingBody", Category::Link, "Rigid body standing on the ground or a node by base points or a rim, in finite rotation: slides, rocks, rolls, overturns.")
+.nodes(NodeCount::GROUND_OR_TWO)
+.parameters(&[
             Parameter::new(
                 "base",
                 "rᵢ",
@@ -171,28 +168,24 @@ impl Described for RockingBody {
                 FRAC_PI_2,
                 "tilt at which the body counts as overturned, rad",
             ),
-        ],
-        law: "dᵢ = u + R rᵢ − rᵢ, vᵢ = u̇ + R (Ω × rᵢ): base point i, R = R₀ exp(θ − θ₀)\n\
+        ])
+.law("dᵢ = u + R rᵢ − rᵢ, vᵢ = u̇ + R (Ω × rᵢ): base point i, R = R₀ exp(θ − θ₀)\n\
               rim: penetration δ(ψ) = a + b cos ψ, springs kₙ/2π and dashpots c/2π along it, friction at the centre of pressure\n\
               drilling of a rim: at most μ N m ρ, mρ: mean distance of what presses from its centre; a tilted rim presses on an arc: m = 3/8 ψ꜀, ψ꜀ = (3π N/(k_a ρ sin tilt))^⅓, which goes to 0 as k_a grows\n\
               fᵢ as NLink: gap kₙ with dashpot c, friction μ with pre-slip stiffness kₛ\n\
               F = Σ fᵢ (global axes), M = Σ rᵢ × Rᵀ fᵢ + Ω × J Ω (axes of the body)\n\
               two nodes: the same law of the body as the first node, its support, sees it; −F and its moment on the support\n\
-              overturned where the body's vertical axis tilts by `overturned`",
-        source: "Euler's equations with exact rotations, Simo & Vu-Quoc 1988; Housner, Bull. Seism. Soc. Am. 53, 1963",
-        example: r#""cask": RockingBody(node: "cg", base: [("-0.5 m", 0, "-1 m"), ("0.5 m", 0, "-1 m")], kn: "1e9 N/m", ks: "1e9 N/m", mu: 0.5)"#,
-        exercise: Exercise {
-            frequency: 0.5,
-            strokes: &[
+              overturned where the body's vertical axis tilts by `overturned`")
+.source("Euler's equations with exact rotations, Simo & Vu-Quoc 1988; Housner, Bull. Seism. Soc. Am. 53, 1963")
+.example(r#""cask": RockingBody(node: "cg", base: [("-0.5 m", 0, "-1 m"), ("0.5 m", 0, "-1 m")], kn: "1e9 N/m", ks: "1e9 N/m", mu: 0.5)"#)
+.exercise(Exercise::new(0.5, &[
                 Stroke::about(0.0, 0.0),
                 Stroke::about(0.0, 0.0),
                 Stroke::about(-1e-4, 0.0),
                 Stroke::about(0.0, 0.0),
                 Stroke::about(0.0, 2e-4),
                 Stroke::about(0.0, 0.0),
-            ],
-        },
-    };
+            ]));
 
     fn check(&self) -> Result<(), ParameterError> {
         let wrong = |name, message: String| Err(ParameterError::inconsistent(name, message));

@@ -86,12 +86,9 @@ history! {
 }
 
 impl Described for RubberIsolator {
-    const CARD: Card = Card {
-        kind: "RubberIsolator",
-        category: Category::Link,
-        summary: "Bearing with plastic shear coupled in its plane and a linear axial spring.",
-        nodes: NodeCount::GROUND_OR_TWO,
-        parameters: &[
+    const CARD: Card = Card::new("RubberIsolator", Category::Link, "Bearing with plastic shear coupled in its plane and a linear axial spring.")
+.nodes(NodeCount::GROUND_OR_TWO)
+.parameters(&[
             Parameter::required("k2", "k₂", STIFFNESS, Range::Positive, "shear stiffness at rest"),
             Parameter::optional("k3", "k₃", STIFFNESS, Range::Positive, "the same along U3 (k₂)"),
             Parameter::required("fy2", "f_y2", FORCE, Range::Positive, "yield force in shear"),
@@ -122,22 +119,18 @@ impl Described for RubberIsolator {
             PARAMETERS[1],
             PARAMETERS[2],
             PARAMETERS[3],
-        ],
-        law: "fᵢ = rᵢ kᵢ dᵢ + (1 − rᵢ) f_yᵢ zᵢ, i = 2, 3;  f₁ = k_v d₁\n\
+        ])
+.law("fᵢ = rᵢ kᵢ dᵢ + (1 − rᵢ) f_yᵢ zᵢ, i = 2, 3;  f₁ = k_v d₁\n\
               żᵢ = ωᵢ − zᵢ |z|^(η−2) Σⱼ ωⱼ zⱼ (γ + β sⱼ),  ωⱼ = kⱼ ḋⱼ/f_yⱼ\n\
-              Axes: sⱼ = sgn(ωⱼ zⱼ);  Direction: sⱼ = sgn(ω·z)",
-        source: "Park, Wen & Ang, Random Vibration of Hysteretic Systems under Bi-directional Ground Motions, 1986; \
-                 Casciati 1989 for Direction, as in OpenSees' elastomericBearingBoucWen",
-        example: r#""bearing": RubberIsolator(nodes: ("ground", "slab"), k2: "10 MN/m", fy2: "100 kN", ratio2: 0.1, kv: "2000 MN/m")"#,
-        exercise: Exercise {
-            frequency: 0.5,
-            strokes: &[
+              Axes: sⱼ = sgn(ωⱼ zⱼ);  Direction: sⱼ = sgn(ω·z)")
+.source("Park, Wen & Ang, Random Vibration of Hysteretic Systems under Bi-directional Ground Motions, 1986; \
+                 Casciati 1989 for Direction, as in OpenSees' elastomericBearingBoucWen")
+.example(r#""bearing": RubberIsolator(nodes: ("ground", "slab"), k2: "10 MN/m", fy2: "100 kN", ratio2: 0.1, kv: "2000 MN/m")"#)
+.exercise(Exercise::new(0.5, &[
                 Stroke::about(-0.0005, 0.0),
                 Stroke::about(0.0, 0.15),
-                Stroke { mean: 0.0, amplitude: 0.1, phase: 0.25 },
-            ],
-        },
-    };
+                Stroke::about(0.0, 0.1).with_phase(0.25),
+            ]));
 
     fn check(&self) -> Result<(), ParameterError> {
         self.shape().check()

@@ -106,12 +106,9 @@ history! {
 }
 
 impl Described for SoilSpring {
-    const CARD: Card = Card {
-        kind: "SoilSpring",
-        category: Category::Link,
-        summary: "Soil beside a pile or behind a wall: p–y curve, elastic return, a gap that opens, drag.",
-        nodes: NodeCount::GROUND_OR_TWO,
-        parameters: &[
+    const CARD: Card = Card::new("SoilSpring", Category::Link, "Soil beside a pile or behind a wall: p–y curve, elastic return, a gap that opens, drag.")
+.nodes(NodeCount::GROUND_OR_TWO)
+.parameters(&[
             Parameter::required(
                 "k",
                 "k",
@@ -169,14 +166,13 @@ impl Described for SoilSpring {
                 "stiffness before it slips; none: `k`",
             ),
             Parameter::choice("axis", &["U1", "U2", "U3"], "U2", "local axis"),
-        ],
-        law: "each face, x = ±d − opening, deepest y: p = B(x) where x ≥ y, else max(0, B(y) − kᵤ (y − x))\n\
+        ])
+.law("each face, x = ±d − opening, deepest y: p = B(x) where x ≥ y, else max(0, B(y) − kᵤ (y − x))\n\
               Hyperbolic: B = k x/(1 + k x/p_u);  Sand: B = p_u tanh(k x/p_u)\n\
-              f = p⁺ − p⁻ + q,  q = k_d (d − s), |q| ≤ p_d",
-        source: "Matlock, Foo & Bryant 1978; Kondner 1963; API RP 2GEO 2011, §8.5",
-        example: r#""soil": SoilSpring(node: "pile", k: "20 MN/m", pu: "150 kN", drag: "15 kN")"#,
-        exercise: Exercise { frequency: 0.5, strokes: &[Stroke::about(0.0, 0.03)] },
-    };
+              f = p⁺ − p⁻ + q,  q = k_d (d − s), |q| ≤ p_d")
+.source("Matlock, Foo & Bryant 1978; Kondner 1963; API RP 2GEO 2011, §8.5")
+.example(r#""soil": SoilSpring(node: "pile", k: "20 MN/m", pu: "150 kN", drag: "15 kN")"#)
+.exercise(Exercise::new(0.5, &[Stroke::about(0.0, 0.03)]));
 
     fn check(&self) -> Result<(), ParameterError> {
         match self.ku {

@@ -88,33 +88,35 @@ const fn matrix(name: &'static str, symbol: &'static str, dimension: Dimension) 
 }
 
 impl Described for Spring {
-    const CARD: Card = Card {
-        kind: "Spring",
-        category: Category::Linear,
-        summary: "Linear spring and dashpot in six directions, between two nodes or to the ground.",
-        nodes: NodeCount::GROUND_OR_TWO,
-        parameters: &[
-            entry("k1", "k₁", STIFFNESS, "stiffness along local 1"),
-            entry("k2", "k₂", STIFFNESS, "stiffness along local 2"),
-            entry("k3", "k₃", STIFFNESS, "stiffness along local 3"),
-            entry("r1", "r₁", ROTATIONAL_STIFFNESS, "stiffness about local 1"),
-            entry("r2", "r₂", ROTATIONAL_STIFFNESS, "stiffness about local 2"),
-            entry("r3", "r₃", ROTATIONAL_STIFFNESS, "stiffness about local 3"),
-            entry("c1", "c₁", DAMPING, "damping along local 1"),
-            entry("c2", "c₂", DAMPING, "damping along local 2"),
-            entry("c3", "c₃", DAMPING, "damping along local 3"),
-            entry("cr1", "cr₁", ROTATIONAL_DAMPING, "damping about local 1"),
-            entry("cr2", "cr₂", ROTATIONAL_DAMPING, "damping about local 2"),
-            entry("cr3", "cr₃", ROTATIONAL_DAMPING, "damping about local 3"),
-            matrix("stiffness", "K", STIFFNESS),
-            matrix("damping", "C", DAMPING),
-        ],
-        law: "f = K δ + C δ̇\n\
+    const CARD: Card = Card::new(
+        "Spring",
+        Category::Linear,
+        "Linear spring and dashpot in six directions, between two nodes or to the ground.",
+    )
+    .nodes(NodeCount::GROUND_OR_TWO)
+    .parameters(&[
+        entry("k1", "k₁", STIFFNESS, "stiffness along local 1"),
+        entry("k2", "k₂", STIFFNESS, "stiffness along local 2"),
+        entry("k3", "k₃", STIFFNESS, "stiffness along local 3"),
+        entry("r1", "r₁", ROTATIONAL_STIFFNESS, "stiffness about local 1"),
+        entry("r2", "r₂", ROTATIONAL_STIFFNESS, "stiffness about local 2"),
+        entry("r3", "r₃", ROTATIONAL_STIFFNESS, "stiffness about local 3"),
+        entry("c1", "c₁", DAMPING, "damping along local 1"),
+        entry("c2", "c₂", DAMPING, "damping along local 2"),
+        entry("c3", "c₃", DAMPING, "damping along local 3"),
+        entry("cr1", "cr₁", ROTATIONAL_DAMPING, "damping about local 1"),
+        entry("cr2", "cr₂", ROTATIONAL_DAMPING, "damping about local 2"),
+        entry("cr3", "cr₃", ROTATIONAL_DAMPING, "damping about local 3"),
+        matrix("stiffness", "K", STIFFNESS),
+        matrix("damping", "C", DAMPING),
+    ])
+    .law(
+        "f = K δ + C δ̇\n\
               δ = R (u_j − u_i − θ_i × (x_j − x_i), θ_j − θ_i); one node: δ = R (u, θ)",
-        source: "Wilson, Static and Dynamic Analysis of Structures, 2002, ch. 4",
-        example: r#""soil": Spring(node: "base", k1: "80 MN/m", c1: "1 MN*s/m")"#,
-        exercise: Exercise::NONE,
-    };
+    )
+    .source("Wilson, Static and Dynamic Analysis of Structures, 2002, ch. 4")
+    .example(r#""soil": Spring(node: "base", k1: "80 MN/m", c1: "1 MN*s/m")"#)
+    .exercise(Exercise::NONE);
 
     fn check(&self) -> Result<(), ParameterError> {
         for (name, full) in [("stiffness", &self.stiffness), ("damping", &self.damping)] {
@@ -159,7 +161,7 @@ mod tests {
 
     fn matrices(spring: &Spring, nodes: &[[f64; 3]]) -> ElementMatrices {
         let frame = Frame::of_nodes(nodes, None, None).unwrap();
-        spring.matrices(&Geometry { nodes, frame, tension: 0.0 }).unwrap()
+        spring.matrices(&Geometry::new(nodes, frame)).unwrap()
     }
 
     #[test]

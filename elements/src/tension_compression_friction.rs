@@ -97,12 +97,9 @@ const fn rate(name: &'static str, meaning: &'static str) -> Parameter {
 }
 
 impl Described for TensionCompressionFriction {
-    const CARD: Card = Card {
-        kind: "TensionCompressionFriction",
-        category: Category::Link,
-        summary: "Sliding bearing with friction in compression and, of its own, in tension.",
-        nodes: NodeCount::GROUND_OR_TWO,
-        parameters: &[
+    const CARD: Card = Card::new("TensionCompressionFriction", Category::Link, "Sliding bearing with friction in compression and, of its own, in tension.")
+.nodes(NodeCount::GROUND_OR_TWO)
+.parameters(&[
             Parameter::required("kn", "kₙ", STIFFNESS, Range::Positive, "stiffness in compression"),
             Parameter::required("kt", "kₜ", STIFFNESS, Range::Positive, "stiffness in tension"),
             Parameter::number(
@@ -159,24 +156,20 @@ impl Described for TensionCompressionFriction {
             coefficient("mu_slow_tension", "μ_slow", "instead of `mu_tension`: at rest"),
             coefficient("mu_fast_tension", "μ_fast", "instead of `mu_tension`: at speed"),
             rate("rate_tension", "how fast it goes from slow to fast in tension"),
-        ],
-        law: "pressed, d₁ + g_c ≤ 0: f₁ = min(0, kₙ (d₁ + g_c) + c ḋ₁)\n\
+        ])
+.law("pressed, d₁ + g_c ≤ 0: f₁ = min(0, kₙ (d₁ + g_c) + c ḋ₁)\n\
               pulled,  d₁ − g_t ≥ 0: f₁ = max(0, kₜ (d₁ − g_t) + c ḋ₁);  N = |f₁|\n\
               τ = kₛ (u − a) + cₛ (u̇ − ȧ), |τ| ≤ μ N (radial return), μ of the side;  u = (d₂, d₃)\n\
               μ = μ_fast − (μ_fast − μ_slow) e^(−r x), slip rate x = |ȧ| (|u̇| where μ falls with it)\n\
               fₜ = τ − f₁ u/R\n\
-              open: f = 0, no memory of the anchor a",
-        source: "CSI Analysis Reference, T/C friction isolator; Roussis & Constantinou 2006 for tension",
-        example: r#""bearing": TensionCompressionFriction(node: "base", kn: "2e9 N/m", kt: "5e8 N/m", gap_tension: "1 mm", ks: "1e8 N/m", mu: 0.06, mu_tension: 0.12)"#,
-        exercise: Exercise {
-            frequency: 0.5,
-            strokes: &[
-                Stroke { mean: 5e-4, amplitude: 1e-3, phase: 0.25 },
+              open: f = 0, no memory of the anchor a")
+.source("CSI Analysis Reference, T/C friction isolator; Roussis & Constantinou 2006 for tension")
+.example(r#""bearing": TensionCompressionFriction(node: "base", kn: "2e9 N/m", kt: "5e8 N/m", gap_tension: "1 mm", ks: "1e8 N/m", mu: 0.06, mu_tension: 0.12)"#)
+.exercise(Exercise::new(0.5, &[
+                Stroke::about(5e-4, 1e-3).with_phase(0.25),
                 Stroke::about(0.0, 0.1),
                 Stroke::about(0.0, 0.0),
-            ],
-        },
-    };
+            ]));
 
     fn check(&self) -> Result<(), ParameterError> {
         one_set(
@@ -311,6 +304,6 @@ impl Link for TensionCompressionFriction {
 
     fn impact(&self) -> Option<Impact> {
         let (stiffness, damping) = (self.kn, self.damping);
-        Some(Impact { coordinate: 0, stiffness, damping, restitution: None, mass: None })
+        Some(Impact::new(0, stiffness, damping))
     }
 }

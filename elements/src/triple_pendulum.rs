@@ -110,12 +110,9 @@ const fn four(
 }
 
 impl Described for TriplePendulum {
-    const CARD: Card = Card {
-        kind: "TriplePendulum",
-        category: Category::Link,
-        summary: "Sliding bearing with four concave surfaces and their rims.",
-        nodes: NodeCount::GROUND_OR_TWO,
-        parameters: &[
+    const CARD: Card = Card::new("TriplePendulum", Category::Link, "Sliding bearing with four concave surfaces and their rims.")
+.nodes(NodeCount::GROUND_OR_TWO)
+.parameters(&[
             Parameter::required("kn", "kₙ", STIFFNESS, Range::Positive, "stiffness in compression"),
             Parameter::number(
                 "damping",
@@ -163,25 +160,21 @@ impl Described for TriplePendulum {
                 Default::Absent,
                 "how fast μ goes from slow to fast",
             ),
-        ],
-        law: "F = N wᵢ/R̄ᵢ + τᵢ + stop(wᵢ) for each surface i, Σ wᵢ = (d₂, d₃)\n\
+        ])
+.law("F = N wᵢ/R̄ᵢ + τᵢ + stop(wᵢ) for each surface i, Σ wᵢ = (d₂, d₃)\n\
               τᵢ = kₛ (wᵢ − aᵢ), |τᵢ| ≤ μᵢ N (radial return)\n\
               R* = R − h;  R̄₁ = R₁* − R₂*, R̄₂ = R₂*, R̄₃ = R₃*, R̄₄ = R₄* − R₃*\n\
               rims: D̄₁ = d₁ (1 − R₂*/R₁*), D̄₂ = d₂ + d₁ R₂*/R₁*; 4 and 3 in the same way\n\
               μᵢ = μ_fast − (μ_fast − μ_slow) e^(−r vᵢ)\n\
-              f₁ = min(0, kₙ d₁ + c ḋ₁) closed, N = −f₁",
-        source: "Fenz & Constantinou 2008, Earthquake Engng Struct. Dyn. 37: 163 and 185; \
-                 Modeling triple friction pendulum bearings, 37: 1401",
-        example: r#""bearing": TriplePendulum(node: "base", kn: "2e9 N/m", ks: "1e8 N/m", radii: ("2.2 m", "0.4 m", "0.4 m", "2.2 m"), heights: ("0.1 m", "0.05 m", "0.05 m", "0.1 m"), capacities: ("0.35 m", "0.05 m", "0.05 m", "0.35 m"), stop_stiffness: "2e7 N/m", mu: (0.05, 0.02, 0.02, 0.09))"#,
-        exercise: Exercise {
-            frequency: 0.1,
-            strokes: &[
+              f₁ = min(0, kₙ d₁ + c ḋ₁) closed, N = −f₁")
+.source("Fenz & Constantinou 2008, Earthquake Engng Struct. Dyn. 37: 163 and 185; \
+                 Modeling triple friction pendulum bearings, 37: 1401")
+.example(r#""bearing": TriplePendulum(node: "base", kn: "2e9 N/m", ks: "1e8 N/m", radii: ("2.2 m", "0.4 m", "0.4 m", "2.2 m"), heights: ("0.1 m", "0.05 m", "0.05 m", "0.1 m"), capacities: ("0.35 m", "0.05 m", "0.05 m", "0.35 m"), stop_stiffness: "2e7 N/m", mu: (0.05, 0.02, 0.02, 0.09))"#)
+.exercise(Exercise::new(0.1, &[
                 Stroke::about(-5e-4, 0.0),
                 Stroke::about(0.0, 0.76),
                 Stroke::about(0.0, 0.0),
-            ],
-        },
-    };
+            ]));
 
     fn check(&self) -> Result<(), ParameterError> {
         for (name, list, unit) in [

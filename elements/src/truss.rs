@@ -47,49 +47,46 @@ pub struct Truss {
 }
 
 impl Described for Truss {
-    const CARD: Card = Card {
-        kind: "Truss",
-        category: Category::Linear,
-        summary: "Two-node bar that carries axial force only.",
-        nodes: NodeCount::exactly(2),
-        parameters: &[
-            Parameter::required("young", "E", STRESS, Range::Positive, "Young's modulus"),
-            Parameter::required("area", "A", AREA, Range::Positive, "area of the section"),
-            Parameter::number(
-                "density",
-                "ρ",
-                DENSITY,
-                Range::NonNegative,
-                0.0,
-                "density, for the mass",
-            ),
-            Parameter::number(
-                "distributed_mass",
-                "m̄",
-                MASS_PER_LENGTH,
-                Range::NonNegative,
-                0.0,
-                "further mass per length",
-            ),
-            Parameter::optional(
-                "expansion",
-                "α",
-                NONE,
-                Range::Positive,
-                "strain by one kelvin, for loads of warmth",
-            ),
-            Parameter::choice(
-                "mass_matrix",
-                &["Lumped", "Consistent"],
-                "Lumped",
-                "how the mass is spread",
-            ),
-        ],
-        law: "k = E A / L along the bar",
-        source: "Przemieniecki, Theory of Matrix Structural Analysis, 1968, §5.1 and §11.1",
-        example: r#""brace": Truss(nodes: ("a", "b"), young: "210 GPa", area: "12 cm^2")"#,
-        exercise: Exercise::NONE,
-    };
+    const CARD: Card =
+        Card::new("Truss", Category::Linear, "Two-node bar that carries axial force only.")
+            .nodes(NodeCount::exactly(2))
+            .parameters(&[
+                Parameter::required("young", "E", STRESS, Range::Positive, "Young's modulus"),
+                Parameter::required("area", "A", AREA, Range::Positive, "area of the section"),
+                Parameter::number(
+                    "density",
+                    "ρ",
+                    DENSITY,
+                    Range::NonNegative,
+                    0.0,
+                    "density, for the mass",
+                ),
+                Parameter::number(
+                    "distributed_mass",
+                    "m̄",
+                    MASS_PER_LENGTH,
+                    Range::NonNegative,
+                    0.0,
+                    "further mass per length",
+                ),
+                Parameter::optional(
+                    "expansion",
+                    "α",
+                    NONE,
+                    Range::Positive,
+                    "strain by one kelvin, for loads of warmth",
+                ),
+                Parameter::choice(
+                    "mass_matrix",
+                    &["Lumped", "Consistent"],
+                    "Lumped",
+                    "how the mass is spread",
+                ),
+            ])
+            .law("k = E A / L along the bar")
+            .source("Przemieniecki, Theory of Matrix Structural Analysis, 1968, §5.1 and §11.1")
+            .example(r#""brace": Truss(nodes: ("a", "b"), young: "210 GPa", area: "12 cm^2")"#)
+            .exercise(Exercise::NONE);
 }
 
 impl LinearElement for Truss {
@@ -179,7 +176,7 @@ mod tests {
         let truss: Truss = read(&given).unwrap();
         let nodes = [[0.0; 3], j];
         let frame = Frame::of_nodes(&nodes, None, None).unwrap();
-        truss.matrices(&Geometry { nodes: &nodes, frame, tension: 0.0 }).unwrap()
+        truss.matrices(&Geometry::new(&nodes, frame)).unwrap()
     }
 
     #[test]

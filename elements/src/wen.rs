@@ -56,51 +56,49 @@ history! {
 }
 
 impl Described for Wen {
-    const CARD: Card = Card {
-        kind: "Wen",
-        category: Category::Link,
-        summary: "Plastic spring with a smooth yield (Wen).",
-        nodes: NodeCount::GROUND_OR_TWO,
-        parameters: &[
-            Parameter::new(
-                "k",
-                "k",
-                Form::STIFFNESS_OF_AXIS,
-                Default::Required,
-                "stiffness at rest",
-            )
+    const CARD: Card = Card::new(
+        "Wen",
+        Category::Link,
+        "Plastic spring with a smooth yield (Wen).",
+    )
+    .nodes(NodeCount::GROUND_OR_TWO)
+    .parameters(&[
+        Parameter::new("k", "k", Form::STIFFNESS_OF_AXIS, Default::Required, "stiffness at rest")
             .within(Range::Positive),
-            Parameter::new(
-                "fy",
-                "f_y",
-                Form::FORCE_OF_AXIS,
-                Default::Required,
-                "force at which it yields",
-            )
-            .within(Range::Positive),
-            Parameter::required(
-                "ratio",
-                "r",
-                NONE,
-                Range::Within(0.0, 1.0),
-                "stiffness after yielding over `k`",
-            ),
-            Parameter::number(
-                "exponent",
-                "n",
-                NONE,
-                Range::Within(1.0, 1000.0),
-                2.0,
-                "sharpness of yielding; above 20 nearly bilinear",
-            ),
-            Parameter::choice("axis", Axis::NAMES, "U1", "local axis"),
-        ],
-        law: "f = r k d + (1 − r) f_y z\n\
+        Parameter::new(
+            "fy",
+            "f_y",
+            Form::FORCE_OF_AXIS,
+            Default::Required,
+            "force at which it yields",
+        )
+        .within(Range::Positive),
+        Parameter::required(
+            "ratio",
+            "r",
+            NONE,
+            Range::Within(0.0, 1.0),
+            "stiffness after yielding over `k`",
+        ),
+        Parameter::number(
+            "exponent",
+            "n",
+            NONE,
+            Range::Within(1.0, 1000.0),
+            2.0,
+            "sharpness of yielding; above 20 nearly bilinear",
+        ),
+        Parameter::choice("axis", Axis::NAMES, "U1", "local axis"),
+    ])
+    .law(
+        "f = r k d + (1 − r) f_y z\n\
               ż = (k/f_y) ḋ (1 − |z|ⁿ) where ḋ z > 0, else (k/f_y) ḋ",
-        source: "Wen, Method for Random Vibration of Hysteretic Systems, 1976",
-        example: r#""isolator": Wen(nodes: ("a", "b"), axis: U2, k: "80 MN/m", fy: "120 kN", ratio: 0.08)"#,
-        exercise: Exercise { frequency: 0.5, strokes: &[Stroke::about(0.0, 0.01)] },
-    };
+    )
+    .source("Wen, Method for Random Vibration of Hysteretic Systems, 1976")
+    .example(
+        r#""isolator": Wen(nodes: ("a", "b"), axis: U2, k: "80 MN/m", fy: "120 kN", ratio: 0.08)"#,
+    )
+    .exercise(Exercise::new(0.5, &[Stroke::about(0.0, 0.01)]));
 }
 
 impl Link for Wen {

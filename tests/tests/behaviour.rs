@@ -2,8 +2,8 @@
 
 use serde::Deserialize;
 use trilith_element::{
-    Axis, Card, Category, Coordinates, Described, Dimension, Exercise, Form, Kinematics, Link,
-    NodeCount, Parameter, Range, Register, Response, dimension,
+    Axis, Card, Category, Coordinates, Described, Dimension, Exercise, Kinematics, Link, NodeCount,
+    Parameter, Range, Register, Response, dimension,
 };
 use trilith_model::{Analysis, Kernel, SolverKind, StepControl};
 use trilith_solvers::{LawFault, Observer, RunOptions, Sample, Status, run};
@@ -19,31 +19,21 @@ struct Brittle {
 }
 
 const fn number(name: &'static str, symbol: &'static str, unit: Dimension) -> Parameter {
-    Parameter {
-        name,
-        symbol,
-        form: Form::Number(unit),
-        range: Range::Positive,
-        default: trilith_element::Default::Required,
-        meaning: "see the law",
-    }
+    Parameter::required(name, symbol, unit, Range::Positive, "see the law")
 }
 
 impl Described for Brittle {
-    const CARD: Card = Card {
-        kind: "Brittle",
-        category: Category::Link,
-        summary: "Spring without a force beyond a limit.",
-        nodes: NodeCount::exactly(1),
-        parameters: &[
-            number("k", "k", dimension::STIFFNESS),
-            number("limit", "l", dimension::LENGTH),
-        ],
-        law: "f = k d, not a number for |d| > l",
-        source: "made for a test",
-        example: "Brittle(node: \"a\", k: 1, limit: 1)",
-        exercise: Exercise::NONE,
-    };
+    const CARD: Card =
+        Card::new("Brittle", Category::Link, "Spring without a force beyond a limit.")
+            .nodes(NodeCount::exactly(1))
+            .parameters(&[
+                number("k", "k", dimension::STIFFNESS),
+                number("limit", "l", dimension::LENGTH),
+            ])
+            .law("f = k d, not a number for |d| > l")
+            .source("made for a test")
+            .example("Brittle(node: \"a\", k: 1, limit: 1)")
+            .exercise(Exercise::NONE);
 }
 
 impl Link for Brittle {

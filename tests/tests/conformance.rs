@@ -103,7 +103,7 @@ fn examine(
     let places = [[0.0; 3], [1.0, 0.0, 0.0]];
     let nodes = &places[..nodes];
     let frame = Frame::of_nodes(nodes, None, None).map_err(no_law)?;
-    law.place(&Geometry { nodes, frame, tension: 0.0 }).map_err(no_law)?;
+    law.place(&Geometry::new(nodes, frame)).map_err(no_law)?;
     let law = settled(law);
     if law.coordinates().len() != card.exercise.strokes.len() {
         return Err(TestCaseError::reject("the exercise is for other coordinates"));

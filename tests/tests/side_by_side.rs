@@ -73,7 +73,7 @@ fn links_of_one_kind_answer_together_as_alone() {
         let (mut d0, mut v0) = (zero(), zero());
         let dt = 0.01;
         let mut two = links.tangents();
-        let at = Kinematics { d: &d0, v: &v0, d0: &d0, v0: &v0, dt };
+        let at = Kinematics::new([&d0, &v0], [&d0, &v0], dt);
         let mut energy = vec![Energy::default(); links.links.len()];
         laws.respond(at, &history, &mut history.clone(), &mut zero(), &mut two, &mut energy);
         for step in 0..60 {
@@ -84,7 +84,7 @@ fn links_of_one_kind_answer_together_as_alone() {
             let (mut trial, mut second) = (history.clone(), history.clone());
             let mut energy = vec![Energy::default(); links.links.len()];
             let mut energies = energy.clone();
-            let start = Kinematics { d: &d0, v: &v0, d0: &d0, v0: &v0, dt };
+            let start = Kinematics::new([&d0, &v0], [&d0, &v0], dt);
             together.start(&start, &history);
             // Two looks, as an iteration makes them.
             for look in 0..2 {
@@ -92,7 +92,7 @@ fn links_of_one_kind_answer_together_as_alone() {
                     let phase = 0.37 * f64::from(step) + 0.9 * i as f64 + 0.01 * f64::from(look);
                     (d[i], v[i]) = (8e-3 * phase.sin(), 0.3 * phase.cos());
                 }
-                let at = Kinematics { d: &d, v: &v, d0: &d0, v0: &v0, dt };
+                let at = Kinematics::new([&d, &v], [&d0, &v0], dt);
                 laws.respond(at, &history, &mut trial, &mut of, &mut one, &mut energy);
                 let last = (step + look) % 2 == 0;
                 let (f, tangents, energy) = (&mut other, &mut two, &mut energies);

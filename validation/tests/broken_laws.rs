@@ -68,20 +68,16 @@ impl LateGap {
 }
 
 impl Described for LateGap {
-    const CARD: Card = Card {
-        kind: "LateGap",
-        category: Category::Link,
-        summary: "A gap that closes a millimetre late.",
-        nodes: NodeCount::GROUND_OR_TWO,
-        parameters: &[
+    const CARD: Card = Card::new("LateGap", Category::Link, "A gap that closes a millimetre late.")
+        .nodes(NodeCount::GROUND_OR_TWO)
+        .parameters(&[
             Parameter::required("k", "k", STIFFNESS, Range::Positive, "stiffness"),
             Parameter::number("opening", "g", LENGTH, Range::Any, 0.0, "clearance at rest"),
-        ],
-        law: "f = k (d + g + 1 mm) where that is below zero",
-        source: "wrong on purpose",
-        example: r#""stop": LateGap(node: "a", k: "1 MN/m")"#,
-        exercise: Exercise::NONE,
-    };
+        ])
+        .law("f = k (d + g + 1 mm) where that is below zero")
+        .source("wrong on purpose")
+        .example(r#""stop": LateGap(node: "a", k: "1 MN/m")"#)
+        .exercise(Exercise::NONE);
 }
 
 impl Link for LateGap {
@@ -116,22 +112,22 @@ impl Uncoupled {
 }
 
 impl Described for Uncoupled {
-    const CARD: Card = Card {
-        kind: "UncoupledNLink",
-        category: Category::Link,
-        summary: "A contact whose friction does not know the normal force.",
-        nodes: NodeCount::GROUND_OR_TWO,
-        parameters: &[
-            Parameter::required("kn", "kₙ", STIFFNESS, Range::Positive, "contact stiffness"),
-            Parameter::required("ks", "kₛ", STIFFNESS, Range::Positive, "pre-slip stiffness"),
-            Parameter::required("mu", "μ", NONE, Range::NonNegative, "friction coefficient"),
-            Parameter::required("weight", "W", FORCE, Range::Positive, "constant normal force"),
-        ],
-        law: "|τ| ≤ μ W",
-        source: "wrong on purpose",
-        example: r#""foot": UncoupledNLink(node: "a", kn: 1e6, ks: 1e6, mu: 0.1, weight: 10)"#,
-        exercise: Exercise::NONE,
-    };
+    const CARD: Card = Card::new(
+        "UncoupledNLink",
+        Category::Link,
+        "A contact whose friction does not know the normal force.",
+    )
+    .nodes(NodeCount::GROUND_OR_TWO)
+    .parameters(&[
+        Parameter::required("kn", "kₙ", STIFFNESS, Range::Positive, "contact stiffness"),
+        Parameter::required("ks", "kₛ", STIFFNESS, Range::Positive, "pre-slip stiffness"),
+        Parameter::required("mu", "μ", NONE, Range::NonNegative, "friction coefficient"),
+        Parameter::required("weight", "W", FORCE, Range::Positive, "constant normal force"),
+    ])
+    .law("|τ| ≤ μ W")
+    .source("wrong on purpose")
+    .example(r#""foot": UncoupledNLink(node: "a", kn: 1e6, ks: 1e6, mu: 0.1, weight: 10)"#)
+    .exercise(Exercise::NONE);
 }
 
 impl Link for Uncoupled {
@@ -154,21 +150,15 @@ impl Link for Uncoupled {
         d.copy_from_slice(at.d);
         d0.copy_from_slice(at.d0);
         (d[0], d0[0]) = (pressed, pressed);
-        self.law().respond(&Kinematics { d: &d, d0: &d0, ..*at }, a, b, out);
+        self.law().respond(&Kinematics::new([&d, at.v], [&d0, at.v0], at.dt), a, b, out);
         for i in [1, 2, 3, 6] {
             out.k[i] = 0.0;
         }
         out.energy.stored -= 0.5 * self.kn * pressed * pressed;
         // And the normal force of the real penetration.
         let (mut f, mut k, mut c, mut energy) = ([0.0], [0.0], [0.0], Energy::default());
-        let mut normal = Response { f: &mut f, k: &mut k, c: &mut c, energy: &mut energy };
-        let one = Kinematics {
-            d: &at.d[..1],
-            v: &at.v[..1],
-            d0: &at.d0[..1],
-            v0: &at.v0[..1],
-            dt: at.dt,
-        };
+        let mut normal = Response::new(&mut f, &mut k, &mut c, &mut energy);
+        let one = Kinematics::new([&at.d[..1], &at.v[..1]], [&at.d0[..1], &at.v0[..1]], at.dt);
         gap(self.kn, 0.0).respond(&one, &[], &mut [], &mut normal);
         (out.f[0], out.k[0]) = (f[0], k[0]);
         out.energy.stored += energy.stored;

@@ -33,8 +33,8 @@ fn law(c: &mut Criterion, name: &str, link: &dyn Link) {
             k.fill(0.0);
             damping.fill(0.0);
             let mut energy = Energy::default();
-            let mut out = Response { f: &mut f, k: &mut k, c: &mut damping, energy: &mut energy };
-            let at = Kinematics { d: black_box(d), v: &v, d0, v0: &v, dt: 1e-3 };
+            let mut out = Response::new(&mut f, &mut k, &mut damping, &mut energy);
+            let at = Kinematics::new([black_box(d), &v], [d0, &v], 1e-3);
             link.respond(&at, &committed, &mut trial, &mut out);
             std::mem::swap(&mut committed, &mut trial);
             energy.hysteretic

@@ -5,7 +5,24 @@ use crate::{Dimension, ParameterError};
 use serde::de::DeserializeOwned;
 
 /// The description of one kind. The model reader checks a file against it and the catalogue prints it.
+///
+/// ```
+/// use trilith_element::dimension::{LENGTH, STIFFNESS};
+/// use trilith_element::{Card, Category, NodeCount, Parameter, Range};
+///
+/// const CARD: Card = Card::new("Stop", Category::Link, "Bilateral stop of equal clearances.")
+///     .nodes(NodeCount::GROUND_OR_TWO)
+///     .parameters(&[
+///         Parameter::required("k", "k", STIFFNESS, Range::Positive, "stiffness of the stop"),
+///         Parameter::number("gap", "g", LENGTH, Range::NotNegative, 0.0, "clearance on both sides"),
+///     ])
+///     .law("f = k (d − g) where d > g, k (d + g) where d < −g, else 0")
+///     .source("first principles")
+///     .example(r#""stop": Stop(nodes: ("a", "b"), k: "50 kN/m", gap: "2 cm")"#);
+/// assert_eq!(CARD.parameter("gap").map(|p| p.symbol), Some("g"));
+/// ```
 #[derive(Clone, Copy, Debug)]
+#[non_exhaustive]
 pub struct Card {
     /// Name in model files, such as `NLink`.
     pub kind: &'static str,
@@ -29,6 +46,7 @@ pub struct Card {
 
 /// An imposed cyclic deformation that shows what a link does; the catalogue draws it.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct Exercise {
     /// Cycles in a second, Hz.
     pub frequency: f64,
@@ -39,10 +57,17 @@ pub struct Exercise {
 impl Exercise {
     /// For linear elements and constraints.
     pub const NONE: Self = Self { frequency: 1.0, strokes: &[] };
+
+    /// Cycles of a frequency (Hz): a stroke for each coordinate of the law.
+    #[must_use]
+    pub const fn new(frequency: f64, strokes: &'static [Stroke]) -> Self {
+        Self { frequency, strokes }
+    }
 }
 
 /// Motion of one coordinate: `mean + amplitude · sin 2π(f t + phase)`.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct Stroke {
     /// Constant part, m or rad, applied before the cycles.
     pub mean: f64,
@@ -58,9 +83,81 @@ impl Stroke {
     pub const fn about(mean: f64, amplitude: f64) -> Self {
         Self { mean, amplitude, phase: 0.0 }
     }
+
+    /// With a phase, in cycles.
+    #[must_use]
+    pub const fn with_phase(mut self, phase: f64) -> Self {
+        self.phase = phase;
+        self
+    }
 }
 
 impl Card {
+    /// A kind of this name, of this contract: one sentence says what it is.
+    #[must_use]
+    pub const fn new(kind: &'static str, category: Category, summary: &'static str) -> Self {
+        Self {
+            kind,
+            category,
+            summary,
+            nodes: NodeCount::NONE,
+            parameters: &[],
+            law: "",
+            source: "",
+            example: "",
+            exercise: Exercise::NONE,
+        }
+    }
+
+    /// Under another name.
+    #[must_use]
+    pub const fn named(mut self, kind: &'static str) -> Self {
+        self.kind = kind;
+        self
+    }
+
+    /// With how many nodes it takes; none without.
+    #[must_use]
+    pub const fn nodes(mut self, nodes: NodeCount) -> Self {
+        self.nodes = nodes;
+        self
+    }
+
+    /// With its parameters, in the order in which they should be shown.
+    #[must_use]
+    pub const fn parameters(mut self, parameters: &'static [Parameter]) -> Self {
+        self.parameters = parameters;
+        self
+    }
+
+    /// With its law in Unicode, several lines.
+    #[must_use]
+    pub const fn law(mut self, law: &'static str) -> Self {
+        self.law = law;
+        self
+    }
+
+    /// With the source of the law.
+    #[must_use]
+    pub const fn source(mut self, source: &'static str) -> Self {
+        self.source = source;
+        self
+    }
+
+    /// With a line of a model file that uses it.
+    #[must_use]
+    pub const fn example(mut self, example: &'static str) -> Self {
+        self.example = example;
+        self
+    }
+
+    /// With the deformation that shows a law, with the parameters of the example; none without.
+    #[must_use]
+    pub const fn exercise(mut self, exercise: Exercise) -> Self {
+        self.exercise = exercise;
+        self
+    }
+
     /// The parameter of that name.
     #[must_use]
     pub fn parameter(&self, name: &str) -> Option<&'static Parameter> {
@@ -113,6 +210,7 @@ impl NodeCount {
 
 /// One parameter of a kind.
 #[derive(Clone, Copy, Debug)]
+#[non_exhaustive]
 pub struct Parameter {
     /// Name in model files.
     pub name: &'static str,
@@ -208,6 +306,13 @@ impl Parameter {
     #[must_use]
     pub const fn file(name: &'static str, meaning: &'static str) -> Self {
         Self::new(name, "", Form::File, Default::Required, meaning)
+    }
+
+    /// The same of another form.
+    #[must_use]
+    pub const fn of(mut self, form: Form) -> Self {
+        self.form = form;
+        self
     }
 
     /// The same with another range.

@@ -5,11 +5,20 @@ use std::fmt::Debug;
 
 /// `u[dependent] = Σ coefficient · u[retained]`.
 #[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct Equation {
     /// The DOF that goes: index into the constraint's nodes, and direction.
     pub dependent: (usize, Dof),
     /// The DOFs that stay, with their coefficients.
     pub terms: Vec<((usize, Dof), f64)>,
+}
+
+impl Equation {
+    /// A DOF as a sum of others with coefficients.
+    #[must_use]
+    pub const fn new(dependent: (usize, Dof), terms: Vec<((usize, Dof), f64)>) -> Self {
+        Self { dependent, terms }
+    }
 }
 
 /// Removes DOFs: rigid links, rigid bodies, diaphragms, equal DOFs.

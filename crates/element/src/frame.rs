@@ -132,6 +132,7 @@ impl Frame {
 
 /// Where an element stands.
 #[derive(Clone, Copy, Debug)]
+#[non_exhaustive]
 pub struct Geometry<'a> {
     /// Positions of its nodes, m.
     pub nodes: &'a [Vector3],
@@ -142,7 +143,20 @@ pub struct Geometry<'a> {
     pub tension: f64,
 }
 
-impl Geometry<'_> {
+impl<'a> Geometry<'a> {
+    /// Nodes in their places, and a local frame; no axial force.
+    #[must_use]
+    pub const fn new(nodes: &'a [Vector3], frame: Frame) -> Self {
+        Self { nodes, frame, tension: 0.0 }
+    }
+
+    /// With an axial force, N, tension positive.
+    #[must_use]
+    pub const fn with_tension(mut self, tension: f64) -> Self {
+        self.tension = tension;
+        self
+    }
+
     /// Distance of the first two nodes, m; 0 for one node.
     #[must_use]
     pub fn length(&self) -> f64 {

@@ -4,6 +4,7 @@ use std::borrow::Cow;
 
 /// One history variable: name and unit, as they appear in checkpoints and records.
 #[derive(Clone, Debug, PartialEq, Eq)]
+#[non_exhaustive]
 pub struct Field {
     /// Name, unique within the law.
     pub name: Cow<'static, str>,
@@ -16,6 +17,12 @@ impl Field {
     #[must_use]
     pub const fn new(name: &'static str, unit: &'static str) -> Self {
         Self { name: Cow::Borrowed(name), unit }
+    }
+
+    /// A variable with a name that was put together.
+    #[must_use]
+    pub const fn named(name: String, unit: &'static str) -> Self {
+        Self { name: Cow::Owned(name), unit }
     }
 }
 

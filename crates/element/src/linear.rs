@@ -51,6 +51,7 @@ impl std::ops::IndexMut<(usize, usize)> for SquareMatrix {
 
 /// The matrices of one element in global axes; rows and columns follow `dofs`.
 #[derive(Clone, Debug)]
+#[non_exhaustive]
 pub struct ElementMatrices {
     /// Index into the element's nodes, and direction, of each row.
     pub dofs: Vec<(usize, Dof)>,

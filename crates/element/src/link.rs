@@ -37,6 +37,7 @@ impl Coordinates {
 
 /// The deformation that a law is asked about. All slices have `n` entries.
 #[derive(Clone, Copy, Debug)]
+#[non_exhaustive]
 pub struct Kinematics<'a> {
     /// Deformation d at the end of the step, in m or rad.
     pub d: &'a [f64],
@@ -50,7 +51,19 @@ pub struct Kinematics<'a> {
     pub dt: f64,
 }
 
-impl Kinematics<'_> {
+impl<'a> Kinematics<'a> {
+    /// A step of a length (s) from a deformation and its rate to others: `[d, v]` at its end and at its start.
+    #[must_use]
+    pub const fn new([d, v]: [&'a [f64]; 2], [d0, v0]: [&'a [f64]; 2], dt: f64) -> Self {
+        Self { d, v, d0, v0, dt }
+    }
+
+    /// No step at all, only a look at a deformation and its rate.
+    #[must_use]
+    pub const fn still(d: &'a [f64], v: &'a [f64]) -> Self {
+        Self::new([d, v], [d, v], 0.0)
+    }
+
     /// Work over the step of a rate-dependent force on coordinate `i` that goes from `start` to `end`
     /// (N), exact where force and rate are both linear in the step:
     /// Δt (2 g₀v₀ + g₀v₁ + g₁v₀ + 2 g₁v₁)/6. Never negative.
@@ -66,6 +79,7 @@ impl Kinematics<'_> {
 
 /// Energy of a link, in J.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[non_exhaustive]
 pub struct Energy {
     /// Recoverable energy at the end of the step (a total).
     pub stored: f64,
@@ -78,8 +92,17 @@ pub struct Energy {
     pub viscous: f64,
 }
 
+impl Energy {
+    /// What is stored at the end of a step, and what was turned into heat in it without and by regard to rates, J.
+    #[must_use]
+    pub const fn new(stored: f64, hysteretic: f64, viscous: f64) -> Self {
+        Self { stored, hysteretic, viscous }
+    }
+}
+
 /// What a law answers. The caller owns the slices and zeroes them before the call.
 #[derive(Debug)]
+#[non_exhaustive]
 pub struct Response<'a> {
     /// Force f conjugate to d, in N or N·m; `n` entries. Positive where it resists positive d.
     pub f: &'a mut [f64],
@@ -91,8 +114,22 @@ pub struct Response<'a> {
     pub energy: &'a mut Energy,
 }
 
+impl<'a> Response<'a> {
+    /// Room for an answer: force, tangents by deformation and by rate, energies.
+    #[must_use]
+    pub fn new(
+        f: &'a mut [f64],
+        k: &'a mut [f64],
+        c: &'a mut [f64],
+        energy: &'a mut Energy,
+    ) -> Self {
+        Self { f, k, c, energy }
+    }
+}
+
 /// What a contact does at this moment; for the response mode and for reports.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[non_exhaustive]
 pub struct Contact {
     /// Distance between the surfaces in m; negative while pressed together.
     pub gap: f64,
@@ -102,6 +139,28 @@ pub struct Contact {
     pub position: [f64; 2],
     /// True while the friction force is at its limit and slipping goes on.
     pub slipping: bool,
+}
+
+impl Contact {
+    /// A contact of a gap (m) and a normal force (N), at the middle of the link, not slipping.
+    #[must_use]
+    pub const fn new(gap: f64, normal: f64) -> Self {
+        Self { gap, normal, position: [0.0; 2], slipping: false }
+    }
+
+    /// At another place along U2 and U3, m.
+    #[must_use]
+    pub const fn at(mut self, position: [f64; 2]) -> Self {
+        self.position = position;
+        self
+    }
+
+    /// Slipping, or not.
+    #[must_use]
+    pub const fn slipping(mut self, slipping: bool) -> Self {
+        self.slipping = slipping;
+        self
+    }
 }
 
 /// What a law with contacts is made for: where it stands in a model decides the rest.
@@ -119,6 +178,7 @@ pub enum ContactUse {
 /// What a contact says about impacts on it, so that its dashpot can be set from a coefficient of
 /// restitution once the mass is known that it stops.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct Impact {
     /// The coordinate that closes, as index into those of the law.
     pub coordinate: usize,
@@ -130,6 +190,21 @@ pub struct Impact {
     pub restitution: Option<f64>,
     /// The mass given for it, kg; none: the core works it out.
     pub mass: Option<f64>,
+}
+
+impl Impact {
+    /// On a coordinate of a law, with a contact stiffness (N/m) and a dashpot (N·s/m).
+    #[must_use]
+    pub const fn new(coordinate: usize, stiffness: f64, damping: f64) -> Self {
+        Self { coordinate, stiffness, damping, restitution: None, mass: None }
+    }
+
+    /// With a coefficient of restitution that is wanted, and the mass (kg) for it where that is given.
+    #[must_use]
+    pub const fn restituting(mut self, restitution: Option<f64>, mass: Option<f64>) -> Self {
+        (self.restitution, self.mass) = (restitution, mass);
+        self
+    }
 }
 
 /// A local nonlinear law.

@@ -287,9 +287,7 @@ impl Element {
     pub fn outline(&self, nodes: &[Node]) -> Option<NodalOutline> {
         let places: Vec<Vector3> = self.nodes.iter().map(|n| nodes[*n].position).collect();
         let outline = match &self.body {
-            Body::Linear(element) => {
-                element.outline(&Geometry { nodes: &places, frame: self.frame, tension: 0.0 })
-            }
+            Body::Linear(element) => element.outline(&Geometry::new(&places, self.frame)),
             Body::Constraint(constraint) => constraint.outline(&places),
             Body::Link(..) => None,
         };

@@ -293,7 +293,7 @@ pub(crate) fn element_matrices(
         reason,
         span: e.span.clone(),
     };
-    let geometry = Geometry { nodes: &nodes, frame: e.frame, tension };
+    let geometry = Geometry::new(&nodes, e.frame).with_tension(tension);
     let m = answered(|| element.matrices(&geometry))
         .map_err(|said| refuse(format!("its matrices panicked: {said}")))?
         .map_err(|x| refuse(x.to_string()))?;

@@ -30,6 +30,6 @@ impl Damper {
     pub(crate) fn energy(&self, at: &Kinematics<'_>, energy: &mut [Energy]) {
         let i = self.coordinate;
         let viscous = at.viscous_work(i, self.c * at.v0[i], self.c * at.v[i]);
-        energy[self.link] = Energy { viscous, ..Energy::default() };
+        energy[self.link] = Energy::new(0.0, 0.0, viscous);
     }
 }

@@ -147,7 +147,7 @@ impl Leaning {
         let v = self.inner_rate(at.v, &self.row(at.d, at.v));
         let v0 = self.inner_rate(at.v0, &self.row(at.d0, at.v0));
         let [d, v, d0, v0] = [&d[..n], &v[..n], &d0[..n], &v0[..n]];
-        then(&Kinematics { d, v, d0, v0, dt: at.dt })
+        then(&Kinematics::new([d, v], [d0, v0], at.dt))
     }
 }
 
@@ -186,7 +186,7 @@ impl Link for Leaning {
         self.seen(at, |inner| {
             let (f, k, c) = (&mut f[..n], &mut k[..n * n], &mut c[..n * n]);
             let energy: &mut Energy = out.energy;
-            self.law.respond(inner, committed, trial, &mut Response { f, k, c, energy });
+            self.law.respond(inner, committed, trial, &mut Response::new(f, k, c, energy));
         });
         let Row { w, rate } = self.row(at.d, at.v);
         let own = |x: &[f64], i: usize, j: usize| if i < n && j < n { x[i * n + j] } else { 0.0 };
@@ -298,10 +298,10 @@ mod tests {
         let law = Leaning::new(Arc::new(Pad), [1.0, 0.0], 0.0).unwrap();
         let d = [-0.2, 0.1, -0.05, 0.0, 0.0];
         let zeros = [0.0; 5];
-        let at = Kinematics { d: &d, v: &zeros, d0: &d, v0: &zeros, dt: 0.0 };
+        let at = Kinematics::still(&d, &zeros);
         let (mut f, mut k, mut c) = ([0.0; 5], [0.0; 25], [0.0; 25]);
         let energy = &mut Energy::default();
-        law.respond(&at, &[], &mut [], &mut Response { f: &mut f, k: &mut k, c: &mut c, energy });
+        law.respond(&at, &[], &mut [], &mut Response::new(&mut f, &mut k, &mut c, energy));
         // Forces of the law on the upper node, and moment on the lower: r × F = −(what resists).
         let force = [-f[0], -f[1], -f[2]];
         let r = [0.0, d[1], d[2]];

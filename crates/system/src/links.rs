@@ -157,11 +157,11 @@ impl<'a> Laws<'a> {
         let f = &mut f[r.clone()];
         [&mut *f, &mut *k, &mut *c].into_iter().for_each(|x| x.fill(0.0));
         *energy = Energy::default();
-        let at = Kinematics { d: &at.d[r.clone()], v, d0: &at.d0[r], v0, dt: at.dt };
+        let at = Kinematics::new([&at.d[r.clone()], v], [&at.d0[r], v0], at.dt);
         let (committed, trial) =
             (&committed[link.history.clone()], &mut trial[link.history.clone()]);
         blaming(link.element, || {
-            law.respond(&at, committed, trial, &mut Response { f, k, c, energy });
+            law.respond(&at, committed, trial, &mut Response::new(f, k, c, energy));
         });
     }
 }

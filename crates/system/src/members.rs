@@ -66,7 +66,7 @@ impl System {
         let e = &model.elements[load.element];
         let nodes: Vec<Vector3> = e.nodes.iter().map(|n| model.nodes[*n].position).collect();
         let tension = self.tension.get(load.element).copied().unwrap_or_default();
-        let at = Geometry { nodes: &nodes, frame: e.frame, tension };
+        let at = Geometry::new(&nodes, e.frame).with_tension(tension);
         let member = model.member(load.element);
         member.and_then(|m| m.end_loads(&at, &load.load).ok()).unwrap_or_default()
     }
@@ -134,7 +134,7 @@ impl System {
     fn length(&self, model: &Model, element: usize) -> f64 {
         let e = &model.elements[element];
         let nodes: Vec<Vector3> = e.nodes.iter().map(|n| model.nodes[*n].position).collect();
-        Geometry { nodes: &nodes, frame: e.frame, tension: 0.0 }.length()
+        Geometry::new(&nodes, e.frame).length()
     }
 
     /// What loads along members bring to directions that nothing free follows, in sum weighed by `t` of the full DOFs:

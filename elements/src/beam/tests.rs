@@ -33,7 +33,7 @@ fn text(name: &str) -> Value {
 
 fn matrices_between(beam: &Beam, nodes: &[[f64; 3]; 2]) -> (DMatrix<f64>, DMatrix<f64>) {
     let frame = Frame::of_nodes(nodes, None, None).unwrap();
-    let got = beam.matrices(&Geometry { nodes, frame, tension: 0.0 }).unwrap();
+    let got = beam.matrices(&Geometry::new(nodes, frame)).unwrap();
     let (mut k, mut m) = (DMatrix::zeros(12, 12), DMatrix::zeros(12, 12));
     let row = |p: usize| got.dofs[p].0 * 6 + got.dofs[p].1.index();
     for p in 0..got.dofs.len() {
@@ -84,7 +84,7 @@ fn a_pinned_end_has_no_row_and_leaves_3ei_over_l3() {
     let b = beam(&[("release_j", Value::List(vec![text("R3"), text("R2")]))]);
     let nodes = [[0.0; 3], [L, 0.0, 0.0]];
     let frame = Frame::of_nodes(&nodes, None, None).unwrap();
-    let got = b.matrices(&Geometry { nodes: &nodes, frame, tension: 0.0 }).unwrap();
+    let got = b.matrices(&Geometry::new(&nodes, frame)).unwrap();
     assert!(!got.dofs.contains(&(1, Dof::Ry)) && !got.dofs.contains(&(1, Dof::Rz)));
     let uz = got.dofs.iter().position(|d| *d == (1, Dof::Uz)).unwrap();
     assert_relative_eq!(got.stiffness[(uz, uz)], 3.0 * E * I3 / L.powi(3), max_relative = 1e-12);
@@ -101,7 +101,7 @@ fn releasing_both_ends_leaves_a_truss_and_one_more_is_refused() {
     let b = beam(&[("release_i", twice.clone()), ("release_j", twice)]);
     let nodes = [[0.0; 3], [L, 0.0, 0.0]];
     let frame = Frame::of_nodes(&nodes, None, None).unwrap();
-    let err = b.matrices(&Geometry { nodes: &nodes, frame, tension: 0.0 }).unwrap_err();
+    let err = b.matrices(&Geometry::new(&nodes, frame)).unwrap_err();
     assert_eq!(err.parameter(), Some("release_j"));
 }
 
@@ -227,8 +227,8 @@ fn refuses_contradictions_by_name() {
 fn refuses_coincident_nodes_and_offsets_longer_than_the_beam() {
     let frame = Frame::of_nodes(&[[0.0; 3]], Some([1.0, 0.0, 0.0]), None).unwrap();
     let same = [[0.0; 3]; 2];
-    assert!(beam(&[]).matrices(&Geometry { nodes: &same, frame, tension: 0.0 }).is_err());
+    assert!(beam(&[]).matrices(&Geometry::new(&same, frame)).is_err());
     let long = beam(&[("offset_i", Value::Number(4.0))]);
     let nodes = [[0.0; 3], [L, 0.0, 0.0]];
-    assert!(long.matrices(&Geometry { nodes: &nodes, frame, tension: 0.0 }).is_err());
+    assert!(long.matrices(&Geometry::new(&nodes, frame)).is_err());
 }

@@ -81,7 +81,7 @@ impl Link for BodyContact {
     fn history(&self) -> Cow<'static, [Field]> {
         let turned = |which: &'static str| {
             let name = move |f: &Field| format!("{which}_{}", f.name);
-            Turned::FIELDS.iter().map(move |f| Field { name: name(f).into(), unit: f.unit })
+            Turned::FIELDS.iter().map(move |f| Field::named(name(f), f.unit))
         };
         let near = Near::FIELDS.iter().cloned();
         let mut fields: Vec<Field> = near.chain(turned("first")).chain(turned("second")).collect();
@@ -96,7 +96,7 @@ impl Link for BodyContact {
         let upright = Turned::upright();
         (0..2).for_each(|i| upright.store(&mut at[FIRST + i * TURNED..]));
         let zero = [0.0; 6];
-        let still = Kinematics { d: &zero, v: &zero, d0: &zero, v0: &zero, dt: 0.0 };
+        let still = Kinematics::still(&zero, &zero);
         Near { gap: self.gap(&still, &upright.turn(&[0.0; 3])) }.store(at);
         match self.round() {
             Some(round) => round.at_rest(&mut at[TOUCH..]),
@@ -142,7 +142,7 @@ impl Link for BodyContact {
         let turns = [first.turn(&at.d[3..6]), second.turn(&at.d[9..12])];
         let view = View::<0>::new(Vector3::from(self.offset), turns.each_ref(), at.d, at.v, None);
         let [d, v] = view.values();
-        let seen = Kinematics { d: &d, v: &v, d0: &d, v0: &v, dt: 0.0 };
+        let seen = Kinematics::still(&d, &v);
         let touch = &history[TOUCH..];
         match self.round() {
             Some(round) => round.contacts(&seen, &view.turn, touch, out),

@@ -90,7 +90,7 @@ impl Round<'_> {
     pub fn fields(&self) -> Vec<Field> {
         let of = |place: usize| {
             let all = NLinkHistory::FIELDS.iter().chain(Way::FIELDS);
-            all.map(move |f| Field { name: format!("{}_{place}", f.name).into(), unit: f.unit })
+            all.map(move |f| Field::named(format!("{}_{place}", f.name), f.unit))
         };
         (1..=self.of.heights.len()).flat_map(of).collect()
     }
@@ -135,16 +135,14 @@ impl Round<'_> {
             let (mut f, mut k, mut c) = ([0.0; 3], [0.0; 9], [0.0; 9]);
             let mut energy = Energy::default();
             contact.respond(
-                &Kinematics {
-                    d: &d.map(|x| x.x),
-                    v: &now.rate.map(|x| x.x),
-                    d0: &[before.gap.x, was.across, was.along],
-                    v0: &before.rate.map(|x| x.x),
-                    dt: at.dt,
-                },
+                &Kinematics::new(
+                    [&d.map(|x| x.x), &now.rate.map(|x| x.x)],
+                    [&[before.gap.x, was.across, was.along], &before.rate.map(|x| x.x)],
+                    at.dt,
+                ),
                 committed,
                 trial,
-                &mut Response { f: &mut f, k: &mut k, c: &mut c, energy: &mut energy },
+                &mut Response::new(&mut f, &mut k, &mut c, &mut energy),
             );
             Way { across: d[1].x, along: d[2].x }.store(&mut trial[CONTACT..]);
             out.count(&energy);
@@ -189,14 +187,14 @@ impl Round<'_> {
             let way = Way::load(&history[CONTACT..]);
             let d = [now.gap.x, way.across, way.along];
             let v = now.rate.map(|x| x.x);
-            let at = Kinematics { d: &d, v: &v, d0: &d, v0: &v, dt: 0.0 };
+            let at = Kinematics::still(&d, &v);
             let (mut f, mut k, mut c) = ([0.0; 3], [0.0; 9], [0.0; 9]);
             let (mut energy, mut trial) = (Energy::default(), [0.0; CONTACT]);
             contact.respond(
                 &at,
                 history,
                 &mut trial,
-                &mut Response { f: &mut f, k: &mut k, c: &mut c, energy: &mut energy },
+                &mut Response::new(&mut f, &mut k, &mut c, &mut energy),
             );
             contact.contacts(&at, history, &f, out);
         }

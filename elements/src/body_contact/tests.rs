@@ -25,7 +25,7 @@ fn placed(values: &[(&str, Value)], offset: Vector3) -> Result<BodyContact, Para
     let mut law: BodyContact = read(values)?;
     let nodes = [[4.0, 5.0, 6.0], [4.0 + offset[0], 5.0 + offset[1], 6.0 + offset[2]]];
     let frame = Frame::of_nodes(&nodes, None, None).unwrap();
-    law.place(&Geometry { nodes: &nodes, frame, tension: 0.0 })?;
+    law.place(&Geometry::new(&nodes, frame))?;
     Ok(law)
 }
 

@@ -34,12 +34,9 @@ const RATE_PER_FORCE: Dimension = Dimension { mass: -1.0, length: -2.0, time: 3.
 const RATE_PER_FORCE_SQUARED: Dimension = Dimension { mass: -2.0, length: -3.0, time: 5.0 };
 
 impl Described for FrictionPendulum {
-    const CARD: Card = Card {
-        kind: "FrictionPendulum",
-        category: Category::Link,
-        summary: "Sliding bearing with one concave surface: friction by speed, force or pressure; rim.",
-        nodes: NodeCount::GROUND_OR_TWO,
-        parameters: &[
+    const CARD: Card = Card::new("FrictionPendulum", Category::Link, "Sliding bearing with one concave surface: friction by speed, force or pressure; rim.")
+.nodes(NodeCount::GROUND_OR_TWO)
+.parameters(&[
             Parameter::required("kn", "kₙ", STIFFNESS, Range::Positive, "stiffness in compression"),
             Parameter::number(
                 "damping",
@@ -184,8 +181,8 @@ impl Described for FrictionPendulum {
                 Range::Positive,
                 "stiffness of the rim",
             ),
-        ],
-        law: "f₁ = min(0, kₙ g + c ġ) where g = d₁ ≤ 0, else 0;  N = −f₁ (with `pull`: −kₙ g)\n\
+        ])
+.law("f₁ = min(0, kₙ g + c ġ) where g = d₁ ≤ 0, else 0;  N = −f₁ (with `pull`: −kₙ g)\n\
               τ = kₛ (u − a) + cₛ (u̇ − ȧ), |τ| ≤ μ N (radial return);  u = (d₂, d₃)\n\
               fₜ = τ + N ∇h(u) + kₛₜ (|u| − D)⁺ u/|u|\n\
               Shallow: ∇h = u/R;  Spherical: ∇h = u/√(R² − u²)\n\
@@ -195,19 +192,15 @@ impl Described for FrictionPendulum {
               Velocity: μ = μ_fast − (μ_fast − μ_slow) e^(−r x), slip rate x = |ȧ| (|u̇| where μ falls with it)\n\
               until it has slipped by s₀: more, from `mu_static` on, as an `NLink`\n\
               VelocityForce: μ_slow, μ_fast = a N^(n−1) ≤ μ_max, r = r₀ + r₁ N + r₂ N²\n\
-              VelocityPressure: μ_fast − Δμ tanh(α N/A) in place of μ_fast",
-        source: "Zayas, Low, Mahin 1990; Constantinou, Mokha, Reinhorn 1990 for μ(v); \
-                 Tsopelas et al. 1994 for μ(p)",
-        example: r#""bearing": FrictionPendulum(node: "base", kn: "2e9 N/m", ks: "1e8 N/m", radius: "1.5 m", friction_model: Velocity, mu_slow: 0.03, mu_fast: 0.06, rate: "20 s/m")"#,
-        exercise: Exercise {
-            frequency: 0.5,
-            strokes: &[
+              VelocityPressure: μ_fast − Δμ tanh(α N/A) in place of μ_fast")
+.source("Zayas, Low, Mahin 1990; Constantinou, Mokha, Reinhorn 1990 for μ(v); \
+                 Tsopelas et al. 1994 for μ(p)")
+.example(r#""bearing": FrictionPendulum(node: "base", kn: "2e9 N/m", ks: "1e8 N/m", radius: "1.5 m", friction_model: Velocity, mu_slow: 0.03, mu_fast: 0.06, rate: "20 s/m")"#)
+.exercise(Exercise::new(0.5, &[
                 Stroke::about(-5e-4, 0.0),
                 Stroke::about(0.0, 0.15),
                 Stroke::about(0.0, 0.0),
-            ],
-        },
-    };
+            ]));
 
     fn check(&self) -> Result<(), ParameterError> {
         self.check_friction()?;

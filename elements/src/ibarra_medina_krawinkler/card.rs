@@ -44,12 +44,9 @@ const CAPPED: Range = Range::Within(1.0, 100.0);
 const LENGTH: Form = Form::DEFORMATION_OF_AXIS;
 
 impl Described for IbarraMedinaKrawinkler {
-    const CARD: Card = Card {
-        kind: "IbarraMedinaKrawinkler",
-        category: Category::Link,
-        summary: "Spring of a capped backbone whose strength and stiffness deteriorate with the energy dissipated; peak-oriented or pinching.",
-        nodes: NodeCount::GROUND_OR_TWO,
-        parameters: &[
+    const CARD: Card = Card::new("IbarraMedinaKrawinkler", Category::Link, "Spring of a capped backbone whose strength and stiffness deteriorate with the energy dissipated; peak-oriented or pinching.")
+.nodes(NodeCount::GROUND_OR_TWO)
+.parameters(&[
             given("k", "k", Form::STIFFNESS_OF_AXIS, "elastic stiffness"),
             given("fy", "f_y", Form::FORCE_OF_AXIS, "yield strength"),
             Parameter::required("capping", "c", NONE, CAPPED, "capping strength over `fy`"),
@@ -98,16 +95,15 @@ impl Described for IbarraMedinaKrawinkler {
                 "Pinching: share of the permanent deformation left at the break point",
             ),
             Parameter::choice("axis", Axis::NAMES, "U1", "local axis"),
-        ],
-        law: "backbone: k to f_y, on to c f_y at f_y/k + δ_p, down by c f_y over δ_pc, r f_y at least\n\
+        ])
+.law("backbone: k to f_y, on to c f_y at f_y/k + δ_p, down by c f_y over δ_pc, r f_y at least\n\
               back: with K to zero force;  on: straight to the largest deformation u so far (PeakOriented), or first\n\
               with κ_F times that slope to (1 − κ_D)(u − f_u/K) (Pinching); then the backbone\n\
               at zero force, for the side entered: f_y, hardening: × (1 − β_S D), intercept of softening: × (1 − β_C D), u: × (1 + β_A D)\n\
-              at any time: K = K₀ (1 − β_K);  βⱼ = (Eᵢ/(Λⱼ f_y − E))^cⱼ, Eᵢ in this excursion, E in all",
-        source: "Ibarra, Medina & Krawinkler 2005; Mahin & Bertero 1975; OpenSees IMKPeakOriented and IMKPinching",
-        example: r#""hinge": IbarraMedinaKrawinkler(nodes: ("a", "b"), axis: R3, k: "60 MN*m/rad", fy: "300 kN*m", capping: 1.1, plastic: 0.02, post_capping: 0.1, residual: 0.2, lambda_s: 1, lambda_c: 1, lambda_a: 1, lambda_k: 2)"#,
-        exercise: Exercise { frequency: 0.5, strokes: &[Stroke::about(0.0, 0.05)] },
-    };
+              at any time: K = K₀ (1 − β_K);  βⱼ = (Eᵢ/(Λⱼ f_y − E))^cⱼ, Eᵢ in this excursion, E in all")
+.source("Ibarra, Medina & Krawinkler 2005; Mahin & Bertero 1975; OpenSees IMKPeakOriented and IMKPinching")
+.example(r#""hinge": IbarraMedinaKrawinkler(nodes: ("a", "b"), axis: R3, k: "60 MN*m/rad", fy: "300 kN*m", capping: 1.1, plastic: 0.02, post_capping: 0.1, residual: 0.2, lambda_s: 1, lambda_c: 1, lambda_a: 1, lambda_k: 2)"#)
+.exercise(Exercise::new(0.5, &[Stroke::about(0.0, 0.05)]));
 
     fn check(&self) -> Result<(), ParameterError> {
         let wrong = |name: &str, message: String| Err(ParameterError::inconsistent(name, message));

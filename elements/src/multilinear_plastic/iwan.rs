@@ -24,7 +24,7 @@ pub(super) fn corners(law: &MultilinearPlastic) -> usize {
 
 /// The stretch of every element.
 pub(super) fn fields(law: &MultilinearPlastic, length: &'static str) -> Vec<Field> {
-    let field = |j| Field { name: format!("stretch{}", j + 1).into(), unit: length };
+    let field = |j| Field::named(format!("stretch{}", j + 1), length);
     (0..corners(law)).map(field).collect()
 }
 

@@ -198,13 +198,7 @@ impl Link for NLink {
     }
 
     fn impact(&self) -> Option<Impact> {
-        Some(Impact {
-            coordinate: 0,
-            stiffness: self.kn,
-            damping: self.damping,
-            restitution: self.restitution,
-            mass: self.impact_mass,
-        })
+        Some(Impact::new(0, self.kn, self.damping).restituting(self.restitution, self.impact_mass))
     }
 
     fn restituting(&self, restitution: f64, mass: f64) -> Option<Box<dyn Link>> {

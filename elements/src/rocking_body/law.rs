@@ -113,7 +113,7 @@ impl RockingBody {
         let turns = [turned[0].turn(&at.d[3..6]), turned[1].turn(&at.d[9..12])];
         let view = View::<0>::new(offset, turns.each_ref(), at.d, at.v, None);
         let [d, v] = view.values();
-        look(&Kinematics { d: &d, v: &v, d0: &d, v0: &v, dt: at.dt }, &view.turn)
+        look(&Kinematics::new([&d, &v], [&d, &v], at.dt), &view.turn)
     }
 }
 
@@ -140,7 +140,7 @@ impl Link for RockingBody {
             None => plane_contact::fields(self.base.len(), false),
         });
         if self.above.is_some() {
-            let of = |f: &Field| Field { name: format!("support_{}", f.name).into(), unit: f.unit };
+            let of = |f: &Field| Field::named(format!("support_{}", f.name), f.unit);
             fields.extend(Turned::FIELDS.iter().map(of));
         }
         fields.into()

@@ -35,8 +35,8 @@ fn force(law: &RockingBody, d: [f64; 6], v: [f64; 6]) -> ([f64; 6], Energy) {
     law.at_rest(&mut history);
     let (mut f, mut k, mut c, mut trial) = ([0.0; 6], [0.0; 36], [0.0; 36], history.clone());
     let mut energy = Energy::default();
-    let mut out = Response { f: &mut f, k: &mut k, c: &mut c, energy: &mut energy };
-    let at = Kinematics { d: &d, v: &v, d0: &d, v0: &v, dt: 0.0 };
+    let mut out = Response::new(&mut f, &mut k, &mut c, &mut energy);
+    let at = Kinematics::still(&d, &v);
     law.respond(&at, &history, &mut trial, &mut out);
     (f, energy)
 }
@@ -141,8 +141,8 @@ fn its_uplift_is_the_largest_gap_of_its_contacts() {
             let (d, v) = ([0.02, 0.01, z, x, y, 0.0], [0.0; 6]);
             let (mut f, mut k, mut c) = ([0.0; 6], [0.0; 36], [0.0; 36]);
             let mut energy = Energy::default();
-            let mut out = Response { f: &mut f, k: &mut k, c: &mut c, energy: &mut energy };
-            let at = Kinematics { d: &d, v: &v, d0: &d, v0: &v, dt: 0.0 };
+            let mut out = Response::new(&mut f, &mut k, &mut c, &mut energy);
+            let at = Kinematics::still(&d, &v);
             law.respond(&at, &history, &mut trial, &mut out);
             let mut contacts = Vec::new();
             law.contacts(&at, &trial, &f, &mut contacts);
@@ -292,7 +292,7 @@ fn is_drawn_where_it_is() {
         let mut history = vec![0.0; law.history().len()];
         law.at_rest(&mut history);
         let still = [0.0; 6];
-        let at = Kinematics { d: &d, v: &still, d0: &d, v0: &still, dt: 0.0 };
+        let at = Kinematics::still(&d, &still);
         law.outline(&at, &history).unwrap()
     };
     let block = body(&BLOCK, &[]).unwrap();
@@ -316,7 +316,7 @@ fn is_drawn_where_it_is() {
 fn on_a_node(mut law: RockingBody, above: Vector3) -> RockingBody {
     let nodes = [[1.0, 2.0, 3.0], [1.0 + above[0], 2.0 + above[1], 3.0 + above[2]]];
     let frame = trilith_element::Frame::of_nodes(&nodes, None, None).unwrap();
-    law.place(&trilith_element::Geometry { nodes: &nodes, frame, tension: 0.0 }).unwrap();
+    law.place(&trilith_element::Geometry::new(&nodes, frame)).unwrap();
     law
 }
 

@@ -65,9 +65,8 @@ pub(crate) fn fields(count: usize, edged: bool) -> Vec<Field> {
     let past = Field::new("past", "1");
     let all: Vec<Field> =
         NLinkHistory::FIELDS.iter().cloned().chain(edged.then_some(past)).collect();
-    let of = |point: usize| {
-        all.iter().map(move |f| Field { name: format!("{}_{point}", f.name).into(), unit: f.unit })
-    };
+    let of =
+        |point: usize| all.iter().map(move |f| Field::named(format!("{}_{point}", f.name), f.unit));
     (1..=count).flat_map(of).collect()
 }
 
@@ -100,16 +99,10 @@ pub(crate) fn respond(
         let (mut f, mut k, mut c) = ([0.0; 3], [0.0; 9], [0.0; 9]);
         let mut energy = Energy::default();
         foot.contact.respond(
-            &Kinematics {
-                d: &foot.lifted(d, past),
-                v: &v,
-                d0: &foot.lifted(d0, was),
-                v0: &v0,
-                dt: at.dt,
-            },
+            &Kinematics::new([&foot.lifted(d, past), &v], [&foot.lifted(d0, was), &v0], at.dt),
             committed,
             trial,
-            &mut Response { f: &mut f, k: &mut k, c: &mut c, energy: &mut energy },
+            &mut Response::new(&mut f, &mut k, &mut c, &mut energy),
         );
         if edged {
             trial[CONTACT] = f64::from(u8::from(past));
@@ -193,14 +186,14 @@ pub(crate) fn contacts(
     for (foot, history) in feet.zip(history.chunks(own(edged))) {
         let (d, v) = plane.seen(&now.lever(foot.r));
         let d = foot.lifted(d, edged && history[CONTACT] != 0.0);
-        let at = Kinematics { d: &d, v: &v, d0: &d, v0: &v, dt: 0.0 };
+        let at = Kinematics::still(&d, &v);
         let (mut f, mut k, mut c) = ([0.0; 3], [0.0; 9], [0.0; 9]);
         let (mut energy, mut trial) = (Energy::default(), [0.0; CONTACT]);
         foot.contact.respond(
             &at,
             history,
             &mut trial,
-            &mut Response { f: &mut f, k: &mut k, c: &mut c, energy: &mut energy },
+            &mut Response::new(&mut f, &mut k, &mut c, &mut energy),
         );
         foot.contact.contacts(&at, history, &f, out);
     }

@@ -118,7 +118,7 @@ mod tests {
     #[test]
     fn force_and_heat_of_a_step_are_those_of_the_integrated_equation() {
         for tau in [1e-4, 1e-3, 0.0099, 0.0101, 0.1, 10.0] {
-            let at = Kinematics { d: &[0.03], v: &[-0.4], d0: &[0.02], v0: &[1.3], dt: 0.01 };
+            let at = Kinematics::new([&[0.03], &[-0.4]], [&[0.02], &[1.3]], 0.01);
             let got = relax(100.0, tau, 0.7, &at);
             let [f, heat] = integrated(100.0, tau, 0.7, &at);
             assert_relative_eq!(got.f, f, max_relative = 1e-9);

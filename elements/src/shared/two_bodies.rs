@@ -117,7 +117,7 @@ pub(crate) fn respond(
     let now =
         View::<{ 2 * COUNT }>::new(offset, turns.end.each_ref(), at.d, at.v, Some(&before.turn));
     let ([d0, v0], [d, v]) = (before.values(), now.values());
-    let seen = Kinematics { d: &d, v: &v, d0: &d0, v0: &v0, dt: at.dt };
+    let seen = Kinematics::new([&d, &v], [&d0, &v0], at.dt);
     let wrench = law(&seen, (&before.turn, &now.turn));
 
     let answer = |i: usize| {

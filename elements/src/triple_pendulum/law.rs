@@ -106,9 +106,7 @@ impl Link for TriplePendulum {
     fn history(&self) -> Cow<'static, [Field]> {
         let mut all: Vec<_> = WHOLE.iter().map(|(name, unit)| Field::new(name, unit)).collect();
         for i in 1..=SURFACES {
-            all.extend(
-                EACH.iter().map(|(name, unit)| Field { name: format!("{name}{i}").into(), unit }),
-            );
+            all.extend(EACH.iter().map(|(name, unit)| Field::named(format!("{name}{i}"), unit)));
         }
         all.into()
     }
@@ -201,17 +199,16 @@ impl Link for TriplePendulum {
     }
 
     fn contacts(&self, at: &Kinematics<'_>, history: &[f64], _: &[f64], out: &mut Vec<Contact>) {
-        out.push(Contact {
-            gap: at.d[0],
-            normal: self.normal(at.d, at.v).cone,
-            position: [at.d[1], at.d[2]],
-            slipping: history[2] > 0.0,
-        });
+        out.push(
+            Contact::new(at.d[0], self.normal(at.d, at.v).cone)
+                .at([at.d[1], at.d[2]])
+                .slipping(history[2] > 0.0),
+        );
     }
 
     fn impact(&self) -> Option<Impact> {
         let (stiffness, damping) = (self.kn, self.damping);
-        Some(Impact { coordinate: 0, stiffness, damping, restitution: None, mass: None })
+        Some(Impact::new(0, stiffness, damping))
     }
 }
 

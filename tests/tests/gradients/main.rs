@@ -149,6 +149,74 @@ fn the_isolated_frame_moves_so_under_fna() {
     }
 }
 
+/// The isolated frame with other words in its case and in its isolators.
+fn frame_with(case: &str, isolator: &str) -> ModelText {
+    let whole = Path::new(env!("CARGO_MANIFEST_DIR")).join(FRAME);
+    let whole = std::fs::read_to_string(whole).expect("a file");
+    let (step, stiffness) = ("dt: \"5 ms\",", "kn: \"1e9 N/m\",");
+    assert!(whole.contains(step) && whole.contains(stiffness));
+    let whole = whole.replace(step, &format!("{step} link_tolerance: 1e-14, {case}"));
+    text(&whole.replace(stiffness, &format!("{stiffness} {isolator}")), FRAME)
+}
+
+/// Masses, stiffness and geometry move modes, their order and how many of them there are in a cut basis: derivatives go with it.
+#[test]
+fn a_basis_moves_with_the_structure() {
+    let few = "basis: Ritz(vectors: 24, enrich: false),";
+    let cases = [
+        ("", "", SolverKind::Fna),
+        ("", "", SolverKind::RitzHht),
+        (few, "", SolverKind::Fna),
+        (few, "effective_stiffness: \"1 MN/m\",", SolverKind::Fna),
+    ];
+    for (case, isolator, solver) in cases {
+        let by = ["floor_mass", "storey", "ax", "radius"];
+        let case = Case::new(&frame_with(case, isolator), solver, &[("duration", "0.8 s")], &by);
+        for (name, off) in case.off() {
+            for (output, off) in case.found.outputs.iter().zip(off) {
+                assert!(off < 1e-5, "{} by {name}, {solver:?}: {off:e}", output.name);
+            }
+        }
+        for (name, off) in case.heat_off() {
+            assert!(off < 1e-5, "heat by {name}, {solver:?}: {off:e}");
+        }
+    }
+}
+
+/// x = x₀ cos ωt: ∂x/∂m = x₀ ωt sin(ωt) / 2m, ∂x/∂k = −x₀ ωt sin(ωt) / 2k, exact in steps of any length.
+#[test]
+fn a_swing_by_its_mass_and_its_spring() {
+    let file = r#"(
+        plane: XZ,
+        parameters: { "m": "3 kg", "k": "120 N/m" },
+        nodes: { "a": (0, 0, 0) },
+        supports: { "a": (Uz, Ry) },
+        elements: {
+            "mass": Mass(node: "a", mass: "m"), "spring": Spring(node: "a", k2: "k"),
+            "far": Gap(node: "a", k: "1 kN/m", opening: 1),
+        },
+        cases: { "swing": Dynamic(
+            duration: 4, dt: 0.05, solver: Fna, step: Fixed(substeps: 1),
+            initial: [(node: "a", dof: Ux, displacement: 0.02)],
+        ) },
+        outputs: { "x": Displacement(node: "a", dof: Ux), "v": Velocity(node: "a", dof: Ux) },
+    )"#;
+    let found = Case::new(&text(file, "swing.ron"), SolverKind::Fna, &[], &["m", "k"]).found;
+    let (m, k, start) = (3.0_f64, 120.0_f64, 0.02);
+    let w = (k / m).sqrt();
+    for (i, t) in found.time.iter().enumerate() {
+        let (sin, cos) = (w * t).sin_cos();
+        // By ω, which goes as √(k/m).
+        let by = [-start * t * sin, -start * (sin + w * t * cos)];
+        for (o, by) in by.into_iter().enumerate() {
+            let size = start * [1.0, w][o] * (1.0 + w * t);
+            let [of_m, of_k] = [0, 1].map(|j| found.outputs[o].by[j][i]);
+            assert!((of_m - by * -0.5 * w / m).abs() < 1e-9 * size / m, "{t}: {of_m}");
+            assert!((of_k - by * 0.5 * w / k).abs() < 1e-9 * size / k, "{t}: {of_k}");
+        }
+    }
+}
+
 /// Two like masses that move alike, and a stop between them that is just open, or just closed: by the spring of one alone
 /// there are two derivatives, and that is told.
 #[test]

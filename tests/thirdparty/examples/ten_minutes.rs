@@ -29,21 +29,18 @@ history! {
 }
 
 impl Described for YieldingRod {
-    const CARD: Card = Card {
-        kind: "YieldingRod",
-        category: Category::Link,
-        summary: "Rod that takes tension only and yields.",
-        nodes: NodeCount::GROUND_OR_TWO,
-        parameters: &[
-            Parameter::required("k", "k", STIFFNESS, Range::Positive, "axial stiffness"),
-            Parameter::required("fy", "F_y", FORCE, Range::Positive, "yield force"),
-            Parameter::choice("axis", &["U1", "U2", "U3"], "U1", "local axis"),
-        ],
-        law: "f = k max(d − p, 0), at most F_y: there p grows",
-        source: "elementary plasticity",
-        example: r#""rod": YieldingRod(node: "mass", k: "10 MN/m", fy: "50 kN")"#,
-        exercise: Exercise { frequency: 1.0, strokes: &[Stroke::about(0.0, 0.02)] },
-    };
+    const CARD: Card =
+        Card::new("YieldingRod", Category::Link, "Rod that takes tension only and yields.")
+            .nodes(NodeCount::GROUND_OR_TWO)
+            .parameters(&[
+                Parameter::required("k", "k", STIFFNESS, Range::Positive, "axial stiffness"),
+                Parameter::required("fy", "F_y", FORCE, Range::Positive, "yield force"),
+                Parameter::choice("axis", &["U1", "U2", "U3"], "U1", "local axis"),
+            ])
+            .law("f = k max(d − p, 0), at most F_y: there p grows")
+            .source("elementary plasticity")
+            .example(r#""rod": YieldingRod(node: "mass", k: "10 MN/m", fy: "50 kN")"#)
+            .exercise(Exercise::new(1.0, &[Stroke::about(0.0, 0.02)]));
 }
 
 impl Link for YieldingRod {

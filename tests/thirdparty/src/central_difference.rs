@@ -23,17 +23,19 @@ use trilith_element::{
 pub struct CentralDifference {}
 
 impl Described for CentralDifference {
-    const CARD: Card = Card {
-        kind: "CentralDifference",
-        category: Category::Solver,
-        summary: "Explicit central differences; stable for short steps alone.",
-        nodes: NodeCount::NONE,
-        parameters: &[],
-        law: "u₁ = u₀ + Δt v₀ + Δt²/2 a₀,  (M + Δt/2 C) a₁ = p₁ − K u₁ − C (v₀ + Δt/2 a₀)",
-        source: "Belytschko, Liu & Moran, Nonlinear Finite Elements for Continua and Structures, 2000, 6.2",
-        example: r#"solver: CentralDifference, step: Fixed(substeps: 10)"#,
-        exercise: Exercise::NONE,
-    };
+    const CARD: Card = Card::new(
+        "CentralDifference",
+        Category::Solver,
+        "Explicit central differences; stable for short steps alone.",
+    )
+    .nodes(NodeCount::NONE)
+    .parameters(&[])
+    .law("u₁ = u₀ + Δt v₀ + Δt²/2 a₀,  (M + Δt/2 C) a₁ = p₁ − K u₁ − C (v₀ + Δt/2 a₀)")
+    .source(
+        "Belytschko, Liu & Moran, Nonlinear Finite Elements for Continua and Structures, 2000, 6.2",
+    )
+    .example(r#"solver: CentralDifference, step: Fixed(substeps: 10)"#)
+    .exercise(Exercise::NONE);
 }
 
 impl Integrator for CentralDifference {

@@ -41,21 +41,21 @@ pub struct CubicSpring {
 }
 
 impl Described for CubicSpring {
-    const CARD: Card = Card {
-        kind: "CubicSpring",
-        category: Category::Link,
-        summary: "Spring with a cubic term, hardening or softening.",
-        nodes: NodeCount::GROUND_OR_TWO,
-        parameters: &[
-            Parameter::required("k1", "k₁", STIFFNESS, Range::Positive, "stiffness at rest"),
-            Parameter::number("k3", "k₃", CUBIC, Range::Any, 0.0, "cubic coefficient"),
-            Parameter::choice("axis", &["U1", "U2", "U3"], "U1", "local axis"),
-        ],
-        law: "f = k₁ d + k₃ d³",
-        source: "Duffing, Erzwungene Schwingungen bei veränderlicher Eigenfrequenz, 1918",
-        example: r#""mount": CubicSpring(node: "a", k1: "40 kN/m", k3: "5 MN/m^3")"#,
-        exercise: Exercise { frequency: 1.0, strokes: &[Stroke::about(0.0, 0.1)] },
-    };
+    const CARD: Card = Card::new(
+        "CubicSpring",
+        Category::Link,
+        "Spring with a cubic term, hardening or softening.",
+    )
+    .nodes(NodeCount::GROUND_OR_TWO)
+    .parameters(&[
+        Parameter::required("k1", "k₁", STIFFNESS, Range::Positive, "stiffness at rest"),
+        Parameter::number("k3", "k₃", CUBIC, Range::Any, 0.0, "cubic coefficient"),
+        Parameter::choice("axis", &["U1", "U2", "U3"], "U1", "local axis"),
+    ])
+    .law("f = k₁ d + k₃ d³")
+    .source("Duffing, Erzwungene Schwingungen bei veränderlicher Eigenfrequenz, 1918")
+    .example(r#""mount": CubicSpring(node: "a", k1: "40 kN/m", k3: "5 MN/m^3")"#)
+    .exercise(Exercise::new(1.0, &[Stroke::about(0.0, 0.1)]));
 }
 
 impl Link for CubicSpring {

@@ -31,28 +31,21 @@ pub struct Friedlander {
 }
 
 impl Described for Friedlander {
-    const CARD: Card = Card {
-        kind: "Friedlander",
-        category: Category::Function,
-        summary: "Shock of an explosion: a jump that decays into suction.",
-        nodes: NodeCount::NONE,
-        parameters: &[
-            Parameter::required("duration", "T", TIME, Range::Positive, "time of overpressure"),
-            Parameter::number(
-                "decay",
-                "b",
-                NONE,
-                Range::Within(0.5, 50.0),
-                1.0,
-                "how fast it falls",
-            ),
-            Parameter::number("start", "t₀", TIME, Range::Any, 0.0, "arrival of the shock"),
-        ],
-        law: "y = (1 − x) e^(−b x),  x = (t − t₀)/T ≥ 0",
-        source: "Kinney & Graham, Explosive Shocks in Air, 1985, ch. 6",
-        example: r#""blast": Friedlander(amplitude: "50 kPa", duration: "20 ms", decay: 1.5)"#,
-        exercise: Exercise::NONE,
-    };
+    const CARD: Card = Card::new(
+        "Friedlander",
+        Category::Function,
+        "Shock of an explosion: a jump that decays into suction.",
+    )
+    .nodes(NodeCount::NONE)
+    .parameters(&[
+        Parameter::required("duration", "T", TIME, Range::Positive, "time of overpressure"),
+        Parameter::number("decay", "b", NONE, Range::Within(0.5, 50.0), 1.0, "how fast it falls"),
+        Parameter::number("start", "t₀", TIME, Range::Any, 0.0, "arrival of the shock"),
+    ])
+    .law("y = (1 − x) e^(−b x),  x = (t − t₀)/T ≥ 0")
+    .source("Kinney & Graham, Explosive Shocks in Air, 1985, ch. 6")
+    .example(r#""blast": Friedlander(amplitude: "50 kPa", duration: "20 ms", decay: 1.5)"#)
+    .exercise(Exercise::NONE);
 }
 
 impl Friedlander {

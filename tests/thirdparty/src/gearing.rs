@@ -27,26 +27,26 @@ pub struct Gearing {
 }
 
 impl Described for Gearing {
-    const CARD: Card = Card {
-        kind: "Gearing",
-        category: Category::Constraint,
-        summary: "A direction of the second node follows that of the first by a ratio.",
-        nodes: NodeCount::exactly(2),
-        parameters: &[
-            Parameter::new("dof", "", Form::Choice(NAMES), Default::Required, "which direction"),
-            Parameter::required(
-                "ratio",
-                "r",
-                NONE,
-                Range::Any,
-                "motion of the second node over that of the first",
-            ),
-        ],
-        law: "u₂ = r u₁",
-        source: "kinematics of a lever",
-        example: r#""gears": Gearing(nodes: ("motor", "wheel"), dof: Rx, ratio: -0.25)"#,
-        exercise: Exercise::NONE,
-    };
+    const CARD: Card = Card::new(
+        "Gearing",
+        Category::Constraint,
+        "A direction of the second node follows that of the first by a ratio.",
+    )
+    .nodes(NodeCount::exactly(2))
+    .parameters(&[
+        Parameter::new("dof", "", Form::Choice(NAMES), Default::Required, "which direction"),
+        Parameter::required(
+            "ratio",
+            "r",
+            NONE,
+            Range::Any,
+            "motion of the second node over that of the first",
+        ),
+    ])
+    .law("u₂ = r u₁")
+    .source("kinematics of a lever")
+    .example(r#""gears": Gearing(nodes: ("motor", "wheel"), dof: Rx, ratio: -0.25)"#)
+    .exercise(Exercise::NONE);
 
     fn check(&self) -> Result<(), ParameterError> {
         if self.ratio == 0.0 {
@@ -61,7 +61,7 @@ impl Constraint for Gearing {
     fn equations(&self, _: &[Vector3]) -> Result<Vec<Equation>, ParameterError> {
         let at = NAMES.iter().position(|name| *name == self.dof).unwrap_or(0);
         let dof = Dof::ALL[at];
-        Ok(vec![Equation { dependent: (1, dof), terms: vec![((0, dof), self.ratio)] }])
+        Ok(vec![Equation::new((1, dof), vec![((0, dof), self.ratio)])])
     }
 
     /// Two wheels that touch, for rotations about an axis square to the line between their nodes.

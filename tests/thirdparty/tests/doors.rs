@@ -130,14 +130,13 @@ impl Waveform for Odd {
 }
 
 /// The card of [`Odd`]: that of the blast under another name, without parameters.
-const ODD: trilith::element::Card = trilith::element::Card {
-    kind: "Odd",
-    parameters: &[],
-    ..<trilith_thirdparty_example::Friedlander as trilith::element::Described>::CARD
-};
+const ODD: trilith::element::Card =
+    <trilith_thirdparty_example::Friedlander as trilith::element::Described>::CARD
+        .named("Odd")
+        .parameters(&[]);
 
 /// A card with the name of a built-in function.
-const SINE: trilith::element::Card = trilith::element::Card { kind: "Sine", ..ODD };
+const SINE: trilith::element::Card = ODD.named("Sine");
 
 #[test]
 fn a_function_that_is_none_is_refused_where_it_is_named() {

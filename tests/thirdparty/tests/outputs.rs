@@ -151,7 +151,7 @@ impl DerivedOutput for Root {
     }
 }
 
-const ROOT: Card = Card { kind: "Root", parameters: &[], ..Interaction::CARD };
+const ROOT: Card = Interaction::CARD.named("Root").parameters(&[]);
 
 #[test]
 fn an_output_that_is_no_number_is_told() {

@@ -148,12 +148,9 @@ struct AlphaMethod {
 }
 
 impl Described for AlphaMethod {
-    const CARD: Card = Card {
-        kind: "AlphaMethod",
-        category: Category::Solver,
-        summary: "HHT-α once more.",
-        nodes: NodeCount::NONE,
-        parameters: &[
+    const CARD: Card = Card::new("AlphaMethod", Category::Solver, "HHT-α once more.")
+        .nodes(NodeCount::NONE)
+        .parameters(&[
             Parameter::number(
                 "alpha",
                 "α",
@@ -163,12 +160,11 @@ impl Described for AlphaMethod {
                 "damping of high frequencies",
             ),
             Parameter::flag("on_basis", false, "on Ritz vectors"),
-        ],
-        law: "M a₁ = (1+α) s₁ − α s₀",
-        source: "Hilber, Hughes, Taylor 1977",
-        example: "solver: AlphaMethod(alpha: -0.1)",
-        exercise: Exercise::NONE,
-    };
+        ])
+        .law("M a₁ = (1+α) s₁ − α s₀")
+        .source("Hilber, Hughes, Taylor 1977")
+        .example("solver: AlphaMethod(alpha: -0.1)")
+        .exercise(Exercise::NONE);
 }
 
 impl Integrator for AlphaMethod {
@@ -347,7 +343,7 @@ impl LinearStep for OddStep {
     }
 }
 
-const ODD: Card = Card { kind: "Odd", ..CentralDifference::CARD };
+const ODD: Card = CentralDifference::CARD.named("Odd");
 
 #[test]
 fn a_rule_that_is_none_is_refused_by_name() {

@@ -109,17 +109,17 @@ impl Wrong {
 }
 
 impl Described for Wrong {
-    const CARD: Card = Card {
-        kind: "Wrong",
-        category: Category::Link,
-        summary: "An elastic–plastic spring beside a dashpot, wrong on purpose.",
-        nodes: NodeCount::GROUND_OR_TWO,
-        parameters: &[Parameter::choice("fault", Fault::NAMES, "Nothing", "what is wrong")],
-        law: "f = s + c ḋ",
-        source: "wrong on purpose",
-        example: r#""w": Wrong(node: "m", fault: Nothing)"#,
-        exercise: Exercise::NONE,
-    };
+    const CARD: Card = Card::new(
+        "Wrong",
+        Category::Link,
+        "An elastic–plastic spring beside a dashpot, wrong on purpose.",
+    )
+    .nodes(NodeCount::GROUND_OR_TWO)
+    .parameters(&[Parameter::choice("fault", Fault::NAMES, "Nothing", "what is wrong")])
+    .law("f = s + c ḋ")
+    .source("wrong on purpose")
+    .example(r#""w": Wrong(node: "m", fault: Nothing)"#)
+    .exercise(Exercise::NONE);
 }
 
 impl Link for Wrong {

@@ -42,20 +42,16 @@ impl LaneLaw for StripLaw {
 }
 
 impl Described for Strip {
-    const CARD: Card = Card {
-        kind: "Strip",
-        category: Category::Link,
-        summary: "A spring that tears.",
-        nodes: NodeCount::GROUND_OR_TWO,
-        parameters: &[
+    const CARD: Card = Card::new("Strip", Category::Link, "A spring that tears.")
+        .nodes(NodeCount::GROUND_OR_TWO)
+        .parameters(&[
             Parameter::required("k", "k", STIFFNESS, Range::Positive, "stiffness"),
             Parameter::required("limit", "l", LENGTH, Range::Positive, "where it tears"),
-        ],
-        law: "f = k d",
-        source: "elementary",
-        example: r#""s": Strip(node: "m", k: "1 kN/m", limit: "50 mm")"#,
-        exercise: Exercise { frequency: 1.0, strokes: &[Stroke::about(0.0, 0.1)] },
-    };
+        ])
+        .law("f = k d")
+        .source("elementary")
+        .example(r#""s": Strip(node: "m", k: "1 kN/m", limit: "50 mm")"#)
+        .exercise(Exercise::new(1.0, &[Stroke::about(0.0, 0.1)]));
 }
 
 impl Link for Strip {

@@ -35,7 +35,7 @@ impl Found<'_> {
 
     /// Where it stands, without P-Δ.
     fn geometry(&self) -> Geometry<'_> {
-        Geometry { nodes: &self.places, frame: self.element.frame, tension: 0.0 }
+        Geometry::new(&self.places, self.element.frame)
     }
 }
 

@@ -132,7 +132,7 @@ impl Reading<'_, '_> {
             }
         };
         let frame = frame?;
-        let place = Geometry { nodes: &positions, frame, tension: 0.0 };
+        let place = Geometry::new(&positions, frame);
         let body = match reader {
             Reader::Linear(read) => read(&values).map(Body::Linear),
             Reader::Constraint(read) => read(&values).map(Body::Constraint),

@@ -70,8 +70,8 @@ pub(super) fn values(
             match given.source(p.name) {
                 Some(Source::Made(x)) => read[i] = Some(Value::Number(x)),
                 Some(Source::Field(node)) => {
-                    let form = settled(card, p, &read);
-                    read[i] = value(c, node, &Parameter { form, ..*p }, nodes);
+                    let p = p.of(settled(card, p, &read));
+                    read[i] = value(c, node, &p, nodes);
                     good &= read[i].is_some();
                 }
                 None => match default(p) {

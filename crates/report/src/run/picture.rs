@@ -224,7 +224,7 @@ impl Builder<'_> {
         let mut at = vec![0.0; law.history().len()];
         law.at_rest(&mut at);
         let still = vec![0.0; law.coordinates().len()];
-        let rest = Kinematics { d: &still, v: &still, d0: &still, v0: &still, dt: 0.0 };
+        let rest = Kinematics::still(&still, &still);
         let outline = law.outline(&rest, &at);
         let body = outline.is_some();
         if let (Some(outline), Some(lead)) = (outline, e.nodes.first()) {
@@ -309,7 +309,7 @@ pub(crate) fn family_at_rest(law: &dyn Link) -> Family {
     let mut at = vec![0.0; law.history().len()];
     law.at_rest(&mut at);
     let still = vec![0.0; law.coordinates().len()];
-    let rest = Kinematics { d: &still, v: &still, d0: &still, v0: &still, dt: 0.0 };
+    let rest = Kinematics::still(&still, &still);
     family(law, &rest, &at)
 }
 
@@ -345,7 +345,7 @@ fn ground(model: &Model) -> Option<f64> {
         let mut at = vec![0.0; law.history().len()];
         law.at_rest(&mut at);
         let still = vec![0.0; law.coordinates().len()];
-        let rest = Kinematics { d: &still, v: &still, d0: &still, v0: &still, dt: 0.0 };
+        let rest = Kinematics::still(&still, &still);
         match law.outline(&rest, &at) {
             Some(outline) => outline.points.iter().map(|p| z + p[2]).collect(),
             None => vec![z],

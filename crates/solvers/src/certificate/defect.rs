@@ -245,13 +245,11 @@ impl<'a> Defect<'a> {
         let mut answer = LawResponse::default();
         for (law, link) in self.laws.iter() {
             let r = link.range.clone();
-            let at = Kinematics {
-                d: &d[r.clone()],
-                v: &v[r.clone()],
-                d0: &d0[r.clone()],
-                v0: &v0[r.clone()],
+            let at = Kinematics::new(
+                [&d[r.clone()], &v[r.clone()]],
+                [&d0[r.clone()], &v0[r.clone()]],
                 dt,
-            };
+            );
             let own = &mut history[link.history.clone()];
             answer.of((law, link), &at, own);
             own.copy_from_slice(&answer.history);

@@ -23,7 +23,7 @@ pub(crate) fn are_contacts(model: &Model, system: &System) -> Vec<bool> {
     let mut seen = Vec::new();
     let is_contact = |(law, link): (&dyn Link, &LinkInstance)| {
         let rest = vec![0.0; link.range.len()];
-        let at = Kinematics { d: &rest, v: &rest, d0: &rest, v0: &rest, dt: 0.0 };
+        let at = Kinematics::still(&rest, &rest);
         let mut history = vec![0.0; link.history.len()];
         law.at_rest(&mut history);
         seen.clear();
@@ -40,7 +40,7 @@ pub(crate) fn contacts(model: &Model, system: &System, state: &State) -> Vec<(us
         let Some(law) = links.law(model, link) else { continue };
         let r = link.range.clone();
         let (d, v) = (&state.d[r.clone()], &state.v[r.clone()]);
-        let at = Kinematics { d, v, d0: d, v0: v, dt: 0.0 };
+        let at = Kinematics::still(d, v);
         let history = &state.history[link.history.clone()];
         blaming(link.element, || law.contacts(&at, history, &state.f[r], &mut own));
         all.extend(own.drain(..).map(|c| (link.element, c)));

@@ -86,8 +86,8 @@ mod tests {
             (0.2, 0.0),
         ];
         for (i, (gap, normal)) in path.into_iter().enumerate() {
-            let stop = Contact { gap, normal, ..Contact::default() };
-            stops.enter(i as f64, [(3, stop), (8, Contact { gap: 1.0, ..stop })].into_iter());
+            let stop = Contact::new(gap, normal);
+            stops.enter(i as f64, [(3, stop), (8, Contact::new(1.0, normal))].into_iter());
         }
         let summary = stops.summary(|element| Some(format!("e{element}"))).unwrap();
         let StopSummary { stops, hits, largest_force, time, hardest } = summary;
@@ -99,8 +99,7 @@ mod tests {
     fn contacts_of_one_element_are_one_stop() {
         let mut stops = Stops::default();
         for (i, [a, b]) in [[1.0, 1.0], [-0.1, 0.2], [-0.2, -0.1]].into_iter().enumerate() {
-            let of =
-                |gap: f64| Contact { gap, normal: (-10.0 * gap).max(0.0), ..Contact::default() };
+            let of = |gap: f64| Contact::new(gap, (-10.0 * gap).max(0.0));
             stops.enter(i as f64, [(3, of(a)), (3, of(b))].into_iter());
         }
         let summary = stops.summary(|element| Some(format!("e{element}"))).unwrap();

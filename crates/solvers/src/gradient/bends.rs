@@ -80,7 +80,7 @@ impl Bends {
                 let v0: Vec<f64> = r.clone().map(|i| part(&from.v, moves, |s| &s.v, i)).collect();
                 let before = h.clone().map(|i| part(&from.history, moves, |s| &s.history, i));
                 let history: Vec<f64> = before.collect();
-                let at = Kinematics { d: &d, v: &v, d0: &d0, v0: &v0, dt };
+                let at = Kinematics::new([&d, &v], [&d0, &v0], dt);
                 response.of((law, link), &at, &history);
                 response.f.clone()
             };

@@ -1,9 +1,12 @@
 //! A run with its derivatives.
 
-use super::around::{Around, Assembled, Influence};
+use super::around::{Around, Assembled};
+use super::influence::{Influence, Pieces};
+use super::moving::MovingBasis;
 use super::outputs::{Follower, Gradient, HeatGradient, OutputGradient};
 use super::replay::Step;
-use super::step::{Moves, Pieces};
+use super::sides::Sides;
+use super::step::Moves;
 use crate::error::SolveError;
 use crate::march::{March, Moment, Moving, Stop, constant_force, jump, output_step};
 use crate::record::{Ledger, LinkEnergy, Outputs, needs_rates};
@@ -105,13 +108,20 @@ pub fn gradient_until(
     let (state, control, ledger, _) = prepared.set_out(None, stepper.as_mut())?;
     let assembled = by.iter().map(Assembled::new).collect::<Result<Vec<_>, _>>()?;
     let pieces = Pieces { prepared: &prepared, space: propagator.space(), watched };
-    let influences = assembled
-        .iter()
-        .map(|a| Influence::new(a, &pieces, &options.of_run()))
+    let sides = assembled.iter().map(|a| Sides::new(a, &prepared, &options.of_run()));
+    let mut sides = sides.collect::<Result<Vec<_>, _>>()?;
+    let reduced: Vec<_> = sides.iter_mut().map(|s| s.reduced.take()).collect();
+    let moving = by.iter().zip(&reduced).map(|(around, of)| {
+        of.as_ref().map(|of| MovingBasis::new(around, of, &prepared, watched)).transpose()
+    });
+    let moving = moving.collect::<Result<Vec<_>, _>>()?;
+    let influences = assembled.iter().zip(&mut sides).zip(&moving);
+    let influences = influences
+        .map(|((a, sides), moving)| Influence::new(a, sides, moving.as_ref(), &pieces))
         .collect::<Result<Vec<_>, _>>()?;
     let outputs = Outputs::new(model, system, propagator.space());
     let mut follower = Follower::new(outputs, &prepared.loads, &influences);
-    let mut moves = Moves::new(&prepared, &influences, propagator, &state)?;
+    let mut moves = Moves::new(&prepared, &influences, moving, propagator, &state)?;
     let mut found = Gradient {
         parameters: by.iter().map(|a| a.of.name.clone()).collect(),
         values: by.iter().map(|a| a.of.value).collect(),

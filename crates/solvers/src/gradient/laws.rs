@@ -4,7 +4,8 @@
 //! its state on both sides: a difference of fourth order along the motion, and of second order along the parameter; off by some
 //! 1e-9 where it does not bend between.
 
-use super::around::{Influence, SMALL, WEIGHTS, weighted};
+use super::around::{SMALL, WEIGHTS, weighted};
+use super::influence::Influence;
 use crate::kernel::LawResponse;
 use crate::step::State;
 use trilith_element::lanes::{DIRECTIONS, Directions, Dual, ErasedLaw, LaneLinks, LaneStep};
@@ -338,7 +339,7 @@ fn by_values(
         let d0 = plus(&from.d[r.clone()], d0, s);
         let v0 = plus(&from.v[r.clone()], v0, s);
         let history = plus(&from.history[h.clone()], before, s);
-        let at = Kinematics { d: &d, v: &v, d0: &d0, v0: &v0, dt };
+        let at = Kinematics::new([&d, &v], [&d0, &v0], dt);
         response.of((law, link), &at, &history);
         let f = next.f[r.clone()].iter_mut().zip(&response.f);
         f.for_each(|(to, x)| *to += weight * x);

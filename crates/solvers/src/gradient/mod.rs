@@ -24,8 +24,8 @@
 //! alone where it has none. `around` finds ∂M, ∂C, ∂K, ∂B, ∂p and the derivative of the start from the model at four values around θ: where they are
 //! polynomials of θ up to the fourth degree, that is exact to rounding as well.
 //!
-//! FNA goes the same way, on the basis of the run, for parameters of links and loads. Parameters of the structure move its modes:
-//! for those, HHT.
+//! Reduced solvers go the same way, on the basis of the run, for parameters of links and loads. Parameters of the structure move its
+//! modes with it: see `moving`.
 //!
 //! Where a law is bent at a value that it takes at the end of a substep, there is no derivative, but one to each side. What is told then
 //! is that of the branch that the run took, and [`Gradient::bends`] names the links. May use `run` and all rooms above it.
@@ -35,10 +35,14 @@
 mod around;
 mod bends;
 mod course;
+mod influence;
 mod laws;
+mod moving;
 mod outputs;
 mod replay;
+mod sides;
 mod step;
+mod structure;
 
 pub use around::{Around, OFFSETS, SMALL, Varied};
 pub use bends::Bend;

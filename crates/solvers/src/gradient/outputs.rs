@@ -1,6 +1,7 @@
 //! Derivatives of outputs: histories, extremes, values at the end.
 
-use super::around::{Influence, weighted};
+use super::around::weighted;
+use super::influence::Influence;
 use crate::record::{Outputs, Row, move_derived};
 use crate::step::State;
 use trilith_model::{Combine, Side};
@@ -170,6 +171,8 @@ impl<'a> Follower<'a> {
                 let all = [0, 1, 2, 3].map(|i| {
                     let (outputs, loads) = &around[i];
                     let mut own = vec![0.0; values.len()];
+                    let there = influence.turns.as_ref().map(|turns| turns[i].state(state));
+                    let state = there.as_ref().unwrap_or(state);
                     outputs.at((t, Side::Before), state, loads).values(&mut own);
                     own
                 });

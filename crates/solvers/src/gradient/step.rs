@@ -1,25 +1,17 @@
 //! One substep, differentiated by every parameter.
 
-use super::around::Influence;
 use super::bends::{Bend, Bends};
+use super::influence::Influence;
 use super::laws::{LawMoves, Made};
+use super::moving::MovingBasis;
 use crate::error::SolveError;
 use crate::kernel::{Compliance, Layout, Wanted};
 use crate::run::Prepared;
 use crate::step::{Forces, Propagator, State};
-use crate::structure::{Followers, ReducedSystem, acceleration};
+use crate::structure::{Followers, acceleration};
 use trilith_linalg::{Dense, DenseLu};
 use trilith_model::{Model, Side, SolverKind};
 use trilith_system::{LinkSet, Tangents};
-
-/// What a run is made of.
-#[derive(Clone, Copy)]
-pub(super) struct Pieces<'p, 'a> {
-    pub prepared: &'p Prepared<'a>,
-    pub space: &'p ReducedSystem,
-    /// Whether somebody needs rates.
-    pub watched: bool,
-}
 
 /// The derivatives of the state, which go with a run.
 pub(super) struct Moves<'a> {
@@ -30,6 +22,8 @@ pub(super) struct Moves<'a> {
     followers: Followers,
     laws: LawMoves<'a>,
     influences: &'a [Influence<'a>],
+    /// The bases that move with their parameters.
+    moving: Vec<Option<MovingBasis<'a>>>,
     bends: Bends,
     model: &'a Model,
     /// Output step, s, and values of the parameters.
@@ -60,6 +54,7 @@ impl<'a> Moves<'a> {
     pub(super) fn new(
         prepared: &'a Prepared<'a>,
         influences: &'a [Influence<'a>],
+        moving: Vec<Option<MovingBasis<'a>>>,
         mut propagator: Box<dyn Propagator + 'a>,
         state: &State,
     ) -> Result<Self, SolveError> {
@@ -87,6 +82,7 @@ impl<'a> Moves<'a> {
             followers,
             laws: LawMoves::new(prepared.model, links, influences, state),
             influences,
+            moving,
             bends: Bends::default(),
             model: prepared.model,
             output: prepared.dt,
@@ -134,7 +130,12 @@ impl<'a> Moves<'a> {
         let force = space.force(change);
         let by = self.propagator.acceleration(&force)?;
         let flat = self.links.len();
-        for (influence, now) in self.influences.iter().zip(&mut self.now) {
+        let all = self.influences.iter().zip(&mut self.moving);
+        for ((influence, moving), now) in all.zip(&mut self.now) {
+            if let Some(moving) = moving {
+                accelerate(&moving.jump(t)?, &state.motion[2 * n..], &mut now.motion[2 * n..]);
+                continue;
+            }
             let mut force = vec![0.0; n];
             if let Some(loads) = &influence.loads {
                 let side = |side| loads.at(influence.step, t, side, flat);
@@ -149,11 +150,7 @@ impl<'a> Moves<'a> {
                 structure.mass.mul_add(-1.0, &by, &mut force);
             }
             let more = self.propagator.acceleration(&force)?;
-            for ((a, more), now) in
-                now.motion[2 * n..].iter_mut().zip(&more).zip(&state.motion[2 * n..])
-            {
-                *a = if *now == crate::structure::JUMPED { 0.0 } else { *a + acceleration(*more) };
-            }
+            accelerate(&more, &state.motion[2 * n..], &mut now.motion[2 * n..]);
         }
         self.from.clone_from(state);
         self.stale = true;
@@ -173,7 +170,10 @@ impl<'a> Moves<'a> {
         p.fill(0.0);
         if let Some(loads) = &influence.loads {
             let [own, d, v] = loads.at(influence.step, t, side, links.len());
-            p.copy_from_slice(&own);
+            // A basis that moves has its loads in its steps.
+            if influence.turns.is_none() {
+                p.copy_from_slice(&own);
+            }
             support = [d, v];
         }
         if let Some(structure) = &influence.structure {
@@ -187,7 +187,17 @@ impl<'a> Moves<'a> {
     /// A substep of this length was accepted.
     pub(super) fn step(&mut self, to: &State, t: f64, dt: f64) -> Result<(), SolveError> {
         let Self {
-            links, propagator, alpha, layout, followers, laws, influences, from, work, ..
+            links,
+            propagator,
+            alpha,
+            layout,
+            followers,
+            laws,
+            influences,
+            moving,
+            from,
+            work,
+            ..
         } = self;
         let key = propagator.choose(dt, &mut links.stiffness(&from.tangents), &from.stiffest);
         propagator.prepare(key)?;
@@ -203,7 +213,7 @@ impl<'a> Moves<'a> {
             for (own, support) in [(&mut next.d, d), (&mut next.v, v)] {
                 if support.is_empty() { own.fill(0.0) } else { own.copy_from_slice(&support) }
             }
-            if let Some(rows) = influence.structure.as_ref().and_then(|s| s.rows.as_ref()) {
+            if let Some(rows) = &influence.rows {
                 for (row, flat) in rows.iter().zip(&links.active) {
                     next.d[*flat] += row.iter().map(|(i, c)| c * to.motion[*i]).sum::<f64>();
                     next.v[*flat] += row.iter().map(|(i, c)| c * to.motion[n + i]).sum::<f64>();
@@ -227,6 +237,16 @@ impl<'a> Moves<'a> {
                 Wanted { d: &mut work.d, v: &mut work.v, rate_dependent: &layout.rate_dependent };
             next.motion.resize(3 * n, 0.0);
             propagator.predict(&now.motion, &forces, &mut next.motion, wanted);
+            let moved = moving[j].as_mut().map(|m| m.step([from, to], [self.t, t], key));
+            let moved = moved.transpose()?;
+            if let Some(moved) = &moved {
+                let map = &propagator.space().links;
+                map.deform(&moved[..n], &mut work.own);
+                work.d.iter_mut().zip(&work.own).for_each(|(d, x)| *d += x);
+                map.deform(&moved[n..2 * n], &mut work.own);
+                let rated = layout.rate_dependent.iter().zip(&mut work.v);
+                rated.for_each(|(a, v)| *v += work.own[*a]);
+            }
             // f̃ at the end.
             let mut x: Vec<f64> = (links.active.iter().enumerate())
                 .map(|(a, flat)| next.f[*flat] - layout.effective_k[a] * work.d[a] - now.pseudo[a])
@@ -240,6 +260,9 @@ impl<'a> Moves<'a> {
             next.pseudo.clone_from(&x);
             let forces = Forces { loads, pseudo0: &now.pseudo, pseudo1: &next.pseudo };
             propagator.correct(&now.motion, &forces, &mut next.motion);
+            if let Some(moved) = &moved {
+                next.motion.iter_mut().zip(moved).for_each(|(x, by)| *x += by);
+            }
             followers.complete_moves([&from.motion, &to.motion], &now.motion, &mut next.motion, dt);
             let map = &propagator.space().links;
             for (order, own) in [(0, &mut next.d), (1, &mut next.v)] {
@@ -259,6 +282,13 @@ impl<'a> Moves<'a> {
         self.t = t;
         self.stale = false;
         Ok(())
+    }
+}
+
+/// Derivatives of accelerations that follow a jump of loads by `more`; `of`: the accelerations behind it.
+fn accelerate(more: &[f64], of: &[f64], to: &mut [f64]) {
+    for ((to, more), now) in to.iter_mut().zip(more).zip(of) {
+        *to = if *now == crate::structure::JUMPED { 0.0 } else { *to + acceleration(*more) };
     }
 }
 

@@ -150,7 +150,7 @@ impl Stepper for FullNewton<'_> {
             let (u, v) = (to.motion[..n].to_vec(), to.motion[n..2 * n].to_vec());
             self.deform(&u, &v, &loads.end, &mut to.d, &mut to.v);
             laws.respond(
-                Kinematics { d: &to.d, v: &to.v, d0: &from.d, v0: &from.v, dt },
+                Kinematics::new([&to.d, &to.v], [&from.d, &from.v], dt),
                 &from.history,
                 &mut to.history,
                 &mut to.f,

@@ -38,7 +38,7 @@ impl LawResponse {
             none.resize(n, f64::NAN);
             (at.v, at.v0) = (&none[..], &none[..]);
         }
-        let out = &mut Response { f, k, c, energy };
+        let out = &mut Response::new(f, k, c, energy);
         blaming(link.element, || law.respond(&at, committed, history, out));
     }
 }

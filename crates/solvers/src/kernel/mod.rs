@@ -213,7 +213,7 @@ impl<'a> LinkKernel<'a> {
         self.unknowns.parts()[2].copy_from_slice(pseudo);
         (self.iteration, self.size_before, self.expected) = (0, f64::INFINITY, false);
         let Committed { d, v, .. } = *from;
-        self.laws.start(&Kinematics { d, v, d0: d, v0: v, dt: from.dt }, from.history);
+        self.laws.start(&Kinematics::new([d, v], [d, v], from.dt), from.history);
     }
 
     /// Lets deformations and rates follow the last change of f̃.
@@ -311,7 +311,7 @@ impl<'a> LinkKernel<'a> {
             out.d.copy_from_slice(self.unknowns.d());
         }
         out.pseudo.copy_from_slice(self.unknowns.pseudo());
-        let at = Kinematics { d: out.d, v: out.v, d0: from.d, v0: from.v, dt: from.dt };
+        let at = Kinematics::new([out.d, out.v], [from.d, from.v], from.dt);
         self.laws.end(&at, &mut out.laws);
     }
 
@@ -388,7 +388,7 @@ impl<'a> LinkKernel<'a> {
     fn evaluate(&mut self, affine: &Affine<'_>, from: &Committed<'_>, out: &mut Converged<'_>) {
         self.deform(affine, out);
         let (d, v) = (choose(self.plain, &self.unknowns, out.d), &*out.v);
-        let at = Kinematics { d, v, d0: from.d, v0: from.v, dt: from.dt };
+        let at = Kinematics::new([d, v], [from.d, from.v], from.dt);
         let last = self.iteration > 0;
         self.laws.respond(&at, last, from.history, &mut out.laws);
         let Self { layout, unknowns, residual: r, correction, sizes, .. } = self;

@@ -125,7 +125,7 @@ fn tangents(model: &Model, links: &LinkSet, at: &LinksBefore) -> Vec<f64> {
     let (mut f, mut tangents) = (still.clone(), links.tangents());
     let mut history = at.history.clone();
     let mut energy = vec![Energy::default(); links.links.len()];
-    let question = Kinematics { d: &at.d, v: &still, d0: &at.d, v0: &still, dt: 0.0 };
+    let question = Kinematics::still(&at.d, &still);
     links.laws(model).respond(
         question,
         &at.history,

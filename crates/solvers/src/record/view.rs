@@ -115,7 +115,7 @@ impl<'a> Seen<'a> {
         let laws = system.links.laws(model);
         let has_outline = |(law, link): &(&dyn Link, &LinkInstance)| {
             let d = &rest[link.range.clone()];
-            let at = Kinematics { d, v: d, d0: d, v0: d, dt: 0.0 };
+            let at = Kinematics::still(d, d);
             blaming(link.element, || law.outline(&at, &history[link.history.clone()])).is_some()
         };
         let bodies = laws.iter().filter(has_outline).collect();
@@ -397,7 +397,7 @@ impl Place for Standing<'_> {
 /// A link as it stands, no step made.
 fn standing<'a>(link: &LinkInstance, state: &'a State) -> Kinematics<'a> {
     let (d, v) = (&state.d[link.range.clone()], &state.v[link.range.clone()]);
-    Kinematics { d, v, d0: d, v0: v, dt: 0.0 }
+    Kinematics::still(d, v)
 }
 
 /// Shows the end of a static case that holds these loads: one sample at t = 0.

@@ -93,7 +93,7 @@ pub(crate) fn start(
         loads.channels.iter().map(|c| c.track.at(0.0, Side::After)).collect();
     let state = stepper.start(u, v, &before, &amplitudes)?;
     let energy: Vec<Energy> =
-        state.stored.iter().map(|stored| Energy { stored: *stored, ..Energy::default() }).collect();
+        state.stored.iter().map(|stored| Energy::new(*stored, 0.0, 0.0)).collect();
     if let Some(culprit) = not_finite(&system.links, (&state, &state), 0.0, Some(&energy)) {
         return Err(culprit.error(model, system, "at t = 0 s".into()));
     }

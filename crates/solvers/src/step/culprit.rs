@@ -56,7 +56,7 @@ impl Question {
     /// What the law says of it; nothing where that panics.
     fn refusal(&self, element: usize, law: &dyn Link) -> Option<String> {
         let Self { d, v, d0, v0, committed, dt } = self;
-        let at = Kinematics { d, v, d0, v0, dt: *dt };
+        let at = Kinematics::new([d, v], [d0, v0], *dt);
         catch(|| blaming(element, || Answer::refusal(law, &at, committed))).ok().flatten()
     }
 }
@@ -88,7 +88,7 @@ pub(crate) fn is_sound(state: &State, energy: &[Energy]) -> bool {
     for all in [f, history, &tangents.k, &tangents.c] {
         sum += sum_of(all);
     }
-    for Energy { stored, hysteretic, viscous } in energy {
+    for Energy { stored, hysteretic, viscous, .. } in energy {
         sum += stored + hysteretic + viscous;
     }
     // A sum of finite numbers may be too large to be one.
@@ -151,7 +151,7 @@ fn first_in(
     let square = |of: fn(usize, usize) -> Quantity, x: &[f64]| {
         bad(&x[link.block.clone()]).map(|(i, x)| (of(i / n, i % n), x))
     };
-    let of_step = |Energy { stored, hysteretic, viscous }: &Energy| {
+    let of_step = |Energy { stored, hysteretic, viscous, .. }: &Energy| {
         let energies = [
             (Quantity::Stored, *stored),
             (Quantity::Hysteretic, *hysteretic),
@@ -187,11 +187,11 @@ pub(crate) fn asked_again(
 ) -> Option<Culprit> {
     let State { d, v, .. } = to;
     look_away(laws, links, from);
-    let at = Kinematics { d, v, d0: &from.d, v0: &from.v, dt };
+    let at = Kinematics::new([d, v], [&from.d, &from.v], dt);
     let again = forces(laws, links, at, &from.history);
     let changed = other(links, &to.scale, &to.f, &again, changes);
     changed.or_else(|| {
-        let at = Kinematics { d, v, d0: d, v0: v, dt: 0.0 };
+        let at = Kinematics::still(d, v);
         let start = forces(laws, links, at, &to.history);
         let jumps = |coordinate, end, start| Wrong::Jumps { coordinate, end, start };
         other(links, &to.scale, &to.f, &start, jumps)
@@ -201,7 +201,7 @@ pub(crate) fn asked_again(
 /// The first law that answers otherwise when it is asked the same twice, where steps find no equilibrium or no end.
 pub(crate) fn asked_twice(laws: &Laws<'_>, links: &LinkSet, at: &State) -> Option<Culprit> {
     let State { d, v, history, scale, .. } = at;
-    let ask = || forces(laws, links, Kinematics { d, v, d0: d, v0: v, dt: 0.0 }, history);
+    let ask = || forces(laws, links, Kinematics::still(d, v), history);
     let once = ask();
     look_away(laws, links, at);
     other(links, scale, &once, &ask(), changes)
@@ -211,7 +211,7 @@ pub(crate) fn asked_twice(laws: &Laws<'_>, links: &LinkSet, at: &State) -> Optio
 fn look_away(laws: &Laws<'_>, links: &LinkSet, at: &State) {
     let State { d, v, history, .. } = at;
     let away: Vec<f64> = d.iter().map(|d| -d).collect();
-    forces(laws, links, Kinematics { d: &away, v, d0: d, v0: v, dt: 0.0 }, history);
+    forces(laws, links, Kinematics::new([&away, v], [d, v], 0.0), history);
 }
 
 fn changes(coordinate: usize, first: f64, again: f64) -> Wrong {

@@ -87,7 +87,7 @@ fn lead(model: &Model, links: &LinkSet, before: &LinksBefore, d: &[f64]) -> Vec<
             for (x, (from, to)) in next.iter_mut().zip(before.d.iter().zip(d)) {
                 *x = if i == steps { *to } else { from + share * (to - from) };
             }
-            let path = Kinematics { d: &next, v: &still, d0: &at, v0: &still, dt: 0.0 };
+            let path = Kinematics::new([&next, &still], [&at, &still], 0.0);
             laws.respond(path, &history, &mut led, &mut f, &mut tangents, &mut energy);
             std::mem::swap(&mut history, &mut led);
             std::mem::swap(&mut at, &mut next);
@@ -125,7 +125,7 @@ impl State {
         };
         let mut energy = vec![Energy::default(); links.links.len()];
         links.laws(model).respond(
-            Kinematics { d: &state.d, v: &state.v, d0: &state.d, v0: &state.v, dt: 0.0 },
+            Kinematics::still(&state.d, &state.v),
             &history,
             &mut state.history,
             &mut state.f,

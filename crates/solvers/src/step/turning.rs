@@ -70,7 +70,7 @@ impl Turning {
                 }
                 let committed = &from.history[link.history.clone()];
                 let (d0, d1) = (&from.d[r.clone()], &to.d[r.clone()]);
-                let at = Kinematics { d: &self.d, v: &self.v, d0, v0: &self.v0, dt: s };
+                let at = Kinematics::new([&self.d, &self.v], [d0, &self.v0], s);
                 self.there.of((law, link), &at, committed);
                 // At the turning point, beyond what the tangents at the end say.
                 let (k1, c1) =
@@ -85,7 +85,7 @@ impl Turning {
                     self.apart.push((f - expected).abs());
                 }
                 let (d0, v0) = (&self.d[..], &self.v[..]);
-                let at = Kinematics { d: d1, v: &rates[r.clone()], d0, v0, dt: left };
+                let at = Kinematics::new([d1, &rates[r.clone()]], [d0, v0], left);
                 self.after.of((law, link), &at, &self.there.history);
                 for (j, flat) in r.clone().enumerate() {
                     let behind = (self.after.f[j] - to.f[flat]).abs();

@@ -122,7 +122,7 @@ impl Vibration {
                     moved.map(|(x, (most, own))| x - own[kind] + side * most[kind]).collect()
                 };
                 let (d, v) = (there(d0, 0), there(v0, 1));
-                let at = Kinematics { d: &d, v: &v, d0, v0, dt: 0.0 };
+                let at = Kinematics::new([&d, &v], [d0, v0], 0.0);
                 self.answer.of((law, link), &at, &state.history[link.history.clone()]);
                 let work = (0..r.len()).map(|i| {
                     let change = self.answer.f[i] - state.f[r.start + i];
@@ -172,13 +172,11 @@ impl Vibration {
             missed.fill(0.0);
             for (law, link) in laws.iter().filter(|(law, _)| law.damping_constant().is_none()) {
                 let r = link.range.clone();
-                let at = Kinematics {
-                    d: &d[r.clone()],
-                    v: &v[r.clone()],
-                    d0: &d0[r.clone()],
-                    v0: &v0[r.clone()],
-                    dt: part,
-                };
+                let at = Kinematics::new(
+                    [&d[r.clone()], &v[r.clone()]],
+                    [&d0[r.clone()], &v0[r.clone()]],
+                    part,
+                );
                 self.answer.of((law, link), &at, &history[link.history.clone()]);
                 history[link.history.clone()].copy_from_slice(&self.answer.history);
                 for (i, f) in r.zip(&self.answer.f) {

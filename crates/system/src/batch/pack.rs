@@ -266,7 +266,7 @@ impl<A: Arithmetic> Task<A> for Commit<'_, '_, A> {
         let [stored, hysteretic, viscous] = rows;
         for (lane, link) in histories.lanes().iter().copied().zip(&pack.links) {
             let (stored, hysteretic) = (stored[lane], hysteretic[lane]);
-            energy[*link] = Energy { stored, hysteretic, viscous: viscous[lane] };
+            energy[*link] = Energy::new(stored, hysteretic, viscous[lane]);
         }
     }
 }

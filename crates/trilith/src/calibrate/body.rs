@@ -192,7 +192,7 @@ fn opening(system: &System, model: &Model, contact: &ImpactMass) -> f64 {
     let link = &system.links.links[contact.link];
     let n = link.range.len();
     let zeros = vec![0.0; n];
-    let at = trilith_element::Kinematics { d: &zeros, v: &zeros, d0: &zeros, v0: &zeros, dt: 0.0 };
+    let at = trilith_element::Kinematics::still(&zeros, &zeros);
     let mut history = vec![0.0; link.history.len()];
     let law = system.links.law(model, link);
     law.and_then(|l| {

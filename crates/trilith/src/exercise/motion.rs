@@ -78,7 +78,7 @@ mod tests {
     use super::*;
 
     fn motion() -> Motion {
-        let orbit = Stroke { mean: 0.2, amplitude: 0.3, phase: 0.25 };
+        let orbit = Stroke::about(0.2, 0.3).with_phase(0.25);
         Motion { frequency: 2.0, strokes: vec![Stroke::about(-1.0, 0.5), orbit], cycles: 3 }
     }
 

@@ -360,7 +360,8 @@ impl Bearing {
         };
         out.energy.stored = stored;
         out.energy.hysteretic = heat.max(0.0);
-        let along_gap = Kinematics { d: &[], v: &[gap.rate], d0: &[], v0: &[gap0.rate], dt: at.dt };
+        let (rate, rate0) = ([gap.rate], [gap0.rate]);
+        let along_gap = Kinematics::new([&[], &rate], [&[], &rate0], at.dt);
         let damped = |p: &Pressed| p.normal.f + p.side * p.normal.spring;
         let stretching = 0.5 * (damped0 + damped1).dot(&(reached - end - stretched0));
         out.energy.viscous =
@@ -400,12 +401,7 @@ impl Bearing {
         } else {
             load
         };
-        Contact {
-            gap: clearance,
-            normal,
-            position: [at.d[1], at.d[2]],
-            slipping: history.slipping > 0.0,
-        }
+        Contact::new(clearance, normal).at([at.d[1], at.d[2]]).slipping(history.slipping > 0.0)
     }
 }
 

@@ -15,16 +15,13 @@ struct Spring {
 }
 
 const fn parameter(name: &'static str, form: Form, range: Range, default: Default) -> Parameter {
-    Parameter { name, symbol: "x", form, range, default, meaning: "a made-up number" }
+    Parameter::new(name, "x", form, default, "a made-up number").within(range)
 }
 
 impl Described for Spring {
-    const CARD: Card = Card {
-        kind: "Spring",
-        category: Category::Linear,
-        summary: "A spring.",
-        nodes: NodeCount { min: 1, max: 3 },
-        parameters: &[
+    const CARD: Card = Card::new("Spring", Category::Linear, "A spring.")
+        .nodes(NodeCount { min: 1, max: 3 })
+        .parameters(&[
             parameter("stiffness", Form::Number(d::STIFFNESS), Range::Positive, Default::Required),
             parameter(
                 "inertia",
@@ -32,12 +29,11 @@ impl Described for Spring {
                 Range::NonNegative,
                 Default::Absent,
             ),
-        ],
-        law: "f = k d",
-        source: "",
-        example: "",
-        exercise: Exercise::NONE,
-    };
+        ])
+        .law("f = k d")
+        .source("")
+        .example("")
+        .exercise(Exercise::NONE);
 }
 
 impl LinearElement for Spring {
@@ -60,12 +56,9 @@ struct Slider {
 }
 
 impl Described for Slider {
-    const CARD: Card = Card {
-        kind: "Slider",
-        category: Category::Link,
-        summary: "A sliding link.",
-        nodes: NodeCount::GROUND_OR_TWO,
-        parameters: &[
+    const CARD: Card = Card::new("Slider", Category::Link, "A sliding link.")
+        .nodes(NodeCount::GROUND_OR_TWO)
+        .parameters(&[
             parameter("kn", Form::Number(d::STIFFNESS), Range::Positive, Default::Required),
             parameter("mu", Form::Number(d::NONE), Range::Within(0.0, 2.0), Default::Number(0.5)),
             parameter(
@@ -83,12 +76,11 @@ impl Described for Slider {
             ),
             parameter("pull", Form::Flag, Range::Any, Default::Flag(true)),
             parameter("axes", Form::Choices(Axis::NAMES), Range::Any, Default::Choice("U1")),
-        ],
-        law: "f = k d",
-        source: "",
-        example: "",
-        exercise: Exercise::NONE,
-    };
+        ])
+        .law("f = k d")
+        .source("")
+        .example("")
+        .exercise(Exercise::NONE);
     fn check(&self) -> Result<(), ParameterError> {
         if self.mu == 0.0 && self.c > 0.0 {
             return Err(ParameterError::inconsistent("c", "a dashpot needs friction here"));
@@ -117,20 +109,16 @@ pub(super) struct Decay {
 }
 
 impl Described for Decay {
-    const CARD: Card = Card {
-        kind: "Decay",
-        category: Category::Function,
-        summary: "A shock that decays.",
-        nodes: NodeCount::NONE,
-        parameters: &[
+    const CARD: Card = Card::new("Decay", Category::Function, "A shock that decays.")
+        .nodes(NodeCount::NONE)
+        .parameters(&[
             parameter("time", Form::Number(d::TIME), Range::Positive, Default::Required),
             parameter("start", Form::Number(d::TIME), Range::Any, Default::Number(0.0)),
-        ],
-        law: "y = e^(−(t − start)/time)",
-        source: "",
-        example: "",
-        exercise: Exercise::NONE,
-    };
+        ])
+        .law("y = e^(−(t − start)/time)")
+        .source("")
+        .example("")
+        .exercise(Exercise::NONE);
 }
 
 impl Waveform for Decay {

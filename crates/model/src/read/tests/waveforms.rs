@@ -28,9 +28,9 @@ impl Waveform for Odd {
     }
 }
 
-const ODD: Card = Card { kind: "Odd", parameters: &[], ..super::kinds::Decay::CARD };
+const ODD: Card = super::kinds::Decay::CARD.named("Odd").parameters(&[]);
 /// A name that a built-in function has.
-const SINE: Card = Card { kind: "Sine", ..ODD };
+const SINE: Card = ODD.named("Sine");
 
 const DECAY: &str = r#"Decay(amplitude: "2 kN", time: "0.5 s", start: "1 s")"#;
 

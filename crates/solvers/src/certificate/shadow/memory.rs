@@ -51,7 +51,7 @@ impl<'a> Memory<'a> {
             };
             let (d, v) = (sum(d, e), sum(v, rate));
             let (d0, v0) = (&d0[r.clone()], &v0[r.clone()]);
-            let end = Kinematics { d: &d, v: &v, d0, v0, dt };
+            let end = Kinematics::new([&d, &v], [d0, v0], dt);
             answer.of((law, link), &end, &history[link.history.clone()]);
             for (i, flat) in r.clone().enumerate() {
                 let row = |x: &[f64], e: &[f64]| -> f64 {
@@ -71,7 +71,7 @@ impl<'a> Memory<'a> {
         for (law, link) in laws.iter().filter(|(_, link)| !link.history.is_empty()) {
             let r = link.range.clone();
             let (d, v) = (&to[0][r.clone()], &to[1][r.clone()]);
-            let end = Kinematics { d, v, d0: &d0[r.clone()], v0: &v0[r.clone()], dt };
+            let end = Kinematics::new([d, v], [&d0[r.clone()], &v0[r.clone()]], dt);
             let own = &mut history[link.history.clone()];
             answer.of((law, link), &end, own);
             own.copy_from_slice(&answer.history);

@@ -201,7 +201,7 @@ fn rest(law: &dyn Link) -> (Vec<f64>, Vec<f64>) {
 }
 
 fn unmoved(zero: &[f64]) -> Kinematics<'_> {
-    Kinematics { d: zero, v: zero, d0: zero, v0: zero, dt: 0.0 }
+    Kinematics::still(zero, zero)
 }
 
 /// The outline of a law before anything has happened.

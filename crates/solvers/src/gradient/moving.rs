@@ -1,0 +1,272 @@
+//! A basis that moves with the structure.
+//!
+//! Reduced solvers step coordinates q of a basis Φ that follows the structure. Beside the value of a parameter there is another
+//! basis Φᵢ with coordinates of its own, whose signs and order mean nothing; what is the same motion there is
+//!
+//! ```text
+//! qᵢ = Tᵢ q        Tᵢ = Φᵢᵀ Mᵢ Φ        (modes; static shapes: one by one)
+//! ```
+//!
+//! T is smooth in the parameter as the span is, and the identity at its value. All that the structure does in a step is the step
+//! of each of four structures around, from the same motion, under the same link forces, each led back by its T:
+//!
+//! ```text
+//! ∂x₁ = Σ wᵢ Tᵢ⁻¹ stepᵢ(Tᵢ x₀, pᵢ, f₀, f₁)        δx₁ = step(δx₀, 0, δf₀, δf₁) + ∂x₁
+//! ```
+//!
+//! Masses, stiffness, damping, vectors and loads are in it, and the exact exponential of FNA as it is: nothing of it is written twice.
+
+use super::around::{Around, Varied, WEIGHTS, weighted};
+use super::sides::start;
+use crate::basis::RitzBasis;
+use crate::error::SolveError;
+use crate::kernel::{Layout, StepKey, Wanted};
+use crate::march::jump;
+use crate::run::Prepared;
+use crate::step::{Forces, Propagator, State};
+use crate::structure::{JUMPED, Motion, ReducedSystem, acceleration};
+use std::sync::Arc;
+use trilith_linalg::{Dense, DenseLu};
+use trilith_model::{Side, SolverKind};
+use trilith_system::System;
+
+/// How much of a static shape another one must be to pass for it, and of a mode where modes step by rules of their own.
+const SAME_SHAPE: f64 = 0.9;
+
+/// Coordinates of one basis as those of another.
+pub(super) struct Turn {
+    modes: Dense,
+    back: DenseLu,
+    /// 1 or −1 for each static shape.
+    statics: Vec<f64>,
+    /// True where every mode is one of the other basis, in the same order.
+    in_order: bool,
+}
+
+impl Turn {
+    /// From one basis to that of another system; none where they hold other things.
+    pub(super) fn new(from: &RitzBasis, to: &RitzBasis, system: &System) -> Option<Self> {
+        let n = from.modes();
+        if to.modes() != n || to.statics() != from.statics() {
+            return None;
+        }
+        let mut modes = Dense::zeros(n, n);
+        let mut in_order = true;
+        for j in 0..n {
+            let image = system.mass.mul(&from.shapes.heavy(j));
+            let column = to.shapes.load(&image);
+            in_order &= column[j].abs() > SAME_SHAPE;
+            modes.column_mut(j).copy_from_slice(&column[..n]);
+        }
+        let same = |r: usize| {
+            let (a, b) = (from.shapes.kept(n + r), to.shapes.kept(n + r));
+            let of = |x: &[f64], y: &[f64]| x.iter().zip(y).map(|(x, y)| x * y).sum::<f64>();
+            let cosine = of(a, b) / (of(a, a) * of(b, b)).sqrt();
+            (a.len() == b.len() && cosine.abs() > SAME_SHAPE).then(|| cosine.signum())
+        };
+        let statics = (0..from.statics()).map(same).collect::<Option<_>>()?;
+        let back = DenseLu::new(&modes);
+        Some(Self { modes, back, statics, in_order })
+    }
+
+    /// A motion in the other coordinates: displacements, velocities, accelerations.
+    pub(super) fn there(&self, motion: &[f64]) -> Motion {
+        self.each(motion, |part, to| self.modes.mul_add(1.0, part, to))
+    }
+
+    /// And from there.
+    pub(super) fn back(&self, motion: &[f64]) -> Motion {
+        self.each(motion, |part, to| {
+            to.copy_from_slice(part);
+            self.back.solve(to);
+        })
+    }
+
+    fn each(&self, motion: &[f64], turn: impl Fn(&[f64], &mut [f64])) -> Motion {
+        let modes = self.modes.columns();
+        let mut out = vec![0.0; motion.len()];
+        let parts = motion.chunks(modes + self.statics.len());
+        for (part, out) in parts.zip(out.chunks_mut(modes + self.statics.len())) {
+            turn(&part[..modes], &mut out[..modes]);
+            let statics = part[modes..].iter().zip(&self.statics);
+            for (out, (x, sign)) in out[modes..].iter_mut().zip(statics) {
+                *out = if *x == JUMPED { JUMPED } else { sign * x };
+            }
+        }
+        out
+    }
+
+    /// A state with its motion there; links are what they are.
+    pub(super) fn state(&self, state: &State) -> State {
+        State { motion: self.there(&state.motion), ..state.clone() }
+    }
+
+    /// A row over the coordinates there as one over those here.
+    fn row(&self, row: &[f64]) -> Vec<f64> {
+        let modes = self.modes.columns();
+        let mut out = vec![0.0; row.len()];
+        self.modes.transpose_mul_add(1.0, &row[..modes], &mut out[..modes]);
+        for ((out, x), sign) in out[modes..].iter_mut().zip(&row[modes..]).zip(&self.statics) {
+            *out = sign * x;
+        }
+        out
+    }
+}
+
+/// What a structure that moves does to the steps of a run.
+pub(super) struct MovingBasis<'a> {
+    step: f64,
+    name: &'a str,
+    sides: Vec<(Box<dyn Propagator + 'a>, &'a Prepared<'a>)>,
+    turns: Arc<[Turn; 4]>,
+    /// Flat indices of the active link coordinates.
+    active: &'a [usize],
+    rate_dependent: Vec<usize>,
+}
+
+impl<'a> MovingBasis<'a> {
+    /// Of four models around a parameter that are prepared for the solver of a run.
+    pub(super) fn new(
+        of: &'a Around,
+        prepared: &'a [Prepared<'a>; 4],
+        base: &'a Prepared<'a>,
+        watched: bool,
+    ) -> Result<Self, SolveError> {
+        let Varied { name, step, .. } = &of.of;
+        let kind = base.kind.name();
+        let refuse = |why: &str| SolveError::NoGradient {
+            reason: format!(
+                "`{name}` moves the structure, and beside its value the basis of {kind} {why}; `--solver hht` gives derivatives by it"
+            ),
+        };
+        let links = &base.system.links;
+        let layout = Layout::new(links, &links.laws(base.model), Vec::new());
+        let (mut sides, mut turns) = (Vec::with_capacity(4), Vec::with_capacity(4));
+        for side in prepared {
+            let (Some(from), Some(to), Some(mut propagator)) =
+                (&base.bases, &side.bases, side.equations(watched).propagator())
+            else {
+                return Err(refuse("is not there"));
+            };
+            if from.stepping.statics() > 0 && base.kind != SolverKind::Fna {
+                return Err(refuse("has static shapes"));
+            }
+            let turn = Turn::new(&from.stepping, &to.stepping, side.system);
+            turns.push(turn.ok_or_else(|| refuse("holds other vectors"))?);
+            if base.kind == SolverKind::Fna {
+                propagator.set_rates(&layout.rate_dependent, &layout.damped)?;
+            }
+            sides.push((propagator, side));
+        }
+        let Ok(turns) = turns.try_into() else { return Err(refuse("is not there")) };
+        let Layout { rate_dependent, .. } = layout;
+        let active = &links.active;
+        Ok(Self { step: *step, name, sides, turns: Arc::new(turns), active, rate_dependent })
+    }
+
+    /// The coordinates of the models around.
+    pub(super) fn turns(&self) -> Arc<[Turn; 4]> {
+        Arc::clone(&self.turns)
+    }
+
+    /// The states that the models around start from, as motions of the run.
+    pub(super) fn starts(&self, watched: bool) -> Result<[State; 4], SolveError> {
+        let of = |side: usize| -> Result<State, SolveError> {
+            let state = start(self.sides[side].1, None, watched)?;
+            Ok(State { motion: self.turns[side].back(&state.motion), ..state })
+        };
+        let [a, b, c, d] = [0, 1, 2, 3].map(of);
+        Ok([a?, b?, c?, d?])
+    }
+
+    /// Derivatives of the rows of the active link coordinates.
+    pub(super) fn rows(&self) -> Vec<Vec<(usize, f64)>> {
+        let row = |side: usize, a: usize| {
+            let space = self.sides[side].0.space();
+            let mut row = vec![0.0; space.order()];
+            space.links.row(a).for_each(|(i, c)| row[i] += c);
+            self.turns[side].row(&row)
+        };
+        let of = |a: usize| {
+            let all = [0, 1, 2, 3].map(|side| row(side, a));
+            let sum = weighted(self.step, [0, 1, 2, 3].map(|side| &all[side][..]));
+            sum.into_iter().enumerate().filter(|(_, c)| *c != 0.0).collect()
+        };
+        (0..self.active.len()).map(of).collect()
+    }
+
+    /// The coordinates of the four structures.
+    pub(super) fn spaces(&self) -> [&ReducedSystem; 4] {
+        [0, 1, 2, 3].map(|i| self.sides[i].0.space())
+    }
+
+    /// Link forces of a state as this structure takes them: those of its effective stiffnesses are in it.
+    fn pseudo(&self, side: usize, motion: &[f64], state: &State) -> Vec<f64> {
+        let space = self.sides[side].0.space();
+        let mut own = vec![0.0; self.active.len()];
+        space.links.deform(&motion[..space.order()], &mut own);
+        let forces = self.active.iter().zip(&space.effective_k).zip(own);
+        forces.map(|((flat, k), d)| state.f[*flat] - k * d).collect()
+    }
+
+    /// The derivative of the motion at the end of a step by all that the structure and its loads do in it.
+    pub(super) fn step(
+        &mut self,
+        [from, to]: [&State; 2],
+        [start, end]: [f64; 2],
+        key: StepKey,
+    ) -> Result<Motion, SolveError> {
+        let mut sum = vec![0.0; to.motion.len()];
+        for side in 0..4 {
+            let turn = &self.turns[side];
+            if key.average != 0 && !turn.in_order {
+                return Err(SolveError::NoGradient {
+                    reason: format!(
+                        "beside the value of `{}` modes change places at t = {end:.6} s, where some of them step by average acceleration; `--solver hht` gives derivatives by it",
+                        self.name
+                    ),
+                });
+            }
+            let motion = turn.there(&from.motion);
+            let pseudo0 = self.pseudo(side, &motion, from);
+            let pseudo1 = self.pseudo(side, &turn.there(&to.motion), to);
+            let (propagator, Prepared { loads, .. }) = &mut self.sides[side];
+            propagator.prepare(key)?;
+            let force = |t: f64, of: Side| {
+                let amplitudes: Vec<f64> =
+                    loads.channels.iter().map(|c| c.track.at(t, of)).collect();
+                propagator.space().force(&amplitudes)
+            };
+            let loads = [force(start, Side::After), force(end, Side::Before)];
+            let loads = [&loads[0][..], &loads[1][..]];
+            let mut made = vec![0.0; motion.len()];
+            let (mut d, mut v) =
+                (vec![0.0; self.active.len()], vec![0.0; self.rate_dependent.len()]);
+            let wanted = Wanted { d: &mut d, v: &mut v, rate_dependent: &self.rate_dependent };
+            let forces = Forces { loads, pseudo0: &pseudo0, pseudo1: &pseudo0 };
+            propagator.predict(&motion, &forces, &mut made, wanted);
+            let forces = Forces { loads, pseudo0: &pseudo0, pseudo1: &pseudo1 };
+            propagator.correct(&motion, &forces, &mut made);
+            let weight = WEIGHTS[side] / self.step;
+            let made = turn.back(&made);
+            sum.iter_mut().zip(&made).for_each(|(sum, x)| *sum += weight * acceleration(*x));
+        }
+        Ok(sum)
+    }
+
+    /// The derivative of how accelerations follow a jump of the loads at a time.
+    pub(super) fn jump(&mut self, t: f64) -> Result<Vec<f64>, SolveError> {
+        let n = self.sides[0].0.space().order();
+        let mut sum = vec![0.0; n];
+        let sides = self.sides.iter_mut().zip(self.turns.iter().zip(WEIGHTS));
+        for ((propagator, Prepared { loads, .. }), (turn, weight)) in sides {
+            let change = jump(loads, t).unwrap_or_else(|| vec![0.0; loads.channels.len()]);
+            let force = propagator.space().force(&change);
+            let by = turn.back(&propagator.acceleration(&force)?);
+            for (sum, a) in sum.iter_mut().zip(&by) {
+                *sum += weight / self.step * acceleration(*a);
+            }
+        }
+        Ok(sum)
+    }
+}
