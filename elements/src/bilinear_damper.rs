@@ -47,32 +47,36 @@ pub struct BilinearDamper {
 }
 
 impl Described for BilinearDamper {
-    const CARD: Card = Card::new("BilinearDamper", Category::Link, "Spring in series with an oil damper that has a relief valve.")
-.nodes(NodeCount::GROUND_OR_TWO)
-.parameters(&[
-            Parameter::required("k", "k", STIFFNESS, Range::Positive, "stiffness of the spring"),
-            Parameter::required(
-                "c",
-                "c",
-                DAMPING,
-                Range::Positive,
-                "coefficient up to the relief force",
-            ),
-            Parameter::required(
-                "cy",
-                "c_y",
-                DAMPING,
-                Range::NonNegative,
-                "coefficient beyond the relief force",
-            ),
-            Parameter::required("fl", "f_l", FORCE, Range::Positive, "relief force"),
-            Parameter::choice("axis", &["U1", "U2", "U3"], "U1", "local axis"),
-        ])
-.law("f = k d_k = F(w), d = d_k + ∫ w dt\n\
-              F(w) = c w where |w| ≤ f_l/c, else sgn(w) f_l + c_y (w − sgn(w) f_l/c)")
-.source("SAP2000 bilinear damper; JSSI manual of passive control, oil damper, 2003")
-.example(r#""damper": BilinearDamper(nodes: ("a", "b"), k: "50 MN/m", c: "1 MN*s/m", cy: "70 kN*s/m", fl: "200 kN")"#)
-.exercise(Exercise::new(1.0, &[Stroke::about(0.0, 0.08)]));
+    const CARD: Card = Card::new(
+        "BilinearDamper",
+        Category::Link,
+        "Spring in series with an oil damper that has a relief valve.",
+    )
+    .nodes(NodeCount::GROUND_OR_TWO)
+    .parameters(&[
+        Parameter::required("k", "k", STIFFNESS, Range::Positive, "stiffness of the spring"),
+        Parameter::required(
+            "c",
+            "c",
+            DAMPING,
+            Range::Positive,
+            "coefficient up to the relief force",
+        ),
+        Parameter::required(
+            "cy",
+            "c_y",
+            DAMPING,
+            Range::NonNegative,
+            "coefficient beyond the relief force",
+        ),
+        Parameter::required("fl", "f_l", FORCE, Range::Positive, "relief force"),
+        Parameter::choice("axis", &["U1", "U2", "U3"], "U1", "local axis"),
+    ])
+    .law("f = k d_k = F(w), d = d_k + ∫ w dt\n\
+          F(w) = c w where |w| ≤ f_l/c, else sgn(w) f_l + c_y (w − sgn(w) f_l/c)")
+    .source("SAP2000 bilinear damper; JSSI manual of passive control, oil damper, 2003")
+    .example(r#""damper": BilinearDamper(nodes: ("a", "b"), k: "50 MN/m", c: "1 MN*s/m", cy: "70 kN*s/m", fl: "200 kN")"#)
+    .exercise(Exercise::new(1.0, &[Stroke::about(0.0, 0.08)]));
 }
 
 impl Viscous for BilinearDamper {

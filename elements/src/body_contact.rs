@@ -94,99 +94,103 @@ pub struct BodyContact {
 }
 
 impl Described for BodyContact {
-    const CARD: Card = Card::new("BodyContact", Category::Link, "Contact of two bodies in finite rotation: points on a face, or round bodies side by side.")
-.nodes(NodeCount::exactly(2))
-.parameters(&[
-            Parameter::new(
-                "points",
-                "rᵢ",
-                Form::Points,
-                Default::Absent,
-                "points of the second body, from its node, at rest",
-            ),
-            Parameter::new(
-                "face",
-                "a",
-                Form::Numbers { dimension: LENGTH, count: Some(3) },
-                Default::Absent,
-                "a point of the first body's face (its middle), from its node",
-            ),
-            Parameter::new(
-                "normal",
-                "n",
-                Form::Numbers { dimension: NONE, count: Some(3) },
-                Default::Absent,
-                "direction out of the face; none: upwards, (0, 0, 1)",
-            ),
-            Parameter::new(
-                "extent",
-                "",
-                Form::Numbers { dimension: LENGTH, count: Some(2) },
-                Default::Absent,
-                "half widths of the face along its two axes; none: it has no edge",
-            )
-            .within(Range::Positive),
-            Parameter::new(
-                "radii",
-                "r",
-                Form::Numbers { dimension: LENGTH, count: Some(2) },
-                Default::Absent,
-                "instead of points and face: radii of the first and of the second body",
-            )
-            .within(Range::Positive),
-            Parameter::new(
-                "heights",
-                "z",
-                Form::Numbers { dimension: LENGTH, count: None },
-                Default::Absent,
-                "where the second round body touches, from its node along its axis",
-            ),
-            Parameter::required(
-                "kn",
-                "kₙ",
-                STIFFNESS,
-                Range::Positive,
-                "contact stiffness of each point or height",
-            ),
-            Parameter::number(
-                "damping",
-                "c",
-                DAMPING,
-                Range::NonNegative,
-                0.0,
-                "contact dashpot of each point or height, acts only where closed",
-            ),
-            Parameter::flag("pull", false, "the dashpot may pull while closed"),
-            Parameter::number("mu", "μ", NONE, Range::NonNegative, 0.0, "friction coefficient"),
-            Parameter::optional(
-                "ks",
-                "kₛ",
-                STIFFNESS,
-                Range::Positive,
-                "pre-slip stiffness of each point or height; required with friction",
-            ),
-        ])
-.law("s = R₁ᵀ (X + u₂ − u₁), R = R₁ᵀ R₂: the second body as the first sees it\n\
-              points: gapᵢ = n·(s + R rᵢ − a), friction in the face\n\
-              round: gap = |(s + R z e₃)₁₂| − r₁ − r₂, friction across and along the axis\n\
-              forces as NLink: gap kₙ with dashpot c, friction μ with pre-slip stiffness kₛ\n\
-              F₂ = R₁ f, M₂ = m (axes of the second); F₁ = −R₁ f, M₁ = −s × f − R m (axes of the first)")
-.source("relative motion of rigid bodies, Goldstein, Classical Mechanics, ch. 4")
-.example(r#""casks": BodyContact(nodes: ("cask 1", "cask 2"), radii: ("0.49 m", "0.49 m"), heights: ("-0.8 m", "0.8 m"), kn: "1e8 N/m", ks: "1e8 N/m", mu: 0.2)"#)
-.exercise(Exercise::new(0.5, &[
-                Stroke::about(0.0, 0.0),
-                Stroke::about(0.0, 0.0),
-                Stroke::about(0.0, 0.0),
-                Stroke::about(0.0, 0.0),
-                Stroke::about(0.0, 0.0),
-                Stroke::about(0.0, 0.0),
-                Stroke::about(-0.022, 0.004),
-                Stroke::about(0.0, 1e-3),
-                Stroke::about(0.0, 0.0),
-                Stroke::about(0.0, 0.0),
-                Stroke::about(0.0, 1e-4),
-                Stroke::about(0.0, 0.0),
-            ]));
+    const CARD: Card = Card::new(
+        "BodyContact",
+        Category::Link,
+        "Contact of two bodies in finite rotation: points on a face, or round bodies side by side.",
+    )
+    .nodes(NodeCount::exactly(2))
+    .parameters(&[
+        Parameter::new(
+            "points",
+            "rᵢ",
+            Form::Points,
+            Default::Absent,
+            "points of the second body, from its node, at rest",
+        ),
+        Parameter::new(
+            "face",
+            "a",
+            Form::Numbers { dimension: LENGTH, count: Some(3) },
+            Default::Absent,
+            "a point of the first body's face (its middle), from its node",
+        ),
+        Parameter::new(
+            "normal",
+            "n",
+            Form::Numbers { dimension: NONE, count: Some(3) },
+            Default::Absent,
+            "direction out of the face; none: upwards, (0, 0, 1)",
+        ),
+        Parameter::new(
+            "extent",
+            "",
+            Form::Numbers { dimension: LENGTH, count: Some(2) },
+            Default::Absent,
+            "half widths of the face along its two axes; none: it has no edge",
+        )
+        .within(Range::Positive),
+        Parameter::new(
+            "radii",
+            "r",
+            Form::Numbers { dimension: LENGTH, count: Some(2) },
+            Default::Absent,
+            "instead of points and face: radii of the first and of the second body",
+        )
+        .within(Range::Positive),
+        Parameter::new(
+            "heights",
+            "z",
+            Form::Numbers { dimension: LENGTH, count: None },
+            Default::Absent,
+            "where the second round body touches, from its node along its axis",
+        ),
+        Parameter::required(
+            "kn",
+            "kₙ",
+            STIFFNESS,
+            Range::Positive,
+            "contact stiffness of each point or height",
+        ),
+        Parameter::number(
+            "damping",
+            "c",
+            DAMPING,
+            Range::NonNegative,
+            0.0,
+            "contact dashpot of each point or height, acts only where closed",
+        ),
+        Parameter::flag("pull", false, "the dashpot may pull while closed"),
+        Parameter::number("mu", "μ", NONE, Range::NonNegative, 0.0, "friction coefficient"),
+        Parameter::optional(
+            "ks",
+            "kₛ",
+            STIFFNESS,
+            Range::Positive,
+            "pre-slip stiffness of each point or height; required with friction",
+        ),
+    ])
+    .law("s = R₁ᵀ (X + u₂ − u₁), R = R₁ᵀ R₂: the second body as the first sees it\n\
+          points: gapᵢ = n·(s + R rᵢ − a), friction in the face\n\
+          round: gap = |(s + R z e₃)₁₂| − r₁ − r₂, friction across and along the axis\n\
+          forces as NLink: gap kₙ with dashpot c, friction μ with pre-slip stiffness kₛ\n\
+          F₂ = R₁ f, M₂ = m (axes of the second); F₁ = −R₁ f, M₁ = −s × f − R m (axes of the first)")
+    .source("relative motion of rigid bodies, Goldstein, Classical Mechanics, ch. 4")
+    .example(r#""casks": BodyContact(nodes: ("cask 1", "cask 2"), radii: ("0.49 m", "0.49 m"), heights: ("-0.8 m", "0.8 m"), kn: "1e8 N/m", ks: "1e8 N/m", mu: 0.2)"#)
+    .exercise(Exercise::new(0.5, &[
+            Stroke::about(0.0, 0.0),
+            Stroke::about(0.0, 0.0),
+            Stroke::about(0.0, 0.0),
+            Stroke::about(0.0, 0.0),
+            Stroke::about(0.0, 0.0),
+            Stroke::about(0.0, 0.0),
+            Stroke::about(-0.022, 0.004),
+            Stroke::about(0.0, 1e-3),
+            Stroke::about(0.0, 0.0),
+            Stroke::about(0.0, 0.0),
+            Stroke::about(0.0, 1e-4),
+            Stroke::about(0.0, 0.0),
+        ]));
 
     fn check(&self) -> Result<(), ParameterError> {
         let (name, message) = if self.mu > 0.0 && self.ks.is_none() {

@@ -103,68 +103,72 @@ const fn loss(name: &'static str, symbol: &'static str, meaning: &'static str) -
 }
 
 impl Described for BoucWen {
-    const CARD: Card = Card::new("BoucWen", Category::Link, "Smooth hysteretic spring that loses strength and stiffness (Bouc, Wen, Baber).")
-.nodes(NodeCount::GROUND_OR_TWO)
-.parameters(&[
-            Parameter::new(
-                "k",
-                "k",
-                Form::STIFFNESS_OF_AXIS,
-                Default::Required,
-                "stiffness at rest (where A₀ = 1)",
-            )
-            .within(Range::Positive),
-            Parameter::new(
-                "dy",
-                "d_y",
-                Form::DEFORMATION_OF_AXIS,
-                Default::Required,
-                "deformation that z counts in; at yield where β + γ = A₀ = 1",
-            )
-            .within(Range::Positive),
-            Parameter::required(
-                "alpha",
-                "α",
-                NONE,
-                Range::Within(0.0, 1.0),
-                "stiffness after yielding over `k`",
-            ),
-            Parameter::number(
-                "n",
-                "n",
-                NONE,
-                Range::Within(1.0, 50.0),
-                2.0,
-                "sharpness of yielding",
-            ),
-            Parameter::number(
-                "beta",
-                "β",
-                NONE,
-                Range::Positive,
-                0.5,
-                "shape: loading against β + γ, return with β − γ",
-            ),
-            Parameter::number(
-                "gamma",
-                "γ",
-                NONE,
-                Range::Any,
-                0.5,
-                "shape, −β < γ ≤ β; at γ = β the return is elastic",
-            ),
-            Parameter::number("a0", "A₀", NONE, Range::Positive, 1.0, "stiffness of z at rest"),
-            loss("delta_a", "δ_A", "loss of stiffness and strength with ε"),
-            loss("delta_nu", "δ_ν", "loss of strength with ε"),
-            loss("delta_eta", "δ_η", "loss of stiffness with ε"),
-            Parameter::choice("axis", Axis::NAMES, "U1", "local axis"),
-        ])
-.law("f = α k d + (1 − α) k d_y z\n\
-              ż = (ḋ/d_y) [A − ν |z|ⁿ (γ + β sgn(ḋ z))]/η\n\
-              A = A₀ − δ_A ε (at least A₀/100), ν = 1 + δ_ν ε, η = 1 + δ_η ε, ε = ∫ z dd/d_y")
-.source("Baber & Wen, Random Vibration of Hysteretic Degrading Systems, 1981; Erlicher & Point 2004")
-.example(r#""wall": BoucWen(nodes: ("a", "b"), axis: U2, k: "40 MN/m", dy: "5 mm", alpha: 0.05, n: 1.5, beta: 0.8, gamma: 0.2, delta_nu: 0.02, delta_eta: 0.08)"#)
-.exercise(Exercise::new(0.5, &[Stroke::about(0.0, 0.04)]));
+    const CARD: Card = Card::new(
+        "BoucWen",
+        Category::Link,
+        "Smooth hysteretic spring that loses strength and stiffness (Bouc, Wen, Baber).",
+    )
+    .nodes(NodeCount::GROUND_OR_TWO)
+    .parameters(&[
+        Parameter::new(
+            "k",
+            "k",
+            Form::STIFFNESS_OF_AXIS,
+            Default::Required,
+            "stiffness at rest (where A₀ = 1)",
+        )
+        .within(Range::Positive),
+        Parameter::new(
+            "dy",
+            "d_y",
+            Form::DEFORMATION_OF_AXIS,
+            Default::Required,
+            "deformation that z counts in; at yield where β + γ = A₀ = 1",
+        )
+        .within(Range::Positive),
+        Parameter::required(
+            "alpha",
+            "α",
+            NONE,
+            Range::Within(0.0, 1.0),
+            "stiffness after yielding over `k`",
+        ),
+        Parameter::number(
+            "n",
+            "n",
+            NONE,
+            Range::Within(1.0, 50.0),
+            2.0,
+            "sharpness of yielding",
+        ),
+        Parameter::number(
+            "beta",
+            "β",
+            NONE,
+            Range::Positive,
+            0.5,
+            "shape: loading against β + γ, return with β − γ",
+        ),
+        Parameter::number(
+            "gamma",
+            "γ",
+            NONE,
+            Range::Any,
+            0.5,
+            "shape, −β < γ ≤ β; at γ = β the return is elastic",
+        ),
+        Parameter::number("a0", "A₀", NONE, Range::Positive, 1.0, "stiffness of z at rest"),
+        loss("delta_a", "δ_A", "loss of stiffness and strength with ε"),
+        loss("delta_nu", "δ_ν", "loss of strength with ε"),
+        loss("delta_eta", "δ_η", "loss of stiffness with ε"),
+        Parameter::choice("axis", Axis::NAMES, "U1", "local axis"),
+    ])
+    .law("f = α k d + (1 − α) k d_y z\n\
+          ż = (ḋ/d_y) [A − ν |z|ⁿ (γ + β sgn(ḋ z))]/η\n\
+          A = A₀ − δ_A ε (at least A₀/100), ν = 1 + δ_ν ε, η = 1 + δ_η ε, ε = ∫ z dd/d_y")
+    .source("Baber & Wen, Random Vibration of Hysteretic Degrading Systems, 1981; Erlicher & Point 2004")
+    .example(r#""wall": BoucWen(nodes: ("a", "b"), axis: U2, k: "40 MN/m", dy: "5 mm", alpha: 0.05, n: 1.5, beta: 0.8, gamma: 0.2, delta_nu: 0.02, delta_eta: 0.08)"#)
+    .exercise(Exercise::new(0.5, &[Stroke::about(0.0, 0.04)]));
 
     fn check(&self) -> Result<(), ParameterError> {
         let Self { beta, gamma, .. } = *self;

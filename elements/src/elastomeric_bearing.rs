@@ -57,37 +57,41 @@ history! {
 }
 
 impl Described for ElastomericBearing {
-    const CARD: Card = Card::new("ElastomericBearing", Category::Link, "Bearing with bilinear shear coupled in its plane, of plasticity theory.")
-.nodes(NodeCount::GROUND_OR_TWO)
-.parameters(&[
-            Parameter::required(
-                "k",
-                "k",
-                STIFFNESS,
-                Range::Positive,
-                "shear stiffness before yielding",
-            ),
-            Parameter::required(
-                "fy",
-                "f_y",
-                FORCE,
-                Range::Positive,
-                "shear force at which it yields",
-            ),
-            Parameter::number(
-                "ratio",
-                "r",
-                NONE,
-                Range::Within(0.0, 1.0),
-                0.0,
-                "stiffness after yielding over `k`, below 1",
-            ),
-        ])
-.law("f = r k d + q,  q = (1 − r) k (d − p),  |q| ≤ (1 − r) f_y  (vectors along U2, U3)\n\
-              ṗ = λ q, λ ≥ 0, λ > 0 only where |q| = (1 − r) f_y")
-.source("Simo & Hughes, Computational Inelasticity, 1998, §3.3; Naeim & Kelly, Design of Seismic Isolated Structures, 1999, ch. 4")
-.example(r#""bearing": ElastomericBearing(nodes: ("ground", "slab"), k: "10 MN/m", fy: "100 kN", ratio: 0.1)"#)
-.exercise(Exercise::new(0.5, &[Stroke::about(0.0, 0.15), Stroke::about(0.0, 0.1).with_phase(0.25)]));
+    const CARD: Card = Card::new(
+        "ElastomericBearing",
+        Category::Link,
+        "Bearing with bilinear shear coupled in its plane, of plasticity theory.",
+    )
+    .nodes(NodeCount::GROUND_OR_TWO)
+    .parameters(&[
+        Parameter::required(
+            "k",
+            "k",
+            STIFFNESS,
+            Range::Positive,
+            "shear stiffness before yielding",
+        ),
+        Parameter::required(
+            "fy",
+            "f_y",
+            FORCE,
+            Range::Positive,
+            "shear force at which it yields",
+        ),
+        Parameter::number(
+            "ratio",
+            "r",
+            NONE,
+            Range::Within(0.0, 1.0),
+            0.0,
+            "stiffness after yielding over `k`, below 1",
+        ),
+    ])
+    .law("f = r k d + q,  q = (1 − r) k (d − p),  |q| ≤ (1 − r) f_y  (vectors along U2, U3)\n\
+          ṗ = λ q, λ ≥ 0, λ > 0 only where |q| = (1 − r) f_y")
+    .source("Simo & Hughes, Computational Inelasticity, 1998, §3.3; Naeim & Kelly, Design of Seismic Isolated Structures, 1999, ch. 4")
+    .example(r#""bearing": ElastomericBearing(nodes: ("ground", "slab"), k: "10 MN/m", fy: "100 kN", ratio: 0.1)"#)
+    .exercise(Exercise::new(0.5, &[Stroke::about(0.0, 0.15), Stroke::about(0.0, 0.1).with_phase(0.25)]));
 
     fn check(&self) -> Result<(), ParameterError> {
         if self.ratio < 1.0 {

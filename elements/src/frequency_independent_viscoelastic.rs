@@ -77,65 +77,69 @@ const fn optional(
 }
 
 impl Described for FrequencyIndependentViscoelastic {
-    const CARD: Card = Card::new("FrequencyIndependentViscoelastic", Category::Link, "Viscoelastic damper with a near-constant loss factor: springs and Maxwell branches.")
-.nodes(NodeCount::GROUND_OR_TWO)
-.parameters(&[
-            optional(
-                "k",
-                "k",
-                Form::STIFFNESS_OF_AXIS,
-                Range::Positive,
-                "storage stiffness at √(f_min f_max)",
-            ),
-            optional(
-                "loss_factor",
-                "η",
-                Form::Number(NONE),
-                Range::Above(0.0, 2.0),
-                "loss factor in the band",
-            ),
-            optional(
-                "f_min",
-                "f_min",
-                Form::Number(FREQUENCY),
-                Range::Positive,
-                "lower end of the band",
-            ),
-            optional(
-                "f_max",
-                "f_max",
-                Form::Number(FREQUENCY),
-                Range::Positive,
-                "upper end of the band",
-            ),
-            optional(
-                "k_inf",
-                "k∞",
-                Form::STIFFNESS_OF_AXIS,
-                Range::NonNegative,
-                "instead: stiffness beside the branches",
-            ),
-            optional(
-                "stiffness",
-                "kᵢ",
-                Form::STIFFNESS_OF_AXIS.list(),
-                Range::NonNegative,
-                "instead: stiffnesses of the branches",
-            ),
-            optional(
-                "time",
-                "τᵢ",
-                Form::Number(TIME).list(),
-                Range::Positive,
-                "instead: relaxation times of the branches",
-            ),
-            Parameter::choice("axis", Axis::NAMES, "U1", "local axis"),
-        ])
-.law("f = k∞ d + Σ fᵢ, ḟᵢ = kᵢ ḋ − fᵢ/τᵢ\n\
-              fitted: K' = k (f/f₀)^β, K'' = η K', β = (2/π) atan η, f₀ = √(f_min f_max)")
-.source("Bland, The Theory of Linear Viscoelasticity, 1960; Bagley & Torvik 1983 (springpot)")
-.example(r#""pad": FrequencyIndependentViscoelastic(nodes: ("a", "b"), k: "5 MN/m", loss_factor: 0.4, f_min: "0.1 Hz", f_max: "10 Hz")"#)
-.exercise(Exercise::new(1.0, &[Stroke::about(0.0, 0.02)]));
+    const CARD: Card = Card::new(
+        "FrequencyIndependentViscoelastic",
+        Category::Link,
+        "Viscoelastic damper with a near-constant loss factor: springs and Maxwell branches.",
+    )
+    .nodes(NodeCount::GROUND_OR_TWO)
+    .parameters(&[
+        optional(
+            "k",
+            "k",
+            Form::STIFFNESS_OF_AXIS,
+            Range::Positive,
+            "storage stiffness at √(f_min f_max)",
+        ),
+        optional(
+            "loss_factor",
+            "η",
+            Form::Number(NONE),
+            Range::Above(0.0, 2.0),
+            "loss factor in the band",
+        ),
+        optional(
+            "f_min",
+            "f_min",
+            Form::Number(FREQUENCY),
+            Range::Positive,
+            "lower end of the band",
+        ),
+        optional(
+            "f_max",
+            "f_max",
+            Form::Number(FREQUENCY),
+            Range::Positive,
+            "upper end of the band",
+        ),
+        optional(
+            "k_inf",
+            "k∞",
+            Form::STIFFNESS_OF_AXIS,
+            Range::NonNegative,
+            "instead: stiffness beside the branches",
+        ),
+        optional(
+            "stiffness",
+            "kᵢ",
+            Form::STIFFNESS_OF_AXIS.list(),
+            Range::NonNegative,
+            "instead: stiffnesses of the branches",
+        ),
+        optional(
+            "time",
+            "τᵢ",
+            Form::Number(TIME).list(),
+            Range::Positive,
+            "instead: relaxation times of the branches",
+        ),
+        Parameter::choice("axis", Axis::NAMES, "U1", "local axis"),
+    ])
+    .law("f = k∞ d + Σ fᵢ, ḟᵢ = kᵢ ḋ − fᵢ/τᵢ\n\
+          fitted: K' = k (f/f₀)^β, K'' = η K', β = (2/π) atan η, f₀ = √(f_min f_max)")
+    .source("Bland, The Theory of Linear Viscoelasticity, 1960; Bagley & Torvik 1983 (springpot)")
+    .example(r#""pad": FrequencyIndependentViscoelastic(nodes: ("a", "b"), k: "5 MN/m", loss_factor: 0.4, f_min: "0.1 Hz", f_max: "10 Hz")"#)
+    .exercise(Exercise::new(1.0, &[Stroke::about(0.0, 0.02)]));
 
     fn check(&self) -> Result<(), ParameterError> {
         let fitted = [

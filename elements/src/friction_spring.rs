@@ -82,35 +82,39 @@ const fn deformation(
 }
 
 impl Described for FrictionSpring {
-    const CARD: Card = Card::new("FrictionSpring", Category::Link, "Ring spring: flag-shaped, self-centring, independent of rates.")
-.nodes(NodeCount::GROUND_OR_TWO)
-.parameters(&[
-            stiffness("k", "k", "stiffness before slip, and between the branches"),
-            stiffness("k1", "k₁", "stiffness in slip, loading; below `k`"),
-            stiffness("k2", "k₂", "stiffness in slip, unloading; at most `k1`"),
-            deformation("u0", "u₀", Default::Number(0.0), Range::NonNegative, "precompression"),
-            deformation(
-                "us",
-                "u_s",
-                Default::Absent,
-                Range::Positive,
-                "deformation at which the rings are closed",
-            ),
-            Parameter::choice(
-                "direction",
-                &["Both", "Tension", "Compression"],
-                "Both",
-                "sides on which it acts",
-            ),
-            Parameter::choice("axis", Axis::NAMES, "U1", "local axis"),
-        ])
-.law("f = k (d − s), s ≥ 0 for d > 0, s = const but\n\
-              loading in slip:   f = k₁ (d + u₀)\n\
-              unloading in slip: f = k₂ (d + u₀)\n\
-              d beyond u_s:      s = const")
-.source("SAP2000 friction-spring damper; Filiatrault, Tremblay & Kar 2000")
-.example(r#""ring": FrictionSpring(nodes: ("a", "b"), k: "50 MN/m", k1: "6 MN/m", k2: "2 MN/m", u0: "5 mm", us: "60 mm")"#)
-.exercise(Exercise::new(1.0, &[Stroke::about(0.0, 0.05)]));
+    const CARD: Card = Card::new(
+        "FrictionSpring",
+        Category::Link,
+        "Ring spring: flag-shaped, self-centring, independent of rates.",
+    )
+    .nodes(NodeCount::GROUND_OR_TWO)
+    .parameters(&[
+        stiffness("k", "k", "stiffness before slip, and between the branches"),
+        stiffness("k1", "k₁", "stiffness in slip, loading; below `k`"),
+        stiffness("k2", "k₂", "stiffness in slip, unloading; at most `k1`"),
+        deformation("u0", "u₀", Default::Number(0.0), Range::NonNegative, "precompression"),
+        deformation(
+            "us",
+            "u_s",
+            Default::Absent,
+            Range::Positive,
+            "deformation at which the rings are closed",
+        ),
+        Parameter::choice(
+            "direction",
+            &["Both", "Tension", "Compression"],
+            "Both",
+            "sides on which it acts",
+        ),
+        Parameter::choice("axis", Axis::NAMES, "U1", "local axis"),
+    ])
+    .law("f = k (d − s), s ≥ 0 for d > 0, s = const but\n\
+          loading in slip:   f = k₁ (d + u₀)\n\
+          unloading in slip: f = k₂ (d + u₀)\n\
+          d beyond u_s:      s = const")
+    .source("SAP2000 friction-spring damper; Filiatrault, Tremblay & Kar 2000")
+    .example(r#""ring": FrictionSpring(nodes: ("a", "b"), k: "50 MN/m", k1: "6 MN/m", k2: "2 MN/m", u0: "5 mm", us: "60 mm")"#)
+    .exercise(Exercise::new(1.0, &[Stroke::about(0.0, 0.05)]));
 
     fn check(&self) -> Result<(), ParameterError> {
         if self.k1 >= self.k {

@@ -104,57 +104,61 @@ history! {
 const TYPICAL: f64 = 1e-3;
 
 impl Described for ImpactHertz {
-    const CARD: Card = Card::new("ImpactHertz", Category::Link, "Pounding: Hertz spring with nonlinear damping after a clearance.")
-.nodes(NodeCount::GROUND_OR_TWO)
-.parameters(&[
-            Parameter::new(
-                "k",
-                "k",
-                Form::Power { base: FORCE, over: LENGTH, exponent: "exponent" },
-                Default::Required,
-                "contact stiffness",
-            )
-            .within(Range::Positive),
-            Parameter::number(
-                "exponent",
-                "n",
-                NONE,
-                Range::Within(1.0, 3.0),
-                1.5,
-                "exponent of the penetration",
-            ),
-            Parameter::choice(
-                "model",
-                &["Hertzdamp", "Jankowski"],
-                "Hertzdamp",
-                "how it dissipates",
-            ),
-            restitution("speed after over speed before an impact"),
-            Parameter::optional(
-                "xi",
-                "ξ",
-                NONE,
-                Range::NonNegative,
-                "instead of `restitution`: the damping itself",
-            ),
-            IMPACT_MASS,
-            Parameter::number("opening", "g", LENGTH, Range::Any, 0.0, "clearance at rest"),
-            Parameter::number(
-                "min_speed",
-                "s_min",
-                VELOCITY,
-                Range::Positive,
-                1e-3,
-                "Hertzdamp: slower approaches damp as this one does",
-            ),
-            Parameter::choice("axis", &["U1", "U2", "U3"], "U1", "local axis"),
-        ])
-.law("δ = −(d + g), δ̇ = −ḋ; f = −N where δ > 0, else 0; N ≥ 0\n\
-              Hertzdamp: N = k δⁿ (1 + ξ δ̇/s), ξ (1 + e) = ln((1 + ξ)/(1 − ξ e)), s: δ̇ at first touch, s_min at least\n\
-              Jankowski: N = k δⁿ + 2 ξ √(m k δⁿ⁻¹) δ̇ where δ̇ > 0, else k δⁿ")
-.source("Muthukumar & DesRoches 2006; Jankowski 2005; Lankarani & Nikravesh 1990")
-.example(r#""joint": ImpactHertz(nodes: ("a", "b"), k: "2000 MN/m^1.5", restitution: 0.65, opening: "20 mm")"#)
-.exercise(Exercise::new(1.0, &[Stroke::about(0.0, 0.03)]));
+    const CARD: Card = Card::new(
+        "ImpactHertz",
+        Category::Link,
+        "Pounding: Hertz spring with nonlinear damping after a clearance.",
+    )
+    .nodes(NodeCount::GROUND_OR_TWO)
+    .parameters(&[
+        Parameter::new(
+            "k",
+            "k",
+            Form::Power { base: FORCE, over: LENGTH, exponent: "exponent" },
+            Default::Required,
+            "contact stiffness",
+        )
+        .within(Range::Positive),
+        Parameter::number(
+            "exponent",
+            "n",
+            NONE,
+            Range::Within(1.0, 3.0),
+            1.5,
+            "exponent of the penetration",
+        ),
+        Parameter::choice(
+            "model",
+            &["Hertzdamp", "Jankowski"],
+            "Hertzdamp",
+            "how it dissipates",
+        ),
+        restitution("speed after over speed before an impact"),
+        Parameter::optional(
+            "xi",
+            "ξ",
+            NONE,
+            Range::NonNegative,
+            "instead of `restitution`: the damping itself",
+        ),
+        IMPACT_MASS,
+        Parameter::number("opening", "g", LENGTH, Range::Any, 0.0, "clearance at rest"),
+        Parameter::number(
+            "min_speed",
+            "s_min",
+            VELOCITY,
+            Range::Positive,
+            1e-3,
+            "Hertzdamp: slower approaches damp as this one does",
+        ),
+        Parameter::choice("axis", &["U1", "U2", "U3"], "U1", "local axis"),
+    ])
+    .law("δ = −(d + g), δ̇ = −ḋ; f = −N where δ > 0, else 0; N ≥ 0\n\
+          Hertzdamp: N = k δⁿ (1 + ξ δ̇/s), ξ (1 + e) = ln((1 + ξ)/(1 − ξ e)), s: δ̇ at first touch, s_min at least\n\
+          Jankowski: N = k δⁿ + 2 ξ √(m k δⁿ⁻¹) δ̇ where δ̇ > 0, else k δⁿ")
+    .source("Muthukumar & DesRoches 2006; Jankowski 2005; Lankarani & Nikravesh 1990")
+    .example(r#""joint": ImpactHertz(nodes: ("a", "b"), k: "2000 MN/m^1.5", restitution: 0.65, opening: "20 mm")"#)
+    .exercise(Exercise::new(1.0, &[Stroke::about(0.0, 0.03)]));
 
     fn check(&self) -> Result<(), ParameterError> {
         let (name, message) = if self.restitution.is_some() == self.xi.is_some() {

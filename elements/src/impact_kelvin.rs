@@ -74,30 +74,34 @@ pub struct ImpactKelvin {
 }
 
 impl Described for ImpactKelvin {
-    const CARD: Card = Card::new("ImpactKelvin", Category::Link, "Pounding: spring and dashpot in contact after a clearance.")
-.nodes(NodeCount::GROUND_OR_TWO)
-.parameters(&[
-            Parameter::required("k", "k", STIFFNESS, Range::Positive, "contact stiffness"),
-            Parameter::optional("damping", "c", DAMPING, Range::NonNegative, "contact dashpot"),
-            restitution("instead of `damping`: speed after over speed before an impact"),
-            IMPACT_MASS,
-            Parameter::number("opening", "g", LENGTH, Range::Any, 0.0, "clearance at rest"),
-            Parameter::choice(
-                "damps",
-                &["Contact", "Approach"],
-                "Contact",
-                "all the time in contact, or until the penetration turns",
-            ),
-            Parameter::flag("pull", false, "the force may pull while closed"),
-            Parameter::choice("axis", &["U1", "U2", "U3"], "U1", "local axis"),
-        ])
-.law("δ = −(d + g), δ̇ = −ḋ\n\
-              f = −(k δ + c δ̇) where δ > 0, else 0; without `pull` at most 0\n\
-              damps Approach: c acts where δ̇ > 0 only\n\
-              with `restitution`: c = 2 ζ(e) √(k m)")
-.source("Anagnostopoulos 1988; Jankowski 2005 (approach only)")
-.example(r#""joint": ImpactKelvin(nodes: ("a", "b"), k: "100 MN/m", restitution: 0.6, impact_mass: "50 t", opening: "20 mm")"#)
-.exercise(Exercise::new(1.0, &[Stroke::about(0.0, 0.03)]));
+    const CARD: Card = Card::new(
+        "ImpactKelvin",
+        Category::Link,
+        "Pounding: spring and dashpot in contact after a clearance.",
+    )
+    .nodes(NodeCount::GROUND_OR_TWO)
+    .parameters(&[
+        Parameter::required("k", "k", STIFFNESS, Range::Positive, "contact stiffness"),
+        Parameter::optional("damping", "c", DAMPING, Range::NonNegative, "contact dashpot"),
+        restitution("instead of `damping`: speed after over speed before an impact"),
+        IMPACT_MASS,
+        Parameter::number("opening", "g", LENGTH, Range::Any, 0.0, "clearance at rest"),
+        Parameter::choice(
+            "damps",
+            &["Contact", "Approach"],
+            "Contact",
+            "all the time in contact, or until the penetration turns",
+        ),
+        Parameter::flag("pull", false, "the force may pull while closed"),
+        Parameter::choice("axis", &["U1", "U2", "U3"], "U1", "local axis"),
+    ])
+    .law("δ = −(d + g), δ̇ = −ḋ\n\
+          f = −(k δ + c δ̇) where δ > 0, else 0; without `pull` at most 0\n\
+          damps Approach: c acts where δ̇ > 0 only\n\
+          with `restitution`: c = 2 ζ(e) √(k m)")
+    .source("Anagnostopoulos 1988; Jankowski 2005 (approach only)")
+    .example(r#""joint": ImpactKelvin(nodes: ("a", "b"), k: "100 MN/m", restitution: 0.6, impact_mass: "50 t", opening: "20 mm")"#)
+    .exercise(Exercise::new(1.0, &[Stroke::about(0.0, 0.03)]));
 
     fn check(&self) -> Result<(), ParameterError> {
         let (name, message) = if self.damping.is_some() == self.restitution.is_some() {

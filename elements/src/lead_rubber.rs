@@ -126,83 +126,87 @@ const fn positive(
 }
 
 impl Described for LeadRubber {
-    const CARD: Card = Card::new("LeadRubber", Category::Link, "Lead-rubber bearing whose core softens as it heats up.")
-.nodes(NodeCount::GROUND_OR_TWO)
-.parameters(&[
-            Parameter::required(
-                "kr",
-                "k_r",
-                STIFFNESS,
-                Range::NonNegative,
-                "shear stiffness of the rubber",
-            ),
-            Parameter::required(
-                "lead_diameter",
-                "D",
-                LENGTH,
-                Range::Positive,
-                "diameter of the core",
-            ),
-            Parameter::required("lead_height", "h", LENGTH, Range::Positive, "height of the core"),
-            positive("lead_strength", "σ₀", STRESS, 1e7, "yield stress of the cold core"),
-            Parameter::required(
-                "yield_displacement",
-                "Y",
-                LENGTH,
-                Range::Positive,
-                "displacement at which the core yields",
-            ),
-            Parameter::number(
-                "shim_thickness",
-                "t_s",
-                LENGTH,
-                Range::NonNegative,
-                0.0,
-                "thickness of all steel shims together",
-            ),
-            Parameter::flag("heating", true, "the core heats up"),
-            Parameter::number(
-                "kv",
-                "k_v",
-                STIFFNESS,
-                Range::NonNegative,
-                0.0,
-                "axial stiffness, both ways",
-            ),
-            positive("softening", "E", NONE, 0.0069, "loss of strength with temperature, per K"),
-            positive("lead_density", "ρ", DENSITY, 11_200.0, "density of lead"),
-            positive("lead_heat", "c", SPECIFIC_HEAT, 130.0, "specific heat of lead, J/(kg K)"),
-            Parameter::number(
-                "steel_conductivity",
-                "k_s",
-                CONDUCTIVITY,
-                Range::NonNegative,
-                50.0,
-                "thermal conductivity of steel, W/(m K)",
-            ),
-            positive(
-                "steel_diffusivity",
-                "α_s",
-                DIFFUSIVITY,
-                1.41e-5,
-                "thermal diffusivity of steel",
-            ),
-            PARAMETERS[0],
-            PARAMETERS[1],
-            PARAMETERS[2],
-            PARAMETERS[3],
-        ])
-.law("fᵢ = k_r dᵢ + Q zᵢ, i = 2, 3;  f₁ = k_v d₁;  Q = π D²/4 σ₀ e^(−E T)\n\
-              żᵢ = ωᵢ − zᵢ |z|^(η−2) Σⱼ ωⱼ zⱼ (γ + β sⱼ),  ω = ḋ/Y\n\
-              Axes: sⱼ = sgn(ωⱼ zⱼ);  Direction: sⱼ = sgn(ω·z)\n\
-              ρ c A h Ṫ = Q Y Σᵢ zᵢ (ωᵢ − żᵢ) − loss to end plates and shims")
-.source("Kalpakidis & Constantinou 2009; Kumar, Whittaker & Constantinou 2014")
-.example(r#""bearing": LeadRubber(nodes: ("ground", "slab"), kr: "1.5 MN/m", lead_diameter: "160 mm", lead_height: "300 mm", yield_displacement: "10 mm", shim_thickness: "60 mm", kv: "1500 MN/m")"#)
-.exercise(Exercise::new(0.4, &[
-                Stroke::about(-0.001, 0.0),
-                Stroke::about(0.0, 0.2),
-                Stroke::about(0.0, 0.1).with_phase(0.25),
-            ]));
+    const CARD: Card = Card::new(
+        "LeadRubber",
+        Category::Link,
+        "Lead-rubber bearing whose core softens as it heats up.",
+    )
+    .nodes(NodeCount::GROUND_OR_TWO)
+    .parameters(&[
+        Parameter::required(
+            "kr",
+            "k_r",
+            STIFFNESS,
+            Range::NonNegative,
+            "shear stiffness of the rubber",
+        ),
+        Parameter::required(
+            "lead_diameter",
+            "D",
+            LENGTH,
+            Range::Positive,
+            "diameter of the core",
+        ),
+        Parameter::required("lead_height", "h", LENGTH, Range::Positive, "height of the core"),
+        positive("lead_strength", "σ₀", STRESS, 1e7, "yield stress of the cold core"),
+        Parameter::required(
+            "yield_displacement",
+            "Y",
+            LENGTH,
+            Range::Positive,
+            "displacement at which the core yields",
+        ),
+        Parameter::number(
+            "shim_thickness",
+            "t_s",
+            LENGTH,
+            Range::NonNegative,
+            0.0,
+            "thickness of all steel shims together",
+        ),
+        Parameter::flag("heating", true, "the core heats up"),
+        Parameter::number(
+            "kv",
+            "k_v",
+            STIFFNESS,
+            Range::NonNegative,
+            0.0,
+            "axial stiffness, both ways",
+        ),
+        positive("softening", "E", NONE, 0.0069, "loss of strength with temperature, per K"),
+        positive("lead_density", "ρ", DENSITY, 11_200.0, "density of lead"),
+        positive("lead_heat", "c", SPECIFIC_HEAT, 130.0, "specific heat of lead, J/(kg K)"),
+        Parameter::number(
+            "steel_conductivity",
+            "k_s",
+            CONDUCTIVITY,
+            Range::NonNegative,
+            50.0,
+            "thermal conductivity of steel, W/(m K)",
+        ),
+        positive(
+            "steel_diffusivity",
+            "α_s",
+            DIFFUSIVITY,
+            1.41e-5,
+            "thermal diffusivity of steel",
+        ),
+        PARAMETERS[0],
+        PARAMETERS[1],
+        PARAMETERS[2],
+        PARAMETERS[3],
+    ])
+    .law("fᵢ = k_r dᵢ + Q zᵢ, i = 2, 3;  f₁ = k_v d₁;  Q = π D²/4 σ₀ e^(−E T)\n\
+          żᵢ = ωᵢ − zᵢ |z|^(η−2) Σⱼ ωⱼ zⱼ (γ + β sⱼ),  ω = ḋ/Y\n\
+          Axes: sⱼ = sgn(ωⱼ zⱼ);  Direction: sⱼ = sgn(ω·z)\n\
+          ρ c A h Ṫ = Q Y Σᵢ zᵢ (ωᵢ − żᵢ) − loss to end plates and shims")
+    .source("Kalpakidis & Constantinou 2009; Kumar, Whittaker & Constantinou 2014")
+    .example(r#""bearing": LeadRubber(nodes: ("ground", "slab"), kr: "1.5 MN/m", lead_diameter: "160 mm", lead_height: "300 mm", yield_displacement: "10 mm", shim_thickness: "60 mm", kv: "1500 MN/m")"#)
+    .exercise(Exercise::new(0.4, &[
+            Stroke::about(-0.001, 0.0),
+            Stroke::about(0.0, 0.2),
+            Stroke::about(0.0, 0.1).with_phase(0.25),
+        ]));
 
     fn check(&self) -> Result<(), ParameterError> {
         self.shape().check()

@@ -50,16 +50,20 @@ const fn matrix(name: &'static str, symbol: &'static str, dimension: Dimension) 
 }
 
 impl Described for LinearLink {
-    const CARD: Card = Card::new("LinearLink", Category::Link, "Coupled stiffness and damping that may be unsymmetric, as of seals and bearings.")
-.nodes(NodeCount::GROUND_OR_TWO)
-.parameters(&[matrix("stiffness", "K", STIFFNESS), matrix("damping", "C", DAMPING)])
-.law("f = K d + C ḋ")
-.source("Childs, Turbomachinery Rotordynamics, 1993")
-.example(r#""seal": LinearLink(nodes: ("a", "b"), stiffness: [[0, 0, 0, 0, 0, 0], [0, 2e6, 8e5, 0, 0, 0], [0, -8e5, 2e6, 0, 0, 0], [0, 0, 0, 0, 0, 0], [0, 0, 0, 0, 0, 0], [0, 0, 0, 0, 0, 0]])"#)
-.exercise(Exercise::new(1.0, &[
-                Stroke::about(0.0, 1e-3),
-                Stroke::about(0.0, 1e-3).with_phase(0.25),
-            ]));
+    const CARD: Card = Card::new(
+        "LinearLink",
+        Category::Link,
+        "Coupled stiffness and damping that may be unsymmetric, as of seals and bearings.",
+    )
+    .nodes(NodeCount::GROUND_OR_TWO)
+    .parameters(&[matrix("stiffness", "K", STIFFNESS), matrix("damping", "C", DAMPING)])
+    .law("f = K d + C ḋ")
+    .source("Childs, Turbomachinery Rotordynamics, 1993")
+    .example(r#""seal": LinearLink(nodes: ("a", "b"), stiffness: [[0, 0, 0, 0, 0, 0], [0, 2e6, 8e5, 0, 0, 0], [0, -8e5, 2e6, 0, 0, 0], [0, 0, 0, 0, 0, 0], [0, 0, 0, 0, 0, 0], [0, 0, 0, 0, 0, 0]])"#)
+    .exercise(Exercise::new(1.0, &[
+            Stroke::about(0.0, 1e-3),
+            Stroke::about(0.0, 1e-3).with_phase(0.25),
+        ]));
 
     fn check(&self) -> Result<(), ParameterError> {
         if self.used().1 == 0 {

@@ -43,33 +43,37 @@ pub struct MaxwellDamper {
 }
 
 impl Described for MaxwellDamper {
-    const CARD: Card = Card::new("MaxwellDamper", Category::Link, "Spring in series with a dashpot of a power of the rate.")
-.nodes(NodeCount::GROUND_OR_TWO)
-.parameters(&[
-            Parameter::required("k", "k", STIFFNESS, Range::Positive, "stiffness of the spring"),
-            Parameter::new(
-                "c",
-                "c",
-                Form::Power { base: FORCE, over: VELOCITY, exponent: "exponent" },
-                Default::Required,
-                "coefficient of the dashpot",
-            )
-            .within(Range::Positive),
-            Parameter::number(
-                "exponent",
-                "α",
-                NONE,
-                Range::Within(0.1, 2.0),
-                1.0,
-                "exponent of the rate",
-            ),
-            Parameter::choice("axis", &["U1", "U2", "U3"], "U1", "local axis"),
-        ])
-.law("f = k d_k = c sgn(w) |w|^α, d = d_k + ∫ w dt\n\
-              ḟ = k (ḋ − sgn(f) (|f|/c)^(1/α))")
-.source("Soong & Dargush, Passive Energy Dissipation Systems, 1997, ch. 6")
-.example(r#""damper": MaxwellDamper(nodes: ("a", "b"), k: "20 MN/m", c: "200 kN*(s/m)^0.35", exponent: 0.35)"#)
-.exercise(Exercise::new(1.0, &[Stroke::about(0.0, 0.05)]));
+    const CARD: Card = Card::new(
+        "MaxwellDamper",
+        Category::Link,
+        "Spring in series with a dashpot of a power of the rate.",
+    )
+    .nodes(NodeCount::GROUND_OR_TWO)
+    .parameters(&[
+        Parameter::required("k", "k", STIFFNESS, Range::Positive, "stiffness of the spring"),
+        Parameter::new(
+            "c",
+            "c",
+            Form::Power { base: FORCE, over: VELOCITY, exponent: "exponent" },
+            Default::Required,
+            "coefficient of the dashpot",
+        )
+        .within(Range::Positive),
+        Parameter::number(
+            "exponent",
+            "α",
+            NONE,
+            Range::Within(0.1, 2.0),
+            1.0,
+            "exponent of the rate",
+        ),
+        Parameter::choice("axis", &["U1", "U2", "U3"], "U1", "local axis"),
+    ])
+    .law("f = k d_k = c sgn(w) |w|^α, d = d_k + ∫ w dt\n\
+          ḟ = k (ḋ − sgn(f) (|f|/c)^(1/α))")
+    .source("Soong & Dargush, Passive Energy Dissipation Systems, 1997, ch. 6")
+    .example(r#""damper": MaxwellDamper(nodes: ("a", "b"), k: "20 MN/m", c: "200 kN*(s/m)^0.35", exponent: 0.35)"#)
+    .exercise(Exercise::new(1.0, &[Stroke::about(0.0, 0.05)]));
 }
 
 impl Viscous for MaxwellDamper {

@@ -44,17 +44,21 @@ impl MultilinearElastic {
 }
 
 impl Described for MultilinearElastic {
-    const CARD: Card = Card::new("MultilinearElastic", Category::Link, "Elastic spring whose force follows a curve through points.")
-.nodes(NodeCount::GROUND_OR_TWO)
-.parameters(&[
-            DEFORMATION,
-            FORCE,
-            Parameter::choice("axis", Axis::NAMES, "U1", "local axis"),
-        ])
-.law("f = fᵢ + (fᵢ₊₁ − fᵢ)/(dᵢ₊₁ − dᵢ) (d − dᵢ) where dᵢ ≤ d < dᵢ₊₁; the lines at the ends go on")
-.source("CSI Analysis Reference Manual, multilinear elastic property")
-.example(r#""buffer": MultilinearElastic(nodes: ("a", "b"), deformation: ["-50 mm", "-20 mm", "0 mm", "20 mm", "50 mm"], force: ["-400 kN", "-60 kN", "0 kN", "60 kN", "400 kN"])"#)
-.exercise(Exercise::new(1.0, &[Stroke::about(0.0, 0.06)]));
+    const CARD: Card = Card::new(
+        "MultilinearElastic",
+        Category::Link,
+        "Elastic spring whose force follows a curve through points.",
+    )
+    .nodes(NodeCount::GROUND_OR_TWO)
+    .parameters(&[
+        DEFORMATION,
+        FORCE,
+        Parameter::choice("axis", Axis::NAMES, "U1", "local axis"),
+    ])
+    .law("f = fᵢ + (fᵢ₊₁ − fᵢ)/(dᵢ₊₁ − dᵢ) (d − dᵢ) where dᵢ ≤ d < dᵢ₊₁; the lines at the ends go on")
+    .source("CSI Analysis Reference Manual, multilinear elastic property")
+    .example(r#""buffer": MultilinearElastic(nodes: ("a", "b"), deformation: ["-50 mm", "-20 mm", "0 mm", "20 mm", "50 mm"], force: ["-400 kN", "-60 kN", "0 kN", "60 kN", "400 kN"])"#)
+    .exercise(Exercise::new(1.0, &[Stroke::about(0.0, 0.06)]));
 
     fn check(&self) -> Result<(), ParameterError> {
         self.curve().check()

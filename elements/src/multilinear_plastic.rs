@@ -123,57 +123,61 @@ struct Answer {
 }
 
 impl Described for MultilinearPlastic {
-    const CARD: Card = Card::new("MultilinearPlastic", Category::Link, "Plastic spring along a curve through points: kinematic, Iwan, isotropic, Takeda or pivot.")
-.nodes(NodeCount::GROUND_OR_TWO)
-.parameters(&[
-            DEFORMATION,
-            FORCE,
-            Parameter::choice(
-                "rule",
-                &["Kinematic", "Iwan", "Isotropic", "Takeda", "Pivot"],
-                "Kinematic",
-                "hysteresis; `Kinematic` is CSI's, also where the sides differ",
-            ),
-            Parameter::optional(
-                "alpha1",
-                "α₁",
-                NONE,
-                Range::Positive,
-                "Pivot: unloading from positive force goes towards −α₁ f_y (10)",
-            ),
-            Parameter::optional(
-                "alpha2",
-                "α₂",
-                NONE,
-                Range::Positive,
-                "Pivot: the same from negative force (α₁)",
-            ),
-            Parameter::optional(
-                "beta1",
-                "β₁",
-                NONE,
-                Range::Within(0.0, 1.0),
-                "Pivot: loading to positive force goes through β₁ f_y (0.7)",
-            ),
-            Parameter::optional(
-                "beta2",
-                "β₂",
-                NONE,
-                Range::Within(0.0, 1.0),
-                "Pivot: the same to negative force (β₁)",
-            ),
-            Parameter::choice("axis", Axis::NAMES, "U1", "local axis"),
-        ])
-.law("first loading: the curve through the points\n\
-              Kinematic: back along the lines loaded before, each as far as it was loaded and followed by its counterpart \
-              of the other side (both alike: the curve doubled, Masing)\n\
-              Iwan: f = Σ kⱼ eⱼ + k_end d, the kⱼ of the side eⱼ is on, −dⱼ⁻ ≤ eⱼ ≤ dⱼ⁺ (both alike: the same as Kinematic)\n\
-              Isotropic: K₀ over a range that grows with the plastic path\n\
-              Takeda: back with K₀, then straight to the largest deformation on the other side\n\
-              Pivot: back towards −α f_y on the line of K₀, then through β f_y on it to the largest deformation")
-.source("Masing 1926; CSI Analysis Reference Manual (Kinematic); Iwan 1966; Takeda, Sozen & Nielsen 1970; Dowell, Seible & Wilson 1998")
-.example(r#""hinge": MultilinearPlastic(nodes: ("a", "b"), axis: R3, deformation: [-0.04, -0.004, 0, 0.004, 0.04], force: ["-360 kN*m", "-300 kN*m", "0 kN*m", "300 kN*m", "360 kN*m"], rule: Takeda)"#)
-.exercise(Exercise::new(0.5, &[Stroke::about(0.0, 0.03)]));
+    const CARD: Card = Card::new(
+        "MultilinearPlastic",
+        Category::Link,
+        "Plastic spring along a curve through points: kinematic, Iwan, isotropic, Takeda or pivot.",
+    )
+    .nodes(NodeCount::GROUND_OR_TWO)
+    .parameters(&[
+        DEFORMATION,
+        FORCE,
+        Parameter::choice(
+            "rule",
+            &["Kinematic", "Iwan", "Isotropic", "Takeda", "Pivot"],
+            "Kinematic",
+            "hysteresis; `Kinematic` is CSI's, also where the sides differ",
+        ),
+        Parameter::optional(
+            "alpha1",
+            "α₁",
+            NONE,
+            Range::Positive,
+            "Pivot: unloading from positive force goes towards −α₁ f_y (10)",
+        ),
+        Parameter::optional(
+            "alpha2",
+            "α₂",
+            NONE,
+            Range::Positive,
+            "Pivot: the same from negative force (α₁)",
+        ),
+        Parameter::optional(
+            "beta1",
+            "β₁",
+            NONE,
+            Range::Within(0.0, 1.0),
+            "Pivot: loading to positive force goes through β₁ f_y (0.7)",
+        ),
+        Parameter::optional(
+            "beta2",
+            "β₂",
+            NONE,
+            Range::Within(0.0, 1.0),
+            "Pivot: the same to negative force (β₁)",
+        ),
+        Parameter::choice("axis", Axis::NAMES, "U1", "local axis"),
+    ])
+    .law("first loading: the curve through the points\n\
+          Kinematic: back along the lines loaded before, each as far as it was loaded and followed by its counterpart \
+          of the other side (both alike: the curve doubled, Masing)\n\
+          Iwan: f = Σ kⱼ eⱼ + k_end d, the kⱼ of the side eⱼ is on, −dⱼ⁻ ≤ eⱼ ≤ dⱼ⁺ (both alike: the same as Kinematic)\n\
+          Isotropic: K₀ over a range that grows with the plastic path\n\
+          Takeda: back with K₀, then straight to the largest deformation on the other side\n\
+          Pivot: back towards −α f_y on the line of K₀, then through β f_y on it to the largest deformation")
+    .source("Masing 1926; CSI Analysis Reference Manual (Kinematic); Iwan 1966; Takeda, Sozen & Nielsen 1970; Dowell, Seible & Wilson 1998")
+    .example(r#""hinge": MultilinearPlastic(nodes: ("a", "b"), axis: R3, deformation: [-0.04, -0.004, 0, 0.004, 0.04], force: ["-360 kN*m", "-300 kN*m", "0 kN*m", "300 kN*m", "360 kN*m"], rule: Takeda)"#)
+    .exercise(Exercise::new(0.5, &[Stroke::about(0.0, 0.03)]));
 
     fn check(&self) -> Result<(), ParameterError> {
         self.curve().check()?;

@@ -139,125 +139,129 @@ const fn rotational(name: &'static str, symbol: &'static str) -> Parameter {
 }
 
 impl Described for NLink {
-    const CARD: Card = Card::new("NLink", Category::Link, "Contact: gap with dashpot along local 1, coupled friction along local 2 and 3.")
-.nodes(NodeCount::GROUND_OR_TWO)
-.parameters(&[
-            Parameter::required("kn", "kₙ", STIFFNESS, Range::Positive, "contact stiffness"),
-            Parameter::number(
-                "opening",
-                "g",
-                LENGTH,
-                Range::Any,
-                0.0,
-                "clearance at rest (negative: interference)",
-            ),
-            Parameter::number(
-                "damping",
-                "c",
-                DAMPING,
-                Range::NonNegative,
-                0.0,
-                "contact dashpot, acts only while closed",
-            ),
-            restitution("instead of `damping`: speed after over speed before an impact"),
-            IMPACT_MASS,
-            Parameter::flag("pull", false, "the dashpot may pull while the gap is closed"),
-            Parameter::optional(
-                "mu",
-                "μ",
-                NONE,
-                Range::NonNegative,
-                "friction coefficient; none: no friction",
-            ),
-            Parameter::optional(
-                "mu_slow",
-                "μ_slow",
-                NONE,
-                Range::NonNegative,
-                "instead of `mu`: friction coefficient at rest",
-            ),
-            Parameter::optional(
-                "mu_fast",
-                "μ_fast",
-                NONE,
-                Range::NonNegative,
-                "instead of `mu`: friction coefficient at speed",
-            ),
-            Parameter::optional(
-                "rate",
-                "r",
-                INVERSE_VELOCITY,
-                Range::NonNegative,
-                "rate at which μ goes from slow to fast",
-            ),
-            Parameter::optional(
-                "mu_static",
-                "μ_static",
-                NONE,
-                Range::NonNegative,
-                "friction coefficient before it breaks away; none: that of slow slip",
-            ),
-            Parameter::number(
-                "static_slip",
-                "s₀",
-                LENGTH,
-                Range::NonNegative,
-                0.0,
-                "slip over which `mu_static` is gone; 0: as soon as the spring `ks` can follow",
-            ),
-            Parameter::optional(
-                "ks",
-                "kₛ",
-                STIFFNESS,
-                Range::Positive,
-                "pre-slip stiffness; required with friction",
-            ),
-            Parameter::number(
-                "cs",
-                "cₛ",
-                DAMPING,
-                Range::NonNegative,
-                0.0,
-                "dashpot beside the spring `ks`: damps a contact that sticks",
-            ),
-            Parameter::number(
-                "k_post",
-                "k_post",
-                STIFFNESS,
-                Range::NonNegative,
-                0.0,
-                "post-slip stiffness, less than `ks`",
-            ),
-            Parameter::number(
-                "radius",
-                "R",
-                LENGTH,
-                Range::NonNegative,
-                0.0,
-                "radius of a pendulum surface; 0 is flat",
-            ),
-            rotational("r1", "r₁"),
-            rotational("r2", "r₂"),
-            rotational("r3", "r₃"),
-        ])
-.law("p = −(d₁ + g), closed where p ≥ 0\n\
-              f₁ = −kₙ p + c ḋ₁, without `pull` at most 0\n\
-              N = kₙ p with `pull`, −f₁ without\n\
-              with `restitution`: c = 2 ζ(e) √(kₙ m)\n\
-              μ = μ_fast − (μ_fast − μ_slow) e^(−r x) + (μ_static − μ_slow) (1 − s/D)⁺,  D = max(s₀, 2 (μ_static − μ_slow) N/kₑ)\n\
-              x: slip rate |ȧ| (|ḋₜ| where μ_fast < μ_slow), s: slip since it last stuck\n\
-              τ = kₑ (dₜ − a) + cₛ (ḋₜ − ȧ), |τ| ≤ μ N, kₑ = kₛ − k_post (radial return)\n\
-              fₜ = τ + k_post dₜ + kₙ p dₜ/R\n\
-              open: f = 0, no memory of the anchor a")
-.source("Wilson, Static and Dynamic Analysis of Structures, 2002, ch. 18 and 21; \
-                 Constantinou, Mokha, Reinhorn 1990 for μ(v); \
-                 Rabinowicz 1951 for static friction lost over a slip")
-.example(r#""left": NLink(node: "left", kn: "5e8 N/m", ks: "5e8 N/m", mu: 0.4)"#)
-.exercise(Exercise::new(1.0, &[
-                Stroke::about(-1e-3, 0.0),
-                Stroke::about(0.0, 2e-3),
-                Stroke::about(0.0, 0.0),
-            ]));
+    const CARD: Card = Card::new(
+        "NLink",
+        Category::Link,
+        "Contact: gap with dashpot along local 1, coupled friction along local 2 and 3.",
+    )
+    .nodes(NodeCount::GROUND_OR_TWO)
+    .parameters(&[
+        Parameter::required("kn", "kₙ", STIFFNESS, Range::Positive, "contact stiffness"),
+        Parameter::number(
+            "opening",
+            "g",
+            LENGTH,
+            Range::Any,
+            0.0,
+            "clearance at rest (negative: interference)",
+        ),
+        Parameter::number(
+            "damping",
+            "c",
+            DAMPING,
+            Range::NonNegative,
+            0.0,
+            "contact dashpot, acts only while closed",
+        ),
+        restitution("instead of `damping`: speed after over speed before an impact"),
+        IMPACT_MASS,
+        Parameter::flag("pull", false, "the dashpot may pull while the gap is closed"),
+        Parameter::optional(
+            "mu",
+            "μ",
+            NONE,
+            Range::NonNegative,
+            "friction coefficient; none: no friction",
+        ),
+        Parameter::optional(
+            "mu_slow",
+            "μ_slow",
+            NONE,
+            Range::NonNegative,
+            "instead of `mu`: friction coefficient at rest",
+        ),
+        Parameter::optional(
+            "mu_fast",
+            "μ_fast",
+            NONE,
+            Range::NonNegative,
+            "instead of `mu`: friction coefficient at speed",
+        ),
+        Parameter::optional(
+            "rate",
+            "r",
+            INVERSE_VELOCITY,
+            Range::NonNegative,
+            "rate at which μ goes from slow to fast",
+        ),
+        Parameter::optional(
+            "mu_static",
+            "μ_static",
+            NONE,
+            Range::NonNegative,
+            "friction coefficient before it breaks away; none: that of slow slip",
+        ),
+        Parameter::number(
+            "static_slip",
+            "s₀",
+            LENGTH,
+            Range::NonNegative,
+            0.0,
+            "slip over which `mu_static` is gone; 0: as soon as the spring `ks` can follow",
+        ),
+        Parameter::optional(
+            "ks",
+            "kₛ",
+            STIFFNESS,
+            Range::Positive,
+            "pre-slip stiffness; required with friction",
+        ),
+        Parameter::number(
+            "cs",
+            "cₛ",
+            DAMPING,
+            Range::NonNegative,
+            0.0,
+            "dashpot beside the spring `ks`: damps a contact that sticks",
+        ),
+        Parameter::number(
+            "k_post",
+            "k_post",
+            STIFFNESS,
+            Range::NonNegative,
+            0.0,
+            "post-slip stiffness, less than `ks`",
+        ),
+        Parameter::number(
+            "radius",
+            "R",
+            LENGTH,
+            Range::NonNegative,
+            0.0,
+            "radius of a pendulum surface; 0 is flat",
+        ),
+        rotational("r1", "r₁"),
+        rotational("r2", "r₂"),
+        rotational("r3", "r₃"),
+    ])
+    .law("p = −(d₁ + g), closed where p ≥ 0\n\
+          f₁ = −kₙ p + c ḋ₁, without `pull` at most 0\n\
+          N = kₙ p with `pull`, −f₁ without\n\
+          with `restitution`: c = 2 ζ(e) √(kₙ m)\n\
+          μ = μ_fast − (μ_fast − μ_slow) e^(−r x) + (μ_static − μ_slow) (1 − s/D)⁺,  D = max(s₀, 2 (μ_static − μ_slow) N/kₑ)\n\
+          x: slip rate |ȧ| (|ḋₜ| where μ_fast < μ_slow), s: slip since it last stuck\n\
+          τ = kₑ (dₜ − a) + cₛ (ḋₜ − ȧ), |τ| ≤ μ N, kₑ = kₛ − k_post (radial return)\n\
+          fₜ = τ + k_post dₜ + kₙ p dₜ/R\n\
+          open: f = 0, no memory of the anchor a")
+    .source("Wilson, Static and Dynamic Analysis of Structures, 2002, ch. 18 and 21; \
+             Constantinou, Mokha, Reinhorn 1990 for μ(v); \
+             Rabinowicz 1951 for static friction lost over a slip")
+    .example(r#""left": NLink(node: "left", kn: "5e8 N/m", ks: "5e8 N/m", mu: 0.4)"#)
+    .exercise(Exercise::new(1.0, &[
+            Stroke::about(-1e-3, 0.0),
+            Stroke::about(0.0, 2e-3),
+            Stroke::about(0.0, 0.0),
+        ]));
 
     fn check(&self) -> Result<(), ParameterError> {
         if self.restitution.is_some() && self.damping != 0.0 {

@@ -90,55 +90,59 @@ const fn exponent(name: &'static str, symbol: &'static str, meaning: &'static st
 }
 
 impl Described for PMMHinge {
-    const CARD: Card = Card::new("PMMHinge", Category::Link, "Plastic hinge with interaction of axial force and both moments (P-M2-M3), by return mapping.")
-.nodes(NodeCount::GROUND_OR_TWO)
-.parameters(&[
-            Parameter::required("axial", "k₁", STIFFNESS, Range::Positive, "elastic, along U1"),
-            Parameter::required(
-                "bending2",
-                "k₂",
-                ROTATIONAL_STIFFNESS,
-                Range::Positive,
-                "elastic, about R2",
-            ),
-            Parameter::required(
-                "bending3",
-                "k₃",
-                ROTATIONAL_STIFFNESS,
-                Range::Positive,
-                "elastic, about R3",
-            ),
-            Parameter::required(
-                "py",
-                "P_y",
-                FORCE,
-                Range::Positive,
-                "axial strength without moments",
-            ),
-            Parameter::required("mp2", "M_p2", MOMENT, Range::Positive, "strength about R2 alone"),
-            Parameter::required("mp3", "M_p3", MOMENT, Range::Positive, "strength about R3 alone"),
-            exponent("exponent_p", "a", "exponent of the axial force"),
-            exponent("exponent_m2", "b", "exponent of the moment about R2"),
-            exponent("exponent_m3", "c", "exponent of the moment about R3"),
-            Parameter::number(
-                "ratio",
-                "r",
-                NONE,
-                Range::Within(0.0, 1.0),
-                0.0,
-                "stiffness after yielding over elastic stiffness, below 1",
-            ),
-        ])
-.law("f = r k d + q,  q = (1 − r) k (d − p)  (along U1, about R2, R3)\n\
-              Φ = |x₁|^a + |x₂|^b + |x₃|^c ≤ 1,  xᵢ = qᵢ/((1 − r) Sᵢ),  S = (P_y, M_p2, M_p3)\n\
-              ṗ = λ ∂Φ/∂q, λ ≥ 0, λ > 0 only where Φ = 1")
-.source("Simo & Hughes, Computational Inelasticity, 1998, §3.6; Orbison, McGuire & Abel 1982; Powell & Chen 1986")
-.example(r#""hinge": PMMHinge(nodes: ("a", "b"), axial: "2 GN/m", bending2: "40 MN*m/rad", bending3: "120 MN*m/rad", py: "4 MN", mp2: "250 kN*m", mp3: "600 kN*m", exponent_p: 1.6, ratio: 0.02)"#)
-.exercise(Exercise::new(0.5, &[
-                Stroke::about(-1e-3, 1e-3),
-                Stroke::about(0.0, 0.02).with_phase(0.25),
-                Stroke::about(0.0, 0.03),
-            ]));
+    const CARD: Card = Card::new(
+        "PMMHinge",
+        Category::Link,
+        "Plastic hinge with interaction of axial force and both moments (P-M2-M3), by return mapping.",
+    )
+    .nodes(NodeCount::GROUND_OR_TWO)
+    .parameters(&[
+        Parameter::required("axial", "k₁", STIFFNESS, Range::Positive, "elastic, along U1"),
+        Parameter::required(
+            "bending2",
+            "k₂",
+            ROTATIONAL_STIFFNESS,
+            Range::Positive,
+            "elastic, about R2",
+        ),
+        Parameter::required(
+            "bending3",
+            "k₃",
+            ROTATIONAL_STIFFNESS,
+            Range::Positive,
+            "elastic, about R3",
+        ),
+        Parameter::required(
+            "py",
+            "P_y",
+            FORCE,
+            Range::Positive,
+            "axial strength without moments",
+        ),
+        Parameter::required("mp2", "M_p2", MOMENT, Range::Positive, "strength about R2 alone"),
+        Parameter::required("mp3", "M_p3", MOMENT, Range::Positive, "strength about R3 alone"),
+        exponent("exponent_p", "a", "exponent of the axial force"),
+        exponent("exponent_m2", "b", "exponent of the moment about R2"),
+        exponent("exponent_m3", "c", "exponent of the moment about R3"),
+        Parameter::number(
+            "ratio",
+            "r",
+            NONE,
+            Range::Within(0.0, 1.0),
+            0.0,
+            "stiffness after yielding over elastic stiffness, below 1",
+        ),
+    ])
+    .law("f = r k d + q,  q = (1 − r) k (d − p)  (along U1, about R2, R3)\n\
+          Φ = |x₁|^a + |x₂|^b + |x₃|^c ≤ 1,  xᵢ = qᵢ/((1 − r) Sᵢ),  S = (P_y, M_p2, M_p3)\n\
+          ṗ = λ ∂Φ/∂q, λ ≥ 0, λ > 0 only where Φ = 1")
+    .source("Simo & Hughes, Computational Inelasticity, 1998, §3.6; Orbison, McGuire & Abel 1982; Powell & Chen 1986")
+    .example(r#""hinge": PMMHinge(nodes: ("a", "b"), axial: "2 GN/m", bending2: "40 MN*m/rad", bending3: "120 MN*m/rad", py: "4 MN", mp2: "250 kN*m", mp3: "600 kN*m", exponent_p: 1.6, ratio: 0.02)"#)
+    .exercise(Exercise::new(0.5, &[
+            Stroke::about(-1e-3, 1e-3),
+            Stroke::about(0.0, 0.02).with_phase(0.25),
+            Stroke::about(0.0, 0.03),
+        ]));
 
     fn check(&self) -> Result<(), ParameterError> {
         if self.ratio < 1.0 {

@@ -30,19 +30,23 @@ pub struct RigidBody {
 }
 
 impl Described for RigidBody {
-    const CARD: Card = Card::new("RigidBody", Category::Constraint, "Nodes that move as one rigid body; the first leads, the others follow.")
-.nodes(NodeCount::at_least(2))
-.parameters(&[Parameter::new(
-            "corners",
-            "",
-            Form::Points,
-            Default::Absent,
-            "corners of the body from its first node, in order; only drawn",
-        )])
-.law("u_s = u_m + θ_m × r\nθ_s = θ_m\nr   = x_s − x_m")
-.source("Kinematics of a rigid body at small rotations; Bathe, Finite Element Procedures, 1996, §4.2.2")
-.example(r#""block": RigidBody(nodes: ("cg", "left", "right"))"#)
-.exercise(Exercise::NONE);
+    const CARD: Card = Card::new(
+        "RigidBody",
+        Category::Constraint,
+        "Nodes that move as one rigid body; the first leads, the others follow.",
+    )
+    .nodes(NodeCount::at_least(2))
+    .parameters(&[Parameter::new(
+        "corners",
+        "",
+        Form::Points,
+        Default::Absent,
+        "corners of the body from its first node, in order; only drawn",
+    )])
+    .law("u_s = u_m + θ_m × r\nθ_s = θ_m\nr   = x_s − x_m")
+    .source("Kinematics of a rigid body at small rotations; Bathe, Finite Element Procedures, 1996, §4.2.2")
+    .example(r#""block": RigidBody(nodes: ("cg", "left", "right"))"#)
+    .exercise(Exercise::NONE);
 }
 
 impl Constraint for RigidBody {

@@ -27,17 +27,21 @@ pub struct RigidLink {
 }
 
 impl Described for RigidLink {
-    const CARD: Card = Card::new("RigidLink", Category::Constraint, "The second node follows the first as part of the same rigid body.")
-.nodes(NodeCount::exactly(2))
-.parameters(&[Parameter::flag(
-            "translations_only",
-            false,
-            "the rotations of the second node stay free",
-        )])
-.law("u_j = u_i + θ_i × (x_j − x_i)\nθ_j = θ_i, unless `translations_only`")
-.source("Kinematics of a rigid body at small rotations; Bathe, Finite Element Procedures, 1996, §4.2.2")
-.example(r#""arm": RigidLink(nodes: ("column", "corner"))"#)
-.exercise(Exercise::NONE);
+    const CARD: Card = Card::new(
+        "RigidLink",
+        Category::Constraint,
+        "The second node follows the first as part of the same rigid body.",
+    )
+    .nodes(NodeCount::exactly(2))
+    .parameters(&[Parameter::flag(
+        "translations_only",
+        false,
+        "the rotations of the second node stay free",
+    )])
+    .law("u_j = u_i + θ_i × (x_j − x_i)\nθ_j = θ_i, unless `translations_only`")
+    .source("Kinematics of a rigid body at small rotations; Bathe, Finite Element Procedures, 1996, §4.2.2")
+    .example(r#""arm": RigidLink(nodes: ("column", "corner"))"#)
+    .exercise(Exercise::NONE);
 }
 
 impl Constraint for RigidLink {

@@ -103,89 +103,93 @@ pub struct RockingBody {
 }
 
 impl Described for RockingBody {
-    const CARD: Card = Card::new("RockingBody", Category::Link, "Rigid body standing on the ground or a node by base points or a rim, in finite rotation: slides, rocks, rolls, overturns.")
-.nodes(NodeCount::GROUND_OR_TWO)
-.parameters(&[
-            Parameter::new(
-                "base",
-                "rᵢ",
-                Form::Points,
-                Default::Absent,
-                "base points, from the centre of gravity, body upright",
-            ),
-            Parameter::optional(
-                "rim_radius",
-                "ρ",
-                LENGTH,
-                Range::Positive,
-                "instead of `base`: radius of a circular base",
-            ),
-            Parameter::optional(
-                "rim_depth",
-                "h",
-                LENGTH,
-                Range::Positive,
-                "depth of the circular base below the centre of gravity",
-            ),
-            Parameter::required("kn", "kₙ", STIFFNESS, Range::Positive, "contact stiffness of each point, or of the whole rim"),
-            Parameter::number(
-                "damping",
-                "c",
-                DAMPING,
-                Range::NonNegative,
-                0.0,
-                "contact dashpot of each point or the whole rim, acts only where closed",
-            ),
-            Parameter::flag("pull", false, "the dashpot may pull while the point is closed"),
-            Parameter::number("mu", "μ", NONE, Range::NonNegative, 0.0, "friction coefficient"),
-            Parameter::optional(
-                "ks",
-                "kₛ",
-                STIFFNESS,
-                Range::Positive,
-                "pre-slip stiffness of each point or the rim; required with friction",
-            ),
-            Parameter::optional(
-                "arc_stiffness",
-                "k_a",
-                STIFFNESS,
-                Range::Positive,
-                "stiffness of the whole rim that the arc of drilling friction follows from; none: `kn`",
-            ),
-            Parameter::new(
-                "inertia",
-                "J",
-                Form::Numbers { dimension: INERTIA, count: Some(3) },
-                Default::Absent,
-                "moments of inertia about X, Y, Z of the body, as in its `Mass`; required where it can rock in space",
-            )
-            .within(Range::NonNegative),
-            Parameter::number(
-                "overturned",
-                "",
-                NONE,
-                Range::Positive,
-                FRAC_PI_2,
-                "tilt at which the body counts as overturned, rad",
-            ),
-        ])
-.law("dᵢ = u + R rᵢ − rᵢ, vᵢ = u̇ + R (Ω × rᵢ): base point i, R = R₀ exp(θ − θ₀)\n\
-              rim: penetration δ(ψ) = a + b cos ψ, springs kₙ/2π and dashpots c/2π along it, friction at the centre of pressure\n\
-              drilling of a rim: at most μ N m ρ, mρ: mean distance of what presses from its centre; a tilted rim presses on an arc: m = 3/8 ψ꜀, ψ꜀ = (3π N/(k_a ρ sin tilt))^⅓, which goes to 0 as k_a grows\n\
-              fᵢ as NLink: gap kₙ with dashpot c, friction μ with pre-slip stiffness kₛ\n\
-              F = Σ fᵢ (global axes), M = Σ rᵢ × Rᵀ fᵢ + Ω × J Ω (axes of the body)\n\
-              two nodes: the same law of the body as the first node, its support, sees it; −F and its moment on the support\n\
-              overturned where the body's vertical axis tilts by `overturned`")
-.source("Euler's equations with exact rotations, Simo & Vu-Quoc 1988; Housner, Bull. Seism. Soc. Am. 53, 1963")
-.example(r#""cask": RockingBody(node: "cg", base: [("-0.5 m", 0, "-1 m"), ("0.5 m", 0, "-1 m")], kn: "1e9 N/m", ks: "1e9 N/m", mu: 0.5)"#)
-.exercise(Exercise::new(0.5, &[
-                Stroke::about(0.0, 0.0),
-                Stroke::about(0.0, 0.0),
-                Stroke::about(-1e-4, 0.0),
-                Stroke::about(0.0, 0.0),
-                Stroke::about(0.0, 2e-4),
-                Stroke::about(0.0, 0.0),
-            ]));
+    const CARD: Card = Card::new(
+        "RockingBody",
+        Category::Link,
+        "Rigid body standing on the ground or a node by base points or a rim, in finite rotation: slides, rocks, rolls, overturns.",
+    )
+    .nodes(NodeCount::GROUND_OR_TWO)
+    .parameters(&[
+        Parameter::new(
+            "base",
+            "rᵢ",
+            Form::Points,
+            Default::Absent,
+            "base points, from the centre of gravity, body upright",
+        ),
+        Parameter::optional(
+            "rim_radius",
+            "ρ",
+            LENGTH,
+            Range::Positive,
+            "instead of `base`: radius of a circular base",
+        ),
+        Parameter::optional(
+            "rim_depth",
+            "h",
+            LENGTH,
+            Range::Positive,
+            "depth of the circular base below the centre of gravity",
+        ),
+        Parameter::required("kn", "kₙ", STIFFNESS, Range::Positive, "contact stiffness of each point, or of the whole rim"),
+        Parameter::number(
+            "damping",
+            "c",
+            DAMPING,
+            Range::NonNegative,
+            0.0,
+            "contact dashpot of each point or the whole rim, acts only where closed",
+        ),
+        Parameter::flag("pull", false, "the dashpot may pull while the point is closed"),
+        Parameter::number("mu", "μ", NONE, Range::NonNegative, 0.0, "friction coefficient"),
+        Parameter::optional(
+            "ks",
+            "kₛ",
+            STIFFNESS,
+            Range::Positive,
+            "pre-slip stiffness of each point or the rim; required with friction",
+        ),
+        Parameter::optional(
+            "arc_stiffness",
+            "k_a",
+            STIFFNESS,
+            Range::Positive,
+            "stiffness of the whole rim that the arc of drilling friction follows from; none: `kn`",
+        ),
+        Parameter::new(
+            "inertia",
+            "J",
+            Form::Numbers { dimension: INERTIA, count: Some(3) },
+            Default::Absent,
+            "moments of inertia about X, Y, Z of the body, as in its `Mass`; required where it can rock in space",
+        )
+        .within(Range::NonNegative),
+        Parameter::number(
+            "overturned",
+            "",
+            NONE,
+            Range::Positive,
+            FRAC_PI_2,
+            "tilt at which the body counts as overturned, rad",
+        ),
+    ])
+    .law("dᵢ = u + R rᵢ − rᵢ, vᵢ = u̇ + R (Ω × rᵢ): base point i, R = R₀ exp(θ − θ₀)\n\
+          rim: penetration δ(ψ) = a + b cos ψ, springs kₙ/2π and dashpots c/2π along it, friction at the centre of pressure\n\
+          drilling of a rim: at most μ N m ρ, mρ: mean distance of what presses from its centre; a tilted rim presses on an arc: m = 3/8 ψ꜀, ψ꜀ = (3π N/(k_a ρ sin tilt))^⅓, which goes to 0 as k_a grows\n\
+          fᵢ as NLink: gap kₙ with dashpot c, friction μ with pre-slip stiffness kₛ\n\
+          F = Σ fᵢ (global axes), M = Σ rᵢ × Rᵀ fᵢ + Ω × J Ω (axes of the body)\n\
+          two nodes: the same law of the body as the first node, its support, sees it; −F and its moment on the support\n\
+          overturned where the body's vertical axis tilts by `overturned`")
+    .source("Euler's equations with exact rotations, Simo & Vu-Quoc 1988; Housner, Bull. Seism. Soc. Am. 53, 1963")
+    .example(r#""cask": RockingBody(node: "cg", base: [("-0.5 m", 0, "-1 m"), ("0.5 m", 0, "-1 m")], kn: "1e9 N/m", ks: "1e9 N/m", mu: 0.5)"#)
+    .exercise(Exercise::new(0.5, &[
+            Stroke::about(0.0, 0.0),
+            Stroke::about(0.0, 0.0),
+            Stroke::about(-1e-4, 0.0),
+            Stroke::about(0.0, 0.0),
+            Stroke::about(0.0, 2e-4),
+            Stroke::about(0.0, 0.0),
+        ]));
 
     fn check(&self) -> Result<(), ParameterError> {
         let wrong = |name, message: String| Err(ParameterError::inconsistent(name, message));

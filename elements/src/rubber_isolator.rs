@@ -86,51 +86,55 @@ history! {
 }
 
 impl Described for RubberIsolator {
-    const CARD: Card = Card::new("RubberIsolator", Category::Link, "Bearing with plastic shear coupled in its plane and a linear axial spring.")
-.nodes(NodeCount::GROUND_OR_TWO)
-.parameters(&[
-            Parameter::required("k2", "k₂", STIFFNESS, Range::Positive, "shear stiffness at rest"),
-            Parameter::optional("k3", "k₃", STIFFNESS, Range::Positive, "the same along U3 (k₂)"),
-            Parameter::required("fy2", "f_y2", FORCE, Range::Positive, "yield force in shear"),
-            Parameter::optional("fy3", "f_y3", FORCE, Range::Positive, "the same along U3 (f_y2)"),
-            Parameter::required(
-                "ratio2",
-                "r₂",
-                NONE,
-                Range::Within(0.0, 1.0),
-                "stiffness after yielding over `k2`",
-            ),
-            Parameter::optional(
-                "ratio3",
-                "r₃",
-                NONE,
-                Range::Within(0.0, 1.0),
-                "the same along U3 (r₂)",
-            ),
-            Parameter::number(
-                "kv",
-                "k_v",
-                STIFFNESS,
-                Range::NonNegative,
-                0.0,
-                "axial stiffness, both ways",
-            ),
-            PARAMETERS[0],
-            PARAMETERS[1],
-            PARAMETERS[2],
-            PARAMETERS[3],
-        ])
-.law("fᵢ = rᵢ kᵢ dᵢ + (1 − rᵢ) f_yᵢ zᵢ, i = 2, 3;  f₁ = k_v d₁\n\
-              żᵢ = ωᵢ − zᵢ |z|^(η−2) Σⱼ ωⱼ zⱼ (γ + β sⱼ),  ωⱼ = kⱼ ḋⱼ/f_yⱼ\n\
-              Axes: sⱼ = sgn(ωⱼ zⱼ);  Direction: sⱼ = sgn(ω·z)")
-.source("Park, Wen & Ang, Random Vibration of Hysteretic Systems under Bi-directional Ground Motions, 1986; \
-                 Casciati 1989 for Direction, as in OpenSees' elastomericBearingBoucWen")
-.example(r#""bearing": RubberIsolator(nodes: ("ground", "slab"), k2: "10 MN/m", fy2: "100 kN", ratio2: 0.1, kv: "2000 MN/m")"#)
-.exercise(Exercise::new(0.5, &[
-                Stroke::about(-0.0005, 0.0),
-                Stroke::about(0.0, 0.15),
-                Stroke::about(0.0, 0.1).with_phase(0.25),
-            ]));
+    const CARD: Card = Card::new(
+        "RubberIsolator",
+        Category::Link,
+        "Bearing with plastic shear coupled in its plane and a linear axial spring.",
+    )
+    .nodes(NodeCount::GROUND_OR_TWO)
+    .parameters(&[
+        Parameter::required("k2", "k₂", STIFFNESS, Range::Positive, "shear stiffness at rest"),
+        Parameter::optional("k3", "k₃", STIFFNESS, Range::Positive, "the same along U3 (k₂)"),
+        Parameter::required("fy2", "f_y2", FORCE, Range::Positive, "yield force in shear"),
+        Parameter::optional("fy3", "f_y3", FORCE, Range::Positive, "the same along U3 (f_y2)"),
+        Parameter::required(
+            "ratio2",
+            "r₂",
+            NONE,
+            Range::Within(0.0, 1.0),
+            "stiffness after yielding over `k2`",
+        ),
+        Parameter::optional(
+            "ratio3",
+            "r₃",
+            NONE,
+            Range::Within(0.0, 1.0),
+            "the same along U3 (r₂)",
+        ),
+        Parameter::number(
+            "kv",
+            "k_v",
+            STIFFNESS,
+            Range::NonNegative,
+            0.0,
+            "axial stiffness, both ways",
+        ),
+        PARAMETERS[0],
+        PARAMETERS[1],
+        PARAMETERS[2],
+        PARAMETERS[3],
+    ])
+    .law("fᵢ = rᵢ kᵢ dᵢ + (1 − rᵢ) f_yᵢ zᵢ, i = 2, 3;  f₁ = k_v d₁\n\
+          żᵢ = ωᵢ − zᵢ |z|^(η−2) Σⱼ ωⱼ zⱼ (γ + β sⱼ),  ωⱼ = kⱼ ḋⱼ/f_yⱼ\n\
+          Axes: sⱼ = sgn(ωⱼ zⱼ);  Direction: sⱼ = sgn(ω·z)")
+    .source("Park, Wen & Ang, Random Vibration of Hysteretic Systems under Bi-directional Ground Motions, 1986; \
+             Casciati 1989 for Direction, as in OpenSees' elastomericBearingBoucWen")
+    .example(r#""bearing": RubberIsolator(nodes: ("ground", "slab"), k2: "10 MN/m", fy2: "100 kN", ratio2: 0.1, kv: "2000 MN/m")"#)
+    .exercise(Exercise::new(0.5, &[
+            Stroke::about(-0.0005, 0.0),
+            Stroke::about(0.0, 0.15),
+            Stroke::about(0.0, 0.1).with_phase(0.25),
+        ]));
 
     fn check(&self) -> Result<(), ParameterError> {
         self.shape().check()

@@ -106,73 +106,77 @@ history! {
 }
 
 impl Described for SoilSpring {
-    const CARD: Card = Card::new("SoilSpring", Category::Link, "Soil beside a pile or behind a wall: p–y curve, elastic return, a gap that opens, drag.")
-.nodes(NodeCount::GROUND_OR_TWO)
-.parameters(&[
-            Parameter::required(
-                "k",
-                "k",
-                STIFFNESS,
-                Range::Positive,
-                "stiffness where pressing begins",
-            ),
-            Parameter::required(
-                "pu",
-                "p_u",
-                FORCE,
-                Range::Positive,
-                "ultimate resistance of a side",
-            ),
-            Parameter::choice(
-                "backbone",
-                &["Hyperbolic", "Sand"],
-                "Hyperbolic",
-                "first pressing: Kondner's hyperbola, or API's hyperbolic tangent for sand",
-            ),
-            Parameter::optional(
-                "ku",
-                "kᵤ",
-                STIFFNESS,
-                Range::Positive,
-                "stiffness back and again, at least `k`; none: `k`",
-            ),
-            Parameter::number(
-                "opening",
-                "",
-                LENGTH,
-                Range::NonNegative,
-                0.0,
-                "clearance before the soil on each side",
-            ),
-            Parameter::choice(
-                "sides",
-                &["Both", "Positive", "Negative"],
-                "Both",
-                "where soil is: at which deformations it presses",
-            ),
-            Parameter::number(
-                "drag",
-                "p_d",
-                FORCE,
-                Range::NonNegative,
-                0.0,
-                "friction along the sides, in the gap as well",
-            ),
-            Parameter::optional(
-                "drag_stiffness",
-                "k_d",
-                STIFFNESS,
-                Range::Positive,
-                "stiffness before it slips; none: `k`",
-            ),
-            Parameter::choice("axis", &["U1", "U2", "U3"], "U2", "local axis"),
-        ])
-.law("each face, x = ±d − opening, deepest y: p = B(x) where x ≥ y, else max(0, B(y) − kᵤ (y − x))\n\
-              Hyperbolic: B = k x/(1 + k x/p_u);  Sand: B = p_u tanh(k x/p_u)\n\
-              f = p⁺ − p⁻ + q,  q = k_d (d − s), |q| ≤ p_d")
-.source("Matlock, Foo & Bryant 1978; Kondner 1963; API RP 2GEO 2011, §8.5")
-.example(r#""soil": SoilSpring(node: "pile", k: "20 MN/m", pu: "150 kN", drag: "15 kN")"#)
-.exercise(Exercise::new(0.5, &[Stroke::about(0.0, 0.03)]));
+    const CARD: Card = Card::new(
+        "SoilSpring",
+        Category::Link,
+        "Soil beside a pile or behind a wall: p–y curve, elastic return, a gap that opens, drag.",
+    )
+    .nodes(NodeCount::GROUND_OR_TWO)
+    .parameters(&[
+        Parameter::required(
+            "k",
+            "k",
+            STIFFNESS,
+            Range::Positive,
+            "stiffness where pressing begins",
+        ),
+        Parameter::required(
+            "pu",
+            "p_u",
+            FORCE,
+            Range::Positive,
+            "ultimate resistance of a side",
+        ),
+        Parameter::choice(
+            "backbone",
+            &["Hyperbolic", "Sand"],
+            "Hyperbolic",
+            "first pressing: Kondner's hyperbola, or API's hyperbolic tangent for sand",
+        ),
+        Parameter::optional(
+            "ku",
+            "kᵤ",
+            STIFFNESS,
+            Range::Positive,
+            "stiffness back and again, at least `k`; none: `k`",
+        ),
+        Parameter::number(
+            "opening",
+            "",
+            LENGTH,
+            Range::NonNegative,
+            0.0,
+            "clearance before the soil on each side",
+        ),
+        Parameter::choice(
+            "sides",
+            &["Both", "Positive", "Negative"],
+            "Both",
+            "where soil is: at which deformations it presses",
+        ),
+        Parameter::number(
+            "drag",
+            "p_d",
+            FORCE,
+            Range::NonNegative,
+            0.0,
+            "friction along the sides, in the gap as well",
+        ),
+        Parameter::optional(
+            "drag_stiffness",
+            "k_d",
+            STIFFNESS,
+            Range::Positive,
+            "stiffness before it slips; none: `k`",
+        ),
+        Parameter::choice("axis", &["U1", "U2", "U3"], "U2", "local axis"),
+    ])
+    .law("each face, x = ±d − opening, deepest y: p = B(x) where x ≥ y, else max(0, B(y) − kᵤ (y − x))\n\
+          Hyperbolic: B = k x/(1 + k x/p_u);  Sand: B = p_u tanh(k x/p_u)\n\
+          f = p⁺ − p⁻ + q,  q = k_d (d − s), |q| ≤ p_d")
+    .source("Matlock, Foo & Bryant 1978; Kondner 1963; API RP 2GEO 2011, §8.5")
+    .example(r#""soil": SoilSpring(node: "pile", k: "20 MN/m", pu: "150 kN", drag: "15 kN")"#)
+    .exercise(Exercise::new(0.5, &[Stroke::about(0.0, 0.03)]));
 
     fn check(&self) -> Result<(), ParameterError> {
         match self.ku {

@@ -97,79 +97,83 @@ const fn rate(name: &'static str, meaning: &'static str) -> Parameter {
 }
 
 impl Described for TensionCompressionFriction {
-    const CARD: Card = Card::new("TensionCompressionFriction", Category::Link, "Sliding bearing with friction in compression and, of its own, in tension.")
-.nodes(NodeCount::GROUND_OR_TWO)
-.parameters(&[
-            Parameter::required("kn", "kₙ", STIFFNESS, Range::Positive, "stiffness in compression"),
-            Parameter::required("kt", "kₜ", STIFFNESS, Range::Positive, "stiffness in tension"),
-            Parameter::number(
-                "gap_compression",
-                "g_c",
-                LENGTH,
-                Range::NonNegative,
-                0.0,
-                "clearance before compression",
-            ),
-            Parameter::number(
-                "gap_tension",
-                "g_t",
-                LENGTH,
-                Range::NonNegative,
-                0.0,
-                "clearance before tension",
-            ),
-            Parameter::number(
-                "damping",
-                "c",
-                DAMPING,
-                Range::NonNegative,
-                0.0,
-                "dashpot along the axis, acts only while closed",
-            ),
-            Parameter::flag(
-                "pull",
-                false,
-                "the dashpot may act against the contact force; N is that of the spring then",
-            ),
-            Parameter::required("ks", "kₛ", STIFFNESS, Range::Positive, "stiffness before slip"),
-            Parameter::number(
-                "cs",
-                "cₛ",
-                DAMPING,
-                Range::NonNegative,
-                0.0,
-                "dashpot beside the spring `ks`: damps a bearing that sticks",
-            ),
-            Parameter::number(
-                "radius",
-                "R",
-                LENGTH,
-                Range::NonNegative,
-                0.0,
-                "effective radius; 0 is flat",
-            ),
-            coefficient("mu", "μ", "friction coefficient in compression; none: no friction"),
-            coefficient("mu_slow", "μ_slow", "instead of `mu`: friction coefficient at rest"),
-            coefficient("mu_fast", "μ_fast", "instead of `mu`: friction coefficient at speed"),
-            rate("rate", "how fast the friction coefficient goes from slow to fast"),
-            coefficient("mu_tension", "μ", "friction coefficient in tension; none: as compression"),
-            coefficient("mu_slow_tension", "μ_slow", "instead of `mu_tension`: at rest"),
-            coefficient("mu_fast_tension", "μ_fast", "instead of `mu_tension`: at speed"),
-            rate("rate_tension", "how fast it goes from slow to fast in tension"),
-        ])
-.law("pressed, d₁ + g_c ≤ 0: f₁ = min(0, kₙ (d₁ + g_c) + c ḋ₁)\n\
-              pulled,  d₁ − g_t ≥ 0: f₁ = max(0, kₜ (d₁ − g_t) + c ḋ₁);  N = |f₁|\n\
-              τ = kₛ (u − a) + cₛ (u̇ − ȧ), |τ| ≤ μ N (radial return), μ of the side;  u = (d₂, d₃)\n\
-              μ = μ_fast − (μ_fast − μ_slow) e^(−r x), slip rate x = |ȧ| (|u̇| where μ falls with it)\n\
-              fₜ = τ − f₁ u/R\n\
-              open: f = 0, no memory of the anchor a")
-.source("CSI Analysis Reference, T/C friction isolator; Roussis & Constantinou 2006 for tension")
-.example(r#""bearing": TensionCompressionFriction(node: "base", kn: "2e9 N/m", kt: "5e8 N/m", gap_tension: "1 mm", ks: "1e8 N/m", mu: 0.06, mu_tension: 0.12)"#)
-.exercise(Exercise::new(0.5, &[
-                Stroke::about(5e-4, 1e-3).with_phase(0.25),
-                Stroke::about(0.0, 0.1),
-                Stroke::about(0.0, 0.0),
-            ]));
+    const CARD: Card = Card::new(
+        "TensionCompressionFriction",
+        Category::Link,
+        "Sliding bearing with friction in compression and, of its own, in tension.",
+    )
+    .nodes(NodeCount::GROUND_OR_TWO)
+    .parameters(&[
+        Parameter::required("kn", "kₙ", STIFFNESS, Range::Positive, "stiffness in compression"),
+        Parameter::required("kt", "kₜ", STIFFNESS, Range::Positive, "stiffness in tension"),
+        Parameter::number(
+            "gap_compression",
+            "g_c",
+            LENGTH,
+            Range::NonNegative,
+            0.0,
+            "clearance before compression",
+        ),
+        Parameter::number(
+            "gap_tension",
+            "g_t",
+            LENGTH,
+            Range::NonNegative,
+            0.0,
+            "clearance before tension",
+        ),
+        Parameter::number(
+            "damping",
+            "c",
+            DAMPING,
+            Range::NonNegative,
+            0.0,
+            "dashpot along the axis, acts only while closed",
+        ),
+        Parameter::flag(
+            "pull",
+            false,
+            "the dashpot may act against the contact force; N is that of the spring then",
+        ),
+        Parameter::required("ks", "kₛ", STIFFNESS, Range::Positive, "stiffness before slip"),
+        Parameter::number(
+            "cs",
+            "cₛ",
+            DAMPING,
+            Range::NonNegative,
+            0.0,
+            "dashpot beside the spring `ks`: damps a bearing that sticks",
+        ),
+        Parameter::number(
+            "radius",
+            "R",
+            LENGTH,
+            Range::NonNegative,
+            0.0,
+            "effective radius; 0 is flat",
+        ),
+        coefficient("mu", "μ", "friction coefficient in compression; none: no friction"),
+        coefficient("mu_slow", "μ_slow", "instead of `mu`: friction coefficient at rest"),
+        coefficient("mu_fast", "μ_fast", "instead of `mu`: friction coefficient at speed"),
+        rate("rate", "how fast the friction coefficient goes from slow to fast"),
+        coefficient("mu_tension", "μ", "friction coefficient in tension; none: as compression"),
+        coefficient("mu_slow_tension", "μ_slow", "instead of `mu_tension`: at rest"),
+        coefficient("mu_fast_tension", "μ_fast", "instead of `mu_tension`: at speed"),
+        rate("rate_tension", "how fast it goes from slow to fast in tension"),
+    ])
+    .law("pressed, d₁ + g_c ≤ 0: f₁ = min(0, kₙ (d₁ + g_c) + c ḋ₁)\n\
+          pulled,  d₁ − g_t ≥ 0: f₁ = max(0, kₜ (d₁ − g_t) + c ḋ₁);  N = |f₁|\n\
+          τ = kₛ (u − a) + cₛ (u̇ − ȧ), |τ| ≤ μ N (radial return), μ of the side;  u = (d₂, d₃)\n\
+          μ = μ_fast − (μ_fast − μ_slow) e^(−r x), slip rate x = |ȧ| (|u̇| where μ falls with it)\n\
+          fₜ = τ − f₁ u/R\n\
+          open: f = 0, no memory of the anchor a")
+    .source("CSI Analysis Reference, T/C friction isolator; Roussis & Constantinou 2006 for tension")
+    .example(r#""bearing": TensionCompressionFriction(node: "base", kn: "2e9 N/m", kt: "5e8 N/m", gap_tension: "1 mm", ks: "1e8 N/m", mu: 0.06, mu_tension: 0.12)"#)
+    .exercise(Exercise::new(0.5, &[
+            Stroke::about(5e-4, 1e-3).with_phase(0.25),
+            Stroke::about(0.0, 0.1),
+            Stroke::about(0.0, 0.0),
+        ]));
 
     fn check(&self) -> Result<(), ParameterError> {
         one_set(

@@ -110,71 +110,75 @@ const fn four(
 }
 
 impl Described for TriplePendulum {
-    const CARD: Card = Card::new("TriplePendulum", Category::Link, "Sliding bearing with four concave surfaces and their rims.")
-.nodes(NodeCount::GROUND_OR_TWO)
-.parameters(&[
-            Parameter::required("kn", "kₙ", STIFFNESS, Range::Positive, "stiffness in compression"),
-            Parameter::number(
-                "damping",
-                "c",
-                DAMPING,
-                Range::NonNegative,
-                0.0,
-                "dashpot along the axis, acts only while closed",
-            ),
-            Parameter::flag(
-                "pull",
-                false,
-                "the dashpot may pull while closed; friction is of kₙ d₁ then",
-            ),
-            Parameter::required(
-                "ks",
-                "kₛ",
-                STIFFNESS,
-                Range::Positive,
-                "stiffness before slip of each surface",
-            ),
-            four("radii", "R", LENGTH, Default::Required, "radii of surfaces 1 to 4"),
-            four("heights", "h", LENGTH, Default::Absent, "taken off the radii; none: 0"),
-            four(
-                "capacities",
-                "d",
-                LENGTH,
-                Default::Absent,
-                "displacements at which the surfaces meet their rims; 0: no rim",
-            ),
-            Parameter::optional(
-                "stop_stiffness",
-                "kₛₜ",
-                STIFFNESS,
-                Range::Positive,
-                "stiffness of each rim",
-            ),
-            four("mu", "μ", NONE, Default::Absent, "friction coefficients"),
-            four("mu_slow", "μ_slow", NONE, Default::Absent, "instead of `mu`: at rest"),
-            four("mu_fast", "μ_fast", NONE, Default::Absent, "instead of `mu`: at speed"),
-            four(
-                "rate",
-                "r",
-                INVERSE_VELOCITY,
-                Default::Absent,
-                "how fast μ goes from slow to fast",
-            ),
-        ])
-.law("F = N wᵢ/R̄ᵢ + τᵢ + stop(wᵢ) for each surface i, Σ wᵢ = (d₂, d₃)\n\
-              τᵢ = kₛ (wᵢ − aᵢ), |τᵢ| ≤ μᵢ N (radial return)\n\
-              R* = R − h;  R̄₁ = R₁* − R₂*, R̄₂ = R₂*, R̄₃ = R₃*, R̄₄ = R₄* − R₃*\n\
-              rims: D̄₁ = d₁ (1 − R₂*/R₁*), D̄₂ = d₂ + d₁ R₂*/R₁*; 4 and 3 in the same way\n\
-              μᵢ = μ_fast − (μ_fast − μ_slow) e^(−r vᵢ)\n\
-              f₁ = min(0, kₙ d₁ + c ḋ₁) closed, N = −f₁")
-.source("Fenz & Constantinou 2008, Earthquake Engng Struct. Dyn. 37: 163 and 185; \
-                 Modeling triple friction pendulum bearings, 37: 1401")
-.example(r#""bearing": TriplePendulum(node: "base", kn: "2e9 N/m", ks: "1e8 N/m", radii: ("2.2 m", "0.4 m", "0.4 m", "2.2 m"), heights: ("0.1 m", "0.05 m", "0.05 m", "0.1 m"), capacities: ("0.35 m", "0.05 m", "0.05 m", "0.35 m"), stop_stiffness: "2e7 N/m", mu: (0.05, 0.02, 0.02, 0.09))"#)
-.exercise(Exercise::new(0.1, &[
-                Stroke::about(-5e-4, 0.0),
-                Stroke::about(0.0, 0.76),
-                Stroke::about(0.0, 0.0),
-            ]));
+    const CARD: Card = Card::new(
+        "TriplePendulum",
+        Category::Link,
+        "Sliding bearing with four concave surfaces and their rims.",
+    )
+    .nodes(NodeCount::GROUND_OR_TWO)
+    .parameters(&[
+        Parameter::required("kn", "kₙ", STIFFNESS, Range::Positive, "stiffness in compression"),
+        Parameter::number(
+            "damping",
+            "c",
+            DAMPING,
+            Range::NonNegative,
+            0.0,
+            "dashpot along the axis, acts only while closed",
+        ),
+        Parameter::flag(
+            "pull",
+            false,
+            "the dashpot may pull while closed; friction is of kₙ d₁ then",
+        ),
+        Parameter::required(
+            "ks",
+            "kₛ",
+            STIFFNESS,
+            Range::Positive,
+            "stiffness before slip of each surface",
+        ),
+        four("radii", "R", LENGTH, Default::Required, "radii of surfaces 1 to 4"),
+        four("heights", "h", LENGTH, Default::Absent, "taken off the radii; none: 0"),
+        four(
+            "capacities",
+            "d",
+            LENGTH,
+            Default::Absent,
+            "displacements at which the surfaces meet their rims; 0: no rim",
+        ),
+        Parameter::optional(
+            "stop_stiffness",
+            "kₛₜ",
+            STIFFNESS,
+            Range::Positive,
+            "stiffness of each rim",
+        ),
+        four("mu", "μ", NONE, Default::Absent, "friction coefficients"),
+        four("mu_slow", "μ_slow", NONE, Default::Absent, "instead of `mu`: at rest"),
+        four("mu_fast", "μ_fast", NONE, Default::Absent, "instead of `mu`: at speed"),
+        four(
+            "rate",
+            "r",
+            INVERSE_VELOCITY,
+            Default::Absent,
+            "how fast μ goes from slow to fast",
+        ),
+    ])
+    .law("F = N wᵢ/R̄ᵢ + τᵢ + stop(wᵢ) for each surface i, Σ wᵢ = (d₂, d₃)\n\
+          τᵢ = kₛ (wᵢ − aᵢ), |τᵢ| ≤ μᵢ N (radial return)\n\
+          R* = R − h;  R̄₁ = R₁* − R₂*, R̄₂ = R₂*, R̄₃ = R₃*, R̄₄ = R₄* − R₃*\n\
+          rims: D̄₁ = d₁ (1 − R₂*/R₁*), D̄₂ = d₂ + d₁ R₂*/R₁*; 4 and 3 in the same way\n\
+          μᵢ = μ_fast − (μ_fast − μ_slow) e^(−r vᵢ)\n\
+          f₁ = min(0, kₙ d₁ + c ḋ₁) closed, N = −f₁")
+    .source("Fenz & Constantinou 2008, Earthquake Engng Struct. Dyn. 37: 163 and 185; \
+             Modeling triple friction pendulum bearings, 37: 1401")
+    .example(r#""bearing": TriplePendulum(node: "base", kn: "2e9 N/m", ks: "1e8 N/m", radii: ("2.2 m", "0.4 m", "0.4 m", "2.2 m"), heights: ("0.1 m", "0.05 m", "0.05 m", "0.1 m"), capacities: ("0.35 m", "0.05 m", "0.05 m", "0.35 m"), stop_stiffness: "2e7 N/m", mu: (0.05, 0.02, 0.02, 0.09))"#)
+    .exercise(Exercise::new(0.1, &[
+            Stroke::about(-5e-4, 0.0),
+            Stroke::about(0.0, 0.76),
+            Stroke::about(0.0, 0.0),
+        ]));
 
     fn check(&self) -> Result<(), ParameterError> {
         for (name, list, unit) in [

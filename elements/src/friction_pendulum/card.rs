@@ -34,173 +34,177 @@ const RATE_PER_FORCE: Dimension = Dimension { mass: -1.0, length: -2.0, time: 3.
 const RATE_PER_FORCE_SQUARED: Dimension = Dimension { mass: -2.0, length: -3.0, time: 5.0 };
 
 impl Described for FrictionPendulum {
-    const CARD: Card = Card::new("FrictionPendulum", Category::Link, "Sliding bearing with one concave surface: friction by speed, force or pressure; rim.")
-.nodes(NodeCount::GROUND_OR_TWO)
-.parameters(&[
-            Parameter::required("kn", "kₙ", STIFFNESS, Range::Positive, "stiffness in compression"),
-            Parameter::number(
-                "damping",
-                "c",
-                DAMPING,
-                Range::NonNegative,
-                0.0,
-                "dashpot along the axis, acts only while closed",
-            ),
-            Parameter::flag(
-                "pull",
-                false,
-                "the dashpot may pull while closed; friction is of kₙ g then",
-            ),
-            Parameter::required("ks", "kₛ", STIFFNESS, Range::Positive, "stiffness before slip"),
-            Parameter::number(
-                "cs",
-                "cₛ",
-                DAMPING,
-                Range::NonNegative,
-                0.0,
-                "dashpot beside the spring `ks`: damps a bearing that sticks",
-            ),
-            coefficient("mu_static", "μ_static", "before it breaks away; none: as at rest"),
-            Parameter::number(
-                "static_slip",
-                "s₀",
-                LENGTH,
-                Range::NonNegative,
-                0.0,
-                "slip over which `mu_static` is gone; 0: as soon as the spring `ks` can follow",
-            ),
-            Parameter::number(
-                "radius",
-                "R",
-                LENGTH,
-                Range::NonNegative,
-                0.0,
-                "effective radius; 0 is flat",
-            ),
-            Parameter::choice(
-                "surface",
-                &["Shallow", "Spherical"],
-                "Shallow",
-                "restoring force of small slopes, or exact",
-            ),
-            Parameter::flag("rise", false, "moving out lifts the load"),
-            Parameter::flag(
-                "inclined",
-                false,
-                "friction lies in the surface, of the force normal to it; exact with `Spherical` and `rise`",
-            ),
-            Parameter::choice(
-                "friction_model",
-                &["Coulomb", "Velocity", "VelocityForce", "VelocityPressure"],
-                "Coulomb",
-                "what the friction coefficient depends on",
-            ),
-            coefficient("mu", "μ", "Coulomb: friction coefficient"),
-            coefficient("mu_slow", "μ_slow", "Velocity, VelocityPressure: coefficient at rest"),
-            coefficient("mu_fast", "μ_fast", "Velocity, VelocityPressure: coefficient at speed"),
-            Parameter::optional(
-                "rate",
-                "r",
-                INVERSE_VELOCITY,
-                Range::NonNegative,
-                "Velocity, VelocityPressure: how fast it goes from slow to fast",
-            ),
-            factor("a_slow", "a_slow", "n_slow", "VelocityForce: factor at rest"),
-            Parameter::optional(
-                "n_slow",
-                "n_slow",
-                NONE,
-                Range::Above(0.0, 1.0),
-                "VelocityForce: exponent at rest",
-            ),
-            factor("a_fast", "a_fast", "n_fast", "VelocityForce: factor at speed"),
-            Parameter::optional(
-                "n_fast",
-                "n_fast",
-                NONE,
-                Range::Above(0.0, 1.0),
-                "VelocityForce: exponent at speed",
-            ),
-            Parameter::optional(
-                "rate_0",
-                "r₀",
-                INVERSE_VELOCITY,
-                Range::NonNegative,
-                "VelocityForce: rate from slow to fast",
-            ),
-            Parameter::number(
-                "rate_1",
-                "r₁",
-                RATE_PER_FORCE,
-                Range::NonNegative,
-                0.0,
-                "VelocityForce: growth of the rate with N",
-            ),
-            Parameter::number(
-                "rate_2",
-                "r₂",
-                RATE_PER_FORCE_SQUARED,
-                Range::NonNegative,
-                0.0,
-                "VelocityForce: growth of the rate with N²",
-            ),
-            Parameter::number(
-                "mu_max",
-                "μ_max",
-                NONE,
-                Range::Positive,
-                1.0,
-                "VelocityForce: most that the coefficient becomes at small N",
-            ),
-            Parameter::optional(
-                "area",
-                "A",
-                AREA,
-                Range::Positive,
-                "VelocityPressure: area of the slider",
-            ),
-            coefficient("delta_mu", "Δμ", "VelocityPressure: fall of the coefficient at speed"),
-            Parameter::optional(
-                "pressure_rate",
-                "α",
-                INVERSE_STRESS,
-                Range::NonNegative,
-                "VelocityPressure: how fast it falls with the pressure",
-            ),
-            Parameter::optional(
-                "stop",
-                "D",
-                LENGTH,
-                Range::Positive,
-                "displacement at which the rim is met; none: no rim",
-            ),
-            Parameter::optional(
-                "stop_stiffness",
-                "kₛₜ",
-                STIFFNESS,
-                Range::Positive,
-                "stiffness of the rim",
-            ),
-        ])
-.law("f₁ = min(0, kₙ g + c ġ) where g = d₁ ≤ 0, else 0;  N = −f₁ (with `pull`: −kₙ g)\n\
-              τ = kₛ (u − a) + cₛ (u̇ − ȧ), |τ| ≤ μ N (radial return);  u = (d₂, d₃)\n\
-              fₜ = τ + N ∇h(u) + kₛₜ (|u| − D)⁺ u/|u|\n\
-              Shallow: ∇h = u/R;  Spherical: ∇h = u/√(R² − u²)\n\
-              with `rise`: g = d₁ − h(u)\n\
-              with `inclined`: S τ in place of τ, |τ| ≤ μ P, P = N √(1 + |∇h|²) + ∇h·τ, S = I + ∇h ∇hᵀ/(1 + √(1 + |∇h|²));\n\
-              u̇ in τ is S u̇: speeds, stretch and slip along the surface\n\
-              Velocity: μ = μ_fast − (μ_fast − μ_slow) e^(−r x), slip rate x = |ȧ| (|u̇| where μ falls with it)\n\
-              until it has slipped by s₀: more, from `mu_static` on, as an `NLink`\n\
-              VelocityForce: μ_slow, μ_fast = a N^(n−1) ≤ μ_max, r = r₀ + r₁ N + r₂ N²\n\
-              VelocityPressure: μ_fast − Δμ tanh(α N/A) in place of μ_fast")
-.source("Zayas, Low, Mahin 1990; Constantinou, Mokha, Reinhorn 1990 for μ(v); \
-                 Tsopelas et al. 1994 for μ(p)")
-.example(r#""bearing": FrictionPendulum(node: "base", kn: "2e9 N/m", ks: "1e8 N/m", radius: "1.5 m", friction_model: Velocity, mu_slow: 0.03, mu_fast: 0.06, rate: "20 s/m")"#)
-.exercise(Exercise::new(0.5, &[
-                Stroke::about(-5e-4, 0.0),
-                Stroke::about(0.0, 0.15),
-                Stroke::about(0.0, 0.0),
-            ]));
+    const CARD: Card = Card::new(
+        "FrictionPendulum",
+        Category::Link,
+        "Sliding bearing with one concave surface: friction by speed, force or pressure; rim.",
+    )
+    .nodes(NodeCount::GROUND_OR_TWO)
+    .parameters(&[
+        Parameter::required("kn", "kₙ", STIFFNESS, Range::Positive, "stiffness in compression"),
+        Parameter::number(
+            "damping",
+            "c",
+            DAMPING,
+            Range::NonNegative,
+            0.0,
+            "dashpot along the axis, acts only while closed",
+        ),
+        Parameter::flag(
+            "pull",
+            false,
+            "the dashpot may pull while closed; friction is of kₙ g then",
+        ),
+        Parameter::required("ks", "kₛ", STIFFNESS, Range::Positive, "stiffness before slip"),
+        Parameter::number(
+            "cs",
+            "cₛ",
+            DAMPING,
+            Range::NonNegative,
+            0.0,
+            "dashpot beside the spring `ks`: damps a bearing that sticks",
+        ),
+        coefficient("mu_static", "μ_static", "before it breaks away; none: as at rest"),
+        Parameter::number(
+            "static_slip",
+            "s₀",
+            LENGTH,
+            Range::NonNegative,
+            0.0,
+            "slip over which `mu_static` is gone; 0: as soon as the spring `ks` can follow",
+        ),
+        Parameter::number(
+            "radius",
+            "R",
+            LENGTH,
+            Range::NonNegative,
+            0.0,
+            "effective radius; 0 is flat",
+        ),
+        Parameter::choice(
+            "surface",
+            &["Shallow", "Spherical"],
+            "Shallow",
+            "restoring force of small slopes, or exact",
+        ),
+        Parameter::flag("rise", false, "moving out lifts the load"),
+        Parameter::flag(
+            "inclined",
+            false,
+            "friction lies in the surface, of the force normal to it; exact with `Spherical` and `rise`",
+        ),
+        Parameter::choice(
+            "friction_model",
+            &["Coulomb", "Velocity", "VelocityForce", "VelocityPressure"],
+            "Coulomb",
+            "what the friction coefficient depends on",
+        ),
+        coefficient("mu", "μ", "Coulomb: friction coefficient"),
+        coefficient("mu_slow", "μ_slow", "Velocity, VelocityPressure: coefficient at rest"),
+        coefficient("mu_fast", "μ_fast", "Velocity, VelocityPressure: coefficient at speed"),
+        Parameter::optional(
+            "rate",
+            "r",
+            INVERSE_VELOCITY,
+            Range::NonNegative,
+            "Velocity, VelocityPressure: how fast it goes from slow to fast",
+        ),
+        factor("a_slow", "a_slow", "n_slow", "VelocityForce: factor at rest"),
+        Parameter::optional(
+            "n_slow",
+            "n_slow",
+            NONE,
+            Range::Above(0.0, 1.0),
+            "VelocityForce: exponent at rest",
+        ),
+        factor("a_fast", "a_fast", "n_fast", "VelocityForce: factor at speed"),
+        Parameter::optional(
+            "n_fast",
+            "n_fast",
+            NONE,
+            Range::Above(0.0, 1.0),
+            "VelocityForce: exponent at speed",
+        ),
+        Parameter::optional(
+            "rate_0",
+            "r₀",
+            INVERSE_VELOCITY,
+            Range::NonNegative,
+            "VelocityForce: rate from slow to fast",
+        ),
+        Parameter::number(
+            "rate_1",
+            "r₁",
+            RATE_PER_FORCE,
+            Range::NonNegative,
+            0.0,
+            "VelocityForce: growth of the rate with N",
+        ),
+        Parameter::number(
+            "rate_2",
+            "r₂",
+            RATE_PER_FORCE_SQUARED,
+            Range::NonNegative,
+            0.0,
+            "VelocityForce: growth of the rate with N²",
+        ),
+        Parameter::number(
+            "mu_max",
+            "μ_max",
+            NONE,
+            Range::Positive,
+            1.0,
+            "VelocityForce: most that the coefficient becomes at small N",
+        ),
+        Parameter::optional(
+            "area",
+            "A",
+            AREA,
+            Range::Positive,
+            "VelocityPressure: area of the slider",
+        ),
+        coefficient("delta_mu", "Δμ", "VelocityPressure: fall of the coefficient at speed"),
+        Parameter::optional(
+            "pressure_rate",
+            "α",
+            INVERSE_STRESS,
+            Range::NonNegative,
+            "VelocityPressure: how fast it falls with the pressure",
+        ),
+        Parameter::optional(
+            "stop",
+            "D",
+            LENGTH,
+            Range::Positive,
+            "displacement at which the rim is met; none: no rim",
+        ),
+        Parameter::optional(
+            "stop_stiffness",
+            "kₛₜ",
+            STIFFNESS,
+            Range::Positive,
+            "stiffness of the rim",
+        ),
+    ])
+    .law("f₁ = min(0, kₙ g + c ġ) where g = d₁ ≤ 0, else 0;  N = −f₁ (with `pull`: −kₙ g)\n\
+          τ = kₛ (u − a) + cₛ (u̇ − ȧ), |τ| ≤ μ N (radial return);  u = (d₂, d₃)\n\
+          fₜ = τ + N ∇h(u) + kₛₜ (|u| − D)⁺ u/|u|\n\
+          Shallow: ∇h = u/R;  Spherical: ∇h = u/√(R² − u²)\n\
+          with `rise`: g = d₁ − h(u)\n\
+          with `inclined`: S τ in place of τ, |τ| ≤ μ P, P = N √(1 + |∇h|²) + ∇h·τ, S = I + ∇h ∇hᵀ/(1 + √(1 + |∇h|²));\n\
+          u̇ in τ is S u̇: speeds, stretch and slip along the surface\n\
+          Velocity: μ = μ_fast − (μ_fast − μ_slow) e^(−r x), slip rate x = |ȧ| (|u̇| where μ falls with it)\n\
+          until it has slipped by s₀: more, from `mu_static` on, as an `NLink`\n\
+          VelocityForce: μ_slow, μ_fast = a N^(n−1) ≤ μ_max, r = r₀ + r₁ N + r₂ N²\n\
+          VelocityPressure: μ_fast − Δμ tanh(α N/A) in place of μ_fast")
+    .source("Zayas, Low, Mahin 1990; Constantinou, Mokha, Reinhorn 1990 for μ(v); \
+             Tsopelas et al. 1994 for μ(p)")
+    .example(r#""bearing": FrictionPendulum(node: "base", kn: "2e9 N/m", ks: "1e8 N/m", radius: "1.5 m", friction_model: Velocity, mu_slow: 0.03, mu_fast: 0.06, rate: "20 s/m")"#)
+    .exercise(Exercise::new(0.5, &[
+            Stroke::about(-5e-4, 0.0),
+            Stroke::about(0.0, 0.15),
+            Stroke::about(0.0, 0.0),
+        ]));
 
     fn check(&self) -> Result<(), ParameterError> {
         self.check_friction()?;

@@ -33,17 +33,21 @@ pub struct Interaction {
 }
 
 impl Described for Interaction {
-    const CARD: Card = Card::new("Interaction", Category::Output, "How far a steel section is used by an axial force and two moments; 1 is its strength.")
-.nodes(NodeCount::NONE)
-.parameters(&[
-            Parameter::required("nc", "N_c", FORCE, Range::Positive, "axial strength"),
-            Parameter::required("mc2", "M_c2", MOMENT, Range::Positive, "strength about local 2"),
-            Parameter::required("mc3", "M_c3", MOMENT, Range::Positive, "strength about local 3"),
-        ])
-.law("n + 8/9 m where n ≥ 0.2, n/2 + m elsewhere;  n = |N|/N_c, m = |M₂|/M_c2 + |M₃|/M_c3")
-.source("AISC 360-16, equations H1-1a and H1-1b")
-.example(r#""foot used": Interaction(of: ["N", "M2", "M3"], nc: "2 MN", mc2: "150 kN*m", mc3: "400 kN*m")"#)
-.exercise(Exercise::NONE);
+    const CARD: Card = Card::new(
+        "Interaction",
+        Category::Output,
+        "How far a steel section is used by an axial force and two moments; 1 is its strength.",
+    )
+    .nodes(NodeCount::NONE)
+    .parameters(&[
+        Parameter::required("nc", "N_c", FORCE, Range::Positive, "axial strength"),
+        Parameter::required("mc2", "M_c2", MOMENT, Range::Positive, "strength about local 2"),
+        Parameter::required("mc3", "M_c3", MOMENT, Range::Positive, "strength about local 3"),
+    ])
+    .law("n + 8/9 m where n ≥ 0.2, n/2 + m elsewhere;  n = |N|/N_c, m = |M₂|/M_c2 + |M₃|/M_c3")
+    .source("AISC 360-16, equations H1-1a and H1-1b")
+    .example(r#""foot used": Interaction(of: ["N", "M2", "M3"], nc: "2 MN", mc2: "150 kN*m", mc3: "400 kN*m")"#)
+    .exercise(Exercise::NONE);
 }
 
 impl Interaction {

@@ -86,17 +86,21 @@ impl Curve {
 }
 
 impl Described for MeasuredSpring {
-    const CARD: Card = Card::new("MeasuredSpring", Category::Link, "Spring with a measured curve, from a file.")
-.nodes(NodeCount::GROUND_OR_TWO)
-.parameters(&[
-            Parameter::file("curve", "rows of deformation in m, rising from 0, and force in N"),
-            Parameter::text("specimen", "the specimen", "what was pulled"),
-            Parameter::choice("axis", &["U1", "U2", "U3"], "U1", "local axis"),
-        ])
-.law("f = sgn(d) F(|d|),  F straight between the points of the file; beyond the last no answer")
-.source("a test")
-.example(r#""mount": MeasuredSpring(node: "a", curve: Contents("pull.csv", "0, 0\n0.02, 8e3\n0.05, 11e3"), specimen: "mount 3")"#)
-.exercise(Exercise::new(1.0, &[Stroke::about(0.0, 0.015)]));
+    const CARD: Card = Card::new(
+        "MeasuredSpring",
+        Category::Link,
+        "Spring with a measured curve, from a file.",
+    )
+    .nodes(NodeCount::GROUND_OR_TWO)
+    .parameters(&[
+        Parameter::file("curve", "rows of deformation in m, rising from 0, and force in N"),
+        Parameter::text("specimen", "the specimen", "what was pulled"),
+        Parameter::choice("axis", &["U1", "U2", "U3"], "U1", "local axis"),
+    ])
+    .law("f = sgn(d) F(|d|),  F straight between the points of the file; beyond the last no answer")
+    .source("a test")
+    .example(r#""mount": MeasuredSpring(node: "a", curve: Contents("pull.csv", "0, 0\n0.02, 8e3\n0.05, 11e3"), specimen: "mount 3")"#)
+    .exercise(Exercise::new(1.0, &[Stroke::about(0.0, 0.015)]));
 }
 
 impl Link for MeasuredSpring {

@@ -28,17 +28,21 @@ pub struct TaperedBar {
 }
 
 impl Described for TaperedBar {
-    const CARD: Card = Card::new("TaperedBar", Category::Linear, "Two-node bar whose area goes linearly from end to end.")
-.nodes(NodeCount::exactly(2))
-.parameters(&[
-            Parameter::required("modulus", "E", STRESS, Range::Positive, "Young's modulus"),
-            Parameter::required("area1", "A₁", AREA, Range::Positive, "area at the first node"),
-            Parameter::required("area2", "A₂", AREA, Range::Positive, "area at the second node"),
-        ])
-.law("k = E (A₂ − A₁)/(L ln(A₂/A₁)) along the bar")
-.source("Gere & Goodno, Mechanics of Materials, 2013, §2.3")
-.example(r#""strut": TaperedBar(nodes: ("a", "b"), modulus: "210 GPa", area1: "12 cm^2", area2: "20 cm^2")"#)
-.exercise(Exercise::NONE);
+    const CARD: Card = Card::new(
+        "TaperedBar",
+        Category::Linear,
+        "Two-node bar whose area goes linearly from end to end.",
+    )
+    .nodes(NodeCount::exactly(2))
+    .parameters(&[
+        Parameter::required("modulus", "E", STRESS, Range::Positive, "Young's modulus"),
+        Parameter::required("area1", "A₁", AREA, Range::Positive, "area at the first node"),
+        Parameter::required("area2", "A₂", AREA, Range::Positive, "area at the second node"),
+    ])
+    .law("k = E (A₂ − A₁)/(L ln(A₂/A₁)) along the bar")
+    .source("Gere & Goodno, Mechanics of Materials, 2013, §2.3")
+    .example(r#""strut": TaperedBar(nodes: ("a", "b"), modulus: "210 GPa", area1: "12 cm^2", area2: "20 cm^2")"#)
+    .exercise(Exercise::NONE);
 }
 
 impl TaperedBar {

@@ -62,35 +62,39 @@ history! {
 }
 
 impl Described for TensionBracing {
-    const CARD: Card = Card::new("TensionBracing", Category::Link, "Two diagonals that take tension only, yield and slacken.")
-.nodes(NodeCount::GROUND_OR_TWO)
-.parameters(&[
-            Parameter::required("k", "k", STIFFNESS, Range::Positive, "stiffness of a diagonal"),
-            Parameter::required("fy", "F_y", FORCE, Range::Positive, "yield force of a diagonal"),
-            Parameter::number(
-                "hardening",
-                "α",
-                NONE,
-                Range::Within(0.0, 0.5),
-                0.0,
-                "stiffness while yielding over `k`",
-            ),
-            Parameter::number(
-                "slack",
-                "s",
-                LENGTH,
-                Range::Any,
-                0.0,
-                "motion until a diagonal is taut; < 0: pretension −ks",
-            ),
-            Parameter::choice("axis", &["U1", "U2", "U3"], "U2", "local axis"),
-        ])
-.law("f = T₁ − T₂,  eᵢ = ±d − s − pᵢ\n\
-              Tᵢ = k max(eᵢ, 0), at most F_y + H pᵢ with H = α k/(1 − α)\n\
-              beyond that pᵢ grows so that Tᵢ stays at the limit")
-.source("Bruneau, Uang & Sabelli, Ductile Design of Steel Structures, 2011, ch. 9")
-.example(r#""bracing": TensionBracing(nodes: ("base", "floor"), k: "20 MN/m", fy: "200 kN", hardening: 0.02)"#)
-.exercise(Exercise::new(1.0, &[Stroke::about(0.0, 0.04)]));
+    const CARD: Card = Card::new(
+        "TensionBracing",
+        Category::Link,
+        "Two diagonals that take tension only, yield and slacken.",
+    )
+    .nodes(NodeCount::GROUND_OR_TWO)
+    .parameters(&[
+        Parameter::required("k", "k", STIFFNESS, Range::Positive, "stiffness of a diagonal"),
+        Parameter::required("fy", "F_y", FORCE, Range::Positive, "yield force of a diagonal"),
+        Parameter::number(
+            "hardening",
+            "α",
+            NONE,
+            Range::Within(0.0, 0.5),
+            0.0,
+            "stiffness while yielding over `k`",
+        ),
+        Parameter::number(
+            "slack",
+            "s",
+            LENGTH,
+            Range::Any,
+            0.0,
+            "motion until a diagonal is taut; < 0: pretension −ks",
+        ),
+        Parameter::choice("axis", &["U1", "U2", "U3"], "U2", "local axis"),
+    ])
+    .law("f = T₁ − T₂,  eᵢ = ±d − s − pᵢ\n\
+          Tᵢ = k max(eᵢ, 0), at most F_y + H pᵢ with H = α k/(1 − α)\n\
+          beyond that pᵢ grows so that Tᵢ stays at the limit")
+    .source("Bruneau, Uang & Sabelli, Ductile Design of Steel Structures, 2011, ch. 9")
+    .example(r#""bracing": TensionBracing(nodes: ("base", "floor"), k: "20 MN/m", fy: "200 kN", hardening: 0.02)"#)
+    .exercise(Exercise::new(1.0, &[Stroke::about(0.0, 0.04)]));
 
     fn check(&self) -> Result<(), ParameterError> {
         let pretension = -self.k * self.slack;
