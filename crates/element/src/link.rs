@@ -47,7 +47,8 @@ pub struct Kinematics<'a> {
     pub d0: &'a [f64],
     /// Rate at the start of the step.
     pub v0: &'a [f64],
-    /// Step in s; 0 in a static analysis and where the law is only looked at.
+    /// Step in s; 0 in a static analysis and where the law is only looked at. What time it is a law counts in its
+    /// history.
     pub dt: f64,
 }
 
@@ -211,7 +212,8 @@ impl Impact {
 ///
 /// # Contract
 /// - [`respond`](Self::respond) is pure: equal inputs give equal outputs, bit for bit.
-/// - Memory is in the history and nowhere else; the core owns it, commits it and reverts it.
+/// - Memory is in the history and nowhere else; the core owns it, commits it and reverts it. A law that looks at the clock
+///   counts the time there, by the `dt` of its steps.
 /// - `k` and `c` of the response are the derivatives of `f` for fixed `d0`, `v0`, `dt` and history.
 /// - `respond` writes every history variable of the trial.
 /// - With `d = d0`, `v = v0`, `dt = 0` it gives the force that acts right after the start of the step.

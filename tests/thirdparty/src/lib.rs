@@ -1,12 +1,13 @@
 //! Links, an element, a constraint, a function of time, an output and a solver in a crate of their own, as a third party
 //! would write them.
 //!
-//! [`TensionBracing`] has a memory, [`CubicSpring`] has none, [`MeasuredSpring`] reads a file; each is a file that needs
+//! [`TensionBracing`] has a memory, [`CubicSpring`] has none, [`MeasuredSpring`] reads a file, [`Actuator`] looks at the clock; each is a file that needs
 //! nothing but `trilith_element`, and so are [`TaperedBar`], [`Gearing`], [`Friedlander`], [`Interaction`] and
 //! [`CentralDifference`]. An application offers them beside the
 //! built-in kinds with one line, `trilith_thirdparty_example::register(&mut registry)`: `src/main.rs` is one.
 //! The README of the crate leads to a link of your own.
 
+mod actuator;
 mod central_difference;
 mod cubic_spring;
 mod friedlander;
@@ -16,6 +17,7 @@ mod measured_spring;
 mod tapered_bar;
 mod tension_bracing;
 
+pub use actuator::{Actuator, Clock};
 pub use central_difference::CentralDifference;
 pub use cubic_spring::CubicSpring;
 pub use friedlander::Friedlander;
@@ -30,6 +32,7 @@ use trilith_element::Register;
 /// Offers every kind of this crate.
 pub fn register(to: &mut impl Register) {
     to.link::<TensionBracing>();
+    to.link::<Actuator>();
     to.link::<CubicSpring>();
     to.link::<MeasuredSpring>();
     to.linear::<TaperedBar>();
