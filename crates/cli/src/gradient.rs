@@ -94,6 +94,9 @@ pub(crate) fn told<'a>(
             .flat_map(|asked| match asked {
                 Asked::Output(output) => rows(model, found, *output),
                 Asked::Heat(element) => vec![heat(model, found, *element)],
+                Asked::Input => {
+                    vec![energy(model, found, INPUT.into(), (found.input, found.input_by.clone()))]
+                }
             })
             .collect(),
     }
@@ -112,16 +115,20 @@ pub(crate) enum Asked {
     Output(usize),
     /// The heat of the link that is the element of this index; of all links together.
     Heat(Option<usize>),
+    /// The energy that loads and moving supports have put in.
+    Input,
 }
 
 /// The name of what all links together turn into heat, and the beginning of that of one.
 pub(crate) const HEAT: &str = "heat";
 const HEAT_OF: &str = "heat of ";
+/// The name of what loads and moving supports have put in.
+const INPUT: &str = "input";
 
-/// Outputs and heats of these names; all outputs that are shown where none are given.
+/// Outputs and energies of these names; all outputs that are shown where none are given.
 fn asked(model: &Model, wanted: &[String]) -> Result<Vec<Asked>, Failure> {
     if wanted.is_empty() && model.outputs.is_empty() {
-        let help = "give the model `outputs`: there are derivatives of these, and with `--of heat` of the heat of links";
+        let help = "give the model `outputs`: there are derivatives of these, and with `--of heat,input` of energies";
         return Err(Failure::input("the model has no output", Some(help)));
     }
     if wanted.is_empty() {
@@ -136,6 +143,9 @@ fn asked(model: &Model, wanted: &[String]) -> Result<Vec<Asked>, Failure> {
         if name == HEAT {
             return Ok(Asked::Heat(None));
         }
+        if name == INPUT {
+            return Ok(Asked::Input);
+        }
         if let Some(link) = name.strip_prefix(HEAT_OF) {
             if let Some((element, _)) = links.clone().find(|(_, e)| e.name == link) {
                 return Ok(Asked::Heat(Some(element)));
@@ -145,7 +155,7 @@ fn asked(model: &Model, wanted: &[String]) -> Result<Vec<Asked>, Failure> {
         }
         let all = model.outputs.iter().map(|o| o.name.as_str());
         let heat = links.next().map(|_| HEAT);
-        let help = names::help(name, "outputs", "--of", all.chain(heat));
+        let help = names::help(name, "outputs", "--of", all.chain(heat).chain([INPUT]));
         Err(Failure::input(&format!("there is no output \"{name}\""), Some(&help)))
     };
     wanted.iter().map(of).collect()
@@ -192,11 +202,22 @@ fn rows<'a>(model: &'a Model, found: &'a Gradient, output: usize) -> Vec<Row<'a>
 fn heat<'a>(model: &'a Model, found: &'a Gradient, element: Option<usize>) -> Row<'a> {
     let name = element.map(|e| &model.elements[e].name);
     let link = name.and_then(|name| found.heat.iter().find(|h| h.link == *name));
-    let (value, by) = link.map_or_else(|| found.all_heat(), |h| (h.heat, h.by.clone()));
+    let of = link.map_or_else(|| found.all_heat(), |h| (h.heat, h.by.clone()));
+    let name = name.map_or(HEAT.into(), |name| format!("{HEAT_OF}{name}"));
+    energy(model, found, name, of)
+}
+
+/// What is told of an energy until the end.
+fn energy<'a>(
+    model: &Model,
+    found: &'a Gradient,
+    name: String,
+    (value, by): (f64, Vec<f64>),
+) -> Row<'a> {
     let t = found.time.last().copied().unwrap_or(0.0);
     let at = Extreme { t, step: 0, value, by };
     Row {
-        output: name.map_or(HEAT.into(), |name| format!("{HEAT_OF}{name}")),
+        output: name,
         what: "final",
         unit: "J",
         value,

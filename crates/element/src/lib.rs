@@ -13,6 +13,9 @@
 //! model reader takes names, units, ranges and defaults, and the catalogue its pages. A kind is offered
 //! to an application with one line: `registry.link::<MyLink>()` (see [`Register`]).
 //!
+//! Structs that the contract hands over or asks for are made by their constructors (`Card::new`, `Contact::new`,
+//! `Equation::new` …), so that they may have more fields one day.
+//!
 //! To test a link of your own, give it to the [conformance kit](conformance::Kit), which leads it along random
 //! paths, and to a [`Driver`], which leads it along yours.
 //!

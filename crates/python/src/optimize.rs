@@ -16,7 +16,7 @@ use trilith_cli::told;
 type ValueFacts = (f64, f64, Vec<f64>);
 /// An output: name, unit, history, derivatives of it by each parameter; largest, smallest value, largest magnitude and value at the end.
 type OutputFacts = (String, String, Column, Vec<Column>, [ValueFacts; 4]);
-/// The program's text; times; parameters with value and unit; outputs; what links have turned into heat until the
+/// The program's text; times; parameters with value and unit; outputs; what links have turned into heat, and what loads and supports have put in, until the
 /// end, with derivatives; links whose laws bend, when first and how often; substeps.
 pub(crate) type GradientFacts = (
     String,
@@ -24,6 +24,7 @@ pub(crate) type GradientFacts = (
     Vec<(String, f64, String)>,
     Vec<OutputFacts>,
     Vec<(String, f64, Vec<f64>)>,
+    (f64, Vec<f64>),
     Vec<(String, f64, usize)>,
     usize,
 );
@@ -71,6 +72,7 @@ pub(crate) fn gradient(
         parameters,
         facts.collect(),
         found.heat.iter().map(|h| (h.link.clone(), h.heat, h.by.clone())).collect(),
+        (found.input, found.input_by.clone()),
         found.bends.iter().map(|b| (b.link.clone(), b.t, b.count)).collect(),
         found.substeps,
     ))

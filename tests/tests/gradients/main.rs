@@ -82,6 +82,22 @@ impl Case {
         self.around.iter().enumerate().map(of).collect()
     }
 
+    /// The same of the energy that loads have put in.
+    fn input_off(&self) -> Vec<(String, f64)> {
+        let of = |(j, around): (usize, &Around)| {
+            let [low, high] = [0, 1].map(|side| {
+                let model = &around.close[side];
+                let system = assemble(model).expect("a structure");
+                replay(model, &system, self.options, &self.found).expect("a run").input
+            });
+            let h = 2.0 * SMALL * around.of.step;
+            let given = self.found.input_by[j];
+            let most = given.abs().max(1e-2 * self.found.input.abs() / around.of.value.abs());
+            (around.of.name.clone(), (given - (high - low) / h).abs() / most)
+        };
+        self.around.iter().enumerate().map(of).collect()
+    }
+
     /// Heat is that of a run.
     fn has_the_heat_of_a_run(&self, model: &Model) {
         let run = trilith::Analysis::new(model).expect("a structure");
@@ -98,6 +114,7 @@ impl Case {
             let heat = energy.hysteretic + energy.viscous;
             assert!((own.heat - heat).abs() <= 1e-9 * heat.abs(), "{name}: {} {heat}", own.heat);
         }
+        assert!((self.found.input / run.energy.input - 1.0).abs() < 1e-9);
         let sum = run.energy.link_hysteretic + run.energy.link_viscous;
         assert!((self.found.all_heat().0 / sum - 1.0).abs() < 1e-9);
     }
@@ -127,8 +144,8 @@ fn the_isolated_frame_moves_as_runs_beside_it_do() {
             assert!(off < if asked { 1e-6 } else { 1e-4 }, "{} by {name}: {off:e}", output.name);
         }
     }
-    for (name, off) in case.heat_off() {
-        assert!(off < 1e-6, "heat by {name}: {off:e}");
+    for (name, off) in case.heat_off().into_iter().chain(case.input_off()) {
+        assert!(off < 1e-6, "energy by {name}: {off:e}");
     }
     let (registry, set) = (trilith::registry(), [("duration".to_owned(), "1.6 s".to_owned())]);
     case.has_the_heat_of_a_run(&frame().read(&registry, &set).expect("a model"));
@@ -144,8 +161,8 @@ fn the_isolated_frame_moves_so_under_fna() {
             assert!(off < 1e-5, "{} by {name}: {off:e}", output.name);
         }
     }
-    for (name, off) in case.heat_off() {
-        assert!(off < 1e-6, "heat by {name}: {off:e}");
+    for (name, off) in case.heat_off().into_iter().chain(case.input_off()) {
+        assert!(off < 1e-6, "energy by {name}: {off:e}");
     }
 }
 
@@ -177,8 +194,8 @@ fn a_basis_moves_with_the_structure() {
                 assert!(off < 1e-5, "{} by {name}, {solver:?}: {off:e}", output.name);
             }
         }
-        for (name, off) in case.heat_off() {
-            assert!(off < 1e-5, "heat by {name}, {solver:?}: {off:e}");
+        for (name, off) in case.heat_off().into_iter().chain(case.input_off()) {
+            assert!(off < 1e-5, "energy by {name}, {solver:?}: {off:e}");
         }
     }
 }

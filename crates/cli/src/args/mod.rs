@@ -255,7 +255,8 @@ pub(crate) struct GradientArguments {
     #[arg(long, value_name = "NAME,NAME", value_parser = names::list)]
     pub by: Vec<Names>,
     /// Outputs; several times if need be, and double quotes hold a name with a comma together; `heat` is what all links
-    /// have turned into heat until the end, `"heat of NAME"` what one link has [default: all outputs]
+    /// have turned into heat until the end, `"heat of NAME"` what one link has, `input` what loads and moving supports have
+    /// put in [default: all outputs]
     #[arg(long, value_name = "NAME,NAME", value_parser = names::list)]
     pub of: Vec<Names>,
     /// Print JSON

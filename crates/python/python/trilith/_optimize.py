@@ -68,6 +68,7 @@ class Gradient(Mapping[str, OutputGradient]):
         parameters: Sequence[tuple[str, float, str]],
         outputs: Mapping[str, OutputGradient],
         heat: Mapping[str, Sensitive],
+        input: Sensitive,
         bends: Sequence[tuple[str, float, int]],
         substeps: int,
     ) -> None:
@@ -81,6 +82,8 @@ class Gradient(Mapping[str, OutputGradient]):
         self.units: dict[str, str] = {name: unit for name, _, unit in parameters}
         #: What each link has turned into heat until the end, J.
         self.heat: dict[str, Sensitive] = dict(heat)
+        #: What loads and moving supports have put in until the end, J.
+        self.input = input
         #: Links whose laws bend where substeps ended.
         self.bends: list[Bend] = [Bend(*bend) for bend in bends]
         #: Substeps of the run.
@@ -198,7 +201,7 @@ def gradient(
     found = model._native.gradient(
         case, solver, positive("dt", dt), _names("by", by), _names("of", of)
     )
-    text, t, parameters, outputs, links, bends, substeps = found
+    text, t, parameters, outputs, links, put_in, bends, substeps = found
     names = [name for name, _, _ in parameters]
     made = {}
     for name, unit, history, columns, values in outputs:
@@ -208,7 +211,8 @@ def gradient(
     times = array(t)
     end = float(times[-1])
     heat = {link: Sensitive(end, x, dict(zip(names, slopes))) for link, x, slopes in links}
-    return Gradient(text, times, parameters, made, heat, bends, substeps)
+    source = Sensitive(end, put_in[0], dict(zip(names, put_in[1])))
+    return Gradient(text, times, parameters, made, heat, source, bends, substeps)
 
 
 def optimize(

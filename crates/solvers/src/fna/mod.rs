@@ -130,6 +130,16 @@ impl Propagator for Modal {
         self.modes.work(&self.now)
     }
 
+    /// The motion inside the step is that from its start under these forces.
+    fn external_work(&mut self, from: &Motion, _: &Motion, forces: &Forces<'_>) -> f64 {
+        let mut to = vec![0.0; from.len()];
+        self.spread(forces.pseudo0);
+        self.modes.predict(&mut self.now, from, &forces.loads, &mut to);
+        self.spread(forces.pseudo1);
+        self.modes.complete(&mut self.now, from, &forces.loads, &mut to);
+        self.modes.work(&self.now).external
+    }
+
     fn energy(&self, x: &[f64]) -> (f64, f64) {
         self.modes.energy(x)
     }

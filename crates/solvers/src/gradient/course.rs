@@ -177,6 +177,8 @@ pub fn gradient_until(
         }
     }
     found.bends = moves.bends();
+    found.input = moving.ledger.totals.input;
+    found.input_by = moves.input(&moving.state);
     let links = moving.ledger.links.iter().zip(moves.heat()).zip(&system.links.links);
     let heat = |((energy, by), link): ((&LinkEnergy, &Vec<f64>), &LinkInstance)| HeatGradient {
         link: model.elements[link.element].name.clone(),

@@ -5,6 +5,7 @@ use super::moving::{MovingBasis, Turn};
 use super::sides::{Sides, in_physical, start};
 use super::structure::Structure;
 use crate::error::SolveError;
+use crate::march::{constant_force, potential};
 use crate::record::Outputs;
 use crate::run::Prepared;
 use crate::step::State;
@@ -39,6 +40,18 @@ pub(super) struct Influence<'a> {
     pub systems: &'a [System; 4],
     /// Derivative of the state at the start.
     pub start: State,
+}
+
+impl Influence<'_> {
+    /// What the parameter itself does to the potential of constant loads in a state.
+    pub(super) fn potential(&self, state: &State) -> f64 {
+        let Some(Loads { spaces, sets }) = &self.loads else { return 0.0 };
+        let of = |i: usize| {
+            let there = self.turns.as_ref().map(|turns| turns[i].state(state));
+            potential(&constant_force(&spaces[i], &sets[i]), there.as_ref().unwrap_or(state))
+        };
+        weighted(self.step, [0, 1, 2, 3].map(|i| [of(i)]).each_ref().map(|x| &x[..]))[0]
+    }
 }
 
 /// Loads of the models around, in the coordinates of the solver.
@@ -108,8 +121,9 @@ impl<'a> Influence<'a> {
         };
         let still = all.iter().all(|p| alike(&p.loads, &base.loads));
         let sets = [0, 1, 2, 3].map(|i| all[i].loads.clone());
-        let loads = (!still).then(|| Loads {
+        let loads = (!still || moving.is_some()).then(|| Loads {
             spaces: [0, 1, 2, 3].map(|i| match (&base.bases, reduced) {
+                _ if let Some(moving) = moving => moving.space(i),
                 (Some(b), true) => {
                     let effective = &base.system.links.effective;
                     ReducedSystem::reduced(

@@ -36,6 +36,7 @@ mod around;
 mod bends;
 mod course;
 mod influence;
+mod input;
 mod laws;
 mod moving;
 mod outputs;

@@ -17,7 +17,7 @@
 //! Masses, stiffness, damping, vectors and loads are in it, and the exact exponential of FNA as it is: nothing of it is written twice.
 
 use super::around::{Around, Varied, WEIGHTS, weighted};
-use super::sides::start;
+use super::sides::{in_physical, start};
 use crate::basis::RitzBasis;
 use crate::error::SolveError;
 use crate::kernel::{Layout, StepKey, Wanted};
@@ -122,6 +122,8 @@ pub(super) struct MovingBasis<'a> {
     /// Flat indices of the active link coordinates.
     active: &'a [usize],
     rate_dependent: Vec<usize>,
+    /// Derivative of the work of loads over the step made last.
+    work: f64,
 }
 
 impl<'a> MovingBasis<'a> {
@@ -161,7 +163,8 @@ impl<'a> MovingBasis<'a> {
         let Ok(turns) = turns.try_into() else { return Err(refuse("is not there")) };
         let Layout { rate_dependent, .. } = layout;
         let active = &links.active;
-        Ok(Self { step: *step, name, sides, turns: Arc::new(turns), active, rate_dependent })
+        let turns = Arc::new(turns);
+        Ok(Self { step: *step, name, sides, turns, active, rate_dependent, work: 0.0 })
     }
 
     /// The coordinates of the models around.
@@ -177,6 +180,14 @@ impl<'a> MovingBasis<'a> {
         };
         let [a, b, c, d] = [0, 1, 2, 3].map(of);
         Ok([a?, b?, c?, d?])
+    }
+
+    /// The coordinates of one of the four structures once more, for its loads.
+    pub(super) fn space(&self, side: usize) -> ReducedSystem {
+        let of = self.sides[side].1;
+        let Some(bases) = &of.bases else { return in_physical(of) };
+        let effective = &of.system.links.effective;
+        ReducedSystem::reduced(of.system, &of.loads, effective, of.damping(), &bases.stepping)
     }
 
     /// Derivatives of the rows of the active link coordinates.
@@ -217,6 +228,7 @@ impl<'a> MovingBasis<'a> {
         key: StepKey,
     ) -> Result<Motion, SolveError> {
         let mut sum = vec![0.0; to.motion.len()];
+        self.work = 0.0;
         for side in 0..4 {
             let turn = &self.turns[side];
             if key.average != 0 && !turn.in_order {
@@ -248,10 +260,16 @@ impl<'a> MovingBasis<'a> {
             let forces = Forces { loads, pseudo0: &pseudo0, pseudo1: &pseudo1 };
             propagator.correct(&motion, &forces, &mut made);
             let weight = WEIGHTS[side] / self.step;
+            self.work += weight * propagator.work(&motion, &made, &forces).external;
             let made = turn.back(&made);
             sum.iter_mut().zip(&made).for_each(|(sum, x)| *sum += weight * acceleration(*x));
         }
         Ok(sum)
+    }
+
+    /// The derivative of the work of loads over the step made last.
+    pub(super) fn work(&self) -> f64 {
+        self.work
     }
 
     /// The derivative of how accelerations follow a jump of the loads at a time.

@@ -3,7 +3,7 @@
 use super::course::{GradientOptions, prepare};
 use super::outputs::Gradient;
 use crate::error::SolveError;
-use crate::march::jump;
+use crate::march::{constant_force, jump, potential};
 use crate::record::{Outputs, needs_rates};
 use crate::step::{State, StepEnergy};
 use trilith_model::{Model, Side};
@@ -27,6 +27,8 @@ pub struct Replay {
     pub extremes: Vec<[f64; 2]>,
     /// What every link has turned into heat until the end, J.
     pub heat: Vec<f64>,
+    /// What loads and moving supports have put in until the end, J.
+    pub input: f64,
 }
 
 /// Runs a model over the steps of a run of another one that differs in its parameters: what comes out is as smooth in
@@ -48,8 +50,10 @@ pub fn replay(
     let mut found = Replay {
         histories: vec![Vec::new(); values.len()],
         extremes: vec![[0.0; 2]; values.len()],
-        heat: Vec::new(),
+        ..Replay::default()
     };
+    let constant = constant_force(stepper.space(), &prepared.loads);
+    let level = potential(&constant, &state);
     let mut heat = vec![0.0; system.links.links.len()];
     let mut see = |t: f64, count: usize, state: &State, whole: bool| {
         outputs.at((t, Side::Before), state, &prepared.loads).values(&mut values);
@@ -68,7 +72,7 @@ pub fn replay(
     see(0.0, 0, &state, true);
     let (mut state, mut next) = (Box::new(state), Box::new(State::default()));
     let (mut loads, mut energy) = (StepLoads::default(), StepEnergy::default());
-    let (mut at, mut count) = (0.0, 0);
+    let (mut at, mut count, mut input) = (0.0, 0, 0.0);
     for step in &like.steps {
         match *step {
             Step::Jump(t) => {
@@ -86,6 +90,7 @@ pub fn replay(
                         "beside the value of a parameter there is no equilibrium at t = {t:.6} s over a step of the run"
                     ),
                 })?;
+                input += energy.work.external + energy.support;
                 let did = energy.links.iter().map(|e| e.hysteretic + e.viscous);
                 heat.iter_mut().zip(did).for_each(|(h, x)| *h += x);
                 std::mem::swap(&mut state, &mut next);
@@ -95,5 +100,6 @@ pub fn replay(
         }
     }
     found.heat = heat;
+    found.input = input + potential(&constant, &state) - level;
     Ok(found)
 }

@@ -2,6 +2,7 @@
 
 use super::bends::{Bend, Bends};
 use super::influence::Influence;
+use super::input::{InputMoves, Moved};
 use super::laws::{LawMoves, Made};
 use super::moving::MovingBasis;
 use crate::error::SolveError;
@@ -24,6 +25,7 @@ pub(super) struct Moves<'a> {
     influences: &'a [Influence<'a>],
     /// The bases that move with their parameters.
     moving: Vec<Option<MovingBasis<'a>>>,
+    input: InputMoves<'a>,
     bends: Bends,
     model: &'a Model,
     /// Output step, s, and values of the parameters.
@@ -45,6 +47,8 @@ pub(super) struct Moves<'a> {
 /// What a substep needs beside.
 struct Work {
     ends: Vec<Vec<f64>>,
+    /// What bases that move have in the motion at the end; empty for others.
+    moved: Vec<Vec<f64>>,
     d: Vec<f64>,
     v: Vec<f64>,
     own: Vec<f64>,
@@ -72,6 +76,8 @@ impl<'a> Moves<'a> {
         };
         let now: Vec<State> = influences.iter().map(|i| i.start.clone()).collect();
         let n = propagator.space().order();
+        let start = (state, &now[..]);
+        let input = InputMoves::new(&prepared.loads, influences, links.len(), &*propagator, start);
         Ok(Self {
             links,
             alpha: match prepared.kind {
@@ -83,6 +89,7 @@ impl<'a> Moves<'a> {
             laws: LawMoves::new(prepared.model, links, influences, state),
             influences,
             moving,
+            input,
             bends: Bends::default(),
             model: prepared.model,
             output: prepared.dt,
@@ -94,6 +101,7 @@ impl<'a> Moves<'a> {
             stale: true,
             work: Work {
                 ends: vec![vec![0.0; n]; now.len()],
+                moved: vec![Vec::new(); now.len()],
                 d: vec![0.0; links.active.len()],
                 v: Vec::new(),
                 own: vec![0.0; links.active.len()],
@@ -111,6 +119,11 @@ impl<'a> Moves<'a> {
     /// Derivatives of the heat of every link so far, by each parameter.
     pub(super) fn heat(&self) -> &[Vec<f64>] {
         self.laws.heat()
+    }
+
+    /// Derivatives of the energy that loads and supports have put in until this state.
+    pub(super) fn input(&self, state: &State) -> Vec<f64> {
+        self.input.until(&*self.propagator, state, &self.now)
     }
 
     /// Links whose laws have bent where substeps ended.
@@ -195,6 +208,7 @@ impl<'a> Moves<'a> {
             laws,
             influences,
             moving,
+            input,
             from,
             work,
             ..
@@ -237,9 +251,9 @@ impl<'a> Moves<'a> {
                 Wanted { d: &mut work.d, v: &mut work.v, rate_dependent: &layout.rate_dependent };
             next.motion.resize(3 * n, 0.0);
             propagator.predict(&now.motion, &forces, &mut next.motion, wanted);
-            let moved = moving[j].as_mut().map(|m| m.step([from, to], [self.t, t], key));
-            let moved = moved.transpose()?;
-            if let Some(moved) = &moved {
+            if let Some(moving) = &mut moving[j] {
+                work.moved[j] = moving.step([from, to], [self.t, t], key)?;
+                let moved = &work.moved[j];
                 let map = &propagator.space().links;
                 map.deform(&moved[..n], &mut work.own);
                 work.d.iter_mut().zip(&work.own).for_each(|(d, x)| *d += x);
@@ -260,9 +274,7 @@ impl<'a> Moves<'a> {
             next.pseudo.clone_from(&x);
             let forces = Forces { loads, pseudo0: &now.pseudo, pseudo1: &next.pseudo };
             propagator.correct(&now.motion, &forces, &mut next.motion);
-            if let Some(moved) = &moved {
-                next.motion.iter_mut().zip(moved).for_each(|(x, by)| *x += by);
-            }
+            next.motion.iter_mut().zip(&work.moved[j]).for_each(|(x, by)| *x += by);
             followers.complete_moves([&from.motion, &to.motion], &now.motion, &mut next.motion, dt);
             let map = &propagator.space().links;
             for (order, own) in [(0, &mut next.d), (1, &mut next.v)] {
@@ -271,6 +283,11 @@ impl<'a> Moves<'a> {
             }
         }
         laws.along(made, &self.now, &mut self.next, true);
+        for (j, (now, next)) in self.now.iter().zip(&self.next).enumerate() {
+            let basis = moving[j].as_ref().map(|m| (&*work.moved[j], m.work()));
+            let (states, times) = ([&*from, to], [self.t, t]);
+            input.enter(j, &mut **propagator, &Moved { states, times, by: [now, next], basis });
+        }
         laws.see(to);
         if Bends::matters(dt, self.output) {
             let ends = [&self.now[..], &self.next[..]];

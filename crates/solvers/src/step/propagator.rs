@@ -89,6 +89,11 @@ pub(crate) trait Propagator {
     /// Work done over the step completed last.
     fn work(&mut self, from: &Motion, to: &Motion, forces: &Forces<'_>) -> StepWork;
 
+    /// Work of the loads over a step as the one prepared last, from one motion to another, whatever was completed before.
+    fn external_work(&mut self, from: &Motion, to: &Motion, forces: &Forces<'_>) -> f64 {
+        self.work(from, to, forces).external
+    }
+
     /// ½ vᵀ M v and ½ uᵀ K u (with effective stiffnesses) of a motion.
     fn energy(&self, motion: &[f64]) -> (f64, f64) {
         kinetic_and_strain(self.space(), motion)

@@ -1,6 +1,6 @@
 //! What is minimised and limited: expressions in outputs and parameters, with their derivatives.
 //!
-//! A name is that of an output, whose largest magnitude it stands for, that of a parameter, `heat`, or `heat of` a link. Expressions are those of model
+//! A name is that of an output, whose largest magnitude it stands for, that of a parameter, `input`, `heat`, or `heat of` a link. Expressions are those of model
 //! files, units included; they are differentiated by differences of the expression alone, whose parts have exact derivatives.
 
 use super::OptimizeError;
@@ -92,19 +92,22 @@ impl Values {
             add(end_of(&output.name), Valued { value, by }, dimension);
         }
         let energy = dimension("J");
-        let mut heat = |name: String, (value, by): (f64, Vec<f64>)| {
+        let mut of_energy = |name: String, (value, by): (f64, Vec<f64>)| {
             let quantity = Quantity { value, dimension: energy, measured: true };
             all.entry(name).or_insert((Valued { value, by }, quantity));
         };
-        heat(HEAT.into(), found.all_heat());
+        of_energy(INPUT.into(), (found.input, found.input_by.clone()));
+        of_energy(HEAT.into(), found.all_heat());
         for link in &found.heat {
-            heat(format!("{HEAT_OF}{}", link.link), (link.heat, link.by.clone()));
+            of_energy(format!("{HEAT_OF}{}", link.link), (link.heat, link.by.clone()));
         }
         Self { all, extremes }
     }
 }
 
-/// What all links together turn into heat, and one of them; outputs and parameters of these names come first.
+/// What loads and supports put in, what all links together turn into heat, and one of them; outputs and parameters of these
+/// names come first.
+const INPUT: &str = "input";
 const HEAT: &str = "heat";
 const HEAT_OF: &str = "heat of ";
 
