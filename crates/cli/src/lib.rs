@@ -11,6 +11,7 @@
 //! converge or lost energy, or what it found could not be printed, 2 the input is wrong, 130 it was interrupted.
 
 mod args;
+mod browser;
 mod calibrate;
 mod check;
 mod compare;
@@ -46,6 +47,7 @@ mod text;
 pub mod told;
 mod vectors;
 mod view;
+mod watch;
 
 use args::{Arguments, Command};
 use clap::Parser;
@@ -81,6 +83,7 @@ pub fn main_of(registry: Registry, arguments: impl IntoIterator<Item = OsString>
     };
     let answer = vectors::check().and_then(|()| match arguments.command {
         Command::Run(a) => run::run(&registry, a),
+        Command::Watch(a) => watch::watch(&registry, &a),
         Command::Check(a) => check::check(&registry, &a),
         Command::Modes(a) => modes::modes(&registry, &a),
         Command::New(a) => new::new(&a),

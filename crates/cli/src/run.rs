@@ -204,7 +204,7 @@ fn check_links(model: &Model, names: &[String]) -> Result<(), Failure> {
 }
 
 /// `out/<name of the model file>`, and below it what was set: of all that changes the answer, each has its own.
-fn default_folder(args: &RunArguments, from: Option<&Checkpoint>) -> PathBuf {
+pub(crate) fn default_folder(args: &RunArguments, from: Option<&Checkpoint>) -> PathBuf {
     let ModelArguments { set, .. } = &args.model;
     let dir = Path::new("out").join(path(&args.model).file_stem().unwrap_or("model".as_ref()));
     let options = [

@@ -35,6 +35,8 @@ pub(crate) enum Command {
     New(NewArguments),
     /// Run a case of a model and write its results
     Run(RunArguments),
+    /// Run a model again whenever it is saved; its page follows
+    Watch(WatchArguments),
     /// Validate a model and print it in figures, or with every default filled in
     Check(CheckArguments),
     /// Periods, participation and adequacy of the basis
@@ -77,7 +79,7 @@ pub(crate) enum Command {
     },
 }
 
-#[derive(Args)]
+#[derive(Args, Clone)]
 pub(crate) struct ModelArguments {
     /// Model file: RON, or JSON by its ending; `-`: RON from standard input
     pub model: PathBuf,
@@ -119,7 +121,7 @@ pub(crate) struct ViewArguments {
     pub engine: Option<PathBuf>,
 }
 
-#[derive(Args)]
+#[derive(Args, Clone)]
 pub(crate) struct RunArguments {
     #[command(flatten)]
     pub model: ModelArguments,
@@ -165,6 +167,15 @@ pub(crate) struct RunArguments {
     /// Continue from a checkpoint of the same model and case
     #[arg(long, value_name = "FILE")]
     pub restart: Option<PathBuf>,
+}
+
+#[derive(Args)]
+pub(crate) struct WatchArguments {
+    #[command(flatten)]
+    pub run: RunArguments,
+    /// Open the page in a browser
+    #[arg(long)]
+    pub open: bool,
 }
 
 #[derive(Args)]

@@ -26,6 +26,9 @@ function group(name) {
   return made;
 }
 
+/** All charts of the page. */
+const allCharts = new Set();
+
 /** Vertical scales that figures share by name, and whether they do now. */
 const scales = new Map();
 function scale(name) {
@@ -47,6 +50,7 @@ function unpack(packed) {
 class Chart {
   constructor(host, drawing) {
     this.host = host;
+    allCharts.add(this);
     this.drawing = drawing;
     this.series = drawing.series.map((s) => {
       const [x, y] = [unpack(s.px), unpack(s.py)];

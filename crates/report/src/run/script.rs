@@ -1,7 +1,7 @@
 //! What the script of the page of a run has beside that of all pages, in the order in which its parts build on each
 //! other.
 
-pub(crate) const PARTS: [&str; 12] = [
+pub(crate) const PARTS: [&str; 13] = [
     include_str!("script/model.js"),
     include_str!("script/stage.js"),
     include_str!("script/solid/shaders.js"),
@@ -13,5 +13,6 @@ pub(crate) const PARTS: [&str; 12] = [
     include_str!("script/overlap.js"),
     include_str!("script/player.js"),
     include_str!("script/filter.js"),
+    include_str!("script/watch.js"),
     include_str!("script/main.js"),
 ];

@@ -120,28 +120,22 @@ impl<'a> Influence<'a> {
             }
         };
         let still = all.iter().all(|p| alike(&p.loads, &base.loads));
-        let sets = [0, 1, 2, 3].map(|i| all[i].loads.clone());
-        let loads = (!still || moving.is_some()).then(|| Loads {
-            spaces: [0, 1, 2, 3].map(|i| match (&base.bases, reduced) {
-                _ if let Some(moving) = moving => moving.space(i),
-                (Some(b), true) => {
-                    let effective = &base.system.links.effective;
-                    ReducedSystem::reduced(
-                        base.system,
-                        &sets[i],
-                        effective,
-                        base.damping(),
-                        &b.stepping,
-                    )
-                }
-                _ => in_physical(&all[i]),
-            }),
-            sets: sets.clone(),
-        });
+        let prepared = |i: usize| moving.map_or(&all[i], |moving| moving.prepared(i));
+        let sets = [0, 1, 2, 3].map(|i| prepared(i).loads.clone());
+        let space_of = |i: usize| match (moving, &base.bases) {
+            (Some(moving), _) => moving.space(i),
+            (None, Some(b)) if reduced => {
+                let (effective, damping) = (&base.system.links.effective, base.damping());
+                ReducedSystem::reduced(base.system, &sets[i], effective, damping, &b.stepping)
+            }
+            _ => in_physical(&all[i]),
+        };
+        let loads = (!still || moving.is_some())
+            .then(|| Loads { spaces: [0, 1, 2, 3].map(space_of), sets: sets.clone() });
         let own = structure.is_some() || loads.is_some() || moving.is_some();
         let outputs = own.then(|| {
             [0, 1, 2, 3].map(|i| {
-                let p = &all[i];
+                let p = prepared(i);
                 let outputs = match moving {
                     Some(moving) => Outputs::new(p.model, p.system, moving.spaces()[i]),
                     None if reduced => Outputs::new(p.model, base.system, space),

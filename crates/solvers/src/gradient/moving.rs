@@ -182,6 +182,11 @@ impl<'a> MovingBasis<'a> {
         Ok([a?, b?, c?, d?])
     }
 
+    /// One of the four structures.
+    pub(super) fn prepared(&self, side: usize) -> &Prepared<'a> {
+        self.sides[side].1
+    }
+
     /// The coordinates of one of the four structures once more, for its loads.
     pub(super) fn space(&self, side: usize) -> ReducedSystem {
         let of = self.sides[side].1;
