@@ -7,6 +7,7 @@ mod analysis;
 mod args;
 mod beams;
 mod bearings;
+mod commands;
 mod damping;
 mod links;
 mod loads;

@@ -2,6 +2,7 @@
 
 use super::analysis::Analysis;
 use super::args::{Told, Wrong, wrong};
+use super::commands::{self, CHOICES, COMMANDS, LOST, QUESTIONS};
 use super::loads::Pattern;
 use super::materials::{Friction, Material};
 use super::outputs::Written;
@@ -207,135 +208,13 @@ impl<'a> Recorder<'a> {
         Ok(())
     }
 
-    fn read(&mut self, words: &[Value]) -> Told<Option<Reply>> {
-        let name = words[0].str();
-        let done = |_: ()| Some(Reply::Value(Value::empty()));
-        match name {
-            "model" => self.model(words).map(done),
-            "wipe" => {
-                self.finish_analysis()?;
-                self.ended = !self.draft.nodes.is_empty();
-                Ok(done(()))
-            }
-            "node" => self.add_node(words).map(done),
-            "mass" => self.mass(words).map(done),
-            "fix" => self.fix(words).map(done),
-            "fixX" | "fixY" | "fixZ" => self.fix_plane(words).map(done),
-            "equalDOF" => self.equal_dof(words).map(done),
-            "rigidLink" => self.rigid_link(words).map(done),
-            "rigidDiaphragm" => self.diaphragm(words).map(done),
-            "uniaxialMaterial" => self.material(words).map(done),
-            "frictionModel" => self.friction(words).map(done),
-            "section" => self.section(words).map(done),
-            "geomTransf" => self.transform(words).map(done),
-            "element" => self.element(words).map(done),
-            "timeSeries" => self.time_series(words).map(done),
-            "pattern" => self.pattern(words).map(Some),
-            "load" => self.load(words).map(done),
-            "eleLoad" => self.element_load(words).map(done),
-            "sp" => self.single_point(words).map(done),
-            "groundMotion" => self.ground_motion(words).map(done),
-            "imposedMotion" | "imposedSupportMotion" => self.imposed_motion(words).map(done),
-            "rayleigh" => self.rayleigh(words).map(done),
-            "modalDamping" => self.modal_damping(words).map(done),
-            "integrator" => self.integrator(words).map(done),
-            "analysis" => self.kind_of_analysis(words).map(done),
-            "analyze" => self.analyze(words).map(|()| Some(Reply::Value(Value::new("0")))),
-            "loadConst" => self.load_constant(words).map(done),
-            "setTime" => self.set_time(words).map(done),
-            "getTime" => Ok(Some(Reply::Value(Value::new(format!("{:?}", self.analysis.time))))),
-            "eigen" => self.eigen(words).map(|values| Some(Reply::Value(values))),
-            "recorder" => self.recorder(words).map(done),
-            "getNodeTags" | "getEleTags" => {
-                let mut tags: Vec<i64> = match name {
-                    "getNodeTags" => self.by_tag.keys().copied().collect(),
-                    _ => self.elements.keys().copied().collect(),
-                };
-                tags.sort_unstable();
-                let texts: Vec<String> = tags.iter().map(i64::to_string).collect();
-                Ok(Some(Reply::Value(Value::list(&texts))))
-            }
-            "nodeCoord" => self.coordinates(words).map(|v| Some(Reply::Value(v))),
-            _ => Ok(None),
-        }
+    /// The end of the model: what follows is another one.
+    pub fn wipe(&mut self) -> Told<()> {
+        self.finish_analysis()?;
+        self.ended = !self.draft.nodes.is_empty();
+        Ok(())
     }
 }
-
-/// Commands that choose how equations are solved, and others that change no result.
-const CHOICES: [(&str, &str); 20] = [
-    ("constraints", "constraints are eliminated here"),
-    ("numberer", "nothing to choose here"),
-    ("system", "nothing to choose here"),
-    ("test", "`link_tolerance` stands for it"),
-    ("algorithm", "nothing to choose here"),
-    ("wipeAnalysis", "the next analysis says its own"),
-    ("record", "outputs are recorded at every step"),
-    ("reactions", "reactions are always there"),
-    ("print", "what a script prints is left out"),
-    ("printModel", "what a script prints is left out"),
-    ("printA", "what a script prints is left out"),
-    ("logFile", "what a script prints is left out"),
-    ("defaultUnits", "units of the file are those of `--units`"),
-    ("setMaxOpenFiles", "no files are opened"),
-    ("setPrecision", "outputs have all digits"),
-    ("display", "nothing is drawn"),
-    ("prp", "nothing is drawn"),
-    ("vrp", "nothing is drawn"),
-    ("start", "the time of day is left out"),
-    ("stop", "the time of day is left out"),
-];
-
-/// Commands that ask for results, which are not there when a script is imported.
-const QUESTIONS: [&str; 16] = [
-    "nodeDisp",
-    "nodeVel",
-    "nodeAccel",
-    "nodeReaction",
-    "nodeEigenvector",
-    "nodeResponse",
-    "nodeUnbalance",
-    "eleForce",
-    "eleResponse",
-    "basicForce",
-    "basicDeformation",
-    "localForce",
-    "eleDynamicalForce",
-    "testNorm",
-    "testIter",
-    "modalProperties",
-];
-
-/// Commands of OpenSees that carry a model and have no counterpart.
-const LOST: [&str; 28] = [
-    "nDMaterial",
-    "patch",
-    "layer",
-    "fiber",
-    "block2D",
-    "block3D",
-    "region",
-    "remove",
-    "reset",
-    "parameter",
-    "updateParameter",
-    "addToParameter",
-    "setParameter",
-    "updateMaterialStage",
-    "beamIntegration",
-    "limitCurve",
-    "damping",
-    "modalDampingQ",
-    "setElementRayleighDampingFactors",
-    "setElementRayleighFactors",
-    "rigidBody",
-    "mpcConstraint",
-    "equalDOF_Mixed",
-    "equationConstraint",
-    "yieldSurface_BC",
-    "hystereticBackbone",
-    "responseSpectrumAnalysis",
-    "setNodeDisp",
-];
 
 impl Host for Recorder<'_> {
     fn call(&mut self, call: &Call<'_>, line: &str) -> Reply {
@@ -355,7 +234,7 @@ impl Host for Recorder<'_> {
             self.command = format!("{name} {}", super::args::short(kind.str()));
         }
         if self.ended {
-            let known = self.names().contains(&name);
+            let known = commands::names().any(|n| n == name);
             if known && name != "wipe" {
                 self.command = "wipe".into();
                 self.lose("what follows the first model is not read: a script becomes one model");
@@ -376,9 +255,9 @@ impl Host for Recorder<'_> {
             return Reply::Value(Value::empty());
         }
         self.counted(None);
-        match self.read(call.words) {
-            Ok(Some(reply)) => reply,
-            Ok(None) => Reply::Unknown,
+        let Some((_, does)) = COMMANDS.iter().find(|c| c.0 == name) else { return Reply::Unknown };
+        match does(self, call.words) {
+            Ok(reply) => reply,
             Err(Wrong { word, message, help }) => Reply::Wrong(word, message, help),
         }
     }
@@ -394,48 +273,6 @@ impl Host for Recorder<'_> {
     }
 
     fn names(&self) -> Vec<&'static str> {
-        let mut all = vec![
-            "model",
-            "wipe",
-            "node",
-            "mass",
-            "fix",
-            "fixX",
-            "fixY",
-            "fixZ",
-            "equalDOF",
-            "rigidLink",
-            "rigidDiaphragm",
-            "uniaxialMaterial",
-            "frictionModel",
-            "section",
-            "geomTransf",
-            "element",
-            "timeSeries",
-            "pattern",
-            "load",
-            "eleLoad",
-            "sp",
-            "groundMotion",
-            "imposedMotion",
-            "imposedSupportMotion",
-            "rayleigh",
-            "modalDamping",
-            "integrator",
-            "analysis",
-            "analyze",
-            "loadConst",
-            "setTime",
-            "getTime",
-            "eigen",
-            "recorder",
-            "getNodeTags",
-            "getEleTags",
-            "nodeCoord",
-        ];
-        all.extend(CHOICES.iter().map(|c| c.0));
-        all.extend(QUESTIONS);
-        all.extend(LOST);
-        all
+        commands::names().collect()
     }
 }

@@ -87,6 +87,11 @@ impl Condensation {
         self.rest.as_ref().map_or(self.order, |_| self.kept.len())
     }
 
+    /// True where another one keeps the same rows.
+    pub(crate) fn keeps_as(&self, other: &Self) -> bool {
+        self.order == other.order && self.is_none() == other.is_none() && self.kept == other.kept
+    }
+
     /// True where all rows are kept.
     pub(crate) fn is_none(&self) -> bool {
         self.rest.is_none()

@@ -40,7 +40,7 @@ use report::report;
 use ritz::{Enriched, enriched};
 use solvable::{PIVOT, Solvable, held, solvable};
 use std::sync::Arc;
-use trilith_linalg::{Sparse, all_modes, symmetric_eigen};
+use trilith_linalg::{Dense, Sparse, all_modes, symmetric_eigen};
 use trilith_model::{Basis, BasisKind, Model};
 use trilith_system::System;
 
@@ -166,6 +166,32 @@ pub(crate) fn build(
     }
     bases.report = report(model, system, &bases, loads, &held, shift, &exact);
     Ok(bases)
+}
+
+/// The bases of a structure in the span that another one of the same directions has its modes in; none where its massless
+/// directions are others.
+pub(crate) fn in_span(
+    system: &System,
+    loads: &[(String, Vec<f64>)],
+    of: &RitzBasis,
+) -> Result<Option<Bases>, SolveError> {
+    let (count, before) = (of.modes(), of.shapes.rows());
+    let rows = match before.is_none() {
+        true => Condensation::none(system.order()),
+        false => Condensation::new(system, loads)?,
+    };
+    if !rows.keeps_as(before) {
+        return Ok(None);
+    }
+    let kept: Vec<f64> = (0..count).flat_map(|j| of.shapes.kept(j).iter().copied()).collect();
+    let mut span = Shapes::new(Arc::new(rows), Dense::from_columns(before.kept(), count, kept));
+    // Orthonormal in the masses that there are here.
+    let (sizes, mut turn) = symmetric_eigen(&span.congruence(&system.mass, count))?;
+    for (j, size) in sizes.iter().enumerate() {
+        turn.column_mut(j).iter_mut().for_each(|x| *x /= size.sqrt());
+    }
+    span.kept_mut().turn(&turn);
+    Ok(Some(Forms::new(system, loads)?.of(system, span, true)?))
 }
 
 /// A stiffness whose modes a span is turned into, and the static shapes for it.

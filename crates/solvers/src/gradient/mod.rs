@@ -24,8 +24,7 @@
 //! alone where it has none. `around` finds ∂M, ∂C, ∂K, ∂B, ∂p and the derivative of the start from the model at four values around θ: where they are
 //! polynomials of θ up to the fourth degree, that is exact to rounding as well.
 //!
-//! Reduced solvers go the same way, on the basis of the run, for parameters of links and loads. Parameters of the structure move its
-//! modes with it: see `moving`.
+//! Reduced solvers go the same way in the span of the vectors of the run. Parameters of the structure move its modes in it: see `moving`.
 //!
 //! Where a law is bent at a value that it takes at the end of a substep, there is no derivative, but one to each side. What is told then
 //! is that of the branch that the run took, and [`Gradient::bends`] names the links. May use `run` and all rooms above it.

@@ -1,20 +1,21 @@
-//! A basis that moves with the structure.
+//! Modes that move with the structure.
 //!
-//! Reduced solvers step coordinates q of a basis Φ that follows the structure. Beside the value of a parameter there is another
-//! basis Φᵢ with coordinates of its own, whose signs and order mean nothing; what is the same motion there is
+//! Reduced solvers step coordinates q of modes Φ in the span of their vectors. Beside the value of a parameter the structure has other
+//! modes Φᵢ in the same span, whose signs and order mean nothing; what is the same motion there is
 //!
 //! ```text
 //! qᵢ = Tᵢ q        Tᵢ = Φᵢᵀ Mᵢ Φ        (modes; static shapes: one by one)
 //! ```
 //!
-//! T is smooth in the parameter as the span is, and the identity at its value. All that the structure does in a step is the step
+//! The span stays: vectors that are found anew beside the value are others by rounding where they are many, and a basis that is
+//! complete spans all there is. All that the structure does in a step is the step
 //! of each of four structures around, from the same motion, under the same link forces, each led back by its T:
 //!
 //! ```text
 //! ∂x₁ = Σ wᵢ Tᵢ⁻¹ stepᵢ(Tᵢ x₀, pᵢ, f₀, f₁)        δx₁ = step(δx₀, 0, δf₀, δf₁) + ∂x₁
 //! ```
 //!
-//! Masses, stiffness, damping, vectors and loads are in it, and the exact exponential of FNA as it is: nothing of it is written twice.
+//! Masses, stiffness, damping, modes and loads are in it, and the exact exponential of FNA as it is: nothing of it is written twice.
 
 use super::around::{Around, Varied, WEIGHTS, weighted};
 use super::sides::{in_physical, start};
@@ -113,7 +114,7 @@ impl Turn {
     }
 }
 
-/// What a structure that moves does to the steps of a run.
+/// What a structure that moves, and its modes with it, does to the steps of a run.
 pub(super) struct MovingBasis<'a> {
     step: f64,
     name: &'a str,
@@ -148,13 +149,13 @@ impl<'a> MovingBasis<'a> {
             let (Some(from), Some(to), Some(mut propagator)) =
                 (&base.bases, &side.bases, side.equations(watched).propagator())
             else {
-                return Err(refuse("is not there"));
+                return Err(refuse("would have other directions without mass"));
             };
             if from.stepping.statics() > 0 && base.kind != SolverKind::Fna {
                 return Err(refuse("has static shapes"));
             }
             let turn = Turn::new(&from.stepping, &to.stepping, side.system);
-            turns.push(turn.ok_or_else(|| refuse("holds other vectors"))?);
+            turns.push(turn.ok_or_else(|| refuse("would have other static shapes"))?);
             if base.kind == SolverKind::Fna {
                 propagator.set_rates(&layout.rate_dependent, &layout.damped)?;
             }

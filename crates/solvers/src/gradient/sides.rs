@@ -2,6 +2,7 @@
 
 use super::around::{Assembled, Varied};
 use super::structure::Structure;
+use crate::basis::Bases;
 use crate::error::SolveError;
 use crate::run::{Equations, Prepared, RunOptions, Setup, before};
 use crate::step::{LinksBefore, State};
@@ -15,7 +16,7 @@ pub(super) struct Sides<'a> {
     pub physical: [Prepared<'a>; 4],
     /// What the parameter moves of the structure.
     pub structure: Option<Structure>,
-    /// On their own bases, where the structure moves and the solver of the run has one.
+    /// On the span of the basis of the run, where the structure moves and the solver has one.
     pub reduced: Option<[Prepared<'a>; 4]>,
 }
 
@@ -28,12 +29,14 @@ impl<'a> Sides<'a> {
     ) -> Result<Self, SolveError> {
         let Varied { name, step, .. } = &assembled.around.of;
         let refuse = |why: &str| SolveError::NoGradient { reason: format!("`{name}` {why}") };
-        let prepared = |solver: SolverKind| -> Result<[Prepared<'a>; 4], SolveError> {
-            let all = assembled.sides().map(|(model, s)| prepare(model, s, options, solver));
-            let all = all.collect::<Result<Vec<_>, _>>()?;
-            all.try_into().map_err(|_| refuse("has no models around"))
-        };
-        let physical = prepared(SolverKind::Hht)?;
+        let prepared =
+            |span: Option<&Bases>, solver: SolverKind| -> Result<[Prepared<'a>; 4], SolveError> {
+                let all =
+                    assembled.sides().map(|(model, s)| prepare(model, s, options, (span, solver)));
+                let all = all.collect::<Result<Vec<_>, _>>()?;
+                all.try_into().map_err(|_| refuse("has no models around"))
+            };
+        let physical = prepared(None, SolverKind::Hht)?;
         if physical.iter().any(|p| !same_course(&p.analysis, &base.analysis)) {
             return Err(refuse(
                 "changes the times or the solution of the case, which stay as they are",
@@ -52,7 +55,8 @@ impl<'a> Sides<'a> {
         let spaces = [0, 1, 2, 3].map(|i| in_physical(&physical[i]));
         let structure = Structure::new(*step, &spaces).map_err(|e| refuse(&e))?;
         let moves = base.kind.is_reduced() && structure.is_some();
-        let reduced = moves.then(|| prepared(base.kind)).transpose()?;
+        let span = base.bases.as_ref().filter(|_| moves);
+        let reduced = span.map(|_| prepared(span, base.kind)).transpose()?;
         Ok(Self { physical, structure, reduced })
     }
 }
@@ -63,12 +67,12 @@ pub(super) fn in_physical(of: &Prepared<'_>) -> ReducedSystem {
     ReducedSystem::physical(of.system, &of.loads, &none, of.damping().cloned())
 }
 
-/// A model around, ready to be stepped by a solver.
+/// A model around, ready to be stepped by a solver, on the span of a basis where one is given.
 fn prepare<'a>(
     model: &'a Model,
     system: &'a System,
     options: &RunOptions<'_>,
-    solver: SolverKind,
+    (span, solver): (Option<&Bases>, SolverKind),
 ) -> Result<Prepared<'a>, SolveError> {
     let case = model.cases.get(options.case);
     let Some((case, Analysis::Dynamic(analysis))) = case.map(|c| (c, &c.analysis)) else {
@@ -81,7 +85,7 @@ fn prepare<'a>(
         dt: options.dt,
         ..RunOptions::default()
     };
-    Prepared::new(Setup { model, system, case, analysis, before }, &own)
+    Prepared::on(span, Setup { model, system, case, analysis, before }, &own)
 }
 
 /// True for cases of one length and one solution.

@@ -135,6 +135,17 @@ pub(super) fn basis_loads(
         .collect()
 }
 
+/// What a case asks of a basis.
+pub(super) fn demands(
+    model: &Model,
+    system: &System,
+    analysis: &DynamicCase,
+    loads: &LoadSet,
+    initial: &Initial,
+) -> Demands {
+    Demands::new(system, basis_loads(model, analysis, loads), initial.to_hold())
+}
+
 /// The bases that a solver or modal damping needs.
 pub(crate) fn bases(
     model: &Model,
@@ -149,7 +160,7 @@ pub(crate) fn bases(
         system.check_supported(model, true)?;
         return Ok(None);
     }
-    let mut demands = Demands::new(system, basis_loads(model, analysis, loads), initial.to_hold());
+    let mut demands = demands(model, system, analysis, loads, initial);
     demands.wider = wider;
     let mut settings = analysis.solution.basis.clone();
     if !kind.is_reduced() {

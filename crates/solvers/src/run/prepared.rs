@@ -3,9 +3,9 @@
 use super::case::{RunOptions, constant_load};
 use super::checkpoint::check;
 use super::end_state::{EndState, Initial};
-use super::equations::{Equations, bases, fna_modes};
+use super::equations::{Equations, bases, demands, fna_modes};
 use super::start::{Start, resume, start};
-use crate::basis::{Bases, ModalDamping, follow_supports, modal_damping};
+use crate::basis::{Bases, ModalDamping, follow_supports, in_span, modal_damping};
 use crate::certificate::{Certificate, Defect, Kicks, Listener, Reporter, Samples, Shadow, beside};
 use crate::error::SolveError;
 use crate::march::{Timeline, at_least};
@@ -49,6 +49,16 @@ pub(crate) struct Prepared<'a> {
 impl<'a> Prepared<'a> {
     /// Loads, start, basis and damping of a case, from a checkpoint where there is one.
     pub(crate) fn new(setup: Setup<'a>, options: &RunOptions<'_>) -> Result<Self, SolveError> {
+        Self::on(None, setup, options)
+    }
+
+    /// The same on a basis in the span of another one, where one is given; without a basis where it has other massless
+    /// directions.
+    pub(crate) fn on(
+        span: Option<&Bases>,
+        setup: Setup<'a>,
+        options: &RunOptions<'_>,
+    ) -> Result<Self, SolveError> {
         let Setup { model, system, case, analysis, before } = setup;
         let analysis = with_vectors(analysis, options.vectors);
         let solution = &analysis.solution;
@@ -70,7 +80,13 @@ impl<'a> Prepared<'a> {
             None => Initial::new(model, system, &analysis, before.as_ref())?,
         };
         let judged = reduced && solution.basis.tolerance < 1.0 && !model.outputs.is_empty();
-        let bases = bases(model, system, &analysis, kind, &loads, &initial, judged)?;
+        let bases = match span {
+            Some(of) => {
+                let demands = demands(model, system, &analysis, &loads, &initial);
+                in_span(system, &demands.loads, &of.stepping)?
+            }
+            None => bases(model, system, &analysis, kind, &loads, &initial, judged)?,
+        };
         let damping = bases.as_ref().and_then(|b| modal_damping(model, system, b));
         follow_supports(model, system, damping.as_ref(), reduced, &mut loads)?;
         Ok(Self {
