@@ -1,8 +1,15 @@
 //! Pages in the browser of whoever runs the program.
 
-use crate::Failure;
 use crate::text::shown;
+use crate::{Failure, output};
 use std::path::Path;
+
+/// Opens a page where that is wanted. What was found is there without a browser as well.
+pub(crate) fn show(wanted: bool, page: &Path) {
+    if let (true, Err(failure)) = (wanted, open(page, "")) {
+        output::tell(&failure.text);
+    }
+}
 
 /// Opens a page, at a place in it (`#…`) where one is given.
 ///
@@ -19,7 +26,10 @@ pub(crate) fn open(page: &Path, place: &str) -> Result<(), Failure> {
         // What ends a path in an address, or begins an escape in it.
         let path =
             whole.to_string_lossy().replace('%', "%25").replace('#', "%23").replace('?', "%3F");
-        format!("file://{path}{place}").into()
+        // Windows has backslashes, letters of drives, and a prefix of its own for whole paths.
+        let path =
+            if cfg!(windows) { path.trim_start_matches(r"\\?\").replace('\\', "/") } else { path };
+        format!("file:///{}{place}", path.trim_start_matches('/')).into()
     };
     open::that_detached(target).map_err(|e| told(&e))
 }

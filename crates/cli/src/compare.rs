@@ -4,7 +4,9 @@ use crate::args::CompareArguments;
 use crate::interrupt::{Ear, INTERRUPTED};
 use crate::report::{energies, work};
 use crate::text::{number, percent, row, table};
-use crate::{Answer, Failure, case, compare_page, diagnostics, output, place, read, solver};
+use crate::{
+    Answer, Failure, browser, case, compare_page, diagnostics, output, place, read, solver,
+};
 use std::io::IsTerminal;
 use std::path::Path;
 use std::sync::atomic::Ordering;
@@ -65,6 +67,7 @@ pub(crate) fn compare(registry: &Registry, args: &CompareArguments) -> Result<An
         let page = compare_page::page(&model, &model.cases[case].name, &all);
         for path in place::write(folder, &[(PAGE.into(), page)])? {
             text += &format!("\npage: {path}\n");
+            browser::show(args.open, Path::new(&path));
         }
     }
     Ok(Answer { text, status })

@@ -5,8 +5,8 @@ use crate::interrupt::{Ear, INTERRUPTED};
 use crate::progress::Progress;
 use crate::text::{exact, shown};
 use crate::{
-    Answer, Failure, case, diagnostics, figure_files, figures, long, made_by, names, output, path,
-    place, read, solver,
+    Answer, Failure, browser, case, diagnostics, figure_files, figures, long, made_by, names,
+    output, path, place, read, solver,
 };
 use std::path::{Path, PathBuf};
 use trilith::model::{Body, Element};
@@ -77,12 +77,17 @@ pub(crate) fn run(registry: &Registry, args: RunArguments) -> Result<Answer, Fai
         output::tell(&diagnostics::warning(w));
     }
     let mut text = crate::report::text(&model, &summary);
+    let page =
+        folder.as_ref().map(|(folder, _)| folder.published(&folder.path().join("report.html")));
     let files = match folder {
         Some((folder, inputs)) => write(folder, &inputs, &args, &analysis, &run, &summary),
         None => Ok(String::new()),
     };
     match files {
-        Ok(written) => text += &written,
+        Ok(written) => {
+            text += &written;
+            page.iter().for_each(|page| browser::show(args.open, page));
+        }
         // What was found is on the screen all the same.
         Err(failure) => {
             output::tell(&failure.text);

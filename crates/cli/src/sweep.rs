@@ -98,6 +98,7 @@ pub(crate) fn sweep(registry: &Registry, args: &SweepArguments) -> Result<Answer
         let message = format!("{failed} of {} runs failed", results.records.len());
         output::tell(&crate::diagnostics::plain(&message, Some(help)));
     }
+    crate::browser::show(args.open, &folder.join("study.html"));
     Ok(Answer { text, status: i32::from(failed > 0) })
 }
 

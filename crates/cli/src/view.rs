@@ -2,7 +2,7 @@
 
 use crate::args::ViewArguments;
 use crate::text::shown;
-use crate::{Answer, Failure, case, read};
+use crate::{Answer, Failure, browser, case, read};
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use trilith::{Model, Registry};
@@ -38,6 +38,7 @@ pub(crate) fn view(registry: &Registry, args: &ViewArguments) -> Result<Answer, 
     let out = args.out.clone().unwrap_or_else(|| Path::new(&*name).with_extension("html"));
     let written = page(&live).and_then(|page| std::fs::write(&out, page));
     written.map_err(|e| Failure::unwritable(&out, &e))?;
+    browser::show(args.open, &out);
     Ok(format!("page: {}\n", shown(&out)).into())
 }
 

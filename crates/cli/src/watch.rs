@@ -27,7 +27,7 @@ fn stamps(files: &[PathBuf]) -> Vec<Stamp> {
 }
 
 pub(crate) fn watch(registry: &Registry, args: &WatchArguments) -> Result<Answer, Failure> {
-    let WatchArguments { run: of, open } = args;
+    let of = &args.run;
     let file = path(&of.model);
     if !file.is_file() {
         let message = format!("{} is no file that can be watched", shown(file));
@@ -40,7 +40,7 @@ pub(crate) fn watch(registry: &Registry, args: &WatchArguments) -> Result<Answer
     }
     let folder = of.out.clone().unwrap_or_else(|| run::default_folder(of, None));
     let mut files = vec![file.to_owned()];
-    let mut opened = !open;
+    let mut opened = !of.open;
     loop {
         // A file that is saved while it is read, or while the run goes on, makes another one.
         let mut before = stamps(&files);
@@ -80,7 +80,7 @@ pub(crate) fn watch(registry: &Registry, args: &WatchArguments) -> Result<Answer
 /// # Errors
 /// Somebody wants an end.
 fn once(registry: &Registry, of: &RunArguments) -> Result<Option<String>, Failure> {
-    match run::run(registry, of.clone()) {
+    match run::run(registry, RunArguments { open: false, ..of.clone() }) {
         Ok(Answer { text, status }) if status == INTERRUPTED => {
             output::print(&text, status);
             Err(Failure { text: String::new(), status })

@@ -116,6 +116,9 @@ pub(crate) struct ViewArguments {
     /// Page to write [default: the name of the model with `.html`, in this folder]
     #[arg(long, value_name = "FILE")]
     pub out: Option<PathBuf>,
+    /// Open the page in a browser
+    #[arg(long)]
+    pub open: bool,
     /// Engine for pages, a WebAssembly module [default: the one beside the program]
     #[arg(long, value_name = "FILE")]
     pub engine: Option<PathBuf>,
@@ -158,6 +161,9 @@ pub(crate) struct RunArguments {
     /// Write no report (`report.html` and its data `report.json`)
     #[arg(long, conflicts_with = "loops")]
     pub no_report: bool,
+    /// Open the report in a browser
+    #[arg(long, conflicts_with_all = ["no_report", "no_files"])]
+    pub open: bool,
     /// Write no files; no histories are kept then, and memory does not grow with the length of the run
     #[arg(long, conflicts_with_all = ["out", "checkpoint_at", "loops", "figure"])]
     pub no_files: bool,
@@ -173,9 +179,6 @@ pub(crate) struct RunArguments {
 pub(crate) struct WatchArguments {
     #[command(flatten)]
     pub run: RunArguments,
-    /// Open the page in a browser
-    #[arg(long)]
-    pub open: bool,
 }
 
 #[derive(Args)]
@@ -387,6 +390,9 @@ pub(crate) struct CompareArguments {
     /// Folder for `compare.html` with the histories over each other
     #[arg(long, value_name = "DIR")]
     pub out: Option<PathBuf>,
+    /// Open the page in a browser
+    #[arg(long, requires = "out")]
+    pub open: bool,
 }
 
 #[derive(Args)]
@@ -399,6 +405,9 @@ pub(crate) struct SweepArguments {
     /// Folder for the results; a study that was stopped goes on there [default: out/<name of the study file>]
     #[arg(long, value_name = "DIR")]
     pub out: Option<PathBuf>,
+    /// Open the page of the study in a browser
+    #[arg(long, conflicts_with_all = ["shard", "status", "dry_run"])]
+    pub open: bool,
     /// Runs at the same time; the results are the same to the bit [default: one for each core]
     #[arg(long, value_parser = clap::value_parser!(u16).range(1..=1024))]
     pub threads: Option<u16>,
