@@ -220,6 +220,9 @@ impl<'a> MovingBasis<'a> {
     /// Link forces of a state as this structure takes them: those of its effective stiffnesses are in it.
     fn pseudo(&self, side: usize, motion: &[f64], state: &State) -> Vec<f64> {
         let space = self.sides[side].0.space();
+        if space.effective_k.iter().all(|k| *k == 0.0) {
+            return state.pseudo.clone();
+        }
         let mut own = vec![0.0; self.active.len()];
         space.links.deform(&motion[..space.order()], &mut own);
         let forces = self.active.iter().zip(&space.effective_k).zip(own);

@@ -1,0 +1,55 @@
+//! `trilith view` by the command: what the page carries, and what is refused.
+
+use assert_cmd::Command;
+use std::path::{Path, PathBuf};
+use tempfile::TempDir;
+
+/// First bytes of a WebAssembly module, which is all that the program looks at.
+const ENGINE: &[u8] = b"\0asm\x01\0\0\0";
+
+fn models() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("../../models")
+}
+
+/// Status, stdout, stderr of the program in a folder with an engine and a file that is none.
+fn view(arguments: &[&str]) -> (TempDir, Option<i32>, String, String) {
+    let folder = tempfile::tempdir().unwrap();
+    std::fs::write(folder.path().join("engine.wasm"), ENGINE).unwrap();
+    std::fs::write(folder.path().join("none.wasm"), "no engine").unwrap();
+    let mut command = Command::cargo_bin("trilith").unwrap();
+    let done = command.current_dir(folder.path()).arg("view").args(arguments).output().unwrap();
+    let [out, told] = [done.stdout, done.stderr].map(|text| String::from_utf8(text).unwrap());
+    (folder, done.status.code(), out, told)
+}
+
+#[test]
+fn a_page_carries_the_model_its_records_and_the_engine() {
+    let model = models().join("rigid_block_record.ron");
+    let model = model.to_str().unwrap();
+    let (folder, status, out, told) = view(&[model, "--engine", "engine.wasm", "--set", "mu=0.3"]);
+    assert_eq!((status, &*out), (Some(0), "page: rigid_block_record.html\n"), "{told}");
+    let page = std::fs::read_to_string(folder.path().join("rigid_block_record.html")).unwrap();
+    for part in ["synthetic_040g.csv", "\"mu\"", "0.3"] {
+        assert!(page.contains(part), "no {part} in it");
+    }
+    // Nothing is asked of a network.
+    assert!(!page.contains("src=\"http") && !page.contains("href=\"http"));
+}
+
+#[test]
+fn what_cannot_be_a_page_is_refused() {
+    let model = models().join("rigid_block.ron");
+    let model = model.to_str().unwrap();
+    for (arguments, words) in [
+        (&[model, "--engine", "none.wasm"][..], "none.wasm is no WebAssembly module"),
+        (&[model, "--engine", "gone.wasm"], "gone.wasm cannot be read"),
+        (&[model, "--engine", "engine.wasm", "--case", "fall"], "there is no case \"fall\""),
+        (&[model, "--engine", "engine.wasm", "--set", "nu=1"], "nu"),
+        (&[model, "--engine", "engine.wasm", "--out", "gone/x.html"], "gone/x.html"),
+        (&["gone.ron", "--engine", "engine.wasm"], "gone.ron"),
+    ] {
+        let (_folder, status, out, told) = view(arguments);
+        assert_eq!((status, &*out), (Some(2), ""), "{arguments:?}: {told}");
+        assert!(told.contains(words), "{arguments:?}: {told}");
+    }
+}
