@@ -42,6 +42,8 @@
 
 mod arithmetic;
 mod dual;
+#[cfg(target_arch = "x86_64")]
+mod functions;
 mod law;
 mod real;
 #[cfg(target_arch = "x86_64")]

@@ -92,20 +92,6 @@ impl<const N: usize, R: Real> Dual<N, R> {
     }
 }
 
-impl<const N: usize> Dual<N> {
-    /// eˣ − 1.
-    #[must_use]
-    pub fn exp_m1(self) -> Self {
-        self.map(self.x.exp_m1(), self.x.exp())
-    }
-
-    /// ln(1 + x).
-    #[must_use]
-    pub fn ln_1p(self) -> Self {
-        self.map(self.x.ln_1p(), 1.0 / (1.0 + self.x))
-    }
-}
-
 impl<const N: usize, R: Real> Add for Dual<N, R> {
     type Output = Self;
     #[inline(always)]
@@ -226,6 +212,50 @@ impl<const N: usize, R: Real> Real for Dual<N, R> {
         self.map(value, value)
     }
     #[inline(always)]
+    fn exp_by_vectors(self) -> Self {
+        let value = self.x.exp_by_vectors();
+        self.map(value, value)
+    }
+    #[inline(always)]
+    fn exp_and_m1(self) -> [Self; 2] {
+        let [value, less] = self.x.exp_and_m1();
+        [self.map(value, value), self.map(less, value)]
+    }
+    #[inline(always)]
+    fn ln(self) -> Self {
+        self.map(self.x.ln(), self.x.of(1.0) / self.x)
+    }
+    #[inline(always)]
+    fn ln_1p(self) -> Self {
+        let one = self.x.of(1.0);
+        self.map(self.x.ln_1p(), one / (one + self.x))
+    }
+    #[inline(always)]
+    fn tanh(self) -> Self {
+        let t = self.x.tanh();
+        self.map(t, t.of(1.0) - t * t)
+    }
+    /// At zero, where the slope is beyond all bounds, it counts as zero.
+    #[inline(always)]
+    fn cbrt(self) -> Self {
+        let (zero, root) = (self.x.of(0.0), self.x.cbrt());
+        let slope = root / (self.x.of(3.0) * self.x);
+        self.map(root, slope.only(zero.lt(self.x.abs())))
+    }
+    /// At zero it counts as if nothing moved.
+    #[inline(always)]
+    fn powf(self, a: Self) -> Self {
+        let value = self.x.powf(a.x);
+        let above = self.x.of(0.0).lt(self.x);
+        let slope = (a.x * value / self.x).only(above);
+        let mut it = self.map(value, slope);
+        for i in 0..N {
+            let moved = (value * self.x.ln() * a.by[i]).only(above);
+            it.by[i] = it.by[i] + moved;
+        }
+        it
+    }
+    #[inline(always)]
     fn lt(self, o: Self) -> Self::Mask {
         self.x.lt(o.x)
     }
@@ -268,7 +298,10 @@ mod tests {
         let far = x.hypot(y).sqrt() * (-x).exp() + x.map(f64::tanh) / y.mul_add(y, x.of(1.0));
         let near = x.map_pair(|x| [x.sin(), x.cos()]);
         let bent = R::select(x.lt(y), near[0] * y, near[1] - x.abs().min(y.max(x.of(0.3))));
-        far + bent.only(y.lt(x.of(2.0))) + x.map2(y, |x, y| x.abs().powf(y))
+        let [grown, more] = (x * y).exp_and_m1();
+        let size = x.abs();
+        let smooth = grown * (size.ln() + y.tanh()) - more * y.ln_1p() + size.powf(y) / y.cbrt();
+        far + bent.only(y.lt(x.of(2.0))) + x.map2(y, |x, y| x.abs().powf(y)) + smooth
     }
 
     #[test]

@@ -58,6 +58,55 @@ pub trait Real:
         self.map(f64::exp)
     }
 
+    /// eˣ by operations of vectors, where [`exp`](Self::exp) goes lane by lane.
+    #[inline(always)]
+    #[must_use]
+    fn exp_by_vectors(self) -> Self {
+        self.exp()
+    }
+
+    /// eˣ and eˣ − 1, in vectors as well.
+    #[inline(always)]
+    #[must_use]
+    fn exp_and_m1(self) -> [Self; 2] {
+        self.map_pair(|x| [x.exp(), x.exp_m1()])
+    }
+
+    /// ln x, in vectors as well; of numbers above the least normal one.
+    #[inline(always)]
+    #[must_use]
+    fn ln(self) -> Self {
+        self.map(f64::ln)
+    }
+
+    /// ln(1 + x), in vectors as well.
+    #[inline(always)]
+    #[must_use]
+    fn ln_1p(self) -> Self {
+        self.map(f64::ln_1p)
+    }
+
+    /// tanh x, in vectors as well.
+    #[inline(always)]
+    #[must_use]
+    fn tanh(self) -> Self {
+        self.map(f64::tanh)
+    }
+
+    /// ∛x, in vectors as well.
+    #[inline(always)]
+    #[must_use]
+    fn cbrt(self) -> Self {
+        self.map(f64::cbrt)
+    }
+
+    /// xᵃ of x ≥ 0, in vectors as well.
+    #[inline(always)]
+    #[must_use]
+    fn powf(self, a: Self) -> Self {
+        self.map2(a, f64::powf)
+    }
+
     /// A function of one number in every lane: for what registers cannot do, slowly.
     #[must_use]
     fn map(self, f: impl Fn(f64) -> f64) -> Self;

@@ -1,7 +1,7 @@
 //! Numbers for machines with FMA and registers of 256 bits (AVX2) or 512 (AVX-512). They exist only where a
 //! token of [`pulp`] says that the machine has them.
 
-use super::Real;
+use super::{Real, functions};
 use pulp::{Simd, bytemuck};
 use std::fmt;
 use std::ops::{Add, BitAnd, BitOr, Div, Mul, Neg, Not, Sub};
@@ -127,6 +127,34 @@ impl Real for Fused {
     #[inline(always)]
     fn any(self, mask: bool) -> bool {
         mask
+    }
+    #[inline(always)]
+    fn exp_by_vectors(self) -> Self {
+        functions::exp_and_m1(self)[0]
+    }
+    #[inline(always)]
+    fn exp_and_m1(self) -> [Self; 2] {
+        functions::exp_and_m1(self)
+    }
+    #[inline(always)]
+    fn ln(self) -> Self {
+        functions::ln(self)
+    }
+    #[inline(always)]
+    fn ln_1p(self) -> Self {
+        functions::ln_1p(self)
+    }
+    #[inline(always)]
+    fn tanh(self) -> Self {
+        functions::tanh(self)
+    }
+    #[inline(always)]
+    fn cbrt(self) -> Self {
+        functions::cbrt(self)
+    }
+    #[inline(always)]
+    fn powf(self, a: Self) -> Self {
+        functions::powf(self, a)
     }
     #[inline(always)]
     fn map(self, f: impl Fn(f64) -> f64) -> Self {
@@ -270,6 +298,34 @@ impl<S: Simd, const K: usize> Real for Wide<S, K> {
         let s = self.simd;
         let either = mask.x[1..].iter().fold(mask.x[0], |a, b| s.or_m64s(a, *b));
         s.first_true_m64s(either) < S::F64_LANES
+    }
+    #[inline(always)]
+    fn exp_by_vectors(self) -> Self {
+        functions::exp_and_m1(self)[0]
+    }
+    #[inline(always)]
+    fn exp_and_m1(self) -> [Self; 2] {
+        functions::exp_and_m1(self)
+    }
+    #[inline(always)]
+    fn ln(self) -> Self {
+        functions::ln(self)
+    }
+    #[inline(always)]
+    fn ln_1p(self) -> Self {
+        functions::ln_1p(self)
+    }
+    #[inline(always)]
+    fn tanh(self) -> Self {
+        functions::tanh(self)
+    }
+    #[inline(always)]
+    fn cbrt(self) -> Self {
+        functions::cbrt(self)
+    }
+    #[inline(always)]
+    fn powf(self, a: Self) -> Self {
+        functions::powf(self, a)
     }
     #[inline(always)]
     fn map(self, f: impl Fn(f64) -> f64) -> Self {
