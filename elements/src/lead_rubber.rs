@@ -40,15 +40,17 @@
 //! Reference: \[Kalpakidis & Constantinou 2009\]; \[Kumar, Whittaker & Constantinou 2014\].
 
 mod cooling;
+mod law;
 #[cfg(test)]
 mod tests;
 
-use crate::shared::bouc_wen_plane::{self, Coupling, PARAMETERS, Shape};
-use cooling::Cooling;
+use crate::shared::bouc_wen_plane::{Coupling, PARAMETERS, Shape};
+use law::Law;
 use serde::Deserialize;
 use std::borrow::Cow;
 use std::f64::consts::PI;
 use trilith_element::dimension::{AREA, DENSITY, FREQUENCY, LENGTH, NONE, STIFFNESS, STRESS};
+use trilith_element::lanes::{LaneAt, LaneForce, LaneForm, LaneLaw};
 use trilith_element::{
     Axis, Card, Category, Coordinates, Described, Dimension, Exercise, Field, History, Kinematics,
     Link, NodeCount, Parameter, ParameterError, Range, Response, Stroke, history,
@@ -219,10 +221,9 @@ impl LeadRubber {
         Shape { by_direction, beta: self.beta, gamma: self.gamma, eta: self.eta }
     }
 
-    /// Force of the core at a temperature rise.
-    fn strength(&self, temperature: f64) -> f64 {
-        let area = 0.25 * PI * self.lead_diameter.powi(2);
-        area * self.lead_strength * (-self.softening * temperature).exp()
+    /// Force of the cold core.
+    fn strength(&self) -> f64 {
+        0.25 * PI * self.lead_diameter.powi(2) * self.lead_strength
     }
 
     /// Heat that warms the core by one kelvin, J.
@@ -231,31 +232,28 @@ impl LeadRubber {
         self.lead_density * self.lead_heat * area * self.lead_height
     }
 
-    fn cooling(&self) -> Cooling {
+    /// Parameters of the law; see there.
+    fn numbers(&self) -> [f64; law::PARAMETERS] {
         let a = 0.5 * self.lead_diameter;
         let per_area = self.lead_density * self.lead_heat * self.lead_height;
-        Cooling {
-            rate: self.steel_conductivity / (a * per_area),
-            diffusion: self.steel_diffusivity / (a * a),
-            shims: self.shim_thickness / a,
-        }
-    }
-
-    /// Temperature at the end of a step with this loss Σ ∫ zᵢ (ωᵢ − żᵢ) du, its derivative by the loss, and
-    /// the heat.
-    fn warmed(&self, old: &LeadHistory, dt: f64, loss: f64) -> (f64, f64, f64) {
-        let (e, y, capacity) = (self.softening, self.yield_displacement, self.capacity());
-        if !self.heating || dt <= 0.0 {
-            return (old.temperature, 0.0, self.strength(old.temperature) * y * loss);
-        }
-        let (cooling, t) = (self.cooling(), old.heated);
-        let kept = |from: f64, to: f64| (-cooling.over(from, to)).exp();
-        let start = old.temperature * kept(t, t + 0.5 * dt);
-        // ρ c A h dT = Q₀ e^(−E T) Y dl
-        let slope = self.strength(start) * y / capacity;
-        let rise = (e * slope * loss).ln_1p() / e;
-        let later = kept(t + 0.5 * dt, t + dt);
-        ((start + rise) * later, later * slope / (1.0 + e * slope * loss), capacity * rise)
+        let [how, beta, gamma, eta, limit] = self.shape().numbers();
+        [
+            self.kr,
+            self.yield_displacement,
+            self.kv,
+            self.strength(),
+            self.softening,
+            f64::from(u8::from(self.heating)),
+            self.capacity(),
+            self.steel_conductivity / (a * per_area),
+            self.steel_diffusivity / (a * a),
+            self.shim_thickness / a,
+            how,
+            beta,
+            gamma,
+            eta,
+            limit,
+        ]
     }
 }
 
@@ -269,7 +267,7 @@ impl Link for LeadRubber {
     }
 
     fn engaged_stiffness(&self, k: &mut [f64]) {
-        let shear = self.kr + self.strength(0.0) / self.yield_displacement;
+        let shear = self.kr + self.strength() / self.yield_displacement;
         (k[0], k[4], k[8]) = (self.kv, shear, shear);
     }
 
@@ -284,37 +282,23 @@ impl Link for LeadRubber {
         trial: &mut [f64],
         out: &mut Response<'_>,
     ) {
-        let old = LeadHistory::load(committed);
-        let (y, z0) = (self.yield_displacement, [old.z2, old.z3]);
-        let omega = [1, 2].map(|i| (at.d[i] - at.d0[i]) / y);
-        let moved = bouc_wen_plane::advance(&self.shape(), z0, omega, [at.v[1], at.v[2]]);
-        let loss = moved.loss[0] + moved.loss[1];
-        let (temperature, by_loss, mut heat) = self.warmed(&old, at.dt, loss.x);
-        let (before, q) = (self.strength(old.temperature), self.strength(temperature));
-        let z = moved.z.map(|z| z.x);
+        let numbers = self.numbers();
+        let asked = LaneAt::new(at, committed, &numbers);
+        let mut force = LaneForce { f: out.f, k: out.k, c: out.c };
+        let step = if self.shape().is_closed() {
+            Law::<true>::respond(&asked, &mut force, trial)
+        } else {
+            Law::<false>::respond(&asked, &mut force, trial)
+        };
+        *out.energy = step.into();
+    }
 
-        out.f[0] = self.kv * at.d[0];
-        out.k[0] = self.kv;
-        out.energy.stored = 0.5 * self.kv * at.d[0] * at.d[0];
-        for i in 0..2 {
-            let d = at.d[i + 1];
-            out.f[i + 1] = self.kr * d + q * z[i];
-            out.energy.stored += 0.5 * self.kr * d * d;
-            for j in 0..2 {
-                let weaker = -self.softening * q * by_loss * loss.by[j];
-                out.k[3 * (i + 1) + j + 1] = (q * moved.z[i].by[j] + z[i] * weaker) / y;
-            }
-            out.k[4 * (i + 1)] += self.kr;
-        }
-
-        let square = |z: [f64; 2]| z[0] * z[0] + z[1] * z[1];
-        let change = 0.5 * y * (square(z) - square(z0));
-        let stretched = old.stretch + 0.5 * (before + q) * change;
-        let stretch = stretched.min(0.5 * q * y * square(z));
-        heat += stretched - stretch;
-        out.energy.stored += stretch;
-        out.energy.hysteretic = heat;
-        let heated = if temperature > 0.0 { old.heated + at.dt } else { 0.0 };
-        LeadHistory { z2: z[0], z3: z[1], temperature, heated, stretch }.store(trial);
+    fn lanes(&self, _: &[bool]) -> Option<LaneForm> {
+        let (at, numbers) = (vec![0, 1, 2], self.numbers().to_vec());
+        Some(if self.shape().is_closed() {
+            LaneForm::of::<Law<true>>(at, numbers)
+        } else {
+            LaneForm::of::<Law<false>>(at, numbers)
+        })
     }
 }

@@ -38,10 +38,11 @@
 //! Reference: \[Park, Wen & Ang 1986\], \[Casciati 1989\] (`Direction`); as in \[CSI Analysis Reference Manual,
 //! rubber isolator property\].
 
-use crate::shared::bouc_wen_plane::{self, Coupling, PARAMETERS, Shape};
+use crate::shared::bouc_wen_plane::{self, Coupling, PARAMETERS, Shape, Shaped};
 use serde::Deserialize;
 use std::borrow::Cow;
 use trilith_element::dimension::{FORCE, NONE, STIFFNESS};
+use trilith_element::lanes::{LaneAt, LaneForce, LaneForm, LaneLaw, LaneStep, Real};
 use trilith_element::{
     Axis, Card, Category, Coordinates, Described, Exercise, Field, History, Kinematics, Link,
     NodeCount, Parameter, ParameterError, Range, Response, Stroke, history,
@@ -180,28 +181,101 @@ impl Link for RubberIsolator {
         trial: &mut [f64],
         out: &mut Response<'_>,
     ) {
-        let z0 = RubberHistory::load(committed);
-        let shear = self.shear();
-        let omega = |i: usize| shear[i][0] / shear[i][1] * (at.d[i + 1] - at.d0[i + 1]);
-        let z0 = [z0.z2, z0.z3];
-        let omega = [omega(0), omega(1)];
-        let moved = bouc_wen_plane::advance(&self.shape(), z0, omega, [at.v[1], at.v[2]]);
-        RubberHistory { z2: moved.z[0].x, z3: moved.z[1].x }.store(trial);
-        out.f[0] = self.kv * at.d[0];
-        out.k[0] = self.kv;
-        out.energy.stored = 0.5 * self.kv * at.d[0] * at.d[0];
-        for i in 0..2 {
-            let ([k, fy, ratio], z, d) = (shear[i], moved.z[i], at.d[i + 1]);
-            out.f[i + 1] = ratio * k * d + (1.0 - ratio) * fy * z.x;
-            for j in 0..2 {
-                out.k[3 * (i + 1) + j + 1] =
-                    (1.0 - ratio) * fy * z.by[j] * shear[j][0] / shear[j][1];
-            }
-            out.k[4 * (i + 1)] += ratio * k;
-            let size = (1.0 - ratio) * fy * fy / k;
-            out.energy.stored += 0.5 * (ratio * k * d * d + size * z.x * z.x);
-            out.energy.hysteretic += size * moved.loss[i].x;
+        let numbers = self.numbers();
+        let asked = LaneAt::new(at, committed, &numbers);
+        let mut force = LaneForce { f: out.f, k: out.k, c: out.c };
+        let step = if self.shape().is_closed() {
+            Law::<true>::respond(&asked, &mut force, trial)
+        } else {
+            Law::<false>::respond(&asked, &mut force, trial)
+        };
+        *out.energy = step.into();
+    }
+
+    fn lanes(&self, _: &[bool]) -> Option<LaneForm> {
+        let (at, numbers) = (vec![0, 1, 2], self.numbers().to_vec());
+        Some(if self.shape().is_closed() {
+            LaneForm::of::<Law<true>>(at, numbers)
+        } else {
+            LaneForm::of::<Law<false>>(at, numbers)
+        })
+    }
+}
+
+/// Where the shape begins among the parameters of the law.
+const SHAPE: usize = 7;
+
+impl RubberIsolator {
+    /// Parameters of the law: k_v, k, f_y and r of U2 and of U3, shape.
+    fn numbers(&self) -> [f64; SHAPE + bouc_wen_plane::NUMBERS] {
+        let [[k2, fy2, r2], [k3, fy3, r3]] = self.shear();
+        let [how, beta, gamma, eta, limit] = self.shape().numbers();
+        [self.kv, k2, fy2, r2, k3, fy3, r3, how, beta, gamma, eta, limit]
+    }
+}
+
+/// The law over lanes, with z in closed form or by steps.
+struct Law<const CLOSED: bool>;
+
+/// k, f_y and r along U2 (0) or U3 (1).
+#[inline(always)]
+fn shear<R: Real>(at: &LaneAt<'_, R>, i: usize) -> [R; 3] {
+    [at.parameters[1 + 3 * i], at.parameters[2 + 3 * i], at.parameters[3 + 3 * i]]
+}
+
+impl<const CLOSED: bool> LaneLaw for Law<CLOSED> {
+    const COORDINATES: usize = 3;
+    const HISTORY: usize = 2;
+    const PARAMETERS: usize = SHAPE + bouc_wen_plane::NUMBERS;
+    const IN_PARTS: bool = false;
+
+    #[inline(always)]
+    fn force<R: Real>(at: &LaneAt<'_, R>, out: &mut LaneForce<'_, R>) {
+        Self::respond(at, out, &mut [at.dt; 2]);
+    }
+
+    #[inline(always)]
+    fn commit<R: Real>(at: &LaneAt<'_, R>, _: &[R], trial: &mut [R]) -> LaneStep<R> {
+        let (mut f, mut k, mut c) = ([at.dt; 3], [at.dt; 9], [at.dt; 9]);
+        Self::respond(at, &mut LaneForce { f: &mut f, k: &mut k, c: &mut c }, trial)
+    }
+
+    #[inline(always)]
+    fn respond<R: Real>(
+        at: &LaneAt<'_, R>,
+        out: &mut LaneForce<'_, R>,
+        trial: &mut [R],
+    ) -> LaneStep<R> {
+        let kv = at.parameters[0];
+        let (zero, half, one) = (kv.of(0.0), kv.of(0.5), kv.of(1.0));
+        let mut omega = [zero; 2];
+        for (i, omega) in omega.iter_mut().enumerate() {
+            let [k, fy, _] = shear(at, i);
+            *omega = k / fy * (at.d[i + 1] - at.d0[i + 1]);
         }
+        let z0 = [at.history[0], at.history[1]];
+        let shape = Shaped::of(&at.parameters[SHAPE..]);
+        let moved = shape.advance::<0, CLOSED>(z0, omega, [at.v[1], at.v[2]]);
+        out.k.fill(zero);
+        out.c.fill(zero);
+        out.f[0] = kv * at.d[0];
+        out.k[0] = kv;
+        let mut stored = half * kv * at.d[0] * at.d[0];
+        let mut heat = zero;
+        for i in 0..2 {
+            let ([k, fy, ratio], z, d) = (shear(at, i), moved.z[i], at.d[i + 1]);
+            out.f[i + 1] = ratio * k * d + (one - ratio) * fy * z.x;
+            for j in 0..2 {
+                let [kj, fyj, _] = shear(at, j);
+                out.k[3 * (i + 1) + j + 1] = (one - ratio) * fy * z.by[j] * kj / fyj;
+            }
+            out.k[4 * (i + 1)] = out.k[4 * (i + 1)] + ratio * k;
+            let size = (one - ratio) * fy * fy / k;
+            stored = stored + half * (ratio * k * d * d + size * z.x * z.x);
+            heat = heat + size * moved.loss[i].x;
+            trial[i] = z.x;
+        }
+        LaneStep { hysteretic: heat, ..LaneStep::elastic(stored) }
     }
 }
 

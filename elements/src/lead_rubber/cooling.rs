@@ -8,49 +8,52 @@
 //! the end, by series on either side of τ = 0.6.
 
 use std::f64::consts::PI;
+use trilith_element::lanes::Real;
 
 /// F(τ).
-pub(super) fn disc(tau: f64) -> f64 {
-    if tau < 0.6 {
-        let x = 0.25 * tau;
-        return 2.0 * (tau / PI).sqrt() - tau / PI * (2.0 - x - x * x - 3.75 * x.powi(3));
-    }
-    let y = 0.25 / tau;
-    let bracket = 1.0 - y / 3.0 + y * y / 6.0 - y.powi(3) / 12.0;
-    8.0 / (3.0 * PI) - bracket / (2.0 * (PI * tau).sqrt())
+#[inline(always)]
+pub(super) fn disc<R: Real>(tau: R) -> R {
+    let (one, two, quarter, pi) = (tau.of(1.0), tau.of(2.0), tau.of(0.25), tau.of(PI));
+    let x = quarter * tau;
+    let series = two - x - x * x - x.of(3.75) * (x * x * x);
+    let early = two * (tau / pi).sqrt() - tau / pi * series;
+    let y = quarter / tau;
+    let bracket = one - y / y.of(3.0) + y * y / y.of(6.0) - y * y * y / y.of(12.0);
+    let late = tau.of(8.0 / (3.0 * PI)) - bracket / (two * (pi * tau).sqrt());
+    R::select(tau.lt(tau.of(0.6)), early, late)
 }
 
 /// The numbers of g.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Cooling {
+pub(super) struct Cooling<R> {
     /// k_s/(a ρ c h), 1/s.
-    pub(super) rate: f64,
+    pub(super) rate: R,
     /// α_s/a², 1/s.
-    pub(super) diffusion: f64,
+    pub(super) diffusion: R,
     /// t_s/a.
-    pub(super) shims: f64,
+    pub(super) shims: R,
 }
 
-impl Cooling {
+impl<R: Real> Cooling<R> {
     /// g at a time > 0.
-    pub(super) fn at(&self, t: f64) -> f64 {
+    #[inline(always)]
+    pub(super) fn at(&self, t: R) -> R {
         let tau = self.diffusion * t;
-        self.rate * (1.0 / disc(tau) + 1.274 * self.shims / tau.cbrt())
+        self.rate * (t.of(1.0) / disc(tau) + t.of(1.274) * self.shims / tau.cbrt())
     }
 
     /// ∫ g dt. Gauss's rule in √t, in which the singular start is smooth.
-    pub(super) fn over(&self, from: f64, to: f64) -> f64 {
+    #[inline(always)]
+    pub(super) fn over(&self, from: R, to: R) -> R {
         let (a, b) = (from.sqrt(), to.sqrt());
-        let (middle, half) = (0.5 * (a + b), 0.5 * (b - a));
-        let part = |x: f64, weight: f64| {
-            let s = middle + half * x;
-            weight * half * 2.0 * s * self.at(s * s)
-        };
-        if to <= from {
-            return 0.0;
-        }
+        let (middle, half) = (from.of(0.5) * (a + b), from.of(0.5) * (b - a));
+        let mut sum = from.of(0.0);
         let x = 0.6_f64.sqrt();
-        part(0.0, 8.0 / 9.0) + part(-x, 5.0 / 9.0) + part(x, 5.0 / 9.0)
+        for (x, weight) in [(0.0, 8.0 / 9.0), (-x, 5.0 / 9.0), (x, 5.0 / 9.0)] {
+            let s = middle + half * from.of(x);
+            sum = sum + from.of(weight) * half * from.of(2.0) * s * self.at(s * s);
+        }
+        sum.only(from.lt(to))
     }
 }
 

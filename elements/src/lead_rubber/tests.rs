@@ -87,9 +87,10 @@ fn a_core_that_keeps_its_heat_warms_by_the_logarithm_of_its_path() {
 #[test]
 fn an_orbit_is_that_of_the_differential_equations_to_second_order() {
     let law = law(true, &[]);
-    let (q0, y, w) = (law.strength(0.0), 0.01, 0.4 * TAU);
+    let (q0, y, w) = (law.strength(), 0.01, 0.4 * TAU);
     let d = |t: f64| [0.2 * (w * t).sin(), 0.1 * (1.0 - (w * t).cos())];
-    let cooling = law.cooling();
+    let [rate, diffusion, shims] = [7, 8, 9].map(|i| law.numbers()[i]);
+    let cooling = super::cooling::Cooling { rate, diffusion, shims };
     let rate = |t: f64, s: [f64; 3]| {
         let o = [0.2 * w * (w * t).cos() / y, 0.1 * w * (w * t).sin() / y];
         let b = (o[0] * s[0]).max(0.0) + (o[1] * s[1]).max(0.0);

@@ -9,102 +9,158 @@
 //! pieces at most, and the end of each is the root of a quadratic equation in e^(λu). |z| ≤ 1 is kept by the
 //! equation itself.
 
-use crate::shared::dual::Dual;
+use crate::shared::dual::{Dual, by_fewer};
+use trilith_element::lanes::Real;
 
-/// What became of z, with derivatives by ω.
+/// A number with its derivatives by ω.
+type Two<R> = Dual<2, R>;
+
+/// What became of z, with derivatives by ω; those of the loss as many as are wanted.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Moved {
-    pub(crate) z: [Dual; 2],
+pub(crate) struct Moved<const N: usize, R = f64> {
+    pub(crate) z: [Dual<2, R>; 2],
     /// ∫ zᵢ (ωᵢ − zᵢ') du, none negative.
-    pub(crate) loss: [Dual; 2],
+    pub(crate) loss: [Dual<N, R>; 2],
 }
 
 /// A piece of a step with constant aⱼ.
-struct Piece {
-    omega: [Dual; 2],
-    z: [Dual; 2],
-    loading: [bool; 2],
-    lambda: Dual,
+struct Piece<const N: usize, R: Real> {
+    omega: [Dual<N, R>; 2],
+    z: [Dual<N, R>; 2],
+    loading: [R::Mask; 2],
+    lambda: Dual<N, R>,
     /// b·z at its start.
-    beta: Dual,
+    beta: Dual<N, R>,
 }
 
-const ZERO: Dual = Dual { x: 0.0, by: [0.0; 2] };
+/// Nodes and weights of Gauss's rule with eight points, one half of them.
+const NODES: [(f64, f64); 4] = [
+    (0.183_434_642_495_649_8, 0.362_683_783_378_362),
+    (0.525_532_409_916_329, 0.313_706_645_877_887_3),
+    (0.796_666_477_413_626_7, 0.222_381_034_453_374_48),
+    (0.960_289_856_497_536_3, 0.101_228_536_290_376_26),
+];
 
-impl Piece {
-    fn new(omega: [Dual; 2], z: [Dual; 2]) -> Self {
-        let loading =
-            [0, 1].map(|j| omega[j].x * z[j].x > 0.0 || (z[j].x == 0.0 && omega[j].x != 0.0));
-        let active = |j: usize| if loading[j] { omega[j] } else { ZERO };
-        let beta = active(0) * z[0] + active(1) * z[1];
-        let lambda = match loading {
-            [true, true] => (omega[0] * omega[0] + omega[1] * omega[1]).sqrt(),
-            [true, false] => omega[0] * omega[0].x.signum(),
-            [false, true] => omega[1] * omega[1].x.signum(),
-            [false, false] => ZERO,
-        };
+/// Most parts of a piece.
+const PARTS: i32 = 20;
+
+impl<R: Real> Piece<2, R> {
+    #[inline(always)]
+    fn new(omega: [Two<R>; 2], z: [Two<R>; 2]) -> Self {
+        let zero = z[0].x.of(0.0);
+        let mut loading = [zero.lt(zero); 2];
+        for j in 0..2 {
+            let starts = z[j].x.abs().le(zero) & zero.lt(omega[j].x.abs());
+            loading[j] = zero.lt(omega[j].x * z[j].x) | starts;
+        }
+        let beta = omega[0].only(loading[0]) * z[0] + omega[1].only(loading[1]) * z[1];
+        let both = (omega[0] * omega[0] + omega[1] * omega[1]).sqrt();
+        let one = Real::abs(Two::select(loading[0], omega[0], omega[1]));
+        let lambda = Two::select(loading[0] & loading[1], both, one.only(loading[0] | loading[1]));
         Self { omega, z, loading, lambda, beta }
     }
 
-    /// z after a length `u`.
-    fn at(&self, u: Dual) -> [Dual; 2] {
-        let (l, o) = (self.lambda, self.omega);
-        if l.x == 0.0 {
-            return [0, 1].map(|i| self.z[i] + o[i] * u);
+    /// Where component `j`, which unloads, comes to zero: beyond all steps where it does not.
+    #[inline(always)]
+    fn zero(&self, j: usize) -> Two<R> {
+        let beyond = Two::constant(self.lambda.x.of(f64::INFINITY));
+        let nought = self.lambda.x.of(0.0);
+        let unloads = !self.loading[j] & nought.lt(self.omega[j].x.abs());
+        if !nought.any(unloads) {
+            return beyond;
         }
-        // Both p and q over e^(λu), so that nothing overflows.
-        let fall = (-(l * u)).exp_m1();
-        let (once, share) = (fall + 1.0, self.beta / l);
-        let twice = -((l * u * -2.0).exp_m1());
-        let q = (-twice + 2.0 + share * twice) * 0.5;
-        let grown = (twice + share * fall * fall) * 0.5 / l;
-        [0, 1].map(|i| (self.z[i] * once + o[i] * grown) / q)
+        let (one, two) = (nought.of(1.0), nought.of(2.0));
+        let mut at = -(self.z[j] / self.omega[j]);
+        let bent = unloads & nought.lt(self.lambda.x);
+        if nought.any(bent) {
+            let (c, share) = (at * self.lambda, self.beta / self.lambda);
+            let s = c * (share * two + c);
+            let root = s / ((s + one).sqrt() + one);
+            let curved = ((c + root) / (share + one)).ln_1p() / self.lambda;
+            at = Two::select(bent, curved, at);
+        }
+        Two::select(unloads, at, beyond)
     }
 
-    /// Where component `j`, which unloads, comes to zero.
-    fn zero(&self, j: usize) -> Option<Dual> {
-        if self.loading[j] || self.omega[j].x == 0.0 {
-            return None;
+    /// The same with fewer derivatives.
+    #[inline(always)]
+    fn by_fewer<const N: usize>(&self) -> Piece<N, R> {
+        Piece {
+            omega: [by_fewer(self.omega[0]), by_fewer(self.omega[1])],
+            z: [by_fewer(self.z[0]), by_fewer(self.z[1])],
+            loading: self.loading,
+            lambda: by_fewer(self.lambda),
+            beta: by_fewer(self.beta),
         }
-        let straight = -(self.z[j] / self.omega[j]);
-        if self.lambda.x == 0.0 {
-            return Some(straight);
+    }
+}
+
+impl<const N: usize, R: Real> Piece<N, R> {
+    /// z after a length `u`.
+    #[inline(always)]
+    fn at(&self, u: Dual<N, R>) -> [Dual<N, R>; 2] {
+        let (l, o) = (self.lambda, self.omega);
+        let nought = u.x.of(0.0);
+        let bent = nought.lt(l.x.abs());
+        let mut z = [self.z[0] + o[0] * u, self.z[1] + o[1] * u];
+        if nought.any(bent) {
+            // Both p and q over e^(λu), so that nothing overflows.
+            let (half, one, two) = (u.x.of(0.5), u.x.of(1.0), u.x.of(2.0));
+            let fall = (-(l * u)).exp_and_m1()[1];
+            let (once, share) = (fall + one, self.beta / l);
+            let twice = -((l * u * -two).exp_and_m1()[1]);
+            let q = (-twice + two + share * twice) * half;
+            let grown = (twice + share * fall * fall) * half / l;
+            for i in 0..2 {
+                z[i] = Dual::select(bent, (self.z[i] * once + o[i] * grown) / q, z[i]);
+            }
         }
-        let (c, share) = (straight * self.lambda, self.beta / self.lambda);
-        let s = c * (share * 2.0 + c);
-        let root = s / ((s + 1.0).sqrt() + 1.0);
-        Some(((c + root) / (share + 1.0)).ln_1p() / self.lambda)
+        z
     }
 
     /// ∫ zᵢ² (b·z) du over a length, by Gauss's rule on parts in which z changes little enough.
-    fn loss(&self, length: Dual) -> [Dual; 2] {
-        const NODES: [(f64, f64); 4] = [
-            (0.183_434_642_495_649_8, 0.362_683_783_378_362),
-            (0.525_532_409_916_329, 0.313_706_645_877_887_3),
-            (0.796_666_477_413_626_7, 0.222_381_034_453_374_48),
-            (0.960_289_856_497_536_3, 0.101_228_536_290_376_26),
-        ];
-        let mut sum = [ZERO; 2];
-        if self.lambda.x == 0.0 {
+    #[inline(always)]
+    fn loss(&self, length: Dual<N, R>) -> [Dual<N, R>; 2] {
+        let (nought, half) = (length.x.of(0.0), length.x.of(0.5));
+        let nothing = Dual::constant(nought);
+        let mut sum = [nothing; 2];
+        let bent = nought.lt(self.lambda.x.abs());
+        if !nought.any(bent) {
             return sum;
         }
-        let b = [0, 1].map(|j| if self.loading[j] { self.omega[j] } else { ZERO });
-        let parts = (0.5 * self.lambda.x * length.x).ceil().clamp(1.0, 20.0);
+        let b = [self.omega[0].only(self.loading[0]), self.omega[1].only(self.loading[1])];
+        // So many parts as there are whole numbers below this, and one.
+        let wanted = half * self.lambda.x * length.x;
+        let mut parts = nought.of(1.0);
+        for i in 1..PARTS {
+            let more = nought.of(f64::from(i)).lt(wanted);
+            if !nought.any(more) {
+                break;
+            }
+            parts = R::select(more, nought.of(f64::from(i + 1)), parts);
+        }
+        let many = nought.of(f64::from(PARTS)).le(parts);
         // Beyond 20 parts z has come to rest: the last takes all that is left.
-        let part = if parts < 20.0 {
-            length * (1.0 / parts)
-        } else {
-            self.lambda.map(2.0 / self.lambda.x, -2.0 / self.lambda.x.powi(2))
-        };
-        let mut from = ZERO;
-        for i in 1..=parts as usize {
-            let to = if i == parts as usize { length } else { from + part };
-            let (middle, half) = ((from + to) * 0.5, (to - from) * 0.5);
+        let l = self.lambda.x;
+        let equal = length * (nought.of(1.0) / parts);
+        let long = self.lambda.map(nought.of(2.0) / l, -nought.of(2.0) / (l * l));
+        let part = Dual::select(many, long, equal);
+        let mut from = nothing;
+        for i in 1..=PARTS {
+            let goes_on = bent & nought.of(f64::from(i)).le(parts);
+            if !nought.any(goes_on) {
+                break;
+            }
+            let last = parts.le(nought.of(f64::from(i)));
+            let to = Dual::select(last, length, from + part);
+            let (middle, half) = ((from + to) * half, (to - from) * half);
             for (x, weight) in NODES {
                 for x in [-x, x] {
-                    let z = self.at(middle + half * x);
-                    let rate = (b[0] * z[0] + b[1] * z[1]) * half * weight;
-                    sum = [0, 1].map(|i| sum[i] + z[i] * z[i] * rate);
+                    let z = self.at(middle + half * nought.of(x));
+                    let rate = (b[0] * z[0] + b[1] * z[1]) * half * nought.of(weight);
+                    for i in 0..2 {
+                        sum[i] = Dual::select(goes_on, sum[i] + z[i] * z[i] * rate, sum[i]);
+                    }
                 }
             }
             from = to;
@@ -114,38 +170,59 @@ impl Piece {
 }
 
 /// z after a step; `rate` has the signs of the motion where ω is zero.
-pub(crate) fn advance(z: [f64; 2], omega: [f64; 2], rate: [f64; 2]) -> Moved {
-    if omega == [0.0; 2] {
-        let loads = |j: usize| if rate[j] * z[j] > 0.0 { z[j] } else { 0.0 };
-        let slope = |i: usize, j: usize| f64::from(i == j) - z[i] * loads(j);
-        let at = |i: usize| Dual { x: z[i], by: [slope(i, 0), slope(i, 1)] };
-        return Moved { z: [at(0), at(1)], loss: [ZERO; 2] };
+#[inline(always)]
+pub(crate) fn advance<const N: usize, R: Real>(
+    z: [R; 2],
+    omega: [R; 2],
+    rate: [R; 2],
+) -> Moved<N, R> {
+    let (nought, one) = (z[0].of(0.0), z[0].of(1.0));
+    let moves = nought.lt(omega[0].abs()) | nought.lt(omega[1].abs());
+    let nothing = Dual::constant(nought);
+    let mut still = [Two::constant(z[0]), Two::constant(z[1])];
+    for j in 0..2 {
+        let loads = z[j].only(nought.lt(rate[j] * z[j]));
+        for i in 0..2 {
+            still[i].by[j] = nought.of(f64::from(u8::from(i == j))) - z[i] * loads;
+        }
     }
-    let omega = [0, 1].map(|j| Dual::variable(omega[j], j));
-    let mut z = z.map(Dual::constant);
-    let (mut left, mut loss) = (Dual::constant(1.0), [ZERO; 2]);
+    let mut loss = [nothing; 2];
+    if !nought.any(moves) {
+        return Moved { z: still, loss };
+    }
+    let omega = [Two::variable(omega[0], 0), Two::variable(omega[1], 1)];
+    let mut z = [Two::constant(z[0]), Two::constant(z[1])];
+    let mut left = Two::constant(one);
+    let mut goes_on = moves;
     // Each component comes to zero once at most.
     for _ in 0..3 {
         let piece = Piece::new(omega, z);
-        let zeros = [0, 1].map(|j| piece.zero(j).filter(|u| u.x < left.x));
-        let first = match zeros {
-            [Some(a), Some(b)] if b.x < a.x => Some((1, b)),
-            [Some(a), _] => Some((0, a)),
-            [None, Some(b)] => Some((1, b)),
-            [None, None] => None,
-        };
-        let length = first.map_or(left, |(_, u)| u);
-        let lost = piece.loss(length);
-        loss = [0, 1].map(|i| loss[i] + lost[i]);
-        z = piece.at(length);
-        let Some((j, u)) = first else { break };
-        z[j] = ZERO;
-        left = left - u;
+        let zeros = [piece.zero(0), piece.zero(1)];
+        let second = zeros[1].x.lt(zeros[0].x);
+        let first = Two::select(second, zeros[1], zeros[0]);
+        let cut = first.x.lt(left.x);
+        let length = Two::select(cut, first, left);
+        let lost = piece.by_fewer::<N>().loss(by_fewer(length));
+        let next = piece.at(length);
+        for i in 0..2 {
+            loss[i] = Dual::select(goes_on, loss[i] + lost[i], loss[i]);
+            let own = if i == 0 { !second } else { second };
+            z[i] = Two::select(goes_on, next[i].only(!(cut & own)), z[i]);
+        }
+        goes_on = goes_on & cut;
+        if !nought.any(goes_on) {
+            break;
+        }
+        left = left - first;
     }
     // Rounding only: the equation keeps |z| ≤ 1.
-    let size = z[0].x.hypot(z[1].x).max(1.0);
-    z.iter_mut().for_each(|z| z.x /= size);
-    Moved { z, loss }
+    if nought.any(one.lt(z[0].x * z[0].x + z[1].x * z[1].x + one.of(1e-15))) {
+        let size = z[0].x.map2(z[1].x, f64::hypot).max(one);
+        for z in &mut z {
+            z.x = z.x / size;
+        }
+    }
+    Moved { z: [Two::select(moves, z[0], still[0]), Two::select(moves, z[1], still[1])], loss }
 }
 
 #[cfg(test)]
@@ -189,7 +266,7 @@ mod tests {
     fn follows_the_differential_equation() {
         for z0 in STARTS {
             for omega in STEPS {
-                let moved = advance(z0, omega, omega);
+                let moved = advance::<2, f64>(z0, omega, omega);
                 let s = integrated(z0, omega, 20_000);
                 for i in 0..2 {
                     assert_relative_eq!(moved.z[i].x, s[i], epsilon = 1e-7);
@@ -203,10 +280,10 @@ mod tests {
     fn two_halves_of_a_step_are_the_step() {
         for z0 in STARTS {
             for omega in STEPS {
-                let whole = advance(z0, omega, omega);
+                let whole = advance::<0, f64>(z0, omega, omega);
                 let half = omega.map(|w| 0.5 * w);
-                let one = advance(z0, half, omega);
-                let two = advance(one.z.map(|z| z.x), half, omega);
+                let one = advance::<0, f64>(z0, half, omega);
+                let two = advance::<0, f64>(one.z.map(|z| z.x), half, omega);
                 for i in 0..2 {
                     assert_relative_eq!(whole.z[i].x, two.z[i].x, epsilon = 1e-13);
                     let loss = one.loss[i].x + two.loss[i].x;
@@ -222,7 +299,7 @@ mod tests {
             for size in [1e-300, 1e-12, 1.0, 1e3, 1e12] {
                 for omega in STEPS {
                     let omega = omega.map(|w| w * size);
-                    let moved = advance(z0, omega, omega);
+                    let moved = advance::<2, f64>(z0, omega, omega);
                     assert!(moved.z[0].x.hypot(moved.z[1].x) <= 1.0 + 1e-15);
                     let finite = |d: Dual| d.x.is_finite() && d.by.iter().all(|x| x.is_finite());
                     assert!(

@@ -10,9 +10,10 @@
 //! one direction z has come to rest. |z| stays within (β + γ)^(−1/η), whatever the direction.
 
 use crate::shared::biaxial::{self, Moved};
-use crate::shared::dual::Dual;
+use crate::shared::dual::{Dual, by_fewer};
 use serde::Deserialize;
 use trilith_element::dimension::NONE;
+use trilith_element::lanes::Real;
 use trilith_element::{Parameter, ParameterError, Range};
 
 /// |z|² below which nothing is held back: its powers would leave the range of numbers.
@@ -20,6 +21,9 @@ const NOTHING: f64 = 1e-100;
 
 /// Length of a motion after which z has come to rest, in limits of z.
 const SETTLED: f64 = 38.0;
+
+/// Steps at most: those of the sharpest yielding.
+const STEPS: i32 = 4000;
 
 /// How a bearing tells unloading in its plane.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
@@ -57,8 +61,6 @@ pub(crate) const PARAMETERS: [Parameter; 4] = [
     Parameter::number("eta", "η", NONE, Range::Within(1.0, 20.0), 2.0, "sharpness of yielding"),
 ];
 
-const ZERO: Dual = Dual { x: 0.0, by: [0.0; 2] };
-
 /// Numbers of the law: −β < γ ≤ β, η ≥ 1.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Shape {
@@ -69,30 +71,9 @@ pub(crate) struct Shape {
     pub(crate) eta: f64,
 }
 
-/// z and ∫ zᵢ (ωᵢ − zᵢ') du.
-#[derive(Clone, Copy, Debug)]
-struct State {
-    z: [Dual; 2],
-    loss: [Dual; 2],
-}
-
-impl State {
-    fn plus(&self, rate: &Self, h: Dual) -> Self {
-        Self {
-            z: [0, 1].map(|i| self.z[i] + rate.z[i] * h),
-            loss: [0, 1].map(|i| self.loss[i] + rate.loss[i] * h),
-        }
-    }
-}
-
-/// (a + 2b + 2c + d)/6.
-fn mean(a: Dual, b: Dual, c: Dual, d: Dual) -> Dual {
-    (a + (b + c) * 2.0 + d) * (1.0 / 6.0)
-}
-
 impl Shape {
-    /// The law of Park, Wen and Ang, which has a closed form.
-    fn is_closed(&self) -> bool {
+    /// The law of Park, Wen and Ang, by axes with ½, ½ and 2, which has a closed form.
+    pub(crate) fn is_closed(&self) -> bool {
         !self.by_direction && [self.beta, self.gamma, self.eta] == [0.5, 0.5, 2.0]
     }
 
@@ -121,103 +102,220 @@ impl Shape {
         (self.beta + self.gamma).powf(-1.0 / self.eta)
     }
 
+    /// Numbers of the law: 0 by axes, 1 by direction; β, γ, η, limit of z.
+    pub(crate) fn numbers(&self) -> [f64; NUMBERS] {
+        let how = f64::from(u8::from(self.by_direction));
+        [how, self.beta, self.gamma, self.eta, self.limit()]
+    }
+}
+
+/// How many numbers a shape is.
+pub(crate) const NUMBERS: usize = 5;
+
+/// A number with its derivatives by ω.
+type Two<R> = Dual<2, R>;
+
+/// A shape over lanes.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Shaped<R: Real> {
+    by_direction: R::Mask,
+    beta: R,
+    gamma: R,
+    /// ½ η − 1.
+    half: R,
+    limit: R,
     /// Steps for the length of one limit.
-    fn density(&self) -> f64 {
-        16.0 + 4.0 * self.eta
+    density: R,
+}
+
+/// z and ∫ zᵢ (ωᵢ − zᵢ') du.
+#[derive(Clone, Copy, Debug)]
+struct State<const N: usize, R> {
+    z: [Two<R>; 2],
+    loss: [Dual<N, R>; 2],
+}
+
+impl<const N: usize, R: Real> State<N, R> {
+    #[inline(always)]
+    fn plus(&self, rate: &Self, h: Two<R>) -> Self {
+        let mut it = *self;
+        for i in 0..2 {
+            it.z[i] = self.z[i] + rate.z[i] * h;
+            it.loss[i] = self.loss[i] + rate.loss[i] * by_fewer(h);
+        }
+        it
+    }
+
+    #[inline(always)]
+    fn select(mask: R::Mask, yes: &Self, no: &Self) -> Self {
+        let mut it = *yes;
+        for i in 0..2 {
+            it.z[i] = Dual::select(mask, yes.z[i], no.z[i]);
+            it.loss[i] = Dual::select(mask, yes.loss[i], no.loss[i]);
+        }
+        it
+    }
+}
+
+/// (a + 2b + 2c + d)/6.
+#[inline(always)]
+fn mean<const N: usize, R: Real>(
+    a: Dual<N, R>,
+    b: Dual<N, R>,
+    c: Dual<N, R>,
+    d: Dual<N, R>,
+) -> Dual<N, R> {
+    (a + (b + c) * a.x.of(2.0) + d) * a.x.of(1.0 / 6.0)
+}
+
+impl<R: Real> Shaped<R> {
+    #[inline(always)]
+    pub(crate) fn of(numbers: &[R]) -> Self {
+        let [how, beta, gamma, eta, limit] = [0, 1, 2, 3, 4].map(|i| numbers[i]);
+        let (half, one) = (how.of(0.5), how.of(1.0));
+        Self {
+            by_direction: half.lt(how),
+            beta,
+            gamma,
+            half: half * eta - one,
+            limit,
+            density: how.of(16.0) + how.of(4.0) * eta,
+        }
     }
 
     /// |z|^(η−2), 0 where z is: it stands with two factors of z.
-    fn power(&self, z: [Dual; 2]) -> Dual {
+    #[inline(always)]
+    fn power(&self, z: [Two<R>; 2]) -> Two<R> {
+        let (zero, one) = (self.half.of(0.0), self.half.of(1.0));
+        let uneven = zero.lt(self.half.abs());
+        let none = Dual::constant(one);
+        if !zero.any(uneven) {
+            return none;
+        }
         let square = z[0] * z[0] + z[1] * z[1];
-        let half = 0.5 * self.eta - 1.0;
-        if half == 0.0 {
-            return Dual::constant(1.0);
-        }
-        if square.x <= NOTHING {
-            return ZERO;
-        }
-        let x = square.x.powf(half);
-        square.map(x, half * x / square.x)
+        let x = square.x.powf(self.half);
+        let power = square.map(x, self.half * x / square.x);
+        let power = power.only(zero.of(NOTHING).lt(square.x));
+        Dual::select(uneven, power, none)
     }
 
     /// γ + β sⱼ for zⱼ ωⱼ; where nothing moves, that of unloading.
-    fn shares(&self, along: [f64; 2]) -> [f64; 2] {
-        let share = |x: f64| self.gamma + if x > 0.0 { self.beta } else { -self.beta };
-        if self.by_direction { [share(along[0] + along[1]); 2] } else { along.map(share) }
+    #[inline(always)]
+    fn shares(&self, along: [R; 2]) -> [R; 2] {
+        let (zero, both) = (along[0].of(0.0), along[0] + along[1]);
+        let mut shares = along;
+        for j in 0..2 {
+            let told = R::select(self.by_direction, both, along[j]);
+            shares[j] = self.gamma + R::select(zero.lt(told), self.beta, -self.beta);
+        }
+        shares
     }
 
     /// dz/du and the loss.
-    fn rate(&self, z: [Dual; 2], omega: [Dual; 2]) -> State {
+    #[inline(always)]
+    fn rate<const N: usize>(&self, z: [Two<R>; 2], omega: [Two<R>; 2]) -> State<N, R> {
         let along = [z[0] * omega[0], z[1] * omega[1]];
-        let shares = self.shares(along.map(|a| a.x));
+        let shares = self.shares([along[0].x, along[1].x]);
         let held = self.power(z) * (along[0] * shares[0] + along[1] * shares[1]);
         State {
-            z: [0, 1].map(|i| omega[i] - z[i] * held),
-            loss: [0, 1].map(|i| z[i] * z[i] * held),
+            z: [omega[0] - z[0] * held, omega[1] - z[1] * held],
+            loss: [by_fewer(z[0] * z[0] * held), by_fewer(z[1] * z[1] * held)],
         }
     }
 
     /// One step of order 4.
-    fn step(&self, at: &State, omega: [Dual; 2], h: Dual) -> State {
+    #[inline(always)]
+    fn step<const N: usize>(&self, at: &State<N, R>, omega: [Two<R>; 2], h: Two<R>) -> State<N, R> {
+        let half = h * h.x.of(0.5);
         let a = self.rate(at.z, omega);
-        let b = self.rate(at.plus(&a, h * 0.5).z, omega);
-        let c = self.rate(at.plus(&b, h * 0.5).z, omega);
+        let b = self.rate(at.plus(&a, half).z, omega);
+        let c = self.rate(at.plus(&b, half).z, omega);
         let d = self.rate(at.plus(&c, h).z, omega);
-        let weighted = State {
-            z: [0, 1].map(|i| mean(a.z[i], b.z[i], c.z[i], d.z[i])),
-            loss: [0, 1].map(|i| mean(a.loss[i], b.loss[i], c.loss[i], d.loss[i])),
-        };
+        let mut weighted = a;
+        for i in 0..2 {
+            weighted.z[i] = mean(a.z[i], b.z[i], c.z[i], d.z[i]);
+            weighted.loss[i] = mean(a.loss[i], b.loss[i], c.loss[i], d.loss[i]);
+        }
         at.plus(&weighted, h)
     }
 
-    /// z after a step; `rate` has the direction of the motion where ω is zero.
-    pub(crate) fn advance(&self, z: [f64; 2], omega: [f64; 2], rate: [f64; 2]) -> Moved {
-        let length = omega[0].hypot(omega[1]);
-        if length == 0.0 {
-            let shares = self.shares([z[0] * rate[0], z[1] * rate[1]]);
-            let power = self.power(z.map(Dual::constant)).x;
-            let slope = |i: usize, j: usize| f64::from(i == j) - z[i] * z[j] * shares[j] * power;
-            let at = |i: usize| Dual { x: z[i], by: [slope(i, 0), slope(i, 1)] };
-            return Moved { z: [at(0), at(1)], loss: [ZERO; 2] };
-        }
-        let omega = [0, 1].map(|j| Dual::variable(omega[j], j));
-        let (limit, most) = (self.limit(), SETTLED * self.limit());
-        // Only the length that still turns z.
-        let settled = length > most;
-        let part = if settled {
-            let unit = omega.map(|o| o * (1.0 / length));
-            let size = (unit[0] * unit[0] + unit[1] * unit[1]).sqrt();
-            unit.map(|o| o / size * most)
-        } else {
-            omega
-        };
-        // Steps of one length and what is left, so that nothing jumps where one more is taken.
-        let short = limit / self.density();
-        let count = (length.min(most) / short).floor();
-        let mut at = State { z: z.map(Dual::constant), loss: [ZERO; 2] };
-        let mut left = Dual::constant(1.0);
-        if count > 0.0 {
-            let h = Dual::constant(short) / (part[0] * part[0] + part[1] * part[1]).sqrt();
-            for _ in 0..count as usize {
-                at = self.step(&at, part, h);
+    /// z after a step, by steps of the differential equation.
+    #[inline(always)]
+    fn integrated<const N: usize>(&self, z: [R; 2], omega: [R; 2], rate: [R; 2]) -> Moved<N, R> {
+        let (zero, one) = (z[0].of(0.0), z[0].of(1.0));
+        let length = omega[0].map2(omega[1], f64::hypot);
+        let moves = !length.le(zero);
+        let shares = self.shares([z[0] * rate[0], z[1] * rate[1]]);
+        let power = self.power([Dual::constant(z[0]), Dual::constant(z[1])]).x;
+        let mut still = [Dual::constant(z[0]), Dual::constant(z[1])];
+        for i in 0..2 {
+            for j in 0..2 {
+                let own = zero.of(f64::from(u8::from(i == j)));
+                still[i].by[j] = own - z[i] * z[j] * shares[j] * power;
             }
-            left = left - h * count;
         }
-        at = self.step(&at, part, left);
-        if settled {
-            let (whole, before) = (self.rate(at.z, omega).loss, self.rate(at.z, part).loss);
-            at.loss = [0, 1].map(|i| at.loss[i] + whole[i] - before[i]);
+        let nothing = Dual::constant(zero);
+        if !zero.any(moves) {
+            return Moved { z: still, loss: [nothing; 2] };
         }
-        Moved { z: at.z, loss: at.loss }
+        let omega = [Dual::variable(omega[0], 0), Dual::variable(omega[1], 1)];
+        let most = self.limit * zero.of(SETTLED);
+        // Only the length that still turns z.
+        let settled = most.lt(length);
+        let mut part = omega;
+        if zero.any(settled) {
+            let unit = [omega[0] * (one / length), omega[1] * (one / length)];
+            let size = (unit[0] * unit[0] + unit[1] * unit[1]).sqrt();
+            for j in 0..2 {
+                part[j] = Dual::select(settled, unit[j] / size * most, omega[j]);
+            }
+        }
+        // Steps of one length and what is left, so that nothing jumps where one more is taken.
+        let short = self.limit / self.density;
+        let whole = length.min(most) / short;
+        let mut at = State { z: [Dual::constant(z[0]), Dual::constant(z[1])], loss: [nothing; 2] };
+        let (all, mut count) = (Dual::constant(one), zero);
+        let h = Dual::constant(short) / (part[0] * part[0] + part[1] * part[1]).sqrt();
+        let mut open = moves;
+        for i in 1..=STEPS {
+            let full = zero.of(f64::from(i)).le(whole);
+            let left = Dual::select(zero.lt(count), all - h * count, all);
+            let next = self.step(&at, part, Dual::select(full, h, left));
+            at = State::select(open, &next, &at);
+            count = R::select(full, zero.of(f64::from(i)), count);
+            open = open & full;
+            if !zero.any(open) {
+                break;
+            }
+        }
+        if zero.any(settled) {
+            let (whole, before) =
+                (self.rate::<N>(at.z, omega).loss, self.rate::<N>(at.z, part).loss);
+            for i in 0..2 {
+                let all = at.loss[i] + whole[i] - before[i];
+                at.loss[i] = Dual::select(settled, all, at.loss[i]);
+            }
+        }
+        Moved {
+            z: [Dual::select(moves, at.z[0], still[0]), Dual::select(moves, at.z[1], still[1])],
+            loss: [at.loss[0].only(moves), at.loss[1].only(moves)],
+        }
     }
-}
 
-/// The law with β, γ and η; the one of Park, Wen and Ang, by axes with ½, ½ and 2, in closed form.
-pub(crate) fn advance(shape: &Shape, z: [f64; 2], omega: [f64; 2], rate: [f64; 2]) -> Moved {
-    if shape.is_closed() {
-        return biaxial::advance(z, omega, rate);
+    /// z after a step, with `N` derivatives of the loss, of which 2 there are. `CLOSED`: the law of Park, Wen and Ang in its closed
+    /// form, else with β, γ and η by steps. `rate` has the direction of the motion where ω is zero.
+    #[inline(always)]
+    pub(crate) fn advance<const N: usize, const CLOSED: bool>(
+        &self,
+        z: [R; 2],
+        omega: [R; 2],
+        rate: [R; 2],
+    ) -> Moved<N, R> {
+        if CLOSED {
+            return biaxial::advance(z, omega, rate);
+        }
+        self.integrated(z, omega, rate)
     }
-    shape.advance(z, omega, rate)
 }
 
 #[cfg(test)]
@@ -235,6 +333,12 @@ mod tests {
     const STARTS: [[f64; 2]; 5] = [[0.0, 0.0], [0.5, -0.3], [-0.6, -0.4], [0.6, 0.7], [0.0, -1.0]];
     const STEPS: [[f64; 2]; 6] =
         [[0.3, 0.2], [2.0, -3.0], [0.0, 1.5], [-1.0, 0.0], [-8.0, 5.0], [1e-5, -1e-6]];
+
+    impl Shape {
+        fn integrated(&self, z: [f64; 2], omega: [f64; 2]) -> Moved<2> {
+            Shaped::of(&self.numbers()).integrated(z, omega, omega)
+        }
+    }
 
     /// By many small steps of the equation as it stands.
     fn integrated(shape: &Shape, z0: [f64; 2], omega: [f64; 2], steps: u32) -> [f64; 4] {
@@ -265,7 +369,7 @@ mod tests {
         for shape in SHAPES {
             for z0 in STARTS {
                 for omega in STEPS {
-                    let moved = shape.advance(z0, omega, omega);
+                    let moved = shape.integrated(z0, omega);
                     let s = integrated(&shape, z0, omega, 20_000);
                     for i in 0..2 {
                         assert_relative_eq!(moved.z[i].x, s[i], epsilon = 2e-4);
@@ -282,8 +386,9 @@ mod tests {
         let shape = Shape { by_direction: false, beta: 0.5, gamma: 0.5, eta: 2.0 };
         for z0 in STARTS {
             for omega in STEPS {
-                let (one, two) =
-                    (shape.advance(z0, omega, omega), advance(&shape, z0, omega, omega));
+                let one = shape.integrated(z0, omega);
+                let shaped = Shaped::of(&shape.numbers());
+                let two = shaped.advance::<2, true>(z0, omega, omega);
                 for i in 0..2 {
                     assert_relative_eq!(one.z[i].x, two.z[i].x, epsilon = 2e-4);
                     assert_relative_eq!(one.loss[i].x, two.loss[i].x, epsilon = 2e-4);
@@ -297,7 +402,7 @@ mod tests {
         for shape in SHAPES {
             for size in [1e-300, 1e-12, 1.0, 1e3, 1e12] {
                 for omega in STEPS {
-                    let moved = shape.advance([0.3, -0.4], omega.map(|w| w * size), omega);
+                    let moved = shape.integrated([0.3, -0.4], omega.map(|w| w * size));
                     let length = moved.z[0].x.hypot(moved.z[1].x);
                     assert!(length <= shape.limit() * (1.0 + 1e-9), "{shape:?} {length}");
                     let finite = |d: &Dual| d.x.is_finite() && d.by.iter().all(|x| x.is_finite());

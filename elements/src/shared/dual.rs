@@ -8,6 +8,16 @@ use trilith_element::lanes::Real;
 /// A vector of them.
 pub(crate) type Dual3<const N: usize, R = f64> = [Dual<N, R>; 3];
 
+/// The same number with the first of its derivatives alone.
+#[inline(always)]
+pub(crate) fn by_fewer<const N: usize, const M: usize, R: Real>(it: Dual<N, R>) -> Dual<M, R> {
+    let mut fewer = Dual::constant(it.x);
+    for i in 0..M {
+        fewer.by[i] = it.by[i];
+    }
+    fewer
+}
+
 /// `a · b`.
 #[inline(always)]
 pub(crate) fn dot<const N: usize, R: Real>(a: &Dual3<N, R>, b: &Dual3<N, R>) -> Dual<N, R> {
