@@ -25,7 +25,9 @@
 mod transition;
 
 use serde::Deserialize;
+use transition::{ANY, ONE, TWO};
 use trilith_element::dimension::NONE;
+use trilith_element::lanes::{LaneAt, LaneForce, LaneForm, LaneLaw, LaneStep, Real};
 use trilith_element::{
     Axis, Card, Category, Coordinates, Default, Described, Exercise, Form, History, Kinematics,
     Link, NodeCount, Parameter, Range, Response, Stroke, history,
@@ -125,17 +127,73 @@ impl Link for Wen {
         trial: &mut [f64],
         out: &mut Response<'_>,
     ) {
-        let Self { k, fy, ratio, .. } = *self;
-        let z0 = WenHistory::load(committed).z;
-        let u = k / fy * (at.d[0] - at.d0[0]);
-        let t = transition::advance(z0, u, at.v[0], self.exponent);
-        WenHistory { z: t.z }.store(trial);
-        let plastic = 1.0 - ratio;
-        out.f[0] = ratio * k * at.d[0] + plastic * fy * t.z;
+        let numbers = self.numbers();
+        let asked = LaneAt::new(at, committed, &numbers);
+        let mut force = LaneForce { f: out.f, k: out.k, c: out.c };
+        let step = match transition::closed_form(self.exponent) {
+            ONE => Law::<ONE>::respond(&asked, &mut force, trial),
+            TWO => Law::<TWO>::respond(&asked, &mut force, trial),
+            _ => Law::<ANY>::respond(&asked, &mut force, trial),
+        };
+        *out.energy = step.into();
+    }
+
+    fn lanes(&self, _: &[bool]) -> Option<LaneForm> {
+        let (at, numbers) = (vec![0], self.numbers().to_vec());
+        Some(match transition::closed_form(self.exponent) {
+            ONE => LaneForm::of::<Law<ONE>>(at, numbers),
+            TWO => LaneForm::of::<Law<TWO>>(at, numbers),
+            _ => LaneForm::of::<Law<ANY>>(at, numbers),
+        })
+    }
+}
+
+impl Wen {
+    /// Parameters of the law: k, f_y, r, exponent.
+    fn numbers(&self) -> [f64; 3 + transition::NUMBERS] {
+        let [n, middle, reach, first, bends, work] = transition::numbers(self.exponent);
+        [self.k, self.fy, self.ratio, n, middle, reach, first, bends, work]
+    }
+}
+
+/// The law over lanes, for one form of the exponent.
+struct Law<const FORM: u8>;
+
+impl<const FORM: u8> LaneLaw for Law<FORM> {
+    const COORDINATES: usize = 1;
+    const HISTORY: usize = 1;
+    const PARAMETERS: usize = 3 + transition::NUMBERS;
+    const IN_PARTS: bool = false;
+
+    #[inline(always)]
+    fn force<R: Real>(at: &LaneAt<'_, R>, out: &mut LaneForce<'_, R>) {
+        Self::respond(at, out, &mut [at.dt]);
+    }
+
+    #[inline(always)]
+    fn commit<R: Real>(at: &LaneAt<'_, R>, _: &[R], trial: &mut [R]) -> LaneStep<R> {
+        let (mut f, mut k, mut c) = ([at.dt], [at.dt], [at.dt]);
+        Self::respond(at, &mut LaneForce { f: &mut f, k: &mut k, c: &mut c }, trial)
+    }
+
+    #[inline(always)]
+    fn respond<R: Real>(
+        at: &LaneAt<'_, R>,
+        out: &mut LaneForce<'_, R>,
+        trial: &mut [R],
+    ) -> LaneStep<R> {
+        let p = at.parameters;
+        let (k, fy, ratio, d) = (p[0], p[1], p[2], at.d[0]);
+        let u = k / fy * (d - at.d0[0]);
+        let t = transition::advance::<FORM, R>(at.history[0], u, at.v[0], &p[3..]);
+        trial[0] = t.z;
+        let plastic = k.of(1.0) - ratio;
+        out.f[0] = ratio * k * d + plastic * fy * t.z;
         out.k[0] = k * (ratio + plastic * t.slope);
+        out.c[0] = k.of(0.0);
         let size = plastic * fy * fy / k;
-        out.energy.stored = 0.5 * (ratio * k * at.d[0] * at.d[0] + size * t.z * t.z);
-        out.energy.hysteretic = size * t.loss;
+        let stored = k.of(0.5) * (ratio * k * d * d + size * t.z * t.z);
+        LaneStep { hysteretic: size * t.loss, ..LaneStep::elastic(stored) }
     }
 }
 

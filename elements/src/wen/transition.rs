@@ -15,188 +15,295 @@
 //! change by a factor of two at most on either side, so Newton's method started on the right side
 //! comes down on the root in a few steps and cannot pass it.
 
+use std::f64::consts::LN_2;
+use trilith_element::lanes::Real;
+
 /// What became of z.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Transition {
+pub(super) struct Transition<R> {
     /// z at the end.
-    pub(super) z: f64,
+    pub(super) z: R,
     /// dz/du at the end.
-    pub(super) slope: f64,
+    pub(super) slope: R,
     /// ∫ z (du − dz), never negative.
-    pub(super) loss: f64,
+    pub(super) loss: R,
 }
 
-/// z after a step `u`; `rate` has the sign of the motion where `u` is zero.
-pub(super) fn advance(z0: f64, u: f64, rate: f64, n: f64) -> Transition {
-    let sign = if u == 0.0 { rate } else { u };
-    let (start, length) = (z0 * 1.0_f64.copysign(sign), u.abs());
-    if sign == 0.0 || start + length < 0.0 {
-        return Transition { z: z0 + u, slope: 1.0, loss: 0.0 };
+/// Exponents that have a closed form of their own.
+pub(super) const ONE: u8 = 1;
+pub(super) const TWO: u8 = 2;
+/// All others, by series.
+pub(super) const ANY: u8 = 0;
+
+/// Which of them an exponent is.
+pub(super) fn closed_form(n: f64) -> u8 {
+    match n {
+        1.0 => ONE,
+        2.0 => TWO,
+        _ => ANY,
+    }
+}
+
+/// How many numbers an exponent is.
+pub(super) const NUMBERS: usize = 6;
+
+/// The numbers of an exponent n: n, and where it goes by [series](Curve) those of its curve.
+pub(super) fn numbers(n: f64) -> [f64; NUMBERS] {
+    if closed_form(n) != ANY {
+        return [n, 0.0, 0.0, 0.0, 0.0, 0.0];
+    }
+    by_series(n)
+}
+
+fn by_series(n: f64) -> [f64; NUMBERS] {
+    let middle = 0.5_f64.powf(1.0 / n);
+    let [reach, work] = [below(middle, 1.0, n), below(middle, 2.0, n)];
+    let [first, second] = [bend(LN_2, 1.0, n), bend(LN_2, 2.0, n)];
+    [n, middle, reach, first, second - first, work]
+}
+
+/// z after a step `u`; `rate` has the sign of the motion where `u` is zero. `FORM` is that of the exponent.
+#[inline(always)]
+pub(super) fn advance<const FORM: u8, R: Real>(
+    z0: R,
+    u: R,
+    rate: R,
+    exponent: &[R],
+) -> Transition<R> {
+    let (zero, half, one) = (u.of(0.0), u.of(0.5), u.of(1.0));
+    let n = exponent[0];
+    let sign = R::select(u.abs().le(zero), rate, u);
+    let back = sign.lt(zero);
+    let start = R::select(back, -z0, z0);
+    let length = u.abs();
+    let free = sign.abs().le(zero) | (start + length).lt(zero);
+    let mut it = Transition { z: z0 + u, slope: one, loss: zero };
+    let loads = !free;
+    if !zero.any(loads) {
+        return it;
     }
     // What is left of the step after unloading.
-    let (start, length) = (start.max(0.0), length + start.min(0.0));
-    let (end, work) = match n {
-        1.0 => first(start, length),
-        2.0 => second(start, length),
-        _ => general(start, length, n),
+    let (start, length) = (start.max(zero), (length + start.min(zero)).only(loads));
+    let [end, work] = match FORM {
+        ONE => first(start, length),
+        TWO => second(start, length),
+        _ => general(start, length, exponent),
     };
-    let end = end.clamp(start, 1.0);
+    let end = end.max(start).min(one);
     let power = end.powf(n);
+    let mut loss = work - half * (end - start) * (end + start);
     // Far below yield almost all work is stored: the difference of the two would be nothing but rounding.
-    let loss = if power < EARLY {
-        early(end, power, n) - early(start, start.powf(n), n)
-    } else {
-        work - 0.5 * (end - start) * (end + start)
-    };
-    Transition { z: end.copysign(sign), slope: 1.0 - power, loss: loss.max(0.0) }
+    let begins = power.lt(zero.of(EARLY));
+    if zero.any(begins & loads) {
+        let early = early(end, power, n) - early(start, start.powf(n), n);
+        loss = R::select(begins, early, loss);
+    }
+    it.z = R::select(loads, R::select(back, -end, end), it.z);
+    it.slope = R::select(loads, one - power, it.slope);
+    it.loss = loss.max(zero).only(loads);
+    it
 }
 
 /// zⁿ below which the loss has a series of its own.
 const EARLY: f64 = 0.1;
+/// What adds nothing to a sum.
+const NOTHING: f64 = 1e-17;
 
 /// ∫₀ᶻ s (1/(1 − sⁿ) − 1) ds = z² Σₖ₌₁ zᵏⁿ/(2 + kn), with y = zⁿ.
-fn early(z: f64, y: f64, n: f64) -> f64 {
-    let (mut power, mut sum) = (y, 0.0);
+#[inline(always)]
+fn early<R: Real>(z: R, y: R, n: R) -> R {
+    let (mut power, mut sum) = (y, z.of(0.0));
+    let mut goes_on = y.lt(z.of(0.5));
     for k in 1..20 {
-        let term = power / (2.0 + f64::from(k) * n);
-        sum += term;
-        if term <= 1e-17 * sum {
+        let term = power / (z.of(2.0) + z.of(f64::from(k)) * n);
+        sum = R::select(goes_on, sum + term, sum);
+        goes_on = goes_on & (z.of(NOTHING) * sum).lt(term);
+        if !z.any(goes_on) {
             break;
         }
-        power *= y;
+        power = power * y;
     }
     z * z * sum
 }
 
 /// n = 1: z = 1 − (1 − z₀) e⁻ᵘ; end and ∫ z du.
-fn first(z: f64, u: f64) -> (f64, f64) {
-    let rise = -(1.0 - z) * (-u).exp_m1();
-    (z + rise, u - rise)
+#[inline(always)]
+fn first<R: Real>(z: R, u: R) -> [R; 2] {
+    let rise = -(z.of(1.0) - z) * (-u).exp_and_m1()[1];
+    [z + rise, u - rise]
 }
 
 /// n = 2: z = tanh(artanh z₀ + u).
-fn second(z: f64, u: f64) -> (f64, f64) {
+#[inline(always)]
+fn second<R: Real>(z: R, u: R) -> [R; 2] {
+    let one = z.of(1.0);
     let t = u.tanh();
-    let mean = 0.5 * ((1.0 + z) + (1.0 - z) * (-2.0 * u).exp());
-    ((z + t) / (1.0 + z * t), u + mean.ln())
+    let mean = z.of(0.5) * ((one + z) + (one - z) * (z.of(-2.0) * u).exp_by_vectors());
+    [(z + t) / (one + z * t), u + mean.ln()]
 }
 
-fn general(z0: f64, u: f64, n: f64) -> (f64, f64) {
-    if u == 0.0 || z0 >= 1.0 {
-        return (z0, u * z0);
+#[inline(always)]
+fn general<R: Real>(z0: R, u: R, exponent: &[R]) -> [R; 2] {
+    let (zero, one) = (u.of(0.0), u.of(1.0));
+    let moves = zero.lt(u) & z0.lt(one);
+    if !zero.any(moves) {
+        return [z0, u * z0];
     }
-    let curve = Curve::new(n);
-    let z = curve.loaded(z0, u);
-    (z, u + curve.work(z) - curve.work(z0))
+    let [n, middle, reach, first, bends, work] = [0, 1, 2, 3, 4, 5].map(|i| exponent[i]);
+    let curve = Curve { n, middle, reach, first, bends, work };
+    let z = R::select(moves, curve.loaded(z0, u, moves), z0);
+    // One after the other in a loop: the same text twice would take twice as long to compile.
+    let (mut at, mut both) = (z, [zero; 2]);
+    for it in &mut both {
+        *it = curve.work(at);
+        at = z0;
+    }
+    [z, R::select(moves, u + both[0] - both[1], u * z0)]
 }
 
 /// S₁ and S₂ of one exponent.
-struct Curve {
-    n: f64,
+struct Curve<R> {
+    n: R,
     /// z where zⁿ = ½: below it series in z, above it series in 1 − zⁿ.
-    middle: f64,
+    middle: R,
     /// S₁ there.
-    reach: f64,
+    reach: R,
+    /// The [bend] of S₁ there, how much more that of S₂ is, and S₂.
+    first: R,
+    bends: R,
+    work: R,
 }
 
-impl Curve {
-    fn new(n: f64) -> Self {
-        let middle = 0.5_f64.powf(1.0 / n);
-        Self { n, middle, reach: below(middle, 1.0, n) }
-    }
-
+impl<R: Real> Curve<R> {
     /// z at the end of a loading step `u` from 0 ≤ z₀ < 1.
-    fn loaded(&self, z0: f64, u: f64) -> f64 {
+    #[inline(always)]
+    fn loaded(&self, z0: R, u: R, moves: R::Mask) -> R {
         let n = self.n;
-        let low = z0 < self.middle;
-        let start = if low { below(z0, 1.0, n) } else { 0.0 };
-        if low && start + u <= self.reach {
-            // Convex: from the right.
-            let mut z = (z0 + u).min(self.middle);
-            for _ in 0..30 {
-                let change = (below(z, 1.0, n) - start - u) * (1.0 - z.powf(n));
-                z -= change;
-                if change.abs() <= 1e-15 * z {
-                    break;
-                }
+        let (zero, one, rounding) = (n.of(0.0), n.of(1.0), n.of(1e-15));
+        let low = z0.lt(self.middle);
+        let start = below(z0.min(self.middle), one, n).only(low);
+        let inner = low & (start + u).le(self.reach);
+        // Convex: from the right.
+        let mut z = (z0 + u).min(self.middle);
+        let mut goes_on = inner & moves;
+        for _ in 0..30 {
+            if !zero.any(goes_on) {
+                break;
             }
+            let change = (below(z, one, n) - start - u) * (one - z.powf(n));
+            z = R::select(goes_on, z - change, z);
+            goes_on = goes_on & (rounding * z).lt(change.abs());
+        }
+        let mut goes_on = moves & !inner;
+        if !zero.any(goes_on) {
             return z;
         }
-        // Concave in q: from the left. `base` is S₁ there, counted from the middle.
-        let half = std::f64::consts::LN_2;
-        let (mut q, target) = if low {
-            (half, start + u - self.reach)
-        } else {
-            // z so near 1 that zⁿ is 1 to the last digit stays there.
-            let q = -(-(n * z0.ln()).exp_m1()).ln();
-            (q.clamp(half, 40.0), u + self.above(q.clamp(half, 40.0), 1.0))
-        };
-        for _ in 0..30 {
-            let y = -(-q).exp_m1();
-            let change = (target - self.above(q, 1.0)) * n * y.powf(1.0 - 1.0 / n);
-            q += change;
-            if change.abs() <= 1e-15 * q {
+        // Concave in q: from the left, S₁ counted from the middle.
+        let half = n.of(LN_2);
+        // z so near 1 that zⁿ is 1 to the last digit stays there.
+        let above = -(-(n * z0.ln()).exp_and_m1()[1]).ln();
+        let above = above.max(half).min(n.of(40.0));
+        let mut q = R::select(low, half, above);
+        let mut target = start + u - self.reach;
+        // The first turn finds where the step begins, where that is above the middle.
+        for turn in 0..=30 {
+            let here = self.above(q);
+            if turn == 0 {
+                target = R::select(low, target, u + here);
+            }
+            let y = -(-q).exp_and_m1()[1];
+            let change = (target - here) * n * y.powf(one - one / n);
+            q = R::select(goes_on, q + change, q);
+            goes_on = goes_on & (rounding * q).lt(change.abs());
+            if !zero.any(goes_on) {
                 break;
             }
         }
-        (-(-q).exp_m1()).powf(1.0 / n)
+        R::select(inner, z, (-(-q).exp_and_m1()[1]).powf(one / n))
     }
 
-    /// Sₘ at q, less its value in the middle.
-    fn above(&self, q: f64, m: f64) -> f64 {
-        let half = std::f64::consts::LN_2;
-        (q - half) / self.n + self.bend(q, m) - self.bend(half, m)
-    }
-
-    /// The part of Sₘ at q without its logarithm and constant.
-    fn bend(&self, q: f64, m: f64) -> f64 {
-        let (x, b) = ((-q).exp(), m / self.n);
-        let (mut power, mut harmonic, mut sum) = (1.0, 0.0, 0.0);
-        for k in 0..70 {
-            let k = f64::from(k);
-            power *= (b + k) / (k + 1.0) * x;
-            harmonic += 1.0 / (k + 1.0) - 1.0 / (b + k);
-            let term = power * harmonic;
-            sum += term;
-            if term.abs() <= 1e-17 * sum.abs() {
-                break;
-            }
-        }
-        (-(-q).exp_m1()).powf(b) * sum / self.n
+    /// S₁ at q, less its value in the middle.
+    #[inline(always)]
+    fn above(&self, q: R) -> R {
+        (q - q.of(LN_2)) / self.n + bend(q, q.of(1.0), self.n) - self.first
     }
 
     /// S₂ − S₁, which stays finite at z = 1.
-    fn work(&self, z: f64) -> f64 {
-        let n = self.n;
-        if z < self.middle {
-            return below(z, 2.0, n) - below(z, 1.0, n);
+    #[inline(always)]
+    fn work(&self, z: R) -> R {
+        let (n, one, two) = (self.n, z.of(1.0), z.of(2.0));
+        let low = z.lt(self.middle);
+        let within = z.min(self.middle);
+        let mut work = below(within, two, n) - below(within, one, n);
+        if z.any(!low) {
+            let q = (-(-(n * z.ln()).exp_and_m1()[1]).ln()).min(z.of(745.0));
+            let bends = bend(q, two, n) - bend(q, one, n);
+            let above = self.work - self.reach + bends - self.bends;
+            work = R::select(low, work, above);
         }
-        let q = (-(-(n * z.ln()).exp_m1()).ln()).min(745.0);
-        let half = std::f64::consts::LN_2;
-        let bends = |q| self.bend(q, 2.0) - self.bend(q, 1.0);
-        below(self.middle, 2.0, n) - self.reach + bends(q) - bends(half)
+        work
     }
 }
 
-/// Sₘ for zⁿ ≤ ½ by its power series.
-fn below(z: f64, m: f64, n: f64) -> f64 {
-    let y = z.powf(n);
-    let (mut power, mut sum) = (1.0, 0.0);
-    for k in 0..60 {
-        let term = power / (m + f64::from(k) * n);
-        sum += term;
-        if term <= 1e-17 * sum {
+/// The part of Sₘ at q without its logarithm and constant.
+#[inline(always)]
+fn bend<R: Real>(q: R, m: R, n: R) -> R {
+    let (zero, one) = (q.of(0.0), q.of(1.0));
+    let (x, b) = ((-q).exp_by_vectors(), m / n);
+    let (mut power, mut harmonic, mut sum) = (one, zero, zero);
+    let mut goes_on = zero.le(zero);
+    for k in 0..70 {
+        let k = q.of(f64::from(k));
+        power = power * ((b + k) / (k + one) * x);
+        harmonic = harmonic + (one / (k + one) - one / (b + k));
+        let term = power * harmonic;
+        sum = R::select(goes_on, sum + term, sum);
+        goes_on = goes_on & (q.of(NOTHING) * sum.abs()).lt(term.abs());
+        if !q.any(goes_on) {
             break;
         }
-        power *= y;
     }
-    z.powf(m) * sum
+    (-(-q).exp_and_m1()[1]).powf(b) * sum / n
+}
+
+/// Sₘ for zⁿ ≤ ½ by its power series.
+#[inline(always)]
+fn below<R: Real>(z: R, m: R, n: R) -> R {
+    let zero = z.of(0.0);
+    let y = z.powf(n);
+    let (mut power, mut sum) = (z.of(1.0), zero);
+    let mut goes_on = zero.le(zero);
+    for k in 0..60 {
+        let term = power / (m + z.of(f64::from(k)) * n);
+        sum = R::select(goes_on, sum + term, sum);
+        goes_on = goes_on & (z.of(NOTHING) * sum).lt(term);
+        if !z.any(goes_on) {
+            break;
+        }
+        power = power * y;
+    }
+    // m is 1 or 2.
+    R::select(m.lt(z.of(1.5)), z * sum, z * z * sum)
 }
 
 #[cfg(test)]
 mod tests {
-    use super::*;
+    use super::{ANY, EARLY, Transition, numbers};
     use approx::assert_relative_eq;
+
+    fn advance(z0: f64, u: f64, rate: f64, n: f64) -> Transition<f64> {
+        let exponent = numbers(n);
+        match n {
+            1.0 => super::advance::<1, f64>(z0, u, rate, &exponent),
+            2.0 => super::advance::<2, f64>(z0, u, rate, &exponent),
+            _ => super::advance::<ANY, f64>(z0, u, rate, &exponent),
+        }
+    }
+
+    /// By the series, whatever the exponent.
+    fn general(z: f64, u: f64, n: f64) -> [f64; 2] {
+        super::general(z, u, &super::by_series(n))
+    }
 
     /// Far below yield the loss is that of the first term, z^(n+2)/(n + 2), not the rounding of the work.
     #[test]
@@ -261,10 +368,15 @@ mod tests {
     fn exponents_that_have_a_closed_form_agree_with_the_series() {
         for z in [0.0, 0.2, 0.49, 0.51, 0.9, 0.999] {
             for u in [1e-9, 0.1, 0.5, 1.0, 5.0, 60.0] {
-                let (one, two) = (first(z, u), second(z, u));
+                let (one, two) = (super::first(z, u), super::second(z, u));
                 for (closed, series) in [(one, general(z, u, 1.0)), (two, general(z, u, 2.0))] {
-                    assert_relative_eq!(closed.0, series.0, max_relative = 1e-13);
-                    assert_relative_eq!(closed.1, series.1, max_relative = 1e-10, epsilon = 1e-14);
+                    assert_relative_eq!(closed[0], series[0], max_relative = 1e-13);
+                    assert_relative_eq!(
+                        closed[1],
+                        series[1],
+                        max_relative = 1e-10,
+                        epsilon = 1e-14
+                    );
                 }
             }
         }
