@@ -85,6 +85,7 @@ use crate::shared::sliding::{
 };
 use serde::Deserialize;
 use std::borrow::Cow;
+use trilith_element::lanes::LaneForm;
 use trilith_element::{
     Axis, Contact, ContactUse, Coordinates, Field, History, Impact, Kinematics, Link, Response,
 };
@@ -276,7 +277,11 @@ impl Link for FrictionPendulum {
         trial: &mut [f64],
         out: &mut Response<'_>,
     ) {
-        self.bearing().respond(at, &SlidingHistory::load(committed), out).store(trial);
+        self.bearing().respond(at, committed, trial, out);
+    }
+
+    fn lanes(&self, _: &[bool]) -> Option<LaneForm> {
+        Some(self.bearing().lanes())
     }
 
     fn contact_use(&self) -> ContactUse {
@@ -284,7 +289,7 @@ impl Link for FrictionPendulum {
     }
 
     fn contacts(&self, at: &Kinematics<'_>, history: &[f64], _: &[f64], out: &mut Vec<Contact>) {
-        out.push(self.bearing().contact(at, &SlidingHistory::load(history)));
+        out.push(self.bearing().contact(at, history));
     }
 
     fn impact(&self) -> Option<Impact> {

@@ -43,6 +43,7 @@ use crate::shared::sliding::{Axial, Bearing, Coefficient, Dish, Side, SlidingHis
 use serde::Deserialize;
 use std::borrow::Cow;
 use trilith_element::dimension::{DAMPING, INVERSE_VELOCITY, LENGTH, NONE, STIFFNESS};
+use trilith_element::lanes::LaneForm;
 use trilith_element::{
     Axis, Card, Category, Contact, ContactUse, Coordinates, Described, Exercise, Field, History,
     Impact, Kinematics, Link, NodeCount, Parameter, ParameterError, Range, Response, Stroke,
@@ -295,7 +296,11 @@ impl Link for TensionCompressionFriction {
         trial: &mut [f64],
         out: &mut Response<'_>,
     ) {
-        self.bearing().respond(at, &SlidingHistory::load(committed), out).store(trial);
+        self.bearing().respond(at, committed, trial, out);
+    }
+
+    fn lanes(&self, _: &[bool]) -> Option<LaneForm> {
+        Some(self.bearing().lanes())
     }
 
     fn contact_use(&self) -> ContactUse {
@@ -303,7 +308,7 @@ impl Link for TensionCompressionFriction {
     }
 
     fn contacts(&self, at: &Kinematics<'_>, history: &[f64], _: &[f64], out: &mut Vec<Contact>) {
-        out.push(self.bearing().contact(at, &SlidingHistory::load(history)));
+        out.push(self.bearing().contact(at, history));
     }
 
     fn impact(&self) -> Option<Impact> {

@@ -9,6 +9,7 @@ pub(crate) mod multilinear;
 pub(crate) mod parameters;
 #[cfg(test)]
 pub(crate) mod paths;
+pub(crate) mod plane;
 pub(crate) mod plane_contact;
 pub(crate) mod relaxation;
 pub(crate) mod restitution;

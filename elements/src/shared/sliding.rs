@@ -16,5 +16,5 @@ pub(crate) use bearing::{Bearing, Side, engaged};
 pub(crate) use coefficient::{BreakAway, Coefficient, Limit};
 pub(crate) use rub::{Rubbed, Rubbing, Worn};
 pub(crate) use slip::{Cone, Slide, Trial};
-pub(crate) use stick::{Friction, radial_return, share_before};
+pub(crate) use stick::{radial_return, share_before};
 pub(crate) use surface::{Dish, Stop};

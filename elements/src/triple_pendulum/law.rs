@@ -156,12 +156,12 @@ impl Link for TriplePendulum {
                 *next = Past { displacement: place, anchor: place, speed: 0.0 };
             }
             if let Some(stop) = self.last_stop() {
-                let (force, stiffness, energy) = stop.force(u1);
+                let (force, stiffness, energy) = stop.force(u1.into());
                 out.energy.stored += energy;
                 for i in 0..2 {
                     out.f[1 + i] = force[i];
                     for j in 0..2 {
-                        out.k[3 * (1 + i) + 1 + j] = stiffness[(i, j)];
+                        out.k[3 * (1 + i) + 1 + j] = stiffness[i][j];
                     }
                 }
             }

@@ -9,7 +9,8 @@
 //! the only minimum of the sum; friction that grows with speed only makes it steeper. Newton's method
 //! with a search along each step, which always goes down, finds it.
 
-use crate::shared::sliding::{Coefficient, Friction, Limit, Slide, Stop, Trial, radial_return};
+use crate::shared::plane::M2;
+use crate::shared::sliding::{Coefficient, Limit, Slide, Stop, Trial, radial_return};
 use nalgebra::{Matrix2, Vector2};
 
 /// Number of surfaces.
@@ -57,6 +58,31 @@ pub(super) struct State {
     pub(super) stop_energy: f64,
 }
 
+/// Friction force of a stretch, and its derivatives by the stretch and by the limit.
+struct Friction {
+    slips: bool,
+    tau: Vector2<f64>,
+    by_stretch: Matrix2<f64>,
+    by_limit: Vector2<f64>,
+}
+
+impl Friction {
+    fn of(ks: f64, stretch: Vector2<f64>, limit: f64) -> Self {
+        let it = radial_return(ks, stretch.into(), limit);
+        Self {
+            slips: it.slips,
+            tau: it.tau.into(),
+            by_stretch: matrix(it.by_stretch),
+            by_limit: it.by_limit.into(),
+        }
+    }
+}
+
+/// A matrix from its rows.
+pub(super) fn matrix(rows: M2<f64>) -> Matrix2<f64> {
+    Matrix2::from(rows).transpose()
+}
+
 impl Surface {
     /// Friction of a stretch, its limit with the derivative by the normal force, and the speed.
     fn friction(&self, stretch: Vector2<f64>) -> (Friction, Limit, f64) {
@@ -66,7 +92,7 @@ impl Surface {
         };
         if per_slip == 0.0 || self.friction.is_constant() {
             let limit = self.friction.limit(self.normal, speed);
-            return (radial_return(self.ks, stretch, limit.force), limit, speed);
+            return (Friction::of(self.ks, stretch, limit.force), limit, speed);
         }
         let length = stretch.norm();
         let slide = Slide::of(
@@ -80,7 +106,7 @@ impl Surface {
                 since: 0.0,
             },
         );
-        let mut it = radial_return(self.ks, stretch, slide.limit);
+        let mut it = Friction::of(self.ks, stretch, slide.limit);
         it.slips = !slide.sticks;
         let mut limit = Limit { force: slide.limit, ..Limit::default() };
         if it.slips {
@@ -97,7 +123,8 @@ impl Surface {
         let mut unrubbed = Matrix2::identity() * self.restoring;
         let mut stop_energy = 0.0;
         if let Some(stop) = self.stop {
-            let (f, k, energy) = stop.force(displacement);
+            let (f, k, energy) = stop.force(displacement.into());
+            let (f, k) = (Vector2::from(f), matrix(k));
             force += f;
             unrubbed += k;
             stop_energy = energy;

@@ -219,7 +219,7 @@ fn equilibrium_holds_on_every_surface_whatever_the_step() {
             let h = &driver.history[4 + 5 * j..];
             let w = nalgebra::Vector2::new(h[0], h[1]);
             let a = nalgebra::Vector2::new(h[2], h[3]);
-            let stop = stops[j].unwrap().force(w).0;
+            let stop: nalgebra::Vector2<f64> = stops[j].unwrap().force(w.into()).0.into();
             let f = w * (n / radii[j]) + (w - a) * law.ks + stop;
             let off = (f - nalgebra::Vector2::new(driver.f[1], driver.f[2])).norm();
             assert!(off < 1e-9 * (n + f.norm()), "surface {j} at {i}: {off} of {f}");

@@ -13,6 +13,7 @@
 //! Tabor 1964\].
 
 use super::slip::Cone;
+use trilith_element::lanes::Real;
 
 /// How the friction coefficient depends on normal force and speed.
 #[derive(Clone, Copy, Debug)]
@@ -73,41 +74,34 @@ impl Coefficient {
         matches!(self, Self::Constant { .. })
     }
 
-    /// The largest friction force at a normal force (N, ≥ 0), as it depends on slip rate and slip.
-    pub(crate) fn cone(&self, normal: f64, away: Option<BreakAway>) -> Cone<f64> {
-        let (fast, slow, pace) = match *self {
-            // Nothing touches, and powers of zero have no slope.
-            _ if normal <= 0.0 => {
-                let by_normal = self.coefficient(f64::MIN_POSITIVE, 0.0);
-                ([0.0, by_normal], [0.0, by_normal], [0.0; 2])
-            }
-            Self::Constant { mu } => ([mu * normal, mu], [mu * normal, mu], [0.0; 2]),
+    /// μ where it is constant.
+    pub(crate) fn constant(&self) -> f64 {
+        if let Self::Constant { mu } = *self { mu } else { 0.0 }
+    }
+
+    /// As numbers of a law over lanes: kind, μ or a at rest and at speed, exponents, μ_max, r₀ … r₂, Δμ, α/A, and μ where
+    /// nothing presses.
+    pub(crate) fn numbers(&self) -> [f64; NUMBERS] {
+        match *self {
+            Self::Constant { mu } => [CONSTANT, mu, mu, 1.0, 1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, mu],
             Self::Velocity { slow, fast, rate } => {
-                ([fast * normal, fast], [slow * normal, slow], [rate, 0.0])
+                [BY_SPEED, slow, fast, 1.0, 1.0, 0.0, rate, 0.0, 0.0, 0.0, 0.0, slow]
             }
-            Self::Force { slow, fast, most, rate } => {
-                let (slow, fast) = (power(slow, most, normal), power(fast, most, normal));
-                let pace = rate[0] + normal * (rate[1] + normal * rate[2]);
-                (fast.into(), slow.into(), [pace, rate[1] + 2.0 * normal * rate[2]])
+            Self::Force { slow, fast, most, rate: [r0, r1, r2] } => {
+                let (a, n) = slow;
+                let light = if n < 1.0 && a > 0.0 { most } else { a.min(most) };
+                [BY_FORCE, a, fast.0, n, fast.1, most, r0, r1, r2, 0.0, 0.0, light]
             }
             Self::Pressure { slow, fast, rate, drop, per_force } => {
-                let tanh = (per_force * normal).tanh();
-                let mu = fast - drop * tanh;
-                let by_normal = -drop * per_force * (1.0 - tanh * tanh);
-                ([mu * normal, mu + normal * by_normal], [slow * normal, slow], [rate, 0.0])
+                [BY_PRESSURE, slow, fast, 1.0, 1.0, 0.0, rate, 0.0, 0.0, drop, per_force, slow]
             }
-        };
-        let more = away.map_or([0.0; 2], |away| {
-            let more = away.mu * normal - slow[0];
-            if more > 0.0 { [more, away.mu - slow[1]] } else { [0.0; 2] }
-        });
-        Cone {
-            fast,
-            less: [fast[0] - slow[0], fast[1] - slow[1]],
-            pace,
-            more,
-            over: away.map_or(0.0, |away| away.over),
         }
+    }
+
+    /// The largest friction force at a normal force (N, ≥ 0), as it depends on slip rate and slip.
+    pub(crate) fn cone(&self, normal: f64, away: Option<BreakAway>) -> Cone<f64> {
+        let away = away.map_or([0.0; 3], |away| [1.0, away.mu, away.over]);
+        cone(&self.numbers(), &away, normal)
     }
 
     /// Largest friction force at a normal force (N, ≥ 0) and a speed (m/s, ≥ 0).
@@ -124,8 +118,8 @@ impl Coefficient {
                 Limit { force: mu * normal, by_normal: mu, by_speed: mu_v * normal }
             }
             Self::Force { slow, fast, most, rate } => {
-                let (slow, slow_n) = power(slow, most, normal);
-                let (fast, fast_n) = power(fast, most, normal);
+                let [slow, slow_n] = power(slow.0, slow.1, most, normal);
+                let [fast, fast_n] = power(fast.0, fast.1, most, normal);
                 let r = rate[0] + normal * (rate[1] + normal * rate[2]);
                 let r_n = rate[1] + 2.0 * normal * rate[2];
                 let decay = (-r * speed).exp();
@@ -156,10 +150,71 @@ impl Coefficient {
     }
 }
 
+/// How many numbers a coefficient is.
+pub(crate) const NUMBERS: usize = 12;
+const CONSTANT: f64 = -1.0;
+const BY_SPEED: f64 = 0.0;
+const BY_FORCE: f64 = 1.0;
+const BY_PRESSURE: f64 = 2.0;
+
+/// True for numbers of a coefficient that looks at the normal force alone.
+#[inline(always)]
+pub(crate) fn is_constant<R: Real>(p: &[R]) -> R::Mask {
+    p[0].lt(p[0].of(-0.5))
+}
+
+/// The largest friction force at a normal force (N, ≥ 0), as it depends on slip rate and slip. `p`: numbers of the
+/// coefficient; `away`: 1 where it breaks away, μ before that, and the slip over which that is gone.
+#[inline(always)]
+pub(crate) fn cone<R: Real>(p: &[R], away: &[R], normal: R) -> Cone<R> {
+    let (zero, half, one, two) = (normal.of(0.0), normal.of(0.5), normal.of(1.0), normal.of(2.0));
+    // Nothing touches, and powers of zero have no slope.
+    let nothing = normal.le(zero);
+    let n = R::select(nothing, one, normal);
+    let (by_force, by_pressure) =
+        (half.lt(p[0]) & p[0].lt(normal.of(1.5)), normal.of(1.5).lt(p[0]));
+    let mut slow = [p[1] * n, p[1]];
+    let mut fast = [p[2] * n, p[2]];
+    let mut pace = [p[6], zero];
+    if zero.any(by_force) {
+        let ([slow_force, slow_by], [fast_force, fast_by]) =
+            (power(p[1], p[3], p[5], n), power(p[2], p[4], p[5], n));
+        slow = [R::select(by_force, slow_force, slow[0]), R::select(by_force, slow_by, slow[1])];
+        fast = [R::select(by_force, fast_force, fast[0]), R::select(by_force, fast_by, fast[1])];
+        let grown = p[6] + n * (p[7] + n * p[8]);
+        pace[0] = R::select(by_force, grown, pace[0]);
+        pace[1] = (p[7] + two * n * p[8]).only(by_force);
+    }
+    if zero.any(by_pressure) {
+        let tanh = (p[10] * n).tanh();
+        let mu = p[2] - p[9] * tanh;
+        let by_normal = -p[9] * p[10] * (one - tanh * tanh);
+        fast[0] = R::select(by_pressure, mu * n, fast[0]);
+        fast[1] = R::select(by_pressure, mu + n * by_normal, fast[1]);
+    }
+    for it in [&mut slow, &mut fast] {
+        *it = [R::select(nothing, zero, it[0]), R::select(nothing, p[11], it[1])];
+    }
+    let breaks = half.lt(away[0]);
+    let more = away[1] * normal - slow[0];
+    let more_by = away[1] - slow[1];
+    let holds = breaks & zero.lt(more);
+    let touches = !nothing;
+    Cone {
+        fast,
+        less: [fast[0] - slow[0], fast[1] - slow[1]],
+        pace: [pace[0].only(touches), pace[1].only(touches)],
+        more: [more.only(holds), more_by.only(holds)],
+        over: away[2].only(breaks),
+    }
+}
+
 /// min(a Nⁿ, μ_max N) and its derivative by N.
-fn power((a, n): (f64, f64), most: f64, normal: f64) -> (f64, f64) {
+#[inline(always)]
+fn power<R: Real>(a: R, n: R, most: R, normal: R) -> [R; 2] {
     let force = a * normal.powf(n);
-    if force > most * normal { (most * normal, most) } else { (force, n * force / normal) }
+    let much = (most * normal).lt(force);
+    [R::select(much, most * normal, force), R::select(much, most, n * force / normal)]
 }
 
 #[cfg(test)]

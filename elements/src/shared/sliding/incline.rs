@@ -14,112 +14,163 @@
 
 use super::Dish;
 use super::bearing::Rubs;
-use nalgebra::{Matrix2, Matrix2x3, Vector2, Vector3};
+use crate::shared::plane::{self, M2, V2};
+use trilith_element::lanes::Real;
 
 /// Relative error of P that is rounding.
 const ROUNDING: f64 = 1e-14;
 
+/// Two rows over the three coordinates.
+pub(super) type Rows<R> = [[R; 3]; 2];
+
 /// The surface at one place.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Incline {
+pub(super) struct Incline<R> {
     /// ∇h.
-    slope: Vector2<f64>,
-    curvature: Matrix2<f64>,
+    slope: V2<R>,
+    curvature: M2<R>,
     /// s.
-    steep: f64,
+    steep: R,
 }
 
-impl Incline {
-    pub(super) fn at(dish: &Dish, u: Vector2<f64>) -> Self {
+impl<R: Real> Incline<R> {
+    /// Flat where `inclined` says no.
+    #[inline(always)]
+    pub(super) fn at(dish: &Dish<R>, inclined: R::Mask, u: V2<R>) -> Self {
         let (slope, curvature) = dish.lean(u);
-        Self { slope, curvature, steep: (1.0 + slope.norm_squared()).sqrt() }
+        let slope = plane::only(slope, inclined);
+        let curvature = [plane::only(curvature[0], inclined), plane::only(curvature[1], inclined)];
+        let one = u[0].of(1.0);
+        Self { slope, curvature, steep: (one + plane::dot(slope, slope)).sqrt() }
     }
 
     /// P under a vertical load, with this friction.
-    pub(super) fn normal(&self, load: f64, tau: Vector2<f64>) -> f64 {
-        self.steep * load + self.slope.dot(&tau)
+    #[inline(always)]
+    pub(super) fn normal(&self, load: R, tau: V2<R>) -> R {
+        self.steep * load + plane::dot(self.slope, tau)
     }
 
     /// S w.
-    pub(super) fn along(&self, w: Vector2<f64>) -> Vector2<f64> {
-        w + self.slope * (self.slope.dot(&w) / (1.0 + self.steep))
+    #[inline(always)]
+    pub(super) fn along(&self, w: V2<R>) -> V2<R> {
+        let part = plane::dot(self.slope, w) / (w[0].of(1.0) + self.steep);
+        plane::add(w, plane::scaled(self.slope, part))
     }
 
     /// S.
-    fn matrix(&self) -> Matrix2<f64> {
-        Matrix2::<f64>::identity() + self.slope * self.slope.transpose() / (1.0 + self.steep)
+    #[inline(always)]
+    fn matrix(&self) -> M2<R> {
+        let one = self.steep.of(1.0);
+        let own = plane::outer(self.slope, self.slope);
+        let below = one + self.steep;
+        let mut m = plane::diagonal(one);
+        for i in 0..2 {
+            for j in 0..2 {
+                m[i][j] = m[i][j] + own[i][j] / below;
+            }
+        }
+        m
     }
 
     /// Derivative of S w by the place, for a constant w.
-    fn along_by_place(&self, w: Vector2<f64>) -> Matrix2<f64> {
-        let (slope, one) = (self.slope, 1.0 + self.steep);
-        let part = slope.dot(&w) / one;
-        let by_slope = Matrix2::<f64>::identity() * part + slope * w.transpose() / one
-            - slope * slope.transpose() * (part / (self.steep * one));
-        by_slope * self.curvature
+    #[inline(always)]
+    fn along_by_place(&self, w: V2<R>) -> M2<R> {
+        let (slope, one) = (self.slope, self.steep.of(1.0) + self.steep);
+        let part = plane::dot(slope, w) / one;
+        let turn = plane::outer(slope, w);
+        let own = plane::of(&plane::outer(slope, slope), part / (self.steep * one));
+        let mut by_slope = plane::diagonal(part);
+        for i in 0..2 {
+            for j in 0..2 {
+                by_slope[i][j] = by_slope[i][j] + turn[i][j] / one - own[i][j];
+            }
+        }
+        plane::product(&by_slope, &self.curvature)
     }
 
     /// The friction under a vertical load, from that under a normal force.
-    pub(super) fn press(&self, load: f64, friction: impl Fn(f64) -> Rubs) -> Rubs {
+    #[inline(always)]
+    pub(super) fn press(&self, load: R, friction: impl Fn(R) -> Rubs<R>) -> Rubs<R> {
+        let (zero, half, one, two) = (load.of(0.0), load.of(0.5), load.of(1.0), load.of(2.0));
         let mut p = self.steep * load;
-        let mut it = friction(p);
-        let (mut low, mut high) = (0.0, f64::INFINITY);
+        let mut it = Rubs::none(load);
+        let (mut low, mut high) = (zero, load.of(f64::INFINITY));
+        let mut goes_on = zero.le(zero);
         // Newton's method needs two or three; halves of a bracket take the rest of what kinks may cost.
-        for _ in 0..100 {
+        for _ in 0..=100 {
+            it = Rubs::select(goes_on, &friction(p), &it);
             let error = p - self.normal(load, it.tau);
-            if error.abs() <= ROUNDING * (p + self.steep * load) {
+            let rounding = load.of(ROUNDING) * (p + self.steep * load);
+            goes_on = goes_on & !error.abs().le(rounding);
+            if !zero.any(goes_on) {
                 break;
             }
-            if error > 0.0 {
-                high = p;
-            } else {
-                low = p;
-            }
-            let newton = p - error / (1.0 - self.slope.dot(&it.by_normal));
-            p = if newton > low && newton < high {
-                newton
-            } else if high.is_finite() {
-                0.5 * (low + high)
-            } else {
-                2.0 * p
-            };
-            it = friction(p);
+            let above = zero.lt(error);
+            high = R::select(above, p, high);
+            low = R::select(above, low, p);
+            let newton = p - error / (one - plane::dot(self.slope, it.by_normal));
+            let within = low.lt(newton) & newton.lt(high);
+            let bounded = high.lt(load.of(f64::INFINITY));
+            let aside = R::select(bounded, half * (low + high), two * p);
+            p = R::select(goes_on, R::select(within, newton, aside), p);
         }
         it
     }
 }
 
-/// The horizontal coordinates of three.
-fn plane(m: &Matrix2<f64>) -> Matrix2x3<f64> {
-    Matrix2x3::new(0.0, m.m11, m.m12, 0.0, m.m21, m.m22)
-}
-
 /// A step along the surface.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Climb {
+pub(super) struct Climb<R> {
     /// Where it ends.
-    pub(super) end: Incline,
+    pub(super) end: Incline<R>,
     /// Motion along the surface, by the mean of S, and its derivative by the place of the end.
-    pub(super) way: Vector2<f64>,
-    pub(super) way_by_place: Matrix2<f64>,
+    pub(super) way: V2<R>,
+    pub(super) way_by_place: M2<R>,
     /// Speed along the surface at the end.
-    pub(super) speed: Vector2<f64>,
-    speed_by_place: Matrix2<f64>,
+    pub(super) speed: V2<R>,
+    speed_by_place: M2<R>,
 }
 
-impl Climb {
+/// `m` on two rows.
+#[inline(always)]
+fn on_rows<R: Real>(m: &M2<R>, rows: &Rows<R>) -> Rows<R> {
+    let mut out = *rows;
+    for i in 0..2 {
+        for j in 0..3 {
+            out[i][j] = m[i][0] * rows[0][j] + m[i][1] * rows[1][j];
+        }
+    }
+    out
+}
+
+/// The horizontal coordinates of three get a matrix on top.
+#[inline(always)]
+pub(super) fn add_plane<R: Real>(rows: &mut Rows<R>, m: &M2<R>) {
+    for i in 0..2 {
+        for j in 0..2 {
+            rows[i][1 + j] = rows[i][1 + j] + m[i][j];
+        }
+    }
+}
+
+impl<R: Real> Climb<R> {
+    #[inline(always)]
     pub(super) fn new(
-        dish: &Dish,
-        from: Vector2<f64>,
-        to: Vector2<f64>,
-        speed: Vector2<f64>,
+        dish: &Dish<R>,
+        inclined: R::Mask,
+        [from, to]: [V2<R>; 2],
+        speed: V2<R>,
     ) -> Self {
-        let (start, end) = (Incline::at(dish, from), Incline::at(dish, to));
-        let moved = to - from;
+        let start = Incline::at(dish, inclined, from);
+        let end = Incline::at(dish, inclined, to);
+        let (moved, half) = (plane::sub(to, from), to[0].of(0.5));
+        let both = plane::add(start.along(moved), end.along(moved));
+        let by_place = plane::plus(&start.matrix(), &end.matrix());
+        let by_place = plane::plus(&by_place, &end.along_by_place(moved));
         Self {
             end,
-            way: (start.along(moved) + end.along(moved)) * 0.5,
-            way_by_place: (start.matrix() + end.matrix() + end.along_by_place(moved)) * 0.5,
+            way: plane::scaled(both, half),
+            way_by_place: plane::of(&by_place, half),
             speed: end.along(speed),
             speed_by_place: end.along_by_place(speed),
         }
@@ -127,31 +178,42 @@ impl Climb {
 
     /// Derivatives of the horizontal force S τ by deformations and by rates, from those of the stretch and of the
     /// vertical load.
+    #[inline(always)]
     pub(super) fn tangents(
         &self,
-        it: &Rubs,
-        stretch_by_d: &Matrix2x3<f64>,
-        load: f64,
-        load_by_d: &Vector3<f64>,
-        load_by_v: &Vector3<f64>,
-    ) -> (Matrix2x3<f64>, Matrix2x3<f64>) {
+        it: &Rubs<R>,
+        stretch_by_d: &Rows<R>,
+        load: R,
+        load_by_d: &[R; 3],
+        load_by_v: &[R; 3],
+    ) -> (Rows<R>, Rows<R>) {
         let Incline { slope, curvature, steep } = self.end;
+        let (zero, one) = (load.of(0.0), load.of(1.0));
         let turned = self.end.matrix();
         // What τ does while P stays.
-        let by_d = it.by_stretch * stretch_by_d
-            + it.by_way * plane(&self.way_by_place)
-            + it.by_speed * plane(&self.speed_by_place);
-        let by_v = it.by_speed * plane(&turned);
+        let mut by_d = on_rows(&it.by_stretch, stretch_by_d);
+        add_plane(&mut by_d, &plane::product(&it.by_way, &self.way_by_place));
+        add_plane(&mut by_d, &plane::product(&it.by_speed, &self.speed_by_place));
+        let mut by_v = [[zero; 3]; 2];
+        add_plane(&mut by_v, &plane::product(&it.by_speed, &turned));
         // P follows V, the slope and τ.
-        let share = 1.0 / (1.0 - slope.dot(&it.by_normal));
-        let bend = curvature * (slope * (load / steep) + it.tau);
-        let normal_by_d =
-            load_by_d * steep + Vector3::new(0.0, bend.x, bend.y) + by_d.transpose() * slope;
-        let normal_by_v = load_by_v * steep + by_v.transpose() * slope;
-        let rows = turned * (by_d + it.by_normal * (normal_by_d * share).transpose())
-            + plane(&self.end.along_by_place(it.tau));
-        let rates = turned * (by_v + it.by_normal * (normal_by_v * share).transpose());
-        (rows, rates)
+        let share = one / (one - plane::dot(slope, it.by_normal));
+        let leant = plane::add(plane::scaled(slope, load / steep), it.tau);
+        let bend = plane::times(&curvature, leant);
+        for j in 0..3 {
+            let bent = if j == 0 { zero } else { bend[j - 1] };
+            let normal_by_d =
+                load_by_d[j] * steep + bent + (by_d[0][j] * slope[0] + by_d[1][j] * slope[1]);
+            let normal_by_v =
+                load_by_v[j] * steep + (by_v[0][j] * slope[0] + by_v[1][j] * slope[1]);
+            for i in 0..2 {
+                by_d[i][j] = by_d[i][j] + it.by_normal[i] * (normal_by_d * share);
+                by_v[i][j] = by_v[i][j] + it.by_normal[i] * (normal_by_v * share);
+            }
+        }
+        let mut rows = on_rows(&turned, &by_d);
+        add_plane(&mut rows, &self.end.along_by_place(it.tau));
+        (rows, on_rows(&turned, &by_v))
     }
 }
 
@@ -161,27 +223,33 @@ mod tests {
     use approx::assert_relative_eq;
 
     const DISH: Dish = Dish { radius: 2.0, spherical: true };
-    const PLACE: Vector2<f64> = Vector2::new(0.5, -0.3);
+    const PLACE: V2<f64> = [0.5, -0.3];
+
+    fn incline(u: V2<f64>) -> Incline<f64> {
+        Incline::at(&DISH, true, u)
+    }
 
     #[test]
     fn lengths_are_those_along_the_surface() {
-        let it = Incline::at(&DISH, PLACE);
-        let w = Vector2::new(0.2, 0.7);
-        let climbed = DISH.height(PLACE).slope.dot(&w);
-        let length = (w.norm_squared() + climbed * climbed).sqrt();
-        assert_relative_eq!(it.along(w).norm(), length, max_relative = 1e-14);
-        assert!((it.matrix() * w - it.along(w)).norm() < 1e-15);
+        let it = incline(PLACE);
+        let w = [0.2, 0.7];
+        let climbed = plane::dot(DISH.height(PLACE).slope, w);
+        let length = (plane::dot(w, w) + climbed * climbed).sqrt();
+        assert_relative_eq!(plane::norm(it.along(w)), length, max_relative = 1e-14);
+        let twice = plane::sub(plane::times(&it.matrix(), w), it.along(w));
+        assert!(plane::norm(twice) < 1e-15);
     }
 
     #[test]
     fn its_derivative_is_that_of_the_surface() {
-        let w = Vector2::new(0.2, 0.7);
-        let by_place = Incline::at(&DISH, PLACE).along_by_place(w);
+        let w = [0.2, 0.7];
+        let by_place = incline(PLACE).along_by_place(w);
         let h = 1e-6;
-        for (j, by) in [Vector2::x(), Vector2::y()].into_iter().enumerate() {
-            let to = |sign: f64| Incline::at(&DISH, PLACE + by * (sign * h)).along(w);
-            let quotient = (to(1.0) - to(-1.0)) / (2.0 * h);
-            assert!((by_place * by - quotient).norm() < 1e-9, "{j}: {by_place} {quotient}");
+        for (j, by) in [[1.0, 0.0], [0.0, 1.0]].into_iter().enumerate() {
+            let to = |s: f64| incline(plane::add(PLACE, plane::scaled(by, s * h))).along(w);
+            let quotient = plane::scaled(plane::sub(to(1.0), to(-1.0)), 0.5 / h);
+            let off = plane::sub(plane::times(&by_place, by), quotient);
+            assert!(plane::norm(off) < 1e-9, "{j}: {by_place:?} {quotient:?}");
         }
     }
 }

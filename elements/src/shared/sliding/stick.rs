@@ -5,49 +5,45 @@
 //!   τ = L ξ / |ξ|            otherwise    (slips)
 //! ```
 
-use nalgebra::{Matrix2, Vector2};
+use crate::shared::plane::{self, M2, V2};
+use trilith_element::lanes::Real;
 
 /// Friction force of an elastic stretch, and its derivatives.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Friction {
-    pub(crate) slips: bool,
-    pub(crate) tau: Vector2<f64>,
+pub(crate) struct Friction<R: Real = f64> {
+    pub(crate) slips: R::Mask,
+    pub(crate) tau: V2<R>,
     /// By the stretch ξ.
-    pub(crate) by_stretch: Matrix2<f64>,
+    pub(crate) by_stretch: M2<R>,
     /// By the limit L; zero while it sticks.
-    pub(crate) by_limit: Vector2<f64>,
+    pub(crate) by_limit: V2<R>,
 }
 
 /// Returns the elastic force kₑ ξ onto the circle of radius `limit`.
-#[inline]
-pub(crate) fn radial_return(ke: f64, stretch: Vector2<f64>, limit: f64) -> Friction {
-    let length = stretch.norm();
-    if ke * length <= limit && limit > 0.0 {
-        return Friction {
-            slips: false,
-            tau: stretch * ke,
-            by_stretch: Matrix2::identity() * ke,
-            by_limit: Vector2::zeros(),
-        };
-    }
-    if length == 0.0 {
-        let (tau, by_limit) = (Vector2::zeros(), Vector2::zeros());
-        return Friction { slips: true, tau, by_stretch: Matrix2::zeros(), by_limit };
-    }
-    let inverse = length.recip();
-    let along = stretch * inverse;
-    let across = Matrix2::identity() - along * along.transpose();
+#[inline(always)]
+pub(crate) fn radial_return<R: Real>(ke: R, stretch: V2<R>, limit: R) -> Friction<R> {
+    let (zero, one) = (ke.of(0.0), ke.of(1.0));
+    let length = plane::norm(stretch);
+    let sticks = (ke * length).le(limit) & zero.lt(limit);
+    let slips = !sticks;
+    let somewhere = slips & !length.le(zero);
+    let inverse = one / length;
+    let along = plane::only(plane::scaled(stretch, inverse), somewhere);
+    let across = plane::less(&plane::diagonal(one), &plane::outer(along, along));
+    let turn = (limit * inverse).only(somewhere);
+    let stiff = plane::diagonal(ke);
     Friction {
-        slips: true,
-        tau: along * limit,
-        by_stretch: across * (limit * inverse),
+        slips,
+        tau: plane::select(sticks, plane::scaled(stretch, ke), plane::scaled(along, limit)),
+        by_stretch: plane::select_matrix(sticks, &stiff, &plane::of(&across, turn)),
         by_limit: along,
     }
 }
 
 /// Share of a step before a gap closes that is linear in the step, and its derivative by the gap at the
 /// end: `before` > 0 ≥ `after`.
-pub(crate) fn share_before(before: f64, after: f64) -> (f64, f64) {
+#[inline(always)]
+pub(crate) fn share_before<R: Real>(before: R, after: R) -> (R, R) {
     let share = before / (before - after);
     (share, share / (before - after))
 }
