@@ -215,9 +215,9 @@ pub(crate) fn advance<const N: usize, R: Real>(
         }
         left = left - first;
     }
-    // Rounding only: the equation keeps |z| ≤ 1.
+    // Rounding only: the equation keeps |z| ≤ 1, and its derivatives are those without.
     if nought.any(one.lt(z[0].x * z[0].x + z[1].x * z[1].x + one.of(1e-15))) {
-        let size = z[0].x.map2(z[1].x, f64::hypot).max(one);
+        let size = z[0].x.map2(z[1].x, f64::hypot).max(one).fixed();
         for z in &mut z {
             z.x = z.x / size;
         }

@@ -3,6 +3,8 @@
 pub(crate) mod biaxial;
 pub(crate) mod bouc_wen_plane;
 pub(crate) mod dense;
+#[cfg(test)]
+mod derivatives;
 pub(crate) mod dual;
 pub(crate) mod lever;
 pub(crate) mod multilinear;

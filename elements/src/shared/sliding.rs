@@ -5,6 +5,7 @@ mod axial;
 mod bearing;
 mod coefficient;
 mod incline;
+mod law;
 mod rub;
 mod slip;
 mod stick;

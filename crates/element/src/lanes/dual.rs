@@ -212,6 +212,10 @@ impl<const N: usize, R: Real> Real for Dual<N, R> {
         self.map(value, value)
     }
     #[inline(always)]
+    fn fixed(self) -> Self {
+        Self::constant(self.x.fixed())
+    }
+    #[inline(always)]
     fn exp_by_vectors(self) -> Self {
         let value = self.x.exp_by_vectors();
         self.map(value, value)
@@ -327,6 +331,13 @@ mod tests {
         let x = Dual::<1, Dual<1>>::variable(Dual::variable(0.7, 0), 0);
         let cube = x * x * x;
         assert!((cube.by[0].by[0] - 6.0 * 0.7).abs() < 1e-14);
+    }
+
+    #[test]
+    fn what_is_fixed_has_no_derivatives() {
+        let x = Dual::<1>::variable(0.7, 0);
+        let product = x * x.fixed();
+        assert_eq!((product.x, product.by), (0.7 * 0.7, [0.7]));
     }
 
     #[test]

@@ -119,6 +119,13 @@ pub trait Real:
     #[must_use]
     fn map_pair(self, f: impl Fn(f64) -> [f64; 2]) -> [Self; 2];
 
+    /// The same number as one that nothing moves: where a form has derivatives, these are not those of the number.
+    #[inline(always)]
+    #[must_use]
+    fn fixed(self) -> Self {
+        self
+    }
+
     /// The larger; the second where they cannot be compared.
     #[inline(always)]
     #[must_use]

@@ -13,7 +13,7 @@
 //! as long as the slope and the friction do not lock, |∇h| dL/dP < 1.
 
 use super::Dish;
-use super::bearing::Rubs;
+use super::law::Rubs;
 use crate::shared::plane::{self, M2, V2};
 use trilith_element::lanes::Real;
 
