@@ -89,7 +89,7 @@ fn damage<R: Real>(spent: R, all: R, capacity: R, exponent: R) -> R {
     let (zero, one) = (spent.of(0.0), spent.of(1.0));
     let left = capacity - all;
     let share = R::select(zero.lt(left), spent / left, one).min(one);
-    share.map2(exponent, |x, c| if c == 1.0 { x } else { x.powf(c) })
+    share.powf(exponent)
 }
 
 /// A side in its present state.
@@ -166,15 +166,16 @@ impl<R: Real> State<R> {
             let other = !up;
             let spent = (h[HEAT] - h[HEAT_START]).max(zero);
             let rate = R::select(other, at.parameters[RATES], at.parameters[RATES + 1]);
-            let beta = |i: usize| {
+            let mut beta = [zero; 3];
+            for (i, beta) in beta.iter_mut().enumerate() {
                 let (most, exponent) =
                     (at.parameters[CAPACITIES + i], at.parameters[EXPONENTS + i]);
-                rate * damage(spent, h[HEAT], most, exponent)
-            };
+                *beta = rate * damage(spent, h[HEAT], most, exponent);
+            }
             let entered = Standing {
-                strength: of(other, h, STRENGTH) * (one - beta(0)),
-                capping: of(other, h, CAPPING) * (one - beta(1)),
-                reach: of(other, h, REACH) * (one + beta(2)),
+                strength: of(other, h, STRENGTH) * (one - beta[0]),
+                capping: of(other, h, CAPPING) * (one - beta[1]),
+                reach: of(other, h, REACH) * (one + beta[2]),
             };
             let ahead = entered.backbone(at, other);
             let aim = Aim {
@@ -220,35 +221,44 @@ impl<R: Real> State<R> {
         }
     }
 
+    /// Stiffness of unloading with so much heat, and how it falls with more.
+    #[inline(always)]
+    fn unloading(&self, at: &LaneAt<'_, R>, heat: R) -> [R; 2] {
+        let h = at.history;
+        let (zero, one) = (heat.of(0.0), heat.of(1.0));
+        let floor = at.parameters[1];
+        let begun = R::select(self.turned, h[STIFFNESS], h[STIFFNESS_START]);
+        let start = R::select(self.turned, h[HEAT], h[HEAT_START]);
+        let (capacity, exponent) = (at.parameters[CAPACITIES + 3], at.parameters[EXPONENTS + 3]);
+        let spent = (heat - start).max(zero);
+        let beta = damage(spent, heat, capacity, exponent);
+        let left = capacity - heat;
+        // β' = c β (1/spent + 1/left)
+        let rate = exponent * beta * (one / spent + one / left);
+        let k = begun * (one - beta);
+        let held = k.lt(floor) | !zero.lt(spent);
+        [k.max(floor).min(h[STIFFNESS]), (begun * rate).only(!held)]
+    }
+
     /// Heat and stiffness of unloading with all that came in: heat + f²/2K(heat) = energy.
     #[inline(always)]
     fn heat(&self, at: &LaneAt<'_, R>, energy: R) -> [R; 2] {
         let h = at.history;
         let (zero, one, half) = (energy.of(0.0), energy.of(1.0), energy.of(0.5));
-        let floor = at.parameters[1];
-        let begun = R::select(self.turned, h[STIFFNESS], h[STIFFNESS_START]);
-        let start = R::select(self.turned, h[HEAT], h[HEAT_START]);
-        let (capacity, exponent) = (at.parameters[CAPACITIES + 3], at.parameters[EXPONENTS + 3]);
-        let stiffness = |heat: R| {
-            let spent = (heat - start).max(zero);
-            let beta = damage(spent, heat, capacity, exponent);
-            let left = capacity - heat;
-            // β' = c β (1/spent + 1/left)
-            let rate = exponent * beta * (one / spent + one / left);
-            let k = begun * (one - beta);
-            let held = k.lt(floor) | !zero.lt(spent);
-            (k.max(floor).min(h[STIFFNESS]), (begun * rate).only(!held))
-        };
         let elastic = half * self.f * self.f;
         let (mut low, mut high) = (h[HEAT], (energy - elastic / h[STIFFNESS]).max(h[HEAT]));
         let mut heat = high;
         let small = energy.of(1e-15) * (energy.abs() + elastic / h[STIFFNESS]);
         // Where a line is steeper than K would be, nothing is spent and K is what holds all that came in.
         let kept = low;
-        let held = (energy + small).lt(low + elastic / stiffness(low).0);
-        // Newton's method from above, within brackets.
+        let held = (energy + small).lt(low + elastic / self.unloading(at, low)[0]);
+        // Newton's method from above, within brackets; what is found stays as it is, whatever its neighbours do.
+        let mut open = self.flows & !held;
         for _ in 0..TURNS {
-            let (k, fall) = stiffness(heat);
+            if !energy.any(open) {
+                break;
+            }
+            let [k, fall] = self.unloading(at, heat);
             let lack = heat + elastic / k - energy;
             let slope = one + elastic * fall / (k * k);
             let below = lack.lt(zero);
@@ -256,14 +266,12 @@ impl<R: Real> State<R> {
             let next = heat - lack / slope;
             let inside = low.le(next) & next.le(high);
             let next = R::select(inside, next, half * (low + high));
-            let open = small.lt((next - heat).abs()) & self.flows & !held;
-            heat = next;
-            if !energy.any(open) {
-                break;
-            }
+            let goes_on = open & small.lt((next - heat).abs());
+            heat = R::select(open, next, heat);
+            open = goes_on;
         }
         let heat = R::select(self.flows & !held, heat, kept);
-        let k = R::select(held, elastic / (energy - kept), stiffness(heat).0);
+        let k = R::select(held, elastic / (energy - kept), self.unloading(at, heat)[0]);
         [heat, R::select(self.flows, k, h[STIFFNESS])]
     }
 }
