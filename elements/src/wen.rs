@@ -151,8 +151,8 @@ impl Link for Wen {
 impl Wen {
     /// Parameters of the law: k, f_y, r, exponent.
     fn numbers(&self) -> [f64; 3 + transition::NUMBERS] {
-        let [n, middle, reach, first, bends, work] = transition::numbers(self.exponent);
-        [self.k, self.fy, self.ratio, n, middle, reach, first, bends, work]
+        let [n, middle, reach] = transition::numbers(self.exponent);
+        [self.k, self.fy, self.ratio, n, middle, reach]
     }
 }
 

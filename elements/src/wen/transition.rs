@@ -45,21 +45,19 @@ pub(super) fn closed_form(n: f64) -> u8 {
 }
 
 /// How many numbers an exponent is.
-pub(super) const NUMBERS: usize = 6;
+pub(super) const NUMBERS: usize = 3;
 
 /// The numbers of an exponent n: n, and where it goes by [series](Curve) those of its curve.
 pub(super) fn numbers(n: f64) -> [f64; NUMBERS] {
     if closed_form(n) != ANY {
-        return [n, 0.0, 0.0, 0.0, 0.0, 0.0];
+        return [n, 0.0, 0.0];
     }
     by_series(n)
 }
 
 fn by_series(n: f64) -> [f64; NUMBERS] {
     let middle = 0.5_f64.powf(1.0 / n);
-    let [reach, work] = [below(middle, 1.0, n), below(middle, 2.0, n)];
-    let [first, second] = [bend(LN_2, 1.0, n), bend(LN_2, 2.0, n)];
-    [n, middle, reach, first, second - first, work]
+    [n, middle, below(middle, 1.0, n)]
 }
 
 /// z after a step `u`; `rate` has the sign of the motion where `u` is zero. `FORM` is that of the exponent.
@@ -149,8 +147,7 @@ fn general<R: Real>(z0: R, u: R, exponent: &[R]) -> [R; 2] {
     if !zero.any(moves) {
         return [z0, u * z0];
     }
-    let [n, middle, reach, first, bends, work] = [0, 1, 2, 3, 4, 5].map(|i| exponent[i]);
-    let curve = Curve { n, middle, reach, first, bends, work };
+    let curve = Curve { n: exponent[0], middle: exponent[1], reach: exponent[2] };
     let z = R::select(moves, curve.loaded(z0, u, moves), z0);
     // One after the other in a loop: the same text twice would take twice as long to compile.
     let (mut at, mut both) = (z, [zero; 2]);
@@ -168,10 +165,6 @@ struct Curve<R> {
     middle: R,
     /// S₁ there.
     reach: R,
-    /// The [bend] of S₁ there, how much more that of S₂ is, and S₂.
-    first: R,
-    bends: R,
-    work: R,
 }
 
 impl<R: Real> Curve<R> {
@@ -200,6 +193,7 @@ impl<R: Real> Curve<R> {
         }
         // Concave in q: from the left, S₁ counted from the middle.
         let half = n.of(LN_2);
+        let base = bend(half, one, n);
         // z so near 1 that zⁿ is 1 to the last digit stays there.
         let above = -(-(n * z0.ln()).exp_and_m1()[1]).ln();
         let above = above.max(half).min(n.of(40.0));
@@ -207,7 +201,7 @@ impl<R: Real> Curve<R> {
         let mut target = start + u - self.reach;
         // The first turn finds where the step begins, where that is above the middle.
         for turn in 0..=30 {
-            let here = self.above(q);
+            let here = self.above(q, base);
             if turn == 0 {
                 target = R::select(low, target, u + here);
             }
@@ -222,10 +216,10 @@ impl<R: Real> Curve<R> {
         R::select(inner, z, (-(-q).exp_and_m1()[1]).powf(one / n))
     }
 
-    /// S₁ at q, less its value in the middle.
+    /// S₁ at q, less its value in the middle, where its [bend] is `base`.
     #[inline(always)]
-    fn above(&self, q: R) -> R {
-        (q - q.of(LN_2)) / self.n + bend(q, q.of(1.0), self.n) - self.first
+    fn above(&self, q: R, base: R) -> R {
+        (q - q.of(LN_2)) / self.n + bend(q, q.of(1.0), self.n) - base
     }
 
     /// S₂ − S₁, which stays finite at z = 1.
@@ -237,8 +231,13 @@ impl<R: Real> Curve<R> {
         let mut work = below(within, two, n) - below(within, one, n);
         if z.any(!low) {
             let q = (-(-(n * z.ln()).exp_and_m1()[1]).ln()).min(z.of(745.0));
-            let bends = bend(q, two, n) - bend(q, one, n);
-            let above = self.work - self.reach + bends - self.bends;
+            let half = z.of(LN_2);
+            let (mut at, mut bends) = (q, [z; 2]);
+            for it in &mut bends {
+                *it = bend(at, two, n) - bend(at, one, n);
+                at = half;
+            }
+            let above = below(self.middle, two, n) - self.reach + bends[0] - bends[1];
             work = R::select(low, work, above);
         }
         work
