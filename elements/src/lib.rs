@@ -5,7 +5,7 @@
 //!
 //! | linear elements | constraints | links |
 //! |---|---|---|
-//! | [`Beam`], [`Inerter`], [`Mass`], [`Spring`], [`Truss`] | [`Diaphragm`], [`EqualDof`], [`RigidBody`], [`RigidLink`] | contacts: [`NLink`], [`Gap`], [`Hook`], [`ImpactHertz`], [`ImpactKelvin`], [`RockingBody`], [`BodyContact`] |
+//! | [`Beam`], [`Inerter`], [`Mass`], [`Spring`], [`Superelement`], [`Truss`] | [`Diaphragm`], [`EqualDof`], [`RigidBody`], [`RigidLink`] | contacts: [`NLink`], [`Gap`], [`Hook`], [`ImpactHertz`], [`ImpactKelvin`], [`RockingBody`], [`BodyContact`] |
 //! | | | dampers: [`BilinearDamper`], [`Dashpot`], [`FrequencyIndependentViscoelastic`], [`FrictionSpring`], [`MaxwellDamper`] |
 //! | | | isolators: [`ElastomericBearing`], [`FrictionPendulum`], [`LeadRubber`], [`RubberIsolator`], [`TensionCompressionFriction`], [`TriplePendulum`] |
 //! | | | springs: [`BoucWen`], [`IbarraMedinaKrawinkler`], [`LinearLink`], [`MultilinearElastic`], [`MultilinearPlastic`], [`PMMHinge`], [`SoilSpring`], [`Wen`] |
@@ -45,6 +45,7 @@ mod rocking_body;
 mod rubber_isolator;
 mod soil_spring;
 mod spring;
+mod superelement;
 mod tension_compression_friction;
 mod triple_pendulum;
 mod truss;
@@ -83,6 +84,7 @@ pub use shared::bouc_wen_plane::Coupling;
 pub use shared::sliding::SlidingHistory;
 pub use soil_spring::{Backbone, Sides, SoilHistory, SoilSpring};
 pub use spring::Spring;
+pub use superelement::Superelement;
 pub use tension_compression_friction::TensionCompressionFriction;
 pub use triple_pendulum::TriplePendulum;
 pub use truss::Truss;
@@ -96,6 +98,7 @@ pub fn register(to: &mut impl Register) {
     to.linear::<Inerter>();
     to.linear::<Mass>();
     to.linear::<Spring>();
+    to.add_linear(&Superelement::CARD, superelement::reader());
     to.linear::<Truss>();
     to.constraint::<Diaphragm>();
     to.constraint::<EqualDof>();

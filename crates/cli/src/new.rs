@@ -24,7 +24,7 @@ macro_rules! template {
     };
 }
 
-const TEMPLATES: [Template; 14] = [
+const TEMPLATES: [Template; 15] = [
     template!("rigid_block"),
     template!("rigid_block_record", "records/synthetic_040g.csv"),
     template!("rigid_block_drop"),
@@ -39,6 +39,12 @@ const TEMPLATES: [Template; 14] = [
     template!("floor_spectra"),
     template!("damped_frame", "records/synthetic_1.csv"),
     template!("pounding_frames"),
+    template!(
+        "rocking_wall",
+        "superelements/wall_k.mtx",
+        "superelements/wall_m.mtx",
+        "superelements/wall_rows.csv"
+    ),
 ];
 
 impl Template {

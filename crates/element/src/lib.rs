@@ -37,6 +37,7 @@ mod link;
 mod member;
 mod outline;
 mod register;
+mod sparse;
 mod values;
 mod waveform;
 
@@ -64,5 +65,6 @@ pub use outline::{NodalOutline, Outline};
 pub use register::{
     Read, ReadConstraint, ReadFunction, ReadLinear, ReadLink, ReadOutput, ReadSolver, Register,
 };
+pub use sparse::{SparseMatrices, SparseMatrix, SparseRow};
 pub use values::{Value, Values};
 pub use waveform::{Side, Stretch, Waveform};

@@ -1,6 +1,6 @@
 //! Linear elements: what adds to K, M and C once.
 
-use crate::{Dof, Geometry, Member, NodalOutline, ParameterError};
+use crate::{Dof, Geometry, Member, NodalOutline, ParameterError, SparseMatrices};
 use std::fmt::Debug;
 
 /// A small dense square matrix, row by row.
@@ -90,6 +90,12 @@ pub trait LinearElement: Send + Sync + Debug {
     /// # Errors
     /// [`ParameterError`] where geometry and parameters do not suit each other.
     fn matrices(&self, at: &Geometry<'_>) -> Result<ElementMatrices, ParameterError>;
+
+    /// Matrices of an element with many rows, beside [`matrices`](Self::matrices), which then lists no direction; `None`
+    /// for an element that has no others.
+    fn sparse(&self) -> Option<&SparseMatrices> {
+        None
+    }
 
     /// True for an element that is meant to take stiffness from the structure, as a spring that buckles does: its own
     /// need not be positive semi-definite. What all elements hold together must be.

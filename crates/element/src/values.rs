@@ -1,6 +1,6 @@
 //! Parameter values on their way from a model file into a typed law.
 
-use crate::{FileText, ParameterError};
+use crate::{FileText, ParameterError, SparseMatrix};
 use serde::de::value::MapAccessDeserializer;
 use serde::de::{
     DeserializeOwned, DeserializeSeed, EnumAccess, IntoDeserializer, MapAccess, Visitor,
@@ -17,6 +17,8 @@ pub enum Value {
     Text(String),
     /// A file, with what it holds.
     File(Arc<FileText>),
+    /// A sparse matrix of a file; no field of a struct takes it, a kind reads it by [`Values::get`].
+    Matrix(Arc<SparseMatrix>),
     /// Yes or no.
     Flag(bool),
     /// Several values.
@@ -102,6 +104,7 @@ impl<'de> serde::Deserializer<'de> for Value {
             Self::Text(s) => visitor.visit_string(s),
             Self::Flag(b) => visitor.visit_bool(b),
             Self::File(file) => visitor.visit_map(file.pairs()),
+            Self::Matrix(matrix) => visitor.visit_string(matrix.name.clone()),
             Self::List(items) => {
                 visitor.visit_seq(serde::de::value::SeqDeserializer::new(items.into_iter()))
             }

@@ -12,6 +12,7 @@ mod diagnostic;
 mod expand;
 mod expression;
 mod include;
+mod matrices;
 mod model;
 mod output;
 mod parameters;

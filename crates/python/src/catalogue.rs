@@ -57,7 +57,8 @@ fn facts(p: &Parameter) -> ParameterFacts {
         Form::Points => ("points", &[]),
         Form::Node => ("node", &[]),
         Form::Text => ("text", &[]),
-        Form::File => ("file", &[]),
+        Form::File | Form::SparseMatrix => ("file", &[]),
+        Form::Labels => ("labels", &[]),
     };
     let required = matches!(p.default, Default::Required);
     (parameter(p), form, choices.to_vec(), required)

@@ -46,6 +46,8 @@ TYPES = {
     "points": LIST,
     "node": "str",
     "text": "str",
+    "file": "Block | str",
+    "labels": LIST,
     "count": "int | str",
     "name": "str",
     "one": "Name | Block | Mapping[str, Any]",

@@ -1,9 +1,10 @@
 //! Assembly of a model into reduced matrices.
 
 use crate::blame::answered;
-use crate::elastic::{EndForceRow, ReactionRow, end_force_row};
+use crate::elastic::{EndForceRow, ReactionRow, end_force_row, sparse_end_force};
+use crate::inner::sparse;
 use crate::links::mark_used;
-use crate::{ImpactMass, LinkSet, Massless, Reduction, SystemError};
+use crate::{ImpactMass, InnerRows, LinkSet, Massless, Reduction, SystemError};
 use trilith_element::{Dof, ElementMatrices, Geometry};
 use trilith_linalg::{Sparse, Triplets, unsupported};
 use trilith_model::{Body, Damping, Element, MemberLoad, Model};
@@ -13,6 +14,8 @@ use trilith_model::{Body, Damping, Element, MemberLoad, Model};
 pub struct System {
     /// Elimination of supports and constraints.
     pub reduction: Reduction,
+    /// Equations that are no directions of nodes.
+    pub inner: InnerRows,
     /// Directions without mass.
     pub massless: Massless,
     /// M with the inertances, free × free, kg.
@@ -57,11 +60,12 @@ impl System {
     /// # Errors
     /// As [`without_axial_forces`](Self::without_axial_forces).
     pub fn with_tension(model: &Model, tension: Vec<f64>) -> Result<Self, SystemError> {
-        let count = 6 * model.nodes.len();
+        let inner = InnerRows::new(model)?;
+        let count = 6 * model.nodes.len() + inner.len();
         let mut used = vec![false; count];
-        let full = full_entries(model, &tension, &mut used)?;
+        let full = full_entries(model, &tension, &inner, &mut used)?;
         mark_used(model, &mut used);
-        let mut reduction = Reduction::new(model, &mut used)?;
+        let mut reduction = Reduction::new(model, &inner, &mut used)?;
         let idle = reduction.order() == 0;
         if idle {
             if reduction.prescribed.is_empty() {
@@ -69,7 +73,7 @@ impl System {
             }
             reduction.add_idle();
         }
-        let (inertia, total_mass) = inertia(&full.mass, &reduction);
+        let (inertia, total_mass) = inertia(&full.mass, &reduction, &inner);
         let [k, m, c, b] = [full.stiffness, full.mass, full.damping, full.inertance]
             .map(|entries| reduce(&entries, &reduction));
         let [k, m] = if idle { [k, m].map(of_idle) } else { [k, m] };
@@ -82,7 +86,7 @@ impl System {
             }
         };
         for (what, sum) in [("the stiffness", &k), ("the mass", &m), ("the damping", &c)] {
-            within_bounds(what, sum, model, &reduction)?;
+            within_bounds(what, sum, model, &reduction, &inner)?;
         }
         let rayleigh = match model.damping {
             Damping::Rayleigh { mass, stiffness } => [mass, stiffness],
@@ -94,7 +98,7 @@ impl System {
             };
             let free = sum(&c.free, &m.free, &k.free);
             let support = sum(&c.support, &m.support, &k.support);
-            within_bounds("the damping", &Split { free, support }, model, &reduction)?;
+            within_bounds("the damping", &Split { free, support }, model, &reduction, &inner)?;
         }
         let damping_support = Sparse::combine(&[(1.0, &c.support), (rayleigh[1], &k.support)]);
         let mut links = LinkSet::new(model, &reduction)?;
@@ -113,6 +117,7 @@ impl System {
             total_mass,
             tension,
             idle,
+            inner,
             reduction,
         };
         crate::massless::give_dummies(&mut system, model)?;
@@ -201,16 +206,15 @@ impl System {
         }
         let loose = unsupported(&k)?;
         let Some(first) = loose.first() else { return Ok(()) };
-        let span = model.nodes[self.reduction.free[*first] / 6].span.clone();
+        let span = self.inner.span(model, self.reduction.free[*first]);
         let directions = loose.iter().map(|i| self.direction(model, *i)).collect();
         Err(SystemError::Unsupported { directions, with_mass, span })
     }
 
-    /// Node name and direction of a free DOF.
+    /// Node name and direction of a free DOF, or which row of which element it is.
     #[must_use]
     pub fn direction(&self, model: &Model, free: usize) -> (String, &'static str) {
-        let full = self.reduction.free[free];
-        (model.nodes[full / 6].name.clone(), Dof::ALL[full % 6].name())
+        self.inner.name(model, self.reduction.free[free])
     }
 
     /// Axial force of a linear element with two nodes at a displacement of the free DOFs, supports at
@@ -234,6 +238,11 @@ impl System {
     /// over the reduced DOFs.
     #[must_use]
     pub fn end_force(&self, model: &Model, element: usize, end: usize, dof: Dof) -> EndForceRow {
+        if let Some((own, places)) =
+            sparse(&model.elements[element]).zip(self.inner.places(element))
+        {
+            return sparse_end_force(own, places, (end, dof), &self.reduction);
+        }
         match self.matrices(model, element) {
             Some(m) => end_force_row(&m, &model.elements[element].nodes, end, dof, &self.reduction),
             None => EndForceRow::default(),
@@ -312,12 +321,32 @@ struct Full {
 }
 
 /// The entries of all elements; marks the DOFs that they use.
-fn full_entries(model: &Model, tension: &[f64], used: &mut [bool]) -> Result<Full, SystemError> {
+fn full_entries(
+    model: &Model,
+    tension: &[f64],
+    inner: &InnerRows,
+    used: &mut [bool],
+) -> Result<Full, SystemError> {
     let none = || Triplets::new(used.len(), used.len());
     let mut full = Full { stiffness: none(), mass: none(), damping: none(), inertance: none() };
     let mut places = Vec::new();
-    for (e, tension) in model.elements.iter().zip(tension) {
+    for (element, (e, tension)) in model.elements.iter().zip(tension).enumerate() {
         let Some(m) = element_matrices(model, e, *tension)? else { continue };
+        if let Some((own, places)) = sparse(e).zip(inner.places(element)) {
+            let parts = [
+                (&mut full.stiffness, Some(&own.stiffness)),
+                (&mut full.mass, own.mass.as_ref()),
+                (&mut full.damping, own.damping.as_ref()),
+            ];
+            for (sum, a) in parts {
+                let entries = a.into_iter().flat_map(|a| &a.entries).filter(|e| e.2 != 0.0);
+                for (i, j, value) in entries {
+                    let (row, column) = (places[*i as usize], places[*j as usize]);
+                    used[row] = true;
+                    sum.add(row, column, *value);
+                }
+            }
+        }
         places.clear();
         places.extend(m.dofs.iter().map(|(n, d)| 6 * e.nodes[*n] + d.index()));
         places.iter().for_each(|i| used[*i] = true);
@@ -375,20 +404,30 @@ fn within_bounds(
     sum: &Split,
     model: &Model,
     reduction: &Reduction,
+    inner: &InnerRows,
 ) -> Result<(), SystemError> {
     let Some(row) = sum.free.not_finite().or(sum.support.not_finite()) else { return Ok(()) };
     let full = reduction.free[row];
-    let node = &model.nodes[full / 6];
-    let direction = Dof::ALL[full % 6].name();
-    Err(SystemError::Overflow { what, node: node.name.clone(), direction, span: node.span.clone() })
+    let (node, direction) = inner.name(model, full);
+    Err(SystemError::Overflow { what, node, direction, span: inner.span(model, full) })
 }
 
 /// Tᵀ M r of unit translations, and the mass along Z.
-fn inertia(mass: &Triplets, reduction: &Reduction) -> ([Vec<f64>; 3], f64) {
+fn inertia(mass: &Triplets, reduction: &Reduction, inner: &InnerRows) -> ([Vec<f64>; 3], f64) {
     let order = reduction.order();
     let mut all = [(); 3].map(|()| vec![0.0; order]);
     let mut total = 0.0;
     for (i, j, v) in mass.entries() {
+        let of_nodes = [i, j].iter().all(|full| inner.node(*full).is_some());
+        if !of_nodes {
+            for (axis, p) in all.iter_mut().enumerate() {
+                let share = v * inner.shift(j, axis);
+                let rows = reduction.expand(i).iter().filter(|(row, _)| *row < order);
+                rows.for_each(|(row, a)| p[*row] += a * share);
+            }
+            total += inner.shift(i, 2) * v * inner.shift(j, 2);
+            continue;
+        }
         let Some(p) = all.get_mut(j % 6) else { continue };
         for (row, a) in reduction.expand(i).iter().filter(|(row, _)| *row < order) {
             p[*row] += a * v;

@@ -1,7 +1,7 @@
 //! End forces of linear elements as rows over the reduced DOFs.
 
 use crate::Reduction;
-use trilith_element::{Dof, ElementMatrices};
+use trilith_element::{Dof, ElementMatrices, SparseMatrices, SparseRow};
 
 /// An end force as a linear combination: `Σ stiffness · u + Σ damping · u̇`, over free and prescribed DOFs.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -24,6 +24,27 @@ pub struct ReactionRow {
     pub links: Vec<(usize, f64)>,
     /// (index of a load pattern, force of its loads along members), reversed.
     pub loads: Vec<(usize, f64)>,
+}
+
+/// The same of an element with sparse matrices, whose rows stand at these full DOFs.
+pub(crate) fn sparse_end_force(
+    own: &SparseMatrices,
+    places: &[usize],
+    (end, dof): (usize, Dof),
+    reduction: &Reduction,
+) -> EndForceRow {
+    let mut force = EndForceRow::default();
+    let Some(row) = own.rows.iter().position(|r| *r == SparseRow::Node(end, dof)) else {
+        return force;
+    };
+    let parts =
+        [(&mut force.stiffness, Some(&own.stiffness)), (&mut force.damping, own.damping.as_ref())];
+    for (list, a) in parts {
+        for (j, value) in a.into_iter().flat_map(|a| a.row(row)).filter(|(_, v)| *v != 0.0) {
+            list.extend(reduction.expand(places[j]).iter().map(|(i, t)| (*i, value * t)));
+        }
+    }
+    force
 }
 
 pub(crate) fn end_force_row(

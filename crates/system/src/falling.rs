@@ -17,15 +17,18 @@ impl System {
     #[must_use]
     pub fn on_falling_parts(&self, model: &Model, hold: impl Fn(usize) -> bool) -> Vec<bool> {
         let n = self.order();
-        let falls = |i: usize| self.reduction.free[i] % 6 == DOWN;
+        // By how much each equation moves when all parts move along gravity.
+        let down: Vec<f64> =
+            self.reduction.free.iter().map(|full| self.inner.shift(*full, DOWN)).collect();
+        let falls = |i: usize| down[i] != 0.0;
         let mut part: Vec<usize> = (0..n).collect();
         // K t for a unit motion t of all parts along gravity, and the size of its terms.
         let (mut force, mut size, mut moves) = (vec![0.0; n], vec![0.0; n], vec![false; n]);
         for (i, j, k) in self.stiffness.entries().filter(|(_, _, k)| *k != 0.0) {
             join(&mut part, i, j);
             if falls(j) {
-                force[i] += k;
-                size[i] += k.abs();
+                force[i] += k * down[j];
+                size[i] += (k * down[j]).abs();
             }
         }
         let links = &self.links;
@@ -37,11 +40,11 @@ impl System {
                 law.engaged_stiffness(&mut k);
             }
             let rows = &links.rows[link.range.clone()];
-            let down = |row: &[(usize, f64)]| -> f64 {
-                row.iter().filter(|(i, _)| falls(*i)).map(|(_, c)| c).sum()
+            let stretch = |row: &[(usize, f64)]| -> f64 {
+                row.iter().filter(|(i, _)| falls(*i)).map(|(i, c)| c * down[*i]).sum()
             };
             for (row, own) in rows.iter().zip(k.chunks(coordinates)) {
-                let pull: f64 = own.iter().zip(rows).map(|(k, other)| k * down(other)).sum();
+                let pull: f64 = own.iter().zip(rows).map(|(k, other)| k * stretch(other)).sum();
                 let most: f64 = own.iter().map(|k| k.abs()).sum();
                 for (i, c) in row {
                     force[*i] += c * pull;

@@ -127,6 +127,13 @@ fn leaning(
     if !e.nodes.iter().any(|n| (3..6).any(|k| turned(6 * n + k).is_some())) {
         return Ok(None);
     }
+    if let Some(own) = crate::inner::sparse(e) {
+        let tied = |row: &trilith_element::SparseRow| match row {
+            trilith_element::SparseRow::Node(n, dof) => turned(full(*n, dof.index())),
+            trilith_element::SparseRow::Inner(_) => None,
+        };
+        return Ok(own.rows.iter().find_map(tied));
+    }
     let Some(m) = element_matrices(model, e, 0.0)? else { return Ok(None) };
     let size = m.dofs.len();
     let held = |i: usize| {

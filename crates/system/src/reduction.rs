@@ -4,9 +4,9 @@
 //! substitution, so chains, shared nodes and redundant equations resolve; a constraint on a fixed DOF
 //! passes the support on to the DOFs it is tied to. No mass is lost, because M is reduced with the same T.
 
-use crate::SystemError;
 use crate::blame::answered;
 use crate::finite_turns::{refuse_lever, turning_nodes};
+use crate::{InnerRows, SystemError};
 use std::collections::BTreeMap;
 use trilith_model::{Body, Model};
 
@@ -32,7 +32,11 @@ struct Row {
 impl Reduction {
     /// Eliminates. `used[i]` tells which full DOFs elements or links act on; the DOFs that used ones
     /// depend on are marked too.
-    pub(crate) fn new(model: &Model, used: &mut [bool]) -> Result<Self, SystemError> {
+    pub(crate) fn new(
+        model: &Model,
+        inner: &InnerRows,
+        used: &mut [bool],
+    ) -> Result<Self, SystemError> {
         let rows = constraint_rows(model)?;
         refuse_cycles(model, &rows)?;
         spread_use(&rows, used);
@@ -45,7 +49,7 @@ impl Reduction {
                 }
             }
         }
-        let fixed = fixed_dofs(model, count);
+        let fixed = fixed_dofs(model, inner, count);
         let turning = turning_nodes(model)?;
         for row in rows.iter().filter(|_| !turning.is_empty()) {
             let dofs = row.terms.iter().filter(|(_, c)| *c != 0.0).map(|(full, _)| *full);
@@ -233,7 +237,7 @@ fn spread_use(rows: &[Row], used: &mut [bool]) {
     }
 }
 
-fn fixed_dofs(model: &Model, count: usize) -> Vec<bool> {
+fn fixed_dofs(model: &Model, inner: &InnerRows, count: usize) -> Vec<bool> {
     let mut fixed = vec![false; count];
     for support in &model.supports {
         for (i, f) in support.fixed.iter().enumerate() {
@@ -243,7 +247,8 @@ fn fixed_dofs(model: &Model, count: usize) -> Vec<bool> {
     if let Some(plane) = model.plane {
         let stay = plane.dofs().map(|d| d.index());
         for (i, f) in fixed.iter_mut().enumerate() {
-            *f |= !stay.contains(&(i % 6));
+            // An inner row of no direction may be one of the plane.
+            *f |= inner.dof(i).is_some_and(|dof| !stay.contains(&dof.index()));
         }
     }
     fixed

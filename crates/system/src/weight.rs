@@ -7,7 +7,8 @@
 
 use crate::System;
 use crate::assemble::element_matrices;
-use trilith_element::{Dof, Vector3, cross, sub};
+use crate::inner::sparse;
+use trilith_element::{Vector3, cross};
 use trilith_model::Model;
 
 /// A part of ‖K‖ ‖r‖ below which K r is rounding.
@@ -32,7 +33,7 @@ impl System {
     #[must_use]
     pub fn mass_along(&self, axis: usize) -> f64 {
         let own = self.reduction.free.iter().zip(&self.inertia[axis]);
-        own.filter(|(full, _)| *full % 6 == axis).map(|(_, m)| m).sum()
+        own.map(|(full, m)| self.inner.shift(*full, axis) * m).sum()
     }
 
     /// Sums up the masses of all elements.
@@ -40,7 +41,26 @@ impl System {
     pub fn mass_sum(&self, model: &Model) -> MassSum {
         let (mut mass, mut moment) = ([0.0; 3], [[0.0; 3]; 3]);
         let mut on_supports = 0.0;
-        for e in &model.elements {
+        for (element, e) in model.elements.iter().enumerate() {
+            if let Some((own, places)) = sparse(e).zip(self.inner.places(element)) {
+                let Some(of_mass) = &own.mass else { continue };
+                for along in 0..3 {
+                    let shifts: Vec<f64> =
+                        places.iter().map(|full| self.inner.shift(*full, along)).collect();
+                    let mut forces = vec![0.0; places.len()];
+                    of_mass.mul_add(&shifts, &mut forces);
+                    for ((full, shift), force) in places.iter().zip(&shifts).zip(forces) {
+                        mass[along] += shift * force;
+                        for (axis, sum) in moment[along].iter_mut().enumerate() {
+                            *sum += self.inner.turn(model, *full, axis, [0.0; 3]) * force;
+                        }
+                        if along == 2 && self.reduction.expand(*full).is_empty() {
+                            on_supports += shift * force;
+                        }
+                    }
+                }
+                continue;
+            }
             let Ok(Some(m)) = element_matrices(model, e, 0.0) else { continue };
             if m.mass.is_zero() {
                 continue;
@@ -108,15 +128,9 @@ impl System {
     /// A motion of a rigid body on the free DOFs.
     fn rigid_motion(&self, model: &Model, motion: usize, about: Vector3) -> Vec<f64> {
         let (turns, axis) = (motion >= 3, motion % 3);
-        let unit = std::array::from_fn(|i| f64::from(u8::from(i == axis)));
-        let at = |full: &usize| {
-            let (arm, dof) = (sub(model.nodes[full / 6].position, about), Dof::ALL[full % 6]);
-            let i = full % 3;
-            match (turns, dof.is_rotation()) {
-                (false, false) | (true, true) => unit[i],
-                (false, true) => 0.0,
-                (true, false) => cross(unit, arm)[i],
-            }
+        let at = |full: &usize| match turns {
+            true => self.inner.turn(model, *full, axis, about),
+            false => self.inner.shift(*full, axis),
         };
         self.reduction.free.iter().map(at).collect()
     }

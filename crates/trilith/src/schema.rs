@@ -195,7 +195,7 @@ fn parameters(card: &Card) -> impl Iterator<Item = (String, Value)> {
             Form::Number(_) | Form::Power { .. } => number(),
             Form::Node => json!({ "type": "string" }),
             // `Parameter("name")` of a text parameter, and `Contents("name", "text")` of a file, are objects.
-            Form::Text | Form::File => json!({ "type": ["string", "object"] }),
+            Form::Text | Form::File | Form::SparseMatrix => json!({ "type": ["string", "object"] }),
             _ => json!({}),
         };
         (p.name.to_owned(), described(what, p.meaning))

@@ -8,15 +8,15 @@ use crate::diagnostic::names_help;
 use crate::registry::Reader;
 use crate::schema;
 use crate::sections::Shape;
-use crate::tree::{Entry, Node};
+use crate::tree::{Entry, Kind, Node};
 use crate::{Body, Element, LinkOptions, Span};
 use std::cell::RefCell;
 use std::collections::VecDeque;
 use std::sync::Arc;
 use trilith_element::dimension::{MOMENT, NONE, STIFFNESS};
 use trilith_element::{
-    Card, Category, Coordinates, Frame, Geometry, Link, NodeCount, ParameterError, Range, Values,
-    Vector3,
+    Card, Category, Coordinates, Form, Frame, Geometry, Link, NodeCount, ParameterError, Range,
+    Value, Values, Vector3,
 };
 
 struct Reading<'c, 'n> {
@@ -88,6 +88,11 @@ pub(super) fn allowed(card: &Card, place: &[&'static str]) -> Vec<&'static str> 
     all
 }
 
+/// True where files of the kind have names of their own for its nodes.
+fn labelled(card: &Card) -> bool {
+    card.parameters.iter().any(|p| p.form == Form::Labels)
+}
+
 /// What the cross-section of a member looks like: as its own section says, by its sides, or as the set says that it uses.
 fn shape(card: &Card, given: &Given<'_>, values: &Values) -> Option<Shape> {
     let [own, shared] = &given.made;
@@ -117,7 +122,10 @@ impl Reading<'_, '_> {
             Some(node) => c.vector(node, key, NONE).map(Some),
         };
         let (axis1, axis2) = (axis("axis1"), axis("axis2"));
-        let (nodes, values) = (nodes?, values?);
+        let (nodes, mut values) = (nodes?, values?);
+        if let Some(p) = card.parameters.iter().find(|p| p.form == Form::Labels) {
+            self.label(p.name, &fields, &nodes, &mut values, &what)?;
+        }
         let positions: Option<Vec<Vector3>> =
             nodes.iter().map(|&i| self.nodes[i].as_ref().map(|n| n.position)).collect();
         let (axis1, axis2) = (axis1?, axis2?);
@@ -243,12 +251,15 @@ impl Reading<'_, '_> {
                 c.report(d.help("keep one of the two"));
                 return None;
             }
-            (Some(list), None) => list.items(),
+            (Some(list), None) => match (&list.kind, labelled(card)) {
+                (Kind::Map(entries), true) => entries.iter().map(|e| &e.value).collect(),
+                _ => list.items(),
+            },
             (None, Some(one)) => vec![one],
             (None, None) => return fields.required(c, "nodes").and(None),
         };
         // A group in a list stands for its members, the only node is one.
-        let of_list = fields.get("nodes").is_some();
+        let of_list = fields.get("nodes").is_some_and(|n| !matches!(n.kind, Kind::Map(_)));
         let mut found: Vec<(&Node, Option<usize>)> = Vec::with_capacity(items.len());
         for item in items {
             match self.names.group(item).filter(|_| of_list) {
@@ -279,6 +290,45 @@ impl Reading<'_, '_> {
             return None;
         }
         Some(all)
+    }
+
+    /// What the files of an element call its nodes: keys of `nodes`, the field of that name, or the names of the nodes.
+    fn label(
+        &self,
+        name: &str,
+        fields: &Fields<'_>,
+        nodes: &[usize],
+        values: &mut Values,
+        what: &str,
+    ) -> Option<()> {
+        let c = self.c;
+        let keys = match fields.get("nodes").map(|n| &n.kind) {
+            Some(Kind::Map(entries)) => Some(entries),
+            _ => None,
+        };
+        if let (Some(_), Some(given)) = (keys, fields.get(name)) {
+            let message = format!("{what} gives labels as keys of `nodes`, and `{name}`");
+            let d = c.diagnostic("E0102", message, given.span.clone());
+            c.report(d.help("keep one of the two"));
+            return None;
+        }
+        if let Some(Value::List(given)) = values.get(name) {
+            if given.len() == nodes.len() {
+                return Some(());
+            }
+            let (labels, nodes) = (given.len(), nodes.len());
+            let message =
+                format!("{what} has {labels} `{name}` and {nodes} nodes: must have as many");
+            let span = fields.get(name).map(|n| n.span.clone())?;
+            c.report(c.diagnostic("E0105", message, span));
+            return None;
+        }
+        let texts: Vec<Value> = match keys {
+            Some(entries) => entries.iter().map(|e| Value::Text(e.key.clone())).collect(),
+            None => nodes.iter().map(|i| Value::Text(self.names.name(*i).to_owned())).collect(),
+        };
+        values.0.push((name.to_owned(), Value::List(texts)));
+        Some(())
     }
 
     fn link_options(

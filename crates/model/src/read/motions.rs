@@ -4,7 +4,7 @@
 use std::collections::HashMap;
 use std::fmt;
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
-use trilith_element::FileText;
+use trilith_element::{FileText, SparseMatrix};
 use trilith_record::Record;
 
 /// Most samples that are kept of each kind: 128 MB. What has not been asked for longest goes first.
@@ -19,6 +19,8 @@ pub(crate) struct Motions {
     pub columns: Shelf<(Vec<f64>, Vec<f64>)>,
     /// Files that parameters name.
     pub texts: Shelf<FileText>,
+    /// Sparse matrices that parameters name.
+    pub matrices: Shelf<SparseMatrix>,
 }
 
 impl fmt::Debug for Motions {
@@ -41,6 +43,13 @@ impl Samples for Record {
 impl Samples for FileText {
     fn samples(&self) -> usize {
         self.text.len() / size_of::<f64>()
+    }
+}
+
+impl Samples for SparseMatrix {
+    fn samples(&self) -> usize {
+        // An entry has a value and two places.
+        2 * self.entries.len()
     }
 }
 

@@ -163,7 +163,17 @@ fn value(c: &Context<'_>, node: &Node, p: &Parameter, nodes: &Names<'_>) -> Opti
         Form::Node => nodes.refer(c, node).map(|i| Value::Text(nodes.name(i).to_owned())),
         Form::Text => files::text(c, node, p.name).map(Value::Text),
         Form::File => files::file(c, node).map(Value::File),
+        Form::SparseMatrix => files::matrix(c, node).map(Value::Matrix),
+        Form::Labels => labels(c, node, p.name),
     }
+}
+
+fn labels(c: &Context<'_>, node: &Node, name: &str) -> Option<Value> {
+    if !node.is_list() {
+        return c.wrong(node, &format!("a list of texts for `{name}`"));
+    }
+    let read: Vec<_> = node.items().into_iter().map(|n| c.text(n, name).map(Value::Text)).collect();
+    read.into_iter().collect::<Option<Vec<_>>>().map(Value::List)
 }
 
 fn choices(c: &Context<'_>, node: &Node, name: &str, names: &[&str]) -> Option<Value> {

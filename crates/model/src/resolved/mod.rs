@@ -5,6 +5,7 @@ mod loads;
 mod outputs;
 mod spectra;
 
+use crate::matrices::market_text;
 use crate::read::CONTENTS;
 use crate::{
     AfterEnd, Body, Damping, Harmonic, Interpolation, Model, ParameterValue, Plane, TimeFunction,
@@ -64,6 +65,9 @@ pub fn resolved(model: &Model) -> String {
     w.line(0, ")");
     w.0
 }
+
+/// A sparse matrix of at most so many entries is written out; of a larger one the text names the file.
+const WRITTEN: usize = 10_000;
 
 struct Writer(String);
 
@@ -128,6 +132,14 @@ fn value(v: &Value) -> String {
         Value::Text(t) => text(t),
         Value::Flag(b) => b.to_string(),
         Value::File(file) => format!("{CONTENTS}({}, {})", text(&file.name), text(&file.text)),
+        Value::Matrix(a) if a.entries.len() <= WRITTEN || a.path.is_empty() => {
+            format!("{CONTENTS}({}, {})", text(&a.name), text(&market_text(a)))
+        }
+        Value::Matrix(a) => {
+            // From any folder the same file.
+            let path = std::path::absolute(&a.path).unwrap_or_else(|_| a.path.clone().into());
+            text(&path.to_string_lossy())
+        }
         Value::List(items) => {
             format!("[{}]", items.iter().map(value).collect::<Vec<_>>().join(", "))
         }

@@ -99,7 +99,8 @@ pub(crate) fn of_dynamic(
     let Noticed { pressed, said } = noticed;
     let place = of_state(model, system, end.state, pressed, free, &supports);
     let turns = turns(model).unwrap_or_default();
-    weight.into_iter().chain(place).chain(said).chain(turns).collect()
+    let doubts = system.inner.doubts.iter().cloned();
+    weight.into_iter().chain(place).chain(said).chain(turns).chain(doubts).collect()
 }
 
 /// What there is to say of a static case.
@@ -112,7 +113,7 @@ pub(crate) fn of_static(
 ) -> Vec<String> {
     let supports = vec![0.0; system.reduction.prescribed.len()];
     let said = of_state(model, system, state, noticed.pressed, Some(u), &supports);
-    said.into_iter().chain(noticed.said).collect()
+    said.into_iter().chain(noticed.said).chain(system.inner.doubts.iter().cloned()).collect()
 }
 
 /// Of the place where a case ends: contacts, and the displacements of the free DOFs where these count.
@@ -180,7 +181,8 @@ pub(crate) fn weightless(
     }
     let down = Dof::Uz.index();
     let free = &system.reduction.free;
-    let held = constant.iter().zip(free).any(|(p, full)| *p != 0.0 && full % 6 == down);
+    let falls = |full: usize| system.inner.shift(full, down) != 0.0;
+    let held = constant.iter().zip(free).any(|(p, full)| *p != 0.0 && falls(*full));
     // A weight may come as a force that varies.
     let forced = analysis.forces.iter().any(|history| {
         let pattern = &model.patterns[history.pattern];

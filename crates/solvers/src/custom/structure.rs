@@ -3,7 +3,7 @@
 use crate::basis::LowRank;
 use crate::structure::ReducedSystem;
 use std::cell::Cell;
-use trilith_element::{Dof, Factor, LinearStructure};
+use trilith_element::{Factor, LinearStructure};
 use trilith_linalg::{Dense, DenseLu, Ldlt, LinalgError, Sparse};
 use trilith_model::Model;
 use trilith_system::System;
@@ -31,7 +31,8 @@ impl<'a> Structure<'a> {
         free.map_or_else(
             || format!("vector {} of the basis", equation + 1),
             |full| {
-                format!("{} of \"{}\"", Dof::ALL[full % 6].name(), self.model.nodes[full / 6].name)
+                let (place, direction) = self.system.inner.name(self.model, *full);
+                format!("{direction} of \"{place}\"")
             },
         )
     }

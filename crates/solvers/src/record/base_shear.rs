@@ -54,7 +54,7 @@ pub(super) struct Rows {
 
 impl Rows {
     pub(crate) fn new(model: &Model, system: &System, space: &ReducedSystem) -> Self {
-        let unit = |axis: usize| move |full: usize| f64::from(u8::from(full % 6 == axis));
+        let unit = |axis: usize| move |full: usize| system.inner.shift(full, axis);
         let rows = [0, 1].map(|axis| row(model, system, space, unit(axis)));
         let supported = rows.iter().any(Internal::is_supported);
         let loaded = rows.iter().any(|row| !row.loads.is_empty());

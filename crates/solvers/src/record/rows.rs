@@ -159,13 +159,18 @@ impl Maker<'_> {
                 self.internal(&stiffness, &damping, Vec::new(), Vec::new())
             }
             Quantity::BaseShear { direction } => {
-                let unit = |full: usize| f64::from(u8::from(full % 6 == direction.index()));
+                let unit = |full: usize| self.system.inner.shift(full, direction.index());
                 Row::Internal(base_shear::row(self.model, self.system, self.space, unit))
             }
             Quantity::Overturning { direction, about } => {
-                let turned = |full: usize| {
-                    let place = self.model.nodes[full / 6].position;
-                    overturned(*direction, sub(place, *about), Dof::ALL[full % 6])
+                let inner = &self.system.inner;
+                let turned = |full: usize| match inner.node(full) {
+                    Some(node) => {
+                        let place = self.model.nodes[node].position;
+                        overturned(*direction, sub(place, *about), Dof::ALL[full % 6])
+                    }
+                    None if *direction == Dof::Ux => inner.turn(self.model, full, 1, *about),
+                    None => -inner.turn(self.model, full, 0, *about),
                 };
                 Row::Internal(base_shear::row(self.model, self.system, self.space, turned))
             }

@@ -184,8 +184,8 @@ fn reaction(model: &Model, system: &System, engaged: &Sparse, held: &[f64]) -> O
     system.links.deform(&u, &still, &mut d);
     d.iter_mut().zip(held).for_each(|(d, k)| *d *= k);
     system.links.spread(1.0, &d, &mut force);
-    let up = system.reduction.free.iter().zip(&force).filter(|(full, _)| *full % 6 == 2);
-    Some(-up.map(|(_, f)| f).sum::<f64>())
+    let up = system.reduction.free.iter().zip(&force);
+    Some(-up.map(|(full, f)| system.inner.shift(*full, 2) * f).sum::<f64>())
 }
 
 fn loads(analysis: &Analysis) -> &[Load] {

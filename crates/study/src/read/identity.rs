@@ -24,6 +24,9 @@ fn seen_of(model: &Model) -> String {
             told.push(file);
             all += &format!("{file:?}");
         }
+        if let Value::Matrix(matrix) = value {
+            all += &matrix.sha256;
+        }
     }
     all
 }

@@ -107,6 +107,9 @@ impl Body {
         system: &System,
         horizontal: Horizontal,
     ) -> Result<Self, Error> {
+        if !system.inner.is_empty() {
+            return Err(CalibrationError::InnerRows.into());
+        }
         let field = |pose: Pose| -> Vec<f64> {
             let at = |full: &usize| pose.at(horizontal, model.nodes[full / 6].position, full % 6);
             system.reduction.free.iter().map(at).collect()

@@ -17,6 +17,11 @@ pub enum CalibrationError {
         /// The rigid motion that something resists.
         motion: &'static str,
     },
+    /// A body that cannot be put down as a rigid one.
+    #[error(
+        "the body is made of matrices with rows of their own, which cannot be placed one by one: calibrate a rigid body of the same mass"
+    )]
+    InnerRows,
     /// A body that rests on one line.
     #[error("rocking needs feet at two places along {along}, these stand at one")]
     OneFoot {

@@ -1,0 +1,78 @@
+//! Matrices of elements with many rows, by their entries.
+
+use crate::Dof;
+use std::sync::Arc;
+
+/// A square matrix by its entries, as a file gives it.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct SparseMatrix {
+    /// Name of the file as the model has it.
+    pub name: String,
+    /// Where the file was found; empty where the model holds what is in it.
+    pub path: String,
+    /// SHA-256 of the file, hexadecimal.
+    pub sha256: String,
+    /// Rows and columns.
+    pub size: usize,
+    /// Row, column and value of every entry, by rising row and in it by rising column, none twice.
+    pub entries: Vec<(u32, u32, f64)>,
+}
+
+impl SparseMatrix {
+    /// The entries of one row: column and value, by rising column.
+    pub fn row(&self, row: usize) -> impl Iterator<Item = (usize, f64)> + '_ {
+        let first = self.entries.partition_point(|e| (e.0 as usize) < row);
+        let own = self.entries[first..].iter().take_while(move |e| e.0 as usize == row);
+        own.map(|(_, j, v)| (*j as usize, *v))
+    }
+
+    /// Where each row begins in the entries, and the last ends; `size + 1` numbers.
+    #[must_use]
+    pub fn offsets(&self) -> Vec<usize> {
+        let mut offsets = vec![0; self.size + 1];
+        self.entries.iter().for_each(|e| offsets[e.0 as usize + 1] += 1);
+        for i in 0..self.size {
+            offsets[i + 1] += offsets[i];
+        }
+        offsets
+    }
+
+    /// The diagonal.
+    #[must_use]
+    pub fn diagonal(&self) -> Vec<f64> {
+        let mut diagonal = vec![0.0; self.size];
+        let own = self.entries.iter().filter(|(i, j, _)| i == j);
+        own.for_each(|(i, _, v)| diagonal[*i as usize] = *v);
+        diagonal
+    }
+
+    /// `y += A x`.
+    pub fn mul_add(&self, x: &[f64], y: &mut [f64]) {
+        for (i, j, v) in &self.entries {
+            y[*i as usize] += v * x[*j as usize];
+        }
+    }
+}
+
+/// What a row of [`SparseMatrices`] is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum SparseRow {
+    /// A direction of a node of the element, by its index in the element.
+    Node(usize, Dof),
+    /// An equation of the element's own; its direction in global axes, where it has one.
+    Inner(Option<Dof>),
+}
+
+/// The matrices of an element with many rows, in global axes and SI. Rows that are no directions of its nodes become
+/// equations of the system.
+#[derive(Clone, Debug)]
+pub struct SparseMatrices {
+    /// What each row is; no direction of a node twice.
+    pub rows: Vec<SparseRow>,
+    /// Stiffness; symmetric, positive semi-definite.
+    pub stiffness: Arc<SparseMatrix>,
+    /// Mass; symmetric, positive semi-definite.
+    pub mass: Option<Arc<SparseMatrix>>,
+    /// Damping; symmetric, positive semi-definite.
+    pub damping: Option<Arc<SparseMatrix>>,
+}
