@@ -40,6 +40,11 @@ try {
     if (!text.includes(from)) complain(`the model has no ${from}`);
     writeFileSync(model, text.replace(from, to));
   };
+  /** Charts are drawn when they come near the screen. */
+  const drawn = async () => {
+    await value("document.querySelector('.chart').scrollIntoView()");
+    await until("a chart", "document.querySelector('.chart .view > svg').childElementCount > 0");
+  };
   const loaded = () => value("performance.timeOrigin");
 
   await on("Page.navigate", { url: `${pathToFileURL(resolve(page)).href}#watch` });
@@ -47,7 +52,8 @@ try {
   const first = await loaded();
   // A time by the slider of the player, a part of the time by the keys of a chart.
   await value("{ const s = document.querySelector('.scrub input'); s.value = 400; s.dispatchEvent(new Event('input')); }");
-  await value("{ const area = document.querySelector('.chart .view > svg'); area.dispatchEvent(new KeyboardEvent('keydown', { key: '+' })); }");
+  await drawn();
+  await value("document.querySelector('.chart .view > svg').dispatchEvent(new KeyboardEvent('keydown', { key: '+' }))");
   await until("the zoom", "!document.querySelector('.chart .reset').hidden");
   await value("window.scrollTo(0, 300)");
   const chosen = await value("document.querySelector('.scrub output').textContent");
@@ -55,8 +61,9 @@ try {
   save('"mu": 0.6', '"mu": 0.3');
   const waited = await until("the page to follow", `performance.timeOrigin > ${first} && document.documentElement.dataset.watched`);
   if ((await value("document.querySelector('.scrub output').textContent")) !== chosen) complain("the time was lost");
-  if (await value("document.querySelector('.chart .reset').hidden")) complain("the zoom was lost");
   if ((await value("scrollY")) !== 300) complain("the place on the page was lost");
+  await drawn();
+  if (await value("document.querySelector('.chart .reset').hidden")) complain("the zoom was lost");
   console.log(`followed after ${waited} ms`);
 
   const second = await loaded();

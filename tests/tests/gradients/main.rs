@@ -130,6 +130,7 @@ fn frame() -> ModelText {
 }
 
 const FRAME: &str = "../models/isolated_frame.ron";
+const ASKED: [&str; 6] = ["base_x", "base_y", "roof_x", "roof_y", "isolator_a_x", "isolator_a_y"];
 
 /// Six outputs by eight parameters, of links, of the structure, of its geometry, of loads.
 #[test]
@@ -137,10 +138,9 @@ fn the_isolated_frame_moves_as_runs_beside_it_do() {
     let by =
         ["radius", "mu_slow", "mu_fast", "damper", "brace_damper", "floor_mass", "ax", "storey"];
     let case = Case::new(&frame(), SolverKind::Hht, &[("duration", "1.6 s")], &by);
-    let outputs = ["base_x", "base_y", "roof_x", "roof_y", "isolator_a_x", "isolator_a_y"];
     for (name, off) in case.off() {
         for (output, off) in case.found.outputs.iter().zip(off) {
-            let asked = outputs.contains(&output.name.as_str());
+            let asked = ASKED.contains(&output.name.as_str());
             assert!(off < if asked { 1e-6 } else { 1e-4 }, "{} by {name}: {off:e}", output.name);
         }
     }
@@ -189,11 +189,14 @@ fn modes_move_with_the_structure() {
         let case = Case::new(&frame_with("", isolator), solver, &[("duration", "1.2 s")], &by);
         for (name, off) in case.off() {
             for (output, off) in case.found.outputs.iter().zip(off) {
-                assert!(off < 1e-5, "{} by {name}, {solver:?}: {off:e}", output.name);
+                // Of what hardly moves, as the twist, differences of runs are rounding.
+                let asked = ASKED.contains(&output.name.as_str());
+                let most = if asked { 1e-5 } else { 1e-4 };
+                assert!(off < most, "{} by {name}, {solver:?}: {off:e}", output.name);
             }
         }
         for (name, off) in case.heat_off().into_iter().chain(case.input_off()) {
-            assert!(off < 1e-5, "energy by {name}, {solver:?}: {off:e}");
+            assert!(off < 1e-6, "energy by {name}, {solver:?}: {off:e}");
         }
     }
 }
