@@ -24,6 +24,7 @@ const ACTIVE: &[(&str, &str)] = &[
         "without `rise` the slope turns the normal force and the height does not change",
     ),
     ("TriplePendulum", "as a friction pendulum without `rise`"),
+    ("Actuator", "it pushes by itself"),
 ];
 
 /// Paths with each set of parameters.

@@ -241,11 +241,11 @@ fn hinges_know_their_derivatives() {
         ("py", 2e6),
         ("mp2", 4e5),
         ("mp3", 3e5),
-        ("exponent_p", 1.7),
-        ("exponent_m2", 2.3),
-        ("exponent_m3", 1.4),
         ("ratio", 0.05),
     ];
-    let hinge: PMMHinge = law(&given, &[]);
-    check("PMMHinge", &hinge, &[2e-3, 0.02, 0.02], 0.5);
+    for [p, m2, m3] in [[1.7, 2.3, 1.4], [2.0; 3], [2.0, 1.5, 2.0]] {
+        let exponents = [("exponent_p", p), ("exponent_m2", m2), ("exponent_m3", m3)];
+        let hinge: PMMHinge = law(&[&given[..], &exponents].concat(), &[]);
+        check("PMMHinge", &hinge, &[2e-3, 0.02, 0.02], 0.5);
+    }
 }

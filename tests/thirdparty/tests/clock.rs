@@ -16,7 +16,7 @@ fn model(push: &str, forces: &str) -> Model {
                 {push}
             }},
             loads: {{ "up": [(node: "m", dof: Uz, force: "20 kN")] }},
-            functions: {{ "ramp": Table(t: [0, 0.503, 0.703, 10], y: [0, 0, 1, 1]) }},
+            functions: {{ "ramp": Points(points: [(0, 0), (0.503, 0), (0.703, 1), (10, 1)]) }},
             cases: {{
                 "weight": Static(loads: [Gravity]),
                 "push": Dynamic(after: "weight", duration: "2 s", dt: "20 ms", forces: [{forces}]),

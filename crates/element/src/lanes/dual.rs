@@ -181,6 +181,7 @@ fn slope<R: Real>(x: R, f: impl Fn(R) -> R) -> R {
 
 impl<const N: usize, R: Real> Real for Dual<N, R> {
     type Mask = R::Mask;
+    const DERIVATIVES: bool = true;
 
     #[inline(always)]
     fn of(self, x: f64) -> Self {

@@ -22,6 +22,9 @@ pub trait Real:
         + BitOr<Output = Self::Mask>
         + Not<Output = Self::Mask>;
 
+    /// True where a number carries derivatives: a shortcut that is right at a value may be wrong beside it.
+    const DERIVATIVES: bool = false;
+
     /// The same number in every lane.
     #[must_use]
     fn of(self, x: f64) -> Self;
