@@ -6,7 +6,7 @@
 import { readFileSync, writeFileSync } from "node:fs";
 import { resolve } from "node:path";
 import { pathToFileURL } from "node:url";
-import { open, pause } from "../../report/tests/chromium.mjs";
+import { open, session } from "../../report/tests/chromium.mjs";
 
 const [page, model] = process.argv.slice(2);
 const browser = open();
@@ -15,26 +15,7 @@ let bad = 0;
 const complain = (what) => { bad++; console.log(what); };
 
 try {
-  const { send } = browser;
-  const { targetId } = await send("Target.createTarget", { url: "about:blank" });
-  const { sessionId } = await send("Target.attachToTarget", { targetId, flatten: true });
-  const on = (method, params) => send(method, params, sessionId);
-  browser.listeners.add(({ method, params, sessionId: of }) => {
-    if (of !== sessionId) return;
-    if (method === "Runtime.consoleAPICalled") complain(`console: ${params.args.map((a) => a.value ?? a.description).join(" ")}`);
-    if (method === "Runtime.exceptionThrown") complain(`exception: ${params.exceptionDetails.exception?.description ?? params.exceptionDetails.text}`);
-  });
-  for (const domain of ["Page", "Runtime", "Network"]) await on(`${domain}.enable`);
-  await on("Network.emulateNetworkConditions", { offline: true, latency: 0, downloadThroughput: 0, uploadThroughput: 0 });
-  const value = async (expression) => (await on("Runtime.evaluate", { expression, returnByValue: true })).result.value;
-  const until = async (what, expression) => {
-    const begin = Date.now();
-    while (!(await value(expression))) {
-      if (Date.now() - begin > 60000) throw new Error(`waited in vain for ${what}`);
-      await pause(20);
-    }
-    return Date.now() - begin;
-  };
+  const { on, value, until } = await session(browser, complain);
   const save = (from, to) => {
     const text = readFileSync(model, "utf8");
     if (!text.includes(from)) complain(`the model has no ${from}`);
@@ -48,7 +29,7 @@ try {
   const loaded = () => value("performance.timeOrigin");
 
   await on("Page.navigate", { url: `${pathToFileURL(resolve(page)).href}#watch` });
-  await until("the page", "document.documentElement.dataset.ready && document.documentElement.dataset.watched");
+  await until("the page", "document.documentElement?.dataset.ready && document.documentElement?.dataset.watched");
   const first = await loaded();
   // A time by the slider of the player, a part of the time by the keys of a chart.
   await value("{ const s = document.querySelector('.scrub input'); s.value = 400; s.dispatchEvent(new Event('input')); }");
@@ -59,7 +40,7 @@ try {
   const chosen = await value("document.querySelector('.scrub output').textContent");
 
   save('"mu": 0.6', '"mu": 0.3');
-  const waited = await until("the page to follow", `performance.timeOrigin > ${first} && document.documentElement.dataset.watched`);
+  const waited = await until("the page to follow", `performance.timeOrigin > ${first} && document.documentElement?.dataset.watched`);
   if ((await value("document.querySelector('.scrub output').textContent")) !== chosen) complain("the time was lost");
   if ((await value("scrollY")) !== 300) complain("the place on the page was lost");
   await drawn();

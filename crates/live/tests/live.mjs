@@ -8,7 +8,7 @@
 import { mkdirSync, readFileSync, writeFileSync } from "node:fs";
 import { join, resolve } from "node:path";
 import { pathToFileURL } from "node:url";
-import { open, pause } from "../../report/tests/chromium.mjs";
+import { open, pause, session } from "../../report/tests/chromium.mjs";
 
 const [path, expected, out] = process.argv.slice(2);
 const wanted = JSON.parse(readFileSync(expected, "utf8"));
@@ -17,29 +17,11 @@ if (!browser) process.exit(0);
 if (out) mkdirSync(out, { recursive: true });
 /** Peaks of the page and of the program are equal to so many parts: their libraries differ in last bits, whose growth the steps' tolerance holds. */
 const EQUAL = 1e-6;
-const LONG = 120000;
 let bad = 0;
 const complain = (what) => { bad++; console.log(what); };
 
 try {
-  const { send } = browser;
-  const { targetId } = await send("Target.createTarget", { url: "about:blank" });
-  const { sessionId } = await send("Target.attachToTarget", { targetId, flatten: true });
-  const on = (method, params) => send(method, params, sessionId);
-  browser.listeners.add(({ method, params, sessionId: of }) => {
-    if (of !== sessionId) return;
-    if (method === "Runtime.consoleAPICalled") complain(`console: ${params.args.map((a) => a.value ?? a.description).join(" ")}`);
-    if (method === "Runtime.exceptionThrown") complain(`exception: ${params.exceptionDetails.exception?.description ?? params.exceptionDetails.text}`);
-    if (method === "Log.entryAdded") complain(`log: ${params.entry.text}`);
-    if (method === "Network.requestWillBeSent" && !/^(file|data|blob):/.test(params.request.url)) complain(`asks for ${params.request.url}`);
-  });
-  for (const domain of ["Page", "Runtime", "Log", "Network"]) await on(`${domain}.enable`);
-  await on("Network.emulateNetworkConditions", { offline: true, latency: 0, downloadThroughput: 0, uploadThroughput: 0 });
-  const value = async (expression) => {
-    const { result, exceptionDetails } = await on("Runtime.evaluate", { expression, awaitPromise: true, returnByValue: true });
-    if (exceptionDetails) complain(`exception: ${exceptionDetails.exception?.description ?? exceptionDetails.text}`);
-    return result.value;
-  };
+  const { on, value, until: wait } = await session(browser, complain);
   const size = (width, height, scheme) => Promise.all([
     on("Emulation.setDeviceMetricsOverride", { width, height, deviceScaleFactor: 1, mobile: width < 500 }),
     on("Emulation.setEmulatedMedia", { media: "screen", features: [{ name: "prefers-color-scheme", value: scheme }] }),
@@ -50,14 +32,8 @@ try {
     const { data } = await on("Page.captureScreenshot", { format: "png" });
     writeFileSync(join(out, `${name}.png`), Buffer.from(data, "base64"));
   };
-  const until = async (what, expression) => {
-    const begin = Date.now();
-    while (!(await value(expression))) {
-      if (Date.now() - begin > LONG) throw new Error(`waited in vain for ${what}: ${await value("document.querySelector('#state').textContent + document.querySelector('#told').textContent")}`);
-      await pause(20);
-    }
-    return Date.now() - begin;
-  };
+  const until = (what, expression) =>
+    wait(what, expression, "document.querySelector('#state').textContent + document.querySelector('#told').textContent");
   const state = () => value("document.getElementById('state').textContent");
   const compare = async (of, all) => {
     const seen = await value("Object.fromEntries([...document.querySelectorAll('#peaks tbody tr')].map((r) => [r.cells[0].textContent, Number(r.dataset.value)]))");

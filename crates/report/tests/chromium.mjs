@@ -48,3 +48,42 @@ export function open() {
   };
   return { send, listeners, close };
 }
+
+/** A page of a browser without network: its protocol, the value of an expression there, and waiting until one is true. Whatever its console
+ *  says, and whatever it asks of a network, is complained of. */
+export async function session({ send, listeners }, complain, patience = 120000) {
+  const { targetId } = await send("Target.createTarget", { url: "about:blank" });
+  const { sessionId } = await send("Target.attachToTarget", { targetId, flatten: true });
+  const on = (method, params) => send(method, params, sessionId);
+  const thrown = (details) => complain(`exception: ${details.exception?.description ?? details.text}`);
+  listeners.add(({ method, params, sessionId: of }) => {
+    if (of !== sessionId) return;
+    if (method === "Runtime.consoleAPICalled") complain(`console: ${params.args.map((a) => a.value ?? a.description).join(" ")}`);
+    if (method === "Runtime.exceptionThrown") thrown(params.exceptionDetails);
+    if (method === "Log.entryAdded") complain(`log: ${params.entry.text}`);
+    if (method === "Network.requestWillBeSent" && !/^(file|data|blob):/.test(params.request.url)) complain(`asks for ${params.request.url}`);
+  });
+  for (const domain of ["Page", "Runtime", "Log", "Network"]) await on(`${domain}.enable`);
+  await on("Network.emulateNetworkConditions", { offline: true, latency: 0, downloadThroughput: 0, uploadThroughput: 0 });
+  const value = async (expression) => {
+    try {
+      const { result, exceptionDetails } = await on("Runtime.evaluate", { expression, awaitPromise: true, returnByValue: true });
+      if (exceptionDetails) thrown(exceptionDetails);
+      return result.value;
+    } catch (error) {
+      // A page that is just loading another one has no answer.
+      if (/navigated|destroyed|context/.test(error.message)) return undefined;
+      throw error;
+    }
+  };
+  /** Milliseconds until an expression is true; what else is told where that is in vain comes from `told`. */
+  const until = async (what, expression, told = "''") => {
+    const begin = Date.now();
+    while (!(await value(expression))) {
+      if (Date.now() - begin > patience) throw new Error(`waited in vain for ${what} ${await value(told)}`);
+      await pause(20);
+    }
+    return Date.now() - begin;
+  };
+  return { on, value, until };
+}
