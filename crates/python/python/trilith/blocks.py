@@ -3699,6 +3699,56 @@ class Sum(Block):
         )
 
 
+class Superelement(Block):
+    """A structure by its matrices, made by another program: a wall, a slab, a tank, a machine. On 1 nodes or more.
+
+    :param nodes: The nodes. Default: `node`.
+    :param node: The only node: a link or spring between it and the ground. Default: `nodes`.
+    :param use: Parameters from the set; those given beside it come first. Default: none.
+    :param stiffness: stiffness matrix in global axes and SI (N/m, N, N·m) (path of a `.mtx` or `.npz` file).
+    :param mass: mass matrix (kg, kg·m, kg·m²); without it there is no mass (path of a `.mtx` or `.npz` file,
+        default absent).
+    :param damping: damping matrix (N·s/m, N·s, N·m·s), beside what `damping` of the model gives (path of a `.mtx`
+        or `.npz` file, default absent).
+    :param rows: CSV file `row,node,dof`: number of a row, from 1, label of its node, and `Ux` … `Rz` (path of a
+        text file).
+    :param labels: what the files call its nodes, in their order; instead, `nodes` may be a map from labels to
+        nodes. Without either the files use the names of the nodes (a text for each node, default absent).
+    :param axis1: Direction of local axis 1. Default: from the first node to the second; +Z for one node.
+    :param axis2: Vector in the plane of local axes 1 and 2. Default: the upward direction square to axis 1; +X
+        for a vertical one.
+    """
+
+    _name = "Superelement"
+
+    def __init__(
+        self,
+        *,
+        nodes: Any | None = None,
+        node: str | None = None,
+        use: Any | None = None,
+        stiffness: Block | str | None = None,
+        mass: Block | str | None = None,
+        damping: Block | str | None = None,
+        rows: Block | str | None = None,
+        labels: Sequence[Any] | None = None,
+        axis1: Any | None = None,
+        axis2: Any | None = None,
+    ) -> None:
+        super().__init__(
+            nodes=nodes,
+            node=node,
+            use=use,
+            stiffness=stiffness,
+            mass=mass,
+            damping=damping,
+            rows=rows,
+            labels=labels,
+            axis1=axis1,
+            axis2=axis2,
+        )
+
+
 class Synthetic(Block):
     """A synthetic motion: white noise through the filters of Kanai, Tajimi, Clough and Penzien, under an envelope;
     or, with `spectrum`, brought to a response spectrum.
@@ -4364,6 +4414,7 @@ __all__ = [
     "StoreyDrift",
     "Strip",
     "Sum",
+    "Superelement",
     "Synthetic",
     "T",
     "Table",
