@@ -385,3 +385,29 @@ fn matrices_with_negative_energies_are_refused_by_the_assembly() {
     let error = refused(&k, &light);
     assert!(error.starts_with("element \"frame\": its mass (m.mtx) is not positive"), "{error}");
 }
+
+/// In JSON the map is an object, which looks as fields do elsewhere.
+#[test]
+fn nodes_by_labels_are_read_from_json_as_well() {
+    let text = |right: &str| {
+        format!(
+            r#"{{ "plane": "XZ",
+            "nodes": {{ "left": [0, 0, 0], "right": [3, 0, 0], "top": [1.5, 0, 6] }},
+            "elements": {{
+                "wall": {{ "Superelement": {{
+                    "nodes": {{ "1": "left", "79": "{right}", "52": "top" }},
+                    "stiffness": "superelements/wall_k.mtx", "mass": "superelements/wall_m.mtx",
+                    "rows": "superelements/wall_rows.csv" }} }},
+                "feet": {{ "Gap": {{ "node": "left", "k": "2 GN/m" }} }} }},
+            "cases": {{ "weight": {{ "Static": {{ "loads": ["Gravity"] }} }} }},
+            "outputs": {{ "x": {{ "Displacement": {{ "node": "top", "dof": "Ux" }} }} }} }}"#
+        )
+    };
+    let path = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("../models/wall.json");
+    let read = |right: &str| trilith::read_text(&text(right), &path, &trilith::registry(), &[]);
+    let model = read("right").expect("a model");
+    let system = trilith::Analysis::new(&model).expect("a structure").system().order();
+    assert_eq!(system, 182);
+    let told = read("rihgt").unwrap_err().to_string();
+    assert!(told.contains("wall.json:5:") && told.contains("rihgt"), "{told}");
+}

@@ -52,7 +52,8 @@ fn it_pushes_as_a_load_does_under_every_solver() {
         }
         // What it has put in is told as what a link has given.
         let [jack, load] = runs.map(|run| run.result.energy);
-        assert!(jack.error_relative < 1e-6, "{solver:?}: {}", jack.error_relative);
+        // The law takes the way of a step for straight.
+        assert!(jack.error_relative < 1e-4, "{solver:?}: {}", jack.error_relative);
         let given = -jack.link_hysteretic;
         assert!((given / load.input - 1.0).abs() < 1e-2, "{solver:?}: {given} {}", load.input);
     }

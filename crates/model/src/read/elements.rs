@@ -93,6 +93,14 @@ fn labelled(card: &Card) -> bool {
     card.parameters.iter().any(|p| p.form == Form::Labels)
 }
 
+/// The entries of nodes that are given by labels: those of a map, and of what an object of JSON looks like.
+fn keyed(nodes: &Node) -> Option<&[Entry]> {
+    match &nodes.kind {
+        Kind::Map(entries) | Kind::Fields(None, entries) => Some(entries),
+        _ => None,
+    }
+}
+
 /// What the cross-section of a member looks like: as its own section says, by its sides, or as the set says that it uses.
 fn shape(card: &Card, given: &Given<'_>, values: &Values) -> Option<Shape> {
     let [own, shared] = &given.made;
@@ -251,15 +259,15 @@ impl Reading<'_, '_> {
                 c.report(d.help("keep one of the two"));
                 return None;
             }
-            (Some(list), None) => match (&list.kind, labelled(card)) {
-                (Kind::Map(entries), true) => entries.iter().map(|e| &e.value).collect(),
-                _ => list.items(),
+            (Some(list), None) => match keyed(list).filter(|_| labelled(card)) {
+                Some(entries) => entries.iter().map(|e| &e.value).collect(),
+                None => list.items(),
             },
             (None, Some(one)) => vec![one],
             (None, None) => return fields.required(c, "nodes").and(None),
         };
         // A group in a list stands for its members, the only node is one.
-        let of_list = fields.get("nodes").is_some_and(|n| !matches!(n.kind, Kind::Map(_)));
+        let of_list = fields.get("nodes").is_some_and(|n| keyed(n).is_none());
         let mut found: Vec<(&Node, Option<usize>)> = Vec::with_capacity(items.len());
         for item in items {
             match self.names.group(item).filter(|_| of_list) {
@@ -302,10 +310,7 @@ impl Reading<'_, '_> {
         what: &str,
     ) -> Option<()> {
         let c = self.c;
-        let keys = match fields.get("nodes").map(|n| &n.kind) {
-            Some(Kind::Map(entries)) => Some(entries),
-            _ => None,
-        };
+        let keys = fields.get("nodes").and_then(keyed);
         if let (Some(_), Some(given)) = (keys, fields.get(name)) {
             let message = format!("{what} gives labels as keys of `nodes`, and `{name}`");
             let d = c.diagnostic("E0102", message, given.span.clone());
