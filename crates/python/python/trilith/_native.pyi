@@ -37,6 +37,7 @@ GradientFacts: TypeAlias = tuple[
     list[tuple[str, float, str]],
     list[tuple[str, str, "Column", list["Column"], list[ValueFacts]]],
     list[tuple[str, float, list[float]]],
+    tuple[float, list[float]],
     list[tuple[str, float, int]],
     int,
 ]
