@@ -14,7 +14,7 @@ use serde::de::DeserializeOwned;
 ///     .nodes(NodeCount::GROUND_OR_TWO)
 ///     .parameters(&[
 ///         Parameter::required("k", "k", STIFFNESS, Range::Positive, "stiffness of the stop"),
-///         Parameter::number("gap", "g", LENGTH, Range::NotNegative, 0.0, "clearance on both sides"),
+///         Parameter::number("gap", "g", LENGTH, Range::NonNegative, 0.0, "clearance on both sides"),
 ///     ])
 ///     .law("f = k (d − g) where d > g, k (d + g) where d < −g, else 0")
 ///     .source("first principles")
