@@ -44,38 +44,38 @@ impl Superelement {
     )
     .nodes(NodeCount::at_least(1))
     .parameters(&[
-            Parameter::new(
-                "stiffness",
-                "K",
-                Form::SparseMatrix,
-                Default::Required,
-                "stiffness matrix in global axes and SI (N/m, N, N·m)",
-            ),
-            Parameter::new(
-                "mass",
-                "M",
-                Form::SparseMatrix,
-                Default::Absent,
-                "mass matrix (kg, kg·m, kg·m²); without it there is no mass",
-            ),
-            Parameter::new(
-                "damping",
-                "C",
-                Form::SparseMatrix,
-                Default::Absent,
-                "damping matrix (N·s/m, N·s, N·m·s), beside what `damping` of the model gives",
-            ),
-            Parameter::file(
-                "rows",
-                "CSV file `row,node,dof`: number of a row, from 1, label of its node, and `Ux` … `Rz`",
-            ),
-            Parameter::new(
-                "labels",
-                "",
-                Form::Labels,
-                Default::Absent,
-                "what the files call its nodes, in their order; instead, `nodes` may be a map from labels to nodes. Without either the files use the names of the nodes",
-            ),
+        Parameter::new(
+            "stiffness",
+            "K",
+            Form::SparseMatrix,
+            Default::Required,
+            "stiffness matrix in global axes and SI (N/m, N, N·m)",
+        ),
+        Parameter::new(
+            "mass",
+            "M",
+            Form::SparseMatrix,
+            Default::Absent,
+            "mass matrix (kg, kg·m, kg·m²); without it there is no mass",
+        ),
+        Parameter::new(
+            "damping",
+            "C",
+            Form::SparseMatrix,
+            Default::Absent,
+            "damping matrix (N·s/m, N·s, N·m·s), beside what `damping` of the model gives",
+        ),
+        Parameter::file(
+            "rows",
+            "CSV file `row,node,dof`: number of a row, from 1, label of its node, and `Ux` … `Rz`",
+        ),
+        Parameter::new(
+            "labels",
+            "",
+            Form::Labels,
+            Default::Absent,
+            "what the files call its nodes, in their order; instead, `nodes` may be a map from labels to nodes. Without either the files use the names of the nodes",
+        ),
     ])
     .law("K u + C u̇ + M ü, rows tied to directions of nodes as `rows` says\nall other rows are equations of the system")
     .source("R. D. Cook et al., Concepts and Applications of Finite Element Analysis, 4th ed., 2002, §10.11")
