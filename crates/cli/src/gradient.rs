@@ -5,7 +5,7 @@ use crate::interrupt::INTERRUPTED;
 use crate::text::{names_help, number, row, table};
 use crate::{Answer, Failure, case, diagnostics, model_text, names, solver};
 use serde::Serialize;
-use trilith::gradient::{GradientError, Wanted, gradient as find};
+use trilith::gradient::{GradientError, HEAT, HEAT_OF, INPUT, Wanted, gradient as find};
 use trilith::model::{Body, ParameterValue, visible_line};
 use trilith::solvers::gradient::{Bend, Extreme, Gradient};
 use trilith::{Error, Model, Registry};
@@ -68,6 +68,7 @@ pub(crate) fn gradient(registry: &Registry, args: &GradientArguments) -> Result<
         dt: args.dt,
         by: names::flat(&args.by),
         set: args.model.set.clone(),
+        input: asked.contains(&Asked::Input),
     };
     let found = find(&text, registry, &wanted).map_err(|e| failure(e, &model))?;
     let told = told(&model, &model.cases[chosen].name, &found, &asked);
@@ -95,7 +96,8 @@ pub(crate) fn told<'a>(
                 Asked::Output(output) => rows(model, found, *output),
                 Asked::Heat(element) => vec![heat(model, found, *element)],
                 Asked::Input => {
-                    vec![energy(model, found, INPUT.into(), (found.input, found.input_by.clone()))]
+                    let of = found.input.clone();
+                    of.map(|of| energy(model, found, INPUT.into(), of)).into_iter().collect()
                 }
             })
             .collect(),
@@ -118,12 +120,6 @@ pub(crate) enum Asked {
     /// The energy that loads and moving supports have put in.
     Input,
 }
-
-/// The name of what all links together turn into heat, and the beginning of that of one.
-pub(crate) const HEAT: &str = "heat";
-const HEAT_OF: &str = "heat of ";
-/// The name of what loads and moving supports have put in.
-const INPUT: &str = "input";
 
 /// Outputs and energies of these names; all outputs that are shown where none are given.
 fn asked(model: &Model, wanted: &[String]) -> Result<Vec<Asked>, Failure> {

@@ -63,10 +63,12 @@ pub fn comparison(all: &[Compared]) -> String {
     if all.is_empty() { String::new() } else { crate::compare::text(all) }
 }
 
-/// What `trilith gradient` prints of these outputs.
+/// What `trilith gradient` prints of these outputs, and of the energy put in where that was found.
 #[must_use]
 pub fn gradient(model: &Model, case: &str, found: &Gradient, outputs: &[usize]) -> String {
-    let asked: Vec<_> = outputs.iter().map(|o| crate::gradient::Asked::Output(*o)).collect();
+    use crate::gradient::Asked;
+    let input = found.input.iter().map(|_| Asked::Input);
+    let asked: Vec<_> = outputs.iter().map(|o| Asked::Output(*o)).chain(input).collect();
     crate::gradient::page(model, &crate::gradient::told(model, case, found, &asked))
 }
 

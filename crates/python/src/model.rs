@@ -214,8 +214,9 @@ impl Model {
             let text = ModelText::new(&text, path).map_err(|e| Failure::diagnostics(&e))?;
             let case = model.cases[index(&model, case.as_deref())?].name.clone();
             let solver = solver.as_deref().map(kind).transpose()?;
-            let wanted = trilith::gradient::Wanted { case: Some(case), solver, dt, by, set };
-            optimize::gradient(&model, &text, &wanted, &of, watch)
+            let case = Some(case);
+            let wanted = trilith::gradient::Wanted { case, solver, dt, by, set, input: false };
+            optimize::gradient(&model, &text, wanted, &of, watch)
         })
     }
 

@@ -16,26 +16,26 @@ use trilith_cli::told;
 type ValueFacts = (f64, f64, Vec<f64>);
 /// An output: name, unit, history, derivatives of it by each parameter; largest, smallest value, largest magnitude and value at the end.
 type OutputFacts = (String, String, Column, Vec<Column>, [ValueFacts; 4]);
-/// The program's text; times; parameters with value and unit; outputs; what links have turned into heat, and what loads and supports have put in, until the
-/// end, with derivatives; links whose laws bend, when first and how often; substeps.
+/// The program's text; times; parameters with value and unit; outputs; what links have turned into heat, and what loads and supports have put in, where that is
+/// asked for, until the end, with derivatives; links whose laws bend, when first and how often; substeps.
 pub(crate) type GradientFacts = (
     String,
     Column,
     Vec<(String, f64, String)>,
     Vec<OutputFacts>,
     Vec<(String, f64, Vec<f64>)>,
-    (f64, Vec<f64>),
+    Option<(f64, Vec<f64>)>,
     Vec<(String, f64, usize)>,
     usize,
 );
 /// The program's text, and all that was found as JSON.
 pub(crate) type OptimumFacts = (String, String);
 
-/// Finds the derivatives of some outputs, or of all.
+/// Finds the derivatives of some outputs, or of all; `of` may name the energy put in among them.
 pub(crate) fn gradient(
     model: &Model,
     text: &ModelText,
-    wanted: &gradient::Wanted,
+    mut wanted: gradient::Wanted,
     of: &[String],
     watch: &Watch,
 ) -> Result<GradientFacts, Failure> {
@@ -46,12 +46,19 @@ pub(crate) fn gradient(
     };
     let outputs = match of {
         [] => model.shown().map(|(i, _)| i).collect(),
-        of => of.iter().map(index).collect::<Result<Vec<_>, _>>()?,
+        of => {
+            let mut named: Vec<_> = of.iter().collect();
+            if model.output(gradient::INPUT).is_none() {
+                named.retain(|name| *name != gradient::INPUT);
+                wanted.input = named.len() < of.len();
+            }
+            named.into_iter().map(index).collect::<Result<Vec<_>, _>>()?
+        }
     };
-    if outputs.is_empty() {
+    if outputs.is_empty() && !wanted.input {
         return Err(Failure::argument("the model has no output", None));
     }
-    let found = gradient::gradient_until(text, &trilith::registry(), wanted, &watch.interrupt);
+    let found = gradient::gradient_until(text, &trilith::registry(), &wanted, &watch.interrupt);
     let found = found.map_err(|e| refused(e, model))?;
     let case = wanted.case.as_deref().unwrap_or_default();
     let page = told::gradient(model, case, &found, &outputs);
@@ -72,7 +79,7 @@ pub(crate) fn gradient(
         parameters,
         facts.collect(),
         found.heat.iter().map(|h| (h.link.clone(), h.heat, h.by.clone())).collect(),
-        (found.input, found.input_by.clone()),
+        found.input.clone(),
         found.bends.iter().map(|b| (b.link.clone(), b.t, b.count)).collect(),
         found.substeps,
     ))

@@ -35,7 +35,8 @@ def isolator() -> tl.Model:
 
 
 def test_derivatives_are_those_of_runs_beside(isolator: tl.Model) -> None:
-    g = isolator.gradient(by=["c", "k"], of=["x"])
+    assert isolator.gradient(by=["c"], of=["x"]).input is None
+    g = isolator.gradient(by=["c", "k"], of=["x", "input"])
     assert list(g) == ["x"] and g.parameters == {"c": 300.0, "k": 10000.0} and g.units["c"] == "N·s/m"
     x = g["x"]
     assert x.unit == "m" and x.history.shape == g.t.shape == x.by["k"].shape
@@ -47,7 +48,7 @@ def test_derivatives_are_those_of_runs_beside(isolator: tl.Model) -> None:
         low, high = (isolator.with_parameters({name: value + s * h}).run()["x"] for s in (-1, 1))
         apart = np.abs(x.by[name] - (high - low) / (2 * h)).max()
         assert apart < 2e-2 * np.abs(x.by[name]).max()
-    assert g.input.value == 0.0 == g.input.by["c"]  # it sets out with a velocity: no load puts anything in
+    assert g.input is not None and g.input.value == 0.0 == g.input.by["c"]  # it sets out with a velocity: no load puts anything in
     assert list(g.heat) == ["damper"] and 20 < g.heat["damper"].value < 50 and g.heat["damper"].by["c"] > 0
     assert "x" in str(g) and "by c, k" in repr(g)
     assert g.bends == [] and g.substeps >= 150

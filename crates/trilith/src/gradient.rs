@@ -51,7 +51,16 @@ pub struct Wanted {
     pub by: Vec<String>,
     /// Values of parameters in place of those of the file.
     pub set: Vec<(String, String)>,
+    /// Whether the energy that loads and moving supports put in is wanted too.
+    pub input: bool,
 }
+
+/// Where an output is named: what all links together have turned into heat until the end.
+pub const HEAT: &str = "heat";
+/// The beginning of the name of what one link has turned into heat until the end; its name follows.
+pub const HEAT_OF: &str = "heat of ";
+/// What loads and moving supports have put in until the end.
+pub const INPUT: &str = "input";
 
 /// Why there are no derivatives.
 #[derive(Debug, thiserror::Error)]
@@ -256,7 +265,8 @@ pub(crate) fn whole(
     if wanted.by.is_empty() {
         around.retain(|around| keeps_its_times(around, case));
     }
-    let options = GradientOptions { case, solver: wanted.solver, dt: wanted.dt };
+    let Wanted { solver, dt, input, .. } = *wanted;
+    let options = GradientOptions { case, solver, dt, input };
     let system = assemble(&model).map_err(Error::from)?;
     let found = gradient_until_of(&model, &system, options, &around, interrupt);
     let found = found.map_err(|e| match e {

@@ -28,7 +28,7 @@ impl Case {
         let by: Vec<String> = by.iter().map(|n| (*n).to_owned()).collect();
         let around = around(text, &registry, &set, &model, &by).expect("models around");
         let case = model.cases.len() - 1;
-        let options = GradientOptions { case, solver: Some(solver), dt: None };
+        let options = GradientOptions { case, solver: Some(solver), dt: None, input: true };
         let system = assemble(&model).expect("a structure");
         let found = gradient(&model, &system, options, &around).expect("derivatives");
         Self { around, options, found }
@@ -110,8 +110,9 @@ impl Case {
                 replay(model, &system, self.options, &self.found).expect("a run").input
             });
             let h = 2.0 * SMALL * around.of.step;
-            let given = self.found.input_by[j];
-            let most = given.abs().max(1e-2 * self.found.input.abs() / around.of.value.abs());
+            let (value, by) = self.found.input.as_ref().expect("it is asked for");
+            let given = by[j];
+            let most = given.abs().max(1e-2 * value.abs() / around.of.value.abs());
             (around.of.name.clone(), (given - (high - low) / h).abs() / most)
         };
         self.around.iter().enumerate().map(of).collect()
@@ -133,7 +134,8 @@ impl Case {
             let heat = energy.hysteretic + energy.viscous;
             assert!((own.heat - heat).abs() <= 1e-9 * heat.abs(), "{name}: {} {heat}", own.heat);
         }
-        assert!((self.found.input / run.energy.input - 1.0).abs() < 1e-9);
+        let (input, _) = self.found.input.as_ref().expect("it is asked for");
+        assert!((input / run.energy.input - 1.0).abs() < 1e-9);
         let sum = run.energy.link_hysteretic + run.energy.link_viscous;
         assert!((self.found.all_heat().0 / sum - 1.0).abs() < 1e-9);
     }

@@ -336,11 +336,11 @@ class Model:
         """Runs a dynamic case, and finds exact derivatives of outputs by parameters.
 
         :param by: names of parameters; without them all that are numbers other than zero and leave the times of the case alone.
-        :param of: names of outputs; without them all.
+        :param of: names of outputs; without them all. ``"input"`` is the energy that loads and moving supports put in.
         :param case: its name; without it the last case of the model.
-        :param solver: ``"hht"``, or ``"fna"`` and ``"ritz-hht"`` for parameters of links and loads; without it that of the case.
+        :param solver: ``"fna"``, ``"hht"`` or ``"ritz-hht"``; without it that of the case.
         :param dt: output step, s.
-        :raises RunError: where a parameter moves what must stay as it is, such as the structure under ``"fna"``.
+        :raises RunError: where a parameter moves what must stay as it is, such as the output step.
         :raises ArgumentError: for names that there are not.
         """
         from ._optimize import gradient

@@ -37,7 +37,7 @@ GradientFacts: TypeAlias = tuple[
     list[tuple[str, float, str]],
     list[tuple[str, str, "Column", list["Column"], list[ValueFacts]]],
     list[tuple[str, float, list[float]]],
-    tuple[float, list[float]],
+    tuple[float, list[float]] | None,
     list[tuple[str, float, int]],
     int,
 ]

@@ -68,7 +68,7 @@ class Gradient(Mapping[str, OutputGradient]):
         parameters: Sequence[tuple[str, float, str]],
         outputs: Mapping[str, OutputGradient],
         heat: Mapping[str, Sensitive],
-        input: Sensitive,
+        input: Sensitive | None,
         bends: Sequence[tuple[str, float, int]],
         substeps: int,
     ) -> None:
@@ -82,7 +82,7 @@ class Gradient(Mapping[str, OutputGradient]):
         self.units: dict[str, str] = {name: unit for name, _, unit in parameters}
         #: What each link has turned into heat until the end, J.
         self.heat: dict[str, Sensitive] = dict(heat)
-        #: What loads and moving supports have put in until the end, J.
+        #: What loads and moving supports have put in until the end, J, where ``of`` names ``"input"``.
         self.input = input
         #: Links whose laws bend where substeps ended.
         self.bends: list[Bend] = [Bend(*bend) for bend in bends]
@@ -211,7 +211,7 @@ def gradient(
     times = array(t)
     end = float(times[-1])
     heat = {link: Sensitive(end, x, dict(zip(names, slopes))) for link, x, slopes in links}
-    source = Sensitive(end, put_in[0], dict(zip(names, put_in[1])))
+    source = put_in and Sensitive(end, put_in[0], dict(zip(names, put_in[1])))
     return Gradient(text, times, parameters, made, heat, source, bends, substeps)
 
 

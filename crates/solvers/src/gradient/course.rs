@@ -25,11 +25,13 @@ pub struct GradientOptions {
     pub solver: Option<SolverKind>,
     /// Output step in s; `None`: the case's own.
     pub dt: Option<f64>,
+    /// Whether the energy that loads and moving supports put in is wanted too: it costs about a tenth of a run for each parameter.
+    pub input: bool,
 }
 
 impl GradientOptions {
     pub(super) fn of_run<'a>(self) -> RunOptions<'a> {
-        let Self { case, solver, dt } = self;
+        let Self { case, solver, dt, .. } = self;
         RunOptions { case, solver, dt, ..RunOptions::default() }
     }
 }
@@ -122,6 +124,9 @@ pub fn gradient_until(
     let outputs = Outputs::new(model, system, propagator.space());
     let mut follower = Follower::new(outputs, &prepared.loads, &influences);
     let mut moves = Moves::new(&prepared, &influences, moving, propagator, &state)?;
+    if options.input {
+        moves.follow_input();
+    }
     let mut found = Gradient {
         parameters: by.iter().map(|a| a.of.name.clone()).collect(),
         values: by.iter().map(|a| a.of.value).collect(),
@@ -177,8 +182,7 @@ pub fn gradient_until(
         }
     }
     found.bends = moves.bends();
-    found.input = moving.ledger.totals.input;
-    found.input_by = moves.input(&moving.state);
+    found.input = moves.input(&moving.state).map(|by| (moving.ledger.totals.input, by));
     let links = moving.ledger.links.iter().zip(moves.heat()).zip(&system.links.links);
     let heat = |((energy, by), link): ((&LinkEnergy, &Vec<f64>), &LinkInstance)| HeatGradient {
         link: model.elements[link.element].name.clone(),

@@ -15,6 +15,7 @@
 use super::influence::Influence;
 use crate::march::{constant_force, potential};
 use crate::step::{Forces, Propagator, State};
+use crate::structure::ReducedSystem;
 use crate::vector::largest;
 use trilith_model::Side;
 use trilith_system::LoadSet;
@@ -33,12 +34,20 @@ pub(super) struct InputMoves<'a> {
 
 /// A step and its derivatives by one parameter.
 pub(super) struct Moved<'s> {
-    /// States at both ends, and their times (s).
+    /// States at both ends.
     pub states: [&'s State; 2],
-    pub times: [f64; 2],
     /// Their derivatives, and of the motion at the end what a basis that moves has in it, with the work of its loads.
     pub by: [&'s State; 2],
     pub basis: Option<(&'s [f64], f64)>,
+}
+
+/// The loads of a run at both ends of a step.
+pub(super) struct EndLoads {
+    /// Times (s), and the side of a jump that is in the step.
+    sides: [(f64, Side); 2],
+    force: [Vec<f64>; 2],
+    /// Deformations of links by supports.
+    support: [Vec<f64>; 2],
 }
 
 impl<'a> InputMoves<'a> {
@@ -64,15 +73,30 @@ impl<'a> InputMoves<'a> {
         self.influences.iter().zip(moves).map(of).collect()
     }
 
-    /// Enters a step by the parameter of this index.
-    pub(super) fn enter(&mut self, j: usize, propagator: &mut dyn Propagator, step: &Moved<'_>) {
-        let Moved { states: [from, to], by: [from_by, to_by], times: [t0, t1], basis } = step;
-        let influence = &self.influences[j];
-        let sides = [(*t0, Side::After), (*t1, Side::Before)];
+    /// The loads of the run over a step between these times (s).
+    pub(super) fn loads(&self, [start, end]: [f64; 2], space: &ReducedSystem) -> EndLoads {
+        let sides = [(start, Side::After), (end, Side::Before)];
         let amplitudes = sides.map(|(t, side)| -> Vec<f64> {
             self.loads.channels.iter().map(|c| c.track.at(t, side)).collect()
         });
-        let force = [0, 1].map(|i| propagator.space().force(&amplitudes[i]));
+        let support = [0, 1].map(|i| {
+            let (mut d, mut v) = (vec![0.0; self.flat], vec![0.0; self.flat]);
+            self.loads.support_deformation(&amplitudes[i], &mut d, &mut v);
+            d
+        });
+        EndLoads { sides, force: amplitudes.map(|a| space.force(&a)), support }
+    }
+
+    /// Enters a step by the parameter of this index.
+    pub(super) fn enter(
+        &mut self,
+        j: usize,
+        propagator: &mut dyn Propagator,
+        EndLoads { sides, force, support }: &EndLoads,
+        step: &Moved<'_>,
+    ) {
+        let Moved { states: [from, to], by: [from_by, to_by], basis } = step;
+        let influence = &self.influences[j];
         let more = match &influence.loads {
             Some(loads) => {
                 sides.map(|(t, side)| Some(loads.at(influence.step, t, side, self.flat)))
@@ -103,29 +127,7 @@ impl<'a> InputMoves<'a> {
             propagator.external_work(&start, &end, &forces)
         };
         self.sum[j] += (work(e) - work(-e)) / (2.0 * e) + basis.map_or(0.0, |(_, work)| work);
-        self.sum[j] += self.of_supports(&amplitudes, &more, step);
-    }
-
-    /// ½ (δf₀ + δf₁)·(s₁ − s₀) + ½ (f₀ + f₁)·(∂s₁ − ∂s₀).
-    fn of_supports(
-        &self,
-        amplitudes: &[Vec<f64>; 2],
-        more: &[Option<[Vec<f64>; 3]>; 2],
-        Moved { states: [from, to], by: [from_by, to_by], .. }: &Moved<'_>,
-    ) -> f64 {
-        let [start, end] = [0, 1].map(|i| {
-            let (mut d, mut v) = (vec![0.0; self.flat], vec![0.0; self.flat]);
-            self.loads.support_deformation(&amplitudes[i], &mut d, &mut v);
-            d
-        });
-        let mut work = 0.0;
-        for i in 0..self.flat {
-            work += 0.5 * (from_by.f[i] + to_by.f[i]) * (end[i] - start[i]);
-            if let [Some(start), Some(end)] = more {
-                work += 0.5 * (from.f[i] + to.f[i]) * (end[1][i] - start[1][i]);
-            }
-        }
-        work
+        self.sum[j] += of_supports(support, &more, step);
     }
 
     /// Derivatives of the energy put in until a state.
@@ -139,4 +141,20 @@ impl<'a> InputMoves<'a> {
         let all = self.sum.iter().zip(now.iter().zip(&self.level));
         all.map(|(sum, (now, start))| sum + now - start).collect()
     }
+}
+
+/// ½ (δf₀ + δf₁)·(s₁ − s₀) + ½ (f₀ + f₁)·(∂s₁ − ∂s₀).
+fn of_supports(
+    [start, end]: &[Vec<f64>; 2],
+    more: &[Option<[Vec<f64>; 3]>; 2],
+    Moved { states: [from, to], by: [from_by, to_by], .. }: &Moved<'_>,
+) -> f64 {
+    let mut work = 0.0;
+    for i in 0..start.len() {
+        work += 0.5 * (from_by.f[i] + to_by.f[i]) * (end[i] - start[i]);
+        if let [Some(start), Some(end)] = more {
+            work += 0.5 * (from.f[i] + to.f[i]) * (end[1][i] - start[1][i]);
+        }
+    }
+    work
 }

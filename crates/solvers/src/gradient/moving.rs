@@ -229,12 +229,14 @@ impl<'a> MovingBasis<'a> {
         forces.map(|((flat, k), d)| state.f[*flat] - k * d).collect()
     }
 
-    /// The derivative of the motion at the end of a step by all that the structure and its loads do in it.
+    /// The derivative of the motion at the end of a step by all that the structure and its loads do in it; `works`: the work of
+    /// the loads is wanted too.
     pub(super) fn step(
         &mut self,
         [from, to]: [&State; 2],
         [start, end]: [f64; 2],
         key: StepKey,
+        works: bool,
     ) -> Result<Motion, SolveError> {
         let mut sum = vec![0.0; to.motion.len()];
         self.work = 0.0;
@@ -269,7 +271,9 @@ impl<'a> MovingBasis<'a> {
             let forces = Forces { loads, pseudo0: &pseudo0, pseudo1: &pseudo1 };
             propagator.correct(&motion, &forces, &mut made);
             let weight = WEIGHTS[side] / self.step;
-            self.work += weight * propagator.work(&motion, &made, &forces).external;
+            if works {
+                self.work += weight * propagator.work(&motion, &made, &forces).external;
+            }
             let made = turn.back(&made);
             sum.iter_mut().zip(&made).for_each(|(sum, x)| *sum += weight * acceleration(*x));
         }

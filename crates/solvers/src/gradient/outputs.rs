@@ -20,10 +20,9 @@ pub struct Gradient {
     pub outputs: Vec<OutputGradient>,
     /// What the links have turned into heat until the end, in the order of the model.
     pub heat: Vec<HeatGradient>,
-    /// What loads and moving supports have put in until the end, J: `input` of the summary. Constant loads are none of it.
-    pub input: f64,
-    /// Its derivatives by each parameter.
-    pub input_by: Vec<f64>,
+    /// What loads and moving supports have put in until the end, J, and its derivatives by each parameter, where they are wanted: `input` of the
+    /// summary. Constant loads are none of it.
+    pub input: Option<(f64, Vec<f64>)>,
     /// Substeps that were accepted.
     pub substeps: usize,
     /// Links whose laws bend where substeps of the run have ended: what they do to derivatives is that of one side.

@@ -12,7 +12,7 @@ use crate::step::{Forces, Propagator, State};
 use crate::structure::{Followers, acceleration};
 use trilith_linalg::{Dense, DenseLu};
 use trilith_model::{Model, Side, SolverKind};
-use trilith_system::{LinkSet, Tangents};
+use trilith_system::{LinkSet, LoadSet, Tangents};
 
 /// The derivatives of the state, which go with a run.
 pub(super) struct Moves<'a> {
@@ -25,7 +25,9 @@ pub(super) struct Moves<'a> {
     influences: &'a [Influence<'a>],
     /// The bases that move with their parameters.
     moving: Vec<Option<MovingBasis<'a>>>,
-    input: InputMoves<'a>,
+    loads_of_run: &'a LoadSet,
+    /// Of the energy put in, where somebody wants it.
+    input: Option<InputMoves<'a>>,
     bends: Bends,
     model: &'a Model,
     /// Output step, s, and values of the parameters.
@@ -76,8 +78,6 @@ impl<'a> Moves<'a> {
         };
         let now: Vec<State> = influences.iter().map(|i| i.start.clone()).collect();
         let n = propagator.space().order();
-        let start = (state, &now[..]);
-        let input = InputMoves::new(&prepared.loads, influences, links.len(), &*propagator, start);
         Ok(Self {
             links,
             alpha: match prepared.kind {
@@ -89,7 +89,8 @@ impl<'a> Moves<'a> {
             laws: LawMoves::new(prepared.model, links, influences, state),
             influences,
             moving,
-            input,
+            input: None,
+            loads_of_run: &prepared.loads,
             bends: Bends::default(),
             model: prepared.model,
             output: prepared.dt,
@@ -121,9 +122,19 @@ impl<'a> Moves<'a> {
         self.laws.heat()
     }
 
-    /// Derivatives of the energy that loads and supports have put in until this state.
-    pub(super) fn input(&self, state: &State) -> Vec<f64> {
-        self.input.until(&*self.propagator, state, &self.now)
+    /// From the start on, derives the energy that loads and supports put in.
+    pub(super) fn follow_input(&mut self) {
+        let start = (&self.from, &self.now[..]);
+        let flat = self.links.len();
+        let input =
+            InputMoves::new(self.loads_of_run, self.influences, flat, &*self.propagator, start);
+        self.input = Some(input);
+    }
+
+    /// Derivatives of the energy that loads and supports have put in until this state, where it is followed.
+    pub(super) fn input(&self, state: &State) -> Option<Vec<f64>> {
+        let input = self.input.as_ref()?;
+        Some(input.until(&*self.propagator, state, &self.now))
     }
 
     /// Links whose laws have bent where substeps ended.
@@ -252,7 +263,7 @@ impl<'a> Moves<'a> {
             next.motion.resize(3 * n, 0.0);
             propagator.predict(&now.motion, &forces, &mut next.motion, wanted);
             if let Some(moving) = &mut moving[j] {
-                work.moved[j] = moving.step([from, to], [self.t, t], key)?;
+                work.moved[j] = moving.step([from, to], [self.t, t], key, input.is_some())?;
                 let moved = &work.moved[j];
                 let map = &propagator.space().links;
                 map.deform(&moved[..n], &mut work.own);
@@ -283,10 +294,13 @@ impl<'a> Moves<'a> {
             }
         }
         laws.along(made, &self.now, &mut self.next, true);
-        for (j, (now, next)) in self.now.iter().zip(&self.next).enumerate() {
-            let basis = moving[j].as_ref().map(|m| (&*work.moved[j], m.work()));
-            let (states, times) = ([&*from, to], [self.t, t]);
-            input.enter(j, &mut **propagator, &Moved { states, times, by: [now, next], basis });
+        if let Some(input) = input {
+            let of_run = input.loads([self.t, t], propagator.space());
+            for (j, (now, next)) in self.now.iter().zip(&self.next).enumerate() {
+                let basis = moving[j].as_ref().map(|m| (&*work.moved[j], m.work()));
+                let moved = Moved { states: [&*from, to], by: [now, next], basis };
+                input.enter(j, &mut **propagator, &of_run, &moved);
+            }
         }
         laws.see(to);
         if Bends::matters(dt, self.output) {

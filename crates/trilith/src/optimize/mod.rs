@@ -49,7 +49,7 @@ use crate::gradient::{self, GradientError};
 use course::Course;
 use std::cell::RefCell;
 use std::sync::atomic::AtomicBool;
-use terms::{Goal, Limit};
+use terms::{Goal, Limit, Term};
 use trilith_model::{Model, ModelText, Parameter, ParameterValue, Registry, SolverKind};
 use trilith_solvers::gradient::Bend;
 use variables::Range;
@@ -307,6 +307,7 @@ pub fn optimize_with(
     let goal = Goal::new(&wanted.minimise, &model)?;
     let limits =
         wanted.limits.iter().map(|l| Limit::new(l, &model)).collect::<Result<Vec<_>, _>>()?;
+    let input = goal.terms.iter().any(Term::names_input) || limits.iter().any(Limit::names_input);
     let names: Vec<String> = ranges.iter().map(|r| r.name.clone()).collect();
     let of_gradient = gradient::Wanted {
         case: wanted.case.clone(),
@@ -314,6 +315,7 @@ pub fn optimize_with(
         dt: wanted.dt,
         by: names.clone(),
         set: wanted.set.clone(),
+        input,
     };
     let most = wanted.max_runs.max(1);
     let course = Course::new(

@@ -4,6 +4,7 @@
 //! files, units included; they are differentiated by differences of the expression alone, whose parts have exact derivatives.
 
 use super::OptimizeError;
+use crate::gradient::{HEAT, HEAT_OF, INPUT};
 use std::collections::BTreeMap;
 use trilith_element::Dimension;
 use trilith_element::dimension::NONE;
@@ -96,7 +97,9 @@ impl Values {
             let quantity = Quantity { value, dimension: energy, measured: true };
             all.entry(name).or_insert((Valued { value, by }, quantity));
         };
-        of_energy(INPUT.into(), (found.input, found.input_by.clone()));
+        if let Some(input) = &found.input {
+            of_energy(INPUT.into(), input.clone());
+        }
         of_energy(HEAT.into(), found.all_heat());
         for link in &found.heat {
             of_energy(format!("{HEAT_OF}{}", link.link), (link.heat, link.by.clone()));
@@ -104,12 +107,6 @@ impl Values {
         Self { all, extremes }
     }
 }
-
-/// What loads and supports put in, what all links together turn into heat, and one of them; outputs and parameters of these
-/// names come first.
-const INPUT: &str = "input";
-const HEAT: &str = "heat";
-const HEAT_OF: &str = "heat of ";
 
 /// The values of a run, one of which may be another one.
 struct Moved<'a> {
@@ -183,7 +180,7 @@ impl Term {
         known.names.extend(model.parameters.iter().map(|p| p.name.clone()));
         let links = model.elements.iter().filter(|e| matches!(e.body, Body::Link(..)));
         known.names.extend(links.map(|e| format!("{HEAT_OF}{}", e.name)));
-        known.names.push(HEAT.into());
+        known.names.extend([HEAT.into(), INPUT.into()]);
         let wrong =
             |reason: &str| OptimizeError::Expression { text: text.clone(), reason: reason.into() };
         // Names in quotes first, then values at the end.
@@ -214,6 +211,11 @@ impl Term {
             read.replace_range(at..at + "final(".len() + end + 1, &word);
         }
         Ok(Self { text, read, known })
+    }
+
+    /// Whether it may name the energy that loads and supports put in.
+    pub(super) fn names_input(&self) -> bool {
+        self.text.split(|c: char| !c.is_alphanumeric() && c != '_').any(|word| word == INPUT)
     }
 
     fn evaluate(
@@ -356,6 +358,11 @@ pub(super) struct Limit {
 }
 
 impl Limit {
+    /// Whether it may name the energy that loads and supports put in.
+    pub(super) fn names_input(&self) -> bool {
+        self.left.names_input() || self.right.names_input()
+    }
+
     pub(super) fn new(text: &str, model: &Model) -> Result<Self, OptimizeError> {
         let text = text.trim();
         let split = [("<=", 1.0), (">=", -1.0), ("≤", 1.0), ("≥", -1.0)]
