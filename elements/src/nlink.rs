@@ -67,7 +67,7 @@ mod motion;
 #[cfg(test)]
 mod tests;
 
-pub(crate) use contact::{NLinkContact, PULL};
+pub(crate) use contact::{NLinkContact, PARAMETERS as CONTACT_PARAMETERS};
 pub use law::{NLinkHistory, NLinkRubbing};
 
 use crate::shared::restitution::{IMPACT_MASS, restitution};

@@ -41,6 +41,7 @@
 //! [`ErasedLaw::derivative`].
 
 mod arithmetic;
+mod called;
 mod dual;
 #[cfg(target_arch = "x86_64")]
 mod functions;
@@ -54,6 +55,7 @@ mod wide;
 pub use arithmetic::{Arithmetic, Portable, Task};
 #[cfg(target_arch = "x86_64")]
 pub use arithmetic::{Avx2Lanes, Avx512Lanes, FusedOne};
+pub use called::Called;
 pub use dual::Dual;
 pub use law::{
     DIRECTIONS, Directions, ErasedLaw, LaneAt, LaneContact, LaneForce, LaneForm, LaneLaw,

@@ -8,8 +8,6 @@ use crate::shared::touch::hold;
 use trilith_element::History;
 use trilith_element::lanes::{LaneAt, LaneContact, LaneForce, LaneLaw, LaneStep, Real};
 
-/// The dashpot may pull while closed.
-pub(crate) const PULL: u8 = 1;
 /// There is a post-slip spring or a pendulum.
 pub(super) const RESTORING: u8 = 2;
 /// Friction looks at the slip: at its rate, or for its break-away, or there is a dashpot beside its spring. It
@@ -35,6 +33,8 @@ struct Of<R> {
     curvature: R,
     /// 1/kₙ and 1/kₑ; 0 without friction.
     flexibility: [R; 2],
+    /// 1 where the dashpot may pull while closed, else 0.
+    pull: R,
     varied: Varied<R>,
 }
 
@@ -52,14 +52,14 @@ struct Varied<R> {
 }
 
 /// Numbers of parameters, without and with [`VARIED`].
-pub(super) const PARAMETERS: [usize; 2] = [9, 15];
+pub(crate) const PARAMETERS: [usize; 2] = [10, 16];
 
 impl<R: Real> Of<R> {
     #[inline(always)]
     fn read(p: &[R]) -> Self {
         let (plain, more) = p.split_at(PARAMETERS[0]);
         let plain: &[R; PARAMETERS[0]] = plain.try_into().expect("parameters of a contact");
-        let [kn, opening, damping, ke, mu, k_post, curvature, fn_, fe] = *plain;
+        let [kn, opening, damping, ke, mu, k_post, curvature, fn_, fe, pull] = *plain;
         let zero = kn.of(0.0);
         let more: [R; 6] = more.try_into().unwrap_or([zero; 6]);
         let [slow, fast, rate, away, over, dashpot] = more;
@@ -72,6 +72,7 @@ impl<R: Real> Of<R> {
             k_post,
             curvature,
             flexibility: [fn_, fe],
+            pull,
             varied: Varied { slow, fast, rate, away, over, dashpot },
         }
     }
@@ -108,21 +109,13 @@ impl<const T: usize, const FLAGS: u8> NLinkContact<T, FLAGS> {
         let k = (it.kn + dashpot * by_gap).only(closed);
         // Zeros are kept from the sign that a subtraction of nothing would give them.
         let f = (dashpot * share - it.kn * p).only(closed);
-        if FLAGS & PULL != 0 {
-            return Pressed {
-                open,
-                spring,
-                f,
-                f_d: k,
-                f_v: c,
-                cone: spring,
-                cone_d: -kn,
-                cone_v: zero,
-            };
-        }
-        let holds = !zero.lt(f);
+        let pulls = zero.lt(it.pull);
+        let holds = pulls | !zero.lt(f);
         let (f, f_d, f_v) = (f.only(holds), k.only(holds), c.only(holds));
-        Pressed { open, spring, f, f_d, f_v, cone: -f, cone_d: -f_d, cone_v: -f_v }
+        // Where the dashpot may pull, friction looks at the spring alone.
+        let of = |spring: R, all: R| R::select(pulls, spring, -all);
+        let (cone, cone_d, cone_v) = (of(spring, f), of(-kn, f_d), of(zero, f_v));
+        Pressed { open, spring, f, f_d, f_v, cone, cone_d, cone_v }
     }
 
     /// Length of a tangential vector.

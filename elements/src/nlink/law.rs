@@ -1,7 +1,7 @@
 //! The law of the [`NLink`].
 
 use super::NLink;
-use super::contact::{NLinkContact, PARAMETERS, PULL, RESTORING, UNDAMPED, VARIED};
+use super::contact::{NLinkContact, PARAMETERS, RESTORING, UNDAMPED, VARIED};
 use crate::shared::restitution::damping_ratio;
 use std::borrow::Cow;
 use trilith_element::lanes::{LaneAt, LaneContact, LaneForce, LaneForm, LaneLaw, LaneStep};
@@ -67,8 +67,7 @@ impl NLink {
             return UNDAMPED | restoring;
         }
         // Friction that is much to compute anyway has the restoring forces with it, of whatever size.
-        let parts = if self.is_varied() { VARIED | RESTORING } else { restoring };
-        part(self.pull, PULL) | parts
+        if self.is_varied() { VARIED | RESTORING } else { restoring }
     }
 
     /// The parameters of the contact; what is not for its flags is left out.
@@ -83,6 +82,7 @@ impl NLink {
             if self.radius > 0.0 { self.radius.recip() } else { 0.0 },
             self.kn.recip(),
             if self.elastic() > 0.0 { self.elastic().recip() } else { 0.0 },
+            f64::from(u8::from(self.pull)),
         ];
         let mut all = [0.0; PARAMETERS[1]];
         all[..PARAMETERS[0]].copy_from_slice(&plain);
@@ -100,7 +100,7 @@ impl NLink {
 /// Calls a function of the law with the flags as a constant.
 macro_rules! with_flags {
     ($flags:expr, $t:literal, $law:ident => $call:expr) => {
-        with_flags!(@ $flags, $t, $law, $call, 0 1 2 3 6 7 8 10)
+        with_flags!(@ $flags, $t, $law, $call, 0 2 6 8 10)
     };
     (@ $flags:expr, $t:literal, $law:ident, $call:expr, $($flag:literal)*) => {
         match $flags {

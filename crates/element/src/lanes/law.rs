@@ -2,7 +2,7 @@
 
 #[cfg(target_arch = "x86_64")]
 use super::side_by_side::respond_together;
-use super::{Arithmetic, Dual, Portable, Real, Task};
+use super::{Arithmetic, Called, Dual, Portable, Real, Task};
 #[cfg(target_arch = "x86_64")]
 use super::{Avx2Lanes, Avx512Lanes, Fused, FusedOne};
 use crate::{Contact, Energy, Kinematics};
@@ -285,7 +285,7 @@ type ContactsBy<A> = fn(
 );
 
 /// A number with its derivatives in some directions at once.
-pub type Directions = Dual<DIRECTIONS>;
+pub type Directions = Called<Dual<DIRECTIONS>>;
 
 /// How many they are.
 pub const DIRECTIONS: usize = 8;

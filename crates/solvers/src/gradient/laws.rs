@@ -8,7 +8,9 @@ use super::around::{SMALL, WEIGHTS, weighted};
 use super::influence::Influence;
 use crate::kernel::LawResponse;
 use crate::step::State;
-use trilith_element::lanes::{DIRECTIONS, Directions, Dual, ErasedLaw, LaneLinks, LaneStep};
+use trilith_element::lanes::{
+    Called, DIRECTIONS, Directions, Dual, ErasedLaw, LaneLinks, LaneStep,
+};
 use trilith_element::{Kinematics, Link};
 use trilith_model::Model;
 use trilith_system::{LinkInstance, LinkSet, System};
@@ -232,6 +234,10 @@ fn sides<'a>(l: usize, by: &Influence<'a>) -> Option<([&'a dyn Link; 2], f64)> {
 
 type Asked<'a> = (&'a ErasedLaw, &'a [usize], bool, &'a [f64], &'a [Vec<f64>]);
 
+fn constant(x: f64) -> Directions {
+    Called(Dual::constant(x))
+}
+
 /// In dual numbers. The heat of the substep.
 fn by_duals(
     (law, at, rate, parameters, by): Asked<'_>,
@@ -243,7 +249,7 @@ fn by_duals(
 ) -> Directions {
     let flat = |i: &usize| link.range.start + i;
     let dual = |x: f64, by: &dyn Fn(usize) -> f64| {
-        let mut it = Dual::constant(x);
+        let mut it = constant(x);
         (0..moves.len()).for_each(|j| it.by[j] = by(j));
         it
     };
@@ -252,7 +258,7 @@ fn by_duals(
         to.extend(from);
     };
     let Made { from, to, dt } = made;
-    let none = Dual::constant(f64::NAN);
+    let none = constant(f64::NAN);
     let all = || at.iter().map(flat);
     let count = 0..parameters.len();
     fill(&mut work.parameters, &mut count.map(|p| dual(parameters[p], &|j| by[j][p])));
@@ -268,7 +274,7 @@ fn by_duals(
     let history = link.history.clone();
     fill(&mut work.history, &mut history.map(|i| dual(from.history[i], &|j| moves[j].history[i])));
     let n = at.len();
-    let zero = Dual::constant(0.0);
+    let zero = constant(0.0);
     for (x, n) in [
         (&mut work.trial, link.history.len()),
         (&mut work.f, n),
@@ -279,7 +285,7 @@ fn by_duals(
         x.resize(n, zero);
     }
     let Work { parameters, d, v, d0, v0, history, trial, f, k, c, .. } = work;
-    let dt = Dual::constant(dt);
+    let dt = constant(dt);
     let mut links = LaneLinks { parameters, d, v, d0, v0, dt, history, trial, f, k, c };
     let mut did = [LaneStep::elastic(zero)];
     law.derivative(&mut links, &mut did);

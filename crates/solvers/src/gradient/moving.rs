@@ -37,7 +37,7 @@ const SAME_SHAPE: f64 = 0.9;
 /// Coordinates of one basis as those of another.
 pub(super) struct Turn {
     modes: Dense,
-    back: DenseLu,
+    inverse: Dense,
     /// 1 or −1 for each static shape.
     statics: Vec<f64>,
     /// True where every mode is one of the other basis, in the same order.
@@ -66,34 +66,36 @@ impl Turn {
             (a.len() == b.len() && cosine.abs() > SAME_SHAPE).then(|| cosine.signum())
         };
         let statics = (0..from.statics()).map(same).collect::<Option<_>>()?;
-        let back = DenseLu::new(&modes);
-        Some(Self { modes, back, statics, in_order })
+        let mut inverse = Dense::zeros(n, n);
+        (0..n).for_each(|j| inverse[(j, j)] = 1.0);
+        DenseLu::new(&modes).solve_columns(&mut inverse);
+        Some(Self { modes, inverse, statics, in_order })
     }
 
     /// A motion in the other coordinates: displacements, velocities, accelerations.
     pub(super) fn there(&self, motion: &[f64]) -> Motion {
-        self.each(motion, |part, to| self.modes.mul_add(1.0, part, to))
+        self.each(motion, &self.modes)
     }
 
     /// And from there.
     pub(super) fn back(&self, motion: &[f64]) -> Motion {
-        self.each(motion, |part, to| {
-            to.copy_from_slice(part);
-            self.back.solve(to);
-        })
+        self.each(motion, &self.inverse)
     }
 
-    fn each(&self, motion: &[f64], turn: impl Fn(&[f64], &mut [f64])) -> Motion {
-        let modes = self.modes.columns();
+    fn each(&self, motion: &[f64], by: &Dense) -> Motion {
+        let modes = by.columns();
         let mut out = vec![0.0; motion.len()];
-        let parts = motion.chunks(modes + self.statics.len());
-        for (part, out) in parts.zip(out.chunks_mut(modes + self.statics.len())) {
-            turn(&part[..modes], &mut out[..modes]);
-            let statics = part[modes..].iter().zip(&self.statics);
-            for (out, (x, sign)) in out[modes..].iter_mut().zip(statics) {
+        let order = modes + self.statics.len();
+        let mut parts = Vec::with_capacity(3);
+        for (part, out) in motion.chunks(order).zip(out.chunks_mut(order)) {
+            let (part, statics) = part.split_at(modes);
+            let (to, rest) = out.split_at_mut(modes);
+            for (out, (x, sign)) in rest.iter_mut().zip(statics.iter().zip(&self.statics)) {
                 *out = if *x == JUMPED { JUMPED } else { sign * x };
             }
+            parts.push((part, to));
         }
+        by.mul_add_each(1.0, &mut parts);
         out
     }
 
@@ -120,6 +122,8 @@ pub(super) struct MovingBasis<'a> {
     name: &'a str,
     sides: Vec<(Box<dyn Propagator + 'a>, &'a Prepared<'a>)>,
     turns: Arc<[Turn; 4]>,
+    /// Rows of the active link coordinates of each structure, column by column, over the coordinates of the run.
+    rows: [Dense; 4],
     /// Flat indices of the active link coordinates.
     active: &'a [usize],
     rate_dependent: Vec<usize>,
@@ -164,8 +168,18 @@ impl<'a> MovingBasis<'a> {
         let Ok(turns) = turns.try_into() else { return Err(refuse("is not there")) };
         let Layout { rate_dependent, .. } = layout;
         let active = &links.active;
-        let turns = Arc::new(turns);
-        Ok(Self { step: *step, name, sides, turns, active, rate_dependent, work: 0.0 })
+        let turns: Arc<[Turn; 4]> = Arc::new(turns);
+        let rows = [0, 1, 2, 3].map(|side: usize| {
+            let space = sides[side].0.space();
+            let mut rows = Dense::zeros(space.order(), active.len());
+            for a in 0..active.len() {
+                let mut row = vec![0.0; space.order()];
+                space.links.row(a).for_each(|(i, c)| row[i] += c);
+                rows.column_mut(a).copy_from_slice(&turns[side].row(&row));
+            }
+            rows
+        });
+        Ok(Self { step: *step, name, sides, turns, rows, active, rate_dependent, work: 0.0 })
     }
 
     /// The coordinates of the models around.
@@ -198,15 +212,8 @@ impl<'a> MovingBasis<'a> {
 
     /// Derivatives of the rows of the active link coordinates.
     pub(super) fn rows(&self) -> Vec<Vec<(usize, f64)>> {
-        let row = |side: usize, a: usize| {
-            let space = self.sides[side].0.space();
-            let mut row = vec![0.0; space.order()];
-            space.links.row(a).for_each(|(i, c)| row[i] += c);
-            self.turns[side].row(&row)
-        };
         let of = |a: usize| {
-            let all = [0, 1, 2, 3].map(|side| row(side, a));
-            let sum = weighted(self.step, [0, 1, 2, 3].map(|side| &all[side][..]));
+            let sum = weighted(self.step, self.rows.each_ref().map(|rows| rows.column(a)));
             sum.into_iter().enumerate().filter(|(_, c)| *c != 0.0).collect()
         };
         (0..self.active.len()).map(of).collect()
@@ -217,14 +224,14 @@ impl<'a> MovingBasis<'a> {
         [0, 1, 2, 3].map(|i| self.sides[i].0.space())
     }
 
-    /// Link forces of a state as this structure takes them: those of its effective stiffnesses are in it.
-    fn pseudo(&self, side: usize, motion: &[f64], state: &State) -> Vec<f64> {
+    /// Link forces of a state of the run as this structure takes them: those of its effective stiffnesses are in it.
+    fn pseudo(&self, side: usize, state: &State) -> Vec<f64> {
         let space = self.sides[side].0.space();
         if space.effective_k.iter().all(|k| *k == 0.0) {
             return state.pseudo.clone();
         }
         let mut own = vec![0.0; self.active.len()];
-        space.links.deform(&motion[..space.order()], &mut own);
+        self.rows[side].transpose_mul_add(1.0, &state.motion[..space.order()], &mut own);
         let forces = self.active.iter().zip(&space.effective_k).zip(own);
         forces.map(|((flat, k), d)| state.f[*flat] - k * d).collect()
     }
@@ -251,8 +258,7 @@ impl<'a> MovingBasis<'a> {
                 });
             }
             let motion = turn.there(&from.motion);
-            let pseudo0 = self.pseudo(side, &motion, from);
-            let pseudo1 = self.pseudo(side, &turn.there(&to.motion), to);
+            let [pseudo0, pseudo1] = [from, to].map(|state| self.pseudo(side, state));
             let (propagator, Prepared { loads, .. }) = &mut self.sides[side];
             propagator.prepare(key)?;
             let force = |t: f64, of: Side| {

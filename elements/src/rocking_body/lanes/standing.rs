@@ -2,7 +2,7 @@
 
 use super::{OWN, PLANE, SPACE, answer, moment, store};
 use crate::NLinkHistory;
-use crate::nlink::{NLinkContact, PULL};
+use crate::nlink::{CONTACT_PARAMETERS, NLinkContact};
 use crate::rocking_body::RockingBody;
 use crate::rocking_body::law::{BASE, TURNED};
 use crate::rocking_body::moment::Moment;
@@ -12,15 +12,15 @@ use trilith_element::History;
 use trilith_element::lanes::{LaneAt, LaneContact, LaneForce, LaneForm, LaneLaw, LaneStep, Real};
 
 /// The contact under a point, in the axes Z, X, Y.
-type Contact<const FLAGS: u8> = NLinkContact<2, FLAGS>;
+type Contact = NLinkContact<2, 0>;
 
 const CONTACT: usize = NLinkHistory::FIELDS.len();
 /// Parameters of a contact, and those of a point.
-const NUMBERS: usize = 9;
+const NUMBERS: usize = CONTACT_PARAMETERS[0];
 const POINT: usize = 3;
 
-/// A body of `N` coordinates on `POINTS` base points; `FLAGS` of their contacts.
-struct Standing<const N: usize, const POINTS: usize, const FLAGS: u8>;
+/// A body of `N` coordinates on `POINTS` base points.
+struct Standing<const N: usize, const POINTS: usize>;
 
 /// The axes of a contact in global ones: along X is its second, along Y its third, along Z its first.
 const AXES: [usize; 3] = [1, 2, 0];
@@ -36,7 +36,7 @@ fn seen<R: Real>(x: &V3<R>) -> V3<R> {
     [x[2], x[0], x[1]]
 }
 
-impl<const N: usize, const POINTS: usize, const FLAGS: u8> Standing<N, POINTS, FLAGS> {
+impl<const N: usize, const POINTS: usize> Standing<N, POINTS> {
     /// A point, and the parameters of its contact.
     #[inline(always)]
     fn point<R: Real>(parameters: &[R], i: usize) -> (V3<R>, [R; NUMBERS]) {
@@ -77,10 +77,10 @@ impl<const N: usize, const POINTS: usize, const FLAGS: u8> Standing<N, POINTS, F
             let (mut f, mut k, mut c) = ([zero; 3], [zero; 9], [zero; 9]);
             let mut force = LaneForce { f: &mut f, k: &mut k, c: &mut c };
             match &mut trial {
-                None => Contact::<FLAGS>::force(&asked, &mut force),
+                None => Contact::force(&asked, &mut force),
                 Some(trial) => {
                     let own = &mut trial[BASE + CONTACT * i..][..CONTACT];
-                    let step = Contact::<FLAGS>::respond(&asked, &mut force, own);
+                    let step = Contact::respond(&asked, &mut force, own);
                     sum.stored = sum.stored + step.stored;
                     sum.hysteretic = sum.hysteretic + step.hysteretic;
                     sum.viscous = sum.viscous + step.viscous;
@@ -112,7 +112,7 @@ impl<const N: usize, const POINTS: usize, const FLAGS: u8> Standing<N, POINTS, F
     }
 }
 
-impl<const N: usize, const POINTS: usize, const FLAGS: u8> LaneLaw for Standing<N, POINTS, FLAGS> {
+impl<const N: usize, const POINTS: usize> LaneLaw for Standing<N, POINTS> {
     const COORDINATES: usize = N;
     const HISTORY: usize = BASE + CONTACT * POINTS;
     const PARAMETERS: usize = OWN + NUMBERS + POINT * POINTS;
@@ -155,8 +155,8 @@ impl<const N: usize, const POINTS: usize, const FLAGS: u8> LaneLaw for Standing<
             let asked = LaneAt { parameters, d: &d, v: &v, d0: &d, v0: &v, dt: zero, history };
             let (mut f, mut k, mut c) = ([zero; 3], [zero; 9], [zero; 9]);
             let mut force = LaneForce { f: &mut f, k: &mut k, c: &mut c };
-            Contact::<FLAGS>::force(&asked, &mut force);
-            Contact::<FLAGS>::contacts(&asked, &f, out);
+            Contact::force(&asked, &mut force);
+            Contact::contacts(&asked, &f, out);
         }
         one.only(at.parameters[0].le(at.history[TURNED]))
     }
@@ -171,15 +171,11 @@ pub(super) fn form(body: &RockingBody, mut parameters: Vec<f64>, plane: bool) ->
     let make = |law: fn(Vec<usize>, Vec<f64>) -> LaneForm, at: &[usize]| {
         Some(law(at.to_vec(), parameters))
     };
-    match (plane, body.base.len(), body.pull) {
-        (true, 2, false) => make(LaneForm::of::<Standing<3, 2, 0>>, &PLANE),
-        (true, 2, true) => make(LaneForm::of::<Standing<3, 2, PULL>>, &PLANE),
-        (true, 4, false) => make(LaneForm::of::<Standing<3, 4, 0>>, &PLANE),
-        (true, 4, true) => make(LaneForm::of::<Standing<3, 4, PULL>>, &PLANE),
-        (false, 4, false) => make(LaneForm::of::<Standing<6, 4, 0>>, &SPACE),
-        (false, 4, true) => make(LaneForm::of::<Standing<6, 4, PULL>>, &SPACE),
-        (false, 8, false) => make(LaneForm::of::<Standing<6, 8, 0>>, &SPACE),
-        (false, 8, true) => make(LaneForm::of::<Standing<6, 8, PULL>>, &SPACE),
+    match (plane, body.base.len()) {
+        (true, 2) => make(LaneForm::of::<Standing<3, 2>>, &PLANE),
+        (true, 4) => make(LaneForm::of::<Standing<3, 4>>, &PLANE),
+        (false, 4) => make(LaneForm::of::<Standing<6, 4>>, &SPACE),
+        (false, 8) => make(LaneForm::of::<Standing<6, 8>>, &SPACE),
         _ => None,
     }
 }
