@@ -14,6 +14,7 @@ mod args;
 mod browser;
 mod calibrate;
 mod check;
+mod combine;
 mod compare;
 mod compare_page;
 mod date;
@@ -92,6 +93,7 @@ pub fn main_of(registry: Registry, arguments: impl IntoIterator<Item = OsString>
         Command::Elements(a) => elements::elements(&registry, &a),
         Command::Exercise(a) => exercise::exercise(&registry, a),
         Command::Report(a) => run::report(&a),
+        Command::Combine(a) => combine::combine(&registry, &a),
         Command::Compare(a) => compare::compare(&registry, &a),
         Command::Sweep(a) => sweep::sweep(&registry, &a),
         Command::Gradient(a) => gradient::gradient(&registry, &a),

@@ -24,7 +24,7 @@ macro_rules! template {
     };
 }
 
-const TEMPLATES: [Template; 15] = [
+const TEMPLATES: [Template; 16] = [
     template!("rigid_block"),
     template!("rigid_block_record", "records/synthetic_040g.csv"),
     template!("rigid_block_drop"),
@@ -39,6 +39,13 @@ const TEMPLATES: [Template; 15] = [
     template!("floor_spectra"),
     template!("damped_frame", "records/synthetic_1.csv"),
     template!("pounding_frames"),
+    template!(
+        "portal_frame",
+        "sections/steel.ron",
+        "records/synthetic_1.csv",
+        "records/synthetic_2.csv",
+        "records/synthetic_3.csv"
+    ),
     template!(
         "rocking_wall",
         "superelements/wall_k.mtx",

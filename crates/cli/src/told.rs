@@ -1,6 +1,7 @@
 //! What the program says of errors and results, as plain text, for other faces of it: a package for another language
 //! says the same.
 
+use trilith::combine::Combinations;
 use trilith::compare::Compared;
 use trilith::optimize::Optimum;
 use trilith::results::Summary;
@@ -61,6 +62,12 @@ pub fn modes(report: &BasisReport) -> String {
 #[must_use]
 pub fn comparison(all: &[Compared]) -> String {
     if all.is_empty() { String::new() } else { crate::compare::text(all) }
+}
+
+/// What `trilith combine` prints.
+#[must_use]
+pub fn combinations(model: &Model, found: &Combinations) -> String {
+    crate::combine::page(model, found)
 }
 
 /// What `trilith gradient` prints of these outputs, and of the energy put in where that was found.

@@ -76,6 +76,11 @@ fn model() -> Value {
             "1 rest": { "Static": { "loads": ["Gravity", { "load": "p", "factor": 0.5 }] } },
             "2 push": { "Dynamic": { "after": "1 rest", "duration": 0.1, "dt": 0.01, "forces": [{ "load": "p", "function": "push" }] } },
         },
+        "combinations": {
+            "1 sum": { "LinearAdd": { "cases": { "1 rest": 1.35, "2 push": -1 } } },
+            "2 most": { "Envelope": { "cases": ["1 rest", "1 sum"] } },
+            "3 one": { "Srss": { "cases": { "2 push": 2 } } },
+        },
         "outputs": {
             "m": { "MemberForce": { "element": "b2", "force": "M3", "at": "50 %" } },
             "twice": { "Sum": { "terms": [{ "output": "m", "factor": 2 }] } },
@@ -99,6 +104,7 @@ fn the_schema_takes_models_and_refuses_wrong_ones() {
         ("/outputs/m/MemberForce", json!({ "element": "b2", "force": "M3" })),
         ("/elements/stop/Gap", json!({ "node": "2", "k": true })),
         ("/loads/p/0", json!({ "Unifrom": { "element": "all" } })),
+        ("/combinations/2 most", json!({ "Envelop": { "cases": ["1 rest"] } })),
         ("/title", json!(3)),
     ] {
         let mut bad = good.clone();

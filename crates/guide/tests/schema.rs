@@ -58,6 +58,7 @@ fn model(place: &str, block: &str) -> Option<String> {
         "material" => {
             element = format!("\"e\": Beam({HERE}, section: \"IPE 300\", material: {block}),")
         }
+        "combinations" => section = format!("combinations: {{ \"all\": {block} }},"),
         "envelopes" => section = format!("envelopes: {{ \"e\": {block} }},"),
         "forces-of-a-load" => section = format!("loads: {{ \"p\": [{block}] }},"),
         "loads-of-a-case" => case.push_str(&format!(", constant: [{block}]")),
@@ -70,6 +71,11 @@ fn model(place: &str, block: &str) -> Option<String> {
     let last = if place == "cases" { block.to_owned() } else { format!("Dynamic({case})") };
     if place == "elements" {
         element = format!("\"e\": {block},");
+    }
+    let mut others = String::new();
+    if place == "combinations" {
+        let names = ["gravity", "wind", "along x", "along y", "quake 1", "quake 2", "quake 3"];
+        others = names.map(|name| format!("\"{name}\": Static(loads: []),")).concat();
     }
     if !section.contains("functions") {
         section += r#"functions: {
@@ -91,7 +97,7 @@ fn model(place: &str, block: &str) -> Option<String> {
             {element}
         }},
         {section}
-        cases: {{ "c": {last} }},
+        cases: {{ {others} "c": {last} }},
     )"#
     ))
 }

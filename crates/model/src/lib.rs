@@ -7,6 +7,7 @@
 
 mod analysis;
 mod check;
+mod combination;
 mod custom;
 mod diagnostic;
 mod expand;
@@ -42,6 +43,7 @@ pub mod file {
 
 pub use analysis::*;
 pub use check::{ModelError, ModelFault};
+pub use combination::{Combination, CombinationTerm, CombineCases};
 pub use custom::Custom;
 pub use diagnostic::{Diagnostic, line_column};
 pub use expression::quantity;

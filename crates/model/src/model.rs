@@ -1,7 +1,10 @@
 //! The model after reading: plain data in SI, everything resolved to indices and checked.
 
 use crate::sections::Shape;
-use crate::{Analysis, Case, CustomSolver, Envelope, FloorSpectrum, Output, Places, TimeFunction};
+use crate::{
+    Analysis, Case, Combination, CustomSolver, Envelope, FloorSpectrum, Output, Places,
+    TimeFunction,
+};
 use sha2::{Digest, Sha256};
 use std::ops::Range;
 use std::path::PathBuf;
@@ -60,6 +63,8 @@ pub struct Model {
     pub patterns: Vec<Pattern>,
     /// Analysis cases, in file order; a case continues only cases before it.
     pub cases: Vec<Case>,
+    /// Combinations of cases, in file order; one takes only those before it.
+    pub combinations: Vec<Combination>,
     /// Solvers of other crates: those that cases name, and those of the registry that need no parameter.
     pub solvers: Vec<CustomSolver>,
     /// What to record.

@@ -11,6 +11,7 @@
 
 mod catalogue;
 mod column;
+mod combine;
 mod compare;
 mod exercise;
 mod failure;

@@ -1,5 +1,6 @@
 //! Models: read once, then run as often as one likes.
 
+use crate::combine;
 use crate::compare::{self, Ways};
 use crate::failure::{Failure, Told, placed};
 use crate::optimize;
@@ -194,6 +195,20 @@ impl Model {
             let solvers = solvers.iter().map(|s| kind(s)).collect::<Result<Vec<_>, _>>()?;
             let ways = Ways { solvers, dts, vectors, dummies, alphas, cause };
             compare::compare(&mut model, case, &ways, watch)
+        })
+    }
+
+    /// Sums and envelopes of the extremes of cases.
+    #[pyo3(signature = (of, progress))]
+    fn combine(
+        &self,
+        py: Python<'_>,
+        of: Vec<String>,
+        progress: Option<Bound<'_, PyAny>>,
+    ) -> PyResult<combine::CombinationFacts> {
+        let model = Arc::clone(&self.model);
+        work::with_progress(py, progress.as_ref(), move |watch| {
+            combine::combine(&model, &of, watch)
         })
     }
 

@@ -31,6 +31,7 @@
 //! - [`run`] runs a case as the file says; [`Analysis`] runs several, with options: a [`CaseRun`] each.
 //! - [`Checkpoint`] keeps where a run stopped in a file, for `from` of a later one's [`RunOptions`].
 //! - [`write_report`] makes the page of a run, [`rebuild_report`] makes it again from its folder.
+//! - [`mod@combine`] makes sums and envelopes of the extremes of several cases.
 //! - [`compare`] solves a case in several ways and finds why the results differ.
 //! - [`exercise`] shows what a link does on its own, [`catalogue`] what kinds there are.
 //! - [`json_schema`] is the schema of models in JSON.
@@ -50,6 +51,7 @@ pub mod calibrate;
 mod case_run;
 pub mod catalogue;
 mod checkpoint;
+pub mod combine;
 pub mod compare;
 mod error;
 pub mod exercise;

@@ -51,6 +51,8 @@ pub(crate) enum Command {
     Exercise(ExerciseArguments),
     /// Make the report of a run again from its folder
     Report(ReportArguments),
+    /// Run the cases of the combinations of a model: sums and envelopes of their extremes
+    Combine(CombineArguments),
     /// Run the same case under two or more solvers and show the differences
     Compare(CompareArguments),
     /// Run a study: a model with many values of its parameters, on all cores, into one table
@@ -252,13 +254,25 @@ pub(crate) enum DirectionRule {
 }
 
 #[derive(Args)]
+pub(crate) struct CombineArguments {
+    #[command(flatten)]
+    pub model: ModelArguments,
+    /// Combinations; several times if need be, and double quotes hold a name with a comma together [default: all]
+    #[arg(long, value_name = "NAME,NAME", value_parser = names::list)]
+    pub of: Vec<Names>,
+    /// Print JSON
+    #[arg(long)]
+    pub json: bool,
+}
+
+#[derive(Args)]
 pub(crate) struct GradientArguments {
     #[command(flatten)]
     pub model: ModelArguments,
     /// Case to run [default: the last of the file]
     #[arg(long)]
     pub case: Option<String>,
-    /// Solver: hht, or fna and ritz-hht for parameters of links and loads [default: that of the case]
+    /// Solver: fna, hht or ritz-hht [default: that of the case]
     #[arg(long)]
     pub solver: Option<String>,
     /// Output step in seconds [default: that of the case]
@@ -285,7 +299,7 @@ pub(crate) struct OptimizeArguments {
     /// Case to run [default: the last of the file]
     #[arg(long)]
     pub case: Option<String>,
-    /// Solver: hht, or fna and ritz-hht for parameters of links and loads [default: that of the case]
+    /// Solver: fna, hht or ritz-hht [default: that of the case]
     #[arg(long)]
     pub solver: Option<String>,
     /// Output step in seconds [default: that of the case]

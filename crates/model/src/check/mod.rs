@@ -3,6 +3,7 @@
 //! The reader sees to all of that with line and column. A model that was made or changed in code has nothing but this.
 
 mod cases;
+mod combinations;
 mod error;
 mod members;
 
@@ -31,6 +32,7 @@ impl Model {
         check.structure();
         check.loads();
         check.cases();
+        check.combinations();
         check.outputs();
         check.envelopes();
         if check.errors.is_empty() { Ok(()) } else { Err(check.errors) }
@@ -93,6 +95,7 @@ impl Check<'_> {
             ("function", all(&m.functions, |f| (&f.name, none()))),
             ("load", all(&m.patterns, |p| (&p.name, none()))),
             ("case", all(&m.cases, |c| (&c.name, c.span.clone()))),
+            ("combination", all(&m.combinations, |c| (&c.name, none()))),
             ("output", all(&m.outputs, |o| (&o.name, none()))),
             ("spectrum", all(&m.spectra, |s| (&s.name, none()))),
         ];

@@ -3,6 +3,7 @@
 mod accelerogram;
 mod along;
 mod cases;
+mod combinations;
 mod context;
 mod custom;
 mod damping;
@@ -241,6 +242,9 @@ fn sections(
     let cases = cases::cases(c, case_entries, &about);
     let p_delta =
         top.get("p_delta").map_or(Some(None), |n| cases::p_delta(c, n, case_entries, &cases));
+    let combination_entries = c.section(&top, "combinations", false);
+    let case_names = Names::new("case", "cases", case_entries);
+    let combinations = combinations::combinations(c, combination_entries, &case_names);
     let structure = outputs::Structure {
         members: &members,
         nodes: &node_names,
@@ -272,6 +276,7 @@ fn sections(
         functions: functions.into_iter().flatten().collect(),
         patterns: patterns.into_iter().flatten().collect(),
         cases: cases.into_iter().flatten().collect(),
+        combinations: combinations.into_iter().flatten().collect(),
         solvers: custom::solvers(c),
         outputs: outputs.into_iter().flatten().collect(),
         spectra: spectra.into_iter().flatten().collect(),

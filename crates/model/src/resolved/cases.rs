@@ -2,7 +2,8 @@
 
 use super::{custom, factor, text};
 use crate::{
-    Analysis, Basis, BasisKind, DynamicCase, Kernel, Load, Model, Solution, SolverKind, StepControl,
+    Analysis, Basis, BasisKind, Combination, CombinationTerm, DynamicCase, Kernel, Load, Model,
+    Solution, SolverKind, StepControl,
 };
 use trilith_element::Dimension;
 use trilith_element::dimension::{ACCELERATION, LENGTH, NONE};
@@ -103,4 +104,16 @@ fn solution(model: &Model, s: &Solution) -> String {
          {limit}basis: {basis}, alpha: {:?}",
         s.link_tolerance, s.energy_limit, s.alpha
     )
+}
+
+pub(super) fn combination(model: &Model, it: &Combination) -> String {
+    let term = |(term, factor): &(CombinationTerm, f64)| {
+        let name = match *term {
+            CombinationTerm::Case(i) => &model.cases[i].name,
+            CombinationTerm::Combination(i) => &model.combinations[i].name,
+        };
+        format!("{}: {factor:?}", text(name))
+    };
+    let terms: Vec<_> = it.terms.iter().map(term).collect();
+    format!("{}(cases: {{ {} }})", it.how.name(), terms.join(", "))
 }

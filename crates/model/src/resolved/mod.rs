@@ -10,7 +10,7 @@ use crate::read::CONTENTS;
 use crate::{
     AfterEnd, Body, Damping, Harmonic, Interpolation, Model, ParameterValue, Plane, TimeFunction,
 };
-use cases::case;
+use cases::{case, combination};
 use outputs::output;
 use std::fmt::Write;
 use trilith_element::{Card, Dimension, Dof, Frame, Value, Values, Vector3};
@@ -54,6 +54,9 @@ pub fn resolved(model: &Model) -> String {
     w.map("functions", &model.functions, |f| (f.name.clone(), function(&f.function, f.dimension)));
     w.map("loads", &model.patterns, |p| (p.name.clone(), loads::pattern(model, p)));
     w.map("cases", &model.cases, |c| (c.name.clone(), case(model, c)));
+    if !model.combinations.is_empty() {
+        w.map("combinations", &model.combinations, |c| (c.name.clone(), combination(model, c)));
+    }
     // Envelopes make their own outputs, behind all others.
     let firsts = model.envelopes.iter().flat_map(|e| &e.members).map(|m| m.first);
     let own = firsts.min().unwrap_or(model.outputs.len());

@@ -4,7 +4,7 @@ use super::Takes::Words;
 use super::{Block, Group, absent, needed};
 
 /// Sections that an included file may hold, beside `units` of its own bare numbers and `include`.
-pub const INCLUDED: [&str; 12] = [
+pub const INCLUDED: [&str; 13] = [
     "parameters",
     "nodes",
     "supports",
@@ -14,6 +14,7 @@ pub const INCLUDED: [&str; 12] = [
     "functions",
     "loads",
     "cases",
+    "combinations",
     "outputs",
     "spectra",
     "envelopes",

@@ -4,6 +4,7 @@
 //! a file; the reference of the guide is written from here.
 
 mod cases;
+mod combinations;
 mod functions;
 mod loads;
 mod many;
@@ -17,6 +18,7 @@ pub use cases::{
     FIXED, FORCE_HISTORY, GRAVITY, INITIAL, KERNELS, LOAD, LOADS, RITZ, SOLVERS, STATIC, STEPS,
     SUPPORT_MOTION,
 };
+pub use combinations::COMBINATIONS;
 pub use functions::{
     AFTER_END, CONSTANT, COSINE, FUNCTIONS, HALF_SINE, INTERPOLATIONS, POINTS, RAMP, RICKER,
     SCALED, SINE, STEP, TABLE,

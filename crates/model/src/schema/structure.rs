@@ -2,7 +2,8 @@
 
 use super::Takes::{Choice, Map, Name, Number, One, Text, Words};
 use super::{
-    Block, CASES, ENVELOPES, FUNCTIONS, Field, Group, OUTPUTS, SPECTRA, absent, needed, plain,
+    Block, CASES, COMBINATIONS, ENVELOPES, FUNCTIONS, Field, Group, OUTPUTS, SPECTRA, absent,
+    needed, plain,
 };
 use trilith_element::Range::{NonNegative, Positive, Within};
 use trilith_element::dimension as d;
@@ -103,6 +104,7 @@ pub static MODEL: Group = Group {
                 Map(&CASES),
                 "Analysis cases; `trilith run` runs the last one, and those it continues, unless `--case` names another.",
             ),
+            absent("combinations", Map(&COMBINATIONS), "none", "Combinations of cases."),
             absent(
                 "outputs",
                 Map(&OUTPUTS),

@@ -21,7 +21,8 @@ const DEEPEST: usize = 64;
 /// Reads a whole JSON text.
 pub(crate) fn parse(text: &str) -> Result<Node, TreeError> {
     let start = text.len() - text.trim_start_matches('\u{feff}').len();
-    let mut reader = Reader { text, at: start, maps: maps(), bare: bare() };
+    let maps = [maps(schema::MODEL.blocks), maps_inside()];
+    let mut reader = Reader { text, at: start, maps, bare: bare() };
     let root = reader.value(Place::Plain, 0)?;
     reader.blanks();
     match reader.peek() {
@@ -30,15 +31,21 @@ pub(crate) fn parse(text: &str) -> Result<Node, TreeError> {
     }
 }
 
-/// Sections and fields whose objects are maps from names.
-fn maps() -> Vec<&'static str> {
-    let fields = schema::groups().into_iter().flat_map(|g| g.blocks).flat_map(|b| b.fields);
+/// Fields of some blocks whose objects are maps from names.
+fn maps(blocks: &[&schema::Block]) -> Vec<&'static str> {
+    let fields = blocks.iter().flat_map(|b| b.fields);
     let is_map = |takes: Takes| match takes {
         Takes::Map(_) => true,
         Takes::Words(words) => words.starts_with("a map"),
         _ => false,
     };
     fields.filter(|f| is_map(f.takes)).map(|f| f.name).collect()
+}
+
+/// Those of blocks inside sections; `nodes` of an element may be one, too.
+fn maps_inside() -> Vec<&'static str> {
+    let inside = schema::groups().into_iter().filter(|g| !std::ptr::eq(*g, &schema::MODEL));
+    inside.flat_map(|g| maps(g.blocks)).chain(["nodes"]).collect()
 }
 
 /// Names that may stand alone.
@@ -66,7 +73,8 @@ enum Place {
 struct Reader<'a> {
     text: &'a str,
     at: usize,
-    maps: Vec<&'static str>,
+    /// Of the model itself, and of blocks inside it.
+    maps: [Vec<&'static str>; 2],
     bare: Vec<&'static str>,
 }
 
@@ -219,7 +227,7 @@ impl Reader<'_> {
                 (Place::Plain, "For") => Place::Indices,
                 (Place::Indices, "of" | "when") => Place::Plain,
                 (Place::Indices, _) => Place::Map,
-                (Place::Plain, key) if depth == 0 && self.maps.contains(&key) => Place::Map,
+                (Place::Plain, key) if self.maps[depth.min(1)].contains(&key) => Place::Map,
                 _ => Place::Plain,
             };
             let value = if depth == 0 && key == "parameters" {

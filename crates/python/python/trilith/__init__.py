@@ -32,6 +32,7 @@ from ._native import BUILD, VERSION as __version__, State
 
 if TYPE_CHECKING:
     from ._catalogue import Card, CardParameter, elements
+    from ._combine import Combination, Combinations, Extremes
     from ._compare import Comparison, Difference, Variant, compare
     from ._exercise import Exercise, LastCycle, exercise
     from ._model import Case, Element, Model, load, loads
@@ -56,6 +57,7 @@ if TYPE_CHECKING:
 #: Where each name is, looked up when it is first used: importing the package is quick.
 _PLACES = {
     "_catalogue": ("Card", "CardParameter", "elements"),
+    "_combine": ("Combination", "Combinations", "Extremes"),
     "_compare": ("Comparison", "Difference", "Variant", "compare"),
     "_exercise": ("Exercise", "LastCycle", "exercise"),
     "_model": ("Case", "Element", "Model", "load", "loads"),
@@ -86,12 +88,15 @@ __all__ = [
     "Card",
     "CardParameter",
     "Case",
+    "Combination",
+    "Combinations",
     "Comparison",
     "Diagnostic",
     "Difference",
     "Element",
     "Evaluation",
     "Exercise",
+    "Extremes",
     "FileError",
     "Gradient",
     "GroundMotion",

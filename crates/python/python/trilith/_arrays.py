@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from typing import TYPE_CHECKING, Any, TypeAlias
 
 from ._errors import ArgumentError, unknown
@@ -70,6 +70,13 @@ def positive(what: str, value: float | None) -> float | None:
     if not 0.0 < number < float("inf"):
         raise ArgumentError(f"{what} must be a finite number above 0, it is {value!r}")
     return number
+
+
+def names(what: str, values: Sequence[str]) -> list[str]:
+    """A list of names."""
+    if isinstance(values, str):
+        raise ArgumentError(f'{what} is a list of names, such as ["{values}"]')
+    return list(values)
 
 
 def whole(what: str, value: int | None) -> int | None:

@@ -13,6 +13,7 @@ from ._errors import ArgumentError, Diagnostic
 if TYPE_CHECKING:
     from os import PathLike
 
+    from ._combine import Combinations
     from ._compare import Comparison
     from ._modes import Modes
     from ._native import State
@@ -129,8 +130,10 @@ class Model:
         p_delta: str | None = None,
         functions: Mapping[str, object] | None = None,
         loads: Mapping[str, object] | None = None,
+        combinations: Mapping[str, object] | None = None,
         outputs: Mapping[str, object] | None = None,
         spectra: Mapping[str, object] | None = None,
+        envelopes: Mapping[str, object] | None = None,
         folder: str | PathLike[str] | None = None,
         **more: object,
     ) -> None:
@@ -154,8 +157,10 @@ class Model:
                 "functions": functions,
                 "loads": loads,
                 "cases": cases,
+                "combinations": combinations,
                 "outputs": outputs,
                 "spectra": spectra,
+                "envelopes": envelopes,
                 # The reader says what is wrong with it.
                 **more,
             }
@@ -346,6 +351,21 @@ class Model:
         from ._optimize import gradient
 
         return gradient(self, by, of, case=case, solver=solver, dt=dt)
+
+    def combine(
+        self, of: Sequence[str] = (), *, progress: Callable[[float], object] | None = None
+    ) -> Combinations:
+        """Runs the cases that ``combinations`` of the model need, and makes sums and envelopes of their extremes.
+
+        :param of: names of combinations; without them all.
+        :param progress: called with the finished share, 0 … 1.
+        :raises RunError: where a case comes to no good end.
+        :raises ArgumentError: for names that there are not, and a model without combinations.
+        :raises KeyboardInterrupt: upon Ctrl-C.
+        """
+        from ._combine import combine
+
+        return combine(self, of, progress=progress)
 
     def optimize(
         self,

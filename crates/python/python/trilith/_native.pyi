@@ -155,6 +155,9 @@ class Model:
         cause: bool,
         /,
     ) -> tuple[str, list[CompareFacts]]: ...
+    def combine(
+        self, of: list[str], progress: Callable[[float], object] | None, /
+    ) -> tuple[str, str]: ...
     def gradient(
         self,
         case: str | None,

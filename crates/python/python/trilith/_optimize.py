@@ -6,7 +6,7 @@ import json
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from typing import TYPE_CHECKING, NamedTuple
 
-from ._arrays import Columns, array, positive, whole
+from ._arrays import Columns, array, names, positive, whole
 from ._errors import ArgumentError, unknown
 from ._model import written
 
@@ -199,19 +199,19 @@ def gradient(
 ) -> Gradient:
     """Exact derivatives of outputs by parameters, in one run: see :meth:`Model.gradient`."""
     found = model._native.gradient(
-        case, solver, positive("dt", dt), _names("by", by), _names("of", of)
+        case, solver, positive("dt", dt), names("by", by), names("of", of)
     )
     text, t, parameters, outputs, links, put_in, bends, substeps = found
-    names = [name for name, _, _ in parameters]
+    keys = [name for name, _, _ in parameters]
     made = {}
     for name, unit, history, columns, values in outputs:
-        kinds = [Sensitive(at, x, dict(zip(names, slopes))) for at, x, slopes in values]
-        histories = Columns("parameter", dict(zip(names, columns)))
+        kinds = [Sensitive(at, x, dict(zip(keys, slopes))) for at, x, slopes in values]
+        histories = Columns("parameter", dict(zip(keys, columns)))
         made[name] = OutputGradient(name, unit, array(history), histories, *kinds)
     times = array(t)
     end = float(times[-1])
-    heat = {link: Sensitive(end, x, dict(zip(names, slopes))) for link, x, slopes in links}
-    source = put_in and Sensitive(end, put_in[0], dict(zip(names, put_in[1])))
+    heat = {link: Sensitive(end, x, dict(zip(keys, slopes))) for link, x, slopes in links}
+    source = put_in and Sensitive(end, put_in[0], dict(zip(keys, put_in[1])))
     return Gradient(text, times, parameters, made, heat, source, bends, substeps)
 
 
@@ -231,7 +231,7 @@ def optimize(
     """Values of parameters that make a goal smallest: see :meth:`Model.optimize`."""
     if not isinstance(by, Mapping):
         raise ArgumentError('parameters with their bounds are wanted, such as by={"mu": (0.02, 0.2)}')
-    steps_are_shares = _names("log", log)
+    steps_are_shares = names("log", log)
     for name in steps_are_shares:
         if name not in by:
             raise unknown("parameter of `by`", name, list(by))
@@ -258,8 +258,3 @@ def optimize(
     )
     return Optimum(text, facts)
 
-
-def _names(what: str, names: Sequence[str]) -> list[str]:
-    if isinstance(names, str):
-        raise ArgumentError(f'{what} is a list of names, such as ["{names}"]')
-    return list(names)

@@ -116,6 +116,9 @@ def ron(value: Any, depth: int = 0) -> str:
 
 def _struct(fields: Mapping[Any, Any], depth: int) -> str:
     pairs = [(n, v) for n, v in fields.items() if v is not None]
+    if any(isinstance(n, str) and not n.isidentifier() for n, _ in pairs):
+        # Names of a model, such as cases of a combination: a map.
+        return "{" + ", ".join(f"{_text(str(n))}: {ron(v, depth + 1)}" for n, v in pairs) + "}"
     inside = ", ".join(f"{_key(n)}: {ron(v, depth + 1)}" for n, v in pairs)
     return f"({inside})"
 

@@ -1,6 +1,7 @@
 //! Reading whole models with made-up kinds.
 
 mod bounds;
+mod combinations;
 mod damaged;
 mod grouped;
 mod in_json;
