@@ -9,10 +9,10 @@
 //!
 //! | parameter   | symbol | unit | default | meaning                                        |
 //! |-------------|--------|------|---------|------------------------------------------------|
-//! | `stiffness` | K      | SI   | –       | `.mtx` or `.npz`                               |
+//! | `stiffness` | K      | SI   | –       | `.mtx`, `.npz`, `.sti`, `.mas` or `.pch`       |
 //! | `mass`      | M      | SI   | none    | the same                                       |
 //! | `damping`   | C      | SI   | none    | the same                                       |
-//! | `rows`      |        |      | –       | CSV `row,node,dof`: what rows are              |
+//! | `rows`      |        |      | none    | CSV `row,node,dof`, or `.dof`: what rows are   |
 //! | `labels`    |        |      | names   | what the files call its nodes, in their order  |
 //!
 //! Matrices are in global axes and SI: N/m, N, N·m; kg, kg·m, kg·m². The rigid motion r of inner rows spreads weight and
@@ -20,6 +20,7 @@
 //! tied ones by K.
 
 mod checks;
+mod named;
 mod table;
 
 use std::sync::Arc;
@@ -65,9 +66,12 @@ impl Superelement {
             Default::Absent,
             "damping matrix (N·s/m, N·s, N·m·s), beside what `damping` of the model gives",
         ),
-        Parameter::file(
+        Parameter::new(
             "rows",
-            "CSV file `row,node,dof`: number of a row, from 1, label of its node, and `Ux` … `Rz`",
+            "",
+            Form::File,
+            Default::Absent,
+            "what rows are: CSV file `row,node,dof`, number of a row, from 1, label of its node, and `Ux` … `Rz`, or the `.dof` of CalculiX; not with `.pch`, which says so itself",
         ),
         Parameter::new(
             "labels",
@@ -98,18 +102,36 @@ impl Superelement {
         let stiffness = matrix("stiffness")?
             .ok_or_else(|| ParameterError::inconsistent("stiffness", "there is no `stiffness`"))?;
         let (mass, damping) = (matrix("mass")?, matrix("damping")?);
-        for (name, other) in [("mass", &mass), ("damping", &damping)] {
-            other.as_ref().map_or(Ok(()), |other| same_size(name, other, &stiffness))?;
-        }
-        let Some(Value::File(table)) = values.get("rows") else {
-            return Err(ParameterError::inconsistent("rows", "there is no table of `rows`"));
-        };
-        let labels = match values.get("labels") {
+        let labels: Vec<&str> = match values.get("labels") {
             Some(Value::List(texts)) => texts.iter().filter_map(text).collect(),
             _ => Vec::new(),
         };
-        let rows = table::rows(table, stiffness.size, &labels)?;
-        Ok(Self { sparse: SparseMatrices { rows, stiffness, mass, damping } })
+        let mut sparse = SparseMatrices { rows: Vec::new(), stiffness, mass, damping };
+        for (name, other) in [("mass", &sparse.mass), ("damping", &sparse.damping)] {
+            other.as_ref().map_or(Ok(()), |other| alike(name, other, &sparse.stiffness))?;
+        }
+        let table = match values.get("rows") {
+            Some(Value::File(table)) => Some(table),
+            _ => None,
+        };
+        let file = &sparse.stiffness.name;
+        match (table, sparse.stiffness.rows.is_empty()) {
+            (Some(table), true) => {
+                sparse.rows = table::rows(table, sparse.stiffness.size, &labels)?;
+            }
+            (None, false) => named::tie(&mut sparse, &labels)?,
+            (Some(_), false) => {
+                let message = format!("{file} says itself what its rows are: leave out `rows`");
+                return Err(ParameterError::inconsistent("rows", &message));
+            }
+            (None, true) => {
+                let message = format!(
+                    "{file} does not say what its rows are: a table of `rows` is wanted, CSV `row,node,dof` or the `.dof` of CalculiX"
+                );
+                return Err(ParameterError::inconsistent("rows", &message));
+            }
+        }
+        Ok(Self { sparse })
     }
 }
 
@@ -120,14 +142,19 @@ fn text(value: &Value) -> Option<&str> {
     }
 }
 
-fn same_size(name: &str, a: &SparseMatrix, stiffness: &SparseMatrix) -> Result<(), ParameterError> {
-    if a.size == stiffness.size {
-        return Ok(());
-    }
-    let message = format!(
-        "{} has {} rows, and the stiffness of {} has {}: both must be of the same rows",
-        a.name, a.size, stiffness.name, stiffness.size
-    );
+/// Of the same rows, or both of rows that have names.
+fn alike(name: &str, a: &SparseMatrix, stiffness: &SparseMatrix) -> Result<(), ParameterError> {
+    let message = match (a.rows.is_empty(), stiffness.rows.is_empty()) {
+        (true, true) if a.size != stiffness.size => format!(
+            "{} has {} rows, and the stiffness of {} has {}: both must be of the same rows",
+            a.name, a.size, stiffness.name, stiffness.size
+        ),
+        (true, false) | (false, true) => format!(
+            "one of {} and {} says what its rows are, and the other does not: both must be of one form",
+            a.name, stiffness.name
+        ),
+        _ => return Ok(()),
+    };
     Err(ParameterError::File { name: name.to_owned(), message })
 }
 

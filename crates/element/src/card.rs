@@ -378,8 +378,9 @@ pub enum Form {
     Text,
     /// A text file, by its path from the folder of the model file; the law gets a [`FileText`](crate::FileText).
     File,
-    /// A file with a sparse matrix, by its path from the folder of the model file: Matrix Market or `.npz` of scipy; the
-    /// kind gets a [`SparseMatrix`](crate::SparseMatrix).
+    /// A file with a sparse matrix, by its path from the folder of the model file: Matrix Market, `.npz` of SciPy, `.sti`
+    /// and `.mas` of CalculiX, DMIG of Nastran (`"wall.pch:KAAX"` where it has several); the kind gets a
+    /// [`SparseMatrix`](crate::SparseMatrix).
     SparseMatrix,
     /// A text for each node in its order: what the files of the element call it. The model may give them as keys of
     /// `nodes`; the names of the nodes where it gives none.

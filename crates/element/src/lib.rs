@@ -65,6 +65,6 @@ pub use outline::{NodalOutline, Outline};
 pub use register::{
     Read, ReadConstraint, ReadFunction, ReadLinear, ReadLink, ReadOutput, ReadSolver, Register,
 };
-pub use sparse::{SparseMatrices, SparseMatrix, SparseRow};
+pub use sparse::{MeshRow, SparseMatrices, SparseMatrix, SparseRow};
 pub use values::{Value, Values};
 pub use waveform::{Side, Stretch, Waveform};

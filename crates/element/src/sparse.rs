@@ -1,6 +1,7 @@
 //! Matrices of elements with many rows, by their entries.
 
 use crate::Dof;
+use std::fmt;
 use std::sync::Arc;
 
 /// A square matrix by its entries, as a file gives it.
@@ -16,9 +17,33 @@ pub struct SparseMatrix {
     pub size: usize,
     /// Row, column and value of every entry, by rising row and in it by rising column, none twice.
     pub entries: Vec<(u32, u32, f64)>,
+    /// What each row is, rising, where the file itself says so; empty where it does not.
+    pub rows: Vec<MeshRow>,
+}
+
+/// A row as a file names it, ordered by node and direction.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub struct MeshRow {
+    /// Number of the node in the mesh.
+    pub node: u32,
+    /// Its direction; none of a scalar point, such as the amplitude of a mode.
+    pub dof: Option<Dof>,
+}
+
+/// As `12.1`: the node, and its direction from 1; 0 for none.
+impl fmt::Display for MeshRow {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{}.{}", self.node, self.dof.map_or(0, |dof| dof.index() + 1))
+    }
 }
 
 impl SparseMatrix {
+    /// How the file calls a row, counted here from 0: `12.1` where it says what its rows are, or its number from 1.
+    #[must_use]
+    pub fn row_name(&self, row: usize) -> String {
+        self.rows.get(row).map_or_else(|| (row + 1).to_string(), MeshRow::to_string)
+    }
+
     /// The entries of one row: column and value, by rising column.
     pub fn row(&self, row: usize) -> impl Iterator<Item = (usize, f64)> + '_ {
         let first = self.entries.partition_point(|e| (e.0 as usize) < row);

@@ -17,6 +17,8 @@ use trilith_model::{Body, Element, Model, Span};
 const ROUNDING: f64 = 1e-6;
 /// A pivot of a matrix scaled to unit diagonal below this is negative, and no rounding.
 const NEGATIVE: f64 = -1e-8;
+/// An energy of a motion of unit size that is no less negative than this is rounding, in a matrix scaled to unit diagonal.
+const SHIFT: f64 = 1e-6;
 /// What a pivot that is none is replaced by: [`Ldlt::with_rigid_zeros`].
 const LOOSE: f64 = 1e29;
 
@@ -69,7 +71,7 @@ impl InnerRows {
                 return Err(refuse(indefinite("mass", own.mass.as_deref(), row)));
             }
             rows.doubts.extend(held(e, own, &rigid));
-            rows.doubts.extend((!loose.is_empty()).then(|| not_held(e, &loose)));
+            rows.doubts.extend((!loose.is_empty()).then(|| not_held(e, own, &loose)));
             rows.add(element, &e.nodes, own, &rigid);
         }
         Ok(rows)
@@ -156,7 +158,9 @@ impl InnerRows {
             Some(inner) => {
                 let element = &model.elements[inner.element].name;
                 let dof = inner.dof.map_or("of its matrices", Dof::name);
-                (format!("row {} of {element}", inner.row + 1), dof)
+                let own = sparse(&model.elements[inner.element]);
+                let row = own.map_or_else(String::new, |own| own.stiffness.row_name(inner.row));
+                (format!("row {row} of {element}"), dof)
             }
         }
     }
@@ -300,7 +304,9 @@ fn condense(
     Ok(Condensed { loose, negative })
 }
 
-/// A row at which a matrix turns out not to be positive semi-definite.
+/// A row at which a matrix turns out not to be positive semi-definite: with [`SHIFT`] on its diagonal it has a negative
+/// pivot. Without that, masses by fewer points than they have rows leave pivots of rounding, and what is divided by such
+/// a pivot may be anything.
 fn negative(a: &SparseMatrix) -> Result<Option<usize>, SystemError> {
     if a.entries.iter().all(|(i, j, _)| i == j) {
         return Ok(None);
@@ -312,10 +318,11 @@ fn negative(a: &SparseMatrix) -> Result<Option<usize>, SystemError> {
     for (i, j, v) in &a.entries {
         t.add(*i as usize, *j as usize, v * scale[*i as usize] * scale[*j as usize]);
     }
+    (0..a.size).for_each(|i| t.add(i, i, SHIFT));
     let scaled: Sparse = t.build();
     let mut found = None;
     Ldlt::with_rigid_zeros(&scaled)?.pivots(|equation, d| {
-        if d < NEGATIVE {
+        if d < 0.0 {
             found = found.or(Some(equation));
         }
     });
@@ -326,12 +333,13 @@ fn indefinite(what: &str, a: Option<&SparseMatrix>, row: usize) -> String {
     let file = a.map_or("", |a| &a.name);
     format!(
         "its {what} ({file}) is not positive semi-definite: a motion of row {} and of others has a negative energy",
-        row + 1
+        a.map_or_else(String::new, |a| a.row_name(row))
     )
 }
 
-fn not_held(e: &Element, loose: &[usize]) -> String {
-    let rows: Vec<String> = loose.iter().take(4).map(|row| (row + 1).to_string()).collect();
+fn not_held(e: &Element, own: &SparseMatrices, loose: &[usize]) -> String {
+    let name = |row: &usize| own.stiffness.row_name(*row);
+    let rows: Vec<String> = loose.iter().take(4).map(name).collect();
     let more = if loose.len() > 4 { ", …" } else { "" };
     format!(
         "check the model: the nodes of \"{}\" do not hold all of it (its rows {}{more} among others can move while they \

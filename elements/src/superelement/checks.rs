@@ -21,15 +21,16 @@ pub(super) fn checked(
             message: format!("{}: {message}", a.name),
         })
     };
+    let row = |i: u32| a.row_name(i as usize);
     let diagonal = a.diagonal();
     if let Some((i, j, value)) = a.entries.iter().find(|e| !e.2.is_finite()) {
-        return wrong(format!("{value} in row {}, column {}", i + 1, j + 1));
+        return wrong(format!("{value} in row {}, column {}", row(*i), row(*j)));
     }
     let most = diagonal.iter().fold(0.0_f64, |most, d| most.max(d.abs()));
     if let Some(i) = diagonal.iter().position(|d| *d < -1e-12 * most) {
         return wrong(format!(
             "the diagonal entry of row {} is {:e}: must not be negative",
-            i + 1,
+            a.row_name(i),
             diagonal[i]
         ));
     }
@@ -55,7 +56,7 @@ pub(super) fn checked(
         }
     }
     if let Some((_, i, j, value, other)) = worst {
-        let (i, j) = (i + 1, j + 1);
+        let (i, j) = (row(i), row(j));
         let relative = (value - other).abs() / value.abs().max(other.abs());
         return wrong(format!(
             "the matrix is not symmetric: {value:e} in row {i}, column {j}, and {other:e} in row {j}, column {i}, a difference of {relative:.1e}, the largest of all; must be symmetric"
@@ -67,8 +68,8 @@ pub(super) fn checked(
     if let Some((i, j, value)) = a.entries.iter().find(over) {
         return wrong(format!(
             "{value:e} in row {}, column {}, beside {:e} and {:e} on the diagonal: a motion of the two has a negative energy, and the matrix must be positive semi-definite",
-            i + 1,
-            j + 1,
+            row(*i),
+            row(*j),
             diagonal[*i as usize],
             diagonal[*j as usize]
         ));

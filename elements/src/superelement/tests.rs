@@ -1,5 +1,5 @@
 use super::*;
-use trilith_element::{Dof, FileText, SparseRow};
+use trilith_element::{Dof, FileText, MeshRow, SparseRow};
 
 fn matrix(name: &str, size: usize, entries: &[(u32, u32, f64)]) -> Value {
     let (name, entries) = (name.to_owned(), entries.to_vec());
@@ -107,4 +107,79 @@ fn it_is_drawn_from_its_centre_to_its_nodes() {
     assert_eq!(outline.points[0], (0, [1.0, 2.0, 0.0]));
     assert_eq!(outline.paths, [[0, 1], [0, 2], [0, 3]]);
     assert_eq!(outline.checked(3).map(|o| o.points.len()), Some(4));
+}
+
+#[test]
+fn a_table_of_calculix_has_a_line_for_every_row() {
+    let five: Vec<(u32, u32, f64)> = (0..3).map(|i| (i, i, 1.0)).collect();
+    let read = |text: &str| {
+        let file = FileText { name: "wall.DOF".into(), text: text.into() };
+        let labels = Value::List(["12", "7"].map(|l| Value::Text(l.into())).to_vec());
+        let all = vec![
+            ("stiffness".into(), matrix("wall.sti", 3, &five)),
+            ("rows".into(), Value::File(Arc::new(file))),
+            ("labels".into(), labels),
+        ];
+        Superelement::read(&Values(all)).map_err(|e| e.to_string())
+    };
+    let it = read("12.1\n113.2\n\n7.6\n").unwrap();
+    let (first, last) = (SparseRow::Node(0, Dof::Ux), SparseRow::Node(1, Dof::Rz));
+    assert_eq!(it.sparse.rows, [first, SparseRow::Inner(Some(Dof::Uy)), last]);
+    let told = |text: &str| read(text).unwrap_err();
+    assert_eq!(
+        told("12.1\n7.1\n"),
+        "`rows`: wall.DOF: 2 lines, and the matrices have 3 rows: a line for each row is wanted"
+    );
+    let wanted = "a node and its direction are wanted, as in `12.1`, 1 to 3 along X, Y and Z, 4 to 6 about them";
+    for line in ["7.0", "7.7", "7", "x.1", ".1", "7.1.1", "-7.1"] {
+        let error = told(&format!("12.1\n{line}\n7.2\n"));
+        assert_eq!(error, format!("`rows`: wall.DOF, line 2: `{line}`: {wanted}"));
+    }
+    assert_eq!(
+        told("12.1\n113.2\n113.2\n"),
+        "`rows`: wall.DOF, line 3: `113.2` stands in line 2 already"
+    );
+    assert!(told("12.1\n113.2\n8.1\n").contains("no row is of a node `7`"));
+}
+
+/// Rows that only one of two matrices has are rows of zeros in the other.
+#[test]
+fn matrices_whose_rows_have_names_are_brought_to_the_same_rows() {
+    let named = |name: &str, rows: &[(u32, Option<Dof>)], entries: &[(u32, u32, f64)]| {
+        Value::Matrix(Arc::new(SparseMatrix {
+            name: name.into(),
+            size: rows.len(),
+            entries: entries.to_vec(),
+            rows: rows.iter().map(|(node, dof)| MeshRow { node: *node, dof: *dof }).collect(),
+            ..SparseMatrix::default()
+        }))
+    };
+    let (x, z) = (Some(Dof::Ux), Some(Dof::Uz));
+    let k =
+        named("w.pch:K", &[(7, x), (12, x), (900, None)], &[(0, 0, 1.0), (1, 1, 2.0), (2, 2, 3.0)]);
+    let m = named(
+        "w.pch:M",
+        &[(7, x), (12, None), (12, z)],
+        &[(0, 0, 4.0), (0, 2, 1.0), (2, 0, 1.0), (2, 2, 5.0)],
+    );
+    let labels = Value::List(["12", "7"].map(|l| Value::Text(l.into())).to_vec());
+    let of = |labels: Value| {
+        let all = [("stiffness", k.clone()), ("mass", m.clone()), ("labels", labels)];
+        let all = all.map(|(name, value)| (name.to_owned(), value)).to_vec();
+        Superelement::read(&Values(all)).map_err(|e| e.to_string())
+    };
+    let it = of(labels).unwrap().sparse;
+    // 7.1, 12.0, 12.1, 12.3, 900.0; what has no direction is tied to no node.
+    let (tied, inner) = (SparseRow::Node, SparseRow::Inner(None));
+    let rows = [tied(1, Dof::Ux), inner, tied(0, Dof::Ux), tied(0, Dof::Uz), inner];
+    assert_eq!(it.rows, rows);
+    assert_eq!(it.stiffness.entries, [(0, 0, 1.0), (2, 2, 2.0), (4, 4, 3.0)]);
+    let mass = it.mass.unwrap();
+    assert_eq!(mass.entries, [(0, 0, 4.0), (0, 3, 1.0), (3, 0, 1.0), (3, 3, 5.0)]);
+    assert_eq!(
+        (mass.size, mass.row_name(3), it.stiffness.row_name(1)),
+        (5, "12.3".into(), "12.0".into())
+    );
+    let error = of(Value::List(vec![Value::Text("8".into())])).unwrap_err();
+    assert!(error.starts_with("`stiffness`: w.pch:K: no row is of a node `8`"), "{error}");
 }

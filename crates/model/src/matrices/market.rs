@@ -2,7 +2,7 @@
 //!
 //! R. F. Boisvert, R. Pozo, K. A. Remington, "The Matrix Market exchange formats: initial design", NISTIR 5935, 1996.
 
-use super::{Entries, square};
+use super::{Entries, at_line, is_symmetric, square, text, triplet};
 use std::fmt::Write;
 use trilith_element::{FileError, SparseMatrix};
 
@@ -11,11 +11,7 @@ const SHORTEST: usize = 6;
 
 /// Rows and entries.
 pub(super) fn read(bytes: &[u8], name: &str) -> Result<(usize, Entries), FileError> {
-    let wrong = |line: usize, message: String| FileError {
-        file: name.to_owned(),
-        line: Some(line),
-        message,
-    };
+    let wrong = |line: usize, message: String| at_line(name, line, message);
     let mut lines = bytes.split(|b| *b == b'\n').enumerate().map(|(i, line)| (i + 1, line));
     let heading = lines.next().map_or(&b""[..], |(_, line)| line);
     let symmetric = heading_of(&text(heading)).map_err(|message| wrong(1, message))?;
@@ -65,10 +61,6 @@ pub(super) fn read(bytes: &[u8], name: &str) -> Result<(usize, Entries), FileErr
     Ok((n, entries))
 }
 
-fn text(line: &[u8]) -> std::borrow::Cow<'_, str> {
-    String::from_utf8_lossy(line)
-}
-
 /// True where only the lower triangle is given.
 fn heading_of(line: &str) -> Result<bool, String> {
     let words: Vec<String> = line.split_ascii_whitespace().map(str::to_ascii_lowercase).collect();
@@ -90,39 +82,24 @@ fn heading_of(line: &str) -> Result<bool, String> {
         ["%%matrixmarket", "matrix", "coordinate", field, ..] => {
             Err(format!("entries that are `{field}` are no stiffness, mass or damping: {wanted}"))
         }
-        _ => Err(format!("this is neither Matrix Market nor `.npz`: a first line {wanted}")),
+        _ => Err(format!(
+            "this is none of Matrix Market, `.npz`, CalculiX and DMIG: a first line {wanted}"
+        )),
     }
 }
 
 /// Row and column from 0, and value.
 fn entry(line: &[u8], n: usize) -> Result<(u32, u32, f64), String> {
-    let no = || format!("`{}` is no entry: row, column and value are wanted", text(line).trim());
-    let line = std::str::from_utf8(line).map_err(|_| no())?;
-    let mut words = line.split_ascii_whitespace();
-    let mut next = || words.next().ok_or_else(no);
-    let (i, j, value) = (next()?, next()?, next()?);
-    if words.next().is_some() {
-        return Err(no());
-    }
-    let place = |word: &str, what: &str| {
-        let at: usize = word.parse().map_err(|_| no())?;
-        match at {
-            at if (1..=n).contains(&at) => Ok(at as u32 - 1),
-            _ => Err(format!("there is no {what} {at}: the matrix has {n}, counted from 1")),
-        }
+    let (i, j, value) = triplet(line)?;
+    let place = |at: usize, what: &str| match at {
+        at if (1..=n).contains(&at) => Ok(at as u32 - 1),
+        _ => Err(format!("there is no {what} {at}: the matrix has {n}, counted from 1")),
     };
-    let (i, j) = (place(i, "row")?, place(j, "column")?);
-    let value: f64 = value.parse().map_err(|_| no())?;
-    if !value.is_finite() {
-        return Err(format!("entry ({}, {}) is {value}: must be a finite number", i + 1, j + 1));
-    }
-    Ok((i, j, value))
+    Ok((place(i, "row")?, place(j, "column")?, value))
 }
 
 pub(super) fn write(a: &SparseMatrix) -> String {
-    let mirrored =
-        |(i, j, v): &(u32, u32, f64)| i == j || a.row(*j as usize).any(|e| e == (*i as usize, *v));
-    let symmetric = a.entries.iter().all(mirrored);
+    let symmetric = is_symmetric(a);
     let kept = || a.entries.iter().filter(|(i, j, _)| !symmetric || j <= i);
     let symmetry = if symmetric { "symmetric" } else { "general" };
     let mut text = format!("%%MatrixMarket matrix coordinate real {symmetry}\n");

@@ -13,6 +13,33 @@ fn told(lines: &str) -> String {
     market(&format!("%%MatrixMarket matrix coordinate real symmetric\n{lines}")).unwrap_err()
 }
 
+/// Every beginning of a text and every text with one byte changed is read, or refused; those beginnings that end within a line
+/// of a file without a count are refused.
+pub(super) fn damaged(text: &str, name: &str, size: usize) {
+    let whole = text.as_bytes();
+    let sane = |bytes: &[u8]| {
+        let Ok(it) = read(bytes, name, "") else { return false };
+        let within = |(i, j, v): &(u32, u32, f64)| {
+            (*i as usize) < it.size && (*j as usize) < it.size && v.is_finite()
+        };
+        assert!(it.size > 0 && it.size <= size && it.entries.iter().all(within));
+        true
+    };
+    assert!(sane(whole));
+    for end in 0..whole.len() {
+        let good = sane(&whole[..end]);
+        let last = text[..end].rsplit('\n').next().unwrap_or_default();
+        assert!(!good || last.trim().is_empty(), "{:?}", &text[..end]);
+    }
+    for at in 0..whole.len() {
+        let mut bytes = whole.to_vec();
+        for other in 0..=255 {
+            bytes[at] = other;
+            sane(&bytes);
+        }
+    }
+}
+
 #[test]
 fn symmetric_and_general_files_of_matrix_market_are_read() {
     let symmetric = "%%MatrixMarket matrix coordinate real symmetric\n% by hand\n\n2 2 3\n2 1 -2.5\n1 1 2\n2 2 4e0\n";
@@ -29,7 +56,7 @@ fn symmetric_and_general_files_of_matrix_market_are_read() {
 fn what_is_written_is_read_again() {
     let of = |entries: &[(u32, u32, f64)]| {
         let it = SparseMatrix { size: 2, entries: entries.to_vec(), ..SparseMatrix::default() };
-        let text = market_text(&it);
+        let text = written(&it);
         (market(&text).unwrap().entries, text.contains("symmetric"))
     };
     assert_eq!(of(&ROD), (ROD.to_vec(), true));
@@ -87,7 +114,9 @@ fn what_is_wrong_with_a_matrix_market_file_is_told_with_its_line() {
     let heading = |text: &str| market(text).unwrap_err();
     assert_eq!(
         heading("row,node\n"),
-        format!("k.mtx, line 1: this is neither Matrix Market nor `.npz`: a first line {wanted}")
+        format!(
+            "k.mtx, line 1: this is none of Matrix Market, `.npz`, CalculiX and DMIG: a first line {wanted}"
+        )
     );
     assert!(heading("%%MatrixMarket matrix array real general\n").contains("the matrix is dense"));
     assert!(

@@ -34,7 +34,8 @@ pub(super) fn file(c: &Context<'_>, node: &Node) -> Option<Arc<FileText>> {
     c.motions.texts.get(format!("{path:?} {name}"), read).ok()
 }
 
-/// A sparse matrix: `"file.mtx"`, `"file.npz"`, `Parameter("name")` of a text parameter, or `Contents("file.mtx", "…")`.
+/// A sparse matrix: `"file.mtx"` or another form, `"file.pch:KAAX"` for one of several, `Parameter("name")` of a text
+/// parameter, or `Contents("file.mtx", "…")`.
 pub(super) fn matrix(c: &Context<'_>, node: &Node) -> Option<Arc<SparseMatrix>> {
     let made = |bytes: &[u8], name: &str, path: &str| {
         matrices::read(bytes, name, path).map_err(|error| {
@@ -46,7 +47,7 @@ pub(super) fn matrix(c: &Context<'_>, node: &Node) -> Option<Arc<SparseMatrix>> 
         return made(text.as_bytes(), &name, "").ok().map(Arc::new);
     }
     let name = file_name(c, node)?;
-    let path = c.file(&name, node);
+    let path = c.file(matrices::parted(&name).0, node);
     let read = || match trilith_record::file::read(&path) {
         Ok(bytes) => made(&bytes, &name, &path.to_string_lossy()),
         Err(error) => unreadable(c, node, &path, &error),

@@ -5,7 +5,7 @@ mod loads;
 mod outputs;
 mod spectra;
 
-use crate::matrices::market_text;
+use crate::matrices::written;
 use crate::read::CONTENTS;
 use crate::{
     AfterEnd, Body, Damping, Harmonic, Interpolation, Model, ParameterValue, Plane, TimeFunction,
@@ -136,7 +136,7 @@ fn value(v: &Value) -> String {
         Value::Flag(b) => b.to_string(),
         Value::File(file) => format!("{CONTENTS}({}, {})", text(&file.name), text(&file.text)),
         Value::Matrix(a) if a.entries.len() <= WRITTEN || a.path.is_empty() => {
-            format!("{CONTENTS}({}, {})", text(&a.name), text(&market_text(a)))
+            format!("{CONTENTS}({}, {})", text(&a.name), text(&written(a)))
         }
         Value::Matrix(a) => {
             // From any folder the same file.

@@ -184,7 +184,12 @@ pub static DAMPING: Group = Group {
     blocks: &[&NO_DAMPING, &MODAL, &MODAL_TABLE, &RAYLEIGH, &RAYLEIGH_AT],
 };
 
-const NODES: Field = absent("nodes", Words("a list of names of nodes"), "`node`", "The nodes.");
+const NODES: Field = absent(
+    "nodes",
+    Words("a list of names of nodes; of a kind with `labels` also a map from labels to nodes"),
+    "`node`",
+    "The nodes.",
+);
 /// Where an element stands.
 pub static PLACE: Block = Block {
     name: "",

@@ -60,7 +60,9 @@ fn form(p: &Parameter) -> (String, String) {
         Form::Node => (String::new(), "name of a node".into()),
         Form::Text => (String::new(), "text".into()),
         Form::File => (String::new(), "path of a text file".into()),
-        Form::SparseMatrix => (String::new(), "path of a `.mtx` or `.npz` file".into()),
+        Form::SparseMatrix => {
+            (String::new(), "path of a `.mtx`, `.npz`, `.sti`, `.mas` or `.pch` file".into())
+        }
         Form::Labels => (String::new(), "a text for each node".into()),
     }
 }
