@@ -157,6 +157,9 @@ const OTHERS: &[&str] = &[
     "not",
     // of the environment
     "SOURCE_DATE_EPOCH",
+    // of Nastran
+    "DMIG",
+    "EXTSEOUT",
 ];
 
 /// A word in backticks that looks like a name of a model file.
