@@ -131,50 +131,13 @@ fn block(out: &mut String, b: &Block, (within, place): (&str, &str)) {
     }
 }
 
+/// What a field takes, groups as links.
 fn takes(t: Takes) -> String {
-    let names = |all: &[&str]| all.iter().map(|n| format!("`{n}`")).collect::<Vec<_>>().join(", ");
-    let link = |g: &Group| format!("[{}](#{})", title(g.name), anchor(g.name));
-    match t {
-        Takes::Text => "text".into(),
-        Takes::Number(dimension, range) => {
-            let unit = if dimension.is_none() { "number".into() } else { dimension.unit() };
-            match range {
-                trilith::element::Range::Any => unit,
-                range => format!("{unit}, {}", bounds(range)),
-            }
-        }
-        Takes::Quantity => "number with any unit".into(),
-        Takes::Count(least) => format!("whole number ≥ {least}"),
-        Takes::Flag => "`true`, `false`".into(),
-        Takes::Choice(all) => names(all),
-        Takes::Name(what) => {
-            format!("name of a {what}").replace("a e", "an e").replace("a o", "an o")
-        }
-        Takes::One(g) => format!("one of {}", link(g)),
-        Takes::List(g) => format!("list of {}", link(g)),
-        Takes::Map(g) => format!("map from names to {}", link(g)),
-        Takes::Words(words) => words.into(),
-    }
-}
-
-fn bounds(range: trilith::element::Range) -> String {
-    match range {
-        trilith::element::Range::Above(a, b) if (b - 1.0).abs() < 1e-9 && a == 0.0 => {
-            "> 0 and < 1".into()
-        }
-        trilith::element::Range::Within(a, b) if (a + 1.0 / 3.0).abs() < 1e-9 => {
-            format!("−1/3 … {b}")
-        }
-        range => range.text(),
-    }
+    t.words(|g| format!("[{}](#{})", title(g.name), anchor(g.name)))
 }
 
 fn default(d: Default) -> String {
-    match d {
-        Default::Required => "**must be given**".into(),
-        Default::Absent(words) => words.into(),
-        Default::Value(text) => format!("`{text}`"),
-    }
+    d.words().unwrap_or_else(|| "**must be given**".into())
 }
 
 fn title(name: &str) -> String {

@@ -6,7 +6,7 @@ use crate::read::parse;
 use crate::schema;
 use crate::tree::{Entry, Kind, Node, twice};
 use crate::{Diagnostic, Source, Span};
-use std::collections::HashSet;
+use std::collections::{HashMap, HashSet};
 use std::path::{Component, Path, PathBuf};
 use std::sync::Arc;
 use trilith_record::file::canonical;
@@ -29,11 +29,18 @@ pub(crate) struct Whole {
     pub units: Vec<(usize, Node)>,
 }
 
-/// Reads the files that a model includes.
+/// Texts that count instead of those of files, by the one path of each file.
+pub type OpenTexts = HashMap<PathBuf, Arc<str>>;
+
+/// Reads the files that a model includes, but for those that are open.
 ///
 /// # Errors
 /// What is wrong with them.
-pub(crate) fn whole(source: &Arc<Source>, root: Node) -> Result<Whole, Vec<Diagnostic>> {
+pub(crate) fn whole(
+    source: &Arc<Source>,
+    root: Node,
+    open: &OpenTexts,
+) -> Result<Whole, Vec<Diagnostic>> {
     let places = Places::new(Arc::clone(source));
     let Node { span, kind: Kind::Fields(name, mut own) } = root else {
         return Ok(Whole { places, root, units: Vec::new() });
@@ -48,6 +55,7 @@ pub(crate) fn whole(source: &Arc<Source>, root: Node) -> Result<Whole, Vec<Diagn
         // Of a model without a folder every file is refused as missing.
         canonical: canonical(&folder).unwrap_or_else(|_| folder.clone()),
         folder,
+        open,
         places,
         chain: Vec::new(),
         seen: HashSet::new(),
@@ -74,7 +82,8 @@ fn folder_of(path: &Path) -> PathBuf {
     }
 }
 
-struct Including {
+struct Including<'a> {
+    open: &'a OpenTexts,
     /// Folder of the model, as it was given and as the system knows it.
     folder: PathBuf,
     canonical: PathBuf,
@@ -88,7 +97,7 @@ struct Including {
     errors: Vec<Diagnostic>,
 }
 
-impl Including {
+impl Including<'_> {
     fn refuse(&mut self, code: &'static str, message: String, help: &str, at: &Span) {
         let d = Diagnostic::new(code, message, at.clone(), self.places.main());
         self.errors.push(d.help(help));
@@ -154,7 +163,11 @@ impl Including {
             );
             return self.refuse("E0120", message, "put some of them together", at);
         }
-        match trilith_record::file::read_text(&canonical) {
+        let text = match self.open.get(&canonical) {
+            Some(text) => Ok(text.to_string()),
+            None => trilith_record::file::read_text(&canonical),
+        };
+        match text {
             Ok(text) => match parse(&text, &shown) {
                 Ok((source, root)) => {
                     self.chain.push((canonical, shown.clone()));

@@ -47,6 +47,7 @@ pub use combination::{Combination, CombinationTerm, CombineCases};
 pub use custom::Custom;
 pub use diagnostic::{Diagnostic, line_column};
 pub use expression::quantity;
+pub use include::OpenTexts;
 pub use model::*;
 pub use output::*;
 pub use places::{Place, Places};

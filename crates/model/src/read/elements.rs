@@ -15,8 +15,8 @@ use std::collections::VecDeque;
 use std::sync::Arc;
 use trilith_element::dimension::{MOMENT, NONE, STIFFNESS};
 use trilith_element::{
-    Card, Category, Coordinates, Form, Frame, Geometry, Link, NodeCount, ParameterError, Range,
-    Value, Values, Vector3,
+    Card, Coordinates, Form, Frame, Geometry, Link, NodeCount, ParameterError, Range, Value,
+    Values, Vector3,
 };
 
 struct Reading<'c, 'n> {
@@ -75,16 +75,7 @@ fn kind<'c>(c: &'c Context<'_>, node: &Node) -> Option<(&'static Card, &'c Reade
 pub(super) fn allowed(card: &Card, place: &[&'static str]) -> Vec<&'static str> {
     let mut all: Vec<&str> = place.to_vec();
     all.extend(card.parameters.iter().map(|p| p.name));
-    if matches!(card.category, Category::Function | Category::Output | Category::Solver) {
-        return all;
-    }
-    all.extend(schema::ELEMENT.names());
-    if members::is_member(card) {
-        all.extend(schema::MEMBER.names());
-    }
-    if card.category == Category::Link {
-        all.extend(schema::LINK.names());
-    }
+    all.extend(schema::beside(card).into_iter().flat_map(schema::Block::names));
     all
 }
 
@@ -108,7 +99,7 @@ fn shape(card: &Card, given: &Given<'_>, values: &Values) -> Option<Shape> {
         (Some(width), Some(depth)) => Some(Shape::Rectangle { width, depth }),
         _ => None,
     };
-    own.shape.or_else(sides).or(shared.shape).filter(|_| members::is_member(card))
+    own.shape.or_else(sides).or(shared.shape).filter(|_| schema::is_member(card))
 }
 
 impl Reading<'_, '_> {

@@ -5,7 +5,7 @@ use crate::diagnostic::{closest, names_help};
 use crate::schema::{self, Default, Takes};
 use crate::sections::{self, Section, Shape};
 use crate::tree::{Entry, Kind, Node};
-use trilith_element::{Card, Category};
+use trilith_element::Card;
 
 /// Parameters by name, SI.
 type Numbers = Vec<(&'static str, f64)>;
@@ -37,12 +37,6 @@ const CLASSES: [(u8, u8); 14] = [
     (90, 105),
 ];
 
-/// True for kinds that have a cross-section and a material.
-pub(super) fn is_member(card: &Card) -> bool {
-    let has = |name: &str| card.parameters.iter().any(|p| p.name == name);
-    card.category == Category::Linear && has("area") && has("young")
-}
-
 fn find<'n>(entries: &'n [Entry], key: &str) -> Option<&'n Node> {
     entries.iter().find(|e| e.key == key).map(|e| &e.value)
 }
@@ -50,7 +44,7 @@ fn find<'n>(entries: &'n [Entry], key: &str) -> Option<&'n Node> {
 /// What section and material of these fields give, as far as the card takes it.
 pub(super) fn made(c: &Context<'_>, card: &Card, entries: &[Entry], what: &str) -> Option<Made> {
     let (mut all, mut shape) = (Numbers::new(), None);
-    if !is_member(card) {
+    if !schema::is_member(card) {
         return Some(Made::default());
     }
     let mut good = true;

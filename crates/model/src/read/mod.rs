@@ -34,7 +34,7 @@ mod values;
 mod tests;
 
 use crate::expand::{expand, has_templates};
-use crate::include::{self, Whole};
+use crate::include::{self, OpenTexts, Whole};
 use crate::schema;
 use crate::tree::{self, Kind, Node};
 use crate::units::STANDARD_GRAVITY;
@@ -124,8 +124,20 @@ impl ModelText {
     /// # Errors
     /// What is wrong with the text itself, or with a file that it includes.
     pub fn new(text: &str, path: impl AsRef<Path>) -> Result<Self, Vec<Diagnostic>> {
+        Self::with_open(text, path, &OpenTexts::new())
+    }
+
+    /// The same where other texts count than those that included files have on the disk, as in an editor.
+    ///
+    /// # Errors
+    /// As [`new`](Self::new).
+    pub fn with_open(
+        text: &str,
+        path: impl AsRef<Path>,
+        open: &OpenTexts,
+    ) -> Result<Self, Vec<Diagnostic>> {
         let (source, root) = parse(text, path)?;
-        let whole = include::whole(&source, root)?;
+        let whole = include::whole(&source, root, open)?;
         let templates = match &whole.root.kind {
             Kind::Fields(_, entries) => {
                 let all = entries.iter().filter(|e| {

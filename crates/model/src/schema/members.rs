@@ -4,9 +4,16 @@ use super::Takes::{Number, One, Text, Words};
 use super::{Block, Group, absent, needed, plain};
 use trilith_element::Range::{NonNegative, Positive, Within};
 use trilith_element::dimension as d;
+use trilith_element::{Card, Category};
 
 const OF_SECTION: &str = "`area` and what else the card has";
 const OF_MATERIAL: &str = "`young` and what else the card has";
+
+/// True for kinds that have a cross-section and a material.
+pub(crate) fn is_member(card: &Card) -> bool {
+    let has = |name: &str| card.parameter(name).is_some();
+    card.category == Category::Linear && has("area") && has("young")
+}
 
 /// What elements take whose card has an area and a modulus.
 pub static MEMBER: Block = Block {

@@ -12,6 +12,8 @@ mod members;
 mod outputs;
 mod records;
 mod structure;
+mod unit_names;
+mod words;
 
 pub use cases::{
     ADAPTIVE, BASE_DIRECTIONS, BASE_MOTION, BASES, CASES, COMPLETE, DIRECTIONS, DYNAMIC, EIGEN,
@@ -26,6 +28,7 @@ pub use functions::{
 pub(crate) use loads::PER_LENGTH;
 pub use loads::{FORCE, LOADINGS, POINT, TEMPERATURE, TRAPEZOID, UNIFORM};
 pub use many::{AS_IT_STANDS, GROUP_KINDS, INCLUDED, REPETITION};
+pub(crate) use members::is_member;
 pub use members::{
     ALUMINIUM, BOX, CIRCLE, CONCRETE, I_SHAPE, MATERIALS, MEMBER, PIPE, RECTANGLE, ROLLED,
     SECTIONS, STEEL,
@@ -43,7 +46,8 @@ pub use structure::{
     DAMPING, ELEMENT, LINK, MODAL, MODAL_TABLE, MODEL, NO_DAMPING, PLACE, PLANES, RAYLEIGH,
     RAYLEIGH_AT, SUPPORTS, UNITS,
 };
-use trilith_element::{Dimension, Range};
+use trilith_element::{Card, Category, Dimension, Range};
+pub use unit_names::units_of;
 
 /// Blocks that may stand at the same place of a file.
 #[derive(Debug)]
@@ -188,6 +192,17 @@ pub fn groups_of(first: &'static Group) -> Vec<&'static Group> {
         at += 1;
     }
     found
+}
+
+/// What a kind takes beside the parameters of its card and, of an element, its [`PLACE`].
+#[must_use]
+pub fn beside(card: &Card) -> Vec<&'static Block> {
+    match card.category {
+        Category::Function | Category::Output | Category::Solver => Vec::new(),
+        Category::Link => vec![&ELEMENT, &LINK],
+        Category::Linear if is_member(card) => vec![&ELEMENT, &MEMBER],
+        Category::Linear | Category::Constraint => vec![&ELEMENT],
+    }
 }
 
 /// Names and SI factors of all units, with the SI unit of their dimension.

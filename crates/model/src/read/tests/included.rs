@@ -270,3 +270,17 @@ fn nothing_outside_of_the_folder_is_included() {
     std::fs::write(folder.0.join("model/m.ron"), with("[1]")).unwrap();
     assert_eq!(folder.error().1.code, "E0105");
 }
+
+#[test]
+fn a_text_that_is_open_counts_instead_of_the_file() {
+    let folder = Folder::new("open", &[("m.ron", &with(r#"["a.ron"]"#)), ("a.ron", "(oops")]);
+    let path = folder.0.join("model/m.ron");
+    let text = std::fs::read_to_string(&path).unwrap();
+    let included = folder.0.join("model/a.ron").canonicalize().unwrap();
+    let open = [(included, SOFT.into())].into();
+    let read = |open: crate::OpenTexts| {
+        crate::ModelText::with_open(&text, &path, &open)?.read(&registry(), &[])
+    };
+    assert!(read(crate::OpenTexts::new()).is_err());
+    assert!(read(open).is_ok());
+}
