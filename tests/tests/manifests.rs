@@ -104,6 +104,7 @@ fn dependencies_point_one_way() {
         ("trilith-exchange", &["trilith-model"]),
         ("trilith-diagnostics", &["trilith-model"]),
         ("trilith-live", &["trilith", "trilith-diagnostics"]),
+        ("trilith-lsp", &["trilith"]),
         ("trilith-bench", &["trilith", "trilith-linalg", "trilith-report"]),
         ("trilith-guide", &["trilith", "trilith-cli", "trilith-study"]),
         ("trilith-python", &["trilith", "trilith-cli", "trilith-study"]),

@@ -29,6 +29,7 @@ mod gradient;
 mod import;
 mod interrupt;
 mod long;
+mod lsp;
 mod made_by;
 mod manual;
 mod modes;
@@ -89,6 +90,7 @@ pub fn main_of(registry: Registry, arguments: impl IntoIterator<Item = OsString>
         Command::Modes(a) => modes::modes(&registry, &a),
         Command::New(a) => new::new(&a),
         Command::View(a) => view::view(&registry, &a),
+        Command::Lsp => lsp::lsp(&registry),
         Command::Schema => schema::schema(&registry),
         Command::Elements(a) => elements::elements(&registry, &a),
         Command::Exercise(a) => exercise::exercise(&registry, a),

@@ -30,7 +30,9 @@ fn every_command_has_a_page() {
         assert!(text.contains("trilith-run.1"), "{text}");
     }
     let page = |name: &str| std::fs::read_to_string(dir.join(name)).expect("a page");
-    for command in ["run", "check", "modes", "sweep", "compare", "import", "record", "manual"] {
+    for command in
+        ["run", "check", "modes", "sweep", "compare", "import", "record", "lsp", "manual"]
+    {
         assert!(page("trilith.1").contains(&format!("trilith\\-{command}(1)")), "{command}");
         assert!(page(&format!("trilith-{command}.1")).starts_with(".ie"), "{command}");
     }

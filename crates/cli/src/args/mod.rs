@@ -45,6 +45,8 @@ pub(crate) enum Command {
     View(ViewArguments),
     /// The JSON Schema of models in JSON
     Schema,
+    /// Tell an editor of errors in models, complete names and units, explain them: a language server on stdin and stdout
+    Lsp,
     /// The kinds of elements, constraints and links, or the card of one
     Elements(ElementsArguments),
     /// Lead a link through a cyclic deformation and draw its loop
