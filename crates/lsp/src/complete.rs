@@ -132,7 +132,7 @@ impl Asking<'_> {
         let all = sections.iter().flat_map(|s| self.files.iter().flat_map(|f| f.names(s)));
         // An entry that is being written does not name itself.
         let other = all.filter(|d| {
-            !std::ptr::eq(d.file, self.file()) || !(d.key.start <= self.at && self.at <= d.key.end)
+            !(std::ptr::eq(d.file, self.file()) && d.key.start <= self.at && self.at <= d.key.end)
         });
         let one = |d: crate::names::Definition<'_>| {
             let quotes = if quoted { "\"" } else { "" };

@@ -7,7 +7,7 @@
 //! | file | does |
 //! |---|---|
 //! | `messages` | messages of a stream, none too long |
-//! | `server` | what is asked and answered |
+//! | `server`, `looking` | what is asked and answered |
 //! | `documents` | the texts that are open, and the files of a model |
 //! | `check` | errors of the reader, beside the answers |
 //! | `scan` | a text that need not be right, as blocks |
@@ -20,6 +20,7 @@ mod complete;
 mod documents;
 mod explain;
 mod fields;
+mod looking;
 mod messages;
 mod names;
 mod place;

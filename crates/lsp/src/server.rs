@@ -1,27 +1,21 @@
 //! The conversation: what a client asks, and what it is answered.
 
 use crate::check::{Checker, Job};
-use crate::complete::{Asking, Candidate, complete};
-use crate::documents::{Document, Documents};
-use crate::explain::{Outlined, outline};
+use crate::documents::Documents;
+use crate::looking::{Looking, symbols};
 use crate::messages::{self, MessageError};
-use crate::names::File;
-use crate::place::{Place, place};
-use crate::position::{Encoding, Lines};
-use crate::uri;
+use crate::position::Encoding;
 use lsp_server::{ErrorCode, Message, Notification, Request, RequestId, Response};
 use lsp_types::notification as n;
 use lsp_types::notification::Notification as _;
 use lsp_types::request as r;
 use lsp_types::request::Request as _;
 use lsp_types::{
-    CompletionItem, CompletionList, CompletionOptions, CompletionParams, CompletionTextEdit,
-    DidChangeTextDocumentParams, DidCloseTextDocumentParams, DidOpenTextDocumentParams,
-    DidSaveTextDocumentParams, DocumentSymbol, DocumentSymbolParams, Documentation,
-    GotoDefinitionParams, Hover, HoverContents, HoverParams, InsertTextFormat, Location,
-    MarkupContent, MarkupKind, OneOf, PositionEncodingKind, ServerCapabilities, SymbolKind,
+    CompletionOptions, CompletionParams, DidChangeTextDocumentParams, DidCloseTextDocumentParams,
+    DidOpenTextDocumentParams, DidSaveTextDocumentParams, DocumentSymbolParams,
+    GotoDefinitionParams, HoverParams, OneOf, PositionEncodingKind, ServerCapabilities,
     TextDocumentPositionParams, TextDocumentSyncCapability, TextDocumentSyncKind,
-    TextDocumentSyncOptions, TextEdit, Uri,
+    TextDocumentSyncOptions, Uri,
 };
 use serde::Serialize;
 use serde::de::DeserializeOwned;
@@ -301,10 +295,6 @@ impl<W: Write> Server<'_, W> {
     }
 }
 
-fn markdown(value: String) -> MarkupContent {
-    MarkupContent { kind: MarkupKind::Markdown, value }
-}
-
 /// Parameters as they should be.
 fn taken<T: DeserializeOwned>(params: Value) -> Result<T, Refusal> {
     serde_json::from_value(params).map_err(|e| (ErrorCode::InvalidParams, e.to_string()))
@@ -313,106 +303,4 @@ fn taken<T: DeserializeOwned>(params: Value) -> Result<T, Refusal> {
 fn value(of: impl Serialize) -> Value {
     // Names, texts and numbers: nothing that JSON does not have.
     serde_json::to_value(of).unwrap_or_default()
-}
-
-/// A place of a text that somebody asks about.
-pub(crate) struct Looking<'s> {
-    registry: &'s Registry,
-    documents: &'s Documents,
-    document: &'s Document,
-    files: Vec<File>,
-    place: Place,
-    at: usize,
-}
-
-impl<'s> Looking<'s> {
-    pub fn new(
-        registry: &'s Registry,
-        documents: &'s Documents,
-        document: &'s Document,
-        at: usize,
-    ) -> Self {
-        let files = documents.around(document);
-        let place = place(registry, &document.file, at);
-        Self { registry, documents, document, files, place, at }
-    }
-
-    fn asking(&self) -> Asking<'_> {
-        Asking { registry: self.registry, files: &self.files, place: &self.place, at: self.at }
-    }
-
-    fn range(&self, span: &std::ops::Range<usize>) -> lsp_types::Range {
-        self.document.lines.range(&self.document.file.text, span)
-    }
-
-    pub fn completion(&self, snippets: bool) -> CompletionList {
-        let (all, whole) = complete(&self.asking());
-        let item = |(i, c): (usize, Candidate)| {
-            // The brackets of a kind with the cursor between them.
-            let snippet = snippets && c.text.ends_with('(');
-            let new_text = if snippet { format!("{}$0)", c.text) } else { c.text };
-            let range = self.range(&c.span);
-            CompletionItem {
-                label: c.label,
-                kind: Some(c.kind),
-                detail: (!c.detail.is_empty()).then_some(c.detail),
-                documentation: (!c.meaning.is_empty())
-                    .then(|| Documentation::MarkupContent(markdown(c.meaning))),
-                sort_text: Some(format!("{i:04}")),
-                insert_text_format: snippet.then_some(InsertTextFormat::SNIPPET),
-                text_edit: Some(CompletionTextEdit::Edit(TextEdit { range, new_text })),
-                ..Default::default()
-            }
-        };
-        let items = all.into_iter().enumerate().map(item).collect();
-        CompletionList { is_incomplete: !whole, items }
-    }
-
-    pub fn hover(&self) -> Option<Hover> {
-        let found = self.asking().explain()?;
-        let contents = markdown(found.markdown);
-        Some(Hover {
-            contents: HoverContents::Markup(contents),
-            range: Some(self.range(&found.span)),
-        })
-    }
-
-    pub fn definition(&self) -> Option<Location> {
-        let asking = self.asking();
-        let (d, _) = asking.definition()?;
-        match self.documents.at(&d.file.path) {
-            Some(open) => {
-                Some(Location::new(open.uri.clone(), open.lines.range(&open.file.text, &d.key)))
-            }
-            None => {
-                let lines = Lines::new(&d.file.text, self.documents.encoding);
-                Some(Location::new(uri::of_path(&d.file.path)?, lines.range(&d.file.text, &d.key)))
-            }
-        }
-    }
-}
-
-/// The outline of a text.
-fn symbols(document: &Document) -> Vec<DocumentSymbol> {
-    outline(&document.file)
-        .into_iter()
-        .map(|o| symbol(document, o, SymbolKind::NAMESPACE))
-        .collect()
-}
-
-fn symbol(document: &Document, of: Outlined, kind: SymbolKind) -> DocumentSymbol {
-    let range = |span| document.lines.range(&document.file.text, span);
-    let children: Vec<_> =
-        of.entries.into_iter().map(|o| symbol(document, o, SymbolKind::OBJECT)).collect();
-    #[allow(deprecated)] // a field of the type that nobody fills any more
-    DocumentSymbol {
-        name: of.name,
-        detail: (!of.detail.is_empty()).then_some(of.detail),
-        kind,
-        tags: None,
-        deprecated: None,
-        range: range(&of.span),
-        selection_range: range(&of.key),
-        children: (!children.is_empty()).then_some(children),
-    }
 }

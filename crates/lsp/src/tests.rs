@@ -4,10 +4,10 @@ use crate::complete::Candidate;
 use crate::complete::{Asking, complete};
 use crate::documents::{Document, Documents};
 use crate::explain::outline;
+use crate::looking::Looking;
 use crate::names::File;
 use crate::place::place;
 use crate::position::Encoding;
-use crate::server::Looking;
 use std::path::{Path, PathBuf};
 use std::str::FromStr;
 
