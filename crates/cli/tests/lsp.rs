@@ -4,12 +4,15 @@ use serde_json::{Value, json};
 use std::io::{BufRead, BufReader, Read, Write};
 use std::path::Path;
 use std::process::{Child, ChildStdin, ChildStdout, Command, Stdio};
+use std::sync::mpsc::{Receiver, channel};
+use std::time::Duration;
 
 /// A program that ends with its test.
 struct Server {
     child: Child,
     to: Option<ChildStdin>,
-    from: BufReader<ChildStdout>,
+    /// What it says.
+    from: Receiver<Value>,
     asked: i64,
     /// Notifications that came while an answer was awaited.
     noted: Vec<Value>,
@@ -28,8 +31,16 @@ impl Server {
         let mut command = Command::new(env!("CARGO_BIN_EXE_trilith"));
         let piped = command.arg("lsp").stdin(Stdio::piped()).stdout(Stdio::piped());
         let mut child = piped.stderr(Stdio::piped()).spawn().unwrap();
-        let (to, from) = (child.stdin.take(), BufReader::new(child.stdout.take().unwrap()));
-        Self { child, to, from, asked: 0, noted: Vec::new() }
+        let (sender, from) = channel();
+        let mut said = BufReader::new(child.stdout.take().unwrap());
+        std::thread::spawn(move || {
+            while let Some(message) = message(&mut said) {
+                if sender.send(message).is_err() {
+                    break;
+                }
+            }
+        });
+        Self { to: child.stdin.take(), child, from, asked: 0, noted: Vec::new() }
     }
 
     /// A server that has been told what the editor can do, and what it can do itself.
@@ -68,21 +79,7 @@ impl Server {
     }
 
     fn hear(&mut self) -> Value {
-        let mut length = 0;
-        loop {
-            let mut line = String::new();
-            assert_ne!(self.from.read_line(&mut line).unwrap(), 0, "the server has gone");
-            match line.trim_end().split_once(": ") {
-                Some(("Content-Length", n)) => length = n.parse().unwrap(),
-                Some(_) => {}
-                None => break,
-            }
-        }
-        let mut body = vec![0; length];
-        self.from.read_exact(&mut body).unwrap();
-        let message: Value = serde_json::from_slice(&body).unwrap();
-        assert_eq!(message["jsonrpc"], "2.0");
-        message
+        self.from.recv_timeout(Duration::from_secs(120)).expect("the server says nothing")
     }
 
     /// What is said next of a file in this version.
@@ -122,6 +119,27 @@ impl Server {
         self.child.stderr.take().unwrap().read_to_string(&mut said).unwrap();
         (status.code(), said)
     }
+}
+
+/// The next message; none at the end.
+fn message(from: &mut BufReader<ChildStdout>) -> Option<Value> {
+    let mut length = 0;
+    loop {
+        let mut line = String::new();
+        if from.read_line(&mut line).unwrap() == 0 {
+            return None;
+        }
+        match line.trim_end().split_once(": ") {
+            Some(("Content-Length", n)) => length = n.parse().unwrap(),
+            Some(_) => {}
+            None => break,
+        }
+    }
+    let mut body = vec![0; length];
+    from.read_exact(&mut body).unwrap();
+    let message: Value = serde_json::from_slice(&body).unwrap();
+    assert_eq!(message["jsonrpc"], "2.0");
+    Some(message)
 }
 
 fn file(folder: &Path, name: &str, text: &str) -> String {
