@@ -5,7 +5,7 @@ use crate::fields::{Field, of_block};
 use crate::names::{Definition, File, find};
 use crate::place::{Inside, Named, Part, named};
 use crate::scan::Span;
-use crate::wanted::{SECTIONS, Wanted};
+use crate::wanted::Wanted;
 use trilith::catalogue;
 use trilith::element::Card;
 use trilith::model::schema::{self, Block};
@@ -185,13 +185,10 @@ pub(crate) struct Outlined {
 pub(crate) fn outline(file: &File) -> Vec<Outlined> {
     let text = &file.text;
     let model = file.tree.model();
-    let named = SECTIONS.iter().copied().chain(["supports", "groups", "spectra", "envelopes"]);
-    let named: Vec<&str> = named.collect();
     let sections = model.into_iter().flat_map(|m| &m.entries).filter_map(|e| {
         let key = e.key.as_ref()?;
         let name = text.get(key.span.clone())?;
-        let entries = if named.contains(&name) { file.names(name).collect() } else { Vec::new() };
-        let entries = entries.into_iter().map(|d| Outlined {
+        let entries = file.names(name).map(|d| Outlined {
             // An outline shows no entry without a name.
             name: if d.name.is_empty() { "\"\"".into() } else { d.name.into() },
             detail: kind(text, d.key.end..d.entry.end),

@@ -25,7 +25,7 @@ impl File {
         let model = self.tree.model();
         let block = model.and_then(|m| self.tree.field(m, &self.text, section));
         block.into_iter().flat_map(|b| &b.entries).filter_map(|e| {
-            let key = e.key.as_ref()?;
+            let key = e.key.as_ref().filter(|k| k.quoted)?;
             let name = self.text.get(key.span.clone())?;
             Some(Definition { file: self, name, key: key.span.clone(), entry: e.span.clone() })
         })
@@ -89,6 +89,8 @@ impl Definition<'_> {
 pub(crate) fn sections(section: &'static str) -> Vec<&'static str> {
     match section {
         "nodes" | "elements" => vec![section, GROUPS],
+        // They take cases and each other.
+        "combinations" => vec!["cases", section],
         _ => vec![section],
     }
 }

@@ -6,6 +6,7 @@ use crate::scan::{Block, Bracket, Entry, ROOT, Tree, Value};
 use crate::wanted::Wanted;
 use trilith::Registry;
 use trilith::element::Card;
+use trilith::element::dimension::NONE;
 use trilith::model::schema;
 
 /// What a block may hold.
@@ -113,6 +114,12 @@ fn inside(registry: &Registry, wanted: &Wanted, block: &Block, text: &str) -> In
         }
         (Wanted::List(inner), Bracket::Square) => Inside::Items((**inner).clone()),
         (Wanted::Map(keys, values), Bracket::Curly) => Inside::Map(*keys, (**values).clone()),
+        (Wanted::Factors(section), Bracket::Curly) => {
+            Inside::Map(Some(section), Wanted::Number(vec![NONE]))
+        }
+        (Wanted::Factors(section), Bracket::Round | Bracket::Square) => {
+            Inside::Items(Wanted::Name(section))
+        }
         (
             Wanted::Number(_) | Wanted::Name(_) | Wanted::Choice(_) | Wanted::Members,
             Bracket::Round | Bracket::Square,

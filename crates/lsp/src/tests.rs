@@ -145,6 +145,18 @@ fn names_are_those_that_the_model_gives() {
     has(&model("cases: { \"d\": Dynamic(base: [(function: \"|\")]) }"), &["shake"], &["d"]);
     has(&model("loads: { \"w\": [] }, cases: { \"c\": Static(loads: [\"|\"]) }"), &["w"], &["c"]);
     has(&model("outputs: { \"o\": Sum(), \"p\": Sum(terms: [\"|\"]) }"), &["o"], &["fuß links"]);
+    let combined = |names: &str| {
+        let cases = "cases: { \"wind\": Static() }, combinations: { \"both\": Srss(), \"all\": Envelope(cases: ";
+        model(&format!("{cases}{names}) }}"))
+    };
+    for names in ["{ \"|\": 1 }", "{ | }", "[\"|\"]", "[|]", "(\"|\")"] {
+        has(&combined(names), &["wind", "both"], &["shake", "fuß links"]);
+    }
+    has(
+        &model("cases: { \"c\": Dynamic(after: \"|\") }, combinations: { \"x\": Srss() }"),
+        &[],
+        &["x"],
+    );
     has(&model("supports: { \"|\": Fixed }"), &["fuß links"], &["shake"]);
     has(&model("supports: { | }"), &["fuß links"], &["Fixed"]);
 }

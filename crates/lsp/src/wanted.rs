@@ -25,6 +25,8 @@ pub(crate) enum Wanted {
     Block(&'static Group),
     /// Members of a group: names, or patterns of names.
     Members,
+    /// Names of a section with a factor each, or the names alone.
+    Factors(&'static str),
     /// A list of these, or one of them alone.
     List(Box<Wanted>),
     /// A map to these; its keys may be names of a section.
@@ -32,8 +34,17 @@ pub(crate) enum Wanted {
 }
 
 /// Sections that names lead to.
-pub(crate) const SECTIONS: [&str; 8] =
-    ["nodes", "elements", "properties", "functions", "loads", "cases", "outputs", "parameters"];
+pub(crate) const SECTIONS: [&str; 9] = [
+    "nodes",
+    "elements",
+    "properties",
+    "functions",
+    "loads",
+    "cases",
+    "combinations",
+    "outputs",
+    "parameters",
+];
 /// The section of groups, which stand for nodes and elements.
 pub(crate) const GROUPS: &str = "groups";
 
@@ -73,6 +84,7 @@ impl Wanted {
                 let all = [&schema::SUPPORTS[..], &schema::DIRECTIONS].concat();
                 Self::Map(Some("nodes"), Box::new(Self::Choice(all)))
             }
+            "cases" => Self::Factors("combinations"),
             "elements" => map(Self::Kind(true)),
             "properties" => map(Self::Kind(false)),
             "groups" => map(Self::Members),
