@@ -96,6 +96,25 @@ Z = Word("Z")
 Zero = Word("Zero")
 
 
+class AbsoluteAdd(Block):
+    """Largest magnitudes added, to both sides.
+
+    :param cases: Cases, and combinations that stand before, with their factors; names in a list have the factor
+        1.
+    """
+
+    _name = "AbsoluteAdd"
+
+    def __init__(
+        self,
+        *,
+        cases: Any | None = None,
+    ) -> None:
+        super().__init__(
+            cases=cases,
+        )
+
+
 class Acceleration(Block):
     """Acceleration, relative to the base or absolute.
 
@@ -1031,6 +1050,25 @@ class ElementForce(Block):
             dof=dof,
             factor=factor,
             hidden=hidden,
+        )
+
+
+class Envelope(Block):
+    """Largest of the largest values and smallest of the smallest, and which case they come from.
+
+    :param cases: Cases, and combinations that stand before, with their factors; names in a list have the factor
+        1.
+    """
+
+    _name = "Envelope"
+
+    def __init__(
+        self,
+        *,
+        cases: Any | None = None,
+    ) -> None:
+        super().__init__(
+            cases=cases,
         )
 
 
@@ -2040,6 +2078,26 @@ class Linear(Block):
     ) -> None:
         super().__init__(
             dt=dt,
+        )
+
+
+class LinearAdd(Block):
+    """Largest values added, and smallest values. For static cases that is their sum; of motions it is beyond what
+    happens at one time.
+
+    :param cases: Cases, and combinations that stand before, with their factors; names in a list have the factor
+        1.
+    """
+
+    _name = "LinearAdd"
+
+    def __init__(
+        self,
+        *,
+        cases: Any | None = None,
+    ) -> None:
+        super().__init__(
+            cases=cases,
         )
 
 
@@ -3565,6 +3623,25 @@ class Spring(Block):
         )
 
 
+class Srss(Block):
+    """Root of the sum of the squares of the largest magnitudes, to both sides.
+
+    :param cases: Cases, and combinations that stand before, with their factors; names in a list have the factor
+        1.
+    """
+
+    _name = "Srss"
+
+    def __init__(
+        self,
+        *,
+        cases: Any | None = None,
+    ) -> None:
+        super().__init__(
+            cases=cases,
+        )
+
+
 class Static(Block):
     """Nonlinear statics: loads grow from nothing, or from the case before, to their value.
 
@@ -3705,13 +3782,15 @@ class Superelement(Block):
     :param nodes: The nodes. Default: `node`.
     :param node: The only node: a link or spring between it and the ground. Default: `nodes`.
     :param use: Parameters from the set; those given beside it come first. Default: none.
-    :param stiffness: stiffness matrix in global axes and SI (N/m, N, N·m) (path of a `.mtx` or `.npz` file).
-    :param mass: mass matrix (kg, kg·m, kg·m²); without it there is no mass (path of a `.mtx` or `.npz` file,
-        default absent).
-    :param damping: damping matrix (N·s/m, N·s, N·m·s), beside what `damping` of the model gives (path of a `.mtx`
-        or `.npz` file, default absent).
-    :param rows: CSV file `row,node,dof`: number of a row, from 1, label of its node, and `Ux` … `Rz` (path of a
-        text file).
+    :param stiffness: stiffness matrix in global axes and SI (N/m, N, N·m) (path of a `.mtx`, `.npz`, `.sti`,
+        `.mas` or `.pch` file).
+    :param mass: mass matrix (kg, kg·m, kg·m²); without it there is no mass (path of a `.mtx`, `.npz`, `.sti`,
+        `.mas` or `.pch` file, default absent).
+    :param damping: damping matrix (N·s/m, N·s, N·m·s), beside what `damping` of the model gives (path of a
+        `.mtx`, `.npz`, `.sti`, `.mas` or `.pch` file, default absent).
+    :param rows: what rows are: CSV file `row,node,dof`, number of a row, from 1, label of its node, and `Ux` …
+        `Rz`, or the `.dof` of CalculiX; not with `.pch`, which says so itself (path of a text file, default
+        absent).
     :param labels: what the files call its nodes, in their order; instead, `nodes` may be a map from labels to
         nodes. Without either the files use the names of the nodes (a text for each node, default absent).
     :param axis1: Direction of local axis 1. Default: from the first node to the second; +Z for one node.
@@ -4274,6 +4353,7 @@ class Wen(Block):
 
 __all__ = [
     "AT2",
+    "AbsoluteAdd",
     "Acceleration",
     "Adaptive",
     "All",
@@ -4313,6 +4393,7 @@ __all__ = [
     "Eigen",
     "ElastomericBearing",
     "ElementForce",
+    "Envelope",
     "EqualDof",
     "Error",
     "Fixed",
@@ -4347,6 +4428,7 @@ __all__ = [
     "Largest",
     "LeadRubber",
     "Linear",
+    "LinearAdd",
     "LinearLink",
     "LinkDeformation",
     "LinkForce",
@@ -4407,6 +4489,7 @@ __all__ = [
     "SoilSpring",
     "Spherical",
     "Spring",
+    "Srss",
     "Static",
     "Stationary",
     "Steel",
