@@ -50,7 +50,7 @@ def test_what_is_refused() -> None:
         m.combine(["mots"])
     with pytest.raises(tl.ArgumentError, match="list of names"):
         m.combine("most")
-    with pytest.raises(tl.ArgumentError, match="no output"):
+    with pytest.raises(KeyError, match="there is no output"):
         m.combine()["most"]["drift"]
     start, end = COLUMN.index("    combinations"), COLUMN.index("    outputs")
     with pytest.raises(tl.ArgumentError, match="no combination"):
