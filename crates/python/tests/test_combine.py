@@ -41,7 +41,7 @@ def test_sums_and_envelopes() -> None:
     assert most.unit == "m" and found.cases["swing"]["sway"].min == most.min
     assert "most: Envelope of" in str(found) and "twice, most" in repr(found)
     assert list(m.combine(["twice"]).cases) == ["wind"]
-    assert told and 0 <= min(told) and max(told) <= 1
+    assert all(0 <= share <= 1 for share in told)
 
 
 def test_what_is_refused() -> None:
