@@ -116,9 +116,8 @@ fn gradients_go_through_an_output_of_another_crate() {
     let wanted = Wanted {
         case: Some("shake".into()),
         solver: Some(trilith::SolverKind::Hht),
-        dt: None,
         by: vec!["mass".into(), "height".into()],
-        set: Vec::new(),
+        ..Wanted::default()
     };
     let found = gradient(&text, &kinds(), &wanted).expect("derivatives");
     let [m2, m3, used] = ["M2", "M3", "used"].map(|name| {
