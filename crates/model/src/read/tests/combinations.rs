@@ -54,8 +54,10 @@ fn what_they_cannot_combine_is_told() {
         r#""dead": Srss(cases: ["q 1"])"#,
         "E0102",
         "give one of them another name",
-        "\"dead\"",
+        "dead",
     );
+    refused(r#""a": Srss(cases: ["q 1", "q 1"])"#, "E0102", "twice", r#"["q 1", "q 1"]"#);
+    refused(r#""a": Srss(cases: { "q 3": 1 })"#, "E0106", "did you mean `q 1`?", "q 3");
     refused(r#""a": Srss()"#, "E0104", "has no `cases`", "Srss");
 }
 
