@@ -143,3 +143,35 @@ fn the_resolved_model_is_printed_on_demand_and_is_a_model() {
     let body = |t: &str| t.lines().filter(|l| !l.starts_with("//")).collect::<String>();
     assert_eq!(body(&first), body(&second), "{err}");
 }
+
+#[test]
+fn a_superelement_on_a_ground_of_its_own_is_doubted() {
+    // Two masses in a row, by matrices; the first has a spring to no node of the model.
+    let folder = tempfile::tempdir().unwrap();
+    let model = |ground: f64| {
+        let k = format!(
+            "%%MatrixMarket matrix coordinate real symmetric\\n2 2 3\\n1 1 {}\\n2 1 -1e6\\n2 2 1e6\\n",
+            1e6 + ground
+        );
+        format!(
+            r#"(
+    plane: XZ,
+    nodes: {{ "a": (0, 0, 0), "b": (1, 0, 0) }},
+    supports: {{ "a": (Uz, Ry), "b": (Uz, Ry) }},
+    elements: {{
+        "row": Superelement(nodes: ["a", "b"], stiffness: Contents("k.mtx", "{k}"),
+            mass: Contents("m.mtx", "%%MatrixMarket matrix coordinate real symmetric\n2 2 2\n1 1 1e3\n2 2 1e3\n"),
+            rows: Contents("rows.csv", "row,node,dof\n1,a,Ux\n2,b,Ux\n")),
+        "spring": Spring(node: "a", k2: "1 MN/m"),
+    }},
+    cases: {{ "go": Dynamic(duration: 1, dt: 0.01, initial: [(node: "a", dof: Ux, velocity: 1)]) }},
+)"#
+        )
+    };
+    for (ground, doubted) in [(0.0, false), (5e5, true)] {
+        std::fs::write(folder.path().join("row.ron"), model(ground)).unwrap();
+        let (status, out, err) = trilith(folder.path(), &["check", "row.ron"]);
+        assert_eq!(status, 0, "{out}{err}");
+        assert_eq!(err.contains("its stiffness stands on a ground of its own"), doubted, "{err}");
+    }
+}

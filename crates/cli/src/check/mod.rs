@@ -3,7 +3,7 @@
 mod sheet;
 
 use crate::args::CheckArguments;
-use crate::{Answer, Failure, long, read};
+use crate::{Answer, Failure, diagnostics, long, read};
 use trilith::model::{Analysis as Kind, resolved};
 use trilith::{Analysis, Registry};
 
@@ -19,6 +19,9 @@ pub(crate) fn check(registry: &Registry, args: &CheckArguments) -> Result<Answer
     }
     for warning in trilith::solvers::warnings(&model).map_err(|e| Failure::of(&e.into(), &model))? {
         crate::output::tell(&warning);
+    }
+    for doubt in &analysis.system().inner.doubts {
+        crate::output::tell(&diagnostics::warning(doubt));
     }
     for case in &model.cases {
         if let Some(warning) = long::warning(&model, case, None) {

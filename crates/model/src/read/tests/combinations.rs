@@ -50,12 +50,7 @@ fn what_they_cannot_combine_is_told() {
     refused(r#""a": Srss(cases: [])"#, "E0104", "has no cases", "[]");
     refused(r#""a": Srss(cases: { "dead": "force" })"#, "E0111", "a pure number", "\"force\"");
     refused(r#""a": Srss(cases: 3)"#, "E0105", "a map from names of cases", "3");
-    refused(
-        r#""dead": Srss(cases: ["q 1"])"#,
-        "E0102",
-        "give one of them another name",
-        "dead",
-    );
+    refused(r#""dead": Srss(cases: ["q 1"])"#, "E0102", "give one of them another name", "dead");
     refused(r#""a": Srss(cases: ["q 1", "q 1"])"#, "E0102", "twice", r#"["q 1", "q 1"]"#);
     refused(r#""a": Srss(cases: { "q 3": 1 })"#, "E0106", "did you mean `q 1`?", "q 3");
     refused(r#""a": Srss()"#, "E0104", "has no `cases`", "Srss");
