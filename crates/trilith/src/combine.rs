@@ -4,8 +4,8 @@
 //! let text = r#"(
 //!     nodes: { "base": (0, 0, 0), "top": (0, 0, 3) },
 //!     supports: { "base": Fixed },
-//!     elements: { "column": Beam(nodes: ("base", "top"), E: "200 GPa", A: "0.01 m^2", I2: "1e-4 m^4", I3: "1e-4 m^4", J: "1e-4 m^4") },
-//!     loads: { "wind": [(node: "top", dof: Ux, value: "1 kN")], "roof": [(node: "top", dof: Uz, value: "-10 kN")] },
+//!     elements: { "column": Beam(nodes: ("base", "top"), young: "200 GPa", poisson: 0.3, width: "20 cm", depth: "20 cm") },
+//!     loads: { "wind": [(node: "top", dof: Ux, force: "1 kN")], "roof": [(node: "top", dof: Uz, force: "-10 kN")] },
 //!     cases: { "dead": Static(loads: ["roof"]), "wind": Static(loads: ["wind"]) },
 //!     combinations: {
 //!         "strength": LinearAdd(cases: { "dead": 1.35, "wind": 1.5 }),
