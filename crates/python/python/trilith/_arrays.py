@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
-from typing import TYPE_CHECKING, Any, TypeAlias
+from typing import TYPE_CHECKING, Any, TypeAlias, TypeVar
 
 from ._errors import ArgumentError, unknown
 
@@ -95,6 +95,34 @@ def whole(what: str, value: int | None) -> int | None:
     if number < 1:
         raise ArgumentError(f"{what} must be at least 1, it is {number}")
     return number
+
+
+T = TypeVar("T")
+
+
+class Named(Mapping[str, T]):
+    """Values by their names; a name that there is not is told with those that there are."""
+
+    __slots__ = ("_all", "_what")
+
+    def __init__(self, what: str, values: Mapping[str, T]) -> None:
+        self._what = what
+        self._all = dict(values)
+
+    def __getitem__(self, name: str) -> T:
+        try:
+            return self._all[name]
+        except (KeyError, TypeError):
+            raise unknown(self._what, name, self._all) from None
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(self._all)
+
+    def __len__(self) -> int:
+        return len(self._all)
+
+    def __repr__(self) -> str:
+        return f"<{len(self)} {self._what}s: {', '.join(self)}>"
 
 
 class Columns(Mapping[str, "Array"]):

@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from typing import TYPE_CHECKING, NamedTuple
 
-from ._arrays import Columns, array, names, positive, whole
+from ._arrays import Columns, Named, array, names, positive, whole
 from ._errors import ArgumentError, unknown
 from ._model import written
 
@@ -58,7 +58,7 @@ class Bend(NamedTuple):
     substeps: int
 
 
-class Gradient(Mapping[str, OutputGradient]):
+class Gradient(Named[OutputGradient]):
     """What :meth:`Model.gradient` found, by the names of the outputs."""
 
     def __init__(
@@ -72,8 +72,8 @@ class Gradient(Mapping[str, OutputGradient]):
         bends: Sequence[tuple[str, float, int]],
         substeps: int,
     ) -> None:
+        super().__init__("output", outputs)
         self._text = text
-        self._outputs = dict(outputs)
         #: Output times, s.
         self.t = t
         #: The parameters with their values, SI.
@@ -88,18 +88,6 @@ class Gradient(Mapping[str, OutputGradient]):
         self.bends: list[Bend] = [Bend(*bend) for bend in bends]
         #: Substeps of the run.
         self.substeps = substeps
-
-    def __getitem__(self, name: str) -> OutputGradient:
-        try:
-            return self._outputs[name]
-        except (KeyError, TypeError):
-            raise unknown("output", name, self._outputs) from None
-
-    def __iter__(self) -> Iterator[str]:
-        return iter(self._outputs)
-
-    def __len__(self) -> int:
-        return len(self._outputs)
 
     def __str__(self) -> str:
         return self._text

@@ -6,7 +6,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple
 
-from ._arrays import Columns, array, frozen
+from ._arrays import Columns, Named, array, frozen
 from ._errors import ArgumentError, TrilithError, unknown
 
 if TYPE_CHECKING:
@@ -106,30 +106,6 @@ class Link:
         self.name, self.kind, self.rotations, self.deformation, self.force = state
 
 
-class Links(Mapping[str, Link]):
-    """Links by name."""
-
-    __slots__ = ("_links",)
-
-    def __init__(self, links: Mapping[str, Link]) -> None:
-        self._links = dict(links)
-
-    def __getitem__(self, name: str) -> Link:
-        try:
-            return self._links[name]
-        except (KeyError, TypeError):
-            raise unknown("link", name, self._links) from None
-
-    def __iter__(self) -> Iterator[str]:
-        return iter(self._links)
-
-    def __len__(self) -> int:
-        return len(self._links)
-
-    def __repr__(self) -> str:
-        return f"<{len(self)} links: {', '.join(self)}>"
-
-
 class Energy(Columns):
     """Energies, J: by name at the output times, and at the end."""
 
@@ -207,7 +183,7 @@ class Result(Mapping[str, "Array"]):
         self._outputs = outputs
         self._time = Columns("time", time)
         self.energy = Energy(energies, self.summary["energy"])
-        self.links = Links(links)
+        self.links = Named("link", links)
 
     #: All of ``summary.json``.
     summary: dict[str, Any]
@@ -216,7 +192,7 @@ class Result(Mapping[str, "Array"]):
     #: Energies.
     energy: Energy
     #: Deformations and forces of the links, by name.
-    links: Links
+    links: Named[Link]
 
     # -- histories
 
