@@ -126,6 +126,10 @@ impl Propagator for Modal {
         self.modes.structure.undamped.is_empty()
     }
 
+    fn follow_work(&mut self, follows: bool) {
+        self.now.works = follows;
+    }
+
     fn work(&mut self, _: &Motion, _: &Motion, _: &Forces<'_>) -> StepWork {
         self.modes.work(&self.now)
     }

@@ -11,6 +11,8 @@ pub(crate) struct ModalLoads {
     pub(super) sources: Vec<f64>,
     /// The integral of q.
     pub(super) integral: Vec<f64>,
+    /// Whether somebody asks for work.
+    pub(super) works: bool,
     /// What the step completed last did, and what it lost where loads had jumped.
     pub(super) sums: StepSums,
     pub(super) lost: f64,
@@ -48,6 +50,7 @@ impl ModalLoads {
             pseudo: vec![0.0; space.links.len()],
             sources: vec![0.0; 3 * space.order()],
             integral: vec![0.0; space.order()],
+            works: true,
             sums: StepSums::default(),
             lost: 0.0,
             rate_dependent: rate_dependent.to_vec(),

@@ -259,6 +259,7 @@ impl Modes {
             return self.complete_following(now, from, to);
         }
         let n = self.space.order();
+        let works = now.works;
         let mut integral = std::mem::take(&mut now.integral);
         let [source0, source1, spread] = now.parts();
         let (q, rest) = to.split_at_mut(n);
@@ -271,12 +272,14 @@ impl Modes {
         recurrence.add_answer(1, &integral, q);
         recurrence.add_answer(2, &integral, v);
         self.structure.acceleration(source1, q, v, a);
-        recurrence.apply(0, [&from[..n], &from[n..2 * n], source0, source1], &mut integral);
-        let ends = [&from[..n], &*q];
-        let external = work_of_linear(*loads, ends, &integral, step.per_dt);
-        let all = work_of_linear([source0, source1], ends, &integral, step.per_dt);
-        let ((k0, e0), (k1, e1)) = (self.energy(from), self.energy(to));
-        now.sums = StepSums { external, all, kinetic: [k0, k1], strain: [e0, e1] };
+        if works {
+            recurrence.apply(0, [&from[..n], &from[n..2 * n], source0, source1], &mut integral);
+            let ends = [&from[..n], &*q];
+            let external = work_of_linear(*loads, ends, &integral, step.per_dt);
+            let all = work_of_linear([source0, source1], ends, &integral, step.per_dt);
+            let ((k0, e0), (k1, e1)) = (self.energy(from), self.energy(to));
+            now.sums = StepSums { external, all, kinetic: [k0, k1], strain: [e0, e1] };
+        }
         now.integral = integral;
         self.complete_following(now, from, to);
     }

@@ -127,7 +127,8 @@ pub(super) struct MovingBasis<'a> {
     /// Flat indices of the active link coordinates.
     active: &'a [usize],
     rate_dependent: Vec<usize>,
-    /// Derivative of the work of loads over the step made last.
+    /// Whether the work of loads is wanted, and its derivative over the step made last.
+    works: bool,
     work: f64,
 }
 
@@ -163,6 +164,7 @@ impl<'a> MovingBasis<'a> {
             if base.kind == SolverKind::Fna {
                 propagator.set_rates(&layout.rate_dependent, &layout.damped)?;
             }
+            propagator.follow_work(false);
             sides.push((propagator, side));
         }
         let Ok(turns) = turns.try_into() else { return Err(refuse("is not there")) };
@@ -179,7 +181,17 @@ impl<'a> MovingBasis<'a> {
             }
             rows
         });
-        Ok(Self { step: *step, name, sides, turns, rows, active, rate_dependent, work: 0.0 })
+        Ok(Self {
+            step: *step,
+            name,
+            sides,
+            turns,
+            rows,
+            active,
+            rate_dependent,
+            works: false,
+            work: 0.0,
+        })
     }
 
     /// The coordinates of the models around.
@@ -236,14 +248,18 @@ impl<'a> MovingBasis<'a> {
         forces.map(|((flat, k), d)| state.f[*flat] - k * d).collect()
     }
 
-    /// The derivative of the motion at the end of a step by all that the structure and its loads do in it; `works`: the work of
-    /// the loads is wanted too.
+    /// From now on, the work of loads is wanted.
+    pub(super) fn follow_work(&mut self) {
+        self.works = true;
+        self.sides.iter_mut().for_each(|(propagator, _)| propagator.follow_work(true));
+    }
+
+    /// The derivative of the motion at the end of a step by all that the structure and its loads do in it.
     pub(super) fn step(
         &mut self,
         [from, to]: [&State; 2],
         [start, end]: [f64; 2],
         key: StepKey,
-        works: bool,
     ) -> Result<Motion, SolveError> {
         let mut sum = vec![0.0; to.motion.len()];
         self.work = 0.0;
@@ -277,7 +293,7 @@ impl<'a> MovingBasis<'a> {
             let forces = Forces { loads, pseudo0: &pseudo0, pseudo1: &pseudo1 };
             propagator.correct(&motion, &forces, &mut made);
             let weight = WEIGHTS[side] / self.step;
-            if works {
+            if self.works {
                 self.work += weight * propagator.work(&motion, &made, &forces).external;
             }
             let made = turn.back(&made);

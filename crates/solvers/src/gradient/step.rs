@@ -76,6 +76,7 @@ impl<'a> Moves<'a> {
             // Which way they go is decided by the run: see `complete_moves`.
             false => Followers::new(propagator.space(), &layout.damped)?,
         };
+        propagator.follow_work(false);
         let now: Vec<State> = influences.iter().map(|i| i.start.clone()).collect();
         let n = propagator.space().order();
         Ok(Self {
@@ -126,6 +127,8 @@ impl<'a> Moves<'a> {
     pub(super) fn follow_input(&mut self) {
         let start = (&self.from, &self.now[..]);
         let flat = self.links.len();
+        self.propagator.follow_work(true);
+        self.moving.iter_mut().flatten().for_each(MovingBasis::follow_work);
         let input =
             InputMoves::new(self.loads_of_run, self.influences, flat, &*self.propagator, start);
         self.input = Some(input);
@@ -263,7 +266,7 @@ impl<'a> Moves<'a> {
             next.motion.resize(3 * n, 0.0);
             propagator.predict(&now.motion, &forces, &mut next.motion, wanted);
             if let Some(moving) = &mut moving[j] {
-                work.moved[j] = moving.step([from, to], [self.t, t], key, input.is_some())?;
+                work.moved[j] = moving.step([from, to], [self.t, t], key)?;
                 let moved = &work.moved[j];
                 let map = &propagator.space().links;
                 map.deform(&moved[..n], &mut work.own);

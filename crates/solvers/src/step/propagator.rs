@@ -86,6 +86,9 @@ pub(crate) trait Propagator {
         true
     }
 
+    /// Whether work is asked for from now on; it is where nothing is said.
+    fn follow_work(&mut self, _follows: bool) {}
+
     /// Work done over the step completed last.
     fn work(&mut self, from: &Motion, to: &Motion, forces: &Forces<'_>) -> StepWork;
 
