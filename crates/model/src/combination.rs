@@ -55,6 +55,7 @@ impl CombineCases {
     /// use trilith_model::CombineCases::{Envelope, LinearAdd, Srss};
     /// let of = [([-3.0, 1.0], 1.5), ([2.0, 2.0], -1.0)];
     /// assert_eq!(LinearAdd.of(&of), ([-6.5, -0.5], [None, None]));
+    /// assert_eq!(LinearAdd.of(&[([-3.0, 1.0], -2.0)]), ([-2.0, 6.0], [None, None]));
     /// assert_eq!(Envelope.of(&of), ([-4.5, 1.5], [Some(0), Some(0)]));
     /// assert_eq!(Srss.of(&[([0.0, 3.0], 1.0), ([-4.0, 0.0], 1.0)]), ([-5.0, 5.0], [None, None]));
     /// ```
