@@ -6,7 +6,7 @@ use crate::progress::Progress;
 use crate::text::{names_help, number, table};
 use crate::{Answer, Failure, diagnostics, names, output, read};
 use trilith::combine::{Combinations, CombineError, Combined, combine_until};
-use trilith::model::visible_line;
+use trilith::model::{CombineCases, visible_line};
 use trilith::{Error, Model, Registry};
 
 pub(crate) fn combine(registry: &Registry, args: &CombineArguments) -> Result<Answer, Failure> {
@@ -57,6 +57,12 @@ pub(crate) fn page(model: &Model, found: &Combinations) -> String {
     for one in &found.combinations {
         out += &format!("\n{}: {}\n", visible_line(&one.name), visible_line(&formula(one)));
         out += &outputs(one);
+        if let Some([earlier, later]) = &one.twice {
+            let [earlier, later] = [earlier, later].map(|name| visible_line(name));
+            out += &format!(
+                "  warning: it adds \"{earlier}\" and \"{later}\", which continues it: what \"{earlier}\" does is in both\n"
+            );
+        }
     }
     let cases: Vec<_> = found
         .cases
@@ -74,12 +80,12 @@ fn formula(one: &Combined) -> String {
         factor => format!("{factor} \"{name}\""),
     };
     let terms: Vec<_> = one.terms.iter().map(term).collect();
-    format!("{} of {}", one.how, terms.join(", "))
+    format!("{} of {}", one.how.name(), terms.join(", "))
 }
 
 /// The outputs of a combination: one column where all have one value, as those of static cases.
 fn outputs(one: &Combined) -> String {
-    let is_envelope = one.how == "Envelope";
+    let is_envelope = one.how == CombineCases::Envelope;
     let single = !is_envelope && one.outputs.iter().all(|o| o.max == o.min);
     let (head, left): (&[&str], &[usize]) = match (is_envelope, single) {
         (true, _) => (&["output", "unit", "max", "from", "min", "from"], &[0, 1, 3, 5]),

@@ -125,3 +125,15 @@ fn what_cannot_be_combined_is_told() {
     let (status, _, err) = run("both");
     assert!(status == 2 && err.contains("the model has no combination"), "{err}");
 }
+
+#[test]
+fn what_is_added_twice_is_said() {
+    let text = COLUMN
+        .replace(r#""right": Dynamic("#, r#""right": Dynamic(after: "wind", "#)
+        .replace(r#"Srss(cases: ["left", "right"])"#, r#"LinearAdd(cases: ["strength", "right"])"#);
+    let folder = folder(&text);
+    let run = |of: &str| trilith(folder.path(), &["combine", "column.ron", "--of", of]).1;
+    assert!(run("both").contains("warning: it adds \"wind\" and \"right\", which continues it"));
+    // An envelope takes either, and these have no case in common.
+    assert!(!run("shaken,design,sizes").contains("warning"));
+}

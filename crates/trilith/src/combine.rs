@@ -26,7 +26,10 @@
 use crate::{Analysis, Error};
 use serde::Serialize;
 use std::sync::atomic::AtomicBool;
-use trilith_model::{Analysis as CaseAnalysis, Combination, CombinationTerm, Model, Output};
+use trilith_model::{
+    Analysis as CaseAnalysis, Combination, CombinationTerm, CombineCases, Model, Output,
+};
+use trilith_solvers::Status;
 
 /// What was found.
 #[derive(Clone, Debug, Serialize)]
@@ -55,12 +58,20 @@ pub struct CombinedCase {
 pub struct Combined {
     /// Its name.
     pub name: String,
-    /// How its terms are put together, as a file names it.
-    pub how: &'static str,
+    /// How its terms are put together; in JSON as a file names it.
+    #[serde(serialize_with = "named")]
+    pub how: CombineCases,
     /// Names of its terms with their factors.
     pub terms: Vec<(String, f64)>,
+    /// What it adds twice: a case, and one that continues it.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub twice: Option<[String; 2]>,
     /// Its outputs, in the order of the model, without hidden ones.
     pub outputs: Vec<CombinedOutput>,
+}
+
+fn named<S: serde::Serializer>(how: &CombineCases, to: S) -> Result<S::Ok, S::Error> {
+    to.serialize_str(how.name())
 }
 
 /// An output of a case or of a combination.
@@ -156,7 +167,8 @@ pub fn combine_until(
             Some((term?, *factor))
         };
         let terms: Option<Vec<_>> = combination.terms.iter().map(of).collect();
-        let found = terms.map(|terms| combined(combination, &terms));
+        let twice = twice(model, combination);
+        let found = terms.map(|terms| Combined { twice, ..combined(combination, &terms) });
         all.push(found);
     }
     let combinations = wanted.into_iter().filter_map(|i| all[i].clone()).collect();
@@ -205,6 +217,9 @@ fn needed(model: &Model, wanted: &[usize]) -> Vec<bool> {
 fn case(model: &Model, index: usize, run: &crate::Run) -> Result<CombinedCase, CombineError> {
     let case = &model.cases[index];
     let status = &run.result.status;
+    if matches!(status, Status::Interrupted { .. }) {
+        return Err(Error::Interrupted.into());
+    }
     if !status.is_good() {
         return Err(CombineError::Case { case: case.name.clone(), reason: status.text() });
     }
@@ -224,6 +239,39 @@ fn case(model: &Model, index: usize, run: &crate::Run) -> Result<CombinedCase, C
     })
 }
 
+/// A case that a sum has in one term, and one that continues it in another: what the first does is in both.
+fn twice(model: &Model, combination: &Combination) -> Option<[String; 2]> {
+    if combination.how == CombineCases::Envelope {
+        return None;
+    }
+    let cases: Vec<Vec<usize>> =
+        combination.terms.iter().map(|(t, _)| cases_of(model, *t)).collect();
+    let continues = |later: usize, earlier: usize| {
+        let before = |case: &usize| model.cases[*case].after;
+        std::iter::successors(before(&later), before).any(|case| case == earlier)
+    };
+    for (i, own) in cases.iter().enumerate() {
+        let others = || cases.iter().enumerate().filter(|(j, _)| *j != i).flat_map(|(_, c)| c);
+        for earlier in own {
+            if let Some(later) = others().find(|later| continues(**later, *earlier)) {
+                return Some([*earlier, *later].map(|case| model.cases[case].name.clone()));
+            }
+        }
+    }
+    None
+}
+
+/// All cases that a term stands for.
+fn cases_of(model: &Model, term: CombinationTerm) -> Vec<usize> {
+    match term {
+        CombinationTerm::Case(case) => vec![case],
+        CombinationTerm::Combination(i) => {
+            let needed = needed(model, &[i]);
+            (0..needed.len()).filter(|case| needed[*case]).collect()
+        }
+    }
+}
+
 /// A term: its name and outputs, and its factor.
 type Term<'a> = ((&'a String, &'a [CombinedOutput]), f64);
 
@@ -239,8 +287,31 @@ fn combined(combination: &Combination, terms: &[Term<'_>]) -> Combined {
     let outputs = terms.first().map_or(&[][..], |((_, outputs), _)| outputs);
     Combined {
         name: combination.name.clone(),
-        how: combination.how.name(),
+        how: combination.how,
+        twice: None,
         terms: terms.iter().map(|((name, _), factor)| ((*name).clone(), *factor)).collect(),
         outputs: outputs.iter().enumerate().map(|(i, one)| output(i, one)).collect(),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn an_end_that_somebody_wanted_is_told_as_such() {
+        let text = r#"(
+            nodes: { "m": (0, 0, 0) },
+            supports: { "m": (Uy, Uz, Rx, Ry, Rz) },
+            elements: { "mass": Mass(node: "m", mass: 1), "spring": Spring(node: "m", k2: 1) },
+            cases: { "go": Dynamic(duration: 1, dt: 0.01, initial: [(node: "m", dof: Ux, velocity: 1)]) },
+            combinations: { "all": Envelope(cases: ["go"]) },
+            outputs: { "x": Displacement(node: "m", dof: Ux) },
+        )"#;
+        let model = crate::read_text(text, "m.ron", &crate::registry(), &[]).expect("a model");
+        let found = combine_until(&model, &[], &mut |_, _| (), Some(&AtomicBool::new(true)));
+        assert!(matches!(found, Err(CombineError::Run(Error::Interrupted))), "{found:?}");
+        let found = combine_until(&model, &[], &mut |_, _| (), Some(&AtomicBool::new(false)));
+        assert!(found.is_ok_and(|found| found.combinations[0].how == CombineCases::Envelope));
     }
 }

@@ -84,7 +84,7 @@ fn labelled(card: &Card) -> bool {
     card.parameters.iter().any(|p| p.form == Form::Labels)
 }
 
-/// The entries of nodes that are given by labels: those of a map, and of what an object of JSON looks like.
+/// The entries of nodes that are given by labels: those of a map, which may look like fields where all labels are words.
 fn keyed(nodes: &Node) -> Option<&[Entry]> {
     match &nodes.kind {
         Kind::Map(entries) | Kind::Fields(None, entries) => Some(entries),
