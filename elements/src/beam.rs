@@ -10,25 +10,6 @@
 //!   P-Δ: geometric stiffness of the axial force N (tension +), cubic shapes of the plane that bends
 //! ```
 //!
-//! | parameter                | symbol | unit  | range | default | meaning                                      |
-//! |--------------------------|--------|-------|-------|---------|----------------------------------------------|
-//! | `young`                  | E      | N/m²  | > 0   | –       | Young's modulus                              |
-//! | `shear_modulus`          | G      | N/m²  | > 0   | –       | or `poisson`; needed for torsion and shear   |
-//! | `poisson`                | ν      | 1     | −1 … 0.5 | –    | G = E / (2 (1 + ν))                          |
-//! | `area`                   | A      | m²    | > 0   | –       | section …                                    |
-//! | `i2`, `i3`               | I₂, I₃ | m⁴    | > 0   | none    | second moments about local 2 and 3           |
-//! | `torsion`                | J      | m⁴    | > 0   | none    | torsion constant                             |
-//! | `width`, `depth`         | b, h   | m     | > 0   | –       | … or rectangle: b along local 3, h along 2   |
-//! | `shear_area_2`, `shear_area_3` | A₂, A₃ | m² | > 0 | none   | effective areas for shear along local 2, 3   |
-//! | `shear_coefficient`      | κ      | 1     | > 0   | none    | instead: A₂ = A₃ = κ A                       |
-//! | `density`                | ρ      | kg/m³ | ≥ 0   | 0       | mass ρ A per length                          |
-//! | `distributed_mass`       | m̄      | kg/m  | ≥ 0   | 0       | further mass per length                      |
-//! | `expansion`              | α      | 1/K   | > 0   | none    | strain by one kelvin, for warmth             |
-//! | `mass_matrix`            |        |       |       | Lumped  | `Lumped` or `Consistent`                     |
-//! | `release_i`, `release_j` |        |       |       | none    | released local directions U1 … R3 at an end  |
-//! | `offset_i`, `offset_j`   |        | m     | ≥ 0   | 0       | rigid lengths along the axis at the ends     |
-//! | `offsets_stiffen`        |        |       |       | All     | `All`, or `Bending` (with shear) alone       |
-//!
 //! Shear deformation counts where shear areas or a coefficient are given (5/6 for a rectangle). A missing
 //! `i2`, `i3` or `torsion` means no stiffness there, which suits a plane model. Rectangle:
 //! I₂ = h b³/12, I₃ = b h³/12, J = a s³ (1/3 − 0.21 (s/a) (1 − s⁴/(12 a⁴))), a ≥ s the sides (Roark).
@@ -50,16 +31,13 @@ mod tests;
 use crate::shared::dense::{to_global, used};
 use nalgebra::DMatrix;
 use serde::Deserialize;
-use trilith_element::dimension::{
-    AREA, DENSITY, LENGTH, MASS_PER_LENGTH, NONE, SECOND_MOMENT, STRESS,
-};
 use trilith_element::{
-    Axis, Card, Category, Default, Described, Dimension, ElementMatrices, Exercise, Form, Geometry,
-    LinearElement, Member, NodeCount, Parameter, ParameterError, Range,
+    Axis, Card, Category, Choices, Described, ElementMatrices, Exercise, Geometry, LinearElement,
+    Member, NodeCount, ParameterError, Parameters,
 };
 
 /// How the mass of a beam or truss is spread.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, Choices)]
 pub enum MassMatrix {
     /// Half at each end, translations only.
     Lumped,
@@ -68,7 +46,7 @@ pub enum MassMatrix {
 }
 
 /// What rigid ends stiffen.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, Choices)]
 pub enum Stiffened {
     /// The flexible part alone stretches and twists.
     All,
@@ -77,75 +55,74 @@ pub enum Stiffened {
 }
 
 /// Two-node beam.
-#[derive(Clone, Debug, Deserialize)]
+#[derive(Clone, Debug, Deserialize, Parameters)]
 #[serde(deny_unknown_fields)]
 pub struct Beam {
-    /// Young's modulus E, N/m².
+    /// Young's modulus
+    #[parameter("E", unit = "Pa", range = Positive)]
     pub young: f64,
-    /// Shear modulus G, N/m².
+    /// shear modulus; or give `poisson`
+    #[parameter("G", unit = "Pa", range = Positive)]
     pub shear_modulus: Option<f64>,
-    /// Poisson's ratio ν.
+    /// Poisson's ratio, G = E/(2(1 + ν))
+    #[parameter("ν", unit = "1", range = Within(-0.99, 0.5))]
     pub poisson: Option<f64>,
-    /// Area A, m².
+    /// area of the section; or give `width` and `depth`
+    #[parameter("A", unit = "m²", range = Positive)]
     pub area: Option<f64>,
-    /// Second moment about local 2, m⁴.
+    /// second moment about local 2; none: no stiffness there
+    #[parameter("I₂", unit = "m⁴", range = Positive)]
     pub i2: Option<f64>,
-    /// Second moment about local 3, m⁴.
+    /// second moment about local 3; none: no stiffness there
+    #[parameter("I₃", unit = "m⁴", range = Positive)]
     pub i3: Option<f64>,
-    /// Torsion constant J, m⁴.
+    /// torsion constant; none: no stiffness there
+    #[parameter("J", unit = "m⁴", range = Positive)]
     pub torsion: Option<f64>,
-    /// Side of a rectangle along local 3, m.
+    /// side of a rectangular section along local 3
+    #[parameter("b", unit = "m", range = Positive)]
     pub width: Option<f64>,
-    /// Side of a rectangle along local 2, m.
+    /// side of a rectangular section along local 2
+    #[parameter("h", unit = "m", range = Positive)]
     pub depth: Option<f64>,
-    /// Effective area for shear along local 2, m².
+    /// effective area for shear along local 2
+    #[parameter("A₂", unit = "m²", range = Positive)]
     pub shear_area_2: Option<f64>,
-    /// Effective area for shear along local 3, m².
+    /// effective area for shear along local 3
+    #[parameter("A₃", unit = "m²", range = Positive)]
     pub shear_area_3: Option<f64>,
-    /// Shear coefficient κ.
+    /// instead of shear areas: A₂ = A₃ = κ A
+    #[parameter("κ", unit = "1", range = Positive)]
     pub shear_coefficient: Option<f64>,
-    /// Density ρ, kg/m³.
+    /// density, for the mass
+    #[parameter("ρ", unit = "kg/m³", range = NonNegative, default = 0.0)]
     pub density: f64,
-    /// Further mass per length, kg/m.
+    /// further mass per length
+    #[parameter("m̄", unit = "kg/m", range = NonNegative, default = 0.0)]
     pub distributed_mass: f64,
-    /// Strain by one kelvin α, 1/K.
+    /// strain by one kelvin, for loads of warmth
+    #[parameter("α", unit = "1/K", range = Positive)]
     pub expansion: Option<f64>,
-    /// How the mass is spread.
+    /// how the mass is spread
+    #[parameter(choices = MassMatrix::NAMES, default = "Lumped")]
     pub mass_matrix: MassMatrix,
-    /// Released directions at the flexible end i.
+    /// local directions released at end i
+    #[parameter(choices = Axis::NAMES)]
     #[serde(default)]
     pub release_i: Vec<Axis>,
-    /// Released directions at the flexible end j.
+    /// local directions released at end j
+    #[parameter(choices = Axis::NAMES)]
     #[serde(default)]
     pub release_j: Vec<Axis>,
-    /// Rigid length at i, m.
+    /// rigid length along the axis at i
+    #[parameter(unit = "m", range = NonNegative, default = 0.0)]
     pub offset_i: f64,
-    /// Rigid length at j, m.
+    /// rigid length along the axis at j
+    #[parameter(unit = "m", range = NonNegative, default = 0.0)]
     pub offset_j: f64,
-    /// What these lengths stiffen.
+    /// what rigid lengths stiffen: `Bending` leaves stretch and twist to the whole length
+    #[parameter(choices = Stiffened::NAMES, default = "All")]
     pub offsets_stiffen: Stiffened,
-}
-
-const fn maybe(
-    name: &'static str,
-    symbol: &'static str,
-    dimension: Dimension,
-    meaning: &'static str,
-) -> Parameter {
-    Parameter::optional(name, symbol, dimension, Range::Positive, meaning)
-}
-
-const fn zero(
-    name: &'static str,
-    symbol: &'static str,
-    dimension: Dimension,
-    meaning: &'static str,
-) -> Parameter {
-    Parameter::number(name, symbol, dimension, Range::NonNegative, 0.0, meaning)
-}
-
-const fn releases(name: &'static str, meaning: &'static str) -> Parameter {
-    Parameter::new(name, "", Form::Choices(Axis::NAMES), Default::Absent, meaning)
 }
 
 impl Described for Beam {
@@ -155,45 +132,7 @@ impl Described for Beam {
         "Two-node beam in space, Euler–Bernoulli or Timoshenko, with releases and rigid offsets.",
     )
     .nodes(NodeCount::exactly(2))
-    .parameters(&[
-        Parameter::required("young", "E", STRESS, Range::Positive, "Young's modulus"),
-        maybe("shear_modulus", "G", STRESS, "shear modulus; or give `poisson`"),
-        Parameter::optional(
-            "poisson",
-            "ν",
-            NONE,
-            Range::Within(-0.99, 0.5),
-            "Poisson's ratio, G = E/(2(1 + ν))",
-        ),
-        maybe("area", "A", AREA, "area of the section; or give `width` and `depth`"),
-        maybe("i2", "I₂", SECOND_MOMENT, "second moment about local 2; none: no stiffness there"),
-        maybe("i3", "I₃", SECOND_MOMENT, "second moment about local 3; none: no stiffness there"),
-        maybe("torsion", "J", SECOND_MOMENT, "torsion constant; none: no stiffness there"),
-        maybe("width", "b", LENGTH, "side of a rectangular section along local 3"),
-        maybe("depth", "h", LENGTH, "side of a rectangular section along local 2"),
-        maybe("shear_area_2", "A₂", AREA, "effective area for shear along local 2"),
-        maybe("shear_area_3", "A₃", AREA, "effective area for shear along local 3"),
-        maybe("shear_coefficient", "κ", NONE, "instead of shear areas: A₂ = A₃ = κ A"),
-        zero("density", "ρ", DENSITY, "density, for the mass"),
-        zero("distributed_mass", "m̄", MASS_PER_LENGTH, "further mass per length"),
-        maybe("expansion", "α", NONE, "strain by one kelvin, for loads of warmth"),
-        Parameter::choice(
-            "mass_matrix",
-            &["Lumped", "Consistent"],
-            "Lumped",
-            "how the mass is spread",
-        ),
-        releases("release_i", "local directions released at end i"),
-        releases("release_j", "local directions released at end j"),
-        zero("offset_i", "", LENGTH, "rigid length along the axis at i"),
-        zero("offset_j", "", LENGTH, "rigid length along the axis at j"),
-        Parameter::choice(
-            "offsets_stiffen",
-            &["All", "Bending"],
-            "All",
-            "what rigid lengths stiffen: `Bending` leaves stretch and twist to the whole length",
-        ),
-    ])
+    .parameters(Self::PARAMETERS)
     .law(
         "bending in 1–2: E I₃, Φ = 12 E I₃/(G A₂ L²); bending in 1–3: E I₂, Φ = 12 E I₂/(G A₃ L²)\n\
               axial E A/L, torsion G J/L; Φ = 0 without shear areas\n\

@@ -7,14 +7,6 @@
 //!   F(w) = sgn(w) f_l + c_y (w − sgn(w) f_l/c)      beyond: the valve is open
 //! ```
 //!
-//! | parameter | symbol | unit  | range | default | meaning                                      |
-//! |-----------|--------|-------|-------|---------|----------------------------------------------|
-//! | `k`       | k      | N/m   | > 0   | –       | stiffness of the spring                      |
-//! | `c`       | c      | N·s/m | > 0   | –       | coefficient up to the relief force           |
-//! | `cy`      | c_y    | N·s/m | ≥ 0   | –       | coefficient beyond it                        |
-//! | `fl`      | f_l    | N     | > 0   | –       | relief force                                 |
-//! | `axis`    |        |       |       | U1      | local axis: U1, U2 or U3                     |
-//!
 //! Integrated inside the step as a [`MaxwellDamper`](crate::MaxwellDamper) is. With c_y = 0 the force is
 //! capped at f_l.
 //!
@@ -24,25 +16,29 @@
 use crate::shared::series::{SeriesHistory, Split, Viscous, answer, follow};
 use serde::Deserialize;
 use std::borrow::Cow;
-use trilith_element::dimension::{DAMPING, FORCE, STIFFNESS};
 use trilith_element::{
     Axis, Card, Category, Coordinates, Described, Exercise, Field, History, Kinematics, Link,
-    NodeCount, Parameter, Range, Response, Stroke,
+    NodeCount, Parameters, Response, Stroke,
 };
 
 /// Spring in series with an oil damper with a relief valve.
-#[derive(Clone, Debug, Deserialize)]
+#[derive(Clone, Debug, Deserialize, Parameters)]
 #[serde(deny_unknown_fields)]
 pub struct BilinearDamper {
-    /// Stiffness k, N/m.
+    /// stiffness of the spring
+    #[parameter("k", unit = "N/m", range = Positive)]
     pub k: f64,
-    /// Coefficient c up to the relief force, N·s/m.
+    /// coefficient up to the relief force
+    #[parameter("c", unit = "N·s/m", range = Positive)]
     pub c: f64,
-    /// Coefficient beyond it, N·s/m.
+    /// coefficient beyond the relief force
+    #[parameter("c_y", unit = "N·s/m", range = NonNegative)]
     pub cy: f64,
-    /// Relief force, N.
+    /// relief force
+    #[parameter("f_l", unit = "N", range = Positive)]
     pub fl: f64,
-    /// Local axis.
+    /// local axis
+    #[parameter(choices = ["U1", "U2", "U3"], default = "U1")]
     pub axis: Axis,
 }
 
@@ -53,25 +49,7 @@ impl Described for BilinearDamper {
         "Spring in series with an oil damper that has a relief valve.",
     )
     .nodes(NodeCount::GROUND_OR_TWO)
-    .parameters(&[
-        Parameter::required("k", "k", STIFFNESS, Range::Positive, "stiffness of the spring"),
-        Parameter::required(
-            "c",
-            "c",
-            DAMPING,
-            Range::Positive,
-            "coefficient up to the relief force",
-        ),
-        Parameter::required(
-            "cy",
-            "c_y",
-            DAMPING,
-            Range::NonNegative,
-            "coefficient beyond the relief force",
-        ),
-        Parameter::required("fl", "f_l", FORCE, Range::Positive, "relief force"),
-        Parameter::choice("axis", &["U1", "U2", "U3"], "U1", "local axis"),
-    ])
+    .parameters(Self::PARAMETERS)
     .law("f = k d_k = F(w), d = d_k + ∫ w dt\n\
           F(w) = c w where |w| ≤ f_l/c, else sgn(w) f_l + c_y (w − sgn(w) f_l/c)")
     .source("SAP2000 bilinear damper; JSSI manual of passive control, oil damper, 2003")

@@ -9,20 +9,6 @@
 //!        ● 1  normal  middle and half widths        r₁         r₂
 //! ```
 //!
-//! | parameter   | symbol | unit  | range | default | meaning                                                     |
-//! |-------------|--------|-------|-------|---------|-------------------------------------------------------------|
-//! | `points`    | rᵢ     | m     |       | none    | points of the second body, from its node, at rest           |
-//! | `face`      | a      | m     |       | –       | a point of the first body's face (its middle), from its node |
-//! | `normal`    | n      | 1     |       | (0, 0, 1) | direction out of the face                                 |
-//! | `extent`    |        | m     | > 0   | –       | half widths of the face along its two axes; none: no edge   |
-//! | `radii`     | r      | m     | > 0   | –       | instead of points and face: radii of the first and the second body |
-//! | `heights`   | z      | m     |       | –       | where the second touches, from its node along its axis      |
-//! | `kn`        | kₙ     | N/m   | > 0   | –       | contact stiffness of each point or height                   |
-//! | `damping`   | c      | N·s/m | ≥ 0   | 0       | contact dashpot, acts only where closed                     |
-//! | `pull`      |        |       |       | false   | the dashpot may pull while closed                           |
-//! | `mu`        | μ      | 1     | ≥ 0   | 0       | friction coefficient                                        |
-//! | `ks`        | kₛ     | N/m   | > 0   | –       | pre-slip stiffness; required with friction                  |
-//!
 //! Nodes are `[first, second]`, mostly the centres of gravity of two bodies; either may be a node of a structure. Rotations
 //! of both are those of a [`RockingBody`](crate::RockingBody): integrals of the angular velocity in the body's own
 //! axes. Forces are opposite and act at one place, so that both bodies together keep momentum and moment of momentum.
@@ -54,39 +40,49 @@ use crate::NLink;
 use crate::shared::plane_contact::{Edge, Foot, Plane};
 use nalgebra::Matrix3;
 use serde::Deserialize;
-use trilith_element::dimension::{DAMPING, LENGTH, NONE, STIFFNESS};
 use trilith_element::{
-    Card, Category, Default, Described, Exercise, Form, Frame, NodeCount, Parameter,
-    ParameterError, Range, Stroke, Vector3, dot, sub,
+    Card, Category, Described, Exercise, Frame, NodeCount, ParameterError, Parameters, Stroke,
+    Vector3, dot, sub,
 };
 
 /// Two bodies that touch; the law is in `law.rs` beside this file.
-#[derive(Clone, Debug, Deserialize)]
+#[derive(Clone, Debug, Deserialize, Parameters)]
 #[serde(deny_unknown_fields)]
 pub struct BodyContact {
-    /// Points of the second body from its node, at rest, m.
+    /// points of the second body, from its node, at rest
+    #[parameter("rᵢ", form = Points)]
     #[serde(default)]
     pub points: Vec<Vector3>,
-    /// Middle of the first body's face from its node, m.
+    /// a point of the first body's face (its middle), from its node
+    #[parameter("a", unit = "m")]
     pub face: Option<Vector3>,
-    /// Direction out of the face.
+    /// direction out of the face; none: upwards, (0, 0, 1)
+    #[parameter("n", unit = "1")]
     pub normal: Option<Vector3>,
-    /// Half widths of the face along its axes, m.
+    /// half widths of the face along its two axes; none: it has no edge
+    #[parameter(unit = "m", range = Positive)]
     pub extent: Option<[f64; 2]>,
-    /// Radii of two round bodies, m.
+    /// instead of points and face: radii of the first and of the second body
+    #[parameter("r", unit = "m", range = Positive)]
     pub radii: Option<[f64; 2]>,
-    /// Heights at which the second touches, from its node, m.
+    /// where the second round body touches, from its node along its axis
+    #[parameter("z", unit = "m")]
     #[serde(default)]
     pub heights: Vec<f64>,
-    /// Contact stiffness kₙ of each point or height, N/m.
+    /// contact stiffness of each point or height
+    #[parameter("kₙ", unit = "N/m", range = Positive)]
     pub kn: f64,
-    /// Contact dashpot c, N·s/m.
+    /// contact dashpot of each point or height, acts only where closed
+    #[parameter("c", unit = "N·s/m", range = NonNegative, default = 0.0)]
     pub damping: f64,
-    /// The dashpot may pull while closed.
+    /// the dashpot may pull while closed
+    #[parameter]
     pub pull: bool,
-    /// Friction coefficient μ.
+    /// friction coefficient
+    #[parameter("μ", unit = "1", range = NonNegative, default = 0.0)]
     pub mu: f64,
-    /// Pre-slip stiffness kₛ, N/m.
+    /// pre-slip stiffness of each point or height; required with friction
+    #[parameter("kₛ", unit = "N/m", range = Positive)]
     pub ks: Option<f64>,
     /// From the first node to the second at rest, m.
     #[serde(skip)]
@@ -100,76 +96,7 @@ impl Described for BodyContact {
         "Contact of two bodies in finite rotation: points on a face, or round bodies side by side.",
     )
     .nodes(NodeCount::exactly(2))
-    .parameters(&[
-        Parameter::new(
-            "points",
-            "rᵢ",
-            Form::Points,
-            Default::Absent,
-            "points of the second body, from its node, at rest",
-        ),
-        Parameter::new(
-            "face",
-            "a",
-            Form::Numbers { dimension: LENGTH, count: Some(3) },
-            Default::Absent,
-            "a point of the first body's face (its middle), from its node",
-        ),
-        Parameter::new(
-            "normal",
-            "n",
-            Form::Numbers { dimension: NONE, count: Some(3) },
-            Default::Absent,
-            "direction out of the face; none: upwards, (0, 0, 1)",
-        ),
-        Parameter::new(
-            "extent",
-            "",
-            Form::Numbers { dimension: LENGTH, count: Some(2) },
-            Default::Absent,
-            "half widths of the face along its two axes; none: it has no edge",
-        )
-        .within(Range::Positive),
-        Parameter::new(
-            "radii",
-            "r",
-            Form::Numbers { dimension: LENGTH, count: Some(2) },
-            Default::Absent,
-            "instead of points and face: radii of the first and of the second body",
-        )
-        .within(Range::Positive),
-        Parameter::new(
-            "heights",
-            "z",
-            Form::Numbers { dimension: LENGTH, count: None },
-            Default::Absent,
-            "where the second round body touches, from its node along its axis",
-        ),
-        Parameter::required(
-            "kn",
-            "kₙ",
-            STIFFNESS,
-            Range::Positive,
-            "contact stiffness of each point or height",
-        ),
-        Parameter::number(
-            "damping",
-            "c",
-            DAMPING,
-            Range::NonNegative,
-            0.0,
-            "contact dashpot of each point or height, acts only where closed",
-        ),
-        Parameter::flag("pull", false, "the dashpot may pull while closed"),
-        Parameter::number("mu", "μ", NONE, Range::NonNegative, 0.0, "friction coefficient"),
-        Parameter::optional(
-            "ks",
-            "kₛ",
-            STIFFNESS,
-            Range::Positive,
-            "pre-slip stiffness of each point or height; required with friction",
-        ),
-    ])
+    .parameters(Self::PARAMETERS)
     .law("s = R₁ᵀ (X + u₂ − u₁), R = R₁ᵀ R₂: the second body as the first sees it\n\
           points: gapᵢ = n·(s + R rᵢ − a), friction in the face\n\
           round: gap = |(s + R z e₃)₁₂| − r₁ − r₂, friction across and along the axis\n\

@@ -8,20 +8,6 @@
 //!   ε = ∫ z dd/d_y                                         work of the part (1 − α) k, over (1 − α) k d_y²
 //! ```
 //!
-//! | parameter   | symbol | unit          | range   | default | meaning                                        |
-//! |-------------|--------|---------------|---------|---------|------------------------------------------------|
-//! | `k`         | k      | N/m, N·m/rad  | > 0     | –       | stiffness at rest (where A₀ = 1)               |
-//! | `dy`        | d_y    | m, rad        | > 0     | –       | deformation that z counts in; at yield where β + γ = A₀ = 1 |
-//! | `alpha`     | α      | 1             | 0 … 1   | –       | stiffness after yielding over `k`              |
-//! | `n`         | n      | 1             | 1 … 50  | 2       | sharpness of yielding                          |
-//! | `beta`      | β      | 1             | > 0     | 0.5     | shape: loading against β + γ, return with β − γ |
-//! | `gamma`     | γ      | 1             | −β < γ ≤ β | 0.5  | shape; at γ = β the return is elastic          |
-//! | `a0`        | A₀     | 1             | > 0     | 1       | stiffness of z at rest                         |
-//! | `delta_a`   | δ_A    | 1             | ≥ 0     | 0       | loss of stiffness and strength                 |
-//! | `delta_nu`  | δ_ν    | 1             | ≥ 0     | 0       | loss of strength                               |
-//! | `delta_eta` | δ_η    | 1             | ≥ 0     | 0       | loss of stiffness                              |
-//! | `axis`      |        |               |         | U1      | local axis                                     |
-//!
 //! z has no dimension, so that β, γ and δ have none. A deformation z̃ = d_y z with the work in J has β̃ = β/d_yⁿ,
 //! γ̃ = γ/d_yⁿ and δ̃ = δ/((1 − α) k d_y²): these are the numbers of `BoucWen` in OpenSees, in the order α, k, n,
 //! γ̃, β̃, A₀, δ̃_A, δ̃_ν, δ̃_η. ε is the whole work of z since rest, elastic part included, as in the source: it
@@ -49,40 +35,50 @@ mod tests;
 
 use serde::Deserialize;
 use std::borrow::Cow;
-use trilith_element::dimension::NONE;
 use trilith_element::{
-    Axis, Card, Category, Coordinates, Default, Described, Exercise, Field, Form, History,
-    Kinematics, Link, NodeCount, Parameter, ParameterError, Range, Response, Stroke, history,
+    Axis, Card, Category, Coordinates, Described, Exercise, Field, History, Kinematics, Link,
+    NodeCount, ParameterError, Parameters, Response, Stroke, history,
 };
 
 /// A never falls below this share of A₀.
 const LEAST: f64 = 0.01;
 
 /// Smooth hysteretic spring that degrades.
-#[derive(Clone, Debug, Deserialize)]
+#[derive(Clone, Debug, Deserialize, Parameters)]
 #[serde(deny_unknown_fields)]
 pub struct BoucWen {
-    /// Stiffness at rest k, N/m or N·m/rad.
+    /// stiffness at rest (where A₀ = 1)
+    #[parameter("k", unit = "N/m", about = "N·m/rad", range = Positive)]
     pub k: f64,
-    /// Deformation that z counts in d_y, m or rad.
+    /// deformation that z counts in; at yield where β + γ = A₀ = 1
+    #[parameter("d_y", unit = "m", about = "rad", range = Positive)]
     pub dy: f64,
-    /// Stiffness after yielding over `k`.
+    /// stiffness after yielding over `k`
+    #[parameter("α", unit = "1", range = Within(0.0, 1.0))]
     pub alpha: f64,
-    /// Exponent n.
+    /// sharpness of yielding
+    #[parameter("n", unit = "1", range = Within(1.0, 50.0), default = 2.0)]
     pub n: f64,
-    /// Shape β.
+    /// shape: loading against β + γ, return with β − γ
+    #[parameter("β", unit = "1", range = Positive, default = 0.5)]
     pub beta: f64,
-    /// Shape γ.
+    /// shape, −β < γ ≤ β; at γ = β the return is elastic
+    #[parameter("γ", unit = "1", default = 0.5)]
     pub gamma: f64,
-    /// Stiffness of z at rest A₀.
+    /// stiffness of z at rest
+    #[parameter("A₀", unit = "1", range = Positive, default = 1.0)]
     pub a0: f64,
-    /// Loss of stiffness and strength δ_A.
+    /// loss of stiffness and strength with ε
+    #[parameter("δ_A", unit = "1", range = NonNegative, default = 0.0)]
     pub delta_a: f64,
-    /// Loss of strength δ_ν.
+    /// loss of strength with ε
+    #[parameter("δ_ν", unit = "1", range = NonNegative, default = 0.0)]
     pub delta_nu: f64,
-    /// Loss of stiffness δ_η.
+    /// loss of stiffness with ε
+    #[parameter("δ_η", unit = "1", range = NonNegative, default = 0.0)]
     pub delta_eta: f64,
-    /// Local axis.
+    /// local axis
+    #[parameter(choices = Axis::NAMES, default = "U1")]
     pub axis: Axis,
 }
 
@@ -98,10 +94,6 @@ history! {
     }
 }
 
-const fn loss(name: &'static str, symbol: &'static str, meaning: &'static str) -> Parameter {
-    Parameter::number(name, symbol, NONE, Range::NonNegative, 0.0, meaning)
-}
-
 impl Described for BoucWen {
     const CARD: Card = Card::new(
         "BoucWen",
@@ -109,60 +101,7 @@ impl Described for BoucWen {
         "Smooth hysteretic spring that loses strength and stiffness (Bouc, Wen, Baber).",
     )
     .nodes(NodeCount::GROUND_OR_TWO)
-    .parameters(&[
-        Parameter::new(
-            "k",
-            "k",
-            Form::STIFFNESS_OF_AXIS,
-            Default::Required,
-            "stiffness at rest (where A₀ = 1)",
-        )
-        .within(Range::Positive),
-        Parameter::new(
-            "dy",
-            "d_y",
-            Form::DEFORMATION_OF_AXIS,
-            Default::Required,
-            "deformation that z counts in; at yield where β + γ = A₀ = 1",
-        )
-        .within(Range::Positive),
-        Parameter::required(
-            "alpha",
-            "α",
-            NONE,
-            Range::Within(0.0, 1.0),
-            "stiffness after yielding over `k`",
-        ),
-        Parameter::number(
-            "n",
-            "n",
-            NONE,
-            Range::Within(1.0, 50.0),
-            2.0,
-            "sharpness of yielding",
-        ),
-        Parameter::number(
-            "beta",
-            "β",
-            NONE,
-            Range::Positive,
-            0.5,
-            "shape: loading against β + γ, return with β − γ",
-        ),
-        Parameter::number(
-            "gamma",
-            "γ",
-            NONE,
-            Range::Any,
-            0.5,
-            "shape, −β < γ ≤ β; at γ = β the return is elastic",
-        ),
-        Parameter::number("a0", "A₀", NONE, Range::Positive, 1.0, "stiffness of z at rest"),
-        loss("delta_a", "δ_A", "loss of stiffness and strength with ε"),
-        loss("delta_nu", "δ_ν", "loss of strength with ε"),
-        loss("delta_eta", "δ_η", "loss of stiffness with ε"),
-        Parameter::choice("axis", Axis::NAMES, "U1", "local axis"),
-    ])
+    .parameters(Self::PARAMETERS)
     .law("f = α k d + (1 − α) k d_y z\n\
           ż = (ḋ/d_y) [A − ν |z|ⁿ (γ + β sgn(ḋ z))]/η\n\
           A = A₀ − δ_A ε (at least A₀/100), ν = 1 + δ_ν ε, η = 1 + δ_η ε, ε = ∫ z dd/d_y")

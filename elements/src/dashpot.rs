@@ -7,20 +7,6 @@
 //!   InContact:  f = F(ḋ) + k (d + g)            where d < −g; else 0; without `pull` at most 0
 //! ```
 //!
-//! | parameter      | symbol | unit            | range     | default | meaning                                |
-//! |----------------|--------|-----------------|-----------|---------|----------------------------------------|
-//! | `c`            | c      | N/(m/s)^α       | > 0       | –       | coefficient along U1, U2 or U3         |
-//! | `cr`           | c      | N·m/(rad/s)^α   | > 0       | –       | instead of `c`: about R1, R2 or R3     |
-//! | `exponent`     | α      | 1               | 0 < α ≤ 2 | 1       | exponent of the rate                   |
-//! | `axis`         |        |                 |           | U1      | local axis                             |
-//! | `when`         |        |                 |           | Always  | `Always` or `InContact`                |
-//! | `opening`      | g      | m               | any       | 0       | clearance of the contact               |
-//! | `stiffness`    | k      | N/m             | ≥ 0       | 0       | spring of the contact                  |
-//! | `restitution`  | e      | 1               | 0 < e ≤ 1 | –       | instead of `c`: speed after over speed before an impact |
-//! | `impact_mass`  | m      | kg              | > 0       | –       | mass that strikes; none: worked out from the structure |
-//! | `pull`         |        |                 |           | false   | the total force may pull while closed  |
-//! | `linear_below` | v₀     | m/s             | > 0       | 1e-6    | rate below which α < 1 is linear (for `cr`: rad/s) |
-//!
 //! `opening` to `pull` matter with `InContact` only. With `restitution`, which needs the `stiffness` and
 //! α = 1, c = 2 ζ(e) √(k m): see [`NLink`](crate::NLink) for the mass. At v₀ the force is continuous; c v₀^α
 //! is the force that the linear range spans, which should be small against the forces of interest. In contact F takes
@@ -28,18 +14,17 @@
 //!
 //! Reference: \[Soong & Dargush 1997, ch. 6\]; contact variant \[Wilson 2002, ch. 21\].
 
-use crate::shared::restitution::{IMPACT_MASS, damping_ratio, restitution};
+use crate::shared::restitution::damping_ratio;
 use crate::shared::touch::hold;
 use serde::Deserialize;
-use trilith_element::dimension::{FORCE, FREQUENCY, LENGTH, MOMENT, NONE, STIFFNESS, VELOCITY};
 use trilith_element::lanes::{LaneAt, LaneForce, LaneForm, LaneLaw, LaneStep, Real};
 use trilith_element::{
-    Axis, Card, Category, Contact, ContactUse, Coordinates, Default, Described, Exercise, Form,
-    Impact, Kinematics, Link, NodeCount, Parameter, ParameterError, Range, Response, Stroke,
+    Axis, Card, Category, Choices, Contact, ContactUse, Coordinates, Described, Exercise, Impact,
+    Kinematics, Link, NodeCount, ParameterError, Parameters, Response, Stroke,
 };
 
 /// When a [`Dashpot`] acts.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, Choices)]
 pub enum When {
     /// At all times.
     Always,
@@ -48,30 +33,41 @@ pub enum When {
 }
 
 /// Power-law dashpot, always or in contact only.
-#[derive(Clone, Debug, Deserialize)]
+#[derive(Clone, Debug, Deserialize, Parameters)]
 #[serde(deny_unknown_fields)]
 pub struct Dashpot {
-    /// Coefficient along a translational axis, N/(m/s)^α.
+    /// coefficient along U1, U2 or U3
+    #[parameter("c", unit = "N", per = "m/s", exponent = "exponent", range = Positive)]
     pub c: Option<f64>,
-    /// Coefficient about a rotational axis, N·m/(rad/s)^α.
+    /// instead of `c`: coefficient about R1, R2 or R3
+    #[parameter("c", unit = "N·m", per = "1/s", exponent = "exponent", range = Positive)]
     pub cr: Option<f64>,
-    /// Exponent α.
+    /// exponent of the rate
+    #[parameter("α", unit = "1", range = Above(0.0, 2.0), default = 1.0)]
     pub exponent: f64,
-    /// Local axis.
+    /// local axis
+    #[parameter(choices = Axis::NAMES, default = "U1")]
     pub axis: Axis,
-    /// When it acts.
+    /// when it acts
+    #[parameter(choices = When::NAMES, default = "Always")]
     pub when: When,
-    /// Clearance of the contact g, m.
+    /// clearance of the contact
+    #[parameter("g", unit = "m", default = 0.0)]
     pub opening: f64,
-    /// Spring of the contact k, N/m.
+    /// spring of the contact
+    #[parameter("k", unit = "N/m", range = NonNegative, default = 0.0)]
     pub stiffness: f64,
-    /// Coefficient of restitution e, instead of `c`.
+    /// instead of `c`, in contact: speed after over speed before an impact
+    #[parameter("e", unit = "1", range = Above(0.0, 1.0))]
     pub restitution: Option<f64>,
-    /// Mass that strikes the contact, kg, for `restitution`.
+    /// mass that strikes, for `restitution`; none: worked out from the structure
+    #[parameter("m", unit = "kg", range = Positive)]
     pub impact_mass: Option<f64>,
-    /// The total force may pull while closed.
+    /// the total force may pull while closed
+    #[parameter]
     pub pull: bool,
-    /// Rate v₀ below which the law of α < 1 is linear, m/s or rad/s.
+    /// rate below which α < 1 is linear (rad/s with `cr`)
+    #[parameter("v₀", unit = "m/s", range = Positive, default = 1e-6)]
     pub linear_below: f64,
 }
 
@@ -82,54 +78,7 @@ impl Described for Dashpot {
         "Dashpot with a power of the rate, acting always or in contact only.",
     )
     .nodes(NodeCount::GROUND_OR_TWO)
-    .parameters(&[
-        Parameter::new(
-            "c",
-            "c",
-            Form::Power { base: FORCE, over: VELOCITY, exponent: "exponent" },
-            Default::Absent,
-            "coefficient along U1, U2 or U3",
-        )
-        .within(Range::Positive),
-        Parameter::new(
-            "cr",
-            "c",
-            Form::Power { base: MOMENT, over: FREQUENCY, exponent: "exponent" },
-            Default::Absent,
-            "instead of `c`: coefficient about R1, R2 or R3",
-        )
-        .within(Range::Positive),
-        Parameter::number(
-            "exponent",
-            "α",
-            NONE,
-            Range::Above(0.0, 2.0),
-            1.0,
-            "exponent of the rate",
-        ),
-        Parameter::choice("axis", Axis::NAMES, "U1", "local axis"),
-        Parameter::choice("when", &["Always", "InContact"], "Always", "when it acts"),
-        Parameter::number("opening", "g", LENGTH, Range::Any, 0.0, "clearance of the contact"),
-        Parameter::number(
-            "stiffness",
-            "k",
-            STIFFNESS,
-            Range::NonNegative,
-            0.0,
-            "spring of the contact",
-        ),
-        restitution("instead of `c`, in contact: speed after over speed before an impact"),
-        IMPACT_MASS,
-        Parameter::flag("pull", false, "the total force may pull while closed"),
-        Parameter::number(
-            "linear_below",
-            "v₀",
-            VELOCITY,
-            Range::Positive,
-            1e-6,
-            "rate below which α < 1 is linear (rad/s with `cr`)",
-        ),
-    ])
+    .parameters(Self::PARAMETERS)
     .law(
         "F(v) = c sgn(v) |v|^α; for α < 1 and |v| < v₀: c v₀^(α−1) v\n\
               Always:    f = F(ḋ)\n\

@@ -4,10 +4,6 @@
 //!   normal Z:  ux_s = ux_m − θz_m (y_s − y_m),   uy_s = uy_m + θz_m (x_s − x_m),   θz_s = θz_m
 //! ```
 //!
-//! | parameter | default | meaning                                          |
-//! |-----------|---------|--------------------------------------------------|
-//! | `normal`  | Z       | global direction normal to the floor: X, Y or Z  |
-//!
 //! The three other DOFs of every node stay free. Distances along the normal do not matter.
 //!
 //! Reference: \[Wilson 2002, ch. 7\].
@@ -15,12 +11,12 @@
 use crate::shared::dense::between;
 use serde::Deserialize;
 use trilith_element::{
-    Card, Category, Constraint, Described, Dof, Equation, Exercise, NodeCount, Parameter,
-    ParameterError, Vector3,
+    Card, Category, Choices, Constraint, Described, Dof, Equation, Exercise, NodeCount,
+    ParameterError, Parameters, Vector3,
 };
 
 /// A global direction.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, Choices)]
 pub enum Normal {
     /// Global X.
     X,
@@ -31,10 +27,11 @@ pub enum Normal {
 }
 
 /// Floor that is rigid in its plane.
-#[derive(Clone, Debug, Deserialize)]
+#[derive(Clone, Debug, Deserialize, Parameters)]
 #[serde(deny_unknown_fields)]
 pub struct Diaphragm {
-    /// Direction normal to the floor.
+    /// direction normal to the floor
+    #[parameter(choices = Normal::NAMES, default = "Z")]
     pub normal: Normal,
 }
 
@@ -45,12 +42,7 @@ impl Described for Diaphragm {
         "Floor that is rigid in its plane; the first node leads, the others follow.",
     )
     .nodes(NodeCount::at_least(2))
-    .parameters(&[Parameter::choice(
-        "normal",
-        &["X", "Y", "Z"],
-        "Z",
-        "direction normal to the floor",
-    )])
+    .parameters(Self::PARAMETERS)
     .law("normal Z: ux_s = ux_m − θz_m (y_s − y_m), uy_s = uy_m + θz_m (x_s − x_m), θz_s = θz_m")
     .source("Wilson, Static and Dynamic Analysis of Structures, 2002, ch. 7")
     .example(r#""floor": Diaphragm(nodes: ("centre", "a", "b", "c", "d"))"#)

@@ -10,12 +10,6 @@
 //!       └────────── d
 //! ```
 //!
-//! | parameter | symbol | unit | range     | default | meaning                               |
-//! |-----------|--------|------|-----------|---------|---------------------------------------|
-//! | `k`       | k      | N/m  | > 0       | –       | shear stiffness before yielding       |
-//! | `fy`      | f_y    | N    | > 0       | –       | shear force at which it yields        |
-//! | `ratio`   | r      | 1    | 0 ≤ r < 1 | 0       | stiffness after yielding over `k`     |
-//!
 //! The same in all directions of the plane, elastic up to f_y, and f_y does not depend on the axial force:
 //! a lead–rubber or high-damping bearing, or with r = 0 a slider under constant load. It carries nothing
 //! along its axis. A step returns the elastic trial force radially onto the circle: exact on straight paths through
@@ -27,22 +21,24 @@
 
 use serde::Deserialize;
 use std::borrow::Cow;
-use trilith_element::dimension::{FORCE, NONE, STIFFNESS};
 use trilith_element::lanes::{LaneAt, LaneForce, LaneForm, LaneLaw, LaneStep, Real};
 use trilith_element::{
     Axis, Card, Category, Coordinates, Described, Exercise, Field, History, Kinematics, Link,
-    NodeCount, Parameter, ParameterError, Range, Response, Stroke, history,
+    NodeCount, ParameterError, Parameters, Response, Stroke, history,
 };
 
 /// Bearing with bilinear shear coupled in its plane.
-#[derive(Clone, Debug, Deserialize)]
+#[derive(Clone, Debug, Deserialize, Parameters)]
 #[serde(deny_unknown_fields)]
 pub struct ElastomericBearing {
-    /// Shear stiffness before yielding, N/m.
+    /// shear stiffness before yielding
+    #[parameter("k", unit = "N/m", range = Positive)]
     pub k: f64,
-    /// Shear force at which it yields, N.
+    /// shear force at which it yields
+    #[parameter("f_y", unit = "N", range = Positive)]
     pub fy: f64,
-    /// Stiffness after yielding over `k`.
+    /// stiffness after yielding over `k`, below 1
+    #[parameter("r", unit = "1", range = Within(0.0, 1.0), default = 0.0)]
     pub ratio: f64,
 }
 
@@ -63,30 +59,7 @@ impl Described for ElastomericBearing {
         "Bearing with bilinear shear coupled in its plane, of plasticity theory.",
     )
     .nodes(NodeCount::GROUND_OR_TWO)
-    .parameters(&[
-        Parameter::required(
-            "k",
-            "k",
-            STIFFNESS,
-            Range::Positive,
-            "shear stiffness before yielding",
-        ),
-        Parameter::required(
-            "fy",
-            "f_y",
-            FORCE,
-            Range::Positive,
-            "shear force at which it yields",
-        ),
-        Parameter::number(
-            "ratio",
-            "r",
-            NONE,
-            Range::Within(0.0, 1.0),
-            0.0,
-            "stiffness after yielding over `k`, below 1",
-        ),
-    ])
+    .parameters(Self::PARAMETERS)
     .law("f = r k d + q,  q = (1 − r) k (d − p),  |q| ≤ (1 − r) f_y  (vectors along U2, U3)\n\
           ṗ = λ q, λ ≥ 0, λ > 0 only where |q| = (1 − r) f_y")
     .source("Simo & Hughes, Computational Inelasticity, 1998, §3.3; Naeim & Kelly, Design of Seismic Isolated Structures, 1999, ch. 4")

@@ -4,25 +4,18 @@
 //!   u_s[dof] = u_m[dof]
 //! ```
 //!
-//! | parameter | default | meaning                                |
-//! |-----------|---------|----------------------------------------|
-//! | `dofs`    | –       | which: some of Ux, Uy, Uz, Rx, Ry, Rz  |
-//!
 //! Distances between the nodes do not matter: equal displacements of nodes apart resist rotation.
 //!
 //! Reference: \[Bathe 1996, §4.2.2\].
 
 use serde::Deserialize;
 use trilith_element::{
-    Card, Category, Constraint, Default, Described, Dof, Equation, Exercise, Form, NodeCount,
-    Parameter, ParameterError, Vector3,
+    Card, Category, Choices, Constraint, Described, Dof, Equation, Exercise, NodeCount,
+    ParameterError, Parameters, Vector3,
 };
 
-/// Names of the DOFs in model files.
-const NAMES: &[&str] = &["Ux", "Uy", "Uz", "Rx", "Ry", "Rz"];
-
 /// A DOF by its name.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Choices, Deserialize)]
 pub enum DofName {
     /// Displacement along X.
     Ux,
@@ -39,10 +32,11 @@ pub enum DofName {
 }
 
 /// Equal DOFs of several nodes.
-#[derive(Clone, Debug, Deserialize)]
+#[derive(Clone, Debug, Deserialize, Parameters)]
 #[serde(deny_unknown_fields)]
 pub struct EqualDof {
-    /// Which DOFs.
+    /// which DOFs
+    #[parameter(choices = DofName::NAMES)]
     pub dofs: Vec<DofName>,
 }
 
@@ -53,13 +47,7 @@ impl Described for EqualDof {
         "Chosen DOFs of the other nodes equal those of the first.",
     )
     .nodes(NodeCount::at_least(2))
-    .parameters(&[Parameter::new(
-        "dofs",
-        "",
-        Form::Choices(NAMES),
-        Default::Required,
-        "which DOFs",
-    )])
+    .parameters(Self::PARAMETERS)
     .law("u_s[dof] = u_m[dof]")
     .source("Bathe, Finite Element Procedures, 1996, §4.2.2")
     .example(r#""hinge": EqualDof(nodes: ("a", "b"), dofs: (Ux, Uz))"#)

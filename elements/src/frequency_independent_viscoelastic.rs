@@ -6,17 +6,6 @@
 //!   K'(ω) = k∞ + Σ kᵢ (ωτᵢ)²/(1 + (ωτᵢ)²),   K''(ω) = Σ kᵢ ωτᵢ/(1 + (ωτᵢ)²),   η = K''/K'
 //! ```
 //!
-//! | parameter     | symbol | unit           | range | default | meaning                                          |
-//! |---------------|--------|----------------|-------|---------|--------------------------------------------------|
-//! | `k`           | k      | N/m, N·m/rad   | > 0   | –       | storage stiffness at f₀ = √(f_min f_max)         |
-//! | `loss_factor` | η      | 1              | 0 … 2 | –       | loss factor in the band                          |
-//! | `f_min`       | f_min  | Hz             | > 0   | –       | lower end of the band                            |
-//! | `f_max`       | f_max  | Hz             | > 0   | –       | upper end of the band                            |
-//! | `k_inf`       | k∞     | N/m, N·m/rad   | ≥ 0   | –       | instead: stiffness beside the branches           |
-//! | `stiffness`   | kᵢ     | N/m, N·m/rad   | ≥ 0   | –       | instead: stiffnesses of the branches             |
-//! | `time`        | τᵢ     | s              | > 0   | –       | instead: relaxation times of the branches        |
-//! | `axis`        |        |                |       | U1      | local axis                                       |
-//!
 //! A causal law with a constant loss factor stiffens with the frequency: the only one is the springpot
 //! K (iω/ω₀)^β, β = (2/π) atan η, with K' = k (f/f₀)^β. Its spectrum of relaxation times is
 //! h(ln τ) = k sin(πβ)/(π cos(πβ/2)) (ω₀τ)^(−β); the branches are its values at times spaced evenly in
@@ -35,45 +24,42 @@ use branches::{Branch, Branches};
 use serde::Deserialize;
 use std::borrow::Cow;
 use std::sync::OnceLock;
-use trilith_element::dimension::{FREQUENCY, NONE, TIME};
 use trilith_element::{
-    Axis, Card, Category, Coordinates, Default, Described, Exercise, Field, Form, Kinematics, Link,
-    NodeCount, Parameter, ParameterError, Range, Response, Stroke,
+    Axis, Card, Category, Coordinates, Described, Exercise, Field, Kinematics, Link, NodeCount,
+    ParameterError, Parameters, Response, Stroke,
 };
 
 /// Springs and Maxwell branches with a near-constant loss factor.
-#[derive(Clone, Debug, Deserialize)]
+#[derive(Clone, Debug, Deserialize, Parameters)]
 #[serde(deny_unknown_fields)]
 pub struct FrequencyIndependentViscoelastic {
-    /// Storage stiffness at the middle of the band, N/m or N·m/rad.
+    /// storage stiffness at √(f_min f_max)
+    #[parameter("k", unit = "N/m", about = "N·m/rad", range = Positive)]
     pub k: Option<f64>,
-    /// Loss factor η.
+    /// loss factor in the band
+    #[parameter("η", unit = "1", range = Above(0.0, 2.0))]
     pub loss_factor: Option<f64>,
-    /// Lower end of the band, Hz.
+    /// lower end of the band
+    #[parameter("f_min", unit = "1/s", range = Positive)]
     pub f_min: Option<f64>,
-    /// Upper end of the band, Hz.
+    /// upper end of the band
+    #[parameter("f_max", unit = "1/s", range = Positive)]
     pub f_max: Option<f64>,
-    /// Stiffness beside given branches, N/m or N·m/rad.
+    /// instead: stiffness beside the branches
+    #[parameter("k∞", unit = "N/m", about = "N·m/rad", range = NonNegative)]
     pub k_inf: Option<f64>,
-    /// Stiffnesses of given branches, N/m or N·m/rad.
+    /// instead: stiffnesses of the branches
+    #[parameter("kᵢ", unit = "N/m", about = "N·m/rad", range = NonNegative)]
     pub stiffness: Option<Vec<f64>>,
-    /// Relaxation times of given branches, s.
+    /// instead: relaxation times of the branches
+    #[parameter("τᵢ", unit = "s", range = Positive)]
     pub time: Option<Vec<f64>>,
-    /// Local axis.
+    /// local axis
+    #[parameter(choices = Axis::NAMES, default = "U1")]
     pub axis: Axis,
     /// Worked out once.
     #[serde(skip)]
     branches: OnceLock<Branches>,
-}
-
-const fn optional(
-    name: &'static str,
-    symbol: &'static str,
-    form: Form,
-    range: Range,
-    meaning: &'static str,
-) -> Parameter {
-    Parameter::new(name, symbol, form, Default::Absent, meaning).within(range)
 }
 
 impl Described for FrequencyIndependentViscoelastic {
@@ -83,58 +69,7 @@ impl Described for FrequencyIndependentViscoelastic {
         "Viscoelastic damper with a near-constant loss factor: springs and Maxwell branches.",
     )
     .nodes(NodeCount::GROUND_OR_TWO)
-    .parameters(&[
-        optional(
-            "k",
-            "k",
-            Form::STIFFNESS_OF_AXIS,
-            Range::Positive,
-            "storage stiffness at √(f_min f_max)",
-        ),
-        optional(
-            "loss_factor",
-            "η",
-            Form::Number(NONE),
-            Range::Above(0.0, 2.0),
-            "loss factor in the band",
-        ),
-        optional(
-            "f_min",
-            "f_min",
-            Form::Number(FREQUENCY),
-            Range::Positive,
-            "lower end of the band",
-        ),
-        optional(
-            "f_max",
-            "f_max",
-            Form::Number(FREQUENCY),
-            Range::Positive,
-            "upper end of the band",
-        ),
-        optional(
-            "k_inf",
-            "k∞",
-            Form::STIFFNESS_OF_AXIS,
-            Range::NonNegative,
-            "instead: stiffness beside the branches",
-        ),
-        optional(
-            "stiffness",
-            "kᵢ",
-            Form::STIFFNESS_OF_AXIS.list(),
-            Range::NonNegative,
-            "instead: stiffnesses of the branches",
-        ),
-        optional(
-            "time",
-            "τᵢ",
-            Form::Number(TIME).list(),
-            Range::Positive,
-            "instead: relaxation times of the branches",
-        ),
-        Parameter::choice("axis", Axis::NAMES, "U1", "local axis"),
-    ])
+    .parameters(Self::PARAMETERS)
     .law("f = k∞ d + Σ fᵢ, ḟᵢ = kᵢ ḋ − fᵢ/τᵢ\n\
           fitted: K' = k (f/f₀)^β, K'' = η K', β = (2/π) atan η, f₀ = √(f_min f_max)")
     .source("Bland, The Theory of Linear Viscoelasticity, 1960; Bagley & Torvik 1983 (springpot)")

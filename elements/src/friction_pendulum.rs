@@ -18,36 +18,6 @@
 //!   VelocityPressure   the same with μ_fast = μ_f0 − Δμ tanh(α N/A), μ_f0 given as `mu_fast`
 //! ```
 //!
-//! | parameter        | symbol | unit     | range   | default | meaning                                      |
-//! |------------------|--------|----------|---------|---------|----------------------------------------------|
-//! | `kn`             | kₙ     | N/m      | > 0     | –       | stiffness in compression                     |
-//! | `damping`        | c      | N·s/m    | ≥ 0     | 0       | dashpot along the axis, acts only while closed |
-//! | `pull`           |        |          |         | false   | the dashpot may pull while closed; N = −kₙ g then |
-//! | `ks`             | kₛ     | N/m      | > 0     | –       | stiffness before slip                        |
-//! | `cs`             | cₛ     | N·s/m    | ≥ 0     | 0       | dashpot beside the spring before slip        |
-//! | `mu_static`      | μ_static | 1      | ≥ 0     | –       | before it breaks away, where more than at rest |
-//! | `static_slip`    | s₀     | m        | ≥ 0     | 0       | slip over which that is gone                 |
-//! | `radius`         | R      | m        | ≥ 0     | 0       | effective radius; 0 is flat                  |
-//! | `surface`        |        |          |         | Shallow | `Shallow` or `Spherical`                     |
-//! | `rise`           |        |          |         | false   | moving out lifts the load                    |
-//! | `inclined`       |        |          |         | false   | friction lies in the surface, of the force normal to it |
-//! | `friction_model` |        |          |         | Coulomb | `Coulomb`, `Velocity`, `VelocityForce`, `VelocityPressure` |
-//! | `mu`             | μ      | 1        | ≥ 0     | –       | Coulomb: friction coefficient                |
-//! | `mu_slow`        | μ_slow | 1        | ≥ 0     | –       | Velocity, VelocityPressure: at rest          |
-//! | `mu_fast`        | μ_fast | 1        | ≥ 0     | –       | Velocity, VelocityPressure: at speed         |
-//! | `rate`           | r      | s/m      | ≥ 0     | –       | Velocity, VelocityPressure: from slow to fast |
-//! | `a_slow`, `a_fast` | a    | N^(1−n)  | ≥ 0     | –       | VelocityForce: factors                       |
-//! | `n_slow`, `n_fast` | n    | 1        | 0 < n ≤ 1 | –     | VelocityForce: exponents; 1 is no dependence |
-//! | `rate_0`         | r₀     | s/m      | ≥ 0     | –       | VelocityForce: rate                          |
-//! | `rate_1`         | r₁     | s/(m·N)  | ≥ 0     | 0       | VelocityForce: its growth with N             |
-//! | `rate_2`         | r₂     | s/(m·N²) | ≥ 0     | 0       | VelocityForce: its growth with N²            |
-//! | `mu_max`         | μ_max  | 1        | > 0     | 1       | VelocityForce: most that μ becomes at small N |
-//! | `area`           | A      | m²       | > 0     | –       | VelocityPressure: area of the slider         |
-//! | `delta_mu`       | Δμ     | 1        | ≥ 0     | –       | VelocityPressure: fall of μ_fast at high pressure |
-//! | `pressure_rate`  | α      | 1/Pa     | ≥ 0     | –       | VelocityPressure: how fast it falls          |
-//! | `stop`           | D      | m        | > 0     | –       | displacement at which the rim is met         |
-//! | `stop_stiffness` | kₛₜ    | N/m      | > 0     | –       | stiffness of the rim                         |
-//!
 //! Friction is elastic–perfectly plastic with radial return (it sticks fully below the limit), the same
 //! as that of [`NLink`](crate::NLink), and so are separation and touching: a lifted bearing forgets its
 //! anchor, and finds a new one where it touches, linear in the step. **Beyond an `NLink` with a
@@ -87,11 +57,12 @@ use serde::Deserialize;
 use std::borrow::Cow;
 use trilith_element::lanes::LaneForm;
 use trilith_element::{
-    Axis, Contact, ContactUse, Coordinates, Field, History, Impact, Kinematics, Link, Response,
+    Axis, Choices, Contact, ContactUse, Coordinates, Field, History, Impact, Kinematics, Link,
+    Parameters, Response,
 };
 
 /// How the friction of a [`FrictionPendulum`] depends on speed and normal force.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, Choices)]
 pub enum FrictionModel {
     /// Not at all.
     Coulomb,
@@ -104,7 +75,7 @@ pub enum FrictionModel {
 }
 
 /// Shape of the surface of a [`FrictionPendulum`].
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, Choices)]
 pub enum Surface {
     /// Small slopes: restoring force N u/R.
     Shallow,
@@ -113,66 +84,95 @@ pub enum Surface {
 }
 
 /// Sliding bearing with one concave surface; its card is in `card.rs` beside this file.
-#[derive(Clone, Debug, Deserialize)]
+#[derive(Clone, Debug, Deserialize, Parameters)]
 #[serde(deny_unknown_fields)]
 pub struct FrictionPendulum {
-    /// Stiffness in compression kₙ, N/m.
+    /// stiffness in compression
+    #[parameter("kₙ", unit = "N/m", range = Positive)]
     pub kn: f64,
-    /// Dashpot along the axis c, N·s/m.
+    /// dashpot along the axis, acts only while closed
+    #[parameter("c", unit = "N·s/m", range = NonNegative, default = 0.0)]
     pub damping: f64,
-    /// The dashpot may pull while closed.
+    /// the dashpot may pull while closed; friction is of kₙ g then
+    #[parameter]
     pub pull: bool,
-    /// Stiffness before slip kₛ, N/m.
+    /// stiffness before slip
+    #[parameter("kₛ", unit = "N/m", range = Positive)]
     pub ks: f64,
-    /// Dashpot beside the spring before slip cₛ, N·s/m.
+    /// dashpot beside the spring `ks`: damps a bearing that sticks
+    #[parameter("cₛ", unit = "N·s/m", range = NonNegative, default = 0.0)]
     pub cs: f64,
-    /// Friction coefficient before it breaks away.
+    /// before it breaks away; none: as at rest
+    #[parameter("μ_static", unit = "1", range = NonNegative)]
     pub mu_static: Option<f64>,
-    /// Slip s₀ over which that is gone, m.
+    /// slip over which `mu_static` is gone; 0: as soon as the spring `ks` can follow
+    #[parameter("s₀", unit = "m", range = NonNegative, default = 0.0)]
     pub static_slip: f64,
-    /// Effective radius R, m; 0 is flat.
+    /// effective radius; 0 is flat
+    #[parameter("R", unit = "m", range = NonNegative, default = 0.0)]
     pub radius: f64,
-    /// Shape of the surface.
+    /// restoring force of small slopes, or exact
+    #[parameter(choices = Surface::NAMES, default = "Shallow")]
     pub surface: Surface,
-    /// Moving out lifts the load.
+    /// moving out lifts the load
+    #[parameter]
     pub rise: bool,
-    /// Friction lies in the surface, of the force normal to it.
+    /// friction lies in the surface, of the force normal to it; exact with `Spherical` and `rise`
+    #[parameter]
     pub inclined: bool,
-    /// What the friction coefficient depends on.
+    /// what the friction coefficient depends on
+    #[parameter(choices = FrictionModel::NAMES, default = "Coulomb")]
     pub friction_model: FrictionModel,
-    /// Friction coefficient.
+    /// Coulomb: friction coefficient
+    #[parameter("μ", unit = "1", range = NonNegative)]
     pub mu: Option<f64>,
-    /// Friction coefficient at rest.
+    /// Velocity, VelocityPressure: coefficient at rest
+    #[parameter("μ_slow", unit = "1", range = NonNegative)]
     pub mu_slow: Option<f64>,
-    /// Friction coefficient at speed (and small pressure).
+    /// Velocity, VelocityPressure: coefficient at speed
+    #[parameter("μ_fast", unit = "1", range = NonNegative)]
     pub mu_fast: Option<f64>,
-    /// Rate from slow to fast r, s/m.
+    /// Velocity, VelocityPressure: how fast it goes from slow to fast
+    #[parameter("r", unit = "s/m", range = NonNegative)]
     pub rate: Option<f64>,
-    /// Factor at rest, N^(1−n).
+    /// VelocityForce: factor at rest
+    #[parameter("a_slow", unit = "N", per = "N", exponent = "n_slow", range = NonNegative)]
     pub a_slow: Option<f64>,
-    /// Exponent at rest.
+    /// VelocityForce: exponent at rest; 1 is no dependence
+    #[parameter("n_slow", unit = "1", range = Above(0.0, 1.0))]
     pub n_slow: Option<f64>,
-    /// Factor at speed, N^(1−n).
+    /// VelocityForce: factor at speed
+    #[parameter("a_fast", unit = "N", per = "N", exponent = "n_fast", range = NonNegative)]
     pub a_fast: Option<f64>,
-    /// Exponent at speed.
+    /// VelocityForce: exponent at speed
+    #[parameter("n_fast", unit = "1", range = Above(0.0, 1.0))]
     pub n_fast: Option<f64>,
-    /// Constant part of the rate r₀, s/m.
+    /// VelocityForce: rate from slow to fast
+    #[parameter("r₀", unit = "s/m", range = NonNegative)]
     pub rate_0: Option<f64>,
-    /// Growth of the rate with N, s/(m·N).
+    /// VelocityForce: growth of the rate with N
+    #[parameter("r₁", unit = "s/(m·N)", range = NonNegative, default = 0.0)]
     pub rate_1: f64,
-    /// Growth of the rate with N², s/(m·N²).
+    /// VelocityForce: growth of the rate with N²
+    #[parameter("r₂", unit = "s/(m·N²)", range = NonNegative, default = 0.0)]
     pub rate_2: f64,
-    /// Most that the coefficient becomes at small N.
+    /// VelocityForce: most that the coefficient becomes at small N
+    #[parameter("μ_max", unit = "1", range = Positive, default = 1.0)]
     pub mu_max: f64,
-    /// Area of the slider A, m².
+    /// VelocityPressure: area of the slider
+    #[parameter("A", unit = "m²", range = Positive)]
     pub area: Option<f64>,
-    /// Fall of the coefficient at high pressure Δμ.
+    /// VelocityPressure: fall of the coefficient at speed
+    #[parameter("Δμ", unit = "1", range = NonNegative)]
     pub delta_mu: Option<f64>,
-    /// How fast it falls with the pressure α, 1/Pa.
+    /// VelocityPressure: how fast it falls with the pressure
+    #[parameter("α", unit = "1/Pa", range = NonNegative)]
     pub pressure_rate: Option<f64>,
-    /// Displacement at which the rim is met D, m.
+    /// displacement at which the rim is met; none: no rim
+    #[parameter("D", unit = "m", range = Positive)]
     pub stop: Option<f64>,
-    /// Stiffness of the rim, N/m.
+    /// stiffness of the rim
+    #[parameter("kₛₜ", unit = "N/m", range = Positive)]
     pub stop_stiffness: Option<f64>,
 }
 

@@ -10,16 +10,6 @@
 //!  +--------- d
 //! ```
 //!
-//! | parameter   | symbol | unit         | range | default | meaning                                             |
-//! |-------------|--------|--------------|-------|---------|-----------------------------------------------------|
-//! | `k`         | k      | N/m, N·m/rad | > 0   | –       | stiffness before slip, and between the branches     |
-//! | `k1`        | k₁     | N/m, N·m/rad | > 0   | –       | stiffness in slip, loading; below k                 |
-//! | `k2`        | k₂     | N/m, N·m/rad | > 0   | –       | stiffness in slip, unloading; at most k₁            |
-//! | `u0`        | u₀     | m, rad       | ≥ 0   | 0       | precompression (SAP2000 writes it negative)         |
-//! | `us`        | u_s    | m, rad       | > 0   | –       | deformation at which the rings are closed; none: ∞  |
-//! | `direction` |        |              |       | Both    | `Both`, `Tension` (d > 0) or `Compression` (d < 0)  |
-//! | `axis`      |        |              |       | U1      | local axis                                          |
-//!
 //! In `Both` the law is the same for negative d with the signs turned; in the others no force acts on
 //! the inactive side. The force is zero at d = 0.
 //!
@@ -31,12 +21,12 @@
 use serde::Deserialize;
 use std::borrow::Cow;
 use trilith_element::{
-    Axis, Card, Category, Coordinates, Default, Described, Exercise, Field, Form, Kinematics, Link,
-    NodeCount, Parameter, ParameterError, Range, Response, Stroke,
+    Axis, Card, Category, Choices, Coordinates, Described, Exercise, Field, Kinematics, Link,
+    NodeCount, ParameterError, Parameters, Response, Stroke,
 };
 
 /// Sides on which a [`FrictionSpring`] acts.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, Choices)]
 pub enum Direction {
     /// Both.
     Both,
@@ -47,38 +37,30 @@ pub enum Direction {
 }
 
 /// Ring spring.
-#[derive(Clone, Debug, Deserialize)]
+#[derive(Clone, Debug, Deserialize, Parameters)]
 #[serde(deny_unknown_fields)]
 pub struct FrictionSpring {
-    /// Stiffness before slip k, N/m or N·m/rad.
+    /// stiffness before slip, and between the branches
+    #[parameter("k", unit = "N/m", about = "N·m/rad", range = Positive)]
     pub k: f64,
-    /// Stiffness in slip, loading, N/m or N·m/rad.
+    /// stiffness in slip, loading; below `k`
+    #[parameter("k₁", unit = "N/m", about = "N·m/rad", range = Positive)]
     pub k1: f64,
-    /// Stiffness in slip, unloading, N/m or N·m/rad.
+    /// stiffness in slip, unloading; at most `k1`
+    #[parameter("k₂", unit = "N/m", about = "N·m/rad", range = Positive)]
     pub k2: f64,
-    /// Precompression u₀, m or rad.
+    /// precompression (SAP2000 writes it negative)
+    #[parameter("u₀", unit = "m", about = "rad", range = NonNegative, default = 0.0)]
     pub u0: f64,
-    /// Deformation at which the rings are closed, m or rad.
+    /// deformation at which the rings are closed; none: they never are
+    #[parameter("u_s", unit = "m", about = "rad", range = Positive)]
     pub us: Option<f64>,
-    /// Sides on which it acts.
+    /// sides on which it acts
+    #[parameter(choices = Direction::NAMES, default = "Both")]
     pub direction: Direction,
-    /// Local axis.
+    /// local axis
+    #[parameter(choices = Axis::NAMES, default = "U1")]
     pub axis: Axis,
-}
-
-const fn stiffness(name: &'static str, symbol: &'static str, meaning: &'static str) -> Parameter {
-    Parameter::new(name, symbol, Form::STIFFNESS_OF_AXIS, Default::Required, meaning)
-        .within(Range::Positive)
-}
-
-const fn deformation(
-    name: &'static str,
-    symbol: &'static str,
-    default: Default,
-    range: Range,
-    meaning: &'static str,
-) -> Parameter {
-    Parameter::new(name, symbol, Form::DEFORMATION_OF_AXIS, default, meaning).within(range)
 }
 
 impl Described for FrictionSpring {
@@ -88,26 +70,7 @@ impl Described for FrictionSpring {
         "Ring spring: flag-shaped, self-centring, independent of rates.",
     )
     .nodes(NodeCount::GROUND_OR_TWO)
-    .parameters(&[
-        stiffness("k", "k", "stiffness before slip, and between the branches"),
-        stiffness("k1", "k₁", "stiffness in slip, loading; below `k`"),
-        stiffness("k2", "k₂", "stiffness in slip, unloading; at most `k1`"),
-        deformation("u0", "u₀", Default::Number(0.0), Range::NonNegative, "precompression"),
-        deformation(
-            "us",
-            "u_s",
-            Default::Absent,
-            Range::Positive,
-            "deformation at which the rings are closed",
-        ),
-        Parameter::choice(
-            "direction",
-            &["Both", "Tension", "Compression"],
-            "Both",
-            "sides on which it acts",
-        ),
-        Parameter::choice("axis", Axis::NAMES, "U1", "local axis"),
-    ])
+    .parameters(Self::PARAMETERS)
     .law("f = k (d − s), s ≥ 0 for d > 0, s = const but\n\
           loading in slip:   f = k₁ (d + u₀)\n\
           unloading in slip: f = k₂ (d + u₀)\n\

@@ -5,45 +5,37 @@
 //!          k                      f = 0           otherwise         (open)
 //! ```
 //!
-//! | parameter | symbol | unit | range | default | meaning                                         |
-//! |-----------|--------|------|-------|---------|-------------------------------------------------|
-//! | `k`       | k      | N/m  | > 0   | –       | stiffness                                       |
-//! | `opening` | g      | m    | any   | 0       | clearance at rest (negative: prestressed by kg) |
-//! | `axis`    |        |      |       | U1      | local axis: U1, U2 or U3                        |
-//!
 //! `d` is the deformation along the axis (extension along U1). No energy is lost; for restitution use
 //! an `NLink` with `damping`, or a `Dashpot` in contact beside it.
 //!
 //! Reference: \[Wilson 2002, ch. 21\].
 
 use serde::Deserialize;
-use trilith_element::dimension::{LENGTH, STIFFNESS};
 use trilith_element::lanes::{LaneAt, LaneContact, LaneForce, LaneForm, LaneLaw, LaneStep, Real};
 use trilith_element::{
     Axis, Card, Category, Contact, ContactUse, Coordinates, Described, Exercise, Kinematics, Link,
-    NodeCount, Parameter, Range, Response, Stroke,
+    NodeCount, Parameters, Response, Stroke,
 };
 
 /// Compression-only stop with a clearance.
-#[derive(Clone, Debug, Deserialize)]
+#[derive(Clone, Debug, Deserialize, Parameters)]
 #[serde(deny_unknown_fields)]
 pub struct Gap {
-    /// Stiffness k, N/m.
+    /// stiffness
+    #[parameter("k", unit = "N/m", range = Positive)]
     pub k: f64,
-    /// Clearance at rest g, m.
+    /// clearance at rest (negative: prestressed by k g)
+    #[parameter("g", unit = "m", default = 0.0)]
     pub opening: f64,
-    /// Local axis.
+    /// local axis
+    #[parameter(choices = ["U1", "U2", "U3"], default = "U1")]
     pub axis: Axis,
 }
 
 impl Described for Gap {
     const CARD: Card = Card::new("Gap", Category::Link, "Compression-only stop with a clearance.")
         .nodes(NodeCount::GROUND_OR_TWO)
-        .parameters(&[
-            Parameter::required("k", "k", STIFFNESS, Range::Positive, "stiffness"),
-            Parameter::number("opening", "g", LENGTH, Range::Any, 0.0, "clearance at rest"),
-            Parameter::choice("axis", &["U1", "U2", "U3"], "U1", "local axis"),
-        ])
+        .parameters(Self::PARAMETERS)
         .law("f = k (d + g) where d + g < 0, else 0")
         .source("Wilson, Static and Dynamic Analysis of Structures, 2002, ch. 21")
         .example(r#""stop": Gap(nodes: ("a", "b"), k: "200 MN/m", opening: "50 mm")"#)

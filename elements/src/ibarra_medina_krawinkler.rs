@@ -24,22 +24,6 @@
 //! | A | deformation that reloading aims at                      | (1 + β D) as large   | side that is entered |
 //! | K | stiffness of unloading                                  | (1 − β) as large     | both, at any time    |
 //!
-//! | parameter          | symbol | unit         | range | default | meaning                                       |
-//! |--------------------|--------|--------------|-------|---------|-----------------------------------------------|
-//! | `k`                | k      | N/m, N·m/rad | > 0   | –       | elastic stiffness                             |
-//! | `fy`               | f_y    | N, N·m       | > 0   | –       | yield strength                                |
-//! | `capping`          | c      | 1            | ≥ 1   | –       | capping strength over `fy`                    |
-//! | `plastic`          | δ_p    | m, rad       | > 0   | –       | deformation from yield to capping             |
-//! | `post_capping`     | δ_pc   | m, rad       | > 0   | –       | deformation from capping to zero force        |
-//! | `residual`         | r      | 1            | 0 … 1 | 0       | residual strength over `fy`                   |
-//! | `…_negative`       |        |              |       | as above | the last five for d < 0                      |
-//! | `lambda_s` `_c` `_a` `_k` | Λ | m, rad      | > 0   | none: ∞ | capacity of energy over `fy`                  |
-//! | `c_s` `_c` `_a` `_k` | c    | 1            | 1 … 2 | 1       | exponent of deterioration                     |
-//! | `rate_positive`, `rate_negative` | D | 1   | 0 … 1 | 1       | share of β that acts on a side                |
-//! | `form`             |        |              |       | PeakOriented | `PeakOriented` or `Pinching`             |
-//! | `kappa_f`, `kappa_d` | κ    | 1            | 0 … 1 | –       | `Pinching`: force and deformation of the break point |
-//! | `axis`             |        |              |       | U1      | local axis                                    |
-//!
 //! The force is a function of the deformation alone between two crossings of zero: f = min(K (d − p), way(d)), and a step is
 //! exact however long, one crossing included. No line is steeper than K, which does not fall below k/100, nor below the slope of
 //! a line while it is followed.
@@ -65,10 +49,10 @@ use law::{HISTORY, Law};
 use serde::Deserialize;
 use std::borrow::Cow;
 use trilith_element::lanes::{LaneAt, LaneForce, LaneForm, LaneLaw};
-use trilith_element::{Axis, Coordinates, Field, Kinematics, Link, Response};
+use trilith_element::{Axis, Choices, Coordinates, Field, Kinematics, Link, Parameters, Response};
 
 /// How an [`IbarraMedinaKrawinkler`] reloads.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, Choices)]
 pub enum Reloading {
     /// Straight to the largest deformation so far.
     PeakOriented,
@@ -77,58 +61,83 @@ pub enum Reloading {
 }
 
 /// Deteriorating spring with a capped backbone.
-#[derive(Clone, Debug, Deserialize)]
+#[derive(Clone, Debug, Deserialize, Parameters)]
 #[serde(deny_unknown_fields)]
 pub struct IbarraMedinaKrawinkler {
-    /// Elastic stiffness k, N/m or N·m/rad.
+    /// elastic stiffness
+    #[parameter("k", unit = "N/m", about = "N·m/rad", range = Positive)]
     pub k: f64,
-    /// Yield strength f_y, N or N·m.
+    /// yield strength
+    #[parameter("f_y", unit = "N", about = "N·m", range = Positive)]
     pub fy: f64,
-    /// Capping strength over `fy`.
+    /// capping strength over `fy`
+    #[parameter("c", unit = "1", range = Within(1.0, 100.0))]
     pub capping: f64,
-    /// Deformation from yield to capping δ_p, m or rad.
+    /// deformation from yield to capping
+    #[parameter("δ_p", unit = "m", about = "rad", range = Positive)]
     pub plastic: f64,
-    /// Deformation from capping to zero force δ_pc, m or rad.
+    /// deformation from capping to zero force
+    #[parameter("δ_pc", unit = "m", about = "rad", range = Positive)]
     pub post_capping: f64,
-    /// Residual strength over `fy`.
+    /// residual strength over `fy`
+    #[parameter("r", unit = "1", range = Within(0.0, 1.0), default = 0.0)]
     pub residual: f64,
-    /// f_y for d < 0.
+    /// f_y for d < 0 (as for d > 0)
+    #[parameter("f_y⁻", unit = "N", about = "N·m", range = Positive)]
     pub fy_negative: Option<f64>,
-    /// Capping strength over yield strength for d < 0.
+    /// c for d < 0, over f_y there
+    #[parameter("c⁻", unit = "1", range = Within(1.0, 100.0))]
     pub capping_negative: Option<f64>,
-    /// δ_p for d < 0.
+    /// δ_p for d < 0
+    #[parameter("δ_p⁻", unit = "m", about = "rad", range = Positive)]
     pub plastic_negative: Option<f64>,
-    /// δ_pc for d < 0.
+    /// δ_pc for d < 0
+    #[parameter("δ_pc⁻", unit = "m", about = "rad", range = Positive)]
     pub post_capping_negative: Option<f64>,
-    /// Residual strength over yield strength for d < 0.
+    /// r for d < 0
+    #[parameter("r⁻", unit = "1", range = Within(0.0, 1.0))]
     pub residual_negative: Option<f64>,
-    /// Capacity of energy Λ_S over `fy`: basic strength, m or rad.
+    /// energy over `fy` that basic strength stands; none: ∞
+    #[parameter("Λ_S", unit = "m", about = "rad", range = Positive)]
     pub lambda_s: Option<f64>,
-    /// Λ_C: post-capping strength, m or rad.
+    /// the same of post-capping strength
+    #[parameter("Λ_C", unit = "m", about = "rad", range = Positive)]
     pub lambda_c: Option<f64>,
-    /// Λ_A: accelerated reloading, m or rad.
+    /// the same of accelerated reloading
+    #[parameter("Λ_A", unit = "m", about = "rad", range = Positive)]
     pub lambda_a: Option<f64>,
-    /// Λ_K: stiffness of unloading, m or rad.
+    /// the same of the stiffness of unloading
+    #[parameter("Λ_K", unit = "m", about = "rad", range = Positive)]
     pub lambda_k: Option<f64>,
-    /// Exponent of the basic strength.
+    /// exponent of basic strength
+    #[parameter("c_S", unit = "1", range = Within(1.0, 2.0), default = 1.0)]
     pub c_s: f64,
-    /// Exponent of the post-capping strength.
+    /// exponent of post-capping strength
+    #[parameter("c_C", unit = "1", range = Within(1.0, 2.0), default = 1.0)]
     pub c_c: f64,
-    /// Exponent of accelerated reloading.
+    /// exponent of accelerated reloading
+    #[parameter("c_A", unit = "1", range = Within(1.0, 2.0), default = 1.0)]
     pub c_a: f64,
-    /// Exponent of the stiffness of unloading.
+    /// exponent of the stiffness of unloading
+    #[parameter("c_K", unit = "1", range = Within(1.0, 2.0), default = 1.0)]
     pub c_k: f64,
-    /// Share of β for d > 0.
+    /// share of β that acts for d > 0
+    #[parameter("D⁺", unit = "1", range = Within(0.0, 1.0), default = 1.0)]
     pub rate_positive: f64,
-    /// Share of β for d < 0.
+    /// share of β that acts for d < 0
+    #[parameter("D⁻", unit = "1", range = Within(0.0, 1.0), default = 1.0)]
     pub rate_negative: f64,
-    /// How it reloads.
+    /// reloading
+    #[parameter(choices = Reloading::NAMES, default = "PeakOriented")]
     pub form: Reloading,
-    /// `Pinching`: slope to the break point over that to the target.
+    /// Pinching: slope to the break point over that to the target
+    #[parameter("κ_F", unit = "1", range = Within(0.0, 1.0))]
     pub kappa_f: Option<f64>,
-    /// `Pinching`: share of the permanent deformation that is left at the break point.
+    /// Pinching: share of the permanent deformation left at the break point
+    #[parameter("κ_D", unit = "1", range = Within(0.0, 1.0))]
     pub kappa_d: Option<f64>,
-    /// Local axis.
+    /// local axis
+    #[parameter(choices = Axis::NAMES, default = "U1")]
     pub axis: Axis,
 }
 

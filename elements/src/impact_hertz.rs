@@ -6,18 +6,6 @@
 //!   Jankowski:  N = k δⁿ + 2 ξ √(m k δⁿ⁻¹) δ̇      where δ̇ > 0, else k δⁿ
 //! ```
 //!
-//! | parameter     | symbol | unit  | range     | default   | meaning                                               |
-//! |---------------|--------|-------|-----------|-----------|-------------------------------------------------------|
-//! | `k`           | k      | N/mⁿ  | > 0       | –         | contact stiffness                                     |
-//! | `exponent`    | n      | 1     | 1 … 3     | 1.5       | exponent of the penetration                           |
-//! | `model`       |        |       |           | Hertzdamp | `Hertzdamp` or `Jankowski`                            |
-//! | `restitution` | e      | 1     | 0 < e ≤ 1 | –         | speed after over speed before an impact               |
-//! | `xi`          | ξ      | 1     | ≥ 0       | –         | instead of `restitution`: the damping itself          |
-//! | `impact_mass` | m      | kg    | > 0       | –         | Jankowski: m₁m₂/(m₁ + m₂); none: from the structure   |
-//! | `opening`     | g      | m     | any       | 0         | clearance at rest                                     |
-//! | `min_speed`   | s_min  | m/s   | > 0       | 1e-3      | Hertzdamp: slower approaches damp as this one does    |
-//! | `axis`        |        |       |           | U1        | local axis: U1, U2 or U3                              |
-//!
 //! ξ(e) is the exact solution of the impact of a mass, for any n and speed:
 //!
 //! ```text
@@ -44,20 +32,19 @@
 //!
 //! Reference: \[Muthukumar & DesRoches 2006\], \[Jankowski 2005\].
 
-use crate::shared::restitution::{IMPACT_MASS, approach_ratio, restitution};
+use crate::shared::restitution::approach_ratio;
 use crate::shared::touch::TOUCH;
 use serde::Deserialize;
 use std::borrow::Cow;
 use std::sync::OnceLock;
-use trilith_element::dimension::{FORCE, LENGTH, NONE, VELOCITY};
 use trilith_element::{
-    Axis, Card, Category, Contact, ContactUse, Coordinates, Default, Described, Exercise, Field,
-    Form, History, Impact, Kinematics, Link, NodeCount, Parameter, ParameterError, Range, Response,
-    Stroke, history,
+    Axis, Card, Category, Choices, Contact, ContactUse, Coordinates, Described, Exercise, Field,
+    History, Impact, Kinematics, Link, NodeCount, ParameterError, Parameters, Response, Stroke,
+    history,
 };
 
 /// How an [`ImpactHertz`] dissipates.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, Choices)]
 pub enum HertzModel {
     /// In proportion to the elastic force and the rate over the speed of approach.
     Hertzdamp,
@@ -66,26 +53,35 @@ pub enum HertzModel {
 }
 
 /// Hertz spring with nonlinear damping in contact.
-#[derive(Clone, Debug, Deserialize)]
+#[derive(Clone, Debug, Deserialize, Parameters)]
 #[serde(deny_unknown_fields)]
 pub struct ImpactHertz {
-    /// Contact stiffness k, N/mⁿ.
+    /// contact stiffness
+    #[parameter("k", unit = "N", per = "m", exponent = "exponent", range = Positive)]
     pub k: f64,
-    /// Exponent n.
+    /// exponent of the penetration
+    #[parameter("n", unit = "1", range = Within(1.0, 3.0), default = 1.5)]
     pub exponent: f64,
-    /// How it dissipates.
+    /// how it dissipates
+    #[parameter(choices = HertzModel::NAMES, default = "Hertzdamp")]
     pub model: HertzModel,
-    /// Coefficient of restitution e.
+    /// speed after over speed before an impact
+    #[parameter("e", unit = "1", range = Above(0.0, 1.0))]
     pub restitution: Option<f64>,
-    /// Damping ξ, instead of `restitution`.
+    /// instead of `restitution`: the damping itself
+    #[parameter("ξ", unit = "1", range = NonNegative)]
     pub xi: Option<f64>,
-    /// Mass for `Jankowski`, kg.
+    /// mass that strikes, for `restitution`; none: worked out from the structure
+    #[parameter("m", unit = "kg", range = Positive)]
     pub impact_mass: Option<f64>,
-    /// Clearance at rest g, m.
+    /// clearance at rest
+    #[parameter("g", unit = "m", default = 0.0)]
     pub opening: f64,
-    /// Speed below which the damping grows no more, m/s.
+    /// Hertzdamp: slower approaches damp as this one does
+    #[parameter("s_min", unit = "m/s", range = Positive, default = 0.001)]
     pub min_speed: f64,
-    /// Local axis.
+    /// local axis
+    #[parameter(choices = ["U1", "U2", "U3"], default = "U1")]
     pub axis: Axis,
     /// ξ, worked out once.
     #[serde(skip)]
@@ -110,49 +106,7 @@ impl Described for ImpactHertz {
         "Pounding: Hertz spring with nonlinear damping after a clearance.",
     )
     .nodes(NodeCount::GROUND_OR_TWO)
-    .parameters(&[
-        Parameter::new(
-            "k",
-            "k",
-            Form::Power { base: FORCE, over: LENGTH, exponent: "exponent" },
-            Default::Required,
-            "contact stiffness",
-        )
-        .within(Range::Positive),
-        Parameter::number(
-            "exponent",
-            "n",
-            NONE,
-            Range::Within(1.0, 3.0),
-            1.5,
-            "exponent of the penetration",
-        ),
-        Parameter::choice(
-            "model",
-            &["Hertzdamp", "Jankowski"],
-            "Hertzdamp",
-            "how it dissipates",
-        ),
-        restitution("speed after over speed before an impact"),
-        Parameter::optional(
-            "xi",
-            "ξ",
-            NONE,
-            Range::NonNegative,
-            "instead of `restitution`: the damping itself",
-        ),
-        IMPACT_MASS,
-        Parameter::number("opening", "g", LENGTH, Range::Any, 0.0, "clearance at rest"),
-        Parameter::number(
-            "min_speed",
-            "s_min",
-            VELOCITY,
-            Range::Positive,
-            1e-3,
-            "Hertzdamp: slower approaches damp as this one does",
-        ),
-        Parameter::choice("axis", &["U1", "U2", "U3"], "U1", "local axis"),
-    ])
+    .parameters(Self::PARAMETERS)
     .law("δ = −(d + g), δ̇ = −ḋ; f = −N where δ > 0, else 0; N ≥ 0\n\
           Hertzdamp: N = k δⁿ (1 + ξ δ̇/s), ξ (1 + e) = ln((1 + ξ)/(1 − ξ e)), s: δ̇ at first touch, s_min at least\n\
           Jankowski: N = k δⁿ + 2 ξ √(m k δⁿ⁻¹) δ̇ where δ̇ > 0, else k δⁿ")

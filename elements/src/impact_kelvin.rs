@@ -7,17 +7,6 @@
 //!                                 without `pull`: N ≥ 0
 //! ```
 //!
-//! | parameter     | symbol | unit  | range     | default | meaning                                                |
-//! |---------------|--------|-------|-----------|---------|--------------------------------------------------------|
-//! | `k`           | k      | N/m   | > 0       | –       | contact stiffness                                      |
-//! | `damping`     | c      | N·s/m | ≥ 0       | –       | contact dashpot                                        |
-//! | `restitution` | e      | 1     | 0 < e ≤ 1 | –       | instead of `damping`: speed after over speed before    |
-//! | `impact_mass` | m      | kg    | > 0       | –       | mass for it, m₁m₂/(m₁ + m₂); none: from the structure  |
-//! | `opening`     | g      | m     | any       | 0       | clearance at rest                                      |
-//! | `damps`       |        |       |           | Contact | `Contact`: all the time in contact; `Approach`: until it turns |
-//! | `pull`        |        |       |           | false   | the force may pull while closed                        |
-//! | `axis`        |        |       |           | U1      | local axis: U1, U2 or U3                               |
-//!
 //! With `restitution` c = 2 ζ √(k m), and ζ(e) is exact for each variant:
 //!
 //! ```text
@@ -33,17 +22,16 @@
 //!
 //! Reference: \[Anagnostopoulos 1988\]; damping on approach only as in \[Jankowski 2005\].
 
-use crate::shared::restitution::{IMPACT_MASS, approach_ratio, damping_ratio, restitution};
+use crate::shared::restitution::{approach_ratio, damping_ratio};
 use crate::shared::touch::hold;
 use serde::Deserialize;
-use trilith_element::dimension::{DAMPING, LENGTH, STIFFNESS};
 use trilith_element::{
-    Axis, Card, Category, Contact, ContactUse, Coordinates, Described, Exercise, Impact,
-    Kinematics, Link, NodeCount, Parameter, ParameterError, Range, Response, Stroke,
+    Axis, Card, Category, Choices, Contact, ContactUse, Coordinates, Described, Exercise, Impact,
+    Kinematics, Link, NodeCount, ParameterError, Parameters, Response, Stroke,
 };
 
 /// When the dashpot of an [`ImpactKelvin`] acts.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, Choices)]
 pub enum Damps {
     /// All the time in contact.
     Contact,
@@ -52,24 +40,32 @@ pub enum Damps {
 }
 
 /// Spring and dashpot in contact.
-#[derive(Clone, Debug, Deserialize)]
+#[derive(Clone, Debug, Deserialize, Parameters)]
 #[serde(deny_unknown_fields)]
 pub struct ImpactKelvin {
-    /// Contact stiffness k, N/m.
+    /// contact stiffness
+    #[parameter("k", unit = "N/m", range = Positive)]
     pub k: f64,
-    /// Contact dashpot c, N·s/m.
+    /// contact dashpot
+    #[parameter("c", unit = "N·s/m", range = NonNegative)]
     pub damping: Option<f64>,
-    /// Coefficient of restitution e, instead of `damping`.
+    /// instead of `damping`: speed after over speed before an impact
+    #[parameter("e", unit = "1", range = Above(0.0, 1.0))]
     pub restitution: Option<f64>,
-    /// Mass for `restitution`, kg.
+    /// mass that strikes, for `restitution`; none: worked out from the structure
+    #[parameter("m", unit = "kg", range = Positive)]
     pub impact_mass: Option<f64>,
-    /// Clearance at rest g, m.
+    /// clearance at rest
+    #[parameter("g", unit = "m", default = 0.0)]
     pub opening: f64,
-    /// When the dashpot acts.
+    /// all the time in contact, or until the penetration turns
+    #[parameter(choices = Damps::NAMES, default = "Contact")]
     pub damps: Damps,
-    /// The force may pull while closed.
+    /// the force may pull while closed
+    #[parameter]
     pub pull: bool,
-    /// Local axis.
+    /// local axis
+    #[parameter(choices = ["U1", "U2", "U3"], default = "U1")]
     pub axis: Axis,
 }
 
@@ -80,21 +76,7 @@ impl Described for ImpactKelvin {
         "Pounding: spring and dashpot in contact after a clearance.",
     )
     .nodes(NodeCount::GROUND_OR_TWO)
-    .parameters(&[
-        Parameter::required("k", "k", STIFFNESS, Range::Positive, "contact stiffness"),
-        Parameter::optional("damping", "c", DAMPING, Range::NonNegative, "contact dashpot"),
-        restitution("instead of `damping`: speed after over speed before an impact"),
-        IMPACT_MASS,
-        Parameter::number("opening", "g", LENGTH, Range::Any, 0.0, "clearance at rest"),
-        Parameter::choice(
-            "damps",
-            &["Contact", "Approach"],
-            "Contact",
-            "all the time in contact, or until the penetration turns",
-        ),
-        Parameter::flag("pull", false, "the force may pull while closed"),
-        Parameter::choice("axis", &["U1", "U2", "U3"], "U1", "local axis"),
-    ])
+    .parameters(Self::PARAMETERS)
     .law("δ = −(d + g), δ̇ = −ḋ\n\
           f = −(k δ + c δ̇) where δ > 0, else 0; without `pull` at most 0\n\
           damps Approach: c acts where δ̇ > 0 only\n\

@@ -4,11 +4,6 @@
 //!   f = b δ̈       δ: deformation along or about the local axis (one node: against the ground)
 //! ```
 //!
-//! | parameter | symbol | unit      | range | default | meaning    |
-//! |-----------|--------|-----------|-------|---------|------------|
-//! | `b`       | b      | kg, kg·m² | > 0   | –       | inertance  |
-//! | `axis`    |        |           |       | U1      | local axis |
-//!
 //! The inertance has no weight, does not count as mass of the structure and meets a moving ground only
 //! through the motion relative to it; kinetic energy, modes and damping proportional to the mass hold
 //! it. Two nodes apart are joined by a rigid arm from i to j, with the inerter at j. For a
@@ -19,19 +14,20 @@
 
 use crate::shared::dense::deformations;
 use serde::Deserialize;
-use trilith_element::dimension::{INERTIA, MASS};
 use trilith_element::{
-    Axis, Card, Category, Default, Described, Dof, ElementMatrices, Exercise, Form, Geometry,
-    LinearElement, NodeCount, Parameter, ParameterError, Range,
+    Axis, Card, Category, Described, Dof, ElementMatrices, Exercise, Geometry, LinearElement,
+    NodeCount, ParameterError, Parameters,
 };
 
 /// Inertance between two nodes, or a node and the ground.
-#[derive(Clone, Debug, Deserialize)]
+#[derive(Clone, Debug, Deserialize, Parameters)]
 #[serde(deny_unknown_fields)]
 pub struct Inerter {
-    /// Inertance b, kg or kg·m².
+    /// inertance
+    #[parameter("b", unit = "kg", about = "kg·m²", range = Positive)]
     pub b: f64,
-    /// Local axis.
+    /// local axis
+    #[parameter(choices = Axis::NAMES, default = "U1")]
     pub axis: Axis,
 }
 
@@ -42,17 +38,7 @@ impl Described for Inerter {
         "Force proportional to the relative acceleration of its ends.",
     )
     .nodes(NodeCount::GROUND_OR_TWO)
-    .parameters(&[
-        Parameter::new(
-            "b",
-            "b",
-            Form::OfAxis { along: MASS, about: INERTIA, list: false },
-            Default::Required,
-            "inertance",
-        )
-        .within(Range::Positive),
-        Parameter::choice("axis", Axis::NAMES, "U1", "local axis"),
-    ])
+    .parameters(Self::PARAMETERS)
     .law("f = b δ̈; without weight, and without load from a motion of the ground")
     .source("Smith, Synthesis of mechanical networks: the inerter, 2002")
     .example(r#""inerter": Inerter(nodes: ("a", "b"), b: "20 t")"#)

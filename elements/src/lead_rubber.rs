@@ -8,26 +8,6 @@
 //!   g  = k_s/(a ρ c h) (1/F(τ) + 1.274 (t_s/a) τ^(−1/3)),   τ = α_s t/a²     (F: lead_rubber/cooling.rs)
 //! ```
 //!
-//! | parameter            | symbol | unit     | range | default | meaning                                  |
-//! |----------------------|--------|----------|-------|---------|------------------------------------------|
-//! | `kr`                 | k_r    | N/m      | ≥ 0   | –       | shear stiffness of the rubber, G A_r/T_r |
-//! | `lead_diameter`      | D      | m        | > 0   | –       | diameter of the core                     |
-//! | `lead_height`        | h      | m        | > 0   | –       | height of the core, rubber and shims     |
-//! | `lead_strength`      | σ₀     | N/m²     | > 0   | 10 MPa  | yield stress of the core when cold       |
-//! | `yield_displacement` | Y      | m        | > 0   | –       | displacement at which the core yields    |
-//! | `shim_thickness`     | t_s    | m        | ≥ 0   | 0       | thickness of all steel shims together    |
-//! | `heating`            |        |          |       | true    | the core heats up                        |
-//! | `kv`                 | k_v    | N/m      | ≥ 0   | 0       | axial stiffness, both ways               |
-//! | `softening`          | E      | 1/K      | > 0   | 0.0069  | loss of strength with temperature        |
-//! | `lead_density`       | ρ      | kg/m³    | > 0   | 11200   | density of lead                          |
-//! | `lead_heat`          | c      | J/(kg K) | > 0   | 130     | specific heat of lead                    |
-//! | `steel_conductivity` | k_s    | W/(m K)  | ≥ 0   | 50      | thermal conductivity of steel            |
-//! | `steel_diffusivity`  | α_s    | m²/s     | > 0   | 1.41e-5 | thermal diffusivity of steel             |
-//! | `coupling`           |        |          |       | Axes    | how unloading is told: `Axes`, `Direction` |
-//! | `beta`               | β      | 1        | > 0   | 0.5     | shape: loading against β + γ, return with γ − β |
-//! | `gamma`              | γ      | 1        | −β … β | 0.5    | shape; at γ = β the return is elastic    |
-//! | `eta`                | η      | 1        | 1 … 20 | 2      | sharpness of yielding                    |
-//!
 //! z is that of [`RubberIsolator`](crate::RubberIsolator); OpenSees' *LeadRubberX* has `beta: 0.9, gamma: 0.1`. The core is
 //! heated by what it dissipates (published forms count |z| |ḋ|, which is more by the elastic part of the
 //! motion). t counts from the first heating. In a step: half of the loss to the steel, the heating in
@@ -44,55 +24,71 @@ mod law;
 #[cfg(test)]
 mod tests;
 
-use crate::shared::bouc_wen_plane::{Coupling, PARAMETERS, Shape};
+use crate::shared::bouc_wen_plane::{Coupling, Shape};
 use law::Law;
 use serde::Deserialize;
 use std::borrow::Cow;
 use std::f64::consts::PI;
-use trilith_element::dimension::{AREA, DENSITY, FREQUENCY, LENGTH, NONE, STIFFNESS, STRESS};
 use trilith_element::lanes::{LaneAt, LaneForce, LaneForm, LaneLaw};
 use trilith_element::{
-    Axis, Card, Category, Coordinates, Described, Dimension, Exercise, Field, History, Kinematics,
-    Link, NodeCount, Parameter, ParameterError, Range, Response, Stroke, history,
+    Axis, Card, Category, Coordinates, Described, Exercise, Field, History, Kinematics, Link,
+    NodeCount, ParameterError, Parameters, Response, Stroke, history,
 };
 
 /// Lead-rubber bearing with heating of its core.
-#[derive(Clone, Debug, Deserialize)]
+#[derive(Clone, Debug, Deserialize, Parameters)]
 #[serde(deny_unknown_fields)]
 pub struct LeadRubber {
-    /// Shear stiffness of the rubber k_r, N/m.
+    /// shear stiffness of the rubber, its modulus · area/thickness
+    #[parameter("k_r", unit = "N/m", range = NonNegative)]
     pub kr: f64,
-    /// Diameter of the lead core D, m.
+    /// diameter of the core
+    #[parameter("D", unit = "m", range = Positive)]
     pub lead_diameter: f64,
-    /// Height of the lead core h, m.
+    /// height of the core, rubber and shims
+    #[parameter("h", unit = "m", range = Positive)]
     pub lead_height: f64,
-    /// Yield stress of the cold core σ₀, N/m².
+    /// yield stress of the cold core
+    #[parameter("σ₀", unit = "Pa", range = Positive, default = 10000000.0)]
     pub lead_strength: f64,
-    /// Yield displacement Y, m.
+    /// displacement at which the core yields
+    #[parameter("Y", unit = "m", range = Positive)]
     pub yield_displacement: f64,
-    /// Thickness of all shims t_s, m.
+    /// thickness of all steel shims together
+    #[parameter("t_s", unit = "m", range = NonNegative, default = 0.0)]
     pub shim_thickness: f64,
-    /// The core heats up.
+    /// the core heats up
+    #[parameter(default = true)]
     pub heating: bool,
-    /// Axial stiffness k_v, N/m.
+    /// axial stiffness, both ways
+    #[parameter("k_v", unit = "N/m", range = NonNegative, default = 0.0)]
     pub kv: f64,
-    /// Loss of strength with temperature E, 1/K.
+    /// loss of strength with temperature, per K
+    #[parameter("E", unit = "1/K", range = Positive, default = 0.0069)]
     pub softening: f64,
-    /// Density of lead ρ, kg/m³.
+    /// density of lead
+    #[parameter("ρ", unit = "kg/m³", range = Positive, default = 11200.0)]
     pub lead_density: f64,
-    /// Specific heat of lead c, J/(kg K).
+    /// specific heat of lead, J/(kg K)
+    #[parameter("c", unit = "J/(kg·K)", range = Positive, default = 130.0)]
     pub lead_heat: f64,
-    /// Thermal conductivity of steel k_s, W/(m K).
+    /// thermal conductivity of steel, W/(m K)
+    #[parameter("k_s", unit = "W/(m·K)", range = NonNegative, default = 50.0)]
     pub steel_conductivity: f64,
-    /// Thermal diffusivity of steel α_s, m²/s.
+    /// thermal diffusivity of steel
+    #[parameter("α_s", unit = "m²/s", range = Positive, default = 1.41e-5)]
     pub steel_diffusivity: f64,
-    /// How unloading is told.
+    /// how unloading is told: axis by axis, or by the direction of the motion
+    #[parameter(choices = Coupling::NAMES, default = "Axes")]
     pub coupling: Coupling,
-    /// Shape β.
+    /// shape: loading against β + γ, return with γ − β
+    #[parameter("β", unit = "1", range = Positive, default = 0.5)]
     pub beta: f64,
-    /// Shape γ.
+    /// shape, −β < γ ≤ β; at γ = β the return is elastic
+    #[parameter("γ", unit = "1", default = 0.5)]
     pub gamma: f64,
-    /// Sharpness of yielding η.
+    /// sharpness of yielding
+    #[parameter("η", unit = "1", range = Within(1.0, 20.0), default = 2.0)]
     pub eta: f64,
 }
 
@@ -113,20 +109,6 @@ history! {
 }
 
 // Temperature has no dimension of its own: per kelvin is per 1.
-const SPECIFIC_HEAT: Dimension = Dimension { mass: 0.0, length: 2.0, time: -2.0 };
-const CONDUCTIVITY: Dimension = Dimension { mass: 1.0, length: 1.0, time: -3.0 };
-const DIFFUSIVITY: Dimension = Dimension { mass: 0.0, length: AREA.length, time: FREQUENCY.time };
-
-const fn positive(
-    name: &'static str,
-    symbol: &'static str,
-    dimension: Dimension,
-    default: f64,
-    meaning: &'static str,
-) -> Parameter {
-    Parameter::number(name, symbol, dimension, Range::Positive, default, meaning)
-}
-
 impl Described for LeadRubber {
     const CARD: Card = Card::new(
         "LeadRubber",
@@ -134,70 +116,7 @@ impl Described for LeadRubber {
         "Lead-rubber bearing whose core softens as it heats up.",
     )
     .nodes(NodeCount::GROUND_OR_TWO)
-    .parameters(&[
-        Parameter::required(
-            "kr",
-            "k_r",
-            STIFFNESS,
-            Range::NonNegative,
-            "shear stiffness of the rubber",
-        ),
-        Parameter::required(
-            "lead_diameter",
-            "D",
-            LENGTH,
-            Range::Positive,
-            "diameter of the core",
-        ),
-        Parameter::required("lead_height", "h", LENGTH, Range::Positive, "height of the core"),
-        positive("lead_strength", "σ₀", STRESS, 1e7, "yield stress of the cold core"),
-        Parameter::required(
-            "yield_displacement",
-            "Y",
-            LENGTH,
-            Range::Positive,
-            "displacement at which the core yields",
-        ),
-        Parameter::number(
-            "shim_thickness",
-            "t_s",
-            LENGTH,
-            Range::NonNegative,
-            0.0,
-            "thickness of all steel shims together",
-        ),
-        Parameter::flag("heating", true, "the core heats up"),
-        Parameter::number(
-            "kv",
-            "k_v",
-            STIFFNESS,
-            Range::NonNegative,
-            0.0,
-            "axial stiffness, both ways",
-        ),
-        positive("softening", "E", NONE, 0.0069, "loss of strength with temperature, per K"),
-        positive("lead_density", "ρ", DENSITY, 11_200.0, "density of lead"),
-        positive("lead_heat", "c", SPECIFIC_HEAT, 130.0, "specific heat of lead, J/(kg K)"),
-        Parameter::number(
-            "steel_conductivity",
-            "k_s",
-            CONDUCTIVITY,
-            Range::NonNegative,
-            50.0,
-            "thermal conductivity of steel, W/(m K)",
-        ),
-        positive(
-            "steel_diffusivity",
-            "α_s",
-            DIFFUSIVITY,
-            1.41e-5,
-            "thermal diffusivity of steel",
-        ),
-        PARAMETERS[0],
-        PARAMETERS[1],
-        PARAMETERS[2],
-        PARAMETERS[3],
-    ])
+    .parameters(Self::PARAMETERS)
     .law("fᵢ = k_r dᵢ + Q zᵢ, i = 2, 3;  f₁ = k_v d₁;  Q = π D²/4 σ₀ e^(−E T)\n\
           żᵢ = ωᵢ − zᵢ |z|^(η−2) Σⱼ ωⱼ zⱼ (γ + β sⱼ),  ω = ḋ/Y\n\
           Axes: sⱼ = sgn(ωⱼ zⱼ);  Direction: sⱼ = sgn(ω·z)\n\

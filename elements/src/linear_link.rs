@@ -5,11 +5,6 @@
 //!   f = K d + C ḋ          d: deformations along U1, U2, U3 and about R1, R2, R3
 //! ```
 //!
-//! | parameter   | symbol | unit    | range | default | meaning              |
-//! |-------------|--------|---------|-------|---------|----------------------|
-//! | `stiffness` | K      | N/m …   | any   | –       | 6 × 6 matrix by rows |
-//! | `damping`   | C      | N·s/m … | any   | –       | 6 × 6 matrix by rows |
-//!
 //! At least one of both. Only directions with an entry are used. Where both matrices are symmetric and
 //! positive semi-definite a [`Spring`](crate::Spring) does the same and is part of the structure, its
 //! modes and its damping.
@@ -23,10 +18,9 @@
 
 use nalgebra::DMatrix;
 use serde::Deserialize;
-use trilith_element::dimension::{DAMPING, STIFFNESS};
 use trilith_element::{
-    Axis, Card, Category, Coordinates, Default, Described, Dimension, Exercise, Form, Kinematics,
-    Link, NodeCount, Parameter, ParameterError, Response, Stroke,
+    Axis, Card, Category, Coordinates, Described, Dimension, Exercise, Kinematics, Link, NodeCount,
+    ParameterError, Parameters, Response, Stroke,
 };
 
 /// A 6 × 6 matrix by rows.
@@ -35,18 +29,15 @@ type Matrix6 = [[f64; 6]; 6];
 const AXES: [Axis; 6] = [Axis::U1, Axis::U2, Axis::U3, Axis::R1, Axis::R2, Axis::R3];
 
 /// Coupled linear stiffness and damping.
-#[derive(Clone, Debug, Deserialize)]
+#[derive(Clone, Debug, Deserialize, Parameters)]
 #[serde(deny_unknown_fields)]
 pub struct LinearLink {
-    /// Stiffness K; N/m, N, N·m.
+    /// 6 × 6 matrix in local axes, by rows
+    #[parameter("K", form = Matrix { size: 6, dimension: Dimension { mass: 1.0, length: 0.0, time: -2.0 }, symmetric: false })]
     pub stiffness: Option<Matrix6>,
-    /// Damping C; N·s/m, N·s, N·m·s.
+    /// 6 × 6 matrix in local axes, by rows
+    #[parameter("C", form = Matrix { size: 6, dimension: Dimension { mass: 1.0, length: 0.0, time: -1.0 }, symmetric: false })]
     pub damping: Option<Matrix6>,
-}
-
-const fn matrix(name: &'static str, symbol: &'static str, dimension: Dimension) -> Parameter {
-    let form = Form::Matrix { size: 6, dimension, symmetric: false };
-    Parameter::new(name, symbol, form, Default::Absent, "6 × 6 matrix in local axes, by rows")
 }
 
 impl Described for LinearLink {
@@ -56,7 +47,7 @@ impl Described for LinearLink {
         "Coupled stiffness and damping that may be unsymmetric, as of seals and bearings.",
     )
     .nodes(NodeCount::GROUND_OR_TWO)
-    .parameters(&[matrix("stiffness", "K", STIFFNESS), matrix("damping", "C", DAMPING)])
+    .parameters(Self::PARAMETERS)
     .law("f = K d + C ḋ")
     .source("Childs, Turbomachinery Rotordynamics, 1993")
     .example(r#""seal": LinearLink(nodes: ("a", "b"), stiffness: [[0, 0, 0, 0, 0, 0], [0, 2e6, 8e5, 0, 0, 0], [0, -8e5, 2e6, 0, 0, 0], [0, 0, 0, 0, 0, 0], [0, 0, 0, 0, 0, 0], [0, 0, 0, 0, 0, 0]])"#)

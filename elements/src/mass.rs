@@ -6,14 +6,6 @@
 //!                               | Pxz Pyz Iz  |
 //! ```
 //!
-//! | parameter       | symbol        | unit  | range | default | meaning                                   |
-//! |-----------------|---------------|-------|-------|---------|-------------------------------------------|
-//! | `mass`          | m             | kg    | ≥ 0   | –       | the same mass in all three directions     |
-//! | `masses`        | mx, my, mz    | kg    | ≥ 0   | –       | instead of `mass`: one for each direction |
-//! | `inertia`       | Ix, Iy, Iz    | kg·m² | ≥ 0   | –       | moments of inertia                        |
-//! | `products`      | Pxy, Pxz, Pyz | kg·m² | any   | –       | off-diagonal entries of J (Pxy = −∫xy dm) |
-//! | `inertia_local` |               |       |       | false   | J is about the local axes 1, 2, 3         |
-//!
 //! Masses are along, and inertia about, **global X, Y, Z**. With `inertia_local: true` the inertia is
 //! about local 1, 2, 3, which for a node without given axes are +Z, +X, +Y. Only DOFs with mass are used.
 
@@ -21,78 +13,37 @@ use crate::shared::dense::{is_semi_definite, rotation, used};
 use crate::shared::parameters::none_negative;
 use nalgebra::{DMatrix, Matrix3};
 use serde::Deserialize;
-use trilith_element::dimension::{INERTIA, MASS};
 use trilith_element::{
-    Card, Category, Default, Described, ElementMatrices, Exercise, Form, Geometry, LinearElement,
-    NodeCount, Parameter, ParameterError, Range,
+    Card, Category, Described, ElementMatrices, Exercise, Geometry, LinearElement, NodeCount,
+    ParameterError, Parameters,
 };
 
 /// Point mass with rotary inertia.
-#[derive(Clone, Debug, Deserialize)]
+#[derive(Clone, Debug, Deserialize, Parameters)]
 #[serde(deny_unknown_fields)]
 pub struct Mass {
-    /// Mass in all three directions, kg.
+    /// mass, the same in all directions
+    #[parameter("m", unit = "kg", range = NonNegative)]
     pub mass: Option<f64>,
-    /// Mass in each direction, kg.
+    /// instead of `mass`: masses along X, Y, Z
+    #[parameter("mx, my, mz", unit = "kg", range = NonNegative)]
     pub masses: Option<[f64; 3]>,
-    /// Moments of inertia, kg·m².
+    /// moments of inertia about X, Y, Z
+    #[parameter("Ix, Iy, Iz", unit = "kg·m²", range = NonNegative)]
     pub inertia: Option<[f64; 3]>,
-    /// Off-diagonal entries xy, xz, yz of the inertia matrix, kg·m².
+    /// off-diagonal entries of the inertia matrix, Pxy = −∫xy dm
+    #[parameter("Pxy, Pxz, Pyz", unit = "kg·m²")]
     pub products: Option<[f64; 3]>,
-    /// Inertia is about the local axes.
+    /// inertia is about local 1, 2, 3 instead of X, Y, Z
+    #[parameter]
     pub inertia_local: bool,
-}
-
-const fn triple(
-    name: &'static str,
-    symbol: &'static str,
-    dimension: trilith_element::Dimension,
-    range: Range,
-    meaning: &'static str,
-) -> Parameter {
-    let form = Form::Numbers { dimension, count: Some(3) };
-    Parameter::new(name, symbol, form, Default::Absent, meaning).within(range)
 }
 
 impl Described for Mass {
     const CARD: Card =
         Card::new("Mass", Category::Linear, "Point mass and rotary inertia at a node.")
             .nodes(NodeCount::exactly(1))
-            .parameters(&[
-                Parameter::optional(
-                    "mass",
-                    "m",
-                    MASS,
-                    Range::NonNegative,
-                    "mass, the same in all directions",
-                ),
-                triple(
-                    "masses",
-                    "mx, my, mz",
-                    MASS,
-                    Range::NonNegative,
-                    "instead of `mass`: masses along X, Y, Z",
-                ),
-                triple(
-                    "inertia",
-                    "Ix, Iy, Iz",
-                    INERTIA,
-                    Range::NonNegative,
-                    "moments of inertia about X, Y, Z",
-                ),
-                triple(
-                    "products",
-                    "Pxy, Pxz, Pyz",
-                    INERTIA,
-                    Range::Any,
-                    "off-diagonal entries of the inertia matrix, Pxy = −∫xy dm",
-                ),
-                Parameter::flag(
-                    "inertia_local",
-                    false,
-                    "inertia is about local 1, 2, 3 instead of X, Y, Z",
-                ),
-            ])
+            .parameters(Self::PARAMETERS)
             .law("M = diag(mx, my, mz)\nJ = [Ix Pxy Pxz; Pxy Iy Pyz; Pxz Pyz Iz]")
             .source("Newton–Euler equations at small rotations")
             .example(r#""body": Mass(node: "cg", mass: "10 t", inertia: (0, 16667, 0))"#)

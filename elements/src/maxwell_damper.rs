@@ -5,13 +5,6 @@
 //!         k    c, α            ḟ = k (ḋ − sgn(f) (|f|/c)^(1/α))
 //! ```
 //!
-//! | parameter  | symbol | unit      | range       | default | meaning                       |
-//! |------------|--------|-----------|-------------|---------|-------------------------------|
-//! | `k`        | k      | N/m       | > 0         | –       | stiffness of the spring       |
-//! | `c`        | c      | N/(m/s)^α | > 0         | –       | coefficient of the dashpot    |
-//! | `exponent` | α      | 1         | 0.1 … 2     | 1       | exponent of the rate          |
-//! | `axis`     |        |           |             | U1      | local axis: U1, U2 or U3      |
-//!
 //! The point between spring and dashpot needs neither node nor mass. For α = 1 a step is exact for a
 //! rate that is linear in it; other exponents are integrated inside the step by an implicit method of
 //! second order. In a static analysis the dashpot follows, and the force stays as it was.
@@ -22,23 +15,26 @@ use crate::shared::relaxation::relax;
 use crate::shared::series::{SeriesHistory, Split, Viscous, answer, follow};
 use serde::Deserialize;
 use std::borrow::Cow;
-use trilith_element::dimension::{FORCE, NONE, STIFFNESS, VELOCITY};
 use trilith_element::{
-    Axis, Card, Category, Coordinates, Default, Described, Exercise, Field, Form, History,
-    Kinematics, Link, NodeCount, Parameter, Range, Response, Stroke,
+    Axis, Card, Category, Coordinates, Described, Exercise, Field, History, Kinematics, Link,
+    NodeCount, Parameters, Response, Stroke,
 };
 
 /// Spring in series with a power-law dashpot.
-#[derive(Clone, Debug, Deserialize)]
+#[derive(Clone, Debug, Deserialize, Parameters)]
 #[serde(deny_unknown_fields)]
 pub struct MaxwellDamper {
-    /// Stiffness k, N/m.
+    /// stiffness of the spring
+    #[parameter("k", unit = "N/m", range = Positive)]
     pub k: f64,
-    /// Coefficient c, N/(m/s)^α.
+    /// coefficient of the dashpot
+    #[parameter("c", unit = "N", per = "m/s", exponent = "exponent", range = Positive)]
     pub c: f64,
-    /// Exponent α.
+    /// exponent of the rate
+    #[parameter("α", unit = "1", range = Within(0.1, 2.0), default = 1.0)]
     pub exponent: f64,
-    /// Local axis.
+    /// local axis
+    #[parameter(choices = ["U1", "U2", "U3"], default = "U1")]
     pub axis: Axis,
 }
 
@@ -49,26 +45,7 @@ impl Described for MaxwellDamper {
         "Spring in series with a dashpot of a power of the rate.",
     )
     .nodes(NodeCount::GROUND_OR_TWO)
-    .parameters(&[
-        Parameter::required("k", "k", STIFFNESS, Range::Positive, "stiffness of the spring"),
-        Parameter::new(
-            "c",
-            "c",
-            Form::Power { base: FORCE, over: VELOCITY, exponent: "exponent" },
-            Default::Required,
-            "coefficient of the dashpot",
-        )
-        .within(Range::Positive),
-        Parameter::number(
-            "exponent",
-            "α",
-            NONE,
-            Range::Within(0.1, 2.0),
-            1.0,
-            "exponent of the rate",
-        ),
-        Parameter::choice("axis", &["U1", "U2", "U3"], "U1", "local axis"),
-    ])
+    .parameters(Self::PARAMETERS)
     .law("f = k d_k = c sgn(w) |w|^α, d = d_k + ∫ w dt\n\
           ḟ = k (ḋ − sgn(f) (|f|/c)^(1/α))")
     .source("Soong & Dargush, Passive Energy Dissipation Systems, 1997, ch. 6")

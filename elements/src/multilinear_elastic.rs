@@ -7,33 +7,30 @@
 //!   ──●/──────── d
 //! ```
 //!
-//! | parameter     | symbol | unit     | range | default | meaning                                |
-//! |---------------|--------|----------|-------|---------|----------------------------------------|
-//! | `deformation` | dᵢ     | m, rad   | ascending | –   | deformations of the points             |
-//! | `force`       | fᵢ     | N, N·m   | d f ≥ 0 | –     | forces of the points                   |
-//! | `axis`        |        |          |       | U1      | local axis                             |
-//!
 //! The curve passes through the origin and does not fall beyond its ends. At a point the tangent is that of
 //! the line to the right. Stored energy: ∫ f dd, exactly.
 //!
 //! Reference: \[CSI Analysis Reference Manual, multilinear elastic property\].
 
-use crate::shared::multilinear::{Curve, DEFORMATION, FORCE};
+use crate::shared::multilinear::Curve;
 use serde::Deserialize;
 use trilith_element::{
-    Axis, Card, Category, Coordinates, Described, Exercise, Kinematics, Link, NodeCount, Parameter,
-    ParameterError, Response, Stroke,
+    Axis, Card, Category, Coordinates, Described, Exercise, Kinematics, Link, NodeCount,
+    ParameterError, Parameters, Response, Stroke,
 };
 
 /// Elastic spring whose force follows a curve through points.
-#[derive(Clone, Debug, Deserialize)]
+#[derive(Clone, Debug, Deserialize, Parameters)]
 #[serde(deny_unknown_fields)]
 pub struct MultilinearElastic {
-    /// Deformations of the points, m or rad.
+    /// deformations of the points, ascending
+    #[parameter("dᵢ", unit = "m", about = "rad")]
     pub deformation: Vec<f64>,
-    /// Forces of the points, N or N·m.
+    /// forces of the points, none against its deformation
+    #[parameter("fᵢ", unit = "N", about = "N·m")]
     pub force: Vec<f64>,
-    /// Local axis.
+    /// local axis
+    #[parameter(choices = Axis::NAMES, default = "U1")]
     pub axis: Axis,
 }
 
@@ -50,11 +47,7 @@ impl Described for MultilinearElastic {
         "Elastic spring whose force follows a curve through points.",
     )
     .nodes(NodeCount::GROUND_OR_TWO)
-    .parameters(&[
-        DEFORMATION,
-        FORCE,
-        Parameter::choice("axis", Axis::NAMES, "U1", "local axis"),
-    ])
+    .parameters(Self::PARAMETERS)
     .law("f = fᵢ + (fᵢ₊₁ − fᵢ)/(dᵢ₊₁ − dᵢ) (d − dᵢ) where dᵢ ≤ d < dᵢ₊₁; the lines at the ends go on")
     .source("CSI Analysis Reference Manual, multilinear elastic property")
     .example(r#""buffer": MultilinearElastic(nodes: ("a", "b"), deformation: ["-50 mm", "-20 mm", "0 mm", "20 mm", "50 mm"], force: ["-400 kN", "-60 kN", "0 kN", "60 kN", "400 kN"])"#)

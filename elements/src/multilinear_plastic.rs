@@ -16,15 +16,6 @@
 //! | `Takeda`    | K₀ to zero force                | straight to the largest deformation on that side, then the curve |
 //! | `Pivot`     | towards a pivot at −α f_y       | to β f_y on the line of K₀ (pinching), on to the largest deformation, then the curve |
 //!
-//! | parameter        | symbol | unit   | range     | default | meaning                                   |
-//! |------------------|--------|--------|-----------|---------|-------------------------------------------|
-//! | `deformation`    | dᵢ     | m, rad | ascending | –       | deformations of the points, (0, 0) among them |
-//! | `force`          | fᵢ     | N, N·m | d f ≥ 0   | –       | forces of the points                      |
-//! | `rule`           |        |        |           | Kinematic | hysteresis                              |
-//! | `alpha1`, `alpha2` | α    | 1      | > 0       | 10, α₁  | `Pivot`: unloading from positive, negative force |
-//! | `beta1`, `beta2` | β      | 1      | 0 … 1     | 0.7, β₁ | `Pivot`: pinching towards positive, negative force |
-//! | `axis`           |        |        |           | U1      | local axis                                |
-//!
 //! `Kinematic` and `Iwan` are the same where both sides of the curve are alike: the path back is the curve doubled
 //! (Masing). Where they differ, the path back of `Kinematic` is that of CSI's programs: parallel to the first line as
 //! far as that was loaded, then to the first line of the other side and as long as that, then the same with the second
@@ -55,18 +46,17 @@ mod takeda;
 #[cfg(test)]
 mod tests;
 
-use crate::shared::multilinear::{Curve, DEFORMATION, FORCE};
+use crate::shared::multilinear::Curve;
 use branch::Branch;
 use serde::Deserialize;
 use std::borrow::Cow;
-use trilith_element::dimension::NONE;
 use trilith_element::{
-    Axis, Card, Category, Coordinates, Described, Exercise, Field, Kinematics, Link, NodeCount,
-    Parameter, ParameterError, Range, Response, Stroke,
+    Axis, Card, Category, Choices, Coordinates, Described, Exercise, Field, Kinematics, Link,
+    NodeCount, ParameterError, Parameters, Response, Stroke,
 };
 
 /// What a [`MultilinearPlastic`] does after its first loading.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, Choices)]
 pub enum Rule {
     /// Back along the lines loaded before, each with its counterpart of the other side.
     Kinematic,
@@ -81,24 +71,32 @@ pub enum Rule {
 }
 
 /// Plastic spring along a curve through points.
-#[derive(Clone, Debug, Deserialize)]
+#[derive(Clone, Debug, Deserialize, Parameters)]
 #[serde(deny_unknown_fields)]
 pub struct MultilinearPlastic {
-    /// Deformations of the points, m or rad.
+    /// deformations of the points, ascending
+    #[parameter("dᵢ", unit = "m", about = "rad")]
     pub deformation: Vec<f64>,
-    /// Forces of the points, N or N·m.
+    /// forces of the points, none against its deformation
+    #[parameter("fᵢ", unit = "N", about = "N·m")]
     pub force: Vec<f64>,
-    /// Hysteresis.
+    /// hysteresis; `Kinematic` is CSI's, also where the sides differ
+    #[parameter(choices = Rule::NAMES, default = "Kinematic")]
     pub rule: Rule,
-    /// `Pivot`: α of unloading from positive force.
+    /// Pivot: unloading from positive force goes towards −α₁ f_y (10)
+    #[parameter("α₁", unit = "1", range = Positive)]
     pub alpha1: Option<f64>,
-    /// `Pivot`: α of unloading from negative force.
+    /// Pivot: the same from negative force (α₁)
+    #[parameter("α₂", unit = "1", range = Positive)]
     pub alpha2: Option<f64>,
-    /// `Pivot`: β of loading towards positive force.
+    /// Pivot: loading to positive force goes through β₁ f_y (0.7)
+    #[parameter("β₁", unit = "1", range = Within(0.0, 1.0))]
     pub beta1: Option<f64>,
-    /// `Pivot`: β of loading towards negative force.
+    /// Pivot: the same to negative force (β₁)
+    #[parameter("β₂", unit = "1", range = Within(0.0, 1.0))]
     pub beta2: Option<f64>,
-    /// Local axis.
+    /// local axis
+    #[parameter(choices = Axis::NAMES, default = "U1")]
     pub axis: Axis,
 }
 
@@ -129,45 +127,7 @@ impl Described for MultilinearPlastic {
         "Plastic spring along a curve through points: kinematic, Iwan, isotropic, Takeda or pivot.",
     )
     .nodes(NodeCount::GROUND_OR_TWO)
-    .parameters(&[
-        DEFORMATION,
-        FORCE,
-        Parameter::choice(
-            "rule",
-            &["Kinematic", "Iwan", "Isotropic", "Takeda", "Pivot"],
-            "Kinematic",
-            "hysteresis; `Kinematic` is CSI's, also where the sides differ",
-        ),
-        Parameter::optional(
-            "alpha1",
-            "α₁",
-            NONE,
-            Range::Positive,
-            "Pivot: unloading from positive force goes towards −α₁ f_y (10)",
-        ),
-        Parameter::optional(
-            "alpha2",
-            "α₂",
-            NONE,
-            Range::Positive,
-            "Pivot: the same from negative force (α₁)",
-        ),
-        Parameter::optional(
-            "beta1",
-            "β₁",
-            NONE,
-            Range::Within(0.0, 1.0),
-            "Pivot: loading to positive force goes through β₁ f_y (0.7)",
-        ),
-        Parameter::optional(
-            "beta2",
-            "β₂",
-            NONE,
-            Range::Within(0.0, 1.0),
-            "Pivot: the same to negative force (β₁)",
-        ),
-        Parameter::choice("axis", Axis::NAMES, "U1", "local axis"),
-    ])
+    .parameters(Self::PARAMETERS)
     .law("first loading: the curve through the points\n\
           Kinematic: back along the lines loaded before, each as far as it was loaded and followed by its counterpart \
           of the other side (both alike: the curve doubled, Masing)\n\

@@ -13,25 +13,6 @@
 //!   m  = r θ                          rotations about 1, 2, 3, open or closed
 //! ```
 //!
-//! | parameter          | symbol         | unit    | range | default | meaning                                  |
-//! |--------------------|----------------|---------|-------|---------|------------------------------------------|
-//! | `kn`               | kₙ             | N/m     | > 0   | –       | contact stiffness                        |
-//! | `opening`          | g              | m       | any   | 0       | clearance at rest (negative: interference) |
-//! | `damping`          | c              | N·s/m   | ≥ 0   | 0       | contact dashpot, acts only while closed  |
-//! | `restitution`      | e              | 1       | 0 < e ≤ 1 | –     | instead of `damping`: speed after over speed before an impact |
-//! | `impact_mass`      | m              | kg      | > 0   | –       | mass that strikes; none: worked out from the structure |
-//! | `pull`             |                |         |       | false   | the dashpot may pull while closed        |
-//! | `mu`               | μ              | 1       | ≥ 0   | 0       | friction coefficient                     |
-//! | `mu_slow`, `mu_fast` | μ_slow, μ_fast | 1     | ≥ 0   | –       | instead of `mu`: at rest and at speed    |
-//! | `rate`             | r              | s/m     | ≥ 0   | –       | how fast μ goes from slow to fast        |
-//! | `mu_static`        | μ_static       | 1       | ≥ μ_slow, μ | –  | before it breaks away                    |
-//! | `static_slip`      | s₀             | m       | ≥ 0   | 0       | slip over which that is gone             |
-//! | `ks`               | kₛ             | N/m     | > 0   | –       | pre-slip stiffness; required with friction |
-//! | `cs`               | cₛ             | N·s/m   | ≥ 0   | 0       | dashpot beside the pre-slip spring       |
-//! | `k_post`           | k_post         | N/m     | ≥ 0   | 0       | post-slip stiffness, < kₛ                |
-//! | `radius`           | R              | m       | ≥ 0   | 0       | radius of a pendulum surface; 0 is flat  |
-//! | `r1`, `r2`, `r3`   | r              | N·m/rad | ≥ 0   | 0       | rotational springs, always linear        |
-//!
 //! `d₁` is the extension of the link and `f₁` its tension: a closed contact has `f₁ ≤ 0` without `pull`.
 //! Friction is elastic–perfectly plastic with radial return, not of Wen's type: it sticks fully below
 //! the limit, and a separation wipes the anchor out. On closing, the anchor is the tangential position
@@ -70,72 +51,82 @@ mod tests;
 pub(crate) use contact::{NLinkContact, PARAMETERS as CONTACT_PARAMETERS};
 pub use law::{NLinkHistory, NLinkRubbing};
 
-use crate::shared::restitution::{IMPACT_MASS, restitution};
 use serde::Deserialize;
-use trilith_element::dimension::{
-    DAMPING, INVERSE_VELOCITY, LENGTH, NONE, ROTATIONAL_STIFFNESS, STIFFNESS,
-};
 use trilith_element::{
-    Axis, Card, Category, Described, Exercise, NodeCount, Parameter, ParameterError, Range, Stroke,
+    Axis, Card, Category, Described, Exercise, NodeCount, ParameterError, Parameters, Stroke,
 };
 
 /// Gap, friction and contact dashpot in one; the law is in `law.rs` beside this file.
-#[derive(Clone, Debug, Deserialize)]
+#[derive(Clone, Debug, Deserialize, Parameters)]
 #[serde(deny_unknown_fields)]
 pub struct NLink {
-    /// Contact stiffness kₙ, N/m.
+    /// contact stiffness
+    #[parameter("kₙ", unit = "N/m", range = Positive)]
     pub kn: f64,
-    /// Clearance at rest g, m.
+    /// clearance at rest (negative: interference)
+    #[parameter("g", unit = "m", default = 0.0)]
     #[serde(default)]
     pub opening: f64,
-    /// Contact dashpot c, N·s/m.
+    /// contact dashpot, acts only while closed
+    #[parameter("c", unit = "N·s/m", range = NonNegative, default = 0.0)]
     #[serde(default)]
     pub damping: f64,
-    /// Coefficient of restitution e, instead of `damping`.
+    /// instead of `damping`: speed after over speed before an impact
+    #[parameter("e", unit = "1", range = Above(0.0, 1.0))]
     pub restitution: Option<f64>,
-    /// Mass that strikes the contact, kg, for `restitution`.
+    /// mass that strikes, for `restitution`; none: worked out from the structure
+    #[parameter("m", unit = "kg", range = Positive)]
     pub impact_mass: Option<f64>,
-    /// The dashpot may pull while the gap is closed.
+    /// the dashpot may pull while the gap is closed
+    #[parameter]
     #[serde(default)]
     pub pull: bool,
-    /// Friction coefficient μ.
+    /// friction coefficient; none: no friction
+    #[parameter("μ", unit = "1", range = NonNegative)]
     pub mu: Option<f64>,
-    /// Friction coefficient at rest.
+    /// instead of `mu`: friction coefficient at rest
+    #[parameter("μ_slow", unit = "1", range = NonNegative)]
     pub mu_slow: Option<f64>,
-    /// Friction coefficient at high speed.
+    /// instead of `mu`: friction coefficient at speed
+    #[parameter("μ_fast", unit = "1", range = NonNegative)]
     pub mu_fast: Option<f64>,
-    /// Rate constant r of the friction coefficient, s/m.
+    /// rate at which μ goes from slow to fast
+    #[parameter("r", unit = "s/m", range = NonNegative)]
     pub rate: Option<f64>,
-    /// Friction coefficient before it breaks away.
+    /// friction coefficient before it breaks away; none: that of slow slip
+    #[parameter("μ_static", unit = "1", range = NonNegative)]
     pub mu_static: Option<f64>,
-    /// Slip s₀ over which that is gone, m.
+    /// slip over which `mu_static` is gone; 0: as soon as the spring `ks` can follow
+    #[parameter("s₀", unit = "m", range = NonNegative, default = 0.0)]
     #[serde(default)]
     pub static_slip: f64,
-    /// Pre-slip stiffness kₛ, N/m.
+    /// pre-slip stiffness; required with friction
+    #[parameter("kₛ", unit = "N/m", range = Positive)]
     pub ks: Option<f64>,
-    /// Dashpot beside the pre-slip spring cₛ, N·s/m.
+    /// dashpot beside the spring `ks`: damps a contact that sticks
+    #[parameter("cₛ", unit = "N·s/m", range = NonNegative, default = 0.0)]
     #[serde(default)]
     pub cs: f64,
-    /// Post-slip stiffness, N/m.
+    /// post-slip stiffness, less than `ks`
+    #[parameter("k_post", unit = "N/m", range = NonNegative, default = 0.0)]
     #[serde(default)]
     pub k_post: f64,
-    /// Radius R of the pendulum surface, m; 0 is flat.
+    /// radius of a pendulum surface; 0 is flat
+    #[parameter("R", unit = "m", range = NonNegative, default = 0.0)]
     #[serde(default)]
     pub radius: f64,
-    /// Rotational spring about local 1, N·m/rad.
+    /// linear rotational spring, open or closed
+    #[parameter("r₁", unit = "N·m", range = NonNegative, default = 0.0)]
     #[serde(default)]
     pub r1: f64,
-    /// Rotational spring about local 2, N·m/rad.
+    /// linear rotational spring, open or closed
+    #[parameter("r₂", unit = "N·m", range = NonNegative, default = 0.0)]
     #[serde(default)]
     pub r2: f64,
-    /// Rotational spring about local 3, N·m/rad.
+    /// linear rotational spring, open or closed
+    #[parameter("r₃", unit = "N·m", range = NonNegative, default = 0.0)]
     #[serde(default)]
     pub r3: f64,
-}
-
-const fn rotational(name: &'static str, symbol: &'static str) -> Parameter {
-    let meaning = "linear rotational spring, open or closed";
-    Parameter::number(name, symbol, ROTATIONAL_STIFFNESS, Range::NonNegative, 0.0, meaning)
 }
 
 impl Described for NLink {
@@ -145,105 +136,7 @@ impl Described for NLink {
         "Contact: gap with dashpot along local 1, coupled friction along local 2 and 3.",
     )
     .nodes(NodeCount::GROUND_OR_TWO)
-    .parameters(&[
-        Parameter::required("kn", "kₙ", STIFFNESS, Range::Positive, "contact stiffness"),
-        Parameter::number(
-            "opening",
-            "g",
-            LENGTH,
-            Range::Any,
-            0.0,
-            "clearance at rest (negative: interference)",
-        ),
-        Parameter::number(
-            "damping",
-            "c",
-            DAMPING,
-            Range::NonNegative,
-            0.0,
-            "contact dashpot, acts only while closed",
-        ),
-        restitution("instead of `damping`: speed after over speed before an impact"),
-        IMPACT_MASS,
-        Parameter::flag("pull", false, "the dashpot may pull while the gap is closed"),
-        Parameter::optional(
-            "mu",
-            "μ",
-            NONE,
-            Range::NonNegative,
-            "friction coefficient; none: no friction",
-        ),
-        Parameter::optional(
-            "mu_slow",
-            "μ_slow",
-            NONE,
-            Range::NonNegative,
-            "instead of `mu`: friction coefficient at rest",
-        ),
-        Parameter::optional(
-            "mu_fast",
-            "μ_fast",
-            NONE,
-            Range::NonNegative,
-            "instead of `mu`: friction coefficient at speed",
-        ),
-        Parameter::optional(
-            "rate",
-            "r",
-            INVERSE_VELOCITY,
-            Range::NonNegative,
-            "rate at which μ goes from slow to fast",
-        ),
-        Parameter::optional(
-            "mu_static",
-            "μ_static",
-            NONE,
-            Range::NonNegative,
-            "friction coefficient before it breaks away; none: that of slow slip",
-        ),
-        Parameter::number(
-            "static_slip",
-            "s₀",
-            LENGTH,
-            Range::NonNegative,
-            0.0,
-            "slip over which `mu_static` is gone; 0: as soon as the spring `ks` can follow",
-        ),
-        Parameter::optional(
-            "ks",
-            "kₛ",
-            STIFFNESS,
-            Range::Positive,
-            "pre-slip stiffness; required with friction",
-        ),
-        Parameter::number(
-            "cs",
-            "cₛ",
-            DAMPING,
-            Range::NonNegative,
-            0.0,
-            "dashpot beside the spring `ks`: damps a contact that sticks",
-        ),
-        Parameter::number(
-            "k_post",
-            "k_post",
-            STIFFNESS,
-            Range::NonNegative,
-            0.0,
-            "post-slip stiffness, less than `ks`",
-        ),
-        Parameter::number(
-            "radius",
-            "R",
-            LENGTH,
-            Range::NonNegative,
-            0.0,
-            "radius of a pendulum surface; 0 is flat",
-        ),
-        rotational("r1", "r₁"),
-        rotational("r2", "r₂"),
-        rotational("r3", "r₃"),
-    ])
+    .parameters(Self::PARAMETERS)
     .law("p = −(d₁ + g), closed where p ≥ 0\n\
           f₁ = −kₙ p + c ḋ₁, without `pull` at most 0\n\
           N = kₙ p with `pull`, −f₁ without\n\

@@ -6,17 +6,6 @@
 //!   ṗ = λ ∂Φ/∂q,   λ ≥ 0,   λ > 0 only where Φ = 1                   p = 0 at rest
 //! ```
 //!
-//! | parameter     | symbol | unit    | range     | default | meaning                                |
-//! |---------------|--------|---------|-----------|---------|----------------------------------------|
-//! | `axial`       | k₁     | N/m     | > 0       | –       | elastic stiffness along U1             |
-//! | `bending2`    | k₂     | N·m/rad | > 0       | –       | elastic stiffness about R2             |
-//! | `bending3`    | k₃     | N·m/rad | > 0       | –       | elastic stiffness about R3             |
-//! | `py`          | P_y    | N       | > 0       | –       | axial strength without moments         |
-//! | `mp2`, `mp3`  | M_p    | N·m     | > 0       | –       | strength about R2, R3 alone            |
-//! | `exponent_p`  | a      | 1       | 1.2 … 8   | 2       | exponent of the axial force            |
-//! | `exponent_m2`, `exponent_m3` | b, c | 1 | 1.2 … 8  | 2 | exponents of the moments               |
-//! | `ratio`       | r      | 1       | 0 ≤ r < 1 | 0       | stiffness after yielding over elastic  |
-//!
 //! The surface is a superellipsoid: convex with any exponents from 1 on, smooth but for ridges at 1, and made of one
 //! term for each force, so that sections are told apart by three numbers that tests of plastic sections give. A solid
 //! rectangle about one axis is p² + m = 1 (a = 2, c → 1), a thin round tube nearly an ellipsoid (2, 2, 2). Orbison's
@@ -40,36 +29,45 @@ mod tests;
 use project::Projected;
 use serde::Deserialize;
 use std::borrow::Cow;
-use trilith_element::dimension::{FORCE, MOMENT, NONE, ROTATIONAL_STIFFNESS, STIFFNESS};
 use trilith_element::lanes::{LaneAt, LaneForce, LaneForm, LaneLaw, LaneStep, Real};
 use trilith_element::{
     Axis, Card, Category, Coordinates, Described, Exercise, Field, History, Kinematics, Link,
-    NodeCount, Parameter, ParameterError, Range, Response, Stroke, history,
+    NodeCount, ParameterError, Parameters, Response, Stroke, history,
 };
 
 /// Plastic hinge with interaction of axial force and both moments.
-#[derive(Clone, Debug, Deserialize)]
+#[derive(Clone, Debug, Deserialize, Parameters)]
 #[serde(deny_unknown_fields)]
 pub struct PMMHinge {
-    /// Elastic stiffness along U1, N/m.
+    /// elastic, along U1
+    #[parameter("k₁", unit = "N/m", range = Positive)]
     pub axial: f64,
-    /// Elastic stiffness about R2, N·m/rad.
+    /// elastic, about R2
+    #[parameter("k₂", unit = "N·m", range = Positive)]
     pub bending2: f64,
-    /// Elastic stiffness about R3, N·m/rad.
+    /// elastic, about R3
+    #[parameter("k₃", unit = "N·m", range = Positive)]
     pub bending3: f64,
-    /// Axial strength, N.
+    /// axial strength without moments
+    #[parameter("P_y", unit = "N", range = Positive)]
     pub py: f64,
-    /// Strength about R2, N·m.
+    /// strength about R2 alone
+    #[parameter("M_p2", unit = "N·m", range = Positive)]
     pub mp2: f64,
-    /// Strength about R3, N·m.
+    /// strength about R3 alone
+    #[parameter("M_p3", unit = "N·m", range = Positive)]
     pub mp3: f64,
-    /// Exponent of the axial force.
+    /// exponent of the axial force
+    #[parameter("a", unit = "1", range = Within(1.2, 8.0), default = 2.0)]
     pub exponent_p: f64,
-    /// Exponent of the moment about R2.
+    /// exponent of the moment about R2
+    #[parameter("b", unit = "1", range = Within(1.2, 8.0), default = 2.0)]
     pub exponent_m2: f64,
-    /// Exponent of the moment about R3.
+    /// exponent of the moment about R3
+    #[parameter("c", unit = "1", range = Within(1.2, 8.0), default = 2.0)]
     pub exponent_m3: f64,
-    /// Stiffness after yielding over elastic stiffness.
+    /// stiffness after yielding over elastic stiffness, below 1
+    #[parameter("r", unit = "1", range = Within(0.0, 1.0), default = 0.0)]
     pub ratio: f64,
 }
 
@@ -85,10 +83,6 @@ history! {
     }
 }
 
-const fn exponent(name: &'static str, symbol: &'static str, meaning: &'static str) -> Parameter {
-    Parameter::number(name, symbol, NONE, Range::Within(1.2, 8.0), 2.0, meaning)
-}
-
 impl Described for PMMHinge {
     const CARD: Card = Card::new(
         "PMMHinge",
@@ -96,43 +90,7 @@ impl Described for PMMHinge {
         "Plastic hinge with interaction of axial force and both moments (P-M2-M3), by return mapping.",
     )
     .nodes(NodeCount::GROUND_OR_TWO)
-    .parameters(&[
-        Parameter::required("axial", "k₁", STIFFNESS, Range::Positive, "elastic, along U1"),
-        Parameter::required(
-            "bending2",
-            "k₂",
-            ROTATIONAL_STIFFNESS,
-            Range::Positive,
-            "elastic, about R2",
-        ),
-        Parameter::required(
-            "bending3",
-            "k₃",
-            ROTATIONAL_STIFFNESS,
-            Range::Positive,
-            "elastic, about R3",
-        ),
-        Parameter::required(
-            "py",
-            "P_y",
-            FORCE,
-            Range::Positive,
-            "axial strength without moments",
-        ),
-        Parameter::required("mp2", "M_p2", MOMENT, Range::Positive, "strength about R2 alone"),
-        Parameter::required("mp3", "M_p3", MOMENT, Range::Positive, "strength about R3 alone"),
-        exponent("exponent_p", "a", "exponent of the axial force"),
-        exponent("exponent_m2", "b", "exponent of the moment about R2"),
-        exponent("exponent_m3", "c", "exponent of the moment about R3"),
-        Parameter::number(
-            "ratio",
-            "r",
-            NONE,
-            Range::Within(0.0, 1.0),
-            0.0,
-            "stiffness after yielding over elastic stiffness, below 1",
-        ),
-    ])
+    .parameters(Self::PARAMETERS)
     .law("f = r k d + q,  q = (1 − r) k (d − p)  (along U1, about R2, R3)\n\
           Φ = |x₁|^a + |x₂|^b + |x₃|^c ≤ 1,  xᵢ = qᵢ/((1 − r) Sᵢ),  S = (P_y, M_p2, M_p3)\n\
           ṗ = λ ∂Φ/∂q, λ ≥ 0, λ > 0 only where Φ = 1")

@@ -7,24 +7,21 @@
 //! All six DOFs of every following node are eliminated. A following node must not be fixed nor follow
 //! anything else. Mass and inertia are separate `Mass` elements at any of the nodes.
 //!
-//! | parameter | symbol | unit | range | default | meaning                                             |
-//! |-----------|--------|------|-------|---------|-----------------------------------------------------|
-//! | `corners` |        | m    | any   | –       | corners of the body from its first node, in order; drawn as a face, without effect on the motion |
-//!
 //! Reference: \[Bathe 1996, §4.2.2\].
 
 use crate::shared::dense::between;
 use serde::Deserialize;
 use trilith_element::{
-    Card, Category, Constraint, Default, Described, Dof, Equation, Exercise, Form, NodalOutline,
-    NodeCount, Parameter, ParameterError, Vector3,
+    Card, Category, Constraint, Described, Dof, Equation, Exercise, NodalOutline, NodeCount,
+    ParameterError, Parameters, Vector3,
 };
 
 /// Several nodes that move as one rigid body; the law is on top of this page's source file.
-#[derive(Clone, Debug, Deserialize)]
+#[derive(Clone, Debug, Deserialize, Parameters)]
 #[serde(deny_unknown_fields)]
 pub struct RigidBody {
-    /// Corners of the body from its first node, in order, m; for pictures only.
+    /// corners of the body from its first node, in order; only drawn
+    #[parameter(form = Points)]
     #[serde(default)]
     pub corners: Vec<Vector3>,
 }
@@ -36,13 +33,7 @@ impl Described for RigidBody {
         "Nodes that move as one rigid body; the first leads, the others follow.",
     )
     .nodes(NodeCount::at_least(2))
-    .parameters(&[Parameter::new(
-        "corners",
-        "",
-        Form::Points,
-        Default::Absent,
-        "corners of the body from its first node, in order; only drawn",
-    )])
+    .parameters(Self::PARAMETERS)
     .law("u_s = u_m + θ_m × r\nθ_s = θ_m\nr   = x_s − x_m")
     .source("Kinematics of a rigid body at small rotations; Bathe, Finite Element Procedures, 1996, §4.2.2")
     .example(r#""block": RigidBody(nodes: ("cg", "left", "right"))"#)

@@ -4,24 +4,21 @@
 //!   u_j = u_i + θ_i × r,   r = x_j − x_i (small rotations);   θ_j = θ_i unless `translations_only`
 //! ```
 //!
-//! | parameter           | default | meaning                                       |
-//! |---------------------|---------|-----------------------------------------------|
-//! | `translations_only` | false   | the second node rotates freely (a rigid bar with a hinge at j) |
-//!
 //! Reference: \[Bathe 1996, §4.2.2\].
 
 use crate::rigid_body::rigid_equations;
 use serde::Deserialize;
 use trilith_element::{
-    Card, Category, Constraint, Described, Equation, Exercise, NodeCount, Parameter,
-    ParameterError, Vector3,
+    Card, Category, Constraint, Described, Equation, Exercise, NodeCount, ParameterError,
+    Parameters, Vector3,
 };
 
 /// Rigid link of two nodes.
-#[derive(Clone, Debug, Deserialize)]
+#[derive(Clone, Debug, Deserialize, Parameters)]
 #[serde(deny_unknown_fields)]
 pub struct RigidLink {
-    /// The rotations of the second node stay free.
+    /// the rotations of the second node stay free (a hinge there)
+    #[parameter]
     #[serde(default)]
     pub translations_only: bool,
 }
@@ -33,11 +30,7 @@ impl Described for RigidLink {
         "The second node follows the first as part of the same rigid body.",
     )
     .nodes(NodeCount::exactly(2))
-    .parameters(&[Parameter::flag(
-        "translations_only",
-        false,
-        "the rotations of the second node stay free",
-    )])
+    .parameters(Self::PARAMETERS)
     .law("u_j = u_i + θ_i × (x_j − x_i)\nθ_j = θ_i, unless `translations_only`")
     .source("Kinematics of a rigid body at small rotations; Bathe, Finite Element Procedures, 1996, §4.2.2")
     .example(r#""arm": RigidLink(nodes: ("column", "corner"))"#)

@@ -9,20 +9,6 @@
 //!   ══════════●══════        M     = Σ rᵢ × Rᵀ fᵢ + Ω × J Ω  moment, axes of the body
 //! ```
 //!
-//! | parameter     | symbol | unit  | range | default | meaning                                            |
-//! |---------------|--------|-------|-------|---------|----------------------------------------------------|
-//! | `base`        | rᵢ     | m     |       | none    | base points, from the centre of gravity, body upright |
-//! | `rim_radius`  | ρ      | m     | > 0   | –       | instead of `base`: radius of a circular base       |
-//! | `rim_depth`   | h      | m     | > 0   | –       | depth of the circular base below the centre of gravity |
-//! | `kn`          | kₙ     | N/m   | > 0   | –       | contact stiffness of each point, or of the whole rim |
-//! | `damping`     | c      | N·s/m | ≥ 0   | 0       | contact dashpot of each point or the whole rim, acts only where closed |
-//! | `pull`        |        |       |       | false   | the dashpot may pull while the point is closed     |
-//! | `mu`          | μ      | 1     | ≥ 0   | 0       | friction coefficient                               |
-//! | `ks`          | kₛ     | N/m   | > 0   | –       | pre-slip stiffness of each point or the rim; required with friction |
-//! | `arc_stiffness` | k_a  | N/m   | > 0   | `kn`    | stiffness of the whole rim that the arc of drilling friction follows from |
-//! | `inertia`     | J      | kg·m² | ≥ 0   | –       | moments of inertia about the body's axes X, Y, Z; required where it can rock in space |
-//! | `overturned`  |        | rad   | > 0   | π/2     | tilt at which the body counts as overturned        |
-//!
 //! The (last) node is the **centre of gravity**; its `Mass` holds mass and moments of inertia, without eccentricity.
 //! Its translations are those of the body. Its rotations are the integrals of the angular velocity Ω in
 //! the axes of the body; for motion in a plane that is the angle itself, however large. With them the
@@ -64,38 +50,47 @@ mod tests;
 use crate::NLink;
 use serde::Deserialize;
 use std::f64::consts::FRAC_PI_2;
-use trilith_element::dimension::{DAMPING, INERTIA, LENGTH, NONE, STIFFNESS};
 use trilith_element::{
-    Card, Category, Default, Described, Exercise, Form, NodeCount, Parameter, ParameterError,
-    Range, Stroke, Vector3,
+    Card, Category, Described, Exercise, NodeCount, ParameterError, Parameters, Stroke, Vector3,
 };
 
 /// A rigid body on base points, in finite rotation; the law is in `law.rs` beside this file.
-#[derive(Clone, Debug, Deserialize)]
+#[derive(Clone, Debug, Deserialize, Parameters)]
 #[serde(deny_unknown_fields)]
 pub struct RockingBody {
-    /// Base points rᵢ from the centre of gravity, body upright, m; none for a circular base.
+    /// base points, from the centre of gravity, body upright
+    #[parameter("rᵢ", form = Points)]
     #[serde(default)]
     pub base: Vec<Vector3>,
-    /// Radius ρ of a circular base, m.
+    /// instead of `base`: radius of a circular base
+    #[parameter("ρ", unit = "m", range = Positive)]
     pub rim_radius: Option<f64>,
-    /// Depth h of a circular base below the centre of gravity, m.
+    /// depth of the circular base below the centre of gravity
+    #[parameter("h", unit = "m", range = Positive)]
     pub rim_depth: Option<f64>,
-    /// Contact stiffness kₙ of each point or of the whole rim, N/m.
+    /// contact stiffness of each point, or of the whole rim
+    #[parameter("kₙ", unit = "N/m", range = Positive)]
     pub kn: f64,
-    /// Contact dashpot c of each point or of the whole rim, N·s/m.
+    /// contact dashpot of each point or the whole rim, acts only where closed
+    #[parameter("c", unit = "N·s/m", range = NonNegative, default = 0.0)]
     pub damping: f64,
-    /// The dashpot may pull while the point is closed.
+    /// the dashpot may pull while the point is closed
+    #[parameter]
     pub pull: bool,
-    /// Friction coefficient μ.
+    /// friction coefficient
+    #[parameter("μ", unit = "1", range = NonNegative, default = 0.0)]
     pub mu: f64,
-    /// Pre-slip stiffness kₛ of each point, N/m.
+    /// pre-slip stiffness of each point or the rim; required with friction
+    #[parameter("kₛ", unit = "N/m", range = Positive)]
     pub ks: Option<f64>,
-    /// Stiffness of the whole rim that the arc of drilling friction follows from, N/m; none: kₙ.
+    /// stiffness of the whole rim that the arc of drilling friction follows from; none: `kn`
+    #[parameter("k_a", unit = "N/m", range = Positive)]
     pub arc_stiffness: Option<f64>,
-    /// Moments of inertia J about the body's axes, kg·m².
+    /// moments of inertia about X, Y, Z of the body, as in its `Mass`; required where it can rock in space
+    #[parameter("J", unit = "kg·m²", range = NonNegative)]
     pub inertia: Option<Vector3>,
-    /// Tilt at which the body counts as overturned, rad.
+    /// tilt at which the body counts as overturned, rad
+    #[parameter(unit = "1", range = Positive, default = FRAC_PI_2)]
     pub overturned: f64,
     /// From the node that it stands on to its centre of gravity, at rest, m; none: it stands on the ground.
     #[serde(skip)]
@@ -109,70 +104,7 @@ impl Described for RockingBody {
         "Rigid body standing on the ground or a node by base points or a rim, in finite rotation: slides, rocks, rolls, overturns.",
     )
     .nodes(NodeCount::GROUND_OR_TWO)
-    .parameters(&[
-        Parameter::new(
-            "base",
-            "rᵢ",
-            Form::Points,
-            Default::Absent,
-            "base points, from the centre of gravity, body upright",
-        ),
-        Parameter::optional(
-            "rim_radius",
-            "ρ",
-            LENGTH,
-            Range::Positive,
-            "instead of `base`: radius of a circular base",
-        ),
-        Parameter::optional(
-            "rim_depth",
-            "h",
-            LENGTH,
-            Range::Positive,
-            "depth of the circular base below the centre of gravity",
-        ),
-        Parameter::required("kn", "kₙ", STIFFNESS, Range::Positive, "contact stiffness of each point, or of the whole rim"),
-        Parameter::number(
-            "damping",
-            "c",
-            DAMPING,
-            Range::NonNegative,
-            0.0,
-            "contact dashpot of each point or the whole rim, acts only where closed",
-        ),
-        Parameter::flag("pull", false, "the dashpot may pull while the point is closed"),
-        Parameter::number("mu", "μ", NONE, Range::NonNegative, 0.0, "friction coefficient"),
-        Parameter::optional(
-            "ks",
-            "kₛ",
-            STIFFNESS,
-            Range::Positive,
-            "pre-slip stiffness of each point or the rim; required with friction",
-        ),
-        Parameter::optional(
-            "arc_stiffness",
-            "k_a",
-            STIFFNESS,
-            Range::Positive,
-            "stiffness of the whole rim that the arc of drilling friction follows from; none: `kn`",
-        ),
-        Parameter::new(
-            "inertia",
-            "J",
-            Form::Numbers { dimension: INERTIA, count: Some(3) },
-            Default::Absent,
-            "moments of inertia about X, Y, Z of the body, as in its `Mass`; required where it can rock in space",
-        )
-        .within(Range::NonNegative),
-        Parameter::number(
-            "overturned",
-            "",
-            NONE,
-            Range::Positive,
-            FRAC_PI_2,
-            "tilt at which the body counts as overturned, rad",
-        ),
-    ])
+    .parameters(Self::PARAMETERS)
     .law("dᵢ = u + R rᵢ − rᵢ, vᵢ = u̇ + R (Ω × rᵢ): base point i, R = R₀ exp(θ − θ₀)\n\
           rim: penetration δ(ψ) = a + b cos ψ, springs kₙ/2π and dashpots c/2π along it, friction at the centre of pressure\n\
           drilling of a rim: at most μ N m ρ, mρ: mean distance of what presses from its centre; a tilted rim presses on an arc: m = 3/8 ψ꜀, ψ꜀ = (3π N/(k_a ρ sin tilt))^⅓, which goes to 0 as k_a grows\n\

@@ -12,17 +12,6 @@
 //!   Direction    sⱼ = sgn(ω·z)
 //! ```
 //!
-//! | parameter          | symbol     | unit | range  | default | meaning                                  |
-//! |--------------------|------------|------|--------|---------|------------------------------------------|
-//! | `k2`, `k3`         | k₂, k₃     | N/m  | > 0    | –, k₂   | shear stiffness at rest                  |
-//! | `fy2`, `fy3`       | f_y2, f_y3 | N    | > 0    | –, f_y2 | shear force at which it yields           |
-//! | `ratio2`, `ratio3` | r₂, r₃     | 1    | 0 … 1  | –, r₂   | stiffness after yielding over `k2`, `k3` |
-//! | `kv`               | k_v        | N/m  | ≥ 0    | 0       | axial stiffness, both ways               |
-//! | `coupling`         |            |      |        | Axes    | how unloading is told: `Axes`, `Direction` |
-//! | `beta`             | β          | 1    | > 0    | 0.5     | shape: loading against β + γ, return with γ − β |
-//! | `gamma`            | γ          | 1    | −β … β | 0.5     | shape; at γ = β the return is elastic    |
-//! | `eta`              | η          | 1    | 1 … 20 | 2       | sharpness of yielding                    |
-//!
 //! Along one axis it is a [`Wen`](crate::Wen) with exponent η where β = γ = ½. The path in a step is straight, and on
 //! it z is exact for the defaults (see `biaxial.rs`) and integrated otherwise (see `bouc_wen_plane.rs`). With equal
 //! parameters the response to straight paths is the same in all directions of the plane; on curved paths it is
@@ -38,41 +27,51 @@
 //! Reference: \[Park, Wen & Ang 1986\], \[Casciati 1989\] (`Direction`); as in \[CSI Analysis Reference Manual,
 //! rubber isolator property\].
 
-use crate::shared::bouc_wen_plane::{self, Coupling, PARAMETERS, Shape, Shaped};
+use crate::shared::bouc_wen_plane::{self, Coupling, Shape, Shaped};
 use serde::Deserialize;
 use std::borrow::Cow;
-use trilith_element::dimension::{FORCE, NONE, STIFFNESS};
 use trilith_element::lanes::{LaneAt, LaneForce, LaneForm, LaneLaw, LaneStep, Real};
 use trilith_element::{
     Axis, Card, Category, Coordinates, Described, Exercise, Field, History, Kinematics, Link,
-    NodeCount, Parameter, ParameterError, Range, Response, Stroke, history,
+    NodeCount, ParameterError, Parameters, Response, Stroke, history,
 };
 
 /// Bearing with coupled plastic shear.
-#[derive(Clone, Debug, Deserialize)]
+#[derive(Clone, Debug, Deserialize, Parameters)]
 #[serde(deny_unknown_fields)]
 pub struct RubberIsolator {
-    /// Shear stiffness at rest along U2, N/m.
+    /// shear stiffness at rest
+    #[parameter("k₂", unit = "N/m", range = Positive)]
     pub k2: f64,
-    /// The same along U3; none: that of U2.
+    /// the same along U3 (k₂)
+    #[parameter("k₃", unit = "N/m", range = Positive)]
     pub k3: Option<f64>,
-    /// Yield force along U2, N.
+    /// yield force in shear
+    #[parameter("f_y2", unit = "N", range = Positive)]
     pub fy2: f64,
-    /// The same along U3; none: that of U2.
+    /// the same along U3 (f_y2)
+    #[parameter("f_y3", unit = "N", range = Positive)]
     pub fy3: Option<f64>,
-    /// Stiffness after yielding over `k2`.
+    /// stiffness after yielding over `k2`
+    #[parameter("r₂", unit = "1", range = Within(0.0, 1.0))]
     pub ratio2: f64,
-    /// The same along U3; none: that of U2.
+    /// the same along U3 (r₂)
+    #[parameter("r₃", unit = "1", range = Within(0.0, 1.0))]
     pub ratio3: Option<f64>,
-    /// Axial stiffness, N/m.
+    /// axial stiffness, both ways
+    #[parameter("k_v", unit = "N/m", range = NonNegative, default = 0.0)]
     pub kv: f64,
-    /// How unloading is told.
+    /// how unloading is told: axis by axis, or by the direction of the motion
+    #[parameter(choices = Coupling::NAMES, default = "Axes")]
     pub coupling: Coupling,
-    /// Shape β.
+    /// shape: loading against β + γ, return with γ − β
+    #[parameter("β", unit = "1", range = Positive, default = 0.5)]
     pub beta: f64,
-    /// Shape γ.
+    /// shape, −β < γ ≤ β; at γ = β the return is elastic
+    #[parameter("γ", unit = "1", default = 0.5)]
     pub gamma: f64,
-    /// Sharpness of yielding η.
+    /// sharpness of yielding
+    #[parameter("η", unit = "1", range = Within(1.0, 20.0), default = 2.0)]
     pub eta: f64,
 }
 
@@ -93,38 +92,7 @@ impl Described for RubberIsolator {
         "Bearing with plastic shear coupled in its plane and a linear axial spring.",
     )
     .nodes(NodeCount::GROUND_OR_TWO)
-    .parameters(&[
-        Parameter::required("k2", "k₂", STIFFNESS, Range::Positive, "shear stiffness at rest"),
-        Parameter::optional("k3", "k₃", STIFFNESS, Range::Positive, "the same along U3 (k₂)"),
-        Parameter::required("fy2", "f_y2", FORCE, Range::Positive, "yield force in shear"),
-        Parameter::optional("fy3", "f_y3", FORCE, Range::Positive, "the same along U3 (f_y2)"),
-        Parameter::required(
-            "ratio2",
-            "r₂",
-            NONE,
-            Range::Within(0.0, 1.0),
-            "stiffness after yielding over `k2`",
-        ),
-        Parameter::optional(
-            "ratio3",
-            "r₃",
-            NONE,
-            Range::Within(0.0, 1.0),
-            "the same along U3 (r₂)",
-        ),
-        Parameter::number(
-            "kv",
-            "k_v",
-            STIFFNESS,
-            Range::NonNegative,
-            0.0,
-            "axial stiffness, both ways",
-        ),
-        PARAMETERS[0],
-        PARAMETERS[1],
-        PARAMETERS[2],
-        PARAMETERS[3],
-    ])
+    .parameters(Self::PARAMETERS)
     .law("fᵢ = rᵢ kᵢ dᵢ + (1 − rᵢ) f_yᵢ zᵢ, i = 2, 3;  f₁ = k_v d₁\n\
           żᵢ = ωᵢ − zᵢ |z|^(η−2) Σⱼ ωⱼ zⱼ (γ + β sⱼ),  ωⱼ = kⱼ ḋⱼ/f_yⱼ\n\
           Axes: sⱼ = sgn(ωⱼ zⱼ);  Direction: sⱼ = sgn(ω·z)")

@@ -12,18 +12,6 @@
 //!   Sand        B = p_u tanh(k x/p_u)
 //! ```
 //!
-//! | parameter        | symbol | unit | range | default    | meaning                                            |
-//! |------------------|--------|------|-------|------------|----------------------------------------------------|
-//! | `k`              | k      | N/m  | > 0   | –          | stiffness where pressing begins                    |
-//! | `pu`             | p_u    | N    | > 0   | –          | ultimate resistance of a side                      |
-//! | `backbone`       |        |      |       | Hyperbolic | `Hyperbolic` or `Sand`                             |
-//! | `ku`             | kᵤ     | N/m  | ≥ k   | k          | stiffness back and again                           |
-//! | `opening`        |        | m    | ≥ 0   | 0          | clearance before the soil on each side             |
-//! | `sides`          |        |      |       | Both       | where soil is: `Both`, `Positive` (d > 0), `Negative` |
-//! | `drag`           | p_d    | N    | ≥ 0   | 0          | friction along the sides, in the gap as well       |
-//! | `drag_stiffness` | k_d    | N/m  | > 0   | k          | stiffness before it slips                          |
-//! | `axis`           |        |      |       | U2         | local axis                                         |
-//!
 //! Forces are those of the length of pile that the spring stands for: p–y curves give them by metre. Nothing caves in: soil that
 //! stands, as in clay, keeps its face where it was pressed to. Water, cyclic loss of strength and radiation are not part of it; a `Dashpot` beside
 //! it radiates.
@@ -42,15 +30,14 @@ mod tests;
 
 use serde::Deserialize;
 use std::borrow::Cow;
-use trilith_element::dimension::{FORCE, LENGTH, STIFFNESS};
 use trilith_element::lanes::{LaneAt, LaneForce, LaneForm, LaneLaw, LaneStep, Real};
 use trilith_element::{
-    Axis, Card, Category, Coordinates, Described, Exercise, Field, History, Kinematics, Link,
-    NodeCount, Parameter, ParameterError, Range, Response, Stroke, history,
+    Axis, Card, Category, Choices, Coordinates, Described, Exercise, Field, History, Kinematics,
+    Link, NodeCount, ParameterError, Parameters, Response, Stroke, history,
 };
 
 /// First pressing of a [`SoilSpring`].
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, Choices)]
 pub enum Backbone {
     /// Kondner's hyperbola.
     Hyperbolic,
@@ -59,7 +46,7 @@ pub enum Backbone {
 }
 
 /// Sides on which a [`SoilSpring`] has soil.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, Choices)]
 pub enum Sides {
     /// Both.
     Both,
@@ -70,26 +57,35 @@ pub enum Sides {
 }
 
 /// p–y spring with a gap.
-#[derive(Clone, Debug, Deserialize)]
+#[derive(Clone, Debug, Deserialize, Parameters)]
 #[serde(deny_unknown_fields)]
 pub struct SoilSpring {
-    /// Stiffness where pressing begins k, N/m.
+    /// stiffness where pressing begins
+    #[parameter("k", unit = "N/m", range = Positive)]
     pub k: f64,
-    /// Ultimate resistance of a side p_u, N.
+    /// ultimate resistance of a side
+    #[parameter("p_u", unit = "N", range = Positive)]
     pub pu: f64,
-    /// First pressing.
+    /// first pressing: Kondner's hyperbola, or API's hyperbolic tangent for sand
+    #[parameter(choices = Backbone::NAMES, default = "Hyperbolic")]
     pub backbone: Backbone,
-    /// Stiffness back and again kᵤ, N/m.
+    /// stiffness back and again, at least `k`; none: `k`
+    #[parameter("kᵤ", unit = "N/m", range = Positive)]
     pub ku: Option<f64>,
-    /// Clearance before the soil, m.
+    /// clearance before the soil on each side
+    #[parameter(unit = "m", range = NonNegative, default = 0.0)]
     pub opening: f64,
-    /// Where soil is.
+    /// where soil is: at which deformations it presses
+    #[parameter(choices = Sides::NAMES, default = "Both")]
     pub sides: Sides,
-    /// Friction along the sides p_d, N.
+    /// friction along the sides, in the gap as well
+    #[parameter("p_d", unit = "N", range = NonNegative, default = 0.0)]
     pub drag: f64,
-    /// Stiffness before it slips k_d, N/m.
+    /// stiffness before it slips; none: `k`
+    #[parameter("k_d", unit = "N/m", range = Positive)]
     pub drag_stiffness: Option<f64>,
-    /// Local axis.
+    /// local axis
+    #[parameter(choices = ["U1", "U2", "U3"], default = "U2")]
     pub axis: Axis,
 }
 
@@ -112,65 +108,7 @@ impl Described for SoilSpring {
         "Soil beside a pile or behind a wall: p–y curve, elastic return, a gap that opens, drag.",
     )
     .nodes(NodeCount::GROUND_OR_TWO)
-    .parameters(&[
-        Parameter::required(
-            "k",
-            "k",
-            STIFFNESS,
-            Range::Positive,
-            "stiffness where pressing begins",
-        ),
-        Parameter::required(
-            "pu",
-            "p_u",
-            FORCE,
-            Range::Positive,
-            "ultimate resistance of a side",
-        ),
-        Parameter::choice(
-            "backbone",
-            &["Hyperbolic", "Sand"],
-            "Hyperbolic",
-            "first pressing: Kondner's hyperbola, or API's hyperbolic tangent for sand",
-        ),
-        Parameter::optional(
-            "ku",
-            "kᵤ",
-            STIFFNESS,
-            Range::Positive,
-            "stiffness back and again, at least `k`; none: `k`",
-        ),
-        Parameter::number(
-            "opening",
-            "",
-            LENGTH,
-            Range::NonNegative,
-            0.0,
-            "clearance before the soil on each side",
-        ),
-        Parameter::choice(
-            "sides",
-            &["Both", "Positive", "Negative"],
-            "Both",
-            "where soil is: at which deformations it presses",
-        ),
-        Parameter::number(
-            "drag",
-            "p_d",
-            FORCE,
-            Range::NonNegative,
-            0.0,
-            "friction along the sides, in the gap as well",
-        ),
-        Parameter::optional(
-            "drag_stiffness",
-            "k_d",
-            STIFFNESS,
-            Range::Positive,
-            "stiffness before it slips; none: `k`",
-        ),
-        Parameter::choice("axis", &["U1", "U2", "U3"], "U2", "local axis"),
-    ])
+    .parameters(Self::PARAMETERS)
     .law("each face, x = ±d − opening, deepest y: p = B(x) where x ≥ y, else max(0, B(y) − kᵤ (y − x))\n\
           Hyperbolic: B = k x/(1 + k x/p_u);  Sand: B = p_u tanh(k x/p_u)\n\
           f = p⁺ − p⁻ + q,  q = k_d (d − s), |q| ≤ p_d")

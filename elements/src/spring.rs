@@ -6,15 +6,6 @@
 //!   one node: δ = R (u, θ)
 //! ```
 //!
-//! | parameter         | symbol      | unit      | range | default | meaning                                  |
-//! |-------------------|-------------|-----------|-------|---------|------------------------------------------|
-//! | `k1` … `k3`       | k₁ … k₃     | N/m       | ≥ 0   | 0       | stiffness along local 1, 2, 3            |
-//! | `r1` … `r3`       | r₁ … r₃     | N·m/rad   | ≥ 0   | 0       | stiffness about local 1, 2, 3            |
-//! | `c1` … `c3`       | c₁ … c₃     | N·s/m     | ≥ 0   | 0       | damping along local 1, 2, 3              |
-//! | `cr1` … `cr3`     | cr₁ … cr₃   | N·m·s/rad | ≥ 0   | 0       | damping about local 1, 2, 3              |
-//! | `stiffness`       | K           | N/m …     | PSD   | –       | full 6 × 6 matrix, adds to the diagonal  |
-//! | `damping`         | C           | N·s/m …   | PSD   | –       | full 6 × 6 matrix, adds to the diagonal  |
-//!
 //! Two nodes apart are joined by a rigid arm from i to j, and the spring sits at j: a rigid motion of
 //! both nodes costs nothing, and forces and moments are in equilibrium. Directions without stiffness
 //! and damping use no DOF.
@@ -24,67 +15,60 @@
 use crate::shared::dense::{deformations, is_semi_definite, used};
 use nalgebra::DMatrix;
 use serde::Deserialize;
-use trilith_element::dimension::{DAMPING, ROTATIONAL_DAMPING, ROTATIONAL_STIFFNESS, STIFFNESS};
 use trilith_element::{
-    Card, Category, Default, Described, Dimension, ElementMatrices, Exercise, Form, Geometry,
-    LinearElement, NodeCount, Parameter, ParameterError, Range,
+    Card, Category, Described, Dimension, ElementMatrices, Exercise, Geometry, LinearElement,
+    NodeCount, ParameterError, Parameters,
 };
 
 /// A symmetric 6 × 6 matrix in local axes.
 type Matrix6 = [[f64; 6]; 6];
 
 /// Linear spring and dashpot.
-#[derive(Clone, Debug, std::default::Default, Deserialize)]
+#[derive(Clone, Debug, std::default::Default, Deserialize, Parameters)]
 #[serde(deny_unknown_fields, default)]
 pub struct Spring {
-    /// Stiffness along local 1, N/m.
+    /// stiffness along local 1
+    #[parameter("k₁", unit = "N/m", range = NonNegative, default = 0.0)]
     pub k1: f64,
-    /// Stiffness along local 2, N/m.
+    /// stiffness along local 2
+    #[parameter("k₂", unit = "N/m", range = NonNegative, default = 0.0)]
     pub k2: f64,
-    /// Stiffness along local 3, N/m.
+    /// stiffness along local 3
+    #[parameter("k₃", unit = "N/m", range = NonNegative, default = 0.0)]
     pub k3: f64,
-    /// Stiffness about local 1, N·m/rad.
+    /// stiffness about local 1
+    #[parameter("r₁", unit = "N·m", range = NonNegative, default = 0.0)]
     pub r1: f64,
-    /// Stiffness about local 2, N·m/rad.
+    /// stiffness about local 2
+    #[parameter("r₂", unit = "N·m", range = NonNegative, default = 0.0)]
     pub r2: f64,
-    /// Stiffness about local 3, N·m/rad.
+    /// stiffness about local 3
+    #[parameter("r₃", unit = "N·m", range = NonNegative, default = 0.0)]
     pub r3: f64,
-    /// Damping along local 1, N·s/m.
+    /// damping along local 1
+    #[parameter("c₁", unit = "N·s/m", range = NonNegative, default = 0.0)]
     pub c1: f64,
-    /// Damping along local 2, N·s/m.
+    /// damping along local 2
+    #[parameter("c₂", unit = "N·s/m", range = NonNegative, default = 0.0)]
     pub c2: f64,
-    /// Damping along local 3, N·s/m.
+    /// damping along local 3
+    #[parameter("c₃", unit = "N·s/m", range = NonNegative, default = 0.0)]
     pub c3: f64,
-    /// Damping about local 1, N·m·s/rad.
+    /// damping about local 1
+    #[parameter("cr₁", unit = "N·m·s/rad", range = NonNegative, default = 0.0)]
     pub cr1: f64,
-    /// Damping about local 2, N·m·s/rad.
+    /// damping about local 2
+    #[parameter("cr₂", unit = "N·m·s/rad", range = NonNegative, default = 0.0)]
     pub cr2: f64,
-    /// Damping about local 3, N·m·s/rad.
+    /// damping about local 3
+    #[parameter("cr₃", unit = "N·m·s/rad", range = NonNegative, default = 0.0)]
     pub cr3: f64,
-    /// Coupled stiffness; N/m, N, N·m.
+    /// full matrix in local axes, added to the diagonal entries
+    #[parameter("K", form = Matrix { size: 6, dimension: Dimension { mass: 1.0, length: 0.0, time: -2.0 }, symmetric: true })]
     pub stiffness: Option<Matrix6>,
-    /// Coupled damping; N·s/m, N·s, N·m·s.
+    /// full matrix in local axes, added to the diagonal entries
+    #[parameter("C", form = Matrix { size: 6, dimension: Dimension { mass: 1.0, length: 0.0, time: -1.0 }, symmetric: true })]
     pub damping: Option<Matrix6>,
-}
-
-const fn entry(
-    name: &'static str,
-    symbol: &'static str,
-    dimension: Dimension,
-    meaning: &'static str,
-) -> Parameter {
-    Parameter::number(name, symbol, dimension, Range::NonNegative, 0.0, meaning)
-}
-
-const fn matrix(name: &'static str, symbol: &'static str, dimension: Dimension) -> Parameter {
-    let meaning = "full matrix in local axes, added to the diagonal entries";
-    Parameter::new(
-        name,
-        symbol,
-        Form::Matrix { size: 6, dimension, symmetric: true },
-        Default::Absent,
-        meaning,
-    )
 }
 
 impl Described for Spring {
@@ -94,22 +78,7 @@ impl Described for Spring {
         "Linear spring and dashpot in six directions, between two nodes or to the ground.",
     )
     .nodes(NodeCount::GROUND_OR_TWO)
-    .parameters(&[
-        entry("k1", "k₁", STIFFNESS, "stiffness along local 1"),
-        entry("k2", "k₂", STIFFNESS, "stiffness along local 2"),
-        entry("k3", "k₃", STIFFNESS, "stiffness along local 3"),
-        entry("r1", "r₁", ROTATIONAL_STIFFNESS, "stiffness about local 1"),
-        entry("r2", "r₂", ROTATIONAL_STIFFNESS, "stiffness about local 2"),
-        entry("r3", "r₃", ROTATIONAL_STIFFNESS, "stiffness about local 3"),
-        entry("c1", "c₁", DAMPING, "damping along local 1"),
-        entry("c2", "c₂", DAMPING, "damping along local 2"),
-        entry("c3", "c₃", DAMPING, "damping along local 3"),
-        entry("cr1", "cr₁", ROTATIONAL_DAMPING, "damping about local 1"),
-        entry("cr2", "cr₂", ROTATIONAL_DAMPING, "damping about local 2"),
-        entry("cr3", "cr₃", ROTATIONAL_DAMPING, "damping about local 3"),
-        matrix("stiffness", "K", STIFFNESS),
-        matrix("damping", "C", DAMPING),
-    ])
+    .parameters(Self::PARAMETERS)
     .law(
         "f = K δ + C δ̇\n\
               δ = R (u_j − u_i − θ_i × (x_j − x_i), θ_j − θ_i); one node: δ = R (u, θ)",

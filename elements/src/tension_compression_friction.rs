@@ -9,22 +9,6 @@
 //!   μ  = μ_fast − (μ_fast − μ_slow) e^(−r x), x = |ȧ|, one set for compression, one for tension
 //! ```
 //!
-//! | parameter          | symbol | unit  | range | default     | meaning                                 |
-//! |--------------------|--------|-------|-------|-------------|-----------------------------------------|
-//! | `kn`               | kₙ     | N/m   | > 0   | –           | stiffness in compression                |
-//! | `kt`               | kₜ     | N/m   | > 0   | –           | stiffness in tension                    |
-//! | `gap_compression`  | g_c    | m     | ≥ 0   | 0           | clearance before compression            |
-//! | `gap_tension`      | g_t    | m     | ≥ 0   | 0           | clearance before tension                |
-//! | `damping`          | c      | N·s/m | ≥ 0   | 0           | dashpot along the axis, acts only while closed |
-//! | `pull`             |        |       |       | false       | the dashpot may act against the contact force; N is that of the spring then |
-//! | `ks`               | kₛ     | N/m   | > 0   | –           | stiffness before slip                   |
-//! | `cs`               | cₛ     | N·s/m | ≥ 0   | 0           | dashpot beside the spring before slip   |
-//! | `radius`           | R      | m     | ≥ 0   | 0           | effective radius; 0 is flat             |
-//! | `mu`               | μ      | 1     | ≥ 0   | 0           | friction coefficient in compression     |
-//! | `mu_slow`, `mu_fast`, `rate` | | 1, 1, s/m | ≥ 0 | –       | instead of `mu`: at rest, at speed, rate |
-//! | `mu_tension`       | μ      | 1     | ≥ 0   | as `mu`     | friction coefficient in tension         |
-//! | `mu_slow_tension`, `mu_fast_tension`, `rate_tension` | | 1, 1, s/m | ≥ 0 | as in compression | instead of `mu_tension` |
-//!
 //! Without any of the parameters of tension the friction is that of compression. Friction, separation
 //! and touching are those of [`FrictionPendulum`](crate::FrictionPendulum): the contact has no memory of
 //! its anchor once it has opened, also where it goes through from one side to the other in a step. In
@@ -42,59 +26,67 @@ mod tests;
 use crate::shared::sliding::{Axial, Bearing, Coefficient, Dish, Side, SlidingHistory, engaged};
 use serde::Deserialize;
 use std::borrow::Cow;
-use trilith_element::dimension::{DAMPING, INVERSE_VELOCITY, LENGTH, NONE, STIFFNESS};
 use trilith_element::lanes::LaneForm;
 use trilith_element::{
     Axis, Card, Category, Contact, ContactUse, Coordinates, Described, Exercise, Field, History,
-    Impact, Kinematics, Link, NodeCount, Parameter, ParameterError, Range, Response, Stroke,
+    Impact, Kinematics, Link, NodeCount, ParameterError, Parameters, Response, Stroke,
 };
 
 /// Sliding bearing with friction in compression and in tension.
-#[derive(Clone, Debug, Deserialize)]
+#[derive(Clone, Debug, Deserialize, Parameters)]
 #[serde(deny_unknown_fields)]
 pub struct TensionCompressionFriction {
-    /// Stiffness in compression kₙ, N/m.
+    /// stiffness in compression
+    #[parameter("kₙ", unit = "N/m", range = Positive)]
     pub kn: f64,
-    /// Stiffness in tension kₜ, N/m.
+    /// stiffness in tension
+    #[parameter("kₜ", unit = "N/m", range = Positive)]
     pub kt: f64,
-    /// Clearance before compression g_c, m.
+    /// clearance before compression
+    #[parameter("g_c", unit = "m", range = NonNegative, default = 0.0)]
     pub gap_compression: f64,
-    /// Clearance before tension g_t, m.
+    /// clearance before tension
+    #[parameter("g_t", unit = "m", range = NonNegative, default = 0.0)]
     pub gap_tension: f64,
-    /// Dashpot along the axis c, N·s/m.
+    /// dashpot along the axis, acts only while closed
+    #[parameter("c", unit = "N·s/m", range = NonNegative, default = 0.0)]
     pub damping: f64,
-    /// The dashpot may act against the contact force.
+    /// the dashpot may act against the contact force; N is that of the spring then
+    #[parameter]
     pub pull: bool,
-    /// Stiffness before slip kₛ, N/m.
+    /// stiffness before slip
+    #[parameter("kₛ", unit = "N/m", range = Positive)]
     pub ks: f64,
-    /// Dashpot beside the spring before slip cₛ, N·s/m.
+    /// dashpot beside the spring `ks`: damps a bearing that sticks
+    #[parameter("cₛ", unit = "N·s/m", range = NonNegative, default = 0.0)]
     pub cs: f64,
-    /// Effective radius R, m; 0 is flat.
+    /// effective radius; 0 is flat
+    #[parameter("R", unit = "m", range = NonNegative, default = 0.0)]
     pub radius: f64,
-    /// Friction coefficient in compression.
+    /// friction coefficient in compression; none: no friction
+    #[parameter("μ", unit = "1", range = NonNegative)]
     pub mu: Option<f64>,
-    /// In compression, at rest.
+    /// instead of `mu`: friction coefficient at rest
+    #[parameter("μ_slow", unit = "1", range = NonNegative)]
     pub mu_slow: Option<f64>,
-    /// In compression, at speed.
+    /// instead of `mu`: friction coefficient at speed
+    #[parameter("μ_fast", unit = "1", range = NonNegative)]
     pub mu_fast: Option<f64>,
-    /// In compression, from slow to fast, s/m.
+    /// how fast the friction coefficient goes from slow to fast
+    #[parameter("r", unit = "s/m", range = NonNegative)]
     pub rate: Option<f64>,
-    /// Friction coefficient in tension.
+    /// friction coefficient in tension; none: as compression
+    #[parameter("μ", unit = "1", range = NonNegative)]
     pub mu_tension: Option<f64>,
-    /// In tension, at rest.
+    /// instead of `mu_tension`: at rest
+    #[parameter("μ_slow", unit = "1", range = NonNegative)]
     pub mu_slow_tension: Option<f64>,
-    /// In tension, at speed.
+    /// instead of `mu_tension`: at speed
+    #[parameter("μ_fast", unit = "1", range = NonNegative)]
     pub mu_fast_tension: Option<f64>,
-    /// In tension, from slow to fast, s/m.
+    /// how fast it goes from slow to fast in tension
+    #[parameter("r", unit = "s/m", range = NonNegative)]
     pub rate_tension: Option<f64>,
-}
-
-const fn coefficient(name: &'static str, symbol: &'static str, meaning: &'static str) -> Parameter {
-    Parameter::optional(name, symbol, NONE, Range::NonNegative, meaning)
-}
-
-const fn rate(name: &'static str, meaning: &'static str) -> Parameter {
-    Parameter::optional(name, "r", INVERSE_VELOCITY, Range::NonNegative, meaning)
 }
 
 impl Described for TensionCompressionFriction {
@@ -104,64 +96,7 @@ impl Described for TensionCompressionFriction {
         "Sliding bearing with friction in compression and, of its own, in tension.",
     )
     .nodes(NodeCount::GROUND_OR_TWO)
-    .parameters(&[
-        Parameter::required("kn", "kₙ", STIFFNESS, Range::Positive, "stiffness in compression"),
-        Parameter::required("kt", "kₜ", STIFFNESS, Range::Positive, "stiffness in tension"),
-        Parameter::number(
-            "gap_compression",
-            "g_c",
-            LENGTH,
-            Range::NonNegative,
-            0.0,
-            "clearance before compression",
-        ),
-        Parameter::number(
-            "gap_tension",
-            "g_t",
-            LENGTH,
-            Range::NonNegative,
-            0.0,
-            "clearance before tension",
-        ),
-        Parameter::number(
-            "damping",
-            "c",
-            DAMPING,
-            Range::NonNegative,
-            0.0,
-            "dashpot along the axis, acts only while closed",
-        ),
-        Parameter::flag(
-            "pull",
-            false,
-            "the dashpot may act against the contact force; N is that of the spring then",
-        ),
-        Parameter::required("ks", "kₛ", STIFFNESS, Range::Positive, "stiffness before slip"),
-        Parameter::number(
-            "cs",
-            "cₛ",
-            DAMPING,
-            Range::NonNegative,
-            0.0,
-            "dashpot beside the spring `ks`: damps a bearing that sticks",
-        ),
-        Parameter::number(
-            "radius",
-            "R",
-            LENGTH,
-            Range::NonNegative,
-            0.0,
-            "effective radius; 0 is flat",
-        ),
-        coefficient("mu", "μ", "friction coefficient in compression; none: no friction"),
-        coefficient("mu_slow", "μ_slow", "instead of `mu`: friction coefficient at rest"),
-        coefficient("mu_fast", "μ_fast", "instead of `mu`: friction coefficient at speed"),
-        rate("rate", "how fast the friction coefficient goes from slow to fast"),
-        coefficient("mu_tension", "μ", "friction coefficient in tension; none: as compression"),
-        coefficient("mu_slow_tension", "μ_slow", "instead of `mu_tension`: at rest"),
-        coefficient("mu_fast_tension", "μ_fast", "instead of `mu_tension`: at speed"),
-        rate("rate_tension", "how fast it goes from slow to fast in tension"),
-    ])
+    .parameters(Self::PARAMETERS)
     .law("pressed, d₁ + g_c ≤ 0: f₁ = min(0, kₙ (d₁ + g_c) + c ḋ₁)\n\
           pulled,  d₁ − g_t ≥ 0: f₁ = max(0, kₜ (d₁ − g_t) + c ḋ₁);  N = |f₁|\n\
           τ = kₛ (u − a) + cₛ (u̇ − ȧ), |τ| ≤ μ N (radial return), μ of the side;  u = (d₂, d₃)\n\

@@ -13,19 +13,6 @@
 //!   f₁ = min(0, kₙ d₁ + c ḋ₁) closed, N = −f₁  (with `pull`: kₙ d₁ + c ḋ₁, N = −kₙ d₁)
 //! ```
 //!
-//! | parameter        | symbol | unit  | range | default | meaning                                          |
-//! |------------------|--------|-------|-------|---------|--------------------------------------------------|
-//! | `kn`             | kₙ     | N/m   | > 0   | –       | stiffness in compression                         |
-//! | `damping`        | c      | N·s/m | ≥ 0   | 0       | dashpot along the axis, acts only while closed   |
-//! | `pull`           |        |       |       | false   | the dashpot may pull while closed                |
-//! | `ks`             | kₛ     | N/m   | > 0   | –       | stiffness before slip of each surface            |
-//! | `radii`          | R      | m     | > 0   | –       | radii of surfaces 1 to 4                         |
-//! | `heights`        | h      | m     | ≥ 0   | 0       | distances of the surfaces from the pivot point, taken off the radii |
-//! | `capacities`     | d      | m     | ≥ 0   | none    | displacements at which the surfaces meet their rims; 0: no rim |
-//! | `stop_stiffness` | kₛₜ    | N/m   | > 0   | –       | stiffness of each rim; required with `capacities` |
-//! | `mu`             | μ      | 1     | ≥ 0   | –       | friction coefficients                            |
-//! | `mu_slow`, `mu_fast`, `rate` | | 1, 1, s/m | ≥ 0 | –   | instead of `mu`: at rest, at speed (not less), rate |
-//!
 //! Lists have four numbers, surfaces 1 to 4. The inner surfaces must be tighter than the outer ones of
 //! their side (R₂* < R₁*, R₃* < R₄*) and slide before them (μ₂ ≤ μ₁, μ₃ ≤ μ₄). The displacement of the
 //! real surface 1 is w₁ R₁*/R̄₁: an inner surface stands still while its outer neighbour slides, because
@@ -62,51 +49,50 @@ use crate::shared::parameters::none_negative;
 use crate::shared::sliding::Stop;
 use serde::Deserialize;
 use series::SURFACES;
-use trilith_element::dimension::{DAMPING, INVERSE_VELOCITY, LENGTH, NONE, STIFFNESS};
 use trilith_element::{
-    Card, Category, Default, Described, Dimension, Exercise, Form, NodeCount, Parameter,
-    ParameterError, Range, Stroke,
+    Card, Category, Described, Exercise, NodeCount, ParameterError, Parameters, Stroke,
 };
 
 /// Sliding bearing with four concave surfaces; the law is in `law.rs` beside this file.
-#[derive(Clone, Debug, Deserialize)]
+#[derive(Clone, Debug, Deserialize, Parameters)]
 #[serde(deny_unknown_fields)]
 pub struct TriplePendulum {
-    /// Stiffness in compression kₙ, N/m.
+    /// stiffness in compression
+    #[parameter("kₙ", unit = "N/m", range = Positive)]
     pub kn: f64,
-    /// Dashpot along the axis c, N·s/m.
+    /// dashpot along the axis, acts only while closed
+    #[parameter("c", unit = "N·s/m", range = NonNegative, default = 0.0)]
     pub damping: f64,
-    /// The dashpot may pull while closed.
+    /// the dashpot may pull while closed; friction is of kₙ d₁ then
+    #[parameter]
     pub pull: bool,
-    /// Stiffness before slip of each surface kₛ, N/m.
+    /// stiffness before slip of each surface
+    #[parameter("kₛ", unit = "N/m", range = Positive)]
     pub ks: f64,
-    /// Radii of surfaces 1 to 4, m.
+    /// radii of surfaces 1 to 4
+    #[parameter("R", unit = "m")]
     pub radii: [f64; SURFACES],
-    /// Distances from the pivot point, m.
+    /// distances of the surfaces from the pivot point, taken off the radii; none: 0
+    #[parameter("h", unit = "m")]
     pub heights: Option<[f64; SURFACES]>,
-    /// Displacements at which the rims are met, m; 0: no rim.
+    /// displacements at which the surfaces meet their rims; 0: no rim
+    #[parameter("d", unit = "m")]
     pub capacities: Option<[f64; SURFACES]>,
-    /// Stiffness of each rim, N/m.
+    /// stiffness of each rim; required with `capacities`
+    #[parameter("kₛₜ", unit = "N/m", range = Positive)]
     pub stop_stiffness: Option<f64>,
-    /// Friction coefficients.
+    /// friction coefficients
+    #[parameter("μ", unit = "1")]
     pub mu: Option<[f64; SURFACES]>,
-    /// Friction coefficients at rest.
+    /// instead of `mu`: at rest
+    #[parameter("μ_slow", unit = "1")]
     pub mu_slow: Option<[f64; SURFACES]>,
-    /// Friction coefficients at speed.
+    /// instead of `mu`: at speed
+    #[parameter("μ_fast", unit = "1")]
     pub mu_fast: Option<[f64; SURFACES]>,
-    /// Rates from slow to fast, s/m.
+    /// how fast μ goes from slow to fast
+    #[parameter("r", unit = "s/m")]
     pub rate: Option<[f64; SURFACES]>,
-}
-
-const fn four(
-    name: &'static str,
-    symbol: &'static str,
-    dimension: Dimension,
-    default: Default,
-    meaning: &'static str,
-) -> Parameter {
-    let form = Form::Numbers { dimension, count: Some(SURFACES) };
-    Parameter::new(name, symbol, form, default, meaning)
 }
 
 impl Described for TriplePendulum {
@@ -116,55 +102,7 @@ impl Described for TriplePendulum {
         "Sliding bearing with four concave surfaces and their rims.",
     )
     .nodes(NodeCount::GROUND_OR_TWO)
-    .parameters(&[
-        Parameter::required("kn", "kₙ", STIFFNESS, Range::Positive, "stiffness in compression"),
-        Parameter::number(
-            "damping",
-            "c",
-            DAMPING,
-            Range::NonNegative,
-            0.0,
-            "dashpot along the axis, acts only while closed",
-        ),
-        Parameter::flag(
-            "pull",
-            false,
-            "the dashpot may pull while closed; friction is of kₙ d₁ then",
-        ),
-        Parameter::required(
-            "ks",
-            "kₛ",
-            STIFFNESS,
-            Range::Positive,
-            "stiffness before slip of each surface",
-        ),
-        four("radii", "R", LENGTH, Default::Required, "radii of surfaces 1 to 4"),
-        four("heights", "h", LENGTH, Default::Absent, "taken off the radii; none: 0"),
-        four(
-            "capacities",
-            "d",
-            LENGTH,
-            Default::Absent,
-            "displacements at which the surfaces meet their rims; 0: no rim",
-        ),
-        Parameter::optional(
-            "stop_stiffness",
-            "kₛₜ",
-            STIFFNESS,
-            Range::Positive,
-            "stiffness of each rim",
-        ),
-        four("mu", "μ", NONE, Default::Absent, "friction coefficients"),
-        four("mu_slow", "μ_slow", NONE, Default::Absent, "instead of `mu`: at rest"),
-        four("mu_fast", "μ_fast", NONE, Default::Absent, "instead of `mu`: at speed"),
-        four(
-            "rate",
-            "r",
-            INVERSE_VELOCITY,
-            Default::Absent,
-            "how fast μ goes from slow to fast",
-        ),
-    ])
+    .parameters(Self::PARAMETERS)
     .law("F = N wᵢ/R̄ᵢ + τᵢ + stop(wᵢ) for each surface i, Σ wᵢ = (d₂, d₃)\n\
           τᵢ = kₛ (wᵢ − aᵢ), |τᵢ| ≤ μᵢ N (radial return)\n\
           R* = R − h;  R̄₁ = R₁* − R₂*, R̄₂ = R₂*, R̄₃ = R₃*, R̄₄ = R₄* − R₃*\n\

@@ -4,15 +4,6 @@
 //!   i ●━━━━━━━━━━● j      k = E A / L along the bar
 //! ```
 //!
-//! | parameter          | symbol | unit  | range | default | meaning                    |
-//! |--------------------|--------|-------|-------|---------|----------------------------|
-//! | `young`            | E      | N/m²  | > 0   | –       | Young's modulus            |
-//! | `area`             | A      | m²    | > 0   | –       | area of the section        |
-//! | `density`          | ρ      | kg/m³ | ≥ 0   | 0       | mass ρ A per length        |
-//! | `distributed_mass` | m̄      | kg/m  | ≥ 0   | 0       | further mass per length    |
-//! | `expansion`        | α      | 1/K   | > 0   | none    | strain by one kelvin       |
-//! | `mass_matrix`      |        |       |       | Lumped  | `Lumped` or `Consistent`   |
-//!
 //! Only translations are used. The mass acts in all three directions: half at each end, or consistent
 //! with linear displacements (1/3 and 1/6 of the mass).
 //!
@@ -22,27 +13,32 @@ use crate::beam::{MassMatrix, span_along_axis_1};
 use crate::shared::dense::used;
 use nalgebra::DMatrix;
 use serde::Deserialize;
-use trilith_element::dimension::{AREA, DENSITY, MASS_PER_LENGTH, NONE, STRESS};
 use trilith_element::{
     Card, Category, Described, ElementMatrices, Exercise, Geometry, LinearElement, Member,
-    NodeCount, Parameter, ParameterError, Range, SpanLoad,
+    NodeCount, ParameterError, Parameters, SpanLoad,
 };
 
 /// Bar with axial force only.
-#[derive(Clone, Debug, Deserialize)]
+#[derive(Clone, Debug, Deserialize, Parameters)]
 #[serde(deny_unknown_fields)]
 pub struct Truss {
-    /// Young's modulus E, N/m².
+    /// Young's modulus
+    #[parameter("E", unit = "Pa", range = Positive)]
     pub young: f64,
-    /// Area A, m².
+    /// area of the section
+    #[parameter("A", unit = "m²", range = Positive)]
     pub area: f64,
-    /// Density ρ, kg/m³.
+    /// density, for the mass
+    #[parameter("ρ", unit = "kg/m³", range = NonNegative, default = 0.0)]
     pub density: f64,
-    /// Further mass per length, kg/m.
+    /// further mass per length
+    #[parameter("m̄", unit = "kg/m", range = NonNegative, default = 0.0)]
     pub distributed_mass: f64,
-    /// Strain by one kelvin α, 1/K.
+    /// strain by one kelvin, for loads of warmth
+    #[parameter("α", unit = "1/K", range = Positive)]
     pub expansion: Option<f64>,
-    /// How the mass is spread.
+    /// how the mass is spread
+    #[parameter(choices = MassMatrix::NAMES, default = "Lumped")]
     pub mass_matrix: MassMatrix,
 }
 
@@ -50,39 +46,7 @@ impl Described for Truss {
     const CARD: Card =
         Card::new("Truss", Category::Linear, "Two-node bar that carries axial force only.")
             .nodes(NodeCount::exactly(2))
-            .parameters(&[
-                Parameter::required("young", "E", STRESS, Range::Positive, "Young's modulus"),
-                Parameter::required("area", "A", AREA, Range::Positive, "area of the section"),
-                Parameter::number(
-                    "density",
-                    "ρ",
-                    DENSITY,
-                    Range::NonNegative,
-                    0.0,
-                    "density, for the mass",
-                ),
-                Parameter::number(
-                    "distributed_mass",
-                    "m̄",
-                    MASS_PER_LENGTH,
-                    Range::NonNegative,
-                    0.0,
-                    "further mass per length",
-                ),
-                Parameter::optional(
-                    "expansion",
-                    "α",
-                    NONE,
-                    Range::Positive,
-                    "strain by one kelvin, for loads of warmth",
-                ),
-                Parameter::choice(
-                    "mass_matrix",
-                    &["Lumped", "Consistent"],
-                    "Lumped",
-                    "how the mass is spread",
-                ),
-            ])
+            .parameters(Self::PARAMETERS)
             .law("k = E A / L along the bar")
             .source("Przemieniecki, Theory of Matrix Structural Analysis, 1968, §5.1 and §11.1")
             .example(r#""brace": Truss(nodes: ("a", "b"), young: "210 GPa", area: "12 cm^2")"#)

@@ -6,14 +6,6 @@
 //!   ż = (k/f_y) ḋ                 otherwise (unloading is elastic)        |z| ≤ 1, z = 0 at rest
 //! ```
 //!
-//! | parameter  | symbol | unit          | range      | default | meaning                                  |
-//! |------------|--------|---------------|------------|---------|------------------------------------------|
-//! | `k`        | k      | N/m, N·m/rad  | > 0        | –       | stiffness at rest                        |
-//! | `fy`       | f_y    | N, N·m        | > 0        | –       | force at which it yields                 |
-//! | `ratio`    | r      | 1             | 0 … 1      | –       | stiffness after yielding over `k`        |
-//! | `exponent` | n      | 1             | 1 … 1000   | 2       | sharpness of yielding; above 20 nearly bilinear |
-//! | `axis`     |        |               |            | U1      | local axis                               |
-//!
 //! The path within a step is straight, and on it z is exact (see `wen/transition.rs`): the force depends
 //! neither on speed nor on the step. In the notation of Bouc and Wen it is A = 1, β = γ = ½.
 //!
@@ -26,26 +18,30 @@ mod transition;
 
 use serde::Deserialize;
 use transition::{ANY, ONE, TWO};
-use trilith_element::dimension::NONE;
 use trilith_element::lanes::{LaneAt, LaneForce, LaneForm, LaneLaw, LaneStep, Real};
 use trilith_element::{
-    Axis, Card, Category, Coordinates, Default, Described, Exercise, Form, History, Kinematics,
-    Link, NodeCount, Parameter, Range, Response, Stroke, history,
+    Axis, Card, Category, Coordinates, Described, Exercise, History, Kinematics, Link, NodeCount,
+    Parameters, Response, Stroke, history,
 };
 
 /// Smooth plastic spring.
-#[derive(Clone, Debug, Deserialize)]
+#[derive(Clone, Debug, Deserialize, Parameters)]
 #[serde(deny_unknown_fields)]
 pub struct Wen {
-    /// Stiffness at rest k, N/m or N·m/rad.
+    /// stiffness at rest
+    #[parameter("k", unit = "N/m", about = "N·m/rad", range = Positive)]
     pub k: f64,
-    /// Yield force f_y, N or N·m.
+    /// force at which it yields
+    #[parameter("f_y", unit = "N", about = "N·m", range = Positive)]
     pub fy: f64,
-    /// Stiffness after yielding over `k`.
+    /// stiffness after yielding over `k`
+    #[parameter("r", unit = "1", range = Within(0.0, 1.0))]
     pub ratio: f64,
-    /// Exponent n.
+    /// sharpness of yielding; above 20 nearly bilinear
+    #[parameter("n", unit = "1", range = Within(1.0, 1000.0), default = 2.0)]
     pub exponent: f64,
-    /// Local axis.
+    /// local axis
+    #[parameter(choices = Axis::NAMES, default = "U1")]
     pub axis: Axis,
 }
 
@@ -64,34 +60,7 @@ impl Described for Wen {
         "Plastic spring with a smooth yield (Wen).",
     )
     .nodes(NodeCount::GROUND_OR_TWO)
-    .parameters(&[
-        Parameter::new("k", "k", Form::STIFFNESS_OF_AXIS, Default::Required, "stiffness at rest")
-            .within(Range::Positive),
-        Parameter::new(
-            "fy",
-            "f_y",
-            Form::FORCE_OF_AXIS,
-            Default::Required,
-            "force at which it yields",
-        )
-        .within(Range::Positive),
-        Parameter::required(
-            "ratio",
-            "r",
-            NONE,
-            Range::Within(0.0, 1.0),
-            "stiffness after yielding over `k`",
-        ),
-        Parameter::number(
-            "exponent",
-            "n",
-            NONE,
-            Range::Within(1.0, 1000.0),
-            2.0,
-            "sharpness of yielding; above 20 nearly bilinear",
-        ),
-        Parameter::choice("axis", Axis::NAMES, "U1", "local axis"),
-    ])
+    .parameters(Self::PARAMETERS)
     .law(
         "f = r k d + (1 − r) f_y z\n\
               ż = (k/f_y) ḋ (1 − |z|ⁿ) where ḋ z > 0, else (k/f_y) ḋ",

@@ -2,8 +2,8 @@
 
 use serde::Deserialize;
 use trilith_element::{
-    Axis, Card, Category, Coordinates, Described, Dimension, Exercise, Kinematics, Link, NodeCount,
-    Parameter, Range, Register, Response, dimension,
+    Axis, Card, Category, Coordinates, Described, Exercise, Kinematics, Link, NodeCount,
+    Parameters, Register, Response,
 };
 use trilith_model::{Analysis, Kernel, SolverKind, StepControl};
 use trilith_solvers::{LawFault, Observer, RunOptions, Sample, Status, run};
@@ -11,25 +11,22 @@ use trilith_system::System;
 use trilith_tests::{Trace, parse, registry, set_step, shipped, trace, trace_with};
 
 /// A spring that has no force beyond a limit: what a broken law of a third party may do.
-#[derive(Clone, Debug, Deserialize)]
+#[derive(Clone, Debug, Deserialize, Parameters)]
 #[serde(deny_unknown_fields)]
 struct Brittle {
+    /// stiffness
+    #[parameter("k", unit = "N/m", range = Positive)]
     k: f64,
+    /// where it breaks
+    #[parameter("l", unit = "m", range = Positive)]
     limit: f64,
-}
-
-const fn number(name: &'static str, symbol: &'static str, unit: Dimension) -> Parameter {
-    Parameter::required(name, symbol, unit, Range::Positive, "see the law")
 }
 
 impl Described for Brittle {
     const CARD: Card =
         Card::new("Brittle", Category::Link, "Spring without a force beyond a limit.")
             .nodes(NodeCount::exactly(1))
-            .parameters(&[
-                number("k", "k", dimension::STIFFNESS),
-                number("limit", "l", dimension::LENGTH),
-            ])
+            .parameters(Self::PARAMETERS)
             .law("f = k d, not a number for |d| > l")
             .source("made for a test")
             .example("Brittle(node: \"a\", k: 1, limit: 1)")

@@ -76,7 +76,8 @@ fn own(dependencies: Vec<String>) -> Vec<String> {
 #[test]
 fn dependencies_point_one_way() {
     const LAYERS: &[(&str, &[&str])] = &[
-        ("trilith-element", &[]),
+        ("trilith-derive", &[]),
+        ("trilith-element", &["trilith-derive"]),
         ("trilith-record", &[]),
         ("trilith-linalg", &[]),
         ("trilith-elements", &["trilith-element"]),

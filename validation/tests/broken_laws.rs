@@ -5,10 +5,9 @@
 use serde::Deserialize;
 use std::borrow::Cow;
 use trilith::element::conformance::{ConformanceError, Kit};
-use trilith::element::dimension::{FORCE, LENGTH, NONE, STIFFNESS};
 use trilith::element::{
     Card, Category, Contact, Coordinates, Described, Energy, Exercise, Field, Kinematics, Link,
-    NodeCount, Parameter, Range, Register, Response,
+    NodeCount, Parameters, Register, Response,
 };
 use trilith::elements::{Gap, NLink};
 use trilith_validation::case::BOTH;
@@ -54,10 +53,15 @@ impl Link for StepLate {
 }
 
 /// Closes a millimetre late: in itself a sound law, of another gap.
-#[derive(Debug, Deserialize)]
+#[derive(Debug, Deserialize, Parameters)]
+#[parameters(crate = trilith::element)]
 #[serde(deny_unknown_fields)]
 struct LateGap {
+    /// stiffness
+    #[parameter("k", unit = "N/m", range = Positive)]
     k: f64,
+    /// clearance at rest
+    #[parameter("g", unit = "m", default = 0.0)]
     opening: f64,
 }
 
@@ -70,10 +74,7 @@ impl LateGap {
 impl Described for LateGap {
     const CARD: Card = Card::new("LateGap", Category::Link, "A gap that closes a millimetre late.")
         .nodes(NodeCount::GROUND_OR_TWO)
-        .parameters(&[
-            Parameter::required("k", "k", STIFFNESS, Range::Positive, "stiffness"),
-            Parameter::number("opening", "g", LENGTH, Range::Any, 0.0, "clearance at rest"),
-        ])
+        .parameters(Self::PARAMETERS)
         .law("f = k (d + g + 1 mm) where that is below zero")
         .source("wrong on purpose")
         .example(r#""stop": LateGap(node: "a", k: "1 MN/m")"#)
@@ -96,12 +97,21 @@ impl Link for LateGap {
 }
 
 /// Friction whose limit is that of a constant weight, whatever presses on it.
-#[derive(Debug, Deserialize)]
+#[derive(Debug, Deserialize, Parameters)]
+#[parameters(crate = trilith::element)]
 #[serde(deny_unknown_fields)]
 struct Uncoupled {
+    /// contact stiffness
+    #[parameter("kₙ", unit = "N/m", range = Positive)]
     kn: f64,
+    /// pre-slip stiffness
+    #[parameter("kₛ", unit = "N/m", range = Positive)]
     ks: f64,
+    /// friction coefficient
+    #[parameter("μ", unit = "1", range = NonNegative)]
     mu: f64,
+    /// constant normal force
+    #[parameter("W", unit = "N", range = Positive)]
     weight: f64,
 }
 
@@ -118,12 +128,7 @@ impl Described for Uncoupled {
         "A contact whose friction does not know the normal force.",
     )
     .nodes(NodeCount::GROUND_OR_TWO)
-    .parameters(&[
-        Parameter::required("kn", "kₙ", STIFFNESS, Range::Positive, "contact stiffness"),
-        Parameter::required("ks", "kₛ", STIFFNESS, Range::Positive, "pre-slip stiffness"),
-        Parameter::required("mu", "μ", NONE, Range::NonNegative, "friction coefficient"),
-        Parameter::required("weight", "W", FORCE, Range::Positive, "constant normal force"),
-    ])
+    .parameters(Self::PARAMETERS)
     .law("|τ| ≤ μ W")
     .source("wrong on purpose")
     .example(r#""foot": UncoupledNLink(node: "a", kn: 1e6, ks: 1e6, mu: 0.1, weight: 10)"#)

@@ -7,15 +7,21 @@ use serde::de::DeserializeOwned;
 /// The description of one kind. The model reader checks a file against it and the catalogue prints it.
 ///
 /// ```
-/// use trilith_element::dimension::{LENGTH, STIFFNESS};
-/// use trilith_element::{Card, Category, NodeCount, Parameter, Range};
+/// use trilith_element::{Card, Category, NodeCount, Parameters};
+///
+/// #[derive(Parameters)]
+/// struct Stop {
+///     /// stiffness of the stop
+///     #[parameter("k", unit = "N/m", range = Positive)]
+///     k: f64,
+///     /// clearance on both sides
+///     #[parameter("g", unit = "m", range = NonNegative, default = 0.0)]
+///     gap: f64,
+/// }
 ///
 /// const CARD: Card = Card::new("Stop", Category::Link, "Bilateral stop of equal clearances.")
 ///     .nodes(NodeCount::GROUND_OR_TWO)
-///     .parameters(&[
-///         Parameter::required("k", "k", STIFFNESS, Range::Positive, "stiffness of the stop"),
-///         Parameter::number("gap", "g", LENGTH, Range::NonNegative, 0.0, "clearance on both sides"),
-///     ])
+///     .parameters(Stop::PARAMETERS)
 ///     .law("f = k (d − g) where d > g, k (d + g) where d < −g, else 0")
 ///     .source("first principles")
 ///     .example(r#""stop": Stop(nodes: ("a", "b"), k: "50 kN/m", gap: "2 cm")"#);
@@ -227,7 +233,7 @@ pub struct Parameter {
 }
 
 impl Parameter {
-    /// A parameter that has any form.
+    /// A parameter of any form, as [`Parameters`](crate::Parameters) makes them of the fields of a struct.
     #[must_use]
     pub const fn new(
         name: &'static str,
@@ -237,75 +243,6 @@ impl Parameter {
         meaning: &'static str,
     ) -> Self {
         Self { name, symbol, form, range: Range::Any, default, meaning }
-    }
-
-    /// A number that the file must give.
-    #[must_use]
-    pub const fn required(
-        name: &'static str,
-        symbol: &'static str,
-        dimension: Dimension,
-        range: Range,
-        meaning: &'static str,
-    ) -> Self {
-        let form = Form::Number(dimension);
-        Self { name, symbol, form, range, default: Default::Required, meaning }
-    }
-
-    /// A number with a default in SI.
-    #[must_use]
-    pub const fn number(
-        name: &'static str,
-        symbol: &'static str,
-        dimension: Dimension,
-        range: Range,
-        default: f64,
-        meaning: &'static str,
-    ) -> Self {
-        let form = Form::Number(dimension);
-        Self { name, symbol, form, range, default: Default::Number(default), meaning }
-    }
-
-    /// A number that may stay absent.
-    #[must_use]
-    pub const fn optional(
-        name: &'static str,
-        symbol: &'static str,
-        dimension: Dimension,
-        range: Range,
-        meaning: &'static str,
-    ) -> Self {
-        let form = Form::Number(dimension);
-        Self { name, symbol, form, range, default: Default::Absent, meaning }
-    }
-
-    /// Yes or no.
-    #[must_use]
-    pub const fn flag(name: &'static str, default: bool, meaning: &'static str) -> Self {
-        Self::new(name, "", Form::Flag, Default::Flag(default), meaning)
-    }
-
-    /// One of several names.
-    #[must_use]
-    pub const fn choice(
-        name: &'static str,
-        choices: &'static [&'static str],
-        default: &'static str,
-        meaning: &'static str,
-    ) -> Self {
-        Self::new(name, "", Form::Choice(choices), Default::Choice(default), meaning)
-    }
-
-    /// A text in quotes, with a default.
-    #[must_use]
-    pub const fn text(name: &'static str, default: &'static str, meaning: &'static str) -> Self {
-        Self::new(name, "", Form::Text, Default::Choice(default), meaning)
-    }
-
-    /// A file that the model must name.
-    #[must_use]
-    pub const fn file(name: &'static str, meaning: &'static str) -> Self {
-        Self::new(name, "", Form::File, Default::Required, meaning)
     }
 
     /// The same of another form.
@@ -469,8 +406,8 @@ pub enum Default {
 
 /// A kind that has a card and can be read from a model file.
 ///
-/// The struct is the parameters: its fields have the names of the card, numbers arrive in SI and
-/// within their ranges. Use `#[serde(deny_unknown_fields)]`.
+/// The struct is the parameters: [`Parameters`](crate::Parameters) makes those of the card from its fields, numbers arrive
+/// in SI and within their ranges. Use `#[serde(deny_unknown_fields)]`.
 pub trait Described: DeserializeOwned {
     /// The card.
     const CARD: Card;

@@ -1,47 +1,7 @@
 //! The card of the spring, and what it cannot say.
 
 use super::{IbarraMedinaKrawinkler, Reloading};
-use trilith_element::dimension::NONE;
-use trilith_element::{
-    Axis, Card, Category, Default, Described, Exercise, Form, NodeCount, Parameter, ParameterError,
-    Range, Stroke,
-};
-
-const fn of_axis(
-    name: &'static str,
-    symbol: &'static str,
-    form: Form,
-    default: Default,
-    meaning: &'static str,
-) -> Parameter {
-    Parameter::new(name, symbol, form, default, meaning).within(Range::Positive)
-}
-
-const fn given(
-    name: &'static str,
-    symbol: &'static str,
-    form: Form,
-    meaning: &'static str,
-) -> Parameter {
-    of_axis(name, symbol, form, Default::Required, meaning)
-}
-
-const fn maybe(
-    name: &'static str,
-    symbol: &'static str,
-    form: Form,
-    meaning: &'static str,
-) -> Parameter {
-    of_axis(name, symbol, form, Default::Absent, meaning)
-}
-
-const fn exponent(name: &'static str, symbol: &'static str, meaning: &'static str) -> Parameter {
-    Parameter::number(name, symbol, NONE, Range::Within(1.0, 2.0), 1.0, meaning)
-}
-
-const SHARE: Range = Range::Within(0.0, 1.0);
-const CAPPED: Range = Range::Within(1.0, 100.0);
-const LENGTH: Form = Form::DEFORMATION_OF_AXIS;
+use trilith_element::{Card, Category, Described, Exercise, NodeCount, ParameterError, Stroke};
 
 impl Described for IbarraMedinaKrawinkler {
     const CARD: Card = Card::new(
@@ -50,56 +10,7 @@ impl Described for IbarraMedinaKrawinkler {
         "Spring of a capped backbone whose strength and stiffness deteriorate with the energy dissipated; peak-oriented or pinching.",
     )
     .nodes(NodeCount::GROUND_OR_TWO)
-    .parameters(&[
-        given("k", "k", Form::STIFFNESS_OF_AXIS, "elastic stiffness"),
-        given("fy", "f_y", Form::FORCE_OF_AXIS, "yield strength"),
-        Parameter::required("capping", "c", NONE, CAPPED, "capping strength over `fy`"),
-        given("plastic", "δ_p", LENGTH, "deformation from yield to capping"),
-        given("post_capping", "δ_pc", LENGTH, "deformation from capping to zero force"),
-        Parameter::number("residual", "r", NONE, SHARE, 0.0, "residual strength over `fy`"),
-        maybe("fy_negative", "f_y⁻", Form::FORCE_OF_AXIS, "f_y for d < 0 (as for d > 0)"),
-        Parameter::optional(
-            "capping_negative",
-            "c⁻",
-            NONE,
-            CAPPED,
-            "c for d < 0, over f_y there",
-        ),
-        maybe("plastic_negative", "δ_p⁻", LENGTH, "δ_p for d < 0"),
-        maybe("post_capping_negative", "δ_pc⁻", LENGTH, "δ_pc for d < 0"),
-        Parameter::optional("residual_negative", "r⁻", NONE, SHARE, "r for d < 0"),
-        maybe(
-            "lambda_s",
-            "Λ_S",
-            LENGTH,
-            "energy over `fy` that basic strength stands; none: ∞",
-        ),
-        maybe("lambda_c", "Λ_C", LENGTH, "the same of post-capping strength"),
-        maybe("lambda_a", "Λ_A", LENGTH, "the same of accelerated reloading"),
-        maybe("lambda_k", "Λ_K", LENGTH, "the same of the stiffness of unloading"),
-        exponent("c_s", "c_S", "exponent of basic strength"),
-        exponent("c_c", "c_C", "exponent of post-capping strength"),
-        exponent("c_a", "c_A", "exponent of accelerated reloading"),
-        exponent("c_k", "c_K", "exponent of the stiffness of unloading"),
-        Parameter::number("rate_positive", "D⁺", NONE, SHARE, 1.0, "share of β for d > 0"),
-        Parameter::number("rate_negative", "D⁻", NONE, SHARE, 1.0, "share of β for d < 0"),
-        Parameter::choice("form", &["PeakOriented", "Pinching"], "PeakOriented", "reloading"),
-        Parameter::optional(
-            "kappa_f",
-            "κ_F",
-            NONE,
-            SHARE,
-            "Pinching: slope to the break point over that to the target",
-        ),
-        Parameter::optional(
-            "kappa_d",
-            "κ_D",
-            NONE,
-            SHARE,
-            "Pinching: share of the permanent deformation left at the break point",
-        ),
-        Parameter::choice("axis", Axis::NAMES, "U1", "local axis"),
-    ])
+    .parameters(Self::PARAMETERS)
     .law("backbone: k to f_y, on to c f_y at f_y/k + δ_p, down by c f_y over δ_pc, r f_y at least\n\
           back: with K to zero force;  on: straight to the largest deformation u so far (PeakOriented), or first\n\
           with κ_F times that slope to (1 − κ_D)(u − f_u/K) (Pinching); then the backbone\n\

@@ -12,9 +12,8 @@
 use crate::shared::biaxial::{self, Moved};
 use crate::shared::dual::{Dual, by_fewer};
 use serde::Deserialize;
-use trilith_element::dimension::NONE;
 use trilith_element::lanes::Real;
-use trilith_element::{Parameter, ParameterError, Range};
+use trilith_element::{Choices, ParameterError};
 
 /// |z|² below which nothing is held back: its powers would leave the range of numbers.
 const NOTHING: f64 = 1e-100;
@@ -26,40 +25,13 @@ const SETTLED: f64 = 38.0;
 const STEPS: i32 = 4000;
 
 /// How a bearing tells unloading in its plane.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, Choices)]
 pub enum Coupling {
     /// Axis by axis, by the signs of zⱼ ḋⱼ.
     Axes,
     /// By the sign of z·ḋ.
     Direction,
 }
-
-/// The card's parameters of the coupling.
-pub(crate) const PARAMETERS: [Parameter; 4] = [
-    Parameter::choice(
-        "coupling",
-        &["Axes", "Direction"],
-        "Axes",
-        "how unloading is told: axis by axis, or by the direction of the motion",
-    ),
-    Parameter::number(
-        "beta",
-        "β",
-        NONE,
-        Range::Positive,
-        0.5,
-        "shape: loading against β + γ, return with γ − β",
-    ),
-    Parameter::number(
-        "gamma",
-        "γ",
-        NONE,
-        Range::Any,
-        0.5,
-        "shape, −β < γ ≤ β; at γ = β the return is elastic",
-    ),
-    Parameter::number("eta", "η", NONE, Range::Within(1.0, 20.0), 2.0, "sharpness of yielding"),
-];
 
 /// Numbers of the law: −β < γ ≤ β, η ≥ 1.
 #[derive(Clone, Copy, Debug)]

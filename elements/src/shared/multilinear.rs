@@ -1,25 +1,7 @@
 //! Curves of force over deformation through points, with straight lines between them; the lines at the
 //! ends go on.
 
-use trilith_element::{Default, Form, Parameter, ParameterError};
-
-/// The card's parameter of the deformations.
-pub(crate) const DEFORMATION: Parameter = Parameter::new(
-    "deformation",
-    "dᵢ",
-    Form::DEFORMATION_OF_AXIS.list(),
-    Default::Required,
-    "deformations of the points, ascending",
-);
-
-/// The card's parameter of the forces.
-pub(crate) const FORCE: Parameter = Parameter::new(
-    "force",
-    "fᵢ",
-    Form::FORCE_OF_AXIS.list(),
-    Default::Required,
-    "forces of the points, none against its deformation",
-);
+use trilith_element::ParameterError;
 
 /// The points of a curve.
 #[derive(Clone, Copy, Debug)]

@@ -15,22 +15,6 @@
 //! Source: integration of the equation of motion; the same in \[Anagnostopoulos 2004\] for the first form.
 
 use std::f64::consts::PI;
-use trilith_element::dimension::{MASS, NONE};
-use trilith_element::{Parameter, Range};
-
-/// The coefficient of restitution as a parameter.
-pub(crate) const fn restitution(meaning: &'static str) -> Parameter {
-    Parameter::optional("restitution", "e", NONE, Range::Above(0.0, 1.0), meaning)
-}
-
-/// The mass that strikes, as a parameter.
-pub(crate) const IMPACT_MASS: Parameter = Parameter::optional(
-    "impact_mass",
-    "m",
-    MASS,
-    Range::Positive,
-    "mass that strikes, for `restitution`; none: worked out from the structure",
-);
 
 /// Damping ratio ζ at which the restitution is `e`, 0 < e ≤ 1.
 pub(crate) fn damping_ratio(e: f64, pull: bool) -> f64 {

@@ -2,21 +2,23 @@
 
 use serde::Deserialize;
 use std::borrow::Cow;
-use trilith_element::dimension::{FORCE, STIFFNESS};
 use trilith_element::{
     Axis, Card, Category, Coordinates, Described, Exercise, Field, History, Kinematics, Link,
-    NodeCount, Parameter, Range, Register, Response, Stroke, history,
+    NodeCount, Parameters, Register, Response, Stroke, history,
 };
 
 /// A rod that takes tension only and yields. The fields are the parameters of model files, in SI.
-#[derive(Debug, Deserialize)]
+#[derive(Debug, Deserialize, Parameters)]
 #[serde(deny_unknown_fields)]
 pub struct YieldingRod {
-    /// Axial stiffness, N/m.
+    /// axial stiffness
+    #[parameter("k", unit = "N/m", range = Positive)]
     pub k: f64,
-    /// Yield force, N.
+    /// yield force
+    #[parameter("F_y", unit = "N", range = Positive)]
     pub fy: f64,
-    /// Local axis.
+    /// local axis
+    #[parameter(choices = ["U1", "U2", "U3"], default = "U1")]
     pub axis: Axis,
 }
 
@@ -32,11 +34,7 @@ impl Described for YieldingRod {
     const CARD: Card =
         Card::new("YieldingRod", Category::Link, "Rod that takes tension only and yields.")
             .nodes(NodeCount::GROUND_OR_TWO)
-            .parameters(&[
-                Parameter::required("k", "k", STIFFNESS, Range::Positive, "axial stiffness"),
-                Parameter::required("fy", "F_y", FORCE, Range::Positive, "yield force"),
-                Parameter::choice("axis", &["U1", "U2", "U3"], "U1", "local axis"),
-            ])
+            .parameters(Self::PARAMETERS)
             .law("f = k max(d − p, 0), at most F_y: there p grows")
             .source("elementary plasticity")
             .example(r#""rod": YieldingRod(node: "mass", k: "10 MN/m", fy: "50 kN")"#)

@@ -4,13 +4,6 @@
 //!   f = −F s(t)        s = 0 before `on`, rises evenly over `rise`, 1 after that
 //! ```
 //!
-//! | parameter | symbol | unit | range | default | meaning                                 |
-//! |-----------|--------|------|-------|---------|-----------------------------------------|
-//! | `force`   | F      | N    | any   | –       | force at last; > 0 pushes the ends apart |
-//! | `on`      | t₀     | s    | ≥ 0   | 0       | when it is switched on                  |
-//! | `rise`    | t_r    | s    | > 0   | –       | how long the force grows                |
-//! | `axis`    |        |      |       | U1      | local axis: U1, U2 or U3                |
-//!
 //! A law is told how long a step is, not when: it counts the time in a variable of its history, from the first
 //! dynamic case of a chain on. So checkpoints have it, a step that is tried again begins where it began, and a static case, in
 //! which no time passes, finds the force that there was. The work that it does is entered as what the law gives, below zero
@@ -20,23 +13,26 @@
 
 use serde::Deserialize;
 use std::borrow::Cow;
-use trilith_element::dimension::{FORCE, TIME};
 use trilith_element::{
     Axis, Card, Category, Coordinates, Described, Exercise, Field, History, Kinematics, Link,
-    NodeCount, Parameter, Range, Response, Stroke, history,
+    NodeCount, Parameters, Response, Stroke, history,
 };
 
 /// A force that grows after it is switched on. The fields are the parameters of model files, in SI.
-#[derive(Clone, Debug, Deserialize)]
+#[derive(Clone, Debug, Deserialize, Parameters)]
 #[serde(deny_unknown_fields)]
 pub struct Actuator {
-    /// Force at last F, N.
+    /// force at last; > 0 pushes the ends apart
+    #[parameter("F", unit = "N")]
     pub force: f64,
-    /// When it is switched on t₀, s.
+    /// when it is switched on
+    #[parameter("t₀", unit = "s", range = NonNegative, default = 0.0)]
     pub on: f64,
-    /// How long the force grows t_r, s.
+    /// how long the force grows
+    #[parameter("t_r", unit = "s", range = Positive)]
     pub rise: f64,
-    /// Local axis.
+    /// local axis
+    #[parameter(choices = ["U1", "U2", "U3"], default = "U1")]
     pub axis: Axis,
 }
 
@@ -55,12 +51,7 @@ impl Described for Actuator {
         "Force that grows after it is switched on.",
     )
     .nodes(NodeCount::GROUND_OR_TWO)
-    .parameters(&[
-        Parameter::required("force", "F", FORCE, Range::Any, "force at last"),
-        Parameter::number("on", "t₀", TIME, Range::NonNegative, 0.0, "when it is switched on"),
-        Parameter::required("rise", "t_r", TIME, Range::Positive, "how long the force grows"),
-        Parameter::choice("axis", &["U1", "U2", "U3"], "U1", "local axis"),
-    ])
+    .parameters(Self::PARAMETERS)
     .law("f = −F s(t),  s = 0 before t₀, (t − t₀)/t_r, 1 after t₀ + t_r")
     .source("elementary")
     .example(

@@ -4,39 +4,28 @@
 //!   f = k₁ d + k₃ d³
 //! ```
 //!
-//! | parameter | symbol | unit | range | default | meaning                                     |
-//! |-----------|--------|------|-------|---------|---------------------------------------------|
-//! | `k1`      | k₁     | N/m  | > 0   | –       | stiffness at rest                           |
-//! | `k3`      | k₃     | N/m³ | any   | 0       | cubic coefficient; > 0 hardens, < 0 softens |
-//! | `axis`    |        |      |       | U1      | local axis: U1, U2 or U3                    |
-//!
 //! A softening spring loses its resistance beyond |d| = √(k₁/(3 |k₃|)).
 //!
 //! Reference: \[Duffing 1918\].
 
 use serde::Deserialize;
-use trilith_element::dimension::{AREA, STIFFNESS};
 use trilith_element::{
-    Axis, Card, Category, Coordinates, Described, Dimension, Exercise, Kinematics, Link, NodeCount,
-    Parameter, Range, Response, Stroke,
-};
-
-/// N/m³.
-const CUBIC: Dimension = Dimension {
-    mass: STIFFNESS.mass - AREA.mass,
-    length: STIFFNESS.length - AREA.length,
-    time: STIFFNESS.time - AREA.time,
+    Axis, Card, Category, Coordinates, Described, Exercise, Kinematics, Link, NodeCount,
+    Parameters, Response, Stroke,
 };
 
 /// Spring with a cubic term.
-#[derive(Clone, Debug, Deserialize)]
+#[derive(Clone, Debug, Deserialize, Parameters)]
 #[serde(deny_unknown_fields)]
 pub struct CubicSpring {
-    /// Stiffness at rest k₁, N/m.
+    /// stiffness at rest
+    #[parameter("k₁", unit = "N/m", range = Positive)]
     pub k1: f64,
-    /// Cubic coefficient k₃, N/m³.
+    /// cubic coefficient; > 0 hardens, < 0 softens
+    #[parameter("k₃", unit = "N/m³", default = 0.0)]
     pub k3: f64,
-    /// Local axis.
+    /// local axis
+    #[parameter(choices = ["U1", "U2", "U3"], default = "U1")]
     pub axis: Axis,
 }
 
@@ -47,11 +36,7 @@ impl Described for CubicSpring {
         "Spring with a cubic term, hardening or softening.",
     )
     .nodes(NodeCount::GROUND_OR_TWO)
-    .parameters(&[
-        Parameter::required("k1", "k₁", STIFFNESS, Range::Positive, "stiffness at rest"),
-        Parameter::number("k3", "k₃", CUBIC, Range::Any, 0.0, "cubic coefficient"),
-        Parameter::choice("axis", &["U1", "U2", "U3"], "U1", "local axis"),
-    ])
+    .parameters(Self::PARAMETERS)
     .law("f = k₁ d + k₃ d³")
     .source("Duffing, Erzwungene Schwingungen bei veränderlicher Eigenfrequenz, 1918")
     .example(r#""mount": CubicSpring(node: "a", k1: "40 kN/m", k3: "5 MN/m^3")"#)

@@ -4,29 +4,25 @@
 //!   y(t) = (1 − x) e^(−b x)      x = (t − t₀)/T ≥ 0, zero before t₀
 //! ```
 //!
-//! | parameter  | symbol | unit | range | default | meaning                                         |
-//! |------------|--------|------|-------|---------|-------------------------------------------------|
-//! | `duration` | T      | s    | > 0   | –       | time of overpressure; suction follows           |
-//! | `decay`    | b      | 1    | ≥ 0.5 | 1       | how fast it falls; below 0.5 suction is no less than pressure for long |
-//! | `start`    | t₀     | s    | any   | 0       | arrival of the shock, a jump from 0 to 1        |
-//!
 //! Reference: \[Kinney & Graham, Explosive Shocks in Air, 1985, ch. 6\].
 
 use serde::Deserialize;
-use trilith_element::dimension::{NONE, TIME};
 use trilith_element::{
-    Card, Category, Described, Exercise, NodeCount, Parameter, Range, Side, Stretch, Waveform,
+    Card, Category, Described, Exercise, NodeCount, Parameters, Side, Stretch, Waveform,
 };
 
 /// A shock that decays. The fields are the parameters of model files.
-#[derive(Clone, Debug, Deserialize)]
+#[derive(Clone, Debug, Deserialize, Parameters)]
 #[serde(deny_unknown_fields)]
 pub struct Friedlander {
-    /// Time of overpressure T, s.
+    /// time of overpressure; suction follows
+    #[parameter("T", unit = "s", range = Positive)]
     pub duration: f64,
-    /// Decay b.
+    /// how fast it falls; below 0.5 suction would be no less than pressure for long
+    #[parameter("b", unit = "1", range = Within(0.5, 50.0), default = 1.0)]
     pub decay: f64,
-    /// Arrival t₀, s.
+    /// arrival of the shock, a jump from 0 to 1
+    #[parameter("t₀", unit = "s", default = 0.0)]
     pub start: f64,
 }
 
@@ -37,11 +33,7 @@ impl Described for Friedlander {
         "Shock of an explosion: a jump that decays into suction.",
     )
     .nodes(NodeCount::NONE)
-    .parameters(&[
-        Parameter::required("duration", "T", TIME, Range::Positive, "time of overpressure"),
-        Parameter::number("decay", "b", NONE, Range::Within(0.5, 50.0), 1.0, "how fast it falls"),
-        Parameter::number("start", "t₀", TIME, Range::Any, 0.0, "arrival of the shock"),
-    ])
+    .parameters(Self::PARAMETERS)
     .law("y = (1 − x) e^(−b x),  x = (t − t₀)/T ≥ 0")
     .source("Kinney & Graham, Explosive Shocks in Air, 1985, ch. 6")
     .example(r#""blast": Friedlander(amplitude: "50 kPa", duration: "20 ms", decay: 1.5)"#)

@@ -8,21 +8,22 @@
 //! the two forces lack in equilibrium, so a gearing does not move freely as a rigid body.
 
 use serde::Deserialize;
-use trilith_element::dimension::NONE;
 use trilith_element::{
-    Card, Category, Constraint, Default, Described, Dof, Equation, Exercise, Form, NodalOutline,
-    NodeCount, Parameter, ParameterError, Range, Vector3, norm, sub,
+    Card, Category, Constraint, Described, Dof, Equation, Exercise, NodalOutline, NodeCount,
+    ParameterError, Parameters, Vector3, norm, sub,
 };
 
 const NAMES: &[&str] = &["Ux", "Uy", "Uz", "Rx", "Ry", "Rz"];
 
 /// One direction of two nodes, coupled by a ratio. The fields are the parameters of model files.
-#[derive(Clone, Debug, Deserialize)]
+#[derive(Clone, Debug, Deserialize, Parameters)]
 #[serde(deny_unknown_fields)]
 pub struct Gearing {
-    /// Name of the direction.
+    /// which direction
+    #[parameter(choices = NAMES)]
     pub dof: String,
-    /// Motion of the second node over that of the first r.
+    /// motion of the second node over that of the first
+    #[parameter("r", unit = "1")]
     pub ratio: f64,
 }
 
@@ -33,16 +34,7 @@ impl Described for Gearing {
         "A direction of the second node follows that of the first by a ratio.",
     )
     .nodes(NodeCount::exactly(2))
-    .parameters(&[
-        Parameter::new("dof", "", Form::Choice(NAMES), Default::Required, "which direction"),
-        Parameter::required(
-            "ratio",
-            "r",
-            NONE,
-            Range::Any,
-            "motion of the second node over that of the first",
-        ),
-    ])
+    .parameters(Self::PARAMETERS)
     .law("u₂ = r u₁")
     .source("kinematics of a lever")
     .example(r#""gears": Gearing(nodes: ("motor", "wheel"), dof: Rx, ratio: -0.25)"#)

@@ -5,30 +5,27 @@
 //!   y = n + 8/9 m   where n ≥ 0.2,    y = n/2 + m   elsewhere
 //! ```
 //!
-//! | parameter | symbol | unit | range | meaning                                    |
-//! |-----------|--------|------|-------|--------------------------------------------|
-//! | `nc`      | N_c    | N    | > 0   | axial strength                             |
-//! | `mc2`     | M_c2   | N·m  | > 0   | strength in bending about local 2          |
-//! | `mc3`     | M_c3   | N·m  | > 0   | strength in bending about local 3          |
-//!
 //! Reference: \[AISC 360-16, equations H1-1a and H1-1b\].
 
 use serde::Deserialize;
 use trilith_element::dimension::{FORCE, MOMENT, NONE};
 use trilith_element::{
-    Card, Category, DerivedOutput, Described, Dimension, Exercise, NodeCount, Parameter,
-    ParameterError, Range,
+    Card, Category, DerivedOutput, Described, Dimension, Exercise, NodeCount, ParameterError,
+    Parameters,
 };
 
 /// The section. The fields are the parameters of model files.
-#[derive(Clone, Debug, Deserialize)]
+#[derive(Clone, Debug, Deserialize, Parameters)]
 #[serde(deny_unknown_fields)]
 pub struct Interaction {
-    /// Axial strength N_c, N.
+    /// axial strength
+    #[parameter("N_c", unit = "N", range = Positive)]
     pub nc: f64,
-    /// Strength in bending about local 2 M_c2, N·m.
+    /// strength about local 2
+    #[parameter("M_c2", unit = "N·m", range = Positive)]
     pub mc2: f64,
-    /// Strength in bending about local 3 M_c3, N·m.
+    /// strength about local 3
+    #[parameter("M_c3", unit = "N·m", range = Positive)]
     pub mc3: f64,
 }
 
@@ -39,11 +36,7 @@ impl Described for Interaction {
         "How far a steel section is used by an axial force and two moments; 1 is its strength.",
     )
     .nodes(NodeCount::NONE)
-    .parameters(&[
-        Parameter::required("nc", "N_c", FORCE, Range::Positive, "axial strength"),
-        Parameter::required("mc2", "M_c2", MOMENT, Range::Positive, "strength about local 2"),
-        Parameter::required("mc3", "M_c3", MOMENT, Range::Positive, "strength about local 3"),
-    ])
+    .parameters(Self::PARAMETERS)
     .law("n + 8/9 m where n ≥ 0.2, n/2 + m elsewhere;  n = |N|/N_c, m = |M₂|/M_c2 + |M₃|/M_c3")
     .source("AISC 360-16, equations H1-1a and H1-1b")
     .example(r#""foot used": Interaction(of: ["N", "M2", "M3"], nc: "2 MN", mc2: "150 kN*m", mc3: "400 kN*m")"#)

@@ -5,29 +5,26 @@
 //!   |d| > d_n                 no answer: nobody has pulled it farther
 //! ```
 //!
-//! | parameter  | form | default        | meaning                                                      |
-//! |------------|------|----------------|--------------------------------------------------------------|
-//! | `curve`    | file | –              | rows of two numbers: deformation in m, rising, and force in N |
-//! | `specimen` | text | `the specimen` | what was pulled, for what the law says where the curve ends  |
-//! | `axis`     |      | U1             | local axis: U1, U2 or U3                                     |
-//!
 //! It is elastic: the same curve up and down, and the same both ways. Stored energy is the area below it.
 
 use serde::Deserialize;
 use trilith_element::{
     Axis, Card, Category, Coordinates, Described, Exercise, FileError, FileText, Kinematics, Link,
-    NodeCount, Parameter, Response, Stroke,
+    NodeCount, Parameters, Response, Stroke,
 };
 
 /// A spring with a measured curve. The fields are the parameters of model files.
-#[derive(Clone, Debug, Deserialize)]
+#[derive(Clone, Debug, Deserialize, Parameters)]
 #[serde(deny_unknown_fields)]
 pub struct MeasuredSpring {
-    /// Force over deformation.
+    /// rows of deformation in m, rising from 0, and force in N
+    #[parameter(form = File)]
     pub curve: Curve,
-    /// What was pulled.
+    /// what was pulled, for what the law says where the curve ends
+    #[parameter(default = "the specimen")]
     pub specimen: String,
-    /// Local axis.
+    /// local axis
+    #[parameter(choices = ["U1", "U2", "U3"], default = "U1")]
     pub axis: Axis,
 }
 
@@ -92,11 +89,7 @@ impl Described for MeasuredSpring {
         "Spring with a measured curve, from a file.",
     )
     .nodes(NodeCount::GROUND_OR_TWO)
-    .parameters(&[
-        Parameter::file("curve", "rows of deformation in m, rising from 0, and force in N"),
-        Parameter::text("specimen", "the specimen", "what was pulled"),
-        Parameter::choice("axis", &["U1", "U2", "U3"], "U1", "local axis"),
-    ])
+    .parameters(Self::PARAMETERS)
     .law("f = sgn(d) F(|d|),  F straight between the points of the file; beyond the last no answer")
     .source("a test")
     .example(r#""mount": MeasuredSpring(node: "a", curve: Contents("pull.csv", "0, 0\n0.02, 8e3\n0.05, 11e3"), specimen: "mount 3")"#)

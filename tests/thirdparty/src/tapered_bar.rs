@@ -9,21 +9,23 @@
 //! Reference: \[Gere & Goodno, Mechanics of Materials, 2013, §2.3\].
 
 use serde::Deserialize;
-use trilith_element::dimension::{AREA, STRESS};
 use trilith_element::{
     Card, Category, Described, Dof, ElementMatrices, Exercise, Geometry, LinearElement,
-    NodalOutline, NodeCount, Parameter, ParameterError, Range, Vector3,
+    NodalOutline, NodeCount, ParameterError, Parameters, Vector3,
 };
 
 /// Bar with axial force only. The fields are the parameters of model files.
-#[derive(Clone, Debug, Deserialize)]
+#[derive(Clone, Debug, Deserialize, Parameters)]
 #[serde(deny_unknown_fields)]
 pub struct TaperedBar {
-    /// Young's modulus E, N/m².
+    /// Young's modulus
+    #[parameter("E", unit = "Pa", range = Positive)]
     pub modulus: f64,
-    /// Area at the first node A₁, m².
+    /// area at the first node
+    #[parameter("A₁", unit = "m²", range = Positive)]
     pub area1: f64,
-    /// Area at the second node A₂, m².
+    /// area at the second node
+    #[parameter("A₂", unit = "m²", range = Positive)]
     pub area2: f64,
 }
 
@@ -34,11 +36,7 @@ impl Described for TaperedBar {
         "Two-node bar whose area goes linearly from end to end.",
     )
     .nodes(NodeCount::exactly(2))
-    .parameters(&[
-        Parameter::required("modulus", "E", STRESS, Range::Positive, "Young's modulus"),
-        Parameter::required("area1", "A₁", AREA, Range::Positive, "area at the first node"),
-        Parameter::required("area2", "A₂", AREA, Range::Positive, "area at the second node"),
-    ])
+    .parameters(Self::PARAMETERS)
     .law("k = E (A₂ − A₁)/(L ln(A₂/A₁)) along the bar")
     .source("Gere & Goodno, Mechanics of Materials, 2013, §2.3")
     .example(r#""strut": TaperedBar(nodes: ("a", "b"), modulus: "210 GPa", area1: "12 cm^2", area2: "20 cm^2")"#)

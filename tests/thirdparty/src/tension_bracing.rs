@@ -13,14 +13,6 @@
 //!   Tᵢ = Yᵢ beyond:           pᵢ grows, never falls
 //! ```
 //!
-//! | parameter   | symbol | unit | range     | default | meaning                                             |
-//! |-------------|--------|------|-----------|---------|-----------------------------------------------------|
-//! | `k`         | k      | N/m  | > 0       | –       | stiffness of one taut diagonal along the axis       |
-//! | `fy`        | F_y    | N    | > 0       | –       | force along the axis at which a diagonal yields     |
-//! | `hardening` | α      | 1    | 0 ≤ α ≤ ½ | 0       | stiffness while yielding over k                     |
-//! | `slack`     | s      | m    | any       | 0       | motion until a diagonal is taut; < 0: pretension −ks |
-//! | `axis`      |        |      |           | U2      | local axis: U1, U2 or U3                            |
-//!
 //! The two history variables are the permanent elongations p₁, p₂: between them the bracing hangs
 //! loose, and a second excursion to the same deformation dissipates nothing. Stored energy is that of
 //! the taut diagonals, T²/(2k); yielding turns F_y Δp + ½ H Δ(p²) into heat. Both are exact for any step.
@@ -29,25 +21,29 @@
 
 use serde::Deserialize;
 use std::borrow::Cow;
-use trilith_element::dimension::{FORCE, LENGTH, NONE, STIFFNESS};
 use trilith_element::{
     Axis, Card, Category, Coordinates, Described, Exercise, Field, History, Kinematics, Link,
-    NodeCount, Parameter, ParameterError, Range, Response, Stroke, history,
+    NodeCount, ParameterError, Parameters, Response, Stroke, history,
 };
 
 /// A pair of tension-only diagonals. The fields are the parameters of model files.
-#[derive(Clone, Debug, Deserialize)]
+#[derive(Clone, Debug, Deserialize, Parameters)]
 #[serde(deny_unknown_fields)]
 pub struct TensionBracing {
-    /// Stiffness of one taut diagonal k, N/m.
+    /// stiffness of one taut diagonal along the axis
+    #[parameter("k", unit = "N/m", range = Positive)]
     pub k: f64,
-    /// Yield force F_y, N.
+    /// force along the axis at which a diagonal yields
+    #[parameter("F_y", unit = "N", range = Positive)]
     pub fy: f64,
-    /// Stiffness while yielding over k, α.
+    /// stiffness while yielding over `k`
+    #[parameter("α", unit = "1", range = Within(0.0, 0.5), default = 0.0)]
     pub hardening: f64,
-    /// Motion until a diagonal is taut s, m; negative with pretension.
+    /// motion until a diagonal is taut; < 0: pretension −ks
+    #[parameter("s", unit = "m", default = 0.0)]
     pub slack: f64,
-    /// Local axis.
+    /// local axis
+    #[parameter(choices = ["U1", "U2", "U3"], default = "U2")]
     pub axis: Axis,
 }
 
@@ -68,27 +64,7 @@ impl Described for TensionBracing {
         "Two diagonals that take tension only, yield and slacken.",
     )
     .nodes(NodeCount::GROUND_OR_TWO)
-    .parameters(&[
-        Parameter::required("k", "k", STIFFNESS, Range::Positive, "stiffness of a diagonal"),
-        Parameter::required("fy", "F_y", FORCE, Range::Positive, "yield force of a diagonal"),
-        Parameter::number(
-            "hardening",
-            "α",
-            NONE,
-            Range::Within(0.0, 0.5),
-            0.0,
-            "stiffness while yielding over `k`",
-        ),
-        Parameter::number(
-            "slack",
-            "s",
-            LENGTH,
-            Range::Any,
-            0.0,
-            "motion until a diagonal is taut; < 0: pretension −ks",
-        ),
-        Parameter::choice("axis", &["U1", "U2", "U3"], "U2", "local axis"),
-    ])
+    .parameters(Self::PARAMETERS)
     .law("f = T₁ − T₂,  eᵢ = ±d − s − pᵢ\n\
           Tᵢ = k max(eᵢ, 0), at most F_y + H pᵢ with H = α k/(1 − α)\n\
           beyond that pᵢ grows so that Tᵢ stays at the limit")

@@ -5,7 +5,7 @@ use serde::Deserialize;
 use std::sync::Arc;
 use trilith::element::{
     Card, Category, Described, Exercise, Factor, Integrator, LinearStep, LinearStructure, Motion,
-    MotionMut, NodeCount, Parameter, Range, Register, Values,
+    MotionMut, NodeCount, Parameters, Register, Values,
 };
 use trilith::solvers::Status;
 use trilith::{Analysis, Model, Registry, Run, RunOptions};
@@ -140,27 +140,21 @@ fn a_direction_without_mass_is_told_by_its_name() {
 }
 
 /// HHT-α in the words of the contract.
-#[derive(Clone, Debug, Deserialize)]
+#[derive(Clone, Debug, Deserialize, Parameters)]
 #[serde(deny_unknown_fields)]
 struct AlphaMethod {
+    /// damping of high frequencies
+    #[parameter("α", unit = "1", range = Within(-1.0 / 3.0, 0.0), default = 0.0)]
     alpha: f64,
+    /// on Ritz vectors
+    #[parameter]
     on_basis: bool,
 }
 
 impl Described for AlphaMethod {
     const CARD: Card = Card::new("AlphaMethod", Category::Solver, "HHT-α once more.")
         .nodes(NodeCount::NONE)
-        .parameters(&[
-            Parameter::number(
-                "alpha",
-                "α",
-                trilith::element::dimension::NONE,
-                Range::Within(-1.0 / 3.0, 0.0),
-                0.0,
-                "damping of high frequencies",
-            ),
-            Parameter::flag("on_basis", false, "on Ritz vectors"),
-        ])
+        .parameters(Self::PARAMETERS)
         .law("M a₁ = (1+α) s₁ − α s₀")
         .source("Hilber, Hughes, Taylor 1977")
         .example("solver: AlphaMethod(alpha: -0.1)")

@@ -8,7 +8,7 @@ use std::sync::atomic::{AtomicU64, Ordering};
 use trilith::element::lanes::LaneForm;
 use trilith::element::{
     Axis, Card, Category, Coordinates, Described, Exercise, Field, Kinematics, Link, NodeCount,
-    Parameter, Response,
+    Parameters, Response,
 };
 
 const K: f64 = 2e4;
@@ -90,9 +90,12 @@ faults! {
 }
 
 /// The law with its fault.
-#[derive(Debug, Deserialize)]
+#[derive(Debug, Deserialize, Parameters)]
+#[parameters(crate = trilith::element)]
 #[serde(deny_unknown_fields)]
 pub struct Wrong {
+    /// what is wrong
+    #[parameter(choices = Fault::NAMES, default = "Nothing")]
     pub fault: Fault,
     #[serde(skip)]
     memory: AtomicU64,
@@ -115,7 +118,7 @@ impl Described for Wrong {
         "An elastic–plastic spring beside a dashpot, wrong on purpose.",
     )
     .nodes(NodeCount::GROUND_OR_TWO)
-    .parameters(&[Parameter::choice("fault", Fault::NAMES, "Nothing", "what is wrong")])
+    .parameters(Self::PARAMETERS)
     .law("f = s + c ḋ")
     .source("wrong on purpose")
     .example(r#""w": Wrong(node: "m", fault: Nothing)"#)

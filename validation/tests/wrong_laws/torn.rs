@@ -2,20 +2,24 @@
 
 use serde::Deserialize;
 use trilith::element::conformance::{ConformanceError, Kit};
-use trilith::element::dimension::{LENGTH, STIFFNESS};
 use trilith::element::lanes::{LaneAt, LaneForce, LaneForm, LaneLaw, LaneStep, Real};
 use trilith::element::{
-    Axis, Card, Category, Coordinates, Described, Exercise, Kinematics, Link, NodeCount, Parameter,
-    Range, Response, Stroke,
+    Axis, Card, Category, Coordinates, Described, Exercise, Kinematics, Link, NodeCount,
+    Parameters, Response, Stroke,
 };
 use trilith::exercise::Specimen;
 use trilith::sweep::{Engine, Sweep};
 use trilith::{Analysis, Register, Registry, RunOptions, SolverKind};
 
-#[derive(Debug, Deserialize)]
+#[derive(Debug, Deserialize, Parameters)]
+#[parameters(crate = trilith::element)]
 #[serde(deny_unknown_fields)]
 struct Strip {
+    /// stiffness
+    #[parameter("k", unit = "N/m", range = Positive)]
     k: f64,
+    /// where it tears
+    #[parameter("l", unit = "m", range = Positive)]
     limit: f64,
 }
 
@@ -44,10 +48,7 @@ impl LaneLaw for StripLaw {
 impl Described for Strip {
     const CARD: Card = Card::new("Strip", Category::Link, "A spring that tears.")
         .nodes(NodeCount::GROUND_OR_TWO)
-        .parameters(&[
-            Parameter::required("k", "k", STIFFNESS, Range::Positive, "stiffness"),
-            Parameter::required("limit", "l", LENGTH, Range::Positive, "where it tears"),
-        ])
+        .parameters(Self::PARAMETERS)
         .law("f = k d")
         .source("elementary")
         .example(r#""s": Strip(node: "m", k: "1 kN/m", limit: "50 mm")"#)
