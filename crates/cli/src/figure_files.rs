@@ -3,7 +3,7 @@
 use crate::Failure;
 use clap::ValueEnum;
 use std::path::{Path, PathBuf};
-use trilith::report::{Figure, PngError, png_is_built_in};
+use trilith::report::{Drawing, PngError, png_is_built_in};
 
 /// What a figure is written as.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
@@ -37,7 +37,7 @@ pub(crate) fn check(formats: &[Format]) -> Result<(), Failure> {
 pub(crate) fn write(
     dir: &Path,
     name: &str,
-    figure: &Figure,
+    drawing: &Drawing,
     formats: &[Format],
 ) -> Result<Vec<PathBuf>, Failure> {
     // The same format twice is written once.
@@ -45,8 +45,8 @@ pub(crate) fn write(
     let mut written = Vec::new();
     for format in all.into_iter().filter(|f| formats.contains(f)) {
         let bytes = match format {
-            Format::Svg => figure.svg().into_bytes(),
-            Format::Png => figure.png().map_err(|e| failure(&e))?,
+            Format::Svg => drawing.svg().as_bytes().to_vec(),
+            Format::Png => drawing.png().map_err(|e| failure(&e))?,
         };
         let path = dir.join(format!("{name}.{}", format.ending()));
         std::fs::write(&path, bytes).map_err(|e| Failure::unwritable(&path, &e))?;

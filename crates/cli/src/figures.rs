@@ -6,12 +6,12 @@ use crate::names;
 use std::path::{Path, PathBuf};
 use trilith::element::{Coordinates, Dof};
 use trilith::model::{Body, Element};
-use trilith::report::{ENERGY, GROUND, SPECTRA, named_figures};
+use trilith::report::{ENERGY, GROUND, MODEL, SPECTRA, named_figures};
 use trilith::{Analysis, Model, Run};
 
-/// Names of outputs, of links, or `energy`, `ground`, `spectra`.
+/// Names of outputs, of links, or `energy`, `ground`, `spectra`, `model`.
 pub(crate) fn check(model: &Model, names: &[String]) -> Result<(), Failure> {
-    let known: Vec<&str> = [ENERGY, GROUND, SPECTRA]
+    let known: Vec<&str> = [ENERGY, GROUND, SPECTRA, MODEL]
         .into_iter()
         .chain(model.shown().map(|(_, o)| o.name.as_str()))
         .chain(links(model))
@@ -89,8 +89,8 @@ pub(crate) fn write(
             );
             return Err(Failure::input(&message, None));
         }
-        for (file, figure) in figures {
-            written.extend(figure_files::write(dir, &file, &figure, formats)?);
+        for (file, drawing) in figures {
+            written.extend(figure_files::write(dir, &file, &drawing, formats)?);
         }
     }
     Ok(written)

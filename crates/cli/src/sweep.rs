@@ -10,6 +10,7 @@ use std::sync::Mutex;
 use std::time::Instant;
 use trilith::Registry;
 use trilith::model::visible_line;
+use trilith::report::Drawing;
 use trilith_study::{How, Part, Results, Study, StudyError, execute, is_study_folder, status};
 
 /// Failed runs that are told one by one.
@@ -79,7 +80,9 @@ pub(crate) fn sweep(registry: &Registry, args: &SweepArguments) -> Result<Answer
     }
     if !args.figure_format.is_empty() {
         for (name, figure) in trilith_study::figures(&study, &results.records) {
-            for path in figure_files::write(&folder, &name, &figure, &args.figure_format)? {
+            for path in
+                figure_files::write(&folder, &name, &Drawing::from(&figure), &args.figure_format)?
+            {
                 text += &format!("figure: {}\n", shown(&path));
             }
         }

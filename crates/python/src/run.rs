@@ -192,7 +192,7 @@ pub(crate) fn page(py: Python<'_>, summary: String, data: String) -> PyResult<St
     })
 }
 
-/// Figures of a run as SVG, by the names of outputs and links, `energy`, `ground` and `spectra`.
+/// Figures of a run as SVG, by the names of outputs and links, `energy`, `ground`, `spectra` and `model`.
 #[pyfunction]
 pub(crate) fn pictures(
     py: Python<'_>,
@@ -202,7 +202,7 @@ pub(crate) fn pictures(
     work::run(py, move |_| {
         let (_, data) = parsed("{}", &data)?;
         let all = names.iter().flat_map(|name| named_figures(&data, name));
-        Ok(all.map(|(name, figure)| (name, figure.svg())).collect())
+        Ok(all.map(|(name, drawing)| (name, drawing.svg().to_owned())).collect())
     })
 }
 

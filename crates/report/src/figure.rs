@@ -289,15 +289,6 @@ impl Figure {
         crate::draw::svg(self)
     }
 
-    /// The figure as a PNG file with twice as many pixels each way, 192 to the inch. The letters are built in: the
-    /// same figure gives the same bytes on any machine.
-    ///
-    /// # Errors
-    /// [`PngError`](crate::PngError) in a build without the feature `png`, and for sizes that cannot be drawn.
-    pub fn png(&self) -> Result<Vec<u8>, crate::PngError> {
-        crate::png::png(&self.svg(), self.size)
-    }
-
     /// Several figures side by side as one SVG.
     #[must_use]
     pub fn sheet(figures: &[Self]) -> String {

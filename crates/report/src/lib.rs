@@ -13,6 +13,7 @@
 
 mod chart;
 mod draw;
+mod drawing;
 mod entries;
 mod figure;
 mod page;
@@ -20,13 +21,14 @@ mod png;
 mod run;
 mod thin;
 
+pub use drawing::Drawing;
 pub use entries::{Entries, Entry};
 pub use figure::{Axis, Color, Figure, Series, Stroke};
 pub use page::{Block, Page, Section};
 pub use png::{PngError, png_is_built_in};
 pub use run::{
     Answer, Collect, ENERGY, FaceMark, Family, Frames, GROUND, Ground, GroupMark, History,
-    LineKind, LineMark, LinkMark, Loop, Mode, NodeMark, Numbers, Orbit, Picture, Profile,
+    LineKind, LineMark, LinkMark, Loop, MODEL, Mode, NodeMark, Numbers, Orbit, Picture, Profile,
     ProfileCurve, RunData, RunIdentity, SPECTRA, Shown, SpectrumChart, SpectrumCurve, Tint, Tinted,
     named_figures, run_page, short,
 };

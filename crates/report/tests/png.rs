@@ -1,6 +1,6 @@
 //! Figures as pixels.
 
-use trilith_report::{Figure, PngError, png_is_built_in};
+use trilith_report::{Drawing, Figure, PngError, png_is_built_in};
 
 fn figure(title: &str) -> Figure {
     let wave = (0..200).map(|i| (0.01 * f64::from(i), (0.1 * f64::from(i)).sin()));
@@ -9,7 +9,7 @@ fn figure(title: &str) -> Figure {
 
 #[test]
 fn a_build_without_the_feature_says_so() {
-    let made = figure("a").png();
+    let made = Drawing::from(&figure("a")).png();
     assert_eq!(made.is_ok(), png_is_built_in());
     assert!(png_is_built_in() || made == Err(PngError::NotBuiltIn));
 }
@@ -26,7 +26,7 @@ mod built_in {
 
     impl Picture {
         fn of(figure: &Figure) -> Self {
-            let file = figure.png().unwrap();
+            let file = Drawing::from(&figure).png().unwrap();
             let mut reader = png::Decoder::new(std::io::Cursor::new(file)).read_info().unwrap();
             let mut bytes = vec![0; reader.output_buffer_size().unwrap()];
             let frame = reader.next_frame(&mut bytes).unwrap();
@@ -74,10 +74,10 @@ mod built_in {
 
     #[test]
     fn the_same_figure_gives_the_same_bytes() {
-        assert_eq!(figure("a").png(), figure("a").png());
+        assert_eq!(Drawing::from(&figure("a")).png(), Drawing::from(&figure("a")).png());
         let sizes = [(0, 300), (500, 0), (u32::MAX, 2)];
         for (w, h) in sizes {
-            assert!(figure("a").sized(w, h).png().is_err(), "{w} {h}");
+            assert!(Drawing::from(&figure("a").sized(w, h)).png().is_err(), "{w} {h}");
         }
     }
 }

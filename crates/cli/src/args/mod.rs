@@ -150,7 +150,7 @@ pub(crate) struct RunArguments {
     #[arg(long, value_name = "LINK,LINK", value_parser = names::list)]
     pub loops: Vec<Names>,
     /// Write figures into the folder: of outputs and links by name, `energy`, `ground` (motion and its spectrum),
-    /// `spectra` (of floors); several times, and names with commas, as for `--loops`
+    /// `spectra` (of floors), `model` (where it has moved most); several times, and names with commas, as for `--loops`
     #[arg(long, value_name = "NAME,NAME", value_parser = names::list)]
     pub figure: Vec<Names>,
     /// What these figures are written as, such as `svg,png`

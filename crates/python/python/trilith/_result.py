@@ -382,7 +382,7 @@ class Result(Mapping[str, "Array"]):
 
     def svg(self, name: str) -> list[str]:
         """Figures as SVG: of an output, of a link (a loop for each coordinate that moves), ``"energy"``, ``"ground"``,
-        ``"spectra"``.
+        ``"spectra"``, ``"model"`` (where it has moved most).
 
         :raises ArgumentError: where there is nothing to draw of that name.
         """

@@ -1,6 +1,8 @@
 //! The model as a still picture.
 
 use super::data::{Family, LineKind, Picture, RunData};
+use super::units::short;
+use crate::Drawing;
 use std::fmt::Write;
 
 /// Size of the picture, px, and the margin.
@@ -43,6 +45,34 @@ pub(crate) fn largest(data: &RunData) -> Option<(usize, f64)> {
     let (frame, most) =
         sizes.iter().enumerate().fold((0, 0.0), |a, (i, s)| if *s > a.1 { (i, *s) } else { a });
     (most > 0.0).then(|| (frame, scale(&data.picture, most)))
+}
+
+/// The displacements of all points in a frame, m, times a factor.
+pub(crate) fn displaced(data: &RunData, frame: usize, factor: f64) -> Vec<[f64; 3]> {
+    let n = data.picture.points.len();
+    (0..n).map(|p| data.frames.at(frame, n, p).map(|u| u * factor)).collect()
+}
+
+/// The model where it has moved most, with itself at rest in grey; at rest where it does not move.
+pub(crate) fn still(data: &RunData) -> Drawing {
+    let (moved, title) = match largest(data) {
+        None => (Vec::new(), "The model".to_owned()),
+        Some((frame, factor)) => {
+            let times = if factor == 1.0 {
+                String::new()
+            } else {
+                format!(", {} times as much", short(factor, 3))
+            };
+            let title = format!("The model at {} s{times}", short(data.frames.t[frame], 5));
+            (displaced(data, frame, factor), title)
+        }
+    };
+    let (w, h) = SIZE;
+    let sized = format!("<svg width=\"{w}\" height=\"{h}\" ");
+    let paper = format!("</title>\n<rect width=\"{w}\" height=\"{h}\" fill=\"#ffffff\"/>\n");
+    let svg = svg(data, &moved, &title, false);
+    let svg = svg.replacen("<svg ", &sized, 1).replacen("</title>\n", &paper, 1);
+    Drawing::new(svg, (w as u32, h as u32))
 }
 
 /// 1 where motion can be seen as it is; else 2, 5, 10 … so that it is about 8 % of the model.

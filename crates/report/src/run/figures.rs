@@ -1,8 +1,9 @@
 //! Figures of a run, still: for paper and for readers without scripts.
 
 use super::data::{Ground, History, Loop, Orbit, Profile, RunData, SpectrumChart};
+use super::drawing;
 use super::units::{labelled, short};
-use crate::{Color, Figure, Stroke};
+use crate::{Color, Drawing, Figure, Stroke};
 
 /// (name in the data, name for readers, colour), in the order in which they are stacked.
 pub(crate) const KINDS: [(&str, &str, Color); 8] = [
@@ -131,11 +132,18 @@ pub(crate) fn link_loop(l: &Loop) -> Figure {
         .sized(320, 270)
 }
 
-/// The figures that a name stands for: an output, `energy`, `ground`, `spectra`, or a link with a loop for each
-/// coordinate.
-/// Each with a name of its own for a file.
+/// The drawings that a name stands for: an output, `energy`, `ground`, `spectra`, `model`, or a link with a loop for
+/// each coordinate. Each with a name of its own for a file.
 #[must_use]
-pub fn named_figures(data: &RunData, name: &str) -> Vec<(String, Figure)> {
+pub fn named_figures(data: &RunData, name: &str) -> Vec<(String, Drawing)> {
+    let figures = figures(data, name);
+    if figures.is_empty() && name == MODEL && !data.picture.points.is_empty() {
+        return vec![(MODEL.to_owned(), drawing::still(data))];
+    }
+    figures.iter().map(|(name, figure)| (name.clone(), Drawing::from(figure))).collect()
+}
+
+fn figures(data: &RunData, name: &str) -> Vec<(String, Figure)> {
     let clean = |text: &str| -> String {
         text.chars()
             .map(|c| if c.is_alphanumeric() || "_-.".contains(c) { c } else { '_' })
@@ -172,6 +180,8 @@ pub fn named_figures(data: &RunData, name: &str) -> Vec<(String, Figure)> {
 pub const ENERGY: &str = "energy";
 /// The name of the figures of the ground motion: its accelerations and their spectra.
 pub const GROUND: &str = "ground";
+/// The name of the drawing of the model where it has moved most.
+pub const MODEL: &str = "model";
 /// The name of the figures of floor spectra.
 pub const SPECTRA: &str = "spectra";
 

@@ -27,5 +27,5 @@ pub use data::{
     Loop, Mode, NodeMark, Numbers, Orbit, Picture, Profile, ProfileCurve, RunData, RunIdentity,
     Shown, SpectrumChart, SpectrumCurve, Tint, Tinted,
 };
-pub use figures::{ENERGY, GROUND, SPECTRA, named_figures};
+pub use figures::{ENERGY, GROUND, MODEL, SPECTRA, named_figures};
 pub use page::run_page;

@@ -7,7 +7,6 @@ use maud::{Markup, PreEscaped, html};
 
 pub(super) fn motion(data: &RunData) -> Markup {
     let peak = drawing::largest(data).filter(|_| data.frames.t.len() > 1);
-    let n = data.picture.points.len();
     let rest = drawing::svg(data, &[], "The model", true);
     html! {
         div.still {
@@ -20,7 +19,7 @@ pub(super) fn motion(data: &RunData) -> Markup {
                 }
                 (PreEscaped(drawing::svg(
                     data,
-                    &(0..n).map(|p| data.frames.at(frame, n, p).map(|u| u * scale)).collect::<Vec<_>>(),
+                    &drawing::displaced(data, frame, scale),
                     "The model as it moves",
                     false,
                 )))
