@@ -6,7 +6,7 @@ use crate::names;
 use std::path::{Path, PathBuf};
 use trilith::element::{Coordinates, Dof};
 use trilith::model::{Body, Element};
-use trilith::report::{ENERGY, GROUND, MODEL, SPECTRA, named_figures};
+use trilith::report::{ENERGY, GROUND, MODEL, RunData, SPECTRA, named_figures};
 use trilith::{Analysis, Model, Run};
 
 /// Names of outputs, of links, or `energy`, `ground`, `spectra`, `model`.
@@ -63,26 +63,26 @@ fn coordinates(model: &Model, element: &Element) -> Vec<String> {
     }
 }
 
-/// Writes the figures into the folder of a run.
-pub(crate) fn write(
-    analysis: &Analysis<&Model>,
-    run: &Run,
-    dir: &Path,
-    names: &[String],
-    formats: &[Format],
-) -> Result<Vec<PathBuf>, Failure> {
-    if names.is_empty() {
-        return Ok(Vec::new());
-    }
+/// What the figures show.
+pub(crate) fn data(analysis: &Analysis<&Model>, run: &Run, names: &[String]) -> RunData {
     let loops: Vec<String> = names
         .iter()
         .filter(|n| links(analysis.model()).any(|l| l == n.as_str()))
         .cloned()
         .collect();
-    let data = run.report(analysis, &[], &loops);
+    run.report(analysis, &[], &loops)
+}
+
+/// Writes the figures into the folder of a run.
+pub(crate) fn write(
+    data: &RunData,
+    dir: &Path,
+    names: &[String],
+    formats: &[Format],
+) -> Result<Vec<PathBuf>, Failure> {
     let mut written = Vec::new();
     for name in names {
-        let figures = named_figures(&data, name);
+        let figures = named_figures(data, name);
         if figures.is_empty() {
             let message = format!(
                 "nothing to draw of \"{name}\": it was not recorded in this case, or does not move"

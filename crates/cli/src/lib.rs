@@ -18,6 +18,7 @@ mod combine;
 mod compare;
 mod compare_page;
 mod date;
+mod design_spectrum;
 mod diagnostics;
 mod elements;
 mod exercise;

@@ -5,11 +5,13 @@ use crate::interrupt::{Ear, INTERRUPTED};
 use crate::progress::Progress;
 use crate::text::{exact, shown};
 use crate::{
-    Answer, Failure, browser, case, diagnostics, figure_files, figures, long, made_by, names,
-    output, path, place, read, solver,
+    Answer, Failure, browser, case, design_spectrum, diagnostics, figure_files, figures, long,
+    made_by, names, output, path, place, read, solver,
 };
 use std::path::{Path, PathBuf};
 use trilith::model::{Body, Element};
+use trilith::record::design::DesignSpectrum;
+use trilith::report::RunData;
 use trilith::results::{Folder, OF_RUN, Summary, Writer};
 use trilith::solvers::Status;
 use trilith::{Analysis, Checkpoint, Model, Registry, Run, RunOptions};
@@ -27,6 +29,11 @@ pub(crate) fn run(registry: &Registry, args: RunArguments) -> Result<Answer, Fai
     check_links(&model, &names::flat(&args.loops))?;
     figures::check(&model, &names::flat(&args.figure))?;
     figure_files::check(&args.figure_format)?;
+    let spectrum = args.spectrum.as_deref().map(design_spectrum::read).transpose()?;
+    if spectrum.is_some() && args.no_report && args.figure.is_empty() {
+        let help = "leave `--no-report` out, or ask for `--figure ground`";
+        return Err(Failure::input("there is nothing to lay `--spectrum` over", Some(help)));
+    }
     if !args.no_files {
         let from = from.as_ref().map(|checkpoint| checkpoint.state.time);
         long::refuse(&model, &model.cases[case], args.dt, [from, args.checkpoint_at])?;
@@ -80,7 +87,9 @@ pub(crate) fn run(registry: &Registry, args: RunArguments) -> Result<Answer, Fai
     let page =
         folder.as_ref().map(|(folder, _)| folder.published(&folder.path().join("report.html")));
     let files = match folder {
-        Some((folder, inputs)) => write(folder, &inputs, &args, &analysis, &run, &summary),
+        Some((folder, inputs)) => {
+            write(folder, &inputs, &args, spectrum.as_ref(), &analysis, &run, &summary)
+        }
         None => Ok(String::new()),
     };
     match files {
@@ -135,6 +144,7 @@ fn write(
     folder: Folder,
     inputs: &made_by::Inputs,
     args: &RunArguments,
+    spectrum: Option<&DesignSpectrum>,
     analysis: &Analysis<&Model>,
     run: &Run,
     summary: &Summary,
@@ -144,13 +154,20 @@ fn write(
     let mut text = show("files", dir);
     run.write(model, dir).map_err(|e| Failure::of(&e, model))?;
     made_by::write_run(dir, inputs, &args.model.set, summary, run.result.end.dt)?;
+    let mut laid = Ok(());
     if !args.no_report {
-        let data = run.report(analysis, &args.model.set, &names::flat(&args.loops));
+        let mut data = run.report(analysis, &args.model.set, &names::flat(&args.loops));
+        laid = over(&mut data, args, spectrum);
         let page = trilith::write_report(dir, &data).map_err(|e| Failure::of(&e, model))?;
         text += &show("report", &page);
     }
     let names = names::flat(&args.figure);
-    let figures = figures::write(analysis, run, dir, &names, &args.figure_format);
+    let figures = (!names.is_empty()).then(|| {
+        let mut data = figures::data(analysis, run, &names);
+        laid = over(&mut data, args, spectrum);
+        figures::write(&data, dir, &names, &args.figure_format)
+    });
+    let figures = figures.unwrap_or(Ok(Vec::new()));
     for path in figures.iter().flatten() {
         text += &show("figure", path);
     }
@@ -167,7 +184,17 @@ fn write(
     }
     folder.publish().map_err(|e| Failure::folder(&e))?;
     // A figure that cannot be drawn takes nothing else with it.
-    figures.map(|_| text)
+    figures.and(laid).map(|()| text)
+}
+
+/// With the design spectrum, where one is asked for.
+fn over(
+    data: &mut RunData,
+    args: &RunArguments,
+    spectrum: Option<&DesignSpectrum>,
+) -> Result<(), Failure> {
+    let asked = args.spectrum.as_deref().zip(spectrum);
+    asked.map_or(Ok(()), |(text, spectrum)| design_spectrum::lay_over(data, text, spectrum))
 }
 
 /// `trilith report`: the page again.

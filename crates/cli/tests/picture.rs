@@ -1,6 +1,9 @@
 //! What the page of a run is told of the look of a model: outlines of sections, groups, colours.
 
+mod common;
+
 use assert_cmd::Command;
+use common::trilith;
 use serde_json::Value;
 
 #[test]
@@ -56,4 +59,79 @@ fn the_picture_knows_sections_groups_and_what_colours_it() {
         (&tint["of"][0]["figure"], &tint["of"][0]["links"][0]),
         (&"force".into(), &0.into())
     );
+}
+
+/// A pulse of the ground under a mass on a spring, in a plane.
+const SHAKEN: &str = r#"(
+    plane: XZ,
+    nodes: { "base": (0, 0, 0), "mass": (0, 0, 3) },
+    supports: { "base": Fixed, "mass": [Uz, Ry] },
+    elements: {
+        "m": Mass(node: "mass", mass: "1 t"),
+        "k": Spring(nodes: ("base", "mass"), k1: "1 MN/m", k2: "40 kN/m"),
+    },
+    functions: { "pulse": Sine(amplitude: "2 m/s^2", frequency: "2 Hz", cycles: 2) },
+    cases: { "shake": Dynamic(base: [(direction: X, function: "pulse")], dt: "5 ms", duration: "2 s") },
+    outputs: { "u": Displacement(node: "mass", dof: Ux) },
+)"#;
+
+#[test]
+fn the_model_where_it_has_moved_most_is_a_figure() {
+    let folder = tempfile::tempdir().unwrap();
+    std::fs::write(folder.path().join("m.ron"), SHAKEN).unwrap();
+    let args = ["run", "m.ron", "--out", "o", "--figure", "model", "--no-report"];
+    let (status, out, err) = trilith(folder.path(), &args);
+    assert!(status == 0 && out.contains("model.svg"), "{out}{err}");
+    let svg = std::fs::read_to_string(folder.path().join("o/model.svg")).unwrap();
+    let peaks = std::fs::read_to_string(folder.path().join("o/summary.json")).unwrap();
+    let peaks: Value = serde_json::from_str(&peaks).unwrap();
+    let u = &peaks["outputs"]["u"];
+    let of = |what: &str| u[what].as_f64().unwrap();
+    let at = if of("max") > -of("min") { of("t_max") } else { of("t_min") };
+    // Frames are fewer than output steps.
+    let shown = svg.split("The model at ").nth(1).unwrap().split(' ').next().unwrap();
+    let shown: f64 = shown.parse().unwrap();
+    assert!((shown - at).abs() < 0.011, "{shown} {at}");
+    assert!(svg.starts_with("<svg width=") && svg.contains("fill=\"#ffffff\""), "{svg}");
+}
+
+#[test]
+fn a_design_spectrum_lies_over_that_of_the_ground() {
+    let folder = tempfile::tempdir().unwrap();
+    std::fs::write(folder.path().join("m.ron"), SHAKEN).unwrap();
+    let run =
+        |more: &[&str]| trilith(folder.path(), &[&["run", "m.ron", "--out", "o"], more].concat());
+    let code = r#"EC8(ground: B, ag: "0.2 g")"#;
+    let (status, out, err) = run(&["--spectrum", code, "--figure", "ground"]);
+    assert_eq!(status, 0, "{out}{err}");
+    let data = std::fs::read_to_string(folder.path().join("o/report.json")).unwrap();
+    let data: Value = serde_json::from_str(&data).unwrap();
+    let curves = data["ground_spectra"][0]["curves"].as_array().unwrap();
+    assert_eq!((curves.len(), &curves[1]["name"]), (2, &Value::from(code)));
+    let numbers = |of: &str| -> Vec<f64> {
+        let step = curves[1][of]["step"].as_f64().unwrap();
+        let all = curves[1][of]["n"].as_array().unwrap();
+        all.iter().map(|n| n.as_f64().unwrap() * step).collect()
+    };
+    // On the plateau of EN 1998-1, 2.5 S a_g with S = 1.2; beyond 4 s it says nothing.
+    let (period, y) = (numbers("period"), numbers("y"));
+    let plateau = period.iter().zip(&y).find(|(t, _)| **t > 0.3).unwrap().1;
+    assert!((plateau - 2.5 * 1.2 * 0.2 * 9.80665).abs() < 1e-3, "{plateau}");
+    assert!(period.last().is_some_and(|t| *t > 3.5 && *t <= 4.0), "{period:?}");
+    let drawn = std::fs::read_dir(folder.path().join("o")).unwrap();
+    let drawn = drawn.map(|e| std::fs::read_to_string(e.unwrap().path()).unwrap_or_default());
+    assert!(drawn.into_iter().any(|text| text.starts_with("<svg") && text.contains("EC8(ground")));
+
+    for (more, wanted) in [
+        (&["--spectrum", "EC8(ground: Q, ag: 1)"][..], "Q"),
+        (&["--spectrum", code, "--no-report"][..], "nothing to lay"),
+        (&["--spectrum", "absent.csv"][..], "absent.csv"),
+    ] {
+        let (status, _, err) = run(more);
+        assert!(status == 2 && err.contains(wanted), "{err}");
+    }
+    let still = SHAKEN.replace("base: [(direction: X, function: \"pulse\")], ", "");
+    std::fs::write(folder.path().join("m.ron"), still).unwrap();
+    let (status, _, err) = run(&["--spectrum", code]);
+    assert!(status == 2 && err.contains("no motion of the ground"), "{err}");
 }

@@ -4,8 +4,8 @@ use trilith_element::Dof;
 use trilith_model::{Analysis, Model, Side, TimeFunction};
 use trilith_record::measure::{Spectrum, periods, spectrum};
 
-/// Damping of the spectrum, share of critical.
-const DAMPING: f64 = 0.05;
+/// Damping of the spectra of ground motions, share of critical.
+pub const GROUND_DAMPING: f64 = 0.05;
 /// Periods of the spectrum: from, to (s) and how many.
 const PERIODS: (f64, f64, usize) = (0.02, 5.0, 180);
 /// Longest sampling step, s: a spectrum down to 0.02 s needs no less.
@@ -61,7 +61,7 @@ pub fn ground_motions(model: &Model, case: usize, dt: f64) -> Vec<GroundMotion> 
             return None;
         }
         let (from, to, n) = PERIODS;
-        let spectrum = spectrum(&acceleration, step, &periods(from, to, n), DAMPING);
+        let spectrum = spectrum(&acceleration, step, &periods(from, to, n), GROUND_DAMPING);
         Some(GroundMotion { direction, time, acceleration, peak, spectrum })
     };
     [Dof::Ux, Dof::Uy, Dof::Uz].into_iter().filter_map(one).collect()

@@ -36,7 +36,7 @@ pub use error::FileError;
 pub use files::Files;
 pub use folder::{Folder, FolderError, OF_RUN, Writer};
 pub use frames::{Frame, Frames};
-pub use ground::{GroundMotion, ground_motions};
+pub use ground::{GROUND_DAMPING, GroundMotion, ground_motions};
 pub use loops::{LoopPoint, Loops};
 pub use npz::npy;
 pub use recorder::{ENERGIES, Recorder};

@@ -149,6 +149,10 @@ pub(crate) struct RunArguments {
     /// name with a comma together, such as `'"stop, left"'` [default: those that dissipate most]
     #[arg(long, value_name = "LINK,LINK", value_parser = names::list)]
     pub loops: Vec<Names>,
+    /// Lay a design spectrum over that of the ground motion: `EC8(ground: B, ag: "0.25 g")`, `ASCE7(sds: "1 g",
+    /// sd1: "0.6 g", tl: "8 s")`, or a file with the columns `T [s],Sa [g]`
+    #[arg(long, conflicts_with = "no_files")]
+    pub spectrum: Option<String>,
     /// Write figures into the folder: of outputs and links by name, `energy`, `ground` (motion and its spectrum),
     /// `spectra` (of floors), `model` (where it has moved most); several times, and names with commas, as for `--loops`
     #[arg(long, value_name = "NAME,NAME", value_parser = names::list)]

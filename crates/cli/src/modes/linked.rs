@@ -1,10 +1,9 @@
 //! `trilith modes --links …`: modes with links, and peaks under a response spectrum.
 
-use super::spectrum;
 use crate::args::{Combination, DirectionRule, LinksAs, ModesArguments};
 use crate::names::flat;
 use crate::text::{names_help, number, percent, row, table};
-use crate::{Answer, Failure, case};
+use crate::{Answer, Failure, case, design_spectrum};
 use std::f64::consts::TAU;
 use trilith::model::file::fits;
 use trilith::model::{Analysis as Kind, Body, visible_line};
@@ -180,7 +179,7 @@ fn peaks(
     modes: &LinearModes,
     text: &str,
 ) -> Result<String, Failure> {
-    let spectrum = spectrum::read(text)?;
+    let spectrum = design_spectrum::read(text)?;
     let request = SpectrumRequest {
         acceleration: &|period, damping| spectrum.acceleration(period, damping),
         range: spectrum.range(),

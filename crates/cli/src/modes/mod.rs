@@ -1,7 +1,6 @@
 //! `trilith modes`.
 
 mod linked;
-mod spectrum;
 
 use crate::args::ModesArguments;
 use crate::text::{number, percent, row, table};

@@ -1,6 +1,6 @@
 //! What shakes: the ground and the floors.
 
-use super::data::{Ground, History, Shown, SpectrumChart, SpectrumCurve};
+use super::data::{Ground, History, RunData, Shown, SpectrumChart, SpectrumCurve};
 use super::reduce::{history, numbers};
 use super::units::short;
 use trilith_model::STANDARD_GRAVITY;
@@ -42,6 +42,24 @@ pub(crate) fn ground_spectra(motions: &[GroundMotion]) -> Vec<SpectrumChart> {
         shown: in_g(),
         curves: motions.iter().map(curve).collect(),
     }]
+}
+
+impl RunData {
+    /// Lays a spectrum over those of the ground motion: its name, and its pseudo-acceleration (m/s²) at a period (s) where it
+    /// has one. False where no ground moves.
+    pub fn lay_over_ground(&mut self, name: &str, at: impl Fn(f64) -> Option<f64>) -> bool {
+        for chart in &mut self.ground_spectra {
+            let Some(first) = chart.curves.first() else { continue };
+            let points: Vec<(f64, f64)> =
+                first.period.values().filter_map(|t| Some((t, at(t)?))).collect();
+            chart.curves.push(SpectrumCurve {
+                name: name.to_owned(),
+                period: numbers(points.iter().map(|p| p.0)),
+                y: numbers(points.iter().map(|p| p.1)),
+            });
+        }
+        !self.ground_spectra.is_empty()
+    }
 }
 
 /// The floor spectra that the model asks for: the places beside each other, a chart for each damping ratio.

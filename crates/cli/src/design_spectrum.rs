@@ -1,4 +1,4 @@
-//! The spectrum of `trilith modes --spectrum`: of a code, or points of a file.
+//! The design spectrum of `--spectrum`: of a code, or points of a file.
 
 use crate::Failure;
 use crate::text::shown;
@@ -7,6 +7,8 @@ use std::path::Path;
 use trilith::element::dimension::{ACCELERATION, Dimension, TIME};
 use trilith::model::quantity;
 use trilith::record::design::{Asce7, DesignSpectrum, Ec8, Points};
+use trilith::report::RunData;
+use trilith::results::GROUND_DAMPING;
 
 /// How spectra of codes are written.
 #[derive(Deserialize)]
@@ -56,7 +58,7 @@ impl Given {
 }
 
 /// The spectrum that an argument means: a file where there is one of that name.
-pub(super) fn read(text: &str) -> Result<DesignSpectrum, Failure> {
+pub(crate) fn read(text: &str) -> Result<DesignSpectrum, Failure> {
     let path = Path::new(text);
     let is_code = text.trim_start().starts_with("EC8") || text.trim_start().starts_with("ASCE7");
     if is_code && !path.exists() {
@@ -79,6 +81,30 @@ pub(super) fn read(text: &str) -> Result<DesignSpectrum, Failure> {
             Some("two columns are wanted, period and acceleration, headed such as `T [s],Sa [g]`"),
         )
     })
+}
+
+/// Lays the spectrum that an argument means over that of the ground motion.
+///
+/// # Errors
+/// Where the case shakes nothing.
+pub(crate) fn lay_over(
+    data: &mut RunData,
+    text: &str,
+    spectrum: &DesignSpectrum,
+) -> Result<(), Failure> {
+    let name = match spectrum {
+        DesignSpectrum::Points(_) => {
+            Path::new(text).file_stem().unwrap_or_default().to_string_lossy()
+        }
+        _ => text.into(),
+    };
+    match data.lay_over_ground(&name, |period| spectrum.acceleration(period, GROUND_DAMPING)) {
+        true => Ok(()),
+        false => Err(Failure::input(
+            "no motion of the ground is in this case: there is no spectrum to lay another one over",
+            Some("leave `--spectrum` out, or run a case with a `base` motion"),
+        )),
+    }
 }
 
 fn of_code(text: &str) -> Result<DesignSpectrum, String> {
