@@ -135,3 +135,41 @@ fn a_design_spectrum_lies_over_that_of_the_ground() {
     let (status, _, err) = run(&["--spectrum", code]);
     assert!(status == 2 && err.contains("no motion of the ground"), "{err}");
 }
+
+#[test]
+fn forces_along_members_are_drawn_along_them() {
+    let folder = tempfile::tempdir().unwrap();
+    let model = r#"(
+    plane: XZ,
+    nodes: { "wall": (0, 0, 0), "tip": (4, 0, 0) },
+    supports: { "wall": Fixed },
+    elements: { "arm": Beam(nodes: ("wall", "tip"), material: Steel, section: "HEB 300") },
+    loads: { "snow": Uniform(element: "arm", dof: Uz, force: "-5 kN/m") },
+    cases: { "snow": Static(loads: [(load: "snow")]) },
+    outputs: { "tip": Displacement(node: "tip", dof: Uz) },
+    envelopes: { "arm": (element: "arm", stations: 9) },
+)"#;
+    std::fs::write(folder.path().join("arm.ron"), model).unwrap();
+    let (status, out, err) = trilith(folder.path(), &["run", "arm.ron", "--out", "o"]);
+    assert_eq!(status, 0, "{out}{err}");
+    let data = std::fs::read_to_string(folder.path().join("o/report.json")).unwrap();
+    let data: Value = serde_json::from_str(&data).unwrap();
+    let members = data["members"].as_array().unwrap();
+    let forces: Vec<_> = members.iter().map(|m| m["force"].as_str().unwrap()).collect();
+    assert_eq!(forces, ["V2", "M3"], "no axial force, and nothing out of the plane");
+    let numbers = |of: &str| -> Vec<f64> {
+        let step = members[1][of]["step"].as_f64().unwrap();
+        let all = members[1][of]["n"].as_array().unwrap();
+        all.iter().map(|n| n.as_f64().unwrap() * step).collect()
+    };
+    // q (L − x)²/2, hogging.
+    for ((x, max), min) in numbers("at").iter().zip(numbers("max")).zip(numbers("min")) {
+        let moment = -0.5 * 5e3 * (4.0 - x) * (4.0 - x);
+        assert!(
+            (max - moment).abs() < 2.0 && (min - moment).abs() < 2.0,
+            "{x} {max} {min} {moment}"
+        );
+    }
+    let page = std::fs::read_to_string(folder.path().join("o/report.html")).unwrap();
+    assert!(page.contains("<section id=\"members\">") && page.contains("from the first node [m]"));
+}

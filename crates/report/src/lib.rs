@@ -28,7 +28,7 @@ pub use page::{Block, Page, Section};
 pub use png::{PngError, png_is_built_in};
 pub use run::{
     Answer, Collect, ENERGY, FaceMark, Family, Frames, GROUND, Ground, GroupMark, History,
-    LineKind, LineMark, LinkMark, Loop, MODEL, Mode, NodeMark, Numbers, Orbit, Picture, Profile,
-    ProfileCurve, RunData, RunIdentity, SPECTRA, Shown, SpectrumChart, SpectrumCurve, Tint, Tinted,
-    named_figures, run_page, short,
+    LineKind, LineMark, LinkMark, Loop, MODEL, MemberCurve, Mode, NodeMark, Numbers, Orbit,
+    Picture, Profile, ProfileCurve, RunData, RunIdentity, SPECTRA, Shown, SpectrumChart,
+    SpectrumCurve, Tint, Tinted, named_figures, run_page, short,
 };

@@ -54,6 +54,48 @@ fn values<'a>(model: &'a Model, peaks: &'a [Peak]) -> impl Iterator<Item = Value
     })
 }
 
+/// Extremes over time of one force along one member.
+#[derive(Clone, Debug, PartialEq)]
+pub struct AlongMember {
+    /// Name of the envelope in the model.
+    pub envelope: String,
+    /// Name of the element.
+    pub element: String,
+    /// Which force.
+    pub force: MemberForce,
+    /// Stations: distances from the first node, m.
+    pub at: Vec<f64>,
+    /// Largest values there, N or N·m.
+    pub max: Vec<f64>,
+    /// Smallest values there.
+    pub min: Vec<f64>,
+}
+
+/// The envelopes of a model, member by member and force by force; `peaks` as the run has recorded them.
+#[must_use]
+pub fn along_members(model: &Model, peaks: &[Peak]) -> Vec<AlongMember> {
+    let mut all: Vec<AlongMember> = Vec::new();
+    // Where the member begins that the values are of: its forces take turns at each station.
+    let mut first = 0;
+    for Value { envelope, element, at, force, peak } in values(model, peaks) {
+        if all.get(first).is_none_or(|a| a.envelope != envelope || a.element != element) {
+            first = all.len();
+        }
+        let known = all[first..].iter().position(|a| a.force == force);
+        let index = known.map_or(all.len(), |i| first + i);
+        if known.is_none() {
+            let (envelope, element) = (envelope.to_owned(), element.to_owned());
+            let (at, max, min) = (Vec::new(), Vec::new(), Vec::new());
+            all.push(AlongMember { envelope, element, force, at, max, min });
+        }
+        let along = &mut all[index];
+        along.at.push(at);
+        along.max.push(peak.max);
+        along.min.push(peak.min);
+    }
+    all
+}
+
 fn unit(force: MemberForce) -> &'static str {
     if force.is_moment() { "N·m" } else { "N" }
 }

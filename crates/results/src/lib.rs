@@ -31,7 +31,7 @@ mod vtk;
 pub use digest::{sha256, sha256_of_json};
 pub use drift::DriftSummary;
 pub use envelope::Envelope;
-pub use envelopes::{Extreme, ForceEnvelope};
+pub use envelopes::{AlongMember, Extreme, ForceEnvelope, along_members};
 pub use error::FileError;
 pub use files::Files;
 pub use folder::{Folder, FolderError, OF_RUN, Writer};

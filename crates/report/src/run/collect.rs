@@ -3,7 +3,7 @@
 use super::data::{Frames, Mode, Numbers, RunData, RunIdentity};
 use super::figures::SUPPLY;
 use super::picture::Sketch;
-use super::{answers, choice, loops, places, reduce, settings, shaking, tints};
+use super::{answers, choice, loops, members, places, reduce, settings, shaking, tints};
 use std::collections::BTreeMap;
 use trilith_model::Model;
 use trilith_results::{ENERGIES, Frame, Recorder, Summary, ground_motions};
@@ -59,6 +59,8 @@ impl Collect<'_> {
         let loops = loops::chosen(self.model, self.record, self.summary, self.loops);
         let with_figure = self.model.shown().zip(&shown).filter(|(_, s)| **s).map(|((i, _), _)| i);
         let tints = tints::tints(self.model, &sketch.marks, &sketch.picture, with_figure, &loops);
+        let (members, left_out) = members::curves(self.model, self.record);
+        notes.extend(left_out);
         let free = self.modes.map_or(0, |m| m.omega.iter().filter(|omega| **omega <= 0.0).count());
         RunData {
             format: RunData::FORMAT,
@@ -82,6 +84,7 @@ impl Collect<'_> {
                 None => places::profiles(self.model, self.summary, &ground),
                 Some(_) => Vec::new(),
             },
+            members,
             orbits: places::orbits(self.model, self.record),
             ground,
             ground_spectra: shaking::ground_spectra(&motions),

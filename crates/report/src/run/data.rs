@@ -42,6 +42,9 @@ pub struct RunData {
     pub histories: Vec<History>,
     /// Extremes over the height of a structure.
     pub profiles: Vec<Profile>,
+    /// Extremes of forces along members.
+    #[serde(default)]
+    pub members: Vec<MemberCurve>,
     /// Paths of places in plan.
     pub orbits: Vec<Orbit>,
     /// Floor spectra, a chart for each damping.
@@ -203,6 +206,25 @@ pub struct ProfileCurve {
     pub to: Vec<f64>,
     /// Largest magnitudes.
     pub value: Vec<f64>,
+}
+
+/// Extremes over time of a force along a member.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct MemberCurve {
+    /// Name of the envelope.
+    pub envelope: String,
+    /// Name of the member.
+    pub member: String,
+    /// `N`, `V2` … `M3`.
+    pub force: String,
+    /// Unit in figures, one for all of a force and an envelope.
+    pub shown: Shown,
+    /// Distances from the first node, m.
+    pub at: Numbers,
+    /// Largest values, N or N·m.
+    pub max: Numbers,
+    /// Smallest values.
+    pub min: Numbers,
 }
 
 /// A path in plan: one output against another.

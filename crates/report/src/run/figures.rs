@@ -1,6 +1,8 @@
 //! Figures of a run, still: for paper and for readers without scripts.
 
-use super::data::{Ground, History, Loop, Orbit, Profile, RunData, SpectrumChart};
+use super::data::{
+    Ground, History, Loop, MemberCurve, Numbers, Orbit, Profile, RunData, SpectrumChart,
+};
 use super::drawing;
 use super::units::{labelled, short};
 use crate::{Color, Drawing, Figure, Stroke};
@@ -120,6 +122,19 @@ pub(crate) fn profile(p: &Profile) -> Figure {
         heights().fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), z| (a.min(z), b.max(z)));
     let room = 0.04 * (high - low);
     figure.ranges((0.0, 1.06 * most), (low - room, high + room))
+}
+
+/// A force along a member.
+pub(crate) fn member(m: &MemberCurve) -> Figure {
+    let along = |y: &Numbers| {
+        let points: Vec<(f64, f64)> =
+            m.at.values().zip(y.values().map(|y| y * m.shown.factor)).collect();
+        points
+    };
+    Figure::new(m.member.clone(), "from the first node [m]", labelled(&m.force, &m.shown))
+        .line("largest", along(&m.max))
+        .line("smallest", along(&m.min))
+        .sized(320, 250)
 }
 
 /// A hysteresis loop.

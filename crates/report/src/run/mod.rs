@@ -9,6 +9,7 @@ mod extruded;
 mod figures;
 mod legible;
 mod loops;
+mod members;
 mod page;
 mod picture;
 mod places;
@@ -24,8 +25,8 @@ pub use units::short;
 pub use collect::Collect;
 pub use data::{
     Answer, FaceMark, Family, Frames, Ground, GroupMark, History, LineKind, LineMark, LinkMark,
-    Loop, Mode, NodeMark, Numbers, Orbit, Picture, Profile, ProfileCurve, RunData, RunIdentity,
-    Shown, SpectrumChart, SpectrumCurve, Tint, Tinted,
+    Loop, MemberCurve, Mode, NodeMark, Numbers, Orbit, Picture, Profile, ProfileCurve, RunData,
+    RunIdentity, Shown, SpectrumChart, SpectrumCurve, Tint, Tinted,
 };
 pub use figures::{ENERGY, GROUND, MODEL, SPECTRA, named_figures};
 pub use page::run_page;

@@ -80,6 +80,28 @@ pub(super) fn profiles(data: &RunData) -> Markup {
     }
 }
 
+pub(super) fn members(data: &RunData) -> Markup {
+    let mut kinds: Vec<(&str, &str)> = Vec::new();
+    for m in &data.members {
+        if !kinds.contains(&(&m.envelope, &m.force)) {
+            kinds.push((&m.envelope, &m.force));
+        }
+    }
+    let of = |envelope: &str, force: &str| {
+        let scale = format!("member {envelope} {force}");
+        let these = data.members.iter().filter(|m| m.envelope == envelope && m.force == force);
+        these.map(|m| figures::member(m).scaled(scale.clone())).collect::<Vec<_>>()
+    };
+    html! {
+        p.note { "The largest and the smallest value at each place, whenever they were; signs as in the guide: tension is positive." }
+        label.scales { input type="checkbox" checked data-scales="member "; " one scale for a force of all members" }
+        @for (envelope, force) in kinds {
+            h3 { (envelope) ": " (force) }
+            div.figures.board.loops { (drawn(&of(envelope, force))) }
+        }
+    }
+}
+
 pub(super) fn loops(data: &RunData) -> Markup {
     let key = |l: &Loop| (l.kind.clone(), l.coordinate.clone());
     let mut kinds: Vec<(String, String)> = Vec::new();

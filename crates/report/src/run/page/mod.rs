@@ -21,12 +21,13 @@ use serde_json::{Value, json};
 const RUN_STYLE: &str = include_str!("../run.css");
 
 /// Links to the sections.
-const SECTIONS: [(&str, &str); 11] = [
+const SECTIONS: [(&str, &str); 12] = [
     ("motion", "Model and motion"),
     ("peaks", "Peaks"),
     ("ground", "Ground motion"),
     ("histories", "Time histories"),
     ("profiles", "Over the height"),
+    ("members", "Forces along members"),
     ("plan", "Paths in plan"),
     ("floors", "Floor spectra"),
     ("energy", "Energy"),
@@ -50,6 +51,7 @@ pub fn run_page(summary: &Value, data: &RunData, made: &Value) -> String {
         "ground" => !data.ground.is_empty(),
         "floors" => !data.floor_spectra.is_empty(),
         "profiles" => !data.profiles.is_empty(),
+        "members" => !data.members.is_empty(),
         "plan" => !data.orbits.is_empty(),
         "histories" => !data.histories.is_empty(),
         "energy" => !data.energies.is_empty(),
@@ -63,6 +65,7 @@ pub fn run_page(summary: &Value, data: &RunData, made: &Value) -> String {
         "ground" => shaking::ground(data),
         "floors" => shaking::floors(summary, data),
         "profiles" => curves::profiles(data),
+        "members" => curves::members(data),
         "plan" => curves::plan(data),
         "histories" => curves::histories(summary, data),
         "energy" => energy::energy(summary, data),
