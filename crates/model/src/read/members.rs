@@ -187,7 +187,7 @@ fn rolled(c: &Context<'_>, node: &Node) -> Option<Section> {
         None => {
             let series = sections::SERIES.join(", ");
             d = d.help(format!(
-                "the series are {series}, as in `\"HEB 300\"` and `\"W14x90\"`; others are given by `Pipe`, `Box`, `IShape`, `Rectangle` or `Circle`"
+                "the series are {series}, as in `\"HEB 300\"`, `\"W14x90\"`, `\"RHS 200x100x8\"` (mm) and `\"HSS 8x6x1/2\"` (in); others are given by `Pipe`, `Box`, `IShape`, `Rectangle` or `Circle`"
             ));
         }
     }

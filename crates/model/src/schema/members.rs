@@ -40,7 +40,9 @@ pub static MEMBER: Block = Block {
 /// A rolled section.
 pub static ROLLED: Block = Block {
     name: "Section",
-    meaning: "A rolled section by its name: European IPE, HEA, HEB and HEM (EN 10365), American W (ASTM A6/A6M). \
+    meaning: "A rolled section by its name: European IPE, HEA, HEB and HEM (EN 10365), American W (ASTM A6/A6M); or a hollow one: \
+              `\"SHS 150x8\"`, `\"RHS 200x100x8\"`, `\"CHS 219.1x10\"` in mm (EN 10210, with `cold` behind it EN 10219), `\"HSS 8x6x1/2\"` in \
+              inches (ASTM A500). \
               `\"HEB 300\"` and `Section(\"HEB 300\")` say the same; blanks and capitals do not count. Everything is computed \
               from depth, width, thicknesses and root radius.",
     example: r#"Section(name: "IPE 300")"#,

@@ -7,8 +7,11 @@
 //! | `european.csv` | IPE, HEA, HEB, HEM | EN 10365:2017 |
 //! | `american.csv` | W | ASTM A6/A6M |
 //!
+//! Hollow sections need no table: their names are their dimensions (`hollow.rs`).
+//!
 //! Local 2 is along the depth, local 3 along the width: I₃ is of the strong axis.
 
+mod hollow;
 mod outline;
 mod shapes;
 #[cfg(test)]
@@ -42,7 +45,7 @@ pub struct Section {
 }
 
 /// The names of the series.
-pub const SERIES: [&str; 5] = ["IPE", "HEA", "HEB", "HEM", "W"];
+pub const SERIES: [&str; 9] = ["IPE", "HEA", "HEB", "HEM", "W", "SHS", "RHS", "CHS", "HSS"];
 
 type Known = BTreeMap<String, (&'static str, Rolled)>;
 
@@ -81,10 +84,11 @@ fn plain(name: &str) -> String {
     turned.unwrap_or(bare)
 }
 
-/// The rolled section of a name, such as `HEB 300` or `W14x90`; blanks and capitals do not count.
+/// The rolled or hollow section of a name, such as `HEB 300`, `W14x90` or `RHS 200x100x8`; blanks and capitals do not count.
 #[must_use]
 pub fn rolled(name: &str) -> Option<Section> {
-    known().get(&plain(name)).map(|(_, rolled)| i_section(rolled))
+    let name = plain(name);
+    known().get(&name).map(|(_, rolled)| i_section(rolled)).or_else(|| hollow::hollow(&name))
 }
 
 /// An I section of outer depth, width of the flanges, web, flange and root radius, m.

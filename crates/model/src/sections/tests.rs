@@ -51,6 +51,61 @@ fn american_sections_are_those_of_the_tables() {
     }
 }
 
+#[test]
+fn hollow_sections_are_those_of_the_tables() {
+    // A in cm², I₃, I₂ and J in cm⁴: EN 10210-2 and EN 10219-2.
+    for (name, a, i3, i2, j) in [
+        ("RHS 200x100x8", 44.8, 2234.0, 739.0, 1804.0),
+        ("RHS 300x200x10", 94.9, 11819.0, 6278.0, 12908.0),
+        ("SHS 150x8", 44.8, 1491.0, 1491.0, 2351.0),
+        ("SHS 100x100x5", 18.7, 279.0, 279.0, 439.0),
+        ("SHS 100x5 cold", 18.4, 271.0, 271.0, 441.0),
+        ("CHS 219.1x10", 65.7, 3598.0, 3598.0, 7197.0),
+    ] {
+        let s = rolled(name).unwrap_or_else(|| panic!("no {name}"));
+        near(name, s.area, 1e-4 * a, 3e-3);
+        near(name, s.i3, 1e-8 * i3, 2e-3);
+        near(name, s.i2, 1e-8 * i2, 2e-3);
+        near(name, s.torsion, 1e-8 * j, 2e-3);
+    }
+    // A in in², I₃, I₂ and J in in⁴: AISC, walls of three digits.
+    for (name, a, i3, i2, j) in [
+        ("HSS 8x6x5/16", 7.59, 68.3, 43.8, 85.8),
+        ("HSS8X6X1/2", 11.6, 98.2, 62.5, 127.0),
+        ("HSS 6x6x3/8", 7.58, 39.5, 39.5, 64.6),
+        ("HSS 10x6x3/8", 10.4, 137.0, 61.8, 139.0),
+        ("HSS 6.625x0.280", 5.20, 26.4, 26.4, 52.7),
+    ] {
+        let s = rolled(name).unwrap_or_else(|| panic!("no {name}"));
+        near(name, s.area, INCH.powi(2) * a, 1e-2);
+        near(name, s.i3, INCH.powi(4) * i3, 1e-2);
+        near(name, s.i2, INCH.powi(4) * i2, 1e-2);
+        near(name, s.torsion, INCH.powi(4) * j, 1e-2);
+    }
+    let wrong = [
+        "RHS 200x100",
+        "SHS 100",
+        "SHS 100x90x5",
+        "RHS 40x20x8",
+        "CHS 100x50",
+        "HSS 8x6x1/0",
+        "HSS 8x6xcold",
+        "HSS 8x6x1/2 cold",
+        "RHS 200x-100x8",
+        "RHS",
+        "HSS 1x",
+        "RHS 200xNaNx8",
+        "CHS 1e400x1",
+    ];
+    for name in wrong {
+        assert!(rolled(name).is_none(), "{name}");
+    }
+    // Walls that are thin have hardly any corners.
+    let (s, sharp) = (rolled("RHS 300x200x0.5").unwrap(), hollow_box(0.2, 0.3, 5e-4, 5e-4));
+    near("area", s.area, sharp.area, 1e-2);
+    near("torsion", s.torsion, sharp.torsion, 1e-2);
+}
+
 /// Second moment of half the outline of an I section, by strips.
 fn by_strips(sizes: [f64; 5], about_3: bool) -> (f64, f64) {
     let [h, b, tw, tf, r] = sizes;
