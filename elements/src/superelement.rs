@@ -14,13 +14,18 @@
 //! | `damping`   | C      | SI   | none    | the same                                       |
 //! | `rows`      |        |      | none    | CSV `row,node,dof`, or `.dof`: what rows are   |
 //! | `labels`    |        |      | names   | what the files call its nodes, in their order  |
+//! | `recovery`  | R      | SI   | none    | CSV `node,dof,row,value`: nodes that follow rows |
 //!
 //! Matrices are in global axes and SI: N/m, N, N·m; kg, kg·m, kg·m². The rigid motion r of inner rows spreads weight and
 //! ground motion over them: a row that the table lists goes with its direction, whoever its node is; others follow the
 //! tied ones by K.
+//!
+//! Directions of nodes that `recovery` lists are no rows: they follow these, `u = R u_rows`, as what is inside a structure
+//! that has been reduced does.
 
 mod checks;
 mod named;
+mod recovery;
 mod table;
 
 use std::sync::Arc;
@@ -80,6 +85,13 @@ impl Superelement {
             Default::Absent,
             "what the files call its nodes, in their order; instead, `nodes` may be a map from labels to nodes. Without either the files use the names of the nodes",
         ),
+        Parameter::new(
+            "recovery",
+            "R",
+            Form::File,
+            Default::Absent,
+            "directions of nodes that are no rows and follow them, `u = R u_rows`: CSV file `node,dof,row,value`, label of the node, `Ux` … `Rz`, number of a row, from 1, and its share",
+        ),
     ])
     .law("K u + C u̇ + M ü, rows tied to directions of nodes as `rows` says\nall other rows are equations of the system")
     .source("R. D. Cook et al., Concepts and Applications of Finite Element Analysis, 4th ed., 2002, §10.11")
@@ -91,7 +103,7 @@ impl Superelement {
     /// # Errors
     /// What is wrong with a file, by parameter, file and line.
     pub fn read(values: &Values) -> Result<Self, ParameterError> {
-        const NAMES: &[&str] = &["stiffness", "mass", "damping", "rows", "labels"];
+        const NAMES: &[&str] = &["stiffness", "mass", "damping", "rows", "labels", "recovery"];
         if let Some((name, _)) = values.0.iter().find(|(name, _)| !NAMES.contains(&name.as_str())) {
             return Err(serde::de::Error::unknown_field(name, NAMES));
         }
@@ -106,20 +118,23 @@ impl Superelement {
             Some(Value::List(texts)) => texts.iter().filter_map(text).collect(),
             _ => Vec::new(),
         };
-        let mut sparse = SparseMatrices { rows: Vec::new(), stiffness, mass, damping };
+        let (rows, recovered) = (Vec::new(), Vec::new());
+        let mut sparse = SparseMatrices { rows, stiffness, mass, damping, recovered };
         for (name, other) in [("mass", &sparse.mass), ("damping", &sparse.damping)] {
             other.as_ref().map_or(Ok(()), |other| alike(name, other, &sparse.stiffness))?;
         }
-        let table = match values.get("rows") {
+        let file = |name: &str| match values.get(name) {
             Some(Value::File(table)) => Some(table),
             _ => None,
         };
+        let (table, recovery) = (file("rows"), file("recovery"));
+        let led = recovery.map_or_else(Vec::new, |table| recovery::nodes(table, &labels));
         let file = &sparse.stiffness.name;
         match (table, sparse.stiffness.rows.is_empty()) {
             (Some(table), true) => {
-                sparse.rows = table::rows(table, sparse.stiffness.size, &labels)?;
+                sparse.rows = table::rows(table, sparse.stiffness.size, &labels, &led)?;
             }
-            (None, false) => named::tie(&mut sparse, &labels)?,
+            (None, false) => named::tie(&mut sparse, &labels, &led)?,
             (Some(_), false) => {
                 let message = format!("{file} says itself what its rows are: leave out `rows`");
                 return Err(ParameterError::inconsistent("rows", &message));
@@ -130,6 +145,9 @@ impl Superelement {
                 );
                 return Err(ParameterError::inconsistent("rows", &message));
             }
+        }
+        if let Some(table) = recovery {
+            sparse.recovered = recovery::read(table, &sparse.rows, &labels)?;
         }
         Ok(Self { sparse })
     }

@@ -41,6 +41,7 @@ mod output;
 mod place;
 mod progress;
 mod record;
+mod reduce;
 mod report;
 mod run;
 mod schema;
@@ -101,6 +102,7 @@ pub fn main_of(registry: Registry, arguments: impl IntoIterator<Item = OsString>
         Command::Sweep(a) => sweep::sweep(&registry, &a),
         Command::Gradient(a) => gradient::gradient(&registry, &a),
         Command::Optimize(a) => optimize::optimize(&registry, &a),
+        Command::Reduce(a) => reduce::reduce(&registry, &a),
         Command::Generate(a) => generate::generate(a),
         Command::Import(a) => import::import(&a),
         Command::Calibrate(a) => calibrate::calibrate(&registry, &a),

@@ -11,7 +11,10 @@ pub(crate) fn open(dir: &Path, writer: Writer) -> Result<Folder, Failure> {
 }
 
 /// Writes files, by name and content, and shows where they are.
-pub(crate) fn write(folder: Folder, files: &[(String, String)]) -> Result<Vec<String>, Failure> {
+pub(crate) fn write(
+    folder: Folder,
+    files: &[(String, impl AsRef<[u8]>)],
+) -> Result<Vec<String>, Failure> {
     let mut written = Vec::new();
     for (name, content) in files {
         let path = folder.path().join(name);

@@ -65,7 +65,7 @@ pub use outline::{NodalOutline, Outline};
 pub use register::{
     Read, ReadConstraint, ReadFunction, ReadLinear, ReadLink, ReadOutput, ReadSolver, Register,
 };
-pub use sparse::{MeshRow, SparseMatrices, SparseMatrix, SparseRow};
+pub use sparse::{MeshRow, Recovered, SparseMatrices, SparseMatrix, SparseRow};
 /// The names of an enum that a parameter chooses from: `NAMES`, one for each variant.
 ///
 /// ```

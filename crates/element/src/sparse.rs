@@ -100,4 +100,18 @@ pub struct SparseMatrices {
     pub mass: Option<Arc<SparseMatrix>>,
     /// Damping; symmetric, positive semi-definite.
     pub damping: Option<Arc<SparseMatrix>>,
+    /// Directions of its nodes that are no rows and follow these.
+    pub recovered: Vec<Recovered>,
+}
+
+/// A direction of a node that follows the rows of an element, `u = Σ share · u_row`: what moves inside a structure that
+/// has been reduced. Forces on it act on the rows as its work says.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Recovered {
+    /// Index of the node in the element.
+    pub node: usize,
+    /// Its direction.
+    pub dof: Dof,
+    /// Row and share of each row that it follows.
+    pub terms: Vec<(u32, f64)>,
 }

@@ -16,6 +16,7 @@
 //! | `vector` | sums over vectors |
 //! | `platform` | what a system may be without: threads, a clock |
 //! | `error` | what stops a run before it begins |
+//! | `craig_bampton` | matrices of few coordinates: constraint modes and fixed-interface modes |
 //! | `basis` | Ritz vectors, modes, attachment vectors of massless DOFs, modal damping |
 //! | `structure` | the linear structure in the coordinates of a solver, link map B |
 //! | `kernel` | link forces: f̃ = law(d* − G f̃, v* − H f̃) − k_e d |
@@ -43,6 +44,7 @@ mod basis;
 mod certificate;
 mod checks;
 mod contacts;
+mod craig_bampton;
 mod custom;
 mod error;
 mod fna;
@@ -67,6 +69,7 @@ pub use basis::{Adequacy, BasisReport, ModeShape};
 pub use certificate::OutputError;
 pub use checks::of_model as warnings;
 pub use contacts::{BearingSummary, StopSummary};
+pub use craig_bampton::{CraigBampton, FixedModes, ReductionError};
 pub use error::{LawFault, SolveError};
 pub use linearised::{
     CombineDirections, CombineModes, LinearModes, Linearised, LinkStiffness, OutputMaximum, Secant,
@@ -81,5 +84,5 @@ pub use run::{
     of_outputs as warnings_of_outputs, run,
 };
 pub use step::State;
-pub use survey::{Freedoms, Periods, Survey, survey};
+pub use survey::{Freedoms, Periods, Survey, frequencies, survey};
 pub use together::{Member, run_together};

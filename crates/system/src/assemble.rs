@@ -63,7 +63,7 @@ impl System {
         let inner = InnerRows::new(model)?;
         let count = 6 * model.nodes.len() + inner.len();
         let mut used = vec![false; count];
-        let full = full_entries(model, &tension, &inner, &mut used)?;
+        let full = full_entries(model, &tension, &inner, &mut used, |_| true)?;
         mark_used(model, &mut used);
         let mut reduction = Reduction::new(model, &inner, &mut used)?;
         let idle = reduction.order() == 0;
@@ -313,24 +313,26 @@ pub(crate) fn element_matrices(
 }
 
 /// Entries over all DOFs.
-struct Full {
-    stiffness: Triplets,
-    mass: Triplets,
-    damping: Triplets,
-    inertance: Triplets,
+pub(crate) struct Full {
+    pub stiffness: Triplets,
+    pub mass: Triplets,
+    pub damping: Triplets,
+    pub inertance: Triplets,
 }
 
-/// The entries of all elements; marks the DOFs that they use.
-fn full_entries(
+/// The entries of all elements that are `wanted`, by their indices; marks the DOFs that they use.
+pub(crate) fn full_entries(
     model: &Model,
     tension: &[f64],
     inner: &InnerRows,
     used: &mut [bool],
+    wanted: impl Fn(usize) -> bool,
 ) -> Result<Full, SystemError> {
     let none = || Triplets::new(used.len(), used.len());
     let mut full = Full { stiffness: none(), mass: none(), damping: none(), inertance: none() };
     let mut places = Vec::new();
-    for (element, (e, tension)) in model.elements.iter().zip(tension).enumerate() {
+    let all = model.elements.iter().zip(tension).enumerate();
+    for (element, (e, tension)) in all.filter(|(element, _)| wanted(*element)) {
         let Some(m) = element_matrices(model, e, *tension)? else { continue };
         if let Some((own, places)) = sparse(e).zip(inner.places(element)) {
             let parts = [

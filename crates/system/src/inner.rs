@@ -9,7 +9,7 @@
 //! ground motion moves the ground that a matrix may stand on as well. All else follows the tied rows.
 
 use crate::SystemError;
-use trilith_element::{Dof, SparseMatrices, SparseMatrix, SparseRow, Vector3, cross};
+use trilith_element::{Dof, Recovered, SparseMatrices, SparseMatrix, SparseRow, Vector3, cross};
 use trilith_linalg::{Ldlt, Sparse, Triplets};
 use trilith_model::{Body, Element, Model, Span};
 
@@ -188,6 +188,16 @@ fn fits(own: &SparseMatrices, nodes: usize) -> Result<(), String> {
         if a.size != size || most > size {
             return Err(format!("{} has {} rows, and {size} are listed", a.name, a.size.max(most)));
         }
+    }
+    let mut led: Vec<(usize, Dof)> = own.recovered.iter().map(|r| (r.node, r.dof)).collect();
+    led.sort_unstable();
+    let of_rows = |r: &&Recovered| own.rows.contains(&SparseRow::Node(r.node, r.dof));
+    let beyond = |r: &Recovered| r.node >= nodes || r.terms.iter().any(|t| t.0 as usize >= size);
+    if own.recovered.iter().any(beyond) {
+        return Err("what follows its rows names a row or a node that it has not".into());
+    }
+    if led.windows(2).any(|two| two[0] == two[1]) || own.recovered.iter().find(of_rows).is_some() {
+        return Err("a direction of a node follows its rows twice, or is one of them".into());
     }
     let strange = |row: &&SparseRow| matches!(row, SparseRow::Node(node, _) if *node >= nodes);
     match own.rows.iter().find(strange) {

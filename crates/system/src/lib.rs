@@ -21,6 +21,7 @@ mod massless;
 mod members;
 mod parts;
 mod reduction;
+mod subset;
 mod weight;
 
 pub use assemble::System;
@@ -36,4 +37,5 @@ pub use loads::{Channel, LoadSet, StepLoads, Track};
 pub use massless::Massless;
 pub use members::MemberRow;
 pub use reduction::Reduction;
+pub use subset::Subset;
 pub use weight::{MassSum, RIGID};

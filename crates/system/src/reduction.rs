@@ -2,10 +2,12 @@
 //!
 //! `u_full = T [u_free; u_prescribed]`, exactly. Equations are eliminated one after the other with
 //! substitution, so chains, shared nodes and redundant equations resolve; a constraint on a fixed DOF
-//! passes the support on to the DOFs it is tied to. No mass is lost, because M is reduced with the same T.
+//! passes the support on to the DOFs it is tied to. No mass is lost, because M is reduced with the same T. Nodes that
+//! follow the rows of a superelement are eliminated likewise.
 
 use crate::blame::answered;
 use crate::finite_turns::{refuse_lever, turning_nodes};
+use crate::inner::sparse;
 use crate::{InnerRows, SystemError};
 use std::collections::BTreeMap;
 use trilith_model::{Body, Model};
@@ -37,7 +39,8 @@ impl Reduction {
         inner: &InnerRows,
         used: &mut [bool],
     ) -> Result<Self, SystemError> {
-        let rows = constraint_rows(model)?;
+        let mut rows = constraint_rows(model)?;
+        rows.extend(recovered_rows(model, inner));
         refuse_cycles(model, &rows)?;
         spread_use(&rows, used);
         let count = used.len();
@@ -159,6 +162,20 @@ fn constraint_rows(model: &Model) -> Result<Vec<Row>, SystemError> {
         }));
     }
     Ok(rows)
+}
+
+/// Directions that follow the rows of an element with sparse matrices.
+fn recovered_rows<'a>(model: &'a Model, inner: &'a InnerRows) -> impl Iterator<Item = Row> + 'a {
+    model.elements.iter().enumerate().flat_map(move |(element, e)| {
+        let own = sparse(e).zip(inner.places(element));
+        own.into_iter().flat_map(move |(own, places)| {
+            own.recovered.iter().map(move |led| Row {
+                element,
+                dependent: 6 * e.nodes[led.node] + led.dof.index(),
+                terms: led.terms.iter().map(|(row, share)| (places[*row as usize], *share)).collect(),
+            })
+        })
+    })
 }
 
 /// Declared dependencies must not run in a circle; the elimination could resolve one, but it never

@@ -1,5 +1,6 @@
 //! An assembled model and its runs.
 
+use crate::reduce::{ReduceError, Reduced, Request, reduce};
 use crate::{CaseRun, Error};
 use std::ops::Deref;
 use std::path::{Path, PathBuf};
@@ -278,6 +279,23 @@ impl<M: Deref<Target = Model>> Analysis<M> {
         after: Option<usize>,
     ) -> Result<Linearised<'_>, Error> {
         Ok(trilith_solvers::linearised(&self.model, &self.system, stiffness, after)?)
+    }
+
+    /// A superelement of few rows in place of a part of the model: see [`mod@crate::reduce`].
+    ///
+    /// # Errors
+    /// [`ReduceError`] where the part is none, is not linear, or is not held by the nodes that are kept.
+    pub fn reduce(&self, request: &Request) -> Result<Reduced<'_>, ReduceError> {
+        reduce(&self.model, &self.system, request)
+    }
+
+    /// The lowest frequencies with the links as stiff as they are when engaged, Hz, rising; 0 for motions without
+    /// stiffness.
+    ///
+    /// # Errors
+    /// [`Error::Solve`] where they cannot be found.
+    pub fn frequencies(&self, count: usize) -> Result<Vec<f64>, Error> {
+        Ok(trilith_solvers::frequencies(&self.model, &self.system, count)?)
     }
 
     /// Modes and basis of a case (the last dynamic one where none is given).

@@ -38,6 +38,7 @@
 //! - [`generate`] makes models from a few numbers.
 //! - [`sweep`] runs a model with many values of its parameters, several analyses side by side.
 //! - [`mod@gradient`] finds exact derivatives of outputs by parameters.
+//! - [`mod@reduce`] puts a superelement of few rows in place of a part (Craig–Bampton).
 //! - `optimize` (a feature, on by default) finds the values of parameters that make a goal smallest.
 //! - [`calibrate`] finds dashpots from coefficients of restitution.
 //! - A link of your own: implement [`element::Link`], offer it with `registry.link::<MyLink>()`.
@@ -61,6 +62,7 @@ mod lanes;
 #[cfg(feature = "optimize")]
 pub mod optimize;
 mod reading;
+pub mod reduce;
 mod report_check;
 mod run_report;
 mod schema;

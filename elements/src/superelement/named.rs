@@ -6,8 +6,12 @@ use std::sync::Arc;
 use trilith_element::{FileError, MeshRow, ParameterError, SparseMatrices, SparseMatrix};
 
 /// Gives all matrices the rows that any of them has, in the order of the names, and ties those of nodes; `labels` are
-/// those of the nodes of the element, in their order.
-pub(super) fn tie(sparse: &mut SparseMatrices, labels: &[&str]) -> Result<(), ParameterError> {
+/// those of the nodes of the element, in their order; those that are led need no row.
+pub(super) fn tie(
+    sparse: &mut SparseMatrices,
+    labels: &[&str],
+    led: &[usize],
+) -> Result<(), ParameterError> {
     let others = [sparse.mass.as_ref(), sparse.damping.as_ref()];
     let all = std::iter::once(&sparse.stiffness).chain(others.into_iter().flatten());
     let rows: BTreeSet<MeshRow> = all.flat_map(|a| a.rows.iter().copied()).collect();
@@ -20,7 +24,7 @@ pub(super) fn tie(sparse: &mut SparseMatrices, labels: &[&str]) -> Result<(), Pa
         let error = FileError { file: file.clone(), line: None, message };
         ParameterError::File { name: "stiffness".into(), message: error.to_string() }
     };
-    let mut ties = Ties::new(rows.len(), labels).map_err(&wrong)?;
+    let mut ties = Ties::new(rows.len(), labels, led).map_err(&wrong)?;
     for (i, row) in rows.iter().enumerate() {
         ties.add(i, &row.node.to_string(), row.dof).map_err(&wrong)?;
     }

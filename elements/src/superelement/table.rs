@@ -3,23 +3,27 @@
 use std::collections::HashMap;
 use trilith_element::{Dof, FileError, FileText, ParameterError, SparseRow};
 
-/// What each of so many rows is; `labels` are those of the nodes of the element, in their order.
+/// What each of so many rows is; `labels` are those of the nodes of the element, in their order; the
+/// nodes that are led need no row.
 pub(super) fn rows(
     table: &FileText,
     size: usize,
     labels: &[&str],
+    led: &[usize],
 ) -> Result<Vec<SparseRow>, ParameterError> {
-    read(table, size, labels)
+    read(table, size, labels, led)
         .map_err(|e| ParameterError::File { name: "rows".into(), message: e.to_string() })
 }
 
-fn read(table: &FileText, size: usize, labels: &[&str]) -> Result<Vec<SparseRow>, FileError> {
+fn read(
+    table: &FileText,
+    size: usize,
+    labels: &[&str],
+    led: &[usize],
+) -> Result<Vec<SparseRow>, FileError> {
     let whole = |message: String| FileError { file: table.name.clone(), line: None, message };
-    let mut ties = Ties::new(size, labels).map_err(whole)?;
-    let text = table.text.trim_start_matches('\u{feff}');
-    let is_told = |line: &str| !line.trim().is_empty() && !line.trim_start().starts_with('#');
-    let lines = text.lines().enumerate().map(|(i, l)| (i + 1, l)).filter(|(_, l)| is_told(l));
-    let lines: Vec<(usize, &str)> = lines.collect();
+    let mut ties = Ties::new(size, labels, led).map_err(whole)?;
+    let lines: Vec<(usize, &str)> = told(table).collect();
     let Some((_, first)) = lines.first() else {
         return Err(whole(
             "the table is empty: a heading `row,node,dof` and a line for each tied row are wanted"
@@ -34,6 +38,18 @@ fn read(table: &FileText, size: usize, labels: &[&str]) -> Result<Vec<SparseRow>
     ties.finished().map_err(whole)
 }
 
+/// The lines that tell something, by their numbers from 1.
+pub(super) fn told(table: &FileText) -> impl Iterator<Item = (usize, &str)> {
+    let text = table.text.trim_start_matches('\u{feff}');
+    let is_told = |line: &str| !line.trim().is_empty() && !line.trim_start().starts_with('#');
+    text.lines().enumerate().map(|(i, l)| (i + 1, l)).filter(move |(_, l)| is_told(l))
+}
+
+/// What stands between the fields of a table with this heading.
+pub(super) fn separator(heading: &str) -> char {
+    [',', ';', '\t'].into_iter().find(|c| heading.contains(*c)).unwrap_or(',')
+}
+
 /// A heading, and a line for each row that is told.
 fn listed(
     table: &FileText,
@@ -42,7 +58,7 @@ fn listed(
     ties: &mut Ties<'_>,
 ) -> Result<(), FileError> {
     let (at, heading) = lines[0];
-    let separator = [',', ';', '\t'].into_iter().find(|c| heading.contains(*c)).unwrap_or(',');
+    let separator = separator(heading);
     let names: Vec<String> = parts(heading, separator).map(str::to_ascii_lowercase).collect();
     if names != ["row", "node", "dof"] {
         let message = format!("the heading is `{}`: `row,node,dof` is wanted", heading.trim());
@@ -115,7 +131,7 @@ fn direction(line: &str) -> Option<(&str, Dof)> {
     is_whole(node).then_some((node, *dof))
 }
 
-fn parts(line: &str, separator: char) -> impl Iterator<Item = &str> {
+pub(super) fn parts(line: &str, separator: char) -> impl Iterator<Item = &str> {
     line.split(separator).map(|part| part.trim().trim_matches('"'))
 }
 
@@ -130,15 +146,16 @@ pub(super) struct Ties<'a> {
 }
 
 impl<'a> Ties<'a> {
-    /// Rows of which nothing is told yet.
-    pub fn new(size: usize, labels: &'a [&'a str]) -> Result<Self, String> {
+    /// Rows of which nothing is told yet; nodes that are led need none.
+    pub fn new(size: usize, labels: &'a [&'a str], led: &[usize]) -> Result<Self, String> {
         let mut nodes: HashMap<&str, usize> = HashMap::new();
         for (node, label) in labels.iter().enumerate() {
             if nodes.insert(label, node).is_some() {
                 return Err(format!("two nodes have the label `{label}`"));
             }
         }
-        let (rows, met) = (vec![SparseRow::Inner(None); size], vec![false; labels.len()]);
+        let (rows, mut met) = (vec![SparseRow::Inner(None); size], vec![false; labels.len()]);
+        led.iter().for_each(|node| met[*node] = true);
         Ok(Self { labels, nodes, rows, tied: HashMap::new(), met })
     }
 

@@ -1,5 +1,7 @@
 //! Values of arguments, from text.
 
+use trilith::reduce::FixedModes;
+
 /// The uplift that a swing should keep.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum Kept {
@@ -114,6 +116,14 @@ pub(super) fn directions(text: &str) -> Result<[f64; 3], String> {
 
 pub(super) fn count(text: &str) -> Result<usize, String> {
     text.parse().ok().filter(|n| *n > 0).ok_or_else(|| "a whole number above 0 is wanted".into())
+}
+
+/// So many modes, or all.
+pub(super) fn modes(text: &str) -> Result<FixedModes, String> {
+    if text.eq_ignore_ascii_case("all") {
+        return Ok(FixedModes::All);
+    }
+    text.parse().map(FixedModes::Count).map_err(|_| "a whole number is wanted, or `all`".into())
 }
 
 pub(super) fn factor(text: &str) -> Result<f64, String> {

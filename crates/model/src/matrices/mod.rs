@@ -168,6 +168,29 @@ pub(crate) fn written(a: &SparseMatrix) -> String {
     if a.rows.is_empty() { market::write(a) } else { dmig::write(a) }
 }
 
+/// How a matrix is written.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum MatrixForm {
+    /// Matrix Market, `.mtx`.
+    Market,
+    /// As `scipy.sparse.save_npz` writes it, `.npz`, in rows (CSR).
+    Npz,
+    /// `DMIG` entries of Nastran, `.pch`; the rows must have names.
+    Dmig,
+}
+
+/// A matrix as a file that reads back to it.
+///
+/// # Errors
+/// Where an archive would be larger than its format knows.
+pub fn matrix_file(a: &SparseMatrix, form: MatrixForm) -> std::io::Result<Vec<u8>> {
+    match form {
+        MatrixForm::Market => Ok(market::write(a).into_bytes()),
+        MatrixForm::Npz => npz::write(a),
+        MatrixForm::Dmig => Ok(dmig::write(a).into_bytes()),
+    }
+}
+
 /// True where every entry has its equal on the other side of the diagonal.
 fn is_symmetric(a: &SparseMatrix) -> bool {
     let mirrored =

@@ -88,3 +88,19 @@ pub(super) fn text(bytes: &[u8]) -> Result<String, String> {
     };
     Ok(letters.trim_matches('\0').to_owned())
 }
+
+/// Items of one kind as a file of format 1.0; `shape` as Python writes it, such as `(3,)`.
+pub(super) fn file(kind: &str, shape: &str, data: impl IntoIterator<Item = u8>) -> Vec<u8> {
+    let fields = format!("{{'descr': '{kind}', 'fortran_order': False, 'shape': {shape}, }}");
+    // Magic, version and length take 10 bytes; the whole head is a multiple of 64 and ends a line.
+    let head = (MAGIC.len() + 4 + fields.len() + 1).next_multiple_of(64);
+    let mut bytes = MAGIC.to_vec();
+    // A head has some hundred bytes.
+    let length = (head - MAGIC.len() - 4) as u16;
+    bytes.extend([1, 0].into_iter().chain(length.to_le_bytes()));
+    bytes.extend(fields.as_bytes());
+    bytes.resize(head - 1, b' ');
+    bytes.push(b'\n');
+    bytes.extend(data);
+    bytes
+}

@@ -6,10 +6,12 @@
 //!   coo  row, col, data
 //! ```
 
-use super::npy::{Numbers, numbers, text};
+use super::npy::{Numbers, file, numbers, text};
 use super::{Entries, square};
-use std::io::{Cursor, Read};
-use zip::ZipArchive;
+use std::io::{self, Cursor, Read, Write};
+use trilith_element::SparseMatrix;
+use zip::write::SimpleFileOptions;
+use zip::{ZipArchive, ZipWriter};
 
 /// Bytes of the largest array that is unpacked: 1 GiB.
 const MOST_BYTES: u64 = 1 << 30;
@@ -116,4 +118,24 @@ fn whole(archive: &mut Archive<'_>, name: &str) -> Result<Vec<i64>, String> {
         Numbers::Whole(numbers) => Ok(numbers),
         Numbers::Real(_) => Err(format!("`{name}` of the archive holds no whole numbers")),
     }
+}
+
+/// A matrix in rows (CSR); the same bytes whenever it is written.
+pub(super) fn write(a: &SparseMatrix) -> io::Result<Vec<u8>> {
+    let count = format!("({},)", a.entries.len());
+    let starts = a.offsets().into_iter().flat_map(|s| (s as i64).to_le_bytes());
+    let arrays = [
+        ("indices", file("<i4", &count, a.entries.iter().flat_map(|e| (e.1 as i32).to_le_bytes()))),
+        ("indptr", file("<i8", &format!("({},)", a.size + 1), starts)),
+        ("format", file("|S3", "()", *b"csr")),
+        ("shape", file("<i8", "(2,)", [a.size as i64; 2].into_iter().flat_map(i64::to_le_bytes))),
+        ("data", file("<f8", &count, a.entries.iter().flat_map(|e| e.2.to_le_bytes()))),
+    ];
+    let mut archive = ZipWriter::new(Cursor::new(Vec::new()));
+    for (name, bytes) in arrays {
+        let options = SimpleFileOptions::default().last_modified_time(zip::DateTime::default());
+        archive.start_file(format!("{name}.npy"), options)?;
+        archive.write_all(&bytes)?;
+    }
+    Ok(archive.finish()?.into_inner())
 }

@@ -8,7 +8,8 @@ mod spectra;
 use crate::matrices::written;
 use crate::read::CONTENTS;
 use crate::{
-    AfterEnd, Body, Damping, Harmonic, Interpolation, Model, ParameterValue, Plane, TimeFunction,
+    AfterEnd, Body, Damping, Harmonic, Interpolation, Model, ParameterValue, Pattern, Plane,
+    TimeFunction,
 };
 use cases::{case, combination};
 use outputs::output;
@@ -21,8 +22,46 @@ use trilith_element::{Card, Dimension, Dof, Frame, Value, Values, Vector3};
 /// out, so the text stands for itself.
 #[must_use]
 pub fn resolved(model: &Model) -> String {
+    written_with(model, None)
+}
+
+/// An element in place of others.
+#[derive(Debug)]
+pub struct Replacement<'a> {
+    /// What the text says of itself in front, line by line.
+    pub notes: &'a [String],
+    /// True for the nodes that are left out, in the order of the model; nothing else may speak of them.
+    pub without_nodes: &'a [bool],
+    /// True for the elements that are left out; nothing else may speak of them.
+    pub without_elements: &'a [bool],
+    /// Name of the element.
+    pub name: &'a str,
+    /// Its kind.
+    pub kind: &'a str,
+    /// Its nodes.
+    pub nodes: &'a [usize],
+    /// Its fields; a text may be the name of a file.
+    pub values: &'a Values,
+    /// The load patterns, all of them, in place of those of the model.
+    pub patterns: &'a [Pattern],
+}
+
+/// The model with an element in place of others, as [`resolved`] writes it.
+#[must_use]
+pub fn resolved_with(model: &Model, replacement: &Replacement<'_>) -> String {
+    written_with(model, Some(replacement))
+}
+
+fn written_with(model: &Model, replacement: Option<&Replacement<'_>>) -> String {
     let mut w = Writer(String::new());
     w.line(0, "// Resolved model: SI units, all defaults filled in.");
+    for note in replacement.into_iter().flat_map(|r| r.notes) {
+        w.line(0, &format!("// {note}"));
+    }
+    let none: &[bool] = &[];
+    let without_nodes = replacement.map_or(none, |r| r.without_nodes);
+    let without_elements = replacement.map_or(none, |r| r.without_elements);
+    let stays = |without: &[bool], i: usize| !without.get(i).copied().unwrap_or(false);
     for p in &model.parameters {
         let value = match &p.value {
             ParameterValue::Number(x, d) => measured(*x, Some(*d).filter(|d| !d.is_none())),
@@ -41,18 +80,26 @@ pub fn resolved(model: &Model) -> String {
         w.line(1, &format!("plane: {name},"));
     }
     w.line(1, &format!("gravity: {:?},", model.gravity));
-    w.map("nodes", &model.nodes, |n| (n.name.clone(), vector(n.position)));
+    let nodes = model.nodes.iter().enumerate().filter(|(i, _)| stays(without_nodes, *i));
+    w.map("nodes", nodes, |(_, n)| (n.name.clone(), vector(n.position)));
     w.map("supports", &model.supports, |s| {
         let dofs = Dof::ALL.iter().filter(|d| s.fixed[d.index()]).map(|d| format!("{},", d.name()));
         (model.nodes[s.node].name.clone(), format!("({})", dofs.collect::<Vec<_>>().join(" ")))
     });
-    w.map("elements", &model.elements, |e| (e.name.clone(), element(model, e)));
+    let elements = model.elements.iter().enumerate();
+    let mut elements: Vec<(String, String)> = elements
+        .filter(|(i, _)| stays(without_elements, *i))
+        .map(|(_, e)| (e.name.clone(), element(model, e)))
+        .collect();
+    elements.extend(replacement.map(|r| (r.name.to_owned(), replaced(model, r))));
+    w.map("elements", elements, |e| e);
     w.line(1, &format!("damping: {},", damping(&model.damping)));
     if let Some(case) = model.p_delta {
         w.line(1, &format!("p_delta: {},", text(&model.cases[case].name)));
     }
     w.map("functions", &model.functions, |f| (f.name.clone(), function(&f.function, f.dimension)));
-    w.map("loads", &model.patterns, |p| (p.name.clone(), loads::pattern(model, p)));
+    let patterns = replacement.map_or(&model.patterns[..], |r| r.patterns);
+    w.map("loads", patterns, |p| (p.name.clone(), loads::pattern(model, p)));
     w.map("cases", &model.cases, |c| (c.name.clone(), case(model, c)));
     if !model.combinations.is_empty() {
         w.map("combinations", &model.combinations, |c| (c.name.clone(), combination(model, c)));
@@ -80,7 +127,12 @@ impl Writer {
         let _ = writeln!(self.0, "{:1$}{line}", "", 4 * indent);
     }
 
-    fn map<T>(&mut self, name: &str, items: &[T], one: impl Fn(&T) -> (String, String)) {
+    fn map<T>(
+        &mut self,
+        name: &str,
+        items: impl IntoIterator<Item = T>,
+        one: impl Fn(T) -> (String, String),
+    ) {
         self.line(1, &format!("{name}: {{"));
         for item in items {
             let (key, value) = one(item);
@@ -149,10 +201,20 @@ fn value(v: &Value) -> String {
     }
 }
 
-fn element(model: &Model, e: &crate::Element) -> String {
-    let nodes: Vec<String> = e.nodes.iter().map(|&i| text(&model.nodes[i].name)).collect();
+/// Nodes and parameters.
+fn fields(model: &Model, nodes: &[usize], values: &Values) -> Vec<String> {
+    let nodes: Vec<String> = nodes.iter().map(|&i| text(&model.nodes[i].name)).collect();
     let mut fields = vec![format!("nodes: [{}]", nodes.join(", "))];
-    fields.extend(e.values.0.iter().map(|(name, v)| format!("{name}: {}", value(v))));
+    fields.extend(values.0.iter().map(|(name, v)| format!("{name}: {}", value(v))));
+    fields
+}
+
+fn replaced(model: &Model, r: &Replacement<'_>) -> String {
+    format!("{}({})", r.kind, fields(model, r.nodes, r.values).join(", "))
+}
+
+fn element(model: &Model, e: &crate::Element) -> String {
+    let mut fields = fields(model, &e.nodes, &e.values);
     for (name, axis) in ["axis1", "axis2"].iter().zip(axes(model, e)) {
         fields.extend(axis.map(|a| format!("{name}: {}", vector(a))));
     }

@@ -174,6 +174,24 @@ fn periods(k: &Sparse, system: &System, free: usize, scale: Option<f64>) -> (Per
     }
 }
 
+/// The lowest frequencies with the links as stiff as they are when engaged, Hz, rising; 0 for motions without stiffness.
+///
+/// # Errors
+/// [`SolveError::Linalg`] where they cannot be found.
+pub fn frequencies(model: &Model, system: &System, count: usize) -> Result<Vec<f64>, SolveError> {
+    let sum = |a: &Sparse| a.diagonal().iter().sum::<f64>();
+    let k = system.stiffness_with(&system.links.engaged(model));
+    let heavy = sum(&system.mass);
+    if system.idle || heavy <= 0.0 {
+        return Ok(Vec::new());
+    }
+    let sigma = if unsupported(&k)?.is_empty() { 0.0 } else { -1e-6 * sum(&k) / heavy };
+    let (lambda, _) = lowest_modes(&k, &system.mass, count, sigma.min(0.0))?;
+    let still = FREE * sigma.abs();
+    let frequency = |l: &f64| if *l > still { l.sqrt() / TAU } else { 0.0 };
+    Ok(lambda.iter().map(frequency).collect())
+}
+
 /// Vertical force on supports and ground under the weight of all that is free, N.
 fn reaction(model: &Model, system: &System, engaged: &Sparse, held: &[f64]) -> Option<f64> {
     let mut u = system.load_vector(model, &Load::Gravity { factor: 1.0 });
