@@ -21,6 +21,7 @@ pub(crate) fn reduce(registry: &Registry, args: &ReduceArguments) -> Result<Answ
         Written::Npz => MatrixForm::Npz,
         Written::Mtx => MatrixForm::Market,
         Written::Dmig => MatrixForm::Dmig,
+        Written::Op4 => MatrixForm::Op4,
     };
     let files = reduced.files(form).map_err(|e| Failure::unwritable(&args.out, &e))?;
     let writer = Writer {
@@ -96,7 +97,8 @@ fn sheet(reduced: &Reduced<'_>, model: &Model) -> String {
         _ => String::new(),
     };
     let listed = |names: &[String]| {
-        let mut all: Vec<String> = names.iter().take(LISTED).map(|n| visible_line(n).into()).collect();
+        let mut all: Vec<String> =
+            names.iter().take(LISTED).map(|n| visible_line(n).into()).collect();
         if names.len() > LISTED {
             all.push(format!("… ({} in all)", names.len()));
         }
@@ -152,8 +154,7 @@ fn masses(
     small: &Model,
     of_small: &Analysis<&Model>,
 ) -> String {
-    let [whole, few] =
-        [analysis.system().mass_sum(model), of_small.system().mass_sum(small)];
+    let [whole, few] = [analysis.system().mass_sum(model), of_small.system().mass_sum(small)];
     let mut text = String::from("\n");
     let told = |x: f64| if x == 0.0 { "0".into() } else { format!("{x:.1e}") };
     for (axis, name) in ["X", "Y", "Z"].into_iter().enumerate() {

@@ -172,7 +172,11 @@ fn recovered_rows<'a>(model: &'a Model, inner: &'a InnerRows) -> impl Iterator<I
             own.recovered.iter().map(move |led| Row {
                 element,
                 dependent: 6 * e.nodes[led.node] + led.dof.index(),
-                terms: led.terms.iter().map(|(row, share)| (places[*row as usize], *share)).collect(),
+                terms: led
+                    .terms
+                    .iter()
+                    .map(|(row, share)| (places[*row as usize], *share))
+                    .collect(),
             })
         })
     })

@@ -70,7 +70,10 @@ impl System {
                 let all = [Some(&own.stiffness), own.damping.as_ref()];
                 return all.into_iter().flatten().any(|a| {
                     let entries = a.entries.iter();
-                    resists(places.len(), entries.map(|(i, j, v)| (*i as usize, v * shifts[*j as usize])))
+                    resists(
+                        places.len(),
+                        entries.map(|(i, j, v)| (*i as usize, v * shifts[*j as usize])),
+                    )
                 });
             }
             let Some(m) = &m else { return false };

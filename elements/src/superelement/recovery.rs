@@ -62,7 +62,8 @@ fn shares(
     let mut all: Vec<Recovered> = Vec::new();
     for (at, line) in lines {
         let wrong = |message: String| table.error(at, message);
-        let Ok([label, dof, row, value]) = <[&str; 4]>::try_from(parts(line, by).collect::<Vec<_>>())
+        let Ok([label, dof, row, value]) =
+            <[&str; 4]>::try_from(parts(line, by).collect::<Vec<_>>())
         else {
             let message =
                 format!("`{}`: a node, a direction, a row and a share are wanted", line.trim());

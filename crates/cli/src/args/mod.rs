@@ -122,7 +122,7 @@ pub(crate) struct ReduceArguments {
     /// Folder for `model.ron` and the files that it reads
     #[arg(long, value_name = "DIR")]
     pub out: PathBuf,
-    /// How matrices are written: for SciPy, Matrix Market, or Nastran's DMIG
+    /// How matrices are written: for SciPy, Matrix Market, or Nastran's DMIG or OUTPUT4
     #[arg(long, value_enum, default_value = "npz")]
     pub format: Written,
     /// How many frequencies of both models are compared; 0: none
@@ -136,6 +136,7 @@ pub(crate) enum Written {
     Npz,
     Mtx,
     Dmig,
+    Op4,
 }
 
 #[derive(Args)]

@@ -6,6 +6,7 @@
 //! | `.npz` | `scipy.sparse.save_npz`: CSR, CSC or COO, compressed or not |
 //! | `.sti`, `.mas` | `SOLVER=MATRIXSTORAGE` of CalculiX: one triangle, line by line |
 //! | `.pch` | `DMIG` entries of Nastran, which say what their rows are; `wall.pch:KAAX` where there are several matrices |
+//! | `.op4` | OUTPUT4 of Nastran, formatted or not; `wall.op4:KAA` where there are several matrices |
 //!
 //! What a file is, it says itself or its name does: an archive begins with `PK`, Matrix Market with `%%`.
 
@@ -15,6 +16,7 @@ mod dmig;
 mod market;
 mod npy;
 mod npz;
+mod op4;
 
 use crate::model::sha256;
 use std::borrow::Cow;
@@ -34,7 +36,7 @@ type Entries = Vec<(u32, u32, f64)>;
 pub(crate) fn read(bytes: &[u8], name: &str, path: &str) -> Result<SparseMatrix, FileError> {
     let (file, which) = parted(name);
     let form = Form::of(bytes, file);
-    if let (Some(which), false) = (which, form == Form::Dmig) {
+    if let (Some(which), false) = (which, matches!(form, Form::Dmig | Form::Op4)) {
         let message = format!("its matrix has no name: leave out `:{which}`");
         return Err(whole(file, message));
     }
@@ -43,6 +45,7 @@ pub(crate) fn read(bytes: &[u8], name: &str, path: &str) -> Result<SparseMatrix,
         Form::Npz => npz::read(bytes).map_err(|message| whole(file, message))?,
         Form::Market => market::read(bytes, file)?,
         Form::Calculix => calculix::read(bytes, file)?,
+        Form::Op4 => op4::read(bytes, file, which)?,
         Form::Dmig => {
             let read = dmig::read(bytes, file, which)?;
             rows = read.0;
@@ -76,6 +79,7 @@ enum Form {
     Market,
     Calculix,
     Dmig,
+    Op4,
 }
 
 impl Form {
@@ -92,6 +96,7 @@ impl Form {
         match end.as_str() {
             "sti" | "mas" => Self::Calculix,
             "pch" | "dmig" | "bdf" => Self::Dmig,
+            "op4" => Self::Op4,
             "mtx" => Self::Market,
             _ if dmig::has(bytes) => Self::Dmig,
             _ if triplet(first).is_ok() => Self::Calculix,
@@ -163,9 +168,14 @@ fn settle(entries: &mut Entries) {
     entries.shrink_to_fit();
 }
 
-/// A matrix as a text that reads back to it: Matrix Market, or `DMIG` entries where its rows have names.
+/// A matrix as a text that reads back to it under its name: Matrix Market, `DMIG` entries where its rows have names, or
+/// OUTPUT4 where it has one and its rows have none.
 pub(crate) fn written(a: &SparseMatrix) -> String {
-    if a.rows.is_empty() { market::write(a) } else { dmig::write(a) }
+    match (a.rows.is_empty(), parted(&a.name).1) {
+        (false, _) => dmig::write(a),
+        (true, Some(_)) => op4::write(a),
+        (true, None) => market::write(a),
+    }
 }
 
 /// How a matrix is written.
@@ -177,6 +187,8 @@ pub enum MatrixForm {
     Npz,
     /// `DMIG` entries of Nastran, `.pch`; the rows must have names.
     Dmig,
+    /// OUTPUT4 of Nastran, formatted, `.op4`.
+    Op4,
 }
 
 /// A matrix as a file that reads back to it.
@@ -188,6 +200,7 @@ pub fn matrix_file(a: &SparseMatrix, form: MatrixForm) -> std::io::Result<Vec<u8
         MatrixForm::Market => Ok(market::write(a).into_bytes()),
         MatrixForm::Npz => npz::write(a),
         MatrixForm::Dmig => Ok(dmig::write(a).into_bytes()),
+        MatrixForm::Op4 => Ok(op4::write(a).into_bytes()),
     }
 }
 

@@ -28,6 +28,10 @@ const REFINED: usize = 2;
 const MARGIN: f64 = 1e-9;
 /// Share of the stiffness at kept rows below which a sum of what is inside is rounding.
 const ROUNDING: f64 = 1e-13;
+/// Share of its row's stiffness above which a negative pivot is no rounding.
+const NEGATIVE: f64 = 1e-8;
+/// What a pivot that is none is replaced by: [`Ldlt::with_rigid_zeros`].
+const LOOSE: f64 = 1e29;
 
 /// Which fixed-interface modes are taken.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -48,7 +52,9 @@ pub enum ReductionError {
     #[error("{} rows move freely while those that are kept stand still", .0.len())]
     Loose(Vec<usize>),
     /// A row whose stiffness, with the others, is negative.
-    #[error("the stiffness is not positive definite where all that is kept stands still, at row {0}")]
+    #[error(
+        "the stiffness is not positive definite where all that is kept stands still, at row {0}"
+    )]
     Negative(usize),
     /// A factorisation or an eigenproblem failed.
     #[error(transparent)]
@@ -92,16 +98,14 @@ impl CraigBampton {
             return Ok(Self::of_all([k, m, c]));
         }
         let [k_inner, m_inner] = [k, m].map(|a| a.block(&inner, &inner));
+        if let Some(row) = negative(&k_inner)? {
+            return Err(ReductionError::Negative(inner[row]));
+        }
         let loose = unsupported(&k_inner)?;
         if !loose.is_empty() {
             return Err(ReductionError::Loose(loose.into_iter().map(|i| inner[i]).collect()));
         }
         let mut factor = Ldlt::new(&k_inner)?;
-        let mut negative = None;
-        factor.pivots(|i, d| negative = negative.or((d < 0.0).then_some(inner[i])));
-        if let Some(row) = negative {
-            return Err(ReductionError::Negative(row));
-        }
         let psi = constraint_modes(&k_inner, &mut factor, &k.block(&inner, kept));
         drop(factor);
         let available = inner.len() - unsupported(&m_inner)?.len();
@@ -188,6 +192,18 @@ impl CraigBampton {
         let all = f.iter().zip(&x).map(|(f, x)| f * x).sum();
         Ok(((0..modes).map(own_share).collect(), all))
     }
+}
+
+/// A row whose pivot is negative, and no rounding.
+fn negative(k: &Sparse) -> Result<Option<usize>, LinalgError> {
+    let (diagonal, mut found) = (k.diagonal(), None);
+    Ldlt::with_rigid_zeros(k)?.pivots(|row, d| {
+        // What takes the place of a pivot of rounding is larger than anything, and has its sign.
+        if d < -NEGATIVE * diagonal[row].abs() && d > -LOOSE {
+            found = found.or(Some(row));
+        }
+    });
+    Ok(found)
 }
 
 /// −K_ii⁻¹ K_ik.

@@ -123,7 +123,8 @@ pub fn reduce<'a>(
         return Err(ReduceError::NothingKept);
     }
     let matrices = [&own.stiffness, &own.mass, &own.damping];
-    let cb = CraigBampton::new(matrices, &rows, request.modes).map_err(|e| told(e, model, system, &own))?;
+    let cb = CraigBampton::new(matrices, &rows, request.modes)
+        .map_err(|e| told(e, model, system, &own))?;
     let (effective_mass, inner_mass) = effective_masses(system, &own, &cb)?;
 
     let mut nodes: Vec<usize> = Vec::new();

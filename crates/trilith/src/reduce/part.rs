@@ -92,7 +92,8 @@ fn named_nodes(model: &Model, names: &[String]) -> Result<Vec<usize>, ReduceErro
             found.extend(fitting);
         } else {
             let groups = model.groups.iter().filter(|g| g.of_nodes).map(|g| g.name.as_str());
-            let all: Vec<&str> = groups.chain(model.nodes.iter().map(|n| n.name.as_str())).collect();
+            let all: Vec<&str> =
+                groups.chain(model.nodes.iter().map(|n| n.name.as_str())).collect();
             return Err(ReduceError::unknown(name, "node or group of nodes", all));
         }
     }

@@ -13,9 +13,10 @@ const RECOVERY: &str = "recovery.csv";
 /// Parameters of the matrices, and the names of their files without an ending.
 const MATRICES: [&str; 3] = ["stiffness", "mass", "damping"];
 const PUNCH: &str = "matrices.pch";
+const OUTPUT4: &str = "matrices.op4";
 
 /// Names of all files that a reduction may write; the model first.
-pub const FILES: [&str; 10] = [
+pub const FILES: [&str; 11] = [
     MODEL,
     "stiffness.npz",
     "mass.npz",
@@ -24,6 +25,7 @@ pub const FILES: [&str; 10] = [
     "mass.mtx",
     "damping.mtx",
     PUNCH,
+    OUTPUT4,
     ROWS,
     RECOVERY,
 ];
@@ -46,9 +48,8 @@ pub(super) fn name(model: &Model, part: &[bool], names: &[String]) -> String {
         [one] => one.as_str(),
         _ => "part",
     };
-    let taken = |name: &str| {
-        model.elements.iter().zip(part).any(|(e, own)| !*own && e.name == name)
-    };
+    let taken =
+        |name: &str| model.elements.iter().zip(part).any(|(e, own)| !*own && e.name == name);
     let mut name = first.to_owned();
     for i in 2.. {
         if !taken(&name) {
@@ -151,6 +152,7 @@ impl Reduced<'_> {
             MatrixForm::Market => format!("{name}.mtx"),
             MatrixForm::Npz => format!("{name}.npz"),
             MatrixForm::Dmig => matrix.name.clone(),
+            MatrixForm::Op4 => matrix.name.replace(PUNCH, OUTPUT4),
         };
         let text = self.model(form, |name, part| {
             Value::Text(match part {
@@ -159,16 +161,21 @@ impl Reduced<'_> {
             })
         });
         let mut files = vec![(MODEL.to_owned(), text.into_bytes())];
-        if form == MatrixForm::Dmig {
-            let mut punch = Vec::new();
-            for (_, matrix) in self.own() {
-                punch.extend(matrix_file(matrix, form)?);
+        let together = match form {
+            MatrixForm::Dmig => Some(PUNCH),
+            MatrixForm::Op4 => Some(OUTPUT4),
+            MatrixForm::Market | MatrixForm::Npz => None,
+        };
+        let mut all = Vec::new();
+        for (name, matrix) in self.own() {
+            let bytes = matrix_file(matrix, form)?;
+            match together {
+                Some(_) => all.extend(bytes),
+                None => files.push((file(name, matrix), bytes)),
             }
-            files.push((PUNCH.to_owned(), punch));
-        } else {
-            for (name, matrix) in self.own() {
-                files.push((file(name, matrix), matrix_file(matrix, form)?));
-            }
+        }
+        files.extend(together.map(|name| (name.to_owned(), all)));
+        if form != MatrixForm::Dmig {
             files.push((ROWS.to_owned(), self.row_table().into_bytes()));
         }
         if !self.followed.is_empty() {
