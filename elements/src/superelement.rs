@@ -128,7 +128,10 @@ impl Superelement {
             _ => None,
         };
         let (table, recovery) = (file("rows"), file("recovery"));
-        let led = recovery.map_or_else(Vec::new, |table| recovery::nodes(table, &labels));
+        let led = match recovery {
+            Some(table) => recovery::nodes(table, &labels)?,
+            None => Vec::new(),
+        };
         let file = &sparse.stiffness.name;
         match (table, sparse.stiffness.rows.is_empty()) {
             (Some(table), true) => {

@@ -3,6 +3,7 @@
 use crate::args::{ReduceArguments, Written};
 use crate::text::{number, percent, table};
 use crate::{Answer, Failure, diagnostics, names, output, place, read};
+use trilith::element::Dof;
 use trilith::model::visible_line;
 use trilith::reduce::{FILES, FixedModes, MatrixForm, ReduceError, Reduced, Request};
 use trilith::results::Writer;
@@ -158,7 +159,9 @@ fn masses(
     let mut text = String::from("\n");
     let told = |x: f64| if x == 0.0 { "0".into() } else { format!("{x:.1e}") };
     for (axis, name) in ["X", "Y", "Z"].into_iter().enumerate() {
-        if whole.mass[axis] > 0.0 {
+        // What moves out of the plane is held, and the matrices do not have it.
+        let within = model.plane.is_none_or(|plane| plane.dofs().contains(&Dof::ALL[axis]));
+        if whole.mass[axis] > 0.0 && within {
             text += &format!(
                 "mass       {} kg along {name}, off by {}\n",
                 number(whole.mass[axis]),

@@ -6,37 +6,8 @@ use trilith_element::{Dof, FileError, FileText, ParameterError, Recovered, Spars
 
 const WANTED: &str = "a heading `node,dof,row,value` and a line for each share are wanted";
 
-/// The nodes that the table tells of, wherever it says so; `labels` are those of the nodes of the element.
-pub(super) fn nodes(table: &FileText, labels: &[&str]) -> Vec<usize> {
-    let mut lines = told(table);
-    let by = lines.next().map_or(',', |(_, heading)| separator(heading));
-    let mut last = None;
-    let mut found: Vec<usize> = lines
-        .filter_map(|(_, line)| parts(line, by).next())
-        // Tables go node by node.
-        .filter(|label| last.replace(*label) != Some(*label))
-        .filter_map(|label| labels.iter().position(|l| *l == label))
-        .collect();
-    found.sort_unstable();
-    found.dedup();
-    found
-}
-
-/// What follows the rows, which are these.
-pub(super) fn read(
-    table: &FileText,
-    rows: &[SparseRow],
-    labels: &[&str],
-) -> Result<Vec<Recovered>, ParameterError> {
-    shares(table, rows, labels)
-        .map_err(|e| ParameterError::File { name: "recovery".into(), message: e.to_string() })
-}
-
-fn shares(
-    table: &FileText,
-    rows: &[SparseRow],
-    labels: &[&str],
-) -> Result<Vec<Recovered>, FileError> {
+/// The lines behind the heading, with what stands between their fields.
+fn lines(table: &FileText) -> Result<(char, impl Iterator<Item = (usize, &str)>), FileError> {
     let mut lines = told(table);
     let Some((first, heading)) = lines.next() else {
         let message = format!("the table is empty: {WANTED}");
@@ -49,6 +20,43 @@ fn shares(
             format!("the heading is `{}`: `node,dof,row,value` is wanted", heading.trim());
         return Err(table.error(first, message));
     }
+    Ok((by, lines))
+}
+
+fn of_parameter(e: FileError) -> ParameterError {
+    ParameterError::File { name: "recovery".into(), message: e.to_string() }
+}
+
+/// The nodes that the table tells of, wherever it says so; `labels` are those of the nodes of the element.
+pub(super) fn nodes(table: &FileText, labels: &[&str]) -> Result<Vec<usize>, ParameterError> {
+    let (by, lines) = lines(table).map_err(of_parameter)?;
+    let mut last = None;
+    let mut found: Vec<usize> = lines
+        .filter_map(|(_, line)| parts(line, by).next())
+        // Tables go node by node.
+        .filter(|label| last.replace(*label) != Some(*label))
+        .filter_map(|label| labels.iter().position(|l| *l == label))
+        .collect();
+    found.sort_unstable();
+    found.dedup();
+    Ok(found)
+}
+
+/// What follows the rows, which are these.
+pub(super) fn read(
+    table: &FileText,
+    rows: &[SparseRow],
+    labels: &[&str],
+) -> Result<Vec<Recovered>, ParameterError> {
+    shares(table, rows, labels).map_err(of_parameter)
+}
+
+fn shares(
+    table: &FileText,
+    rows: &[SparseRow],
+    labels: &[&str],
+) -> Result<Vec<Recovered>, FileError> {
+    let (by, lines) = lines(table)?;
     let known: HashMap<&str, usize> = labels.iter().enumerate().map(|(i, l)| (*l, i)).collect();
     let tied: HashSet<(usize, Dof)> = rows
         .iter()

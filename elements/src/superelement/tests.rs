@@ -183,3 +183,70 @@ fn matrices_whose_rows_have_names_are_brought_to_the_same_rows() {
     let error = of(Value::List(vec![Value::Text("8".into())])).unwrap_err();
     assert!(error.starts_with("`stiffness`: w.pch:K: no row is of a node `8`"), "{error}");
 }
+
+/// Nodes that are no rows follow these.
+#[test]
+fn a_node_that_follows_the_rows_needs_none_of_its_own() {
+    let of = |table: &str| {
+        let file = |name: &str, text: &str| {
+            Value::File(Arc::new(FileText { name: name.into(), text: text.into() }))
+        };
+        let labels = ["left", "right", "mid"].map(|l| Value::Text(l.into())).to_vec();
+        let all = vec![
+            ("stiffness".into(), matrix("k.mtx", 2, &ROD)),
+            ("rows".into(), file("rows.csv", TABLE)),
+            ("labels".into(), Value::List(labels)),
+            ("recovery".into(), file("recovery.csv", table)),
+        ];
+        Superelement::read(&Values(all)).map_err(|e| e.to_string())
+    };
+    let with = |lines: &str| of(&format!("node,dof,row,value\n{lines}"));
+    let it = with("mid,Ux,1,0.25\n# and\nmid;Ux,2,0.75\n").unwrap_err();
+    assert!(it.contains("line 4: `mid;Ux,2,0.75`: a node, a direction, a row and a share"), "{it}");
+    let it = with("mid,Ux,2,0.75\nmid,Rz,1,-1e-3\nleft,Uy,1,2\nmid,Ux,1,0.25\n").unwrap();
+    let led: Vec<_> = it.sparse.recovered.iter().map(|r| (r.node, r.dof, &r.terms[..])).collect();
+    assert_eq!(
+        led,
+        [
+            (2, Dof::Ux, &[(1, 0.75), (0, 0.25)][..]),
+            (2, Dof::Rz, &[(0, -1e-3)][..]),
+            (0, Dof::Uy, &[(0, 2.0)][..])
+        ]
+    );
+    let told = |lines: &str| with(lines).unwrap_err();
+    assert_eq!(
+        told("far,Ux,1,1\nmid,Ux,1,1\n"),
+        "`recovery`: recovery.csv, line 2: `far` is none of its nodes: those that follow rows are nodes of the element too"
+    );
+    assert_eq!(
+        told("mid,X,1,1\n"),
+        "`recovery`: recovery.csv, line 2: `X` is no direction: must be Ux, Uy, Uz, Rx, Ry or Rz"
+    );
+    for row in ["0", "3", "one"] {
+        let line = format!("mid,Ux,{row},1\n");
+        assert_eq!(
+            told(&line),
+            "`recovery`: recovery.csv, line 2: there is no such row: there are 2, counted from 1"
+        );
+    }
+    for share in ["inf", "NaN", "", "1x"] {
+        assert_eq!(
+            told(&format!("mid,Ux,1,{share}\n")),
+            format!(
+                "`recovery`: recovery.csv, line 2: `{share}` is no share: a finite number is wanted"
+            )
+        );
+    }
+    assert_eq!(
+        told("mid,Ux,1,1\nright,Ux,1,1\n"),
+        "`recovery`: recovery.csv, line 3: Ux of node `right` is a row already"
+    );
+    assert_eq!(
+        told("mid,Ux,1,1\nmid,Uy,1,1\nmid,Ux,1,1\n"),
+        "`recovery`: recovery.csv, line 4: this share stands in line 2 already"
+    );
+    assert!(of("").unwrap_err().starts_with("`recovery`: recovery.csv: the table is empty"));
+    assert!(of("mid,Ux,1,1\n").unwrap_err().contains("the heading is `mid,Ux,1,1`"));
+    // A node with neither is still told.
+    assert!(with("left,Uy,1,1\n").unwrap_err().contains("no row is of a node `mid`"));
+}

@@ -24,6 +24,8 @@ use trilith_linalg::{Dense, Ldlt, LinalgError, Sparse, lowest_modes, unsupported
 
 /// Solutions of a right-hand side: the second takes out what the first one leaves.
 const REFINED: usize = 2;
+/// Right-hand sides that are solved together: the factor is read once for them.
+const TOGETHER: usize = 16;
 /// Modes above a limit are found no worse than that: a mode at it counts.
 const MARGIN: f64 = 1e-9;
 /// Share of the stiffness at kept rows below which a sum of what is inside is rounding.
@@ -210,15 +212,20 @@ fn negative(k: &Sparse) -> Result<Option<usize>, LinalgError> {
 fn constraint_modes(k_inner: &Sparse, factor: &mut Ldlt, coupling: &Sparse) -> Dense {
     let (rows, columns) = (coupling.rows(), coupling.columns());
     let mut psi = Dense::zeros(rows, columns);
-    let mut right = vec![0.0; rows];
-    for j in 0..columns {
+    let mut right = vec![0.0; rows * TOGETHER.min(columns)];
+    for start in (0..columns).step_by(TOGETHER) {
+        let width = TOGETHER.min(columns - start);
+        let right = &mut right[..rows * width];
         for _ in 0..REFINED {
             right.fill(0.0);
-            let (places, values) = coupling.column(j);
-            places.iter().zip(values).for_each(|(i, v)| right[*i] = -v);
-            k_inner.mul_add(-1.0, psi.column(j), &mut right);
-            factor.solve(&mut right);
-            psi.column_mut(j).iter_mut().zip(&right).for_each(|(x, more)| *x += more);
+            for (j, right) in (start..).zip(right.chunks_mut(rows)) {
+                let (places, values) = coupling.column(j);
+                places.iter().zip(values).for_each(|(i, v)| right[*i] = -v);
+                k_inner.mul_add(-1.0, psi.column(j), right);
+            }
+            factor.solve(right);
+            let own = &mut psi.values_mut()[rows * start..];
+            own.iter_mut().zip(&*right).for_each(|(x, more)| *x += more);
         }
     }
     psi
