@@ -102,7 +102,7 @@ fn dependencies_point_one_way() {
             &["trilith-element", "trilith-model", "trilith-solvers", "trilith-results"],
         ),
         ("trilith-study", &["trilith"]),
-        ("trilith-exchange", &["trilith-model"]),
+        ("trilith-exchange", &["trilith-element", "trilith-model"]),
         ("trilith-diagnostics", &["trilith-model"]),
         ("trilith-live", &["trilith", "trilith-diagnostics"]),
         ("trilith-lsp", &["trilith"]),

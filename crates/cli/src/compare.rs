@@ -20,6 +20,9 @@ const PAGE: &str = "compare.html";
 pub(crate) fn compare(registry: &Registry, args: &CompareArguments) -> Result<Answer, Failure> {
     let mut model = read(registry, &args.model)?;
     let case = case(&model, args.case.as_deref())?;
+    if args.peer.peer.is_some() {
+        return crate::peer::compare(&mut model, case, args);
+    }
     let variants = variants(&model, case, args)?;
     // Looked at before the runs: nothing that was computed is lost for want of a place.
     let folder = args.out.as_ref().map(|dir| open(dir, &model)).transpose()?;
@@ -225,7 +228,7 @@ fn peaks(all: &[Compared]) -> Vec<Vec<String>> {
 }
 
 /// Difference of an extreme relative to the larger magnitude of the first solver's extremes.
-fn difference(first: Option<&Peak>, other: Option<&Peak>, value: fn(&Peak) -> f64) -> String {
+pub(crate) fn difference(first: Option<&Peak>, other: Option<&Peak>, value: fn(&Peak) -> f64) -> String {
     match (first, other) {
         (Some(a), Some(b)) if value(a) == value(b) => "0".into(),
         (Some(a), Some(b)) if a.magnitude() > 0.0 => {

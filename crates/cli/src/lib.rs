@@ -22,6 +22,7 @@ mod design_spectrum;
 mod diagnostics;
 mod elements;
 mod exercise;
+mod export;
 mod failure;
 mod figure_files;
 mod figures;
@@ -38,6 +39,7 @@ mod names;
 mod new;
 mod optimize;
 mod output;
+mod peer;
 mod place;
 mod progress;
 mod record;
@@ -105,6 +107,7 @@ pub fn main_of(registry: Registry, arguments: impl IntoIterator<Item = OsString>
         Command::Reduce(a) => reduce::reduce(&registry, &a),
         Command::Generate(a) => generate::generate(a),
         Command::Import(a) => import::import(&a),
+        Command::Export(a) => export::export(&registry, &a),
         Command::Calibrate(a) => calibrate::calibrate(&registry, &a),
         Command::Record(a) => record::record(&a),
         Command::Completions { shell } => manual::completions(shell),

@@ -1,11 +1,15 @@
 //! Arguments of the program.
 
+mod exchange;
 mod generate;
 mod values;
 
 use crate::figure_files::Format;
 use crate::names::{self, Names};
 use clap::{Args, Parser, Subcommand};
+pub(crate) use exchange::{
+    ExportArguments, ImportArguments, PeerArguments, ScriptArguments,
+};
 pub(crate) use generate::{FrameArguments, GenerateArguments, Generated};
 use std::path::PathBuf;
 use trilith::reduce::FixedModes;
@@ -13,7 +17,7 @@ use trilith_study::Shard;
 pub(crate) use values::{Kept, pair};
 use values::{
     alpha, assignment, count, directions, factor, frequency, length, modes, positive, rocking,
-    share, units,
+    share,
 };
 
 /// Small finite-element models with nonlinear links: fast nonlinear analysis and direct integration.
@@ -68,8 +72,10 @@ pub(crate) enum Command {
     Reduce(ReduceArguments),
     /// Make a model file from a few numbers
     Generate(GenerateArguments),
-    /// Make a model file of a text model of SAP2000, with a report of every loss
+    /// Make a model file of a text model of SAP2000 or a script of OpenSees, with a report of every loss
     Import(ImportArguments),
+    /// Write a case as a script for OpenSees, with a report of what has no counterpart
+    Export(ExportArguments),
     /// Find contact and rotational dashpots from coefficients of restitution
     Calibrate(CalibrateArguments),
     /// Intensities and spectra of ground motion records; synthetic motions
@@ -460,6 +466,8 @@ pub(crate) struct CompareArguments {
     /// Open the page in a browser
     #[arg(long, requires = "out")]
     pub open: bool,
+    #[command(flatten)]
+    pub peer: PeerArguments,
 }
 
 #[derive(Args)]
@@ -518,22 +526,6 @@ pub(crate) struct CalibrateArguments {
     /// Horizontal direction of the plane of motion: X or Y [default: that of a plane model, or X]
     #[arg(long, value_parser = ["X", "Y"], ignore_case = true)]
     pub along: Option<String>,
-}
-
-#[derive(Args)]
-pub(crate) struct ImportArguments {
-    /// Text model of SAP2000 (`.s2k` or `.$2k`), or script of OpenSees (`.tcl`)
-    pub file: PathBuf,
-    /// Model file to write; the report of losses goes beside it as `<name>.import.txt`, records as CSV files
-    /// [default: no files, the model is printed]
-    #[arg(long, value_name = "FILE")]
-    pub out: Option<PathBuf>,
-    /// Write one case with those that it continues, and give the model its damping
-    #[arg(long)]
-    pub case: Option<String>,
-    /// Units of length and force of a script, such as `in,kip` [default: m,N]
-    #[arg(long, value_name = "LENGTH,FORCE", value_parser = units)]
-    pub units: Option<(String, String)>,
 }
 
 #[cfg(test)]
