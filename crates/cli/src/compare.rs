@@ -228,7 +228,11 @@ fn peaks(all: &[Compared]) -> Vec<Vec<String>> {
 }
 
 /// Difference of an extreme relative to the larger magnitude of the first solver's extremes.
-pub(crate) fn difference(first: Option<&Peak>, other: Option<&Peak>, value: fn(&Peak) -> f64) -> String {
+pub(crate) fn difference(
+    first: Option<&Peak>,
+    other: Option<&Peak>,
+    value: fn(&Peak) -> f64,
+) -> String {
     match (first, other) {
         (Some(a), Some(b)) if value(a) == value(b) => "0".into(),
         (Some(a), Some(b)) if a.magnitude() > 0.0 => {

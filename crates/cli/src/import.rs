@@ -80,7 +80,9 @@ fn read(bytes: &[u8], options: &Options) -> Result<Import, Failure> {
                 format!("{} is a script in Python, which is not run", shown(&options.path));
             return Err(Failure::input(
                 &message,
-                Some("scripts of OpenSees are read in Tcl (`.tcl`)"),
+                Some(
+                    "`python -m trilith.opensees script.py --out model.ron` runs it in the Python of the package `trilith` and records its commands; scripts in Tcl (`.tcl`) are read here",
+                ),
             ));
         }
         _ if options.units.is_some() => {

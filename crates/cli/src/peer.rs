@@ -78,8 +78,12 @@ pub(crate) fn compare(
 
 fn help(error: &PeerError) -> Option<&'static str> {
     match error {
-        PeerError::Failed { .. } => Some("`--substeps N` takes shorter steps there; `trilith export` writes the script, to be looked at"),
-        PeerError::TooLong(_) => Some("`--time-limit S` gives it more time, `--substeps N` fewer steps"),
+        PeerError::Failed { .. } => Some(
+            "`--substeps N` takes shorter steps there; `trilith export` writes the script, to be looked at",
+        ),
+        PeerError::TooLong(_) => {
+            Some("`--time-limit S` gives it more time, `--substeps N` fewer steps")
+        }
         _ => None,
     }
 }
@@ -105,31 +109,19 @@ struct Both<'r> {
 }
 
 impl Both<'_> {
-    fn history(&self, name: &str) -> Option<&[f64]> {
-        let at = self.theirs.names.iter().position(|n| n == name)?;
-        self.theirs.histories.get(at).map(Vec::as_slice)
+    fn at(&self, name: &str) -> Option<usize> {
+        self.theirs.names.iter().position(|n| n == name)
     }
 
     fn peak(&self, name: &str) -> Option<Peak> {
-        let values = self.history(name)?;
-        let mut all = self.theirs.time.iter().zip(values);
-        let (t, x) = all.next()?;
-        let mut peak = Peak::new(*t, *x);
-        for (t, x) in all {
-            if *x > peak.max {
-                (peak.max, peak.t_max) = (*x, *t);
-            }
-            if *x < peak.min {
-                (peak.min, peak.t_min) = (*x, *t);
-            }
-            peak.last = *x;
-        }
-        Some(peak)
+        let [max, t_max, min, t_min, last] = self.theirs.peaks[self.at(name)?];
+        Some(Peak { max, t_max, min, t_min, last })
     }
 
     /// Root mean square of the difference from the first run here, as share of that run's; none without both.
     fn rms(&self, index: usize, name: &str) -> Option<f64> {
-        let (a, b) = (self.ours[0].outcome.histories.get(index)?, self.history(name)?);
+        let (a, b) =
+            (self.ours[0].outcome.histories.get(index)?, &self.theirs.histories[self.at(name)?]);
         if a.len() != b.len() {
             return None;
         }
@@ -147,13 +139,20 @@ impl Both<'_> {
             head.push(format!("{} min", c.variant));
             head.extend((i > 0).then(|| "diff".to_owned()));
         }
-        head.extend([format!("{NAME} max"), "diff".into(), format!("{NAME} min"), "diff".into(), "rms of difference".into()]);
+        head.extend([
+            format!("{NAME} max"),
+            "diff".into(),
+            format!("{NAME} min"),
+            "diff".into(),
+            "rms of difference".into(),
+        ]);
         let mut rows = vec![head];
         let of_first = &first.outcome.summary.outputs;
         for (index, (name, own)) in of_first.0.iter().enumerate() {
             let mut cells = row([name, &own.unit]);
             let theirs = self.peak(name);
-            let all = self.ours.iter().map(|c| c.outcome.summary.outputs.get(name).and_then(|o| o.peak));
+            let all =
+                self.ours.iter().map(|c| c.outcome.summary.outputs.get(name).and_then(|o| o.peak));
             for (i, peak) in all.chain([theirs]).enumerate() {
                 for value in [|p: &Peak| p.max, |p: &Peak| p.min] {
                     cells.push(peak.as_ref().map_or("–".into(), |p| number(value(p))));
@@ -165,7 +164,11 @@ impl Both<'_> {
             cells.push(self.rms(index, name).map_or("–".into(), percent));
             rows.push(cells);
         }
-        let mut out = format!("\npeaks; differences relative to {}\n{}", first.variant, table(&rows, &[0, 1]));
+        let mut out = format!(
+            "\npeaks; differences relative to {}\n{}",
+            first.variant,
+            table(&rows, &[0, 1])
+        );
         if !self.theirs.periods.is_empty() {
             let mut rows = vec![row(["mode", "period [s]", NAME, "diff"])];
             for (i, theirs) in self.theirs.periods.iter().enumerate() {
@@ -182,12 +185,17 @@ impl Both<'_> {
             let work = crate::report::work(&c.outcome.summary.work);
             out += &format!("{} ({}): {work}\n", c.variant, c.outcome.summary.status);
         }
-        out += &format!("{NAME}: {} s with its start\n", crate::text::significant(self.theirs.seconds, 3));
+        out += &format!(
+            "{NAME}: {} s with its start\n",
+            crate::text::significant(self.theirs.seconds, 3)
+        );
         out
     }
 
     fn json(&self, model: &Model, case: usize, made: &Export) -> Value {
-        let extremes = |p: Option<Peak>| p.map(|p| json!({"max": p.max, "t_max": p.t_max, "min": p.min, "t_min": p.t_min, "final": p.last}));
+        let extremes = |p: Option<Peak>| {
+            p.map(|p| json!({"max": p.max, "t_max": p.t_max, "min": p.min, "t_min": p.t_min, "final": p.last}))
+        };
         let mut outputs = serde_json::Map::new();
         for (index, (name, own)) in self.ours[0].outcome.summary.outputs.0.iter().enumerate() {
             let by: serde_json::Map<String, Value> = self

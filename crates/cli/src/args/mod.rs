@@ -7,9 +7,7 @@ mod values;
 use crate::figure_files::Format;
 use crate::names::{self, Names};
 use clap::{Args, Parser, Subcommand};
-pub(crate) use exchange::{
-    ExportArguments, ImportArguments, PeerArguments, ScriptArguments,
-};
+pub(crate) use exchange::{ExportArguments, ImportArguments, PeerArguments, ScriptArguments};
 pub(crate) use generate::{FrameArguments, GenerateArguments, Generated};
 use std::path::PathBuf;
 use trilith::reduce::FixedModes;

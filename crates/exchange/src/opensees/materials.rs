@@ -132,6 +132,11 @@ impl Law {
             Law::Hook { k, opening } => {
                 Ron::block("Hook").with("k", k * stiff).with("opening", opening * length)
             }
+            Law::Kelvin { k: 0.0, c, opening } => Ron::block("Dashpot")
+                .with("c", c * stiff)
+                .with("when", Ron::word("InContact"))
+                .with("opening", opening * length)
+                .with("pull", Ron::word("true")),
             Law::Kelvin { k, c, opening } => Ron::block("ImpactKelvin")
                 .with("k", k * stiff)
                 .with("damping", c * stiff)

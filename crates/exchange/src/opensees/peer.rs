@@ -33,6 +33,8 @@ pub struct PeerRun {
     pub time: Vec<f64>,
     /// Histories of the outputs, in SI.
     pub histories: Vec<Vec<f64>>,
+    /// Of each output: largest value and when, smallest value and when, last value.
+    pub peaks: Vec<[f64; 5]>,
     /// Periods after the static cases, links by their tangents, s; longest first.
     pub periods: Vec<f64>,
     /// How long it took, s.
@@ -186,10 +188,23 @@ fn read(folder: &Path) -> Result<PeerRun, PeerError> {
     for row in rows {
         let values = numbers(&row)?;
         if values.len() != run.names.len() + 1 {
-            return Err(PeerError::Unreadable(format!("{STEM}.csv: a line of {} numbers", values.len())));
+            return Err(PeerError::Unreadable(format!(
+                "{STEM}.csv: a line of {} numbers",
+                values.len()
+            )));
         }
         run.time.push(values[0]);
         run.histories.iter_mut().zip(&values[1..]).for_each(|(h, x)| h.push(*x));
+    }
+    for row in records(&text(format!("{STEM}.peaks.csv"))?).into_iter().skip(1) {
+        let values = numbers(row.get(1..).unwrap_or_default())?;
+        let peak = values.try_into().map_err(|v: Vec<f64>| {
+            PeerError::Unreadable(format!("{STEM}.peaks.csv: a line of {} numbers", v.len()))
+        })?;
+        run.peaks.push(peak);
+    }
+    if run.peaks.len() != run.names.len() {
+        return Err(PeerError::Unreadable(format!("{STEM}.peaks.csv: {} lines", run.peaks.len())));
     }
     for row in records(&text(format!("{STEM}.periods.csv"))?).into_iter().skip(1) {
         run.periods.extend(numbers(&row)?.get(1));
@@ -258,14 +273,21 @@ mod tests {
         let late = peer(100).run("sleep 60", None);
         assert!(matches!(late, Err(PeerError::TooLong(_))), "{late:?}");
         let failed = peer(60_000).run("echo no equilibrium >&2; exit 3", None);
-        assert!(failed.as_ref().is_err_and(|e| e.to_string().contains("no equilibrium")), "{failed:?}");
+        assert!(
+            failed.as_ref().is_err_and(|e| e.to_string().contains("no equilibrium")),
+            "{failed:?}"
+        );
         let stop = AtomicBool::new(true);
         let stopped = peer(60_000).run("sleep 60", Some(&stop));
         assert!(matches!(stopped, Err(PeerError::Interrupted)), "{stopped:?}");
         let empty = peer(60_000).run("true", None);
         assert!(matches!(empty, Err(PeerError::Unreadable(_))), "{empty:?}");
-        let good = "printf 't,x\\n0,1\\n0.5,2\\n' > model.csv; printf 'mode,period\\n1,0.25\\n' > model.periods.csv";
+        let good = "printf 't,x\\n0,1\\n0.5,2\\n' > model.csv; printf 'output,max,t,min,t,final\\nx,2,0.5,1,0,2\\n' > model.peaks.csv; printf 'mode,period\\n1,0.25\\n' > model.periods.csv";
         let run = peer(60_000).run(good, None).expect("a run");
-        assert_eq!((run.time, run.histories, run.periods), (vec![0.0, 0.5], vec![vec![1.0, 2.0]], vec![0.25]));
+        assert_eq!((run.time, run.periods), (vec![0.0, 0.5], vec![0.25]));
+        assert_eq!(
+            (run.histories, run.peaks),
+            (vec![vec![1.0, 2.0]], vec![[2.0, 0.5, 1.0, 0.0, 2.0]])
+        );
     }
 }

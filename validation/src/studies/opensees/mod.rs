@@ -2,6 +2,7 @@
 
 mod bearings;
 mod contacts;
+pub(super) mod exported;
 mod frames;
 mod leaning;
 mod oscillators;

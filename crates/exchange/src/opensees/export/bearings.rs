@@ -61,7 +61,10 @@ impl Writer<'_> {
         }
         let (kn, c, opening) = (number("kn"), number("damping"), number("opening"));
         if opening < 0.0 {
-            return Err("a contact that is pressed at rest (`opening` below zero) has no counterpart".into());
+            return Err(
+                "a contact that is pressed at rest (`opening` below zero) has no counterpart"
+                    .into(),
+            );
         }
         let mut near = Vec::new();
         if c != 0.0 && !flag(v, "pull") {
@@ -81,12 +84,13 @@ impl Writer<'_> {
             }
             near.extend(self.sloped(index, [1.0, 0.0]));
         } else if options(e).p_delta_at.is_some() {
-            return Err("the moment of its axial force over its shear (`p_delta_at`) has no counterpart".into());
+            return Err(
+                "the moment of its axial force over its shear (`p_delta_at`) has no counterpart"
+                    .into(),
+            );
         }
-        for why in near {
-            if !self.losses.near(e.kind, &e.name, why) {
-                return Ok(false);
-            }
+        if !self.all_near(index, &near) {
+            return Ok(false);
         }
         let contact = Material::gap(kn, opening);
         let damper = (c != 0.0).then(|| Material::kelvin(0.0, c, opening));
@@ -122,6 +126,12 @@ impl Writer<'_> {
         Ok(true)
     }
 
+    /// Names all that differs; false where a law that is near may not be written.
+    fn all_near(&mut self, index: usize, near: &[&str]) -> bool {
+        let e = &self.model.elements[index];
+        near.iter().fold(true, |may, why| self.losses.near(e.kind, &e.name, why) && may)
+    }
+
     /// Why the moments of its axial force are not those here; none where they are, or do nothing.
     fn sloped(&self, index: usize, shares: [f64; 2]) -> Option<&'static str> {
         let e = &self.model.elements[index];
@@ -129,7 +139,9 @@ impl Writer<'_> {
             Some(own) if own == shares => None,
             // Moments on the ground do nothing.
             None if e.nodes.len() == 1 && shares == [1.0, 0.0] => None,
-            _ => Some("the moment of its axial force over its shear stands elsewhere there (`p_delta_at`)"),
+            _ => Some(
+                "the moment of its axial force over its shear stands elsewhere there (`p_delta_at`)",
+            ),
         }
     }
 
@@ -150,7 +162,10 @@ impl Writer<'_> {
                 let [k, q, ratio] = if kind == "RubberIsolator" {
                     let alike = |a: &str, b: &str| v.number(b).is_none_or(|x| x == number(a));
                     if !(alike("k2", "k3") && alike("fy2", "fy3") && alike("ratio2", "ratio3")) {
-                        return Err("a bearing that is not the same along both axes has no counterpart".into());
+                        return Err(
+                            "a bearing that is not the same along both axes has no counterpart"
+                                .into(),
+                        );
                     }
                     let (k, fy, ratio) = (number("k2"), number("fy2"), number("ratio2"));
                     [k, (1.0 - ratio) * fy, ratio]
@@ -175,13 +190,15 @@ impl Writer<'_> {
         if inside {
             near.extend(self.sloped(index, [0.5, 0.5]));
         }
-        for why in near {
-            if !self.losses.near(e.kind, &e.name, why) {
-                return Ok(false);
-            }
+        if !self.all_near(index, &near) {
+            return Ok(false);
         }
         if e.kind != "ElastomericBearing" {
-            self.losses.note("Bouc and Wen: z", &e.name, "steps of the first order there: it needs short ones");
+            self.losses.note(
+                "Bouc and Wen: z",
+                &e.name,
+                "steps of the first order there: it needs short ones",
+            );
         }
         let axial = Material::elastic(if inside { kv } else { 0.0 }, 0.0);
         let beside = Beside { axial, turning: [0.0; 3] };
@@ -249,7 +266,9 @@ fn friction(kind: &str, v: &trilith_element::Values) -> Result<Option<Friction>,
         (_, "Velocity") => (true, false),
         (_, "Coulomb") => (false, true),
         (_, other) => {
-            return Err(format!("friction of the model `{other}` is not written: its numbers are in other units there"));
+            return Err(format!(
+                "friction of the model `{other}` is not written: its numbers are in other units there"
+            ));
         }
     };
     if by_speed {

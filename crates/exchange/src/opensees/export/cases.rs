@@ -120,7 +120,11 @@ impl Writer<'_> {
         }
         for load in &p.members {
             if matches!(load.load, SpanLoad::Warmth { .. }) {
-                self.losses.note("loads", &p.name, "warmth acts as the forces at the ends that it is worth");
+                self.losses.note(
+                    "loads",
+                    &p.name,
+                    "warmth acts as the forces at the ends that it is worth",
+                );
             }
             match self.ends_of(load) {
                 Some(ends) => {
@@ -161,7 +165,11 @@ impl Writer<'_> {
             self.losses.note("case", name, "its last output step is whole there");
         }
         if matches!(d.solution.solver, SolverKind::Custom { .. }) {
-            self.losses.note("case", name, "its solver is one of another crate: Newmark's rule stands for it");
+            self.losses.note(
+                "case",
+                name,
+                "its solver is one of another crate: Newmark's rule stands for it",
+            );
             out.alpha = 1.0;
         }
         if !d.supports.is_empty() {
@@ -188,7 +196,8 @@ impl Writer<'_> {
             out.lines.push(format!("series({series}, f{})", b.function + 1));
             let tag = self.pattern();
             let direction = b.direction.index() % 3;
-            let words = [Word::from("UniformExcitation"), tag.into(), (direction as i64 + 1).into()];
+            let words =
+                [Word::from("UniformExcitation"), tag.into(), (direction as i64 + 1).into()];
             let command = Command::new("pattern", words)
                 .with("-accel")
                 .with(series)
@@ -201,15 +210,21 @@ impl Writer<'_> {
             let at_once = model.functions[*f].function.value(0.0, trilith_model::Side::After);
             out.jumps |= at_once != 0.0;
         }
+        let n = 6 * model.nodes.len();
+        let (mut displaced, mut moving) = (vec![0.0; n], vec![0.0; n]);
         for start in &d.initial {
-            let place = [self.node(start.node), start.dof.index() as i64 + 1];
-            for (command, value) in
-                [("setNodeDisp", start.displacement), ("setNodeVel", start.velocity)]
-            {
-                if let Some(x) = value {
-                    let command = Command::new(command, place.map(Word::from)).with(x);
-                    out.lines.push(command.with("-commit").python());
-                }
+            let i = 6 * start.node + start.dof.index();
+            displaced[i] = start.displacement.unwrap_or(0.0);
+            moving[i] = start.velocity.unwrap_or(0.0);
+        }
+        for (command, all) in [("setNodeDisp", &mut displaced), ("setNodeVel", &mut moving)] {
+            // What follows has to be told.
+            for (own, terms) in &freedoms.followers.of {
+                all[*own] = terms.iter().map(|(i, c)| c * all[*i]).sum();
+            }
+            for (i, x) in all.iter().enumerate().filter(|(_, x)| **x != 0.0) {
+                let place = [self.node(i / 6), (i % 6) as i64 + 1].map(Word::from);
+                out.lines.push(Command::new(command, place).with(*x).with("-commit").python());
             }
         }
         out

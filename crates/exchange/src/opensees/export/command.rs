@@ -114,7 +114,10 @@ mod tests {
     #[test]
     fn a_command_is_a_line_of_python() {
         let node = Command::new("node", [1.into(), 0.5.into(), (-0.0).into()]).with("-ndf").with(6);
-        assert_eq!(node.remark("a \"b\"\n").python(), "ops.node(1, 0.5, 0.0, \"-ndf\", 6)  # a \"b\"\\n");
+        assert_eq!(
+            node.remark("a \"b\"\n").python(),
+            "ops.node(1, 0.5, 0.0, \"-ndf\", 6)  # a \"b\"\\n"
+        );
         assert_eq!(quoted("a\"\\\n\u{1b}"), "\"a\\\"\\\\\\U0000000a\\U0000001b\"");
         assert_eq!([number(1e-9), number(5e8), number(2.0)], ["1e-9", "500000000.0", "2.0"]);
     }

@@ -63,7 +63,8 @@ impl Writer<'_> {
             .collect();
         for index in wrong {
             let e = &model.elements[index];
-            let why = "a node that follows two others, or one that follows itself, is not followed there";
+            let why =
+                "a node that follows two others, or one that follows itself, is not followed there";
             self.losses.lost(e.kind, &e.name, why);
             all.retain(|f| f.element != index);
         }
@@ -97,7 +98,9 @@ impl Writer<'_> {
                     _ => None,
                 };
                 let dofs = match e.values.get("dofs") {
-                    Some(trilith_element::Value::List(all)) => all.iter().filter_map(named).collect(),
+                    Some(trilith_element::Value::List(all)) => {
+                        all.iter().filter_map(named).collect()
+                    }
                     Some(one) => named(one).into_iter().collect(),
                     None => Vec::new(),
                 };

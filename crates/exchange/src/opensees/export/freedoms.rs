@@ -120,16 +120,8 @@ impl Freedoms {
         let linked = (0..n).filter(free).filter(|i| !stiff[*i] && !heavy[*i]).collect();
         let equations = (0..n).filter(free).count();
         let modes = (0..n).filter(free).filter(|i| heavy[*i]).count();
-        let mut out = Self {
-            held,
-            followers,
-            stays: Vec::new(),
-            mass,
-            weight,
-            equations,
-            modes,
-            linked,
-        };
+        let mut out =
+            Self { held, followers, stays: Vec::new(), mass, weight, equations, modes, linked };
         out.stay(writer, &used);
         Ok(out)
     }
@@ -138,9 +130,8 @@ impl Freedoms {
     /// followers have moved so far. A spring holds it where nothing else acts, which is the same.
     fn stay(&mut self, writer: &mut Writer<'_>, used: &[bool]) {
         let model = writer.model;
-        let out_of_plane = |k: usize| {
-            model.plane.is_some_and(|p| !p.dofs().map(Dof::index).contains(&k))
-        };
+        let out_of_plane =
+            |k: usize| model.plane.is_some_and(|p| !p.dofs().map(Dof::index).contains(&k));
         for node in self.followers.leaders.clone() {
             let own: Vec<usize> = (0..6).filter(|k| self.held[6 * node + k]).collect();
             if own.is_empty() {
@@ -161,7 +152,10 @@ impl Freedoms {
                 .all(own.iter().map(|_| material))
                 .with("-dir")
                 .all(own.iter().map(|k| *k as i64 + 1));
-            let why = format!("holds {}, which others follow, where nothing else acts", model.nodes[node].name);
+            let why = format!(
+                "holds {}, which others follow, where nothing else acts",
+                model.nodes[node].name
+            );
             self.stays.push(stay.remark(why));
             self.equations += own.len();
             own.iter().for_each(|k| self.held[6 * node + k] = false);
@@ -176,11 +170,15 @@ impl Freedoms {
             let own = 6 * node..6 * node + 6;
             if self.held[own.clone()].iter().any(|h| *h) {
                 let flags = self.held[own.clone()].iter().map(|h| i64::from(*h));
-                fixed.push(Command::new("fix", [writer.node(node).into()]).all(flags).remark(&n.name));
+                fixed.push(
+                    Command::new("fix", [writer.node(node).into()]).all(flags).remark(&n.name),
+                );
             }
             if self.mass[own.clone()].iter().any(|m| *m != 0.0) {
                 let all = self.mass[own].iter().copied();
-                masses.push(Command::new("mass", [writer.node(node).into()]).all(all).remark(&n.name));
+                masses.push(
+                    Command::new("mass", [writer.node(node).into()]).all(all).remark(&n.name),
+                );
             }
         }
         for k in 0..writer.ground.len() {

@@ -128,7 +128,9 @@ pub(super) fn materials(e: &Element) -> Result<Found, String> {
 
 fn not_pressed(opening: f64) -> Result<(), String> {
     if opening < 0.0 {
-        return Err("a contact that is pressed at rest (`opening` below zero) has no counterpart".into());
+        return Err(
+            "a contact that is pressed at rest (`opening` below zero) has no counterpart".into()
+        );
     }
     Ok(())
 }
@@ -171,7 +173,10 @@ fn dashpot(v: &Values) -> Result<Found, String> {
         let c = given(v, "c")?;
         not_pressed(number("opening"))?;
         if !flag(v, "pull") || exponent != 1.0 {
-            return Err("a dashpot in contact there is linear and pulls as it lets go (`pull: true`)".into());
+            return Err(
+                "a dashpot in contact there is linear and pulls as it lets go (`pull: true`)"
+                    .into(),
+            );
         }
         return Ok(Material::kelvin(number("stiffness"), c, number("opening")).into());
     }
@@ -192,7 +197,8 @@ fn dashpot(v: &Values) -> Result<Found, String> {
 /// Points of the side of positive forces where both sides are alike.
 fn alike(v: &Values) -> Option<Vec<[f64; 2]>> {
     let (d, f) = (numbers(v.get("deformation")), numbers(v.get("force")));
-    let up: Vec<[f64; 2]> = d.iter().zip(&f).map(|(d, f)| [*d, *f]).filter(|p| p[0] > 0.0).collect();
+    let up: Vec<[f64; 2]> =
+        d.iter().zip(&f).map(|(d, f)| [*d, *f]).filter(|p| p[0] > 0.0).collect();
     let down: Vec<[f64; 2]> =
         d.iter().zip(&f).rev().map(|(d, f)| [-*d, -*f]).filter(|p| p[0] > 0.0).collect();
     let near = |a: f64, b: f64| (a - b).abs() <= 1e-12 * a.abs().max(b.abs());
@@ -226,7 +232,14 @@ fn capped(v: &Values) -> Found {
         let of = |name: &str| v.number(&format!("{name}{side}")).unwrap_or_else(|| number(name));
         // Nothing breaks off.
         let end = 1e3 * (of("plastic") + of("post_capping"));
-        all.extend([of("plastic"), of("post_capping"), end, of("fy"), of("capping"), of("residual")]);
+        all.extend([
+            of("plastic"),
+            of("post_capping"),
+            end,
+            of("fy"),
+            of("capping"),
+            of("residual"),
+        ]);
     }
     let worn = ["lambda_s", "lambda_c", "lambda_a", "lambda_k"].map(|name| v.number(name));
     // What never wears has an energy that nothing spends.
@@ -251,7 +264,9 @@ fn soil(v: &Values) -> Result<Found, String> {
         || choice(v, "backbone") != "Hyperbolic"
         || number("drag") != 0.0
     {
-        return Err("HyperbolicGapMaterial is a hyperbola in compression alone, without drag".into());
+        return Err(
+            "HyperbolicGapMaterial is a hyperbola in compression alone, without drag".into()
+        );
     }
     let k = number("k");
     let unloading = v.number("ku").unwrap_or(k);
@@ -263,7 +278,9 @@ fn soil(v: &Values) -> Result<Found, String> {
 fn branches(v: &Values) -> Result<Found, String> {
     let (k, time) = (numbers(v.get("stiffness")), numbers(v.get("time")));
     if k.is_empty() || k.len() != time.len() {
-        return Err("give its branches (`stiffness`, `time`): they are Maxwell elements there".into());
+        return Err(
+            "give its branches (`stiffness`, `time`): they are Maxwell elements there".into()
+        );
     }
     let mut found: Found = Material::elastic(v.number("k_inf").unwrap_or(0.0), 0.0).into();
     found.materials.extend(

@@ -144,7 +144,8 @@ impl Writer<'_> {
             return self.bearing(index);
         }
         if sloped.is_some() {
-            let why = "the moment of its axial force over its shear (`p_delta_at`) has no counterpart";
+            let why =
+                "the moment of its axial force over its shear (`p_delta_at`) has no counterpart";
             return self.losses.lost(e.kind, &e.name, why);
         }
         let axis = match &e.body {

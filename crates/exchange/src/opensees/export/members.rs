@@ -135,7 +135,8 @@ impl Writer<'_> {
                 return;
             }
         } else if mass != 0.0 && torsion > 0.0 && model.plane.is_none() {
-            let why = "its consistent mass turns about the axis by J m/A there, by its polar moment here";
+            let why =
+                "its consistent mass turns about the axis by J m/A there, by its polar moment here";
             if !self.losses.near("Beam", &e.name, why) {
                 return;
             }
@@ -177,8 +178,7 @@ impl Writer<'_> {
         }
         let tag = self.transforms.len() as i64 + 1;
         self.transforms.push((key, tag));
-        let mut command =
-            Command::new("geomTransf", ["Linear".into(), tag.into()]).all(third);
+        let mut command = Command::new("geomTransf", ["Linear".into(), tag.into()]).all(third);
         if offsets != [0.0; 2] {
             command = command.with("-jntOffset").all(arms[0]).all(arms[1]);
         }
@@ -235,7 +235,10 @@ impl Writer<'_> {
     fn inerter(&mut self, index: usize) {
         let e = &self.model.elements[index];
         if e.nodes.len() == 2
-            && norm(sub(self.model.nodes[e.nodes[0]].position, self.model.nodes[e.nodes[1]].position)) > 0.0
+            && norm(sub(
+                self.model.nodes[e.nodes[0]].position,
+                self.model.nodes[e.nodes[1]].position,
+            )) > 0.0
             && choice(&e.values, "axis") != "U1"
         {
             let why = "between nodes apart it acts along its axis alone there";

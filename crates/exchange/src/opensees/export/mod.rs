@@ -63,7 +63,7 @@ pub struct Export {
 #[derive(Debug, thiserror::Error)]
 pub enum ExportError {
     /// Parts without a counterpart, and no leave to go without them.
-    #[error("{} of the model cannot be said in OpenSees as they are", parts(.0.refused.len()))]
+    #[error("the model says what OpenSees has no word for")]
     Refused(Box<Losses>),
     /// A part of the model that has no matrices or no equations.
     #[error("\"{name}\": {why}")]
@@ -76,10 +76,6 @@ pub enum ExportError {
     /// Nothing moves or bears.
     #[error("nothing is left that could be run")]
     Empty,
-}
-
-fn parts(n: usize) -> String {
-    if n == 1 { "a part".into() } else { format!("{n} parts") }
 }
 
 /// Writes a case of a model, with those that it continues, as a script for OpenSeesPy.
@@ -95,10 +91,10 @@ pub fn export(model: &Model, case: usize, options: &ExportOptions) -> Result<Exp
     writer.links();
     let freedoms = Freedoms::of(&mut writer)?;
     let stages = cases::stages(&mut writer, case, &freedoms);
-    let outputs = outputs::outputs(&mut writer, &freedoms);
     if !writer.losses.refused.is_empty() {
         return Err(ExportError::Refused(Box::new(writer.losses)));
     }
+    let outputs = outputs::outputs(&mut writer, &freedoms);
     if writer.elements.is_empty() {
         return Err(ExportError::Empty);
     }

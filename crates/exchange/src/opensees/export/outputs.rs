@@ -12,6 +12,8 @@ pub(super) struct Written {
     pub index: usize,
     pub name: String,
     pub expression: String,
+    /// Nodes whose reactions it takes.
+    pub reactions: Vec<i64>,
     pub hidden: bool,
 }
 
@@ -24,7 +26,8 @@ pub(super) fn outputs(writer: &mut Writer<'_>, freedoms: &Freedoms) -> Vec<Writt
         match expression(writer, &output.quantity, freedoms, &done) {
             Ok(expression) => {
                 let (name, hidden) = (output.name.clone(), output.hidden);
-                all.push(Written { index, name, expression, hidden });
+                let reactions = reacting(writer, &output.quantity);
+                all.push(Written { index, name, expression, reactions, hidden });
             }
             Err(_) if output.hidden => {}
             Err(why) => writer.losses.note("output", &output.name, why),
@@ -58,7 +61,9 @@ fn expression(
                 return Err("its link is left out");
             }
             let terms = row(writer, e, axis);
-            let terms = terms.iter().map(|(i, c)| (*c * factor, format!("disp({}, {})", i / 6 + 1, i % 6 + 1)));
+            let terms = terms
+                .iter()
+                .map(|(i, c)| (*c * factor, format!("disp({}, {})", i / 6 + 1, i % 6 + 1)));
             Ok(sum(terms))
         }
         Quantity::LinkForce(terms) => {
@@ -96,14 +101,14 @@ fn expression(
             Ok(sum(all.into_iter()))
         }
         Quantity::BaseShear { direction } => {
-            let d = direction.index();
-            let held = model.supports.iter().filter(|s| s.fixed[d]).map(|s| writer.node(s.node));
-            let ground = (1..=writer.ground.len()).map(|k| (model.nodes.len() + k) as i64);
-            Ok(sum(held.chain(ground).map(|n| (-1.0, format!("reaction({n}, {})", d + 1)))))
+            let one = |n: i64| (-1.0, format!("reaction({n}, {})", direction.index() + 1));
+            Ok(sum(reacting(writer, quantity).into_iter().map(one)))
         }
         Quantity::Reaction { nodes, dof, factor } => {
             let held = nodes.iter().filter(|n| freedoms.held[6 * **n + dof.index()]);
-            let one = |n: &usize| (*factor, format!("reaction({}, {})", writer.node(*n), dof.index() + 1));
+            let one = |n: &usize| {
+                (*factor, format!("reaction({}, {})", writer.node(*n), dof.index() + 1))
+            };
             Ok(sum(held.map(one)))
         }
         Quantity::MemberForce { element, force, at, factor } => {
@@ -129,6 +134,20 @@ fn expression(
         Quantity::LinkHistory { .. } => Err("what a law remembers is not told there"),
         Quantity::Overturning { .. } => Err("an overturning moment is not written"),
         Quantity::Derived(_) => Err("it is of another crate"),
+    }
+}
+
+/// Tags of the nodes whose reactions an output takes.
+fn reacting(writer: &Writer<'_>, quantity: &Quantity) -> Vec<i64> {
+    let model = writer.model;
+    match quantity {
+        Quantity::BaseShear { direction } => {
+            let held = model.supports.iter().filter(|s| s.fixed[direction.index()]);
+            let ground = (1..=writer.ground.len()).map(|k| (model.nodes.len() + k) as i64);
+            held.map(|s| writer.node(s.node)).chain(ground).collect()
+        }
+        Quantity::Reaction { nodes, .. } => nodes.iter().map(|n| writer.node(*n)).collect(),
+        _ => Vec::new(),
     }
 }
 
@@ -169,6 +188,8 @@ fn member(
     let Some(tag) = writer.elements.get(&element).filter(|_| e.kind == "Beam") else {
         return Err("a force inside a beam alone is written");
     };
+    // Its forces there are those of the flexible part, which begins behind the rigid one.
+    let at = at - e.values.number("offset_i").unwrap_or(0.0);
     let local = |c: f64, i: usize| (c * factor, format!("local({tag}, {i})"));
     Ok(sum(match force {
         MemberForce::N => vec![local(-1.0, 0)],

@@ -1,3 +1,6 @@
+LOAD = {"step": 1.0}  # of static cases
+
+
 def solver(static):
     """How equations are solved: settings of OpenSees for both kinds of analysis."""
     ops.wipeAnalysis()
@@ -8,6 +11,7 @@ def solver(static):
     ops.algorithm("Newton")
     if static:
         ops.integrator("LoadControl", 1.0)
+        LOAD["step"] = 1.0
         ops.analysis("Static")
     else:
         if ALPHA == 1.0:
@@ -21,8 +25,9 @@ def advance(h, static=False, depth=0):
     """One step of h; one that does not converge is made in halves."""
     for algorithm in ("Newton", "NewtonLineSearch", "KrylovNewton"):
         ops.algorithm(algorithm)
-        if static:
+        if static and LOAD["step"] != h:
             ops.integrator("LoadControl", h)
+            LOAD["step"] = h
         if (ops.analyze(1) if static else ops.analyze(1, h)) == 0:
             return
     if depth == 14:
@@ -69,8 +74,22 @@ def accel(node, dof):
     return ops.nodeAccel(node, dof)
 
 
+REACTIONS = {}
+
+
+def take_reactions(nodes):
+    """Forces of supports: those of the elements, and where stiffness damps those of Rayleigh's rule."""
+    ops.reactions()
+    for node in nodes:
+        REACTIONS[node] = [ops.nodeReaction(node, dof) for dof in range(1, 7)]
+    if RAYLEIGH:
+        ops.reactions("-rayleigh")
+        for node in nodes:
+            REACTIONS[node] = [r + ops.nodeReaction(node, k + 1) for k, r in enumerate(REACTIONS[node])]
+
+
 def reaction(node, dof):
-    return ops.nodeReaction(node, dof)
+    return REACTIONS[node][dof - 1]
 
 
 def stress(element, material):
@@ -87,6 +106,23 @@ def end(element, i):
 
 def local(element, i):
     return ops.eleResponse(element, "localForce")[i]
+
+
+class Peaks:
+    """Extremes over all steps, also those between outputs."""
+
+    def __init__(self):
+        self.rows = []
+
+    def see(self, t, values):
+        if not self.rows:
+            self.rows = [[x, t, x, t, x] for x in values]
+        for row, x in zip(self.rows, values):
+            if x > row[0]:
+                row[0], row[1] = x, t
+            if x < row[2]:
+                row[2], row[3] = x, t
+            row[4] = x
 
 
 def write(name, head, rows):

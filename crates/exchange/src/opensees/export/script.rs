@@ -6,6 +6,7 @@ use super::freedoms::Freedoms;
 use super::functions::{HELPERS, functions};
 use super::outputs::Written;
 use super::{Writer, losses::Loss};
+use std::collections::BTreeSet;
 use std::fmt::Write;
 use trilith_model::{Damping, visible_line};
 
@@ -31,12 +32,22 @@ pub(super) fn script(
     let stem = &writer.options.stem;
     let constants = [
         ("OUTPUTS", quoted(&format!("{stem}.csv")), "what is recorded"),
-        ("PERIODS", quoted(&format!("{stem}.periods.csv")), "periods after the static cases, links by their tangents"),
+        (
+            "PERIODS",
+            quoted(&format!("{stem}.periods.csv")),
+            "periods after the static cases, links by their tangents",
+        ),
+        ("PEAKS", quoted(&format!("{stem}.peaks.csv")), "extremes over all steps"),
         ("DT", number(dynamic.map_or(1.0, |d| d.dt)), "s, between outputs"),
         ("STEPS", dynamic.map_or(0, |d| d.steps).to_string(), "output steps"),
         ("SUBSTEPS", substeps.to_string(), "steps of OpenSees in an output step"),
-        ("ALPHA", number(dynamic.map_or(1.0, |d| d.alpha)), "of HHT as OpenSees counts it: 1 is average acceleration"),
+        (
+            "ALPHA",
+            number(dynamic.map_or(1.0, |d| d.alpha)),
+            "of HHT as OpenSees counts it: 1 is average acceleration",
+        ),
         ("TOLERANCE", number(TOLERANCE), "m, increment that ends the iterations"),
+        ("RAYLEIGH", if writer.rayleigh { "True" } else { "False" }.into(), "stiffness damps"),
         ("SYSTEM", quoted(if full { "FullGeneral" } else { "UmfPack" }), "of equations"),
         ("EQUATIONS", freedoms.equations.to_string(), "free directions"),
         ("MODES", freedoms.modes.to_string(), "of them with a mass"),
@@ -56,7 +67,7 @@ pub(super) fn script(
     function(&mut out, "links", "Links, and bearings.", &links);
     statics(&mut out, stages);
     damping(&mut out, writer, freedoms);
-    record(&mut out, writer, outputs);
+    record(&mut out, outputs);
     main(&mut out, stages);
     out
 }
@@ -83,7 +94,7 @@ fn head(writer: &Writer<'_>, case: usize) -> String {
     let stem = documented(&writer.options.stem);
     let _ = writeln!(
         out,
-        "\n    python {stem}.py      writes {stem}.csv, the outputs, and {stem}.periods.csv\n\n\
+        "\n    python {stem}.py      writes {stem}.csv, the outputs, {stem}.peaks.csv and {stem}.periods.csv\n\n\
          Node k of the model has the tag k; nodes behind them stand on the ground. Displacements are relative to the ground.\n\
          OpenSees has no control of the error of a step: with SUBSTEPS twice as large the results should stay.\n\
          Loads along members act as the forces at their ends that they are worth."
@@ -102,7 +113,11 @@ fn head(writer: &Writer<'_>, case: usize) -> String {
 
 /// A function of Python with a sentence on it.
 fn function(out: &mut String, name: &str, what: &str, body: &[String]) {
-    let _ = writeln!(out, "\n\ndef {name}:\n    \"\"\"{what}\"\"\"", name = if name.ends_with(')') { name.into() } else { format!("{name}()") });
+    let _ = writeln!(
+        out,
+        "\n\ndef {name}:\n    \"\"\"{what}\"\"\"",
+        name = if name.ends_with(')') { name.into() } else { format!("{name}()") }
+    );
     for line in body {
         let _ = writeln!(out, "    {line}");
     }
@@ -128,7 +143,8 @@ fn ground(out: &mut String, stages: &Stages) {
 
 fn structure(out: &mut String, writer: &Writer<'_>, freedoms: &Freedoms) {
     let [fixed, followers, masses] = freedoms.commands(writer);
-    let basic = Command::new("model", ["basic".into(), "-ndm".into(), 3.into(), "-ndf".into(), 6.into()]);
+    let basic =
+        Command::new("model", ["basic".into(), "-ndm".into(), 3.into(), "-ndf".into(), 6.into()]);
     let mut body = vec!["ops.wipe()".into(), basic.python()];
     for (k, n) in writer.model.nodes.iter().enumerate() {
         let node = Command::new("node", [writer.node(k).into()]).all(n.position);
@@ -180,7 +196,10 @@ fn damping(out: &mut String, writer: &Writer<'_>, freedoms: &Freedoms) {
             let held: Vec<String> =
                 freedoms.linked.iter().map(|i| format!("({}, {})", i / 6 + 1, i % 6 + 1)).collect();
             if !held.is_empty() {
-                body.push(format!("only_links = [{}]  # nothing else holds these directions", held.join(", ")));
+                body.push(format!(
+                    "only_links = [{}]  # nothing else holds these directions",
+                    held.join(", ")
+                ));
                 body.push("for node, dof in only_links:".into());
                 body.push("    ops.fix(node, *[int(k + 1 == dof) for k in range(6)])".into());
             }
@@ -205,12 +224,12 @@ if z:
     ops.modalDamping(*z)
 ";
 
-fn record(out: &mut String, writer: &Writer<'_>, outputs: &[Written]) {
-    let reactions = outputs.iter().any(|o| o.expression.contains("reaction("));
+fn record(out: &mut String, outputs: &[Written]) {
     let mut body = Vec::new();
-    if reactions {
-        let rayleigh = if writer.rayleigh { "\"-rayleigh\"" } else { "" };
-        body.push(format!("ops.reactions({rayleigh})"));
+    let nodes: BTreeSet<i64> = outputs.iter().flat_map(|o| o.reactions.iter().copied()).collect();
+    if !nodes.is_empty() {
+        let nodes: Vec<String> = nodes.iter().map(i64::to_string).collect();
+        body.push(format!("take_reactions([{}])", nodes.join(", ")));
     }
     for o in outputs {
         body.push(format!("o{} = {}  # {}", o.index, o.expression, visible_line(&o.name)));
@@ -235,13 +254,20 @@ fn main(out: &mut String, stages: &Stages) {
         body.push("# once more from the start: modes of the structure alone damp it".into());
         body.extend(["structure()", "damping()", "links()", "statics()"].map(str::to_owned));
     }
-    body.push("rows.append([0.0, *recorded(0.0)])".into());
     if let Some(d) = &stages.dynamic {
         body.push("solver(False)".into());
         body.extend(d.lines.iter().cloned());
+    }
+    body.push("peaks = Peaks()".into());
+    body.push("values = recorded(0.0)".into());
+    body.push("peaks.see(0.0, values)".into());
+    body.push("rows.append([0.0, *values])".into());
+    if let Some(d) = &stages.dynamic {
         body.push("h = DT / SUBSTEPS".into());
         if d.jumps {
-            body.push("# what begins with a jump: a very short step finds the accelerations".into());
+            body.push(
+                "# what begins with a jump: a very short step finds the accelerations".into(),
+            );
             body.push("first = 1e-3 * h".into());
             body.push("advance(first)".into());
         } else {
@@ -250,15 +276,22 @@ fn main(out: &mut String, stages: &Stages) {
         body.extend(
             [
                 "for step in range(1, STEPS + 1):",
-                "    for _ in range(SUBSTEPS):",
+                "    for part in range(1, SUBSTEPS + 1):",
                 "        advance(h - first)",
                 "        first = 0.0",
-                "    rows.append([step * DT, *recorded(step * DT)])",
+                "        t = (step - 1) * DT + part * h",
+                "        values = recorded(t)",
+                "        peaks.see(t, values)",
+                "    rows.append([step * DT, *values])",
             ]
             .map(str::to_owned),
         );
     }
     body.push("write(OUTPUTS, [\"t\", *NAMES], rows)".into());
+    body.push(
+        "head = [\"output\", \"max\", \"t_max [s]\", \"min\", \"t_min [s]\", \"final\"]".into(),
+    );
+    body.push("write(PEAKS, head, [[name, *row] for name, row in zip(NAMES, peaks.rows)])".into());
     function(out, "main", "Runs the case and writes what it gave.", &body);
     out.push_str("\n\nif __name__ == \"__main__\":\n    main()\n");
 }
