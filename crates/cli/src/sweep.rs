@@ -59,7 +59,8 @@ pub(crate) fn sweep(registry: &Registry, args: &SweepArguments) -> Result<Answer
             None if args.gather => Part::Gather,
             None => Part::All,
         };
-        let how = How { threads, part, retry_failed: args.retry_failed };
+        let store = args.store.as_deref();
+        let how = How { threads, part, retry_failed: args.retry_failed, store };
         execute(&study, registry, &folder, how, &show, ear.flag()).map_err(|e| {
             let failure = Failure::input(&e.to_string(), Some(e.help()));
             match e {
@@ -190,7 +191,7 @@ fn report(study: &Study, results: &Results, seconds: f64, folder: &Path) -> Stri
     for r in results.records.iter().filter(|r| !r.good).take(TOLD) {
         out += &format!("  run {}: {}: {}\n", r.run + 1, r.status, visible_line(&r.message));
     }
-    let new = results.records.len().saturating_sub(results.resumed);
+    let new = results.records.len().saturating_sub(results.resumed + results.reused);
     out += &format!("\nnew runs: {new} in {} s", crate::text::significant(seconds, 3));
     if new > 0 {
         out += &format!(", {} a second", crate::text::significant(new as f64 / seconds, 3));
@@ -200,6 +201,9 @@ fn report(study: &Study, results: &Results, seconds: f64, folder: &Path) -> Stri
         None if results.beside == new && new > 0 => out += &format!(", {SIDE_BY_SIDE}"),
         None if new > 0 => out += &format!(", {} of them {SIDE_BY_SIDE}", results.beside),
         _ => {}
+    }
+    if results.reused > 0 {
+        out += &format!("; {} from the store", results.reused);
     }
     if results.resumed > 0 {
         out += &format!("; {} were on disk", results.resumed);

@@ -47,6 +47,7 @@ pub use modewise::{
 pub use operator::SymmetricOperator;
 pub use panel::Panel;
 pub use product::{Product, Rows};
+pub use simd::vectors;
 pub use sparse::{Sparse, Triplets};
 pub use tall::Columns;
 pub use vector::{add, dot, equal, largest, residual, sized_residual};

@@ -3,7 +3,7 @@
 //! Sums are in another order for every width, so the last bits of a result are those of the width.
 //! `TRILITH_VECTORS` caps it: `none`, or `256` (bits); tests run with these as well. The matrix backend chooses its own.
 
-use pulp::{Arch, Scalar, WithSimd};
+use pulp::{Arch, Scalar, Simd, WithSimd};
 use std::sync::OnceLock;
 
 /// Runs a task with them. The task is a type of its own: a closure in its place would not be compiled for them.
@@ -32,4 +32,18 @@ fn chosen() -> Arch {
 #[inline(never)]
 fn without<T: WithSimd>(task: T) -> T::Output {
     task.with_simd(Scalar::new())
+}
+
+/// Width of the vectors that sums go by, and of the widest that the processor has, which the matrix backend goes by, both
+/// in bits: results of the same widths are the same to the bit.
+#[must_use]
+pub fn vectors() -> [usize; 2] {
+    struct Width;
+    impl WithSimd for Width {
+        type Output = usize;
+        fn with_simd<S: Simd>(self, _: S) -> usize {
+            8 * size_of::<S::f64s>()
+        }
+    }
+    [dispatch(Width), Arch::new().dispatch(Width)]
 }

@@ -49,7 +49,7 @@ mod _native {
     #[pymodule_export]
     use crate::state::State;
     #[pymodule_export]
-    use crate::study::study;
+    use crate::study::{Study, machine_of_results};
     #[pymodule_export]
     use crate::sweep::sweep;
     use pyo3::prelude::*;

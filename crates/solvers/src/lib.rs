@@ -86,3 +86,4 @@ pub use run::{
 pub use step::State;
 pub use survey::{Freedoms, Periods, Survey, frequencies, survey};
 pub use together::{Member, run_together};
+pub use trilith_linalg::vectors;

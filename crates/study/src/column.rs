@@ -1,11 +1,12 @@
 //! Columns: what a study keeps of a run.
 
+use crate::finished::Finished;
+use crate::number::Number;
 use trilith::element::Dimension;
 use trilith::model::file::{Quantity, Scope, evaluate};
 use trilith::model::{Model, ParameterValue};
-use trilith::results::{ENERGIES, Peak};
 use trilith::solvers::lanes::Integral;
-use trilith::solvers::{ContactSummary, EnergyTotals, Observer, Sample, Status};
+use trilith::solvers::{Observer, Sample};
 
 /// A number that a study keeps of every run.
 #[derive(Clone, Debug, PartialEq)]
@@ -37,7 +38,7 @@ pub enum Measure {
     Rms(usize),
     /// Time during which the output is above a value.
     Duration(usize, f64),
-    /// An energy at the end: index into [`ENERGIES`].
+    /// An energy at the end: index into [`ENERGIES`](trilith::results::ENERGIES).
     Energy(usize),
     /// Share of the energy that is unaccounted for.
     EnergyError,
@@ -59,18 +60,6 @@ pub(crate) fn over_time(columns: &[Column]) -> Vec<(usize, Option<f64>)> {
         _ => None,
     };
     columns.iter().filter_map(of).collect()
-}
-
-/// What a run left, as far as columns ask.
-pub(crate) struct Left<'a> {
-    pub status: &'a Status,
-    /// Of the outputs, in the order of the model.
-    pub peaks: &'a [Peak],
-    pub energy: &'a EnergyTotals,
-    pub contact: Option<&'a ContactSummary>,
-    /// Of what columns take [over time](over_time).
-    pub integrals: &'a [f64],
-    pub warnings: &'a [String],
 }
 
 /// Follows what columns take over time.
@@ -113,25 +102,31 @@ impl Observer for Watch {
 }
 
 /// Values of all columns of a run; none where there is no number.
-pub(crate) fn values(columns: &[Column], model: &Model, left: &Left<'_>) -> Vec<Option<f64>> {
+pub(crate) fn values(columns: &[Column], model: &Model, left: &Finished) -> Vec<Option<f64>> {
     let mut found: Vec<Option<f64>> = Vec::with_capacity(columns.len());
-    let mut integrals = left.integrals.iter().copied();
-    let peak = |i: usize| left.peaks.get(i);
+    let mut integrals = left.integrals.iter().map(|x| x.0);
+    let peak = |i: usize| left.peaks.get(i).map(|p| p.map(|x| x.0));
+    let contact = left.contact.as_ref();
+    let energy = |i: usize| left.energy.get(i).map(|x: &Number| x.0);
     for (k, column) in columns.iter().enumerate() {
         let value = match &column.measure {
-            Measure::Peak(i) => peak(*i).map(|p| p.max.abs().max(p.min.abs())),
-            Measure::Max(i) => peak(*i).map(|p| p.max),
-            Measure::Min(i) => peak(*i).map(|p| p.min),
+            Measure::Peak(i) => peak(*i).map(|[max, _, min, ..]| max.abs().max(min.abs())),
+            Measure::Max(i) => peak(*i).map(|[max, ..]| max),
+            Measure::Min(i) => peak(*i).map(|[_, _, min, ..]| min),
             Measure::TimeOfPeak(i) => {
-                peak(*i).map(|p| if p.max.abs() >= p.min.abs() { p.t_max } else { p.t_min })
+                peak(*i).map(
+                    |[max, t_max, min, t_min, _]| {
+                        if max.abs() >= min.abs() { t_max } else { t_min }
+                    },
+                )
             }
-            Measure::Final(i) => peak(*i).map(|p| p.last),
+            Measure::Final(i) => peak(*i).map(|[.., last]| last),
             Measure::Rms(_) | Measure::Duration(..) => integrals.next(),
-            Measure::Energy(i) => Some(energy(left.energy, *i)),
-            Measure::EnergyError => Some(left.energy.error_relative),
-            Measure::Uplift => left.contact.map(|c| c.max_uplift),
-            Measure::Slip => left.contact.map(|c| c.max_slip),
-            Measure::ResidualSlip => left.contact.map(|c| c.residual_slip),
+            Measure::Energy(i) => energy(*i),
+            Measure::EnergyError => energy(left.energy.len() - 1),
+            Measure::Uplift => contact.map(|c| c.uplift.0),
+            Measure::Slip => contact.map(|c| c.slip.0),
+            Measure::ResidualSlip => contact.map(|c| c.residual_slip.0),
             Measure::Expression(text) => {
                 let known = columns[..k].iter().zip(&found);
                 let mut scope = Known::of(model);
@@ -144,21 +139,6 @@ pub(crate) fn values(columns: &[Column], model: &Model, left: &Left<'_>) -> Vec<
         found.push(value.filter(|x| x.is_finite()));
     }
     found
-}
-
-fn energy(e: &EnergyTotals, index: usize) -> f64 {
-    match ENERGIES[index] {
-        "input" => e.input,
-        "kinetic" => e.kinetic,
-        "strain" => e.strain,
-        "potential" => e.potential,
-        "modal_damping" => e.modal_damping,
-        "link_stored" => e.link_stored,
-        "link_hysteretic" => e.link_hysteretic,
-        "link_viscous" => e.link_viscous,
-        "algorithmic" => e.algorithmic,
-        _ => e.error,
-    }
 }
 
 /// Names with values: parameters of a model and columns.

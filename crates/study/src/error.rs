@@ -55,6 +55,28 @@ pub enum StudyError {
         /// The file.
         path: PathBuf,
     },
+    /// A file of that name in a store is no segment of one.
+    #[error("{} is no segment of a store, or of one of a newer version", .path.display())]
+    NoSegment {
+        /// The file.
+        path: PathBuf,
+    },
+    /// A segment of a store does not hold what was written.
+    #[error("{} is damaged: the line at byte {offset} is not what was written there", .path.display())]
+    Damaged {
+        /// The segment.
+        path: PathBuf,
+        /// Bytes before that line.
+        offset: u64,
+    },
+    /// A program with kinds of its own is to use a store.
+    #[error(
+        "this program has a kind of its own, `{kind}`, whose code no store can tell from a later one"
+    )]
+    OwnKinds {
+        /// The first one.
+        kind: String,
+    },
 }
 
 impl StudyError {
@@ -78,6 +100,13 @@ impl StudyError {
                 "`--status` says of which parts; without `--gather` the same command makes them here"
             }
             Self::Locked { .. } => "wait for it, or give another folder with `--out`",
+            Self::NoSegment { .. } => "give another folder with `--store`",
+            Self::Damaged { .. } => {
+                "put it back from a copy, or take it and its index out of the store: its runs are made again"
+            }
+            Self::OwnKinds { .. } => {
+                "leave out `--store`: journals keep what is finished all the same"
+            }
             Self::OtherStudy { .. } | Self::NoJournal { .. } => {
                 "give another folder with `--out`, or remove this one"
             }

@@ -1,17 +1,19 @@
 //! Running a study, or a part of it: all cores, every finished run on disk at once.
 
 use crate::column::over_time;
+use crate::finished::Finished;
 use crate::journal::{Journal, Kept};
 use crate::shard::journals;
+use crate::store::{Key, Keys, Store};
 use crate::{Part, Record, Study, StudyError};
 use std::collections::BTreeMap;
 use std::fs::{File, OpenOptions};
-use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::{Path, PathBuf};
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use std::time::{Duration, Instant};
 use trilith::Registry;
+use trilith::model::Model;
 use trilith::sweep::Lanes;
 
 /// Shares of runs that take less than this grow.
@@ -21,20 +23,22 @@ const SHARES: usize = 8;
 
 /// How a study is run.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct How {
+pub struct How<'a> {
     /// Runs at the same time.
     pub threads: usize,
     /// Which runs.
     pub part: Part,
     /// Make runs that have failed once more.
     pub retry_failed: bool,
+    /// Folder of a store: runs that it has are taken from there, and new ones are kept there.
+    pub store: Option<&'a Path>,
 }
 
-impl How {
+impl How<'_> {
     /// All runs, so many at the same time.
     #[must_use]
     pub fn threads(threads: usize) -> Self {
-        Self { threads, part: Part::All, retry_failed: false }
+        Self { threads, part: Part::All, retry_failed: false, store: None }
     }
 }
 
@@ -56,6 +60,8 @@ pub struct Results {
     pub records: Vec<Record>,
     /// Runs that were on disk already.
     pub resumed: usize,
+    /// Runs that were taken from the store.
+    pub reused: usize,
     /// Lines of the journal that were torn; their runs were run again.
     pub torn: usize,
     /// Runs left out because the series had reached its limit.
@@ -95,8 +101,12 @@ struct Shared<'a> {
     /// Chains that a thread takes at once.
     width: usize,
     beside: AtomicUsize,
-    /// Runs that were made now.
+    /// Runs that were made now, and that were taken from the store.
     new: AtomicUsize,
+    reused: AtomicUsize,
+    store: Option<(Keys, Mutex<Store>)>,
+    /// Failed runs of the store are made again.
+    retry_failed: bool,
     kept: BTreeMap<usize, Record>,
     /// None where nothing is run.
     journal: Option<Mutex<Journal>>,
@@ -125,11 +135,11 @@ pub fn execute(
     study: &Study,
     registry: &Registry,
     folder: &Path,
-    how: How,
+    how: How<'_>,
     progress: &(dyn Fn(Progress) + Sync),
     interrupt: &AtomicBool,
 ) -> Result<Results, StudyError> {
-    let How { threads, part, retry_failed } = how;
+    let How { threads, part, retry_failed, store } = how;
     std::fs::create_dir_all(folder).map_err(StudyError::at(folder))?;
     let _lock = lock(&part.lock(folder), folder)?;
     // What others have made comes first: where that is of another study, nothing is begun beside it.
@@ -163,6 +173,13 @@ pub fn execute(
         None => (Some(Lanes::new().over_time(over_time(&study.columns))), None),
         reason => (None, reason),
     };
+    let store = match store.filter(|_| part != Part::Gather) {
+        Some(path) => {
+            let keys = Keys::of(study, registry, lanes.is_some())?;
+            Some((keys, Mutex::new(Store::open(path)?)))
+        }
+        None => None,
+    };
     // Where there are few, all threads have some.
     let width = lanes.as_ref().map_or(1, |l| l.width().min(chains.div_ceil(threads.max(1))).max(1));
     let torn = kept.torn;
@@ -176,6 +193,9 @@ pub fn execute(
         width,
         beside: AtomicUsize::new(0),
         new: AtomicUsize::new(0),
+        reused: AtomicUsize::new(0),
+        store,
+        retry_failed,
         kept: kept.records,
         journal,
         missing: AtomicUsize::new(0),
@@ -195,9 +215,14 @@ pub fn execute(
         }
         shared.work();
     });
+    let closed = match shared.store.map(|(_, store)| store.into_inner()) {
+        Some(Ok(store)) => store.close(),
+        _ => Ok(()),
+    };
     if let Some(error) = shared.error.into_inner().unwrap_or_default() {
         return Err(error);
     }
+    closed?;
     if let Some(Ok(mut journal)) = shared.journal.as_ref().map(Mutex::lock) {
         journal.sync()?;
     }
@@ -217,14 +242,15 @@ pub fn execute(
         Part::Shard(_) => Vec::new(),
         Part::All | Part::Gather => crate::files::write(study, &records, left_out, folder)?,
     };
-    let resumed = records.len() - shared.new.into_inner();
+    let reused = shared.reused.into_inner();
+    let resumed = records.len() - shared.new.into_inner() - reused;
     let beside = shared.beside.into_inner();
-    Ok(Results { records, resumed, torn, left_out, files, beside, alone })
+    Ok(Results { records, resumed, reused, torn, left_out, files, beside, alone })
 }
 
 /// Keeps other processes out for as long as the file is open: the system lets go of it when the process ends, however it
 /// ends.
-fn lock(path: &Path, folder: &Path) -> Result<File, StudyError> {
+pub(crate) fn lock(path: &Path, folder: &Path) -> Result<File, StudyError> {
     let lock = OpenOptions::new().write(true).create(true).truncate(false).open(path);
     let lock = lock.map_err(StudyError::at(path))?;
     match lock.try_lock() {
@@ -283,7 +309,6 @@ impl Shared<'_> {
                 continue;
             }
             let Some(made) = self.make(&new)? else { return Ok(()) };
-            self.new.fetch_add(made.len(), Ordering::Relaxed);
             firsts = self.take(firsts, runs, made, length - step);
         }
         Ok(())
@@ -317,32 +342,84 @@ impl Shared<'_> {
         going
     }
 
-    /// Makes runs, side by side where they fit; each is on disk as soon as it is done. None where that was interrupted.
+    /// Makes runs, side by side where they fit, or takes them from the store; each is on disk as soon as it is there. None
+    /// where that was interrupted.
     fn make(&self, runs: &[usize]) -> Result<Option<Vec<Record>>, StudyError> {
         let (study, registry) = (self.study, self.registry);
-        let beside = self.lanes.as_ref().map(|lanes| {
-            // Where a law panics, the run that it is in tells so when it goes alone.
-            catch_unwind(AssertUnwindSafe(|| study.beside(registry, lanes, runs)))
-        });
-        let beside = beside.and_then(Result::ok).unwrap_or_default();
-        beside.iter().try_for_each(|record| self.write(record))?;
-        self.beside.fetch_add(beside.len(), Ordering::Relaxed);
-        let mut beside = beside.into_iter().peekable();
-        let mut made = Vec::with_capacity(runs.len());
-        for run in runs {
-            if let Some(record) = beside.next_if(|record| record.run == *run) {
-                made.push(record);
-                continue;
+        let models: Vec<Option<Model>> = if self.lanes.is_some() || self.store.is_some() {
+            runs.iter().map(|run| study.try_model(registry, *run)).collect()
+        } else {
+            runs.iter().map(|_| None).collect()
+        };
+        let key = |model: &Option<Model>| Some(self.store.as_ref()?.0.key(model.as_ref()?));
+        let keys: Vec<Option<Key>> = models.iter().map(key).collect();
+        let mut made: Vec<Option<Record>> = Vec::with_capacity(runs.len());
+        for ((run, model), key) in runs.iter().zip(&models).zip(&keys) {
+            made.push(self.stored(*run, model.as_ref(), key.as_ref())?);
+        }
+        let reused = made.iter().flatten().count();
+        self.reused.fetch_add(reused, Ordering::Relaxed);
+        let mut panicked = false;
+        if let Some(lanes) = &self.lanes {
+            let fresh = |(i, model)| Some((i, Option::as_ref(model)?));
+            let all = models.iter().enumerate().filter(|(i, _)| made[*i].is_none());
+            let (at, beside): (Vec<usize>, Vec<&Model>) = all.filter_map(fresh).unzip();
+            let found = study.beside(lanes, &beside);
+            panicked = found.is_none();
+            for ((i, model), finished) in at.into_iter().zip(beside).zip(found.unwrap_or_default())
+            {
+                let Some(finished) = finished else { continue };
+                let record = study.record(runs[i], model, &finished);
+                self.write(&record)?;
+                self.keep(keys[i].as_ref(), &finished)?;
+                self.beside.fetch_add(1, Ordering::Relaxed);
+                made[i] = Some(record);
             }
-            let record = study.run(registry, *run, self.folder, self.interrupt)?;
+        }
+        for (i, run) in
+            runs.iter().enumerate().filter(|(i, _)| made[*i].is_none()).collect::<Vec<_>>()
+        {
+            let (record, finished) = study.run(registry, *run, self.folder, self.interrupt)?;
             if self.interrupt.load(Ordering::Relaxed) {
                 // It may have been cut short.
                 return Ok(None);
             }
             self.write(&record)?;
-            made.push(record);
+            // What goes alone because of its neighbours is not what it would be among others.
+            if let Some(finished) = finished.filter(|_| !panicked) {
+                self.keep(keys[i].as_ref(), &finished)?;
+            }
+            made[i] = Some(record);
         }
-        Ok(Some(made))
+        self.new.fetch_add(runs.len() - reused, Ordering::Relaxed);
+        Ok(Some(made.into_iter().flatten().collect()))
+    }
+
+    /// The row of a run that the store has. One whose histories are kept is made for their sake.
+    fn stored(
+        &self,
+        run: usize,
+        model: Option<&Model>,
+        key: Option<&Key>,
+    ) -> Result<Option<Record>, StudyError> {
+        let (Some(model), Some(key), Some((_, store))) = (model, key, &self.store) else {
+            return Ok(None);
+        };
+        let found = store.lock().map_or(Ok(None), |mut store| store.find(key))?;
+        let Some(finished) = found else { return Ok(None) };
+        let record = self.study.record(run, model, &finished);
+        if self.study.keeps_histories(&record) || (self.retry_failed && !record.good) {
+            return Ok(None);
+        }
+        self.write(&record)?;
+        Ok(Some(record))
+    }
+
+    fn keep(&self, key: Option<&Key>, finished: &Finished) -> Result<(), StudyError> {
+        match (key, self.store.as_ref().map(|(_, store)| store.lock())) {
+            (Some(key), Some(Ok(mut store))) => store.add(key, finished),
+            _ => Ok(()),
+        }
     }
 
     fn write(&self, record: &Record) -> Result<(), StudyError> {

@@ -90,13 +90,13 @@ impl Storage for File {
     }
 }
 
-fn line(value: &impl Serialize) -> Result<String, serde_json::Error> {
+pub(crate) fn line(value: &impl Serialize) -> Result<String, serde_json::Error> {
     let json = serde_json::to_string(value)?;
     Ok(format!("{:08x} {json}\n", crc32fast::hash(json.as_bytes())))
 }
 
 /// The JSON of a whole line.
-fn content(line: &str) -> Option<&str> {
+pub(crate) fn content(line: &str) -> Option<&str> {
     let (sum, json) = line.strip_suffix('\n')?.split_once(' ')?;
     let sum = (sum.len() == 8).then(|| u32::from_str_radix(sum, 16).ok()).flatten()?;
     (sum == crc32fast::hash(json.as_bytes())).then_some(json)
@@ -111,8 +111,8 @@ pub(crate) struct Kept {
 }
 
 /// What a journal holds on disk.
-struct Read {
-    kept: Kept,
+pub(crate) struct Read {
+    pub kept: Kept,
     /// Bytes up to the end of the last whole line.
     length: u64,
     /// True where not even the identity is whole: it was stopped while it began.
@@ -121,7 +121,11 @@ struct Read {
 
 /// Reads what a journal holds; refuses one of another study.
 fn read(path: &Path, identity: &Identity) -> Result<Read, StudyError> {
-    let bytes = std::fs::read(path).map_err(StudyError::at(path))?;
+    parse(&std::fs::read(path).map_err(StudyError::at(path))?, path, identity)
+}
+
+/// The same of its bytes; `path`: where they are from.
+pub(crate) fn parse(bytes: &[u8], path: &Path, identity: &Identity) -> Result<Read, StudyError> {
     let mut found = Read { kept: Kept::default(), length: 0, empty: true };
     let mut at = 0;
     for part in bytes.split_inclusive(|b| *b == b'\n') {
@@ -172,15 +176,21 @@ impl Journal {
             return Err(StudyError::NoJournal { path: path.to_owned() });
         }
         let Read { kept, length, empty } = read(path, identity)?;
-        let mut journal = Self { file, path: path.to_owned(), length, synced: Instant::now() };
-        // A torn line at the end goes, so that the next one begins a line.
-        journal.file.cut(length).map_err(&fail)?;
-        journal.file.seek(SeekFrom::Start(length)).map_err(&fail)?;
+        let mut journal = Self::at(file, path, length)?;
         if empty {
             journal.write(identity)?;
             journal.file.sync().map_err(&fail)?;
         }
         Ok((journal, kept))
+    }
+
+    /// Goes on behind the whole lines of a file.
+    pub fn at(file: File, path: &Path, length: u64) -> Result<Self, StudyError> {
+        let mut journal = Self { file, path: path.to_owned(), length, synced: Instant::now() };
+        // A torn line at the end goes, so that the next one begins a line.
+        journal.file.cut(length).map_err(StudyError::at(path))?;
+        journal.file.seek(SeekFrom::Start(length)).map_err(StudyError::at(path))?;
+        Ok(journal)
     }
 }
 
@@ -199,6 +209,11 @@ impl<W: Storage> Journal<W> {
             self.sync()?;
         }
         Ok(())
+    }
+
+    /// Bytes that are whole lines.
+    pub fn length(&self) -> u64 {
+        self.length
     }
 
     /// Forces everything to the disk.

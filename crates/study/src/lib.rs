@@ -4,6 +4,7 @@
 //! draws, records × scales, ensembles about every point. [`Study::read`] checks it, [`execute()`] runs it. Every
 //! finished run is on disk at once; a study that was killed goes on where it was and ends with the same table
 //! to the bit, whatever the number of threads, and of [parts](Shard) that ran on other machines. Small models go side by side in vector lanes.
+//! Runs that a [store](How::store) has are taken from there, whichever study made them.
 //!
 //! | file | what |
 //! |---|---|
@@ -22,10 +23,12 @@ mod error;
 mod execute;
 mod figure;
 mod files;
+mod finished;
 mod fragility;
 mod journal;
 mod number;
 mod page;
+mod parcel;
 mod plan;
 mod read;
 mod run;
@@ -34,6 +37,7 @@ mod shape;
 mod shard;
 mod statistics;
 mod status;
+mod store;
 mod study;
 mod table;
 
@@ -49,5 +53,6 @@ pub use plan::{Axis, Ensemble, Place, Plan, Samples};
 pub use shard::{Part, Shard, is_study_folder};
 pub use statistics::{Spread, wilson};
 pub use status::{PartStatus, status};
+pub use store::machine;
 pub use study::Study;
 pub use table::{Data, Table, Values};

@@ -1,13 +1,13 @@
 //! The runs of a study: one by itself, or several side by side.
 
-use crate::column::{self, Left, Watch};
+use crate::column::{self, Watch};
+use crate::finished::Finished;
 use crate::{Cell, Place, Record, Study, StudyError};
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::Path;
 use std::sync::atomic::AtomicBool;
 use trilith::model::file::{NoNames, evaluate};
 use trilith::model::{Model, ParameterValue};
-use trilith::results::Peak;
 use trilith::sweep::{Alone, Lanes, Outcome};
 use trilith::{Analysis, Registry, RunOptions, SolverKind};
 
@@ -26,37 +26,35 @@ impl Study {
         Lanes::new().check(&model, self.case).ok()?.err()
     }
 
-    /// Makes those of the runs that go side by side, in their order.
-    pub(crate) fn beside(&self, registry: &Registry, lanes: &Lanes, runs: &[usize]) -> Vec<Record> {
-        let read = |run: &usize| Some((*run, self.model(registry, &self.plan.place(*run)).ok()?));
-        let models: Vec<(usize, Model)> = runs.iter().filter_map(read).collect();
-        let cases: Vec<(&Model, usize)> = models.iter().map(|(_, m)| (m, self.case)).collect();
-        let found = lanes.run(&cases, None);
-        let record = |((run, model), found): (&(usize, Model), Result<Outcome, Alone>)| {
-            let Outcome { status, outputs, integrals, energy, contact, warnings, .. } =
-                found.ok()?;
-            let peaks: Vec<Peak> = outputs.0.iter().map(|(_, peak)| *peak).collect();
-            let left = Left {
-                status: &status,
-                peaks: &peaks,
-                energy: &energy,
-                contact: contact.as_ref(),
-                integrals: &integrals,
-                warnings: &warnings,
-            };
-            Some(self.record(*run, model, &left))
-        };
-        models.iter().zip(found).filter_map(record).collect()
+    /// The model of a run; none where it cannot be read, or where that panics: [`run`](Self::run) says why.
+    pub(crate) fn try_model(&self, registry: &Registry, run: usize) -> Option<Model> {
+        let read = || self.model(registry, &self.plan.place(run)).ok();
+        catch_unwind(AssertUnwindSafe(read)).ok().flatten()
     }
 
-    /// Makes one run, by its number. Whatever goes wrong in it is told in the record.
+    /// Makes those of the runs that go side by side, each at its place. None where a law panicked: the run that it is in
+    /// tells so when it goes alone.
+    pub(crate) fn beside(&self, lanes: &Lanes, models: &[&Model]) -> Option<Vec<Option<Finished>>> {
+        let cases: Vec<(&Model, usize)> = models.iter().map(|m| (*m, self.case)).collect();
+        let found = catch_unwind(AssertUnwindSafe(|| lanes.run(&cases, None))).ok()?;
+        let finished = |found: Result<Outcome, Alone>| {
+            let Outcome { status, outputs, integrals, energy, contact, warnings, .. } =
+                found.ok()?;
+            let peaks = outputs.0.iter().map(|(_, peak)| *peak);
+            Some(Finished::new(&status, &warnings, contact.as_ref(), &energy, peaks, &integrals))
+        };
+        Some(found.into_iter().map(finished).collect())
+    }
+
+    /// Makes one run, by its number, with what it came to where it came to an end. Whatever goes wrong in it is told in
+    /// the record.
     pub(crate) fn run(
         &self,
         registry: &Registry,
         run: usize,
         folder: &Path,
         interrupt: &AtomicBool,
-    ) -> Result<Record, StudyError> {
+    ) -> Result<(Record, Option<Finished>), StudyError> {
         let place = self.plan.place(run);
         let made =
             catch_unwind(AssertUnwindSafe(|| self.make(registry, run, &place, folder, interrupt)));
@@ -64,7 +62,7 @@ impl Study {
             let text = panic.downcast_ref::<String>().cloned();
             let text = text.or_else(|| panic.downcast_ref::<&str>().map(|s| (*s).to_owned()));
             let message = text.unwrap_or_else(|| "the program gave up".into());
-            Ok(self.failed(run, &self.plan.nominal(&place), "panic", &message))
+            Ok((self.failed(run, &self.plan.nominal(&place), "panic", &message), None))
         })
     }
 
@@ -75,11 +73,11 @@ impl Study {
         place: &Place,
         folder: &Path,
         interrupt: &AtomicBool,
-    ) -> Result<Record, StudyError> {
+    ) -> Result<(Record, Option<Finished>), StudyError> {
         let set = self.plan.nominal(place);
         let model = match self.model(registry, place) {
             Ok(model) => model,
-            Err(message) => return Ok(self.failed(run, &set, "model error", &message)),
+            Err(message) => return Ok((self.failed(run, &set, "model error", &message), None)),
         };
         let mut watch = Watch::new(&self.columns);
         let histories = self.histories.is_some();
@@ -93,18 +91,18 @@ impl Study {
             };
             a.observed(options, &mut [&mut watch])
         });
-        let record = match made {
+        match made {
             Ok(made) => {
-                let left = Left {
-                    status: &made.result.status,
-                    peaks: made.record.peaks(),
-                    energy: &made.result.energy,
-                    contact: made.contact.as_ref(),
-                    integrals: &watch.values(),
-                    warnings: &made.result.warnings,
-                };
-                let record = self.record(run, &model, &left);
-                if self.histories.as_ref().is_some_and(|c| c.holds(&self.columns, &record)) {
+                let finished = Finished::new(
+                    &made.result.status,
+                    &made.result.warnings,
+                    made.contact.as_ref(),
+                    &made.result.energy,
+                    made.record.peaks().iter().copied(),
+                    &watch.values(),
+                );
+                let record = self.record(run, &model, &finished);
+                if self.keeps_histories(&record) {
                     let own = folder.join("runs").join(format!("{:06}", run + 1));
                     let fail = |e: trilith::Error| {
                         let cause = std::io::Error::other(e.to_string());
@@ -112,14 +110,18 @@ impl Study {
                     };
                     made.write(&model, &own).map_err(fail)?;
                 }
-                record
+                Ok((record, Some(finished)))
             }
-            Err(e) => Record {
-                parameters: self.cells(&model),
-                ..self.failed(run, &set, "error", &e.to_string())
-            },
-        };
-        Ok(record)
+            Err(e) => {
+                let failed = self.failed(run, &set, "error", &e.to_string());
+                Ok((Record { parameters: self.cells(&model), ..failed }, None))
+            }
+        }
+    }
+
+    /// True for a run whose histories the study keeps.
+    pub(crate) fn keeps_histories(&self, record: &Record) -> bool {
+        self.histories.as_ref().is_some_and(|c| c.holds(&self.columns, record))
     }
 
     /// The model of a run.
@@ -150,24 +152,23 @@ impl Study {
         read(&set)
     }
 
-    fn record(&self, run: usize, model: &Model, left: &Left<'_>) -> Record {
-        let &Left { status, contact, .. } = left;
-        let good = status.is_good();
-        let values = if good {
+    /// The row of a run that came to this.
+    pub(crate) fn record(&self, run: usize, model: &Model, left: &Finished) -> Record {
+        let contact = left.contact.as_ref();
+        let values = if left.good {
             column::values(&self.columns, model, left)
         } else {
             vec![None; self.columns.len()]
         };
-        let told = matches!(status, trilith::solvers::Status::Converged);
         Record {
             run,
-            status: status.word().to_owned(),
-            good,
-            message: if told { String::new() } else { status.text() },
-            warnings: left.warnings.to_vec(),
+            status: left.status.clone(),
+            good: left.good,
+            message: left.message.clone(),
+            warnings: left.warnings.clone(),
             overturned: contact.is_some_and(|c| c.overturned),
-            initial_mode: contact.filter(|_| good).map(|c| c.initial_mode.to_owned()),
-            mode: contact.filter(|_| good).map(|c| c.mode.to_owned()),
+            initial_mode: contact.filter(|_| left.good).map(|c| c.initial_mode.clone()),
+            mode: contact.filter(|_| left.good).map(|c| c.mode.clone()),
             parameters: self.cells(model),
             values,
         }

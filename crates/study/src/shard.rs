@@ -26,6 +26,18 @@ impl Shard {
         ((1..=of).contains(&index) && of <= MOST).then_some(Self { index, of })
     }
 
+    /// Which one, from 1.
+    #[must_use]
+    pub fn index(self) -> usize {
+        self.index
+    }
+
+    /// How many there are.
+    #[must_use]
+    pub fn of(self) -> usize {
+        self.of
+    }
+
     /// Number of its chains, of so many.
     pub(crate) fn chains(self, all: usize) -> usize {
         (all + self.of - self.index) / self.of

@@ -18,6 +18,8 @@ pub struct Study {
     pub model_path: PathBuf,
     /// Title of the model.
     pub model_title: String,
+    /// Other files that its runs read, such as records, as far as they are named by texts of axes and points.
+    pub files: Vec<PathBuf>,
     /// Its runs.
     pub plan: Plan,
     /// What is kept of each run.

@@ -494,6 +494,10 @@ pub(crate) struct SweepArguments {
     /// Write the tables of what the parts have made, and run nothing
     #[arg(long)]
     pub gather: bool,
+    /// Folder of finished runs that any study takes from and adds to: the same run of the same model by the same build of
+    /// the program is made once, whatever the study around it
+    #[arg(long, value_name = "DIR", conflicts_with_all = ["gather", "status", "dry_run"])]
+    pub store: Option<PathBuf>,
     /// Tell how far the parts are
     #[arg(long, conflicts_with_all = ["gather", "shard", "retry_failed"])]
     pub status: bool,

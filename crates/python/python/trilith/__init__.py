@@ -27,6 +27,7 @@ from ._errors import (
     ModelError,
     RunError,
     TrilithError,
+    WorkerError,
 )
 from ._native import BUILD, VERSION as __version__, State
 
@@ -50,7 +51,7 @@ if TYPE_CHECKING:
     from ._result import Link, Loop, Peak, Result
     from ._ron import Block, Word
     from ._stepper import Stepper
-    from ._study import StudyResult, study
+    from ._study import PartStatus, Study, StudyResult, StudyStatus, study
     from ._sweep import SweepPeaks, SweepResult, sweep
     from .blocks import *
 
@@ -75,7 +76,7 @@ _PLACES = {
     "_result": ("Link", "Loop", "Peak", "Result"),
     "_ron": ("Block", "Word"),
     "_stepper": ("Stepper",),
-    "_study": ("StudyResult", "study"),
+    "_study": ("PartStatus", "Study", "StudyResult", "StudyStatus", "study"),
     "_sweep": ("SweepPeaks", "SweepResult", "sweep"),
 }
 _WHERE = {name: module for module, names in _PLACES.items() for name in names}
@@ -110,6 +111,7 @@ __all__ = [
     "Modes",
     "Optimum",
     "OutputGradient",
+    "PartStatus",
     "Peak",
     "ResponseSpectrum",
     "Result",
@@ -117,12 +119,15 @@ __all__ = [
     "Sensitive",
     "State",
     "Stepper",
+    "Study",
     "StudyResult",
+    "StudyStatus",
     "SweepPeaks",
     "SweepResult",
     "TrilithError",
     "Variant",
     "Word",
+    "WorkerError",
     "__version__",
     "compare",
     "elements",

@@ -69,6 +69,11 @@ class FileError(TrilithError, OSError):
     """A file that cannot be read or written."""
 
 
+class WorkerError(TrilithError, RuntimeError):
+    """A worker of a cluster that cannot take part in a study: another version of trilith, other vectors, files that it does
+    not see."""
+
+
 class InternalError(TrilithError, RuntimeError):
     """A defect of Trilith: please report it with the model."""
 

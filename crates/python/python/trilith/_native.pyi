@@ -57,6 +57,7 @@ StudyFacts: TypeAlias = tuple[
     int,
     int,
     int,
+    int,
     str | None,
 ]
 CardFacts: TypeAlias = tuple[
@@ -239,13 +240,37 @@ def sweep(
     threads: int | None,
     /,
 ) -> SweepFacts: ...
-def study(
-    path: Path,
-    set: list[tuple[str, str]],
-    folder: Path,
-    threads: int | None,
-    progress: Callable[[float], object] | None,
-    /,
-) -> StudyFacts: ...
+class Study:
+    def __new__(cls, path: Path, set: list[tuple[str, str]], /) -> Study: ...
+    @property
+    def title(self) -> str: ...
+    @property
+    def identity(self) -> tuple[str, str, str, str, str, int]: ...
+    @property
+    def series(self) -> int: ...
+    @property
+    def keeps_histories(self) -> bool: ...
+    @property
+    def files(self) -> list[Path]: ...
+    def run(
+        self,
+        folder: Path,
+        threads: int | None,
+        shard: tuple[int, int] | None,
+        gather: bool,
+        retry_failed: bool,
+        store: Path | None,
+        progress: Callable[[float], object] | None,
+        /,
+    ) -> StudyFacts: ...
+    def status(
+        self, folder: Path, /
+    ) -> tuple[list[tuple[int, int, int, int, int, int]], int]: ...
+    def open_parts(
+        self, folder: Path, of: int, retry_failed: bool, /
+    ) -> list[tuple[int, bytes]]: ...
+    def take_part(self, folder: Path, shard: tuple[int, int], journal: bytes, /) -> int: ...
+
+def machine() -> str: ...
 def program(arguments: Sequence[str], /) -> None: ...
 def panic_for_a_test() -> None: ...

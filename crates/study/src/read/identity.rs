@@ -2,6 +2,7 @@
 
 use crate::{Column, Condition, Identity, Plan};
 use sha2::{Digest, Sha256};
+use std::path::PathBuf;
 use trilith::element::{FileText, Value};
 use trilith::model::{Model, ModelText};
 use trilith::{Registry, SolverKind};
@@ -31,7 +32,8 @@ fn seen_of(model: &Model) -> String {
     all
 }
 
-/// Figures, events and statistics are left out: they can change without a run.
+/// Figures, events and statistics are left out: they can change without a run. `files` gets those that models read beside
+/// their own.
 pub(super) fn identity(
     parsed: &ModelText,
     plan: &Plan,
@@ -40,12 +42,21 @@ pub(super) fn identity(
     how: (usize, Option<SolverKind>),
     columns: &[Column],
     stop: &Option<Option<Condition>>,
+    files: &mut Vec<PathBuf>,
 ) -> Option<Identity> {
+    let mut read = |model: &Model| {
+        for path in &model.files {
+            if !files.contains(path) {
+                files.push(path.clone());
+            }
+        }
+    };
     let study = hexadecimal(Sha256::digest(format!("{plan:?}\n{how:?}\n{columns:?}\n{stop:?}")));
     // Records are named by texts: every text of every axis and point, one after the other.
     let mut motions = Sha256::new();
     let model = parsed.read(registry, first).ok()?;
     motions.update(seen_of(&model));
+    read(&model);
     let is_text = |name: &str| {
         let text = |p: &trilith::model::Parameter| {
             p.name == name && matches!(p.value, trilith::model::ParameterValue::Text(_))
@@ -65,6 +76,7 @@ pub(super) fn identity(
         set.push((name.clone(), value.clone()));
         if let Ok(model) = parsed.read(registry, &set) {
             motions.update(seen_of(&model));
+            read(&model);
         }
     }
     Some(Identity {

@@ -168,8 +168,9 @@ fn whole(
         c.report(c.diagnostic("E0112", message, root.span.start..root.span.start + 1));
     }
     let how = (case?, solver?);
+    let (first, mut files) = (settings.first(&plan), Vec::new());
     let identity =
-        identity::identity(&parsed, &plan, registry, &settings.first(&plan), how, &columns, &stop)?;
+        identity::identity(&parsed, &plan, registry, &first, how, &columns, &stop, &mut files)?;
     let sum = model.sha256();
     Some(Study {
         title: title?,
@@ -183,6 +184,7 @@ fn whole(
         over: over?,
         sensitive_above: sensitive?,
         figures: figures?,
+        files,
         identity: crate::Identity { runs: runs?, model: sum, ..identity },
         plan,
         varied,
