@@ -5,7 +5,7 @@ from __future__ import annotations
 import os
 import signal
 import sys
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import Any
 
@@ -65,7 +65,7 @@ def test_parts_are_gathered_to_the_same_files(small: Path, tmp_path: Path) -> No
     same_files(whole.folder, s.folder)
     for shard, told in [((4, 3), "no part 4 of 3"), (3, "such as"), ((1.5, 3), "such as")]:
         with pytest.raises(tl.ArgumentError, match=told):
-            s.run(shard=shard)  # type: ignore[arg-type]
+            s.run(shard=shard)  # type: ignore[arg-type, unused-ignore]
 
 
 def test_a_store_is_shared_by_studies(small: Path, tmp_path: Path) -> None:
@@ -81,7 +81,7 @@ def test_a_store_is_shared_by_studies(small: Path, tmp_path: Path) -> None:
 @pytest.fixture(scope="module")
 def client() -> Iterator[Any]:
     """A cluster of two processes on this machine."""
-    distributed = pytest.importorskip("distributed", reason="dask.distributed is not installed")
+    distributed: Any = pytest.importorskip("distributed", reason="dask.distributed is not installed")
     if sys.platform == "win32":
         pytest.skip("processes are killed by signals here")
     with (
@@ -156,14 +156,15 @@ def test_workers_that_cannot_take_part_are_named(
 
 def test_clusters_that_are_none(client: Any, small: Path, tmp_path: Path) -> None:
     s = tl.Study(small, out=tmp_path / "out")
-    for call, told in [
+    calls: list[tuple[Callable[[], object], str]] = [
         (lambda: s.run(3), "a dask.distributed.Client is wanted"),
         (lambda: s.run(client, shard=(1, 2)), "not both"),
         (lambda: s.run(client, seconds=0.0), "above 0"),
         (lambda: s.run(client, shards=1001), "1000 at most"),
         (lambda: s.run(client, shards=0), "at least 1"),
         (lambda: s.run(client, retries=-1), "at least 0"),
-    ]:
+    ]
+    for call, told in calls:
         with pytest.raises(tl.ArgumentError, match=told):
             call()
 

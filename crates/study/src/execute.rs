@@ -1,10 +1,11 @@
 //! Running a study, or a part of it: all cores, every finished run on disk at once.
 
+mod make;
+
 use crate::column::over_time;
-use crate::finished::Finished;
 use crate::journal::{Journal, Kept};
 use crate::shard::journals;
-use crate::store::{Key, Keys, Store};
+use crate::store::{Keys, Store};
 use crate::{Part, Record, Study, StudyError};
 use std::collections::BTreeMap;
 use std::fs::{File, OpenOptions};
@@ -13,7 +14,6 @@ use std::sync::Mutex;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use std::time::{Duration, Instant};
 use trilith::Registry;
-use trilith::model::Model;
 use trilith::sweep::Lanes;
 
 /// Shares of runs that take less than this grow.
@@ -215,14 +215,11 @@ pub fn execute(
         }
         shared.work();
     });
-    let closed = match shared.store.map(|(_, store)| store.into_inner()) {
-        Some(Ok(store)) => store.close(),
-        _ => Ok(()),
-    };
+    let closed = shared.store.and_then(|(_, store)| Some(store.into_inner().ok()?.close()));
     if let Some(error) = shared.error.into_inner().unwrap_or_default() {
         return Err(error);
     }
-    closed?;
+    closed.unwrap_or(Ok(()))?;
     if let Some(Ok(mut journal)) = shared.journal.as_ref().map(Mutex::lock) {
         journal.sync()?;
     }
@@ -340,93 +337,6 @@ impl Shared<'_> {
             }
         }
         going
-    }
-
-    /// Makes runs, side by side where they fit, or takes them from the store; each is on disk as soon as it is there. None
-    /// where that was interrupted.
-    fn make(&self, runs: &[usize]) -> Result<Option<Vec<Record>>, StudyError> {
-        let (study, registry) = (self.study, self.registry);
-        let models: Vec<Option<Model>> = if self.lanes.is_some() || self.store.is_some() {
-            runs.iter().map(|run| study.try_model(registry, *run)).collect()
-        } else {
-            runs.iter().map(|_| None).collect()
-        };
-        let key = |model: &Option<Model>| Some(self.store.as_ref()?.0.key(model.as_ref()?));
-        let keys: Vec<Option<Key>> = models.iter().map(key).collect();
-        let mut made: Vec<Option<Record>> = Vec::with_capacity(runs.len());
-        for ((run, model), key) in runs.iter().zip(&models).zip(&keys) {
-            made.push(self.stored(*run, model.as_ref(), key.as_ref())?);
-        }
-        let reused = made.iter().flatten().count();
-        self.reused.fetch_add(reused, Ordering::Relaxed);
-        let mut panicked = false;
-        if let Some(lanes) = &self.lanes {
-            let fresh = |(i, model)| Some((i, Option::as_ref(model)?));
-            let all = models.iter().enumerate().filter(|(i, _)| made[*i].is_none());
-            let (at, beside): (Vec<usize>, Vec<&Model>) = all.filter_map(fresh).unzip();
-            let found = study.beside(lanes, &beside);
-            panicked = found.is_none();
-            for ((i, model), finished) in at.into_iter().zip(beside).zip(found.unwrap_or_default())
-            {
-                let Some(finished) = finished else { continue };
-                let record = study.record(runs[i], model, &finished);
-                self.write(&record)?;
-                self.keep(keys[i].as_ref(), &finished)?;
-                self.beside.fetch_add(1, Ordering::Relaxed);
-                made[i] = Some(record);
-            }
-        }
-        for (i, run) in
-            runs.iter().enumerate().filter(|(i, _)| made[*i].is_none()).collect::<Vec<_>>()
-        {
-            let (record, finished) = study.run(registry, *run, self.folder, self.interrupt)?;
-            if self.interrupt.load(Ordering::Relaxed) {
-                // It may have been cut short.
-                return Ok(None);
-            }
-            self.write(&record)?;
-            // What goes alone because of its neighbours is not what it would be among others.
-            if let Some(finished) = finished.filter(|_| !panicked) {
-                self.keep(keys[i].as_ref(), &finished)?;
-            }
-            made[i] = Some(record);
-        }
-        self.new.fetch_add(runs.len() - reused, Ordering::Relaxed);
-        Ok(Some(made.into_iter().flatten().collect()))
-    }
-
-    /// The row of a run that the store has. One whose histories are kept is made for their sake.
-    fn stored(
-        &self,
-        run: usize,
-        model: Option<&Model>,
-        key: Option<&Key>,
-    ) -> Result<Option<Record>, StudyError> {
-        let (Some(model), Some(key), Some((_, store))) = (model, key, &self.store) else {
-            return Ok(None);
-        };
-        let found = store.lock().map_or(Ok(None), |mut store| store.find(key))?;
-        let Some(finished) = found else { return Ok(None) };
-        let record = self.study.record(run, model, &finished);
-        if self.study.keeps_histories(&record) || (self.retry_failed && !record.good) {
-            return Ok(None);
-        }
-        self.write(&record)?;
-        Ok(Some(record))
-    }
-
-    fn keep(&self, key: Option<&Key>, finished: &Finished) -> Result<(), StudyError> {
-        match (key, self.store.as_ref().map(|(_, store)| store.lock())) {
-            (Some(key), Some(Ok(mut store))) => store.add(key, finished),
-            _ => Ok(()),
-        }
-    }
-
-    fn write(&self, record: &Record) -> Result<(), StudyError> {
-        match self.journal.as_ref().map(Mutex::lock) {
-            Some(Ok(mut journal)) => journal.write(record),
-            _ => Ok(()),
-        }
     }
 
     fn count(&self, runs: usize, failed: bool) {

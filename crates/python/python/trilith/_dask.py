@@ -57,12 +57,19 @@ class Made(NamedTuple):
     seconds: float
 
 
-def _client(client: object) -> Any:
-    """Checks a client."""
+def _distributed() -> Any:
+    """The package, parts of which have no types."""
+    from importlib import import_module
+
     try:
-        import distributed
+        return import_module("distributed")
     except ImportError:
         raise ImportError("a cluster needs dask.distributed: pip install 'trilith[dask]'") from None
+
+
+def _client(client: object) -> Any:
+    """Checks a client."""
+    distributed = _distributed()
     if not isinstance(client, distributed.Client):
         raise ArgumentError(f"a dask.distributed.Client is wanted, not {client!r}")
     if client.asynchronous:
@@ -213,18 +220,17 @@ class _Tasks:
 
         :param share: what is finished with the last of them.
         """
-        from distributed import KilledWorker, as_completed
-
+        distributed = _distributed()
         futures = self._submit(parts, of)
         waiting = {f: (index, known, self.retries) for f, (index, known) in zip(futures, parts)}
         done, slowest = 0, 0.0
         try:
-            ends = as_completed(futures)
+            ends = distributed.as_completed(futures)
             for future in ends:
                 index, known, left = waiting.pop(future)
                 try:
                     made: Made = future.result()
-                except KilledWorker:
+                except distributed.KilledWorker:
                     # Dask gives up a task with which several workers were lost, whatever they were lost by.
                     if not left:
                         raise
@@ -300,10 +306,8 @@ def part(shard: tuple[int, int], known: bytes, *, job: Job) -> Made:
 
 def _worker() -> tuple[str, str | None]:
     """The address of the worker that this runs on, and its folder for what is not kept."""
-    from distributed import get_worker
-
     try:
-        worker = get_worker()
+        worker = _distributed().get_worker()
     except ValueError:
         return "here", None
     return str(worker.address), str(worker.local_directory)

@@ -258,11 +258,13 @@ def _part(shard: object) -> tuple[int, int]:
     """Which part of how many."""
     import operator
 
+    wrong = ArgumentError(f"shard must be a part of several such as (3, 20), it is {shard!r}")
+    if not isinstance(shard, (tuple, list)) or len(shard) != 2:
+        raise wrong
     try:
-        index, of = shard  # type: ignore[misc]
-        return operator.index(index), operator.index(of)
-    except (TypeError, ValueError):
-        raise ArgumentError(f"shard must be a part of several such as (3, 20), it is {shard!r}") from None
+        return operator.index(shard[0]), operator.index(shard[1])
+    except TypeError:
+        raise wrong from None
 
 
 def study(
