@@ -103,12 +103,13 @@ fn dependencies_point_one_way() {
         ),
         ("trilith-study", &["trilith"]),
         ("trilith-exchange", &["trilith-element", "trilith-model"]),
+        ("trilith-foreign", &["trilith-element", "trilith-model"]),
         ("trilith-diagnostics", &["trilith-model"]),
         ("trilith-live", &["trilith", "trilith-diagnostics"]),
         ("trilith-lsp", &["trilith"]),
         ("trilith-bench", &["trilith", "trilith-linalg", "trilith-report"]),
         ("trilith-guide", &["trilith", "trilith-cli", "trilith-study"]),
-        ("trilith-python", &["trilith", "trilith-cli", "trilith-study"]),
+        ("trilith-python", &["trilith", "trilith-cli", "trilith-foreign", "trilith-study"]),
         ("trilith-thirdparty-example", &["trilith-element", "trilith", "trilith-cli"]),
     ];
     let all = manifests();

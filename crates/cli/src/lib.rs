@@ -30,6 +30,7 @@ mod generate;
 mod gradient;
 mod import;
 mod interrupt;
+mod laws;
 mod long;
 mod lsp;
 mod made_by;
@@ -87,7 +88,9 @@ pub fn main_of(registry: Registry, arguments: impl IntoIterator<Item = OsString>
         Ok(arguments) => arguments,
         Err(said) => std::process::exit(output::usage(&said)),
     };
-    let answer = vectors::check().and_then(|()| match arguments.command {
+    let Arguments { command, laws } = arguments;
+    let registry = vectors::check().and_then(|()| laws::taken(registry, laws));
+    let answer = registry.and_then(|registry| match command {
         Command::Run(a) => run::run(&registry, a),
         Command::Watch(a) => watch::watch(&registry, &a),
         Command::Check(a) => check::check(&registry, &a),

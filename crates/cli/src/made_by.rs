@@ -22,7 +22,7 @@ pub(crate) struct Inputs {
 /// A file that was read.
 #[derive(Serialize)]
 struct Input {
-    /// `model`, `include` (what the model includes), `data` (records and tables), `checkpoint` or `study`.
+    /// `model`, `include` (what the model includes), `data` (records and tables), `checkpoint`, `study`, or `laws` (libraries).
     what: &'static str,
     /// Its path as it was asked for.
     file: String,
@@ -49,6 +49,13 @@ impl Input {
     }
 }
 
+impl Input {
+    /// Libraries whose laws were taken.
+    fn laws() -> Result<Vec<Self>, Failure> {
+        crate::laws::opened().iter().map(|path| Self::read("laws", path)).collect()
+    }
+}
+
 impl Inputs {
     /// Of a run.
     pub fn of_run(model: &Model, args: &RunArguments) -> Result<Self, Failure> {
@@ -61,6 +68,7 @@ impl Inputs {
         if let Some(path) = &args.restart {
             files.push(Input::read("checkpoint", path)?);
         }
+        files.extend(Input::laws()?);
         Ok(Self { date: date()?, files })
     }
 
@@ -68,6 +76,7 @@ impl Inputs {
     pub fn of_study(study: &Study) -> Result<Self, Failure> {
         let mut files = vec![Input::read("study", &study.path)?];
         files.extend(Input::texts(study.sources()));
+        files.extend(Input::laws()?);
         Ok(Self { date: date()?, files })
     }
 }

@@ -18,8 +18,10 @@ const TOLD: usize = 5;
 
 pub(crate) fn sweep(registry: &Registry, args: &SweepArguments) -> Result<Answer, Failure> {
     figure_files::check(&args.figure_format)?;
-    let study =
+    let mut study =
         Study::read(&args.study, registry, &args.set).map_err(|e| Failure::diagnostics(&e))?;
+    // Runs with other laws are those of another program.
+    study.identity.build += &crate::laws::digest()?;
     if !args.figure_format.is_empty() && study.figures.is_empty() {
         let help = "`figures: [Points(x: \"mu\", y: \"slide\")]` in the study file asks for one";
         return Err(Failure::input("the study has no figures to write", Some(help)));

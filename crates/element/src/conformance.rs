@@ -12,7 +12,7 @@
 //! | restart  | at the start of a step, with dt = 0, the force is that of the end of the last step, and nothing dissipates |
 //! | tangents | `k` and `c` are the central difference quotients of `f`, away from kinks |
 //! | forms    | what the law says over lanes, and as the constant of a dashpot, is what it answers, up to rounding |
-//! | energy   | work = Δ stored + hysteretic + viscous at all times, under refinement; the last two never fall (unless [`Kit::active`]) |
+//! | energy   | work = Δ stored + hysteretic + viscous at all times, under refinement; the last two never fall (unless [`Kit::active`], or the law does not [account](Link::accounts) for its work) |
 //! | passive  | nowhere on three cycles has more energy come out than went in (unless [`Kit::active`]) |
 //! | rates    | a law declared [`Kit::rate_independent`] does not see the speed, nor the step on a straight path |
 //!

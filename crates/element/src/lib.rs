@@ -59,7 +59,9 @@ pub use frame::{Axis, Dof, Frame, Geometry, Vector3, cross, dot, norm, sub};
 pub use history::{Field, History};
 pub use integrator::{Factor, Integrator, LinearStep, LinearStructure, Motion, MotionMut};
 pub use linear::{ElementMatrices, LinearElement, SquareMatrix};
-pub use link::{Contact, ContactUse, Coordinates, Energy, Impact, Kinematics, Link, Response};
+pub use link::{
+    Contact, ContactUse, Coordinates, Energy, Impact, Kinematics, LawFailed, Link, Response,
+};
 pub use member::{Member, SpanLoad};
 pub use outline::{NodalOutline, Outline};
 pub use register::{

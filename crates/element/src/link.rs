@@ -208,6 +208,11 @@ impl Impact {
     }
 }
 
+/// What a law unwinds with (`std::panic::resume_unwind`) where something has gone wrong that it can tell: for laws that are
+/// called in another language. The run ends with these words, as it does with those of a panic.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct LawFailed(pub String);
+
 /// A local nonlinear law.
 ///
 /// # Contract
@@ -329,6 +334,12 @@ pub trait Link: Send + Sync + Debug {
     /// need not ask it in every iteration.
     fn damping_constant(&self) -> Option<f64> {
         None
+    }
+
+    /// False for a law that does not know what it stores and turns to heat: it enters the work that is done on it as heat,
+    /// so that energies close whatever it does. A run with such a link says that its ledger proves nothing of it.
+    fn accounts(&self) -> bool {
+        true
     }
 
     /// The law in the form in which sweeps run many analyses side by side, and a run asks links of one law at

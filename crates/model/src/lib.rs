@@ -59,4 +59,4 @@ pub use solver::{CustomSolver, SolverKind};
 pub use table::{AfterEnd, Interpolation, Table, TableError};
 pub use time_function::{Corner, Harmonic, Side, Stretch, TimeFunction};
 pub use trilith_record::{visible, visible_line};
-pub use units::STANDARD_GRAVITY;
+pub use units::{STANDARD_GRAVITY, si_dimension};

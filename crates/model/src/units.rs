@@ -80,6 +80,16 @@ pub(crate) fn dimension(text: &str) -> Option<Dimension> {
     evaluate(&format!("1 {text}"), &mut NoNames).ok().map(|q| q.dimension)
 }
 
+/// The dimension of a unit of SI without a factor, such as `N/m`, `kg*m^2` or `1`; none for any other text, such as `kN`.
+#[must_use]
+pub fn si_dimension(unit: &str) -> Option<Dimension> {
+    if unit == "1" {
+        return Some(d::NONE);
+    }
+    let whole = evaluate(&format!("1 {unit}"), &mut NoNames).ok()?;
+    (whole.measured && whole.value == 1.0).then_some(whole.dimension)
+}
+
 /// What bare numbers of a file are measured in, as SI factors.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct FileUnits {
@@ -115,6 +125,24 @@ mod tests {
         let units = FileUnits { length: INCH, mass, time: 1.0 };
         assert!((units.scale(d::FORCE) / kip - 1.0).abs() < 1e-14);
         assert!((units.scale(d::STIFFNESS) / (kip / INCH) - 1.0).abs() < 1e-14);
+    }
+
+    #[test]
+    fn a_unit_of_si_has_no_factor() {
+        for (unit, dimension) in [
+            ("N/m", d::STIFFNESS),
+            ("N*s/m", d::DAMPING),
+            ("N·m", d::MOMENT),
+            ("kg*m^2", d::INERTIA),
+            ("rad", d::NONE),
+            ("1", d::NONE),
+            ("m/s^2", d::ACCELERATION),
+        ] {
+            assert_eq!(si_dimension(unit), Some(dimension), "{unit}");
+        }
+        for none in ["kN/m", "mm", "%", "deg", "", "2", "furlong", "N/", "1 m + 1 m", "-1 m"] {
+            assert_eq!(si_dimension(none), None, "{none}");
+        }
     }
 
     #[test]

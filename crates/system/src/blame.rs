@@ -7,6 +7,7 @@
 use std::any::Any;
 use std::cell::Cell;
 use std::panic::{AssertUnwindSafe, catch_unwind, resume_unwind};
+use trilith_element::LawFailed;
 
 thread_local! {
     static BLAMED: Cell<Option<usize>> = const { Cell::new(None) };
@@ -37,6 +38,8 @@ pub struct Panicked {
     pub element: usize,
     /// What the panic said.
     pub message: String,
+    /// True where the law told what is wrong by [`LawFailed`].
+    pub told: bool,
 }
 
 /// Runs what asks laws; a panic in one of them is an error. Any other panic goes on.
@@ -46,7 +49,10 @@ pub struct Panicked {
 pub fn catch<T>(run: impl FnOnce() -> T) -> Result<T, Panicked> {
     BLAMED.set(None);
     catch_unwind(AssertUnwindSafe(run)).map_err(|payload| match BLAMED.take() {
-        Some(element) => Panicked { element, message: said(&*payload) },
+        Some(element) => {
+            let told = payload.is::<LawFailed>();
+            Panicked { element, message: said(&*payload), told }
+        }
         None => resume_unwind(payload),
     })
 }
@@ -60,6 +66,7 @@ pub(crate) fn answered<T>(ask: impl FnOnce() -> T) -> Result<T, String> {
 fn said(payload: &(dyn Any + Send)) -> String {
     let text = payload.downcast_ref::<&str>().copied();
     let text = text.or_else(|| payload.downcast_ref::<String>().map(String::as_str));
+    let text = text.or_else(|| payload.downcast_ref::<LawFailed>().map(|told| told.0.as_str()));
     text.unwrap_or("a panic without a message").to_owned()
 }
 
@@ -71,8 +78,11 @@ mod tests {
     fn a_panic_in_a_law_is_caught_with_its_element_and_others_go_on() {
         assert_eq!(catch(|| blaming(3, || 7)), Ok(7));
         let deep = catch(|| blaming(3, || Vec::<f64>::new()[2]));
-        let Err(Panicked { element: 3, message }) = deep else { panic!("{deep:?}") };
+        let Err(Panicked { element: 3, message, told: false }) = deep else { panic!("{deep:?}") };
         assert!(message.contains("index out of bounds"), "{message}");
+        let told = || resume_unwind(Box::new(LawFailed("torn".into())));
+        let failed = Panicked { element: 4, message: "torn".into(), told: true };
+        assert_eq!(catch(|| blaming(4, || -> () { told() })), Err(failed));
         // One who was asked before and answered is not to blame.
         let other = catch_unwind(|| {
             catch(|| {

@@ -30,6 +30,9 @@ use values::{
 pub(crate) struct Arguments {
     #[command(subcommand)]
     pub command: Command,
+    /// Take the laws of a shared library as kinds of links (several times if need be); its code runs as the program's own
+    #[arg(long, global = true, value_name = "LIBRARY")]
+    pub laws: Vec<PathBuf>,
 }
 
 #[derive(Subcommand)]

@@ -6,7 +6,7 @@ use crate::contacts::{contacts, falling};
 use crate::error::SolveError;
 use crate::step::State;
 use trilith_element::{Contact, Dof, Vector3};
-use trilith_model::{Case, DynamicCase, Model, Side};
+use trilith_model::{Body, Case, DynamicCase, Element, Model, Side};
 use trilith_system::{LoadSet, SmallTurn, System, small_turns};
 
 /// Share of the size of a model by which a contact may be pressed in without a word.
@@ -48,14 +48,29 @@ impl Pressed {
 }
 
 /// What there is to say of a model before any case: who takes the rotations of a body in finite rotation for small ones,
-/// and bodies that are in each other.
+/// whose energies are not known, and bodies that are in each other.
 ///
 /// # Errors
 /// As an assembly has them.
 pub fn of_model(model: &Model) -> Result<Vec<String>, SolveError> {
     let mut all = turns(model)?;
+    all.extend(unaccounted(model));
     all.extend(overlap::at_rest(model));
     Ok(all)
+}
+
+/// Links whose laws do not say what becomes of the work that is done on them.
+fn unaccounted(model: &Model) -> Option<String> {
+    let silent = |e: &&Element| matches!(&e.body, Body::Link(law, _) if !law.accounts());
+    let all: Vec<&Element> = model.elements.iter().filter(silent).collect();
+    let (first, rest) = all.split_first()?;
+    let others =
+        if rest.is_empty() { String::new() } else { format!(" and {} more links", rest.len()) };
+    Some(format!(
+        "check the model: the law of \"{}\" ({}){others} does not tell its energies: the work that is done on it counts as heat, less than none \
+         where it gives work back, so the balance of energies says nothing of it",
+        first.name, first.kind
+    ))
 }
 
 /// Who takes the rotations of a body in finite rotation for small ones.
@@ -100,7 +115,8 @@ pub(crate) fn of_dynamic(
     let place = of_state(model, system, end.state, pressed, free, &supports);
     let turns = turns(model).unwrap_or_default();
     let doubts = system.inner.doubts.iter().cloned();
-    weight.into_iter().chain(place).chain(said).chain(turns).chain(doubts).collect()
+    let silent = unaccounted(model);
+    weight.into_iter().chain(place).chain(said).chain(turns).chain(silent).chain(doubts).collect()
 }
 
 /// What there is to say of a static case.
@@ -113,7 +129,9 @@ pub(crate) fn of_static(
 ) -> Vec<String> {
     let supports = vec![0.0; system.reduction.prescribed.len()];
     let said = of_state(model, system, state, noticed.pressed, Some(u), &supports);
-    said.into_iter().chain(noticed.said).chain(system.inner.doubts.iter().cloned()).collect()
+    let silent = unaccounted(model);
+    let doubts = system.inner.doubts.iter().cloned();
+    said.into_iter().chain(noticed.said).chain(silent).chain(doubts).collect()
 }
 
 /// Of the place where a case ends: contacts, and the displacements of the free DOFs where these count.

@@ -48,6 +48,11 @@ pub enum LawFault {
         /// At the start of the next.
         start: f64,
     },
+    /// Something went wrong in it, which it tells.
+    Failed {
+        /// What it says.
+        message: String,
+    },
     /// It panicked.
     Panicked {
         /// What the panic said.
@@ -93,6 +98,7 @@ impl LawFault {
             Self::Jumps { quantity, end, start } => format!(
                 "{law} does not go on from where it was {when}: {quantity} is {end:e} at the end of a step, and {start:e} right after the start of the next"
             ),
+            Self::Failed { message } => format!("{law} failed {when}: {message}"),
             Self::Panicked { message } => format!("{law} panicked {when}: {message}"),
         }
     }

@@ -27,6 +27,7 @@ pub(crate) enum Wrong {
     Changes { coordinate: usize, first: f64, again: f64 },
     Jumps { coordinate: usize, end: f64, start: f64 },
     Panicked(String),
+    Failed(String),
 }
 
 /// What a law was asked when it had no finite answer.
@@ -70,8 +71,9 @@ pub(crate) struct Culprit {
 }
 
 impl From<Panicked> for Culprit {
-    fn from(Panicked { element, message }: Panicked) -> Self {
-        Self { element, wrong: Wrong::Panicked(message) }
+    fn from(Panicked { element, message, told }: Panicked) -> Self {
+        let wrong = if told { Wrong::Failed(message) } else { Wrong::Panicked(message) };
+        Self { element, wrong }
     }
 }
 
@@ -280,6 +282,7 @@ impl Culprit {
                 LawFault::Jumps { quantity: force(coordinate), end: *end, start: *start }
             }
             Wrong::Panicked(message) => LawFault::Panicked { message: message.clone() },
+            Wrong::Failed(message) => LawFault::Failed { message: message.clone() },
         };
         (model.elements[*element].name.clone(), fault)
     }
