@@ -115,6 +115,13 @@ impl Kit {
         Self { mean, ..Self::new(&deformation, exercise.frequency) }
     }
 
+    /// Moves about these deformations, m or rad, one for each coordinate.
+    #[must_use]
+    pub fn about(mut self, mean: &[f64]) -> Self {
+        self.mean = mean.to_vec();
+        self
+    }
+
     /// All deformations and means so many times as large.
     #[must_use]
     pub fn scaled(mut self, factor: f64) -> Self {

@@ -148,10 +148,10 @@ impl CalledLaw {
                 x[j] = *end;
                 let (d, v) = if by_rate { (at.d, &x[..n]) } else { (&x[..n], at.v) };
                 let moved = Kinematics::new([d, v], [at.d0, at.v0], at.dt);
+                // Where the law ends beside, the other side alone counts.
                 match self.force(&moved, committed, side) {
-                    Ok(()) => {}
-                    // Where the law ends beside, the other side alone counts.
-                    Err(NoAnswer::Refused(_)) => *end = f64::NAN,
+                    Ok(()) if side.f[..n].iter().all(|f| f.is_finite()) => {}
+                    Ok(()) | Err(NoAnswer::Refused(_)) => *end = f64::NAN,
                     Err(failed) => return Err(failed),
                 }
             }

@@ -92,6 +92,9 @@ pub struct DeclaredField {
     pub unit: String,
 }
 
+/// Words that stand for something else where a kind may stand: of RON, and of model files.
+const WORDS: [&str; 6] = ["Some", "None", "For", "Parameter", "Text", "Contents"];
+
 /// A name that a model file, a checkpoint and Python can write.
 fn is_name(text: &str) -> bool {
     let mut letters = text.chars();
@@ -164,6 +167,9 @@ impl Declaration {
     pub(crate) fn check(&self) -> Result<Vec<Understood>, Wrong> {
         if !is_name(&self.kind) || !self.kind.starts_with(|c: char| c.is_ascii_uppercase()) {
             return Err(Wrong::Kind { name: self.kind.clone() });
+        }
+        if WORDS.contains(&self.kind.as_str()) {
+            return Err(Wrong::Reserved { name: self.kind.clone() });
         }
         self.coordinates()?;
         self.motion()?;

@@ -12,6 +12,12 @@ pub enum DeclarationError {
         /// The name.
         name: String,
     },
+    /// The name of the kind is a word that model files use for something else.
+    #[error("`{name}` is a word of model files: a kind needs another name")]
+    Reserved {
+        /// The name.
+        name: String,
+    },
     /// A parameter or a history variable with a name that is none.
     #[error(
         "{kind}: `{name}` is no name of a {what}: letters, digits and _, not beginning with a digit"

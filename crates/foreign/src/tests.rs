@@ -227,6 +227,7 @@ fn declarations_that_cannot_be_say_why() {
     let all: &[(fn(&mut Declaration), &str)] = &[
         (|d| d.kind = "slider".into(), "`slider` is no name of a kind"),
         (|d| d.kind = "Slíder".into(), "`Slíder` is no name of a kind"),
+        (|d| d.kind = "Some".into(), "`Some` is a word of model files"),
         (|d| d.axes.clear(), "its coordinates `` must be one or more of U1"),
         (|d| d.axes = vec!["U4".into()], "its coordinates `U4` must be"),
         (|d| d.axes = vec!["U2".into(); 2], "the axis `U2` is there twice"),

@@ -2,8 +2,10 @@
 
 use crate::column::Column;
 use crate::failure::Failure;
+use crate::laws::{Law, Laws};
 use crate::work;
 use pyo3::prelude::*;
+use trilith::Registry;
 use trilith::element::Stroke;
 use trilith::element::dimension::{LENGTH, NONE};
 use trilith::exercise::{Coordinate, ExerciseError, History, Motion, Record, Specimen};
@@ -32,7 +34,7 @@ type Path = (Vec<f64>, Vec<(String, Vec<f64>)>);
 
 /// Leads a link through cycles, or along a history.
 #[pyfunction]
-#[pyo3(signature = (kind, set, amplitude, mean, frequency, cycles, history))]
+#[pyo3(signature = (kind, set, amplitude, mean, frequency, cycles, history, laws))]
 pub(crate) fn exercise(
     py: Python<'_>,
     kind: String,
@@ -42,15 +44,11 @@ pub(crate) fn exercise(
     frequency: Option<f64>,
     cycles: usize,
     history: Option<Path>,
+    laws: Vec<Py<Law>>,
 ) -> PyResult<Facts> {
     work::run(py, move |_| {
-        let registry = trilith::registry();
-        let specimen = Specimen::new(&registry, &kind, &set).map_err(|e| match e {
-            ExerciseError::UnknownKind(kind) => {
-                Failure::unknown("kind", &kind, "kinds", registry.cards().map(|c| c.kind))
-            }
-            other => refuse(&other),
-        })?;
+        let registry = Laws::new(&laws)?.registry();
+        let specimen = specimen(&registry, &kind, &set)?;
         let (record, cycling) = match history {
             Some((times, columns)) => (follow(&specimen, &times, &columns)?, false),
             None => {
@@ -62,7 +60,21 @@ pub(crate) fn exercise(
     })
 }
 
-fn refuse(error: &ExerciseError) -> Failure {
+/// A link to be exercised.
+pub(crate) fn specimen(
+    registry: &Registry,
+    kind: &str,
+    set: &[(String, String)],
+) -> Result<Specimen, Failure> {
+    Specimen::new(registry, kind, set).map_err(|e| match e {
+        ExerciseError::UnknownKind(kind) => {
+            Failure::unknown("kind", &kind, "kinds", registry.cards().map(|c| c.kind))
+        }
+        other => refuse(&other),
+    })
+}
+
+pub(crate) fn refuse(error: &ExerciseError) -> Failure {
     match error {
         ExerciseError::Parameters(all) => Failure::diagnostics(all),
         ExerciseError::NotALink { .. } => {
@@ -77,7 +89,7 @@ fn refuse(error: &ExerciseError) -> Failure {
 }
 
 /// The motion of the card with what is changed.
-fn motion(
+pub(crate) fn motion(
     specimen: &Specimen,
     amplitude: &[(String, String)],
     mean: &[(String, String)],

@@ -1,7 +1,9 @@
 //! What goes wrong, as the exceptions of `trilith._errors`.
 
+use crate::laws;
 use pyo3::prelude::*;
 use trilith::model::{file::names_help, line_column};
+use trilith::solvers::{LawFault, SolveError};
 use trilith::{Diagnostic, Error, Model};
 use trilith_cli::told;
 
@@ -15,8 +17,12 @@ pub(crate) enum Failure {
     Model(String, Vec<Told>),
     /// It is right, but the run cannot be made: `RunError`.
     Run(String),
+    /// A law is wrong: `LawError`, with the exception that it raised as its cause.
+    Law(String),
     /// An argument is wrong: `ArgumentError`.
     Argument(String),
+    /// A law does not keep the contract of links: `ConformanceError`.
+    Conformance(String),
     /// A file cannot be read or written: `FileError`.
     File(String),
     /// A defect of Trilith: `InternalError`.
@@ -34,6 +40,11 @@ impl Failure {
         let text = told::error(error, model);
         match error {
             Error::File(_) | Error::Report(_) => Self::File(text),
+            Error::Solve(SolveError::Law { fault, .. })
+                if !matches!(fault, LawFault::Refuses { .. }) =>
+            {
+                Self::Law(text)
+            }
             Error::UnknownCase { .. } | Error::UnknownOutput(_) => Self::Argument(text),
             e if told::is_of_the_run(e) => Self::Run(text),
             e => Self::Model(text, vec![placed(e, model)]),
@@ -57,8 +68,18 @@ impl Failure {
     }
 
     pub fn into_exception(self, py: Python<'_>) -> PyErr {
+        let cause = match &self {
+            Self::Law(text) | Self::Model(text, _) => laws::raised(py, text),
+            _ => None,
+        };
         match self.raised(py) {
-            Ok(exception) => PyErr::from_value(exception),
+            Ok(exception) => {
+                let exception = PyErr::from_value(exception);
+                if cause.is_some() {
+                    exception.set_cause(py, cause);
+                }
+                exception
+            }
             Err(e) => e,
         }
     }
@@ -70,6 +91,8 @@ impl Failure {
                 return errors.getattr("ModelError")?.call1((text.trim_end(), told));
             }
             Self::Run(text) => ("RunError", text),
+            Self::Law(text) => ("LawError", text),
+            Self::Conformance(text) => ("ConformanceError", text),
             Self::Argument(text) => ("ArgumentError", text),
             Self::File(text) => ("FileError", text),
             Self::Internal(text) => ("InternalError", text),

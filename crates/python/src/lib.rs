@@ -1,12 +1,14 @@
 //! Trilith for Python: the native half of the package `trilith`, module `trilith._native`.
 //!
 //! What a user meets is written in Python (`python/trilith`), with types and documentation; here is what calls the
-//! library and hands over what it found. Three rules hold all through it:
+//! library and hands over what it found. Four rules hold all through it:
 //!
 //! - Whatever may take long goes through `work`: in a thread of its own, without the interpreter's lock, so that Ctrl-C
 //!   is answered at once and other threads of Python go on. A panic comes out as an exception.
 //! - Results stay where the library left them. A `column::Column` shows NumPy a list of numbers in place, by the array
 //!   interface, which needs no unsafe code here, and NumPy itself is not loaded before the first of them is looked at.
+//! - What is unsafe is in the crate `foreign`, but for one line of `laws` that vouches for the address of a law that was
+//!   compiled in Python.
 //! - Errors carry the text of the program, caret included (`trilith_cli::told`).
 
 mod catalogue;
@@ -15,6 +17,7 @@ mod combine;
 mod compare;
 mod exercise;
 mod failure;
+mod laws;
 mod links;
 mod model;
 mod optimize;
@@ -39,6 +42,8 @@ mod _native {
     #[pymodule_export]
     use crate::exercise::exercise;
     #[pymodule_export]
+    use crate::laws::{Law, conform, end_of_laws};
+    #[pymodule_export]
     use crate::model::Model;
     #[pymodule_export]
     use crate::record::{Record, record, synthetic};
@@ -59,6 +64,7 @@ mod _native {
     #[pymodule_init]
     fn init(module: &Bound<'_, PyModule>) -> PyResult<()> {
         module.add("VERSION", trilith::VERSION)?;
+        module.add("HEADER", trilith_foreign::HEADER)?;
         module.add("BUILD", trilith::BUILD)
     }
 

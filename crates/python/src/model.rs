@@ -3,6 +3,7 @@
 use crate::combine;
 use crate::compare::{self, Ways};
 use crate::failure::{Failure, Told, placed};
+use crate::laws::{Law, Laws};
 use crate::optimize;
 use crate::run::{self, Run, Settings};
 use crate::state::State;
@@ -23,6 +24,8 @@ pub(crate) struct Model {
     pub path: PathBuf,
     /// Values of parameters that replace those of the text.
     pub set: Vec<(String, String)>,
+    /// What it may name beside the built-in kinds.
+    pub laws: Laws,
 }
 
 /// A case: name, `static` or `dynamic`, the case before, and of a dynamic one duration, output step and solver.
@@ -36,10 +39,15 @@ type ModeFacts = (String, String, Vec<(usize, Vec<f32>)>);
 impl Model {
     /// Reads a model file.
     #[staticmethod]
-    fn load(py: Python<'_>, path: PathBuf, set: Vec<(String, String)>) -> PyResult<Self> {
+    fn load(
+        py: Python<'_>,
+        path: PathBuf,
+        set: Vec<(String, String)>,
+        laws: Vec<Py<Law>>,
+    ) -> PyResult<Self> {
         work::run(py, move |_| {
             let text = file::open(&path, "model").map_err(|e| Failure::diagnostics(&e))?;
-            Self::of(text, path, set)
+            Self::of(text, path, set, Laws::new(&laws)?)
         })
     }
 
@@ -50,8 +58,9 @@ impl Model {
         text: String,
         path: PathBuf,
         set: Vec<(String, String)>,
+        laws: Vec<Py<Law>>,
     ) -> PyResult<Self> {
-        work::run(py, move |_| Self::of(text, path, set))
+        work::run(py, move |_| Self::of(text, path, set, Laws::new(&laws)?))
     }
 
     #[getter]
@@ -163,13 +172,13 @@ impl Model {
     ) -> PyResult<Run> {
         let model = Arc::clone(&self.model);
         let start = start.map(|state| Arc::clone(&state.get().0));
-        let set = self.set.clone();
+        let (set, laws) = (self.set.clone(), self.laws.clone());
         work::with_progress(py, progress.as_ref(), move |watch| {
             let case = index(&model, case.as_deref())?;
             let solver = solver.as_deref().map(kind).transpose()?;
             let settings =
                 Settings { case, solver, dt, until, vectors, errors, histories, frames, start };
-            run::run(model, set, settings, watch)
+            run::run(model, set, laws, settings, watch)
         })
     }
 
@@ -187,9 +196,10 @@ impl Model {
         cause: bool,
     ) -> PyResult<(String, Vec<compare::Facts>)> {
         let (text, path, set) = (Arc::clone(&self.text), self.path.clone(), self.set.clone());
+        let laws = self.laws.clone();
         work::run(py, move |watch| {
             // The comparison changes the model that it works on.
-            let read = trilith::read_text(&text, path, &trilith::registry(), &set);
+            let read = trilith::read_text(&text, path, &laws.registry(), &set);
             let mut model = read.map_err(|e| Failure::diagnostics(&e))?;
             let case = index(&model, case.as_deref())?;
             let solvers = solvers.iter().map(|s| kind(s)).collect::<Result<Vec<_>, _>>()?;
@@ -224,14 +234,14 @@ impl Model {
         of: Vec<String>,
     ) -> PyResult<optimize::GradientFacts> {
         let (text, path, set) = (Arc::clone(&self.text), self.path.clone(), self.set.clone());
-        let model = Arc::clone(&self.model);
+        let (model, laws) = (Arc::clone(&self.model), self.laws.clone());
         work::run(py, move |watch| {
             let text = ModelText::new(&text, path).map_err(|e| Failure::diagnostics(&e))?;
             let case = model.cases[index(&model, case.as_deref())?].name.clone();
             let solver = solver.as_deref().map(kind).transpose()?;
             let case = Some(case);
             let wanted = trilith::gradient::Wanted { case, solver, dt, by, set, input: false };
-            optimize::gradient(&model, &text, wanted, &of, watch)
+            optimize::gradient(&model, (&text, &laws.registry()), wanted, &of, watch)
         })
     }
 
@@ -250,7 +260,7 @@ impl Model {
         progress: Option<Bound<'_, PyAny>>,
     ) -> PyResult<optimize::OptimumFacts> {
         let (text, path, set) = (Arc::clone(&self.text), self.path.clone(), self.set.clone());
-        let model = Arc::clone(&self.model);
+        let (model, laws) = (Arc::clone(&self.model), self.laws.clone());
         work::with_progress(py, progress.as_ref(), move |watch| {
             let text = ModelText::new(&text, path).map_err(|e| Failure::diagnostics(&e))?;
             let case = model.cases[index(&model, case.as_deref())?].name.clone();
@@ -260,16 +270,21 @@ impl Model {
             let by = by.into_iter().map(variable).collect();
             let case = Some(case);
             let wanted = Wanted { case, solver, dt, set, by, minimise, limits, max_runs };
-            optimize::optimize(&model, &text, &wanted, watch)
+            optimize::optimize(&model, (&text, &laws.registry()), &wanted, watch)
         })
     }
 }
 
 impl Model {
-    fn of(text: String, path: PathBuf, set: Vec<(String, String)>) -> Result<Self, Failure> {
-        let model = trilith::read_text(&text, &path, &trilith::registry(), &set)
+    fn of(
+        text: String,
+        path: PathBuf,
+        set: Vec<(String, String)>,
+        laws: Laws,
+    ) -> Result<Self, Failure> {
+        let model = trilith::read_text(&text, &path, &laws.registry(), &set)
             .map_err(|e| Failure::diagnostics(&e))?;
-        Ok(Self { model: Arc::new(model), text: text.into(), path, set })
+        Ok(Self { model: Arc::new(model), text: text.into(), path, set, laws })
     }
 }
 

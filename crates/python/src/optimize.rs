@@ -9,7 +9,7 @@ use trilith::model::ModelText;
 use trilith::optimize::{self, OptimizeError, Stop};
 use trilith::solvers::SolveError;
 use trilith::solvers::gradient::{Extreme, OutputGradient};
-use trilith::{Error, Model};
+use trilith::{Error, Model, Registry};
 use trilith_cli::told;
 
 /// A value: time in s, the value, derivatives by each parameter.
@@ -34,7 +34,7 @@ pub(crate) type OptimumFacts = (String, String);
 /// Finds the derivatives of some outputs, or of all; `of` may name the energy put in among them.
 pub(crate) fn gradient(
     model: &Model,
-    text: &ModelText,
+    (text, kinds): (&ModelText, &Registry),
     mut wanted: gradient::Wanted,
     of: &[String],
     watch: &Watch,
@@ -58,7 +58,7 @@ pub(crate) fn gradient(
     if outputs.is_empty() && !wanted.input {
         return Err(Failure::argument("the model has no output", None));
     }
-    let found = gradient::gradient_until(text, &trilith::registry(), &wanted, &watch.interrupt);
+    let found = gradient::gradient_until(text, kinds, &wanted, &watch.interrupt);
     let found = found.map_err(|e| refused(e, model))?;
     let case = wanted.case.as_deref().unwrap_or_default();
     let page = told::gradient(model, case, &found, &outputs);
@@ -100,15 +100,14 @@ fn facts(of: &OutputGradient, unit: &str, end: f64) -> OutputFacts {
 /// Searches, until somebody wants an end.
 pub(crate) fn optimize(
     model: &Model,
-    text: &ModelText,
+    (text, kinds): (&ModelText, &Registry),
     wanted: &optimize::Wanted,
     watch: &Watch,
 ) -> Result<OptimumFacts, Failure> {
     let mut on_run = |i: usize, _: &optimize::Evaluation| {
         watch.tell((i + 1) as f64 / wanted.max_runs as f64);
     };
-    let kinds = trilith::registry();
-    let found = optimize::optimize_with(text, &kinds, wanted, &mut on_run, &watch.interrupt);
+    let found = optimize::optimize_with(text, kinds, wanted, &mut on_run, &watch.interrupt);
     let found = found.map_err(|e| match e {
         OptimizeError::Gradient(e) => refused(e, model),
         e => Failure::argument(&e.to_string(), None),

@@ -2,6 +2,7 @@
 
 use crate::column::{Column, Series};
 use crate::failure::Failure;
+use crate::laws::Laws;
 use crate::links::LinkHistories;
 use crate::model::json;
 use crate::state::State;
@@ -12,7 +13,7 @@ use std::path::PathBuf;
 use std::sync::Arc;
 use trilith::report::{RunData, named_figures, run_page};
 use trilith::results::{ENERGIES, Summary};
-use trilith::solvers::EndState;
+use trilith::solvers::{EndState, LawFault, Status};
 use trilith::{Analysis, Checkpoint, RunOptions, SolverKind};
 use trilith_cli::told;
 
@@ -35,6 +36,7 @@ pub(crate) struct Kept {
     pub run: trilith::Run,
     pub links: LinkHistories,
     set: Vec<(String, String)>,
+    laws: Laws,
     summary: Summary,
 }
 
@@ -49,6 +51,7 @@ type LinkFacts = (String, &'static str, Vec<(String, bool, Column, Column)>);
 pub(crate) fn run(
     model: Arc<trilith::Model>,
     set: Vec<(String, String)>,
+    laws: Laws,
     settings: Settings,
     watch: &Watch,
 ) -> Result<Run, Failure> {
@@ -78,7 +81,7 @@ pub(crate) fn run(
     };
     let run = run.map_err(fail)?;
     let summary = run.summary(&model);
-    Ok(Run(Arc::new(Kept { model, run, links, set, summary })))
+    Ok(Run(Arc::new(Kept { model, run, links, set, laws, summary })))
 }
 
 impl Kept {
@@ -106,6 +109,17 @@ impl Run {
     #[getter]
     fn good(&self) -> bool {
         self.0.run.result.status.is_good()
+    }
+
+    /// What is wrong with a law that is no built-in one, where that ended the run: as an exception, and its text.
+    fn law_error<'py>(&self, py: Python<'py>) -> Option<Bound<'py, PyAny>> {
+        let Status::Law { link, fault, .. } = &self.0.run.result.status else { return None };
+        let element = self.0.model.elements.iter().find(|e| e.name == *link)?;
+        if matches!(fault, LawFault::Refuses { .. }) || !self.0.laws.has(element.kind) {
+            return None;
+        }
+        let text = format!("{} (kind {})", self.0.run.result.status.text(), element.kind);
+        Some(Failure::Law(text).into_exception(py).into_value(py).into_bound(py).into_any())
     }
 
     /// The output times, s.

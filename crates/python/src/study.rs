@@ -2,6 +2,7 @@
 
 use crate::column::Column;
 use crate::failure::Failure;
+use crate::laws::{Law, Laws};
 use crate::work;
 use pyo3::prelude::*;
 use pyo3::types::PyBytes;
@@ -26,6 +27,7 @@ type PartFacts = (usize, usize, usize, usize, usize, usize);
 #[pyclass(frozen, module = "trilith._native")]
 pub(crate) struct Study {
     study: Arc<trilith_study::Study>,
+    laws: Laws,
 }
 
 fn failure(e: &StudyError) -> Failure {
@@ -46,11 +48,19 @@ const PARTS: &str = "parts are counted from 1, such as `(3, 20)`, and there are 
 #[pymethods]
 impl Study {
     #[new]
-    fn new(py: Python<'_>, path: PathBuf, set: Vec<(String, String)>) -> PyResult<Self> {
+    fn new(
+        py: Python<'_>,
+        path: PathBuf,
+        set: Vec<(String, String)>,
+        laws: Vec<Py<Law>>,
+    ) -> PyResult<Self> {
         work::run(py, move |_| {
-            let read = trilith_study::Study::read(&path, &trilith::registry(), &set);
-            let study = Arc::new(read.map_err(|e| Failure::diagnostics(&e))?);
-            Ok(Self { study })
+            let laws = Laws::new(&laws)?;
+            let read = trilith_study::Study::read(&path, &laws.registry(), &set);
+            let mut study = read.map_err(|e| Failure::diagnostics(&e))?;
+            // Runs with other laws are those of another program.
+            study.identity.build += &laws.digest();
+            Ok(Self { study: Arc::new(study), laws })
         })
     }
 
@@ -103,7 +113,7 @@ impl Study {
         store: Option<PathBuf>,
         progress: Option<Bound<'_, PyAny>>,
     ) -> PyResult<Facts> {
-        let study = Arc::clone(&self.study);
+        let (study, laws) = (Arc::clone(&self.study), self.laws.clone());
         work::with_progress(py, progress.as_ref(), move |watch| {
             let part = match shard {
                 Some(shard) => Part::Shard(shard_of(shard)?),
@@ -114,7 +124,7 @@ impl Study {
             let show = |p: Progress| watch.tell(p.done as f64 / p.total.max(1) as f64);
             let threads = threads.unwrap_or(cores);
             let how = How { threads, part, retry_failed, store: store.as_deref() };
-            let registry = trilith::registry();
+            let registry = laws.registry();
             let results = execute(&study, &registry, &folder, how, &show, &watch.interrupt)
                 .map_err(|e| failure(&e))?;
             let table = Table::of(&study, &results.records);

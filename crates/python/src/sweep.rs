@@ -70,11 +70,11 @@ pub(crate) fn sweep(
 ) -> PyResult<Table> {
     let it = model.get();
     let (first, text, path) = (Arc::clone(&it.model), Arc::clone(&it.text), it.path.clone());
-    let set = it.set.clone();
+    let (set, laws) = (it.set.clone(), it.laws.clone());
     work::run(py, move |watch| {
         let case = index(&first, case.as_deref())?;
         known(&first, &combinations)?;
-        let mut sweep = Sweep::new(&*text, path, trilith::registry())
+        let mut sweep = Sweep::new(&*text, path, laws.registry())
             .case(first.cases[case].name.clone())
             .until(Arc::clone(&watch.interrupt));
         if let Some(substeps) = fixed_steps {

@@ -9,6 +9,7 @@ use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 use std::sync::mpsc::{RecvTimeoutError, sync_channel};
 use std::thread::Builder;
 use std::time::Duration;
+use trilith::element::LawFailed;
 
 /// How often signals are looked at, and how long an interrupted worker is waited for: both together are below the tenth of
 /// a second in which Ctrl-C is answered.
@@ -78,7 +79,7 @@ where
                 return match done {
                     Ok(Ok(found)) => Ok(found),
                     Ok(Err(failure)) => Err(failure.into_exception(py)),
-                    Err(panic) => Err(Failure::Internal(text(&*panic)).into_exception(py)),
+                    Err(panic) => Err(failure(&*panic).into_exception(py)),
                 };
             }
             Err(RecvTimeoutError::Disconnected) => {
@@ -99,6 +100,14 @@ where
             py.detach(move || drop(receiver.recv_timeout(GRACE)));
             return Err(raised);
         }
+    }
+}
+
+/// What a panic is: that of a law which has told what is wrong with it, or a defect.
+fn failure(panic: &(dyn Any + Send)) -> Failure {
+    match panic.downcast_ref::<LawFailed>() {
+        Some(LawFailed(message)) => Failure::Law(message.clone()),
+        None => Failure::Internal(text(panic)),
     }
 }
 

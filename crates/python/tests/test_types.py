@@ -17,7 +17,7 @@ USE = """
 import numpy as np
 import numpy.typing
 import trilith as tl
-from typing import assert_type
+from typing import Any, assert_type
 
 m = tl.load("frame.ron", mu=0.1)
 r = m.run(case="shake", solver="fna", dt=0.01)
@@ -26,6 +26,17 @@ d: np.typing.NDArray[np.float64] = r.links["a"].loop().d
 assert_type(tl.sweep(m, {"mu": [0.1]}).shape, tuple[int, ...])
 assert_type(tl.elements()["NLink"].summary, str)
 beam = tl.Beam(nodes=("a", "b"), young="30 GPa")
+
+class Spring(tl.Law):
+    k: float = tl.parameter("N/m")
+    history = {"most": "m"}
+
+    def force(self, d: Any, v: Any, history: Any, step: tl.LawStep) -> tuple[float, tuple[float]]:
+        return self.k * d[0], (max(history.most, d[0], step.d0[0]),)
+
+assert_type(tl.conform(Spring, k="1 kN/m").tangents, int)
+n = tl.load("frame.ron", laws=[Spring, *tl.c_laws("libmine.so")])
+spring = Spring(node="a", k=1e3)
 """
 
 WRONG = """

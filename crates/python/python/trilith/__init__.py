@@ -21,10 +21,13 @@ from typing import TYPE_CHECKING
 
 from ._errors import (
     ArgumentError,
+    ConformanceError,
     Diagnostic,
     FileError,
     InternalError,
+    LawError,
     ModelError,
+    Refusal,
     RunError,
     TrilithError,
     WorkerError,
@@ -36,6 +39,7 @@ if TYPE_CHECKING:
     from ._combine import Combination, Combinations, Extremes
     from ._compare import Comparison, Difference, Variant, compare
     from ._exercise import Exercise, LastCycle, exercise
+    from ._law import CLaw, Conformance, Law, LawStep, c_header, c_laws, conform, parameter
     from ._model import Case, Element, Model, load, loads
     from ._modes import Modes
     from ._optimize import (
@@ -61,6 +65,7 @@ _PLACES = {
     "_combine": ("Combination", "Combinations", "Extremes"),
     "_compare": ("Comparison", "Difference", "Variant", "compare"),
     "_exercise": ("Exercise", "LastCycle", "exercise"),
+    "_law": ("CLaw", "Conformance", "Law", "LawStep", "c_header", "c_laws", "conform", "parameter"),
     "_model": ("Case", "Element", "Model", "load", "loads"),
     "_modes": ("Modes",),
     "_optimize": (
@@ -86,12 +91,15 @@ __all__ = [
     "BUILD",
     "Bend",
     "Block",
+    "CLaw",
     "Card",
     "CardParameter",
     "Case",
     "Combination",
     "Combinations",
     "Comparison",
+    "Conformance",
+    "ConformanceError",
     "Diagnostic",
     "Difference",
     "Element",
@@ -103,6 +111,9 @@ __all__ = [
     "GroundMotion",
     "InternalError",
     "LastCycle",
+    "Law",
+    "LawError",
+    "LawStep",
     "LimitState",
     "Link",
     "Loop",
@@ -113,6 +124,7 @@ __all__ = [
     "OutputGradient",
     "PartStatus",
     "Peak",
+    "Refusal",
     "ResponseSpectrum",
     "Result",
     "RunError",
@@ -129,11 +141,15 @@ __all__ = [
     "Word",
     "WorkerError",
     "__version__",
+    "c_header",
+    "c_laws",
     "compare",
+    "conform",
     "elements",
     "exercise",
     "load",
     "loads",
+    "parameter",
     "record",
     "records",
     "study",

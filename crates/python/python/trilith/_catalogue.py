@@ -2,10 +2,14 @@
 
 from __future__ import annotations
 
-from typing import NamedTuple
+from collections.abc import Sequence
+from typing import TYPE_CHECKING, NamedTuple
 
 from . import _native
 from ._errors import unknown
+
+if TYPE_CHECKING:
+    from ._law import CLaw, Law
 
 
 class CardParameter(NamedTuple):
@@ -66,10 +70,15 @@ class _Cards(dict[str, Card]):
         raise unknown("kind", kind, self)
 
 
-def elements() -> dict[str, Card]:
-    """All kinds, with their parameters, units, ranges, defaults, laws and sources: ``tl.elements()["NLink"]``."""
+def elements(laws: Sequence[type[Law] | CLaw] = ()) -> dict[str, Card]:
+    """All kinds, with their parameters, units, ranges, defaults, laws and sources: ``tl.elements()["NLink"]``.
+
+    :param laws: laws of one's own, which come behind the built-in kinds.
+    """
+    from ._law import natives
+
     found = _Cards()
-    for kind, category, summary, nodes, parameters, (law, source, example), facts in _native.elements():
+    for kind, category, summary, nodes, parameters, (law, source, example), facts in _native.elements(natives(laws)):
         own = tuple(
             CardParameter(*texts, form, tuple(choices), required)
             for texts, form, choices, required in parameters

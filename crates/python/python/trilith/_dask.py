@@ -328,5 +328,5 @@ def _read(job: Job, scratch: str | None) -> tuple[_native.Study, Any]:
                 path.write_bytes(content)
             # Tasks of a job before hold on to what is theirs.
             _READ.clear()
-            found = _READ[job.name] = (_native.Study(root / job.study, job.set), folder)
+            found = _READ[job.name] = (_native.Study(root / job.study, job.set, []), folder)
         return found

@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
-from typing import NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
+
+if TYPE_CHECKING:
+    from ._result import Result
 
 
 class Diagnostic(NamedTuple):
@@ -63,6 +66,24 @@ class RunError(TrilithError, RuntimeError):
 
 class ArgumentError(TrilithError, ValueError):
     """An argument that is wrong: a case, solver, link or parameter that there is not, a number out of range."""
+
+
+class LawError(RunError):
+    """A law of one's own that is wrong: it raised an exception, which is the cause of this one, or its answers are no numbers, no
+    account of its work, or others each time. The text names the law, the link and the time."""
+
+    #: What the run found until there, where it had begun.
+    result: Result | None = None
+
+
+class ConformanceError(TrilithError, AssertionError):
+    """A law that does not keep the contract of links; the text says which property does not hold, with its numbers."""
+
+
+class Refusal(Exception):
+    """Raised by a law that holds no more: ``raise tl.Refusal("torn at 12 mm")``. Shorter steps are tried, as an iteration may ask
+    about deformations that the motion never comes to; where none helps, the run ends with the status ``refused`` and these
+    words."""
 
 
 class FileError(TrilithError, OSError):

@@ -12,6 +12,7 @@ from ._result import Loop
 
 if TYPE_CHECKING:
     from ._arrays import Array, Numbers
+    from ._law import CLaw, Law
 
 
 class LastCycle(NamedTuple):
@@ -96,7 +97,7 @@ class Exercise:
 
 
 def exercise(
-    kind: str,
+    kind: str | type[Law] | CLaw,
     path: Numbers | Mapping[str, Numbers] | None = None,
     /,
     *,
@@ -114,7 +115,7 @@ def exercise(
         tl.exercise("Wen", amplitude="5 cm", k="2 MN/m").loop()
         tl.exercise("Gap", [0, 0.01, -0.02, 0.03], dt=0.1)
 
-    :param kind: its kind, such as ``"Wen"``.
+    :param kind: its kind, such as ``"Wen"``, or a law of one's own.
     :param path: deformations of its first coordinate (m or rad), or of several by their names.
     :param t: times of the path, s, rising; without them steps of ``dt``.
     :param dt: s.
@@ -128,15 +129,17 @@ def exercise(
     :raises ModelError: for parameters that are refused, as in a model file.
     :raises ArgumentError: for a kind or coordinate that there is not, and a path that is none.
     """
+    from ._law import kind_of
     from ._ron import ron
 
+    kind, laws = kind_of(kind)
     set_ = [
         (name, value if isinstance(value, str) else ron(value))
         for name, value in {**(parameters or {}), **more}.items()
     ]
     history = None
     if path is not None:
-        named = path if isinstance(path, Mapping) else {_first(kind, set_): path}
+        named = path if isinstance(path, Mapping) else {_first(kind, set_, laws): path}
         if not named:
             raise ArgumentError("the path moves no coordinate")
         columns = [(name, numbers(f"the path of {name}", v, least=2)) for name, v in named.items()]
@@ -146,27 +149,36 @@ def exercise(
         else:
             times = numbers("t", t, least=2)
         history = (times, columns)
-    if amplitude is not None and not isinstance(amplitude, Mapping):
-        amplitude = {_first(kind, set_): amplitude}
     facts = _native.exercise(
         kind,
         set_,
-        _values("amplitude", amplitude or {}),
-        _values("mean", mean or {}),
+        of_coordinates("amplitude", amplitude, kind, set_, laws),
+        of_coordinates("mean", mean, kind, set_, laws),
         positive("frequency", frequency),
         whole("cycles", cycles) or 1,
         history,
+        laws,
     )
     return Exercise(kind, facts)
 
 
-def _first(kind: str, set_: Sequence[tuple[str, str]]) -> str:
+def _first(kind: str, set_: Sequence[tuple[str, str]], laws: list[_native.Law]) -> str:
     """The first coordinate of a link."""
-    facts = _native.exercise(kind, list(set_), [], [], None, 1, None)
+    facts = _native.exercise(kind, list(set_), [], [], None, 1, None, laws)
     return facts[3][0][0]
 
 
-def _values(what: str, values: Mapping[str, float | str]) -> list[tuple[str, str]]:
+def of_coordinates(
+    what: str,
+    values: Mapping[str, float | str] | float | str | None,
+    kind: str,
+    set_: Sequence[tuple[str, str]],
+    laws: list[_native.Law],
+) -> list[tuple[str, str]]:
+    """Values by coordinate; one alone is that of the first."""
     from ._model import written
 
-    return [(name, written(f"{what} of {name}", value)) for name, value in values.items()]
+    if values is None:
+        return []
+    named = values if isinstance(values, Mapping) else {_first(kind, set_, laws): values}
+    return [(name, written(f"{what} of {name}", value)) for name, value in named.items()]

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple, TypeAlias
 
 from . import _native
 from ._arrays import positive, whole
@@ -15,11 +15,14 @@ if TYPE_CHECKING:
 
     from ._combine import Combinations
     from ._compare import Comparison
+    from ._law import CLaw, Law
     from ._modes import Modes
     from ._native import State
     from ._optimize import Gradient, Optimum
     from ._result import Result
     from ._stepper import Stepper
+
+    Laws: TypeAlias = Sequence[type[Law] | CLaw]
 
 #: Name of a model that was given as a text.
 NAME = "model.ron"
@@ -104,12 +107,14 @@ class Model:
     What is built goes through the reader of model files: :attr:`text` is the file, and errors point into it.
 
     :param folder: where files that the model names are looked for; without it, the current folder.
+    :param laws: laws that it may name beside the built-in kinds: classes made of :class:`Law`, and what :func:`c_laws` found.
     :raises ModelError: with all that is wrong.
     """
 
-    __slots__ = ("_native",)
+    __slots__ = ("_native", "_laws")
 
     _native: _native.Model
+    _laws: Laws
 
     def __init__(
         self,
@@ -135,8 +140,10 @@ class Model:
         spectra: Mapping[str, object] | None = None,
         envelopes: Mapping[str, object] | None = None,
         folder: str | PathLike[str] | None = None,
+        laws: Laws = (),
         **more: object,
     ) -> None:
+        from ._law import natives
         from ._ron import model
 
         text = model(
@@ -165,7 +172,8 @@ class Model:
                 **more,
             }
         )
-        self._native = _native.Model.read(text, folder_of(folder) / NAME, [])
+        self._native = _native.Model.read(text, folder_of(folder) / NAME, [], natives(laws))
+        self._laws = tuple(laws)
 
     # -- what it is
 
@@ -219,6 +227,11 @@ class Model:
         return [e.name for e in self.elements.values() if e.category == "link"]
 
     @property
+    def laws(self) -> Laws:
+        """The laws that it may name beside the built-in kinds."""
+        return self._laws
+
+    @property
     def cases(self) -> dict[str, Case]:
         """Its analysis cases."""
         found = {}
@@ -244,7 +257,7 @@ class Model:
         :raises ModelError: for names that are no parameters, and values that do not fit.
         """
         changed = {**dict(self._native.set), **dict(settings({**(parameters or {}), **more}))}
-        return made(_native.Model.read(self.text, self.path, list(changed.items())))
+        return again(self.text, str(self.path), list(changed.items()), self._laws)
 
     # -- what it does
 
@@ -291,6 +304,7 @@ class Model:
         :param progress: called with the finished share, 0 … 1, now and then.
         :raises ModelError: where the structure is none.
         :raises RunError: where the run cannot be made.
+        :raises LawError: where a law of :attr:`laws` is wrong, with what it raised as its cause.
         :raises ArgumentError: for a case or solver that there is not.
         :raises KeyboardInterrupt: upon Ctrl-C, within a tenth of a second.
         """
@@ -310,6 +324,10 @@ class Model:
             start,
             progress,
         )
+        wrong = run.law_error()
+        if wrong is not None:
+            wrong.result = Result(run)
+            raise wrong
         return Result(run)
 
     def stepper(
@@ -420,8 +438,8 @@ class Model:
         title = self.title or self.path.name
         return f"<Model {title!r}: {len(self._native.nodes())} nodes, {len(elements)} elements, {links} of them links>"
 
-    def __reduce__(self) -> tuple[Callable[..., Model], tuple[str, str, list[tuple[str, str]]]]:
-        return again, (self.text, str(self.path), self._native.set)
+    def __reduce__(self) -> tuple[Callable[..., Model], tuple[str, str, list[tuple[str, str]], Laws]]:
+        return again, (self.text, str(self.path), self._native.set, self._laws)
 
     def __copy__(self) -> Model:
         return self
@@ -429,8 +447,8 @@ class Model:
     def __deepcopy__(self, memo: object) -> Model:
         return self
 
-    def _key(self) -> tuple[str, str, tuple[tuple[str, str], ...]]:
-        return self.text, str(self.path), tuple(self._native.set)
+    def _key(self) -> tuple[object, ...]:
+        return self.text, str(self.path), tuple(self._native.set), tuple(self._laws)
 
     def __eq__(self, other: object) -> bool:
         return isinstance(other, Model) and self._key() == other._key()
@@ -439,28 +457,41 @@ class Model:
         return hash(self._key())
 
 
-def made(native: _native.Model) -> Model:
+def made(native: _native.Model, laws: Laws) -> Model:
     """A model of what was read."""
     it = Model.__new__(Model)
     it._native = native
+    it._laws = tuple(laws)
     return it
 
 
-def again(text: str, path: str, set_: list[tuple[str, str]]) -> Model:
+def again(text: str, path: str, set_: list[tuple[str, str]], laws: Laws = ()) -> Model:
     """A model out of a pickle."""
-    return made(_native.Model.read(text, Path(path), set_))
+    from ._law import natives
+
+    return made(_native.Model.read(text, Path(path), set_, natives(laws)), laws)
 
 
-def load(path: str | PathLike[str], /, parameters: Mapping[str, object] | None = None, **more: object) -> Model:
+def load(
+    path: str | PathLike[str],
+    /,
+    parameters: Mapping[str, object] | None = None,
+    *,
+    laws: Laws = (),
+    **more: object,
+) -> Model:
     """Reads a model file.
 
     :param path: the file.
     :param parameters: values of parameters that replace those of the file, also by keyword: numbers in SI, or texts such as
         ``"5 mm"``.
+    :param laws: laws that it may name beside the built-in kinds: classes made of :class:`Law`, and what :func:`c_laws` found.
     :raises ModelError: with all that is wrong, with file, line, column and what would be right.
     """
+    from ._law import natives
+
     set_ = settings({**(parameters or {}), **more})
-    return made(_native.Model.load(Path(path), set_))
+    return made(_native.Model.load(Path(path), set_, natives(laws)), laws)
 
 
 def loads(
@@ -468,6 +499,7 @@ def loads(
     /,
     *,
     folder: str | PathLike[str] | None = None,
+    laws: Laws = (),
     parameters: Mapping[str, object] | None = None,
     **more: object,
 ) -> Model:
@@ -475,8 +507,11 @@ def loads(
 
     :param text: the text, as a model file has it.
     :param folder: where files that it names are looked for; without it, the current folder.
+    :param laws: as in :func:`load`.
     :param parameters: as in :func:`load`.
     :raises ModelError: with all that is wrong.
     """
+    from ._law import natives
+
     set_ = settings({**(parameters or {}), **more})
-    return made(_native.Model.read(text, folder_of(folder) / NAME, set_))
+    return made(_native.Model.read(text, folder_of(folder) / NAME, set_, natives(laws)), laws)

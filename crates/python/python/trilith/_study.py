@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple
 
@@ -16,6 +16,8 @@ if TYPE_CHECKING:
     import pandas
     import polars
     import pyarrow
+
+    from ._law import CLaw, Law
 
 
 class StudyResult(Mapping[str, Any]):
@@ -153,6 +155,7 @@ class Study:
         *,
         out: str | PathLike[str] | None = None,
         store: str | PathLike[str] | None = None,
+        laws: Sequence[type[Law] | CLaw] = (),
         parameters: Mapping[str, object] | None = None,
         **more: object,
     ) -> None:
@@ -161,16 +164,19 @@ class Study:
         :param path: the study file.
         :param out: the folder of the results; without it ``out/NAME`` of a file ``NAME.ron``, as the program has it.
         :param store: a folder of finished runs that any study takes from and adds to.
+        :param laws: laws that the model may name beside the built-in kinds; runs with other laws are those of another study.
         :param parameters: values of parameters of the model, also by keyword.
         :raises ModelError: with all that is wrong with the study or its model.
         """
+        from ._law import natives
         from ._model import settings
 
         self.path = Path(path)
         self.folder = Path("out") / self.path.stem if out is None else Path(out)
         self.store = None if store is None else Path(store)
         self._set = settings({**(parameters or {}), **more})
-        self._native = _native.Study(self.path, self._set)
+        self._laws = tuple(laws)
+        self._native = _native.Study(self.path, self._set, natives(self._laws))
 
     @property
     def title(self) -> str:
@@ -216,6 +222,8 @@ class Study:
         if client is not None:
             if shard is not None:
                 raise ArgumentError("a part or a cluster is wanted, not both: leave out `shard`")
+            if self._laws:
+                raise ArgumentError("`laws` do not go to the workers of a cluster: run it here, or in parts by `shard`")
             from ._dask import run
 
             run(self, client, threads, retry_failed, seconds, whole("shards", shards), retries, progress)
@@ -274,6 +282,7 @@ def study(
     out: str | PathLike[str] | None = None,
     threads: int | None = None,
     progress: Callable[[float], object] | None = None,
+    laws: Sequence[type[Law] | CLaw] = (),
     parameters: Mapping[str, object] | None = None,
     store: str | PathLike[str] | None = None,
     **more: object,
@@ -284,6 +293,7 @@ def study(
     :param out: the folder of the results; without it ``out/NAME`` of a file ``NAME.ron``, as the program has it.
     :param threads: without it, as many as the machine runs at once.
     :param progress: called with the finished share, 0 … 1, now and then.
+    :param laws: laws that the model may name beside the built-in kinds; runs with other laws are those of another study.
     :param parameters: values of parameters of the model, also by keyword.
     :param store: a folder of finished runs that any study takes from and adds to.
     :raises ModelError: with all that is wrong with the study or its model.
@@ -291,5 +301,5 @@ def study(
     :raises KeyboardInterrupt: upon Ctrl-C; finished runs stay, and the same call goes on.
     """
     threads = whole("threads", threads)
-    read = Study(path, out=out, store=store, parameters=parameters, **more)
+    read = Study(path, out=out, store=store, laws=laws, parameters=parameters, **more)
     return read.run(threads=threads, progress=progress)
