@@ -62,12 +62,13 @@ impl Link for Yielding {
     }
 }
 
-const ANSWERS: usize = 2_000_000;
+const ANSWERS: usize = 20_000;
+const ROUNDS: usize = 500;
 
 /// Nanoseconds for an answer.
 fn time(law: &dyn Link) -> f64 {
     let mut least = f64::INFINITY;
-    for _ in 0..7 {
+    for _ in 0..ROUNDS {
         let (mut history, mut trial) = ([0.0], [0.0]);
         let (mut f, mut k, mut c, mut energy) = ([0.0], [0.0], [0.0], Energy::default());
         let start = Instant::now();

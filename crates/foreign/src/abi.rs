@@ -103,10 +103,17 @@ impl Address {
         let Sizes { parameters: p, coordinates: n, history: h } = self.sizes;
         let Kinematics { d, v, d0, v0, dt, .. } = *at;
         let Response { f, k, c, energy, .. } = out;
-        let fits = parameters.len() == p
-            && [d.len(), v.len(), d0.len(), v0.len(), f.len()] == [n; 5]
-            && [k.len(), c.len()] == [n * n; 2]
-            && [committed.len(), trial.len()] == [h; 2];
+        // One by one: lists of lengths would be compared by a call.
+        let fits = (parameters.len() == p)
+            & (d.len() == n)
+            & (v.len() == n)
+            & (d0.len() == n)
+            & (v0.len() == n)
+            & (f.len() == n)
+            & (k.len() == n * n)
+            & (c.len() == n * n)
+            & (committed.len() == h)
+            & (trial.len() == h);
         assert!(fits, "lists of other lengths than the law declares");
         let mut told = [energy.stored, energy.hysteretic, energy.viscous];
         // SAFETY: the function has this signature and keeps to these lengths, by what the module rests on; all lists have them.

@@ -83,8 +83,9 @@ impl CalledLaw {
         let trial = &mut trial[..self.rest.len()];
         // What is wrong there shows where the law is asked, with the name of the link.
         let _ = self.answer(&at, &self.rest, trial, out);
-        let entry =
-            |i: usize| if i % (n + 1) == 0 && k[i].is_finite() { k[i].max(0.0) } else { 0.0 };
+        let entry = |i: usize| {
+            if i.is_multiple_of(n + 1) && k[i].is_finite() { k[i].max(0.0) } else { 0.0 }
+        };
         (0..n * n).map(entry).collect()
     }
 
@@ -115,6 +116,7 @@ impl CalledLaw {
     }
 
     /// The force alone, into a scratch.
+    #[inline(never)]
     fn force(
         &self,
         at: &Kinematics<'_>,
@@ -129,6 +131,7 @@ impl CalledLaw {
     }
 
     /// Derivatives of the force by deformations or rates, row by row.
+    #[inline(never)]
     fn differences(
         &self,
         at: &Kinematics<'_>,
@@ -173,6 +176,7 @@ impl CalledLaw {
     }
 
     /// The work that a step does on the law.
+    #[inline(never)]
     fn work(&self, at: &Kinematics<'_>, committed: &[f64], f: &[f64]) -> Result<f64, NoAnswer> {
         if at.d == at.d0 {
             return Ok(0.0);

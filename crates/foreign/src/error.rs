@@ -150,6 +150,6 @@ pub enum ForeignError {
         /// Its path.
         path: PathBuf,
         /// What is wrong.
-        error: DeclarationError,
+        error: Box<DeclarationError>,
     },
 }

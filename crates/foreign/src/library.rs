@@ -35,7 +35,7 @@ impl Library {
                 break;
             };
             let kind = Kind::new(&declaration, Arc::new(function));
-            let wrong = |error| ForeignError::Declaration { path: path.into(), error };
+            let wrong = |e| ForeignError::Declaration { path: path.into(), error: Box::new(e) };
             kinds.push(kind.map_err(wrong)?);
         }
         if kinds.is_empty() { Err(no_laws()) } else { Ok(kinds) }

@@ -224,7 +224,8 @@ fn declarations_that_cannot_be_say_why() {
         let wrong: Result<_, DeclarationError> = Kind::new(&d, Arc::new(Slider::default()));
         wrong.expect_err("it cannot be").to_string()
     };
-    let all: &[(fn(&mut Declaration), &str)] = &[
+    type Change = fn(&mut Declaration);
+    let all: &[(Change, &str)] = &[
         (|d| d.kind = "slider".into(), "`slider` is no name of a kind"),
         (|d| d.kind = "Slíder".into(), "`Slíder` is no name of a kind"),
         (|d| d.kind = "Some".into(), "`Some` is a word of model files"),

@@ -16,7 +16,7 @@ static int32_t respond(const double *p, const double *d, const double *v, const 
     const double stiffness = p[0], fy = p[1], dashpot = p[2], torn = p[3];
     if (d[0] > torn) return 1;
     const double elastic = stiffness * (d[0] - history[0]);
-    const double q = fmax(-fy, fmin(fy, elastic));
+    const double q = elastic > fy ? fy : elastic < -fy ? -fy : elastic;
     trial[0] = d[0] - q / stiffness;
     f[0] = q + dashpot * v[0];
     k[0] = q == elastic ? stiffness : 0;

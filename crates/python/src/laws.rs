@@ -10,6 +10,7 @@ use crate::work;
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use pyo3::types::PyTuple;
+use std::panic::{AssertUnwindSafe, catch_unwind, resume_unwind};
 use std::path::PathBuf;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use std::sync::{Arc, Mutex, PoisonError};
@@ -54,6 +55,25 @@ impl Laws {
         registry
     }
 
+    /// Does what asks laws again and again. A thread that is new to Python would be made known to it, and forgotten, with every
+    /// answer, which takes longer than the answer; here it is known all the time, and has the lock while it asks alone.
+    pub fn beside<T: Send>(&self, job: impl FnOnce() -> T + Send) -> T {
+        let call = (!self.0.is_empty()).then(Call::begin).flatten();
+        if call.is_none() || Python::try_attach(|_| ()).is_none() {
+            return job();
+        }
+        let done = Python::attach(|py| {
+            py.detach(|| {
+                let done = catch_unwind(AssertUnwindSafe(job));
+                while OVER.load(Ordering::SeqCst) {
+                    std::thread::park();
+                }
+                done
+            })
+        });
+        done.unwrap_or_else(|panic| resume_unwind(panic))
+    }
+
     /// Whether a kind is one of these.
     pub fn has(&self, name: &str) -> bool {
         self.0.iter().any(|(kind, _)| kind.card().kind == name)
@@ -69,6 +89,9 @@ impl Laws {
 /// waits for its lock would wait for ever, or be ended in the middle.
 static CALLS: AtomicUsize = AtomicUsize::new(0);
 static ENDING: AtomicBool = AtomicBool::new(false);
+
+/// Nobody waits for laws any more: whoever would need the interpreter's lock from now on must not ask for it.
+static OVER: AtomicBool = AtomicBool::new(false);
 
 struct Call;
 
@@ -96,6 +119,7 @@ pub(crate) fn end_of_laws(py: Python<'_>) {
         while CALLS.load(Ordering::SeqCst) > 0 && start.elapsed() < LONGEST {
             std::thread::sleep(Duration::from_millis(1));
         }
+        OVER.store(true, Ordering::SeqCst);
     });
 }
 
@@ -181,7 +205,7 @@ impl LawFunction for Plain {
     ) -> Result<(), NoAnswer> {
         let (f, history, k, c, [stored, hysteretic, viscous]) = self.ask(|law| {
             let question = question(law.py(), parameters, at, committed)?;
-            law.call_method1("respond", question)?.extract::<Answered>().map_err(Into::into)
+            law.call_method1("respond", question)?.extract::<Answered>()
         })?;
         copy(&f, out.f);
         copy(&history, trial);
@@ -201,9 +225,7 @@ impl LawFunction for Plain {
     ) -> Result<(), NoAnswer> {
         let (f, history) = self.ask(|law| {
             let question = question(law.py(), parameters, at, committed)?;
-            law.call_method1("force", question)?
-                .extract::<(Vec<f64>, Vec<f64>)>()
-                .map_err(Into::into)
+            law.call_method1("force", question)?.extract::<(Vec<f64>, Vec<f64>)>()
         })?;
         copy(&f, out.f);
         copy(&history, trial);
@@ -217,7 +239,7 @@ impl LawFunction for Plain {
     fn engaged(&self, parameters: &[f64], k: &mut [f64]) -> Result<bool, String> {
         let given = self.tell(|law| {
             let given = law.call_method1("engaged", (PyTuple::new(law.py(), parameters)?,))?;
-            given.extract::<Option<Vec<f64>>>().map_err(Into::into)
+            given.extract::<Option<Vec<f64>>>()
         })?;
         Ok(given.inspect(|given| copy(given, k)).is_some())
     }
@@ -225,7 +247,7 @@ impl LawFunction for Plain {
     fn at_rest(&self, parameters: &[f64], history: &mut [f64]) -> Result<(), String> {
         let given = self.tell(|law| {
             let given = law.call_method1("at_rest", (PyTuple::new(law.py(), parameters)?,))?;
-            given.extract::<Option<Vec<f64>>>().map_err(Into::into)
+            given.extract::<Option<Vec<f64>>>()
         })?;
         given.inspect(|given| copy(given, history));
         Ok(())

@@ -178,7 +178,7 @@ impl Model {
             let solver = solver.as_deref().map(kind).transpose()?;
             let settings =
                 Settings { case, solver, dt, until, vectors, errors, histories, frames, start };
-            run::run(model, set, laws, settings, watch)
+            laws.clone().beside(|| run::run(model, set, laws, settings, watch))
         })
     }
 

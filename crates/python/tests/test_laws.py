@@ -101,7 +101,8 @@ class Failing(tl.Law):
             if self.way == 0:
                 raise tl.Refusal(f"torn at {1e3 * self.end:g} mm")
             if self.way == 1:
-                return {}["nothing"]
+                nothing: dict[str, float] = {}
+                return nothing["nothing"]
             if self.way == 2:
                 return float("nan")
             if self.way == 3:

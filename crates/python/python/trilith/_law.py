@@ -37,6 +37,8 @@ METHODS = {
 OPTIONAL = {"force": 1, "tangent": 1, "energy": 1}
 #: Names of a law that are no parameters.
 OWN = {*METHODS, "axes", "history", "rates", "amplitude", "frequency", "compiled", "source"}
+#: Shapes of one number.
+ONE = {(1,), (1, 1)}
 #: Laws that a class has with different parameters, kept ready.
 READY = 1000
 
@@ -291,6 +293,7 @@ class Plain:
         self.values = tuple_of(self.kind, list(self.parameters))
         self.memory = tuple_of("History", list(law.history))
         self._array = np.array
+        self._number = {float, int, np.float64}
         self._asarray = np.asarray
         self._ready: dict[tuple[float, ...], Law] = {}
 
@@ -433,16 +436,18 @@ class Plain:
 
     def _numbers(self, method: str, what: str, value: Any, shape: tuple[int, ...]) -> list[float]:
         """Numbers of a shape, row by row; one will do for one."""
-        if isinstance(value, float):
-            if all(size == 1 for size in shape):
-                return [value]
-        elif len(shape) == 1 and type(value) is tuple and len(value) == shape[0] and all(type(x) is float for x in value):
-            return list(value)
+        # What most laws return, without an array.
+        kind = type(value)
+        if kind in self._number:
+            if shape in ONE:
+                return [float(value)]
+        elif kind is tuple and shape == (len(value),) and self._number.issuperset(map(type, value)):
+            return list(map(float, value))
         try:
             it = self._asarray(value, dtype=float)
         except (TypeError, ValueError) as e:
             raise TypeError(f"{self.kind}.{method} must return {_wanted(what, shape)}: it returned {_shown(value)}") from e
-        if it.shape != shape and not (it.shape == () and all(size == 1 for size in shape)):
+        if it.shape != shape and not (it.shape == () and shape in ONE):
             raise TypeError(
                 f"{self.kind}.{method} must return {_wanted(what, shape)}: it returned {_shown(value)}, of the shape {it.shape}"
             )
