@@ -14,4 +14,6 @@ pub use reference::{reference, study_reference};
 pub mod rust {
     #[doc = include_str!("../src/from_rust.md")]
     pub mod from_rust {}
+    #[doc = include_str!("../src/reduction.md")]
+    pub mod reduction {}
 }

@@ -130,7 +130,7 @@ impl Numbers {
 fn structure(seed: u64, rows: usize) -> [Matrix; 3] {
     let mut numbers = Numbers(seed);
     let mut all = [zeros(rows, rows), zeros(rows, rows), zeros(rows, rows)];
-    let mut tie = |a: &mut Matrix, i: usize, j: usize, x: f64| {
+    let tie = |a: &mut Matrix, i: usize, j: usize, x: f64| {
         a[i][i] += x;
         a[j][j] += x;
         a[i][j] -= x;

@@ -18,9 +18,9 @@ pub fn tower(damping: &str) -> String {
         for i in 0..2 {
             let _ = write!(nodes, "\"n{i}{j}\": ({}, 0, {}), ", 4 * i, 3 * j);
             if j < STOREYS {
-                let _ = write!(
+                let _ = writeln!(
                     frame,
-                    "\"c{i}{j}\": Beam(nodes: (\"n{i}{j}\", \"n{i}{}\"), {beam}),\n",
+                    "\"c{i}{j}\": Beam(nodes: (\"n{i}{j}\", \"n{i}{}\"), {beam}),",
                     j + 1
                 );
                 let _ = write!(group, "\"c{i}{j}\", ");

@@ -137,7 +137,7 @@ fn matrix(record: &[u8], records: &mut Records<'_>) -> Result<Found, String> {
         let Ok(head) = &head else { continue };
         let values = |data: &[u8]| -> Result<Vec<f64>, String> {
             let size = 4 * head.words;
-            if data.len() % size != 0 {
+            if !data.len().is_multiple_of(size) {
                 return Err(format!("column {column} of matrix {own} ends within a number"));
             }
             Ok(match head.words {

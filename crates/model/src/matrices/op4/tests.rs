@@ -249,5 +249,5 @@ fn what_is_written_is_read_again() {
     assert_eq!(matrix_file(&it, MatrixForm::Op4).unwrap(), text.as_bytes());
     // All of the same length, as a program that counts characters wants them.
     let values = text.lines().filter(|l| l.contains('.') && !l.contains("KAA"));
-    assert!(values.into_iter().all(|l| l.len() % 24 == 0), "{text}");
+    assert!(values.into_iter().all(|l| l.len().is_multiple_of(24)), "{text}");
 }
