@@ -165,10 +165,10 @@ fn an_exported_block_comes_back_as_the_same_block() {
     let folder = tempfile::tempdir().unwrap();
     let at = |name: &str| folder.path().join(name);
     let text = |name: &str| at(name).to_str().unwrap().to_owned();
-    let set = ["--set", "duration=0.8", "--set", "mu=0.4"];
-    let script = text("block.py");
+    let set = ["--set", "duration=0.8"];
+    let (script, block) = (text("block.py"), model("rigid_block.ron"));
     let arguments =
-        [&["export", &model("rigid_block.ron"), "--to", "opensees", "--out", &script][..], &set]
+        [&["export", &block, "--to", "opensees", "--out", &script][..], &set]
             .concat();
     trilith(&arguments, NONE, 0);
     // What it records are results, which are not there.
@@ -193,7 +193,7 @@ fn an_exported_block_comes_back_as_the_same_block() {
     std::fs::write(at("back.ron"), format!("{}{outputs}", &back[..end])).unwrap();
     let (there, here) = (text("there"), text("here"));
     let own = [
-        &["run", &model("rigid_block.ron"), "--solver", "hht", "--no-report", "--out", &there][..],
+        &["run", &block, "--solver", "hht", "--no-report", "--out", &there][..],
         &set,
     ]
     .concat();
