@@ -103,6 +103,8 @@ def main() -> None:
         distributed.LocalCluster(n_workers=4, threads_per_worker=1, dashboard_address=None) as cluster,
         distributed.Client(cluster) as client,
     ):
+        # One that is lost while it starts is not begun again otherwise.
+        cluster.adapt(minimum=4, maximum=4)
         calm = tl.Study(study, out=a.folder / "calm")
         timed("four processes of Dask", lambda: calm.run(client, seconds=a.seconds))
         killed = tl.Study(study, out=a.folder / "killed", store=a.folder / "store")
