@@ -88,6 +88,8 @@ def client() -> Iterator[Any]:
         distributed.LocalCluster(n_workers=2, threads_per_worker=1, dashboard_address=None) as cluster,
         distributed.Client(cluster) as client,
     ):
+        # One that is lost while it starts is not begun again otherwise.
+        cluster.adapt(minimum=2, maximum=2)
         yield client
 
 
