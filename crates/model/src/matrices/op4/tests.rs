@@ -195,7 +195,7 @@ fn what_is_wrong_with_a_file_is_told_with_its_line() {
     let text = dense("KAA", 2);
     let end = text.find("       4       1").unwrap();
     assert_eq!(
-        of(text[..end].as_bytes(), "w.op4").unwrap_err(),
+        of(&text.as_bytes()[..end], "w.op4").unwrap_err(),
         "w.op4, line 7: matrix KAA ends before its last record: the file has been cut off"
     );
     assert_eq!(of(b"", "w.op4").unwrap_err(), "w.op4: no matrix begins in the file");
