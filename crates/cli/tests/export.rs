@@ -167,9 +167,7 @@ fn an_exported_block_comes_back_as_the_same_block() {
     let text = |name: &str| at(name).to_str().unwrap().to_owned();
     let set = ["--set", "duration=0.8"];
     let (script, block) = (text("block.py"), model("rigid_block.ron"));
-    let arguments =
-        [&["export", &block, "--to", "opensees", "--out", &script][..], &set]
-            .concat();
+    let arguments = [&["export", &block, "--to", "opensees", "--out", &script][..], &set].concat();
     trilith(&arguments, NONE, 0);
     // What it records are results, which are not there.
     let written = std::fs::read_to_string(&script).unwrap();
@@ -192,11 +190,8 @@ fn an_exported_block_comes_back_as_the_same_block() {
                    \"rotation\": Displacement(node: \"1\", dof: Ry, factor: -1) },\n)\n";
     std::fs::write(at("back.ron"), format!("{}{outputs}", &back[..end])).unwrap();
     let (there, here) = (text("there"), text("here"));
-    let own = [
-        &["run", &block, "--solver", "hht", "--no-report", "--out", &there][..],
-        &set,
-    ]
-    .concat();
+    let own =
+        [&["run", &block, "--solver", "hht", "--no-report", "--out", &there][..], &set].concat();
     trilith(&own, NONE, 0);
     trilith(&["run", &text("back.ron"), "--no-report", "--out", &here], NONE, 0);
     for output in ["slide", "rotation"] {

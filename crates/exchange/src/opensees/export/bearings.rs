@@ -129,7 +129,9 @@ impl Writer<'_> {
     /// Names all that differs; false where a law that is near may not be written.
     fn all_near(&mut self, index: usize, near: &[&str]) -> bool {
         let e = &self.model.elements[index];
-        near.iter().fold(true, |may, why| self.losses.near(e.kind, &e.name, why) && may)
+        let may: Vec<bool> =
+            near.iter().map(|why| self.losses.near(e.kind, &e.name, why)).collect();
+        !may.contains(&false)
     }
 
     /// Why the moments of its axial force are not those here; none where they are, or do nothing.
