@@ -193,5 +193,5 @@ def test_the_sections_of_a_built_model_are_those_of_the_schema() -> None:
     from trilith import _native
 
     [(_, _, _, fields)] = next(blocks for name, _, blocks in _native.schema() if name == "model")
-    known = set(inspect.signature(tl.Model).parameters) - {"folder", "more"}
+    known = set(inspect.signature(tl.Model).parameters) - {"folder", "laws", "more"}
     assert known <= {f[0] for f in fields}
