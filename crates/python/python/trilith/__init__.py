@@ -38,8 +38,9 @@ if TYPE_CHECKING:
     from ._catalogue import Card, CardParameter, elements
     from ._combine import Combination, Combinations, Extremes
     from ._compare import Comparison, Difference, Variant, compare
+    from ._conform import Conformance, conform
     from ._exercise import Exercise, LastCycle, exercise
-    from ._law import CLaw, Conformance, Law, LawStep, c_header, c_laws, conform, parameter
+    from ._law import CLaw, Law, LawStep, c_header, c_laws, parameter
     from ._model import Case, Element, Model, load, loads
     from ._modes import Modes
     from ._optimize import (
@@ -64,8 +65,9 @@ _PLACES = {
     "_catalogue": ("Card", "CardParameter", "elements"),
     "_combine": ("Combination", "Combinations", "Extremes"),
     "_compare": ("Comparison", "Difference", "Variant", "compare"),
+    "_conform": ("Conformance", "conform"),
     "_exercise": ("Exercise", "LastCycle", "exercise"),
-    "_law": ("CLaw", "Conformance", "Law", "LawStep", "c_header", "c_laws", "conform", "parameter"),
+    "_law": ("CLaw", "Law", "LawStep", "c_header", "c_laws", "parameter"),
     "_model": ("Case", "Element", "Model", "load", "loads"),
     "_modes": ("Modes",),
     "_optimize": (
