@@ -1249,7 +1249,7 @@ class FrictionPendulum(Block):
     :param mu_fast: Velocity, VelocityPressure: coefficient at speed (–, ≥ 0, default absent).
     :param rate: Velocity, VelocityPressure: how fast it goes from slow to fast (s/m, ≥ 0, default absent).
     :param a_slow: VelocityForce: factor at rest (N/(N)^n_slow, ≥ 0, default absent).
-    :param n_slow: VelocityForce: exponent at rest (–, > 0 and ≤ 1, default absent).
+    :param n_slow: VelocityForce: exponent at rest; 1 is no dependence (–, > 0 and ≤ 1, default absent).
     :param a_fast: VelocityForce: factor at speed (N/(N)^n_fast, ≥ 0, default absent).
     :param n_fast: VelocityForce: exponent at speed (–, > 0 and ≤ 1, default absent).
     :param rate_0: VelocityForce: rate from slow to fast (s/m, ≥ 0, default absent).
@@ -1369,8 +1369,8 @@ class FrictionSpring(Block):
     :param k: stiffness before slip, and between the branches (N/m or N·m, > 0).
     :param k1: stiffness in slip, loading; below `k` (N/m or N·m, > 0).
     :param k2: stiffness in slip, unloading; at most `k1` (N/m or N·m, > 0).
-    :param u0: precompression (m or –, ≥ 0, default 0).
-    :param us: deformation at which the rings are closed (m or –, > 0, default absent).
+    :param u0: precompression (SAP2000 writes it negative) (m or –, ≥ 0, default 0).
+    :param us: deformation at which the rings are closed; none: they never are (m or –, > 0, default absent).
     :param direction: sides on which it acts (Both, Tension, Compression, default Both). One of Both, Tension,
         Compression.
     :param axis: local axis (U1, U2, U3, R1, R2, R3, default U1). One of U1, U2, U3, R1, R2, R3.
@@ -1435,7 +1435,7 @@ class Gap(Block):
     :param node: The only node: a link or spring between it and the ground. Default: `nodes`.
     :param use: Parameters from the set; those given beside it come first. Default: none.
     :param k: stiffness (N/m, > 0).
-    :param opening: clearance at rest (m, any, default 0).
+    :param opening: clearance at rest (negative: prestressed by k g) (m, any, default 0).
     :param axis: local axis (U1, U2, U3, default U1). One of U1, U2, U3.
     :param axis1: Direction of local axis 1. Default: from the first node to the second; +Z for one node.
     :param axis2: Vector in the plane of local axes 1 and 2. Default: the upward direction square to axis 1; +X
@@ -1532,7 +1532,7 @@ class Hook(Block):
     :param node: The only node: a link or spring between it and the ground. Default: `nodes`.
     :param use: Parameters from the set; those given beside it come first. Default: none.
     :param k: stiffness (N/m, > 0).
-    :param opening: clearance at rest (m, any, default 0).
+    :param opening: clearance at rest (negative: prestressed by k g) (m, any, default 0).
     :param axis: local axis (U1, U2, U3, default U1). One of U1, U2, U3.
     :param axis1: Direction of local axis 1. Default: from the first node to the second; +Z for one node.
     :param axis2: Vector in the plane of local axes 1 and 2. Default: the upward direction square to axis 1; +X
@@ -1636,8 +1636,8 @@ class IbarraMedinaKrawinkler(Block):
     :param c_c: exponent of post-capping strength (–, between 1 and 2, default 1).
     :param c_a: exponent of accelerated reloading (–, between 1 and 2, default 1).
     :param c_k: exponent of the stiffness of unloading (–, between 1 and 2, default 1).
-    :param rate_positive: share of β for d > 0 (–, between 0 and 1, default 1).
-    :param rate_negative: share of β for d < 0 (–, between 0 and 1, default 1).
+    :param rate_positive: share of β that acts for d > 0 (–, between 0 and 1, default 1).
+    :param rate_negative: share of β that acts for d < 0 (–, between 0 and 1, default 1).
     :param form: reloading (PeakOriented, Pinching, default PeakOriented). One of PeakOriented, Pinching.
     :param kappa_f: Pinching: slope to the break point over that to the target (–, between 0 and 1, default
         absent).
@@ -1971,9 +1971,9 @@ class LeadRubber(Block):
     :param nodes: The nodes. Default: `node`.
     :param node: The only node: a link or spring between it and the ground. Default: `nodes`.
     :param use: Parameters from the set; those given beside it come first. Default: none.
-    :param kr: shear stiffness of the rubber (N/m, ≥ 0).
+    :param kr: shear stiffness of the rubber, its modulus · area/thickness (N/m, ≥ 0).
     :param lead_diameter: diameter of the core (m, > 0).
-    :param lead_height: height of the core (m, > 0).
+    :param lead_height: height of the core, rubber and shims (m, > 0).
     :param lead_strength: yield stress of the cold core (N/m², > 0, default 10000000).
     :param yield_displacement: displacement at which the core yields (m, > 0).
     :param shim_thickness: thickness of all steel shims together (m, ≥ 0, default 0).
@@ -3136,7 +3136,8 @@ class RigidLink(Block):
     :param nodes: The nodes. Default: `node`.
     :param node: The only node: a link or spring between it and the ground. Default: `nodes`.
     :param use: Parameters from the set; those given beside it come first. Default: none.
-    :param translations_only: the rotations of the second node stay free (true, false, default false).
+    :param translations_only: the rotations of the second node stay free (a hinge there) (true, false, default
+        false).
     :param axis1: Direction of local axis 1. Default: from the first node to the second; +Z for one node.
     :param axis2: Vector in the plane of local axes 1 and 2. Default: the upward direction square to axis 1; +X
         for a vertical one.
@@ -3400,9 +3401,10 @@ class Scaled(Block):
 
 
 class Section(Block):
-    """A rolled section by its name: European IPE, HEA, HEB and HEM (EN 10365), American W (ASTM A6/A6M). `"HEB 300"`
-    and `Section("HEB 300")` say the same; blanks and capitals do not count. Everything is computed from depth,
-    width, thicknesses and root radius.
+    """A rolled section by its name: European IPE, HEA, HEB and HEM (EN 10365), American W (ASTM A6/A6M); or a hollow
+    one: `"SHS 150x8"`, `"RHS 200x100x8"`, `"CHS 219.1x10"` in mm (EN 10210, with `cold` behind it EN 10219),
+    `"HSS 8x6x1/2"` in inches (ASTM A500). `"HEB 300"` and `Section("HEB 300")` say the same; blanks and capitals
+    do not count. Everything is computed from depth, width, thicknesses and root radius.
 
     :param name: The name.
     """
@@ -3793,6 +3795,9 @@ class Superelement(Block):
         absent).
     :param labels: what the files call its nodes, in their order; instead, `nodes` may be a map from labels to
         nodes. Without either the files use the names of the nodes (a text for each node, default absent).
+    :param recovery: directions of nodes that are no rows and follow them, `u = R u_rows`: CSV file
+        `node,dof,row,value`, label of the node, `Ux` … `Rz`, number of a row, from 1, and its share (path of a
+        text file, default absent).
     :param axis1: Direction of local axis 1. Default: from the first node to the second; +Z for one node.
     :param axis2: Vector in the plane of local axes 1 and 2. Default: the upward direction square to axis 1; +X
         for a vertical one.
@@ -3811,6 +3816,7 @@ class Superelement(Block):
         damping: Block | str | None = None,
         rows: Block | str | None = None,
         labels: Sequence[Any] | None = None,
+        recovery: Block | str | None = None,
         axis1: Any | None = None,
         axis2: Any | None = None,
     ) -> None:
@@ -3823,6 +3829,7 @@ class Superelement(Block):
             damping=damping,
             rows=rows,
             labels=labels,
+            recovery=recovery,
             axis1=axis1,
             axis2=axis2,
         )
@@ -4095,10 +4102,11 @@ class TriplePendulum(Block):
     :param pull: the dashpot may pull while closed; friction is of kₙ d₁ then (true, false, default false).
     :param ks: stiffness before slip of each surface (N/m, > 0).
     :param radii: radii of surfaces 1 to 4 (m, 4 numbers, any).
-    :param heights: taken off the radii; none: 0 (m, 4 numbers, any, default absent).
+    :param heights: distances of the surfaces from the pivot point, taken off the radii; none: 0 (m, 4 numbers,
+        any, default absent).
     :param capacities: displacements at which the surfaces meet their rims; 0: no rim (m, 4 numbers, any, default
         absent).
-    :param stop_stiffness: stiffness of each rim (N/m, > 0, default absent).
+    :param stop_stiffness: stiffness of each rim; required with `capacities` (N/m, > 0, default absent).
     :param mu: friction coefficients (–, 4 numbers, any, default absent).
     :param mu_slow: instead of `mu`: at rest (–, 4 numbers, any, default absent).
     :param mu_fast: instead of `mu`: at speed (–, 4 numbers, any, default absent).
