@@ -2,9 +2,11 @@
 
 use std::error::Error;
 use std::path::Path;
-use trilith::report::{Figure, Stroke};
+use std::sync::atomic::AtomicBool;
+use trilith::report::{Figure, MODEL, Stroke, named_figures};
 use trilith::{Run, read_text};
-use trilith_guide::pages;
+use trilith_guide::{Exhibit, exhibits, pages};
+use trilith_study::{How, Study, execute};
 
 /// Draws all.
 pub(crate) fn draw(folder: &Path) -> Result<(), Box<dyn Error>> {
@@ -15,14 +17,48 @@ pub(crate) fn draw(folder: &Path) -> Result<(), Box<dyn Error>> {
     save("block.svg", block()?)?;
     save("wall.svg", wall()?)?;
     save("isolated.svg", isolated()?)?;
+    let to = to.join("gallery");
+    std::fs::create_dir_all(&to)?;
+    for exhibit in exhibits()? {
+        eprintln!("{}", exhibit.path);
+        let svg = if exhibit.is_study() { study(&exhibit)? } else { still(&exhibit)? };
+        std::fs::write(to.join(format!("{}.svg", exhibit.name())), svg)?;
+    }
     Ok(())
+}
+
+/// A model where its last case has moved it most.
+fn still(exhibit: &Exhibit) -> Result<String, Box<dyn Error>> {
+    let model = trilith::read(exhibit.file(), &trilith::registry(), &[]).map_err(|e| told(&e))?;
+    let analysis = trilith::Analysis::new(&model)?;
+    let case = model.cases.len() - 1;
+    let run = analysis.run(trilith::RunOptions { case, ..trilith::RunOptions::default() })?;
+    let drawings = named_figures(&run.report(&analysis, &[], &[]), MODEL);
+    let (_, drawing) = drawings.first().ok_or("a model without a place")?;
+    Ok(drawing.svg().to_owned())
+}
+
+/// The first figure of a study.
+fn study(exhibit: &Exhibit) -> Result<String, Box<dyn Error>> {
+    let registry = trilith::registry();
+    let study = Study::read(exhibit.file(), &registry, &[]).map_err(|e| told(&e))?;
+    let folder = std::env::temp_dir().join(format!("trilith-gallery-{}", std::process::id()));
+    let how = How::threads(2);
+    let done = execute(&study, &registry, &folder, how, &|_| {}, &AtomicBool::new(false));
+    std::fs::remove_dir_all(&folder)?;
+    let figures = trilith_study::figures(&study, &done?.records);
+    let (_, figure) = figures.into_iter().next().ok_or("a study without figures")?;
+    Ok(figure.sized(560, 340).svg())
+}
+
+fn told<E: ToString>(errors: &[E]) -> String {
+    errors.iter().map(ToString::to_string).collect::<Vec<_>>().join("\n")
 }
 
 /// Runs the last case of a model.
 fn run(text: &str, set: &[(&str, &str)]) -> Result<Run, Box<dyn Error>> {
     let set: Vec<_> = set.iter().map(|(n, v)| ((*n).to_owned(), (*v).to_owned())).collect();
-    let model = read_text(text, "model.ron", &trilith::registry(), &set)
-        .map_err(|errors| errors.iter().map(ToString::to_string).collect::<Vec<_>>().join("\n"))?;
+    let model = read_text(text, "model.ron", &trilith::registry(), &set).map_err(|e| told(&e))?;
     let case = model.cases.last().ok_or("a model without cases")?;
     Ok(trilith::run(&model, &case.name)?)
 }

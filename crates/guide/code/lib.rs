@@ -4,9 +4,11 @@
 //! The pages are in `src`, in the order of `SUMMARY.md`; mdBook makes a site of them. The blocks of Rust in
 //! them are compiled and run as documentation tests of [`rust`].
 
+mod gallery;
 mod page;
 mod reference;
 
+pub use gallery::{Exhibit, exhibits, gallery};
 pub use page::{Fence, Measured, Page, Table, pages};
 pub use reference::{reference, study_reference};
 

@@ -5,7 +5,8 @@ mod figures;
 use std::path::Path;
 
 const USAGE: &str = "trilith-guide reference   writes src/reference.md and src/study_reference.md from the schemas\n\
-                     trilith-guide figures     runs the examples and draws src/figures/*.svg\n";
+                     trilith-guide gallery     writes src/gallery.md from the list of models\n\
+                     trilith-guide figures     runs the examples, the models and the studies, and draws src/figures/**.svg\n";
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("src");
@@ -14,6 +15,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
             std::fs::write(folder.join("reference.md"), trilith_guide::reference())?;
             std::fs::write(folder.join("study_reference.md"), trilith_guide::study_reference())?;
         }
+        Some("gallery") => std::fs::write(folder.join("gallery.md"), trilith_guide::gallery()?)?,
         Some("figures") => figures::draw(&folder)?,
         _ => {
             eprint!("{USAGE}");
