@@ -1,47 +1,16 @@
 //! A store of finished runs from outside: used by several studies and processes, killed, damaged.
 
+#[path = "common/sliding.rs"]
+mod sliding;
+
 use std::collections::HashSet;
 use std::path::Path;
 use std::process::{Command, Stdio};
 use std::time::{Duration, Instant};
 
-/// A mass that slides on friction under one sine.
-const MODEL: &str = r#"(
-    title: "Sliding mass",
-    plane: XZ, gravity: "9.81 m/s^2",
-    parameters: { "mu": 0.3, "a": "1 m/s^2" },
-    nodes: { "cg": (0, 0, 0) },
-    elements: {
-        "mass": Mass(node: "cg", mass: "1 t", inertia: (0, 1, 0)),
-        "upright": Spring(node: "cg", r3: "1 MN*m"),
-        "foot": NLink(node: "cg", kn: "10 MN/m", ks: "10 MN/m", mu: "mu", damping: "10 kN*s/m"),
-    },
-    functions: { "pulse": Sine(amplitude: "a", frequency: "2 Hz", cycles: 1) },
-    cases: {
-        "gravity": Static(loads: [Gravity]),
-        "shake": Dynamic(after: "gravity", duration: "0.1 s", dt: "10 ms",
-            base: [(direction: X, function: "pulse")], energy_limit: 0.5),
-    },
-    outputs: { "slide": Displacement(node: "cg", dof: Ux) },
-)"#;
-
+/// One by one, so that a kill meets it in the middle.
 fn folder(side: usize) -> tempfile::TempDir {
-    let folder = tempfile::tempdir().unwrap();
-    std::fs::write(folder.path().join("mass.ron"), MODEL).unwrap();
-    let study = format!(
-        r#"(
-    model: "mass.ron",
-    axes: {{
-        "a": Range(from: "1 m/s^2", to: "8 m/s^2", count: {side}),
-        "mu": Range(from: 0.05, to: 0.95, count: {side}),
-    }},
-    columns: {{ "slide": Peak("slide"), "heat": Energy("link_hysteretic") }},
-    // One by one, so that a kill meets it in the middle.
-    histories: Above("slide", "100 m"),
-)"#
-    );
-    std::fs::write(folder.path().join("study.ron"), study).unwrap();
-    folder
+    sliding::folder(side, "0.1 s", "histories: Above(\"slide\", \"100 m\"),")
 }
 
 fn command(folder: &Path, out: &str, more: &[&str]) -> Command {

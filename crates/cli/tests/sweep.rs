@@ -1,45 +1,15 @@
 //! Studies from outside: killed at any moment, refused, on a full disk.
 
+#[path = "common/sliding.rs"]
+mod sliding;
+
 use std::collections::HashSet;
 use std::path::Path;
 use std::process::{Command, Stdio};
 use std::time::{Duration, Instant};
 
-/// A mass that slides on friction under one sine.
-const MODEL: &str = r#"(
-    title: "Sliding mass",
-    plane: XZ, gravity: "9.81 m/s^2",
-    parameters: { "mu": 0.3, "a": "1 m/s^2" },
-    nodes: { "cg": (0, 0, 0) },
-    elements: {
-        "mass": Mass(node: "cg", mass: "1 t", inertia: (0, 1, 0)),
-        "upright": Spring(node: "cg", r3: "1 MN*m"),
-        "foot": NLink(node: "cg", kn: "10 MN/m", ks: "10 MN/m", mu: "mu", damping: "10 kN*s/m"),
-    },
-    functions: { "pulse": Sine(amplitude: "a", frequency: "2 Hz", cycles: 1) },
-    cases: {
-        "gravity": Static(loads: [Gravity]),
-        "shake": Dynamic(after: "gravity", duration: "0.6 s", dt: "10 ms",
-            base: [(direction: X, function: "pulse")], energy_limit: 0.5),
-    },
-    outputs: { "slide": Displacement(node: "cg", dof: Ux) },
-)"#;
-
 fn folder(side: usize) -> tempfile::TempDir {
-    let folder = tempfile::tempdir().unwrap();
-    std::fs::write(folder.path().join("mass.ron"), MODEL).unwrap();
-    let study = format!(
-        r#"(
-    model: "mass.ron",
-    axes: {{
-        "a": Range(from: "1 m/s^2", to: "8 m/s^2", count: {side}),
-        "mu": Range(from: 0.05, to: 0.95, count: {side}),
-    }},
-    columns: {{ "slide": Peak("slide"), "heat": Energy("link_hysteretic") }},
-)"#
-    );
-    std::fs::write(folder.path().join("study.ron"), study).unwrap();
-    folder
+    sliding::folder(side, "0.6 s", "")
 }
 
 fn command(folder: &Path, args: &[&str]) -> Command {
@@ -201,7 +171,7 @@ fn figures_of_a_study_are_files_on_request() {
 fn runs_that_fail_are_rows_and_make_the_status_one() {
     let folder = folder(3);
     let here = folder.path();
-    let model = MODEL.replace("energy_limit: 0.5", "energy_limit: \"limit\"");
+    let model = sliding::model("0.6 s").replace("energy_limit: 0.5", "energy_limit: \"limit\"");
     let model = model.replace("\"mu\": 0.3,", "\"mu\": 0.3, \"limit\": 0.5,");
     std::fs::write(here.join("mass.ron"), model).unwrap();
     let study = r#"(model: "mass.ron", axes: { "a": [3, 4, 5], "limit": [0.5, 1e-300] })"#;
@@ -224,7 +194,7 @@ fn bad_records_of_a_study_are_told_with_both_lines() {
     let here = folder.path();
     let sine = "Sine(amplitude: \"a\", frequency: \"2 Hz\", cycles: 1)";
     let record = "Record(file: Parameter(\"record\"), scale_to: \"a\")";
-    let model = MODEL
+    let model = sliding::model("0.6 s")
         .replace(sine, record)
         .replace("\"mu\": 0.3,", "\"mu\": 0.3, \"record\": Text(\"good.at2\"),");
     std::fs::write(here.join("mass.ron"), model).unwrap();
@@ -380,7 +350,7 @@ fn a_part_that_is_none_is_refused() {
 fn runs_that_failed_are_made_once_more() {
     let folder = folder(3);
     let here = folder.path();
-    let model = MODEL.replace("energy_limit: 0.5", "energy_limit: \"limit\"");
+    let model = sliding::model("0.6 s").replace("energy_limit: 0.5", "energy_limit: \"limit\"");
     let model = model.replace("\"mu\": 0.3,", "\"mu\": 0.3, \"limit\": 0.5,");
     std::fs::write(here.join("mass.ron"), model).unwrap();
     let study = r#"(model: "mass.ron", axes: { "a": [3, 4, 5], "limit": [0.5, 1e-300] })"#;

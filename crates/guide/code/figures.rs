@@ -8,6 +8,9 @@ use trilith::{Run, read_text};
 use trilith_guide::{Exhibit, exhibits, pages};
 use trilith_study::{How, Study, execute};
 
+/// Deformed shapes that a run keeps, of which the largest is drawn.
+const FRAMES: usize = 200;
+
 /// Draws all.
 pub(crate) fn draw(folder: &Path) -> Result<(), Box<dyn Error>> {
     let to = folder.join("figures");
@@ -30,7 +33,7 @@ pub(crate) fn draw(folder: &Path) -> Result<(), Box<dyn Error>> {
 /// A model where its last case has moved it most.
 fn still(exhibit: &Exhibit) -> Result<String, Box<dyn Error>> {
     let model = trilith::read(exhibit.file(), &trilith::registry(), &[]).map_err(|e| told(&e))?;
-    let analysis = trilith::Analysis::new(&model)?;
+    let analysis = trilith::Analysis::new(&model)?.with_frames(FRAMES);
     let case = model.cases.len() - 1;
     let run = analysis.run(trilith::RunOptions { case, ..trilith::RunOptions::default() })?;
     let drawings = named_figures(&run.report(&analysis, &[], &[]), MODEL);
