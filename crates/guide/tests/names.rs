@@ -198,7 +198,12 @@ fn looks_like_a_name(word: &str) -> Option<&str> {
 #[test]
 fn every_kind_and_field_is_there() {
     let names = schema_names();
-    let figures = [trilith::report::ENERGY, trilith::report::GROUND, trilith::report::SPECTRA];
+    let figures = [
+        trilith::report::ENERGY,
+        trilith::report::GROUND,
+        trilith::report::MODEL,
+        trilith::report::SPECTRA,
+    ];
     let models = std::fs::read_dir(root().join("models")).unwrap().map(|e| e.unwrap().path());
     let models = models.filter(|p| p.extension().is_some_and(|e| e == "ron"));
     let shipped: Vec<String> = models.map(|p| std::fs::read_to_string(p).unwrap()).collect();
