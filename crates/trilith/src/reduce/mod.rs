@@ -17,7 +17,8 @@
 //! use trilith::reduce::{FixedModes, Request};
 //!
 //! let model = trilith::read_text(text, "mast.ron", &trilith::registry(), &[])?;
-//! let reduced = trilith::Analysis::new(&model)?.reduce(&Request::new(["mast"], FixedModes::Count(2)))?;
+//! let analysis = trilith::Analysis::new(&model)?;
+//! let reduced = analysis.reduce(&Request::new(["mast"], FixedModes::Count(2)))?;
 //! assert_eq!(reduced.kept, ["a", "d"]);
 //! let small = trilith::read_text(&reduced.text(), "small.ron", &trilith::registry(), &[])?;
 //! assert_eq!((model.elements.len(), small.elements.len()), (3, 1));
