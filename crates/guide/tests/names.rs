@@ -120,6 +120,8 @@ fn schema_names() -> BTreeSet<String> {
 
 /// What else the book may put in backticks: words of the program, of Rust, of results.
 const OTHERS: &[&str] = &[
+    // In the names of hollow sections.
+    "cold",
     // solvers on the command line, status of a run, modes of response
     "fna",
     "hht",
