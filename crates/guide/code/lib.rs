@@ -16,6 +16,7 @@ pub use reference::{reference, study_reference};
 pub mod rust {
     #[doc = include_str!("../src/from_rust.md")]
     pub mod from_rust {}
+    #[allow(rustdoc::invalid_codeblock_attributes, reason = "marks for the tests of the guide")]
     #[doc = include_str!("../src/reduction.md")]
     pub mod reduction {}
 }
