@@ -26,7 +26,7 @@ mod built_in {
 
     impl Picture {
         fn of(figure: &Figure) -> Self {
-            let file = Drawing::from(&figure).png().unwrap();
+            let file = Drawing::from(figure).png().unwrap();
             let mut reader = png::Decoder::new(std::io::Cursor::new(file)).read_info().unwrap();
             let mut bytes = vec![0; reader.output_buffer_size().unwrap()];
             let frame = reader.next_frame(&mut bytes).unwrap();
