@@ -40,7 +40,7 @@ pub struct Dashpot {
     #[parameter("c", unit = "N", per = "m/s", exponent = "exponent", range = Positive)]
     pub c: Option<f64>,
     /// instead of `c`: coefficient about R1, R2 or R3
-    #[parameter("c", unit = "N·m", per = "1/s", exponent = "exponent", range = Positive)]
+    #[parameter("c", unit = "N·m", per = "rad/s", exponent = "exponent", range = Positive)]
     pub cr: Option<f64>,
     /// exponent of the rate
     #[parameter("α", unit = "1", range = Above(0.0, 2.0), default = 1.0)]

@@ -40,10 +40,10 @@ pub struct FrequencyIndependentViscoelastic {
     #[parameter("η", unit = "1", range = Above(0.0, 2.0))]
     pub loss_factor: Option<f64>,
     /// lower end of the band
-    #[parameter("f_min", unit = "1/s", range = Positive)]
+    #[parameter("f_min", unit = "Hz", range = Positive)]
     pub f_min: Option<f64>,
     /// upper end of the band
-    #[parameter("f_max", unit = "1/s", range = Positive)]
+    #[parameter("f_max", unit = "Hz", range = Positive)]
     pub f_max: Option<f64>,
     /// instead: stiffness beside the branches
     #[parameter("k∞", unit = "N/m", about = "N·m/rad", range = NonNegative)]

@@ -116,15 +116,15 @@ pub struct NLink {
     #[serde(default)]
     pub radius: f64,
     /// linear rotational spring, open or closed
-    #[parameter("r₁", unit = "N·m", range = NonNegative, default = 0.0)]
+    #[parameter("r₁", unit = "N·m/rad", range = NonNegative, default = 0.0)]
     #[serde(default)]
     pub r1: f64,
     /// linear rotational spring, open or closed
-    #[parameter("r₂", unit = "N·m", range = NonNegative, default = 0.0)]
+    #[parameter("r₂", unit = "N·m/rad", range = NonNegative, default = 0.0)]
     #[serde(default)]
     pub r2: f64,
     /// linear rotational spring, open or closed
-    #[parameter("r₃", unit = "N·m", range = NonNegative, default = 0.0)]
+    #[parameter("r₃", unit = "N·m/rad", range = NonNegative, default = 0.0)]
     #[serde(default)]
     pub r3: f64,
 }

@@ -43,10 +43,10 @@ pub struct PMMHinge {
     #[parameter("k₁", unit = "N/m", range = Positive)]
     pub axial: f64,
     /// elastic, about R2
-    #[parameter("k₂", unit = "N·m", range = Positive)]
+    #[parameter("k₂", unit = "N·m/rad", range = Positive)]
     pub bending2: f64,
     /// elastic, about R3
-    #[parameter("k₃", unit = "N·m", range = Positive)]
+    #[parameter("k₃", unit = "N·m/rad", range = Positive)]
     pub bending3: f64,
     /// axial strength without moments
     #[parameter("P_y", unit = "N", range = Positive)]

@@ -90,7 +90,7 @@ pub struct RockingBody {
     #[parameter("J", unit = "kg·m²", range = NonNegative)]
     pub inertia: Option<Vector3>,
     /// tilt at which the body counts as overturned, rad
-    #[parameter(unit = "1", range = Positive, default = FRAC_PI_2)]
+    #[parameter(unit = "rad", range = Positive, default = FRAC_PI_2)]
     pub overturned: f64,
     /// From the node that it stands on to its centre of gravity, at rest, m; none: it stands on the ground.
     #[serde(skip)]

@@ -37,13 +37,13 @@ pub struct Spring {
     #[parameter("k₃", unit = "N/m", range = NonNegative, default = 0.0)]
     pub k3: f64,
     /// stiffness about local 1
-    #[parameter("r₁", unit = "N·m", range = NonNegative, default = 0.0)]
+    #[parameter("r₁", unit = "N·m/rad", range = NonNegative, default = 0.0)]
     pub r1: f64,
     /// stiffness about local 2
-    #[parameter("r₂", unit = "N·m", range = NonNegative, default = 0.0)]
+    #[parameter("r₂", unit = "N·m/rad", range = NonNegative, default = 0.0)]
     pub r2: f64,
     /// stiffness about local 3
-    #[parameter("r₃", unit = "N·m", range = NonNegative, default = 0.0)]
+    #[parameter("r₃", unit = "N·m/rad", range = NonNegative, default = 0.0)]
     pub r3: f64,
     /// damping along local 1
     #[parameter("c₁", unit = "N·s/m", range = NonNegative, default = 0.0)]

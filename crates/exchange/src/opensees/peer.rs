@@ -1,9 +1,9 @@
 //! OpenSees run beside: a Python interpreter that has openseespy runs an exported script, and its files are read back.
 
-use std::fs::{File, create_dir, read_to_string, remove_dir_all, write};
+use std::fs::{File, read_to_string, write};
 use std::path::{Path, PathBuf};
 use std::process::{Child, Command, ExitStatus, Stdio};
-use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
+use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::{Duration, Instant};
 
 /// Environment variable that names the interpreter.
@@ -104,14 +104,14 @@ impl Peer {
     /// # Errors
     /// Whatever keeps it from its end, with what it said.
     pub fn run(&self, script: &str, until: Option<&AtomicBool>) -> Result<PeerRun, PeerError> {
-        let folder = Temporary::new()?;
+        let folder = tempfile::Builder::new().prefix("trilith-opensees-").tempdir()?;
         let started = Instant::now();
-        let path = folder.0.join(format!("{STEM}.py"));
+        let path = folder.path().join(format!("{STEM}.py"));
         write(&path, script)?;
-        let said = folder.0.join("said.txt");
+        let said = folder.path().join("said.txt");
         let child = Command::new(&self.python)
             .arg(&path)
-            .current_dir(&folder.0)
+            .current_dir(folder.path())
             .stdin(Stdio::null())
             .stdout(Stdio::null())
             .stderr(File::create(&said)?)
@@ -123,7 +123,7 @@ impl Peer {
             let last = &lines[lines.len().saturating_sub(SHOWN)..];
             return Err(PeerError::Failed { status, said: last.join("\n") });
         }
-        let mut run = read(&folder.0)?;
+        let mut run = read(folder.path())?;
         run.seconds = started.elapsed().as_secs_f64();
         Ok(run)
     }
@@ -151,30 +151,6 @@ impl Peer {
     }
 }
 
-/// A folder that goes when it is not needed any more.
-struct Temporary(PathBuf);
-
-impl Temporary {
-    fn new() -> Result<Self, std::io::Error> {
-        static COUNT: AtomicU64 = AtomicU64::new(0);
-        let base = std::env::temp_dir();
-        loop {
-            let n = COUNT.fetch_add(1, Ordering::Relaxed);
-            let path = base.join(format!("trilith-opensees-{}-{n}", std::process::id()));
-            match create_dir(&path) {
-                Err(e) if e.kind() == std::io::ErrorKind::AlreadyExists => {}
-                made => return made.map(|()| Self(path)),
-            }
-        }
-    }
-}
-
-impl Drop for Temporary {
-    fn drop(&mut self) {
-        let _ = remove_dir_all(&self.0);
-    }
-}
-
 fn read(folder: &Path) -> Result<PeerRun, PeerError> {
     let text = |name: String| {
         let broken = |e: std::io::Error| PeerError::Unreadable(format!("{name}: {e}"));
@@ -182,7 +158,7 @@ fn read(folder: &Path) -> Result<PeerRun, PeerError> {
     };
     let mut run = PeerRun::default();
     let outputs = text(format!("{STEM}.csv"))?;
-    let mut rows = records(&outputs).into_iter();
+    let mut rows = records(&outputs)?.into_iter();
     run.names = rows.next().unwrap_or_default().into_iter().skip(1).collect();
     run.histories = vec![Vec::new(); run.names.len()];
     for row in rows {
@@ -196,7 +172,7 @@ fn read(folder: &Path) -> Result<PeerRun, PeerError> {
         run.time.push(values[0]);
         run.histories.iter_mut().zip(&values[1..]).for_each(|(h, x)| h.push(*x));
     }
-    for row in records(&text(format!("{STEM}.peaks.csv"))?).into_iter().skip(1) {
+    for row in records(&text(format!("{STEM}.peaks.csv"))?)?.into_iter().skip(1) {
         let values = numbers(row.get(1..).unwrap_or_default())?;
         let peak = values.try_into().map_err(|v: Vec<f64>| {
             PeerError::Unreadable(format!("{STEM}.peaks.csv: a line of {} numbers", v.len()))
@@ -206,7 +182,7 @@ fn read(folder: &Path) -> Result<PeerRun, PeerError> {
     if run.peaks.len() != run.names.len() {
         return Err(PeerError::Unreadable(format!("{STEM}.peaks.csv: {} lines", run.peaks.len())));
     }
-    for row in records(&text(format!("{STEM}.periods.csv"))?).into_iter().skip(1) {
+    for row in records(&text(format!("{STEM}.periods.csv"))?)?.into_iter().skip(1) {
         run.periods.extend(numbers(&row)?.get(1));
     }
     Ok(run)
@@ -220,32 +196,14 @@ fn numbers(row: &[String]) -> Result<Vec<f64>, PeerError> {
         .map_err(|e| PeerError::Unreadable(format!("`{}`: {e}", row.join(","))))
 }
 
-/// Records of comma-separated values; cells may stand in double quotes.
-fn records(text: &str) -> Vec<Vec<String>> {
-    let (mut all, mut row, mut cell) = (Vec::new(), Vec::new(), String::new());
-    let mut quoted = false;
-    let mut chars = text.chars().peekable();
-    while let Some(c) = chars.next() {
-        match c {
-            '"' if quoted && chars.peek() == Some(&'"') => {
-                chars.next();
-                cell.push('"');
-            }
-            '"' => quoted = !quoted,
-            ',' if !quoted => row.push(std::mem::take(&mut cell)),
-            '\r' if !quoted => {}
-            '\n' if !quoted => {
-                row.push(std::mem::take(&mut cell));
-                all.push(std::mem::take(&mut row));
-            }
-            c => cell.push(c),
-        }
-    }
-    if !(cell.is_empty() && row.is_empty()) {
-        row.push(cell);
-        all.push(row);
-    }
-    all
+/// Records of comma-separated values, of any length.
+fn records(text: &str) -> Result<Vec<Vec<String>>, PeerError> {
+    let mut reader =
+        csv::ReaderBuilder::new().has_headers(false).flexible(true).from_reader(text.as_bytes());
+    reader
+        .deserialize()
+        .collect::<Result<_, csv::Error>>()
+        .map_err(|e| PeerError::Unreadable(e.to_string()))
 }
 
 #[cfg(test)]
@@ -254,7 +212,7 @@ mod tests {
 
     #[test]
     fn records_have_cells_in_quotes() {
-        let all = records("t,\"a, \"\"b\"\"\"\r\n0.0,1e-3\n");
+        let all = records("t,\"a, \"\"b\"\"\"\r\n0.0,1e-3\n").unwrap();
         assert_eq!(all, [["t", "a, \"b\""], ["0.0", "1e-3"]]);
     }
 
