@@ -227,6 +227,9 @@ fn peaks(all: &[Compared]) -> Vec<Vec<String>> {
     rows
 }
 
+/// A magnitude in SI below which there is nothing to compare with; a length of this is far less than an atom.
+pub(crate) const NOTHING: f64 = 1e-12;
+
 /// Difference of an extreme relative to the larger magnitude of the first solver's extremes.
 pub(crate) fn difference(
     first: Option<&Peak>,
@@ -235,7 +238,7 @@ pub(crate) fn difference(
 ) -> String {
     match (first, other) {
         (Some(a), Some(b)) if value(a) == value(b) => "0".into(),
-        (Some(a), Some(b)) if a.magnitude() > 0.0 => {
+        (Some(a), Some(b)) if a.magnitude() > NOTHING => {
             format!("{:+.2} %", 100.0 * (value(b) - value(a)) / a.magnitude())
         }
         _ => "–".into(),

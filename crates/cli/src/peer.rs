@@ -1,7 +1,7 @@
 //! `trilith compare --peer`: a case here and in another program.
 
 use crate::args::CompareArguments;
-use crate::compare::difference;
+use crate::compare::{NOTHING, difference};
 use crate::export::{scripted, warned};
 use crate::interrupt::{Ear, INTERRUPTED};
 use crate::text::{number, percent, row, table};
@@ -127,7 +127,7 @@ impl Both<'_> {
         }
         let squares = a.iter().zip(b).map(|(a, b)| (a - b).powi(2)).sum::<f64>();
         let size = a.iter().map(|a| a * a).sum::<f64>();
-        (size > 0.0).then(|| (squares / size).sqrt())
+        (size > NOTHING * NOTHING * a.len() as f64).then(|| (squares / size).sqrt())
     }
 
     fn text(&self) -> String {
@@ -209,7 +209,7 @@ impl Both<'_> {
             let theirs = self.peak(name);
             let share = |value: fn(&Peak) -> f64| {
                 let (a, b) = (own.peak.as_ref()?, theirs.as_ref()?);
-                (a.magnitude() > 0.0).then(|| (value(b) - value(a)) / a.magnitude())
+                (a.magnitude() > NOTHING).then(|| (value(b) - value(a)) / a.magnitude())
             };
             outputs.insert(
                 name.clone(),
