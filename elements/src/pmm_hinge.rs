@@ -211,7 +211,7 @@ impl LaneLaw for Law {
     const COORDINATES: usize = 3;
     const HISTORY: usize = 3;
     const PARAMETERS: usize = PARAMETERS;
-    const IN_PARTS: bool = false;
+    const IS_LONG: bool = true;
 
     #[inline(always)]
     fn force<R: Real>(at: &LaneAt<'_, R>, out: &mut LaneForce<'_, R>) {

@@ -195,7 +195,7 @@ impl<const CLOSED: bool> LaneLaw for Law<CLOSED> {
     const COORDINATES: usize = 3;
     const HISTORY: usize = 2;
     const PARAMETERS: usize = SHAPE + bouc_wen_plane::NUMBERS;
-    const IN_PARTS: bool = false;
+    const IS_LONG: bool = true;
 
     #[inline(always)]
     fn force<R: Real>(at: &LaneAt<'_, R>, out: &mut LaneForce<'_, R>) {

@@ -132,7 +132,7 @@ impl<const FORM: u8> LaneLaw for Law<FORM> {
     const COORDINATES: usize = 1;
     const HISTORY: usize = 1;
     const PARAMETERS: usize = 3 + transition::NUMBERS;
-    const IN_PARTS: bool = false;
+    const IS_LONG: bool = true;
 
     #[inline(always)]
     fn force<R: Real>(at: &LaneAt<'_, R>, out: &mut LaneForce<'_, R>) {

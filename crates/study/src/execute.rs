@@ -95,9 +95,8 @@ struct Shared<'a> {
     folder: &'a Path,
     /// None where runs go one by one.
     lanes: Option<Lanes>,
-    part: Part,
     /// Chains of this part.
-    chains: usize,
+    chains: Vec<usize>,
     /// Chains that a thread takes at once.
     width: usize,
     beside: AtomicUsize,
@@ -168,7 +167,7 @@ pub fn execute(
     }
     let length = study.plan.chain_length();
     let chains = part.chains(study.identity.runs / length);
-    let total = chains * length;
+    let total = chains.len() * length;
     let (lanes, alone) = match study.alone(registry) {
         None => (Some(Lanes::new().over_time(over_time(&study.columns))), None),
         reason => (None, reason),
@@ -181,14 +180,14 @@ pub fn execute(
         None => None,
     };
     // Where there are few, all threads have some.
-    let width = lanes.as_ref().map_or(1, |l| l.width().min(chains.div_ceil(threads.max(1))).max(1));
+    let width =
+        lanes.as_ref().map_or(1, |l| l.width().min(chains.len().div_ceil(threads.max(1))).max(1));
     let torn = kept.torn;
     let shared = Shared {
         study,
         registry,
         folder,
         lanes,
-        part,
         chains,
         width,
         beside: AtomicUsize::new(0),
@@ -210,7 +209,7 @@ pub fn execute(
         progress,
     };
     std::thread::scope(|scope| {
-        for _ in 1..threads.min(chains.div_ceil(width)).max(1) {
+        for _ in 1..threads.min(shared.chains.len().div_ceil(width)).max(1) {
             scope.spawn(|| shared.work());
         }
         shared.work();
@@ -266,11 +265,11 @@ impl Shared<'_> {
         while !self.stops() {
             let start = Instant::now();
             let first = self.next.fetch_add(share, Ordering::Relaxed);
-            if first >= self.chains {
+            if first >= self.chains.len() {
                 break;
             }
-            let own = first..self.chains.min(first + share);
-            let firsts = own.map(|i| self.part.chain(i) * length).collect();
+            let own = &self.chains[first..self.chains.len().min(first + share)];
+            let firsts = own.iter().map(|chain| chain * length).collect();
             if let Err(error) = self.chains(firsts, length) {
                 self.stop.store(true, Ordering::Relaxed);
                 if let Ok(mut first) = self.error.lock() {

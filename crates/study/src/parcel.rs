@@ -35,7 +35,7 @@ impl Study {
         for shard in (1..=of).filter_map(|index| Shard::new(index, of)) {
             let mut bytes = line(&self.identity).map_err(json)?.into_bytes();
             let mut over = true;
-            for chain in (0..shard.chains(chains)).map(|i| shard.chain(i)) {
+            for chain in shard.chains(chains) {
                 let mut ended = false;
                 for record in (chain * length..).take(length).map_while(|run| known.get(&run)) {
                     bytes.extend(line(record).map_err(json)?.bytes());

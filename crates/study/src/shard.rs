@@ -1,7 +1,8 @@
 //! Parts of a study that run on their own, on as many machines as there are.
 //!
 //! Every part keeps a journal of its own in the folder of the study, which all machines see; nothing else is shared, and
-//! no part waits for another one. Chains of runs go to the parts in turn, so that parts are about equally long.
+//! no part waits for another one. Blocks of chains of runs go to the parts in turn: in turn, so that parts are about equally
+//! long; in blocks, as runs that follow each other are alike, and alike they go side by side at the least cost.
 
 use std::fmt;
 use std::path::{Path, PathBuf};
@@ -18,6 +19,8 @@ pub struct Shard {
 
 /// Most parts of a study: each has a file.
 const MOST: usize = 1000;
+/// Chains in a block, about: two widths of the lanes of most processors.
+const BLOCK: usize = 16;
 
 impl Shard {
     /// Part `index`, from 1, of so many; none where there is no such part.
@@ -38,14 +41,14 @@ impl Shard {
         self.of
     }
 
-    /// Number of its chains, of so many.
-    pub(crate) fn chains(self, all: usize) -> usize {
-        (all + self.of - self.index) / self.of
-    }
-
-    /// The chain that is the `i`-th of its own.
-    pub(crate) fn chain(self, i: usize) -> usize {
-        self.index - 1 + i * self.of
+    /// Its chains, of so many, in rising order.
+    ///
+    /// All chains are cut into blocks, of which each part has equally many; the blocks differ by one chain at most.
+    pub(crate) fn chains(self, all: usize) -> Vec<usize> {
+        let rounds = (all / (self.of * BLOCK)).max(1);
+        let blocks = self.of * rounds;
+        let own = (self.index - 1..blocks).step_by(self.of);
+        own.flat_map(|b| b * all / blocks..(b + 1) * all / blocks).collect()
     }
 
     /// Between the parts of the names of its files.
@@ -99,14 +102,9 @@ impl Part {
         folder.join(format!("runs{}.journal", self.infix()))
     }
 
-    /// Number of its chains, of so many.
-    pub(crate) fn chains(self, all: usize) -> usize {
-        if let Self::Shard(shard) = self { shard.chains(all) } else { all }
-    }
-
-    /// The chain that is the `i`-th of its own.
-    pub(crate) fn chain(self, i: usize) -> usize {
-        if let Self::Shard(shard) = self { shard.chain(i) } else { i }
+    /// Its chains, of so many, in rising order.
+    pub(crate) fn chains(self, all: usize) -> Vec<usize> {
+        if let Self::Shard(shard) = self { shard.chains(all) } else { (0..all).collect() }
     }
 }
 
@@ -149,16 +147,30 @@ mod tests {
 
     #[test]
     fn every_chain_belongs_to_one_part() {
-        for all in [0, 1, 5, 20, 103] {
+        for all in [0, 1, 5, 20, 103, 1000] {
             for of in [1, 2, 7, 20] {
                 let mut seen = vec![0; all];
+                let mut most = 0;
+                let mut least = all;
                 for index in 1..=of {
-                    let shard = Shard::new(index, of).unwrap();
-                    (0..shard.chains(all)).for_each(|i| seen[shard.chain(i)] += 1);
+                    let own = Shard::new(index, of).unwrap().chains(all);
+                    own.iter().for_each(|i| seen[*i] += 1);
+                    (most, least) = (most.max(own.len()), least.min(own.len()));
                 }
                 assert!(seen.iter().all(|n| *n == 1), "{all} {of}: {seen:?}");
+                // About equally long: a chain more or less for each block.
+                assert!(most - least <= (all / (of * BLOCK)).max(1), "{all} {of}: {least} {most}");
             }
         }
+    }
+
+    #[test]
+    fn parts_have_chains_of_everywhere_in_blocks() {
+        let own = Shard::new(2, 4).unwrap().chains(256);
+        assert_eq!(own.len(), 64);
+        let starts: Vec<usize> = own.chunks(16).map(|block| block[0]).collect();
+        assert_eq!(starts, [16, 80, 144, 208]);
+        assert!(own.chunks(16).all(|block| block.windows(2).all(|w| w[1] == w[0] + 1)));
     }
 
     #[test]

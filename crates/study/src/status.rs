@@ -35,7 +35,7 @@ pub fn status(study: &Study, folder: &Path) -> Result<(Vec<PartStatus>, usize), 
         let failed = own.values().filter(|record| !record.good).count();
         let own_chains = part.chains(chains);
         all.push((
-            PartStatus { part, done: own.len(), of: own_chains * length, failed, open: 0 },
+            PartStatus { part, done: own.len(), of: own_chains.len() * length, failed, open: 0 },
             own_chains,
         ));
         known.extend(own);
@@ -49,7 +49,7 @@ pub fn status(study: &Study, folder: &Path) -> Result<(Vec<PartStatus>, usize), 
     };
     let open: Vec<bool> = (0..chains).map(|chain| !over(chain)).collect();
     let parts = all.into_iter().map(|(status, own_chains)| {
-        let of_part = (0..own_chains).filter(|i| open[status.part.chain(*i)]).count();
+        let of_part = own_chains.iter().filter(|chain| open[**chain]).count();
         PartStatus { open: of_part, ..status }
     });
     Ok((parts.collect(), open.iter().filter(|open| **open).count()))

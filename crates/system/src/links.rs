@@ -222,7 +222,7 @@ impl<'a> StepLaws<'a> {
     ) {
         self.dampers.iter().for_each(|damper| damper.force(at, to.f));
         for pack in &mut self.packs {
-            blaming(pack.element(), || pack.force(at, last, to));
+            blaming(pack.element(), || pack.respond(at, last, to));
         }
         for i in &self.alone {
             let Answers { history, f, tangents, energy } = to;

@@ -268,12 +268,7 @@ impl<R: Real> Batch<R> {
             c: &mut self.c,
         };
         let end = std::slice::from_mut(&mut self.step);
-        if law.in_parts {
-            with.force(law, &mut links);
-            with.commit(law, &mut links, end);
-        } else {
-            with.respond(law, &mut links, end);
-        }
+        with.respond(law, &mut links, end);
     }
 }
 

@@ -59,24 +59,7 @@ pub trait Arithmetic: Copy + Send + Sync {
     /// The pairs of all lanes, one after the other; behind them, where there are fewer than eight lanes, zeros.
     fn join_pairs(self, x: [Self::Real; 2]) -> [f64; 16];
 
-    /// Forces and tangents of links of one law.
-    ///
-    /// # Panics
-    /// Where the law does not answer [in parts](ErasedLaw::in_parts).
-    fn force(self, law: &ErasedLaw, links: &mut LaneLinks<'_, Self::Real>);
-
-    /// History and energies of links of one law after a step.
-    ///
-    /// # Panics
-    /// As [`force`](Self::force).
-    fn commit(
-        self,
-        law: &ErasedLaw,
-        links: &mut LaneLinks<'_, Self::Real>,
-        out: &mut [LaneStep<Self::Real>],
-    );
-
-    /// Both at once, where the step may well end here.
+    /// All of the answer of links of one law: forces, tangents, history and energies.
     fn respond(
         self,
         law: &ErasedLaw,
@@ -138,14 +121,6 @@ impl Arithmetic for Portable {
         let mut pairs = [0.0; 16];
         (pairs[0], pairs[1]) = (x, y);
         pairs
-    }
-    #[inline(always)]
-    fn force(self, law: &ErasedLaw, links: &mut LaneLinks<'_, f64>) {
-        (law.portable.force)(self, links);
-    }
-    #[inline(always)]
-    fn commit(self, law: &ErasedLaw, links: &mut LaneLinks<'_, f64>, out: &mut [LaneStep<f64>]) {
-        (law.portable.commit)(self, links, out);
     }
     #[inline(always)]
     fn respond(self, law: &ErasedLaw, links: &mut LaneLinks<'_, f64>, out: &mut [LaneStep<f64>]) {
@@ -227,19 +202,6 @@ impl Arithmetic for FusedOne {
         Portable.join_pairs([x.0, y.0])
     }
     #[inline(always)]
-    fn force(self, law: &ErasedLaw, links: &mut LaneLinks<'_, Fused>) {
-        (law.fused.force)(self, links);
-    }
-    #[inline(always)]
-    fn commit(
-        self,
-        law: &ErasedLaw,
-        links: &mut LaneLinks<'_, Fused>,
-        out: &mut [LaneStep<Fused>],
-    ) {
-        (law.fused.commit)(self, links, out);
-    }
-    #[inline(always)]
     fn respond(
         self,
         law: &ErasedLaw,
@@ -313,19 +275,6 @@ macro_rules! eight_lanes {
             #[inline(always)]
             fn join_pairs(self, x: [Self::Real; 2]) -> [f64; 16] {
                 Wide::join_pairs(x)
-            }
-            #[inline(always)]
-            fn force(self, law: &ErasedLaw, links: &mut LaneLinks<'_, Self::Real>) {
-                (law.$entries.force)(self, links);
-            }
-            #[inline(always)]
-            fn commit(
-                self,
-                law: &ErasedLaw,
-                links: &mut LaneLinks<'_, Self::Real>,
-                out: &mut [LaneStep<Self::Real>],
-            ) {
-                (law.$entries.commit)(self, links, out);
             }
             #[inline(always)]
             fn respond(

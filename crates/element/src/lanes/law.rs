@@ -4,7 +4,7 @@
 use super::side_by_side::respond_together;
 use super::{Arithmetic, Called, Dual, Portable, Real, Task};
 #[cfg(target_arch = "x86_64")]
-use super::{Avx2Lanes, Avx512Lanes, Fused, FusedOne};
+use super::{Avx2Lanes, Avx512Lanes, FusedOne};
 use crate::{Contact, Energy, Kinematics};
 use std::any::TypeId;
 use std::fmt;
@@ -119,8 +119,7 @@ impl From<LaneStep<f64>> for Energy {
     }
 }
 
-/// A law over lanes. Same contract as [`Link`](crate::Link), in parts: the iteration of a step asks
-/// for forces only. All functions must be `#[inline(always)]`.
+/// A law over lanes. Same contract as [`Link`](crate::Link). All functions must be `#[inline(always)]`.
 pub trait LaneLaw: 'static {
     /// Number of coordinates n.
     const COORDINATES: usize;
@@ -132,9 +131,8 @@ pub trait LaneLaw: 'static {
     const CONTACTS: usize = 0;
     /// True where it may end a run: a body that overturns.
     const FALLS: bool = false;
-    /// False for a large law whose forces cost as much as all of its answer: it is always asked for
-    /// [`respond`](Self::respond), and compiled for that alone.
-    const IN_PARTS: bool = true;
+    /// True for a law so long that several links of one analysis gain nothing side by side.
+    const IS_LONG: bool = false;
 
     /// Force and tangents.
     fn force<R: Real>(at: &LaneAt<'_, R>, out: &mut LaneForce<'_, R>);
@@ -238,18 +236,6 @@ impl<'a, R: Real> LaneLinks<'a, R> {
         }
     }
 
-    #[inline(always)]
-    fn force<L: LaneLaw>(&mut self, i: usize, at: &LaneAt<'_, R>) {
-        let n = L::COORDINATES;
-        let block = i * n * n..(i + 1) * n * n;
-        let mut out = LaneForce {
-            f: &mut self.f[i * n..(i + 1) * n],
-            k: &mut self.k[block.clone()],
-            c: &mut self.c[block],
-        };
-        L::force(at, &mut out);
-    }
-
     /// Force and commit.
     #[inline(always)]
     pub(super) fn respond<L: LaneLaw>(&mut self, i: usize) -> LaneStep<R> {
@@ -263,19 +249,9 @@ impl<'a, R: Real> LaneLinks<'a, R> {
         };
         L::respond(&at, &mut out, &mut self.trial[i * h..(i + 1) * h])
     }
-
-    #[inline(always)]
-    fn commit<L: LaneLaw>(&mut self, i: usize, at: &LaneAt<'_, R>) -> LaneStep<R> {
-        let (n, h) = (L::COORDINATES, L::HISTORY);
-        L::commit(at, &self.f[i * n..(i + 1) * n], &mut self.trial[i * h..(i + 1) * h])
-    }
 }
 
-/// What a caller has missed.
-const AT_ONCE: &str = "this law over lanes answers at once, not in parts";
-
-type ForceBy<A> = fn(A, &mut LaneLinks<'_, <A as Arithmetic>::Real>);
-type CommitBy<A> =
+type RespondBy<A> =
     fn(A, &mut LaneLinks<'_, <A as Arithmetic>::Real>, &mut [LaneStep<<A as Arithmetic>::Real>]);
 type ContactsBy<A> = fn(
     A,
@@ -292,16 +268,14 @@ pub const DIRECTIONS: usize = 8;
 
 type DerivativeBy = fn(&mut LaneLinks<'_, Directions>, &mut [LaneStep<Directions>]);
 
-/// A law on one arithmetic: its forces, the end of a step, both at once, and its contacts.
+/// A law on one arithmetic: all of its answer, and its contacts.
 #[derive(Clone, Copy)]
-pub(super) struct Entries<F, C, T> {
-    pub force: F,
-    pub commit: C,
-    pub respond: C,
-    pub contacts: T,
+pub(super) struct Entries<R, C> {
+    pub respond: R,
+    pub contacts: C,
 }
 
-type EntriesBy<A> = Entries<ForceBy<A>, CommitBy<A>, ContactsBy<A>>;
+type EntriesBy<A> = Entries<RespondBy<A>, ContactsBy<A>>;
 
 /// A law over lanes without its type: entries for every [`Arithmetic`].
 #[derive(Clone, Copy)]
@@ -318,8 +292,8 @@ pub struct ErasedLaw {
     pub contacts: usize,
     /// True where it may end a run.
     pub falls: bool,
-    /// True where forces and the end of a step may be asked for one after the other.
-    pub in_parts: bool,
+    /// True where several links of one analysis gain nothing side by side.
+    pub is_long: bool,
     derivative: DerivativeBy,
     pub(super) portable: EntriesBy<Portable>,
     #[cfg(target_arch = "x86_64")]
@@ -336,49 +310,27 @@ impl fmt::Debug for ErasedLaw {
     }
 }
 
-// One link to a task: a law inside a loop takes several times as long to compile. Only what lanes ask in every step is
-// worth that: a call for each link takes 3 % of a sweep.
+// One link to a task: a law inside a loop takes several times as long to compile. Only where lanes are widest is that
+// worth it: a call for each link takes 3 % of a sweep.
 
-struct ForceTask<'a, 'b, L, R>(&'a mut LaneLinks<'b, R>, usize, PhantomData<L>);
-
-impl<A: Arithmetic, L: LaneLaw> Task<A> for ForceTask<'_, '_, L, A::Real> {
-    type Output = ();
-    #[inline(always)]
-    fn run(self, _: A) {
-        let at = self.0.question::<L>(self.1);
-        self.0.force::<L>(self.1, &at);
-    }
-}
-
-struct CommitTask<'a, 'b, L, R>(&'a mut LaneLinks<'b, R>, usize, PhantomData<L>);
-
-impl<A: Arithmetic, L: LaneLaw> Task<A> for CommitTask<'_, '_, L, A::Real> {
-    type Output = LaneStep<A::Real>;
-    #[inline(always)]
-    fn run(self, _: A) -> LaneStep<A::Real> {
-        let at = self.0.question::<L>(self.1);
-        self.0.commit::<L>(self.1, &at)
-    }
-}
-
-#[cfg(target_arch = "x86_64")]
-pub(super) struct RespondTask<'a, 'b, L>(
-    pub &'a mut LaneLinks<'b, Fused>,
+pub(super) struct RespondTask<'a, 'b, L, R>(
+    pub &'a mut LaneLinks<'b, R>,
     pub usize,
     pub PhantomData<L>,
 );
 
-#[cfg(target_arch = "x86_64")]
-impl<L: LaneLaw> Task<FusedOne> for RespondTask<'_, '_, L> {
-    type Output = LaneStep<Fused>;
+impl<A: Arithmetic, L: LaneLaw> Task<A> for RespondTask<'_, '_, L, A::Real> {
+    type Output = LaneStep<A::Real>;
     #[inline(always)]
-    fn run(self, _: FusedOne) -> LaneStep<Fused> {
+    fn run(self, _: A) -> LaneStep<A::Real> {
         self.0.respond::<L>(self.1)
     }
 }
 
+#[cfg(target_arch = "x86_64")]
 struct RespondAll<'a, 'b, L, R>(&'a mut LaneLinks<'b, R>, &'a mut [LaneStep<R>], PhantomData<L>);
 
+#[cfg(target_arch = "x86_64")]
 impl<A: Arithmetic, L: LaneLaw> Task<A> for RespondAll<'_, '_, L, A::Real> {
     type Output = ();
     #[inline(always)]
@@ -408,12 +360,23 @@ impl<A: Arithmetic, L: LaneLaw> Task<A> for ContactsTask<'_, '_, L, A::Real> {
     }
 }
 
+#[cfg(target_arch = "x86_64")]
 fn respond_all<A: Arithmetic, L: LaneLaw>(
     with: A,
     links: &mut LaneLinks<'_, A::Real>,
     out: &mut [LaneStep<A::Real>],
 ) {
     with.run(RespondAll::<L, _>(links, out, PhantomData));
+}
+
+fn respond_each<A: Arithmetic, L: LaneLaw>(
+    with: A,
+    links: &mut LaneLinks<'_, A::Real>,
+    out: &mut [LaneStep<A::Real>],
+) {
+    for (i, step) in out.iter_mut().enumerate() {
+        *step = with.run(RespondTask::<L, _>(links, i, PhantomData));
+    }
 }
 
 #[inline(never)]
@@ -423,20 +386,8 @@ fn derivative<L: LaneLaw>(links: &mut LaneLinks<'_, Directions>, out: &mut [Lane
     }
 }
 
-fn entries_by<A: Arithmetic, L: LaneLaw>(respond: CommitBy<A>) -> EntriesBy<A> {
+fn entries_by<A: Arithmetic, L: LaneLaw>(respond: RespondBy<A>) -> EntriesBy<A> {
     Entries {
-        force: |with, links| {
-            assert!(const { L::IN_PARTS }, "{AT_ONCE}");
-            for i in 0..links.d.len() / L::COORDINATES {
-                with.run(ForceTask::<L, _>(links, i, PhantomData));
-            }
-        },
-        commit: |with, links, out| {
-            assert!(const { L::IN_PARTS }, "{AT_ONCE}");
-            for (i, step) in out.iter_mut().enumerate() {
-                *step = with.run(CommitTask::<L, _>(links, i, PhantomData));
-            }
-        },
         respond,
         contacts: |with, links, out, fallen| {
             for (i, fallen) in fallen.iter_mut().enumerate() {
@@ -467,13 +418,13 @@ impl ErasedLaw {
             parameters: L::PARAMETERS,
             contacts: L::CONTACTS,
             falls: L::FALLS,
-            in_parts: L::IN_PARTS,
+            is_long: L::IS_LONG,
             derivative: derivative::<L>,
-            portable: entries_by::<Portable, L>(respond_all::<Portable, L>),
+            portable: entries_by::<Portable, L>(respond_each::<Portable, L>),
             #[cfg(target_arch = "x86_64")]
             fused: entries_by::<FusedOne, L>(respond_together::<L>),
             #[cfg(target_arch = "x86_64")]
-            avx2: entries_by::<Avx2Lanes, L>(respond_all::<Avx2Lanes, L>),
+            avx2: entries_by::<Avx2Lanes, L>(respond_each::<Avx2Lanes, L>),
             #[cfg(target_arch = "x86_64")]
             avx512: entries_by::<Avx512Lanes, L>(respond_all::<Avx512Lanes, L>),
         }

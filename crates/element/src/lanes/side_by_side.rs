@@ -36,7 +36,7 @@ pub(super) fn respond_together<L: LaneLaw>(
         }
     }
     for i in first..steps.len() {
-        steps[i] = with.run(RespondTask::<L>(links, i, PhantomData));
+        steps[i] = with.run(RespondTask::<L, _>(links, i, PhantomData));
     }
 }
 

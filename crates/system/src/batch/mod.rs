@@ -1,7 +1,7 @@
 //! Links of one law side by side in the lanes of a register.
 //!
-//! A law over lanes ([`LaneForm`](trilith_element::lanes::LaneForm)) answers for several links at once, and in two
-//! parts: the iteration of a step asks for forces only, history and energies follow once at its end.
+//! A law over lanes ([`LaneForm`](trilith_element::lanes::LaneForm)) answers for several links at once. Forces are what the
+//! iteration of a step goes by: tangents, histories and energies go to their places once at its end.
 
 #[cfg(target_arch = "x86_64")]
 mod pack;
@@ -23,7 +23,7 @@ pub(crate) trait Pack: Debug {
     fn start(&mut self, at: &Kinematics<'_>, committed: &[f64]);
 
     /// Forces; `last`: whether the step may well end here, so that tangents go with them.
-    fn force(&mut self, at: &Kinematics<'_>, last: bool, to: &mut Answers<'_>);
+    fn respond(&mut self, at: &Kinematics<'_>, last: bool, to: &mut Answers<'_>);
 
     /// Tangents that still wait.
     fn tangents(&mut self, to: &mut Tangents);

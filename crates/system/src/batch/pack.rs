@@ -38,9 +38,9 @@ struct Lanes<A: Arithmetic> {
     f: Vec<A::Real>,
     k: Vec<A::Real>,
     c: Vec<A::Real>,
-    /// What the end of the step does, and whether it came with the forces asked for last.
+    /// What the step does where the law was asked last, and whether the tangents there are where they belong.
     step: LaneStep<A::Real>,
-    ended: bool,
+    given: bool,
 }
 
 pub(super) fn packs_of<A: Arithmetic + Debug + 'static>(
@@ -55,7 +55,7 @@ pub(super) fn packs_of<A: Arithmetic + Debug + 'static>(
             let n = link.range.len();
             let form = law.lanes(&vec![true; n])?;
             let whole = form.coordinates.iter().copied().eq(0..n);
-            let short = n <= MOST.0 && form.law.history <= MOST.1 && form.law.in_parts;
+            let short = n <= MOST.0 && form.law.history <= MOST.1 && !form.law.is_long;
             (whole && short && form.law.history == link.history.len()).then_some(form)
         })
         .collect();
@@ -119,7 +119,7 @@ impl<A: Arithmetic + Debug + 'static> Lanes<A> {
             k: vec![zero; n * n],
             c: vec![zero; n * n],
             step: LaneStep::elastic(zero),
-            ended: false,
+            given: false,
         })
     }
 }
@@ -174,15 +174,15 @@ impl<A: Arithmetic> Task<A> for Start<'_, A> {
     }
 }
 
-/// Forces of a pack, with the instructions of its arithmetic.
-struct Force<'a, 'b, A: Arithmetic> {
+/// The answer of a pack, with the instructions of its arithmetic.
+struct Respond<'a, 'b, A: Arithmetic> {
     pack: &'a mut Lanes<A>,
     at: &'a Kinematics<'a>,
     last: bool,
     to: &'a mut Answers<'b>,
 }
 
-impl<A: Arithmetic> Force<'_, '_, A> {
+impl<A: Arithmetic> Respond<'_, '_, A> {
     /// Of links with `N` coordinates, and blocks of `B` numbers.
     #[inline(always)]
     fn of<const N: usize, const B: usize>(self) {
@@ -192,13 +192,9 @@ impl<A: Arithmetic> Force<'_, '_, A> {
         if rate {
             pack.coordinates.take::<A, N>(with, at.v, &mut pack.v);
         }
-        pack.ended = last;
+        pack.given = last;
         let (mut questions, step) = pack.questions();
-        if last {
-            with.respond(&law, &mut questions, step);
-        } else {
-            with.force(&law, &mut questions);
-        }
+        with.respond(&law, &mut questions, step);
         pack.coordinates.give::<A, N>(with, &pack.f, to.f);
         if last {
             pack.give_tangents::<B>(to.tangents);
@@ -206,7 +202,7 @@ impl<A: Arithmetic> Force<'_, '_, A> {
     }
 }
 
-impl<A: Arithmetic> Task<A> for Force<'_, '_, A> {
+impl<A: Arithmetic> Task<A> for Respond<'_, '_, A> {
     type Output = ();
 
     #[inline(always)]
@@ -250,11 +246,8 @@ impl<A: Arithmetic> Task<A> for Commit<'_, '_, A> {
     #[inline(always)]
     fn run(self, with: A) {
         let Self { pack, to: Answers { history: to, tangents, energy, .. } } = self;
-        if !pack.ended {
+        if !pack.given {
             Give { pack, to: tangents }.run(with);
-            let law = pack.law;
-            let (mut questions, step) = pack.questions();
-            with.commit(&law, &mut questions, step);
         }
         let step = &pack.step;
         let (histories, trial) = (&pack.histories, &pack.trial);
@@ -298,12 +291,12 @@ impl<A: Arithmetic + Debug> Pack for Lanes<A> {
         self.with.run(Start { pack: self, at, committed });
     }
 
-    fn force(&mut self, at: &Kinematics<'_>, last: bool, to: &mut Answers<'_>) {
-        self.with.run(Force { pack: self, at, last, to });
+    fn respond(&mut self, at: &Kinematics<'_>, last: bool, to: &mut Answers<'_>) {
+        self.with.run(Respond { pack: self, at, last, to });
     }
 
     fn tangents(&mut self, to: &mut Tangents) {
-        if !self.ended {
+        if !self.given {
             self.with.run(Give { pack: self, to });
         }
     }

@@ -51,7 +51,7 @@ impl LaneLaw for Rolling {
     const PARAMETERS: usize = OWN + RIM;
     const CONTACTS: usize = 2;
     const FALLS: bool = true;
-    const IN_PARTS: bool = false;
+    const IS_LONG: bool = true;
 
     #[inline(always)]
     fn force<R: Real>(at: &LaneAt<'_, R>, out: &mut LaneForce<'_, R>) {

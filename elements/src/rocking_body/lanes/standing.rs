@@ -118,7 +118,7 @@ impl<const N: usize, const POINTS: usize> LaneLaw for Standing<N, POINTS> {
     const PARAMETERS: usize = OWN + NUMBERS + POINT * POINTS;
     const CONTACTS: usize = POINTS;
     const FALLS: bool = true;
-    const IN_PARTS: bool = false;
+    const IS_LONG: bool = true;
 
     #[inline(always)]
     fn force<R: Real>(at: &LaneAt<'_, R>, out: &mut LaneForce<'_, R>) {

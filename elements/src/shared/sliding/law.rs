@@ -273,7 +273,7 @@ impl<const FULL: bool> LaneLaw for Law<FULL> {
     const HISTORY: usize = HISTORY;
     const PARAMETERS: usize = if FULL { ALL } else { PLAIN };
     const CONTACTS: usize = 1;
-    const IN_PARTS: bool = false;
+    const IS_LONG: bool = true;
 
     #[inline(always)]
     fn force<R: Real>(at: &LaneAt<'_, R>, out: &mut LaneForce<'_, R>) {
