@@ -41,11 +41,11 @@
 //! [`ErasedLaw::derivative`].
 
 mod arithmetic;
-mod called;
 mod dual;
 #[cfg(target_arch = "x86_64")]
 mod functions;
 mod law;
+mod listed;
 mod real;
 #[cfg(target_arch = "x86_64")]
 mod side_by_side;
@@ -55,7 +55,6 @@ mod wide;
 pub use arithmetic::{Arithmetic, Portable, Task};
 #[cfg(target_arch = "x86_64")]
 pub use arithmetic::{Avx2Lanes, Avx512Lanes, FusedOne};
-pub use called::Called;
 pub use dual::Dual;
 pub use law::{
     DIRECTIONS, Directions, ErasedLaw, LaneAt, LaneContact, LaneForce, LaneForm, LaneLaw,

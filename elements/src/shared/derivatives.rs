@@ -6,7 +6,7 @@ use crate::{
     FrictionPendulum, LeadRubber, PMMHinge, RubberIsolator, TensionCompressionFriction, Wen,
 };
 use trilith_element::lanes::{
-    Arithmetic, Called, Directions, Dual, LaneForm, LaneLinks, LaneStep, Portable, Real,
+    Arithmetic, Directions, Dual, LaneForm, LaneLinks, LaneStep, Portable, Real,
 };
 use trilith_element::{Described, Energy, Kinematics, Link, Response, Value};
 
@@ -103,9 +103,9 @@ fn check(name: &str, link: &dyn Link, amplitudes: &[f64], frequency: f64) {
             };
             let make = |i: usize, x: f64| {
                 if (first..first + 8).contains(&i) {
-                    Called(Dual::variable(x, i - first))
+                    Dual::variable(x, i - first)
                 } else {
-                    Called(Dual::constant(x))
+                    Dual::constant(x)
                 }
             };
             let duals = question.ask(&form, make, call);

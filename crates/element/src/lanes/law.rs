@@ -1,8 +1,9 @@
 //! Laws over lanes, and how a sweep calls them.
 
+use super::listed::Listed;
 #[cfg(target_arch = "x86_64")]
 use super::side_by_side::respond_together;
-use super::{Arithmetic, Called, Dual, Portable, Real, Task};
+use super::{Arithmetic, Dual, Portable, Real, Task};
 #[cfg(target_arch = "x86_64")]
 use super::{Avx2Lanes, Avx512Lanes, FusedOne};
 use crate::{Contact, Energy, Kinematics};
@@ -261,12 +262,13 @@ type ContactsBy<A> = fn(
 );
 
 /// A number with its derivatives in some directions at once.
-pub type Directions = Called<Dual<DIRECTIONS>>;
+pub type Directions = Dual<DIRECTIONS>;
 
 /// How many they are.
 pub const DIRECTIONS: usize = 8;
 
-type DerivativeBy = fn(&mut LaneLinks<'_, Directions>, &mut [LaneStep<Directions>]);
+type DerivativeBy =
+    fn(&LaneAt<'_, Listed>, &mut LaneForce<'_, Listed>, &mut [Listed]) -> LaneStep<Listed>;
 
 /// A law on one arithmetic: all of its answer, and its contacts.
 #[derive(Clone, Copy)]
@@ -379,13 +381,6 @@ fn respond_each<A: Arithmetic, L: LaneLaw>(
     }
 }
 
-#[inline(never)]
-fn derivative<L: LaneLaw>(links: &mut LaneLinks<'_, Directions>, out: &mut [LaneStep<Directions>]) {
-    for (i, step) in out.iter_mut().enumerate() {
-        *step = links.respond::<L>(i);
-    }
-}
-
 fn entries_by<A: Arithmetic, L: LaneLaw>(respond: RespondBy<A>) -> EntriesBy<A> {
     Entries {
         respond,
@@ -400,12 +395,48 @@ fn entries_by<A: Arithmetic, L: LaneLaw>(respond: RespondBy<A>) -> EntriesBy<A> 
 impl ErasedLaw {
     /// All of the answer of links of one law, and its derivatives in [some directions](Directions) at once, exact to
     /// rounding: in which ones is said by the derivatives of what the law is asked about.
+    ///
+    /// # Panics
+    /// Where slices are not those of as many links as there are steps.
     pub fn derivative(
         &self,
         links: &mut LaneLinks<'_, Directions>,
         out: &mut [LaneStep<Directions>],
     ) {
-        (self.derivative)(links, out);
+        let (n, h, p) = (self.coordinates, self.history, self.parameters);
+        for (i, step) in out.iter_mut().enumerate() {
+            let (own, block) = (i * n..(i + 1) * n, i * n * n..(i + 1) * n * n);
+            Listed::begin();
+            let listed = |x: &[Directions]| x.iter().map(|x| Listed::new(*x)).collect::<Vec<_>>();
+            let at = [&links.d, &links.v, &links.d0, &links.v0].map(|x| listed(&x[own.clone()]));
+            let [parameters, history] =
+                [(links.parameters, p), (links.history, h)].map(|(x, n)| listed(&x[i * n..][..n]));
+            let zero = Listed::new(Directions::constant(0.0));
+            let [mut f, mut k, mut c, mut trial] = [n, n * n, n * n, h].map(|n| vec![zero; n]);
+            let asked = LaneAt {
+                parameters: &parameters,
+                d: &at[0],
+                v: &at[1],
+                d0: &at[2],
+                v0: &at[3],
+                dt: Listed::new(links.dt),
+                history: &history,
+            };
+            let mut force = LaneForce { f: &mut f, k: &mut k, c: &mut c };
+            let did = (self.derivative)(&asked, &mut force, &mut trial);
+            let give = |to: &mut [Directions], from: &[Listed]| {
+                to.iter_mut().zip(from).for_each(|(to, x)| *to = x.number());
+            };
+            give(&mut links.f[own], &f);
+            give(&mut links.k[block.clone()], &k);
+            give(&mut links.c[block], &c);
+            give(&mut links.trial[i * h..(i + 1) * h], &trial);
+            *step = LaneStep {
+                stored: did.stored.number(),
+                hysteretic: did.hysteretic.number(),
+                viscous: did.viscous.number(),
+            };
+        }
     }
 
     /// The entries of a law.
@@ -419,7 +450,7 @@ impl ErasedLaw {
             contacts: L::CONTACTS,
             falls: L::FALLS,
             is_long: L::IS_LONG,
-            derivative: derivative::<L>,
+            derivative: |at, out, trial| L::respond(at, out, trial),
             portable: entries_by::<Portable, L>(respond_each::<Portable, L>),
             #[cfg(target_arch = "x86_64")]
             fused: entries_by::<FusedOne, L>(respond_together::<L>),

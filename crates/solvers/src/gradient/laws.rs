@@ -8,9 +8,7 @@ use super::around::{SMALL, WEIGHTS, weighted};
 use super::influence::Influence;
 use crate::kernel::LawResponse;
 use crate::step::State;
-use trilith_element::lanes::{
-    Called, DIRECTIONS, Directions, Dual, ErasedLaw, LaneLinks, LaneStep,
-};
+use trilith_element::lanes::{DIRECTIONS, Directions, Dual, ErasedLaw, LaneLinks, LaneStep};
 use trilith_element::{Kinematics, Link};
 use trilith_model::Model;
 use trilith_system::{LinkInstance, LinkSet, System};
@@ -235,7 +233,7 @@ fn sides<'a>(l: usize, by: &Influence<'a>) -> Option<([&'a dyn Link; 2], f64)> {
 type Asked<'a> = (&'a ErasedLaw, &'a [usize], bool, &'a [f64], &'a [Vec<f64>]);
 
 fn constant(x: f64) -> Directions {
-    Called(Dual::constant(x))
+    Dual::constant(x)
 }
 
 /// In dual numbers. The heat of the substep.
