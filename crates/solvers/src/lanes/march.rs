@@ -127,7 +127,7 @@ fn sized<A: Arithmetic>(with: A, setups: &[&LaneSetup], beside: usize) -> Vec<La
     }
     match n {
         // One body with all its coordinates, which goes with adaptive steps alone.
-        4.. => with.run(Adaptive::<6, 6, 6> { setups, beside }),
+        4.. => run(with, Adaptive::<6, 6, 6> { setups, beside }),
         3 => of_size::<A, 12, 12, 3>(with, setups, beside),
         2 => of_size::<A, 12, 12, 2>(with, setups, beside),
         _ => of_size::<A, 12, 12, 1>(with, setups, beside),
@@ -140,11 +140,17 @@ fn of_size<A: Arithmetic, const M: usize, const L: usize, const N: usize>(
     beside: usize,
 ) -> Vec<LaneOutcome> {
     if setups[0].shape.is_adaptive {
-        with.run(Adaptive::<M, L, N> { setups, beside })
+        run(with, Adaptive::<M, L, N> { setups, beside })
     } else {
         let groups = setups.chunks(beside.min(A::WIDTH));
-        groups.flat_map(|setups| with.run(Lanes::<M, L, N> { setups })).collect()
+        groups.flat_map(|setups| run(with, Lanes::<M, L, N> { setups })).collect()
     }
+}
+
+/// A march from one place: it is compiled in every part of the library that it is called from.
+#[inline(never)]
+fn run<A: Arithmetic, T: Task<A>>(with: A, task: T) -> T::Output {
+    with.run(task)
 }
 
 struct Lanes<'a, const M: usize, const L: usize, const N: usize> {
