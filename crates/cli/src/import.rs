@@ -9,7 +9,7 @@ use std::path::Path;
 use trilith::Analysis;
 use trilith::solvers::LinkStiffness;
 use trilith_exchange::opensees::Eigenvalues;
-use trilith_exchange::{Import, Options, opensees, sap2000};
+use trilith_exchange::{Import, Options, etabs, opensees, sap2000};
 
 /// Exit status where something that changes results was lost.
 const LOST: i32 = 1;
@@ -87,8 +87,12 @@ fn read(bytes: &[u8], options: &Options) -> Result<Import, Failure> {
         }
         _ if options.units.is_some() => {
             let help = "it says its own; a script of OpenSees (`.tcl`) has none";
-            return Err(Failure::input("`--units` of a text model of SAP2000", Some(help)));
+            return Err(Failure::input(
+                "`--units` of a text model of SAP2000 or ETABS",
+                Some(help),
+            ));
         }
+        Some("e2k" | "$et") => etabs::import(bytes, options),
         _ => sap2000::import(bytes, options),
     };
     import.map_err(|e| Failure::diagnostics(&e.0))

@@ -60,3 +60,22 @@ fn a_loss_ends_with_status_one_and_a_wrong_file_with_two() {
     let (_, said) = trilith(&["import", "nowhere.s2k"], 2);
     assert!(said.contains("nowhere.s2k cannot be read"), "{said}");
 }
+
+#[test]
+fn a_building_of_etabs_is_imported_by_its_ending_and_runs() {
+    let folder = tempfile::tempdir().unwrap();
+    let source = file("../etabs/building.e2k");
+    let out = folder.path().join("building.ron");
+    let out = out.to_str().unwrap();
+    let (told, _) = trilith(&["import", source.to_str().unwrap(), "--out", out], 0);
+    assert!(told.starts_with("building.e2k: ETABS 21.1.0, kN, m"), "{told}");
+    assert!(told.contains(" 0 lost"), "{told}");
+    trilith(&["run", out, "--case", "Push", "--no-files"], 0);
+    // The copy that the program keeps beside its model has another ending.
+    let copy = folder.path().join("building.$et");
+    std::fs::copy(&source, &copy).unwrap();
+    let (model, _) = trilith(&["import", copy.to_str().unwrap()], 0);
+    assert!(model.contains("\"frame C1@Roof\": Beam("), "{model}");
+    let (_, said) = trilith(&["import", copy.to_str().unwrap(), "--units", "in,kip"], 2);
+    assert!(said.contains("`--units` of a text model of SAP2000 or ETABS"), "{said}");
+}

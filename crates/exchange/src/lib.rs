@@ -2,6 +2,7 @@
 //!
 //! [`sap2000::import`] reads the text models of SAP2000. Every table of a file is read, knowingly ignored, or named as
 //! lost; of the tables that are read every field is used, knowingly ignored, or named where it departs from its default.
+//! [`etabs::import`] reads those of ETABS by the same tables, with every section, line and field accounted for.
 //! [`opensees::import`] runs scripts of OpenSees and does the same for their commands and arguments.
 //!
 //! ```
@@ -25,6 +26,7 @@
 //! ```
 
 mod draft;
+pub mod etabs;
 pub mod opensees;
 mod report;
 pub mod sap2000;

@@ -19,6 +19,8 @@ pub enum Things {
     /// Tables and their fields.
     #[default]
     Tables,
+    /// Sections and their fields.
+    Sections,
     /// Commands and their arguments.
     Commands,
 }
@@ -28,6 +30,7 @@ impl Things {
     fn names(self) -> [&'static str; 2] {
         match self {
             Self::Tables => ["tables", "fields"],
+            Self::Sections => ["sections", "fields"],
             Self::Commands => ["commands", "arguments"],
         }
     }

@@ -60,12 +60,12 @@ fn what_is_wrong_in_a_row_is_told_at_its_place() {
 fn files_that_are_no_models_are_refused() {
     let good = joints("   Joint=1   XorR=0   Y=0   Z=0\n");
     refused(good.replace(TAIL, "").as_bytes(), 5, 31, "ends without the line END TABLE DATA");
-    refused(good.replace("KN, m, C", "Kgf, m, C").as_bytes(), 2, 4, "the units `Kgf, m, C`");
+    refused(good.replace("KN, m, C", "Ozf, m, C").as_bytes(), 2, 4, "the units `Ozf, m, C`");
     refused(good.replace("KN, m, C", "KN, m").as_bytes(), 2, 4, "the units `KN, m`");
     refused(format!("{good}more\n").as_bytes(), 7, 1, "behind END TABLE DATA");
     refused(b"PK\x03\x04\0\0", 1, 5, "a zero byte");
     refused(b"", 1, 1, "ends without the line END TABLE DATA");
-    refused(b"$ File\n$ PROGRAM INFORMATION\n", 1, 1, "a text file of ETABS");
+    refused(b"$ File\n$ PROGRAM INFORMATION\n", 1, 1, "this is a text file of ETABS");
     let no_units = good.replace("   CurrUnits=\"KN, m, C\"\n", "");
     refused(no_units.as_bytes(), 1, 1, "does not say its units");
 }

@@ -46,6 +46,8 @@ pub(crate) const UNITS: &[Unit] = &[
     unit("GN", 1e9, d::FORCE),
     unit("lbf", POUND_FORCE, d::FORCE),
     unit("kip", 1e3 * POUND_FORCE, d::FORCE),
+    unit("kgf", STANDARD_GRAVITY, d::FORCE),
+    unit("tonf", 1e3 * STANDARD_GRAVITY, d::FORCE),
     unit("Pa", 1.0, d::STRESS),
     unit("kPa", 1e3, d::STRESS),
     unit("MPa", 1e6, d::STRESS),

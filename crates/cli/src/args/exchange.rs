@@ -7,7 +7,7 @@ use std::path::PathBuf;
 
 #[derive(Args)]
 pub(crate) struct ImportArguments {
-    /// Text model of SAP2000 (`.s2k` or `.$2k`), or script of OpenSees (`.tcl`)
+    /// Text model of SAP2000 (`.s2k` or `.$2k`) or ETABS (`.e2k` or `.$et`), or script of OpenSees (`.tcl`)
     pub file: PathBuf,
     /// Model file to write; the report of losses goes beside it as `<name>.import.txt`, records as CSV files
     /// [default: no files, the model is printed]

@@ -73,7 +73,7 @@ pub(crate) enum Command {
     Reduce(ReduceArguments),
     /// Make a model file from a few numbers
     Generate(GenerateArguments),
-    /// Make a model file of a text model of SAP2000 or a script of OpenSees, with a report of every loss
+    /// Make a model file of a text model of SAP2000 or ETABS or a script of OpenSees, with a report of every loss
     Import(ImportArguments),
     /// Write a case as a script for OpenSees, with a report of what has no counterpart
     Export(ExportArguments),

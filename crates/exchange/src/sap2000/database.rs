@@ -53,10 +53,20 @@ pub struct Entry<'a> {
 impl Database {
     /// Reads the tables of a text.
     pub fn new(source: &Arc<Source>) -> Self {
-        let problems = RefCell::default();
-        let mut db = Self { source: Arc::clone(source), tables: BTreeMap::new(), problems };
+        let mut db = Self::bare(source);
         db.scan();
         db
+    }
+
+    /// Tables that were made of a text of another kind, with what is wrong with it so far.
+    pub fn made(bare: Self, tables: BTreeMap<String, Vec<Row>>) -> Self {
+        Self { tables, ..bare }
+    }
+
+    /// No tables: where errors of a text of another kind go.
+    pub fn bare(source: &Arc<Source>) -> Self {
+        let problems = RefCell::default();
+        Self { source: Arc::clone(source), tables: BTreeMap::new(), problems }
     }
 
     fn scan(&mut self) {
@@ -99,8 +109,8 @@ impl Database {
                     self.take(&table, &mut open);
                 }
             } else if text.starts_with('$') {
-                let help = "SAP2000 writes .s2k with File > Export > SAP2000 .s2k Text File";
-                self.wrong(&span, "this is a text file of ETABS, which is not read", help);
+                let help = "its name ends in .e2k or .$et; SAP2000 writes .s2k with File > Export";
+                self.wrong(&span, "this is a text file of ETABS", help);
                 return;
             } else if number > 0 || text.contains('=') {
                 let help = "a text model begins with the line TABLE:  \"NAME\"";

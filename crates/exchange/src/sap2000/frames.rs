@@ -280,6 +280,17 @@ pub fn stiffest(frames: &Frames<'_>) -> [f64; 2] {
     [direct, turn].map(|k| if k > 0.0 { k } else { 1.0 })
 }
 
+/// Puts the masses of frames at the ends of their pieces, and takes them out of the beams.
+pub fn lumped(cx: &mut Context<'_>, frames: &Frames<'_>, masses: &mut joints::Masses) {
+    for piece in frames.values().flat_map(|f| &f.pieces) {
+        for node in piece.nodes {
+            let to = masses.entry(node).or_default();
+            (0..3).for_each(|k| to[k] += piece.section.mass * piece.length / 2.0);
+        }
+    }
+    masses_out(cx);
+}
+
 /// Masses that frames have; taken out of their beams where the mass source leaves elements out.
 pub fn masses_out(cx: &mut Context<'_>) {
     for (_, set) in &mut cx.draft.properties {

@@ -27,9 +27,9 @@ mod section;
 mod sums;
 mod supports;
 
-use crate::{Import, Options, Refused};
+use crate::{Draft, Import, Options, Refused, Report};
 use context::Context;
-use database::Database;
+pub(crate) use database::{Database, Field, Row};
 use section::Sections;
 use std::sync::Arc;
 use trilith_model::{Diagnostic, Source};
@@ -65,10 +65,7 @@ pub fn import(bytes: &[u8], options: &Options) -> Result<Import, Refused> {
         cx.report.otherwise("the file", what, "");
     }
     let files = read(&mut cx, options);
-    if let Some(name) = cx.draft.beyond() {
-        let message = format!("a number of \"{name}\" is beyond all bounds");
-        db.wrong(&(0..0), &message, "coordinates and properties of that size are no model");
-    }
+    bounded(&cx);
     let written: Vec<&str> = cx.draft.cases.iter().map(|(name, _)| name.as_str()).collect();
     policy::settle(&db, &written, &mut cx.report);
     if !db.problems().is_empty() {
@@ -78,8 +75,33 @@ pub fn import(bytes: &[u8], options: &Options) -> Result<Import, Refused> {
     Ok(Import::new(draft, report, files, options, &version))
 }
 
+/// What tables come to that were made of another program's text: its units, and what its report says so far.
+pub(crate) fn made(
+    db: &Database,
+    (length, force): (&str, &str),
+    report: Report,
+    options: &Options,
+) -> (Draft, Report, Vec<(String, String)>) {
+    let mut cx = Context::new(db);
+    cx.draft.units = (length.into(), force.into());
+    cx.report = report;
+    let files = read(&mut cx, options);
+    bounded(&cx);
+    let written: Vec<&str> = cx.draft.cases.iter().map(|(name, _)| name.as_str()).collect();
+    policy::fields(db, &written, &mut cx.report);
+    (cx.draft, cx.report, files)
+}
+
+fn bounded(cx: &Context<'_>) {
+    if let Some(name) = cx.draft.beyond() {
+        let message = format!("a number of \"{name}\" is beyond all bounds");
+        let help = "coordinates and properties of that size are no model";
+        cx.db.wrong(&(0..0), &message, help);
+    }
+}
+
 /// The text, and whether it was not UTF-8.
-fn decoded(bytes: &[u8]) -> (String, bool) {
+pub(crate) fn decoded(bytes: &[u8]) -> (String, bool) {
     let bytes = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes);
     match std::str::from_utf8(bytes) {
         Ok(text) => (text.into(), false),
@@ -101,6 +123,8 @@ fn units(cx: &mut Context<'_>) -> String {
         "kip" => Some("kip"),
         "n" => Some("N"),
         "kn" => Some("kN"),
+        "kgf" => Some("kgf"),
+        "tonf" => Some("tonf"),
         _ => None,
     };
     let length = ["in", "ft", "mm", "cm", "m"];
@@ -110,7 +134,8 @@ fn units(cx: &mut Context<'_>) -> String {
             cx.draft.units = (length.into(), force.into());
         }
         _ => {
-            let help = "set one of lb, Kip, N, KN with in, ft, mm, cm, m, and export again";
+            let help =
+                "set one of lb, Kip, N, KN, Kgf, Tonf with in, ft, mm, cm, m, and export again";
             row.wrong_at("CurrUnits", &format!("the units `{text}` are not known here"), help);
         }
     }
@@ -132,6 +157,9 @@ fn read<'a>(cx: &mut Context<'a>, options: &Options) -> Vec<(String, String)> {
     if source.masses {
         joints::added_masses(cx, &mut masses);
     }
+    if source.elements && !source.vertical {
+        frames::lumped(cx, &frames, &mut masses);
+    }
     let mut own = joints::Masses::new();
     let links = links::links(cx, &mut own);
     frame_loads::loads(cx, &frames);
@@ -146,6 +174,9 @@ fn read<'a>(cx: &mut Context<'a>, options: &Options) -> Vec<(String, String)> {
         frames::masses_out(cx);
     }
     loaded_masses(cx, &source.loads, &mut masses);
+    if !source.vertical {
+        masses.values_mut().for_each(|m| m[2] = 0.0);
+    }
     joints::write_masses(cx, &masses);
     constraints::constraints(cx);
     let only = options.case.as_deref();
@@ -192,17 +223,20 @@ fn damping_of_modes(cx: &mut Context<'_>, damping: Option<(String, damping::Damp
 struct MassSource<'a> {
     elements: bool,
     masses: bool,
+    /// It moves vertically as well.
+    vertical: bool,
     loads: Vec<(&'a str, f64)>,
 }
 
 fn mass_source<'a>(cx: &mut Context<'a>) -> MassSource<'a> {
     const TABLE: &str = "MASS SOURCE";
     let rows: Vec<_> = cx.db.rows(TABLE).collect();
-    let mut out = MassSource { elements: true, masses: true, loads: Vec::new() };
+    let mut out = MassSource { elements: true, masses: true, vertical: true, loads: Vec::new() };
     let chosen = rows.iter().find(|r| r.yes("IsDefault")).or(rows.first());
     let Some(chosen) = chosen else { return out };
     out.elements = chosen.yes("Elements");
     out.masses = chosen.yes("Masses");
+    out.vertical = chosen.text("VerticalMass").is_none_or(|v| v == "Yes");
     let (name, loads) = (chosen.text("MassSource"), chosen.yes("Loads"));
     for row in &rows {
         if row.text("MassSource") == name {

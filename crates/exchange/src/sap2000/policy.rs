@@ -130,19 +130,24 @@ fn fate(name: &str) -> Fate {
 pub fn settle(db: &Database, written: &[&str], report: &mut Report) {
     for (name, rows) in &db.tables {
         let fate = if rows.is_empty() { Fate::Ignored("empty".into()) } else { fate(name) };
-        if fate == Fate::Read {
-            for row in rows {
-                if let Some(why) = idle(name, row, written) {
-                    report.ignore(name, why);
-                    continue;
-                }
-                let key = |k: &str| KEYS.contains(&k);
-                for field in row.fields.iter().filter(|f| !f.used.get() && !key(&f.key)) {
-                    left_out(report, name, &field.key, &field.value);
-                }
+        report.tables.push(TableReport { name: name.clone(), rows: rows.len(), fate });
+    }
+    fields(db, written, report);
+}
+
+/// Says of every field of the tables that were read what became of it where nobody asked for it.
+pub fn fields(db: &Database, written: &[&str], report: &mut Report) {
+    for (name, rows) in db.tables.iter().filter(|(name, _)| fate(name) == Fate::Read) {
+        for row in rows {
+            if let Some(why) = idle(name, row, written) {
+                report.ignore(name, why);
+                continue;
+            }
+            let key = |k: &str| KEYS.contains(&k);
+            for field in row.fields.iter().filter(|f| !f.used.get() && !key(&f.key)) {
+                left_out(report, name, &field.key, &field.value);
             }
         }
-        report.tables.push(TableReport { name: name.clone(), rows: rows.len(), fate });
     }
 }
 
