@@ -48,7 +48,7 @@ pub use custom::Custom;
 pub use diagnostic::{Diagnostic, line_column};
 pub use expression::quantity;
 pub use include::OpenTexts;
-pub use matrices::{MatrixForm, matrix_file};
+pub use matrices::{MatrixForm, matrix_file, read_matrix};
 pub use model::*;
 pub use output::*;
 pub use places::{Place, Places};

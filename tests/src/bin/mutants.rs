@@ -1,8 +1,9 @@
 //! Reads spoiled files by the million.
 //!
 //! ```text
-//! mutants [COUNT [FIRST SEED]]        how many, 100 000 where nothing is said
-//! mutants show SEED                   writes the mutant to the screen
+//! mutants [COUNT [FIRST SEED]]            how many, 100 000 where nothing is said
+//! mutants READER [COUNT [FIRST SEED]]     of one reader: model, json, etabs, script, npz …
+//! mutants show [READER] SEED              writes the mutant to the screen
 //! ```
 
 use std::collections::BTreeMap;
@@ -10,19 +11,28 @@ use std::io::Write;
 use std::process::ExitCode;
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::time::Duration;
-use trilith_tests::mutants::{Corpus, Fault, mutant, read};
+use trilith_tests::mutants::{Corpus, Fault, Mutant, Target, mutant, mutant_of, read};
 
 /// A reader that stands still is given up after this.
 const STILL: Duration = Duration::from_secs(120);
 
 fn main() -> ExitCode {
     let corpus = Corpus::shipped();
-    let given: Vec<String> = std::env::args().skip(1).collect();
+    let mut given: Vec<String> = std::env::args().skip(1).collect();
+    let show = given.first().is_some_and(|first| first == "show");
+    given.drain(..usize::from(show));
+    let named = |text: &String| {
+        Target::ALL.into_iter().find(|t| format!("{t:?}").eq_ignore_ascii_case(text))
+    };
+    let target = given.first().and_then(named);
+    given.drain(..usize::from(target.is_some()));
     let number = |i: usize, plain: u64| given.get(i).map_or(Ok(plain), |text| text.parse());
-    if given.first().is_some_and(|first| first == "show") {
-        let Ok(seed) = number(1, 1) else { return wrong() };
-        let bytes = mutant(&corpus, seed).bytes;
-        return if std::io::stdout().write_all(&bytes).is_ok() {
+    let make = |seed: u64| -> Option<Mutant> {
+        target.map_or_else(|| Some(mutant(&corpus, seed)), |t| mutant_of(&corpus, t, seed))
+    };
+    if show {
+        let Some(it) = number(0, 1).ok().and_then(make) else { return wrong() };
+        return if std::io::stdout().write_all(&it.bytes).is_ok() {
             ExitCode::SUCCESS
         } else {
             wrong()
@@ -45,7 +55,7 @@ fn main() -> ExitCode {
     let (mut faults, mut through) = (BTreeMap::<String, Vec<u64>>::new(), 0_u64);
     for seed in first..first + count {
         AT.store(seed, Ordering::Relaxed);
-        let it = mutant(&corpus, seed);
+        let Some(it) = make(seed) else { return wrong() };
         match read(&it) {
             Ok(yes) => through += u64::from(yes),
             Err(fault) => {
@@ -53,7 +63,8 @@ fn main() -> ExitCode {
                 let class = match fault {
                     Fault::Panicked(said) => said.lines().next().unwrap_or_default().to_owned(),
                     Fault::Slow(_) => format!("{:?}: slow", it.target),
-                    Fault::NotANumber(place) => format!("not a number in {place}"),
+                    Fault::Heavy(_) => format!("{:?}: heavy", it.target),
+                    Fault::Wrong(what) => format!("{:?}: {what}", it.target),
                 };
                 faults.entry(class).or_default().push(seed);
             }
@@ -70,6 +81,9 @@ fn main() -> ExitCode {
 }
 
 fn wrong() -> ExitCode {
-    eprintln!("mutants [COUNT [FIRST SEED]], mutants show SEED");
+    let readers = Target::ALL.map(|t| format!("{t:?}").to_lowercase()).join(", ");
+    eprintln!(
+        "mutants [READER] [COUNT [FIRST SEED]], mutants show [READER] SEED\nreaders: {readers}"
+    );
     ExitCode::from(2)
 }

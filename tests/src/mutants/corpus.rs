@@ -5,6 +5,8 @@ use super::target::Target;
 use crate::{parse, root};
 use std::path::Path;
 use trilith::RunOptions;
+use trilith_element::{Dof, MeshRow, SparseMatrix};
+use trilith_model::{MatrixForm, matrix_file, read_matrix};
 
 /// Quantities as users write them.
 const QUANTITIES: [&str; 8] = [
@@ -63,6 +65,43 @@ const MANY: &str = r#"(
     outputs: { "f": LinkForce(link: "f", axis: U1), "u{i}": For(i: "0 to 1", of: Displacement(node: "b{i}", dof: Ux)) },
 )"#;
 
+/// A small model in JSON.
+const JSON: &str = r#"{
+    "title": "A mass on a spring", "units": { "length": "m", "force": "kN" },
+    "parameters": { "k": "10 kN/m" },
+    "nodes": { "a": [0, 0, 0], "b": [0, 0, "1 m"] },
+    "supports": { "a": "Fixed", "b": ["Uy", "Uz", "Rx", "Ry", "Rz"] },
+    "elements": {
+        "m": { "Mass": { "node": "b", "mass": "2 t" } },
+        "s": { "Spring": { "nodes": ["a", "b"], "k2": "k", "k1": 5e2 } }
+    },
+    "damping": { "Rayleigh": { "mass": 0.1, "stiffness": 0.001 } },
+    "loads": { "push": [{ "node": "b", "dof": "Ux", "force": -1.5 }] },
+    "cases": { "push": { "Static": { "loads": ["push"] } } },
+    "outputs": { "u": { "Displacement": { "node": "b", "dof": "Ux" } } }
+}"#;
+
+/// Both triangles of a chain of three springs, line by line as CalculiX stores them.
+const CALCULIX: &str = "1 1 2.0\n2 1 -1.0\n2 2 2.5E+00\n3 2 -1.5\n3 3 1.5\n";
+
+/// A small matrix in every form that has a reader.
+fn matrices() -> Vec<File> {
+    let mut a = read_matrix(CALCULIX.as_bytes(), "k.sti").expect("a matrix");
+    let mut all = vec![File { target: Target::Calculix, bytes: CALCULIX.into() }];
+    let mut add = |target, a: &SparseMatrix, form| {
+        let bytes = matrix_file(a, form).expect("a small file");
+        all.push(File { target, bytes });
+    };
+    add(Target::Market, &a, MatrixForm::Market);
+    add(Target::Npz, &a, MatrixForm::Npz);
+    a.name = "k.op4:KAA".into();
+    add(Target::Op4, &a, MatrixForm::Op4);
+    a.name = "k.pch:KAAX".into();
+    a.rows = (1..=3).map(|node| MeshRow { node, dof: Some(Dof::Ux) }).collect();
+    add(Target::Dmig, &a, MatrixForm::Dmig);
+    all
+}
+
 /// A file and what reads it.
 #[derive(Clone, Debug)]
 pub struct File {
@@ -77,7 +116,8 @@ pub struct File {
 pub struct Corpus(Vec<File>);
 
 impl Corpus {
-    /// The shipped models, studies, records and text models of SAP2000, a checkpoint and quantities.
+    /// The shipped models, studies, records, text models of SAP2000 and ETABS, scripts of OpenSees, matrices, a checkpoint and
+    /// quantities.
     ///
     /// # Panics
     /// Where one of them is missing.
@@ -100,6 +140,10 @@ impl Corpus {
         take(Target::Record, "crates/record/tests/files", "");
         take(Target::Record, "models/records", "_1.csv");
         take(Target::Import, "crates/exchange/tests/files", ".s2k");
+        take(Target::Etabs, "crates/exchange/tests/etabs", ".e2k");
+        take(Target::Script, "crates/exchange/tests/opensees", ".tcl");
+        take(Target::Sections, "models/sections", ".ron");
+        take(Target::Market, "models/superelements", ".mtx");
         let small = |target| File { target, bytes: SMALL.into() };
         let many = |target| File { target, bytes: MANY.into() };
         files.extend([Target::Model, Target::Model, Target::Run].map(many));
@@ -115,10 +159,19 @@ impl Corpus {
         let bytes = serde_json::to_vec(&run.report(&analysis, &[], &[])).expect("a report");
         files.push(File { target: Target::Report, bytes });
         files.push(File { target: Target::History, bytes: HISTORY.into() });
+        files.push(File { target: Target::Json, bytes: JSON.into() });
+        files.push(File { target: Target::Table, bytes: HISTORY.into() });
+        files.extend(matrices());
         let quantity =
             |text: &&str| File { target: Target::Quantity, bytes: text.as_bytes().into() };
         files.extend(QUANTITIES.iter().map(quantity));
         Self(files)
+    }
+
+    /// One that a reader reads.
+    pub(super) fn of(&self, target: Target, rng: &mut Rng) -> Option<&File> {
+        let all: Vec<&File> = self.0.iter().filter(|f| f.target == target).collect();
+        all.get(rng.below(all.len())).copied()
     }
 
     /// Any of them.

@@ -1,9 +1,10 @@
 //! What the readers make of files that somebody or something has spoiled.
 //!
-//! Every file of a corpus (models, studies, records, text models of SAP2000, checkpoints, reports, histories, quantities) is cut, doubled,
-//! spliced and sown with numbers that hurt; what comes of it is read and checked as `trilith check` does, and a small
-//! model is run within a budget of work. A reader may refuse, with a reason. It must not panic, take longer than
-//! [`SLOW`], or let through what is not a number.
+//! Every file of a corpus (models in RON and JSON, what they include, studies, records, tables, text models of SAP2000 and
+//! ETABS, scripts of OpenSees, matrices in five forms, checkpoints, reports, histories, quantities) is cut, doubled, spliced
+//! and sown with numbers that hurt; what comes of it is read and checked as `trilith check` does, and a small model is run
+//! within a budget of work. A reader may refuse, with a reason that has its place. It must not panic, take longer than
+//! [`SLOW`], take more memory than [`HEAVY`], or let through what is not a number.
 //!
 //! Reference: mutation of a corpus as in \[Miller, Fredriksen & So 1990\].
 
@@ -21,6 +22,8 @@ pub use target::Target;
 
 /// How long a check may take.
 pub const SLOW: Duration = Duration::from_secs(2);
+/// How much more memory than any check before it a check may take, in bytes.
+pub const HEAVY: u64 = 1 << 30;
 /// Longer files than this many bytes are cut: [`SLOW`] is promised for shorter ones.
 const LONGEST: usize = 100_000;
 
@@ -31,8 +34,10 @@ pub enum Fault {
     Panicked(String),
     /// It took this long, s.
     Slow(f64),
-    /// It let through what is not a number: where.
-    NotANumber(&'static str),
+    /// It took this much memory, in bytes.
+    Heavy(u64),
+    /// It let through what is not a number, or refused without a place: what.
+    Wrong(&'static str),
 }
 
 /// A spoiled file.
@@ -53,6 +58,24 @@ pub fn mutant(corpus: &Corpus, seed: u64) -> Mutant {
     let mut bytes = mutate::mutate(&file.bytes, &other.bytes, &mut rng);
     bytes.truncate(LONGEST);
     Mutant { target: file.target, bytes }
+}
+
+/// The mutant of a seed of a file of one reader; none where the corpus has no file of it.
+#[must_use]
+pub fn mutant_of(corpus: &Corpus, target: Target, seed: u64) -> Option<Mutant> {
+    let mut rng = Rng::new(seed);
+    let file = corpus.of(target, &mut rng)?;
+    let other = corpus.alike(file, &mut rng);
+    let mut bytes = mutate::mutate(&file.bytes, &other.bytes, &mut rng);
+    bytes.truncate(LONGEST);
+    Some(Mutant { target, bytes })
+}
+
+/// The largest memory of this process so far, in bytes; none where the system does not tell.
+fn peak_memory() -> Option<u64> {
+    let status = std::fs::read_to_string("/proc/self/status").ok()?;
+    let line = status.lines().find_map(|line| line.strip_prefix("VmHWM:"))?;
+    line.trim().strip_suffix("kB")?.trim().parse::<u64>().ok().map(|kb| kb << 10)
 }
 
 thread_local! {
@@ -79,15 +102,18 @@ fn cpu() -> Duration {
 /// # Errors
 /// What is wrong with the reader.
 pub fn read(it: &Mutant) -> Result<bool, Fault> {
+    let held = peak_memory();
     let start = cpu();
     let before = take_hook();
     set_hook(Box::new(|info| SAID.with(|said| *said.borrow_mut() = info.to_string())));
     let answer = catch_unwind(AssertUnwindSafe(|| it.target.read(&it.bytes)));
     set_hook(before);
     let took = cpu().saturating_sub(start);
+    let grown = held.zip(peak_memory()).map_or(0, |(a, b)| b.saturating_sub(a));
     match answer {
         Err(_) => Err(Fault::Panicked(SAID.with(RefCell::take))),
-        Ok(Err(place)) => Err(Fault::NotANumber(place)),
+        Ok(Err(what)) => Err(Fault::Wrong(what)),
+        Ok(Ok(_)) if grown > HEAVY => Err(Fault::Heavy(grown)),
         Ok(Ok(_)) if took > SLOW => Err(Fault::Slow(took.as_secs_f64())),
         Ok(Ok(through)) => Ok(through),
     }

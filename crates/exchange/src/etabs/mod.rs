@@ -266,13 +266,14 @@ fn placed(note: &mut Note) {
 
 /// An error in the words of ETABS.
 fn in_its_words(mut error: Diagnostic) -> Diagnostic {
-    let said = |text: &str| {
-        let tables = SECTIONS.iter().filter(|(table, _)| table.len() > 12);
-        tables.fold(text.replace("SAP2000", "ETABS"), |all, (table, section)| {
-            all.replace(table, section)
-        })
-    };
     error.message = said(&error.message);
     error.help = error.help.as_deref().map(said);
     error
+}
+
+/// A text with sections in place of tables.
+fn said(text: &str) -> String {
+    let tables = SECTIONS.iter().filter(|(table, _)| table.len() > 12);
+    tables
+        .fold(text.replace("SAP2000", "ETABS"), |all, (table, section)| all.replace(table, section))
 }

@@ -28,6 +28,20 @@ const MOST_ROWS: usize = 10_000_000;
 /// Row and column, from 0, and value.
 type Entries = Vec<(u32, u32, f64)>;
 
+/// Reads a square matrix of a file of any of these forms; `name` is that of the file, with that of a matrix in it behind a
+/// colon where it holds several.
+///
+/// ```
+/// let text = b"%%MatrixMarket matrix coordinate real symmetric\n2 2 2\n1 1 3\n2 1 -1\n";
+/// assert_eq!(trilith_model::read_matrix(text, "k.mtx").expect("a matrix").entries.len(), 3);
+/// ```
+///
+/// # Errors
+/// What is wrong with it, with its line where it has lines.
+pub fn read_matrix(bytes: &[u8], name: &str) -> Result<SparseMatrix, FileError> {
+    read(bytes, name, "")
+}
+
 /// Reads a square matrix; `name` is that of the file as the model has it, with that of a matrix in it behind a colon where
 /// the model gives one; `path` is where the file was found, empty for none.
 ///
