@@ -108,3 +108,27 @@ fn the_report_names_what_is_said_otherwise_and_loses_nothing() {
         assert!(ron.contains(words), "{words} in\n{ron}");
     }
 }
+
+#[test]
+fn forces_inside_frames_count_the_loads_along_them() {
+    let mut import = import(&file("cantilevers.s2k"), None);
+    let ron = import.draft.to_ron();
+    for words in [
+        "Uniform(element: \"frame 1\", axis: U2, force: -5)",
+        "Trapezoid(element: \"frame 4/3\", axis: U2, points: [(0, 0), (1, -3)])",
+        "Point(element: \"frame 1\", at: 2, axis: U2, force: -8)",
+        "Temperature(element: \"frame 2\", gradient_2: 30)",
+    ] {
+        assert!(ron.contains(words), "{words} in\n{ron}");
+    }
+    // Moments at the foot of the first cantilever, by their book: q l²/2, and P l/2.
+    let moment = trilith_exchange::ron::Ron::block("MemberForce")
+        .with("element", "frame 1")
+        .with("force", trilith_exchange::ron::Ron::word("M3"))
+        .with("at", 0.0);
+    import.draft.outputs.push(("foot".into(), moment));
+    let model = model(&import);
+    close(last(&model, "SPREAD", &["foot"])[0], -5e3 * L * L / 2.0, 1e-9, "foot");
+    close(last(&model, "MIDDLE", &["foot"])[0], -8e3 * L / 2.0, 1e-9, "foot");
+    close(last(&model, "OWN", &["foot"])[0], -2.0 * 770.0 * L * L / 2.0, 1e-9, "foot");
+}

@@ -35,7 +35,9 @@ pub fn write(cx: &mut Context<'_>, piece: &mut Piece, section: &str, angle: f64)
     if piece.rigid != [0.0; 2] {
         place = place.with("offsets_stiffen", Ron::word("Bending"));
     }
-    let beam = piece.section.beam();
+    let warm = cx.db.rows(super::frame_loads::WARMTH).next().is_some();
+    let expansion = Some(piece.section.expansion).filter(|a| warm && *a != 0.0);
+    let beam = piece.section.beam().maybe("expansion", expansion);
     let set = set_name(cx, section, &beam);
     cx.draft.shared(piece.name.clone(), &set, &beam, place);
 }

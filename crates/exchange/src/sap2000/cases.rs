@@ -247,7 +247,8 @@ pub fn known_pattern(cx: &Context<'_>, row: Entry<'_>, name: &str) -> bool {
 /// True where a pattern has no force.
 pub fn is_empty(cx: &Context<'_>, pattern: &str) -> bool {
     let forces = cx.patterns.get(pattern);
-    forces.is_none_or(|all| all.values().flatten().all(|x| *x == 0.0))
+    let none = forces.is_none_or(|all| all.values().flatten().all(|x| *x == 0.0));
+    none && cx.draft.along.get(pattern).is_none_or(Vec::is_empty)
 }
 
 fn statics<'a>(cx: &mut Context<'a>, case: &Case<'a>, before: Before<'_>) -> Option<Ron> {

@@ -24,6 +24,8 @@ pub struct Context<'a> {
     pub active: [bool; 6],
     /// Load patterns.
     pub patterns: BTreeMap<&'a str, Forces>,
+    /// Joint forces that do what loads along frames do, by pattern: mass may be made of them.
+    pub spread: BTreeMap<&'a str, Forces>,
     /// Displacements of the ground, by pattern.
     pub ground: BTreeMap<&'a str, Forces>,
     /// Nodes whose motion is of interest.
@@ -43,6 +45,7 @@ impl<'a> Context<'a> {
             systems: HashMap::from([("GLOBAL", ([0.0; 3], GLOBAL))]),
             active: [true; 6],
             patterns: BTreeMap::new(),
+            spread: BTreeMap::new(),
             ground: BTreeMap::new(),
             watched: Vec::new(),
             taken: HashSet::new(),

@@ -262,7 +262,8 @@ fn loaded_masses(cx: &mut Context<'_>, loads: &[(&str, f64)], masses: &mut joint
             _ => 1.0,
         };
     for (pattern, times) in loads {
-        for (node, f) in cx.patterns.get(pattern).into_iter().flatten() {
+        let spread = cx.spread.get(pattern).into_iter().flatten();
+        for (node, f) in cx.patterns.get(pattern).into_iter().flatten().chain(spread) {
             let mass = (-f[2] * times / gravity).max(0.0);
             let to = masses.entry(*node).or_default();
             (0..3).for_each(|k| to[k] += mass);
