@@ -90,7 +90,7 @@ fn the_report_names_what_is_said_otherwise_and_loses_nothing() {
     for words in [
         "cantilevers.s2k: SAP2000 20.1.0, kN, m",
         "FRAME LOADS",
-        "lack the part of a frame held at both ends",
+        "MemberForce counts them",
         "the support itself reads 0 (13)",
         "FRAME SECTION PROPERTIES 01 - GENERAL: S33",
     ] {

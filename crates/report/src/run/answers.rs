@@ -1,7 +1,7 @@
 //! What an engineer asks of a run first, and how far each answer may be off.
 
 use super::data::Answer;
-use super::places::{drift, is_margin, isolation, variable};
+use super::places::{distances, drift, is_margin, isolation, variable};
 use trilith_element::Dof;
 use trilith_model::{Combine, Model, Output, Quantity};
 use trilith_results::{OutputSummary, Recorder, Summary};
@@ -11,7 +11,7 @@ use trilith_solvers::BasisReport;
 const MASS: f64 = 0.1;
 
 /// The answers: of a body that stands free slide, uplift, tilt, margin, closest approach; of a structure period, base
-/// shear, travel of bearings, drift, floor acceleration; of both what struck.
+/// shear, travel of bearings, drift, floor acceleration, closest approach of neighbours; of both what struck.
 pub(crate) fn answers(seen: &Seen<'_>) -> Vec<Answer> {
     let mut all = Vec::new();
     if seen.summary.contact.is_some() {
@@ -211,6 +211,10 @@ impl Seen<'_> {
         let shaken =
             |o: &Output| matches!(&o.quantity, Quantity::Acceleration { absolute: true, .. });
         all.extend(self.extreme("largest floor acceleration", Of::Size, shaken));
+        let apart = distances(&self.model.outputs);
+        let of = self.model.outputs.iter().zip(apart).filter(|(_, apart)| *apart);
+        let closest = of.filter_map(|(o, _)| self.output("closest approach", o, Of::Least));
+        all.extend(closest.min_by(|a, b| a.value.total_cmp(&b.value)));
     }
 
     /// How far an output may be off that has the same extreme at the same time: it is the same thing.

@@ -302,6 +302,26 @@ pub(crate) fn isolation(
     Some((element, most.1.sqrt(), most.0, way.last()?.1.sqrt()))
 }
 
+/// Which outputs are what is left between two things: a length at rest and how it changes, its size in several directions,
+/// what sizes leave of it, the smallest of several.
+pub(crate) fn distances(all: &[Output]) -> Vec<bool> {
+    let mut found: Vec<bool> = Vec::with_capacity(all.len());
+    for output in all {
+        // Parts stand before what is made of them.
+        let part = |(of, factor): &(usize, f64)| *factor > 0.0 && found.get(*of) == Some(&true);
+        found.push(match &output.quantity {
+            Quantity::Combination { how, constant, terms } if output.unit == "m" => match how {
+                Combine::Sum => *constant > 0.0 || terms.iter().any(part),
+                Combine::Norm => terms.iter().any(part),
+                Combine::Smallest => !terms.is_empty() && terms.iter().all(part),
+                Combine::Largest => false,
+            },
+            _ => false,
+        });
+    }
+    found
+}
+
 /// True for 1 − tilt/limit: what is left until a body overturns.
 pub(crate) fn is_margin(model: &Model, output: &Output) -> bool {
     let Quantity::Combination { how: Combine::Sum, constant, terms } = &output.quantity else {
@@ -310,4 +330,37 @@ pub(crate) fn is_margin(model: &Model, output: &Output) -> bool {
     let [(of, factor)] = terms[..] else { return false };
     let tilt = |o: &Output| matches!(o.quantity, Quantity::LinkHistory { element, field } if variable(model, element, field) == "tilt");
     *constant == 1.0 && factor < 0.0 && model.outputs.get(of).is_some_and(tilt)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_length_at_rest_and_how_it_changes_is_a_distance() {
+        let output = |unit: &str, quantity: Quantity| Output {
+            name: String::new(),
+            unit: unit.into(),
+            quantity,
+            hidden: false,
+        };
+        let made = |how: Combine, constant: f64, of: &[(usize, f64)]| {
+            output("m", Quantity::Combination { how, constant, terms: of.to_vec() })
+        };
+        let all = [
+            output("m", Quantity::Displacement(Vec::new())),
+            made(Combine::Sum, 0.05, &[(0, 1.0)]),
+            made(Combine::Sum, 0.0, &[(0, 1.0)]),
+            made(Combine::Norm, 0.0, &[(1, 1.0), (2, 1.0)]),
+            made(Combine::Sum, -0.04, &[(3, 1.0)]),
+            made(Combine::Smallest, 0.0, &[(1, 1.0), (4, 1.0)]),
+            made(Combine::Smallest, 0.0, &[(0, 1.0), (4, 1.0)]),
+            made(Combine::Largest, 0.0, &[(1, 1.0), (4, 1.0)]),
+            made(Combine::Norm, 0.0, &[(0, 1.0), (2, 1.0)]),
+        ];
+        let wanted = [false, true, false, true, true, true, false, false, false];
+        assert_eq!(distances(&all), wanted);
+        let turned = output("rad", all[1].quantity.clone());
+        assert_eq!(distances(&[all[0].clone(), turned]), [false, false]);
+    }
 }
