@@ -48,7 +48,7 @@ const HEAD: &str = "# Model file reference
 This page is written from the tables that the reader of model files itself uses
 (`cargo run --release -p trilith-guide -- reference`); a test compares the two. The parameters of elements,
 constraints and links are on their cards: `trilith elements NLink`, or all together in
-[the catalogue](../../../elements/CATALOGUE.md).
+the catalogue in [elements](../../../elements).
 
 A model file is [RON](https://github.com/ron-rs/ron): `(field: value)` is a block, `Name(field: value)` a
 block with a name, `[…]` or `(…)` a list, `{ \"name\": … }` a map. Every number may be a bare number (SI, or what
