@@ -7,8 +7,10 @@ use serde_json::{Value, json};
 pub struct Entries {
     /// What a row is called, such as `run`.
     pub name: String,
-    /// How the commands of all rows begin.
+    /// How the commands that make rows begin; empty: there are none.
     pub command: String,
+    /// Names and values that the commands of all rows set.
+    pub common: Vec<(String, String)>,
     /// Names and units of its cells.
     pub head: Vec<(String, String)>,
     /// The rows.
@@ -22,8 +24,8 @@ pub struct Entry {
     pub cells: Vec<String>,
     /// Folders and file beneath the page that hold more of it, one name after the other; empty: none.
     pub place: Vec<String>,
-    /// How the command that makes it goes on; empty: none.
-    pub command: String,
+    /// Names and values that the command that makes it sets beside these.
+    pub set: Vec<(String, String)>,
 }
 
 impl Entries {
@@ -34,9 +36,10 @@ impl Entries {
         if self.rows.iter().any(|r| !r.place.is_empty()) {
             out["links"] = of(&|r| json!(address(&r.place)));
         }
-        if self.rows.iter().any(|r| !r.command.is_empty()) {
+        if !self.command.is_empty() {
             out["command"] = json!(self.command);
-            out["commands"] = of(&|r| json!(r.command));
+            out["common"] = json!(self.common);
+            out["sets"] = of(&|r| json!(r.set));
         }
         out
     }

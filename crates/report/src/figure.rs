@@ -90,6 +90,8 @@ pub struct Figure {
     pub scale: String,
     /// Points that are marked with their value, and the series that each lies on.
     pub peaks: Vec<(usize, (f64, f64))>,
+    /// Settings of runs that the axes stand for, name and unit: a page that computes may go anywhere between its points.
+    pub settings: Option<[(String, String); 2]>,
 }
 
 impl Figure {
@@ -107,6 +109,7 @@ impl Figure {
             shared: String::new(),
             scale: String::new(),
             peaks: Vec::new(),
+            settings: None,
         }
     }
 
@@ -192,6 +195,13 @@ impl Figure {
     #[must_use]
     pub fn scaled(mut self, name: impl Into<String>) -> Self {
         self.scale = name.into();
+        self
+    }
+
+    /// Says which settings its axes stand for, name and unit of each.
+    #[must_use]
+    pub fn setting(mut self, x: (String, String), y: (String, String)) -> Self {
+        self.settings = Some([x, y]);
         self
     }
 

@@ -24,11 +24,11 @@ mod thin;
 pub use drawing::Drawing;
 pub use entries::{Entries, Entry};
 pub use figure::{Axis, Color, Figure, Series, Stroke};
-pub use page::{Block, Page, Section};
+pub use page::{Block, Charts, Page, Section};
 pub use png::{PngError, png_is_built_in};
 pub use run::{
     Answer, Collect, ENERGY, FaceMark, Family, Frames, GROUND, Ground, GroupMark, History,
     LineKind, LineMark, LinkMark, Loop, MODEL, MemberCurve, Mode, NodeMark, Numbers, Orbit,
     Picture, Profile, ProfileCurve, RunData, RunIdentity, SPECTRA, Shown, SpectrumChart,
-    SpectrumCurve, Tint, Tinted, named_figures, run_page, short,
+    SpectrumCurve, Tint, Tinted, named_figures, run_page, run_update, short,
 };

@@ -5,7 +5,7 @@ use crate::{Entries, Figure, chart};
 use maud::{DOCTYPE, Markup, PreEscaped, html};
 use trilith_model::visible;
 
-pub(crate) const STYLE: &str = include_str!("page.css");
+pub(crate) const STYLE: &str = concat!(include_str!("page.css"), include_str!("chart/chart.css"));
 
 /// A part of a section.
 #[derive(Clone, Debug)]
@@ -81,7 +81,7 @@ impl From<Vec<Figure>> for Block {
 }
 
 /// A text with what stands between backticks as code.
-fn words(text: &str) -> Markup {
+pub(crate) fn words(text: &str) -> Markup {
     let parts: Vec<&str> = text.split('`').collect();
     if parts.len().is_multiple_of(2) {
         return html! { (text) };
@@ -126,6 +126,34 @@ impl Section {
     pub fn block(mut self, block: impl Into<Block>) -> Self {
         self.blocks.push(block.into());
         self
+    }
+}
+
+/// Charts for a page of another making, which computes: they have no still pictures, and a cursor that asks the page for
+/// the run where it is (event `asked` of the document, with `set` and `row`).
+#[derive(Clone, Debug)]
+pub struct Charts {
+    /// The figures, each as an element.
+    pub figures: String,
+    /// Data and script, to stand behind them.
+    pub script: String,
+    /// The style of charts; it takes its colours from `--paper`, `--ink`, `--soft` and `--line`.
+    pub style: &'static str,
+}
+
+impl Charts {
+    /// Of figures and of what their points stand for.
+    #[must_use]
+    pub fn new(figures: &[Figure], entries: &Entries) -> Self {
+        let fine = chart::fine(figures.iter().map(chart::size).sum());
+        let figures = html! { @for f in figures { (chart::alive(f, fine)) } };
+        let script = html! {
+            (chart::json("", Some("entries"), &entries.data()))
+            (chart::script(&[chart::ASK]))
+        };
+        let [figures, script] =
+            [figures, script].map(|part| visible(&part.into_string()).into_owned());
+        Self { figures, script, style: include_str!("chart/chart.css") }
     }
 }
 
@@ -185,20 +213,22 @@ impl Page {
                     link rel="icon" href="data:,";
                 }
                 body {
-                    h1 { (self.title) }
-                    @for block in &self.lead { (block.markup(fine, scales)) }
-                    @if self.sections.len() > 1 {
-                        nav { ol { @for (i, s) in self.sections.iter().enumerate() {
-                            @if !s.group.is_empty() && (i == 0 || self.sections[i - 1].group != s.group) {
-                                li.group { (s.group) }
+                    main {
+                        h1 { (self.title) }
+                        @for block in &self.lead { (block.markup(fine, scales)) }
+                        @if self.sections.len() > 1 {
+                            nav aria-label="Contents" { ol { @for (i, s) in self.sections.iter().enumerate() {
+                                @if !s.group.is_empty() && (i == 0 || self.sections[i - 1].group != s.group) {
+                                    li.group { (s.group) }
+                                }
+                                li { a href={ "#" (s.id) } { (s.title) } }
+                            } } }
+                        }
+                        @for s in &self.sections {
+                            section id=(s.id) {
+                                h2 { (s.title) }
+                                @for block in &s.blocks { (block.markup(fine, scales)) }
                             }
-                            li { a href={ "#" (s.id) } { (s.title) } }
-                        } } }
-                    }
-                    @for s in &self.sections {
-                        section id=(s.id) {
-                            h2 { (s.title) }
-                            @for block in &s.blocks { (block.markup(fine, scales)) }
                         }
                     }
                     @if let Some(entries) = &self.entries { (chart::json("", Some("entries"), &entries.data())) }

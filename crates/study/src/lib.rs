@@ -49,6 +49,7 @@ pub use execute::{How, Progress, Results, execute};
 pub use figure::{Drawing, figures};
 pub use fragility::{Band, Capacity, Fragility, FragilityError};
 pub use journal::{Cell, Record};
+pub use page::charts;
 pub use plan::{Axis, Ensemble, Place, Plan, Samples};
 pub use shard::{Part, Shard, is_study_folder};
 pub use statistics::{Spread, wilson};

@@ -5,7 +5,7 @@ mod statistics;
 
 use crate::{Record, Study, figure};
 use std::path::{Component, Path, PathBuf};
-use trilith::report::{Block, Page, Section};
+use trilith::report::{Block, Charts, Page, Section};
 
 /// Rows that a table of a page shows.
 const ROWS: usize = 40;
@@ -54,6 +54,13 @@ pub(crate) fn page(study: &Study, records: &[Record], left_out: usize) -> String
         page = page.section(Section::new("file", "The study").block(Block::code(text)));
     }
     page.html()
+}
+
+/// The figures of a study for a page that computes the run where their cursor is.
+#[must_use]
+pub fn charts(study: &Study, records: &[Record]) -> Charts {
+    let figures: Vec<_> = figure::figures(study, records).into_iter().map(|f| f.1).collect();
+    Charts::new(&figures, &runs::entries(study, records))
 }
 
 /// A path without the way up and down again: `models/studies/../block.ron` is `models/block.ron`.

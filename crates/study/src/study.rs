@@ -3,9 +3,9 @@
 use crate::shape::Shape;
 use crate::{Column, Condition, Drawing, Identity, Plan};
 use std::path::PathBuf;
-use trilith::SolverKind;
 use trilith::element::Dimension;
-use trilith::model::{ModelText, Source};
+use trilith::model::{Diagnostic, Model, ModelText, Source};
+use trilith::{Registry, SolverKind};
 
 /// A study, checked and ready to run.
 #[derive(Debug)]
@@ -55,6 +55,27 @@ impl Study {
     /// The model file and those that it includes.
     pub fn sources(&self) -> impl Iterator<Item = &Source> {
         self.text.sources()
+    }
+
+    /// Name of the case, where the study names one.
+    #[must_use]
+    pub fn case_named(&self) -> Option<&str> {
+        self.case_named.as_deref()
+    }
+
+    /// The solver, where the study names one.
+    #[must_use]
+    pub fn solver(&self) -> Option<SolverKind> {
+        self.solver
+    }
+
+    /// The model with the values of a run.
+    ///
+    /// # Errors
+    /// What is wrong with the model at these values.
+    pub fn model_of(&self, registry: &Registry, run: usize) -> Result<Model, Vec<Diagnostic>> {
+        let set = self.plan.nominal(&self.plan.place(run));
+        self.text.read(registry, &set)
     }
 
     /// True where a varied parameter is a text.

@@ -17,7 +17,7 @@ pub(super) fn page(items: &[Item], args: &Arguments, target: Option<&Target>) ->
     let mut page = Page::new("Ground motion")
         .lead(Block::Table { head: head(&["record", "done with it"]), rows: lines.collect() });
     let all: Vec<_> = items.iter().map(|i| measures(&i.record)).collect();
-    let mut columns = head(&["", "unit"]);
+    let mut columns = head(&["measure", "unit"]);
     columns.extend((0..items.len()).map(|i| name(items, i)));
     let rows = all.first().into_iter().flatten().enumerate().map(|(k, (what, _, unit))| {
         let mut cells = head(&[what, unit]);

@@ -51,37 +51,82 @@ class Chart {
   constructor(host, drawing) {
     this.host = host;
     allCharts.add(this);
-    this.drawing = drawing;
-    this.series = drawing.series.map((s) => {
-      const [x, y] = [unpack(s.px), unpack(s.py)];
-      return { ...s, x, y, times: s.times && unpack(s.times), rising: !s.area && !s.mark && rises(x), on: true };
-    });
+    Chart.of.set(host, this);
+    this.read(drawing);
     this.group = group(drawing.shared);
     this.box = null;
     this.pinned = false;
-    this.area = svg("svg", { role: "img", tabindex: "0", "aria-label": `${drawing.title}: ${drawing.y.label} over ${drawing.x.label}` });
+    // What lies over the curves, and who puts it in its place whenever these are drawn.
+    this.over = [];
+    this.drawn = null;
+    this.area = svg("svg", { role: "img", tabindex: "0" });
+    this.title = make("div", { class: "title" });
+    this.call();
     this.tip = make("div", { class: "tip", hidden: true });
     this.back = make("button", { type: "button", class: "reset", hidden: true }, "reset zoom");
     this.back.addEventListener("click", () => this.reset());
     this.view = make("div", { class: "view" }, this.area, this.back, this.tip);
-    const live = make("div", { class: "chart" }, make("div", { class: "title" }, drawing.title), this.view);
-    if (this.series.some((s) => s.name)) live.append(this.legend());
+    this.keys = this.legend();
+    const live = make("div", { class: "chart" }, this.title, this.view, this.keys);
     this.stale = true;
     this.seen = false;
     this.group.charts.add(this);
     if (drawing.scale) scale(drawing.scale).charts.add(this);
     host.prepend(live);
     handle(this);
-    new ResizeObserver(() => this.dirty()).observe(this.view);
-    new IntersectionObserver(([e]) => { this.seen = e.isIntersecting; if (this.seen && this.stale) this.draw(); },
-      { rootMargin: "400px" }).observe(this.view);
+    this.watches = [
+      new ResizeObserver(() => this.dirty()),
+      new IntersectionObserver(([e]) => { this.seen = e.isIntersecting; if (this.seen && this.stale) this.draw(); }, { rootMargin: "400px" }),
+    ];
+    for (const watch of this.watches) watch.observe(this.view);
+  }
+
+  /** Its figure goes. */
+  leave() {
+    for (const watch of this.watches) watch.disconnect();
+    for (const set of [allCharts, this.group.charts, ...[...scales.values()].map((s) => s.charts)]) set.delete(this);
+    Chart.of.delete(this.host);
+  }
+
+  /** Curves of a drawing; those that were hidden stay so. */
+  read(drawing) {
+    const off = new Set(this.series?.filter((s) => !s.on).map((s) => s.name));
+    this.drawing = drawing;
+    this.all = null;
+    this.series = drawing.series.map((s) => {
+      const [x, y] = [unpack(s.px), unpack(s.py)];
+      return { ...s, x, y, times: s.times && unpack(s.times), rising: !s.area && !s.mark && rises(x), on: !off.has(s.name) };
+    });
+  }
+
+  /** Its name, seen and heard. */
+  call() {
+    const { title, x, y } = this.drawing;
+    this.title.textContent = title;
+    this.area.setAttribute("aria-label", `${title}: ${y.label} over ${x.label}`);
+  }
+
+  /** The same figure with other curves. */
+  renew(drawing) {
+    if (drawing.scale !== this.drawing.scale) {
+      if (this.drawing.scale) scale(this.drawing.scale).charts.delete(this);
+      if (drawing.scale) scale(drawing.scale).charts.add(this);
+    }
+    const names = () => JSON.stringify(this.series.map((s) => [s.name, s.color, s.dash, s.mark]));
+    const before = names();
+    this.read(drawing);
+    this.call();
+    if (names() !== before) { const keys = this.legend(); this.keys.replaceWith(keys); this.keys = keys; }
+    this.tip.hidden = true;
+    this.pinned = false;
+    this.dirty();
   }
 
   dirty() { this.stale = true; if (this.seen) this.draw(); }
 
   legend() {
     const keys = this.series.filter((s) => s.name).map((s) => {
-      const key = make("button", { type: "button", "aria-pressed": "true", title: "show or hide; with Shift: this one alone" }, sample(s), s.name);
+      const key = make("button", { type: "button", "aria-pressed": String(s.on), title: "show or hide; with Shift: this one alone" }, sample(s), s.name);
       key.addEventListener("click", (e) => {
         const alone = e.shiftKey;
         for (const [other, button] of keys.pairs) {
@@ -95,7 +140,7 @@ class Chart {
       return key;
     });
     keys.pairs = this.series.filter((s) => s.name).map((s, i) => [s, keys[i]]);
-    return make("div", { class: "legend" }, ...keys);
+    return make("div", { class: "legend", hidden: !keys.length }, ...keys);
   }
 
   shown() { return this.series.filter((s) => s.on); }
@@ -130,8 +175,8 @@ class Chart {
     const common = this.drawing.scale && scale(this.drawing.scale).on ? [...scale(this.drawing.scale).charts] : [this];
     const up = ends(y, extremes(common.flatMap((c) => c.reach(along))));
     if (!y.log && common.some((c) => c.drawing.peaks)) {
-      // Values stand above what they mark.
-      const room = 0.06 * (up[1] - up[0]);
+      // Values stand above what they mark: there are 20 pixels for them, however low the figure is.
+      const room = Math.max(0.06, (20 / h - 0.054) / (1 - 40 / h)) * (up[1] - up[0]);
       [up[0], up[1]] = [up[0] - room, up[1] + room];
     }
     return this.drawing.equal ? square(along, up, w, h) : { x: along, y: up };
@@ -159,9 +204,10 @@ class Chart {
     this.area.setAttribute("height", height);
     this.area.replaceChildren(
       svg("clipPath", { id }, svg("rect", { x: left, y: EDGE.top - 1, width: w, height: h + 2 })),
-      svg("rect", { width, height, fill: "#ffffff" }), ...this.axes(axisY()), plot, ...this.peaks(), this.marker);
+      svg("rect", { width, height, fill: "#ffffff" }), ...this.axes(axisY()), plot, ...this.peaks(), this.marker, ...this.over);
     this.back.hidden = !(this.box || this.group.range);
     this.cursor();
+    this.drawn?.();
   }
 
   axes(alongY) {
@@ -290,6 +336,9 @@ class Chart {
 
   reset() { this.box = null; if (this.drawing.shared) this.group.zoom(null); else this.dirty(); }
 }
+
+/** Charts by the figure that they stand in. */
+Chart.of = new Map();
 
 /** How a series is inked. */
 function ink(s) {

@@ -62,6 +62,8 @@ function handle(chart) {
       if (Math.abs(here[0] - p[0]) > 5) chart.zoom({ x: [x[0], x[1]].map(chart.fromX), y: [y[1], y[0]].map(chart.fromY) });
       else chart.cursor();
     } else if (!moved) {
+      // A press puts the cursor of such a chart there: what is told would hide it.
+      if (chart.over.length) { tip.hidden = true; return; }
       chart.pinned = false;
       chart.pinned = point(chart, p, true);
     }
@@ -112,6 +114,8 @@ function lasso(chart, a, b) {
 
 /** Tells what is at a pixel; true where it stays until the next click. */
 function point(chart, p, press) {
+  // It is not drawn yet.
+  if (!chart.place) return false;
   const near = nearest(chart, p, press ? 26 : 14);
   // What is pressed stays, with all there is to do with it.
   const kept = Boolean(press && near?.s.entries);
@@ -184,20 +188,27 @@ function mark(chart, { s, i, p }) {
 
 /** The row of the page that a point stands for: its cells, its link, or the command that makes it. */
 function entry(row) {
-  const { name, head: heads, rows, links, command, commands } = entries;
+  const { name, head: heads, rows, links, command } = entries;
   const cells = rows[row];
   if (!cells) return [];
   const shown = heads.map(([what, unit], k) => [null, what, cells[k], unit]).filter((r) => r[2] !== "");
   const out = [head(`${name} ${row + 1}`), table(shown)];
   // Links are relative to the page; nothing else is followed.
   if (links?.[row] && !/^[a-z][a-z0-9+.-]*:/i.test(links[row])) out.push(make("a", { href: links[row] }, "open its folder"));
-  if (commands?.[row]) {
-    const text = `${command} ${commands[row]}`, copy = make("button", { type: "button" }, "copy");
+  if (command) {
+    const sets = settings(row).map(([n, v]) => ` --set ${quoted(`${n}=${v}`)}`);
+    const text = command + sets.join(""), copy = make("button", { type: "button" }, "copy");
     copy.addEventListener("click", () => navigator.clipboard?.writeText(text).then(() => { copy.textContent = "copied"; }, () => {}));
     out.push(make("code", {}, text), copy);
   }
   return out;
 }
+
+/** What a row sets: pairs of name and value. */
+const settings = (row) => [...(entries.common ?? []), ...(entries.sets?.[row] ?? [])];
+
+/** A word of a command line as a shell takes it. */
+const quoted = (word) => (/^[\p{L}\p{N}\-_=./,:+%@]+$/u.test(word) ? word : `'${word.replaceAll("'", "'\\''")}'`);
 
 const head = (words, s) => make("b", {}, ...(s ? [sample(s)] : []), words);
 

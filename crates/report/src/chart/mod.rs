@@ -17,6 +17,9 @@ pub(crate) const BEFORE: [&str; 4] = [
 /// What starts it, behind the scripts of a single page.
 pub(crate) const START: &str = include_str!("start.js");
 
+/// A cursor that asks for runs, for pages that compute.
+pub(crate) const ASK: &str = include_str!("ask.js");
+
 /// Points of all lines of a page up to which every one is told.
 const WHOLE: usize = 60_000;
 /// Of more, lines may leave their points by so many pixels of the still figure; of many more by the second.
@@ -78,6 +81,16 @@ pub(crate) fn figure(figure: &Figure, fine: f64, scales: &Scales) -> Markup {
     html! {
         figure {
             (PreEscaped(scales.svg(figure)))
+            (json("drawing", None, &drawing(figure, fine)))
+            @if !figure.caption.is_empty() { figcaption { (figure.caption) } }
+        }
+    }
+}
+
+/// The figure as data alone.
+pub(crate) fn alive(figure: &Figure, fine: f64) -> Markup {
+    html! {
+        figure {
             (json("drawing", None, &drawing(figure, fine)))
             @if !figure.caption.is_empty() { figcaption { (figure.caption) } }
         }

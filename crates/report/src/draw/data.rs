@@ -31,6 +31,9 @@ pub(crate) fn drawing(figure: &Figure, fine: f64) -> Value {
     if !figure.scale.is_empty() {
         say("scale", json!(figure.scale));
     }
+    if let Some(settings) = &figure.settings {
+        say("settings", json!(settings));
+    }
     if figure.equal {
         say("equal", json!(true));
     }

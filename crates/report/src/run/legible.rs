@@ -4,6 +4,7 @@ use super::{Frames, Numbers, RunData};
 use crate::chart::legible;
 use serde_json::Value;
 use std::borrow::Cow;
+use trilith_model::visible;
 
 /// The summary with the control characters of its texts and names written out.
 pub(crate) fn summary(summary: &Value) -> Value {
@@ -14,13 +15,14 @@ pub(crate) fn summary(summary: &Value) -> Value {
 pub(crate) fn data(data: &RunData) -> Cow<'_, RunData> {
     // Without the deformed shapes, which are long and hold no texts.
     let frames = Frames { u: Numbers { n: Vec::new(), ..data.frames.u }, ..data.frames.clone() };
-    let Ok(value) = serde_json::to_value(RunData { frames, ..data.clone() }) else {
-        return Cow::Borrowed(data);
-    };
-    let shown = legible(value.clone());
-    if shown == value {
-        return Cow::Borrowed(data);
+    let bare = RunData { frames, ..data.clone() };
+    // As a rule there is nothing to write out, which a text tells sooner than a tree.
+    match serde_json::to_string(&bare) {
+        Ok(text) if text.contains('\\') || visible(&text) != text => {}
+        _ => return Cow::Borrowed(data),
     }
+    let Ok(value) = serde_json::to_value(bare) else { return Cow::Borrowed(data) };
+    let shown = legible(value);
     match serde_json::from_value::<RunData>(shown) {
         Ok(mut shown) => {
             shown.frames.u = data.frames.u.clone();

@@ -29,4 +29,4 @@ pub use data::{
     RunIdentity, Shown, SpectrumChart, SpectrumCurve, Tint, Tinted,
 };
 pub use figures::{ENERGY, GROUND, MODEL, SPECTRA, named_figures};
-pub use page::run_page;
+pub use page::{run_page, run_update};

@@ -1,7 +1,8 @@
 //! What the script of the page of a run has beside that of all pages, in the order in which its parts build on each
 //! other.
 
-pub(crate) const PARTS: [&str; 13] = [
+pub(crate) const PARTS: [&str; 14] = [
+    include_str!("script/renew.js"),
     include_str!("script/model.js"),
     include_str!("script/stage.js"),
     include_str!("script/solid/shaders.js"),

@@ -24,11 +24,12 @@ pub fn page() -> String {
     let entry = |text: &&str| Entry {
         cells: vec![(*text).to_owned(), "0.5".into()],
         place: vec!["runs".into(), (*text).to_owned()],
-        command: format!("--set 'a={text}'"),
+        set: vec![("a".into(), (*text).to_owned())],
     };
     let entries = Entries {
         name: HOSTILE[1].into(),
         command: format!("trilith run {}", HOSTILE[2]),
+        common: vec![(HOSTILE[5].into(), HOSTILE[0].into())],
         head: vec![(HOSTILE[0].into(), HOSTILE[4].into()), ("b".into(), "m".into())],
         rows: HOSTILE.iter().map(entry).collect(),
     };

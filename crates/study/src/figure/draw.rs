@@ -23,7 +23,7 @@ impl Drawing {
 fn drawn(study: &Study, records: &[Record], number: usize) -> (Vec<Figure>, Vec<Vec<String>>) {
     let figure = match &study.figures[number] {
         Drawing::ModeChart { x, y, slenderness } => {
-            modes::draw(study, records, (x, y), *slenderness)
+            settable(study, modes::draw(study, records, (x, y), *slenderness), x, y)
         }
         Drawing::Ida { demand, intensity } => fragile::ida(study, records, demand, intensity),
         Drawing::Fragility { intensity, event, confidence, by } => {
@@ -33,15 +33,32 @@ fn drawn(study: &Study, records: &[Record], number: usize) -> (Vec<Figure>, Vec<
             return (vec![figure], rows);
         }
         Drawing::Overturning { frequency, amplitude, half_sine } => {
-            overturning::draw(study, records, (frequency, amplitude), *half_sine)
+            let figure = overturning::draw(study, records, (frequency, amplitude), *half_sine);
+            settable(study, figure, frequency, amplitude)
         }
         Drawing::Hazard { demand, intensity, rates } => {
             return (hazard::draw(study, records, (demand, intensity), rates), Vec::new());
         }
         Drawing::Spread { x, y } => return (spread::spread(study, records, x, y), Vec::new()),
-        Drawing::Points { x, y, by } => spread::points(study, records, (x, y), by.as_deref()),
+        Drawing::Points { x, y, by } => {
+            settable(study, spread::points(study, records, (x, y), by.as_deref()), x, y)
+        }
     };
     (vec![figure], Vec::new())
+}
+
+/// The figure, saying so where both of its axes are parameters that runs set.
+fn settable(study: &Study, figure: Figure, x: &str, y: &str) -> Figure {
+    let of = |name: &str| {
+        let i = study.varied.iter().position(|n| n == name)?;
+        // What is computed from several runs, or a text, is not set.
+        let unit = study.kinds[i].map(|d| if d.is_none() { String::new() } else { d.unit() })?;
+        Some((name.to_owned(), unit))
+    };
+    match (of(x), of(y)) {
+        (Some(x), Some(y)) => figure.setting(x, y),
+        _ => figure,
+    }
 }
 
 /// The figures that a study asks for, each with a name for a file: `figure_1_mode_chart`.

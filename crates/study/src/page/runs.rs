@@ -28,12 +28,13 @@ pub(super) fn entries(study: &Study, records: &[Record]) -> Entries {
     if let Some(solver) = study.solver {
         command += &format!(" --solver {}", solver.name());
     }
-    let rows = records.iter().take(RUNS).map(|r| Entry {
-        cells: cells(r),
-        place: kept(study, r),
-        command: settings(study, r),
-    });
-    Entries { name: "run".into(), command, head, rows: rows.collect() }
+    let one = |r| Entry { cells: cells(r), place: kept(study, r), set: settings(study, r) };
+    let mut rows: Vec<Entry> = records.iter().take(RUNS).map(one).collect();
+    // What all runs set is said once.
+    let mut common = rows.first().map(|r| r.set.clone()).unwrap_or_default();
+    common.retain(|pair| rows.iter().all(|r| r.set.contains(pair)));
+    rows.iter_mut().for_each(|r| r.set.retain(|pair| !common.contains(pair)));
+    Entries { name: "run".into(), command, common, head, rows }
 }
 
 fn cells(r: &Record) -> Vec<String> {
@@ -58,7 +59,7 @@ fn kept(study: &Study, r: &Record) -> Vec<String> {
 }
 
 /// What a run sets, as `trilith run` takes it.
-fn settings(study: &Study, r: &Record) -> String {
+fn settings(study: &Study, r: &Record) -> Vec<(String, String)> {
     let place = study.plan.place(r.run);
     let mut set = study.plan.nominal(&place);
     // Members of an ensemble have the values they came to.
@@ -69,9 +70,7 @@ fn settings(study: &Study, r: &Record) -> String {
             set.push((name.to_owned(), written(*x, dimension)));
         }
     }
-    let one =
-        |(name, value): &(String, String)| format!("--set {}", quoted(&format!("{name}={value}")));
-    set.iter().map(one).collect::<Vec<_>>().join(" ")
+    set
 }
 
 /// A word of a command line as a shell takes it.

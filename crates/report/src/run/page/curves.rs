@@ -14,7 +14,7 @@ const KIND: usize = 3;
 /// A peak to the other side is marked too, where it is this share of the larger one.
 const OTHER: f64 = 0.3;
 
-pub(super) fn histories(summary: &Value, data: &RunData) -> Markup {
+pub(super) fn histories(summary: &Value, data: &RunData, still: bool) -> Markup {
     let outputs = Outputs::of(summary);
     let count = |kind: &str| data.histories.iter().filter(|h| h.kind == kind).count();
     let together = |h: &History| !h.kind.is_empty() && count(&h.kind) >= KIND;
@@ -34,10 +34,10 @@ pub(super) fn histories(summary: &Value, data: &RunData) -> Markup {
             "Names beneath a figure switch its curves."
         }
         label.scales { input type="checkbox" checked data-scales="kind "; " one scale for all of a kind" }
-        @if alone().next().is_some() { div.figures.board { (drawn(&alone().map(draw).collect::<Vec<_>>())) } }
+        @if alone().next().is_some() { div.figures.board { (drawn(&alone().map(draw).collect::<Vec<_>>(), still)) } }
         @for kind in kinds {
             h3 { (kind) }
-            div.figures.board.small { (drawn(&of(kind))) }
+            div.figures.board.small { (drawn(&of(kind), still)) }
         }
     }
 }
@@ -66,21 +66,21 @@ fn history(outputs: &Outputs<'_>, summary: &Value, h: &History) -> Figure {
     drawn
 }
 
-pub(super) fn plan(data: &RunData) -> Markup {
+pub(super) fn plan(data: &RunData, still: bool) -> Markup {
     html! {
         p.note { "Two directions of one place against each other, a unit as long on both axes; the dot is the time of the model." }
-        div.figures.board.loops { @for o in &data.orbits { (figure(figures::orbit(o), "")) } }
+        div.figures.board.loops { @for o in &data.orbits { (figure(figures::orbit(o), "", still)) } }
     }
 }
 
-pub(super) fn profiles(data: &RunData) -> Markup {
+pub(super) fn profiles(data: &RunData, still: bool) -> Markup {
     html! {
         p.note { "Largest magnitudes over the height, whenever they were." }
-        div.figures.board.loops { @for p in &data.profiles { (figure(figures::profile(p), "")) } }
+        div.figures.board.loops { @for p in &data.profiles { (figure(figures::profile(p), "", still)) } }
     }
 }
 
-pub(super) fn members(data: &RunData) -> Markup {
+pub(super) fn members(data: &RunData, still: bool) -> Markup {
     let mut kinds: Vec<(&str, &str)> = Vec::new();
     for m in &data.members {
         if !kinds.contains(&(&m.envelope, &m.force)) {
@@ -97,12 +97,12 @@ pub(super) fn members(data: &RunData) -> Markup {
         label.scales { input type="checkbox" checked data-scales="member "; " one scale for a force of all members" }
         @for (envelope, force) in kinds {
             h3 { (envelope) ": " (force) }
-            div.figures.board.loops { (drawn(&of(envelope, force))) }
+            div.figures.board.loops { (drawn(&of(envelope, force), still)) }
         }
     }
 }
 
-pub(super) fn loops(data: &RunData) -> Markup {
+pub(super) fn loops(data: &RunData, still: bool) -> Markup {
     let key = |l: &Loop| (l.kind.clone(), l.coordinate.clone());
     let mut kinds: Vec<(String, String)> = Vec::new();
     for l in &data.loops {
@@ -123,7 +123,7 @@ pub(super) fn loops(data: &RunData) -> Markup {
         label.scales { input type="checkbox" checked data-scales="loop "; " one scale of force for all of a kind" }
         @for (kind, coordinate) in kinds {
             h3 { (kind) " " (coordinate) }
-            div.figures.board.loops { (drawn(&of(&kind, &coordinate))) }
+            div.figures.board.loops { (drawn(&of(&kind, &coordinate), still)) }
         }
     }
 }

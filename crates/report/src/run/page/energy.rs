@@ -51,7 +51,7 @@ fn balance(summary: &Value) -> Markup {
     } }
 }
 
-pub(super) fn energy(summary: &Value, data: &RunData) -> Markup {
+pub(super) fn energy(summary: &Value, data: &RunData, still: bool) -> Markup {
     let links = links(summary);
     // Of two kinds one may be nothing but rounding beside the other.
     let in_link = |x: f64, of: f64| if x.abs() < 1e-9 * of.abs() { 0.0 } else { x };
@@ -59,9 +59,9 @@ pub(super) fn energy(summary: &Value, data: &RunData) -> Markup {
     html! {
         div.figures.board {
             (figure(figures::energy_curves(data),
-                "Friction and yielding is the energy of the links (NLlink), viscous that of their dashpots (Ndamp)."))
+                "Friction and yielding is the energy of the links (NLlink), viscous that of their dashpots (Ndamp).", still))
             (figure(figures::energy_stack(data),
-                "Stored and dissipated energies on top of each other; together they are what was there at the start and the input. What is negative goes downwards, such as a potential that was released."))
+                "Stored and dissipated energies on top of each other; together they are what was there at the start and the input. What is negative goes downwards, such as a potential that was released.", still))
         }
         div.two {
             div { (balance(summary)) }

@@ -2,6 +2,7 @@
 
 use super::rounding::is_rounding;
 use super::{text, value};
+use crate::page::words;
 use crate::run::units::{percent, short, shown};
 use crate::run::{Answer, RunData};
 use maud::{Markup, html};
@@ -97,9 +98,9 @@ pub(super) fn warnings(summary: &Value, data: &RunData) -> Markup {
     all.extend(warned.filter_map(Value::as_str).map(str::to_owned));
     html! {
         @if !all.is_empty() {
-            div.warnings role="note" { b { "What to know" } ul { @for w in &all { li { (w) } } } }
+            div.warnings role="note" { b { "What to know" } ul { @for w in &all { li { (words(w)) } } } }
         }
-        @for note in &data.notes { p.note { (note) } }
+        @for note in &data.notes { p.note { (words(note)) } }
     }
 }
 

@@ -41,63 +41,94 @@ const SECTIONS: [(&str, &str); 12] = [
 /// leaves its place empty.
 #[must_use]
 pub fn run_page(summary: &Value, data: &RunData, made: &Value) -> String {
-    let (summary, made) = (&legible::summary(summary), &legible::summary(made));
-    let data = legible::data(data);
-    let data: &RunData = &data;
-    let title = summary["model"]["title"].as_str().filter(|t| !t.is_empty()).unwrap_or(&data.file);
-    let there = |id: &str| match id {
-        "motion" => !data.picture.points.is_empty(),
-        "peaks" => !data.outputs.is_empty(),
-        "ground" => !data.ground.is_empty(),
-        "floors" => !data.floor_spectra.is_empty(),
-        "profiles" => !data.profiles.is_empty(),
-        "members" => !data.members.is_empty(),
-        "plan" => !data.orbits.is_empty(),
-        "histories" => !data.histories.is_empty(),
-        "energy" => !data.energies.is_empty(),
-        "loops" => !data.loops.is_empty(),
-        "modes" => !data.modes.is_empty(),
-        _ => true,
-    };
-    let body = |id: &str| match id {
-        "motion" => motion::motion(data),
-        "peaks" => peaks::peaks(summary, data),
-        "ground" => shaking::ground(data),
-        "floors" => shaking::floors(summary, data),
-        "profiles" => curves::profiles(data),
-        "members" => curves::members(data),
-        "plan" => curves::plan(data),
-        "histories" => curves::histories(summary, data),
-        "energy" => energy::energy(summary, data),
-        "loops" => curves::loops(data),
-        "modes" => modes::modes(data),
-        _ => settings::settings(summary, data),
-    };
-    let shown: Vec<_> = SECTIONS.iter().filter(|(id, _)| there(id)).collect();
+    let parts = Parts::of(summary, data, made, true);
     html! {
         (DOCTYPE)
         html lang="en" {
             head {
                 meta charset="utf-8";
                 meta name="viewport" content="width=device-width, initial-scale=1";
-                title { (title) " – " (text(&summary["case"])) " – " (text(&summary["solver"])) }
+                title { (parts.title) }
                 style { (PreEscaped(STYLE)) (PreEscaped(RUN_STYLE)) }
                 link rel="icon" href="data:,";
             }
             body {
-                h1 { (title) }
-                (facts::facts(summary, data))
-                (facts::warnings(summary, data))
-                nav { ol { @for (id, head) in &shown { li { a href={ "#" (id) } { (head) } } } } }
-                @for (id, head) in &shown { section id=(id) { h2 { (head) } (body(id)) } }
-                footer id="made" { (settings::made(summary, data, made)) }
-                (chart::json("", Some("data"), &embedded(data)))
-                script type="text/plain" id="shapes" { (PreEscaped(shapes(data))) }
+                (parts.shown)
                 (chart::script(&script::PARTS))
             }
         }
     }
     .into_string()
+}
+
+/// What a page of another run of the same model shows, for `renew` of its script to put in the place of what it shows: no
+/// still pictures, no style, no script.
+#[must_use]
+pub fn run_update(summary: &Value, data: &RunData, made: &Value) -> String {
+    let parts = Parts::of(summary, data, made, false);
+    html! { title { (parts.title) } (parts.shown) }.into_string()
+}
+
+/// What differs between the pages of two runs.
+struct Parts {
+    title: String,
+    shown: Markup,
+}
+
+impl Parts {
+    fn of(summary: &Value, data: &RunData, made: &Value, still: bool) -> Self {
+        let (summary, made) = (&legible::summary(summary), &legible::summary(made));
+        let data = legible::data(data);
+        let data: &RunData = &data;
+        let title =
+            summary["model"]["title"].as_str().filter(|t| !t.is_empty()).unwrap_or(&data.file);
+        let there = |id: &str| match id {
+            "motion" => !data.picture.points.is_empty(),
+            "peaks" => !data.outputs.is_empty(),
+            "ground" => !data.ground.is_empty(),
+            "floors" => !data.floor_spectra.is_empty(),
+            "profiles" => !data.profiles.is_empty(),
+            "members" => !data.members.is_empty(),
+            "plan" => !data.orbits.is_empty(),
+            "histories" => !data.histories.is_empty(),
+            "energy" => !data.energies.is_empty(),
+            "loops" => !data.loops.is_empty(),
+            "modes" => !data.modes.is_empty(),
+            _ => true,
+        };
+        let body = |id: &str| match id {
+            "motion" => motion::motion(data, still),
+            "peaks" => peaks::peaks(summary, data),
+            "ground" => shaking::ground(data, still),
+            "floors" => shaking::floors(summary, data, still),
+            "profiles" => curves::profiles(data, still),
+            "members" => curves::members(data, still),
+            "plan" => curves::plan(data, still),
+            "histories" => curves::histories(summary, data, still),
+            "energy" => energy::energy(summary, data, still),
+            "loops" => curves::loops(data, still),
+            "modes" => modes::modes(data, still),
+            _ => settings::settings(summary, data),
+        };
+        let sections: Vec<_> = SECTIONS.iter().filter(|(id, _)| there(id)).collect();
+        let shown = html! {
+            main {
+                h1 { (title) }
+                (facts::facts(summary, data))
+                // One part, whether there are any or none: another run may take this one's place.
+                div { (facts::warnings(summary, data)) }
+                nav aria-label="Contents" {
+                    ol { @for (id, head) in &sections { li { a href={ "#" (id) } { (head) } } } }
+                }
+                @for (id, head) in &sections { section id=(id) { h2 { (head) } (body(id)) } }
+            }
+            footer id="made" { (settings::made(summary, data, made)) }
+            (chart::json("", Some("data"), &embedded(data)))
+            script type="text/plain" id="shapes" { (PreEscaped(shapes(data))) }
+        };
+        let [case, solver] = [&summary["case"], &summary["solver"]].map(text);
+        Self { title: format!("{title} – {case} – {solver}"), shown }
+    }
 }
 
 /// What the script draws beside the figures: the model, the times of its deformed shapes, the modes.
@@ -129,13 +160,15 @@ fn value(value: &Value) -> f64 {
 }
 
 /// A figure with a sentence beneath.
-fn figure(figure: Figure, caption: &str) -> Markup {
-    // The histories of a run are short already.
-    chart::figure(&figure.caption(caption), 0.0, &Scales::default())
+fn figure(figure: Figure, caption: &str, still: bool) -> Markup {
+    figures(&[figure.caption(caption)], still)
 }
 
-/// Figures that may have one scale.
-fn figures(all: &[Figure]) -> Markup {
+/// Figures that may have one scale. The histories of a run are short already.
+fn figures(all: &[Figure], still: bool) -> Markup {
+    if !still {
+        return html! { @for f in all { (chart::alive(f, 0.0)) } };
+    }
     let scales = Scales::of(all.iter());
     html! { @for f in all { (chart::figure(f, 0.0, &scales)) } }
 }

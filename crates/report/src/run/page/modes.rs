@@ -4,7 +4,7 @@ use crate::run::units::{number, percent};
 use crate::run::{RunData, drawing};
 use maud::{Markup, PreEscaped, html};
 
-pub(super) fn modes(data: &RunData) -> Markup {
+pub(super) fn modes(data: &RunData, still: bool) -> Markup {
     let n = data.picture.points.len();
     let free = match data.free_modes {
         0 => String::new(),
@@ -15,7 +15,7 @@ pub(super) fn modes(data: &RunData) -> Markup {
         p.note { "Of the structure without its links." (free) }
         div.figures.board.modes { @for (i, m) in data.modes.iter().enumerate() {
             figure {
-                div.still { (PreEscaped(drawing::mode_svg(data, &drawing::mode(data, i, n), &format!("Mode {}", m.number)))) }
+                @if still { div.still { (PreEscaped(drawing::mode_svg(data, &drawing::mode(data, i, n), &format!("Mode {}", m.number)))) } }
                 div.stage.live { canvas data-mode=(i) role="img" aria-label={ "Mode " (m.number) } {} }
                 figcaption {
                     b { "Mode " (m.number) ": " (number(m.frequency)) " Hz" } ", " (number(1.0 / m.frequency)) " s"

@@ -5,12 +5,11 @@ use crate::run::drawing;
 use crate::run::units::short;
 use maud::{Markup, PreEscaped, html};
 
-pub(super) fn motion(data: &RunData) -> Markup {
+pub(super) fn motion(data: &RunData, still: bool) -> Markup {
     let peak = drawing::largest(data).filter(|_| data.frames.t.len() > 1);
-    let rest = drawing::svg(data, &[], "The model", true);
     html! {
-        div.still {
-            (PreEscaped(rest))
+        @if still { div.still {
+            (PreEscaped(drawing::svg(data, &[], "The model", true)))
             @if let Some((frame, scale)) = peak {
                 p.note {
                     "Moved as at " (short(data.frames.t[frame], 5)) " s, "
@@ -24,7 +23,7 @@ pub(super) fn motion(data: &RunData) -> Markup {
                     false,
                 )))
             }
-        }
+        } }
         div.stage.live {
             canvas id="stage" tabindex="0" role="img" aria-label="The moving model; the controls below play it" {}
             div.tip hidden {}

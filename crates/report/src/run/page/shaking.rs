@@ -12,22 +12,22 @@ fn in_g(x: f64) -> String {
     number(x / STANDARD_GRAVITY)
 }
 
-pub(super) fn ground(data: &RunData) -> Markup {
+pub(super) fn ground(data: &RunData, still: bool) -> Markup {
     let peak = |g: &crate::run::Ground| {
         format!("Peak {} g ({} m/s²) at {} s.", in_g(g.peak), number(g.peak), short(g.t_peak, 4))
     };
     html! {
         p.note { "The acceleration of the base that loads the model, positive along the axis, over the whole case." }
         div.figures.board {
-            (drawn(&data.ground.iter().map(|g| figures::ground(g).caption(peak(g))).collect::<Vec<_>>()))
+            (drawn(&data.ground.iter().map(|g| figures::ground(g).caption(peak(g))).collect::<Vec<_>>(), still))
             @for s in &data.ground_spectra {
-                (figure(figures::spectra(s).sized(440, 240), "Pseudo-acceleration of oscillators on the ground."))
+                (figure(figures::spectra(s).sized(440, 240), "Pseudo-acceleration of oscillators on the ground.", still))
             }
         }
     }
 }
 
-pub(super) fn floors(summary: &Value, data: &RunData) -> Markup {
+pub(super) fn floors(summary: &Value, data: &RunData, still: bool) -> Markup {
     // In the order of the model, which a JSON object does not keep.
     let mut names: Vec<&str> = Vec::new();
     for curve in data.floor_spectra.iter().flat_map(|c| &c.curves) {
@@ -42,7 +42,7 @@ pub(super) fn floors(summary: &Value, data: &RunData) -> Markup {
             "All curves are in " code { "spectra.csv" } "."
         }
         div.figures.board {
-            (drawn(&data.floor_spectra.iter().map(|s| figures::spectra(s).scaled("floors")).collect::<Vec<_>>()))
+            (drawn(&data.floor_spectra.iter().map(|s| figures::spectra(s).scaled("floors")).collect::<Vec<_>>(), still))
         }
         div.wide { table {
             thead { tr {

@@ -10,15 +10,17 @@ function shapes() {
   return Int16Array.from({ length: bytes.byteLength / 2 }, (_, i) => bytes.getInt16(2 * i, true));
 }
 
-const frames = { t: data.frames.t, u: { step: data.frames.u.step, n: shapes() } };
+const frames = {};
+function reframe() { Object.assign(frames, { t: data.frames.t, u: { step: data.frames.u.step, n: shapes() } }); }
+reframe();
 
-/** Displacements of all points at a time, times a factor. */
-function displaced(t, factor) {
+/** Displacements of all points at a time, times a factor; into numbers that are there, or into new ones. */
+function displaced(t, factor, out = new Float64Array(3 * POINTS)) {
   const i = before(frames.t, t), j = Math.min(i + 1, frames.t.length - 1);
   const gap = frames.t[j] - frames.t[i];
   const share = gap > 0 ? Math.min(Math.max((t - frames.t[i]) / gap, 0), 1) : 0;
   const step = frames.u.step * factor, n = frames.u.n, size = 3 * POINTS;
-  const out = new Float64Array(size), [a, b, from, to] = [step * (1 - share), step * share, i * size, j * size];
+  const [a, b, from, to] = [step * (1 - share), step * share, i * size, j * size];
   for (let k = 0; k < size; k++) out[k] = a * n[from + k] + b * n[to + k];
   return out;
 }
@@ -32,12 +34,11 @@ function farthest() {
 }
 
 function player(canvas, controls, tip) {
-  const end = frames.t.at(-1) ?? 0, moves = frames.t.length > 1, most = farthest();
-  const wanted = Number(controls.dataset.scale) || 1;
+  const moves = frames.t.length > 1, still = new Float64Array(3 * POINTS), moved = new Float64Array(3 * POINTS);
+  let end = frames.t.at(-1) ?? 0, most = farthest(), wanted = Number(controls.dataset.scale) || 1;
   let factor = wanted, playing = false, speed = 1, last = 0;
-  const still = new Float64Array(3 * POINTS);
   const stage = new Stage(canvas, 440,
-    () => (frames.t.length ? displaced(clock.at ?? 0, factor) : still),
+    () => (frames.t.length ? displaced(clock.at ?? 0, factor, moved) : still),
     () => factor * most);
   const select = (label, values, chosen, write, change) => {
     const box = make("select", {}, ...values.map((v) => make("option", { value: String(v), selected: v === chosen }, write(v))));
@@ -89,14 +90,28 @@ function player(canvas, controls, tip) {
       stage.draw();
     });
     speed = end < 3 ? 0.25 : end > 60 ? 5 : 1;
-    const factors = [...new Set([1, 2, 5, 10, 20, 50, 100, 200, 500, 1000, wanted])].sort((a, b) => a - b);
+    const factors = () => [...new Set([1, 2, 5, 10, 20, 50, 100, 200, 500, 1000, wanted])].sort((a, b) => a - b);
+    const scale = select("displacements", factors(), wanted, (v) => `× ${v}`, (v) => { factor = Number(v); say(); stage.scaled(); stage.draw(); });
     controls.append(button, make("span", { class: "scrub" }, scrub, read),
       select("speed", [0.05, 0.1, 0.25, 0.5, 1, 2, 5, 10], speed, (v) => `× ${v}`, (v) => { speed = Number(v); }),
-      select("displacements", factors, wanted, (v) => `× ${v}`, (v) => { factor = Number(v); say(); stage.scaled(); stage.draw(); }), warning);
+      scale, warning);
     say();
+    renewals.push((next) => {
+      reframe();
+      [end, most] = [frames.t.at(-1), farthest()];
+      // Who has chosen a scale keeps it.
+      if (factor === wanted) factor = Number(next) || 1;
+      wanted = factor;
+      const box = scale.querySelector("select");
+      box.replaceChildren(...factors().map((v) => make("option", { value: String(v), selected: v === factor }, `× ${v}`)));
+      if ((clock.at ?? 0) > end) clock.read(end);
+      say();
+      stage.retint?.();
+      stage.draw();
+    });
   }
   controls.append(...views(stage));
-  if (solid) controls.append(...colours(stage, select, moves ? most : 0));
+  if (solid) controls.append(...colours(stage, select, () => (moves ? most : 0)));
   stage.names = picture.nodes.length <= 40;
   controls.append(tick("names", stage.names, (on) => { stage.names = on; }));
   if (moves) controls.append(tick("at rest", stage.ghost, (on) => { stage.ghost = on; }));
@@ -121,15 +136,22 @@ function views(stage) {
 
 /** What the model is coloured by. */
 function colours(stage, select, most) {
-  const all = tints(most);
+  let all = tints(most);
   if (!all.size) return [];
   stage.time = () => clock.at ?? 0;
-  const plain = "one each", box = select("colours", [plain, ...all.keys()], plain, (v) => v, (v) => {
+  const take = (v) => {
     stage.tint = all.get(v)?.() ?? null;
     // Points are measured as they are drawn.
     stage.scaled?.();
     stage.draw();
-  });
+  };
+  const plain = "one each", box = select("colours", [plain, ...all.keys()], plain, (v) => v, take);
+  stage.retint = () => {
+    const list = box.querySelector("select"), chosen = list.value;
+    all = tints(most);
+    list.replaceChildren(...[plain, ...all.keys()].map((v) => make("option", { value: v, selected: v === chosen }, v)));
+    if (chosen !== plain) take(list.value);
+  };
   return [box];
 }
 
@@ -138,9 +160,13 @@ const multiples = (numbers) => Float64Array.from(numbers.n, (n) => n * numbers.s
 
 /** A mode shape that swings while the pointer is over it. */
 function mode(canvas) {
-  const shape = multiples(data.modes[canvas.dataset.mode].u);
-  let most = 0;
-  for (let i = 0; i < shape.length; i += 3) most = Math.max(most, Math.hypot(shape[i], shape[i + 1], shape[i + 2]));
+  let shape, most;
+  const take = () => {
+    shape = multiples(data.modes[canvas.dataset.mode].u);
+    most = 0;
+    for (let i = 0; i < shape.length; i += 3) most = Math.max(most, Math.hypot(shape[i], shape[i + 1], shape[i + 2]));
+  };
+  take();
   const sides = [0, 1, 2].map((i) => extremes(picture.points.map((p) => p[i]))).map(([a, b]) => b - a);
   const size = 0.12 * Math.max(...sides);
   let phase = Math.PI / 2, swinging = false;
@@ -153,5 +179,6 @@ function mode(canvas) {
   };
   canvas.addEventListener("pointerenter", () => { swinging = true; requestAnimationFrame(swing); });
   canvas.addEventListener("pointerleave", () => { swinging = false; });
+  renewals.push(() => { take(); stage.draw(); });
   stage.draw();
 }

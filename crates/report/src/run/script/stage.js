@@ -59,15 +59,21 @@ class Stage {
   /** How the model at rest fits in. */
   fit() {
     this.directions = directions(this.view, this.azimuth, this.elevation);
-    const [right, up] = this.directions, room = this.largest();
-    let [x0, x1, y0, y1] = [Infinity, -Infinity, Infinity, -Infinity];
-    for (const p of picture.points) {
-      const x = along(p, right), y = along(p, up);
-      if (x < x0) x0 = x;
-      if (x > x1) x1 = x;
-      if (y < y0) y0 = y;
-      if (y > y1) y1 = y;
+    const [right, up] = this.directions, room = this.largest(), way = [...right, ...up].join();
+    // A model that only moves is as large as it was.
+    if (this.way !== way) {
+      const [a, b, c, d, e, f] = [...right, ...up];
+      let [x0, x1, y0, y1] = [Infinity, -Infinity, Infinity, -Infinity];
+      for (const p of picture.points) {
+        const x = a * p[0] + b * p[1] + c * p[2], y = d * p[0] + e * p[1] + f * p[2];
+        if (x < x0) x0 = x;
+        if (x > x1) x1 = x;
+        if (y < y0) y0 = y;
+        if (y > y1) y1 = y;
+      }
+      [this.way, this.sides] = [way, [x0, x1, y0, y1]];
     }
+    const [x0, x1, y0, y1] = this.sides;
     this.k = this.near * Math.min((this.width - 60) / (x1 - x0 + 2 * room || 1), (this.height - 60) / (y1 - y0 + 1.4 * room || 1));
     this.middle = [(x0 + x1) / 2, (y0 + y1) / 2];
   }

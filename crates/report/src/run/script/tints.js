@@ -58,11 +58,11 @@ class Tint {
 /** A length in the unit that is easy to read. */
 const length = (m) => (m >= 1 ? [m, "m"] : m >= 0.01 ? [100 * m, "cm"] : [1000 * m, "mm"]);
 
-/** Names of what there is, and how it is made when it is chosen. */
+/** Names of what there is, and how it is made when it is chosen; most(): size of the largest displacement. */
 function tints(most) {
   const all = new Map();
-  if (most > 0) {
-    all.set("displacement", () => new Tint("displacement", length(most)[1], length(most)[0], 1));
+  if (most() > 0) {
+    all.set("displacement", () => new Tint("displacement", length(most())[1], length(most())[0], 1));
     if (picture.plane !== "XY" && picture.lines.some(upright)) all.set("drift of columns", drifts);
   }
   for (const tint of data.tints) {
