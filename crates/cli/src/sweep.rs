@@ -40,37 +40,17 @@ pub(crate) fn sweep(registry: &Registry, args: &SweepArguments) -> Result<Answer
         return Err(Failure::input(&message, Some(help)));
     }
     study_folder::look(&study, &folder, &args.figure_format)?;
-    let cores = std::thread::available_parallelism().map_or(1, std::num::NonZero::get);
-    let threads = args.threads.map_or(cores, usize::from);
+    let threads = args.threads.map_or_else(cores, usize::from);
     let inputs = made_by::Inputs::of_study(&study)?;
     let start = Instant::now();
-    let results = {
-        let again = format!(
-            "finished runs are kept in {}: stopped at any time, the same command goes on",
-            shown(&folder)
-        );
-        let bar = Mutex::new(Steps::new(&study.title, again));
-        let show = |p: trilith_study::Progress| {
-            if let Ok(mut bar) = bar.lock() {
-                bar.show(p.done, p.total, p.failed);
-            }
-        };
-        let ear = Ear::open("the study ends, and its finished runs are kept");
-        let part = match args.shard {
-            Some(shard) => Part::Shard(shard),
-            None if args.gather => Part::Gather,
-            None => Part::All,
-        };
-        let store = args.store.as_deref();
-        let how = How { threads, part, retry_failed: args.retry_failed, store };
-        execute(&study, registry, &folder, how, &show, ear.flag()).map_err(|e| {
-            let failure = Failure::input(&e.to_string(), Some(e.help()));
-            match e {
-                StudyError::Interrupted { .. } => Failure { status: INTERRUPTED, ..failure },
-                _ => failure,
-            }
-        })?
+    let part = match args.shard {
+        Some(shard) => Part::Shard(shard),
+        None if args.gather => Part::Gather,
+        None => Part::All,
     };
+    let store = args.store.as_deref();
+    let how = How { threads, part, retry_failed: args.retry_failed, store };
+    let results = executed(&study, registry, &folder, how)?;
     let mut text = report(&study, &results, start.elapsed().as_secs_f64(), &folder);
     match args.shard {
         Some(shard) => {
@@ -106,6 +86,38 @@ pub(crate) fn sweep(registry: &Registry, args: &SweepArguments) -> Result<Answer
     }
     crate::browser::show(args.open, &folder.join("study.html"));
     Ok(Answer { text, status: i32::from(failed > 0) })
+}
+
+/// As many threads as there are cores.
+pub(crate) fn cores() -> usize {
+    std::thread::available_parallelism().map_or(1, std::num::NonZero::get)
+}
+
+/// Runs a study, shows how far it is, and can be stopped.
+pub(crate) fn executed(
+    study: &Study,
+    registry: &Registry,
+    folder: &Path,
+    how: How<'_>,
+) -> Result<Results, Failure> {
+    let again = format!(
+        "finished runs are kept in {}: stopped at any time, the same command goes on",
+        shown(folder)
+    );
+    let bar = Mutex::new(Steps::new(&study.title, again));
+    let show = |p: trilith_study::Progress| {
+        if let Ok(mut bar) = bar.lock() {
+            bar.show(p.done, p.total, p.failed);
+        }
+    };
+    let ear = Ear::open("the study ends, and its finished runs are kept");
+    execute(study, registry, folder, how, &show, ear.flag()).map_err(|e| {
+        let failure = Failure::input(&e.to_string(), Some(e.help()));
+        match e {
+            StudyError::Interrupted { .. } => Failure { status: INTERRUPTED, ..failure },
+            _ => failure,
+        }
+    })
 }
 
 /// How far the parts of a study are.

@@ -36,6 +36,57 @@ fn a_page_carries_the_model_its_records_and_the_engine() {
     assert!(!page.contains("src=\"http") && !page.contains("href=\"http"));
 }
 
+/// A study of four runs.
+const STUDY: &str = r#"(
+    title: "Four blocks",
+    model: "rigid_block.ron",
+    set: { "duration": "0.1 s" },
+    axes: { "mu": [0.2, 0.8], "ah": [0.3, 0.9] },
+    columns: { "slip": Slip },
+    figures: [Points(x: "mu", y: "ah")],
+)"#;
+
+#[test]
+fn a_study_becomes_a_page_with_its_charts_and_makes_the_runs_that_are_not_there() {
+    let folder = tempfile::tempdir().unwrap();
+    let here = folder.path();
+    std::fs::copy(models().join("rigid_block.ron"), here.join("rigid_block.ron")).unwrap();
+    std::fs::write(here.join("four.ron"), STUDY).unwrap();
+    std::fs::write(here.join("bare.ron"), STUDY.replace("Points(x: \"mu\", y: \"ah\")", ""))
+        .unwrap();
+    std::fs::write(here.join("engine.wasm"), ENGINE).unwrap();
+    let view = |arguments: &[&str]| {
+        let mut command = Command::cargo_bin("trilith").unwrap();
+        command.current_dir(here).arg("view").args(["--engine", "engine.wasm"]).args(arguments);
+        let done = command.output().unwrap();
+        (done.status.code(), String::from_utf8(done.stderr).unwrap())
+    };
+    let (status, told) = view(&["four.ron", "--set", "cv=0", "--runs", "runs"]);
+    assert_eq!(status, Some(0), "{told}");
+    assert!(here.join("runs/table.csv").is_file());
+    let page = std::fs::read_to_string(here.join("four.html")).unwrap();
+    // What all runs set is there once, what one sets beside it, and which parameters the axes are.
+    for part in [
+        r#"["duration","0.1 s"]"#,
+        r#"["cv","0"]"#,
+        r#"[["mu","0.2"],["ah","0.3"]]"#,
+        r#""settings":[["mu",""],["ah",""]]"#,
+        "Four blocks",
+    ] {
+        assert!(page.contains(part), "no {part} in it");
+    }
+    assert!(!page.contains("src=\"http") && !page.contains("href=\"http"));
+    for (arguments, words) in [
+        (&["bare.ron"][..], "no figures to ask"),
+        (&["four.ron", "--case", "pulse"], "a case of its own"),
+        (&["rigid_block.ron", "--runs", "runs"], "no runs of a model"),
+        (&["four.ron", "--set", "nu=1"], "nu"),
+    ] {
+        let (status, told) = view(arguments);
+        assert!(status == Some(2) && told.contains(words), "{arguments:?}: {told}");
+    }
+}
+
 #[test]
 fn what_cannot_be_a_page_is_refused() {
     let model = models().join("rigid_block.ron");

@@ -35,6 +35,9 @@ enum Question {
         /// Whether the errors of the steps are found, which takes as long again.
         #[serde(default)]
         errors: bool,
+        /// Whether the page is there already, of another run of the same model: what takes the place of its parts will do.
+        #[serde(default)]
+        update: bool,
     },
 }
 
@@ -80,10 +83,10 @@ fn of(question: Question) -> Result<Value, String> {
                 "version": trilith::LONG_VERSION,
             }))
         }
-        Question::Run { path, text, set, case, solver, errors } => {
+        Question::Run { path, text, set, case, solver, errors, update } => {
             let overrides: Vec<(String, String)> = set.clone().into_iter().collect();
             let (_, model) = read(&path, &text, set)?;
-            run(&model, &overrides, [case, solver], errors)
+            run(&model, &overrides, [case, solver], [errors, update])
         }
     }
 }
@@ -139,7 +142,7 @@ fn run(
     model: &Model,
     overrides: &[(String, String)],
     [case, solver]: [Option<String>; 2],
-    errors: bool,
+    [errors, update]: [bool; 2],
 ) -> Result<Value, String> {
     let renderer = Renderer::plain();
     let failed = |error: Error| match error.span() {
@@ -163,8 +166,9 @@ fn run(
     let summary = run.summary(model);
     let data = run.report(&analysis, overrides, &[]);
     let value = serde_json::to_value(&summary).unwrap_or_default();
+    let made = if update { report::run_update } else { report::run_page };
     Ok(json!({
-        "page": report::run_page(&value, &data, &Value::Null),
+        "page": made(&value, &data, &Value::Null),
         "warnings": summary.warnings,
         "peaks": peaks(model, &run),
         "ended": summary.status,

@@ -5,6 +5,7 @@
 //! reads, and the engine.
 
 mod answer;
+mod digits;
 #[cfg(target_family = "wasm")]
 mod exports;
 mod page;

@@ -1,13 +1,13 @@
 //! The page: a model with the engine in it, as one file without network.
 
-use base64::Engine;
-use base64::engine::general_purpose::STANDARD;
+use crate::digits::{DIGITS, digits};
 use flate2::Compression;
 use flate2::write::GzEncoder;
 use maud::{DOCTYPE, PreEscaped, html};
 use serde_json::json;
 use std::collections::BTreeMap;
 use std::io::{Result, Write};
+use trilith::report::Charts;
 
 const STYLE: &str = include_str!("page/live.css");
 const WORKER: &str = include_str!("page/worker.js");
@@ -34,6 +34,10 @@ pub struct Live<'a> {
     pub set: &'a [(String, String)],
     /// Case that the page begins with; the last one where none is named.
     pub case: Option<&'a str>,
+    /// Solver that it begins with; that of the case where none is named.
+    pub solver: Option<&'a str>,
+    /// Charts of a study of the model: the page computes the run where their cursor is.
+    pub charts: Option<&'a Charts>,
     /// The library of this crate, compiled for WebAssembly.
     pub engine: &'a [u8],
 }
@@ -45,14 +49,16 @@ pub struct Live<'a> {
 pub fn page(live: &Live<'_>) -> Result<String> {
     let mut packed = GzEncoder::new(Vec::new(), Compression::best());
     packed.write_all(live.engine)?;
-    let engine = STANDARD.encode(packed.finish()?);
+    let engine = digits(&packed.finish()?);
     let model = json!({
         "path": live.path,
         "text": live.text,
         "files": live.files,
         "set": live.set.iter().cloned().collect::<BTreeMap<_, _>>(),
         "case": live.case,
+        "solver": live.solver,
         "worker": WORKER,
+        "digits": DIGITS,
     });
     // Nothing in a text ends the script that it stands in.
     let model = model.to_string().replace('<', "\\u003c");
@@ -63,10 +69,11 @@ pub fn page(live: &Live<'_>) -> Result<String> {
                 meta charset="utf-8";
                 meta name="viewport" content="width=device-width, initial-scale=1";
                 title { (live.title) }
-                style { (PreEscaped(STYLE)) }
+                style { @if let Some(c) = live.charts { (PreEscaped(c.style)) } (PreEscaped(STYLE)) }
+                link rel="icon" href="data:,";
             }
             body {
-                main {
+                main class=[live.charts.map(|_| "study")] {
                     section.side aria-label="Model" {
                         h1 { (live.title) }
                         p.choices {
@@ -74,17 +81,24 @@ pub fn page(live: &Live<'_>) -> Result<String> {
                             label { "solver " select #solver {} }
                         }
                         p #state role="status" { "The engine starts." }
-                        pre #told hidden {}
+                        pre #told role="alert" tabindex="0" hidden {}
+                        @if let Some(c) = live.charts {
+                            p.note {
+                                "Drag the ring, or press where it is to go: the run there is computed in this page. \
+                                 Arrows move it, with Shift in larger steps."
+                            }
+                            div #charts { (PreEscaped(&c.figures)) }
+                        }
                         table #peaks hidden {
                             thead { tr { th { "peak" } th { "here" } th { "against the file" } } }
                             tbody {}
                         }
                         div #tabs role="tablist" {
-                            button type="button" role="tab" aria-selected="true" aria-controls="values" { "Parameters" }
-                            button type="button" role="tab" aria-selected="false" aria-controls="file" { "File" }
+                            button #tab-values type="button" role="tab" aria-selected="true" aria-controls="values" { "Parameters" }
+                            button #tab-file type="button" role="tab" aria-selected="false" aria-controls="file" tabindex="-1" { "File" }
                         }
-                        div #values role="tabpanel" {}
-                        div #file role="tabpanel" hidden {
+                        div #values role="tabpanel" aria-labelledby="tab-values" {}
+                        div #file role="tabpanel" aria-labelledby="tab-file" hidden {
                             label { "file " select #which {} }
                             textarea #text spellcheck="false" autocapitalize="off" aria-label="Text of the file" {}
                             p { button type="button" #save { "Save a copy" } }
@@ -97,9 +111,10 @@ pub fn page(live: &Live<'_>) -> Result<String> {
                     }
                     div #results {}
                 }
-                script type="application/gzip+base64" #engine { (PreEscaped(engine)) }
+                script type="application/gzip+base85" #engine { (PreEscaped(engine)) }
                 script type="application/json" #model { (PreEscaped(model)) }
                 script { (PreEscaped(SCRIPT.join("\n"))) }
+                @if let Some(c) = live.charts { (PreEscaped(&c.script)) }
             }
         }
     };
@@ -124,6 +139,8 @@ mod tests {
             files,
             set: &set,
             case: None,
+            solver: None,
+            charts: None,
             engine: &engine,
         };
         let html = page(&live).unwrap();
@@ -140,7 +157,7 @@ mod tests {
             serde_json::from_str(between(r#"type="application/json""#)).unwrap();
         assert_eq!(model["text"], hostile);
         assert_eq!(model["files"]["records/a.csv"], hostile);
-        let packed = STANDARD.decode(between(r#"type="application/gzip+base64""#)).unwrap();
+        let packed = crate::digits::bytes(between(r#"type="application/gzip+base85""#));
         let mut unpacked = Vec::new();
         flate2::read::GzDecoder::new(&packed[..]).read_to_end(&mut unpacked).unwrap();
         assert_eq!(unpacked, engine);

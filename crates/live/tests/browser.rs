@@ -5,6 +5,7 @@ use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 use trilith::RunOptions;
+use trilith::report::{Charts, Entries, Entry, Figure, Stroke};
 use trilith_live::{Live, page};
 
 /// Slider of a parameter whose value is x0 5^s: s, and the value as the page rounds it.
@@ -33,6 +34,82 @@ fn peaks(text: &str, set: &[(&str, &str)]) -> BTreeMap<String, f64> {
     model.shown().map(|(_, o)| one(o)).filter(|(_, x)| *x != 0.0).collect()
 }
 
+/// Points of a small mode chart of the block: friction and peak acceleration, by rows of runs.
+const CHART: [(f64, f64); 4] = [(0.2, 0.3), (0.8, 0.3), (0.2, 0.9), (0.8, 0.9)];
+
+/// A chart over two parameters, with the runs that its points stand for.
+fn charts() -> Charts {
+    let of = |name: &str| (name.to_owned(), String::new());
+    let chart = Figure::new("Modes", "friction coefficient μ", "peak acceleration A [g]")
+        .series("runs", Stroke::Squares, CHART)
+        .standing_for(0..CHART.len())
+        .setting(of("mu"), of("ah"))
+        .ranges((0.0, 1.0), (0.0, 1.0));
+    let row = |(mu, ah): (f64, f64)| Entry {
+        cells: vec![mu.to_string(), ah.to_string()],
+        place: Vec::new(),
+        set: vec![("mu".into(), mu.to_string()), ("ah".into(), ah.to_string())],
+    };
+    let entries = Entries {
+        name: "run".into(),
+        command: "trilith run rigid_block.ron".into(),
+        common: vec![("duration".into(), "1 s".into())],
+        head: vec![of("mu"), of("ah")],
+        rows: CHART.into_iter().map(row).collect(),
+    };
+    Charts::new(&[chart], &entries)
+}
+
+#[test]
+fn a_page_computes_the_run_where_the_cursor_of_a_chart_is() {
+    let here = Path::new(env!("CARGO_MANIFEST_DIR"));
+    if Command::new("node").arg("--version").output().is_err() {
+        println!("not run: no Node.js found");
+        return;
+    }
+    let Some(engine) = engine() else {
+        println!("not run: the engine for pages is not built");
+        return;
+    };
+    let text = std::fs::read_to_string(here.join("../../models/rigid_block.ron")).unwrap();
+    let charts = charts();
+    let live = Live {
+        title: "Modes of a block",
+        path: "rigid_block.ron",
+        text: &text,
+        files: BTreeMap::new(),
+        set: &[],
+        case: None,
+        solver: None,
+        charts: Some(&charts),
+        engine: &engine,
+    };
+    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("study");
+    std::fs::create_dir_all(&folder).unwrap();
+    let write = |name: &str, content: String| {
+        let path = folder.join(name);
+        std::fs::write(&path, content).unwrap();
+        path
+    };
+    // Between the runs of the chart: what is read from the page is what the page sets.
+    let places = [("0.7", "0.25"), ("0.15", "0.85"), ("0.75", "0.8")];
+    let places: Vec<Value> = places
+        .iter()
+        .map(|(mu, ah)| {
+            let set = [("duration", "1 s"), ("mu", mu), ("ah", ah)];
+            json!({ "x": mu, "y": ah, "peaks": peaks(&text, &set) })
+        })
+        .collect();
+    let html = write("modes.html", page(&live).unwrap());
+    let expected = write("expected.json", json!(places).to_string());
+    let mut drive = Command::new("node");
+    drive.arg(here.join("tests/cursor.mjs")).args([&html, &expected]).arg(folder.join("pictures"));
+    let done = drive.output().unwrap();
+    let told = String::from_utf8_lossy(&done.stdout);
+    print!("{told}");
+    assert!(done.status.success(), "{told}{}", String::from_utf8_lossy(&done.stderr));
+}
+
 #[test]
 fn a_page_computes_what_the_library_computes_and_tells_what_is_wrong() {
     let here = Path::new(env!("CARGO_MANIFEST_DIR"));
@@ -52,6 +129,8 @@ fn a_page_computes_what_the_library_computes_and_tells_what_is_wrong() {
         files: BTreeMap::new(),
         set: &[],
         case: None,
+        solver: None,
+        charts: None,
         engine: &engine,
     };
     let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("live");

@@ -47,7 +47,7 @@ pub(crate) enum Command {
     Check(CheckArguments),
     /// Periods, participation and adequacy of the basis
     Modes(ModesArguments),
-    /// Make a page with the model and the engine in it: values and text are changed there, and it runs again
+    /// Make a page with a model, or a study of one, and the engine in it: what is changed there runs again
     View(ViewArguments),
     /// The JSON Schema of models in JSON
     Schema,
@@ -127,7 +127,10 @@ pub(crate) struct ViewArguments {
     /// Case that the page begins with [default: the last of the file]
     #[arg(long)]
     pub case: Option<String>,
-    /// Page to write [default: the name of the model with `.html`, in this folder]
+    /// Folder of the runs of a study; what it has not is run [default: out/NAME]
+    #[arg(long, value_name = "DIR")]
+    pub runs: Option<PathBuf>,
+    /// Page to write [default: the name of the file with `.html`, in this folder]
     #[arg(long, value_name = "FILE")]
     pub out: Option<PathBuf>,
     /// Open the page in a browser

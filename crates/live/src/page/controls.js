@@ -1,7 +1,7 @@
 // Parameters as fields and sliders, cases, solvers, the text of the files, and what is said of them.
 "use strict";
 const by = (id) => document.getElementById(id);
-const state = { path: data.path, text: data.text, set: { ...data.set }, case: data.case, solver: null };
+const state = { path: data.path, text: data.text, set: { ...data.set }, case: data.case, solver: data.solver };
 
 const tell = (told) => {
   by("told").textContent = told ?? "";
@@ -93,15 +93,23 @@ const looked = (answer) => {
   const same = values.dataset.of === JSON.stringify(answer.parameters);
   if (!same && !active) {
     values.dataset.of = JSON.stringify(answer.parameters);
+    state.parameters = answer.parameters;
     values.replaceChildren(...answer.parameters.map(field));
     if (!names.length) values.textContent = "The model has no parameters: edit its file.";
   }
   return undefined;
 };
 
+// What a chart's cursor asks for.
+const settle = ({ set }) => {
+  state.set = set;
+  if (state.parameters) by("values").replaceChildren(...state.parameters.map(field));
+};
+
 // Peaks, beside those of the file as it was.
 const peaks = (all) => {
-  const plain = !Object.keys(state.set).length && state.text === data.text && (state.case ?? null) === (data.case ?? null) && !state.solver;
+  by("peaks").classList.toggle("alone", Boolean(by("charts")));
+  const plain = !Object.keys(state.set).length && state.text === data.text && (state.case ?? null) === (data.case ?? null) && state.solver === data.solver;
   if (plain) state.first = Object.fromEntries(all.map((p) => [p.name, p.value]));
   by("peaks").hidden = !all.length;
   by("peaks").tBodies[0].replaceChildren(...all.map(({ name, unit, value }) => {

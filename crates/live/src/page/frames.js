@@ -41,5 +41,7 @@ const frames = (() => {
     front = next;
     if (was) go(of, was);
   };
-  return { show };
+  /** Another run in the page that is there; false where there is none, or its parts are others. */
+  const renew = (html) => Boolean(front?.contentWindow.renew?.(html));
+  return { show, renew, there: () => Boolean(front) };
 })();

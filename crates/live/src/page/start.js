@@ -1,11 +1,13 @@
 // Runs follow what is changed: at once without the errors of the steps, and with them when nothing has changed for a while.
 "use strict";
 let timer, patience;
+/** Whether runs make a page of their own: what is changed has another model as its effect, such as another width. */
+let anew = false;
 const QUIET = 700, PATIENCE = 1500;
 
 const seconds = (ms) => (ms < 1000 ? `${Math.round(ms)} ms` : `${(ms / 1000).toFixed(1)} s`);
 
-const shown = (errors, asked) => (answer) => {
+const shown = (errors, update, asked) => (answer) => {
   clearTimeout(patience);
   document.body.classList.remove("busy");
   if (answer.told) {
@@ -13,17 +15,19 @@ const shown = (errors, asked) => (answer) => {
     say("The results are those of before.");
     return;
   }
+  if (!update) frames.show(answer.page);
+  else if (!frames.renew(answer.page)) { anew = true; run(errors); return; }
   tell("");
-  frames.show(answer.page);
   peaks(answer.peaks);
   say(errors ? `Run with its errors in ${seconds(answer.ms)}.` : `Run in ${seconds(answer.ms)}; its errors follow.`);
-  document.body.dataset.shown = asked;
+  Object.assign(document.body.dataset, { engine: answer.ms, made: update ? "renewed" : "made anew", shown: asked });
 };
-const run = (errors) => {
+function run(errors) {
+  const update = frames.there() && !anew;
   const { path, text, set, case: of, solver } = state;
   const asked = JSON.stringify([set, of, solver, text.length, errors]);
-  engine.ask(errors ? "errors" : "run", { ask: "run", path, text, set, case: of, solver, errors }, shown(errors, asked));
-};
+  engine.ask(errors ? "errors" : "run", { ask: "run", path, text, set, case: of, solver, errors, update }, shown(errors, update, asked));
+}
 function changed() {
   command();
   clearTimeout(timer);
@@ -34,14 +38,14 @@ function changed() {
   run(false);
   clearTimeout(patience);
   patience = setTimeout(() => say("A long run goes on …"), PATIENCE);
-  timer = setTimeout(run, QUIET, true);
+  timer = setTimeout(() => { anew = false; run(true); }, QUIET);
 }
 const look = () => engine.ask("look", { ask: "look", path: state.path, text: state.text, set: {} }, looked);
 
 by("case").addEventListener("change", () => { state.case = by("case").value; changed(); });
 by("solver").addEventListener("change", () => { state.solver = by("solver").value || null; changed(); });
 by("back").addEventListener("click", () => {
-  Object.assign(state, { text: data.text, set: {}, case: data.case, solver: null });
+  Object.assign(state, { text: data.text, set: {}, case: data.case, solver: data.solver });
   Object.assign(data.files, original);
   by("values").dataset.of = "";
   edit();
@@ -49,12 +53,24 @@ by("back").addEventListener("click", () => {
   look();
   changed();
 });
-for (const tab of document.querySelectorAll("[role=tab]")) tab.addEventListener("click", () => {
-  for (const other of document.querySelectorAll("[role=tab]")) {
-    other.setAttribute("aria-selected", other === tab);
-    by(other.getAttribute("aria-controls")).hidden = other !== tab;
-  }
+const tabs = [...document.querySelectorAll("[role=tab]")];
+tabs.forEach((tab, i) => {
+  tab.addEventListener("click", () => {
+    for (const other of tabs) {
+      other.setAttribute("aria-selected", other === tab);
+      other.tabIndex = other === tab ? 0 : -1;
+      by(other.getAttribute("aria-controls")).hidden = other !== tab;
+    }
+  });
+  tab.addEventListener("keydown", ({ key }) => {
+    const step = { ArrowLeft: -1, ArrowRight: 1 }[key];
+    if (!step) return;
+    const next = tabs.at((i + step) % tabs.length);
+    next.focus();
+    next.click();
+  });
 });
+document.addEventListener("asked", ({ detail }) => { settle(detail); changed(); });
 
 // The model and the files of its sections can be written in.
 const original = { ...data.files };
