@@ -1,7 +1,7 @@
 """Matrices of a building of walls and slabs as shells, meshed with Gmsh: `pip install gmsh scipy`.
 
-Five storeys of 12 m by 9 m on a raft and a grid of 10 by 10 bearings; about 120 000 equations.
-Writes shells_k.npz, shells_m.npz, shells_rows.csv and shells.ron beside this script.
+Five storeys of 12 m by 9 m on a raft and a grid of 10 by 10 bearings; about 110 000 equations.
+Writes shells_k.npz, shells_m.npz, shells_rows.csv and shells.ron into the folder where it is run.
 """
 import gmsh
 import numpy as np
@@ -18,7 +18,7 @@ plates += [((x, y, 0), (3, 0, 0), up, WALL) for x in (0.0, 9.0) for y in (0.0, W
 plates += [((x, y, 0), (0, 3, 0), up, WALL) for x in (0.0, LENGTH) for y in (0.0, 6.0)]
 plates += [((4.5, 3, 0), (3, 0, 0), up, WALL), ((4.5, 6, 0), (3, 0, 0), up, WALL), ((4.5, 3, 0), (0, 3, 0), up, WALL)]
 
-# The mesh: plates that meet share their nodes, and each is cut into rectangles.
+# The mesh: plates that meet share their nodes, and each is cut into quadrilaterals.
 gmsh.initialize()
 gmsh.option.setNumber("General.Verbosity", 1)
 occ = gmsh.model.occ
