@@ -160,8 +160,8 @@ fn parts_that_were_run_elsewhere_are_gathered_to_the_same_bits() {
     }
     // What another study made is not taken.
     let other = read(here, &body.replace("0.5]", "0.6]")).unwrap();
-    let shard = Shard::new(1, 3).unwrap();
-    let journal = bytes(&out, "runs.1-of-3.journal");
+    let shard = Shard::new(2, 3).unwrap();
+    let journal = bytes(&out, "runs.2-of-3.journal");
     let error = other.take_part(&here.join("other"), shard, &journal).unwrap_err();
     assert!(matches!(error, StudyError::OtherStudy { .. }), "{error}");
 }

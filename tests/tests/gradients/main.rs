@@ -218,13 +218,14 @@ fn modes_move_with_the_structure() {
 }
 
 /// By a parameter that leads no link to another branch in four parts in a thousand, differences are good to many digits; with effective stiffnesses
-/// in the modes as well, where one exponential of all of them makes a step.
+/// in the modes as well, where one exponential of all of them makes a step. These are those of the pendulums after slip: forces go
+/// against k_e d there, and stiffer ones leave less of both than the last digits of runs, which are others on other processors.
 #[test]
 fn masses_move_modes_to_many_digits() {
     for (isolator, solver) in [
         ("", SolverKind::Fna),
         ("", SolverKind::RitzHht),
-        ("effective_stiffness: \"1 MN/m\",", SolverKind::Fna),
+        ("effective_stiffness: \"100 kN/m\",", SolverKind::Fna),
     ] {
         let by = ["floor_mass"];
         let case = Case::new(&frame_with("", isolator), solver, &[("duration", "0.8 s")], &by);
