@@ -1,7 +1,7 @@
 //! Numbers with derivatives that a law holds by their places in a list.
 //!
 //! A law is one function, and long. Over numbers of nine `f64` it would be much longer: each operation a loop, or a call with three
-//! numbers in memory. Here an operation is a call with two places that gives a third, and a law takes a tenth of the time to compile.
+//! numbers in memory. Here an operation is a call with two places that gives a third: a third of the library's machine code less.
 
 use super::law::{DIRECTIONS, Directions};
 use super::{Dual, Real};

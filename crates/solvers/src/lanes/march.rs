@@ -147,7 +147,7 @@ fn of_size<A: Arithmetic, const M: usize, const L: usize, const N: usize>(
     }
 }
 
-/// A march from one place: it is compiled in every part of the library that it is called from.
+/// The one place that calls a march: every part of the library that calls one has it compiled anew.
 #[inline(never)]
 fn run<A: Arithmetic, T: Task<A>>(with: A, task: T) -> T::Output {
     with.run(task)
