@@ -126,3 +126,13 @@ pub(crate) struct LowRank {
     pub u: Dense,
     pub rate: Vec<f64>,
 }
+
+impl LowRank {
+    /// `p += s · U diag(rate) Uᵀ v`.
+    pub(crate) fn mul_add(&self, s: f64, v: &[f64], p: &mut [f64]) {
+        let mut y = vec![0.0; self.rate.len()];
+        self.u.transpose_mul_add(1.0, v, &mut y);
+        y.iter_mut().zip(&self.rate).for_each(|(a, r)| *a *= r);
+        self.u.mul_add(s, &y, p);
+    }
+}

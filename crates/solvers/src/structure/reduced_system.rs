@@ -180,12 +180,7 @@ impl ReducedSystem {
             self.stiffness.mul_add(s * of_stiffness, v, p);
         }
         if let Some(modal) = &self.modal {
-            let mut y = vec![0.0; modal.rate.len()];
-            modal.u.transpose_mul_add(1.0, v, &mut y);
-            for (a, r) in y.iter_mut().zip(&modal.rate) {
-                *a *= r;
-            }
-            modal.u.mul_add(s, &y, p);
+            modal.mul_add(s, v, p);
         }
     }
 
