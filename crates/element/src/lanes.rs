@@ -42,6 +42,7 @@
 
 mod arithmetic;
 mod dual;
+mod each;
 #[cfg(target_arch = "x86_64")]
 mod functions;
 mod law;

@@ -1,5 +1,8 @@
 //! Text models of ETABS that are wrong: an error with line and column, or a loss by name, and no panic.
 
+mod common;
+
+use common::spoiled;
 use std::path::Path;
 use trilith_exchange::{Options, etabs};
 
@@ -189,12 +192,6 @@ fn numbers_with_commas_are_read_and_bytes_that_are_no_utf_8_are_told() {
 
 #[test]
 fn spoiled_files_are_refused_or_read_but_never_break() {
-    // Numbers of a linear congruential generator: the same files each time.
-    let mut seed = 11_u64;
-    let mut next = |below: usize| {
-        seed = seed.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
-        (seed >> 33) as usize % below
-    };
     let hurts: [&[u8]; 12] = [
         b"-1",
         b"0",
@@ -213,16 +210,7 @@ fn spoiled_files_are_refused_or_read_but_never_break() {
     for name in ["building.e2k", "links.e2k"] {
         let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/etabs").join(name);
         let bytes = std::fs::read(path).unwrap();
-        for _ in 0..400 {
-            let mut spoiled = bytes.clone();
-            for _ in 0..1 + next(3) {
-                let from = next(spoiled.len());
-                let to = (from + next(12)).min(spoiled.len());
-                spoiled.splice(from..to, hurts[next(hurts.len())].iter().copied());
-            }
-            if next(10) == 0 {
-                spoiled.truncate(next(spoiled.len()));
-            }
+        for spoiled in spoiled(&bytes, 400, &hurts) {
             if let Ok(import) = etabs::import(&spoiled, &Options::default()) {
                 through += 1;
                 assert_eq!(import.draft.beyond(), None);

@@ -11,12 +11,60 @@ use trilith_live::{Live, page};
 /// Slider of a parameter whose value is x0 5^s: s, and the value as the page rounds it.
 const SLIDER: (f64, &str) = (-0.25, "0.401");
 
-/// The engine where cargo puts it; `TRILITH_ENGINE` names another.
+/// The engine where cargo puts it; `TRILITH_ENGINE` names another. None, and it is said, where it or Node.js is missing.
 fn engine() -> Option<Vec<u8>> {
+    if Command::new("node").arg("--version").output().is_err() {
+        println!("not run: no Node.js found");
+        return None;
+    }
     let target = PathBuf::from(env!("CARGO_TARGET_TMPDIR")).join("..");
     let built = target.join("wasm32-unknown-unknown/live/trilith_live.wasm");
     let path = std::env::var_os("TRILITH_ENGINE").map_or(built, PathBuf::from);
-    std::fs::read(path).ok()
+    let engine = std::fs::read(path).ok();
+    if engine.is_none() {
+        println!("not run: the engine for pages is not built");
+    }
+    engine
+}
+
+/// The shipped block as a live page.
+fn block<'a>(title: &'a str, text: &'a str, engine: &'a [u8]) -> Live<'a> {
+    Live {
+        title,
+        path: "rigid_block.ron",
+        text,
+        files: BTreeMap::new(),
+        set: &[],
+        case: None,
+        solver: None,
+        charts: None,
+        engine,
+    }
+}
+
+/// Writes a page and what is expected of it into a folder of its own, and has a script drive it.
+fn drive(script: &str, live: &Live<'_>, expected: &Value) {
+    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join(script).with_extension("");
+    std::fs::create_dir_all(&folder).unwrap();
+    let write = |name: &str, content: String| {
+        let path = folder.join(name);
+        std::fs::write(&path, content).unwrap();
+        path
+    };
+    let files =
+        [write("page.html", page(live).unwrap()), write("expected.json", expected.to_string())];
+    let script = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests").join(script);
+    let mut drive = Command::new("node");
+    let done = drive.arg(script).args(files).arg(folder.join("pictures")).output().unwrap();
+    let told = String::from_utf8_lossy(&done.stdout);
+    print!("{told}");
+    assert!(done.status.success(), "{told}{}", String::from_utf8_lossy(&done.stderr));
+}
+
+/// The text of the shipped block.
+fn text() -> String {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../models/rigid_block.ron");
+    std::fs::read_to_string(path).unwrap()
 }
 
 /// Peaks by the library, as the page shows them.
@@ -62,35 +110,9 @@ fn charts() -> Charts {
 
 #[test]
 fn a_page_computes_the_run_where_the_cursor_of_a_chart_is() {
-    let here = Path::new(env!("CARGO_MANIFEST_DIR"));
-    if Command::new("node").arg("--version").output().is_err() {
-        println!("not run: no Node.js found");
-        return;
-    }
-    let Some(engine) = engine() else {
-        println!("not run: the engine for pages is not built");
-        return;
-    };
-    let text = std::fs::read_to_string(here.join("../../models/rigid_block.ron")).unwrap();
-    let charts = charts();
-    let live = Live {
-        title: "Modes of a block",
-        path: "rigid_block.ron",
-        text: &text,
-        files: BTreeMap::new(),
-        set: &[],
-        case: None,
-        solver: None,
-        charts: Some(&charts),
-        engine: &engine,
-    };
-    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("study");
-    std::fs::create_dir_all(&folder).unwrap();
-    let write = |name: &str, content: String| {
-        let path = folder.join(name);
-        std::fs::write(&path, content).unwrap();
-        path
-    };
+    let Some(engine) = engine() else { return };
+    let (text, charts) = (text(), charts());
+    let live = Live { charts: Some(&charts), ..block("Modes of a block", &text, &engine) };
     // Between the runs of the chart: what is read from the page is what the page sets.
     let places = [("0.7", "0.25"), ("0.15", "0.85"), ("0.75", "0.8")];
     let places: Vec<Value> = places
@@ -100,59 +122,19 @@ fn a_page_computes_the_run_where_the_cursor_of_a_chart_is() {
             json!({ "x": mu, "y": ah, "peaks": peaks(&text, &set) })
         })
         .collect();
-    let html = write("modes.html", page(&live).unwrap());
-    let expected = write("expected.json", json!(places).to_string());
-    let mut drive = Command::new("node");
-    drive.arg(here.join("tests/cursor.mjs")).args([&html, &expected]).arg(folder.join("pictures"));
-    let done = drive.output().unwrap();
-    let told = String::from_utf8_lossy(&done.stdout);
-    print!("{told}");
-    assert!(done.status.success(), "{told}{}", String::from_utf8_lossy(&done.stderr));
+    drive("cursor.mjs", &live, &json!(places));
 }
 
 #[test]
 fn a_page_computes_what_the_library_computes_and_tells_what_is_wrong() {
-    let here = Path::new(env!("CARGO_MANIFEST_DIR"));
-    if Command::new("node").arg("--version").output().is_err() {
-        println!("not run: no Node.js found");
-        return;
-    }
-    let Some(engine) = engine() else {
-        println!("not run: the engine for pages is not built");
-        return;
-    };
-    let text = std::fs::read_to_string(here.join("../../models/rigid_block.ron")).unwrap();
-    let live = Live {
-        title: "Rigid block",
-        path: "rigid_block.ron",
-        text: &text,
-        files: BTreeMap::new(),
-        set: &[],
-        case: None,
-        solver: None,
-        charts: None,
-        engine: &engine,
-    };
-    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("live");
-    std::fs::create_dir_all(&folder).unwrap();
-    let write = |name: &str, content: String| {
-        let path = folder.join(name);
-        std::fs::write(&path, content).unwrap();
-        path
-    };
-    let expected: Value = json!({
+    let Some(engine) = engine() else { return };
+    let text = text();
+    let expected = json!({
         "parameter": "mu",
         "slider": SLIDER.0,
         "peaks": peaks(&text, &[]),
         "moved": peaks(&text, &[("mu", SLIDER.1)]),
         "wrong": ["\"10 t\"", "\"10 m\""],
     });
-    let html = write("rigid_block.html", page(&live).unwrap());
-    let expected = write("expected.json", expected.to_string());
-    let mut drive = Command::new("node");
-    drive.arg(here.join("tests/live.mjs")).args([&html, &expected]).arg(folder.join("pictures"));
-    let done = drive.output().unwrap();
-    let told = String::from_utf8_lossy(&done.stdout);
-    print!("{told}");
-    assert!(done.status.success(), "{told}{}", String::from_utf8_lossy(&done.stderr));
+    drive("live.mjs", &block("Rigid block", &text, &engine), &expected);
 }

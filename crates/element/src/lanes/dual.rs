@@ -5,6 +5,7 @@
 //! between two branches it is that of one of them.
 
 use super::Real;
+use super::each::each;
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
 /// A value and its derivatives by `N` variables.
@@ -47,9 +48,7 @@ impl<const N: usize, R: Real> Dual<N, R> {
     #[must_use]
     pub fn map(mut self, x: R, slope: R) -> Self {
         self.x = x;
-        for by in &mut self.by {
-            *by = *by * slope;
-        }
+        each!(N, i => self.by[i] = self.by[i] * slope);
         self
     }
 
@@ -58,9 +57,7 @@ impl<const N: usize, R: Real> Dual<N, R> {
     #[must_use]
     pub fn with(mut self, o: Self, x: R, slope: R, other: R) -> Self {
         self.x = x;
-        for i in 0..N {
-            self.by[i] = slope.mul_add(self.by[i], other * o.by[i]);
-        }
+        each!(N, i => self.by[i] = slope.mul_add(self.by[i], other * o.by[i]));
         self
     }
 
@@ -78,9 +75,7 @@ impl<const N: usize, R: Real> Dual<N, R> {
     pub fn select(mask: R::Mask, yes: Self, no: Self) -> Self {
         let mut it = yes;
         it.x = R::select(mask, yes.x, no.x);
-        for i in 0..N {
-            it.by[i] = R::select(mask, yes.by[i], no.by[i]);
-        }
+        each!(N, i => it.by[i] = R::select(mask, yes.by[i], no.by[i]));
         it
     }
 
@@ -97,9 +92,7 @@ impl<const N: usize, R: Real> Add for Dual<N, R> {
     #[inline(always)]
     fn add(mut self, o: Self) -> Self {
         self.x = self.x + o.x;
-        for i in 0..N {
-            self.by[i] = self.by[i] + o.by[i];
-        }
+        each!(N, i => self.by[i] = self.by[i] + o.by[i]);
         self
     }
 }
@@ -109,9 +102,7 @@ impl<const N: usize, R: Real> Neg for Dual<N, R> {
     #[inline(always)]
     fn neg(mut self) -> Self {
         self.x = -self.x;
-        for by in &mut self.by {
-            *by = -*by;
-        }
+        each!(N, i => self.by[i] = -self.by[i]);
         self
     }
 }
@@ -121,9 +112,7 @@ impl<const N: usize, R: Real> Sub for Dual<N, R> {
     #[inline(always)]
     fn sub(mut self, o: Self) -> Self {
         self.x = self.x - o.x;
-        for i in 0..N {
-            self.by[i] = self.by[i] - o.by[i];
-        }
+        each!(N, i => self.by[i] = self.by[i] - o.by[i]);
         self
     }
 }
@@ -191,9 +180,7 @@ impl<const N: usize, R: Real> Real for Dual<N, R> {
     fn mul_add(self, a: Self, b: Self) -> Self {
         let mut it = b;
         it.x = self.x.mul_add(a.x, b.x);
-        for i in 0..N {
-            it.by[i] = self.x.mul_add(a.by[i], a.x.mul_add(self.by[i], b.by[i]));
-        }
+        each!(N, i => it.by[i] = self.x.mul_add(a.by[i], a.x.mul_add(self.by[i], b.by[i])));
         it
     }
     #[inline(always)]
@@ -254,10 +241,8 @@ impl<const N: usize, R: Real> Real for Dual<N, R> {
         let above = self.x.of(0.0).lt(self.x);
         let slope = (a.x * value / self.x).only(above);
         let mut it = self.map(value, slope);
-        for i in 0..N {
-            let moved = (value * self.x.ln() * a.by[i]).only(above);
-            it.by[i] = it.by[i] + moved;
-        }
+        let by_power = value * self.x.ln();
+        each!(N, i => it.by[i] = it.by[i] + (by_power * a.by[i]).only(above));
         it
     }
     #[inline(always)]

@@ -6,6 +6,7 @@
 //! ```
 
 use super::Real;
+use super::each::each;
 use std::f64::consts::{LN_2, LOG2_E, SQRT_2};
 
 /// 1.5 · 2⁵²: a number added to it is rounded to a whole one, which its last bits hold.
@@ -21,9 +22,7 @@ const MOST: f64 = 709.782_712_893_384;
 #[inline(always)]
 fn polynomial<R: Real, const N: usize>(x: R, c: &[f64; N]) -> R {
     let mut sum = x.of(c[0]);
-    for i in 1..N {
-        sum = sum.mul_add(x, x.of(c[i]));
-    }
+    each!(N, i => if i > 0 { sum = sum.mul_add(x, x.of(c[i])) });
     sum
 }
 

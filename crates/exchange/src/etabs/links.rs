@@ -3,6 +3,7 @@
 use super::frames::courses;
 use super::plan::Plan;
 use super::words::{File, Thing};
+use crate::sap2000::READ;
 use std::collections::HashSet;
 
 const PROPERTIES: &str = "LINK PROPERTIES";
@@ -26,23 +27,6 @@ const KINDS: [(&str, &str, &str); 17] = [
     ("PLASTIC1", "10 - PLASTIC (WEN)", "Plastic (Wen)"),
     ("MULTILINEARPLASTIC", "11 - MULTILINEAR PLASTIC", "MultiLinear Plastic"),
     ("TRIPLEPENDULUMISOLATOR", "12 - TRIPLE PENDULUM ISOLATOR", "Triple Pendulum Isolator"),
-];
-
-/// Tables of directions, whole.
-const TABLES: [&str; 13] = [
-    "LINK PROPERTY DEFINITIONS 02 - LINEAR",
-    "LINK PROPERTY DEFINITIONS 03 - MULTILINEAR",
-    "LINK PROPERTY DEFINITIONS 04 - DAMPER",
-    "LINK PROPERTY DEFINITIONS 05 - GAP",
-    "LINK PROPERTY DEFINITIONS 06 - HOOK",
-    "LINK PROPERTY DEFINITIONS 07 - RUBBER ISOLATOR",
-    "LINK PROPERTY DEFINITIONS 08 - SLIDING ISOLATOR",
-    "LINK PROPERTY DEFINITIONS 09 - TC SLIDING ISOLATOR",
-    "LINK PROPERTY DEFINITIONS 10 - PLASTIC (WEN)",
-    "LINK PROPERTY DEFINITIONS 11 - MULTILINEAR PLASTIC",
-    "LINK PROPERTY DEFINITIONS 12 - TRIPLE PENDULUM ISOLATOR",
-    "LINK PROPERTY DEFINITIONS 14 - BILINEAR DAMPER",
-    "LINK PROPERTY DEFINITIONS 15 - FRICTION SPRING DAMPER",
 ];
 
 /// What a property as a whole has: ours and theirs.
@@ -150,7 +134,8 @@ pub fn properties<'a>(file: &File<'a>) -> (HashSet<&'a str>, HashSet<&'a str>) {
         written.insert(name);
         let row = file.row("LINK PROPERTY DEFINITIONS 01 - GENERAL", thing.span());
         row.with("Link", name).with("LinkType", *kind).from(&thing, &WHOLE).put();
-        let whole = TABLES.iter().find(|t| t.ends_with(table)).copied().unwrap_or(TABLES[0]);
+        let whole = |name: &&&str| name.strip_prefix("LINK PROPERTY DEFINITIONS ") == Some(table);
+        let whole = READ.iter().find(whole).expect("a table that is read");
         for direction in directions(&thing) {
             one(file, &direction, name, kind, whole);
         }

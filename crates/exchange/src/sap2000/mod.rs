@@ -30,6 +30,7 @@ mod supports;
 use crate::{Draft, Import, Options, Refused, Report};
 use context::Context;
 pub(crate) use database::{Database, Field, Row};
+pub(crate) use fates::READ;
 use section::Sections;
 use std::sync::Arc;
 use trilith_model::{Diagnostic, Source};

@@ -2,6 +2,9 @@
 
 #![allow(dead_code, reason = "each test uses a part")]
 
+mod spoiled;
+
+pub use spoiled::spoiled;
 use std::path::{Path, PathBuf};
 use trilith::{Analysis, Model, RunOptions, SolverKind};
 use trilith_exchange::{Import, Options, sap2000};

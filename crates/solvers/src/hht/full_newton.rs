@@ -104,7 +104,8 @@ impl FullNewton<'_> {
             let mut left = residual.to_vec();
             modal.mul_add(-(1.0 + self.alpha) * gamma * dt, &change, &mut left);
             let better = solve(left);
-            let distance = change.iter().zip(&better).fold(0.0, |d: f64, (a, b)| d.max((a - b).abs()));
+            let distance =
+                change.iter().zip(&better).fold(0.0, |d: f64, (a, b)| d.max((a - b).abs()));
             // Ratios above one lead nowhere: the tangent alone has to do.
             if !(distance < missed) {
                 break;
