@@ -2,7 +2,8 @@
 
 mod common;
 
-use common::{file, spoiled};
+use common::file;
+use common::spoiled::spoiled_copies;
 use trilith_exchange::{Fate, Options, sap2000};
 
 const HEAD: &str = "TABLE:  \"PROGRAM CONTROL\"\n   CurrUnits=\"KN, m, C\"\n \n";
@@ -134,7 +135,7 @@ fn spoiled_files_are_refused_or_read_but_never_break() {
     let mut through = 0;
     for name in ["cantilevers.s2k", "oscillators.s2k", "links.s2k"] {
         let bytes = std::fs::read(file(name)).unwrap();
-        for spoiled in spoiled(&bytes, 700, &hurts) {
+        for spoiled in spoiled_copies(&bytes, 700, &hurts) {
             if let Ok(import) = sap2000::import(&spoiled, &Options::default()) {
                 through += 1;
                 assert_eq!(import.draft.beyond(), None);

@@ -1,6 +1,6 @@
 //! Numbers with derivatives that a law holds by their places in a list.
 //!
-//! A law is one function, and long. Over numbers of nine `f64` it would be much longer: each operation a loop, or a call with three
+//! A law is one function, and long. Over numbers of nine `f64` it would be much longer: each operation nine, or a call with three
 //! numbers in memory. Here an operation is a call with two places that gives a third: a third of the library's machine code less.
 
 use super::law::{DIRECTIONS, Directions};

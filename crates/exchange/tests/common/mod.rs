@@ -2,9 +2,8 @@
 
 #![allow(dead_code, reason = "each test uses a part")]
 
-mod spoiled;
+pub mod spoiled;
 
-pub use spoiled::spoiled;
 use std::path::{Path, PathBuf};
 use trilith::{Analysis, Model, RunOptions, SolverKind};
 use trilith_exchange::{Import, Options, sap2000};

@@ -2,7 +2,7 @@
 
 /// So many spoiled copies of a file: pieces of a few bytes are lost or become others, some files end in the middle. The same
 /// ones each time.
-pub fn spoiled<'a>(
+pub fn spoiled_copies<'a>(
     bytes: &'a [u8],
     count: usize,
     pieces: &'a [&[u8]],

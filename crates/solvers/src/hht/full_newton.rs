@@ -107,7 +107,7 @@ impl FullNewton<'_> {
             let distance =
                 change.iter().zip(&better).fold(0.0, |d: f64, (a, b)| d.max((a - b).abs()));
             // Ratios above one lead nowhere: the tangent alone has to do.
-            if !(distance < missed) {
+            if distance >= missed {
                 break;
             }
             (missed, change) = (distance, better);
