@@ -18,8 +18,8 @@ macro_rules! template {
     ($name:literal $(, $file:literal)*) => {
         Template {
             name: $name,
-            text: include_str!(concat!("../../../models/", $name, ".ron")),
-            files: &[$(($file, include_str!(concat!("../../../models/", $file)))),*],
+            text: include_str!(concat!(env!("TRILITH_MODELS"), "/", $name, ".ron")),
+            files: &[$(($file, include_str!(concat!(env!("TRILITH_MODELS"), "/", $file)))),*],
         }
     };
 }
