@@ -176,7 +176,9 @@ fn an_exported_block_comes_back_as_the_same_block() {
     std::fs::write(&script, recorded).unwrap();
     let recorder =
         Path::new(env!("CARGO_MANIFEST_DIR")).join("../python/python/trilith/opensees.py");
+    // The script writes where it is run.
     let done = std::process::Command::new("python3")
+        .current_dir(folder.path())
         .arg("-B")
         .arg(recorder)
         .args([&script, "--out", &text("back.ron"), "--program"])
