@@ -20,6 +20,7 @@ macro_rules! each {
     };
 }
 /// The same for two registers at most.
+#[cfg(target_arch = "x86_64")]
 macro_rules! each_of_two {
     ($n:ident, $i:ident => $work:expr) => {{
         const { assert!($n <= 2) };
@@ -27,4 +28,6 @@ macro_rules! each_of_two {
         each!(@one $n, $i, $work, 1);
     }};
 }
-pub(super) use {each, each_of_two};
+pub(super) use each;
+#[cfg(target_arch = "x86_64")]
+pub(super) use each_of_two;
