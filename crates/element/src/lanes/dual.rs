@@ -8,7 +8,7 @@ use super::Real;
 use super::each::each;
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
-/// A value and its derivatives by `N` variables.
+/// A value and its derivatives by `N` variables, 24 at most.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Dual<const N: usize = 2, R = f64> {
     /// Value.

@@ -58,6 +58,40 @@ impl Neg for Fused {
     }
 }
 
+/// Functions that every lane gets in vectors, to the bits that it has alone.
+macro_rules! functions_by_vectors {
+    () => {
+        #[inline(always)]
+        fn exp_by_vectors(self) -> Self {
+            functions::exp_and_m1(self)[0]
+        }
+        #[inline(always)]
+        fn exp_and_m1(self) -> [Self; 2] {
+            functions::exp_and_m1(self)
+        }
+        #[inline(always)]
+        fn ln(self) -> Self {
+            functions::ln(self)
+        }
+        #[inline(always)]
+        fn ln_1p(self) -> Self {
+            functions::ln_1p(self)
+        }
+        #[inline(always)]
+        fn tanh(self) -> Self {
+            functions::tanh(self)
+        }
+        #[inline(always)]
+        fn cbrt(self) -> Self {
+            functions::cbrt(self)
+        }
+        #[inline(always)]
+        fn powf(self, a: Self) -> Self {
+            functions::powf(self, a)
+        }
+    };
+}
+
 impl Real for Fused {
     type Mask = bool;
 
@@ -93,34 +127,7 @@ impl Real for Fused {
     fn any(self, mask: bool) -> bool {
         mask
     }
-    #[inline(always)]
-    fn exp_by_vectors(self) -> Self {
-        functions::exp_and_m1(self)[0]
-    }
-    #[inline(always)]
-    fn exp_and_m1(self) -> [Self; 2] {
-        functions::exp_and_m1(self)
-    }
-    #[inline(always)]
-    fn ln(self) -> Self {
-        functions::ln(self)
-    }
-    #[inline(always)]
-    fn ln_1p(self) -> Self {
-        functions::ln_1p(self)
-    }
-    #[inline(always)]
-    fn tanh(self) -> Self {
-        functions::tanh(self)
-    }
-    #[inline(always)]
-    fn cbrt(self) -> Self {
-        functions::cbrt(self)
-    }
-    #[inline(always)]
-    fn powf(self, a: Self) -> Self {
-        functions::powf(self, a)
-    }
+    functions_by_vectors!();
     #[inline(always)]
     fn map(self, f: impl Fn(f64) -> f64) -> Self {
         Self(f(self.0))
@@ -290,34 +297,7 @@ macro_rules! operations {
             each_of_two!(K, k => either = s.or_m64s(either, mask.x[k]));
             s.first_true_m64s(either) < <$token as Simd>::F64_LANES
         }
-        #[inline(always)]
-        fn exp_by_vectors(self) -> Self {
-            functions::exp_and_m1(self)[0]
-        }
-        #[inline(always)]
-        fn exp_and_m1(self) -> [Self; 2] {
-            functions::exp_and_m1(self)
-        }
-        #[inline(always)]
-        fn ln(self) -> Self {
-            functions::ln(self)
-        }
-        #[inline(always)]
-        fn ln_1p(self) -> Self {
-            functions::ln_1p(self)
-        }
-        #[inline(always)]
-        fn tanh(self) -> Self {
-            functions::tanh(self)
-        }
-        #[inline(always)]
-        fn cbrt(self) -> Self {
-            functions::cbrt(self)
-        }
-        #[inline(always)]
-        fn powf(self, a: Self) -> Self {
-            functions::powf(self, a)
-        }
+        functions_by_vectors!();
         #[inline(always)]
         fn map(self, f: impl Fn(f64) -> f64) -> Self {
             let mut x = self.lanes();
