@@ -146,7 +146,7 @@ impl<'a> Search<'a> {
     }
 
     fn images(&self, x: &[Vec<f64>]) -> Vec<Vec<f64>> {
-        x.iter().map(|x| self.mass.mul(x)).collect()
+        self.mass.symmetric_images(x)
     }
 
     /// (K − σM)⁻¹ of vectors.

@@ -9,7 +9,7 @@
 //! | memmap2 | memory on large pages, for factors |
 //! | pulp | products of a dense matrix and a vector, sums over modes, extrapolations, as wide as the processor allows |
 //!
-//! Everything runs on one thread, so that results repeat bit for bit.
+//! Threads share what is large, in pieces that do not depend on their number, so that results repeat bit for bit.
 
 mod aligned;
 mod dense;
@@ -30,6 +30,7 @@ mod product;
 mod simd;
 mod sparse;
 mod tall;
+pub mod threads;
 mod vector;
 
 pub use dense::{Dense, DenseLu, positive_inverse};

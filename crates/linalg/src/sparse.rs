@@ -1,5 +1,6 @@
 //! Sparse matrices in compressed columns, full storage (both triangles).
 
+use crate::threads::share;
 use nalgebra_sparse::CscMatrix;
 use std::sync::Arc;
 
@@ -87,6 +88,9 @@ fn sorted(
     }
     out
 }
+
+/// Rows of a product with several vectors that one thread makes.
+const ROWS: usize = 8192;
 
 /// A sparse matrix. It never changes, so copies share its entries.
 #[derive(Clone, Debug, PartialEq)]
@@ -186,6 +190,61 @@ impl Sparse {
         let mut y = vec![0.0; self.rows()];
         self.mul_add(1.0, x, &mut y);
         y
+    }
+
+    /// `A x` of several vectors, for a symmetric A: its entries are read once for four of them, and threads share them.
+    ///
+    /// # Panics
+    /// Where the matrix is not square, or a length does not suit.
+    #[must_use]
+    pub fn symmetric_images(&self, x: &[Vec<f64>]) -> Vec<Vec<f64>> {
+        let mut y: Vec<Vec<f64>> = x.iter().map(|x| vec![0.0; x.len()]).collect();
+        self.symmetric(x.iter().map(Vec::as_slice).zip(y.iter_mut().map(Vec::as_mut_slice)));
+        y
+    }
+
+    /// The same of vectors one after the other.
+    ///
+    /// # Panics
+    /// As [`symmetric_images`](Self::symmetric_images).
+    pub fn symmetric_products(&self, x: &[f64], y: &mut [f64]) {
+        let n = self.rows().max(1);
+        self.symmetric(x.chunks(n).zip(y.chunks_mut(n)));
+    }
+
+    fn symmetric<'a>(&self, pairs: impl Iterator<Item = (&'a [f64], &'a mut [f64])>) {
+        let n = self.rows();
+        assert!(self.columns() == n, "a symmetric matrix");
+        let mut pairs = pairs.inspect(|(x, y)| {
+            assert!(x.len() == n && y.len() == n, "lengths of a product");
+        });
+        let next =
+            || Some(pairs.by_ref().take(4).collect()).filter(|four: &Vec<_>| !four.is_empty());
+        for four in std::iter::from_fn(next) {
+            let mut beside = vec![[0.0; 4]; n];
+            let mut pieces: Vec<(usize, Vec<&mut [f64]>)> =
+                (0..n).step_by(ROWS).map(|start| (start, Vec::with_capacity(4))).collect();
+            for (k, (x, y)) in four.into_iter().enumerate() {
+                beside.iter_mut().zip(x).for_each(|(four, x)| four[k] = *x);
+                pieces.iter_mut().zip(y.chunks_mut(ROWS)).for_each(|(piece, y)| piece.1.push(y));
+            }
+            share(8 * self.stored(), pieces, |(start, y)| self.symmetric_rows(&beside, start, y));
+        }
+    }
+
+    /// Rows of the images of four vectors, whose values stand side by side: columns are rows, so each value is a sum.
+    fn symmetric_rows(&self, x: &[[f64; 4]], start: usize, mut y: Vec<&mut [f64]>) {
+        for j in 0..y[0].len() {
+            let (rows, values) = self.column(start + j);
+            let mut sum = [0.0; 4];
+            for (i, v) in rows.iter().zip(values) {
+                let x = &x[*i];
+                for k in 0..4 {
+                    sum[k] += v * x[k];
+                }
+            }
+            y.iter_mut().zip(sum).for_each(|(y, sum)| y[j] = sum);
+        }
     }
 
     /// `y += s · Aᵀ x`. Lengths: `x` rows, `y` columns.

@@ -1,19 +1,24 @@
 //! Tall matrices of many columns: projections that read them once, whatever the number of vectors.
 //!
-//! Rows are taken in tiles that stay in the nearest cache while all columns pass.
+//! Rows are taken in tiles that stay in a cache while all columns pass, and threads share tiles and groups of columns.
 
 use crate::simd::dispatch;
+use crate::threads::share;
 use crate::{Dense, Sparse};
 use faer::linalg::matmul::matmul;
-use faer::{Accum, MatRef, Par};
+use faer::prelude::ReborrowMut;
+use faer::{Accum, MatMut, MatRef, Par};
 use pulp::{Simd, WithSimd};
 
-/// Rows of a tile.
+/// Rows of a tile for one vector.
 const TILE: usize = 1024;
-/// Columns taken together.
+/// Columns taken together for one vector.
 const GROUP: usize = 4;
 /// Columns of a product that are made at once.
 const BLOCK: usize = 16;
+/// Rows and columns of a piece of a product of matrices.
+const ROWS: usize = 4096;
+const COLUMNS: usize = 64;
 
 /// Vectors one after the other, whose number may grow.
 #[derive(Clone, Debug)]
@@ -58,19 +63,17 @@ impl Columns {
     /// Where the lengths do not suit.
     pub fn take_out(&self, first: usize, x: &mut [Vec<f64>], y: &[Vec<f64>]) -> Vec<f64> {
         let columns = &self.values[(first * self.rows).min(self.values.len())..];
-        let mut shares = Vec::new();
-        for (x, y) in x.chunks_mut(2).zip(y.chunks(2)) {
-            match (x, y) {
-                ([a, b], [c, d]) => {
-                    let of_both = take_out(columns, self.rows, [a, b], [c, d]);
-                    shares.extend(of_both.iter().step_by(2));
-                    shares.extend(of_both.iter().skip(1).step_by(2));
-                }
-                ([a], [c]) => shares.extend(take_out(columns, self.rows, [a], [c])),
-                _ => {}
+        match (x, y) {
+            ([], _) => Vec::new(),
+            _ if columns.is_empty() => Vec::new(),
+            ([x], [y]) => take_out(columns, [x], [y]),
+            ([a, b], [c, d]) => take_out(columns, [a, b], [c, d]),
+            (x, y) => {
+                let shares = dots(columns, y);
+                subtract(columns, &shares, x);
+                shares
             }
         }
-        shares
     }
 
     /// One of them.
@@ -100,29 +103,81 @@ impl Columns {
     }
 }
 
-fn take_out<const R: usize>(
-    a: &[f64],
-    n: usize,
-    x: [&mut Vec<f64>; R],
-    y: [&Vec<f64>; R],
-) -> Vec<f64> {
-    if a.is_empty() {
-        return Vec::new();
-    }
-    let m = a.len() / n;
-    let mut shares = vec![0.0; R * m];
-    for start in (0..n).step_by(TILE) {
-        let end = (start + TILE).min(n);
-        let y = y.map(|y| &y[start..end]);
-        dispatch(Dots { a, n, start, y, shares: &mut shares });
-    }
-    let [mut x] = [x];
-    for start in (0..n).step_by(TILE) {
-        let end = (start + TILE).min(n);
-        let x = x.each_mut().map(|x| &mut x[start..end]);
-        dispatch(Subtract { a, n, start, x, shares: &shares });
-    }
+/// Vᵀ y of several vectors, one's after the other's.
+fn dots(columns: &[f64], y: &[Vec<f64>]) -> Vec<f64> {
+    let n = y[0].len();
+    let mut shares = vec![0.0; columns.len() / n * y.len()];
+    products(MatRef::from_column_major_slice(columns, n, columns.len() / n), &y.concat(), &mut {
+        MatMut::from_column_major_slice_mut(&mut shares, columns.len() / n, y.len())
+    });
     shares
+}
+
+/// C = Vᵀ Y, for the columns of Y one after the other.
+fn products(v: MatRef<'_, f64>, y: &[f64], c: &mut MatMut<'_, f64>) {
+    let (n, count) = (v.nrows(), c.ncols());
+    let y = MatRef::from_column_major_slice(y, n, count);
+    let mut pieces = Vec::with_capacity(v.ncols().div_ceil(COLUMNS));
+    let mut rest = c.rb_mut();
+    for first in (0..v.ncols()).step_by(COLUMNS) {
+        let width = COLUMNS.min(v.ncols() - first);
+        let (piece, left) = rest.split_at_row_mut(width);
+        pieces.push((v.subcols(first, width), piece));
+        rest = left;
+    }
+    share(2 * n * v.ncols() * count, pieces, |(v, mut c)| {
+        c.fill(0.0);
+        for start in (0..n).step_by(ROWS) {
+            let length = ROWS.min(n - start);
+            let (v, y) = (v.subrows(start, length), y.subrows(start, length));
+            matmul(c.rb_mut(), Accum::Add, v.transpose(), y, 1.0, Par::Seq);
+        }
+    });
+}
+
+/// x −= V s of several vectors, of whose shares s one's stand after the other's.
+fn subtract(columns: &[f64], shares: &[f64], x: &mut [Vec<f64>]) {
+    let (n, count) = (x[0].len(), x.len());
+    let m = columns.len() / n;
+    let v = MatRef::from_column_major_slice(columns, n, m);
+    let shares = MatRef::from_column_major_slice(shares, m, count);
+    let mut tiles: Vec<(usize, Vec<&mut [f64]>)> =
+        (0..n).step_by(ROWS).map(|start| (start, Vec::with_capacity(count))).collect();
+    for x in x {
+        tiles.iter_mut().zip(x.chunks_mut(ROWS)).for_each(|((_, tile), part)| tile.push(part));
+    }
+    share(2 * n * m * count, tiles, |(start, tile)| {
+        let length = tile[0].len();
+        let mut sum = Dense::zeros(length, count);
+        matmul(sum.as_mut(), Accum::Replace, v.subrows(start, length), shares, 1.0, Par::Seq);
+        for (x, sum) in tile.into_iter().zip(sum.values().chunks(length)) {
+            x.iter_mut().zip(sum).for_each(|(x, sum)| *x -= sum);
+        }
+    });
+}
+
+/// Both for one vector, or for two at once.
+fn take_out<const R: usize>(a: &[f64], x: [&mut [f64]; R], y: [&[f64]; R]) -> Vec<f64> {
+    let n = y[0].len();
+    let mut shares = vec![0.0; R * (a.len() / n)];
+    let pieces = a.chunks(COLUMNS * n).zip(shares.chunks_mut(R * COLUMNS)).collect();
+    share(2 * R * a.len(), pieces, |(a, shares)| {
+        for start in (0..n).step_by(TILE) {
+            let y = y.map(|y| &y[start..n.min(start + TILE)]);
+            dispatch(Dots { a, n, start, y, shares });
+        }
+    });
+    let mut parts = x.map(|x| x.chunks_mut(TILE));
+    let tile = |start| (start, parts.each_mut().map(|x| x.next().unwrap_or_default()));
+    let tiles: Vec<_> = (0..n).step_by(TILE).map(tile).collect();
+    let shares_of = &shares;
+    share(2 * R * a.len(), tiles, |(start, x)| {
+        dispatch(Subtract { a, n, start, x, shares: shares_of });
+    });
+    if R == 1 {
+        return shares;
+    }
+    (0..R).flat_map(|r| shares.iter().skip(r).step_by(R).copied()).collect()
 }
 
 struct Dots<'a, const R: usize> {
@@ -252,12 +307,7 @@ impl Dense {
         if a.stored() == 0 {
             return Self::zeros(count, count);
         }
-        self.congruence_by(count, |x, images| {
-            images.fill(0.0);
-            for (x, image) in x.chunks(n).zip(images.chunks_mut(n)) {
-                a.mul_add(1.0, x, image);
-            }
-        })
+        self.congruence_by(count, |x, images| a.symmetric_products(x, images))
     }
 
     /// The same for an A that `images` of columns one after the other are made with.
@@ -280,9 +330,8 @@ impl Dense {
             // Nothing above the diagonal block: symmetry gives it.
             let left = &self.values()[start * n..count * n];
             let left = MatRef::from_column_major_slice(left, n, count - start);
-            let right = MatRef::from_column_major_slice(&image.values()[..n * width], n, width);
-            let below = c.as_mut().submatrix_mut(start, start, count - start, width);
-            matmul(below, Accum::Replace, left.transpose(), right, 1.0, Par::Seq);
+            let mut below = c.as_mut().submatrix_mut(start, start, count - start, width);
+            products(left, &image.values()[..n * width], &mut below);
         }
         for j in 0..count {
             for i in 0..j {
@@ -300,15 +349,25 @@ impl Dense {
     pub fn turn(&mut self, t: &Self) {
         let (n, count) = (self.rows(), t.columns());
         assert!(t.rows() == count && count <= self.columns(), "sizes of a product");
-        const ROWS: usize = 256;
-        let mut part = Self::zeros(ROWS.min(n), count);
+        /// Rows that stay in the nearest cache.
+        const FEW: usize = 256;
+        let mut pieces = Vec::with_capacity(n.div_ceil(ROWS));
+        let mut rest = self.as_mut().subcols_mut(0, count);
         for start in (0..n).step_by(ROWS) {
-            let length = ROWS.min(n - start);
-            let mut part = part.as_mut().subrows_mut(0, length);
-            let here = self.as_ref().submatrix(start, 0, length, count);
-            matmul(part.as_mut(), Accum::Replace, here, t.as_ref(), 1.0, Par::Seq);
-            self.as_mut().submatrix_mut(start, 0, length, count).copy_from(part);
+            let (piece, left) = rest.split_at_row_mut(ROWS.min(n - start));
+            pieces.push(piece);
+            rest = left;
         }
+        share(2 * n * count * count, pieces, |mut rows| {
+            let n = rows.nrows();
+            let mut part = Self::zeros(FEW.min(n), count);
+            for start in (0..n).step_by(FEW) {
+                let mut here = rows.rb_mut().subrows_mut(start, FEW.min(n - start));
+                let mut part = part.as_mut().subrows_mut(0, here.nrows());
+                matmul(part.rb_mut(), Accum::Replace, here.as_ref(), t.as_ref(), 1.0, Par::Seq);
+                here.copy_from(part);
+            }
+        });
     }
 }
 
@@ -393,5 +452,42 @@ mod tests {
                 }
             }
         }
+    }
+
+    #[test]
+    fn threads_change_no_bit_and_images_of_many_are_those_of_each() {
+        let (n, m) = (20_000, 70);
+        let mut t = Triplets::new(n, n);
+        for i in 0..n {
+            t.add(i, i, 2.0 + number(i));
+            for j in (i + 1..n).step_by(997).take(12) {
+                t.add(i, j, number(i + j));
+                t.add(j, i, number(i + j));
+            }
+        }
+        let (a, v) = (t.build(), sample(n, m));
+        let mut columns = Columns::with_capacity(n, m);
+        (0..m).for_each(|j| columns.push(v.column(j)));
+        for count in [1, 2, 7] {
+            let x: Vec<Vec<f64>> =
+                (0..count).map(|c| (0..n).map(|i| number(3 * i + c)).collect()).collect();
+            let all = || {
+                let (images, mut left) = (a.symmetric_images(&x), x.clone());
+                let shares = columns.take_out(0, &mut left, &images);
+                (images, left, shares)
+            };
+            let (images, left, shares) = all();
+            assert_eq!(crate::threads::alone(all), (images.clone(), left, shares));
+            for (x, image) in x.iter().zip(&images) {
+                let pairs = a.mul(x).into_iter().zip(image);
+                pairs.for_each(|(y, own)| assert!((y - own).abs() < 1e-13, "{y} {own}"));
+            }
+        }
+        let both = || {
+            let mut turned = v.clone();
+            turned.turn(&sample(m, m));
+            (v.congruence(&a, m), turned)
+        };
+        assert_eq!(crate::threads::alone(both), both());
     }
 }

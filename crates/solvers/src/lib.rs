@@ -86,4 +86,5 @@ pub use run::{
 pub use step::State;
 pub use survey::{Freedoms, Periods, Survey, frequencies, survey};
 pub use together::{Member, run_together};
+pub use trilith_linalg::threads::alone;
 pub use trilith_linalg::vectors;

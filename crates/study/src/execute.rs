@@ -208,11 +208,13 @@ pub fn execute(
         total,
         progress,
     };
+    // Runs side by side are shared among threads, so no run is.
+    let work = || trilith::solvers::alone(|| shared.work());
     std::thread::scope(|scope| {
         for _ in 1..threads.min(shared.chains.len().div_ceil(width)).max(1) {
-            scope.spawn(|| shared.work());
+            scope.spawn(work);
         }
-        shared.work();
+        work();
     });
     let closed = shared.store.and_then(|(_, store)| Some(store.into_inner().ok()?.close()));
     if let Some(error) = shared.error.into_inner().unwrap_or_default() {

@@ -199,6 +199,8 @@ impl Sweep {
                 }
             }
         };
+        // Analyses are shared among threads, so none of them is.
+        let work = || trilith_solvers::alone(work);
         std::thread::scope(|scope| {
             for _ in 1..threads {
                 scope.spawn(work);

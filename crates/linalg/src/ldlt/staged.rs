@@ -21,6 +21,7 @@ use super::ordering::{self, Pattern};
 use super::packing::Unpacked;
 use super::substitution::{Node, Panels};
 use crate::large::Large;
+use crate::threads::share;
 use crate::{LinalgError, Sparse};
 use faer::dyn_stack::{MemBuffer, MemStack};
 use faer::linalg::cholesky::ldlt::factor::{LdltError, LdltRegularization};
@@ -301,22 +302,37 @@ impl StagedLdlt {
         if n == 0 {
             return;
         }
+        // Of two each is solved alone, which a second thread can do meanwhile.
+        let beside = if x.len() <= 2 * n { 1 } else { 4 };
+        let pieces: Vec<_> = x.chunks_mut(beside * n).collect();
+        // Twice each value of the factor times the four.
+        share(16 * self.values.len() * pieces.len(), pieces, |x| self.solve_four(x, split));
+    }
+
+    /// Four of them at most.
+    fn solve_four(&self, x: &mut [f64], split: usize) {
         let StagedPlan { equations, front, tail, .. } = &*self.plan;
+        let (n, of_tail) = (equations.len(), &self.reciprocal[split..]);
+        if x.len() == n {
+            let mut one: Vec<f64> = equations.iter().map(|i| x[*i as usize]).collect();
+            let mut work = vec![0.0; self.plan.workspace()];
+            self.forward(&mut one, &mut work);
+            self.tail_backward(&mut one[split..], &mut work);
+            self.finish(&mut one, &mut work);
+            one.iter().zip(equations).for_each(|(y, i)| x[*i as usize] = *y);
+            return;
+        }
         let mut four = vec![[0.0; 4]; n];
         let mut work = vec![[0.0; 4]; self.plan.workspace()];
-        for block in x.chunks_mut(4 * n) {
-            four.fill([0.0; 4]);
-            for (k, x) in block.chunks(n).enumerate() {
-                four.iter_mut().zip(equations).for_each(|(y, i)| y[k] = x[*i as usize]);
-            }
-            front.forward_four(&self.values, &mut four, &mut work);
-            tail.forward_four(&self.values, &mut four[split..], &mut work);
-            let of_tail = &self.reciprocal[split..];
-            tail.backward_four(&self.values, of_tail, &mut four[split..], &mut work);
-            front.backward_four(&self.values, &self.reciprocal, &mut four, &mut work);
-            for (k, x) in block.chunks_mut(n).enumerate() {
-                four.iter().zip(equations).for_each(|(y, i)| x[*i as usize] = y[k]);
-            }
+        for (k, x) in x.chunks(n).enumerate() {
+            four.iter_mut().zip(equations).for_each(|(y, i)| y[k] = x[*i as usize]);
+        }
+        front.forward_four(&self.values, &mut four, &mut work);
+        tail.forward_four(&self.values, &mut four[split..], &mut work);
+        tail.backward_four(&self.values, of_tail, &mut four[split..], &mut work);
+        front.backward_four(&self.values, &self.reciprocal, &mut four, &mut work);
+        for (k, x) in x.chunks_mut(n).enumerate() {
+            four.iter().zip(equations).for_each(|(y, i)| x[*i as usize] = y[k]);
         }
     }
 }

@@ -91,13 +91,30 @@ impl<'a> OrthonormalBasis<'a> {
     }
 
     fn norms(&self, x: &[Vec<f64>]) -> (Vec<Vec<f64>>, Vec<f64>) {
-        let images: Vec<_> = x.iter().map(|x| self.mass.mul(x)).collect();
+        let images = self.mass.symmetric_images(x);
         let norms = x.iter().zip(&images).map(|(x, m)| dot(x, m).max(0.0).sqrt()).collect();
         (images, norms)
     }
 
-    /// Orthonormalises vectors, of which the rows that are kept are given, and takes them up, but for those of which
-    /// nothing is left, and those of which what is left would be too fast. Returns the images under M of those taken.
+    /// Orthonormalises vectors, of which the rows that are kept are given, and takes them up until `count` are there, but
+    /// for those of which nothing is left, and those of which what is left would be too fast. Returns the images under M
+    /// of those taken.
+    pub(crate) fn take_until(
+        &mut self,
+        count: usize,
+        mut x: Vec<Vec<f64>>,
+        cut: FrequencyCut,
+    ) -> Vec<Vec<f64>> {
+        let mut images = Vec::new();
+        while !x.is_empty() && self.len() < count {
+            let rest = x.split_off(x.len().min(count - self.len()));
+            images.extend(self.take(x, Origin::Anywhere, cut));
+            x = rest;
+        }
+        images
+    }
+
+    /// The same of all.
     pub(crate) fn take(
         &mut self,
         mut x: Vec<Vec<f64>>,
@@ -125,42 +142,43 @@ impl<'a> OrthonormalBasis<'a> {
             }
         }
         let start = self.len();
-        let mut kept = Vec::with_capacity(x.len());
-        for ((x, norm), before) in x.into_iter().zip(norms).zip(before) {
+        let mut kept: Vec<Vec<f64>> = Vec::with_capacity(x.len());
+        for (((x, image), norm), before) in x.into_iter().zip(images).zip(norms).zip(before) {
             if before > 0.0 && norm > KEEP * before {
-                kept.extend(self.keep(x, norm, before, start, cut));
+                kept.extend(self.keep([x, image], [norm, before], (start, &kept), cut));
             }
         }
         kept
     }
 
-    /// Keeps a vector that is orthogonal to those before `start`.
+    /// Keeps a vector that is orthogonal to those before `start`, of which the images under M from there on are given;
+    /// given with its own image, and with its norm now and at first.
     fn keep(
         &mut self,
-        x: Vec<f64>,
-        norm: f64,
-        before: f64,
-        start: usize,
+        [mut x, mut image]: [Vec<f64>; 2],
+        [mut norm, before]: [f64; 2],
+        (start, others): (usize, &[Vec<f64>]),
         cut: FrequencyCut,
     ) -> Option<Vec<f64>> {
-        let (mut x, mut norm, mut first) = (vec![x], norm, start);
-        let mut images = vec![self.mass.mul(&x[0])];
-        while first < self.len() {
+        if start < self.len() {
             let earlier = norm;
-            self.columns.take_out(first, &mut x, &images);
-            let now = self.norms(&x);
-            (images, norm) = (now.0, now.1[0]);
-            let left = norm > KEEP * before;
-            if !left {
+            for (j, other) in (start..).zip(others) {
+                let share = dot(self.columns.column(j), &image);
+                let less = |x: &mut [f64], of: &[f64]| {
+                    x.iter_mut().zip(of).for_each(|(x, of)| *x -= share * of);
+                };
+                less(&mut x, self.columns.column(j));
+                less(&mut image, other);
+            }
+            norm = dot(&x, &image).max(0.0).sqrt();
+            if norm <= KEEP * before {
                 return None;
             }
-            if norm >= ORTHOGONAL * earlier {
-                break;
+            if norm < ORTHOGONAL * earlier {
+                // What was lost has brought shares in all others back to light.
+                norm = self.again([&mut x, &mut image], norm, before)?;
             }
-            // What was lost has brought shares in all others back to light.
-            first = 0;
         }
-        let (mut x, mut image) = (x.pop()?, images.pop()?);
         x.iter_mut().for_each(|v| *v /= norm);
         if let Some(following) = &self.following {
             let mut all = self.rows.complete(&x);
@@ -174,6 +192,25 @@ impl<'a> OrthonormalBasis<'a> {
         image.iter_mut().for_each(|v| *v /= norm);
         self.columns.push(&x);
         Some(image)
+    }
+
+    /// Takes the shares in all others out of a vector until it loses nothing by it; returns its norm, none where nothing
+    /// is left of it.
+    fn again(&self, [x, image]: [&mut Vec<f64>; 2], mut norm: f64, before: f64) -> Option<f64> {
+        loop {
+            // The last digits of an image from which much was taken are gone.
+            *image = self.mass.mul(x);
+            self.columns.take_out(0, std::slice::from_mut(x), std::slice::from_ref(image));
+            *image = self.mass.mul(x);
+            let earlier = norm;
+            norm = dot(x, image).max(0.0).sqrt();
+            if norm <= KEEP * before {
+                return None;
+            }
+            if norm >= ORTHOGONAL * earlier {
+                return Some(norm);
+            }
+        }
     }
 
     /// True for an M-orthonormal vector that is faster than any mode of interest.

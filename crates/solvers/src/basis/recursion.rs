@@ -23,17 +23,9 @@ pub(super) fn beyond(
         if span.len() >= count {
             break;
         }
-        let mut links = block.iter();
-        hat.static_shapes(system, block, |x, _| {
-            if let Some(link) = links.next()
-                && span.len() < count
-            {
-                images.extend(span.take(
-                    vec![beside(*link, x)],
-                    Origin::Anywhere,
-                    FrequencyCut::Modes,
-                ));
-            }
+        hat.static_shapes(system, block, |shapes, _| {
+            let own = block.iter().zip(shapes).map(|(link, x)| beside(*link, x)).collect();
+            images.extend(span.take_until(count, own, FrequencyCut::Modes));
         });
     }
     images

@@ -185,13 +185,13 @@ impl Growing<'_> {
         // Where there is no room for all, those taken are spread over all.
         let of_links = sizes.of_links;
         let is_taken = |i: usize| (i + 1) * of_links / links.len() > i * of_links / links.len();
-        hat.static_shapes(system, links, |x, flexibility| {
-            let i = known.len();
-            known.push(flexibility);
-            if span.len() < sizes.total && is_taken(i) {
-                let own = beside(system, rows, statics, links[i], x);
-                span.take(vec![own], Origin::Anywhere, FrequencyCut::Modes);
+        hat.static_shapes(system, links, |shapes, flexibility| {
+            if span.len() < sizes.total {
+                let taken = (known.len()..).zip(shapes).filter(|(i, _)| is_taken(*i));
+                let own = taken.map(|(i, x)| beside(system, rows, statics, links[i], x)).collect();
+                span.take_until(sizes.total, own, FrequencyCut::Modes);
             }
+            known.extend_from_slice(flexibility);
         });
         (settings.adequacy > 0.0).then_some(known)
     }

@@ -109,14 +109,12 @@ impl Shapes {
         if self.rows.is_none() {
             return self.kept.congruence(a, count);
         }
-        let (kept, order) = (self.rows.kept().max(1), self.rows.order());
+        let kept = self.rows.kept().max(1);
         self.kept.congruence_by(count, |x, images| {
             for (x, image) in x.chunks(BLOCK * kept).zip(images.chunks_mut(BLOCK * kept)) {
                 let all = self.rows.complete(x);
                 let mut own = vec![0.0; all.len()];
-                for (u, p) in all.chunks(order).zip(own.chunks_mut(order)) {
-                    a.mul_add(1.0, u, p);
-                }
+                a.symmetric_products(&all, &mut own);
                 bring(&own, image);
             }
         })

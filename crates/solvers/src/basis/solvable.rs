@@ -58,30 +58,33 @@ impl Solvable {
         let links = known.unwrap_or_else(|| {
             let mut links = Vec::new();
             self.static_shapes(system, &system.links.active, |_, flexibility| {
-                links.push(flexibility);
+                links.extend_from_slice(flexibility);
             });
             links
         });
         Flexibility { loads, links }
     }
 
-    /// K̂⁻¹ bᵀ of link coordinates, and b of them.
+    /// K̂⁻¹ bᵀ of link coordinates, and b of them: of some at once, in order.
     pub(super) fn static_shapes(
         &self,
         system: &System,
         flat: &[usize],
-        mut visit: impl FnMut(&[f64], f64),
+        mut visit: impl FnMut(std::slice::Chunks<'_, f64>, &[f64]),
     ) {
         let order = system.order();
         for block in flat.chunks(BLOCK) {
+            let rows = || block.iter().map(|flat| &system.links.rows[*flat]);
             let mut shapes = vec![0.0; order * block.len()];
-            for (column, flat) in shapes.chunks_mut(order).zip(block) {
-                system.links.rows[*flat].iter().for_each(|(i, c)| column[*i] += c);
+            for (column, row) in shapes.chunks_mut(order).zip(rows()) {
+                row.iter().for_each(|(i, c)| column[*i] += c);
             }
             self.factor.solve(&mut shapes);
-            for (x, flat) in shapes.chunks(order).zip(block) {
-                visit(x, system.links.rows[*flat].iter().map(|(i, c)| c * x[*i]).sum());
-            }
+            let along = |(x, row): (&[f64], &Vec<(usize, f64)>)| -> f64 {
+                row.iter().map(|(i, c)| c * x[*i]).sum()
+            };
+            let flexibility: Vec<f64> = shapes.chunks(order).zip(rows()).map(along).collect();
+            visit(shapes.chunks(order), &flexibility);
         }
     }
 }

@@ -2,8 +2,10 @@
 
 use crate::platform::HAS_CLOCK;
 use std::time::Instant;
+#[cfg(unix)]
+use trilith_linalg::threads::{helped, thread_seconds};
 
-/// Measures CPU time of this thread where the system tells it, wall-clock time elsewhere.
+/// Measures CPU time of this thread and of those that help it where the system tells it, wall-clock time elsewhere.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Clock {
     /// None where the system has no clock: WebAssembly alone.
@@ -17,7 +19,7 @@ impl Clock {
         Self {
             wall: HAS_CLOCK.then(Instant::now),
             #[cfg(unix)]
-            cpu: thread_seconds(),
+            cpu: thread_seconds() + helped(),
         }
     }
 
@@ -27,16 +29,10 @@ impl Clock {
 
     pub(crate) fn cpu(&self) -> f64 {
         #[cfg(unix)]
-        return thread_seconds() - self.cpu;
+        return thread_seconds() + helped() - self.cpu;
         #[cfg(not(unix))]
         self.wall()
     }
-}
-
-#[cfg(unix)]
-fn thread_seconds() -> f64 {
-    let t = rustix::time::clock_gettime(rustix::time::ClockId::ThreadCPUTime);
-    t.tv_sec as f64 + 1e-9 * t.tv_nsec as f64
 }
 
 /// Largest resident memory so far, MB; 0 where the system does not tell.
