@@ -39,7 +39,9 @@ fn cantilever(case: &str) -> String {
 }
 
 fn run(model: &Model, solver: SolverKind) -> Run {
-    let options = RunOptions { solver: Some(solver), step_errors: true, ..RunOptions::default() };
+    let case = model.cases.len() - 1;
+    let options =
+        RunOptions { case, solver: Some(solver), step_errors: true, ..RunOptions::default() };
     Analysis::new(model).unwrap().run(options).unwrap()
 }
 
@@ -122,5 +124,62 @@ fn errors_of_the_reduction_are_told_and_kept_within_their_limit() {
     for o in &model.outputs {
         let off = apart(&whole, &enlarged, &o.name) / whole.peak(&o.name).unwrap().magnitude();
         assert!(off < 0.01, "{}: {off}", o.name);
+    }
+}
+
+/// A plane frame on friction pendulums that are stiff upwards, between stops: what a stop sets in motion is not in the chains of
+/// the loads.
+fn on_pendulums(basis: &str) -> Model {
+    let text = r#"(
+        plane: XZ,
+        nodes: {
+            "{i} {k}": For(i: "0 to 4", k: "0 to 8", of: ("6*i", 0, "3.3*k")),
+            "column {i} {k}": For(i: "0 to 4", k: "1 to 8", of: ("6*i", 0, "3.3*k - 1.65")),
+            "beam {i} {k}": For(i: "1 to 4", k: "0 to 8", of: ("6*i - 3", 0, "3.3*k")),
+        },
+        properties: {
+            "column": Beam(young: "30 GPa", poisson: 0.2, width: 0.7, depth: 0.7, density: 2500),
+            "beam": Beam(young: "30 GPa", poisson: 0.2, width: 0.4, depth: 0.7, density: 2500),
+        },
+        elements: {
+            "mass {i} {k}": For(i: "0 to 4", k: "0 to 8", of: Mass(node: "{i} {k}", mass: "20 t")),
+            "lower {i} {k}": For(i: "0 to 4", k: "1 to 8", of: Beam(nodes: ("{i} {k-1}", "column {i} {k}"), use: "column")),
+            "upper {i} {k}": For(i: "0 to 4", k: "1 to 8", of: Beam(nodes: ("column {i} {k}", "{i} {k}"), use: "column")),
+            "left {i} {k}": For(i: "1 to 4", k: "0 to 8", of: Beam(nodes: ("{i-1} {k}", "beam {i} {k}"), use: "beam")),
+            "right {i} {k}": For(i: "1 to 4", k: "0 to 8", of: Beam(nodes: ("beam {i} {k}", "{i} {k}"), use: "beam")),
+            "pendulum {i}": For(i: "0 to 4", of: NLink(node: "{i} 0", kn: "1e9 N/m", ks: "20 MN/m", radius: 2,
+                mu_slow: 0.03, mu_fast: 0.06, rate: "50 s/m")),
+            "stop left": Gap(node: "0 0", axis1: (1, 0, 0), axis2: (0, 0, 1), k: "30 MN/m", opening: "12 cm"),
+            "stop right": Gap(node: "4 0", axis1: (-1, 0, 0), axis2: (0, 0, 1), k: "30 MN/m", opening: "12 cm"),
+        },
+        damping: RayleighAt(ratio: 0.02, f1: "0.5 Hz", f2: "10 Hz"),
+        functions: { "pulse": Ricker(amplitude: "0.3 g", frequency: "0.6 Hz", center: "1.5 s") },
+        cases: {
+            "gravity": Static(loads: [Gravity]),
+            "pulse": Dynamic(after: "gravity", duration: "3.3 s", dt: "5 ms", step: Fixed(substeps: 4), basis: BASIS,
+                base: [(direction: X, function: "pulse")]),
+        },
+        outputs: {
+            "roof": Displacement(node: "0 8", dof: Ux),
+            "shear": LinkForce(link: "pendulum 0", axis: U2),
+            "weight": LinkForce(link: "pendulum 0", axis: U1),
+        },
+    )"#;
+    parse(&text.replace("BASIS", basis), &[]).0
+}
+
+#[test]
+fn what_link_forces_set_in_motion_is_told_where_the_basis_lacks_it() {
+    let run = |basis: &str| run(&on_pendulums(basis), SolverKind::Fna);
+    let whole = run("Ritz(vectors: 300, tolerance: 0.5)");
+    for vectors in [50, 60, 90] {
+        let found = run(&format!("Ritz(vectors: {vectors}, tolerance: 0.5)"));
+        assert!(found.result.basis.as_ref().unwrap().vectors <= vectors, "it is not enlarged");
+        for (output, error) in ["roof", "shear", "weight"].into_iter().zip(&found.result.errors) {
+            let (truth, told) = (apart(&whole, &found, output), error.reduction);
+            let size = whole.peak(output).unwrap().magnitude();
+            assert!(truth <= told + 1e-4 * size, "{vectors} {output}: {truth} {told} of {size}");
+            assert!(told <= 10.0 * truth + 1e-3 * size, "{vectors} {output}: {truth} {told}");
+        }
     }
 }

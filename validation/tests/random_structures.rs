@@ -5,6 +5,8 @@ use trilith_validation::oracle::generate::generate;
 use trilith_validation::oracle::judge::{
     Verdict, WORK, judge, judge_and_compare, reference, reference_of_a_part,
 };
+use trilith_validation::oracle::subject::{Ended, run};
+use trilith_validation::oracle::text::text;
 
 /// The first thirty random structures; `fuzz` of this crate runs any number under all solvers.
 #[test]
@@ -164,14 +166,15 @@ fn what_was_wrong_once_is_right_and_knows_how_far() {
     }
 }
 
-/// The first hundredth of a wavelet moves a frame by a millionth of what its weight does: the run says so.
+/// The first hundredth of a wavelet moves a frame by a millionth of what its weight does: the run says so, whether its errors,
+/// which are rounding there, happen to hold or not.
 #[test]
 fn motion_that_is_lost_beside_what_stands_in_springs_is_told() {
     let mut spec = generate(5_043_458);
     let truth = reference_of_a_part(&mut spec, 4e6).unwrap();
     let verdict = judge(&spec, &truth, SolverKind::Fna);
-    assert!(
-        matches!(&verdict, Verdict::Warned(_, said) if said.starts_with("all motion is below")),
-        "{verdict:?}"
-    );
+    assert!(matches!(&verdict, Verdict::Told(_) | Verdict::Warned(..)), "{verdict:?}");
+    let Ended::Shown(shown) = run(&text(&spec), SolverKind::Fna) else { panic!("it ends") };
+    let said = shown.warnings.iter().any(|w| w.starts_with("all motion is below"));
+    assert!(said, "{:?}", shown.warnings);
 }

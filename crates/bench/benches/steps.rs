@@ -1,4 +1,4 @@
-//! `cargo bench -p trilith-bench`: what a law answers in, and a step of the smallest frame.
+//! `cargo bench -p trilith-bench`: what a law answers in, small systems, projections, and a step of the smallest frame.
 
 use criterion::{Criterion, criterion_group, criterion_main};
 use std::hint::black_box;
@@ -7,7 +7,8 @@ use trilith::element::{Energy, Kinematics, Link, Response};
 use trilith::model::Body;
 use trilith::{Analysis, RunOptions, SolverKind};
 use trilith_bench::{Gauge, Subject, Task, find};
-use trilith_linalg::{Dense, DenseLu, solve_few};
+use trilith_linalg::threads::alone;
+use trilith_linalg::{Columns, Dense, DenseLu, solve_few};
 
 /// A link led around a circle that slides all the time.
 fn law(c: &mut Criterion, name: &str, link: &dyn Link) {
@@ -133,5 +134,27 @@ fn systems(c: &mut Criterion) {
     }
 }
 
-criterion_group!(all, laws, systems, steps);
+/// What vectors have in common with a hundred columns of 40 000 rows, taken out of them and by products of matrices.
+fn projections(c: &mut Criterion) {
+    let (rows, count) = (40_000, 100);
+    let number = |i: usize| ((i * 7919) % 1009) as f64 / 1009.0 - 0.5;
+    let values: Vec<f64> = (0..rows * count).map(|i| 1e-3 * number(i)).collect();
+    let mut columns = Columns::with_capacity(rows, count);
+    values.chunks(rows).for_each(|column| columns.push(column));
+    let whole = Dense::from_columns(rows, count, values);
+    for vectors in [1, 4, 16] {
+        let y: Vec<Vec<f64>> =
+            (0..vectors).map(|v| (0..rows).map(|i| number(3 * i + v)).collect()).collect();
+        c.bench_function(&format!("projection of {vectors}, take_out"), |bench| {
+            let mut x = y.clone();
+            bench.iter(|| alone(|| columns.take_out(0, black_box(&mut x), &y)));
+        });
+        let all = Dense::from_columns(rows, vectors, y.concat());
+        c.bench_function(&format!("projection of {vectors}, faer"), |bench| {
+            bench.iter(|| whole.times(&whole.transpose_times(black_box(&all))));
+        });
+    }
+}
+
+criterion_group!(all, laws, systems, projections, steps);
 criterion_main!(all);

@@ -30,6 +30,24 @@ impl Dense {
         Self { rows, columns, values }
     }
 
+    /// The unit matrix.
+    #[must_use]
+    pub fn identity(size: usize) -> Self {
+        let mut all = Self::zeros(size, size);
+        (0..size).for_each(|i| all[(i, i)] = 1.0);
+        all
+    }
+
+    /// The first rows and columns.
+    ///
+    /// # Panics
+    /// Where there are fewer.
+    #[must_use]
+    pub fn leading(&self, rows: usize, columns: usize) -> Self {
+        let values = (0..columns).flat_map(|j| self.column(j)[..rows].iter().copied());
+        Self::from_columns(rows, columns, values.collect())
+    }
+
     /// Number of rows.
     #[must_use]
     pub fn rows(&self) -> usize {

@@ -7,11 +7,12 @@
 //! | sprs | Matrix Market export |
 //! | faer | sparse LDLᵀ and LU, dense LU, symmetric eigenproblems, products of dense matrices |
 //! | memmap2 | memory on large pages, for factors |
-//! | pulp | products of a dense matrix and a vector, sums over modes, extrapolations, as wide as the processor allows |
+//! | pulp | products of a dense matrix and a vector, projections on tall matrices, sums over modes, extrapolations, as wide as the processor allows |
 //!
 //! Threads share what is large, in pieces that do not depend on their number, so that results repeat bit for bit.
 
 mod aligned;
+mod beside;
 mod dense;
 mod eigen;
 mod expm;
@@ -33,6 +34,7 @@ mod tall;
 pub mod threads;
 mod vector;
 
+pub use beside::{mutual_products, turn_each};
 pub use dense::{Dense, DenseLu, positive_inverse};
 pub use eigen::{all_modes, symmetric_eigen};
 pub use expm::{expm, expm_small};

@@ -192,7 +192,7 @@ impl Sparse {
         y
     }
 
-    /// `A x` of several vectors, for a symmetric A: its entries are read once for four of them, and threads share them.
+    /// `A x` of several vectors, for a symmetric A: its entries are read once for eight of them, and threads share them.
     ///
     /// # Panics
     /// Where the matrix is not square, or a length does not suit.
@@ -212,34 +212,42 @@ impl Sparse {
         self.symmetric(x.chunks(n).zip(y.chunks_mut(n)));
     }
 
-    fn symmetric<'a>(&self, pairs: impl Iterator<Item = (&'a [f64], &'a mut [f64])>) {
+    fn symmetric<'a>(&self, pairs: impl ExactSizeIterator<Item = (&'a [f64], &'a mut [f64])>) {
         let n = self.rows();
         assert!(self.columns() == n, "a symmetric matrix");
-        let mut pairs = pairs.inspect(|(x, y)| {
-            assert!(x.len() == n && y.len() == n, "lengths of a product");
-        });
-        let next =
-            || Some(pairs.by_ref().take(4).collect()).filter(|four: &Vec<_>| !four.is_empty());
-        for four in std::iter::from_fn(next) {
-            let mut beside = vec![[0.0; 4]; n];
-            let mut pieces: Vec<(usize, Vec<&mut [f64]>)> =
-                (0..n).step_by(ROWS).map(|start| (start, Vec::with_capacity(4))).collect();
-            for (k, (x, y)) in four.into_iter().enumerate() {
-                beside.iter_mut().zip(x).for_each(|(four, x)| four[k] = *x);
-                pieces.iter_mut().zip(y.chunks_mut(ROWS)).for_each(|(piece, y)| piece.1.push(y));
-            }
-            share(8 * self.stored(), pieces, |(start, y)| self.symmetric_rows(&beside, start, y));
+        let mut pairs: Vec<_> = pairs.collect();
+        let suits = |(x, y): &(&[f64], &mut [f64])| x.len() == n && y.len() == n;
+        assert!(pairs.iter().all(suits), "lengths of a product");
+        while pairs.len() > 4 {
+            let rest = pairs.split_off(pairs.len().min(8));
+            self.beside::<8>(std::mem::replace(&mut pairs, rest));
+        }
+        if !pairs.is_empty() {
+            self.beside::<4>(pairs);
         }
     }
 
-    /// Rows of the images of four vectors, whose values stand side by side: columns are rows, so each value is a sum.
-    fn symmetric_rows(&self, x: &[[f64; 4]], start: usize, mut y: Vec<&mut [f64]>) {
+    /// Images of N vectors at most, whose values stand side by side.
+    fn beside<const N: usize>(&self, pairs: Vec<(&[f64], &mut [f64])>) {
+        let n = self.rows();
+        let mut beside = vec![[0.0; N]; n];
+        let mut pieces: Vec<(usize, Vec<&mut [f64]>)> =
+            (0..n).step_by(ROWS).map(|start| (start, Vec::with_capacity(N))).collect();
+        for (k, (x, y)) in pairs.into_iter().enumerate() {
+            beside.iter_mut().zip(x).for_each(|(each, x)| each[k] = *x);
+            pieces.iter_mut().zip(y.chunks_mut(ROWS)).for_each(|(piece, y)| piece.1.push(y));
+        }
+        share(2 * N * self.stored(), pieces, |(start, y)| self.symmetric_rows(&beside, start, y));
+    }
+
+    /// Rows of the images: columns are rows, so each value is a sum.
+    fn symmetric_rows<const N: usize>(&self, x: &[[f64; N]], start: usize, mut y: Vec<&mut [f64]>) {
         for j in 0..y[0].len() {
             let (rows, values) = self.column(start + j);
-            let mut sum = [0.0; 4];
+            let mut sum = [0.0; N];
             for (i, v) in rows.iter().zip(values) {
                 let x = &x[*i];
-                for k in 0..4 {
+                for k in 0..N {
                     sum[k] += v * x[k];
                 }
             }

@@ -43,7 +43,7 @@ fn most() -> usize {
 }
 
 /// Does work on each of some pieces, which take so many floating-point operations together.
-pub(crate) fn share<T: Send>(operations: usize, pieces: Vec<T>, work: impl Fn(T) + Sync) {
+pub fn share<T: Send>(operations: usize, pieces: Vec<T>, work: impl Fn(T) + Sync) {
     let count = most().min(pieces.len()).min(1 + operations / WORTH_A_THREAD);
     if count < 2 {
         pieces.into_iter().for_each(work);
@@ -70,6 +70,22 @@ pub(crate) fn share<T: Send>(operations: usize, pieces: Vec<T>, work: impl Fn(T)
         each.sum()
     });
     HELPED.set(HELPED.get() + spent);
+}
+
+/// Does two things at once where another thread may help; each without further help, so that none waits for a core.
+pub fn both<A: Send, B: Send>(
+    first: impl FnOnce() -> A + Send,
+    second: impl FnOnce() -> B + Send,
+) -> (A, B) {
+    let (mut a, mut b) = (None, None);
+    let pieces: Vec<Box<dyn FnOnce() + Send>> =
+        vec![Box::new(|| a = Some(first())), Box::new(|| b = Some(second()))];
+    share(usize::MAX, pieces, alone);
+    match (a, b) {
+        (Some(a), Some(b)) => (a, b),
+        // Each piece is done once.
+        _ => unreachable!("both are done"),
+    }
 }
 
 /// CPU time of this thread, s; 0 where the system does not tell.
@@ -120,6 +136,13 @@ mod tests {
         assert!(cfg!(not(unix)) || helped() > before);
         // Helpers have no helpers of their own.
         share(usize::MAX, vec![(); 2], |()| assert!(most() <= 2));
+    }
+
+    #[test]
+    fn two_things_are_done_whoever_helps() {
+        MOST.set(Some(2));
+        assert_eq!(both(|| 1 + 1, || "two".len()), (2, 3));
+        assert_eq!(alone(|| both(|| 1 + 1, || "two".len())), (2, 3));
     }
 
     #[test]

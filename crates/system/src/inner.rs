@@ -10,6 +10,7 @@
 
 use crate::SystemError;
 use trilith_element::{Dof, Recovered, SparseMatrices, SparseMatrix, SparseRow, Vector3, cross};
+use trilith_linalg::threads::both;
 use trilith_linalg::{Ldlt, Sparse, Triplets};
 use trilith_model::{Body, Element, Model, Span};
 
@@ -66,8 +67,13 @@ impl InnerRows {
             };
             fits(own, e.nodes.len()).map_err(&refuse)?;
             let mut rigid = vec![[0.0; 6]; own.rows.len()];
-            let loose = follow(model, e, own, &mut rigid)?.map_err(&refuse)?;
-            if let Some(row) = own.mass.as_deref().map(negative).transpose()?.flatten() {
+            // Each factorises a matrix of all rows.
+            let (loose, of_mass) = both(
+                || follow(model, e, own, &mut rigid),
+                || own.mass.as_deref().map(negative).transpose(),
+            );
+            let loose = loose?.map_err(&refuse)?;
+            if let Some(row) = of_mass?.flatten() {
                 return Err(refuse(indefinite("mass", own.mass.as_deref(), row)));
             }
             rows.doubts.extend(held(e, own, &rigid));

@@ -56,7 +56,16 @@ impl Ldlt {
     /// Where the backend refuses.
     pub fn with_rigid_zeros(a: &Sparse) -> Result<Self, LinalgError> {
         let largest = a.diagonal().into_iter().fold(0.0, f64::max);
+        let regularization = LdltRegularization {
+            dynamic_regularization_signs: None,
+            dynamic_regularization_epsilon: 1e-13 * largest,
+            dynamic_regularization_delta: 1e30 * largest.max(1.0),
+        };
         let n = a.rows();
+        if (0..n).all(|i| a.column(i).0.binary_search(&i).is_ok()) {
+            return Self::regularised(a, regularization);
+        }
+        // Each equation needs its place on the diagonal.
         let mut padded = Triplets::new(n, n);
         for (i, j, v) in a.entries() {
             padded.add(i, j, v);
@@ -64,14 +73,7 @@ impl Ldlt {
         for i in 0..n {
             padded.add(i, i, 0.0);
         }
-        Self::regularised(
-            &padded.build(),
-            LdltRegularization {
-                dynamic_regularization_signs: None,
-                dynamic_regularization_epsilon: 1e-13 * largest,
-                dynamic_regularization_delta: 1e30 * largest.max(1.0),
-            },
-        )
+        Self::regularised(&padded.build(), regularization)
     }
 
     fn regularised(

@@ -298,41 +298,50 @@ impl StagedLdlt {
 
     /// Solves whole right-hand sides, one after the other, in the order of the equations, in place.
     pub fn solve(&self, x: &mut [f64]) {
-        let (n, split) = (self.reciprocal.len(), self.plan.split);
+        let n = self.reciprocal.len();
         if n == 0 {
             return;
         }
         // Of two each is solved alone, which a second thread can do meanwhile.
-        let beside = if x.len() <= 2 * n { 1 } else { 4 };
+        let beside = match x.len() / n {
+            0..=2 => 1,
+            3..=8 => 4,
+            _ => 8,
+        };
         let pieces: Vec<_> = x.chunks_mut(beside * n).collect();
-        // Twice each value of the factor times the four.
-        share(16 * self.values.len() * pieces.len(), pieces, |x| self.solve_four(x, split));
+        // Twice each value of the factor times each right-hand side.
+        share(4 * beside * self.values.len() * pieces.len(), pieces, |x| match x.len() / n {
+            1 => self.solve_one(x),
+            2..=4 => self.solve_each::<4>(x),
+            _ => self.solve_each::<8>(x),
+        });
     }
 
-    /// Four of them at most.
-    fn solve_four(&self, x: &mut [f64], split: usize) {
-        let StagedPlan { equations, front, tail, .. } = &*self.plan;
-        let (n, of_tail) = (equations.len(), &self.reciprocal[split..]);
-        if x.len() == n {
-            let mut one: Vec<f64> = equations.iter().map(|i| x[*i as usize]).collect();
-            let mut work = vec![0.0; self.plan.workspace()];
-            self.forward(&mut one, &mut work);
-            self.tail_backward(&mut one[split..], &mut work);
-            self.finish(&mut one, &mut work);
-            one.iter().zip(equations).for_each(|(y, i)| x[*i as usize] = *y);
-            return;
-        }
-        let mut four = vec![[0.0; 4]; n];
-        let mut work = vec![[0.0; 4]; self.plan.workspace()];
+    fn solve_one(&self, x: &mut [f64]) {
+        let StagedPlan { equations, split, .. } = &*self.plan;
+        let mut one: Vec<f64> = equations.iter().map(|i| x[*i as usize]).collect();
+        let mut work = vec![0.0; self.plan.workspace()];
+        self.forward(&mut one, &mut work);
+        self.tail_backward(&mut one[*split..], &mut work);
+        self.finish(&mut one, &mut work);
+        one.iter().zip(equations).for_each(|(y, i)| x[*i as usize] = *y);
+    }
+
+    /// So many of them at most, side by side.
+    fn solve_each<const N: usize>(&self, x: &mut [f64]) {
+        let StagedPlan { equations, front, tail, split, .. } = &*self.plan;
+        let (n, of_tail) = (equations.len(), &self.reciprocal[*split..]);
+        let mut beside = vec![[0.0; N]; n];
+        let mut work = vec![[0.0; N]; self.plan.workspace()];
         for (k, x) in x.chunks(n).enumerate() {
-            four.iter_mut().zip(equations).for_each(|(y, i)| y[k] = x[*i as usize]);
+            beside.iter_mut().zip(equations).for_each(|(y, i)| y[k] = x[*i as usize]);
         }
-        front.forward_four(&self.values, &mut four, &mut work);
-        tail.forward_four(&self.values, &mut four[split..], &mut work);
-        tail.backward_four(&self.values, of_tail, &mut four[split..], &mut work);
-        front.backward_four(&self.values, &self.reciprocal, &mut four, &mut work);
+        front.forward_each(&self.values, &mut beside, &mut work);
+        tail.forward_each(&self.values, &mut beside[*split..], &mut work);
+        tail.backward_each(&self.values, of_tail, &mut beside[*split..], &mut work);
+        front.backward_each(&self.values, &self.reciprocal, &mut beside, &mut work);
         for (k, x) in x.chunks_mut(n).enumerate() {
-            four.iter().zip(equations).for_each(|(y, i)| x[*i as usize] = y[k]);
+            beside.iter().zip(equations).for_each(|(y, i)| x[*i as usize] = y[k]);
         }
     }
 }

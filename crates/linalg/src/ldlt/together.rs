@@ -1,41 +1,43 @@
-//! Forward and back substitution of four right-hand sides at once, see `substitution` for one.
+//! Forward and back substitution of several right-hand sides at once, four or eight, see `substitution` for one.
 //!
-//! Values of the four stand side by side, so every value of the factor is read once for all of them. Each
-//! is solved to the same bits whatever stands beside it.
+//! Their values stand side by side, so every value of the factor is read once for all of them. Each is solved to the
+//! same bits whatever stands beside it.
 
 use super::packing::{BLOCK, TILE, WIDTH, four};
 use super::substitution::{Panels, View};
 use pulp::{Simd, WithSimd};
 
-/// One equation of the four.
-pub(crate) type Four = [f64; 4];
-
 impl Panels {
     /// x ← L⁻¹ x with the unit lower factor; `work` holds [`height`](Self::height) places or more.
-    pub(crate) fn forward_four(&self, values: &[f64], x: &mut [Four], work: &mut [Four]) {
+    pub(crate) fn forward_each<const N: usize>(
+        &self,
+        values: &[f64],
+        x: &mut [[f64; N]],
+        work: &mut [[f64; N]],
+    ) {
         crate::simd::dispatch(Forward { panels: self, values, x, work });
     }
 
     /// x ← L⁻ᵀ D⁻¹ x; `reciprocal` is 1/D. Rows beyond the columns of the group are known already.
-    pub(crate) fn backward_four(
+    pub(crate) fn backward_each<const N: usize>(
         &self,
         values: &[f64],
         reciprocal: &[f64],
-        x: &mut [Four],
-        work: &mut [Four],
+        x: &mut [[f64; N]],
+        work: &mut [[f64; N]],
     ) {
         crate::simd::dispatch(Backward { panels: self, values, reciprocal, x, work });
     }
 }
 
-struct Forward<'a> {
+struct Forward<'a, const N: usize> {
     panels: &'a Panels,
     values: &'a [f64],
-    x: &'a mut [Four],
-    work: &'a mut [Four],
+    x: &'a mut [[f64; N]],
+    work: &'a mut [[f64; N]],
 }
 
-impl WithSimd for Forward<'_> {
+impl<const N: usize> WithSimd for Forward<'_, N> {
     type Output = ();
     #[inline(always)]
     fn with_simd<S: Simd>(self, _: S) {
@@ -45,15 +47,15 @@ impl WithSimd for Forward<'_> {
     }
 }
 
-struct Backward<'a> {
+struct Backward<'a, const N: usize> {
     panels: &'a Panels,
     values: &'a [f64],
     reciprocal: &'a [f64],
-    x: &'a mut [Four],
-    work: &'a mut [Four],
+    x: &'a mut [[f64; N]],
+    work: &'a mut [[f64; N]],
 }
 
-impl WithSimd for Backward<'_> {
+impl<const N: usize> WithSimd for Backward<'_, N> {
     type Output = ();
     #[inline(always)]
     fn with_simd<S: Simd>(self, _: S) {
@@ -65,18 +67,22 @@ impl WithSimd for Backward<'_> {
 
 /// y −= l x.
 #[inline(always)]
-fn less(y: &mut Four, l: f64, x: &Four) {
-    for k in 0..4 {
+fn less<const N: usize>(y: &mut [f64; N], l: f64, x: &[f64; N]) {
+    for k in 0..N {
         y[k] -= l * x[k];
     }
 }
 
 #[inline(always)]
-fn forward(node: &View<'_>, x: &mut [Four], work: &mut [Four]) {
+fn forward<const N: usize>(node: &View<'_>, x: &mut [[f64; N]], work: &mut [[f64; N]]) {
     let (s, c, h) = (node.start, node.columns, node.height);
+    // Where few equations are loaded, most of the structure hears of it on the way back alone.
+    if x[s..s + c].iter().all(|x| *x == [0.0; N]) {
+        return;
+    }
     let w = &mut work[..h];
     w[..c].copy_from_slice(&x[s..s + c]);
-    w[c..].fill([0.0; 4]);
+    w[c..].fill([0.0; N]);
     let (mut j, mut panel) = (0, node.panel);
     while j + WIDTH <= c {
         let (own, rest) = panel.split_at(four(h - j));
@@ -117,7 +123,12 @@ fn forward(node: &View<'_>, x: &mut [Four], work: &mut [Four]) {
 }
 
 #[inline(always)]
-fn backward(node: &View<'_>, reciprocal: &[f64], x: &mut [Four], work: &mut [Four]) {
+fn backward<const N: usize>(
+    node: &View<'_>,
+    reciprocal: &[f64],
+    x: &mut [[f64; N]],
+    work: &mut [[f64; N]],
+) {
     let (s, c, h) = (node.start, node.columns, node.height);
     let w = &mut work[..h];
     for (y, (a, r)) in w.iter_mut().zip(x[s..s + c].iter().zip(&reciprocal[s..])) {
@@ -132,9 +143,9 @@ fn backward(node: &View<'_>, reciprocal: &[f64], x: &mut [Four], work: &mut [Fou
         let (upper, below) = w[j..].split_at_mut(1);
         let (rest, own) = panel.split_at(panel.len() - below.len());
         panel = rest;
-        let mut sum = [0.0; 4];
+        let mut sum = [0.0; N];
         for (y, l) in below.iter().zip(own) {
-            for k in 0..4 {
+            for k in 0..N {
                 sum[k] += l * y[k];
             }
         }
@@ -148,7 +159,7 @@ fn backward(node: &View<'_>, reciprocal: &[f64], x: &mut [Four], work: &mut [Fou
         let (own, below) = w[j..].split_at_mut(WIDTH);
         let (tiles, last) = values.as_chunks::<{ WIDTH * TILE }>();
         let (rows, left) = below.as_chunks::<TILE>();
-        let mut sums = [[0.0; 4]; WIDTH];
+        let mut sums = [[0.0; N]; WIDTH];
         for (y, l) in rows.iter().zip(tiles) {
             add_four(&mut sums, y, l);
         }
@@ -173,13 +184,13 @@ fn backward(node: &View<'_>, reciprocal: &[f64], x: &mut [Four], work: &mut [Fou
 
 /// y −= four columns of a tile times four numbers each.
 #[inline(always)]
-fn less_four(y: &mut [Four], l: &[f64], t: [&Four; WIDTH]) {
+fn less_four<const N: usize>(y: &mut [[f64; N]], l: &[f64], t: [&[f64; N]; WIDTH]) {
     let n = y.len();
     let l = &l[..WIDTH * n];
     let [a, b, d, e] = t;
     for (i, y) in y.iter_mut().enumerate() {
         let [l0, l1, l2, l3] = [l[i], l[n + i], l[2 * n + i], l[3 * n + i]];
-        for k in 0..4 {
+        for k in 0..N {
             y[k] -= (l0 * a[k] + l1 * b[k]) + (l2 * d[k] + l3 * e[k]);
         }
     }
@@ -187,12 +198,12 @@ fn less_four(y: &mut [Four], l: &[f64], t: [&Four; WIDTH]) {
 
 /// Sums of four columns of a tile times y.
 #[inline(always)]
-fn add_four(sums: &mut [Four; WIDTH], y: &[Four], l: &[f64]) {
+fn add_four<const N: usize>(sums: &mut [[f64; N]; WIDTH], y: &[[f64; N]], l: &[f64]) {
     let n = y.len();
     let l = &l[..WIDTH * n];
     for (i, y) in y.iter().enumerate() {
         for (c, sum) in sums.iter_mut().enumerate() {
-            for k in 0..4 {
+            for k in 0..N {
                 sum[k] += l[c * n + i] * y[k];
             }
         }

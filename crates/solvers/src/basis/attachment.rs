@@ -134,16 +134,16 @@ impl AttachmentVectors {
     }
 
     /// Takes the shapes out of vectors: V − Ψ κ⁻¹ Ψᵀ K V. Their masses stay as they are.
-    pub(crate) fn out_of(&self, k: &Sparse, mut vectors: Shapes) -> Shapes {
-        for (r, stiffness) in self.stiffness.iter().enumerate().filter(|(_, k)| **k > 0.0) {
-            let shares = vectors.load(&k.mul(self.psi.column(r)));
-            let own = vectors.rows().gather(self.psi.column(r)).into_owned();
-            for (j, share) in shares.into_iter().enumerate() {
-                let column = vectors.kept_mut().column_mut(j);
-                column.iter_mut().zip(&own).for_each(|(v, x)| *v -= share / stiffness * x);
-            }
-        }
-        vectors
+    pub(crate) fn out_of(&self, k: &Sparse, vectors: Shapes) -> Shapes {
+        let stiff = self.stiffness.iter().enumerate().filter(|(_, k)| **k > 0.0);
+        // Those of one shape are not changed by what others take: Ψᵀ K Ψ is diagonal.
+        let shapes = stiff.map(|(r, stiffness)| {
+            let psi = self.psi.column(r);
+            let shares = vectors.load(&k.mul(psi)).into_iter().map(|share| share / stiffness);
+            (vectors.rows().gather(psi).into_owned(), shares.collect())
+        });
+        let shapes: Vec<_> = shapes.collect();
+        vectors.less(&shapes)
     }
 
     /// Takes them out of a displacement that a force causes, ψᵀ K u = ψᵀ p, as [`out_of`](Self::out_of) does.
@@ -168,10 +168,7 @@ impl AttachmentVectors {
             return self.clone();
         }
         let damping = system.damping();
-        let own = (0..modes.len()).map(|j| {
-            let mode = modes.column(j);
-            damping.bilinear(&mode, &mode).max(0.0)
-        });
+        let own = modes.each().map(|mode| damping.bilinear(&mode, &mode).max(0.0));
         let own: Vec<f64> = own.collect();
         // Shapes without mass, square to the modes by stiffness: dashpots tie them, and the effective stiffnesses that Rayleigh's
         // share of the stiffness does not have.
@@ -207,9 +204,8 @@ impl AttachmentVectors {
             // Nothing but dashpots: D y = Ψᵀ C u − Ψᵀ C Φ Φᵀ M u.
             let scale = rates[r].recip();
             damping.mul_add(scale, psi.column(r), reader);
-            for (j, share) in modes.load(&damping.mul(psi.column(r))).iter().enumerate() {
-                system.mass.mul_add(-scale * share, &modes.heavy(j), reader);
-            }
+            let shares = modes.load(&damping.mul(psi.column(r)));
+            system.mass.mul_add(-scale, &modes.heavy(&shares), reader);
         }
         Self { psi, tied: count, stiffness, damping: rates, readers }
     }

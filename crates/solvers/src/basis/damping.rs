@@ -102,8 +102,9 @@ pub(crate) fn modal_damping(model: &Model, system: &System, bases: &Bases) -> Op
         return None;
     }
     let mut u = Dense::zeros(system.order(), kept.len());
-    for (new, old) in kept.iter().enumerate() {
-        system.mass.mul_add(1.0, &modes.shapes.heavy(*old), u.column_mut(new));
+    let damped = modes.shapes.each_heavy().zip(&rates).filter(|(_, rate)| **rate > 0.0);
+    for (j, (heavy, _)) in damped.enumerate() {
+        system.mass.mul_add(1.0, &heavy, u.column_mut(j));
     }
     let elastic = || (0..rates.len()).filter(|j| modes.omega2[*j] > 0.0);
     let beyond = if is_complete(system, rates.len()) {

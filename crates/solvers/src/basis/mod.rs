@@ -18,6 +18,7 @@
 //! Reference: \[Wilson 2002, ch. 14 and 18\].
 
 mod attachment;
+mod block;
 mod condensation;
 mod damping;
 mod drag;
@@ -159,11 +160,8 @@ pub(crate) fn build(
     let Solvable { effective: held, shift, factor, .. } = hat;
     drop(factor);
     let forms = Forms::new(system, loads)?;
-    let mut bases = forms.of(system, span, true)?;
-    if let Some(wider) = wider {
-        // Of the wider one nobody asks for modes of the structure alone but modal damping.
-        bases.wider = Some(Box::new(forms.of(system, wider, is_modal(&model.damping))?));
-    }
+    let mut bases =
+        forms.of(system, span.len(), wider.unwrap_or(span), is_modal(&model.damping))?;
     bases.report = report(model, system, &bases, loads, &held, shift, &exact);
     Ok(bases)
 }
@@ -175,7 +173,7 @@ pub(crate) fn in_span(
     loads: &[(String, Vec<f64>)],
     of: &RitzBasis,
 ) -> Result<Option<Bases>, SolveError> {
-    let (count, before) = (of.modes(), of.shapes.rows());
+    let before = of.shapes.rows();
     let rows = match before.is_none() {
         true => Condensation::none(system.order()),
         false => Condensation::new(system, loads)?,
@@ -183,15 +181,14 @@ pub(crate) fn in_span(
     if !rows.keeps_as(before) {
         return Ok(None);
     }
-    let kept: Vec<f64> = (0..count).flat_map(|j| of.shapes.kept(j).iter().copied()).collect();
-    let mut span = Shapes::new(Arc::new(rows), Dense::from_columns(before.kept(), count, kept));
+    let span = of.shapes.with_rows(Arc::new(rows));
     // Orthonormal in the masses that there are here.
-    let (sizes, mut turn) = symmetric_eigen(&span.congruence(&system.mass, count))?;
+    let (sizes, mut turn) = symmetric_eigen(&span.congruence(&system.mass))?;
     for (j, size) in sizes.iter().enumerate() {
         turn.column_mut(j).iter_mut().for_each(|x| *x /= size.sqrt());
     }
-    span.kept_mut().turn(&turn);
-    Ok(Some(Forms::new(system, loads)?.of(system, span, true)?))
+    let span = span.turned(&turn);
+    Ok(Some(Forms::new(system, loads)?.of(system, span.len(), span, false)?))
 }
 
 /// A stiffness whose modes a span is turned into, and the static shapes for it.
@@ -212,27 +209,50 @@ impl Form {
         Ok(Self { stiffness, effective, statics })
     }
 
-    /// Turns a span of M-orthonormal vectors into modes, with the static shapes beside them.
-    fn modes_in(&self, system: &System, span: Shapes) -> Result<RitzBasis, SolveError> {
+    /// Turns M-orthonormal vectors into modes, with the static shapes beside them; for each of these counts, of so many
+    /// of the first.
+    fn modes_in(
+        &self,
+        system: &System,
+        span: Shapes,
+        counts: &[usize],
+    ) -> Result<Vec<RitzBasis>, SolveError> {
+        let span = self.statics.out_of(&self.stiffness, span);
+        let reduced = span.stiffness_of_vectors(&self.stiffness);
+        let of = |count: &usize| {
+            let (first, reduced) = (span.first(*count), reduced.leading(*count, *count));
+            self.modes_of(system, first, &reduced)
+        };
+        counts.iter().map(of).collect()
+    }
+
+    /// The same of vectors with their stiffness Vᵀ K V.
+    fn modes_of(
+        &self,
+        system: &System,
+        vectors: Shapes,
+        reduced: &Dense,
+    ) -> Result<RitzBasis, SolveError> {
         let Self { stiffness: k, effective, statics } = self;
-        let span = statics.out_of(k, span);
-        let (mut omega2, vectors) = graded_modes(span, k)?;
-        // Most modes need no closer look.
+        let (mut omega2, modes) = graded_modes(vectors, reduced, k)?;
         let sums = k.row_sums();
-        let sums = vectors.rows().gather(&sums);
-        for (j, w) in omega2.iter_mut().enumerate() {
-            let bound: f64 = vectors.kept(j).iter().zip(&*sums).map(|(x, s)| x * x * s).sum();
-            if w.abs() > DOUBT * ROUNDING * bound {
+        let sums = modes.rows().gather(&sums);
+        let bound = |x: &[f64]| -> f64 { x.iter().zip(&*sums).map(|(x, s)| x * x * s).sum() };
+        // Most modes need no closer look: none has more than what all together have.
+        let most: f64 = modes.vectors().map(bound).sum();
+        let doubtful = omega2.iter().take_while(|w| **w <= DOUBT * ROUNDING * most).count();
+        for (w, kept) in omega2[..doubtful].iter_mut().zip(modes.each_kept()) {
+            if w.abs() > DOUBT * ROUNDING * bound(&kept) {
                 continue;
             }
-            let x = vectors.column(j);
+            let x = modes.rows().complete(&kept);
             let terms: f64 = k.entries().map(|(i, l, a)| (a * x[i] * x[l]).abs()).sum();
             if w.abs() <= ROUNDING * terms {
                 *w = 0.0;
             }
         }
-        let statics = statics.beside(system, k, effective, &vectors);
-        let shapes = Arc::new(vectors.beside(&statics.psi));
+        let statics = statics.beside(system, k, effective, &modes);
+        let shapes = Arc::new(modes.beside(&statics.psi));
         Ok(RitzBasis { shapes, omega2, statics })
     }
 }
@@ -252,31 +272,52 @@ impl Forms {
         Ok(Self { stepping: Form::new(system, effective.clone(), loads)?, structural })
     }
 
-    /// A span in them; one without effective stiffnesses where it is wanted, else both are the same.
-    fn of(&self, system: &System, span: Shapes, structural: bool) -> Result<Bases, SolveError> {
-        let alone = self.structural.as_ref().filter(|_| structural);
-        let alone = alone.map(|form| form.modes_in(system, span.clone())).transpose()?;
-        let stepping = Arc::new(self.stepping.modes_in(system, span)?);
-        let structural = alone.map_or_else(|| Arc::clone(&stepping), Arc::new);
-        Ok(Bases { structural, stepping, wider: None, report: BasisReport::default() })
+    /// The first of some vectors in them, and all where they are more. Of the wider basis nobody asks for modes of the
+    /// structure alone but modal damping.
+    fn of(
+        &self,
+        system: &System,
+        count: usize,
+        all: Shapes,
+        is_modal: bool,
+    ) -> Result<Bases, SolveError> {
+        let counts = if all.len() > count { vec![count, all.len()] } else { vec![count] };
+        let of_structure = if is_modal { &*counts } else { &counts[..1] };
+        let alone = self.structural.as_ref();
+        let alone =
+            alone.map(|form| form.modes_in(system, all.clone(), of_structure)).transpose()?;
+        let mut alone = alone.unwrap_or_default().into_iter();
+        let mut bases = self.stepping.modes_in(system, all, &counts)?.into_iter().map(|stepping| {
+            let stepping = Arc::new(stepping);
+            let structural = alone.next().map_or_else(|| Arc::clone(&stepping), Arc::new);
+            Bases { structural, stepping, wider: None, report: BasisReport::default() }
+        });
+        let first = bases.next();
+        let wider = bases.next().map(Box::new);
+        first.map(|first| Bases { wider, ..first }).ok_or(SolveError::NoMass)
     }
 }
 
-/// Modes in a span of M-orthonormal vectors, rising. An eigenvalue is found no better than the rounding of
-/// the largest one, so the slow modes are found once more among themselves, until there is no such gap.
-fn graded_modes(mut vectors: Shapes, k: &Sparse) -> Result<(Vec<f64>, Shapes), SolveError> {
+/// Modes in a span of M-orthonormal vectors with this stiffness, rising. An eigenvalue is found no better than the
+/// rounding of the largest one, so the slow modes are found once more among themselves, until there is no such gap.
+fn graded_modes(
+    mut modes: Shapes,
+    reduced: &Dense,
+    k: &Sparse,
+) -> Result<(Vec<f64>, Shapes), SolveError> {
     const GAP: f64 = 1e-5;
-    let mut count = vectors.len();
-    let mut omega2 = vec![0.0; count];
+    let (mut omega2, rotation) = symmetric_eigen(reduced)?;
+    modes.turn(&rotation);
+    let mut count = omega2.len();
     loop {
-        let (again, rotation) = symmetric_eigen(&vectors.stiffness(k, count))?;
-        vectors.kept_mut().turn(&rotation);
-        omega2[..count].copy_from_slice(&again);
-        let largest = again.last().copied().unwrap_or(0.0);
-        let slow = again.iter().filter(|w| **w < GAP * largest).count();
+        let largest = omega2[..count].last().copied().unwrap_or(0.0);
+        let slow = omega2[..count].iter().filter(|w| **w < GAP * largest).count();
         if slow == 0 || slow == count {
-            return Ok((omega2, vectors));
+            return Ok((omega2, modes));
         }
         count = slow;
+        let (again, rotation) = symmetric_eigen(&modes.stiffness(k, count))?;
+        modes.turn(&rotation);
+        omega2[..count].copy_from_slice(&again);
     }
 }

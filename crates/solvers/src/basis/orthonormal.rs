@@ -1,20 +1,13 @@
 //! M-orthonormal vectors under construction.
 
 use super::attachment::Following;
+use super::block::{Block, Turned};
 use super::condensation::Condensation;
-use crate::vector::dot;
 use trilith_linalg::{Columns, Dense, Sparse};
 
-/// Share of its M-norm that a new vector must keep to be more than rounding. It may be small: on soft
-/// effective stiffnesses every static shape is mostly a rigid motion, which the vectors before it hold already.
-const KEEP: f64 = 1e-8;
 /// A static shape of a DOF with next to no mass is not a mode: faster than this (rad/s) it would only
 /// spoil the digits of the slow ones.
 const FASTEST: f64 = 1e6;
-/// Where a vector keeps this share of its norm when its shares in others are taken out, what is left is
-/// orthogonal to the others to rounding. \[Daniel, Gragg, Kaufman & Stewart 1976\]
-const ORTHOGONAL: f64 = 0.5;
-
 /// Where new vectors come from.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Origin {
@@ -90,127 +83,85 @@ impl<'a> OrthonormalBasis<'a> {
         std::mem::take(&mut self.left_out)
     }
 
-    fn norms(&self, x: &[Vec<f64>]) -> (Vec<Vec<f64>>, Vec<f64>) {
-        let images = self.mass.symmetric_images(x);
-        let norms = x.iter().zip(&images).map(|(x, m)| dot(x, m).max(0.0).sqrt()).collect();
-        (images, norms)
+    /// Images under M of all vectors from `first` on.
+    pub(crate) fn images_since(&self, first: usize) -> Vec<Vec<f64>> {
+        self.images((first..self.len()).map(|j| self.columns.column(j)))
+    }
+
+    /// Images under M of sums of the first vectors, as many as there are shares.
+    pub(crate) fn images_of(&self, shares: &Dense) -> Vec<Vec<f64>> {
+        let sums = self.columns.times(shares);
+        self.images((0..sums.columns()).map(|j| sums.column(j)))
+    }
+
+    fn images<'b>(&self, x: impl Iterator<Item = &'b [f64]>) -> Vec<Vec<f64>> {
+        let x: Vec<Vec<f64>> = x.map(<[f64]>::to_vec).collect();
+        self.mass.symmetric_images(&x)
     }
 
     /// Orthonormalises vectors, of which the rows that are kept are given, and takes them up until `count` are there, but
-    /// for those of which nothing is left, and those of which what is left would be too fast. Returns the images under M
-    /// of those taken.
-    pub(crate) fn take_until(
-        &mut self,
-        count: usize,
-        mut x: Vec<Vec<f64>>,
-        cut: FrequencyCut,
-    ) -> Vec<Vec<f64>> {
-        let mut images = Vec::new();
+    /// for those of which nothing is left, and those of which what is left would be too fast.
+    pub(crate) fn take_until(&mut self, count: usize, mut x: Vec<Vec<f64>>, cut: FrequencyCut) {
         while !x.is_empty() && self.len() < count {
             let rest = x.split_off(x.len().min(count - self.len()));
-            images.extend(self.take(x, Origin::Anywhere, cut));
+            self.take(x, Origin::Anywhere, cut);
             x = rest;
         }
-        images
     }
 
-    /// The same of all.
-    pub(crate) fn take(
-        &mut self,
-        mut x: Vec<Vec<f64>>,
-        origin: Origin,
-        cut: FrequencyCut,
-    ) -> Vec<Vec<f64>> {
-        let size = |x: &[f64]| x.iter().fold(0.0f64, |a, b| a.max(b.abs()));
-        x.retain(|x| x.iter().all(|v| v.is_finite()) && size(x) > 0.0);
-        for x in &mut x {
-            let scale = size(x);
-            x.iter_mut().for_each(|v| *v /= scale);
-        }
-        let (mut images, before) = self.norms(&x);
+    /// The same of all: what they have in common with those before is taken out, then what they have in common with each
+    /// other, and both once more, which leaves rounding. \[Barlow & Smoktunowicz 2013\]
+    pub(crate) fn take(&mut self, x: Vec<Vec<f64>>, origin: Origin, cut: FrequencyCut) {
         let first = if origin == Origin::Recursion { self.starts[0] } else { 0 };
-        self.columns.take_out(first, &mut x, &images);
-        let mut norms;
-        (images, norms) = self.norms(&x);
-        loop {
-            self.columns.take_out(0, &mut x, &images);
-            let earlier = norms;
-            (images, norms) = self.norms(&x);
-            let lost = |i: usize| norms[i] < ORTHOGONAL * earlier[i] && norms[i] > KEEP * before[i];
-            if !(0..x.len()).any(lost) {
-                break;
+        let mut block = Block::new(x, &self.mass);
+        while !block.is_empty() {
+            block.project(&self.columns, first, &self.mass);
+            let (mut later, turned) = block.untangle();
+            block.turn_images(&turned, &self.mass);
+            if cut == FrequencyCut::Modes {
+                later.extend(self.leave_out_fast(&mut block, &turned));
             }
-        }
-        let start = self.len();
-        let mut kept: Vec<Vec<f64>> = Vec::with_capacity(x.len());
-        for (((x, image), norm), before) in x.into_iter().zip(images).zip(norms).zip(before) {
-            if before > 0.0 && norm > KEEP * before {
-                kept.extend(self.keep([x, image], [norm, before], (start, &kept), cut));
+            while block.project_again(&self.columns, &self.mass) {
+                let (more, turned) = block.untangle();
+                block.turn_images(&turned, &self.mass);
+                later.extend(more);
             }
+            later.extend(block.untangle().0);
+            for mut x in block.x {
+                self.place(&mut x);
+                self.columns.push(&x);
+            }
+            block = later;
+            block.look(&self.mass);
         }
-        kept
     }
 
-    /// Keeps a vector that is orthogonal to those before `start`, of which the images under M from there on are given;
-    /// given with its own image, and with its norm now and at first.
-    fn keep(
-        &mut self,
-        [mut x, mut image]: [Vec<f64>; 2],
-        [mut norm, before]: [f64; 2],
-        (start, others): (usize, &[Vec<f64>]),
-        cut: FrequencyCut,
-    ) -> Option<Vec<f64>> {
-        if start < self.len() {
-            let earlier = norm;
-            for (j, other) in (start..).zip(others) {
-                let share = dot(self.columns.column(j), &image);
-                let less = |x: &mut [f64], of: &[f64]| {
-                    x.iter_mut().zip(of).for_each(|(x, of)| *x -= share * of);
-                };
-                less(&mut x, self.columns.column(j));
-                less(&mut image, other);
-            }
-            norm = dot(&x, &image).max(0.0).sqrt();
-            if norm <= KEEP * before {
-                return None;
-            }
-            if norm < ORTHOGONAL * earlier {
-                // What was lost has brought shares in all others back to light.
-                norm = self.again([&mut x, &mut image], norm, before)?;
-            }
-        }
-        x.iter_mut().for_each(|v| *v /= norm);
+    /// Puts massless directions of a vector in their place.
+    fn place(&self, x: &mut Vec<f64>) {
         if let Some(following) = &self.following {
-            let mut all = self.rows.complete(&x);
+            let mut all = self.rows.complete(x);
             following.place(&mut all);
-            x = self.rows.gather(&all).into_owned();
+            *x = self.rows.gather(&all).into_owned();
         }
-        if cut == FrequencyCut::Modes && self.is_too_fast(&x) {
-            self.left_out.push(x);
-            return None;
-        }
-        image.iter_mut().for_each(|v| *v /= norm);
-        self.columns.push(&x);
-        Some(image)
     }
 
-    /// Takes the shares in all others out of a vector until it loses nothing by it; returns its norm, none where nothing
-    /// is left of it.
-    fn again(&self, [x, image]: [&mut Vec<f64>; 2], mut norm: f64, before: f64) -> Option<f64> {
-        loop {
-            // The last digits of an image from which much was taken are gone.
-            *image = self.mass.mul(x);
-            self.columns.take_out(0, std::slice::from_mut(x), std::slice::from_ref(image));
-            *image = self.mass.mul(x);
-            let earlier = norm;
-            norm = dot(x, image).max(0.0).sqrt();
-            if norm <= KEEP * before {
-                return None;
-            }
-            if norm >= ORTHOGONAL * earlier {
-                return Some(norm);
-            }
+    /// Leaves out the first of orthonormal vectors that is too fast, and gives back those behind it as they were before
+    /// what they have in common with it was taken out.
+    fn leave_out_fast(&mut self, block: &mut Block, turned: &Turned) -> Block {
+        let is_fast = |x: &Vec<f64>| {
+            let mut x = x.clone();
+            self.place(&mut x);
+            self.is_too_fast(&x)
+        };
+        let Some(at) = block.x.iter().position(is_fast) else { return Block::default() };
+        let mut fast = block.split_off(at);
+        fast.untangled(at, turned);
+        let behind = fast.split_off(1);
+        for mut x in fast.x {
+            self.place(&mut x);
+            self.left_out.push(x);
         }
+        behind
     }
 
     /// True for an M-orthonormal vector that is faster than any mode of interest.
@@ -244,7 +195,11 @@ mod tests {
         };
         let all = Condensation::none(n);
         let mut span = OrthonormalBasis::new(&all, &mass, &[], None, 8);
-        let mut take = |x| span.take(x, Origin::Anywhere, FrequencyCut::None).len();
+        let mut take = |x| {
+            let before = span.len();
+            span.take(x, Origin::Anywhere, FrequencyCut::None);
+            span.len() - before
+        };
         let sizes = [
             take(vec![base.clone()]),
             take(vec![near(1), near(2), base.clone()]),
@@ -258,6 +213,33 @@ mod tests {
                 let found = mass.bilinear(v.column(i), v.column(j));
                 assert!((found - expected).abs() < 1e-13, "{i} {j} {found}");
             }
+        }
+    }
+
+    /// What a vector has in common with one that is left out stays in it.
+    #[test]
+    fn those_behind_one_that_is_too_fast_are_kept_whole() {
+        let diagonal = |values: [f64; 4]| {
+            let mut t = Triplets::new(4, 4);
+            values.iter().enumerate().for_each(|(i, v)| t.add(i, i, *v));
+            t.build()
+        };
+        let (mass, k) = (diagonal([1.0; 4]), diagonal([1e3, 1.5e12, 1e3, 2e3]));
+        let stiffness = [(1.0, &k)];
+        let all = Condensation::none(4);
+        let mut span = OrthonormalBasis::new(&all, &mass, &stiffness, None, 4);
+        let block = [[1.0, 0.0, 0.0, 0.0], [1.0, 2.0, 0.0, 0.0], [0.0, 3.0, 3.0, 0.0]];
+        let block = block.map(|x| x.to_vec()).to_vec();
+        span.take(block, Origin::Anywhere, FrequencyCut::Modes);
+        let (left_out, half) = (span.left_out(), 0.5f64.sqrt());
+        assert_eq!((left_out.len(), span.len()), (1, 2));
+        let v = span.into_dense();
+        for (found, expected) in [
+            (v.column(0), [1.0, 0.0, 0.0, 0.0]),
+            (v.column(1), [0.0, half, half, 0.0]),
+            (&left_out[0], [0.0, 1.0, 0.0, 0.0]),
+        ] {
+            found.iter().zip(expected).for_each(|(x, e)| assert!((x - e).abs() < 1e-14, "{x} {e}"));
         }
     }
 
@@ -276,8 +258,11 @@ mod tests {
         let stiffness = [(1.0, &k), (1.0, &more)];
         let all = Condensation::none(5);
         let mut span = OrthonormalBasis::new(&all, &mass, &stiffness, None, 5);
-        let mut kept =
-            |x: [f64; 5], cut| span.take(vec![x.to_vec()], Origin::Anywhere, cut).len() == 1;
+        let mut kept = |x: [f64; 5], cut| {
+            let before = span.len();
+            span.take(vec![x.to_vec()], Origin::Anywhere, cut);
+            span.len() > before
+        };
         let unit = |i: usize| std::array::from_fn(|j| if i == j { 3.0 } else { 0.0 });
         // ω² of 1e11, 3e12 and 3.9e12/4.
         assert_eq!([0, 1, 2].map(|i| kept(unit(i), FrequencyCut::Modes)), [true, false, true]);

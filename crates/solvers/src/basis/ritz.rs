@@ -4,7 +4,7 @@ use super::Demands;
 use super::attachment::{AttachmentVectors, Following};
 use super::condensation::Condensation;
 use super::orthonormal::{FrequencyCut, Origin, OrthonormalBasis};
-use super::recursion::{Fast, beyond, recurse};
+use super::recursion::{Fast, beyond, following, recurse};
 use super::shapes::Shapes;
 use super::solvable::Solvable;
 use crate::error::SolveError;
@@ -169,7 +169,8 @@ impl Growing<'_> {
         } else {
             starts.truncate(sizes.ground);
             let starts = std::mem::take(&mut starts);
-            block.extend(self.span.take(starts, Origin::Anywhere, FrequencyCut::Modes));
+            self.span.take(starts, Origin::Anywhere, FrequencyCut::Modes);
+            block.extend(self.span.images_since(0));
             block = self.recurse(block, sizes.ground);
         }
         // A chain ends where its next vector is too fast; what loads and starts set in motion does not.
@@ -216,7 +217,9 @@ impl Growing<'_> {
         if settings.kind == BasisKind::Eigen {
             // No few modes more hold what all that are left answer to slow loads.
             starts.truncate(more / 2);
-            block.extend(self.span.take(starts, Origin::Anywhere, FrequencyCut::Modes));
+            let first = self.span.len();
+            self.span.take(starts, Origin::Anywhere, FrequencyCut::Modes);
+            block.extend(self.span.images_since(first));
             block = self.recurse(block, count + more / 2);
             self.fast.left.extend(self.span.left_out());
         }
@@ -228,6 +231,10 @@ impl Growing<'_> {
         let mut of_links = self.more_links(count + untaken.min(more / 2));
         // Those of links are static shapes of DOFs with next to no mass.
         drop(self.span.left_out());
+        // What loads go on with, and what follows from all vectors, links' among them.
+        let one_block = self.span.len() + block.len();
+        block = self.recurse(block, one_block.min(all));
+        following(&mut self.span, self.rows, self.hat, self.statics, all);
         self.recurse(block, all);
         self.fast.left.extend(self.span.left_out());
         of_links.extend(self.more_links(all));
@@ -265,7 +272,6 @@ fn enriched_of(rows: Condensation, all: Dense, count: usize, known: Option<Vec<f
     if all.columns() == count {
         return Enriched { span: Shapes::new(rows, all), wider: None, known };
     }
-    let first = all.values()[..count * all.rows()].to_vec();
-    let first = Shapes::new(Arc::clone(&rows), Dense::from_columns(all.rows(), count, first));
-    Enriched { span: first, wider: Some(Shapes::new(rows, all)), known }
+    let all = Shapes::new(rows, all);
+    Enriched { span: all.first(count), wider: Some(all), known }
 }

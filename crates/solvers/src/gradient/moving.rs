@@ -53,14 +53,14 @@ impl Turn {
         }
         let mut modes = Dense::zeros(n, n);
         let mut in_order = true;
-        for j in 0..n {
-            let image = system.mass.mul(&from.shapes.heavy(j));
+        for (j, heavy) in from.shapes.each_heavy().enumerate() {
+            let image = system.mass.mul(&heavy);
             let column = to.shapes.load(&image);
             in_order &= column[j].abs() > SAME_SHAPE;
             modes.column_mut(j).copy_from_slice(&column[..n]);
         }
         let same = |r: usize| {
-            let (a, b) = (from.shapes.kept(n + r), to.shapes.kept(n + r));
+            let (a, b) = (from.shapes.kept_static(r), to.shapes.kept_static(r));
             let of = |x: &[f64], y: &[f64]| x.iter().zip(y).map(|(x, y)| x * y).sum::<f64>();
             let cosine = of(a, b) / (of(a, a) * of(b, b)).sqrt();
             (a.len() == b.len() && cosine.abs() > SAME_SHAPE).then(|| cosine.signum())

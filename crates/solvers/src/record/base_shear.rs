@@ -16,7 +16,6 @@ use super::rows::Internal;
 use crate::step::State;
 use crate::structure::ReducedSystem;
 use serde::{Deserialize, Serialize};
-use std::collections::BTreeMap;
 use trilith_linalg::Sparse;
 use trilith_model::Model;
 use trilith_system::System;
@@ -24,21 +23,22 @@ use trilith_system::System;
 /// A term below this share of what it is the sum of is rounding.
 const ROUNDING: f64 = 1e-12;
 
-/// What is left of a sum of columns, where more than rounding is.
-#[derive(Default)]
-struct Columns(BTreeMap<usize, [f64; 2]>);
+/// Sums of entries of each column, and of their magnitudes.
+struct Columns(Vec<[f64; 2]>);
 
 impl Columns {
     fn add(&mut self, entries: impl Iterator<Item = (usize, f64)>) {
         for (j, x) in entries {
-            let [sum, size] = self.0.entry(j).or_default();
+            let [sum, size] = &mut self.0[j];
             *sum += x;
             *size += x.abs();
         }
     }
 
+    /// What is left where more than rounding is.
     fn terms(self) -> Vec<(usize, f64)> {
-        let left = self.0.into_iter().filter(|(_, [sum, size])| sum.abs() > ROUNDING * size);
+        let left = self.0.into_iter().enumerate();
+        let left = left.filter(|(_, [sum, size])| sum.abs() > ROUNDING * size);
         left.map(|(j, [sum, _])| (j, sum)).collect()
     }
 }
@@ -83,7 +83,7 @@ pub(super) fn row(
 ) -> Internal {
     let moved: Vec<f64> = system.reduction.free.iter().map(|full| t(*full)).collect();
     let terms = |parts: &[(&Sparse, f64)]| {
-        let mut columns = Columns::default();
+        let mut columns = Columns(vec![[0.0; 2]; parts.first().map_or(0, |(a, _)| a.columns())]);
         for (a, factor) in parts {
             let own = a.entries().filter(|(i, _, x)| moved[*i] != 0.0 && *x != 0.0);
             columns.add(own.map(|(i, j, x)| (j, factor * moved[i] * x)));

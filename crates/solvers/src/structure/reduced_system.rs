@@ -97,7 +97,7 @@ impl ReducedSystem {
         let omega2 = [&basis.omega2[..], &basis.statics.stiffness[..]].concat();
         let mut damping = if effective_k.iter().all(|k| *k == 0.0) {
             // The part of M and K is known: both are diagonal here.
-            let mut damping = phi.congruence(&system.element_damping, m);
+            let mut damping = phi.congruence(&system.element_damping);
             let [of_mass, of_stiffness] = system.rayleigh;
             for j in 0..m {
                 let mass = if j < modes { of_mass } else { 0.0 };
@@ -105,7 +105,7 @@ impl ReducedSystem {
             }
             damping
         } else {
-            phi.congruence(&system.damping(), m)
+            phi.congruence(&system.damping())
         };
         if let Some(modal) = modal {
             let u = phi.loads(&modal.u);
