@@ -1,7 +1,7 @@
 //! A frame given by its matrices is the frame: the matrices are assembled here from the textbook's, densely.
 
 use trilith_model::SolverKind;
-use trilith_solvers::modes;
+use trilith_solvers::{Observer, RunOptions, Sample, modes, run};
 use trilith_system::{RIGID, System};
 use trilith_tests::{parse, trace};
 
@@ -83,6 +83,69 @@ fn market(a: &Matrix) -> String {
         lines.len(),
         lines.join("\n")
     )
+}
+
+/// Compares what pictures show with outputs: the first three are displacements of a node along X, Y and Z.
+struct Shown {
+    node: usize,
+    all: Vec<f64>,
+    largest: f64,
+}
+
+impl Observer for Shown {
+    fn sample(&mut self, sample: &Sample<'_>) {
+        sample.shape.displacements(&mut self.all);
+        for (direction, value) in sample.values[..3].iter().enumerate() {
+            let shown = self.all[6 * self.node + direction];
+            assert!((shown - value).abs() < 1e-12, "{direction}: {shown} and {value}");
+            self.largest = self.largest.max(value.abs());
+        }
+    }
+}
+
+/// A rod of forty rows, of which two are tied to nodes: pictures of it look at few of its equations.
+#[test]
+fn pictures_show_nodes_where_outputs_say_they_are() {
+    let n = 40;
+    let mut k = vec![vec![0.0; n]; n];
+    for i in 0..n - 1 {
+        (k[i][i], k[i + 1][i + 1]) = (k[i][i] + 4e8, k[i + 1][i + 1] + 4e8);
+        (k[i][i + 1], k[i + 1][i]) = (-4e8, -4e8);
+    }
+    let mut m = vec![vec![0.0; n]; n];
+    (0..n).for_each(|i| m[i][i] = 250.0);
+    let text = format!(
+        r#"(
+        nodes: {{ "root": (0, 0, 0), "tip": (0, 0, 8) }},
+        supports: {{ "root": Fixed, "tip": [Ux, Ry, Rx, Rz] }},
+        elements: {{
+            "rod": Superelement(nodes: {{ "a": "root", "b": "tip" }}, stiffness: Contents("k.mtx", "{}"),
+                mass: Contents("m.mtx", "{}"), rows: Contents("rows.csv", "row,node,dof
+1,a,Uz
+{n},b,Uz
+")),
+            "beside": Spring(node: "tip", k2: "90 kN/m"),
+            "head": Mass(node: "tip", mass: "300 kg"),
+            "stop": Gap(node: "tip", k: "50 MN/m", opening: "0.1 mm"),
+        }},
+        functions: {{ "sine": Sine(amplitude: "0.5 g", frequency: "8 Hz", cycles: 3) }},
+        cases: {{ "shaken": Dynamic(duration: 0.4, dt: 0.002,
+            base: [(direction: Z, function: "sine"), (direction: Y, function: "sine")]) }},
+        outputs: {{
+            "x": Displacement(node: "tip", dof: Ux), "y": Displacement(node: "tip", dof: Uy),
+            "z": Displacement(node: "tip", dof: Uz),
+        }},
+    )"#,
+        market(&k),
+        market(&m)
+    );
+    let (model, system) = parse(&text, &[]);
+    for solver in [SolverKind::Fna, SolverKind::Hht] {
+        let mut shown = Shown { node: 1, all: vec![0.0; 6 * model.nodes.len()], largest: 0.0 };
+        let options = RunOptions { solver: Some(solver), ..RunOptions::default() };
+        run(&model, &system, options, &mut [&mut shown]).unwrap();
+        assert!(shown.largest > 1e-4, "{}", shown.largest);
+    }
 }
 
 /// Rows that the table lists: those of the tied nodes, of `a1`, and Ux of `c`. Of the rest nothing is told.

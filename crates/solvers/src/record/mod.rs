@@ -6,6 +6,7 @@
 mod balance;
 mod base_shear;
 mod contact_mode;
+mod coordinates;
 mod energy;
 mod inside;
 mod ledger;

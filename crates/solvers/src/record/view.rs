@@ -1,27 +1,20 @@
 //! Shows accepted states to the observers.
 
 use super::base_shear;
+use super::coordinates::Coordinates;
 use super::energy::EnergyTotals;
 use super::inside::{Inside, Moment};
 use super::ledger::Ledger;
 use super::observer::{Observer, Sample, Shape};
 use super::outputs::Outputs;
-use crate::basis::{Shapes, expand};
 use crate::checks::{Noticed, Overlaps, Place, Pressed, rounded};
 use crate::contacts::are_contacts;
 use crate::modal::ClosedForm;
 use crate::step::State;
 use crate::structure::ReducedSystem;
-use std::sync::Arc;
 use trilith_element::{Contact, Kinematics, Link, Outline, Vector3};
 use trilith_model::{Load, Model, Output, Quantity, Side};
 use trilith_system::{LinkInstance, LoadSet, System, blaming};
-
-/// The coordinates of a solver: how many, and what they make of the free DOFs, unless they are these.
-struct Coordinates {
-    order: usize,
-    shape: Option<Arc<Shapes>>,
-}
 
 /// Displacements of all nodes of one state.
 struct Figure<'a> {
@@ -38,8 +31,7 @@ impl Shape for Figure<'_> {
     fn displacements(&self, u: &mut [f64]) {
         let count = self.system.reduction.prescribed.len();
         let [prescribed, _, _] = self.loads.prescribed(self.at.0, self.at.1, count);
-        let Coordinates { order, shape } = self.coordinates;
-        let free = expand(shape.as_deref(), &self.state.motion[..*order]);
+        let free = self.coordinates.leading(self.system, &self.state.motion, u.len());
         for (full, x) in u.iter_mut().enumerate() {
             *x = self
                 .system
@@ -157,7 +149,7 @@ impl<'a, 'b> Viewer<'a, 'b> {
             overlaps: Overlaps::new(model, &outlined),
             system,
             loads,
-            coordinates: Coordinates { order: space.order(), shape: space.shape.clone() },
+            coordinates: Coordinates::new(space.order(), space.shape.clone()),
             outputs: Outputs::new(model, system, space),
             derived: derived(model),
             values: vec![0.0; count],
