@@ -2,6 +2,7 @@
 
 use std::f64::consts::TAU;
 use std::fmt::Write;
+use trilith::{Analysis, RunOptions};
 use trilith_model::SolverKind;
 use trilith_solvers::{
     CombineDirections, CombineModes, LinkStiffness, SolveError, SpectrumRequest, linearised,
@@ -34,6 +35,44 @@ const AMPLITUDE: f64 = 0.2;
 /// Secant of the pendulum, N/m: N/R + μN/D.
 const SECANT: f64 = WEIGHT / 1.5 + 0.06 * WEIGHT / AMPLITUDE;
 const CYCLE: LinkStiffness = LinkStiffness::Secant { displacement: AMPLITUDE, of: None };
+
+/// A page shows the modes that links make, which the structure has not without them.
+#[test]
+fn a_page_has_modes_with_engaged_links() {
+    let page = |links: &str| {
+        let text = format!(
+            r#"(
+                nodes: {{ "m": (0, 0, 0) }},
+                supports: {{ "m": (Rx, Ry, Rz) }},
+                elements: {{ "mass": Mass(node: "m", mass: "100 t"), {links} }},
+                functions: {{ "wave": Sine(amplitude: "1 m/s^2", frequency: "1 Hz") }},
+                cases: {{ "shake": Dynamic(duration: "0.1 s", dt: "10 ms", base: [(direction: X, function: "wave")]) }},
+                outputs: {{ "x": Displacement(node: "m", dof: Ux) }},
+            )"#
+        );
+        let model = parse(&text, &[]).0;
+        let analysis = Analysis::new(&model).unwrap();
+        let modes =
+            analysis.run(RunOptions::default()).unwrap().report(&analysis, &[], &[]).modes;
+        modes.iter().map(|m| (m.with_links, m.frequency * TAU, m.participation)).collect::<Vec<_>>()
+    };
+    let wen = |axis, k| {
+        format!(r#""{axis}": Wen(node: "m", axis: {axis}, k: "{k}", fy: "20 kN", ratio: 0.1),"#)
+    };
+    let links = wen("U1", "4 GN/m") + &wen("U2", "10 MN/m") + &wen("U3", "90 MN/m");
+    let modes = page(&links);
+    // Of a link on the ground local 1 is +Z, local 2 is +X, local 3 is +Y.
+    let expected = [(10e6, [1.0, 0.0, 0.0]), (90e6, [0.0, 1.0, 0.0]), (4e9, [0.0, 0.0, 1.0])];
+    assert_eq!(modes.len(), 3, "{modes:?}");
+    for ((with_links, omega, shares), (k, along)) in modes.into_iter().zip(expected) {
+        assert!(with_links && (omega / f64::sqrt(k / MASS) - 1.0).abs() < 1e-9, "{omega}");
+        assert!(shares.iter().zip(along).all(|(a, b)| (a - b).abs() < 1e-9), "{shares:?}");
+    }
+    // A dashpot is not stiff.
+    let spring = r#""spring": Spring(node: "m", k1: "1 MN/m", k2: "1 MN/m", k3: "1 MN/m"),"#;
+    let modes = page(&format!(r#"{spring} "dashpot": Dashpot(node: "m", c: "1 kN s/m")"#));
+    assert!(!modes.is_empty() && modes.iter().all(|m| !m.0), "{modes:?}");
+}
 
 #[test]
 fn a_pendulum_swings_as_its_state_says() {

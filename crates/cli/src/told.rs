@@ -6,7 +6,7 @@ use trilith::compare::Compared;
 use trilith::optimize::Optimum;
 use trilith::results::Summary;
 use trilith::solvers::gradient::Gradient;
-use trilith::solvers::{BasisReport, SolveError};
+use trilith::solvers::{BasisReport, LinearModes, Linearised, SolveError};
 use trilith::{Diagnostic, Error, Model};
 use trilith_diagnostics::{self as diagnostics, Renderer};
 
@@ -50,6 +50,12 @@ pub fn plain(message: &str, help: Option<&str>) -> String {
 #[must_use]
 pub fn run(model: &Model, summary: &Summary) -> String {
     crate::report::text(model, summary)
+}
+
+/// What `trilith modes --links …` prints of modes with links.
+#[must_use]
+pub fn linked_modes(linear: &Linearised<'_>, modes: &LinearModes) -> String {
+    crate::modes::linked::told(linear, modes)
 }
 
 /// What `trilith modes` prints below the title.

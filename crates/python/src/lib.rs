@@ -20,6 +20,7 @@ mod failure;
 mod laws;
 mod links;
 mod model;
+mod modes;
 mod optimize;
 mod record;
 mod run;

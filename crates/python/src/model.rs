@@ -4,6 +4,7 @@ use crate::combine;
 use crate::compare::{self, Ways};
 use crate::failure::{Failure, Told, placed};
 use crate::laws::{Law, Laws};
+use crate::modes::{self, ModeFacts};
 use crate::optimize;
 use crate::run::{self, Run, Settings};
 use crate::state::State;
@@ -32,8 +33,6 @@ pub(crate) struct Model {
 type CaseFacts = (String, &'static str, Option<String>, Option<(f64, f64, &'static str)>);
 /// An element: name, kind, category, nodes.
 type ElementFacts = (String, &'static str, &'static str, Vec<String>);
-/// Modes as JSON and as the program tells them; of the lowest ones six displacements of every node.
-type ModeFacts = (String, String, Vec<(usize, Vec<f32>)>);
 
 #[pymethods]
 impl Model {
@@ -145,12 +144,23 @@ impl Model {
     /// Modes of a case.
     fn modes(&self, py: Python<'_>, case: Option<String>) -> PyResult<ModeFacts> {
         let model = Arc::clone(&self.model);
+        work::run(py, move |_| modes::of_structure(&model, case.as_deref()))
+    }
+
+    /// Modes with links.
+    fn linked_modes(
+        &self,
+        py: Python<'_>,
+        links: String,
+        after: Option<String>,
+        amplitude: Option<f64>,
+        of: Option<Vec<String>>,
+        count: usize,
+    ) -> PyResult<ModeFacts> {
+        let model = Arc::clone(&self.model);
         work::run(py, move |_| {
-            let case = case.map(|name| index(&model, Some(&name))).transpose()?;
-            let report = Analysis::new(Arc::clone(&model)).and_then(|a| a.modes(case));
-            let report = report.map_err(|e| Failure::of(&e, &model))?;
-            let shapes = report.shapes.iter().map(|s| (s.mode, s.displacements.clone()));
-            Ok((json(&report)?, told::modes(&report), shapes.collect()))
+            let wanted = modes::Wanted { links: &links, amplitude, of: of.as_deref() };
+            modes::linked(&model, &wanted, after.as_deref(), count)
         })
     }
 

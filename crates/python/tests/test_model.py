@@ -157,6 +157,46 @@ def test_modes() -> None:
     assert np.array_equal(again.omega, modes.omega)
 
 
+def test_modes_with_links() -> None:
+    text = """(
+        plane: XZ,
+        nodes: { "m": (0, 0, 0) },
+        supports: { "m": (Uz, Ry) },
+        elements: {
+            "mass": Mass(node: "m", mass: "100 kg"),
+            "bearing": Wen(node: "m", axis1: (1, 0, 0), k: "4 kN/m", fy: "200 N", ratio: 0.1),
+        },
+        cases: { "shake": Dynamic(duration: "1 s", dt: "10 ms", base: [(direction: X, function: "wave")]) },
+        functions: { "wave": Sine(amplitude: "1 m/s^2", frequency: "1 Hz") },
+        outputs: { "x": Displacement(node: "m", dof: Ux) },
+    )"""
+    m = tl.loads(text)
+    engaged = m.modes(links="engaged")
+    assert len(engaged) == 1 and engaged.damping.size == 0
+    assert engaged.omega[0] == pytest.approx((4000 / 100) ** 0.5)
+    assert engaged.mass_participation[0, 0] == pytest.approx(1.0)
+    assert engaged.shapes[0].shape == (1, 6) and "period [s]" in str(engaged)
+    assert m.modes(links="open").omega[0] == 0.0
+    again = pickle.loads(pickle.dumps(engaged))
+    assert np.array_equal(again.omega, engaged.omega)
+    for wrong in (
+        lambda: m.modes(links="stiff"),
+        lambda: m.modes(links="secant"),
+        lambda: m.modes(links="secant", amplitude=-1.0),
+        lambda: m.modes(links="engaged", amplitude=0.1),
+        lambda: m.modes(links="secant", amplitude=0.1, of="nothing"),
+        lambda: m.modes(amplitude=0.1),
+        lambda: m.modes("shake", links="engaged"),
+        lambda: m.modes(links="tangent", after="nowhere"),
+    ):
+        with pytest.raises(tl.ArgumentError):
+            wrong()
+    isolated = tl.load(MODELS / "isolated_frame.ron")
+    secant = isolated.modes(links="secant", amplitude=0.2, count=4)
+    assert len(secant.damping) == len(secant) == 4 and secant.damping[0] > 0.05
+    assert secant.period[0] > isolated.modes(links="engaged", count=4).period[0]
+
+
 def test_the_catalogue() -> None:
     cards = tl.elements()
     card = cards["NLink"]

@@ -281,6 +281,16 @@ impl<M: Deref<Target = Model>> Analysis<M> {
         Ok(trilith_solvers::linearised(&self.model, &self.system, stiffness, after)?)
     }
 
+    /// The case at whose end the links are that a dynamic case (an index; the last one where none is given) begins with;
+    /// none: they begin at rest.
+    #[must_use]
+    pub fn links_begin_after(&self, case: Option<usize>) -> Option<usize> {
+        let cases = &self.model.cases;
+        let is_dynamic = |c: &usize| matches!(cases[*c].analysis, CaseAnalysis::Dynamic(_));
+        let last = || (0..cases.len()).rev().find(is_dynamic);
+        case.or_else(last).and_then(|c| cases.get(c)?.after)
+    }
+
     /// A superelement of few rows in place of a part of the model: see [`mod@crate::reduce`].
     ///
     /// # Errors

@@ -8,9 +8,14 @@ use std::path::{Path, PathBuf};
 use trilith_model::Model;
 use trilith_report::{Collect, RunData, run_page};
 use trilith_results::FileError;
+use trilith_solvers::{LinkStiffness, Linearised};
 
 /// Up to this many equations, modes are looked for where the run did not find them itself.
 const MODES: usize = 1000;
+/// Up to this many equations, modes with links are looked for.
+const LINKED: usize = 5000;
+/// How many.
+const COUNT: usize = 12;
 /// What the page is made from, beside `summary.json`.
 const DATA: &str = "report.json";
 const PAGE: &str = "report.html";
@@ -105,6 +110,12 @@ impl Run {
             None if analysis.system().order() <= MODES => analysis.modes(case).ok(),
             None => None,
         };
+        let linear = match analysis.system().order() <= LINKED {
+            true => analysis.linearised(&LinkStiffness::Engaged, None).ok(),
+            false => None,
+        };
+        let linear = linear.filter(Linearised::has_stiff_links);
+        let linked = linear.as_ref().and_then(|linear| linear.modes(COUNT).ok());
         Collect {
             model,
             case: case.unwrap_or(model.cases.len()),
@@ -113,6 +124,7 @@ impl Run {
             summary: &self.summary(model),
             weight: analysis.system().total_mass * model.gravity.abs(),
             modes: self.result.basis.as_ref().or(found.as_ref()),
+            linked: linear.as_ref().zip(linked.as_ref()),
             overrides,
             loops,
         }

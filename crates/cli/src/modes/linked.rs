@@ -6,7 +6,7 @@ use crate::text::{names_help, number, percent, row, table};
 use crate::{Answer, Failure, case, design_spectrum};
 use std::f64::consts::TAU;
 use trilith::model::file::fits;
-use trilith::model::{Analysis as Kind, Body, visible_line};
+use trilith::model::{Body, visible_line};
 use trilith::solvers::{
     CombineDirections, CombineModes, LinearModes, Linearised, LinkStiffness, Secant,
     SpectrumRequest,
@@ -36,7 +36,13 @@ pub(super) fn modes(
             None,
         ));
     }
-    let after = after(model, args, chosen)?;
+    let failed = |e: Error| Failure::of(&e, model);
+    let analysis = Analysis::new(model).map_err(failed)?;
+    let after = match args.after.as_deref() {
+        Some("rest") if model.case("rest").is_none() => None,
+        Some(name) => Some(case(model, Some(name))?),
+        None => analysis.links_begin_after(chosen),
+    };
     let stiffness = match (links, args.amplitude) {
         (LinksAs::Open, _) => LinkStiffness::Open,
         (LinksAs::Engaged, _) => LinkStiffness::Engaged,
@@ -46,8 +52,6 @@ pub(super) fn modes(
             of: of(model, args)?,
         },
     };
-    let failed = |e: Error| Failure::of(&e, model);
-    let analysis = Analysis::new(model).map_err(failed)?;
     let linear = analysis.linearised(&stiffness, after).map_err(failed)?;
     let modes = linear.modes(args.count).map_err(|e| failed(e.into()))?;
     let state = match after {
@@ -77,23 +81,6 @@ pub(super) fn modes(
     Ok(out.into())
 }
 
-/// The case at whose end links are taken.
-fn after(
-    model: &Model,
-    args: &ModesArguments,
-    chosen: Option<usize>,
-) -> Result<Option<usize>, Failure> {
-    match args.after.as_deref() {
-        Some("rest") if model.case("rest").is_none() => Ok(None),
-        Some(name) => case(model, Some(name)).map(Some),
-        None => {
-            let is_dynamic = |c: &usize| matches!(model.cases[*c].analysis, Kind::Dynamic(_));
-            let last = || (0..model.cases.len()).rev().find(is_dynamic);
-            Ok(chosen.or_else(last).and_then(|c| model.cases[c].after))
-        }
-    }
-}
-
 /// Elements that are led through cycles.
 fn of(model: &Model, args: &ModesArguments) -> Result<Option<Vec<usize>>, Failure> {
     if args.of.is_empty() {
@@ -116,7 +103,8 @@ fn of(model: &Model, args: &ModesArguments) -> Result<Option<Vec<usize>>, Failur
     Ok(Some(all))
 }
 
-fn told(linear: &Linearised<'_>, modes: &LinearModes) -> String {
+/// Periods, mass and damping of modes with links.
+pub(crate) fn told(linear: &Linearised<'_>, modes: &LinearModes) -> String {
     let cycled = !linear.secants.is_empty();
     let mut head = row(["mode", "period [s]", "frequency [Hz]", "X", "Y", "Z"]);
     head.extend(cycled.then(|| "damping of links".to_owned()));

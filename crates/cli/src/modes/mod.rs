@@ -1,6 +1,6 @@
 //! `trilith modes`.
 
-mod linked;
+pub(crate) mod linked;
 
 use crate::args::ModesArguments;
 use crate::text::{number, percent, row, table};

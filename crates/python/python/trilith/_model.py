@@ -265,14 +265,50 @@ class Model:
         """What there is to say of it before it runs: the first error of the assembly, or warnings; empty where nothing is."""
         return [Diagnostic(*one) for one, _ in self._native.check()]
 
-    def modes(self, case: str | None = None) -> Modes:
-        """Modes of the structure without links, and how well the basis of a case (the last dynamic one) holds its links.
+    def modes(
+        self,
+        case: str | None = None,
+        *,
+        links: str | None = None,
+        after: str | None = None,
+        amplitude: float | None = None,
+        of: str | Sequence[str] | None = None,
+        count: int = 12,
+    ) -> Modes:
+        """Modes of the structure without links, and how well the basis of a case (the last dynamic one) holds its links;
+        or, where it is said how links count, the lowest modes with them.
 
+        Example::
+
+            m.modes(links="engaged").period[:3]
+            m.modes(links="secant", amplitude=0.2).damping
+
+        :param case: whose basis; without ``links`` alone.
+        :param links: ``"engaged"``: as stiff as they are when closed, sticking and elastic; ``"tangent"``: by the tangents of
+            their laws; ``"secant"``: by secants of cycles, with their damping; ``"open"``: not at all.
+        :param after: state in which laws are asked: the end of this case, or ``"rest"``; without it as the last dynamic
+            case begins.
+        :param amplitude: of the cycles of ``"secant"``, m.
+        :param of: names of the links that are led through cycles, ``*`` stands for anything; without them all with shear axes.
+        :param count: how many modes with links.
         :raises ModelError: where the structure is none.
+        :raises ArgumentError: for a case, a link or a way that there is not, and for what goes with another way.
         """
         from ._modes import Modes
 
-        return Modes(*self._native.modes(case))
+        if links is None:
+            given = {"after": after, "amplitude": amplitude, "of": of}
+            alone = [name for name, value in given.items() if value is not None]
+            if alone:
+                raise ArgumentError(f"{alone[0]} says how links count, and `links` does not let them: give links=\"secant\" or another")
+            return Modes(*self._native.modes(case))
+        if case is not None:
+            raise ArgumentError("a case has a basis, which modes with links do not go by: give after= for the state of the links")
+        if links != "secant" and (amplitude is not None or of is not None):
+            raise ArgumentError(f"cycles are those of links=\"secant\", and links is \"{links}\"")
+        names = [of] if isinstance(of, str) else None if of is None else list(of)
+        a, n = positive("amplitude", amplitude), whole("count", count)
+        return Modes(*self._native.linked_modes(links, after, a, names, n or 1))
 
     def run(
         self,

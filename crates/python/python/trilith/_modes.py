@@ -12,20 +12,22 @@ if TYPE_CHECKING:
 
 
 class Modes:
-    """Modes of the structure without links, in the basis that a case uses."""
+    """Modes of a structure: without links, in the basis that a case uses, or with links that count as linear."""
 
-    #: Circular frequencies, rad/s, rising; 0 for modes that only links hold.
+    #: Circular frequencies, rad/s, rising; 0 for modes that nothing holds, not a number for what falls.
     omega: Array
     #: Share of the mass along X, Y and Z that each mode carries, a row for each.
     mass_participation: Array
+    #: Damping ratios that cycles of links give; empty where no link is led through any.
+    damping: Array
     #: Share of the static response to each load direction that the basis holds.
     static_participation: dict[str, float]
     #: Share of the flexibility at each link coordinate that the basis holds, the worst first.
     adequacy: dict[str, float]
     #: Static shapes of places without mass, beside the modes.
     static_shapes: int
-    #: Displacements of the nodes in the lowest modes that deform the structure, of any size: arrays of a row of six
-    #: (translations, rotations) for each node, by the index of the mode.
+    #: Displacements of the nodes in the lowest modes that deform the structure, or in all with links, of any size: arrays of
+    #: a row of six (translations, rotations) for each node, by the index of the mode.
     shapes: dict[int, Array]
 
     def __init__(self, json_text: str, text: str, shapes: list[tuple[int, list[float]]]) -> None:
@@ -39,6 +41,7 @@ class Modes:
         self.omega = frozen(np.array(facts["omega"], dtype=float))
         shares = np.array(facts["mass_participation"], dtype=float).reshape(-1, 3)
         self.mass_participation = frozen(shares)
+        self.damping = frozen(np.array(facts.get("damping", []), dtype=float))
         self.static_participation = dict(facts["static_participation"])
         self.adequacy = {a["coordinate"]: a["share"] for a in facts["adequacy"]}
         self.static_shapes = facts["static_shapes"]
@@ -51,7 +54,7 @@ class Modes:
 
     @property
     def period(self) -> Array:
-        """Periods, s; infinite for modes that only links hold."""
+        """Periods, s; infinite for modes that nothing holds."""
         import numpy as np
 
         with np.errstate(divide="ignore"):

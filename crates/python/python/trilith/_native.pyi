@@ -152,6 +152,15 @@ class Model:
     def resolved(self) -> str: ...
     def check(self) -> list[tuple[Told, str]]: ...
     def modes(self, case: str | None, /) -> tuple[str, str, list[tuple[int, list[float]]]]: ...
+    def linked_modes(
+        self,
+        links: str,
+        after: str | None,
+        amplitude: float | None,
+        of: list[str] | None,
+        count: int,
+        /,
+    ) -> tuple[str, str, list[tuple[int, list[float]]]]: ...
     def run(
         self,
         case: str | None,

@@ -5,9 +5,13 @@ use super::figures::SUPPLY;
 use super::picture::Sketch;
 use super::{answers, choice, loops, members, places, reduce, settings, shaking, tints};
 use std::collections::BTreeMap;
+use std::f64::consts::TAU;
 use trilith_model::Model;
 use trilith_results::{ENERGIES, Frame, Recorder, Summary, ground_motions};
-use trilith_solvers::{BasisReport, StartEnergy};
+use trilith_solvers::{BasisReport, LinearModes, Linearised, StartEnergy};
+
+/// Modes with links that are shown.
+const LINKED: usize = 6;
 
 /// Steps of a displacement, of the largest.
 const STEPS: f64 = 3e4;
@@ -31,6 +35,8 @@ pub struct Collect<'a> {
     pub weight: f64,
     /// Modes of the structure, where they are known.
     pub modes: Option<&'a BasisReport>,
+    /// Modes with engaged links, where links are stiff and the modes are known.
+    pub linked: Option<(&'a Linearised<'a>, &'a LinearModes)>,
     /// Parameters given on the command line.
     pub overrides: &'a [(String, String)],
     /// Links whose loops are wanted, by name; empty: those that dissipate most.
@@ -180,16 +186,27 @@ impl Collect<'_> {
     }
 
     fn modes(&self, sketch: &Sketch) -> Vec<Mode> {
-        let Some(report) = self.modes else { return Vec::new() };
-        let one = |shape: &trilith_solvers::ModeShape| {
-            let moved = sketch.moved(&shape.displacements, &[]);
-            Some(Mode {
-                number: shape.mode + 1,
-                frequency: report.omega.get(shape.mode)? / std::f64::consts::TAU,
-                participation: *report.mass_participation.get(shape.mode)?,
-                u: Numbers::new(moved.iter().copied(), 1e3),
-            })
+        let mode = |with_links, number, omega: f64, participation, displacements: &[f32]| Mode {
+            with_links,
+            number,
+            frequency: omega / TAU,
+            participation,
+            u: Numbers::new(sketch.moved(displacements, &[]).iter().copied(), 1e3),
         };
-        report.shapes.iter().filter_map(one).collect()
+        let mut all = Vec::new();
+        if let Some((linear, modes)) = self.linked {
+            let holds = modes.omega2.iter().enumerate().filter(|(_, w)| **w > 0.0).take(LINKED);
+            all.extend(holds.map(|(j, w)| {
+                let at_nodes = linear.at_nodes(modes.shapes.column(j));
+                mode(true, j + 1, w.sqrt(), modes.mass_share[j], &at_nodes)
+            }));
+        }
+        let Some(report) = self.modes else { return all };
+        all.extend(report.shapes.iter().filter_map(|shape| {
+            let omega = *report.omega.get(shape.mode)?;
+            let share = *report.mass_participation.get(shape.mode)?;
+            Some(mode(false, shape.mode + 1, omega, share, &shape.displacements))
+        }));
+        all
     }
 }

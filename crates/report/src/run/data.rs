@@ -54,9 +54,9 @@ pub struct RunData {
     pub energies: Vec<History>,
     /// Hysteresis loops of links.
     pub loops: Vec<Loop>,
-    /// Mode shapes of the structure without links.
+    /// Mode shapes of the structure with its links engaged, where links are stiff, and without links.
     pub modes: Vec<Mode>,
-    /// Modes without stiffness, beside these.
+    /// Modes without links that have no stiffness, beside these.
     pub free_modes: usize,
     /// What the page leaves out.
     pub notes: Vec<String>,
@@ -471,6 +471,9 @@ impl Frames {
 /// A mode shape.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Mode {
+    /// True where links count, as stiff as they are when engaged.
+    #[serde(default)]
+    pub with_links: bool,
     /// Number among all modes, from 1.
     pub number: usize,
     /// Frequency, Hz.

@@ -31,6 +31,7 @@ mod solvable;
 
 pub(crate) use damping::{LowRank, ModalDamping, is_modal, modal_damping};
 pub(crate) use drag::follow_supports;
+pub(crate) use report::at_nodes;
 pub use report::{Adequacy, BasisReport, ModeShape};
 pub(crate) use shapes::{Shapes, expand};
 

@@ -90,16 +90,19 @@ pub(super) fn report(
 fn shapes(model: &Model, system: &System, basis: &RitzBasis) -> Vec<ModeShape> {
     let bends = basis.omega2.iter().enumerate().filter(|(_, w)| **w > 0.0).take(SHAPES);
     let shape = |mode: usize| {
-        let column = basis.shapes.column(mode);
-        let full = 0..6 * model.nodes.len();
-        // Supports stand still.
-        let at = |i: usize| -> f64 {
-            let terms = system.reduction.expand(i).iter();
-            terms.filter_map(|(j, c)| column.get(*j).map(|x| c * x)).sum()
-        };
-        ModeShape { mode, displacements: full.map(|i| at(i) as f32).collect() }
+        let displacements = at_nodes(model, system, &basis.shapes.column(mode));
+        ModeShape { mode, displacements }
     };
     bends.map(|(mode, _)| shape(mode)).collect()
+}
+
+/// Displacements of the free DOFs as six of every node, node after node. Supports stand still.
+pub(crate) fn at_nodes(model: &Model, system: &System, free: &[f64]) -> Vec<f32> {
+    let at = |i: usize| -> f64 {
+        let terms = system.reduction.expand(i).iter();
+        terms.filter_map(|(j, c)| free.get(*j).map(|x| c * x)).sum()
+    };
+    (0..6 * model.nodes.len()).map(|i| at(i) as f32).collect()
 }
 
 /// How well a basis holds the flexibility of a link coordinate.

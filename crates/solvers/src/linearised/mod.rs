@@ -15,6 +15,7 @@ pub use modes::LinearModes;
 pub use secant::Secant;
 pub use spectrum::{CombineDirections, CombineModes, OutputMaximum, SpectrumRequest};
 
+use crate::basis::at_nodes;
 use crate::error::SolveError;
 use crate::run::end_at;
 use crate::step::{Culprit, LinksBefore, State};
@@ -157,6 +158,19 @@ impl Linearised<'_> {
                 self.unsymmetric.push(link.element);
             }
         }
+    }
+
+    /// True where the links are stiff anywhere.
+    #[must_use]
+    pub fn has_stiff_links(&self) -> bool {
+        self.blocks.iter().any(|k| *k != 0.0)
+    }
+
+    /// What a shape on the free DOFs, such as a [mode's](LinearModes::shapes), looks like: six displacements of every
+    /// node, node after node.
+    #[must_use]
+    pub fn at_nodes(&self, shape: &[f64]) -> Vec<f32> {
+        at_nodes(self.model, self.system, shape)
     }
 
     /// K with the links, on the free DOFs.
