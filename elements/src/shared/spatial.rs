@@ -16,8 +16,13 @@ pub(crate) fn sum<R: Real>(a: &V3<R>, b: &V3<R>) -> V3<R> {
 /// `a × b`.
 #[inline(always)]
 pub(crate) fn cross<R: Real>(a: &V3<R>, b: &V3<R>) -> V3<R> {
-    let part = |i: usize, j: usize| a[i].mul_add(b[j], -(a[j] * b[i]));
-    [part(1, 2), part(2, 0), part(0, 1)]
+    [minor(a, b, 1, 2), minor(a, b, 2, 0), minor(a, b, 0, 1)]
+}
+
+/// `aᵢ bⱼ − aⱼ bᵢ`.
+#[inline(always)]
+fn minor<R: Real>(a: &V3<R>, b: &V3<R>, i: usize, j: usize) -> R {
+    a[i].mul_add(b[j], -(a[j] * b[i]))
 }
 
 /// `[a]×`, with `[a]× b = a × b`.
@@ -126,13 +131,13 @@ impl<R: Real> Rotation<R> {
             w * b + y * cosine + (z * a - x * c),
             w * c + z * cosine + (x * b - y * a),
         ];
-        let diagonal = |i: R, j: R| one - two * (i * i + j * j);
+        let [xx, yy, zz] = [x * x, y * y, z * z];
         let [xy, yz, zx] = [two * x * y, two * y * z, two * z * x];
         let [wx, wy, wz] = [two * w * x, two * w * y, two * w * z];
         let matrix = [
-            [diagonal(y, z), xy - wz, zx + wy],
-            [xy + wz, diagonal(z, x), yz - wx],
-            [zx - wy, yz + wx, diagonal(x, y)],
+            [one - two * (yy + zz), xy - wz, zx + wy],
+            [xy + wz, one - two * (zz + xx), yz - wx],
+            [zx - wy, yz + wx, one - two * (xx + yy)],
         ];
         Self { matrix, quaternion: [w, x, y, z] }
     }

@@ -199,31 +199,10 @@ impl<S: Simd, const K: usize> Wide<S, K> {
         });
         all
     }
-
-    #[inline(always)]
-    fn by_one(self, f: impl Fn(S, S::f64s) -> S::f64s) -> Self {
-        let mut x = self.x;
-        each_of_two!(K, k => x[k] = f(self.simd, x[k]));
-        Self { simd: self.simd, x }
-    }
-
-    #[inline(always)]
-    fn by_two(self, o: Self, f: impl Fn(S, S::f64s, S::f64s) -> S::f64s) -> Self {
-        let mut x = self.x;
-        each_of_two!(K, k => x[k] = f(self.simd, x[k], o.x[k]));
-        Self { simd: self.simd, x }
-    }
-
-    #[inline(always)]
-    fn compare(self, o: Self, f: impl Fn(S, S::f64s, S::f64s) -> S::m64s) -> WideMask<S, K> {
-        let mut x = [f(self.simd, self.x[0], o.x[0]); K];
-        each_of_two!(K, k => x[k] = f(self.simd, self.x[k], o.x[k]));
-        WideMask { simd: self.simd, x }
-    }
 }
 
 /// The operations for one kind of registers. Generic ones would be three functions inside one another for each operation of
-/// a law, until the machine code is made.
+/// a law, until the machine code is made; a closure for each might stay a call, outside of what is compiled for registers.
 macro_rules! operations {
     ($token:ty) => {
         operations!(@binary $token: Add add add_f64s, Sub sub sub_f64s, Mul mul mul_f64s, Div div div_f64s);
@@ -243,7 +222,7 @@ macro_rules! operations {
         type Output = Self;
         #[inline(always)]
         fn neg(self) -> Self {
-            self.by_one(|s, x| s.neg_f64s(x))
+            operations!(@one self, neg_f64s)
         }
     }
 
@@ -262,19 +241,19 @@ macro_rules! operations {
         }
         #[inline(always)]
         fn abs(self) -> Self {
-            self.by_one(|s, x| s.abs_f64s(x))
+            operations!(@one self, abs_f64s)
         }
         #[inline(always)]
         fn sqrt(self) -> Self {
-            self.by_one(|s, x| s.sqrt_f64s(x))
+            operations!(@one self, sqrt_f64s)
         }
         #[inline(always)]
         fn lt(self, o: Self) -> Self::Mask {
-            self.compare(o, |s, x, y| s.less_than_f64s(x, y))
+            operations!(@compare self, o, less_than_f64s)
         }
         #[inline(always)]
         fn le(self, o: Self) -> Self::Mask {
-            self.compare(o, |s, x, y| s.less_than_or_equal_f64s(x, y))
+            operations!(@compare self, o, less_than_or_equal_f64s)
         }
         #[inline(always)]
         fn select(mask: Self::Mask, yes: Self, no: Self) -> Self {
@@ -284,11 +263,11 @@ macro_rules! operations {
         }
         #[inline(always)]
         fn max(self, o: Self) -> Self {
-            self.by_two(o, |s, x, y| s.max_f64s(x, y))
+            operations!(@two self, o, max_f64s)
         }
         #[inline(always)]
         fn min(self, o: Self) -> Self {
-            self.by_two(o, |s, x, y| s.min_f64s(x, y))
+            operations!(@two self, o, min_f64s)
         }
         #[inline(always)]
         fn any(self, mask: Self::Mask) -> bool {
@@ -318,12 +297,27 @@ macro_rules! operations {
         }
     }
     };
+    (@one $self:ident, $simd:ident) => {{
+        let mut x = $self.x;
+        each_of_two!(K, k => x[k] = $self.simd.$simd(x[k]));
+        Self { simd: $self.simd, x }
+    }};
+    (@two $self:ident, $o:ident, $simd:ident) => {{
+        let mut x = $self.x;
+        each_of_two!(K, k => x[k] = $self.simd.$simd(x[k], $o.x[k]));
+        Self { simd: $self.simd, x }
+    }};
+    (@compare $self:ident, $o:ident, $simd:ident) => {{
+        let mut x = [$self.simd.$simd($self.x[0], $o.x[0]); K];
+        each_of_two!(K, k => x[k] = $self.simd.$simd($self.x[k], $o.x[k]));
+        WideMask { simd: $self.simd, x }
+    }};
     (@binary $token:ty: $($trait:ident $method:ident $simd:ident),*) => {$(
         impl<const K: usize> $trait for Wide<$token, K> {
             type Output = Self;
             #[inline(always)]
             fn $method(self, o: Self) -> Self {
-                self.by_two(o, |s, x, y| s.$simd(x, y))
+                operations!(@two self, o, $simd)
             }
         }
     )*};

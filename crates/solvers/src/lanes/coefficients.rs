@@ -97,19 +97,21 @@ fn compliance<R: Real, const M: usize, const L: usize, const N: usize>(
         for j in 0..M {
             load[j] = -(plan.b[a][j] * c[row][3][j]);
         }
-        let under = |b: usize| {
-            let mut sum = load[0] * plan.b[b][0];
-            for j in 1..M {
-                sum = load[j].mul_add(plan.b[b][j], sum);
-            }
-            sum
-        };
-        g[a][a] = under(a);
+        g[a][a] = product(&load, &plan.b[a]);
         if of_all {
             for b in a + 1..L {
-                g[a][b] = under(b);
+                g[a][b] = product(&load, &plan.b[b]);
                 g[b][a] = g[a][b];
             }
         }
     }
+}
+
+#[inline(always)]
+fn product<R: Real, const M: usize>(x: &[R; M], y: &[R; M]) -> R {
+    let mut sum = x[0] * y[0];
+    for j in 1..M {
+        sum = x[j].mul_add(y[j], sum);
+    }
+    sum
 }

@@ -47,17 +47,19 @@ impl<R: Real> Combination<R> {
     #[inline(always)]
     pub fn of(&self, now: impl Fn(&Place) -> [R; 2]) -> (R, Option<[R; 1]>) {
         let zero = self.constant.of(0.0);
-        let parts = || self.terms.iter().map(|(place, factor)| now(place).map(|x| *factor * x));
         let (mut y, mut rate) = (self.constant, zero);
         match self.how {
             Combine::Sum => {
-                for part in parts() {
-                    (y, rate) = (y + part[0], rate + part[1]);
+                for (place, factor) in &self.terms {
+                    let [x, v] = now(place);
+                    (y, rate) = (y + *factor * x, rate + *factor * v);
                 }
             }
             Combine::Norm => {
                 let mut square = zero;
-                for [x, v] in parts() {
+                for (place, factor) in &self.terms {
+                    let [x, v] = now(place);
+                    let (x, v) = (*factor * x, *factor * v);
                     (square, rate) = (square + x * x, rate + x * v);
                 }
                 y = square.sqrt();
@@ -66,11 +68,15 @@ impl<R: Real> Combination<R> {
             }
             Combine::Largest => {
                 y = zero.of(f64::NEG_INFINITY);
-                parts().for_each(|part| y = y.max(part[0]));
+                for (place, factor) in &self.terms {
+                    y = y.max(*factor * now(place)[0]);
+                }
             }
             Combine::Smallest => {
                 y = zero.of(f64::INFINITY);
-                parts().for_each(|part| y = y.min(part[0]));
+                for (place, factor) in &self.terms {
+                    y = y.min(*factor * now(place)[0]);
+                }
             }
         }
         let rated = self.rated && matches!(self.how, Combine::Sum | Combine::Norm);
@@ -223,8 +229,12 @@ impl<R: Real> Extremes<R> {
     /// Takes the other where the mask says no.
     #[inline(always)]
     pub fn keep(&mut self, mask: R::Mask, other: &Self) {
-        self.alone.iter_mut().zip(&other.alone).for_each(|(x, y)| x.keep(mask, y));
-        self.together.iter_mut().zip(&other.together).for_each(|(x, y)| x.keep(mask, y));
+        for (x, y) in self.alone.iter_mut().zip(&other.alone) {
+            x.keep(mask, y);
+        }
+        for (x, y) in self.together.iter_mut().zip(&other.together) {
+            x.keep(mask, y);
+        }
         for ((_, x), (_, y)) in self.integrals.iter_mut().zip(&other.integrals) {
             x.keep(mask, y);
         }

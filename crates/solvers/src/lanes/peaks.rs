@@ -77,7 +77,8 @@ impl<R: Real, const K: usize> Peaks<R, K> {
             if let Some(rate) = rate
                 && y.any(inside)
             {
-                self.look_inside(with, (i, inside), (t0, t1), (y, rate[i]));
+                let who = y.of(1.0).only(inside);
+                self.look_inside(with, (i, who), (t0, t1), (y, rate[i]));
             }
             let (up, down) = (self.max[i].lt(y), y.lt(self.min[i]));
             self.max[i] = self.max[i].max(y);
@@ -87,18 +88,19 @@ impl<R: Real, const K: usize> Peaks<R, K> {
         }
     }
 
+    /// `who`: 1 of those that do, else 0. It is apart from its caller, and so not compiled for registers.
     #[inline(never)]
     fn look_inside<A: Arithmetic<Real = R>>(
         &mut self,
         with: A,
-        (k, who): (usize, R::Mask),
+        (k, who): (usize, R),
         (t0, t1): (R, R),
         (y, rate): (R, R),
     ) {
         let of = |x: R| -> [f64; 8] {
             std::array::from_fn(|i| if i < A::WIDTH { with.lane(x, i) } else { 0.0 })
         };
-        let who = of(y.of(1.0).only(who));
+        let who = of(who);
         let (t0, t1, y0, y1) = (of(t0), of(t1), of(self.y[k]), of(y));
         let (r0, r1) = (of(self.rate[k]), of(rate));
         let mut to = [self.max[k], self.t_max[k], self.min[k], self.t_min[k]].map(of);

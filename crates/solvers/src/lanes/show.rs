@@ -33,7 +33,9 @@ pub(super) fn show<A: Arithmetic, const M: usize, const L: usize, const N: usize
             }
             Row::Internal { stiffness, damping, links } => {
                 let mut y = dot(zero, stiffness, &*state.q) + dot(zero, damping, &*state.p);
-                links.iter().for_each(|(at, share)| y = y + *share * state.f[*at]);
+                for (at, share) in links {
+                    y = y + *share * state.f[*at];
+                }
                 (y, None)
             }
             Row::Deformation { at, factor } => {
@@ -42,7 +44,9 @@ pub(super) fn show<A: Arithmetic, const M: usize, const L: usize, const N: usize
             }
             Row::Force { first: (at, factor), more } => {
                 let mut y = *factor * state.f[*at];
-                more.iter().for_each(|(at, factor)| y = y + *factor * state.f[*at]);
+                for (at, factor) in more {
+                    y = y + *factor * state.f[*at];
+                }
                 (y, None)
             }
             Row::History { at } => (state.history[*at], None),

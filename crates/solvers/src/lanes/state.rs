@@ -162,7 +162,9 @@ impl<R: Real, const M: usize, const L: usize, const N: usize> State<R, M, L, N> 
             self.a = from.a;
             copy(&from.amplitudes, &mut self.amplitudes);
         }
-        self.steps.iter_mut().zip(&from.steps).for_each(|(to, from)| *to = *from);
+        for (to, from) in self.steps.iter_mut().zip(&from.steps) {
+            *to = *from;
+        }
     }
 
     /// The same of the analyses in a mask.
@@ -194,13 +196,17 @@ impl<R: Real, const M: usize, const L: usize, const N: usize> State<R, M, L, N> 
 /// A few numbers, for which a call would cost more than they do.
 #[inline(always)]
 fn copy<R: Real>(from: &[R], to: &mut [R]) {
-    to.iter_mut().zip(from).for_each(|(to, from)| *to = *from);
+    for (to, from) in to.iter_mut().zip(from) {
+        *to = *from;
+    }
 }
 
 /// Where a mask says yes `to` becomes `from`.
 #[inline(always)]
 fn take_all<R: Real>(mask: R::Mask, from: &[R], to: &mut [R]) {
-    to.iter_mut().zip(from).for_each(|(to, from)| *to = R::select(mask, *from, *to));
+    for (to, from) in to.iter_mut().zip(from) {
+        *to = R::select(mask, *from, *to);
+    }
 }
 
 /// The motion and the links.

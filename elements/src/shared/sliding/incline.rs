@@ -23,6 +23,13 @@ const ROUNDING: f64 = 1e-14;
 /// Two rows over the three coordinates.
 pub(super) type Rows<R> = [[R; 3]; 2];
 
+/// Friction under a force normal to the surface. A closure in its place, as large as it is, would stay a call, and calls are
+/// not compiled for registers.
+pub(super) trait Friction<R: Real> {
+    /// It must be `#[inline(always)]`.
+    fn under(&self, normal: R) -> Rubs<R>;
+}
+
 /// The surface at one place.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Incline<R> {
@@ -90,7 +97,7 @@ impl<R: Real> Incline<R> {
 
     /// The friction under a vertical load, from that under a normal force.
     #[inline(always)]
-    pub(super) fn press(&self, load: R, friction: impl Fn(R) -> Rubs<R>) -> Rubs<R> {
+    pub(super) fn press(&self, load: R, friction: &impl Friction<R>) -> Rubs<R> {
         let (zero, half, one, two) = (load.of(0.0), load.of(0.5), load.of(1.0), load.of(2.0));
         let mut p = self.steep * load;
         let mut it = Rubs::none(load);
@@ -98,7 +105,7 @@ impl<R: Real> Incline<R> {
         let mut goes_on = zero.le(zero);
         // Newton's method needs two or three; halves of a bracket take the rest of what kinks may cost.
         for _ in 0..=100 {
-            it = Rubs::select(goes_on, &friction(p), &it);
+            it = Rubs::select(goes_on, &friction.under(p), &it);
             let error = p - self.normal(load, it.tau);
             let rounding = load.of(ROUNDING) * (p + self.steep * load);
             goes_on = goes_on & !error.abs().le(rounding);

@@ -2,7 +2,7 @@
 
 use super::bearing::{ALL, PLAIN, SlidingHistory};
 use super::coefficient::{self, cone};
-use super::incline::{Climb, Incline, Rows, add_plane};
+use super::incline::{Climb, Friction, Incline, Rows, add_plane};
 use super::{Axial, Dish, Normal, Rubbing, Stop, Worn, radial_return, share_before};
 use crate::shared::plane::{self, M2, V2};
 use trilith_element::History;
@@ -244,6 +244,21 @@ impl<'a, R: Real> Numbers<'a, R> {
     }
 }
 
+/// The closed side, as what [`Incline::press`] asks of it.
+struct Side<'a, R: Real, const FULL: bool> {
+    of: &'a Numbers<'a, R>,
+    at: &'a LaneAt<'a, R>,
+    pulls: R::Mask,
+    motion: &'a Motion<R>,
+}
+
+impl<R: Real, const FULL: bool> Friction<R> for Side<'_, R, FULL> {
+    #[inline(always)]
+    fn under(&self, normal: R) -> Rubs<R> {
+        self.of.rub::<FULL>(self.at, self.pulls, self.motion, normal)
+    }
+}
+
 /// Where the history has what.
 const ANCHOR: usize = 0;
 const SLIP: usize = 2;
@@ -359,7 +374,8 @@ impl<const FULL: bool> LaneLaw for Law<FULL> {
             }
             let (shear, rows, rates);
             if let Some(climb) = &climb {
-                rub = climb.end.press(n.cone, |p| it.rub::<FULL>(at, pulls, &motion, p));
+                let side = Side::<_, FULL> { of: &it, at, pulls, motion: &motion };
+                rub = climb.end.press(n.cone, &side);
                 (rows, rates) = climb.tangents(&rub, &stretch_by_d, n.cone, &cone_by_d, &cone_by_v);
                 shear = climb.end.along(rub.tau);
             } else {
