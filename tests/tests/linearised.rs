@@ -52,8 +52,7 @@ fn a_page_has_modes_with_engaged_links() {
         );
         let model = parse(&text, &[]).0;
         let analysis = Analysis::new(&model).unwrap();
-        let modes =
-            analysis.run(RunOptions::default()).unwrap().report(&analysis, &[], &[]).modes;
+        let modes = analysis.run(RunOptions::default()).unwrap().report(&analysis, &[], &[]).modes;
         modes.iter().map(|m| (m.with_links, m.frequency * TAU, m.participation)).collect::<Vec<_>>()
     };
     let wen = |axis, k| {

@@ -8,7 +8,7 @@ use std::path::{Path, PathBuf};
 use trilith_model::Model;
 use trilith_report::{Collect, RunData, run_page};
 use trilith_results::FileError;
-use trilith_solvers::{LinkStiffness, Linearised};
+use trilith_solvers::{Linearised, LinkStiffness};
 
 /// Up to this many equations, modes are looked for where the run did not find them itself.
 const MODES: usize = 1000;
