@@ -300,10 +300,10 @@ class Model:
             given = {"after": after, "amplitude": amplitude, "of": of}
             alone = [name for name, value in given.items() if value is not None]
             if alone:
-                raise ArgumentError(f"{alone[0]} says how links count, and `links` does not let them: give links=\"secant\" or another")
+                raise ArgumentError(f"{alone[0]} says how links count, which they do not without links=\"engaged\" or another")
             return Modes(*self._native.modes(case))
         if case is not None:
-            raise ArgumentError("a case has a basis, which modes with links do not go by: give after= for the state of the links")
+            raise ArgumentError("modes with links do not go by the basis of a case: after= says in which state links are")
         if links != "secant" and (amplitude is not None or of is not None):
             raise ArgumentError(f"cycles are those of links=\"secant\", and links is \"{links}\"")
         names = [of] if isinstance(of, str) else None if of is None else list(of)
