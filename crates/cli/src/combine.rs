@@ -4,13 +4,20 @@ use crate::args::CombineArguments;
 use crate::interrupt::{Ear, INTERRUPTED};
 use crate::progress::Progress;
 use crate::text::{names_help, number, table};
-use crate::{Answer, Failure, diagnostics, names, output, read};
+use crate::{Answer, Failure, browser, combine_page, diagnostics, names, output, place, read};
+use std::path::Path;
 use trilith::combine::{Combinations, CombineError, Combined, combine_until};
 use trilith::model::{CombineCases, visible_line};
+use trilith::results::{Folder, Writer};
 use trilith::{Error, Model, Registry};
+
+const TABLE: &str = "combinations.csv";
+const PAGE: &str = "combinations.html";
 
 pub(crate) fn combine(registry: &Registry, args: &CombineArguments) -> Result<Answer, Failure> {
     let model = read(registry, &args.model)?;
+    // Looked at before the runs: nothing that was computed is lost for want of a place.
+    let folder = args.out.as_ref().map(|dir| open(dir, &model)).transpose()?;
     let mut bar = Progress::new(&model.title);
     let ear = Ear::open("the run ends at the next output step, and nothing is combined");
     let mut show = |_: &str, share| bar.show(share);
@@ -22,11 +29,29 @@ pub(crate) fn combine(registry: &Registry, args: &CombineArguments) -> Result<An
             output::tell(&diagnostics::warning(&format!("case \"{}\": {warning}", case.name)));
         }
     }
+    let mut files = String::new();
+    if let Some(folder) = folder {
+        let table = combine_page::table(&found).into_bytes();
+        let page = combine_page::page(&model, &found).into_bytes();
+        for path in place::write(folder, &[(TABLE.into(), table), (PAGE.into(), page)])? {
+            files += &format!("file: {path}\n");
+            if path.ends_with(PAGE) {
+                browser::show(args.open, Path::new(&path));
+            }
+        }
+    }
     if args.json {
         let text = serde_json::to_string_pretty(&found).unwrap_or_default();
         return Ok((text + "\n").into());
     }
-    Ok(page(&model, &found).into())
+    Ok((page(&model, &found) + &files).into())
+}
+
+/// Takes the folder of the table and the page.
+fn open(dir: &Path, model: &Model) -> Result<Folder, Failure> {
+    let inputs = model.inputs();
+    let writes = vec![TABLE.into(), PAGE.into()];
+    place::open(dir, Writer { name: "combine", own: &[TABLE, PAGE], writes, inputs })
 }
 
 fn failure(error: &CombineError, model: &Model) -> Failure {
@@ -74,7 +99,7 @@ pub(crate) fn page(model: &Model, found: &Combinations) -> String {
 }
 
 /// How a combination is made, in a line.
-fn formula(one: &Combined) -> String {
+pub(crate) fn formula(one: &Combined) -> String {
     let term = |(name, factor): &(String, f64)| match factor {
         1.0 => format!("\"{name}\""),
         factor => format!("{factor} \"{name}\""),
@@ -83,11 +108,18 @@ fn formula(one: &Combined) -> String {
     format!("{} of {}", one.how.name(), terms.join(", "))
 }
 
-/// The outputs of a combination: one column where all have one value, as those of static cases.
+/// The outputs of a combination.
 fn outputs(one: &Combined) -> String {
+    let (rows, left) = rows(one);
+    table(&rows, left)
+}
+
+/// The same as rows, the first of which is the head, and the columns of words: one column of values where all have one, as
+/// those of static cases.
+pub(crate) fn rows(one: &Combined) -> (Vec<Vec<String>>, &'static [usize]) {
     let is_envelope = one.how == CombineCases::Envelope;
     let single = !is_envelope && one.outputs.iter().all(|o| o.max == o.min);
-    let (head, left): (&[&str], &[usize]) = match (is_envelope, single) {
+    let (head, left): (&[&str], &'static [usize]) = match (is_envelope, single) {
         (true, _) => (&["output", "unit", "max", "from", "min", "from"], &[0, 1, 3, 5]),
         (false, true) => (&["output", "unit", "value"], &[0, 1]),
         (false, false) => (&["output", "unit", "max", "min"], &[0, 1]),
@@ -103,5 +135,5 @@ fn outputs(one: &Combined) -> String {
         }
         rows.push(cells);
     }
-    table(&rows, left)
+    (rows, left)
 }

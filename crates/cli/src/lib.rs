@@ -15,6 +15,7 @@ mod browser;
 mod calibrate;
 mod check;
 mod combine;
+mod combine_page;
 mod compare;
 mod compare_page;
 mod date;

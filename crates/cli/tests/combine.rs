@@ -100,6 +100,54 @@ fn those_that_are_named_are_told_and_no_other_case_runs() {
 }
 
 #[test]
+fn a_folder_has_all_values_and_a_page() {
+    // Names that a table or a page might take for something else stay names.
+    let text = COLUMN.replace("\"sizes\"", "\"=sizes <b>\"");
+    let folder = folder(&text);
+    let run = |more: &[&str]| {
+        let all = [&["combine", "column.ron", "--out", "found"], more].concat();
+        trilith(folder.path(), &all)
+    };
+    let (status, out, err) = run(&[]);
+    assert_eq!((status, err.as_str()), (0, ""), "{out}");
+    assert!(out.contains("combinations.csv") && out.contains("combinations.html"), "{out}");
+    // Its own folder may be written again.
+    let (status, out, _) = run(&["--json"]);
+    assert_eq!(status, 0, "{out}");
+    let found: Value = serde_json::from_str(&out).unwrap();
+    let read =
+        |name: &str| std::fs::read_to_string(folder.path().join("found").join(name)).unwrap();
+    let table = read("combinations.csv");
+    let lines: Vec<Vec<&str>> = table.lines().map(|line| line.split(',').collect()).collect();
+    assert_eq!(lines[0], ["what", "name", "output", "unit", "max", "max from", "min", "min from"]);
+    let mut rows = lines[1..].iter();
+    for (what, all) in [("case", &found["cases"]), ("combination", &found["combinations"])] {
+        for one in all.as_array().unwrap() {
+            for output in one["outputs"].as_array().unwrap() {
+                let row = rows.next().unwrap();
+                assert_eq!((row[0], row[2]), (what, output["output"].as_str().unwrap()));
+                let value = |text: &str| text.parse::<f64>().unwrap();
+                assert_eq!(Some(value(row[4])), output["max"].as_f64(), "{row:?}");
+                assert_eq!(Some(value(row[6])), output["min"].as_f64(), "{row:?}");
+                assert_eq!(row[5], output["max_from"].as_str().unwrap_or_default());
+            }
+        }
+    }
+    assert_eq!(rows.next(), None);
+    assert!(!table.contains(",=sizes"), "{table}");
+    let page = read("combinations.html");
+    assert!(page.contains("strength") && page.contains("=sizes &lt;b&gt;"), "{page}");
+    assert!(!page.contains("=sizes <b>"), "a name is no markup");
+    // What another has put there stays.
+    std::fs::create_dir(folder.path().join("mine")).unwrap();
+    let notes = folder.path().join("mine/combinations.csv");
+    std::fs::write(&notes, "notes").unwrap();
+    let (status, _, err) = trilith(folder.path(), &["combine", "column.ron", "--out", "mine"]);
+    assert!(status != 0 && err.contains("mine"), "{err}");
+    assert_eq!(std::fs::read_to_string(notes).unwrap(), "notes");
+}
+
+#[test]
 fn what_cannot_be_combined_is_told() {
     // A hard stop, and steps of one length that lose energy at it.
     let stop = r#""mass": Mass(node: "top", mass: "2 t"),

@@ -215,6 +215,12 @@ pub(crate) struct CombineArguments {
     /// Combinations; several times if need be, and double quotes hold a name with a comma together [default: all]
     #[arg(long, value_name = "NAME,NAME", value_parser = names::list)]
     pub of: Vec<Names>,
+    /// Folder for `combinations.csv` and `combinations.html`: every output of all cases and combinations
+    #[arg(long, value_name = "DIR")]
+    pub out: Option<PathBuf>,
+    /// Open the page in a browser
+    #[arg(long, requires = "out")]
+    pub open: bool,
     /// Print JSON
     #[arg(long)]
     pub json: bool,
