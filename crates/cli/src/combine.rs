@@ -82,11 +82,8 @@ pub(crate) fn page(model: &Model, found: &Combinations) -> String {
     for one in &found.combinations {
         out += &format!("\n{}: {}\n", visible_line(&one.name), visible_line(&formula(one)));
         out += &outputs(one);
-        if let Some([earlier, later]) = &one.twice {
-            let [earlier, later] = [earlier, later].map(|name| visible_line(name));
-            out += &format!(
-                "  warning: it adds \"{earlier}\" and \"{later}\", which continues it: what \"{earlier}\" does is in both\n"
-            );
+        if let Some(text) = twice(one) {
+            out += &format!("  warning: {text}\n");
         }
     }
     let cases: Vec<_> = found
@@ -96,6 +93,14 @@ pub(crate) fn page(model: &Model, found: &Combinations) -> String {
         .collect();
     out += &format!("\ncases: {}\n", cases.join(", "));
     out
+}
+
+/// What it adds twice, in a sentence.
+pub(crate) fn twice(one: &Combined) -> Option<String> {
+    let [earlier, later] = one.twice.as_ref()?.each_ref().map(|name| visible_line(name));
+    Some(format!(
+        "it adds \"{earlier}\" and \"{later}\", which continues it: what \"{earlier}\" does is in both"
+    ))
 }
 
 /// How a combination is made, in a line.

@@ -1,6 +1,6 @@
 //! Combinations as a table of comma-separated values, and as a page.
 
-use crate::combine::{formula, rows};
+use crate::combine::{formula, rows, twice};
 use trilith::Model;
 use trilith::combine::{Combinations, CombinedOutput};
 use trilith::record::cell;
@@ -52,10 +52,8 @@ pub(crate) fn page(model: &Model, found: &Combinations) -> String {
         let mut section = Section::new(format!("c{i}"), one.name.clone())
             .block(Block::text(formula(one)))
             .block(Block::Table { head, rows: own });
-        if let Some([earlier, later]) = &one.twice {
-            section = section.block(Block::note(format!(
-                "It adds \"{earlier}\" and \"{later}\", which continues it: what \"{earlier}\" does is in both."
-            )));
+        if let Some(text) = twice(one) {
+            section = section.block(Block::note(format!("Warning: {text}.")));
         }
         page = page.section(section);
     }
