@@ -183,3 +183,31 @@ fn what_link_forces_set_in_motion_is_told_where_the_basis_lacks_it() {
         }
     }
 }
+
+/// More stops than the chain of the one load has vectors: their shapes are found beside it, and are those that one thread
+/// finds after it.
+#[test]
+fn shapes_of_many_links_are_the_same_on_any_number_of_threads() {
+    const FIRST: usize = 60;
+    let of_stops = |of: &dyn Fn(usize) -> String| (FIRST..120).map(of).collect::<String>();
+    let text = cantilever(r#"duration: "0.3 s", base: [(direction: Z, function: "a")]"#)
+        .replace("nodes: {", &format!("nodes: {{ {}", of_stops(&|i| {
+            format!("\"w{i}\": ({}, 0, -0.1), ", 0.05 * i as f64)
+        })))
+        .replace("supports: {", &format!("supports: {{ {}", of_stops(&|i| format!("\"w{i}\": Fixed, "))))
+        .replace("elements: {", &format!("elements: {{ {}", of_stops(&|i| {
+            format!("\"s{i}\": Gap(nodes: (\"n{i}\", \"w{i}\"), axis: U1, k: \"1 MN/m\", opening: \"5 mm\"), ")
+        })));
+    let model = parse(&text, &[]).0;
+    let many = run(&model, SolverKind::Fna);
+    let one = trilith_solvers::alone(|| run(&model, SolverKind::Fna));
+    assert!(many.result.basis.as_ref().unwrap().vectors > 80);
+    for o in &model.outputs {
+        assert_eq!(many.history(&o.name).unwrap(), one.history(&o.name).unwrap(), "{}", o.name);
+    }
+    let direct = run(&model, SolverKind::Hht);
+    for output in ["tip", "middle"] {
+        let off = apart(&many, &direct, output) / many.peak(output).unwrap().magnitude();
+        assert!(off < 0.005, "{output}: {off}");
+    }
+}

@@ -63,9 +63,9 @@ pub fn turn_each(x: &mut [Vec<f64>], t: &Dense) {
 }
 
 /// Rows of vectors as a matrix.
-fn tile<V: std::ops::Deref<Target = [f64]>>(x: &[V], from: usize, to: usize) -> Dense {
-    let values = x.iter().flat_map(|x| x[from..to].iter().copied()).collect();
-    Dense::from_columns(to - from, x.len(), values)
+pub(crate) fn tile(x: &[impl AsRef<[f64]>], from: usize, to: usize) -> Dense {
+    let values: Vec<&[f64]> = x.iter().map(|x| &x.as_ref()[from..to]).collect();
+    Dense::from_columns(to - from, x.len(), values.concat())
 }
 
 #[cfg(test)]

@@ -151,9 +151,9 @@ impl<'a> Search<'a> {
 
     /// (K − σM)⁻¹ of vectors.
     fn solve(&self, y: &[Vec<f64>]) -> Vec<Vec<f64>> {
-        let mut x = y.concat();
-        self.factor.solve(&mut x);
-        x.chunks(self.mass.rows().max(1)).map(<[f64]>::to_vec).collect()
+        let mut x = y.to_vec();
+        self.factor.solve_each(&mut x);
+        x
     }
 
     /// Makes vectors orthogonal to all that is found, and to those of this search.

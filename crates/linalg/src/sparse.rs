@@ -1,7 +1,9 @@
 //! Sparse matrices in compressed columns, full storage (both triangles).
 
+use crate::simd::dispatch;
 use crate::threads::share;
 use nalgebra_sparse::CscMatrix;
+use pulp::{Simd, WithSimd};
 use std::sync::Arc;
 
 /// Entries (row, column, value) that are summed into a [`Sparse`] matrix.
@@ -197,9 +199,22 @@ impl Sparse {
     /// # Panics
     /// Where the matrix is not square, or a length does not suit.
     #[must_use]
-    pub fn symmetric_images(&self, x: &[Vec<f64>]) -> Vec<Vec<f64>> {
-        let mut y: Vec<Vec<f64>> = x.iter().map(|x| vec![0.0; x.len()]).collect();
-        self.symmetric(x.iter().map(Vec::as_slice).zip(y.iter_mut().map(Vec::as_mut_slice)));
+    pub fn symmetric_images(&self, x: &[impl AsRef<[f64]>]) -> Vec<Vec<f64>> {
+        self.symmetric_images_in(x, &mut Vec::new())
+    }
+
+    /// The same with memory that the caller keeps from one call to the next.
+    ///
+    /// # Panics
+    /// As [`symmetric_images`](Self::symmetric_images).
+    pub fn symmetric_images_in(
+        &self,
+        x: &[impl AsRef<[f64]>],
+        room: &mut Vec<f64>,
+    ) -> Vec<Vec<f64>> {
+        let mut y: Vec<Vec<f64>> = x.iter().map(|x| vec![0.0; x.as_ref().len()]).collect();
+        let images = y.iter_mut().map(Vec::as_mut_slice);
+        self.symmetric(x.iter().map(AsRef::as_ref).zip(images).collect(), room);
         y
     }
 
@@ -209,50 +224,45 @@ impl Sparse {
     /// As [`symmetric_images`](Self::symmetric_images).
     pub fn symmetric_products(&self, x: &[f64], y: &mut [f64]) {
         let n = self.rows().max(1);
-        self.symmetric(x.chunks(n).zip(y.chunks_mut(n)));
+        self.symmetric(x.chunks(n).zip(y.chunks_mut(n)).collect(), &mut Vec::new());
     }
 
-    fn symmetric<'a>(&self, pairs: impl ExactSizeIterator<Item = (&'a [f64], &'a mut [f64])>) {
+    fn symmetric(&self, mut pairs: Vec<(&[f64], &mut [f64])>, room: &mut Vec<f64>) {
         let n = self.rows();
         assert!(self.columns() == n, "a symmetric matrix");
-        let mut pairs: Vec<_> = pairs.collect();
         let suits = |(x, y): &(&[f64], &mut [f64])| x.len() == n && y.len() == n;
         assert!(pairs.iter().all(suits), "lengths of a product");
         while pairs.len() > 4 {
             let rest = pairs.split_off(pairs.len().min(8));
-            self.beside::<8>(std::mem::replace(&mut pairs, rest));
+            self.beside::<8>(std::mem::replace(&mut pairs, rest), room);
         }
-        if !pairs.is_empty() {
-            self.beside::<4>(pairs);
+        match pairs.len() {
+            0 => {}
+            1 => self.beside::<1>(pairs, room),
+            _ => self.beside::<4>(pairs, room),
         }
     }
 
     /// Images of N vectors at most, whose values stand side by side.
-    fn beside<const N: usize>(&self, pairs: Vec<(&[f64], &mut [f64])>) {
+    fn beside<const N: usize>(&self, pairs: Vec<(&[f64], &mut [f64])>, room: &mut Vec<f64>) {
         let n = self.rows();
-        let mut beside = vec![[0.0; N]; n];
+        room.resize(room.len().max(N * n), 0.0);
+        let (beside, _) = room[..N * n].as_chunks_mut::<N>();
         let mut pieces: Vec<(usize, Vec<&mut [f64]>)> =
             (0..n).step_by(ROWS).map(|start| (start, Vec::with_capacity(N))).collect();
-        for (k, (x, y)) in pairs.into_iter().enumerate() {
-            beside.iter_mut().zip(x).for_each(|(each, x)| each[k] = *x);
+        let mut x = Vec::with_capacity(N);
+        for (own, y) in pairs {
+            x.push(own);
             pieces.iter_mut().zip(y.chunks_mut(ROWS)).for_each(|(piece, y)| piece.1.push(y));
         }
-        share(2 * N * self.stored(), pieces, |(start, y)| self.symmetric_rows(&beside, start, y));
-    }
-
-    /// Rows of the images: columns are rows, so each value is a sum.
-    fn symmetric_rows<const N: usize>(&self, x: &[[f64; N]], start: usize, mut y: Vec<&mut [f64]>) {
-        for j in 0..y[0].len() {
-            let (rows, values) = self.column(start + j);
-            let mut sum = [0.0; N];
-            for (i, v) in rows.iter().zip(values) {
-                let x = &x[*i];
-                for k in 0..N {
-                    sum[k] += v * x[k];
-                }
+        share(N * n, beside.chunks_mut(ROWS).enumerate().collect(), |(i, beside)| {
+            for (k, x) in x.iter().enumerate() {
+                beside.iter_mut().zip(&x[i * ROWS..]).for_each(|(each, x)| each[k] = *x);
             }
-            y.iter_mut().zip(sum).for_each(|(y, sum)| y[j] = sum);
-        }
+        });
+        share(2 * N * self.stored(), pieces, |(start, y)| {
+            dispatch(SymmetricRows { of: self, x: beside, start, y });
+        });
     }
 
     /// `y += s · Aᵀ x`. Lengths: `x` rows, `y` columns.
@@ -341,6 +351,37 @@ impl Sparse {
             rows.to_vec(),
             values.to_vec(),
         )
+    }
+}
+
+/// Rows of images under a symmetric matrix: its columns are its rows, so each value is a sum.
+struct SymmetricRows<'a, const N: usize> {
+    of: &'a Sparse,
+    /// Of N vectors, side by side.
+    x: &'a [[f64; N]],
+    /// First row, and from there on the images.
+    start: usize,
+    y: Vec<&'a mut [f64]>,
+}
+
+impl<const N: usize> WithSimd for SymmetricRows<'_, N> {
+    type Output = ();
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(mut self, _: S) {
+        for j in 0..self.y[0].len() {
+            let (rows, values) = self.of.column(self.start + j);
+            let mut sum = [0.0; N];
+            for (i, v) in rows.iter().zip(values) {
+                let x = &self.x[*i];
+                for k in 0..N {
+                    sum[k] += v * x[k];
+                }
+            }
+            for k in 0..self.y.len() {
+                self.y[k][j] = sum[k];
+            }
+        }
     }
 }
 

@@ -5,27 +5,33 @@
 //!   Y, X   some vectors, in tiles of rows               X += V S     eight columns at once
 //! ```
 //!
-//! A tile of the vectors stays in a cache while all columns pass, and threads share columns (for S) and tiles (for X). General
-//! products of matrices take up to twice as long here: they copy V, and with so few vectors that does not pay.
+//! A tile of the vectors stays in a cache while all columns pass, and threads share pieces of rows. General products of matrices
+//! copy V, which pays with many vectors only: with 48, they take half the time.
 
+use crate::beside::tile;
 use crate::simd::dispatch;
 use crate::threads::share;
 use crate::{Dense, Sparse};
+use faer::linalg::matmul::matmul;
+use faer::{Accum, MatRef, Par};
 use pulp::{Simd, WithSimd};
 
-/// Rows of a tile.
+/// Rows of a piece for one thread, and of a tile in it.
+const ROWS: usize = 4096;
 const TILE: usize = 1024;
 /// Rows of eight columns that stay in the nearest cache.
 const NEAR: usize = 256;
-/// Columns that one thread takes.
-const COLUMNS: usize = 64;
-/// Columns of a product that are made at once.
-const BLOCK: usize = 16;
+/// From so many vectors on general products are faster: for S, and for X.
+const MANY: [usize; 2] = [12, 32];
+/// Columns of a congruence that are made at once.
+const BLOCK: usize = 64;
 
 /// Vectors one after the other, whose number may grow.
 #[derive(Clone, Debug)]
 pub struct Columns {
     rows: usize,
+    count: usize,
+    /// Of those there are, and room for more: the system gives memory to what is written alone.
     values: Vec<f64>,
 }
 
@@ -33,19 +39,19 @@ impl Columns {
     /// None yet, with room for `count`.
     #[must_use]
     pub fn with_capacity(rows: usize, count: usize) -> Self {
-        Self { rows, values: Vec::with_capacity(rows * count) }
+        Self { rows, count: 0, values: vec![0.0; rows * count] }
     }
 
     /// How many there are.
     #[must_use]
     pub fn len(&self) -> usize {
-        self.values.len().checked_div(self.rows).unwrap_or(0)
+        self.count
     }
 
     /// True where there is none.
     #[must_use]
     pub fn is_empty(&self) -> bool {
-        self.values.is_empty()
+        self.count == 0
     }
 
     /// One more.
@@ -53,8 +59,28 @@ impl Columns {
     /// # Panics
     /// Where its length does not suit.
     pub fn push(&mut self, x: &[f64]) {
-        assert!(x.len() == self.rows, "length of a column");
-        self.values.extend_from_slice(x);
+        self.extend(&[x]);
+    }
+
+    /// Some more, which threads share.
+    ///
+    /// # Panics
+    /// Where a length does not suit.
+    pub fn extend(&mut self, x: &[impl AsRef<[f64]> + Sync]) {
+        let (n, from) = (self.rows, self.values().len());
+        assert!(x.iter().all(|x| x.as_ref().len() == n), "length of a column");
+        self.count += x.len();
+        if self.values.len() < n * self.count {
+            self.values.resize(n * self.count.max(2 * (self.count - x.len())), 0.0);
+        }
+        let places = self.values[from..].chunks_mut(n.max(1));
+        share(4 * n * x.len(), places.zip(x).collect(), |(place, x)| {
+            place.copy_from_slice(x.as_ref());
+        });
+    }
+
+    fn values(&self) -> &[f64] {
+        &self.values[..self.count * self.rows]
     }
 
     /// Takes from every vector x of a block its shares in the columns from `first` on: x −= V (Vᵀ y), where y
@@ -64,21 +90,20 @@ impl Columns {
     /// # Panics
     /// Where the lengths do not suit.
     pub fn take_out(&self, first: usize, x: &mut [Vec<f64>], y: &[Vec<f64>]) -> Vec<f64> {
-        let columns = &self.values[(first * self.rows).min(self.values.len())..];
+        let columns = &self.values()[first.min(self.count) * self.rows..];
         if x.is_empty() || columns.is_empty() {
             return Vec::new();
         }
         let y: Vec<&[f64]> = y.iter().map(Vec::as_slice).collect();
         let shares = dots(columns, self.rows, &y);
         add(columns, self.rows, &shares, -1.0, x.iter_mut().map(Vec::as_mut_slice));
-        let count = y.len();
-        (0..count).flat_map(|r| shares.iter().skip(r).step_by(count).copied()).collect()
+        shares.transpose().values().to_vec()
     }
 
     /// One of them.
     #[must_use]
     pub fn column(&self, j: usize) -> &[f64] {
-        &self.values[j * self.rows..(j + 1) * self.rows]
+        &self.values()[j * self.rows..(j + 1) * self.rows]
     }
 
     /// V Q of the first columns, as many as Q has rows.
@@ -88,38 +113,50 @@ impl Columns {
     #[must_use]
     pub fn times(&self, q: &Dense) -> Dense {
         assert!(q.rows() <= self.len(), "sizes of a product");
-        sums(&self.values[..self.rows * q.rows()], self.rows, q)
+        sums(&self.values()[..self.rows * q.rows()], self.rows, q)
     }
 
     /// As a matrix.
     #[must_use]
-    pub fn into_dense(self) -> Dense {
-        Dense::from_columns(self.rows, self.len(), self.values)
+    pub fn into_dense(mut self) -> Dense {
+        self.values.truncate(self.count * self.rows);
+        Dense::from_columns(self.rows, self.count, self.values)
     }
 }
 
-/// Vᵀ Y: for each column of V, its products with all vectors.
-fn dots(columns: &[f64], n: usize, y: &[&[f64]]) -> Vec<f64> {
+/// (Vᵀ Y)ᵀ: of each column of V its products with all vectors.
+fn dots(columns: &[f64], n: usize, y: &[&[f64]]) -> Dense {
     assert!(y.iter().all(|y| y.len() == n), "lengths of a product");
-    let mut shares = vec![0.0; columns.len().checked_div(n).unwrap_or(0) * y.len()];
-    if shares.is_empty() {
-        return shares;
-    }
-    let pieces = columns.chunks(COLUMNS * n).zip(shares.chunks_mut(COLUMNS * y.len())).collect();
-    share(2 * columns.len() * y.len(), pieces, |(columns, shares)| {
-        for start in (0..n).step_by(TILE) {
-            let y: Vec<&[f64]> = y.iter().map(|y| &y[start..n.min(start + TILE)]).collect();
-            dispatch(Dots { columns, n, start, y: &y, shares });
+    let count = columns.len().checked_div(n).unwrap_or(0);
+    let none = || Dense::zeros(y.len(), count);
+    let mut parts: Vec<(usize, Dense)> = (0..n).step_by(ROWS).map(|at| (at, none())).collect();
+    share(2 * columns.len() * y.len(), parts.iter_mut().collect(), |(from, shares)| {
+        let end = n.min(*from + ROWS);
+        for start in (*from..end).step_by(TILE) {
+            let stop = end.min(start + TILE);
+            if y.len() < MANY[0] {
+                let y: Vec<&[f64]> = y.iter().map(|y| &y[start..stop]).collect();
+                dispatch(Dots { columns, n, start, y: &y, shares: shares.values_mut() });
+                continue;
+            }
+            let (y, columns) = (tile(y, start, stop), rows_of(columns, n, start, stop));
+            let shares = shares.as_mut();
+            matmul(shares, Accum::Add, y.as_ref().transpose(), columns, 1.0, Par::Seq);
         }
     });
-    shares
+    // In their order, whoever made them.
+    let mut all = none();
+    for (_, part) in &parts {
+        all.values_mut().iter_mut().zip(part.values()).for_each(|(sum, part)| *sum += part);
+    }
+    all
 }
 
 /// X += factor · V S, with the shares of [`dots`].
 fn add<'a>(
     columns: &[f64],
     n: usize,
-    shares: &[f64],
+    shares: &Dense,
     factor: f64,
     x: impl ExactSizeIterator<Item = &'a mut [f64]>,
 ) {
@@ -130,16 +167,28 @@ fn add<'a>(
         assert!(x.len() == n, "lengths of a product");
         tiles.iter_mut().zip(x.chunks_mut(TILE)).for_each(|((_, tile), part)| tile.push(part));
     }
-    share(2 * columns.len() * count, tiles, |(start, x)| {
-        dispatch(Add { columns, n, start, x, shares, factor });
+    share(2 * columns.len() * count, tiles, |(start, mut x)| {
+        if count < MANY[1] {
+            return dispatch(Add { columns, n, start, x, shares: shares.values(), factor });
+        }
+        let rows = x[0].len();
+        let (mut sums, columns) = (tile(&x, 0, rows), rows_of(columns, n, start, start + rows));
+        let shares = shares.as_ref().transpose();
+        matmul(sums.as_mut(), Accum::Add, columns, shares, factor, Par::Seq);
+        x.iter_mut().enumerate().for_each(|(j, x)| x.copy_from_slice(sums.column(j)));
     });
+}
+
+/// Some rows of columns one after the other.
+fn rows_of(columns: &[f64], n: usize, from: usize, to: usize) -> MatRef<'_, f64> {
+    MatRef::from_column_major_slice(columns, n, columns.len() / n).subrows(from, to - from)
 }
 
 /// V T of columns one after the other.
 fn sums(columns: &[f64], n: usize, t: &Dense) -> Dense {
     let mut all = Dense::zeros(n, t.columns());
     if n > 0 && t.columns() > 0 {
-        add(columns, n, t.transpose().values(), 1.0, all.values_mut().chunks_mut(n));
+        add(columns, n, &t.transpose(), 1.0, all.values_mut().chunks_mut(n));
     }
     all
 }
@@ -326,8 +375,9 @@ impl Dense {
             // Nothing above the diagonal block: symmetry gives it.
             let left = &self.values()[start * n..count * n];
             let images: Vec<&[f64]> = image.values()[..n * width].chunks(n).collect();
-            for (i, products) in dots(left, n, &images).chunks(width).enumerate() {
-                (0..width).for_each(|j| c[(start + i, start + j)] = products[j]);
+            let products = dots(left, n, &images);
+            for i in 0..products.columns() {
+                (0..width).for_each(|j| c[(start + i, start + j)] = products[(j, i)]);
             }
         }
         for j in 0..count {
@@ -374,13 +424,13 @@ mod tests {
     }
 
     #[test]
-    fn shares_are_taken_out_of_one_two_and_three_vectors() {
-        let n = 2500;
+    fn shares_are_taken_out_of_few_vectors_and_of_many() {
+        let n = 9500;
         let v = sample(n, 7);
         let mut columns = Columns::with_capacity(n, 7);
         (0..7).for_each(|j| columns.push(v.column(j)));
         assert_eq!((columns.len(), columns.is_empty()), (7, false));
-        for count in 1..4 {
+        for count in [1, 2, 3, 11, 12, 31, 32, 50] {
             let y: Vec<Vec<f64>> =
                 (0..count).map(|c| (0..n).map(|i| number(3 * i + c)).collect()).collect();
             let mut x = y.clone();

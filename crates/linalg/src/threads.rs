@@ -72,20 +72,32 @@ pub fn share<T: Send>(operations: usize, pieces: Vec<T>, work: impl Fn(T) + Sync
     HELPED.set(HELPED.get() + spent);
 }
 
-/// Does two things at once where another thread may help; each without further help, so that none waits for a core.
+/// Does one thing, and meanwhile work on pieces where another thread may help; each without further help, so that none
+/// waits for a core. In what order they are done is not told.
+pub fn beside<A: Send, T: Send>(
+    first: impl FnOnce() -> A + Send,
+    pieces: Vec<T>,
+    work: impl Fn(T) + Sync,
+) -> A {
+    let mut a = None;
+    let mut all: Vec<Box<dyn FnOnce() + Send + '_>> = vec![Box::new(|| a = Some(first()))];
+    for piece in pieces {
+        let work = &work;
+        all.push(Box::new(move || work(piece)));
+    }
+    share(usize::MAX, all, alone);
+    // Each piece is done once.
+    a.unwrap_or_else(|| unreachable!("it is done"))
+}
+
+/// Does two things at once where another thread may help, as [`beside`] does.
 pub fn both<A: Send, B: Send>(
     first: impl FnOnce() -> A + Send,
     second: impl FnOnce() -> B + Send,
 ) -> (A, B) {
-    let (mut a, mut b) = (None, None);
-    let pieces: Vec<Box<dyn FnOnce() + Send>> =
-        vec![Box::new(|| a = Some(first())), Box::new(|| b = Some(second()))];
-    share(usize::MAX, pieces, alone);
-    match (a, b) {
-        (Some(a), Some(b)) => (a, b),
-        // Each piece is done once.
-        _ => unreachable!("both are done"),
-    }
+    let mut b = None;
+    let a = beside(first, vec![(second, &mut b)], |(second, b)| *b = Some(second()));
+    (a, b.unwrap_or_else(|| unreachable!("both are done")))
 }
 
 /// CPU time of this thread, s; 0 where the system does not tell.

@@ -60,10 +60,11 @@ impl System {
     /// # Errors
     /// As [`without_axial_forces`](Self::without_axial_forces).
     pub fn with_tension(model: &Model, tension: Vec<f64>) -> Result<Self, SystemError> {
-        let inner = InnerRows::new(model)?;
+        let mut inner = InnerRows::new(model)?;
         let count = 6 * model.nodes.len() + inner.len();
         let mut used = vec![false; count];
-        let full = full_entries(model, &tension, &inner, &mut used, |_| true)?;
+        let Full { stiffness, mass, damping, inertance } =
+            full_entries(model, &tension, &inner, &mut used, |_| true)?;
         mark_used(model, &mut used);
         let mut reduction = Reduction::new(model, &inner, &mut used)?;
         let idle = reduction.order() == 0;
@@ -73,9 +74,13 @@ impl System {
             }
             reduction.add_idle();
         }
-        let (inertia, total_mass) = inertia(&full.mass, &reduction, &inner);
-        let [k, m, c, b] = [full.stiffness, full.mass, full.damping, full.inertance]
-            .map(|entries| reduce(&entries, &reduction));
+        let reduced = || {
+            let of = |entries: Triplets| reduce(&entries, &reduction);
+            [of(stiffness), reduce(&mass, &reduction), of(damping), of(inertance)]
+        };
+        let [k, m, c, b] = inner.follow(model, reduced)?;
+        let (inertia, total_mass) = inertia(&mass, &reduction, &inner);
+        drop(mass);
         let [k, m] = if idle { [k, m].map(of_idle) } else { [k, m] };
         let m = if b.free.stored() + b.support.stored() == 0 {
             m

@@ -10,7 +10,7 @@
 
 use crate::SystemError;
 use trilith_element::{Dof, Recovered, SparseMatrices, SparseMatrix, SparseRow, Vector3, cross};
-use trilith_linalg::threads::both;
+use trilith_linalg::threads::beside;
 use trilith_linalg::{Ldlt, Sparse, Triplets};
 use trilith_model::{Body, Element, Model, Span};
 
@@ -56,40 +56,57 @@ pub(crate) fn sparse(e: &Element) -> Option<&SparseMatrices> {
 }
 
 impl InnerRows {
+    /// Their places; how they move is not known yet.
     pub(crate) fn new(model: &Model) -> Result<Self, SystemError> {
         let mut rows = Self { first: 6 * model.nodes.len(), ..Self::default() };
         for (element, e) in model.elements.iter().enumerate() {
             let Some(own) = sparse(e) else { continue };
-            let refuse = |reason: String| SystemError::Element {
-                element: e.name.clone(),
-                reason,
-                span: e.span.clone(),
-            };
-            fits(own, e.nodes.len()).map_err(&refuse)?;
-            let mut rigid = vec![[0.0; 6]; own.rows.len()];
-            // Each factorises a matrix of all rows.
-            let (loose, of_mass) = both(
-                || follow(model, e, own, &mut rigid),
-                || own.mass.as_deref().map(negative).transpose(),
-            );
-            let loose = loose?.map_err(&refuse)?;
-            if let Some(row) = of_mass?.flatten() {
-                return Err(refuse(indefinite("mass", own.mass.as_deref(), row)));
-            }
-            rows.doubts.extend(held(e, own, &rigid));
-            rows.doubts.extend((!loose.is_empty()).then(|| not_held(e, own, &loose)));
-            rows.add(element, &e.nodes, own, &rigid);
+            fits(own, e.nodes.len()).map_err(|reason| refused(e, reason))?;
+            rows.add(element, &e.nodes, own);
         }
         Ok(rows)
     }
 
-    fn add(&mut self, element: usize, nodes: &[usize], own: &SparseMatrices, rigid: &[Rigid]) {
+    /// Finds how they move with a rigid body, and whether matrices can be a stiffness and a mass, while another thread does
+    /// something else.
+    pub(crate) fn follow<T: Send>(
+        &mut self,
+        model: &Model,
+        meanwhile: impl FnOnce() -> T + Send,
+    ) -> Result<T, SystemError> {
+        let (mut meanwhile, mut done) = (Some(meanwhile), None);
+        for (element, _) in &self.places {
+            let e = &model.elements[*element];
+            let Some(own) = sparse(e) else { continue };
+            let (mut rigid, mut of_mass) = (vec![[0.0; 6]; own.rows.len()], Ok(None));
+            let other = meanwhile.take();
+            // The first two factorise a matrix of all rows.
+            let jobs: Vec<Box<dyn FnOnce() + Send + '_>> = vec![
+                Box::new(|| of_mass = own.mass.as_deref().map(negative).transpose()),
+                Box::new(|| done = other.map(|work| work()).or(done.take())),
+            ];
+            let loose = beside(|| follow(model, e, own, &mut rigid), jobs, |job| job());
+            let loose = loose?.map_err(|reason| refused(e, reason))?;
+            if let Some(row) = of_mass?.flatten() {
+                return Err(refused(e, indefinite("mass", own.mass.as_deref(), row)));
+            }
+            self.doubts.extend(held(e, own, &rigid));
+            self.doubts.extend((!loose.is_empty()).then(|| not_held(e, own, &loose)));
+            let of_element = self.all.iter_mut().filter(|inner| inner.element == *element);
+            of_element.for_each(|inner| inner.rigid = rigid[inner.row]);
+        }
+        let done = done.or_else(|| meanwhile.map(|work| work()));
+        Ok(done
+            .unwrap_or_else(|| unreachable!("it is done beside the first element or without any")))
+    }
+
+    fn add(&mut self, element: usize, nodes: &[usize], own: &SparseMatrices) {
         let mut places = Vec::with_capacity(own.rows.len());
-        for (row, (what, rigid)) in own.rows.iter().zip(rigid).enumerate() {
+        for (row, what) in own.rows.iter().enumerate() {
             places.push(match *what {
                 SparseRow::Node(node, dof) => 6 * nodes[node] + dof.index(),
                 SparseRow::Inner(dof) => {
-                    self.all.push(Inner { element, row, dof, rigid: *rigid });
+                    self.all.push(Inner { element, row, dof, rigid: [0.0; 6] });
                     self.first + self.all.len() - 1
                 }
             });
@@ -179,6 +196,10 @@ impl InnerRows {
             Some(inner) => model.elements[inner.element].span.clone(),
         }
     }
+}
+
+fn refused(e: &Element, reason: String) -> SystemError {
+    SystemError::Element { element: e.name.clone(), reason, span: e.span.clone() }
 }
 
 fn unit(axis: usize) -> Vector3 {

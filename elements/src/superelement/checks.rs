@@ -43,8 +43,12 @@ pub(super) fn checked(
         |i: u32, j: u32| (diagonal[i as usize].max(0.0) * diagonal[j as usize].max(0.0)).sqrt();
     let mut worst: Option<(f64, u32, u32, f64, f64)> = None;
     let mut alike = true;
+    // Row after row, the mirror images in each other row come one after the other.
+    let mut next = offsets.clone();
     for (i, j, value) in &a.entries {
-        let other = mirrored(*i, *j);
+        let (at, end) = (&mut next[*j as usize], offsets[*j as usize + 1]);
+        *at += a.entries[*at..end].iter().take_while(|e| e.1 < *i).count();
+        let other = a.entries[*at..end].first().filter(|e| e.1 == *i).map_or(0.0, |e| e.2);
         if other == *value {
             continue;
         }

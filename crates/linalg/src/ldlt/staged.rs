@@ -33,7 +33,7 @@ use faer::sparse::linalg::cholesky::{
 use faer::sparse::linalg::{SupernodalThreshold, SymbolicSupernodalParams};
 use faer::sparse::{SparseColMatRef, SymbolicSparseColMatRef};
 use faer::{Par, Side};
-use std::sync::Arc;
+use std::sync::{Arc, Mutex, PoisonError};
 
 /// Columns up to which supernodes are merged, and the share of zeros that may be stored for it.
 const RELAX: &[(usize, f64)] = &[(4, 0.5), (16, 0.3), (48, 0.1), (usize::MAX, 0.02)];
@@ -298,22 +298,34 @@ impl StagedLdlt {
 
     /// Solves whole right-hand sides, one after the other, in the order of the equations, in place.
     pub fn solve(&self, x: &mut [f64]) {
-        let n = self.reciprocal.len();
-        if n == 0 {
-            return;
-        }
+        self.solve_all(x.chunks_mut(self.reciprocal.len().max(1)).collect());
+    }
+
+    /// The same of right-hand sides for themselves.
+    pub fn solve_each(&self, x: &mut [Vec<f64>]) {
+        self.solve_all(x.iter_mut().map(Vec::as_mut_slice).collect());
+    }
+
+    fn solve_all(&self, mut x: Vec<&mut [f64]>) {
         // Of two each is solved alone, which a second thread can do meanwhile.
-        let beside = match x.len() / n {
+        let beside = match x.len() {
             0..=2 => 1,
             3..=8 => 4,
             _ => 8,
         };
-        let pieces: Vec<_> = x.chunks_mut(beside * n).collect();
+        let pieces: Vec<&mut [&mut [f64]]> = x.chunks_mut(beside).collect();
+        // What one piece has used serves the next: new memory would take as long as a tenth of its solution.
+        let rooms = Mutex::new(Vec::new());
+        let room = || rooms.lock().unwrap_or_else(PoisonError::into_inner);
         // Twice each value of the factor times each right-hand side.
-        share(4 * beside * self.values.len() * pieces.len(), pieces, |x| match x.len() / n {
-            1 => self.solve_one(x),
-            2..=4 => self.solve_each::<4>(x),
-            _ => self.solve_each::<8>(x),
+        share(4 * beside * self.values.len() * pieces.len(), pieces, |x| {
+            let mut own = room().pop().unwrap_or_default();
+            match x.len() {
+                1 => self.solve_one(x[0]),
+                2..=4 => self.solve_beside::<4>(x, &mut own),
+                _ => self.solve_beside::<8>(x, &mut own),
+            }
+            room().push(own);
         });
     }
 
@@ -327,20 +339,23 @@ impl StagedLdlt {
         one.iter().zip(equations).for_each(|(y, i)| x[*i as usize] = *y);
     }
 
-    /// So many of them at most, side by side.
-    fn solve_each<const N: usize>(&self, x: &mut [f64]) {
+    /// N of them at most, side by side.
+    fn solve_beside<const N: usize>(&self, x: &mut [&mut [f64]], room: &mut Vec<f64>) {
         let StagedPlan { equations, front, tail, split, .. } = &*self.plan;
         let (n, of_tail) = (equations.len(), &self.reciprocal[*split..]);
-        let mut beside = vec![[0.0; N]; n];
+        room.resize(room.len().max(N * n), 0.0);
+        let (beside, _) = room[..N * n].as_chunks_mut::<N>();
         let mut work = vec![[0.0; N]; self.plan.workspace()];
-        for (k, x) in x.chunks(n).enumerate() {
+        for (k, x) in x.iter().enumerate() {
             beside.iter_mut().zip(equations).for_each(|(y, i)| y[k] = x[*i as usize]);
         }
-        front.forward_each(&self.values, &mut beside, &mut work);
+        // Nothing stands where there are fewer, whatever stood there before.
+        beside.iter_mut().for_each(|y| y[x.len()..].fill(0.0));
+        front.forward_each(&self.values, beside, &mut work);
         tail.forward_each(&self.values, &mut beside[*split..], &mut work);
         tail.backward_each(&self.values, of_tail, &mut beside[*split..], &mut work);
-        front.backward_each(&self.values, &self.reciprocal, &mut beside, &mut work);
-        for (k, x) in x.chunks_mut(n).enumerate() {
+        front.backward_each(&self.values, &self.reciprocal, beside, &mut work);
+        for (k, x) in x.iter_mut().enumerate() {
             beside.iter().zip(equations).for_each(|(y, i)| x[*i as usize] = y[k]);
         }
     }

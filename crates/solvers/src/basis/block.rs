@@ -7,6 +7,7 @@
 //! A vector that is nearly a sum of others before it waits until these are taken: the Gram matrix squares what is
 //! left of it, and so its digits.
 
+use std::cell::RefCell;
 use trilith_linalg::threads::share;
 use trilith_linalg::{Columns, Dense, Sparse, dot, mutual_products, turn_each};
 
@@ -20,6 +21,23 @@ const ORTHOGONAL: f64 = 0.5;
 const APART: f64 = 1e-6;
 /// An image of which less is left than this, of its square, is made anew.
 const CLEAN: f64 = 1e-2;
+
+/// A mass matrix, and memory for its products from one to the next.
+pub(super) struct Mass {
+    of: Sparse,
+    room: RefCell<Vec<f64>>,
+}
+
+impl Mass {
+    pub(super) fn new(of: Sparse) -> Self {
+        Self { of, room: RefCell::default() }
+    }
+
+    /// M X.
+    pub(super) fn images(&self, x: &[impl AsRef<[f64]>]) -> Vec<Vec<f64>> {
+        self.of.symmetric_images_in(x, &mut self.room.borrow_mut())
+    }
+}
 
 /// Vectors, of which the rows that are kept are given.
 #[derive(Debug, Default)]
@@ -43,13 +61,15 @@ pub(super) struct Turned {
 
 impl Block {
     /// Of any size; what is zero or no number is left out.
-    pub(super) fn new(mut x: Vec<Vec<f64>>, mass: &Sparse) -> Self {
-        let size = |x: &[f64]| x.iter().fold(0.0f64, |a, b| a.max(b.abs()));
-        x.retain(|x| x.iter().all(|v| v.is_finite()) && size(x) > 0.0);
-        share(4 * x.iter().map(Vec::len).sum::<usize>(), x.iter_mut().collect(), |x| {
-            let scale = size(x);
-            x.iter_mut().for_each(|v| *v /= scale);
+    pub(super) fn new(x: Vec<Vec<f64>>, mass: &Mass) -> Self {
+        let mut each: Vec<(Vec<f64>, bool)> = x.into_iter().map(|x| (x, true)).collect();
+        let numbers = each.iter().map(|(x, _)| x.len()).sum::<usize>();
+        share(4 * numbers, each.iter_mut().collect(), |(x, is_kept)| {
+            let size = x.iter().fold(0.0f64, |a, b| a.max(b.abs()));
+            *is_kept = size > 0.0 && x.iter().all(|v| v.is_finite());
+            x.iter_mut().for_each(|v| *v /= size);
         });
+        let x = each.into_iter().filter(|(_, is_kept)| *is_kept).map(|(x, _)| x).collect();
         let mut block = Self { x, ..Self::default() };
         block.look(mass);
         block.before.clone_from(&block.norms);
@@ -62,15 +82,17 @@ impl Block {
     }
 
     /// Images and norms anew.
-    pub(super) fn look(&mut self, mass: &Sparse) {
-        self.images = mass.symmetric_images(&self.x);
+    pub(super) fn look(&mut self, mass: &Mass) {
+        self.images = mass.images(&self.x);
         self.measure();
     }
 
     /// Norms anew.
     fn measure(&mut self) {
-        let product = |(x, m): (&Vec<f64>, &Vec<f64>)| dot(x, m).max(0.0).sqrt();
-        self.norms = self.x.iter().zip(&self.images).map(product).collect();
+        self.norms = vec![0.0; self.x.len()];
+        let operations = 2 * self.x.iter().map(Vec::len).sum::<usize>();
+        let each = self.norms.iter_mut().zip(self.x.iter().zip(&self.images));
+        share(operations, each.collect(), |(norm, (x, m))| *norm = dot(x, m).max(0.0).sqrt());
     }
 
     /// Keeps those whose norms now and at first are so.
@@ -112,7 +134,7 @@ impl Block {
     }
 
     /// Takes their shares in columns from `first` on out, and lets go of what has nothing left.
-    pub(super) fn project(&mut self, columns: &Columns, first: usize, mass: &Sparse) {
+    pub(super) fn project(&mut self, columns: &Columns, first: usize, mass: &Mass) {
         columns.take_out(first, &mut self.x, &self.images);
         self.look(mass);
         self.retain(|now, before| now > KEEP * before);
@@ -121,7 +143,7 @@ impl Block {
     /// The same in all columns. True where one of them has lost so much that it may still have shares in them; where none
     /// has, the images stay those of before. Products with them are right all the same, as what was taken out has none:
     /// (x − V s)ᵀ M x = (x − V s)ᵀ M (x − V s).
-    pub(super) fn project_again(&mut self, columns: &Columns, mass: &Sparse) -> bool {
+    pub(super) fn project_again(&mut self, columns: &Columns, mass: &Mass) -> bool {
         columns.take_out(0, &mut self.x, &self.images);
         let earlier = std::mem::take(&mut self.norms);
         self.measure();
@@ -163,14 +185,14 @@ impl Block {
     }
 
     /// Turns their images as they have been turned.
-    pub(super) fn turn_images(&mut self, turned: &Turned, mass: &Sparse) {
+    pub(super) fn turn_images(&mut self, turned: &Turned, mass: &Mass) {
         let norm = |j: usize| turned.upper.column(j).iter().map(|u| u * u).sum::<f64>();
         let is_clean = |j: usize| turned.upper[(j, j)].powi(2) > CLEAN * norm(j);
         if (0..self.x.len()).all(is_clean) {
             turn_each(&mut self.images, &turned.turn);
         } else {
             // The last digits of an image from which much was taken are gone.
-            self.images = mass.symmetric_images(&self.x);
+            self.images = mass.images(&self.x);
         }
     }
 

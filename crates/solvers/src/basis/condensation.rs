@@ -116,6 +116,20 @@ impl Condensation {
         }
     }
 
+    /// As [`gather`](Self::gather) and [`scatter`](Self::scatter), of a vector that nobody else needs.
+    pub(crate) fn gathered(&self, u: Vec<f64>) -> Vec<f64> {
+        if self.is_none() { u } else { self.gather(&u).into_owned() }
+    }
+
+    pub(crate) fn scattered(&self, kept: Vec<f64>) -> Vec<f64> {
+        if self.is_none() {
+            return kept;
+        }
+        let mut u = vec![0.0; self.order];
+        self.scatter(&kept, &mut u);
+        u
+    }
+
     /// The rows and columns of a matrix that are kept.
     pub(crate) fn block(&self, a: &Sparse) -> Sparse {
         match self.rest {

@@ -22,6 +22,7 @@ mod block;
 mod condensation;
 mod damping;
 mod drag;
+mod link_shapes;
 mod orthonormal;
 mod recursion;
 mod report;
@@ -220,30 +221,32 @@ impl Form {
     ) -> Result<Vec<RitzBasis>, SolveError> {
         let span = self.statics.out_of(&self.stiffness, span);
         let reduced = span.stiffness_of_vectors(&self.stiffness);
+        let sums = self.stiffness.row_sums();
+        let sums = span.rows().gather(&sums);
+        let bounds: Vec<f64> = span.vectors().map(|x| bound(x, &sums)).collect();
         let of = |count: &usize| {
             let (first, reduced) = (span.first(*count), reduced.leading(*count, *count));
-            self.modes_of(system, first, &reduced)
+            self.modes_of(system, first, &reduced, &sums, bounds[..*count].iter().sum())
         };
         counts.iter().map(of).collect()
     }
 
-    /// The same of vectors with their stiffness Vᵀ K V.
+    /// The same of vectors with their stiffness Vᵀ K V; `sums`: of the magnitudes in the rows of K that are kept, and
+    /// `most` what they bound the strain energies of all vectors together by.
     fn modes_of(
         &self,
         system: &System,
         vectors: Shapes,
         reduced: &Dense,
+        sums: &[f64],
+        most: f64,
     ) -> Result<RitzBasis, SolveError> {
         let Self { stiffness: k, effective, statics } = self;
         let (mut omega2, modes) = graded_modes(vectors, reduced, k)?;
-        let sums = k.row_sums();
-        let sums = modes.rows().gather(&sums);
-        let bound = |x: &[f64]| -> f64 { x.iter().zip(&*sums).map(|(x, s)| x * x * s).sum() };
         // Most modes need no closer look: none has more than what all together have.
-        let most: f64 = modes.vectors().map(bound).sum();
         let doubtful = omega2.iter().take_while(|w| **w <= DOUBT * ROUNDING * most).count();
         for (w, kept) in omega2[..doubtful].iter_mut().zip(modes.each_kept()) {
-            if w.abs() > DOUBT * ROUNDING * bound(&kept) {
+            if w.abs() > DOUBT * ROUNDING * bound(&kept, sums) {
                 continue;
             }
             let x = modes.rows().complete(&kept);
@@ -256,6 +259,11 @@ impl Form {
         let shapes = Arc::new(modes.beside(&statics.psi));
         Ok(RitzBasis { shapes, omega2, statics })
     }
+}
+
+/// What the sums of magnitudes in the rows of K bound xᵀ K x by.
+fn bound(x: &[f64], sums: &[f64]) -> f64 {
+    x.iter().zip(sums).map(|(x, s)| x * x * s).sum()
 }
 
 /// The structure with the user's effective stiffnesses, and without where there are any.

@@ -1,7 +1,7 @@
 //! M-orthonormal vectors under construction.
 
 use super::attachment::Following;
-use super::block::{Block, Turned};
+use super::block::{Block, Mass, Turned};
 use super::condensation::Condensation;
 use trilith_linalg::{Columns, Dense, Sparse};
 
@@ -30,7 +30,7 @@ pub(super) enum FrequencyCut {
 pub(super) struct OrthonormalBasis<'a> {
     rows: &'a Condensation,
     /// Of the rows that are kept.
-    mass: Sparse,
+    mass: Mass,
     /// The stiffness as a sum, and a bound of the sum of magnitudes in each of its rows that are kept: what follows
     /// from them takes from the strain energy.
     stiffness: &'a [(f64, &'a Sparse)],
@@ -59,7 +59,7 @@ impl<'a> OrthonormalBasis<'a> {
             let own = part.row_sums();
             sums.iter_mut().zip(own).for_each(|(sum, own)| *sum += factor.abs() * own);
         }
-        let (sums, mass) = (rows.gather(&sums).into_owned(), rows.block(mass));
+        let (sums, mass) = (rows.gather(&sums).into_owned(), Mass::new(rows.block(mass)));
         let columns = Columns::with_capacity(rows.kept(), most.min(rows.kept()));
         let (starts, left_out) = ([0; 3], Vec::new());
         Self { rows, mass, stiffness, sums, following, columns, starts, left_out }
@@ -95,8 +95,7 @@ impl<'a> OrthonormalBasis<'a> {
     }
 
     fn images<'b>(&self, x: impl Iterator<Item = &'b [f64]>) -> Vec<Vec<f64>> {
-        let x: Vec<Vec<f64>> = x.map(<[f64]>::to_vec).collect();
-        self.mass.symmetric_images(&x)
+        self.mass.images(&x.collect::<Vec<_>>())
     }
 
     /// Orthonormalises vectors, of which the rows that are kept are given, and takes them up until `count` are there, but
@@ -127,10 +126,8 @@ impl<'a> OrthonormalBasis<'a> {
                 later.extend(more);
             }
             later.extend(block.untangle().0);
-            for mut x in block.x {
-                self.place(&mut x);
-                self.columns.push(&x);
-            }
+            block.x.iter_mut().for_each(|x| self.place(x));
+            self.columns.extend(&block.x);
             block = later;
             block.look(&self.mass);
         }
@@ -149,6 +146,9 @@ impl<'a> OrthonormalBasis<'a> {
     /// what they have in common with it was taken out.
     fn leave_out_fast(&mut self, block: &mut Block, turned: &Turned) -> Block {
         let is_fast = |x: &Vec<f64>| {
+            if self.following.is_none() {
+                return self.is_too_fast(x);
+            }
             let mut x = x.clone();
             self.place(&mut x);
             self.is_too_fast(&x)

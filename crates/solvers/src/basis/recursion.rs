@@ -2,32 +2,24 @@
 
 use super::attachment::AttachmentVectors;
 use super::condensation::Condensation;
+use super::link_shapes::LinkShapes;
 use super::orthonormal::{FrequencyCut, Origin, OrthonormalBasis};
-use super::solvable::{BLOCK, Solvable};
+use super::solvable::{Solvable, block as together};
 use crate::vector::dot;
 use trilith_linalg::Dense;
-use trilith_system::System;
-
-/// Of a link coordinate and its static shape, what goes into the span.
-pub(super) type OfLink<'a> = dyn Fn(usize, &[f64]) -> Vec<f64> + 'a;
 
 /// Takes static shapes of links until `count` vectors are there, and returns their images under M.
 pub(super) fn beyond(
-    system: &System,
-    hat: &Solvable,
+    shapes: LinkShapes<'_>,
     span: &mut OrthonormalBasis<'_>,
-    beside: &OfLink<'_>,
     count: usize,
 ) -> Vec<Vec<f64>> {
     let first = span.len();
-    for block in system.links.active.chunks(BLOCK) {
+    for (_, block) in shapes.blocks(&shapes.system.links.active) {
         if span.len() >= count {
             break;
         }
-        hat.static_shapes(system, block, |shapes, _| {
-            let own = block.iter().zip(shapes).map(|(link, x)| beside(*link, x)).collect();
-            span.take_until(count, own, FrequencyCut::Modes);
-        });
+        span.take_until(count, shapes.of(block, |_| true).taken, FrequencyCut::Modes);
     }
     span.images_since(first)
 }
@@ -71,11 +63,12 @@ pub(super) fn recurse(
     count: usize,
     cut: FrequencyCut,
 ) -> Vec<Vec<f64>> {
+    let most = together(rows.order());
     while span.len() < count && !block.is_empty() {
         let mut next = Vec::new();
         span.next_block();
         while !block.is_empty() && span.len() < count {
-            let rest = block.split_off(block.len().min(count - span.len()).min(BLOCK));
+            let rest = block.split_off(block.len().min(count - span.len()).min(most));
             let solved = solved(rows, hat, statics, std::mem::take(&mut block));
             // Where the loads have shown all they can, what is left of a vector is rounding.
             let first = span.len();
@@ -95,16 +88,13 @@ fn solved(
     statics: &AttachmentVectors,
     block: Vec<Vec<f64>>,
 ) -> Vec<Vec<f64>> {
-    let order = rows.order();
-    let mut x = vec![0.0; order * block.len()];
-    x.chunks_mut(order).zip(&block).for_each(|(x, p)| rows.scatter(p, x));
-    drop(block);
+    let mut x: Vec<Vec<f64>> = block.into_iter().map(|p| rows.scattered(p)).collect();
     let p = if statics.len() > 0 { x.clone() } else { Vec::new() };
-    hat.factor.solve(&mut x);
-    for (p, x) in p.chunks(order).zip(x.chunks_mut(order)) {
+    hat.factor.solve_each(&mut x);
+    for (p, x) in p.iter().zip(&mut x) {
         statics.out_of_answer(|psi| dot(psi, p), x);
     }
-    x.chunks(order).map(|x| rows.gather(x).into_owned()).collect()
+    x.into_iter().map(|x| rows.gathered(x)).collect()
 }
 
 /// Takes what the vectors that are there set in motion, K̂⁻¹ M V, until `count` vectors are there or nothing new comes: sums of
@@ -117,10 +107,10 @@ pub(super) fn following(
     count: usize,
 ) {
     let known = span.len();
-    let mut signs = Signs(SEED);
-    for start in (0..known).step_by(BLOCK) {
+    let (mut signs, most) = (Signs(SEED), together(rows.order()));
+    for start in (0..known).step_by(most) {
         let there = span.len();
-        let width = BLOCK.min(known - start).min(count - there);
+        let width = most.min(known - start).min(count - there);
         if width == 0 {
             break;
         }

@@ -69,17 +69,18 @@ pub(super) fn report(
     });
     let basis = &bases.structural;
     let phi = &*basis.shapes;
-    let mass = |axis: usize| -> Vec<f64> {
-        let total = system.mass_along(axis);
-        let shares = phi.load(&system.inertia[axis]);
-        shares[..m].iter().map(|l| if total > 0.0 { l * l / total } else { 0.0 }).collect()
+    let inertia = Dense::from_columns(system.order(), 3, system.inertia.concat());
+    let shares = phi.loads(&inertia);
+    let totals = [0, 1, 2].map(|axis| system.mass_along(axis));
+    let mass = |mode: usize, axis: usize| {
+        let total = totals[axis];
+        if total > 0.0 { shares[(mode, axis)].powi(2) / total } else { 0.0 }
     };
-    let [x, y, z] = [mass(0), mass(1), mass(2)];
     BasisReport {
         vectors: m,
         static_shapes: bases.stepping.statics(),
         omega: basis.omega2.iter().map(|w| w.max(0.0).sqrt()).collect(),
-        mass_participation: (0..m).map(|j| [x[j], y[j], z[j]]).collect(),
+        mass_participation: (0..m).map(|j| [0, 1, 2].map(|axis| mass(j, axis))).collect(),
         static_participation,
         adequacy,
         shapes: shapes(model, system, basis),
@@ -88,12 +89,12 @@ pub(super) fn report(
 
 /// The lowest modes that deform the structure, at its nodes.
 fn shapes(model: &Model, system: &System, basis: &RitzBasis) -> Vec<ModeShape> {
-    let bends = basis.omega2.iter().enumerate().filter(|(_, w)| **w > 0.0).take(SHAPES);
-    let shape = |mode: usize| {
-        let displacements = at_nodes(model, system, &basis.shapes.column(mode));
-        ModeShape { mode, displacements }
-    };
-    bends.map(|(mode, _)| shape(mode)).collect()
+    // They rise: those that bend stand together.
+    let first = basis.omega2.iter().position(|w| *w > 0.0).unwrap_or(basis.modes());
+    let bends = first..basis.modes().min(first + SHAPES);
+    let shapes = bends.clone().zip(basis.shapes.some(bends));
+    let at_nodes = |x: &[f64]| at_nodes(model, system, x);
+    shapes.map(|(mode, x)| ModeShape { mode, displacements: at_nodes(&x) }).collect()
 }
 
 /// Displacements of the free DOFs as six of every node, node after node. Supports stand still.

@@ -3,6 +3,7 @@
 use super::Demands;
 use super::attachment::{AttachmentVectors, Following};
 use super::condensation::Condensation;
+use super::link_shapes::{LinkShapes, OfLinks};
 use super::orthonormal::{FrequencyCut, Origin, OrthonormalBasis};
 use super::recursion::{Fast, beyond, following, recurse};
 use super::shapes::Shapes;
@@ -10,6 +11,7 @@ use super::solvable::Solvable;
 use crate::error::SolveError;
 use crate::vector::dot;
 use std::sync::Arc;
+use trilith_linalg::threads::beside;
 use trilith_linalg::{Dense, Sparse, lowest_modes};
 use trilith_model::{Basis, BasisKind};
 use trilith_system::System;
@@ -45,8 +47,7 @@ pub(super) fn enriched(
     let fast = Fast { left: Vec::new(), block: Vec::new() };
     let mut growing =
         Growing { system, rows: &rows, hat, statics: &statics, stiffness: &stiffness, span, fast };
-    let left = growing.of_loads(settings, demands, &parts, &sizes)?;
-    let known = growing.of_links(settings, &sizes);
+    let (left, known) = growing.of_loads_and_links(settings, demands, &parts, &sizes)?;
     if settings.vectors.is_some() {
         // So many were asked for, by the user or by an error that fewer made.
         growing.go_on_fast(sizes.total);
@@ -114,10 +115,15 @@ struct Left {
     starts: Vec<Vec<f64>>,
 }
 
-impl Growing<'_> {
+impl<'a> Growing<'a> {
     /// The rows of a vector that are kept.
     fn own(&self, u: &[f64]) -> Vec<f64> {
         self.rows.gather(u).into_owned()
+    }
+
+    fn shapes(&self) -> LinkShapes<'a> {
+        let Self { system, rows, hat, statics, .. } = *self;
+        LinkShapes { system, rows, hat, statics }
     }
 
     /// The lowest modes.
@@ -178,30 +184,41 @@ impl Growing<'_> {
         Ok(Left { block, modes, starts })
     }
 
-    /// One static vector for each link coordinate, as far as there is room; the flexibility of each where somebody asks.
-    fn of_links(&mut self, settings: &Basis, sizes: &Sizes) -> Option<Vec<f64>> {
-        let Self { system, rows, hat, statics, span, .. } = self;
-        let links = links(system, settings);
-        let mut known = Vec::with_capacity(links.len());
+    /// What loads and starts set in motion, and behind it one static vector for each link coordinate, as far as there is
+    /// room; the flexibility of each link where somebody asks.
+    fn of_loads_and_links(
+        &mut self,
+        settings: &Basis,
+        demands: &Demands,
+        parts: &[(f64, &Sparse)],
+        sizes: &Sizes,
+    ) -> Result<(Left, Option<Vec<f64>>), SolveError> {
+        let (shapes, links) = (self.shapes(), links(self.system, settings));
         // Where there is no room for all, those taken are spread over all.
         let of_links = sizes.of_links;
         let is_taken = |i: usize| (i + 1) * of_links / links.len() > i * of_links / links.len();
-        hat.static_shapes(system, links, |shapes, flexibility| {
-            if span.len() < sizes.total {
-                let taken = (known.len()..).zip(shapes).filter(|(i, _)| is_taken(*i));
-                let own = taken.map(|(i, x)| beside(system, rows, statics, links[i], x)).collect();
-                span.take_until(sizes.total, own, FrequencyCut::Modes);
-            }
-            known.extend_from_slice(flexibility);
-        });
-        (settings.adequacy > 0.0).then_some(known)
+        let of = |(first, block): (usize, &[usize])| shapes.of(block, |i| is_taken(first + i));
+        let mut found: Vec<_> = shapes.blocks(links).map(|block| (block, None)).collect();
+        // A chain of single vectors leaves other threads nothing to do, and shapes of links do not wait for it.
+        let left = if demands.count() == 1 && links.len() > sizes.ground {
+            let pieces = found.iter_mut().collect();
+            let of_loads = || self.of_loads(settings, demands, parts, sizes);
+            beside(of_loads, pieces, |(block, found)| *found = Some(of(*block)))?
+        } else {
+            self.of_loads(settings, demands, parts, sizes)?
+        };
+        let mut known = Vec::with_capacity(links.len());
+        for (block, found) in found {
+            let OfLinks { taken, flexibility } = found.unwrap_or_else(|| of(block));
+            self.span.take_until(sizes.total, taken, FrequencyCut::Modes);
+            known.extend(flexibility);
+        }
+        Ok((left, (settings.adequacy > 0.0).then_some(known)))
     }
 
     /// Static shapes of links until `count` vectors are there; returns their images under M.
     fn more_links(&mut self, count: usize) -> Vec<Vec<f64>> {
-        let Self { system, rows, hat, statics, span, .. } = self;
-        let beside = |i: usize, x: &[f64]| beside(system, rows, statics, i, x);
-        beyond(system, hat, span, &beside, count)
+        beyond(self.shapes(), &mut self.span, count)
     }
 
     /// The next vectors of the same sequence, behind the `count` that are there.
@@ -250,20 +267,6 @@ impl Growing<'_> {
         }
         Ok(())
     }
-}
-
-/// The static shape of a link coordinate without what static shapes beside the modes hold of it; the rows that are kept.
-fn beside(
-    system: &System,
-    rows: &Condensation,
-    statics: &AttachmentVectors,
-    link: usize,
-    x: &[f64],
-) -> Vec<f64> {
-    let row = &system.links.rows[link];
-    let mut x = x.to_vec();
-    statics.out_of_answer(|psi| row.iter().map(|(j, c)| c * psi[*j]).sum(), &mut x);
-    rows.gather(&x).into_owned()
 }
 
 /// The first `count` of all vectors, and all of them where they are more.

@@ -120,11 +120,10 @@ impl Shapes {
         if self.rows.is_none() { u } else { self.rows.complete(&u) }
     }
 
-    /// One of them.
-    pub(crate) fn column(&self, j: usize) -> Vec<f64> {
-        let mut q = vec![0.0; self.len()];
-        q[j] = 1.0;
-        self.expand(&q)
+    /// Some modes, found together.
+    pub(crate) fn some(&self, modes: std::ops::Range<usize>) -> Vec<Vec<f64>> {
+        let kept = self.kept(modes);
+        (0..kept.columns()).map(|j| self.rows.complete(kept.column(j))).collect()
     }
 
     /// The modes, one after the other.

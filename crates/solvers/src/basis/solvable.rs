@@ -8,8 +8,10 @@ use trilith_system::System;
 
 /// A pivot below this share of its diagonal is rounding: nothing holds the equation.
 pub(super) const PIVOT: f64 = 1e-11;
-/// Right-hand sides solved together.
-pub(super) const BLOCK: usize = 16;
+/// Vectors found together: as many as fit into so many bytes, and between these.
+const TOGETHER: usize = 64 << 20;
+const FEW: usize = 16;
+const MANY: usize = 32;
 /// Automatic effective stiffnesses as a share of the engaged stiffness of a link.
 const DUMMY_SHARE: f64 = 1e-3;
 
@@ -29,6 +31,12 @@ pub(super) struct Solvable {
 pub(super) struct Flexibility {
     pub(super) loads: Vec<f64>,
     pub(super) links: Vec<f64>,
+}
+
+/// How many vectors of so many equations are found together: products of many with all before them take half the time of
+/// those of few, but all of them lie in memory.
+pub(super) fn block(order: usize) -> usize {
+    (TOGETHER / (size_of::<f64>() * order.max(1))).clamp(FEW, MANY)
 }
 
 impl Solvable {
@@ -56,36 +64,31 @@ impl Solvable {
         });
         let loads = of_loads.collect();
         let links = known.unwrap_or_else(|| {
-            let mut links = Vec::new();
-            self.static_shapes(system, &system.links.active, |_, flexibility| {
-                links.extend_from_slice(flexibility);
-            });
-            links
+            let blocks = system.links.active.chunks(block(system.order()));
+            blocks.flat_map(|block| self.static_shapes(system, block).1).collect()
         });
         Flexibility { loads, links }
     }
 
-    /// K̂⁻¹ bᵀ of link coordinates, and b of them: of some at once, in order.
+    /// K̂⁻¹ bᵀ of some link coordinates, and b of them.
     pub(super) fn static_shapes(
         &self,
         system: &System,
-        flat: &[usize],
-        mut visit: impl FnMut(std::slice::Chunks<'_, f64>, &[f64]),
-    ) {
-        let order = system.order();
-        for block in flat.chunks(BLOCK) {
-            let rows = || block.iter().map(|flat| &system.links.rows[*flat]);
-            let mut shapes = vec![0.0; order * block.len()];
-            for (column, row) in shapes.chunks_mut(order).zip(rows()) {
-                row.iter().for_each(|(i, c)| column[*i] += c);
-            }
-            self.factor.solve(&mut shapes);
-            let along = |(x, row): (&[f64], &Vec<(usize, f64)>)| -> f64 {
-                row.iter().map(|(i, c)| c * x[*i]).sum()
-            };
-            let flexibility: Vec<f64> = shapes.chunks(order).zip(rows()).map(along).collect();
-            visit(shapes.chunks(order), &flexibility);
-        }
+        block: &[usize],
+    ) -> (Vec<Vec<f64>>, Vec<f64>) {
+        let rows = || block.iter().map(|flat| &system.links.rows[*flat]);
+        let force = |row: &Vec<(usize, f64)>| {
+            let mut p = vec![0.0; system.order()];
+            row.iter().for_each(|(i, c)| p[*i] += c);
+            p
+        };
+        let mut shapes: Vec<Vec<f64>> = rows().map(force).collect();
+        self.factor.solve_each(&mut shapes);
+        let along = |(x, row): (&Vec<f64>, &Vec<(usize, f64)>)| -> f64 {
+            row.iter().map(|(i, c)| c * x[*i]).sum()
+        };
+        let flexibility = shapes.iter().zip(rows()).map(along).collect();
+        (shapes, flexibility)
     }
 }
 
