@@ -79,13 +79,14 @@ impl InnerRows {
             let e = &model.elements[*element];
             let Some(own) = sparse(e) else { continue };
             let (mut rigid, mut of_mass) = (vec![[0.0; 6]; own.rows.len()], Ok(None));
-            let other = meanwhile.take();
-            // The first two factorise a matrix of all rows.
+            let (other, mut of_other) = (meanwhile.take(), None);
+            // Stiffness and mass are factorised.
             let jobs: Vec<Box<dyn FnOnce() + Send + '_>> = vec![
                 Box::new(|| of_mass = own.mass.as_deref().map(negative).transpose()),
-                Box::new(|| done = other.map(|work| work()).or(done.take())),
+                Box::new(|| of_other = other.map(|work| work())),
             ];
             let loose = beside(|| follow(model, e, own, &mut rigid), jobs, |job| job());
+            done = done.or(of_other);
             let loose = loose?.map_err(|reason| refused(e, reason))?;
             if let Some(row) = of_mass?.flatten() {
                 return Err(refused(e, indefinite("mass", own.mass.as_deref(), row)));

@@ -15,7 +15,6 @@ pub(super) struct LinkShapes<'a> {
 }
 
 /// A block of link coordinates on the way into a basis.
-#[derive(Default)]
 pub(super) struct OfLinks {
     /// b K̂⁻¹ bᵀ of each.
     pub(super) flexibility: Vec<f64>,

@@ -89,12 +89,15 @@ pub(super) fn report(
 
 /// The lowest modes that deform the structure, at its nodes.
 fn shapes(model: &Model, system: &System, basis: &RitzBasis) -> Vec<ModeShape> {
-    // They rise: those that bend stand together.
-    let first = basis.omega2.iter().position(|w| *w > 0.0).unwrap_or(basis.modes());
-    let bends = first..basis.modes().min(first + SHAPES);
-    let shapes = bends.clone().zip(basis.shapes.some(bends));
-    let at_nodes = |x: &[f64]| at_nodes(model, system, x);
-    shapes.map(|(mode, x)| ModeShape { mode, displacements: at_nodes(&x) }).collect()
+    let bends = basis.omega2.iter().enumerate().filter(|(_, w)| **w > 0.0).take(SHAPES);
+    let bends: Vec<usize> = bends.map(|(mode, _)| mode).collect();
+    let [Some(first), Some(last)] = [bends.first(), bends.last()] else { return Vec::new() };
+    let all = basis.shapes.some(*first..last + 1);
+    let shape = |mode: usize| {
+        let displacements = at_nodes(model, system, &all[mode - first]);
+        ModeShape { mode, displacements }
+    };
+    bends.iter().map(|mode| shape(*mode)).collect()
 }
 
 /// Displacements of the free DOFs as six of every node, node after node. Supports stand still.

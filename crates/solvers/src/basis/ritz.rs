@@ -200,7 +200,8 @@ impl<'a> Growing<'a> {
         let of = |(first, block): (usize, &[usize])| shapes.of(block, |i| is_taken(first + i));
         let mut found: Vec<_> = shapes.blocks(links).map(|block| (block, None)).collect();
         // A chain of single vectors leaves other threads nothing to do, and shapes of links do not wait for it.
-        let left = if demands.count() == 1 && links.len() > sizes.ground {
+        let is_chain = settings.kind != BasisKind::Eigen && demands.count() == 1;
+        let left = if is_chain && links.len() > sizes.ground {
             let pieces = found.iter_mut().collect();
             let of_loads = || self.of_loads(settings, demands, parts, sizes);
             beside(of_loads, pieces, |(block, found)| *found = Some(of(*block)))?
