@@ -59,33 +59,31 @@ impl Reduction {
             let dofs = dofs.chain([row.dependent]);
             refuse_lever(model, &turning, row.element, dofs, |full| fixed[full])?;
         }
-        let mut dependent: BTreeMap<usize, Vec<(usize, f64)>> = BTreeMap::new();
-        for row in &rows {
-            let own = [(row.dependent, 1.0)];
-            let sum = collected(own.into_iter().chain(row.terms.iter().map(|(i, c)| (*i, -c))));
-            let sum = substitute(sum, &dependent);
-            let left: Vec<(usize, f64)> = sum
-                .into_iter()
-                .filter(|(i, c)| c.abs() > 1e-12 && (!fixed[*i] || prescribed_at[*i]))
-                .collect();
-            if left.is_empty() {
-                continue;
-            }
-            let candidates = || left.iter().filter(|(i, _)| !prescribed_at[*i]);
-            let pivot = candidates()
-                .find(|(i, _)| *i == row.dependent)
-                .or_else(|| candidates().max_by(|a, b| a.1.abs().total_cmp(&b.1.abs())));
-            let Some(&(p, c)) = pivot else {
-                let e = &model.elements[row.element];
-                return Err(SystemError::Overdetermined {
-                    element: e.name.clone(),
-                    span: e.span.clone(),
-                });
-            };
-            let rest = left.iter().filter(|(i, _)| *i != p).map(|(i, x)| (*i, -x / c)).collect();
-            dependent.insert(p, rest);
-        }
+        let dependent = eliminated(model, &rows, &fixed, Leading::Always(&prescribed_at))?;
         Ok(Self::number(count, used, &fixed, &prescribed_at, &dependent))
+    }
+
+    /// Eliminates by what the elements that are flagged say, as if the model had no others and no supports. Directions that
+    /// are `kept` lead the others, and are counted as prescribed ones are; one follows others where all that an equation
+    /// ties are kept.
+    pub(crate) fn of_part(
+        model: &Model,
+        inner: &InnerRows,
+        flags: &[bool],
+        kept: impl Fn(usize) -> bool,
+        used: &mut [bool],
+    ) -> Result<Self, SystemError> {
+        let mut rows = constraint_rows(model)?;
+        rows.extend(recovered_rows(model, inner));
+        rows.retain(|row| flags[row.element]);
+        spread_use(&rows, used);
+        let mut fixed = vec![false; used.len()];
+        fix_out_of_plane(model, inner, &mut fixed);
+        let kept: Vec<bool> =
+            (0..used.len()).map(|full| used[full] && !fixed[full] && kept(full)).collect();
+        fixed.iter_mut().zip(&kept).for_each(|(fixed, kept)| *fixed |= kept);
+        let dependent = eliminated(model, &rows, &fixed, Leading::Rather(&kept))?;
+        Ok(Self::number(used.len(), used, &fixed, &kept, &dependent))
     }
 
     fn number(
@@ -97,7 +95,8 @@ impl Reduction {
     ) -> Self {
         let free: Vec<usize> =
             (0..count).filter(|i| used[*i] && !fixed[*i] && !dependent.contains_key(i)).collect();
-        let prescribed: Vec<usize> = (0..count).filter(|i| prescribed_at[*i]).collect();
+        let leads = |i: &usize| prescribed_at[*i] && !dependent.contains_key(i);
+        let prescribed: Vec<usize> = (0..count).filter(leads).collect();
         let mut place = vec![usize::MAX; count];
         for (new, old) in free.iter().chain(&prescribed).enumerate() {
             place[*old] = new;
@@ -136,6 +135,56 @@ impl Reduction {
     pub fn expand(&self, full: usize) -> &[(usize, f64)] {
         &self.terms[self.offsets[full]..self.offsets[full + 1]]
     }
+}
+
+/// Directions that lead others.
+#[derive(Clone, Copy)]
+enum Leading<'a> {
+    /// They follow nothing.
+    Always(&'a [bool]),
+    /// They follow where an equation ties no others.
+    Rather(&'a [bool]),
+}
+
+/// What follows what: each equation makes one direction follow the others in it, the one that it names where that is
+/// free to.
+fn eliminated(
+    model: &Model,
+    rows: &[Row],
+    fixed: &[bool],
+    leading: Leading<'_>,
+) -> Result<BTreeMap<usize, Vec<(usize, f64)>>, SystemError> {
+    let (Leading::Always(leads) | Leading::Rather(leads)) = leading;
+    let mut dependent: BTreeMap<usize, Vec<(usize, f64)>> = BTreeMap::new();
+    for row in rows {
+        let own = [(row.dependent, 1.0)];
+        let sum = collected(own.into_iter().chain(row.terms.iter().map(|(i, c)| (*i, -c))));
+        let sum = substitute(sum, &dependent);
+        let left: Vec<(usize, f64)> =
+            sum.into_iter().filter(|(i, c)| c.abs() > 1e-12 && (!fixed[*i] || leads[*i])).collect();
+        if left.is_empty() {
+            continue;
+        }
+        let one_of = |may: &dyn Fn(usize) -> bool| {
+            let candidates = || left.iter().filter(|(i, _)| may(*i));
+            let named = candidates().find(|(i, _)| *i == row.dependent);
+            named.or_else(|| candidates().max_by(|a, b| a.1.abs().total_cmp(&b.1.abs())))
+        };
+        let pivot = one_of(&|i| !leads[i]).or_else(|| match leading {
+            Leading::Always(_) => None,
+            Leading::Rather(_) => one_of(&|_| true),
+        });
+        let Some(&(p, c)) = pivot else {
+            let e = &model.elements[row.element];
+            return Err(SystemError::Overdetermined {
+                element: e.name.clone(),
+                span: e.span.clone(),
+            });
+        };
+        let rest = left.iter().filter(|(i, _)| *i != p).map(|(i, x)| (*i, -x / c)).collect();
+        dependent.insert(p, rest);
+    }
+    Ok(dependent)
 }
 
 fn constraint_rows(model: &Model) -> Result<Vec<Row>, SystemError> {
@@ -265,6 +314,11 @@ fn fixed_dofs(model: &Model, inner: &InnerRows, count: usize) -> Vec<bool> {
             fixed[6 * support.node + i] |= f;
         }
     }
+    fix_out_of_plane(model, inner, &mut fixed);
+    fixed
+}
+
+fn fix_out_of_plane(model: &Model, inner: &InnerRows, fixed: &mut [bool]) {
     if let Some(plane) = model.plane {
         let stay = plane.dofs().map(|d| d.index());
         for (i, f) in fixed.iter_mut().enumerate() {
@@ -272,7 +326,6 @@ fn fixed_dofs(model: &Model, inner: &InnerRows, count: usize) -> Vec<bool> {
             *f |= inner.dof(i).is_some_and(|dof| !stay.contains(&dof.index()));
         }
     }
-    fixed
 }
 
 /// Terms by rising DOF, those of one DOF added up in their order.

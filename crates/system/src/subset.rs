@@ -1,8 +1,8 @@
-//! Some of the linear elements of a model by themselves, on the directions that they use: no supports, no constraints.
+//! Some of the linear elements and constraints of a model by themselves, on the directions that they use: no supports.
 
 use crate::assemble::{element_matrices, full_entries};
 use crate::inner::sparse;
-use crate::{System, SystemError};
+use crate::{Reduction, System, SystemError};
 use trilith_element::Dof;
 use trilith_linalg::{Sparse, Triplets};
 use trilith_model::{Body, Model};
@@ -10,11 +10,13 @@ use trilith_model::{Body, Model};
 /// A share of ‖K‖ ‖r‖ below which K r is rounding, as for files of matrices.
 const ROUNDING: f64 = 1e-6;
 
-/// Matrices of some of the linear elements.
+/// Matrices of some of the linear elements, and what follows them by constraints.
 #[derive(Debug)]
 pub struct Subset {
     /// The full DOF of each row, rising: 6 · node + direction, and behind those of all nodes inner rows.
     pub full: Vec<usize>,
+    /// Full DOFs that follow rows by constraints, rising: shares of rows.
+    pub following: Vec<(usize, Vec<(usize, f64)>)>,
     /// K, with the geometric stiffness of the axial forces that the system has.
     pub stiffness: Sparse,
     /// M, inertances apart.
@@ -24,34 +26,50 @@ pub struct Subset {
 }
 
 impl System {
-    /// The matrices of the elements that are flagged, by their order in the model. Directions out of the plane of a
-    /// model with one are left out.
+    /// The matrices of the elements that are flagged, by their order in the model; constraints among them are
+    /// eliminated, so that nodes that are kept follow each other alone. Directions out of the plane of a model with one are
+    /// left out.
     ///
     /// # Errors
     /// [`SystemError`] where an element has no matrices.
-    pub fn subset(&self, model: &Model, flags: &[bool]) -> Result<Subset, SystemError> {
-        let mut used = vec![false; 6 * model.nodes.len() + self.inner.len()];
+    pub fn subset(
+        &self,
+        model: &Model,
+        flags: &[bool],
+        kept: &[bool],
+    ) -> Result<Subset, SystemError> {
+        let count = 6 * model.nodes.len() + self.inner.len();
+        let mut used = vec![false; count];
         let wanted = |element: usize| flags.get(element).copied().unwrap_or(false);
         let entries = full_entries(model, &self.tension, &self.inner, &mut used, wanted)?;
-        let stays = |full: &usize| match (model.plane, self.inner.dof(*full)) {
-            (Some(plane), Some(dof)) => plane.dofs().contains(&dof),
-            _ => true,
-        };
-        let full: Vec<usize> = (0..used.len()).filter(|i| used[*i]).filter(stays).collect();
-        let mut place = vec![usize::MAX; used.len()];
-        full.iter().enumerate().for_each(|(new, old)| place[*old] = new);
+        let is_kept = |full: usize| self.inner.node(full).is_some_and(|node| kept[node]);
+        let reduction = Reduction::of_part(model, &self.inner, flags, is_kept, &mut used)?;
+        // Those that are kept stand among the others.
+        let all: Vec<usize> = reduction.free.iter().chain(&reduction.prescribed).copied().collect();
+        let mut full = all.clone();
+        full.sort_unstable();
+        let row_of = |full_dof: usize| full.binary_search(&full_dof).ok();
+        let rows: Vec<usize> = all.iter().filter_map(|i| row_of(*i)).collect();
         let matrix = |all: &Triplets| {
             let mut own = Triplets::new(full.len(), full.len());
             for (i, j, value) in all.entries() {
-                if place[i] != usize::MAX && place[j] != usize::MAX {
-                    own.add(place[i], place[j], value);
+                for (row, a) in reduction.expand(i) {
+                    for (column, b) in reduction.expand(j) {
+                        own.add(rows[*row], rows[*column], value * (a * b));
+                    }
                 }
             }
             own.build()
         };
         let [stiffness, mass, damping] =
             [&entries.stiffness, &entries.mass, &entries.damping].map(matrix);
-        Ok(Subset { full, stiffness, mass, damping })
+        let follows = |i: usize| {
+            let terms = reduction.expand(i);
+            let terms = terms.iter().map(|(index, share)| (rows[*index], *share));
+            (used[i] && row_of(i).is_none()).then(|| (i, terms.collect()))
+        };
+        let following = (0..count).filter_map(follows).collect();
+        Ok(Subset { full, following, stiffness, mass, damping })
     }
 
     /// True for an element whose stiffness or damping resists when all of it moves along an axis: it stands on the

@@ -125,6 +125,40 @@ fn with_all_modes_the_reduced_model_is_the_whole_one() {
     }
 }
 
+/// The tower with floors that are stiff along X, a tank on a rigid bracket, and a foot that turns with the node above it:
+/// what stays leads what does not, whichever the constraint names.
+fn tied() -> String {
+    let mut ties = String::new();
+    for j in 1..=STOREYS {
+        let _ = write!(ties, "\"t{j}\": EqualDof(nodes: (\"n0{j}\", \"n1{j}\"), dofs: (Ux)), ");
+    }
+    let bracket = r#""bracket": RigidLink(nodes: ("n12", "tank")), "water": Mass(node: "tank", mass: "12 t", inertia: (0, 3000, 0)), "#;
+    let foot = r#""foot turns": EqualDof(nodes: ("n11", "n10"), dofs: (Ry)), "#;
+    tower(RAYLEIGH)
+        .replace("\"foot\": (-1", "\"tank\": (4.5, 0, 7), \"foot\": (-1")
+        .replace("\"mast\": Beam", &format!("{ties}{bracket}{foot}\"mast\": Beam"))
+        .replace("\"tower\": [", "\"tower\": [\"t*\", \"bracket\", \"water\", \"foot turns\", ")
+        .replace("\"shear\"", "\"tank\": Displacement(node: \"tank\", dof: Uz), \"shear\"")
+}
+
+#[test]
+fn constraints_of_the_part_are_in_its_matrices() {
+    let whole = parse(&tied(), &[]);
+    let keep = Request { keep: Some(vec!["n13".into()]), ..request(FixedModes::All) };
+    for request in [keep, request(FixedModes::All)] {
+        let few = reduced(&tied(), &request);
+        assert!(few.0.elements.iter().all(|e| !["EqualDof", "RigidLink"].contains(&e.kind)));
+        assert_eq!(few.1.order(), whole.1.order());
+        let [own, other] = [&whole, &few].map(|(m, s)| s.mass_sum(m));
+        assert!((own.mass[0] / other.mass[0] - 1.0).abs() < 1e-12);
+        let [a, b] = [&whole, &few].map(|(m, s)| trilith_solvers::frequencies(m, s, 12).unwrap());
+        for (x, y) in a.iter().zip(&b) {
+            assert!((x / y - 1.0).abs() < 1e-9, "{x} and {y} Hz");
+        }
+        peaks_agree(&whole, &few, 1e-8);
+    }
+}
+
 #[test]
 fn few_modes_keep_mass_and_weight_and_come_close() {
     let whole = parse(&tower(RAYLEIGH), &[]);

@@ -24,15 +24,13 @@ pub enum ReduceError {
     Nothing,
     /// An element that is no linear one.
     #[error(
-        "\"{element}\" is a {kind}, which is a {what}: only linear elements are reduced, and links, bodies and constraints stay outside of the part"
+        "\"{element}\" is a {kind}, which is a link: only linear elements and constraints are reduced, and links and bodies stay outside of the part"
     )]
     NotLinear {
         /// Its name.
         element: String,
         /// Its kind.
         kind: &'static str,
-        /// `link` or `constraint`.
-        what: &'static str,
     },
     /// An element that stands on the ground by itself.
     #[error(

@@ -116,7 +116,7 @@ pub fn reduce<'a>(
     request: &Request,
 ) -> Result<Reduced<'a>, ReduceError> {
     let part = Part::new(model, system, request)?;
-    let own = system.subset(model, &part.elements)?;
+    let own = system.subset(model, &part.elements, &part.kept)?;
     let node_of = |full: usize| system.inner.node(full);
     let is = |flags: &[bool], full: usize| node_of(full).is_some_and(|node| flags[node]);
     let rows: Vec<usize> = (0..own.full.len()).filter(|i| is(&part.kept, own.full[*i])).collect();
@@ -150,8 +150,13 @@ pub fn reduce<'a>(
     for row in inner {
         let full = own.full[row];
         let label = label(node_of(full).unwrap_or_default(), &mut nodes);
-        let shares = (0..cb.shapes.columns()).map(|j| (j, cb.shapes[(row, j)]));
-        followed.push((label, dof(full), shares.filter(|(_, x)| *x != 0.0).collect()));
+        followed.push((label, dof(full), shares(&cb, &[(row, 1.0)])));
+    }
+    // Directions of kept nodes as well, which follow others that are kept.
+    let is_told = |full: usize| is(&part.recovered, full) || is(&part.kept, full);
+    for (full, terms) in own.following.iter().filter(|(full, _)| is_told(*full)) {
+        let label = label(node_of(*full).unwrap_or_default(), &mut nodes);
+        followed.push((label, dof(*full), shares(&cb, terms)));
     }
     let shares: usize = followed.iter().map(|(.., all)| all.len()).sum();
     if shares > MOST_SHARES {
@@ -185,6 +190,12 @@ pub fn reduce<'a>(
         inner_mass,
         without_elements: part.elements,
     })
+}
+
+/// What a sum of rows moves by, in shares of all coordinates.
+fn shares(cb: &CraigBampton, terms: &[(usize, f64)]) -> Vec<(usize, f64)> {
+    let at = |j: usize| terms.iter().map(|(row, c)| c * cb.shapes[(*row, j)]).sum::<f64>();
+    (0..cb.shapes.columns()).map(|j| (j, at(j))).filter(|(_, x)| *x != 0.0).collect()
 }
 
 /// An error of the matrices in the words of the model.

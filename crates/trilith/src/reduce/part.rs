@@ -104,13 +104,8 @@ fn named_nodes(model: &Model, names: &[String]) -> Result<Vec<usize>, ReduceErro
 fn sound(model: &Model, system: &System, flags: &[bool]) -> Result<(), ReduceError> {
     for (i, e) in model.elements.iter().enumerate().filter(|(i, _)| flags[*i]) {
         let element = e.name.clone();
-        let what = match e.body {
-            Body::Linear(_) => None,
-            Body::Link(..) => Some("link"),
-            Body::Constraint(_) => Some("constraint"),
-        };
-        if let Some(what) = what {
-            return Err(ReduceError::NotLinear { element, kind: e.kind, what });
+        if matches!(e.body, Body::Link(..)) {
+            return Err(ReduceError::NotLinear { element, kind: e.kind });
         }
         if system.stands_on_ground(model, i) {
             return Err(ReduceError::OnGround { element });
