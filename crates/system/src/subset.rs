@@ -63,10 +63,11 @@ impl System {
         };
         let [stiffness, mass, damping] =
             [&entries.stiffness, &entries.mass, &entries.damping].map(matrix);
+        // Directions out of the plane have no terms.
         let follows = |i: usize| {
             let terms = reduction.expand(i);
-            let terms = terms.iter().map(|(index, share)| (rows[*index], *share));
-            (used[i] && row_of(i).is_none()).then(|| (i, terms.collect()))
+            let own = || terms.iter().map(|(index, share)| (rows[*index], *share)).collect();
+            (used[i] && !terms.is_empty() && row_of(i).is_none()).then(|| (i, own()))
         };
         let following = (0..count).filter_map(follows).collect();
         Ok(Subset { full, following, stiffness, mass, damping })

@@ -149,6 +149,7 @@ fn constraints_of_the_part_are_in_its_matrices() {
         let few = reduced(&tied(), &request);
         assert!(few.0.elements.iter().all(|e| !["EqualDof", "RigidLink"].contains(&e.kind)));
         assert_eq!(few.1.order(), whole.1.order());
+        assert_eq!(few.1.inner.doubts, Vec::<String>::new());
         let [own, other] = [&whole, &few].map(|(m, s)| s.mass_sum(m));
         assert!((own.mass[0] / other.mass[0] - 1.0).abs() < 1e-12);
         let [a, b] = [&whole, &few].map(|(m, s)| trilith_solvers::frequencies(m, s, 12).unwrap());
