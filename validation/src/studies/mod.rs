@@ -38,5 +38,5 @@ pub fn all() -> Vec<Study> {
 /// Studies that need another program, or what is missing.
 #[must_use]
 pub fn with_programs() -> Vec<Item> {
-    vec![opensees::item(), opensees::exported::item()]
+    vec![opensees::item(), opensees::exported::item(), opensees::imported::item()]
 }

@@ -23,6 +23,7 @@ mod tcl;
 use crate::{Import, Options, Refused, Things};
 use recorder::Recorder;
 use std::sync::Arc;
+use tcl::{Call, Host, Reply};
 use trilith_model::{Diagnostic, Source};
 
 /// What a result stands for that is not there yet.
@@ -60,6 +61,29 @@ pub fn import(
     options: &Options,
     oracle: &(dyn Eigenvalues + Sync),
 ) -> Result<Import, Refused> {
+    run(bytes, options, oracle, false).map(|(import, _)| import)
+}
+
+/// The same, with the commands of OpenSees that the script gives: each with its words as they have been evaluated, in their
+/// order, without blocks, whose commands follow.
+///
+/// # Errors
+/// As [`import`].
+pub fn with_commands(
+    bytes: &[u8],
+    options: &Options,
+    oracle: &(dyn Eigenvalues + Sync),
+) -> Result<(Import, Vec<Vec<String>>), Refused> {
+    run(bytes, options, oracle, true)
+}
+
+/// `keep`: the commands as well.
+fn run(
+    bytes: &[u8],
+    options: &Options,
+    oracle: &(dyn Eigenvalues + Sync),
+    keep: bool,
+) -> Result<(Import, Vec<Vec<String>>), Refused> {
     let text = match std::str::from_utf8(bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes)) {
         Ok(text) => text.to_owned(),
         Err(_) => bytes.iter().map(|b| char::from(*b)).collect(),
@@ -71,7 +95,7 @@ pub fn import(
     }
     // Bodies within bodies need a stack of their own.
     let read = std::thread::scope(|scope| {
-        let run = || read(&source, options, oracle);
+        let run = || read(&source, options, oracle, keep);
         let thread = std::thread::Builder::new().stack_size(STACK).spawn_scoped(scope, run);
         thread.map(|t| t.join())
     });
@@ -91,13 +115,16 @@ fn read(
     source: &Arc<Source>,
     options: &Options,
     oracle: &dyn Eigenvalues,
-) -> Result<Import, Refused> {
+    keep: bool,
+) -> Result<(Import, Vec<Vec<String>>), Refused> {
     let mut recorder = Recorder::new(options, oracle);
     let (length, force) = options.units.clone().unwrap_or(("m".into(), "N".into()));
     recorder.draft.units = (length, force);
     let settings = tcl::Settings { folder: options.folder.clone(), budget: options.budget };
-    let run = tcl::Interpreter::new(Arc::clone(source), settings, &mut recorder).run();
+    let mut heard = Heard { recorder: &mut recorder, keep, commands: Vec::new() };
+    let run = tcl::Interpreter::new(Arc::clone(source), settings, &mut heard).run();
     run.map_err(|e| Refused(vec![*e]))?;
+    let commands = heard.commands;
     let refused = |message: &str, help: &str| {
         Err(Refused(vec![Diagnostic::new("E1106", message, 0..0, source).help(help)]))
     };
@@ -128,7 +155,38 @@ fn read(
     }
     let Recorder { draft, mut report, files, .. } = recorder;
     report.things = Things::Commands;
-    Ok(Import::new(draft, report, files, options, "OpenSees"))
+    Ok((Import::new(draft, report, files, options, "OpenSees"), commands))
+}
+
+/// A recorder, and what it has been told.
+struct Heard<'h, 'r> {
+    recorder: &'h mut Recorder<'r>,
+    keep: bool,
+    commands: Vec<Vec<String>>,
+}
+
+impl Host for Heard<'_, '_> {
+    fn call(&mut self, call: &Call<'_>, line: &str) -> Reply {
+        let reply = self.recorder.call(call, line);
+        let words = call.words.len() - usize::from(matches!(reply, Reply::Block(_)));
+        if self.keep && !matches!(reply, Reply::Unknown | Reply::Wrong(..)) {
+            let words = call.words[..words].iter().map(|word| word.str().to_owned());
+            self.commands.push(words.collect());
+        }
+        reply
+    }
+
+    fn closed(&mut self) {
+        self.recorder.closed();
+    }
+
+    fn left_out(&mut self, command: &str, what: &str, line: &str) {
+        self.recorder.left_out(command, what, line);
+    }
+
+    fn names(&self) -> Vec<&'static str> {
+        self.recorder.names()
+    }
 }
 
 fn finish(recorder: &mut Recorder<'_>, options: &Options) {

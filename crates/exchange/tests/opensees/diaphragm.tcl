@@ -30,6 +30,7 @@ timeSeries Path 1 -time {0 0.3 0.6 1.0 3.0} -values {0 1 -1 0 0} -factor 3.0
 pattern UniformExcitation 1 1 -accel 1
 recorder Node -node 19 29 -dof 1 2 6 disp
 recorder Node -node 1 -dof 1 reaction
+constraints Transformation
 integrator Newmark 0.5 0.25
 analysis Transient
 analyze 3000 0.001

@@ -12,6 +12,7 @@ element flatSliderBearing 1 1 3 1 2.0e7 -P 1 -Mz 2 -orient 0 1 0 -1 0 0
 element flatSliderBearing 2 2 4 1 2.0e7 -P 1 -Mz 2 -orient 0 1 0 -1 0 0
 pattern Plain 1 Linear { load 5 0 -98100 0 }
 recorder Node -node 5 -dof 1 2 3 disp
+constraints Transformation
 integrator LoadControl 0.1
 analysis Static
 analyze 10

@@ -44,8 +44,8 @@ struct Exported {
 /// Below this (SI) an output is rounding.
 const NOTHING: f64 = 1e-9;
 /// Largest difference of a period, and of a peak as share of the larger peak of its output.
-const PERIODS: f64 = 1e-5;
-const PEAKS: f64 = 5e-3;
+pub(super) const PERIODS: f64 = 1e-5;
+pub(super) const PEAKS: f64 = 5e-3;
 
 const DAMPED: &str = include_str!("../../../../models/damped_frame.ron");
 const FLOORS: &str = include_str!("../../../../models/floor_spectra.ron");

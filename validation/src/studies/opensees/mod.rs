@@ -4,6 +4,7 @@ mod bearings;
 mod contacts;
 pub(super) mod exported;
 mod frames;
+pub(super) mod imported;
 mod leaning;
 mod oscillators;
 mod ours;

@@ -39,10 +39,15 @@ pub(super) fn missing() -> Option<&'static str> {
 
 /// What OpenSees gives for each task.
 pub(super) fn values(tasks: &[Value]) -> Result<Vec<Values>, String> {
+    Ok(answers(SCRIPT, &Value::from(tasks))?.iter().map(read).collect())
+}
+
+/// What a script answers to each task of a list.
+pub(super) fn answers(script: &str, tasks: &Value) -> Result<Vec<Value>, String> {
     let text = serde_json::to_vec(tasks).map_err(|e| e.to_string())?;
     let broken = |e: std::io::Error| format!("OpenSees: {e}");
     let mut child = Command::new(interpreter())
-        .args(["-c", SCRIPT])
+        .args(["-c", script])
         .stdin(Stdio::piped())
         .stdout(Stdio::piped())
         .stderr(Stdio::piped())
@@ -58,10 +63,11 @@ pub(super) fn values(tasks: &[Value]) -> Result<Vec<Values>, String> {
     }
     written.map_err(broken)?;
     let all: Vec<Value> = serde_json::from_slice(&output.stdout).map_err(|e| e.to_string())?;
-    if all.len() != tasks.len() {
-        return Err(format!("OpenSees answered {} of {} tasks", all.len(), tasks.len()));
+    let asked = tasks.as_array().map_or(0, Vec::len);
+    if all.len() != asked {
+        return Err(format!("OpenSees answered {} of {asked} tasks", all.len()));
     }
-    Ok(all.iter().map(read).collect())
+    Ok(all)
 }
 
 fn read(answer: &Value) -> Values {
