@@ -6,6 +6,7 @@ use crate::case::{Kind, Tolerance};
 use crate::{Findings, Item, Outcome, Study};
 use serde_json::{Value, json};
 use std::f64::consts::TAU;
+use std::path::Path;
 use trilith::solvers::LinkStiffness;
 use trilith::{Analysis, Model, RunOptions};
 use trilith_exchange::Options;
@@ -70,7 +71,7 @@ impl Eigenvalues for Modes {
         after: Option<&str>,
         count: usize,
     ) -> Result<Vec<f64>, String> {
-        let model = read(text)?;
+        let model = read(text, Path::new(""))?;
         omega2(&model, after.and_then(|name| model.case(name)), count)
     }
 }
@@ -81,8 +82,9 @@ fn omega2(model: &Model, after: Option<usize>, count: usize) -> Result<Vec<f64>,
     Ok(linear.modes(count).map_err(|e| e.to_string())?.omega2)
 }
 
-fn read(text: &str) -> Result<Model, String> {
-    let read = trilith::read_text(text, "model.ron", &trilith::registry(), &[]);
+/// A model whose records lie in a folder.
+fn read(text: &str, folder: &Path) -> Result<Model, String> {
+    let read = trilith::read_text(text, folder.join("model.ron"), &trilith::registry(), &[]);
     read.map_err(|all| all.first().map_or_else(String::new, ToString::to_string))
 }
 
@@ -105,9 +107,7 @@ fn ours(script: &Script) -> Result<(Side, Value), String> {
     for (name, text) in &import.files {
         std::fs::write(folder.path().join(name), text).map_err(|e| e.to_string())?;
     }
-    let path = folder.path().join("model.ron");
-    let model = trilith::read_text(&import.draft.to_ron(), path, &trilith::registry(), &[])
-        .map_err(|all| all.first().map_or_else(String::new, ToString::to_string))?;
+    let model = read(&import.draft.to_ron(), folder.path())?;
     let case = model.cases.len() - 1;
     let analysis = Analysis::new(&model).map_err(|e| e.to_string())?;
     let run = analysis.run(RunOptions { case, ..RunOptions::default() });
