@@ -34,7 +34,12 @@ fn what_is_no_part_of_matrices_is_told_with_its_name() {
         "there is no element or group of elements \"towr\": did you mean `tower`?"
     );
     assert!(plain(&["x*"]).starts_with("there is no element or group of elements \"x*\""));
-    assert_eq!(plain(&[]), "the part has no element");
+    assert_eq!(plain(&[]), "the part has no linear element");
+    let tied = text.replace(
+        "\"mast\": Beam",
+        "\"rigid\": RigidLink(nodes: (\"n12\", \"n02\")), \"mast\": Beam",
+    );
+    assert_eq!(told(&tied, &["rigid"], |_| ()), "the part has no linear element");
 
     let inerter = text.replace(
         "\"mast\": Beam",

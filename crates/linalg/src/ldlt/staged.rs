@@ -314,7 +314,7 @@ impl StagedLdlt {
             _ => 8,
         };
         let pieces: Vec<&mut [&mut [f64]]> = x.chunks_mut(beside).collect();
-        // What one piece has used serves the next: new memory would take as long as a tenth of its solution.
+        // What one piece has used serves the next: new memory comes page by page from the system.
         let rooms = Mutex::new(Vec::new());
         let room = || rooms.lock().unwrap_or_else(PoisonError::into_inner);
         // Twice each value of the factor times each right-hand side.

@@ -19,8 +19,8 @@ pub enum ReduceError {
         /// What would be right.
         help: String,
     },
-    /// No element is in the part.
-    #[error("the part has no element")]
+    /// No linear element is in the part.
+    #[error("the part has no linear element")]
     Nothing,
     /// An element that is no linear one.
     #[error(

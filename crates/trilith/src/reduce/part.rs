@@ -22,6 +22,10 @@ impl Part {
     pub fn new(model: &Model, system: &System, request: &Request) -> Result<Self, ReduceError> {
         let elements = elements(model, &request.part)?;
         sound(model, system, &elements)?;
+        let mut own = model.elements.iter().zip(&elements).filter(|(_, own)| **own);
+        if !own.any(|(e, _)| matches!(e.body, Body::Linear(_))) {
+            return Err(ReduceError::Nothing);
+        }
         let mut nodes = vec![false; model.nodes.len()];
         let own = model.elements.iter().zip(&elements).filter(|(_, own)| **own);
         own.flat_map(|(e, _)| &e.nodes).for_each(|i| nodes[*i] = true);
@@ -71,7 +75,7 @@ fn elements(model: &Model, names: &[String]) -> Result<Vec<bool>, ReduceError> {
             return Err(ReduceError::unknown(name, "element or group of elements", all));
         }
     }
-    if flags.contains(&true) { Ok(flags) } else { Err(ReduceError::Nothing) }
+    Ok(flags)
 }
 
 /// What a pattern with `*` stands for, where it is one and stands for any.
