@@ -91,6 +91,7 @@ fn dependencies_point_one_way() {
             "trilith-results",
             &[
                 "trilith-element",
+                "trilith-linalg",
                 "trilith-record",
                 "trilith-model",
                 "trilith-system",

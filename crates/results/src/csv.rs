@@ -24,7 +24,7 @@ pub(crate) fn write(path: &Path, model: &Model, record: &Recorder) -> Result<(),
         .collect();
     for (i, t) in record.time().iter().enumerate() {
         let numbers = std::iter::once(*t).chain(columns.iter().map(|c| c[i]));
-        file.write_record(numbers.map(|x| format!("{x:?}"))).map_err(fail)?;
+        file.serialize(numbers.collect::<Vec<f64>>()).map_err(fail)?;
     }
     file.flush().map_err(FileError::at(path))
 }

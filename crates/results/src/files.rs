@@ -1,10 +1,16 @@
 //! The folder of a run.
 
-use crate::{FileError, Recorder, Summary, csv, npz, vtk};
+use crate::{ENERGIES, FileError, Recorder, Summary, csv, npz, vtk};
 use std::fs::File;
 use std::io::{BufWriter, Write};
 use std::path::{Path, PathBuf};
+use trilith_linalg::threads::share;
 use trilith_model::Model;
+
+/// What makes a file.
+type Work<'a> = Box<dyn FnOnce(&Path) -> Result<(), FileError> + Send + 'a>;
+/// Operations that writing a number takes, about.
+const TO_WRITE: usize = 100;
 
 /// What goes into the folder of a run.
 ///
@@ -37,29 +43,46 @@ impl Files<'_> {
     pub fn write(&self, dir: impl AsRef<Path>) -> Result<Vec<PathBuf>, FileError> {
         let dir = dir.as_ref();
         std::fs::create_dir_all(dir).map_err(FileError::at(dir))?;
-        let mut written = Vec::new();
-        let mut path = |name: &str| {
-            written.push(dir.join(name));
-            dir.join(name)
+        let (model, record, summary) = (self.model, self.record, self.summary);
+        let mut files: Vec<(&str, Work<'_>)> = vec![
+            ("peaks.csv", Box::new(|path| crate::peaks::write(path, &summary.outputs))),
+            ("histories.csv", Box::new(|path| csv::write(path, model, record))),
+            ("histories.npz", Box::new(|path| npz::write(path, model, record))),
+        ];
+        if !summary.spectra.0.is_empty() {
+            let write = |path: &Path| crate::spectra::write(path, &summary.spectra);
+            files.push(("spectra.csv", Box::new(write)));
+        }
+        if !summary.envelopes.0.is_empty() {
+            let write = |path: &Path| crate::envelopes::write(path, model, record.peaks());
+            files.push(("envelopes.csv", Box::new(write)));
+        }
+        let resolved = |path: &Path| {
+            std::fs::write(path, trilith_model::resolved(model)).map_err(FileError::at(path))
         };
-        crate::peaks::write(&path("peaks.csv"), &self.summary.outputs)?;
-        csv::write(&path("histories.csv"), self.model, self.record)?;
-        npz::write(&path("histories.npz"), self.model, self.record)?;
-        if !self.summary.spectra.0.is_empty() {
-            crate::spectra::write(&path("spectra.csv"), &self.summary.spectra)?;
+        files.push(("model.resolved.ron", Box::new(resolved)));
+        vtk::clear(dir)?;
+        if record.frames().iter().next().is_some() {
+            let write = |path: &Path| vtk::write(path, model, record.frames());
+            files.push(("model.pvd", Box::new(write)));
         }
-        if !self.summary.envelopes.0.is_empty() {
-            crate::envelopes::write(&path("envelopes.csv"), self.model, self.record.peaks())?;
-        }
-        let resolved = path("model.resolved.ron");
-        std::fs::write(&resolved, trilith_model::resolved(self.model))
-            .map_err(FileError::at(&resolved))?;
-        if vtk::write(dir, self.model, self.record.frames())? {
-            path("model.pvd");
-        }
+        let mut written: Vec<PathBuf> = files.iter().map(|(name, _)| dir.join(name)).collect();
+        let mut done: Vec<Result<(), FileError>> = written.iter().map(|_| Ok(())).collect();
+        let works = files.into_iter().map(|(_, work)| work);
+        let pieces = works.zip(&written).zip(&mut done).collect();
+        share(TO_WRITE * self.numbers(), pieces, |((work, path), done)| *done = work(path));
+        done.into_iter().collect::<Result<(), _>>()?;
         // Last, so that a summary stands for a complete folder.
-        json(&path("summary.json"), self.summary)?;
+        written.push(dir.join("summary.json"));
+        json(&dir.join("summary.json"), summary)?;
         Ok(written)
+    }
+
+    /// How many of them there are in all files, about.
+    fn numbers(&self) -> usize {
+        let times = self.record.time().len();
+        let of_frames = self.record.frames().iter().map(|f| f.displacements.len()).sum::<usize>();
+        (self.model.outputs.len() + ENERGIES.len()) * times + of_frames
     }
 }
 

@@ -16,14 +16,21 @@ pub struct Frame {
     pub outlines: Vec<[f32; 3]>,
 }
 
+/// Shapes made together: as many as fit into so many bytes, and at most so many.
+const TOGETHER: usize = 64 << 20;
+const MOST: usize = 16;
+
 /// Keeps so many deformed shapes at most, those of the start and of the end among them. No others are asked for: in a
 /// large model a shape costs more than a step.
 #[derive(Clone, Debug)]
 pub struct Frames {
     limit: usize,
     spacing: Spacing,
+    /// The last of them, as many as there are poses, have no displacements yet.
     kept: Vec<Frame>,
-    buffer: Vec<f64>,
+    poses: Vec<Vec<f64>>,
+    /// Displacements of a shape.
+    directions: usize,
     points: Vec<Vector3>,
 }
 
@@ -31,13 +38,14 @@ impl Frames {
     /// Keeps up to `limit` shapes of `nodes` nodes; fewer than two, start and end, are none.
     #[must_use]
     pub fn new(nodes: usize, limit: usize) -> Self {
-        let buffer = vec![0.0; 6 * nodes];
-        Self { limit, spacing: Spacing::new(limit), kept: Vec::new(), buffer, points: Vec::new() }
+        let (kept, poses, points) = (Vec::new(), Vec::new(), Vec::new());
+        let spacing = Spacing::new(limit);
+        Self { limit, spacing, kept, poses, directions: 6 * nodes, points }
     }
 
-    /// The shapes kept, in time order, evenly spaced but for the last.
+    /// The shapes kept, in time order, evenly spaced but for the last. While a run goes on the latest may not be made yet.
     pub fn iter(&self) -> impl Iterator<Item = &Frame> {
-        self.kept.iter()
+        self.kept[..self.kept.len() - self.poses.len()].iter()
     }
 
     /// A run of so many output steps starts.
@@ -57,20 +65,37 @@ impl Frames {
         if self.kept.last().is_none_or(|last| last.t != t) {
             self.keep(t, shape);
         }
+        self.make(shape);
     }
 
     fn keep(&mut self, t: f64, shape: &dyn Shape) {
         if self.limit < 2 {
             return;
         }
-        shape.displacements(&mut self.buffer);
         self.points.clear();
         shape.outlines(&mut self.points);
-        self.kept.push(Frame {
-            t,
-            displacements: self.buffer.iter().map(|u| *u as f32).collect(),
-            outlines: self.points.iter().map(|p| p.map(|x| x as f32)).collect(),
-        });
+        let outlines = self.points.iter().map(|p| p.map(|x| x as f32)).collect();
+        self.kept.push(Frame { t, displacements: Vec::new(), outlines });
+        self.poses.push(shape.pose());
+        let room = TOGETHER / (size_of::<f64>() * self.directions.max(1));
+        if self.poses.len() >= room.clamp(1, MOST) {
+            self.make(shape);
+        }
+    }
+
+    /// Displacements of those that have none yet.
+    fn make(&mut self, shape: &dyn Shape) {
+        if self.poses.is_empty() {
+            return;
+        }
+        let poses = std::mem::take(&mut self.poses);
+        let mut all = vec![0.0; self.directions * poses.len()];
+        shape.displacements(&poses, &mut all);
+        let first = self.kept.len() - poses.len();
+        let each = all.chunks(self.directions.max(1));
+        for (frame, u) in self.kept[first..].iter_mut().zip(each) {
+            frame.displacements = u.iter().map(|u| *u as f32).collect();
+        }
     }
 }
 
@@ -85,9 +110,13 @@ mod tests {
     }
 
     impl Shape for Still {
-        fn displacements(&self, u: &mut [f64]) {
+        fn pose(&self) -> Vec<f64> {
             self.asked.set(self.asked.get() + 1);
-            u.fill(0.5);
+            vec![self.asked.get() as f64]
+        }
+
+        fn displacements(&self, poses: &[Vec<f64>], u: &mut [f64]) {
+            u.chunks_mut(6).zip(poses).for_each(|(u, pose)| u.fill(pose[0]));
         }
     }
 
@@ -98,6 +127,8 @@ mod tests {
         frames.end(made as f64, &shape);
         let times: Vec<f64> = frames.iter().map(|f| f.t).collect();
         assert_eq!(shape.asked.get(), times.len(), "no shape is made that is not kept");
+        let has_own = |(i, frame): (usize, &Frame)| frame.displacements == [(i + 1) as f32; 6];
+        assert!(frames.iter().enumerate().all(has_own), "each shape has its own displacements");
         times
     }
 

@@ -40,9 +40,14 @@ pub(crate) fn write(path: &Path, model: &Model, record: &Recorder) -> Result<(),
         .chain(record.energy().iter().map(Vec::as_slice))
         .chain(model.shown().filter_map(|(i, _)| record.history(i)));
     for (name, values) in names.iter().zip(arrays) {
-        let options = SimpleFileOptions::default().last_modified_time(zip::DateTime::default());
+        let array = npy(values);
+        // Not compressed, as `numpy.savez` has it: histories lose a twentieth, and it would take longer than the run.
+        let options = SimpleFileOptions::default()
+            .compression_method(zip::CompressionMethod::Stored)
+            .large_file(array.len() > u32::MAX as usize)
+            .last_modified_time(zip::DateTime::default());
         zip.start_file(format!("{name}.npy"), options).map_err(FileError::at(path))?;
-        zip.write_all(&npy(values)).map_err(FileError::at(path))?;
+        zip.write_all(&array).map_err(FileError::at(path))?;
     }
     let mut file = zip.finish().map_err(FileError::at(path))?;
     file.flush().map_err(FileError::at(path))

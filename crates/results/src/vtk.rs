@@ -1,6 +1,11 @@
-//! Deformed shapes for ParaView: `model.pvd` and `frames/*.vtu`, ASCII.
+//! Deformed shapes for ParaView: `model.pvd` and `frames/*.vtu`.
+//!
+//! Arrays are in base64, little endian, behind their number of bytes: numbers as text took longer than the march of a large
+//! model. \[Kitware, VTK XML file formats, "inline" data\]
 
 use crate::{FileError, Frame, Frames};
+use base64::Engine;
+use base64::engine::general_purpose::STANDARD;
 use std::collections::BTreeSet;
 use std::fmt::Write;
 use std::path::Path;
@@ -13,21 +18,24 @@ pub(crate) const FRAMES: &str = "frames";
 const LINE: u8 = 3;
 const VERTEX: u8 = 1;
 
-/// Writes `model.pvd` and the frames beside it; nothing where there are no frames.
-pub(crate) fn write(dir: &Path, model: &Model, frames: &Frames) -> Result<bool, FileError> {
+/// Takes out the frames of a former run: where there were more of them, they would be left among the new ones.
+pub(crate) fn clear(dir: &Path) -> Result<(), FileError> {
     let folder = dir.join(FRAMES);
-    // Frames of a former run with more of them would be left among the new ones.
-    if folder.is_dir() {
-        for old in std::fs::read_dir(&folder).map_err(FileError::at(&folder))?.flatten() {
-            let path = old.path();
-            if path.file_name().and_then(|name| name.to_str()).is_some_and(is_frame) {
-                std::fs::remove_file(&path).map_err(FileError::at(&path))?;
-            }
+    if !folder.is_dir() {
+        return Ok(());
+    }
+    for old in std::fs::read_dir(&folder).map_err(FileError::at(&folder))?.flatten() {
+        let path = old.path();
+        if path.file_name().and_then(|name| name.to_str()).is_some_and(is_frame) {
+            std::fs::remove_file(&path).map_err(FileError::at(&path))?;
         }
     }
-    if frames.iter().next().is_none() {
-        return Ok(false);
-    }
+    Ok(())
+}
+
+/// Writes `model.pvd` and the frames beside it.
+pub(crate) fn write(path: &Path, model: &Model, frames: &Frames) -> Result<(), FileError> {
+    let folder = path.with_file_name(FRAMES);
     std::fs::create_dir_all(&folder).map_err(FileError::at(&folder))?;
     let mesh = mesh(model);
     let mut index = String::from(
@@ -43,9 +51,7 @@ pub(crate) fn write(dir: &Path, model: &Model, frames: &Frames) -> Result<bool, 
         );
     }
     index.push_str("</Collection>\n</VTKFile>\n");
-    let path = dir.join("model.pvd");
-    std::fs::write(&path, index).map_err(FileError::at(&path))?;
-    Ok(true)
+    std::fs::write(path, index).map_err(FileError::at(path))
 }
 
 fn frame_name(i: usize) -> String {
@@ -60,7 +66,6 @@ pub(crate) fn is_frame(name: &str) -> bool {
 
 /// Everything of a `.vtu` file that does not change in time: points and cells.
 struct Mesh {
-    nodes: usize,
     /// Points of outlines, behind the nodes: the node that each goes with, and its place from there, m.
     corners: Vec<(usize, Vector3)>,
     xml: String,
@@ -78,36 +83,27 @@ fn mesh(model: &Model) -> Mesh {
         lines.extend(edges.map(|two| (first + two[0], first + two[1])));
     }
     let mut xml = String::from("<Points>\n");
-    array(&mut xml, "Float64", "points", 3, |s| {
-        for n in &model.nodes {
-            let [x, y, z] = n.position;
-            line(s, format_args!("{x:?} {y:?} {z:?}"));
-        }
-        for (node, r) in &corners {
-            let [x, y, z] = [0, 1, 2].map(|i| model.nodes[*node].position[i] + r[i]);
-            line(s, format_args!("{x:?} {y:?} {z:?}"));
-        }
-    });
+    let own = model.nodes.iter().map(|n| n.position);
+    let of_corner = |(node, r): &(usize, Vector3)| {
+        let at = model.nodes[*node].position;
+        [0, 1, 2].map(|i| at[i] + r[i])
+    };
+    let points = own.chain(corners.iter().map(of_corner)).flatten();
+    array(&mut xml, "Float64", "points", 3, points.flat_map(f64::to_le_bytes));
     xml.push_str("</Points>\n<Cells>\n");
-    array(&mut xml, "Int64", "connectivity", 1, |s| {
-        (0..nodes).for_each(|i| line(s, format_args!("{i}")));
-        lines.iter().for_each(|(i, j)| line(s, format_args!("{i} {j}")));
-    });
-    array(&mut xml, "Int64", "offsets", 1, |s| {
-        (1..=nodes).for_each(|i| line(s, format_args!("{i}")));
-        (1..=lines.len()).for_each(|i| line(s, format_args!("{}", nodes + 2 * i)));
-    });
-    array(&mut xml, "UInt8", "types", 1, |s| {
-        (0..nodes).for_each(|_| line(s, format_args!("{VERTEX}")));
-        lines.iter().for_each(|_| line(s, format_args!("{LINE}")));
-    });
+    let connected = (0..nodes).chain(lines.iter().flat_map(|(i, j)| [*i, *j]));
+    array(&mut xml, "Int32", "connectivity", 1, connected.flat_map(integer));
+    let ends = (1..=nodes).chain((1..=lines.len()).map(|i| nodes + 2 * i));
+    array(&mut xml, "Int32", "offsets", 1, ends.flat_map(integer));
+    let types = [VERTEX].repeat(nodes).into_iter().chain([LINE].repeat(lines.len()));
+    array(&mut xml, "UInt8", "types", 1, types);
     xml.push_str("</Cells>\n");
     let head = format!(
         "<Piece NumberOfPoints=\"{}\" NumberOfCells=\"{}\">\n{xml}",
         nodes + corners.len(),
         nodes + lines.len()
     );
-    Mesh { nodes, corners, xml: head }
+    Mesh { corners, xml: head }
 }
 
 /// Pairs of nodes to be drawn as a line: two-node members, and what leads and follows in constraints; not of those that
@@ -136,24 +132,19 @@ fn lines(model: &Model) -> BTreeSet<(usize, usize)> {
 
 fn text(mesh: &Mesh, frame: &Frame) -> String {
     let mut xml = String::from(
-        "<?xml version=\"1.0\"?>\n<VTKFile type=\"UnstructuredGrid\" version=\"0.1\" byte_order=\"LittleEndian\">\n<UnstructuredGrid>\n",
+        "<?xml version=\"1.0\"?>\n<VTKFile type=\"UnstructuredGrid\" version=\"1.0\" byte_order=\"LittleEndian\" header_type=\"UInt64\">\n<UnstructuredGrid>\n",
     );
     xml.push_str(&mesh.xml);
     xml.push_str("<PointData Vectors=\"displacement\">\n");
     for (name, start) in [("displacement", 0), ("rotation", 3)] {
-        array(&mut xml, "Float32", name, 3, |s| {
-            for node in 0..mesh.nodes {
-                if let Some([x, y, z]) = frame.displacements.get(6 * node + start..).map(first) {
-                    line(s, format_args!("{x:?} {y:?} {z:?}"));
-                }
-            }
-            for (node, r) in &mesh.corners {
-                let of = |start: usize| frame.displacements.get(6 * node + start..).map(first);
-                let (Some(u), Some(turn)) = (of(0), of(3)) else { continue };
-                let [x, y, z] = if start == 0 { carried(u, turn, *r) } else { turn };
-                line(s, format_args!("{x:?} {y:?} {z:?}"));
-            }
-        });
+        let own = frame.displacements.chunks_exact(6).map(|node| first(&node[start..]));
+        let of_corner = |(node, r): &(usize, Vector3)| {
+            let u = &frame.displacements[6 * node..];
+            let turn = first(&u[3..]);
+            if start == 0 { carried(first(u), turn, *r) } else { turn }
+        };
+        let all = own.chain(mesh.corners.iter().map(of_corner)).flatten();
+        array(&mut xml, "Float32", name, 3, all.flat_map(f32::to_le_bytes));
     }
     xml.push_str("</PointData>\n</Piece>\n</UnstructuredGrid>\n</VTKFile>\n");
     xml
@@ -170,18 +161,27 @@ fn carried(u: [f32; 3], turn: [f32; 3], r: Vector3) -> [f32; 3] {
 }
 
 fn first(u: &[f32]) -> [f32; 3] {
-    [0, 1, 2].map(|i| u.get(i).copied().unwrap_or(f32::NAN))
+    [u[0], u[1], u[2]]
 }
 
-fn array(xml: &mut String, kind: &str, name: &str, width: usize, fill: impl FnOnce(&mut String)) {
+/// A number of a point or of an end, of which there are fewer than 2³¹.
+fn integer(i: usize) -> [u8; 4] {
+    (i as i32).to_le_bytes()
+}
+
+fn array(xml: &mut String, kind: &str, name: &str, width: usize, values: impl Iterator<Item = u8>) {
     line(
         xml,
         format_args!(
-            "<DataArray type=\"{kind}\" Name=\"{name}\" NumberOfComponents=\"{width}\" format=\"ascii\">"
+            "<DataArray type=\"{kind}\" Name=\"{name}\" NumberOfComponents=\"{width}\" format=\"binary\">"
         ),
     );
-    fill(xml);
-    xml.push_str("</DataArray>\n");
+    let mut bytes = vec![0; size_of::<u64>()];
+    bytes.extend(values);
+    let (length, values) = bytes.split_at_mut(size_of::<u64>());
+    length.copy_from_slice(&(values.len() as u64).to_le_bytes());
+    STANDARD.encode_string(&bytes, xml);
+    xml.push_str("\n</DataArray>\n");
 }
 
 fn line(s: &mut String, text: std::fmt::Arguments<'_>) {

@@ -1,5 +1,7 @@
 //! What this crate offers beside links, by name from model files, against closed forms.
 
+use base64::Engine;
+use base64::engine::general_purpose::STANDARD;
 use trilith::element::{Register, Side, Stretch, Waveform};
 use trilith::{Model, Registry, Run};
 
@@ -222,15 +224,17 @@ const DRAWN: &str = r#"(
     outputs: { "turn": Displacement(node: "motor", dof: Rx) },
 )"#;
 
-/// Rows of three numbers of an array of a `.vtu` file.
+/// Rows of three numbers of an array of a `.vtu` file: base64 behind eight bytes of its length.
 fn rows(vtu: &str, name: &str) -> Vec<[f64; 3]> {
     let at = vtu.find(&format!("Name=\"{name}\"")).expect("an array");
-    let lines = vtu[at..].lines().skip(1).take_while(|line| !line.contains('<'));
-    let row = |line: &str| {
-        let all: Vec<f64> = line.split(' ').map(|x| x.parse().expect("a number")).collect();
-        [all[0], all[1], all[2]]
+    let bytes = STANDARD.decode(vtu[at..].lines().nth(1).expect("a line")).expect("base64");
+    let is_single = vtu[..at].ends_with("type=\"Float32\" ");
+    let number = |bytes: &[u8]| match is_single {
+        true => f64::from(f32::from_le_bytes(bytes.try_into().expect("four bytes"))),
+        false => f64::from_le_bytes(bytes.try_into().expect("eight bytes")),
     };
-    lines.map(row).collect()
+    let numbers: Vec<f64> = bytes[8..].chunks(if is_single { 4 } else { 8 }).map(number).collect();
+    numbers.chunks(3).map(|row| [row[0], row[1], row[2]]).collect()
 }
 
 #[test]

@@ -120,6 +120,18 @@ impl Shapes {
         if self.rows.is_none() { u } else { self.rows.complete(&u) }
     }
 
+    /// Φ Q, column by column.
+    pub(crate) fn expand_each(&self, q: &Dense) -> Vec<Vec<f64>> {
+        let of_modes = q.leading(self.modes(), q.columns());
+        let kept = self.vectors.sums(&self.turn.times(&of_modes));
+        let complete = |j: usize| {
+            let mut u = kept.column(j).to_vec();
+            self.statics.mul_add(1.0, &q.column(j)[self.modes()..], &mut u);
+            if self.rows.is_none() { u } else { self.rows.complete(&u) }
+        };
+        (0..q.columns()).map(complete).collect()
+    }
+
     /// Some modes, found together.
     pub(crate) fn some(&self, modes: std::ops::Range<usize>) -> Vec<Vec<f64>> {
         let kept = self.kept(modes);

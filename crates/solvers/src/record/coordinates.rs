@@ -1,6 +1,6 @@
 //! What the coordinates of a solver make of the free DOFs.
 
-use crate::basis::{Shapes, expand};
+use crate::basis::Shapes;
 use std::sync::{Arc, OnceLock};
 use trilith_linalg::Dense;
 use trilith_system::System;
@@ -42,16 +42,23 @@ impl Coordinates {
         Self { order, shape, leading: OnceLock::new() }
     }
 
-    /// The free DOFs of a motion that lead the first directions of nodes; others may be zero.
-    pub(super) fn leading(&self, system: &System, motion: &[f64], directions: usize) -> Vec<f64> {
-        let q = &motion[..self.order];
-        let Some(shape) = &self.shape else { return expand(None, q) };
+    /// The free DOFs of some motions that lead the first directions of nodes; others may be zero.
+    pub(super) fn leading(
+        &self,
+        system: &System,
+        motions: &[&[f64]],
+        directions: usize,
+    ) -> Vec<Vec<f64>> {
+        let Some(shape) = &self.shape else { return motions.iter().map(|q| q.to_vec()).collect() };
+        let q = Dense::from_columns(self.order, motions.len(), motions.concat());
         let leading = self.leading.get_or_init(|| Leading::new(system, shape, directions));
-        let Some(Leading { dofs, rows }) = leading else { return shape.expand(q) };
-        let mut values = vec![0.0; dofs.len()];
-        rows.transpose_mul_add(1.0, q, &mut values);
-        let mut free = vec![0.0; system.order()];
-        dofs.iter().zip(values).for_each(|(dof, x)| free[*dof] = x);
-        free
+        let Some(Leading { dofs, rows }) = leading else { return shape.expand_each(&q) };
+        let values = rows.transpose_times(&q);
+        let free = (0..q.columns()).map(|j| {
+            let mut free = vec![0.0; system.order()];
+            dofs.iter().zip(values.column(j)).for_each(|(dof, x)| free[*dof] = *x);
+            free
+        });
+        free.collect()
     }
 }

@@ -31,8 +31,14 @@ pub struct Sample<'a> {
 
 /// Displacements of all nodes.
 pub trait Shape {
-    /// Six displacements of every node, node after node (m, rad); `u` has 6 · nodes values.
-    fn displacements(&self, u: &mut [f64]);
+    /// What the displacements come from at this moment: coordinates of a solver and moved supports, as many at every moment
+    /// of a run.
+    fn pose(&self) -> Vec<f64>;
+
+    /// Six displacements of every node, node after node (m, rad), for each of some poses of this run, one after the other;
+    /// `u` has 6 · nodes values for each. A basis is read once for all of them: in a large model many cost little more
+    /// than one.
+    fn displacements(&self, poses: &[Vec<f64>], u: &mut [f64]);
 
     /// Adds where the points of the outlines of links are, link after link in the model's order: global
     /// axes, m, each from the place of the link's first node without displacement.

@@ -28,18 +28,25 @@ struct Figure<'a> {
 }
 
 impl Shape for Figure<'_> {
-    fn displacements(&self, u: &mut [f64]) {
+    fn pose(&self) -> Vec<f64> {
         let count = self.system.reduction.prescribed.len();
         let [prescribed, _, _] = self.loads.prescribed(self.at.0, self.at.1, count);
-        let free = self.coordinates.leading(self.system, &self.state.motion, u.len());
-        for (full, x) in u.iter_mut().enumerate() {
-            *x = self
-                .system
-                .reduction
-                .expand(full)
-                .iter()
-                .map(|(j, c)| c * free.get(*j).unwrap_or_else(|| &prescribed[j - free.len()]))
-                .sum();
+        [&self.state.motion[..self.coordinates.order], &prescribed].concat()
+    }
+
+    fn displacements(&self, poses: &[Vec<f64>], u: &mut [f64]) {
+        let directions = u.len() / poses.len().max(1);
+        let order = self.coordinates.order;
+        let (motions, prescribed): (Vec<&[f64]>, Vec<&[f64]>) =
+            poses.iter().map(|pose| pose.split_at(order)).unzip();
+        let free = self.coordinates.leading(self.system, &motions, directions);
+        let each = u.chunks_mut(directions.max(1)).zip(free.iter().zip(prescribed));
+        for (u, (free, prescribed)) in each {
+            let of = |j: usize| free.get(j).unwrap_or_else(|| &prescribed[j - free.len()]);
+            for (full, x) in u.iter_mut().enumerate() {
+                let terms = self.system.reduction.expand(full).iter();
+                *x = terms.map(|(j, c)| c * of(*j)).sum();
+            }
         }
     }
 
