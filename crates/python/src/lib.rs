@@ -23,6 +23,7 @@ mod model;
 mod modes;
 mod optimize;
 mod record;
+mod reduce;
 mod run;
 mod schema;
 mod state;

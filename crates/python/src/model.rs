@@ -6,6 +6,7 @@ use crate::failure::{Failure, Told, placed};
 use crate::laws::{Law, Laws};
 use crate::modes::{self, ModeFacts};
 use crate::optimize;
+use crate::reduce::{self, ReductionFacts, fixed_modes};
 use crate::run::{self, Run, Settings};
 use crate::state::State;
 use crate::work;
@@ -14,6 +15,7 @@ use std::path::PathBuf;
 use std::sync::Arc;
 use trilith::model::{Analysis as Kind, Body, ModelText, ParameterValue, file, resolved};
 use trilith::optimize::{Variable, Wanted};
+use trilith::reduce::Request;
 use trilith::{Analysis, SolverKind};
 use trilith_cli::told;
 
@@ -229,6 +231,28 @@ impl Model {
         let model = Arc::clone(&self.model);
         work::with_progress(py, progress.as_ref(), move |watch| {
             combine::combine(&model, &of, watch)
+        })
+    }
+
+    /// A superelement in place of a part.
+    #[pyo3(signature = (part, modes, up_to, keep, recover, recover_all, out))]
+    fn reduce(
+        &self,
+        py: Python<'_>,
+        part: Vec<String>,
+        modes: Option<usize>,
+        up_to: Option<f64>,
+        keep: Option<Vec<String>>,
+        recover: Vec<String>,
+        recover_all: bool,
+        out: Option<(PathBuf, String)>,
+    ) -> PyResult<ReductionFacts> {
+        let model = Arc::clone(&self.model);
+        let modes = fixed_modes(modes, up_to);
+        let request = Request { part, keep, recover, recover_all, modes };
+        work::run(py, move |_| {
+            let out = out.as_ref().map(|(dir, form)| (dir.as_path(), form.as_str()));
+            reduce::reduce(&model, &request, out)
         })
     }
 

@@ -13,6 +13,7 @@ from conftest import ROOT
 
 PAGE = ROOT / "crates/guide/src/python.md"
 LAWS = ROOT / "crates/guide/src/foreign_laws.md"
+REDUCTION = ROOT / "crates/guide/src/reduction.md"
 NOTEBOOK = Path(__file__).resolve().parents[1] / "notebooks/friction.ipynb"
 
 
@@ -33,7 +34,7 @@ def compiled(page: Path, folder: Path) -> bool:
     return True
 
 
-@pytest.mark.parametrize("page", [PAGE, LAWS, ROOT / "README.md"], ids=["guide", "laws", "readme"])
+@pytest.mark.parametrize("page", [PAGE, LAWS, REDUCTION, ROOT / "README.md"], ids=["guide", "laws", "reduction", "readme"])
 def test_the_code_of_the_pages_runs(page: Path, monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
     # Pages run from the root of the repository; what they write goes elsewhere.
     (tmp_path / "models").symlink_to(ROOT / "models")

@@ -53,6 +53,7 @@ if TYPE_CHECKING:
         Sensitive,
     )
     from ._record import GroundMotion, ResponseSpectrum, record, records, synthetic
+    from ._reduce import Reduction
     from ._result import Link, Loop, Peak, Result
     from ._ron import Block, Word
     from ._stepper import Stepper
@@ -80,6 +81,7 @@ _PLACES = {
         "Sensitive",
     ),
     "_record": ("GroundMotion", "ResponseSpectrum", "record", "records", "synthetic"),
+    "_reduce": ("Reduction",),
     "_result": ("Link", "Loop", "Peak", "Result"),
     "_ron": ("Block", "Word"),
     "_stepper": ("Stepper",),
@@ -126,6 +128,7 @@ __all__ = [
     "OutputGradient",
     "PartStatus",
     "Peak",
+    "Reduction",
     "Refusal",
     "ResponseSpectrum",
     "Result",

@@ -19,6 +19,7 @@ if TYPE_CHECKING:
     from ._modes import Modes
     from ._native import State
     from ._optimize import Gradient, Optimum
+    from ._reduce import Reduction
     from ._result import Result
     from ._stepper import Stepper
 
@@ -420,6 +421,41 @@ class Model:
         from ._combine import combine
 
         return combine(self, of, progress=progress)
+
+    def reduce(
+        self,
+        part: str | Sequence[str],
+        modes: int | None = None,
+        *,
+        up_to: float | None = None,
+        keep: Sequence[str] | None = None,
+        recover: Sequence[str] = (),
+        recover_all: bool = False,
+        out: str | PathLike[str] | None = None,
+        form: str = "npz",
+    ) -> Reduction:
+        """A superelement of few rows in place of a linear part (Craig–Bampton): of nodes that the rest of the model touches,
+        and of modes with these held.
+
+        Example::
+
+            small = m.reduce("wall", 12).model
+            small.run()["drift"]
+
+        :param part: names of elements or of groups of them, ``*`` stands for anything.
+        :param modes: how many of the lowest; without it and ``up_to`` all, which is exact.
+        :param up_to: all modes up to this frequency, Hz.
+        :param keep: nodes that are kept beside those that the rest touches; without it those that loads and outputs name.
+        :param recover: nodes that follow the rows, for outputs and loads.
+        :param recover_all: all nodes of the part that are not kept follow.
+        :param out: a folder that the model and its matrices are written to.
+        :param form: of the matrices there: ``"npz"``, ``"mtx"``, ``"dmig"`` or ``"op4"``.
+        :raises ArgumentError: for names that there are not, and a part that is not linear or not held by what is kept.
+        :raises FileError: where the files cannot be written.
+        """
+        from ._reduce import reduce
+
+        return reduce(self, part, modes, up_to, keep, recover, recover_all, out, form)
 
     def optimize(
         self,

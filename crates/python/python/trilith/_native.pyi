@@ -189,6 +189,17 @@ class Model:
     def combine(
         self, of: list[str], progress: Callable[[float], object] | None, /
     ) -> tuple[str, str]: ...
+    def reduce(
+        self,
+        part: list[str],
+        modes: int | None,
+        up_to: float | None,
+        keep: list[str] | None,
+        recover: list[str],
+        recover_all: bool,
+        out: tuple[Path, str] | None,
+        /,
+    ) -> tuple[str | None, Path | None, str]: ...
     def gradient(
         self,
         case: str | None,
