@@ -20,6 +20,7 @@ use super::failure::refused;
 use super::ordering::{self, Pattern};
 use super::packing::Unpacked;
 use super::substitution::{Node, Panels};
+use super::together::BESIDE;
 use crate::large::Large;
 use crate::threads::share;
 use crate::{LinalgError, Sparse};
@@ -308,11 +309,7 @@ impl StagedLdlt {
 
     fn solve_all(&self, mut x: Vec<&mut [f64]>) {
         // Of two each is solved alone, which a second thread can do meanwhile.
-        let beside = match x.len() {
-            0..=2 => 1,
-            3..=8 => 4,
-            _ => 8,
-        };
+        let beside = if x.len() > 2 { BESIDE } else { 1 };
         let pieces: Vec<&mut [&mut [f64]]> = x.chunks_mut(beside).collect();
         // What one piece has used serves the next: new memory comes page by page from the system.
         let rooms = Mutex::new(Vec::new());
@@ -322,8 +319,7 @@ impl StagedLdlt {
             let mut own = room().pop().unwrap_or_default();
             match x.len() {
                 1 => self.solve_one(x[0]),
-                2..=4 => self.solve_beside::<4>(x, &mut own),
-                _ => self.solve_beside::<8>(x, &mut own),
+                _ => self.solve_beside(x, &mut own),
             }
             room().push(own);
         });
@@ -339,13 +335,13 @@ impl StagedLdlt {
         one.iter().zip(equations).for_each(|(y, i)| x[*i as usize] = *y);
     }
 
-    /// N of them at most, side by side.
-    fn solve_beside<const N: usize>(&self, x: &mut [&mut [f64]], room: &mut Vec<f64>) {
+    /// Several of them, side by side.
+    fn solve_beside(&self, x: &mut [&mut [f64]], room: &mut Vec<f64>) {
         let StagedPlan { equations, front, tail, split, .. } = &*self.plan;
         let (n, of_tail) = (equations.len(), &self.reciprocal[*split..]);
-        room.resize(room.len().max(N * n), 0.0);
-        let (beside, _) = room[..N * n].as_chunks_mut::<N>();
-        let mut work = vec![[0.0; N]; self.plan.workspace()];
+        room.resize(room.len().max(BESIDE * n), 0.0);
+        let (beside, _) = room[..BESIDE * n].as_chunks_mut::<BESIDE>();
+        let mut work = vec![[0.0; BESIDE]; self.plan.workspace()];
         for (k, x) in x.iter().enumerate() {
             beside.iter_mut().zip(equations).for_each(|(y, i)| y[k] = x[*i as usize]);
         }
