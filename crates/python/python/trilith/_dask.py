@@ -23,6 +23,8 @@ if TYPE_CHECKING:
 MOST = 1000
 #: Seconds that a task takes at least, where there are enough workers for shorter ones.
 LEAST = 1.0
+#: Tasks for each worker, where they are long enough: the last of few keep one busy while the others wait.
+EACH = 8
 
 
 class Job(NamedTuple):
@@ -112,7 +114,7 @@ def run(
                 return
             slots = max(sum(cluster.nthreads().values()), 1)
             took = tasks.run(opened[:1], first, 0.0) * first
-            count = min(max(round(took / seconds), min(2 * slots, round(took / LEAST)), 1), first)
+            count = min(max(round(took / seconds), min(EACH * slots, round(took / LEAST)), 1), first)
         opened = native.open_parts(folder, count, retry_failed)
         tasks.run(opened, count, 1.0)
     finally:
