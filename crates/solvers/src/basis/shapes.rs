@@ -10,12 +10,15 @@
 
 use super::condensation::Condensation;
 use std::sync::Arc;
+use trilith_linalg::threads::share;
 use trilith_linalg::{Dense, Sparse};
 
 /// Vectors completed together.
 const BLOCK: usize = 8;
 /// Modes made of vectors together.
 const TOGETHER: usize = 16;
+/// Operations that completing takes for each equation, about.
+const COMPLETING: usize = 20;
 
 /// Vectors over the free DOFs: free DOFs × number.
 #[derive(Clone, Debug)]
@@ -124,12 +127,16 @@ impl Shapes {
     pub(crate) fn expand_each(&self, q: &Dense) -> Vec<Vec<f64>> {
         let of_modes = q.leading(self.modes(), q.columns());
         let kept = self.vectors.sums(&self.turn.times(&of_modes));
-        let complete = |j: usize| {
-            let mut u = kept.column(j).to_vec();
-            self.statics.mul_add(1.0, &q.column(j)[self.modes()..], &mut u);
-            if self.rows.is_none() { u } else { self.rows.complete(&u) }
-        };
-        (0..q.columns()).map(complete).collect()
+        let mut all = vec![Vec::new(); q.columns()];
+        let numbers = self.rows.order() * q.columns();
+        share(COMPLETING * numbers, all.iter_mut().enumerate().collect(), |(j, u)| {
+            *u = kept.column(j).to_vec();
+            self.statics.mul_add(1.0, &q.column(j)[self.modes()..], u);
+            if !self.rows.is_none() {
+                *u = self.rows.complete(u);
+            }
+        });
+        all
     }
 
     /// Some modes, found together.
