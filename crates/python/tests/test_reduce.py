@@ -57,7 +57,7 @@ def test_what_is_refused(tmp_path: Path) -> None:
         m.reduce(["mast", "stop"])
     with pytest.raises(tl.ArgumentError, match="one of them is wanted"):
         m.reduce("mast", 3, up_to=10.0)
-    with pytest.raises(tl.ArgumentError, match="must not be negative"):
+    with pytest.raises(tl.ArgumentError, match="must be at least 0"):
         m.reduce("mast", -1)
     with pytest.raises(tl.ArgumentError, match="list of names"):
         m.reduce("mast", keep="m20")

@@ -21,7 +21,7 @@ pub(super) type Each = [f64; BESIDE];
 impl Panels {
     /// x ← L⁻¹ x with the unit lower factor; `work` holds [`height`](Self::height) places or more.
     pub(super) fn forward_each(&self, values: &[f64], x: &mut [Each], work: &mut [Each]) {
-        crate::simd::dispatch(Forward { panels: self, values, x, work });
+        crate::simd::dispatch(Substitution { panels: self, values, reciprocal: None, x, work });
     }
 
     /// x ← L⁻ᵀ D⁻¹ x; `reciprocal` is 1/D. Rows beyond the columns of the group are known already.
@@ -32,61 +32,41 @@ impl Panels {
         x: &mut [Each],
         work: &mut [Each],
     ) {
-        crate::simd::dispatch(Backward { panels: self, values, reciprocal, x, work });
+        let reciprocal = Some(reciprocal);
+        crate::simd::dispatch(Substitution { panels: self, values, reciprocal, x, work });
     }
 }
 
-struct Forward<'a> {
+/// Forward, or with 1/D back.
+struct Substitution<'a> {
     panels: &'a Panels,
     values: &'a [f64],
+    reciprocal: Option<&'a [f64]>,
     x: &'a mut [Each],
     work: &'a mut [Each],
 }
 
-impl Forward<'_> {
-    #[inline(always)]
-    fn run<S: Simd, const P: usize>(self, simd: S) {
-        let Self { panels, values, x, work } = self;
-        let (x, work) = (registers::<S, P>(x), registers::<S, P>(work));
-        for node in &panels.nodes {
-            forward(simd, &panels.view(node, values), x, work);
-        }
-    }
-}
-
-impl WithSimd for Forward<'_> {
-    type Output = ();
-    #[inline(always)]
-    fn with_simd<S: Simd>(self, simd: S) {
-        match S::F64_LANES {
-            8 => self.run::<S, 1>(simd),
-            4 => self.run::<S, 2>(simd),
-            2 => self.run::<S, 4>(simd),
-            _ => self.run::<S, BESIDE>(simd),
-        }
-    }
-}
-
-struct Backward<'a> {
-    panels: &'a Panels,
-    values: &'a [f64],
-    reciprocal: &'a [f64],
-    x: &'a mut [Each],
-    work: &'a mut [Each],
-}
-
-impl Backward<'_> {
+impl Substitution<'_> {
     #[inline(always)]
     fn run<S: Simd, const P: usize>(self, simd: S) {
         let Self { panels, values, reciprocal, x, work } = self;
         let (x, work) = (registers::<S, P>(x), registers::<S, P>(work));
-        for node in panels.nodes.iter().rev() {
-            backward(simd, &panels.view(node, values), reciprocal, x, work);
+        match reciprocal {
+            None => {
+                for node in &panels.nodes {
+                    forward(simd, &panels.view(node, values), x, work);
+                }
+            }
+            Some(reciprocal) => {
+                for node in panels.nodes.iter().rev() {
+                    backward(simd, &panels.view(node, values), reciprocal, x, work);
+                }
+            }
         }
     }
 }
 
-impl WithSimd for Backward<'_> {
+impl WithSimd for Substitution<'_> {
     type Output = ();
     #[inline(always)]
     fn with_simd<S: Simd>(self, simd: S) {

@@ -79,8 +79,8 @@ def names(what: str, values: Sequence[str]) -> list[str]:
     return list(values)
 
 
-def whole(what: str, value: int | None) -> int | None:
-    """A whole number of at least 1, or nothing.
+def whole(what: str, value: int | None, *, least: int = 1) -> int | None:
+    """A whole number that is not too small, or nothing.
 
     :raises ArgumentError: for anything else.
     """
@@ -92,8 +92,8 @@ def whole(what: str, value: int | None) -> int | None:
         number = operator.index(value)
     except TypeError:
         raise ArgumentError(f"{what} must be a whole number, it is {value!r}") from None
-    if number < 1:
-        raise ArgumentError(f"{what} must be at least 1, it is {number}")
+    if number < least:
+        raise ArgumentError(f"{what} must be at least {least}, it is {number}")
     return number
 
 

@@ -8,7 +8,7 @@ from os import PathLike
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from ._arrays import frozen, names, positive
+from ._arrays import frozen, names, positive, whole
 from ._errors import ArgumentError
 
 if TYPE_CHECKING:
@@ -82,23 +82,8 @@ def reduce(
     up_to = positive("up_to", up_to)
     folder = None if out is None else (Path(out), form)
     text, path, facts = model._native.reduce(
-        parts, _count(modes), up_to, kept, followed, bool(recover_all), folder
+        parts, whole("modes", modes, least=0), up_to, kept, followed, bool(recover_all), folder
     )
     # Of what was written, that is what is read.
     small = load(path, laws=model.laws) if path is not None else loads(text or "", laws=model.laws)
     return Reduction(small, facts)
-
-
-def _count(modes: int | None) -> int | None:
-    """A whole number, 0 among them: static shapes alone."""
-    if modes is None:
-        return None
-    import operator
-
-    try:
-        number = operator.index(modes)
-    except TypeError:
-        raise ArgumentError(f"modes must be a whole number, it is {modes!r}") from None
-    if number < 0:
-        raise ArgumentError(f"modes must not be negative, it is {number}")
-    return number
