@@ -41,7 +41,7 @@ pub(crate) fn write(path: &Path, model: &Model, record: &Recorder) -> Result<(),
         .chain(model.shown().filter_map(|(i, _)| record.history(i)));
     for (name, values) in names.iter().zip(arrays) {
         let array = npy(values);
-        // Not compressed, as `numpy.savez` has it: histories lose a twentieth, and it would take longer than the run.
+        // Not compressed, as `numpy.savez` has it: histories of a frame lose a twentieth, and it took longer than their run.
         let options = SimpleFileOptions::default()
             .compression_method(zip::CompressionMethod::Stored)
             .large_file(array.len() > u32::MAX as usize)
