@@ -103,7 +103,7 @@ struct Told {
 impl Told {
     fn look(&self, s: &Sample<'_>) -> Option<(f64, f64)> {
         let mut u = vec![0.0; 6 * self.nodes];
-        s.shape.displacements(&mut u);
+        s.shape.displacements(&[s.shape.pose()], &mut u);
         Some((s.t, u.iter().sum()))
     }
 }

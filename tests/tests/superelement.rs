@@ -94,7 +94,7 @@ struct Shown {
 
 impl Observer for Shown {
     fn sample(&mut self, sample: &Sample<'_>) {
-        sample.shape.displacements(&mut self.all);
+        sample.shape.displacements(&[sample.shape.pose()], &mut self.all);
         for (direction, value) in sample.values[..3].iter().enumerate() {
             let shown = self.all[6 * self.node + direction];
             assert!((shown - value).abs() < 1e-12, "{direction}: {shown} and {value}");

@@ -2,6 +2,8 @@
 
 use crate::number::Number;
 use serde::{Deserialize, Serialize};
+use trilith::combine::Combinations;
+use trilith::model::Model;
 use trilith::results::Peak;
 use trilith::solvers::{ContactSummary, EnergyTotals, Status};
 
@@ -78,6 +80,32 @@ impl Finished {
             .map(Number),
             peaks: peaks.map(|p| [p.max, p.t_max, p.min, p.t_min, p.last].map(Number)).collect(),
             integrals: integrals.iter().copied().map(Number).collect(),
+        }
+    }
+
+    /// Of the one combination that was asked for: its extremes, and what its cases warned of.
+    pub fn combined(model: &Model, found: &Combinations) -> Self {
+        const UNKNOWN: Number = Number(f64::NAN);
+        let outputs = found.combinations.first().map_or(&[][..], |one| &one.outputs);
+        let peaks = model.outputs.iter().map(|o| {
+            let own = outputs.iter().find(|of| of.output == o.name);
+            let [max, min] = own.map_or([UNKNOWN; 2], |of| [Number(of.max), Number(of.min)]);
+            [max, UNKNOWN, min, UNKNOWN, UNKNOWN]
+        });
+        let warnings = found.cases.iter().flat_map(|case| {
+            let name = &case.name;
+            case.warnings.iter().map(move |warning| format!("case \"{name}\": {warning}"))
+        });
+        let status = Status::Converged;
+        Self {
+            status: status.word().to_owned(),
+            good: status.is_good(),
+            message: String::new(),
+            warnings: warnings.collect(),
+            contact: None,
+            energy: [UNKNOWN; 11],
+            peaks: peaks.collect(),
+            integrals: Vec::new(),
         }
     }
 }

@@ -6,6 +6,7 @@ use crate::{Cell, Place, Record, Study, StudyError};
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::Path;
 use std::sync::atomic::AtomicBool;
+use trilith::combine::combine_until;
 use trilith::model::file::{NoNames, evaluate};
 use trilith::model::{Model, ParameterValue};
 use trilith::sweep::{Alone, Lanes, Outcome};
@@ -17,6 +18,9 @@ impl Study {
     pub fn alone(&self, registry: &Registry) -> Option<String> {
         if self.histories.is_some() {
             return Some("histories are kept".into());
+        }
+        if self.combination.is_some() {
+            return Some("a combination runs several cases".into());
         }
         if self.solver.is_some_and(|solver| solver != SolverKind::Fna) {
             return Some("another solver than fna".into());
@@ -79,6 +83,18 @@ impl Study {
             Ok(model) => model,
             Err(message) => return Ok((self.failed(run, &set, "model error", &message), None)),
         };
+        if let Some(name) = &self.combination {
+            let names = std::slice::from_ref(name);
+            let found = combine_until(&model, names, &mut |_, _| (), Some(interrupt));
+            let finished = match found.as_ref().map(|found| Finished::combined(&model, found)) {
+                Ok(finished) => finished,
+                Err(e) => {
+                    let failed = self.failed(run, &set, "error", &e.to_string());
+                    return Ok((Record { parameters: self.cells(&model), ..failed }, None));
+                }
+            };
+            return Ok((self.record(run, &model, &finished), Some(finished)));
+        }
         let mut watch = Watch::new(&self.columns);
         let histories = self.histories.is_some();
         let made = Analysis::new(&model).and_then(|a| {

@@ -46,6 +46,8 @@ pub struct Study {
     pub(crate) case: usize,
     /// Its name, where the study says it.
     pub(crate) case_named: Option<String>,
+    /// Name of the combination that runs in its place.
+    pub(crate) combination: Option<String>,
     pub(crate) solver: Option<SolverKind>,
     /// Dimension of each varied parameter; none for a text.
     pub(crate) kinds: Vec<Option<Dimension>>,

@@ -306,6 +306,92 @@ fn outputs_that_hang_on_a_varied_parameter_are_refused() {
     assert!(with(&slide("2")).is_ok());
 }
 
+/// A combination at every point has the extremes that `trilith combine` tells there.
+#[test]
+fn a_combination_takes_the_place_of_a_case() {
+    let folder = folder();
+    let cases = r#"
+        "push": Static(after: "gravity", loads: ["push"]),
+        "shake": "#;
+    let model = MODEL
+        .replace("\"shake\": ", cases)
+        .replace(
+            "functions: {",
+            "loads: { \"push\": [(node: \"cg\", dof: Ux, force: \"1 kN\")] },\n    functions: {",
+        )
+        .replace(
+            "outputs: {",
+            r#"combinations: {
+        "sum": LinearAdd(cases: { "push": 2, "shake": 1 }),
+        "worst": Envelope(cases: ["push", "shake"]),
+    },
+    outputs: { "weight": LinkForce(link: "foot", axis: U1, hidden: true),"#,
+        );
+    std::fs::write(folder.path().join("mass.ron"), &model).unwrap();
+    let body = |more: &str| {
+        format!(
+            r#"set: {{ "k": "1 MN/m" }}, axes: {{ "a": ["1 m/s^2", "4 m/s^2", "8 m/s^2"] }}, combination: "sum",
+            columns: {{ "most": Max("slide"), "least": Min("slide"), "peak": Peak("slide"), "share": "peak/(most - least)" }},
+            {more}"#
+        )
+    };
+    let study = read(folder.path(), &body(r#"figures: [Points(x: "a", y: "peak")],"#)).unwrap();
+    let registry = trilith::registry();
+    assert_eq!(study.alone(&registry).as_deref(), Some("a combination runs several cases"));
+    let store = folder.path().join("store");
+    let made = |out: &str, threads: usize| {
+        let how = How { store: Some(&store), ..How::threads(threads) };
+        let (out, stop) = (folder.path().join(out), AtomicBool::new(false));
+        let results = execute(&study, &registry, &out, how, &|_| {}, &stop).unwrap();
+        (results, bytes(&out, "table.csv"), bytes(&out, "study.html"))
+    };
+    let (first, table, page) = made("one", 1);
+    let (again, other, _) = made("two", 2);
+    assert_eq!((first.failed(), first.reused, again.reused), (0, 0, 3));
+    assert_eq!(table, other);
+    let page = String::from_utf8(page).unwrap();
+    assert!(page.contains("trilith combine ") && page.contains("mass.ron --of sum"), "{page}");
+    for (record, a) in first.records.iter().zip(["1 m/s^2", "4 m/s^2", "8 m/s^2"]) {
+        let set = [("k", "1 MN/m"), ("a", a)].map(|(n, v)| (n.to_owned(), v.to_owned()));
+        let path = folder.path().join("mass.ron");
+        let model = trilith::read_text(&model, path, &registry, &set).unwrap();
+        let found = trilith::combine::combine(&model, &["sum".into()]).unwrap();
+        let own = &found.combinations[0].outputs[0];
+        let peak = own.max.abs().max(own.min.abs());
+        let expected = [own.max, own.min, peak, peak / (own.max - own.min)].map(Some);
+        assert_eq!(record.values, expected, "{a}");
+        // Twice the push, and what the shaking adds.
+        assert!(own.max > 1.9e-4, "{own:?}");
+    }
+    for (more, part) in [
+        (r#"case: "shake","#, "`case` runs a case and no combination"),
+        (r#"solver: "hht","#, "`solver` is that of one case"),
+        (r#"histories: All,"#, "`histories` are those of one case"),
+        (r#"events: { "falls": Overturned },"#, "nobody knows how bodies respond"),
+        (
+            r#"figures: [Overturning(frequency: "a", amplitude: "a")],"#,
+            "`Overturning` shows how bodies",
+        ),
+    ] {
+        let errors = read(folder.path(), &body(more)).unwrap_err();
+        assert!(errors[0].message.contains(part), "{more}: {errors:?}");
+    }
+    for (column, part) in [
+        ("Final(\"slide\")", "column `most` is known of one case"),
+        ("EnergyError", "column `most` is known of one case"),
+        ("Max(\"weight\")", "output \"weight\" is hidden"),
+    ] {
+        let errors = read(folder.path(), &body("").replace("Max(\"slide\")", column)).unwrap_err();
+        assert!(errors.iter().any(|e| e.message.contains(part)), "{column}: {errors:?}");
+    }
+    let unknown = body("").replace("\"sum\"", "\"som\"");
+    let errors = read(folder.path(), &unknown).unwrap_err();
+    assert!(errors[0].to_string().contains("did you mean `sum`?"), "{errors:?}");
+    std::fs::write(folder.path().join("mass.ron"), MODEL).unwrap();
+    let errors = read(folder.path(), &body("")).unwrap_err();
+    assert!(errors[0].message.contains("the model has no combination"), "{errors:?}");
+}
+
 /// A file that is no model keeps what it holds for itself; one with an error in it is shown where it is.
 #[test]
 fn what_a_file_that_is_no_model_holds_is_not_told() {

@@ -21,7 +21,11 @@ pub(super) fn entries(study: &Study, records: &[Record]) -> Entries {
         ["status", "leaves rest by", "message"].map(|what| (what.to_owned(), String::new())),
     );
     let model = plain(&study.model_path);
-    let mut command = format!("trilith run {}", quoted(&model.to_string_lossy()));
+    let verb = if study.combination.is_some() { "combine" } else { "run" };
+    let mut command = format!("trilith {verb} {}", quoted(&model.to_string_lossy()));
+    if let Some(combination) = &study.combination {
+        command += &format!(" --of {}", quoted(combination));
+    }
     if let Some(case) = &study.case_named {
         command += &format!(" --case {}", quoted(case));
     }

@@ -46,6 +46,34 @@ pub(super) fn columns(c: &Context<'_>, node: Option<&Node>, model: &Model) -> Ve
     all
 }
 
+/// Columns of combinations: extremes, and what follows from them.
+pub(super) fn check_combined(
+    c: &Context<'_>,
+    node: Option<&Node>,
+    columns: &[Column],
+    model: &Model,
+) {
+    let entries = node.and_then(|node| map(c, node, "columns")).unwrap_or_default();
+    for column in columns {
+        let Some(entry) = entries.iter().find(|e| e.key == column.name) else { continue };
+        let message = match &column.measure {
+            Measure::Peak(i) | Measure::Max(i) | Measure::Min(i) if model.outputs[*i].hidden => {
+                format!(
+                    "output \"{}\" is hidden: combinations leave it out",
+                    model.outputs[*i].name
+                )
+            }
+            Measure::Peak(_) | Measure::Max(_) | Measure::Min(_) | Measure::Expression(_) => {
+                continue;
+            }
+            _ => format!("column `{}` is known of one case, and of no combination", column.name),
+        };
+        let help =
+            "`Peak`, `Max` and `Min` of outputs that are shown are known, and expressions in them";
+        c.report(c.diagnostic("E0112", message, entry.value.span.clone()).help(help));
+    }
+}
+
 /// Dimension of a unit of an output.
 fn dimension(unit: &str) -> Dimension {
     evaluate(&format!("1 {unit}"), &mut NoNames).map_or(NONE, |q| q.dimension)
@@ -160,6 +188,11 @@ pub(super) fn condition(c: &Context<'_>, node: &Node, names: &Names<'_>) -> Opti
         Kind::List(_, items) => items,
         _ => &[],
     };
+    if names.is_combined && matches!(kind, 1 | 5) {
+        let message = "of a combination nobody knows how bodies respond: its cases do".to_owned();
+        c.report(c.diagnostic("E0112", message, node.span.clone()));
+        return None;
+    }
     match (kind, items) {
         (0, []) => Some(Condition::All),
         (1, []) => Some(Condition::Overturned),

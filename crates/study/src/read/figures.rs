@@ -27,6 +27,14 @@ fn figure(c: &Context<'_>, node: &Node, names: &Names<'_>, model: &Model) -> Opt
     }
     let kind = c.choice(node, "figure", &schema::FIGURES.names())?;
     let block = schema::FIGURES.blocks[kind];
+    if names.is_combined && matches!(kind, 0 | 3) {
+        let message = format!(
+            "`{}` shows how bodies respond, which of a combination nobody knows",
+            block.name
+        );
+        c.report(c.diagnostic("E0112", message, node.span.clone()));
+        return None;
+    }
     let fields = c.block(node, block.name, block)?;
     let number =
         |key: &str| fields.required(c, key).and_then(|n| names.number(c, n)).map(|(name, _)| name);

@@ -39,7 +39,7 @@ pub(super) fn identity(
     plan: &Plan,
     registry: &Registry,
     first: &[(String, String)],
-    how: (usize, Option<SolverKind>),
+    how: &(usize, Option<SolverKind>, Option<String>),
     columns: &[Column],
     stop: &Option<Option<Condition>>,
     files: &mut Vec<PathBuf>,

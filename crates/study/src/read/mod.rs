@@ -14,7 +14,7 @@ use names::Names;
 use setting::Settings;
 use std::path::{Path, PathBuf};
 use trilith::Registry;
-use trilith::model::file::{Context, Kind, Node, open, parse, resembles_model};
+use trilith::model::file::{Context, Fields, Kind, Node, open, parse, resembles_model};
 use trilith::model::{Analysis, Diagnostic, Model, ModelText, ParameterValue};
 
 /// Most runs of a study.
@@ -135,7 +135,10 @@ fn whole(
         }
         None => model.cases.len().checked_sub(1),
     };
-    if let Some(Analysis::Static(_)) = case.map(|i| &model.cases[i].analysis) {
+    let combination = combination(c, &top, &model);
+    if let (Some(Analysis::Static(_)), None) =
+        (case.map(|i| &model.cases[i].analysis), top.get("combination"))
+    {
         let at = top.get("case").or(model_node).map_or(0..0, |n| n.span.clone());
         let message = "the case of the study is static";
         c.report(c.diagnostic("E0112", message, at).help("name a dynamic case with `case`"));
@@ -145,13 +148,17 @@ fn whole(
         c.choice(n, "solver", &names).map(|i| model.solver(names[i], case.unwrap_or(0)))
     });
     let columns = columns::columns(c, top.get("columns"), &model);
+    let is_combined = top.get("combination").is_some();
+    if is_combined {
+        columns::check_combined(c, top.get("columns"), &columns, &model);
+    }
     let varied: Vec<String> = plan.varied().into_iter().map(str::to_owned).collect();
     let kind = |name: &String| match model.parameters.iter().find(|p| p.name == *name)?.value {
         ParameterValue::Number(_, dimension) => Some(dimension),
         ParameterValue::Text(_) => None,
     };
     let kinds: Vec<_> = varied.iter().map(kind).collect();
-    let names = Names::new(&varied, &kinds, &columns);
+    let names = Names::new(&varied, &kinds, &columns, is_combined);
     let stop = top.get("stop").map(|n| stop(c, n, &mut plan, &names));
     let histories = top.get("histories").map(|n| columns::condition(c, n, &names));
     let events = top.get("events").map_or(Some(Vec::new()), |n| columns::events(c, n, &names));
@@ -167,10 +174,10 @@ fn whole(
         let message = format!("the study has more than {MOST} runs");
         c.report(c.diagnostic("E0112", message, root.span.start..root.span.start + 1));
     }
-    let how = (case?, solver?);
+    let how = (case?, solver?, combination?);
     let (first, mut files) = (settings.first(&plan), Vec::new());
     let identity =
-        identity::identity(&parsed, &plan, registry, &first, how, &columns, &stop, &mut files)?;
+        identity::identity(&parsed, &plan, registry, &first, &how, &columns, &stop, &mut files)?;
     let sum = model.sha256();
     Some(Study {
         title: title?,
@@ -193,6 +200,7 @@ fn whole(
         case: case?,
         case_named: top.get("case").and_then(|_| Some(model.cases.get(case?)?.name.clone())),
         solver: solver?,
+        combination: how.2,
         kinds,
     })
 }
@@ -214,6 +222,28 @@ fn first_model(
             parsed.read(registry, &[]).ok()
         }
     }
+}
+
+/// `combination: "design"`, which goes with nothing that is of one case. Outer none: it is wrong.
+fn combination(c: &Context<'_>, top: &Fields<'_>, model: &Model) -> Option<Option<String>> {
+    let Some(node) = top.get("combination") else { return Some(None) };
+    for (name, why) in [
+        ("case", "runs a case and no combination: one of them is wanted"),
+        ("solver", "is that of one case: cases of a combination have their own in the model"),
+        ("histories", "are those of one case: a combination has extremes alone"),
+    ] {
+        if let Some(other) = top.get(name) {
+            c.report(c.diagnostic("E0112", format!("`{name}` {why}"), other.span.clone()));
+        }
+    }
+    if model.combinations.is_empty() {
+        let message = "the model has no combination".to_owned();
+        let help = "`combinations` of the model says which cases it has";
+        c.report(c.diagnostic("E0106", message, node.span.clone()).help(help));
+        return None;
+    }
+    let names: Vec<&str> = model.combinations.iter().map(|k| k.name.as_str()).collect();
+    c.choice(node, "combination", &names).map(|i| Some(names[i].to_owned()))
 }
 
 /// `stop: (along: "scale", when: Overturned)`.

@@ -9,6 +9,8 @@ pub(super) struct Names<'a> {
     varied: &'a [String],
     kinds: &'a [Option<Dimension>],
     columns: &'a [Column],
+    /// True where runs are combinations of cases, of which nothing but extremes is known.
+    pub is_combined: bool,
 }
 
 impl<'a> Names<'a> {
@@ -16,8 +18,9 @@ impl<'a> Names<'a> {
         varied: &'a [String],
         kinds: &'a [Option<Dimension>],
         columns: &'a [Column],
+        is_combined: bool,
     ) -> Self {
-        Self { varied, kinds, columns }
+        Self { varied, kinds, columns, is_combined }
     }
 
     /// A column and its dimension.

@@ -40,6 +40,12 @@ pub static STUDY: Group = Group {
             plain("title", Text, r#""""#, "Shown above results."),
             needed("model", Words("a path from the folder of the study"), "The model file."),
             absent("case", Name("case"), "the last of the model", "The dynamic case that runs."),
+            absent(
+                "combination",
+                Name("combination"),
+                "one case runs",
+                "A combination of the model in place of a case: the cases that it needs run, each with its own solver, and `Peak`, `Max` and `Min` take its extremes.",
+            ),
             absent("solver", Choice(&SOLVERS), "as the case says", "Solver of all runs."),
             absent(
                 "set",

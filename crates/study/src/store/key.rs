@@ -7,7 +7,7 @@
 //! | texts of the model and of what it includes | all that is no parameter |
 //! | values of all parameters, in SI | what a study varies |
 //! | samples of functions of time, files and matrices of elements | what stands in other files |
-//! | case, solver, side by side or alone, what is taken over time | how it is run |
+//! | case or combination, solver, side by side or alone, what is taken over time | how it is run |
 //!
 //! Names of files and folders, and the study around it, do not count: the same run is found again from another study.
 
@@ -52,7 +52,8 @@ impl Keys {
             told(&mut alike, &source.sha256);
         }
         let histories = study.histories.is_some();
-        let how = (study.case, study.solver, beside, histories, over_time(&study.columns));
+        let which = (study.case, &study.combination, study.solver);
+        let how = (which, beside, histories, over_time(&study.columns));
         shown(&mut alike, &how);
         Ok(Self { alike })
     }
