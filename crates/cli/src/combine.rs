@@ -82,7 +82,7 @@ pub(crate) fn page(model: &Model, found: &Combinations) -> String {
     for one in &found.combinations {
         out += &format!("\n{}: {}\n", visible_line(&one.name), visible_line(&formula(one)));
         out += &outputs(one);
-        if let Some(text) = twice(one) {
+        if let Some(text) = one.warning() {
             out += &format!("  warning: {text}\n");
         }
     }
@@ -93,14 +93,6 @@ pub(crate) fn page(model: &Model, found: &Combinations) -> String {
         .collect();
     out += &format!("\ncases: {}\n", cases.join(", "));
     out
-}
-
-/// What it adds twice, in a sentence.
-pub(crate) fn twice(one: &Combined) -> Option<String> {
-    let [earlier, later] = one.twice.as_ref()?.each_ref().map(|name| visible_line(name));
-    Some(format!(
-        "it adds \"{earlier}\" and \"{later}\", which continues it: what \"{earlier}\" does is in both"
-    ))
 }
 
 /// How a combination is made, in a line.

@@ -1,6 +1,6 @@
 //! Combinations as a table of comma-separated values, and as a page.
 
-use crate::combine::{formula, rows, twice};
+use crate::combine::{formula, rows};
 use trilith::Model;
 use trilith::combine::{Combinations, CombinedOutput};
 use trilith::record::cell;
@@ -52,7 +52,7 @@ pub(crate) fn page(model: &Model, found: &Combinations) -> String {
         let mut section = Section::new(format!("c{i}"), one.name.clone())
             .block(Block::text(formula(one)))
             .block(Block::Table { head, rows: own });
-        if let Some(text) = twice(one) {
+        if let Some(text) = one.warning() {
             section = section.block(Block::note(format!("Warning: {text}.")));
         }
         page = page.section(section);

@@ -96,12 +96,13 @@ impl Finished {
             let name = &case.name;
             case.warnings.iter().map(move |warning| format!("case \"{name}\": {warning}"))
         });
+        let twice = found.combinations.iter().filter_map(|one| one.warning());
         let status = Status::Converged;
         Self {
             status: status.word().to_owned(),
             good: status.is_good(),
             message: String::new(),
-            warnings: warnings.collect(),
+            warnings: warnings.chain(twice).collect(),
             contact: None,
             energy: [UNKNOWN; 11],
             peaks: peaks.collect(),

@@ -323,7 +323,7 @@ fn a_combination_takes_the_place_of_a_case() {
             "outputs: {",
             r#"combinations: {
         "sum": LinearAdd(cases: { "push": 2, "shake": 1 }),
-        "worst": Envelope(cases: ["push", "shake"]),
+        "twice": LinearAdd(cases: ["gravity", "push"]),
     },
     outputs: { "weight": LinkForce(link: "foot", axis: U1, hidden: true),"#,
         );
@@ -360,9 +360,14 @@ fn a_combination_takes_the_place_of_a_case() {
         let peak = own.max.abs().max(own.min.abs());
         let expected = [own.max, own.min, peak, peak / (own.max - own.min)].map(Some);
         assert_eq!(record.values, expected, "{a}");
+        assert!(record.warnings.is_empty(), "{:?}", record.warnings);
         // Twice the push, and what the shaking adds.
         assert!(own.max > 1.9e-4, "{own:?}");
     }
+    let twice = body("").replace("\"sum\"", "\"twice\"");
+    let results = run(&read(folder.path(), &twice).unwrap(), &folder.path().join("twice"), 1);
+    let warned = results.unwrap().records.remove(0).warnings;
+    assert!(warned[0].contains("it adds \"gravity\" and \"push\""), "{warned:?}");
     for (more, part) in [
         (r#"case: "shake","#, "`case` runs a case and no combination"),
         (r#"solver: "hht","#, "`solver` is that of one case"),

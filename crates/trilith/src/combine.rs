@@ -28,6 +28,7 @@ use serde::Serialize;
 use std::sync::atomic::AtomicBool;
 use trilith_model::{
     Analysis as CaseAnalysis, Combination, CombinationTerm, CombineCases, Model, Output,
+    visible_line,
 };
 use trilith_solvers::Status;
 
@@ -68,6 +69,17 @@ pub struct Combined {
     pub twice: Option<[String; 2]>,
     /// Its outputs, in the order of the model, without hidden ones.
     pub outputs: Vec<CombinedOutput>,
+}
+
+impl Combined {
+    /// What it adds twice, in a sentence; none where that is nothing.
+    #[must_use]
+    pub fn warning(&self) -> Option<String> {
+        let [earlier, later] = self.twice.as_ref()?.each_ref().map(|name| visible_line(name));
+        Some(format!(
+            "it adds \"{earlier}\" and \"{later}\", which continues it: what \"{earlier}\" does is in both"
+        ))
+    }
 }
 
 fn named<S: serde::Serializer>(how: &CombineCases, to: S) -> Result<S::Ok, S::Error> {
