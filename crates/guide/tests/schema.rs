@@ -228,6 +228,7 @@ fn the_reader_knows_no_names_of_its_own() {
                     "item, name, names",
                     "\"support direction\", &names",
                     "\"case\", &names",
+                    "\"combination\", &names",
                     "\"energy\", &ENERGIES",
                     // Those of the schema, and behind them those of other crates.
                     "\"output\", &names",
