@@ -14,7 +14,7 @@ MAST = """(
     elements: {
         "tube {i}": For(i: "1 to 20", of: Beam(nodes: ("m{i-1}", "m{i}"),
             young: "210 GPa", area: 0.01, i2: 1e-4, i3: 1e-4, density: 7850)),
-        "stop": Gap(node: "m20", axis1: X, opening: "1 mm", k: "1 MN/m"),
+        "stop": Gap(node: "m20", axis1: (1, 0, 0), opening: "1 mm", k: "1 MN/m"),
     },
     groups: { "mast": ["tube *"] },
     functions: { "pulse": HalfSine(amplitude: "0.3 g", duration: "0.1 s") },
