@@ -98,12 +98,24 @@ struct Told {
     last: Option<(f64, f64)>,
     end: Option<(f64, f64)>,
     nodes: usize,
+    /// A pose on the way, and its displacements.
+    earlier: Option<(Vec<f64>, Vec<f64>)>,
 }
 
 impl Told {
-    fn look(&self, s: &Sample<'_>) -> Option<(f64, f64)> {
+    fn look(&mut self, s: &Sample<'_>) -> Option<(f64, f64)> {
         let mut u = vec![0.0; 6 * self.nodes];
         s.shape.displacements(&[s.shape.pose()], &mut u);
+        if let Some((pose, before)) = &self.earlier {
+            // Several at once, and later than they were there, are what each is.
+            let mut both = vec![0.0; 2 * u.len()];
+            s.shape.displacements(&[pose.clone(), s.shape.pose()], &mut both);
+            let each = before.iter().chain(&u);
+            assert!(both.iter().zip(each).all(|(x, y)| (x - y).abs() <= 1e-12), "{both:?}");
+        }
+        if self.outputs == 20 {
+            self.earlier = Some((s.shape.pose(), u.clone()));
+        }
         Some((s.t, u.iter().sum()))
     }
 }
@@ -141,6 +153,7 @@ fn an_observer_is_told_of_the_start_and_shown_the_end_again() {
             run(&model, &system, options, &mut [&mut told]).unwrap();
             assert_eq!((told.steps, told.outputs), (Some(steps), steps + 1));
             assert!(told.end.is_some() && told.end == told.last, "{:?}", told.end);
+            assert_eq!(told.earlier.is_some(), steps > 0);
         }
     }
 }

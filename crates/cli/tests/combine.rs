@@ -174,6 +174,23 @@ fn what_cannot_be_combined_is_told() {
     assert!(status == 2 && err.contains("the model has no combination"), "{err}");
 }
 
+/// Where a body lies is no extreme of what it does, and no factor makes it one.
+#[test]
+fn a_body_that_overturns_ends_a_combination() {
+    let models = concat!(env!("CARGO_MANIFEST_DIR"), "/../../models/rocking_body.ron");
+    let text = std::fs::read_to_string(models).unwrap();
+    let combined = text.replace(
+        "outputs: {",
+        "combinations: { \"c\": Envelope(cases: [\"pulse\"]) },\n    outputs: {",
+    );
+    let folder = folder(&combined);
+    let run = |ah: &str| trilith(folder.path(), &["combine", "column.ron", "--set", ah]);
+    let (status, out, err) = run("ah=1.2");
+    assert!(status == 1 && out.is_empty(), "{out}");
+    assert!(err.contains("case \"pulse\"") && err.contains("overturned at t ="), "{err}");
+    assert_eq!(run("ah=0.35").0, 0);
+}
+
 #[test]
 fn what_is_added_twice_is_said() {
     let text = COLUMN

@@ -61,6 +61,8 @@ def test_what_is_refused(tmp_path: Path) -> None:
         m.reduce("mast", -1)
     with pytest.raises(tl.ArgumentError, match="list of names"):
         m.reduce("mast", keep="m20")
+    with pytest.raises(tl.ArgumentError, match="without out= none are written"):
+        m.reduce("mast", form="mtx")
     with pytest.raises(tl.ArgumentError, match="no form of matrices"):
         m.reduce("mast", out=tmp_path / "x", form="xlsx")
     (tmp_path / "file").write_text("mine")

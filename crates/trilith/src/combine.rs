@@ -232,7 +232,8 @@ fn case(model: &Model, index: usize, run: &crate::Run) -> Result<CombinedCase, C
     if matches!(status, Status::Interrupted { .. }) {
         return Err(Error::Interrupted.into());
     }
-    if !status.is_good() {
+    // Where a body lies has nothing to do with what it bears.
+    if !matches!(status, Status::Converged) {
         return Err(CombineError::Case { case: case.name.clone(), reason: status.text() });
     }
     let is_static = matches!(case.analysis, CaseAnalysis::Static(_));

@@ -432,7 +432,7 @@ class Model:
         recover: Sequence[str] = (),
         recover_all: bool = False,
         out: str | PathLike[str] | None = None,
-        form: str = "npz",
+        form: str | None = None,
     ) -> Reduction:
         """A superelement of few rows in place of a linear part (Craig–Bampton): of nodes that the rest of the model touches,
         and of modes with these held.
@@ -449,8 +449,10 @@ class Model:
         :param recover: nodes that follow the rows, for outputs and loads.
         :param recover_all: all nodes of the part that are not kept follow.
         :param out: a folder that the model and its matrices are written to.
-        :param form: of the matrices there: ``"npz"``, ``"mtx"``, ``"dmig"`` or ``"op4"``.
+        :param form: of the matrices there: ``"npz"``, ``"mtx"``, ``"dmig"`` or ``"op4"``; without it ``"npz"``.
+        :raises ModelError: where the structure is none.
         :raises ArgumentError: for names that there are not, and a part that is not linear or not held by what is kept.
+        :raises RunError: where its modes cannot be found.
         :raises FileError: where the files cannot be written.
         """
         from ._reduce import reduce

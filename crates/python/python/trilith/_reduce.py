@@ -69,18 +69,20 @@ def reduce(
     recover: Sequence[str],
     recover_all: bool,
     out: str | PathLike[str] | None,
-    form: str,
+    form: str | None,
 ) -> Reduction:
     """Reduces a part: see :meth:`Model.reduce`."""
     from ._model import load, loads
 
     if modes is not None and up_to is not None:
         raise ArgumentError("modes= says how many there are, and up_to= as well: one of them is wanted")
+    if out is None and form is not None:
+        raise ArgumentError("form= is that of files, and without out= none are written")
     parts = [part] if isinstance(part, str) else list(part)
     kept = None if keep is None else names("keep", keep)
     followed = names("recover", recover)
     up_to = positive("up_to", up_to)
-    folder = None if out is None else (Path(out), form)
+    folder = None if out is None else (Path(out), form or "npz")
     text, path, facts = model._native.reduce(
         parts, whole("modes", modes, least=0), up_to, kept, followed, bool(recover_all), folder
     )
