@@ -13,9 +13,11 @@
 //! Reference: the law with `c`, `cy` and a force limit is that of SAP2000's bilinear damper; with a
 //! ratio p = c_y/c that of oil dampers in \[JSSI 2003\].
 
-use crate::shared::series::{SeriesHistory, Split, Viscous, answer, follow};
+use crate::shared::series::{Series, SeriesHistory, Split, Viscous};
+use crate::shared::written::Written;
 use serde::Deserialize;
 use std::borrow::Cow;
+use trilith_element::lanes::{LaneForm, Real};
 use trilith_element::{
     Axis, Card, Category, Coordinates, Described, Exercise, Field, History, Kinematics, Link,
     NodeCount, Parameters, Response, Stroke,
@@ -57,16 +59,21 @@ impl Described for BilinearDamper {
     .exercise(Exercise::new(1.0, &[Stroke::about(0.0, 0.08)]));
 }
 
-impl Viscous for BilinearDamper {
-    fn split_positive(&self, known: f64, a: f64) -> Split {
-        let relief = self.fl / self.c;
-        let closed = known / (self.c + a);
-        let (c, rate) = if closed <= relief {
-            (self.c, closed)
-        } else {
-            (self.cy, (known - self.fl + self.cy * relief) / (self.cy + a))
-        };
-        let force = if closed <= relief { c * rate } else { self.fl + c * (rate - relief) };
+/// The oil damper; parameters k, c, c_y, f_l.
+struct Relieved;
+
+impl Viscous for Relieved {
+    const PARAMETERS: usize = 4;
+    const IS_LONG: bool = false;
+
+    #[inline(always)]
+    fn split_positive<R: Real>(parameters: &[R], known: R, a: R) -> Split<R> {
+        let (c, cy, fl) = (parameters[1], parameters[2], parameters[3]);
+        let (relief, closed) = (fl / c, known / (c + a));
+        let open = (known - fl + cy * relief) / (cy + a);
+        let is_closed = closed.le(relief);
+        let (c, rate) = (R::select(is_closed, c, cy), R::select(is_closed, closed, open));
+        let force = R::select(is_closed, c * rate, fl + c * (rate - relief));
         Split { force, rate, slope: c / (c + a) }
     }
 }
@@ -96,8 +103,19 @@ impl Link for BilinearDamper {
         trial: &mut [f64],
         out: &mut Response<'_>,
     ) {
-        let end = follow(self.k, self, SeriesHistory::load(committed).force, at);
-        answer(self.k, &end, trial, out);
+        LAW.respond(&self.numbers(), (at, committed), trial, out);
+    }
+
+    fn lanes(&self, _: &[bool]) -> Option<LaneForm> {
+        Some(LAW.along_axis(&self.numbers()))
+    }
+}
+
+const LAW: Written = Written::of::<Series<Relieved>>();
+
+impl BilinearDamper {
+    fn numbers(&self) -> [f64; 4] {
+        [self.k, self.c, self.cy, self.fl]
     }
 }
 

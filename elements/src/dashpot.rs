@@ -15,7 +15,8 @@
 //! Reference: \[Soong & Dargush 1997, ch. 6\]; contact variant \[Wilson 2002, ch. 21\].
 
 use crate::shared::restitution::damping_ratio;
-use crate::shared::touch::hold;
+use crate::shared::touch::strike;
+use crate::shared::written::Written;
 use serde::Deserialize;
 use trilith_element::lanes::{LaneAt, LaneForce, LaneForm, LaneLaw, LaneStep, Real};
 use trilith_element::{
@@ -134,91 +135,73 @@ impl Dashpot {
         if self.axis.index() > 2 { self.cr } else { self.c }
     }
 
-    /// Force F(v) and its derivative.
-    fn force(&self, v: f64) -> (f64, f64) {
-        let (c, alpha, size) = (self.coefficient().unwrap_or(0.0), self.exponent, v.abs());
-        if alpha == 1.0 {
-            return (c * v, c);
-        }
-        if alpha < 1.0 && size < self.linear_below {
-            let slope = c * self.linear_below.powf(alpha - 1.0);
-            return (slope * v, slope);
-        }
-        let power = c * size.powf(alpha);
-        (power.copysign(v), if size > 0.0 { alpha * power / size } else { 0.0 })
-    }
-
-    /// Which of the linear laws it is.
-    fn respond_linearly(&self, at: &Kinematics<'_>, c: f64, out: &mut Response<'_>) {
-        fn by<L: LaneLaw>(asked: &LaneAt<'_, f64>, out: &mut Response<'_>) {
-            L::force(asked, &mut LaneForce { f: out.f, k: out.k, c: out.c });
-            let step = L::commit(asked, out.f, &mut []);
-            (out.energy.stored, out.energy.viscous) = (step.stored, step.viscous);
-        }
-        let numbers = self.numbers(c);
-        let asked = LaneAt::new(at, &[], &numbers);
+    fn law(&self) -> Written {
+        let is_power = self.exponent != 1.0;
         match (self.when, self.pull) {
-            (When::Always, _) => by::<Linear<ALWAYS>>(&asked, out),
-            (When::InContact, true) => by::<Linear<PULLS>>(&asked, out),
-            (When::InContact, false) => by::<Linear<PRESSES>>(&asked, out),
+            (When::Always, _) => of_power::<ALWAYS>(is_power),
+            (When::InContact, true) => of_power::<PULLS>(is_power),
+            (When::InContact, false) => of_power::<PRESSES>(is_power),
         }
     }
 
-    /// Parameters of the linear law.
-    fn numbers(&self, c: f64) -> [f64; 4] {
+    /// Parameters of the law.
+    fn numbers(&self) -> [f64; 6] {
+        let (c, alpha) = (self.coefficient().unwrap_or(0.0), self.exponent);
         let by = if self.stiffness > 0.0 { self.stiffness.recip() } else { 0.0 };
-        [c, self.stiffness, self.opening, by]
-    }
-
-    /// Total force, its derivatives by d and ḋ, and the force of the spring in it.
-    fn total(&self, d: f64, v: f64) -> [f64; 4] {
-        let (force, slope) = self.force(v);
-        if self.when == When::Always {
-            return [force, 0.0, slope, 0.0];
-        }
-        let gap = d + self.opening;
-        if gap >= 0.0 {
-            return [0.0; 4];
-        }
-        let spring = self.stiffness * gap;
-        let [share, by_gap] = hold(gap, v);
-        let f = force * share + spring;
-        if f > 0.0 && !self.pull {
-            return [0.0, 0.0, 0.0, spring];
-        }
-        [f, self.stiffness + force * by_gap, slope * share, spring]
+        let below = if alpha < 1.0 { self.linear_below } else { 0.0 };
+        [c, self.stiffness, self.opening, by, alpha, below]
     }
 }
 
-/// The dashpot with α = 1 over lanes; parameters c, k, g, 1/k (0 without k).
-struct Linear<const WHEN: u8>;
+fn of_power<const WHEN: u8>(is_power: bool) -> Written {
+    if is_power { Written::of::<Law<WHEN, true>>() } else { Written::of::<Law<WHEN, false>>() }
+}
+
+/// The law over lanes; parameters c, k, g, 1/k (0 without k), and where it has a power of the rate α, v₀ (0 where α is not
+/// below 1).
+struct Law<const WHEN: u8, const POWER: bool>;
 
 const ALWAYS: u8 = 0;
 const PULLS: u8 = 1;
 const PRESSES: u8 = 2;
 
-impl<const WHEN: u8> Linear<WHEN> {
+impl<const WHEN: u8, const POWER: bool> Law<WHEN, POWER> {
+    /// F(v) and its derivative.
+    #[inline(always)]
+    fn of_rate<R: Real>(p: &[R], v: R) -> [R; 2] {
+        let (c, zero, one) = (p[0], p[0].of(0.0), p[0].of(1.0));
+        if !POWER {
+            return [c * v, c];
+        }
+        let (alpha, below, size) = (p[4], p[5], v.abs());
+        let some = zero.lt(size);
+        let power = (c * R::select(some, size, one).powf(alpha)).only(some);
+        let steep = (alpha * power / R::select(some, size, one)).only(some);
+        let is_slow = size.lt(below);
+        let force = R::select(v.lt(zero), -power, power);
+        if !v.any(is_slow) {
+            return [force, steep];
+        }
+        let gentle = c * R::select(is_slow, below, one).powf(alpha - one);
+        [R::select(is_slow, gentle * v, force), R::select(is_slow, gentle, steep)]
+    }
+
     /// Total force, its derivatives by d and ḋ, and the force of the spring in it.
     #[inline(always)]
     fn total<R: Real>(p: &[R], d: R, v: R) -> [R; 4] {
-        let (c, k, zero) = (p[0], p[1], p[0].of(0.0));
-        if WHEN == ALWAYS {
-            return [c * v, zero, c, zero];
+        let [force, slope] = Self::of_rate(p, v);
+        match WHEN {
+            ALWAYS => [force, p[0].of(0.0), slope, p[0].of(0.0)],
+            PULLS => strike::<R, true>(p[1], [force, slope], d + p[2], v),
+            _ => strike::<R, false>(p[1], [force, slope], d + p[2], v),
         }
-        let gap = d + p[2];
-        let closed = gap.lt(zero);
-        let spring = (k * gap).only(closed);
-        let (force, [share, by_gap]) = (c * v, hold(gap, v));
-        let f = force * share + spring;
-        let acts = if WHEN == PULLS { closed } else { closed & !zero.lt(f) };
-        [f.only(acts), (k + force * by_gap).only(acts), (c * share).only(acts), spring]
     }
 }
 
-impl<const WHEN: u8> LaneLaw for Linear<WHEN> {
+impl<const WHEN: u8, const POWER: bool> LaneLaw for Law<WHEN, POWER> {
     const COORDINATES: usize = 1;
     const HISTORY: usize = 0;
-    const PARAMETERS: usize = 4;
+    const PARAMETERS: usize = if POWER { 6 } else { 4 };
 
     #[inline(always)]
     fn force<R: Real>(at: &LaneAt<'_, R>, out: &mut LaneForce<'_, R>) {
@@ -231,10 +214,8 @@ impl<const WHEN: u8> LaneLaw for Linear<WHEN> {
         let [f0, _, _, spring0] = Self::total(at.parameters, at.d0[0], at.v0[0]);
         let [f, _, _, spring] = Self::total(at.parameters, at.d[0], at.v[0]);
         let stored = f.of(0.5) * spring * spring * at.parameters[3];
-        LaneStep {
-            viscous: at.viscous_work(0, f0 - spring0, f - spring),
-            ..LaneStep::elastic(stored)
-        }
+        let viscous = at.viscous_work(0, f0 - spring0, f - spring);
+        LaneStep { viscous, ..LaneStep::elastic(stored) }
     }
 }
 
@@ -248,16 +229,7 @@ impl Link for Dashpot {
     }
 
     fn respond(&self, at: &Kinematics<'_>, _: &[f64], _: &mut [f64], out: &mut Response<'_>) {
-        if let (true, Some(c)) = (self.exponent == 1.0, self.coefficient()) {
-            return self.respond_linearly(at, c, out);
-        }
-        let [f0, _, _, spring0] = self.total(at.d0[0], at.v0[0]);
-        let [f, k, c, spring] = self.total(at.d[0], at.v[0]);
-        (out.f[0], out.k[0], out.c[0]) = (f, k, c);
-        if self.stiffness > 0.0 {
-            out.energy.stored = 0.5 * spring * spring / self.stiffness;
-        }
-        out.energy.viscous = at.viscous_work(0, f0 - spring0, f - spring);
+        self.law().respond(&self.numbers(), (at, &[]), &mut [], out);
     }
 
     fn damping_constant(&self) -> Option<f64> {
@@ -266,13 +238,7 @@ impl Link for Dashpot {
     }
 
     fn lanes(&self, _: &[bool]) -> Option<LaneForm> {
-        let c = self.coefficient().filter(|_| self.exponent == 1.0)?;
-        let numbers = self.numbers(c).to_vec();
-        Some(match (self.when, self.pull) {
-            (When::Always, _) => LaneForm::of::<Linear<ALWAYS>>(vec![0], numbers),
-            (When::InContact, true) => LaneForm::of::<Linear<PULLS>>(vec![0], numbers),
-            (When::InContact, false) => LaneForm::of::<Linear<PRESSES>>(vec![0], numbers),
-        })
+        Some(self.law().along_axis(&self.numbers()))
     }
 
     fn impact(&self) -> Option<Impact> {
@@ -307,8 +273,8 @@ mod tests {
     use super::*;
     use crate::shared::parameters::read;
     use approx::assert_relative_eq;
-    use trilith_element::Value;
     use trilith_element::conformance::assert_conforms;
+    use trilith_element::{Answer, Value};
 
     fn dashpot(given: &[(&str, Value)]) -> Dashpot {
         let mut all = vec![("c", Value::Number(2e4))];
@@ -335,41 +301,44 @@ mod tests {
         }
     }
 
+    /// Force, and its derivatives by d and ḋ.
+    fn total(law: &Dashpot, d: f64, v: f64) -> [f64; 3] {
+        let it = Answer::of(law, &Kinematics::still(&[d], &[v]), &[]);
+        [it.f[0], it.k[0], it.c[0]]
+    }
+
     #[test]
     fn the_force_is_a_signed_power_and_continuous_at_the_linear_range() {
         let law = dashpot(&[("exponent", Value::Number(0.5))]);
-        assert_relative_eq!(law.force(0.04).0, 2e4 * 0.2, max_relative = 1e-14);
-        assert_relative_eq!(law.force(-0.04).0, -2e4 * 0.2, max_relative = 1e-14);
-        let (inside, outside) = (law.force(1e-6 * (1.0 - 1e-12)), law.force(1e-6));
-        assert_relative_eq!(inside.0, outside.0, max_relative = 1e-10);
-        assert_eq!(law.force(0.0).0, 0.0);
-        assert!(law.force(0.0).1.is_finite());
+        let force = |v: f64| total(&law, 0.0, v);
+        assert_relative_eq!(force(0.04)[0], 2e4 * 0.2, max_relative = 1e-14);
+        assert_relative_eq!(force(-0.04)[0], -2e4 * 0.2, max_relative = 1e-14);
+        let (inside, outside) = (force(1e-6 * (1.0 - 1e-12)), force(1e-6));
+        assert_relative_eq!(inside[0], outside[0], max_relative = 1e-10);
+        assert_eq!(force(0.0)[0], 0.0);
+        assert!(force(0.0)[2].is_finite());
     }
 
     #[test]
     fn a_dashpot_in_contact_neither_acts_in_flight_nor_pulls() {
         let law = contact(&[]);
-        assert_eq!(law.total(1e-6, -1.0)[0], 0.0);
-        assert_eq!(law.total(-1e-6, -1.0)[0], -2e4);
-        assert_eq!(law.total(-1e-6, 1.0)[0], 0.0);
+        let force = |d: f64, v: f64| total(&law, d, v)[0];
+        assert_eq!(force(1e-6, -1.0), 0.0);
+        assert_eq!(force(-1e-6, -1.0), -2e4);
+        assert_eq!(force(-1e-6, 1.0), 0.0);
         let with_spring = contact(&[("stiffness", Value::Number(1e6))]);
-        assert_eq!(with_spring.total(-0.1, 1.0)[0], 2e4 - 1e5);
-        assert_eq!(with_spring.total(-0.01, 1.0)[0], 0.0);
+        assert_eq!(total(&with_spring, -0.1, 1.0)[0], 2e4 - 1e5);
+        assert_eq!(total(&with_spring, -0.01, 1.0)[0], 0.0);
     }
 
     #[test]
     fn a_dashpot_in_contact_takes_hold_without_a_jump() {
         for exponent in [1.0, 1.5] {
             let law = contact(&[("exponent", Value::Number(exponent))]);
-            let [f, k, c, _] = law.total(-2.5e-10, -1.0);
+            let [f, k, c] = total(&law, -2.5e-10, -1.0);
             assert_relative_eq!(f, -0.25 * 2e4, max_relative = 1e-9);
             assert_relative_eq!(k, 2e4 / 1e-9, max_relative = 1e-9);
             assert_relative_eq!(c, 0.25 * exponent * 2e4, max_relative = 1e-9);
-            // The same over lanes, where it has such a form.
-            let linear = Linear::<PRESSES>::total(&law.numbers(2e4), -2.5e-10, -1.0);
-            if exponent == 1.0 {
-                assert_eq!(linear, [f, k, c, 0.0]);
-            }
         }
     }
 

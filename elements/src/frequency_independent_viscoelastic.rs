@@ -24,6 +24,7 @@ use branches::{Branch, Branches};
 use serde::Deserialize;
 use std::borrow::Cow;
 use std::sync::OnceLock;
+use trilith_element::lanes::LaneAt;
 use trilith_element::{
     Axis, Card, Category, Coordinates, Described, Exercise, Field, Kinematics, Link, NodeCount,
     ParameterError, Parameters, Response, Stroke,
@@ -169,10 +170,11 @@ impl Link for FrequencyIndependentViscoelastic {
         out: &mut Response<'_>,
     ) {
         let all = self.branches();
+        let asked = LaneAt::new(at, committed, &[]);
         let (k, d) = (all.k_inf, at.d[0]);
         (out.f[0], out.k[0], out.energy.stored) = (k * d, k, 0.5 * k * d * d);
         for ((branch, f0), f) in all.branches.iter().zip(committed).zip(trial) {
-            let end = relax(branch.k, branch.tau, *f0, at);
+            let end = relax(branch.k, branch.tau, *f0, &asked);
             *f = end.f;
             out.f[0] += end.f;
             out.k[0] += end.f_d;

@@ -34,9 +34,11 @@
 
 use crate::shared::restitution::approach_ratio;
 use crate::shared::touch::TOUCH;
+use crate::shared::written::Written;
 use serde::Deserialize;
 use std::borrow::Cow;
 use std::sync::OnceLock;
+use trilith_element::lanes::{LaneAt, LaneContact, LaneForce, LaneForm, LaneLaw, LaneStep, Real};
 use trilith_element::{
     Axis, Card, Category, Choices, Contact, ContactUse, Coordinates, Described, Exercise, Field,
     History, Impact, Kinematics, Link, NodeCount, ParameterError, Parameters, Response, Stroke,
@@ -155,42 +157,147 @@ fn approach_damping(e: f64, n: f64) -> f64 {
 
 /// Speed at first touch, as far as it is known, and how it depends on the end of a step in which it happens.
 #[derive(Clone, Copy)]
-struct Touch {
-    speed: f64,
-    by_depth: f64,
-    by_rate: f64,
+struct Touch<R> {
+    speed: R,
+    by_depth: R,
+    by_rate: R,
 }
 
-impl Touch {
+impl<R: Real> Touch<R> {
     /// Known from before; 0: none.
-    fn known(speed: f64) -> Self {
-        Self { speed, by_depth: 0.0, by_rate: 0.0 }
+    #[inline(always)]
+    fn known(speed: R) -> Self {
+        let zero = speed.of(0.0);
+        Self { speed, by_depth: zero, by_rate: zero }
     }
 
-    /// Within a step from an open gap (depth ≤ 0) to a closed one, each with its rate.
-    fn within([depth0, rate0]: [f64; 2], [depth, rate]: [f64; 2]) -> Self {
+    #[inline(always)]
+    fn select(mask: R::Mask, yes: Self, no: Self) -> Self {
+        Self {
+            speed: R::select(mask, yes.speed, no.speed),
+            by_depth: R::select(mask, yes.by_depth, no.by_depth),
+            by_rate: R::select(mask, yes.by_rate, no.by_rate),
+        }
+    }
+
+    /// Within a step from an open gap (depth ≤ 0) to a closed one, each with its rate; elsewhere it is no number.
+    #[inline(always)]
+    fn within([depth0, rate0]: [R; 2], [depth, rate]: [R; 2]) -> Self {
+        let (zero, one, half) = (depth.of(0.0), depth.of(1.0), depth.of(0.5));
         let way = depth - depth0;
         let share = -depth0 / way;
-        let speed = ((1.0 - share) * rate0 * rate0 + share * rate * rate).sqrt();
-        if speed == 0.0 {
-            return Self::known(0.0);
-        }
-        let by_depth = 0.5 * share * (rate0 * rate0 - rate * rate) / (way * speed);
-        Self { speed, by_depth, by_rate: share * rate / speed }
+        let speed = ((one - share) * rate0 * rate0 + share * rate * rate).sqrt();
+        let by_depth = half * share * (rate0 * rate0 - rate * rate) / (way * speed);
+        let it = Self { speed, by_depth, by_rate: share * rate / speed };
+        Self::select(speed.le(zero), Self::known(zero), it)
     }
 
     /// No slower than this.
-    fn at_least(self, speed: f64) -> Self {
-        if self.speed > speed { self } else { Self::known(speed) }
+    #[inline(always)]
+    fn at_least(self, speed: R) -> Self {
+        Self::select(speed.lt(self.speed), self, Self::known(speed))
     }
 }
 
 /// Normal force and what it depends on.
-struct Normal {
-    force: f64,
-    by_depth: f64,
-    by_rate: f64,
-    elastic: f64,
+struct Normal<R> {
+    force: R,
+    by_depth: R,
+    by_rate: R,
+    elastic: R,
+}
+
+/// The law over lanes; parameters k, n, ξ, g, s_min, m. `APPROACH`: it is that of Jankowski.
+struct Law<const APPROACH: bool>;
+
+impl<const APPROACH: bool> Law<APPROACH> {
+    /// At penetration `depth` and its `rate`, after a touch.
+    #[inline(always)]
+    fn normal<R: Real>(p: &[R], depth: R, rate: R, touch: Touch<R>) -> Normal<R> {
+        let (k, n, xi, zero, one) = (p[0], p[1], p[2], p[0].of(0.0), p[0].of(1.0));
+        let closed = zero.lt(depth);
+        let depth = R::select(closed, depth, one);
+        let elastic = k * depth.powf(n);
+        let stiffness = n * elastic / depth;
+        let (acts, force, by_depth, by_rate);
+        if APPROACH {
+            let comes = zero.lt(rate);
+            // Just at the touch the slope has no bound for n < 3: there it is linear.
+            let least = k.of(TOUCH);
+            let grows = depth.lt(least);
+            let share = R::select(grows, depth * k.of(TOUCH.recip()), one);
+            let slope = R::select(grows, one, k.of(0.5) * (n - one));
+            let root = (p[5] * k * depth.max(least).powf(n - one)).sqrt();
+            let c = (k.of(2.0) * xi * share * root).only(comes);
+            acts = closed;
+            force = elastic + c * rate;
+            by_depth = stiffness + slope * c * rate / depth;
+            by_rate = c;
+        } else {
+            let touch = touch.at_least(p[4]);
+            let share = xi * rate / touch.speed;
+            let by_touch = -elastic * share / touch.speed;
+            acts = closed & (-one).le(share);
+            force = elastic * (one + share);
+            by_depth = stiffness * (one + share) + by_touch * touch.by_depth;
+            by_rate = elastic * xi / touch.speed + by_touch * touch.by_rate;
+        }
+        Normal {
+            force: force.only(acts),
+            by_depth: by_depth.only(acts),
+            by_rate: by_rate.only(acts),
+            elastic: elastic.only(closed),
+        }
+    }
+}
+
+impl<const APPROACH: bool> LaneLaw for Law<APPROACH> {
+    const COORDINATES: usize = 1;
+    const HISTORY: usize = 1;
+    const PARAMETERS: usize = 6;
+    const CONTACTS: usize = 1;
+
+    #[inline(always)]
+    fn force<R: Real>(at: &LaneAt<'_, R>, out: &mut LaneForce<'_, R>) {
+        Self::respond(at, out, &mut [at.dt]);
+    }
+
+    #[inline(always)]
+    fn commit<R: Real>(at: &LaneAt<'_, R>, _: &[R], trial: &mut [R]) -> LaneStep<R> {
+        let (mut f, mut k, mut c) = ([at.dt], [at.dt], [at.dt]);
+        Self::respond(at, &mut LaneForce { f: &mut f, k: &mut k, c: &mut c }, trial)
+    }
+
+    #[inline(always)]
+    fn respond<R: Real>(
+        at: &LaneAt<'_, R>,
+        out: &mut LaneForce<'_, R>,
+        trial: &mut [R],
+    ) -> LaneStep<R> {
+        let (p, zero) = (at.parameters, at.dt.of(0.0));
+        let (depth, depth0) = (-(at.d[0] + p[3]), -(at.d0[0] + p[3]));
+        let (rate, rate0) = (-at.v[0], -at.v0[0]);
+        let known = Touch::known(at.history[0]);
+        let first = Touch::within([depth0, rate0], [depth, rate]);
+        let touch = Touch::select(zero.lt(depth0), known, first);
+        let touch = Touch::select(zero.lt(depth), touch, Touch::known(zero));
+        let now = Self::normal(p, depth, rate, touch);
+        let start = Self::normal(p, depth0, rate0, known);
+        trial[0] = touch.speed;
+        (out.f[0], out.k[0], out.c[0]) = (-now.force, now.by_depth, now.by_rate);
+        let (before, after) = (start.elastic - start.force, now.elastic - now.force);
+        LaneStep {
+            viscous: at.viscous_work(0, before, after),
+            ..LaneStep::elastic(now.elastic * depth.max(zero) / (p[1] + zero.of(1.0)))
+        }
+    }
+
+    #[inline(always)]
+    fn contacts<R: Real>(at: &LaneAt<'_, R>, f: &[R], out: &mut [LaneContact<R>]) -> R {
+        let zero = f[0].of(0.0);
+        out[0] = LaneContact::smooth(at.d[0] + at.parameters[3], (-f[0]).max(zero));
+        zero
+    }
 }
 
 impl ImpactHertz {
@@ -203,40 +310,16 @@ impl ImpactHertz {
         })
     }
 
-    /// At penetration `depth` and its `rate`, after a touch.
-    fn normal(&self, depth: f64, rate: f64, touch: Touch) -> Normal {
-        if depth <= 0.0 {
-            return Normal { force: 0.0, by_depth: 0.0, by_rate: 0.0, elastic: 0.0 };
-        }
-        let (n, xi) = (self.exponent, self.xi());
-        let elastic = self.k * depth.powf(n);
-        let stiffness = n * elastic / depth;
+    fn law(&self) -> Written {
         match self.model {
-            HertzModel::Hertzdamp => {
-                let touch = touch.at_least(self.min_speed);
-                let share = xi * rate / touch.speed;
-                if share < -1.0 {
-                    return Normal { force: 0.0, by_depth: 0.0, by_rate: 0.0, elastic };
-                }
-                let by_touch = -elastic * share / touch.speed;
-                let by_depth = stiffness * (1.0 + share) + by_touch * touch.by_depth;
-                let by_rate = elastic * xi / touch.speed + by_touch * touch.by_rate;
-                Normal { force: elastic * (1.0 + share), by_depth, by_rate, elastic }
-            }
-            HertzModel::Jankowski if rate > 0.0 => {
-                let mass = self.impact_mass.unwrap_or(0.0);
-                // Just at the touch the slope has no bound for n < 3: there it is linear.
-                let (share, slope) =
-                    if depth < TOUCH { (depth / TOUCH, 1.0) } else { (1.0, 0.5 * (n - 1.0)) };
-                let root = (mass * self.k * depth.max(TOUCH).powf(n - 1.0)).sqrt();
-                let c = 2.0 * xi * share * root;
-                let by_depth = stiffness + slope * c * rate / depth;
-                Normal { force: elastic + c * rate, by_depth, by_rate: c, elastic }
-            }
-            HertzModel::Jankowski => {
-                Normal { force: elastic, by_depth: stiffness, by_rate: 0.0, elastic }
-            }
+            HertzModel::Hertzdamp => Written::of::<Law<false>>(),
+            HertzModel::Jankowski => Written::of::<Law<true>>(),
         }
+    }
+
+    fn numbers(&self) -> [f64; 6] {
+        let mass = self.impact_mass.unwrap_or(0.0);
+        [self.k, self.exponent, self.xi(), self.opening, self.min_speed, mass]
     }
 }
 
@@ -260,22 +343,11 @@ impl Link for ImpactHertz {
         trial: &mut [f64],
         out: &mut Response<'_>,
     ) {
-        let (depth, depth0) = (-(at.d[0] + self.opening), -(at.d0[0] + self.opening));
-        let known = Touch::known(Approach::load(committed).speed);
-        let touch = if depth <= 0.0 {
-            Touch::known(0.0)
-        } else if depth0 > 0.0 {
-            known
-        } else {
-            Touch::within([depth0, -at.v0[0]], [depth, -at.v[0]])
-        };
-        let now = self.normal(depth, -at.v[0], touch);
-        let start = self.normal(depth0, -at.v0[0], known);
-        Approach { speed: touch.speed }.store(trial);
-        (out.f[0], out.k[0], out.c[0]) = (-now.force, now.by_depth, now.by_rate);
-        out.energy.stored = now.elastic * depth.max(0.0) / (self.exponent + 1.0);
-        let (before, after) = (start.elastic - start.force, now.elastic - now.force);
-        out.energy.viscous = at.viscous_work(0, before, after);
+        self.law().respond(&self.numbers(), (at, committed), trial, out);
+    }
+
+    fn lanes(&self, _: &[bool]) -> Option<LaneForm> {
+        Some(self.law().along_axis(&self.numbers()))
     }
 
     fn impact(&self) -> Option<Impact> {

@@ -23,8 +23,10 @@
 //! Reference: \[Anagnostopoulos 1988\]; damping on approach only as in \[Jankowski 2005\].
 
 use crate::shared::restitution::{approach_ratio, damping_ratio};
-use crate::shared::touch::hold;
+use crate::shared::touch::strike;
+use crate::shared::written::Written;
 use serde::Deserialize;
+use trilith_element::lanes::{LaneAt, LaneContact, LaneForce, LaneForm, LaneLaw, LaneStep, Real};
 use trilith_element::{
     Axis, Card, Category, Choices, Contact, ContactUse, Coordinates, Described, Exercise, Impact,
     Kinematics, Link, NodeCount, ParameterError, Parameters, Response, Stroke,
@@ -99,24 +101,58 @@ impl Described for ImpactKelvin {
     }
 }
 
-impl ImpactKelvin {
+/// The law over lanes; parameters k, c, g. `APPROACH`: the dashpot acts on approach only; `PULLS`: the total may pull.
+struct Pounding<const APPROACH: bool, const PULLS: bool>;
+
+impl<const APPROACH: bool, const PULLS: bool> Pounding<APPROACH, PULLS> {
     /// Force, its derivatives by d and ḋ, and the force of the spring in it.
-    fn total(&self, d: f64, v: f64) -> [f64; 4] {
-        let gap = d + self.opening;
-        let spring = self.k * gap;
-        if spring >= 0.0 {
-            return [0.0; 4];
+    #[inline(always)]
+    fn total<R: Real>(p: &[R], d: R, v: R) -> [R; 4] {
+        let c = if APPROACH { p[1].only(v.lt(v.of(0.0))) } else { p[1] };
+        strike::<R, PULLS>(p[0], [c * v, c], d + p[2], v)
+    }
+}
+
+impl<const APPROACH: bool, const PULLS: bool> LaneLaw for Pounding<APPROACH, PULLS> {
+    const COORDINATES: usize = 1;
+    const HISTORY: usize = 0;
+    const PARAMETERS: usize = 3;
+    const CONTACTS: usize = 1;
+
+    #[inline(always)]
+    fn force<R: Real>(at: &LaneAt<'_, R>, out: &mut LaneForce<'_, R>) {
+        let [f, k, c, _] = Self::total(at.parameters, at.d[0], at.v[0]);
+        (out.f[0], out.k[0], out.c[0]) = (f, k, c);
+    }
+
+    #[inline(always)]
+    fn commit<R: Real>(at: &LaneAt<'_, R>, _: &[R], _: &mut [R]) -> LaneStep<R> {
+        let [f0, _, _, spring0] = Self::total(at.parameters, at.d0[0], at.v0[0]);
+        let [f, _, _, spring] = Self::total(at.parameters, at.d[0], at.v[0]);
+        let stored = f.of(0.5) * spring * spring / at.parameters[0];
+        let viscous = at.viscous_work(0, f0 - spring0, f - spring);
+        LaneStep { viscous, ..LaneStep::elastic(stored) }
+    }
+
+    #[inline(always)]
+    fn contacts<R: Real>(at: &LaneAt<'_, R>, f: &[R], out: &mut [LaneContact<R>]) -> R {
+        let zero = f[0].of(0.0);
+        out[0] = LaneContact::smooth(at.d[0] + at.parameters[2], (-f[0]).max(zero));
+        zero
+    }
+}
+
+impl ImpactKelvin {
+    fn law(&self) -> Written {
+        match (self.damps, self.pull) {
+            (Damps::Approach, _) => Written::of::<Pounding<true, false>>(),
+            (Damps::Contact, true) => Written::of::<Pounding<false, true>>(),
+            (Damps::Contact, false) => Written::of::<Pounding<false, false>>(),
         }
-        let c = match self.damps {
-            Damps::Approach if v >= 0.0 => 0.0,
-            _ => self.damping.unwrap_or(0.0),
-        };
-        let [share, by_gap] = hold(gap, v);
-        let f = spring + c * v * share;
-        if f > 0.0 && !self.pull {
-            return [0.0, 0.0, 0.0, spring];
-        }
-        [f, self.k + c * v * by_gap, c * share, spring]
+    }
+
+    fn numbers(&self) -> [f64; 3] {
+        [self.k, self.damping.unwrap_or(0.0), self.opening]
     }
 }
 
@@ -130,11 +166,11 @@ impl Link for ImpactKelvin {
     }
 
     fn respond(&self, at: &Kinematics<'_>, _: &[f64], _: &mut [f64], out: &mut Response<'_>) {
-        let [f0, _, _, spring0] = self.total(at.d0[0], at.v0[0]);
-        let [f, k, c, spring] = self.total(at.d[0], at.v[0]);
-        (out.f[0], out.k[0], out.c[0]) = (f, k, c);
-        out.energy.stored = 0.5 * spring * spring / self.k;
-        out.energy.viscous = at.viscous_work(0, f0 - spring0, f - spring);
+        self.law().respond(&self.numbers(), (at, &[]), &mut [], out);
+    }
+
+    fn lanes(&self, _: &[bool]) -> Option<LaneForm> {
+        Some(self.law().along_axis(&self.numbers()))
     }
 
     fn impact(&self) -> Option<Impact> {
@@ -169,8 +205,8 @@ mod tests {
     use crate::shared::parameters::{numbers, read};
     use crate::shared::paths::rebound;
     use approx::assert_relative_eq;
-    use trilith_element::Value;
     use trilith_element::conformance::Kit;
+    use trilith_element::{Answer, Value};
 
     const VARIANTS: [(&str, bool); 3] =
         [("Contact", false), ("Contact", true), ("Approach", false)];
@@ -209,25 +245,29 @@ mod tests {
         }
     }
 
+    /// Force, and its derivatives by d and ḋ.
+    fn total(law: &ImpactKelvin, d: f64, v: f64) -> [f64; 3] {
+        let it = Answer::of(law, &Kinematics::still(&[d], &[v]), &[]);
+        [it.f[0], it.k[0], it.c[0]]
+    }
+
     #[test]
     fn in_contact_it_is_a_dashpot_with_a_stiffness() {
-        let ours = law(&[("damping", 1e6), ("opening", 0.01)], VARIANTS[1]);
-        let pull = ours.total(-0.0101, 0.5)[0];
-        assert_relative_eq!(pull, -1e4 + 5e5, max_relative = 1e-9);
-        assert_eq!(
-            law(&[("damping", 1e6), ("opening", 0.01)], VARIANTS[0]).total(-0.0101, 0.5)[0],
-            0.0
-        );
-        let approach = law(&[("damping", 1e6), ("opening", 0.01)], VARIANTS[2]);
-        assert_relative_eq!(approach.total(-0.0101, 0.5)[0], -1e4, max_relative = 1e-9);
-        assert_relative_eq!(approach.total(-0.0101, -0.5)[0], -5.1e5, max_relative = 1e-9);
+        let force = |variant: usize, v: f64| {
+            let law = law(&[("damping", 1e6), ("opening", 0.01)], VARIANTS[variant]);
+            total(&law, -0.0101, v)[0]
+        };
+        assert_relative_eq!(force(1, 0.5), -1e4 + 5e5, max_relative = 1e-9);
+        assert_eq!(force(0, 0.5), 0.0);
+        assert_relative_eq!(force(2, 0.5), -1e4, max_relative = 1e-9);
+        assert_relative_eq!(force(2, -0.5), -5.1e5, max_relative = 1e-9);
     }
 
     #[test]
     fn the_force_has_no_jump_at_the_touch() {
         for variant in VARIANTS {
             let law = law(&[("damping", 1e6), ("opening", 0.01)], variant);
-            let [f, k, c, _] = law.total(-0.01 - 2.5e-10, -0.5);
+            let [f, k, c] = total(&law, -0.01 - 2.5e-10, -0.5);
             assert_relative_eq!(f, -0.025 - 0.25 * 5e5, max_relative = 1e-6);
             assert_relative_eq!(k, 1e8 + 5e5 / 1e-9, max_relative = 1e-6);
             assert_relative_eq!(c, 0.25e6, max_relative = 1e-6);

@@ -11,10 +11,12 @@
 //!
 //! Reference: \[Soong & Dargush 1997, ch. 6\].
 
-use crate::shared::relaxation::relax;
-use crate::shared::series::{SeriesHistory, Split, Viscous, answer, follow};
+use crate::shared::relaxation::{Followed, relax};
+use crate::shared::series::{self, Series, SeriesHistory, Split, Viscous};
+use crate::shared::written::Written;
 use serde::Deserialize;
 use std::borrow::Cow;
+use trilith_element::lanes::{LaneAt, LaneForm, Real};
 use trilith_element::{
     Axis, Card, Category, Coordinates, Described, Exercise, Field, History, Kinematics, Link,
     NodeCount, Parameters, Response, Stroke,
@@ -53,36 +55,90 @@ impl Described for MaxwellDamper {
     .exercise(Exercise::new(1.0, &[Stroke::about(0.0, 0.05)]));
 }
 
-impl Viscous for MaxwellDamper {
-    fn split_positive(&self, known: f64, a: f64) -> Split {
-        let (c, alpha) = (self.c, self.exponent);
-        // Both equations are convex and start above their root: Newton's method falls to it and ends
-        // where it no longer falls.
-        if alpha < 1.0 {
-            let p = 1.0 / alpha;
-            let bound = c * (known / a).powf(alpha);
-            // A quotient too small for a number says nothing.
-            let mut f = if bound > 0.0 { known.min(bound) } else { known };
-            loop {
-                let w = (f / c).powf(p);
-                let next = f - (f + a * w - known) / (1.0 + a * p * w / f);
-                if !(next < f && next > 0.0) {
-                    return Split { force: f, rate: w, slope: 1.0 / (1.0 + a * p * w / f) };
-                }
-                f = next;
+/// The dashpot; parameters k, c, α. `FORM`: whether α is 1, below or above it.
+struct Power<const FORM: u8>;
+
+const ONE: u8 = 0;
+const BELOW: u8 = 1;
+const ABOVE: u8 = 2;
+
+impl<const FORM: u8> Viscous for Power<FORM> {
+    const PARAMETERS: usize = 3;
+    const IS_LONG: bool = FORM != ONE;
+
+    #[inline(always)]
+    fn split_positive<R: Real>(parameters: &[R], known: R, a: R) -> Split<R> {
+        let (c, alpha) = (parameters[1], parameters[2]);
+        match FORM {
+            ONE => {
+                let rate = known / (c + a);
+                Split { force: c * rate, rate, slope: c / (c + a) }
             }
-        }
-        let mut w = (known / a).min((known / c).powf(1.0 / alpha));
-        loop {
-            let f = c * w.powf(alpha);
-            let rise = if w > 0.0 { alpha * f / w } else { 0.0 };
-            let next = w - (f + a * w - known) / (rise + a);
-            if !(next < w && next > 0.0) {
-                return Split { force: f, rate: w, slope: rise / (rise + a) };
-            }
-            w = next;
+            BELOW => by_force(known, a, c, alpha),
+            _ => by_rate(known, a, c, alpha),
         }
     }
+
+    #[inline(always)]
+    fn follow<R: Real>(at: &LaneAt<'_, R>) -> Followed<R> {
+        if FORM == ONE {
+            let (k, c) = (at.parameters[0], at.parameters[1]);
+            return relax(k, c / k, at.history[0], at);
+        }
+        series::follow::<Self, R>(at)
+    }
+}
+
+// Both equations are convex and start above their root: Newton's method falls to it and ends where it no longer falls.
+
+/// f + a (f/c)^(1/α) = known, for α < 1.
+#[inline(always)]
+fn by_force<R: Real>(known: R, a: R, c: R, alpha: R) -> Split<R> {
+    let (zero, one) = (known.of(0.0), known.of(1.0));
+    let p = one / alpha;
+    let bound = c * (known / a).powf(alpha);
+    // A quotient too small for a number says nothing.
+    let start = R::select(zero.lt(bound), known.min(bound), known);
+    let at = |f: R| {
+        let w = (f / c).powf(p);
+        let slope = one / (one + a * p * w / f);
+        (w, slope, f - (f + a * w - known) * slope)
+    };
+    let f = fall(start, |f| at(f).2);
+    let (rate, slope, _) = at(f);
+    Split { force: f, rate, slope }
+}
+
+/// c w^α + a w = known, for α > 1.
+#[inline(always)]
+fn by_rate<R: Real>(known: R, a: R, c: R, alpha: R) -> Split<R> {
+    let (zero, one) = (known.of(0.0), known.of(1.0));
+    let at = |w: R| {
+        let f = c * w.powf(alpha);
+        let some = zero.lt(w);
+        let rise = (alpha * f / R::select(some, w, one)).only(some);
+        (f, rise, w - (f + a * w - known) / (rise + a))
+    };
+    let w = fall((known / a).min((known / c).powf(one / alpha)), |w| at(w).2);
+    let (force, rise, _) = at(w);
+    Split { force, rate: w, slope: rise / (rise + a) }
+}
+
+/// Newton's method from above, in every lane for as long as it falls.
+#[inline(always)]
+fn fall<R: Real>(start: R, next: impl Fn(R) -> R) -> R {
+    let zero = start.of(0.0);
+    let (mut x, mut falls) = (start, zero.le(zero));
+    loop {
+        let to = next(x);
+        falls = falls & to.lt(x) & zero.lt(to);
+        if !x.any(falls) {
+            break;
+        }
+        x = R::select(falls, to, x);
+    }
+    // A step from the root, which nothing moves, has the derivatives of the root.
+    if R::DERIVATIVES { next(x.fixed()) } else { x }
 }
 
 impl Link for MaxwellDamper {
@@ -110,13 +166,25 @@ impl Link for MaxwellDamper {
         trial: &mut [f64],
         out: &mut Response<'_>,
     ) {
-        let f0 = SeriesHistory::load(committed).force;
-        let end = if self.exponent == 1.0 {
-            relax(self.k, self.c / self.k, f0, at)
-        } else {
-            follow(self.k, self, f0, at)
-        };
-        answer(self.k, &end, trial, out);
+        self.law().respond(&self.numbers(), (at, committed), trial, out);
+    }
+
+    fn lanes(&self, _: &[bool]) -> Option<LaneForm> {
+        Some(self.law().along_axis(&self.numbers()))
+    }
+}
+
+impl MaxwellDamper {
+    fn law(&self) -> Written {
+        match self.exponent {
+            1.0 => Written::of::<Series<Power<ONE>>>(),
+            below if below < 1.0 => Written::of::<Series<Power<BELOW>>>(),
+            _ => Written::of::<Series<Power<ABOVE>>>(),
+        }
+    }
+
+    fn numbers(&self) -> [f64; 3] {
+        [self.k, self.c, self.exponent]
     }
 }
 

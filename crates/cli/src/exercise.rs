@@ -218,7 +218,7 @@ fn speed(specimen: &Specimen, motion: &Motion) -> String {
     let amplitudes: Vec<f64> = motion.strokes.iter().map(size).collect();
     let kit = Kit::new(&amplitudes, motion.frequency);
     let Some(speed) = kit.lane_speed(specimen.law.as_ref()) else {
-        return "\nspeed: it has no form for lanes: a study runs models with it one by one\n"
+        return "\nspeed: it has no form for lanes: a study asks it for one analysis after the other\n"
             .into();
     };
     let [alone, lane] = [speed.alone, speed.in_lanes].map(|s| significant(1e9 * s, 2));

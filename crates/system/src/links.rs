@@ -353,9 +353,18 @@ impl LinkSet {
     /// The law of a link.
     #[must_use]
     pub fn law<'a>(&self, model: &'a Model, link: &'a LinkInstance) -> Option<&'a dyn Link> {
+        self.shared_law(model, link).map(Arc::as_ref)
+    }
+
+    /// The law of a link, to be held beyond its model.
+    #[must_use]
+    pub fn shared_law<'a>(
+        &self,
+        model: &'a Model,
+        link: &'a LinkInstance,
+    ) -> Option<&'a Arc<dyn Link>> {
         match (&link.settled, &model.elements[link.element].body) {
-            (Some(law), _) => Some(law.as_ref()),
-            (None, Body::Link(law, _)) => Some(law.as_ref()),
+            (Some(law), _) | (None, Body::Link(law, _)) => Some(law),
             _ => None,
         }
     }

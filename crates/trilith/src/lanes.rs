@@ -6,6 +6,7 @@ use trilith_model::{Model, StepControl};
 use trilith_results::Named;
 use trilith_solvers::lanes::{self, LaneOutcome, LaneSetup, Tables};
 use trilith_solvers::{Status, warnings_of_outputs};
+use trilith_system::catch;
 
 /// Why a model does not go side by side with others.
 #[derive(Debug)]
@@ -76,9 +77,13 @@ impl Lanes {
         cases: &[(&Model, usize)],
         substeps: Option<usize>,
     ) -> Vec<Result<Outcome, Alone>> {
-        let setups = cases.iter().map(|(model, case)| match self.prepare(model, *case, substeps) {
-            Ok(fit) => fit.map(|s| s.take_over_time(&self.integrals)).map_err(Alone::Unfit),
-            Err(e) => Err(Alone::Failed(e)),
+        let setups = cases.iter().map(|(model, case)| {
+            // The ordinary engine tells of a law that panics.
+            match catch(|| self.prepare(model, *case, substeps)) {
+                Ok(Ok(fit)) => fit.map(|s| s.take_over_time(&self.integrals)).map_err(Alone::Unfit),
+                Ok(Err(e)) => Err(Alone::Failed(e)),
+                Err(_) => Err(Alone::Unfit("a law that panics".into())),
+            }
         });
         let setups: Vec<Result<LaneSetup, Alone>> = setups.collect();
         let mut waiting: Vec<usize> = (0..setups.len()).filter(|i| setups[*i].is_ok()).collect();
@@ -127,11 +132,12 @@ fn outcome(
     if lane.lost.is_some() {
         return Err(Alone::Lost);
     }
-    if lane.noticed {
+    let share = lane.energy.error_relative;
+    // Of a law that does not account for its work the ordinary engine tells the name.
+    if lane.noticed || share > setup.energy_limit && setup.asks_links() {
         return Err(Alone::Odd);
     }
     let names = model.outputs.iter().map(|o| o.name.clone());
-    let share = lane.energy.error_relative;
     let status = if share > setup.energy_limit {
         Status::EnergyError { share, limit: setup.energy_limit }
     } else if let Some((t, body)) = lane.overturned {

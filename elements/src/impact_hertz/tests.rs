@@ -63,10 +63,10 @@ fn the_damping_has_the_known_limit_and_neighbours() {
 #[test]
 fn a_contact_at_rest_is_a_spring_and_a_later_push_is_damped() {
     let law = law("Hertzdamp", &[("xi", 0.5)]);
-    let at_rest = law.normal(1e-3, 0.0, Touch::known(0.0));
+    let at_rest = Law::<false>::normal(&law.numbers(), 1e-3, 0.0, Touch::known(0.0));
     assert_relative_eq!(at_rest.force, 2e9 * 1e-3_f64.powf(1.5), max_relative = 1e-14);
     // As an impact at the least speed, 1 mm/s.
-    let pushed = law.normal(1e-3, 0.2, Touch::known(0.0));
+    let pushed = Law::<false>::normal(&law.numbers(), 1e-3, 0.2, Touch::known(0.0));
     assert_relative_eq!(pushed.force, (1.0 + 0.5 * 200.0) * at_rest.force, max_relative = 1e-14);
 }
 

@@ -3,7 +3,8 @@
 
 use crate::shared::parameters::{numbers, read};
 use crate::{
-    FrictionPendulum, LeadRubber, PMMHinge, RubberIsolator, TensionCompressionFriction, Wen,
+    BilinearDamper, Dashpot, FrictionPendulum, ImpactHertz, ImpactKelvin, LeadRubber,
+    MaxwellDamper, PMMHinge, RubberIsolator, TensionCompressionFriction, Wen,
 };
 use trilith_element::lanes::{
     Arithmetic, Directions, Dual, LaneForm, LaneLinks, LaneStep, Portable, Real,
@@ -248,4 +249,22 @@ fn hinges_know_their_derivatives() {
         let hinge: PMMHinge = law(&[&given[..], &exponents].concat(), &[]);
         check("PMMHinge", &hinge, &[2e-3, 0.02, 0.02], 0.5);
     }
+}
+
+#[test]
+fn dampers_and_stops_know_their_derivatives() {
+    let damper = [("k", 3e6), ("c", 2e5)];
+    for exponent in [0.35, 1.0, 1.7] {
+        let given = [&damper[..], &[("exponent", exponent)]].concat();
+        let maxwell: MaxwellDamper = law(&given, &[]);
+        check("MaxwellDamper", &maxwell, &[0.05], 0.5);
+        let dashpot: Dashpot = law(&[("c", 2e5), ("exponent", exponent)], &[]);
+        check("Dashpot", &dashpot, &[0.05], 0.5);
+    }
+    let oil = [("k", 3e6), ("c", 1e6), ("cy", 1e5), ("fl", 1e5)];
+    check("BilinearDamper", &law::<BilinearDamper>(&oil, &[]), &[0.08], 0.5);
+    let stop = [("k", 1e7), ("damping", 1e5), ("opening", 0.02)];
+    check("ImpactKelvin", &law::<ImpactKelvin>(&stop, &[]), &[0.05], 0.5);
+    let hertz = [("k", 1e8), ("restitution", 0.6), ("opening", 0.02)];
+    check("ImpactHertz", &law::<ImpactHertz>(&hertz, &[]), &[0.05], 0.5);
 }

@@ -22,3 +22,4 @@ pub(crate) mod spatial;
 pub(crate) mod touch;
 pub(crate) mod two_bodies;
 pub(crate) mod wrench;
+pub(crate) mod written;

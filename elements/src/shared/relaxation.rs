@@ -9,77 +9,100 @@
 //! The rate is linear in the step and moves the deformation from d₀ to d. Without time (Δt = 0) the
 //! dashpot follows whatever the deformation does, and the force stays.
 
-use trilith_element::Kinematics;
+use trilith_element::lanes::{LaneAt, Real};
 
 /// Force at the end of a step, its derivatives, and the energy that the dashpot took in it.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub(crate) struct Followed {
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Followed<R> {
     /// Force, N.
-    pub f: f64,
+    pub f: R,
     /// ∂f/∂d, N/m.
-    pub f_d: f64,
+    pub f_d: R,
     /// ∂f/∂ḋ, N·s/m.
-    pub f_v: f64,
+    pub f_v: R,
     /// Energy turned into heat in the step, J, ≥ 0.
-    pub viscous: f64,
+    pub viscous: R,
 }
 
-impl Followed {
-    /// A force that a step without time leaves as it was.
-    pub(crate) fn unchanged(f: f64) -> Self {
-        Self { f, ..Self::default() }
+impl<R: Real> Followed<R> {
+    /// The same, but that a step without time leaves the force as it was.
+    #[inline(always)]
+    pub(crate) fn where_time_goes_on(self, at: &LaneAt<'_, R>, before: R) -> Self {
+        let goes_on = before.of(0.0).lt(at.dt);
+        Self {
+            f: R::select(goes_on, self.f, before),
+            f_d: self.f_d.only(goes_on),
+            f_v: self.f_v.only(goes_on),
+            viscous: self.viscous.only(goes_on),
+        }
     }
+}
+
+/// The step, s; where no time goes on, one that nothing is divided by zero for.
+#[inline(always)]
+pub(crate) fn length<R: Real>(at: &LaneAt<'_, R>) -> R {
+    R::select(at.dt.of(0.0).lt(at.dt), at.dt, at.dt.of(1.0))
 }
 
 /// Mean rate of coordinate 0 over the step, and the change of its rate.
-pub(crate) fn rates(at: &Kinematics<'_>) -> (f64, f64) {
-    ((at.d[0] - at.d0[0]) / at.dt, at.v[0] - at.v0[0])
+#[inline(always)]
+pub(crate) fn rates<R: Real>(at: &LaneAt<'_, R>) -> [R; 2] {
+    [(at.d[0] - at.d0[0]) / length(at), at.v[0] - at.v0[0]]
 }
 
 /// Spring of stiffness `k` (N/m) in series with a dashpot k τ, from force `f0` on.
-pub(crate) fn relax(k: f64, tau: f64, f0: f64, at: &Kinematics<'_>) -> Followed {
-    if at.dt <= 0.0 {
-        return Followed::unchanged(f0);
-    }
-    let (mean, change) = rates(at);
-    let (x, first) = (at.dt / tau, mean - 0.5 * change);
-    let impulse = k * at.dt;
-    let force = |s: f64| {
+#[inline(always)]
+pub(crate) fn relax<R: Real>(k: R, tau: R, f0: R, at: &LaneAt<'_, R>) -> Followed<R> {
+    let (zero, one, half) = (k.of(0.0), k.of(1.0), k.of(0.5));
+    let [mean, change] = rates(at);
+    let dt = length(at);
+    let (x, first, impulse) = (dt / tau, mean - half * change, k * dt);
+    let force = |s: R| {
         let y = x * s;
-        (-y).exp() * f0 + impulse * s * (first * phi1(y) + change * s * phi2(y))
+        let [decay, p1, p2] = decays(y);
+        decay * f0 + impulse * s * (first * p1 + change * s * p2)
     };
-    let mean_square = if x < 1.0 {
-        GAUSS.iter().map(|(s, w)| w * force(*s).powi(2)).sum()
-    } else {
+    let is_short = x.lt(one);
+    let mut mean_square = zero;
+    if x.any(is_short) {
+        for (s, w) in GAUSS {
+            let f = force(x.of(s));
+            mean_square = mean_square + x.of(w) * f * f;
+        }
+    }
+    let [decay, p1, p2] = decays(x);
+    if x.any(!is_short) {
         // f = A e^(−xs) + B + C s, squared and integrated: no quadrature sees a short relaxation.
         let b = impulse * (first - change / x) / x;
         let c = impulse * change / x;
         let a = f0 - b;
-        let decay = (-x).exp();
-        a * a * (1.0 - decay * decay) / (2.0 * x)
-            + 2.0 * a * (b * phi1(x) + c * (1.0 - decay * (1.0 + x)) / (x * x))
-            + b * (b + c)
-            + c * c / 3.0
-    };
-    let (p1, p2) = (phi1(x), phi2(x));
-    Followed {
-        f: force(1.0),
+        let two = x.of(2.0);
+        let of_a = a * a * (one - decay * decay) / (two * x);
+        let of_both = two * a * (b * p1 + c * (one - decay * (one + x)) / (x * x));
+        let long = of_a + of_both + b * (b + c) + c * c * x.of(1.0 / 3.0);
+        mean_square = R::select(is_short, mean_square, long);
+    }
+    let end = Followed {
+        f: decay * f0 + impulse * (first * p1 + change * p2),
         f_d: k * p1,
-        f_v: impulse * (p2 - 0.5 * p1),
-        viscous: (x * mean_square / k).max(0.0),
-    }
+        f_v: impulse * (p2 - half * p1),
+        viscous: (x * mean_square / k).max(zero),
+    };
+    end.where_time_goes_on(at, f0)
 }
 
-fn phi1(y: f64) -> f64 {
-    if y == 0.0 { 1.0 } else { -(-y).exp_m1() / y }
-}
-
-fn phi2(y: f64) -> f64 {
-    if y < 0.01 {
-        // The closed form loses its digits here; the next term is y⁵/5040.
-        return 0.5 - y / 6.0 * (1.0 - y / 4.0 * (1.0 - y / 5.0 * (1.0 - y / 6.0)));
-    }
-    (1.0 - phi1(y)) / y
+/// e^(−y), φ₁ and φ₂.
+#[inline(always)]
+fn decays<R: Real>(y: R) -> [R; 3] {
+    let (zero, one) = (y.of(0.0), y.of(1.0));
+    let [decay, less] = (-y).exp_and_m1();
+    let some = zero.lt(y);
+    let p1 = R::select(some, -less / R::select(some, y, one), one);
+    // The closed form loses its digits here; the next term is y⁵/5040.
+    let part = |n: f64, inner: R| one - y * y.of(n.recip()) * inner;
+    let near = y.of(0.5) - y * y.of(1.0 / 6.0) * part(4.0, part(5.0, part(6.0, one)));
+    let far = (one - p1) / R::select(some, y, one);
+    [decay, p1, R::select(y.lt(y.of(0.01)), near, far)]
 }
 
 /// Points and weights of Gauss-Legendre on 0 … 1, four points.
@@ -94,10 +117,11 @@ const GAUSS: [(f64, f64); 4] = [
 mod tests {
     use super::*;
     use approx::assert_relative_eq;
+    use trilith_element::Kinematics;
 
     /// The same by many steps of Runge-Kutta: force and heat.
-    fn integrated(k: f64, tau: f64, f0: f64, at: &Kinematics<'_>) -> [f64; 2] {
-        let (mean, change) = rates(at);
+    fn integrated(k: f64, tau: f64, f0: f64, at: &LaneAt<'_, f64>) -> [f64; 2] {
+        let [mean, change] = rates(at);
         let slope =
             |s: f64, f: f64| [k * (mean + change * (s / at.dt - 0.5)) - f / tau, f * f / (k * tau)];
         let n = 20_000;
@@ -119,6 +143,7 @@ mod tests {
     fn force_and_heat_of_a_step_are_those_of_the_integrated_equation() {
         for tau in [1e-4, 1e-3, 0.0099, 0.0101, 0.1, 10.0] {
             let at = Kinematics::new([&[0.03], &[-0.4]], [&[0.02], &[1.3]], 0.01);
+            let at = LaneAt::new(&at, &[], &[]);
             let got = relax(100.0, tau, 0.7, &at);
             let [f, heat] = integrated(100.0, tau, 0.7, &at);
             assert_relative_eq!(got.f, f, max_relative = 1e-9);
@@ -128,7 +153,7 @@ mod tests {
 
     #[test]
     fn both_forms_of_the_second_function_meet() {
-        assert_relative_eq!(phi2(0.01 - 1e-12), phi2(0.01), max_relative = 1e-11);
-        assert_eq!(phi2(0.0), 0.5);
+        assert_relative_eq!(decays(0.01 - 1e-12)[2], decays(0.01)[2], max_relative = 1e-11);
+        assert_eq!(decays(0.0), [1.0, 1.0, 0.5]);
     }
 }

@@ -10,8 +10,10 @@
 //! F(w) + a w = known with one root. The heat ∫ f w dt is a third unknown of the same method: its
 //! weights are positive, so it never falls. Derivatives are those of the method itself.
 
-use crate::shared::relaxation::{Followed, rates};
-use trilith_element::{History, Kinematics, Response, history};
+use crate::shared::relaxation::{Followed, length, rates};
+use std::marker::PhantomData;
+use trilith_element::history;
+use trilith_element::lanes::{LaneAt, LaneForce, LaneLaw, LaneStep, Real};
 
 /// Parts of a step; fixed, so that the force is smooth in d and ḋ.
 const PARTS: usize = 4;
@@ -24,69 +26,119 @@ history! {
     }
 }
 
-/// Writes what a spring in series with a dashpot did.
-pub(crate) fn answer(k: f64, end: &Followed, trial: &mut [f64], out: &mut Response<'_>) {
-    SeriesHistory { force: end.f }.store(trial);
-    (out.f[0], out.k[0], out.c[0]) = (end.f, end.f_d, end.f_v);
-    out.energy.stored = 0.5 * end.f * end.f / k;
-    out.energy.viscous = end.viscous;
-}
-
 /// What a dashpot does where F(w) + a w is known.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct Split {
+pub(crate) struct Split<R> {
     /// Force F(w), N.
-    pub force: f64,
+    pub force: R,
     /// Rate w, m/s.
-    pub rate: f64,
+    pub rate: R,
     /// Derivative of the force by the known sum.
-    pub slope: f64,
+    pub slope: R,
 }
 
 /// A law F(w) of a dashpot that rises, with F(−w) = −F(w).
-pub(crate) trait Viscous {
-    /// Force and rate where F(w) + a w = `known` > 0, `a` > 0.
-    fn split_positive(&self, known: f64, a: f64) -> Split;
+pub(crate) trait Viscous: 'static {
+    /// Number of parameters of the link, of which the stiffness of its spring is the first.
+    const PARAMETERS: usize;
+    /// As [`LaneLaw::IS_LONG`].
+    const IS_LONG: bool;
+
+    /// Force and rate where F(w) + a w = `known` > 0, `a` ≥ 0.
+    fn split_positive<R: Real>(parameters: &[R], known: R, a: R) -> Split<R>;
 
     /// The same for any sign.
-    fn split(&self, known: f64, a: f64) -> Split {
+    #[inline(always)]
+    fn split<R: Real>(parameters: &[R], known: R, a: R) -> Split<R> {
+        let (zero, one) = (known.of(0.0), known.of(1.0));
         // Where nothing acts, only the slope of a vanishing force matters.
-        let it = self.split_positive(known.abs().max(f64::MIN_POSITIVE), a);
-        let sign = if known == 0.0 { 0.0 } else { 1.0_f64.copysign(known) };
+        let size = known.abs().max(known.of(f64::MIN_POSITIVE));
+        let it = Self::split_positive(parameters, size, a);
+        let sign = R::select(known.lt(zero), -one, R::select(zero.lt(known), one, known));
         Split { force: sign * it.force, rate: sign * it.rate, slope: it.slope }
+    }
+
+    /// Where the links go from their force through the step.
+    #[inline(always)]
+    fn follow<R: Real>(at: &LaneAt<'_, R>) -> Followed<R> {
+        follow::<Self, R>(at)
     }
 }
 
 /// A number, and its derivatives by d and ḋ.
-type Graded = [f64; 3];
+type Graded<R> = [R; 3];
 
-fn mix<const N: usize>(terms: [(f64, Graded); N]) -> Graded {
-    std::array::from_fn(|i| terms.iter().map(|(c, x)| c * x[i]).sum())
+/// Σ of three by their weights.
+#[inline(always)]
+fn mix<R: Real>(terms: [(R, Graded<R>); 3]) -> Graded<R> {
+    std::array::from_fn(|i| {
+        let [first, second, third] = terms.map(|(weight, x)| weight * x[i]);
+        first + second + third
+    })
 }
 
-/// Leads spring `k` (N/m) and dashpot from force `f0` through the step.
-pub(crate) fn follow(k: f64, law: &impl Viscous, f0: f64, at: &Kinematics<'_>) -> Followed {
-    if at.dt <= 0.0 {
-        return Followed::unchanged(f0);
-    }
+/// Leads spring and dashpot through the step.
+#[inline(always)]
+pub(crate) fn follow<V: Viscous + ?Sized, R: Real>(at: &LaneAt<'_, R>) -> Followed<R> {
+    let (parameters, f0, dt) = (at.parameters, at.history[0], length(at));
+    let of = |x: f64| dt.of(x);
     let gamma = 1.0 - std::f64::consts::FRAC_1_SQRT_2;
-    let (mean, change) = rates(at);
-    let rate = |s: f64| [mean + change * (s - 0.5), 1.0 / at.dt, s - 0.5];
-    let h = at.dt / PARTS as f64;
-    let a = gamma * h * k;
-    let stage = |known: Graded| {
-        let it = law.split(known[0], a);
-        ([it.force, it.slope * known[1], it.slope * known[2]], it.force * it.rate)
-    };
-    let (mut f, mut viscous) = ([f0, 0.0, 0.0], 0.0);
-    for part in 0..PARTS {
-        let s = |c: f64| (part as f64 + c) / PARTS as f64;
-        let (inner, power) = stage(mix([(1.0, f), (a, rate(s(gamma)))]));
-        viscous += (1.0 - gamma) * h * power;
-        let ahead = (1.0 - gamma) / gamma;
-        let (end, power) = stage(mix([(1.0 - ahead, f), (ahead, inner), (a, rate(s(1.0)))]));
-        viscous += gamma * h * power;
-        f = end;
+    let ahead = (1.0 - gamma) / gamma;
+    let [mean, change] = rates(at);
+    let per_dt = of(1.0) / dt;
+    let h = dt * of(1.0 / PARTS as f64);
+    let a = of(gamma) * h * parameters[0];
+    let (mut f, mut viscous) = ([f0, of(0.0), of(0.0)], of(0.0));
+    let mut inner = f;
+    // The inner stage and the end of every part, in one loop: the equation of the dashpot is long.
+    for stage in 0..2 * PARTS {
+        let is_end = stage % 2 == 1;
+        let (reached, weight) = if is_end { (1.0, gamma) } else { (gamma, 1.0 - gamma) };
+        let of_inner = if is_end { ahead } else { 0.0 };
+        let s = ((stage / 2) as f64 + reached) / PARTS as f64 - 0.5;
+        let rate = [change.mul_add(of(s), mean), per_dt, of(s)];
+        let known = mix([(of(1.0 - of_inner), f), (of(of_inner), inner), (a, rate)]);
+        let it = V::split(parameters, known[0], a);
+        viscous = viscous + of(weight) * h * (it.force * it.rate);
+        let now = [it.force, it.slope * known[1], it.slope * known[2]];
+        if is_end {
+            f = now;
+        } else {
+            inner = now;
+        }
     }
-    Followed { f: f[0], f_d: f[1], f_v: f[2], viscous }
+    Followed { f: f[0], f_d: f[1], f_v: f[2], viscous }.where_time_goes_on(at, f0)
+}
+
+/// A spring in series with a dashpot, over lanes.
+pub(crate) struct Series<V>(PhantomData<V>);
+
+impl<V: Viscous> LaneLaw for Series<V> {
+    const COORDINATES: usize = 1;
+    const HISTORY: usize = 1;
+    const PARAMETERS: usize = V::PARAMETERS;
+    const IS_LONG: bool = V::IS_LONG;
+
+    #[inline(always)]
+    fn force<R: Real>(at: &LaneAt<'_, R>, out: &mut LaneForce<'_, R>) {
+        Self::respond(at, out, &mut [at.dt]);
+    }
+
+    #[inline(always)]
+    fn commit<R: Real>(at: &LaneAt<'_, R>, _: &[R], trial: &mut [R]) -> LaneStep<R> {
+        let (mut f, mut k, mut c) = ([at.dt], [at.dt], [at.dt]);
+        Self::respond(at, &mut LaneForce { f: &mut f, k: &mut k, c: &mut c }, trial)
+    }
+
+    #[inline(always)]
+    fn respond<R: Real>(
+        at: &LaneAt<'_, R>,
+        out: &mut LaneForce<'_, R>,
+        trial: &mut [R],
+    ) -> LaneStep<R> {
+        let end = V::follow(at);
+        (trial[0], out.f[0], out.k[0], out.c[0]) = (end.f, end.f, end.f_d, end.f_v);
+        let stored = end.f.of(0.5) * end.f * end.f / at.parameters[0];
+        LaneStep { viscous: end.viscous, ..LaneStep::elastic(stored) }
+    }
 }

@@ -25,6 +25,24 @@ pub(crate) fn hold<R: Real>(gap: R, rate: R) -> [R; 2] {
     [R::select(grows, share, one), slope.only(grows)]
 }
 
+/// A spring of stiffness `k` behind a gap, beside a dashpot whose force at the rate `v` and slope by it are given: total
+/// force, its derivatives by d and ḋ, and the force of the spring in it. `PULLS`: the total may pull while closed.
+#[inline(always)]
+pub(crate) fn strike<R: Real, const PULLS: bool>(
+    k: R,
+    [force, slope]: [R; 2],
+    gap: R,
+    v: R,
+) -> [R; 4] {
+    let zero = k.of(0.0);
+    let closed = gap.lt(zero);
+    let spring = (k * gap).only(closed);
+    let [share, by_gap] = hold(gap, v);
+    let f = force * share + spring;
+    let acts = if PULLS { closed } else { closed & !zero.lt(f) };
+    [f.only(acts), (k + force * by_gap).only(acts), (slope * share).only(acts), spring]
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

@@ -12,6 +12,7 @@ mod torn;
 use law::{Fault, Wrong};
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use trilith::element::conformance::Kit;
+use trilith::sweep::{Engine, Sweep};
 use trilith::{Analysis, Register, RunOptions, SolverKind};
 
 const SOLVERS: [SolverKind; 3] = [SolverKind::Fna, SolverKind::Hht, SolverKind::FullNewton];
@@ -117,6 +118,46 @@ fn run_of(text: &str, fault: Fault, solver: SolverKind) -> End {
         }
         Err(e) => none(e.to_string()),
     }
+}
+
+/// In a sweep laws are asked lane by lane, and less is watched there: where something is wrong the ordinary engine has the
+/// last word.
+#[test]
+fn no_wrong_law_ends_a_sweep_with_a_wrong_number() {
+    let ends = |fault: Fault| -> Vec<(Option<Engine>, End)> {
+        let text = model(fault).replacen("(\n", "(\n parameters: { \"a\": 600 },\n", 1);
+        let text = text.replacen("amplitude: 600", "amplitude: \"a\"", 1);
+        let text = text.replacen("dt: 0.01,", &format!("dt: 0.01, substep_limit: {MOST},"), 1);
+        let mut kinds = trilith::registry();
+        kinds.link::<Wrong>();
+        let sweep = Sweep::new(text, "wrong.ron", kinds).case("shake").threads(1);
+        let points = ["600", "500", "400"].map(|a| vec![("a".to_owned(), a.to_owned())]);
+        let ends = sweep.run(&points).into_iter().map(|outcome| match outcome {
+            Ok(it) => {
+                let peak = it.outputs.get("u").expect("an output");
+                let number = peak.max.abs().max(peak.min.abs());
+                let (good, text) = (it.status.is_good(), it.status.text());
+                (Some(it.engine), End { good, text, number, tried: it.steps })
+            }
+            Err(e) => (None, End { good: false, text: e.to_string(), number: f64::NAN, tried: 0 }),
+        });
+        ends.collect()
+    };
+    let sound = ends(Fault::Nothing);
+    for (engine, end) in &sound {
+        assert_eq!((engine.as_ref(), &*end.text), (Some(&Engine::Lanes), "converged"));
+    }
+    let mut broken = Vec::new();
+    for fault in Fault::ALL.iter().copied() {
+        for ((engine, end), (_, sound)) in ends(fault).iter().zip(&sound) {
+            let End { good, text, number, .. } = end;
+            let off = (number / sound.number - 1.0).abs();
+            if *good && off >= NUMBER || !good && !text.contains("\"w\"") {
+                broken.push(format!("{fault:?}: {engine:?}: {text}, {off}"));
+            }
+        }
+    }
+    assert!(broken.is_empty(), "{}", broken.join("\n"));
 }
 
 /// What the kit says; none where it finds nothing.

@@ -17,7 +17,7 @@ pub(super) fn look<A: Arithmetic, const M: usize, const L: usize, const N: usize
     let State { d, v, history, trial, k, c, steps, .. } = state;
     let (d0, v0) = (&**d, &**v);
     if let [run] = &plan.runs[..]
-        && run.law.coordinates == N
+        && run.extent.coordinates == N
         && run.count * N == L
     {
         // One law that leaves no place empty: all there is, and no bounds to be looked at.
@@ -34,11 +34,11 @@ pub(super) fn look<A: Arithmetic, const M: usize, const L: usize, const N: usize
             k: k.as_flattened_mut(),
             c: c.as_flattened_mut(),
         };
-        return with.respond(&run.law, &mut links, steps);
+        return run.laws.respond(with, &mut links, steps);
     }
     let mut steps = &mut steps[..];
     for run in &plan.runs {
-        let (law, n) = (&run.law, run.law.coordinates);
+        let (own, n) = (run.extent, run.extent.coordinates);
         let r = run.first..run.first + run.count * n;
         let (h, p) = (run.history, run.parameters);
         let whole = n == N;
@@ -51,20 +51,20 @@ pub(super) fn look<A: Arithmetic, const M: usize, const L: usize, const N: usize
             None => (k[r.clone()].as_flattened_mut(), c[r.clone()].as_flattened_mut()),
         };
         let mut links = LaneLinks {
-            parameters: &plan.parameters[p..p + run.count * law.parameters],
+            parameters: &plan.parameters[p..p + run.count * own.parameters],
             d: &at.0[r.clone()],
             v: &at.1[r.clone()],
             d0: &d0[r.clone()],
             v0: &v0[r.clone()],
             dt,
-            history: &history[h..h + run.count * law.history],
-            trial: &mut trial[h..h + run.count * law.history],
+            history: &history[h..h + run.count * own.history],
+            trial: &mut trial[h..h + run.count * own.history],
             f: &mut f[r],
             k: blocks.0,
             c: blocks.1,
         };
-        let (own, rest) = steps.split_at_mut(run.count);
-        with.respond(law, &mut links, own);
+        let (now, rest) = steps.split_at_mut(run.count);
+        run.laws.respond(with, &mut links, now);
         steps = rest;
         if let Some(own) = &narrow {
             let blocks = (own.k.as_flattened(), own.c.as_flattened());
@@ -99,25 +99,25 @@ pub(super) fn contacts<A: Arithmetic, const M: usize, const L: usize, const N: u
     state: &mut State<A::Real, M, L, N>,
 ) {
     let State { d, v, f, history, contacts, fallen, .. } = state;
-    for run in plan.runs.iter().filter(|run| run.law.contacts > 0) {
-        let (law, count) = (&run.law, run.count);
-        let r = run.first..run.first + count * law.coordinates;
+    for run in plan.runs.iter().filter(|run| run.extent.contacts > 0) {
+        let (own, count) = (run.extent, run.count);
+        let r = run.first..run.first + count * own.coordinates;
         let (h, p) = (run.history, run.parameters);
         let (d, v) = (&d[r.clone()], &v[r.clone()]);
         let links = LaneLinks {
-            parameters: &plan.parameters[p..p + count * law.parameters],
+            parameters: &plan.parameters[p..p + count * own.parameters],
             d,
             v,
             d0: d,
             v0: v,
             dt: with.splat(0.0),
-            history: &history[h..h + count * law.history],
+            history: &history[h..h + count * own.history],
             trial: &mut [],
             f: &mut f[r],
             k: &mut [],
             c: &mut [],
         };
-        let own = &mut contacts[run.contact..][..count * law.contacts];
-        with.contacts(law, &links, own, &mut fallen[run.link..][..count]);
+        let seen = &mut contacts[run.contact..][..count * own.contacts];
+        run.laws.contacts(with, &links, seen, &mut fallen[run.link..][..count]);
     }
 }

@@ -107,7 +107,7 @@ pub fn march_by(
 /// Chooses the sizes that the loops are compiled for: modes, link coordinates, coordinates of a link.
 fn sized<A: Arithmetic>(with: A, setups: &[&LaneSetup], beside: usize) -> Vec<LaneOutcome> {
     let shape = &setups[0].shape;
-    let n = shape.links.iter().map(|l| l.2).max().unwrap_or(1);
+    let n = shape.links.iter().map(|l| l.2.coordinates).max().unwrap_or(1);
     let coordinates = n * shape.links.len();
     // Branches on constants alone: what an arithmetic never takes is not compiled for it.
     if const { !A::IS_RARE } {

@@ -23,7 +23,9 @@
 mod adaptive;
 mod coefficients;
 mod contact;
+mod each;
 mod error;
+mod form;
 mod grid;
 mod integral;
 mod laws;

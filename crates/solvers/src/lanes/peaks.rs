@@ -81,9 +81,10 @@ impl<R: Real, const K: usize> Peaks<R, K> {
                 self.look_inside(with, (i, who), (t0, t1), (y, rate[i]));
             }
             let (up, down) = (self.max[i].lt(y), y.lt(self.min[i]));
-            self.max[i] = self.max[i].max(y);
+            // Of zeros of two signs the first stays, whoever asks: a neighbour may have led here.
+            self.max[i] = R::select(up, y, self.max[i]);
             self.t_max[i] = R::mix(up, t1, self.t_max[i]);
-            self.min[i] = self.min[i].min(y);
+            self.min[i] = R::select(down, y, self.min[i]);
             self.t_min[i] = R::mix(down, t1, self.t_min[i]);
         }
     }

@@ -1,16 +1,18 @@
 //! What does not change in a march: the structure of every lane, gathered from the setups.
 
+use super::form::{Extent, Form, Laws};
 use super::outputs::Outputs;
 use super::setup::{LaneSetup, Output};
 use super::small::{Aligned, times};
 use super::tables::Table;
 use std::sync::Arc;
-use trilith_element::lanes::{Arithmetic, ErasedLaw, Real};
+use trilith_element::lanes::{Arithmetic, Real};
 
 /// Links of one law that follow each other.
-#[derive(Clone, Copy)]
 pub(super) struct Run {
-    pub law: ErasedLaw,
+    pub laws: Laws,
+    /// Of each of them.
+    pub extent: Extent,
     pub first: usize,
     pub count: usize,
     pub history: usize,
@@ -126,19 +128,30 @@ impl<R: Real, const M: usize, const L: usize, const N: usize> Plan<R, M, L, N> {
         let mut runs: Vec<Run> = Vec::new();
         let (mut history, mut contact, mut parameters) = (0, 0, Vec::new());
         for (l, form) in one.forms.iter().enumerate() {
-            let (first, law) = (l * N, form.law);
-            places.extend((0..law.coordinates).map(|i| first + i));
-            let joins = |r: &&mut Run| r.law.id == law.id && law.coordinates == N;
+            let (first, extent) = (l * N, form.extent);
+            places.extend((0..extent.coordinates).map(|i| first + i));
+            let joins = |r: &&mut Run| r.laws.serve(form) && extent.coordinates == N;
             match runs.last_mut().filter(joins) {
                 Some(run) => run.count += 1,
                 None => {
-                    let parameters = parameters.len();
-                    runs.push(Run { law, first, count: 1, history, parameters, link: l, contact });
+                    let own: Vec<&Form> = setups.iter().map(|s| &s.forms[l]).collect();
+                    let (laws, parameters) = (Laws::of(&own), parameters.len());
+                    let (count, link) = (1, l);
+                    runs.push(Run {
+                        laws,
+                        extent,
+                        first,
+                        count,
+                        history,
+                        parameters,
+                        link,
+                        contact,
+                    });
                 }
             }
-            history += law.history;
-            contact += law.contacts;
-            parameters.extend((0..law.parameters).map(|i| get(&|s| s.forms[l].parameters[i])));
+            history += extent.history;
+            contact += extent.contacts;
+            parameters.extend((0..extent.parameters).map(|i| get(&|s| s.forms[l].parameters[i])));
         }
         let mut b = Aligned([[zero; M]; L]);
         let mut rotational = [false; L];
@@ -203,7 +216,7 @@ impl<R: Real, const M: usize, const L: usize, const N: usize> Plan<R, M, L, N> {
             contacts: contact,
             feet: one.shape.feet.clone(),
             others: (0..contact).filter(|i| !one.shape.feet.contains(i)).collect(),
-            falls: one.forms.iter().any(|f| f.law.falls),
+            falls: one.forms.iter().any(|f| f.extent.falls),
             places,
         }
     }

@@ -1,5 +1,6 @@
 //! What one analysis brings to a sweep: made by the ordinary assembly, basis and start.
 
+use super::form::{Extent, Form, Law, forms};
 use super::grid::{Grid, Piece, common_parts, cuts};
 use super::rules::stiffness_ratio;
 use super::tables::{Table, Tables, split};
@@ -18,7 +19,6 @@ use crate::structure::ReducedSystem;
 use std::any::TypeId;
 use std::sync::Arc;
 use trilith_element::Contact;
-use trilith_element::lanes::LaneForm;
 use trilith_linalg::Dense;
 use trilith_model::{
     Analysis, Combine, DynamicCase, Kernel, Model, Quantity, Side, SolverKind, StepControl,
@@ -29,7 +29,7 @@ use trilith_system::{System, Track};
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Shape {
     pub modes: usize,
-    pub links: Vec<(TypeId, Vec<usize>, usize)>,
+    pub links: Vec<(TypeId, Vec<usize>, Extent)>,
     pub channels: Vec<(u8, bool)>,
     pub outputs: Vec<(u8, Vec<usize>)>,
     /// Outputs that are taken over time: how long above a value, or as mean square.
@@ -97,7 +97,7 @@ pub struct LaneSetup {
     /// B of the lane coordinates over the modes.
     pub(super) rows: Vec<Vec<f64>>,
     pub(super) rotational: Vec<bool>,
-    pub(super) forms: Vec<LaneForm>,
+    pub(super) forms: Vec<Form>,
     /// Index of the element of each link.
     pub(super) elements: Vec<usize>,
     /// Load of each channel over the modes.
@@ -157,6 +157,12 @@ impl LaneSetup {
     pub fn take_over_time(mut self, outputs: &[(usize, Option<f64>)]) -> Self {
         self.shape.integrals = outputs.to_vec();
         self
+    }
+
+    /// True where a law is not written over lanes: each link answers for itself.
+    #[must_use]
+    pub fn asks_links(&self) -> bool {
+        self.forms.iter().any(|form| matches!(form.law, Law::One(_)))
     }
 
     /// True where both can go side by side.
@@ -231,30 +237,23 @@ pub fn prepare(
     let Some((own, turn)) = uncoupled(&omega2, &space.damping)? else {
         return Ok(Err("damping that couples modes".into()));
     };
-    let mut active = vec![false; links.len()];
-    links.active.iter().for_each(|i| active[*i] = true);
-    let (mut forms, mut flat) = (Vec::new(), Vec::new());
-    for link in &links.links {
-        let own = &active[link.range.clone()];
-        let form = links.law(model, link).and_then(|law| law.lanes(own));
-        let is_whole = |form: &LaneForm| {
-            let holds = |i: usize| !own[i] || form.coordinates.contains(&i);
-            (0..own.len()).all(holds) && form.law.history == link.history.len()
-        };
-        let Some(form) = form.filter(is_whole) else {
-            let name = &model.elements[link.element].name;
-            return Ok(Err(format!("link \"{name}\" has no form for lanes")));
-        };
-        flat.extend(form.coordinates.iter().map(|i| link.range.start + i));
-        forms.push(form);
-    }
-    let widest = forms.iter().map(|f| f.law.coordinates).max().unwrap_or(1);
+    let seen = contacts(model, system, &state);
+    let all = Outputs::new(model, system, space);
+    let (forms, flat) = match forms(model, system, &seen, &all.rows) {
+        Ok(forms) => forms,
+        Err(reason) => return Ok(Err(reason)),
+    };
+    let widest = forms.iter().map(|f| f.extent.coordinates).max().unwrap_or(1);
     let is_body = widest > MOST.2 && widest <= BODY && m <= BODY && forms.len() == 1;
     if !is_body && (m > MOST.0 || forms.len() * widest > MOST.1 || widest > MOST.2) {
         return Ok(Err("too many modes or link coordinates".into()));
     }
-    if forms.iter().any(|f| f.law.falls) && matches!(control, StepControl::Fixed { .. }) {
+    let is_fixed = matches!(control, StepControl::Fixed { .. });
+    if is_fixed && forms.iter().any(|f| f.extent.falls) {
         return Ok(Err("fixed steps of a body that may overturn".into()));
+    }
+    if is_fixed && is_body {
+        return Ok(Err("fixed steps of a link with more than three coordinates".into()));
     }
     let mut rows = vec![vec![0.0; m]; flat.len()];
     for (row, i) in rows.iter_mut().zip(&flat) {
@@ -269,7 +268,6 @@ pub fn prepare(
             return Some("modes too fast for the steps");
         }
         // With adaptive steps average acceleration stands in for it.
-        let is_fixed = matches!(control, StepControl::Fixed { .. });
         let rule = modes_of(&omega2, &own, step);
         let beyond = is_fixed && stiffness_ratio(&rows, &rule, &engaged) > LONGEST;
         beyond.then_some("steps too long for the exact rule at the stiffest link")
@@ -293,9 +291,9 @@ pub fn prepare(
     let rule = modes_of(&omega2, &own, grid.step());
     let first = usize::from(loads.channels.iter().any(|c| matches!(c.track, Track::Constant)));
     let base: Vec<usize> = analysis.base.iter().map(|b| b.direction.index()).collect();
-    let outputs = outputs(model, system, space, &flat, (loads.channels.len(), first, &base), &turn);
+    let channels = (loads.channels.len(), first, &base[..]);
+    let outputs = outputs(model, space, (&all.rows, &flat), channels, &turn);
     let (mut values, mut rates) = (vec![0.0; outputs.len()], vec![0.0; outputs.len()]);
-    let all = Outputs::new(model, system, space);
     if all.is_loaded() {
         return Ok(Err("outputs that loads along members have a share in".into()));
     }
@@ -305,7 +303,6 @@ pub fn prepare(
     let (kinetic, strain) = kinetic_and_strain(space, &state.motion);
     let pick = |of: &[f64]| flat.iter().map(|i| of[*i]).collect::<Vec<f64>>();
     let roles = Roles::new(model, system);
-    let seen = contacts(model, system, &state);
     let stands = roles.stand(&seen);
     let mine = roles.each(&seen, true);
     // What is no foot has no part in the response mode.
@@ -316,10 +313,10 @@ pub fn prepare(
         }
         let before = seen[..at].iter().filter(|(own, _)| own == element).count();
         let Some(link) = links.links.iter().position(|l| l.element == *element) else { continue };
-        if before >= forms[link].law.contacts {
+        if before >= forms[link].extent.contacts {
             return Ok(Err("a body on contacts that have no form for lanes".into()));
         }
-        let first: usize = forms[..link].iter().map(|f| f.law.contacts).sum();
+        let first: usize = forms[..link].iter().map(|f| f.extent.contacts).sum();
         feet.push(first + before);
         standing.push(*contact);
     }
@@ -331,7 +328,7 @@ pub fn prepare(
     let is_adaptive = matches!(control, StepControl::Adaptive { .. });
     let shape = Shape {
         modes: m,
-        links: forms.iter().map(|f| (f.law.id, f.coordinates.clone(), f.law.coordinates)).collect(),
+        links: forms.iter().map(|f| (f.id(), f.coordinates.clone(), f.extent)).collect(),
         channels: loads.channels.iter().map(|c| (kind(&c.track), c.conservative)).collect(),
         outputs: outputs.iter().map(Output::kind).collect(),
         integrals: Vec::new(),
@@ -433,9 +430,8 @@ fn unsuited(system: &System, analysis: &DynamicCase) -> Option<&'static str> {
 /// The outputs; `channels` are their number, the first that is base motion, and the directions of those.
 fn outputs(
     model: &Model,
-    system: &System,
     space: &ReducedSystem,
-    flat: &[usize],
+    (rows, flat): (&[Row], &[usize]),
     (channels, first, directions): (usize, usize, &[usize]),
     turn: &Dense,
 ) -> Vec<Output> {
@@ -449,7 +445,6 @@ fn outputs(
     let of_lanes = |terms: &[(usize, f64)]| -> Vec<(usize, f64)> {
         terms.iter().filter_map(|(flat, factor)| Some((at(*flat)?, *factor))).collect()
     };
-    let rows = Outputs::new(model, system, space).rows;
     rows.iter()
         .zip(&model.outputs)
         .map(|(row, output)| match row {

@@ -125,7 +125,7 @@ impl<R: Real, const M: usize, const L: usize, const N: usize> State<R, M, L, N> 
                 with,
                 &feet,
                 setups.iter().map(|s| s.stands).collect(),
-                one.forms.iter().all(|f| f.law.coordinates < 3),
+                one.forms.iter().all(|f| f.extent.coordinates < 3),
             ),
         }
     }

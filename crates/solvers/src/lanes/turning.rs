@@ -31,7 +31,7 @@ impl<R: Real> Asked<R> {
         plan: &Plan<R, M, L, N>,
         zero: R,
     ) -> Self {
-        let most = plan.runs.iter().map(|run| run.law.history).max().unwrap_or(0);
+        let most = plan.runs.iter().map(|run| run.extent.history).max().unwrap_or(0);
         let room = vec![zero; most];
         Self { there: room.clone(), after: room, step: [LaneStep::elastic(zero)] }
     }
@@ -79,7 +79,7 @@ pub(super) fn turned<A: Arithmetic, const M: usize, const L: usize, const N: usi
         return out;
     }
     for run in &plan.runs {
-        let n = run.law.coordinates;
+        let n = run.extent.coordinates;
         for link in 0..run.count {
             let first = run.first + link * n;
             for i in first..first + n {
@@ -133,7 +133,7 @@ impl<A: Arithmetic, const M: usize, const L: usize, const N: usize> Task<A>
         let Self { plan, rule, run, at, turns, starts, rates, from, to, asked, out } = self;
         let (link, first, i) = at;
         let zero = with.splat(0.0);
-        let n = run.law.coordinates;
+        let n = run.extent.coordinates;
         let (tiny, half) = (with.splat(f64::MIN_POSITIVE), with.splat(0.5));
         let (start, end) = (starts[i].abs(), rates[i].abs());
         let left = rule.dt * end / (start + end).max(tiny);
@@ -150,9 +150,10 @@ impl<A: Arithmetic, const M: usize, const L: usize, const N: usize> Task<A>
             there.v[j] = slope.mul_add(s, v0[j]);
         }
         let (begin, end) = (Place { d: d0, v: v0 }, Place { d: d1, v: v1 });
-        let h = run.history + link * run.law.history..run.history + (link + 1) * run.law.history;
-        let p = run.parameters + link * run.law.parameters;
-        let parameters = &plan.parameters[p..p + run.law.parameters];
+        let h =
+            run.history + link * run.extent.history..run.history + (link + 1) * run.extent.history;
+        let p = run.parameters + link * run.extent.parameters;
+        let parameters = &plan.parameters[p..p + run.extent.parameters];
         let Asked { there: led, after, step } = asked;
         let (led, after) = (&mut led[..h.len()], &mut after[..h.len()]);
         let law = (run, parameters);
@@ -192,7 +193,7 @@ fn ask<A: Arithmetic, const N: usize>(
     step: &mut [LaneStep<A::Real>; 1],
 ) -> Answer<A::Real, N> {
     let zero = with.splat(0.0);
-    let n = run.law.coordinates;
+    let n = run.extent.coordinates;
     let mut answer = Answer { f: [zero; N], k: [[zero; N]; N] };
     let mut c = [[zero; N]; N];
     let mut links = LaneLinks {
@@ -208,6 +209,6 @@ fn ask<A: Arithmetic, const N: usize>(
         k: &mut answer.k.as_flattened_mut()[..n * n],
         c: &mut c.as_flattened_mut()[..n * n],
     };
-    with.respond(&run.law, &mut links, step);
+    run.laws.respond(with, &mut links, step);
     answer
 }

@@ -1,0 +1,42 @@
+//! A law that is written once, over lanes, and serves its link by that text.
+
+use trilith_element::lanes::{LaneAt, LaneForce, LaneForm, LaneLaw};
+use trilith_element::{Kinematics, Response};
+
+type Ask = fn(&LaneAt<'_, f64>, &mut [f64], &mut Response<'_>);
+
+/// One of the laws that a link may have, by its parameters.
+#[derive(Clone, Copy)]
+pub(crate) struct Written {
+    ask: Ask,
+    form: fn(Vec<usize>, Vec<f64>) -> LaneForm,
+    parameters: usize,
+}
+
+impl Written {
+    pub(crate) const fn of<L: LaneLaw>() -> Self {
+        Self { ask: ask::<L>, form: LaneForm::of::<L>, parameters: L::PARAMETERS }
+    }
+
+    /// What the link answers. Of the numbers the law takes as many as it has parameters.
+    pub(crate) fn respond(
+        &self,
+        numbers: &[f64],
+        (at, committed): (&Kinematics<'_>, &[f64]),
+        trial: &mut [f64],
+        out: &mut Response<'_>,
+    ) {
+        let asked = LaneAt::new(at, committed, &numbers[..self.parameters]);
+        (self.ask)(&asked, trial, out);
+    }
+
+    /// The form of a link along one axis.
+    pub(crate) fn along_axis(&self, numbers: &[f64]) -> LaneForm {
+        (self.form)(vec![0], numbers[..self.parameters].to_vec())
+    }
+}
+
+fn ask<L: LaneLaw>(at: &LaneAt<'_, f64>, trial: &mut [f64], out: &mut Response<'_>) {
+    let mut force = LaneForce { f: out.f, k: out.k, c: out.c };
+    *out.energy = L::respond(at, &mut force, trial).into();
+}
