@@ -107,7 +107,7 @@ impl Link for BilinearDamper {
     }
 
     fn lanes(&self, _: &[bool]) -> Option<LaneForm> {
-        Some(LAW.along_axis(&self.numbers()))
+        Some(LAW.lanes(&self.numbers()))
     }
 }
 

@@ -238,7 +238,7 @@ impl Link for Dashpot {
     }
 
     fn lanes(&self, _: &[bool]) -> Option<LaneForm> {
-        Some(self.law().along_axis(&self.numbers()))
+        Some(self.law().lanes(&self.numbers()))
     }
 
     fn impact(&self) -> Option<Impact> {

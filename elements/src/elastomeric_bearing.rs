@@ -19,6 +19,7 @@
 //!
 //! Reference: \[Simo & Hughes 1998, §3.3\] (the return); \[Naeim & Kelly 1999, ch. 4\] (bearings as bilinear).
 
+use crate::shared::written::Written;
 use serde::Deserialize;
 use std::borrow::Cow;
 use trilith_element::lanes::{LaneAt, LaneForce, LaneForm, LaneLaw, LaneStep, Real};
@@ -75,6 +76,8 @@ impl Described for ElastomericBearing {
     }
 }
 
+const LAW: Written = Written::of::<BearingLaw>();
+
 impl Link for ElastomericBearing {
     fn coordinates(&self) -> Coordinates {
         Coordinates::Local(vec![Axis::U2, Axis::U3])
@@ -99,17 +102,11 @@ impl Link for ElastomericBearing {
         trial: &mut [f64],
         out: &mut Response<'_>,
     ) {
-        let numbers = self.numbers();
-        let asked = LaneAt::new(at, committed, &numbers);
-        let mut force = LaneForce { f: out.f, k: out.k, c: out.c };
-        BearingLaw::force(&asked, &mut force);
-        let step = BearingLaw::commit(&asked, force.f, trial);
-        (out.energy.stored, out.energy.hysteretic) = (step.stored, step.hysteretic);
+        LAW.respond(&self.numbers(), (at, committed), trial, out);
     }
 
     fn lanes(&self, _: &[bool]) -> Option<LaneForm> {
-        let form = LaneForm::of::<BearingLaw>(vec![0, 1], self.numbers().to_vec());
-        Some(form.without_rate())
+        Some(LAW.lanes(&self.numbers()).without_rate())
     }
 }
 

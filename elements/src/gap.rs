@@ -10,6 +10,7 @@
 //!
 //! Reference: \[Wilson 2002, ch. 21\].
 
+use crate::shared::written::Written;
 use serde::Deserialize;
 use trilith_element::lanes::{LaneAt, LaneContact, LaneForce, LaneForm, LaneLaw, LaneStep, Real};
 use trilith_element::{
@@ -74,6 +75,8 @@ impl LaneLaw for GapLaw {
     }
 }
 
+const LAW: Written = Written::of::<GapLaw>();
+
 impl Link for Gap {
     fn coordinates(&self) -> Coordinates {
         Coordinates::Local(vec![self.axis])
@@ -88,14 +91,11 @@ impl Link for Gap {
     }
 
     fn respond(&self, at: &Kinematics<'_>, _: &[f64], _: &mut [f64], out: &mut Response<'_>) {
-        let numbers = [self.k, self.opening];
-        let asked = LaneAt::new(at, &[], &numbers);
-        GapLaw::force(&asked, &mut LaneForce { f: out.f, k: out.k, c: out.c });
-        out.energy.stored = GapLaw::commit(&asked, out.f, &mut []).stored;
+        LAW.respond(&[self.k, self.opening], (at, &[]), &mut [], out);
     }
 
     fn lanes(&self, _: &[bool]) -> Option<LaneForm> {
-        Some(LaneForm::of::<GapLaw>(vec![0], vec![self.k, self.opening]).without_rate())
+        Some(LAW.lanes(&[self.k, self.opening]).without_rate())
     }
 
     fn contact_use(&self) -> ContactUse {

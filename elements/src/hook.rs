@@ -10,6 +10,7 @@
 //!
 //! Reference: \[Wilson 2002, ch. 21\].
 
+use crate::shared::written::Written;
 use serde::Deserialize;
 use trilith_element::lanes::{LaneAt, LaneForce, LaneForm, LaneLaw, LaneStep, Real};
 use trilith_element::{
@@ -67,6 +68,8 @@ impl LaneLaw for HookLaw {
     }
 }
 
+const LAW: Written = Written::of::<HookLaw>();
+
 impl Link for Hook {
     fn coordinates(&self) -> Coordinates {
         Coordinates::Local(vec![self.axis])
@@ -81,14 +84,11 @@ impl Link for Hook {
     }
 
     fn respond(&self, at: &Kinematics<'_>, _: &[f64], _: &mut [f64], out: &mut Response<'_>) {
-        let numbers = [self.k, self.opening];
-        let asked = LaneAt::new(at, &[], &numbers);
-        HookLaw::force(&asked, &mut LaneForce { f: out.f, k: out.k, c: out.c });
-        out.energy.stored = HookLaw::commit(&asked, out.f, &mut []).stored;
+        LAW.respond(&[self.k, self.opening], (at, &[]), &mut [], out);
     }
 
     fn lanes(&self, _: &[bool]) -> Option<LaneForm> {
-        Some(LaneForm::of::<HookLaw>(vec![0], vec![self.k, self.opening]).without_rate())
+        Some(LAW.lanes(&[self.k, self.opening]).without_rate())
     }
 }
 

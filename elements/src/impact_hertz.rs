@@ -347,7 +347,7 @@ impl Link for ImpactHertz {
     }
 
     fn lanes(&self, _: &[bool]) -> Option<LaneForm> {
-        Some(self.law().along_axis(&self.numbers()))
+        Some(self.law().lanes(&self.numbers()))
     }
 
     fn impact(&self) -> Option<Impact> {

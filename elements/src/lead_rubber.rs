@@ -25,11 +25,12 @@ mod law;
 mod tests;
 
 use crate::shared::bouc_wen_plane::{Coupling, Shape};
+use crate::shared::written::Written;
 use law::Law;
 use serde::Deserialize;
 use std::borrow::Cow;
 use std::f64::consts::PI;
-use trilith_element::lanes::{LaneAt, LaneForce, LaneForm, LaneLaw};
+use trilith_element::lanes::LaneForm;
 use trilith_element::{
     Axis, Card, Category, Coordinates, Described, Exercise, Field, History, Kinematics, Link,
     NodeCount, ParameterError, Parameters, Response, Stroke, history,
@@ -201,23 +202,20 @@ impl Link for LeadRubber {
         trial: &mut [f64],
         out: &mut Response<'_>,
     ) {
-        let numbers = self.numbers();
-        let asked = LaneAt::new(at, committed, &numbers);
-        let mut force = LaneForce { f: out.f, k: out.k, c: out.c };
-        let step = if self.shape().is_closed() {
-            Law::<true>::respond(&asked, &mut force, trial)
-        } else {
-            Law::<false>::respond(&asked, &mut force, trial)
-        };
-        *out.energy = step.into();
+        self.law().respond(&self.numbers(), (at, committed), trial, out);
     }
 
     fn lanes(&self, _: &[bool]) -> Option<LaneForm> {
-        let (at, numbers) = (vec![0, 1, 2], self.numbers().to_vec());
-        Some(if self.shape().is_closed() {
-            LaneForm::of::<Law<true>>(at, numbers)
+        Some(self.law().lanes(&self.numbers()))
+    }
+}
+
+impl LeadRubber {
+    fn law(&self) -> Written {
+        if self.shape().is_closed() {
+            Written::of::<Law<true>>()
         } else {
-            LaneForm::of::<Law<false>>(at, numbers)
-        })
+            Written::of::<Law<false>>()
+        }
     }
 }

@@ -170,7 +170,7 @@ impl Link for MaxwellDamper {
     }
 
     fn lanes(&self, _: &[bool]) -> Option<LaneForm> {
-        Some(self.law().along_axis(&self.numbers()))
+        Some(self.law().lanes(&self.numbers()))
     }
 }
 

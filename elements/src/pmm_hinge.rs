@@ -26,6 +26,7 @@ mod project;
 #[cfg(test)]
 mod tests;
 
+use crate::shared::written::Written;
 use project::Projected;
 use serde::Deserialize;
 use std::borrow::Cow;
@@ -111,6 +112,8 @@ impl Described for PMMHinge {
     }
 }
 
+const LAW: Written = Written::of::<Law>();
+
 impl Link for PMMHinge {
     fn coordinates(&self) -> Coordinates {
         Coordinates::Local(vec![Axis::U1, Axis::R2, Axis::R3])
@@ -135,14 +138,11 @@ impl Link for PMMHinge {
         trial: &mut [f64],
         out: &mut Response<'_>,
     ) {
-        let numbers = self.numbers();
-        let asked = LaneAt::new(at, committed, &numbers);
-        let mut force = LaneForce { f: out.f, k: out.k, c: out.c };
-        *out.energy = Law::respond(&asked, &mut force, trial).into();
+        LAW.respond(&self.numbers(), (at, committed), trial, out);
     }
 
     fn lanes(&self, _: &[bool]) -> Option<LaneForm> {
-        Some(LaneForm::of::<Law>(vec![0, 1, 2], self.numbers().to_vec()).without_rate())
+        Some(LAW.lanes(&self.numbers()).without_rate())
     }
 }
 

@@ -28,6 +28,7 @@
 //! rubber isolator property\].
 
 use crate::shared::bouc_wen_plane::{self, Coupling, Shape, Shaped};
+use crate::shared::written::Written;
 use serde::Deserialize;
 use std::borrow::Cow;
 use trilith_element::lanes::{LaneAt, LaneForce, LaneForm, LaneLaw, LaneStep, Real};
@@ -149,24 +150,21 @@ impl Link for RubberIsolator {
         trial: &mut [f64],
         out: &mut Response<'_>,
     ) {
-        let numbers = self.numbers();
-        let asked = LaneAt::new(at, committed, &numbers);
-        let mut force = LaneForce { f: out.f, k: out.k, c: out.c };
-        let step = if self.shape().is_closed() {
-            Law::<true>::respond(&asked, &mut force, trial)
-        } else {
-            Law::<false>::respond(&asked, &mut force, trial)
-        };
-        *out.energy = step.into();
+        self.law().respond(&self.numbers(), (at, committed), trial, out);
     }
 
     fn lanes(&self, _: &[bool]) -> Option<LaneForm> {
-        let (at, numbers) = (vec![0, 1, 2], self.numbers().to_vec());
-        Some(if self.shape().is_closed() {
-            LaneForm::of::<Law<true>>(at, numbers)
+        Some(self.law().lanes(&self.numbers()))
+    }
+}
+
+impl RubberIsolator {
+    fn law(&self) -> Written {
+        if self.shape().is_closed() {
+            Written::of::<Law<true>>()
         } else {
-            LaneForm::of::<Law<false>>(at, numbers)
-        })
+            Written::of::<Law<false>>()
+        }
     }
 }
 

@@ -28,6 +28,7 @@
 #[cfg(test)]
 mod tests;
 
+use crate::shared::written::Written;
 use serde::Deserialize;
 use std::borrow::Cow;
 use trilith_element::lanes::{LaneAt, LaneForce, LaneForm, LaneLaw, LaneStep, Real};
@@ -150,6 +151,8 @@ impl SoilSpring {
     }
 }
 
+const LAW: Written = Written::of::<Law>();
+
 impl Link for SoilSpring {
     fn coordinates(&self) -> Coordinates {
         Coordinates::Local(vec![self.axis])
@@ -175,14 +178,11 @@ impl Link for SoilSpring {
         trial: &mut [f64],
         out: &mut Response<'_>,
     ) {
-        let numbers = self.numbers();
-        let asked = LaneAt::new(at, committed, &numbers);
-        let mut force = LaneForce { f: out.f, k: out.k, c: out.c };
-        *out.energy = Law::respond(&asked, &mut force, trial).into();
+        LAW.respond(&self.numbers(), (at, committed), trial, out);
     }
 
     fn lanes(&self, _: &[bool]) -> Option<LaneForm> {
-        Some(LaneForm::of::<Law>(vec![0], self.numbers().to_vec()).without_rate())
+        Some(LAW.lanes(&self.numbers()).without_rate())
     }
 }
 

@@ -16,6 +16,7 @@
 
 mod transition;
 
+use crate::shared::written::Written;
 use serde::Deserialize;
 use transition::{ANY, ONE, TWO};
 use trilith_element::lanes::{LaneAt, LaneForce, LaneForm, LaneLaw, LaneStep, Real};
@@ -96,28 +97,23 @@ impl Link for Wen {
         trial: &mut [f64],
         out: &mut Response<'_>,
     ) {
-        let numbers = self.numbers();
-        let asked = LaneAt::new(at, committed, &numbers);
-        let mut force = LaneForce { f: out.f, k: out.k, c: out.c };
-        let step = match transition::closed_form(self.exponent) {
-            ONE => Law::<ONE>::respond(&asked, &mut force, trial),
-            TWO => Law::<TWO>::respond(&asked, &mut force, trial),
-            _ => Law::<ANY>::respond(&asked, &mut force, trial),
-        };
-        *out.energy = step.into();
+        self.law().respond(&self.numbers(), (at, committed), trial, out);
     }
 
     fn lanes(&self, _: &[bool]) -> Option<LaneForm> {
-        let (at, numbers) = (vec![0], self.numbers().to_vec());
-        Some(match transition::closed_form(self.exponent) {
-            ONE => LaneForm::of::<Law<ONE>>(at, numbers),
-            TWO => LaneForm::of::<Law<TWO>>(at, numbers),
-            _ => LaneForm::of::<Law<ANY>>(at, numbers),
-        })
+        Some(self.law().lanes(&self.numbers()))
     }
 }
 
 impl Wen {
+    fn law(&self) -> Written {
+        match transition::closed_form(self.exponent) {
+            ONE => Written::of::<Law<ONE>>(),
+            TWO => Written::of::<Law<TWO>>(),
+            _ => Written::of::<Law<ANY>>(),
+        }
+    }
+
     /// Parameters of the law: k, f_y, r, exponent.
     fn numbers(&self) -> [f64; 3 + transition::NUMBERS] {
         let [n, middle, reach] = transition::numbers(self.exponent);

@@ -12,14 +12,11 @@ use std::fs::{File, OpenOptions};
 use std::path::{Path, PathBuf};
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
-use std::time::{Duration, Instant};
 use trilith::Registry;
 use trilith::sweep::Lanes;
 
-/// Shares of runs that take less than this grow.
-const SOON: Duration = Duration::from_millis(200);
-/// Widths of the lanes in a share at most.
-const SHARES: usize = 8;
+/// Widths of the lanes in a share at most: all models of a share are in memory.
+const SHARES: usize = 32;
 
 /// How a study is run.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -97,7 +94,8 @@ struct Shared<'a> {
     lanes: Option<Lanes>,
     /// Chains of this part.
     chains: Vec<usize>,
-    /// Chains that a thread takes at once.
+    threads: usize,
+    /// Chains that a thread takes at once, at least.
     width: usize,
     beside: AtomicUsize,
     /// Runs that were made now, and that were taken from the store.
@@ -189,6 +187,7 @@ pub fn execute(
         folder,
         lanes,
         chains,
+        threads: threads.max(1),
         width,
         beside: AtomicUsize::new(0),
         new: AtomicUsize::new(0),
@@ -263,14 +262,12 @@ pub(crate) fn lock(path: &Path, folder: &Path) -> Result<File, StudyError> {
 impl Shared<'_> {
     fn work(&self) {
         let length = self.study.plan.chain_length();
-        let mut share = self.width;
-        while !self.stops() {
-            let start = Instant::now();
-            let first = self.next.fetch_add(share, Ordering::Relaxed);
-            if first >= self.chains.len() {
-                break;
-            }
-            let own = &self.chains[first..self.chains.len().min(first + share)];
+        let all = self.chains.len();
+        let take = |first: usize| (first < all).then(|| first + self.share(all - first));
+        while !self.stops()
+            && let Ok(first) = self.next.fetch_update(Ordering::Relaxed, Ordering::Relaxed, take)
+        {
+            let own = &self.chains[first..first + self.share(all - first)];
             let firsts = own.iter().map(|chain| chain * length).collect();
             if let Err(error) = self.chains(firsts, length) {
                 self.stop.store(true, Ordering::Relaxed);
@@ -278,12 +275,17 @@ impl Shared<'_> {
                     first.get_or_insert(error);
                 }
             }
-            // A lane that has come to its end takes the next run of the share: the more there are, the fewer lanes are idle,
-            // but the longer nothing of it is on disk.
-            if self.lanes.is_some() && start.elapsed() < SOON && share < SHARES * self.width {
-                share *= 2;
-            }
         }
+    }
+
+    /// Chains that a thread takes where so many are left. A lane that has come to its end takes the next of the share: the
+    /// more there are, the fewer lanes are idle at its end; but then the others should have as many.
+    fn share(&self, left: usize) -> usize {
+        if self.lanes.is_none() {
+            return 1;
+        }
+        let of_all = if self.threads == 1 { left } else { left / (2 * self.threads) };
+        of_all.clamp(self.width, SHARES * self.width).min(left)
     }
 
     fn stops(&self) -> bool {
@@ -324,12 +326,16 @@ impl Shared<'_> {
         let mut made = made.into_iter();
         let mut going = Vec::with_capacity(firsts.len());
         for (first, run) in firsts.into_iter().zip(runs) {
-            let Some(record) = self.kept.get(&run).cloned().or_else(|| made.next()) else {
-                continue;
-            };
+            let kept = self.kept.get(&run).cloned();
+            let is_new = kept.is_none();
+            let Some(record) = kept.or_else(|| made.next()) else { continue };
             let study = self.study;
             let over = study.stop.as_ref().is_some_and(|c| c.holds(&study.columns, &record));
-            self.count(if over { left } else { 1 }, !record.good);
+            // A new one was counted when it was made.
+            let runs = if over { left } else { 1 } - usize::from(is_new);
+            if runs > 0 {
+                self.count(runs, !is_new && !record.good);
+            }
             if let Ok(mut found) = self.found.lock() {
                 found.push(record);
             }
@@ -340,6 +346,7 @@ impl Shared<'_> {
         going
     }
 
+    /// Takes note of runs that are on disk or not needed.
     fn count(&self, runs: usize, failed: bool) {
         let done = self.done.fetch_add(runs, Ordering::Relaxed) + runs;
         let failed =

@@ -36,18 +36,23 @@ impl Study {
         catch_unwind(AssertUnwindSafe(read)).ok().flatten()
     }
 
-    /// Makes those of the runs that go side by side, each at its place. None where a law panicked: the run that it is in
-    /// tells so when it goes alone.
-    pub(crate) fn beside(&self, lanes: &Lanes, models: &[&Model]) -> Option<Vec<Option<Finished>>> {
+    /// Makes those of the runs that go side by side; each is `done` with as soon as it is there, by its place. Where that
+    /// says no, none is begun any more. False where a law panicked: the run that it is in tells so when it goes alone.
+    pub(crate) fn beside(
+        &self,
+        lanes: &Lanes,
+        models: &[&Model],
+        done: &mut dyn FnMut(usize, Finished) -> bool,
+    ) -> bool {
         let cases: Vec<(&Model, usize)> = models.iter().map(|m| (*m, self.case)).collect();
-        let found = catch_unwind(AssertUnwindSafe(|| lanes.run(&cases, None))).ok()?;
-        let finished = |found: Result<Outcome, Alone>| {
-            let Outcome { status, outputs, integrals, energy, contact, warnings, .. } =
-                found.ok()?;
-            let peaks = outputs.0.iter().map(|(_, peak)| *peak);
-            Some(Finished::new(&status, &warnings, contact.as_ref(), &energy, peaks, &integrals))
+        let mut finished = |place: usize, found: Result<Outcome, Alone>| {
+            let Ok(found) = found else { return true };
+            let Outcome { status, outputs, integrals, energy, contact, warnings, .. } = found;
+            let (contact, peaks) = (contact.as_ref(), outputs.0.iter().map(|(_, peak)| *peak));
+            done(place, Finished::new(&status, &warnings, contact, &energy, peaks, &integrals))
         };
-        Some(found.into_iter().map(finished).collect())
+        let run = AssertUnwindSafe(|| lanes.run_each(&cases, None, &mut finished));
+        catch_unwind(run).is_ok()
     }
 
     /// Makes one run, by its number, with what it came to where it came to an end. Whatever goes wrong in it is told in

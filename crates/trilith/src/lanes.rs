@@ -77,6 +77,22 @@ impl Lanes {
         cases: &[(&Model, usize)],
         substeps: Option<usize>,
     ) -> Vec<Result<Outcome, Alone>> {
+        let mut all: Vec<_> = cases.iter().map(|_| Err(Alone::Lost)).collect();
+        self.run_each(cases, substeps, &mut |i, outcome| {
+            all[i] = outcome;
+            true
+        });
+        all
+    }
+
+    /// The same; each outcome, with the index of its model, is `done` with as soon as it is there. Where that says no, no
+    /// other is begun.
+    pub fn run_each(
+        &self,
+        cases: &[(&Model, usize)],
+        substeps: Option<usize>,
+        done: &mut dyn FnMut(usize, Result<Outcome, Alone>) -> bool,
+    ) {
         let setups = cases.iter().map(|(model, case)| {
             // The ordinary engine tells of a law that panics.
             match catch(|| self.prepare(model, *case, substeps)) {
@@ -85,26 +101,31 @@ impl Lanes {
                 Err(_) => Err(Alone::Unfit("a law that panics".into())),
             }
         });
-        let setups: Vec<Result<LaneSetup, Alone>> = setups.collect();
-        let mut waiting: Vec<usize> = (0..setups.len()).filter(|i| setups[*i].is_ok()).collect();
-        let mut found: Vec<Option<LaneOutcome>> = cases.iter().map(|_| None).collect();
-        while let Some(Ok(first)) = waiting.first().map(|i| &setups[*i]) {
-            let fits = |i: &usize| setups[*i].as_ref().is_ok_and(|own| first.fits(own));
-            let (group, rest): (Vec<usize>, Vec<usize>) = waiting.into_iter().partition(fits);
-            let own: Vec<&LaneSetup> =
-                group.iter().filter_map(|i| setups[*i].as_ref().ok()).collect();
-            group
-                .into_iter()
-                .zip(lanes::march(&own, self.width))
-                .for_each(|(i, o)| found[i] = Some(o));
+        let mut ready: Vec<(usize, LaneSetup)> = Vec::with_capacity(cases.len());
+        for (i, setup) in setups.enumerate() {
+            match setup {
+                Ok(setup) => ready.push((i, setup)),
+                Err(alone) => {
+                    if !done(i, Err(alone)) {
+                        return;
+                    }
+                }
+            }
+        }
+        let mut waiting: Vec<&(usize, LaneSetup)> = ready.iter().collect();
+        let mut goes_on = true;
+        while let Some((_, first)) = waiting.first().copied().filter(|_| goes_on) {
+            let (group, rest): (Vec<_>, Vec<_>) =
+                waiting.into_iter().partition(|(_, setup)| first.fits(setup));
+            let own: Vec<&LaneSetup> = group.iter().map(|(_, setup)| setup).collect();
+            lanes::march(&own, self.width, &mut |place, lane| {
+                let (i, setup) = group[place];
+                let (model, case) = cases[*i];
+                goes_on = done(*i, outcome(model, case, setup, lane));
+                goes_on
+            });
             waiting = rest;
         }
-        let all = cases.iter().zip(setups).zip(found);
-        let one = |(((model, case), setup), lane): ((&(&Model, usize), _), Option<_>)| {
-            let setup: LaneSetup = setup?;
-            lane.ok_or(Alone::Lost).and_then(|lane| outcome(model, *case, &setup, lane))
-        };
-        all.map(one).collect()
     }
 
     fn prepare(

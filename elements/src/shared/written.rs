@@ -10,12 +10,18 @@ type Ask = fn(&LaneAt<'_, f64>, &mut [f64], &mut Response<'_>);
 pub(crate) struct Written {
     ask: Ask,
     form: fn(Vec<usize>, Vec<f64>) -> LaneForm,
+    coordinates: usize,
     parameters: usize,
 }
 
 impl Written {
     pub(crate) const fn of<L: LaneLaw>() -> Self {
-        Self { ask: ask::<L>, form: LaneForm::of::<L>, parameters: L::PARAMETERS }
+        Self {
+            ask: ask::<L>,
+            form: LaneForm::of::<L>,
+            coordinates: L::COORDINATES,
+            parameters: L::PARAMETERS,
+        }
     }
 
     /// What the link answers. Of the numbers the law takes as many as it has parameters.
@@ -30,9 +36,9 @@ impl Written {
         (self.ask)(&asked, trial, out);
     }
 
-    /// The form of a link along one axis.
-    pub(crate) fn along_axis(&self, numbers: &[f64]) -> LaneForm {
-        (self.form)(vec![0], numbers[..self.parameters].to_vec())
+    /// The form of a link of which all coordinates matter.
+    pub(crate) fn lanes(&self, numbers: &[f64]) -> LaneForm {
+        (self.form)((0..self.coordinates).collect(), numbers[..self.parameters].to_vec())
     }
 }
 

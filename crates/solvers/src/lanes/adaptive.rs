@@ -8,7 +8,6 @@
 //! is its error (`error`). Who is within the tolerance keeps the halves, the others halve their step and try again;
 //! when a step is doubled, halved and given up is what the ordinary [`march`](crate::march) says.
 
-use super::LaneOutcome;
 use super::error::Norms;
 use super::loads::Points;
 use super::plan::Plan;
@@ -17,6 +16,7 @@ use super::sizes::Sizes;
 use super::state::{Keep, State};
 use super::trial::Trial;
 use super::way::{Next, Way};
+use super::{Done, LaneOutcome};
 use crate::march::{ACCURACY_DEPTH, may_grow};
 use trilith_element::lanes::{Arithmetic, Real, Task};
 
@@ -25,6 +25,7 @@ use trilith_element::lanes::{Arithmetic, Real, Task};
 pub(super) struct Adaptive<'a, const M: usize, const L: usize, const N: usize> {
     pub setups: &'a [&'a LaneSetup],
     pub beside: usize,
+    pub done: Done<'a>,
 }
 
 /// Lanes at most.
@@ -33,11 +34,11 @@ pub(super) const MOST: usize = 8;
 impl<A: Arithmetic, const M: usize, const L: usize, const N: usize> Task<A>
     for Adaptive<'_, M, L, N>
 {
-    type Output = Vec<LaneOutcome>;
+    type Output = ();
 
     #[inline(always)]
-    fn run(self, with: A) -> Vec<LaneOutcome> {
-        let mut seats = Seats::new(self.setups, self.beside.min(A::WIDTH));
+    fn run(self, with: A) {
+        let mut seats = Seats::new(self.setups, self.beside.min(A::WIDTH), self.done);
         let mut plan = Plan::<A::Real, M, L, N>::new(with, &seats.own);
         let mut at = State::new(with, &seats.own, &plan);
         let mut trial = Trial::new(with, &plan, &at);
@@ -111,7 +112,6 @@ impl<A: Arithmetic, const M: usize, const L: usize, const N: usize> Task<A>
                 }
             }
         }
-        seats.found.into_iter().flatten().collect()
     }
 }
 
@@ -125,11 +125,11 @@ struct Seats<'a> {
     /// Iterations that the lane had made before.
     before: Vec<f64>,
     next: usize,
-    found: Vec<Option<LaneOutcome>>,
+    done: Done<'a>,
 }
 
 impl<'a> Seats<'a> {
-    fn new(setups: &'a [&'a LaneSetup], lanes: usize) -> Self {
+    fn new(setups: &'a [&'a LaneSetup], lanes: usize, done: Done<'a>) -> Self {
         let lanes = lanes.min(setups.len());
         Self {
             setups,
@@ -137,7 +137,7 @@ impl<'a> Seats<'a> {
             at: (0..lanes).map(Some).collect(),
             before: vec![0.0; lanes],
             next: lanes,
-            found: setups.iter().map(|_| None).collect(),
+            done,
         }
     }
 
@@ -153,8 +153,10 @@ impl<'a> Seats<'a> {
     fn leave(&mut self, lane: usize, mut outcome: LaneOutcome, iterations: f64) {
         outcome.iterations = (iterations - self.before[lane]) as usize;
         self.before[lane] = iterations;
-        if let Some(found) = self.at[lane].take().and_then(|i| self.found.get_mut(i)) {
-            *found = Some(outcome);
+        if let Some(i) = self.at[lane].take()
+            && !(self.done)(i, outcome)
+        {
+            self.next = self.setups.len();
         }
         if let Some(next) = self.setups.get(self.next) {
             (self.own[lane], self.at[lane]) = (next, Some(self.next));

@@ -1,6 +1,5 @@
 //! The march in lanes: the only loop over time of a sweep.
 
-use super::LaneOutcome;
 use super::adaptive::Adaptive;
 use super::coefficients::Rule;
 use super::newton::{Found, foresee, settle};
@@ -9,6 +8,7 @@ use super::plan::Plan;
 use super::setup::LaneSetup;
 use super::state::State;
 use super::step::{Passed, account, take};
+use super::{Done, LaneOutcome};
 use trilith_element::lanes::{Arithmetic, Portable, Real, Task};
 #[cfg(target_arch = "x86_64")]
 use trilith_element::lanes::{Avx2Lanes, Avx512Lanes, FusedOne};
@@ -70,12 +70,11 @@ const WORTH_LANES: usize = 3;
 ///
 /// # Panics
 /// Where there are none, or they do not fit.
-#[must_use]
-pub fn march(setups: &[&LaneSetup], beside: usize) -> Vec<LaneOutcome> {
+pub fn march(setups: &[&LaneSetup], beside: usize, done: Done<'_>) {
     let best = Instructions::best();
     let few = best.width() > 1 && setups.len().min(beside) < WORTH_LANES;
-    let found = march_by(if few { Instructions::Fma } else { best }, setups, beside);
-    found.expect("instructions that the machine has")
+    let ran = run_by(if few { Instructions::Fma } else { best }, setups, beside, done);
+    assert!(ran, "instructions that the machine has");
 }
 
 /// The same with given instructions; none where the machine does not have them.
@@ -88,49 +87,69 @@ pub fn march_by(
     setups: &[&LaneSetup],
     beside: usize,
 ) -> Option<Vec<LaneOutcome>> {
+    let mut found: Vec<Option<LaneOutcome>> = setups.iter().map(|_| None).collect();
+    let ran = run_by(instructions, setups, beside, &mut |i, outcome| {
+        found[i] = Some(outcome);
+        true
+    });
+    ran.then(|| found.into_iter().flatten().collect())
+}
+
+/// False where the machine does not have the instructions.
+fn run_by(
+    instructions: Instructions,
+    setups: &[&LaneSetup],
+    beside: usize,
+    done: Done<'_>,
+) -> bool {
     assert!(!setups.is_empty() && beside > 0, "one analysis at least");
     assert!(setups.iter().all(|s| s.fits(setups[0])), "analyses that fit each other");
-    fn one_by_one<A: Arithmetic>(with: A, setups: &[&LaneSetup]) -> Vec<LaneOutcome> {
-        setups.iter().flat_map(|s| sized(with, &[*s], 1)).collect()
+    fn side_by_side<A: Arithmetic>(
+        with: Option<A>,
+        setups: &[&LaneSetup],
+        beside: usize,
+        done: Done<'_>,
+    ) -> bool {
+        with.map(|with| sized(with, setups, beside, done)).is_some()
     }
     #[cfg(target_arch = "x86_64")]
     return match instructions {
-        Instructions::Portable => Some(one_by_one(Portable, setups)),
-        Instructions::Fma => FusedOne::available().map(|with| one_by_one(with, setups)),
-        Instructions::Avx2 => Avx2Lanes::available().map(|with| sized(with, setups, beside)),
-        Instructions::Avx512 => Avx512Lanes::available().map(|with| sized(with, setups, beside)),
+        Instructions::Portable => side_by_side(Some(Portable), setups, 1, done),
+        Instructions::Fma => side_by_side(FusedOne::available(), setups, 1, done),
+        Instructions::Avx2 => side_by_side(Avx2Lanes::available(), setups, beside, done),
+        Instructions::Avx512 => side_by_side(Avx512Lanes::available(), setups, beside, done),
     };
     #[cfg(not(target_arch = "x86_64"))]
-    (instructions == Instructions::Portable).then(|| one_by_one(Portable, setups))
+    side_by_side((instructions == Instructions::Portable).then_some(Portable), setups, 1, done)
 }
 
 /// Chooses the sizes that the loops are compiled for: modes, link coordinates, coordinates of a link.
-fn sized<A: Arithmetic>(with: A, setups: &[&LaneSetup], beside: usize) -> Vec<LaneOutcome> {
+fn sized<A: Arithmetic>(with: A, setups: &[&LaneSetup], beside: usize, done: Done<'_>) {
     let shape = &setups[0].shape;
     let n = shape.links.iter().map(|l| l.2.coordinates).max().unwrap_or(1);
     let coordinates = n * shape.links.len();
     // Branches on constants alone: what an arithmetic never takes is not compiled for it.
     if const { !A::IS_RARE } {
         match (shape.modes, n, coordinates) {
-            (..=3, 1, ..=2) => return of_size::<A, 3, 2, 1>(with, setups, beside),
+            (..=3, 1, ..=2) => return of_size::<A, 3, 2, 1>(with, setups, beside, done),
             (..=3, 2, ..=4) => {
                 // Alone four modes are one register.
                 if const { A::WIDTH == 1 } {
-                    return of_size::<A, 4, 4, 2>(with, setups, beside);
+                    return of_size::<A, 4, 4, 2>(with, setups, beside, done);
                 } else {
-                    return of_size::<A, 3, 4, 2>(with, setups, beside);
+                    return of_size::<A, 3, 4, 2>(with, setups, beside, done);
                 }
             }
-            (..=3, 3, ..=6) => return of_size::<A, 3, 6, 3>(with, setups, beside),
+            (..=3, 3, ..=6) => return of_size::<A, 3, 6, 3>(with, setups, beside, done),
             _ => {}
         }
     }
     match n {
         // One body with all its coordinates, which goes with adaptive steps alone.
-        4.. => run(with, Adaptive::<6, 6, 6> { setups, beside }),
-        3 => of_size::<A, 12, 12, 3>(with, setups, beside),
-        2 => of_size::<A, 12, 12, 2>(with, setups, beside),
-        _ => of_size::<A, 12, 12, 1>(with, setups, beside),
+        4.. => run(with, Adaptive::<6, 6, 6> { setups, beside, done }),
+        3 => of_size::<A, 12, 12, 3>(with, setups, beside, done),
+        2 => of_size::<A, 12, 12, 2>(with, setups, beside, done),
+        _ => of_size::<A, 12, 12, 1>(with, setups, beside, done),
     }
 }
 
@@ -138,12 +157,18 @@ fn of_size<A: Arithmetic, const M: usize, const L: usize, const N: usize>(
     with: A,
     setups: &[&LaneSetup],
     beside: usize,
-) -> Vec<LaneOutcome> {
+    done: Done<'_>,
+) {
     if setups[0].shape.is_adaptive {
-        run(with, Adaptive::<M, L, N> { setups, beside })
-    } else {
-        let groups = setups.chunks(beside.min(A::WIDTH));
-        groups.flat_map(|setups| run(with, Lanes::<M, L, N> { setups })).collect()
+        return run(with, Adaptive::<M, L, N> { setups, beside, done });
+    }
+    let width = beside.min(A::WIDTH);
+    for (group, setups) in setups.chunks(width).enumerate() {
+        let found = run(with, Lanes::<M, L, N> { setups }).into_iter().enumerate();
+        // All of the group have come to their ends.
+        if !found.fold(true, |goes_on, (i, outcome)| done(group * width + i, outcome) && goes_on) {
+            return;
+        }
     }
 }
 

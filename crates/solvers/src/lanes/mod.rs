@@ -65,6 +65,9 @@ pub fn width() -> usize {
     march::width()
 }
 
+/// Takes what an analysis has left as soon as it is there, with its index; where it says no, none is begun any more.
+pub type Done<'a> = &'a mut dyn FnMut(usize, LaneOutcome) -> bool;
+
 /// What one analysis of a sweep left.
 #[derive(Clone, Debug)]
 pub struct LaneOutcome {

@@ -31,16 +31,21 @@ impl Shared<'_> {
             let fresh = |(i, model)| Some((i, Option::as_ref(model)?));
             let all = models.iter().enumerate().filter(|(i, _)| made[*i].is_none());
             let (at, beside): (Vec<usize>, Vec<&Model>) = all.filter_map(fresh).unzip();
-            let found = study.beside(lanes, &beside);
-            panicked = found.is_none();
-            for ((i, model), finished) in at.into_iter().zip(beside).zip(found.unwrap_or_default())
-            {
-                let Some(finished) = finished else { continue };
+            let mut failed = None;
+            panicked = !study.beside(lanes, &beside, &mut |place, finished| {
+                let (i, model) = (at[place], beside[place]);
                 let record = study.record(runs[i], model, &finished);
-                self.keep(keys[i].as_ref(), &finished)?;
-                self.write(&record)?;
+                let kept = self.keep(keys[i].as_ref(), &finished);
+                failed = kept.and_then(|()| self.write(&record)).err();
                 self.beside.fetch_add(1, Ordering::Relaxed);
                 made[i] = Some(record);
+                failed.is_none() && !self.stops()
+            });
+            if let Some(error) = failed {
+                return Err(error);
+            }
+            if self.stops() {
+                return Ok(None);
             }
         }
         for (i, run) in runs.iter().enumerate() {
@@ -90,10 +95,12 @@ impl Shared<'_> {
         }
     }
 
+    /// Puts a run on disk.
     fn write(&self, record: &Record) -> Result<(), StudyError> {
-        match self.journal.as_ref().map(Mutex::lock) {
-            Some(Ok(mut journal)) => journal.write(record),
-            _ => Ok(()),
+        if let Some(Ok(mut journal)) = self.journal.as_ref().map(Mutex::lock) {
+            journal.write(record)?;
         }
+        self.count(1, !record.good);
+        Ok(())
     }
 }

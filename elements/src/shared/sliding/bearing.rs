@@ -17,7 +17,8 @@
 use super::coefficient::{self, BreakAway};
 use super::law::{Law, Numbers};
 use super::{Axial, Coefficient, Dish, Stop};
-use trilith_element::lanes::{LaneAt, LaneContact, LaneForce, LaneForm, LaneLaw};
+use crate::shared::written::Written;
+use trilith_element::lanes::{LaneAt, LaneContact, LaneForm, LaneLaw};
 use trilith_element::{Contact, Kinematics, Response, history};
 
 history! {
@@ -149,15 +150,11 @@ impl Bearing {
         trial: &mut [f64],
         out: &mut Response<'_>,
     ) {
-        let mut force = LaneForce { f: out.f, k: out.k, c: out.c };
-        let step = if self.is_plain() {
-            let numbers = self.plain_numbers();
-            Law::<false>::respond(&LaneAt::new(at, committed, &numbers), &mut force, trial)
+        if self.is_plain() {
+            PLAIN_LAW.respond(&self.plain_numbers(), (at, committed), trial, out);
         } else {
-            let numbers = self.numbers();
-            Law::<true>::respond(&LaneAt::new(at, committed, &numbers), &mut force, trial)
-        };
-        *out.energy = step.into();
+            FULL_LAW.respond(&self.numbers(), (at, committed), trial, out);
+        }
     }
 
     /// What the contact does.
@@ -170,10 +167,12 @@ impl Bearing {
 
     /// The form for lanes.
     pub(crate) fn lanes(&self) -> LaneForm {
-        let at = vec![0, 1, 2];
         if self.is_plain() {
-            return LaneForm::of::<Law<false>>(at, self.plain_numbers().to_vec());
+            return PLAIN_LAW.lanes(&self.plain_numbers());
         }
-        LaneForm::of::<Law<true>>(at, self.numbers().to_vec())
+        FULL_LAW.lanes(&self.numbers())
     }
 }
+
+const PLAIN_LAW: Written = Written::of::<Law<false>>();
+const FULL_LAW: Written = Written::of::<Law<true>>();
