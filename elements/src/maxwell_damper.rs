@@ -89,7 +89,8 @@ impl<const FORM: u8> Viscous for Power<FORM> {
     }
 }
 
-// Both equations are convex and start above their root: Newton's method falls to it and ends where it no longer falls.
+// Both equations are convex and start above their root: Newton's method falls to it and ends, in every lane, where it no
+// longer falls. A step from the root, which nothing moves, has its derivatives.
 
 /// f + a (f/c)^(1/α) = known, for α < 1.
 #[inline(always)]
@@ -98,47 +99,47 @@ fn by_force<R: Real>(known: R, a: R, c: R, alpha: R) -> Split<R> {
     let p = one / alpha;
     let bound = c * (known / a).powf(alpha);
     // A quotient too small for a number says nothing.
-    let start = R::select(zero.lt(bound), known.min(bound), known);
-    let at = |f: R| {
-        let w = (f / c).powf(p);
-        let slope = one / (one + a * p * w / f);
-        (w, slope, f - (f + a * w - known) * slope)
-    };
-    let f = fall(start, |f| at(f).2);
-    let (rate, slope, _) = at(f);
-    Split { force: f, rate, slope }
+    let mut f = R::select(zero.lt(bound), known.min(bound), known);
+    let mut falls = zero.le(zero);
+    loop {
+        let rate = (f / c).powf(p);
+        let slope = one / (one + a * p * rate / f);
+        let next = f - (f + a * rate - known) * slope;
+        falls = falls & next.lt(f) & zero.lt(next);
+        if !f.any(falls) {
+            if R::DERIVATIVES {
+                let moved = f.fixed() - (f.fixed() + a * (f.fixed() / c).powf(p) - known) * slope;
+                return Split { force: moved, rate: (moved / c).powf(p), slope };
+            }
+            return Split { force: f, rate, slope };
+        }
+        f = R::select(falls, next, f);
+    }
 }
 
 /// c w^α + a w = known, for α > 1.
 #[inline(always)]
 fn by_rate<R: Real>(known: R, a: R, c: R, alpha: R) -> Split<R> {
     let (zero, one) = (known.of(0.0), known.of(1.0));
-    let at = |w: R| {
-        let f = c * w.powf(alpha);
-        let some = zero.lt(w);
-        let rise = (alpha * f / R::select(some, w, one)).only(some);
-        (f, rise, w - (f + a * w - known) / (rise + a))
-    };
-    let w = fall((known / a).min((known / c).powf(one / alpha)), |w| at(w).2);
-    let (force, rise, _) = at(w);
-    Split { force, rate: w, slope: rise / (rise + a) }
-}
-
-/// Newton's method from above, in every lane for as long as it falls.
-#[inline(always)]
-fn fall<R: Real>(start: R, next: impl Fn(R) -> R) -> R {
-    let zero = start.of(0.0);
-    let (mut x, mut falls) = (start, zero.le(zero));
+    let mut w = (known / a).min((known / c).powf(one / alpha));
+    let mut falls = zero.le(zero);
     loop {
-        let to = next(x);
-        falls = falls & to.lt(x) & zero.lt(to);
-        if !x.any(falls) {
-            break;
+        let force = c * w.powf(alpha);
+        let some = zero.lt(w);
+        let rise = (alpha * force / R::select(some, w, one)).only(some);
+        let next = w - (force + a * w - known) / (rise + a);
+        falls = falls & next.lt(w) & zero.lt(next);
+        if !w.any(falls) {
+            let slope = rise / (rise + a);
+            if R::DERIVATIVES {
+                let still = w.fixed();
+                let moved = still - (c * still.powf(alpha) + a * still - known) / (rise + a);
+                return Split { force: c * moved.powf(alpha), rate: moved, slope };
+            }
+            return Split { force, rate: w, slope };
         }
-        x = R::select(falls, to, x);
+        w = R::select(falls, next, w);
     }
-    // A step from the root, which nothing moves, has the derivatives of the root.
-    if R::DERIVATIVES { next(x.fixed()) } else { x }
 }
 
 impl Link for MaxwellDamper {

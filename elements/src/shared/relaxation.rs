@@ -57,16 +57,13 @@ pub(crate) fn relax<R: Real>(k: R, tau: R, f0: R, at: &LaneAt<'_, R>) -> Followe
     let [mean, change] = rates(at);
     let dt = length(at);
     let (x, first, impulse) = (dt / tau, mean - half * change, k * dt);
-    let force = |s: R| {
-        let y = x * s;
-        let [decay, p1, p2] = decays(y);
-        decay * f0 + impulse * s * (first * p1 + change * s * p2)
-    };
     let is_short = x.lt(one);
     let mut mean_square = zero;
     if x.any(is_short) {
         for (s, w) in GAUSS {
-            let f = force(x.of(s));
+            let s = x.of(s);
+            let [decay, p1, p2] = decays(x * s);
+            let f = decay * f0 + impulse * s * (first * p1 + change * s * p2);
             mean_square = mean_square + x.of(w) * f * f;
         }
     }
@@ -99,8 +96,11 @@ fn decays<R: Real>(y: R) -> [R; 3] {
     let some = zero.lt(y);
     let p1 = R::select(some, -less / R::select(some, y, one), one);
     // The closed form loses its digits here; the next term is y⁵/5040.
-    let part = |n: f64, inner: R| one - y * y.of(n.recip()) * inner;
-    let near = y.of(0.5) - y * y.of(1.0 / 6.0) * part(4.0, part(5.0, part(6.0, one)));
+    let mut near = one;
+    for factor in [1.0 / 6.0, 1.0 / 5.0, 1.0 / 4.0] {
+        near = one - y * y.of(factor) * near;
+    }
+    let near = y.of(0.5) - y * y.of(1.0 / 6.0) * near;
     let far = (one - p1) / R::select(some, y, one);
     [decay, p1, R::select(y.lt(y.of(0.01)), near, far)]
 }

@@ -68,38 +68,32 @@ pub(crate) trait Viscous: 'static {
 /// A number, and its derivatives by d and ḋ.
 type Graded<R> = [R; 3];
 
-/// Σ of three by their weights.
-#[inline(always)]
-fn mix<R: Real>(terms: [(R, Graded<R>); 3]) -> Graded<R> {
-    std::array::from_fn(|i| {
-        let [first, second, third] = terms.map(|(weight, x)| weight * x[i]);
-        first + second + third
-    })
-}
-
 /// Leads spring and dashpot through the step.
 #[inline(always)]
 pub(crate) fn follow<V: Viscous + ?Sized, R: Real>(at: &LaneAt<'_, R>) -> Followed<R> {
     let (parameters, f0, dt) = (at.parameters, at.history[0], length(at));
-    let of = |x: f64| dt.of(x);
+    let (zero, one) = (dt.of(0.0), dt.of(1.0));
     let gamma = 1.0 - std::f64::consts::FRAC_1_SQRT_2;
     let ahead = (1.0 - gamma) / gamma;
     let [mean, change] = rates(at);
-    let per_dt = of(1.0) / dt;
-    let h = dt * of(1.0 / PARTS as f64);
-    let a = of(gamma) * h * parameters[0];
-    let (mut f, mut viscous) = ([f0, of(0.0), of(0.0)], of(0.0));
+    let h = dt * dt.of(1.0 / PARTS as f64);
+    let a = dt.of(gamma) * h * parameters[0];
+    let a_per_dt = a * (one / dt);
+    let (mut f, mut viscous) = ([f0, zero, zero], zero);
     let mut inner = f;
     // The inner stage and the end of every part, in one loop: the equation of the dashpot is long.
     for stage in 0..2 * PARTS {
         let is_end = stage % 2 == 1;
         let (reached, weight) = if is_end { (1.0, gamma) } else { (gamma, 1.0 - gamma) };
         let of_inner = if is_end { ahead } else { 0.0 };
-        let s = ((stage / 2) as f64 + reached) / PARTS as f64 - 0.5;
-        let rate = [change.mul_add(of(s), mean), per_dt, of(s)];
-        let known = mix([(of(1.0 - of_inner), f), (of(of_inner), inner), (a, rate)]);
+        let s = dt.of(((stage / 2) as f64 + reached) / PARTS as f64 - 0.5);
+        let (share, rest) = (dt.of(of_inner), dt.of(1.0 - of_inner));
+        let mut known: Graded<R> = [a * change.mul_add(s, mean), a_per_dt, a * s];
+        for i in 0..3 {
+            known[i] = rest.mul_add(f[i], share.mul_add(inner[i], known[i]));
+        }
         let it = V::split(parameters, known[0], a);
-        viscous = viscous + of(weight) * h * (it.force * it.rate);
+        viscous = viscous + dt.of(weight) * h * (it.force * it.rate);
         let now = [it.force, it.slope * known[1], it.slope * known[2]];
         if is_end {
             f = now;
