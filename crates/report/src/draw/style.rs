@@ -49,35 +49,48 @@ pub(crate) enum Look {
     Area,
 }
 
-/// The looks of all series of a figure.
+/// The looks of all series of a figure. Colours come back after some names: what has the colour of an earlier one then has
+/// other dashes, or another mark, as long as there are any.
 pub(crate) fn looks(figure: &Figure) -> Vec<Look> {
-    let (mut lines, mut rings, mut squares) = (0, 0, 0);
-    let next = |count: &mut usize, series: &Series| {
-        let i = *count;
-        // What has no name goes with what has one.
-        *count += usize::from(!series.name.is_empty());
-        i
-    };
+    const OPEN: [Shape; 5] =
+        [Shape::Circle, Shape::Triangle, Shape::Diamond, Shape::Square, Shape::Wedge];
+    const FILLED: [Shape; 5] =
+        [Shape::Square, Shape::Triangle, Shape::Diamond, Shape::Circle, Shape::Wedge];
+    let (mut lines, mut rings, mut squares) = (Kind::default(), Kind::default(), Kind::default());
     let looks = figure.series.iter().map(|s| match s.stroke {
         // Curves behind the others.
         Stroke::Line if s.color == Color::CONTEXT => Look::Line("", 1.0),
         Stroke::Line if s.color == Color::INK => Look::Line("", 1.8),
-        Stroke::Line => Look::Line(DASHES[next(&mut lines, s) % DASHES.len()], 1.8),
+        Stroke::Line => Look::Line(DASHES[lines.next(s, DASHES.len())], 1.8),
         Stroke::Dashes => Look::Line(REFERENCE, 1.5),
-        Stroke::Rings => {
-            let shapes =
-                [Shape::Circle, Shape::Triangle, Shape::Diamond, Shape::Square, Shape::Wedge];
-            Look::Marks(shapes[next(&mut rings, s) % shapes.len()], false)
-        }
-        Stroke::Squares => {
-            let shapes =
-                [Shape::Square, Shape::Triangle, Shape::Diamond, Shape::Circle, Shape::Wedge];
-            Look::Marks(shapes[next(&mut squares, s) % shapes.len()], true)
-        }
+        Stroke::Rings => Look::Marks(OPEN[rings.next(s, OPEN.len())], false),
+        Stroke::Squares => Look::Marks(FILLED[squares.next(s, FILLED.len())], true),
         Stroke::Crosses => Look::Marks(Shape::Cross, false),
         Stroke::Area => Look::Area,
     });
     looks.collect()
+}
+
+/// Series of a figure that are drawn in one way, so far.
+#[derive(Default)]
+struct Kind {
+    names: usize,
+    taken: Vec<(Color, usize)>,
+}
+
+impl Kind {
+    /// Which of so many variants the next one has: each name the next variant, or the first behind it that its colour does
+    /// not have yet. What has no name goes with what has one.
+    fn next(&mut self, series: &Series, variants: usize) -> usize {
+        let mut all = (0..variants).map(|k| (self.names + k) % variants);
+        let variant = all.find(|v| !self.taken.contains(&(series.color, *v)));
+        let variant = variant.unwrap_or(self.names % variants);
+        if !series.name.is_empty() {
+            self.names += 1;
+            self.taken.push((series.color, variant));
+        }
+        variant
+    }
 }
 
 #[cfg(test)]
@@ -97,6 +110,24 @@ mod tests {
         let looks = looks(&figure);
         for (i, a) in looks.iter().enumerate() {
             assert!(looks[..i].iter().all(|b| a != b), "{a:?} twice");
+        }
+    }
+
+    /// Six colours and six dashes come back together: a seventh line would be the first one again.
+    #[test]
+    fn many_names_differ_in_colour_or_look() {
+        let empty = || std::iter::empty();
+        let mut figure = Figure::new("f", "x", "y");
+        for i in 0..30 {
+            figure = figure.line(format!("l{i}"), empty());
+        }
+        for i in 0..30 {
+            figure = figure.series(format!("r{i}"), Stroke::Rings, empty());
+        }
+        let looks = looks(&figure);
+        let seen: Vec<_> = figure.series.iter().map(|s| s.color).zip(&looks).collect();
+        for (i, a) in seen.iter().enumerate() {
+            assert!(seen[..i].iter().all(|b| a != b), "series {i}: {a:?} twice");
         }
     }
 
