@@ -54,7 +54,7 @@ impl Block {
                 Self::Table { head, rows } => div.wide { table {
                     thead { tr { @for cell in head { th { (cell) } } } }
                     tbody { @for row in rows { tr { @for cell in row {
-                        td class=[verdict(cell)] { (words(cell)) }
+                        td class=[look(cell)] { (words(cell)) }
                     } } } }
                 } },
                 Self::Figures(all) => div.figures { @for f in all { (chart::figure(f, fine, scales)) } },
@@ -91,11 +91,14 @@ pub(crate) fn words(text: &str) -> Markup {
     } }
 }
 
-fn verdict(cell: &str) -> Option<&'static str> {
+/// Longest cell of a table that stays in one line, letters: a number and its unit are one thing.
+const ONE_LINE: usize = 24;
+
+fn look(cell: &str) -> Option<&'static str> {
     match cell {
         "pass" => Some("pass"),
         "FAIL" => Some("fail"),
-        _ => None,
+        _ => (cell.chars().count() > ONE_LINE).then_some("long"),
     }
 }
 
@@ -148,7 +151,7 @@ impl Charts {
         let fine = chart::fine(figures.iter().map(chart::size).sum());
         let figures = html! { @for f in figures { (chart::alive(f, fine)) } };
         let script = html! {
-            (chart::json("", Some("entries"), &entries.data()))
+            (chart::json("", Some("entries"), &chart::legible(entries.data())))
             (chart::script(&[chart::ASK]))
         };
         let [figures, script] =
@@ -231,7 +234,7 @@ impl Page {
                             }
                         }
                     }
-                    @if let Some(entries) = &self.entries { (chart::json("", Some("entries"), &entries.data())) }
+                    @if let Some(entries) = &self.entries { (chart::json("", Some("entries"), &chart::legible(entries.data()))) }
                     @if points > 0 { (chart::script(&[])) }
                 }
             }
