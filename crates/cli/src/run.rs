@@ -156,7 +156,8 @@ fn write(
     made_by::write_run(dir, inputs, &args.model.set, summary, run.result.end.dt)?;
     let mut laid = Ok(());
     if !args.no_report {
-        let mut data = run.report(analysis, &args.model.set, &names::flat(&args.loops));
+        let loops = names::flat(&args.loops);
+        let mut data = run.report_of(analysis, summary, &args.model.set, &loops);
         laid = over(&mut data, args, spectrum);
         let page = trilith::write_report(dir, &data).map_err(|e| Failure::of(&e, model))?;
         text += &show("report", &page);

@@ -164,7 +164,7 @@ fn run(
     let options = RunOptions { case, solver, step_errors: errors, ..RunOptions::default() };
     let run = analysis.run(options).map_err(failed)?;
     let summary = run.summary(model);
-    let data = run.report(&analysis, overrides, &[]);
+    let data = run.report_of(&analysis, &summary, overrides, &[]);
     let value = serde_json::to_value(&summary).unwrap_or_default();
     let made = if update { report::run_update } else { report::run_page };
     Ok(json!({

@@ -7,7 +7,7 @@ use std::ops::Deref;
 use std::path::{Path, PathBuf};
 use trilith_model::Model;
 use trilith_report::{Collect, RunData, run_page};
-use trilith_results::FileError;
+use trilith_results::{FileError, Summary};
 use trilith_solvers::{Linearised, LinkStiffness};
 
 /// Up to this many equations, modes are looked for where the run did not find them itself.
@@ -102,6 +102,19 @@ impl Run {
         overrides: &[(String, String)],
         loops: &[String],
     ) -> RunData {
+        self.report_of(analysis, &self.summary(analysis.model()), overrides, loops)
+    }
+
+    /// The same with the [summary](Self::summary) of this run, which is there already: its floor spectra take as long as a
+    /// short march.
+    #[must_use]
+    pub fn report_of<M: Deref<Target = Model>>(
+        &self,
+        analysis: &Analysis<M>,
+        summary: &Summary,
+        overrides: &[(String, String)],
+        loops: &[String],
+    ) -> RunData {
         let model = analysis.model();
         let case = model.case(&self.result.case);
         let found = match &self.result.basis {
@@ -121,7 +134,7 @@ impl Run {
             case: case.unwrap_or(model.cases.len()),
             dt: Some(self.result.end.dt).filter(|dt| *dt > 0.0),
             record: &self.record,
-            summary: &self.summary(model),
+            summary,
             weight: analysis.system().total_mass * model.gravity.abs(),
             modes: self.result.basis.as_ref().or(found.as_ref()),
             linked: linear.as_ref().zip(linked.as_ref()),
