@@ -15,6 +15,7 @@ pub(crate) fn kept(points: &[(f64, f64)], tolerance: f64) -> Vec<usize> {
     keep[0] = true;
     keep[points.len() - 1] = true;
     let mut spans = vec![(0, points.len() - 1)];
+    let tolerance = tolerance * tolerance;
     while let Some((a, b)) = spans.pop() {
         let far = (a + 1..b)
             .map(|i| (i, distance(points[i], points[a], points[b])))
@@ -27,7 +28,7 @@ pub(crate) fn kept(points: &[(f64, f64)], tolerance: f64) -> Vec<usize> {
     (0..points.len()).filter(|i| keep[*i]).collect()
 }
 
-/// Distance of a point from a segment.
+/// Square of the distance of a point from a segment: roots are long, and millions of points are looked at.
 fn distance(p: (f64, f64), a: (f64, f64), b: (f64, f64)) -> f64 {
     let (dx, dy) = (b.0 - a.0, b.1 - a.1);
     let length = dx * dx + dy * dy;
@@ -36,7 +37,8 @@ fn distance(p: (f64, f64), a: (f64, f64), b: (f64, f64)) -> f64 {
     } else {
         0.0
     };
-    (p.0 - a.0 - share * dx).hypot(p.1 - a.1 - share * dy)
+    let (x, y) = (p.0 - a.0 - share * dx, p.1 - a.1 - share * dy);
+    x * x + y * y
 }
 
 #[cfg(test)]

@@ -3,6 +3,7 @@
 use crate::Figure;
 use crate::draw::drawing;
 use maud::{Markup, PreEscaped, html};
+use serde::Serialize;
 use serde_json::Value;
 use std::collections::BTreeMap;
 use trilith_model::visible;
@@ -97,10 +98,10 @@ pub(crate) fn alive(figure: &Figure, fine: f64) -> Markup {
     }
 }
 
-/// Data in an element that they cannot end; control characters of texts are written out.
-pub(crate) fn json(class: &str, id: Option<&str>, value: &Value) -> Markup {
+/// Data in an element that they cannot end; control characters of their texts have to be written out before.
+pub(crate) fn json(class: &str, id: Option<&str>, value: &impl Serialize) -> Markup {
     // Numbers, texts and lists: nothing that JSON does not have.
-    let text = serde_json::to_string(&legible(value.clone())).unwrap_or_default();
+    let text = serde_json::to_string(value).unwrap_or_default();
     let text = text.replace('<', "\\u003c");
     html! { script type="application/json" class=[(!class.is_empty()).then_some(class)] id=[id] { (PreEscaped(text)) } }
 }

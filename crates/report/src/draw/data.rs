@@ -4,97 +4,168 @@ use super::style::{Look, looks};
 use super::{Frame, hex, position};
 use crate::figure::{Axis, Figure, Series, Stroke};
 use crate::thin::kept;
-use serde_json::{Value, json};
+use serde::Serialize;
+use std::borrow::Cow;
+use trilith_model::visible;
 
 /// Steps of a number over the span of its axis.
 const STEPS: f64 = 4e5;
 /// Digits of numbers on a logarithmic axis.
 const DIGITS: usize = 5;
 
-/// JSON for the script: axes, series with their looks and points, marked peaks. Lines may leave their points by `fine`
-/// pixels of the still figure.
-pub(crate) fn drawing(figure: &Figure, fine: f64) -> Value {
-    let frame = Frame::new(figure);
+/// What the script is told: axes, series with their looks and points, marked peaks. It is written as it is, without a tree of
+/// JSON values between: a page has some hundred thousand numbers, and a page that computes makes them for every answer.
+#[derive(Serialize)]
+pub(crate) struct Told<'a> {
+    title: Cow<'a, str>,
+    x: ToldAxis<'a>,
+    y: ToldAxis<'a>,
+    size: (u32, u32),
+    series: Vec<ToldSeries<'a>>,
+    #[serde(skip_serializing_if = "str::is_empty")]
+    shared: Cow<'a, str>,
+    #[serde(skip_serializing_if = "str::is_empty")]
+    scale: Cow<'a, str>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    settings: Option<[(Cow<'a, str>, Cow<'a, str>); 2]>,
+    #[serde(skip_serializing_if = "is_not")]
+    equal: bool,
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    peaks: Vec<(usize, f64, f64)>,
+}
+
+#[derive(Serialize)]
+struct ToldAxis<'a> {
+    label: Cow<'a, str>,
+    #[serde(skip_serializing_if = "is_not")]
+    log: bool,
+    #[serde(skip_serializing_if = "is_not")]
+    whole: bool,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    range: Option<(f64, f64)>,
+}
+
+#[derive(Serialize)]
+struct ToldSeries<'a> {
+    color: String,
+    #[serde(skip_serializing_if = "str::is_empty")]
+    name: Cow<'a, str>,
+    #[serde(flatten)]
+    look: ToldLook,
+    px: Packed,
+    py: Packed,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    entries: Option<Vec<usize>>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    times: Option<Packed>,
+}
+
+#[derive(Serialize)]
+#[serde(untagged)]
+enum ToldLook {
+    Line {
+        #[serde(skip_serializing_if = "str::is_empty")]
+        dash: &'static str,
+        width: f64,
+    },
+    Marks {
+        mark: &'static str,
+        filled: bool,
+    },
+    Area {
+        area: bool,
+    },
+}
+
+/// Numbers; null where one has no place on its axis.
+#[derive(Serialize)]
+#[serde(untagged)]
+enum Packed {
+    /// As they are.
+    Plain(Vec<Option<f64>>),
+    /// Differences of whole multiples of a step.
+    Steps { from: f64, step: f64, n: Vec<Option<i64>> },
+}
+
+// As `skip_serializing_if` calls it.
+#[allow(clippy::trivially_copy_pass_by_ref)]
+fn is_not(it: &bool) -> bool {
+    !it
+}
+
+/// A figure for the script. Lines may leave their points by `fine` pixels of the still figure.
+pub(crate) fn drawing(figure: &Figure, fine: f64) -> Told<'_> {
+    // Only where points are left out it matters where they are on the sheet.
+    let frame = (fine > 0.0).then(|| Frame::new(figure));
     let series = figure.series.iter().zip(looks(figure));
-    let series: Vec<Value> = series.map(|(s, look)| one(&frame, s, look, fine)).collect();
-    let mut out = json!({
-        "title": figure.title,
-        "x": axis(&figure.x),
-        "y": axis(&figure.y),
-        "size": [figure.size.0, figure.size.1],
-        "series": series,
-    });
-    let mut say = |key: &str, value: Value| out[key] = value;
-    if !figure.shared.is_empty() {
-        say("shared", json!(figure.shared));
+    let peaks = figure.peaks.iter().filter(|(_, p)| p.0.is_finite() && p.1.is_finite());
+    Told {
+        title: visible(&figure.title),
+        x: axis(&figure.x),
+        y: axis(&figure.y),
+        size: figure.size,
+        series: series.map(|(s, look)| one(figure, frame.as_ref(), s, look, fine)).collect(),
+        shared: visible(&figure.shared),
+        scale: visible(&figure.scale),
+        settings: figure
+            .settings
+            .as_ref()
+            .map(|all| all.each_ref().map(|(name, unit)| (visible(name), visible(unit)))),
+        equal: figure.equal,
+        peaks: peaks.map(|(i, p)| (*i, p.0, p.1)).collect(),
     }
-    if !figure.scale.is_empty() {
-        say("scale", json!(figure.scale));
-    }
-    if let Some(settings) = &figure.settings {
-        say("settings", json!(settings));
-    }
-    if figure.equal {
-        say("equal", json!(true));
-    }
-    if !figure.peaks.is_empty() {
-        let peaks = figure.peaks.iter().filter(|(_, p)| p.0.is_finite() && p.1.is_finite());
-        say("peaks", peaks.map(|(i, p)| json!([i, p.0, p.1])).collect());
-    }
-    out
 }
 
-fn axis(a: &Axis) -> Value {
-    let mut out = json!({ "label": a.label });
-    if a.log {
-        out["log"] = json!(true);
+fn axis(a: &Axis) -> ToldAxis<'_> {
+    ToldAxis {
+        label: visible(&a.label),
+        log: a.log,
+        whole: a.whole,
+        range: a.range.filter(|(a, b)| (b - a).is_normal()),
     }
-    if a.whole {
-        out["whole"] = json!(true);
-    }
-    if let Some((from, to)) = a.range.filter(|(a, b)| (b - a).is_normal()) {
-        out["range"] = json!([from, to]);
-    }
-    out
 }
 
-fn one(frame: &Frame<'_>, series: &Series, look: Look, fine: f64) -> Value {
-    let mut out = json!({ "color": hex(series.color) });
-    if !series.name.is_empty() {
-        out["name"] = json!(series.name);
+fn one<'a>(
+    figure: &Figure,
+    frame: Option<&Frame<'_>>,
+    series: &'a Series,
+    look: Look,
+    fine: f64,
+) -> ToldSeries<'a> {
+    let chosen = frame.and_then(|frame| chosen(frame, series, fine));
+    let count = series.points.len();
+    ToldSeries {
+        color: hex(series.color),
+        name: visible(&series.name),
+        look: match look {
+            Look::Line(dash, width) => ToldLook::Line { dash, width },
+            Look::Marks(shape, filled) => ToldLook::Marks { mark: shape.name(), filled },
+            Look::Area => ToldLook::Area { area: true },
+        },
+        px: packed(&figure.x, some(&series.points, chosen.as_deref(), |p| p.0)),
+        py: packed(&figure.y, some(&series.points, chosen.as_deref(), |p| p.1)),
+        entries: (series.entries.len() == count && count > 0)
+            .then(|| some(&series.entries, chosen.as_deref(), |e| *e)),
+        times: (series.times.len() == count && count > 0).then(|| {
+            let linear = Axis { label: String::new(), log: false, range: None, whole: false };
+            packed(&linear, some(&series.times, chosen.as_deref(), |t| *t))
+        }),
     }
-    match look {
-        Look::Line(dash, width) => {
-            if !dash.is_empty() {
-                out["dash"] = json!(dash);
-            }
-            out["width"] = json!(width);
-        }
-        Look::Marks(shape, filled) => {
-            out["mark"] = json!(shape.name());
-            out["filled"] = json!(filled);
-        }
-        Look::Area => out["area"] = json!(true),
-    }
-    let chosen = chosen(frame, series, fine);
-    let points = || chosen.iter().map(|i| series.points[*i]);
-    out["px"] = packed(&frame.figure.x, points().map(|p| p.0).collect());
-    out["py"] = packed(&frame.figure.y, points().map(|p| p.1).collect());
-    if series.entries.len() == series.points.len() {
-        out["entries"] = chosen.iter().map(|i| json!(series.entries[*i])).collect();
-    }
-    if series.times.len() == series.points.len() {
-        let linear = Axis { label: String::new(), log: false, range: None, whole: false };
-        out["times"] = packed(&linear, chosen.iter().map(|i| series.times[*i]).collect());
-    }
-    out
 }
 
-/// Which points are told, by index: of lines those that can be seen.
-fn chosen(frame: &Frame<'_>, series: &Series, fine: f64) -> Vec<usize> {
+/// Of all, or of those that are chosen.
+fn some<T, U>(all: &[T], chosen: Option<&[usize]>, of: impl Fn(&T) -> U) -> Vec<U> {
+    match chosen {
+        None => all.iter().map(of).collect(),
+        Some(chosen) => chosen.iter().map(|i| of(&all[*i])).collect(),
+    }
+}
+
+/// Which points are told, by index: of lines those that can be seen. None: all of them.
+fn chosen(frame: &Frame<'_>, series: &Series, fine: f64) -> Option<Vec<usize>> {
     let line = matches!(series.stroke, Stroke::Line | Stroke::Dashes);
-    if !line || fine <= 0.0 || !series.entries.is_empty() {
-        return (0..series.points.len()).collect();
+    if !line || !series.entries.is_empty() {
+        return None;
     }
     let mut all = Vec::new();
     let mut piece: Vec<(usize, (f64, f64))> = Vec::new();
@@ -115,40 +186,43 @@ fn chosen(frame: &Frame<'_>, series: &Series, fine: f64) -> Vec<usize> {
         }
     }
     end(&mut piece);
-    all
+    Some(all)
 }
 
 /// Numbers as differences of whole multiples of a step, which makes short texts; those of logarithmic axes with so many
 /// digits. What has no place on the axis is null.
-fn packed(axis: &Axis, values: Vec<f64>) -> Value {
+fn packed(axis: &Axis, values: Vec<f64>) -> Packed {
     let values: Vec<Option<f64>> =
         values.into_iter().map(|x| position(axis, x).map(|_| x)).collect();
     let there = || values.iter().flatten().copied();
     if axis.log {
         let short = |x: f64| format!("{x:.*e}", DIGITS - 1).parse::<f64>().unwrap_or(x);
-        return values.iter().map(|x| x.map_or(Value::Null, |x| json!(short(x)))).collect();
+        return Packed::Plain(values.iter().map(|x| x.map(short)).collect());
     }
     let (low, high) =
         there().fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), x| (a.min(x), b.max(x)));
     if low > high {
-        return values.iter().map(|_| Value::Null).collect();
+        return Packed::Plain(vec![None; values.len()]);
     }
     let step = even(&values, high - low).unwrap_or((high - low) / STEPS);
     if !step.is_normal() {
         // All alike.
-        return json!({ "from": low, "step": 0.0, "n": values.iter().map(|x| x.map(|_| 0)).collect::<Vec<_>>() });
+        let n = values.iter().map(|x| x.map(|_| 0)).collect();
+        return Packed::Steps { from: low, step: 0.0, n };
     }
     let mut last = 0_i64;
-    let n: Vec<Option<i64>> = values
-        .iter()
-        .map(|x| {
-            let at = ((*x)? / step - low / step).round() as i64;
-            let delta = at - last;
-            last = at;
-            Some(delta)
-        })
-        .collect();
-    json!({ "from": low, "step": step, "n": n })
+    let n = values.iter().map(|x| {
+        let at = nearest((*x)? / step - low / step);
+        let delta = at - last;
+        last = at;
+        Some(delta)
+    });
+    Packed::Steps { from: low, step, n: n.collect() }
+}
+
+/// The whole number beside a number of moderate size: `round` without the call that it is on many processors.
+pub(crate) fn nearest(x: f64) -> i64 {
+    (x + 0.5_f64.copysign(x)) as i64
 }
 
 /// The step of values that are multiples of one.
@@ -158,7 +232,7 @@ fn even(values: &[Option<f64>], span: f64) -> Option<f64> {
     let first = values.iter().flatten().next()?;
     let fits = |x: f64| {
         let n = (x - first) / step;
-        (n - n.round()).abs() < 1e-4
+        (n - nearest(n) as f64).abs() < 1e-4
     };
     (step.is_normal() && span / step < 1e7 && values.iter().flatten().all(|x| fits(*x)))
         .then_some(step)
@@ -167,6 +241,11 @@ fn even(values: &[Option<f64>], span: f64) -> Option<f64> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use serde_json::{Value, json};
+
+    fn drawing(figure: &Figure, fine: f64) -> Value {
+        serde_json::to_value(super::drawing(figure, fine)).unwrap()
+    }
 
     /// As the script unpacks it.
     fn unpacked(v: &Value) -> Vec<Option<f64>> {

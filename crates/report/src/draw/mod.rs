@@ -4,7 +4,7 @@ mod data;
 mod scale;
 mod style;
 
-pub(crate) use data::drawing;
+pub(crate) use data::{drawing, nearest};
 
 use crate::figure::{Color, Figure, Series};
 use crate::thin::thinned;

@@ -1,5 +1,6 @@
 //! What the page of a run shows, as it lies in the folder of the run.
 
+use crate::draw::nearest;
 use serde::{Deserialize, Serialize};
 use trilith_results::Summary;
 
@@ -115,7 +116,8 @@ impl Numbers {
         let largest = values.clone().filter(|x| x.is_finite()).fold(0.0_f64, |a, x| a.max(x.abs()));
         let step = if largest > 0.0 { largest / steps } else { 1.0 };
         // A float turns into a whole number with saturation, NaN into zero.
-        Self { step, n: values.map(|x| (x / step).round() as i32).collect() }
+        let whole = |x: f64| nearest(x / step).clamp(i64::from(i32::MIN), i64::from(i32::MAX));
+        Self { step, n: values.map(|x| whole(x) as i32).collect() }
     }
 
     /// The values.

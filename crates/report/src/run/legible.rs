@@ -1,10 +1,10 @@
 //! Texts of a run as a page may show them.
 
+use super::texts::any_to_write_out;
 use super::{Frames, Numbers, RunData};
 use crate::chart::legible;
 use serde_json::Value;
 use std::borrow::Cow;
-use trilith_model::visible;
 
 /// The summary with the control characters of its texts and names written out.
 pub(crate) fn summary(summary: &Value) -> Value {
@@ -13,14 +13,13 @@ pub(crate) fn summary(summary: &Value) -> Value {
 
 /// The data of a run in the same way: the names in both stay alike.
 pub(crate) fn data(data: &RunData) -> Cow<'_, RunData> {
+    // As a rule there is nothing to write out.
+    if !any_to_write_out(data) {
+        return Cow::Borrowed(data);
+    }
     // Without the deformed shapes, which are long and hold no texts.
     let frames = Frames { u: Numbers { n: Vec::new(), ..data.frames.u }, ..data.frames.clone() };
     let bare = RunData { frames, ..data.clone() };
-    // As a rule there is nothing to write out, which a text tells sooner than a tree.
-    match serde_json::to_string(&bare) {
-        Ok(text) if text.contains('\\') || visible(&text) != text => {}
-        _ => return Cow::Borrowed(data),
-    }
     let Ok(value) = serde_json::to_value(bare) else { return Cow::Borrowed(data) };
     let shown = legible(value);
     match serde_json::from_value::<RunData>(shown) {

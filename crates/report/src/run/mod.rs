@@ -17,6 +17,7 @@ mod reduce;
 mod script;
 mod settings;
 mod shaking;
+mod texts;
 mod thin_frame;
 mod tints;
 mod units;

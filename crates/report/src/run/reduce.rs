@@ -2,6 +2,7 @@
 
 use super::data::{History, Numbers};
 use super::units::shown;
+use crate::draw::nearest;
 
 /// Histories up to this length are kept as they are.
 const WHOLE: usize = 3000;
@@ -34,10 +35,10 @@ fn steps(t: &[f64], kept: &[usize]) -> Numbers {
     let step = t.get(1).map_or(0.0, |second| second - t[0]);
     let even = |i: &usize| {
         let n = t[*i] / step;
-        (n - n.round()).abs() < 1e-6 && n.abs() < 1e9
+        (n - nearest(n) as f64).abs() < 1e-6 && n.abs() < 1e9
     };
     if step > 0.0 && kept.iter().all(even) {
-        return Numbers { step, n: kept.iter().map(|i| (t[*i] / step).round() as i32).collect() };
+        return Numbers { step, n: kept.iter().map(|i| nearest(t[*i] / step) as i32).collect() };
     }
     times(kept.iter().map(|i| t[*i]))
 }
@@ -52,14 +53,23 @@ fn extremes(y: &[f64]) -> Vec<usize> {
     if y.len() <= WHOLE {
         return (0..y.len()).collect();
     }
-    let mut kept = vec![0, y.len() - 1];
+    let mut kept = Vec::with_capacity(2 * BUCKETS + 2);
+    kept.push(0);
     for bucket in 0..BUCKETS {
         let range = bucket * y.len() / BUCKETS..(bucket + 1) * y.len() / BUCKETS;
-        let by = |a: &usize, b: &usize| y[*a].total_cmp(&y[*b]);
-        kept.extend(range.clone().min_by(by));
-        kept.extend(range.max_by(by));
+        let (mut low, mut high) = (range.start, range.start);
+        for i in range {
+            // What is no number is passed over.
+            if y[i] < y[low] || y[low].is_nan() {
+                low = i;
+            }
+            if y[i] >= y[high] || y[high].is_nan() {
+                high = i;
+            }
+        }
+        kept.extend([low.min(high), low.max(high)]);
     }
-    kept.sort_unstable();
+    kept.push(y.len() - 1);
     kept.dedup();
     kept
 }

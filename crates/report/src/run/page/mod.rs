@@ -10,13 +10,14 @@ mod rounding;
 mod settings;
 mod shaking;
 
-use super::{Frames, Numbers, RunData, legible, script};
+use super::{Frames, Mode, Numbers, Picture, RunData, Tint, legible, script};
 use crate::chart::Scales;
 use crate::page::STYLE;
 use crate::{Figure, chart};
 use base64::prelude::{BASE64_STANDARD, Engine as _};
 use maud::{DOCTYPE, Markup, PreEscaped, html};
-use serde_json::{Value, json};
+use serde::Serialize;
+use serde_json::Value;
 
 const RUN_STYLE: &str = include_str!("../run.css");
 
@@ -132,9 +133,16 @@ impl Parts {
 }
 
 /// What the script draws beside the figures: the model, the times of its deformed shapes, the modes.
-fn embedded(data: &RunData) -> Value {
-    let frames = Frames { u: Numbers { n: Vec::new(), ..data.frames.u }, ..data.frames.clone() };
-    json!({ "picture": data.picture, "tints": data.tints, "frames": frames, "modes": data.modes })
+fn embedded(data: &RunData) -> impl Serialize {
+    #[derive(Serialize)]
+    struct Embedded<'a> {
+        picture: &'a Picture,
+        tints: &'a [Tint],
+        frames: Frames,
+        modes: &'a [Mode],
+    }
+    let frames = Frames { t: data.frames.t.clone(), u: Numbers { n: Vec::new(), ..data.frames.u } };
+    Embedded { picture: &data.picture, tints: &data.tints, frames, modes: &data.modes }
 }
 
 /// The deformed shapes, which are most of the page of a large model: two bytes a number, the low one first, in
