@@ -2,7 +2,7 @@
 
 use trilith_element::Dof;
 use trilith_model::{Analysis, Model, Side, TimeFunction};
-use trilith_record::measure::{Spectrum, periods, spectrum};
+use trilith_record::measure::{periods, pseudo_accelerations};
 
 /// Damping of the spectra of ground motions, share of critical.
 pub const GROUND_DAMPING: f64 = 0.05;
@@ -24,8 +24,10 @@ pub struct GroundMotion {
     pub acceleration: Vec<f64>,
     /// Largest |acceleration|, m/s², with its sign, and its time, s.
     pub peak: (f64, f64),
-    /// Its response spectrum for 5 % damping.
-    pub spectrum: Spectrum,
+    /// Periods of its response spectrum, s.
+    pub periods: Vec<f64>,
+    /// Pseudo-accelerations there for 5 % damping, m/s².
+    pub psa: Vec<f64>,
 }
 
 /// The ground motions of a case, one for each direction in which the base moves; none for a static case.
@@ -61,8 +63,9 @@ pub fn ground_motions(model: &Model, case: usize, dt: f64) -> Vec<GroundMotion> 
             return None;
         }
         let (from, to, n) = PERIODS;
-        let spectrum = spectrum(&acceleration, step, &periods(from, to, n), GROUND_DAMPING);
-        Some(GroundMotion { direction, time, acceleration, peak, spectrum })
+        let periods = periods(from, to, n);
+        let psa = pseudo_accelerations(&acceleration, step, &periods, GROUND_DAMPING);
+        Some(GroundMotion { direction, time, acceleration, peak, periods, psa })
     };
     [Dof::Ux, Dof::Uy, Dof::Uz].into_iter().filter_map(one).collect()
 }

@@ -13,5 +13,5 @@ pub(crate) use fourier::{inverse, transform};
 pub use intensity::{arias, cav, husid, significant_duration};
 pub use motion::{displacement, peak, velocity};
 pub use rotated::{Rotated, rotated, rotated_peak};
-pub use spectrum::{Oscillator, Response, Spectrum, periods, spectrum};
-pub(crate) use spectrum::{Step, pseudo_accelerations, steps_per_sample};
+pub use spectrum::{Oscillator, Response, Spectrum, periods, pseudo_accelerations, spectrum};
+pub(crate) use spectrum::{Step, steps_per_sample};

@@ -82,8 +82,9 @@ pub fn spectrum(acceleration: &[f64], dt: f64, periods: &[f64], damping: f64) ->
     Spectrum { damping, periods: periods.to_vec(), responses }
 }
 
-/// Its pseudo-accelerations alone, m/s²: the same bits in half the time.
-pub(crate) fn pseudo_accelerations(
+/// The pseudo-accelerations of [`spectrum`] alone, m/s²: the same bits in half the time.
+#[must_use]
+pub fn pseudo_accelerations(
     acceleration: &[f64],
     dt: f64,
     periods: &[f64],

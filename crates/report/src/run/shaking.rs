@@ -4,7 +4,7 @@ use super::data::{Ground, History, RunData, Shown, SpectrumChart, SpectrumCurve}
 use super::reduce::{history, numbers};
 use super::units::short;
 use trilith_model::STANDARD_GRAVITY;
-use trilith_results::{GroundMotion, Summary};
+use trilith_results::{GROUND_DAMPING, GroundMotion, Summary};
 
 /// Curves in one diagram.
 const CURVES: usize = 6;
@@ -30,14 +30,16 @@ pub(crate) fn ground(motions: &[GroundMotion]) -> Vec<Ground> {
 
 /// Their spectra in one chart.
 pub(crate) fn ground_spectra(motions: &[GroundMotion]) -> Vec<SpectrumChart> {
-    let Some(first) = motions.first() else { return Vec::new() };
+    if motions.is_empty() {
+        return Vec::new();
+    }
     let curve = |m: &GroundMotion| SpectrumCurve {
         name: axis(m).to_uppercase(),
-        period: numbers(m.spectrum.periods.iter().copied()),
-        y: numbers(m.spectrum.responses.iter().map(|r| r.psa)),
+        period: numbers(m.periods.iter().copied()),
+        y: numbers(m.psa.iter().copied()),
     };
     vec![SpectrumChart {
-        title: format!("Spectrum of the ground motion, {} damping", damped(first.spectrum.damping)),
+        title: format!("Spectrum of the ground motion, {} damping", damped(GROUND_DAMPING)),
         quantity: "PSA".into(),
         shown: in_g(),
         curves: motions.iter().map(curve).collect(),
