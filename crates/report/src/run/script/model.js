@@ -61,6 +61,11 @@ function write(c, taken, text, x, y) {
     const box = [x + dx, y + dy - 11, x + dx + w, y + dy];
     if (taken.some((b) => b[2] >= box[0] && box[2] >= b[0] && b[3] >= box[1] && box[3] >= b[1])) continue;
     taken.push(box);
+    // Over members it is read by what is left free around it.
+    c.lineWidth = 3;
+    c.lineJoin = "round";
+    c.strokeStyle = `${(darkness.matches ? SHADES.dark : SHADES.light).paper}b3`;
+    c.strokeText(text, x + dx, y + dy);
     c.fillText(text, x + dx, y + dy);
     return;
   }
