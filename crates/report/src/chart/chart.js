@@ -198,13 +198,14 @@ class Chart {
     const [px, py] = [placer(this.drawing.x, range.x, left, w), placer(this.drawing.y, range.y, EDGE.top + h, -h)];
     Object.assign(this, { toX: px.to, fromX: px.from, toY: py.to, fromY: py.from });
     const id = (this.clip ??= `clip${(Chart.count = (Chart.count ?? 0) + 1)}`);
-    const plot = svg("g", { "clip-path": `url(#${id})` }, ...this.shown().flatMap((s) => this.curve(s)));
+    // A mark on the frame is whole, as on the still figure.
+    const plot = this.shown().map((s) => svg("g", s.mark ? {} : { "clip-path": `url(#${id})` }, ...this.curve(s)));
     this.marker = svg("g", { "pointer-events": "none" });
     this.area.setAttribute("viewBox", `0 0 ${width} ${height}`);
     this.area.setAttribute("height", height);
     this.area.replaceChildren(
       svg("clipPath", { id }, svg("rect", { x: left, y: EDGE.top - 1, width: w, height: h + 2 })),
-      svg("rect", { width, height, fill: "#ffffff" }), ...this.axes(axisY()), plot, ...this.peaks(), this.marker, ...this.over);
+      svg("rect", { width, height, fill: "#ffffff" }), ...this.axes(axisY()), ...plot, ...this.peaks(), this.marker, ...this.over);
     this.back.hidden = !(this.box || this.group.range);
     this.cursor();
     this.drawn?.();
@@ -239,7 +240,7 @@ class Chart {
       let d = "";
       for (let i = 0; i < s.x.length; i++) {
         const [x, y] = [this.toX(s.x[i]), this.toY(s.y[i])];
-        if (this.inside(x, y, 6)) d += `M${x.toFixed(1)} ${y.toFixed(1)}${SHAPES[s.mark]}`;
+        if (this.inside(x, y)) d += `M${x.toFixed(1)} ${y.toFixed(1)}${SHAPES[s.mark]}`;
       }
       return [svg("path", { d, ...ink(s) })];
     }
