@@ -25,11 +25,10 @@ function svg(name, attributes = {}, ...children) {
 
 /** True for values that never fall; gaps do not count. */
 function rises(values) {
-  let last = -Infinity;
-  for (const x of values) {
-    if (Number.isNaN(x)) return false;
-    if (x < last) return false;
-    last = x;
+  // Neither above nor equal: below, or no number.
+  for (let i = 0, last = -Infinity; i < values.length; i++) {
+    if (!(values[i] >= last)) return false;
+    last = values[i];
   }
   return values.length > 1;
 }

@@ -36,15 +36,20 @@ function scale(name) {
   return scales.get(name);
 }
 
-/** Numbers of a drawing; NaN where there is none. */
+/** Numbers of a drawing; NaN where there is none. Loops: a page that computes reads them all again for every run. */
 function unpack(packed) {
-  if (Array.isArray(packed)) return Float64Array.from(packed, (x) => x ?? NaN);
-  let at = 0;
-  return Float64Array.from(packed.n, (n) => {
-    if (n === null) return NaN;
-    at += n;
-    return packed.from + at * packed.step;
-  });
+  const all = Array.isArray(packed) ? packed : packed.n, out = new Float64Array(all.length);
+  if (all === packed) for (let i = 0; i < all.length; i++) out[i] = all[i] ?? NaN;
+  else {
+    const { from, step } = packed;
+    let at = 0;
+    for (let i = 0; i < all.length; i++) {
+      if (all[i] === null) { out[i] = NaN; continue; }
+      at += all[i];
+      out[i] = from + at * step;
+    }
+  }
+  return out;
 }
 
 class Chart {

@@ -5,9 +5,9 @@ const clock = group("time");
 
 /** Displacements of all points at all times, as multiples of a step: two bytes each, the low one first. */
 function shapes() {
-  const text = atob(document.getElementById("shapes").textContent);
-  const bytes = new DataView(Uint8Array.from(text, (c) => c.charCodeAt(0)).buffer);
-  return Int16Array.from({ length: bytes.byteLength / 2 }, (_, i) => bytes.getInt16(2 * i, true));
+  const text = atob(document.getElementById("shapes").textContent), out = new Int16Array(text.length >> 1);
+  for (let i = 0; i < out.length; i++) out[i] = text.charCodeAt(2 * i) | (text.charCodeAt(2 * i + 1) << 8);
+  return out;
 }
 
 const frames = {};
@@ -105,7 +105,8 @@ function player(canvas, controls, tip) {
       const box = scale.querySelector("select");
       box.replaceChildren(...factors().map((v) => make("option", { value: String(v), selected: v === factor }, `× ${v}`)));
       if ((clock.at ?? 0) > end) clock.read(end);
-      say();
+      // Not on the way of what is seen.
+      later(say);
       stage.retint?.();
       stage.draw();
     });
@@ -156,7 +157,11 @@ function colours(stage, select, most) {
 }
 
 /** Whole multiples of a step as numbers. */
-const multiples = (numbers) => Float64Array.from(numbers.n, (n) => n * numbers.step);
+function multiples({ n, step }) {
+  const out = new Float64Array(n.length);
+  for (let i = 0; i < out.length; i++) out[i] = n[i] * step;
+  return out;
+}
 
 /** A mode shape that swings while the pointer is over it. */
 function mode(canvas) {
@@ -179,6 +184,15 @@ function mode(canvas) {
   };
   canvas.addEventListener("pointerenter", () => { swinging = true; requestAnimationFrame(swing); });
   canvas.addEventListener("pointerleave", () => { swinging = false; });
-  renewals.push(() => { take(); stage.draw(); });
+  // Of another run when it comes to be seen.
+  let seen = false, stale = false;
+  const renewed = () => {
+    if (!seen || !stale) return;
+    stale = false;
+    take();
+    stage.draw();
+  };
+  new IntersectionObserver(([e]) => { seen = e.isIntersecting; renewed(); }, { rootMargin: "400px" }).observe(canvas);
+  renewals.push(() => { stale = true; renewed(); });
   stage.draw();
 }

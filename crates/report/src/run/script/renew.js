@@ -61,13 +61,25 @@ function changesOfAll(a, b, out) {
   return out;
 }
 
+/** Does a thing that can wait when the page has nothing else to do; of those that wait the last. */
+let waiting = 0;
+function later(work) {
+  const [begin, end] = window.requestIdleCallback ? [window.requestIdleCallback, window.cancelIdleCallback] : [(w) => setTimeout(w, 100), clearTimeout];
+  end.call(window, waiting);
+  waiting = begin.call(window, work);
+}
+
+/** The model of the page, which stays: as a text, to be compared. */
+let known = null;
+
 /** Takes what `run_update` made; false where the model is another, or the page has other stages: nothing is changed then. */
 window.renew = (text) => {
   const next = new DOMParser().parseFromString(text, "text/html");
   const of = (page, id) => page.getElementById(id);
   const fresh = JSON.parse(of(next, "data").textContent), all = [];
   const model = ({ picture, modes, frames }) => JSON.stringify([picture, modes.length, frames.t.length > 1]);
-  if (model(fresh) !== model(JSON.parse(of(document, "data").textContent))) return false;
+  known ??= model(JSON.parse(of(document, "data").textContent));
+  if (model(fresh) !== known) return false;
   if (!changesOfAll(document.querySelector("main"), next.querySelector("main"), all)) return false;
   if (!changes(of(document, "made"), of(next, "made"), all)) return false;
   document.title = next.title;

@@ -18,7 +18,8 @@ class Stage {
     // What it is coloured by, at which time; sections: members as solids.
     [this.tint, this.time, this.sections] = [null, () => 0, true];
     stages.add(this);
-    new ResizeObserver(() => this.draw()).observe(canvas.parentElement);
+    // Told of as well when it begins.
+    new ResizeObserver(() => { if (canvas.parentElement.clientWidth !== this.width) this.draw(); }).observe(canvas.parentElement);
     darkness.addEventListener("change", () => this.draw());
   }
 
