@@ -5,6 +5,10 @@ use crate::statistics::{Group, Sensitivity};
 use crate::{Record, Study};
 use trilith::report::{Block, Section, short};
 
+/// Longest number of an axis that is shown as it is, letters.
+const LONG: usize = 8;
+/// Digits of a longer one.
+const DIGITS: usize = 6;
 /// Columns whose quantiles a table shows side by side.
 const SIDE_BY_SIDE: usize = 4;
 
@@ -65,8 +69,20 @@ fn head(study: &Study) -> Vec<String> {
     head
 }
 
+/// A value of an axis to be read: a number of more digits than anybody compares with fewer of them, its unit as it is.
+fn legible(value: &str) -> String {
+    let (number, unit) = value.split_once(' ').unwrap_or((value, ""));
+    match number.parse::<f64>() {
+        Ok(x) if number.len() > LONG => {
+            let number = short(x, DIGITS);
+            if unit.is_empty() { number } else { format!("{number} {unit}") }
+        }
+        _ => value.to_owned(),
+    }
+}
+
 fn point(study: &Study, g: &Group<'_>) -> Vec<String> {
-    let value = |i: usize| study.plan.axes[i].values[g.place.axes[i]].clone();
+    let value = |i: usize| legible(&study.plan.axes[i].values[g.place.axes[i]]);
     let mut cells: Vec<String> = axes(study).into_iter().map(value).collect();
     if study.plan.rows.len() > 1 {
         cells.push((g.place.row + 1).to_string());
@@ -133,5 +149,21 @@ fn sensitive(s: Sensitivity) -> String {
         Sensitivity { cases: 1, divided: true, .. } => "yes: some overturn, some do not".to_owned(),
         Sensitivity { cases: 1, .. } => "yes".to_owned(),
         s => format!("{} of {}", s.sensitive, s.cases),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn long_numbers_are_shortened_and_all_else_stays() {
+        assert_eq!(legible("0.13642616018213657"), "0.136426");
+        assert_eq!(legible("0.13642616018213657 m/s"), "0.136426 m/s");
+        for value in
+            ["0.275", "1200", "0.35 g", "record of the north", "records/synthetic_1.csv", "1e-3"]
+        {
+            assert_eq!(legible(value), value);
+        }
     }
 }
