@@ -191,7 +191,7 @@ async function look(path) {
   const { targetId } = await send("Target.createTarget", { url: "about:blank" });
   const { sessionId } = await send("Target.attachToTarget", { targetId, flatten: true });
   const on = (method, params) => send(method, params, sessionId);
-  let view = "";
+  let view = "", paint = null;
   const hear = ({ method, params, sessionId: of }) => {
     if (of !== sessionId) return;
     if (method === "Runtime.consoleAPICalled") complain(name, view, `console: ${params.args.map((a) => a.value ?? a.description).join(" ")}`);
@@ -215,6 +215,7 @@ async function look(path) {
       if (await value("document.readyState") === "complete") break;
       await pause(25);
     }
+    paint ??= await value("performance.getEntriesByName('first-contentful-paint')[0]?.startTime") ?? null;
     const seen = await value(LOOK);
     for (const what of seen?.said ?? []) complain(name, view, what);
     if (view === "1280-light") for (const what of [...await value(USE), ...await value(MODEL)]) complain(name, view, what);
@@ -241,7 +242,8 @@ async function look(path) {
   if (out) writeFileSync(join(out, `${name}.pdf`), Buffer.from(data, "base64"));
   listeners.delete(hear);
   await send("Target.closeTarget", { targetId });
-  console.log(`${name}: ${(weight / 1e6).toFixed(2)} MB`);
+  // How long it takes hangs on the machine and on what else it does: it is told, no fault.
+  console.log(`${name}: ${(weight / 1e6).toFixed(2)} MB, ${(bare / 1e6).toFixed(2)} MB without histories, first paint after ${paint === null ? "–" : Math.round(paint)} ms`);
 }
 
 try {
