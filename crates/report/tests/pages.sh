@@ -23,6 +23,9 @@ done
 for study in models/studies/*.ron; do
   make sweep "$study" --out "$folder/study/$(basename "$study" .ron)"
 done
+# A building whose storeys are one superelement.
+make reduce models/isolated_building.ron --part 'column*,beam x*,beam y*,floor*,mass*' --keep 'centre 6' --modes 30 --out "$folder/reduced"
+if [ -e "$folder/reduced/model.ron" ]; then make run "$folder/reduced/model.ron" --out "$folder/run/reduced_building"; fi
 make compare models/pounding_frames.ron --no-cause --out "$folder/compare/pounding_frames"
 make compare models/rigid_block.ron --no-cause --out "$folder/compare/rigid_block"
 make record models/records/synthetic_1.csv --unit g --damping 0.02,0.05 --out "$folder/record/synthetic_1"
