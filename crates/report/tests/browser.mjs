@@ -215,8 +215,8 @@ async function look(path) {
       if (await value("document.readyState") === "complete") break;
       await pause(25);
     }
-    paint ??= await value("performance.getEntriesByName('first-contentful-paint')[0]?.startTime") ?? null;
     const seen = await value(LOOK);
+    paint ??= await value("performance.getEntriesByName('first-contentful-paint')[0]?.startTime") ?? null;
     for (const what of seen?.said ?? []) complain(name, view, what);
     if (view === "1280-light") for (const what of [...await value(USE), ...await value(MODEL)]) complain(name, view, what);
     if (!out) continue;
