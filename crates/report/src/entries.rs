@@ -39,7 +39,15 @@ impl Entries {
         if !self.command.is_empty() {
             out["command"] = json!(self.command);
             out["common"] = json!(self.common);
-            out["sets"] = of(&|r| json!(r.set));
+            // As a rule all rows set the same names: they are told once.
+            let names = |r: &Entry| r.set.iter().map(|(name, _)| name.clone()).collect::<Vec<_>>();
+            let first = self.rows.first().map(names).unwrap_or_default();
+            if self.rows.iter().all(|r| names(r) == first) {
+                out["names"] = json!(first);
+                out["values"] = of(&|r| r.set.iter().map(|(_, value)| json!(value)).collect());
+            } else {
+                out["sets"] = of(&|r| json!(r.set));
+            }
         }
         out
     }
@@ -59,6 +67,23 @@ fn address(place: &[String]) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn names_that_all_rows_set_are_told_once() {
+        let row = |set: &[(&str, &str)]| Entry {
+            set: set.iter().map(|(n, v)| ((*n).into(), (*v).into())).collect(),
+            ..Entry::default()
+        };
+        let of = |rows: Vec<Entry>| {
+            Entries { command: "trilith run a.ron".into(), rows, ..Entries::default() }.data()
+        };
+        let alike = of(vec![row(&[("a", "1"), ("b", "2")]), row(&[("a", "3"), ("b", "4")])]);
+        assert_eq!(alike["names"], json!(["a", "b"]));
+        assert_eq!(alike["values"], json!([["1", "2"], ["3", "4"]]));
+        let other = of(vec![row(&[("a", "1")]), row(&[("b", "4")])]);
+        assert_eq!(other["sets"], json!([[["a", "1"]], [["b", "4"]]]));
+        assert_eq!(other.get("names"), None);
+    }
 
     #[test]
     fn an_address_is_a_place_beneath_the_page_whatever_its_names() {
