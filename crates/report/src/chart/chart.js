@@ -230,11 +230,12 @@ class Chart {
       grid += `M${left} ${p.toFixed(1)}h${w}`;
       out.push(svg("text", { ...text, x: left - 6, y: p + 4, "text-anchor": "end", "data-tick": this.drawing.y.whole ? "" : "y" }, label));
     }
+    // About the middle of its axis a label has this room on both sides, up to the edge of the sheet.
     const fit = (label, room) => (label.length * 6.6 > room ? { textLength: room, lengthAdjust: "spacingAndGlyphs" } : {});
     return [
       svg("path", { d: grid, stroke: "#e1e1e1", fill: "none" }), ...out,
       svg("text", { ...text, x: left + w / 2, y: height - 6, "text-anchor": "middle", ...fit(this.drawing.x.label, width - 8) }, this.drawing.x.label),
-      svg("text", { ...text, transform: `translate(12 ${EDGE.top + h / 2}) rotate(-90)`, "text-anchor": "middle", ...fit(this.drawing.y.label, h + 30) }, this.drawing.y.label),
+      svg("text", { ...text, transform: `translate(12 ${EDGE.top + h / 2}) rotate(-90)`, "text-anchor": "middle", ...fit(this.drawing.y.label, h + 2 * EDGE.top - 4) }, this.drawing.y.label),
       svg("path", { d: `M${left} ${EDGE.top}v${h}h${w}`, stroke: "#8c8c8c", fill: "none" }),
     ];
   }
