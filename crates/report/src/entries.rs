@@ -44,7 +44,13 @@ impl Entries {
             let first = self.rows.first().map(names).unwrap_or_default();
             if self.rows.iter().all(|r| names(r) == first) {
                 out["names"] = json!(first);
-                out["values"] = of(&|r| r.set.iter().map(|(_, value)| json!(value)).collect());
+                // So are their values where the first cells are these.
+                let cells = |r: &Entry| {
+                    r.set.iter().enumerate().all(|(i, (_, value))| r.cells.get(i) == Some(value))
+                };
+                if !self.rows.iter().all(cells) {
+                    out["values"] = of(&|r| r.set.iter().map(|(_, value)| json!(value)).collect());
+                }
             } else {
                 out["sets"] = of(&|r| json!(r.set));
             }
@@ -80,6 +86,8 @@ mod tests {
         let alike = of(vec![row(&[("a", "1"), ("b", "2")]), row(&[("a", "3"), ("b", "4")])]);
         assert_eq!(alike["names"], json!(["a", "b"]));
         assert_eq!(alike["values"], json!([["1", "2"], ["3", "4"]]));
+        let shown = Entry { cells: vec!["1".into(), "0.3".into()], ..row(&[("a", "1")]) };
+        assert_eq!(of(vec![shown]).get("values"), None);
         let other = of(vec![row(&[("a", "1")]), row(&[("b", "4")])]);
         assert_eq!(other["sets"], json!([[["a", "1"]], [["b", "4"]]]));
         assert_eq!(other.get("names"), None);

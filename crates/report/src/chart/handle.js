@@ -205,7 +205,7 @@ function entry(row) {
 }
 
 /** What a row sets: pairs of name and value. */
-const settings = (row) => [...(entries.common ?? []), ...(entries.names?.map((n, i) => [n, entries.values[row][i]]) ?? entries.sets?.[row] ?? [])];
+const settings = (row) => [...(entries.common ?? []), ...(entries.names?.map((n, i) => [n, (entries.values ?? entries.rows)[row][i]]) ?? entries.sets?.[row] ?? [])];
 
 /** A word of a command line as a shell takes it. */
 const quoted = (word) => (/^[\p{L}\p{N}\-_=./,:+%@]+$/u.test(word) ? word : `'${word.replaceAll("'", "'\\''")}'`);
