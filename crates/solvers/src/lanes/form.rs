@@ -150,7 +150,10 @@ pub(super) fn forms(
     forces_of(rows).for_each(|i| matters[i] = true);
     let (mut forms, mut flat) = (Vec::new(), Vec::new());
     for link in &links.links {
-        let Some(law) = links.shared_law(model, link) else { continue };
+        let name = &model.elements[link.element].name;
+        let Some(law) = links.shared_law(model, link) else {
+            return Err(format!("\"{name}\" is no link"));
+        };
         let own = &moves[link.range.clone()];
         let is_whole = |form: &LaneForm| {
             let holds = |i: usize| !own[i] || form.coordinates.contains(&i);
@@ -159,7 +162,6 @@ pub(super) fn forms(
         let form = match law.lanes(own).filter(is_whole) {
             Some(form) => Form::over(form),
             None if !law.accounts() => {
-                let name = &model.elements[link.element].name;
                 return Err(format!("link \"{name}\" does not say what it stores and loses"));
             }
             None => {
