@@ -65,11 +65,12 @@ fn a_study_becomes_a_page_with_its_charts_and_makes_the_runs_that_are_not_there(
     assert_eq!(status, Some(0), "{told}");
     assert!(here.join("runs/table.csv").is_file());
     let page = std::fs::read_to_string(here.join("four.html")).unwrap();
-    // What all runs set is there once, what one sets beside it, and which parameters the axes are.
+    // What all runs set is there once, and so are the names of what one sets; values stand in the cells of its row.
     for part in [
         r#"["duration","0.1 s"]"#,
         r#"["cv","0"]"#,
-        r#"[["mu","0.2"],["ah","0.3"]]"#,
+        r#""names":["mu","ah"]"#,
+        r#"["0.2","0.3""#,
         r#""settings":[["mu",""],["ah",""]]"#,
         "Four blocks",
     ] {
