@@ -317,7 +317,8 @@ fn what_does_not_fit_runs_on_the_ordinary_engine_and_says_why() {
     };
     let many = FOOT.replace(
         r#""damper": "#,
-        r#""1": Gap(node: "cg", k: 1, axis: U2), "2": Gap(node: "cg", k: 1, axis: U2), "damper": "#,
+        r#""1": Gap(node: "cg", k: 1, axis: U2), "2": Gap(node: "cg", k: 1, axis: U2),
+        "3": Gap(node: "cg", k: 1, axis: U2), "damper": "#,
     );
     let why = reason(&many);
     assert!(why.contains("too many modes or link coordinates"), "{why}");
