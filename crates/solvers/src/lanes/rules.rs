@@ -47,12 +47,14 @@ impl<R: Real, const M: usize, const L: usize> Rules<R, M, L> {
 
     /// Gives lanes another size.
     pub fn set(&mut self, lanes: Range<usize>, size: &Size) {
-        self.lengths[lanes.clone()].fill(size.length);
-        self.ratios[lanes.clone()].fill(size.ratio);
-        for row in 0..3 {
-            for input in 0..4 {
-                for (to, mode) in self.numbers[row][input].iter_mut().zip(&size.modes) {
-                    to[lanes.clone()].fill(mode[row][input]);
+        // As a rule it is one lane: numbers are put there one by one, without a call to fill a slice.
+        for lane in lanes {
+            (self.lengths[lane], self.ratios[lane]) = (size.length, size.ratio);
+            for (j, mode) in size.modes.iter().enumerate().take(M) {
+                for row in 0..3 {
+                    for input in 0..4 {
+                        self.numbers[row][input][j][lane] = mode[row][input];
+                    }
                 }
             }
         }
