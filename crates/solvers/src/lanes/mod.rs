@@ -17,8 +17,9 @@
 //!
 //! Every analysis gives the same bits whoever its neighbours are, and alone.
 //!
-//! A model fits where it is solved by `fna` with Newton's method, all its links have a form for lanes, its modes are
-//! not coupled by damping, and no support moves a link. A body that may overturn needs adaptive steps.
+//! A model fits where it is solved by `fna` with Newton's method, it has few modes and link coordinates, its modes are not
+//! coupled by damping, no support moves a link, and every link that has no form for lanes, and so is asked for one lane after
+//! the other (`each`), says what it stores and loses. A body that may overturn needs adaptive steps.
 
 mod adaptive;
 mod coefficients;
