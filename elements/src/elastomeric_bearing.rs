@@ -155,27 +155,22 @@ impl LaneLaw for BearingLaw {
     const PARAMETERS: usize = 4;
 
     #[inline(always)]
-    fn force<R: Real>(at: &LaneAt<'_, R>, out: &mut LaneForce<'_, R>) {
-        let (after, elastic) = (at.parameters[0], at.parameters[1]);
+    fn respond<R: Real>(
+        at: &LaneAt<'_, R>,
+        out: &mut LaneForce<'_, R>,
+        trial: &mut [R],
+    ) -> LaneStep<R> {
+        let (after, elastic, flexibility) = (at.parameters[0], at.parameters[1], at.parameters[3]);
         let it = Returned::of(at);
-        let (zero, one) = (after.of(0.0), after.of(1.0));
+        let (zero, half, one) = (after.of(0.0), after.of(0.5), after.of(1.0));
+        out.c.fill(zero);
+        let (mut stored, mut heat) = (zero, zero);
         for i in 0..2 {
             out.f[i] = after.mul_add(at.d[i], it.tau[i]);
             // Slipping, the force turns but does not grow.
             let across = it.ratio * (one - it.along[i] * it.along[i]);
             out.k[3 * i] = after + R::select(it.slips, across, elastic);
             out.k[1 + i] = (-(it.ratio * it.along[0] * it.along[1])).only(it.slips);
-        }
-        out.c.fill(zero);
-    }
-
-    #[inline(always)]
-    fn commit<R: Real>(at: &LaneAt<'_, R>, _: &[R], trial: &mut [R]) -> LaneStep<R> {
-        let (after, elastic, flexibility) = (at.parameters[0], at.parameters[1], at.parameters[3]);
-        let it = Returned::of(at);
-        let (half, zero) = (after.of(0.5), after.of(0.0));
-        let (mut stored, mut heat) = (zero, zero);
-        for i in 0..2 {
             let plastic = at.history[i];
             let now = R::select(it.slips, at.d[i] - it.tau[i] * flexibility, plastic);
             stored = stored + after * at.d[i] * at.d[i] + it.tau[i] * it.tau[i] * flexibility;

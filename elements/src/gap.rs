@@ -53,18 +53,17 @@ impl LaneLaw for GapLaw {
     const CONTACTS: usize = 1;
 
     #[inline(always)]
-    fn force<R: Real>(at: &LaneAt<'_, R>, out: &mut LaneForce<'_, R>) {
-        let (k, stretch) = (at.parameters[0], at.d[0] + at.parameters[1]);
-        let closed = stretch.lt(k.of(0.0));
-        out.f[0] = (k * stretch).only(closed);
+    fn respond<R: Real>(
+        at: &LaneAt<'_, R>,
+        out: &mut LaneForce<'_, R>,
+        _: &mut [R],
+    ) -> LaneStep<R> {
+        let (k, gap) = (at.parameters[0], at.d[0] + at.parameters[1]);
+        let closed = gap.lt(k.of(0.0));
+        out.f[0] = (k * gap).only(closed);
         out.k[0] = k.only(closed);
         out.c[0] = k.of(0.0);
-    }
-
-    #[inline(always)]
-    fn commit<R: Real>(at: &LaneAt<'_, R>, _: &[R], _: &mut [R]) -> LaneStep<R> {
-        let (k, gap) = (at.parameters[0], at.d[0] + at.parameters[1]);
-        LaneStep::elastic((k.of(0.5) * k * gap * gap).only(gap.lt(k.of(0.0))))
+        LaneStep::elastic((k.of(0.5) * k * gap * gap).only(closed))
     }
 
     #[inline(always)]

@@ -52,18 +52,16 @@ impl LaneLaw for HookLaw {
     const PARAMETERS: usize = 2;
 
     #[inline(always)]
-    fn force<R: Real>(at: &LaneAt<'_, R>, out: &mut LaneForce<'_, R>) {
+    fn respond<R: Real>(
+        at: &LaneAt<'_, R>,
+        out: &mut LaneForce<'_, R>,
+        _: &mut [R],
+    ) -> LaneStep<R> {
         let (k, stretch) = (at.parameters[0], at.d[0] - at.parameters[1]);
         let taut = k.of(0.0).lt(stretch);
         out.f[0] = (k * stretch).only(taut);
         out.k[0] = k.only(taut);
         out.c[0] = k.of(0.0);
-    }
-
-    #[inline(always)]
-    fn commit<R: Real>(at: &LaneAt<'_, R>, _: &[R], _: &mut [R]) -> LaneStep<R> {
-        let (k, stretch) = (at.parameters[0], at.d[0] - at.parameters[1]);
-        let taut = k.of(0.0).lt(stretch);
         LaneStep::elastic((k.of(0.5) * k * stretch * stretch).only(taut))
     }
 }

@@ -120,15 +120,14 @@ impl<const APPROACH: bool, const PULLS: bool> LaneLaw for Pounding<APPROACH, PUL
     const CONTACTS: usize = 1;
 
     #[inline(always)]
-    fn force<R: Real>(at: &LaneAt<'_, R>, out: &mut LaneForce<'_, R>) {
-        let [f, k, c, _] = Self::total(at.parameters, at.d[0], at.v[0]);
-        (out.f[0], out.k[0], out.c[0]) = (f, k, c);
-    }
-
-    #[inline(always)]
-    fn commit<R: Real>(at: &LaneAt<'_, R>, _: &[R], _: &mut [R]) -> LaneStep<R> {
+    fn respond<R: Real>(
+        at: &LaneAt<'_, R>,
+        out: &mut LaneForce<'_, R>,
+        _: &mut [R],
+    ) -> LaneStep<R> {
         let [f0, _, _, spring0] = Self::total(at.parameters, at.d0[0], at.v0[0]);
-        let [f, _, _, spring] = Self::total(at.parameters, at.d[0], at.v[0]);
+        let [f, k, c, spring] = Self::total(at.parameters, at.d[0], at.v[0]);
+        (out.f[0], out.k[0], out.c[0]) = (f, k, c);
         let stored = f.of(0.5) * spring * spring / at.parameters[0];
         let viscous = at.viscous_work(0, f0 - spring0, f - spring);
         LaneStep { viscous, ..LaneStep::elastic(stored) }

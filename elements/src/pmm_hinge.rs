@@ -214,18 +214,6 @@ impl LaneLaw for Law {
     const IS_LONG: bool = true;
 
     #[inline(always)]
-    fn force<R: Real>(at: &LaneAt<'_, R>, out: &mut LaneForce<'_, R>) {
-        Self::answer(at, out);
-    }
-
-    #[inline(always)]
-    fn commit<R: Real>(at: &LaneAt<'_, R>, _: &[R], trial: &mut [R]) -> LaneStep<R> {
-        let zero = at.dt.of(0.0);
-        let (mut f, mut k, mut c) = ([zero; 3], [zero; 9], [zero; 9]);
-        Self::respond(at, &mut LaneForce { f: &mut f, k: &mut k, c: &mut c }, trial)
-    }
-
-    #[inline(always)]
     fn respond<R: Real>(
         at: &LaneAt<'_, R>,
         out: &mut LaneForce<'_, R>,

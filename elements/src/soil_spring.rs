@@ -272,19 +272,6 @@ impl LaneLaw for Law {
     const IS_LONG: bool = true;
 
     #[inline(always)]
-    fn force<R: Real>(at: &LaneAt<'_, R>, out: &mut LaneForce<'_, R>) {
-        let mut trial = [at.dt; 3];
-        Self::respond(at, out, &mut trial);
-    }
-
-    #[inline(always)]
-    fn commit<R: Real>(at: &LaneAt<'_, R>, _: &[R], trial: &mut [R]) -> LaneStep<R> {
-        let zero = at.dt.of(0.0);
-        let (mut f, mut k, mut c) = ([zero], [zero], [zero]);
-        Self::respond(at, &mut LaneForce { f: &mut f, k: &mut k, c: &mut c }, trial)
-    }
-
-    #[inline(always)]
     fn respond<R: Real>(
         at: &LaneAt<'_, R>,
         out: &mut LaneForce<'_, R>,

@@ -18,17 +18,17 @@
 //!     const HISTORY: usize = 0;
 //!     const PARAMETERS: usize = 2;
 //!
-//!     fn force<R: Real>(at: &LaneAt<'_, R>, out: &mut LaneForce<'_, R>) {
+//!     fn respond<R: Real>(
+//!         at: &LaneAt<'_, R>,
+//!         out: &mut LaneForce<'_, R>,
+//!         _: &mut [R],
+//!     ) -> LaneStep<R> {
 //!         let (k, stretch) = (at.parameters[0], at.d[0] + at.parameters[1]);
 //!         let (zero, closed) = (k.of(0.0), stretch.lt(k.of(0.0)));
 //!         out.f[0] = R::select(closed, k * stretch, zero);
 //!         out.k[0] = R::select(closed, k, zero);
 //!         out.c[0] = zero;
-//!     }
-//!
-//!     fn commit<R: Real>(at: &LaneAt<'_, R>, f: &[R], _: &mut [R]) -> LaneStep<R> {
-//!         let half = f[0].of(0.5);
-//!         LaneStep::elastic(half * f[0] * f[0] / at.parameters[0])
+//!         LaneStep::elastic(k.of(0.5) * out.f[0] * out.f[0] / k)
 //!     }
 //! }
 //! let form = LaneForm::of::<Stop>(vec![0], vec![2e8, 0.05]);

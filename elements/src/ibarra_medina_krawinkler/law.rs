@@ -286,17 +286,6 @@ impl LaneLaw for Law {
     const IS_LONG: bool = true;
 
     #[inline(always)]
-    fn force<R: Real>(at: &LaneAt<'_, R>, out: &mut LaneForce<'_, R>) {
-        let it = State::of(at);
-        (out.f[0], out.k[0], out.c[0]) = (it.side * it.f, it.slope, it.f.of(0.0));
-    }
-
-    #[inline(always)]
-    fn commit<R: Real>(at: &LaneAt<'_, R>, _: &[R], trial: &mut [R]) -> LaneStep<R> {
-        finished(at, &State::of(at), trial)
-    }
-
-    #[inline(always)]
     fn respond<R: Real>(
         at: &LaneAt<'_, R>,
         out: &mut LaneForce<'_, R>,

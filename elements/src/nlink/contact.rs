@@ -261,15 +261,10 @@ impl<const T: usize, const FLAGS: u8> NLinkContact<T, FLAGS> {
     }
 }
 
-impl<const T: usize, const FLAGS: u8> LaneLaw for NLinkContact<T, FLAGS> {
-    const COORDINATES: usize = 1 + T;
-    const HISTORY: usize = NLinkHistory::FIELDS.len()
-        + if FLAGS & VARIED == 0 { 0 } else { NLinkRubbing::FIELDS.len() };
-    const PARAMETERS: usize = PARAMETERS[if FLAGS & VARIED == 0 { 0 } else { 1 }];
-    const CONTACTS: usize = 1;
-
+impl<const T: usize, const FLAGS: u8> NLinkContact<T, FLAGS> {
+    /// Force and tangents.
     #[inline(always)]
-    fn force<R: Real>(at: &LaneAt<'_, R>, out: &mut LaneForce<'_, R>) {
+    pub(crate) fn force<R: Real>(at: &LaneAt<'_, R>, out: &mut LaneForce<'_, R>) {
         let n = 1 + T;
         let it = Of::read(at.parameters);
         let zero = it.kn.of(0.0);
@@ -340,8 +335,9 @@ impl<const T: usize, const FLAGS: u8> LaneLaw for NLinkContact<T, FLAGS> {
         }
     }
 
+    /// History and energies, where the force is known.
     #[inline(always)]
-    fn commit<R: Real>(at: &LaneAt<'_, R>, f: &[R], trial: &mut [R]) -> LaneStep<R> {
+    fn finish<R: Real>(at: &LaneAt<'_, R>, f: &[R], trial: &mut [R]) -> LaneStep<R> {
         let it = Of::read(at.parameters);
         let (zero, half) = (it.kn.of(0.0), it.kn.of(0.5));
         let before = Self::pressed(&it, at.d0[0] + it.opening, at.v0[0]);
@@ -426,6 +422,24 @@ impl<const T: usize, const FLAGS: u8> LaneLaw for NLinkContact<T, FLAGS> {
             hysteretic: (half * friction).max(zero),
             viscous,
         }
+    }
+}
+
+impl<const T: usize, const FLAGS: u8> LaneLaw for NLinkContact<T, FLAGS> {
+    const COORDINATES: usize = 1 + T;
+    const HISTORY: usize = NLinkHistory::FIELDS.len()
+        + if FLAGS & VARIED == 0 { 0 } else { NLinkRubbing::FIELDS.len() };
+    const PARAMETERS: usize = PARAMETERS[if FLAGS & VARIED == 0 { 0 } else { 1 }];
+    const CONTACTS: usize = 1;
+
+    #[inline(always)]
+    fn respond<R: Real>(
+        at: &LaneAt<'_, R>,
+        out: &mut LaneForce<'_, R>,
+        trial: &mut [R],
+    ) -> LaneStep<R> {
+        Self::force(at, out);
+        Self::finish(at, out.f, trial)
     }
 
     #[inline(always)]

@@ -79,7 +79,7 @@ impl RockingBody {
             Some(rim) => {
                 let before = Moment::of(turns.0, at.d0, at.v0);
                 let now = Moment::of(turns.1, at.d, at.v);
-                let (base, step) = rim.respond((&before, &now), at.dt, committed, Some(trial));
+                let (base, step) = rim.respond((&before, &now), at.dt, committed, trial);
                 Wrench::new(&base, step.into())
             }
             None => {

@@ -99,14 +99,14 @@ impl RimHistory {
 }
 
 impl<R: Real> Rim<R> {
-    /// Forces, tangents and energies over a step; with a trial history its end as well.
+    /// Forces, tangents, energies and history over a step.
     #[inline(always)]
     pub fn respond(
         &self,
         (before, now): (&Moment<R>, &Moment<R>),
         dt: R,
         committed: &[R],
-        trial: Option<&mut [R]>,
+        trial: &mut [R],
     ) -> (Carried<R>, LaneStep<R>) {
         let zero = dt.of(0.0);
         let no = zero.lt(zero);
@@ -143,21 +143,20 @@ impl<R: Real> Rim<R> {
             power = power + damped.power.only(closed);
             self.assemble((&m, p), &damped, &rubbed, &mut out);
         }
-        let mut step = LaneStep::elastic(energy);
-        if let Some(trial) = trial {
-            let [t1, t2, torsion, slip1, slip2, _] = *committed else {
-                unreachable!("history of a rim")
-            };
-            // What the friction held goes where the contact opens.
-            let lost = self.held([t1, t2], torsion).only(was_closed & !closed);
-            let [t1, t2] = [rubbed.traction[0].x, rubbed.traction[1].x];
-            let torsion = rubbed.torsion.x;
-            step.stored = energy + self.held([t1, t2], torsion);
-            step.hysteretic = rubbed.heat + lost;
-            step.viscous = dt.of(0.5) * dt * power;
-            let [s1, s2] = [slip1 + rubbed.slip[0], slip2 + rubbed.slip[1]];
-            trial.copy_from_slice(&[t1, t2, torsion, s1, s2, dt.of(1.0).only(closed)]);
-        }
+        let [t1, t2, torsion, slip1, slip2, _] = *committed else {
+            unreachable!("history of a rim")
+        };
+        // What the friction held goes where the contact opens.
+        let lost = self.held([t1, t2], torsion).only(was_closed & !closed);
+        let [t1, t2] = [rubbed.traction[0].x, rubbed.traction[1].x];
+        let torsion = rubbed.torsion.x;
+        let [s1, s2] = [slip1 + rubbed.slip[0], slip2 + rubbed.slip[1]];
+        trial.copy_from_slice(&[t1, t2, torsion, s1, s2, dt.of(1.0).only(closed)]);
+        let step = LaneStep {
+            stored: energy + self.held([t1, t2], torsion),
+            hysteretic: rubbed.heat + lost,
+            viscous: dt.of(0.5) * dt * power,
+        };
         (out, step)
     }
 

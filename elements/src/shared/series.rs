@@ -114,17 +114,6 @@ impl<V: Viscous> LaneLaw for Series<V> {
     const IS_LONG: bool = V::IS_LONG;
 
     #[inline(always)]
-    fn force<R: Real>(at: &LaneAt<'_, R>, out: &mut LaneForce<'_, R>) {
-        Self::respond(at, out, &mut [at.dt]);
-    }
-
-    #[inline(always)]
-    fn commit<R: Real>(at: &LaneAt<'_, R>, _: &[R], trial: &mut [R]) -> LaneStep<R> {
-        let (mut f, mut k, mut c) = ([at.dt], [at.dt], [at.dt]);
-        Self::respond(at, &mut LaneForce { f: &mut f, k: &mut k, c: &mut c }, trial)
-    }
-
-    #[inline(always)]
     fn respond<R: Real>(
         at: &LaneAt<'_, R>,
         out: &mut LaneForce<'_, R>,

@@ -31,17 +31,17 @@ impl LaneLaw for StripLaw {
     const PARAMETERS: usize = 2;
 
     #[inline(always)]
-    fn force<R: Real>(at: &LaneAt<'_, R>, out: &mut LaneForce<'_, R>) {
+    fn respond<R: Real>(
+        at: &LaneAt<'_, R>,
+        out: &mut LaneForce<'_, R>,
+        _: &mut [R],
+    ) -> LaneStep<R> {
         let (k, d) = (at.parameters[0], at.d[0]);
         let holds = d.abs().le(at.parameters[1]);
         out.f[0] = R::select(holds, k * d, k.of(f64::NAN));
         out.k[0] = k;
         out.c[0] = k.of(0.0);
-    }
-
-    #[inline(always)]
-    fn commit<R: Real>(at: &LaneAt<'_, R>, _: &[R], _: &mut [R]) -> LaneStep<R> {
-        LaneStep::elastic(at.parameters[0].of(0.5) * at.parameters[0] * at.d[0] * at.d[0])
+        LaneStep::elastic(k.of(0.5) * k * d * d)
     }
 }
 
@@ -71,8 +71,8 @@ impl Link for Strip {
     fn respond(&self, at: &Kinematics<'_>, _: &[f64], _: &mut [f64], out: &mut Response<'_>) {
         let numbers = [self.k, self.limit];
         let asked = LaneAt::new(at, &[], &numbers);
-        StripLaw::force(&asked, &mut LaneForce { f: out.f, k: out.k, c: out.c });
-        out.energy.stored = StripLaw::commit(&asked, out.f, &mut []).stored;
+        let mut force = LaneForce { f: out.f, k: out.k, c: out.c };
+        *out.energy = StripLaw::respond(&asked, &mut force, &mut []).into();
     }
 
     fn refusal(&self, at: &Kinematics<'_>, _: &[f64]) -> Option<String> {

@@ -297,7 +297,11 @@ mod tests {
         const PARAMETERS: usize = 1;
 
         #[inline(always)]
-        fn force<R: Real>(at: &LaneAt<'_, R>, out: &mut LaneForce<'_, R>) {
+        fn respond<R: Real>(
+            at: &LaneAt<'_, R>,
+            out: &mut LaneForce<'_, R>,
+            _: &mut [R],
+        ) -> LaneStep<R> {
             let (k, d) = (at.parameters[0], at.d[0]);
             let zero = k.of(0.0);
             let mut closed = d.lt(zero);
@@ -308,11 +312,7 @@ mod tests {
             if SPOIL == 1 {
                 out.k[0] = k;
             }
-        }
-
-        #[inline(always)]
-        fn commit<R: Real>(at: &LaneAt<'_, R>, f: &[R], _: &mut [R]) -> LaneStep<R> {
-            LaneStep::elastic(f[0].of(0.5) * f[0] * f[0] / at.parameters[0])
+            LaneStep::elastic(zero.of(0.5) * out.f[0] * out.f[0] / k)
         }
     }
 

@@ -135,22 +135,12 @@ pub trait LaneLaw: 'static {
     /// True for a law so long that several links of one analysis gain nothing side by side.
     const IS_LONG: bool = false;
 
-    /// Force and tangents.
-    fn force<R: Real>(at: &LaneAt<'_, R>, out: &mut LaneForce<'_, R>);
-
-    /// History and energies after a step that has found `f`; writes the whole trial history.
-    fn commit<R: Real>(at: &LaneAt<'_, R>, f: &[R], trial: &mut [R]) -> LaneStep<R>;
-
-    /// Both at once, for laws to which that is less than one after the other.
-    #[inline(always)]
+    /// Force, tangents, the whole trial history, and energies of a step.
     fn respond<R: Real>(
         at: &LaneAt<'_, R>,
         out: &mut LaneForce<'_, R>,
         trial: &mut [R],
-    ) -> LaneStep<R> {
-        Self::force(at, out);
-        Self::commit(at, out.f, trial)
-    }
+    ) -> LaneStep<R>;
 
     /// What its contacts do after a step, where the history is that of its end and the start of the step is not looked
     /// at; 1 where the body on them has overturned, else 0.
@@ -210,9 +200,9 @@ pub struct LaneLinks<'a, R> {
     pub dt: R,
     /// Committed history.
     pub history: &'a [R],
-    /// History at the end of the step; written by `commit`.
+    /// History at the end of the step.
     pub trial: &'a mut [R],
-    /// Forces; read by `commit`.
+    /// Forces; contacts look at them.
     pub f: &'a mut [R],
     /// ∂f/∂d, block by block.
     pub k: &'a mut [R],
@@ -237,7 +227,7 @@ impl<'a, R: Real> LaneLinks<'a, R> {
         }
     }
 
-    /// Force and commit.
+    /// The answer of the link with this index.
     #[inline(always)]
     pub(super) fn respond<L: LaneLaw>(&mut self, i: usize) -> LaneStep<R> {
         let (n, h) = (L::COORDINATES, L::HISTORY);

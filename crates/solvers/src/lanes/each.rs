@@ -98,11 +98,11 @@ impl Each {
         let is_again = room.questions.is_multiple_of(ASK_EVERY);
         for (lane, law) in self.links.iter().enumerate() {
             room.question.of_lane(&self.coordinates, &room.asked, lane, law.uses_rates());
-            let asked = || {
-                let is_sound = room.answer.ask(law.as_ref(), &room.question);
-                is_sound && (!is_again || room.answer.holds(law.as_ref(), &room.question))
-            };
-            let is_sound = guarded(&mut room.panicked[lane], asked).unwrap_or(false);
+            let Room { question, answer, panicked, .. } = &mut *room;
+            let law = law.as_ref();
+            let asked =
+                || question.ask(law, answer) && (!is_again || question.holds(law, &answer.f));
+            let is_sound = guarded(&mut panicked[lane], asked).unwrap_or(false);
             room.give(&self.coordinates, lane, is_sound);
         }
         let last = self.links.len() - 1;
@@ -233,36 +233,27 @@ impl Question {
         let [d, v, d0, v0] = &self.at;
         Kinematics::new([d, v], [d0, v0], self.dt)
     }
-}
 
-/// A law that is asked, and asked again.
-trait Asked {
-    /// Asks it; false where something of the answer is no finite number.
-    fn ask(&mut self, law: &dyn Link, question: &Question) -> bool;
-
-    /// Whether it answers the same again, though it was asked something else between.
-    fn holds(&self, law: &dyn Link, question: &Question) -> bool;
-}
-
-impl Asked for Answer {
-    fn ask(&mut self, law: &dyn Link, question: &Question) -> bool {
-        let Self { f, k, c, energy, trial } = self;
+    /// Asks it of a law; false where something of the answer is no finite number.
+    fn ask(&self, law: &dyn Link, answer: &mut Answer) -> bool {
+        let Answer { f, k, c, energy, trial } = answer;
         [&mut *f, &mut *k, &mut *c].into_iter().for_each(|x| x.fill(0.0));
         trial.fill(f64::NAN);
         *energy = Energy::default();
         let mut out = Response::new(f, k, c, energy);
-        law.respond(&question.kinematics(), &question.history, trial, &mut out);
+        law.respond(&self.kinematics(), &self.history, trial, &mut out);
         let ends = [energy.stored, energy.hysteretic, energy.viscous];
         let mut all = f.iter().chain(&*k).chain(&*c).chain(&*trial).chain(&ends);
         all.all(|x| x.is_finite())
     }
 
-    fn holds(&self, law: &dyn Link, question: &Question) -> bool {
-        let Question { at: [d, v, d0, v0], history, dt } = question;
+    /// Whether a law answers the same force again, though it was asked something else between.
+    fn holds(&self, law: &dyn Link, f: &[f64]) -> bool {
+        let Self { at: [d, v, d0, v0], history, dt } = self;
         let ask =
             |d: &[f64], dt: f64| Answer::of(law, &Kinematics::new([d, v], [d0, v0], dt), history);
         let away: Vec<f64> = d.iter().map(|d| -d).collect();
         ask(&away, 0.0);
-        ask(d, *dt).f == self.f
+        ask(d, *dt).f == f
     }
 }

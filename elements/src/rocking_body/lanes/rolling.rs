@@ -20,29 +20,6 @@ impl Rolling {
         };
         Rim { radius, depth, kn, damping, mu, ks, arc_stiffness: Some(arc_stiffness) }
     }
-
-    /// Forces and tangents; with a trial history the end of the step as well.
-    #[inline(always)]
-    fn roll<R: Real>(
-        at: &LaneAt<'_, R>,
-        out: &mut LaneForce<'_, R>,
-        trial: Option<&mut [R]>,
-    ) -> LaneStep<R> {
-        let before = moment::<6, R>(at.history, at.d0, at.v0);
-        let now = moment::<6, R>(at.history, at.d, at.v);
-        let rim = Self::rim(at.parameters);
-        let history = &at.history[BASE..];
-        let (base, step) = match trial {
-            None => rim.respond((&before, &now), at.dt, history, None),
-            Some(trial) => {
-                let (own, base) = trial.split_at_mut(BASE);
-                store(&now, rim.uplift(&now.d, &now.turn), own);
-                rim.respond((&before, &now), at.dt, history, Some(base))
-            }
-        };
-        answer::<6, R>(base, at.parameters, &now.spin, out);
-        step
-    }
 }
 
 impl LaneLaw for Rolling {
@@ -54,24 +31,19 @@ impl LaneLaw for Rolling {
     const IS_LONG: bool = true;
 
     #[inline(always)]
-    fn force<R: Real>(at: &LaneAt<'_, R>, out: &mut LaneForce<'_, R>) {
-        Self::roll(at, out, None);
-    }
-
-    #[inline(always)]
-    fn commit<R: Real>(at: &LaneAt<'_, R>, _: &[R], trial: &mut [R]) -> LaneStep<R> {
-        let zero = at.dt.of(0.0);
-        let (mut f, mut k, mut c) = ([zero; 6], [zero; 36], [zero; 36]);
-        Self::roll(at, &mut LaneForce { f: &mut f, k: &mut k, c: &mut c }, Some(trial))
-    }
-
-    #[inline(always)]
     fn respond<R: Real>(
         at: &LaneAt<'_, R>,
         out: &mut LaneForce<'_, R>,
         trial: &mut [R],
     ) -> LaneStep<R> {
-        Self::roll(at, out, Some(trial))
+        let before = moment::<6, R>(at.history, at.d0, at.v0);
+        let now = moment::<6, R>(at.history, at.d, at.v);
+        let rim = Self::rim(at.parameters);
+        let (own, base) = trial.split_at_mut(BASE);
+        store(&now, rim.uplift(&now.d, &now.turn), own);
+        let (sum, step) = rim.respond((&before, &now), at.dt, &at.history[BASE..], base);
+        answer::<6, R>(sum, at.parameters, &now.spin, out);
+        step
     }
 
     #[inline(always)]

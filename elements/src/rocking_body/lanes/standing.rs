@@ -53,52 +53,6 @@ impl<const N: usize, const POINTS: usize> Standing<N, POINTS> {
         &of[BASE + CONTACT * i..][..CONTACT]
     }
 
-    /// Forces and tangents; with a trial history the end of the step as well.
-    #[inline(always)]
-    fn stand<R: Real>(
-        at: &LaneAt<'_, R>,
-        out: &mut LaneForce<'_, R>,
-        mut trial: Option<&mut [R]>,
-    ) -> LaneStep<R> {
-        let zero = at.dt.of(0.0);
-        let before = moment::<N, R>(at.history, at.d0, at.v0);
-        let now = moment::<N, R>(at.history, at.d, at.v);
-        let mut all = Carried::nothing(zero);
-        let mut sum = LaneStep::elastic(zero);
-        let mut uplift = at.dt.of(f64::NEG_INFINITY);
-        for i in 0..POINTS {
-            let (r, numbers) = Self::point(at.parameters, i);
-            let (start, end) = (lever(&before, &r), lever(&now, &r));
-            let (d0, v0) = (seen(&start.way), seen(&start.rate));
-            let (d, v) = (seen(&end.way), seen(&end.rate));
-            let history = Self::history(at.history, i);
-            let asked =
-                LaneAt { parameters: &numbers, d: &d, v: &v, d0: &d0, v0: &v0, dt: at.dt, history };
-            let (mut f, mut k, mut c) = ([zero; 3], [zero; 9], [zero; 9]);
-            let mut force = LaneForce { f: &mut f, k: &mut k, c: &mut c };
-            match &mut trial {
-                None => Contact::force(&asked, &mut force),
-                Some(trial) => {
-                    let own = &mut trial[BASE + CONTACT * i..][..CONTACT];
-                    let step = Contact::respond(&asked, &mut force, own);
-                    sum.stored = sum.stored + step.stored;
-                    sum.hysteretic = sum.hysteretic + step.hysteretic;
-                    sum.viscous = sum.viscous + step.viscous;
-                    uplift = uplift.max(d[0] + numbers[1]);
-                }
-            }
-            let [x, y, z] = AXES;
-            let (f, k, c) = ([f[x], f[y], f[z]], Self::block(&k), Self::block(&c));
-            all.add((&now.turn, &now.spin), &end, (&f, &k, &c));
-        }
-        all.finish(&now.jacobian);
-        answer::<N, R>(all, at.parameters, &now.spin, out);
-        if let Some(trial) = trial {
-            store(&now, uplift, &mut trial[..BASE]);
-        }
-        sum
-    }
-
     /// A tangent of a contact in global axes.
     #[inline(always)]
     fn block<R: Real>(m: &[R; 9]) -> M3<R> {
@@ -121,25 +75,41 @@ impl<const N: usize, const POINTS: usize> LaneLaw for Standing<N, POINTS> {
     const IS_LONG: bool = true;
 
     #[inline(always)]
-    fn force<R: Real>(at: &LaneAt<'_, R>, out: &mut LaneForce<'_, R>) {
-        Self::stand(at, out, None);
-    }
-
-    #[inline(always)]
-    fn commit<R: Real>(at: &LaneAt<'_, R>, _: &[R], trial: &mut [R]) -> LaneStep<R> {
-        let zero = at.dt.of(0.0);
-        let (mut f, mut k, mut c) = ([zero; N], [[zero; N]; N], [[zero; N]; N]);
-        let (k, c) = (k.as_flattened_mut(), c.as_flattened_mut());
-        Self::stand(at, &mut LaneForce { f: &mut f, k, c }, Some(trial))
-    }
-
-    #[inline(always)]
     fn respond<R: Real>(
         at: &LaneAt<'_, R>,
         out: &mut LaneForce<'_, R>,
         trial: &mut [R],
     ) -> LaneStep<R> {
-        Self::stand(at, out, Some(trial))
+        let zero = at.dt.of(0.0);
+        let before = moment::<N, R>(at.history, at.d0, at.v0);
+        let now = moment::<N, R>(at.history, at.d, at.v);
+        let mut all = Carried::nothing(zero);
+        let mut sum = LaneStep::elastic(zero);
+        let mut uplift = at.dt.of(f64::NEG_INFINITY);
+        for i in 0..POINTS {
+            let (r, numbers) = Self::point(at.parameters, i);
+            let (start, end) = (lever(&before, &r), lever(&now, &r));
+            let (d0, v0) = (seen(&start.way), seen(&start.rate));
+            let (d, v) = (seen(&end.way), seen(&end.rate));
+            let history = Self::history(at.history, i);
+            let asked =
+                LaneAt { parameters: &numbers, d: &d, v: &v, d0: &d0, v0: &v0, dt: at.dt, history };
+            let (mut f, mut k, mut c) = ([zero; 3], [zero; 9], [zero; 9]);
+            let mut force = LaneForce { f: &mut f, k: &mut k, c: &mut c };
+            let own = &mut trial[BASE + CONTACT * i..][..CONTACT];
+            let step = Contact::respond(&asked, &mut force, own);
+            sum.stored = sum.stored + step.stored;
+            sum.hysteretic = sum.hysteretic + step.hysteretic;
+            sum.viscous = sum.viscous + step.viscous;
+            uplift = uplift.max(d[0] + numbers[1]);
+            let [x, y, z] = AXES;
+            let (f, k, c) = ([f[x], f[y], f[z]], Self::block(&k), Self::block(&c));
+            all.add((&now.turn, &now.spin), &end, (&f, &k, &c));
+        }
+        all.finish(&now.jacobian);
+        answer::<N, R>(all, at.parameters, &now.spin, out);
+        store(&now, uplift, &mut trial[..BASE]);
+        sum
     }
 
     #[inline(always)]

@@ -291,17 +291,6 @@ impl<const FULL: bool> LaneLaw for Law<FULL> {
     const IS_LONG: bool = true;
 
     #[inline(always)]
-    fn force<R: Real>(at: &LaneAt<'_, R>, out: &mut LaneForce<'_, R>) {
-        Self::respond(at, out, &mut [at.dt; HISTORY]);
-    }
-
-    #[inline(always)]
-    fn commit<R: Real>(at: &LaneAt<'_, R>, _: &[R], trial: &mut [R]) -> LaneStep<R> {
-        let (mut f, mut k, mut c) = ([at.dt; 3], [at.dt; 9], [at.dt; 9]);
-        Self::respond(at, &mut LaneForce { f: &mut f, k: &mut k, c: &mut c }, trial)
-    }
-
-    #[inline(always)]
     fn respond<R: Real>(
         at: &LaneAt<'_, R>,
         out: &mut LaneForce<'_, R>,
