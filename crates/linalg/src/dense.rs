@@ -174,6 +174,14 @@ impl Dense {
         c
     }
 
+    /// `A Bᵀ`.
+    #[must_use]
+    pub fn times_transpose(&self, b: &Self) -> Self {
+        let mut c = Self::zeros(self.rows, b.rows);
+        matmul(c.as_mut(), Accum::Replace, self.as_ref(), b.as_ref().transpose(), 1.0, Par::Seq);
+        c
+    }
+
     pub(crate) fn as_ref(&self) -> MatRef<'_, f64> {
         MatRef::from_column_major_slice(&self.values, self.rows, self.columns)
     }

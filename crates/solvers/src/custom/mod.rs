@@ -118,7 +118,7 @@ impl<'a> CustomRule<'a> {
                 )));
             }
         }
-        Ok(Compliance { g, h, key })
+        Ok(Compliance::full(g, h, key))
     }
 
     /// The end of the step prepared last, under pseudo-forces at its end.

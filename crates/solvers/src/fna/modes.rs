@@ -1,10 +1,11 @@
 //! The structure on a basis, and its step operators by the length of the step.
 
 use super::{LONGEST, ModalLoads};
-use crate::kernel::{Compliance, StepKey};
+use crate::kernel::{Compliance, ComplianceMatrix, ModalCompliance, StepKey};
 use crate::modal::{ClosedForm, Recurrence, Structure, bit};
 use crate::step::StepWork;
 use crate::structure::{Motion, ReducedSystem, accelerate_at_once};
+use std::sync::Arc;
 use trilith_linalg::{Dense, ModalStep, StepSums, work_of_linear};
 
 /// Values (8 bytes each) in the matrices of step sizes that are kept, and sizes at most.
@@ -94,7 +95,7 @@ impl Modes {
                 self.operator(Recurrence::exact(&self.structure, dt), StepKey { dt, average: 0 });
             let of_modes = self.compliance_of(&exact.recurrence, 1, self.structure.modes);
             let ratio = ratio(&of_modes, &self.engaged);
-            let numbers = 2 * self.engaged.len() * self.engaged.len() + 12 * self.space.order();
+            let numbers = exact.compliance.stored() + 12 * self.space.order();
             if self.steps.len() >= (KEPT_VALUES / numbers.max(1)).clamp(8, MOST_SIZES) {
                 // A table with samples at any times may ask for as many sizes.
                 self.steps.remove(0);
@@ -106,8 +107,7 @@ impl Modes {
 
     fn operator(&self, recurrence: Recurrence, key: StepKey) -> StepOperator {
         let all = self.space.order();
-        let (g, h) =
-            (self.compliance_of(&recurrence, 1, all), self.compliance_of(&recurrence, 2, all));
+        let [g, h] = [1, 2].map(|row| self.compliance_of(&recurrence, row, all));
         StepOperator { recurrence, compliance: Compliance { g, h, key } }
     }
 
@@ -123,7 +123,9 @@ impl Modes {
         let step = &self.steps[size];
         let mut average = 0;
         if step.ratio > LONGEST {
-            let present = bound(&step.exact.compliance.g, stiffness, &mut self.root);
+            self.root.clear();
+            self.root.extend(stiffness.map(|k| k.max(0.0).sqrt()));
+            let present = step.exact.compliance.g.bound(&self.root);
             if present > LONGEST {
                 self.beyond = Some(self.beyond.unwrap_or(0.0).max(step.ratio.min(present)));
                 average = self.held(dt, stiffest);
@@ -154,8 +156,24 @@ impl Modes {
 
     /// B Φ diag(a) Φᵀ Bᵀ of the first coordinates, a: the coefficient of s₁ in a row of the recurrence. G is that of the
     /// displacements, H that of the velocities.
-    fn compliance_of(&self, recurrence: &Recurrence, row: usize, coordinates: usize) -> Dense {
-        let l = self.space.links.len();
+    fn compliance_of(
+        &self,
+        recurrence: &Recurrence,
+        row: usize,
+        coordinates: usize,
+    ) -> ComplianceMatrix {
+        let (l, m) = (self.space.links.len(), self.space.order());
+        let columns = self.space.links.columns();
+        if let Some(columns) = columns.filter(|_| ModalCompliance::serves(l, m)) {
+            let (mut unit, mut inner) = (vec![0.0; m], Dense::zeros(m, m));
+            for j in 0..coordinates {
+                unit[j] = 1.0;
+                recurrence.answer(row, &unit, inner.column_mut(j));
+                inner.column_mut(j)[coordinates..].fill(0.0);
+                unit[j] = 0.0;
+            }
+            return ComplianceMatrix::Modal(ModalCompliance::new(Arc::clone(columns), inner));
+        }
         let mut b = Dense::zeros(self.space.order(), l);
         for a in 0..l {
             for (j, c) in self.space.links.row(a).filter(|(j, _)| *j < coordinates) {
@@ -166,7 +184,7 @@ impl Modes {
         for a in 0..l {
             recurrence.answer(row, b.column(a), scaled.column_mut(a));
         }
-        b.transpose_times(&scaled)
+        ComplianceMatrix::Full(b.transpose_times(&scaled))
     }
 
     /// The step size prepared last.
@@ -317,18 +335,8 @@ fn less(load: &[f64], links: &[f64], source: &mut [f64]) {
     }
 }
 
-/// A bound of the largest eigenvalue of G diag(k): the row sums of √k G √k.
-fn bound(g: &Dense, k: &mut dyn Iterator<Item = f64>, root: &mut Vec<f64>) -> f64 {
-    root.clear();
-    root.extend(k.map(|k| k.max(0.0).sqrt()));
-    let row = |(a, x): (usize, &f64)| {
-        x * g.column(a).iter().zip(&*root).map(|(g, y)| g.abs() * y).sum::<f64>()
-    };
-    root.iter().enumerate().filter(|(_, x)| **x > 0.0).map(row).fold(0.0, f64::max)
-}
-
 /// Largest eigenvalue of G diag(k).
-fn ratio(g: &Dense, k: &[f64]) -> f64 {
+fn ratio(g: &ComplianceMatrix, k: &[f64]) -> f64 {
     const ITERATIONS: usize = 50;
     let mut x = vec![1.0; k.len()];
     let mut ratio = 0.0;

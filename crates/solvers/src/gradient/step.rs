@@ -6,7 +6,7 @@ use super::input::{InputMoves, Moved};
 use super::laws::{LawMoves, Made};
 use super::moving::MovingBasis;
 use crate::error::SolveError;
-use crate::kernel::{Compliance, Layout, Wanted};
+use crate::kernel::{Compliance, ComplianceMatrix, Layout, ModalJacobian, Wanted};
 use crate::run::Prepared;
 use crate::step::{Forces, Propagator, State};
 use crate::structure::{Followers, acceleration};
@@ -349,13 +349,33 @@ fn each_tangent(
     }
 }
 
-/// I + (k − k_e) G + c H.
+/// I + (k − k_e) G + c H, factorised.
+enum Jacobian {
+    Full(DenseLu),
+    Modal(Box<ModalJacobian>),
+}
+
+impl Jacobian {
+    fn solve(&self, x: &mut [f64]) {
+        match self {
+            Self::Full(all) => all.solve(x),
+            Self::Modal(modal) => modal.solve_alone(x),
+        }
+    }
+}
+
 fn factor(
     links: &LinkSet,
     layout: &Layout<'_>,
     Compliance { g, h, .. }: &Compliance,
     tangents: &Tangents,
-) -> DenseLu {
+) -> Jacobian {
+    let (g, h) = match (g, h) {
+        (ComplianceMatrix::Modal(g), ComplianceMatrix::Modal(h)) => {
+            return Jacobian::Modal(Box::new(ModalJacobian::new(layout, tangents, [g, h], 0.0)));
+        }
+        _ => (&*g.all(), &*h.all()),
+    };
     let n = g.rows();
     // By rows: G and H are symmetric.
     let mut rows = Dense::zeros(n, n);
@@ -371,5 +391,5 @@ fn factor(
         let row = rows.column_mut(a).iter_mut().zip(g.column(b).iter().zip(h.column(b)));
         row.for_each(|(x, (g, h))| *x += k * g + c * h);
     });
-    DenseLu::new(&rows.transpose())
+    Jacobian::Full(DenseLu::new(&rows.transpose()))
 }

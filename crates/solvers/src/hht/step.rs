@@ -44,14 +44,14 @@ impl Step {
         let mut h = g.clone();
         g.values_mut().iter_mut().for_each(|x| *x *= w * beta * dt * dt);
         h.values_mut().iter_mut().for_each(|x| *x *= w * gamma * dt);
-        let compliance = Compliance { g, h, key: StepKey { dt, average: 0 } };
+        let compliance = Compliance::full(g, h, StepKey { dt, average: 0 });
         Ok(Self { factor, woodbury, compliance, dt, used: 0 })
     }
 
     /// Number of values it holds.
     pub(super) fn stored(&self) -> usize {
         let x = self.woodbury.as_ref().map_or(0, |w| w.x.values().len());
-        self.factor.stored() + x + 2 * self.compliance.g.values().len()
+        self.factor.stored() + x + self.compliance.stored()
     }
 }
 

@@ -141,7 +141,7 @@ fn follows(alpha: f64, modal: bool, links: LinkMap) {
         lu.solve_columns(&mut image);
         let mut g = b.times(&image);
         g.values_mut().iter_mut().for_each(|x| *x *= w * beta * dt * dt);
-        close(compliance.g.values(), g.values());
+        close(compliance.g.all().values(), g.values());
         let forces = Forces { pseudo1: &pseudo1, ..before };
         hht.correct(&from, &forces, &mut to);
         close(&to, &[u1.clone(), v1.clone(), now].concat());

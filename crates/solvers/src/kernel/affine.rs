@@ -1,17 +1,8 @@
 //! What a step gives the link kernel, and what it takes from it.
 
-use super::Extrapolation;
+use super::{ComplianceMatrix, Extrapolation};
 use serde::{Deserialize, Serialize};
-use trilith_linalg::Dense;
 use trilith_system::{Answers, Tangents};
-
-/// Compliance of the links over a step: d = d* − G f̃, ḋ = v* − H f̃.
-pub(crate) struct Compliance {
-    pub g: Dense,
-    pub h: Dense,
-    /// Identity of the step.
-    pub key: StepKey,
-}
 
 /// What the matrices of a step depend on.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
@@ -36,8 +27,8 @@ pub(crate) struct Affine<'a> {
     /// Deformation and rate that supports add, flat, where they move.
     pub support: Option<[&'a [f64]; 2]>,
     /// Compliances, active × active, symmetric.
-    pub g: &'a Dense,
-    pub h: &'a Dense,
+    pub g: &'a ComplianceMatrix,
+    pub h: &'a ComplianceMatrix,
     /// Identity of the compliances: a factor made with others is not used again.
     pub key: StepKey,
 }

@@ -5,9 +5,11 @@
 //! C = J⁻¹ (1, −J_rest)             from residuals to corrections; −G C and −H C: how d and ḋ follow
 //! ```
 
-use super::Layout;
 use super::affine::StepKey;
+use super::compliance::ComplianceMatrix;
 use super::layout::Unknowns;
+use super::modal_jacobian::ModalJacobian;
+use super::{Layout, add};
 use serde::{Deserialize, Serialize};
 use trilith_linalg::{Dense, DenseLu, Panel, Product, solve_few};
 use trilith_system::Tangents;
@@ -40,8 +42,8 @@ pub(crate) struct Remembered {
 pub(super) struct Equations<'a> {
     pub layout: &'a Layout<'a>,
     /// Compliances, active × active, symmetric.
-    pub g: &'a Dense,
-    pub h: &'a Dense,
+    pub g: &'a ComplianceMatrix,
+    pub h: &'a ComplianceMatrix,
     /// Identity of the compliances: a factor made with others is not used again.
     pub key: StepKey,
 }
@@ -50,8 +52,10 @@ pub(super) struct Equations<'a> {
 enum Correct {
     /// the corrections of all, and how deformations and these rates follow, for few;
     All(Panel),
-    /// the corrections of those that have an equation.
+    /// the corrections of those that have an equation,
     Own(Product),
+    /// the corrections of all by way of the modes, which move deformations and rates as well, for many.
+    Modal(ModalJacobian),
 }
 
 /// From residuals to Newton corrections.
@@ -127,26 +131,17 @@ impl Factors {
 
 impl Factor {
     fn new(of: Equations<'_>, tangents: Tangents) -> Self {
-        let Equations {
-            layout: Layout { links, place, owner, effective_k, rate_dependent, .. },
-            g,
-            h,
-            key,
-        } = of;
-        let n = links.active.len();
-        // A row of k − k_e and c of an active coordinate: (other active, stiffness, damping).
-        let row = |a: usize| {
-            let link = &links.links[owner[a]];
-            let (first, size) = (link.range.start, link.range.len());
-            let at = link.block.start + (links.active[a] - first) * size;
-            let (k, c) = (&tangents.k[at..at + size], &tangents.c[at..at + size]);
-            (0..size).filter_map(move |j| {
-                let b = place[first + j]?;
-                let own = if a == b { effective_k[a] } else { 0.0 };
-                let (k, c) = (k[j] - own, c[j]);
-                (k != 0.0 || c != 0.0).then_some((b, k, c))
-            })
+        let Equations { layout, g, h, key } = of;
+        let (g, h) = match (g, h) {
+            (ComplianceMatrix::Modal(g), ComplianceMatrix::Modal(h)) => {
+                let jacobian = ModalJacobian::new(layout, &tangents, [g, h], HOLD);
+                let (sound, correct) = (jacobian.is_sound(), Correct::Modal(jacobian));
+                return Self { key, tangents, equations: Vec::new(), correct, sound };
+            }
+            _ => (&*g.all(), &*h.all()),
         };
+        let n = layout.links.active.len();
+        let row = |a: usize| layout.tangents_of(a, &tangents);
         // Where a link is weak against the structure, f̃ ← law − k_e d converges as well as Newton's method.
         let weak = if n < WEAK_FROM { 0.0 } else { WEAK };
         let sum = |m: &Dense, b: usize| m.column(b).iter().map(|x| x.abs()).sum::<f64>();
@@ -186,7 +181,7 @@ impl Factor {
         }
         let sound = correct.values().iter().all(|x| x.is_finite());
         let correct = if n <= FEW {
-            Correct::All(with_what_follows(&equations, &correct, rate_dependent, [g, h]))
+            Correct::All(with_what_follows(&equations, &correct, &layout.rate_dependent, [g, h]))
         } else {
             Correct::Own(Product::new(correct))
         };
@@ -199,12 +194,20 @@ impl Factor {
     }
 
     /// Moves a row of [`Unknowns`] by the correction of these residuals, and what follows from
-    /// it; false where they are too many for that, and nothing has moved.
+    /// it; false where they are too many for that: then the residuals become the correction, and f̃ alone has moved.
     #[inline]
-    pub fn go(&self, residual: &[f64], row: &mut [f64]) -> bool {
-        let Correct::All(all) = &self.correct else { return false };
-        all.add_times(residual, row);
-        true
+    pub fn go(&self, residual: &mut [f64], space: &mut Vec<f64>, unknowns: &mut Unknowns) -> bool {
+        if let Correct::All(all) = &self.correct {
+            all.add_times(residual, unknowns.row());
+            return true;
+        }
+        let followed = self.correct(residual, space);
+        if followed {
+            unknowns.add(space);
+        } else {
+            add(unknowns.parts()[2], residual);
+        }
+        followed
     }
 
     /// Replaces the residuals of the active coordinates by the corrections; those without an equation stay.
@@ -213,6 +216,10 @@ impl Factor {
     pub fn correct(&self, residual: &mut [f64], space: &mut Vec<f64>) -> bool {
         let own = match &self.correct {
             Correct::Own(own) => own,
+            Correct::Modal(modal) => {
+                modal.correct(residual, space);
+                return true;
+            }
             Correct::All(all) => {
                 space.clear();
                 space.resize(all.filled(), 0.0);

@@ -2,7 +2,7 @@
 
 use crate::vector::add;
 use trilith_linalg::Panel;
-use trilith_system::{Laws, LinkSet};
+use trilith_system::{Laws, LinkSet, Tangents};
 
 /// The active link coordinates of a model, and what is known of each.
 pub(crate) struct Layout<'a> {
@@ -59,6 +59,25 @@ impl<'a> Layout<'a> {
             complete,
         }
     }
+
+    /// The row of k − k_e and c of an active coordinate: (other active, stiffness, damping).
+    pub fn tangents_of(
+        &self,
+        a: usize,
+        tangents: &Tangents,
+    ) -> impl Iterator<Item = (usize, f64, f64)> {
+        let Self { links, place, owner, effective_k, .. } = self;
+        let link = &links.links[owner[a]];
+        let (first, size) = (link.range.start, link.range.len());
+        let at = link.block.start + (links.active[a] - first) * size;
+        let (k, c) = (&tangents.k[at..at + size], &tangents.c[at..at + size]);
+        (0..size).filter_map(move |j| {
+            let b = place[first + j]?;
+            let own = if a == b { effective_k[a] } else { 0.0 };
+            let (k, c) = (k[j] - own, c[j]);
+            (k != 0.0 || c != 0.0).then_some((b, k, c))
+        })
+    }
 }
 
 /// What the link equations move, in one row: deformations of the active coordinates, the rates that laws depend on, and
@@ -74,8 +93,12 @@ pub(super) struct Unknowns {
 
 impl Unknowns {
     pub fn new(n: usize, rate_dependent: usize) -> Self {
-        let filled = (2 * n + rate_dependent).next_multiple_of(Panel::GRAIN);
-        Self { n, rate_dependent, row: vec![0.0; filled] }
+        Self { n, rate_dependent, row: vec![0.0; Self::length(n, rate_dependent)] }
+    }
+
+    /// Length of a row of so many coordinates and rates, with what fills it up.
+    pub fn length(n: usize, rate_dependent: usize) -> usize {
+        (2 * n + rate_dependent).next_multiple_of(Panel::GRAIN)
     }
 
     /// Where f̃ begins in a row of so many coordinates and rates.

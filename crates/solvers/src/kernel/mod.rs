@@ -17,15 +17,18 @@
 //! while |k − k_e| G < 1. Neither touches a matrix of the structure.
 
 mod affine;
+mod compliance;
 mod extrapolation;
 mod factors;
 mod law_response;
 mod layout;
 mod measure;
+mod modal_jacobian;
 mod predictor;
 mod search;
 
-pub(crate) use affine::{Affine, Committed, Compliance, Converged, Guess, StepKey, Wanted};
+pub(crate) use affine::{Affine, Committed, Converged, Guess, StepKey, Wanted};
+pub(crate) use compliance::{Compliance, ComplianceMatrix, ModalCompliance};
 pub(crate) use extrapolation::Extrapolation;
 pub(crate) use factors::Remembered;
 pub(crate) use law_response::LawResponse;
@@ -35,9 +38,9 @@ use factors::{Equations, Factor, Factors};
 pub(crate) use layout::Layout;
 use layout::Unknowns;
 pub(crate) use measure::DIGIT;
+pub(crate) use modal_jacobian::ModalJacobian;
 pub(crate) use search::{CROSSES, ENOUGH, SEARCH_FROM, Search, TRIED};
 use trilith_element::Kinematics;
-use trilith_linalg::Dense;
 use trilith_model::{Kernel, Model, Solution};
 use trilith_system::{LinkBlocks, LinkSet, StepLaws, Tangents};
 
@@ -164,7 +167,8 @@ impl<'a> LinkKernel<'a> {
     }
 
     /// Makes a factor again, with the compliances of its step size.
-    pub(crate) fn recall(&mut self, memory: Remembered, g: &Dense, h: &Dense) {
+    pub(crate) fn recall(&mut self, memory: Remembered, compliance: &Compliance) {
+        let Compliance { g, h, .. } = compliance;
         let Remembered { key, k, c } = memory;
         let of = Equations { layout: &self.layout, g, h, key };
         self.factors.make(of, Tangents { k, c });
@@ -334,20 +338,13 @@ impl<'a> LinkKernel<'a> {
     /// The last change of f̃, and the deformations of the active coordinates, which must follow it by Δd = −G Δf̃; none where
     /// they have done so already. The rates of rate-dependent laws have followed: Δḋ = −H Δf̃.
     #[inline]
-    pub(crate) fn change(&mut self, h: &Dense) -> Option<(&[f64], &mut [f64])> {
+    pub(crate) fn change(&mut self, h: &ComplianceMatrix) -> Option<(&[f64], &mut [f64])> {
         if self.followed {
             return None;
         }
         let Self { unknowns, residual, layout, .. } = self;
         let [d, v, _] = unknowns.parts();
-        if v.len() == residual.len() {
-            h.mul_add(-1.0, residual, v);
-        } else {
-            // The compliances are symmetric.
-            for (v, a) in v.iter_mut().zip(&layout.rate_dependent) {
-                *v -= h.column_dot(*a, residual);
-            }
-        }
+        h.less_some(residual, &layout.rate_dependent, v);
         Some((residual, d))
     }
 
@@ -437,12 +434,7 @@ impl<'a> LinkKernel<'a> {
             self.factors.forget(affine.key);
             return false;
         }
-        let followed = factor.go(residual, unknowns.row());
-        if !followed {
-            factor.correct(residual, correction);
-            add(unknowns.parts()[2], residual);
-        }
-        self.followed = followed;
+        self.followed = factor.go(residual, correction, unknowns);
         true
     }
 }

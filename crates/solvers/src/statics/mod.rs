@@ -27,7 +27,8 @@ pub(crate) use rates::rates;
 
 use crate::error::SolveError;
 use crate::kernel::{
-    Affine, Committed, Converged, Extrapolation, Guess, LinkKernel, NoEquilibrium, StepKey, Wanted,
+    Affine, Committed, Compliance, Converged, Extrapolation, Guess, LinkKernel, NoEquilibrium,
+    StepKey, Wanted,
 };
 use crate::step::{Culprit, State, Suspicion, is_sound, leaves_out, not_finite};
 use trilith_element::Energy;
@@ -175,8 +176,7 @@ struct Walk<'a> {
     links: &'a LinkSet,
     kernel: LinkKernel<'a>,
     /// Their deformations under forces of theirs.
-    g: Dense,
-    none: Dense,
+    compliance: Compliance,
     /// Their deformations at the start, and what the path adds.
     before: Vec<f64>,
     added: Vec<f64>,
@@ -208,8 +208,7 @@ impl<'a> Walk<'a> {
         Self {
             links,
             kernel: LinkKernel::new(model, links, &solution, effective_k),
-            g,
-            none: Dense::zeros(active, active),
+            compliance: Compliance::full(g, Dense::zeros(active, active), StepKey::default()),
             before: deform(from),
             added: deform(by),
             zero: vec![0.0; links.len()],
@@ -228,7 +227,9 @@ impl<'a> Walk<'a> {
 
     /// From a place straight to a share of the path.
     fn to(&mut self, from: &Place, share: f64) -> Result<Place, NoEquilibrium> {
-        let Self { links, kernel, g, none, before, added, zero, .. } = self;
+        let Self {
+            links, kernel, compliance: Compliance { g, h, key }, before, added, zero, ..
+        } = self;
         let Place { state, pseudo } = from;
         let Wanted { d, v, .. } = kernel.wanted();
         for (d, (a, b)) in d.iter_mut().zip(before.iter().zip(&*added)) {
@@ -262,7 +263,7 @@ impl<'a> Walk<'a> {
             pseudo: &mut attempt,
             extrapolation: &mut Extrapolation::default(),
         };
-        let affine = Affine { support: None, g, h: none, key: StepKey::default() };
+        let affine = Affine { support: None, g, h, key: *key };
         let solved =
             kernel.solve(&affine, pseudo, Guess::Unchanged, &committed, &state.scale, &mut out);
         if let Err(failed) = solved {

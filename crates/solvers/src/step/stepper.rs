@@ -212,7 +212,7 @@ impl<P: Propagator> Stepper for LinkStepper<'_, P> {
         let h = &propagator.compliance().h;
         for (a, flat) in side.links().active.iter().enumerate() {
             rates[*flat] += difference[a];
-            softness[*flat] = h[(a, a)];
+            softness[*flat] = h.own(a);
         }
         let turned = turning.missed(laws, side.links(), from, to, rates, softness, dt);
         let vibration = vibration.as_mut().filter(|_| propagator.compliance().key.average == 0);
@@ -260,8 +260,7 @@ impl<P: Propagator> Stepper for LinkStepper<'_, P> {
     ) -> Result<(), SolveError> {
         for one in memory {
             self.propagator.prepare(one.key)?;
-            let compliance = self.propagator.compliance();
-            self.side.kernel.recall(one, &compliance.g, &compliance.h);
+            self.side.kernel.recall(one, self.propagator.compliance());
         }
         self.side.recall_rates(self.propagator.space(), t, state);
         Ok(())

@@ -1,5 +1,6 @@
 //! The map B from the coordinates of a solver to the deformations of the links.
 
+use std::sync::Arc;
 use trilith_linalg::{Dense, Panel};
 
 /// B of the active link coordinates: a few terms each on the free DOFs, full rows on a basis.
@@ -15,7 +16,7 @@ pub(crate) enum LinkMap {
 #[derive(Clone, Debug)]
 pub(crate) struct FullMap {
     /// Bᵀ: one column for each link coordinate.
-    columns: Dense,
+    columns: Arc<Dense>,
     /// B and Bᵀ once more, where they have few rows.
     deform: Option<Panel>,
     spread: Option<Panel>,
@@ -26,7 +27,16 @@ impl LinkMap {
     pub(crate) fn full(columns: Dense) -> Self {
         let few = columns.columns() <= Panel::MOST_ROWS;
         let deform = few.then(|| Panel::new(&columns.transpose()));
-        Self::Full(FullMap { deform, spread: Panel::of_few(&columns), columns })
+        let spread = Panel::of_few(&columns);
+        Self::Full(FullMap { deform, spread, columns: Arc::new(columns) })
+    }
+
+    /// Bᵀ of full rows: one column for each link coordinate.
+    pub(crate) fn columns(&self) -> Option<&Arc<Dense>> {
+        match self {
+            Self::Sparse(_) => None,
+            Self::Full(full) => Some(&full.columns),
+        }
     }
 
     /// Number of link coordinates.

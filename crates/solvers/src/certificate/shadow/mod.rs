@@ -13,7 +13,7 @@ mod memory;
 
 use self::memory::Memory;
 use crate::fna::{ModalLoads, Modes};
-use crate::kernel::StepKey;
+use crate::kernel::{ComplianceMatrix, StepKey};
 use crate::march::jump;
 use crate::record::Outputs;
 use crate::step::State;
@@ -211,21 +211,29 @@ impl<'a> Shadow<'a> {
         memory.linear([run.d, run.v], dt, tangents, &mut own);
         let apart: Vec<f64> = system.links.active.iter().map(|i| own[*i] - run.f[*i]).collect();
         let change: Vec<f64> = run.pseudo.iter().zip(&*pseudo).map(|(x, x0)| x - x0).collect();
-        let beyond = |motion: &[f64], run: &[f64], support: &[f64], compliance: &Dense| {
-            let mut own = vec![0.0; change.len()];
-            modes.space.links.deform(motion, &mut own);
-            for (x, i) in own.iter_mut().zip(&system.links.active) {
-                *x -= run[*i] - support[*i];
-            }
-            compliance.mul_add(-1.0, &change, &mut own);
-            own
-        };
+        let beyond =
+            |motion: &[f64], run: &[f64], support: &[f64], compliance: &ComplianceMatrix| {
+                let mut own = vec![0.0; change.len()];
+                modes.space.links.deform(motion, &mut own);
+                for (x, i) in own.iter_mut().zip(&system.links.active) {
+                    *x -= run[*i] - support[*i];
+                }
+                compliance.mul_add(-1.0, &change, &mut own);
+                own
+            };
         let n = modes.space.order();
         let compliance = modes.compliance();
         let e = beyond(&next[..n], run.d, &support[0], &compliance.g);
         let rate = beyond(&next[n..2 * n], run.v, &support[1], &compliance.h);
-        let matrices = [&compliance.g, &compliance.h];
-        answer(system, &modes.space, tangents, apart, [&e, &rate], matrices)
+        let matrices = [&compliance.g, &compliance.h].map(ComplianceMatrix::all);
+        answer(
+            system,
+            &modes.space,
+            tangents,
+            apart,
+            [&e, &rate],
+            matrices.each_ref().map(|m| &**m),
+        )
     }
 
     /// Compares the outputs of the run at this moment with its own; `errors` grow to the differences.
