@@ -1,10 +1,13 @@
 //! Sparse LDLᵀ of a symmetric matrix, and the search for equations without stiffness.
 
+mod dissection;
 mod failure;
+mod numeric;
 mod ordering;
 mod packing;
 mod staged;
 mod substitution;
+mod subtrees;
 mod together;
 
 pub use staged::{StagedLdlt, StagedPlan};

@@ -11,8 +11,10 @@
 //! with columns one after the other. What lies on and above the diagonal is left out, a quarter of a large frame's
 //! factor.
 
-use super::substitution::{Node, Panels};
+use super::numeric::{Elimination, Groups};
+use super::substitution::Node;
 use crate::large::Large;
+use crate::threads::share;
 
 /// Columns handled at once.
 pub(super) const WIDTH: usize = 4;
@@ -28,8 +30,8 @@ impl Node {
         columns * height - columns * (columns + 1) / 2
     }
 
-    /// Packs its columns, of which the first begins the given values and the others are `stride` apart.
-    fn pack(&self, from: &[f64], stride: usize, to: &mut [f64]) {
+    /// Packs its columns, given one after the other.
+    fn pack(&self, from: &[f64], to: &mut [f64]) {
         let (columns, height) = (self.columns as usize, self.height as usize);
         let (mut j, mut at) = (0, 0);
         let mut put = |values: &[f64]| {
@@ -37,7 +39,7 @@ impl Node {
             at += values.len();
         };
         while j + WIDTH <= columns {
-            let column = |k: usize| &from[(j + k) * stride..][..height][j..];
+            let column = |k: usize| &from[(j + k) * height..][..height][j..];
             let all = [column(0), column(1), column(2), column(3)];
             for (k, l) in all.iter().enumerate() {
                 put(&l[k + 1..WIDTH]);
@@ -49,7 +51,7 @@ impl Node {
             j += WIDTH;
         }
         for j in j..columns {
-            put(&from[j * stride..][j + 1..height]);
+            put(&from[j * height..][j + 1..height]);
         }
     }
 }
@@ -59,35 +61,42 @@ pub(super) fn four(height: usize) -> usize {
     BLOCK + WIDTH * (height - WIDTH)
 }
 
-/// Where columns lie in a factor that is not packed: of each node in turn, the first value and the distance of
-/// columns.
-#[derive(Clone, Debug, Default)]
-pub(super) struct Unpacked(pub Vec<(usize, u32)>);
+/// A node, and where its values and its 1/D go.
+type Place<'a> = (&'a Node, &'a mut [f64], &'a mut [f64]);
 
-impl Unpacked {
-    /// The diagonal, of all nodes.
-    pub(super) fn diagonal<'a>(
-        &'a self,
-        groups: [&'a Panels; 2],
-        values: &'a [f64],
-    ) -> impl Iterator<Item = f64> + 'a {
-        let nodes = groups.into_iter().flat_map(|g| &g.nodes);
-        nodes.zip(&self.0).flat_map(move |(node, (first, stride))| {
-            (0..node.columns as usize).map(move |j| values[first + j * (*stride as usize + 1)])
-        })
+/// The columns of all nodes packed, and 1/D, of those of each piece. A piece is dropped as soon as it is packed: both forms
+/// beside each other would take twice the memory.
+pub(super) fn packed(
+    plan: &Elimination,
+    groups: Groups<'_>,
+    made: Vec<Large>,
+) -> (Large, Vec<f64>) {
+    let count = |of: fn(&Node) -> usize| groups.nodes().map(of).sum::<usize>();
+    let all = count(Node::packed);
+    let mut packed = Large::zeros(all);
+    let mut reciprocal = vec![0.0; count(|node| node.columns as usize)];
+    let (mut values, mut pivots) = (&mut *packed, &mut *reciprocal);
+    let mut places = Vec::new();
+    for node in groups.nodes() {
+        let (own, rest) = values.split_at_mut(node.packed());
+        let (of_pivots, others) = pivots.split_at_mut(node.columns as usize);
+        (values, pivots) = (rest, others);
+        places.push(Some((node, own, of_pivots)));
     }
-
-    /// All nodes packed.
-    pub(super) fn pack(&self, groups: [&Panels; 2], values: &[f64]) -> Large {
-        let nodes = || groups.into_iter().flat_map(|g| &g.nodes);
-        let mut packed = Large::zeros(nodes().map(Node::packed).sum());
-        for (node, (first, stride)) in nodes().zip(&self.0) {
-            node.pack(
-                &values[*first..],
-                *stride as usize,
-                &mut packed[node.values..][..node.packed()],
-            );
+    let mut of_piece = |nodes: &[u32]| -> Vec<_> {
+        nodes.iter().filter_map(|node| places[*node as usize].take()).collect()
+    };
+    let pieces = plan.pieces.iter().zip(made);
+    let pieces = pieces.map(|(piece, values)| (values, of_piece(&piece.nodes))).collect();
+    share(4 * all, pieces, |(values, nodes): (Large, Vec<Place<'_>>)| {
+        let mut rest = &*values;
+        for (node, to, pivots) in nodes {
+            let (columns, height) = (node.columns as usize, node.height as usize);
+            let (own, others) = rest.split_at(columns * height);
+            rest = others;
+            node.pack(own, to);
+            pivots.iter_mut().enumerate().for_each(|(j, d)| *d = own[j * (height + 1)].recip());
         }
-        packed
-    }
+    });
+    (packed, reciprocal)
 }

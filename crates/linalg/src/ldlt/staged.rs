@@ -16,43 +16,46 @@
 //! made once, holds all that does not depend on values.
 
 use super::backend;
-use super::failure::refused;
+use super::failure::all_finite;
+use super::numeric::{Elimination, Groups, Summed, factorise};
 use super::ordering::{self, Pattern};
-use super::packing::Unpacked;
+use super::packing::packed;
 use super::substitution::{Node, Panels};
+use super::subtrees::{self, Factor, Subtrees};
 use super::together::BESIDE;
 use crate::large::Large;
 use crate::threads::share;
 use crate::{LinalgError, Sparse};
-use faer::dyn_stack::{MemBuffer, MemStack};
-use faer::linalg::cholesky::ldlt::factor::{LdltError, LdltRegularization};
+use faer::Side;
 use faer::perm::PermRef;
+use faer::sparse::SymbolicSparseColMatRef;
 use faer::sparse::linalg::cholesky::{
     CholeskySymbolicParams, SymbolicCholesky, SymbolicCholeskyRaw, SymmetricOrdering,
     factorize_symbolic_cholesky,
 };
 use faer::sparse::linalg::{SupernodalThreshold, SymbolicSupernodalParams};
-use faer::sparse::{SparseColMatRef, SymbolicSparseColMatRef};
-use faer::{Par, Side};
 use std::sync::{Arc, Mutex, PoisonError};
 
 /// Columns up to which supernodes are merged, and the share of zeros that may be stored for it.
 const RELAX: &[(usize, f64)] = &[(4, 0.5), (16, 0.3), (48, 0.1), (usize::MAX, 0.02)];
 
+/// Columns of a supernode at most: wider ones are cut, so that threads have parts of them.
+const WIDEST: usize = 256;
+
 /// Order of elimination and structure of the factor of all matrices of one pattern.
 #[derive(Debug)]
 pub struct StagedPlan {
-    pattern: Pattern,
-    symbolic: SymbolicCholesky<usize>,
-    /// Equation of each place.
+    /// Equation of each place, and place of each equation.
     equations: Vec<u32>,
+    places: Vec<u32>,
     /// First place of the tail.
     split: usize,
     front: Panels,
     /// Counted from `split`.
     tail: Panels,
-    /// Where the factorisation leaves the columns of both.
-    unpacked: Unpacked,
+    elimination: Elimination,
+    /// Of a front without a tail.
+    subtrees: Option<Subtrees>,
 }
 
 impl StagedPlan {
@@ -80,9 +83,19 @@ impl StagedPlan {
         )
         .map_err(backend)?;
         let split = n - last.len();
-        let (front, tail, unpacked) = panels(&symbolic, split);
-        let equations = forward.into_iter().map(|i| i as u32).collect();
-        Ok(Arc::new(Self { pattern, symbolic, equations, split, front, tail, unpacked }))
+        let (front, tail) = panels(&symbolic, split);
+        let elimination = Elimination::new(Groups { front: &front, tail: &tail, split }, n);
+        let narrow = |all: Vec<usize>| all.into_iter().map(|i| i as u32).collect();
+        let (equations, places) = (narrow(forward), narrow(inverse));
+        let mut plan = Self { equations, places, split, front, tail, elimination, subtrees: None };
+        if last.is_empty() && plan.stored() >= subtrees::FROM {
+            plan.subtrees = Subtrees::new(&plan.elimination, &plan.front);
+        }
+        Ok(Arc::new(plan))
+    }
+
+    fn groups(&self) -> Groups<'_> {
+        Groups { front: &self.front, tail: &self.tail, split: self.split }
     }
 
     /// Equation of each place in the order of elimination; those of the tail come last.
@@ -134,39 +147,37 @@ fn union(parts: &[&Sparse]) -> Pattern {
     pattern
 }
 
-fn panels(symbolic: &SymbolicCholesky<usize>, split: usize) -> (Panels, Panels, Unpacked) {
+/// The supernodes, cut where the tail begins and where they are wide.
+fn panels(symbolic: &SymbolicCholesky<usize>, split: usize) -> (Panels, Panels) {
     let (mut front, mut tail) = (Panels::default(), Panels::default());
-    let mut unpacked = Unpacked::default();
     let SymbolicCholeskyRaw::Supernodal(symbolic) = symbolic.raw() else {
-        return (front, tail, unpacked);
+        return (front, tail);
     };
     let mut stored = 0;
     for k in 0..symbolic.n_supernodes() {
         let (start, end) = (symbolic.supernode_begin()[k], symbolic.supernode_end()[k]);
         let below = symbolic.supernode(k).pattern();
-        let stride = end - start + below.len();
-        let values = symbolic.col_ptr_for_val()[k];
         let cut = split.clamp(start, end);
         for (from, to, group, base) in [(start, cut, &mut front, 0), (cut, end, &mut tail, split)] {
-            if from == to {
-                continue;
+            let pieces = (to - from).div_ceil(WIDEST).max(1);
+            let width = (to - from).div_ceil(pieces).max(1);
+            for from in (from..to).step_by(width) {
+                let to = to.min(from + width);
+                let node = Node {
+                    start: (from - base) as u32,
+                    columns: (to - from) as u32,
+                    height: (end - from + below.len()) as u32,
+                    values: stored,
+                    rows: group.rows.len(),
+                };
+                stored += node.packed();
+                group.nodes.push(node);
+                let rows = (to..end).chain(below.iter().copied());
+                group.rows.extend(rows.map(|r| (r - base) as u32));
             }
-            let skipped = from - start;
-            let node = Node {
-                start: (from - base) as u32,
-                columns: (to - from) as u32,
-                height: (stride - skipped) as u32,
-                values: stored,
-                rows: group.rows.len(),
-            };
-            stored += node.packed();
-            group.nodes.push(node);
-            unpacked.0.push((values + skipped * stride + skipped, stride as u32));
-            let rows = (to..end).chain(below.iter().copied());
-            group.rows.extend(rows.map(|r| (r - base) as u32));
         }
     }
-    (front, tail, unpacked)
+    (front, tail)
 }
 
 /// A factorised symmetric matrix, solved in stages. Vectors are in the order of elimination, see
@@ -185,53 +196,13 @@ impl StagedLdlt {
     /// # Errors
     /// [`LinalgError::Singular`] at an exactly zero pivot, [`LinalgError::NotFinite`] where numbers overflow.
     pub fn new(plan: &Arc<StagedPlan>, parts: &[(f64, &Sparse)]) -> Result<Self, LinalgError> {
-        let (n, pattern) = (plan.pattern.order(), &plan.pattern);
-        let mut sum = Vec::with_capacity(pattern.rows.len());
-        let mut column = vec![0.0; n];
-        for j in 0..n {
-            for (factor, part) in parts {
-                let (rows, values) = part.column(j);
-                for (i, v) in rows.iter().zip(values) {
-                    column[*i] += factor * v;
-                }
-            }
-            for i in &pattern.rows[pattern.offsets[j]..pattern.offsets[j + 1]] {
-                sum.push(column[*i]);
-            }
-            for (_, part) in parts {
-                part.column(j).0.iter().for_each(|i| column[*i] = 0.0);
-            }
+        for (_, part) in parts {
+            all_finite(part)?;
         }
-        if let Some(at) = sum.iter().position(|v| !v.is_finite()) {
-            return Err(LinalgError::NotFinite { equation: pattern.rows[at] });
-        }
-        let symbolic = &plan.symbolic;
-        let scratch = symbolic.factorize_numeric_ldlt_scratch::<f64>(Par::Seq, Default::default());
-        let mut work = MemBuffer::try_new(scratch).map_err(backend)?;
-        let mut values = vec![0.0; symbolic.len_val()];
-        let pattern =
-            SymbolicSparseColMatRef::new_checked(n, n, &pattern.offsets, None, &pattern.rows);
-        let made = symbolic
-            .factorize_numeric_ldlt(
-                &mut values,
-                SparseColMatRef::new(pattern, &sum),
-                Side::Lower,
-                LdltRegularization::default(),
-                Par::Seq,
-                MemStack::new(&mut work),
-                Default::default(),
-            )
-            .map(|_| ())
-            .map_err(|LdltError::ZeroPivot { index }| index);
-        if let Err(index) = made {
-            let equation = |place: usize| plan.equations.get(place).map(|i| *i as usize);
-            return Err(refused(symbolic, &values, index, equation));
-        }
-        // Both forms of the factor are enough beside each other.
-        drop((sum, work));
-        let groups = [&plan.front, &plan.tail];
-        let reciprocal = plan.unpacked.diagonal(groups, &values).map(f64::recip).collect();
-        let values = plan.unpacked.pack(groups, &values);
+        let StagedPlan { equations, places, .. } = &**plan;
+        let groups = plan.groups();
+        let made = factorise(&plan.elimination, groups, Summed { parts, equations, places })?;
+        let (values, reciprocal) = packed(&plan.elimination, groups, made);
         Ok(Self { plan: Arc::clone(plan), values, reciprocal })
     }
 
@@ -247,7 +218,7 @@ impl StagedLdlt {
         let mut factor = Self::new(&plan, parts)?;
         drop(plan);
         if let Some(plan) = Arc::get_mut(&mut factor.plan) {
-            plan.pattern = Pattern { offsets: vec![0], rows: Vec::new() };
+            plan.elimination = Elimination::default();
         }
         Ok(factor)
     }
@@ -308,6 +279,13 @@ impl StagedLdlt {
     }
 
     fn solve_all(&self, mut x: Vec<&mut [f64]>) {
+        if let Some(subtrees) = &self.plan.subtrees {
+            match &mut *x {
+                [x] => return self.solve_by_subtrees(subtrees, [x]),
+                [x, y] => return self.solve_by_subtrees(subtrees, [x, y]),
+                _ => {}
+            }
+        }
         // Of two each is solved alone, which a second thread can do meanwhile.
         let beside = if x.len() > 2 { BESIDE } else { 1 };
         let pieces: Vec<&mut [&mut [f64]]> = x.chunks_mut(beside).collect();
@@ -323,6 +301,18 @@ impl StagedLdlt {
             }
             room().push(own);
         });
+    }
+
+    fn solve_by_subtrees<const K: usize>(&self, subtrees: &Subtrees, mut x: [&mut [f64]; K]) {
+        let StagedPlan { equations, front, .. } = &*self.plan;
+        let factor = Factor { panels: front, values: &self.values, reciprocal: &self.reciprocal };
+        let mut ordered = x
+            .each_ref()
+            .map(|x| -> Vec<f64> { equations.iter().map(|i| x[*i as usize]).collect() });
+        subtrees.solve(factor, ordered.each_mut().map(Vec::as_mut_slice));
+        for (x, ordered) in x.iter_mut().zip(&ordered) {
+            ordered.iter().zip(equations).for_each(|(y, i)| x[*i as usize] = *y);
+        }
     }
 
     fn solve_one(&self, x: &mut [f64]) {
