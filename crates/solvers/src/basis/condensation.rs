@@ -13,6 +13,7 @@
 
 use crate::error::SolveError;
 use std::borrow::Cow;
+use trilith_linalg::threads::share;
 use trilith_linalg::{LinalgError, Sparse, StagedLdlt};
 use trilith_system::System;
 
@@ -140,20 +141,30 @@ impl Condensation {
 
     /// Vectors over the free DOFs, one after the other, of their rows that are kept.
     pub(crate) fn complete(&self, kept: &[f64]) -> Vec<f64> {
-        let Some(Rest { dofs, coupling, factor }) = &self.rest else { return kept.to_vec() };
+        let mut all = Vec::new();
+        self.complete_into(kept, &mut Vec::new(), &mut all);
+        all
+    }
+
+    /// The same in room that is there, of which `others` is for what follows; threads share the vectors.
+    pub(crate) fn complete_into(&self, kept: &[f64], others: &mut Vec<f64>, all: &mut Vec<f64>) {
+        let Some(Rest { dofs, coupling, factor }) = &self.rest else {
+            all.clear();
+            return all.extend_from_slice(kept);
+        };
         let (m, s) = (self.kept.len(), dofs.len());
         let count = kept.len() / m.max(1);
-        let mut others = vec![0.0; s * count];
-        for (x, y) in kept.chunks(m).zip(others.chunks_mut(s)) {
-            coupling.mul_add(-1.0, x, y);
-        }
-        factor.solve(&mut others);
-        let mut all = vec![0.0; self.order * count];
-        for ((u, x), y) in all.chunks_mut(self.order).zip(kept.chunks(m)).zip(others.chunks(s)) {
-            self.scatter(x, u);
+        others.clear();
+        others.resize(s * count, 0.0);
+        let pairs = kept.chunks(m).zip(others.chunks_mut(s)).collect();
+        share(2 * coupling.stored() * count, pairs, |(x, y)| coupling.mul_add(-1.0, x, y));
+        factor.solve(others);
+        all.resize(self.order * count, 0.0);
+        let each = all.chunks_mut(self.order).zip(kept.chunks(m)).zip(others.chunks(s));
+        share(self.order * count, each.collect(), |((u, x), y)| {
+            self.kept.iter().zip(x).for_each(|(i, x)| u[*i] = *x);
             dofs.iter().zip(y).for_each(|(i, y)| u[*i] = *y);
-        }
-        all
+        });
     }
 
     /// Loads on the free DOFs, one after the other, as loads on the rows that are kept, with the same work on every

@@ -13,8 +13,8 @@ use std::sync::Arc;
 use trilith_linalg::threads::share;
 use trilith_linalg::{Dense, Sparse};
 
-/// Vectors completed together.
-const BLOCK: usize = 8;
+/// Vectors completed together: those that two threads solve for at once.
+const BLOCK: usize = 16;
 /// Modes made of vectors together.
 const TOGETHER: usize = 16;
 /// Operations that completing takes for each equation, about.
@@ -242,10 +242,10 @@ impl Shapes {
     }
 
     fn gather(&self, p: &[f64], image: &mut [f64]) {
-        let order = self.rows.order();
-        for (p, image) in p.chunks(order).zip(image.chunks_mut(self.rows.kept())) {
+        let pairs = p.chunks(self.rows.order()).zip(image.chunks_mut(self.rows.kept()));
+        share(p.len(), pairs.collect(), |(p, image)| {
             image.copy_from_slice(&self.rows.gather(p));
-        }
+        });
     }
 
     /// Xᵀ A X of the first of some vectors, with the images A X brought to the rows that are kept.
@@ -260,10 +260,12 @@ impl Shapes {
             return kept.congruence(a, count);
         }
         let rows = self.rows.kept().max(1);
+        // Room for all blocks: new memory comes page by page from the system.
+        let (mut others, mut all, mut own) = (Vec::new(), Vec::new(), Vec::new());
         kept.congruence_by(count, |x, images| {
             for (x, image) in x.chunks(BLOCK * rows).zip(images.chunks_mut(BLOCK * rows)) {
-                let all = self.rows.complete(x);
-                let mut own = vec![0.0; all.len()];
+                self.rows.complete_into(x, &mut others, &mut all);
+                own.resize(all.len(), 0.0);
                 a.symmetric_products(&all, &mut own);
                 bring(&own, image);
             }
