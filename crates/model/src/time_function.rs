@@ -95,13 +95,21 @@ impl Harmonic {
         self.cycles.map_or(f64::INFINITY, |n| self.start + n / self.frequency)
     }
 
-    /// Value and first two derivatives, for a sine with this additional phase.
+    /// The argument of a sine with this additional phase; none before and behind it.
+    fn argument(&self, t: f64, side: Side, phase: f64) -> Option<f64> {
+        let is_on = side.is_past(t, self.start) && !side.is_past(t, self.end());
+        is_on.then_some(TAU * self.frequency * (t - self.start) + self.phase + phase)
+    }
+
+    fn value(&self, t: f64, side: Side, phase: f64) -> f64 {
+        self.argument(t, side, phase).map_or(0.0, |x| self.amplitude * x.sin())
+    }
+
+    /// Value and first two derivatives.
     fn at(&self, t: f64, side: Side, phase: f64) -> [f64; 3] {
-        if !side.is_past(t, self.start) || side.is_past(t, self.end()) {
-            return [0.0; 3];
-        }
+        let Some(x) = self.argument(t, side, phase) else { return [0.0; 3] };
         let w = TAU * self.frequency;
-        let (sin, cos) = (w * (t - self.start) + self.phase + phase).sin_cos();
+        let (sin, cos) = x.sin_cos();
         [self.amplitude * sin, self.amplitude * w * cos, -self.amplitude * w * w * sin]
     }
 
@@ -130,6 +138,8 @@ impl TimeFunction {
     pub fn value(&self, t: f64, side: Side) -> f64 {
         match self {
             Self::Table(table) => table.value(t, side),
+            Self::Sine(h) => h.value(t, side, 0.0),
+            Self::Cosine(h) => h.value(t, side, PI / 2.0),
             _ => self.all(t, side)[0],
         }
     }

@@ -36,6 +36,8 @@ pub(super) struct Way<'a> {
     /// Amplitude of each channel at the start, in the middle and at the end of the next step.
     pub amplitudes: Vec<[f64; 3]>,
     seen: bool,
+    /// The step before was halved: the next ends in its middle.
+    halved: bool,
     /// Time at which it was given up, s.
     pub lost: Option<f64>,
     /// Where a body has overturned: time, s, and index of its link.
@@ -56,6 +58,7 @@ impl<'a> Way<'a> {
             tried: 0,
             amplitudes: vec![[1.0; 3]; setup.tracks.len()],
             seen: false,
+            halved: false,
             lost: None,
             fallen: None,
         };
@@ -113,8 +116,8 @@ impl<'a> Way<'a> {
         };
         let [start, middle, end] = [self.at, self.at + ticks / 2, self.at + ticks].map(time);
         let (is_first, is_last) = (self.at == 0, self.at + ticks == FULL);
-        let Self { setup, place, amplitudes, at: first, .. } = self;
-        let first = *first;
+        let Self { setup, place, amplitudes, at: first, halved, .. } = self;
+        let (first, halved) = (*first, std::mem::take(halved));
         let tables = setup.tables.iter().zip(&setup.tracks);
         for ((table, (track, size)), amplitude) in tables.zip(amplitudes) {
             let Some((table, _)) = table else { continue };
@@ -124,6 +127,11 @@ impl<'a> Way<'a> {
                 let known = place.and_then(|place| table.inside(place, tick, FULL));
                 known.map_or_else(|| at(t, Side::Before), |x| x * size)
             };
+            if halved {
+                amplitude[2] = amplitude[1];
+                amplitude[1] = inside(first + ticks / 2, middle);
+                continue;
+            }
             if is_first {
                 amplitude[0] = known.map_or_else(|| at(start, Side::After), |[x, _]| x * size);
             }
@@ -160,6 +168,7 @@ impl<'a> Way<'a> {
             self.give_up(t);
         }
         self.level += 1;
+        self.halved = true;
     }
 
     /// Ends with the output step before, where the body of a link has overturned.
