@@ -212,10 +212,11 @@ impl StagedLdlt {
     /// # Errors
     /// As [`new`](Self::new).
     pub fn alone(parts: &[(f64, &Sparse)]) -> Result<Self, LinalgError> {
-        let of_pattern: Vec<&Sparse> =
-            parts.iter().filter(|(factor, _)| *factor != 0.0).map(|(_, part)| *part).collect();
+        // What is not counted has no place in the plan.
+        let parts: Vec<(f64, &Sparse)> = parts.iter().copied().filter(|(f, _)| *f != 0.0).collect();
+        let of_pattern: Vec<&Sparse> = parts.iter().map(|(_, part)| *part).collect();
         let plan = StagedPlan::new(&of_pattern, &[])?;
-        let mut factor = Self::new(&plan, parts)?;
+        let mut factor = Self::new(&plan, &parts)?;
         drop(plan);
         if let Some(plan) = Arc::get_mut(&mut factor.plan) {
             plan.elimination = Elimination::default();

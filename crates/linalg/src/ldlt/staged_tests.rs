@@ -202,6 +202,25 @@ fn subtrees_by_themselves_give_the_solution_on_any_number_of_threads() {
 }
 
 #[test]
+fn a_part_that_is_not_counted_may_have_entries_anywhere() {
+    let a = grid(23);
+    let n = a.rows();
+    let mut t = Triplets::new(n, n);
+    for i in 0..n {
+        for j in (0..n).step_by(17) {
+            t.add(i, j, 1.0);
+            t.add(j, i, 1.0);
+        }
+    }
+    let x = |parts: &[(f64, &Sparse)]| {
+        let mut x: Vec<f64> = (0..n).map(|i| (i as f64).sin()).collect();
+        StagedLdlt::alone(parts).unwrap().solve(&mut x);
+        x
+    };
+    assert_eq!(x(&[(1.0, &a), (0.0, &t.build())]), x(&[(1.0, &a)]));
+}
+
+#[test]
 fn a_zero_pivot_is_named() {
     let mut t = Triplets::new(3, 3);
     t.add(0, 0, 1.0);
