@@ -1,6 +1,7 @@
 //! Sweeps in lanes give what the ordinary engine gives, whoever the neighbours are.
 
 mod by_lane;
+mod in_a_row;
 
 use trilith::model::{Analysis, StepControl};
 use trilith::solvers::assemble;
@@ -317,11 +318,9 @@ fn what_does_not_fit_runs_on_the_ordinary_engine_and_says_why() {
         Engine::Ordinary(reason) => reason.clone(),
         other => panic!("{other:?}"),
     };
-    let many = FOOT.replace(
-        r#""damper": "#,
-        r#""1": Gap(node: "cg", k: 1, axis: U2), "2": Gap(node: "cg", k: 1, axis: U2),
-        "3": Gap(node: "cg", k: 1, axis: U2), "damper": "#,
-    );
+    let gap = |i: u32| format!(r#""{i}": Gap(node: "cg", k: 1, axis: U2), "#);
+    let gaps: String = (1..=10).map(gap).collect();
+    let many = FOOT.replace(r#""damper": "#, &format!(r#"{gaps} "damper": "#));
     let why = reason(&many);
     assert!(why.contains("too many modes or link coordinates"), "{why}");
     let stiff = FOOT.replace(r#"kn: "10 MN/m""#, r#"kn: "10e6 MN/m""#);

@@ -11,6 +11,7 @@
 use super::error::Norms;
 use super::loads::Points;
 use super::plan::Plan;
+use super::record::Record;
 use super::setup::LaneSetup;
 use super::sizes::Sizes;
 use super::state::{Keep, State};
@@ -41,7 +42,8 @@ impl<A: Arithmetic, const M: usize, const L: usize, const N: usize> Task<A>
         let mut seats = Seats::new(self.setups, self.beside.min(A::WIDTH), self.done);
         let mut plan = Plan::<A::Real, M, L, N>::new(with, &seats.own);
         let mut at = State::new(with, &seats.own, &plan);
-        let mut trial = Trial::new(with, &plan, &at);
+        let mut record = Record::new(with, &seats.own, &plan);
+        let mut trial = Trial::new(with, &plan, (&at, &record));
         let mut norms = Norms::new(with, &seats.own);
         let mut sizes = Sizes::new(with, &seats.own);
         let mut loads = Points::new(with, &plan);
@@ -53,7 +55,8 @@ impl<A: Arithmetic, const M: usize, const L: usize, const N: usize> Task<A>
                 let mut fresh = [false; MOST];
                 for i in (0..ways.len()).filter(|i| next[*i].is_none()) {
                     if !seats.is_empty(i) {
-                        let outcome = left(with, &mut at, &norms, (&ways[i], &seats), i);
+                        let both = (&mut at, &record);
+                        let outcome = left(with, both, &norms, (&ways[i], &seats), i);
                         seats.leave(i, outcome, with.lane(trial.iterations(), i));
                         fresh[i] = !seats.is_empty(i);
                     }
@@ -63,6 +66,9 @@ impl<A: Arithmetic, const M: usize, const L: usize, const N: usize> Task<A>
                     let who = mask(with, |i| fresh[i]);
                     let before = std::mem::replace(&mut at, State::new(with, &seats.own, &plan));
                     with.run(Keep { plan: &plan, mask: who, to: &mut at, from: &before });
+                    let fresh_record = Record::new(with, &seats.own, &plan);
+                    let before = std::mem::replace(&mut record, fresh_record);
+                    record.take(!who, &before);
                     norms.take(who, &Norms::new(with, &seats.own));
                     for i in (0..ways.len()).filter(|i| fresh[*i]) {
                         sizes.forget(i);
@@ -83,11 +89,12 @@ impl<A: Arithmetic, const M: usize, const L: usize, const N: usize> Task<A>
             let starts = [time(|n| n.start), time(|n| n.middle)];
             if plan.accelerations && next.iter().flatten().any(|n| n.jump) {
                 let jumps = mask(with, |i| next[i].is_some_and(|n| n.jump));
-                trial.look_behind(with, &plan, &loads, (jumps, starts[0]), &mut at);
+                let both = (&mut at, &mut record);
+                Trial::look_behind(with, &plan, &loads, (jumps, starts[0]), both);
             }
             let who = mask(with, |i| next[i].is_some());
             let wrong = trial.make(with, &plan, rules, &loads, (who, starts), &at);
-            let error = norms.measure(with, &plan, &at, &trial.tried());
+            let error = norms.measure(with, &plan, (&at, &record), &trial.tried());
             let error = Errors::new(with, wrong, &error);
             let mut accepted = [false; MOST];
             let steps: [usize; MOST] = std::array::from_fn(|i| ways.get(i).map_or(0, |w| w.step));
@@ -99,13 +106,14 @@ impl<A: Arithmetic, const M: usize, const L: usize, const N: usize> Task<A>
             if accepted.contains(&true) {
                 let all = (0..ways.len()).all(|i| accepted[i]);
                 let ok = mask(with, |i| accepted[i]);
-                trial.accept(with, &plan, &rules[1], (ok, all), &mut at, &mut norms);
+                let both = (&mut at, &mut record);
+                trial.accept(with, &plan, &rules[1], (ok, all), both, &mut norms);
             }
             if plan.falls {
                 // Looked at where an output step ends.
                 for (i, way) in ways.iter_mut().enumerate().filter(|(i, _)| accepted[*i]) {
                     let fell = |x: &A::Real| with.lane(*x, i) == 1.0;
-                    let link = at.fallen.iter().position(fell);
+                    let link = record.fallen.iter().position(fell);
                     if let Some(link) = link.filter(|_| way.step > steps[i]) {
                         way.fall(link);
                     }
@@ -168,7 +176,7 @@ impl<'a> Seats<'a> {
 /// What the analysis of a lane has left at its end.
 fn left<A: Arithmetic, const M: usize, const L: usize, const N: usize>(
     with: A,
-    at: &mut State<A::Real, M, L, N>,
+    (at, record): (&mut State<A::Real, M, L, N>, &Record<A::Real>),
     norms: &Norms<A::Real>,
     (way, seats): (&Way<'_>, &Seats<'_>),
     i: usize,
@@ -177,7 +185,7 @@ fn left<A: Arithmetic, const M: usize, const L: usize, const N: usize>(
     at.alive = mask(with, |lane| lane != i || way.lost.is_none());
     at.lost = with.splat(way.lost.unwrap_or(0.0));
     let fallen = way.fallen.map(|(t, link)| (t, setup.elements[link]));
-    let mut outcome = at.outcome(with, setup, i, fallen);
+    let mut outcome = at.outcome(with, record, setup, i, fallen);
     at.alive = mask(with, |_| true);
     let moves = outcome.energy.moves();
     outcome.noticed |= moves && norms.is_lost(with, setup, i);

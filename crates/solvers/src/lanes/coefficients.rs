@@ -92,15 +92,16 @@ fn compliance<R: Real, const M: usize, const L: usize, const N: usize>(
     g: &mut [[R; L]; L],
 ) {
     let zero = plan.b[0][0].of(0.0);
-    for a in 0..L {
-        let mut load = [zero; M];
-        for j in 0..M {
+    let (l, m) = (plan.coordinates(), plan.modes());
+    let mut load = [zero; M];
+    for a in 0..l {
+        for j in 0..m {
             load[j] = -(plan.b[a][j] * c[row][3][j]);
         }
-        g[a][a] = product(&load, &plan.b[a]);
+        g[a][a] = product(m, &load, &plan.b[a]);
         if of_all {
-            for b in a + 1..L {
-                g[a][b] = product(&load, &plan.b[b]);
+            for b in a + 1..l {
+                g[a][b] = product(m, &load, &plan.b[b]);
                 g[b][a] = g[a][b];
             }
         }
@@ -108,9 +109,9 @@ fn compliance<R: Real, const M: usize, const L: usize, const N: usize>(
 }
 
 #[inline(always)]
-fn product<R: Real, const M: usize>(x: &[R; M], y: &[R; M]) -> R {
+fn product<R: Real, const M: usize>(n: usize, x: &[R; M], y: &[R; M]) -> R {
     let mut sum = x[0] * y[0];
-    for j in 1..M {
+    for j in 1..n {
         sum = x[j].mul_add(y[j], sum);
     }
     sum

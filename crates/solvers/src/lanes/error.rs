@@ -2,6 +2,7 @@
 //! [`march`](crate::march) and of [`Difference`](crate::step::Difference).
 
 use super::plan::{Plan, pick};
+use super::record::Record;
 use super::setup::{Adaptive, LaneSetup};
 use super::state::State;
 use crate::march::{CLOSURE, LEAST_WAY, ROUNDING, StepControlState};
@@ -65,14 +66,14 @@ impl<R: Real> Norms<R> {
         &self,
         with: A,
         plan: &Plan<R, M, L, N>,
-        at: &State<R, M, L, N>,
+        (at, record): (&State<R, M, L, N>, &Record<R>),
         tried: &Tried<'_, R, M, L, N>,
     ) -> [R; 2] {
         let Tried { whole, halves: [first, second], work, missed, turned } = tried;
         let (zero, half) = (with.splat(0.0), with.splat(0.5));
         // The motion: apart, and on its way.
         let [mut kinetic, mut strain, mut apart, mut moved, mut moving] = [zero; 5];
-        for j in 0..M {
+        for j in 0..plan.modes() {
             let q = whole.q[j] - second.q[j];
             let p = whole.p[j] - second.p[j];
             let way = second.q[j] - at.q[j];
@@ -85,7 +86,7 @@ impl<R: Real> Norms<R> {
         // Its links.
         let mut of_links = zero;
         let (mut d_apart, mut d_moved, mut f_apart) = ([zero; 2], [zero; 2], *turned);
-        for a in 0..L {
+        for a in 0..plan.coordinates() {
             let kind = usize::from(plan.rotational[a]);
             let d = (whole.d[a] - second.d[a]).abs();
             let f = (whole.f[a] - second.f[a]).abs();
@@ -98,7 +99,7 @@ impl<R: Real> Norms<R> {
         let apart_energy = half * (kinetic + strain.abs() + of_links);
         let share = (apart_energy.max(*missed) / energy).sqrt();
         // The energies of the links must close.
-        let mut missing = at.stored + *work;
+        let mut missing = record.stored + *work;
         let mut heat = zero;
         for step in first.steps.iter().chain(&second.steps) {
             heat = heat + step.hysteretic;
@@ -169,7 +170,7 @@ impl<R: Real> Norms<R> {
             motion = q.mul_add(q, motion);
         }
         let mut deformation = [zero; 2];
-        for a in 0..L {
+        for a in 0..plan.coordinates() {
             let kind = usize::from(plan.rotational[a]);
             deformation[kind] = deformation[kind].max(at.d[a].abs());
         }
@@ -188,9 +189,9 @@ fn rounding<A: Arithmetic, const M: usize, const L: usize, const N: usize>(
     state: &State<A::Real, M, L, N>,
 ) -> A::Real {
     let mut sum = with.splat(0.0);
-    for a in 0..L {
+    for a in 0..plan.coordinates() {
         let mut size = with.splat(0.0);
-        for j in 0..M {
+        for j in 0..plan.modes() {
             size = size + (plan.b[a][j] * state.q[j]).abs();
         }
         sum = state.f[a].abs().mul_add(size, sum);

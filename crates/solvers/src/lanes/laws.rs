@@ -1,6 +1,7 @@
 //! How the laws of all links are asked.
 
 use super::plan::Plan;
+use super::record::Record;
 use super::state::State;
 use trilith_element::lanes::{Arithmetic, LaneLinks, Real};
 
@@ -96,9 +97,12 @@ impl<R: Real, const N: usize> Narrow<R, N> {
 pub(super) fn contacts<A: Arithmetic, const M: usize, const L: usize, const N: usize>(
     with: A,
     plan: &Plan<A::Real, M, L, N>,
-    state: &mut State<A::Real, M, L, N>,
+    state: &State<A::Real, M, L, N>,
+    record: &mut Record<A::Real>,
 ) {
-    let State { d, v, f, history, contacts, fallen, .. } = state;
+    let State { d, v, history, .. } = state;
+    let Record { contacts, fallen, .. } = record;
+    let mut f = *state.f;
     for run in plan.runs.iter().filter(|run| run.extent.contacts > 0) {
         let (own, count) = (run.extent, run.count);
         let r = run.first..run.first + count * own.coordinates;

@@ -54,7 +54,7 @@ impl<R: Real, const M: usize, const L: usize, const N: usize> Plan<R, M, L, N> {
             if self.accelerations {
                 out.amplitudes[*channel] = end;
             }
-            for j in 0..M {
+            for j in 0..self.modes() {
                 first[j] = start.mul_add(force[j], first[j]);
                 last[j] = end.mul_add(force[j], last[j]);
             }
@@ -74,7 +74,7 @@ impl<R: Real, const M: usize, const L: usize, const N: usize> Plan<R, M, L, N> {
             let start = amplitude(with, setups, pieces, c, |p| (p.start, Side::After));
             let end = amplitude(with, setups, pieces, c, |p| (p.end, Side::Before));
             out.amplitudes[c] = end;
-            for j in 0..M {
+            for j in 0..self.modes() {
                 out.start[j] = start.mul_add(self.forces[c][j], out.start[j]);
                 out.end[j] = end.mul_add(self.forces[c][j], out.end[j]);
             }
@@ -140,7 +140,7 @@ impl<R: Real, const M: usize> Points<R, M> {
             let channel = varying.channel;
             let of = |k: usize| with.gather(|i| ways[i.min(last)].amplitudes[channel][k]);
             let (start, middle, end) = (of(0), of(1), of(2));
-            for j in 0..M {
+            for j in 0..plan.modes() {
                 let force = varying.force[j];
                 points[0][j] = start.mul_add(force, points[0][j]);
                 points[1][j] = middle.mul_add(force, points[1][j]);

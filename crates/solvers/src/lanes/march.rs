@@ -5,7 +5,8 @@ use super::coefficients::Rule;
 use super::newton::{Found, foresee, settle};
 use super::pieces::{cut_step, in_halves};
 use super::plan::Plan;
-use super::setup::LaneSetup;
+use super::record::Record;
+use super::setup::{LaneSetup, ROOM};
 use super::state::State;
 use super::step::{Passed, account, take};
 use super::{Done, LaneOutcome};
@@ -147,9 +148,9 @@ fn sized<A: Arithmetic>(with: A, setups: &[&LaneSetup], beside: usize, done: Don
     match n {
         // One body with all its coordinates, which goes with adaptive steps alone.
         4.. => run(with, Adaptive::<6, 6, 6> { setups, beside, done }),
-        3 => of_size::<A, 12, 12, 3>(with, setups, beside, done),
-        2 => of_size::<A, 12, 12, 2>(with, setups, beside, done),
-        _ => of_size::<A, 12, 12, 1>(with, setups, beside, done),
+        3 => of_size::<A, { ROOM }, { ROOM }, 3>(with, setups, beside, done),
+        2 => of_size::<A, { ROOM }, { ROOM }, 2>(with, setups, beside, done),
+        _ => of_size::<A, { ROOM }, { ROOM }, 1>(with, setups, beside, done),
     }
 }
 
@@ -189,6 +190,7 @@ impl<A: Arithmetic, const M: usize, const L: usize, const N: usize> Task<A> for 
     fn run(self, with: A) -> Vec<LaneOutcome> {
         let plan = Plan::<A::Real, M, L, N>::new(with, self.setups);
         let mut state = State::new(with, self.setups, &plan);
+        let mut record = Record::new(with, self.setups, &plan);
         let shape = &self.setups[0].shape;
         let parts = shape.grid.substeps;
         let part = shape.grid.step();
@@ -208,15 +210,15 @@ impl<A: Arithmetic, const M: usize, const L: usize, const N: usize> Task<A> for 
             if cuts.next_if_eq(&step).is_some() {
                 if std::mem::take(&mut open) {
                     let (plan, rule, passed) = (&plan, &usual, &passed);
-                    with.run(Account { plan, rule, passed, state: &mut state });
+                    with.run(Account { plan, rule, passed, state: &state, record: &mut record });
                 }
-                cut_step(with, self.setups, &plan, step, &mut state);
+                cut_step(with, self.setups, &plan, step, (&mut state, &mut record));
             } else {
                 for i in 0..parts {
                     plan.loads(with, self.setups, step * parts + i, &mut loads);
                     foresee(&plan, &usual, &loads, &state, &mut found);
                     if std::mem::take(&mut open) {
-                        account(with, &plan, &usual, &passed, &mut state);
+                        account(with, &plan, &usual, &passed, &state, &mut record);
                     }
                     // Integers with a sign become floats in one instruction.
                     let [step, i] = [step, i].map(|n| n.cast_signed() as f64);
@@ -225,13 +227,14 @@ impl<A: Arithmetic, const M: usize, const L: usize, const N: usize> Task<A> for 
                     settle(with, &plan, &usual, (alive, true), &mut state, &mut found);
                     if found.d[0].any(found.wrong) {
                         let step = (&usual, &loads, t);
-                        in_halves(with, self.setups, &plan, step, &found, &mut state);
+                        let both = (&mut state, &mut record);
+                        in_halves(with, self.setups, &plan, step, &found, both);
                     } else {
                         let t = with.splat(t);
                         take(&plan, &usual, (&loads, t), &found, &mut state, &mut passed);
                         open = A::WIDTH == 1;
                         if !open {
-                            account(with, &plan, &usual, &passed, &mut state);
+                            account(with, &plan, &usual, &passed, &state, &mut record);
                         }
                     }
                 }
@@ -242,9 +245,10 @@ impl<A: Arithmetic, const M: usize, const L: usize, const N: usize> Task<A> for 
         }
         if open {
             let (plan, rule, passed) = (&plan, &usual, &passed);
-            with.run(Account { plan, rule, passed, state: &mut state });
+            with.run(Account { plan, rule, passed, state: &state, record: &mut record });
         }
-        (0..self.setups.len()).map(|i| state.outcome(with, self.setups[i], i, None)).collect()
+        let left = |i: usize| state.outcome(with, &record, self.setups[i], i, None);
+        (0..self.setups.len()).map(left).collect()
     }
 }
 
@@ -253,7 +257,8 @@ struct Account<'a, R: Real, const M: usize, const L: usize, const N: usize> {
     plan: &'a Plan<R, M, L, N>,
     rule: &'a Rule<R, M, L>,
     passed: &'a Passed<R, M>,
-    state: &'a mut State<R, M, L, N>,
+    state: &'a State<R, M, L, N>,
+    record: &'a mut Record<R>,
 }
 
 impl<A: Arithmetic, const M: usize, const L: usize, const N: usize> Task<A>
@@ -263,7 +268,7 @@ impl<A: Arithmetic, const M: usize, const L: usize, const N: usize> Task<A>
 
     #[inline(always)]
     fn run(self, with: A) {
-        let Self { plan, rule, passed, state } = self;
-        account(with, plan, rule, passed, state);
+        let Self { plan, rule, passed, state, record } = self;
+        account(with, plan, rule, passed, state, record);
     }
 }

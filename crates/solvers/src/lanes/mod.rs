@@ -38,6 +38,7 @@ mod outputs;
 mod peaks;
 mod pieces;
 mod plan;
+mod record;
 mod rules;
 mod search;
 mod setup;

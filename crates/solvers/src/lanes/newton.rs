@@ -10,7 +10,7 @@ use super::laws::look;
 use super::loads::Loads;
 use super::plan::Plan;
 use super::search::Search;
-use super::small::{Aligned, combine, factor, less, more, solve, times};
+use super::small::{Aligned, SMALL, combine, factor, less, more, solve, times};
 use super::state::State;
 use crate::kernel::{DIGIT, ROUNDING, ROUNDING_FROM, SETTLED};
 use trilith_element::lanes::{Arithmetic, Real};
@@ -36,6 +36,8 @@ pub(super) struct Found<R: Real, const M: usize, const L: usize> {
     rates_held: Aligned<[R; L]>,
     /// Change of the forces.
     change: Aligned<[R; L]>,
+    /// Room for the factors of J, where they do not fit into registers.
+    j: Aligned<[[R; L]; L]>,
     /// Who found none: its numbers are rubbish.
     pub wrong: R::Mask,
 }
@@ -56,6 +58,7 @@ impl<R: Real, const M: usize, const L: usize> Found<R, M, L> {
             held: Aligned([zero; L]),
             rates_held: Aligned([zero; L]),
             change: Aligned([zero; L]),
+            j: Aligned([[zero; L]; L]),
             wrong: zero.lt(zero),
         }
     }
@@ -68,11 +71,12 @@ impl<R: Real, const M: usize, const L: usize> Found<R, M, L> {
         rule: &Rule<R, M, L>,
         state: &State<R, M, L, N>,
     ) {
-        *self.d = more(&self.held, &times(&rule.g, &self.change));
+        let n = plan.coordinates();
+        *self.d = more(n, &self.held, &times((n, n), &rule.g, &self.change));
         if plan.rate {
-            *self.v = more(&self.rates_held, &times(&rule.h, &self.change));
+            *self.v = more(n, &self.rates_held, &times((n, n), &rule.h, &self.change));
         }
-        *self.f = more(&state.f, &self.change);
+        *self.f = more(n, &state.f, &self.change);
     }
 }
 
@@ -87,10 +91,12 @@ pub(super) fn foresee<R: Real, const M: usize, const L: usize, const N: usize>(
     found: &mut Found<R, M, L>,
 ) {
     hold(plan, rule, loads, state, found);
-    *found.change = times(&state.answer, &less(&found.held, &state.d));
+    let n = plan.coordinates();
+    *found.change = times((n, n), &state.answer, &less(n, &found.held, &state.d));
     if plan.rate {
-        let of_rates = times(&state.answer_to_rate, &less(&found.rates_held, &state.v));
-        *found.change = more(&found.change, &of_rates);
+        let faster = less(n, &found.rates_held, &state.v);
+        let of_rates = times((n, n), &state.answer_to_rate, &faster);
+        *found.change = more(n, &found.change, &of_rates);
     }
     found.follow(plan, rule, state);
 }
@@ -105,9 +111,10 @@ pub(super) fn foresee_by_tangents<R: Real, const M: usize, const L: usize, const
     found: &mut Found<R, M, L>,
 ) {
     hold(plan, rule, loads, state, found);
-    let moved = less(&found.held, &state.d);
-    let faster = if plan.rate { less(&found.rates_held, &state.v) } else { moved };
-    for a in 0..L {
+    let n = plan.coordinates();
+    let moved = less(n, &found.held, &state.d);
+    let faster = if plan.rate { less(n, &found.rates_held, &state.v) } else { moved };
+    for a in 0..n {
         let first = a / N * N;
         let mut sum = state.k[a][0] * moved[first];
         for i in 1..N {
@@ -120,9 +127,14 @@ pub(super) fn foresee_by_tangents<R: Real, const M: usize, const L: usize, const
         }
         found.change[a] = sum;
     }
-    let mut j = jacobian(plan, rule, state);
-    factor(&mut j);
-    solve(&j, &mut found.change);
+    if const { L <= SMALL } {
+        let mut j = [[rule.dt.of(0.0); L]; L];
+        jacobian(plan, rule, state, &mut j);
+        solve(n, &j, &mut found.change);
+    } else {
+        jacobian(plan, rule, state, &mut found.j);
+        solve(n, &found.j, &mut found.change);
+    }
     found.follow(plan, rule, state);
 }
 
@@ -135,13 +147,14 @@ fn hold<R: Real, const M: usize, const L: usize, const N: usize>(
     state: &State<R, M, L, N>,
     found: &mut Found<R, M, L>,
 ) {
-    let start = less(&loads.start, &state.push);
-    let end = less(&loads.end, &state.push);
+    let m = plan.modes();
+    let start = less(m, &loads.start, &state.push);
+    let end = less(m, &loads.end, &state.push);
     let inputs = [&state.q, &state.p, &start, &end];
     let [integral, q, p] = &*rule.c;
-    *found.integral = combine(integral, inputs);
-    *found.q = combine(q, inputs);
-    *found.p = combine(p, inputs);
+    *found.integral = combine(m, integral, inputs);
+    *found.q = combine(m, q, inputs);
+    *found.p = combine(m, p, inputs);
     *found.held = plan.deform(&found.q);
     if plan.rate {
         *found.rates_held = plan.deform(&found.p);
@@ -155,7 +168,7 @@ impl<R: Real, const M: usize, const L: usize, const N: usize> Plan<R, M, L, N> {
         let mut allowed = [scale[0] * self.tolerance; L];
         if self.turns {
             let of_moments = scale[1] * self.tolerance;
-            for a in (0..L).filter(|a| self.rotational[*a]) {
+            for a in (0..self.coordinates()).filter(|a| self.rotational[*a]) {
                 allowed[a] = of_moments;
             }
         }
@@ -170,7 +183,7 @@ impl<R: Real, const M: usize, const L: usize, const N: usize> Plan<R, M, L, N> {
         found: &Found<R, M, L>,
         allowed: &mut [R; L],
     ) {
-        for a in 0..L {
+        for a in 0..self.coordinates() {
             let first = a / N * N;
             let mut sum = (state.k[a][0] * found.d[first]).abs();
             for i in 1..N {
@@ -186,22 +199,22 @@ impl<R: Real, const M: usize, const L: usize, const N: usize> Plan<R, M, L, N> {
     }
 }
 
-/// True where none of some forces is larger than what may be left of it.
+/// True where none of `n` forces is larger than what may be left of it.
 #[inline(always)]
-fn within<R: Real, const L: usize>(forces: &[R; L], allowed: &[R; L]) -> R::Mask {
+fn within<R: Real, const L: usize>(n: usize, forces: &[R; L], allowed: &[R; L]) -> R::Mask {
     let mut fine = forces[0].abs().le(allowed[0]);
-    for a in 1..L {
+    for a in 1..n {
         fine = fine & forces[a].abs().le(allowed[a]);
     }
     fine
 }
 
-/// The largest of some forces over what may be left of them.
+/// The largest of `n` forces over what may be left of them.
 #[inline(always)]
-fn over<R: Real, const L: usize>(forces: &[R; L], allowed: &[R; L]) -> R {
+fn over<R: Real, const L: usize>(n: usize, forces: &[R; L], allowed: &[R; L]) -> R {
     let zero = forces[0].of(0.0);
     let mut most = zero;
-    for a in 0..L {
+    for a in 0..n {
         // Nothing is as much as is allowed of nothing.
         let share = (forces[a].abs() / allowed[a]).only(!forces[a].abs().le(zero));
         most = share.max(most);
@@ -209,32 +222,54 @@ fn over<R: Real, const L: usize>(forces: &[R; L], allowed: &[R; L]) -> R {
     most
 }
 
-/// J = I + k G + c H.
+/// What solves for a residual under the tangents that were found last; they are kept for the next step by those in a mask.
+#[inline(always)]
+fn correction<R: Real, const M: usize, const L: usize, const N: usize>(
+    plan: &Plan<R, M, L, N>,
+    rule: &Rule<R, M, L>,
+    (goes, kept): (R::Mask, bool),
+    state: &mut State<R, M, L, N>,
+    j: &mut [[R; L]; L],
+    step: &mut [R; L],
+) {
+    jacobian(plan, rule, state, j);
+    let n = plan.coordinates();
+    if kept {
+        state.keep_answers(n, j, goes, plan.rate);
+    }
+    solve(n, j, step);
+}
+
+/// The factors of J = I + k G + c H, as far as there are coordinates.
 #[inline(always)]
 fn jacobian<R: Real, const M: usize, const L: usize, const N: usize>(
     plan: &Plan<R, M, L, N>,
     rule: &Rule<R, M, L>,
     state: &State<R, M, L, N>,
-) -> [[R; L]; L] {
+    j: &mut [[R; L]; L],
+) {
     let (zero, one) = (rule.dt.of(0.0), rule.dt.of(1.0));
-    let mut j = [[zero; L]; L];
-    for a in 0..L {
+    let n = plan.coordinates();
+    for a in 0..n {
         let first = a / N * N;
+        for b in 0..n {
+            j[a][b] = zero;
+        }
         j[a][a] = one;
         for i in 0..N {
             let k = -state.k[a][i];
-            for b in 0..L {
+            for b in 0..n {
                 j[a][b] = k.mul_add(rule.g[b][first + i], j[a][b]);
             }
             if plan.rate {
                 let c = -state.c[a][i];
-                for b in 0..L {
+                for b in 0..n {
                     j[a][b] = c.mul_add(rule.h[b][first + i], j[a][b]);
                 }
             }
         }
     }
-    j
+    factor(n, j);
 }
 
 /// Looks for the equilibrium of the analyses in a mask, from what is foreseen. Of the state it changes the tangents,
@@ -251,63 +286,64 @@ pub(super) fn settle<A: Arithmetic, const M: usize, const L: usize, const N: usi
 ) {
     let zero = with.splat(0.0);
     let one = with.splat(1.0);
+    let n = plan.coordinates();
     let mut wrong = state.alive & who;
     // Mostly one look is enough.
     let mut search = None;
     for iteration in 0..ITERATIONS {
         look(with, plan, rule.dt, (&found.d, &found.v), state, &mut found.forces);
         state.iterations = state.iterations + one.only(wrong);
-        let residual = less(&found.forces, &found.f);
+        let residual = less(n, &found.forces, &found.f);
         let mut scale = state.scale;
         if plan.turns {
-            for a in 0..L {
+            for a in 0..n {
                 let kind = usize::from(plan.rotational[a]);
                 scale[kind] = scale[kind].max(found.forces[a].abs());
             }
         } else {
-            for force in *found.forces {
-                scale[0] = scale[0].max(force.abs());
+            for a in 0..n {
+                scale[0] = scale[0].max(found.forces[a].abs());
             }
         }
         found.scale = scale;
         let mut allowed = plan.allowed(&scale);
-        wrong = wrong & !within(&residual, &allowed);
+        wrong = wrong & !within(n, &residual, &allowed);
         if iteration >= ROUNDING_FROM && zero.any(wrong) {
             plan.allow_rounding(state, found, &mut allowed);
-            wrong = wrong & !within(&residual, &allowed);
+            wrong = wrong & !within(n, &residual, &allowed);
         }
         if !zero.any(wrong) {
             break;
         }
-        let size = over(&residual, &allowed);
+        let size = over(n, &residual, &allowed);
         if search.is_none() {
             search = Some(Search::new(zero));
         }
         let Some(search) = &mut search else { break };
-        let (more, searching) = search.goes_on(rule, iteration, (&residual, size), wrong);
-        for a in 0..L {
+        let (more, searching) = search.goes_on(rule, (n, iteration), (&residual, size), wrong);
+        for a in 0..n {
             found.change[a] = found.change[a] + (more * search.step()[a]).only(searching);
         }
         let mut goes = wrong & !searching;
         if zero.any(goes) {
-            let mut j = jacobian(plan, rule, state);
-            factor(&mut j);
-            if kept {
-                state.keep_answers(&j, goes, plan.rate);
-            }
             let mut step = residual;
-            solve(&j, &mut step);
+            if const { L <= SMALL } {
+                let mut j = [[zero; L]; L];
+                correction(plan, rule, (goes, kept), state, &mut j, &mut step);
+            } else {
+                correction(plan, rule, (goes, kept), state, &mut found.j, &mut step);
+            }
             if iteration > 0 {
                 // What is left is rounding: the correction changes nothing any more.
-                let is_little = over(&step, &allowed).le(with.splat(SETTLED));
+                let is_little = over(n, &step, &allowed).le(with.splat(SETTLED));
                 let settled = goes & size.le(with.splat(ROUNDING)) & is_little;
                 (goes, wrong) = (goes & !settled, wrong & !settled);
                 if !zero.any(wrong) {
                     break;
                 }
             }
-            search.goes(goes, &step, (&residual, size));
-            for a in 0..L {
+            search.goes(n, goes, &step, (&residual, size));
+            for a in 0..n {
                 found.change[a] = found.change[a] + step[a].only(goes);
             }
         }
@@ -317,23 +353,26 @@ pub(super) fn settle<A: Arithmetic, const M: usize, const L: usize, const N: usi
 }
 
 impl<R: Real, const M: usize, const L: usize, const N: usize> State<R, M, L, N> {
-    /// J⁻¹ k and J⁻¹ c, column by column, where a mask says so; `j` holds the factors.
+    /// J⁻¹ k and J⁻¹ c, column by column, where a mask says so; `j` holds the factors of `n` equations.
     #[inline(always)]
-    fn keep_answers(&mut self, j: &[[R; L]; L], mask: R::Mask, rate: bool) {
-        let zero = self.external.of(0.0);
+    fn keep_answers(&mut self, n: usize, j: &[[R; L]; L], mask: R::Mask, rate: bool) {
+        let zero = self.lost.of(0.0);
+        let mut column = [zero; L];
         let kinds = [
             Some((&self.k, &mut self.answer)),
             rate.then_some((&self.c, &mut self.answer_to_rate)),
         ];
         for (tangents, answer) in kinds.into_iter().flatten() {
-            for b in 0..L {
+            for b in 0..n {
                 let first = b / N * N;
-                let mut column = [zero; L];
+                for a in 0..n {
+                    column[a] = zero;
+                }
                 for i in 0..N {
                     column[first + i] = tangents[first + i][b - first];
                 }
-                solve(j, &mut column);
-                for a in 0..L {
+                solve(n, j, &mut column);
+                for a in 0..n {
                     answer[b][a] = R::mix(mask, column[a], answer[b][a]);
                 }
             }

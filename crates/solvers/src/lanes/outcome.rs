@@ -1,6 +1,7 @@
 //! What is left at the end of a march, for each lane.
 
 use super::LaneOutcome;
+use super::record::Record;
 use super::setup::LaneSetup;
 use super::state::State;
 use crate::record::{EnergyTotals, LinkEnergy, StartEnergy};
@@ -15,13 +16,14 @@ impl<R: Real, const M: usize, const L: usize, const N: usize> State<R, M, L, N> 
     pub fn outcome<A: Arithmetic<Real = R>>(
         &self,
         with: A,
+        record: &Record<R>,
         setup: &LaneSetup,
         lane: usize,
         overturned: Option<(f64, usize)>,
     ) -> LaneOutcome {
         let of = |x: R| with.lane(x, lane);
-        let heat = |kind: usize| -> f64 { self.heat.iter().map(|x| of(x[kind])).sum() };
-        let potential = of(self.potential) - setup.potential;
+        let heat = |kind: usize| -> f64 { record.heat.iter().map(|x| of(x[kind])).sum() };
+        let potential = of(record.potential) - setup.potential;
         let start = StartEnergy {
             kinetic: setup.kinetic,
             strain: setup.strain,
@@ -29,12 +31,12 @@ impl<R: Real, const M: usize, const L: usize, const N: usize> State<R, M, L, N> 
         };
         let mut energy = EnergyTotals {
             start,
-            input: of(self.external) + potential,
-            kinetic: of(self.kinetic),
-            strain: of(self.strain),
+            input: of(record.external) + potential,
+            kinetic: of(record.kinetic),
+            strain: of(record.strain),
             potential,
-            modal_damping: of(self.damping),
-            link_stored: of(self.stored),
+            modal_damping: of(record.damping),
+            link_stored: of(record.stored),
             link_hysteretic: heat(0),
             link_viscous: heat(1),
             ..EnergyTotals::default()
@@ -44,8 +46,9 @@ impl<R: Real, const M: usize, const L: usize, const N: usize> State<R, M, L, N> 
         let driven = start.kinetic + e.input;
         let (strained, charged) = (e.strain - start.strain, e.link_stored - start.link_stored);
         let error = driven - (e.kinetic + strained + e.potential + charged + heat);
-        let standing = of(self.strain).abs() + of(self.stored).abs() + of(self.potential).abs();
-        let shares = [SHARE_OF_LARGEST * of(self.largest), SHARE_OF_STANDING * standing];
+        let standing =
+            of(record.strain).abs() + of(record.stored).abs() + of(record.potential).abs();
+        let shares = [SHARE_OF_LARGEST * of(record.largest), SHARE_OF_STANDING * standing];
         let size = [driven, e.kinetic, e.potential, heat]
             .into_iter()
             .chain(shares)
@@ -66,11 +69,11 @@ impl<R: Real, const M: usize, const L: usize, const N: usize> State<R, M, L, N> 
         let motion = if overturned.is_some() { &[][..] } else { &motion };
         LaneOutcome {
             lost,
-            steps: of(self.count) as usize,
+            steps: of(record.count) as usize,
             overturned,
             iterations: of(self.iterations) as usize,
-            outputs: self.peaks.of_lane(with, lane),
-            integrals: self.peaks.integrals.iter().map(|(_, it)| of(it.value())).collect(),
+            outputs: record.peaks.of_lane(with, lane),
+            integrals: record.peaks.integrals.iter().map(|(_, it)| of(it.value())).collect(),
             energy,
             link_energy: setup
                 .elements
@@ -79,14 +82,14 @@ impl<R: Real, const M: usize, const L: usize, const N: usize> State<R, M, L, N> 
                 .map(|(i, element)| {
                     let energy = LinkEnergy {
                         stored: of(self.steps[i].stored),
-                        hysteretic: of(self.heat[i][0]),
-                        viscous: of(self.heat[i][1]),
+                        hysteretic: of(record.heat[i][0]),
+                        viscous: of(record.heat[i][1]),
                     };
                     (*element, energy)
                 })
                 .collect(),
-            contact: self.feet.of_lane(with, lane),
-            noticed: setup.watch.notices(motion, self.feet.depth(with, lane)),
+            contact: record.feet.of_lane(with, lane),
+            noticed: setup.watch.notices(motion, record.feet.depth(with, lane)),
         }
     }
 }

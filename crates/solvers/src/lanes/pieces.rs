@@ -6,12 +6,13 @@ use super::grid::Piece;
 use super::loads::Loads;
 use super::newton::Found;
 use super::plan::Plan;
+use super::record::{Record, TakeRecord};
 use super::setup::LaneSetup;
 use super::show::show;
 use super::small::Aligned;
-use super::state::{State, TakeCounts, forget, keep, take_answers};
+use super::state::{State, forget, keep, take_answers};
 use super::step::{Passed, acceleration, account, take};
-use super::trial::{By, Enter, Make};
+use super::trial::{By, Enter, Follow, Make};
 use crate::march::DEPTH;
 use trilith_element::lanes::{Arithmetic, Real, Task};
 
@@ -77,7 +78,7 @@ pub(super) fn cut_step<A: Arithmetic, const M: usize, const L: usize, const N: u
     setups: &[&LaneSetup],
     plan: &Plan<A::Real, M, L, N>,
     step: usize,
-    state: &mut State<A::Real, M, L, N>,
+    both: (&mut State<A::Real, M, L, N>, &mut Record<A::Real>),
 ) {
     let grid = setups[0].shape.grid;
     let walks = setups.iter().map(|s| {
@@ -87,7 +88,7 @@ pub(super) fn cut_step<A: Arithmetic, const M: usize, const L: usize, const N: u
         };
         Walk::new(pieces, 0)
     });
-    walk(with, setups, plan, walks.collect(), state);
+    walk(with, setups, plan, walks.collect(), both);
 }
 
 /// Ends a usual step in which some found no equilibrium: they go on in halves.
@@ -98,12 +99,12 @@ pub(super) fn in_halves<A: Arithmetic, const M: usize, const L: usize, const N: 
     plan: &Plan<A::Real, M, L, N>,
     (rule, loads, t): (&Rule<A::Real, M, L>, &Loads<A::Real, M>, f64),
     found: &Found<A::Real, M, L>,
-    state: &mut State<A::Real, M, L, N>,
+    (state, record): (&mut State<A::Real, M, L, N>, &mut Record<A::Real>),
 ) {
     let wrong = found.wrong;
-    let before = state.clone();
+    let before = (state.clone(), record.clone());
     let begin = with.splat(t);
-    with.run(End { plan, rule, loads, t: begin, found, before: &before, state });
+    with.run(End { plan, rule, loads, t: begin, found, before: &before, state, record });
     let grid = setups[0].shape.grid;
     let length = grid.step();
     let walks = (0..setups.len()).map(|i| {
@@ -111,7 +112,7 @@ pub(super) fn in_halves<A: Arithmetic, const M: usize, const L: usize, const N: 
         let whole = Piece { start: t, end: t + length, length, jump: false };
         Walk::new(if failed { vec![whole] } else { Vec::new() }, 1)
     });
-    walk(with, setups, plan, walks.collect(), state);
+    walk(with, setups, plan, walks.collect(), (state, record));
 }
 
 fn walk<A: Arithmetic, const M: usize, const L: usize, const N: usize>(
@@ -119,12 +120,12 @@ fn walk<A: Arithmetic, const M: usize, const L: usize, const N: usize>(
     setups: &[&LaneSetup],
     plan: &Plan<A::Real, M, L, N>,
     mut walks: Vec<Walk>,
-    state: &mut State<A::Real, M, L, N>,
+    (state, record): (&mut State<A::Real, M, L, N>, &mut Record<A::Real>),
 ) {
     let grid = setups[0].shape.grid;
     let last = walks.len() - 1;
     let zero = with.splat(0.0);
-    let (mut made, mut before) = (state.clone(), state.clone());
+    let (mut made, mut before) = (state.clone(), record.clone());
     let (mut found, mut passed) = (Found::new(zero), Passed::new(zero));
     loop {
         let next: Vec<Option<Piece>> = walks.iter().map(Walk::next).collect();
@@ -139,20 +140,22 @@ fn walk<A: Arithmetic, const M: usize, const L: usize, const N: usize>(
         let loads = plan.loads_of_pieces(with, setups, &now);
         let t = with.gather(|i| now[i.min(last)].start);
         if plan.accelerations && now.iter().any(|p| p.jump) {
-            before.clone_from(state);
+            let before = (state.clone(), record.clone());
             let jumps = with.gather(|i| f64::from(u8::from(now[i.min(last)].jump)));
             let who = zero.lt(jumps);
             state.amplitudes = plan.amplitudes_behind(with, setups, &now);
-            with.run(Behind { plan, load: &loads.start, t, who, before: &before, state });
+            let load = &loads.start;
+            with.run(Behind { plan, load, t, who, before: &before, state, record });
         }
         let (who, from) = (zero.lt(goes), &*state);
         let (by, loads, asked) = (By::Given(&rule), &loads, None);
         let (to, found, passed) = (&mut made, &mut found, &mut passed);
         let (wrong, _) = with.run(Make { plan, by, loads, t, who, from, to, found, passed, asked });
         let ok = who & !wrong;
-        with.run(TakeCounts { mask: zero.le(zero), from: state, to: &mut before });
-        with.run(Enter { plan, rule: &rule, some: Some(ok), made: &made, passed, at: state });
-        with.run(TakeCounts { mask: !ok, from: &before, to: state });
+        with.run(TakeRecord { mask: zero.le(zero), from: record, to: &mut before });
+        with.run(Enter { plan, rule: &rule, made: &made, passed, record });
+        with.run(TakeRecord { mask: !ok, from: &before, to: record });
+        with.run(Follow { plan, some: Some(ok), made: &made, at: state });
         take_answers(ok, &made, state);
         forget(wrong, state);
         state.iterations = made.iterations;
@@ -176,8 +179,9 @@ pub(super) struct Behind<'a, R: Real, const M: usize, const L: usize, const N: u
     pub load: &'a Aligned<[R; M]>,
     pub t: R,
     pub who: R::Mask,
-    pub before: &'a State<R, M, L, N>,
+    pub before: &'a (State<R, M, L, N>, Record<R>),
     pub state: &'a mut State<R, M, L, N>,
+    pub record: &'a mut Record<R>,
 }
 
 impl<A: Arithmetic, const M: usize, const L: usize, const N: usize> Task<A>
@@ -187,11 +191,12 @@ impl<A: Arithmetic, const M: usize, const L: usize, const N: usize> Task<A>
 
     #[inline(always)]
     fn run(self, with: A) {
-        let Self { plan, load, t, who, before, state } = self;
+        let Self { plan, load, t, who, before, state, record } = self;
         let zero = with.splat(0.0);
         acceleration(plan, load, state);
-        show(with, plan, (t, zero, zero), state);
-        keep(who, state, before, plan);
+        show(with, plan, (t, zero, zero), state, record);
+        keep(who, state, &before.0, plan);
+        record.take(!who, &before.1);
     }
 }
 
@@ -202,8 +207,9 @@ struct End<'a, R: Real, const M: usize, const L: usize, const N: usize> {
     loads: &'a Loads<R, M>,
     t: R,
     found: &'a Found<R, M, L>,
-    before: &'a State<R, M, L, N>,
+    before: &'a (State<R, M, L, N>, Record<R>),
     state: &'a mut State<R, M, L, N>,
+    record: &'a mut Record<R>,
 }
 
 impl<A: Arithmetic, const M: usize, const L: usize, const N: usize> Task<A>
@@ -213,12 +219,13 @@ impl<A: Arithmetic, const M: usize, const L: usize, const N: usize> Task<A>
 
     #[inline(always)]
     fn run(self, with: A) {
-        let Self { plan, rule, loads, t, found, before, state } = self;
+        let Self { plan, rule, loads, t, found, before, state, record } = self;
         let wrong = found.wrong;
         let mut passed = Passed::new(with.splat(0.0));
         take(plan, rule, (loads, t), found, state, &mut passed);
-        account(with, plan, rule, &passed, state);
-        keep(!wrong, state, before, plan);
+        account(with, plan, rule, &passed, state, record);
+        keep(!wrong, state, &before.0, plan);
+        record.take(wrong, &before.1);
         forget(wrong, state);
     }
 }

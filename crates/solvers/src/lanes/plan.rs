@@ -3,7 +3,7 @@
 use super::form::{Extent, Form, Laws};
 use super::outputs::Outputs;
 use super::setup::{LaneSetup, Output};
-use super::small::{Aligned, times};
+use super::small::{Aligned, taken, times};
 use super::tables::Table;
 use std::sync::Arc;
 use trilith_element::lanes::{Arithmetic, Real};
@@ -41,6 +41,8 @@ pub(super) struct Varying<R, const M: usize> {
 pub(super) struct Plan<R, const M: usize, const L: usize, const N: usize> {
     pub runs: Vec<Run>,
     pub parameters: Vec<R>,
+    /// How many modes and link coordinates there are: see [`modes`](Self::modes), [`coordinates`](Self::coordinates).
+    counts: [usize; 2],
     /// B by rows, and by columns.
     pub b: Aligned<[[R; M]; L]>,
     pub columns: Aligned<[[R; L]; M]>,
@@ -193,6 +195,7 @@ impl<R: Real, const M: usize, const L: usize, const N: usize> Plan<R, M, L, N> {
         Self {
             runs,
             parameters,
+            counts: [modes, N * one.forms.len()],
             b,
             columns,
             omega2: mode_wise(&|s, j| s.omega2[j]),
@@ -223,15 +226,27 @@ impl<R: Real, const M: usize, const L: usize, const N: usize> Plan<R, M, L, N> {
 }
 
 impl<R: Real, const M: usize, const L: usize, const N: usize> Plan<R, M, L, N> {
+    /// Modes that loops go over.
+    #[inline(always)]
+    pub fn modes(&self) -> usize {
+        taken::<M>(self.counts[0])
+    }
+
+    /// Link coordinates that loops go over: whole blocks of `N`.
+    #[inline(always)]
+    pub fn coordinates(&self) -> usize {
+        taken::<L>(self.counts[1])
+    }
+
     /// B q.
     #[inline(always)]
     pub fn deform(&self, q: &[R; M]) -> [R; L] {
-        times(&self.columns, q)
+        times((self.coordinates(), self.modes()), &self.columns, q)
     }
 
     /// Bᵀ f.
     #[inline(always)]
     pub fn push(&self, f: &[R; L]) -> [R; M] {
-        times(&self.b, f)
+        times((self.modes(), self.coordinates()), &self.b, f)
     }
 }

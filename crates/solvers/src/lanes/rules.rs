@@ -87,14 +87,14 @@ impl<R: Real, const M: usize, const L: usize> Rules<R, M, L> {
             return exact;
         }
         let longest = ratio.of(LONGEST);
-        let average = longest.lt(*ratio) & longest.lt(bound(exact, from));
+        let average = longest.lt(*ratio) & longest.lt(bound(plan, exact, from));
         if !ratio.any(average) {
             return exact;
         }
         let held = held(plan, exact.dt, average, from);
         let mut stands = mixed.is_some();
         if let Some((_, of)) = mixed {
-            for j in 0..M {
+            for j in 0..plan.modes() {
                 stands &= !ratio.any((held[j] & !of[j]) | (!held[j] & of[j]));
             }
         }
@@ -124,7 +124,7 @@ impl<A: Arithmetic, const M: usize, const L: usize, const N: usize> Task<A>
         let Rules { numbers, lengths, ratios, exact, ratio, is_stiff, mixed } = rules;
         for row in 0..3 {
             for input in 0..4 {
-                for j in 0..M {
+                for j in 0..plan.modes() {
                     exact.c[row][input][j] = with.load(&numbers[row][input][j]);
                 }
             }
@@ -169,18 +169,19 @@ pub(super) fn stiffness_ratio(rows: &[Vec<f64>], modes: &[Mode], engaged: &[f64]
 /// A bound of the largest eigenvalue of G k as the links are: the row sums of √k G √k.
 #[inline(always)]
 fn bound<R: Real, const M: usize, const L: usize, const N: usize>(
+    plan: &Plan<R, M, L, N>,
     rule: &Rule<R, M, L>,
     from: &State<R, M, L, N>,
 ) -> R {
     let zero = rule.dt.of(0.0);
     let mut root = [zero; L];
-    for a in 0..L {
+    for a in 0..plan.coordinates() {
         root[a] = from.k[a][a % N].max(zero).sqrt();
     }
     let mut most = zero;
-    for b in 0..L {
+    for b in 0..plan.coordinates() {
         let mut sum = zero;
-        for a in 0..L {
+        for a in 0..plan.coordinates() {
             sum = rule.g[b][a].abs().mul_add(root[a], sum);
         }
         most = most.max(sum * root[b]);
@@ -199,9 +200,9 @@ fn held<R: Real, const M: usize, const L: usize, const N: usize>(
 ) -> [R::Mask; M] {
     let (zero, per) = (dt.of(0.0), dt * dt * dt.of(1.0 / 6.0));
     let mut held = [who; M];
-    for j in 0..M {
+    for j in 0..plan.modes() {
         let mut k = zero;
-        for a in 0..L {
+        for a in 0..plan.coordinates() {
             k = (from.stiffest[a] * plan.b[a][j]).mul_add(plan.b[a][j], k);
         }
         held[j] = who & dt.of(FREE).lt(k * per);
@@ -221,7 +222,7 @@ impl<R: Real, const M: usize, const L: usize> Rule<R, M, L> {
         let h = exact.dt;
         let (zero, one) = (h.of(0.0), h.of(1.0));
         let (half, quarter) = (h.of(0.5) * h, h.of(0.25) * h * h);
-        for j in 0..M {
+        for j in 0..plan.modes() {
             let (w, rate) = (plan.omega2[j], plan.damping[j]);
             let per = one / quarter.mul_add(w, half.mul_add(rate, one));
             // A and its shares of q₀, q̇₀, s₀, s₁.

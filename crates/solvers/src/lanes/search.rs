@@ -38,12 +38,12 @@ impl<R: Real, const L: usize> Search<R, L> {
     }
 
     /// What more of their last corrections those in `who` make, or less, and who does so: the residual of this size is no
-    /// better than that before.
+    /// better than that before; `n`: coordinates.
     #[inline(always)]
     pub fn goes_on<const M: usize>(
         &mut self,
         rule: &Rule<R, M, L>,
-        iteration: usize,
+        (n, iteration): (usize, usize),
         (residual, size): (&[R; L], R),
         who: R::Mask,
     ) -> (R, R::Mask) {
@@ -59,16 +59,16 @@ impl<R: Real, const L: usize> Search<R, L> {
             return (zero, nobody);
         }
         if zero.any(open & begins) {
-            let moved = times(&rule.g, &self.step);
+            let moved = times((n, n), &rule.g, &self.step);
             let mut all = zero;
-            for a in 0..L {
+            for a in 0..n {
                 self.way[a] = R::select(begins, -moved[a], self.way[a]);
                 all = self.way[a].mul_add(self.residual[a], all);
             }
             self.along[0] = R::select(begins, all, self.along[0]);
         }
         let mut along = zero;
-        for a in 0..L {
+        for a in 0..n {
             along = self.way[a].mul_add(residual[a], along);
         }
         let one = size.of(1.0);
@@ -93,11 +93,11 @@ impl<R: Real, const L: usize> Search<R, L> {
         &self.step
     }
 
-    /// Takes note of corrections that those in a mask are about to make, and of the residuals before.
+    /// Takes note of corrections that those in a mask are about to make, and of the residuals before; `n`: coordinates.
     #[inline(always)]
-    pub fn goes(&mut self, who: R::Mask, step: &[R; L], (residual, size): (&[R; L], R)) {
+    pub fn goes(&mut self, n: usize, who: R::Mask, step: &[R; L], (residual, size): (&[R; L], R)) {
         let (zero, one) = (size.of(0.0), size.of(1.0));
-        for a in 0..L {
+        for a in 0..n {
             self.step[a] = R::select(who, step[a], self.step[a]);
             self.residual[a] = R::select(who, residual[a], self.residual[a]);
         }

@@ -179,8 +179,10 @@ const FASTEST: f64 = std::f64::consts::FRAC_PI_2;
 /// An output step is cut in so many halves at most where steps are adaptive and longer ones are too long for modes.
 const HALVINGS: usize = 4;
 
-/// Modes, link coordinates and coordinates of one link at most.
-pub(super) const MOST: (usize, usize, usize) = (12, 12, 3);
+/// Modes, and link coordinates, at most.
+pub(super) const ROOM: usize = 24;
+/// Coordinates of one link at most, where there are others.
+const WIDEST: usize = 3;
 /// Modes and coordinates of a body in space, which is the only link then.
 const BODY: usize = 6;
 
@@ -244,8 +246,8 @@ pub fn prepare(
         Err(reason) => return Ok(Err(reason)),
     };
     let widest = forms.iter().map(|f| f.extent.coordinates).max().unwrap_or(1);
-    let is_body = widest > MOST.2 && widest <= BODY && m <= BODY && forms.len() == 1;
-    if !is_body && (m > MOST.0 || forms.len() * widest > MOST.1 || widest > MOST.2) {
+    let is_body = widest > WIDEST && widest <= BODY && m <= BODY && forms.len() == 1;
+    if !is_body && (m > ROOM || forms.len() * widest > ROOM || widest > WIDEST) {
         return Ok(Err("too many modes or link coordinates".into()));
     }
     let is_fixed = matches!(control, StepControl::Fixed { .. });

@@ -3,6 +3,7 @@
 use super::outputs::{Extremes, Place, Row};
 use super::peaks::TOGETHER;
 use super::plan::Plan;
+use super::record::Record;
 use super::small::dot;
 use super::state::State;
 use trilith_element::lanes::{Arithmetic, Real};
@@ -13,33 +14,39 @@ pub(super) fn show<A: Arithmetic, const M: usize, const L: usize, const N: usize
     with: A,
     plan: &Plan<A::Real, M, L, N>,
     step: (A::Real, A::Real, A::Real),
-    state: &mut State<A::Real, M, L, N>,
+    state: &State<A::Real, M, L, N>,
+    record: &mut Record<A::Real>,
 ) {
     let zero = with.splat(0.0);
-    for (rows, peaks) in plan.outputs.together.iter().zip(&mut state.peaks.together) {
-        let (y, rate) = (displacements(rows, &state.q), displacements(rows, &state.p));
+    let m = plan.modes();
+    for (rows, peaks) in plan.outputs.together.iter().zip(&mut record.peaks.together) {
+        let (y, rate) = (displacements(m, rows, &state.q), displacements(m, rows, &state.p));
         peaks.advance(with, step, y, Some(rate));
     }
-    let Extremes { alone, together, .. } = &mut state.peaks;
+    let Extremes { alone, together, .. } = &mut record.peaks;
     for (i, row) in plan.outputs.alone.iter().enumerate() {
         let (before, own) = alone.split_at_mut(i);
         let (y, rate) = match row {
             Row::Displacement { own } => {
-                (dot(zero, own, &*state.q), Some([dot(zero, own, &*state.p)]))
+                (dot(zero, &own[..m], &*state.q), Some([dot(zero, &own[..m], &*state.p)]))
             }
-            Row::Velocity { own } => (dot(zero, own, &*state.p), Some([dot(zero, own, &*state.a)])),
+            Row::Velocity { own } => {
+                (dot(zero, &own[..m], &*state.p), Some([dot(zero, &own[..m], &*state.a)]))
+            }
             Row::Acceleration { own, base } => {
-                (dot(zero, own, &*state.a) + dot(zero, base, &state.amplitudes), None)
+                (dot(zero, &own[..m], &*state.a) + dot(zero, base, &state.amplitudes), None)
             }
             Row::Internal { stiffness, damping, links } => {
-                let mut y = dot(zero, stiffness, &*state.q) + dot(zero, damping, &*state.p);
+                let mut y =
+                    dot(zero, &stiffness[..m], &*state.q) + dot(zero, &damping[..m], &*state.p);
                 for (at, share) in links {
                     y = y + *share * state.f[*at];
                 }
                 (y, None)
             }
             Row::Deformation { at, factor } => {
-                let v = if plan.rate { state.v[*at] } else { dot(zero, &plan.b[*at], &*state.p) };
+                let v =
+                    if plan.rate { state.v[*at] } else { dot(zero, &plan.b[*at][..m], &*state.p) };
                 (*factor * state.d[*at], Some([*factor * v]))
             }
             Row::Force { first: (at, factor), more } => {
@@ -58,17 +65,18 @@ pub(super) fn show<A: Arithmetic, const M: usize, const L: usize, const N: usize
         };
         own[0].advance(with, step, [y], rate);
     }
-    state.peaks.integrate(step.1);
+    record.peaks.integrate(step.1);
 }
 
 /// What several outputs take from all modes.
 #[inline(always)]
 fn displacements<R: Real, const M: usize>(
+    n: usize,
     rows: &[[R; TOGETHER]; M],
     modes: &[R; M],
 ) -> [R; TOGETHER] {
     let mut sum = [modes[0].of(0.0); TOGETHER];
-    for j in 0..M {
+    for j in 0..n {
         for i in 0..TOGETHER {
             sum[i] = rows[j][i].mul_add(modes[j], sum[i]);
         }

@@ -1,13 +1,29 @@
 //! Small matrices, one in each lane.
+//!
+//! A matrix has room for so many rows and columns, which a march is compiled for. Where the room is small all of it is
+//! taken, and loops over it are written out; where it is larger, loops go over what there is of it.
 
 use std::ops::{Deref, DerefMut};
 use trilith_element::lanes::Real;
 
-/// Sums of rows times coefficients, place by place.
+/// Room up to which all of it is taken.
+pub(super) const SMALL: usize = 6;
+
+/// How many places of some room are taken, where so many are needed.
 #[inline(always)]
-pub(super) fn combine<R: Real, const M: usize>(c: &[[R; M]; 4], x: [&[R; M]; 4]) -> [R; M] {
-    let mut sum = *x[0];
-    for j in 0..M {
+pub(super) fn taken<const ROOM: usize>(needed: usize) -> usize {
+    if const { ROOM <= SMALL } { ROOM } else { needed.min(ROOM) }
+}
+
+/// Sums of rows times coefficients, for `n` places.
+#[inline(always)]
+pub(super) fn combine<R: Real, const M: usize>(
+    n: usize,
+    c: &[[R; M]; 4],
+    x: [&[R; M]; 4],
+) -> [R; M] {
+    let mut sum = [c[0][0].of(0.0); M];
+    for j in 0..n {
         let first = c[1][j].mul_add(x[1][j], c[0][j] * x[0][j]);
         let second = c[3][j].mul_add(x[3][j], c[2][j] * x[2][j]);
         sum[j] = first + second;
@@ -15,73 +31,103 @@ pub(super) fn combine<R: Real, const M: usize>(c: &[[R; M]; 4], x: [&[R; M]; 4])
     sum
 }
 
-/// A matrix, column by column, times a vector: in two sums, as each waits for its last term.
+/// Rows that are summed at once where there may be many.
+const ROWS: usize = 4;
+
+/// A matrix of so many rows and columns, column by column, times a vector: in two sums, as each waits for its last term.
 #[inline(always)]
 pub(super) fn times<R: Real, const A: usize, const B: usize>(
+    (rows, count): (usize, usize),
     columns: &[[R; A]; B],
     x: &[R; B],
 ) -> [R; A] {
-    let mut sums = [[x[0].of(0.0); A]; 2];
-    for b in 0..B {
-        for a in 0..A {
-            let term = (columns[b][a], x[b]);
-            let sum = &mut sums[b % 2][a];
+    if const { A <= SMALL } {
+        return sums(0, count, columns, x);
+    }
+    let mut all = [x[0].of(0.0); A];
+    for block in 0..rows.div_ceil(ROWS) {
+        let first = block * ROWS;
+        let some: [R; ROWS] = sums(first, count, columns, x);
+        for k in 0..ROWS {
+            if first + k < A {
+                all[first + k] = some[k];
+            }
+        }
+    }
+    all
+}
+
+/// The rows from one on, `K` of them.
+#[inline(always)]
+fn sums<R: Real, const A: usize, const B: usize, const K: usize>(
+    first: usize,
+    count: usize,
+    columns: &[[R; A]; B],
+    x: &[R; B],
+) -> [R; K] {
+    // Always so: what a compiler knows it need not look at in each place.
+    let first = first.min(A.saturating_sub(K));
+    let mut sums = [[x[0].of(0.0); K]; 2];
+    for b in 0..count {
+        for k in 0..K {
+            let term = (columns[b][first + k], x[b]);
+            let sum = &mut sums[b % 2][k];
             *sum = if b < 2 { term.0 * term.1 } else { term.0.mul_add(term.1, *sum) };
         }
     }
     let [mut sum, second] = sums;
-    for a in 0..A {
-        sum[a] = sum[a] + second[a];
+    for k in 0..K {
+        sum[k] = sum[k] + second[k];
     }
     sum
 }
 
-/// x − y.
+/// x − y, for `n` places.
 #[inline(always)]
-pub(super) fn less<R: Real, const M: usize>(x: &[R; M], y: &[R; M]) -> [R; M] {
-    let mut z = *x;
-    for j in 0..M {
-        z[j] = z[j] - y[j];
+pub(super) fn less<R: Real, const M: usize>(n: usize, x: &[R; M], y: &[R; M]) -> [R; M] {
+    let mut z = [x[0].of(0.0); M];
+    for j in 0..n {
+        z[j] = x[j] - y[j];
     }
     z
 }
 
-/// x + y.
+/// x + y, for `n` places.
 #[inline(always)]
-pub(super) fn more<R: Real, const M: usize>(x: &[R; M], y: &[R; M]) -> [R; M] {
-    let mut z = *x;
-    for j in 0..M {
-        z[j] = z[j] + y[j];
+pub(super) fn more<R: Real, const M: usize>(n: usize, x: &[R; M], y: &[R; M]) -> [R; M] {
+    let mut z = [x[0].of(0.0); M];
+    for j in 0..n {
+        z[j] = x[j] + y[j];
     }
     z
 }
 
-/// Solves with the factors.
+/// Solves `n` equations with the factors.
 #[inline(always)]
-pub(super) fn solve<R: Real, const L: usize>(lu: &[[R; L]; L], x: &mut [R; L]) {
-    for i in 1..L {
+pub(super) fn solve<R: Real, const L: usize>(n: usize, lu: &[[R; L]; L], x: &mut [R; L]) {
+    for i in 1..n {
         for j in 0..i {
             x[i] = (-lu[i][j]).mul_add(x[j], x[i]);
         }
     }
-    for i in (0..L).rev() {
-        for j in i + 1..L {
+    for i in (0..n).rev() {
+        for j in i + 1..n {
             x[i] = (-lu[i][j]).mul_add(x[j], x[i]);
         }
         x[i] = x[i] * lu[i][i];
     }
 }
 
-/// Factors in place, without pivots: J is I plus something that is positive for passive links.
+/// Factors `n` equations in place, without pivots: J is I plus something that is positive for passive links.
 #[inline(always)]
-pub(super) fn factor<R: Real, const L: usize>(a: &mut [[R; L]; L]) {
-    for i in 0..L {
+pub(super) fn factor<R: Real, const L: usize>(n: usize, a: &mut [[R; L]; L]) {
+    for i in 0..n {
         let inverse = a[i][i].of(1.0) / a[i][i];
         a[i][i] = inverse;
-        for r in i + 1..L {
+        for r in i + 1..n {
             let share = a[r][i] * inverse;
             a[r][i] = share;
-            for j in i + 1..L {
+            for j in i + 1..n {
                 a[r][j] = (-share).mul_add(a[i][j], a[r][j]);
             }
         }

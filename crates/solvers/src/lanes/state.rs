@@ -1,14 +1,11 @@
-//! Everything that changes in a march.
+//! Where a march is: the motion and the links. What is counted and seen on the way is in its [`record`](super::record).
 
-use super::contact::Feet;
-use super::outputs::Extremes;
 use super::plan::{Plan, coordinate_wise, mode_wise, pick};
 use super::setup::LaneSetup;
 use super::small::Aligned;
-use trilith_element::Contact;
-use trilith_element::lanes::{Arithmetic, LaneContact, LaneStep, Real, Task};
+use trilith_element::lanes::{Arithmetic, LaneStep, Real, Task};
 
-/// Everything that changes.
+/// Where a march is.
 #[derive(Clone)]
 pub(super) struct State<R: Real, const M: usize, const L: usize, const N: usize> {
     pub q: Aligned<[R; M]>,
@@ -38,26 +35,8 @@ pub(super) struct State<R: Real, const M: usize, const L: usize, const N: usize>
     pub alive: R::Mask,
     pub lost: R,
     pub steps: Vec<LaneStep<R>>,
-    /// What the contacts do, and which links have overturned (1, else 0), after the step that was accounted for last.
-    pub contacts: Vec<LaneContact<R>>,
-    pub fallen: Vec<R>,
-    /// Heat of each link: hysteretic, viscous.
-    pub heat: Vec<[R; 2]>,
-    pub external: R,
-    pub damping: R,
-    pub kinetic: R,
-    pub strain: R,
-    pub potential: R,
-    pub stored: R,
-    pub largest: R,
-    pub kinetic0: R,
-    pub strain0: R,
-    pub stored0: R,
-    pub potential0: R,
+    /// Looks at the laws.
     pub iterations: R,
-    pub count: R,
-    pub peaks: Extremes<R>,
-    pub feet: Feet<R>,
 }
 
 impl<R: Real, const M: usize, const L: usize, const N: usize> State<R, M, L, N> {
@@ -82,8 +61,6 @@ impl<R: Real, const M: usize, const L: usize, const N: usize> State<R, M, L, N> 
         let history: Vec<R> = (0..one.history.len()).map(|i| get(&|s| s.history[i])).collect();
         let links = one.forms.len();
         let stored: Vec<R> = (0..links).map(|l| get(&|s| s.stored[l])).collect();
-        let feet: Vec<&[Contact]> = setups.iter().map(|s| &s.contacts[..]).collect();
-        let kinetic = get(&|s| s.kinetic);
         Self {
             q: mode_wise(&|s, j| s.q[j]),
             p: mode_wise(&|s, j| s.p[j]),
@@ -104,29 +81,7 @@ impl<R: Real, const M: usize, const L: usize, const N: usize> State<R, M, L, N> 
             alive: zero.le(with.splat(1.0)),
             lost: zero,
             steps: stored.iter().map(|s| LaneStep::elastic(*s)).collect(),
-            contacts: vec![LaneContact::smooth(zero, zero); plan.contacts],
-            fallen: vec![zero; links],
-            heat: vec![[zero; 2]; links],
-            external: zero,
-            damping: zero,
-            kinetic,
-            strain: get(&|s| s.strain),
-            potential: get(&|s| s.potential),
-            stored: get(&|s| s.stored.iter().sum()),
-            largest: kinetic,
-            kinetic0: kinetic,
-            strain0: get(&|s| s.strain),
-            stored0: get(&|s| s.stored.iter().sum()),
-            potential0: get(&|s| s.potential),
             iterations: zero,
-            count: zero,
-            peaks: plan.outputs.extremes(with, setups),
-            feet: Feet::new(
-                with,
-                &feet,
-                setups.iter().map(|s| s.stands).collect(),
-                one.forms.iter().all(|f| f.extent.coordinates < 3),
-            ),
         }
     }
 }
@@ -136,27 +91,36 @@ impl<R: Real, const M: usize, const L: usize, const N: usize> State<R, M, L, N> 
     /// the links among it, is left.
     #[inline(always)]
     pub fn start_from(&mut self, from: &Self, plan: &Plan<R, M, L, N>) {
-        self.q = from.q;
-        self.p = from.p;
-        self.push = from.push;
-        self.d = from.d;
-        self.f = from.f;
-        self.scale = from.scale;
-        self.alive = from.alive;
-        self.stiffest = from.stiffest;
-        if plan.rate {
-            self.v = from.v;
+        for j in 0..plan.modes() {
+            self.q[j] = from.q[j];
+            self.p[j] = from.p[j];
+            self.push[j] = from.push[j];
         }
+        for a in 0..plan.coordinates() {
+            self.d[a] = from.d[a];
+            self.f[a] = from.f[a];
+            self.stiffest[a] = from.stiffest[a];
+        }
+        if plan.rate {
+            for a in 0..plan.coordinates() {
+                self.v[a] = from.v[a];
+            }
+        }
+        (self.scale, self.alive) = (from.scale, from.alive);
         copy(&from.history, &mut self.history);
     }
 
-    /// The motion and the links of another state; what is counted and what was seen is left.
+    /// The motion and the links of another state; how often the laws were asked is left.
     #[inline(always)]
     pub fn follow(&mut self, from: &Self, plan: &Plan<R, M, L, N>) {
         self.start_from(from, plan);
-        self.k = from.k;
+        for a in 0..plan.coordinates() {
+            self.k[a] = from.k[a];
+        }
         if plan.rate {
-            self.c = from.c;
+            for a in 0..plan.coordinates() {
+                self.c[a] = from.c[a];
+            }
         }
         if plan.accelerations {
             self.a = from.a;
@@ -179,17 +143,10 @@ impl<R: Real, const M: usize, const L: usize, const N: usize> State<R, M, L, N> 
 
     /// Takes note of the stiffness at the end of a step.
     #[inline(always)]
-    pub fn stiffen(&mut self) {
-        for a in 0..L {
+    pub fn stiffen(&mut self, plan: &Plan<R, M, L, N>) {
+        for a in 0..plan.coordinates() {
             self.stiffest[a] = self.stiffest[a].max(self.k[a][a % N]);
         }
-    }
-
-    /// The energy in motion: kinetic, and what springs and links hold more or less than at the start.
-    #[inline(always)]
-    pub fn in_motion(&self) -> R {
-        let (strained, charged) = (self.strain - self.strain0, self.stored - self.stored0);
-        self.kinetic + strained.abs() + charged.abs()
     }
 }
 
@@ -217,16 +174,17 @@ fn take_motion<R: Real, const M: usize, const L: usize, const N: usize>(
     to: &mut State<R, M, L, N>,
     plan: &Plan<R, M, L, N>,
 ) {
-    take_all(mask, &*from.q, &mut *to.q);
-    take_all(mask, &*from.p, &mut *to.p);
-    take_all(mask, &*from.d, &mut *to.d);
-    take_all(mask, &*from.f, &mut *to.f);
-    take_all(mask, &*from.push, &mut *to.push);
-    take_all(mask, &*from.stiffest, &mut *to.stiffest);
-    take_all(mask, from.k.as_flattened(), to.k.as_flattened_mut());
+    let (m, l) = (plan.modes(), plan.coordinates());
+    take_all(mask, &from.q[..m], &mut to.q[..m]);
+    take_all(mask, &from.p[..m], &mut to.p[..m]);
+    take_all(mask, &from.push[..m], &mut to.push[..m]);
+    take_all(mask, &from.d[..l], &mut to.d[..l]);
+    take_all(mask, &from.f[..l], &mut to.f[..l]);
+    take_all(mask, &from.stiffest[..l], &mut to.stiffest[..l]);
+    take_all(mask, from.k[..l].as_flattened(), to.k[..l].as_flattened_mut());
     if plan.rate {
-        take_all(mask, &*from.v, &mut *to.v);
-        take_all(mask, from.c.as_flattened(), to.c.as_flattened_mut());
+        take_all(mask, &from.v[..l], &mut to.v[..l]);
+        take_all(mask, from.c[..l].as_flattened(), to.c[..l].as_flattened_mut());
     }
     if plan.accelerations {
         take_all(mask, &*from.a, &mut *to.a);
@@ -234,30 +192,6 @@ fn take_motion<R: Real, const M: usize, const L: usize, const N: usize>(
     }
     take_all(mask, &from.history, &mut to.history);
     take_all(mask, &from.scale, &mut to.scale);
-}
-
-/// What is counted and what was seen.
-#[inline(always)]
-fn take_counts<R: Real, const M: usize, const L: usize, const N: usize>(
-    mask: R::Mask,
-    from: &State<R, M, L, N>,
-    to: &mut State<R, M, L, N>,
-) {
-    take_all(mask, from.heat.as_flattened(), to.heat.as_flattened_mut());
-    for (to, from) in [
-        (&mut to.external, &from.external),
-        (&mut to.damping, &from.damping),
-        (&mut to.kinetic, &from.kinetic),
-        (&mut to.strain, &from.strain),
-        (&mut to.potential, &from.potential),
-        (&mut to.stored, &from.stored),
-        (&mut to.largest, &from.largest),
-        (&mut to.count, &from.count),
-    ] {
-        *to = R::select(mask, *from, *to);
-    }
-    to.peaks.keep(!mask, &from.peaks);
-    to.feet.keep(!mask, &from.feet);
 }
 
 /// Takes the other state where a mask says no. Who is alive and how often the laws were asked is left.
@@ -273,7 +207,6 @@ pub(super) fn keep<R: Real, const M: usize, const L: usize, const N: usize>(
     for (to, from) in to.steps.iter_mut().zip(&from.steps) {
         to.stored = R::select(mask, to.stored, from.stored);
     }
-    take_counts(!mask, from, to);
 }
 
 /// What [`keep`] does, as a task.
@@ -292,24 +225,6 @@ impl<A: Arithmetic, const M: usize, const L: usize, const N: usize> Task<A>
     #[inline(always)]
     fn run(self, _: A) {
         keep(self.mask, self.to, self.from, self.plan);
-    }
-}
-
-/// Takes what another state has counted and seen where a mask says yes, as a task.
-pub(super) struct TakeCounts<'a, R: Real, const M: usize, const L: usize, const N: usize> {
-    pub mask: R::Mask,
-    pub from: &'a State<R, M, L, N>,
-    pub to: &'a mut State<R, M, L, N>,
-}
-
-impl<A: Arithmetic, const M: usize, const L: usize, const N: usize> Task<A>
-    for TakeCounts<'_, A::Real, M, L, N>
-{
-    type Output = ();
-
-    #[inline(always)]
-    fn run(self, _: A) {
-        take_counts(self.mask, self.from, self.to);
     }
 }
 

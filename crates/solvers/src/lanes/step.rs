@@ -7,6 +7,7 @@ use super::laws::contacts;
 use super::loads::Loads;
 use super::newton::Found;
 use super::plan::Plan;
+use super::record::Record;
 use super::show::show;
 use super::small::Aligned;
 use super::state::State;
@@ -51,7 +52,7 @@ pub(super) fn take<R: Real, const M: usize, const L: usize, const N: usize>(
     let push = plan.push(&found.f);
     // A load is linear in the step, and what it does is ∫ s q̇ dt = s₁ (q₁ − q̄) − s₀ (q₀ − q̄) with q̄ the mean of q.
     let of_modes = &mut passed.of_modes;
-    for j in 0..M {
+    for j in 0..plan.modes() {
         let change = state.push[j] - push[j];
         let integral = rule.c[0][3][j].mul_add(change, found.integral[j]);
         let q = rule.c[1][3][j].mul_add(change, found.q[j]);
@@ -84,25 +85,26 @@ pub(super) fn acceleration<R: Real, const M: usize, const L: usize, const N: usi
     load: &Aligned<[R; M]>,
     state: &mut State<R, M, L, N>,
 ) {
-    for j in 0..M {
+    for j in 0..plan.modes() {
         let source = load[j] - state.push[j];
         let held = (-plan.damping[j]).mul_add(state.p[j], source);
         state.a[j] = (-plan.omega2[j]).mul_add(state.q[j], held);
     }
 }
 
-/// Energies, outputs and contacts after a step that was taken.
+/// Energies, outputs and contacts after a step that was taken and led to a state.
 #[inline(always)]
 pub(super) fn account<A: Arithmetic, const M: usize, const L: usize, const N: usize>(
     with: A,
     plan: &Plan<A::Real, M, L, N>,
     rule: &Rule<A::Real, M, L>,
     passed: &Passed<A::Real, M>,
-    state: &mut State<A::Real, M, L, N>,
+    state: &State<A::Real, M, L, N>,
+    record: &mut Record<A::Real>,
 ) {
     let zero = with.splat(0.0);
     let mut sums = [zero; 4];
-    for j in 0..M {
+    for j in 0..plan.modes() {
         for i in 0..4 {
             sums[i] = sums[i] + passed.of_modes[i][j];
         }
@@ -113,44 +115,44 @@ pub(super) fn account<A: Arithmetic, const M: usize, const L: usize, const N: us
     let kinetic = half * kinetic;
     let mut strain = zero;
     if plan.elastic {
-        for j in 0..M {
+        for j in 0..plan.modes() {
             strain = (plan.omega2[j] * state.q[j]).mul_add(state.q[j], strain);
         }
         strain = half * strain;
     }
     if plan.damps {
-        let gained = (kinetic - state.kinetic) + (strain - state.strain);
+        let gained = (kinetic - record.kinetic) + (strain - record.strain);
         let damping = external - taken - gained;
-        state.damping = state.damping + damping.only(zero.lt(plan.damped));
+        record.damping = record.damping + damping.only(zero.lt(plan.damped));
     }
-    (state.kinetic, state.strain, state.potential) = (kinetic, strain, potential);
-    state.external = state.external + external;
+    (record.kinetic, record.strain, record.potential) = (kinetic, strain, potential);
+    record.external = record.external + external;
 
     // What the links did.
     let mut stored = zero;
-    for (step, [hysteretic, viscous]) in state.steps.iter().zip(&mut state.heat) {
+    for (step, [hysteretic, viscous]) in state.steps.iter().zip(&mut record.heat) {
         stored = stored + step.stored;
         *hysteretic = *hysteretic + step.hysteretic;
         if plan.rate {
             *viscous = *viscous + step.viscous;
         }
     }
-    state.stored = stored;
-    let fallen = potential - state.potential0;
-    let input = state.kinetic0 + state.external + fallen;
-    let mut largest = state.largest.max(kinetic).max(input.abs());
-    for size in [fallen, stored - state.stored0] {
+    record.stored = stored;
+    let fallen = potential - record.potential0;
+    let input = record.kinetic0 + record.external + fallen;
+    let mut largest = record.largest.max(kinetic).max(input.abs());
+    for size in [fallen, stored - record.stored0] {
         largest = largest.max(size.abs());
     }
     if plan.elastic {
-        largest = largest.max((strain - state.strain0).abs());
+        largest = largest.max((strain - record.strain0).abs());
     }
-    state.largest = largest;
-    state.count = state.count + with.splat(1.0);
-    show(with, plan, (passed.t, rule.dt, rule.third), state);
+    record.largest = largest;
+    record.count = record.count + with.splat(1.0);
+    show(with, plan, (passed.t, rule.dt, rule.third), state, record);
     if plan.falls || plan.contacts > 0 {
-        contacts(with, plan, state);
-        state.feet.enter(&state.contacts, &plan.feet);
-        state.feet.press(&state.contacts, &plan.others);
+        contacts(with, plan, state, record);
+        record.feet.enter(&record.contacts, &plan.feet);
+        record.feet.press(&record.contacts, &plan.others);
     }
 }

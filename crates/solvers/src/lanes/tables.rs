@@ -1,6 +1,7 @@
 //! Amplitudes of loads at the steps of a case: made once for all analyses whose loads differ by a factor.
 
 use super::grid::{Grid, Piece};
+use super::way::FULL;
 use std::collections::VecDeque;
 use std::sync::{Arc, Mutex, PoisonError, Weak};
 use trilith_model::{Custom, Harmonic, Side, TimeFunction};
@@ -16,16 +17,24 @@ const MOST: usize = 1 << 16;
 pub(super) struct Table {
     /// At the start and at the end of every step.
     pub ends: Vec<[f64; 2]>,
-    /// Between its [`PARTS`] parts, where steps are adaptive.
-    inner: Vec<[f64; PARTS as usize - 1]>,
+    /// The same with those between its [`PARTS`] parts, where steps are adaptive: all that a step asks for lies together.
+    parts: Vec<[f64; PARTS as usize + 1]>,
 }
 
 impl Table {
-    /// Within a step, at a share `at` of `of` (a power of two); none where it is not known.
-    pub fn inside(&self, step: usize, at: u32, of: u32) -> Option<f64> {
-        let part = of / PARTS;
-        let inner = self.inner.get(step).filter(|_| at.is_multiple_of(part))?;
-        inner.get((at / part) as usize - 1).copied()
+    /// At a tick of a step, [`FULL`] of which make it up; none where it is not known.
+    #[inline]
+    pub fn at(&self, step: usize, tick: u32) -> Option<f64> {
+        const PART: u32 = FULL / PARTS;
+        match self.parts.get(step) {
+            Some(parts) if tick.is_multiple_of(PART) => parts.get((tick / PART) as usize).copied(),
+            Some(_) => None,
+            None => match (self.ends.get(step)?, tick) {
+                ([start, _], 0) => Some(*start),
+                ([_, end], FULL) => Some(*end),
+                _ => None,
+            },
+        }
     }
 }
 
@@ -109,18 +118,23 @@ fn same(a: &Track, b: &Track) -> bool {
 }
 
 fn fill(track: &Track, grid: Grid, inside: bool) -> Table {
-    let (mut ends, mut inner) = (Vec::with_capacity(grid.steps * grid.substeps), Vec::new());
+    let (mut ends, mut parts) = (Vec::with_capacity(grid.steps * grid.substeps), Vec::new());
     for step in 0..grid.steps {
         for i in 0..grid.substeps {
             let Piece { start, end, length, .. } = grid.usual(step, i);
-            ends.push([track.at(start, Side::After), track.at(end, Side::Before)]);
-            let at = |part: usize| start + length * ((part + 1) as f64 / f64::from(PARTS));
+            let [first, last] = [track.at(start, Side::After), track.at(end, Side::Before)];
+            ends.push([first, last]);
+            let at = |part: usize| start + length * (part as f64 / f64::from(PARTS));
             if inside {
-                inner.push(std::array::from_fn(|part| track.at(at(part), Side::Before)));
+                parts.push(std::array::from_fn(|part| match part as u32 {
+                    0 => first,
+                    PARTS => last,
+                    _ => track.at(at(part), Side::Before),
+                }));
             }
         }
     }
-    Table { ends, inner }
+    Table { ends, parts }
 }
 
 impl Tables {

@@ -6,8 +6,9 @@ use super::loads::{Loads, Points};
 use super::newton::{Found, foresee, foresee_by_tangents, settle};
 use super::pieces::Behind;
 use super::plan::Plan;
+use super::record::{Record, TakeRecord};
 use super::rules::Rules;
-use super::state::{Keep, State, TakeCounts};
+use super::state::State;
 use super::step::{Passed, account, take};
 use super::turning::{Asked, Turned, turned};
 use trilith_element::lanes::{Arithmetic, Real, Task};
@@ -16,8 +17,8 @@ use trilith_element::lanes::{Arithmetic, Real, Task};
 pub(super) struct Trial<R: Real, const M: usize, const L: usize, const N: usize> {
     whole: State<R, M, L, N>,
     halves: [State<R, M, L, N>; 2],
-    /// What was before halves were accepted by some.
-    before: State<R, M, L, N>,
+    /// What was counted before halves were accepted by some.
+    before: Record<R>,
     found: Found<R, M, L>,
     passed: [Passed<R, M>; 3],
     asked: Asked<R>,
@@ -30,13 +31,13 @@ impl<R: Real, const M: usize, const L: usize, const N: usize> Trial<R, M, L, N> 
     pub fn new<A: Arithmetic<Real = R>>(
         with: A,
         plan: &Plan<R, M, L, N>,
-        at: &State<R, M, L, N>,
+        (at, record): (&State<R, M, L, N>, &Record<R>),
     ) -> Self {
         let zero = with.splat(0.0);
         Self {
             whole: at.clone(),
             halves: [at.clone(), at.clone()],
-            before: at.clone(),
+            before: record.clone(),
             found: Found::new(zero),
             passed: [0; 3].map(|_| Passed::new(zero)),
             asked: Asked::new(plan, zero),
@@ -118,39 +119,39 @@ impl<R: Real, const M: usize, const L: usize, const N: usize> Trial<R, M, L, N> 
         plan: &Plan<R, M, L, N>,
         half: &Rules<R, M, L>,
         (ok, all): (R::Mask, bool),
-        at: &mut State<R, M, L, N>,
+        (at, record): (&mut State<R, M, L, N>, &mut Record<R>),
         norms: &mut Norms<R>,
     ) {
         let Self { halves, before, passed: [_, first, second], .. } = self;
         let zero = with.splat(0.0);
         if !all {
-            with.run(TakeCounts { mask: zero.le(zero), from: at, to: before });
+            with.run(TakeRecord { mask: zero.le(zero), from: record, to: before });
+        }
+        // Of the others it is rubbish, and forgotten.
+        for (made, passed) in halves.iter().zip([first, second]) {
+            with.run(Enter { plan, rule: half.exact(), made, passed, record });
+            norms.see(ok, record.in_motion());
+        }
+        if !all {
+            with.run(TakeRecord { mask: !ok, from: before, to: record });
         }
         let some = (!all).then_some(ok);
-        for (made, passed) in halves.iter().zip([first, second]) {
-            with.run(Enter { plan, rule: half.exact(), some, made, passed, at });
-            norms.see(ok, at.in_motion());
-        }
+        with.run(Follow { plan, some, made: &halves[1], at });
         norms.reach(plan, ok, at);
-        if !all {
-            with.run(TakeCounts { mask: !ok, from: before, to: at });
-        }
     }
 
     /// Looks at what outputs are where loads have jumped, of the analyses in a mask, at their times.
     pub fn look_behind<A: Arithmetic<Real = R>>(
-        &mut self,
         with: A,
         plan: &Plan<R, M, L, N>,
         loads: &Points<R, M>,
         (jumps, t): (R::Mask, R),
-        at: &mut State<R, M, L, N>,
+        (at, record): (&mut State<R, M, L, N>, &mut Record<R>),
     ) {
-        let (zero, before) = (with.splat(0.0), &mut self.before);
-        with.run(Keep { plan, mask: zero.lt(zero), to: before, from: at });
+        let before = &(at.clone(), record.clone());
         at.amplitudes.copy_from_slice(&loads.start);
         let load = &loads.whole.start;
-        with.run(Behind { plan, load, t, who: jumps, before, state: at });
+        with.run(Behind { plan, load, t, who: jumps, before, state: at, record });
     }
 
     /// Evaluations of the link laws.
@@ -205,7 +206,7 @@ impl<A: Arithmetic, const M: usize, const L: usize, const N: usize> Task<A>
         }
         settle(with, plan, rule, (who, kept), to, found);
         take(plan, rule, (loads, t), found, to, passed);
-        to.stiffen();
+        to.stiffen(plan);
         let turned = match asked {
             Some(asked) => turned(with, plan, rule, asked, who, (from, to)),
             None => Turned::nothing(with.splat(0.0)),
@@ -214,14 +215,13 @@ impl<A: Arithmetic, const M: usize, const L: usize, const N: usize> Task<A>
     }
 }
 
-/// A step that is kept, as a task: by some analyses, or by all.
+/// A step that led to a state enters the record, as a task.
 pub(super) struct Enter<'a, R: Real, const M: usize, const L: usize, const N: usize> {
     pub plan: &'a Plan<R, M, L, N>,
     pub rule: &'a Rule<R, M, L>,
-    pub some: Option<R::Mask>,
     pub made: &'a State<R, M, L, N>,
     pub passed: &'a Passed<R, M>,
-    pub at: &'a mut State<R, M, L, N>,
+    pub record: &'a mut Record<R>,
 }
 
 impl<A: Arithmetic, const M: usize, const L: usize, const N: usize> Task<A>
@@ -231,11 +231,30 @@ impl<A: Arithmetic, const M: usize, const L: usize, const N: usize> Task<A>
 
     #[inline(always)]
     fn run(self, with: A) {
-        let Self { plan, rule, some, made, passed, at } = self;
+        let Self { plan, rule, made, passed, record } = self;
+        account(with, plan, rule, passed, made, record);
+    }
+}
+
+/// A state that was made is where the analyses are, as a task: some of them, or all.
+pub(super) struct Follow<'a, R: Real, const M: usize, const L: usize, const N: usize> {
+    pub plan: &'a Plan<R, M, L, N>,
+    pub some: Option<R::Mask>,
+    pub made: &'a State<R, M, L, N>,
+    pub at: &'a mut State<R, M, L, N>,
+}
+
+impl<A: Arithmetic, const M: usize, const L: usize, const N: usize> Task<A>
+    for Follow<'_, A::Real, M, L, N>
+{
+    type Output = ();
+
+    #[inline(always)]
+    fn run(self, _: A) {
+        let Self { plan, some, made, at } = self;
         match some {
             Some(ok) => at.follow_where(ok, made, plan),
             None => at.follow(made, plan),
         }
-        account(with, plan, rule, passed, at);
     }
 }

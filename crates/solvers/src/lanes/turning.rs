@@ -67,7 +67,7 @@ pub(super) fn turned<A: Arithmetic, const M: usize, const L: usize, const N: usi
     let mut starts = [zero; L];
     let mut any = zero.lt(zero);
     let mut turns = [any; L];
-    for a in 0..L {
+    for a in 0..plan.coordinates() {
         starts[a] = twice.mul_add(to.d[a] - from.d[a], -rates[a]);
         // Softness, which is the diagonal of H.
         let soft = rule.h[a][a].lt(zero);

@@ -5,7 +5,8 @@ use super::setup::LaneSetup;
 use crate::march::DEPTH;
 use trilith_model::Side;
 
-const FULL: u32 = 1 << DEPTH;
+/// Ticks of a piece.
+pub(super) const FULL: u32 = 1 << DEPTH;
 
 /// A step to be tried.
 #[derive(Clone, Copy, Debug)]
@@ -114,36 +115,30 @@ impl<'a> Way<'a> {
             FULL => piece.end,
             at => piece.start + piece.length * (f64::from(at) / f64::from(FULL)),
         };
-        let [start, middle, end] = [self.at, self.at + ticks / 2, self.at + ticks].map(time);
-        let (is_first, is_last) = (self.at == 0, self.at + ticks == FULL);
-        let Self { setup, place, amplitudes, at: first, halved, .. } = self;
-        let (first, halved) = (*first, std::mem::take(halved));
+        let (first, middle, last) = (self.at, self.at + ticks / 2, self.at + ticks);
+        let halved = std::mem::take(&mut self.halved);
+        let Self { setup, place, amplitudes, .. } = self;
         let tables = setup.tables.iter().zip(&setup.tracks);
         for ((table, (track, size)), amplitude) in tables.zip(amplitudes) {
             let Some((table, _)) = table else { continue };
-            let known = place.map(|place| table.ends[place]);
-            let at = |t: f64, side: Side| track.at(t, side) * size;
-            let inside = |tick: u32, t: f64| {
-                let known = place.and_then(|place| table.inside(place, tick, FULL));
-                known.map_or_else(|| at(t, Side::Before), |x| x * size)
+            let at = |tick: u32, side: Side| {
+                let known = place.and_then(|place| table.at(place, tick));
+                known.unwrap_or_else(|| track.at(time(tick), side)) * size
             };
             if halved {
                 amplitude[2] = amplitude[1];
-                amplitude[1] = inside(first + ticks / 2, middle);
-                continue;
+            } else {
+                // Otherwise it is the end of the step before.
+                if first == 0 {
+                    amplitude[0] = at(0, Side::After);
+                }
+                amplitude[2] = at(last, Side::Before);
             }
-            if is_first {
-                amplitude[0] = known.map_or_else(|| at(start, Side::After), |[x, _]| x * size);
-            }
-            amplitude[1] = inside(first + ticks / 2, middle);
-            amplitude[2] = match known {
-                Some([_, x]) if is_last => x * size,
-                _ if is_last => at(end, Side::Before),
-                _ => inside(first + ticks, end),
-            };
+            amplitude[1] = at(middle, Side::Before);
         }
-        let jump = piece.jump && is_first && !self.seen;
+        let jump = piece.jump && first == 0 && !self.seen;
         self.seen = true;
+        let [start, middle] = [first, middle].map(time);
         let length = piece.length / f64::from(1_u32 << self.level);
         Some(Next { start, middle, length, jump })
     }
