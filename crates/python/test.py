@@ -1,8 +1,9 @@
 """Builds the wheel, installs it into a fresh environment, and tests it there; arguments go to pytest.
 
 The folder `target/python` (or the one that CARGO_TARGET_DIR names, with `python` behind it) holds the environment and the
-wheel. Options of cargo such as `--config FILE` go into the environment variable TRILITH_MATURIN. With `--update` the classes in
-`python/trilith/blocks.py` are made again first, of the cards and the schema of the library.
+wheel. Options of maturin such as `--profile dist`, or of cargo such as `--config FILE`, go into the environment variable
+TRILITH_MATURIN. With `--update` the classes in `python/trilith/blocks.py` are made again first, of the cards and the schema
+of the library.
 """
 
 from __future__ import annotations
@@ -36,7 +37,7 @@ def main() -> None:
     venv.create(environment, with_pip=True)
     python = environment / ("Scripts/python.exe" if os.name == "nt" else "bin/python")
     run(python, "-m", "pip", "install", "--quiet", "maturin>=1.9,<2")
-    maturin = [python, "-m", "maturin", "build", "--release", "--locked", "--out", wheels]
+    maturin = [python, "-m", "maturin", "build", "--locked", "--out", wheels]
     maturin += shlex.split(os.environ.get("TRILITH_MATURIN", ""))
     run(*maturin)
     [wheel] = wheels.glob("*.whl")
