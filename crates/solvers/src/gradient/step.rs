@@ -6,13 +6,12 @@ use super::input::{InputMoves, Moved};
 use super::laws::{LawMoves, Made};
 use super::moving::MovingBasis;
 use crate::error::SolveError;
-use crate::kernel::{Compliance, ComplianceMatrix, Layout, ModalJacobian, Wanted};
+use crate::kernel::{Jacobian, Layout, Wanted};
 use crate::run::Prepared;
 use crate::step::{Forces, Propagator, State};
 use crate::structure::{Followers, acceleration};
-use trilith_linalg::{Dense, DenseLu};
 use trilith_model::{Model, Side, SolverKind};
-use trilith_system::{LinkSet, LoadSet, Tangents};
+use trilith_system::{LinkSet, LoadSet};
 
 /// The derivatives of the state, which go with a run.
 pub(super) struct Moves<'a> {
@@ -250,7 +249,7 @@ impl<'a> Moves<'a> {
         }
         let made = Made { from, to, dt };
         laws.along(made, &self.now, &mut self.next, false);
-        let factor = factor(links, layout, propagator.compliance(), &to.tangents);
+        let factor = Jacobian::new(layout, propagator.compliance(), &to.tangents);
         work.v.resize(layout.rate_dependent.len(), 0.0);
         for (j, influence) in influences.iter().enumerate() {
             let (now, next) = (&self.now[j], &mut self.next[j]);
@@ -276,13 +275,14 @@ impl<'a> Moves<'a> {
                 rated.for_each(|(a, v)| *v += work.own[*a]);
             }
             // f̃ at the end.
-            let mut x: Vec<f64> = (links.active.iter().enumerate())
-                .map(|(a, flat)| next.f[*flat] - layout.effective_k[a] * work.d[a] - now.pseudo[a])
-                .collect();
-            let mut rates = vec![0.0; x.len()];
+            let mut rates = vec![0.0; now.pseudo.len()];
             layout.rate_dependent.iter().zip(&work.v).for_each(|(a, v)| rates[*a] = *v);
-            let (d, v) = (&work.d, &rates);
-            each_tangent(links, layout, &to.tangents, |a, b, k, c| x[a] += k * d[b] + c * v[b]);
+            let mut x: Vec<f64> = (links.active.iter().enumerate())
+                .map(|(a, flat)| {
+                    next.f[*flat] - now.pseudo[a]
+                        + layout.linear(a, &to.tangents, [&work.d, &rates])
+                })
+                .collect();
             factor.solve(&mut x);
             x.iter_mut().zip(&now.pseudo).for_each(|(x, f)| *x += f);
             next.pseudo.clone_from(&x);
@@ -324,72 +324,4 @@ fn accelerate(more: &[f64], of: &[f64], to: &mut [f64]) {
     for ((to, more), now) in to.iter_mut().zip(more).zip(of) {
         *to = if *now == crate::structure::JUMPED { 0.0 } else { *to + acceleration(*more) };
     }
-}
-
-/// All tangents of active coordinates: row, column, by deformation and by rate.
-fn each_tangent(
-    links: &LinkSet,
-    layout: &Layout<'_>,
-    tangents: &Tangents,
-    mut see: impl FnMut(usize, usize, f64, f64),
-) {
-    for link in &links.links {
-        let n = link.range.len();
-        for i in 0..n {
-            let Some(a) = layout.place[link.range.start + i] else { continue };
-            for j in 0..n {
-                let Some(b) = layout.place[link.range.start + j] else { continue };
-                let at = link.block.start + i * n + j;
-                let (k, c) = (tangents.k[at], tangents.c[at]);
-                if k != 0.0 || c != 0.0 {
-                    see(a, b, k, c);
-                }
-            }
-        }
-    }
-}
-
-/// I + (k − k_e) G + c H, factorised.
-enum Jacobian {
-    Full(DenseLu),
-    Modal(Box<ModalJacobian>),
-}
-
-impl Jacobian {
-    fn solve(&self, x: &mut [f64]) {
-        match self {
-            Self::Full(all) => all.solve(x),
-            Self::Modal(modal) => modal.solve_alone(x),
-        }
-    }
-}
-
-fn factor(
-    links: &LinkSet,
-    layout: &Layout<'_>,
-    Compliance { g, h, .. }: &Compliance,
-    tangents: &Tangents,
-) -> Jacobian {
-    let (g, h) = match (g, h) {
-        (ComplianceMatrix::Modal(g), ComplianceMatrix::Modal(h)) => {
-            return Jacobian::Modal(Box::new(ModalJacobian::new(layout, tangents, [g, h], 0.0)));
-        }
-        _ => (&*g.all(), &*h.all()),
-    };
-    let n = g.rows();
-    // By rows: G and H are symmetric.
-    let mut rows = Dense::zeros(n, n);
-    for a in 0..n {
-        rows[(a, a)] = 1.0;
-        let k = layout.effective_k[a];
-        if k != 0.0 {
-            let row = rows.column_mut(a).iter_mut().zip(g.column(a));
-            row.for_each(|(x, g)| *x -= k * g);
-        }
-    }
-    each_tangent(links, layout, tangents, |a, b, k, c| {
-        let row = rows.column_mut(a).iter_mut().zip(g.column(b).iter().zip(h.column(b)));
-        row.for_each(|(x, (g, h))| *x += k * g + c * h);
-    });
-    Jacobian::Full(DenseLu::new(&rows.transpose()))
 }

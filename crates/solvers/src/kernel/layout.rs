@@ -60,6 +60,11 @@ impl<'a> Layout<'a> {
         }
     }
 
+    /// Force of an active coordinate under deformations and rates of all, by k − k_e and c.
+    pub fn linear(&self, a: usize, tangents: &Tangents, [d, v]: [&[f64]; 2]) -> f64 {
+        self.tangents_of(a, tangents).map(|(b, k, c)| k * d[b] + c * v[b]).sum()
+    }
+
     /// The row of k − k_e and c of an active coordinate: (other active, stiffness, damping).
     pub fn tangents_of(
         &self,

@@ -13,12 +13,11 @@ mod memory;
 
 use self::memory::Memory;
 use crate::fna::{ModalLoads, Modes};
-use crate::kernel::{ComplianceMatrix, StepKey};
+use crate::kernel::{ComplianceMatrix, Jacobian, Layout, StepKey};
 use crate::march::jump;
 use crate::record::Outputs;
 use crate::step::State;
 use crate::structure::{Motion, ReducedSystem};
-use trilith_linalg::{Dense, DenseLu};
 use trilith_model::{Model, Side};
 use trilith_system::{LinkBlocks, LoadSet, StepLoads, System, Tangents};
 
@@ -34,6 +33,7 @@ pub(crate) struct Shadow<'a> {
     loads: &'a LoadSet,
     modes: Modes,
     modal_loads: ModalLoads,
+    layout: Layout<'a>,
     motion: Motion,
     next: Motion,
     pseudo: Vec<f64>,
@@ -104,6 +104,7 @@ impl<'a> Shadow<'a> {
             system,
             loads,
             modal_loads: ModalLoads::new(space, &[], &[]),
+            layout: Layout::new(&system.links, &laws, space.effective_k.clone()),
             next: motion.clone(),
             motion,
             pseudo: state.pseudo.clone(),
@@ -204,7 +205,9 @@ impl<'a> Shadow<'a> {
     /// The pseudo-forces that links answer to what the predicted motion deforms them beyond the run; `support` becomes
     /// what supports give deformations and rates.
     fn answer(&mut self, run: &Report<'_>, support: &mut [Vec<f64>; 2], dt: f64) -> Vec<f64> {
-        let Self { system, loads, modes, amplitudes, memory, tangents, pseudo, next, .. } = self;
+        let Self {
+            system, loads, modes, layout, amplitudes, memory, tangents, pseudo, next, ..
+        } = self;
         let [of_d, of_v] = &mut *support;
         loads.support_deformation(&amplitudes.end, of_d, of_v);
         let mut own = run.f.to_vec();
@@ -225,15 +228,15 @@ impl<'a> Shadow<'a> {
         let compliance = modes.compliance();
         let e = beyond(&next[..n], run.d, &support[0], &compliance.g);
         let rate = beyond(&next[n..2 * n], run.v, &support[1], &compliance.h);
-        let matrices = [&compliance.g, &compliance.h].map(ComplianceMatrix::all);
-        answer(
-            system,
-            &modes.space,
-            tangents,
-            apart,
-            [&e, &rate],
-            matrices.each_ref().map(|m| &**m),
-        )
+        let mut force = apart;
+        for (a, force) in force.iter_mut().enumerate() {
+            *force += layout.linear(a, tangents, [&e, &rate]);
+        }
+        Jacobian::new(layout, compliance, tangents).solve(&mut force);
+        if force.iter().any(|x| !x.is_finite()) {
+            force.fill(0.0);
+        }
+        force
     }
 
     /// Compares the outputs of the run at this moment with its own; `errors` grow to the differences.
@@ -275,45 +278,4 @@ fn add_deformations(
         space.links.deform(motion, &mut own);
         system.links.active.iter().zip(&own).for_each(|(i, x)| flat[*i] += x);
     }
-}
-
-/// Pseudo-forces δ = a + K e + C ė that links answer to what they are deformed beyond the run, of which this much is
-/// there before they do.
-fn answer(
-    system: &System,
-    space: &ReducedSystem,
-    tangents: &Tangents,
-    mut force: Vec<f64>,
-    [e, rate]: [&[f64]; 2],
-    [g, h]: [&Dense; 2],
-) -> Vec<f64> {
-    let links = &system.links;
-    let count = links.active.len();
-    let (mut k, mut c) = (Dense::zeros(count, count), Dense::zeros(count, count));
-    let place = |i: usize| links.active.binary_search(&i).ok();
-    for link in &links.links {
-        let n = link.range.len();
-        for (i, a) in link.range.clone().enumerate().filter_map(|(i, x)| Some((i, place(x)?))) {
-            for (j, b) in link.range.clone().enumerate().filter_map(|(j, x)| Some((j, place(x)?))) {
-                let at = link.block.start + i * n + j;
-                k[(a, b)] = tangents.k[at];
-                c[(a, b)] = tangents.c[at];
-            }
-        }
-    }
-    for (a, effective_k) in space.effective_k.iter().enumerate() {
-        k[(a, a)] -= effective_k;
-    }
-    k.mul_add(1.0, e, &mut force);
-    c.mul_add(1.0, rate, &mut force);
-    let (mut all, of_rates) = (k.times(g), c.times(h));
-    for j in 0..count {
-        all.column_mut(j).iter_mut().zip(of_rates.column(j)).for_each(|(x, y)| *x += y);
-        all[(j, j)] += 1.0;
-    }
-    DenseLu::new(&all).solve(&mut force);
-    if force.iter().any(|x| !x.is_finite()) {
-        force.fill(0.0);
-    }
-    force
 }
