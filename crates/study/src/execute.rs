@@ -109,7 +109,9 @@ struct Shared<'a> {
     journal: Option<Mutex<Journal>>,
     /// Runs that nobody has made.
     missing: AtomicUsize,
+    /// Those that were made now or taken from the store, and those that were on disk, by number.
     found: Mutex<Vec<Record>>,
+    there: Mutex<Vec<usize>>,
     error: Mutex<Option<StudyError>>,
     stop: AtomicBool,
     interrupt: &'a AtomicBool,
@@ -198,6 +200,7 @@ pub fn execute(
         journal,
         missing: AtomicUsize::new(0),
         found: Mutex::new(Vec::new()),
+        there: Mutex::new(Vec::new()),
         error: Mutex::new(None),
         stop: AtomicBool::new(false),
         interrupt,
@@ -228,6 +231,9 @@ pub fn execute(
         return Err(StudyError::Interrupted { done, total, folder: folder.to_owned() });
     }
     let mut records = shared.found.into_inner().unwrap_or_default();
+    let (mut kept, there) = (shared.kept, shared.there.into_inner().unwrap_or_default());
+    records.extend(there.into_iter().filter_map(|run| kept.remove(&run)));
+    drop(kept);
     records.sort_by_key(|r| r.run);
     let missing = shared.missing.into_inner();
     if missing > 0 {
@@ -326,18 +332,23 @@ impl Shared<'_> {
         let mut made = made.into_iter();
         let mut going = Vec::with_capacity(firsts.len());
         for (first, run) in firsts.into_iter().zip(runs) {
-            let kept = self.kept.get(&run).cloned();
+            let kept = self.kept.get(&run);
             let is_new = kept.is_none();
-            let Some(record) = kept.or_else(|| made.next()) else { continue };
+            let new = if is_new { made.next() } else { None };
+            let Some(record) = kept.or(new.as_ref()) else { continue };
             let study = self.study;
-            let over = study.stop.as_ref().is_some_and(|c| c.holds(&study.columns, &record));
+            let over = study.stop.as_ref().is_some_and(|c| c.holds(&study.columns, record));
             // A new one was counted when it was made.
             let runs = if over { left } else { 1 } - usize::from(is_new);
             if runs > 0 {
                 self.count(runs, !is_new && !record.good);
             }
-            if let Ok(mut found) = self.found.lock() {
-                found.push(record);
+            if let Some(record) = new {
+                if let Ok(mut found) = self.found.lock() {
+                    found.push(record);
+                }
+            } else if let Ok(mut there) = self.there.lock() {
+                there.push(run);
             }
             if !over {
                 going.push(first);

@@ -1,7 +1,7 @@
 //! The files of a finished study.
 
-use crate::table::replaced;
-use crate::{Record, Study, StudyError, Table};
+use crate::table::{self, replaced};
+use crate::{Record, Study, StudyError};
 use std::io::Write;
 use std::path::{Path, PathBuf};
 
@@ -16,9 +16,7 @@ pub(crate) fn write(
         written.push(folder.join(name));
         folder.join(name)
     };
-    let table = Table::of(study, records);
-    table.write_parquet(&path("table.parquet"))?;
-    table.write_csv(&path("table.csv"))?;
+    table::write(study, records, [&path("table.parquet"), &path("table.csv")])?;
     if study.has_groups() {
         study.statistics(records).write_csv(&path("statistics.csv"))?;
     }

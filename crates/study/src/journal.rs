@@ -8,7 +8,7 @@ use crate::{Identity, StudyError};
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 use std::fs::{File, OpenOptions};
-use std::io::{Seek, SeekFrom, Write};
+use std::io::{BufRead, BufReader, Seek, SeekFrom, Write};
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
@@ -121,20 +121,30 @@ pub(crate) struct Read {
 
 /// Reads what a journal holds; refuses one of another study.
 fn read(path: &Path, identity: &Identity) -> Result<Read, StudyError> {
-    parse(&std::fs::read(path).map_err(StudyError::at(path))?, path, identity)
+    let file = File::open(path).map_err(StudyError::at(path))?;
+    parse(BufReader::new(file), path, identity)
 }
 
 /// The same of its bytes; `path`: where they are from.
-pub(crate) fn parse(bytes: &[u8], path: &Path, identity: &Identity) -> Result<Read, StudyError> {
+pub(crate) fn parse(
+    mut bytes: impl BufRead,
+    path: &Path,
+    identity: &Identity,
+) -> Result<Read, StudyError> {
     let mut found = Read { kept: Kept::default(), length: 0, empty: true };
-    let mut at = 0;
-    for part in bytes.split_inclusive(|b| *b == b'\n') {
-        at += part.len() as u64;
-        let json = std::str::from_utf8(part).ok().and_then(content);
+    let (mut at, mut part) = (0, Vec::new());
+    loop {
+        part.clear();
+        let read = bytes.read_until(b'\n', &mut part).map_err(StudyError::at(path))?;
+        if read == 0 {
+            break;
+        }
+        at += read as u64;
+        let json = std::str::from_utf8(&part).ok().and_then(content);
         if found.empty {
             let Some(json) = json else {
-                // Stopped while the very first line was written: nothing is lost.
-                if bytes.len() == part.len() && !part.ends_with(b"\n") {
+                // Stopped while the very first line was written: nothing is lost. Only the last line has no end.
+                if !part.ends_with(b"\n") {
                     break;
                 }
                 return Err(StudyError::NoJournal { path: path.to_owned() });

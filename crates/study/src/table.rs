@@ -9,6 +9,7 @@ use parquet::file::metadata::KeyValue;
 use parquet::file::properties::WriterProperties;
 use parquet::file::writer::SerializedFileWriter;
 use parquet::schema::types::Type;
+use std::borrow::Borrow;
 use std::io::Write;
 use std::path::Path;
 use std::sync::Arc;
@@ -137,17 +138,7 @@ impl Table {
     /// # Errors
     /// [`StudyError::File`].
     pub fn write_csv(&self, path: &Path) -> Result<(), StudyError> {
-        replaced(path, |file| {
-            let mut csv = csv::Writer::from_writer(file);
-            csv.write_record(self.columns.iter().map(|c| match c.unit.as_str() {
-                "" | "1" => cell(&c.name).into_owned(),
-                unit => cell(&format!("{} [{unit}]", c.name)).into_owned(),
-            }))?;
-            for row in 0..self.rows() {
-                csv.write_record(self.columns.iter().map(|c| c.values.text(row)))?;
-            }
-            csv.flush()
-        })
+        write_csv(std::iter::once(self), path)
     }
 
     /// Writes it as Parquet; the metadata `units` has the unit of every column as JSON.
@@ -155,10 +146,11 @@ impl Table {
     /// # Errors
     /// [`StudyError::File`].
     pub fn write_parquet(&self, path: &Path) -> Result<(), StudyError> {
-        replaced(path, |file| self.parquet(file).map_err(std::io::Error::other))
+        write_parquet(std::iter::once(self), path)
     }
 
-    fn parquet(&self, file: &mut (impl Write + Send)) -> Result<(), ParquetError> {
+    /// What a Parquet file says before its first row.
+    fn head(&self) -> Result<(Type, WriterProperties), ParquetError> {
         let field = |c: &Data| {
             let physical = match c.values {
                 Values::Counts(_) => Physical::INT64,
@@ -187,7 +179,14 @@ impl Table {
             .set_compression(Compression::UNCOMPRESSED)
             .set_key_value_metadata(Some(more))
             .build();
-        let mut writer = SerializedFileWriter::new(file, Arc::new(schema), Arc::new(properties))?;
+        Ok((schema, properties))
+    }
+
+    /// Its rows as a group of their own.
+    fn group(
+        &self,
+        writer: &mut SerializedFileWriter<impl Write + Send>,
+    ) -> Result<(), ParquetError> {
         let mut group = writer.next_row_group()?;
         for column in &self.columns {
             let Some(mut open) = group.next_column()? else { break };
@@ -213,9 +212,66 @@ impl Table {
             open.close()?;
         }
         group.close()?;
-        writer.close()?;
         Ok(())
     }
+}
+
+/// Runs that are made a table of at once where that is written: what they take in memory does not grow with the study.
+const ROWS: usize = 1 << 16;
+
+/// Writes the tables of a study: the same as [`Table::of`] all its runs, in parts.
+pub(crate) fn write(
+    study: &Study,
+    records: &[Record],
+    [parquet, csv]: [&Path; 2],
+) -> Result<(), StudyError> {
+    let of_none = records.is_empty().then_some(records);
+    let parts = || records.chunks(ROWS).chain(of_none).map(|part| Table::of(study, part));
+    write_parquet(parts(), parquet)?;
+    write_csv(parts(), csv)
+}
+
+/// One table below the other, which have the same columns, as CSV.
+fn write_csv(parts: impl Iterator<Item: Borrow<Table>>, path: &Path) -> Result<(), StudyError> {
+    replaced(path, |file| {
+        let mut csv = csv::Writer::from_writer(file);
+        for (i, part) in parts.enumerate() {
+            let table: &Table = part.borrow();
+            if i == 0 {
+                csv.write_record(table.columns.iter().map(|c| match c.unit.as_str() {
+                    "" | "1" => cell(&c.name).into_owned(),
+                    unit => cell(&format!("{} [{unit}]", c.name)).into_owned(),
+                }))?;
+            }
+            for row in 0..table.rows() {
+                csv.write_record(table.columns.iter().map(|c| c.values.text(row)))?;
+            }
+        }
+        csv.flush()
+    })
+}
+
+/// The same as Parquet, each as a group of rows.
+fn write_parquet(
+    mut parts: impl Iterator<Item: Borrow<Table>>,
+    path: &Path,
+) -> Result<(), StudyError> {
+    replaced(path, |file| {
+        let write = || -> Result<(), ParquetError> {
+            let Some(first) = parts.next() else { return Ok(()) };
+            let (schema, properties) = first.borrow().head()?;
+            let mut writer =
+                SerializedFileWriter::new(file, Arc::new(schema), Arc::new(properties))?;
+            first.borrow().group(&mut writer)?;
+            drop(first);
+            for part in parts.by_ref() {
+                part.borrow().group(&mut writer)?;
+            }
+            writer.close()?;
+            Ok(())
+        };
+        write().map_err(std::io::Error::other)
+    })
 }
 
 /// The values that there are, and for each row whether there is one.
