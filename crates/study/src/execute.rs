@@ -157,9 +157,15 @@ pub fn execute(
         }
     };
     // Of a run that several have made a good one counts.
-    for (run, record) in others.into_iter().flat_map(|other| other.records) {
-        if kept.records.get(&run).is_none_or(|known| !known.good) {
-            kept.records.insert(run, record);
+    for Kept { records, .. } in others {
+        if kept.records.is_empty() {
+            kept.records = records;
+            continue;
+        }
+        for (run, record) in records {
+            if kept.records.get(&run).is_none_or(|known| !known.good) {
+                kept.records.insert(run, record);
+            }
         }
     }
     if retry_failed {

@@ -158,7 +158,10 @@ pub(crate) fn parse(
         }
         match json.and_then(|j| serde_json::from_str::<Record>(j).ok()) {
             // A run that was made again counts as it was made last.
-            Some(record) => {
+            Some(mut record) => {
+                // There may be a million, each with room for more than it has.
+                record.parameters.shrink_to_fit();
+                record.values.shrink_to_fit();
                 found.kept.records.insert(record.run, record);
                 found.length = at;
             }
