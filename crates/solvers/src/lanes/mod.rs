@@ -17,9 +17,9 @@
 //!
 //! Every analysis gives the same bits whoever its neighbours are, and alone.
 //!
-//! A model fits where it is solved by `fna` with Newton's method, it has few modes and link coordinates (`ROOM` in `setup`), its modes are not
-//! coupled by damping, no support moves a link, and every link that has no form for lanes, and so is asked for one lane after
-//! the other (`each`), says what it stores and loses. A body that may overturn needs adaptive steps.
+//! A model fits where it is solved by `fna` with Newton's method, it has few modes and link coordinates (`ROOM` in `setup`),
+//! its modes are not coupled by damping, no support moves a link, and every link that has no form for lanes, and so is asked
+//! for one lane after the other (`each`), says what it stores and loses. A body that may overturn needs adaptive steps.
 
 mod adaptive;
 mod coefficients;
