@@ -345,6 +345,28 @@ mod tests {
         assert_eq!(text, expected);
     }
 
+    /// As a study of many runs is written.
+    #[test]
+    fn tables_below_each_other_are_one() {
+        let part = |values: [Option<f64>; 2]| {
+            let values = Values::Numbers(values.to_vec());
+            let columns = vec![Data { name: "slide".into(), unit: "m".into(), values }];
+            Table { title: "T".into(), columns }
+        };
+        let parts = || [[Some(1.0), None], [None, Some(0.1)]].into_iter().map(part);
+        let folder = tempfile::tempdir().unwrap();
+        let [parquet, csv] = ["t.parquet", "t.csv"].map(|name| folder.path().join(name));
+        write_parquet(parts(), &parquet).unwrap();
+        write_csv(parts(), &csv).unwrap();
+        let reader = SerializedFileReader::new(std::fs::File::open(&parquet).unwrap()).unwrap();
+        assert_eq!(reader.num_row_groups(), 2);
+        let field = |row: parquet::record::Row| row.get_column_iter().next().unwrap().1.clone();
+        let rows: Vec<Field> =
+            reader.get_row_iter(None).unwrap().map(|row| field(row.unwrap())).collect();
+        assert_eq!(rows, [Field::Double(1.0), Field::Null, Field::Null, Field::Double(0.1)]);
+        assert_eq!(std::fs::read_to_string(&csv).unwrap(), "slide [m]\n1.0\n\"\"\n\"\"\n0.1\n");
+    }
+
     #[test]
     fn texts_that_look_like_formulas_are_texts_in_a_spreadsheet() {
         let data =
