@@ -18,7 +18,7 @@ if (!axe || !args.length) {
   console.log("node crates/report/tests/axe.mjs --axe axe.min.js PAGE.html…");
   process.exit(2);
 }
-const VIEWS = [[1280, "light"], [1280, "dark"], [390, "light"]];
+const VIEWS = [[1280, "light"], [1280, "dark"], [390, "light"], [390, "dark"]];
 const browser = open();
 if (!browser) process.exit(0);
 

@@ -149,8 +149,22 @@ const MODEL = `(async () => {
   const click = HTMLAnchorElement.prototype.click;
   HTMLAnchorElement.prototype.click = function () { saved = this.download + " " + this.href; };
   finder.querySelector("button:not([aria-pressed])").click();
-  HTMLAnchorElement.prototype.click = click;
   if (!saved.startsWith("model.png data:image/png;base64,iVBORw0KGgo")) said.push("saves no picture: " + saved.slice(0, 60));
+  const film = [...finder.querySelectorAll("button")].find((b) => b.textContent === "save video");
+  if (!film && scrub) said.push("saves no video");
+  if (film) {
+    let bytes = 0;
+    const make = URL.createObjectURL;
+    URL.createObjectURL = (blob) => { bytes = blob.size; return make.call(URL, blob); };
+    film.click();
+    for (let i = 0; i < 20; i++) await wait();
+    film.click();
+    for (let i = 0; i < 200 && !bytes; i++) await new Promise((done) => setTimeout(done, 25));
+    if (bytes < 1000 || !/^model\\.(mp4|webm) blob:/.test(saved)) said.push("saves no video: " + bytes + " bytes, " + saved.slice(0, 60));
+    URL.createObjectURL = make;
+    if (film.textContent !== "save video") said.push("goes on with the video");
+  }
+  HTMLAnchorElement.prototype.click = click;
   return said;
 })()`;
 /** Without WebGL the model is drawn flat. */

@@ -1,7 +1,7 @@
 //! What the script of the page of a run has beside that of all pages, in the order in which its parts build on each
 //! other.
 
-pub(crate) const PARTS: [&str; 14] = [
+pub(crate) const PARTS: [&str; 15] = [
     include_str!("script/renew.js"),
     include_str!("script/model.js"),
     include_str!("script/stage.js"),
@@ -12,6 +12,7 @@ pub(crate) const PARTS: [&str; 14] = [
     include_str!("script/turn.js"),
     include_str!("script/tints.js"),
     include_str!("script/overlap.js"),
+    include_str!("script/film.js"),
     include_str!("script/player.js"),
     include_str!("script/filter.js"),
     include_str!("script/watch.js"),

@@ -52,6 +52,7 @@ function player(canvas, controls, tip) {
   };
   stage.scaled = () => { if (stage.tint?.how === 1) stage.tint.most = factor * most; };
   const warning = make("output", { class: "care" });
+  let films = null;
   /** Bodies that pass through each other at this scale do not in truth. */
   const say = () => {
     const where = passes(factor);
@@ -65,6 +66,7 @@ function player(canvas, controls, tip) {
       if (!playing) return;
       const t = (clock.at ?? 0) + speed * Math.min((now - last) / 1000, 0.2);
       last = now;
+      if (t > end && films?.goes()) { clock.read(end); films.over(); return; }
       clock.read(t > end ? 0 : t);
       requestAnimationFrame(advance);
     };
@@ -75,6 +77,7 @@ function player(canvas, controls, tip) {
       if (playing) requestAnimationFrame(advance);
     };
     button.addEventListener("click", toggle);
+    films = film(canvas, () => { clock.read(0); if (!playing) toggle(); }, () => { if (playing) toggle(); });
     canvas.addEventListener("keydown", (e) => {
       const step = { ArrowLeft: -0.005, ArrowRight: 0.005 }[e.key];
       if (e.shiftKey || e.ctrlKey) return;
@@ -118,7 +121,7 @@ function player(canvas, controls, tip) {
   if (moves) controls.append(tick("at rest", stage.ghost, (on) => { stage.ghost = on; }));
   if (solid && picture.outlines.length) controls.append(tick("sections", stage.sections, (on) => { stage.sections = on; }));
   turn(stage, tip);
-  finder(stage, document.getElementById("finder"));
+  finder(stage, document.getElementById("finder"), films?.button);
   stage.draw();
 }
 

@@ -83,8 +83,8 @@ function turn(stage, tip) {
   });
 }
 
-/** What is looked for, hidden, and saved. */
-function finder(stage, box) {
+/** What is looked for, hidden, and saved; films: a button that saves a video, where there is one. */
+function finder(stage, box, films) {
   const search = make("input", { type: "search", "aria-label": "find a name", placeholder: "find a name" });
   const found = make("output", {});
   search.addEventListener("input", () => {
@@ -100,5 +100,5 @@ function finder(stage, box) {
   const groups = GROUPS.map((group) => key(group, `${group.name} (group)`));
   const save = make("button", { type: "button" }, "save picture");
   save.addEventListener("click", () => make("a", { href: stage.canvas.toDataURL(), download: "model.png" }).click());
-  box.append(make("span", {}, search, " ", found), make("span", { class: "legend" }, ...kinds, ...groups), save);
+  box.append(make("span", {}, search, " ", found), make("span", { class: "legend" }, ...kinds, ...groups), save, ...(films ? [films] : []));
 }
