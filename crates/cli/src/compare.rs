@@ -3,14 +3,14 @@
 use crate::args::CompareArguments;
 use crate::interrupt::{Ear, INTERRUPTED};
 use crate::report::{energies, work};
-use crate::text::{number, percent, row, table};
+use crate::text::{number, percent, row, significant, table};
 use crate::{
     Answer, Failure, browser, case, compare_page, diagnostics, output, place, read, solver,
 };
 use std::io::IsTerminal;
 use std::path::Path;
 use std::sync::atomic::Ordering;
-use trilith::compare::{Compared, Comparison, Variant};
+use trilith::compare::{Compared, Comparison, Difference, Variant};
 use trilith::model::{Analysis, visible_line};
 use trilith::results::{Folder, Peak, Writer};
 use trilith::{Model, Registry, SolverKind};
@@ -168,13 +168,37 @@ pub(crate) fn text(all: &[Compared]) -> String {
         }
     }
     for c in &all[1..] {
-        out +=
-            &format!("\n{} beside {}\n{}", c.variant, first.variant, table(&differences(c), &[0]));
+        out += &format!("\n{}\n{}", answer(first, c), table(&differences(c), &[0]));
         if let Some(finding) = &c.finding {
             out += &format!("  likely cause: {}\n", visible_line(&finding.to_string()));
         }
     }
     out
+}
+
+/// How far a variant is from the first, and what it costs beside it, in one sentence.
+pub(crate) fn answer(first: &Compared, c: &Compared) -> String {
+    let largest = |of: fn(&Difference) -> f64| {
+        let finite = c.differences.iter().filter(|d| of(d).is_finite());
+        finite.max_by(|a, b| of(a).abs().total_cmp(&of(b).abs()))
+    };
+    let apart = match (largest(|d| d.peak), largest(|d| d.rms)) {
+        (Some(peak), Some(rms)) => format!(
+            "peaks within {} ({}), histories within {} rms ({})",
+            percent(peak.peak.abs()),
+            visible_line(&peak.name),
+            percent(rms.rms),
+            visible_line(&rms.name)
+        ),
+        _ => "no output to compare".into(),
+    };
+    let [own, other] = [c, first].map(|c| c.outcome.summary.work.march_cpu_s);
+    let cost = if own > 0.0 && other > 0.0 {
+        format!("; {} × the CPU of its march", significant(own / other, 2))
+    } else {
+        String::new()
+    };
+    format!("{} beside {}: {apart}{cost}.", c.variant, first.variant)
 }
 
 /// Differences over time, a row for each output.
@@ -183,7 +207,7 @@ pub(crate) fn differences(c: &Compared) -> Vec<Vec<String>> {
     for d in &c.differences {
         let signed = |x: f64| if x == 0.0 { "0".into() } else { format!("{:+.3} %", 100.0 * x) };
         let (peak, rms, last) = (signed(d.peak), percent(d.rms), signed(d.residual));
-        rows.push(row([&d.name, &peak, &rms, &crate::text::significant(d.lag, 3), &last]));
+        rows.push(row([&d.name, &peak, &rms, &significant(d.lag, 3), &last]));
     }
     rows
 }

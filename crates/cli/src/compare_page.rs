@@ -1,6 +1,6 @@
 //! A comparison as a page: the histories over each other.
 
-use crate::compare::differences;
+use crate::compare::{answer, differences};
 use crate::report::work;
 use crate::text::{number, row};
 use trilith::Model;
@@ -15,6 +15,9 @@ pub(crate) fn page(model: &Model, case: &str, all: &[Compared]) -> String {
         "Case \"{case}\" in {} ways; differences are from the first.",
         all.len()
     )));
+    for c in &all[1..] {
+        page = page.lead(Block::text(answer(&all[0], c)));
+    }
     for finding in all.iter().filter_map(|c| Some((&c.variant, c.finding.as_ref()?))) {
         page = page.lead(Block::text(format!(
             "{}: likely cause of its difference: {}.",

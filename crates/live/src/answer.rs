@@ -1,5 +1,6 @@
 //! Answers to the questions of a page.
 
+use crate::draft;
 use serde::{Deserialize, Serialize};
 use serde_json::{Value, json};
 use std::collections::BTreeMap;
@@ -24,21 +25,40 @@ enum Question {
         #[serde(default)]
         set: BTreeMap<String, String>,
     },
-    /// Runs a case, the last one where none is named, and makes the page of the run.
-    Run {
-        path: String,
-        text: String,
-        #[serde(default)]
-        set: BTreeMap<String, String>,
-        case: Option<String>,
-        solver: Option<String>,
-        /// Whether the errors of the steps are found, which takes as long again.
-        #[serde(default)]
-        errors: bool,
-        /// Whether the page is there already, of another run of the same model: what takes the place of its parts will do.
-        #[serde(default)]
-        update: bool,
-    },
+    /// Runs a case and makes the page of the run.
+    Run(ToRun),
+}
+
+/// What is to run, and how.
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct ToRun {
+    path: String,
+    text: String,
+    #[serde(default)]
+    set: BTreeMap<String, String>,
+    /// The last one where none is named.
+    case: Option<String>,
+    /// That of the case where none is named.
+    solver: Option<String>,
+    #[serde(default)]
+    care: Care,
+    /// Whether the page is there already, of another run of the same model: what takes the place of its parts will do.
+    #[serde(default)]
+    update: bool,
+}
+
+/// How carefully.
+#[derive(Clone, Copy, Default, Deserialize, PartialEq)]
+#[serde(rename_all = "snake_case")]
+enum Care {
+    /// With coarser steps, for a value that is still being moved.
+    Draft,
+    /// As the file says.
+    #[default]
+    Plain,
+    /// With the errors of the steps, which takes as long again.
+    Errors,
 }
 
 /// A parameter as its field shows it.
@@ -83,11 +103,7 @@ fn of(question: Question) -> Result<Value, String> {
                 "version": trilith::LONG_VERSION,
             }))
         }
-        Question::Run { path, text, set, case, solver, errors, update } => {
-            let overrides: Vec<(String, String)> = set.clone().into_iter().collect();
-            let (_, model) = read(&path, &text, set)?;
-            run(&model, &overrides, [case, solver], [errors, update])
-        }
+        Question::Run(asked) => run(asked),
     }
 }
 
@@ -138,12 +154,14 @@ fn parameters<'a>(model: &'a Model, source: &'a str) -> Vec<Parameter<'a>> {
     model.parameters.iter().map(one).collect()
 }
 
-fn run(
-    model: &Model,
-    overrides: &[(String, String)],
-    [case, solver]: [Option<String>; 2],
-    [errors, update]: [bool; 2],
-) -> Result<Value, String> {
+fn run(asked: ToRun) -> Result<Value, String> {
+    let ToRun { path, text, set, case, solver, care, update } = asked;
+    let overrides: Vec<(String, String)> = set.clone().into_iter().collect();
+    let (_, mut model) = read(&path, &text, set)?;
+    if care == Care::Draft {
+        draft::coarsen(&mut model);
+    }
+    let model = &model;
     let renderer = Renderer::plain();
     let failed = |error: Error| match error.span() {
         Some(span) => at(&renderer, &error.to_string(), &model.places.find(&span)),
@@ -161,10 +179,11 @@ fn run(
         None => None,
     };
     let analysis = Analysis::new(model).map_err(failed)?.with_frames(FRAMES).with_loops();
-    let options = RunOptions { case, solver, step_errors: errors, ..RunOptions::default() };
+    let options =
+        RunOptions { case, solver, step_errors: care == Care::Errors, ..RunOptions::default() };
     let run = analysis.run(options).map_err(failed)?;
     let summary = run.summary(model);
-    let data = run.report_of(&analysis, &summary, overrides, &[]);
+    let data = run.report_of(&analysis, &summary, &overrides, &[]);
     let value = serde_json::to_value(&summary).unwrap_or_default();
     let made = if update { report::run_update } else { report::run_page };
     Ok(json!({
@@ -233,6 +252,20 @@ mod tests {
         assert!(told["page"].as_str().unwrap().contains("Oscillator"));
         let told = run(json!({ "k": "16 kN/m" }));
         assert!((sway(&told) - (100.0_f64 / 16000.0).sqrt()).abs() < 1e-3, "{}", told["peaks"]);
+    }
+
+    #[test]
+    fn a_draft_is_near_and_takes_fewer_steps() {
+        let run = |care: &str| {
+            asked(&json!({ "ask": "run", "path": "a.ron", "text": TEXT, "care": care }))
+        };
+        let sway = |told: &Value| told["peaks"][0]["value"].as_f64().unwrap().abs();
+        let [draft, plain, errors] = ["draft", "plain", "errors"].map(run);
+        let exact = (100.0_f64 / 4000.0).sqrt();
+        assert_ne!(sway(&draft), sway(&plain));
+        assert_eq!(sway(&errors), sway(&plain));
+        assert!((sway(&draft) / exact - 1.0).abs() < 3e-3, "{}", draft["peaks"]);
+        assert!((sway(&plain) / exact - 1.0).abs() < 2e-4, "{}", plain["peaks"]);
     }
 
     #[test]

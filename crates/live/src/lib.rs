@@ -6,6 +6,7 @@
 
 mod answer;
 mod digits;
+mod draft;
 #[cfg(target_family = "wasm")]
 mod exports;
 mod page;

@@ -1,5 +1,5 @@
-// How long a live page takes from a slider to the drawn result: moves it step by step and tells the median of the engine (model, march, page
-// of the run), of what the page does with it, and of both until the next picture.
+// How long a live page takes from a slider to the drawn result, the draft and the run: moves it step by step and tells the median of the
+// engine (model, march, page of the run), of what the page does with it, and of both until the next picture.
 //
 //     node crates/live/tests/speed.mjs PAGE.html PARAMETER
 
@@ -16,22 +16,34 @@ try {
   const { on, value, until } = await session(browser, (what) => { bad++; console.log(what); });
   await on("Emulation.setDeviceMetricsOverride", { width: 1280, height: 900, deviceScaleFactor: 1, mobile: false });
   await on("Page.navigate", { url: pathToFileURL(resolve(path)).href });
-  await until("the first run with its errors", "document.body?.dataset.shown?.includes('true]')");
+  await until("the first run with its errors", "document.body?.dataset.shown?.includes('errors')");
   const all = await value(`(async () => {
-    const slider = document.querySelector('input[aria-label="${parameter}, slider"]'), all = [];
-    for (let i = 1; i <= 12; i++) {
-      const before = document.body.dataset.shown, begin = performance.now();
+    const slider = document.querySelector('input[aria-label="${parameter}, slider"]'), all = [], { dataset } = document.body;
+    const told = (name, begin) => {
+      const before = dataset[name];
+      return async () => {
+        while (dataset[name] === before) await new Promise((done) => setTimeout(done));
+        const there = performance.now() - begin, engine = Number(dataset.engine);
+        await new Promise(requestAnimationFrame);
+        all.push({ name, engine, there, seen: performance.now() - begin, kind: dataset.made });
+      };
+    };
+    for (let i = 1; i <= 24; i++) {
+      const begin = performance.now(), [draft, run] = [told("drafted", begin), told("shown", begin)];
       slider.value = -0.02 * i;
       slider.dispatchEvent(new Event("input"));
-      while (document.body.dataset.shown === before) await new Promise((done) => setTimeout(done));
-      const drawn = performance.now();
-      await new Promise(requestAnimationFrame);
-      all.push({ engine: Number(document.body.dataset.engine), there: drawn - begin, seen: performance.now() - begin, kind: document.body.dataset.made });
+      await draft();
+      // The run comes when the slider has stood still for a while.
+      if (i % 4 === 0) await run();
     }
     return all;
   })()`);
-  const median = (of) => all.map(of).sort((a, b) => a - b)[all.length >> 1].toFixed(0);
-  console.log(`${(statSync(path).size / 1e6).toFixed(2)} MB; ${parameter}: engine ${median((a) => a.engine)} ms, page ${median((a) => a.there - a.engine)} ms, drawn after ${median((a) => a.seen)} ms (${all.at(-1).kind})`);
+  const size = `${(statSync(path).size / 1e6).toFixed(2)} MB`;
+  for (const [name, words] of [["drafted", "draft"], ["shown", "run, with the wait before it"]]) {
+    const these = all.filter((a) => a.name === name);
+    const median = (of) => these.map(of).sort((a, b) => a - b)[these.length >> 1].toFixed(0);
+    console.log(`${size}; ${parameter}, ${words}: engine ${median((a) => a.engine)} ms, page and waiting ${median((a) => a.there - a.engine)} ms, drawn after ${median((a) => a.seen)} ms (${these.at(-1).kind})`);
+  }
 } finally {
   await browser.close();
 }

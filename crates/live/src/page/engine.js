@@ -23,8 +23,10 @@ const engine = (() => {
     busy = { ...waiting.shift(), id: ++count, since: performance.now() };
     worker.postMessage({ id: busy.id, start: busy.start, question: busy.question });
   };
+  /** Forgets what waits of such kinds. */
+  const drop = (...kinds) => { waiting = waiting.filter((w) => !kinds.includes(w.kind)); };
   const ask = (kind, question, done) => {
-    waiting = waiting.filter((w) => w.kind !== kind);
+    drop(kind);
     waiting.push({ kind, question, done });
     next();
   };
@@ -51,5 +53,5 @@ const engine = (() => {
     start();
   };
   start();
-  return { ask, stop, files: () => ask("files", files().question), goes: () => busy && { kind: busy.kind, ms: performance.now() - busy.since } };
+  return { ask, drop, stop, files: () => ask("files", files().question), goes: () => busy && { kind: busy.kind, ms: performance.now() - busy.since } };
 })();

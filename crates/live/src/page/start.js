@@ -1,44 +1,56 @@
-// Runs follow what is changed: at once without the errors of the steps, and with them when nothing has changed for a while.
+// Runs follow what is changed: at once as a draft with coarser steps, then as the file says, and with the errors of the steps
+// when nothing has changed for a while.
 "use strict";
 let timer, patience;
 /** Whether runs make a page of their own: what is changed has another model as its effect, such as another width. */
 let anew = false;
-const QUIET = 700, PATIENCE = 1500;
+/** Milliseconds without a change before a draft is followed by its run, and that by its errors; after which a run makes way for
+ *  another value, and a draft is called long. */
+const STILL = 150, QUIET = 700, WAY = 50, PATIENCE = 1500;
 
 const seconds = (ms) => (ms < 1000 ? `${Math.round(ms)} ms` : `${(ms / 1000).toFixed(1)} s`);
+const SAY = {
+  draft: (ms) => `Draft in ${ms}, with coarser steps; the run follows.`,
+  plain: (ms) => `Run in ${ms}; its errors follow.`,
+  errors: (ms) => `Run with its errors in ${ms}.`,
+};
 
-const shown = (errors, update, asked) => (answer) => {
+const shown = (care, update, asked) => (answer) => {
   clearTimeout(patience);
-  document.body.classList.remove("busy");
   if (answer.told) {
     tell(answer.told);
     say("The results are those of before.");
     return;
   }
   if (!update) frames.show(answer.page);
-  else if (!frames.renew(answer.page)) { anew = true; run(errors); return; }
+  else if (!frames.renew(answer.page)) { anew = true; run(care === "draft" ? "plain" : care); return; }
   tell("");
   peaks(answer.peaks);
-  say(errors ? `Run with its errors in ${seconds(answer.ms)}.` : `Run in ${seconds(answer.ms)}; its errors follow.`);
-  Object.assign(document.body.dataset, { engine: answer.ms, made: update ? "renewed" : "made anew", shown: asked });
+  say(SAY[care](seconds(answer.ms)));
+  Object.assign(document.body.dataset, { engine: answer.ms, made: update ? "renewed" : "made anew", [care === "draft" ? "drafted" : "shown"]: asked });
 };
-function run(errors) {
+function run(care) {
   const update = frames.there() && !anew;
   const { path, text, set, case: of, solver } = state;
-  const asked = JSON.stringify([set, of, solver, text.length, errors]);
-  engine.ask(errors ? "errors" : "run", { ask: "run", path, text, set, case: of, solver, errors, update }, shown(errors, update, asked));
+  const asked = JSON.stringify([set, of, solver, text.length, care]);
+  engine.ask(care, { ask: "run", path, text, set, case: of, solver, care, update }, shown(care, update, asked));
 }
 function changed() {
   command();
   clearTimeout(timer);
   // What takes long makes way for a new value.
-  const goes = engine.goes();
-  if (goes?.kind === "errors" || (goes?.kind === "run" && goes.ms > PATIENCE)) engine.stop();
-  document.body.classList.add("busy");
-  run(false);
+  const goes = engine.goes(), most = { draft: PATIENCE, plain: WAY, errors: 0 }[goes?.kind] ?? Infinity;
+  if (goes && goes.ms >= most) engine.stop();
+  engine.drop("plain", "errors");
+  const draft = frames.there() && !anew;
+  run(draft ? "draft" : "plain");
   clearTimeout(patience);
   patience = setTimeout(() => say("A long run goes on …"), PATIENCE);
-  timer = setTimeout(() => { anew = false; run(true); }, QUIET);
+  const errors = () => { anew = false; run("errors"); };
+  timer = setTimeout(() => {
+    if (draft) run("plain");
+    timer = setTimeout(errors, QUIET - STILL);
+  }, STILL);
 }
 const look = () => engine.ask("look", { ask: "look", path: state.path, text: state.text, set: {} }, looked);
 

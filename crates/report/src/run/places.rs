@@ -6,7 +6,7 @@ use super::reduce::{numbers, times};
 use super::units::shown;
 use crate::thin::kept;
 use trilith_element::{Coordinates, Dof};
-use trilith_model::{Body, Combine, Model, NodalTerm, Output, Quantity};
+use trilith_model::{Body, Combine, Element, Model, NodalTerm, Output, Quantity, Support};
 use trilith_results::{Peak, Recorder, Summary};
 
 /// Orbits shown at most.
@@ -282,7 +282,9 @@ pub(crate) fn isolation(
     let e = model.elements.get(element).filter(|e| e.nodes.len() == 1)?;
     let Body::Link(law, _) = &e.body else { return None };
     let Coordinates::Local(axes) = law.coordinates() else { return None };
-    let carries = e.frame.0[0][2].abs() > 0.9 && axes.iter().any(|a| a.name() == "U1");
+    // By itself, or beside a support or a spring that does.
+    let carries = axes.iter().any(|a| a.name() == "U1") || is_carried(model, e.nodes[0]);
+    let carries = carries && e.frame.0[0][2].abs() > 0.9;
     let holds = [Family::Hysteretic, Family::Spring].contains(&family_at_rest(law.as_ref()));
     let across: Vec<usize> =
         (0..axes.len()).filter(|k| ["U2", "U3"].contains(&axes[*k].name())).collect();
@@ -300,6 +302,13 @@ pub(crate) fn isolation(
     }
     let most = way.iter().copied().max_by(|a, b| a.1.total_cmp(&b.1))?;
     Some((element, most.1.sqrt(), most.0, way.last()?.1.sqrt()))
+}
+
+/// True for a node that a support or a spring to the ground holds vertically.
+fn is_carried(model: &Model, node: usize) -> bool {
+    let spring = |e: &Element| e.kind == "Spring" && e.nodes == [node];
+    let support = |s: &Support| s.node == node && s.fixed[2];
+    model.supports.iter().any(support) || model.elements.iter().any(spring)
 }
 
 /// Which outputs are what is left between two things: a length at rest and how it changes, its size in several directions,
