@@ -184,10 +184,10 @@ pub(crate) fn answer(first: &Compared, c: &Compared) -> String {
     };
     let apart = match (largest(|d| d.peak), largest(|d| d.rms)) {
         (Some(peak), Some(rms)) => format!(
-            "peaks within {} ({}), histories within {} rms ({})",
-            percent(peak.peak.abs()),
+            "peaks within {} % ({}), histories within {} % rms ({})",
+            significant(100.0 * peak.peak.abs(), 2),
             visible_line(&peak.name),
-            percent(rms.rms),
+            significant(100.0 * rms.rms, 2),
             visible_line(&rms.name)
         ),
         _ => "no output to compare".into(),

@@ -37,7 +37,7 @@ mod vector;
 pub use beside::{mutual_products, turn_each};
 pub use dense::{Dense, DenseLu, positive_inverse};
 pub use eigen::{all_modes, symmetric_eigen};
-pub use expm::{expm, expm_small};
+pub use expm::{expm_small, phi_functions};
 pub use extrapolation::{ORDERS, extrapolate};
 pub use few::solve_few;
 pub use lanczos::lowest_modes;

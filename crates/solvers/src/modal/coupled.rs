@@ -4,7 +4,7 @@
 //! q̈ = s_q − Ω² q − D q̇ − Eᵀ ẏ        G ẏ = s_y − κ y − E q̇
 //! ```
 
-use trilith_linalg::{Dense, DenseLu, expm};
+use trilith_linalg::{Dense, DenseLu, phi_functions};
 
 /// Modes and, behind them, first-order unknowns that damping couples.
 pub(super) struct Coupled<'a> {
@@ -118,36 +118,43 @@ impl Coupled<'_> {
         [sum, q, v]
     }
 
-    /// exp of the augmented system: exact for sources linear in the step.
+    /// Exact for sources linear in the step: of x = (q, q̇), with x' = A x + B s and h the step,
     ///
-    /// Its states are measured so that each is a displacement: ∫q/Δt, q, q̇/√κ, s/κ with κ = ω², no less than 1/Δt²; of a
+    /// ```text
+    /// x₁ = φ₀ x₀ + φ₁ B h s₀ + φ₂ B h (s₁ − s₀)        ∫x/h = φ₁ x₀ + φ₂ B h s₀ + φ₃ B h (s₁ − s₀)        φ of A h
+    /// ```
+    ///
+    /// States are measured so that each is a displacement: ∫q/Δt, q, q̇/√κ, s/κ with κ = ω², no less than 1/Δt²; of a
     /// first-order unknown no less than G/Δt. As they are, one fast mode makes a matrix of size ω²Δt, and what a power
     /// series of that rounds away sets the structure in motion that stands still.
     pub(super) fn exact(&self, dt: f64) -> Blocks {
         let (n, m) = (self.size(), self.modes);
-        // States: ∫q and ∫y, q and y, q̇, s, ṡ·Δt.
-        let (position, rate, source) = (n, 2 * n, 2 * n + m);
         let scales = Scales::new(self, dt);
-        let of_rate = |j: usize| scales.source[j].sqrt();
-        let e = expm(&self.augmented(dt, &scales));
-        let block = |row: usize, of_row: &dyn Fn(usize) -> f64, rows: usize, column: usize| {
-            let per_column = |j: usize| match column {
-                c if c == rate => of_rate(j).recip(),
-                c if c >= source => scales.source[j].recip(),
-                _ => 1.0,
-            };
-            let mut b = Dense::zeros(n, n);
-            for j in 0..if column == rate { m } else { n } {
-                for i in 0..rows {
-                    b[(i, j)] = e[(row + i, column + j)] * (of_row(i) * per_column(j));
-                }
-            }
-            b
-        };
-        let row = |row: usize, of_row: &dyn Fn(usize) -> f64, rows: usize, rest: f64| {
-            let of_position = block(row, of_row, rows, position);
-            let end = block(row, of_row, rows, source + n);
-            let mut start = block(row, of_row, rows, source);
+        let (of_states, of_sources) = self.system(dt, &scales);
+        let [flow, mean, ramp, ramp_mean] = phi_functions(&of_states);
+        let [constant, rising, risen] =
+            [&mean, &ramp, &ramp_mean].map(|phi| phi.times(&of_sources));
+        // Columns q₀, q̇₀, and what constant and rising sources make, of some rows.
+        let row = |first: usize,
+                   of_row: &dyn Fn(usize) -> f64,
+                   [of_start, of_constant, of_rising]: [&Dense; 3],
+                   rows: usize,
+                   rest: f64| {
+            let block =
+                |from: &Dense, column: usize, columns: usize, per: &dyn Fn(usize) -> f64| {
+                    let mut b = Dense::zeros(n, n);
+                    for j in 0..columns {
+                        for i in 0..rows {
+                            b[(i, j)] = from[(first + i, column + j)] * (of_row(i) * per(j));
+                        }
+                    }
+                    b
+                };
+            let per_source = |j: usize| scales.source[j].recip();
+            let of_position = block(of_start, 0, n, &|_| 1.0);
+            let of_rate = block(of_start, n, m, &|j| scales.rate[j].recip());
+            let end = block(of_rising, 0, n, &per_source);
+            let mut start = block(of_constant, 0, n, &per_source);
             for j in 0..n {
                 // What stands under a constant source goes on standing, to the last digit.
                 if scales.source[j] == self.omega2[j] {
@@ -161,54 +168,49 @@ impl Coupled<'_> {
                     start[(i, j)] -= end[(i, j)];
                 }
             }
-            [of_position, block(row, of_row, rows, rate), start, end]
+            [of_position, of_rate, start, end]
         };
-        let (sum, q) = (row(0, &|_| dt, n, dt), row(position, &|_| 1.0, n, 1.0));
-        let mut v = row(rate, &of_rate, m, 0.0);
+        let sum = row(0, &|_| dt, [&mean, &rising, &risen], n, dt);
+        let q = row(0, &|_| 1.0, [&flow, &constant, &rising], n, 1.0);
+        let mut v = row(n, &|i| scales.rate[i], [&flow, &constant, &rising], m, 0.0);
         self.end_rates(dt, &q, &mut v);
         [sum, q, v]
     }
 
-    /// The matrix A Δt of the augmented system in scaled states: ∫q and ∫y, q and y, q̇, s, ṡ·Δt.
-    fn augmented(&self, dt: f64, scales: &Scales) -> Dense {
+    /// A Δt and B Δt in scaled states: q and y, q̇; sources.
+    fn system(&self, dt: f64, scales: &Scales) -> (Dense, Dense) {
         let (n, m) = (self.size(), self.modes);
-        let (position, rate, source) = (n, 2 * n, 2 * n + m);
-        let size = source + 2 * n;
         let w = &scales.rate;
-        let mut a = Dense::zeros(size, size);
-        for i in 0..n {
-            a[(i, position + i)] = 1.0;
-            a[(source + i, source + n + i)] = 1.0;
-        }
+        let (mut a, mut b) = (Dense::zeros(n + m, n + m), Dense::zeros(n + m, n));
         // Rates of y, as rows over (y, q̇, s).
         for y in m..n {
             let per = dt / self.own(y, dt);
-            a[(position + y, position + y)] = -self.omega2[y] * per;
-            a[(position + y, source + y)] = scales.source[y] * per;
+            a[(y, y)] = -self.omega2[y] * per;
+            b[(y, y)] = scales.source[y] * per;
             for j in 0..m {
-                a[(position + y, rate + j)] = -self.damping[(y, j)] * w[j] * per;
+                a[(y, n + j)] = -self.damping[(y, j)] * w[j] * per;
             }
         }
         for i in 0..m {
-            a[(position + i, rate + i)] = w[i] * dt;
-            a[(rate + i, position + i)] = -self.omega2[i] / w[i] * dt;
-            a[(rate + i, source + i)] = w[i] * dt;
+            a[(i, n + i)] = w[i] * dt;
+            a[(n + i, i)] = -self.omega2[i] / w[i] * dt;
+            b[(n + i, i)] = w[i] * dt;
             for j in 0..m {
-                a[(rate + i, rate + j)] = -self.damping[(i, j)] * (w[j] / w[i]) * dt;
+                a[(n + i, n + j)] = -self.damping[(i, j)] * (w[j] / w[i]) * dt;
             }
             for y in m..n {
                 let tie = self.damping[(i, y)] / w[i];
                 if tie == 0.0 {
                     continue;
                 }
-                a[(rate + i, position + y)] -= tie * a[(position + y, position + y)];
-                a[(rate + i, source + y)] -= tie * a[(position + y, source + y)];
+                a[(n + i, y)] -= tie * a[(y, y)];
+                b[(n + i, y)] -= tie * b[(y, y)];
                 for j in 0..m {
-                    a[(rate + i, rate + j)] -= tie * a[(position + y, rate + j)];
+                    a[(n + i, n + j)] -= tie * a[(y, n + j)];
                 }
             }
         }
-        a
+        (a, b)
     }
 }
 
